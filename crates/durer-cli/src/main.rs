@@ -1,0 +1,2 @@
+//! The command `durer`.
+fn main() {}

@@ -1,0 +1,435 @@
+//! The ray as a surface sees it: re-centred, rescaled, with its rounding charged, and exact on demand.
+//!
+//! Every kernel starts with one step, [`LocalRay::recentre`]: the parameter moves to the closest approach to the
+//! surface's centre and lengths are scaled by a power of two, so that the numbers a kernel meets are of the surface's size
+//! and not of the distance to the eye. The step is not exact, but its error is known ([`CentredRay::o_err`]), about
+//! two roundings of the *local* size; and the ray remembers where it came from, so that a doubtful decision can be
+//! taken again in any [`Ring`], up to exact arithmetic ([`CentredRay::in_ring`]).
+
+use durer_math::eft::{exponent, scale2, two_diff, two_sum};
+use durer_math::{Affine, Point3, Ray, RaySide, Ring, Vec3};
+
+/// Half an ulp of 1.
+const U: f64 = 1.0 / (1u64 << 53) as f64;
+/// Pays for results below the normal range.
+const TINY: f64 = f64::from_bits(2);
+
+/// A ray in a surface's frame: `o + s d`, where the caller's parameter is `t = t0 + 2^k s`.
+///
+/// The largest |component| of `d` is in `[1, 2)`. `o` and `d` are within `o_err` and `d_err` (per axis) of the exact ones.
+#[derive(Clone, Copy, Debug)]
+pub struct LocalRay<'a> {
+    /// The point at `s = 0`.
+    pub o: Point3,
+    /// The direction, scaled by a power of two.
+    pub d: Vec3,
+    /// Per-axis bound on the error of `o`.
+    pub o_err: Vec3,
+    /// Per-axis bound on the error of `d`.
+    pub d_err: Vec3,
+    /// The least admitted `t`, in the caller's parameter.
+    pub t_min: f64,
+    /// The greatest admitted `t`, in the caller's parameter.
+    pub t_max: f64,
+    /// The side on which the ray starts, if it was spawned on the very primitive under test.
+    pub source: Option<RaySide>,
+    /// `1 / d.d`, for the closest approach.
+    inverse_d2: f64,
+    clock: Clock,
+    lineage: Lineage<'a>,
+}
+
+/// How a local ray came to be.
+#[derive(Clone, Copy, Debug)]
+enum Lineage<'a> {
+    /// `o` and `d * 2^-k` were given.
+    Given { k: i32 },
+    /// The parent's ray, moved on by `step`, through the inverse of an affine map; then scaled by `2^k`.
+    Placed { parent: &'a LocalRay<'a>, affine: &'a Affine, step: f64, k: i32 },
+}
+
+/// `t = (sum of terms) + 2^k s`, exactly.
+#[derive(Clone, Copy, Debug)]
+struct Clock {
+    terms: [f64; 4],
+    len: u8,
+    k: i32,
+}
+
+impl Clock {
+    /// The clock of a parameter `s'` with `s = step + 2^k s'`.
+    #[inline(always)]
+    fn then(mut self, step: f64, k: i32) -> Self {
+        let term = scale2(step, self.k);
+        if term != 0.0 {
+            // Four steps are more than the levels there are (instance, placement, operand, surface).
+            self.terms[usize::from(self.len).min(3)] += term;
+            self.len = (self.len + 1).min(4);
+        }
+        self.k += k;
+        self
+    }
+
+    /// The shift as an unevaluated sum and a bound on what that leaves out.
+    #[inline(always)]
+    fn shift(&self) -> (f64, f64, f64) {
+        match self.len {
+            0 => (0.0, 0.0, 0.0),
+            1 => (self.terms[0], 0.0, 0.0),
+            _ => {
+                let (mut hi, mut lo) = two_sum(self.terms[0], self.terms[1]);
+                let mut err = 0.0;
+                for &term in &self.terms[2..usize::from(self.len)] {
+                    let (h, l) = two_sum(hi, term);
+                    let (m, e) = two_sum(lo, l);
+                    (hi, lo) = two_sum(h, m);
+                    err += e.abs() * (1.0 + 4.0 * U);
+                }
+                (hi, lo, err)
+            }
+        }
+    }
+}
+
+/// An end of a ray's range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// `t_min`.
+    Min,
+    /// `t_max`.
+    Max,
+}
+
+/// A ray whose points are `(o + s d) / w` in some ring; `w > 0`.
+#[derive(Clone, Debug)]
+pub struct RingRay<T> {
+    /// The point at `s = 0`, times `w`.
+    pub o: [T; 3],
+    /// The direction, times `w`.
+    pub d: [T; 3],
+    /// The common denominator, positive.
+    pub w: T,
+}
+
+impl LocalRay<'static> {
+    /// The ray itself, in the frame in which it is given. The ray must be valid ([`Ray::is_valid`]).
+    #[inline(always)]
+    pub fn new(ray: &Ray) -> Self {
+        Self::with_errors(ray, Vec3::ZERO, Vec3::ZERO)
+    }
+
+    /// A ray of which origin and direction are known only within errors (per axis).
+    #[inline(always)]
+    pub fn with_errors(ray: &Ray, o_err: Vec3, d_err: Vec3) -> Self {
+        let k = -exponent(ray.direction.max_abs());
+        let d = ray.direction.map(|x| scale2(x, k));
+        let d_err = d_err.map(|x| scale2(x, k));
+        Self {
+            o: ray.origin,
+            d,
+            o_err,
+            // A component more than 2^1000 below the largest loses bits to underflow.
+            d_err: if k < 0 { d_err + Vec3::new(TINY, TINY, TINY) } else { d_err },
+            t_min: ray.t_min,
+            t_max: ray.t_max,
+            source: None,
+            inverse_d2: 1.0 / d.length_squared(),
+            clock: Clock { terms: [0.0; 4], len: 0, k },
+            lineage: Lineage::Given { k },
+        }
+    }
+}
+
+impl<'a> LocalRay<'a> {
+    /// The same ray, known to start at `side` of the surface it is about to meet.
+    #[inline(always)]
+    #[must_use]
+    pub fn from_side(mut self, side: Option<RaySide>) -> Self {
+        self.source = side;
+        self
+    }
+
+    /// The parameter of the closest approach to `c`, rounded: any number will do.
+    #[inline(always)]
+    fn closest_approach(&self, c: Point3) -> f64 {
+        let t = (c - self.o).dot(self.d) * self.inverse_d2;
+        if t.is_finite() { t } else { 0.0 }
+    }
+
+    /// `o + step d - c` with a bound on its error.
+    #[inline(always)]
+    fn moved(&self, c: Point3, step: f64) -> (Vec3, Vec3) {
+        let axis = |o: f64, d: f64, c: f64, o_err: f64, d_err: f64| {
+            let (h, l) = two_diff(o, c);
+            let r = step.mul_add(d, h);
+            let x = r + l;
+            // One rounding of size |r|, one of size |x|; and the error the ray came with.
+            let err = (r.abs() + x.abs()).mul_add(U, step.abs().mul_add(d_err, o_err));
+            (x, err.mul_add(1.0 + 8.0 * U, TINY))
+        };
+        let (x, ex) = axis(self.o.x, self.d.x, c.x, self.o_err.x, self.d_err.x);
+        let (y, ey) = axis(self.o.y, self.d.y, c.y, self.o_err.y, self.d_err.y);
+        let (z, ez) = axis(self.o.z, self.d.z, c.z, self.o_err.z, self.d_err.z);
+        (Vec3::new(x, y, z), Vec3::new(ex, ey, ez))
+    }
+
+    /// The ray as seen from `centre`, with lengths in units of `2^scale`: what every kernel works on (rules W3 and W4).
+    ///
+    /// `scale` should make the surface's size about one.
+    #[inline(always)]
+    pub fn recentre(&'a self, centre: Point3, scale: i32) -> CentredRay<'a> {
+        let step = self.closest_approach(centre);
+        let (o, o_err) = self.moved(centre, step);
+        CentredRay {
+            o: o.map(|x| scale2(x, -scale)),
+            d: self.d,
+            o_err: o_err.map(|x| scale2(x, -scale) + TINY),
+            d_err: self.d_err,
+            centre,
+            scale,
+            step,
+            clock: self.clock.then(step, scale),
+            ray: self,
+        }
+    }
+
+    /// The ray in the frame of a surface that `affine` places: through the inverse map, re-centred on its centre first
+    /// (rules W3 and W5), the inverse's own error charged.
+    pub fn through(&'a self, affine: &'a Affine) -> LocalRay<'a> {
+        let c = affine.centre();
+        let step = self.closest_approach(c);
+        let (o, o_err) = self.moved(c, step);
+        let (inverse, slack) = (affine.inverse_linear(), affine.inverse_error());
+        let apply = |v: Vec3, e: Vec3| {
+            let row = |i: usize| {
+                let (m, s) = (Vec3::from(inverse[i]), Vec3::from(slack[i]));
+                let x = m.dot(v);
+                // gamma_3 for the dot product, |Linv| times the error of v, and |Linv - L^-1| (|v| + error).
+                let size = m.abs().dot(v.abs());
+                let err = size.mul_add(3.0 * U * (1.0 + 4.0 * U), m.abs().dot(e) + s.dot(v.abs() + e));
+                (x, err.mul_add(1.0 + 16.0 * U, TINY))
+            };
+            let ((x, ex), (y, ey), (z, ez)) = (row(0), row(1), row(2));
+            (Vec3::new(x, y, z), Vec3::new(ex, ey, ez))
+        };
+        let (o, o_err) = apply(o, o_err);
+        let (d, d_err) = apply(self.d, self.d_err);
+        let k = -exponent(d.max_abs());
+        let d = d.map(|x| scale2(x, k));
+        LocalRay {
+            o: o.to_point(),
+            d,
+            o_err,
+            d_err: d_err.map(|x| scale2(x, k) + TINY),
+            t_min: self.t_min,
+            t_max: self.t_max,
+            source: self.source,
+            inverse_d2: 1.0 / d.length_squared(),
+            clock: self.clock.then(step, k),
+            lineage: Lineage::Placed { parent: self, affine, step, k },
+        }
+    }
+
+    /// The exact ray in a ring, in this ray's parameter; `None` if `T` holds exact numbers only and the ray is not exactly known.
+    pub fn in_ring<T: Ring>(&self) -> Option<RingRay<T>> {
+        match self.lineage {
+            Lineage::Given { k } => {
+                // The scaling of d is undone by an exact one of the ring: no bits of tiny components are lost.
+                let component = |x: f64, e: f64| T::within(x, e);
+                let o = [
+                    component(self.o.x, self.o_err.x)?,
+                    component(self.o.y, self.o_err.y)?,
+                    component(self.o.z, self.o_err.z)?,
+                ];
+                let d_err = if k < 0 { self.d_err - Vec3::new(TINY, TINY, TINY) } else { self.d_err };
+                let d = [
+                    component(self.d.x, d_err.x)?,
+                    component(self.d.y, d_err.y)?,
+                    component(self.d.z, d_err.z)?,
+                ];
+                Some(RingRay { o, d, w: T::exact(1.0) })
+            }
+            Lineage::Placed { parent, affine, step, k } => {
+                let at = parent.in_ring::<T>()?.moved(affine.centre(), step);
+                let (adjugate, determinant) = affine.adjugate::<T>();
+                let apply = |v: &[T; 3]| {
+                    adjugate.each_ref().map(|m| {
+                        m[0].clone() * v[0].clone()
+                            + m[1].clone() * v[1].clone()
+                            + m[2].clone() * v[2].clone()
+                    })
+                };
+                Some(RingRay { o: apply(&at.o), d: apply(&at.d).map(|x| x.scale2(k)), w: at.w * determinant })
+            }
+        }
+    }
+}
+
+impl<T: Ring> RingRay<T> {
+    /// The ray relative to `c`, with its parameter moved on by `step`.
+    fn moved(self, c: Point3, step: f64) -> Self {
+        let step = T::exact(step);
+        let axis = |o: &T, d: &T, c: f64| o.clone() - T::exact(c) * self.w.clone() + step.clone() * d.clone();
+        let o = [
+            axis(&self.o[0], &self.d[0], c.x),
+            axis(&self.o[1], &self.d[1], c.y),
+            axis(&self.o[2], &self.d[2], c.z),
+        ];
+        Self { o, ..self }
+    }
+}
+
+/// A local ray re-centred and rescaled: its points are `centre + 2^scale (o + s d)`, and `t = t0 + 2^k s`.
+#[derive(Clone, Copy, Debug)]
+pub struct CentredRay<'a> {
+    /// The point at `s = 0`, relative to the centre, in units of `2^scale`.
+    pub o: Vec3,
+    /// The direction; its largest |component| is in `[1, 2)`.
+    pub d: Vec3,
+    /// Per-axis bound on the error of `o`.
+    pub o_err: Vec3,
+    /// Per-axis bound on the error of `d`.
+    pub d_err: Vec3,
+    /// The centre, in the local frame.
+    pub centre: Point3,
+    /// The exponent of the unit of length.
+    pub scale: i32,
+    step: f64,
+    clock: Clock,
+    ray: &'a LocalRay<'a>,
+}
+
+impl<'a> CentredRay<'a> {
+    /// The ray this one came from.
+    #[inline(always)]
+    pub fn local(&self) -> &'a LocalRay<'a> {
+        self.ray
+    }
+
+    /// The side on which the ray starts, if it was spawned on the very primitive under test.
+    #[inline(always)]
+    pub fn source(&self) -> Option<RaySide> {
+        self.ray.source
+    }
+
+    /// The exact ray in a ring, in this ray's parameter, centre and unit of length.
+    pub fn in_ring<T: Ring>(&self) -> Option<RingRay<T>> {
+        let at = self.ray.in_ring::<T>()?.moved(self.centre, self.step);
+        // Lengths are divided by 2^scale; so is the direction, and the parameter's unit is 2^scale: d stays.
+        Some(RingRay { o: at.o.map(|x| x.scale2(-self.scale)), d: at.d, w: at.w })
+    }
+
+    /// The caller's parameter for `s`, rounded.
+    #[inline(always)]
+    pub fn t(&self, s: f64) -> f64 {
+        let (hi, lo, _) = self.clock.shift();
+        hi + (lo + scale2(s, self.clock.k))
+    }
+
+    /// The caller's bracket for the bracket `[lo, hi]` of `s`, rounded outward.
+    #[inline(always)]
+    pub fn bracket(&self, lo: f64, hi: f64) -> (f64, f64) {
+        let (shift_hi, shift_lo, err) = self.clock.shift();
+        let end = |s: f64, away: f64| {
+            // Two roundings at most half an ulp each; stepping each outward keeps the enclosure.
+            let outward = |x: f64| if away < 0.0 { x.next_down() } else { x.next_up() };
+            let exact_or = |a: f64, b: f64| {
+                let (sum, e) = two_sum(a, b);
+                if e == 0.0 || !sum.is_finite() || (e > 0.0) != (away > 0.0) { sum } else { outward(sum) }
+            };
+            let scaled = scale2(s, self.clock.k);
+            let scaled =
+                if scaled.abs() < f64::MIN_POSITIVE && scaled != 0.0 { outward(scaled) } else { scaled };
+            let low = exact_or(shift_lo, scaled);
+            let low = if err > 0.0 { outward(away.mul_add(err, low)) } else { low };
+            exact_or(shift_hi, low)
+        };
+        (end(lo, -1.0), end(hi, 1.0))
+    }
+
+    /// Whether a crossing in the caller's bracket `[lo, hi]` is in the ray's closed range; `None` if the bracket straddles an end.
+    #[inline(always)]
+    pub fn admits(&self, lo: f64, hi: f64) -> Option<bool> {
+        let (t_min, t_max) = (self.ray.t_min, self.ray.t_max);
+        if lo >= t_min && hi <= t_max {
+            Some(true)
+        } else if hi < t_min || lo > t_max {
+            Some(false)
+        } else {
+            None
+        }
+    }
+
+    /// An end of the caller's range.
+    #[inline(always)]
+    pub fn end(&self, end: End) -> f64 {
+        match end {
+            End::Min => self.ray.t_min,
+            End::Max => self.ray.t_max,
+        }
+    }
+
+    /// The exact `s` of an end of the range, in a ring. The end must be finite.
+    pub fn end_in_ring<T: Ring>(&self, end: End) -> T {
+        let shift = self.clock.terms[..usize::from(self.clock.len)]
+            .iter()
+            .fold(T::exact(self.end(end)), |sum, &term| sum - T::exact(term));
+        shift.scale2(-self.clock.k)
+    }
+}
+
+/// A point in a surface's frame, within `p_err` (per axis), and exact on demand.
+#[derive(Clone, Copy, Debug)]
+pub struct LocalPoint<'a> {
+    /// The coordinates.
+    pub p: Point3,
+    /// Per-axis bound on their error.
+    pub p_err: Vec3,
+    parent: Option<(&'a LocalPoint<'a>, &'a Affine)>,
+}
+
+impl LocalPoint<'static> {
+    /// The point itself, in the frame in which it is given.
+    pub fn new(p: Point3) -> Self {
+        Self { p, p_err: Vec3::ZERO, parent: None }
+    }
+}
+
+impl<'a> LocalPoint<'a> {
+    /// The point in the frame of a surface that `affine` places.
+    pub fn through(&'a self, affine: &'a Affine) -> LocalPoint<'a> {
+        // A ray along x that starts here: its origin goes through exactly the same steps, without the move.
+        let ray = Ray::new(self.p, Vec3::X);
+        let ray = LocalRay::with_errors(&ray, self.p_err, Vec3::ZERO);
+        let ray = LocalRay { inverse_d2: 0.0, ..ray };
+        let local = ray.through(affine);
+        LocalPoint { p: local.o, p_err: local.o_err, parent: Some((self, affine)) }
+    }
+
+    /// The exact point in a ring: `(coordinates times w, w)` with `w > 0`.
+    pub fn in_ring<T: Ring>(&self) -> Option<([T; 3], T)> {
+        match self.parent {
+            None => Some((
+                [
+                    T::within(self.p.x, self.p_err.x)?,
+                    T::within(self.p.y, self.p_err.y)?,
+                    T::within(self.p.z, self.p_err.z)?,
+                ],
+                T::exact(1.0),
+            )),
+            Some((parent, affine)) => {
+                let (p, w) = parent.in_ring::<T>()?;
+                let c = affine.centre().to_array();
+                let [x, y, z] = p;
+                let v = [
+                    x - T::exact(c[0]) * w.clone(),
+                    y - T::exact(c[1]) * w.clone(),
+                    z - T::exact(c[2]) * w.clone(),
+                ];
+                let (adjugate, determinant) = affine.adjugate::<T>();
+                let q = adjugate.map(|[a, b, c]| a * v[0].clone() + b * v[1].clone() + c * v[2].clone());
+                Some((q, w * determinant))
+            }
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! What is known of a hit, and how rays leave it.
+
+use durer_math::{Normal3, Point3, Ray, RaySide, Source, Vec3};
+
+/// A point of a surface with its error bounds and its differential geometry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// The position.
+    pub p: Point3,
+    /// Per-axis bound on the distance to the exact crossing.
+    pub dp: Vec3,
+    /// A distance along the normal that provably leaves the surface: `p + off ng` is strictly in front, `p - off ng` strictly behind, also
+    /// after each coordinate is rounded away from `p`. Usually far smaller than `dp`.
+    pub off: f64,
+    /// The geometric normal: unit length, outward for solids, as stored for open surfaces.
+    pub ng: Normal3,
+    /// The shading normal: unit length, on the side of `ng`.
+    pub ns: Normal3,
+    /// Texture coordinates.
+    pub uv: [f64; 2],
+    /// Change of the position with u.
+    pub dpdu: Vec3,
+    /// Change of the position with v.
+    pub dpdv: Vec3,
+    /// Change of the normal with u.
+    pub dndu: Vec3,
+    /// Change of the normal with v.
+    pub dndv: Vec3,
+    /// The primitive the point lies on; set by the geometry that holds it.
+    pub source: Option<Source>,
+}
+
+impl SurfacePoint {
+    /// A point with its normal; the rest is zero until it is asked for.
+    pub fn new(p: Point3, dp: Vec3, off: f64, ng: Normal3) -> Self {
+        Self {
+            p,
+            dp,
+            off,
+            ng,
+            ns: ng,
+            uv: [0.0; 2],
+            dpdu: Vec3::ZERO,
+            dpdv: Vec3::ZERO,
+            dndu: Vec3::ZERO,
+            dndv: Vec3::ZERO,
+            source: None,
+        }
+    }
+
+    /// A ray that leaves the surface along `direction`, from the side to which it points, with `t` in `[0, inf]`.
+    ///
+    /// Its origin is provably on that side, so no hit needs to be ignored (Pharr, Jakob, Humphreys, *Physically Based
+    /// Rendering*, 4th ed. 2023, section 6.8, with a bound along the normal in place of one per axis).
+    pub fn spawn(&self, direction: Vec3) -> Ray {
+        let side = if self.ng.dot(direction) < 0.0 { RaySide::Back } else { RaySide::Front };
+        self.spawn_from(side, direction)
+    }
+
+    /// A ray to `target`, which `t = 1` reaches; its range is `[0, 1]`.
+    pub fn spawn_to(&self, target: Point3) -> Ray {
+        let side = if self.ng.dot(target - self.p) < 0.0 { RaySide::Back } else { RaySide::Front };
+        let origin = self.start(side);
+        let ray = Ray::new(origin, target - origin).with_range(0.0, 1.0);
+        ray.spawned_from(self.source.map(|s| Source { side, ..s }))
+    }
+
+    /// A ray that leaves along `direction` from the named side.
+    pub fn spawn_from(&self, side: RaySide, direction: Vec3) -> Ray {
+        Ray::new(self.start(side), direction).spawned_from(self.source.map(|s| Source { side, ..s }))
+    }
+
+    /// The point at `off` on the named side, each coordinate rounded away from the surface.
+    fn start(&self, side: RaySide) -> Point3 {
+        let step = if side == RaySide::Front { self.off } else { -self.off };
+        let axis = |p: f64, n: f64| {
+            let move_by = step * n;
+            let q = p + move_by;
+            if move_by > 0.0 {
+                q.next_up()
+            } else if move_by < 0.0 {
+                q.next_down()
+            } else {
+                q
+            }
+        };
+        Point3::new(axis(self.p.x, self.ng.x), axis(self.p.y, self.ng.y), axis(self.p.z, self.ng.z))
+    }
+}

@@ -1,0 +1,84 @@
+//! Where roots go: closest, any, all.
+
+use crate::Root;
+
+/// Whether a producer of roots should go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flow {
+    /// More roots are welcome.
+    Continue,
+    /// Nothing more is needed.
+    Stop,
+}
+
+/// A receiver of roots.
+pub trait Sink {
+    /// The range of `t` (caller's parameter) in which a root may still matter, both ends included. A producer may skip a
+    /// root whose bracket lies outside, and does nothing else with it.
+    fn range(&self) -> (f64, f64);
+
+    /// Takes a root.
+    fn push(&mut self, root: Root) -> Flow;
+}
+
+/// Keeps the least root by (t, face).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Closest {
+    /// The least root so far.
+    pub root: Option<Root>,
+}
+
+impl Sink for Closest {
+    #[inline(always)]
+    fn range(&self) -> (f64, f64) {
+        (f64::NEG_INFINITY, self.root.map_or(f64::INFINITY, |r| r.hi))
+    }
+
+    #[inline(always)]
+    fn push(&mut self, root: Root) -> Flow {
+        if self.root.is_none_or(|best| root.order(&best).is_lt()) {
+            self.root = Some(root);
+        }
+        Flow::Continue
+    }
+}
+
+/// Stops at the first root.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Any {
+    /// Whether there was one.
+    pub hit: bool,
+}
+
+impl Sink for Any {
+    #[inline(always)]
+    fn range(&self) -> (f64, f64) {
+        (f64::NEG_INFINITY, f64::INFINITY)
+    }
+
+    #[inline(always)]
+    fn push(&mut self, _: Root) -> Flow {
+        self.hit = true;
+        Flow::Stop
+    }
+}
+
+/// Keeps every root.
+#[derive(Clone, Debug, Default)]
+pub struct All {
+    /// The roots, in the order of arrival.
+    pub roots: Vec<Root>,
+}
+
+impl Sink for All {
+    #[inline(always)]
+    fn range(&self) -> (f64, f64) {
+        (f64::NEG_INFINITY, f64::INFINITY)
+    }
+
+    #[inline(always)]
+    fn push(&mut self, root: Root) -> Flow {
+        self.roots.push(root);
+        Flow::Continue
+    }
+}

@@ -1,0 +1,140 @@
+//! What a surface is: the one query an author writes, and what it answers with.
+
+use crate::{LocalPoint, LocalRay, Sink, SurfacePoint};
+use core::cmp::Ordering;
+use durer_math::Aabb;
+
+/// A surface, in its own frame. Its one question: *where does this ray meet you?*
+///
+/// Closest, any, all and spans are [`Sink`]s over the one [`roots`](Surface::roots), so they cannot disagree.
+pub trait Surface: Send + Sync {
+    /// A box that provably holds the surface (and, for a solid, its inside); [`Aabb::UNBOUNDED`] if there is none.
+    fn bounds(&self) -> Aabb;
+
+    /// Pushes every crossing in the ray's closed range, once, ascending; the exact surface's crossings with the exact ray
+    /// lie in the pushed brackets.
+    ///
+    /// [`Sink::range`] may be used to skip a whole root or to stop; it never enters arithmetic, so that the bits
+    /// do not depend on the order of visits.
+    fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S)
+    where
+        Self: Sized;
+
+    /// The point of a root of this surface and this ray, as far as `need` asks.
+    fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint;
+
+    /// Whether the surface bounds a solid.
+    fn solidity(&self) -> Solidity {
+        Solidity::Open
+    }
+
+    /// On which side of the solid a point lies: exact. Asked of solids only; an open surface answers [`Side::Out`].
+    fn side(&self, _point: &LocalPoint<'_>) -> Side {
+        Side::Out
+    }
+
+    /// Calls `f` for each part that a tree may hold by itself, with a box that provably holds the part.
+    fn parts(&self, f: &mut dyn FnMut(Aabb, PartId)) {
+        f(self.bounds(), PartId(0));
+    }
+
+    /// The crossings of one part; the union over all parts is what [`roots`](Surface::roots) pushes.
+    fn part_roots<S: Sink + ?Sized>(&self, _part: PartId, ray: &LocalRay<'_>, sink: &mut S)
+    where
+        Self: Sized,
+    {
+        self.roots(ray, sink);
+    }
+}
+
+/// Names a part of a surface: a face of a mesh, a cell of a patch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PartId(pub u32);
+
+/// One crossing of a ray and a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Root {
+    /// The crossing in the caller's parameter, somewhere in `[lo, hi]`.
+    pub t: f64,
+    /// The exact crossing is not below this (caller's parameter).
+    pub lo: f64,
+    /// The exact crossing is not above this (caller's parameter).
+    pub hi: f64,
+    /// The crossing in the kernel's own re-centred parameter: what `resolve` starts from, without the digits that `t` lost.
+    pub s: f64,
+    /// The kernel's own tag (triangle: b1, b2).
+    pub tag: [f64; 2],
+    /// Which face of the surface (cap, wall, side of a box, face of a mesh).
+    pub face: u32,
+    /// The sign of (outward or stored normal) . direction: -1 entering, +1 leaving, 0 grazing.
+    pub sign: i8,
+    /// How sure the count is.
+    pub kind: Kind,
+}
+
+impl Root {
+    /// The order of hits on one surface: by `t`, then by face.
+    pub fn order(&self, other: &Self) -> Ordering {
+        self.t.total_cmp(&other.t).then(self.face.cmp(&other.face))
+    }
+}
+
+/// What kind of crossing a root is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u8)]
+pub enum Kind {
+    /// The ray passes from one side to the other.
+    Simple = 0,
+    /// The ray touches the surface and stays on its side (an exact tangent).
+    Grazing = 1,
+    /// Several crossings that could not be told apart; counted, and never used where exact arithmetic can decide.
+    Cluster = 2,
+}
+
+/// Whether a surface bounds a solid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Solidity {
+    /// A sheet: no inside.
+    Open,
+    /// An inside is defined. It may be unbounded, and a line may cross its boundary an odd number of times.
+    Solid,
+}
+
+/// Where a point lies with respect to a solid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Strictly inside.
+    In,
+    /// Strictly outside.
+    Out,
+    /// On the boundary.
+    On,
+}
+
+/// What [`Surface::resolve`] is asked for; position, `dp`, `off` and `ng` always come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Need(u8);
+
+impl Need {
+    /// Position, bounds and geometric normal only.
+    pub const POINT: Self = Self(0);
+    /// The shading normal.
+    pub const SHADING_NORMAL: Self = Self(1);
+    /// Texture coordinates.
+    pub const UV: Self = Self(2);
+    /// `dpdu dpdv dndu dndv`.
+    pub const DERIVATIVES: Self = Self(4);
+    /// Everything.
+    pub const ALL: Self = Self(7);
+
+    /// Whether all of `other` is asked for.
+    pub const fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    /// Both needs.
+    #[must_use]
+    pub const fn and(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+}
