@@ -1,0 +1,372 @@
+//! Affine maps `x -> c + L x`.
+//!
+//! The stored `L` and `c` are exact: a placed surface *is* `{ c + L x : x in S }`. The inverse is rounded, and
+//! what that costs is known: [`Affine::inverse_error`] bounds each entry's error. The translation is never folded into the
+//! inverse, `x = L^-1 (p - c)`, because `L^-1 p - L^-1 c` cancels.
+
+use crate::rounding::{add_up, mul_up, sqrt_up};
+use crate::{Aabb, Dyadic, Interval, Normal3, Point3, Ring, Run, Vec3, elementary};
+
+/// A 3x3 matrix by rows.
+pub type Matrix3 = [[f64; 3]; 3];
+
+const IDENTITY: Matrix3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// An invertible affine map `x -> c + L x`.
+///
+/// # Invariants
+///
+/// - `L` and `c` are finite, `det L` is not zero (decided exactly), and the inverse's entries are finite.
+///
+/// ```
+/// use durer_math::{Affine, Point3, Vec3};
+/// let quarter = Affine::rotation_y(core::f64::consts::FRAC_PI_2)?;
+/// let image = quarter.vector(Vec3::X); // the standard rotation: x goes to -z
+/// assert!((image - -Vec3::Z).length() < 1e-15);
+/// let map = quarter.then(&Affine::translation(Vec3::new(0.0, 5.0, 0.0))?)?;
+/// assert_eq!(map.centre(), Point3::new(0.0, 5.0, 0.0));
+/// # Ok::<(), durer_math::AffineError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Affine {
+    linear: Matrix3,
+    inverse: Matrix3,
+    inverse_error: Matrix3,
+    centre: Point3,
+    mirrored: bool,
+}
+
+/// Why an affine map cannot be used to place something.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum AffineError {
+    /// An entry of the matrix is infinite or NaN.
+    #[error("transformation: entry ({row}, {column}) of the matrix must be finite, got {value}")]
+    Entry {
+        /// Its row, from 0.
+        row: usize,
+        /// Its column, from 0.
+        column: usize,
+        /// The entry.
+        value: f64,
+    },
+    /// A coordinate of the translation is infinite or NaN.
+    #[error("transformation: the translation must be finite, got {value} on axis {axis}")]
+    Translation {
+        /// Its axis, from 0.
+        axis: usize,
+        /// The coordinate.
+        value: f64,
+    },
+    /// The determinant is exactly zero.
+    #[error("transformation: the matrix is singular, its determinant is zero: {0:?}")]
+    Singular(Matrix3),
+    /// The matrix is so small that its inverse overflows.
+    #[error("transformation: the inverse of the matrix is too large for a number: {0:?}")]
+    Inverse(Matrix3),
+    /// An axis of rotation is zero, infinite or NaN.
+    #[error("transformation: an axis of rotation must be finite and not zero, got <{}, {}, {}>", .0.x, .0.y, .0.z)]
+    Axis(Vec3),
+    /// An angle is infinite or NaN.
+    #[error("transformation: an angle must be finite, got {0}")]
+    Angle(f64),
+}
+
+impl Affine {
+    /// The map that moves nothing.
+    pub const IDENTITY: Self = Self {
+        linear: IDENTITY,
+        inverse: IDENTITY,
+        inverse_error: [[0.0; 3]; 3],
+        centre: Point3::ORIGIN,
+        mirrored: false,
+    };
+
+    /// The map `x -> centre + L x`, with `L` by rows.
+    pub fn new(rows: Matrix3, centre: Point3) -> Result<Self, AffineError> {
+        for (row, entries) in rows.iter().enumerate() {
+            for (column, &value) in entries.iter().enumerate() {
+                if !value.is_finite() {
+                    return Err(AffineError::Entry { row, column, value });
+                }
+            }
+        }
+        check_translation(centre)?;
+        let (adjugate, determinant) = adjugate(&rows.map(|r| r.map(Dyadic::from)));
+        if determinant.is_zero() {
+            return Err(AffineError::Singular(rows));
+        }
+        let (mut inverse, mut inverse_error) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
+        for i in 0..3 {
+            for j in 0..3 {
+                let entry = quotient(&adjugate[i][j], &determinant).value();
+                if !entry.is_finite() {
+                    return Err(AffineError::Inverse(rows));
+                }
+                inverse[i][j] = entry;
+                // What the rounding left: (adj - entry det) / det, with an exact numerator.
+                let left = &adjugate[i][j] - &(&Dyadic::from(entry) * &determinant);
+                inverse_error[i][j] = quotient(&left.abs(), &determinant.clone().abs()).hi();
+            }
+        }
+        let mirrored = determinant.sign().is_lt();
+        Ok(Self { linear: rows, inverse, inverse_error, centre, mirrored })
+    }
+
+    /// Moves by `v`.
+    pub fn translation(v: Vec3) -> Result<Self, AffineError> {
+        let centre = v.to_point();
+        check_translation(centre)?;
+        Ok(Self { centre, ..Self::IDENTITY })
+    }
+
+    /// Scales by `x`, `y`, `z` along the axes.
+    pub fn scaling(x: f64, y: f64, z: f64) -> Result<Self, AffineError> {
+        Self::new([[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]], Point3::ORIGIN)
+    }
+
+    /// Turns about the x axis: y goes to z for +90 degrees.
+    pub fn rotation_x(radians: f64) -> Result<Self, AffineError> {
+        let (s, c) = sine_and_cosine(radians)?;
+        Self::new([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]], Point3::ORIGIN)
+    }
+
+    /// Turns about the y axis: z goes to x, and x to -z, for +90 degrees.
+    pub fn rotation_y(radians: f64) -> Result<Self, AffineError> {
+        let (s, c) = sine_and_cosine(radians)?;
+        Self::new([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]], Point3::ORIGIN)
+    }
+
+    /// Turns about the z axis: x goes to y for +90 degrees.
+    pub fn rotation_z(radians: f64) -> Result<Self, AffineError> {
+        let (s, c) = sine_and_cosine(radians)?;
+        Self::new([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]], Point3::ORIGIN)
+    }
+
+    /// Turns about `axis` through the origin, counter-clockwise seen from its tip (Rodrigues' formula).
+    pub fn rotation(axis: Vec3, radians: f64) -> Result<Self, AffineError> {
+        let (s, c) = sine_and_cosine(radians)?;
+        let k = axis.normalized().ok_or(AffineError::Axis(axis))?;
+        let v = 1.0 - c;
+        let row = |i: usize, cross: [f64; 3]| {
+            [0, 1, 2].map(|j| {
+                let diagonal = if i == j { c } else { 0.0 };
+                diagonal + (k[i] * k[j]).mul_add(v, cross[j] * s)
+            })
+        };
+        let rows = [row(0, [0.0, -k.z, k.y]), row(1, [k.z, 0.0, -k.x]), row(2, [-k.y, k.x, 0.0])];
+        Self::new(rows, Point3::ORIGIN)
+    }
+
+    /// This map first, then `next`. Composed in f64: the result's entries are rounded once each per term, and are then exact data.
+    pub fn then(&self, next: &Self) -> Result<Self, AffineError> {
+        let l = &next.linear;
+        let column = |j: usize| Vec3::new(self.linear[0][j], self.linear[1][j], self.linear[2][j]);
+        let columns = [0, 1, 2].map(|j| apply(l, column(j)));
+        let rows = [0, 1, 2].map(|i| [columns[0][i], columns[1][i], columns[2][i]]);
+        let centre = next.point(self.centre);
+        if next.linear == IDENTITY {
+            // The inverse is unchanged, so it need not be found again.
+            check_translation(centre)?;
+            return Ok(Self { centre, ..*self });
+        }
+        Self::new(rows, centre)
+    }
+
+    /// The inverse map, whose matrix is the rounded inverse and whose centre is rounded too: for display and cameras. Exactness is
+    /// kept by asking this map for `inverse_point` and [`Affine::inverse_error`].
+    pub fn inverted(&self) -> Result<Self, AffineError> {
+        let centre = apply(&self.inverse, -self.centre.to_vec()).to_point();
+        Self::new(self.inverse, centre)
+    }
+
+    /// `L`, by rows.
+    #[inline(always)]
+    pub fn linear(&self) -> Matrix3 {
+        self.linear
+    }
+
+    /// The rounded inverse of `L`, by rows.
+    #[inline(always)]
+    pub fn inverse_linear(&self) -> Matrix3 {
+        self.inverse
+    }
+
+    /// For each entry of [`Affine::inverse_linear`] a bound on its distance to the exact inverse of `L`. Half an ulp, or zero.
+    #[inline(always)]
+    pub fn inverse_error(&self) -> Matrix3 {
+        self.inverse_error
+    }
+
+    /// The image of the origin, `c`.
+    #[inline(always)]
+    pub fn centre(&self) -> Point3 {
+        self.centre
+    }
+
+    /// Whether the map mirrors: `det L < 0`, decided exactly.
+    #[inline(always)]
+    pub fn determinant_is_negative(&self) -> bool {
+        self.mirrored
+    }
+
+    /// The translation, if the map is nothing else.
+    #[inline]
+    pub fn as_translation(&self) -> Option<Vec3> {
+        (self.linear == IDENTITY).then(|| self.centre.to_vec())
+    }
+
+    /// The factor `s > 0`, if `L` is `s` times the identity.
+    #[inline]
+    pub fn as_uniform_scale(&self) -> Option<f64> {
+        let s = self.linear[0][0];
+        (s > 0.0 && self.linear == [[s, 0.0, 0.0], [0.0, s, 0.0], [0.0, 0.0, s]]).then_some(s)
+    }
+
+    /// The image of a point. Error: at most `gamma(3) (|L||p| + |c|)` in each coordinate.
+    #[inline]
+    pub fn point(&self, p: Point3) -> Point3 {
+        let row = |r: [f64; 3], c: f64| r[0].mul_add(p.x, r[1].mul_add(p.y, r[2].mul_add(p.z, c)));
+        Point3::new(
+            row(self.linear[0], self.centre.x),
+            row(self.linear[1], self.centre.y),
+            row(self.linear[2], self.centre.z),
+        )
+    }
+
+    /// The image of a vector. Error: at most `gamma(3) |L||v|` in each coordinate.
+    #[inline]
+    pub fn vector(&self, v: Vec3) -> Vec3 {
+        apply(&self.linear, v)
+    }
+
+    /// The image of a normal, by the inverse transpose; not of unit length. Points to the same side of the surface, also if the map
+    /// mirrors.
+    #[inline]
+    pub fn normal(&self, n: Normal3) -> Normal3 {
+        apply_transposed(&self.inverse, n.to_vec()).to_normal()
+    }
+
+    /// The point that is mapped to `p`: `Linv (p - c)`. Error: `gamma(4) |Linv||p - c| + E|p - c|`, `E` the inverse's error.
+    #[inline]
+    pub fn inverse_point(&self, p: Point3) -> Point3 {
+        apply(&self.inverse, p - self.centre).to_point()
+    }
+
+    /// The vector that is mapped to `v`. Error: `gamma(3) |Linv||v| + E|v|`.
+    #[inline]
+    pub fn inverse_vector(&self, v: Vec3) -> Vec3 {
+        apply(&self.inverse, v)
+    }
+
+    /// The normal that is mapped to `n`, by the transpose of `L`; not of unit length.
+    #[inline]
+    pub fn inverse_normal(&self, n: Normal3) -> Normal3 {
+        apply_transposed(&self.linear, n.to_vec()).to_normal()
+    }
+
+    /// An upper bound of `|L| v`, for `v >= 0`: how far displacements of up to `v` along each axis can reach.
+    pub fn linear_reach(&self, v: Vec3) -> Vec3 {
+        reach(&self.linear, &[[0.0; 3]; 3], v)
+    }
+
+    /// An upper bound of `|L^-1| v` (of the exact inverse), for `v >= 0`.
+    pub fn inverse_reach(&self, v: Vec3) -> Vec3 {
+        reach(&self.inverse, &self.inverse_error, v)
+    }
+
+    /// An upper bound of `L`'s spectral norm: the greatest length of the image of a unit vector, by Frobenius' norm (at most `sqrt 3`
+    /// times too large).
+    pub fn linear_norm(&self) -> f64 {
+        frobenius(&self.linear, &[[0.0; 3]; 3])
+    }
+
+    /// The same of the exact inverse of `L`.
+    pub fn inverse_norm(&self) -> f64 {
+        frobenius(&self.inverse, &self.inverse_error)
+    }
+
+    /// The adjugate of `L` and its determinant in the ring `T`, both times `sign(det L)`, so that the determinant is positive.
+    ///
+    /// `adjugate / determinant` is `L^-1`. Predicates about a placed surface multiply by the determinant instead of dividing, and stay
+    /// polynomial in the exact data.
+    pub fn adjugate<T: Ring>(&self) -> ([[T; 3]; 3], T) {
+        let (a, d) = adjugate(&self.linear.map(|r| r.map(T::exact)));
+        if self.mirrored { (a.map(|r| r.map(|x| -x)), -d) } else { (a, d) }
+    }
+
+    /// A box that holds the image of `b`, rounded outward: J. Arvo, "Transforming axis-aligned bounding boxes", Graphics Gems (1990).
+    pub fn bounds(&self, b: &Aabb) -> Aabb {
+        if b.is_empty() {
+            return Aabb::EMPTY;
+        }
+        let side = |j: usize| Interval::new(b.min[j], b.max[j]);
+        let axis = |i: usize| {
+            let term = |j: usize| Interval::from(self.linear[i][j]) * side(j);
+            term(0) + term(1) + term(2) + Interval::from(self.centre[i])
+        };
+        let [x, y, z] = [axis(0), axis(1), axis(2)];
+        Aabb { min: Point3::new(x.lo, y.lo, z.lo), max: Point3::new(x.hi, y.hi, z.hi) }
+    }
+}
+
+fn check_translation(c: Point3) -> Result<(), AffineError> {
+    match (0..3).find(|&axis| !c[axis].is_finite()) {
+        Some(axis) => Err(AffineError::Translation { axis, value: c[axis] }),
+        None => Ok(()),
+    }
+}
+
+fn sine_and_cosine(radians: f64) -> Result<(f64, f64), AffineError> {
+    if radians.is_finite() { Ok(elementary::sin_cos(radians)) } else { Err(AffineError::Angle(radians)) }
+}
+
+#[inline(always)]
+fn apply(m: &Matrix3, v: Vec3) -> Vec3 {
+    let row = |r: [f64; 3]| r[0].mul_add(v.x, r[1].mul_add(v.y, r[2] * v.z));
+    Vec3::new(row(m[0]), row(m[1]), row(m[2]))
+}
+
+#[inline(always)]
+fn apply_transposed(m: &Matrix3, v: Vec3) -> Vec3 {
+    let column = |j: usize| m[0][j].mul_add(v.x, m[1][j].mul_add(v.y, m[2][j] * v.z));
+    Vec3::new(column(0), column(1), column(2))
+}
+
+/// `(|m| + e) v`, rounded up.
+fn reach(m: &Matrix3, e: &Matrix3, v: Vec3) -> Vec3 {
+    let row = |i: usize| {
+        (0..3).fold(0.0, |sum, j| {
+            let entry = add_up(m[i][j].abs(), e[i][j]);
+            if entry == 0.0 || v[j] == 0.0 { sum } else { add_up(sum, mul_up(entry, v[j])) }
+        })
+    };
+    Vec3::new(row(0), row(1), row(2))
+}
+
+fn frobenius(m: &Matrix3, e: &Matrix3) -> f64 {
+    let entries = m.as_flattened().iter().zip(e.as_flattened());
+    let squares = entries.map(|(&x, &e)| add_up(x.abs(), e)).map(|x| mul_up(x, x));
+    sqrt_up(squares.fold(0.0, add_up))
+}
+
+/// The adjugate and the determinant.
+fn adjugate<T: Ring>(m: &[[T; 3]; 3]) -> ([[T; 3]; 3], T) {
+    let minor = |a: usize, b: usize, c: usize, d: usize| {
+        m[a][c].clone() * m[b][d].clone() - m[a][d].clone() * m[b][c].clone()
+    };
+    // Entry (i, j) is the cofactor of (j, i); cyclic indices carry the sign.
+    let a = [0, 1, 2].map(|i| [0, 1, 2].map(|j| minor((j + 1) % 3, (j + 2) % 3, (i + 1) % 3, (i + 2) % 3)));
+    let term = |k: usize| m[0][k].clone() * a[k][0].clone();
+    let determinant = term(0) + term(1) + term(2);
+    (a, determinant)
+}
+
+/// The quotient of two exact numbers, with a bound on its error.
+fn quotient(n: &Dyadic, d: &Dyadic) -> Run<crate::Dd> {
+    let ((n, kn), (d, kd)) = (n.to_scaled_dd(), d.to_scaled_dd());
+    // `to_scaled_dd` is within 2^-106 of numbers below 2.
+    let error = 2.0 * crate::U * crate::U;
+    let with_error = |x: crate::Dd| Run::with_error(x, if x.hi == 0.0 { 0.0 } else { error });
+    let k = (kn - kd).clamp(-3000, 3000) as i32;
+    (with_error(n) / with_error(d)).scale2(k)
+}
