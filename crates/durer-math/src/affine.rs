@@ -108,7 +108,7 @@ impl Affine {
                 inverse_error[i][j] = quotient(&left.abs(), &determinant.clone().abs()).hi();
             }
         }
-        let mirrored = determinant.sign().is_lt();
+        let mirrored = determinant.exact_sign().is_lt();
         Ok(Self { linear: rows, inverse, inverse_error, centre, mirrored })
     }
 

@@ -125,8 +125,8 @@ impl Dyadic {
         self.limbs.is_empty()
     }
 
-    /// The sign, compared with zero.
-    pub fn sign(&self) -> Ordering {
+    /// The sign, compared with zero: what [`Ring::sign`] wraps in `Some`.
+    pub fn exact_sign(&self) -> Ordering {
         if self.is_zero() {
             Ordering::Equal
         } else if self.negative {
@@ -328,7 +328,7 @@ impl fmt::Debug for Dyadic {
 
 impl Ord for Dyadic {
     fn cmp(&self, b: &Self) -> Ordering {
-        let signs = self.sign().cmp(&b.sign());
+        let signs = self.exact_sign().cmp(&b.exact_sign());
         if signs != Ordering::Equal || self.is_zero() {
             return signs;
         }
@@ -336,7 +336,7 @@ impl Ord for Dyadic {
         if tops != Ordering::Equal {
             return if self.negative { tops.reverse() } else { tops };
         }
-        Self::sum(self, b, true).sign()
+        Self::sum(self, b, true).exact_sign()
     }
 }
 
@@ -402,6 +402,6 @@ impl Ring for Dyadic {
     }
 
     fn sign(&self) -> Option<Ordering> {
-        Some(Self::sign(self))
+        Some(self.exact_sign())
     }
 }

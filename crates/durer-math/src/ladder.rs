@@ -63,5 +63,5 @@ fn climb<P: Predicate + ?Sized>(p: &P) -> Option<(Ordering, Step)> {
     if let Some(sign) = p.eval::<Run<Dd>>().and_then(|x| x.sign()) {
         return Some((sign, Step::DoubleDouble));
     }
-    p.eval::<Dyadic>().map(|x| (x.sign(), Step::Exact))
+    p.eval::<Dyadic>().map(|x| (x.exact_sign(), Step::Exact))
 }

@@ -151,7 +151,7 @@ impl EdgeRay {
         let u = &(&term(1, 2, 0) + &term(2, 0, 1)) + &term(0, 1, 2);
         let (lo, hi) = u.to_bounds();
         let value = u.to_f64();
-        (u.sign(), value, hi - lo)
+        (u.exact_sign(), value, hi - lo)
     }
 
     /// The sign of `((v2 - v1) x d)_axis`.
@@ -167,7 +167,7 @@ impl EdgeRay {
         }
         let ej = Dyadic::from(v2[j]) - Dyadic::from(v1[j]);
         let ek = Dyadic::from(v2[k]) - Dyadic::from(v1[k]);
-        (ej * Dyadic::from(dk) - ek * Dyadic::from(dj)).sign() as i8
+        (ej * Dyadic::from(dk) - ek * Dyadic::from(dj)).exact_sign() as i8
     }
 
     /// On which side of the plane of a triangle the origin lies: the sign of `n . (o - v0)`, `n = (v1 - v0) x (v2 - v0)`.
@@ -196,7 +196,7 @@ impl EdgeRay {
         let d = [Dyadic::from(self.d.x), Dyadic::from(self.d.y), Dyadic::from(self.d.z)];
         let dot = |v: &[Dyadic; 3]| &(&(&n[0] * &v[0]) + &(&n[1] * &v[1])) + &(&n[2] * &v[2]);
         let [a, b] = self.axes.map(usize::from);
-        let terms = [dot(&o).sign(), n[a].sign(), n[b].sign(), dot(&d).sign()];
+        let terms = [dot(&o).exact_sign(), n[a].exact_sign(), n[b].exact_sign(), dot(&d).exact_sign()];
         terms.into_iter().find(|s| *s != Ordering::Equal).unwrap_or(Ordering::Equal) as i8
     }
 }

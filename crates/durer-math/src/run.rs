@@ -9,7 +9,7 @@
 //! `a.e + b.e + u|s|`; it is computed as `fma(K, a.e + b.e, u'|s|)` with `K = 1 + 16u`, `u' = u(1 + 32u)`, whose two roundings
 //! lose at most a factor `(1-u)^2`. A product needs `|a| b.e + a.e (|b| + b.e) + u|p| + 2^-1075`; it is computed with one sum, three
 //! fused operations and a final product by `K`, which lose at most `(1-u)^5`, and, where they are subnormal, `2^-1075` each, for which
-//! [`FLOOR`] pays. Additions are exact in the subnormal range and need no floor. A factor that is exactly zero gives exactly zero.
+//! `FLOOR` pays. Additions are exact in the subnormal range and need no floor. A factor that is exactly zero gives exactly zero.
 //! For `T = Dd` the part `hi` stands for the number, which costs another `(1+u)^2`, again within `K`.
 //!
 //! Overflow turns `v` or `e` into an infinity or NaN; then no sign is certain and the enclosure is the whole line.
