@@ -1,1 +1,43 @@
-//! Under construction.
+//! A scene as plain data: what is where, what it looks like, what shines and who looks.
+//!
+//! A [`Scene`] prints, compares and clones; it has no syntax and does nothing by itself. Readers build it from text, programs by hand:
+//!
+//! ```
+//! use durer_math::Point3;
+//! use durer_scene::{Colour, Finish, Light, Object, Pigment, Rgb, Scene, Shape, Texture};
+//!
+//! let red = Pigment::solid(Colour::opaque(Rgb::new(1.0, 0.0, 0.0)));
+//! let ball = Object::new(Shape::Sphere { centre: Point3::new(0.0, 0.0, 5.0), radius: 1.0 })
+//!     .with_texture(Texture::plain(red, Finish::default()));
+//! let scene = Scene {
+//!     objects: vec![ball],
+//!     lights: vec![Light::point(Point3::new(-10.0, 10.0, 0.0), Rgb::WHITE)],
+//!     ..Scene::default()
+//! };
+//! assert_eq!(scene.clone(), scene);
+//! ```
+#![forbid(unsafe_code)]
+
+mod camera;
+mod colour;
+mod finish;
+mod interior;
+mod light;
+mod object;
+mod pattern;
+mod placement;
+mod scene;
+mod shape;
+mod texture;
+
+pub use crate::camera::{Camera, Projection};
+pub use crate::colour::{Colour, Rgb};
+pub use crate::finish::{Finish, Reflection};
+pub use crate::interior::Interior;
+pub use crate::light::{Fade, Light, LightKind};
+pub use crate::object::{Flags, Object, Place};
+pub use crate::pattern::{Cells, Pattern, Ramp, Value, Wave};
+pub use crate::placement::Placement;
+pub use crate::scene::{AssumedGamma, Background, Scene, Settings};
+pub use crate::shape::{Face, Mesh, NamedQuadric, QuadricKind, Shape};
+pub use crate::texture::{Layer, Pigment, PigmentBody, Texture, TextureBody};

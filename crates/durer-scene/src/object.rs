@@ -1,0 +1,119 @@
+//! Objects: shapes with a place, a look and habits.
+
+use std::sync::Arc;
+
+use durer_math::{Affine, AffineError};
+
+use crate::{Interior, Placement, Shape, Texture};
+
+/// A shape with its place and its look.
+///
+/// What stands in a union and has no texture (interior) of its own takes the union's. Flags of a union hold for all its parts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Object {
+    /// Its surface.
+    pub shape: Shape,
+    /// From the shape's own frame to the space around the object (a union's frame, or the world).
+    pub placement: Placement,
+    /// Convex solids (spheres, boxes, planes, ...; `inverse` keeps what is outside): only what lies in all of them is left. Placed in the
+    /// space around the object.
+    pub clips: Vec<Object>,
+    /// Its texture, placed in the space around the object.
+    pub texture: Option<Arc<Texture>>,
+    /// What fills it.
+    pub interior: Option<Arc<Interior>>,
+    /// Its habits.
+    pub flags: Flags,
+    /// Where it was written, for messages.
+    pub place: Option<Place>,
+}
+
+/// An object's habits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Flags {
+    /// It throws no shadow.
+    pub no_shadow: bool,
+    /// The camera does not see it.
+    pub no_image: bool,
+    /// Mirrors do not show it.
+    pub no_reflection: bool,
+    /// Fog and media of the scene go on inside it.
+    pub hollow: bool,
+    /// Inside and outside are exchanged.
+    pub inverse: bool,
+    /// Cylinders, cones and cut quadrics have no caps.
+    pub open: bool,
+    /// Light from behind the surface counts too.
+    pub double_illuminate: bool,
+}
+
+impl Flags {
+    /// The flags of either.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self {
+            no_shadow: self.no_shadow | other.no_shadow,
+            no_image: self.no_image | other.no_image,
+            no_reflection: self.no_reflection | other.no_reflection,
+            hollow: self.hollow | other.hollow,
+            inverse: self.inverse ^ other.inverse,
+            open: self.open | other.open,
+            double_illuminate: self.double_illuminate | other.double_illuminate,
+        }
+    }
+}
+
+/// A place in the text of a scene; its reader knows the files by number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Place {
+    /// The number of the file.
+    pub file: u32,
+    /// Bytes before the place.
+    pub start: u32,
+}
+
+impl Object {
+    /// A shape where its own numbers put it, without a look.
+    pub fn new(shape: Shape) -> Self {
+        Self {
+            shape,
+            placement: Placement::IDENTITY,
+            clips: Vec::new(),
+            texture: None,
+            interior: None,
+            flags: Flags::default(),
+            place: None,
+        }
+    }
+
+    /// The same object with a texture.
+    #[must_use]
+    pub fn with_texture(mut self, texture: impl Into<Arc<Texture>>) -> Self {
+        self.texture = Some(texture.into());
+        self
+    }
+
+    /// The same object with an interior.
+    #[must_use]
+    pub fn with_interior(mut self, interior: impl Into<Arc<Interior>>) -> Self {
+        self.interior = Some(interior.into());
+        self
+    }
+
+    /// Moves the object with all it has so far: its texture and its clips too.
+    pub fn transform(&mut self, map: &Affine) -> Result<(), AffineError> {
+        self.placement.then(map)?;
+        if let Some(texture) = &mut self.texture
+            && !texture.is_uniform()
+        {
+            Arc::make_mut(texture).transform(map)?;
+        }
+        self.clips.iter_mut().try_for_each(|clip| clip.transform(map))
+    }
+}
+
+impl From<Shape> for Object {
+    fn from(shape: Shape) -> Self {
+        Self::new(shape)
+    }
+}

@@ -1,0 +1,92 @@
+//! Patterns: functions of the point that choose among entries, or blend them.
+
+use durer_math::Vec3;
+
+/// A choice or a blend of entries `T` (colours, pigments or textures) by the place.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pattern<T> {
+    /// Space is cut into cells, each of which shows one entry.
+    Cells {
+        /// How space is cut.
+        cells: Cells,
+        /// One entry for each kind of cell: [`Cells::kinds`] of them.
+        entries: Vec<T>,
+    },
+    /// A number is computed at each point, and looked up in a map.
+    Map {
+        /// The number.
+        value: Value,
+        /// Positions in the map with what is shown there, in the order written; not empty.
+        entries: Vec<(f64, T)>,
+    },
+}
+
+/// How space is cut into cells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cells {
+    /// Unit cubes in two kinds, by the parity of the sum of their coordinates.
+    Checker,
+    /// Endless hexagonal columns along y with sides of length 1, in three kinds.
+    Hexagon,
+    /// A wall of bricks: the first kind is mortar, the second brick.
+    Brick {
+        /// The size of a brick with its mortar.
+        size: Vec3,
+        /// The width of the joints.
+        mortar: f64,
+    },
+}
+
+impl Cells {
+    /// How many kinds of cells there are.
+    pub fn kinds(self) -> usize {
+        match self {
+            Self::Checker | Self::Brick { .. } => 2,
+            Self::Hexagon => 3,
+        }
+    }
+}
+
+/// A number at each point, from 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Value {
+    /// What it grows along.
+    pub ramp: Ramp,
+    /// How many waves there are where the ramp has one.
+    pub frequency: f64,
+    /// How far the wave is shifted.
+    pub phase: f64,
+    /// The form of the wave.
+    pub wave: Wave,
+}
+
+impl Value {
+    /// One plain wave of `ramp`.
+    pub fn new(ramp: Ramp) -> Self {
+        Self { ramp, frequency: 1.0, phase: 0.0, wave: Wave::Ramp }
+    }
+}
+
+/// What a continuous pattern grows along.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ramp {
+    /// From 0 to 1 with each unit along a direction (of any length but zero), then from 0 again.
+    Gradient(Vec3),
+}
+
+/// The form into which a number from 0 to 1 is bent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Wave {
+    /// As it is.
+    Ramp,
+    /// Up and down.
+    Triangle,
+    /// A full sine wave.
+    Sine,
+    /// Half waves that touch zero sharply.
+    Scallop,
+    /// `3 w^2 - 2 w^3`.
+    Cubic,
+    /// `w` to a power.
+    Poly(f64),
+}

@@ -1,0 +1,159 @@
+//! Shapes: what the constructors of all surfaces take, as numbers.
+
+use std::sync::Arc;
+
+use durer_math::{Point3, Vec3};
+
+use crate::{Object, Texture};
+
+/// A surface in its object's own frame, not yet checked: lowering builds it and names what is wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// All points at `radius` from `centre`.
+    Sphere {
+        /// The middle.
+        centre: Point3,
+        /// The radius.
+        radius: f64,
+    },
+    /// An axis-aligned box between two opposite corners.
+    Box {
+        /// A corner.
+        a: Point3,
+        /// The opposite corner.
+        b: Point3,
+    },
+    /// A circular cylinder; closed, unless the object is open.
+    Cylinder {
+        /// The middle of one end.
+        base: Point3,
+        /// The middle of the other.
+        cap: Point3,
+        /// The radius.
+        radius: f64,
+    },
+    /// A circular cone or frustum; closed, unless the object is open.
+    Cone {
+        /// The middle of one end.
+        base: Point3,
+        /// The radius there.
+        base_radius: f64,
+        /// The middle of the other end.
+        cap: Point3,
+        /// The radius there.
+        cap_radius: f64,
+    },
+    /// The plane of points `p` with `p . normal = distance |normal|`; its inside is behind the normal.
+    Plane {
+        /// The normal, of any length but zero.
+        normal: Vec3,
+        /// The distance from the origin along the normal.
+        distance: f64,
+    },
+    /// A disc, with a hole if `hole` is positive.
+    Disc {
+        /// The middle.
+        centre: Point3,
+        /// The normal, of any length but zero.
+        normal: Vec3,
+        /// The outer radius.
+        radius: f64,
+        /// The radius of the hole.
+        hole: f64,
+    },
+    /// The points `corner + a u + b v`, `a` and `b` from 0 to 1.
+    Parallelogram {
+        /// A corner.
+        corner: Point3,
+        /// The first edge.
+        u: Vec3,
+        /// The second edge.
+        v: Vec3,
+    },
+    /// A flat triangle.
+    Triangle([Point3; 3]),
+    /// A triangle with a normal at each corner, interpolated between them.
+    SmoothTriangle(Box<([Point3; 3], [Vec3; 3])>),
+    /// A plane polygon of one or more loops, by the even-odd rule. Loops are not repeated at their end.
+    Polygon(Vec<Vec<Point3>>),
+    /// Triangles over shared corners.
+    Mesh(Arc<Mesh>),
+    /// The general quadric `A x^2 + B y^2 + C z^2 + D xy + E xz + F yz + G x + H y + I z + J = 0`: the ten coefficients in this order.
+    Quadric(Box<[f64; 10]>),
+    /// A quadric by its name, centred at the origin with its axis along z.
+    Named(Box<NamedQuadric>),
+    /// The part of a ball within `half_angle` of an axis.
+    SphericalSector {
+        /// The middle of the ball.
+        centre: Point3,
+        /// The radius of the ball.
+        radius: f64,
+        /// The axis, of any length but zero.
+        axis: Vec3,
+        /// The angle between the axis and the cone, in radians.
+        half_angle: f64,
+    },
+    /// All the parts' surfaces together. Parts are placed in the union's own frame.
+    Union(Vec<Object>),
+}
+
+/// A quadric in its principal frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NamedQuadric {
+    /// Its name.
+    pub kind: QuadricKind,
+    /// Its semi-axes along x, y and z; see [`QuadricKind`] for what each means. Unused ones are ignored.
+    pub semi_axes: [f64; 3],
+    /// The part between two planes `z = from` and `z = to`, closed by flat caps unless the object is open; all of it if absent.
+    pub extent: Option<[f64; 2]>,
+}
+
+/// The quadrics that have names, with semi-axes a, b, c.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum QuadricKind {
+    /// `x^2/a^2 + y^2/b^2 + z^2/c^2 = 1`; a spheroid if two of them are equal.
+    Ellipsoid,
+    /// `x^2/a^2 + y^2/b^2 = z/c`; circular if `a = b`.
+    EllipticParaboloid,
+    /// `x^2/a^2 - y^2/b^2 = z/c`.
+    HyperbolicParaboloid,
+    /// `x^2/a^2 + y^2/b^2 - z^2/c^2 = 1`.
+    HyperboloidOneSheet,
+    /// `z^2/c^2 - x^2/a^2 - y^2/b^2 = 1`.
+    HyperboloidTwoSheets,
+    /// `x^2/a^2 + y^2/b^2 = z^2/c^2`: a double cone; circular if `a = b`.
+    EllipticCone,
+    /// `x^2/a^2 + y^2/b^2 = 1`; circular if `a = b`.
+    EllipticCylinder,
+    /// `x^2/a^2 - y^2/b^2 = 1`.
+    HyperbolicCylinder,
+    /// `x^2/a^2 = y/b`.
+    ParabolicCylinder,
+}
+
+/// Triangles over shared corners.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// The corners.
+    pub vertices: Vec<Point3>,
+    /// The normals that faces may refer to, of any length.
+    pub normals: Vec<Vec3>,
+    /// The triangles.
+    pub faces: Vec<Face>,
+    /// The textures that faces may refer to, placed in the mesh's own frame.
+    pub textures: Vec<Arc<Texture>>,
+    /// A direction that decides what is inside: points from which it crosses the mesh an odd number of times. Without it the mesh
+    /// is a sheet.
+    pub inside_vector: Option<Vec3>,
+}
+
+/// A triangle of a [`Mesh`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Face {
+    /// The numbers of its corners.
+    pub vertices: [u32; 3],
+    /// The numbers of the normals at its corners; flat without them.
+    pub normals: Option<[u32; 3]>,
+    /// The number of its texture; the object's without it.
+    pub texture: Option<u32>,
+}

@@ -1,0 +1,126 @@
+//! Textures: what a surface looks like at each of its points.
+
+use std::sync::Arc;
+
+use durer_math::{Affine, AffineError};
+
+use crate::{Colour, Finish, Pattern, Placement, Rgb};
+
+/// The look of a surface: layers of paint, or a pattern of textures.
+///
+/// Its placement leads from the pattern's space to the space in which the object stands *after* the object's own placement. So a
+/// transform written after the texture moves both, and one written before it moves the object alone. Textures inside a pattern are
+/// placed in the pattern's space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texture {
+    /// What is shown.
+    pub body: TextureBody,
+    /// Where it is shown.
+    pub placement: Placement,
+}
+
+/// What a texture shows.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TextureBody {
+    /// Layers from the innermost to the outermost; at least one.
+    Layers(Vec<Layer>),
+    /// Other textures by a pattern.
+    Pattern(Box<Pattern<Arc<Texture>>>),
+}
+
+/// A layer of paint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// Its colour at each point.
+    pub pigment: Pigment,
+    /// How it answers to light.
+    pub finish: Arc<Finish>,
+}
+
+impl Texture {
+    /// A single layer.
+    pub fn plain(pigment: Pigment, finish: impl Into<Arc<Finish>>) -> Self {
+        Self::layers(vec![Layer { pigment, finish: finish.into() }])
+    }
+
+    /// Several layers, from the innermost to the outermost.
+    pub fn layers(layers: Vec<Layer>) -> Self {
+        Self { body: TextureBody::Layers(layers), placement: Placement::IDENTITY }
+    }
+
+    /// Other textures by a pattern.
+    pub fn pattern(pattern: Pattern<Arc<Texture>>) -> Self {
+        Self { body: TextureBody::Pattern(Box::new(pattern)), placement: Placement::IDENTITY }
+    }
+
+    /// Moves the texture by `map`.
+    pub fn transform(&mut self, map: &Affine) -> Result<(), AffineError> {
+        self.placement.then(map)
+    }
+
+    /// Whether it looks the same everywhere, so that it need not be moved.
+    pub fn is_uniform(&self) -> bool {
+        match &self.body {
+            TextureBody::Layers(layers) => {
+                layers.iter().all(|l| matches!(l.pigment.body, PigmentBody::Solid(_)))
+            }
+            TextureBody::Pattern(_) => false,
+        }
+    }
+}
+
+impl Default for Texture {
+    /// Black paint with the default finish.
+    fn default() -> Self {
+        Self::plain(Pigment::default(), Finish::default())
+    }
+}
+
+/// A colour at each point of space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pigment {
+    /// The colours.
+    pub body: PigmentBody,
+    /// From the pigment's space to that of the texture (or pigment) around it.
+    pub placement: Placement,
+}
+
+/// What colours a pigment has.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PigmentBody {
+    /// One colour.
+    Solid(Colour),
+    /// Colours by a pattern.
+    Colours(Box<Pattern<Colour>>),
+    /// Other pigments by a pattern; a map blends their colours. They are placed in this pigment's space.
+    Pigments(Box<Pattern<Pigment>>),
+}
+
+impl Pigment {
+    /// One colour everywhere.
+    pub fn solid(colour: Colour) -> Self {
+        Self { body: PigmentBody::Solid(colour), placement: Placement::IDENTITY }
+    }
+
+    /// Colours by a pattern.
+    pub fn colours(pattern: Pattern<Colour>) -> Self {
+        Self { body: PigmentBody::Colours(Box::new(pattern)), placement: Placement::IDENTITY }
+    }
+
+    /// Other pigments by a pattern.
+    pub fn pigments(pattern: Pattern<Pigment>) -> Self {
+        Self { body: PigmentBody::Pigments(Box::new(pattern)), placement: Placement::IDENTITY }
+    }
+
+    /// Moves the pigment by `map`.
+    pub fn transform(&mut self, map: &Affine) -> Result<(), AffineError> {
+        self.placement.then(map)
+    }
+}
+
+impl Default for Pigment {
+    /// Opaque black.
+    fn default() -> Self {
+        Self::solid(Colour::opaque(Rgb::BLACK))
+    }
+}
