@@ -1,0 +1,110 @@
+//! The annulus: a disc with a round hole.
+//!
+//! ```text
+//!        n
+//!        ^            n . (p - c) = 0,   hole <= |p - c| <= r
+//!   ────   ────
+//!       c hole r
+//! ```
+//!
+//! Decided as the [disc](crate::Disc) is, against two circles; both rims belong to the annulus.
+
+use crate::disc::RoundSheet;
+use crate::planar::{Line, scaled_to_one};
+use crate::{Flow, LocalRay, Need, Root, Sink, Surface, SurfacePoint};
+use core::cmp::Ordering;
+use durer_math::{Aabb, Point3, Vec3};
+
+/// A round sheet with a round hole about the same centre.
+///
+/// # Invariants
+///
+/// Centre, normal and radii are finite, the normal is not zero, and `0 <= hole < radius`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Annulus {
+    sheet: RoundSheet,
+    hole: f64,
+    radius: f64,
+}
+
+/// Why an [`Annulus`] cannot exist.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum AnnulusError {
+    /// The centre is infinite or NaN.
+    #[error("annulus: the centre must be finite, got <{}, {}, {}>", .0.x, .0.y, .0.z)]
+    Centre(Point3),
+    /// The normal has no direction.
+    #[error("annulus: the normal must be finite and not zero, got <{}, {}, {}>", .0.x, .0.y, .0.z)]
+    Normal(Vec3),
+    /// The radius is zero, negative, infinite or NaN.
+    #[error("annulus: the radius must be finite and positive, got {0}")]
+    Radius(f64),
+    /// The hole's radius is negative, infinite, NaN, or leaves nothing of the disc.
+    #[error("annulus: the hole's radius must be at least 0 and less than the radius {radius}, got {hole}")]
+    Hole {
+        /// The hole's radius.
+        hole: f64,
+        /// The disc's radius.
+        radius: f64,
+    },
+}
+
+impl Annulus {
+    /// The part of the disc of radius `radius` about `centre` that lies at least `hole` away from it; the normal has any length.
+    pub fn new(centre: Point3, normal: Vec3, hole: f64, radius: f64) -> Result<Self, AnnulusError> {
+        if !centre.is_finite() {
+            return Err(AnnulusError::Centre(centre));
+        }
+        let n = scaled_to_one(normal).ok_or(AnnulusError::Normal(normal))?;
+        if !(radius.is_finite() && radius > 0.0) {
+            return Err(AnnulusError::Radius(radius));
+        }
+        if !(0.0 <= hole && hole < radius) {
+            return Err(AnnulusError::Hole { hole, radius });
+        }
+        Ok(Self { sheet: RoundSheet::new(centre, n, radius), hole, radius })
+    }
+
+    /// The centre.
+    pub fn centre(&self) -> Point3 {
+        self.sheet.centre
+    }
+
+    /// The normal, scaled by a power of two.
+    pub fn normal(&self) -> Vec3 {
+        self.sheet.normal
+    }
+
+    /// The radius of the hole.
+    pub fn hole(&self) -> f64 {
+        self.hole
+    }
+
+    /// The outer radius.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+}
+
+impl Surface for Annulus {
+    fn bounds(&self) -> Aabb {
+        self.sheet.bounds(self.radius)
+    }
+
+    #[inline(always)]
+    fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
+        let probe = self.sheet.probe(ray);
+        // An inexact ray that cannot be kept off the annulus meets it.
+        if let Some(crossing) = self.sheet.crossing(&probe, sink.range())
+            && probe.sign(&self.sheet.rim(self.radius)).is_none_or(Ordering::is_le)
+            && probe.sign(&self.sheet.rim(self.hole)).is_none_or(Ordering::is_ge)
+            && probe.admits(&self.sheet, &crossing)
+        {
+            let _: Flow = sink.push(probe.root(&crossing, 0, [0.0; 2]));
+        }
+    }
+
+    fn resolve(&self, ray: &LocalRay<'_>, _root: &Root, need: Need) -> SurfacePoint {
+        self.sheet.resolve(ray, need, self.hole, self.radius)
+    }
+}

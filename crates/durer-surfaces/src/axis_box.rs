@@ -1,0 +1,315 @@
+//! The axis-aligned box: three slabs.
+//!
+//! ```text
+//!        ┌────────┐ hi        lo_i <= p_i <= hi_i   for i = x, y, z
+//!     ───●────────●───▶
+//!     lo └────────┘           entry: the last slab entered,  exit: the first slab left
+//! ```
+//!
+//! T. L. Kay, J. T. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986, made exact: the ratios `(lo_i - o_i) / d_i` are compared as
+//! brackets, and where brackets overlap by the sign of `n_i d_j - n_j d_i`. Ties of the entry (the ray comes in through an edge) go
+//! to the first axis; a line that only touches an edge or a corner meets the box in one grazing root; a line within a face enters and
+//! leaves through the other slabs, since the box is closed.
+
+use crate::planar::{self, AlongRay, Crossing, Line, PlaneForm, PointLine, Probe};
+use crate::{
+    Flow, Kind, LocalPoint, LocalRay, Need, RingRay, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+};
+use core::cmp::Ordering;
+use durer_math::eft::exponent;
+use durer_math::{Aabb, Normal3, Point3, Ring, Vec3};
+
+/// A solid box with faces across the axes. Face `2 i` is the one at the least coordinate of axis `i`, face `2 i + 1` the opposite one.
+///
+/// # Invariants
+///
+/// All coordinates are finite and the box has a width along each axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AxisBox {
+    min: Point3,
+    max: Point3,
+}
+
+/// Why an [`AxisBox`] cannot exist.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum AxisBoxError {
+    /// A corner is infinite or NaN.
+    #[error("box: a corner must be finite, got <{}, {}, {}>", .0.x, .0.y, .0.z)]
+    Corner(Point3),
+    /// The corners agree in a coordinate.
+    #[error("box: the corners must differ in x, y and z, both have {axis} = {at}", axis = ["x", "y", "z"][*axis as usize])]
+    Flat {
+        /// Which coordinate: 0, 1 or 2.
+        axis: u8,
+        /// Its value.
+        at: f64,
+    },
+}
+
+/// One face's plane. Its normal is `+axis` for both faces of a slab; the sign is set by [`AxisBox`].
+#[derive(Clone, Copy)]
+struct Face {
+    axis: usize,
+    at: f64,
+    centre: f64,
+    scale: i32,
+}
+
+impl PlaneForm for Face {
+    #[inline(always)]
+    fn slope<T: Ring>(&self, ray: &RingRay<T>) -> T {
+        ray.d[self.axis].clone()
+    }
+
+    #[inline(always)]
+    fn height<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
+        let level = (T::exact(self.at) - T::exact(self.centre)).scale2(-self.scale);
+        Some(ray.o[self.axis].clone() - level * ray.w.clone())
+    }
+}
+
+/// `s_a - s_b` times the two slopes: which of two crossings comes first.
+struct Later(Face, Face);
+
+impl AlongRay for Later {
+    fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
+        let Self(a, b) = self;
+        Some(b.height(ray)? * a.slope(ray) - a.height(ray)? * b.slope(ray))
+    }
+}
+
+/// The height above a face, for lines along it.
+struct Height(Face);
+
+impl AlongRay for Height {
+    fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
+        self.0.height(ray)
+    }
+}
+
+/// A ray's entry into a slab, or its exit.
+#[derive(Clone, Copy)]
+struct Event {
+    face: Face,
+    /// The number of the face in the box.
+    number: u32,
+    crossing: Crossing,
+}
+
+impl AxisBox {
+    /// The box between two opposite corners, in any order.
+    pub fn new(a: Point3, b: Point3) -> Result<Self, AxisBoxError> {
+        for corner in [a, b] {
+            if !corner.is_finite() {
+                return Err(AxisBoxError::Corner(corner));
+            }
+        }
+        for axis in 0..3u8 {
+            let at = a[usize::from(axis)];
+            if at == b[usize::from(axis)] {
+                return Err(AxisBoxError::Flat { axis, at });
+            }
+        }
+        let Aabb { min, max, .. } = Aabb::from_points([a, b]);
+        Ok(Self { min, max })
+    }
+
+    /// The least coordinates.
+    pub fn min(&self) -> Point3 {
+        self.min
+    }
+
+    /// The greatest coordinates.
+    pub fn max(&self) -> Point3 {
+        self.max
+    }
+
+    #[inline(always)]
+    fn centre(&self) -> Point3 {
+        // Halves first: no overflow.
+        self.min.map(|x| 0.5 * x) + self.max.map(|x| 0.5 * x).to_vec()
+    }
+
+    #[inline(always)]
+    fn scale(&self) -> i32 {
+        let half = self.max.map(|x| 0.5 * x) - self.min.map(|x| 0.5 * x);
+        exponent(half.max_abs()) + 1
+    }
+
+    #[inline(always)]
+    fn face(&self, number: u32) -> Face {
+        let axis = (number / 2) as usize;
+        let at = if number & 1 == 0 { self.min[axis] } else { self.max[axis] };
+        Face { axis, at, centre: self.centre()[axis], scale: self.scale() }
+    }
+
+    /// The ray's entry and exit, if it meets the box at all, and whether they are the same point.
+    #[inline(always)]
+    fn span(&self, probe: &Probe<'_>) -> Option<(Event, Event, bool)> {
+        let mut span: Option<(Event, Event)> = None;
+        for axis in 0..3 {
+            let (low, high) = (2 * axis, 2 * axis + 1);
+            let event = |number| {
+                let face = self.face(number);
+                Some(Event { face, number, crossing: probe.crossing(&face)? })
+            };
+            let Some(first) = event(low) else {
+                if self.lies_between(probe, low) {
+                    continue;
+                }
+                return None;
+            };
+            let second = event(high)?;
+            let (near, far) = if first.crossing.sign > 0 { (first, second) } else { (second, first) };
+            span = Some(match span {
+                None => (near, far),
+                Some((entry, exit)) => (
+                    if later(probe, &near, &entry).is_gt() { near } else { entry },
+                    if later(probe, &far, &exit).is_lt() { far } else { exit },
+                ),
+            });
+        }
+        let (entry, exit) = span?;
+        match later(probe, &entry, &exit) {
+            Ordering::Less => Some((entry, exit, false)),
+            Ordering::Equal => Some((entry, exit, true)),
+            Ordering::Greater => None,
+        }
+    }
+
+    /// Whether a line across an axis runs within that axis's slab, faces included.
+    #[cold]
+    fn lies_between(&self, probe: &Probe<'_>, low: u32) -> bool {
+        probe.sign(&Height(self.face(low))).is_none_or(Ordering::is_ge)
+            && probe.sign(&Height(self.face(low + 1))).is_none_or(Ordering::is_le)
+    }
+}
+
+/// The order of two crossings along the ray, exactly.
+#[inline(always)]
+fn later(probe: &Probe<'_>, a: &Event, b: &Event) -> Ordering {
+    if a.crossing.s_lo > b.crossing.s_hi {
+        return Ordering::Greater;
+    }
+    if a.crossing.s_hi < b.crossing.s_lo {
+        return Ordering::Less;
+    }
+    if a.number == b.number {
+        return Ordering::Equal;
+    }
+    later_climb(probe, a, b)
+}
+
+#[cold]
+#[inline(never)]
+fn later_climb(probe: &Probe<'_>, a: &Event, b: &Event) -> Ordering {
+    match probe.sign(&Later(a.face, b.face)) {
+        Some(order) if a.crossing.sign == b.crossing.sign => order,
+        Some(order) => order.reverse(),
+        // Only for rays that are not exactly known: the line may touch the edge between the two faces.
+        None => Ordering::Equal,
+    }
+}
+
+impl Surface for AxisBox {
+    fn bounds(&self) -> Aabb {
+        Aabb::new(self.min, self.max)
+    }
+
+    #[inline(always)]
+    fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
+        let probe = Probe::new(ray, self.centre(), self.scale());
+        let Some((mut entry, mut exit, touches)) = self.span(&probe) else { return };
+        // The entry is known to come first: brackets that overlap are told so.
+        if entry.crossing.s > exit.crossing.s {
+            let middle = 0.5 * entry.crossing.s + 0.5 * exit.crossing.s;
+            entry.crossing.s = middle.clamp(entry.crossing.s_lo, entry.crossing.s_hi);
+            exit.crossing.s = middle.clamp(exit.crossing.s_lo, exit.crossing.s_hi);
+        }
+        for (event, sign) in [(entry, -1), (exit, 1)] {
+            let crossing = &event.crossing;
+            if probe.may_admit(crossing)
+                && !crossing.is_outside(sink.range())
+                && probe.admits(&event.face, crossing)
+            {
+                let root = probe.root(crossing, event.number, [0.0; 2]);
+                let root = if touches {
+                    Root { sign: 0, kind: Kind::Grazing, ..root }
+                } else {
+                    Root { sign, ..root }
+                };
+                if sink.push(root) == Flow::Stop {
+                    return;
+                }
+            }
+            if touches {
+                return;
+            }
+        }
+    }
+
+    /// Texture coordinates run from 0 to 1 over each face, along the two other axes in cyclic order.
+    fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
+        let probe = Probe::new(ray, self.centre(), self.scale());
+        let face = self.face(root.face);
+        let (axis, outward) = (face.axis, if root.face & 1 == 0 { -1.0 } else { 1.0 });
+        let normal = Vec3::from(core::array::from_fn(|i| if i == axis { 1.0 } else { 0.0 }));
+        let (p, dp) = planar::foot_point(&probe, &face, normal, 1.0, -level(&face));
+        // On the face exactly, and within it: moving a point into a convex set brings it no farther from the set's points.
+        let mut p = Point3::from(core::array::from_fn(|i| p[i].clamp(self.min[i], self.max[i])));
+        p[axis] = face.at;
+        let mut dp = dp;
+        dp[axis] = 0.0;
+        // The face is a plane of numbers: the next one lies off it.
+        let off = f64::MIN_POSITIVE;
+        let ng = (normal * outward).to_normal();
+        let mut point = SurfacePoint::new(p, dp, off, ng);
+        if need.contains(Need::UV) || need.contains(Need::DERIVATIVES) {
+            let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
+            let width = |i: usize| self.max[i] - self.min[i];
+            point.uv = [(p[a] - self.min[a]) / width(a), (p[b] - self.min[b]) / width(b)];
+            point.dpdu[a] = width(a);
+            point.dpdv[b] = width(b);
+        }
+        point
+    }
+
+    fn solidity(&self) -> Solidity {
+        Solidity::Solid
+    }
+
+    fn side(&self, point: &LocalPoint<'_>) -> Side {
+        let point = PointLine::new(point, Vec3::ZERO, self.centre(), self.scale());
+        let mut on = false;
+        for number in 0..6 {
+            let side = point.side_of(&self.face(number));
+            let inward = if number & 1 == 0 { side } else { side.map(Ordering::reverse) };
+            match inward {
+                Some(Ordering::Less) => return Side::Out,
+                Some(Ordering::Greater) => {}
+                Some(Ordering::Equal) | None => on = true,
+            }
+        }
+        if on { Side::On } else { Side::In }
+    }
+}
+
+/// The face's place relative to the centre, rounded.
+fn level(face: &Face) -> f64 {
+    durer_math::eft::scale2(face.at - face.centre, -face.scale)
+}
+
+impl From<AxisBox> for Aabb {
+    fn from(b: AxisBox) -> Self {
+        Self::new(b.min, b.max)
+    }
+}
+
+impl AxisBox {
+    /// The outward unit normal of face `number`.
+    pub fn normal(number: u32) -> Normal3 {
+        let outward = if number & 1 == 0 { -1.0 } else { 1.0 };
+        let axis = (number / 2) as usize;
+        Normal3::from(core::array::from_fn(|i| if i == axis { outward } else { 0.0 }))
+    }
+}

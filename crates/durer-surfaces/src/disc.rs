@@ -1,0 +1,198 @@
+//! The disc: a flat, round sheet.
+//!
+//! ```text
+//!          n
+//!          ^           n . (p - c) = 0,   |p - c| <= r
+//!     ─────┴─────
+//!       r  c
+//! ```
+//!
+//! The line `o + s d` (relative to `c`) meets the plane at `p = (n x (o x d)) / (n . d)`, so whether it meets the disc is the sign of
+//! `|n x (o x d)|^2 - r^2 (n . d)^2`: a polynomial, decided exactly; the rim belongs to the disc.
+
+use crate::planar::{
+    self, AlongRay, Crossing, Line, PlaneForm, Probe, cross, dot, exact3, scaled_to_one, unit,
+};
+use crate::{Flow, LocalRay, Need, RingRay, Root, Sink, Surface, SurfacePoint};
+use core::cmp::Ordering;
+use core::f64::consts::TAU;
+use durer_math::eft::{exponent, scale2};
+use durer_math::{Aabb, Point3, Ring, U, Vec3, elementary};
+
+/// A round sheet about `centre`, in the plane across `normal`.
+///
+/// # Invariants
+///
+/// Centre, normal and radius are finite, the normal is not zero, the radius is positive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disc {
+    sheet: RoundSheet,
+    radius: f64,
+}
+
+/// Why a [`Disc`] cannot exist.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum DiscError {
+    /// The centre is infinite or NaN.
+    #[error("disc: the centre must be finite, got <{}, {}, {}>", .0.x, .0.y, .0.z)]
+    Centre(Point3),
+    /// The normal has no direction.
+    #[error("disc: the normal must be finite and not zero, got <{}, {}, {}>", .0.x, .0.y, .0.z)]
+    Normal(Vec3),
+    /// The radius is zero, negative, infinite or NaN.
+    #[error("disc: the radius must be finite and positive, got {0}")]
+    Radius(f64),
+}
+
+impl Disc {
+    /// The disc of radius `radius` about `centre`; the normal has any length.
+    pub fn new(centre: Point3, normal: Vec3, radius: f64) -> Result<Self, DiscError> {
+        if !centre.is_finite() {
+            return Err(DiscError::Centre(centre));
+        }
+        let n = scaled_to_one(normal).ok_or(DiscError::Normal(normal))?;
+        if !(radius.is_finite() && radius > 0.0) {
+            return Err(DiscError::Radius(radius));
+        }
+        Ok(Self { sheet: RoundSheet::new(centre, n, radius), radius })
+    }
+
+    /// The centre.
+    pub fn centre(&self) -> Point3 {
+        self.sheet.centre
+    }
+
+    /// The normal, scaled by a power of two.
+    pub fn normal(&self) -> Vec3 {
+        self.sheet.normal
+    }
+
+    /// The radius.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+}
+
+impl Surface for Disc {
+    fn bounds(&self) -> Aabb {
+        self.sheet.bounds(self.radius)
+    }
+
+    #[inline(always)]
+    fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
+        let probe = self.sheet.probe(ray);
+        let rim = self.sheet.rim(self.radius);
+        // An inexact ray that cannot be kept off the disc meets it.
+        if let Some(crossing) = self.sheet.crossing(&probe, sink.range())
+            && probe.sign(&rim).is_none_or(Ordering::is_le)
+            && probe.admits(&self.sheet, &crossing)
+        {
+            let _: Flow = sink.push(probe.root(&crossing, 0, [0.0; 2]));
+        }
+    }
+
+    fn resolve(&self, ray: &LocalRay<'_>, _root: &Root, need: Need) -> SurfacePoint {
+        self.sheet.resolve(ray, need, 0.0, self.radius)
+    }
+}
+
+/// The plane in which discs and annuli lie, with their centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct RoundSheet {
+    pub(crate) centre: Point3,
+    /// Largest component in [1, 2) in magnitude.
+    pub(crate) normal: Vec3,
+    /// The radius is in `[1/2, 1)` units of `2^scale`.
+    scale: i32,
+}
+
+/// How far the crossing is from a circle's rim: negative inside.
+pub(crate) struct Rim {
+    normal: Vec3,
+    /// In units of `2^scale`.
+    radius: f64,
+}
+
+impl AlongRay for Rim {
+    #[inline(always)]
+    fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
+        let n = exact3::<T>(self.normal);
+        let [x, y, z] = cross(&n, &cross(&ray.o, &ray.d));
+        let reach = T::exact(self.radius) * (ray.w.clone() * dot(&n, &ray.d));
+        Some(x.square() + y.square() + z.square() - reach.square())
+    }
+}
+
+impl PlaneForm for RoundSheet {
+    #[inline(always)]
+    fn slope<T: Ring>(&self, ray: &RingRay<T>) -> T {
+        dot(&exact3(self.normal), &ray.d)
+    }
+
+    #[inline(always)]
+    fn height<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
+        Some(dot(&exact3(self.normal), &ray.o))
+    }
+}
+
+impl RoundSheet {
+    /// For radii up to `radius`; `normal` is scaled.
+    pub(crate) fn new(centre: Point3, normal: Vec3, radius: f64) -> Self {
+        Self { centre, normal, scale: exponent(radius) + 1 }
+    }
+
+    #[inline(always)]
+    pub(crate) fn probe<'a>(&self, ray: &'a LocalRay<'a>) -> Probe<'a> {
+        Probe::new(ray, self.centre, self.scale)
+    }
+
+    #[inline(always)]
+    pub(crate) fn rim(&self, radius: f64) -> Rim {
+        Rim { normal: self.normal, radius: scale2(radius, -self.scale) }
+    }
+
+    /// The crossing with the plane, unless it is sure to matter to nobody.
+    #[inline(always)]
+    pub(crate) fn crossing(&self, probe: &Probe<'_>, range: (f64, f64)) -> Option<Crossing> {
+        let crossing = probe.crossing(self)?;
+        (!probe.leaves(&crossing) && !crossing.is_outside(range) && probe.may_admit(&crossing))
+            .then_some(crossing)
+    }
+
+    /// The half-width along an axis is `r sqrt(1 - n_i^2)` for a unit normal.
+    pub(crate) fn bounds(&self, radius: f64) -> Aabb {
+        let n2 = self.normal.map(|x| x * x);
+        let all = n2.x + n2.y + n2.z;
+        let half = |a: f64, b: f64| {
+            if a + b == 0.0 {
+                0.0
+            } else {
+                radius.mul_add(((a + b) / all).sqrt() * (1.0 + 16.0 * U), f64::MIN_POSITIVE)
+            }
+        };
+        Aabb::centred(self.centre, Vec3::new(half(n2.y, n2.z), half(n2.z, n2.x), half(n2.x, n2.y)))
+    }
+
+    /// Polar texture coordinates: `u` is the angle over a full turn, `v` runs from the inner to the outer radius.
+    pub(crate) fn resolve(&self, ray: &LocalRay<'_>, need: Need, inner: f64, outer: f64) -> SurfacePoint {
+        let probe = self.probe(ray);
+        let n2 = self.normal.length_squared();
+        let ng = unit(self.normal);
+        let (p, dp) = planar::foot_point(&probe, self, self.normal, n2, 0.0);
+        let off = planar::clearance(self, p, self.centre, self.scale, n2.sqrt());
+        let mut point = SurfacePoint::new(p, dp, off, ng);
+        if need.contains(Need::UV) || need.contains(Need::DERIVATIVES) {
+            let (a, b) = ng.to_vec().orthonormal_basis();
+            let q = p - self.centre;
+            let (x, y) = (a.dot(q), b.dot(q));
+            let rho = elementary::hypot(x, y);
+            let turn = elementary::atan2(y, x) / TAU;
+            point.uv = [if turn < 0.0 { turn + 1.0 } else { turn }, (rho - inner) / (outer - inner)];
+            // At the centre the angle is taken as zero.
+            let (cos, sin) = if rho > 0.0 { (x / rho, y / rho) } else { (1.0, 0.0) };
+            point.dpdu = (b * cos - a * sin) * (TAU * rho);
+            point.dpdv = (a * cos + b * sin) * (outer - inner);
+        }
+        point
+    }
+}

@@ -1,0 +1,128 @@
+//! On which side of an edge does a ray pass? The one rule that triangles, meshes and polygons share.
+//!
+//! `U = d . ((b - o) x (a - o))` tells the side; where it is exactly zero, the ray is moved symbolically (see
+//! [`durer_math::predicates`]): then it never meets an edge, two faces that share one see opposite signs, and a closed mesh is crossed
+//! an even number of times. `U` does not change when the origin moves along the ray, so the re-centred ray serves as a filter for every
+//! ray, and what it leaves open is decided on the exact ray: the given one, or the exact preimage of one under a placement.
+
+use crate::RingRay;
+use crate::planar::{AlongRay, Line, cross, dot, seen_from};
+use durer_math::{EdgeRay, Point3, Ring, Run, U, Vec3};
+
+/// `U` for the edge from `a` to `b`.
+struct EdgeForm {
+    a: Point3,
+    b: Point3,
+    centre: Point3,
+    scale: i32,
+}
+
+impl AlongRay for EdgeForm {
+    fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
+        let from_ray = |v: Point3| {
+            let [x, y, z] = seen_from::<T>(v, self.centre, self.scale).map(|x| x * ray.w.clone());
+            let [a, b, c] = ray.o.clone();
+            [x - a, y - b, z - c]
+        };
+        Some(dot(&ray.d, &cross(&from_ray(self.b), &from_ray(self.a))))
+    }
+}
+
+/// `((b - a) x d)_axis`.
+struct MinorForm {
+    a: Point3,
+    b: Point3,
+    axis: usize,
+}
+
+impl AlongRay for MinorForm {
+    fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
+        let (j, k) = ((self.axis + 1) % 3, (self.axis + 2) % 3);
+        let e = |i: usize| T::exact(self.b[i]) - T::exact(self.a[i]);
+        Some(e(j) * ray.d[k].clone() - e(k) * ray.d[j].clone())
+    }
+}
+
+/// The axes of the symbolic displacement: all but the first on which `|d|` is largest.
+pub(crate) fn displacement(d: Vec3) -> [usize; 2] {
+    let m = d.abs();
+    if m.x >= m.y && m.x >= m.z {
+        [1, 2]
+    } else if m.y >= m.z {
+        [0, 2]
+    } else {
+        [0, 1]
+    }
+}
+
+/// The side on which a ray passes the edge from `a` to `b`: `Some(0)` only if the edge is parallel to the ray or has no length, `None` only
+/// if the ray is not exactly known.
+#[cold]
+#[inline(never)]
+pub(crate) fn exact_side<L: Line>(line: &L, a: Point3, b: Point3) -> Option<i8> {
+    if let Some((o, d)) = line.given() {
+        return Some(EdgeRay::new(o, d).edge(a, b).sign);
+    }
+    let (centre, scale) = line.view();
+    let side = line.sign(&EdgeForm { a, b, centre, scale })?;
+    if side.is_ne() {
+        return Some(side as i8);
+    }
+    for axis in displacement(Vec3::from(line.running().d.map(|x| x.v))) {
+        let minor = line.sign(&MinorForm { a, b, axis })?;
+        if minor.is_ne() {
+            return Some(minor as i8);
+        }
+    }
+    Some(0)
+}
+
+/// The re-centred ray in plain f64, and what its errors can do to `U`: the filter in front of [`exact_side`].
+pub(crate) struct EdgeFilter {
+    o: Vec3,
+    d: Vec3,
+    centre: Point3,
+    scale: i32,
+    o_err: f64,
+    d_max: f64,
+    d_err: f64,
+}
+
+impl EdgeFilter {
+    #[inline(always)]
+    pub(crate) fn new<L: Line>(line: &L) -> Self {
+        let ray = line.running();
+        let (centre, scale) = line.view();
+        let most = |x: &[Run; 3]| x[0].e.max(x[1].e).max(x[2].e);
+        let (o, d) = (Vec3::from(ray.o.map(|x| x.v)), Vec3::from(ray.d.map(|x| x.v)));
+        Self { o, d, centre, scale, o_err: most(&ray.o), d_max: d.max_abs(), d_err: most(&ray.d) }
+    }
+
+    /// A vertex relative to the ray's point of closest approach.
+    #[inline(always)]
+    pub(crate) fn seen(&self, v: Point3) -> Vec3 {
+        (v - self.centre).map(|x| durer_math::eft::scale2(x, -self.scale)) - self.o
+    }
+
+    /// A bound on the error of [`EdgeFilter::side`] for vertices of which all coordinates, as seen, are at most `reach`.
+    ///
+    /// A coordinate as seen errs by `e = o_err + u (2 reach + |o|)` at most: one rounding of the difference, one of the subtraction
+    /// of `o`, and the error of `o`. Each of the six terms `d_k b_i a_j` of `U` is a product of three such numbers and passes through at
+    /// most four roundings.
+    #[inline(always)]
+    pub(crate) fn bound(&self, reach: f64) -> f64 {
+        let e = U.mul_add(2.0 * reach + self.o.max_abs(), self.o_err);
+        let square = reach * reach;
+        let inputs = self.d_max.mul_add(e * (2.0 * reach + e), self.d_err * (reach + e) * (reach + e));
+        let roundings = 4.0 * U * (1.0 + 16.0 * U) * self.d_max * square;
+        // The factor pays for the roundings of this bound, the floor for underflow.
+        (6.0 * (inputs + roundings)).mul_add(1.0 + 64.0 * U, f64::MIN_POSITIVE)
+    }
+
+    /// `U` for the edge between two vertices as seen.
+    #[inline(always)]
+    pub(crate) fn side(&self, a: Vec3, b: Vec3) -> f64 {
+        let minor = |i: usize, j: usize| b[i].mul_add(a[j], -(b[j] * a[i]));
+        self.d.dot(Vec3::new(minor(1, 2), minor(2, 0), minor(0, 1)))
+    }
+}

@@ -1,0 +1,279 @@
+//! One triangle's worth of work, shared by [`Triangle`](crate::Triangle) and [`Mesh`](crate::Mesh).
+//!
+//! A ray meets the triangle if it passes its three edges on the same side: `U`, `V`, `W` of [`edges`](crate::edges) have one
+//! sign. Their ratios to the sum are the barycentric coordinates (R. J. Segura, F. R. Feito, "Algorithms to test ray-triangle intersection.
+//! Comparative study", WSCG 2001; A. Kensler, P. Shirley, "Optimizing ray-triangle intersection via automated search", RT 2006). The crossing's
+//! parameter comes from the plane of the three vertices, exact numbers all of them.
+
+use crate::edges::{self, EdgeFilter};
+use crate::planar::{self, Crossing, Line, Probe, ThreePoints, cross, dot, seen_from};
+use crate::{Need, RingRay, SurfacePoint};
+use durer_math::{Dd, Dyadic, Normal3, Point3, Ring, Run, U, Vec3};
+
+/// A triangle by its vertices; the normal is `(v1 - v0) x (v2 - v0)`.
+pub(crate) type Facet = [Point3; 3];
+
+/// What may vary over a triangle.
+pub(crate) struct Varying {
+    pub(crate) normals: Option<[Normal3; 3]>,
+    pub(crate) uv: Option<[[f64; 2]; 3]>,
+}
+
+/// Whether the triangle has no area, exactly.
+pub(crate) fn is_degenerate(v: &Facet) -> bool {
+    let (n, err) = normal_and_error(v);
+    // One component that is surely not zero settles it.
+    if (0..3).any(|i| n[i].abs() > err[i]) {
+        return false;
+    }
+    exact_normal(v).iter().all(Dyadic::is_zero)
+}
+
+/// Where the ray meets the triangle, and the barycentric coordinates `(b1, b2)`; nothing is said about the ray's range.
+#[inline(always)]
+pub(crate) fn hit(probe: &Probe<'_>, filter: &EdgeFilter, v: &Facet) -> Option<(Crossing, [f64; 2])> {
+    let Passed { values, bound, .. } = passes(probe, filter, v)?;
+    let crossing = probe.crossing(&plane(probe, v))?;
+    let sum = values[0] + values[1] + values[2];
+    let tag = if bound < sum.abs() * TAG {
+        [values[1] / sum, values[2] / sum]
+    } else {
+        let b = barycentric(probe, v);
+        [b[0].value(), b[1].value()]
+    };
+    Some((crossing, tag.map(|b| b.clamp(0.0, 1.0))))
+}
+
+/// The relative error up to which barycentric coordinates come straight from the filter.
+const TAG: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// A line that passes all edges of a triangle on one side.
+pub(crate) struct Passed {
+    /// `U`, `V`, `W` in f64.
+    values: [f64; 3],
+    /// A bound on their errors.
+    bound: f64,
+    /// Their common sign; zero only if an inexact line leaves all of them open.
+    pub(crate) side: i8,
+}
+
+/// Whether a line passes all edges on one side.
+#[inline(always)]
+pub(crate) fn passes<L: Line>(line: &L, filter: &EdgeFilter, v: &Facet) -> Option<Passed> {
+    let [a, b, c] = v.map(|v| filter.seen(v));
+    let bound = filter.bound(a.max_abs().max(b.max_abs()).max(c.max_abs()));
+    let values = [filter.side(b, c), filter.side(c, a), filter.side(a, b)];
+    let least = values[0].min(values[1]).min(values[2]);
+    let most = values[0].max(values[1]).max(values[2]);
+    if least < -bound && most > bound {
+        return None;
+    }
+    let side = if least > bound {
+        1
+    } else if most < -bound {
+        -1
+    } else {
+        common_side(line, v, values, bound)?
+    };
+    Some(Passed { values, bound, side })
+}
+
+/// The one sign of all three, exactly, where the filter left some open.
+#[cold]
+#[inline(never)]
+fn common_side<L: Line>(line: &L, v: &Facet, values: [f64; 3], bound: f64) -> Option<i8> {
+    let mut common = 0;
+    for (i, value) in values.into_iter().enumerate() {
+        let side = if value > bound {
+            Some(1)
+        } else if value < -bound {
+            Some(-1)
+        } else {
+            edges::exact_side(line, v[(i + 1) % 3], v[(i + 2) % 3])
+        };
+        // A side that is not known (inexact lines only) agrees with all.
+        let Some(side) = side else { continue };
+        if side == 0 || side == -common {
+            return None;
+        }
+        common = side;
+    }
+    Some(common)
+}
+
+/// Whether the start of a line, known to lie in the triangle's plane, lies in the closed triangle. An inexact one does.
+pub(crate) fn holds_start<L: Line>(line: &L, v: &Facet) -> bool {
+    let Some(start) = line.exact() else { return true };
+    let (centre, scale) = line.view();
+    // The line across the plane.
+    let across = ThreePoints { points: *v, centre, scale }.normal().1;
+    let [v1, v2, sum] = volumes(v, &RingRay { d: across, ..start }, centre, scale);
+    let v0 = sum - v1.clone() - v2.clone();
+    let signs = [v0, v1, v2].map(|x| x.exact_sign());
+    signs.iter().all(|s| s.is_ge()) || signs.iter().all(|s| s.is_le())
+}
+
+pub(crate) fn plane(probe: &Probe<'_>, v: &Facet) -> ThreePoints {
+    ThreePoints { points: *v, centre: probe.ray.centre, scale: probe.ray.scale }
+}
+
+/// `(V, W, U + V + W)`: the second and third barycentric coordinates and what they are to be divided by.
+fn volumes<T: Ring>(v: &Facet, ray: &RingRay<T>, centre: Point3, scale: i32) -> [T; 3] {
+    let [a, b, c] = v.map(|v| {
+        let [x, y, z] = seen_from::<T>(v, centre, scale).map(|x| x * ray.w.clone());
+        let [o0, o1, o2] = ray.o.clone();
+        [x - o0, y - o1, z - o2]
+    });
+    let volume = |p: &[T; 3], q: &[T; 3]| dot(&ray.d, &cross(q, p));
+    let (u, v, w) = (volume(&b, &c), volume(&c, &a), volume(&a, &b));
+    [v.clone(), w.clone(), u + v + w]
+}
+
+/// `(b1, b2)` of the point where the ray meets the triangle's plane, with bounds.
+fn barycentric(probe: &Probe<'_>, v: &Facet) -> [Run; 2] {
+    let (centre, scale) = (probe.ray.centre, probe.ray.scale);
+    let [b1, b2, sum] = volumes(v, &probe.run, centre, scale);
+    let b = [b1 / sum, b2 / sum];
+    if b.iter().all(|b| b.e <= 32.0 * U) {
+        return b;
+    }
+    let dd = probe.ray.in_ring::<Run<Dd>>().map(|ray| {
+        let [b1, b2, sum] = volumes(v, &ray, centre, scale);
+        [b1 / sum, b2 / sum].map(|b| Run::with_error(b.v.hi, (b.e + b.v.lo.abs()) * (1.0 + 8.0 * U)))
+    });
+    if let Some(b) = dd
+        && b.iter().all(|b| b.e <= 32.0 * U)
+    {
+        return b;
+    }
+    let exact = probe.ray.in_ring::<Dyadic>().and_then(|ray| {
+        let [b1, b2, sum] = volumes(v, &ray, centre, scale);
+        if sum.is_zero() {
+            return None;
+        }
+        Some([b1, b2].map(|b| {
+            let (lo, hi) = planar::quotient_bounds(&b, &b, &sum);
+            Run::with_error(0.5 * lo + 0.5 * hi, (hi - lo) * (1.0 + 8.0 * U))
+        }))
+    });
+    exact.or(dd).unwrap_or(b)
+}
+
+/// The normal by Kahan minors, and a bound on its error per component.
+fn normal_and_error(v: &Facet) -> (Vec3, Vec3) {
+    let (e1, e2) = (v[1] - v[0], v[2] - v[0]);
+    let n = e1.cross(e2);
+    let (p, q) = (e1.abs(), e2.abs());
+    // Each edge component is rounded once, so a product of two errs by 2u and a little; Kahan's minor by 1.5 ulp of the difference.
+    let err = |i: usize, j: usize| {
+        (p[i].mul_add(q[j], p[j] * q[i])).mul_add(6.0 * U * (1.0 + 16.0 * U), f64::MIN_POSITIVE)
+    };
+    (n, Vec3::new(err(1, 2), err(2, 0), err(0, 1)))
+}
+
+fn exact_normal(v: &Facet) -> [Dyadic; 3] {
+    let edge = |to: Point3| {
+        let axis = |i: usize| Dyadic::exact(to[i]) - Dyadic::exact(v[0][i]);
+        [axis(0), axis(1), axis(2)]
+    };
+    cross(&edge(v[1]), &edge(v[2]))
+}
+
+/// The unit normal; each component that is not zero has the sign of the exact one.
+///
+/// A component too small for its sign to be certain is zero if that turns the normal by less than `2^-28`, and is found exactly
+/// otherwise. A step along the result then never leads back through the plane, however the coordinates are rounded.
+pub(crate) fn unit_normal(v: &Facet) -> Normal3 {
+    let (n, err) = normal_and_error(v);
+    let size = n.max_abs();
+    let certain = |i: usize| n[i].abs() > 1024.0 * err[i];
+    let negligible = |i: usize| err[i] < size * (1.0 / (1u64 << 40) as f64);
+    if size > 1e-280 && size < 1e280 && (0..3).all(|i| certain(i) || negligible(i)) {
+        let n = Vec3::from(core::array::from_fn(|i| if certain(i) { n[i] } else { 0.0 }));
+        return planar::unit(n.scale2(-durer_math::scale::exponent(size)));
+    }
+    let exact = exact_normal(v);
+    let Some(k) = exact.iter().filter_map(Dyadic::exponent).max() else {
+        return Normal3::new(0.0, 0.0, 1.0);
+    };
+    let k = i32::try_from(-k).unwrap_or(0);
+    let [x, y, z] = exact.map(|x| Ring::scale2(x, k).to_f64());
+    planar::unit(Vec3::new(x, y, z))
+}
+
+/// Position, errors, normals, texture coordinates and derivatives where the ray meets the triangle.
+pub(crate) fn resolve(probe: &Probe<'_>, v: &Facet, varying: &Varying, need: Need) -> SurfacePoint {
+    let [b1, b2] = barycentric(probe, v);
+    // Within the triangle, as the exact point is.
+    let (x1, x2) = (b1.v.clamp(0.0, 1.0), b2.v.clamp(0.0, 1.0));
+    let (e1, e2) = (v[1] - v[0], v[2] - v[0]);
+    let axis = |i: usize| {
+        let p = x1.mul_add(e1[i], x2.mul_add(e2[i], v[0][i]));
+        let (m1, m2) = (x1 * e1[i].abs(), x2 * e2[i].abs());
+        // Edges are rounded once; two fused steps, the inner one of size |v0| + m2 at most.
+        let rounding = (v[0][i].abs() + p.abs()).mul_add(U, (m1 + 2.0 * m2) * (2.0 * U));
+        let along = e1[i].abs().mul_add(b1.e, e2[i].abs() * b2.e);
+        let slack = 1.0 + 32.0 * U;
+        (
+            p,
+            rounding.mul_add(slack, f64::MIN_POSITIVE),
+            along.mul_add(slack, rounding * slack + f64::MIN_POSITIVE),
+        )
+    };
+    let [(x, rx, dx), (y, ry, dy), (z, rz, dz)] = [axis(0), axis(1), axis(2)];
+    let p = Point3::new(x, y, z);
+    let ng = unit_normal(v);
+    // Before rounding, the point lay in the plane, whatever the coordinates b.
+    let apart = rx + ry + rz;
+    let form = plane(probe, v);
+    let n = form.normal::<Run>().1;
+    let length = n.map(|x| (x.v.abs() - x.e).max(0.0));
+    let length = Vec3::from(length).length() * (1.0 - 8.0 * U);
+    let measured = planar::clearance(&form, p, form.centre, form.scale, length);
+    let off = if measured < apart { measured } else { apart };
+    // The normal may be turned by 2^-28.
+    let off = off.mul_add(1.0 + 1.0 / (1u64 << 20) as f64, f64::MIN_POSITIVE);
+    let mut point = SurfacePoint::new(p, Vec3::new(dx, dy, dz), off, ng);
+    vary(&mut point, v, varying, [x1, x2], need);
+    point
+}
+
+/// Shading normal, texture coordinates and derivatives at the barycentric coordinates `(b1, b2)`.
+fn vary(point: &mut SurfacePoint, v: &Facet, varying: &Varying, [b1, b2]: [f64; 2], need: Need) {
+    let (e1, e2) = (v[1] - v[0], v[2] - v[0]);
+    // Without texture coordinates of its own, a triangle has (0, 0), (1, 0), (0, 1).
+    let uv = varying.uv.unwrap_or([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+    let (du1, dv1) = (uv[1][0] - uv[0][0], uv[1][1] - uv[0][1]);
+    let (du2, dv2) = (uv[2][0] - uv[0][0], uv[2][1] - uv[0][1]);
+    if need.contains(Need::UV) {
+        point.uv = [b1.mul_add(du1, b2.mul_add(du2, uv[0][0])), b1.mul_add(dv1, b2.mul_add(dv2, uv[0][1]))];
+    }
+    // Change with (u, v) of something that changes by x1 and x2 along the two edges; zero if the texture map is singular.
+    let determinant = durer_math::eft::difference_of_products(du1, dv2, dv1, du2);
+    let by_uv = |x1: Vec3, x2: Vec3| {
+        if determinant == 0.0 {
+            return (Vec3::ZERO, Vec3::ZERO);
+        }
+        ((x1 * dv2 - x2 * dv1) / determinant, (x2 * du1 - x1 * du2) / determinant)
+    };
+    if need.contains(Need::DERIVATIVES) {
+        (point.dpdu, point.dpdv) = by_uv(e1, e2);
+    }
+    let Some([n0, n1, n2]) = varying.normals else { return };
+    if !need.contains(Need::SHADING_NORMAL) && !need.contains(Need::DERIVATIVES) {
+        return;
+    }
+    let sum = n0 * (1.0 - b1 - b2) + n1 * b1 + n2 * b2;
+    let Some(unit) = sum.normalized() else { return };
+    let side = if unit.dot(point.ng.to_vec()) < 0.0 { -1.0 } else { 1.0 };
+    point.ns = unit * side;
+    if need.contains(Need::DERIVATIVES) {
+        // The change of the unit normal is the change of the sum across it, over the sum's length.
+        let length = sum.to_vec().length();
+        let across = |x: Normal3| {
+            let x = x.to_vec() * (side / length);
+            x - point.ns.to_vec() * point.ns.dot(x)
+        };
+        (point.dndu, point.dndv) = by_uv(across(n1 - n0), across(n2 - n0));
+    }
+}

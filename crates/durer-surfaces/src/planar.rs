@@ -1,0 +1,491 @@
+//! What all flat surfaces share: the one crossing of a ray and a plane, decided exactly and bracketed tightly.
+//!
+//! Along a ray `o + s d` the *height* above a plane is `h + s g`, and the crossing is at `s = -h/g`. Everything that
+//! is asked about it is a sign: of the slope `g` (0: the ray runs beside the plane and never crosses it), of the height at an end
+//! of the ray's range (is the crossing in it?), and of the polynomials that say whether the crossing lies in a disc, within edges
+//! or between slabs. Each is written once, generic over [`Ring`], and taken up the ladder: `Run<f64>`, `Run<Dd>`,
+//! [`Dyadic`]. The first step uses the re-centred ray with its rounding charged (rule W3), which stands for the exact ray:
+//! a sign that is certain there is the sign for the ray that was given.
+
+use crate::{CentredRay, End, Kind, LocalPoint, LocalRay, RingRay, Root, Side};
+use core::cmp::Ordering;
+use durer_math::rounding::{div_down, div_up};
+use durer_math::{Dd, Dyadic, Normal3, Point3, RaySide, Ring, Run, U, Vec3};
+
+/// A bracket in the local parameter that is wider than this (and wider than [`T_WIDTH`] times `|t|`) is found again in
+/// double-double. The surface's size is about one unit and `|d| >= 1`, so this is 32 ulp of a parameter just under `size / |d|`.
+const S_WIDTH: f64 = 32.0 * U;
+/// 32 ulp of `t`, taking the ulp at its smallest.
+const T_WIDTH: f64 = 32.0 * U;
+
+/// A plane, by its height function along a ray; the height is zero on the plane and grows along the normal.
+///
+/// Both numbers may be multiplied by one positive factor, the same for a given ray.
+pub(crate) trait PlaneForm {
+    /// The change of the height with `s`.
+    fn slope<T: Ring>(&self, ray: &RingRay<T>) -> T;
+
+    /// The height at `s = 0`; `None` only where `T` holds exact numbers and the plane's are not.
+    fn height<T: Ring>(&self, ray: &RingRay<T>) -> Option<T>;
+
+    /// The sign of the height at `s = 0`, exactly.
+    fn exact_side(&self, ray: &RingRay<Dyadic>) -> Option<Ordering> {
+        self.height(ray).map(|h| h.exact_sign())
+    }
+
+    /// Bounds of the height at `s = 0`, the tighter the better.
+    fn height_bounds(&self, ray: &RingRay<Dyadic>) -> Option<(Dyadic, Dyadic)> {
+        self.height(ray).map(|h| (h.clone(), h))
+    }
+}
+
+/// A polynomial in a ray's numbers, of which the sign is asked for.
+pub(crate) trait AlongRay {
+    /// The polynomial's value. `None` only where `T` cannot hold the inputs.
+    fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T>;
+}
+
+/// A re-centred ray, together with its first step of the ladder.
+pub(crate) struct Probe<'a> {
+    pub(crate) ray: CentredRay<'a>,
+    pub(crate) run: RingRay<Run<f64>>,
+}
+
+/// An oriented line on each step of the ladder, seen from a centre, in units of `2^scale`.
+pub(crate) trait Line {
+    /// The line in f64, with its error.
+    fn running(&self) -> &RingRay<Run<f64>>;
+    /// The line in double-double.
+    fn double(&self) -> Option<RingRay<Run<Dd>>>;
+    /// The exact line; `None` if it is not exactly known.
+    fn exact(&self) -> Option<RingRay<Dyadic>>;
+    /// A point of the exact line and its direction, in the surface's own frame, if f64 holds them.
+    fn given(&self) -> Option<(Point3, Vec3)>;
+    /// From where the line is seen, and in which unit.
+    fn view(&self) -> (Point3, i32);
+
+    /// The sign of a polynomial. `None` only if the line is not exactly known and its error leaves the sign open.
+    #[inline(always)]
+    fn sign<P: AlongRay>(&self, p: &P) -> Option<Ordering> {
+        match p.eval(self.running()).and_then(|x| x.sign()) {
+            None => self.sign_climb(p),
+            sign => sign,
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn sign_climb<P: AlongRay>(&self, p: &P) -> Option<Ordering> {
+        let dd = self.double().and_then(|ray| p.eval(&ray)?.sign());
+        dd.or_else(|| p.eval(&self.exact()?)?.sign())
+    }
+}
+
+impl Line for Probe<'_> {
+    #[inline(always)]
+    fn running(&self) -> &RingRay<Run<f64>> {
+        &self.run
+    }
+    fn double(&self) -> Option<RingRay<Run<Dd>>> {
+        self.ray.in_ring()
+    }
+    fn exact(&self) -> Option<RingRay<Dyadic>> {
+        self.ray.in_ring()
+    }
+    fn given(&self) -> Option<(Point3, Vec3)> {
+        let local = self.ray.local();
+        (local.o_err == Vec3::ZERO && local.d_err == Vec3::ZERO).then_some((local.o, local.d))
+    }
+    #[inline(always)]
+    fn view(&self) -> (Point3, i32) {
+        (self.ray.centre, self.ray.scale)
+    }
+}
+
+/// Where a ray crosses a plane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Crossing {
+    /// The local parameter, and its bracket.
+    pub(crate) s: f64,
+    pub(crate) s_lo: f64,
+    pub(crate) s_hi: f64,
+    /// The bracket in the caller's parameter.
+    pub(crate) lo: f64,
+    pub(crate) hi: f64,
+    /// The sign of normal . direction.
+    pub(crate) sign: i8,
+}
+
+impl<'a> Probe<'a> {
+    /// The ray as seen from `centre`, in units of `2^scale`.
+    #[inline(always)]
+    pub(crate) fn new(ray: &'a LocalRay<'a>, centre: Point3, scale: i32) -> Self {
+        let ray = ray.recentre(centre, scale);
+        let run = |v: Vec3, e: Vec3| {
+            [Run::with_error(v.x, e.x), Run::with_error(v.y, e.y), Run::with_error(v.z, e.z)]
+        };
+        let run = RingRay { o: run(ray.o, ray.o_err), d: run(ray.d, ray.d_err), w: Run::exact(1.0) };
+        Self { ray, run }
+    }
+
+    /// The crossing with a plane, wherever it is on the line; `None` if there is none: the slope is exactly zero. A crossing beyond
+    /// the range of f64 has an infinite `s`.
+    #[inline(always)]
+    pub(crate) fn crossing<F: PlaneForm>(&self, plane: &F) -> Option<Crossing> {
+        let slope = plane.slope(&self.run);
+        if let (Some(sign), Some(height)) = (slope.sign(), plane.height(&self.run)) {
+            if sign.is_eq() {
+                return None;
+            }
+            let s = -(height / slope);
+            let crossing = self.bracketed(s.value(), s.lo(), s.hi(), sign);
+            if crossing.is_narrow() {
+                return Some(crossing);
+            }
+        }
+        self.crossing_climb(plane)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn crossing_climb<F: PlaneForm>(&self, plane: &F) -> Option<Crossing> {
+        let mut best = None;
+        if let Some(ray) = self.ray.in_ring::<Run<Dd>>() {
+            let slope = plane.slope(&ray);
+            if let (Some(sign), Some(height)) = (slope.sign(), plane.height(&ray)) {
+                if sign.is_eq() {
+                    return None;
+                }
+                let s = -(height / slope);
+                let crossing = self.bracketed(s.value(), s.lo(), s.hi(), sign);
+                if crossing.is_narrow() {
+                    return Some(crossing);
+                }
+                best = Some(crossing);
+            }
+        }
+        // What is left: rays that are almost parallel, numbers at the ends of the range of f64, inexact rays.
+        let exact = self.ray.in_ring::<Dyadic>().and_then(|ray| {
+            let slope = plane.slope(&ray);
+            let (low, high) = plane.height_bounds(&ray)?;
+            Some((slope, low, high))
+        });
+        if let Some((slope, low, high)) = exact {
+            if slope.is_zero() {
+                return None;
+            }
+            let (lo, hi) = quotient_bounds(&-high, &-low, &slope);
+            best = Some(self.bracketed(0.5 * lo + 0.5 * hi, lo, hi, slope.exact_sign()));
+        }
+        best
+    }
+
+    fn bracketed(&self, s: f64, s_lo: f64, s_hi: f64, slope: Ordering) -> Crossing {
+        let (lo, hi) = self.ray.bracket(s_lo, s_hi);
+        Crossing { s, s_lo, s_hi, lo, hi, sign: slope as i8 }
+    }
+
+    /// Whether a crossing's bracket meets the ray's range at all.
+    #[inline(always)]
+    pub(crate) fn may_admit(&self, crossing: &Crossing) -> bool {
+        crossing.s.is_finite() && self.ray.admits(crossing.lo, crossing.hi) != Some(false)
+    }
+
+    /// Whether a crossing is in the ray's closed range: exactly, unless the ray is not exactly known and it cannot be excluded.
+    #[inline(always)]
+    pub(crate) fn admits<F: PlaneForm>(&self, plane: &F, crossing: &Crossing) -> bool {
+        match self.ray.admits(crossing.lo, crossing.hi) {
+            Some(admitted) => admitted,
+            None => self.admits_climb(plane, crossing),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn admits_climb<F: PlaneForm>(&self, plane: &F, crossing: &Crossing) -> bool {
+        let holds = |end: End| {
+            let at = self.ray.end(end);
+            let (surely, never) = match end {
+                End::Min => (crossing.lo >= at, crossing.hi < at),
+                End::Max => (crossing.hi <= at, crossing.lo > at),
+            };
+            if surely || never {
+                return surely;
+            }
+            let Some(height) = self.height_at_end(plane, end) else { return true };
+            // Before the crossing the height has the sign opposite to the slope's.
+            let ahead = if crossing.sign > 0 { height.reverse() } else { height };
+            match end {
+                End::Min => ahead.is_ge(),
+                End::Max => ahead.is_le(),
+            }
+        };
+        holds(End::Min) && holds(End::Max)
+    }
+
+    /// The sign of the height at an end of the range.
+    fn height_at_end<F: PlaneForm>(&self, plane: &F, end: End) -> Option<Ordering> {
+        let dd = self.ray.in_ring::<Run<Dd>>().map(|ray| advanced(ray, &self.ray.end_in_ring(end)));
+        if let Some(sign) = dd.and_then(|ray| plane.height(&ray)?.sign()) {
+            return Some(sign);
+        }
+        let ray = self.ray.in_ring::<Dyadic>()?;
+        plane.exact_side(&advanced(ray, &self.ray.end_in_ring(end)))
+    }
+
+    /// Whether the ray was spawned on this very plane, from the side towards which it goes, with nothing of it behind its start:
+    /// then there is no crossing, and no exact arithmetic is needed to see that.
+    #[inline(always)]
+    pub(crate) fn leaves(&self, crossing: &Crossing) -> bool {
+        match self.ray.source() {
+            Some(RaySide::Front) => crossing.sign > 0 && self.ray.end(End::Min) >= 0.0,
+            Some(RaySide::Back) => crossing.sign < 0 && self.ray.end(End::Min) >= 0.0,
+            None => false,
+        }
+    }
+
+    /// The point of a crossing relative to the centre, in units of `2^scale`, and a bound on its error per axis.
+    pub(crate) fn place(&self, crossing: &Crossing) -> (Vec3, Vec3) {
+        let half = (crossing.s_hi - crossing.s).max(crossing.s - crossing.s_lo);
+        let axis = |i: usize| {
+            let (o, d) = (self.ray.o[i], self.ray.d[i]);
+            let x = crossing.s.mul_add(d, o);
+            let from_s = d.abs().mul_add(half, crossing.s.abs() * self.ray.d_err[i]);
+            let err = x.abs().mul_add(U, self.ray.o_err[i] + from_s + half * self.ray.d_err[i]);
+            (x, err.mul_add(1.0 + 16.0 * U, f64::MIN_POSITIVE))
+        };
+        let ((x, ex), (y, ey), (z, ez)) = (axis(0), axis(1), axis(2));
+        (Vec3::new(x, y, z), Vec3::new(ex, ey, ez))
+    }
+
+    /// A root for a crossing that is in the range.
+    #[inline(always)]
+    pub(crate) fn root(&self, crossing: &Crossing, face: u32, tag: [f64; 2]) -> Root {
+        // The crossing is in the range, so the range bounds it too.
+        let lo = crossing.lo.max(self.ray.end(End::Min));
+        let hi = crossing.hi.min(self.ray.end(End::Max));
+        let t = self.ray.t(crossing.s).max(lo).min(hi);
+        Root { t, lo, hi, s: crossing.s, tag, face, sign: crossing.sign, kind: Kind::Simple }
+    }
+}
+
+impl Crossing {
+    #[inline(always)]
+    fn is_narrow(&self) -> bool {
+        self.s_hi - self.s_lo <= S_WIDTH || self.hi - self.lo <= T_WIDTH * self.lo.abs().min(self.hi.abs())
+    }
+
+    /// Whether a sink's range leaves no room for this crossing.
+    #[inline(always)]
+    pub(crate) fn is_outside(&self, (lo, hi): (f64, f64)) -> bool {
+        self.hi < lo || self.lo > hi
+    }
+}
+
+/// The ray with its parameter moved on by `step`.
+fn advanced<T: Ring>(ray: RingRay<T>, step: &T) -> RingRay<T> {
+    let [a, b, c] = ray.o;
+    let [x, y, z] = ray.d.clone();
+    let o = [a + step.clone() * x, b + step.clone() * y, c + step.clone() * z];
+    RingRay { o, ..ray }
+}
+
+/// Bounds in f64 of every `n / d` with `low <= n <= high`; `d` is not zero.
+pub(crate) fn quotient_bounds(low: &Dyadic, high: &Dyadic, d: &Dyadic) -> (f64, f64) {
+    // Into the range of f64 first: only the quotient matters.
+    let k = i32::try_from(-d.exponent().unwrap_or(0)).unwrap_or(0);
+    let scaled = |x: &Dyadic| Ring::scale2(x.clone(), k).to_bounds();
+    let ((n0, _), (_, n1), (d0, d1)) = (scaled(low), scaled(high), scaled(d));
+    let (mut lo, mut hi) = (f64::INFINITY, f64::NEG_INFINITY);
+    for n in [n0, n1] {
+        for d in [d0, d1] {
+            lo = lo.min(div_down(n, d));
+            hi = hi.max(div_up(n, d));
+        }
+    }
+    (lo, hi)
+}
+
+/// A point on each step of the ladder, as the start of a line in a fixed direction, seen from a centre.
+pub(crate) struct PointLine<'a> {
+    point: &'a LocalPoint<'a>,
+    direction: Vec3,
+    centre: Point3,
+    scale: i32,
+    run: RingRay<Run<f64>>,
+}
+
+impl<'a> PointLine<'a> {
+    /// The line from `point` along `direction`, which may be zero.
+    pub(crate) fn new(point: &'a LocalPoint<'a>, direction: Vec3, centre: Point3, scale: i32) -> Self {
+        let (p, e) = (point.p, point.p_err);
+        let p = core::array::from_fn(|i| Run::with_error(p[i], e[i]));
+        let run = point_line((p, Run::exact(1.0)), direction, centre, scale);
+        Self { point, direction, centre, scale, run }
+    }
+
+    /// On which side of a plane the point lies: above (`Greater`), on it, or below; exact.
+    pub(crate) fn side_of<F: PlaneForm>(&self, plane: &F) -> Option<Ordering> {
+        if let Some(sign) = plane.height(&self.run).and_then(|h| h.sign()) {
+            return Some(sign);
+        }
+        let dd = self.double().and_then(|ray| plane.height(&ray)?.sign());
+        dd.or_else(|| plane.exact_side(&self.exact()?))
+    }
+}
+
+fn point_line<T: Ring>((p, w): ([T; 3], T), direction: Vec3, centre: Point3, scale: i32) -> RingRay<T> {
+    let c = centre.to_array().map(|c| T::exact(c) * w.clone());
+    let [x, y, z] = p;
+    let [cx, cy, cz] = c;
+    let o = [x - cx, y - cy, z - cz].map(|x| x.scale2(-scale));
+    RingRay { o, d: exact3(direction).map(|d: T| d * w.clone()), w }
+}
+
+impl Line for PointLine<'_> {
+    fn running(&self) -> &RingRay<Run<f64>> {
+        &self.run
+    }
+    fn double(&self) -> Option<RingRay<Run<Dd>>> {
+        Some(point_line(self.point.in_ring()?, self.direction, self.centre, self.scale))
+    }
+    fn exact(&self) -> Option<RingRay<Dyadic>> {
+        Some(point_line(self.point.in_ring()?, self.direction, self.centre, self.scale))
+    }
+    fn given(&self) -> Option<(Point3, Vec3)> {
+        None
+    }
+    fn view(&self) -> (Point3, i32) {
+        (self.centre, self.scale)
+    }
+}
+
+/// What is exact about a side, for a solid whose inside is below.
+pub(crate) fn below_is_in(side: Option<Ordering>) -> Side {
+    match side {
+        Some(Ordering::Less) => Side::In,
+        Some(Ordering::Greater) => Side::Out,
+        // Only an inexact point is undecided; it may lie on the boundary.
+        Some(Ordering::Equal) | None => Side::On,
+    }
+}
+
+/// The point of a ray's crossing with a plane, moved onto the plane along its normal, and a bound on its error per axis.
+///
+/// `n` is the normal, `n2` its squared length, `lift` the height of the centre above the plane, all in the form's units.
+pub(crate) fn foot_point<F: PlaneForm>(
+    probe: &Probe<'_>,
+    plane: &F,
+    n: Vec3,
+    n2: f64,
+    lift: f64,
+) -> (Point3, Vec3) {
+    let Some(crossing) = probe.crossing(plane) else {
+        // Not a crossing of this ray: nothing is known.
+        let unknown = Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY);
+        return (probe.ray.centre, unknown);
+    };
+    let (x, err) = probe.place(&crossing);
+    let shift = n * ((n.dot(x) + lift) / n2);
+    let moved = x - shift;
+    let c = probe.ray.centre;
+    let unit = |v: f64| durer_math::eft::scale2(v, probe.ray.scale);
+    let axis = |i: usize| {
+        let p = c[i] + unit(moved[i]);
+        let err = unit(err[i] + shift[i].abs() + moved[i].abs() * U) + p.abs() * U;
+        (p, err.mul_add(1.0 + 16.0 * U, f64::MIN_POSITIVE))
+    };
+    let ((x, ex), (y, ey), (z, ez)) = (axis(0), axis(1), axis(2));
+    (Point3::new(x, y, z), Vec3::new(ex, ey, ez))
+}
+
+/// A bound on the distance of `p` (a point given in f64) from the plane, such that a step of that length along the rounded unit
+/// normal provably leaves the plane; see [`SurfacePoint::off`](crate::SurfacePoint::off).
+///
+/// `length` is a lower bound of the normal's length in the units of the form's height.
+pub(crate) fn clearance<F: PlaneForm>(plane: &F, p: Point3, centre: Point3, scale: i32, length: f64) -> f64 {
+    let c = centre.to_array();
+    let q = p.to_array();
+    let o = core::array::from_fn(|i| (Run::<f64>::exact(q[i]) - Run::exact(c[i])).scale2(-scale));
+    let zero = || Run::exact(0.0);
+    let at = RingRay { o, d: [zero(), zero(), zero()], w: Run::exact(1.0) };
+    let height = plane.height(&at).map_or(f64::INFINITY, Run::magnitude);
+    // A step `off` along the rounded unit normal moves by `off (1 - 8u)` along the exact one, at least.
+    durer_math::eft::scale2(height / length, scale).mul_add(1.0 + 32.0 * U, f64::MIN_POSITIVE)
+}
+
+/// The unit normal of a vector whose largest component is in [1, 2) in magnitude; each component within 4u, relatively.
+pub(crate) fn unit(n: Vec3) -> Normal3 {
+    (n / n.length()).to_normal()
+}
+
+/// A vector scaled by a power of two so that its largest component is in [1, 2) in magnitude; `None` if it is zero or not finite.
+/// Components more than `2^1022` below the largest may lose bits.
+pub(crate) fn scaled_to_one(n: Vec3) -> Option<Vec3> {
+    if !n.is_finite() || n == Vec3::ZERO {
+        return None;
+    }
+    let k = durer_math::eft::exponent(n.max_abs());
+    let up = if k < -1022 { 60 } else { 0 };
+    let n = n.map(|x| durer_math::eft::scale2(x, up));
+    let k = durer_math::eft::exponent(n.max_abs());
+    Some(n.map(|x| durer_math::eft::scale2(x, -k)))
+}
+
+/// A plane through three points, seen from a centre; its normal is `(b - a) x (c - a)`.
+pub(crate) struct ThreePoints {
+    pub(crate) points: [Point3; 3],
+    pub(crate) centre: Point3,
+    pub(crate) scale: i32,
+}
+
+impl ThreePoints {
+    /// The first point, and the normal, in units of `2^scale`.
+    #[inline(always)]
+    pub(crate) fn normal<T: Ring>(&self) -> ([T; 3], [T; 3]) {
+        let [a, b, c] = self.points;
+        let edge = |to: Point3| {
+            let axis = |from: f64, to: f64| (T::exact(to) - T::exact(from)).scale2(-self.scale);
+            [axis(a.x, to.x), axis(a.y, to.y), axis(a.z, to.z)]
+        };
+        (seen_from(a, self.centre, self.scale), cross(&edge(b), &edge(c)))
+    }
+}
+
+impl PlaneForm for ThreePoints {
+    #[inline(always)]
+    fn slope<T: Ring>(&self, ray: &RingRay<T>) -> T {
+        dot(&self.normal().1, &ray.d)
+    }
+
+    #[inline(always)]
+    fn height<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
+        let (a, n) = self.normal::<T>();
+        let [x, y, z] = a.map(|a| a * ray.w.clone());
+        let o = ray.o.clone();
+        let [ox, oy, oz] = o;
+        Some(dot(&n, &[ox - x, oy - y, oz - z]))
+    }
+}
+
+/// The exact vector `v` in a ring, as three numbers.
+pub(crate) fn exact3<T: Ring>(v: Vec3) -> [T; 3] {
+    [T::exact(v.x), T::exact(v.y), T::exact(v.z)]
+}
+
+/// The dot product in a ring.
+pub(crate) fn dot<T: Ring>(a: &[T; 3], b: &[T; 3]) -> T {
+    a[0].clone() * b[0].clone() + a[1].clone() * b[1].clone() + a[2].clone() * b[2].clone()
+}
+
+/// The cross product in a ring.
+pub(crate) fn cross<T: Ring>(a: &[T; 3], b: &[T; 3]) -> [T; 3] {
+    let minor = |i: usize, j: usize| a[i].clone() * b[j].clone() - a[j].clone() * b[i].clone();
+    [minor(1, 2), minor(2, 0), minor(0, 1)]
+}
+
+/// The exact point `p` relative to `centre` in units of `2^scale`.
+pub(crate) fn seen_from<T: Ring>(p: Point3, centre: Point3, scale: i32) -> [T; 3] {
+    let axis = |p: f64, c: f64| (T::exact(p) - T::exact(c)).scale2(-scale);
+    [axis(p.x, centre.x), axis(p.y, centre.y), axis(p.z, centre.z)]
+}
