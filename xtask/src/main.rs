@@ -1,2 +1,51 @@
-//! Chores.
-fn main() {}
+//! The project's chores, run as `cargo xtask NAME`.
+//!
+//! - `test`: what must pass before a change goes in ([`checks`]);
+//! - `conformance`: our pictures beside POV-Ray's, and what each cost ([`conformance`]);
+//! - `gallery`: the pictures and pages of docs/gallery.md ([`gallery`]).
+//!
+//! Everything here drives the programs a user has: cargo, the `durer` command built for release, and `povray`.
+#![forbid(unsafe_code)]
+
+mod checks;
+mod command;
+mod compare;
+mod conformance;
+mod gallery;
+mod picture;
+mod povray;
+mod report;
+mod scenes;
+
+use std::process::ExitCode;
+
+const USAGE: &str = "\
+usage: cargo xtask NAME
+
+  test                             formatting, clippy, docs, all tests and doc-tests, then every scene is rendered
+  conformance [--check] [SCENE]..  renders tests/conformance with durer and with POV-Ray, compares, times, and
+                                   writes docs/conformance.md; --check only compares, SCENEs limit it to a few
+  gallery [SCENE]..                renders scenes/ into docs/gallery and writes docs/gallery.md";
+
+/// What a chore comes to: nothing to say, or the reason why it failed.
+type Outcome<T = ()> = Result<T, String>;
+
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let outcome = match words.split_first() {
+        Some((name, [])) if name == "test" => checks::run(),
+        Some((name, rest)) if name == "conformance" => conformance::run(rest),
+        Some((name, rest)) if name == "gallery" => gallery::run(rest),
+        _ => {
+            eprintln!("{USAGE}");
+            return ExitCode::from(2);
+        }
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(reason) => {
+            eprintln!("xtask: {reason}");
+            ExitCode::FAILURE
+        }
+    }
+}

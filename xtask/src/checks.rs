@@ -1,0 +1,86 @@
+//! `cargo xtask test`: what must pass before a change goes in.
+
+use crate::command::{Durer, Shot, cargo, root, scratch, step};
+use crate::compare::compare;
+use crate::picture::Picture;
+use crate::{Outcome, conformance, scenes};
+use std::path::Path;
+
+/// Two pixels that differ by more than this are visibly different.
+const CONTRAST: u8 = 24;
+
+/// Formatting, lints, documentation, tests, then the scenes; stops at the first failure.
+pub(crate) fn run() -> Outcome {
+    step("cargo fmt --all --check", cargo().args(["fmt", "--all", "--check"]))?;
+    step(
+        "cargo clippy --workspace --all-targets",
+        cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]),
+    )?;
+    step(
+        "cargo doc --workspace --no-deps",
+        cargo().args(["doc", "--workspace", "--no-deps", "--quiet"]).env("RUSTDOCFLAGS", "-D warnings"),
+    )?;
+    step("cargo test --workspace", cargo().args(["test", "--workspace", "--quiet"]))?;
+
+    let durer = Durer::build()?;
+    gallery_scenes(&durer)?;
+    reference_pictures(&durer)?;
+    println!("==> everything passed");
+    Ok(())
+}
+
+/// Every scene of the gallery renders, shows something, and comes out the same on one thread as on all.
+fn gallery_scenes(durer: &Durer) -> Outcome {
+    let scenes = scenes::list(&root().join("scenes"), &[])?;
+    println!("==> {} scenes of scenes/", scenes.len());
+    let folder = scratch("scenes")?;
+    let size = Shot { width: 96, height: 72, aa: "off", threads: None };
+    for scene in &scenes {
+        let parallel = folder.join(format!("{}.png", scene.name));
+        let serial = folder.join(format!("{}-1.png", scene.name));
+        durer.render(&scene.path, &parallel, size)?;
+        durer.render(&scene.path, &serial, Shot { threads: Some(1), ..size })?;
+        let picture = Picture::read(&parallel)?;
+        if (picture.width, picture.height) != (size.width, size.height) {
+            return Err(format!("{}: the picture has the wrong size", scene.name));
+        }
+        if picture.is_blank(CONTRAST) {
+            return Err(format!("{}: the picture is blank", scene.name));
+        }
+        if bytes(&parallel)? != bytes(&serial)? {
+            return Err(format!("{}: one thread and many threads make different pictures", scene.name));
+        }
+    }
+    Ok(())
+}
+
+fn bytes(path: &Path) -> Outcome<Vec<u8>> {
+    std::fs::read(path).map_err(|e| format!("{}: {e}", path.display()))
+}
+
+/// Our pictures against the ones that POV-Ray made, kept beside their scenes, so that they are compared everywhere.
+fn reference_pictures(durer: &Durer) -> Outcome {
+    let scenes = scenes::list(&root().join(conformance::SCENES), &[])?;
+    println!("==> {} scenes of {}/ against their reference pictures", scenes.len(), conformance::SCENES);
+    let folder = scratch("references")?;
+    let (width, height) = conformance::REFERENCE_SIZE;
+    let mut failures = Vec::new();
+    for scene in &scenes {
+        let ours = folder.join(format!("{}.png", scene.name));
+        durer.render(&scene.path, &ours, Shot { width, height, aa: "off", threads: None })?;
+        let reference = Picture::read(&conformance::reference(&scene.name))?;
+        let (difference, drawn) = compare(&Picture::read(&ours)?, &reference)?;
+        if !difference.passes() {
+            drawn.write(&folder.join(format!("{}-difference.png", scene.name)))?;
+            failures.push(format!("{}: {:.2} %", scene.name, 100.0 * difference.agreeing));
+        }
+    }
+    if failures.is_empty() {
+        return Ok(());
+    }
+    Err(format!(
+        "fewer than 99 % of the pixels agree (see {}):\n  {}",
+        folder.display(),
+        failures.join("\n  ")
+    ))
+}

@@ -1,0 +1,120 @@
+//! Running other programs: cargo, and the `durer` command itself.
+
+use crate::Outcome;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+/// The top folder of the checkout.
+pub(crate) fn root() -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.parent().unwrap_or(here).to_path_buf()
+}
+
+/// The folder for what the chores leave behind, made if it is missing; not under version control.
+pub(crate) fn scratch(name: &str) -> Outcome<PathBuf> {
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
+    let folder = target.join("xtask").join(name);
+    std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    Ok(folder)
+}
+
+/// The cargo that runs us.
+pub(crate) fn cargo() -> Command {
+    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.current_dir(root());
+    command
+}
+
+/// Says what is run, runs it in view of the user, and says how long it took.
+pub(crate) fn step(title: &str, command: &mut Command) -> Outcome {
+    println!("==> {title}");
+    let start = Instant::now();
+    let status = command.status().map_err(|e| format!("{title}: cannot start: {e}"))?;
+    if !status.success() {
+        return Err(format!("{title}: failed ({status})"));
+    }
+    println!("    {:.1} s", start.elapsed().as_secs_f64());
+    Ok(())
+}
+
+/// The `durer` command, built for release.
+#[derive(Debug)]
+pub(crate) struct Durer {
+    program: PathBuf,
+}
+
+/// How one picture is asked for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shot<'a> {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    /// As on the command line: `off`, `method2`, `4x4` ...
+    pub(crate) aa: &'a str,
+    /// `None` for all cores.
+    pub(crate) threads: Option<u32>,
+}
+
+impl Durer {
+    /// Builds the command and finds where cargo put it.
+    pub(crate) fn build() -> Outcome<Self> {
+        let title = "cargo build --release --package durer-cli";
+        println!("==> {title}");
+        let output = cargo()
+            .args([
+                "build",
+                "--release",
+                "--package",
+                "durer-cli",
+                "--message-format=json-render-diagnostics",
+            ])
+            .stderr(Stdio::inherit())
+            .output()
+            .map_err(|e| format!("{title}: cannot start: {e}"))?;
+        if !output.status.success() {
+            return Err(format!("{title}: failed ({})", output.status));
+        }
+        let program = String::from_utf8_lossy(&output.stdout)
+            .lines()
+            .filter_map(|line| executable(line).map(PathBuf::from))
+            .next_back()
+            .ok_or_else(|| format!("{title}: cargo named no executable"))?;
+        Ok(Self { program })
+    }
+
+    /// Renders `scene` into `picture`; the error holds what the command said.
+    pub(crate) fn render(&self, scene: &Path, picture: &Path, shot: Shot<'_>) -> Outcome {
+        let mut command = Command::new(&self.program);
+        command.arg("render").arg(scene).arg("-o").arg(picture);
+        command.args(["--width", &shot.width.to_string(), "--height", &shot.height.to_string()]);
+        command.args(["--aa", shot.aa, "--no-progress"]);
+        if let Some(threads) = shot.threads {
+            command.args(["--threads", &threads.to_string()]);
+        }
+        let output = command.output().map_err(|e| format!("{}: {e}", self.program.display()))?;
+        if output.status.success() {
+            return Ok(());
+        }
+        Err(format!("{}: {}\n{}", scene.display(), output.status, String::from_utf8_lossy(&output.stderr)))
+    }
+}
+
+/// The value of `"executable":"..."` in one of cargo's JSON lines.
+fn executable(line: &str) -> Option<&str> {
+    let (_, rest) = line.split_once("\"executable\":\"")?;
+    rest.split_once('"').map(|(path, _)| path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::executable;
+
+    #[test]
+    fn the_executable_is_read_from_cargos_message() {
+        assert_eq!(
+            executable(r#"{"reason":"compiler-artifact","executable":"/t/durer","fresh":true}"#),
+            Some("/t/durer")
+        );
+        assert_eq!(executable(r#"{"reason":"compiler-artifact","executable":null}"#), None);
+    }
+}

@@ -1,0 +1,63 @@
+//! The POV-Ray program as the other witness.
+
+use crate::Outcome;
+use crate::command::Shot;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// What to say where it is missing.
+pub(crate) const MISSING: &str = "not run: the program `povray` (POV-Ray 3.7; on Debian `apt-get install povray povray-includes`) is not installed";
+
+/// An installed POV-Ray.
+#[derive(Debug)]
+pub(crate) struct Povray {
+    /// As it reports itself, e.g. `3.7.0.10`.
+    pub(crate) version: String,
+}
+
+impl Povray {
+    /// Looks for the program on the search path.
+    pub(crate) fn find() -> Option<Self> {
+        let output = Command::new("povray").arg("--version").stdin(Stdio::null()).output().ok()?;
+        let said =
+            String::from_utf8_lossy(&output.stderr).into_owned() + &String::from_utf8_lossy(&output.stdout);
+        version(&said).map(|version| Self { version: version.to_owned() })
+    }
+
+    /// Renders `scene` into `picture` with 8 bits per channel, on one thread.
+    pub(crate) fn render(&self, scene: &Path, picture: &Path, shot: Shot<'_>) -> Outcome {
+        assert_eq!(shot.aa, "off", "pictures are compared without anti-aliasing only");
+        let output = Command::new("povray")
+            .arg(format!("+I{}", scene.display()))
+            .arg(format!("+O{}", picture.display()))
+            .args([format!("+W{}", shot.width), format!("+H{}", shot.height)])
+            .args(["+FN8", "-A", "-D", "-P", "Work_Threads=1"])
+            .stdin(Stdio::null())
+            .output()
+            .map_err(|e| format!("povray: {e}"))?;
+        if output.status.success() {
+            return Ok(());
+        }
+        let said = String::from_utf8_lossy(&output.stderr);
+        let error = said.find("Error").map_or(&*said, |at| &said[at..]);
+        Err(format!("povray: {}: {}\n{error}", scene.display(), output.status))
+    }
+}
+
+/// The version in `POV-Ray 3.7.0.10.unofficial`, up to the last number.
+fn version(said: &str) -> Option<&str> {
+    let (_, rest) = said.split_once("POV-Ray ")?;
+    let end = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
+    Some(rest[..end].trim_end_matches('.')).filter(|v| !v.is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::version;
+
+    #[test]
+    fn the_version_is_cut_out() {
+        assert_eq!(version("POV-Ray 3.7.0.10.unofficial\n"), Some("3.7.0.10"));
+        assert_eq!(version("povray: not found"), None);
+    }
+}
