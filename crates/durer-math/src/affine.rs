@@ -191,7 +191,8 @@ impl Affine {
         self.inverse
     }
 
-    /// For each entry of [`Affine::inverse_linear`] a bound on its distance to the exact inverse of `L`. Half an ulp, or zero.
+    /// For each entry of [`Affine::inverse_linear`] a bound on its distance to the exact inverse of `L`: zero if it is exact, half an ulp
+    /// otherwise (for subnormal entries a few of the least number).
     #[inline(always)]
     pub fn inverse_error(&self) -> Matrix3 {
         self.inverse_error

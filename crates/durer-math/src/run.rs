@@ -182,7 +182,8 @@ impl<T: Word> Run<T> {
     pub fn sqrt(self) -> Self {
         let x = self.v.to_f64();
         // |sqrt(x + d) - sqrt(x)| is greatest for d = -e: e / (sqrt(x) + sqrt(x - e)).
-        let low = (x - self.e) * (2.0 - K);
+        // For Dd, hi + lo >= hi (1 - u).
+        let low = x.mul_add(2.0 - K, -self.e) * (2.0 - K);
         if low > 0.0 {
             let v = self.v.root();
             let s = v.to_f64();
@@ -256,7 +257,8 @@ impl<T: Word> Div for Run<T> {
     fn div(self, b: Self) -> Self {
         let v = self.v / b.v;
         let (q, b_abs) = (v.to_f64().abs(), b.v.to_f64().abs());
-        let least = (b_abs - b.e) * (2.0 - K);
+        // For Dd, |hi + lo| >= |hi| (1 - u).
+        let least = b_abs.mul_add(2.0 - K, -b.e) * (2.0 - K);
         if least <= 0.0 || least.is_nan() {
             return Self { v, e: f64::INFINITY };
         }
@@ -264,7 +266,9 @@ impl<T: Word> Div for Run<T> {
             return Self { v, e: 0.0 };
         }
         // |(a + da)/(b + db) - a/b| = |da - (a/b) db| / |b + db|.
-        let e = q.mul_add(b.e, self.e + T::RESIDUAL) + FLOOR * b.e;
+        // The product `q b.e` may underflow before it is divided by a tiny divisor.
+        let floor = if b.e == 0.0 { T::RESIDUAL } else { FLOOR };
+        let e = q.mul_add(b.e, self.e + floor);
         Self { v, e: T::DIV.mul_add(q, e / least) * K + FLOOR }
     }
 }
@@ -286,7 +290,9 @@ impl<T: Word> Ring for Run<T> {
         let exact = v.times_pow2(-exponent) == self.v;
         let e = ldexp(self.e, exponent);
         let e_exact = ldexp(e, -exponent) == self.e;
-        Self { v, e: if exact & e_exact { e } else { e + FLOOR } }
+        let overflow = v.to_f64().abs() == f64::INFINITY;
+        let floor = if overflow { f64::INFINITY } else { FLOOR };
+        Self { v, e: if exact & e_exact { e } else { (e + floor) * K } }
     }
 
     #[inline(always)]
