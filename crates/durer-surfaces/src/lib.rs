@@ -1,12 +1,36 @@
 //! Exact surfaces. Each answers one question: *where does this ray meet you?*
 #![forbid(unsafe_code)]
 
+pub mod annulus;
+pub mod axis_box;
+pub mod disc;
+mod edges;
+mod facet;
+#[cfg(any(test, feature = "laws"))]
+#[doc(hidden)]
+pub mod laws;
 mod local;
+pub mod mesh;
+mod planar;
+pub mod plane;
 mod point;
+pub mod quadric;
+mod roots;
 mod sink;
+pub mod sphere;
 mod surface;
+pub mod triangle;
 
+pub use crate::annulus::{Annulus, AnnulusError};
+pub use crate::axis_box::{AxisBox, AxisBoxError};
+pub use crate::disc::{Disc, DiscError};
 pub use crate::local::{CentredRay, End, LocalPoint, LocalRay, RingRay};
+pub use crate::mesh::{FLAT, Mesh, MeshData, MeshError};
+pub use crate::plane::{Plane, PlaneError};
 pub use crate::point::SurfacePoint;
+pub use crate::quadric::general::{Quadric, QuadricError, QuadricKind};
+pub use crate::quadric::solid::Body;
 pub use crate::sink::{All, Any, Closest, Flow, Sink};
+pub use crate::sphere::{Sphere, SphereError};
 pub use crate::surface::{Kind, Need, PartId, Root, Side, Solidity, Surface};
+pub use crate::triangle::{Triangle, TriangleError};

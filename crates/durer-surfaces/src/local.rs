@@ -14,6 +14,9 @@ const U: f64 = 1.0 / (1u64 << 53) as f64;
 /// Pays for results below the normal range.
 const TINY: f64 = f64::from_bits(2);
 
+/// The least step worth taking: `2^-600`.
+const LEAST_STEP: f64 = f64::from_bits((1023 - 600) << 52);
+
 /// A ray in a surface's frame: `o + s d`, where the caller's parameter is `t = t0 + 2^k s`.
 ///
 /// The largest |component| of `d` is in `[1, 2)`. `o` and `d` are within `o_err` and `d_err` (per axis) of the exact ones.
@@ -42,8 +45,8 @@ pub struct LocalRay<'a> {
 /// How a local ray came to be.
 #[derive(Clone, Copy, Debug)]
 enum Lineage<'a> {
-    /// `o` and `d * 2^-k` were given.
-    Given { k: i32 },
+    /// `o` was given, and this direction (within `d_err`), which was scaled by `2^k`.
+    Given { k: i32, direction: Vec3, d_err: Vec3 },
     /// The parent's ray, moved on by `step`, through the inverse of an affine map; then scaled by `2^k`.
     Placed { parent: &'a LocalRay<'a>, affine: &'a Affine, step: f64, k: i32 },
 }
@@ -100,6 +103,49 @@ pub enum End {
     Max,
 }
 
+/// `p - centre` with a bound on its error.
+#[inline(always)]
+fn relative(p: Point3, err: Vec3, centre: Point3) -> (Vec3, Vec3) {
+    let axis = |p: f64, c: f64, err: f64| {
+        let (x, lost) = two_diff(p, c);
+        (x, (lost.abs() + err) * (1.0 + 4.0 * U))
+    };
+    let (x, ex) = axis(p.x, centre.x, err.x);
+    let (y, ey) = axis(p.y, centre.y, err.y);
+    let (z, ez) = axis(p.z, centre.z, err.z);
+    (Vec3::new(x, y, z), Vec3::new(ex, ey, ez))
+}
+
+/// A vector, known within `e`, through the inverse of an affine map's linear part; with a bound on the result's error.
+#[inline(always)]
+fn through_inverse(affine: &Affine, v: Vec3, e: Vec3) -> (Vec3, Vec3) {
+    let (inverse, slack) = (affine.inverse_linear(), affine.inverse_error());
+    let row = |i: usize| {
+        let (m, s) = (Vec3::from(inverse[i]), Vec3::from(slack[i]));
+        let x = m.dot(v);
+        // gamma_3 for the dot product, |Linv| times the error of v, and |Linv - L^-1| (|v| + error).
+        let size = m.abs().dot(v.abs());
+        let err = size.mul_add(3.0 * U * (1.0 + 4.0 * U), m.abs().dot(e) + s.dot(v.abs() + e));
+        // A row that meets only zeros gives exactly zero.
+        (
+            x,
+            if size == 0.0 && err == 0.0 && x == 0.0 && vanishes(m, s, v, e) {
+                0.0
+            } else {
+                err.mul_add(1.0 + 16.0 * U, TINY)
+            },
+        )
+    };
+    let ((x, ex), (y, ey), (z, ez)) = (row(0), row(1), row(2));
+    (Vec3::new(x, y, z), Vec3::new(ex, ey, ez))
+}
+
+/// Whether each term of `m.v` is exactly zero (and did not just underflow).
+#[cold]
+fn vanishes(m: Vec3, slack: Vec3, v: Vec3, e: Vec3) -> bool {
+    (0..3).all(|i| (m[i] == 0.0 && slack[i] == 0.0) || (v[i] == 0.0 && e[i] == 0.0))
+}
+
 /// A ray whose points are `(o + s d) / w` in some ring; `w > 0`.
 #[derive(Clone, Debug)]
 pub struct RingRay<T> {
@@ -123,21 +169,32 @@ impl LocalRay<'static> {
     pub fn with_errors(ray: &Ray, o_err: Vec3, d_err: Vec3) -> Self {
         let k = -exponent(ray.direction.max_abs());
         let d = ray.direction.map(|x| scale2(x, k));
+        let given = d_err;
         let d_err = d_err.map(|x| scale2(x, k));
         Self {
             o: ray.origin,
             d,
             o_err,
-            // A component more than 2^1000 below the largest loses bits to underflow.
-            d_err: if k < 0 { d_err + Vec3::new(TINY, TINY, TINY) } else { d_err },
+            // A component far below the largest may lose bits to underflow.
+            d_err: Vec3::new(
+                loss(ray.direction.x, d.x, d_err.x),
+                loss(ray.direction.y, d.y, d_err.y),
+                loss(ray.direction.z, d.z, d_err.z),
+            ),
             t_min: ray.t_min,
             t_max: ray.t_max,
             source: None,
             inverse_d2: 1.0 / d.length_squared(),
             clock: Clock { terms: [0.0; 4], len: 0, k },
-            lineage: Lineage::Given { k },
+            lineage: Lineage::Given { k, direction: ray.direction, d_err: given },
         }
     }
+}
+
+/// The error of a component after scaling: subnormal results may have lost bits.
+#[inline(always)]
+fn loss(before: f64, after: f64, err: f64) -> f64 {
+    if after.abs() < f64::MIN_POSITIVE && before != 0.0 { err + TINY } else { err }
 }
 
 impl<'a> LocalRay<'a> {
@@ -153,7 +210,8 @@ impl<'a> LocalRay<'a> {
     #[inline(always)]
     fn closest_approach(&self, c: Point3) -> f64 {
         let t = (c - self.o).dot(self.d) * self.inverse_d2;
-        if t.is_finite() { t } else { 0.0 }
+        // A step so small that scaling might cost it bits is no step.
+        if t.abs() >= LEAST_STEP && t.abs() < f64::INFINITY { t } else { 0.0 }
     }
 
     /// `o + step d - c` with a bound on its error.
@@ -171,6 +229,38 @@ impl<'a> LocalRay<'a> {
         let (y, ey) = axis(self.o.y, self.d.y, c.y, self.o_err.y, self.d_err.y);
         let (z, ez) = axis(self.o.z, self.d.z, c.z, self.o_err.z, self.d_err.z);
         (Vec3::new(x, y, z), Vec3::new(ex, ey, ez))
+    }
+
+    /// The point at the caller's parameter `t`, with a bound on its error, without the detour over the closest approach.
+    fn point_at(&self, t: f64) -> (Point3, Vec3) {
+        match self.lineage {
+            Lineage::Given { k, .. } => {
+                let s = scale2(t, -k);
+                let (x, e) = self.moved(Point3::ORIGIN, s);
+                if s == 0.0 { (self.o, self.o_err) } else { (x.to_point(), e) }
+            }
+            Lineage::Placed { parent, affine, .. } => {
+                let (p, e) = parent.point_at(t);
+                let (x, e) = relative(p, e, affine.centre());
+                let (x, e) = through_inverse(affine, x, e);
+                (x.to_point(), e)
+            }
+        }
+    }
+
+    /// The exact ray in a ring, in this ray's own parameter, seen from `centre` in units of `2^scale`: unlike
+    /// [`CentredRay::in_ring`] the parameter does not depend on the centre, so that two surfaces can share it.
+    pub fn in_ring_from<T: Ring>(&self, centre: Point3, scale: i32) -> Option<RingRay<T>> {
+        let at = self.in_ring::<T>()?.moved(centre, 0.0);
+        Some(RingRay { o: at.o.map(|x| x.scale2(-scale)), d: at.d.map(|x| x.scale2(-scale)), w: at.w })
+    }
+
+    /// `(step, k)` with `parent's parameter = step + 2^k s`; `None` for a ray that was given.
+    pub fn parent_clock(&self) -> Option<(f64, i32)> {
+        match self.lineage {
+            Lineage::Given { .. } => None,
+            Lineage::Placed { step, k, .. } => Some((step, k)),
+        }
     }
 
     /// The ray as seen from `centre`, with lengths in units of `2^scale`: what every kernel works on (rules W3 and W4).
@@ -199,21 +289,8 @@ impl<'a> LocalRay<'a> {
         let c = affine.centre();
         let step = self.closest_approach(c);
         let (o, o_err) = self.moved(c, step);
-        let (inverse, slack) = (affine.inverse_linear(), affine.inverse_error());
-        let apply = |v: Vec3, e: Vec3| {
-            let row = |i: usize| {
-                let (m, s) = (Vec3::from(inverse[i]), Vec3::from(slack[i]));
-                let x = m.dot(v);
-                // gamma_3 for the dot product, |Linv| times the error of v, and |Linv - L^-1| (|v| + error).
-                let size = m.abs().dot(v.abs());
-                let err = size.mul_add(3.0 * U * (1.0 + 4.0 * U), m.abs().dot(e) + s.dot(v.abs() + e));
-                (x, err.mul_add(1.0 + 16.0 * U, TINY))
-            };
-            let ((x, ex), (y, ey), (z, ez)) = (row(0), row(1), row(2));
-            (Vec3::new(x, y, z), Vec3::new(ex, ey, ez))
-        };
-        let (o, o_err) = apply(o, o_err);
-        let (d, d_err) = apply(self.d, self.d_err);
+        let (o, o_err) = through_inverse(affine, o, o_err);
+        let (d, d_err) = through_inverse(affine, self.d, self.d_err);
         let k = -exponent(d.max_abs());
         let d = d.map(|x| scale2(x, k));
         LocalRay {
@@ -233,19 +310,18 @@ impl<'a> LocalRay<'a> {
     /// The exact ray in a ring, in this ray's parameter; `None` if `T` holds exact numbers only and the ray is not exactly known.
     pub fn in_ring<T: Ring>(&self) -> Option<RingRay<T>> {
         match self.lineage {
-            Lineage::Given { k } => {
-                // The scaling of d is undone by an exact one of the ring: no bits of tiny components are lost.
+            Lineage::Given { k, direction, d_err } => {
                 let component = |x: f64, e: f64| T::within(x, e);
                 let o = [
                     component(self.o.x, self.o_err.x)?,
                     component(self.o.y, self.o_err.y)?,
                     component(self.o.z, self.o_err.z)?,
                 ];
-                let d_err = if k < 0 { self.d_err - Vec3::new(TINY, TINY, TINY) } else { self.d_err };
+                // Scaled in the ring: no bits of tiny components are lost.
                 let d = [
-                    component(self.d.x, d_err.x)?,
-                    component(self.d.y, d_err.y)?,
-                    component(self.d.z, d_err.z)?,
+                    component(direction.x, d_err.x)?.scale2(k),
+                    component(direction.y, d_err.y)?.scale2(k),
+                    component(direction.z, d_err.z)?.scale2(k),
                 ];
                 Some(RingRay { o, d, w: T::exact(1.0) })
             }
@@ -338,8 +414,7 @@ impl<'a> CentredRay<'a> {
                 if e == 0.0 || !sum.is_finite() || (e > 0.0) != (away > 0.0) { sum } else { outward(sum) }
             };
             let scaled = scale2(s, self.clock.k);
-            let scaled =
-                if scaled.abs() < f64::MIN_POSITIVE && scaled != 0.0 { outward(scaled) } else { scaled };
+            let scaled = if scaled.abs() < f64::MIN_POSITIVE && s != 0.0 { outward(scaled) } else { scaled };
             let low = exact_or(shift_lo, scaled);
             let low = if err > 0.0 { outward(away.mul_add(err, low)) } else { low };
             exact_or(shift_hi, low)
@@ -358,6 +433,39 @@ impl<'a> CentredRay<'a> {
         } else {
             None
         }
+    }
+
+    /// Numbers `(lo, hi)` such that an `s` outside `[lo, hi]` has its `t` outside the caller's range `[t_lo, t_hi]`.
+    #[inline(always)]
+    pub fn window(&self, (t_lo, t_hi): (f64, f64)) -> (f64, f64) {
+        let (shift_hi, shift_lo, err) = self.clock.shift();
+        let slack = |t: f64| (t.abs() + shift_hi.abs()).mul_add(8.0 * U, err);
+        let lo = (t_lo - shift_hi) - shift_lo - slack(t_lo);
+        let hi = (t_hi - shift_hi) - shift_lo + slack(t_hi);
+        let back = |x: f64| scale2(x, -self.clock.k);
+        // An infinite end minus an infinite slack is NaN: no bound.
+        let bound = |x: f64, none: f64| if x.is_nan() { none } else { x };
+        (bound(back(lo) - TINY, f64::NEG_INFINITY), bound(back(hi) + TINY, f64::INFINITY))
+    }
+
+    /// The `s` of `t = 0`, rounded, with its sign turned: `t = 2^k (origin + s)`.
+    #[inline(always)]
+    pub fn shift(&self) -> f64 {
+        scale2(self.clock.shift().0, -self.clock.k)
+    }
+
+    /// The length in `s` of a bracket `[lo, hi]` of `t`.
+    #[inline(always)]
+    pub fn width(&self, lo: f64, hi: f64) -> f64 {
+        scale2((hi - lo) * (1.0 + 4.0 * U), -self.clock.k) + TINY
+    }
+
+    /// The ray's point at an end of its range, relative to the centre, in units of `2^scale`, with a bound on its error. Unlike
+    /// `o + s d` it does not carry the rounding of the closest approach: where rays start on a surface, this is the sharper form.
+    pub fn point_at_end(&self, end: End) -> (Vec3, Vec3) {
+        let (p, err) = self.ray.point_at(self.end(end));
+        let (x, e) = relative(p, err, self.centre);
+        (x.map(|x| scale2(x, -self.scale)), e.map(|x| scale2(x, -self.scale) + TINY))
     }
 
     /// An end of the caller's range.
@@ -398,12 +506,15 @@ impl LocalPoint<'static> {
 impl<'a> LocalPoint<'a> {
     /// The point in the frame of a surface that `affine` places.
     pub fn through(&'a self, affine: &'a Affine) -> LocalPoint<'a> {
-        // A ray along x that starts here: its origin goes through exactly the same steps, without the move.
-        let ray = Ray::new(self.p, Vec3::X);
-        let ray = LocalRay::with_errors(&ray, self.p_err, Vec3::ZERO);
-        let ray = LocalRay { inverse_d2: 0.0, ..ray };
-        let local = ray.through(affine);
-        LocalPoint { p: local.o, p_err: local.o_err, parent: Some((self, affine)) }
+        let (x, e) = relative(self.p, self.p_err, affine.centre());
+        let (x, e) = through_inverse(affine, x, e);
+        LocalPoint { p: x.to_point(), p_err: e, parent: Some((self, affine)) }
+    }
+
+    /// The point relative to `centre`, in units of `2^scale`, with a bound on its error.
+    pub fn relative_to(&self, centre: Point3, scale: i32) -> (Vec3, Vec3) {
+        let (x, e) = relative(self.p, self.p_err, centre);
+        (x.map(|x| scale2(x, -scale)), e.map(|x| scale2(x, -scale) + TINY))
     }
 
     /// The exact point in a ring: `(coordinates times w, w)` with `w > 0`.

@@ -26,6 +26,8 @@ pub struct SurfacePoint {
     pub dndu: Vec3,
     /// Change of the normal with v.
     pub dndv: Vec3,
+    /// Bound on the curvature near the point: at a distance `r` the surface has left its tangent plane by at most `bend / 2 r^2`.
+    pub bend: f64,
     /// The primitive the point lies on; set by the geometry that holds it.
     pub source: Option<Source>,
 }
@@ -44,6 +46,7 @@ impl SurfacePoint {
             dpdv: Vec3::ZERO,
             dndu: Vec3::ZERO,
             dndv: Vec3::ZERO,
+            bend: 0.0,
             source: None,
         }
     }

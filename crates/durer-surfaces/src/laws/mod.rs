@@ -1,0 +1,331 @@
+//! What every surface promises, as plain functions named by sentences. [`check`] calls them all.
+//!
+//! A surface joins with an [`Oracle`] (its exact description, usually an [`ExactBody`]), a few [`Feature`]s at which rays are aimed, and
+//! one call of [`check_many`]. Witnesses are exact: big integers that share no code with the kernels.
+
+pub mod dice;
+pub mod exact;
+
+pub use dice::{Dice, Feature, aim};
+pub use exact::{Crossing, Exact, ExactBody, ExactForm, Line, Oracle, Surd, exact3, near};
+
+use crate::{
+    All, Any, Closest, Kind, LocalPoint, LocalRay, Need, Root, Side, Solidity, Surface, SurfacePoint,
+};
+use core::cmp::Ordering;
+use durer_math::{Ray, RaySide, U, Vec3};
+
+/// Why a law does not hold.
+pub type Broken = String;
+
+macro_rules! ensure {
+    ($test:expr, $($message:tt)*) => {
+        if !$test {
+            return Err(format!($($message)*));
+        }
+    };
+}
+
+/// All roots of a surface.
+pub fn all_roots<S: Surface>(surface: &S, ray: &Ray) -> Vec<Root> {
+    let mut sink = All::default();
+    surface.roots(&LocalRay::new(ray), &mut sink);
+    sink.roots
+}
+
+/// Every law that one ray can test. Returns the roots.
+pub fn check<S: Surface>(surface: &S, oracle: &dyn Oracle, ray: &Ray) -> Result<Vec<Root>, Broken> {
+    let roots = roots_are_the_exact_crossings(surface, oracle, ray, None)?;
+    closest_is_the_first_of_all(surface, ray, &roots)?;
+    brackets_are_narrow(oracle, ray, &roots)?;
+    a_reversed_ray_meets_the_same(surface, ray, &roots)?;
+    powers_of_two_change_nothing(surface, ray, &roots)?;
+    for root in &roots {
+        if root.kind != Kind::Cluster {
+            points_are_within_their_bounds(surface, oracle, ray, root)?;
+        }
+    }
+    Ok(roots)
+}
+
+/// Draws `count` rays at `features` and checks all laws for each.
+///
+/// # Panics
+///
+/// If a law is broken: with the law, the seed and the ray.
+pub fn check_many<S: Surface + core::fmt::Debug>(
+    surface: &S,
+    oracle: &dyn Oracle,
+    features: &[Feature],
+    seed: u64,
+    count: u64,
+) -> Tally {
+    let mut tally = Tally::default();
+    for i in 0..count {
+        let mut dice = Dice::new(seed.wrapping_mul(0x1_0000_0001).wrapping_add(i));
+        let ray = aim(&mut dice, features, oracle.size());
+        if !ray.is_valid() {
+            continue;
+        }
+        match check(surface, oracle, &ray) {
+            Ok(roots) => {
+                tally.rays += 1;
+                tally.roots += roots.len() as u64;
+                tally.grazing += roots.iter().filter(|r| r.kind == Kind::Grazing).count() as u64;
+                for root in &roots {
+                    tally.widths.push(width(oracle, &ray, root));
+                }
+            }
+            Err(broken) => panic!("{broken}\n  ray {i} of seed {seed}: {ray:?}\n  surface: {surface:?}"),
+        }
+    }
+    tally
+}
+
+/// How many rays were tried.
+///
+/// A test should look at it: a law that met no root proved nothing.
+#[derive(Clone, Debug, Default)]
+pub struct Tally {
+    /// Rays.
+    pub rays: u64,
+    /// Roots.
+    pub roots: u64,
+    /// Grazing roots.
+    pub grazing: u64,
+    /// Widths of brackets, in ulp of `max(|t|, size / |d|)`.
+    pub widths: Vec<f64>,
+}
+
+impl Tally {
+    /// The median width.
+    pub fn median_width(&mut self) -> f64 {
+        self.widths.sort_by(f64::total_cmp);
+        self.widths.get(self.widths.len() / 2).copied().unwrap_or(0.0)
+    }
+}
+
+/// The width of a bracket, in ulp of `max(|t|, size / |d|)`.
+pub fn width(oracle: &dyn Oracle, ray: &Ray, root: &Root) -> f64 {
+    let k = durer_math::eft::exponent(ray.direction.max_abs());
+    let length = ray.direction.map(|x| durer_math::scale::ldexp(x, -k)).length();
+    let unit = root.t.abs().max(durer_math::scale::ldexp(oracle.size() / length, -k));
+    (root.hi - root.lo) / (unit.next_up() - unit)
+}
+
+/// P1, P2, P3, P6: no crossing is missing, extra or doubled; each lies in its bracket, in order, with its sign and kind.
+pub fn roots_are_the_exact_crossings<S: Surface>(
+    surface: &S,
+    oracle: &dyn Oracle,
+    ray: &Ray,
+    source: Option<RaySide>,
+) -> Result<Vec<Root>, Broken> {
+    let mut sink = All::default();
+    surface.roots(&LocalRay::new(ray).from_side(source), &mut sink);
+    let roots = sink.roots;
+    let line = Line::new(ray);
+    let inside = |t: &Surd| {
+        (!ray.t_min.is_finite() || t.cmp_exact(&ray.t_min.into()).is_ge())
+            && (!ray.t_max.is_finite() || t.cmp_exact(&ray.t_max.into()).is_le())
+    };
+    let exact: Vec<Crossing> = oracle.crossings(&line).into_iter().filter(|c| inside(&c.t)).collect();
+    let told = || {
+        let exact: Vec<_> = exact.iter().map(|c| (c.t.about(2200).to_f64(), c.sign, c.grazing)).collect();
+        format!("\n  found {roots:?}\n  exact {exact:?}")
+    };
+    ensure!(roots.len() == exact.len(), "{} roots, but {} crossings{}", roots.len(), exact.len(), told());
+    for (root, crossing) in roots.iter().zip(&exact) {
+        ensure!(
+            root.t.is_finite() && root.lo <= root.t && root.t <= root.hi,
+            "t is not in its bracket{}",
+            told()
+        );
+        let above = !root.lo.is_finite() || crossing.t.cmp_exact(&root.lo.into()).is_ge();
+        let below = !root.hi.is_finite() || crossing.t.cmp_exact(&root.hi.into()).is_le();
+        ensure!(above && below, "the crossing is not in the bracket{}", told());
+        ensure!(
+            root.kind == if crossing.grazing { Kind::Grazing } else { Kind::Simple },
+            "the kind is wrong{}",
+            told()
+        );
+        ensure!(root.sign == crossing.sign, "the sign is wrong{}", told());
+    }
+    ensure!(roots.windows(2).all(|w| w[0].t <= w[1].t), "roots do not ascend{}", told());
+    Ok(roots)
+}
+
+/// P3: closest is the least of all, and any says whether there is one.
+pub fn closest_is_the_first_of_all<S: Surface>(surface: &S, ray: &Ray, roots: &[Root]) -> Result<(), Broken> {
+    let (mut closest, mut any) = (Closest::default(), Any::default());
+    surface.roots(&LocalRay::new(ray), &mut closest);
+    surface.roots(&LocalRay::new(ray), &mut any);
+    let least = roots.iter().copied().min_by(Root::order);
+    ensure!(closest.root == least, "closest {:?} is not the least {least:?}", closest.root);
+    ensure!(any.hit != roots.is_empty(), "any says {}, all has {}", any.hit, roots.len());
+    Ok(())
+}
+
+/// P8: a bracket is at most 64 ulp of `max(|t|, size / |d|)` wide.
+pub fn brackets_are_narrow(oracle: &dyn Oracle, ray: &Ray, roots: &[Root]) -> Result<(), Broken> {
+    for root in roots {
+        let width = width(oracle, ray, root);
+        ensure!(width <= 64.0, "a bracket is {width} ulp wide: {root:?}");
+    }
+    Ok(())
+}
+
+/// P7: a ray read backwards meets the same crossings, in the opposite order.
+pub fn a_reversed_ray_meets_the_same<S: Surface>(
+    surface: &S,
+    ray: &Ray,
+    roots: &[Root],
+) -> Result<(), Broken> {
+    let back = Ray::new(ray.origin, -ray.direction).with_range(-ray.t_max, -ray.t_min);
+    let reversed = all_roots(surface, &back);
+    ensure!(reversed.len() == roots.len(), "backwards {} roots, forwards {}", reversed.len(), roots.len());
+    for (a, b) in roots.iter().zip(reversed.iter().rev()) {
+        ensure!(
+            a.sign == -b.sign && a.kind == b.kind && a.lo <= -b.lo && -b.hi <= a.hi,
+            "backwards {b:?}, forwards {a:?}"
+        );
+    }
+    Ok(())
+}
+
+/// P7: a direction times a power of two divides every `t` by it, bit for bit.
+pub fn powers_of_two_change_nothing<S: Surface>(
+    surface: &S,
+    ray: &Ray,
+    roots: &[Root],
+) -> Result<(), Broken> {
+    let scaled = Ray::new(ray.origin, ray.direction * 8.0).with_range(ray.t_min * 0.125, ray.t_max * 0.125);
+    let exact = |x: f64| x * 0.125 * 8.0 == x;
+    let lossless = ray.direction.to_array().iter().all(|&x| (x * 8.0).is_finite() && x * 8.0 * 0.125 == x)
+        && (ray.t_min.is_infinite() || exact(ray.t_min))
+        && (ray.t_max.is_infinite() || exact(ray.t_max))
+        && roots.iter().all(|r| exact(r.t) && exact(r.lo) && exact(r.hi));
+    if lossless {
+        let expected: Vec<Root> =
+            roots.iter().map(|r| Root { t: r.t * 0.125, lo: r.lo * 0.125, hi: r.hi * 0.125, ..*r }).collect();
+        let found = all_roots(surface, &scaled);
+        ensure!(found == expected, "eight times the direction: {found:?}, expected {expected:?}");
+    }
+    Ok(())
+}
+
+/// P4, P5, P11, P12: the point is within `dp` of the exact one and in the bounds; its normal is the surface's; rays start on the asked side, and
+/// what they meet is what the exact ray meets.
+pub fn points_are_within_their_bounds<S: Surface>(
+    surface: &S,
+    oracle: &dyn Oracle,
+    ray: &Ray,
+    root: &Root,
+) -> Result<(), Broken> {
+    let line = Line::new(ray);
+    let Some(exact) = oracle
+        .crossings(&line)
+        .into_iter()
+        .find(|c| c.t.cmp_exact(&root.lo.into()).is_ge() && c.t.cmp_exact(&root.hi.into()).is_le())
+    else {
+        return Err("no crossing in the bracket".into());
+    };
+    let point = surface.resolve(&LocalRay::new(ray), root, Need::ALL);
+    is_well_formed(&point)?;
+    let truth = line.at(&exact.t.about(2400));
+    let bounds = surface.bounds();
+    for i in 0..3 {
+        let error = (&truth[i] - &point.p[i].into()).abs();
+        let bound = Exact::from(point.dp[i]);
+        // The witness itself is known to 2^-2400.
+        ensure!(
+            (&error - &bound).shifted(1100).to_f64() <= 1.0,
+            "p misses the crossing by {} along axis {i}, dp is {}: {point:?}",
+            error.to_f64(),
+            point.dp[i]
+        );
+        let outside = |end: f64, sign: Ordering| {
+            end.is_finite() && {
+                let gap = &truth[i] - &end.into();
+                gap.sign() == sign && gap.abs().shifted(1100).to_f64() > 1.0
+            }
+        };
+        ensure!(
+            !outside(bounds.min[i], Ordering::Less) && !outside(bounds.max[i], Ordering::Greater),
+            "the crossing is outside the bounds {bounds:?}: {point:?}"
+        );
+    }
+    for (side, expected) in [(RaySide::Front, Ordering::Greater), (RaySide::Back, Ordering::Less)] {
+        let n = point.ng.to_vec();
+        let leaving = point.spawn_from(side, if side == RaySide::Front { n } else { -n });
+        let at = exact3(leaving.origin.to_array());
+        ensure!(
+            oracle.face_side(root.face, &at) == expected,
+            "a ray for the {side:?} starts on the wrong side: off {}, {point:?}",
+            point.off
+        );
+        roots_are_the_exact_crossings(surface, oracle, &leaving, None)?;
+        // A side is known of the whole surface only if it has one face, or is that face here.
+        if let Some(solid) = oracle.side(&at) {
+            let told = surface.side(&LocalPoint::new(leaving.origin));
+            let expected = match solid {
+                Ordering::Less => Side::In,
+                Ordering::Equal => Side::On,
+                Ordering::Greater => Side::Out,
+            };
+            ensure!(told == expected, "side says {told:?}, exactly it is {expected:?}");
+            let consistent =
+                (solid == Ordering::Greater) == (side == RaySide::Front) && solid != Ordering::Equal;
+            if consistent {
+                roots_are_the_exact_crossings(surface, oracle, &leaving, Some(side))?;
+                let met = all_roots(surface, &leaving);
+                ensure!(
+                    !(oracle.is_convex() && side == RaySide::Front) || met.is_empty(),
+                    "a ray that leaves a convex solid meets it again: {met:?}"
+                );
+            }
+        } else {
+            ensure!(surface.solidity() == Solidity::Open, "the oracle knows no inside, the surface does");
+        }
+    }
+    normal_is_the_exact_one(oracle, root, &truth, &point)
+}
+
+/// Nothing is NaN, lengths are what they should be, tangents are tangent.
+fn is_well_formed(point: &SurfacePoint) -> Result<(), Broken> {
+    let n = point.ng.to_vec();
+    ensure!(point.p.is_finite() && point.dp.is_finite(), "the point is not finite: {point:?}");
+    ensure!(point.off.is_finite() && point.off > 0.0, "off is not positive: {point:?}");
+    ensure!((n.length() - 1.0).abs() < 8.0 * U, "the normal's length is not one: {point:?}");
+    ensure!(point.ns.dot(n) > 0.0, "the shading normal is on the other side: {point:?}");
+    ensure!(point.uv.iter().all(|x| x.is_finite()), "uv is not finite: {point:?}");
+    for v in [point.dpdu, point.dpdv] {
+        let size = durer_math::eft::exponent(v.max_abs().max(f64::MIN_POSITIVE));
+        let unit: Vec3 = v.map(|x| durer_math::scale::ldexp(x, -size));
+        ensure!(v.is_finite(), "a tangent is not finite: {point:?}");
+        // Tangents are for shading: half the digits.
+        ensure!(n.dot(unit).abs() < 1e-6, "a tangent is not tangent by {}: {point:?}", n.dot(unit));
+    }
+    ensure!(point.dndu.is_finite() && point.dndv.is_finite(), "dn is not finite: {point:?}");
+    Ok(())
+}
+
+/// The normal agrees with the exact gradient, unless the point is so close to a tip that it has none.
+fn normal_is_the_exact_one(
+    oracle: &dyn Oracle,
+    root: &Root,
+    truth: &[Exact; 3],
+    point: &SurfacePoint,
+) -> Result<(), Broken> {
+    let g = oracle.face_normal(root.face, truth);
+    let length = g.length();
+    if length > 0.0 && length.is_finite() {
+        let error = (g * (1.0 / length) - point.ng.to_vec()).length();
+        // The normal turns by at most `bend` times the distance to the exact point.
+        let turn = point.bend * point.dp.length() * 4.0;
+        ensure!(
+            error <= turn + 64.0 * U || turn > 0.1,
+            "the normal is off by {error}, bend allows {turn}: {point:?}"
+        );
+    }
+    Ok(())
+}

@@ -1,0 +1,333 @@
+//! The general quadric.
+//!
+//! ```text
+//!   f = A x² + B y² + C z² + D xy + E xz + F yz + G x + H y + I z + J <= 0
+//! ```
+//!
+//! Its name follows from the inertia (how many eigenvalues are positive and negative) of `Q` and of the 4x4 matrix of the
+//! homogeneous form. Both matrices are symmetric, so all their eigenvalues are real, and Descartes' rule of signs on the
+//! characteristic polynomials counts them exactly; the signs of those polynomials' coefficients are computed in exact arithmetic.
+
+use crate::quadric::body::{Chart, Frame, Shape};
+use crate::quadric::form::Form;
+use crate::quadric::solid::Body;
+use crate::roots::quadratic::exact_sign;
+use crate::sphere::sphere_chart;
+use core::cmp::Ordering;
+use durer_math::eft::exponent;
+use durer_math::{Aabb, Dd, Dyadic, Point3, Ring, Run, Vec3};
+
+/// The general quadric, as a solid where its polynomial is negative.
+pub type Quadric = Body<GeneralQuadric>;
+
+/// The coefficients of `x² y² z² xy xz yz x y z 1`.
+///
+/// # Invariants
+///
+/// All are finite, and one besides the last is not zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GeneralQuadric {
+    coefficients: [f64; 10],
+    kind: QuadricKind,
+    frame: Frame,
+    /// The exponent of the power of two that makes the coefficients about one in the frame.
+    gain: i32,
+}
+
+/// Why a [`Quadric`] cannot exist.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum QuadricError {
+    /// A coefficient is infinite or NaN.
+    #[error("quadric: coefficient {index} must be finite, got {value}")]
+    Coefficient {
+        /// Its place, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// All coefficients but the constant are zero: no surface.
+    #[error("quadric: all coefficients but the constant are zero")]
+    Constant,
+}
+
+/// What a quadric is. Where the name says "imaginary" there is no real point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "each name is its own description")]
+pub enum QuadricKind {
+    Ellipsoid,
+    ImaginaryEllipsoid,
+    HyperboloidOfOneSheet,
+    HyperboloidOfTwoSheets,
+    Cone,
+    Point,
+    EllipticParaboloid,
+    HyperbolicParaboloid,
+    EllipticCylinder,
+    ImaginaryCylinder,
+    HyperbolicCylinder,
+    ParabolicCylinder,
+    IntersectingPlanes,
+    Line,
+    ParallelPlanes,
+    ImaginaryPlanes,
+    CoincidentPlanes,
+    Plane,
+}
+
+impl Quadric {
+    /// The quadric with the coefficients of `x² y² z² xy xz yz x y z 1`, in this order.
+    pub fn new(coefficients: [f64; 10]) -> Result<Self, QuadricError> {
+        if let Some(index) = coefficients.iter().position(|x| !x.is_finite()) {
+            return Err(QuadricError::Coefficient { index, value: coefficients[index] });
+        }
+        if coefficients[..9].iter().all(|&x| x == 0.0) {
+            return Err(QuadricError::Constant);
+        }
+        let kind = classify(&coefficients);
+        let (frame, gain) = frame(&coefficients);
+        Ok(Self::of(GeneralQuadric { coefficients, kind, frame, gain }))
+    }
+
+    /// The coefficients of `x² y² z² xy xz yz x y z 1`.
+    pub fn coefficients(&self) -> [f64; 10] {
+        self.shape().coefficients
+    }
+
+    /// What it is.
+    pub fn kind(&self) -> QuadricKind {
+        self.shape().kind
+    }
+}
+
+/// `Q`, `b` and `c` of the coefficients, in a ring.
+fn matrix<T: Ring>(k: &[f64; 10]) -> ([[T; 3]; 3], [T; 3], T) {
+    let [xx, yy, zz] = [0, 1, 2].map(|i| T::exact(k[i]));
+    let [xy, xz, yz] = [3, 4, 5].map(|i| T::exact(k[i]).scale2(-1));
+    let q = [[xx, xy.clone(), xz.clone()], [xy, yy, yz.clone()], [xz, yz, zz]];
+    (q, [6, 7, 8].map(|i| T::exact(k[i]).scale2(-1)), T::exact(k[9]))
+}
+
+/// How many eigenvalues of a real symmetric matrix are positive and how many negative, from the coefficients of its characteristic
+/// polynomial (leading one first): Descartes' rule is exact where all roots are real.
+fn inertia(polynomial: &[Dyadic]) -> (usize, usize) {
+    let changes = |signs: &mut dyn Iterator<Item = Ordering>| {
+        let mut last = Ordering::Equal;
+        let mut n = 0;
+        for s in signs.filter(|&s| s != Ordering::Equal) {
+            n += usize::from(last != Ordering::Equal && s != last);
+            last = s;
+        }
+        n
+    };
+    let signs = || polynomial.iter().map(exact_sign);
+    let alternating = signs().enumerate().map(|(i, s)| if i % 2 == 0 { s } else { s.reverse() });
+    (changes(&mut signs()), changes(&mut { alternating }))
+}
+
+/// The characteristic polynomial by the Faddeev-LeVerrier recurrence, times positive integers (which divide nothing here: each
+/// coefficient is scaled by `k!`, which does not change signs).
+fn characteristic<const N: usize>(m: &[[Dyadic; N]; N]) -> Vec<Dyadic> {
+    let zero = || Dyadic::from(0.0);
+    let product = |a: &[[Dyadic; N]; N], b: &[[Dyadic; N]; N]| -> [[Dyadic; N]; N] {
+        core::array::from_fn(|i| {
+            core::array::from_fn(|j| (0..N).fold(zero(), |s, k| &s + &(&a[i][k] * &b[k][j])))
+        })
+    };
+    // Newton's identities: k e_k = sum_{i=1..k} (-1)^(i-1) e_{k-i} p_i with power sums p_i = tr M^i; E_k = k! e_k obeys
+    // E_k = sum (-1)^(i-1) (k-1)!/(k-i)! E_{k-i} p_i.
+    let mut powers = vec![];
+    let mut power = m.clone();
+    for _ in 0..N {
+        powers.push((0..N).fold(zero(), |s, i| &s + &power[i][i]));
+        power = product(&power, m);
+    }
+    let mut e = vec![Dyadic::from(1.0)];
+    for k in 1..=N {
+        let mut sum = zero();
+        let mut falling = 1.0;
+        for i in 1..=k {
+            let term = &(&e[k - i] * &powers[i - 1]) * &Dyadic::from(falling);
+            sum = if i % 2 == 1 { &sum + &term } else { &sum - &term };
+            falling *= (k - i) as f64;
+        }
+        e.push(sum);
+    }
+    // λ^n - e_1 λ^(n-1) + e_2 λ^(n-2) - ...
+    e.into_iter().enumerate().map(|(k, x)| if k % 2 == 1 { -x } else { x }).collect()
+}
+
+fn classify(k: &[f64; 10]) -> QuadricKind {
+    use QuadricKind as K;
+    let (q, b, c) = matrix::<Dyadic>(k);
+    let (p3, n3) = inertia(&characteristic(&q));
+    let full: [[Dyadic; 4]; 4] = core::array::from_fn(|i| {
+        core::array::from_fn(|j| match (i, j) {
+            (3, 3) => c.clone(),
+            (3, j) => b[j].clone(),
+            (i, 3) => b[i].clone(),
+            (i, j) => q[i][j].clone(),
+        })
+    });
+    let (p4, n4) = inertia(&characteristic(&full));
+    // Both matrices with either sign mean the same surface.
+    let flip = (n3, n4) > (p3, p4);
+    let (p3, n3, p4, n4) = if flip { (n3, p3, n4, p4) } else { (p3, n3, p4, n4) };
+    match (p3, n3, p4 + n4) {
+        (3, 0, 4) if n4 == 1 => K::Ellipsoid,
+        (3, 0, 4) => K::ImaginaryEllipsoid,
+        (3, 0, _) => K::Point,
+        (2, 1, 4) if n4 == 2 => K::HyperboloidOfOneSheet,
+        (2, 1, 4) => K::HyperboloidOfTwoSheets,
+        (2, 1, _) => K::Cone,
+        (2, 0, 4) => K::EllipticParaboloid,
+        (1, 1, 4) => K::HyperbolicParaboloid,
+        (2, 0, 3) if n4 == 1 => K::EllipticCylinder,
+        (2, 0, 3) => K::ImaginaryCylinder,
+        (2, 0, _) => K::Line,
+        (1, 1, 3) => K::HyperbolicCylinder,
+        (1, 1, _) => K::IntersectingPlanes,
+        (1, 0, 3) => K::ParabolicCylinder,
+        (1, 0, 2) if n4 == 1 => K::ParallelPlanes,
+        (1, 0, 2) => K::ImaginaryPlanes,
+        (1, 0, _) => K::CoincidentPlanes,
+        _ => K::Plane,
+    }
+}
+
+/// Eigenvalues and vectors of a symmetric matrix by Jacobi's rotations (H. Rutishauser, "The Jacobi method for real symmetric
+/// matrices", *Numerische Mathematik* 9, 1966). Only for choosing a frame: its rounding harms nothing.
+fn eigen(mut m: [[f64; 3]; 3]) -> ([f64; 3], [Vec3; 3]) {
+    let mut v = [Vec3::X, Vec3::Y, Vec3::Z];
+    for _ in 0..12 {
+        for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+            if m[i][j] == 0.0 {
+                continue;
+            }
+            let theta = (m[j][j] - m[i][i]) / (2.0 * m[i][j]);
+            let t = 1.0_f64.copysign(theta) / (theta.abs() + theta.mul_add(theta, 1.0).sqrt());
+            let c = 1.0 / t.mul_add(t, 1.0).sqrt();
+            let s = t * c;
+            for row in &mut m {
+                (row[i], row[j]) = (c * row[i] - s * row[j], s * row[i] + c * row[j]);
+            }
+            let (a, b) = (m[i], m[j]);
+            for k in 0..3 {
+                (m[i][k], m[j][k]) = (c * a[k] - s * b[k], s * a[k] + c * b[k]);
+            }
+            (v[i], v[j]) = (v[i] * c - v[j] * s, v[i] * s + v[j] * c);
+        }
+    }
+    ([m[0][0], m[1][1], m[2][2]], v)
+}
+
+/// A frame for rays to be re-centred to: the centre or vertex, and the surface's size there. Any numbers would be right; these are good.
+fn frame(k: &[f64; 10]) -> (Frame, i32) {
+    let k_max = k.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let unit = |x: f64| durer_math::eft::scale2(x, -exponent(k_max));
+    let k = k.map(unit);
+    let half = |x: f64| 0.5 * x;
+    let q = [[k[0], half(k[3]), half(k[4])], [half(k[3]), k[1], half(k[5])], [half(k[4]), half(k[5]), k[2]]];
+    let b = Vec3::new(half(k[6]), half(k[7]), half(k[8]));
+    let (values, vectors) = eigen(q);
+    let largest = values.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let mut c = Vec3::ZERO;
+    for (value, &v) in values.iter().zip(&vectors) {
+        if value.abs() > 1e-12 * largest {
+            c = c - v * (b.dot(v) / value);
+        }
+    }
+    let qv = |v: Vec3| Vec3::new(Vec3::from(q[0]).dot(v), Vec3::from(q[1]).dot(v), Vec3::from(q[2]).dot(v));
+    let f = |x: Vec3| x.dot(qv(x) + b * 2.0) + k[9];
+    let g = qv(c) + b;
+    let (mut size, level) = (0.0, f(c));
+    if largest > 0.0 {
+        // A paraboloid's vertex: along the part of the gradient that Q cannot move.
+        if g.length() > 1e-9 * b.length() {
+            c = c - g * (level / (2.0 * g.length_squared()));
+            size = 2.0 * g.length() / largest;
+        } else {
+            size = (level.abs() / largest).sqrt();
+        }
+    } else {
+        c = b * (-0.5 * k[9] / b.length_squared());
+    }
+    let usable = |x: f64| x.is_finite() && x > 1e-140 && x < 1e140;
+    let centre = if c.is_finite() && c.max_abs() < 1e140 { c.to_point() } else { Point3::ORIGIN };
+    let scale = if usable(size) { exponent(size) } else { 0 };
+    (
+        Frame { centre, scale, reach: f64::INFINITY },
+        -exponent(k_max) - if largest > 0.0 { 2 * scale } else { scale },
+    )
+}
+
+impl Shape for GeneralQuadric {
+    fn frame(&self) -> Frame {
+        self.frame
+    }
+
+    fn faces(&self) -> usize {
+        1
+    }
+
+    fn form<T: Ring>(&self, _: usize) -> Form<T> {
+        // x = p + 2^s y: Q' = 4^s Q, b' = 2^s (Q p + b), c' = f(p), all times 2^gain.
+        let (q, b, c) = matrix::<T>(&self.coefficients);
+        let (s, gain) = (self.frame.scale, self.gain);
+        let p = self.frame.centre.to_array().map(T::exact);
+        let dot = |a: &[T; 3], b: &[T; 3]| {
+            a[0].clone() * b[0].clone() + a[1].clone() * b[1].clone() + a[2].clone() * b[2].clone()
+        };
+        let qp = q.each_ref().map(|row| dot(row, &p));
+        let at = dot(&qp, &p) + dot(&b, &p).scale2(1) + c;
+        let linear = [0, 1, 2].map(|i| (qp[i].clone() + b[i].clone()).scale2(s + gain));
+        let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = q;
+        Form { q: [xx, yy, zz, xy, xz, yz].map(|x| x.scale2(2 * s + gain)), b: linear, c: at.scale2(gain) }
+    }
+
+    fn bounds(&self) -> Aabb {
+        self.ellipsoid_bounds().unwrap_or(Aabb::UNBOUNDED)
+    }
+
+    /// Longitude and latitude as seen from the centre.
+    fn chart(&self, _: usize, y: Vec3, n: Vec3) -> Chart {
+        let Chart { uv, dpdu, dpdv } = sphere_chart(y);
+        // The tangents of the sphere through y, sheared along y onto the surface: y + (dy - y (n·dy)/(n·y)).
+        let along = n.dot(y);
+        let tangent = |v: Vec3| {
+            let sheared = v - y * (n.dot(v) / along);
+            if sheared.is_finite() { sheared } else { v - n * n.dot(v) }
+        };
+        Chart { uv, dpdu: tangent(dpdu), dpdv: tangent(dpdv) }
+    }
+}
+
+impl GeneralQuadric {
+    /// The box of a solid ellipsoid: about `-Q⁻¹b`, half-widths `√(K (Q⁻¹)ᵢᵢ)` with `K = b·Q⁻¹b - c`.
+    fn ellipsoid_bounds(&self) -> Option<Aabb> {
+        if self.kind != QuadricKind::Ellipsoid || self.coefficients[0] < 0.0 {
+            return None;
+        }
+        type N = Run<Dd>;
+        let form = self.form::<N>(0);
+        let [xx, yy, zz, xy, xz, yz] = form.q;
+        let adjugate = [
+            [yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy],
+            [xz * yz - xy * zz, xx * zz - xz * xz, xy * xz - xx * yz],
+            [xy * yz - xz * yy, xy * xz - xx * yz, xx * yy - xy * xy],
+        ];
+        let determinant = xx * adjugate[0][0] + xy * adjugate[0][1] + xz * adjugate[0][2];
+        let dot = |a: [N; 3], b: [N; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let solved = adjugate.map(|row| dot(row, form.b) / determinant);
+        let level = dot(solved, form.b) - form.c;
+        let (mut min, mut max) = ([0.0; 3], [0.0; 3]);
+        for i in 0..3 {
+            let half = (level * adjugate[i][i] / determinant).sqrt();
+            let ends = [-solved[i] - half, half - solved[i]]
+                .map(|y| N::exact(self.frame.centre[i]) + y.scale2(self.frame.scale));
+            (min[i], max[i]) = (ends[0].lo(), ends[1].hi());
+        }
+        let bounds = Aabb::new(min.into(), max.into());
+        let sane = min.iter().chain(&max).all(|x| x.is_finite());
+        sane.then_some(bounds)
+    }
+}

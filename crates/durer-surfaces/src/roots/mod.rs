@@ -1,0 +1,3 @@
+//! Root finders: one solver, one file.
+
+pub(crate) mod quadratic;

@@ -1,0 +1,376 @@
+//! The quadratic `A s² + 2 B s + C`: its real roots in proven brackets, and exact signs at them.
+//!
+//! Roots are `q / A` and `C / q` with `q = -(B + sign(B) √(B² - AC))`, so that neither suffers cancellation (W. H. Press et al.,
+//! *Numerical Recipes*, 3rd ed. 2007, section 5.6); the discriminant is formed by Kahan's `ab - cd` (C.-P. Jeannerod, N. Louvet, J.-M.
+//! Muller, "Further analysis of Kahan's algorithm", *Mathematics of Computation* 82, 2013).
+//!
+//! A root is named by what the quadratic does there: it falls ([`Crossing::In`]), rises ([`Crossing::Out`]) or touches zero. That name
+//! stays right while `A` passes through zero, where "the lower root" does not.
+
+use core::cmp::Ordering;
+use core::cmp::Ordering::{Equal, Greater, Less};
+use durer_math::{Dd, Dyadic, Ring, Run, U, eft::difference_of_products};
+
+/// `A s² + 2 B s + C`.
+#[derive(Clone, Debug)]
+pub struct Quadratic<T> {
+    /// The factor of `s²`.
+    pub a: T,
+    /// Half the factor of `s`.
+    pub b: T,
+    /// The value at `s = 0`.
+    pub c: T,
+}
+
+/// What a quadratic does at a root. The inside is where it is negative.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Crossing {
+    /// It falls through zero.
+    In,
+    /// It rises through zero.
+    Out,
+    /// It touches zero from above: outside, but for a point.
+    TouchOutside,
+    /// It touches zero from below: inside all along.
+    TouchInside,
+}
+
+/// A root in its bracket.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LineRoot {
+    pub(crate) s: f64,
+    pub(crate) lo: f64,
+    pub(crate) hi: f64,
+    pub(crate) crossing: Crossing,
+}
+
+/// The roots that matter, in no order.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LineRoots {
+    pub(crate) roots: [Option<LineRoot>; 2],
+    /// There is no root, and all of the line is strictly outside.
+    pub(crate) outside: bool,
+}
+
+/// Where roots matter, and how narrow their brackets should be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Limits {
+    /// Roots below are of no interest.
+    pub(crate) lo: f64,
+    /// Roots above are of no interest.
+    pub(crate) hi: f64,
+    /// `t = 2^k (origin + s)`.
+    pub(crate) origin: f64,
+    /// Whether a bracket wider than 32 ulp of `max(|t|, size / |d|)` should be refused.
+    pub(crate) narrow: bool,
+}
+
+impl Limits {
+    /// 32 ulp of `max(|t|, size / |d|)`, in units of `s`: sizes are about 1 there, `|d|` is between 1 and 3.5, and an ulp is
+    /// at most `2 U` of its number.
+    #[inline(always)]
+    fn allows(&self, lo: f64, hi: f64, s: f64) -> bool {
+        !self.narrow || hi - lo <= 64.0 * U * (self.origin + s).abs().max(0.5)
+    }
+}
+
+/// A number in its enclosure, and its sign if that is certain.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Known {
+    pub(crate) value: Run,
+    pub(crate) sign: Option<Ordering>,
+}
+
+impl From<Run> for Known {
+    #[inline(always)]
+    fn from(value: Run) -> Self {
+        Self { value, sign: value.sign() }
+    }
+}
+
+impl From<&Run<Dd>> for Known {
+    fn from(x: &Run<Dd>) -> Self {
+        let e = (x.v.lo.abs() + x.e) * (1.0 + 4.0 * U);
+        Self { value: Run::with_error(x.v.hi, e), sign: x.sign() }
+    }
+}
+
+impl From<&Dyadic> for Known {
+    fn from(x: &Dyadic) -> Self {
+        let (lo, hi) = x.to_bounds();
+        Self { value: Run::with_error(x.to_f64(), hi - lo), sign: x.sign() }
+    }
+}
+
+impl<T: Ring> Quadratic<T> {
+    /// `B² - AC`.
+    pub(crate) fn discriminant(&self) -> T {
+        self.b.clone().square() - self.a.clone() * self.c.clone()
+    }
+
+    /// The value at `s`.
+    #[inline(always)]
+    pub(crate) fn at(&self, s: T) -> T {
+        (self.a.clone() * s.clone() + self.b.clone().scale2(1)) * s + self.c.clone()
+    }
+
+    /// The value at `n / m`, times `m²`.
+    fn at_ratio(&self, n: &T, m: &T) -> T {
+        let (an, bm) = (self.a.clone() * n.clone(), self.b.clone() * m.clone());
+        (an + bm.scale2(1)) * n.clone() + self.c.clone() * m.clone().square()
+    }
+
+    /// Half the slope at `n / m`, times `m`.
+    fn slope_at_ratio(&self, n: &T, m: &T) -> T {
+        self.a.clone() * n.clone() + self.b.clone() * m.clone()
+    }
+
+    /// Half the derivative, as a quadratic.
+    fn derivative(&self) -> Self {
+        Self { a: T::exact(0.0), b: self.a.clone().scale2(-1), c: self.b.clone() }
+    }
+}
+
+impl Quadratic<Dyadic> {
+    /// Times the power of two that makes the larger of `|B|` and `√|B² - AC|` about one, so that f64 can hold what matters.
+    #[must_use]
+    pub(crate) fn at_unit_size(self) -> Self {
+        let half = |x: Option<i64>| x.map(|e| e.div_euclid(2));
+        let Some(size) = self.b.exponent().max(half(self.discriminant().exponent())) else { return self };
+        let k = i32::try_from(-size).unwrap_or(0);
+        Self { a: self.a.scale2(k), b: self.b.scale2(k), c: self.c.scale2(k) }
+    }
+}
+
+impl Quadratic<Run> {
+    /// `B² - AC` with Kahan's difference.
+    #[inline(always)]
+    pub(crate) fn kahan_discriminant(&self) -> Run {
+        let (a, b, c) = (self.a, self.b, self.c);
+        let v = difference_of_products(b.v, b.v, a.v, c.v);
+        let inherited = b.e * (2.0 * b.v.abs() + b.e) + (a.v.abs() * c.e + a.e * (c.v.abs() + c.e));
+        // 1.5 ulp of the difference itself; the last term pays for underflow of the residuals.
+        let zero = (b.v == 0.0 || b.v.abs() > 1e-140) && (a.v == 0.0 || c.v == 0.0);
+        let floor = if zero { 0.0 } else { 1e-290 };
+        Run::with_error(v, (inherited + 3.0 * U * v.abs()) * (1.0 + 16.0 * U) + floor)
+    }
+}
+
+/// The roots within the limits, or `None` if the numbers leave open what they are.
+///
+/// `offset` is added to each root. `disc` may be known better than the coefficients would tell.
+#[inline(always)]
+pub(crate) fn solve(
+    a: Known,
+    b: Known,
+    c: Known,
+    disc: Known,
+    offset: f64,
+    limits: &Limits,
+) -> Option<LineRoots> {
+    match disc.sign? {
+        Less => {
+            // A and C have the same sign, and neither is zero.
+            let outside = a.sign == Some(Greater) || c.sign == Some(Greater);
+            Some(LineRoots { roots: [None; 2], outside })
+        }
+        Equal => {
+            let crossing = match a.sign? {
+                Greater => Crossing::TouchOutside,
+                Less => Crossing::TouchInside,
+                // B is zero too: the quadratic is the constant C.
+                Equal => return Some(LineRoots { roots: [None; 2], outside: c.sign? == Greater }),
+            };
+            let root = admit(-b.value / a.value, offset, crossing, limits)?;
+            Some(LineRoots { roots: [root, None], outside: false })
+        }
+        Greater => {
+            let sqrt = disc.value.sqrt();
+            let falling = b.value.v >= 0.0;
+            let q = if falling { -(b.value + sqrt) } else { sqrt - b.value };
+            // The slope is -sign(B) √disc at q / A, and the opposite at C / q.
+            let (first, second) =
+                if falling { (Crossing::In, Crossing::Out) } else { (Crossing::Out, Crossing::In) };
+            // At unit size |q| is at most 8; a C too large for f64 means a root that is too large, too, and is dropped.
+            let near =
+                if c.value.v.is_infinite() { None } else { admit(c.value / q, offset, second, limits)? };
+            let far = match a.sign {
+                Some(Equal) => None,
+                _ => {
+                    let least = (q.v.abs() - q.e) / (a.value.v.abs() + a.value.e) * (1.0 - 8.0 * U);
+                    let reach = limits.hi.abs().max(limits.lo.abs());
+                    if least - offset.abs() * (1.0 + 4.0 * U) > reach {
+                        None
+                    } else {
+                        a.sign?;
+                        // An A too large for f64 means a root that is all but zero.
+                        let root =
+                            if a.value.v.is_infinite() { Run::with_error(0.0, 1e-280) } else { q / a.value };
+                        admit(root, offset, first, limits)?
+                    }
+                }
+            };
+            Some(LineRoots { roots: [near, far], outside: false })
+        }
+    }
+}
+
+/// A root, if it is within the limits; `None` if its bracket is too wide.
+#[inline(always)]
+pub(crate) fn admit(root: Run, offset: f64, crossing: Crossing, limits: &Limits) -> Option<Option<LineRoot>> {
+    let root = if offset == 0.0 { root } else { root + Run::exact(offset) };
+    let (lo, hi) = (root.lo(), root.hi());
+    if hi < limits.lo || lo > limits.hi {
+        return Some(None);
+    }
+    if !limits.allows(lo, hi, root.v) {
+        return None;
+    }
+    Some(root.v.is_finite().then_some(LineRoot { s: root.v, lo, hi, crossing }))
+}
+
+/// Where a number lies relative to a root of a quadratic, from the quadratic's sign (`value`) and slope there and the sign of `A`;
+/// `None` if these do not tell.
+#[inline(always)]
+pub(crate) fn locate(
+    crossing: Crossing,
+    a: Option<Ordering>,
+    value: Option<Ordering>,
+    slope: Option<Ordering>,
+) -> Option<Ordering> {
+    match crossing {
+        Crossing::Out if slope == Some(Greater) => value,
+        Crossing::In if slope == Some(Less) => value.map(Ordering::reverse),
+        // On the other side of the vertex, so beyond the other root or between the vertex and it.
+        Crossing::Out if slope.is_some() => a.map(Ordering::reverse),
+        Crossing::In if slope.is_some() => a,
+        Crossing::TouchOutside => slope,
+        Crossing::TouchInside => slope.map(Ordering::reverse),
+        Crossing::In | Crossing::Out => None,
+    }
+}
+
+fn times(a: Ordering, b: Ordering) -> Ordering {
+    match a {
+        Equal => Equal,
+        Greater => b,
+        Less => b.reverse(),
+    }
+}
+
+/// The sign of an exact number, which is always certain.
+pub(crate) fn exact_sign(x: &Dyadic) -> Ordering {
+    x.sign().unwrap_or(Equal)
+}
+
+/// The exact sign of `q` at a root of `p`.
+///
+/// With `A_p q - A_q p = 2 l₁ s + l₀`, which has the sign of `A_p q` at the root, the question becomes on which side of the root the
+/// rational number `-l₀ / 2 l₁` lies, and `p` itself tells.
+pub(crate) fn sign_at_root(p: &Quadratic<Dyadic>, root: Crossing, q: &Quadratic<Dyadic>) -> Ordering {
+    let sign_a = exact_sign(&p.a);
+    if sign_a == Equal {
+        return exact_sign(&q.at_ratio(&-p.c.clone(), &p.b.clone().scale2(1)));
+    }
+    if matches!(root, Crossing::TouchInside | Crossing::TouchOutside) {
+        return exact_sign(&q.at_ratio(&-p.b.clone(), &p.a));
+    }
+    let l1 = &(&p.a * &q.b) - &(&q.a * &p.b);
+    let l0 = &(&p.a * &q.c) - &(&q.a * &p.c);
+    if l1.is_zero() {
+        return times(sign_a, exact_sign(&l0));
+    }
+    let at = locate_ratio(p, root, &-l0, &l1.clone().scale2(1));
+    times(times(sign_a, exact_sign(&l1)), at.reverse())
+}
+
+/// The exact sign of the slope of `q` at a root of `p`.
+pub(crate) fn slope_at_root(p: &Quadratic<Dyadic>, root: Crossing, q: &Quadratic<Dyadic>) -> Ordering {
+    sign_at_root(p, root, &q.derivative())
+}
+
+/// Where `n / m` lies relative to a root of `p`, exactly.
+fn locate_ratio(p: &Quadratic<Dyadic>, root: Crossing, n: &Dyadic, m: &Dyadic) -> Ordering {
+    let value = exact_sign(&p.at_ratio(n, m));
+    let slope = times(exact_sign(m), exact_sign(&p.slope_at_ratio(n, m)));
+    locate(root, p.a.sign(), Some(value), Some(slope)).unwrap_or(Equal)
+}
+
+/// Where the exact number `s` lies relative to a root of `p`.
+pub(crate) fn locate_exact(p: &Quadratic<Dyadic>, root: Crossing, s: &Dyadic) -> Ordering {
+    locate_ratio(p, root, s, &Dyadic::from(1.0))
+}
+
+/// Compares a root of `p` with a root of `q`, exactly.
+pub(crate) fn compare_roots(
+    (p, p_root): (&Quadratic<Dyadic>, Crossing),
+    (q, q_root): (&Quadratic<Dyadic>, Crossing),
+) -> Ordering {
+    let (value, slope) = (sign_at_root(p, p_root, q), slope_at_root(p, p_root, q));
+    locate(q_root, q.a.sign(), Some(value), Some(slope)).unwrap_or(Equal)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn exact(a: f64, b: f64, c: f64) -> Quadratic<Dyadic> {
+        Quadratic { a: a.into(), b: b.into(), c: c.into() }
+    }
+
+    #[test]
+    fn signs_at_roots_are_those_of_the_roots_distances() {
+        // (s - r)(s - x) for small integers, both signs of A, against (s - y) and (s - y)(s - z).
+        for r in -3..=3 {
+            for x in -3..=3 {
+                for k in [-2, 1] {
+                    let (k, r, x) = (f64::from(k), f64::from(r), f64::from(x));
+                    let p = exact(k, -0.5 * k * (r + x), k * r * x);
+                    let rising = if k > 0.0 { r.max(x) } else { r.min(x) };
+                    let falling = r + x - rising;
+                    let names = if r == x {
+                        let touch = if k > 0.0 { Crossing::TouchOutside } else { Crossing::TouchInside };
+                        [(touch, r), (touch, r)]
+                    } else {
+                        [(Crossing::In, falling), (Crossing::Out, rising)]
+                    };
+                    for y in -4..=4 {
+                        for z in -4..=4 {
+                            let (y, z) = (f64::from(y), f64::from(z));
+                            for m in [-3.0, 1.0] {
+                                let q = exact(m, -0.5 * m * (y + z), m * y * z);
+                                for (name, at) in names {
+                                    let value = m * (at - y) * (at - z);
+                                    assert_eq!(Some(sign_at_root(&p, name, &q)), value.partial_cmp(&0.0));
+                                }
+                            }
+                            let line = exact(0.0, 0.5, -y);
+                            for (name, at) in names {
+                                assert_eq!(Some(sign_at_root(&p, name, &line)), at.partial_cmp(&y));
+                                assert_eq!(
+                                    Some(compare_roots((&p, name), (&line, Crossing::Out))),
+                                    at.partial_cmp(&y)
+                                );
+                                assert_eq!(Some(locate_exact(&p, name, &y.into())), y.partial_cmp(&at));
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_vanishing_leading_coefficient_keeps_the_finite_root() {
+        let limits = Limits { lo: -10.0, hi: 10.0, origin: 0.0, narrow: true };
+        for a in [0.0, 1e-300, -1e-300, 1e-17] {
+            let p = Quadratic::<Run> { a: Run::exact(a), b: Run::exact(0.5), c: Run::exact(-2.0) };
+            let disc = p.kahan_discriminant();
+            let roots = solve(p.a.into(), p.b.into(), p.c.into(), disc.into(), 0.0, &limits).unwrap();
+            let found: Vec<_> = roots.roots.iter().flatten().collect();
+            assert_eq!(found.len(), 1);
+            assert_eq!(found[0].crossing, Crossing::Out);
+            assert!(found[0].lo <= 2.0 && found[0].hi >= 2.0 - 1e-15);
+        }
+    }
+}
