@@ -60,8 +60,8 @@ fn bytes(path: &Path) -> Outcome<Vec<u8>> {
 
 /// Our pictures against the ones that POV-Ray made, kept beside their scenes, so that they are compared everywhere.
 fn reference_pictures(durer: &Durer) -> Outcome {
-    let scenes = scenes::list(&root().join(conformance::SCENES), &[])?;
-    println!("==> {} scenes of {}/ against their reference pictures", scenes.len(), conformance::SCENES);
+    let scenes = conformance::scenes(&[])?;
+    println!("==> {} scenes against their reference pictures", scenes.len());
     let folder = scratch("references")?;
     let (width, height) = conformance::REFERENCE_SIZE;
     let mut failures = Vec::new();

@@ -9,14 +9,26 @@ use crate::{Outcome, report};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Where the scenes are.
-pub(crate) const SCENES: &str = "tests/conformance";
+/// Where the scenes made for it are, and all reference pictures.
+const SCENES: &str = "tests/conformance";
 
 /// The size of the pictures that are kept beside the scenes.
 pub(crate) const REFERENCE_SIZE: (u32, u32) = (160, 120);
 
 const SIZES: [(u32, u32); 2] = [REFERENCE_SIZE, (320, 240)];
 const TIMED_SIZE: (u32, u32) = (1280, 720);
+
+/// The scenes that both programs can read, all of them or the named ones: those made for the comparison, and the
+/// gallery's composition.
+pub(crate) fn scenes(names: &[String]) -> Outcome<Vec<Scene>> {
+    let mut all = scenes::list(&root().join(SCENES), &[])?;
+    all.extend(scenes::list(&root().join("scenes"), &["melencolia".to_owned()])?);
+    if let Some(unknown) = names.iter().find(|name| all.iter().all(|s| s.name != **name)) {
+        return Err(format!("conformance: no scene named {unknown}"));
+    }
+    all.retain(|s| names.is_empty() || names.contains(&s.name));
+    Ok(all)
+}
 
 /// POV-Ray's picture of a scene, kept under version control.
 pub(crate) fn reference(name: &str) -> PathBuf {
@@ -27,6 +39,8 @@ pub(crate) fn reference(name: &str) -> PathBuf {
 #[derive(Debug)]
 pub(crate) struct Row {
     pub(crate) name: String,
+    /// The scene's file, from the top folder.
+    pub(crate) file: String,
     /// One per size.
     pub(crate) differences: Vec<Difference>,
     /// Missing if only the pictures were asked for.
@@ -51,7 +65,7 @@ pub(crate) fn run(words: &[String]) -> Outcome {
         println!("conformance: {}", povray::MISSING);
         return Ok(());
     };
-    let scenes = scenes::list(&root().join(SCENES), &names)?;
+    let scenes = scenes(&names)?;
     let durer = Durer::build()?;
     println!("{}", report::heading(&SIZES, !check));
     let mut rows = Vec::new();
@@ -103,7 +117,8 @@ fn measure(durer: &Durer, povray: &Povray, scene: &Scene, timed: bool) -> Outcom
     } else {
         None
     };
-    Ok(Row { name: scene.name.clone(), differences, cost })
+    let file = scene.path.strip_prefix(root()).unwrap_or(&scene.path).display().to_string();
+    Ok(Row { name: scene.name.clone(), file, differences, cost })
 }
 
 /// Copies POV-Ray's small pictures beside the scenes, for `cargo xtask test` where POV-Ray is missing.

@@ -71,7 +71,7 @@ fn slowest_and_median(costs: &[Cost]) -> Option<(f64, f64)> {
 pub(crate) fn document(rows: &[Row], sizes: &[(u32, u32)], timed: (u32, u32), version: &str) -> String {
     let mut text = format!(
         "# Pictures beside POV-Ray's\n\n\
-         Written by `cargo xtask conformance`. Each scene of [tests/conformance](../tests/conformance) is rendered by \
+         Written by `cargo xtask conformance`. Each scene of [tests/conformance](../tests/conformance), and the gallery's composition, is rendered by \
          durer and by POV-Ray {version}, one ray through the centre of each pixel (`--aa off`). A pixel agrees if no \
          channel differs by more than 2/255; at least 99 % must. The number in parentheses is the largest difference of \
          any channel of any pixel: where a ray passes a silhouette, a shadow's edge or a border of a pattern within \
@@ -90,7 +90,7 @@ pub(crate) fn document(rows: &[Row], sizes: &[(u32, u32)], timed: (u32, u32), ve
     text.push_str(&"---:|".repeat(sizes.len() + 3));
     text.push('\n');
     for row in rows {
-        let _ = write!(text, "| [{0}](../tests/conformance/{0}.pov) |", row.name);
+        let _ = write!(text, "| [{}](../{}) |", row.name, row.file);
         for d in &row.differences {
             let _ = write!(text, " {:.2} % ({}) |", percent(d.agreeing), d.worst);
         }
@@ -113,6 +113,7 @@ mod tests {
     fn the_document_has_a_line_per_scene_and_the_summary_counts() {
         let row = |name: &str, agreeing: f64| Row {
             name: name.into(),
+            file: format!("tests/conformance/{name}.pov"),
             differences: vec![Difference { agreeing, worst: 9 }],
             cost: Some(Cost { ours: 0.5, theirs: 4.0 }),
         };
