@@ -1,1 +1,56 @@
-//! Under construction.
+//! The tree: which surfaces might this ray meet?
+//!
+//! Boxes are f32, rays are f64, and no box that the exact ray meets is ever missed: boxes are rounded outward, and the node
+//! test charges each of its roundings to "may meet". What it costs is nothing: the test has the instructions of an unsafe one.
+//!
+//! ```
+//! use durer_bvh::{Bvh, Frame, Line, Settings};
+//! use durer_math::{Aabb, Isa, Point3, Vec3};
+//!
+//! // A row of unit boxes along x.
+//! let boxes: Vec<Aabb> = (0..100)
+//!     .map(|i| Aabb::centred(Point3::new(2.0 * f64::from(i), 0.0, 0.0), Vec3::new(0.5, 0.5, 0.5)))
+//!     .collect();
+//! let extent = boxes.iter().copied().fold(Aabb::EMPTY, Aabb::union);
+//! let frame = Frame::around(&extent);
+//! let entries = boxes.iter().enumerate().map(|(i, b)| frame.entry(b, 0, i as u32)).collect();
+//! let (tree, order) = Bvh::build(&frame, entries, 1, &Settings::GOOD);
+//!
+//! let down = Line {
+//!     origin: Point3::new(42.0, 0.0, 9.0),
+//!     direction: -Vec3::Z,
+//!     origin_error: Vec3::ZERO,
+//!     direction_error: Vec3::ZERO,
+//!     t_min: 0.0,
+//!     t_max: f64::INFINITY,
+//! };
+//! let found = tree.any(Isa::detect(), &down, |leaf| {
+//!     (leaf.first..leaf.first + leaf.count).any(|slot| order[0][slot as usize] == 21)
+//! });
+//! assert!(found);
+//! ```
+//!
+//! The way through: [`Frame`] chooses the units and makes an [`Entry`] of each box; [`Bvh::build`] sorts them into nodes of eight;
+//! [`Bvh::closest`], [`Bvh::any`] and [`Bvh::containing`] show the [`Leaf`]s that matter; [`Bvh::story`] tells how; [`Bvh::validate`] and
+//! [`Bvh::stats`] look at the result. A tree knows boxes and numbers only: what the things are is its caller's business.
+#![deny(unsafe_code)]
+
+mod build;
+mod frame;
+mod kernels;
+mod node;
+mod ray;
+mod stats;
+mod story;
+mod traverse;
+mod tree;
+mod validate;
+
+pub use crate::build::Settings;
+pub use crate::frame::{Entry, Frame};
+pub use crate::node::{Leaf, MAX_ENTRIES};
+pub use crate::ray::Line;
+pub use crate::stats::Stats;
+pub use crate::story::Step;
+pub use crate::tree::Bvh;
+pub use crate::validate::Violation;

@@ -1,0 +1,195 @@
+//! Where to cut a range of entries.
+
+use super::Settings;
+use super::area::Extent;
+use crate::frame::Entry;
+use rayon::prelude::*;
+
+/// Bins per axis.
+const BINS: usize = 16;
+
+/// Ranges with more entries are binned by all threads.
+const PARALLEL: usize = 1 << 15;
+
+/// A range cut in two: the first part's length, and the boxes of both.
+pub(super) struct Split {
+    pub(super) at: usize,
+    pub(super) left: Extent,
+    pub(super) right: Extent,
+}
+
+/// The box of all entries.
+pub(super) fn extent(entries: &[Entry]) -> Extent {
+    fold(entries, || Extent::EMPTY, Extent::add, |a, b| a.united(&b))
+}
+
+/// Folds in an order that does not matter: by all threads if it pays.
+fn fold<T: Send>(
+    entries: &[Entry],
+    identity: impl Fn() -> T + Sync + Send,
+    add: impl Fn(&mut T, &Entry) + Sync,
+    join: impl Fn(T, T) -> T + Sync + Send,
+) -> T {
+    let some = |part: &[Entry]| {
+        let mut value = identity();
+        part.iter().for_each(|entry| add(&mut value, entry));
+        value
+    };
+    if entries.len() > PARALLEL {
+        entries.par_chunks(PARALLEL / 4).map(some).reduce(&identity, join)
+    } else {
+        some(entries)
+    }
+}
+
+pub(super) fn is_one_kind(entries: &[Entry]) -> bool {
+    entries.len() > super::MAX_LEAF || entries.iter().all(|e| e.kind() == entries[0].kind())
+}
+
+/// A plane between bins.
+pub(super) struct Plane {
+    axis: usize,
+    bin: usize,
+    bins: Bins,
+    left: (Extent, usize),
+    right: (Extent, usize),
+}
+
+impl Plane {
+    /// The area-weighted cost of two leaves.
+    pub(super) fn cost(&self, settings: &Settings) -> f32 {
+        let side = |(extent, count): &(Extent, usize)| {
+            extent.half_area() * (settings.leaf_cost + settings.test_cost * *count as f32)
+        };
+        side(&self.left) + side(&self.right)
+    }
+}
+
+/// How twice-centres map to bins.
+#[derive(Clone, Copy)]
+struct Bins {
+    from: [f32; 3],
+    scale: [f32; 3],
+}
+
+impl Bins {
+    fn over(entries: &[Entry]) -> Self {
+        let add = |e: &mut Extent, entry: &Entry| {
+            let c = [entry.centre2(0), entry.centre2(1), entry.centre2(2)];
+            e.grow(c, c);
+        };
+        let centres = fold(entries, || Extent::EMPTY, add, |a, b| a.united(&b));
+        let (lo, hi) = (centres.lo(), centres.hi());
+        let scale = core::array::from_fn(|i| {
+            let scale = BINS as f32 / (hi[i] - lo[i]);
+            if scale.is_finite() { scale } else { 0.0 }
+        });
+        Self { from: lo, scale }
+    }
+
+    #[inline(always)]
+    fn of(&self, entry: &Entry, axis: usize) -> usize {
+        // The conversion saturates; what rounds up to the end belongs to the last bin.
+        (((entry.centre2(axis) - self.from[axis]) * self.scale[axis]) as usize).min(BINS - 1)
+    }
+}
+
+/// The best plane between the bins of any axis by the surface area heuristic; `None` if all centres coincide (or nearly).
+pub(super) fn best_plane(entries: &[Entry]) -> Option<Plane> {
+    type Filled = [[(Extent, usize); BINS]; 3];
+    let bins = Bins::over(entries);
+    let add = |filled: &mut Filled, entry: &Entry| {
+        for (axis, row) in filled.iter_mut().enumerate() {
+            let (extent, count) = &mut row[bins.of(entry, axis)];
+            extent.add(entry);
+            *count += 1;
+        }
+    };
+    let join = |mut a: Filled, b: Filled| {
+        for ((extent, count), (other, more)) in a.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
+            extent.unite(other);
+            *count += more;
+        }
+        a
+    };
+    let filled = fold(entries, || [[(Extent::EMPTY, 0); BINS]; 3], add, join);
+    let mut best: Option<Plane> = None;
+    let mut least = f32::INFINITY;
+    for (axis, row) in filled.iter().enumerate() {
+        let grow = |(extent, count): (Extent, usize), b: &(Extent, usize)| (extent.united(&b.0), count + b.1);
+        let mut right = [(Extent::EMPTY, 0); BINS];
+        for bin in (1..BINS).rev() {
+            let next = if bin + 1 < BINS { right[bin + 1] } else { (Extent::EMPTY, 0) };
+            right[bin] = grow(next, &row[bin]);
+        }
+        let mut left = (Extent::EMPTY, 0);
+        for bin in 1..BINS {
+            left = grow(left, &row[bin - 1]);
+            let right = right[bin];
+            if left.1 == 0 || right.1 == 0 {
+                continue;
+            }
+            let cost = left.0.half_area() * left.1 as f32 + right.0.half_area() * right.1 as f32;
+            // Flat in two directions, the surface says nothing: then the most even cut wins.
+            let even = left.1.abs_diff(right.1);
+            let better = cost < least
+                || (cost == least && best.as_ref().is_some_and(|b| even < b.left.1.abs_diff(b.right.1)));
+            if better {
+                least = cost;
+                best = Some(Plane { axis, bin, bins, left, right });
+            }
+        }
+    }
+    best
+}
+
+/// Whether a range that its node has no room to split should be a leaf rather than a node below.
+pub(super) fn is_better_as_leaf(entries: &[Entry], extent: &Extent, settings: &Settings) -> bool {
+    if entries.len() > settings.max_leaf || !is_one_kind(entries) {
+        return false;
+    }
+    let whole = extent.half_area();
+    let leaf = (settings.leaf_cost + settings.test_cost * entries.len() as f32) * whole;
+    best_plane(entries).is_none_or(|plane| leaf <= whole + plane.cost(settings))
+}
+
+/// Cuts at a plane between bins.
+pub(super) fn by_plane(entries: &mut [Entry], plane: &Plane) -> Split {
+    let goes_left = |e: &Entry| plane.bins.of(e, plane.axis) < plane.bin;
+    let (mut i, mut j) = (0, entries.len());
+    loop {
+        while i < j && goes_left(&entries[i]) {
+            i += 1;
+        }
+        while i < j && !goes_left(&entries[j - 1]) {
+            j -= 1;
+        }
+        if i >= j {
+            break;
+        }
+        entries.swap(i, j - 1);
+    }
+    debug_assert_eq!(i, plane.left.1);
+    Split { at: i, left: plane.left.0, right: plane.right.0 }
+}
+
+/// Cuts in the middle, as the entries stand.
+pub(super) fn halve(entries: &[Entry]) -> Split {
+    let at = entries.len() / 2;
+    let (left, right) = entries.split_at(at);
+    Split { at, left: extent(left), right: extent(right) }
+}
+
+/// Cuts in the middle; a range that is small enough for a leaf is sorted by kind first, so that kinds part.
+pub(super) fn halve_by_kind(entries: &mut [Entry]) -> Split {
+    if entries.len() > super::MAX_LEAF {
+        return halve(entries);
+    }
+    entries.sort_by_key(Entry::kind);
+    let middle = entries.len() / 2;
+    // The change of kind that is nearest to the middle.
+    let changes = (1..entries.len()).filter(|&i| entries[i].kind() != entries[i - 1].kind());
+    let at = changes.min_by_key(|i| i.abs_diff(middle)).unwrap_or(middle);
+    let (left, right) = entries.split_at(at);
+    Split { at, left: extent(left), right: extent(right) }
+}

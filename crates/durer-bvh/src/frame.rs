@@ -1,0 +1,149 @@
+//! The tree's own units, and boxes in them: f32, rounded outward.
+
+use durer_math::scale::{exponent, ldexp};
+use durer_math::{Aabb, Point3};
+
+/// The exact power of two that makes all coordinates of a tree at most 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// Tree coordinates are `2^-exponent` times the caller's.
+    exponent: i32,
+}
+
+/// A box for the builder, in tree units, and what it is the box of. 32 bytes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Entry {
+    pub(crate) lo: [f32; 3],
+    kind: u32,
+    pub(crate) hi: [f32; 3],
+    index: u32,
+}
+
+impl Frame {
+    /// The least exponent taken: below it lengths are so small that a tree would need numbers below f32's; it then holds everything near
+    /// its centre, and every ray there meets every box.
+    const LEAST: i32 = -900;
+
+    /// The units for a tree over everything in `bounds`, which should be bounded or empty.
+    pub fn around(bounds: &Aabb) -> Self {
+        let size = if bounds.is_empty() { 0.0 } else { bounds.magnitude().min(f64::MAX) };
+        // magnitude < 2^(e + 1)
+        let exponent = if size > 0.0 { exponent(size) + 1 } else { 0 };
+        Self { exponent: exponent.max(Self::LEAST) }
+    }
+
+    /// A length of the caller's, in tree units; exact unless it underflows (or is far outside the tree and overflows).
+    #[inline(always)]
+    pub(crate) fn inward(self, x: f64) -> f64 {
+        ldexp(x, -self.exponent)
+    }
+
+    /// A length in tree units, in the caller's.
+    #[inline(always)]
+    pub(crate) fn outward(self, x: f64) -> f64 {
+        ldexp(x, self.exponent)
+    }
+
+    /// A box for the builder: the box of the thing `index` of its `kind`, rounded outward. An unbounded box, or one that holds a
+    /// NaN, gives an entry that is not [bounded](Entry::is_bounded).
+    pub fn entry(self, bounds: &Aabb, kind: u32, index: u32) -> Entry {
+        // Where scaling underflows, a step outward makes up for what it lost.
+        let lost = |x: f64, y: f64| y.abs() < f64::MIN_POSITIVE && x != 0.0;
+        let low = |x: f64, y: f64| down32(if lost(x, y) { y.next_down() } else { y });
+        let high = |x: f64, y: f64| up32(if lost(x, y) { y.next_up() } else { y });
+        let a = bounds.min.map(|x| low(x, self.inward(x))).to_array();
+        let b = bounds.max.map(|x| high(x, self.inward(x))).to_array();
+        Entry { lo: a, kind, hi: b, index }
+    }
+
+    /// A box in tree units, in the caller's.
+    pub(crate) fn bounds(self, lo: [f32; 3], hi: [f32; 3]) -> Aabb {
+        let point = |c: [f32; 3]| Point3::from(c.map(|x| self.outward(f64::from(x))));
+        Aabb::new(point(lo), point(hi))
+    }
+}
+
+impl Entry {
+    /// The kind of thing.
+    #[inline]
+    pub fn kind(&self) -> u32 {
+        self.kind
+    }
+
+    /// Which one of its kind.
+    #[inline]
+    pub fn index(&self) -> u32 {
+        self.index
+    }
+
+    /// Whether a tree can hold it.
+    #[inline]
+    pub fn is_bounded(&self) -> bool {
+        (0..3)
+            .all(|i| self.lo[i] <= self.hi[i] && self.lo[i] > f32::NEG_INFINITY && self.hi[i] < f32::INFINITY)
+    }
+
+    /// Whether there is no point in it, so that nothing can be met. A NaN is not empty: nothing is known.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        (0..3).any(|i| self.lo[i] > self.hi[i]) && self.lo.iter().chain(&self.hi).all(|x| !x.is_nan())
+    }
+
+    /// Twice the centre along an axis.
+    #[inline(always)]
+    pub(crate) fn centre2(&self, axis: usize) -> f32 {
+        self.lo[axis] + self.hi[axis]
+    }
+}
+
+/// The greatest f32 that is not above `x`.
+#[inline]
+pub(crate) fn down32(x: f64) -> f32 {
+    let y = x as f32;
+    if f64::from(y) > x { y.next_down() } else { y }
+}
+
+/// The least f32 that is not below `x`.
+#[inline]
+pub(crate) fn up32(x: f64) -> f32 {
+    let y = x as f32;
+    if f64::from(y) < x { y.next_up() } else { y }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn boxes_are_rounded_outward(a in any::<[f64; 3]>(), b in any::<[f64; 3]>()) {
+            let bounds = Aabb::from_points([Point3::from(a), Point3::from(b)]);
+            prop_assume!(bounds.is_bounded());
+            let frame = Frame::around(&bounds);
+            let entry = frame.entry(&bounds, 0, 0);
+            prop_assert!(entry.is_bounded() && !entry.is_empty());
+            prop_assert!(entry.lo.iter().chain(&entry.hi).all(|x| x.abs() <= 1.0));
+            prop_assert!(frame.bounds(entry.lo, entry.hi).encloses(&bounds));
+        }
+    }
+
+    #[test]
+    fn what_is_unbounded_or_unknown_is_not_empty() {
+        let frame = Frame::around(&Aabb::UNBOUNDED);
+        let entry = |b: &Aabb| frame.entry(b, 0, 0);
+        assert!(!entry(&Aabb::UNBOUNDED).is_bounded() && !entry(&Aabb::UNBOUNDED).is_empty());
+        assert!(!entry(&Aabb::EMPTY).is_bounded() && entry(&Aabb::EMPTY).is_empty());
+        let unknown = Aabb::new(Point3::new(f64::NAN, 0.0, 0.0), Point3::ORIGIN);
+        assert!(!entry(&unknown).is_bounded() && !entry(&unknown).is_empty());
+    }
+
+    #[test]
+    fn rounding_to_f32_is_directed() {
+        assert_eq!((down32(0.1), up32(0.1)), (0.1_f32.next_down(), 0.1));
+        assert_eq!((down32(-0.1), up32(-0.1)), (-0.1, (-0.1_f32).next_up()));
+        assert_eq!((down32(1e300), up32(-1e300)), (f32::MAX, f32::MIN));
+        assert_eq!((up32(1e-60), down32(-1e-60)), (f32::from_bits(1), -f32::from_bits(1)));
+    }
+}

@@ -1,0 +1,74 @@
+use super::{Avx2, Kernel, Scalar, Stack};
+use crate::frame::Frame;
+use crate::node::{ChildRef, Node8, WIDTH};
+use crate::ray::{CullRay, Line, Rounding};
+use durer_math::{Aabb, Isa, Point3, Vec3};
+use proptest::prelude::*;
+
+/// Coordinates on a coarse grid meet planes, edges and corners exactly; fine ones do not.
+fn coordinate() -> impl Strategy<Value = f32> {
+    prop_oneof![
+        (-4_i32..=4).prop_map(|i| i as f32 / 4.0),
+        -1.0_f32..1.0,
+        (-1.0_f32..1.0).prop_map(|x| x * 1e-30),
+        Just(0.0),
+    ]
+}
+
+fn node() -> impl Strategy<Value = Node8> {
+    let boxes = prop::collection::vec(
+        (prop::array::uniform3(coordinate()), prop::array::uniform3(coordinate())),
+        0..=WIDTH,
+    );
+    boxes.prop_map(|boxes| {
+        let mut node = Node8::EMPTY;
+        for (i, (a, b)) in boxes.into_iter().enumerate() {
+            let lo = [0, 1, 2].map(|k| a[k].min(b[k]));
+            let hi = [0, 1, 2].map(|k| a[k].max(b[k]));
+            node.set(i, lo, hi, ChildRef::node(i + 100));
+        }
+        node.sort();
+        node
+    })
+}
+
+fn direction() -> impl Strategy<Value = [f64; 3]> {
+    let component =
+        prop_oneof![Just(0.0), Just(-0.0), -2.0..2.0_f64, (-2.0..2.0_f64).prop_map(|x| x * 1e-300)];
+    (prop::array::uniform3(component), 0..3_usize, 1.0..2.0_f64, any::<bool>()).prop_map(
+        |(mut d, axis, x, minus)| {
+            d[axis] = if minus { -x } else { x };
+            d
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(4000))]
+
+    #[test]
+    fn all_kernels_stack_the_same_bits(
+        node in node(), o in prop::array::uniform3(coordinate()), far in 0..4_i32, d in direction(), t_far in 0.0..3.0_f32,
+    ) {
+        let Some(avx2) = Isa::available().find_map(Avx2::of) else { return Ok(()) };
+        let o = o.map(|x| f64::from(x) * [1.0, 2.0, 1e3, 1e12][far as usize]);
+        let line = Line {
+            origin: Point3::from(o),
+            direction: Vec3::from(d),
+            origin_error: Vec3::ZERO,
+            direction_error: Vec3::ZERO,
+            t_min: 0.0,
+            t_max: f64::INFINITY,
+        };
+        let frame = Frame::around(&Aabb::EMPTY);
+        let Some(ray) = CullRay::new(&line, frame, &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
+        let t_far = t_far.min(ray.t_far);
+        let (mut a, mut b) = (Stack::new(), Stack::new());
+        Scalar::<true>.push_ordered(&node, &ray, t_far, &mut a);
+        avx2.push_ordered(&node, &avx2.lanes(&ray), t_far, &mut b);
+        prop_assert_eq!(a.drain(), b.drain());
+        Scalar::<true>.push_unordered(&node, &ray, t_far, &mut a);
+        avx2.push_unordered(&node, &avx2.lanes(&ray), t_far, &mut b);
+        prop_assert_eq!(a.drain(), b.drain());
+    }
+}

@@ -1,0 +1,85 @@
+//! The same way through the tree, told step by step.
+
+use crate::kernels::Scalar;
+use crate::node::{ChildRef, Leaf};
+use crate::ray::{Line, Rounding};
+use crate::tree::Bvh;
+use durer_math::Aabb;
+
+/// A step of a ray through a tree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    /// A node's box was entered and its children were tested.
+    Node {
+        /// Its number.
+        node: u32,
+        /// Its level, 0 for the root.
+        level: u32,
+        /// Its box, in the caller's units.
+        bounds: Aabb,
+        /// Where the ray enters it at the earliest.
+        t: f64,
+        /// How many children it has.
+        children: u32,
+        /// How many of their boxes the ray may meet.
+        met: u32,
+    },
+    /// A leaf's box was entered.
+    Leaf {
+        /// The leaf.
+        leaf: Leaf,
+        /// Its level.
+        level: u32,
+        /// Its box, in the caller's units.
+        bounds: Aabb,
+        /// Where the ray enters it at the earliest.
+        t: f64,
+    },
+    /// A box that was met, but begins behind the closest hit found in the meantime.
+    Skipped {
+        /// Its level.
+        level: u32,
+        /// Its box, in the caller's units.
+        bounds: Aabb,
+        /// Where the ray enters it at the earliest.
+        t: f64,
+    },
+}
+
+impl Bvh {
+    /// Tells the steps of [`Bvh::closest`], in the same order; `tell` returns the limit after a leaf (and is not asked otherwise). Says whether the
+    /// tree's own box was met at all.
+    pub fn story(&self, line: &Line, mut tell: impl FnMut(&Step) -> f64) -> bool {
+        let Some(ray) = self.cull(line, Rounding::Fused) else { return false };
+        let mut t_far = ray.t_far;
+        let mut waiting = vec![(ChildRef::node(0), 0.0_f32, 0_u32, self.bounds())];
+        while let Some((child, near, level, bounds)) = waiting.pop() {
+            let t = ray.caller_t(near);
+            if near > t_far {
+                tell(&Step::Skipped { level, bounds, t });
+            } else if child.is_leaf() {
+                let limit = tell(&Step::Leaf { leaf: self.leaf(child), level, bounds, t });
+                t_far = t_far.min(ray.shortened(limit));
+            } else {
+                let node = &self.nodes[child.index()];
+                let slabs = Scalar::<true>.slabs(node, &ray, t_far);
+                let before = waiting.len();
+                for word in node.order {
+                    let slot = (word >> (3 * ray.octant) & 7) as usize;
+                    if slabs.met[slot] {
+                        let (lo, hi) = node.bounds(slot);
+                        waiting.push((
+                            node.child[slot],
+                            slabs.near[slot],
+                            level + 1,
+                            self.frame.bounds(lo, hi),
+                        ));
+                    }
+                }
+                let (children, met) = (node.used().count() as u32, (waiting.len() - before) as u32);
+                tell(&Step::Node { node: child.index() as u32, level, bounds, t, children, met });
+            }
+        }
+        true
+    }
+}
