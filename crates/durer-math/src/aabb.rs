@@ -154,7 +154,7 @@ impl Aabb {
     /// Slabs: T. L. Kay, J. T. Kajiya, "Ray tracing complex scenes", SIGGRAPH (1986); signed zeros: A. Williams, S. Barrus, R. K. Morley, P. Shirley, "An
     /// efficient and robust ray-box intersection algorithm", Journal of Graphics Tools 10 (2005); the widening: T. Ize, "Robust BVH ray
     /// traversal", Journal of Computer Graphics Techniques 2(2), 2013. Each plane's `t` carries two roundings (difference, quotient) and
-    /// is widened by four units and the least number. An axis with `d = 0`, of either sign, is decided without dividing, so no NaN arises from a
+    /// is widened by four units and the least normal number. An axis with `d = 0`, of either sign, is decided without dividing, so no NaN arises from a
     /// finite ray.
     #[inline]
     pub fn slabs(&self, o: Point3, d: Vec3, t_min: f64, t_max: f64) -> Option<(f64, f64)> {
@@ -176,8 +176,8 @@ impl Aabb {
             // A quotient that overflows belongs to a finite plane: it bounds from below no further than the greatest number.
             let near = ((near - o[i]) / d[i]).min(f64::MAX);
             let far = ((far - o[i]) / d[i]).max(f64::MIN);
-            let near = near - (WIDEN * near.abs() + f64::from_bits(4));
-            let far = far + (WIDEN * far.abs() + f64::from_bits(4));
+            let near = near - (WIDEN * near.abs() + f64::MIN_POSITIVE);
+            let far = far + (WIDEN * far.abs() + f64::MIN_POSITIVE);
             if near > enter {
                 enter = near;
             }

@@ -50,8 +50,6 @@ pub struct Edge {
 pub struct EdgeRay {
     o: Point3,
     d: Vec3,
-    /// Axes of the symbolic displacement.
-    axes: [u8; 2],
     /// What underflow can do to `U`.
     floor: f64,
 }
@@ -65,16 +63,22 @@ impl EdgeRay {
     #[inline(always)]
     pub fn new(o: Point3, d: Vec3) -> Self {
         let m = d.abs();
-        let axes = if m.x >= m.y && m.x >= m.z {
+        // A minor loses at most 2 * 2^-1075, the dot product 3 * 2^-1075. Far more is charged, so that the floor is a normal
+        // number: subnormal operands and results cost a microcode assist.
+        let tiny = crate::scale::pow2(-1000);
+        Self { o, d, floor: tiny.mul_add(m.x + m.y + m.z, tiny) }
+    }
+
+    /// The axes of the symbolic displacement: those other than the first on which `|d|` is largest. Needed for ties alone.
+    fn axes(&self) -> [usize; 2] {
+        let m = self.d.abs();
+        if m.x >= m.y && m.x >= m.z {
             [1, 2]
         } else if m.y >= m.z {
             [0, 2]
         } else {
             [0, 1]
-        };
-        // A minor loses at most 2 * 2^-1075, the dot product 3 * 2^-1075; taken four times.
-        let tiny = f64::from_bits(4);
-        Self { o, d, axes, floor: tiny * (m.x + m.y + m.z) + 2.0 * tiny }
+        }
     }
 
     /// The ray's origin.
@@ -121,8 +125,9 @@ impl EdgeRay {
             Ordering::Greater => 1,
             Ordering::Less => -1,
             Ordering::Equal => {
-                let first = self.minor_sign(v1, v2, self.axes[0]);
-                if first != 0 { first } else { self.minor_sign(v1, v2, self.axes[1]) }
+                let [a, b] = self.axes();
+                let first = self.minor_sign(v1, v2, a);
+                if first != 0 { first } else { self.minor_sign(v1, v2, b) }
             }
         };
         Edge { sign, value, error }
@@ -155,9 +160,8 @@ impl EdgeRay {
     }
 
     /// The sign of `((v2 - v1) x d)_axis`.
-    fn minor_sign(&self, v1: Point3, v2: Point3, axis: u8) -> i8 {
-        let j = (usize::from(axis) + 1) % 3;
-        let k = (usize::from(axis) + 2) % 3;
+    fn minor_sign(&self, v1: Point3, v2: Point3, axis: usize) -> i8 {
+        let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
         let (dj, dk) = (self.d[j], self.d[k]);
         if tame(&[v1[j], v1[k], v2[j], v2[k], dj, dk]) {
             let plus: Expansion<4> = Expansion::<2>::difference(v2[j], v1[j]).scale(dk);
@@ -195,7 +199,7 @@ impl EdgeRay {
         let o = exact_differences(self.o, v0);
         let d = [Dyadic::from(self.d.x), Dyadic::from(self.d.y), Dyadic::from(self.d.z)];
         let dot = |v: &[Dyadic; 3]| &(&(&n[0] * &v[0]) + &(&n[1] * &v[1])) + &(&n[2] * &v[2]);
-        let [a, b] = self.axes.map(usize::from);
+        let [a, b] = self.axes();
         let terms = [dot(&o).exact_sign(), n[a].exact_sign(), n[b].exact_sign(), dot(&d).exact_sign()];
         terms.into_iter().find(|s| *s != Ordering::Equal).unwrap_or(Ordering::Equal) as i8
     }

@@ -22,8 +22,12 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Covers the roundings made while a bound is computed; see the module's text.
 const K: f64 = 1.0 + 8.0 * f64::EPSILON;
-/// Covers what subnormal results lose: 16 times the least positive number.
-const FLOOR: f64 = f64::from_bits(16);
+/// Covers what subnormal results lose, at most a few times `2^-1074`. Far more than needed, so that it and its multiples are normal
+/// numbers: a subnormal operand or result costs a microcode assist on many CPUs, a hundred times the operation itself. It is felt only
+/// where numbers are below `2^-890`.
+const FLOOR: f64 = crate::scale::pow2(-1000);
+/// The same for [`Ring::scale2`], where it is rarely used and tightness counts: maps of size `1e300` have inverses near `2^-1000`.
+const SCALE_FLOOR: f64 = f64::from_bits(16);
 
 /// A number `v` that differs from the true one by at most `e`. `T` is f64 or [`Dd`].
 ///
@@ -240,12 +244,12 @@ impl<T: Word> Mul for Run<T> {
     fn mul(self, b: Self) -> Self {
         let v = self.v * b.v;
         let (a_abs, b_abs) = (self.v.to_f64().abs(), b.v.to_f64().abs());
-        let (a_top, b_top) = (a_abs + self.e, b_abs + b.e);
-        // One comparison for both factors: the smaller is zero only if a factor is exactly zero.
-        let least = if a_top < b_top { a_top } else { b_top };
-        let floor = if least == 0.0 { 0.0 } else { FLOOR };
-        let e = T::MUL.mul_add(v.to_f64().abs(), floor);
-        let e = self.e.mul_add(b_top, e);
+        let p = v.to_f64().abs();
+        if p == 0.0 && (a_abs + self.e == 0.0 || b_abs + b.e == 0.0) {
+            return Self { v, e: 0.0 };
+        }
+        let e = T::MUL.mul_add(p, FLOOR);
+        let e = self.e.mul_add(b_abs + b.e, e);
         Self { v, e: a_abs.mul_add(b.e, e) * K }
     }
 }
@@ -291,7 +295,7 @@ impl<T: Word> Ring for Run<T> {
         let e = ldexp(self.e, exponent);
         let e_exact = ldexp(e, -exponent) == self.e;
         let overflow = v.to_f64().abs() == f64::INFINITY;
-        let floor = if overflow { f64::INFINITY } else { FLOOR };
+        let floor = if overflow { f64::INFINITY } else { SCALE_FLOOR };
         Self { v, e: if exact & e_exact { e } else { (e + floor) * K } }
     }
 
@@ -308,9 +312,11 @@ impl<T: Word> Ring for Run<T> {
     #[inline(always)]
     fn square(self) -> Self {
         let v = self.v * self.v;
-        let a = self.v.to_f64().abs();
-        let floor = if a + self.e == 0.0 { 0.0 } else { FLOOR };
-        let e = T::MUL.mul_add(v.to_f64().abs(), floor);
+        let (a, p) = (self.v.to_f64().abs(), v.to_f64().abs());
+        if p == 0.0 && a + self.e == 0.0 {
+            return Self { v, e: 0.0 };
+        }
+        let e = T::MUL.mul_add(p, FLOOR);
         Self { v, e: self.e.mul_add(2.0 * a + self.e, e) * K }
     }
 }

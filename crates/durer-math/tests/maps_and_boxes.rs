@@ -165,6 +165,8 @@ proptest! {
         // Not vacuous: each face is within a few roundings of a corner's image.
         for i in 0..3 {
             let least = points.iter().map(|x| coordinate(*x, i)).min().expect("corners");
+            // A bound from below goes no further than the greatest number.
+            let least = least.min(rat(f64::MAX));
             let size: RBig = (0..3).map(|j| abs(exact[i][j].clone()) * rat(b.magnitude())).fold(abs(rat(c[i])), |s, x| s + x);
             prop_assert!(!image.min[i].is_finite() || &least - rat(image.min[i]) <= &size * rat(16.0 * U) + rat(1e-320));
         }
@@ -299,7 +301,7 @@ fn check_slabs(b: Aabb, o: [f64; 3], d: [f64; 3], range: (f64, f64)) -> Result<(
         if let Some((lo, hi)) = answer.filter(|_| !misses) {
             let size = abs(enter.clone()).max(abs(leave.clone()));
             prop_assert!(rat(lo.clamp(f64::MIN, f64::MAX)) <= rat(hi.clamp(f64::MIN, f64::MAX)));
-            prop_assert!(&enter - &leave <= size * rat(16.0 * U) + rat(1e-320));
+            prop_assert!(&enter - &leave <= size * rat(16.0 * U) + rat(4.0 * f64::MIN_POSITIVE));
         }
         prop_assert!(!misses || answer.is_none());
         return Ok(());
@@ -309,8 +311,9 @@ fn check_slabs(b: Aabb, o: [f64; 3], d: [f64; 3], range: (f64, f64)) -> Result<(
     };
     prop_assert!(below(lo, &enter) && above(hi, &leave), "{lo:e} {hi:e} do not cover");
     // Tight: eight roundings of each end.
-    let close =
-        |x: f64, y: &RBig| !x.is_finite() || abs(rat(x) - y) <= abs(y.clone()) * rat(8.0 * U) + rat(1e-322);
+    let close = |x: f64, y: &RBig| {
+        !x.is_finite() || abs(rat(x) - y) <= abs(y.clone()) * rat(8.0 * U) + rat(4.0 * f64::MIN_POSITIVE)
+    };
     prop_assert!(close(lo, &enter) && close(hi, &leave), "{lo:e} {hi:e} are loose");
     Ok(())
 }
