@@ -1,1 +1,52 @@
-//! Under construction.
+//! POV-Ray's scene description language, read into [`durer_scene::Scene`].
+//!
+//! ```no_run
+//! let read = durer_pov::read("melencolia.pov".as_ref(), &durer_pov::ReadOptions::default())?;
+//! println!("{} objects, {} lights", read.scene.objects.len(), read.scene.lights.len());
+//! # Ok::<(), durer_pov::PovError>(())
+//! ```
+//!
+//! A file becomes tokens once (`lexer`), and where its directives lead is found once (`blocks`). The `reader` then
+//! hands tokens to the grammar one by one; on the way it runs directives (`directives`), unfolds macros (`macros`)
+//! and replaces names by their values (`scope`, `value`, `arrays`), because all of them may stand anywhere. Values are
+//! computed in `expression`, `functions`, `strings` and `colour`; blocks are read in `object`, `texture`, `light`,
+//! `camera` and `settings`; `emit` makes scene data of what is finished.
+//!
+//! Whatever the text is, reading ends: [`Limits`] bounds it in time, memory and depth, and every fault is one
+//! [`PovError`] with its file, line, column and the words underlined. The reader shades nothing, and the only thing it
+//! does to the world is to read files.
+#![forbid(unsafe_code)]
+
+mod arrays;
+mod blocks;
+mod camera;
+mod colour;
+mod declare;
+mod diagnostics;
+mod directives;
+mod emit;
+mod expression;
+mod functions;
+mod keywords;
+mod lexer;
+mod light;
+mod limits;
+mod macros;
+mod messages;
+mod names;
+mod object;
+mod read;
+mod reader;
+mod scope;
+mod settings;
+mod source;
+mod strings;
+mod texture;
+mod transform;
+mod unsupported;
+mod value;
+
+pub use crate::diagnostics::{FaultKind, PovError};
+pub use crate::limits::Limits;
+pub use crate::messages::{Message, MessageKind};
+pub use crate::read::{Read, ReadOptions, Sources, read, read_with};

@@ -1,0 +1,242 @@
+//! Cameras: four vectors and a place, however the block spells them.
+
+use std::rc::Rc;
+
+use durer_math::elementary;
+
+use crate::diagnostics::{Fault, Place, Result};
+use crate::keywords::Keyword;
+use crate::lexer::Mark;
+use crate::reader::{Item, Reader};
+use crate::transform::{Matrix, cross, dot, length};
+use crate::value::Value;
+
+/// How rays leave the camera.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Projection {
+    #[default]
+    Perspective,
+    Orthographic,
+}
+
+/// A finished camera: rays start at `location` along `direction + u right + v up` (perspective), or at
+/// `location + u right + v up` along `direction` (orthographic), with u and v from -1/2 to 1/2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Camera {
+    pub(crate) projection: Projection,
+    pub(crate) location: [f64; 3],
+    pub(crate) direction: [f64; 3],
+    pub(crate) right: [f64; 3],
+    pub(crate) up: [f64; 3],
+    pub(crate) sky: [f64; 3],
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self {
+            projection: Projection::Perspective,
+            location: [0.0; 3],
+            direction: [0.0, 0.0, 1.0],
+            right: [1.33, 0.0, 0.0],
+            up: [0.0, 1.0, 0.0],
+            sky: [0.0, 1.0, 0.0],
+        }
+    }
+}
+
+/// One item of the block, with what it needs to be applied later.
+#[derive(Clone, Copy, Debug)]
+enum Setting {
+    Right([f64; 3]),
+    Direction([f64; 3]),
+    Angle(f64),
+    Up([f64; 3]),
+    Sky([f64; 3]),
+    Location([f64; 3]),
+    LookAt([f64; 3], Place),
+}
+
+impl Setting {
+    /// The rank in which scenes of version 3.5 and later apply it.
+    fn rank(&self) -> u8 {
+        match self {
+            Self::Right(_) => 0,
+            Self::Direction(_) => 1,
+            Self::Angle(_) => 2,
+            Self::Up(_) => 3,
+            Self::Sky(_) => 4,
+            Self::Location(_) => 5,
+            Self::LookAt(..) => 6,
+        }
+    }
+}
+
+fn scaled(v: [f64; 3], by: f64) -> [f64; 3] {
+    v.map(|part| part * by)
+}
+
+impl Camera {
+    fn transform(&mut self, by: &Matrix) {
+        self.location = by.point(self.location);
+        for vector in [&mut self.direction, &mut self.right, &mut self.up, &mut self.sky] {
+            *vector = by.direction(*vector);
+        }
+    }
+
+    /// `angle`: the horizontal angle of view, by which `direction` gets its length.
+    fn set_angle(&mut self, degrees: f64) {
+        let half = elementary::tan(degrees.to_radians() / 2.0);
+        let wanted = length(self.right) / (2.0 * half);
+        let now = length(self.direction);
+        if now > 0.0 {
+            self.direction = scaled(self.direction, wanted / now);
+        }
+    }
+
+    /// `look_at`: turns everything to `target`, lengths and handedness kept.
+    fn look_at(&mut self, target: [f64; 3]) -> std::result::Result<(), &'static str> {
+        let towards: [f64; 3] = std::array::from_fn(|i| target[i] - self.location[i]);
+        let distance = length(towards);
+        if distance == 0.0 {
+            return Err("the camera looks at its own location");
+        }
+        let (long, wide, high) = (length(self.direction), length(self.right), length(self.up));
+        let hand = dot(cross(self.up, self.direction), self.right);
+        self.direction = scaled(towards, long / distance);
+        let side = cross(self.sky, self.direction);
+        let side_length = length(side);
+        if side_length > 0.0 {
+            let sign = if hand >= 0.0 { 1.0 } else { -1.0 };
+            self.right = scaled(side, sign * wide / side_length);
+        }
+        let upward = cross(self.direction, self.right);
+        let upward_length = length(upward);
+        if upward_length == 0.0 {
+            return Err("the camera looks along its own right vector");
+        }
+        // For a mirrored camera the product points down.
+        let sign = if hand >= 0.0 { 1.0 } else { -1.0 };
+        self.up = scaled(upward, sign * high / upward_length);
+        Ok(())
+    }
+}
+
+impl Reader<'_> {
+    /// What stands in braces after `camera`.
+    pub(crate) fn camera_block(&mut self) -> Result<Camera> {
+        let begin = self.here();
+        self.expect(Mark::BraceOpen)?;
+        let mut camera = Camera::default();
+        let mut settings = Vec::new();
+        let mut moves = Vec::new();
+        loop {
+            if let Some(by) = self.transform_item()? {
+                moves.push(by);
+                continue;
+            }
+            let lexeme = self.next()?;
+            let place = lexeme.place;
+            settings.push(match &lexeme.item {
+                Item::Mark(Mark::BraceClose) => break,
+                Item::Value(Value::Camera(known)) => {
+                    camera = **known;
+                    continue;
+                }
+                Item::Word(Keyword::Perspective) => {
+                    camera.projection = Projection::Perspective;
+                    continue;
+                }
+                Item::Word(Keyword::Orthographic) => {
+                    camera.projection = Projection::Orthographic;
+                    continue;
+                }
+                Item::Word(Keyword::Right) => Setting::Right(self.axis("right")?),
+                Item::Word(Keyword::Up) => Setting::Up(self.axis("up")?),
+                Item::Word(Keyword::Direction) => Setting::Direction(self.axis("direction")?),
+                Item::Word(Keyword::Sky) => Setting::Sky(self.axis("sky")?),
+                Item::Word(Keyword::Location) => Setting::Location(self.vector()?),
+                Item::Word(Keyword::LookAt) => Setting::LookAt(self.vector()?, place),
+                Item::Word(Keyword::Angle) => {
+                    let angle = self.float()?;
+                    if !(angle > 0.0 && angle < 180.0) {
+                        let text = format!("a camera's angle is between 0 and 180 degrees, not {angle}");
+                        return Err(Fault::invalid(place, text));
+                    }
+                    if self.take_mark(Mark::Comma)? {
+                        return Err(Fault::unsupported(place, "angle with two values"));
+                    }
+                    Setting::Angle(angle)
+                }
+                _ => return Err(self.unexpected(&lexeme, "a part of a camera")),
+            });
+            self.skip_comma()?;
+        }
+        if self.language.version >= 3.5 {
+            settings.sort_by_key(Setting::rank);
+        }
+        self.apply(&mut camera, &settings)?;
+        for by in &moves {
+            camera.transform(by);
+        }
+        let volume = dot(cross(camera.direction, camera.up), camera.right);
+        if volume == 0.0 || !volume.is_finite() {
+            let text = "the camera's direction, up and right do not span space";
+            return Err(Fault::invalid(begin, text));
+        }
+        Ok(camera)
+    }
+
+    fn axis(&mut self, name: &str) -> Result<[f64; 3]> {
+        let place = self.here();
+        let v = self.vector()?;
+        if length(v) == 0.0 {
+            return Err(Fault::invalid(place, format!("the camera's {name} has no length")));
+        }
+        Ok(v)
+    }
+
+    fn apply(&mut self, camera: &mut Camera, settings: &[Setting]) -> Result<()> {
+        let orthographic = camera.projection == Projection::Orthographic;
+        let (mut sized, mut angled, mut distance) = (false, false, None);
+        for setting in settings {
+            match *setting {
+                Setting::Right(v) => (camera.right, sized) = (v, true),
+                Setting::Up(v) => (camera.up, sized) = (v, true),
+                Setting::Direction(v) => camera.direction = v,
+                Setting::Sky(v) => camera.sky = v,
+                Setting::Location(v) => camera.location = v,
+                Setting::Angle(degrees) => {
+                    camera.set_angle(degrees);
+                    angled = true;
+                }
+                Setting::LookAt(target, place) => {
+                    let away: [f64; 3] = std::array::from_fn(|i| target[i] - camera.location[i]);
+                    distance = Some(length(away));
+                    camera.look_at(target).map_err(|text| Fault::invalid(place, text))?;
+                }
+            }
+        }
+        // So that the orthographic picture shows at `look_at` what the perspective one would.
+        if orthographic && (angled || !sized) {
+            let default_target = || length(std::array::from_fn(|i| [0.0, 0.0, 1.0][i] - camera.location[i]));
+            let by = distance.unwrap_or_else(default_target) / length(camera.direction);
+            camera.right = scaled(camera.right, by);
+            camera.up = scaled(camera.up, by);
+        }
+        Ok(())
+    }
+
+    /// `camera` as a statement.
+    pub(crate) fn camera_statement(&mut self, place: Place) -> Result<()> {
+        let camera = self.nested(Self::camera_block)?;
+        if self.scene.camera.replace(camera).is_some() {
+            self.notice(place, "the scene has more than one camera: this one counts");
+        }
+        Ok(())
+    }
+
+    /// `camera` as a value.
+    pub(crate) fn camera_value(&mut self) -> Result<Value> {
+        Ok(Value::Camera(Rc::new(self.nested(Self::camera_block)?)))
+    }
+}

@@ -1,0 +1,108 @@
+//! Colours: `rgb` and its kin, `color red 1`, `color Name filter 0.5`.
+
+use durer_math::elementary;
+
+use crate::diagnostics::Result;
+use crate::keywords::Keyword;
+use crate::reader::{Item, Reader};
+use crate::value::{Terms, Value};
+
+/// Red, green, blue, filter, transmit.
+pub(crate) type Colour = [f64; 5];
+
+/// Whether `keyword` can begin a colour and nothing else.
+pub(crate) fn begins_colour(keyword: Keyword) -> bool {
+    use Keyword::*;
+    matches!(
+        keyword,
+        Color
+            | Rgb
+            | Rgbf
+            | Rgbt
+            | Rgbft
+            | Srgb
+            | Srgbf
+            | Srgbt
+            | Srgbft
+            | Red
+            | Green
+            | Blue
+            | Filter
+            | Transmit
+    )
+}
+
+impl Reader<'_> {
+    /// Whether a colour can begin here: one of its words, or a value that can be one.
+    pub(crate) fn starts_colour(&mut self) -> Result<bool> {
+        Ok(match self.peek()? {
+            Item::Word(keyword) => begins_colour(*keyword),
+            Item::Value(Value::Number(terms)) => terms.len() == 5,
+            _ => false,
+        })
+    }
+
+    /// A colour in any of its forms.
+    pub(crate) fn colour(&mut self) -> Result<Colour> {
+        self.take_word(Keyword::Color)?;
+        let mut colour = match self.peek_word()? {
+            Some(Keyword::Red | Keyword::Green | Keyword::Blue | Keyword::Filter | Keyword::Transmit) => {
+                [0.0; 5]
+            }
+            Some(keyword) if begins_colour(keyword) => {
+                self.next()?;
+                let value = self.expression()?;
+                self.coloured(keyword, value)
+            }
+            _ => self.expression()?.all(),
+        };
+        loop {
+            let index = match self.peek_word()? {
+                Some(Keyword::Red) => 0,
+                Some(Keyword::Green) => 1,
+                Some(Keyword::Blue) => 2,
+                Some(Keyword::Filter) => 3,
+                Some(Keyword::Transmit) => 4,
+                _ => break,
+            };
+            self.next()?;
+            colour[index] = self.float()?;
+        }
+        let place = self.here();
+        for part in colour {
+            crate::expression::finite(part, place)?;
+        }
+        Ok(colour)
+    }
+
+    /// The colour of an `rgb`-like word and the terms behind it.
+    fn coloured(&self, keyword: Keyword, value: Terms) -> Colour {
+        use Keyword::{Rgbf, Rgbft, Rgbt, Srgb, Srgbf, Srgbft, Srgbt};
+        let mut colour = if value.len() == 5 {
+            value.all()
+        } else {
+            let wanted = match keyword {
+                Rgbf | Rgbt | Srgbf | Srgbt => 4,
+                Rgbft | Srgbft => 5,
+                _ => 3,
+            };
+            // Several terms are filled up with zeros, a single one was repeated.
+            let [r, g, b, fourth, fifth] = Terms::new(value.promoted(wanted).as_slice()).promoted(5).all();
+            match keyword {
+                Rgbt | Srgbt => [r, g, b, 0.0, fourth],
+                _ => [r, g, b, fourth, fifth],
+            }
+        };
+        if matches!(keyword, Srgb | Srgbf | Srgbt | Srgbft) {
+            for part in &mut colour[..3] {
+                *part = self.language.working_from_srgb(*part);
+            }
+        }
+        colour
+    }
+}
+
+/// The sRGB curve decoded (IEC 61966-2-1).
+pub(crate) fn srgb_decoded(value: f64) -> f64 {
+    if value <= 0.04045 { value / 12.92 } else { elementary::pow((value + 0.055) / 1.055, 2.4) }
+}

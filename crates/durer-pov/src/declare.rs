@@ -1,0 +1,265 @@
+//! `#declare` and `#local`, and values of every kind.
+
+use std::rc::Rc;
+
+use crate::colour::begins_colour;
+use crate::diagnostics::{Fault, FaultKind, Place, Result};
+use crate::keywords::Keyword;
+use crate::lexer::{Kind, Mark};
+use crate::reader::{Item, Reader};
+use crate::strings::makes_string;
+use crate::value::{Unsupported, Value};
+
+impl Reader<'_> {
+    /// `#declare NAME = value` or `#local`.
+    pub(crate) fn declare(&mut self, local: bool, place: Place) -> Result<()> {
+        let serial = self.frames.last().map_or(0, |frame| frame.serial);
+        self.skip_deprecation();
+        let name = match self.take_raw() {
+            Some((Kind::Name(name), _)) => name,
+            Some((Kind::Word(keyword), at)) => {
+                let text = format!("`{}` is a word of the language and cannot be declared", keyword.text());
+                return Err(Fault::invalid(at, text));
+            }
+            _ => return Err(Fault::invalid(self.here(), "expected the name of what is declared")),
+        };
+        let subscripts = self.raw() == Some(Kind::Mark(Mark::SquareOpen));
+        let element = if subscripts { Some(self.element_reference(name)?) } else { None };
+        self.expect(Mark::Equal)?;
+        let value = self.declared_value()?;
+        self.back_to_frame(serial, place)?;
+        match element {
+            Some(target) => {
+                // A shared array is copied before it is changed.
+                let depth = value.array_depth() + target.path.len() as u32;
+                self.check_array_depth(depth, place)?;
+                self.count_array_copy(name, place)?;
+                let gone = || Fault::invalid(place, "this array is gone");
+                *self.scopes.get_mut(&target).ok_or_else(gone)? = value;
+                self.scopes.deepen(&target, depth);
+            }
+            None if local => self.scopes.local(name, value),
+            None => self.scopes.declare(name, value),
+        }
+        self.check_memory(0, place)
+    }
+
+    /// `deprecated`, `once` and a text before the name: advice of the standard files to their users.
+    fn skip_deprecation(&mut self) {
+        let word = matches!(self.raw(), Some(Kind::Name(name)) if self.names.text(name) == "deprecated");
+        let declared = matches!(self.raw_ahead(1), Some(Kind::Mark(Mark::Equal | Mark::SquareOpen)));
+        if !word || declared {
+            return;
+        }
+        self.take_raw();
+        if self.raw() == Some(Kind::Word(Keyword::Once)) {
+            self.take_raw();
+        }
+        if matches!(self.raw(), Some(Kind::Text(_))) {
+            self.take_raw();
+        }
+    }
+
+    /// Copying a shared array is work, and memory.
+    fn count_array_copy(&mut self, name: crate::names::Name, place: Place) -> Result<()> {
+        let shared = match self.scopes.get(name) {
+            Some(Value::Array(array)) if Rc::strong_count(array) > 1 => array.items.len(),
+            _ => return Ok(()),
+        };
+        self.count_steps(shared as u64 / 8, place)?;
+        self.check_memory(crate::value::Array::bytes(shared), place)
+    }
+
+    /// The value of a declaration, and its semicolon.
+    fn declared_value(&mut self) -> Result<Value> {
+        let braces = self.braces;
+        let value = match self.value("a value to declare") {
+            Ok(value) => value,
+            // Names made of what cannot be computed yet are refused when they are used.
+            Err(fault) if fault.kind == FaultKind::Unsupported => {
+                self.skip_to_semicolon(braces, &fault)?;
+                return Ok(Value::Unsupported(Rc::new(Unsupported { text: fault.text })));
+            }
+            Err(fault) => return Err(fault),
+        };
+        if matches!(value, Value::Number(_)) {
+            if !self.take_mark(Mark::Semicolon)? {
+                let text = "a declaration of a float, vector or colour ends with `;`";
+                return Err(Fault::invalid(self.here(), text));
+            }
+        } else if self.has_peeked() {
+            self.take_mark(Mark::Semicolon)?;
+        } else {
+            self.take_raw_mark(Mark::Semicolon);
+        }
+        Ok(value)
+    }
+
+    fn skip_to_semicolon(&mut self, braces: u64, fault: &Fault) -> Result<()> {
+        loop {
+            let lexeme = self.next()?;
+            match lexeme.item {
+                Item::Mark(Mark::Semicolon) if self.braces <= braces => return Ok(()),
+                Item::End => return Err(Box::new(fault.clone())),
+                _ => {}
+            }
+        }
+    }
+
+    /// A value of any kind.
+    pub(crate) fn value(&mut self, wanted: &str) -> Result<Value> {
+        self.nested(|r| r.any_value(wanted))
+    }
+
+    fn any_value(&mut self, wanted: &str) -> Result<Value> {
+        let keyword = match self.peek()? {
+            Item::Word(keyword) => *keyword,
+            Item::Text(..) | Item::Value(Value::Text(_)) => {
+                let place = self.here();
+                let text = self.string(wanted)?;
+                return self.text_value(text, place);
+            }
+            Item::Value(Value::Number(_)) | Item::Number(_) => return self.number_value(),
+            Item::Value(_) => {
+                let lexeme = self.next()?;
+                let Item::Value(value) = lexeme.item else { return Err(self.unexpected(&lexeme, wanted)) };
+                return Ok(value);
+            }
+            Item::Mark(_) => {
+                if self.starts_number()? {
+                    return self.number_value();
+                }
+                let lexeme = self.next()?;
+                return Err(self.unexpected(&lexeme, wanted));
+            }
+            Item::Unknown(_) | Item::End => {
+                if self.at_extension()? {
+                    return self.block_value();
+                }
+                let lexeme = self.next()?;
+                return Err(self.unexpected(&lexeme, wanted));
+            }
+        };
+        let place = self.here();
+        match keyword {
+            _ if makes_string(keyword) => {
+                let text = self.string(wanted)?;
+                self.text_value(text, place)
+            }
+            _ if begins_colour(keyword) => Ok(Value::Number(crate::value::Terms::new(&self.colour()?))),
+            _ if crate::functions::begins_expression(keyword) => self.number_value(),
+            Keyword::Array => {
+                self.next()?;
+                self.array()
+            }
+            _ => self.block_value(),
+        }
+    }
+
+    fn number_value(&mut self) -> Result<Value> {
+        let place = self.here();
+        // `Name filter 0.5` is a colour, as is `color Name`.
+        if self.starts_colour()? {
+            return Ok(Value::Number(crate::value::Terms::new(&self.colour()?)));
+        }
+        let terms = self.expression()?;
+        for &part in terms.as_slice() {
+            crate::expression::finite(part, place)?;
+        }
+        Ok(Value::Number(terms))
+    }
+
+    /// A value that is a word and a block, such as `pigment { }` or `sphere { }`.
+    fn block_value(&mut self) -> Result<Value> {
+        let braces = self.braces;
+        match self.understood_block() {
+            Err(fault) if fault.kind == FaultKind::Unsupported => {
+                self.skip_block(braces, &fault)?;
+                Ok(Value::Unsupported(Rc::new(Unsupported { text: fault.text })))
+            }
+            result => result,
+        }
+    }
+
+    fn understood_block(&mut self) -> Result<Value> {
+        let keyword = self.peek_word()?;
+        let place = self.here();
+        let Some(keyword) = keyword else { return self.object_value() };
+        let base = self.defaults.clone();
+        match keyword {
+            Keyword::Transform => {
+                self.next()?;
+                self.transform_value(place)
+            }
+            // Outside of a block these stand for a transform, too: #declare T = translate x
+            Keyword::Translate | Keyword::Rotate | Keyword::Scale | Keyword::Matrix => {
+                match self.transform_item()? {
+                    Some(matrix) => Ok(Value::Transform(Rc::new(matrix))),
+                    None => Err(Fault::invalid(place, "expected a transform")),
+                }
+            }
+            Keyword::Texture => Ok(Value::Texture(Rc::new(self.texture_value()?))),
+            Keyword::Pigment => {
+                self.next()?;
+                Ok(Value::Pigment(Rc::new(self.pigment_block(&base.pigment)?)))
+            }
+            Keyword::Finish => {
+                self.next()?;
+                Ok(Value::Finish(Rc::new(self.finish_block(&base.finish)?)))
+            }
+            Keyword::Interior => {
+                self.next()?;
+                Ok(Value::Interior(self.interior_block()?))
+            }
+            Keyword::Material => {
+                self.next()?;
+                Ok(Value::Material(Rc::new(self.material_block()?)))
+            }
+            Keyword::ColorMap => {
+                self.next()?;
+                Ok(Value::ColorMap(self.color_map_block()?))
+            }
+            Keyword::PigmentMap => {
+                self.next()?;
+                Ok(Value::PigmentMap(self.pigment_map_block()?))
+            }
+            Keyword::TextureMap => {
+                self.next()?;
+                Ok(Value::TextureMap(self.texture_map_block()?))
+            }
+            Keyword::Camera => {
+                self.next()?;
+                self.camera_value()
+            }
+            _ => self.object_value(),
+        }
+    }
+
+    /// Goes on behind a block in which something was found that cannot be done yet.
+    fn skip_block(&mut self, braces: u64, fault: &Fault) -> Result<()> {
+        // Up to the block's opening brace, if the fault came before it: function (x, y) { }
+        while self.braces <= braces {
+            let lexeme = self.next()?;
+            match lexeme.item {
+                Item::Mark(Mark::BraceClose | Mark::Semicolon) | Item::End => {
+                    return Err(Box::new(fault.clone()));
+                }
+                _ => {}
+            }
+        }
+        self.skip_to_brace_level(braces)?;
+        // Layers of one texture belong together.
+        if self.raw_or_peeked_texture()? {
+            self.next()?;
+            return self.skip_block(braces, fault);
+        }
+        Ok(())
+    }
+
+    fn raw_or_peeked_texture(&mut self) -> Result<bool> {
+        if self.has_peeked() {
+            return Ok(self.peek_word()? == Some(Keyword::Texture));
+        }
+        Ok(self.raw() == Some(Kind::Word(Keyword::Texture)))
+    }
+}

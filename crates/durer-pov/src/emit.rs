@@ -1,0 +1,441 @@
+//! From the reader's own values to scene data, one finished statement after the other.
+
+use std::collections::VecDeque;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use durer_math::{Affine, Point3, Vec3};
+use durer_scene as scene;
+
+use crate::camera::{Camera, Projection};
+use crate::colour::Colour;
+use crate::diagnostics::{Fault, Place, Result};
+use crate::light::{Beam, Light};
+use crate::limits;
+use crate::object::{Object, Shape};
+use crate::reader::Reader;
+use crate::settings::{Gamma, Globals};
+use crate::texture::{Finish, Interior, Layer, Map, Paint, Pattern, PatternKind, Pigment, Texture, Wave};
+use crate::transform::Matrix;
+
+/// What the statements so far amount to.
+#[derive(Debug, Default)]
+pub(crate) struct Output {
+    pub(crate) camera: Option<Camera>,
+    pub(crate) background: Option<Colour>,
+    pub(crate) globals: Globals,
+    objects: Vec<scene::Object>,
+    lights: Vec<scene::Light>,
+    /// Textures given out lately: what looks equal is shared.
+    textures: VecDeque<(Rc<Texture>, Arc<scene::Texture>)>,
+    default: Option<(Rc<Layer>, Arc<scene::Texture>)>,
+}
+
+/// Textures that are compared before a new one is made.
+const TEXTURES_COMPARED: usize = 8;
+
+fn point(p: [f64; 3]) -> Point3 {
+    Point3::new(p[0], p[1], p[2])
+}
+
+fn vector(v: [f64; 3]) -> Vec3 {
+    Vec3::new(v[0], v[1], v[2])
+}
+
+fn rgb(c: [f64; 3]) -> scene::Rgb {
+    scene::Rgb::new(c[0], c[1], c[2])
+}
+
+/// The map as the geometry has it: columns on the right of the matrix, not rows on its left.
+fn affine(matrix: &Matrix, at: Place) -> Result<Affine> {
+    let [x, y, z, t] = matrix.rows;
+    let rows = std::array::from_fn(|i| [x[i], y[i], z[i]]);
+    Affine::new(rows, point(t)).map_err(|why| {
+        Fault::invalid(at, format!("this object is placed by a transform that cannot be undone: {why}"))
+    })
+}
+
+fn placement(matrix: &Matrix, at: Place) -> Result<scene::Placement> {
+    if matrix.is_identity() {
+        return Ok(scene::Placement::IDENTITY);
+    }
+    affine(matrix, at).map(scene::Placement::new)
+}
+
+impl Reader<'_> {
+    /// Adds a finished object of the scene's own level.
+    pub(crate) fn emit(&mut self, object: &Rc<Object>) -> Result<()> {
+        let at = object.at;
+        let each = size_of::<scene::Object>() + size_of::<Affine>() + 64;
+        let bytes = (object.leaves as usize).saturating_mul(each);
+        self.check_memory(bytes, at)?;
+        self.count_steps(object.leaves, at)?;
+        limits::charge_for_good(bytes);
+        let mut lights = Vec::new();
+        let default = self.default_look(at)?;
+        let shown = self.emitted(object, &mut lights)?;
+        if let Some(mut shown) = shown {
+            if shown.texture.is_none() {
+                shown.texture = Some(default.clone());
+            }
+            self.scene.objects.push(shown);
+        }
+        for (light, moved) in lights {
+            self.emit_light(&light, &moved, at, &default)?;
+        }
+        Ok(())
+    }
+
+    /// The default texture in force, made once for each change.
+    fn default_look(&mut self, at: Place) -> Result<Arc<scene::Texture>> {
+        if let Some((layer, made)) = &self.scene.default
+            && Rc::ptr_eq(layer, &self.defaults)
+        {
+            return Ok(made.clone());
+        }
+        let made = Arc::new(texture(&Texture::single((*self.defaults).clone()), at)?);
+        self.scene.default = Some((self.defaults.clone(), made.clone()));
+        Ok(made)
+    }
+
+    fn emit_light(
+        &mut self,
+        light: &Light,
+        moved: &Matrix,
+        at: Place,
+        default: &Arc<scene::Texture>,
+    ) -> Result<()> {
+        if light.fade_distance < 0.0 || light.fade_power < 0.0 {
+            return Err(Fault::invalid(at, "a light's fade_distance and fade_power cannot be negative"));
+        }
+        let kind = match light.beam {
+            Beam::Point => scene::LightKind::Point,
+            Beam::Spot => scene::LightKind::Spot {
+                radius: light.radius.to_radians(),
+                falloff: light.falloff.to_radians(),
+                tightness: light.tightness,
+            },
+            Beam::Cylinder => scene::LightKind::Cylinder {
+                radius: light.radius,
+                falloff: light.falloff,
+                tightness: light.tightness,
+            },
+        };
+        let fades = light.fade_distance > 0.0 && light.fade_power > 0.0;
+        limits::charge_for_good(size_of::<scene::Light>());
+        self.scene.lights.push(scene::Light {
+            location: point(moved.point(light.location)),
+            colour: rgb(light.color),
+            kind,
+            point_at: point(moved.point(light.point_at)),
+            parallel: light.parallel,
+            shadowless: light.shadowless,
+            fade: fades.then_some(scene::Fade { distance: light.fade_distance, power: light.fade_power }),
+        });
+        let Some(shown) = &light.looks_like else { return Ok(()) };
+        let mut shown = (**shown).clone();
+        shown.transform(moved);
+        let mut lights = Vec::new();
+        if let Some(mut shown) = self.emitted(&shown, &mut lights)? {
+            // It must not shadow its own light; that it shadows no other is the price.
+            shown.flags.no_shadow = true;
+            if shown.texture.is_none() {
+                shown.texture = Some(default.clone());
+            }
+            self.scene.objects.push(shown);
+        }
+        Ok(())
+    }
+
+    /// The object as scene data; lights in it go to `lights`. `None` if no surface is left.
+    fn emitted(
+        &mut self,
+        object: &Object,
+        lights: &mut Vec<(Rc<Light>, Matrix)>,
+    ) -> Result<Option<scene::Object>> {
+        let at = object.at;
+        let shape = match &object.shape {
+            Shape::Light(light) => {
+                lights.push((light.clone(), object.place));
+                return Ok(None);
+            }
+            Shape::Union(parts) => {
+                let first = lights.len();
+                let mut shown = Vec::with_capacity(parts.len());
+                for part in parts {
+                    shown.extend(self.emitted(part, lights)?);
+                }
+                for (_, moved) in &mut lights[first..] {
+                    *moved = moved.then(&object.place);
+                }
+                if shown.is_empty() {
+                    return Ok(None);
+                }
+                scene::Shape::Union(shown)
+            }
+            Shape::Triangle(corners) if Self::is_degenerate(corners) => {
+                self.notice(at, "this triangle has no area: it is left out");
+                return Ok(None);
+            }
+            Shape::SmoothTriangle(both) if Self::is_degenerate(&both.0) => {
+                self.notice(at, "this triangle has no area: it is left out");
+                return Ok(None);
+            }
+            leaf => surface(leaf, at)?,
+        };
+        let mut made = scene::Object::new(shape);
+        made.placement = placement(&object.place, at)?;
+        made.texture = match &object.texture {
+            Some(texture) => Some(self.shared_texture(texture, at)?),
+            None => None,
+        };
+        made.interior = object.interior.as_ref().map(|interior| Arc::new(filling(interior)));
+        for clip in &object.clips {
+            made.clips.extend(self.emitted(clip, &mut Vec::new())?);
+        }
+        let habits = object.habits;
+        made.flags = scene::Flags {
+            no_shadow: habits.no_shadow,
+            no_image: habits.no_image,
+            no_reflection: habits.no_reflection,
+            hollow: habits.hollow,
+            inverse: habits.inverse,
+            open: habits.open,
+            double_illuminate: habits.double_illuminate,
+        };
+        made.place = Some(scene::Place { file: at.file, start: at.start });
+        Ok(Some(made))
+    }
+
+    fn shared_texture(&mut self, own: &Rc<Texture>, at: Place) -> Result<Arc<scene::Texture>> {
+        let equal = |(known, _): &&(Rc<Texture>, Arc<scene::Texture>)| Rc::ptr_eq(known, own) || known == own;
+        if let Some((_, made)) = self.scene.textures.iter().find(equal) {
+            return Ok(made.clone());
+        }
+        limits::charge_for_good(own.size() * (size_of::<scene::Layer>() + size_of::<scene::Finish>() + 128));
+        let made = Arc::new(texture(own, at)?);
+        if self.scene.textures.len() == TEXTURES_COMPARED {
+            self.scene.textures.pop_front();
+        }
+        self.scene.textures.push_back((own.clone(), made.clone()));
+        Ok(made)
+    }
+
+    /// The whole scene.
+    pub(crate) fn finished(&mut self) -> scene::Scene {
+        let output = std::mem::take(&mut self.scene);
+        let version = self.language.shading_version();
+        let gamma = match self.language.gamma {
+            Some(Gamma::Power(power)) => scene::AssumedGamma::Power(power),
+            Some(Gamma::Srgb) => scene::AssumedGamma::Srgb,
+            None if version < 3.7 => scene::AssumedGamma::None,
+            None => scene::AssumedGamma::Power(1.0),
+        };
+        let globals = output.globals;
+        scene::Scene {
+            objects: output.objects,
+            lights: output.lights,
+            camera: output.camera.map(|camera| scene::Camera {
+                projection: match camera.projection {
+                    Projection::Perspective => scene::Projection::Perspective,
+                    Projection::Orthographic => scene::Projection::Orthographic,
+                },
+                location: point(camera.location),
+                direction: vector(camera.direction),
+                right: vector(camera.right),
+                up: vector(camera.up),
+            }),
+            background: output.background.map_or_else(scene::Background::default, |color| {
+                scene::Background(scene::Colour::from_terms(color))
+            }),
+            settings: scene::Settings {
+                assumed_gamma: gamma,
+                version,
+                max_trace_level: globals.max_trace_level,
+                adc_bailout: globals.adc_bailout,
+                ambient_light: rgb(globals.ambient_light),
+            },
+        }
+    }
+}
+
+/// A shape that is neither a union nor a light.
+fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
+    Ok(match shape {
+        Shape::Sphere { center, radius } => scene::Shape::Sphere { centre: point(*center), radius: *radius },
+        Shape::Box { a, b } => scene::Shape::Box { a: point(*a), b: point(*b) },
+        Shape::Cylinder { base, cap, radius } => {
+            scene::Shape::Cylinder { base: point(*base), cap: point(*cap), radius: *radius }
+        }
+        Shape::Cone { base, base_radius, cap, cap_radius } => scene::Shape::Cone {
+            base: point(*base),
+            base_radius: *base_radius,
+            cap: point(*cap),
+            cap_radius: *cap_radius,
+        },
+        Shape::Plane { normal, distance } => {
+            scene::Shape::Plane { normal: vector(*normal), distance: *distance }
+        }
+        Shape::Disc { center, normal, radius, hole } => scene::Shape::Disc {
+            centre: point(*center),
+            normal: vector(*normal),
+            radius: *radius,
+            hole: *hole,
+        },
+        Shape::Parallelogram { corner, u, v } => {
+            scene::Shape::Parallelogram { corner: point(*corner), u: vector(*u), v: vector(*v) }
+        }
+        Shape::Triangle(corners) => scene::Shape::Triangle(corners.map(point)),
+        Shape::SmoothTriangle(both) => {
+            scene::Shape::SmoothTriangle(Box::new((both.0.map(point), both.1.map(vector))))
+        }
+        Shape::Polygon(loops) => scene::Shape::Polygon(
+            loops.iter().map(|points| points.iter().copied().map(point).collect()).collect(),
+        ),
+        Shape::Mesh(mesh) => {
+            let faces = mesh.faces.iter().map(|face| scene::Face {
+                vertices: face.vertices,
+                normals: face.normals,
+                texture: face.texture,
+            });
+            let textures = mesh.textures.iter().map(|own| texture(own, at).map(Arc::new));
+            let made = scene::Mesh {
+                vertices: mesh.vertices.iter().copied().map(point).collect(),
+                normals: mesh.normals.iter().copied().map(vector).collect(),
+                faces: faces.collect(),
+                textures: textures.collect::<Result<_>>()?,
+                inside_vector: mesh.inside_vector.map(vector),
+            };
+            limits::charge_for_good((made.vertices.len() + made.normals.len()) * 24 + made.faces.len() * 36);
+            scene::Shape::Mesh(Arc::new(made))
+        }
+        Shape::Quadric(coefficients) => scene::Shape::Quadric(coefficients.clone()),
+        Shape::Named(named) => scene::Shape::Named(Box::new(scene::NamedQuadric {
+            kind: named.kind,
+            semi_axes: named.semi_axes,
+            extent: named.extent,
+        })),
+        Shape::Sector { center, radius, axis, half_angle } => scene::Shape::SphericalSector {
+            centre: point(*center),
+            radius: *radius,
+            axis: vector(*axis),
+            half_angle: *half_angle,
+        },
+        Shape::Union(_) | Shape::Light(_) => {
+            return Err(Fault::invalid(at, "a single surface is needed here"));
+        }
+    })
+}
+
+fn filling(interior: &Interior) -> scene::Interior {
+    scene::Interior {
+        ior: interior.ior,
+        fade_distance: interior.fade_distance,
+        fade_power: interior.fade_power,
+        fade_color: rgb(interior.fade_color),
+        caustics: interior.caustics,
+    }
+}
+
+fn texture(own: &Texture, at: Place) -> Result<scene::Texture> {
+    match own {
+        Texture::Layers(layers) => {
+            let made = layers.iter().map(|layer| layer_of(layer, at)).collect::<Result<_>>()?;
+            Ok(scene::Texture {
+                body: scene::TextureBody::Layers(made),
+                placement: scene::Placement::IDENTITY,
+            })
+        }
+        Texture::Patterned { pattern, map } => {
+            let made = pattern_of(pattern, map, |part| texture(part, at).map(Arc::new))?;
+            Ok(scene::Texture {
+                body: scene::TextureBody::Pattern(Box::new(made)),
+                placement: placement(&pattern.place, at)?,
+            })
+        }
+    }
+}
+
+fn layer_of(layer: &Layer, at: Place) -> Result<scene::Layer> {
+    Ok(scene::Layer { pigment: pigment(&layer.pigment, at)?, finish: Arc::new(finish(&layer.finish)) })
+}
+
+fn pigment(own: &Pigment, at: Place) -> Result<scene::Pigment> {
+    let Pigment::Patterned { pattern, paint } = own else {
+        let Pigment::Solid(color) = own else { return Ok(scene::Pigment::default()) };
+        return Ok(scene::Pigment::solid(scene::Colour::from_terms(*color)));
+    };
+    let mut made = match paint {
+        Paint::Colors(map) => {
+            scene::Pigment::colours(pattern_of(pattern, map, |color| Ok(scene::Colour::from_terms(*color)))?)
+        }
+        Paint::Pigments(map) => scene::Pigment::pigments(pattern_of(pattern, map, |part| pigment(part, at))?),
+    };
+    made.placement = placement(&pattern.place, at)?;
+    Ok(made)
+}
+
+fn pattern_of<T, U>(
+    pattern: &Pattern,
+    map: &Map<T>,
+    mut part: impl FnMut(&T) -> Result<U>,
+) -> Result<scene::Pattern<U>> {
+    let cells = match pattern.kind {
+        PatternKind::Checker => scene::Cells::Checker,
+        PatternKind::Hexagon => scene::Cells::Hexagon,
+        PatternKind::Brick { size, mortar } => scene::Cells::Brick { size: vector(size), mortar },
+        PatternKind::Gradient(direction) => {
+            let entries = map.entries.iter().map(|(at, item)| Ok((*at, part(item)?)));
+            return Ok(scene::Pattern::Map {
+                value: scene::Value {
+                    ramp: scene::Ramp::Gradient(vector(direction)),
+                    frequency: pattern.frequency,
+                    phase: pattern.phase,
+                    wave: match pattern.wave {
+                        Wave::Ramp => scene::Wave::Ramp,
+                        Wave::Triangle => scene::Wave::Triangle,
+                        Wave::Sine => scene::Wave::Sine,
+                        Wave::Scallop => scene::Wave::Scallop,
+                        Wave::Cubic => scene::Wave::Cubic,
+                        Wave::Poly(power) => scene::Wave::Poly(power),
+                    },
+                },
+                entries: entries.collect::<Result<_>>()?,
+            });
+        }
+    };
+    let entries = map.entries.iter().map(|(_, item)| part(item)).collect::<Result<_>>()?;
+    Ok(scene::Pattern::Cells { cells, entries })
+}
+
+fn finish(own: &Finish) -> scene::Finish {
+    let mirror = own.reflection;
+    let mirrors = mirror.min.iter().chain(&mirror.max).any(|part| *part != 0.0);
+    scene::Finish {
+        ambient: rgb(own.ambient),
+        emission: rgb(own.emission),
+        diffuse: own.diffuse,
+        diffuse_back: own.diffuse_back,
+        diffuse_albedo: own.diffuse_albedo,
+        brilliance: own.brilliance,
+        phong: own.phong,
+        phong_albedo: own.phong_albedo,
+        phong_size: own.phong_size,
+        specular: own.specular,
+        specular_albedo: own.specular_albedo,
+        roughness: own.roughness,
+        metallic: own.metallic,
+        crand: own.crand,
+        reflection: mirrors.then(|| {
+            Box::new(scene::Reflection {
+                min: rgb(mirror.min),
+                max: rgb(mirror.max),
+                falloff: mirror.falloff,
+                fresnel: mirror.fresnel,
+                exponent: mirror.exponent,
+                metallic: mirror.metallic,
+            })
+        }),
+        conserve_energy: own.conserve_energy,
+    }
+}

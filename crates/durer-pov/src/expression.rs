@@ -1,0 +1,300 @@
+//! Expressions: lists of one to five floats, their operators, and their parts.
+
+use crate::diagnostics::{Fault, Result};
+use crate::keywords::Keyword;
+use crate::lexer::Mark;
+use crate::reader::{Item, Reader};
+use crate::value::{Terms, Value};
+
+/// Numbers nearer than this are equal to the language: a fact of POV-Ray, seen with `(1 = 1 + 1e-11)`.
+pub(crate) const TOLERANCE: f64 = 1e-10;
+
+/// Whether the language calls `a` and `b` equal.
+pub(crate) fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() < TOLERANCE
+}
+
+fn flag(value: bool) -> Terms {
+    Terms::from(f64::from(u8::from(value)))
+}
+
+impl Reader<'_> {
+    /// What may stand in parentheses: sums, comparisons, `&`, `|` and `?:`.
+    pub(crate) fn relation(&mut self) -> Result<Terms> {
+        self.nested(|r| {
+            let condition = r.logical()?;
+            if !r.take_mark(Mark::Question)? {
+                return Ok(condition);
+            }
+            let place = r.here();
+            let chosen =
+                condition.float().ok_or_else(|| Fault::invalid(place, "the condition of `?` is no float"))?;
+            let yes = r.relation()?;
+            r.expect(Mark::Colon)?;
+            let no = r.relation()?;
+            Ok(if crate::directives::truth(chosen) { yes } else { no })
+        })
+    }
+
+    /// `&` and `|`, of equal rank, from left to right.
+    fn logical(&mut self) -> Result<Terms> {
+        let mut left = self.comparison()?;
+        loop {
+            let and = match self.peek()? {
+                Item::Mark(Mark::And) => true,
+                Item::Mark(Mark::Or) => false,
+                _ => return Ok(left),
+            };
+            self.next()?;
+            let right = self.comparison()?;
+            let truth = crate::directives::truth;
+            left = left.zip(right, |a, b| {
+                f64::from(u8::from(if and { truth(a) && truth(b) } else { truth(a) || truth(b) }))
+            });
+        }
+    }
+
+    /// Comparisons, of equal rank, from left to right.
+    fn comparison(&mut self) -> Result<Terms> {
+        let mut left = self.expression()?;
+        loop {
+            let mark = match self.peek()? {
+                Item::Mark(
+                    mark @ (Mark::Less
+                    | Mark::Greater
+                    | Mark::LessEqual
+                    | Mark::GreaterEqual
+                    | Mark::Equal
+                    | Mark::NotEqual),
+                ) => *mark,
+                _ => return Ok(left),
+            };
+            self.next()?;
+            let place = self.here();
+            let right = self.expression()?;
+            let (Some(a), Some(b)) = (left.float(), right.float()) else {
+                return Err(Fault::invalid(place, "only floats can be compared"));
+            };
+            left = flag(match mark {
+                Mark::Less => a < b && !same(a, b),
+                Mark::Greater => a > b,
+                Mark::LessEqual => a <= b || same(a, b),
+                Mark::GreaterEqual => a >= b || same(a, b),
+                Mark::Equal => same(a, b),
+                _ => !same(a, b),
+            });
+        }
+    }
+
+    /// Sums and differences.
+    pub(crate) fn expression(&mut self) -> Result<Terms> {
+        let mut left = self.product()?;
+        loop {
+            let plus = match self.peek()? {
+                Item::Mark(Mark::Plus) => true,
+                Item::Mark(Mark::Minus) => false,
+                _ => return Ok(left),
+            };
+            self.next()?;
+            let right = self.product()?;
+            left = if plus { left.zip(right, |a, b| a + b) } else { left.zip(right, |a, b| a - b) };
+        }
+    }
+
+    /// Products and quotients.
+    fn product(&mut self) -> Result<Terms> {
+        let mut left = self.operand()?;
+        loop {
+            match self.peek()? {
+                Item::Mark(Mark::Star) => {
+                    self.next()?;
+                    let right = self.operand()?;
+                    left = left.zip(right, |a, b| a * b);
+                }
+                Item::Mark(Mark::Slash) => {
+                    self.next()?;
+                    let place = self.here();
+                    let right = self.operand()?;
+                    let divides = |b: &f64| *b != 0.0;
+                    if !right.as_slice().iter().all(divides) {
+                        return Err(Fault::invalid(place, "division by zero"));
+                    }
+                    // Filled-up places of a short divisor divide nothing.
+                    left = left.zip(right, |a, b| if b == 0.0 { 0.0 } else { a / b });
+                }
+                _ => return Ok(left),
+            }
+        }
+    }
+
+    /// A number, vector, identifier, call or parenthesis, with its signs before and its dots behind.
+    pub(crate) fn operand(&mut self) -> Result<Terms> {
+        let sign = match self.peek()? {
+            Item::Mark(mark @ (Mark::Minus | Mark::Plus | Mark::Not)) => Some(*mark),
+            _ => None,
+        };
+        if let Some(mark) = sign {
+            self.next()?;
+            let value = self.nested(Self::operand)?;
+            return Ok(match mark {
+                Mark::Minus => value.map(|v| -v),
+                Mark::Not => value.map(|v| f64::from(u8::from(!crate::directives::truth(v)))),
+                _ => value,
+            });
+        }
+        let mut value = self.primary()?;
+        // A dot is looked for without running what follows: `#version 3.7 #end` must not run its #end here.
+        while self.dot_follows()? {
+            value = self.part_of(value)?;
+        }
+        Ok(value)
+    }
+
+    fn dot_follows(&mut self) -> Result<bool> {
+        use crate::lexer::Kind;
+        if !self.has_peeked() {
+            match self.raw() {
+                Some(Kind::Mark(Mark::Dot)) => {}
+                // At the end of a macro's body the dot may stand behind its call.
+                None => return self.take_mark(Mark::Dot),
+                Some(_) => return Ok(false),
+            }
+        }
+        self.take_mark(Mark::Dot)
+    }
+
+    /// The part of `value` named after a dot.
+    fn part_of(&mut self, value: Terms) -> Result<Terms> {
+        let lexeme = self.next()?;
+        let index = match &lexeme.item {
+            Item::Word(Keyword::X | Keyword::U | Keyword::Red) => 0,
+            Item::Word(Keyword::Y | Keyword::V | Keyword::Green) => 1,
+            Item::Word(Keyword::Z | Keyword::Blue) => 2,
+            Item::Word(Keyword::T | Keyword::Filter) => 3,
+            Item::Word(Keyword::Transmit) => 4,
+            Item::Word(Keyword::Gray) => {
+                let [r, g, b] = value.xyz();
+                return Ok(Terms::from(0.297 * r + 0.589 * g + 0.114 * b));
+            }
+            _ => return Err(self.unexpected(&lexeme, "a part such as x, y, z or red after the dot")),
+        };
+        match value.as_slice().get(index) {
+            Some(&part) if value.len() > 1 => Ok(part.into()),
+            _ => Err(Fault::invalid(lexeme.place, "this value has no such part")),
+        }
+    }
+
+    fn primary(&mut self) -> Result<Terms> {
+        let lexeme = self.next()?;
+        match &lexeme.item {
+            Item::Number(value) => Ok((*value).into()),
+            Item::Value(Value::Number(terms)) => Ok(*terms),
+            Item::Mark(Mark::ParenOpen) => {
+                let value = self.relation()?;
+                self.expect(Mark::ParenClose)?;
+                Ok(value)
+            }
+            Item::Mark(Mark::Less) => self.nested(Self::vector_literal),
+            Item::Word(keyword) => match self.nested(|r| r.function(*keyword, lexeme.place))? {
+                Some(value) => Ok(value),
+                None => Err(self.unexpected(&lexeme, "a number, vector or colour")),
+            },
+            _ => Err(self.unexpected(&lexeme, "a number, vector or colour")),
+        }
+    }
+
+    /// The rest of `<a, b, ...>`.
+    fn vector_literal(&mut self) -> Result<Terms> {
+        let place = self.here();
+        let mut values = Vec::with_capacity(5);
+        loop {
+            if values.len() == 5 {
+                return Err(Fault::invalid(
+                    self.here(),
+                    "a vector has at most five components: `>` should stand here",
+                ));
+            }
+            values.push(self.float()?);
+            self.skip_comma()?;
+            if self.take_mark(Mark::Greater)? {
+                break;
+            }
+        }
+        if values.len() == 1 {
+            return Err(Fault::invalid(place, "a vector has at least two components"));
+        }
+        Ok(Terms::new(&values))
+    }
+
+    /// An expression that is one float.
+    pub(crate) fn float(&mut self) -> Result<f64> {
+        self.peek()?;
+        let place = self.here();
+        let value = self.expression()?;
+        let found = value.float().ok_or_else(|| {
+            let text = format!("expected a float, found {}", Value::Number(value).kind());
+            Fault::invalid(place, text)
+        })?;
+        finite(found, place)
+    }
+
+    /// An expression that is a vector of three; a float stands for three equal ones, two are filled up with zero.
+    pub(crate) fn vector(&mut self) -> Result<[f64; 3]> {
+        self.peek()?;
+        let place = self.here();
+        let value = self.expression()?;
+        if value.len() > 3 {
+            let text = format!("expected a vector of three, found {} components", value.len());
+            return Err(Fault::invalid(place, text));
+        }
+        let v = value.xyz();
+        for part in v {
+            finite(part, place)?;
+        }
+        Ok(v)
+    }
+
+    /// An expression that is a vector of two.
+    pub(crate) fn vector2(&mut self) -> Result<[f64; 2]> {
+        self.peek()?;
+        let place = self.here();
+        let value = self.expression()?;
+        if value.len() > 3 {
+            return Err(Fault::invalid(place, "expected a vector of two"));
+        }
+        let v = value.promoted(2);
+        let (a, b) = (v.as_slice()[0], v.as_slice()[1]);
+        Ok([finite(a, place)?, finite(b, place)?])
+    }
+
+    /// A float, or nothing if something else comes next: `on`, `off` and no word at all mean `absent`.
+    pub(crate) fn float_or(&mut self, absent: f64) -> Result<f64> {
+        if self.starts_number()? { self.float() } else { Ok(absent) }
+    }
+
+    /// Whether the next token can begin an expression.
+    pub(crate) fn starts_number(&mut self) -> Result<bool> {
+        let keyword = match self.peek()? {
+            Item::Number(_) | Item::Value(Value::Number(_)) => return Ok(true),
+            Item::Mark(Mark::ParenOpen | Mark::Less | Mark::Minus | Mark::Plus | Mark::Not) => {
+                return Ok(true);
+            }
+            Item::Word(keyword) => *keyword,
+            _ => return Ok(false),
+        };
+        Ok(crate::functions::begins_expression(keyword))
+    }
+
+    /// A switch such as `no_shadow on`; the word alone is `on`.
+    pub(crate) fn switch_value(&mut self) -> Result<bool> {
+        Ok(crate::directives::truth(self.float_or(1.0)?))
+    }
+}
+
+/// `value`, unless it is infinite or not a number: nothing good follows from those.
+pub(crate) fn finite(value: f64, place: crate::diagnostics::Place) -> Result<f64> {
+    if value.is_finite() {
+        return Ok(value);
+    }
+    Err(Fault::invalid(place, format!("this expression is not a finite number ({value})")))
+}

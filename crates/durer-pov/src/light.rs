@@ -1,0 +1,141 @@
+//! Lights: points, spotlights, cylinders of light.
+
+use std::rc::Rc;
+
+use crate::diagnostics::{Fault, Result};
+use crate::keywords::Keyword;
+use crate::lexer::Mark;
+use crate::object::{Object, Shape};
+use crate::reader::{Item, Reader};
+use crate::transform::{Matrix, length};
+use crate::value::Value;
+
+/// How a light spreads.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Beam {
+    #[default]
+    Point,
+    Spot,
+    Cylinder,
+}
+
+/// A light.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Light {
+    pub(crate) location: [f64; 3],
+    pub(crate) color: [f64; 3],
+    pub(crate) beam: Beam,
+    pub(crate) point_at: [f64; 3],
+    /// Spot: half angle in degrees of the bright cone; cylinder: radius.
+    pub(crate) radius: f64,
+    /// Spot: half angle in degrees where it is dark; cylinder: radius.
+    pub(crate) falloff: f64,
+    pub(crate) tightness: f64,
+    pub(crate) parallel: bool,
+    pub(crate) shadowless: bool,
+    /// 0 if it does not fade.
+    pub(crate) fade_distance: f64,
+    pub(crate) fade_power: f64,
+    /// What is shown in its place; it does not shadow this light.
+    pub(crate) looks_like: Option<Rc<Object>>,
+}
+
+impl Light {
+    fn new(location: [f64; 3], color: [f64; 3]) -> Self {
+        Self {
+            location,
+            color,
+            beam: Beam::Point,
+            point_at: [0.0, 0.0, 1.0],
+            radius: 0.0,
+            falloff: 0.0,
+            tightness: 0.0,
+            parallel: false,
+            shadowless: false,
+            fade_distance: 0.0,
+            fade_power: 0.0,
+            looks_like: None,
+        }
+    }
+
+    /// Moves the lamp and what it points at.
+    pub(crate) fn transform(&mut self, by: &Matrix) {
+        self.location = by.point(self.location);
+        self.point_at = by.point(self.point_at);
+        if let Some(shown) = &mut self.looks_like {
+            Rc::make_mut(shown).transform(by);
+        }
+    }
+}
+
+impl Reader<'_> {
+    /// What stands in braces after `light_source`, as an object without a surface.
+    pub(crate) fn light_block(&mut self) -> Result<Object> {
+        let begin = self.here();
+        self.expect(Mark::BraceOpen)?;
+        let mut light = match self.peek()? {
+            Item::Value(Value::Object(known)) => {
+                let known = known.clone();
+                let lexeme = self.next()?;
+                let Shape::Light(light) = &known.shape else {
+                    return Err(self.unexpected(&lexeme, "a light"));
+                };
+                let mut light = (**light).clone();
+                light.transform(&known.place);
+                light
+            }
+            _ => {
+                let location = self.vector()?;
+                self.skip_comma()?;
+                let [r, g, b, ..] = self.colour()?;
+                Light::new(location, [r, g, b])
+            }
+        };
+        self.light_items(&mut light)?;
+        if (light.beam != Beam::Point || light.parallel)
+            && length(std::array::from_fn(|i| light.point_at[i] - light.location[i])) == 0.0
+        {
+            return Err(Fault::invalid(begin, "this light points at its own location"));
+        }
+        Ok(Object::new(Shape::Light(Rc::new(light)), begin))
+    }
+
+    fn light_items(&mut self, light: &mut Light) -> Result<()> {
+        loop {
+            self.skip_comma()?;
+            if let Some(by) = self.transform_item()? {
+                light.transform(&by);
+                continue;
+            }
+            let lexeme = self.next()?;
+            match &lexeme.item {
+                Item::Mark(Mark::BraceClose) => return Ok(()),
+                Item::Word(Keyword::Spotlight) => {
+                    (light.beam, light.radius, light.falloff) = (Beam::Spot, 30.0, 45.0);
+                }
+                Item::Word(Keyword::Cylinder) => {
+                    (light.beam, light.radius, light.falloff) = (Beam::Cylinder, 0.75, 1.0);
+                }
+                Item::Word(Keyword::Parallel) => light.parallel = true,
+                Item::Word(Keyword::Shadowless) => light.shadowless = true,
+                Item::Word(Keyword::PointAt) => light.point_at = self.vector()?,
+                Item::Word(Keyword::Radius) => light.radius = self.float()?,
+                Item::Word(Keyword::Falloff) => light.falloff = self.float()?,
+                Item::Word(Keyword::Tightness) => light.tightness = self.float()?,
+                Item::Word(Keyword::FadeDistance) => light.fade_distance = self.float()?,
+                Item::Word(Keyword::FadePower) => light.fade_power = self.float()?,
+                // There are no media yet that they could meet.
+                Item::Word(Keyword::MediaInteraction | Keyword::MediaAttenuation) => {
+                    self.switch_value()?;
+                }
+                Item::Word(Keyword::LooksLike) => {
+                    let shown = self.nested(Self::object_in_braces)?;
+                    let mut shown = (*shown).clone();
+                    shown.transform(&Matrix::translation(light.location));
+                    light.looks_like = Some(Rc::new(shown));
+                }
+                _ => return Err(self.unexpected(&lexeme, "a part of a light")),
+            }
+        }
+    }
+}

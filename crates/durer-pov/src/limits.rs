@@ -1,0 +1,121 @@
+//! Hard limits, each with a number and a name, so that no text can hang the reader or eat the machine.
+
+use std::cell::Cell;
+
+use crate::diagnostics::{Fault, FaultKind, Place, Result};
+
+/// How much a scene may ask of the reader before it is stopped with a message.
+///
+/// The names are those of the command's `--limit NAME=N`; see [`Limits::set`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Include files open at the same time (`include_depth`).
+    pub include_depth: u64,
+    /// Macro calls open at the same time (`macro_depth`).
+    pub macro_depth: u64,
+    /// Tokens and directives read, loops counted as often as they run (`steps`).
+    pub steps: u64,
+    /// Bytes of scene data: texts, tokens, values and objects (`memory`).
+    pub memory: u64,
+    /// Bytes of one file (`file_size`).
+    pub file_size: u64,
+    /// Brackets, blocks and operators inside each other (`nesting`).
+    pub nesting: u64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            include_depth: 64,
+            macro_depth: 1024,
+            steps: 100_000_000,
+            memory: 768 << 20,
+            file_size: 192 << 20,
+            nesting: 512,
+        }
+    }
+}
+
+impl Limits {
+    /// The names that [`Limits::set`] knows, in the order of the fields.
+    pub const NAMES: [&'static str; 6] =
+        ["include_depth", "macro_depth", "steps", "memory", "file_size", "nesting"];
+
+    /// Sets the limit called `name`; `false` if there is none of that name.
+    pub fn set(&mut self, name: &str, value: u64) -> bool {
+        let field = match name {
+            "include_depth" => &mut self.include_depth,
+            "macro_depth" => &mut self.macro_depth,
+            "steps" => &mut self.steps,
+            "memory" => &mut self.memory,
+            "file_size" => &mut self.file_size,
+            "nesting" => &mut self.nesting,
+            _ => return false,
+        };
+        *field = value;
+        true
+    }
+}
+
+/// The fault of running into the limit `name`.
+pub(crate) fn exceeded(place: Place, name: &str, limit: u64, what: &str) -> Box<Fault> {
+    Fault::at(
+        place,
+        FaultKind::Limit,
+        format!("{what}: the limit `{name}` is {limit} (a larger one can be given with --limit {name}=N)"),
+    )
+}
+
+thread_local! {
+    /// Bytes held by the values of the scene that this thread is reading.
+    static HELD: Cell<u64> = const { Cell::new(0) };
+}
+
+/// Bytes charged to the scene's memory, given back when the value that owns them is dropped.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Charge(u64);
+
+impl Charge {
+    /// Charges `bytes`; whether that is too much is asked at the next [`check_memory`].
+    pub(crate) fn new(bytes: usize) -> Self {
+        HELD.with(|held| held.set(held.get() + bytes as u64));
+        Self(bytes as u64)
+    }
+
+    /// Changes the charge to `bytes`.
+    pub(crate) fn resize(&mut self, bytes: usize) {
+        HELD.with(|held| held.set(held.get() - self.0 + bytes as u64));
+        self.0 = bytes as u64;
+    }
+}
+
+impl Clone for Charge {
+    fn clone(&self) -> Self {
+        Self::new(self.0 as usize)
+    }
+}
+
+impl Drop for Charge {
+    fn drop(&mut self) {
+        HELD.with(|held| held.set(held.get() - self.0));
+    }
+}
+
+/// Charges bytes that stay until the scene is finished.
+pub(crate) fn charge_for_good(bytes: usize) {
+    HELD.with(|held| held.set(held.get() + bytes as u64));
+}
+
+/// Starts counting from nothing.
+pub(crate) fn reset_memory() {
+    HELD.with(|held| held.set(0));
+}
+
+/// Fails if what is held, and `more` bytes that are about to be, exceed the limit `memory`.
+pub(crate) fn check_memory(place: Place, limits: &Limits, more: usize) -> Result<()> {
+    let held = HELD.with(Cell::get).saturating_add(more as u64);
+    if held > limits.memory {
+        return Err(exceeded(place, "memory", limits.memory, "the scene's data do not fit"));
+    }
+    Ok(())
+}

@@ -1,0 +1,107 @@
+//! Macros: a range of tokens with parameters.
+
+use std::rc::Rc;
+
+use crate::diagnostics::{Fault, Place, Result};
+use crate::lexer::{Kind, Mark};
+use crate::names::Name;
+use crate::reader::Reader;
+use crate::scope::Reference;
+use crate::value::Value;
+
+/// A macro: where its body stands, and what its parameters are called.
+#[derive(Debug)]
+pub(crate) struct Macro {
+    pub(crate) name: Name,
+    pub(crate) file: u32,
+    pub(crate) start: usize,
+    pub(crate) end: usize,
+    parameters: Vec<Name>,
+}
+
+/// A macro's argument: a variable of the caller's, or a value.
+enum Argument {
+    Variable(Reference),
+    Value(Value),
+}
+
+impl Reader<'_> {
+    /// `#macro NAME(A, B)`: remembers the body, which ends at token `end`, and goes on behind it.
+    pub(crate) fn define_macro(&mut self, end: usize, place: Place) -> Result<()> {
+        let Some((Kind::Name(name), _)) = self.take_raw() else {
+            return Err(Fault::invalid(self.here(), "a macro needs a name that is not a reserved word"));
+        };
+        let mut parameters = Vec::new();
+        let wrong = |r: &Self| Fault::invalid(r.here(), "a macro's parameters are names in parentheses");
+        if !self.take_raw_mark(Mark::ParenOpen) {
+            self.take_raw();
+            return Err(wrong(self));
+        }
+        loop {
+            match self.take_raw() {
+                Some((Kind::Mark(Mark::ParenClose), _)) => break,
+                Some((Kind::Mark(Mark::Comma), _)) => {}
+                Some((Kind::Name(parameter), _)) => parameters.push(parameter),
+                _ => return Err(wrong(self)),
+            }
+        }
+        let Some(frame) = self.frames.last_mut() else { return Ok(()) };
+        if frame.at > end {
+            return Err(Fault::invalid(place, "this macro's parameters are never closed"));
+        }
+        let body = Macro { name, file: frame.file, start: frame.at, end, parameters };
+        frame.at = end + 1;
+        self.scopes.declare(name, Value::Macro(Rc::new(body)));
+        Ok(())
+    }
+
+    /// Takes the arguments of a call and begins to read the macro's body.
+    pub(crate) fn call_macro(&mut self, body: &Macro, place: Place) -> Result<()> {
+        let name = self.names.text(body.name).to_owned();
+        if !self.at_mark(Mark::ParenOpen)? {
+            return Err(Fault::invalid(
+                place,
+                format!("{name} is a macro: its arguments in parentheses are missing"),
+            ));
+        }
+        self.next()?;
+        let mut arguments = Vec::with_capacity(body.parameters.len());
+        for _ in &body.parameters {
+            let closed = if self.has_peeked() {
+                self.at_mark(Mark::ParenClose)?
+            } else {
+                self.raw() == Some(Kind::Mark(Mark::ParenClose))
+            };
+            if closed {
+                break;
+            }
+            let argument = match self.variable_argument()? {
+                Some(reference) => Argument::Variable(reference),
+                None => Argument::Value(self.value("a value for the macro's parameter")?),
+            };
+            arguments.push(argument);
+            self.skip_comma()?;
+        }
+        let wanted = body.parameters.len();
+        let plural = if wanted == 1 { "" } else { "s" };
+        if arguments.len() < wanted {
+            let found = arguments.len();
+            return Err(Fault::invalid(
+                place,
+                format!("{name} has {wanted} parameter{plural}, but {found} are given"),
+            ));
+        }
+        if !self.take_mark(Mark::ParenClose)? {
+            let text = format!("{name} has {wanted} parameter{plural}: `)` should stand here");
+            return Err(Fault::invalid(self.here(), text));
+        }
+        self.scopes.enter();
+        for (&parameter, argument) in body.parameters.iter().zip(arguments) {
+            match argument {
+                Argument::Variable(target) => self.scopes.alias(parameter, target),
+                Argument::Value(value) => self.scopes.parameter(parameter, value),
+            }
+        }
+        self.enter_macro(body, place)
+    }
+}

@@ -1,0 +1,74 @@
+//! What a scene says while it is read: `#debug`, `#warning`, and the reader's own warnings.
+
+use std::fmt;
+use std::path::PathBuf;
+
+/// What kind of message it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MessageKind {
+    /// Text of a `#debug`, line ends included as the scene wrote them.
+    Debug,
+    /// Text of a `#warning`.
+    Warning,
+    /// The reader's own: what is odd but not wrong.
+    Notice,
+}
+
+/// One message and where it came from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Message {
+    /// What kind of message it is.
+    pub kind: MessageKind,
+    /// The file.
+    pub path: PathBuf,
+    /// Line and column, both from 1.
+    pub at: (usize, usize),
+    /// The text.
+    pub text: String,
+}
+
+impl fmt::Display for Message {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.kind {
+            MessageKind::Debug => f.write_str(&self.text),
+            MessageKind::Warning | MessageKind::Notice => {
+                let (path, (line, column)) = (self.path.display(), self.at);
+                writeln!(f, "{path}:{line}:{column}: warning: {}", self.text.trim_end())
+            }
+        }
+    }
+}
+
+/// Messages kept for the caller; all of them are streamed.
+const KEPT: usize = 10_000;
+/// Notices given in all: a loop can make millions.
+const NOTICES: usize = 100;
+
+/// Collects messages and passes them on as they come.
+pub(crate) struct Messages<'a> {
+    pub(crate) kept: Vec<Message>,
+    notices: usize,
+    listener: Box<dyn FnMut(&Message) + Send + 'a>,
+}
+
+impl<'a> Messages<'a> {
+    pub(crate) fn new(listener: Box<dyn FnMut(&Message) + Send + 'a>) -> Self {
+        Self { kept: Vec::new(), notices: 0, listener }
+    }
+
+    pub(crate) fn push(&mut self, mut message: Message) {
+        if message.kind == MessageKind::Notice {
+            self.notices += 1;
+            if self.notices > NOTICES {
+                return;
+            }
+            if self.notices == NOTICES {
+                message.text.push_str(" (further warnings of the reader are not shown)");
+            }
+        }
+        (self.listener)(&message);
+        if self.kept.len() < KEPT {
+            self.kept.push(message);
+        }
+    }
+}

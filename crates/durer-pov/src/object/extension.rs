@@ -1,0 +1,225 @@
+//! Surfaces that POV-Ray's language lacks, by words that are free for its users' own names.
+//!
+//! `docs/language.md` describes the words. All blocks follow one form: the numbers that make the surface, then
+//! settings of the kind `word value`, then the modifiers of any object.
+
+use super::Shape;
+use crate::diagnostics::{Fault, Place, Result};
+use crate::keywords::Keyword;
+use crate::names::Name;
+use crate::reader::{Item, Reader};
+use crate::value::Terms;
+
+/// A quadric by its name, its axis along z.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Named {
+    pub(crate) kind: durer_scene::QuadricKind,
+    pub(crate) semi_axes: [f64; 3],
+    pub(crate) extent: Option<[f64; 2]>,
+}
+
+/// The words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Word {
+    Ellipsoid,
+    Spheroid,
+    Paraboloid,
+    HyperbolicParaboloid,
+    Hyperboloid,
+    EllipticCone,
+    CircularCone,
+    EllipticCylinder,
+    CircularCylinder,
+    HyperbolicCylinder,
+    ParabolicCylinder,
+    SphericalSector,
+    Annulus,
+    Parallelogram,
+}
+
+impl Word {
+    fn from_text(text: &str) -> Option<Self> {
+        Some(match text {
+            "ellipsoid" => Self::Ellipsoid,
+            "spheroid" => Self::Spheroid,
+            "paraboloid" => Self::Paraboloid,
+            "hyperbolic_paraboloid" => Self::HyperbolicParaboloid,
+            "hyperboloid" => Self::Hyperboloid,
+            "elliptic_cone" => Self::EllipticCone,
+            "circular_cone" => Self::CircularCone,
+            "elliptic_cylinder" => Self::EllipticCylinder,
+            "circular_cylinder" => Self::CircularCylinder,
+            "hyperbolic_cylinder" => Self::HyperbolicCylinder,
+            "parabolic_cylinder" => Self::ParabolicCylinder,
+            "spherical_sector" => Self::SphericalSector,
+            "annulus" => Self::Annulus,
+            "parallelogram" => Self::Parallelogram,
+            _ => return None,
+        })
+    }
+
+    /// How many semi-axes its vector has.
+    fn semi_axes(self) -> usize {
+        match self {
+            Self::EllipticCylinder | Self::HyperbolicCylinder | Self::ParabolicCylinder => 2,
+            Self::CircularCylinder => 1,
+            _ => 3,
+        }
+    }
+}
+
+impl Reader<'_> {
+    /// The surface that `name` stands for, if it is one of durer's words.
+    pub(crate) fn extension(&self, name: Name) -> Option<Word> {
+        Word::from_text(self.names.text(name))
+    }
+
+    /// Whether one of durer's own words comes next. A name that the scene has declared is not one.
+    pub(crate) fn at_extension(&mut self) -> Result<bool> {
+        let Item::Unknown(name) = self.peek()? else { return Ok(false) };
+        let name = *name;
+        Ok(self.extension(name).is_some())
+    }
+
+    /// Takes the small word `text`, if it comes next.
+    fn small_word(&mut self, text: &str) -> Result<bool> {
+        let Item::Unknown(name) = self.peek()? else { return Ok(false) };
+        let name = *name;
+        let here = self.names.text(name) == text;
+        if here {
+            self.next()?;
+        }
+        Ok(here)
+    }
+
+    /// The numbers and settings of `word`, after its opening brace.
+    pub(crate) fn extension_shape(&mut self, word: Word, place: Place) -> Result<Shape> {
+        use durer_scene::QuadricKind;
+        let kind = match word {
+            Word::SphericalSector => {
+                let center = self.corner()?;
+                let radius = self.radius("the sector's radius")?;
+                self.skip_comma()?;
+                let axis = self.normal("the sector's axis")?;
+                self.peek()?;
+                let at = self.here();
+                let degrees = self.float()?;
+                if !(degrees > 0.0 && degrees < 180.0) {
+                    return Err(Fault::invalid(
+                        at,
+                        "the half angle of a sector is between 0 and 180 degrees",
+                    ));
+                }
+                return Ok(Shape::Sector { center, radius, axis, half_angle: degrees.to_radians() });
+            }
+            Word::Annulus => return self.shape(Keyword::Disc, place),
+            Word::Parallelogram => {
+                let corner = self.corner()?;
+                let (u, v) = (self.normal("the first edge")?, self.normal("the second edge")?);
+                if crate::transform::cross(u, v) == [0.0; 3] {
+                    return Err(Fault::invalid(place, "the edges of this parallelogram are parallel"));
+                }
+                return Ok(Shape::Parallelogram { corner, u, v });
+            }
+            Word::Ellipsoid | Word::Spheroid => QuadricKind::Ellipsoid,
+            Word::Paraboloid => QuadricKind::EllipticParaboloid,
+            Word::HyperbolicParaboloid => QuadricKind::HyperbolicParaboloid,
+            Word::Hyperboloid => QuadricKind::HyperboloidOneSheet,
+            Word::EllipticCone | Word::CircularCone => QuadricKind::EllipticCone,
+            Word::EllipticCylinder | Word::CircularCylinder => QuadricKind::EllipticCylinder,
+            Word::HyperbolicCylinder => QuadricKind::HyperbolicCylinder,
+            Word::ParabolicCylinder => QuadricKind::ParabolicCylinder,
+        };
+        let mut named = Named { kind, semi_axes: self.semi_axes(word)?, extent: None };
+        let mut sheets = None;
+        loop {
+            self.skip_comma()?;
+            if word == Word::Hyperboloid && self.small_word("sheets")? {
+                let at = self.here();
+                let given = self.float()?;
+                named.kind = match given {
+                    1.0 => QuadricKind::HyperboloidOneSheet,
+                    2.0 => QuadricKind::HyperboloidTwoSheets,
+                    _ => return Err(Fault::invalid(at, "a hyperboloid has 1 or 2 sheets")),
+                };
+                sheets = Some(given);
+            } else if self.small_word("from")? {
+                named.extent = Some(self.extent()?);
+            } else {
+                break;
+            }
+        }
+        if word == Word::Hyperboloid && sheets.is_none() {
+            return Err(Fault::invalid(
+                place,
+                "say how many sheets this hyperboloid has: `sheets 1` or `sheets 2`",
+            ));
+        }
+        Ok(Shape::Named(Box::new(named)))
+    }
+
+    /// The rest of `from a to b`.
+    fn extent(&mut self) -> Result<[f64; 2]> {
+        let at = self.here();
+        let from = self.float()?;
+        if !self.small_word("to")? {
+            let lexeme = self.next()?;
+            return Err(self.unexpected(&lexeme, "`to`"));
+        }
+        let to = self.float()?;
+        if from >= to {
+            return Err(Fault::invalid(at, "`from a to b` needs a below b"));
+        }
+        Ok([from, to])
+    }
+
+    /// `<a, b, c>`; `r, c` for a = b = r; `r` where there is no c.
+    fn semi_axes(&mut self, word: Word) -> Result<[f64; 3]> {
+        let wanted = word.semi_axes();
+        self.peek()?;
+        let place = self.here();
+        let first = self.expression()?;
+        let axes = match first.float() {
+            Some(radius) if wanted == 3 => {
+                self.skip_comma()?;
+                [radius, radius, self.float()?]
+            }
+            Some(radius) => [radius, radius, 1.0],
+            None => self.axes_of(first, wanted, place)?,
+        };
+        let round = matches!(word, Word::Spheroid | Word::CircularCone | Word::CircularCylinder);
+        if round && axes[0] != axes[1] {
+            return Err(Fault::invalid(place, "the first two semi-axes of a round surface are equal"));
+        }
+        if axes.iter().any(|v| *v <= 0.0 || !v.is_finite()) {
+            return Err(Fault::invalid(place, "semi-axes are positive"));
+        }
+        Ok(axes)
+    }
+
+    fn axes_of(&self, terms: Terms, wanted: usize, place: Place) -> Result<[f64; 3]> {
+        match *terms.as_slice() {
+            [a, b] if wanted == 2 => Ok([a, b, 1.0]),
+            [a, b, c] if wanted == 3 => Ok([a, b, c]),
+            // x*2 + y*3 has three components, too.
+            [a, b, 0.0] if wanted == 2 => Ok([a, b, 1.0]),
+            _ => Err(Fault::invalid(place, format!("expected {wanted} semi-axes"))),
+        }
+    }
+
+    /// `fill_rule` of a polygon is written like durer's other settings.
+    pub(crate) fn fill_rule(&mut self) -> Result<()> {
+        let place = self.here();
+        if !self.small_word("fill_rule")? {
+            return Ok(());
+        }
+        if self.small_word("even_odd")? {
+            return Ok(());
+        }
+        if self.small_word("non_zero")? {
+            return Err(Fault::unsupported(place, "fill_rule non_zero"));
+        }
+        self.next()?;
+        Err(Fault::invalid(self.here(), "a fill rule is even_odd or non_zero"))
+    }
+}

@@ -1,0 +1,293 @@
+//! Objects: shapes with a place, a look and habits.
+
+pub(crate) mod extension;
+mod mesh;
+mod modifiers;
+mod shapes;
+
+use std::rc::Rc;
+
+use crate::diagnostics::{Fault, Place, Result};
+use crate::keywords::Keyword;
+use crate::lexer::Mark;
+use crate::light::Light;
+use crate::limits::{self, Charge};
+use crate::reader::{Item, Reader};
+use crate::texture::{Interior, Texture};
+use crate::transform::Matrix;
+use crate::value::Value;
+
+pub(crate) use extension::Named;
+pub(crate) use mesh::Mesh;
+
+/// The corners of a triangle, or a vector for each.
+pub(crate) type Three = [[f64; 3]; 3];
+
+/// A surface in its own numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Shape {
+    Sphere {
+        center: [f64; 3],
+        radius: f64,
+    },
+    Box {
+        a: [f64; 3],
+        b: [f64; 3],
+    },
+    Cylinder {
+        base: [f64; 3],
+        cap: [f64; 3],
+        radius: f64,
+    },
+    Cone {
+        base: [f64; 3],
+        base_radius: f64,
+        cap: [f64; 3],
+        cap_radius: f64,
+    },
+    Plane {
+        normal: [f64; 3],
+        distance: f64,
+    },
+    Disc {
+        center: [f64; 3],
+        normal: [f64; 3],
+        radius: f64,
+        hole: f64,
+    },
+    Parallelogram {
+        corner: [f64; 3],
+        u: [f64; 3],
+        v: [f64; 3],
+    },
+    Triangle(Three),
+    SmoothTriangle(Box<(Three, Three)>),
+    Polygon(Rc<Vec<Vec<[f64; 3]>>>),
+    Mesh(Rc<Mesh>),
+    /// Coefficients of x², y², z², xy, xz, yz, x, y, z, 1.
+    Quadric(Box<[f64; 10]>),
+    Named(Box<Named>),
+    Sector {
+        center: [f64; 3],
+        radius: f64,
+        axis: [f64; 3],
+        half_angle: f64,
+    },
+    Union(Vec<Rc<Object>>),
+    Light(Rc<Light>),
+}
+
+/// Habits; on a union they hold for every part.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Habits {
+    pub(crate) no_shadow: bool,
+    pub(crate) no_image: bool,
+    pub(crate) no_reflection: bool,
+    pub(crate) hollow: bool,
+    pub(crate) inverse: bool,
+    pub(crate) open: bool,
+    pub(crate) double_illuminate: bool,
+}
+
+/// A shape with its place and its look.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Object {
+    pub(crate) shape: Shape,
+    /// From the shape's own numbers to the block around.
+    pub(crate) place: Matrix,
+    pub(crate) texture: Option<Rc<Texture>>,
+    pub(crate) interior: Option<Rc<Interior>>,
+    pub(crate) clips: Vec<Rc<Self>>,
+    pub(crate) bounds: Vec<Rc<Self>>,
+    pub(crate) habits: Habits,
+    /// Where it was written.
+    pub(crate) at: Place,
+    /// Unions inside unions, this one included.
+    depth: u32,
+    /// Surfaces in it.
+    pub(crate) leaves: u64,
+    charge: Charge,
+}
+
+/// How deeply unions may stand in each other, by whatever names: what follows the reader walks them recursively.
+const DEEPEST: u32 = 256;
+
+impl Object {
+    pub(crate) fn new(shape: Shape, at: Place) -> Self {
+        let (depth, leaves, extra) = match &shape {
+            Shape::Union(parts) => {
+                let depth = parts.iter().map(|part| part.depth).max().unwrap_or(0);
+                let leaves = parts.iter().fold(0_u64, |sum, part| sum.saturating_add(part.leaves));
+                (depth + 1, leaves, parts.len() * 8)
+            }
+            Shape::Light(light) => (1, light.looks_like.as_ref().map_or(0, |shown| shown.leaves), 200),
+            _ => (1, 1, 0),
+        };
+        Self {
+            shape,
+            place: Matrix::IDENTITY,
+            texture: None,
+            interior: None,
+            clips: Vec::new(),
+            bounds: Vec::new(),
+            habits: Habits::default(),
+            at,
+            depth,
+            leaves,
+            charge: Charge::new(size_of::<Self>() + extra),
+        }
+    }
+
+    /// Moves the object with all it has so far.
+    pub(crate) fn transform(&mut self, by: &Matrix) {
+        self.place = self.place.then(by);
+        Reader::move_texture(&mut self.texture, by);
+        for part in self.clips.iter_mut().chain(&mut self.bounds) {
+            Rc::make_mut(part).transform(by);
+        }
+    }
+
+    /// Counts the parts that were added to it.
+    fn recount(&mut self) {
+        let parts = self.clips.iter().chain(&self.bounds);
+        let deepest = parts.clone().map(|part| part.depth + 1).max().unwrap_or(0);
+        self.depth = self.depth.max(deepest);
+        self.charge.resize(size_of::<Self>() * (1 + parts.count()));
+    }
+}
+
+/// Whether `keyword` begins an object that durer reads.
+pub(crate) fn begins_object(keyword: Keyword) -> bool {
+    use Keyword::*;
+    matches!(
+        keyword,
+        Sphere
+            | Box
+            | Cylinder
+            | Cone
+            | Plane
+            | Disc
+            | Triangle
+            | SmoothTriangle
+            | Polygon
+            | Mesh
+            | Mesh2
+            | Quadric
+            | Union
+            | Object
+            | LightSource
+    )
+}
+
+impl Reader<'_> {
+    /// Whether an object comes next.
+    pub(crate) fn starts_object(&mut self) -> Result<bool> {
+        Ok(match self.peek()? {
+            Item::Word(keyword) => begins_object(*keyword),
+            Item::Value(Value::Object(_)) => true,
+            Item::Unknown(_) => self.at_extension()?,
+            _ => false,
+        })
+    }
+
+    /// An object: a word with its block, or a name.
+    pub(crate) fn object(&mut self) -> Result<Rc<Object>> {
+        self.nested(|r| {
+            let lexeme = r.next()?;
+            let place = lexeme.place;
+            let mut object = match &lexeme.item {
+                Item::Value(Value::Object(known)) => return Ok(known.clone()),
+                Item::Word(Keyword::LightSource) => return r.light_block().map(Rc::new),
+                Item::Word(Keyword::Object) => {
+                    r.expect(Mark::BraceOpen)?;
+                    let inner = r.object()?;
+                    let mut inner = (*inner).clone();
+                    inner.at = place;
+                    inner
+                }
+                Item::Word(Keyword::Union) => r.union(place)?,
+                Item::Word(keyword) if begins_object(*keyword) => {
+                    r.expect(Mark::BraceOpen)?;
+                    match r.copied(place)? {
+                        Some(known) => known,
+                        None => Object::new(r.shape(*keyword, place)?, place),
+                    }
+                }
+                Item::Unknown(name) => match r.extension(*name) {
+                    Some(word) => {
+                        r.expect(Mark::BraceOpen)?;
+                        match r.copied(place)? {
+                            Some(known) => known,
+                            None => Object::new(r.extension_shape(word, place)?, place),
+                        }
+                    }
+                    None => return Err(r.unexpected(&lexeme, "an object")),
+                },
+                _ => return Err(r.unexpected(&lexeme, "an object")),
+            };
+            r.modifiers(&mut object)?;
+            object.recount();
+            if object.depth > DEEPEST {
+                return Err(limits::exceeded(
+                    place,
+                    "nesting",
+                    u64::from(DEEPEST),
+                    "too many objects inside each other (this one cannot be raised)",
+                ));
+            }
+            r.check_memory(0, place)?;
+            Ok(Rc::new(object))
+        })
+    }
+
+    /// The object whose name stands first in a block, to be changed by what follows.
+    fn copied(&mut self, place: Place) -> Result<Option<Object>> {
+        let Item::Value(Value::Object(known)) = self.peek()? else { return Ok(None) };
+        let mut known = (**known).clone();
+        known.at = place;
+        self.next()?;
+        Ok(Some(known))
+    }
+
+    fn union(&mut self, place: Place) -> Result<Object> {
+        self.expect(Mark::BraceOpen)?;
+        let mut parts = Vec::new();
+        while self.starts_object()? {
+            parts.push(self.object()?);
+            self.check_memory(parts.len() * 8, place)?;
+        }
+        if parts.is_empty() {
+            let lexeme = self.next()?;
+            return Err(self.unexpected(&lexeme, "the first object of the union"));
+        }
+        Ok(Object::new(Shape::Union(parts), place))
+    }
+
+    /// `{ object }`.
+    pub(crate) fn object_in_braces(&mut self) -> Result<Rc<Object>> {
+        self.expect(Mark::BraceOpen)?;
+        let object = self.object()?;
+        self.expect(Mark::BraceClose)?;
+        Ok(object)
+    }
+
+    /// An object as a value.
+    pub(crate) fn object_value(&mut self) -> Result<Value> {
+        if self.starts_object()? {
+            return Ok(Value::Object(self.object()?));
+        }
+        let lexeme = self.next()?;
+        Err(self.unexpected(&lexeme, "a value"))
+    }
+
+    /// A length that must not be zero; a negative one is taken without its sign, as POV-Ray does.
+    pub(crate) fn radius(&mut self, what: &str) -> Result<f64> {
+        self.peek()?;
+        let place = self.here();
+        let radius = self.float()?;
+        if radius == 0.0 {
+            return Err(Fault::invalid(place, format!("{what} is zero")));
+        }
+        Ok(radius.abs())
+    }
+}

@@ -1,0 +1,133 @@
+//! What may follow a shape's numbers: transforms, looks, habits, clips.
+
+use std::rc::Rc;
+
+use super::{Object, Shape};
+use crate::diagnostics::{Fault, Result};
+use crate::keywords::Keyword;
+use crate::lexer::Mark;
+use crate::reader::{Item, Reader};
+use crate::texture::Texture;
+use crate::value::Value;
+
+impl Reader<'_> {
+    /// Modifiers up to the closing brace.
+    pub(crate) fn modifiers(&mut self, object: &mut Object) -> Result<()> {
+        loop {
+            if let Some(by) = self.transform_item()? {
+                object.transform(&by);
+                continue;
+            }
+            if self.look(object)? {
+                continue;
+            }
+            let lexeme = self.next()?;
+            let keyword = match &lexeme.item {
+                Item::Mark(Mark::BraceClose) => return Ok(()),
+                Item::Word(keyword) => *keyword,
+                _ => return Err(self.unexpected(&lexeme, "a modifier of the object, or `}`")),
+            };
+            let habits = &mut object.habits;
+            match keyword {
+                Keyword::NoShadow => habits.no_shadow = true,
+                Keyword::NoImage => habits.no_image = true,
+                Keyword::NoReflection => habits.no_reflection = true,
+                Keyword::Inverse => habits.inverse = !habits.inverse,
+                Keyword::Hollow => object.habits.hollow = self.switch_value()?,
+                Keyword::DoubleIlluminate => object.habits.double_illuminate = self.switch_value()?,
+                Keyword::Open
+                    if matches!(
+                        object.shape,
+                        Shape::Cylinder { .. } | Shape::Cone { .. } | Shape::Named(_)
+                    ) =>
+                {
+                    habits.open = true;
+                }
+                // No radiosity, no photons, better roots anyway, our own trees: nothing to do.
+                Keyword::NoRadiosity | Keyword::Sturm | Keyword::Hierarchy | Keyword::SplitUnion => {
+                    self.switch_value()?;
+                }
+                Keyword::Photons => self.skip_photons()?,
+                Keyword::ClippedBy => {
+                    let parts = self.cutters(&object.bounds, Keyword::BoundedBy)?;
+                    object.clips.extend(parts);
+                }
+                Keyword::BoundedBy => {
+                    let parts = self.cutters(&object.clips, Keyword::ClippedBy)?;
+                    object.bounds.extend(parts);
+                }
+                _ => return Err(self.unexpected(&lexeme, "a modifier of the object, or `}`")),
+            }
+        }
+    }
+
+    /// How an object takes part in photon mapping says nothing while there is none.
+    fn skip_photons(&mut self) -> Result<()> {
+        let braces = self.braces;
+        self.expect(Mark::BraceOpen)?;
+        self.skip_to_brace_level(braces)
+    }
+
+    /// The objects of a `clipped_by` or `bounded_by`, or those of the other one.
+    fn cutters(&mut self, others: &[Rc<Object>], other: Keyword) -> Result<Vec<Rc<Object>>> {
+        self.expect(Mark::BraceOpen)?;
+        if self.take_word(other)? {
+            self.expect(Mark::BraceClose)?;
+            return Ok(others.to_vec());
+        }
+        let mut parts = Vec::new();
+        while self.starts_object()? {
+            let part = self.object()?;
+            if matches!(part.shape, Shape::Light(_)) {
+                return Err(Fault::invalid(part.at, "a light cuts nothing off"));
+            }
+            parts.push(part);
+        }
+        if parts.is_empty() {
+            let lexeme = self.next()?;
+            return Err(self.unexpected(&lexeme, "an object"));
+        }
+        self.expect(Mark::BraceClose)?;
+        Ok(parts)
+    }
+
+    /// A texture or a part of one, an interior, a material.
+    fn look(&mut self, object: &mut Object) -> Result<bool> {
+        match self.peek()? {
+            Item::Word(Keyword::Texture) => {
+                let next = self.texture_value()?;
+                let below = object.texture.take().map(Rc::unwrap_or_clone);
+                object.texture = Some(Rc::new(match below {
+                    None => next,
+                    Some(below) => self.laid_on(below, next)?,
+                }));
+            }
+            Item::Word(Keyword::Pigment | Keyword::Finish) => {
+                let base = || Rc::new(Texture::single((*self.defaults).clone()));
+                let mut texture = object.texture.take().unwrap_or_else(base);
+                self.layer_item(Rc::make_mut(&mut texture))?;
+                object.texture = Some(texture);
+            }
+            Item::Word(Keyword::Interior) => {
+                self.next()?;
+                object.interior = Some(self.nested(Self::interior_block)?);
+            }
+            Item::Word(Keyword::Material) => {
+                self.next()?;
+                let material = self.nested(Self::material_block)?;
+                if let Some(texture) = material.texture {
+                    object.texture = Some(Rc::new(texture));
+                }
+                if material.interior.is_some() {
+                    object.interior = material.interior;
+                }
+            }
+            Item::Value(Value::Interior(_)) => {
+                let lexeme = self.next()?;
+                return Err(self.unexpected(&lexeme, "a modifier such as interior { NAME }"));
+            }
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+}

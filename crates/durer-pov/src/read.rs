@@ -1,0 +1,196 @@
+//! The door: a file's path in, a scene out.
+
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use crate::diagnostics::{Fault, FaultKind, Place, PovError, Result};
+use crate::keywords::Keyword;
+use crate::limits::{self, Limits};
+use crate::messages::{Message, Messages};
+use crate::object::begins_object;
+use crate::reader::{Item, Reader};
+use crate::source::{Library, Source};
+use crate::value::Value;
+
+/// How a scene is to be read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReadOptions {
+    /// Folders searched for include files after the scene's own, before those of an installed POV-Ray.
+    pub library_paths: Vec<PathBuf>,
+    /// Names declared as floats before the scene begins.
+    pub declares: Vec<(String, f64)>,
+    /// The value of `clock`.
+    pub clock: f64,
+    /// The value of `image_width`, in pixels.
+    pub image_width: u32,
+    /// The value of `image_height`, in pixels.
+    pub image_height: u32,
+    /// Where reading stops.
+    pub limits: Limits,
+}
+
+impl Default for ReadOptions {
+    fn default() -> Self {
+        Self {
+            library_paths: Vec::new(),
+            declares: Vec::new(),
+            clock: 0.0,
+            image_width: 800,
+            image_height: 600,
+            limits: Limits::default(),
+        }
+    }
+}
+
+/// A scene that was read, and what was said on the way.
+#[derive(Clone, Debug)]
+pub struct Read {
+    /// The scene.
+    pub scene: durer_scene::Scene,
+    /// `#debug`, `#warning` and the reader's own warnings, in their order (the first ten thousand).
+    pub messages: Vec<Message>,
+    /// The files, for messages about a [`durer_scene::Place`].
+    pub sources: Sources,
+}
+
+/// The files of a scene.
+#[derive(Clone, Debug)]
+pub struct Sources {
+    files: Vec<std::sync::Arc<Source>>,
+    main: PathBuf,
+}
+
+impl Sources {
+    /// A message about what stands at `place`, in the form of all others.
+    pub fn error(&self, place: Option<durer_scene::Place>, text: impl Into<String>) -> PovError {
+        let place = place.map(|p| Place { file: p.file, start: p.start });
+        let fault = Fault { place, kind: FaultKind::Invalid, text: text.into(), route: Vec::new() };
+        PovError::new(&fault, &self.main, &self.files)
+    }
+}
+
+/// Stack of the reading thread: blocks and brackets inside each other are read recursively, as deep as
+/// [`Limits::nesting`] allows. Only what is used is ever touched.
+const STACK: usize = 512 << 20;
+
+/// Reads the scene at `path`.
+///
+/// # Errors
+///
+/// One [`PovError`] for whatever is wrong with the text, a file, or the amount of it.
+pub fn read(path: &Path, options: &ReadOptions) -> std::result::Result<Read, PovError> {
+    read_with(path, options, |_| {})
+}
+
+/// As [`read`], and every message goes to `listener` at once.
+///
+/// # Errors
+///
+/// As [`read`].
+pub fn read_with(
+    path: &Path,
+    options: &ReadOptions,
+    listener: impl FnMut(&Message) + Send,
+) -> std::result::Result<Read, PovError> {
+    let failed = |text: String| {
+        PovError::new(
+            &Fault { place: None, kind: FaultKind::File, text, route: Vec::new() },
+            path,
+            &[] as &[Rc<Source>],
+        )
+    };
+    std::thread::scope(|scope| {
+        let work = || on_this_thread(path, options, Box::new(listener));
+        let thread = std::thread::Builder::new().name("durer-pov".into()).stack_size(STACK);
+        let thread =
+            thread.spawn_scoped(scope, work).map_err(|why| failed(format!("no thread to read it: {why}")))?;
+        thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    })
+}
+
+fn on_this_thread<'a>(
+    path: &Path,
+    options: &'a ReadOptions,
+    listener: Box<dyn FnMut(&Message) + Send + 'a>,
+) -> std::result::Result<Read, PovError> {
+    limits::reset_memory();
+    let library = Library::new(path, &options.library_paths);
+    let mut reader = Reader::new(options, library, Messages::new(listener));
+    match reader.scene(path) {
+        Ok(scene) => {
+            let messages = std::mem::take(&mut reader.messages.kept);
+            let sources = reader.sources.drain(..).map(|source| {
+                let text = match Rc::try_unwrap(source) {
+                    Ok(own) => Source::new(own.path, own.text),
+                    Err(shared) => Source::new(shared.path.clone(), shared.text.clone()),
+                };
+                std::sync::Arc::new(text)
+            });
+            let sources = Sources { files: sources.collect(), main: path.to_path_buf() };
+            Ok(Read { scene, messages, sources })
+        }
+        Err(mut fault) => {
+            fault.route = reader.route();
+            Err(PovError::new(&fault, path, &reader.sources))
+        }
+    }
+}
+
+impl Reader<'_> {
+    /// The whole scene.
+    fn scene(&mut self, path: &Path) -> Result<durer_scene::Scene> {
+        let options = self.options;
+        let named = [
+            ("image_width", f64::from(options.image_width)),
+            ("image_height", f64::from(options.image_height)),
+            ("clock_delta", 0.0),
+            ("frame_number", 0.0),
+            ("initial_frame", 0.0),
+            ("final_frame", 0.0),
+            ("initial_clock", 0.0),
+            ("final_clock", 0.0),
+        ];
+        let given = options.declares.iter().map(|(name, value)| (name.as_str(), *value));
+        for (name, value) in named.into_iter().chain(given) {
+            if !is_name(name) || self.predeclare(name, value).is_none() {
+                return Err(Fault::file(
+                    None,
+                    format!("`{name}` cannot be declared: it is no name, or a word of the language"),
+                ));
+            }
+        }
+        let file = self.load(path.to_path_buf(), None)?;
+        self.enter_file(file, None)?;
+        loop {
+            let lexeme = self.next()?;
+            let place = lexeme.place;
+            match &lexeme.item {
+                Item::End => break,
+                Item::Word(Keyword::Camera) => self.camera_statement(place)?,
+                Item::Word(Keyword::Background) => self.background()?,
+                Item::Word(Keyword::GlobalSettings) => self.global_settings()?,
+                Item::Word(keyword) if begins_object(*keyword) => self.object_statement(lexeme)?,
+                Item::Value(Value::Object(_)) | Item::Unknown(_) => self.object_statement(lexeme)?,
+                _ => return Err(self.unexpected(&lexeme, "an object or a directive")),
+            }
+        }
+        if self.language.gamma.is_none() && self.language.shading_version() >= 3.7 {
+            let start = Place { file, start: 0 };
+            self.notice(start, "assumed_gamma is not given: taken as 1.0");
+        }
+        Ok(self.finished())
+    }
+
+    fn object_statement(&mut self, first: crate::reader::Lexeme) -> Result<()> {
+        self.put_back(first);
+        let object = self.object()?;
+        self.emit(&object)
+    }
+}
+
+/// Whether the lexer would take `text` for one name.
+fn is_name(text: &str) -> bool {
+    let mut letters = text.chars();
+    letters.next().is_some_and(|c| c.is_ascii_alphabetic() || c == '_')
+        && letters.all(|c| c.is_ascii_alphanumeric() || c == '_')
+}

@@ -1,0 +1,514 @@
+//! The reader: all its state, and the stream of tokens as the grammar sees it.
+//!
+//! Directives run and macros unfold inside [`Reader::next`], because they may stand anywhere a token may;
+//! identifiers come out of it as their values.
+
+use std::collections::HashMap;
+use std::path::PathBuf;
+use std::rc::Rc;
+
+use crate::ReadOptions;
+use crate::diagnostics::{Fault, Place, Result};
+use crate::keywords::Keyword;
+use crate::lexer::{Kind, Mark, Token};
+use crate::limits;
+use crate::macros::Macro;
+use crate::messages::Messages;
+use crate::names::{Name, Names};
+use crate::scope::Scopes;
+use crate::source::{self, Library, Source};
+use crate::value::{Text, Value};
+
+/// A token as the grammar sees it.
+#[derive(Clone, Debug)]
+pub(crate) enum Item {
+    Number(f64),
+    /// A string, escapes untouched.
+    Text(Rc<Source>, u32),
+    Word(Keyword),
+    Mark(Mark),
+    /// An identifier's value (of an array followed by subscripts: the element's).
+    Value(Value),
+    /// A word that stands for nothing (but may be one of durer's own; see [`crate::object::extension`]).
+    Unknown(Name),
+    End,
+}
+
+/// An [`Item`] and where it stands.
+#[derive(Clone, Debug)]
+pub(crate) struct Lexeme {
+    pub(crate) item: Item,
+    pub(crate) place: Place,
+}
+
+/// A loop or choice that runs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Control {
+    /// `#if` and its kin, `#switch`.
+    Branch,
+    /// `#while`: to be asked again at this token.
+    While(usize),
+    /// `#for`: its body begins at this token.
+    For { body: usize, variable: Name, last: f64, step: f64 },
+}
+
+/// A stretch of tokens being read: a file or a macro's body.
+#[derive(Debug)]
+pub(crate) struct Frame {
+    pub(crate) source: Rc<Source>,
+    pub(crate) file: u32,
+    pub(crate) at: usize,
+    pub(crate) end: usize,
+    pub(crate) controls: Vec<Control>,
+    pub(crate) serial: u64,
+    /// Where it was called from, and the macro's name; `None` for the scene itself.
+    pub(crate) from: Option<(Option<Name>, Place)>,
+}
+
+/// Reads one scene.
+pub(crate) struct Reader<'a> {
+    pub(crate) options: &'a ReadOptions,
+    pub(crate) names: Names,
+    pub(crate) sources: Vec<Rc<Source>>,
+    loaded: HashMap<PathBuf, u32>,
+    pub(crate) library: Library,
+    pub(crate) frames: Vec<Frame>,
+    pub(crate) scopes: Scopes,
+    pub(crate) messages: Messages<'a>,
+    peeked: Option<Lexeme>,
+    last: Place,
+    serial: u64,
+    steps: u64,
+    nesting: u64,
+    /// Braces open, counted in the tokens that the grammar has taken.
+    pub(crate) braces: u64,
+    include_depth: u64,
+    macro_depth: u64,
+    pub(crate) streams: Vec<u32>,
+    pub(crate) language: crate::settings::Language,
+    pub(crate) defaults: Rc<crate::texture::Layer>,
+    pub(crate) scene: crate::emit::Output,
+}
+
+impl<'a> Reader<'a> {
+    pub(crate) fn new(options: &'a ReadOptions, library: Library, messages: Messages<'a>) -> Self {
+        Self {
+            options,
+            names: Names::new(),
+            sources: Vec::new(),
+            loaded: HashMap::new(),
+            library,
+            frames: Vec::new(),
+            scopes: Scopes::default(),
+            messages,
+            peeked: None,
+            last: Place::default(),
+            serial: 0,
+            steps: 0,
+            nesting: 0,
+            braces: 0,
+            include_depth: 0,
+            macro_depth: 0,
+            streams: Vec::new(),
+            language: crate::settings::Language::default(),
+            defaults: Rc::default(),
+            scene: crate::emit::Output::default(),
+        }
+    }
+
+    /// Takes in the file at `path`, or finds it among those taken in before.
+    pub(crate) fn load(&mut self, path: PathBuf, from: Option<Place>) -> Result<u32> {
+        if let Some(&file) = self.loaded.get(&path) {
+            return Ok(file);
+        }
+        let text = source::read_text(&path, &self.options.limits).map_err(|why| {
+            Fault::file(from, if from.is_some() { format!("{}: {why}", path.display()) } else { why })
+        })?;
+        let file = self.sources.len() as u32;
+        let mut source = Source::new(path.clone(), text);
+        limits::charge_for_good(source.text.len());
+        let mut result = crate::lexer::lex(&mut source, file, &mut self.names, &self.options.limits);
+        if result.is_ok() {
+            result = crate::blocks::match_blocks(&mut source, file);
+        }
+        source.tokens.shrink_to_fit();
+        source.numbers.shrink_to_fit();
+        limits::charge_for_good(
+            source.tokens.len() * 12 + source.numbers.len() * 8 + source.strings.len() * 32,
+        );
+        self.sources.push(Rc::new(source));
+        self.loaded.insert(path, file);
+        result.map(|()| file)
+    }
+
+    /// Begins to read file number `file` from its start.
+    pub(crate) fn enter_file(&mut self, file: u32, from: Option<Place>) -> Result<()> {
+        if let Some(place) = from {
+            self.include_depth += 1;
+            if self.include_depth > self.options.limits.include_depth {
+                let limit = self.options.limits.include_depth;
+                return Err(limits::exceeded(
+                    place,
+                    "include_depth",
+                    limit,
+                    "files include each other too deeply",
+                ));
+            }
+            self.scopes.enter();
+        }
+        let source = self.sources[file as usize].clone();
+        let end = source.tokens.len();
+        self.push_frame(Frame {
+            source,
+            file,
+            at: 0,
+            end,
+            controls: Vec::new(),
+            serial: 0,
+            from: from.map(|place| (None, place)),
+        });
+        Ok(())
+    }
+
+    /// Begins to read the body of a macro; its scope is open already.
+    pub(crate) fn enter_macro(&mut self, body: &Macro, place: Place) -> Result<()> {
+        self.macro_depth += 1;
+        if self.macro_depth > self.options.limits.macro_depth {
+            let limit = self.options.limits.macro_depth;
+            return Err(limits::exceeded(place, "macro_depth", limit, "macros call each other too deeply"));
+        }
+        let source = self.sources[body.file as usize].clone();
+        self.push_frame(Frame {
+            source,
+            file: body.file,
+            at: body.start,
+            end: body.end,
+            controls: Vec::new(),
+            serial: 0,
+            from: Some((Some(body.name), place)),
+        });
+        Ok(())
+    }
+
+    fn push_frame(&mut self, mut frame: Frame) {
+        self.serial += 1;
+        frame.serial = self.serial;
+        self.frames.push(frame);
+    }
+
+    /// Leaves the innermost frame; `false` if it is the scene itself.
+    fn leave_frame(&mut self) -> bool {
+        let Some(frame) = self.frames.pop_if(|frame| frame.from.is_some()) else { return false };
+        match frame.from {
+            Some((Some(_), _)) => self.macro_depth -= 1,
+            _ => self.include_depth -= 1,
+        }
+        self.scopes.leave();
+        true
+    }
+
+    /// Makes the frame numbered `serial` the innermost again, by leaving those that are read to their ends.
+    pub(crate) fn back_to_frame(&mut self, serial: u64, place: Place) -> Result<()> {
+        let strayed = || Fault::invalid(place, "this directive does not end where it began");
+        loop {
+            let frame = self.frames.last().ok_or_else(strayed)?;
+            if frame.serial == serial {
+                return Ok(());
+            }
+            if self.peeked.is_some() {
+                return Err(strayed());
+            }
+            match self.raw() {
+                None if self.leave_frame() => {}
+                // What a macro does after its last value.
+                Some(Kind::Directive(directive, block)) => {
+                    let at = self.take_raw().map_or(place, |(_, at)| at);
+                    self.count_steps(1, at)?;
+                    self.run_directive(directive, block, at)?;
+                }
+                _ => return Err(strayed()),
+            }
+        }
+    }
+
+    /// The macro calls and includes that led here, innermost first.
+    pub(crate) fn route(&self) -> Vec<(String, Place)> {
+        let step = |frame: &Frame| {
+            let (name, place) = frame.from?;
+            Some(match name {
+                Some(name) => (format!("macro {}, called", self.names.text(name)), place),
+                None => (format!("file {}, included", frame.source.path.display()), place),
+            })
+        };
+        self.frames.iter().rev().filter_map(step).collect()
+    }
+
+    /// Counts `work` steps; every token is one.
+    pub(crate) fn count_steps(&mut self, work: u64, place: Place) -> Result<()> {
+        self.steps += work;
+        if self.steps > self.options.limits.steps {
+            let limit = self.options.limits.steps;
+            return Err(limits::exceeded(place, "steps", limit, "this scene does not come to an end"));
+        }
+        Ok(())
+    }
+
+    /// Fails if `more` bytes would be too many.
+    pub(crate) fn check_memory(&self, more: usize, place: Place) -> Result<()> {
+        limits::check_memory(place, &self.options.limits, more)
+    }
+
+    /// Runs `f` one level deeper, so that the depth of the reader's own recursion is bounded.
+    pub(crate) fn nested<T>(&mut self, f: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
+        if self.nesting >= self.options.limits.nesting {
+            let limit = self.options.limits.nesting;
+            return Err(limits::exceeded(self.last, "nesting", limit, "too many things inside each other"));
+        }
+        self.nesting += 1;
+        let result = f(self);
+        self.nesting -= 1;
+        result
+    }
+
+    /// The next token as it stands in the innermost frame, not run, not unfolded, not taken.
+    pub(crate) fn raw(&self) -> Option<Kind> {
+        self.raw_ahead(0)
+    }
+
+    /// As [`Reader::raw`], `ahead` tokens further.
+    pub(crate) fn raw_ahead(&self, ahead: usize) -> Option<Kind> {
+        debug_assert!(self.peeked.is_none(), "a token was looked at already");
+        let frame = self.frames.last()?;
+        let at = frame.at + ahead;
+        (at < frame.end).then(|| frame.source.tokens[at].kind)
+    }
+
+    /// Takes the next token as it stands.
+    pub(crate) fn take_raw(&mut self) -> Option<(Kind, Place)> {
+        let frame = self.frames.last_mut()?;
+        if frame.at >= frame.end {
+            return None;
+        }
+        let Token { start, kind } = frame.source.tokens[frame.at];
+        frame.at += 1;
+        self.last = Place { file: frame.file, start };
+        Some((kind, self.last))
+    }
+
+    /// Takes a raw `mark` if it stands there.
+    pub(crate) fn take_raw_mark(&mut self, mark: Mark) -> bool {
+        let here = self.peeked.is_none() && self.raw() == Some(Kind::Mark(mark));
+        if here {
+            self.take_raw();
+        }
+        here
+    }
+
+    /// Whether the grammar has looked at the next token already.
+    pub(crate) fn has_peeked(&self) -> bool {
+        self.peeked.is_some()
+    }
+
+    /// Where the token that was read last stands.
+    pub(crate) fn here(&self) -> Place {
+        self.peeked.as_ref().map_or(self.last, |lexeme| lexeme.place)
+    }
+
+    /// The next token, left where it is.
+    pub(crate) fn peek(&mut self) -> Result<&Item> {
+        if self.peeked.is_none() {
+            let lexeme = self.fetch()?;
+            self.peeked = Some(lexeme);
+        }
+        match &self.peeked {
+            Some(lexeme) => Ok(&lexeme.item),
+            None => Ok(&Item::End),
+        }
+    }
+
+    /// Takes the next token.
+    pub(crate) fn next(&mut self) -> Result<Lexeme> {
+        let lexeme = match self.peeked.take() {
+            Some(lexeme) => lexeme,
+            None => self.fetch()?,
+        };
+        match lexeme.item {
+            Item::Mark(Mark::BraceOpen) => self.braces += 1,
+            Item::Mark(Mark::BraceClose) => self.braces = self.braces.saturating_sub(1),
+            _ => {}
+        }
+        self.last = lexeme.place;
+        Ok(lexeme)
+    }
+
+    /// Puts back the token taken last.
+    pub(crate) fn put_back(&mut self, lexeme: Lexeme) {
+        match lexeme.item {
+            Item::Mark(Mark::BraceOpen) => self.braces = self.braces.saturating_sub(1),
+            Item::Mark(Mark::BraceClose) => self.braces += 1,
+            _ => {}
+        }
+        self.peeked = Some(lexeme);
+    }
+
+    fn fetch(&mut self) -> Result<Lexeme> {
+        loop {
+            let Some((kind, place)) = self.take_raw() else {
+                if self.leave_frame() {
+                    continue;
+                }
+                return Ok(Lexeme { item: Item::End, place: self.last });
+            };
+            self.count_steps(1, place)?;
+            let item = match kind {
+                Kind::Number(index) => Item::Number(self.top().source.numbers[index as usize]),
+                Kind::Text(index) => Item::Text(self.top().source.clone(), index),
+                Kind::Word(keyword) => Item::Word(keyword),
+                Kind::Mark(mark) => Item::Mark(mark),
+                Kind::Name(name) => match self.scopes.get(name) {
+                    None => Item::Unknown(name),
+                    Some(Value::Macro(body)) => {
+                        let body = body.clone();
+                        self.nested(|r| r.call_macro(&body, place))?;
+                        continue;
+                    }
+                    Some(Value::Array(_)) => Item::Value(self.array_or_element(name, place)?),
+                    Some(value) => Item::Value(value.clone()),
+                },
+                Kind::Directive(directive, block) => {
+                    self.nested(|r| r.run_directive(directive, block, place))?;
+                    // A directive may have looked one token too far.
+                    match self.peeked.take() {
+                        Some(lexeme) => return Ok(lexeme),
+                        None => continue,
+                    }
+                }
+            };
+            return Ok(Lexeme { item, place });
+        }
+    }
+
+    fn top(&self) -> &Frame {
+        // A token was just taken from it.
+        &self.frames[self.frames.len() - 1]
+    }
+
+    /// Whether the next token is `mark`.
+    pub(crate) fn at_mark(&mut self, mark: Mark) -> Result<bool> {
+        Ok(matches!(self.peek()?, Item::Mark(found) if *found == mark))
+    }
+
+    /// Takes `mark` if it comes next.
+    pub(crate) fn take_mark(&mut self, mark: Mark) -> Result<bool> {
+        let here = self.at_mark(mark)?;
+        if here {
+            self.next()?;
+        }
+        Ok(here)
+    }
+
+    /// Commas are mostly a matter of taste in this language.
+    pub(crate) fn skip_comma(&mut self) -> Result<()> {
+        self.take_mark(Mark::Comma).map(drop)
+    }
+
+    /// Takes `mark`, which must come next.
+    pub(crate) fn expect(&mut self, mark: Mark) -> Result<()> {
+        let lexeme = self.next()?;
+        if matches!(lexeme.item, Item::Mark(found) if found == mark) {
+            return Ok(());
+        }
+        Err(self.unexpected(&lexeme, &format!("`{}`", mark.text())))
+    }
+
+    /// The keyword that comes next, if one does.
+    pub(crate) fn peek_word(&mut self) -> Result<Option<Keyword>> {
+        Ok(match self.peek()? {
+            Item::Word(keyword) => Some(*keyword),
+            _ => None,
+        })
+    }
+
+    /// Takes `keyword` if it comes next.
+    pub(crate) fn take_word(&mut self, keyword: Keyword) -> Result<bool> {
+        let here = self.peek_word()? == Some(keyword);
+        if here {
+            self.next()?;
+        }
+        Ok(here)
+    }
+
+    /// The fault of finding `lexeme` where `wanted` should be.
+    pub(crate) fn unexpected(&self, lexeme: &Lexeme, wanted: &str) -> Box<Fault> {
+        let found = match &lexeme.item {
+            Item::Value(Value::Unsupported(what)) => {
+                return Fault::at(lexeme.place, crate::FaultKind::Unsupported, what.text.clone());
+            }
+            Item::Unknown(name) => {
+                let text = self.names.text(*name);
+                let hint =
+                    self.similar(*name).map_or_else(String::new, |s| format!(" (did you mean `{s}`?)"));
+                return Fault::invalid(
+                    lexeme.place,
+                    format!("expected {wanted}, found the undeclared `{text}`{hint}"),
+                );
+            }
+            Item::Number(_) => "a number".to_owned(),
+            Item::Text(..) => "a string".to_owned(),
+            Item::Word(keyword) if crate::unsupported::is_unsupported(*keyword) => {
+                return Fault::unsupported(lexeme.place, keyword.text());
+            }
+            Item::Word(keyword) => format!("`{}`", keyword.text()),
+            Item::Mark(mark) => format!("`{}`", mark.text()),
+            Item::Value(value) => value.kind().to_owned(),
+            Item::End => "the end of the scene".to_owned(),
+        };
+        Fault::invalid(lexeme.place, format!("expected {wanted}, found {found}"))
+    }
+
+    /// A declared name or reserved word that `name` may be a misspelling of.
+    fn similar(&self, name: Name) -> Option<&str> {
+        let wrong = self.names.text(name);
+        let allowed = wrong.len() / 3;
+        let reserved = Keyword::ALL.iter().map(|keyword| keyword.text());
+        let declared = self.scopes.bound().map(|n| self.names.text(n));
+        let near = declared.chain(reserved).map(|word| (distance(wrong, word), word));
+        near.filter(|(d, _)| (1..=allowed).contains(d)).min().map(|(_, word)| word)
+    }
+
+    /// Skips what is left of the blocks that were opened after `braces` were open.
+    pub(crate) fn skip_to_brace_level(&mut self, braces: u64) -> Result<()> {
+        while self.braces > braces {
+            if let Lexeme { item: Item::End, place } = self.next()? {
+                return Err(Fault::invalid(place, "the scene ends inside a block: a `}` is missing"));
+            }
+        }
+        Ok(())
+    }
+
+    /// A string as a value.
+    pub(crate) fn text_value(&self, text: String, place: Place) -> Result<Value> {
+        self.check_memory(text.len(), place)?;
+        Ok(Value::Text(Text::new(text)))
+    }
+}
+
+/// Letters to change, insert or drop between two short words (V. Levenshtein, *Soviet Physics Doklady* 10, 1966).
+fn distance(a: &str, b: &str) -> usize {
+    const FAR: usize = usize::MAX;
+    if a.len().abs_diff(b.len()) > 2 || a.len() > 40 {
+        return FAR;
+    }
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.iter().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let change = diagonal + usize::from(!x.eq_ignore_ascii_case(y));
+            diagonal = row[j + 1];
+            row[j + 1] = change.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}

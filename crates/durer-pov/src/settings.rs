@@ -1,0 +1,168 @@
+//! What holds for the whole scene: the language's version, gamma, limits of recursion, the background.
+
+use durer_math::elementary;
+
+use crate::colour::srgb_decoded;
+use crate::diagnostics::{Fault, Place, Result};
+use crate::keywords::Keyword;
+use crate::lexer::Mark;
+use crate::reader::{Item, Reader};
+
+/// How the scene's numbers relate to light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Gamma {
+    /// Light is the number to this power.
+    Power(f64),
+    /// The sRGB curve.
+    Srgb,
+}
+
+/// The language as far as it depends on the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Language {
+    /// The version in force: 3.7 until a `#version` says otherwise.
+    pub(crate) version: f64,
+    /// A `#version` was seen; a scene without any is treated as one of 3.62.
+    pub(crate) version_given: bool,
+    pub(crate) gamma: Option<Gamma>,
+}
+
+impl Default for Language {
+    fn default() -> Self {
+        Self { version: 3.7, version_given: false, gamma: None }
+    }
+}
+
+/// What scenes without any `#version` are written for.
+const UNVERSIONED: f64 = 3.62;
+
+impl Language {
+    /// The version by whose rules the scene is shaded.
+    pub(crate) fn shading_version(&self) -> f64 {
+        if self.version_given { self.version } else { UNVERSIONED }
+    }
+
+    /// An sRGB-encoded number in the scene's own scale.
+    pub(crate) fn working_from_srgb(&self, value: f64) -> f64 {
+        match self.gamma {
+            Some(Gamma::Srgb) => value,
+            Some(Gamma::Power(gamma)) if gamma != 1.0 => {
+                elementary::pow(srgb_decoded(value).max(0.0), 1.0 / gamma)
+            }
+            _ => srgb_decoded(value),
+        }
+    }
+}
+
+/// `global_settings` as far as it matters to this subset.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Globals {
+    pub(crate) max_trace_level: u32,
+    pub(crate) adc_bailout: f64,
+    pub(crate) ambient_light: [f64; 3],
+}
+
+impl Default for Globals {
+    fn default() -> Self {
+        Self { max_trace_level: 5, adc_bailout: 1.0 / 255.0, ambient_light: [1.0; 3] }
+    }
+}
+
+/// The newest version of the language that is read.
+const NEWEST: f64 = 3.7;
+/// POV-Ray's bound.
+const DEEPEST_TRACE: f64 = 256.0;
+
+impl Reader<'_> {
+    /// `#version`.
+    pub(crate) fn set_version(&mut self, version: f64, place: Place) -> Result<()> {
+        // Old files write 1 or 2, and 3.62 or 3.701 are patch levels.
+        if version.is_nan() || version >= NEWEST + 0.05 {
+            let text = format!(
+                "this scene is written for version {version}; durer reads the language up to {NEWEST}"
+            );
+            return Err(Fault::at(place, crate::FaultKind::Unsupported, text));
+        }
+        self.language.version = version;
+        self.language.version_given = true;
+        Ok(())
+    }
+
+    /// What stands in braces after `global_settings`.
+    pub(crate) fn global_settings(&mut self) -> Result<()> {
+        self.expect(Mark::BraceOpen)?;
+        loop {
+            let lexeme = self.next()?;
+            let place = lexeme.place;
+            let keyword = match &lexeme.item {
+                Item::Mark(Mark::BraceClose) => return Ok(()),
+                Item::Word(keyword) => *keyword,
+                _ => return Err(self.unexpected(&lexeme, "a global setting")),
+            };
+            match keyword {
+                Keyword::AssumedGamma => self.assumed_gamma(place)?,
+                Keyword::MaxTraceLevel => {
+                    let level = self.float()?;
+                    if !(1.0..=DEEPEST_TRACE).contains(&level) {
+                        let text = format!("max_trace_level is 1 to {DEEPEST_TRACE}");
+                        return Err(Fault::invalid(place, text));
+                    }
+                    self.scene.globals.max_trace_level = level as u32;
+                }
+                Keyword::AdcBailout => {
+                    let bailout = self.float()?;
+                    if bailout < 0.0 {
+                        return Err(Fault::invalid(place, "adc_bailout cannot be negative"));
+                    }
+                    self.scene.globals.adc_bailout = bailout;
+                }
+                Keyword::AmbientLight => {
+                    let [r, g, b, ..] = self.colour()?;
+                    self.scene.globals.ambient_light = [r, g, b];
+                }
+                // Texts are read as what they are, and the rest belongs to things that are not there yet.
+                Keyword::Charset => {
+                    let lexeme = self.next()?;
+                    match lexeme.item {
+                        Item::Word(Keyword::Ascii | Keyword::Utf8 | Keyword::Sys) => {}
+                        _ => return Err(self.unexpected(&lexeme, "ascii, utf8 or sys")),
+                    }
+                }
+                Keyword::MaxIntersections
+                | Keyword::NoiseGenerator
+                | Keyword::NumberOfWaves
+                | Keyword::MmPerUnit => drop(self.float()?),
+                Keyword::IridWavelength => drop(self.colour()?),
+                Keyword::Photons => return Err(Fault::unsupported(place, "photons")),
+                Keyword::HfGray16 => drop(self.switch_value()?),
+                _ => return Err(self.unexpected(&lexeme, "a global setting")),
+            }
+        }
+    }
+
+    fn assumed_gamma(&mut self, place: Place) -> Result<()> {
+        let gamma = if self.take_word(Keyword::Srgb)? {
+            Gamma::Srgb
+        } else {
+            let value = self.float()?;
+            if value <= 0.0 {
+                return Err(Fault::invalid(place, "assumed_gamma must be positive"));
+            }
+            Gamma::Power(value)
+        };
+        if self.language.gamma.is_some() {
+            self.notice(place, "a second assumed_gamma is ignored");
+        } else {
+            self.language.gamma = Some(gamma);
+        }
+        Ok(())
+    }
+
+    /// What stands in braces after `background`.
+    pub(crate) fn background(&mut self) -> Result<()> {
+        self.expect(Mark::BraceOpen)?;
+        let color = self.colour()?;
+        self.scene.background = Some(color);
+        self.expect(Mark::BraceClose)
+    }
+}

@@ -1,0 +1,187 @@
+//! Files of a scene: where they are looked for, how their bytes become text, and what is refused.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use crate::blocks::Block;
+use crate::lexer::Token;
+use crate::limits::Limits;
+
+/// One file, read once: its text, its tokens, and where its directives lead.
+#[derive(Debug)]
+pub(crate) struct Source {
+    pub(crate) path: PathBuf,
+    pub(crate) text: String,
+    pub(crate) tokens: Vec<Token>,
+    pub(crate) numbers: Vec<f64>,
+    /// Strings as they stand between their quotes, escapes untouched.
+    pub(crate) strings: Vec<Box<str>>,
+    pub(crate) blocks: Vec<Block>,
+}
+
+impl Source {
+    /// A file of which only the text is known; tokens come with [`crate::lexer::lex`].
+    pub(crate) fn new(path: PathBuf, text: String) -> Self {
+        Self { path, text, tokens: Vec::new(), numbers: Vec::new(), strings: Vec::new(), blocks: Vec::new() }
+    }
+
+    /// Line and column of a byte, both from 1; columns count characters.
+    pub(crate) fn line_and_column(&self, at: usize) -> (usize, usize) {
+        let head = &self.text[..at.min(self.text.len())];
+        let line_start = head.rfind('\n').map_or(0, |i| i + 1);
+        (1 + head.matches('\n').count(), 1 + head[line_start..].chars().count())
+    }
+}
+
+impl AsRef<Self> for Source {
+    fn as_ref(&self) -> &Self {
+        self
+    }
+}
+
+/// The text of the file at `path`, or one line that says why not.
+///
+/// UTF-8 if it is that, else Latin-1, as old scenes are.
+pub(crate) fn read_text(path: &Path, limits: &Limits) -> Result<String, String> {
+    let unreadable = |e: std::io::Error| format!("cannot be read: {}", plain_reason(&e));
+    let about = std::fs::metadata(path).map_err(unreadable)?;
+    if about.is_dir() {
+        return Err("is a directory, not a scene file".into());
+    }
+    if !about.is_file() {
+        return Err("is not a regular file".into());
+    }
+    let too_long = || {
+        let limit = limits.file_size;
+        format!(
+            "is too long: the limit `file_size` is {limit} bytes (a larger one can be given with --limit file_size=N)"
+        )
+    };
+    if about.len() > limits.file_size {
+        return Err(too_long());
+    }
+    let mut bytes = Vec::with_capacity(about.len() as usize);
+    let file = File::open(path).map_err(unreadable)?;
+    file.take(limits.file_size.saturating_add(1)).read_to_end(&mut bytes).map_err(unreadable)?;
+    // Positions are 32 bits wide.
+    if bytes.len() as u64 > limits.file_size.min(u64::from(u32::MAX) / 2) {
+        return Err(too_long());
+    }
+    Ok(decode(bytes))
+}
+
+/// The system's reason without its error number.
+fn plain_reason(error: &std::io::Error) -> String {
+    let text = error.to_string();
+    let text = text.split(" (os error").next().unwrap_or(&text);
+    let mut chars = text.chars();
+    chars.next().map_or_else(String::new, |c| c.to_lowercase().chain(chars).collect())
+}
+
+/// Bytes to text: UTF-8 (with or without a byte order mark), else Latin-1.
+fn decode(bytes: Vec<u8>) -> String {
+    let text = match String::from_utf8(bytes) {
+        Ok(text) => text,
+        Err(not_utf8) => not_utf8.as_bytes().iter().map(|&b| char::from(b)).collect(),
+    };
+    match text.strip_prefix('\u{feff}') {
+        Some(rest) => rest.to_owned(),
+        None => text,
+    }
+}
+
+/// Folders in which POV-Ray's standard include files are found when it is installed.
+fn installed_folders() -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for root in ["/usr/share", "/usr/local/share", "/opt/homebrew/share"] {
+        let mut here: Vec<PathBuf> = std::fs::read_dir(root)
+            .into_iter()
+            .flatten()
+            .flatten()
+            .filter(|entry| entry.file_name().to_string_lossy().starts_with("povray"))
+            .map(|entry| entry.path().join("include"))
+            .filter(|folder| folder.is_dir())
+            .collect();
+        // Of several versions the newest first: 3.8 before 3.7.
+        here.sort_by(|a, b| b.cmp(a));
+        found.append(&mut here);
+    }
+    found
+}
+
+/// Where include files are looked for, in order.
+#[derive(Debug)]
+pub(crate) struct Library {
+    folders: Vec<PathBuf>,
+}
+
+impl Library {
+    /// The scene's folder, the given folders, then POV-Ray's own.
+    pub(crate) fn new(scene: &Path, given: &[PathBuf]) -> Self {
+        let home = scene.parent().map_or_else(PathBuf::new, Path::to_path_buf);
+        let mut folders = vec![home];
+        folders.extend(given.iter().cloned());
+        folders.extend(installed_folders());
+        Self { folders }
+    }
+
+    /// The file called `name`, exactly spelled if there is one in any folder, else in any mixture of cases.
+    pub(crate) fn find(&self, name: &str) -> Option<PathBuf> {
+        let name = name.trim();
+        if name.is_empty() {
+            return None;
+        }
+        let turned = name.replace('\\', "/");
+        let spellings = if turned == name { vec![name] } else { vec![name, &turned] };
+        let places = spellings.iter().flat_map(|s| self.folders.iter().map(move |f| f.join(s)));
+        let exact = places.clone().find(|path| path.exists());
+        exact.or_else(|| self.folders.iter().find_map(|folder| find_any_case(folder, &turned)))
+    }
+}
+
+/// `name` (with `/` between folders) under `folder`, whatever the case of its letters.
+fn find_any_case(folder: &Path, name: &str) -> Option<PathBuf> {
+    let mut at = if name.starts_with('/') { PathBuf::from("/") } else { folder.to_path_buf() };
+    for part in name.split('/').filter(|part| !part.is_empty() && *part != ".") {
+        let exact = at.join(part);
+        if exact.exists() {
+            at = exact;
+            continue;
+        }
+        let listed = if at.as_os_str().is_empty() { Path::new(".") } else { &at };
+        let mut matches: Vec<_> = std::fs::read_dir(listed)
+            .ok()?
+            .flatten()
+            .map(|entry| entry.file_name())
+            .filter(|found| found.to_string_lossy().eq_ignore_ascii_case(part))
+            .collect();
+        matches.sort();
+        at = at.join(matches.first()?);
+    }
+    at.is_file().then_some(at)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_that_are_not_utf8_are_latin_1() {
+        assert_eq!(decode(b"D\xfcrer".to_vec()), "Dürer");
+        assert_eq!(decode("Dürer".as_bytes().to_vec()), "Dürer");
+        assert_eq!(decode(b"\xef\xbb\xbfx".to_vec()), "x");
+    }
+
+    #[test]
+    fn a_directory_is_no_scene() {
+        let why = read_text(Path::new("."), &Limits::default()).unwrap_err();
+        assert_eq!(why, "is a directory, not a scene file");
+    }
+
+    #[test]
+    fn columns_count_characters() {
+        let source = Source::new(PathBuf::new(), "é\néé x".into());
+        assert_eq!(source.line_and_column(source.text.find('x').unwrap()), (2, 4));
+    }
+}

@@ -1,0 +1,182 @@
+//! Finishes: how a surface takes the light.
+
+use crate::colour::Colour;
+use crate::diagnostics::{Fault, Result};
+use crate::keywords::Keyword;
+use crate::lexer::Mark;
+use crate::reader::{Item, Reader};
+use crate::value::Value;
+
+/// What is mirrored, and how that depends on the angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Reflection {
+    /// Seen head-on.
+    pub(crate) min: [f64; 3],
+    /// Seen at a grazing angle.
+    pub(crate) max: [f64; 3],
+    pub(crate) falloff: f64,
+    pub(crate) fresnel: bool,
+    pub(crate) exponent: f64,
+    pub(crate) metallic: f64,
+}
+
+impl Default for Reflection {
+    fn default() -> Self {
+        Self { min: [0.0; 3], max: [0.0; 3], falloff: 1.0, fresnel: false, exponent: 1.0, metallic: 0.0 }
+    }
+}
+
+/// How a surface takes the light.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Finish {
+    pub(crate) ambient: [f64; 3],
+    pub(crate) emission: [f64; 3],
+    pub(crate) diffuse: f64,
+    pub(crate) diffuse_back: f64,
+    /// `albedo` was written: the number is the total, not the height of the curve.
+    pub(crate) diffuse_albedo: bool,
+    pub(crate) brilliance: f64,
+    pub(crate) phong: f64,
+    pub(crate) phong_size: f64,
+    pub(crate) phong_albedo: bool,
+    pub(crate) specular: f64,
+    pub(crate) roughness: f64,
+    pub(crate) specular_albedo: bool,
+    pub(crate) metallic: f64,
+    pub(crate) crand: f64,
+    pub(crate) conserve_energy: bool,
+    pub(crate) reflection: Reflection,
+}
+
+impl Default for Finish {
+    fn default() -> Self {
+        Self {
+            ambient: [0.1; 3],
+            emission: [0.0; 3],
+            diffuse: 0.6,
+            diffuse_back: 0.0,
+            diffuse_albedo: false,
+            brilliance: 1.0,
+            phong: 0.0,
+            phong_size: 40.0,
+            phong_albedo: false,
+            specular: 0.0,
+            roughness: 0.05,
+            specular_albedo: false,
+            metallic: 0.0,
+            crand: 0.0,
+            conserve_energy: false,
+            reflection: Reflection::default(),
+        }
+    }
+}
+
+fn rgb(colour: Colour) -> [f64; 3] {
+    [colour[0], colour[1], colour[2]]
+}
+
+impl Reader<'_> {
+    /// What stands in braces after `finish`; `base` is what it changes.
+    pub(crate) fn finish_block(&mut self, base: &Finish) -> Result<Finish> {
+        self.expect(Mark::BraceOpen)?;
+        let mut finish = base.clone();
+        loop {
+            let lexeme = self.next()?;
+            let place = lexeme.place;
+            let keyword = match &lexeme.item {
+                Item::Mark(Mark::BraceClose) => return Ok(finish),
+                Item::Value(Value::Finish(known)) => {
+                    finish = (**known).clone();
+                    continue;
+                }
+                Item::Word(keyword) => *keyword,
+                _ => return Err(self.unexpected(&lexeme, "a part of a finish")),
+            };
+            match keyword {
+                Keyword::Ambient => finish.ambient = rgb(self.colour()?),
+                Keyword::Emission => finish.emission = rgb(self.colour()?),
+                Keyword::Diffuse => {
+                    finish.diffuse_albedo = self.take_word(Keyword::Albedo)?;
+                    finish.diffuse = self.float()?;
+                    if self.take_mark(Mark::Comma)? {
+                        finish.diffuse_back = self.float()?;
+                    }
+                }
+                Keyword::Brilliance => finish.brilliance = self.float()?,
+                Keyword::Phong => {
+                    finish.phong_albedo = self.take_word(Keyword::Albedo)?;
+                    finish.phong = self.float()?;
+                }
+                Keyword::PhongSize => {
+                    finish.phong_size = self.float()?;
+                    if finish.phong_size < 0.0 {
+                        return Err(Fault::invalid(place, "phong_size cannot be negative"));
+                    }
+                }
+                Keyword::Specular => {
+                    finish.specular_albedo = self.take_word(Keyword::Albedo)?;
+                    finish.specular = self.float()?;
+                }
+                Keyword::Roughness => {
+                    finish.roughness = self.float()?;
+                    if finish.roughness <= 0.0 {
+                        return Err(Fault::invalid(place, "roughness must be positive"));
+                    }
+                }
+                Keyword::Metallic => finish.metallic = self.float_or(1.0)?,
+                Keyword::Crand => finish.crand = self.float()?,
+                Keyword::ConserveEnergy => finish.conserve_energy = self.switch_value()?,
+                Keyword::ReflectionExponent => finish.reflection.exponent = self.exponent()?,
+                Keyword::Reflection => self.reflection(&mut finish.reflection)?,
+                _ => return Err(self.unexpected(&lexeme, "a part of a finish")),
+            }
+            self.skip_comma()?;
+        }
+    }
+
+    fn exponent(&mut self) -> Result<f64> {
+        let exponent = self.float()?;
+        if exponent <= 0.0 {
+            return Err(Fault::invalid(self.here(), "an exponent of reflection must be positive"));
+        }
+        Ok(exponent)
+    }
+
+    /// `reflection 0.5` or `reflection { min, max ... }`.
+    fn reflection(&mut self, reflection: &mut Reflection) -> Result<()> {
+        if !self.take_mark(Mark::BraceOpen)? {
+            let colour = rgb(self.colour()?);
+            *reflection = Reflection {
+                min: colour,
+                max: colour,
+                exponent: reflection.exponent,
+                ..Reflection::default()
+            };
+            return Ok(());
+        }
+        let exponent = reflection.exponent;
+        *reflection = Reflection { exponent, ..Reflection::default() };
+        let first = rgb(self.colour()?);
+        self.skip_comma()?;
+        let second =
+            if self.starts_colour()? || self.starts_number()? { Some(rgb(self.colour()?)) } else { None };
+        reflection.min = first;
+        reflection.max = second.unwrap_or(first);
+        loop {
+            self.skip_comma()?;
+            let lexeme = self.next()?;
+            match &lexeme.item {
+                Item::Mark(Mark::BraceClose) => break,
+                Item::Word(Keyword::Falloff) => reflection.falloff = self.float()?,
+                Item::Word(Keyword::Exponent) => reflection.exponent = self.exponent()?,
+                Item::Word(Keyword::Fresnel) => reflection.fresnel = self.switch_value()?,
+                Item::Word(Keyword::Metallic) => reflection.metallic = self.float_or(1.0)?,
+                _ => return Err(self.unexpected(&lexeme, "a part of a reflection")),
+            }
+        }
+        if reflection.fresnel && second.is_none() {
+            reflection.min = [0.0; 3];
+        }
+        Ok(())
+    }
+}

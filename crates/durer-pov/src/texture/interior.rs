@@ -1,0 +1,110 @@
+//! Interiors and materials: what light meets inside a body.
+
+use std::rc::Rc;
+
+use super::Texture;
+use crate::diagnostics::{Fault, Result};
+use crate::keywords::Keyword;
+use crate::lexer::Mark;
+use crate::reader::{Item, Reader};
+use crate::transform::Matrix;
+use crate::value::Value;
+
+/// What light meets inside a body.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Interior {
+    pub(crate) ior: f64,
+    pub(crate) fade_distance: f64,
+    pub(crate) fade_power: f64,
+    pub(crate) fade_color: [f64; 3],
+    pub(crate) caustics: f64,
+}
+
+impl Default for Interior {
+    fn default() -> Self {
+        Self { ior: 1.0, fade_distance: 0.0, fade_power: 0.0, fade_color: [0.0; 3], caustics: 0.0 }
+    }
+}
+
+/// A texture and an interior under one name.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Material {
+    pub(crate) texture: Option<Texture>,
+    pub(crate) interior: Option<Rc<Interior>>,
+}
+
+impl Reader<'_> {
+    /// What stands in braces after `interior`.
+    pub(crate) fn interior_block(&mut self) -> Result<Rc<Interior>> {
+        self.expect(Mark::BraceOpen)?;
+        let mut interior = Interior::default();
+        loop {
+            // An interior without media has nothing that transforms would move.
+            if self.transform_item()?.is_some() {
+                continue;
+            }
+            let lexeme = self.next()?;
+            match &lexeme.item {
+                Item::Mark(Mark::BraceClose) => return Ok(Rc::new(interior)),
+                Item::Value(Value::Interior(known)) => interior = (**known).clone(),
+                Item::Word(Keyword::Ior) => {
+                    interior.ior = self.float()?;
+                    if interior.ior <= 0.0 {
+                        return Err(Fault::invalid(lexeme.place, "an index of refraction must be positive"));
+                    }
+                }
+                Item::Word(Keyword::FadeDistance) => interior.fade_distance = self.float()?,
+                Item::Word(Keyword::FadePower) => interior.fade_power = self.float()?,
+                Item::Word(Keyword::FadeColor) => {
+                    let [r, g, b, ..] = self.colour()?;
+                    interior.fade_color = [r, g, b];
+                }
+                Item::Word(Keyword::Caustics) => interior.caustics = self.float()?,
+                // Without dispersion its samples change nothing.
+                Item::Word(Keyword::DispersionSamples) => drop(self.float()?),
+                Item::Word(Keyword::Dispersion) => {
+                    if self.float()? != 1.0 {
+                        return Err(Fault::unsupported(lexeme.place, "dispersion"));
+                    }
+                }
+                _ => return Err(self.unexpected(&lexeme, "a part of an interior")),
+            }
+        }
+    }
+
+    /// What stands in braces after `material`.
+    pub(crate) fn material_block(&mut self) -> Result<Material> {
+        self.expect(Mark::BraceOpen)?;
+        let mut material = Material::default();
+        loop {
+            if let Some(by) = self.transform_item()? {
+                if let Some(texture) = &mut material.texture {
+                    texture.transform(&by);
+                }
+                continue;
+            }
+            if self.peek_word()? == Some(Keyword::Texture) {
+                let next = self.texture_value()?;
+                material.texture = Some(match material.texture.take() {
+                    None => next,
+                    Some(below) => self.laid_on(below, next)?,
+                });
+                continue;
+            }
+            let lexeme = self.next()?;
+            match &lexeme.item {
+                Item::Mark(Mark::BraceClose) => return Ok(material),
+                Item::Value(Value::Material(known)) => material = (**known).clone(),
+                Item::Word(Keyword::Interior) => material.interior = Some(self.nested(Self::interior_block)?),
+                _ => return Err(self.unexpected(&lexeme, "a part of a material")),
+            }
+        }
+    }
+
+    /// Moves what a material moves; nothing in an interior of this language subset does.
+    pub(crate) fn move_texture(texture: &mut Option<Rc<Texture>>, by: &Matrix) {
+        if let Some(texture) = texture {
+            Rc::make_mut(texture).transform(by);
+        }
+    }
+}

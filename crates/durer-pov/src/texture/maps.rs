@@ -1,0 +1,202 @@
+//! Maps and lists: which colour, pigment or texture belongs to which value of a pattern.
+
+use std::rc::Rc;
+
+use super::{Pattern, PatternKind, Texture};
+use crate::colour::Colour;
+use crate::diagnostics::{Fault, Result};
+use crate::keywords::Keyword;
+use crate::lexer::Mark;
+use crate::limits::Charge;
+use crate::reader::{Item, Reader};
+use crate::value::Value;
+
+/// POV-Ray's bound on the entries of a map.
+const MOST_ENTRIES: usize = 256;
+
+/// Values and what stands at them, in the order of the text.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Map<T> {
+    pub(crate) entries: Vec<(f64, T)>,
+    /// Maps inside maps, this one included.
+    pub(crate) depth: u32,
+    _charge: Charge,
+}
+
+/// Values and colours.
+pub(crate) type ColorMap = Map<Colour>;
+
+impl<T> Map<T> {
+    pub(crate) fn new(entries: Vec<(f64, T)>, depth: u32) -> Self {
+        let _charge = Charge::new(64 + entries.len() * size_of::<(f64, T)>());
+        Self { entries, depth, _charge }
+    }
+
+    /// A list: the entries of a pattern that has numbers instead of values.
+    pub(crate) fn list(items: Vec<T>, depth: u32) -> Self {
+        let entries = items.into_iter().enumerate().map(|(i, item)| (i as f64, item)).collect();
+        Self::new(entries, depth)
+    }
+}
+
+/// How deeply maps may stand in each other; scenes use two or three.
+const DEEPEST: u32 = 32;
+
+impl Reader<'_> {
+    /// Entries `[value item]` in braces.
+    fn map_entries<T>(&mut self, mut item: impl FnMut(&mut Self) -> Result<T>) -> Result<Vec<(f64, T)>> {
+        let mut entries = Vec::new();
+        while self.take_mark(Mark::SquareOpen)? {
+            let value = self.float()?;
+            self.skip_comma()?;
+            entries.push((value, item(self)?));
+            self.expect(Mark::SquareClose)?;
+            self.skip_comma()?;
+            self.check_entries(entries.len())?;
+        }
+        Ok(entries)
+    }
+
+    fn check_entries(&self, count: usize) -> Result<()> {
+        if count > MOST_ENTRIES {
+            return Err(Fault::invalid(self.here(), format!("a map has at most {MOST_ENTRIES} entries")));
+        }
+        Ok(())
+    }
+
+    pub(crate) fn check_map_depth(&self, depth: u32) -> Result<u32> {
+        if depth > DEEPEST {
+            return Err(Fault::invalid(
+                self.here(),
+                format!("maps stand in each other more than {DEEPEST} deep"),
+            ));
+        }
+        Ok(depth)
+    }
+
+    fn end_of_map(&mut self, empty: bool) -> Result<()> {
+        let place = self.here();
+        self.expect(Mark::BraceClose)?;
+        if empty { Err(Fault::invalid(place, "this map has no entries")) } else { Ok(()) }
+    }
+
+    /// What follows `color_map`.
+    pub(crate) fn color_map_block(&mut self) -> Result<Rc<ColorMap>> {
+        self.expect(Mark::BraceOpen)?;
+        if let Item::Value(Value::ColorMap(known)) = self.peek()? {
+            let known = known.clone();
+            self.next()?;
+            self.expect(Mark::BraceClose)?;
+            return Ok(known);
+        }
+        let mut entries = Vec::new();
+        while self.take_mark(Mark::SquareOpen)? {
+            let first = self.float()?;
+            self.skip_comma()?;
+            // The old form gives a stretch: [from, to color A color B].
+            if self.starts_number()? && !self.starts_colour()? && !self.at_mark(Mark::Less)? {
+                let last = self.float()?;
+                self.skip_comma()?;
+                entries.push((first, self.colour()?));
+                self.skip_comma()?;
+                entries.push((last, self.colour()?));
+            } else {
+                entries.push((first, self.colour()?));
+            }
+            self.expect(Mark::SquareClose)?;
+            self.skip_comma()?;
+            self.check_entries(entries.len())?;
+        }
+        self.end_of_map(entries.is_empty())?;
+        Ok(Rc::new(Map::new(entries, 1)))
+    }
+
+    /// What follows `pigment_map`.
+    pub(crate) fn pigment_map_block(&mut self) -> Result<Rc<Map<super::Pigment>>> {
+        self.expect(Mark::BraceOpen)?;
+        if let Item::Value(Value::PigmentMap(known)) = self.peek()? {
+            let known = known.clone();
+            self.next()?;
+            self.expect(Mark::BraceClose)?;
+            return Ok(known);
+        }
+        let base = self.defaults.clone();
+        let entries =
+            self.map_entries(|r| r.nested(|r| r.pigment_items(&base.pigment, Mark::SquareClose)))?;
+        self.end_of_map(entries.is_empty())?;
+        let depth = 1 + entries.iter().map(|(_, pigment)| pigment.depth()).max().unwrap_or(0);
+        Ok(Rc::new(Map::new(entries, self.check_map_depth(depth)?)))
+    }
+
+    /// What follows `texture_map`.
+    pub(crate) fn texture_map_block(&mut self) -> Result<Rc<Map<Texture>>> {
+        self.expect(Mark::BraceOpen)?;
+        if let Item::Value(Value::TextureMap(known)) = self.peek()? {
+            let known = known.clone();
+            self.next()?;
+            self.expect(Mark::BraceClose)?;
+            return Ok(known);
+        }
+        let entries = self.map_entries(Self::texture_entry)?;
+        self.end_of_map(entries.is_empty())?;
+        let depth = 1 + entries.iter().map(|(_, texture)| texture.depth()).max().unwrap_or(0);
+        Ok(Rc::new(Map::new(entries, self.check_map_depth(depth)?)))
+    }
+
+    /// An entry of a texture map: identifiers, `texture {}` blocks, or the parts of one texture.
+    fn texture_entry(&mut self) -> Result<Texture> {
+        if self.peek_word()? == Some(Keyword::Texture) {
+            return self.texture_value();
+        }
+        let mut texture = match self.peek()? {
+            Item::Value(Value::Texture(known)) => {
+                let known = (**known).clone();
+                self.next()?;
+                known
+            }
+            _ => Texture::single((*self.defaults).clone()),
+        };
+        loop {
+            if let Some(by) = self.transform_item()? {
+                texture.transform(&by);
+            } else if !self.layer_item(&mut texture)? {
+                return Ok(texture);
+            }
+        }
+    }
+
+    /// A texture made of textures: the list of a discrete pattern, or the map that follows a gradient.
+    pub(crate) fn patterned_texture(&mut self, kind: PatternKind) -> Result<Texture> {
+        let mut items = Vec::new();
+        let length = kind.list_length().unwrap_or(0);
+        while items.len() < length && self.take_word(Keyword::Texture)? {
+            items.push(self.nested(Self::texture_block)?);
+            self.skip_comma()?;
+        }
+        if items.len() < length {
+            return Err(Fault::invalid(self.here(), format!("this pattern needs {length} texture blocks")));
+        }
+        let depth = 1 + items.iter().map(Texture::depth).max().unwrap_or(0);
+        let map = Rc::new(Map::list(items, self.check_map_depth(depth)?));
+        Ok(Texture::Patterned { pattern: Pattern::new(kind), map })
+    }
+
+    /// `texture_map {}` inside a patterned texture.
+    pub(crate) fn texture_map_item(&mut self, map: &mut Rc<Map<Texture>>) -> Result<bool> {
+        let here = self.take_word(Keyword::TextureMap)?;
+        if here {
+            *map = self.nested(Self::texture_map_block)?;
+        }
+        Ok(here)
+    }
+}
+
+impl Texture {
+    /// How deeply maps stand in each other.
+    fn depth(&self) -> u32 {
+        match self {
+            Self::Layers(layers) => layers.iter().map(|layer| layer.pigment.depth()).max().unwrap_or(0),
+            Self::Patterned { map, .. } => map.depth,
+        }
+    }
+}

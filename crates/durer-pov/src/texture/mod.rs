@@ -1,0 +1,202 @@
+//! Textures: pigments, finishes, layers, materials, and how a block of them is read.
+
+mod finish;
+mod interior;
+mod maps;
+mod pattern;
+mod pigment;
+
+use std::rc::Rc;
+
+use crate::diagnostics::{Fault, Result};
+use crate::keywords::Keyword;
+use crate::lexer::{Kind, Mark};
+use crate::reader::{Item, Reader};
+use crate::transform::Matrix;
+use crate::value::Value;
+
+pub(crate) use finish::Finish;
+pub(crate) use interior::{Interior, Material};
+pub(crate) use maps::{ColorMap, Map};
+pub(crate) use pattern::{Pattern, PatternKind, Wave};
+pub(crate) use pigment::{Paint, Pigment};
+
+/// One layer: what colour, and how it takes the light.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Layer {
+    pub(crate) pigment: Pigment,
+    pub(crate) finish: Finish,
+}
+
+/// A whole texture.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Texture {
+    /// Layers, the lowest first.
+    Layers(Vec<Layer>),
+    /// Whole textures side by side or blended.
+    Patterned { pattern: Pattern, map: Rc<Map<Texture>> },
+}
+
+impl Texture {
+    /// One layer.
+    pub(crate) fn single(layer: Layer) -> Self {
+        Self::Layers(vec![layer])
+    }
+
+    /// Moves the texture.
+    pub(crate) fn transform(&mut self, by: &Matrix) {
+        match self {
+            Self::Layers(layers) => layers.iter_mut().for_each(|layer| layer.pigment.transform(by)),
+            Self::Patterned { pattern, .. } => pattern.transform(by),
+        }
+    }
+
+    /// Layers in this texture, those of its parts included.
+    pub(crate) fn size(&self) -> usize {
+        match self {
+            Self::Layers(layers) => layers.len(),
+            Self::Patterned { map, .. } => map.entries.iter().map(|(_, part)| part.size()).sum::<usize>() + 1,
+        }
+    }
+}
+
+impl Reader<'_> {
+    /// One or more `texture { }` blocks, the word `texture` being next: layers upon each other.
+    pub(crate) fn texture_value(&mut self) -> Result<Texture> {
+        let mut texture = None;
+        loop {
+            self.next()?;
+            let next = self.nested(Self::texture_block)?;
+            texture = Some(match texture {
+                None => next,
+                Some(below) => self.laid_on(below, next)?,
+            });
+            // Looked for without running what follows: that may be the next statement.
+            let again = if self.has_peeked() {
+                self.peek_word()? == Some(Keyword::Texture)
+            } else {
+                self.raw() == Some(Kind::Word(Keyword::Texture))
+            };
+            match texture {
+                Some(done) if !again => return Ok(done),
+                _ => {}
+            }
+        }
+    }
+
+    /// `above` on top of `below`.
+    pub(crate) fn laid_on(&self, below: Texture, above: Texture) -> Result<Texture> {
+        match (below, above) {
+            (Texture::Layers(mut layers), Texture::Layers(more)) => {
+                layers.extend(more);
+                self.check_memory(layers.len() * size_of::<Layer>(), self.here())?;
+                Ok(Texture::Layers(layers))
+            }
+            _ => Err(Fault::invalid(self.here(), "a patterned texture cannot be layered")),
+        }
+    }
+
+    /// What stands in braces after `texture`.
+    pub(crate) fn texture_block(&mut self) -> Result<Texture> {
+        self.expect(Mark::BraceOpen)?;
+        let mut texture = Texture::single((*self.defaults).clone());
+        if let Item::Value(Value::Texture(known)) = self.peek()? {
+            texture = (**known).clone();
+            self.next()?;
+        }
+        loop {
+            if let Some(by) = self.transform_item()? {
+                texture.transform(&by);
+                continue;
+            }
+            if self.layer_item(&mut texture)? {
+                continue;
+            }
+            if let Some(kind) = self.pattern_kind()? {
+                texture = self.patterned_texture(kind)?;
+                continue;
+            }
+            if let Texture::Patterned { pattern, map } = &mut texture
+                && (self.pattern_modifier(pattern)? || self.texture_map_item(map)?)
+            {
+                continue;
+            }
+            let lexeme = self.next()?;
+            match &lexeme.item {
+                Item::Mark(Mark::BraceClose) => break,
+                _ => return Err(self.unexpected(&lexeme, "a part of a texture, or `}`")),
+            }
+        }
+        if let Texture::Patterned { map, .. } = &texture
+            && map.entries.is_empty()
+        {
+            return Err(Fault::invalid(self.here(), "this patterned texture has no textures"));
+        }
+        Ok(texture)
+    }
+
+    /// A pigment or finish, put into the top layer of `texture`.
+    pub(crate) fn layer_item(&mut self, texture: &mut Texture) -> Result<bool> {
+        enum Part {
+            Pigment,
+            Finish,
+        }
+        let (part, word) = match self.peek()? {
+            Item::Word(Keyword::Pigment) => (Part::Pigment, true),
+            Item::Word(Keyword::Finish) => (Part::Finish, true),
+            Item::Value(Value::Pigment(_)) => (Part::Pigment, false),
+            Item::Value(Value::Finish(_)) => (Part::Finish, false),
+            _ => return Ok(false),
+        };
+        let place = self.here();
+        let Texture::Layers(layers) = texture else {
+            return Err(Fault::invalid(place, "a patterned texture has no pigment or finish of its own"));
+        };
+        let Some(top) = layers.last_mut() else { return Ok(false) };
+        match part {
+            Part::Pigment if word => {
+                self.next()?;
+                top.pigment = self.nested(|r| r.pigment_block(&top.pigment))?;
+            }
+            Part::Finish if word => {
+                self.next()?;
+                top.finish = self.nested(|r| r.finish_block(&top.finish))?;
+            }
+            _ => match self.next()?.item {
+                Item::Value(Value::Pigment(known)) => top.pigment = (*known).clone(),
+                Item::Value(Value::Finish(known)) => top.finish = (*known).clone(),
+                _ => {}
+            },
+        }
+        Ok(true)
+    }
+
+    /// `#default { texture {} }` or a part of one.
+    pub(crate) fn default_texture(&mut self) -> Result<()> {
+        self.expect(Mark::BraceOpen)?;
+        let mut texture = Texture::single((*self.defaults).clone());
+        loop {
+            let place = {
+                self.peek()?;
+                self.here()
+            };
+            if self.take_word(Keyword::Texture)? {
+                texture = self.nested(Self::texture_block)?;
+            } else if !self.layer_item(&mut texture)? {
+                let lexeme = self.next()?;
+                match &lexeme.item {
+                    Item::Mark(Mark::BraceClose) => break,
+                    Item::Word(Keyword::Camera) => {
+                        return Err(Fault::unsupported(place, "camera in #default"));
+                    }
+                    _ => return Err(self.unexpected(&lexeme, "texture, pigment or finish")),
+                }
+            }
+            match &texture {
+                Texture::Layers(layers) if layers.len() == 1 => self.defaults = Rc::new(layers[0].clone()),
+                _ => return Err(Fault::invalid(place, "the default texture has one plain layer")),
+            }
+        }
+        Ok(())
+    }
+}

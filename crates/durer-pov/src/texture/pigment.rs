@@ -1,0 +1,171 @@
+//! Pigments: the colour at each point.
+
+use std::rc::Rc;
+
+use super::{ColorMap, Map, Pattern, PatternKind};
+use crate::colour::Colour;
+use crate::diagnostics::{Fault, Result};
+use crate::keywords::Keyword;
+use crate::lexer::Mark;
+use crate::reader::{Item, Reader};
+use crate::transform::Matrix;
+use crate::value::Value;
+
+/// What a pattern chooses from.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Paint {
+    Colors(Rc<ColorMap>),
+    Pigments(Rc<Map<Pigment>>),
+}
+
+/// The colour at each point.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Pigment {
+    Solid(Colour),
+    Patterned { pattern: Pattern, paint: Paint },
+}
+
+impl Default for Pigment {
+    fn default() -> Self {
+        Self::Solid([0.0; 5])
+    }
+}
+
+impl Pigment {
+    pub(crate) fn transform(&mut self, by: &Matrix) {
+        if let Self::Patterned { pattern, .. } = self {
+            pattern.transform(by);
+        }
+    }
+
+    /// How deeply maps stand in each other.
+    pub(crate) fn depth(&self) -> u32 {
+        match self {
+            Self::Solid(_) => 0,
+            Self::Patterned { paint: Paint::Colors(_), .. } => 1,
+            Self::Patterned { paint: Paint::Pigments(map), .. } => map.depth,
+        }
+    }
+}
+
+/// The colours of a list that the text leaves out.
+fn default_list(kind: PatternKind) -> Vec<Colour> {
+    let opaque = |r, g, b| [r, g, b, 0.0, 0.0];
+    match kind {
+        PatternKind::Checker => vec![opaque(0.0, 0.0, 1.0), opaque(0.0, 1.0, 0.0)],
+        PatternKind::Hexagon => vec![opaque(0.0, 0.0, 1.0), opaque(0.0, 1.0, 0.0), opaque(1.0, 0.0, 0.0)],
+        PatternKind::Brick { .. } => vec![opaque(0.5, 0.5, 0.5), opaque(0.6, 0.15, 0.15)],
+        PatternKind::Gradient(_) => Vec::new(),
+    }
+}
+
+impl Reader<'_> {
+    /// What stands in braces after `pigment`; `base` is what it changes.
+    pub(crate) fn pigment_block(&mut self, base: &Pigment) -> Result<Pigment> {
+        self.expect(Mark::BraceOpen)?;
+        self.pigment_items(base, Mark::BraceClose).and_then(|pigment| {
+            self.expect(Mark::BraceClose)?;
+            Ok(pigment)
+        })
+    }
+
+    /// The items of a pigment up to `end`, which is left.
+    pub(crate) fn pigment_items(&mut self, base: &Pigment, end: Mark) -> Result<Pigment> {
+        let mut pigment = base.clone();
+        let mut chosen = false;
+        loop {
+            if self.at_mark(end)? {
+                return Ok(pigment);
+            }
+            if let Some(by) = self.transform_item()? {
+                pigment.transform(&by);
+                continue;
+            }
+            let place = self.here();
+            let pattern = self.pattern_kind()?;
+            let solid = pattern.is_none() && self.starts_colour()?;
+            if chosen && (pattern.is_some() || solid) {
+                return Err(Fault::invalid(place, "this pigment has its colour or pattern already"));
+            }
+            chosen |= pattern.is_some() || solid;
+            if let Some(kind) = pattern {
+                pigment =
+                    Pigment::Patterned { pattern: Pattern::new(kind), paint: self.list_or_default(kind)? };
+                continue;
+            }
+            if solid {
+                pigment = Pigment::Solid(self.colour()?);
+                continue;
+            }
+            if let Pigment::Patterned { pattern, paint } = &mut pigment
+                && (self.pattern_modifier(pattern)? || self.paint_item(pattern.kind, paint)?)
+            {
+                continue;
+            }
+            if self.take_word(Keyword::QuickColor)? {
+                self.colour()?;
+                continue;
+            }
+            let lexeme = self.next()?;
+            match &lexeme.item {
+                Item::Value(Value::Pigment(known)) => pigment = (**known).clone(),
+                Item::Word(Keyword::Pigment) => {
+                    pigment = self.nested(|r| r.pigment_block(&pigment))?;
+                }
+                Item::Word(Keyword::ColorMap | Keyword::PigmentMap) => {
+                    return Err(Fault::invalid(lexeme.place, "a map needs a pattern before it"));
+                }
+                _ => return Err(self.unexpected(&lexeme, "a colour or pattern")),
+            }
+        }
+    }
+
+    /// The colours or pigments after the word of a discrete pattern.
+    fn list_or_default(&mut self, kind: PatternKind) -> Result<Paint> {
+        let Some(length) = kind.list_length() else {
+            let grey = Map::new(vec![(0.0, [0.0, 0.0, 0.0, 0.0, 0.0]), (1.0, [1.0, 1.0, 1.0, 0.0, 0.0])], 1);
+            return Ok(Paint::Colors(Rc::new(grey)));
+        };
+        let mut colours = default_list(kind);
+        if self.peek_word()? == Some(Keyword::Pigment) {
+            let mut pigments: Vec<Pigment> = colours.into_iter().map(Pigment::Solid).collect();
+            let base = self.defaults.clone();
+            for pigment in &mut pigments {
+                if !self.take_word(Keyword::Pigment)? {
+                    break;
+                }
+                *pigment = self.nested(|r| r.pigment_block(&base.pigment))?;
+                self.skip_comma()?;
+            }
+            let depth = 1 + pigments.iter().map(Pigment::depth).max().unwrap_or(0);
+            return Ok(Paint::Pigments(Rc::new(Map::list(pigments, self.check_map_depth(depth)?))));
+        }
+        for colour in colours.iter_mut().take(length) {
+            if !self.starts_colour()? {
+                break;
+            }
+            *colour = self.colour()?;
+            self.skip_comma()?;
+        }
+        Ok(Paint::Colors(Rc::new(Map::list(colours, 1))))
+    }
+
+    /// A map inside a patterned pigment.
+    fn paint_item(&mut self, kind: PatternKind, paint: &mut Paint) -> Result<bool> {
+        let keyword = match self.peek_word()? {
+            Some(keyword @ (Keyword::ColorMap | Keyword::PigmentMap)) => keyword,
+            _ => return Ok(false),
+        };
+        if kind.list_length().is_some() {
+            let text = format!("{} does not go with this pattern, which has a list", keyword.text());
+            return Err(Fault::invalid(self.here(), text));
+        }
+        self.next()?;
+        *paint = if keyword == Keyword::ColorMap {
+            Paint::Colors(self.nested(Self::color_map_block)?)
+        } else {
+            Paint::Pigments(self.nested(Self::pigment_map_block)?)
+        };
+        Ok(true)
+    }
+}

@@ -1,0 +1,210 @@
+//! What an identifier can hold.
+
+use std::rc::Rc;
+
+use crate::limits::Charge;
+use crate::macros::Macro;
+use crate::transform::Matrix;
+
+/// One to five numbers: a float, a vector, or (with five) a colour as red, green, blue, filter, transmit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Terms {
+    values: [f64; 5],
+    count: u8,
+}
+
+impl Terms {
+    /// The terms of `values`, of which there are 1 to 5.
+    pub(crate) fn new(values: &[f64]) -> Self {
+        let mut all = [0.0; 5];
+        let count = values.len().min(5);
+        all[..count].copy_from_slice(&values[..count]);
+        Self { values: all, count: count as u8 }
+    }
+
+    /// The terms themselves.
+    pub(crate) fn as_slice(&self) -> &[f64] {
+        &self.values[..usize::from(self.count)]
+    }
+
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        usize::from(self.count)
+    }
+
+    /// The float, if there is just one term.
+    pub(crate) fn float(&self) -> Option<f64> {
+        (self.count == 1).then_some(self.values[0])
+    }
+
+    /// `count` terms: one is repeated, a few are filled up with zeros; longer ones stay as they are.
+    pub(crate) fn promoted(mut self, count: usize) -> Self {
+        if self.len() < count {
+            if self.count == 1 {
+                let first = self.values[0];
+                self.values[1..count].fill(first);
+            }
+            self.count = count as u8;
+        }
+        self
+    }
+
+    /// `f` of each pair of terms, the shorter operand promoted.
+    pub(crate) fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        let count = self.len().max(other.len());
+        let (a, b) = (self.promoted(count), other.promoted(count));
+        let mut result = Self { values: [0.0; 5], count: count as u8 };
+        for (value, (a, b)) in result.values.iter_mut().zip(a.as_slice().iter().zip(b.as_slice())) {
+            *value = f(*a, *b);
+        }
+        result
+    }
+
+    /// `f` of each term.
+    pub(crate) fn map(mut self, f: impl Fn(f64) -> f64) -> Self {
+        for value in &mut self.values[..usize::from(self.count)] {
+            *value = f(*value);
+        }
+        self
+    }
+
+    /// The first three terms of the promoted value.
+    pub(crate) fn xyz(self) -> [f64; 3] {
+        let v = self.promoted(3).values;
+        [v[0], v[1], v[2]]
+    }
+
+    /// All five terms of the promoted value.
+    pub(crate) fn all(self) -> [f64; 5] {
+        self.promoted(5).values
+    }
+}
+
+impl From<f64> for Terms {
+    fn from(value: f64) -> Self {
+        Self::new(&[value])
+    }
+}
+
+impl From<[f64; 3]> for Terms {
+    fn from(values: [f64; 3]) -> Self {
+        Self::new(&values)
+    }
+}
+
+/// A string, charged to the scene's memory.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Text {
+    pub(crate) text: String,
+    _charge: Charge,
+}
+
+impl Text {
+    /// Charges the bytes of `text`.
+    pub(crate) fn new(text: String) -> Rc<Self> {
+        let _charge = Charge::new(text.len() + 64);
+        Rc::new(Self { text, _charge })
+    }
+}
+
+/// An array; its elements stand in row order.
+#[derive(Clone, Debug)]
+pub(crate) struct Array {
+    pub(crate) sizes: Vec<usize>,
+    pub(crate) items: Vec<Value>,
+    /// Arrays inside arrays, this one included.
+    pub(crate) depth: u32,
+    _charge: Charge,
+}
+
+impl Array {
+    /// An array without values.
+    pub(crate) fn new(sizes: Vec<usize>) -> Self {
+        let count = sizes.iter().product();
+        let _charge = Charge::new(Self::bytes(count));
+        Self { sizes, items: vec![Value::Empty; count], depth: 1, _charge }
+    }
+
+    /// What `count` elements take.
+    pub(crate) fn bytes(count: usize) -> usize {
+        count.saturating_mul(size_of::<Value>()).saturating_add(64)
+    }
+}
+
+/// What was found where durer cannot do it yet; using it is the fault, not defining it.
+#[derive(Debug)]
+pub(crate) struct Unsupported {
+    /// The words of the message.
+    pub(crate) text: String,
+}
+
+/// A value, cheap to copy: the large ones are shared and never changed in place.
+#[derive(Clone, Debug)]
+pub(crate) enum Value {
+    /// An array element without a value.
+    Empty,
+    Number(Terms),
+    Text(Rc<Text>),
+    Array(Rc<Array>),
+    Transform(Rc<Matrix>),
+    Pigment(Rc<crate::texture::Pigment>),
+    Finish(Rc<crate::texture::Finish>),
+    Texture(Rc<crate::texture::Texture>),
+    ColorMap(Rc<crate::texture::ColorMap>),
+    PigmentMap(Rc<crate::texture::Map<crate::texture::Pigment>>),
+    TextureMap(Rc<crate::texture::Map<crate::texture::Texture>>),
+    Interior(Rc<crate::texture::Interior>),
+    Material(Rc<crate::texture::Material>),
+    Camera(Rc<crate::camera::Camera>),
+    Object(Rc<crate::object::Object>),
+    Macro(Rc<Macro>),
+    Unsupported(Rc<Unsupported>),
+}
+
+impl Value {
+    /// The kind in the words of a message, with its article.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self {
+            Self::Empty => "an array element without a value",
+            Self::Number(terms) => match terms.len() {
+                1 => "a float",
+                5 => "a colour",
+                _ => "a vector",
+            },
+            Self::Text(_) => "a string",
+            Self::Array(_) => "an array",
+            Self::Transform(_) => "a transform",
+            Self::Pigment(_) => "a pigment",
+            Self::Finish(_) => "a finish",
+            Self::Texture(_) => "a texture",
+            Self::ColorMap(_) => "a colour map",
+            Self::PigmentMap(_) => "a pigment map",
+            Self::TextureMap(_) => "a texture map",
+            Self::Interior(_) => "an interior",
+            Self::Material(_) => "a material",
+            Self::Camera(_) => "a camera",
+            Self::Object(_) => "an object",
+            Self::Macro(_) => "a macro",
+            Self::Unsupported(_) => "something not supported yet",
+        }
+    }
+
+    /// How deeply values of this one's kind stand in each other.
+    pub(crate) fn array_depth(&self) -> u32 {
+        if let Self::Array(array) = self { array.depth } else { 0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn operands_are_promoted() {
+        let a = Terms::new(&[1.0, 2.0, 3.0]);
+        assert_eq!(a.zip(2.0.into(), |a, b| a * b).as_slice(), [2.0, 4.0, 6.0]);
+        assert_eq!(a.zip(Terms::new(&[2.0, 3.0]), |a, b| a * b).as_slice(), [2.0, 6.0, 0.0]);
+        assert_eq!(Terms::from(0.5).all(), [0.5; 5]);
+        assert_eq!(a.all(), [1.0, 2.0, 3.0, 0.0, 0.0]);
+    }
+}
