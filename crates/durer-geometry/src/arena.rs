@@ -1,0 +1,522 @@
+//! One arena per concrete surface type: one virtual call per leaf, static inside.
+//!
+//! A *slot* is what a tree's leaf holds: a surface, or one part of a surface that has several. Slots are kept in the
+//! order of the leaves, so that a leaf is one contiguous range. Where every surface of an arena has one part, the surfaces
+//! themselves are moved into that order, and slot and surface are the same number.
+
+use crate::best::Best;
+use crate::ids::{Id, Ids};
+use crate::spans::Tracks;
+use core::ops::Range;
+use durer_bvh::{Entry, Frame};
+use durer_math::{Aabb, Isa, RaySide};
+use durer_surfaces::{
+    Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+};
+use rayon::prelude::*;
+
+/// What a ray meets of an arena.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Filter {
+    /// Surfaces with a common bit are met.
+    pub(crate) mask: u32,
+    /// The slot that the ray was spawned from and the side on which it starts, if it is in this arena.
+    pub(crate) source: Option<(u32, RaySide)>,
+}
+
+/// A receiver of hits: slot, name, root.
+pub(crate) type Visit<'a> = dyn FnMut(u32, Id, Root) -> Flow + 'a;
+
+/// The object-safe face of an [`Arena`], for ranges of slots.
+pub(crate) trait AnyArena: Send + Sync {
+    /// Improves `best` by the slots of a leaf.
+    fn closest(&self, isa: Isa, leaf: Range<u32>, ray: &LocalRay<'_>, filter: &Filter, best: &mut Best);
+    /// Whether a slot of the leaf is hit.
+    fn any(&self, isa: Isa, leaf: Range<u32>, ray: &LocalRay<'_>, filter: &Filter) -> bool;
+    /// Shows every hit of the leaf to `visit`, until it says stop.
+    fn each(
+        &self,
+        isa: Isa,
+        leaf: Range<u32>,
+        ray: &LocalRay<'_>,
+        filter: &Filter,
+        visit: &mut Visit<'_>,
+    ) -> Flow;
+    /// Adds the crossings of the leaf's solids.
+    fn spans(&self, leaf: Range<u32>, ray: &LocalRay<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks);
+    /// Adds what a solid of many parts needs to know beside the crossings of its parts: whether the ray starts inside.
+    fn start_of(&self, surface: u32, ray: &LocalRay<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks);
+    /// On which side of a surface a point lies; `Out` for open surfaces.
+    fn side(&self, surface: u32, point: &LocalPoint<'_>) -> Side;
+    /// The point of a hit.
+    fn resolve(&self, slot: u32, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint;
+    /// Which part of its surface a slot is.
+    fn part(&self, slot: u32) -> PartId;
+    /// The name of a slot.
+    fn name(&self, slot: u32) -> Id;
+    /// Whether slots are parts of surfaces.
+    fn is_in_parts(&self) -> bool;
+    /// Solids of several parts, with their boxes.
+    fn solids_in_parts(&self) -> Vec<(u32, Aabb)>;
+    /// The type's name.
+    fn type_name(&self) -> &'static str;
+    /// How many slots there are.
+    fn len(&self) -> u32;
+    /// Heap memory held, without what the surfaces own in turn.
+    fn bytes(&self) -> usize;
+}
+
+/// What the builder asks of an arena.
+pub(crate) trait Arrange: AnyArena {
+    /// Lists the parts; no surface is added afterwards.
+    fn seal(&mut self);
+    /// The box of all bounded slots.
+    fn extent(&self) -> Aabb;
+    /// Appends the bounded slots, as entries of the given kind, to `entries`, and sorts out the others.
+    fn entries(&self, frame: &Frame, kind: u32, entries: &mut Vec<Entry>) -> Unsorted;
+    /// Puts the slots into a new order: the new slot `i` is the old `order[i]`. The array is used up.
+    fn arrange(&mut self, order: Vec<u32>);
+    /// For taking the concrete arena back.
+    fn as_any(&mut self) -> &mut dyn core::any::Any;
+    /// As the arena of a finished geometry.
+    fn finish(self: Box<Self>) -> Box<dyn AnyArena>;
+}
+
+/// Slots that no tree holds.
+#[derive(Debug, Default)]
+pub(crate) struct Unsorted {
+    /// Unbounded, or with a box that is not a number: nothing can be disproved, so they are always tested.
+    pub(crate) beside: Vec<u32>,
+    /// Empty: there is nothing to meet.
+    pub(crate) nothing: Vec<u32>,
+}
+
+impl Unsorted {
+    pub(crate) fn take(&mut self, entry: &Entry) {
+        if entry.is_empty() {
+            self.nothing.push(entry.index());
+        } else if !entry.is_bounded() {
+            self.beside.push(entry.index());
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.beside.is_empty() && self.nothing.is_empty()
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.beside.len() + self.nothing.len()
+    }
+}
+
+/// A slot of an arena whose surfaces have parts.
+#[derive(Clone, Copy, Debug)]
+struct PartRef {
+    surface: u32,
+    part: u32,
+}
+
+/// All surfaces of one type.
+pub(crate) struct Arena<S> {
+    surfaces: Vec<S>,
+    ids: Ids,
+    /// `None` if every surface is one part.
+    parts: Option<Vec<(PartRef, Aabb)>>,
+    /// The parts without their boxes, once these are in the tree.
+    placed: Vec<PartRef>,
+}
+
+impl<S> Default for Arena<S> {
+    fn default() -> Self {
+        Self { surfaces: Vec::new(), ids: Ids::default(), parts: None, placed: Vec::new() }
+    }
+}
+
+impl<S: Surface + 'static> Arena<S> {
+    pub(crate) fn push(&mut self, surface: S, id: Id, mask: u32) {
+        self.surfaces.push(surface);
+        self.ids.push(id, mask);
+    }
+
+    /// Calls `f` with each admitted slot of a leaf: its surface, its part and the ray, which knows its side if it starts there.
+    #[inline(always)]
+    fn walk(
+        &self,
+        leaf: Range<u32>,
+        ray: &LocalRay<'_>,
+        filter: &Filter,
+        mut f: impl FnMut(Slot<'_, S>, &LocalRay<'_>) -> Flow,
+    ) -> Flow {
+        for slot in leaf {
+            let (surface, part) = self.locate(slot);
+            if !self.ids.admits(surface, filter.mask) {
+                continue;
+            }
+            let item = Slot { arena: self, surface: &self.surfaces[surface], index: surface, slot, part };
+            let flow = match filter.source {
+                Some((source, side)) if source == slot => f(item, &ray.from_side(Some(side))),
+                _ => f(item, ray),
+            };
+            if flow == Flow::Stop {
+                return Flow::Stop;
+            }
+        }
+        Flow::Continue
+    }
+
+    #[inline(always)]
+    fn locate(&self, slot: u32) -> (usize, Option<PartId>) {
+        match self.placed.get(slot as usize) {
+            Some(p) => (p.surface as usize, Some(PartId(p.part))),
+            None => (slot as usize, None),
+        }
+    }
+
+    fn slot_boxes(&self) -> impl IndexedParallelIterator<Item = Aabb> {
+        let count = self.parts.as_ref().map_or(self.surfaces.len(), Vec::len);
+        (0..count).into_par_iter().map(|i| match &self.parts {
+            Some(parts) => parts[i].1,
+            None => self.surfaces[i].bounds(),
+        })
+    }
+}
+
+/// A slot at hand.
+struct Slot<'a, S> {
+    arena: &'a Arena<S>,
+    surface: &'a S,
+    index: usize,
+    slot: u32,
+    part: Option<PartId>,
+}
+
+impl<S: Surface> Slot<'_, S> {
+    #[inline(always)]
+    fn roots<K: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut K) {
+        match self.part {
+            None => self.surface.roots(ray, sink),
+            Some(part) => self.surface.part_roots(part, ray, sink),
+        }
+    }
+
+    /// The name: each part of a surface is a primitive of its own.
+    #[inline(always)]
+    fn name(&self) -> Id {
+        let id = self.arena.ids.name(self.index);
+        Id { primitive: id.primitive.wrapping_add(self.part.map_or(0, |p| p.0)), ..id }
+    }
+}
+
+/// A root of one slot against the best so far.
+struct Challenger<'a, 'b, S> {
+    slot: &'a Slot<'a, S>,
+    best: &'b mut Best,
+}
+
+impl<S: Surface> Sink for Challenger<'_, '_, S> {
+    #[inline(always)]
+    fn range(&self) -> (f64, f64) {
+        (f64::NEG_INFINITY, self.best.limit())
+    }
+
+    #[inline(always)]
+    fn push(&mut self, root: Root) -> Flow {
+        // Roots ascend: behind one that lost, the others lose too.
+        if self.best.offer(self.slot.slot, &root, || self.slot.name()) { Flow::Continue } else { Flow::Stop }
+    }
+}
+
+/// Whether there is a root.
+struct First(bool);
+
+impl Sink for First {
+    #[inline(always)]
+    fn range(&self) -> (f64, f64) {
+        (f64::NEG_INFINITY, f64::INFINITY)
+    }
+
+    #[inline(always)]
+    fn push(&mut self, _: Root) -> Flow {
+        self.0 = true;
+        Flow::Stop
+    }
+}
+
+/// Hands roots on to a visitor.
+struct Forward<'a, 'b> {
+    slot: u32,
+    name: Id,
+    visit: &'a mut Visit<'b>,
+    flow: Flow,
+}
+
+impl Sink for Forward<'_, '_> {
+    #[inline(always)]
+    fn range(&self) -> (f64, f64) {
+        (f64::NEG_INFINITY, f64::INFINITY)
+    }
+
+    #[inline(always)]
+    fn push(&mut self, root: Root) -> Flow {
+        if self.flow == Flow::Continue {
+            self.flow = (self.visit)(self.slot, self.name, root);
+        }
+        self.flow
+    }
+}
+
+impl<S: Surface + 'static> AnyArena for Arena<S> {
+    fn closest(&self, isa: Isa, leaf: Range<u32>, ray: &LocalRay<'_>, filter: &Filter, best: &mut Best) {
+        isa.run(
+            #[inline(always)]
+            || {
+                self.walk(
+                    leaf,
+                    ray,
+                    filter,
+                    #[inline(always)]
+                    |slot, ray| {
+                        slot.roots(ray, &mut Challenger { slot: &slot, best });
+                        Flow::Continue
+                    },
+                )
+            },
+        );
+    }
+
+    fn any(&self, isa: Isa, leaf: Range<u32>, ray: &LocalRay<'_>, filter: &Filter) -> bool {
+        let flow = isa.run(
+            #[inline(always)]
+            || {
+                self.walk(
+                    leaf,
+                    ray,
+                    filter,
+                    #[inline(always)]
+                    |slot, ray| {
+                        let mut first = First(false);
+                        slot.roots(ray, &mut first);
+                        if first.0 { Flow::Stop } else { Flow::Continue }
+                    },
+                )
+            },
+        );
+        flow == Flow::Stop
+    }
+
+    fn each(
+        &self,
+        isa: Isa,
+        leaf: Range<u32>,
+        ray: &LocalRay<'_>,
+        filter: &Filter,
+        visit: &mut Visit<'_>,
+    ) -> Flow {
+        isa.run(
+            #[inline(always)]
+            || {
+                self.walk(
+                    leaf,
+                    ray,
+                    filter,
+                    #[inline(always)]
+                    |slot, ray| {
+                        let mut forward =
+                            Forward { slot: slot.slot, name: slot.name(), visit, flow: Flow::Continue };
+                        slot.roots(ray, &mut forward);
+                        forward.flow
+                    },
+                )
+            },
+        )
+    }
+
+    fn spans(&self, leaf: Range<u32>, ray: &LocalRay<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks) {
+        let filter = tracks.filter();
+        self.walk(leaf, ray, &filter, |slot, ray| {
+            if slot.surface.solidity() == Solidity::Solid {
+                let before = tracks.len();
+                let id = slot.name();
+                let mut visit = |_: u32, _: Id, root: Root| {
+                    tracks.push(slot.index as u32, id, &root);
+                    Flow::Continue
+                };
+                let mut forward =
+                    Forward { slot: slot.slot, name: id, visit: &mut visit, flow: Flow::Continue };
+                slot.roots(ray, &mut forward);
+                if slot.part.is_none() && tracks.len() == before {
+                    tracks.start(slot.index as u32, starts_inside(slot.surface, ray, start));
+                }
+            }
+            Flow::Continue
+        });
+    }
+
+    fn start_of(&self, surface: u32, ray: &LocalRay<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks) {
+        if self.ids.admits(surface as usize, tracks.filter().mask) {
+            tracks.start(surface, starts_inside(&self.surfaces[surface as usize], ray, start));
+        }
+    }
+
+    fn side(&self, surface: u32, point: &LocalPoint<'_>) -> Side {
+        let surface = &self.surfaces[surface as usize];
+        if surface.solidity() == Solidity::Solid { surface.side(point) } else { Side::Out }
+    }
+
+    fn resolve(&self, slot: u32, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
+        self.surfaces[self.locate(slot).0].resolve(ray, root, need)
+    }
+
+    fn part(&self, slot: u32) -> PartId {
+        self.locate(slot).1.unwrap_or(PartId(0))
+    }
+
+    fn name(&self, slot: u32) -> Id {
+        let (index, part) = self.locate(slot);
+        Slot { arena: self, surface: &self.surfaces[index], index, slot, part }.name()
+    }
+
+    fn is_in_parts(&self) -> bool {
+        !self.placed.is_empty()
+    }
+
+    fn solids_in_parts(&self) -> Vec<(u32, Aabb)> {
+        if self.placed.is_empty() {
+            return Vec::new();
+        }
+        let solid = |(_, s): &(usize, &S)| s.solidity() == Solidity::Solid;
+        self.surfaces.iter().enumerate().filter(solid).map(|(i, s)| (i as u32, s.bounds())).collect()
+    }
+
+    fn type_name(&self) -> &'static str {
+        core::any::type_name::<S>()
+    }
+
+    fn len(&self) -> u32 {
+        if self.placed.is_empty() { self.surfaces.len() as u32 } else { self.placed.len() as u32 }
+    }
+
+    fn bytes(&self) -> usize {
+        self.surfaces.capacity() * size_of::<S>()
+            + self.ids.bytes()
+            + self.placed.capacity() * size_of::<PartRef>()
+    }
+}
+
+/// Whether a ray starts (at `t_min`) inside a solid that it does not cross within its range; `start` is some point of its line.
+///
+/// Decided by the signs of the crossings before and behind the range, and where the line meets the solid nowhere, by the exact side
+/// of a point of it.
+fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint<'_>) -> bool {
+    if let Some(side) = ray.source {
+        return side == RaySide::Back;
+    }
+    let signs = |t_min: f64, t_max: f64| {
+        let mut part_of_line = *ray;
+        (part_of_line.t_min, part_of_line.t_max) = (t_min, t_max);
+        let mut ends = Ends::default();
+        surface.roots(&part_of_line, &mut ends);
+        ends
+    };
+    if let Some(sign) = signs(f64::NEG_INFINITY, ray.t_min).last {
+        return sign < 0;
+    }
+    if let Some(sign) = signs(ray.t_max, f64::INFINITY).first {
+        return sign > 0;
+    }
+    surface.side(start) == Side::In
+}
+
+/// The signs of the first and the last crossing that is not a touch.
+#[derive(Default)]
+struct Ends {
+    first: Option<i8>,
+    last: Option<i8>,
+}
+
+impl Sink for Ends {
+    fn range(&self) -> (f64, f64) {
+        (f64::NEG_INFINITY, f64::INFINITY)
+    }
+
+    fn push(&mut self, root: Root) -> Flow {
+        if root.sign != 0 {
+            self.first = self.first.or(Some(root.sign));
+            self.last = Some(root.sign);
+        }
+        Flow::Continue
+    }
+}
+
+impl<S: Surface + 'static> Arrange for Arena<S> {
+    fn seal(&mut self) {
+        self.surfaces.shrink_to_fit();
+        self.ids.shrink();
+        let simple = |s: &S| {
+            let (mut count, mut first) = (0, true);
+            s.parts(&mut |_, part| {
+                count += 1;
+                first &= part == PartId(0);
+            });
+            count == 1 && first
+        };
+        if self.surfaces.par_iter().all(simple) {
+            return;
+        }
+        let mut parts = Vec::new();
+        for (i, s) in self.surfaces.iter().enumerate() {
+            let surface = i as u32;
+            s.parts(&mut |bounds, part| parts.push((PartRef { surface, part: part.0 }, bounds)));
+        }
+        self.parts = Some(parts);
+    }
+
+    fn extent(&self) -> Aabb {
+        let bounded = |b: Aabb| if b.is_bounded() { b } else { Aabb::EMPTY };
+        self.slot_boxes().map(bounded).reduce(|| Aabb::EMPTY, Aabb::union)
+    }
+
+    fn entries(&self, frame: &Frame, kind: u32, entries: &mut Vec<Entry>) -> Unsorted {
+        let first = entries.len();
+        entries.par_extend(self.slot_boxes().enumerate().map(|(i, b)| frame.entry(&b, kind, i as u32)));
+        let mut unsorted = Unsorted::default();
+        entries[first..].iter().for_each(|e| unsorted.take(e));
+        if !unsorted.is_empty() {
+            let mut at = 0;
+            entries.retain(|e| {
+                at += 1;
+                at <= first || e.is_bounded()
+            });
+        }
+        unsorted
+    }
+
+    fn arrange(&mut self, mut order: Vec<u32>) {
+        if let Some(parts) = self.parts.take() {
+            self.placed = order.iter().map(|&i| parts[i as usize].0).collect();
+            return;
+        }
+        // The permutation's cycles, in place: surfaces need not be `Clone`, and no second arena is held.
+        for start in 0..order.len() {
+            let mut to = start;
+            loop {
+                let from = order[to] as usize;
+                order[to] = to as u32;
+                if from == start {
+                    break;
+                }
+                self.surfaces.swap(to, from);
+                self.ids.swap(to, from);
+                to = from;
+            }
+        }
+    }
+
+    fn as_any(&mut self) -> &mut dyn core::any::Any {
+        self
+    }
+
+    fn finish(self: Box<Self>) -> Box<dyn AnyArena> {
+        self
+    }
+}

@@ -1,0 +1,76 @@
+//! Many rays at once, over all threads.
+
+use crate::geometry::Geometry;
+use crate::{Hit, Span};
+use durer_math::Ray;
+use rayon::prelude::*;
+
+/// Answers of different lengths: those of ray `i` are `items[offsets[i]..offsets[i + 1]]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ragged<T> {
+    /// One more than there are rays.
+    pub offsets: Vec<u64>,
+    /// All answers, in the order of the rays.
+    pub items: Vec<T>,
+}
+
+impl<T> Ragged<T> {
+    /// The answers to ray `i`.
+    pub fn of(&self, i: usize) -> &[T] {
+        &self.items[self.offsets[i] as usize..self.offsets[i + 1] as usize]
+    }
+
+    fn gathered(parts: Vec<(Vec<u32>, Vec<T>)>) -> Self {
+        let mut offsets = Vec::with_capacity(1 + parts.iter().map(|p| p.0.len()).sum::<usize>());
+        let mut items = Vec::with_capacity(parts.iter().map(|p| p.1.len()).sum());
+        let mut end = 0;
+        offsets.push(end);
+        for (lengths, mut part) in parts {
+            for length in lengths {
+                end += u64::from(length);
+                offsets.push(end);
+            }
+            items.append(&mut part);
+        }
+        Self { offsets, items }
+    }
+}
+
+/// Rays per task: enough to pay for handing it out.
+const CHUNK: usize = 1024;
+
+impl Geometry {
+    /// [`Geometry::closest`] of each ray. The answers do not depend on the number of threads.
+    pub fn closest_batch(&self, rays: &[Ray]) -> Vec<Option<Hit>> {
+        rays.par_iter().with_min_len(CHUNK).map(|ray| self.closest(ray)).collect()
+    }
+
+    /// [`Geometry::any`] of each ray.
+    pub fn any_batch(&self, rays: &[Ray]) -> Vec<bool> {
+        rays.par_iter().with_min_len(CHUNK).map(|ray| self.any(ray)).collect()
+    }
+
+    /// [`Geometry::all`] of each ray.
+    pub fn all_batch(&self, rays: &[Ray]) -> Ragged<Hit> {
+        ragged(rays, |ray| self.all(ray))
+    }
+
+    /// [`Geometry::spans`] of each ray.
+    pub fn spans_batch(&self, rays: &[Ray]) -> Ragged<Span> {
+        ragged(rays, |ray| self.spans(ray))
+    }
+}
+
+fn ragged<T: Send>(rays: &[Ray], query: impl Fn(&Ray) -> Vec<T> + Sync) -> Ragged<T> {
+    let part = |rays: &[Ray]| {
+        let mut lengths = Vec::with_capacity(rays.len());
+        let mut items = Vec::new();
+        for ray in rays {
+            let mut found = query(ray);
+            lengths.push(found.len() as u32);
+            items.append(&mut found);
+        }
+        (lengths, items)
+    };
+    Ragged::gathered(rays.par_chunks(CHUNK).map(part).collect())
+}

@@ -1,0 +1,78 @@
+//! The closest hit so far.
+
+use crate::Hit;
+use crate::ids::Id;
+use durer_surfaces::Root;
+
+/// The placement whose surfaces are being tested.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Placement {
+    /// Added to object numbers.
+    pub(crate) object: u32,
+    /// Added to primitive numbers.
+    pub(crate) primitive: u32,
+    /// Which placement it is.
+    pub(crate) instance: u32,
+}
+
+impl Placement {
+    /// A hit of a slot of this placement.
+    #[inline(always)]
+    pub(crate) fn hit(&self, arena: u32, slot: u32, name: Id, root: &Root) -> Hit {
+        Hit {
+            t: root.t,
+            t_lo: root.lo,
+            t_hi: root.hi,
+            uv: root.tag,
+            object: self.object.wrapping_add(name.object),
+            primitive: self.primitive.wrapping_add(name.primitive),
+            instance: self.instance,
+            face: root.face,
+            sign: root.sign,
+            kind: root.kind,
+            s: root.s,
+            arena,
+            slot,
+        }
+    }
+}
+
+/// The least hit so far, by [`Hit::order`].
+pub(crate) struct Best {
+    pub(crate) hit: Option<Hit>,
+    /// The least upper end of a bracket: what begins behind it cannot win.
+    limit: f64,
+    pub(crate) placement: Placement,
+    pub(crate) arena: u32,
+}
+
+impl Best {
+    pub(crate) fn new(t_max: f64) -> Self {
+        Self { hit: None, limit: t_max, placement: Placement::default(), arena: 0 }
+    }
+
+    /// Beyond this no root can win; ties are not beyond.
+    #[inline(always)]
+    pub(crate) fn limit(&self) -> f64 {
+        self.limit
+    }
+
+    /// Takes the root if it is less than the best; says whether it did.
+    #[inline(always)]
+    pub(crate) fn offer(&mut self, slot: u32, root: &Root, name: impl FnOnce() -> Id) -> bool {
+        if let Some(best) = &self.hit {
+            if root.t > best.t {
+                return false;
+            }
+            let hit = self.placement.hit(self.arena, slot, name(), root);
+            if hit.order(best).is_ge() {
+                return false;
+            }
+            self.hit = Some(hit);
+        } else {
+            self.hit = Some(self.placement.hit(self.arena, slot, name(), root));
+        }
+        self.limit = self.limit.min(root.hi);
+        true
+    }
+}

@@ -1,0 +1,234 @@
+//! How a geometry comes to be.
+
+use crate::arena::{AnyArena, Arena, Arrange, Unsorted};
+use crate::geometry::{Beside, Geometry, Instance, SolidInParts};
+use crate::ids::{EVERYTHING, Id};
+use crate::{ObjectId, geometry};
+use core::any::TypeId;
+use durer_bvh::{Bvh, Entry, Frame, Settings};
+use durer_math::{Aabb, Affine, Isa};
+use durer_surfaces::Surface;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Gathers surfaces and instances for a [`Geometry`].
+///
+/// ```
+/// use durer_geometry::Geometry;
+/// use durer_math::{Point3, Ray, Vec3};
+/// use durer_surfaces::Sphere;
+///
+/// let ball = Sphere::new(Point3::ORIGIN, 1.0)?;
+/// let scene = Geometry::builder().add(ball).build()?;
+/// let hit = scene.closest(&Ray::new(Point3::new(0.0, 0.0, -5.0), Vec3::Z)).unwrap();
+/// assert_eq!((hit.t, hit.sign, hit.object), (4.0, -1, 0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Default)]
+pub struct Builder {
+    arenas: Vec<Box<dyn Arrange>>,
+    by_type: HashMap<TypeId, usize>,
+    instances: Vec<Instance>,
+    next_object: u32,
+    without_tree: bool,
+    settings: Settings,
+    isa: Option<Isa>,
+}
+
+/// Why a geometry cannot be built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum BuildError {
+    /// More surfaces or parts than numbers for them.
+    #[error(
+        "geometry: at most {limit} surfaces, parts and instances fit into one tree, got {count}; use instances of smaller geometries"
+    )]
+    TooMany {
+        /// How many there are.
+        count: usize,
+        /// How many fit.
+        limit: usize,
+    },
+    /// More placements, counting nested ones, than numbers for them.
+    #[error("geometry: at most {} placements fit, counting nested ones", u32::MAX)]
+    TooManyPlacements,
+    /// Instances are nested too deeply.
+    #[error("geometry: instances may be nested {limit} deep, got {depth}")]
+    TooDeep {
+        /// How deep they are.
+        depth: u32,
+        /// How deep they may be.
+        limit: u32,
+    },
+}
+
+impl Builder {
+    /// Adds a surface as an object of its own, with the next free number.
+    pub fn add<S: Surface + 'static>(&mut self, surface: S) -> &mut Self {
+        self.add_as(surface, ObjectId(self.next_object), 0, EVERYTHING)
+    }
+
+    /// Adds a surface under the given numbers. Where a surface has parts (the faces of a mesh), part `i` is the primitive `primitive + i`.
+    ///
+    /// A ray with mask `m` meets the surface if `m & mask != 0`. Two surfaces may have the same numbers.
+    pub fn add_as<S: Surface + 'static>(
+        &mut self,
+        surface: S,
+        object: ObjectId,
+        primitive: u32,
+        mask: u32,
+    ) -> &mut Self {
+        let arenas = &mut self.arenas;
+        let index = *self.by_type.entry(TypeId::of::<S>()).or_insert_with(|| {
+            arenas.push(Box::new(Arena::<S>::default()));
+            arenas.len() - 1
+        });
+        let arena = self.arenas[index].as_any().downcast_mut::<Arena<S>>();
+        // The map leads from the type to its own arena.
+        if let Some(arena) = arena {
+            arena.push(surface, Id { object: object.0, primitive }, mask);
+        }
+        self.next_object = self.next_object.max(object.0.saturating_add(1));
+        self
+    }
+
+    /// Adds a placement of a whole geometry; its objects get the next free numbers, in their order.
+    pub fn instance(&mut self, geometry: &Arc<Geometry>, affine: Affine, mask: u32) -> &mut Self {
+        self.instance_as(geometry, affine, ObjectId(self.next_object), 0, mask)
+    }
+
+    /// Adds a placement of a whole geometry; `object` and `primitive` are added to the numbers in it.
+    pub fn instance_as(
+        &mut self,
+        geometry: &Arc<Geometry>,
+        affine: Affine,
+        object: ObjectId,
+        primitive: u32,
+        mask: u32,
+    ) -> &mut Self {
+        let (geometry, first_placement) = (Arc::clone(geometry), 0);
+        self.next_object = self.next_object.max(object.0.saturating_add(geometry.objects().max(1)));
+        self.instances.push(Instance {
+            geometry,
+            affine,
+            object: object.0,
+            primitive,
+            mask,
+            first_placement,
+        });
+        self
+    }
+
+    /// How the tree is built.
+    pub fn settings(&mut self, settings: Settings) -> &mut Self {
+        self.settings = settings;
+        self
+    }
+
+    /// Builds no tree: every query tests everything. The definition that the tree must equal, bit for bit.
+    pub fn without_tree(&mut self) -> &mut Self {
+        self.without_tree = true;
+        self
+    }
+
+    /// Uses this instruction set in place of [`Isa::detect`]'s; answers do not depend on it.
+    pub fn isa(&mut self, isa: Isa) -> &mut Self {
+        self.isa = Some(isa);
+        self
+    }
+
+    /// Builds the geometry; the builder is empty afterwards.
+    ///
+    /// The result does not depend on the number of threads.
+    pub fn build(&mut self) -> Result<Geometry, BuildError> {
+        let builder = core::mem::take(self);
+        let mut arenas = builder.arenas;
+        let mut instances = builder.instances;
+        let placements = number_placements(&mut instances)?;
+        arenas.iter_mut().for_each(|a| a.seal());
+
+        let placed_bounds = |i: &Instance| i.affine.bounds(&i.geometry.bounds());
+        let mut extent = arenas.iter().map(|a| a.extent()).fold(Aabb::EMPTY, Aabb::union);
+        for bounds in instances.iter().map(placed_bounds).filter(Aabb::is_bounded) {
+            extent = extent.union(bounds);
+        }
+
+        let frame = Frame::around(&extent);
+        let mut entries: Vec<Entry> = Vec::new();
+        let mut unsorted = Vec::new();
+        for (kind, arena) in arenas.iter().enumerate() {
+            unsorted.push(arena.entries(&frame, kind as u32, &mut entries));
+        }
+        let instance_kind = arenas.len() as u32;
+        let mut unsorted_instances = Unsorted::default();
+        for (i, instance) in instances.iter().enumerate() {
+            let entry = frame.entry(&placed_bounds(instance), instance_kind, i as u32);
+            unsorted_instances.take(&entry);
+            entries.extend(Some(entry).filter(Entry::is_bounded));
+        }
+        unsorted.push(unsorted_instances);
+        let count = entries.len() + unsorted.iter().map(Unsorted::len).sum::<usize>();
+        if count > durer_bvh::MAX_ENTRIES {
+            return Err(BuildError::TooMany { count, limit: durer_bvh::MAX_ENTRIES });
+        }
+
+        let (tree, mut orders) = if builder.without_tree {
+            let mut orders = vec![Vec::new(); unsorted.len()];
+            entries.iter().for_each(|e| orders[e.kind() as usize].push(e.index()));
+            (Bvh::empty(), orders)
+        } else {
+            Bvh::build(&frame, entries, unsorted.len(), &builder.settings)
+        };
+        let mut beside = Vec::new();
+        let mut bounds = extent;
+        for (arena, (order, unsorted)) in orders.iter_mut().zip(&unsorted).enumerate() {
+            let first = if builder.without_tree { 0 } else { order.len() as u32 };
+            order.extend_from_slice(&unsorted.beside);
+            let count = order.len() as u32 - first;
+            if count > 0 {
+                beside.push(Beside { arena: arena as u32, first, count });
+            }
+            if !unsorted.beside.is_empty() {
+                bounds = Aabb::UNBOUNDED;
+            }
+            order.extend_from_slice(&unsorted.nothing);
+        }
+        if let Some(order) = orders.pop() {
+            geometry::arrange(&mut instances, order);
+        }
+        for (arena, order) in arenas.iter_mut().zip(orders) {
+            arena.arrange(order);
+        }
+        let arenas: Vec<Box<dyn AnyArena>> = arenas.into_iter().map(Arrange::finish).collect();
+        let mut solids_in_parts = Vec::new();
+        for (i, arena) in arenas.iter().enumerate() {
+            let solid = |(surface, bounds)| SolidInParts { arena: i as u32, surface, bounds };
+            solids_in_parts.extend(arena.solids_in_parts().into_iter().map(solid));
+        }
+        Ok(Geometry::assembled(
+            builder.isa.unwrap_or_else(Isa::detect),
+            arenas,
+            instances,
+            tree,
+            beside,
+            solids_in_parts,
+            bounds,
+            builder.next_object,
+            placements,
+        ))
+    }
+}
+
+/// Numbers the placements in the order in which instances were added, each followed by what is nested in it; says how many there are, the
+/// geometry's own included.
+fn number_placements(instances: &mut [Instance]) -> Result<u32, BuildError> {
+    let mut next = 1_u32;
+    for instance in instances {
+        let depth = instance.geometry.depth() + 1;
+        if depth > geometry::MAX_NESTING {
+            return Err(BuildError::TooDeep { depth, limit: geometry::MAX_NESTING });
+        }
+        instance.first_placement = next;
+        next = next.checked_add(instance.geometry.placements()).ok_or(BuildError::TooManyPlacements)?;
+    }
+    Ok(next)
+}

@@ -1,0 +1,331 @@
+//! What happened to this ray, in words.
+
+use crate::best::Placement;
+use crate::geometry::{Geometry, slots};
+use crate::ids::EVERYTHING;
+use crate::walk::Walk;
+use crate::{Hit, ObjectId};
+use core::fmt;
+use durer_bvh::{Leaf, Step};
+use durer_math::{Aabb, Ray};
+use durer_surfaces::{Flow, LocalRay};
+
+/// The story of a ray: the same steps, in the same order, as [`Geometry::closest`] takes them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Explanation {
+    /// The ray.
+    pub ray: Ray,
+    /// Whether it can meet anything at all ([`Ray::is_valid`]).
+    pub valid: bool,
+    /// What happened.
+    pub events: Vec<Event>,
+    /// The closest hit.
+    pub closest: Option<Hit>,
+}
+
+/// A step of the story.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Event {
+    /// Surfaces without a bounded box are tested first.
+    Beside {
+        /// How deep in instances.
+        depth: u32,
+        /// Their type.
+        surface: &'static str,
+        /// How many.
+        count: u32,
+    },
+    /// The ray misses the box around everything in the tree.
+    OutsideTree {
+        /// How deep in instances.
+        depth: u32,
+    },
+    /// A node's box was entered.
+    Node {
+        /// How deep in instances.
+        depth: u32,
+        /// The level in the tree.
+        level: u32,
+        /// The box.
+        bounds: Aabb,
+        /// Where the ray enters the box, in the parameter of the tree's frame.
+        t: f64,
+        /// The children.
+        children: u32,
+        /// Those whose boxes the ray may meet.
+        met: u32,
+    },
+    /// A box was met, but begins behind the closest hit.
+    Skipped {
+        /// How deep in instances.
+        depth: u32,
+        /// The level in the tree.
+        level: u32,
+        /// The box.
+        bounds: Aabb,
+        /// Where the ray enters the box.
+        t: f64,
+    },
+    /// A leaf's box was entered.
+    Leaf {
+        /// How deep in instances.
+        depth: u32,
+        /// The level in the tree.
+        level: u32,
+        /// The box.
+        bounds: Aabb,
+        /// Where the ray enters the box.
+        t: f64,
+        /// The type of what is in it.
+        surface: &'static str,
+        /// How many.
+        count: u32,
+    },
+    /// The ray was moved into the frame of an instance.
+    Instance {
+        /// How deep in instances, this one not counted.
+        depth: u32,
+        /// Its placement.
+        instance: u32,
+        /// Whether the mask lets the ray in.
+        admitted: bool,
+    },
+    /// A surface was asked.
+    Tested {
+        /// How deep in instances.
+        depth: u32,
+        /// Its type.
+        surface: &'static str,
+        /// Its object.
+        object: ObjectId,
+        /// Its primitive.
+        primitive: u32,
+        /// Whether the ray started on it, so that the crossing at its start is known and not counted.
+        source: bool,
+        /// All its crossings in the ray's range, each with what became of it.
+        roots: Vec<(Hit, Verdict)>,
+    },
+}
+
+/// What became of a crossing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It was the closest so far.
+    Closest,
+    /// A closer one was known.
+    Farther,
+    /// Equally far as the closest so far, and its (object, primitive, face) comes later.
+    LaterInOrder,
+}
+
+impl Geometry {
+    /// Tells what happens to a ray on its way to its closest hit.
+    pub fn explain(&self, ray: &Ray) -> Explanation {
+        let mut story = Story { events: Vec::new(), best: None };
+        let valid = ray.is_valid();
+        if valid {
+            let local = LocalRay::new(ray);
+            story.geometry(&Walk::new(self, ray, &local, EVERYTHING), 0);
+        }
+        Explanation { ray: *ray, valid, events: story.events, closest: story.best }
+    }
+}
+
+struct Story {
+    events: Vec<Event>,
+    best: Option<Hit>,
+}
+
+impl Story {
+    fn geometry(&mut self, walk: &Walk<'_>, depth: u32) {
+        let geometry = walk.geometry;
+        for beside in &geometry.beside {
+            let (surface, count) = (self.type_name(geometry, &beside.leaf()), beside.count);
+            self.events.push(Event::Beside { depth, surface, count });
+            self.leaf(walk, &beside.leaf(), depth);
+        }
+        let mut line = walk.line();
+        if let Some(best) = &self.best {
+            line.t_max = line.t_max.min(walk.limit(best.t_hi));
+        }
+        let entered = geometry.tree.story(&line, |step| match *step {
+            Step::Node { level, bounds, t, children, met, .. } => {
+                self.events.push(Event::Node { depth, level, bounds, t, children, met });
+                f64::INFINITY
+            }
+            Step::Skipped { level, bounds, t } => {
+                self.events.push(Event::Skipped { depth, level, bounds, t });
+                f64::INFINITY
+            }
+            Step::Leaf { leaf, level, bounds, t } => {
+                let surface = self.type_name(geometry, &leaf);
+                self.events.push(Event::Leaf { depth, level, bounds, t, surface, count: leaf.count });
+                self.leaf(walk, &leaf, depth);
+                self.best.map_or(f64::INFINITY, |best| walk.limit(best.t_hi))
+            }
+        });
+        if !entered && !geometry.tree.is_empty() {
+            self.events.push(Event::OutsideTree { depth });
+        }
+    }
+
+    fn type_name(&self, geometry: &Geometry, leaf: &Leaf) -> &'static str {
+        geometry.arenas.get(leaf.kind as usize).map_or("instance", |a| short(a.type_name()))
+    }
+
+    fn leaf(&mut self, walk: &Walk<'_>, leaf: &Leaf, depth: u32) {
+        let geometry = walk.geometry;
+        if geometry.is_instances(leaf) {
+            for i in slots(leaf) {
+                let instance = &geometry.instances[i as usize];
+                let placement: Placement = instance.within(&walk.placement);
+                let admitted = instance.mask & walk.mask != 0;
+                self.events.push(Event::Instance { depth, instance: placement.instance, admitted });
+                walk.enter(instance, |inner| self.geometry(inner, depth + 1));
+            }
+            return;
+        }
+        let arena = &geometry.arenas[leaf.kind as usize];
+        let filter = walk.filter(leaf.kind);
+        for slot in slots(leaf) {
+            let mut roots = Vec::new();
+            arena.each(geometry.isa, slot..slot + 1, walk.ray, &filter, &mut |slot, name, root| {
+                let hit = walk.placement.hit(leaf.kind, slot, name, &root);
+                let verdict = match &self.best {
+                    Some(best) if hit.t > best.t => Verdict::Farther,
+                    Some(best) if hit.order(best).is_gt() => Verdict::LaterInOrder,
+                    _ => {
+                        self.best = Some(hit);
+                        Verdict::Closest
+                    }
+                };
+                roots.push((hit, verdict));
+                Flow::Continue
+            });
+            let name = arena.name(slot);
+            self.events.push(Event::Tested {
+                depth,
+                surface: short(arena.type_name()),
+                object: ObjectId(walk.placement.object.wrapping_add(name.object)),
+                primitive: walk.placement.primitive.wrapping_add(name.primitive),
+                source: filter.source.is_some_and(|s| s.0 == slot),
+                roots,
+            });
+        }
+    }
+}
+
+/// A type's name without the way to it.
+fn short(name: &'static str) -> &'static str {
+    let head = name.split('<').next().unwrap_or(name);
+    match head.rfind("::") {
+        Some(at) => &name[at + 2..],
+        None => name,
+    }
+}
+
+impl fmt::Display for Explanation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (o, d) = (self.ray.origin, self.ray.direction);
+        writeln!(f, "ray from <{}, {}, {}> along <{}, {}, {}>", o.x, o.y, o.z, d.x, d.y, d.z)?;
+        writeln!(f, "    t in [{}, {}]", self.ray.t_min, self.ray.t_max)?;
+        if !self.valid {
+            writeln!(f, "it is no ray (not finite, without direction, or with an empty range): it misses")?;
+        }
+        for event in &self.events {
+            write!(f, "{event}")?;
+        }
+        match &self.closest {
+            None => writeln!(f, "it meets nothing"),
+            Some(hit) => {
+                write!(f, "closest: object {}, primitive {}", hit.object, hit.primitive)?;
+                if hit.instance > 0 {
+                    write!(f, ", instance {}", hit.instance)?;
+                }
+                writeln!(f, ", at {}", Crossing(hit))
+            }
+        }
+    }
+}
+
+/// A crossing in words.
+struct Crossing<'a>(&'a Hit);
+
+impl fmt::Display for Crossing<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let hit = self.0;
+        let way = match hit.sign {
+            -1 => "entering (against the normal)",
+            1 => "leaving (with the normal)",
+            _ => "grazing",
+        };
+        write!(f, "t = {} in [{}, {}], face {}, {way}", hit.t, hit.t_lo, hit.t_hi, hit.face)
+    }
+}
+
+/// A box in words.
+struct Box<'a>(&'a Aabb);
+
+impl fmt::Display for Box<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (a, b) = (self.0.min, self.0.max);
+        write!(f, "<{:.4}, {:.4}, {:.4}> to <{:.4}, {:.4}, {:.4}>", a.x, a.y, a.z, b.x, b.y, b.z)
+    }
+}
+
+impl fmt::Display for Event {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let indent = |f: &mut fmt::Formatter<'_>, depth: u32, level: u32| {
+            write!(f, "{:width$}", "", width = 2 * (2 * depth + level) as usize)
+        };
+        match self {
+            Self::Beside { depth, surface, count } => {
+                indent(f, *depth, 0)?;
+                writeln!(f, "{count} x {surface} without a bounded box: tested first")
+            }
+            Self::OutsideTree { depth } => {
+                indent(f, *depth, 0)?;
+                writeln!(f, "the box around everything is missed")
+            }
+            Self::Node { depth, level, bounds, t, children, met } => {
+                indent(f, *depth, *level)?;
+                writeln!(f, "box {} entered at t >= {t:.6}: {met} of {children} boxes in it met", Box(bounds))
+            }
+            Self::Skipped { depth, level, bounds, t } => {
+                indent(f, *depth, *level)?;
+                writeln!(f, "box {} begins at t >= {t:.6}, behind the closest hit: skipped", Box(bounds))
+            }
+            Self::Leaf { depth, level, bounds, t, surface, count } => {
+                indent(f, *depth, *level)?;
+                writeln!(f, "leaf {} entered at t >= {t:.6}: {count} x {surface}", Box(bounds))
+            }
+            Self::Instance { depth, instance, admitted } => {
+                indent(f, *depth, 1)?;
+                let verdict = if *admitted { "entered" } else { "hidden by its mask" };
+                writeln!(f, "instance {instance}: {verdict}")
+            }
+            Self::Tested { depth, surface, object, primitive, source, roots } => {
+                indent(f, *depth, 2)?;
+                write!(f, "{surface} (object {}, primitive {primitive})", object.0)?;
+                if *source {
+                    write!(f, ", on which the ray starts")?;
+                }
+                if roots.is_empty() {
+                    writeln!(f, ": no crossing")?;
+                } else {
+                    writeln!(f, ":")?;
+                }
+                for (hit, verdict) in roots {
+                    indent(f, *depth, 3)?;
+                    let verdict = match verdict {
+                        Verdict::Closest => "the closest so far",
+                        Verdict::Farther => "farther than the closest so far",
+                        Verdict::LaterInOrder => "as far as the closest so far, which comes first in order",
+                    };
+                    writeln!(f, "{}: {verdict}", Crossing(hit))?;
+                }
+                Ok(())
+            }
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! The built world.
+
+use crate::arena::AnyArena;
+use crate::best::Placement;
+use crate::{Builder, stats};
+use core::ops::Range;
+use core::sync::atomic::{AtomicU64, Ordering};
+use durer_bvh::{Bvh, Leaf};
+use durer_math::{Aabb, Affine, Isa};
+use std::sync::Arc;
+
+/// How deep instances may be nested.
+pub(crate) const MAX_NESTING: u32 = 8;
+
+/// Surfaces, objects and instances, built once and then immutable: `Send`, `Sync`, and shared by all threads.
+///
+/// Surfaces are kept by type, in the order of the tree's leaves. What has no bounded box is kept beside the tree.
+pub struct Geometry {
+    pub(crate) isa: Isa,
+    pub(crate) arenas: Vec<Box<dyn AnyArena>>,
+    pub(crate) instances: Vec<Instance>,
+    pub(crate) tree: Bvh,
+    pub(crate) beside: Vec<Beside>,
+    pub(crate) solids_in_parts: Vec<SolidInParts>,
+    bounds: Aabb,
+    objects: u32,
+    placements: u32,
+    depth: u32,
+    invalid: AtomicU64,
+}
+
+/// A geometry, placed.
+pub(crate) struct Instance {
+    pub(crate) geometry: Arc<Geometry>,
+    pub(crate) affine: Affine,
+    pub(crate) object: u32,
+    pub(crate) primitive: u32,
+    pub(crate) mask: u32,
+    /// The number of this placement, counted from its parent's.
+    pub(crate) first_placement: u32,
+}
+
+impl Instance {
+    /// The placement of this instance in a placement of its parent.
+    #[inline]
+    pub(crate) fn within(&self, parent: &Placement) -> Placement {
+        Placement {
+            object: parent.object.wrapping_add(self.object),
+            primitive: parent.primitive.wrapping_add(self.primitive),
+            instance: parent.instance + self.first_placement,
+        }
+    }
+}
+
+/// Slots that no tree holds.
+pub(crate) struct Beside {
+    pub(crate) arena: u32,
+    pub(crate) first: u32,
+    pub(crate) count: u32,
+}
+
+impl Beside {
+    pub(crate) fn leaf(&self) -> Leaf {
+        Leaf { kind: self.arena, first: self.first, count: self.count }
+    }
+}
+
+/// A solid whose parts the tree holds one by one: its inside is in no part's box.
+pub(crate) struct SolidInParts {
+    pub(crate) arena: u32,
+    pub(crate) surface: u32,
+    pub(crate) bounds: Aabb,
+}
+
+/// Puts instances into the order of the tree's leaves.
+pub(crate) fn arrange(instances: &mut Vec<Instance>, order: Vec<u32>) {
+    let mut old: Vec<_> = instances.drain(..).map(Some).collect();
+    instances.extend(order.into_iter().filter_map(|i| old[i as usize].take()));
+}
+
+/// The slots of a leaf.
+#[inline(always)]
+pub(crate) fn slots(leaf: &Leaf) -> Range<u32> {
+    leaf.first..leaf.first + leaf.count
+}
+
+impl Geometry {
+    /// Starts a new geometry.
+    pub fn builder() -> Builder {
+        Builder::default()
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "the builder's last line: one value per field")]
+    pub(crate) fn assembled(
+        isa: Isa,
+        arenas: Vec<Box<dyn AnyArena>>,
+        instances: Vec<Instance>,
+        tree: Bvh,
+        beside: Vec<Beside>,
+        solids_in_parts: Vec<SolidInParts>,
+        bounds: Aabb,
+        objects: u32,
+        placements: u32,
+    ) -> Self {
+        let depth = instances.iter().map(|i| i.geometry.depth + 1).max().unwrap_or(0);
+        let invalid = AtomicU64::new(0);
+        Self {
+            isa,
+            arenas,
+            instances,
+            tree,
+            beside,
+            solids_in_parts,
+            bounds,
+            objects,
+            placements,
+            depth,
+            invalid,
+        }
+    }
+
+    /// A box that holds everything; unbounded if something in it is, empty if nothing is in it.
+    pub fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+
+    /// One more than the greatest object number.
+    pub fn objects(&self) -> u32 {
+        self.objects
+    }
+
+    /// How many placements there are, nested ones included, the geometry's own being the first.
+    pub fn placements(&self) -> u32 {
+        self.placements
+    }
+
+    /// How deep instances are nested: 0 without any.
+    pub fn depth(&self) -> u32 {
+        self.depth
+    }
+
+    /// How many invalid rays (not finite, without direction, or with an empty range) were asked so far: they miss.
+    pub fn invalid_rays(&self) -> u64 {
+        self.invalid.load(Ordering::Relaxed)
+    }
+
+    pub(crate) fn count_invalid(&self) {
+        self.invalid.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// What the geometry consists of and what it costs.
+    pub fn stats(&self) -> stats::Stats {
+        stats::of(self)
+    }
+
+    /// The tree over the bounded surfaces and instances.
+    pub fn tree(&self) -> &Bvh {
+        &self.tree
+    }
+
+    /// The kind of leaves that hold instances: one more than the last arena's.
+    #[inline(always)]
+    pub(crate) fn is_instances(&self, leaf: &Leaf) -> bool {
+        leaf.kind as usize == self.arenas.len()
+    }
+}
+
+impl core::fmt::Debug for Geometry {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Geometry")
+            .field("bounds", &self.bounds)
+            .field("stats", &self.stats())
+            .finish_non_exhaustive()
+    }
+}

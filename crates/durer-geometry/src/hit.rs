@@ -1,0 +1,78 @@
+//! What queries answer with.
+
+use durer_surfaces::{Kind, Root};
+
+/// The number of an object, as the caller gave it: in a scene, the top-level objects count from 0 in the order of the text.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ObjectId(pub u32);
+
+/// One crossing of a ray and a surface of a [`Geometry`](crate::Geometry).
+///
+/// The exact crossing of the exact ray and the exact surface lies in `[t_lo, t_hi]`, which also holds `t`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// The crossing's parameter, in units of the ray's direction.
+    pub t: f64,
+    /// The exact parameter is not below this.
+    pub t_lo: f64,
+    /// The exact parameter is not above this.
+    pub t_hi: f64,
+    /// The kernel's own tag (triangle: barycentric b1, b2). Texture coordinates come from [`Geometry::resolve`](crate::Geometry::resolve).
+    pub uv: [f64; 2],
+    /// The object.
+    pub object: u32,
+    /// The primitive within the object.
+    pub primitive: u32,
+    /// Which placement: 0 for what the geometry holds itself; then its instances in the order in which they were added, each
+    /// followed by those nested in it.
+    pub instance: u32,
+    /// Which face of the primitive (cap, wall, side of a box).
+    pub face: u32,
+    /// The sign of (outward or stored normal) . direction: -1 entering, +1 leaving, 0 grazing.
+    pub sign: i8,
+    /// How sure the count is.
+    pub kind: Kind,
+    /// The crossing in the kernel's own parameter: what `resolve` starts from, without the digits that `t` lost.
+    pub(crate) s: f64,
+    /// Where the primitive is kept.
+    pub(crate) arena: u32,
+    /// Its place there.
+    pub(crate) slot: u32,
+}
+
+impl Hit {
+    /// The kernel's root, nothing lost.
+    #[inline]
+    pub fn root(&self) -> Root {
+        Root {
+            t: self.t,
+            lo: self.t_lo,
+            hi: self.t_hi,
+            s: self.s,
+            tag: self.uv,
+            face: self.face,
+            sign: self.sign,
+            kind: self.kind,
+        }
+    }
+
+    /// The order of hits along a ray: by `t`, then object, primitive and face. What is equal in all these is ordered by placement and storage.
+    #[inline]
+    pub fn order(&self, other: &Self) -> core::cmp::Ordering {
+        let key = |h: &Self| (h.object, h.primitive, h.face, h.instance, h.arena, h.slot);
+        self.t.total_cmp(&other.t).then_with(|| key(self).cmp(&key(other)))
+    }
+}
+
+/// A stretch of a ray inside solids.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// Where it begins.
+    pub t_in: f64,
+    /// Where it ends.
+    pub t_out: f64,
+    /// The object whose surface is entered; `None` if the ray's range begins inside.
+    pub object_in: Option<ObjectId>,
+    /// The object whose surface is left; `None` if the ray's range ends inside.
+    pub object_out: Option<ObjectId>,
+}

@@ -1,0 +1,196 @@
+//! Closest, any and all.
+
+use crate::best::Best;
+use crate::geometry::{Geometry, slots};
+use crate::ids::EVERYTHING;
+use crate::walk::Walk;
+use crate::{Hit, Span, spans::Tracks};
+use durer_bvh::Leaf;
+use durer_math::{Point3, Ray};
+use durer_surfaces::{Flow, LocalPoint, LocalRay};
+
+impl Geometry {
+    /// The first hit: the least by (`t`, object, primitive, face).
+    pub fn closest(&self, ray: &Ray) -> Option<Hit> {
+        self.closest_masked(ray, EVERYTHING)
+    }
+
+    /// The first hit of what has a bit in common with `mask`.
+    pub fn closest_masked(&self, ray: &Ray, mask: u32) -> Option<Hit> {
+        self.walk(ray, mask, |walk| {
+            let mut best = Best::new(ray.t_max);
+            closest(walk, &mut best);
+            best.hit
+        })?
+    }
+
+    /// Whether anything is hit.
+    pub fn any(&self, ray: &Ray) -> bool {
+        self.any_masked(ray, EVERYTHING)
+    }
+
+    /// Whether anything is hit that has a bit in common with `mask`.
+    pub fn any_masked(&self, ray: &Ray, mask: u32) -> bool {
+        self.walk(ray, mask, any).unwrap_or(false)
+    }
+
+    /// Whether there is a hit that `accept` accepts. The hits come in no particular order, each at most once, and nothing is allocated.
+    ///
+    /// What must not depend on an order (a product of rounded numbers) is better computed from [`Geometry::all_into`].
+    pub fn any_where(&self, ray: &Ray, mask: u32, mut accept: impl FnMut(&Hit) -> bool) -> bool {
+        let visit = &mut |hit: &Hit| if accept(hit) { Flow::Stop } else { Flow::Continue };
+        self.walk(ray, mask, |walk| each(walk, visit)).is_some_and(|flow| flow == Flow::Stop)
+    }
+
+    /// Every crossing, once, ascending in the order of [`Hit::order`].
+    pub fn all(&self, ray: &Ray) -> Vec<Hit> {
+        self.all_masked(ray, EVERYTHING)
+    }
+
+    /// Every crossing with what has a bit in common with `mask`.
+    pub fn all_masked(&self, ray: &Ray, mask: u32) -> Vec<Hit> {
+        let mut hits = Vec::new();
+        self.all_into(ray, mask, &mut hits);
+        hits
+    }
+
+    /// As [`Geometry::all_masked`], into a buffer that is cleared first and can be used again.
+    pub fn all_into(&self, ray: &Ray, mask: u32, hits: &mut Vec<Hit>) {
+        hits.clear();
+        self.walk(ray, mask, |walk| {
+            each(walk, &mut |hit| {
+                hits.push(*hit);
+                Flow::Continue
+            })
+        });
+        hits.sort_unstable_by(Hit::order);
+    }
+
+    /// Where the ray is inside the union of all solids: merged, ascending; open surfaces are ignored.
+    ///
+    /// A ray that starts inside has `t_in = t_min` and no `object_in`. Works for unbounded solids too. Touches have no length and do not show.
+    pub fn spans(&self, ray: &Ray) -> Vec<Span> {
+        self.spans_masked(ray, EVERYTHING)
+    }
+
+    /// As [`Geometry::spans`], of the solids that have a bit in common with `mask`.
+    pub fn spans_masked(&self, ray: &Ray, mask: u32) -> Vec<Span> {
+        let tracks = self.walk(ray, mask, |walk| {
+            let mut tracks = Tracks::new(mask);
+            spans(walk, &LocalPoint::new(ray.origin), &mut tracks);
+            tracks
+        });
+        tracks.map_or_else(Vec::new, |tracks| tracks.merge(ray.t_min, ray.t_max))
+    }
+
+    /// Whether the point lies inside or on a solid: exact.
+    pub fn contains(&self, point: Point3) -> bool {
+        self.side(point) != durer_surfaces::Side::Out
+    }
+
+    #[inline(always)]
+    pub(crate) fn walk<R>(&self, ray: &Ray, mask: u32, f: impl FnOnce(&Walk<'_>) -> R) -> Option<R> {
+        if !ray.is_valid() {
+            self.count_invalid();
+            return None;
+        }
+        let local = LocalRay::new(ray);
+        Some(f(&Walk::new(self, ray, &local, mask)))
+    }
+}
+
+/// Improves `best` by what the ray meets in one geometry.
+pub(crate) fn closest(walk: &Walk<'_>, best: &mut Best) {
+    let geometry = walk.geometry;
+    let test = |leaf: Leaf, best: &mut Best| {
+        if geometry.is_instances(&leaf) {
+            for i in slots(&leaf) {
+                walk.enter(&geometry.instances[i as usize], |inner| closest(inner, best));
+            }
+        } else {
+            (best.placement, best.arena) = (walk.placement, leaf.kind);
+            let arena = &geometry.arenas[leaf.kind as usize];
+            arena.closest(geometry.isa, slots(&leaf), walk.ray, &walk.filter(leaf.kind), best);
+        }
+    };
+    for beside in &geometry.beside {
+        test(beside.leaf(), best);
+    }
+    let mut line = walk.line();
+    if best.hit.is_some() {
+        line.t_max = line.t_max.min(walk.limit(best.limit()));
+    }
+    geometry.tree.closest(geometry.isa, &line, |leaf| {
+        test(leaf, best);
+        if best.hit.is_some() { walk.limit(best.limit()) } else { f64::INFINITY }
+    });
+}
+
+fn any(walk: &Walk<'_>) -> bool {
+    let geometry = walk.geometry;
+    let test = |leaf: Leaf| {
+        if geometry.is_instances(&leaf) {
+            let mut inside =
+                slots(&leaf).map(|i| walk.enter(&geometry.instances[i as usize], any).unwrap_or(false));
+            inside.any(|hit| hit)
+        } else {
+            let arena = &geometry.arenas[leaf.kind as usize];
+            arena.any(geometry.isa, slots(&leaf), walk.ray, &walk.filter(leaf.kind))
+        }
+    };
+    geometry.beside.iter().any(|b| test(b.leaf())) || geometry.tree.any(geometry.isa, &walk.line(), test)
+}
+
+/// Shows every hit to `visit`.
+pub(crate) fn each(walk: &Walk<'_>, visit: &mut dyn FnMut(&Hit) -> Flow) -> Flow {
+    let geometry = walk.geometry;
+    let mut test = |leaf: Leaf| {
+        if geometry.is_instances(&leaf) {
+            let stops = |i: u32| {
+                walk.enter(&geometry.instances[i as usize], |inner| each(inner, visit)) == Some(Flow::Stop)
+            };
+            slots(&leaf).any(stops)
+        } else {
+            let arena = &geometry.arenas[leaf.kind as usize];
+            let filter = walk.filter(leaf.kind);
+            let placement = &walk.placement;
+            let mut show = |slot, name, root| visit(&placement.hit(leaf.kind, slot, name, &root));
+            arena.each(geometry.isa, slots(&leaf), walk.ray, &filter, &mut show) == Flow::Stop
+        }
+    };
+    let stopped = geometry.beside.iter().any(|b| test(b.leaf()))
+        || geometry.tree.any(geometry.isa, &walk.line(), &mut test);
+    if stopped { Flow::Stop } else { Flow::Continue }
+}
+
+fn spans(walk: &Walk<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks) {
+    let geometry = walk.geometry;
+    let gather = |leaf: Leaf, tracks: &mut Tracks| {
+        if geometry.is_instances(&leaf) {
+            for i in slots(&leaf) {
+                let instance = &geometry.instances[i as usize];
+                walk.enter(instance, |inner| spans(inner, &start.through(&instance.affine), tracks));
+            }
+        } else {
+            (tracks.placement, tracks.arena) = (walk.placement, leaf.kind);
+            tracks.source = walk.filter(leaf.kind).source;
+            geometry.arenas[leaf.kind as usize].spans(slots(&leaf), walk.ray, start, tracks);
+        }
+    };
+    for beside in &geometry.beside {
+        gather(beside.leaf(), tracks);
+    }
+    let line = walk.line();
+    geometry.tree.any(geometry.isa, &line, |leaf| {
+        gather(leaf, tracks);
+        false
+    });
+    // A solid in parts may hold the whole range without one of its parts being near it.
+    (tracks.placement, tracks.source) = (walk.placement, None);
+    for solid in &geometry.solids_in_parts {
+        tracks.arena = solid.arena;
+        if line.may_meet(&solid.bounds) && !tracks.tell(solid.surface) {
+            geometry.arenas[solid.arena as usize].start_of(solid.surface, walk.ray, start, tracks);
+        }
+    }
+}

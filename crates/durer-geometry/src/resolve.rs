@@ -1,0 +1,94 @@
+//! From a hit to a point of a surface; and on which side of all solids a point lies.
+
+use crate::Hit;
+use crate::geometry::{Geometry, Instance, slots};
+use durer_math::{Point3, Ray, RaySide, Source};
+use durer_surfaces::{LocalPoint, LocalRay, Need, Side, SurfacePoint};
+
+impl Geometry {
+    /// Everything about the point of a hit that one of this geometry's queries gave for this very ray.
+    pub fn resolve(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        self.resolve_with(ray, hit, Need::ALL)
+    }
+
+    /// As [`Geometry::resolve`], as far as `need` asks.
+    ///
+    /// # Panics
+    ///
+    /// If the hit is not one of this geometry's.
+    pub fn resolve_with(&self, ray: &Ray, hit: &Hit, need: Need) -> SurfacePoint {
+        let source =
+            ray.source().filter(|s| (s.arena, s.index, s.instance) == (hit.arena, hit.slot, hit.instance));
+        let local = LocalRay::new(ray).from_side(source.map(|s| s.side));
+        let (mut point, part) = self.resolve_in(&local, hit.instance, hit, need);
+        point.source = Some(Source {
+            arena: hit.arena,
+            index: hit.slot,
+            part,
+            instance: hit.instance,
+            side: RaySide::Front,
+        });
+        point
+    }
+
+    /// In this geometry's frame: `placement` is counted from this geometry's own.
+    fn resolve_in(&self, ray: &LocalRay<'_>, placement: u32, hit: &Hit, need: Need) -> (SurfacePoint, u32) {
+        let Some(instance) = self.instance_of(placement) else {
+            let arena = &self.arenas[hit.arena as usize];
+            return (arena.resolve(hit.slot, ray, &hit.root(), need), arena.part(hit.slot).0);
+        };
+        let inner = placement - instance.first_placement;
+        let local = ray.through(&instance.affine);
+        let (point, part) = instance.geometry.resolve_in(&local, inner, hit, need);
+        (point.placed(&instance.affine), part)
+    }
+
+    /// The instance in which a placement is; `None` for the geometry's own.
+    pub(crate) fn instance_of(&self, placement: u32) -> Option<&Instance> {
+        // The instances stand in the order of the leaves; their placements are disjoint ranges.
+        let mut all = self.instances.iter();
+        all.find(|i| (0..i.geometry.placements()).contains(&placement.wrapping_sub(i.first_placement)))
+    }
+
+    /// On which side of the union of all solids a point lies: exact. A point on the common border of two solids that touch is
+    /// [`Side::On`].
+    pub fn side(&self, point: Point3) -> Side {
+        if !point.is_finite() {
+            return Side::Out;
+        }
+        self.side_of(&LocalPoint::new(point))
+    }
+
+    fn side_of(&self, point: &LocalPoint<'_>) -> Side {
+        let mut found = Side::Out;
+        // Says whether there is nothing more to learn.
+        let mut learn = |side: Side| {
+            match side {
+                Side::In => found = Side::In,
+                Side::On if found == Side::Out => found = Side::On,
+                _ => {}
+            }
+            found == Side::In
+        };
+        let mut test = |leaf: durer_bvh::Leaf| {
+            if self.is_instances(&leaf) {
+                return slots(&leaf).any(|i| {
+                    let instance = &self.instances[i as usize];
+                    learn(instance.geometry.side_of(&point.through(&instance.affine)))
+                });
+            }
+            let arena = &self.arenas[leaf.kind as usize];
+            // The inside of a solid in parts is in no part's box.
+            !arena.is_in_parts() && slots(&leaf).any(|slot| learn(arena.side(slot, point)))
+        };
+        let done = self.beside.iter().any(|b| test(b.leaf()))
+            || self.tree.containing(point.p, point.p_err, &mut test);
+        if !done {
+            let _ = self.solids_in_parts.iter().any(|solid| {
+                solid.bounds.expanded(point.p_err).contains(point.p)
+                    && learn(self.arenas[solid.arena as usize].side(solid.surface, point))
+            });
+        }
+        found
+    }
+}

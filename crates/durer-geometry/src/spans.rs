@@ -1,0 +1,262 @@
+//! In and out: the stretches of a ray inside the union of all solids.
+//!
+//! Each solid's crossings are turned into states by their signs; whether a ray starts inside is told by the first sign, and for
+//! solids that are not crossed by the crossings outside the range or by the exact side of a point. Then one sweep merges the
+//! solids: crossings whose enclosures overlap (transitively) form one group, all their bits are flipped, and only
+//! the union before and after counts, so that touching bodies fuse and no skin of zero thickness appears (S. D. Roth, "Ray casting for
+//! modeling solids", Computer Graphics and Image Processing 18, 1982; R. B. Tilove, "Set membership classification", IEEE
+//! Transactions on Computers C-29, 1980).
+
+use crate::arena::Filter;
+use crate::best::Placement;
+use crate::ids::Id;
+use crate::{ObjectId, Span};
+use durer_surfaces::Root;
+
+/// Which solid: placement, arena, surface.
+type Key = (u32, u32, u32);
+
+/// A crossing of a solid that changes sides.
+#[derive(Clone, Copy, Debug)]
+struct Event {
+    solid: Key,
+    t: f64,
+    lo: f64,
+    hi: f64,
+    sign: i8,
+    object: u32,
+}
+
+/// What a traversal gathers for [`Tracks::merge`].
+pub(crate) struct Tracks {
+    events: Vec<Event>,
+    starts: Vec<(Key, bool)>,
+    pub(crate) placement: Placement,
+    pub(crate) arena: u32,
+    mask: u32,
+    pub(crate) source: Option<(u32, durer_math::RaySide)>,
+}
+
+impl Tracks {
+    pub(crate) fn new(mask: u32) -> Self {
+        Self {
+            events: Vec::new(),
+            starts: Vec::new(),
+            placement: Placement::default(),
+            arena: 0,
+            mask,
+            source: None,
+        }
+    }
+
+    pub(crate) fn filter(&self) -> Filter {
+        Filter { mask: self.mask, source: self.source }
+    }
+
+    fn key(&self, surface: u32) -> Key {
+        (self.placement.instance, self.arena, surface)
+    }
+
+    /// How many crossings there are so far.
+    pub(crate) fn len(&self) -> usize {
+        self.events.len()
+    }
+
+    /// A crossing of a solid; a touch has no length and is left out.
+    pub(crate) fn push(&mut self, surface: u32, id: Id, root: &Root) {
+        if root.sign != 0 {
+            self.events.push(Event {
+                solid: self.key(surface),
+                t: root.t,
+                lo: root.lo,
+                hi: root.hi,
+                sign: root.sign,
+                object: self.placement.object.wrapping_add(id.object),
+            });
+        }
+    }
+
+    /// Whether the ray starts inside a solid whose crossings do not tell.
+    pub(crate) fn start(&mut self, surface: u32, inside: bool) {
+        self.starts.push((self.key(surface), inside));
+    }
+
+    /// Whether the crossings of a surface tell whether the ray starts inside.
+    pub(crate) fn tell(&self, surface: u32) -> bool {
+        let key = self.key(surface);
+        self.events.iter().filter(|e| e.solid == key).map(|e| i32::from(e.sign)).sum::<i32>() != 0
+    }
+
+    /// The spans of the union.
+    pub(crate) fn merge(mut self, t_min: f64, t_max: f64) -> Vec<Span> {
+        self.events.sort_by(|a, b| a.solid.cmp(&b.solid).then(a.t.total_cmp(&b.t)));
+        let mut depth = self.inside_without_crossing();
+        let mut changes = Vec::with_capacity(self.events.len());
+        for solid in self.events.chunk_by(|a, b| a.solid == b.solid) {
+            let told = self.starts.iter().find(|s| s.0 == solid[0].solid).map(|s| s.1);
+            depth += usize::from(transitions(solid, told, &mut changes));
+        }
+        // Stable: what one solid does in a row stays in its order.
+        changes.sort_by(|a, b| a.lo.total_cmp(&b.lo).then(a.t.total_cmp(&b.t)));
+        sweep(&changes, depth, t_min, t_max)
+    }
+
+    /// How many solids without crossings hold the whole range.
+    fn inside_without_crossing(&self) -> usize {
+        let crossed = |key: &Key| self.events.binary_search_by(|e| e.solid.cmp(key)).is_ok();
+        let mut inside: Vec<Key> =
+            self.starts.iter().filter(|(key, inside)| *inside && !crossed(key)).map(|s| s.0).collect();
+        inside.sort_unstable();
+        inside.dedup();
+        inside.len()
+    }
+}
+
+/// Turns the crossings of one solid into changes of state, alternating; says whether the ray starts inside.
+fn transitions(events: &[Event], told: Option<bool>, changes: &mut Vec<Event>) -> bool {
+    let groups = || overlapping(events);
+    // A group's net sign tells the state before it; groups without one leave the state as it was.
+    let by_net = groups().map(net).find(|&n| n != 0).map(|n| n > 0);
+    let starts_inside = by_net.or(told).unwrap_or(events[0].sign > 0);
+    let mut inside = starts_inside;
+    for group in groups() {
+        let alternates = group.iter().enumerate().all(|(i, e)| (e.sign > 0) == (inside ^ (i % 2 == 1)));
+        if alternates {
+            changes.extend_from_slice(group);
+            inside ^= group.len() % 2 == 1;
+        } else {
+            let after = match net(group) {
+                0 => inside,
+                n => n < 0,
+            };
+            let change = group.iter().find(|e| (e.sign < 0) == after).filter(|_| after != inside);
+            changes.extend(change);
+            inside = after;
+        }
+    }
+    starts_inside
+}
+
+fn net(group: &[Event]) -> i32 {
+    group.iter().map(|e| i32::from(e.sign)).sum()
+}
+
+/// Runs of events whose enclosures overlap transitively.
+fn overlapping(events: &[Event]) -> impl Iterator<Item = &[Event]> {
+    let mut rest = events;
+    core::iter::from_fn(move || {
+        let mut reach = rest.first()?.hi;
+        let len = 1 + rest[1..]
+            .iter()
+            .take_while(|e| {
+                let touches = e.lo <= reach;
+                reach = reach.max(e.hi);
+                touches
+            })
+            .count();
+        let (group, tail) = rest.split_at(len);
+        rest = tail;
+        Some(group)
+    })
+}
+
+/// Walks along the ray and keeps the number of solids that hold it.
+fn sweep(changes: &[Event], depth: usize, t_min: f64, t_max: f64) -> Vec<Span> {
+    let mut spans = Vec::new();
+    let mut depth = depth as i64;
+    let mut open = (depth > 0).then_some((t_min, None));
+    let mut step = |events: &[Event]| {
+        let before = depth;
+        depth -= i64::from(net(events));
+        let of_sign = |sign: i8| events.iter().filter(move |e| e.sign == sign);
+        let first_object = |sign: i8| of_sign(sign).map(|e| ObjectId(e.object)).min();
+        if before <= 0 && depth > 0 {
+            let t = of_sign(-1).map(|e| e.t).fold(f64::INFINITY, f64::min);
+            open = Some((t, first_object(-1)));
+        } else if before > 0 && depth <= 0 {
+            let t = of_sign(1).map(|e| e.t).fold(f64::NEG_INFINITY, f64::max);
+            if let Some((t_in, object_in)) = open.take() {
+                // A range that begins where a solid ends is not in it.
+                if object_in.is_some() || t > t_in {
+                    spans.push(Span { t_in, t_out: t, object_in, object_out: first_object(1) });
+                }
+            }
+        }
+    };
+    for group in overlapping(changes) {
+        if group.iter().all(|e| e.solid == group[0].solid) {
+            group.iter().for_each(|e| step(core::slice::from_ref(e)));
+        } else {
+            step(group);
+        }
+    }
+    if let Some((t_in, object_in)) = open
+        && (t_max > t_in || object_in.is_none())
+    {
+        spans.push(Span { t_in, t_out: t_max, object_in, object_out: None });
+    }
+    spans
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn event(surface: u32, t: f64, width: f64, sign: i8) -> (u32, Root) {
+        let kind = durer_surfaces::Kind::Simple;
+        (surface, Root { t, lo: t - width, hi: t + width, s: t, tag: [0.0; 2], face: 0, sign, kind })
+    }
+
+    fn merged(events: &[(u32, Root)], starts: &[(u32, bool)]) -> Vec<(f64, f64, Option<u32>, Option<u32>)> {
+        let mut tracks = Tracks::new(u32::MAX);
+        for (surface, root) in events {
+            tracks.push(*surface, Id { object: *surface, primitive: 0 }, root);
+        }
+        starts.iter().for_each(|&(s, inside)| tracks.start(s, inside));
+        let spans = tracks.merge(0.0, 100.0);
+        let object = |o: Option<ObjectId>| o.map(|o| o.0);
+        spans.iter().map(|s| (s.t_in, s.t_out, object(s.object_in), object(s.object_out))).collect()
+    }
+
+    #[test]
+    fn overlapping_solids_merge() {
+        let events =
+            [event(0, 1.0, 0.0, -1), event(0, 3.0, 0.0, 1), event(1, 2.0, 0.0, -1), event(1, 5.0, 0.0, 1)];
+        assert_eq!(merged(&events, &[]), [(1.0, 5.0, Some(0), Some(1))]);
+    }
+
+    #[test]
+    fn touching_solids_fuse_and_separate_ones_do_not() {
+        let touching =
+            [event(0, 1.0, 0.0, -1), event(0, 2.0, 0.1, 1), event(1, 2.05, 0.1, -1), event(1, 3.0, 0.0, 1)];
+        assert_eq!(merged(&touching, &[]), [(1.0, 3.0, Some(0), Some(1))]);
+        let apart =
+            [event(0, 1.0, 0.0, -1), event(0, 2.0, 0.0, 1), event(1, 2.5, 0.0, -1), event(1, 3.0, 0.0, 1)];
+        assert_eq!(merged(&apart, &[]).len(), 2);
+    }
+
+    #[test]
+    fn a_start_inside_has_no_entry() {
+        assert_eq!(merged(&[event(0, 2.0, 0.0, 1)], &[]), [(0.0, 2.0, None, Some(0))]);
+        assert_eq!(merged(&[], &[(4, true)]), [(0.0, 100.0, None, None)]);
+        assert_eq!(merged(&[], &[(4, false)]), []);
+    }
+
+    #[test]
+    fn a_range_that_begins_on_the_way_out_is_outside() {
+        assert_eq!(merged(&[event(0, 0.0, 0.0, 1)], &[]), []);
+    }
+
+    #[test]
+    fn a_thin_solid_is_kept_and_seams_of_one_solid_are_not() {
+        let thin = [event(0, 1.0, 0.1, -1), event(0, 1.05, 0.1, 1)];
+        assert_eq!(merged(&thin, &[]), [(1.0, 1.05, Some(0), Some(0))]);
+        // Two faces report one entry: the net sign says "in", once.
+        let seam = [event(0, 1.0, 0.1, -1), event(0, 1.05, 0.1, -1), event(0, 4.0, 0.0, 1)];
+        assert_eq!(merged(&seam, &[]), [(1.0, 4.0, Some(0), Some(0))]);
+        // A sliver whose crossings were rounded past each other, then the body.
+        let swapped =
+            [event(0, 1.0, 0.1, 1), event(0, 1.05, 0.1, -1), event(0, 2.0, 0.0, -1), event(0, 4.0, 0.0, 1)];
+        assert_eq!(merged(&swapped, &[]), [(2.0, 4.0, Some(0), Some(0))]);
+    }
+}

@@ -1,0 +1,131 @@
+//! A ray on its way through trees and instances.
+
+use crate::arena::Filter;
+use crate::best::Placement;
+use crate::geometry::{Geometry, Instance};
+use durer_bvh::Line;
+use durer_math::eft::{exponent, scale2};
+use durer_math::{Ray, Source, U};
+use durer_surfaces::LocalRay;
+
+/// `t = shift + 2^k s`, within `err`: what culling needs to know of a local ray's parameter `s`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Clock {
+    shift: f64,
+    err: f64,
+    k: i32,
+}
+
+impl Clock {
+    /// The clock of a ray in its own frame.
+    #[inline]
+    pub(crate) fn of(ray: &Ray) -> Self {
+        Self { shift: 0.0, err: 0.0, k: -exponent(ray.direction.max_abs()) }
+    }
+
+    /// The clock of a ray that went through an affine map.
+    fn then(self, ray: &LocalRay<'_>) -> Self {
+        let Some((step, k)) = ray.parent_clock() else { return self };
+        let shift = self.shift + scale2(step, self.k);
+        Self { shift, err: self.err + 2.0 * U * shift.abs(), k: self.k + k }
+    }
+
+    /// A number not below the `s` of `t`.
+    #[inline(always)]
+    pub(crate) fn above(&self, t: f64) -> f64 {
+        self.bound(t, 1.0)
+    }
+
+    /// A number not above the `s` of `t`.
+    #[inline(always)]
+    fn below(&self, t: f64) -> f64 {
+        self.bound(t, -1.0)
+    }
+
+    #[inline(always)]
+    fn bound(&self, t: f64, away: f64) -> f64 {
+        if t.is_infinite() {
+            return t;
+        }
+        // Exact if nothing is shifted; else one rounding of the difference, and that of the slack.
+        let moved = if self.shift == 0.0 && self.err == 0.0 {
+            t
+        } else {
+            away.mul_add((t.abs() + self.shift.abs()).mul_add(4.0 * U, self.err * 2.0), t - self.shift)
+        };
+        let s = scale2(moved, -self.k);
+        if s == 0.0 && moved != 0.0 { away * f64::MIN_POSITIVE } else { s }
+    }
+}
+
+/// A ray in one geometry's frame, and what it may meet there.
+pub(crate) struct Walk<'a> {
+    pub(crate) geometry: &'a Geometry,
+    pub(crate) ray: &'a LocalRay<'a>,
+    pub(crate) clock: Clock,
+    pub(crate) placement: Placement,
+    pub(crate) mask: u32,
+    pub(crate) source: Option<Source>,
+}
+
+impl<'a> Walk<'a> {
+    pub(crate) fn new(geometry: &'a Geometry, ray: &Ray, local: &'a LocalRay<'a>, mask: u32) -> Self {
+        Self {
+            geometry,
+            ray: local,
+            clock: Clock::of(ray),
+            placement: Placement::default(),
+            mask,
+            source: ray.source(),
+        }
+    }
+
+    /// What the ray meets of an arena.
+    #[inline(always)]
+    pub(crate) fn filter(&self, arena: u32) -> Filter {
+        let source = self.source.filter(|s| s.arena == arena && s.instance == self.placement.instance);
+        Filter { mask: self.mask, source: source.map(|s| (s.index, s.side)) }
+    }
+
+    /// The ray as the tree sees it.
+    #[inline]
+    pub(crate) fn line(&self) -> Line {
+        let r = self.ray;
+        Line {
+            origin: r.o,
+            direction: r.d,
+            origin_error: r.o_err,
+            direction_error: r.d_err,
+            t_min: self.clock.below(r.t_min),
+            t_max: self.clock.above(r.t_max),
+        }
+    }
+
+    /// What no crossing that could be less than a hit with this upper bound exceeds, in the tree's parameter.
+    ///
+    /// A bracket is at most 32 ulp of `max(|t|, size / |d|)` wide on either side of the exact crossing (what is wider is computed again
+    /// in double-double), so a rounded `t` can precede the exact one by no more: twice that is kept.
+    #[inline(always)]
+    pub(crate) fn limit(&self, t_hi: f64) -> f64 {
+        let s = self.clock.above(t_hi);
+        let t = scale2(t_hi.abs(), -self.clock.k);
+        (t + self.geometry.tree.size()).mul_add(128.0 * U, s)
+    }
+
+    /// Enters an instance, if the ray meets it at all.
+    #[inline]
+    pub(crate) fn enter<R>(&self, instance: &Instance, f: impl FnOnce(&Walk<'_>) -> R) -> Option<R> {
+        if instance.mask & self.mask == 0 {
+            return None;
+        }
+        let ray = self.ray.through(&instance.affine);
+        Some(f(&Walk {
+            geometry: &instance.geometry,
+            ray: &ray,
+            clock: self.clock.then(&ray),
+            placement: instance.within(&self.placement),
+            mask: self.mask,
+            source: self.source,
+        }))
+    }
+}
