@@ -5,4 +5,4 @@
 // Two bowls that never meet, above each other.
 
 #include "stage.inc"
-hyperboloid { <0.4, 0.4, 0.3>, sheets 2, from -1 to 1 open rotate x*-90 rotate z*8 translate y*1.15 texture { Clay } }
+hyperboloid { <0.4, 0.4, 0.3>, sheets 2, from -1 to 1 open rotate x*-90 rotate z*8 scale 0.85 translate y*1.02 texture { Clay } }
