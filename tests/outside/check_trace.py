@@ -1,0 +1,493 @@
+#!/usr/bin/env python3
+"""Examines `durer trace` from outside, against exact arithmetic.
+
+Random scenes of one surface (and some unions), rays aimed at silhouettes, rims, edges, vertices, apexes, axes and generators, from near, inside,
+on the surface and far, with directions and ranges of all sizes. Every crossing has to be there once, with its sign and a bracket that holds
+the exact parameter; the four queries, any number of threads and all instruction sets have to agree. See README.md.
+
+    check_trace.py [--durer PATH] [--scenes N] [--rays N] [--seed N] [--kind NAME]... [--keep DIR]
+"""
+
+import argparse
+import math
+import os
+import random
+import subprocess
+import sys
+import tempfile
+from collections import Counter, defaultdict
+from fractions import Fraction as F
+from pathlib import Path
+
+import numpy as np
+
+import scenes
+from exact import to_float, union
+from shapes import Form, IDENTITY, Loops, add, cross, dot, small, sub, times
+
+INF = float("inf")
+U = 2.0**-53
+COLUMNS = {
+    "t": ("<f8", ()), "t_lo": ("<f8", ()), "t_hi": ("<f8", ()), "object": ("<i4", ()), "primitive": ("<u4", ()), "uv": ("<f8", (2,)),
+    "position": ("<f8", (3,)), "normal": ("<f8", (3,)), "kind": ("|u1", ()),
+}
+SPANS = {"t_in": ("<f8", ()), "t_out": ("<f8", ()), "object_in": ("<i4", ()), "object_out": ("<i4", ())}
+MISS = {"t": INF, "t_lo": INF, "t_hi": INF, "object": -1, "primitive": 4294967295, "uv": math.nan, "position": math.nan, "normal": math.nan, "kind": 255}
+
+
+# ---- rays ----
+
+
+def nudge(rng, x):
+    for _ in range(rng.choice((0, 0, 1, 1, 2))):
+        x = math.nextafter(x, rng.choice((-INF, INF)))
+    return x
+
+
+def aim(rng, leaf):
+    """A local point of interest and a local direction through it."""
+    points = list(leaf.points())
+    p = rng.choice(points)
+    forms = [f for f in (*getattr(leaf, "forms", ()), *leaf.clip, getattr(leaf, "face", None)) if isinstance(f, Form)]
+    slopes = [g for g in (f.gradient(p) for f in forms) if any(g)]
+    ways = ["axis", "small", "any", "chord"] + ["special"] * 2 * bool(leaf.directions) + ["tangent"] * 4 * bool(slopes)
+    ways += ["rim", "normal"] * (len(slopes) > 1)
+    way = rng.choice(ways)
+    if way == "tangent":
+        d = cross(rng.choice(slopes), small(rng))
+    elif way == "rim":
+        d = cross(*rng.sample(slopes, 2))
+    elif way == "normal":
+        d = rng.choice(slopes)
+    elif way == "special":
+        d = times(rng.choice((-1, 1)), rng.choice(leaf.directions))
+    elif way == "chord":
+        d = sub(rng.choice(points), p)
+    elif way == "axis":
+        d = scenes.signed_permutation(rng, (1, 0, 0))
+    elif way == "small":
+        d = small(rng)
+    else:
+        d = tuple(F(rng.gauss(0, 1)) for _ in range(3))
+    return p, d if any(d) else small(rng), way
+
+
+def make_ray(rng, leaf, ranges):
+    """Eight floats: a ray through (or within a few ulps of) a point of interest, and its range."""
+    p, d, _ = aim(rng, leaf)
+    p, d = leaf.whole.point(p), leaf.whole.vector(d)
+    # A length between 1e-6 and 1e6, most often by a power of two, which keeps an exact aim exact.
+    exponent = math.frexp(to_float(max(map(abs, d))))[1]
+    factor = F(2) ** (rng.choice((0, 0, rng.randint(-20, 20))) - exponent)
+    if rng.random() < 0.1:
+        factor *= F(rng.uniform(0.5, 1))
+    d = tuple(float(x * factor) for x in d)
+    if not any(d):
+        d = (0.0, 0.0, 1.0)
+    reach = to_float(leaf.size * max(abs(x) for row in leaf.whole.rows for x in row)) / max(map(abs, d))
+    steps = rng.choice((0, 0, 1, rng.randint(1, 9), rng.randint(-9, 9), rng.uniform(0.5, 2)))
+    t = F(steps) * F(2) ** (math.frexp(reach)[1] + rng.choice((0, 0, -1, rng.randint(-4, 4), 20, -30)))
+    o = tuple(float(a - t * F(b)) for a, b in zip(p, d))
+    if rng.random() < 0.25:
+        o = tuple(nudge(rng, x) for x in o)
+    elif rng.random() < 0.1:
+        d = tuple(nudge(rng, x) for x in d)
+    lo, hi = 0.0, INF
+    if ranges and rng.random() < 0.6:
+        end = to_float(t)
+        ends = [0.0, end, math.nextafter(end, INF), math.nextafter(end, -INF), -INF, INF, end + reach, end - reach, -0.0]
+        lo, hi = rng.choice(ends), rng.choice(ends)
+        if rng.random() < 0.9:
+            lo, hi = min(lo, hi), max(lo, hi)
+    return (*o, *d, lo, hi)
+
+
+# ---- what is expected ----
+
+
+class Expected:
+    def __init__(self, scene, ray, world_ties=False):
+        o, d, (lo, hi) = ray[:3], ray[3:6], ray[6:]
+        self.events = defaultdict(list)
+        self.within = False
+        sets, self.defined = [], True
+        if not (lo <= hi):
+            self.spans = []
+            return
+        for number, leaves in enumerate(scene.objects):
+            first = 0
+            for leaf in leaves:
+                answer = in_world(leaf).answer(o, d, IDENTITY) if world_ties and isinstance(leaf, Loops) else leaf.answer(o, d, leaf.whole)
+                self.within |= answer.within
+                for e in answer.events:
+                    if e.t.cmp(lo) >= 0 and e.t.cmp(hi) <= 0:
+                        self.events[number, first + e.face if leaf.faces > 1 else first].append((e, leaf))
+                if leaf.solid():
+                    sets.append(answer.inside)
+                first += leaf.faces
+        self.spans = [s for s in (cut(s, lo, hi) for s in union(sets)) if s]
+
+    def count(self):
+        return sum(map(len, self.events.values()))
+
+
+def cut(span, lo, hi):
+    """An interval within the range [lo, hi]; None if it has no length there."""
+    a, b = span
+    a = None if a is None or a.cmp(lo) <= 0 else a
+    b = None if b is None or b.cmp(hi) >= 0 else b
+    if a is not None and a.cmp(hi) >= 0 or b is not None and b.cmp(lo) <= 0:
+        return None
+    return None if a is None and b is None and lo == hi else (a, b)
+
+
+def in_world(leaf):
+    """Outlines with their vertices where the map puts them."""
+    if not hasattr(leaf, "moved"):
+        faces = [[[leaf.whole.point(tuple(F(x, 1 << leaf.bits) for x in v)) for v in loop] for loop in loops] for loops in leaf.outlines]
+        leaf.moved = Loops(leaf.body, faces, leaf.points, size=leaf.size, oriented=leaf.oriented)
+        leaf.moved.whole = IDENTITY
+    return leaf.moved
+
+
+# ---- the command ----
+
+
+class Wrong(Exception):
+    """The command did not do what its contract says."""
+
+
+def trace(durer, scene, rays, query, out, isa=None, threads=None):
+    command = [durer, "trace", scene, "--rays", rays, "--query", query, "-o", out] + (["--threads", str(threads)] if threads else [])
+    env = {**os.environ, **({"DURER_ISA": isa} if isa else {})}
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, env=env, timeout=120)
+    if done.returncode != 0:
+        raise Wrong(f"exit code {done.returncode} of a good scene: {done.stderr.strip()[:600]}")
+    with np.load(out) as file:
+        return {name: file[name] for name in file.files}
+
+
+def check_layout(arrays, wanted, length):
+    """Names, types and shapes, to the letter."""
+    if set(arrays) != set(wanted):
+        raise Wrong(f"arrays {sorted(arrays)}, expected {sorted(wanted)}")
+    for name, (dtype, rest) in wanted.items():
+        a = arrays[name]
+        n = length[name] if isinstance(length, dict) else length
+        if a.dtype.str != dtype or a.shape != (n, *rest):
+            raise Wrong(f"{name} is {a.dtype.str} {a.shape}, expected {dtype} {(n, *rest)}")
+
+
+def same_bits(a, b):
+    return a.keys() == b.keys() and all(a[k].tobytes() == b[k].tobytes() for k in a)
+
+
+# ---- one scene ----
+
+
+class Report:
+    """What was found, by kind of mistake, with the first examples."""
+
+    def __init__(self):
+        self.wrong, self.examples = Counter(), defaultdict(list)
+        self.rays = self.hits = self.spans = self.notes = 0
+        self.widths = defaultdict(list)
+        self.counted = Counter()
+
+    def add(self, what, scene, ray, expected, got, limit=4):
+        key = (scene.kind, what)
+        self.wrong[key] += 1
+        if len(self.examples[key]) < limit:
+            self.examples[key].append((scene.words, ray, expected, got))
+
+
+def ulp_of(x):
+    return math.ldexp(1.0, max(math.frexp(x)[1] - 53, -1074)) if math.isfinite(x) else INF
+
+
+def close_normal(event, leaf, n, ray, width, direction):
+    """Whether a normal is that of one of the faces that may be meant; the allowance grows with the bracket and the map."""
+    t = event.t.rational(100)
+    x, v, w = leaf.whole.ray(ray[:3], ray[3:6])
+    p = tuple((a + t * b) / w for a, b in zip(x, v))
+    spread = max(abs(to_float(b * F(width) / w)) for b in v) / to_float(leaf.size)
+    best = INF
+    for source, flip in event.normals:
+        g = source.gradient(p) if isinstance(source, Form) else source
+        if not any(g):
+            return True
+        g = leaf.whole.normal(tuple(flip * F(x) for x in g))
+        top = max(map(abs, g))
+        g = [to_float(x / top) for x in g]
+        length = math.sqrt(sum(x * x for x in g))
+        g = [x / length for x in g]
+        best = min(best, max(abs(a - b) for a, b in zip(g, n)))
+        if isinstance(leaf, Loops):
+            best = min(best, max(abs(a + b) for a, b in zip(g, n)))
+    stretch = max(abs(to_float(x)) for r in leaf.whole.rows for x in r) * max(abs(to_float(F(x, leaf.whole.w))) for r in leaf.whole.n for x in r)
+    return best <= 1e-9 + 1e3 * stretch * (spread + 1e-13 * stretch)
+
+
+def check_hit(report, scene, ray, event, leaf, hit, widths):
+    t, lo, hi = hit["t"], hit["t_lo"], hit["t_hi"]
+    bad = lambda what, expected: report.add(what, scene, ray, expected, describe(hit))
+    if not (lo <= t <= hi):
+        bad("t outside its own bracket", event)
+    if event.t.cmp(float(lo)) < 0 or event.t.cmp(float(hi)) > 0:
+        bad("exact t outside the bracket", event)
+    if hit["kind"] == 2:
+        bad("cluster where exact arithmetic decides", event)
+    elif (hit["kind"] == 1) != (hit["sign"] == 0):
+        bad("kind and sign disagree", event)
+    oriented = getattr(leaf, "oriented", True)
+    mirrored = isinstance(leaf, Loops) and leaf.whole.det < 0
+    sgn = event.sign
+    n, d = hit["normal"], ray[3:6]
+    if isinstance(leaf, Loops):
+        along = sum(F(float(a)) * F(b) for a, b in zip(n, d))
+        if abs(along) > 1e-9 * max(map(abs, d)) and (along > 0) != (hit["sign"] > 0):
+            bad("sign against the reported normal", event)
+    if hit["sign"] != sgn and not event.any_sign:
+        if isinstance(leaf, Loops) and hit["sign"] == -sgn and (mirrored or not oriented):
+            report.counted["normal of a mirrored or polygonal sheet: by the moved corners"] += 1
+        else:
+            bad("wrong sign", event)
+    length = sum(x * x for x in n)
+    if not abs(length - 1) < 1e-15 * 4:
+        bad("normal without unit length", event)
+    elif not close_normal(event, leaf, n, ray, hi - lo, d):
+        bad("wrong normal", event)
+    if not all(map(math.isfinite, hit["uv"])):
+        bad("uv not finite", event)
+    # The point: its error is not told, but it can hardly exceed the bracket's, and some ulps of the numbers it is made of.
+    exact = event.t.rational(120)
+    x, v, w = leaf.whole.ray(ray[:3], ray[3:6])
+    local = [abs(to_float((a + exact * b) / w)) + to_float(leaf.size) for a, b in zip(x, v)]
+    for i in range(3):
+        p = F(ray[i]) + exact * F(ray[3 + i])
+        about = sum(abs(to_float(m)) * x for m, x in zip(leaf.whole.rows[i], local)) + abs(to_float(leaf.whole.c[i]))
+        if not abs(to_float(F(float(hit["position"][i])) - p)) <= 4 * float(hi - lo) * abs(ray[3 + i]) + 64 * U * about:
+            bad("wrong position", f"{event} position[{i}] = {to_float(p)!r}")
+            break
+    size = to_float(leaf.size * max(abs(x) for row in leaf.whole.rows for x in row)) / math.sqrt(sum(x * x for x in d))
+    if hit["kind"] == 0:
+        widths.append(float(hi - lo) / ulp_of(max(abs(float(t)), size)))
+
+
+def describe(hit):
+    return f"t={float(hit['t'])!r} [{float(hit['t_lo'])!r}, {float(hit['t_hi'])!r}] sign={hit['sign']} kind={hit['kind']} object={hit['object']} primitive={hit['primitive']} normal={[float(x) for x in hit['normal']]}"
+
+
+def compare(expected, hits):
+    """Pairs of expected events and hits, or None if the counts differ."""
+    found = defaultdict(list)
+    for h in hits:
+        found[int(h["object"]), int(h["primitive"])].append(h)
+    if {k: len(v) for k, v in found.items()} != {k: len(v) for k, v in expected.events.items()}:
+        return None
+    return [(e, leaf, h) for key, events in expected.events.items() for (e, leaf), h in zip(events, found[key])]
+
+
+def check_ray(report, scene, ray, hits, widths):
+    expected = Expected(scene, ray)
+    report.hits += len(hits)
+    ts = [h["t"] for h in hits]
+    if any(a > b for a, b in zip(ts, ts[1:])):
+        report.add("all: not ascending", scene, ray, "", ts)
+    pairs = compare(expected, hits)
+    if pairs is None and any(isinstance(leaf, Loops) for leaves in scene.objects for leaf in leaves):
+        other = Expected(scene, ray, world_ties=True)
+        pairs = compare(other, hits)
+        if pairs is not None:
+            report.counted["ties of placed outlines taken in the world's frame"] += 1
+            expected = other
+    if pairs is None:
+        more = len(hits) - expected.count()
+        what = "missing crossing" if more < 0 else "extra crossing" if more > 0 else "crossing of another primitive"
+        if expected.within:
+            what += " (line within the surface)"
+        shown = {k: [e for e, _ in v] for k, v in expected.events.items()}
+        report.add(what, scene, ray, shown, [describe(h) for h in hits])
+        return expected, None
+    for event, leaf, hit in pairs:
+        check_hit(report, scene, ray, event, leaf, hit, widths)
+    return expected, pairs
+
+
+def check_spans(report, scene, ray, expected, pairs, rows):
+    """Against the exact set, and bit for bit against the crossings of `all`."""
+    report.spans += len(rows)
+    if expected.within or pairs is None:
+        return
+    lo, hi = ray[6:]
+    bad = lambda what: report.add(what, scene, ray, expected.spans, [tuple(map(float, r)) for r in rows])
+    by_end = {(h["sign"], float(h["t"])): h for e, _, h in pairs}
+    wanted = expected.spans
+    if len(rows) != len(wanted):
+        # Neighbours whose brackets overlap may fuse, a span thinner than its brackets may vanish.
+        closest = [h for _, _, h in sorted(pairs, key=lambda p: p[2]["t"])]
+        overlap = any(a["t_hi"] >= b["t_lo"] for a, b in zip(closest, closest[1:]))
+        return None if overlap else bad("spans: wrong number")
+    for (t_in, t_out, object_in, object_out), (a, b) in zip(rows, wanted):
+        for t, number, end, side, bound in ((t_in, object_in, a, -1, lo), (t_out, object_out, b, 1, hi)):
+            word = "t_in" if side < 0 else "t_out"
+            if end is None:
+                if t == bound and number == -1:
+                    continue
+                # A range that ends exactly on the surface may name it.
+                if (side, float(t)) in by_end and by_end[side, float(t)]["t_lo"] <= bound <= by_end[side, float(t)]["t_hi"]:
+                    continue
+                bad(f"spans: {word} should be the range's end with object -1")
+            elif (side, float(t)) not in by_end:
+                bad(f"spans: {word} is no crossing of `all`")
+            else:
+                h = by_end[side, float(t)]
+                if end.cmp(float(h["t_lo"])) < 0 or end.cmp(float(h["t_hi"])) > 0:
+                    bad(f"spans: {word} is the wrong crossing")
+                if number < 0 or number >= len(scene.objects):
+                    bad(f"spans: object of {word}")
+
+
+def check_scene(report, durer, scene, rng, count, folder):
+    file, rays_file, out = folder / "scene.pov", folder / "rays.npy", folder / "hits.npz"
+    file.write_text(scene.words)
+    leaves = [leaf for object_ in scene.objects for leaf in object_]
+    ranges = rng.random() < 0.6
+    rays = [make_ray(rng, rng.choice(leaves), ranges) for _ in range(count)]
+    array = np.array(rays, dtype="<f8")[:, : 8 if ranges else 6]
+    np.save(rays_file, np.asfortranarray(array) if rng.random() < 0.3 else array)
+    try:
+        found = trace(durer, file, rays_file, "all", out, threads=1)
+        hits = len(found.get("t", ()))
+        length = {"offsets": count + 1, "sign": hits, **{c: hits for c in COLUMNS}}
+        check_layout(found, {"offsets": ("<u8", ()), "sign": ("|i1", ()), **COLUMNS}, length)
+        others = [(None, 2), ("reference", 1), ("avx2", 1)]
+        for isa, threads in others:
+            if not same_bits(found, trace(durer, file, rays_file, "all", out, isa, threads)):
+                report.add(f"other bits with isa={isa} threads={threads}", scene, None, "", "")
+        unfused = trace(durer, file, rays_file, "all", out, "unfused", 1)
+        if any(not np.array_equal(found[k], unfused[k]) for k in ("offsets", "object", "sign", "kind")):
+            report.add("unfused decides otherwise", scene, None, "", "")
+        closest = trace(durer, file, rays_file, "closest", out)
+        check_layout(closest, COLUMNS, count)
+        anyhit = trace(durer, file, rays_file, "any", out)
+        check_layout(anyhit, {"hit": ("|b1", ())}, count)
+        spans = trace(durer, file, rays_file, "spans", out)
+        check_layout(spans, {"offsets": ("<u8", ()), **SPANS}, {"offsets": count + 1, **{c: len(spans.get("t_in", ())) for c in SPANS}})
+    except Wrong as wrong:
+        report.add(str(wrong), scene, None, "", "")
+        return
+    except subprocess.TimeoutExpired:
+        report.add("no answer within two minutes", scene, None, "", "")
+        return
+    at, span_at = found["offsets"].astype(int), spans["offsets"].astype(int)
+    for offsets, n in ((at, hits), (span_at, len(spans["t_in"]))):
+        if offsets[0] != 0 or offsets[-1] != n or (np.diff(offsets) < 0).any():
+            report.add("offsets are not ascending from 0 to the number of rows", scene, None, "", "")
+            return
+    check_queries_agree(report, scene, rays, found, at, closest, anyhit["hit"])
+    widths = []
+    for i, ray in enumerate(rays):
+        report.rays += 1
+        rows = [{k: found[k][j] for k in (*COLUMNS, "sign")} for j in range(at[i], at[i + 1])]
+        expected, pairs = check_ray(report, scene, ray, rows, widths)
+        stretches = [tuple(spans[k][j] for k in SPANS) for j in range(span_at[i], span_at[i + 1])]
+        check_spans(report, scene, ray, expected, pairs, stretches)
+    report.widths[scene.kind] += widths
+    if len(widths) >= 30 and np.median(widths) >= 100:
+        report.add("median bracket width of 100 ulp or more", scene, None, "< 100", float(np.median(widths)))
+
+
+def check_queries_agree(report, scene, rays, found, at, closest, anyhit):
+    """closest is the first of all, any says whether there is one: bit for bit."""
+    for i, ray in enumerate(rays):
+        some = at[i + 1] > at[i]
+        if bool(anyhit[i]) != bool(some):
+            report.add("any differs from all", scene, ray, bool(some), bool(anyhit[i]))
+        for name in COLUMNS:
+            wanted = found[name][at[i]] if some else np.full(closest[name][i].shape, MISS[name], closest[name].dtype)
+            if closest[name][i].tobytes() != wanted.tobytes() and not (not some and np.isnan(wanted).all() and np.isnan(closest[name][i]).all()):
+                report.add(f"closest differs from the first of all in {name}", scene, ray, wanted, closest[name][i])
+
+
+# ---- inputs that are refused, and edges of the contract ----
+
+
+def check_refusals(report, durer, folder):
+    """Arrays of another type or shape: exit code 1, a message that names both, no output."""
+    scene = scenes.Scene("sphere { 0, 1 }\n", [], "arrays")
+    (folder / "s.pov").write_text(scene.words)
+    good = np.array([[0, 0, -3, 0, 0, 1]] * 4, dtype="<f8")
+    bad = [
+        (good.astype("<f4"), ("f4", "(4, 6)")), (good.astype(">f8"), (">f8", "(4, 6)")), (good.astype("<i8"), ("i8", "(4, 6)")),
+        (good[:, :5], ("f8", "(4, 5)")), (np.zeros((4, 7)), ("f8", "(4, 7)")), (good[0], ("f8", "(6,)")), (np.zeros((2, 2, 6)), ("f8", "(2, 2, 6)")),
+        (np.zeros(()), ("f8", "()")), (good.astype("<c16"), ("c16", "(4, 6)")), (np.zeros((4, 6), "?"), ("b1", "(4, 6)")),
+    ]
+    for array, words in bad:
+        np.save(folder / "r.npy", array)
+        out = folder / "refused.npz"
+        done = subprocess.run([durer, "trace", folder / "s.pov", "--rays", folder / "r.npy", "-o", out], capture_output=True, text=True)
+        if done.returncode != 1 or any(w not in done.stderr for w in words) or out.exists():
+            report.add("refusal of an array", scene, None, f"exit 1, a message with {words}, no output", f"exit {done.returncode}: {done.stderr!r}")
+    np.save(folder / "r.npy", np.zeros((0, 6)))
+    for query in ("all", "closest", "any", "spans"):
+        try:
+            trace(durer, folder / "s.pov", folder / "r.npy", query, folder / "o.npz")
+        except Wrong as wrong:
+            report.add(f"no rays at all, {query}: {wrong}", scene, None, "", "")
+    check_odd_rays(report, durer, folder, scene)
+
+
+def check_odd_rays(report, durer, folder, scene):
+    """Rays that cannot meet anything miss; ranges are closed."""
+    nan = math.nan
+    rows = [
+        (0, 0, -3, 0, 0, 1, 0, INF, 2), (0, 0, -3, 0, 0, 0, 0, INF, 0), (nan, 0, -3, 0, 0, 1, 0, INF, 0), (0, 0, -3, 0, INF, 1, 0, INF, 0),
+        (0, 0, -INF, 0, 0, 1, 0, INF, 0), (0, 0, -3, 0, 0, 1, 5, 1, 0), (0, 0, -3, 0, 0, 1, nan, INF, 0), (0, 0, -3, 0, 0, 1, 0, nan, 0),
+        (0, 0, -3, 0, 0, 1, 2, 4, 2), (0, 0, -3, 0, 0, 1, 2, 2, 1), (0, 0, -3, 0, 0, 1, 2.5, 3.5, 0), (0, 0, -1, 0, 0, 1, 0, INF, 2),
+        (0, 0, 3, 0, 0, 1, -INF, 0, 2), (0, 0, 3, 0, 0, 1, -INF, INF, 2), (0, 0, 1, 0, 0, 1, 0, INF, 1), (0, 0, -3, 0, 0, 1, INF, INF, 0),
+        (0, 0, -1, -0.0, -0.0, 1, -0.0, INF, 2), (1, 0, 0, 0, 1, 0, 0, INF, 1), (1, 0, 0, 0, 1, 0, 0, 0, 1),
+    ]
+    np.save(folder / "r.npy", np.array([r[:8] for r in rows], dtype=float))
+    found = trace(durer, folder / "s.pov", folder / "r.npy", "all", folder / "o.npz")
+    for row, n in zip(rows, np.diff(found["offsets"].astype(int))):
+        if n != row[8]:
+            report.add("count of an odd ray", scene, row[:8], row[8], int(n))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--durer", type=Path, default=Path(__file__).parents[2] / "target/release/durer")
+    parser.add_argument("--scenes", type=int, default=60)
+    parser.add_argument("--rays", type=int, default=150, help="rays for each scene")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--kind", action="append", choices=[*scenes.MAKERS, "union"])
+    parser.add_argument("--show", type=int, default=2, help="examples to print for each kind of mistake")
+    args = parser.parse_args()
+    report = Report()
+    kinds = args.kind or [*scenes.MAKERS, "union"]
+    with tempfile.TemporaryDirectory() as folder:
+        folder = Path(folder)
+        check_refusals(report, args.durer, folder)
+        for i in range(args.scenes):
+            rng = random.Random(f"{args.seed}/{i}")
+            kind = kinds[i % len(kinds)]
+            scene = scenes.union_scene(rng) if kind == "union" else scenes.single(rng, kind)
+            check_scene(report, args.durer, scene, rng, args.rays, folder)
+    for (kind, what), n in sorted(report.wrong.items()):
+        print(f"\n== {kind}: {what}: {n} times")
+        for words, ray, expected, got in report.examples[kind, what][: args.show]:
+            print(words.strip())
+            print("  ray     ", None if ray is None else ", ".join(repr(float(x)) for x in ray))
+            print("  expected", expected)
+            print("  got     ", got)
+    print(f"\n{report.rays} rays, {report.hits} crossings, {report.spans} spans; median width of simple brackets in ulp: "
+          + ", ".join(f"{k} {np.median(w):.1f}" for k, w in sorted(report.widths.items()) if w))
+    for what, n in report.counted.items():
+        print(f"note: {what}: {n} times")
+    print(f"{sum(report.wrong.values())} violations")
+    return 1 if report.wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,176 @@
+#!/usr/bin/env python3
+"""The examiner examined: its exact answers against plain definitions read from the scene's text, in rationals of another make.
+
+    python3 test_oracle.py
+"""
+
+import random
+import re
+import unittest
+from fractions import Fraction as F
+
+import scenes
+from check_trace import Expected, in_world, make_ray
+from exact import Number, complement, holds, sign
+from shapes import Loops, Sheet, Solid, dot, sub
+
+TINY = F(1, 1 << 300)
+
+
+def numbers(words):
+    return [F(float(x)) for x in re.findall(r"-?\d[\d.]*(?:e[-+]?\d+)?", words)]
+
+
+def solve(rows, b):
+    """Cramer's rule with plain determinants."""
+    det = lambda m: sum(m[0][i] * (m[1][(i + 1) % 3] * m[2][(i + 2) % 3] - m[1][(i + 2) % 3] * m[2][(i + 1) % 3]) for i in range(3))
+    whole = det(rows)
+    return tuple(det([[b[r] if c == i else rows[r][c] for c in range(3)] for r in range(3)]) / whole for i in range(3))
+
+
+def holds_point(body, p):
+    """Whether a shape, read from its text, holds a point: the closed set."""
+    word = body.split()[0]
+    x = numbers(body.replace("mesh2", "mesh"))
+    if word == "sphere":
+        return sum((a - b) ** 2 for a, b in zip(p, x[:3])) <= x[3] ** 2
+    if word == "box":
+        return all(min(a, b) <= c <= max(a, b) for a, b, c in zip(x[:3], x[3:6], p))
+    if word in ("cylinder", "cone"):
+        c0, r0, c1, r1 = (x[:3], x[6], x[3:6], x[6]) if word == "cylinder" else (x[:3], x[3], x[4:7], x[7])
+        a, q = sub(c1, c0), sub(p, c0)
+        h = dot(q, a) / dot(a, a)
+        foot = [c + h * e for c, e in zip(c0, a)]
+        return 0 <= h <= 1 and sum((s - f) ** 2 for s, f in zip(p, foot)) <= (r0 + h * (r1 - r0)) ** 2
+    if word == "plane":
+        s, n, h = dot(p, x[:3]), dot(x[:3], x[:3]), x[3]
+        # s <= h sqrt(n)
+        return s <= 0 if h == 0 else (s <= 0 or s * s <= h * h * n) if h > 0 else (s < 0 and s * s >= h * h * n)
+    if word == "quadric":
+        monomials = (p[0] ** 2, p[1] ** 2, p[2] ** 2, p[0] * p[1], p[0] * p[2], p[1] * p[2], *p, 1)
+        return sum(a * b for a, b in zip(x, monomials)) <= 0
+    raise AssertionError(word)
+
+
+def local(leaf, p):
+    return solve(leaf.whole.rows, sub(p, leaf.whole.c))
+
+
+def at(ray, t):
+    return tuple(F(a) + t * F(b) for a, b in zip(ray, ray[3:6]))
+
+
+class Oracle(unittest.TestCase):
+    def cases(self, kind, count=40):
+        for i in range(count):
+            rng = random.Random(f"oracle/{kind}/{i}")
+            scene = scenes.single(rng, kind)
+            leaf = scene.objects[0][0]
+            for _ in range(10):
+                yield rng, scene, leaf, make_ray(rng, leaf, False)
+
+    def test_solids_are_the_sets_of_their_text(self):
+        for kind in ("sphere", "box", "cylinder", "cone", "plane", "quadric"):
+            with self.subTest(kind):
+                for rng, _, leaf, ray in self.cases(kind):
+                    if not isinstance(leaf, Solid):
+                        continue
+                    answer = leaf.answer(ray[:3], ray[3:6], leaf.whole)
+                    inside = complement(answer.inside) if leaf.inverse else answer.inside
+                    ends = [e.rational(300) for s in inside for e in s if e is not None]
+                    for t in [x + s * d for x in ends or [F(0)] for s in (-1, 1) for d in (TINY**F(1) * max(abs(x), 1) * 2**64, F(1, 1 << 20), 1, F(rng.gauss(0, 9)))]:
+                        said = any(holds(a, b, Number.of(t)) for a, b in inside)
+                        self.assertEqual(said, holds_point(leaf.body, local(leaf, at(ray, t))), (leaf.sdl(), ray, float(t)))
+
+    def test_events_are_the_changes_of_the_set(self):
+        for kind in ("sphere", "box", "cylinder", "cone", "quadric"):
+            for _, _, leaf, ray in self.cases(kind):
+                if not isinstance(leaf, Solid) or leaf.clip:
+                    continue
+                answer = leaf.answer(ray[:3], ray[3:6], leaf.whole)
+                ts = [e.t for e in answer.events]
+                self.assertTrue(all(a.cmp(b) < 0 for a, b in zip(ts, ts[1:])), (leaf.sdl(), ray))
+                turns = [e.sign for e in answer.events if e.sign]
+                self.assertTrue(all(a == -b for a, b in zip(turns, turns[1:])))
+                step = lambda t, s: any(holds(a, b, Number.of(t.rational(400) + s * TINY * 2**64 * max(1, abs(t.rational())))) for a, b in answer.inside)
+                for e in answer.events:
+                    before, after = step(e.t, -1), step(e.t, 1)
+                    wanted = {-1: (False, True), 1: (True, False)}.get(e.sign)
+                    self.assertTrue((before, after) == wanted if wanted else before == after, (leaf.sdl(), ray, e))
+
+    def test_a_sheet_is_crossed_where_its_equation_changes_sign(self):
+        for kind in ("disc", "cylinder", "cone"):
+            for _, _, leaf, ray in self.cases(kind):
+                if not isinstance(leaf, Sheet):
+                    continue
+                answer = leaf.answer(ray[:3], ray[3:6], leaf.whole)
+                for e in answer.events:
+                    t = e.t.rational(400)
+                    p = local(leaf, at(ray, t))
+                    x = numbers(leaf.body)
+                    if kind == "disc":
+                        far = sum((a - b) ** 2 for a, b in zip(p, x[:3]))
+                        hole = x[7] if len(x) > 7 else 0
+                        near = F(1, 1 << 200) * max(1, far)
+                        self.assertLessEqual(abs(dot(sub(p, x[:3]), x[3:6])), near)
+                        self.assertTrue(hole**2 - near <= far <= x[6] ** 2 + near)
+
+    def test_outlines_are_met_by_a_ray_that_is_really_moved(self):
+        """The symbolic displacement against one of 2^-300."""
+        for kind in ("triangle", "polygon", "mesh"):
+            for _, _, leaf, ray in self.cases(kind, 25):
+                body = in_world(leaf)
+                answer = body.answer(ray[:3], ray[3:6], body.whole)
+                k = max(range(3), key=lambda i: (abs(ray[3 + i]), -i))
+                a, b = [i for i in range(3) if i != k]
+                o = [F(x) for x in ray[:3]]
+                o[a] += TINY
+                o[b] += TINY * TINY
+                met = set()
+                for number, loops in enumerate(body.outlines):
+                    points = [[tuple(F(x, 1 << body.bits) for x in v) for v in loop] for loop in loops]
+                    n = body.planes[number]
+                    slope = dot(n, [F(x) for x in ray[3:6]])
+                    if slope == 0:
+                        continue
+                    t = dot(n, sub(points[0][0], o)) / slope
+                    p = tuple(x + t * F(y) for x, y in zip(o, ray[3:6]))
+                    drop = max(range(3), key=lambda i: abs(n[i]))
+                    i, j = [c for c in range(3) if c != drop]
+                    odd = False
+                    for loop in points:
+                        for u, v in zip(loop, loop[1:] + loop[:1]):
+                            if (u[j] > p[j]) != (v[j] > p[j]):
+                                odd ^= u[i] + (p[j] - u[j]) * (v[i] - u[i]) / (v[j] - u[j]) > p[i]
+                    if odd:
+                        met.add(number)
+                self.assertEqual(met, {e.face for e in answer.events}, (leaf.sdl(), ray))
+
+    def test_closed_meshes_have_parity(self):
+        for i in range(60):
+            rng = random.Random(f"parity/{i}")
+            leaf = scenes.mesh(rng)
+            leaf.whole = leaf.map
+            if leaf.faces == 32:
+                continue
+            for _ in range(20):
+                ray = make_ray(rng, leaf, False)
+                self.assertEqual(sum(e.sign for e in leaf.answer(ray[:3], ray[3:6], leaf.whole).events), 0)
+
+    def test_surds_compare_as_rationals_say(self):
+        rng = random.Random(1)
+        draw = lambda: Number(rng.randint(-9, 9), rng.randint(-3, 3), rng.randint(0, 12), rng.randint(1, 4))
+        for _ in range(20000):
+            a, b = draw(), draw()
+            gap = a.rational() - b.rational()
+            self.assertEqual(a.cmp(b), 0 if abs(gap) < F(1, 1 << 100) else sign(gap))
+
+    def test_an_examiner_that_sees_nothing_wrong_is_not_blind(self):
+        rng = random.Random(3)
+        scene = scenes.single(rng, "sphere")
+        ray = make_ray(rng, scene.objects[0][0], False)
+        self.assertIsInstance(Expected(scene, ray).count(), int)
+
+
+if __name__ == "__main__":
+    unittest.main()
