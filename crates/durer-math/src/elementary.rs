@@ -108,18 +108,50 @@ pub fn hypot(x: f64, y: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The bits were computed once and must never change: pictures depend on them.
+    const PINNED: u64 = 0x694b_16fa_cc6e_c32d;
+
+    /// Bits of all functions over many arguments, folded into one number that must never change: pictures depend on it.
     #[test]
     fn bits_are_pinned() {
-        let (s, c) = sin_cos(0.7);
-        assert_eq!((s, c), (sin(0.7), cos(0.7)));
-        assert!((s - 0.644_217_687_237_691_1).abs() < 1e-15);
-        assert!((exp(1.0) - core::f64::consts::E).abs() < 1e-15);
-        assert!((ln(10.0) - core::f64::consts::LN_10).abs() < 1e-15);
-        assert_eq!(pow(2.0, 0.5), core::f64::consts::SQRT_2);
-        assert_eq!(cbrt(27.0), 3.0);
-        assert_eq!(hypot(3.0, 4.0), 5.0);
-        assert_eq!(atan2(0.0, -1.0), core::f64::consts::PI);
+        let mut hash = 0_u64;
+        let mut fold = |x: f64| {
+            // NaNs have many forms; one stands for all.
+            let bits = if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() };
+            hash = hash.rotate_left(5).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ bits;
+        };
+        let functions = [
+            sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh, exp, exp2, exp_m1, ln,
+            ln_1p, log2, log10, cbrt, floor, ceil,
+        ];
+        for i in -500..=500 {
+            let x = f64::from(i) * 0.013;
+            functions.iter().for_each(|f| fold(f(x)));
+            fold(atan2(x, 0.7));
+            fold(pow(x.abs(), 1.7));
+            fold(hypot(x, 0.3));
+            fold(powi(x, 5));
+            assert_eq!(sin_cos(x), (sin(x), cos(x)));
+        }
+        assert_eq!(hash, PINNED, "{hash:#018x}");
+    }
+
+    /// Known values, so that what is pinned is also right.
+    #[test]
+    fn known_values() {
+        use core::f64::consts::{E, FRAC_PI_6, LN_10, PI, SQRT_2};
+        let near = |x: f64, y: f64| (x - y).abs() <= 2.0 * f64::EPSILON * y.abs();
+        assert!(near(sin(FRAC_PI_6), 0.5) && near(cos(PI), -1.0) && near(tan(PI / 4.0), 1.0));
+        assert!(near(asin(0.5), FRAC_PI_6) && near(acos(-1.0), PI) && near(atan(1.0), PI / 4.0));
+        assert!(
+            near(exp(1.0), E) && near(ln(10.0), LN_10) && near(log10(1000.0), 3.0) && near(log2(8.0), 3.0)
+        );
+        assert!(near(exp2(0.5), SQRT_2) && near(pow(2.0, 0.5), SQRT_2) && near(cbrt(27.0), 3.0));
+        assert!(near(exp_m1(1e-10), 1e-10 + 5e-21) && near(ln_1p(1e-10), 1e-10 - 5e-21));
+        assert!(near(sinh(1.0) + cosh(1.0), E) && near(tanh(atanh(0.5)), 0.5));
+        assert!(near(sinh(asinh(3.0)), 3.0) && near(cosh(acosh(3.0)), 3.0));
+        assert!(near(hypot(3.0, 4.0), 5.0) && near(atan2(0.0, -1.0), PI));
+        assert_eq!((floor(-1.5), ceil(-1.5)), (-2.0, -1.0));
+        assert!(acos(2.0).is_nan() && ln(-1.0).is_nan());
     }
 
     #[test]

@@ -143,6 +143,16 @@ proptest! {
         prop_assert_eq!(exact(a.scale2(7)), x * RBig::from(128));
     }
 
+    /// As above, with the constants that [`Run`] charges, which must not be smaller.
+    #[test]
+    fn running_errors_of_full_double_doubles_hold(a in double_double(), b in double_double()) {
+        let (x, y) = (exact(a), exact(b));
+        let (p, q) = (Run::with_error(a, 0.0), Run::with_error(b, 0.0));
+        for (result, truth) in [(p + q, &x + &y), (p - q, &x - &y), (p * q, &x * &y), (p / q, &x / &y), (p.square(), &x * &x)] {
+            prop_assert!(bounds(result, &truth), "{a:?} {b:?} {result:?}");
+        }
+    }
+
     #[test]
     fn nearly_opposite_double_doubles_still_subtract_well(a in double_double(), k in -3..=3_i32) {
         let b = Dd::new(a.hi, nudge(a.lo, k));
