@@ -163,7 +163,10 @@ fn numbers<const N: usize, T: std::str::FromStr>(text: &str) -> Result<[T; N], S
 }
 
 fn finite(text: &str) -> Result<f64, String> {
-    text.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(|| format!("'{text}' is not a finite number"))
+    text.parse()
+        .ok()
+        .filter(|x: &f64| x.is_finite())
+        .ok_or_else(|| format!("'{text}' is not a finite number"))
 }
 
 fn declaration(text: &str) -> Result<(String, f64), String> {
@@ -205,22 +208,32 @@ fn region(text: &str) -> Result<Region, String> {
 fn ray(text: &str) -> Result<Ray, String> {
     let [ox, oy, oz, dx, dy, dz] = numbers::<6, f64>(text)?;
     let ray = Ray::new(Point3::new(ox, oy, oz), Vec3::new(dx, dy, dz));
-    if ray.is_valid() { Ok(ray) } else { Err("a ray needs finite numbers and a direction that is not zero".to_owned()) }
+    if ray.is_valid() {
+        Ok(ray)
+    } else {
+        Err("a ray needs finite numbers and a direction that is not zero".to_owned())
+    }
 }
 
 fn anti_aliasing(text: &str) -> Result<AntiAliasing, String> {
-    let usage = || format!("'{text}': expected off, method1[,THRESHOLD[,DEPTH]], method2[,THRESHOLD[,DEPTH]], or NxN");
+    let usage = || {
+        format!("'{text}': expected off, method1[,THRESHOLD[,DEPTH]], method2[,THRESHOLD[,DEPTH]], or NxN")
+    };
     if text == "off" {
         return Ok(AntiAliasing::Off);
     }
     if let Some((a, b)) = text.split_once('x') {
         let n = a.parse().ok().filter(|n| (1..=64).contains(n)).ok_or_else(usage)?;
-        return if a == b { Ok(AntiAliasing::Grid { n }) } else { Err(usage()) };
+        return if a == b { Ok(AntiAliasing::Grid(n)) } else { Err(usage()) };
     }
     let mut words = text.split(',');
     let method = words.next().unwrap_or_default();
-    let threshold = words.next().map_or(Ok(0.3), |w| finite(w).ok().filter(|t| *t >= 0.0).ok_or_else(usage))?;
-    let depth = words.next().map_or(Ok(3), |w| w.parse().ok().filter(|d| (1..=9).contains(d)).ok_or_else(usage))?;
+    let threshold = words
+        .next()
+        .map_or(Ok(AntiAliasing::THRESHOLD), |w| finite(w).ok().filter(|t| *t >= 0.0).ok_or_else(usage))?;
+    let depth = words.next().map_or(Ok(AntiAliasing::DEPTH), |w| {
+        w.parse().ok().filter(|d| (1..=AntiAliasing::MAX_DEPTH).contains(d)).ok_or_else(usage)
+    })?;
     match (method, words.next()) {
         ("method1", None) => Ok(AntiAliasing::Method1 { threshold, depth }),
         ("method2", None) => Ok(AntiAliasing::Method2 { threshold, depth }),
@@ -251,7 +264,7 @@ mod tests {
     #[test]
     fn anti_aliasing_is_read_to_the_letter() {
         assert_eq!(anti_aliasing("off"), Ok(AntiAliasing::Off));
-        assert_eq!(anti_aliasing("3x3"), Ok(AntiAliasing::Grid { n: 3 }));
+        assert_eq!(anti_aliasing("3x3"), Ok(AntiAliasing::Grid(3)));
         assert_eq!(anti_aliasing("method1"), Ok(AntiAliasing::Method1 { threshold: 0.3, depth: 3 }));
         assert_eq!(anti_aliasing("method2,0.1,2"), Ok(AntiAliasing::Method2 { threshold: 0.1, depth: 2 }));
         for bad in ["", "2x3", "0x0", "method3", "method1,x", "method1,0.1,0", "method1,0.1,2,5", "on"] {

@@ -15,7 +15,9 @@ pub(crate) enum ArrayError {
     Header(std::io::Error),
     #[error("expected dtype '<f8' and shape (n, 6) or (n, 8), got dtype {dtype} and shape {shape}")]
     Type { dtype: String, shape: String },
-    #[error("the header promises shape {shape}, {promised} bytes of numbers, but only {present} bytes follow it")]
+    #[error(
+        "the header promises shape {shape}, {promised} bytes of numbers, but only {present} bytes follow it"
+    )]
     Short { shape: String, promised: u128, present: u64 },
 }
 

@@ -1,2 +1,32 @@
-//! The command `durer`.
-fn main() {}
+//! The command `durer`: it parses its words, calls the library, and prints.
+#![forbid(unsafe_code)]
+
+mod args;
+mod arrays;
+mod check;
+mod explain;
+mod failure;
+mod input;
+mod output;
+mod render;
+mod trace;
+
+use crate::args::{Cli, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let done = match Cli::parse().command {
+        Command::Render(args) => render::run(&args),
+        Command::Trace(args) => trace::run(&args),
+        Command::Explain(args) => explain::run(&args),
+        Command::Check(args) => check::run(&args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("{failure}");
+            failure.exit_code()
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! `durer render`: a scene in, a picture out.
+
+use crate::args::RenderArgs;
+use crate::failure::Failure;
+use crate::input;
+use durer::render::film::{Bits, FileFormat, Film, SaveError};
+use durer::render::{Progress, RenderError, RenderSettings, Rendered, Status, World, render};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Set by Ctrl-C.
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
+    let output = args.output.clone().unwrap_or_else(|| default_output(&args.scene.scene));
+    let bits = if args.bits == 16 { Bits::Sixteen } else { Bits::Eight };
+    let format = FileFormat::of(&output, bits).map_err(|e| Failure::Usage(e.to_string()))?;
+    check_place(&output)?;
+    let (width, height) = args.size.size();
+    if let Some(region) = args.region
+        && region.within(width, height).pixels() == 0
+    {
+        return Err(Failure::Usage(format!("the region lies outside the picture of {width}x{height}")));
+    }
+    input::with_threads(args.threads, || {
+        let loaded = input::load(&args.scene, (width, height))?;
+        if loaded.scene().camera.is_none() {
+            return Err(Failure::file(&args.scene.scene, "the scene has no camera, and a picture needs one"));
+        }
+        let world = loaded.world()?;
+        let settings =
+            RenderSettings { width, height, anti_aliasing: args.aa, region: args.region, threads: None };
+        // If there can be no handler, Ctrl-C ends the program as it always did, and only the partial picture is lost.
+        let _ = ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
+        let rendered = watched(&world, &settings, args.no_progress);
+        let rendered = rendered.map_err(|e| Failure::file(&args.scene.scene, e))?;
+        if rendered.cancelled {
+            let partial = partial_name(&output);
+            save(&rendered.film, &partial, format)?;
+            return Err(Failure::Interrupted(partial));
+        }
+        save(&rendered.film, &output, format)
+    })
+}
+
+/// Renders, with a bar on stderr if someone is there to see it.
+fn watched(world: &World, settings: &RenderSettings, quiet: bool) -> Result<Rendered, RenderError> {
+    let progress = Progress::none().cancelled_by(&INTERRUPTED);
+    if quiet || !std::io::stderr().is_terminal() {
+        return render(world, settings, &progress);
+    }
+    let bar = ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::stderr());
+    let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {msg}");
+    if let Ok(style) = style {
+        bar.set_style(style);
+    }
+    let report = |status: &Status| {
+        bar.set_length(status.pixels);
+        bar.set_position(status.pixels_done);
+        let left = status.remaining().map_or(0, |d| d.as_secs());
+        let rate = status.rays_per_second() / 1e6;
+        bar.set_message(format!("{rate:.2} Mrays/s, {}:{:02} left", left / 60, left % 60));
+    };
+    let rendered = render(world, settings, &progress.reporting(&report));
+    bar.finish_and_clear();
+    rendered
+}
+
+fn save(film: &Film, path: &Path, format: FileFormat) -> Result<(), Failure> {
+    film.save(path, format).map_err(|e| match e {
+        SaveError::Io { path, source } => Failure::file(&path, format_args!("cannot write: {source}")),
+        other => Failure::Usage(other.to_string()),
+    })
+}
+
+/// The scene's name with `.png`, in the current folder.
+fn default_output(scene: &Path) -> PathBuf {
+    PathBuf::from(scene.file_name().unwrap_or_default()).with_extension("png")
+}
+
+/// `NAME.partial.png` for `NAME.png`.
+fn partial_name(output: &Path) -> PathBuf {
+    let ending = output.extension().unwrap_or_default().to_string_lossy().into_owned();
+    output.with_extension(format!("partial.{ending}"))
+}
+
+/// Asks before the work, not after it, whether there is a place for the result.
+fn check_place(output: &Path) -> Result<(), Failure> {
+    let folder = output.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if output.is_dir() {
+        Err(Failure::file(output, "cannot write: this is a directory"))
+    } else if folder.is_dir() {
+        Ok(())
+    } else {
+        Err(Failure::file(output, format_args!("cannot write: there is no folder '{}'", folder.display())))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_pictures_follow_the_scene() {
+        assert_eq!(default_output(Path::new("a/b/knot.pov")), Path::new("knot.png"));
+        assert_eq!(partial_name(Path::new("x/knot.png")), Path::new("x/knot.partial.png"));
+        assert_eq!(partial_name(Path::new("knot.exr")), Path::new("knot.partial.exr"));
+    }
+}

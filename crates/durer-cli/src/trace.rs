@@ -1,0 +1,160 @@
+//! `durer trace`: an array of rays in, arrays of answers out.
+
+use crate::args::{Query, TraceArgs};
+use crate::arrays::{NpzWriter, read_rays};
+use crate::failure::Failure;
+use crate::{input, output};
+use durer::geometry::{Geometry, Hit, ObjectId, Span};
+use durer::math::Ray;
+use durer::surfaces::{Need, SurfacePoint};
+use rayon::prelude::*;
+
+/// Rays per step: answers of one step are held beside the columns they go to.
+const STEP: usize = 1 << 16;
+/// `primitive` of a ray that misses.
+const NO_PRIMITIVE: u32 = u32::MAX;
+/// `kind` of a ray that misses.
+const NO_KIND: u8 = 255;
+
+pub(crate) fn run(args: &TraceArgs) -> Result<(), Failure> {
+    if args.output.extension().is_none_or(|e| !e.eq_ignore_ascii_case("npz")) {
+        return Err(Failure::Usage(format!("the output must end in .npz, got '{}'", args.output.display())));
+    }
+    input::with_threads(args.threads, || {
+        // A scene may ask for the picture's size; here it is the default one's.
+        let world = input::load(&args.scene, (800, 600))?.lower()?;
+        let rays = read_rays(&args.rays).map_err(|e| Failure::file(&args.rays, e))?;
+        let geometry = &world.geometry;
+        output::write_whole(&args.output, |file| {
+            let mut npz = NpzWriter::new(file);
+            match args.query {
+                Query::Closest => closest(geometry, &rays).write(&mut npz)?,
+                Query::Any => npz.array("hit", None, geometry.any_batch(&rays))?,
+                Query::All => all(geometry, &rays, &mut npz)?,
+                Query::Spans => spans(geometry, &rays, &mut npz)?,
+            }
+            npz.finish()
+        })?;
+        let invalid = rays.iter().filter(|ray| !ray.is_valid()).count();
+        if invalid > 0 {
+            eprintln!(
+                "warning: {invalid} of {} rays are not finite, have no direction or an empty range: they miss",
+                rays.len()
+            );
+        }
+        Ok(())
+    })
+}
+
+/// The answers of `closest` and `all`, a column each.
+#[derive(Default)]
+struct Columns {
+    t: Vec<f64>,
+    t_lo: Vec<f64>,
+    t_hi: Vec<f64>,
+    object: Vec<i32>,
+    primitive: Vec<u32>,
+    uv: Vec<f64>,
+    position: Vec<f64>,
+    normal: Vec<f64>,
+    kind: Vec<u8>,
+}
+
+impl Columns {
+    fn push(&mut self, hit: Option<&(Hit, SurfacePoint)>) {
+        let Some((hit, point)) = hit else {
+            self.t.push(f64::INFINITY);
+            self.t_lo.push(f64::INFINITY);
+            self.t_hi.push(f64::INFINITY);
+            self.object.push(-1);
+            self.primitive.push(NO_PRIMITIVE);
+            self.uv.extend([f64::NAN; 2]);
+            self.position.extend([f64::NAN; 3]);
+            self.normal.extend([f64::NAN; 3]);
+            self.kind.push(NO_KIND);
+            return;
+        };
+        self.t.push(hit.t);
+        self.t_lo.push(hit.t_lo);
+        self.t_hi.push(hit.t_hi);
+        self.object.push(hit.object as i32);
+        self.primitive.push(hit.primitive);
+        self.uv.extend(point.uv);
+        self.position.extend(point.p.to_array());
+        self.normal.extend(point.ng.to_array());
+        self.kind.push(hit.kind as u8);
+    }
+
+    fn write(self, npz: &mut NpzWriter) -> std::io::Result<()> {
+        npz.array("t", None, self.t)?;
+        npz.array("t_lo", None, self.t_lo)?;
+        npz.array("t_hi", None, self.t_hi)?;
+        npz.array("object", None, self.object)?;
+        npz.array("primitive", None, self.primitive)?;
+        npz.array("uv", Some(2), self.uv)?;
+        npz.array("position", Some(3), self.position)?;
+        npz.array("normal", Some(3), self.normal)?;
+        npz.array("kind", None, self.kind)
+    }
+}
+
+/// The hit with its point.
+fn resolved(geometry: &Geometry, ray: &Ray, hit: Hit) -> (Hit, SurfacePoint) {
+    (hit, geometry.resolve_with(ray, &hit, Need::UV))
+}
+
+fn closest(geometry: &Geometry, rays: &[Ray]) -> Columns {
+    let mut columns = Columns::default();
+    for step in rays.chunks(STEP) {
+        let hits = geometry.closest_batch(step);
+        let points: Vec<_> = step
+            .par_iter()
+            .zip(hits)
+            .with_min_len(256)
+            .map(|(ray, hit)| hit.map(|hit| resolved(geometry, ray, hit)))
+            .collect();
+        points.iter().for_each(|hit| columns.push(hit.as_ref()));
+    }
+    columns
+}
+
+fn all(geometry: &Geometry, rays: &[Ray], npz: &mut NpzWriter) -> std::io::Result<()> {
+    let (mut columns, mut sign, mut offsets) = (Columns::default(), Vec::new(), vec![0_u64]);
+    for step in rays.chunks(STEP) {
+        let hits = geometry.all_batch(step);
+        let points: Vec<Vec<_>> = step
+            .par_iter()
+            .enumerate()
+            .with_min_len(256)
+            .map(|(i, ray)| hits.of(i).iter().map(|hit| resolved(geometry, ray, *hit)).collect())
+            .collect();
+        for of_ray in &points {
+            for hit in of_ray {
+                columns.push(Some(hit));
+                sign.push(hit.0.sign);
+            }
+            offsets.push(sign.len() as u64);
+        }
+    }
+    npz.array("offsets", None, offsets)?;
+    columns.write(npz)?;
+    npz.array("sign", None, sign)
+}
+
+fn spans(geometry: &Geometry, rays: &[Ray], npz: &mut NpzWriter) -> std::io::Result<()> {
+    let mut offsets = vec![0_u64];
+    let mut found: Vec<Span> = Vec::new();
+    for step in rays.chunks(STEP) {
+        let spans = geometry.spans_batch(step);
+        for i in 0..step.len() {
+            found.extend(spans.of(i));
+            offsets.push(found.len() as u64);
+        }
+    }
+    let number = |id: Option<ObjectId>| id.map_or(-1, |id| id.0 as i32);
+    npz.array("offsets", None, offsets)?;
+    npz.array("t_in", None, found.iter().map(|s| s.t_in).collect())?;
+    npz.array("t_out", None, found.iter().map(|s| s.t_out).collect())?;
+    npz.array("object_in", None, found.iter().map(|s| number(s.object_in)).collect())?;
+    npz.array("object_out", None, found.iter().map(|s| number(s.object_out)).collect())
+}
