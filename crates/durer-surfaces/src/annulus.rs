@@ -24,7 +24,6 @@ use durer_math::{Aabb, Point3, Vec3};
 pub struct Annulus {
     sheet: RoundSheet,
     hole: f64,
-    radius: f64,
 }
 
 /// Why an [`Annulus`] cannot exist.
@@ -62,7 +61,7 @@ impl Annulus {
         if !(0.0 <= hole && hole < radius) {
             return Err(AnnulusError::Hole { hole, radius });
         }
-        Ok(Self { sheet: RoundSheet::new(centre, n, radius), hole, radius })
+        Ok(Self { sheet: RoundSheet::new(centre, n, radius), hole })
     }
 
     /// The centre.
@@ -82,13 +81,13 @@ impl Annulus {
 
     /// The outer radius.
     pub fn radius(&self) -> f64 {
-        self.radius
+        self.sheet.radius
     }
 }
 
 impl Surface for Annulus {
     fn bounds(&self) -> Aabb {
-        self.sheet.bounds(self.radius)
+        self.sheet.bounds()
     }
 
     #[inline(always)]
@@ -96,7 +95,7 @@ impl Surface for Annulus {
         let probe = self.sheet.probe(ray);
         // An inexact ray that cannot be kept off the annulus meets it.
         if let Some(crossing) = self.sheet.crossing(&probe, sink.range())
-            && probe.sign(&self.sheet.rim(self.radius)).is_none_or(Ordering::is_le)
+            && probe.sign(&self.sheet.rim(self.sheet.radius)).is_none_or(Ordering::is_le)
             && probe.sign(&self.sheet.rim(self.hole)).is_none_or(Ordering::is_ge)
             && probe.admits(&self.sheet, &crossing)
         {
@@ -105,6 +104,41 @@ impl Surface for Annulus {
     }
 
     fn resolve(&self, ray: &LocalRay<'_>, _root: &Root, need: Need) -> SurfacePoint {
-        self.sheet.resolve(ray, need, self.hole, self.radius)
+        self.sheet.resolve(ray, need, self.hole)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::disc::tests::{FRAMES, ball, features};
+    use crate::laws::{Dice, ExactBody, ExactForm, check_many, exact3};
+
+    #[test]
+    fn annuli_obey_the_laws() {
+        let mut roots = 0;
+        for seed in 0..40 {
+            let mut dice = Dice::new(seed);
+            let frame = dice.pick(&FRAMES).map(Vec3::from);
+            let unit = dice.power(-30, 30);
+            let centre = if seed % 2 == 0 { Point3::ORIGIN } else { (dice.lattice(100) * unit).to_point() };
+            // One of the rims, or none, goes through the features.
+            let rim = 5.0 * frame[1].length() * unit;
+            let (hole, radius) =
+                dice.pick(&[(rim, 2.0 * rim), (0.5 * rim, rim), (0.0, rim), (0.9 * rim, 1.1 * rim)]);
+            let annulus = Annulus::new(centre, frame[0], hole, radius).unwrap();
+            let plane = ExactForm::half_space(exact3(frame[0].to_array()), exact3(centre.to_array()));
+            let faces = vec![plane, ball(centre, radius), ball(centre, hole).negated()];
+            let oracle = ExactBody { faces, walls: 1, size: radius, convex: false };
+            roots += check_many(&annulus, &oracle, &features(centre, frame, unit), seed, 300).roots;
+        }
+        assert!(roots > 2000, "{roots}");
+    }
+
+    #[test]
+    fn a_bad_annulus_is_named() {
+        let made = |hole, radius| Annulus::new(Point3::ORIGIN, Vec3::Y, hole, radius);
+        assert_eq!(made(1.0, 1.0), Err(AnnulusError::Hole { hole: 1.0, radius: 1.0 }));
+        assert_eq!(made(0.0, 0.0), Err(AnnulusError::Radius(0.0)));
     }
 }

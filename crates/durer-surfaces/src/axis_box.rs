@@ -130,10 +130,15 @@ impl AxisBox {
         self.min.map(|x| 0.5 * x) + self.max.map(|x| 0.5 * x).to_vec()
     }
 
+    /// Half the largest width.
+    #[inline(always)]
+    fn size(&self) -> f64 {
+        (self.max.map(|x| 0.5 * x) - self.min.map(|x| 0.5 * x)).max_abs()
+    }
+
     #[inline(always)]
     fn scale(&self) -> i32 {
-        let half = self.max.map(|x| 0.5 * x) - self.min.map(|x| 0.5 * x);
-        exponent(half.max_abs()) + 1
+        exponent(self.size()) + 1
     }
 
     #[inline(always)]
@@ -218,7 +223,7 @@ impl Surface for AxisBox {
 
     #[inline(always)]
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
-        let probe = Probe::new(ray, self.centre(), self.scale());
+        let probe = Probe::new(ray, self.centre(), self.size());
         let Some((mut entry, mut exit, touches)) = self.span(&probe) else { return };
         // The entry is known to come first: brackets that overlap are told so.
         if entry.crossing.s > exit.crossing.s {
@@ -250,7 +255,7 @@ impl Surface for AxisBox {
 
     /// Texture coordinates run from 0 to 1 over each face, along the two other axes in cyclic order.
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
-        let probe = Probe::new(ray, self.centre(), self.scale());
+        let probe = Probe::new(ray, self.centre(), self.size());
         let face = self.face(root.face);
         let (axis, outward) = (face.axis, if root.face & 1 == 0 { -1.0 } else { 1.0 });
         let normal = Vec3::from(core::array::from_fn(|i| if i == axis { 1.0 } else { 0.0 }));
@@ -311,5 +316,88 @@ impl AxisBox {
         let outward = if number & 1 == 0 { -1.0 } else { 1.0 };
         let axis = (number / 2) as usize;
         Normal3::from(core::array::from_fn(|i| if i == axis { outward } else { 0.0 }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::{Dice, ExactBody, ExactForm, Feature, all_roots, check_many, exact3};
+    use durer_math::Ray;
+
+    fn exact(b: &AxisBox) -> ExactBody {
+        let face = |i: u32| {
+            let n = AxisBox::normal(i).to_vec().to_array();
+            let p = if i & 1 == 0 { b.min } else { b.max };
+            ExactForm::half_space(exact3(n), exact3(p.to_array()))
+        };
+        ExactBody::solid((0..6).map(face).collect(), b.size(), true)
+    }
+
+    /// Corners, middles of edges and of faces, with directions along the edges there.
+    fn features(b: &AxisBox) -> Vec<Feature> {
+        let mut out = vec![];
+        for i in 0..27 {
+            let part = |axis: u32| i / 3_usize.pow(axis) % 3;
+            let at = core::array::from_fn(|axis| match part(axis as u32) {
+                0 => b.min[axis],
+                1 => b.max[axis],
+                _ => 0.5 * b.min[axis] + 0.5 * b.max[axis],
+            });
+            let mut along = [0.0; 3];
+            let axis = i % 3;
+            along[axis] = b.max[axis] - b.min[axis];
+            out.push(Feature::new(at, along));
+            out.push(Feature::new(at, (b.max - b.min).to_array()));
+        }
+        out
+    }
+
+    #[test]
+    fn boxes_obey_the_laws() {
+        let (mut roots, mut grazing) = (0, 0);
+        for seed in 0..60 {
+            let mut dice = Dice::new(seed);
+            let (a, w) = match seed % 3 {
+                0 => (dice.lattice(4), Vec3::new(1.0, 2.0, 4.0) * dice.power(-2, 2)),
+                1 => (dice.vector(), dice.vector()),
+                _ => {
+                    let k = dice.power(-300, 300);
+                    (dice.lattice(9) * k, dice.vector() * k * dice.power(-10, 3))
+                }
+            };
+            let Ok(b) = AxisBox::new(a.to_point(), a.to_point() + w) else { continue };
+            let tally = check_many(&b, &exact(&b), &features(&b), seed, 300);
+            roots += tally.roots;
+            grazing += tally.grazing;
+        }
+        assert!(roots > 8000 && grazing > 100, "{roots} {grazing}");
+    }
+
+    #[test]
+    fn a_ray_in_a_face_enters_and_leaves_and_one_that_touches_an_edge_grazes() {
+        let b = AxisBox::new(Point3::ORIGIN, Point3::new(1.0, 1.0, 1.0)).unwrap();
+        let within = Ray::new(Point3::new(-1.0, 0.5, 1.0), Vec3::X);
+        let roots = all_roots(&b, &within);
+        assert_eq!(
+            roots.iter().map(|r| (r.t, r.face, r.sign)).collect::<Vec<_>>(),
+            [(1.0, 0, -1), (2.0, 1, 1)]
+        );
+        let edge = Ray::new(Point3::new(-1.0, 1.0, 0.5), Vec3::new(1.0, 1.0, 0.0));
+        assert_eq!(all_roots(&b, &edge), []);
+        let edge = Ray::new(Point3::new(-1.0, 0.0, 0.5), Vec3::new(1.0, 1.0, 0.0));
+        assert_eq!(
+            all_roots(&b, &edge).iter().map(|r| (r.t, r.sign, r.kind)).collect::<Vec<_>>(),
+            [(1.0, 0, Kind::Grazing)]
+        );
+        // Through two opposite corners: the first axis names the faces.
+        let diagonal = Ray::new(Point3::new(-1.0, -1.0, -1.0), Vec3::new(1.0, 1.0, 1.0));
+        assert_eq!(all_roots(&b, &diagonal).iter().map(|r| r.face).collect::<Vec<_>>(), [0, 1]);
+    }
+
+    #[test]
+    fn a_flat_box_is_named() {
+        let made = AxisBox::new(Point3::ORIGIN, Point3::new(1.0, 0.0, 1.0));
+        assert_eq!(made, Err(AxisBoxError::Flat { axis: 1, at: 0.0 }));
     }
 }

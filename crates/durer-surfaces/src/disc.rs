@@ -27,7 +27,6 @@ use durer_math::{Aabb, Point3, Ring, U, Vec3, elementary};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disc {
     sheet: RoundSheet,
-    radius: f64,
 }
 
 /// Why a [`Disc`] cannot exist.
@@ -54,7 +53,7 @@ impl Disc {
         if !(radius.is_finite() && radius > 0.0) {
             return Err(DiscError::Radius(radius));
         }
-        Ok(Self { sheet: RoundSheet::new(centre, n, radius), radius })
+        Ok(Self { sheet: RoundSheet::new(centre, n, radius) })
     }
 
     /// The centre.
@@ -69,19 +68,19 @@ impl Disc {
 
     /// The radius.
     pub fn radius(&self) -> f64 {
-        self.radius
+        self.sheet.radius
     }
 }
 
 impl Surface for Disc {
     fn bounds(&self) -> Aabb {
-        self.sheet.bounds(self.radius)
+        self.sheet.bounds()
     }
 
     #[inline(always)]
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
         let probe = self.sheet.probe(ray);
-        let rim = self.sheet.rim(self.radius);
+        let rim = self.sheet.rim(self.sheet.radius);
         // An inexact ray that cannot be kept off the disc meets it.
         if let Some(crossing) = self.sheet.crossing(&probe, sink.range())
             && probe.sign(&rim).is_none_or(Ordering::is_le)
@@ -92,7 +91,7 @@ impl Surface for Disc {
     }
 
     fn resolve(&self, ray: &LocalRay<'_>, _root: &Root, need: Need) -> SurfacePoint {
-        self.sheet.resolve(ray, need, 0.0, self.radius)
+        self.sheet.resolve(ray, need, 0.0)
     }
 }
 
@@ -102,7 +101,9 @@ pub(crate) struct RoundSheet {
     pub(crate) centre: Point3,
     /// Largest component in [1, 2) in magnitude.
     pub(crate) normal: Vec3,
-    /// The radius is in `[1/2, 1)` units of `2^scale`.
+    /// The outer radius.
+    pub(crate) radius: f64,
+    /// It is in `[1/2, 1)` units of `2^scale`.
     scale: i32,
 }
 
@@ -136,14 +137,14 @@ impl PlaneForm for RoundSheet {
 }
 
 impl RoundSheet {
-    /// For radii up to `radius`; `normal` is scaled.
+    /// The sheet of radius `radius`; `normal` is scaled.
     pub(crate) fn new(centre: Point3, normal: Vec3, radius: f64) -> Self {
-        Self { centre, normal, scale: exponent(radius) + 1 }
+        Self { centre, normal, radius, scale: exponent(radius) + 1 }
     }
 
     #[inline(always)]
     pub(crate) fn probe<'a>(&self, ray: &'a LocalRay<'a>) -> Probe<'a> {
-        Probe::new(ray, self.centre, self.scale)
+        Probe::new(ray, self.centre, self.radius)
     }
 
     #[inline(always)]
@@ -160,22 +161,22 @@ impl RoundSheet {
     }
 
     /// The half-width along an axis is `r sqrt(1 - n_i^2)` for a unit normal.
-    pub(crate) fn bounds(&self, radius: f64) -> Aabb {
+    pub(crate) fn bounds(&self) -> Aabb {
         let n2 = self.normal.map(|x| x * x);
         let all = n2.x + n2.y + n2.z;
         let half = |a: f64, b: f64| {
             if a + b == 0.0 {
                 0.0
             } else {
-                radius.mul_add(((a + b) / all).sqrt() * (1.0 + 16.0 * U), f64::MIN_POSITIVE)
+                self.radius.mul_add(((a + b) / all).sqrt() * (1.0 + 16.0 * U), f64::MIN_POSITIVE)
             }
         };
         Aabb::centred(self.centre, Vec3::new(half(n2.y, n2.z), half(n2.z, n2.x), half(n2.x, n2.y)))
     }
 
     /// Polar texture coordinates: `u` is the angle over a full turn, `v` runs from the inner to the outer radius.
-    pub(crate) fn resolve(&self, ray: &LocalRay<'_>, need: Need, inner: f64, outer: f64) -> SurfacePoint {
-        let probe = self.probe(ray);
+    pub(crate) fn resolve(&self, ray: &LocalRay<'_>, need: Need, inner: f64) -> SurfacePoint {
+        let (probe, outer) = (self.probe(ray), self.radius);
         let n2 = self.normal.length_squared();
         let ng = unit(self.normal);
         let (p, dp) = planar::foot_point(&probe, self, self.normal, n2, 0.0);
@@ -194,5 +195,86 @@ impl RoundSheet {
             point.dpdv = (a * cos + b * sin) * (outer - inner);
         }
         point
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::laws::{Dice, Exact, ExactBody, ExactForm, Feature, check_many, exact3};
+
+    /// The ball `|p - c|^2 <= r^2`.
+    pub(crate) fn ball(centre: Point3, radius: f64) -> ExactForm {
+        let form = ExactForm::from_f64([1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        let form = ExactForm { c: -Exact::from(radius).squared(), ..form };
+        form.translated(&exact3(centre.to_array()))
+    }
+
+    fn exact(disc: &Disc) -> ExactBody {
+        let plane = ExactForm::half_space(exact3(disc.normal().to_array()), exact3(disc.centre().to_array()));
+        let faces = vec![plane, ball(disc.centre(), disc.radius())];
+        ExactBody { faces, walls: 1, size: disc.radius(), convex: false }
+    }
+
+    /// A normal, and two vectors across it of the same length and at right angles: whole numbers all.
+    pub(crate) const FRAMES: [[[f64; 3]; 3]; 4] = [
+        [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        [[1.0, 2.0, 2.0], [2.0, 1.0, -2.0], [2.0, -2.0, 1.0]],
+        [[-2.0, 6.0, 3.0], [3.0, -2.0, 6.0], [6.0, 3.0, -2.0]],
+        [[0.0, 3.0, -4.0], [5.0, 0.0, 0.0], [0.0, 4.0, 3.0]],
+    ];
+
+    /// Points at the circle's radius `5 |a|` (all exact), with tangents, and the centre.
+    pub(crate) fn features(centre: Point3, [n, a, b]: [Vec3; 3], unit: f64) -> Vec<Feature> {
+        let mut out = vec![Feature { point: centre, direction: n * unit }];
+        for (x, y) in [(5.0, 0.0), (3.0, 4.0), (-4.0, 3.0), (0.0, -5.0)] {
+            let rim = (a * x + b * y) * unit;
+            let tangent = (b * x - a * y) * unit;
+            out.push(Feature { point: centre + rim, direction: n * unit });
+            out.push(Feature { point: centre + rim, direction: tangent });
+            out.push(Feature { point: centre + rim, direction: n * unit + tangent });
+        }
+        out
+    }
+
+    #[test]
+    fn discs_obey_the_laws() {
+        let (mut roots, mut widths) = (0, vec![]);
+        for seed in 0..60 {
+            let mut dice = Dice::new(seed);
+            let frame = dice.pick(&FRAMES).map(Vec3::from);
+            let unit = if seed % 3 == 0 { dice.power(-300, 300) } else { dice.power(-3, 3) };
+            let centre = if seed % 2 == 0 { Point3::ORIGIN } else { (dice.lattice(100) * unit).to_point() };
+            let radius = 5.0 * frame[1].length() * unit;
+            let disc = if seed % 5 == 4 {
+                Disc::new(centre, dice.vector(), radius * dice.unit()).unwrap()
+            } else {
+                Disc::new(centre, frame[0] * dice.power(-20, 20), radius).unwrap()
+            };
+            let mut tally = check_many(&disc, &exact(&disc), &features(centre, frame, unit), seed, 300);
+            roots += tally.roots;
+            widths.push(tally.median_width());
+        }
+        assert!(roots > 3000, "{roots}");
+        assert!(widths.iter().all(|w| *w <= 32.0), "{widths:?}");
+    }
+
+    #[test]
+    fn the_rim_belongs_to_the_disc_and_the_plane_does_not() {
+        let disc = Disc::new(Point3::ORIGIN, Vec3::new(1.0, 2.0, 2.0), 15.0).unwrap();
+        let rim = Point3::new(14.0, -5.0, -2.0);
+        let down = Vec3::new(-3.0, -1.0, -2.0);
+        let ray = durer_math::Ray::new(rim - down * 7.0, down);
+        assert_eq!(crate::laws::all_roots(&disc, &ray).len(), 1);
+        let beside = Disc::new(Point3::ORIGIN, Vec3::new(1.0, 2.0, 2.0), 15.0_f64.next_down()).unwrap();
+        assert_eq!(crate::laws::all_roots(&beside, &ray), []);
+        let within = durer_math::Ray::new(rim, Vec3::new(-14.0, 5.0, 2.0));
+        assert_eq!(crate::laws::all_roots(&disc, &within), []);
+    }
+
+    #[test]
+    fn a_bad_disc_is_named() {
+        assert_eq!(Disc::new(Point3::ORIGIN, Vec3::Y, -1.0), Err(DiscError::Radius(-1.0)));
+        assert_eq!(Disc::new(Point3::ORIGIN, Vec3::ZERO, 1.0), Err(DiscError::Normal(Vec3::ZERO)));
     }
 }

@@ -119,6 +119,15 @@ impl EdgeFilter {
         (6.0 * (inputs + roundings)).mul_add(1.0 + 64.0 * U, f64::MIN_POSITIVE)
     }
 
+    /// A bound on the error of a minor `a_i d_j - a_j d_i` of such a vertex and the direction.
+    #[inline(always)]
+    pub(crate) fn minor_bound(&self, reach: f64) -> f64 {
+        let e = U.mul_add(2.0 * reach + self.o.max_abs(), self.o_err);
+        let inputs = self.d_max.mul_add(e, self.d_err * (reach + e));
+        let roundings = 2.0 * U * (1.0 + 16.0 * U) * self.d_max * reach;
+        (2.0 * (inputs + roundings)).mul_add(1.0 + 64.0 * U, f64::MIN_POSITIVE)
+    }
+
     /// `U` for the edge between two vertices as seen.
     #[inline(always)]
     pub(crate) fn side(&self, a: Vec3, b: Vec3) -> f64 {

@@ -6,9 +6,9 @@
 //! parameter comes from the plane of the three vertices, exact numbers all of them.
 
 use crate::edges::{self, EdgeFilter};
-use crate::planar::{self, Crossing, Line, Probe, ThreePoints, cross, dot, seen_from};
+use crate::planar::{self, Crossing, Line, PlaneForm, Probe, Ratios, ThreePoints, cross, dot, seen_from};
 use crate::{Need, RingRay, SurfacePoint};
-use durer_math::{Dd, Dyadic, Normal3, Point3, Ring, Run, U, Vec3};
+use durer_math::{Dyadic, Normal3, Point3, Ring, Run, U, Vec3};
 
 /// A triangle by its vertices; the normal is `(v1 - v0) x (v2 - v0)`.
 pub(crate) type Facet = [Point3; 3];
@@ -18,6 +18,10 @@ pub(crate) struct Varying {
     pub(crate) normals: Option<[Normal3; 3]>,
     pub(crate) uv: Option<[[f64; 2]; 3]>,
 }
+
+/// How far a component of [`unit_normal`] may be from the exact one: twice the error that is let through (the component it replaces by zero is
+/// no larger than its error), over a length of at least the largest component, and four roundings.
+pub(crate) const NORMAL: f64 = 72.0 * U;
 
 /// Whether the triangle has no area, exactly.
 pub(crate) fn is_degenerate(v: &Facet) -> bool {
@@ -101,6 +105,12 @@ fn common_side<L: Line>(line: &L, v: &Facet, values: [f64; 3], bound: f64) -> Op
     Some(common)
 }
 
+/// Whether a point lies in the triangle's plane, exactly.
+pub(crate) fn holds_in_plane(v: &Facet, p: Point3) -> bool {
+    let q: [Dyadic; 3] = seen_from(p, v[0], 0);
+    dot(&exact_normal(v), &q).is_zero()
+}
+
 /// Whether the start of a line, known to lie in the triangle's plane, lies in the closed triangle. An inexact one does.
 pub(crate) fn holds_start<L: Line>(line: &L, v: &Facet) -> bool {
     let Some(start) = line.exact() else { return true };
@@ -131,32 +141,13 @@ fn volumes<T: Ring>(v: &Facet, ray: &RingRay<T>, centre: Point3, scale: i32) -> 
 
 /// `(b1, b2)` of the point where the ray meets the triangle's plane, with bounds.
 fn barycentric(probe: &Probe<'_>, v: &Facet) -> [Run; 2] {
-    let (centre, scale) = (probe.ray.centre, probe.ray.scale);
-    let [b1, b2, sum] = volumes(v, &probe.run, centre, scale);
-    let b = [b1 / sum, b2 / sum];
-    if b.iter().all(|b| b.e <= 32.0 * U) {
-        return b;
-    }
-    let dd = probe.ray.in_ring::<Run<Dd>>().map(|ray| {
-        let [b1, b2, sum] = volumes(v, &ray, centre, scale);
-        [b1 / sum, b2 / sum].map(|b| Run::with_error(b.v.hi, (b.e + b.v.lo.abs()) * (1.0 + 8.0 * U)))
-    });
-    if let Some(b) = dd
-        && b.iter().all(|b| b.e <= 32.0 * U)
-    {
-        return b;
-    }
-    let exact = probe.ray.in_ring::<Dyadic>().and_then(|ray| {
-        let [b1, b2, sum] = volumes(v, &ray, centre, scale);
-        if sum.is_zero() {
-            return None;
+    struct Volumes<'a>(&'a Facet, Point3, i32);
+    impl Ratios for Volumes<'_> {
+        fn eval<T: Ring>(&self, ray: &RingRay<T>) -> [T; 3] {
+            volumes(self.0, ray, self.1, self.2)
         }
-        Some([b1, b2].map(|b| {
-            let (lo, hi) = planar::quotient_bounds(&b, &b, &sum);
-            Run::with_error(0.5 * lo + 0.5 * hi, (hi - lo) * (1.0 + 8.0 * U))
-        }))
-    });
-    exact.or(dd).unwrap_or(b)
+    }
+    planar::ratios(probe, &Volumes(v, probe.ray.centre, probe.ray.scale))
 }
 
 /// The normal by Kahan minors, and a bound on its error per component.
@@ -179,17 +170,15 @@ fn exact_normal(v: &Facet) -> [Dyadic; 3] {
     cross(&edge(v[1]), &edge(v[2]))
 }
 
-/// The unit normal; each component that is not zero has the sign of the exact one.
+/// The unit normal, each component within [`NORMAL`] of the exact one; one that is not zero has the exact one's sign.
 ///
-/// A component too small for its sign to be certain is zero if that turns the normal by less than `2^-28`, and is found exactly
-/// otherwise. A step along the result then never leads back through the plane, however the coordinates are rounded.
+/// So a step along it never leads back through the plane, however the coordinates are rounded.
 pub(crate) fn unit_normal(v: &Facet) -> Normal3 {
     let (n, err) = normal_and_error(v);
     let size = n.max_abs();
-    let certain = |i: usize| n[i].abs() > 1024.0 * err[i];
-    let negligible = |i: usize| err[i] < size * (1.0 / (1u64 << 40) as f64);
-    if size > 1e-280 && size < 1e280 && (0..3).all(|i| certain(i) || negligible(i)) {
-        let n = Vec3::from(core::array::from_fn(|i| if certain(i) { n[i] } else { 0.0 }));
+    // Slivers lose digits to cancellation; they, and the ends of the range of f64, are found exactly.
+    if size > 1e-280 && size < 1e280 && err.max_abs() <= 32.0 * U * size {
+        let n = Vec3::from(core::array::from_fn(|i| if n[i].abs() > err[i] { n[i] } else { 0.0 }));
         return planar::unit(n.scale2(-durer_math::scale::exponent(size)));
     }
     let exact = exact_normal(v);
@@ -203,39 +192,52 @@ pub(crate) fn unit_normal(v: &Facet) -> Normal3 {
 
 /// Position, errors, normals, texture coordinates and derivatives where the ray meets the triangle.
 pub(crate) fn resolve(probe: &Probe<'_>, v: &Facet, varying: &Varying, need: Need) -> SurfacePoint {
-    let [b1, b2] = barycentric(probe, v);
-    // Within the triangle, as the exact point is.
-    let (x1, x2) = (b1.v.clamp(0.0, 1.0), b2.v.clamp(0.0, 1.0));
+    let b = barycentric(probe, v);
+    let form = plane(probe, v);
+    let n = form.normal::<Run>().1;
     let (e1, e2) = (v[1] - v[0], v[2] - v[0]);
+    let mut point = settle(probe, &form, n, v[0], [e1, e2], b, unit_normal(v));
+    vary(&mut point, v, varying, b.map(|b| b.v.clamp(0.0, 1.0)), need);
+    point
+}
+
+/// The point `base + b1 e1 + b2 e2` of a plane, `b1` and `b2` in `[0, 1]` known within bounds; the edges are rounded at most once.
+///
+/// `n` is the plane's normal in the units of its form, `ng` as [`unit_normal`] makes it.
+pub(crate) fn settle<F: PlaneForm>(
+    probe: &Probe<'_>,
+    plane: &F,
+    n: [Run; 3],
+    base: Point3,
+    [e1, e2]: [Vec3; 2],
+    [b1, b2]: [Run; 2],
+    ng: Normal3,
+) -> SurfacePoint {
+    // Within the sheet, as the exact point is.
+    let (x1, x2) = (b1.v.clamp(0.0, 1.0), b2.v.clamp(0.0, 1.0));
     let axis = |i: usize| {
-        let p = x1.mul_add(e1[i], x2.mul_add(e2[i], v[0][i]));
+        let p = x1.mul_add(e1[i], x2.mul_add(e2[i], base[i]));
         let (m1, m2) = (x1 * e1[i].abs(), x2 * e2[i].abs());
-        // Edges are rounded once; two fused steps, the inner one of size |v0| + m2 at most.
-        let rounding = (v[0][i].abs() + p.abs()).mul_add(U, (m1 + 2.0 * m2) * (2.0 * U));
+        // Edges are rounded once; two fused steps, the inner one of size |base| + m2 at most.
+        let rounding = (base[i].abs() + p.abs()).mul_add(U, (m1 + 2.0 * m2) * (2.0 * U));
+        let rounding = rounding.mul_add(1.0 + 32.0 * U, f64::MIN_POSITIVE);
         let along = e1[i].abs().mul_add(b1.e, e2[i].abs() * b2.e);
-        let slack = 1.0 + 32.0 * U;
-        (
-            p,
-            rounding.mul_add(slack, f64::MIN_POSITIVE),
-            along.mul_add(slack, rounding * slack + f64::MIN_POSITIVE),
-        )
+        (p, rounding, along.mul_add(1.0 + 32.0 * U, rounding))
     };
     let [(x, rx, dx), (y, ry, dy), (z, rz, dz)] = [axis(0), axis(1), axis(2)];
     let p = Point3::new(x, y, z);
-    let ng = unit_normal(v);
     // Before rounding, the point lay in the plane, whatever the coordinates b.
     let apart = rx + ry + rz;
-    let form = plane(probe, v);
-    let n = form.normal::<Run>().1;
-    let length = n.map(|x| (x.v.abs() - x.e).max(0.0));
-    let length = Vec3::from(length).length() * (1.0 - 8.0 * U);
-    let measured = planar::clearance(&form, p, form.centre, form.scale, length);
-    let off = if measured < apart { measured } else { apart };
+    let off = planar::clearance(plane, p, probe.ray.centre, probe.ray.scale, planar::least_length(n));
     // The normal may be turned by 2^-28.
-    let off = off.mul_add(1.0 + 1.0 / (1u64 << 20) as f64, f64::MIN_POSITIVE);
-    let mut point = SurfacePoint::new(p, Vec3::new(dx, dy, dz), off, ng);
-    vary(&mut point, v, varying, [x1, x2], need);
-    point
+    let off =
+        (if off < apart { off } else { apart }).mul_add(1.0 + 1.0 / (1u64 << 20) as f64, f64::MIN_POSITIVE);
+    SurfacePoint::new(p, Vec3::new(dx, dy, dz), along_rounded_normal(off), ng)
+}
+
+/// A step along [`unit_normal`] that moves by `off` along the exact normal at least: the cosine of their angle is above `1 - 2 NORMAL`.
+pub(crate) fn along_rounded_normal(off: f64) -> f64 {
+    off.mul_add(1.0 + 4.0 * NORMAL, f64::MIN_POSITIVE)
 }
 
 /// Shading normal, texture coordinates and derivatives at the barycentric coordinates `(b1, b2)`.

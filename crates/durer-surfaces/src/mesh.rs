@@ -7,7 +7,7 @@
 
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
-use crate::planar::{PointLine, Probe, ThreePoints};
+use crate::planar::{self, PointLine, Probe, ThreePoints};
 use crate::{Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
@@ -182,21 +182,16 @@ impl Mesh {
         self.data.faces[number as usize].map(|i| self.data.vertices[i as usize])
     }
 
-    /// From where the mesh is seen, and in which unit.
+    /// The middle of the bounding box, and half its largest width.
     #[inline(always)]
-    fn view(&self) -> (Point3, i32) {
-        let Aabb { min, max, .. } = self.bounds;
-        if self.bounds.is_empty() {
-            return (Point3::ORIGIN, 0);
-        }
-        let half = max.map(|x| 0.5 * x) - min.map(|x| 0.5 * x);
-        (min.map(|x| 0.5 * x) + max.map(|x| 0.5 * x).to_vec(), exponent(half.max_abs()) + 1)
+    fn view(&self) -> (Point3, f64) {
+        if self.bounds.is_empty() { (Point3::ORIGIN, 1.0) } else { planar::middle(&self.bounds) }
     }
 
     #[inline(always)]
     fn probe<'a>(&self, ray: &'a LocalRay<'a>) -> Probe<'a> {
-        let (centre, scale) = self.view();
-        Probe::new(ray, centre, scale)
+        let (centre, size) = self.view();
+        Probe::new(ray, centre, size)
     }
 
     #[inline(always)]
@@ -305,7 +300,8 @@ impl Surface for Mesh {
 
     fn side(&self, point: &LocalPoint<'_>) -> Side {
         let Some(direction) = self.inside else { return Side::Out };
-        let (centre, scale) = self.view();
+        let (centre, size) = self.view();
+        let scale = exponent(size) + 1;
         let line = PointLine::new(point, direction, centre, scale);
         let filter = EdgeFilter::new(&line);
         let mut odd = false;
@@ -340,5 +336,157 @@ impl Surface for Mesh {
         if let Some(root) = self.face_root(part.0, &probe, &EdgeFilter::new(&probe), sink.range()) {
             let _: Flow = sink.push(root);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::{Dice, all_roots};
+    use durer_math::Ray;
+
+    /// The octahedron, its faces divided into `k * k` triangles with whole coordinates: flat faces, and vertices and edges galore.
+    fn octahedron(k: i32) -> Mesh {
+        let mut data = MeshData::default();
+        let find = |p: [i32; 3], vertices: &mut Vec<Point3>| {
+            let p = Point3::from(p.map(f64::from));
+            let known = vertices.iter().position(|q| *q == p);
+            known.unwrap_or_else(|| {
+                vertices.push(p);
+                vertices.len() - 1
+            }) as u32
+        };
+        for octant in 0..8 {
+            let s = [0, 1, 2].map(|i| if octant >> i & 1 == 0 { 1 } else { -1 });
+            let mirrored = s[0] * s[1] * s[2] < 0;
+            for i in 0..k {
+                for j in 0..k - i {
+                    let mut corner =
+                        |i: i32, j: i32| find([s[0] * (k - i - j), s[1] * i, s[2] * j], &mut data.vertices);
+                    let mut faces = vec![[corner(i, j), corner(i + 1, j), corner(i, j + 1)]];
+                    if i + j + 1 < k {
+                        faces.push([corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)]);
+                    }
+                    for [a, b, c] in faces {
+                        data.faces.push(if mirrored { [a, c, b] } else { [a, b, c] });
+                    }
+                }
+            }
+        }
+        Mesh::new(data).unwrap()
+    }
+
+    #[test]
+    fn a_closed_mesh_is_crossed_an_even_number_of_times() {
+        let mesh = octahedron(4);
+        assert!(mesh.is_closed());
+        let mut dice = Dice::new(1);
+        let (mut crossed, mut through_vertices) = (0, 0);
+        for _ in 0..6000 {
+            // Whole numbers: through vertices, along edges, within faces.
+            let target =
+                if dice.once_in(2) { dice.lattice(4).to_point() } else { dice.pick(&mesh.data.vertices) };
+            let direction = dice.lattice(3);
+            let back = dice.pick(&[7.0, 1000.0, 1048577.0]);
+            let ray = Ray::new(target - direction * back, direction).with_range(f64::NEG_INFINITY, f64::INFINITY);
+            let roots = all_roots(&mesh, &ray);
+            assert!(roots.len() % 2 == 0, "{roots:?} for {ray:?}");
+            assert!(roots.len() <= 4, "a convex solid: {roots:?} for {ray:?}");
+            // Entered and left in turn; a vertex at a silhouette is entered and left at one place.
+            let turns: i32 = roots.iter().map(|r| i32::from(r.sign)).sum();
+            assert_eq!(turns, 0, "{roots:?} for {ray:?}");
+            let far = roots.iter().map(|r| r.t).fold(f64::NEG_INFINITY, f64::max);
+            let near = roots.iter().map(|r| r.t).fold(f64::INFINITY, f64::min);
+            if near < far {
+                crossed += 1;
+                let inner = roots.iter().filter(|r| r.lo > near && r.hi < far).count();
+                assert_eq!(inner, 0, "{roots:?} for {ray:?}");
+            }
+            through_vertices += usize::from(mesh.data.vertices.contains(&target) && !roots.is_empty());
+        }
+        assert!(crossed > 2000 && through_vertices > 1000, "{crossed} {through_vertices}");
+    }
+
+    #[test]
+    fn no_ray_from_inside_escapes() {
+        let mesh = octahedron(3);
+        let mut dice = Dice::new(2);
+        for _ in 0..4000 {
+            let from = Point3::from((dice.lattice(2) * 0.5 * dice.pick(&[0.5, 1.0])).to_array());
+            if from.x.abs() + from.y.abs() + from.z.abs() >= 3.0 {
+                continue;
+            }
+            let at = dice.pick(&mesh.data.vertices);
+            let direction = if dice.once_in(3) { dice.vector() } else { at - from };
+            let roots = all_roots(&mesh, &Ray::new(from, direction));
+            assert_eq!(roots.len(), 1, "from {from:?} along {direction:?}: {roots:?}");
+        }
+    }
+
+    #[test]
+    fn the_sides_of_a_solid_mesh_are_exact() {
+        let sheet = octahedron(3);
+        assert_eq!(sheet.solidity(), Solidity::Open);
+        let solids = [Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::new(0.3, -0.2, 0.9)]
+            .map(|d| sheet.clone().solid(d).unwrap());
+        let mut dice = Dice::new(3);
+        let mut told = [0; 3];
+        for _ in 0..2000 {
+            let p = dice.lattice(4) * 0.5;
+            let p = Point3::new(if dice.once_in(2) { dice.nudge(p.x, 1) } else { p.x }, p.y, p.z);
+            let sum = crate::laws::Exact::from(p.x.abs());
+            let sum = &(&sum + &p.y.abs().into()) + &p.z.abs().into();
+            let expected = match (&sum - &3.0.into()).sign() {
+                Ordering::Less => Side::In,
+                Ordering::Equal => Side::On,
+                Ordering::Greater => Side::Out,
+            };
+            for solid in &solids {
+                assert_eq!(solid.side(&LocalPoint::new(p)), expected, "{p:?}");
+            }
+            told[expected as usize] += 1;
+        }
+        assert!(told.iter().all(|&n| n > 100), "{told:?}");
+    }
+
+    #[test]
+    fn parts_together_are_the_whole() {
+        let mesh = octahedron(2);
+        let mut dice = Dice::new(4);
+        for _ in 0..500 {
+            let ray = Ray::new(dice.lattice(5).to_point(), dice.lattice(3));
+            let mut sink = crate::All::default();
+            mesh.parts(&mut |bounds, part| {
+                let before = sink.roots.len();
+                mesh.part_roots(part, &LocalRay::new(&ray), &mut sink);
+                for root in &sink.roots[before..] {
+                    let p = mesh.resolve(&LocalRay::new(&ray), root, Need::POINT);
+                    assert_eq!(root.face, part.0);
+                    assert!(bounds.expanded(p.dp).contains(p.p));
+                }
+            });
+            sink.roots.sort_by(Root::order);
+            assert_eq!(sink.roots, all_roots(&mesh, &ray));
+        }
+    }
+
+    #[test]
+    fn dropped_faces_keep_their_numbers() {
+        let v = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [2.0, 0.0, 0.0], [f64::NAN, 0.0, 0.0]];
+        let mesh = Mesh::new(MeshData {
+            vertices: v.map(Point3::from).to_vec(),
+            faces: vec![[0, 1, 3], [0, 0, 2], [0, 1, 4], [0, 1, 2]],
+            ..MeshData::default()
+        })
+        .unwrap();
+        assert_eq!(mesh.dropped(), [0, 1, 2]);
+        let down = Ray::new(Point3::new(0.25, 0.25, 1.0), -Vec3::Z);
+        assert_eq!(all_roots(&mesh, &down).iter().map(|r| r.face).collect::<Vec<_>>(), [3]);
+    }
+
+    #[test]
+    fn a_bad_index_is_named() {
+        let data = MeshData { vertices: vec![Point3::ORIGIN], faces: vec![[0, 0, 1]], ..MeshData::default() };
+        assert_eq!(Mesh::new(data), Err(MeshError::Index { what: "vertex", face: 0, index: 1, len: 1 }));
     }
 }

@@ -9,14 +9,15 @@
 
 use crate::{CentredRay, End, Kind, LocalPoint, LocalRay, RingRay, Root, Side};
 use core::cmp::Ordering;
+use durer_math::eft::{exponent, scale2};
 use durer_math::rounding::{div_down, div_up};
-use durer_math::{Dd, Dyadic, Normal3, Point3, RaySide, Ring, Run, U, Vec3};
+use durer_math::{Aabb, Dd, Dyadic, Normal3, Point3, RaySide, Ring, Run, U, Vec3};
 
-/// A bracket in the local parameter that is wider than this (and wider than [`T_WIDTH`] times `|t|`) is found again in
-/// double-double. The surface's size is about one unit and `|d| >= 1`, so this is 32 ulp of a parameter just under `size / |d|`.
-const S_WIDTH: f64 = 32.0 * U;
-/// 32 ulp of `t`, taking the ulp at its smallest.
-const T_WIDTH: f64 = 32.0 * U;
+/// A bracket that is wider than 32 ulp of `max(|t|, size / |d|)` is found again in double-double; here as a relative width, taking
+/// the ulp at its smallest.
+const NARROW: f64 = 32.0 * U;
+/// Coordinates in a plane known this well need no better.
+pub(crate) const TIGHT: f64 = 32.0 * U;
 
 /// A plane, by its height function along a ray; the height is zero on the plane and grows along the normal.
 ///
@@ -49,6 +50,8 @@ pub(crate) trait AlongRay {
 pub(crate) struct Probe<'a> {
     pub(crate) ray: CentredRay<'a>,
     pub(crate) run: RingRay<Run<f64>>,
+    /// The surface's size in units of `2^scale`.
+    size: f64,
 }
 
 /// An oriented line on each step of the ladder, seen from a centre, in units of `2^scale`.
@@ -117,15 +120,22 @@ pub(crate) struct Crossing {
 }
 
 impl<'a> Probe<'a> {
-    /// The ray as seen from `centre`, in units of `2^scale`.
+    /// The ray as seen from `centre`, in units of a power of two just above `size`, the surface's size.
     #[inline(always)]
-    pub(crate) fn new(ray: &'a LocalRay<'a>, centre: Point3, scale: i32) -> Self {
+    pub(crate) fn new(ray: &'a LocalRay<'a>, centre: Point3, size: f64) -> Self {
+        let scale = exponent(size) + 1;
+        Self::with_scale(ray, centre, scale, scale2(size, -scale))
+    }
+
+    /// The ray as seen from `centre`, in units of `2^scale`, of which the surface measures `size`.
+    #[inline(always)]
+    pub(crate) fn with_scale(ray: &'a LocalRay<'a>, centre: Point3, scale: i32, size: f64) -> Self {
         let ray = ray.recentre(centre, scale);
         let run = |v: Vec3, e: Vec3| {
             [Run::with_error(v.x, e.x), Run::with_error(v.y, e.y), Run::with_error(v.z, e.z)]
         };
         let run = RingRay { o: run(ray.o, ray.o_err), d: run(ray.d, ray.d_err), w: Run::exact(1.0) };
-        Self { ray, run }
+        Self { ray, run, size }
     }
 
     /// The crossing with a plane, wherever it is on the line; `None` if there is none: the slope is exactly zero. A crossing beyond
@@ -139,7 +149,7 @@ impl<'a> Probe<'a> {
             }
             let s = -(height / slope);
             let crossing = self.bracketed(s.value(), s.lo(), s.hi(), sign);
-            if crossing.is_narrow() {
+            if self.is_narrow(&crossing) {
                 return Some(crossing);
             }
         }
@@ -158,7 +168,7 @@ impl<'a> Probe<'a> {
                 }
                 let s = -(height / slope);
                 let crossing = self.bracketed(s.value(), s.lo(), s.hi(), sign);
-                if crossing.is_narrow() {
+                if self.is_narrow(&crossing) {
                     return Some(crossing);
                 }
                 best = Some(crossing);
@@ -180,6 +190,17 @@ impl<'a> Probe<'a> {
         best
     }
 
+    /// Whether a bracket needs no better one.
+    #[inline(always)]
+    fn is_narrow(&self, c: &Crossing) -> bool {
+        let width = c.s_hi - c.s_lo;
+        // |d| < 4; the exact length is asked for only where it matters.
+        width <= NARROW * 0.25 * self.size
+            || c.hi - c.lo <= NARROW * c.lo.abs().min(c.hi.abs())
+            || width * self.ray.d.length() <= NARROW * self.size
+    }
+
+    #[inline(always)]
     fn bracketed(&self, s: f64, s_lo: f64, s_hi: f64, slope: Ordering) -> Crossing {
         let (lo, hi) = self.ray.bracket(s_lo, s_hi);
         Crossing { s, s_lo, s_hi, lo, hi, sign: slope as i8 }
@@ -188,7 +209,11 @@ impl<'a> Probe<'a> {
     /// Whether a crossing's bracket meets the ray's range at all.
     #[inline(always)]
     pub(crate) fn may_admit(&self, crossing: &Crossing) -> bool {
-        crossing.s.is_finite() && self.ray.admits(crossing.lo, crossing.hi) != Some(false)
+        // A parameter beyond the range of f64 is in no range.
+        crossing.s.is_finite()
+            && crossing.lo < f64::INFINITY
+            && crossing.hi > f64::NEG_INFINITY
+            && self.ray.admits(crossing.lo, crossing.hi) != Some(false)
     }
 
     /// Whether a crossing is in the ray's closed range: exactly, unless the ray is not exactly known and it cannot be excluded.
@@ -264,17 +289,12 @@ impl<'a> Probe<'a> {
         // The crossing is in the range, so the range bounds it too.
         let lo = crossing.lo.max(self.ray.end(End::Min));
         let hi = crossing.hi.min(self.ray.end(End::Max));
-        let t = self.ray.t(crossing.s).max(lo).min(hi);
+        let t = self.ray.t(crossing.s).max(lo).min(hi).clamp(f64::MIN, f64::MAX);
         Root { t, lo, hi, s: crossing.s, tag, face, sign: crossing.sign, kind: Kind::Simple }
     }
 }
 
 impl Crossing {
-    #[inline(always)]
-    fn is_narrow(&self) -> bool {
-        self.s_hi - self.s_lo <= S_WIDTH || self.hi - self.lo <= T_WIDTH * self.lo.abs().min(self.hi.abs())
-    }
-
     /// Whether a sink's range leaves no room for this crossing.
     #[inline(always)]
     pub(crate) fn is_outside(&self, (lo, hi): (f64, f64)) -> bool {
@@ -389,7 +409,7 @@ pub(crate) fn foot_point<F: PlaneForm>(
     let shift = n * ((n.dot(x) + lift) / n2);
     let moved = x - shift;
     let c = probe.ray.centre;
-    let unit = |v: f64| durer_math::eft::scale2(v, probe.ray.scale);
+    let unit = |v: f64| scale2(v, probe.ray.scale);
     let axis = |i: usize| {
         let p = c[i] + unit(moved[i]);
         let err = unit(err[i] + shift[i].abs() + moved[i].abs() * U) + p.abs() * U;
@@ -411,7 +431,15 @@ pub(crate) fn clearance<F: PlaneForm>(plane: &F, p: Point3, centre: Point3, scal
     let at = RingRay { o, d: [zero(), zero(), zero()], w: Run::exact(1.0) };
     let height = plane.height(&at).map_or(f64::INFINITY, Run::magnitude);
     // A step `off` along the rounded unit normal moves by `off (1 - 8u)` along the exact one, at least.
-    durer_math::eft::scale2(height / length, scale).mul_add(1.0 + 32.0 * U, f64::MIN_POSITIVE)
+    scale2(height / length, scale).mul_add(1.0 + 32.0 * U, f64::MIN_POSITIVE)
+}
+
+/// The middle of a box that is not empty, rounded, and half its largest width.
+#[inline(always)]
+pub(crate) fn middle(b: &Aabb) -> (Point3, f64) {
+    // Halves first: no overflow.
+    let (min, max) = (b.min.map(|x| 0.5 * x), b.max.map(|x| 0.5 * x));
+    (min + max.to_vec(), (max - min).max_abs())
 }
 
 /// The unit normal of a vector whose largest component is in [1, 2) in magnitude; each component within 4u, relatively.
@@ -425,11 +453,51 @@ pub(crate) fn scaled_to_one(n: Vec3) -> Option<Vec3> {
     if !n.is_finite() || n == Vec3::ZERO {
         return None;
     }
-    let k = durer_math::eft::exponent(n.max_abs());
+    let k = exponent(n.max_abs());
     let up = if k < -1022 { 60 } else { 0 };
-    let n = n.map(|x| durer_math::eft::scale2(x, up));
-    let k = durer_math::eft::exponent(n.max_abs());
-    Some(n.map(|x| durer_math::eft::scale2(x, -k)))
+    let n = n.map(|x| scale2(x, up));
+    let k = exponent(n.max_abs());
+    Some(n.map(|x| scale2(x, -k)))
+}
+
+/// Two quotients with a common denominator: coordinates in a plane of the point where a ray meets it.
+pub(crate) trait Ratios {
+    /// Both numerators, then the denominator.
+    fn eval<T: Ring>(&self, ray: &RingRay<T>) -> [T; 3];
+}
+
+/// Both quotients with bounds: in f64 where that is tight, else higher up the ladder.
+pub(crate) fn ratios<R: Ratios>(probe: &Probe<'_>, r: &R) -> [Run; 2] {
+    let [a, b, d] = r.eval(&probe.run);
+    let first = [a / d, b / d];
+    let tight = |x: &[Run; 2]| x.iter().all(|x| x.e <= TIGHT);
+    if tight(&first) { first } else { ratios_climb(probe, r).unwrap_or(first) }
+}
+
+#[cold]
+#[inline(never)]
+fn ratios_climb<R: Ratios>(probe: &Probe<'_>, r: &R) -> Option<[Run; 2]> {
+    let [a, b, d] = r.eval(&probe.double()?);
+    let nearest = |x: Run<Dd>| Run::with_error(x.v.hi, (x.e + x.v.lo.abs()) * (1.0 + 8.0 * U));
+    let dd = [nearest(a / d), nearest(b / d)];
+    if dd.iter().all(|x| x.e <= TIGHT) {
+        return Some(dd);
+    }
+    let Some(ray) = probe.exact() else { return Some(dd) };
+    let [a, b, d] = r.eval(&ray);
+    if d.is_zero() {
+        return None;
+    }
+    Some([a, b].map(|n| {
+        let (lo, hi) = quotient_bounds(&n, &n, &d);
+        Run::with_error(0.5 * lo + 0.5 * hi, (hi - lo) * (1.0 + 8.0 * U))
+    }))
+}
+
+/// A lower bound of a vector's length; zero if nothing better is known.
+pub(crate) fn least_length(n: [Run; 3]) -> f64 {
+    let least = n.map(|x| (x.v.abs() - x.e).max(0.0));
+    Vec3::from(least).length() * (1.0 - 8.0 * U)
 }
 
 /// A plane through three points, seen from a centre; its normal is `(b - a) x (c - a)`.

@@ -26,10 +26,14 @@ pub struct Plane {
     normal: Vec3,
     /// Signed distance from the origin, along the normal.
     distance: f64,
-    /// The foot of the perpendicular from the origin, rounded: the centre for re-centring.
-    foot: Point3,
-    /// `n . foot - h |n|`, by its value and error: small, and not zero because the foot is rounded.
-    lift: Run<Dd>,
+    /// `h |n|`, by its value and error.
+    offset: Run<Dd>,
+}
+
+/// The plane seen from a centre, in the frame's own unit of length.
+struct Seen<'a> {
+    plane: &'a Plane,
+    centre: Point3,
 }
 
 /// Why a [`Plane`] cannot exist.
@@ -50,26 +54,53 @@ impl Plane {
         if !distance.is_finite() {
             return Err(PlaneError::Distance(distance));
         }
-        let foot = (n * (distance / n.length())).to_point();
-        let foot = foot.map(|x| if x.is_finite() { x } else { 0.0 });
-        let reach = dot(&exact3::<Run<Dd>>(n), &exact3(foot.to_vec()));
-        let lift = match rational_length(n) {
-            // All of it is exact; only what two f64 cannot hold is rounded.
-            Some(length) => rounded(
-                &(dot(&exact3::<Dyadic>(n), &exact3(foot.to_vec()))
-                    - Dyadic::exact(distance) * Dyadic::exact(length)),
-            ),
-            None => {
-                let squared = dot(&exact3::<Run<Dd>>(n), &exact3(n));
-                reach - Run::exact(distance) * squared.sqrt()
-            }
+        let offset = match rational_length(n) {
+            // Only what two f64 cannot hold is rounded.
+            Some(length) => rounded(&(Dyadic::exact(distance) * Dyadic::exact(length))),
+            None => Run::exact(distance) * dot(&exact3::<Run<Dd>>(n), &exact3(n)).sqrt(),
         };
-        Ok(Self { normal: n, distance, foot, lift })
+        Ok(Self { normal: n, distance, offset })
     }
 
     /// The normal, scaled by a power of two.
     pub fn normal(&self) -> Vec3 {
         self.normal
+    }
+
+    /// `h |n|` to some 400 bits, and a bound on the error: for rays that are almost parallel.
+    fn long_offset(&self) -> (Dyadic, Dyadic) {
+        let n = exact3::<Dyadic>(self.normal);
+        let square = Ring::square(Dyadic::exact(self.distance)) * dot(&n, &n);
+        let mut root = Dyadic::exact(self.offset.v.hi) + Dyadic::exact(self.offset.v.lo);
+        let residual = |root: &Dyadic| square.clone() - Ring::square(root.clone());
+        let approximate = root.to_f64();
+        if approximate == 0.0 || residual(&root).is_zero() {
+            return (root, Dyadic::exact(self.offset.e));
+        }
+        // Newton's steps, each with a correction of 53 bits.
+        for _ in 0..6 {
+            let rest = residual(&root);
+            let Some(k) = rest.exponent().and_then(|k| i32::try_from(k).ok()) else { break };
+            let correction = Ring::scale2(rest, -k).to_f64() / (2.0 * approximate);
+            root = root + Ring::scale2(Dyadic::exact(correction), k);
+        }
+        // |sqrt(x) - r| = |x - r^2| / (sqrt(x) + r) <= |x - r^2| / |r|.
+        let rest = residual(&root).abs();
+        let k = rest.exponent().and_then(|k| i32::try_from(k).ok()).unwrap_or(0);
+        let error = 2.0 / approximate.abs() * (1.0 + 8.0 * f64::EPSILON);
+        (root, Ring::scale2(Dyadic::exact(error), k))
+    }
+
+    /// The foot of the perpendicular from the origin, rounded.
+    fn foot(&self) -> Point3 {
+        let foot = (self.normal * (self.distance / self.normal.length())).to_point();
+        foot.map(|x| if x.is_finite() { x } else { 0.0 })
+    }
+
+    /// The ray as seen from `centre`. A plane has no size but its distance from the origin.
+    #[inline(always)]
+    fn probe<'a>(&self, ray: &'a LocalRay<'a>, centre: Point3) -> Probe<'a> {
+        Probe::with_scale(ray, centre, 0, self.distance.abs())
     }
 
     /// The signed distance from the origin.
@@ -94,38 +125,39 @@ fn rounded(x: &Dyadic) -> Run<Dd> {
     Run::with_error(Dd { hi, lo }, if lost > 0.0 { lost.next_up() } else { 0.0 })
 }
 
-impl PlaneForm for Plane {
+impl PlaneForm for Seen<'_> {
     #[inline(always)]
     fn slope<T: Ring>(&self, ray: &RingRay<T>) -> T {
-        dot(&exact3(self.normal), &ray.d)
+        dot(&exact3(self.plane.normal), &ray.d)
     }
 
     #[inline(always)]
     fn height<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
-        let lift = T::exact(self.lift.v.hi) + T::within(self.lift.v.lo, self.lift.e)?;
-        Some(dot(&exact3(self.normal), &ray.o) + lift * ray.w.clone())
+        let (n, offset) = (exact3::<T>(self.plane.normal), self.plane.offset);
+        let lift = dot(&n, &exact3(self.centre.to_vec())) - T::exact(offset.v.hi);
+        let lift = lift - T::within(offset.v.lo, offset.e)?;
+        Some(dot(&n, &ray.o) + lift * ray.w.clone())
     }
 
     fn exact_side(&self, ray: &RingRay<Dyadic>) -> Option<Ordering> {
-        // n . p against h |n| w, with p = o + foot w: by sign, and where the signs agree by the squares.
-        let reach = dot(&exact3::<Dyadic>(self.normal), &ray.o)
-            + dot(&exact3::<Dyadic>(self.normal), &exact3(self.foot.to_vec())) * ray.w.clone();
-        let h = Dyadic::exact(self.distance);
+        // n . p against h |n|, times w: by sign, and where the signs agree by the squares.
+        let n = exact3::<Dyadic>(self.plane.normal);
+        let reach = dot(&n, &ray.o) + dot(&n, &exact3(self.centre.to_vec())) * ray.w.clone();
+        let h = Dyadic::exact(self.plane.distance);
         let (left, right) = (reach.exact_sign(), h.exact_sign());
         if left != right {
             return Some(left.cmp(&right));
         }
-        let length2 = dot(&exact3::<Dyadic>(self.normal), &exact3(self.normal));
-        let squares = Ring::square(reach).cmp(&(Ring::square(h * ray.w.clone()) * length2));
+        let squares = Ring::square(reach).cmp(&(Ring::square(h * ray.w.clone()) * dot(&n, &n)));
         Some(if left.is_lt() { squares.reverse() } else { squares })
     }
 
     fn height_bounds(&self, ray: &RingRay<Dyadic>) -> Option<(Dyadic, Dyadic)> {
-        let at = |error: f64| {
-            let lift = Dyadic::exact(self.lift.v.hi) + Dyadic::exact(self.lift.v.lo) + Dyadic::exact(error);
-            dot(&exact3::<Dyadic>(self.normal), &ray.o) + lift * ray.w.clone()
-        };
-        Some((at(-self.lift.e), at(self.lift.e)))
+        let n = exact3::<Dyadic>(self.plane.normal);
+        let (offset, error) = self.plane.long_offset();
+        let lift = dot(&n, &exact3(self.centre.to_vec())) - offset;
+        let at = |lift: Dyadic| dot(&n, &ray.o) + lift * ray.w.clone();
+        Some((at(lift.clone() - error.clone()), at(lift + error)))
     }
 }
 
@@ -136,23 +168,28 @@ impl Surface for Plane {
 
     #[inline(always)]
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
-        let probe = Probe::new(ray, self.foot, 0);
-        if let Some(crossing) = probe.crossing(self)
+        // Seen from the ray's own origin, so that a near crossing is as precise as a far one: a plane has no middle.
+        let probe = self.probe(ray, ray.o);
+        let seen = Seen { plane: self, centre: ray.o };
+        if let Some(crossing) = probe.crossing(&seen)
             && !probe.leaves(&crossing)
             && !crossing.is_outside(sink.range())
-            && probe.admits(self, &crossing)
+            && probe.may_admit(&crossing)
+            && probe.admits(&seen, &crossing)
         {
             let _: Flow = sink.push(probe.root(&crossing, 0, [0.0; 2]));
         }
     }
 
+    /// Texture coordinates are lengths along two axes across the normal.
     fn resolve(&self, ray: &LocalRay<'_>, _root: &Root, need: Need) -> SurfacePoint {
-        let probe = Probe::new(ray, self.foot, 0);
+        let centre = self.foot();
+        let probe = self.probe(ray, centre);
+        let seen = Seen { plane: self, centre };
         let n2 = self.normal.length_squared();
         let ng = unit(self.normal);
-        let lift = self.lift.value();
-        let (p, dp) = planar::foot_point(&probe, self, self.normal, n2, lift);
-        let off = planar::clearance(self, p, self.foot, 0, n2.sqrt());
+        let (p, dp) = planar::foot_point(&probe, &seen, self.normal, n2, 0.0);
+        let off = planar::clearance(&seen, p, centre, 0, n2.sqrt());
         let mut point = SurfacePoint::new(p, dp, off, ng);
         if need.contains(Need::UV) || need.contains(Need::DERIVATIVES) {
             let (a, b) = ng.to_vec().orthonormal_basis();
@@ -167,7 +204,9 @@ impl Surface for Plane {
     }
 
     fn side(&self, point: &LocalPoint<'_>) -> Side {
-        planar::below_is_in(PointLine::new(point, Vec3::ZERO, self.foot, 0).side_of(self))
+        let centre = self.foot();
+        let seen = Seen { plane: self, centre };
+        planar::below_is_in(PointLine::new(point, Vec3::ZERO, centre, 0).side_of(&seen))
     }
 }
 
@@ -175,5 +214,121 @@ impl From<Plane> for Normal3 {
     /// The unit normal.
     fn from(plane: Plane) -> Self {
         unit(plane.normal)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::{Crossing, Dice, Exact, Feature, Line, Oracle, Surd, check_many, exact3};
+
+    /// `n . p = h sqrt(n . n)` by big integers.
+    struct ExactPlane {
+        n: [Exact; 3],
+        h: Exact,
+        size: f64,
+    }
+
+    impl ExactPlane {
+        fn new(plane: &Plane) -> Self {
+            let n = exact3(plane.normal.to_array());
+            Self { n, h: plane.distance.into(), size: plane.distance.abs() }
+        }
+
+        fn dot(&self, v: &[Exact; 3]) -> Exact {
+            &(&(&self.n[0] * &v[0]) + &(&self.n[1] * &v[1])) + &(&self.n[2] * &v[2])
+        }
+
+        /// `h^2 n . n`.
+        fn radicand(&self) -> Exact {
+            &self.h.squared() * &self.dot(&self.n)
+        }
+    }
+
+    impl Oracle for ExactPlane {
+        fn crossings(&self, line: &Line) -> Vec<Crossing> {
+            let slope = self.dot(&line.d);
+            if slope.sign().is_eq() {
+                return vec![];
+            }
+            let t = Surd::with_root(-self.dot(&line.o), self.h.sign() as i8, self.radicand(), slope.clone());
+            // Beyond the range of f64 there is no parameter, or no point, to report.
+            let reach = line.d.iter().map(|d| d.clone().abs().to_f64()).fold(1.0, f64::max);
+            let most = f64::MAX / reach;
+            let far = t.cmp_exact(&most.into()).is_gt() || t.cmp_exact(&(-most).into()).is_lt();
+            if far { vec![] } else { vec![Crossing { t, sign: slope.sign() as i8, grazing: false }] }
+        }
+
+        fn face_side(&self, _face: u32, point: &[Exact; 3]) -> Ordering {
+            let t = Surd::with_root(Exact::zero(), self.h.sign() as i8, self.radicand(), Exact::from(1.0));
+            t.cmp_exact(&self.dot(point)).reverse()
+        }
+
+        fn face_normal(&self, _face: u32, _point: &[Exact; 3]) -> Vec3 {
+            Vec3::from(self.n.each_ref().map(Exact::to_f64))
+        }
+
+        fn side(&self, point: &[Exact; 3]) -> Option<Ordering> {
+            Some(self.face_side(0, point))
+        }
+
+        fn size(&self) -> f64 {
+            self.size
+        }
+
+        fn is_convex(&self) -> bool {
+            true
+        }
+    }
+
+    #[test]
+    fn planes_obey_the_laws() {
+        let mut roots = 0;
+        for seed in 0..60 {
+            let mut dice = Dice::new(seed);
+            // Lengths that are whole, halves of whole numbers, and irrational ones.
+            let n = match seed % 4 {
+                0 => {
+                    dice.pick(&[[0.0, 1.0, 0.0], [2.0, -1.0, 2.0], [0.0, 3.0, -4.0], [8.0, 4.0, 1.0]]).into()
+                }
+                1 | 2 => dice.lattice(5),
+                _ => dice.vector(),
+            };
+            let h = match seed % 5 {
+                0 => 0.0,
+                1 | 2 => dice.integer(-9, 9),
+                3 => dice.between(-1.0, 1.0) * dice.power(-40, 40),
+                _ => dice.power(-200, 200),
+            };
+            let plane = Plane::new(n * dice.power(-300, 300), h).unwrap();
+            let (a, b) = unit(plane.normal).to_vec().orthonormal_basis();
+            let unit = if h == 0.0 { 1.0 } else { h.abs() };
+            let on = Point3::from(n.cross(Vec3::new(1.0, 2.0, -1.0)).to_array().map(|x| x * unit));
+            let features = [
+                Feature { point: plane.foot(), direction: a * unit },
+                Feature { point: plane.foot() + b * unit, direction: b * unit },
+                Feature { point: on, direction: n.cross(Vec3::X) * unit },
+                Feature { point: on, direction: plane.normal * unit },
+            ];
+            let oracle = ExactPlane { size: unit, ..ExactPlane::new(&plane) };
+            roots += check_many(&plane, &oracle, &features, seed, 300).roots;
+        }
+        assert!(roots > 4000, "{roots}");
+    }
+
+    #[test]
+    fn the_plane_is_that_of_the_scaled_normal() {
+        // |n| = 3: the plane x + 2y + 2z = 6 is 2 away from the origin.
+        let plane = Plane::new(Vec3::new(1.0, 2.0, 2.0), 2.0).unwrap();
+        let on = Point3::new(6.0, 0.0, 0.0);
+        assert_eq!(plane.side(&LocalPoint::new(on)), Side::On);
+        assert_eq!(plane.side(&LocalPoint::new(Point3::new(6.0_f64.next_down(), 0.0, 0.0))), Side::In);
+        assert_eq!(plane.side(&LocalPoint::new(Point3::new(6.0_f64.next_up(), 0.0, 0.0))), Side::Out);
+    }
+
+    #[test]
+    fn a_bad_plane_is_named() {
+        assert_eq!(Plane::new(Vec3::ZERO, 1.0), Err(PlaneError::Normal(Vec3::ZERO)));
+        assert!(matches!(Plane::new(Vec3::X, f64::NAN), Err(PlaneError::Distance(_))));
     }
 }

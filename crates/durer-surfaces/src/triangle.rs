@@ -10,9 +10,8 @@
 
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
-use crate::planar::Probe;
+use crate::planar::{self, Probe};
 use crate::{Flow, LocalRay, Need, Root, Sink, Surface, SurfacePoint};
-use durer_math::eft::exponent;
 use durer_math::{Aabb, Normal3, Point3};
 
 /// A triangle, by its vertices. A root's tag is `(b1, b2)`.
@@ -86,13 +85,8 @@ impl Triangle {
 
     #[inline(always)]
     fn probe<'a>(&self, ray: &'a LocalRay<'a>) -> Probe<'a> {
-        let bounds = self.bounds();
-        let half = bounds.max.map(|x| 0.5 * x) - bounds.min.map(|x| 0.5 * x);
-        Probe::new(
-            ray,
-            bounds.min.map(|x| 0.5 * x) + bounds.max.map(|x| 0.5 * x).to_vec(),
-            exponent(half.max_abs()) + 1,
-        )
+        let (centre, size) = planar::middle(&self.bounds());
+        Probe::new(ray, centre, size)
     }
 }
 
@@ -117,5 +111,151 @@ impl Surface for Triangle {
     fn resolve(&self, ray: &LocalRay<'_>, _root: &Root, need: Need) -> SurfacePoint {
         let varying = Varying { normals: self.normals(), uv: self.uv.as_deref().copied() };
         facet::resolve(&self.probe(ray), &self.vertices, &varying, need)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::{Crossing, Dice, Exact, Feature, Line, Oracle, Surd, check_many, exact3};
+    use core::cmp::Ordering;
+    use durer_math::Vec3;
+
+    /// The triangle by big integers, ties told by the rule: an oracle of its own, since which edges belong to it depends on the ray.
+    struct ExactTriangle {
+        v: [[Exact; 3]; 3],
+        n: [Exact; 3],
+        size: f64,
+    }
+
+    fn minus(a: &[Exact; 3], b: &[Exact; 3]) -> [Exact; 3] {
+        [0, 1, 2].map(|i| &a[i] - &b[i])
+    }
+
+    fn times(a: &[Exact; 3], b: &[Exact; 3]) -> [Exact; 3] {
+        [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &(&a[i] * &b[j]) - &(&a[j] * &b[i]))
+    }
+
+    fn by(a: &[Exact; 3], b: &[Exact; 3]) -> Exact {
+        &(&(&a[0] * &b[0]) + &(&a[1] * &b[1])) + &(&a[2] * &b[2])
+    }
+
+    impl ExactTriangle {
+        fn new(t: &Triangle) -> Self {
+            let v = t.vertices.map(|v| exact3(v.to_array()));
+            let n = times(&minus(&v[1], &v[0]), &minus(&v[2], &v[0]));
+            Self { v, n, size: planar::middle(&t.bounds()).1 }
+        }
+
+        /// Moves the line's origin by `2^-3000` and `2^-6000`, far less than any two different numbers here differ, instead of by symbols.
+        fn moved(line: &Line) -> Line {
+            let size: Vec<Exact> = line.d.iter().map(|d| d.clone().abs()).collect();
+            let greater = |i: usize, j: usize| (&size[i] - &size[j]).sign().is_ge();
+            let (a, b) = if greater(0, 1) && greater(0, 2) {
+                (1, 2)
+            } else if greater(1, 2) {
+                (0, 2)
+            } else {
+                (0, 1)
+            };
+            let mut o = line.o.clone();
+            o[a] = &o[a] + &Exact::from(1.0).shifted(-6000);
+            o[b] = &o[b] + &Exact::from(1.0).shifted(-16000);
+            Line { o, d: line.d.clone() }
+        }
+    }
+
+    impl Oracle for ExactTriangle {
+        fn crossings(&self, line: &Line) -> Vec<Crossing> {
+            let slope = by(&self.n, &line.d);
+            let moved = Self::moved(line);
+            let seen = self.v.each_ref().map(|v| minus(v, &moved.o));
+            let sign = |i: usize, j: usize| by(&line.d, &times(&seen[j], &seen[i])).sign();
+            let signs = [sign(1, 2), sign(2, 0), sign(0, 1)];
+            if slope.sign().is_eq() || signs[0] != signs[1] || signs[1] != signs[2] || signs[0].is_eq() {
+                return vec![];
+            }
+            let t = Surd::ratio(by(&self.n, &minus(&self.v[0], &line.o)), slope.clone());
+            vec![Crossing { t, sign: slope.sign() as i8, grazing: false }]
+        }
+
+        fn face_side(&self, _face: u32, point: &[Exact; 3]) -> Ordering {
+            by(&self.n, &minus(point, &self.v[0])).sign()
+        }
+
+        fn face_normal(&self, _face: u32, _point: &[Exact; 3]) -> Vec3 {
+            let n = Vec3::from(self.n.each_ref().map(Exact::to_f64));
+            n.scale2(-exponent_of(n))
+        }
+
+        fn side(&self, _point: &[Exact; 3]) -> Option<Ordering> {
+            None
+        }
+
+        fn size(&self) -> f64 {
+            self.size
+        }
+
+        fn is_convex(&self) -> bool {
+            false
+        }
+    }
+
+    fn exponent_of(n: Vec3) -> i32 {
+        durer_math::scale::exponent(n.max_abs().max(f64::MIN_POSITIVE))
+    }
+
+    #[test]
+    fn triangles_obey_the_laws() {
+        let mut roots = 0;
+        for seed in 0..80 {
+            let mut dice = Dice::new(seed);
+            let unit = dice.power(-40, 40);
+            let v = match seed % 4 {
+                0 | 1 => core::array::from_fn(|_| (dice.lattice(6) * unit).to_point()),
+                2 => core::array::from_fn(|_| (dice.vector() * unit).to_point()),
+                _ => {
+                    // A needle: the third vertex is almost on the line of the others.
+                    let (a, e) = (dice.vector() * unit, dice.vector() * unit);
+                    let off = dice.vector() * (unit * dice.power(-50, -10));
+                    [a.to_point(), (a + e).to_point(), (a + e * dice.unit() + off).to_point()]
+                }
+            };
+            let Ok(triangle) = Triangle::new(v) else { continue };
+            let n = v[0] + ((v[1] - v[0]).cross(v[2] - v[0]) * (1.0 / unit));
+            let mut features = vec![];
+            for (a, b) in [(0, 1), (1, 2), (2, 0)] {
+                let edge = v[b] - v[a];
+                features.push(Feature { point: v[a], direction: n - v[0] });
+                features.push(Feature { point: v[a], direction: edge });
+                features.push(Feature { point: v[a] + edge * 0.5, direction: n - v[0] });
+                features.push(Feature { point: v[a] + edge * 0.5, direction: v[3 - a - b] - v[a] });
+            }
+            roots += check_many(&triangle, &ExactTriangle::new(&triangle), &features, seed, 250).roots;
+        }
+        assert!(roots > 2000, "{roots}");
+    }
+
+    #[test]
+    fn normals_and_texture_coordinates_are_interpolated() {
+        let v = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]].map(Point3::from);
+        let normals = [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]].map(Normal3::from);
+        let triangle = Triangle::new(v).unwrap().with_normals(normals).unwrap();
+        let triangle = triangle.with_uv([[0.0, 0.0], [2.0, 0.0], [0.0, 3.0]]).unwrap();
+        let ray = durer_math::Ray::new(Point3::new(1.0, 2.0, 5.0), -Vec3::Z);
+        let roots = crate::laws::all_roots(&triangle, &ray);
+        assert_eq!(roots.iter().map(|r| (r.t, r.tag, r.sign)).collect::<Vec<_>>(), [(5.0, [0.25, 0.5], -1)]);
+        let point = triangle.resolve(&LocalRay::new(&ray), &roots[0], Need::ALL);
+        assert_eq!(point.p, Point3::new(1.0, 2.0, 0.0));
+        assert_eq!(point.uv, [0.5, 1.5]);
+        assert_eq!((point.dpdu, point.dpdv), (Vec3::X * 2.0, Vec3::Y * (4.0 / 3.0)));
+        let expected = Normal3::new(0.25, 0.5, 1.0).normalized().unwrap();
+        assert!((point.ns - expected).abs().max_abs() < 1e-15, "{:?}", point.ns);
+    }
+
+    #[test]
+    fn a_bad_triangle_is_named() {
+        let line = [[0.0; 3], [1.0, 1.0, 1.0], [3.0, 3.0, 3.0]].map(Point3::from);
+        assert_eq!(Triangle::new(line), Err(TriangleError::Degenerate));
     }
 }

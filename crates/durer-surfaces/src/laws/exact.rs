@@ -153,6 +153,11 @@ impl Surd {
         Self { p: n, k: 0, d: Exact::zero(), a: m }
     }
 
+    /// The number `(p + k √d) / a`, `k` one of -1, 0, 1.
+    pub fn with_root(p: Exact, k: i8, d: Exact, a: Exact) -> Self {
+        Self { p, k, d, a }
+    }
+
     /// Compared with an exact number.
     pub fn cmp_exact(&self, x: &Exact) -> Ordering {
         let u = &self.p - &(&self.a * x);
