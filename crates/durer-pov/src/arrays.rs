@@ -64,7 +64,7 @@ impl Reader<'_> {
         let place = self.here();
         self.expect(Mark::SquareClose)?;
         // Fractions are cut off; a hair under a whole number is taken for it, as sums of 0.1 need it.
-        let index = (value + crate::expression::TOLERANCE).trunc();
+        let index = (value + crate::expression::TOLERANCE).floor();
         if index >= 0.0 && index < size as f64 {
             return Ok(index as usize);
         }
@@ -95,7 +95,7 @@ impl Reader<'_> {
                 format!("an array has 1 to {MOST_DIMENSIONS} sizes in brackets"),
             ));
         }
-        self.count_steps(count as u64 / 8, place)?;
+        self.count_steps(count as u64, place)?;
         let mut array = Array::new(sizes);
         if self.raw() == Some(Kind::Mark(Mark::BraceOpen)) {
             let sizes = array.sizes.clone();
@@ -103,6 +103,7 @@ impl Reader<'_> {
             self.nested(|r| r.initial_values(&sizes, &mut items))?;
             array.depth = 1 + items.iter().map(Value::array_depth).max().unwrap_or(0);
             array.items = items;
+            array.recount();
         }
         self.check_array_depth(array.depth, place)?;
         Ok(Value::Array(Rc::new(array)))

@@ -56,6 +56,12 @@ impl Reader<'_> {
             }
             _ => self.expression()?.all(),
         };
+        self.colour_parts(&mut colour)?;
+        Ok(colour)
+    }
+
+    /// `red 1`, `filter 0.5` and the like, which change parts of a colour.
+    pub(crate) fn colour_parts(&mut self, colour: &mut Colour) -> Result<()> {
         loop {
             let index = match self.peek_word()? {
                 Some(Keyword::Red) => 0,
@@ -69,10 +75,10 @@ impl Reader<'_> {
             colour[index] = self.float()?;
         }
         let place = self.here();
-        for part in colour {
+        for part in *colour {
             crate::expression::finite(part, place)?;
         }
-        Ok(colour)
+        Ok(())
     }
 
     /// The colour of an `rgb`-like word and the terms behind it.

@@ -35,8 +35,10 @@ impl Reader<'_> {
                 self.check_array_depth(depth, place)?;
                 self.count_array_copy(name, place)?;
                 let gone = || Fault::invalid(place, "this array is gone");
-                *self.scopes.get_mut(&target).ok_or_else(gone)? = value;
-                self.scopes.deepen(&target, depth);
+                let after = value.held();
+                let held = self.scopes.get_mut(&target).ok_or_else(gone)?;
+                let before = std::mem::replace(held, value).held();
+                self.scopes.element_changed(&target, depth, before, after);
             }
             None if local => self.scopes.local(name, value),
             None => self.scopes.declare(name, value),
@@ -66,7 +68,7 @@ impl Reader<'_> {
             Some(Value::Array(array)) if Rc::strong_count(array) > 1 => array.items.len(),
             _ => return Ok(()),
         };
-        self.count_steps(shared as u64 / 8, place)?;
+        self.count_steps(shared as u64, place)?;
         self.check_memory(crate::value::Array::bytes(shared), place)
     }
 
@@ -78,7 +80,7 @@ impl Reader<'_> {
             // Names made of what cannot be computed yet are refused when they are used.
             Err(fault) if fault.kind == FaultKind::Unsupported => {
                 self.skip_to_semicolon(braces, &fault)?;
-                return Ok(Value::Unsupported(Rc::new(Unsupported { text: fault.text })));
+                return Ok(Value::Unsupported(Rc::new(Unsupported { text: fault.text, number: true })));
             }
             Err(fault) => return Err(fault),
         };
@@ -122,8 +124,13 @@ impl Reader<'_> {
             Item::Value(Value::Number(_)) | Item::Number(_) => return self.number_value(),
             Item::Value(_) => {
                 let lexeme = self.next()?;
-                let Item::Value(value) = lexeme.item else { return Err(self.unexpected(&lexeme, wanted)) };
-                return Ok(value);
+                return match lexeme.item {
+                    Item::Value(Value::Unsupported(ref what)) if what.number && !self.ends_value() => {
+                        Err(self.unexpected(&lexeme, wanted))
+                    }
+                    Item::Value(value) => Ok(value),
+                    _ => Err(self.unexpected(&lexeme, wanted)),
+                };
             }
             Item::Mark(_) => {
                 if self.starts_number()? {
@@ -156,13 +163,25 @@ impl Reader<'_> {
         }
     }
 
+    /// Whether a semicolon, comma or closing mark follows at once.
+    fn ends_value(&self) -> bool {
+        matches!(
+            self.raw(),
+            Some(Kind::Mark(
+                Mark::Semicolon | Mark::Comma | Mark::ParenClose | Mark::BraceClose | Mark::SquareClose
+            ))
+        )
+    }
+
     fn number_value(&mut self) -> Result<Value> {
         let place = self.here();
-        // `Name filter 0.5` is a colour, as is `color Name`.
-        if self.starts_colour()? {
-            return Ok(Value::Number(crate::value::Terms::new(&self.colour()?)));
-        }
         let terms = self.expression()?;
+        if terms.len() == 5 {
+            // `Name filter 0.5` is a colour, as is `color Name`.
+            let mut colour = terms.all();
+            self.colour_parts(&mut colour)?;
+            return Ok(Value::Number(crate::value::Terms::new(&colour)));
+        }
         for &part in terms.as_slice() {
             crate::expression::finite(part, place)?;
         }
@@ -172,10 +191,11 @@ impl Reader<'_> {
     /// A value that is a word and a block, such as `pigment { }` or `sphere { }`.
     fn block_value(&mut self) -> Result<Value> {
         let braces = self.braces;
+        let called = matches!(self.peek_word()?, Some(Keyword::Function | Keyword::Spline));
         match self.understood_block() {
             Err(fault) if fault.kind == FaultKind::Unsupported => {
                 self.skip_block(braces, &fault)?;
-                Ok(Value::Unsupported(Rc::new(Unsupported { text: fault.text })))
+                Ok(Value::Unsupported(Rc::new(Unsupported { text: fault.text, number: called })))
             }
             result => result,
         }

@@ -8,6 +8,9 @@ use crate::names::Name;
 use crate::reader::{Control, Reader};
 use crate::value::Value;
 
+/// Steps that a message counts for, its letters apart.
+const MESSAGE_STEPS: u64 = 100;
+
 impl Reader<'_> {
     /// Runs the directive that was just taken; `block` is its entry in the table of jumps.
     pub(crate) fn run_directive(&mut self, directive: Directive, block: u32, place: Place) -> Result<()> {
@@ -302,16 +305,15 @@ impl Reader<'_> {
             Directive::Warning => MessageKind::Warning,
             _ => return Err(Fault::at(place, FaultKind::Raised, format!("#error: {}", text.trim_end()))),
         };
-        self.count_steps(text.len() as u64, place)?;
+        // Showing it is work for others.
+        self.count_steps(MESSAGE_STEPS + text.len() as u64, place)?;
         self.say(kind, place, text);
         Ok(())
     }
 
     fn say(&mut self, kind: MessageKind, place: Place, text: String) {
         let source = &self.sources[place.file as usize];
-        // Finding the line costs a walk through the file; #debug does not show it.
-        let at =
-            if kind == MessageKind::Debug { (0, 0) } else { source.line_and_column(place.start as usize) };
+        let at = self.messages.locate(source, place);
         let path = source.path.clone();
         self.messages.push(Message { kind, path, at, text });
     }

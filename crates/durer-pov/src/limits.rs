@@ -28,7 +28,7 @@ impl Default for Limits {
         Self {
             include_depth: 64,
             macro_depth: 1024,
-            steps: 100_000_000,
+            steps: 50_000_000,
             memory: 768 << 20,
             file_size: 192 << 20,
             nesting: 512,
@@ -80,6 +80,11 @@ impl Charge {
     pub(crate) fn new(bytes: usize) -> Self {
         HELD.with(|held| held.set(held.get() + bytes as u64));
         Self(bytes as u64)
+    }
+
+    /// Charges `after` instead of `before`.
+    pub(crate) fn change(&mut self, before: usize, after: usize) {
+        self.resize((self.0 as usize).saturating_sub(before).saturating_add(after));
     }
 
     /// Changes the charge to `bytes`.

@@ -3,6 +3,9 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use crate::diagnostics::Place;
+use crate::source::Source;
+
 /// What kind of message it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MessageKind {
@@ -48,12 +51,26 @@ const NOTICES: usize = 100;
 pub(crate) struct Messages<'a> {
     pub(crate) kept: Vec<Message>,
     notices: usize,
+    /// The place of the message before: loops say the same again and again, and finding a line takes a walk.
+    last: Option<(Place, (usize, usize))>,
     listener: Box<dyn FnMut(&Message) + Send + 'a>,
 }
 
 impl<'a> Messages<'a> {
     pub(crate) fn new(listener: Box<dyn FnMut(&Message) + Send + 'a>) -> Self {
-        Self { kept: Vec::new(), notices: 0, listener }
+        Self { kept: Vec::new(), notices: 0, last: None, listener }
+    }
+
+    /// Line and column of `place`.
+    pub(crate) fn locate(&mut self, source: &Source, place: Place) -> (usize, usize) {
+        match self.last {
+            Some((last, at)) if last == place => at,
+            _ => {
+                let at = source.line_and_column(place.start as usize);
+                self.last = Some((place, at));
+                at
+            }
+        }
     }
 
     pub(crate) fn push(&mut self, mut message: Message) {

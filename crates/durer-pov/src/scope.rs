@@ -103,13 +103,18 @@ impl Scopes {
         })
     }
 
-    /// Notes on the arrays around the element `target` that arrays stand `depth` deep in the outermost.
-    pub(crate) fn deepen(&mut self, target: &Reference, depth: u32) {
+    /// Tells the arrays around the element `target` that arrays stand `depth` deep in the outermost now, and the
+    /// innermost that what it holds has changed by so many bytes.
+    pub(crate) fn element_changed(&mut self, target: &Reference, depth: u32, before: usize, after: usize) {
         for around in 0..target.path.len() {
+            let innermost = around + 1 == target.path.len();
             let outer = Reference { path: target.path[..around].to_vec(), ..target.clone() };
             if let Some(Value::Array(array)) = self.get_mut(&outer) {
                 let array = std::rc::Rc::make_mut(array);
                 array.depth = array.depth.max(depth - around as u32);
+                if innermost {
+                    array.changed(before, after);
+                }
             }
         }
     }

@@ -114,15 +114,26 @@ pub(crate) struct Array {
     pub(crate) items: Vec<Value>,
     /// Arrays inside arrays, this one included.
     pub(crate) depth: u32,
-    _charge: Charge,
+    charge: Charge,
 }
 
 impl Array {
     /// An array without values.
     pub(crate) fn new(sizes: Vec<usize>) -> Self {
         let count = sizes.iter().product();
-        let _charge = Charge::new(Self::bytes(count));
-        Self { sizes, items: vec![Value::Empty; count], depth: 1, _charge }
+        let charge = Charge::new(Self::bytes(count));
+        Self { sizes, items: vec![Value::Empty; count], depth: 1, charge }
+    }
+
+    /// Counts what the elements hold beyond their own size, after they were all set.
+    pub(crate) fn recount(&mut self) {
+        let held: usize = self.items.iter().map(Value::held).sum();
+        self.charge.resize(Self::bytes(self.items.len()).saturating_add(held));
+    }
+
+    /// Counts that an element that held `before` holds `after` now.
+    pub(crate) fn changed(&mut self, before: usize, after: usize) {
+        self.charge.change(before, after);
     }
 
     /// What `count` elements take.
@@ -136,6 +147,8 @@ impl Array {
 pub(crate) struct Unsupported {
     /// The words of the message.
     pub(crate) text: String,
+    /// It stands for a number, or for something that gives one when it is called: a semicolon ends what it is part of.
+    pub(crate) number: bool,
 }
 
 /// A value, cheap to copy: the large ones are shared and never changed in place.
@@ -186,6 +199,20 @@ impl Value {
             Self::Object(_) => "an object",
             Self::Macro(_) => "a macro",
             Self::Unsupported(_) => "something not supported yet",
+        }
+    }
+
+    /// Bytes that it holds and that are not charged already.
+    pub(crate) fn held(&self) -> usize {
+        let layer = size_of::<crate::texture::Layer>();
+        match self {
+            Self::Texture(texture) => texture.size() * layer,
+            Self::Pigment(_) | Self::Finish(_) => layer,
+            Self::Material(material) => {
+                material.texture.as_ref().map_or(0, crate::texture::Texture::size) * layer + layer
+            }
+            Self::Interior(_) | Self::Transform(_) | Self::Camera(_) => 256,
+            _ => 0,
         }
     }
 

@@ -13,7 +13,7 @@ use crate::lexer::Mark;
 use crate::light::Light;
 use crate::limits::{self, Charge};
 use crate::reader::{Item, Reader};
-use crate::texture::{Interior, Texture};
+use crate::texture::{Interior, Layer, Texture};
 use crate::transform::Matrix;
 use crate::value::Value;
 
@@ -152,7 +152,9 @@ impl Object {
         let parts = self.clips.iter().chain(&self.bounds);
         let deepest = parts.clone().map(|part| part.depth + 1).max().unwrap_or(0);
         self.depth = self.depth.max(deepest);
-        self.charge.resize(size_of::<Self>() * (1 + parts.count()));
+        let texture = self.texture.as_ref().map_or(0, |texture| texture.size() * size_of::<Layer>());
+        let parts = parts.count() + if let Shape::Union(parts) = &self.shape { parts.len() } else { 0 };
+        self.charge.resize(size_of::<Self>() + parts * size_of::<Self>() + texture);
     }
 }
 

@@ -37,6 +37,9 @@ pub(crate) enum Texture {
     Patterned { pattern: Pattern, map: Rc<Map<Texture>> },
 }
 
+/// Layers of one texture; scenes use a handful.
+const MOST_LAYERS: usize = 256;
+
 impl Texture {
     /// One layer.
     pub(crate) fn single(layer: Layer) -> Self {
@@ -89,7 +92,10 @@ impl Reader<'_> {
         match (below, above) {
             (Texture::Layers(mut layers), Texture::Layers(more)) => {
                 layers.extend(more);
-                self.check_memory(layers.len() * size_of::<Layer>(), self.here())?;
+                if layers.len() > MOST_LAYERS {
+                    let text = format!("a texture has at most {MOST_LAYERS} layers");
+                    return Err(Fault::invalid(self.here(), text));
+                }
                 Ok(Texture::Layers(layers))
             }
             _ => Err(Fault::invalid(self.here(), "a patterned texture cannot be layered")),

@@ -1,0 +1,157 @@
+//! Whatever the input: one message with its place, soon, and no panic.
+
+mod support;
+
+use std::time::{Duration, Instant};
+
+use durer_pov::{FaultKind, Limits, ReadOptions};
+use support::{Folder, fault, read};
+
+/// The limits of these tests: a tenth of the real ones, so that they are reached quickly.
+fn small() -> ReadOptions {
+    let limits = Limits { steps: 5_000_000, memory: 64 << 20, ..Limits::default() };
+    ReadOptions { limits, ..ReadOptions::default() }
+}
+
+fn limit(text: &str, name: &str) {
+    let folder = Folder::new();
+    let path = folder.write("scene.pov", text);
+    let begin = Instant::now();
+    let error = durer_pov::read(&path, &small()).unwrap_err();
+    assert_eq!(error.kind, FaultKind::Limit, "{error}");
+    assert!(error.text.contains(&format!("`{name}`")), "{error}");
+    assert!(error.at.is_some() && error.to_string().lines().count() >= 4, "{error}");
+    assert!(begin.elapsed() < Duration::from_secs(20), "{text}");
+}
+
+#[test]
+fn endless_scenes_end() {
+    limit("#while (1) #end", "steps");
+    limit("#declare i=0; #while (1) #declare i=sin(i)+1; #end", "steps");
+    limit("#for (I,0,1,1e-12) #end", "steps");
+    limit("#while (1) #debug \"hello\\n\" #end", "steps");
+    limit("#declare A=array[100000]; #while (1) #declare B=A; #declare B[0]=1; #end", "steps");
+    limit("#declare S=\"\"; #while (1) #declare S=concat(S,\"abcdefghij\"); #end", "steps");
+}
+
+#[test]
+fn endless_depth_ends() {
+    limit("#macro M() M() #end M()", "macro_depth");
+    limit("#macro M() (1+M()) #end #declare A=M();", "nesting");
+    limit("#include \"scene.pov\"", "include_depth");
+    limit(&format!("#declare A={}1;", "(".repeat(100_000)), "nesting");
+    limit(&format!("#declare A={}1;", "-".repeat(100_000)), "nesting");
+    limit(&"union{".repeat(100_000), "nesting");
+    limit("#declare U=sphere{0,1} #while(1) #declare U=union{object{U} object{U}} #end", "nesting");
+    limit("#declare A=array[1]; #declare A[0]=1; #while(1) #declare A[0]=A; #end", "nesting");
+}
+
+#[test]
+fn endless_data_end() {
+    limit("#declare A=array[1000000000];", "memory");
+    limit("#declare S=\"0123456789\"; #while(1) #declare S=concat(S,S); #end", "memory");
+    limit("#while(1) sphere{0,1} #end", "memory");
+    limit("#declare i=0; #while(1) sphere{0,1 pigment{rgb i}} #declare i=i+1; #end", "memory");
+    limit(
+        "#declare U=sphere{0,1} #for(I,1,60) #declare U=union{object{U} object{U}} #end object{U}",
+        "memory",
+    );
+    limit("#declare L=light_source{0 rgb 1} #while(1) light_source{L} #end", "memory");
+    limit("#declare A=array[500000]; #for(I,0,499999) #declare A[I]=texture{pigment{rgb I}} #end", "memory");
+}
+
+#[test]
+fn files_that_are_no_scenes_are_named() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.0.join("dir.pov")).unwrap();
+    folder.write("noise.pov", (0..5000_u32).map(|i| (i * 7919 % 251) as u8).collect::<Vec<_>>());
+    folder.write("includes.pov", "#include \"dir.pov\"");
+    folder.write("missing.pov", "#include \"nosuch.inc\"");
+    folder.write("fine.pov", "#include \"noise.pov\"");
+    let text = |name: &str| folder.read(name).unwrap_err().to_string();
+    assert!(text("dir.pov").ends_with("dir.pov: is a directory, not a scene file"));
+    assert!(
+        text("nothing.pov").contains("nothing.pov: cannot be read: no such file"),
+        "{}",
+        text("nothing.pov")
+    );
+    assert!(text("noise.pov").contains("does not look like a scene file"));
+    assert!(
+        text("includes.pov").contains("includes.pov:1:10:") && text("includes.pov").contains("directory")
+    );
+    assert!(text("missing.pov").contains("missing.pov:1:10: there is no include file \"nosuch.inc\""));
+    assert!(text("fine.pov").contains("noise.pov:1:"));
+}
+
+#[test]
+fn cut_files_are_named_at_their_end() {
+    assert!(fault("sphere { <0,0,0>, 1 pigment { rgb 1").2.contains("the end of the scene"));
+    assert!(fault("sphere { <0,").2.contains("the end of the scene"));
+    assert_eq!(fault("/* never").2, "this comment is never closed");
+    assert_eq!(fault("#if (1)\nsphere { 0, 1 }"), (1, 1, "this #if has no #end".into()));
+    assert_eq!(fault("#declare S = \"abc").2, "this string is never closed");
+}
+
+#[test]
+fn impossible_shapes_are_named() {
+    for (text, part) in [
+        ("sphere { 0, 0 }", "radius is zero"),
+        ("cylinder { 0, y, 0 }", "radius is zero"),
+        ("cylinder { 0, 0, 1 }", "same point"),
+        ("cone { 0, 0, y, 0 }", "radii are zero"),
+        ("plane { 0, 1 }", "no length"),
+        ("disc { 0, y, 0 }", "radius is zero"),
+        ("box { 0, <1,0,1> }", "no thickness"),
+        ("sphere { 0, 1 matrix <1,0,0,0,1,0,0,0,0,0,0,0> }", "singular"),
+        ("polygon { 3, 0, x }", "found `}`"),
+        ("camera { location 0 look_at 0 }", "own location"),
+        ("camera { right x direction x }", "span space"),
+        ("camera { angle 200 }", "between 0 and 180"),
+        ("light_source { 0 rgb 1 spotlight point_at 0 }", "own location"),
+        ("mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0,1,3> } }", "no vertex number 3"),
+        ("sphere { 0, 1 finish { roughness 0 } }", "must be positive"),
+        ("sphere { 0, 1 interior { ior 0 } }", "must be positive"),
+        ("quadric { 0, 0, 0, 1 }", "no variable"),
+    ] {
+        let (_, _, message) = fault(text);
+        assert!(message.contains(part), "{text}: {message}");
+    }
+}
+
+#[test]
+fn the_place_is_underlined_and_the_way_there_told() {
+    let error = read("#macro Bad(R)\n  sphere { 0, R torus }\n#end\n\nBad(1)").unwrap_err().to_string();
+    let lines: Vec<_> = error.lines().collect();
+    assert!(lines[0].ends_with("scene.pov:3:17: not supported yet: torus"), "{error}");
+    assert_eq!(lines[2], "3 |   sphere { 0, R torus }");
+    assert_eq!(lines[3], "  |                 ^^^^^");
+    assert!(lines[4].contains("in macro Bad, called at") && lines[4].ends_with("scene.pov:6:1"), "{error}");
+}
+
+#[test]
+fn a_misspelling_is_recognised() {
+    assert!(fault("#declare Radius = 1; sphere { 0, Raduis }").2.contains("did you mean `Radius`?"));
+    assert!(fault("spehre { 0, 1 }").2.contains("did you mean `sphere`?"));
+}
+
+#[test]
+fn what_is_not_there_yet_is_called_by_its_name() {
+    for word in [
+        "torus { 1, 0.5 }",
+        "difference { sphere { 0, 1 } }",
+        "fog { distance 1 }",
+        "sky_sphere { }",
+        "media { }",
+    ] {
+        let expected = format!("not supported yet: {}", word.split(' ').next().unwrap());
+        assert_eq!(fault(word).2, expected);
+    }
+    assert_eq!(fault("global_settings { radiosity { } }").2, "not supported yet: radiosity");
+    assert_eq!(fault("global_settings { photons { } }").2, "not supported yet: photons");
+    assert_eq!(fault("sphere { 0, 1 pigment { bozo } }").2, "not supported yet: bozo");
+    assert_eq!(fault("sphere { 0, 1 pigment { checker turbulence 1 } }").2, "not supported yet: turbulence");
+    assert_eq!(fault("sphere { 0, 1 finish { irid { 0.5 } } }").2, "not supported yet: irid");
+    assert_eq!(fault("light_source { 0 rgb 1 area_light x, y, 2, 2 }").2, "not supported yet: area_light");
+    assert_eq!(fault("camera { fisheye }").2, "not supported yet: fisheye");
+    assert_eq!(fault("#fopen F \"x\" read").2, "not supported yet: #fopen");
+}
