@@ -109,7 +109,8 @@ impl Reader<'_> {
             let lexeme = self.next()?;
             match &lexeme.item {
                 Item::Value(Value::Pigment(known)) => pigment = (**known).clone(),
-                Item::Word(Keyword::Pigment) => {
+                Item::Word(Keyword::Pigment) if !chosen => {
+                    chosen = true;
                     pigment = self.nested(|r| r.pigment_block(&pigment))?;
                 }
                 Item::Word(Keyword::ColorMap | Keyword::PigmentMap) => {

@@ -1,0 +1,250 @@
+//! Objects: their shapes, their order, their places, what they inherit.
+
+mod support;
+
+use durer_math::{Point3, Vec3};
+use durer_scene::{Cells, Pattern, Pigment, PigmentBody, QuadricKind, Scene, Shape, TextureBody};
+use support::{notices, scene};
+
+/// The pigment of the top layer of object `index`.
+fn pigment(scene: &Scene, index: usize) -> Pigment {
+    let texture = scene.objects[index].texture.as_ref().unwrap();
+    match &texture.body {
+        TextureBody::Layers(layers) => layers.last().unwrap().pigment.clone(),
+        TextureBody::Pattern(_) => panic!("a patterned texture"),
+    }
+}
+
+fn solid(scene: &Scene, index: usize) -> [f64; 3] {
+    match pigment(scene, index).body {
+        PigmentBody::Solid(colour) => [colour.rgb.r, colour.rgb.g, colour.rgb.b],
+        _ => panic!("no solid pigment"),
+    }
+}
+
+fn ambient(scene: &Scene, index: usize) -> f64 {
+    match &scene.objects[index].texture.as_ref().unwrap().body {
+        TextureBody::Layers(layers) => layers.last().unwrap().finish.ambient.r,
+        TextureBody::Pattern(_) => panic!("a patterned texture"),
+    }
+}
+
+#[test]
+fn shapes_keep_the_numbers_of_the_text() {
+    let scene = scene(
+        "sphere { <1,2,3>, 4 } box { -1, <1,2,3> } quadric { <1,2,3>, <4,5,6>, <7,8,9>, 10 } plane { y*2, 3 } cone { 0, 1, y, 0 }",
+    );
+    assert_eq!(scene.objects[0].shape, Shape::Sphere { centre: Point3::new(1.0, 2.0, 3.0), radius: 4.0 });
+    assert_eq!(
+        scene.objects[1].shape,
+        Shape::Box { a: Point3::new(-1.0, -1.0, -1.0), b: Point3::new(1.0, 2.0, 3.0) }
+    );
+    let coefficients = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0];
+    assert_eq!(scene.objects[2].shape, Shape::Quadric(Box::new(coefficients)));
+    assert_eq!(scene.objects[3].shape, Shape::Plane { normal: Vec3::new(0.0, 2.0, 0.0), distance: 3.0 });
+    assert!(matches!(scene.objects[4].shape, Shape::Cone { base_radius: 1.0, cap_radius: 0.0, .. }));
+    assert!(scene.objects.iter().all(|object| object.placement.is_identity()));
+}
+
+#[test]
+fn transforms_apply_in_their_order() {
+    let scene =
+        scene("sphere { 0, 1 translate x rotate y*90 scale <1,1,2> matrix <1,0,0,0,1,0,0,0,1,5,0,0> }");
+    let image = scene.objects[0].placement.affine().point(Point3::new(0.0, 0.0, 0.0));
+    assert_eq!(image, Point3::new(5.0, 0.0, -2.0));
+    let scene = support::scene(
+        "#declare T = transform { translate x scale 2 } sphere { 0, 1 transform { T inverse } } sphere { 0, 1 transform T }",
+    );
+    assert_eq!(
+        scene.objects[0].placement.affine().point(Point3::new(2.0, 0.0, 0.0)),
+        Point3::new(0.0, 0.0, 0.0)
+    );
+    assert_eq!(
+        scene.objects[1].placement.affine().point(Point3::new(0.0, 0.0, 0.0)),
+        Point3::new(2.0, 0.0, 0.0)
+    );
+}
+
+#[test]
+fn a_texture_moves_with_what_is_written_after_it() {
+    let scene = scene(
+        "sphere { 0, 1 pigment { checker } translate x } sphere { 0, 1 translate x pigment { checker } }
+         sphere { 0, 1 pigment { checker scale 2 } translate x }",
+    );
+    let origin = Point3::new(0.0, 0.0, 0.0);
+    let place = |i: usize| {
+        let texture = scene.objects[i].texture.as_ref().unwrap();
+        texture.placement.affine().point(pigment(&scene, i).placement.affine().point(origin))
+    };
+    assert_eq!(
+        [place(0), place(1), place(2)],
+        [Point3::new(1.0, 0.0, 0.0), origin, Point3::new(1.0, 0.0, 0.0)]
+    );
+    assert_eq!(
+        pigment(&scene, 2).placement.affine().vector(Vec3::new(1.0, 0.0, 0.0)),
+        Vec3::new(2.0, 0.0, 0.0)
+    );
+}
+
+#[test]
+fn top_level_objects_are_numbered_as_they_are_finished() {
+    let scene = scene(
+        "#declare Hidden = sphere { 0, 9 } light_source { 0 rgb 1 } union { sphere { 0, 1 } box { 0, 1 } }
+         union { light_source { y rgb 1 } } Hidden object { Hidden translate x }",
+    );
+    assert_eq!((scene.objects.len(), scene.lights.len()), (3, 2));
+    assert!(matches!(&scene.objects[0].shape, Shape::Union(parts) if parts.len() == 2));
+    assert!(matches!(scene.objects[1].shape, Shape::Sphere { radius: 9.0, .. }));
+}
+
+#[test]
+fn parts_of_a_union_keep_their_own_look_and_lights_move_with_it() {
+    let scene = scene(
+        "union { sphere { 0, 1 pigment { rgb x } } sphere { 0, 1 } light_source { 0 rgb 1 } pigment { rgb y } translate z no_shadow }",
+    );
+    let Shape::Union(parts) = &scene.objects[0].shape else { panic!("no union") };
+    assert!(parts[0].texture.is_some() && parts[1].texture.is_none());
+    assert_eq!(solid(&scene, 0), [0.0, 1.0, 0.0]);
+    assert!(scene.objects[0].flags.no_shadow);
+    assert_eq!(scene.lights[0].location, Point3::new(0.0, 0.0, 1.0));
+}
+
+#[test]
+fn the_default_texture_is_taken_when_the_object_is_finished() {
+    let text = "#declare O = sphere { 0, 1 } #declare P = sphere { 0, 1 pigment { rgb 1 } }
+        #default { finish { ambient 1 } pigment { rgb 0.5 } } object { O } object { P }
+        sphere { 0, 1 finish { diffuse 0 } } union { sphere { 0, 1 } #default { finish { ambient 0.3 } } }";
+    let scene = scene(text);
+    assert_eq!((solid(&scene, 0), ambient(&scene, 0)), ([0.5; 3], 1.0));
+    assert_eq!((solid(&scene, 1), ambient(&scene, 1)), ([1.0; 3], 0.1));
+    assert_eq!((solid(&scene, 2), ambient(&scene, 2)), ([0.5; 3], 1.0));
+    assert_eq!(ambient(&scene, 3), 0.3);
+}
+
+#[test]
+fn parts_of_a_look_change_the_top_layer() {
+    let layers = "texture { pigment { rgb x } finish { ambient 1 } } texture { pigment { rgb y } finish { ambient 0.7 } }";
+    let scene = scene(&format!(
+        "sphere {{ 0, 1 {layers} pigment {{ rgb z }} }} sphere {{ 0, 1 {layers} finish {{ ambient 0.5 }} }}"
+    ));
+    assert_eq!((solid(&scene, 0), ambient(&scene, 0)), ([0.0, 0.0, 1.0], 0.7));
+    assert_eq!((solid(&scene, 1), ambient(&scene, 1)), ([0.0, 1.0, 0.0], 0.5));
+    match &scene.objects[0].texture.as_ref().unwrap().body {
+        TextureBody::Layers(layers) => assert_eq!(layers.len(), 2),
+        TextureBody::Pattern(_) => panic!("a patterned texture"),
+    }
+}
+
+#[test]
+fn lists_are_filled_up_with_the_languages_colours() {
+    let scene = scene(
+        "sphere { 0, 1 pigment { checker rgb x } } sphere { 0, 1 pigment { brick rgb x brick_size 2 mortar 0.1 } } sphere { 0, 1 pigment { hexagon } }",
+    );
+    let PigmentBody::Colours(pattern) = pigment(&scene, 0).body else { panic!("no colours") };
+    let Pattern::Cells { cells, entries } = *pattern else { panic!("no cells") };
+    assert_eq!((cells, entries.len()), (Cells::Checker, 2));
+    assert_eq!([entries[1].rgb.r, entries[1].rgb.g, entries[1].rgb.b], [0.0, 1.0, 0.0]);
+    let PigmentBody::Colours(pattern) = pigment(&scene, 1).body else { panic!("no colours") };
+    let Pattern::Cells { cells, entries } = *pattern else { panic!("no cells") };
+    assert_eq!(cells, Cells::Brick { size: Vec3::new(2.0, 2.0, 2.0), mortar: 0.1 });
+    assert_eq!([entries[1].rgb.r, entries[1].rgb.g, entries[1].rgb.b], [0.6, 0.15, 0.15]);
+}
+
+#[test]
+fn maps_keep_the_order_of_the_text() {
+    let scene = scene(
+        "sphere { 0, 1 pigment { gradient x color_map { [0.5 rgb x] [0.2, rgb y] [0.2, 0.9 color rgb z color rgb 1] } } } sphere { 0, 1 pigment { gradient y } }",
+    );
+    let values = |i: usize| match pigment(&scene, i).body {
+        PigmentBody::Colours(pattern) => match *pattern {
+            Pattern::Map { entries, .. } => entries.iter().map(|(at, _)| *at).collect::<Vec<_>>(),
+            Pattern::Cells { .. } => panic!("cells"),
+        },
+        _ => panic!("no colours"),
+    };
+    assert_eq!(values(0), [0.5, 0.2, 0.2, 0.9]);
+    assert_eq!(values(1), [0.0, 1.0]);
+    assert!(
+        support::fault("sphere { 0, 1 pigment { checker color_map { [0 rgb 0][1 rgb 1] } } }")
+            .2
+            .contains("does not go")
+    );
+    assert!(
+        support::fault("sphere { 0, 1 pigment { checker rgb x pigment { rgb y } } }").2.contains("expected")
+    );
+}
+
+#[test]
+fn meshes_share_corners_and_keep_all_faces() {
+    let text = "mesh { triangle { 0, x, y } triangle { x, y, x+y } triangle { 0, 0, x } }
+        mesh2 { vertex_vectors { 4, 0, x, y, x+y } normal_vectors { 4, z, z, z, z } face_indices { 2, <0,1,2>, <1,2,3> } }";
+    let scene = scene(text);
+    let mesh = |i: usize| match &scene.objects[i].shape {
+        Shape::Mesh(mesh) => mesh.clone(),
+        _ => panic!("no mesh"),
+    };
+    assert_eq!((mesh(0).vertices.len(), mesh(0).faces.len()), (4, 3));
+    assert_eq!((mesh(1).faces[1].vertices, mesh(1).faces[1].normals), ([1, 2, 3], Some([1, 2, 3])));
+    assert!(notices("triangle { 0, x, x*2 }")[0].contains("no area"));
+}
+
+#[test]
+fn a_polygon_has_the_loops_that_its_points_close() {
+    let scene = scene(
+        "polygon { 9, <-1,-1>, <1,-1>, <1,1>, <-1,1>, <-1,-1>, <0.5,0.5>, <0.5,-0.5>, <-0.5,-0.5>, <0.5,0.5> }",
+    );
+    let Shape::Polygon(loops) = &scene.objects[0].shape else { panic!("no polygon") };
+    assert_eq!(loops.iter().map(Vec::len).collect::<Vec<_>>(), [4, 3]);
+}
+
+#[test]
+fn clips_and_bounds_may_stand_for_each_other() {
+    let scene = scene(
+        "sphere { 0, 1 clipped_by { plane { y, 0 } } translate x } sphere { 0, 1 bounded_by { box { 0, 1 } } clipped_by { bounded_by } }",
+    );
+    assert_eq!(scene.objects[0].clips.len(), 1);
+    let clip = &scene.objects[0].clips[0];
+    assert_eq!(clip.placement.affine().point(Point3::new(0.0, 0.0, 0.0)), Point3::new(1.0, 0.0, 0.0));
+    assert!(matches!(scene.objects[1].clips[0].shape, Shape::Box { .. }));
+}
+
+#[test]
+fn quadrics_have_names() {
+    let named = |text: &str| match &scene(text).objects[0].shape {
+        Shape::Named(named) => **named,
+        _ => panic!("no named quadric"),
+    };
+    let shape = named("hyperboloid { <1, 2, 3>, sheets 2, from -1 to 5 }");
+    assert_eq!((shape.kind, shape.semi_axes), (QuadricKind::HyperboloidTwoSheets, [1.0, 2.0, 3.0]));
+    assert_eq!(shape.extent, Some([-1.0, 5.0]));
+    assert_eq!(named("spheroid { 2, 3 }").semi_axes, [2.0, 2.0, 3.0]);
+    assert_eq!(named("paraboloid { 2, 1 from 0 to 1 open }").kind, QuadricKind::EllipticParaboloid);
+    assert_eq!(named("circular_cylinder { 2 }").semi_axes[..2], [2.0, 2.0]);
+    assert_eq!(named("parabolic_cylinder { <2, 3> }").kind, QuadricKind::ParabolicCylinder);
+    assert!(support::fault("hyperboloid { <1, 2, 3> }").2.contains("sheets"));
+    assert!(support::fault("hyperboloid { <1, 2, 3>, sheets 3 }").2.contains("1 or 2 sheets"));
+    assert!(support::fault("ellipsoid { <1, 2, 0> }").2.contains("positive"));
+    assert!(support::fault("ellipsoid { <1, 2, 3> from 1 to 0 }").2.contains("a below b"));
+}
+
+#[test]
+fn a_users_own_name_wins_over_durers_words() {
+    let scene = scene(
+        "#declare ellipsoid = sphere { 0, 7 } object { ellipsoid } #macro annulus() box { 0, 1 } #end annulus()",
+    );
+    assert!(matches!(scene.objects[0].shape, Shape::Sphere { radius: 7.0, .. }));
+    assert!(matches!(scene.objects[1].shape, Shape::Box { .. }));
+    let scene = support::scene(
+        "#declare E = ellipsoid { <1, 2, 3> } object { E } #declare sheets = 4; sphere { 0, sheets }",
+    );
+    assert!(matches!(scene.objects[0].shape, Shape::Named(_)));
+}
+
+#[test]
+fn equal_textures_are_shared() {
+    let scene = scene(
+        "#declare T = texture { pigment { rgb x } } sphere { 0, 1 texture { T } } sphere { y, 1 texture { T } }",
+    );
+    let texture = |i: usize| scene.objects[i].texture.as_ref().unwrap();
+    assert!(std::sync::Arc::ptr_eq(texture(0), texture(1)));
+}
