@@ -19,8 +19,7 @@ fn a_camera_is_built_in_one_order_whatever_the_order_of_its_words() {
     let one = camera("camera { location <1,2,-5> right x*1.5 angle 70 look_at <0,0.5,1> }");
     let other = camera("camera { look_at <0,0.5,1> location <1,2,-5> angle 70 right x*1.5 }");
     assert_eq!(one, other);
-    let old =
-        support::scene("#version 3.1; camera { look_at <0,0.5,1> location <1,2,-5> angle 70 right x*1.5 }");
+    let old = scene("#version 3.1; camera { look_at <0,0.5,1> location <1,2,-5> angle 70 right x*1.5 }");
     assert_ne!(old.camera.unwrap(), one);
 }
 
@@ -146,7 +145,7 @@ fn what_the_standard_files_define_can_be_used() {
          #include \"transforms.inc\"\n#include \"math.inc\"\n#include \"rand.inc\"\n#include \"arrays.inc\"\n#include \"strings.inc\"
          sphere { 0, 1 pigment { NeonBlue } finish { F_MetalA } } sphere { 0, 1 texture { T_Gold_1A } } sphere { 0, 1 interior { I_Glass } }
          object { Cone_Y texture { T_Chrome_2B } Rotate_Around_Trans(y*90, x) } object { QCone_Y } object { Ellipsoid scale 2 }
-         #debug concat(str(VDist(0, x*3), 0, 0), str(clamp(5, 0, 1), 0, 0), Str(2), \" \", VStr(<1,2,3>))
+         #debug concat(str(VDist(0, x*3), 0, 0), Str(2), \" \", VStr(<1,2,3>))
          #declare R = seed(1); #declare P = VRand_In_Box(-1, 1, R); sphere { P, 0.1 }",
     );
     assert_eq!(scene.objects.len(), 7);
