@@ -165,10 +165,11 @@ proptest! {
         // Not vacuous: each face is within a few roundings of a corner's image.
         for i in 0..3 {
             let least = points.iter().map(|x| coordinate(*x, i)).min().expect("corners");
-            // A bound from below goes no further than the greatest number.
-            let least = least.min(rat(f64::MAX));
             let size: RBig = (0..3).map(|j| abs(exact[i][j].clone()) * rat(b.magnitude())).fold(abs(rat(c[i])), |s, x| s + x);
-            prop_assert!(!image.min[i].is_finite() || &least - rat(image.min[i]) <= &size * rat(16.0 * U) + rat(1e-320));
+            // Where a term can overflow its bound saturates: still a bound, but no longer a tight one.
+            if size <= rat(f64::MAX / 4.0) {
+                prop_assert!(&least - rat(image.min[i]) <= &size * rat(16.0 * U) + rat(1e-320));
+            }
         }
     }
 
