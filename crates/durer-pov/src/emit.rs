@@ -34,6 +34,9 @@ pub(crate) struct Output {
 /// Textures that are compared before a new one is made.
 const TEXTURES_COMPARED: usize = 8;
 
+/// What the allocations of a texture take beyond its layers and finishes, about.
+const TEXTURE_EXTRA: usize = 448;
+
 fn point(p: [f64; 3]) -> Point3 {
     Point3::new(p[0], p[1], p[2])
 }
@@ -214,7 +217,9 @@ impl Reader<'_> {
         if let Some((_, made)) = self.scene.textures.iter().find(equal) {
             return Ok(made.clone());
         }
-        limits::charge_for_good(own.size() * (size_of::<scene::Layer>() + size_of::<scene::Finish>() + 128));
+        limits::charge_for_good(
+            own.size() * (size_of::<scene::Layer>() + size_of::<scene::Finish>() + TEXTURE_EXTRA),
+        );
         let made = Arc::new(texture(own, at)?);
         if self.scene.textures.len() == TEXTURES_COMPARED {
             self.scene.textures.pop_front();
