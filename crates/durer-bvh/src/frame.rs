@@ -1,6 +1,7 @@
 //! The tree's own units, and boxes in them: f32, rounded outward.
 
-use durer_math::scale::{exponent, ldexp};
+use durer_math::eft::scale2;
+use durer_math::scale::exponent;
 use durer_math::{Aabb, Point3};
 
 /// The exact power of two that makes all coordinates of a tree at most 1.
@@ -36,13 +37,13 @@ impl Frame {
     /// A length of the caller's, in tree units; exact unless it underflows (or is far outside the tree and overflows).
     #[inline(always)]
     pub(crate) fn inward(self, x: f64) -> f64 {
-        ldexp(x, -self.exponent)
+        scale2(x, -self.exponent)
     }
 
     /// A length in tree units, in the caller's.
     #[inline(always)]
     pub(crate) fn outward(self, x: f64) -> f64 {
-        ldexp(x, self.exponent)
+        scale2(x, self.exponent)
     }
 
     /// A box for the builder: the box of the thing `index` of its `kind`, rounded outward. An unbounded box, or one that holds a
@@ -98,14 +99,14 @@ impl Entry {
 }
 
 /// The greatest f32 that is not above `x`.
-#[inline]
+#[inline(always)]
 pub(crate) fn down32(x: f64) -> f32 {
     let y = x as f32;
     if f64::from(y) > x { y.next_down() } else { y }
 }
 
 /// The least f32 that is not below `x`.
-#[inline]
+#[inline(always)]
 pub(crate) fn up32(x: f64) -> f32 {
     let y = x as f32;
     if f64::from(y) < x { y.next_up() } else { y }

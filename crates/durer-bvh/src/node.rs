@@ -71,18 +71,25 @@ impl Node8 {
     /// Orders the children for each octant: by their centres along the octant's diagonal, farthest first.
     pub(crate) fn sort(&mut self) {
         self.order = [0; WIDTH];
-        for octant in 0..8_u32 {
-            let mut slots: [usize; WIDTH] = core::array::from_fn(|i| i);
-            let depth = |slot: usize| {
+        // The opposite octant has the opposite order.
+        for octant in 0..4_u32 {
+            let (mut depths, mut slots) = ([0.0_f32; WIDTH], [0_usize; WIDTH]);
+            for slot in 0..WIDTH {
                 let along = |axis: usize| {
                     let centre2 = self.planes[axis][slot] + self.planes[3 + axis][slot];
                     if octant >> axis & 1 == 0 { centre2 } else { -centre2 }
                 };
-                along(0) + along(1) + along(2)
-            };
-            slots.sort_by(|&a, &b| depth(b).total_cmp(&depth(a)));
-            for (word, &slot) in self.order.iter_mut().zip(&slots) {
-                *word |= (slot as u32) << (3 * octant);
+                let depth = along(0) + along(1) + along(2);
+                let mut at = slot;
+                while at > 0 && depths[at - 1] < depth {
+                    (depths[at], slots[at]) = (depths[at - 1], slots[at - 1]);
+                    at -= 1;
+                }
+                (depths[at], slots[at]) = (depth, slot);
+            }
+            for (i, &slot) in slots.iter().enumerate() {
+                self.order[i] |= (slot as u32) << (3 * octant);
+                self.order[WIDTH - 1 - i] |= (slot as u32) << (3 * (7 - octant));
             }
         }
     }

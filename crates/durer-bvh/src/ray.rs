@@ -90,7 +90,7 @@ impl Rounding {
 
 impl CullRay {
     /// Clips a line to the box `[lo, hi]` of a tree; `None` if it certainly misses it.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn new(
         line: &Line,
         frame: Frame,
@@ -181,6 +181,7 @@ impl CullRay {
     }
 }
 
+#[inline(always)]
 fn octant(d: &[f64; 3]) -> u32 {
     (0..3).map(|i| u32::from(d[i].is_sign_negative()) << i).sum()
 }

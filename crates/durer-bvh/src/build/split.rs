@@ -8,6 +8,9 @@ use rayon::prelude::*;
 /// Bins per axis.
 const BINS: usize = 16;
 
+/// With so few entries all cuts are tried, which is less work than bins.
+const SWEPT: usize = 12;
+
 /// Ranges with more entries are binned by all threads.
 const PARALLEL: usize = 1 << 15;
 
@@ -46,13 +49,19 @@ pub(super) fn is_one_kind(entries: &[Entry]) -> bool {
     entries.len() > super::MAX_LEAF || entries.iter().all(|e| e.kind() == entries[0].kind())
 }
 
-/// A plane between bins.
+/// A way to cut a range in two.
 pub(super) struct Plane {
-    axis: usize,
-    bin: usize,
-    bins: Bins,
+    cut: Cut,
     left: (Extent, usize),
     right: (Extent, usize),
+}
+
+/// Which entries go left.
+enum Cut {
+    /// Those in bins before this one.
+    Bin { axis: usize, bin: usize, bins: Bins },
+    /// The first ones in this order; for few entries.
+    Order { order: [u8; SWEPT] },
 }
 
 impl Plane {
@@ -62,6 +71,13 @@ impl Plane {
             extent.half_area() * (settings.leaf_cost + settings.test_cost * *count as f32)
         };
         side(&self.left) + side(&self.right)
+    }
+
+    /// Whether a cut of this cost into parts so different is better than `best`. Flat in two directions, the surface says
+    /// nothing: then the most even cut wins.
+    fn is_beaten_by(best: &Option<Self>, least: f32, cost: f32, left: usize, right: usize) -> bool {
+        let uneven = |b: &Self| b.left.1.abs_diff(b.right.1);
+        cost < least || (cost == least && best.as_ref().is_none_or(|b| left.abs_diff(right) < uneven(b)))
     }
 }
 
@@ -94,8 +110,48 @@ impl Bins {
     }
 }
 
-/// The best plane between the bins of any axis by the surface area heuristic; `None` if all centres coincide (or nearly).
+/// The best cut along any axis by the surface area heuristic; `None` if all centres coincide (or nearly).
 pub(super) fn best_plane(entries: &[Entry]) -> Option<Plane> {
+    if entries.len() <= SWEPT { best_of_all(entries) } else { best_between_bins(entries) }
+}
+
+/// The best of all cuts of a few entries sorted by their centres.
+fn best_of_all(entries: &[Entry]) -> Option<Plane> {
+    let n = entries.len();
+    let mut best: Option<Plane> = None;
+    let mut least = f32::INFINITY;
+    for axis in 0..3 {
+        let mut keys = [(0.0_f32, 0_u32); SWEPT];
+        let mut order = [0_u8; SWEPT];
+        for (i, entry) in entries.iter().enumerate() {
+            let key = (entry.centre2(axis), entry.kind());
+            let mut at = i;
+            while at > 0 && (keys[at - 1].0 > key.0 || (keys[at - 1].0 == key.0 && keys[at - 1].1 > key.1)) {
+                (keys[at], order[at]) = (keys[at - 1], order[at - 1]);
+                at -= 1;
+            }
+            (keys[at], order[at]) = (key, i as u8);
+        }
+        let mut right = [Extent::EMPTY; SWEPT];
+        let mut so_far = Extent::EMPTY;
+        for i in (1..n).rev() {
+            so_far.add(&entries[usize::from(order[i])]);
+            right[i] = so_far;
+        }
+        let mut left = Extent::EMPTY;
+        for i in 1..n {
+            left.add(&entries[usize::from(order[i - 1])]);
+            let cost = left.half_area() * i as f32 + right[i].half_area() * (n - i) as f32;
+            if Plane::is_beaten_by(&best, least, cost, i, n - i) {
+                least = cost;
+                best = Some(Plane { cut: Cut::Order { order }, left: (left, i), right: (right[i], n - i) });
+            }
+        }
+    }
+    best
+}
+
+fn best_between_bins(entries: &[Entry]) -> Option<Plane> {
     type Filled = [[(Extent, usize); BINS]; 3];
     let bins = Bins::over(entries);
     let add = |filled: &mut Filled, entry: &Entry| {
@@ -117,10 +173,9 @@ pub(super) fn best_plane(entries: &[Entry]) -> Option<Plane> {
     let mut least = f32::INFINITY;
     for (axis, row) in filled.iter().enumerate() {
         let grow = |(extent, count): (Extent, usize), b: &(Extent, usize)| (extent.united(&b.0), count + b.1);
-        let mut right = [(Extent::EMPTY, 0); BINS];
+        let mut right = [(Extent::EMPTY, 0); BINS + 1];
         for bin in (1..BINS).rev() {
-            let next = if bin + 1 < BINS { right[bin + 1] } else { (Extent::EMPTY, 0) };
-            right[bin] = grow(next, &row[bin]);
+            right[bin] = grow(right[bin + 1], &row[bin]);
         }
         let mut left = (Extent::EMPTY, 0);
         for bin in 1..BINS {
@@ -130,13 +185,9 @@ pub(super) fn best_plane(entries: &[Entry]) -> Option<Plane> {
                 continue;
             }
             let cost = left.0.half_area() * left.1 as f32 + right.0.half_area() * right.1 as f32;
-            // Flat in two directions, the surface says nothing: then the most even cut wins.
-            let even = left.1.abs_diff(right.1);
-            let better = cost < least
-                || (cost == least && best.as_ref().is_some_and(|b| even < b.left.1.abs_diff(b.right.1)));
-            if better {
+            if Plane::is_beaten_by(&best, least, cost, left.1, right.1) {
                 least = cost;
-                best = Some(Plane { axis, bin, bins, left, right });
+                best = Some(Plane { cut: Cut::Bin { axis, bin, bins }, left, right });
             }
         }
     }
@@ -153,24 +204,35 @@ pub(super) fn is_better_as_leaf(entries: &[Entry], extent: &Extent, settings: &S
     best_plane(entries).is_none_or(|plane| leaf <= whole + plane.cost(settings))
 }
 
-/// Cuts at a plane between bins.
+/// Makes the cut.
 pub(super) fn by_plane(entries: &mut [Entry], plane: &Plane) -> Split {
-    let goes_left = |e: &Entry| plane.bins.of(e, plane.axis) < plane.bin;
-    let (mut i, mut j) = (0, entries.len());
-    loop {
-        while i < j && goes_left(&entries[i]) {
-            i += 1;
+    match plane.cut {
+        Cut::Bin { axis, bin, bins } => {
+            let goes_left = |e: &Entry| bins.of(e, axis) < bin;
+            let (mut i, mut j) = (0, entries.len());
+            loop {
+                while i < j && goes_left(&entries[i]) {
+                    i += 1;
+                }
+                while i < j && !goes_left(&entries[j - 1]) {
+                    j -= 1;
+                }
+                if i >= j {
+                    break;
+                }
+                entries.swap(i, j - 1);
+            }
+            debug_assert_eq!(i, plane.left.1);
         }
-        while i < j && !goes_left(&entries[j - 1]) {
-            j -= 1;
+        Cut::Order { order } => {
+            let mut sorted = [entries[0]; SWEPT];
+            for (to, &from) in sorted.iter_mut().zip(&order[..entries.len()]) {
+                *to = entries[usize::from(from)];
+            }
+            entries.copy_from_slice(&sorted[..entries.len()]);
         }
-        if i >= j {
-            break;
-        }
-        entries.swap(i, j - 1);
     }
-    debug_assert_eq!(i, plane.left.1);
-    Split { at: i, left: plane.left.0, right: plane.right.0 }
+    Split { at: plane.left.1, left: plane.left.0, right: plane.right.0 }
 }
 
 /// Cuts in the middle, as the entries stand.

@@ -1,0 +1,181 @@
+//! Any boxes make a valid tree, and the same one on any number of threads.
+
+mod common;
+
+use common::{Dice, tree};
+use durer_bvh::{Bvh, Frame, Settings};
+use durer_math::{Aabb, Isa, Point3, Vec3};
+
+fn assert_valid(boxes: &[Aabb]) -> Bvh {
+    let (tree, order) = tree(boxes);
+    tree.validate(|_, slot| boxes[order[slot as usize] as usize]).unwrap_or_else(|e| panic!("{e}"));
+    let stats = tree.stats();
+    assert_eq!(stats.entries, boxes.len());
+    assert!(stats.depth <= 36, "depth {}", stats.depth);
+    tree
+}
+
+fn cube(x: f64, y: f64, z: f64, r: f64) -> Aabb {
+    Aabb::centred(Point3::new(x, y, z), Vec3::new(r, r, r))
+}
+
+#[test]
+fn nothing_and_little() {
+    let (tree, order) = tree(&[]);
+    assert!(tree.is_empty() && order.is_empty() && tree.bounds() == Aabb::EMPTY);
+    assert_eq!(tree.validate(|_, _| Aabb::EMPTY), Ok(()));
+    assert_eq!(tree.stats().nodes, 0);
+    for n in 1..40 {
+        let boxes: Vec<_> = (0..n).map(|i| cube(f64::from(i * i), 0.0, 0.0, 1.0)).collect();
+        let tree = assert_valid(&boxes);
+        assert!(tree.bounds().encloses(&boxes[0]));
+    }
+}
+
+#[test]
+fn a_million_identical_boxes() {
+    let tree = assert_valid(&vec![cube(1.0, 2.0, 3.0, 0.5); 1_000_000]);
+    assert!(tree.stats().depth <= 8, "{:?}", tree.stats());
+}
+
+#[test]
+fn a_hundred_thousand_nested_boxes() {
+    // Each halves the last: the heuristic peels them off one by one until the numbers end.
+    let boxes: Vec<_> =
+        (0..100_000).map(|i| cube(0.0, 0.0, 0.0, 1.5_f64.powf_by_squaring(-(i % 1700)))).collect();
+    assert_valid(&boxes);
+}
+
+#[test]
+fn geometric_rows_do_not_grow_deep() {
+    // x = 2^i: a tree by area alone would be a list.
+    let boxes: Vec<_> = (-1000..1000)
+        .map(|i| {
+            let x = 2.0_f64.powf_by_squaring(i);
+            Aabb::new(Point3::new(x, x, x), Point3::new(1.5 * x, 1.5 * x, 1.5 * x))
+        })
+        .collect();
+    assert_valid(&boxes);
+}
+
+trait Power {
+    fn powf_by_squaring(self, n: i32) -> f64;
+}
+
+impl Power for f64 {
+    fn powf_by_squaring(self, n: i32) -> f64 {
+        let base = if n < 0 { 1.0 / self } else { self };
+        (0..n.abs()).fold(1.0, |x, _| x * base)
+    }
+}
+
+#[test]
+fn flat_straight_and_pointlike() {
+    let mut dice = Dice(5);
+    for flat in 1..8_u64 {
+        let boxes: Vec<_> = (0..5000)
+            .map(|_| {
+                let c = [0, 1, 2].map(|i| if flat >> i & 1 == 1 { 3.0 } else { dice.unit() });
+                let r = if flat == 7 { 0.0 } else { 0.01 * dice.unit() };
+                let half = [0, 1, 2].map(|i| if flat >> i & 1 == 1 { 0.0 } else { r });
+                Aabb::centred(Point3::from(c), Vec3::from(half))
+            })
+            .collect();
+        assert_valid(&boxes);
+    }
+}
+
+#[test]
+fn huge_and_tiny_extents() {
+    for size in [f64::MAX, 1e300, 1e-300, 1e-310, 5e-324] {
+        let boxes = [
+            Aabb::new(Point3::new(-size, -size, -size), Point3::ORIGIN),
+            Aabb::new(Point3::ORIGIN, Point3::new(size, size, size)),
+            Aabb::new(Point3::new(size, 0.0, 0.0), Point3::new(size, size, 0.0)),
+        ];
+        assert_valid(&boxes);
+    }
+}
+
+#[test]
+fn leaves_hold_one_kind() {
+    let mut dice = Dice(6);
+    for kinds in [1, 2, 3, 40] {
+        // All in few places, so that kinds must part where boxes do not.
+        let count = 4000;
+        let boxes: Vec<_> = (0..count).map(|_| cube(dice.below(9) as f64, 0.0, 0.0, 0.6)).collect();
+        let kind: Vec<_> = (0..count).map(|_| dice.below(kinds) as u32).collect();
+        let frame = Frame::around(&boxes.iter().copied().fold(Aabb::EMPTY, Aabb::union));
+        let entries = (0..count).map(|i| frame.entry(&boxes[i], kind[i], i as u32)).collect();
+        let (tree, order) = Bvh::build(&frame, entries, kinds as usize + 2, &Settings::GOOD);
+        tree.validate(|k, slot| {
+            let index = order[k as usize][slot as usize] as usize;
+            assert_eq!(kind[index], k);
+            boxes[index]
+        })
+        .unwrap_or_else(|e| panic!("{e}"));
+        let held: usize = order.iter().map(Vec::len).sum();
+        assert_eq!(held, count);
+    }
+}
+
+#[test]
+fn the_number_of_threads_does_not_matter() {
+    let mut dice = Dice(7);
+    let boxes: Vec<_> =
+        (0..120_000).map(|_| cube(dice.unit(), dice.unit(), dice.unit(), 0.02 * dice.unit())).collect();
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| tree(&boxes))
+    };
+    let one = on(1);
+    assert_valid(&boxes);
+    for threads in [2, 3, 8] {
+        assert!(on(threads) == one, "{threads} threads build another tree");
+    }
+}
+
+#[test]
+fn a_broken_tree_is_found_out() {
+    let boxes: Vec<_> = (0..100).map(|i| cube(f64::from(i), 0.0, 0.0, 0.4)).collect();
+    let (tree, order) = tree(&boxes);
+    // The walk notices a thing that is not where its leaf is.
+    let moved = |_: u32, slot: u32| {
+        let b = boxes[order[slot as usize] as usize];
+        if slot == 50 { Aabb::new(b.min, b.max + Vec3::Y) } else { b }
+    };
+    assert!(tree.validate(moved).is_err());
+}
+
+#[test]
+fn the_story_is_the_traversal() {
+    let mut dice = Dice(8);
+    let boxes: Vec<_> = (0..3000).map(|_| cube(dice.unit(), dice.unit(), dice.unit(), 0.03)).collect();
+    let (tree, _) = tree(&boxes);
+    for _ in 0..200 {
+        let line = durer_bvh::Line {
+            origin: Point3::new(dice.unit(), dice.unit(), -1.0),
+            direction: Vec3::new(dice.unit() - 0.5, dice.unit() - 0.5, 1.0),
+            origin_error: Vec3::ZERO,
+            direction_error: Vec3::ZERO,
+            t_min: 0.0,
+            t_max: f64::INFINITY,
+        };
+        let limit = |n: usize| if n > 3 { 1.5 } else { f64::INFINITY };
+        for isa in Isa::available().filter(|i| i.path() != durer_math::kernels::Path::Unfused) {
+            let mut walked = Vec::new();
+            tree.closest(isa, &line, |leaf| {
+                walked.push(leaf);
+                limit(walked.len())
+            });
+            let mut told = Vec::new();
+            tree.story(&line, |step| {
+                if let durer_bvh::Step::Leaf { leaf, .. } = step {
+                    told.push(*leaf);
+                }
+                limit(told.len())
+            });
+            assert_eq!(walked, told);
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! What the tests share: numbers, boxes, trees.
+
+use durer_bvh::{Bvh, Frame, Settings};
+use durer_math::Aabb;
+
+/// A sequence of numbers that look random (splitmix64).
+pub(crate) struct Dice(pub(crate) u64);
+
+impl Dice {
+    pub(crate) fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// One of `0..n`.
+    pub(crate) fn below(&mut self, n: u64) -> u64 {
+        self.next() % n
+    }
+
+    /// One of `-n..=n`.
+    #[allow(dead_code, reason = "not every test needs it")]
+    pub(crate) fn about(&mut self, n: i64) -> i64 {
+        self.below(2 * n as u64 + 1) as i64 - n
+    }
+
+    /// In `[0, 1)`.
+    #[allow(dead_code, reason = "not every test needs it")]
+    pub(crate) fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// A tree over boxes of one kind, and where each slot comes from.
+pub(crate) fn tree(boxes: &[Aabb]) -> (Bvh, Vec<u32>) {
+    let extent = boxes.iter().copied().fold(Aabb::EMPTY, Aabb::union);
+    let frame = Frame::around(&extent);
+    let entries = boxes.iter().enumerate().map(|(i, b)| frame.entry(b, 0, i as u32)).collect();
+    let (tree, mut order) = Bvh::build(&frame, entries, 1, &Settings::GOOD);
+    (tree, order.remove(0))
+}
