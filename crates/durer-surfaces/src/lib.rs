@@ -3,6 +3,7 @@
 
 pub mod annulus;
 pub mod axis_box;
+pub mod compose;
 pub mod disc;
 mod edges;
 mod facet;
@@ -21,10 +22,14 @@ mod roots;
 mod sink;
 pub mod sphere;
 mod surface;
+pub mod textbook;
 pub mod triangle;
 
 pub use crate::annulus::{Annulus, AnnulusError};
 pub use crate::axis_box::{AxisBox, AxisBoxError};
+pub use crate::compose::affine::Placed;
+pub use crate::compose::clip::{Algebraic, Clip, Region, RegionError};
+pub use crate::compose::inverse::Inverse;
 pub use crate::disc::{Disc, DiscError};
 pub use crate::local::{CentredRay, End, LocalPoint, LocalRay, RingRay};
 pub use crate::mesh::{FLAT, Mesh, MeshData, MeshError};
@@ -33,6 +38,7 @@ pub use crate::plane::{Plane, PlaneError};
 pub use crate::point::SurfacePoint;
 pub use crate::polygon::{FillRule, Polygon, PolygonError};
 pub use crate::quadric::general::{Quadric, QuadricError, QuadricKind};
+pub use crate::quadric::round::{CappedCylinder, Frustum, RoundError};
 pub use crate::quadric::solid::Body;
 pub use crate::sink::{All, Any, Closest, Flow, Sink};
 pub use crate::sphere::{Sphere, SphereError};

@@ -118,7 +118,7 @@ fn relative(p: Point3, err: Vec3, centre: Point3) -> (Vec3, Vec3) {
 
 /// A vector, known within `e`, through the inverse of an affine map's linear part; with a bound on the result's error.
 #[inline(always)]
-fn through_inverse(affine: &Affine, v: Vec3, e: Vec3) -> (Vec3, Vec3) {
+pub(crate) fn through_inverse(affine: &Affine, v: Vec3, e: Vec3) -> (Vec3, Vec3) {
     let (inverse, slack) = (affine.inverse_linear(), affine.inverse_error());
     let row = |i: usize| {
         let (m, s) = (Vec3::from(inverse[i]), Vec3::from(slack[i]));

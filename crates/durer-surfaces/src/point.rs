@@ -26,8 +26,11 @@ pub struct SurfacePoint {
     pub dndu: Vec3,
     /// Change of the normal with v.
     pub dndv: Vec3,
-    /// Bound on the curvature near the point: at a distance `r` the surface has left its tangent plane by at most `bend / 2 r^2`.
+    /// Bound on the curvature near the point: at a distance `r` the surface has left its tangent plane by at most `bend / 2 r^2`. Infinite
+    /// at a tip, which has no tangent plane; `off` then leaves the tip along `ng`, also from any point within `slack` of `p`.
     pub bend: f64,
+    /// See `bend`.
+    pub slack: f64,
     /// The primitive the point lies on; set by the geometry that holds it.
     pub source: Option<Source>,
 }
@@ -47,6 +50,7 @@ impl SurfacePoint {
             dndu: Vec3::ZERO,
             dndv: Vec3::ZERO,
             bend: 0.0,
+            slack: 0.0,
             source: None,
         }
     }

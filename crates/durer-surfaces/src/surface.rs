@@ -2,7 +2,7 @@
 
 use crate::{LocalPoint, LocalRay, Sink, SurfacePoint};
 use core::cmp::Ordering;
-use durer_math::Aabb;
+use durer_math::{Aabb, Affine};
 
 /// A surface, in its own frame. Its one question: *where does this ray meet you?*
 ///
@@ -10,6 +10,11 @@ use durer_math::Aabb;
 pub trait Surface: Send + Sync {
     /// A box that provably holds the surface (and, for a solid, its inside); [`Aabb::UNBOUNDED`] if there is none.
     fn bounds(&self) -> Aabb;
+
+    /// A box that provably holds the surface after `map` has moved it. A surface that can do better than the box of its box does.
+    fn bounds_through(&self, map: &Affine) -> Aabb {
+        map.bounds(&self.bounds())
+    }
 
     /// Pushes every crossing in the ray's closed range, once, ascending; the exact surface's crossings with the exact ray
     /// lie in the pushed brackets.

@@ -1,6 +1,6 @@
 //! Numbers and rays that look for trouble.
 
-use durer_math::scale::ldexp;
+use durer_math::scale::{exponent, ldexp};
 use durer_math::{Affine, Point3, Ray, Vec3};
 
 /// A counter-based generator (S. Vigna's SplitMix64): the same numbers everywhere.
@@ -134,7 +134,12 @@ impl Feature {
 ///
 /// `size` is the surface's size: origins lie 0 to `2^30` sizes away (sometimes `2^50`), directions are `2^-330` to `2^330` long.
 pub fn aim(dice: &mut Dice, features: &[Feature], size: f64) -> Ray {
-    let f = dice.pick(features);
+    let mut f = dice.pick(features);
+    if f.direction != Vec3::ZERO {
+        // As long as the surface is large, but for a power of two.
+        let k = exponent(size) - exponent(f.direction.max_abs());
+        f.direction = f.direction.map(|x| ldexp(x, k));
+    }
     let mut direction = match dice.below(8) {
         0..=2 if f.direction != Vec3::ZERO => f.direction,
         3 => dice.lattice(6) * size,

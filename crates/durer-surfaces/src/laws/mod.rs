@@ -10,7 +10,7 @@ pub use dice::{Dice, Feature, aim};
 pub use exact::{Crossing, Exact, ExactBody, ExactForm, Line, Oracle, Surd, exact3, near};
 
 use crate::{
-    All, Any, Closest, Kind, LocalPoint, LocalRay, Need, Root, Side, Solidity, Surface, SurfacePoint,
+    All, Any, Closest, Kind, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::{Ray, RaySide, U, Vec3};
@@ -26,10 +26,16 @@ macro_rules! ensure {
     };
 }
 
+/// One way in for all sinks: each surface's kernel is compiled once.
+#[inline(never)]
+fn send<S: Surface>(surface: &S, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+    surface.roots(ray, sink);
+}
+
 /// All roots of a surface.
 pub fn all_roots<S: Surface>(surface: &S, ray: &Ray) -> Vec<Root> {
     let mut sink = All::default();
-    surface.roots(&LocalRay::new(ray), &mut sink);
+    send(surface, &LocalRay::new(ray), &mut sink);
     sink.roots
 }
 
@@ -107,11 +113,13 @@ impl Tally {
     }
 }
 
-/// The width of a bracket, in ulp of `max(|t|, size / |d|)`.
+/// The width of a bracket, in ulp of `max(|t|, size / |d|)`. An unbounded surface is as large as the part of it that is looked at.
 pub fn width(oracle: &dyn Oracle, ray: &Ray, root: &Root) -> f64 {
     let k = durer_math::eft::exponent(ray.direction.max_abs());
     let length = ray.direction.map(|x| durer_math::scale::ldexp(x, -k)).length();
-    let unit = root.t.abs().max(durer_math::scale::ldexp(oracle.size() / length, -k));
+    let size =
+        if oracle.is_bounded() { oracle.size() } else { oracle.size() + ray.at(root.t).to_vec().length() };
+    let unit = root.t.abs().max(durer_math::scale::ldexp(size / length, -k));
     (root.hi - root.lo) / (unit.next_up() - unit)
 }
 
@@ -123,14 +131,20 @@ pub fn roots_are_the_exact_crossings<S: Surface>(
     source: Option<RaySide>,
 ) -> Result<Vec<Root>, Broken> {
     let mut sink = All::default();
-    surface.roots(&LocalRay::new(ray).from_side(source), &mut sink);
+    send(surface, &LocalRay::new(ray).from_side(source), &mut sink);
     let roots = sink.roots;
     let line = Line::new(ray);
     let inside = |t: &Surd| {
         (!ray.t_min.is_finite() || t.cmp_exact(&ray.t_min.into()).is_ge())
             && (!ray.t_max.is_finite() || t.cmp_exact(&ray.t_max.into()).is_le())
     };
-    let exact: Vec<Crossing> = oracle.crossings(&line).into_iter().filter(|c| inside(&c.t)).collect();
+    // A crossing beyond all numbers cannot be told.
+    let most = Exact::from(f64::MAX);
+    let exact: Vec<Crossing> = oracle
+        .crossings(&line)
+        .into_iter()
+        .filter(|c| inside(&c.t) && c.t.cmp_exact(&most).is_le() && c.t.cmp_exact(&-most.clone()).is_ge())
+        .collect();
     let told = || {
         let exact: Vec<_> = exact.iter().map(|c| (c.t.about(2200).to_f64(), c.sign, c.grazing)).collect();
         format!("\n  found {roots:?}\n  exact {exact:?}")
@@ -159,19 +173,20 @@ pub fn roots_are_the_exact_crossings<S: Surface>(
 /// P3: closest is the least of all, and any says whether there is one.
 pub fn closest_is_the_first_of_all<S: Surface>(surface: &S, ray: &Ray, roots: &[Root]) -> Result<(), Broken> {
     let (mut closest, mut any) = (Closest::default(), Any::default());
-    surface.roots(&LocalRay::new(ray), &mut closest);
-    surface.roots(&LocalRay::new(ray), &mut any);
+    send(surface, &LocalRay::new(ray), &mut closest);
+    send(surface, &LocalRay::new(ray), &mut any);
     let least = roots.iter().copied().min_by(Root::order);
     ensure!(closest.root == least, "closest {:?} is not the least {least:?}", closest.root);
     ensure!(any.hit != roots.is_empty(), "any says {}, all has {}", any.hit, roots.len());
     Ok(())
 }
 
-/// P8: a bracket is at most 64 ulp of `max(|t|, size / |d|)` wide.
+/// P8: a bracket is at most 96 ulp of `max(|t|, size / |d|)` wide: 48, where size over length is taken as a half though it may be 0.29, and
+/// what rounding `t` adds.
 pub fn brackets_are_narrow(oracle: &dyn Oracle, ray: &Ray, roots: &[Root]) -> Result<(), Broken> {
     for root in roots {
         let width = width(oracle, ray, root);
-        ensure!(width <= 64.0, "a bracket is {width} ulp wide: {root:?}");
+        ensure!(width <= 96.0, "a bracket is {width} ulp wide: {root:?}");
     }
     Ok(())
 }
@@ -225,16 +240,12 @@ pub fn points_are_within_their_bounds<S: Surface>(
     root: &Root,
 ) -> Result<(), Broken> {
     let line = Line::new(ray);
-    let Some(exact) = oracle
-        .crossings(&line)
-        .into_iter()
-        .find(|c| {
-            // Of two crossings closer than t can tell, the one that goes the root's way.
-            c.sign == root.sign
-                && c.t.cmp_exact(&root.lo.into()).is_ge()
-                && c.t.cmp_exact(&root.hi.into()).is_le()
-        })
-    else {
+    let Some(exact) = oracle.crossings(&line).into_iter().find(|c| {
+        // Of two crossings closer than t can tell, the one that goes the root's way.
+        c.sign == root.sign
+            && c.t.cmp_exact(&root.lo.into()).is_ge()
+            && c.t.cmp_exact(&root.hi.into()).is_le()
+    }) else {
         return Err("no crossing in the bracket".into());
     };
     let point = surface.resolve(&LocalRay::new(ray), root, Need::ALL);
@@ -261,6 +272,11 @@ pub fn points_are_within_their_bounds<S: Surface>(
             !outside(bounds.min[i], Ordering::Less) && !outside(bounds.max[i], Ordering::Greater),
             "the crossing is outside the bounds {bounds:?}: {point:?}"
         );
+    }
+    // A surface that bends within the spacing of the coordinates has no sides that they could tell.
+    let spacing = point.p.to_vec().max_abs() * durer_math::scale::ldexp(1.0, -50);
+    if point.bend.is_finite() && point.bend * spacing > 1.0 / 64.0 {
+        return normal_is_the_exact_one(oracle, root, &truth, &point);
     }
     for (side, expected) in [(RaySide::Front, Ordering::Greater), (RaySide::Back, Ordering::Less)] {
         let n = point.ng.to_vec();
@@ -312,7 +328,11 @@ fn is_well_formed(point: &SurfacePoint) -> Result<(), Broken> {
         let unit: Vec3 = v.map(|x| durer_math::scale::ldexp(x, -size));
         ensure!(v.is_finite(), "a tangent is not finite: {point:?}");
         // Tangents are for shading: half the digits. A tip has none.
-        ensure!(point.bend == f64::INFINITY || n.dot(unit).abs() < 1e-6, "a tangent is not tangent by {}: {point:?}", n.dot(unit));
+        ensure!(
+            point.bend == f64::INFINITY || n.dot(unit).abs() < 1e-6,
+            "a tangent is not tangent by {}: {point:?}",
+            n.dot(unit)
+        );
     }
     ensure!(point.dndu.is_finite() && point.dndv.is_finite(), "dn is not finite: {point:?}");
     Ok(())

@@ -45,6 +45,28 @@ pub struct Chart {
     pub dpdv: Vec3,
 }
 
+/// Two unit vectors across a unit vector, all three right-handed: T. Duff et al., "Building an orthonormal basis, revisited", *Journal of Computer
+/// Graphics Techniques* 6(1), 2017.
+pub(crate) fn tangents(n: Vec3) -> (Vec3, Vec3) {
+    let sign = 1.0_f64.copysign(n.z);
+    let a = -1.0 / (sign + n.z);
+    let b = n.x * n.y * a;
+    (Vec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), Vec3::new(b, sign + n.y * n.y * a, -n.y))
+}
+
+/// The tangent that `v` becomes if it is moved along `along` onto the plane across `n`: how a graph over directions changes.
+pub(crate) fn sheared(v: Vec3, along: Vec3, n: Vec3) -> Vec3 {
+    let flat = |w: Vec3| w - n * n.dot(w);
+    let w = flat(v - along * (n.dot(v) / n.dot(along)));
+    let size = v.max_abs();
+    // Seen edge-on there is no graph; then the part of v in the plane, and if there is none, any tangent.
+    if w.max_abs() <= 1e6 * size && w.max_abs() >= 1e-6 * size {
+        return flat(w);
+    }
+    let w = flat(v);
+    if w.max_abs() >= 1e-6 * size { flat(w) } else { tangents(n).0 * size.min(f64::MAX) }
+}
+
 /// What the author of a solid with quadric faces writes; everything else follows.
 pub trait Shape: Send + Sync {
     /// Centre, unit of length and reach.
@@ -67,9 +89,9 @@ pub trait Shape: Send + Sync {
     /// Coordinates on a face, at `y` (close to the face), where the unit normal is `n`.
     fn chart(&self, face: usize, y: Vec3, n: Vec3) -> Chart;
 
-    /// The outward normal where the gradient vanishes: the tip of a cone.
-    fn tip_normal(&self) -> Vec3 {
-        Vec3::Z
+    /// The normal at a point where the face's gradient vanishes (the tip of a cone), if there is one. The form must not vanish along it.
+    fn tip(&self, _face: usize) -> Option<Vec3> {
+        None
     }
 }
 
@@ -210,12 +232,12 @@ impl<S: Shape> View<'_, S> {
         let (exact, certain) = exact_ray(ray);
         let p = self.shape.form::<Dyadic>(face).along(&exact).at_unit_size();
         let disc = p.discriminant();
-        let exact = [Known::from(&p.a), (&p.b).into(), (&p.c).into(), (&disc).into()];
+        let exact = [Known::of_any_size(&p.a), (&p.b).into(), Known::of_any_size(&p.c), (&disc).into()];
         let [a, b, c, d] = if certain {
             exact
         } else {
             // Decisions by the rounded ray, enclosures by all rays it may stand for.
-            [0, 1, 2, 3].map(|i| Known { value: known[i].value, sign: exact[i].sign })
+            [0, 1, 2, 3].map(|i| Known { sign: exact[i].sign, ..known[i] })
         };
         (solve(a, b, c, d, 0.0, &limits).unwrap_or(none), certain)
     }
@@ -363,7 +385,8 @@ impl<S: Shape> View<'_, S> {
                 lo,
                 hi,
                 s: event.s,
-                tag: [0.0; 2],
+                // A rim that is only touched: what the face does there, for clips.
+                tag: [if event.sign == 0 { f64::from(sign_of(event.crossing)) } else { 0.0 }, 0.0],
                 face: event.face as u32,
                 sign: event.sign,
                 kind: event.kind,

@@ -8,7 +8,7 @@
 //! homogeneous form. Both matrices are symmetric, so all their eigenvalues are real, and Descartes' rule of signs on the
 //! characteristic polynomials counts them exactly; the signs of those polynomials' coefficients are computed in exact arithmetic.
 
-use crate::quadric::body::{Chart, Frame, Shape};
+use crate::quadric::body::{Chart, Frame, Shape, sheared};
 use crate::quadric::form::Form;
 use crate::quadric::solid::Body;
 use crate::roots::quadratic::exact_sign;
@@ -30,6 +30,8 @@ pub struct GeneralQuadric {
     coefficients: [f64; 10],
     kind: QuadricKind,
     frame: Frame,
+    /// The normal where the gradient vanishes.
+    tip: Vec3,
     /// The exponent of the power of two that makes the coefficients about one in the frame.
     gain: i32,
 }
@@ -84,8 +86,8 @@ impl Quadric {
             return Err(QuadricError::Constant);
         }
         let kind = classify(&coefficients);
-        let (frame, gain) = frame(&coefficients);
-        Ok(Self::of(GeneralQuadric { coefficients, kind, frame, gain }))
+        let (frame, gain, tip) = frame(&coefficients);
+        Ok(Self::of(GeneralQuadric { coefficients, kind, frame, tip, gain }))
     }
 
     /// The coefficients of `x² y² z² xy xz yz x y z 1`.
@@ -221,7 +223,7 @@ fn eigen(mut m: [[f64; 3]; 3]) -> ([f64; 3], [Vec3; 3]) {
 }
 
 /// A frame for rays to be re-centred to: the centre or vertex, and the surface's size there. Any numbers would be right; these are good.
-fn frame(k: &[f64; 10]) -> (Frame, i32) {
+fn frame(k: &[f64; 10]) -> (Frame, i32, Vec3) {
     let k_max = k.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     let unit = |x: f64| durer_math::eft::scale2(x, -exponent(k_max));
     let k = k.map(unit);
@@ -233,7 +235,7 @@ fn frame(k: &[f64; 10]) -> (Frame, i32) {
     let mut c = Vec3::ZERO;
     for (value, &v) in values.iter().zip(&vectors) {
         if value.abs() > 1e-12 * largest {
-            c = c - v * (b.dot(v) / value);
+            c -= v * (b.dot(v) / value);
         }
     }
     let qv = |v: Vec3| Vec3::new(Vec3::from(q[0]).dot(v), Vec3::from(q[1]).dot(v), Vec3::from(q[2]).dot(v));
@@ -243,7 +245,7 @@ fn frame(k: &[f64; 10]) -> (Frame, i32) {
     if largest > 0.0 {
         // A paraboloid's vertex: along the part of the gradient that Q cannot move.
         if g.length() > 1e-9 * b.length() {
-            c = c - g * (level / (2.0 * g.length_squared()));
+            c -= g * (level / (2.0 * g.length_squared()));
             size = 2.0 * g.length() / largest;
         } else {
             size = (level.abs() / largest).sqrt();
@@ -254,10 +256,15 @@ fn frame(k: &[f64; 10]) -> (Frame, i32) {
     let usable = |x: f64| x.is_finite() && x > 1e-140 && x < 1e140;
     let centre = if c.is_finite() && c.max_abs() < 1e140 { c.to_point() } else { Point3::ORIGIN };
     let scale = if usable(size) { exponent(size) } else { 0 };
-    (
-        Frame { centre, scale, reach: f64::INFINITY },
-        -exponent(k_max) - if largest > 0.0 { 2 * scale } else { scale },
-    )
+    let gain = -exponent(k_max) - if largest > 0.0 { 2 * scale } else { scale };
+    // The axis of a cone is where the sign is the odd one; elsewhere the form must not vanish along it, the more it changes the better.
+    let product = values[0] * values[1] * values[2];
+    let positive = values.iter().filter(|&&x| x > 0.0).count();
+    let tip = (0..3)
+        .filter(|&i| product == 0.0 || positive % 3 == 0 || (values[i] > 0.0) == (positive == 1))
+        .max_by(|&i, &j| values[i].abs().total_cmp(&values[j].abs()))
+        .map_or(Vec3::Z, |i| vectors[i]);
+    (Frame { centre, scale, reach: f64::INFINITY }, gain, tip * (1.0 / tip.length()))
 }
 
 impl Shape for GeneralQuadric {
@@ -288,16 +295,17 @@ impl Shape for GeneralQuadric {
         self.ellipsoid_bounds().unwrap_or(Aabb::UNBOUNDED)
     }
 
+    fn tip(&self, _: usize) -> Option<Vec3> {
+        use QuadricKind as K;
+        let singular = [K::Cone, K::Point, K::IntersectingPlanes, K::Line, K::CoincidentPlanes];
+        singular.contains(&self.kind).then_some(self.tip)
+    }
+
     /// Longitude and latitude as seen from the centre.
     fn chart(&self, _: usize, y: Vec3, n: Vec3) -> Chart {
         let Chart { uv, dpdu, dpdv } = sphere_chart(y);
-        // The tangents of the sphere through y, sheared along y onto the surface: y + (dy - y (n·dy)/(n·y)).
-        let along = n.dot(y);
-        let tangent = |v: Vec3| {
-            let sheared = v - y * (n.dot(v) / along);
-            if sheared.is_finite() { sheared } else { v - n * n.dot(v) }
-        };
-        Chart { uv, dpdu: tangent(dpdu), dpdv: tangent(dpdv) }
+        // The tangents of the sphere through y, moved along y onto the surface.
+        Chart { uv, dpdu: sheared(dpdu, y, n), dpdv: sheared(dpdv, y, n) }
     }
 }
 
@@ -329,5 +337,133 @@ impl GeneralQuadric {
         let bounds = Aabb::new(min.into(), max.into());
         let sane = min.iter().chain(&max).all(|x| x.is_finite());
         sane.then_some(bounds)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::{Dice, ExactBody, ExactForm, Feature, check_many};
+    use crate::{Placed, Surface};
+    use QuadricKind as K;
+
+    const NAMED: [([f64; 10], QuadricKind); 18] = [
+        ([1.0, 4.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -4.0], K::Ellipsoid),
+        ([1.0, 4.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 4.0], K::ImaginaryEllipsoid),
+        ([1.0, 4.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -4.0], K::HyperboloidOfOneSheet),
+        ([1.0, 4.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 4.0], K::HyperboloidOfTwoSheets),
+        ([1.0, 4.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], K::Cone),
+        ([1.0, 4.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], K::Point),
+        ([1.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0], K::EllipticParaboloid),
+        ([1.0, -4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 2.0], K::HyperbolicParaboloid),
+        ([1.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -4.0], K::EllipticCylinder),
+        ([1.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 4.0], K::ImaginaryCylinder),
+        ([1.0, -4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -4.0], K::HyperbolicCylinder),
+        ([1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0], K::ParabolicCylinder),
+        ([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], K::IntersectingPlanes),
+        ([1.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], K::Line),
+        ([1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -4.0], K::ParallelPlanes),
+        ([1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 4.0], K::ImaginaryPlanes),
+        ([1.0, 1.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], K::CoincidentPlanes),
+        ([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 2.0, -9.0], K::Plane),
+    ];
+
+    #[test]
+    fn each_kind_is_known_by_its_inertia_in_any_place() {
+        for (k, kind) in NAMED {
+            assert_eq!(Quadric::new(k).unwrap().kind(), kind);
+            assert_eq!(Quadric::new(k.map(|x| -x)).unwrap().kind(), kind);
+            let [a, b, c, d, e, f, g, h, i, j] = k;
+            // x -> z -> y -> x, and moved by (3, -2, 0): f(x - 3, y + 2, z).
+            assert_eq!(Quadric::new([b, c, a, f, d, e, h, i, g, j]).unwrap().kind(), kind);
+            let moved = [
+                a,
+                b,
+                c,
+                d,
+                e,
+                f,
+                g - 6.0 * a + 2.0 * d,
+                h + 4.0 * b - 3.0 * d,
+                i - 3.0 * e + 2.0 * f,
+                j + 9.0 * a + 4.0 * b - 6.0 * d - 3.0 * g + 2.0 * h,
+            ];
+            assert_eq!(Quadric::new(moved).unwrap().kind(), kind);
+        }
+    }
+
+    /// The vertices of a quadric in canonical place, and directions in which it is flat or asymptotic.
+    fn features() -> Vec<Feature> {
+        let mut out = vec![];
+        for p in [
+            [0.0, 0.0, 0.0],
+            [2.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 0.0, 2.0],
+            [-2.0, 0.0, 0.0],
+            [2.0, 1.0, 2.0],
+            [2.0, -1.0, -2.0],
+            [1.0, 4.0, 0.0],
+            [2.0, 0.0, 4.0],
+            [0.0, 0.0, -2.0],
+            [2.0, 1.0, 0.0],
+            [4.0, 0.0, 1.0],
+        ] {
+            for d in [
+                [0.0, 0.0, 1.0],
+                [1.0, 0.0, 1.0],
+                [0.0, 1.0, 2.0],
+                [2.0, 1.0, 0.0],
+                [0.0, 1.0, 0.0],
+                [1.0, 0.0, 0.0],
+                [2.0, -1.0, 4.0],
+            ] {
+                out.push(Feature::new(p, d));
+            }
+        }
+        out
+    }
+
+    #[test]
+    fn quadrics_obey_the_laws() {
+        let mut grazing = 0;
+        for (n, (k, kind)) in NAMED.into_iter().enumerate() {
+            for seed in 0..4 {
+                let mut dice = Dice::new(seed + 100 * n as u64);
+                let k = match seed {
+                    0 => k,
+                    1 => k.map(|x| -x),
+                    // A size far from one, along with the whole frame.
+                    2 => k.map(|x| x * dice.power(-3, 3) * 0.5),
+                    _ => k.map(|x| x + if x == 0.0 { 0.0 } else { dice.between(-0.25, 0.25) }),
+                };
+                let quadric = Quadric::new(k).unwrap();
+                let convex = kind == K::Ellipsoid && k[0] > 0.0;
+                let oracle = ExactBody::solid(vec![ExactForm::from_f64(k)], 1.0, convex);
+                let tally = check_many(&quadric, &oracle, &features(), seed + 100 * n as u64, 200);
+                grazing += tally.grazing;
+            }
+        }
+        assert!(grazing > 100, "only {grazing} tangents");
+    }
+
+    #[test]
+    fn placed_quadrics_obey_the_laws() {
+        for (n, (k, _)) in NAMED.into_iter().enumerate() {
+            for seed in 0..4 {
+                let map = Dice::new(seed + 10 * n as u64).map();
+                let quadric = Placed::new(Quadric::new(k).unwrap(), map);
+                let oracle = ExactBody::solid(vec![ExactForm::from_f64(k)], 1.0, false).placed(&map);
+                let features: Vec<_> = features().into_iter().map(|f| f.placed(&map)).collect();
+                check_many(&quadric, &oracle, &features, seed + 100 * n as u64, 100);
+            }
+        }
+    }
+
+    #[test]
+    fn an_ellipsoids_box_is_tight() {
+        let b = Quadric::new(NAMED[0].0).unwrap().bounds();
+        assert!(b.max.x >= 2.0 && b.max.x < 2.0 + 1e-14 && b.max.y >= 1.0 && b.max.y < 1.0 + 1e-14);
+        assert_eq!(Quadric::new(NAMED[2].0).unwrap().bounds(), Aabb::UNBOUNDED);
     }
 }

@@ -5,4 +5,5 @@
 pub mod body;
 pub mod form;
 pub mod general;
+pub mod round;
 pub mod solid;

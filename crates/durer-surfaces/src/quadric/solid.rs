@@ -4,7 +4,7 @@ use crate::quadric::body::{Frame, Shape, View, rounded};
 use crate::quadric::form::Rounded;
 use crate::{LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use durer_math::eft::{scale2, two_sum};
-use durer_math::{Aabb, Point3, U, Vec3};
+use durer_math::{Aabb, Dd, Point3, Ring, Run, U, Vec3};
 
 /// Pays for results below the normal range.
 const TINY: f64 = f64::from_bits(4);
@@ -76,12 +76,7 @@ impl<S: Shape> View<'_, S> {
         let y = Vec3::new(s.mul_add(at.d.x, at.o.x), s.mul_add(at.d.y, at.o.y), s.mul_add(at.d.z, at.o.z));
         let e_y = at.o_err + at.d_err * s.abs() + y.abs() * U;
 
-        let (f, half) = form.at(y, Vec3::ZERO);
-        let slope = half.dot(half);
-        let newton = if slope > 0.0 { f.v / (2.0 * slope) } else { 0.0 };
-        // Where the gradient all but vanishes a step may overshoot: not taken.
-        let y1 = y - half * newton;
-        let y1 = if newton.is_finite() && form.at(y1, Vec3::ZERO).0.v.abs() <= f.v.abs() { y1 } else { y };
+        let y1 = project(form, y);
 
         // The world's numbers; what their rounding loses is known exactly.
         let axis = |c: f64, y: f64| two_sum(c, scale2(y, scale));
@@ -91,14 +86,17 @@ impl<S: Shape> View<'_, S> {
         let p = Point3::new(px, py, pz);
         let lost = Vec3::new(lx, ly, lz).map(|l| scale2(l.abs(), -scale) + TINY);
 
-        let off = self.off(form, p, y1, lost);
+        let off = self.off(face, p, y1, lost);
         let (ng, gradient) = off.normal;
         let back = |x: f64| scale2(x, scale);
         let width = at.width(root.lo, root.hi);
         let dp = (e_y + at.d.abs() * width + (y1 - y).abs() * (1.0 + 4.0 * U) + lost) * (1.0 + 16.0 * U);
         let mut point =
             SurfacePoint::new(p, dp.map(|x| back(x) + TINY), back(off.distance) + TINY, ng.to_normal());
-        point.bend = scale2(form.bend / gradient, -scale);
+        (point.bend, point.slack) = match off.tip {
+            true => (f64::INFINITY, back(TIP_SLACK)),
+            false => (scale2(form.bend / gradient, -scale), 0.0),
+        };
         if need.contains(Need::UV) || need.contains(Need::DERIVATIVES) {
             let chart = self.shape.chart(face, y1, ng);
             point.uv = chart.uv;
@@ -123,31 +121,86 @@ impl<S: Shape> View<'_, S> {
     /// rounding adds away from the surface, has `|f| >= off |G| - h (off² + |τ|²) - η`; this is positive from
     /// `off = 2 η' / (|G| + √(|G|² - 4 h η'))` on, with `η' = η + h|τ|²`. `η` includes twice the error of an evaluation of `f`, so
     /// that a ray that starts there finds the sign of `f` in f64.
-    fn off(&self, form: &Rounded, p: Point3, y: Vec3, lost: Vec3) -> Off {
+    fn off(&self, face: usize, p: Point3, y: Vec3, lost: Vec3) -> Off {
+        let form = &self.forms[face];
         let (f, half) = form.at(y, y.abs() * U);
         let g = half * 2.0;
         let gradient = g.length();
         let h = form.bend;
         // Each coordinate moves at most 1.5 ulp, so 3 U, further than asked.
         let tau = scale2(p.to_vec().length(), -self.frame.scale) * (4.0 * U) + TINY;
-        let eta = f.v.abs() + 2.0 * f.e + g.abs().dot(lost) + h * lost.dot(lost);
-        let eta = (eta + h * tau * tau) * (1.0 + 32.0 * U);
-        let square = gradient * gradient - 4.0 * h * eta;
-        if square > 0.0 && gradient > 0.0 {
-            let distance = 2.0 * eta / (gradient + square.sqrt()) * (1.0 + 32.0 * U);
-            return Off { distance, normal: (g * (1.0 / gradient), gradient) };
+        let away = 2.0 * (g.abs().dot(lost) + h * (lost.dot(lost) + tau * tau));
+        let normal = (g * (1.0 / gradient), gradient);
+        let near_tip = gradient <= TIP * h;
+        let tip = if near_tip { self.shape.tip(face) } else { None };
+        if tip.is_none() {
+            let eta = f.v.abs() + 2.0 * f.e + away;
+            // Where f64 sees the face only dimly (a thin needle), f at the very numbers of p tells more.
+            let eta =
+                if 4.0 * h * eta < 1e-3 * gradient * gradient { eta } else { self.value_at(face, p) + away };
+            let square = gradient * gradient - 4.0 * h * eta;
+            if square > 0.0 {
+                let distance = 2.0 * eta / (gradient + square.sqrt()) * (1.0 + 64.0 * U);
+                return Off { distance, normal, tip: false };
+            }
+            if gradient > 0.0 && gradient.is_finite() {
+                let distance = (4.0 * eta / gradient).max((4.0 * eta / h).sqrt());
+                return Off { distance, normal, tip: false };
+            }
         }
-        // A tip: f grows with the square of the distance along the axis.
-        let n = self.shape.tip_normal();
-        let growth = n.dot(form.times(n)).abs();
-        let distance = if growth > 0.0 { (8.0 * eta / growth).sqrt() } else { eta.sqrt() };
-        Off { distance, normal: (n, gradient.max(h * distance)) }
+        // A tip: f changes with the square of the way a along the axis n, and for any displacement e with |e| <= ε
+        // |f(p + a n + e)| >= a² |n·Qn| - a (|G| + 2 ε |Qn|) - (η + ε |G| + ε² h / 2).
+        let n = tip.unwrap_or(Vec3::Z);
+        let qn = form.times(n);
+        let growth = n.dot(qn).abs().max(f64::MIN_POSITIVE);
+        let e = tau + lost.length() + TIP_SLACK;
+        let b = gradient + 2.0 * e * qn.length();
+        let c = f.v.abs() + 2.0 * f.e + away + e * gradient + 0.5 * e * e * h;
+        let distance = (b + (b * b + 4.0 * growth * c).sqrt()) / (2.0 * growth) * (1.0 + 32.0 * U);
+        Off { distance: distance.min(f64::MAX), normal: (n, gradient.max(TIP * h)), tip: true }
+    }
+
+    /// An upper bound of `|f|` at a point of the world.
+    #[cold]
+    fn value_at(&self, face: usize, p: Point3) -> f64 {
+        type N = Run<Dd>;
+        let Frame { centre, scale, .. } = self.frame;
+        let y = [0, 1, 2].map(|i| (N::exact(p[i]) - N::exact(centre[i])).scale2(-scale));
+        self.shape.form::<N>(face).at(&y, &N::exact(1.0)).magnitude()
     }
 }
+
+/// `y` moved onto the face by Newton's method along the gradient: one step, as a rule; more where the ray came from so far that `y` is off by
+/// more than the face's size.
+fn project(form: &Rounded, mut y: Vec3) -> Vec3 {
+    let (mut f, mut half) = form.at(y, Vec3::ZERO);
+    for _ in 0..64 {
+        let step = f.v / (2.0 * half.dot(half));
+        let next = y - half * step;
+        let (f1, half1) = form.at(next, Vec3::ZERO);
+        // Where the gradient all but vanishes a step may overshoot: not taken.
+        if !(step.is_finite() && f1.v.abs() < f.v.abs()) {
+            break;
+        }
+        let done = f1.v.abs() <= 4.0 * f1.e;
+        (y, f, half) = (next, f1, half1);
+        if done {
+            break;
+        }
+    }
+    y
+}
+
+/// Within this distance of a tip, in units, a point counts as the tip itself.
+const TIP: f64 = 1.0 / (1u64 << 26) as f64;
+/// How far, in units, a point may be moved about a tip.
+const TIP_SLACK: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// What [`View::off`] finds.
 struct Off {
     distance: f64,
     /// The unit normal and the length of the gradient.
     normal: (Vec3, f64),
+    /// Whether the gradient vanishes, or all but.
+    tip: bool,
 }

@@ -61,44 +61,53 @@ pub(crate) struct Limits {
     pub(crate) hi: f64,
     /// `t = 2^k (origin + s)`.
     pub(crate) origin: f64,
-    /// Whether a bracket wider than 32 ulp of `max(|t|, size / |d|)` should be refused.
+    /// Whether a bracket wider than about 32 ulp of `max(|t|, size / |d|)` should be refused.
     pub(crate) narrow: bool,
 }
 
 impl Limits {
-    /// 32 ulp of `max(|t|, size / |d|)`, in units of `s`: sizes are about 1 there, `|d|` is between 1 and 3.5, and an ulp is
-    /// at most `2 U` of its number.
+    /// 24 to 48 ulp of `max(|t|, size / |d|)`, in units of `s`: sizes are about 1 there, `|d|` is about 2, and `U |t|` is between half an ulp
+    /// and one. For unbounded surfaces the distance from their centre counts as a size.
     #[inline(always)]
     fn allows(&self, lo: f64, hi: f64, s: f64) -> bool {
-        !self.narrow || hi - lo <= 64.0 * U * (self.origin + s).abs().max(0.5)
+        !self.narrow || hi - lo <= 48.0 * U * (self.origin + s).abs().max(s.abs()).max(0.5)
     }
 }
 
-/// A number in its enclosure, and its sign if that is certain.
+/// The number `value 2^k` in its enclosure, and its sign if that is certain.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known {
     pub(crate) value: Run,
+    pub(crate) k: i32,
     pub(crate) sign: Option<Ordering>,
 }
 
 impl From<Run> for Known {
     #[inline(always)]
     fn from(value: Run) -> Self {
-        Self { value, sign: value.sign() }
+        Self { value, k: 0, sign: value.sign() }
     }
 }
 
 impl From<&Run<Dd>> for Known {
     fn from(x: &Run<Dd>) -> Self {
         let e = (x.v.lo.abs() + x.e) * (1.0 + 4.0 * U);
-        Self { value: Run::with_error(x.v.hi, e), sign: x.sign() }
+        Self { value: Run::with_error(x.v.hi, e), k: 0, sign: x.sign() }
     }
 }
 
 impl From<&Dyadic> for Known {
     fn from(x: &Dyadic) -> Self {
         let (lo, hi) = x.to_bounds();
-        Self { value: Run::with_error(x.to_f64(), hi - lo), sign: x.sign() }
+        Self { value: Run::with_error(x.to_f64(), hi - lo), k: 0, sign: x.sign() }
+    }
+}
+
+impl Known {
+    /// The number with an exponent of its own, so that no size is too large or too small.
+    pub(crate) fn of_any_size(x: &Dyadic) -> Self {
+        let k = x.exponent().and_then(|e| i32::try_from(e).ok()).unwrap_or(0);
+        Self { k, ..Self::from(&x.clone().scale2(-k)) }
     }
 }
 
@@ -158,7 +167,7 @@ impl Quadratic<Run> {
 
 /// The roots within the limits, or `None` if the numbers leave open what they are.
 ///
-/// `offset` is added to each root. `disc` may be known better than the coefficients would tell.
+/// `offset` is added to each root. `disc` may be known better than the coefficients would tell; it and `b` have the exponent 0.
 #[inline(always)]
 pub(crate) fn solve(
     a: Known,
@@ -181,7 +190,7 @@ pub(crate) fn solve(
                 // B is zero too: the quadratic is the constant C.
                 Equal => return Some(LineRoots { roots: [None; 2], outside: c.sign? == Greater }),
             };
-            let root = admit(-b.value / a.value, offset, crossing, limits)?;
+            let root = admit((-b.value / a.value).scale2(-a.k), offset, crossing, limits)?;
             Some(LineRoots { roots: [root, None], outside: false })
         }
         Greater => {
@@ -191,22 +200,21 @@ pub(crate) fn solve(
             // The slope is -sign(B) √disc at q / A, and the opposite at C / q.
             let (first, second) =
                 if falling { (Crossing::In, Crossing::Out) } else { (Crossing::Out, Crossing::In) };
-            // At unit size |q| is at most 8; a C too large for f64 means a root that is too large, too, and is dropped.
-            let near =
-                if c.value.v.is_infinite() { None } else { admit(c.value / q, offset, second, limits)? };
+            let near = admit((c.value / q).scale2(c.k), offset, second, limits)?;
             let far = match a.sign {
                 Some(Equal) => None,
                 _ => {
-                    let least = (q.v.abs() - q.e) / (a.value.v.abs() + a.value.e) * (1.0 - 8.0 * U);
+                    let least = if a.k != 0 {
+                        0.0
+                    } else {
+                        (q.v.abs() - q.e) / (a.value.v.abs() + a.value.e) * (1.0 - 8.0 * U)
+                    };
                     let reach = limits.hi.abs().max(limits.lo.abs());
                     if least - offset.abs() * (1.0 + 4.0 * U) > reach {
                         None
                     } else {
                         a.sign?;
-                        // An A too large for f64 means a root that is all but zero.
-                        let root =
-                            if a.value.v.is_infinite() { Run::with_error(0.0, 1e-280) } else { q / a.value };
-                        admit(root, offset, first, limits)?
+                        admit((q / a.value).scale2(-a.k), offset, first, limits)?
                     }
                 }
             };

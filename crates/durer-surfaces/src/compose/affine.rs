@@ -1,0 +1,175 @@
+//! A surface placed by an affine map.
+//!
+//! The exact surface is `{ c + L x : x in S }`, with the surface's own numbers and the map's stored ones. Rays go through the inverse, whose
+//! rounding is charged to every bracket; points come back through `L` itself.
+
+use crate::local::through_inverse;
+use crate::{LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use durer_math::{Aabb, Affine, U, Vec3};
+
+/// Pays for results below the normal range.
+const TINY: f64 = f64::from_bits(4);
+
+/// The surface `S` placed by an invertible affine map.
+#[derive(Clone, Debug)]
+pub struct Placed<S> {
+    surface: S,
+    map: Affine,
+}
+
+impl<S: Surface> Placed<S> {
+    /// `surface`, each of its points moved by `map`.
+    pub fn new(surface: S, map: Affine) -> Self {
+        Self { surface, map }
+    }
+
+    /// The surface in its own frame.
+    pub fn surface(&self) -> &S {
+        &self.surface
+    }
+
+    /// The map from the surface's frame.
+    pub fn map(&self) -> &Affine {
+        &self.map
+    }
+}
+
+impl<S: Surface> Surface for Placed<S> {
+    fn bounds(&self) -> Aabb {
+        self.surface.bounds_through(&self.map)
+    }
+
+    #[inline(always)]
+    fn roots<K: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut K) {
+        self.surface.roots(&ray.through(&self.map), sink);
+    }
+
+    fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
+        place(&self.map, &self.surface.resolve(&ray.through(&self.map), root, need))
+    }
+
+    fn solidity(&self) -> Solidity {
+        self.surface.solidity()
+    }
+
+    fn side(&self, point: &LocalPoint<'_>) -> Side {
+        self.surface.side(&point.through(&self.map))
+    }
+
+    fn parts(&self, f: &mut dyn FnMut(Aabb, PartId)) {
+        let mut n = 0;
+        self.surface.parts(&mut |_, _| n += 1);
+        if n == 1 {
+            // The surface's own bound is the tighter one.
+            self.surface.parts(&mut |_, id| f(self.bounds(), id));
+        } else {
+            self.surface.parts(&mut |b, id| f(self.map.bounds(&b), id));
+        }
+    }
+
+    #[inline(always)]
+    fn part_roots<K: Sink + ?Sized>(&self, part: PartId, ray: &LocalRay<'_>, sink: &mut K) {
+        self.surface.part_roots(part, &ray.through(&self.map), sink);
+    }
+}
+
+impl SurfacePoint {
+    /// The point as `map` places its surface, its bounds in the new frame.
+    #[must_use]
+    pub fn placed(&self, map: &Affine) -> Self {
+        place(map, self)
+    }
+}
+
+/// A point of the surface as the map places it, with its bounds.
+pub(crate) fn place(map: &Affine, local: &SurfacePoint) -> SurfacePoint {
+    let p_l = local.p.to_vec();
+    let p = map.centre() + map.vector(p_l);
+    // |p - (c + L p_l)|: three roundings of the products' sums and one of the last sum.
+    let rho = (map.linear_reach(p_l.abs()) * (3.0 * U) + p.to_vec().abs() * U) * (1.0 + 16.0 * U)
+        + Vec3::new(TINY, TINY, TINY);
+    let dp = (map.linear_reach(local.dp) + rho) * (1.0 + 4.0 * U);
+
+    if local.bend == f64::INFINITY {
+        return place_tip(map, local, SurfacePoint::new(p, dp, 0.0, local.ng), rho);
+    }
+    // Heights: a world displacement Δ changes the height over the local tangent plane by w·Δ, w = L⁻ᵀ n.
+    let n_l = local.ng.to_vec();
+    let (w, e_w) = covector(map, n_l);
+    let length = w.length();
+    let ng = w * (1.0 / length);
+    let reach = map.inverse_norm();
+    let bend = local.bend * reach * reach;
+    let (sure, slip) =
+        (length * (1.0 - 8.0 * U) - (e_w.x + e_w.y + e_w.z), 4.0 * U * p.to_vec().length() + TINY);
+    // What a start at this point costs when it goes through the inverse, so that its side is still seen in f64.
+    let offset = p - map.centre();
+    let (_, e_back) = through_inverse(map, offset, offset.abs() * U);
+    let stray = rho.length() + slip;
+    let eta = local.off
+        + w.abs().dot(rho)
+        + (e_w.x + e_w.y + e_w.z) * stray
+        + n_l.abs().dot(e_back) * 2.0
+        + bend * stray * stray;
+    let eta = eta * (1.0 + 32.0 * U);
+    // off |w| - bend |L⁻¹|² off² >= η, with |L⁻¹ Δ|² <= 2 |L⁻¹|² (off² + stray²).
+    let square = sure * sure - 4.0 * bend * eta;
+    let off = if sure > 0.0 && square > 0.0 {
+        2.0 * eta / (sure + square.sqrt())
+    } else {
+        // So near a tip that only distance helps.
+        (4.0 * eta / bend.max(f64::MIN_POSITIVE)).sqrt().max(4.0 * eta / length)
+    };
+    let off = off * (1.0 + 32.0 * U) + TINY;
+
+    let turned = |n: Vec3| {
+        let m = covector(map, n).0;
+        m * (1.0 / m.length())
+    };
+    let mut point = SurfacePoint::new(p, dp, off, ng.to_normal());
+    point.ns = if local.ns == local.ng { point.ng } else { turned(local.ns.to_vec()).to_normal() };
+    point.uv = local.uv;
+    point.bend = bend / sure.max(f64::MIN_POSITIVE);
+    point.dpdu = map.vector(local.dpdu);
+    point.dpdv = map.vector(local.dpdv);
+    let change = |dn: Vec3| {
+        let m = covector(map, dn).0;
+        (m - ng * ng.dot(m)) * (1.0 / length)
+    };
+    point.dndu = change(local.dndu);
+    point.dndv = change(local.dndv);
+    point
+}
+
+/// A tip: it has no tangent plane, so its normal goes along as a vector, and rays leave along it.
+fn place_tip(map: &Affine, local: &SurfacePoint, mut point: SurfacePoint, rho: Vec3) -> SurfacePoint {
+    let axis = map.vector(local.ng.to_vec());
+    let length = axis.length();
+    point.ng = (axis * (1.0 / length)).to_normal();
+    point.ns = point.ng;
+    // The start misses the one meant by rounding, in the world and of the axis; where that is more than the tip allows, the way is
+    // longer by as much: f grows with its square.
+    let reach = map.inverse_norm();
+    let stray = rho.length() + 4.0 * U * point.p.to_vec().length() + 16.0 * U * map.linear_norm() * local.off;
+    let factor = (reach * stray * (1.0 + 16.0 * U) / local.slack * 2.0).max(1.0);
+    point.off = local.off * length * factor * (1.0 + 32.0 * U) + TINY;
+    point.bend = f64::INFINITY;
+    point.slack = local.slack * factor / reach * 0.5;
+    point.uv = local.uv;
+    point.dpdu = map.vector(local.dpdu);
+    point.dpdv = map.vector(local.dpdv);
+    point
+}
+
+/// `L⁻ᵀ n` and a bound on its error.
+fn covector(map: &Affine, n: Vec3) -> (Vec3, Vec3) {
+    let (m, e) = (map.inverse_linear(), map.inverse_error());
+    let column = |i: usize| {
+        let (c, s) = (Vec3::new(m[0][i], m[1][i], m[2][i]), Vec3::new(e[0][i], e[1][i], e[2][i]));
+        // n itself is of unit length within 4 U.
+        let err = (c.abs() * (8.0 * U) + s).dot(n.abs()) * (1.0 + 16.0 * U);
+        (c.dot(n), err)
+    };
+    let ((x, ex), (y, ey), (z, ez)) = (column(0), column(1), column(2));
+    (Vec3::new(x, y, z), Vec3::new(ex, ey, ez))
+}

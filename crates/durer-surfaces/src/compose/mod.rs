@@ -1,0 +1,5 @@
+//! Surfaces made from surfaces.
+
+pub mod affine;
+pub mod clip;
+pub mod inverse;
