@@ -388,9 +388,10 @@ mod tests {
                 if dice.once_in(2) { dice.lattice(4).to_point() } else { dice.pick(&mesh.data.vertices) };
             let direction = dice.lattice(3);
             let back = dice.pick(&[7.0, 1000.0, 1048577.0]);
-            let ray = Ray::new(target - direction * back, direction).with_range(f64::NEG_INFINITY, f64::INFINITY);
+            let ray =
+                Ray::new(target - direction * back, direction).with_range(f64::NEG_INFINITY, f64::INFINITY);
             let roots = all_roots(&mesh, &ray);
-            assert!(roots.len() % 2 == 0, "{roots:?} for {ray:?}");
+            assert!(roots.len().is_multiple_of(2), "{roots:?} for {ray:?}");
             assert!(roots.len() <= 4, "a convex solid: {roots:?} for {ray:?}");
             // Entered and left in turn; a vertex at a silhouette is entered and left at one place.
             let turns: i32 = roots.iter().map(|r| i32::from(r.sign)).sum();

@@ -101,7 +101,7 @@ impl Spanned<'_> {
 
     /// The ray's origin relative to the corner.
     #[inline(always)]
-    fn from_corner<T: Ring>(&self, ray: &RingRay<T>) -> [T; 3] {
+    fn relative_origin<T: Ring>(&self, ray: &RingRay<T>) -> [T; 3] {
         let [x, y, z] = seen_from::<T>(self.sheet.corner, self.centre, self.scale).map(|x| x * ray.w.clone());
         let [a, b, c] = ray.o.clone();
         [a - x, b - y, c - z]
@@ -116,14 +116,14 @@ impl PlaneForm for Spanned<'_> {
 
     #[inline(always)]
     fn height<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
-        Some(dot(&self.normal(), &self.from_corner(ray)))
+        Some(dot(&self.normal(), &self.relative_origin(ray)))
     }
 }
 
 impl Ratios for Spanned<'_> {
     #[inline(always)]
     fn eval<T: Ring>(&self, ray: &RingRay<T>) -> [T; 3] {
-        let ([u, v], q) = (self.edges(), self.from_corner(ray));
+        let ([u, v], q) = (self.edges(), self.relative_origin(ray));
         [dot(&q, &cross(&v, &ray.d)), dot(&q, &cross(&ray.d, &u)), self.slope(ray) * ray.w.clone()]
     }
 }
