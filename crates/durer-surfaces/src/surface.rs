@@ -44,6 +44,7 @@ pub trait Surface: Send + Sync {
     }
 
     /// The crossings of one part; the union over all parts is what [`roots`](Surface::roots) pushes.
+    #[inline(always)]
     fn part_roots<S: Sink + ?Sized>(&self, _part: PartId, ray: &LocalRay<'_>, sink: &mut S)
     where
         Self: Sized,

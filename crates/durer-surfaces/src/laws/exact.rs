@@ -225,6 +225,7 @@ impl Poly {
     }
 
     /// Its distinct real roots, in no order.
+    #[inline(always)]
     fn roots(&self) -> Vec<Surd> {
         if self.a.sign().is_eq() {
             let b = self.b.clone().shifted(1);

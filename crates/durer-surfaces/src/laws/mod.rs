@@ -118,7 +118,7 @@ pub fn width(oracle: &dyn Oracle, ray: &Ray, root: &Root) -> f64 {
     let k = durer_math::eft::exponent(ray.direction.max_abs());
     let length = ray.direction.map(|x| durer_math::scale::ldexp(x, -k)).length();
     let size =
-        if oracle.is_bounded() { oracle.size() } else { oracle.size() + ray.at(root.t).to_vec().length() };
+        if oracle.is_bounded() { oracle.size() } else { oracle.size() + ray.at(root.t).to_vec().max_abs() };
     let unit = root.t.abs().max(durer_math::scale::ldexp(size / length, -k));
     (root.hi - root.lo) / (unit.next_up() - unit)
 }

@@ -39,6 +39,16 @@ impl<T: Ring> Form<T> {
         Self { q: self.q.map(|x| -x), b: self.b.map(|x| -x), c: -self.c }
     }
 
+    /// The same form seen from `p`: `f(y + p)`.
+    #[must_use]
+    pub fn seen_from(self, p: &[T; 3]) -> Self {
+        let c = self.at(p, &T::exact(1.0));
+        let qp = self.times(p);
+        let [x, y, z] = qp;
+        let [bx, by, bz] = self.b;
+        Self { q: self.q, b: [bx + x, by + y, bz + z], c }
+    }
+
     fn times(&self, v: &[T; 3]) -> [T; 3] {
         let [xx, yy, zz, xy, xz, yz] = &self.q;
         let row = |a: &T, b: &T, c: &T| {

@@ -2,8 +2,15 @@
 //!
 //! [`body`] holds the method, one for all; [`form`] the arithmetic of one quadric along one ray; each other file one surface.
 
+pub mod axial;
 pub mod body;
+pub mod cone;
+pub mod cylinder;
+pub mod ellipsoid;
 pub mod form;
 pub mod general;
+pub mod hyperboloid;
+pub mod paraboloid;
 pub mod round;
+pub mod sector;
 pub mod solid;
