@@ -1,1 +1,51 @@
-//! Under construction.
+//! Cameras, lights, textures, films and Whitted's recursive ray tracing.
+//!
+//! A [`World`] is a [`Scene`](durer_scene::Scene) made ready; [`render`] makes a [`Film`](film::Film) of it, which becomes a file.
+//!
+//! ```
+//! use durer_math::Point3;
+//! use durer_render::{Progress, RenderSettings, World, render};
+//! use durer_scene::{Camera, Colour, Finish, Light, Object, Pigment, Rgb, Scene, Shape, Texture};
+//!
+//! let red = Pigment::solid(Colour::opaque(Rgb::new(1.0, 0.0, 0.0)));
+//! let scene = Scene {
+//!     objects: vec![
+//!         Object::new(Shape::Sphere { centre: Point3::new(0.0, 0.0, 5.0), radius: 1.0 })
+//!             .with_texture(Texture::plain(red, Finish::default())),
+//!     ],
+//!     lights: vec![Light::point(Point3::new(0.0, 0.0, -100.0), Rgb::WHITE)],
+//!     camera: Some(Camera::default()),
+//!     ..Scene::default()
+//! };
+//! let world = World::new(&scene)?;
+//! let settings = RenderSettings { width: 5, height: 5, ..RenderSettings::default() };
+//! let film = render(&world, &settings, &Progress::none())?.film;
+//! let middle = film.light(2, 2).unwrap();
+//! assert!((middle[0] - 0.7).abs() < 1e-9 && middle[1] == 0.0); // ambient 0.1, diffuse 0.6
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Nothing here has an epsilon: secondary rays start where [`SurfacePoint`](durer_surfaces::SurfacePoint) proves that they leave the surface.
+#![forbid(unsafe_code)]
+
+pub mod camera;
+pub mod film;
+mod integrator;
+mod light;
+mod material;
+mod medium;
+mod power;
+mod progress;
+mod render;
+mod sampler;
+mod settings;
+mod stats;
+mod texture;
+mod vector;
+mod world;
+
+pub use crate::progress::{Progress, Status};
+pub use crate::render::{RenderError, Rendered, render};
+pub use crate::settings::{AntiAliasing, Region, RenderSettings};
+pub use crate::stats::RayCounts;
+pub use crate::world::{World, WorldError};

@@ -21,6 +21,25 @@ pub enum Pattern<T> {
     },
 }
 
+impl<T> Pattern<T> {
+    /// The entries, in the order written.
+    pub fn entries(&self) -> impl Iterator<Item = &T> {
+        let (cells, map) = match self {
+            Self::Cells { entries, .. } => (&entries[..], &[][..]),
+            Self::Map { entries, .. } => (&[][..], &entries[..]),
+        };
+        cells.iter().chain(map.iter().map(|(_, entry)| entry))
+    }
+
+    /// Whether there are fewer entries than kinds.
+    pub fn lacks_entries(&self) -> bool {
+        match self {
+            Self::Cells { cells, entries } => entries.len() < cells.kinds(),
+            Self::Map { entries, .. } => entries.is_empty(),
+        }
+    }
+}
+
 /// How space is cut into cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cells {

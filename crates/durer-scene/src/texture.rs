@@ -58,6 +58,22 @@ impl Texture {
         self.placement.then(map)
     }
 
+    /// Whether no light passes anywhere: where there are layers, it takes one that is opaque everywhere.
+    pub fn is_opaque(&self) -> bool {
+        match &self.body {
+            TextureBody::Layers(layers) => layers.iter().any(|l| l.pigment.is_opaque()),
+            TextureBody::Pattern(pattern) => pattern.entries().all(|t| t.is_opaque()),
+        }
+    }
+
+    /// Whether a pattern in it has fewer entries than kinds.
+    pub fn has_empty_pattern(&self) -> bool {
+        match &self.body {
+            TextureBody::Layers(layers) => layers.iter().any(|l| l.pigment.has_empty_pattern()),
+            TextureBody::Pattern(p) => p.lacks_entries() || p.entries().any(|t| t.has_empty_pattern()),
+        }
+    }
+
     /// Whether it looks the same everywhere, so that it need not be moved.
     pub fn is_uniform(&self) -> bool {
         match &self.body {
@@ -110,6 +126,25 @@ impl Pigment {
     /// Other pigments by a pattern.
     pub fn pigments(pattern: Pattern<Pigment>) -> Self {
         Self { body: PigmentBody::Pigments(Box::new(pattern)), placement: Placement::IDENTITY }
+    }
+
+    /// Whether no light passes anywhere.
+    pub fn is_opaque(&self) -> bool {
+        let opaque = |c: &Colour| c.filter == 0.0 && c.transmit == 0.0;
+        match &self.body {
+            PigmentBody::Solid(colour) => opaque(colour),
+            PigmentBody::Colours(pattern) => pattern.entries().all(opaque),
+            PigmentBody::Pigments(pattern) => pattern.entries().all(Self::is_opaque),
+        }
+    }
+
+    /// Whether a pattern in it has fewer entries than kinds.
+    fn has_empty_pattern(&self) -> bool {
+        match &self.body {
+            PigmentBody::Solid(_) => false,
+            PigmentBody::Colours(pattern) => pattern.lacks_entries(),
+            PigmentBody::Pigments(p) => p.lacks_entries() || p.entries().any(Self::has_empty_pattern),
+        }
     }
 
     /// Moves the pigment by `map`.

@@ -1,0 +1,113 @@
+//! Cameras: from a point of the picture to a ray.
+//!
+//! The picture is the square `[-1, 1] x [-1, 1]` of points `p = (px, py)`, with `px` to the right and `py` *down*: the middle of the
+//! pixel in column `x` and row `y` of an `X` by `Y` picture has `px = 2 (x + 0.5) / X - 1` and `py = 2 (y + 0.5) / Y - 1`, rows counted from the
+//! top. A camera has two screen vectors: `sx` from the middle of the picture to the middle of its right side, and `sy` to the middle of its
+//! *lower* side.
+
+mod orthographic;
+mod perspective;
+
+pub use self::orthographic::Orthographic;
+pub use self::perspective::Perspective;
+
+use durer_math::{Point3, Ray, Vec3};
+use durer_scene::Projection;
+
+/// Why a camera cannot be built.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum CameraError {
+    /// A coordinate is infinite or NaN.
+    #[error("camera: the {name} must be finite, got <{}, {}, {}>", .value[0], .value[1], .value[2])]
+    NotFinite {
+        /// Which vector.
+        name: &'static str,
+        /// Its coordinates.
+        value: [f64; 3],
+    },
+    /// A vector has no length.
+    #[error("camera: the {0} must not be zero")]
+    Zero(&'static str),
+}
+
+/// A camera of either kind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Camera {
+    /// All rays start at one point.
+    Perspective(Perspective),
+    /// All rays have one direction.
+    Orthographic(Orthographic),
+}
+
+impl Camera {
+    /// From the scene's camera: `f = direction`, `sx = right / 2`, `sy = -up / 2`.
+    pub fn new(camera: &durer_scene::Camera) -> Result<Self, CameraError> {
+        let (o, f) = (camera.location, camera.direction);
+        let (sx, sy) = (camera.right * 0.5, camera.up * -0.5);
+        Ok(match camera.projection {
+            Projection::Perspective => Self::Perspective(Perspective::new(o, f, sx, sy)?),
+            Projection::Orthographic => Self::Orthographic(Orthographic::new(o, f, sx, sy)?),
+        })
+    }
+
+    /// The ray through the point `(px, py)` of the picture.
+    #[inline]
+    pub fn ray(&self, px: f64, py: f64) -> Ray {
+        match self {
+            Self::Perspective(camera) => camera.ray(px, py),
+            Self::Orthographic(camera) => camera.ray(px, py),
+        }
+    }
+
+    /// The ray through the middle of the pixel in column `x` and row `y` of a picture of `width` by `height` pixels.
+    pub fn pixel(&self, x: u32, y: u32, width: u32, height: u32) -> Ray {
+        self.ray(on_picture(f64::from(x) + 0.5, width), on_picture(f64::from(y) + 0.5, height))
+    }
+}
+
+/// The coordinate in `[-1, 1]` of a place measured in pixels from the left or the top: `2 x / X - 1`.
+#[inline]
+pub fn on_picture(x: f64, size: u32) -> f64 {
+    2.0 * x / f64::from(size) - 1.0
+}
+
+fn check(origin: Point3, named: [(&'static str, Vec3); 3]) -> Result<(), CameraError> {
+    if !origin.is_finite() {
+        return Err(CameraError::NotFinite { name: "location", value: origin.to_array() });
+    }
+    for (name, v) in named {
+        if !v.is_finite() {
+            return Err(CameraError::NotFinite { name, value: v.to_array() });
+        }
+        if v == Vec3::ZERO {
+            return Err(CameraError::Zero(name));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_middles_of_pixels_are_on_the_picture() {
+        assert_eq!([0.5, 1.5, 2.5, 3.5].map(|x| on_picture(x, 4)), [-0.75, -0.25, 0.25, 0.75]);
+        assert_eq!(on_picture(0.5, 1), 0.0);
+    }
+
+    #[test]
+    fn the_first_pixel_is_at_the_top_left() {
+        let camera = Camera::new(&durer_scene::Camera::default()).unwrap();
+        let ray = camera.pixel(0, 0, 2, 2);
+        assert_eq!(ray.direction, Vec3::new(-1.33 / 4.0, 0.25, 1.0));
+    }
+
+    #[test]
+    fn a_bad_vector_is_named() {
+        let block = durer_scene::Camera { right: Vec3::ZERO, ..Default::default() };
+        assert_eq!(Camera::new(&block), Err(CameraError::Zero("right vector")));
+        let block = durer_scene::Camera { location: Point3::new(f64::NAN, 0.0, 0.0), ..Default::default() };
+        assert!(matches!(Camera::new(&block), Err(CameraError::NotFinite { name: "location", .. })));
+    }
+}

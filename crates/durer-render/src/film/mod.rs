@@ -1,0 +1,105 @@
+//! The film: what a picture is made of until it becomes a file.
+
+mod gamma;
+mod save;
+
+pub use self::gamma::Encoding;
+pub use self::save::{Bits, FileFormat, SaveError};
+
+use crate::settings::Region;
+use durer_scene::Rgb;
+
+/// A picture in the scene's own numbers, row 0 at the top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    width: u32,
+    height: u32,
+    encoding: Encoding,
+    pixels: Vec<Pixel>,
+}
+
+/// A pixel: colour in the scene's own numbers, not multiplied by the opacity.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pixel {
+    /// Its colour.
+    pub rgb: Rgb,
+    /// 1 for a pixel that was rendered, 0 for one that was not.
+    pub alpha: f64,
+}
+
+impl Film {
+    /// A film on which nothing is seen yet: every pixel is clear.
+    pub fn new(width: u32, height: u32, encoding: Encoding) -> Self {
+        let pixels = vec![Pixel::default(); width as usize * height as usize];
+        Self { width, height, encoding, pixels }
+    }
+
+    /// Columns.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Rows.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// How its numbers relate to light.
+    pub fn encoding(&self) -> Encoding {
+        self.encoding
+    }
+
+    /// All pixels, row by row from the top.
+    pub fn pixels(&self) -> &[Pixel] {
+        &self.pixels
+    }
+
+    /// The pixel in column `x` and row `y`; `None` outside the picture.
+    pub fn pixel(&self, x: u32, y: u32) -> Option<Pixel> {
+        (x < self.width).then(|| self.pixels.get(y as usize * self.width as usize + x as usize).copied())?
+    }
+
+    /// The colour of a pixel as light, red, green and blue: for measurements and linear files.
+    pub fn light(&self, x: u32, y: u32) -> Option<[f64; 3]> {
+        let rgb = self.pixel(x, y)?.rgb;
+        Some([rgb.r, rgb.g, rgb.b].map(|v| self.encoding.light(v)))
+    }
+
+    /// Whether every pixel was rendered.
+    pub fn is_complete(&self) -> bool {
+        self.pixels.iter().all(|p| p.alpha == 1.0)
+    }
+
+    /// Puts the pixels of `region`, row by row, into their places.
+    pub(crate) fn put(&mut self, region: Region, pixels: &[Rgb]) {
+        let columns = (region.x1 - region.x0) as usize;
+        for (row, from) in (region.y0..region.y1).zip(pixels.chunks_exact(columns)) {
+            let start = row as usize * self.width as usize + region.x0 as usize;
+            for (pixel, &rgb) in self.pixels[start..start + columns].iter_mut().zip(from) {
+                *pixel = Pixel { rgb, alpha: 1.0 };
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_land_where_they_belong() {
+        let mut film = Film::new(4, 3, Encoding::Linear);
+        let tile = Region { x0: 1, y0: 1, x1: 3, y1: 3 };
+        film.put(tile, &[1.0, 2.0, 3.0, 4.0].map(Rgb::grey));
+        let value = |x, y| film.pixel(x, y).map(|p| (p.rgb.r, p.alpha));
+        assert_eq!(
+            [value(0, 0), value(1, 1), value(2, 1)],
+            [Some((0.0, 0.0)), Some((1.0, 1.0)), Some((2.0, 1.0))]
+        );
+        assert_eq!(
+            [value(2, 2), value(3, 2), value(4, 0), value(0, 3)],
+            [Some((4.0, 1.0)), Some((0.0, 0.0)), None, None]
+        );
+        assert!(!film.is_complete());
+    }
+}

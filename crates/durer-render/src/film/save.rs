@@ -1,0 +1,234 @@
+//! Files: written beside the goal under another name, then renamed, so that a half-written picture never has the picture's name.
+
+use super::Film;
+use durer_scene::Rgb;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+/// The kinds of picture files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileFormat {
+    /// PNG: sRGB, with an alpha channel if any pixel is clear.
+    Png(Bits),
+    /// OpenEXR: light as 32-bit floats.
+    Exr,
+    /// Portable pixmap (binary): sRGB, clear pixels black.
+    Ppm(Bits),
+}
+
+/// The size of a channel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Bits {
+    /// 8 bits.
+    #[default]
+    Eight,
+    /// 16 bits.
+    Sixteen,
+}
+
+/// Why a picture could not be saved.
+#[derive(Debug, thiserror::Error)]
+pub enum SaveError {
+    /// The ending of the name names no format.
+    #[error("{}: the name of a picture must end in .png, .exr or .ppm", .0.display())]
+    Ending(PathBuf),
+    /// Writing failed.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What happened.
+        #[source]
+        source: io::Error,
+    },
+}
+
+impl FileFormat {
+    /// The format named by the ending of a file's name, in any case.
+    pub fn of(path: &Path, bits: Bits) -> Result<Self, SaveError> {
+        let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+        match ending.as_deref() {
+            Some("png") => Ok(Self::Png(bits)),
+            Some("exr") => Ok(Self::Exr),
+            Some("ppm") => Ok(Self::Ppm(bits)),
+            _ => Err(SaveError::Ending(path.to_owned())),
+        }
+    }
+}
+
+impl Film {
+    /// Writes the picture to `path`. What had that name is replaced at once, when the new file is complete; if anything fails it is left as it
+    /// was.
+    pub fn save(&self, path: &Path, format: FileFormat) -> Result<(), SaveError> {
+        let failed = |source| SaveError::Io { path: path.to_owned(), source };
+        let mut name = std::ffi::OsString::from(".");
+        name.push(path.file_name().ok_or_else(|| failed(io::ErrorKind::InvalidFilename.into()))?);
+        name.push(format!(".{}.part", std::process::id()));
+        let part = path.with_file_name(name);
+        let written = self.write(&part, format).and_then(|()| fs::rename(&part, path));
+        if written.is_err() {
+            // Nothing more can be done if this fails too; the first error is the one to tell.
+            let _ = fs::remove_file(&part);
+        }
+        written.map_err(failed)
+    }
+
+    fn write(&self, path: &Path, format: FileFormat) -> io::Result<()> {
+        let mut out = BufWriter::new(File::create(path)?);
+        match format {
+            FileFormat::Png(bits) => self.write_png(&mut out, bits)?,
+            FileFormat::Ppm(bits) => self.write_ppm(&mut out, bits)?,
+            FileFormat::Exr => self.write_exr(&mut out)?,
+        }
+        out.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
+    }
+
+    /// The channels as whole numbers of the given size, most significant byte first.
+    fn bytes(&self, bits: Bits, with_alpha: bool) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        for pixel in &self.pixels {
+            let Rgb { r, g, b } = pixel.rgb;
+            let [r, g, b] = [r, g, b].map(|v| self.encoding.file(v));
+            let channels = [r, g, b, pixel.alpha];
+            for v in &channels[..if with_alpha { 4 } else { 3 }] {
+                match bits {
+                    Bits::Eight => bytes.push((v * 255.0 + 0.5) as u8),
+                    Bits::Sixteen => bytes.extend(((v * 65535.0 + 0.5) as u16).to_be_bytes()),
+                }
+            }
+        }
+        bytes
+    }
+
+    /// Writes a PNG file.
+    pub fn write_png(&self, out: &mut impl Write, bits: Bits) -> io::Result<()> {
+        let with_alpha = !self.is_complete();
+        let mut encoder = png::Encoder::new(out, self.width, self.height);
+        encoder.set_color(if with_alpha { png::ColorType::Rgba } else { png::ColorType::Rgb });
+        encoder.set_depth(match bits {
+            Bits::Eight => png::BitDepth::Eight,
+            Bits::Sixteen => png::BitDepth::Sixteen,
+        });
+        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&self.bytes(bits, with_alpha))?;
+        Ok(writer.finish()?)
+    }
+
+    /// Writes a binary PPM file.
+    pub fn write_ppm(&self, out: &mut impl Write, bits: Bits) -> io::Result<()> {
+        let most = match bits {
+            Bits::Eight => 255,
+            Bits::Sixteen => 65535,
+        };
+        write!(out, "P6\n{} {}\n{most}\n", self.width, self.height)?;
+        out.write_all(&self.bytes(bits, false))
+    }
+
+    fn write_exr(&self, out: &mut BufWriter<File>) -> io::Result<()> {
+        use exr::prelude::{Image, SpecificChannels, WritableImage};
+        let size = (self.width as usize, self.height as usize);
+        let at = |p: exr::math::Vec2<usize>| {
+            let pixel = self.pixels[p.y() * self.width as usize + p.x()];
+            let Rgb { r, g, b } = pixel.rgb;
+            ([r, g, b].map(|v| self.encoding.light(v) as f32), pixel.alpha as f32)
+        };
+        let written = if self.is_complete() {
+            let channels = SpecificChannels::rgb(|p| {
+                let ([r, g, b], _) = at(p);
+                (r, g, b)
+            });
+            Image::from_channels(size, channels).write().to_buffered(&mut *out)
+        } else {
+            let channels = SpecificChannels::rgba(|p| {
+                // The format's colours are multiplied by the opacity.
+                let ([r, g, b], a) = at(p);
+                (r * a, g * a, b * a, a)
+            });
+            Image::from_channels(size, channels).write().to_buffered(&mut *out)
+        };
+        written.map_err(|e| match e {
+            exr::error::Error::Io(e) => e,
+            other => io::Error::other(other),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::Encoding;
+    use crate::settings::Region;
+
+    fn film() -> Film {
+        let mut film = Film::new(2, 1, Encoding::Srgb);
+        film.put(Region { x0: 0, y0: 0, x1: 2, y1: 1 }, &[Rgb::new(1.0, 0.5, 0.0), Rgb::grey(0.25)]);
+        film
+    }
+
+    fn folder(name: &str) -> PathBuf {
+        let folder = std::env::temp_dir().join(format!("durer-film-{}-{name}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        folder
+    }
+
+    #[test]
+    fn a_ppm_is_what_it_says() {
+        let mut bytes = Vec::new();
+        film().write_ppm(&mut bytes, Bits::Eight).unwrap();
+        assert_eq!(bytes, b"P6\n2 1\n255\n\xff\x80\x00\x40\x40\x40");
+        bytes.clear();
+        film().write_ppm(&mut bytes, Bits::Sixteen).unwrap();
+        assert_eq!(&bytes[..], b"P6\n2 1\n65535\n\xff\xff\x80\x00\x00\x00\x40\x00\x40\x00\x40\x00");
+    }
+
+    #[test]
+    fn a_png_reads_back() {
+        for (bits, film, want) in [
+            (Bits::Eight, film(), &b"\xff\x80\x00\x40\x40\x40"[..]),
+            (Bits::Eight, Film::new(1, 1, Encoding::Srgb), &b"\0\0\0\0"[..]),
+            (Bits::Sixteen, film(), &b"\xff\xff\x80\x00\x00\x00\x40\x00\x40\x00\x40\x00"[..]),
+        ] {
+            let mut bytes = Vec::new();
+            film.write_png(&mut bytes, bits).unwrap();
+            let mut reader = png::Decoder::new(io::Cursor::new(bytes)).read_info().unwrap();
+            let mut image = vec![0; reader.output_buffer_size().unwrap()];
+            let frame = reader.next_frame(&mut image).unwrap();
+            assert_eq!(&image[..frame.buffer_size()], want);
+        }
+    }
+
+    #[test]
+    fn an_exr_holds_light() {
+        let folder = folder("exr");
+        let path = folder.join("a.exr");
+        film().save(&path, FileFormat::Exr).unwrap();
+        let image = exr::prelude::read_first_flat_layer_from_file(&path).unwrap();
+        let red = image.layer_data.channel_data.list.iter().find(|c| c.name.eq("R")).unwrap();
+        let values: Vec<f32> = red.sample_data.values_as_f32().collect();
+        assert_eq!(values[0], 1.0);
+        assert!((f64::from(values[1]) - Encoding::Srgb.light(0.25)).abs() < 1e-7);
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn nothing_but_the_picture_is_left() {
+        let folder = folder("left");
+        film().save(&folder.join("a.png"), FileFormat::Png(Bits::Eight)).unwrap();
+        let missing = folder.join("no such folder").join("b.png");
+        assert!(matches!(film().save(&missing, FileFormat::Png(Bits::Eight)), Err(SaveError::Io { .. })));
+        let names: Vec<_> = fs::read_dir(&folder).unwrap().map(|e| e.unwrap().file_name()).collect();
+        assert_eq!(names, ["a.png"]);
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn endings_name_formats() {
+        let of = |name: &str| FileFormat::of(Path::new(name), Bits::Eight);
+        assert_eq!(of("a.PNG").unwrap(), FileFormat::Png(Bits::Eight));
+        assert_eq!(of("b/c.exr").unwrap(), FileFormat::Exr);
+        assert!(matches!(of("a.jpg"), Err(SaveError::Ending(_))));
+        assert!(matches!(of("png"), Err(SaveError::Ending(_))));
+    }
+}

@@ -1,0 +1,6 @@
+//! Integrators: how much light comes along a ray.
+
+mod shadow;
+mod whitted;
+
+pub(crate) use self::whitted::Whitted;

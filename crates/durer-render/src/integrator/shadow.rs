@@ -1,0 +1,55 @@
+//! Shadow rays: what is left of a light on its way to a point.
+
+use super::whitted::{Crossing, Node, Whitted};
+use crate::vector::{dot_n, length};
+use durer_math::{Point3, Ray};
+use durer_scene::{Rgb, mask};
+use durer_surfaces::{Need, SurfacePoint};
+
+impl Whitted<'_> {
+    /// The part of the light at `target` that arrives at `point`: none behind anything opaque, else what all clear surfaces on the way let pass, not
+    /// bent. Light fades in a medium when it leaves it.
+    pub(super) fn through(&mut self, point: &SurfacePoint, target: Point3, node: &Node) -> Rgb {
+        let world = self.world;
+        let ray = point.spawn_to(target);
+        self.counts.shadow += 1;
+        if world.geometry().any_masked(&ray, mask::SHADOW) {
+            return Rgb::BLACK;
+        }
+        if world.has_clear_shadows { self.through_clear(&ray, target, node) } else { Rgb::WHITE }
+    }
+
+    fn through_clear(&mut self, first: &Ray, target: Point3, node: &Node) -> Rgb {
+        let world = self.world;
+        let start = self.media.len();
+        self.media.extend_from_within(node.media.clone());
+        let mut ray = *first;
+        let mut left = Rgb::WHITE;
+        while let Some(hit) = world.geometry().closest_masked(&ray, mask::CLEAR_SHADOW) {
+            let point = world.geometry().resolve_with(&ray, &hit, Need::POINT);
+            let look = world.look_of(hit.object, hit.primitive);
+            left = left * world.paints[look.paint as usize].passed(point.p);
+            if left.is_black() {
+                break;
+            }
+            let speed = length(ray.direction);
+            let medium = &world.media[look.medium as usize];
+            match Crossing::new(&self.media[start..], look.medium, hit.sign == 0) {
+                Crossing::Enter => self.media.push(look.medium),
+                Crossing::Leave { at } => {
+                    left = left * medium.left_after(hit.t * speed);
+                    self.media.remove(start + at);
+                }
+                Crossing::Touch => {}
+            }
+            if let Some(power) = medium.caustics {
+                let cosine = dot_n(point.ng, ray.direction).abs() / speed;
+                left = left * (1.0 + power.of(cosine));
+            }
+            ray = point.spawn_to(target);
+            self.counts.shadow += 1;
+        }
+        self.media.truncate(start);
+        left
+    }
+}

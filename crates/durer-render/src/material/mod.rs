@@ -1,0 +1,8 @@
+//! How surfaces answer to light: finishes, metals, mirrors.
+
+mod finish;
+mod fresnel;
+mod metal;
+
+pub(crate) use self::finish::{Finish, Incidence, Mirror};
+pub(crate) use self::fresnel::{reflectance, refract};

@@ -1,0 +1,57 @@
+//! Powers with a fixed exponent, cheap where the exponent is.
+
+use durer_math::elementary;
+
+/// `x -> x^e` for `x >= 0` and one `e`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Power {
+    /// 1
+    Zero,
+    /// x
+    One,
+    /// By repeated squaring.
+    Whole(i32),
+    /// All others.
+    Real(f64),
+}
+
+impl Power {
+    pub(crate) fn new(exponent: f64) -> Self {
+        // From here on the logarithm is as cheap as the squarings, and more exact.
+        const MOST: f64 = 4096.0;
+        if exponent == 0.0 {
+            Self::Zero
+        } else if exponent == 1.0 {
+            Self::One
+        } else if exponent > 0.0 && exponent <= MOST && exponent == crate::vector::floor(exponent) {
+            Self::Whole(exponent as i32)
+        } else {
+            Self::Real(exponent)
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn of(self, x: f64) -> f64 {
+        match self {
+            Self::Zero => 1.0,
+            Self::One => x,
+            Self::Whole(n) => elementary::powi(x, n),
+            Self::Real(e) => elementary::pow(x, e),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_ways_agree() {
+        for e in [0.0, 1.0, 2.0, 7.0, 40.0, 1000.0, 4096.0, 4097.0, 0.5, 2.5, -1.0] {
+            for x in [0.25, 0.99, 0.999_9, 1.0] {
+                let want = elementary::pow(x, e);
+                assert!((Power::new(e).of(x) - want).abs() <= 1e-12 * want, "{x}^{e}");
+            }
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! What a picture shall be like.
+
+/// What a picture shall be like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RenderSettings {
+    /// Columns; at least 1.
+    pub width: u32,
+    /// Rows; at least 1.
+    pub height: u32,
+    /// How rays are spread over pixels.
+    pub anti_aliasing: AntiAliasing,
+    /// The part to be rendered; all of it if absent.
+    pub region: Option<Region>,
+    /// How many threads work; as many as there are processors (or as the surrounding pool has) if absent. The picture does not depend on it.
+    pub threads: Option<usize>,
+}
+
+impl Default for RenderSettings {
+    fn default() -> Self {
+        Self { width: 800, height: 600, anti_aliasing: AntiAliasing::Off, region: None, threads: None }
+    }
+}
+
+/// Pixels with `x0 <= x < x1` and `y0 <= y < y1`, from the top left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Region {
+    /// The first column.
+    pub x0: u32,
+    /// The first row.
+    pub y0: u32,
+    /// The column after the last.
+    pub x1: u32,
+    /// The row after the last.
+    pub y1: u32,
+}
+
+impl Region {
+    /// The part of this region that lies in a picture; perhaps empty.
+    #[must_use]
+    pub fn within(self, width: u32, height: u32) -> Self {
+        let (x1, y1) = (self.x1.min(width), self.y1.min(height));
+        Self { x0: self.x0.min(x1), y0: self.y0.min(y1), x1, y1 }
+    }
+
+    /// How many pixels it has.
+    pub fn pixels(self) -> u64 {
+        u64::from(self.x1.saturating_sub(self.x0)) * u64::from(self.y1.saturating_sub(self.y0))
+    }
+}
+
+/// How rays are spread over pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AntiAliasing {
+    /// One ray through the middle of each pixel.
+    Off,
+    /// `depth x depth` more rays for pixels that differ from their left or upper neighbour.
+    Method1 {
+        /// How much they must differ: the sum of the differences of all channels as a screen of gamma 2.5 shows them.
+        threshold: f64,
+        /// Rays per pixel along each axis.
+        depth: u32,
+    },
+    /// Pixels are cut into four where their corners differ, again and again.
+    Method2 {
+        /// How much they must differ, as for `Method1`.
+        threshold: f64,
+        /// How often they may be cut.
+        depth: u32,
+    },
+    /// `n x n` rays for every pixel, evenly spread.
+    Grid(
+        /// Rays per pixel along each axis.
+        u32,
+    ),
+}
+
+impl AntiAliasing {
+    /// The usual threshold of both methods.
+    pub const THRESHOLD: f64 = 0.3;
+    /// The usual depth of both methods.
+    pub const DEPTH: u32 = 3;
+    /// The greatest depth: 512 rays along a pixel's side are beyond every use.
+    pub const MAX_DEPTH: u32 = 9;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regions_are_cut_to_the_picture() {
+        let region = Region { x0: 5, y0: 2, x1: 50, y1: 4 };
+        assert_eq!(region.within(10, 10), Region { x0: 5, y0: 2, x1: 10, y1: 4 });
+        assert_eq!(region.within(10, 10).pixels(), 10);
+        assert_eq!(region.within(3, 3).pixels(), 0);
+    }
+}

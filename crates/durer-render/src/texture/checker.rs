@@ -1,0 +1,31 @@
+//! Unit cubes in two colours, like a chess board in space.
+
+use super::cells::cell;
+use durer_math::Point3;
+
+/// 0 where the cube's coordinates have an even sum, else 1.
+#[inline(always)]
+pub(super) fn kind(p: Point3) -> usize {
+    let sum = cell(p.x) + cell(p.y) + cell(p.z);
+    // Half of an odd number is not whole; cubes far beyond 2^53 have only even numbers.
+    usize::from(sum * 0.5 != crate::vector::floor(sum * 0.5))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbours_differ() {
+        let at = |x, y, z| kind(Point3::new(x, y, z));
+        assert_eq!(at(0.5, 0.5, 0.5), 0);
+        assert_eq!([at(1.5, 0.5, 0.5), at(0.5, -0.5, 0.5), at(-0.5, -0.5, -0.5)], [1, 1, 1]);
+        assert_eq!(at(1.5, 1.5, 0.5), 0);
+    }
+
+    #[test]
+    fn a_border_belongs_to_the_upper_cell_and_a_little_more() {
+        let at = |y| kind(Point3::new(0.5, y, 0.5));
+        assert_eq!([at(0.0), at(-1e-11), at(-1e-9)], [0, 0, 1]);
+    }
+}

@@ -1,0 +1,91 @@
+//! Ramps that begin anew with each unit, and the number they look up.
+
+use super::wave::Shape;
+use crate::vector::{dot, unit};
+use durer_math::{Point3, Vec3};
+use durer_scene::{Ramp, Value};
+
+/// A number at each point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Lookup {
+    axis: Vec3,
+    frequency: f64,
+    phase: f64,
+    shape: Shape,
+}
+
+/// Waves begin anew not at 1 but a little later, so that 1 itself is still the end: a fact of the scene language.
+const PERIOD: f64 = 1.000_01;
+
+impl Lookup {
+    pub(super) fn new(value: &Value) -> Self {
+        let Ramp::Gradient(axis) = value.ramp;
+        // The language keeps these two in single precision.
+        let single = |v: f64| f64::from(v as f32);
+        Self {
+            axis: unit(axis),
+            frequency: single(value.frequency),
+            phase: single(value.phase),
+            shape: Shape::new(value.wave),
+        }
+    }
+
+    /// The number at a point.
+    #[inline]
+    pub(super) fn value(&self, p: Point3) -> f64 {
+        let along = dot(self.axis, p.to_vec());
+        let ramp = if along > 1.0 { along - crate::vector::floor(along) } else { along };
+        if self.frequency == 0.0 {
+            return ramp;
+        }
+        let x = ramp * self.frequency + self.phase;
+        let w = if x.abs() < PERIOD { x } else { x % PERIOD };
+        self.shape.bend(if w < 0.0 { w + 1.0 } else { w })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use durer_scene::Wave;
+
+    fn gradient(frequency: f64, phase: f64) -> impl Fn(f64) -> f64 {
+        let value =
+            Value { ramp: Ramp::Gradient(Vec3::new(0.0, 2.0, 0.0)), frequency, phase, wave: Wave::Ramp };
+        let lookup = Lookup::new(&value);
+        move |y| lookup.value(Point3::new(3.0, y, 4.0))
+    }
+
+    fn close(a: f64, b: f64) -> bool {
+        (a - b).abs() < 1e-12
+    }
+
+    #[test]
+    fn the_ramp_begins_anew_with_each_unit() {
+        let at = gradient(1.0, 0.0);
+        for (y, want) in [
+            (0.0, 0.0),
+            (0.25, 0.25),
+            (1.25, 0.25),
+            (1.0, 1.0),
+            (2.0, 0.0),
+            (-0.25, 0.75),
+            (-1.0, 0.0),
+            (-1.25, 0.75001),
+            (-2.0, 1e-5),
+            (-7.5, 0.50007),
+            (-1e-6, 0.999_999),
+        ] {
+            assert!(close(at(y), want), "{y}: {} instead of {want}", at(y));
+        }
+    }
+
+    #[test]
+    fn frequency_and_phase_change_the_wave() {
+        assert!(close(gradient(2.0, 0.0)(1.0), 0.999_99));
+        assert!(close(gradient(2.0, 0.0)(0.5), 1.0));
+        assert!(close(gradient(-1.0, 0.0)(0.25), 0.75));
+        assert!(close(gradient(1.0, 0.5)(0.25), 0.75));
+        assert!(close(gradient(0.0, 0.5)(0.25), 0.25));
+    }
+}

@@ -1,0 +1,37 @@
+//! From the world into a texture's space.
+
+use durer_math::{Affine, Point3, Vec3};
+
+/// The inverse of a placement, for shading.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Place {
+    Identity,
+    Moved(Vec3),
+    /// Rows of the inverse, and the centre.
+    Mapped(Box<([[f64; 3]; 3], Point3)>),
+}
+
+impl Place {
+    pub(crate) fn new(map: &Affine) -> Self {
+        match map.as_translation() {
+            Some(v) if v == Vec3::ZERO => Self::Identity,
+            Some(v) => Self::Moved(v),
+            None => Self::Mapped(Box::new((map.inverse_linear(), map.centre()))),
+        }
+    }
+
+    /// The point of the texture's space that stands at `p`.
+    #[inline(always)]
+    pub(crate) fn inside(&self, p: Point3) -> Point3 {
+        match self {
+            Self::Identity => p,
+            Self::Moved(v) => p - *v,
+            Self::Mapped(map) => {
+                let (rows, centre) = &**map;
+                let v = p - *centre;
+                let row = |r: &[f64; 3]| r[0] * v.x + r[1] * v.y + r[2] * v.z;
+                Point3::new(row(&rows[0]), row(&rows[1]), row(&rows[2]))
+            }
+        }
+    }
+}

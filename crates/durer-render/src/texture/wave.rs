@@ -1,0 +1,57 @@
+//! The forms into which a number from 0 to 1 is bent.
+
+use crate::power::Power;
+use core::f64::consts::{PI, TAU};
+use durer_math::elementary;
+use durer_scene::Wave;
+
+/// A [`Wave`] with its constants worked out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Shape {
+    Ramp,
+    Triangle,
+    Sine,
+    Scallop,
+    Cubic,
+    Poly(Power),
+}
+
+impl Shape {
+    pub(super) fn new(wave: Wave) -> Self {
+        match wave {
+            Wave::Ramp => Self::Ramp,
+            Wave::Triangle => Self::Triangle,
+            Wave::Sine => Self::Sine,
+            Wave::Scallop => Self::Scallop,
+            Wave::Cubic => Self::Cubic,
+            Wave::Poly(exponent) => Self::Poly(Power::new(exponent)),
+        }
+    }
+
+    #[inline]
+    pub(super) fn bend(self, w: f64) -> f64 {
+        match self {
+            Self::Ramp => w,
+            Self::Triangle => 2.0 * if w < 0.5 { w } else { 1.0 - w },
+            Self::Sine => (1.0 + elementary::sin(TAU * w)) * 0.5,
+            Self::Scallop => elementary::sin(PI * w).abs(),
+            Self::Cubic => w * w * (3.0 - 2.0 * w),
+            Self::Poly(power) => power.of(w),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quarters_of_each_wave() {
+        let quarters = |wave| [0.0, 0.25, 0.5, 0.75].map(|w| (Shape::new(wave).bend(w) * 1e6).round() / 1e6);
+        assert_eq!(quarters(Wave::Triangle), [0.0, 0.5, 1.0, 0.5]);
+        assert_eq!(quarters(Wave::Sine), [0.5, 1.0, 0.5, 0.0]);
+        assert_eq!(quarters(Wave::Scallop), [0.0, 0.707_107, 1.0, 0.707_107]);
+        assert_eq!(quarters(Wave::Cubic), [0.0, 0.15625, 0.5, 0.84375]);
+        assert_eq!(quarters(Wave::Poly(2.0)), [0.0, 0.0625, 0.25, 0.5625]);
+    }
+}

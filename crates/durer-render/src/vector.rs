@@ -1,0 +1,65 @@
+//! Plain vector arithmetic for shading.
+//!
+//! The certified kernels use fused operations; shading needs no bounds, and unfused products and sums have the same bits on every CPU and
+//! cost no library call where the compiler may not assume a fused unit.
+
+use durer_math::{Normal3, Vec3};
+
+#[inline(always)]
+pub(crate) fn dot(a: Vec3, b: Vec3) -> f64 {
+    a.x * b.x + a.y * b.y + a.z * b.z
+}
+
+#[inline(always)]
+pub(crate) fn dot_n(n: Normal3, b: Vec3) -> f64 {
+    n.x * b.x + n.y * b.y + n.z * b.z
+}
+
+#[inline(always)]
+pub(crate) fn length(v: Vec3) -> f64 {
+    dot(v, v).sqrt()
+}
+
+/// `v` with length 1; unchanged if it is too short or too long to be measured.
+#[inline(always)]
+pub(crate) fn unit(v: Vec3) -> Vec3 {
+    let length = length(v);
+    if length > 0.0 && length.is_finite() { v * (1.0 / length) } else { v }
+}
+
+/// The mirror image of direction `d` (of any length) in a plane with unit normal `n`.
+#[inline(always)]
+pub(crate) fn reflect(d: Vec3, n: Vec3) -> Vec3 {
+    d - n * (2.0 * dot(d, n))
+}
+
+/// The largest whole number not above `x`.
+#[inline(always)]
+pub(crate) fn floor(x: f64) -> f64 {
+    const EXACT: f64 = 9_007_199_254_740_992.0; // from 2^53 on every number is whole
+    if x.abs() < EXACT {
+        let cut = (x as i64) as f64;
+        if cut > x { cut - 1.0 } else { cut }
+    } else {
+        x
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn floor_is_the_librarys() {
+        for x in [0.0, -0.0, 0.5, -0.5, 3.0, -3.0, -1e-300, 1e300, -1e16, 2.5e9, -2.5e9, f64::INFINITY] {
+            assert_eq!(floor(x), x.floor(), "{x}");
+        }
+        assert!(floor(f64::NAN).is_nan());
+    }
+
+    #[test]
+    fn a_mirror_turns_the_normal_part_round() {
+        let n = Vec3::new(0.0, 1.0, 0.0);
+        assert_eq!(reflect(Vec3::new(1.0, -2.0, 3.0), n), Vec3::new(1.0, 2.0, 3.0));
+    }
+}

@@ -1,0 +1,148 @@
+//! The world as the integrator sees it: geometry, paints, lamps, camera.
+
+use std::collections::HashMap;
+
+use durer_geometry::Geometry;
+use durer_math::{AffineError, Point3};
+use durer_scene::{LowerError, Lowered, Place, Placement, Rgb, Scene, Texture};
+
+use crate::camera::{Camera, CameraError};
+use crate::film::Encoding;
+use crate::light::Lamp;
+use crate::medium::Medium;
+use crate::texture::Paint;
+
+/// A scene made ready to be rendered: built once, then shared by all threads.
+pub struct World {
+    pub(crate) lowered: Lowered,
+    looks: Vec<Look>,
+    pub(crate) paints: Vec<Paint>,
+    pub(crate) media: Vec<Medium>,
+    pub(crate) lamps: Vec<Lamp>,
+    camera: Option<Camera>,
+    /// The media in which a camera with one standpoint stands.
+    standing: Vec<u32>,
+    pub(crate) background: Rgb,
+    pub(crate) max_level: u32,
+    pub(crate) adc_bailout: f64,
+    /// The opacity of a layer counts its filter times its greatest channel.
+    pub(crate) filter_by_colour: bool,
+    pub(crate) has_clear_shadows: bool,
+    pub(crate) encoding: Encoding,
+}
+
+/// What a surface looks like.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Look {
+    /// The number of its paint.
+    pub(crate) paint: u32,
+    /// The number of the medium behind it.
+    pub(crate) medium: u32,
+    pub(crate) double_illuminate: bool,
+}
+
+/// Why a scene cannot be rendered.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum WorldError {
+    /// An object cannot be built.
+    #[error(transparent)]
+    Lower(#[from] LowerError),
+    /// The camera cannot be built.
+    #[error(transparent)]
+    Camera(#[from] CameraError),
+    /// A texture's transformation cannot place anything.
+    #[error("texture: {0}")]
+    Texture(#[from] AffineError),
+}
+
+/// Before this version of the language a filtering layer is less opaque.
+const NEW_OPACITY: f64 = 3.7;
+
+impl World {
+    /// Builds the geometry of a scene and makes its looks, lights and camera ready.
+    pub fn new(scene: &Scene) -> Result<Self, WorldError> {
+        let lowered = scene.lower()?;
+        let settings = &scene.settings;
+        let mut paints = Vec::new();
+        let mut looks = Vec::with_capacity(lowered.looks.len());
+        // Looks that differ only in what is behind them share a paint.
+        let mut known: HashMap<(*const Texture, *const Placement), u32> = HashMap::new();
+        for look in &lowered.looks {
+            let key = (&raw const *look.texture, &raw const *look.frame);
+            let paint = match known.get(&key) {
+                Some(&paint) => paint,
+                None => {
+                    paints.push(Paint::new(&look.texture, look.frame.affine(), settings.ambient_light)?);
+                    let number = (paints.len() - 1) as u32;
+                    known.insert(key, number);
+                    number
+                }
+            };
+            looks.push(Look { paint, medium: look.medium, double_illuminate: look.double_illuminate });
+        }
+        let camera = scene.camera.as_ref().map(Camera::new).transpose()?;
+        let mut standing = Vec::new();
+        if let Some(Camera::Perspective(camera)) = &camera {
+            lowered.media_at(camera.origin(), &mut standing);
+        }
+        let background = scene.background.0;
+        Ok(Self {
+            has_clear_shadows: lowered.looks.iter().any(|l| l.is_clear),
+            media: lowered.media.iter().map(|i| Medium::new(i)).collect(),
+            lamps: scene.lights.iter().filter_map(Lamp::new).collect(),
+            looks,
+            paints,
+            camera,
+            standing,
+            // What is clear of the background is black, as nothing lies behind it.
+            background: background.rgb * (1.0 - background.transmit),
+            max_level: settings.max_trace_level,
+            adc_bailout: settings.adc_bailout,
+            filter_by_colour: settings.version < NEW_OPACITY,
+            encoding: settings.assumed_gamma.into(),
+            lowered,
+        })
+    }
+
+    /// What rays meet.
+    pub fn geometry(&self) -> &Geometry {
+        &self.lowered.geometry
+    }
+
+    /// The camera, if the scene has one.
+    pub fn camera(&self) -> Option<&Camera> {
+        self.camera.as_ref()
+    }
+
+    /// What the reader of the scene should be told: it is rendered all the same.
+    pub fn warnings(&self) -> &[(Option<Place>, String)] {
+        &self.lowered.warnings
+    }
+
+    #[inline(always)]
+    pub(crate) fn look_of(&self, object: u32, primitive: u32) -> &Look {
+        // Every primitive of the geometry was given a look.
+        let number = self.lowered.look_of(object, primitive).map_or(0, |l| l.0 as usize);
+        &self.looks[number]
+    }
+
+    /// Appends the media in which a ray of the camera starts.
+    #[inline]
+    pub(crate) fn media_around(&self, origin: Point3, media: &mut Vec<u32>) {
+        match self.camera {
+            Some(Camera::Perspective(_)) => media.extend_from_slice(&self.standing),
+            _ => self.lowered.media_at(origin, media),
+        }
+    }
+}
+
+impl core::fmt::Debug for World {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("World")
+            .field("lowered", &self.lowered)
+            .field("paints", &self.paints.len())
+            .field("lamps", &self.lamps.len())
+            .field("camera", &self.camera)
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,98 @@
+//! Putting a surface into the geometry: placed, clipped, turned inside out.
+
+use durer_geometry::{Builder, ObjectId};
+use durer_math::{Affine, Point3};
+use durer_surfaces::{Algebraic, Clip, Inverse, LocalPoint, Placed, Region, Side, Solidity, Surface};
+
+use super::erased::Erased;
+
+/// Whether a point lies in a solid.
+pub(super) type Inside = Box<dyn Fn(Point3) -> bool + Send + Sync>;
+
+/// Where a surface goes, and what is done to it on the way.
+pub(super) struct Target<'b> {
+    pub(super) builder: &'b mut Builder,
+    pub(super) object: ObjectId,
+    pub(super) primitive: u32,
+    pub(super) mask: u32,
+    pub(super) clips: Vec<Region>,
+    pub(super) inverse: bool,
+    /// The test for the inside, once the surface is added, if it was asked for and there is an inside.
+    pub(super) inside: Option<Inside>,
+    pub(super) keep_inside: bool,
+}
+
+impl Target<'_> {
+    /// Adds a surface of a common kind, placed by `map` if its numbers are not final: it has an array of its own, for either case.
+    pub(super) fn add<S: Algebraic + 'static>(&mut self, surface: S, map: Option<&Affine>) {
+        match map {
+            _ if self.is_changed() => self.add_rare(surface, map),
+            None => self.push(surface),
+            Some(map) => self.push(Placed::new(surface, *map)),
+        }
+    }
+
+    /// Adds a surface of a kind that is common where its numbers are final.
+    pub(super) fn add_final<S: Algebraic + 'static>(&mut self, surface: S, map: Option<&Affine>) {
+        if map.is_none() && !self.is_changed() {
+            self.push(surface);
+        } else {
+            self.add_rare(surface, map);
+        }
+    }
+
+    /// Adds a surface of a rare kind.
+    pub(super) fn add_rare<S: Algebraic + 'static>(&mut self, surface: S, map: Option<&Affine>) {
+        if self.clips.is_empty() {
+            self.add_whole(surface, map);
+            return;
+        }
+        let clips = core::mem::take(&mut self.clips);
+        self.push(match map {
+            None => Erased::new(Clip::new(surface, clips)),
+            Some(map) => Erased::new(Clip::new(Placed::new(surface, *map), clips)),
+        });
+    }
+
+    /// Adds a flat surface of a kind that is common where its numbers are final.
+    pub(super) fn add_flat<S: Surface + 'static>(&mut self, surface: S, map: Option<&Affine>) {
+        if map.is_none() && !self.inverse { self.push(surface) } else { self.add_whole(surface, map) }
+    }
+
+    /// Adds a surface that cannot be clipped.
+    pub(super) fn add_whole<S: Surface + 'static>(&mut self, surface: S, map: Option<&Affine>) {
+        let erased = match map {
+            None => Erased::new(surface),
+            Some(map) => Erased::new(Placed::new(surface, *map)),
+        };
+        if self.inverse { self.push(Erased::new(Inverse(erased))) } else { self.push(erased) }
+    }
+
+    fn is_changed(&self) -> bool {
+        self.inverse || !self.clips.is_empty()
+    }
+
+    /// Keeps the test for the inside of the closed, unclipped solid, which is what the scene language asks where the camera is concerned.
+    pub(super) fn contain<S: Surface + 'static>(&mut self, solid: S, map: Option<&Affine>) {
+        if !self.keep_inside || solid.solidity() != Solidity::Solid {
+            return;
+        }
+        let inverse = self.inverse;
+        let holds = move |solid: &dyn Surface, p: Point3| match solid.side(&LocalPoint::new(p)) {
+            Side::In => !inverse,
+            Side::Out => inverse,
+            Side::On => false,
+        };
+        self.inside = Some(match map {
+            None => Box::new(move |p| holds(&solid, p)),
+            Some(map) => {
+                let placed = Placed::new(solid, *map);
+                Box::new(move |p| holds(&placed, p))
+            }
+        });
+    }
+
+    fn push<S: Surface + 'static>(&mut self, surface: S) {
+        self.builder.add_as(surface, self.object, self.primitive, self.mask);
+    }
+}

@@ -1,0 +1,389 @@
+//! From a scene to the geometry that rays meet, and what each surface looks like.
+//!
+//! Unions are taken apart, what they say about looks is handed down, and every surface gets its two numbers: `object` counts the
+//! scene's objects in the order of the text, `primitive` the surfaces within the object, each face of a mesh by itself.
+
+mod build;
+mod erased;
+mod exact;
+mod shapes;
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use durer_geometry::{BuildError, Builder, EVERYTHING, Geometry, ObjectId};
+use durer_math::{Affine, AffineError, Point3};
+
+use crate::{Flags, Interior, Object, Place, Placement, Scene, Shape, Texture, mask};
+use build::Inside;
+
+/// A scene made ready for rays.
+pub struct Lowered {
+    /// What rays meet.
+    pub geometry: Geometry,
+    /// Every look there is.
+    pub looks: Vec<Look>,
+    /// Every medium there is; the first is that of opaque objects without an interior of their own.
+    pub media: Vec<Arc<Interior>>,
+    /// What the reader of the text should be told: the scene is rendered all the same.
+    pub warnings: Vec<(Option<Place>, String)>,
+    /// For each object, where its primitives' looks begin.
+    first: Vec<u32>,
+    of_primitive: Vec<LookId>,
+    clear_solids: Vec<(u32, Inside)>,
+}
+
+/// The number of a [`Look`] among [`Lowered::looks`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct LookId(pub u32);
+
+/// What a surface looks like.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Look {
+    /// Its texture, placed in the frame.
+    pub texture: Arc<Texture>,
+    /// From the space in which the texture is placed to the world.
+    pub frame: Arc<Placement>,
+    /// The number of the medium behind it among [`Lowered::media`].
+    pub medium: u32,
+    /// Light from behind counts too.
+    pub double_illuminate: bool,
+    /// Some light may pass.
+    pub is_clear: bool,
+}
+
+/// Why a scene has no geometry, and where it says so.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{kind}")]
+pub struct LowerError {
+    /// Where the object is written.
+    pub place: Option<Place>,
+    /// What is wrong with it.
+    pub kind: LowerErrorKind,
+}
+
+/// What is wrong with an object.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LowerErrorKind {
+    /// Its shape cannot exist.
+    #[error("{0}")]
+    Shape(String),
+    /// Its transformation cannot place anything.
+    #[error(transparent)]
+    Placement(#[from] AffineError),
+    /// What it is clipped by is not a convex solid.
+    #[error(
+        "clipped_by: {0} cannot clip: spheres, boxes, cylinders, cones, planes, quadrics and their inverses can"
+    )]
+    Clip(&'static str),
+    /// A shape that cannot be clipped.
+    #[error("clipped_by: {0} cannot be clipped yet")]
+    Clipped(&'static str),
+    /// A mesh refers to a texture that it does not have.
+    #[error("mesh: face {face} refers to texture {texture}, but there are {count}")]
+    MeshTexture {
+        /// The face.
+        face: usize,
+        /// The texture it names.
+        texture: u32,
+        /// How many there are.
+        count: usize,
+    },
+    /// A mesh refers to a normal that it does not have.
+    #[error("mesh: face {face} refers to normal {normal}, but there are {count}")]
+    MeshNormal {
+        /// The face.
+        face: usize,
+        /// The normal it names.
+        normal: u32,
+        /// How many there are.
+        count: usize,
+    },
+    /// A pattern without entries.
+    #[error("texture: a pattern needs at least one entry for each of its kinds")]
+    EmptyPattern,
+    /// The whole does not fit.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// More primitives than numbers.
+    #[error("scene: at most {} primitives fit", u32::MAX)]
+    TooMany,
+}
+
+impl Scene {
+    /// Builds the geometry, and says what each of its surfaces looks like.
+    pub fn lower(&self) -> Result<Lowered, LowerError> {
+        let mut lowering = Lowering::new(self);
+        for (number, object) in (0..).zip(&self.objects) {
+            lowering.object = ObjectId(number);
+            lowering.first.push(lowering.count()?);
+            lowering.walk(object, &Context::default())?;
+        }
+        lowering.finish()
+    }
+}
+
+impl Lowered {
+    /// What a primitive of an object looks like; `None` if there is no such primitive.
+    #[inline]
+    pub fn look_of(&self, object: u32, primitive: u32) -> Option<LookId> {
+        let first = *self.first.get(object as usize)?;
+        self.of_primitive.get(first as usize + primitive as usize).copied()
+    }
+
+    /// Whether any clear object is a solid, so that a point may lie in its medium.
+    pub fn has_clear_solids(&self) -> bool {
+        !self.clear_solids.is_empty()
+    }
+
+    /// Appends the media of all clear solids that hold `point`, in the order of the text.
+    pub fn media_at(&self, point: Point3, media: &mut Vec<u32>) {
+        for (medium, inside) in &self.clear_solids {
+            if !media.contains(medium) && inside(point) {
+                media.push(*medium);
+            }
+        }
+    }
+
+    /// How many primitives an object has.
+    pub fn primitives(&self, object: u32) -> u32 {
+        let at = |i: u32| self.first.get(i as usize).copied().unwrap_or(self.of_primitive.len() as u32);
+        at(object.saturating_add(1)).saturating_sub(at(object))
+    }
+}
+
+impl core::fmt::Debug for Lowered {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Lowered")
+            .field("geometry", &self.geometry)
+            .field("looks", &self.looks.len())
+            .field("media", &self.media.len())
+            .field("warnings", &self.warnings)
+            .finish_non_exhaustive()
+    }
+}
+
+/// What an object inherits from the unions around it.
+#[derive(Clone, Default)]
+struct Context {
+    /// From the space around the object to the world.
+    frame: Arc<Placement>,
+    texture: Option<(Arc<Texture>, Arc<Placement>)>,
+    medium: Option<u32>,
+    flags: Flags,
+    /// What the unions are clipped by, in the world.
+    clips: Vec<durer_surfaces::Region>,
+}
+
+/// The work at hand.
+struct Lowering {
+    builder: Builder,
+    looks: Vec<Look>,
+    known: HashMap<(*const Texture, *const Placement, u32, bool), LookId>,
+    media: Vec<Arc<Interior>>,
+    warnings: Vec<(Option<Place>, String)>,
+    first: Vec<u32>,
+    of_primitive: Vec<LookId>,
+    clear_solids: Vec<(u32, Inside)>,
+    object: ObjectId,
+    default_texture: Arc<Texture>,
+    /// The one frame of everything that no union moves: one address, so that looks can be told apart by it.
+    world: Arc<Placement>,
+    /// No object has habits and all are opaque: one mask for all.
+    is_plain: bool,
+}
+
+impl Lowering {
+    fn new(scene: &Scene) -> Self {
+        Self {
+            builder: Geometry::builder(),
+            looks: Vec::new(),
+            known: HashMap::new(),
+            media: vec![Arc::default()],
+            warnings: Vec::new(),
+            first: Vec::with_capacity(scene.objects.len()),
+            of_primitive: Vec::new(),
+            clear_solids: Vec::new(),
+            object: ObjectId(0),
+            default_texture: Arc::default(),
+            world: Arc::default(),
+            is_plain: scene.objects.iter().all(is_plain),
+        }
+    }
+
+    fn count(&self) -> Result<u32, LowerError> {
+        u32::try_from(self.of_primitive.len()).map_err(|_| LowerErrorKind::TooMany.at(None))
+    }
+
+    fn finish(mut self) -> Result<Lowered, LowerError> {
+        let geometry = self.builder.build().map_err(|e| LowerErrorKind::from(e).at(None))?;
+        Ok(Lowered {
+            geometry,
+            looks: self.looks,
+            media: self.media,
+            warnings: self.warnings,
+            first: self.first,
+            of_primitive: self.of_primitive,
+            clear_solids: self.clear_solids,
+        })
+    }
+
+    /// Lowers an object with all its parts.
+    fn walk(&mut self, object: &Object, around: &Context) -> Result<(), LowerError> {
+        let fail = |kind: LowerErrorKind| kind.at(object.place);
+        let texture = match &object.texture {
+            Some(texture) => {
+                if texture.has_empty_pattern() {
+                    return Err(fail(LowerErrorKind::EmptyPattern));
+                }
+                Some((Arc::clone(texture), self.frame(around)))
+            }
+            None => around.texture.clone(),
+        };
+        let medium = match &object.interior {
+            Some(interior) => Some(self.medium(interior)),
+            None => around.medium,
+        };
+        let mut clips = around.clips.clone();
+        for clip in &object.clips {
+            clips.push(
+                shapes::region(clip, around.frame.affine()).map_err(|k| k.at(clip.place.or(object.place)))?,
+            );
+        }
+        let inner = Context {
+            frame: Arc::clone(&around.frame),
+            texture,
+            medium,
+            flags: around.flags.or(object.flags),
+            clips,
+        };
+        if let Shape::Union(parts) = &object.shape {
+            let frame = join(&object.placement, &around.frame).map_err(|e| fail(e.into()))?;
+            let inner = Context { frame: Arc::new(frame), ..inner };
+            return parts.iter().try_for_each(|part| self.walk(part, &inner));
+        }
+        let place = join(&object.placement, &around.frame).map_err(|e| fail(e.into()))?;
+        self.leaf(object, place.affine(), inner).map_err(fail)
+    }
+
+    fn frame(&self, around: &Context) -> Arc<Placement> {
+        if around.frame.is_identity() { Arc::clone(&self.world) } else { Arc::clone(&around.frame) }
+    }
+
+    fn medium(&mut self, interior: &Arc<Interior>) -> u32 {
+        self.media.push(Arc::clone(interior));
+        (self.media.len() - 1) as u32
+    }
+
+    /// The number of a look. Objects that look alike share one.
+    fn look(&mut self, texture: Arc<Texture>, frame: Arc<Placement>, medium: u32, flags: Flags) -> LookId {
+        let frame = if texture.is_uniform() { Arc::clone(&self.world) } else { frame };
+        let key = (Arc::as_ptr(&texture), Arc::as_ptr(&frame), medium, flags.double_illuminate);
+        *self.known.entry(key).or_insert_with(|| {
+            let is_clear = !texture.is_opaque();
+            let double_illuminate = flags.double_illuminate;
+            self.looks.push(Look { texture, frame, medium, double_illuminate, is_clear });
+            LookId((self.looks.len() - 1) as u32)
+        })
+    }
+
+    /// Lowers an object that is no union, placed in the world by `place`.
+    fn leaf(&mut self, object: &Object, place: &Affine, context: Context) -> Result<(), LowerErrorKind> {
+        let (texture, frame) = context
+            .texture
+            .clone()
+            .unwrap_or_else(|| (Arc::clone(&self.default_texture), Arc::clone(&self.world)));
+        let mesh = if let Shape::Mesh(mesh) = &object.shape { Some(mesh) } else { None };
+        let is_clear =
+            !texture.is_opaque() || mesh.is_some_and(|m| m.textures.iter().any(|t| !t.is_opaque()));
+        // Each clear object without an interior has one of its own all the same: leaving it is leaving it alone.
+        let medium = match context.medium {
+            Some(medium) => medium,
+            None if is_clear => self.medium(&Arc::default()),
+            None => 0,
+        };
+        let flags = context.flags;
+        let look = self.look(texture, frame, medium, flags);
+        let primitive = self.count().map_err(|e| e.kind)? - self.first.last().copied().unwrap_or(0);
+        match mesh {
+            None => self.of_primitive.push(look),
+            Some(mesh) => {
+                let own_frame = Arc::new(Placement::new(*place));
+                let mut own = Vec::with_capacity(mesh.textures.len());
+                for texture in &mesh.textures {
+                    own.push(self.look(Arc::clone(texture), Arc::clone(&own_frame), medium, flags));
+                }
+                for (number, face) in mesh.faces.iter().enumerate() {
+                    self.of_primitive.push(match face.texture {
+                        None => look,
+                        Some(t) => *own.get(t as usize).ok_or(LowerErrorKind::MeshTexture {
+                            face: number,
+                            texture: t,
+                            count: own.len(),
+                        })?,
+                    });
+                }
+            }
+        }
+        let mask = if self.is_plain { EVERYTHING } else { mask_of(flags, is_clear) };
+        let target = build::Target {
+            builder: &mut self.builder,
+            object: self.object,
+            primitive,
+            mask,
+            clips: context.clips,
+            inverse: flags.inverse,
+            inside: None,
+            keep_inside: is_clear,
+        };
+        match shapes::build(object, flags.open, place, target)? {
+            shapes::Built::Nothing(why) => self.warnings.push((object.place, why)),
+            shapes::Built::Done(Some(inside)) => self.clear_solids.push((medium, inside)),
+            shapes::Built::Done(None) => {}
+        }
+        Ok(())
+    }
+}
+
+impl LowerErrorKind {
+    fn at(self, place: Option<Place>) -> LowerError {
+        LowerError { place, kind: self }
+    }
+}
+
+/// `first`, then `next`.
+fn join(first: &Placement, next: &Placement) -> Result<Placement, AffineError> {
+    let mut all = first.clone();
+    if !next.is_identity() {
+        all.then(next.affine())?;
+    }
+    Ok(all)
+}
+
+/// Whether every ray meets the object, and no light passes it.
+fn is_plain(object: &Object) -> bool {
+    let Flags { no_shadow, no_image, no_reflection, .. } = object.flags;
+    let opaque = |t: &Arc<Texture>| t.is_opaque();
+    !(no_shadow || no_image || no_reflection)
+        && object.texture.as_ref().is_none_or(opaque)
+        && match &object.shape {
+            Shape::Union(parts) => parts.iter().all(is_plain),
+            Shape::Mesh(mesh) => mesh.textures.iter().all(opaque),
+            _ => true,
+        }
+}
+
+fn mask_of(flags: Flags, is_clear: bool) -> u32 {
+    let mut bits = mask::SHAPE;
+    if !flags.no_image {
+        bits |= mask::CAMERA;
+    }
+    if !flags.no_reflection {
+        bits |= mask::MIRROR;
+    }
+    if !flags.no_shadow {
+        bits |= if is_clear { mask::CLEAR_SHADOW } else { mask::SHADOW };
+    }
+    bits
+}

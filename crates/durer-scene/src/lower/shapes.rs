@@ -1,0 +1,278 @@
+//! From each shape's numbers to its surface.
+
+use std::fmt::Display;
+
+use durer_math::{Affine, Normal3, Point3, Vec3};
+use durer_surfaces::{
+    Algebraic, Annulus, AxisBox, CappedCylinder, Disc, FLAT, FillRule, Frustum, Parallelogram, Plane,
+    Polygon, Quadric, Region, Sphere, Surface, Triangle, TriangleError,
+};
+
+use super::build::{Inside, Target};
+use super::{LowerErrorKind, exact};
+use crate::{Mesh, Object, Shape};
+
+/// What became of a shape.
+pub(super) enum Built {
+    /// It is in the geometry; where it is solid and asked for, with the test for its inside.
+    Done(Option<Inside>),
+    /// It has no points, for this reason.
+    Nothing(String),
+}
+
+type Result<T> = std::result::Result<T, LowerErrorKind>;
+
+fn shape_error(error: impl Display) -> LowerErrorKind {
+    LowerErrorKind::Shape(error.to_string())
+}
+
+/// Builds the surface of an object that is no union, placed in the world by `place`.
+pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Target<'_>) -> Result<Built> {
+    let map = (*place != Affine::IDENTITY).then_some(place);
+    match &object.shape {
+        &Shape::Sphere { centre, radius } => {
+            // A negative radius is drawn as its size.
+            let radius = radius.abs();
+            match folded(map, |m| Some((exact::point(m, centre)?, exact::length(m, radius)?))) {
+                Some((c, r)) => add(&mut target, Sphere::new(c, r).map_err(shape_error)?, None),
+                None => add(&mut target, Sphere::new(centre, radius).map_err(shape_error)?, map),
+            }
+        }
+        &Shape::Cylinder { base, cap, radius } => {
+            let radius = radius.abs();
+            target.contain(CappedCylinder::new(base, cap, radius).map_err(shape_error)?, map);
+            let make = |b, c, r| {
+                let made = if open { CappedCylinder::open(b, c, r) } else { CappedCylinder::new(b, c, r) };
+                made.map_err(shape_error)
+            };
+            let all =
+                |m: &Affine| Some((exact::point(m, base)?, exact::point(m, cap)?, exact::length(m, radius)?));
+            match folded(map, all) {
+                Some((b, c, r)) => target.add(make(b, c, r)?, None),
+                None => target.add(make(base, cap, radius)?, map),
+            }
+        }
+        &Shape::Cone { base, base_radius, cap, cap_radius } => {
+            target.contain(Frustum::new(base, base_radius, cap, cap_radius).map_err(shape_error)?, map);
+            let make = |b, r0, c, r1| {
+                let made = if open { Frustum::open(b, r0, c, r1) } else { Frustum::new(b, r0, c, r1) };
+                made.map_err(shape_error)
+            };
+            let all = |m: &Affine| {
+                let ends = (exact::point(m, base)?, exact::point(m, cap)?);
+                Some((ends, exact::length(m, base_radius)?, exact::length(m, cap_radius)?))
+            };
+            match folded(map, all) {
+                Some(((b, c), r0, r1)) => target.add(make(b, r0, c, r1)?, None),
+                None => target.add(make(base, base_radius, cap, cap_radius)?, map),
+            }
+        }
+        Shape::Quadric(coefficients) => {
+            target.add_final(Quadric::new(**coefficients).map_err(shape_error)?, map)
+        }
+        shape => return flat(shape, map, target),
+    }
+    Ok(Built::Done(target.inside))
+}
+
+/// Adds a solid that has an array of its own.
+fn add<S: Algebraic + Clone + 'static>(target: &mut Target<'_>, solid: S, map: Option<&Affine>) {
+    target.contain(solid.clone(), map);
+    target.add(solid, map);
+}
+
+/// The flat ones.
+fn flat(shape: &Shape, map: Option<&Affine>, mut target: Target<'_>) -> Result<Built> {
+    if !target.clips.is_empty() {
+        return Err(LowerErrorKind::Clipped(name(shape)));
+    }
+    match shape {
+        &Shape::Box { a, b } => {
+            let corners = |m: &Affine| {
+                exact::is_diagonal(m).then_some(())?;
+                Some((exact::point(m, a)?, exact::point(m, b)?))
+            };
+            match folded(map, corners) {
+                Some((a, b)) => add_flat(&mut target, AxisBox::new(a, b).map_err(shape_error)?, None),
+                None => add_flat(&mut target, AxisBox::new(a, b).map_err(shape_error)?, map),
+            }
+        }
+        &Shape::Plane { normal, distance } => {
+            add_flat(&mut target, Plane::new(normal, distance).map_err(shape_error)?, map);
+        }
+        &Shape::Disc { centre, normal, radius, hole } => {
+            let lengths = |m: &Affine| {
+                Some((exact::point(m, centre)?, exact::length(m, radius)?, exact::length(m, hole)?))
+            };
+            let (map, (centre, radius, hole)) = match folded(map, lengths) {
+                Some(folded) => (None, folded),
+                None => (map, (centre, radius, hole)),
+            };
+            if hole > 0.0 && hole >= radius {
+                return Ok(Built::Nothing("disc: its hole is as large as itself, so it is left out".into()));
+            }
+            if hole > 0.0 {
+                target.add_whole(Annulus::new(centre, normal, hole, radius).map_err(shape_error)?, map);
+            } else {
+                target.add_whole(Disc::new(centre, normal, radius).map_err(shape_error)?, map);
+            }
+        }
+        &Shape::Parallelogram { corner, u, v } => {
+            let all =
+                |m: &Affine| Some((exact::point(m, corner)?, exact::vector(m, u)?, exact::vector(m, v)?));
+            let (map, (corner, u, v)) = match kept_side(map, all) {
+                Some(folded) => (None, folded),
+                None => (map, (corner, u, v)),
+            };
+            target.add_whole(Parallelogram::new(corner, u, v).map_err(shape_error)?, map);
+        }
+        Shape::Triangle(corners) => {
+            let (map, corners) = match kept_side(map, |m| points(m, corners)) {
+                Some(folded) => (None, folded),
+                None => (map, *corners),
+            };
+            match Triangle::new(corners) {
+                Ok(triangle) => target.add_flat(triangle, map),
+                Err(TriangleError::Degenerate) => return Ok(Built::Nothing(DEGENERATE.into())),
+                Err(e) => return Err(shape_error(e)),
+            }
+        }
+        Shape::SmoothTriangle(data) => {
+            let (corners, normals) = &**data;
+            // Only a translation leaves the normals exactly as they are.
+            let moved = |m: &Affine| m.as_translation().and_then(|_| points(m, corners));
+            let (map, corners) = match folded(map, moved) {
+                Some(folded) => (None, folded),
+                None => (map, *corners),
+            };
+            match Triangle::new(corners) {
+                Ok(triangle) => {
+                    let normals = normals.map(Vec3::to_normal);
+                    target.add_flat(triangle.with_normals(normals).map_err(shape_error)?, map);
+                }
+                Err(TriangleError::Degenerate) => return Ok(Built::Nothing(DEGENERATE.into())),
+                Err(e) => return Err(shape_error(e)),
+            }
+        }
+        Shape::Polygon(outlines) => {
+            target.add_whole(Polygon::new(outlines, FillRule::EvenOdd).map_err(shape_error)?, map);
+        }
+        Shape::Mesh(data) => {
+            let mesh = mesh(data)?;
+            add_flat(&mut target, mesh, map);
+        }
+        _ => return Err(LowerErrorKind::Shape(format!("{}: not supported yet", name(shape)))),
+    }
+    Ok(Built::Done(target.inside))
+}
+
+/// Adds a flat-faced solid or sheet.
+fn add_flat<S: Surface + Clone + 'static>(target: &mut Target<'_>, surface: S, map: Option<&Affine>) {
+    target.contain(surface.clone(), map);
+    target.add_flat(surface, map);
+}
+
+const DEGENERATE: &str = "triangle: its corners lie on one line, so it is left out";
+
+/// The numbers that the placement gives, if it can be worked into them; those of no placement are the text's own.
+fn folded<T>(map: Option<&Affine>, numbers: impl Fn(&Affine) -> Option<T>) -> Option<T> {
+    numbers(map.unwrap_or(&Affine::IDENTITY))
+}
+
+/// The same for surfaces whose sides are told by the order of their corners: a mirror would exchange them.
+fn kept_side<T>(map: Option<&Affine>, numbers: impl Fn(&Affine) -> Option<T>) -> Option<T> {
+    if map.is_some_and(Affine::determinant_is_negative) { None } else { folded(map, numbers) }
+}
+
+fn points(map: &Affine, points: &[Point3; 3]) -> Option<[Point3; 3]> {
+    let [a, b, c] = points;
+    Some([exact::point(map, *a)?, exact::point(map, *b)?, exact::point(map, *c)?])
+}
+
+fn mesh(data: &Mesh) -> Result<durer_surfaces::Mesh> {
+    let mut normal_faces = Vec::new();
+    if data.faces.iter().any(|f| f.normals.is_some()) {
+        for (number, face) in data.faces.iter().enumerate() {
+            let Some(normals) = face.normals else {
+                normal_faces.push(FLAT);
+                continue;
+            };
+            let mut values = [Vec3::ZERO; 3];
+            for (value, &n) in values.iter_mut().zip(&normals) {
+                *value = *data.normals.get(n as usize).ok_or(LowerErrorKind::MeshNormal {
+                    face: number,
+                    normal: n,
+                    count: data.normals.len(),
+                })?;
+            }
+            // A fact of the scene language: a face whose three normals are equal is flat.
+            let equal = values[0] == values[1] && values[1] == values[2];
+            normal_faces.push(if equal { FLAT } else { normals });
+        }
+    }
+    let normals = if normal_faces.is_empty() { Vec::new() } else { data.normals.clone() };
+    let built = durer_surfaces::Mesh::new(durer_surfaces::MeshData {
+        vertices: data.vertices.clone(),
+        faces: data.faces.iter().map(|f| f.vertices).collect(),
+        normals: normals.into_iter().map(Vec3::to_normal).collect::<Vec<Normal3>>(),
+        normal_faces,
+        ..Default::default()
+    });
+    let mesh = built.map_err(shape_error)?;
+    match data.inside_vector {
+        None => Ok(mesh),
+        Some(direction) => mesh.solid(direction).map_err(shape_error),
+    }
+}
+
+/// The region of a convex solid, placed in the world by its own placement and then by `around`.
+pub(super) fn region(clip: &Object, around: &Affine) -> Result<Region> {
+    let region = match &clip.shape {
+        &Shape::Sphere { centre, radius } => {
+            Region::solid(Sphere::new(centre, radius.abs()).map_err(shape_error)?)
+        }
+        &Shape::Box { a, b } => {
+            let boxed = AxisBox::new(a, b).map_err(shape_error)?;
+            Region::axis_box(boxed.min(), boxed.max()).map_err(shape_error)?
+        }
+        &Shape::Cylinder { base, cap, radius } => {
+            Region::solid(*CappedCylinder::new(base, cap, radius).map_err(shape_error)?.shape())
+        }
+        &Shape::Cone { base, base_radius, cap, cap_radius } => {
+            Region::solid(*Frustum::new(base, base_radius, cap, cap_radius).map_err(shape_error)?.shape())
+        }
+        &Shape::Plane { normal, distance } => {
+            Region::half_space(normal.to_normal(), distance * normal.length()).map_err(shape_error)?
+        }
+        Shape::Quadric(coefficients) => {
+            Region::solid(*Quadric::new(**coefficients).map_err(shape_error)?.shape())
+        }
+        shape => return Err(LowerErrorKind::Clip(name(shape))),
+    };
+    if !clip.clips.is_empty() {
+        return Err(LowerErrorKind::Clip("something that is clipped itself"));
+    }
+    let region = if clip.flags.inverse { region.inverse() } else { region };
+    let place = clip.placement.affine().then(around)?;
+    Ok(if place == Affine::IDENTITY { region } else { region.placed(place) })
+}
+
+fn name(shape: &Shape) -> &'static str {
+    match shape {
+        Shape::Sphere { .. } => "a sphere",
+        Shape::Box { .. } => "a box",
+        Shape::Cylinder { .. } => "a cylinder",
+        Shape::Cone { .. } => "a cone",
+        Shape::Plane { .. } => "a plane",
+        Shape::Disc { .. } => "a disc",
+        Shape::Parallelogram { .. } => "a parallelogram",
+        Shape::Triangle(_) => "a triangle",
+        Shape::SmoothTriangle(_) => "a smooth triangle",
+        Shape::Polygon(_) => "a polygon",
+        Shape::Mesh(_) => "a mesh",
+        Shape::Quadric(_) => "a quadric",
+        Shape::Named(_) => "a named quadric",
+        Shape::SphericalSector { .. } => "a spherical sector",
+        Shape::Union(_) => "a union",
+    }
+}
