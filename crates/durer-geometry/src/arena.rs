@@ -207,22 +207,40 @@ impl<S: Surface> Slot<'_, S> {
     }
 }
 
+/// A root with its `t` in the ray's range, where the exact crossing is: rounding may have put it a step outside.
+#[inline(always)]
+fn in_range(mut root: Root, ray: &LocalRay<'_>) -> Root {
+    root.t = if root.t < ray.t_min {
+        ray.t_min
+    } else if root.t > ray.t_max {
+        ray.t_max
+    } else {
+        root.t
+    };
+    root
+}
+
+/// All of a line: what a surface computes must not depend on what was met before.
+const ALL: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+
 /// A root of one slot against the best so far.
 struct Challenger<'a, 'b, S> {
     slot: &'a Slot<'a, S>,
+    ray: &'a LocalRay<'a>,
     best: &'b mut Best,
 }
 
 impl<S: Surface> Sink for Challenger<'_, '_, S> {
     #[inline(always)]
     fn range(&self) -> (f64, f64) {
-        (f64::NEG_INFINITY, self.best.limit())
+        ALL
     }
 
     #[inline(always)]
     fn push(&mut self, root: Root) -> Flow {
         // Roots ascend: behind one that lost, the others lose too.
-        if self.best.offer(self.slot.slot, &root, || self.slot.name()) { Flow::Continue } else { Flow::Stop }
+        let taken = self.best.offer(self.slot.slot, &in_range(root, self.ray), || self.slot.name());
+        if taken { Flow::Continue } else { Flow::Stop }
     }
 }
 
@@ -232,7 +250,7 @@ struct First(bool);
 impl Sink for First {
     #[inline(always)]
     fn range(&self) -> (f64, f64) {
-        (f64::NEG_INFINITY, f64::INFINITY)
+        ALL
     }
 
     #[inline(always)]
@@ -246,6 +264,7 @@ impl Sink for First {
 struct Forward<'a, 'b> {
     slot: u32,
     name: Id,
+    ray: &'a LocalRay<'a>,
     visit: &'a mut Visit<'b>,
     flow: Flow,
 }
@@ -253,13 +272,13 @@ struct Forward<'a, 'b> {
 impl Sink for Forward<'_, '_> {
     #[inline(always)]
     fn range(&self) -> (f64, f64) {
-        (f64::NEG_INFINITY, f64::INFINITY)
+        ALL
     }
 
     #[inline(always)]
     fn push(&mut self, root: Root) -> Flow {
         if self.flow == Flow::Continue {
-            self.flow = (self.visit)(self.slot, self.name, root);
+            self.flow = (self.visit)(self.slot, self.name, in_range(root, self.ray));
         }
         self.flow
     }
@@ -276,7 +295,7 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
                     filter,
                     #[inline(always)]
                     |slot, ray| {
-                        slot.roots(ray, &mut Challenger { slot: &slot, best });
+                        slot.roots(ray, &mut Challenger { slot: &slot, ray, best });
                         Flow::Continue
                     },
                 )
@@ -322,7 +341,7 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
                     #[inline(always)]
                     |slot, ray| {
                         let mut forward =
-                            Forward { slot: slot.slot, name: slot.name(), visit, flow: Flow::Continue };
+                            Forward { slot: slot.slot, name: slot.name(), ray, visit, flow: Flow::Continue };
                         slot.roots(ray, &mut forward);
                         forward.flow
                     },
@@ -342,7 +361,7 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
                     Flow::Continue
                 };
                 let mut forward =
-                    Forward { slot: slot.slot, name: id, visit: &mut visit, flow: Flow::Continue };
+                    Forward { slot: slot.slot, name: id, ray, visit: &mut visit, flow: Flow::Continue };
                 slot.roots(ray, &mut forward);
                 if slot.part.is_none() && tracks.len() == before {
                     tracks.start(slot.index as u32, starts_inside(slot.surface, ray, start));
@@ -436,7 +455,7 @@ struct Ends {
 
 impl Sink for Ends {
     fn range(&self) -> (f64, f64) {
-        (f64::NEG_INFINITY, f64::INFINITY)
+        ALL
     }
 
     fn push(&mut self, root: Root) -> Flow {

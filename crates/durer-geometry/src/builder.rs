@@ -192,9 +192,7 @@ impl Builder {
             }
             order.extend_from_slice(&unsorted.nothing);
         }
-        if let Some(order) = orders.pop() {
-            geometry::arrange(&mut instances, order);
-        }
+        let instance_slots = orders.pop().unwrap_or_default();
         for (arena, order) in arenas.iter_mut().zip(orders) {
             arena.arrange(order);
         }
@@ -208,6 +206,7 @@ impl Builder {
             builder.isa.unwrap_or_else(Isa::detect),
             arenas,
             instances,
+            instance_slots,
             tree,
             beside,
             solids_in_parts,

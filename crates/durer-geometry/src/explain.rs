@@ -177,7 +177,7 @@ impl Story {
         let geometry = walk.geometry;
         if geometry.is_instances(leaf) {
             for i in slots(leaf) {
-                let instance = &geometry.instances[i as usize];
+                let instance = geometry.instance(i);
                 let placement: Placement = instance.within(&walk.placement);
                 let admitted = instance.mask & walk.mask != 0;
                 self.events.push(Event::Instance { depth, instance: placement.instance, admitted });

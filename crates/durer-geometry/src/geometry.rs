@@ -18,7 +18,10 @@ pub(crate) const MAX_NESTING: u32 = 8;
 pub struct Geometry {
     pub(crate) isa: Isa,
     pub(crate) arenas: Vec<Box<dyn AnyArena>>,
-    pub(crate) instances: Vec<Instance>,
+    /// In the order in which they were added, so that their placements ascend.
+    instances: Vec<Instance>,
+    /// Which instance each slot is.
+    instance_slots: Vec<u32>,
     pub(crate) tree: Bvh,
     pub(crate) beside: Vec<Beside>,
     pub(crate) solids_in_parts: Vec<SolidInParts>,
@@ -72,12 +75,6 @@ pub(crate) struct SolidInParts {
     pub(crate) bounds: Aabb,
 }
 
-/// Puts instances into the order of the tree's leaves.
-pub(crate) fn arrange(instances: &mut Vec<Instance>, order: Vec<u32>) {
-    let mut old: Vec<_> = instances.drain(..).map(Some).collect();
-    instances.extend(order.into_iter().filter_map(|i| old[i as usize].take()));
-}
-
 /// The slots of a leaf.
 #[inline(always)]
 pub(crate) fn slots(leaf: &Leaf) -> Range<u32> {
@@ -95,6 +92,7 @@ impl Geometry {
         isa: Isa,
         arenas: Vec<Box<dyn AnyArena>>,
         instances: Vec<Instance>,
+        instance_slots: Vec<u32>,
         tree: Bvh,
         beside: Vec<Beside>,
         solids_in_parts: Vec<SolidInParts>,
@@ -108,6 +106,7 @@ impl Geometry {
             isa,
             arenas,
             instances,
+            instance_slots,
             tree,
             beside,
             solids_in_parts,
@@ -156,6 +155,23 @@ impl Geometry {
     /// The tree over the bounded surfaces and instances.
     pub fn tree(&self) -> &Bvh {
         &self.tree
+    }
+
+    /// The instances, in the order in which they were added.
+    pub(crate) fn instances(&self) -> &[Instance] {
+        &self.instances
+    }
+
+    /// The instance in a slot of a leaf.
+    #[inline(always)]
+    pub(crate) fn instance(&self, slot: u32) -> &Instance {
+        &self.instances[self.instance_slots[slot as usize] as usize]
+    }
+
+    /// The instance in which a placement is; `None` for the geometry's own.
+    pub(crate) fn instance_of(&self, placement: u32) -> Option<&Instance> {
+        let after = self.instances.partition_point(|i| i.first_placement <= placement);
+        after.checked_sub(1).map(|i| &self.instances[i])
     }
 
     /// The kind of leaves that hold instances: one more than the last arena's.

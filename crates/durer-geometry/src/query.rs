@@ -102,43 +102,58 @@ impl Geometry {
 /// Improves `best` by what the ray meets in one geometry.
 pub(crate) fn closest(walk: &Walk<'_>, best: &mut Best) {
     let geometry = walk.geometry;
-    let test = |leaf: Leaf, best: &mut Best| {
-        if geometry.is_instances(&leaf) {
-            for i in slots(&leaf) {
-                walk.enter(&geometry.instances[i as usize], |inner| closest(inner, best));
-            }
-        } else {
-            (best.placement, best.arena) = (walk.placement, leaf.kind);
-            let arena = &geometry.arenas[leaf.kind as usize];
-            arena.closest(geometry.isa, slots(&leaf), walk.ray, &walk.filter(leaf.kind), best);
-        }
-    };
     for beside in &geometry.beside {
-        test(beside.leaf(), best);
+        closest_in(walk, beside.leaf(), best);
     }
     let mut line = walk.line();
     if best.hit.is_some() {
         line.t_max = line.t_max.min(walk.limit(best.limit()));
     }
-    geometry.tree.closest(geometry.isa, &line, |leaf| {
-        test(leaf, best);
-        if best.hit.is_some() { walk.limit(best.limit()) } else { f64::INFINITY }
-    });
+    geometry.tree.closest(
+        geometry.isa,
+        &line,
+        #[inline(always)]
+        |leaf| {
+            closest_in(walk, leaf, best);
+            if best.hit.is_some() { walk.limit(best.limit()) } else { f64::INFINITY }
+        },
+    );
+}
+
+#[inline(always)]
+fn closest_in(walk: &Walk<'_>, leaf: Leaf, best: &mut Best) {
+    let geometry = walk.geometry;
+    match geometry.arenas.get(leaf.kind as usize) {
+        Some(arena) => {
+            (best.placement, best.arena) = (walk.placement, leaf.kind);
+            arena.closest(geometry.isa, slots(&leaf), walk.ray, &walk.filter(leaf.kind), best);
+        }
+        None => {
+            for i in slots(&leaf) {
+                walk.enter(geometry.instance(i), |inner| closest(inner, best));
+            }
+        }
+    }
 }
 
 fn any(walk: &Walk<'_>) -> bool {
     let geometry = walk.geometry;
-    let test = |leaf: Leaf| {
-        if geometry.is_instances(&leaf) {
-            let mut inside =
-                slots(&leaf).map(|i| walk.enter(&geometry.instances[i as usize], any).unwrap_or(false));
-            inside.any(|hit| hit)
-        } else {
-            let arena = &geometry.arenas[leaf.kind as usize];
-            arena.any(geometry.isa, slots(&leaf), walk.ray, &walk.filter(leaf.kind))
-        }
-    };
-    geometry.beside.iter().any(|b| test(b.leaf())) || geometry.tree.any(geometry.isa, &walk.line(), test)
+    geometry.beside.iter().any(|b| any_in(walk, b.leaf()))
+        || geometry.tree.any(
+            geometry.isa,
+            &walk.line(),
+            #[inline(always)]
+            |leaf| any_in(walk, leaf),
+        )
+}
+
+#[inline(always)]
+fn any_in(walk: &Walk<'_>, leaf: Leaf) -> bool {
+    let geometry = walk.geometry;
+    match geometry.arenas.get(leaf.kind as usize) {
+        Some(arena) => arena.any(geometry.isa, slots(&leaf), walk.ray, &walk.filter(leaf.kind)),
+        None => slots(&leaf).any(|i| walk.enter(geometry.instance(i), any) == Some(true)),
+    }
 }
 
 /// Shows every hit to `visit`.
@@ -146,9 +161,8 @@ pub(crate) fn each(walk: &Walk<'_>, visit: &mut dyn FnMut(&Hit) -> Flow) -> Flow
     let geometry = walk.geometry;
     let mut test = |leaf: Leaf| {
         if geometry.is_instances(&leaf) {
-            let stops = |i: u32| {
-                walk.enter(&geometry.instances[i as usize], |inner| each(inner, visit)) == Some(Flow::Stop)
-            };
+            let stops =
+                |i: u32| walk.enter(geometry.instance(i), |inner| each(inner, visit)) == Some(Flow::Stop);
             slots(&leaf).any(stops)
         } else {
             let arena = &geometry.arenas[leaf.kind as usize];
@@ -168,7 +182,7 @@ fn spans(walk: &Walk<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks) {
     let gather = |leaf: Leaf, tracks: &mut Tracks| {
         if geometry.is_instances(&leaf) {
             for i in slots(&leaf) {
-                let instance = &geometry.instances[i as usize];
+                let instance = geometry.instance(i);
                 walk.enter(instance, |inner| spans(inner, &start.through(&instance.affine), tracks));
             }
         } else {

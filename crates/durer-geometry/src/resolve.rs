@@ -1,7 +1,7 @@
 //! From a hit to a point of a surface; and on which side of all solids a point lies.
 
 use crate::Hit;
-use crate::geometry::{Geometry, Instance, slots};
+use crate::geometry::{Geometry, slots};
 use durer_math::{Point3, Ray, RaySide, Source};
 use durer_surfaces::{LocalPoint, LocalRay, Need, Side, SurfacePoint};
 
@@ -43,13 +43,6 @@ impl Geometry {
         (point.placed(&instance.affine), part)
     }
 
-    /// The instance in which a placement is; `None` for the geometry's own.
-    pub(crate) fn instance_of(&self, placement: u32) -> Option<&Instance> {
-        // The instances stand in the order of the leaves; their placements are disjoint ranges.
-        let mut all = self.instances.iter();
-        all.find(|i| (0..i.geometry.placements()).contains(&placement.wrapping_sub(i.first_placement)))
-    }
-
     /// On which side of the union of all solids a point lies: exact. A point on the common border of two solids that touch is
     /// [`Side::On`].
     pub fn side(&self, point: Point3) -> Side {
@@ -73,7 +66,7 @@ impl Geometry {
         let mut test = |leaf: durer_bvh::Leaf| {
             if self.is_instances(&leaf) {
                 return slots(&leaf).any(|i| {
-                    let instance = &self.instances[i as usize];
+                    let instance = self.instance(i);
                     learn(instance.geometry.side_of(&point.through(&instance.affine)))
                 });
             }

@@ -24,10 +24,10 @@ pub(crate) fn of(geometry: &Geometry) -> Stats {
     let tree = geometry.tree.stats();
     Stats {
         primitives: kinds.iter().map(|k| u64::from(k.1)).sum(),
-        instances: geometry.instances.len(),
+        instances: geometry.instances().len(),
         beside: geometry.beside.iter().map(|b| u64::from(b.count)).sum(),
         bytes: geometry.arenas.iter().map(|a| a.bytes()).sum::<usize>()
-            + geometry.instances.capacity() * size_of::<Instance>()
+            + geometry.instances().len() * (size_of::<Instance>() + size_of::<u32>())
             + tree.bytes,
         tree,
         kinds,

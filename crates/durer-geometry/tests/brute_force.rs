@@ -1,0 +1,154 @@
+//! The tree, the instruction set and the threads change nothing: answers equal those of testing everything, bit for bit.
+
+mod common;
+
+use common::{Dice, both, fill, ground, rays};
+use durer_geometry::{Geometry, Hit};
+use durer_math::kernels::Path;
+use durer_math::{Isa, Ray};
+
+/// What a hit says, without where it is kept.
+fn public(hit: &Hit) -> impl PartialEq + core::fmt::Debug + use<> {
+    let numbers = [hit.t, hit.t_lo, hit.t_hi, hit.uv[0], hit.uv[1]].map(f64::to_bits);
+    (numbers, hit.object, hit.primitive, hit.instance, hit.face, hit.sign, hit.kind)
+}
+
+fn assert_same(tree: &Geometry, flat: &Geometry, rays: &[Ray]) -> usize {
+    let mut crossings = 0;
+    for ray in rays {
+        let all = flat.all(ray);
+        crossings += all.len();
+        assert!(tree.all(ray).iter().map(public).eq(all.iter().map(public)), "all: {ray:?}");
+        let first = all.first().map(public);
+        assert_eq!(flat.closest(ray).as_ref().map(public), first, "closest is not the first of all: {ray:?}");
+        assert_eq!(tree.closest(ray).as_ref().map(public), first, "closest: {ray:?}");
+        assert_eq!(tree.any(ray), !all.is_empty(), "any: {ray:?}");
+        assert_eq!(tree.spans(ray), flat.spans(ray), "spans: {ray:?}");
+        assert_eq!(tree.side(ray.origin), flat.side(ray.origin), "side: {ray:?}");
+        assert_eq!(tree.explain(ray).closest.as_ref().map(public), first, "explain: {ray:?}");
+    }
+    crossings
+}
+
+#[test]
+fn mixed_surfaces() {
+    let mut crossings = 0;
+    for seed in 0..6 {
+        let (tree, flat) = both(|builder| {
+            let mut dice = Dice(seed);
+            let count = [1, 7, 60, 400][seed as usize % 4];
+            fill(builder, &mut dice, count, seed % 2 == 0);
+            if seed > 3 {
+                builder.add(ground());
+            }
+        });
+        crossings += assert_same(&tree, &flat, &rays(&mut Dice(100 + seed), 250));
+    }
+    assert!(crossings > 2000, "{crossings} crossings test little");
+}
+
+#[test]
+fn all_instruction_sets() {
+    let build = |isa: Isa, flat: bool| {
+        let mut builder = Geometry::builder();
+        fill(builder.isa(isa), &mut Dice(9), 150, true);
+        if flat {
+            builder.without_tree();
+        }
+        builder.build().unwrap()
+    };
+    let rays = rays(&mut Dice(10), 200);
+    let reference = build(Isa::REFERENCE, true);
+    for isa in Isa::available() {
+        let tree = build(isa, false);
+        if isa.path() == Path::Unfused {
+            // Its own brackets, but the same for tree and brute force.
+            assert_same(&tree, &build(isa, true), &rays);
+        } else {
+            assert_same(&tree, &reference, &rays);
+        }
+    }
+}
+
+#[test]
+fn nested_instances() {
+    let (tree, flat) = {
+        let build = |flat: bool| {
+            let mut dice = Dice(21);
+            let finish = |builder: &mut durer_geometry::Builder| {
+                if flat {
+                    builder.without_tree();
+                }
+                std::sync::Arc::new(builder.build().unwrap())
+            };
+            let mut inner = Geometry::builder();
+            fill(&mut inner, &mut dice, 12, false);
+            let inner = finish(&mut inner);
+            let mut middle = Geometry::builder();
+            fill(&mut middle, &mut dice, 3, false);
+            for _ in 0..5 {
+                middle.instance(&inner, dice.affine(), u32::MAX);
+            }
+            let middle = finish(&mut middle);
+            let mut outer = Geometry::builder();
+            fill(&mut outer, &mut dice, 10, false);
+            for _ in 0..6 {
+                outer.instance(&middle, dice.affine(), u32::MAX);
+            }
+            outer.add(ground());
+            finish(&mut outer)
+        };
+        (build(false), build(true))
+    };
+    assert_eq!((tree.depth(), tree.placements()), (2, 1 + 6 * (1 + 5)));
+    let crossings = assert_same(&tree, &flat, &rays(&mut Dice(22), 300));
+    assert!(crossings > 300, "{crossings} crossings test little");
+}
+
+#[test]
+fn batches_on_any_number_of_threads() {
+    let mut builder = Geometry::builder();
+    fill(&mut builder, &mut Dice(31), 300, true);
+    builder.add(ground());
+    let world = builder.build().unwrap();
+    let rays = rays(&mut Dice(32), 3000);
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            (
+                world.closest_batch(&rays),
+                world.any_batch(&rays),
+                world.all_batch(&rays),
+                world.spans_batch(&rays),
+            )
+        })
+    };
+    let one = on(1);
+    for (i, ray) in rays.iter().enumerate() {
+        assert_eq!(one.0[i], world.closest(ray));
+        assert_eq!(one.1[i], world.any(ray));
+        assert_eq!(one.2.of(i), world.all(ray));
+        assert_eq!(one.3.of(i), world.spans(ray));
+    }
+    for threads in [2, 5] {
+        assert!(on(threads) == one, "{threads} threads");
+    }
+}
+
+#[test]
+fn builds_on_any_number_of_threads_answer_alike() {
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let mut builder = Geometry::builder();
+            fill(&mut builder, &mut Dice(41), 20_000, false);
+            builder.build().unwrap()
+        })
+    };
+    let (one, three) = (on(1), on(3));
+    assert!(one.tree() == three.tree());
+    // Even where things are kept is the same.
+    for ray in rays(&mut Dice(42), 300) {
+        assert_eq!(one.closest(&ray), three.closest(&ray));
+    }
+}

@@ -1,0 +1,323 @@
+//! What worlds are made of: instances, masks, numbers, parts, nothing at all.
+
+mod common;
+
+use common::{Dice, fill, ground, object, rays};
+use durer_geometry::{BuildError, EVERYTHING, Geometry};
+use durer_math::{Affine, Point3, Ray, Vec3};
+use durer_surfaces::{Mesh, MeshData, Need, Placed, Side, Sphere};
+use std::sync::Arc;
+
+fn ball(x: f64, y: f64, z: f64, r: f64) -> Sphere {
+    Sphere::new(Point3::new(x, y, z), r).unwrap()
+}
+
+fn along_x(x: f64) -> Ray {
+    Ray::new(Point3::new(x, 0.0, 0.0), Vec3::X)
+}
+
+#[test]
+fn nothing() {
+    let world = Geometry::builder().build().unwrap();
+    let ray = along_x(0.0);
+    assert_eq!((world.closest(&ray), world.any(&ray), world.all(&ray)), (None, false, Vec::new()));
+    assert_eq!((world.spans(&ray), world.contains(Point3::ORIGIN)), (Vec::new(), false));
+    assert!(world.bounds().is_empty());
+    assert!(world.explain(&ray).to_string().contains("meets nothing"));
+    // An instance of nothing is nothing.
+    let twice = Geometry::builder().instance(&Arc::new(world), Affine::IDENTITY, EVERYTHING).build().unwrap();
+    assert!(!twice.any(&ray) && twice.bounds().is_empty());
+}
+
+#[test]
+fn unbounded_things_only() {
+    let world = Geometry::builder().add(ground()).build().unwrap();
+    assert_eq!(world.stats().beside, 1);
+    let down = Ray::new(Point3::ORIGIN, -Vec3::Y);
+    assert_eq!(world.closest(&down).map(|h| (h.t, h.sign)), Some((4.0, -1)));
+    let spans = world.spans(&down);
+    assert_eq!((spans.len(), spans[0].t_in, spans[0].t_out), (1, 4.0, f64::INFINITY));
+    assert_eq!(spans[0].object_out, None);
+    // From below, up: it starts inside, infinitely deep.
+    let up = Ray::new(Point3::new(0.0, -10.0, 0.0), Vec3::Y).with_range(f64::NEG_INFINITY, f64::INFINITY);
+    let spans = world.spans(&up);
+    assert_eq!((spans[0].t_in, spans[0].t_out, spans[0].object_in), (f64::NEG_INFINITY, 6.0, None));
+    // Along the ground, below it: inside all the way, crossing nothing.
+    let level = Ray::new(Point3::new(0.0, -10.0, 0.0), Vec3::X).with_range(1.0, 2.0);
+    let spans = world.spans(&level);
+    assert_eq!((spans.len(), spans[0].t_in, spans[0].t_out), (1, 1.0, 2.0));
+    assert!(world.spans(&Ray::new(Point3::ORIGIN, Vec3::X)).is_empty());
+    assert_eq!(world.side(Point3::new(3.0, -4.0, 1.0)), Side::On);
+}
+
+#[test]
+fn invalid_rays_miss_and_are_counted() {
+    let world = Geometry::builder().add(ball(0.0, 0.0, 0.0, 1.0)).build().unwrap();
+    let broken = [
+        Ray::new(Point3::new(f64::NAN, 0.0, 0.0), Vec3::X),
+        Ray::new(Point3::ORIGIN, Vec3::ZERO),
+        Ray::new(Point3::ORIGIN, Vec3::new(f64::INFINITY, 0.0, 0.0)),
+        Ray::new(Point3::ORIGIN, Vec3::X).with_range(2.0, 1.0),
+        Ray::new(Point3::ORIGIN, Vec3::X).with_range(f64::NAN, 1.0),
+    ];
+    for ray in &broken {
+        assert!(world.closest(ray).is_none() && !world.any(ray) && world.all(ray).is_empty());
+        assert!(world.spans(ray).is_empty());
+    }
+    assert_eq!(world.invalid_rays(), 4 * broken.len() as u64);
+    assert!(world.explain(&broken[0]).to_string().contains("no ray"));
+}
+
+#[test]
+fn a_million_nested_duplicates() {
+    let mut builder = Geometry::builder();
+    for _ in 0..1_000_000 {
+        builder.add(ball(0.0, 0.0, 0.0, 1.0));
+    }
+    let world = builder.build().unwrap();
+    let stats = world.stats();
+    assert!(stats.bytes < 200_000_000, "{} bytes", stats.bytes);
+    assert!(stats.tree.depth <= 8);
+    // All tie; the first object wins.
+    let hit = world.closest(&along_x(-5.0)).unwrap();
+    assert_eq!((hit.t, hit.object), (4.0, 0));
+    let all = world.all(&along_x(-5.0));
+    assert_eq!(all.len(), 2_000_000);
+    assert!(all.is_sorted_by(|a, b| a.order(b).is_lt()));
+    let spans = world.spans(&along_x(-5.0));
+    assert_eq!((spans.len(), spans[0].t_in, spans[0].t_out), (1, 4.0, 6.0));
+}
+
+#[test]
+fn numbers_are_what_they_were_asked_to_be() {
+    let mut builder = Geometry::builder();
+    builder.add_as(ball(0.0, 0.0, 0.0, 1.0), object(7), 3, EVERYTHING);
+    builder.add(ball(5.0, 0.0, 0.0, 1.0));
+    let inner = Arc::new(builder.build().unwrap());
+    assert_eq!(inner.objects(), 9);
+    let mut builder = Geometry::builder();
+    builder.add(ball(-9.0, 0.0, 0.0, 1.0));
+    builder.instance_as(&inner, Affine::IDENTITY, object(100), 1000, EVERYTHING);
+    builder.instance(&inner, Affine::translation(Vec3::X * 20.0).unwrap(), EVERYTHING);
+    let world = builder.build().unwrap();
+    let seen: Vec<_> = world
+        .all(&along_x(-20.0))
+        .iter()
+        .filter(|h| h.sign < 0)
+        .map(|h| (h.object, h.primitive, h.instance))
+        .collect();
+    assert_eq!(seen, [(0, 0, 0), (107, 1003, 1), (108, 1000, 1), (116, 3, 2), (117, 0, 2)]);
+}
+
+#[test]
+fn masks_hide_surfaces_and_instances() {
+    let mut builder = Geometry::builder();
+    builder.add_as(ball(0.0, 0.0, 0.0, 1.0), object(0), 0, 0b01);
+    builder.add_as(ball(4.0, 0.0, 0.0, 1.0), object(1), 0, 0b10);
+    builder.add_as(ground(), object(2), 0, 0b10);
+    let inner = Arc::new(builder.build().unwrap());
+    let mut builder = Geometry::builder();
+    builder.instance(&inner, Affine::translation(Vec3::X * 10.0).unwrap(), 0b110);
+    builder.instance(&inner, Affine::translation(Vec3::X * 20.0).unwrap(), 0b001);
+    let world = builder.build().unwrap();
+    let ray = along_x(-5.0);
+    let t = |mask: u32| world.closest_masked(&ray, mask).map(|h| h.t);
+    assert_eq!((t(0b01), t(0b10), t(0b11), t(0b100)), (Some(24.0), Some(18.0), Some(14.0), None));
+    assert_eq!(t(0), None);
+    for mask in 0..8 {
+        let all = world.all_masked(&ray, mask);
+        assert_eq!(all.first().map(|h| h.t), t(mask));
+        assert_eq!(world.any_masked(&ray, mask), !all.is_empty());
+        assert_eq!(world.spans_masked(&ray, mask).len(), all.len() / 2);
+    }
+}
+
+#[test]
+fn a_filter_sees_every_hit_and_may_stop() {
+    let mut builder = Geometry::builder();
+    fill(&mut builder, &mut Dice(1), 200, true);
+    let world = builder.build().unwrap();
+    let mut buffer = Vec::new();
+    for ray in rays(&mut Dice(2), 100) {
+        let mut seen = Vec::new();
+        assert!(!world.any_where(&ray, EVERYTHING, |hit| {
+            seen.push(*hit);
+            false
+        }));
+        seen.sort_by(durer_geometry::Hit::order);
+        world.all_into(&ray, EVERYTHING, &mut buffer);
+        assert_eq!(seen, buffer);
+        let mut calls = 0;
+        let stopped = world.any_where(&ray, EVERYTHING, |_| {
+            calls += 1;
+            true
+        });
+        assert_eq!((stopped, calls), (!buffer.is_empty(), usize::from(!buffer.is_empty())));
+    }
+}
+
+#[test]
+fn an_instance_is_the_placed_surface() {
+    // Sheared, mirrored, nested: the same bits as the wrapper type.
+    let mut dice = Dice(3);
+    let mut crossings = 0;
+    for _ in 0..40 {
+        let (outer, inner) = (dice.affine(), dice.affine());
+        let ball = ball(0.3, -0.2, 0.1, 0.9);
+        let placed = Placed::new(Placed::new(ball, inner), outer);
+        let direct = Geometry::builder().add(placed).build().unwrap();
+        let innermost = Arc::new(Geometry::builder().add(ball).build().unwrap());
+        let middle = Arc::new(Geometry::builder().instance(&innermost, inner, EVERYTHING).build().unwrap());
+        let world = Geometry::builder().instance(&middle, outer, EVERYTHING).build().unwrap();
+        let centre = outer.point(inner.point(Point3::new(0.3, -0.2, 0.1)));
+        for _ in 0..25 {
+            let origin = dice.point(20.0);
+            let ray = Ray::new(origin, centre + dice.vector(1.0) - origin);
+            let (a, b) = (direct.all(&ray), world.all(&ray));
+            assert_eq!(a.len(), b.len());
+            for (x, y) in a.iter().zip(&b) {
+                assert_eq!((x.t, x.t_lo, x.t_hi, x.sign), (y.t, y.t_lo, y.t_hi, y.sign));
+                assert_eq!(y.instance, 2);
+                let (p, q) = (direct.resolve(&ray, x), world.resolve(&ray, y));
+                assert_eq!((p.p, p.dp, p.off, p.ng, p.uv), (q.p, q.dp, q.off, q.ng, q.uv));
+                crossings += 1;
+            }
+            assert_eq!(direct.spans(&ray).len(), world.spans(&ray).len());
+            assert_eq!(direct.side(origin), world.side(origin));
+        }
+        assert!(world.contains(centre));
+    }
+    assert!(crossings > 500, "{crossings}");
+}
+
+#[test]
+fn too_deep_is_refused() {
+    let mut world = Arc::new(Geometry::builder().add(ball(0.0, 0.0, 0.0, 1.0)).build().unwrap());
+    for _ in 0..8 {
+        world = Arc::new(Geometry::builder().instance(&world, Affine::IDENTITY, EVERYTHING).build().unwrap());
+    }
+    assert!(world.any(&along_x(-5.0)));
+    let error = Geometry::builder().instance(&world, Affine::IDENTITY, EVERYTHING).build().unwrap_err();
+    assert_eq!(error, BuildError::TooDeep { depth: 9, limit: 8 });
+    // 2^33 placements have no numbers.
+    let mut many = Arc::new(Geometry::builder().build().unwrap());
+    let result = (0..5).try_for_each(|_| {
+        let mut builder = Geometry::builder();
+        (0..100).for_each(|_| _ = builder.instance(&many, Affine::IDENTITY, EVERYTHING));
+        many = Arc::new(builder.build()?);
+        Ok(())
+    });
+    assert_eq!(result, Err(BuildError::TooManyPlacements));
+}
+
+/// A cube of side 2 about the origin, faces outward.
+fn cube() -> Mesh {
+    let vertices = (0..8)
+        .map(|i| {
+            let x = |bit: i32| f64::from((i >> bit & 1) * 2 - 1);
+            Point3::new(x(0), x(1), x(2))
+        })
+        .collect();
+    let faces = [
+        [0, 2, 3],
+        [0, 3, 1],
+        [4, 5, 7],
+        [4, 7, 6],
+        [0, 1, 5],
+        [0, 5, 4],
+        [2, 6, 7],
+        [2, 7, 3],
+        [0, 4, 6],
+        [0, 6, 2],
+        [1, 3, 7],
+        [1, 7, 5],
+    ];
+    Mesh::new(MeshData { vertices, faces: faces.to_vec(), ..MeshData::default() })
+        .unwrap()
+        .solid(Vec3::X)
+        .unwrap()
+}
+
+#[test]
+fn the_faces_of_a_mesh_are_primitives() {
+    let mut builder = Geometry::builder();
+    builder.add(ball(9.0, 0.0, 0.0, 1.0));
+    builder.add_as(cube(), object(5), 40, EVERYTHING);
+    let world = builder.build().unwrap();
+    assert_eq!(world.stats().primitives, 13);
+    let mut dice = Dice(4);
+    for _ in 0..300 {
+        let (a, b) = (dice.vector(0.99), dice.vector(0.99));
+        // From a point inside outward, both ways: one crossing each.
+        let ray = Ray::new(a.to_point(), b).with_range(f64::NEG_INFINITY, f64::INFINITY);
+        let hits: Vec<_> = world.all(&ray).into_iter().filter(|h| h.object == 5).collect();
+        assert_eq!(hits.iter().map(|h| h.sign).collect::<Vec<_>>(), [-1, 1]);
+        for hit in &hits {
+            assert!((40..52).contains(&hit.primitive));
+            let p = world.resolve_with(&ray, hit, Need::POINT);
+            assert!((p.p.to_vec().max_abs() - 1.0).abs() < 1e-12);
+        }
+        let spans = world.spans(&Ray::new(a.to_point(), b).with_range(0.0, 1e-3));
+        assert_eq!(spans.len(), 1, "inside, with no face near");
+        assert!(world.contains(a.to_point()));
+        assert!(!world.contains((a * 3.0).to_point()) || a.max_abs() * 3.0 <= 1.0);
+    }
+}
+
+#[test]
+fn spawned_rays_do_not_meet_where_they_start() {
+    let mut builder = Geometry::builder();
+    builder.add(ball(0.0, 0.0, 0.0, 1.0)).add(cube());
+    let inner = Arc::new(builder.build().unwrap());
+    let mut dice = Dice(5);
+    let mut builder = Geometry::builder();
+    builder.add(ball(0.0, 0.0, 0.0, 1e3));
+    for _ in 0..10 {
+        builder.instance(&inner, dice.affine(), EVERYTHING);
+    }
+    let world = builder.build().unwrap();
+    let mut leaving = 0;
+    for ray in rays(&mut dice, 400) {
+        for hit in world.all(&ray) {
+            let point = world.resolve(&ray, &hit);
+            assert!(point.source.is_some());
+            let out = point.spawn(point.ng.to_vec());
+            if let Some(next) = world.closest(&out) {
+                let same = (next.object, next.primitive, next.instance, next.face)
+                    == (hit.object, hit.primitive, hit.instance, hit.face);
+                assert!(!same, "a ray that leaves a convex surface meets it again: {hit:?} {next:?}");
+            }
+            // Through the ball: it starts inside and leaves once.
+            let into = point.spawn(-point.ng.to_vec());
+            assert!(world.any(&into) || hit.object > 0);
+            leaving += 1;
+        }
+    }
+    assert!(leaving > 400, "{leaving}");
+}
+
+#[test]
+fn the_story_names_what_happened() {
+    let mut builder = Geometry::builder();
+    builder.add(ball(0.0, 0.0, 0.0, 1.0)).add(ball(3.0, 0.0, 0.0, 1.0)).add(ground());
+    let inner = Arc::new(builder.build().unwrap());
+    let world = Geometry::builder()
+        .add(ball(-8.0, 5.0, 0.0, 1.0))
+        .instance(&inner, Affine::IDENTITY, 1)
+        .build()
+        .unwrap();
+    let ray = Ray::new(Point3::new(-5.0, 0.1, 0.0), Vec3::X);
+    let story = world.explain(&ray);
+    assert_eq!(story.closest, world.closest(&ray));
+    let text = story.to_string();
+    for words in [
+        "Plane",
+        "tested first",
+        "instance 1: entered",
+        "Sphere (object 1",
+        "the closest so far",
+        "closest: object 1",
+    ] {
+        assert!(text.contains(words), "{words:?} is not in\n{text}");
+    }
+}
