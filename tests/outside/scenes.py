@@ -4,7 +4,7 @@ from fractions import Fraction as F
 from itertools import product
 
 from shapes import (
-    Form, IDENTITY, Loops, Map, Sheet, Solid, UNITS, add, cross, distance_form, dot, dyadic, frame, halfspace, on_circle,
+    Form, IDENTITY, Loops, Map, Sheet, Solid, TURNS, UNITS, add, cross, distance_form, dot, dyadic, frame, halfspace, on_circle,
     signed_permutation, small, sub, text, times, vec, wall_form,
 )
 
@@ -365,6 +365,72 @@ def on_surface(rng, form):
     return None
 
 
+# Named quadrics: a word, the squares' signs with the linear term's axis and the constant, and a point with parameters (cos, sin), k.
+BRANCH = [(F(0), F(1)), (F(3, 4), F(5, 4)), (F(15, 8), F(17, 8)), (F(-3, 4), F(5, 4))]
+NAMED = {
+    "ellipsoid": ((1, 1, 1), None, -1, lambda c, s, k: (c, s, 0)),
+    "spheroid": ((1, 1, 1), None, -1, lambda c, s, k: meridian(k, c, s)),
+    "paraboloid": ((1, 1, 0), 2, 0, lambda c, s, k: (c * k, s * k, k * k)),
+    "hyperbolic_paraboloid": ((1, -1, 0), 2, 0, lambda c, s, k: (k, 2 * k - 1, k * k - (2 * k - 1) ** 2)),
+    "hyperboloid 1": ((1, 1, -1), None, -1, lambda c, s, k: (c - s * k, s + c * k, k)),
+    "hyperboloid 2": ((1, 1, -1), None, 1, lambda c, s, k: (BRANCH[int(8 * k) % 4][0] * c, BRANCH[int(8 * k) % 4][0] * s, BRANCH[int(8 * k) % 4][1])),
+    "elliptic_cone": ((1, 1, -1), None, 0, lambda c, s, k: (c * k, s * k, k)),
+    "circular_cone": ((1, 1, -1), None, 0, lambda c, s, k: (c * k, s * k, k)),
+    "elliptic_cylinder": ((1, 1, 0), None, -1, lambda c, s, k: (c, s, k)),
+    "circular_cylinder": ((1, 1, 0), None, -1, lambda c, s, k: (c, s, k)),
+    "hyperbolic_cylinder": ((1, -1, 0), None, -1, lambda c, s, k: (BRANCH[int(8 * k) % 4][1], BRANCH[int(8 * k) % 4][0], k)),
+    "parabolic_cylinder": ((1, 0, 0), 1, 0, lambda c, s, k: (k, k * k, s)),
+}
+
+
+def meridian(k, c, s):
+    return (c, 0, s) if k < F(1, 2) else (0, 0, 1)
+
+
+def named(rng):
+    """The quadrics that durer's own words name, whole or between two planes, capped or open."""
+    word, (signs, linear, constant, point) = rng.choice(list(NAMED.items()))
+    u = unit(rng)
+    axes = [u * rng.choice((65, 65, 130, 5, 1, 2, F(1, 2))) for _ in range(3)]
+    round_ = word in ("spheroid", "circular_cone", "circular_cylinder")
+    flat = word.endswith("_cylinder")
+    if round_:
+        axes[1] = axes[0]
+    if flat:
+        axes[2] = F(1)
+    squares = [F(s) / (a * a) for s, a in zip(signs, axes)]
+    slopes = [-1 / axes[i] if i == linear else F(0) for i in range(3)]
+    form = Form(*squares, 0, 0, 0, *slopes, constant)
+    name, *sheets = word.split()
+    numbers = text(axes[0]) + ("" if flat else f", {text(axes[2])}") if round_ else vec(axes[:2] if flat else axes)
+    body = f"{name} {{ {numbers}" + (f", sheets {sheets[0]}" if sheets else "")
+    extent = None
+    if rng.random() < 0.7:
+        extent = sorted(rng.sample([axes[2] * F(n, 4) for n in (-17, -8, -5, -4, -1, 0, 1, 2, 4, 5, 6, 17)], 2))
+        body += f", from {text(extent[0])} to {text(extent[1])}"
+    scaled = lambda p: tuple(a * x for a, x in zip(axes, p))
+    levels = [e / axes[2] for e in extent] if extent else [F(0), F(1)]
+
+    def points():
+        m, c, s = rng.choice(TURNS)
+        k = rng.choice((*levels, dyadic(rng)))
+        yield scaled(point(F(c, m), F(s, m), k))
+        p = scaled(point(F(-s, m), F(c, m), rng.choice((*levels, dyadic(rng)))))
+        yield p if not extent else rng.choice((p, (p[0], p[1], rng.choice(extent))))
+        yield (F(0), F(0), rng.choice((*(extent or ()), F(0))))
+        yield rounded(scaled(small(rng, 2)))
+
+    ways = [(0, 0, 1), scaled((1, 0, 1)), scaled((0, 1, -1)), scaled((1, 1, 0)), sub(scaled(point(F(3, 5), F(4, 5), F(1))), scaled(point(F(3, 5), F(4, 5), F(0))))]
+    ways = [w for w in ways if any(w)]
+    caps = [Form.linear((0, 0, -1), extent[0]), Form.linear((0, 0, 1), -extent[1])] if extent else []
+    size = max(axes)
+    if rng.random() < 0.3:
+        bounded = extent and (extent[0] == 0 or extent[1] == 0 or extent[0] * extent[1] > 0)
+        tip = (0, 0, 0) if "cone" in word and bounded else None
+        return Sheet(body + " open }", form, caps, points, ways, size, tip)
+    return Solid(body + " }", [form, *caps], points, ways, size)
+
+
 # ---- modifiers, placements, whole scenes ----
 
 
@@ -420,7 +486,7 @@ def placement(rng):
 
 MAKERS = {
     "sphere": sphere, "box": box, "cylinder": cylinder, "cone": cone, "plane": plane, "disc": disc, "triangle": triangle,
-    "polygon": polygon, "mesh": mesh, "quadric": quadric,
+    "polygon": polygon, "mesh": mesh, "quadric": quadric, "named": named,
 }
 
 

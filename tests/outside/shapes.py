@@ -267,10 +267,17 @@ class Loops(Leaf):
         self.faces = len(faces)
         self.oriented = oriented
 
-    def answer(self, o, d, m):
+    def axes(self, o, d, m):
+        """The axes that a rounded direction in the leaf's frame may have as its largest."""
+        v = m.ray(o, d)[1]
+        top = max(map(abs, v))
+        return [i for i in range(3) if (top - abs(v[i])) << 40 <= top]
+
+    def answer(self, o, d, m, k=None):
         ray = m.ray(o, d)
         x, v, w = ray
-        k = max(range(3), key=lambda i: (abs(v[i]), -i))
+        if k is None:
+            k = max(range(3), key=lambda i: (abs(v[i]), -i))
         a, b = [i for i in range(3) if i != k]
         s = sign(v[k])
         events = []
