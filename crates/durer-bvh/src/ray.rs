@@ -9,7 +9,7 @@ const U32: f64 = 1.0 / (1 << 24) as f64;
 const LEAST: f64 = 1.0 / (1_u64 << 60) as f64;
 /// The longest way through the tree that is culled; the ends of a ray from farther away are too uncertain.
 const LONGEST: f64 = (1 << 16) as f64;
-/// Two roundings each, of a difference and a quotient, and of what is then added.
+/// More than the roundings of a difference, of `1 / d`, of their product and of what is then added.
 const WIDEN: f64 = 8.0 * U;
 
 /// A ray in the caller's units: `origin + t direction`, known within errors (per axis).
@@ -114,6 +114,7 @@ impl CullRay {
         let (t_min, t_max) = (frame.inward(line.t_min), frame.inward(line.t_max));
         // A tiny parameter that was rounded in scaling is widened by the clipping below only if the box does not begin later.
         let (mut enter, mut exit) = (if t_min == 0.0 { line.t_min.min(0.0) } else { t_min }, t_max.next_up());
+        let inverse = d.map(|x| 1.0 / x);
         for i in 0..3 {
             let (a, b) = (f64::from(lo[i]) - error[i], f64::from(hi[i]) + error[i]);
             if d[i] == 0.0 {
@@ -123,8 +124,9 @@ impl CullRay {
                 continue;
             }
             let (first, last) = if d[i] > 0.0 { (a, b) } else { (b, a) };
-            let first = ((first - o[i]) / d[i]).min(f64::MAX);
-            let last = ((last - o[i]) / d[i]).max(f64::MIN);
+            let quotient = |x: f64| if inverse[i].is_finite() { x * inverse[i] } else { x / d[i] };
+            let first = quotient(first - o[i]).min(f64::MAX);
+            let last = quotient(last - o[i]).max(f64::MIN);
             enter = enter.max(first - WIDEN * first.abs());
             exit = exit.min(last + WIDEN * last.abs());
         }
@@ -139,9 +141,9 @@ impl CullRay {
         for i in 0..3 {
             let start = if enter == 0.0 { o[i] } else { enter.mul_add(d[i], o[i]) };
             let size = f64::from(lo[i]).abs().max(f64::from(hi[i]).abs()).max(LEAST) + start.abs();
-            let most = way / (0.4 * U32 * size);
-            let r = 1.0 / d[i];
-            let r = if r.abs() <= most { r } else { most.copysign(r) };
+            let r = inverse[i];
+            let bends = 0.4 * U32 * size;
+            let r = if r.abs() * bends <= way { r } else { (way / bends).copysign(r) };
             let slack = (rounding.slack() * U32).mul_add(size, error[i]) * r.abs();
             r32[i] = r as f32;
             near[i] = down32(-start * r - slack);

@@ -151,6 +151,7 @@ fn subtree(
                 (slot, nodes)
             })
             .collect();
+        nodes.reserve_exact(grown.iter().map(|(_, subtree)| subtree.len()).sum());
         for (slot, mut subtree) in grown {
             let offset = nodes.len();
             node.child[slot] = ChildRef::node(offset);
