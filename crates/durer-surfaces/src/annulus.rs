@@ -10,7 +10,7 @@
 //! Decided as the [disc](crate::Disc) is, against two circles; both rims belong to the annulus.
 
 use crate::disc::RoundSheet;
-use crate::planar::{Line, scaled_to_one};
+use crate::planar::scaled_to_one;
 use crate::{Flow, LocalRay, Need, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::{Aabb, Point3, Vec3};
@@ -70,6 +70,7 @@ impl Annulus {
     }
 
     /// The normal, scaled by a power of two.
+    #[inline(always)]
     pub fn normal(&self) -> Vec3 {
         self.sheet.normal
     }
@@ -95,14 +96,15 @@ impl Surface for Annulus {
         let probe = self.sheet.probe(ray);
         // An inexact ray that cannot be kept off the annulus meets it.
         if let Some(crossing) = self.sheet.crossing(&probe, sink.range())
-            && probe.sign(&self.sheet.rim(self.sheet.radius)).is_none_or(Ordering::is_le)
-            && probe.sign(&self.sheet.rim(self.hole)).is_none_or(Ordering::is_ge)
+            && self.sheet.beyond(&probe, &crossing, self.sheet.radius).is_none_or(Ordering::is_le)
+            && self.sheet.beyond(&probe, &crossing, self.hole).is_none_or(Ordering::is_ge)
             && probe.admits(&self.sheet, &crossing)
         {
             let _: Flow = sink.push(probe.root(&crossing, 0, [0.0; 2]));
         }
     }
 
+    #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, _root: &Root, need: Need) -> SurfacePoint {
         self.sheet.resolve(ray, need, self.hole)
     }

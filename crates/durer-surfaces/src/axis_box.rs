@@ -13,11 +13,12 @@
 
 use crate::planar::{self, AlongRay, Crossing, Line, PlaneForm, PointLine, Probe};
 use crate::{
-    Flow, Kind, LocalPoint, LocalRay, Need, RingRay, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+    CentredRay, Flow, Kind, LocalPoint, LocalRay, Need, RingRay, Root, Side, Sink, Solidity, Surface,
+    SurfacePoint,
 };
 use core::cmp::Ordering;
-use durer_math::eft::exponent;
-use durer_math::{Aabb, Normal3, Point3, Ring, Vec3};
+use durer_math::eft::{exponent, scale2};
+use durer_math::{Aabb, Isa, Normal3, Point3, Ring, U, Vec3};
 
 /// A solid box with faces across the axes. Face `2 i` is the one at the least coordinate of axis `i`, face `2 i + 1` the opposite one.
 ///
@@ -57,6 +58,13 @@ struct Face {
 
 impl PlaneForm for Face {
     #[inline(always)]
+    fn quick(&self, ray: &CentredRay<'_>) -> Option<planar::Quick> {
+        let n = Vec3::from(core::array::from_fn(|i| if i == self.axis { 1.0 } else { 0.0 }));
+        let level = level(self);
+        Some(planar::Quick::new((n, Vec3::ZERO), (ray.o, ray.o_err), (-level, level.abs() * U), ray))
+    }
+
+    #[inline(always)]
     fn slope<T: Ring>(&self, ray: &RingRay<T>) -> T {
         ray.d[self.axis].clone()
     }
@@ -72,6 +80,7 @@ impl PlaneForm for Face {
 struct Later(Face, Face);
 
 impl AlongRay for Later {
+    #[inline(always)]
     fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
         let Self(a, b) = self;
         Some(b.height(ray)? * a.slope(ray) - a.height(ray)? * b.slope(ray))
@@ -82,9 +91,32 @@ impl AlongRay for Later {
 struct Height(Face);
 
 impl AlongRay for Height {
+    #[inline(always)]
     fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
         self.0.height(ray)
     }
+}
+
+/// A ray's entry into a slab, or its exit, in f64: the face and a bracket of the parameter.
+#[derive(Clone, Copy)]
+struct Passage {
+    number: u32,
+    s: f64,
+    lo: f64,
+    hi: f64,
+}
+
+/// The filter takes directions of which each component is known this well: then the second order of their error is `STEEP` times the first.
+const STEEP: f64 = 1.0 / (1u64 << 20) as f64;
+
+/// What the filter knows.
+enum Quick {
+    /// The ray misses the box.
+    Miss,
+    /// The ray enters and leaves through these faces.
+    Through(Passage, Passage),
+    /// Too close to an edge, a face or a corner, or numbers too wild: to be decided exactly.
+    Unsure,
 }
 
 /// A ray's entry into a slab, or its exit.
@@ -148,45 +180,136 @@ impl AxisBox {
         Face { axis, at, centre: self.centre()[axis], scale: self.scale() }
     }
 
+    /// The slabs in f64, each quotient with its error.
+    #[inline(always)]
+    fn quick(&self, ray: &CentredRay<'_>) -> Quick {
+        let none = |s: f64| Passage { number: 0, s, lo: s, hi: s };
+        let (mut entry, mut exit) = (none(f64::NEG_INFINITY), none(f64::INFINITY));
+        // The next brackets beside them, which must not overlap theirs.
+        let (mut entry_rival, mut exit_rival) = (f64::NEG_INFINITY, f64::INFINITY);
+        for axis in 0..3 {
+            let (o, o_err, d, d_err) = (ray.o[axis], ray.o_err[axis], ray.d[axis], ray.d_err[axis]);
+            let gap = |at: f64| {
+                let level = scale2(at - ray.centre[axis], -ray.scale);
+                let gap = level - o;
+                // One rounding of the level, one of the gap.
+                (gap, (level.abs() + gap.abs()).mul_add(U, o_err))
+            };
+            let (low, high) = (gap(self.min[axis]), gap(self.max[axis]));
+            if d == 0.0 && d_err == 0.0 {
+                // Twice the bound pays for its own rounding.
+                if low.0 < -2.0 * low.1 && high.0 > 2.0 * high.1 {
+                    continue;
+                }
+                return Quick::Unsure;
+            }
+            let inverse = 1.0 / d;
+            let turn = d_err * inverse.abs();
+            let passage = |number: u32, (gap, err): (f64, f64)| {
+                let s = gap * inverse;
+                // The direction's error, and three roundings: of the inverse, of the product and of the ends below.
+                let err = err.mul_add(inverse.abs(), s.abs() * (turn + 3.0 * U));
+                let err = err.mul_add(1.0 + 4.0 * STEEP, planar::TINY);
+                Passage { number, s, lo: s - err, hi: s + err }
+            };
+            let number = 2 * axis as u32;
+            let (low, high) = (passage(number, low), passage(number + 1, high));
+            let (near, far) = if d > 0.0 { (low, high) } else { (high, low) };
+            let tame = near.lo.is_finite() && near.hi.is_finite() && far.lo.is_finite() && far.hi.is_finite();
+            if !(turn <= STEEP && tame) {
+                return Quick::Unsure;
+            }
+            if near.lo > entry.lo {
+                entry_rival = entry_rival.max(entry.hi);
+                entry = near;
+            } else {
+                entry_rival = entry_rival.max(near.hi);
+            }
+            if far.hi < exit.hi {
+                exit_rival = exit_rival.min(exit.lo);
+                exit = far;
+            } else {
+                exit_rival = exit_rival.min(far.lo);
+            }
+        }
+        if entry.lo > exit.hi {
+            Quick::Miss
+        } else if entry.hi < exit.lo && entry.lo > entry_rival && exit.hi < exit_rival && entry.s.is_finite()
+        {
+            Quick::Through(entry, exit)
+        } else {
+            Quick::Unsure
+        }
+    }
+
     /// The ray's entry and exit, if it meets the box at all, and whether they are the same point.
     #[inline(always)]
     fn span(&self, probe: &Probe<'_>) -> Option<(Event, Event, bool)> {
-        let mut span: Option<(Event, Event)> = None;
-        for axis in 0..3 {
-            let (low, high) = (2 * axis, 2 * axis + 1);
-            let event = |number| {
-                let face = self.face(number);
-                Some(Event { face, number, crossing: probe.crossing(&face)? })
-            };
-            let Some(first) = event(low) else {
-                if self.lies_between(probe, low) {
-                    continue;
+        match self.quick(&probe.ray) {
+            Quick::Miss => None,
+            Quick::Through(entry, exit) => {
+                let event = |passage: Passage, sign: i8| {
+                    let face = self.face(passage.number);
+                    let crossing = probe.refined(&face, passage.s, passage.lo, passage.hi, sign)?;
+                    Some(Event { face, number: passage.number, crossing })
+                };
+                let sign = |p: &Passage| if probe.ray.d[(p.number / 2) as usize] > 0.0 { 1 } else { -1 };
+                Some((event(entry, sign(&entry))?, event(exit, sign(&exit))?, false))
+            }
+            Quick::Unsure => self.exact_span(probe),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn exact_span(&self, probe: &Probe<'_>) -> Option<(Event, Event, bool)> {
+        Isa::detect().run(
+            #[inline(always)]
+            || {
+                let mut span: Option<(Event, Event)> = None;
+                for axis in 0..3 {
+                    let (low, high) = (2 * axis, 2 * axis + 1);
+                    let event = |number| {
+                        let face = self.face(number);
+                        Some(Event { face, number, crossing: probe.crossing(&face)? })
+                    };
+                    let Some(first) = event(low) else {
+                        if self.lies_between(probe, low) {
+                            continue;
+                        }
+                        return None;
+                    };
+                    let second = event(high)?;
+                    let (near, far) = if first.crossing.sign > 0 { (first, second) } else { (second, first) };
+                    span = Some(match span {
+                        None => (near, far),
+                        Some((entry, exit)) => (
+                            if later(probe, &near, &entry).is_gt() { near } else { entry },
+                            if later(probe, &far, &exit).is_lt() { far } else { exit },
+                        ),
+                    });
                 }
-                return None;
-            };
-            let second = event(high)?;
-            let (near, far) = if first.crossing.sign > 0 { (first, second) } else { (second, first) };
-            span = Some(match span {
-                None => (near, far),
-                Some((entry, exit)) => (
-                    if later(probe, &near, &entry).is_gt() { near } else { entry },
-                    if later(probe, &far, &exit).is_lt() { far } else { exit },
-                ),
-            });
-        }
-        let (entry, exit) = span?;
-        match later(probe, &entry, &exit) {
-            Ordering::Less => Some((entry, exit, false)),
-            Ordering::Equal => Some((entry, exit, true)),
-            Ordering::Greater => None,
-        }
+                let (entry, exit) = span?;
+                match later(probe, &entry, &exit) {
+                    Ordering::Less => Some((entry, exit, false)),
+                    Ordering::Equal => Some((entry, exit, true)),
+                    Ordering::Greater => None,
+                }
+            },
+        )
     }
 
     /// Whether a line across an axis runs within that axis's slab, faces included.
     #[cold]
+    #[inline(never)]
     fn lies_between(&self, probe: &Probe<'_>, low: u32) -> bool {
-        probe.sign(&Height(self.face(low))).is_none_or(Ordering::is_ge)
-            && probe.sign(&Height(self.face(low + 1))).is_none_or(Ordering::is_le)
+        Isa::detect().run(
+            #[inline(always)]
+            || {
+                probe.sign(&Height(self.face(low))).is_none_or(Ordering::is_ge)
+                    && probe.sign(&Height(self.face(low + 1))).is_none_or(Ordering::is_le)
+            },
+        )
     }
 }
 
@@ -208,12 +331,17 @@ fn later(probe: &Probe<'_>, a: &Event, b: &Event) -> Ordering {
 #[cold]
 #[inline(never)]
 fn later_climb(probe: &Probe<'_>, a: &Event, b: &Event) -> Ordering {
-    match probe.sign(&Later(a.face, b.face)) {
-        Some(order) if a.crossing.sign == b.crossing.sign => order,
-        Some(order) => order.reverse(),
-        // Only for rays that are not exactly known: the line may touch the edge between the two faces.
-        None => Ordering::Equal,
-    }
+    Isa::detect().run(
+        #[inline(always)]
+        || {
+            match probe.sign(&Later(a.face, b.face)) {
+                Some(order) if a.crossing.sign == b.crossing.sign => order,
+                Some(order) => order.reverse(),
+                // Only for rays that are not exactly known: the line may touch the edge between the two faces.
+                None => Ordering::Equal,
+            }
+        },
+    )
 }
 
 impl Surface for AxisBox {
@@ -254,6 +382,7 @@ impl Surface for AxisBox {
     }
 
     /// Texture coordinates run from 0 to 1 over each face, along the two other axes in cyclic order.
+    #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         let probe = Probe::new(ray, self.centre(), self.size());
         let face = self.face(root.face);
@@ -300,8 +429,9 @@ impl Surface for AxisBox {
 }
 
 /// The face's place relative to the centre, rounded.
+#[inline(always)]
 fn level(face: &Face) -> f64 {
-    durer_math::eft::scale2(face.at - face.centre, -face.scale)
+    scale2(face.at - face.centre, -face.scale)
 }
 
 impl From<AxisBox> for Aabb {
@@ -312,6 +442,7 @@ impl From<AxisBox> for Aabb {
 
 impl AxisBox {
     /// The outward unit normal of face `number`.
+    #[inline(always)]
     pub fn normal(number: u32) -> Normal3 {
         let outward = if number & 1 == 0 { -1.0 } else { 1.0 };
         let axis = (number / 2) as usize;

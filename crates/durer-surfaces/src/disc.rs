@@ -11,9 +11,9 @@
 //! `|n x (o x d)|^2 - r^2 (n . d)^2`: a polynomial, decided exactly; the rim belongs to the disc.
 
 use crate::planar::{
-    self, AlongRay, Crossing, Line, PlaneForm, Probe, cross, dot, exact3, scaled_to_one, unit,
+    self, AlongRay, Crossing, Line, PlaneForm, Probe, Quick, cross, dot, exact3, scaled_to_one, unit,
 };
-use crate::{Flow, LocalRay, Need, RingRay, Root, Sink, Surface, SurfacePoint};
+use crate::{CentredRay, Flow, LocalRay, Need, RingRay, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use core::f64::consts::TAU;
 use durer_math::eft::{exponent, scale2};
@@ -62,6 +62,7 @@ impl Disc {
     }
 
     /// The normal, scaled by a power of two.
+    #[inline(always)]
     pub fn normal(&self) -> Vec3 {
         self.sheet.normal
     }
@@ -80,16 +81,16 @@ impl Surface for Disc {
     #[inline(always)]
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
         let probe = self.sheet.probe(ray);
-        let rim = self.sheet.rim(self.sheet.radius);
         // An inexact ray that cannot be kept off the disc meets it.
         if let Some(crossing) = self.sheet.crossing(&probe, sink.range())
-            && probe.sign(&rim).is_none_or(Ordering::is_le)
+            && self.sheet.beyond(&probe, &crossing, self.sheet.radius).is_none_or(Ordering::is_le)
             && probe.admits(&self.sheet, &crossing)
         {
             let _: Flow = sink.push(probe.root(&crossing, 0, [0.0; 2]));
         }
     }
 
+    #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, _root: &Root, need: Need) -> SurfacePoint {
         self.sheet.resolve(ray, need, 0.0)
     }
@@ -108,7 +109,7 @@ pub(crate) struct RoundSheet {
 }
 
 /// How far the crossing is from a circle's rim: negative inside.
-pub(crate) struct Rim {
+struct Rim {
     normal: Vec3,
     /// In units of `2^scale`.
     radius: f64,
@@ -125,6 +126,11 @@ impl AlongRay for Rim {
 }
 
 impl PlaneForm for RoundSheet {
+    #[inline(always)]
+    fn quick(&self, ray: &CentredRay<'_>) -> Option<Quick> {
+        Some(Quick::new((self.normal, Vec3::ZERO), (ray.o, ray.o_err), (0.0, 0.0), ray))
+    }
+
     #[inline(always)]
     fn slope<T: Ring>(&self, ray: &RingRay<T>) -> T {
         dot(&exact3(self.normal), &ray.d)
@@ -147,17 +153,25 @@ impl RoundSheet {
         Probe::new(ray, self.centre, self.radius)
     }
 
+    /// Whether a crossing lies beyond a circle about the centre (`Greater`), on it, or within.
     #[inline(always)]
-    pub(crate) fn rim(&self, radius: f64) -> Rim {
-        Rim { normal: self.normal, radius: scale2(radius, -self.scale) }
+    pub(crate) fn beyond(&self, probe: &Probe<'_>, crossing: &Crossing, radius: f64) -> Option<Ordering> {
+        let radius = scale2(radius, -self.scale);
+        let (x, err) = probe.place(crossing);
+        let gap = x.length_squared() - radius * radius;
+        // Each square errs by 2 |x| err + err^2 and passes through three roundings; so does r^2, through one, and the difference.
+        let spread = (x.abs() * 2.0 + err).dot(err);
+        let bound = (x.length_squared() + radius * radius).mul_add(5.0 * U, spread) * (1.0 + 32.0 * U);
+        if gap.abs() > bound + planar::TINY {
+            return Some(if gap > 0.0 { Ordering::Greater } else { Ordering::Less });
+        }
+        probe.sign(&Rim { normal: self.normal, radius })
     }
 
     /// The crossing with the plane, unless it is sure to matter to nobody.
     #[inline(always)]
     pub(crate) fn crossing(&self, probe: &Probe<'_>, range: (f64, f64)) -> Option<Crossing> {
-        let crossing = probe.crossing(self)?;
-        (!probe.leaves(&crossing) && !crossing.is_outside(range) && probe.may_admit(&crossing))
-            .then_some(crossing)
+        probe.crossing_within(self, range)
     }
 
     /// The half-width along an axis is `r sqrt(1 - n_i^2)` for a unit normal.
@@ -175,6 +189,7 @@ impl RoundSheet {
     }
 
     /// Polar texture coordinates: `u` is the angle over a full turn, `v` runs from the inner to the outer radius.
+    #[inline(always)]
     pub(crate) fn resolve(&self, ray: &LocalRay<'_>, need: Need, inner: f64) -> SurfacePoint {
         let (probe, outer) = (self.probe(ray), self.radius);
         let n2 = self.normal.length_squared();

@@ -6,8 +6,8 @@
 //! ray, and what it leaves open is decided on the exact ray: the given one, or the exact preimage of one under a placement.
 
 use crate::RingRay;
-use crate::planar::{AlongRay, Line, cross, dot, seen_from};
-use durer_math::{EdgeRay, Point3, Ring, Run, U, Vec3};
+use crate::planar::{AlongRay, Line, TINY, cross, dot, seen_from};
+use durer_math::{EdgeRay, Isa, Point3, Ring, Run, U, Vec3};
 
 /// `U` for the edge from `a` to `b`.
 struct EdgeForm {
@@ -18,6 +18,7 @@ struct EdgeForm {
 }
 
 impl AlongRay for EdgeForm {
+    #[inline(always)]
     fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
         let from_ray = |v: Point3| {
             let [x, y, z] = seen_from::<T>(v, self.centre, self.scale).map(|x| x * ray.w.clone());
@@ -36,6 +37,7 @@ struct MinorForm {
 }
 
 impl AlongRay for MinorForm {
+    #[inline(always)]
     fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
         let (j, k) = ((self.axis + 1) % 3, (self.axis + 2) % 3);
         let e = |i: usize| T::exact(self.b[i]) - T::exact(self.a[i]);
@@ -44,6 +46,7 @@ impl AlongRay for MinorForm {
 }
 
 /// The axes of the symbolic displacement: all but the first on which `|d|` is largest.
+#[inline(always)]
 pub(crate) fn displacement(d: Vec3) -> [usize; 2] {
     let m = d.abs();
     if m.x >= m.y && m.x >= m.z {
@@ -60,21 +63,26 @@ pub(crate) fn displacement(d: Vec3) -> [usize; 2] {
 #[cold]
 #[inline(never)]
 pub(crate) fn exact_side<L: Line>(line: &L, a: Point3, b: Point3) -> Option<i8> {
-    if let Some((o, d)) = line.given() {
-        return Some(EdgeRay::new(o, d).edge(a, b).sign);
-    }
-    let (centre, scale) = line.view();
-    let side = line.sign(&EdgeForm { a, b, centre, scale })?;
-    if side.is_ne() {
-        return Some(side as i8);
-    }
-    for axis in displacement(Vec3::from(line.running().d.map(|x| x.v))) {
-        let minor = line.sign(&MinorForm { a, b, axis })?;
-        if minor.is_ne() {
-            return Some(minor as i8);
-        }
-    }
-    Some(0)
+    Isa::detect().run(
+        #[inline(always)]
+        || {
+            if let Some((o, d)) = line.given() {
+                return Some(EdgeRay::new(o, d).edge(a, b).sign);
+            }
+            let (centre, scale) = line.view();
+            let side = line.sign(&EdgeForm { a, b, centre, scale })?;
+            if side.is_ne() {
+                return Some(side as i8);
+            }
+            for axis in displacement(Vec3::from(line.running().d.map(|x| x.v))) {
+                let minor = line.sign(&MinorForm { a, b, axis })?;
+                if minor.is_ne() {
+                    return Some(minor as i8);
+                }
+            }
+            Some(0)
+        },
+    )
 }
 
 /// The re-centred ray in plain f64, and what its errors can do to `U`: the filter in front of [`exact_side`].
@@ -111,12 +119,18 @@ impl EdgeFilter {
     /// most four roundings.
     #[inline(always)]
     pub(crate) fn bound(&self, reach: f64) -> f64 {
-        let e = U.mul_add(2.0 * reach + self.o.max_abs(), self.o_err);
+        self.bound_about(reach, 0.0)
+    }
+
+    /// As [`EdgeFilter::bound`], for vertices that are themselves known within `vertex_err` per axis, as seen.
+    #[inline(always)]
+    pub(crate) fn bound_about(&self, reach: f64, vertex_err: f64) -> f64 {
+        let e = U.mul_add(2.0 * reach + self.o.max_abs(), self.o_err + vertex_err);
         let square = reach * reach;
         let inputs = self.d_max.mul_add(e * (2.0 * reach + e), self.d_err * (reach + e) * (reach + e));
         let roundings = 4.0 * U * (1.0 + 16.0 * U) * self.d_max * square;
         // The factor pays for the roundings of this bound, the floor for underflow.
-        (6.0 * (inputs + roundings)).mul_add(1.0 + 64.0 * U, f64::MIN_POSITIVE)
+        (6.0 * (inputs + roundings)).mul_add(1.0 + 64.0 * U, TINY)
     }
 
     /// A bound on the error of a minor `a_i d_j - a_j d_i` of such a vertex and the direction.
@@ -125,7 +139,7 @@ impl EdgeFilter {
         let e = U.mul_add(2.0 * reach + self.o.max_abs(), self.o_err);
         let inputs = self.d_max.mul_add(e, self.d_err * (reach + e));
         let roundings = 2.0 * U * (1.0 + 16.0 * U) * self.d_max * reach;
-        (2.0 * (inputs + roundings)).mul_add(1.0 + 64.0 * U, f64::MIN_POSITIVE)
+        (2.0 * (inputs + roundings)).mul_add(1.0 + 64.0 * U, TINY)
     }
 
     /// `U` for the edge between two vertices as seen.

@@ -6,9 +6,10 @@
 //! parameter comes from the plane of the three vertices, exact numbers all of them.
 
 use crate::edges::{self, EdgeFilter};
-use crate::planar::{self, Crossing, Line, PlaneForm, Probe, Ratios, ThreePoints, cross, dot, seen_from};
+use crate::planar::{self, Crossing, Line, Probe, Ratios, ThreePoints, cross, dot, seen_from};
 use crate::{Need, RingRay, SurfacePoint};
-use durer_math::{Dyadic, Normal3, Point3, Ring, Run, U, Vec3};
+use durer_math::eft::exponent;
+use durer_math::{Dyadic, Isa, Normal3, Point3, Ring, Run, U, Vec3};
 
 /// A triangle by its vertices; the normal is `(v1 - v0) x (v2 - v0)`.
 pub(crate) type Facet = [Point3; 3];
@@ -42,13 +43,12 @@ pub(crate) fn hit(probe: &Probe<'_>, filter: &EdgeFilter, v: &Facet) -> Option<(
     let tag = if bound < sum.abs() * TAG {
         [values[1] / sum, values[2] / sum]
     } else {
-        let b = barycentric(probe, v);
-        [b[0].value(), b[1].value()]
+        barycentric(probe, v).map(Run::value)
     };
     Some((crossing, tag.map(|b| b.clamp(0.0, 1.0))))
 }
 
-/// The relative error up to which barycentric coordinates come straight from the filter.
+/// The relative error up to which the tag comes straight from the filter.
 const TAG: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// A line that passes all edges of a triangle on one side.
@@ -86,23 +86,28 @@ pub(crate) fn passes<L: Line>(line: &L, filter: &EdgeFilter, v: &Facet) -> Optio
 #[cold]
 #[inline(never)]
 fn common_side<L: Line>(line: &L, v: &Facet, values: [f64; 3], bound: f64) -> Option<i8> {
-    let mut common = 0;
-    for (i, value) in values.into_iter().enumerate() {
-        let side = if value > bound {
-            Some(1)
-        } else if value < -bound {
-            Some(-1)
-        } else {
-            edges::exact_side(line, v[(i + 1) % 3], v[(i + 2) % 3])
-        };
-        // A side that is not known (inexact lines only) agrees with all.
-        let Some(side) = side else { continue };
-        if side == 0 || side == -common {
-            return None;
-        }
-        common = side;
-    }
-    Some(common)
+    Isa::detect().run(
+        #[inline(always)]
+        || {
+            let mut common = 0;
+            for (i, value) in values.into_iter().enumerate() {
+                let side = if value > bound {
+                    Some(1)
+                } else if value < -bound {
+                    Some(-1)
+                } else {
+                    edges::exact_side(line, v[(i + 1) % 3], v[(i + 2) % 3])
+                };
+                // A side that is not known (inexact lines only) agrees with all.
+                let Some(side) = side else { continue };
+                if side == 0 || side == -common {
+                    return None;
+                }
+                common = side;
+            }
+            Some(common)
+        },
+    )
 }
 
 /// Whether a point lies in the triangle's plane, exactly.
@@ -112,6 +117,7 @@ pub(crate) fn holds_in_plane(v: &Facet, p: Point3) -> bool {
 }
 
 /// Whether the start of a line, known to lie in the triangle's plane, lies in the closed triangle. An inexact one does.
+#[inline(always)]
 pub(crate) fn holds_start<L: Line>(line: &L, v: &Facet) -> bool {
     let Some(start) = line.exact() else { return true };
     let (centre, scale) = line.view();
@@ -123,11 +129,13 @@ pub(crate) fn holds_start<L: Line>(line: &L, v: &Facet) -> bool {
     signs.iter().all(|s| s.is_ge()) || signs.iter().all(|s| s.is_le())
 }
 
+#[inline(always)]
 pub(crate) fn plane(probe: &Probe<'_>, v: &Facet) -> ThreePoints {
     ThreePoints { points: *v, centre: probe.ray.centre, scale: probe.ray.scale }
 }
 
 /// `(V, W, U + V + W)`: the second and third barycentric coordinates and what they are to be divided by.
+#[inline(always)]
 fn volumes<T: Ring>(v: &Facet, ray: &RingRay<T>, centre: Point3, scale: i32) -> [T; 3] {
     let [a, b, c] = v.map(|v| {
         let [x, y, z] = seen_from::<T>(v, centre, scale).map(|x| x * ray.w.clone());
@@ -140,26 +148,57 @@ fn volumes<T: Ring>(v: &Facet, ray: &RingRay<T>, centre: Point3, scale: i32) -> 
 }
 
 /// `(b1, b2)` of the point where the ray meets the triangle's plane, with bounds.
+#[inline(always)]
 fn barycentric(probe: &Probe<'_>, v: &Facet) -> [Run; 2] {
-    struct Volumes<'a>(&'a Facet, Point3, i32);
-    impl Ratios for Volumes<'_> {
-        fn eval<T: Ring>(&self, ray: &RingRay<T>) -> [T; 3] {
-            volumes(self.0, ray, self.1, self.2)
-        }
-    }
-    planar::ratios(probe, &Volumes(v, probe.ray.centre, probe.ray.scale))
+    let filter = EdgeFilter::new(probe);
+    let [a, b, c] = v.map(|v| filter.seen(v));
+    let bound = filter.bound(a.max_abs().max(b.max_abs()).max(c.max_abs()));
+    quotients([filter.side(b, c), filter.side(c, a), filter.side(a, b)], bound)
+        .unwrap_or_else(|| exact_barycentric(probe, v))
 }
 
-/// The normal by Kahan minors, and a bound on its error per component.
+/// `V` and `W` over `U + V + W`, where that is tight; each volume errs by at most `bound`.
+#[inline(always)]
+pub(crate) fn quotients([u, v, w]: [f64; 3], bound: f64) -> Option<[Run; 2]> {
+    let sum = u + v + w;
+    // Two roundings in the sum.
+    let rounding = 3.0 * U * (u.abs() + v.abs() + w.abs());
+    let least = sum.abs() - 4.0 * bound - rounding;
+    let quotient = |x: f64| {
+        let b = x / sum;
+        Run::with_error(
+            b,
+            ((bound + rounding) * (1.0 + 3.0 * b.abs()) / least + U * b.abs()) * (1.0 + 16.0 * U),
+        )
+    };
+    let b = [quotient(v), quotient(w)];
+    (least > 0.0 && b.iter().all(|b| b.e <= planar::TIGHT)).then_some(b)
+}
+
+#[cold]
+#[inline(never)]
+fn exact_barycentric(probe: &Probe<'_>, v: &Facet) -> [Run; 2] {
+    Isa::detect().run(
+        #[inline(always)]
+        || {
+            struct Volumes<'a>(&'a Facet, Point3, i32);
+            impl Ratios for Volumes<'_> {
+                #[inline(always)]
+                fn eval<T: Ring>(&self, ray: &RingRay<T>) -> [T; 3] {
+                    volumes(self.0, ray, self.1, self.2)
+                }
+            }
+            planar::ratios(probe, &Volumes(v, probe.ray.centre, probe.ray.scale))
+        },
+    )
+}
+
+/// The normal times a power of two that makes it of about unit size, if it can, and a bound on its error per component.
+#[inline(always)]
 fn normal_and_error(v: &Facet) -> (Vec3, Vec3) {
     let (e1, e2) = (v[1] - v[0], v[2] - v[0]);
-    let n = e1.cross(e2);
-    let (p, q) = (e1.abs(), e2.abs());
-    // Each edge component is rounded once, so a product of two errs by 2u and a little; Kahan's minor by 1.5 ulp of the difference.
-    let err = |i: usize, j: usize| {
-        (p[i].mul_add(q[j], p[j] * q[i])).mul_add(6.0 * U * (1.0 + 16.0 * U), f64::MIN_POSITIVE)
-    };
-    (n, Vec3::new(err(1, 2), err(2, 0), err(0, 1)))
+    let one = |e: Vec3| e.scale2(-exponent(e.max_abs()));
+    planar::cross_and_error(one(e1), one(e2))
 }
 
 fn exact_normal(v: &Facet) -> [Dyadic; 3] {
@@ -173,6 +212,7 @@ fn exact_normal(v: &Facet) -> [Dyadic; 3] {
 /// The unit normal, each component within [`NORMAL`] of the exact one; one that is not zero has the exact one's sign.
 ///
 /// So a step along it never leads back through the plane, however the coordinates are rounded.
+#[inline(always)]
 pub(crate) fn unit_normal(v: &Facet) -> Normal3 {
     let (n, err) = normal_and_error(v);
     let size = n.max_abs();
@@ -191,28 +231,19 @@ pub(crate) fn unit_normal(v: &Facet) -> Normal3 {
 }
 
 /// Position, errors, normals, texture coordinates and derivatives where the ray meets the triangle.
+#[inline(always)]
 pub(crate) fn resolve(probe: &Probe<'_>, v: &Facet, varying: &Varying, need: Need) -> SurfacePoint {
     let b = barycentric(probe, v);
-    let form = plane(probe, v);
-    let n = form.normal::<Run>().1;
     let (e1, e2) = (v[1] - v[0], v[2] - v[0]);
-    let mut point = settle(probe, &form, n, v[0], [e1, e2], b, unit_normal(v));
+    let mut point = settle(v[0], [e1, e2], b, unit_normal(v));
     vary(&mut point, v, varying, b.map(|b| b.v.clamp(0.0, 1.0)), need);
     point
 }
 
-/// The point `base + b1 e1 + b2 e2` of a plane, `b1` and `b2` in `[0, 1]` known within bounds; the edges are rounded at most once.
-///
-/// `n` is the plane's normal in the units of its form, `ng` as [`unit_normal`] makes it.
-pub(crate) fn settle<F: PlaneForm>(
-    probe: &Probe<'_>,
-    plane: &F,
-    n: [Run; 3],
-    base: Point3,
-    [e1, e2]: [Vec3; 2],
-    [b1, b2]: [Run; 2],
-    ng: Normal3,
-) -> SurfacePoint {
+/// The point `base + b1 e1 + b2 e2` of a plane, `b1` and `b2` in `[0, 1]` known within bounds; the edges are rounded at most once, and `ng` is as
+/// [`unit_normal`] makes it.
+#[inline(always)]
+pub(crate) fn settle(base: Point3, [e1, e2]: [Vec3; 2], [b1, b2]: [Run; 2], ng: Normal3) -> SurfacePoint {
     // Within the sheet, as the exact point is.
     let (x1, x2) = (b1.v.clamp(0.0, 1.0), b2.v.clamp(0.0, 1.0));
     let axis = |i: usize| {
@@ -225,22 +256,20 @@ pub(crate) fn settle<F: PlaneForm>(
         (p, rounding, along.mul_add(1.0 + 32.0 * U, rounding))
     };
     let [(x, rx, dx), (y, ry, dy), (z, rz, dz)] = [axis(0), axis(1), axis(2)];
-    let p = Point3::new(x, y, z);
-    // Before rounding, the point lay in the plane, whatever the coordinates b.
-    let apart = rx + ry + rz;
-    let off = planar::clearance(plane, p, probe.ray.centre, probe.ray.scale, planar::least_length(n));
-    // The normal may be turned by 2^-28.
-    let off =
-        (if off < apart { off } else { apart }).mul_add(1.0 + 1.0 / (1u64 << 20) as f64, f64::MIN_POSITIVE);
-    SurfacePoint::new(p, Vec3::new(dx, dy, dz), along_rounded_normal(off), ng)
+    // Before rounding, the point lay in the plane, whatever the coordinates b: only the rounding along the normal leads off it.
+    let n = ng.to_vec().abs() + Vec3::new(NORMAL, NORMAL, NORMAL);
+    let off = n.dot(Vec3::new(rx, ry, rz)) * (1.0 + 8.0 * U);
+    SurfacePoint::new(Point3::new(x, y, z), Vec3::new(dx, dy, dz), along_rounded_normal(off), ng)
 }
 
 /// A step along [`unit_normal`] that moves by `off` along the exact normal at least: the cosine of their angle is above `1 - 2 NORMAL`.
+#[inline(always)]
 pub(crate) fn along_rounded_normal(off: f64) -> f64 {
     off.mul_add(1.0 + 4.0 * NORMAL, f64::MIN_POSITIVE)
 }
 
 /// Shading normal, texture coordinates and derivatives at the barycentric coordinates `(b1, b2)`.
+#[inline(always)]
 fn vary(point: &mut SurfacePoint, v: &Facet, varying: &Varying, [b1, b2]: [f64; 2], need: Need) {
     let (e1, e2) = (v[1] - v[0], v[2] - v[0]);
     // Without texture coordinates of its own, a triangle has (0, 0), (1, 0), (0, 1).

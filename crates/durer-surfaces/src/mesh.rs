@@ -211,10 +211,12 @@ impl Mesh {
     }
 }
 
+#[inline(always)]
 fn normal_faces(data: &MeshData) -> &[[u32; 3]] {
     if data.normal_faces.is_empty() { &data.faces } else { &data.normal_faces }
 }
 
+#[inline(always)]
 fn uv_faces(data: &MeshData) -> &[[u32; 3]] {
     if data.uv_faces.is_empty() { &data.faces } else { &data.uv_faces }
 }
@@ -232,6 +234,7 @@ fn check_indices(what: &'static str, faces: &[[u32; 3]], len: usize) -> Result<(
 }
 
 /// Whether a point's box meets a face's.
+#[inline(always)]
 fn may_hold(facet: &Facet, point: &LocalPoint<'_>) -> bool {
     let Aabb { min, max, .. } = Aabb::from_points(*facet).expanded(point.p_err);
     (0..3).all(|i| min[i] <= point.p[i] && point.p[i] <= max[i])
@@ -244,6 +247,7 @@ struct Sorted {
 }
 
 impl Sorted {
+    #[inline(always)]
     fn push(&mut self, root: Root) {
         if self.many.is_empty() {
             match self.few.try_push(root) {
@@ -254,6 +258,7 @@ impl Sorted {
         self.many.push(root);
     }
 
+    #[inline(always)]
     fn pour<S: Sink + ?Sized>(mut self, sink: &mut S) {
         let roots = if self.many.is_empty() { self.few.as_mut_slice() } else { &mut self.many };
         roots.sort_unstable_by(Root::order);
@@ -270,6 +275,7 @@ impl Surface for Mesh {
         self.bounds
     }
 
+    #[inline(always)]
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
         let probe = self.probe(ray);
         let filter = EdgeFilter::new(&probe);
@@ -282,6 +288,7 @@ impl Surface for Mesh {
         roots.pour(sink);
     }
 
+    #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         let face = root.face as usize;
         let data = &self.data;
@@ -331,6 +338,7 @@ impl Surface for Mesh {
         }
     }
 
+    #[inline(always)]
     fn part_roots<S: Sink + ?Sized>(&self, part: PartId, ray: &LocalRay<'_>, sink: &mut S) {
         let probe = self.probe(ray);
         if let Some(root) = self.face_root(part.0, &probe, &EdgeFilter::new(&probe), sink.range()) {

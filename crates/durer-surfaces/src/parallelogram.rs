@@ -10,11 +10,13 @@
 //! With `q = o - c` Cramer's rule gives `a = q . (v x d) / (n . d)` and `b = q . (d x u) / (n . d)`; whether they lie in `[0, 1]` is the sign
 //! of four polynomials, decided exactly. The sheet is closed: its edges belong to it.
 
+use crate::edges::EdgeFilter;
 use crate::facet;
 use crate::planar::{self, AlongRay, Line, PlaneForm, Probe, Ratios, cross, dot, seen_from};
-use crate::{Flow, LocalRay, Need, RingRay, Root, Sink, Surface, SurfacePoint};
+use crate::{CentredRay, Flow, LocalRay, Need, RingRay, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
-use durer_math::{Aabb, Point3, Ring, Run, Vec3};
+use durer_math::eft::scale2;
+use durer_math::{Aabb, Point3, Ring, Run, U, Vec3};
 
 /// The sheet `corner + a u + b v` with `a` and `b` in `[0, 1]`. A root's tag is `(a, b)`, and so are the texture coordinates.
 ///
@@ -63,6 +65,7 @@ impl Parallelogram {
     }
 
     /// The edges.
+    #[inline(always)]
     pub fn edges(&self) -> [Vec3; 2] {
         [self.u, self.v]
     }
@@ -73,10 +76,47 @@ impl Parallelogram {
         Probe::new(ray, self.corner + (self.u + self.v) * 0.5, half.max_abs())
     }
 
+    /// The sides on which the ray passes the four edges, in f64.
+    #[inline(always)]
+    fn quick(&self, probe: &Probe<'_>) -> Quick {
+        let filter = EdgeFilter::new(probe);
+        let far = self.corner + self.u;
+        let corners = [self.corner, far, far + self.v, self.corner + self.v];
+        let [a, b, c, d] = corners.map(|p| filter.seen(p));
+        // Two roundings at most lead to a corner.
+        let size = (self.corner.to_vec().abs() + self.u.abs() + self.v.abs()).max_abs() * (2.0 * U);
+        let reach = a.max_abs().max(b.max_abs()).max(c.max_abs()).max(d.max_abs());
+        let bound = filter.bound_about(reach, scale2(size, -probe.ray.scale) * (1.0 + 8.0 * U));
+        let sides = [filter.side(a, b), filter.side(b, c), filter.side(c, d), filter.side(d, a)];
+        let least = sides[0].min(sides[1]).min(sides[2]).min(sides[3]);
+        let most = sides[0].max(sides[1]).max(sides[2]).max(sides[3]);
+        if least < -bound && most > bound {
+            return Quick::Miss;
+        }
+        if least > bound || most < -bound {
+            // Opposite sides add up to the same whole; a third side of zero changes nothing.
+            let part = |near: f64, far: f64| facet::quotients([far, near, 0.0], bound);
+            return Quick::Through(
+                part(sides[3], sides[1]).zip(part(sides[0], sides[2])).map(|(u, v)| [u[0], v[0]]),
+            );
+        }
+        Quick::Unsure
+    }
+
     #[inline(always)]
     fn spanned<'a>(&'a self, probe: &Probe<'_>) -> Spanned<'a> {
         Spanned { sheet: self, centre: probe.ray.centre, scale: probe.ray.scale }
     }
+}
+
+/// What the filter knows.
+enum Quick {
+    /// The ray misses the sheet.
+    Miss,
+    /// The line meets it, at these coordinates if they are known well.
+    Through(Option<[Run; 2]>),
+    /// Too close to an edge, or edge-on: to be decided exactly.
+    Unsure,
 }
 
 /// The parallelogram seen from a centre.
@@ -109,6 +149,13 @@ impl Spanned<'_> {
 }
 
 impl PlaneForm for Spanned<'_> {
+    #[inline(always)]
+    fn quick(&self, ray: &CentredRay<'_>) -> Option<planar::Quick> {
+        let [u, v] = [self.sheet.u, self.sheet.v].map(|e| e.map(|x| scale2(x, -self.scale)));
+        let n = planar::cross_and_error(u, v);
+        Some(planar::Quick::new(n, planar::origin_from(ray, self.sheet.corner), (0.0, 0.0), ray))
+    }
+
     #[inline(always)]
     fn slope<T: Ring>(&self, ray: &RingRay<T>) -> T {
         dot(&self.normal(), &ray.d)
@@ -145,6 +192,7 @@ impl AlongRay for FromEdge<'_> {
 }
 
 /// Whether the crossing lies between two opposite edges; an inexact ray that cannot be excluded does.
+#[inline(always)]
 fn between(probe: &Probe<'_>, spanned: &Spanned<'_>, which: usize, slope: i8) -> bool {
     let along = |far| {
         let sign = probe.sign(&FromEdge { spanned, which, far });
@@ -166,35 +214,29 @@ impl Surface for Parallelogram {
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
         let probe = self.probe(ray);
         let spanned = self.spanned(&probe);
-        let Some(crossing) = probe.crossing(&spanned) else { return };
-        if probe.leaves(&crossing) || crossing.is_outside(sink.range()) || !probe.may_admit(&crossing) {
-            return;
-        }
-        // In f64 first, with all of it computed once.
-        let [a, b, whole] = spanned.eval(&probe.run);
-        let ratios = [a / whole, b / whole];
-        for (which, x) in ratios.iter().enumerate() {
-            let certain = x.lo() > 0.0 && x.hi() < 1.0;
-            if !certain && (x.hi() < 0.0 || x.lo() > 1.0 || !between(&probe, &spanned, which, crossing.sign))
-            {
-                return;
-            }
-        }
-        if probe.admits(&spanned, &crossing) {
-            let tight = ratios.iter().all(|x| x.e <= planar::TIGHT);
-            let ratios = if tight { ratios } else { planar::ratios(&probe, &spanned) };
-            let tag = ratios.map(|x: Run| x.v.clamp(0.0, 1.0));
+        let (certain, tag) = match self.quick(&probe) {
+            Quick::Miss => return,
+            Quick::Through(tag) => (true, tag),
+            Quick::Unsure => (false, None),
+        };
+        let Some(crossing) = probe.crossing_within(&spanned, sink.range()) else { return };
+        let inside = certain || (0..2).all(|which| between(&probe, &spanned, which, crossing.sign));
+        if inside && probe.admits(&spanned, &crossing) {
+            let tag = tag.unwrap_or_else(|| planar::ratios(&probe, &spanned)).map(|x| x.v.clamp(0.0, 1.0));
             let _: Flow = sink.push(probe.root(&crossing, 0, tag));
         }
     }
 
+    #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, _root: &Root, need: Need) -> SurfacePoint {
         let probe = self.probe(ray);
         let spanned = self.spanned(&probe);
         let ng = facet::unit_normal(&[Point3::ORIGIN, self.u.to_point(), self.v.to_point()]);
-        let b = planar::ratios(&probe, &spanned);
-        let mut point =
-            facet::settle(&probe, &spanned, spanned.normal(), self.corner, [self.u, self.v], b, ng);
+        let b = match self.quick(&probe) {
+            Quick::Through(Some(b)) => b,
+            _ => planar::ratios(&probe, &spanned),
+        };
+        let mut point = facet::settle(self.corner, [self.u, self.v], b, ng);
         if need.contains(Need::UV) {
             point.uv = b.map(|b| b.v.clamp(0.0, 1.0));
         }

@@ -10,14 +10,19 @@
 use crate::{CentredRay, End, Kind, LocalPoint, LocalRay, RingRay, Root, Side};
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
-use durer_math::rounding::{div_down, div_up};
-use durer_math::{Aabb, Dd, Dyadic, Normal3, Point3, RaySide, Ring, Run, U, Vec3};
+use durer_math::rounding::{add_up, div_down, div_up, sub_down};
+use durer_math::{Aabb, Dd, Dyadic, Isa, Normal3, Point3, RaySide, Ring, Run, U, Vec3};
 
-/// A bracket that is wider than 32 ulp of `max(|t|, size / |d|)` is found again in double-double; here as a relative width, taking
-/// the ulp at its smallest.
+/// A bracket that is wider than 32 ulp of `max(|t|, size / |d|)` is found again in double-double; here relative to `size / |d|`, taking the ulp
+/// at its smallest.
 const NARROW: f64 = 32.0 * U;
-/// Coordinates in a plane known this well need no better.
-pub(crate) const TIGHT: f64 = 32.0 * U;
+/// Coordinates in a plane known this well need no better: their error goes into `dp` alone, where it is a few hundred times the rounding of the
+/// position at most.
+pub(crate) const TIGHT: f64 = 256.0 * U;
+
+/// Pays for underflow in numbers of about unit size: far more than needed, so that it and its multiples are normal numbers. A subnormal
+/// operand costs a hundred times the operation itself on many CPUs.
+pub(crate) const TINY: f64 = durer_math::scale::pow2(-1000);
 
 /// A plane, by its height function along a ray; the height is zero on the plane and grows along the normal.
 ///
@@ -29,6 +34,12 @@ pub(crate) trait PlaneForm {
     /// The height at `s = 0`; `None` only where `T` holds exact numbers and the plane's are not.
     fn height<T: Ring>(&self, ray: &RingRay<T>) -> Option<T>;
 
+    /// Height and slope for a filter, if that pays.
+    #[inline(always)]
+    fn quick(&self, _ray: &CentredRay<'_>) -> Option<Quick> {
+        None
+    }
+
     /// The sign of the height at `s = 0`, exactly.
     fn exact_side(&self, ray: &RingRay<Dyadic>) -> Option<Ordering> {
         self.height(ray).map(|h| h.exact_sign())
@@ -37,6 +48,51 @@ pub(crate) trait PlaneForm {
     /// Bounds of the height at `s = 0`, the tighter the better.
     fn height_bounds(&self, ray: &RingRay<Dyadic>) -> Option<(Dyadic, Dyadic)> {
         self.height(ray).map(|h| (h.clone(), h))
+    }
+}
+
+/// A plane's height and slope along a ray in plain f64, each with a bound on its error: the filter in front of the ladder.
+pub(crate) struct Quick {
+    height: f64,
+    height_err: f64,
+    slope: f64,
+    slope_err: f64,
+}
+
+impl Quick {
+    /// `height = n . q + lift`, `slope = n . d`; each number comes as a value and a bound on its error.
+    ///
+    /// A dot product passes each term through at most three roundings; the sum with the lift is one more.
+    #[inline(always)]
+    pub(crate) fn new(
+        (n, n_err): (Vec3, Vec3),
+        (q, q_err): (Vec3, Vec3),
+        (lift, lift_err): (f64, f64),
+        ray: &CentredRay<'_>,
+    ) -> Self {
+        let size = n.abs();
+        let err = |v: Vec3, v_err: Vec3| size.dot(v.abs() * (3.0 * U) + v_err) + n_err.dot(v.abs() + v_err);
+        let height = n.dot(q) + lift;
+        let pay = |e: f64| e.mul_add(1.0 + 32.0 * U, TINY);
+        Self {
+            height,
+            height_err: pay(height.abs().mul_add(U, err(q, q_err) + lift_err)),
+            slope: n.dot(ray.d),
+            slope_err: pay(err(ray.d, ray.d_err)),
+        }
+    }
+
+    /// The crossing's parameter, a bound on its error, and the sign of the slope, if that is certain.
+    #[inline(always)]
+    fn crossing(&self) -> Option<(f64, f64, Ordering)> {
+        let least = self.slope.abs() - self.slope_err;
+        if !(least > 0.0) {
+            return None;
+        }
+        let s = -self.height / self.slope;
+        let err = s.abs().mul_add(self.slope_err, self.height_err) / least;
+        let err = s.abs().mul_add(U, err).mul_add(1.0 + 16.0 * U, TINY);
+        Some((s, err, if self.slope > 0.0 { Ordering::Greater } else { Ordering::Less }))
     }
 }
 
@@ -79,8 +135,13 @@ pub(crate) trait Line {
     #[cold]
     #[inline(never)]
     fn sign_climb<P: AlongRay>(&self, p: &P) -> Option<Ordering> {
-        let dd = self.double().and_then(|ray| p.eval(&ray)?.sign());
-        dd.or_else(|| p.eval(&self.exact()?)?.sign())
+        Isa::detect().run(
+            #[inline(always)]
+            || {
+                let dd = self.double().and_then(|ray| p.eval(&ray)?.sign());
+                dd.or_else(|| p.eval(&self.exact()?)?.sign())
+            },
+        )
     }
 }
 
@@ -142,13 +203,8 @@ impl<'a> Probe<'a> {
     /// the range of f64 has an infinite `s`.
     #[inline(always)]
     pub(crate) fn crossing<F: PlaneForm>(&self, plane: &F) -> Option<Crossing> {
-        let slope = plane.slope(&self.run);
-        if let (Some(sign), Some(height)) = (slope.sign(), plane.height(&self.run)) {
-            if sign.is_eq() {
-                return None;
-            }
-            let s = -(height / slope);
-            let crossing = self.bracketed(s.value(), s.lo(), s.hi(), sign);
+        if let Some((s, err, sign)) = plane.quick(&self.ray).and_then(|quick| quick.crossing()) {
+            let crossing = self.bracketed(s, sub_down(s, err), add_up(s, err), sign);
             if self.is_narrow(&crossing) {
                 return Some(crossing);
             }
@@ -156,47 +212,98 @@ impl<'a> Probe<'a> {
         self.crossing_climb(plane)
     }
 
+    /// As [`Probe::crossing`], but only a crossing that may matter: not where the ray was spawned, not surely outside its range or the
+    /// sink's. What f64 can dismiss needs no narrow bracket.
+    #[inline(always)]
+    pub(crate) fn crossing_within<F: PlaneForm>(&self, plane: &F, range: (f64, f64)) -> Option<Crossing> {
+        let matters = |c: &Crossing| !self.leaves(c) && !c.is_outside(range) && self.may_admit(c);
+        if let Some((s, err, sign)) = plane.quick(&self.ray).and_then(|quick| quick.crossing()) {
+            let crossing = self.bracketed(s, sub_down(s, err), add_up(s, err), sign);
+            if s.is_finite() && !matters(&crossing) {
+                return None;
+            }
+            if self.is_narrow(&crossing) {
+                return Some(crossing);
+            }
+        }
+        self.crossing_climb(plane).filter(matters)
+    }
+
+    /// As [`Probe::crossing`], but not narrower than the error of a position needs.
+    #[inline(always)]
+    fn crossing_for_a_point<F: PlaneForm>(&self, plane: &F) -> Option<Crossing> {
+        if let Some((s, err, sign)) = plane.quick(&self.ray).and_then(|quick| quick.crossing())
+            && err <= TIGHT * (s.abs() + self.size)
+        {
+            return Some(self.bracketed(s, sub_down(s, err), add_up(s, err), sign));
+        }
+        self.crossing(plane)
+    }
+
+    /// A crossing of which a bracket is known: that one if it is narrow, else a better one.
+    #[inline(always)]
+    pub(crate) fn refined<F: PlaneForm>(
+        &self,
+        plane: &F,
+        s: f64,
+        s_lo: f64,
+        s_hi: f64,
+        sign: i8,
+    ) -> Option<Crossing> {
+        let crossing = self.bracketed(s, s_lo, s_hi, sign.cmp(&0));
+        if self.is_narrow(&crossing) { Some(crossing) } else { self.crossing_climb(plane) }
+    }
+
     #[cold]
     #[inline(never)]
     fn crossing_climb<F: PlaneForm>(&self, plane: &F) -> Option<Crossing> {
-        let mut best = None;
-        if let Some(ray) = self.ray.in_ring::<Run<Dd>>() {
-            let slope = plane.slope(&ray);
-            if let (Some(sign), Some(height)) = (slope.sign(), plane.height(&ray)) {
-                if sign.is_eq() {
+        Isa::detect().run(
+            #[inline(always)]
+            || {
+                // A slope of zero is seen at once where each term of it is zero.
+                if plane.slope(&self.run).sign() == Some(Ordering::Equal) {
                     return None;
                 }
-                let s = -(height / slope);
-                let crossing = self.bracketed(s.value(), s.lo(), s.hi(), sign);
-                if self.is_narrow(&crossing) {
-                    return Some(crossing);
+                let mut best = None;
+                if let Some(ray) = self.ray.in_ring::<Run<Dd>>() {
+                    let slope = plane.slope(&ray);
+                    if let (Some(sign), Some(height)) = (slope.sign(), plane.height(&ray)) {
+                        if sign.is_eq() {
+                            return None;
+                        }
+                        let s = -(height / slope);
+                        let crossing = self.bracketed(s.value(), s.lo(), s.hi(), sign);
+                        if self.is_narrow(&crossing) {
+                            return Some(crossing);
+                        }
+                        best = Some(crossing);
+                    }
                 }
-                best = Some(crossing);
-            }
-        }
-        // What is left: rays that are almost parallel, numbers at the ends of the range of f64, inexact rays.
-        let exact = self.ray.in_ring::<Dyadic>().and_then(|ray| {
-            let slope = plane.slope(&ray);
-            let (low, high) = plane.height_bounds(&ray)?;
-            Some((slope, low, high))
-        });
-        if let Some((slope, low, high)) = exact {
-            if slope.is_zero() {
-                return None;
-            }
-            let (lo, hi) = quotient_bounds(&-high, &-low, &slope);
-            best = Some(self.bracketed(0.5 * lo + 0.5 * hi, lo, hi, slope.exact_sign()));
-        }
-        best
+                // What is left: rays that are almost parallel, numbers at the ends of the range of f64, inexact rays.
+                let exact = self.ray.in_ring::<Dyadic>().and_then(|ray| {
+                    let slope = plane.slope(&ray);
+                    let (low, high) = plane.height_bounds(&ray)?;
+                    Some((slope, low, high))
+                });
+                if let Some((slope, low, high)) = exact {
+                    if slope.is_zero() {
+                        return None;
+                    }
+                    let (lo, hi) = quotient_bounds(&-high, &-low, &slope);
+                    best = Some(self.bracketed(0.5 * lo + 0.5 * hi, lo, hi, slope.exact_sign()));
+                }
+                best
+            },
+        )
     }
 
     /// Whether a bracket needs no better one.
     #[inline(always)]
     fn is_narrow(&self, c: &Crossing) -> bool {
-        let width = c.s_hi - c.s_lo;
+        let (width, t) = (c.s_hi - c.s_lo, c.lo.abs().min(c.hi.abs()));
         // |d| < 4; the exact length is asked for only where it matters.
         width <= NARROW * 0.25 * self.size
-            || c.hi - c.lo <= NARROW * c.lo.abs().min(c.hi.abs())
+            || c.hi - c.lo <= 32.0 * (t.next_up() - t)
             || width * self.ray.d.length() <= NARROW * self.size
     }
 
@@ -228,27 +335,33 @@ impl<'a> Probe<'a> {
     #[cold]
     #[inline(never)]
     fn admits_climb<F: PlaneForm>(&self, plane: &F, crossing: &Crossing) -> bool {
-        let holds = |end: End| {
-            let at = self.ray.end(end);
-            let (surely, never) = match end {
-                End::Min => (crossing.lo >= at, crossing.hi < at),
-                End::Max => (crossing.hi <= at, crossing.lo > at),
-            };
-            if surely || never {
-                return surely;
-            }
-            let Some(height) = self.height_at_end(plane, end) else { return true };
-            // Before the crossing the height has the sign opposite to the slope's.
-            let ahead = if crossing.sign > 0 { height.reverse() } else { height };
-            match end {
-                End::Min => ahead.is_ge(),
-                End::Max => ahead.is_le(),
-            }
-        };
-        holds(End::Min) && holds(End::Max)
+        Isa::detect().run(
+            #[inline(always)]
+            || {
+                let holds = |end: End| {
+                    let at = self.ray.end(end);
+                    let (surely, never) = match end {
+                        End::Min => (crossing.lo >= at, crossing.hi < at),
+                        End::Max => (crossing.hi <= at, crossing.lo > at),
+                    };
+                    if surely || never {
+                        return surely;
+                    }
+                    let Some(height) = self.height_at_end(plane, end) else { return true };
+                    // Before the crossing the height has the sign opposite to the slope's.
+                    let ahead = if crossing.sign > 0 { height.reverse() } else { height };
+                    match end {
+                        End::Min => ahead.is_ge(),
+                        End::Max => ahead.is_le(),
+                    }
+                };
+                holds(End::Min) && holds(End::Max)
+            },
+        )
     }
 
     /// The sign of the height at an end of the range.
+    #[inline(always)]
     fn height_at_end<F: PlaneForm>(&self, plane: &F, end: End) -> Option<Ordering> {
         let dd = self.ray.in_ring::<Run<Dd>>().map(|ray| advanced(ray, &self.ray.end_in_ring(end)));
         if let Some(sign) = dd.and_then(|ray| plane.height(&ray)?.sign()) {
@@ -270,6 +383,7 @@ impl<'a> Probe<'a> {
     }
 
     /// The point of a crossing relative to the centre, in units of `2^scale`, and a bound on its error per axis.
+    #[inline(always)]
     pub(crate) fn place(&self, crossing: &Crossing) -> (Vec3, Vec3) {
         let half = (crossing.s_hi - crossing.s).max(crossing.s - crossing.s_lo);
         let axis = |i: usize| {
@@ -277,7 +391,7 @@ impl<'a> Probe<'a> {
             let x = crossing.s.mul_add(d, o);
             let from_s = d.abs().mul_add(half, crossing.s.abs() * self.ray.d_err[i]);
             let err = x.abs().mul_add(U, self.ray.o_err[i] + from_s + half * self.ray.d_err[i]);
-            (x, err.mul_add(1.0 + 16.0 * U, f64::MIN_POSITIVE))
+            (x, err.mul_add(1.0 + 16.0 * U, TINY))
         };
         let ((x, ex), (y, ey), (z, ez)) = (axis(0), axis(1), axis(2));
         (Vec3::new(x, y, z), Vec3::new(ex, ey, ez))
@@ -303,6 +417,7 @@ impl Crossing {
 }
 
 /// The ray with its parameter moved on by `step`.
+#[inline(always)]
 fn advanced<T: Ring>(ray: RingRay<T>, step: &T) -> RingRay<T> {
     let [a, b, c] = ray.o;
     let [x, y, z] = ray.d.clone();
@@ -345,6 +460,7 @@ impl<'a> PointLine<'a> {
     }
 
     /// On which side of a plane the point lies: above (`Greater`), on it, or below; exact.
+    #[inline(always)]
     pub(crate) fn side_of<F: PlaneForm>(&self, plane: &F) -> Option<Ordering> {
         if let Some(sign) = plane.height(&self.run).and_then(|h| h.sign()) {
             return Some(sign);
@@ -354,6 +470,7 @@ impl<'a> PointLine<'a> {
     }
 }
 
+#[inline(always)]
 fn point_line<T: Ring>((p, w): ([T; 3], T), direction: Vec3, centre: Point3, scale: i32) -> RingRay<T> {
     let c = centre.to_array().map(|c| T::exact(c) * w.clone());
     let [x, y, z] = p;
@@ -363,6 +480,7 @@ fn point_line<T: Ring>((p, w): ([T; 3], T), direction: Vec3, centre: Point3, sca
 }
 
 impl Line for PointLine<'_> {
+    #[inline(always)]
     fn running(&self) -> &RingRay<Run<f64>> {
         &self.run
     }
@@ -375,12 +493,14 @@ impl Line for PointLine<'_> {
     fn given(&self) -> Option<(Point3, Vec3)> {
         None
     }
+    #[inline(always)]
     fn view(&self) -> (Point3, i32) {
         (self.centre, self.scale)
     }
 }
 
 /// What is exact about a side, for a solid whose inside is below.
+#[inline(always)]
 pub(crate) fn below_is_in(side: Option<Ordering>) -> Side {
     match side {
         Some(Ordering::Less) => Side::In,
@@ -393,6 +513,7 @@ pub(crate) fn below_is_in(side: Option<Ordering>) -> Side {
 /// The point of a ray's crossing with a plane, moved onto the plane along its normal, and a bound on its error per axis.
 ///
 /// `n` is the normal, `n2` its squared length, `lift` the height of the centre above the plane, all in the form's units.
+#[inline(always)]
 pub(crate) fn foot_point<F: PlaneForm>(
     probe: &Probe<'_>,
     plane: &F,
@@ -400,7 +521,7 @@ pub(crate) fn foot_point<F: PlaneForm>(
     n2: f64,
     lift: f64,
 ) -> (Point3, Vec3) {
-    let Some(crossing) = probe.crossing(plane) else {
+    let Some(crossing) = probe.crossing_for_a_point(plane) else {
         // Not a crossing of this ray: nothing is known.
         let unknown = Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY);
         return (probe.ray.centre, unknown);
@@ -423,6 +544,7 @@ pub(crate) fn foot_point<F: PlaneForm>(
 /// normal provably leaves the plane; see [`SurfacePoint::off`](crate::SurfacePoint::off).
 ///
 /// `length` is a lower bound of the normal's length in the units of the form's height.
+#[inline(always)]
 pub(crate) fn clearance<F: PlaneForm>(plane: &F, p: Point3, centre: Point3, scale: i32, length: f64) -> f64 {
     let c = centre.to_array();
     let q = p.to_array();
@@ -443,6 +565,7 @@ pub(crate) fn middle(b: &Aabb) -> (Point3, f64) {
 }
 
 /// The unit normal of a vector whose largest component is in [1, 2) in magnitude; each component within 4u, relatively.
+#[inline(always)]
 pub(crate) fn unit(n: Vec3) -> Normal3 {
     (n / n.length()).to_normal()
 }
@@ -467,6 +590,7 @@ pub(crate) trait Ratios {
 }
 
 /// Both quotients with bounds: in f64 where that is tight, else higher up the ladder.
+#[inline(always)]
 pub(crate) fn ratios<R: Ratios>(probe: &Probe<'_>, r: &R) -> [Run; 2] {
     let [a, b, d] = r.eval(&probe.run);
     let first = [a / d, b / d];
@@ -477,24 +601,30 @@ pub(crate) fn ratios<R: Ratios>(probe: &Probe<'_>, r: &R) -> [Run; 2] {
 #[cold]
 #[inline(never)]
 fn ratios_climb<R: Ratios>(probe: &Probe<'_>, r: &R) -> Option<[Run; 2]> {
-    let [a, b, d] = r.eval(&probe.double()?);
-    let nearest = |x: Run<Dd>| Run::with_error(x.v.hi, (x.e + x.v.lo.abs()) * (1.0 + 8.0 * U));
-    let dd = [nearest(a / d), nearest(b / d)];
-    if dd.iter().all(|x| x.e <= TIGHT) {
-        return Some(dd);
-    }
-    let Some(ray) = probe.exact() else { return Some(dd) };
-    let [a, b, d] = r.eval(&ray);
-    if d.is_zero() {
-        return None;
-    }
-    Some([a, b].map(|n| {
-        let (lo, hi) = quotient_bounds(&n, &n, &d);
-        Run::with_error(0.5 * lo + 0.5 * hi, (hi - lo) * (1.0 + 8.0 * U))
-    }))
+    Isa::detect().run(
+        #[inline(always)]
+        || {
+            let [a, b, d] = r.eval(&probe.double()?);
+            let nearest = |x: Run<Dd>| Run::with_error(x.v.hi, (x.e + x.v.lo.abs()) * (1.0 + 8.0 * U));
+            let dd = [nearest(a / d), nearest(b / d)];
+            if dd.iter().all(|x| x.e <= TIGHT) {
+                return Some(dd);
+            }
+            let Some(ray) = probe.exact() else { return Some(dd) };
+            let [a, b, d] = r.eval(&ray);
+            if d.is_zero() {
+                return None;
+            }
+            Some([a, b].map(|n| {
+                let (lo, hi) = quotient_bounds(&n, &n, &d);
+                Run::with_error(0.5 * lo + 0.5 * hi, (hi - lo) * (1.0 + 8.0 * U))
+            }))
+        },
+    )
 }
 
 /// A lower bound of a vector's length; zero if nothing better is known.
+#[inline(always)]
 pub(crate) fn least_length(n: [Run; 3]) -> f64 {
     let least = n.map(|x| (x.v.abs() - x.e).max(0.0));
     Vec3::from(least).length() * (1.0 - 8.0 * U)
@@ -520,7 +650,33 @@ impl ThreePoints {
     }
 }
 
+/// The cross product of two vectors of which each component was rounded at most once, and a bound on its error per component.
+#[inline(always)]
+pub(crate) fn cross_and_error(a: Vec3, b: Vec3) -> (Vec3, Vec3) {
+    let (p, q) = (a.abs(), b.abs());
+    // A product of two such components errs by 2u and a little; Kahan's minor by 1.5 ulp of the difference.
+    let err =
+        |i: usize, j: usize| (p[i].mul_add(q[j], p[j] * q[i])).mul_add(6.0 * U * (1.0 + 16.0 * U), TINY);
+    (a.cross(b), Vec3::new(err(1, 2), err(2, 0), err(0, 1)))
+}
+
+/// The ray's origin relative to a point, and a bound on its error per axis.
+#[inline(always)]
+pub(crate) fn origin_from(ray: &CentredRay<'_>, p: Point3) -> (Vec3, Vec3) {
+    let p = (p - ray.centre).map(|x| scale2(x, -ray.scale));
+    let q = ray.o - p;
+    let err = |i: usize| (p[i].abs() + q[i].abs()).mul_add(U * (1.0 + 8.0 * U), ray.o_err[i] + TINY);
+    (q, Vec3::new(err(0), err(1), err(2)))
+}
+
 impl PlaneForm for ThreePoints {
+    #[inline(always)]
+    fn quick(&self, ray: &CentredRay<'_>) -> Option<Quick> {
+        let [a, b, c] = self.points;
+        let edge = |to: Point3| (to - a).map(|x| scale2(x, -self.scale));
+        Some(Quick::new(cross_and_error(edge(b), edge(c)), origin_from(ray, a), (0.0, 0.0), ray))
+    }
+
     #[inline(always)]
     fn slope<T: Ring>(&self, ray: &RingRay<T>) -> T {
         dot(&self.normal().1, &ray.d)
@@ -537,22 +693,26 @@ impl PlaneForm for ThreePoints {
 }
 
 /// The exact vector `v` in a ring, as three numbers.
+#[inline(always)]
 pub(crate) fn exact3<T: Ring>(v: Vec3) -> [T; 3] {
     [T::exact(v.x), T::exact(v.y), T::exact(v.z)]
 }
 
 /// The dot product in a ring.
+#[inline(always)]
 pub(crate) fn dot<T: Ring>(a: &[T; 3], b: &[T; 3]) -> T {
     a[0].clone() * b[0].clone() + a[1].clone() * b[1].clone() + a[2].clone() * b[2].clone()
 }
 
 /// The cross product in a ring.
+#[inline(always)]
 pub(crate) fn cross<T: Ring>(a: &[T; 3], b: &[T; 3]) -> [T; 3] {
     let minor = |i: usize, j: usize| a[i].clone() * b[j].clone() - a[j].clone() * b[i].clone();
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
 /// The exact point `p` relative to `centre` in units of `2^scale`.
+#[inline(always)]
 pub(crate) fn seen_from<T: Ring>(p: Point3, centre: Point3, scale: i32) -> [T; 3] {
     let axis = |p: f64, c: f64| (T::exact(p) - T::exact(c)).scale2(-scale);
     [axis(p.x, centre.x), axis(p.y, centre.y), axis(p.z, centre.z)]

@@ -10,10 +10,12 @@
 //! The surface is *exactly* this set for the stored normal `n` (of any length) and distance `h`. Where `|n|` is irrational the
 //! plane has no rational point, yet every decision is rational: `n . p < h |n|` is a matter of signs and of `(n . p)^2 < h^2 n . n`.
 
-use crate::planar::{self, PlaneForm, PointLine, Probe, dot, exact3, scaled_to_one, unit};
-use crate::{Flow, LocalPoint, LocalRay, Need, RingRay, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use crate::planar::{self, PlaneForm, PointLine, Probe, Quick, dot, exact3, scaled_to_one, unit};
+use crate::{
+    CentredRay, Flow, LocalPoint, LocalRay, Need, RingRay, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+};
 use core::cmp::Ordering;
-use durer_math::{Aabb, Dd, Dyadic, Normal3, Point3, Ring, Run, Vec3};
+use durer_math::{Aabb, Dd, Dyadic, Normal3, Point3, Ring, Run, U, Vec3};
 
 /// A plane, which is also the boundary of the half-space behind it.
 ///
@@ -63,6 +65,7 @@ impl Plane {
     }
 
     /// The normal, scaled by a power of two.
+    #[inline(always)]
     pub fn normal(&self) -> Vec3 {
         self.normal
     }
@@ -127,6 +130,15 @@ fn rounded(x: &Dyadic) -> Run<Dd> {
 
 impl PlaneForm for Seen<'_> {
     #[inline(always)]
+    fn quick(&self, ray: &CentredRay<'_>) -> Option<Quick> {
+        let (n, offset, c) = (self.plane.normal, self.plane.offset, self.centre.to_vec());
+        // Three roundings in the dot product, one in the difference, one for the offset's low part.
+        let lift = n.dot(c) - offset.v.hi;
+        let size = n.abs().dot(c.abs()) * (3.0 * U) + (lift.abs() + offset.v.hi.abs()) * U;
+        Some(Quick::new((n, Vec3::ZERO), (ray.o, ray.o_err), (lift, size + offset.e), ray))
+    }
+
+    #[inline(always)]
     fn slope<T: Ring>(&self, ray: &RingRay<T>) -> T {
         dot(&exact3(self.plane.normal), &ray.d)
     }
@@ -171,10 +183,7 @@ impl Surface for Plane {
         // Seen from the ray's own origin, so that a near crossing is as precise as a far one: a plane has no middle.
         let probe = self.probe(ray, ray.o);
         let seen = Seen { plane: self, centre: ray.o };
-        if let Some(crossing) = probe.crossing(&seen)
-            && !probe.leaves(&crossing)
-            && !crossing.is_outside(sink.range())
-            && probe.may_admit(&crossing)
+        if let Some(crossing) = probe.crossing_within(&seen, sink.range())
             && probe.admits(&seen, &crossing)
         {
             let _: Flow = sink.push(probe.root(&crossing, 0, [0.0; 2]));
@@ -182,6 +191,7 @@ impl Surface for Plane {
     }
 
     /// Texture coordinates are lengths along two axes across the normal.
+    #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, _root: &Root, need: Need) -> SurfacePoint {
         let centre = self.foot();
         let probe = self.probe(ray, centre);

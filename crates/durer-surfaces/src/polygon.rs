@@ -24,7 +24,7 @@ use crate::planar::{self, AlongRay, Line, PlaneForm, Probe, ThreePoints};
 use crate::{Flow, LocalRay, Need, RingRay, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::eft::exponent;
-use durer_math::{Aabb, Point3, Ring, Vec3};
+use durer_math::{Aabb, Isa, Point3, Ring, Vec3};
 
 /// Which windings are inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -156,6 +156,7 @@ impl Polygon {
     }
 
     /// Whether the ray passes through the outlines.
+    #[inline(always)]
     fn holds(&self, probe: &Probe<'_>) -> bool {
         let winding = Winding::new(probe);
         let turns: i64 = self.outlines().map(|outline| winding.of(outline)).sum();
@@ -174,6 +175,7 @@ struct FromLevel<'a> {
 }
 
 impl AlongRay for FromLevel<'_> {
+    #[inline(always)]
     fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
         let (slope, height) = (self.plane.slope(ray), self.plane.height(ray)?);
         let centre = self.plane.centre[self.axis];
@@ -184,6 +186,7 @@ impl AlongRay for FromLevel<'_> {
 }
 
 /// Whether a crossing with a plane lies in a box, faces included; an inexact ray that cannot be excluded does.
+#[inline(always)]
 fn within(probe: &Probe<'_>, plane: &ThreePoints, slope: i8, bounds: &Aabb) -> bool {
     let above = |axis, at| {
         let sign = probe.sign(&FromLevel { plane, axis, at });
@@ -240,6 +243,7 @@ struct Above {
 }
 
 impl AlongRay for Above {
+    #[inline(always)]
     fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
         let v = planar::seen_from::<T>(self.vertex, self.centre, self.scale);
         let from_ray = |i: usize| v[i].clone() * ray.w.clone() - ray.o[i].clone();
@@ -259,6 +263,7 @@ impl<'a> Winding<'a> {
     }
 
     /// How often an outline goes around the ray.
+    #[inline(always)]
     fn of(&self, outline: &[Point3]) -> i64 {
         let Some(&last) = outline.last() else { return 0 };
         let mut turns = 0;
@@ -280,6 +285,7 @@ impl<'a> Winding<'a> {
     }
 
     /// Whether a vertex is above the ray. One that is level with it is below: the ray is moved up, by less than anything.
+    #[inline(always)]
     fn above(&self, v: Point3) -> bool {
         let d = self.probe.ray.d;
         let seen = self.filter.seen(v);
@@ -289,10 +295,16 @@ impl<'a> Winding<'a> {
     }
 
     #[cold]
+    #[inline(never)]
     fn exactly_above(&self, vertex: Point3) -> f64 {
-        let (centre, scale) = self.probe.view();
-        let form = Above { vertex, level: self.level, main: self.main, centre, scale };
-        self.probe.sign(&form).map_or(0.0, |sign| f64::from(sign as i8))
+        Isa::detect().run(
+            #[inline(always)]
+            || {
+                let (centre, scale) = self.probe.view();
+                let form = Above { vertex, level: self.level, main: self.main, centre, scale };
+                self.probe.sign(&form).map_or(0.0, |sign| f64::from(sign as i8))
+            },
+        )
     }
 
     fn side(&self, a: Point3, b: Point3) -> i8 {
@@ -309,13 +321,11 @@ impl Surface for Polygon {
         self.bounds
     }
 
+    #[inline(always)]
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
         let probe = self.probe(ray);
         let plane = self.plane(&probe);
-        if let Some(crossing) = probe.crossing(&plane)
-            && !probe.leaves(&crossing)
-            && !crossing.is_outside(sink.range())
-            && probe.may_admit(&crossing)
+        if let Some(crossing) = probe.crossing_within(&plane, sink.range())
             && self.holds(&probe)
             && (self.flat || within(&probe, &plane, crossing.sign, &self.bounds))
             && probe.admits(&plane, &crossing)
@@ -325,6 +335,7 @@ impl Surface for Polygon {
     }
 
     /// Texture coordinates are lengths along two axes across the normal, from the first vertex.
+    #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, _root: &Root, need: Need) -> SurfacePoint {
         let probe = self.probe(ray);
         let plane = self.plane(&probe);

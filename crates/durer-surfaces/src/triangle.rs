@@ -108,6 +108,7 @@ impl Surface for Triangle {
         }
     }
 
+    #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, _root: &Root, need: Need) -> SurfacePoint {
         let varying = Varying { normals: self.normals(), uv: self.uv.as_deref().copied() };
         facet::resolve(&self.probe(ray), &self.vertices, &varying, need)
