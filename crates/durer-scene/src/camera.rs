@@ -1,6 +1,6 @@
 //! The camera's block, as its final vectors.
 
-use durer_math::{Affine, Point3, Vec3};
+use durer_math::{Aabb, Affine, Point3, U, Vec3};
 
 /// A camera, after all its words have been worked in: the picture is spanned by `right` and `up`, and its middle is seen along `direction`.
 ///
@@ -42,6 +42,21 @@ impl Default for Camera {
 }
 
 impl Camera {
+    /// A box that holds the origins of all its rays.
+    pub fn standpoints(&self) -> Aabb {
+        match self.projection {
+            Projection::Perspective => Aabb::from_points([self.location]),
+            Projection::Orthographic => {
+                let corner = |a: f64, b: f64| self.location + (self.right * (a * 0.5) + self.up * (b * 0.5));
+                let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
+                let all = Aabb::from_points(corners.map(|(a, b)| corner(a, b)));
+                // Origins between the corners are rounded too, by a few units of the coordinates.
+                let room = 16.0 * U * all.magnitude();
+                all.expanded(Vec3::new(room, room, room))
+            }
+        }
+    }
+
     /// Moves the camera.
     pub fn transform(&mut self, map: &Affine) {
         self.location = map.point(self.location);

@@ -332,6 +332,9 @@ struct Border {
     crossing: Crossing,
     /// The index of refraction before the surface over that behind it.
     ratio: f64,
+    /// The same as Fresnel's formula takes it. A fact of the scene language: behind the surface is always its own medium, save where a ray is in
+    /// that alone and leaves it.
+    fresnel_ratio: f64,
 }
 
 impl Border {
@@ -348,10 +351,12 @@ impl Border {
             }
             Crossing::Leave { .. } | Crossing::Touch => 1.0,
         };
-        Self { crossing, ratio }
+        let own = index(Some(&place.look.medium));
+        let fresnel_ratio = if *list == [place.look.medium] { own } else { index(list.last()) / own };
+        Self { crossing, ratio, fresnel_ratio }
     }
 
     fn fresnel(&self, cosine: f64) -> f64 {
-        if self.ratio == 1.0 { 0.0 } else { reflectance(self.ratio, cosine) }
+        if self.fresnel_ratio == 1.0 { 0.0 } else { reflectance(self.fresnel_ratio, cosine) }
     }
 }

@@ -1,7 +1,7 @@
 //! Putting a surface into the geometry: placed, clipped, turned inside out.
 
 use durer_geometry::{Builder, ObjectId};
-use durer_math::{Affine, Point3};
+use durer_math::{Aabb, Affine, Point3};
 use durer_surfaces::{Algebraic, Clip, Inverse, LocalPoint, Placed, Region, Side, Solidity, Surface};
 
 use super::erased::Erased;
@@ -17,9 +17,10 @@ pub(super) struct Target<'b> {
     pub(super) mask: u32,
     pub(super) clips: Vec<Region>,
     pub(super) inverse: bool,
-    /// The test for the inside, once the surface is added, if it was asked for and there is an inside.
+    /// The test for the inside, if rays of the camera may start there.
     pub(super) inside: Option<Inside>,
-    pub(super) keep_inside: bool,
+    /// Where rays of the camera start.
+    pub(super) camera: Aabb,
 }
 
 impl Target<'_> {
@@ -73,11 +74,15 @@ impl Target<'_> {
     }
 
     /// Keeps the test for the inside of the closed, unclipped solid, which is what the scene language asks where the camera is concerned.
-    pub(super) fn contain<S: Surface + 'static>(&mut self, solid: S, map: Option<&Affine>) {
-        if !self.keep_inside || solid.solidity() != Solidity::Solid {
+    pub(super) fn contain<S: Surface + Clone + 'static>(&mut self, solid: &S, map: Option<&Affine>) {
+        let bounds = || map.map_or_else(|| solid.bounds(), |m| solid.bounds_through(m));
+        if self.camera.is_empty()
+            || solid.solidity() != Solidity::Solid
+            || !self.inverse && bounds().intersection(self.camera).is_empty()
+        {
             return;
         }
-        let inverse = self.inverse;
+        let (inverse, solid) = (self.inverse, solid.clone());
         let holds = move |solid: &dyn Surface, p: Point3| match solid.side(&LocalPoint::new(p)) {
             Side::In => !inverse,
             Side::Out => inverse,

@@ -6,15 +6,16 @@
 mod build;
 mod erased;
 mod exact;
+mod named;
 mod shapes;
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use durer_geometry::{BuildError, Builder, EVERYTHING, Geometry, ObjectId};
-use durer_math::{Affine, AffineError, Point3};
+use durer_math::{Aabb, Affine, AffineError, Point3};
 
-use crate::{Flags, Interior, Object, Place, Placement, Scene, Shape, Texture, mask};
+use crate::{Camera, Flags, Interior, Object, Place, Placement, Scene, Shape, Texture, mask};
 use build::Inside;
 
 /// A scene made ready for rays.
@@ -30,7 +31,7 @@ pub struct Lowered {
     /// For each object, where its primitives' looks begin.
     first: Vec<u32>,
     of_primitive: Vec<LookId>,
-    clear_solids: Vec<(u32, Inside)>,
+    around_camera: Vec<(u32, Inside)>,
 }
 
 /// The number of a [`Look`] among [`Lowered::looks`].
@@ -132,14 +133,9 @@ impl Lowered {
         self.of_primitive.get(first as usize + primitive as usize).copied()
     }
 
-    /// Whether any clear object is a solid, so that a point may lie in its medium.
-    pub fn has_clear_solids(&self) -> bool {
-        !self.clear_solids.is_empty()
-    }
-
-    /// Appends the media of all clear solids that hold `point`, in the order of the text.
+    /// Appends the media of all solids that hold `point`, at which a ray of the camera starts, in the order of the text.
     pub fn media_at(&self, point: Point3, media: &mut Vec<u32>) {
-        for (medium, inside) in &self.clear_solids {
+        for (medium, inside) in &self.around_camera {
             if !media.contains(medium) && inside(point) {
                 media.push(*medium);
             }
@@ -185,8 +181,10 @@ struct Lowering {
     warnings: Vec<(Option<Place>, String)>,
     first: Vec<u32>,
     of_primitive: Vec<LookId>,
-    clear_solids: Vec<(u32, Inside)>,
+    around_camera: Vec<(u32, Inside)>,
     object: ObjectId,
+    /// Where rays of the camera start.
+    camera: Aabb,
     default_texture: Arc<Texture>,
     /// The one frame of everything that no union moves: one address, so that looks can be told apart by it.
     world: Arc<Placement>,
@@ -204,7 +202,8 @@ impl Lowering {
             warnings: Vec::new(),
             first: Vec::with_capacity(scene.objects.len()),
             of_primitive: Vec::new(),
-            clear_solids: Vec::new(),
+            around_camera: Vec::new(),
+            camera: scene.camera.as_ref().map_or(Aabb::EMPTY, Camera::standpoints),
             object: ObjectId(0),
             default_texture: Arc::default(),
             world: Arc::default(),
@@ -225,7 +224,7 @@ impl Lowering {
             warnings: self.warnings,
             first: self.first,
             of_primitive: self.of_primitive,
-            clear_solids: self.clear_solids,
+            around_camera: self.around_camera,
         })
     }
 
@@ -335,11 +334,11 @@ impl Lowering {
             clips: context.clips,
             inverse: flags.inverse,
             inside: None,
-            keep_inside: is_clear,
+            camera: self.camera,
         };
         match shapes::build(object, flags.open, place, target)? {
             shapes::Built::Nothing(why) => self.warnings.push((object.place, why)),
-            shapes::Built::Done(Some(inside)) => self.clear_solids.push((medium, inside)),
+            shapes::Built::Done(Some(inside)) => self.around_camera.push((medium, inside)),
             shapes::Built::Done(None) => {}
         }
         Ok(())

@@ -5,11 +5,11 @@ use std::fmt::Display;
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
     Algebraic, Annulus, AxisBox, CappedCylinder, Disc, FLAT, FillRule, Frustum, Parallelogram, Plane,
-    Polygon, Quadric, Region, Sphere, Surface, Triangle, TriangleError,
+    Polygon, Quadric, Region, Sphere, SphericalSector, Surface, Triangle, TriangleError,
 };
 
 use super::build::{Inside, Target};
-use super::{LowerErrorKind, exact};
+use super::{LowerErrorKind, exact, named};
 use crate::{Mesh, Object, Shape};
 
 /// What became of a shape.
@@ -20,9 +20,9 @@ pub(super) enum Built {
     Nothing(String),
 }
 
-type Result<T> = std::result::Result<T, LowerErrorKind>;
+pub(super) type Result<T> = std::result::Result<T, LowerErrorKind>;
 
-fn shape_error(error: impl Display) -> LowerErrorKind {
+pub(super) fn shape_error(error: impl Display) -> LowerErrorKind {
     LowerErrorKind::Shape(error.to_string())
 }
 
@@ -40,7 +40,7 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
         }
         &Shape::Cylinder { base, cap, radius } => {
             let radius = radius.abs();
-            target.contain(CappedCylinder::new(base, cap, radius).map_err(shape_error)?, map);
+            target.contain(&CappedCylinder::new(base, cap, radius).map_err(shape_error)?, map);
             let make = |b, c, r| {
                 let made = if open { CappedCylinder::open(b, c, r) } else { CappedCylinder::new(b, c, r) };
                 made.map_err(shape_error)
@@ -53,7 +53,7 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             }
         }
         &Shape::Cone { base, base_radius, cap, cap_radius } => {
-            target.contain(Frustum::new(base, base_radius, cap, cap_radius).map_err(shape_error)?, map);
+            target.contain(&Frustum::new(base, base_radius, cap, cap_radius).map_err(shape_error)?, map);
             let make = |b, r0, c, r1| {
                 let made = if open { Frustum::open(b, r0, c, r1) } else { Frustum::new(b, r0, c, r1) };
                 made.map_err(shape_error)
@@ -70,6 +70,13 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
         Shape::Quadric(coefficients) => {
             target.add_final(Quadric::new(**coefficients).map_err(shape_error)?, map)
         }
+        Shape::Named(quadric) => named::build(quadric, open, map, &mut target)?,
+        &Shape::SphericalSector { centre, radius, axis, half_angle } => {
+            let sector =
+                SphericalSector::with_half_angle(centre, radius, axis, half_angle).map_err(shape_error)?;
+            target.contain(&sector, map);
+            target.add_rare(sector, map);
+        }
         shape => return flat(shape, map, target),
     }
     Ok(Built::Done(target.inside))
@@ -77,7 +84,7 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
 
 /// Adds a solid that has an array of its own.
 fn add<S: Algebraic + Clone + 'static>(target: &mut Target<'_>, solid: S, map: Option<&Affine>) {
-    target.contain(solid.clone(), map);
+    target.contain(&solid, map);
     target.add(solid, map);
 }
 
@@ -161,14 +168,15 @@ fn flat(shape: &Shape, map: Option<&Affine>, mut target: Target<'_>) -> Result<B
             let mesh = mesh(data)?;
             add_flat(&mut target, mesh, map);
         }
-        _ => return Err(LowerErrorKind::Shape(format!("{}: not supported yet", name(shape)))),
+        // The others were built before.
+        _ => {}
     }
     Ok(Built::Done(target.inside))
 }
 
 /// Adds a flat-faced solid or sheet.
 fn add_flat<S: Surface + Clone + 'static>(target: &mut Target<'_>, surface: S, map: Option<&Affine>) {
-    target.contain(surface.clone(), map);
+    target.contain(&surface, map);
     target.add_flat(surface, map);
 }
 
