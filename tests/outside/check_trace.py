@@ -140,9 +140,10 @@ class Expected:
 def cut(span, lo, hi):
     """An interval within the range [lo, hi]; None if it has no length there."""
     a, b = span
-    a = None if a is None or a.cmp(lo) <= 0 else a
-    b = None if b is None or b.cmp(hi) >= 0 else b
-    if a is not None and a.cmp(hi) >= 0 or b is not None and b.cmp(lo) <= 0:
+    first, last = max(lo, -LARGEST), min(hi, LARGEST)
+    a = None if a is None or a.cmp(first) <= 0 else a
+    b = None if b is None or b.cmp(last) >= 0 else b
+    if a is not None and a.cmp(last) >= 0 or b is not None and b.cmp(first) <= 0:
         return None
     return None if a is None and b is None and lo == hi else (a, b)
 
@@ -200,7 +201,7 @@ class Report:
         self.widths = defaultdict(list)
         self.counted = Counter()
 
-    def add(self, what, scene, ray, expected, got, limit=4):
+    def add(self, what, scene, ray, expected, got, limit=40):
         key = (scene.kind, what)
         self.wrong[key] += 1
         if len(self.examples[key]) < limit:
@@ -282,7 +283,7 @@ def check_hit(report, scene, ray, event, leaf, hit, widths):
     back = max(sum(abs(to_float(F(n, leaf.whole.w) * (p - c))) for n, p, c in zip(row, world, leaf.whole.c)) for row in leaf.whole.n) + to_float(leaf.size)
     for i, p in enumerate(world):
         about = sum(abs(to_float(m)) for m in leaf.whole.rows[i]) * back + abs(to_float(leaf.whole.c[i]))
-        allowed = 4 * float(hi - lo) * abs(ray[3 + i]) + 64 * U * about
+        allowed = 4 * float(hi - lo) * abs(ray[3 + i]) + 1024 * U * about
         if not abs(to_float(F(float(hit["position"][i])) - p)) <= allowed:
             bad("wrong position", f"{event} position[{i}] = {to_float(p)!r}, not {float(hit['position'][i])!r}")
             break
