@@ -6,13 +6,15 @@
 //! two roundings of the *local* size; and the ray remembers where it came from, so that a doubtful decision can be
 //! taken again in any [`Ring`], up to exact arithmetic ([`CentredRay::in_ring`]).
 
+use durer_math::affine::Matrix3;
 use durer_math::eft::{exponent, scale2, two_diff, two_sum};
-use durer_math::{Affine, Point3, Ray, RaySide, Ring, Vec3};
+use durer_math::{Affine, Isa, Point3, Ray, RaySide, Ring, Vec3};
 
 /// Half an ulp of 1.
 const U: f64 = 1.0 / (1u64 << 53) as f64;
-/// Pays for results below the normal range.
-const TINY: f64 = f64::from_bits(2);
+/// Pays for results below the normal range. Far more than needed, so that it and its multiples are normal numbers: on many CPUs a
+/// subnormal operand costs a hundred times the operation itself.
+const TINY: f64 = durer_math::scale::pow2(-1000);
 
 /// The least step worth taking: `2^-600`.
 const LEAST_STEP: f64 = f64::from_bits((1023 - 600) << 52);
@@ -106,10 +108,11 @@ pub enum End {
 /// `p - centre` with a bound on its error.
 #[inline(always)]
 fn relative(p: Point3, err: Vec3, centre: Point3) -> (Vec3, Vec3) {
-    let axis = |p: f64, c: f64, err: f64| {
+    #[inline(always)]
+    fn axis(p: f64, c: f64, err: f64) -> (f64, f64) {
         let (x, lost) = two_diff(p, c);
         (x, (lost.abs() + err) * (1.0 + 4.0 * U))
-    };
+    }
     let (x, ex) = axis(p.x, centre.x, err.x);
     let (y, ey) = axis(p.y, centre.y, err.y);
     let (z, ez) = axis(p.z, centre.z, err.z);
@@ -120,8 +123,8 @@ fn relative(p: Point3, err: Vec3, centre: Point3) -> (Vec3, Vec3) {
 #[inline(always)]
 pub(crate) fn through_inverse(affine: &Affine, v: Vec3, e: Vec3) -> (Vec3, Vec3) {
     let (inverse, slack) = (affine.inverse_linear(), affine.inverse_error());
-    let row = |i: usize| {
-        let (m, s) = (Vec3::from(inverse[i]), Vec3::from(slack[i]));
+    #[inline(always)]
+    fn row(m: Vec3, s: Vec3, v: Vec3, e: Vec3) -> (f64, f64) {
         let x = m.dot(v);
         // gamma_3 for the dot product, |Linv| times the error of v, and |Linv - L^-1| (|v| + error).
         let size = m.abs().dot(v.abs());
@@ -135,8 +138,16 @@ pub(crate) fn through_inverse(affine: &Affine, v: Vec3, e: Vec3) -> (Vec3, Vec3)
                 err.mul_add(1.0 + 16.0 * U, TINY)
             },
         )
-    };
-    let ((x, ex), (y, ey), (z, ez)) = (row(0), row(1), row(2));
+    }
+    #[inline(always)]
+    fn rows(m: Matrix3, s: Matrix3, v: Vec3, e: Vec3) -> [(f64, f64); 3] {
+        [
+            row(m[0].into(), s[0].into(), v, e),
+            row(m[1].into(), s[1].into(), v, e),
+            row(m[2].into(), s[2].into(), v, e),
+        ]
+    }
+    let [(x, ex), (y, ey), (z, ez)] = rows(inverse, slack, v, e);
     (Vec3::new(x, y, z), Vec3::new(ex, ey, ez))
 }
 
@@ -206,6 +217,26 @@ impl<'a> LocalRay<'a> {
         self
     }
 
+    /// Whether the line passes the ball of `radius` about `centre` at a distance that leaves no doubt: the first and cheapest test.
+    ///
+    /// With `h = c - o` and `e = t₀ d - h` the distance is at least `|e| - δ`: `h`, `t₀ d` and `e` round to `3 U |h|` together, moving `t₀` by its
+    /// error of `8 U |h| / |d|` moves `e` by as much, and the ray's own errors add theirs. `(r + δ)² <= r² (1 + 2⁻²⁰) + δ² (1 + 2²⁰)` avoids the root.
+    #[inline(always)]
+    pub fn passes_by(&self, centre: Point3, radius: f64) -> bool {
+        /// `2²⁰`.
+        const SPLIT: f64 = (1u64 << 20) as f64;
+        let h = centre - self.o;
+        let t0 = h.dot(self.d) * self.inverse_d2;
+        let e = Vec3::new(t0.mul_add(self.d.x, -h.x), t0.mul_add(self.d.y, -h.y), t0.mul_add(self.d.z, -h.z));
+        let own = t0
+            .abs()
+            .mul_add(self.d_err.x + self.d_err.y + self.d_err.z, self.o_err.x + self.o_err.y + self.o_err.z);
+        // δ = 16 U |h| + own, and δ² <= 2 (16 U |h|)² + 2 own², rounded up; the constant pays for underflow.
+        let slack = own.mul_add(own * (2.0 * SPLIT + 4.0), 1e-300);
+        let slack = h.dot(h).mul_add(512.0 * U * U * (SPLIT + 2.0), slack);
+        e.dot(e) > (radius * (1.0 + 2.0 / SPLIT)).mul_add(radius, slack)
+    }
+
     /// The parameter of the closest approach to `c`, rounded: any number will do.
     #[inline(always)]
     fn closest_approach(&self, c: Point3) -> f64 {
@@ -217,17 +248,18 @@ impl<'a> LocalRay<'a> {
     /// `o + step d - c` with a bound on its error.
     #[inline(always)]
     fn moved(&self, c: Point3, step: f64) -> (Vec3, Vec3) {
-        let axis = |o: f64, d: f64, c: f64, o_err: f64, d_err: f64| {
+        #[inline(always)]
+        fn axis(step: f64, [o, d, c]: [f64; 3], o_err: f64, d_err: f64) -> (f64, f64) {
             let (h, l) = two_diff(o, c);
             let r = step.mul_add(d, h);
             let x = r + l;
             // One rounding of size |r|, one of size |x|; and the error the ray came with.
             let err = (r.abs() + x.abs()).mul_add(U, step.abs().mul_add(d_err, o_err));
             (x, err.mul_add(1.0 + 8.0 * U, TINY))
-        };
-        let (x, ex) = axis(self.o.x, self.d.x, c.x, self.o_err.x, self.d_err.x);
-        let (y, ey) = axis(self.o.y, self.d.y, c.y, self.o_err.y, self.d_err.y);
-        let (z, ez) = axis(self.o.z, self.d.z, c.z, self.o_err.z, self.d_err.z);
+        }
+        let (x, ex) = axis(step, [self.o.x, self.d.x, c.x], self.o_err.x, self.d_err.x);
+        let (y, ey) = axis(step, [self.o.y, self.d.y, c.y], self.o_err.y, self.d_err.y);
+        let (z, ez) = axis(step, [self.o.z, self.d.z, c.z], self.o_err.z, self.d_err.z);
         (Vec3::new(x, y, z), Vec3::new(ex, ey, ez))
     }
 
@@ -285,6 +317,7 @@ impl<'a> LocalRay<'a> {
 
     /// The ray in the frame of a surface that `affine` places: through the inverse map, re-centred on its centre first
     /// (rules W3 and W5), the inverse's own error charged.
+    #[inline(always)]
     pub fn through(&'a self, affine: &'a Affine) -> LocalRay<'a> {
         let c = affine.centre();
         let step = self.closest_approach(c);
@@ -308,48 +341,65 @@ impl<'a> LocalRay<'a> {
     }
 
     /// The exact ray in a ring, in this ray's parameter; `None` if `T` holds exact numbers only and the ray is not exactly known.
+    #[inline(never)]
     pub fn in_ring<T: Ring>(&self) -> Option<RingRay<T>> {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.in_ring_here(),
+        )
+    }
+
+    #[inline(always)]
+    fn in_ring_here<T: Ring>(&self) -> Option<RingRay<T>> {
         match self.lineage {
             Lineage::Given { k, direction, d_err } => {
-                let component = |x: f64, e: f64| T::within(x, e);
                 let o = [
-                    component(self.o.x, self.o_err.x)?,
-                    component(self.o.y, self.o_err.y)?,
-                    component(self.o.z, self.o_err.z)?,
+                    T::within(self.o.x, self.o_err.x)?,
+                    T::within(self.o.y, self.o_err.y)?,
+                    T::within(self.o.z, self.o_err.z)?,
                 ];
                 // Scaled in the ring: no bits of tiny components are lost.
                 let d = [
-                    component(direction.x, d_err.x)?.scale2(k),
-                    component(direction.y, d_err.y)?.scale2(k),
-                    component(direction.z, d_err.z)?.scale2(k),
+                    T::within(direction.x, d_err.x)?.scale2(k),
+                    T::within(direction.y, d_err.y)?.scale2(k),
+                    T::within(direction.z, d_err.z)?.scale2(k),
                 ];
                 Some(RingRay { o, d, w: T::exact(1.0) })
             }
             Lineage::Placed { parent, affine, step, k } => {
                 let at = parent.in_ring::<T>()?.moved(affine.centre(), step);
                 let (adjugate, determinant) = affine.adjugate::<T>();
-                let apply = |v: &[T; 3]| {
-                    adjugate.each_ref().map(|m| {
-                        m[0].clone() * v[0].clone()
-                            + m[1].clone() * v[1].clone()
-                            + m[2].clone() * v[2].clone()
-                    })
-                };
-                Some(RingRay { o: apply(&at.o), d: apply(&at.d).map(|x| x.scale2(k)), w: at.w * determinant })
+                let [x, y, z] = times(&adjugate, &at.d);
+                let d = [x.scale2(k), y.scale2(k), z.scale2(k)];
+                Some(RingRay { o: times(&adjugate, &at.o), d, w: at.w * determinant })
             }
         }
     }
 }
 
+/// `m v`.
+#[inline(always)]
+fn times<T: Ring>(m: &[[T; 3]; 3], v: &[T; 3]) -> [T; 3] {
+    #[inline(always)]
+    fn dot<T: Ring>(a: &[T; 3], b: &[T; 3]) -> T {
+        a[0].clone() * b[0].clone() + a[1].clone() * b[1].clone() + a[2].clone() * b[2].clone()
+    }
+    [dot(&m[0], v), dot(&m[1], v), dot(&m[2], v)]
+}
+
 impl<T: Ring> RingRay<T> {
     /// The ray relative to `c`, with its parameter moved on by `step`.
+    #[inline(always)]
     fn moved(self, c: Point3, step: f64) -> Self {
         let step = T::exact(step);
-        let axis = |o: &T, d: &T, c: f64| o.clone() - T::exact(c) * self.w.clone() + step.clone() * d.clone();
+        #[inline(always)]
+        fn axis<T: Ring>(o: &T, d: &T, w: &T, c: f64, step: &T) -> T {
+            o.clone() - T::exact(c) * w.clone() + step.clone() * d.clone()
+        }
         let o = [
-            axis(&self.o[0], &self.d[0], c.x),
-            axis(&self.o[1], &self.d[1], c.y),
-            axis(&self.o[2], &self.d[2], c.z),
+            axis(&self.o[0], &self.d[0], &self.w, c.x, &step),
+            axis(&self.o[1], &self.d[1], &self.w, c.y, &step),
+            axis(&self.o[2], &self.d[2], &self.w, c.z, &step),
         ];
         Self { o, ..self }
     }
@@ -405,21 +455,27 @@ impl<'a> CentredRay<'a> {
     /// The caller's bracket for the bracket `[lo, hi]` of `s`, rounded outward.
     #[inline(always)]
     pub fn bracket(&self, lo: f64, hi: f64) -> (f64, f64) {
-        let (shift_hi, shift_lo, err) = self.clock.shift();
-        let end = |s: f64, away: f64| {
-            // Two roundings at most half an ulp each; stepping each outward keeps the enclosure.
-            let outward = |x: f64| if away < 0.0 { x.next_down() } else { x.next_up() };
-            let exact_or = |a: f64, b: f64| {
-                let (sum, e) = two_sum(a, b);
-                if e == 0.0 || !sum.is_finite() || (e > 0.0) != (away > 0.0) { sum } else { outward(sum) }
-            };
-            let scaled = scale2(s, self.clock.k);
-            let scaled = if scaled.abs() < f64::MIN_POSITIVE && s != 0.0 { outward(scaled) } else { scaled };
-            let low = exact_or(shift_lo, scaled);
-            let low = if err > 0.0 { outward(away.mul_add(err, low)) } else { low };
-            exact_or(shift_hi, low)
-        };
-        (end(lo, -1.0), end(hi, 1.0))
+        #[inline(always)]
+        fn outward(x: f64, away: f64) -> f64 {
+            if away < 0.0 { x.next_down() } else { x.next_up() }
+        }
+        // A rounding is at most half an ulp: stepping outward keeps the enclosure.
+        #[inline(always)]
+        fn sum(a: f64, b: f64, away: f64) -> f64 {
+            let (sum, e) = two_sum(a, b);
+            if e == 0.0 || !sum.is_finite() || (e > 0.0) != (away > 0.0) { sum } else { outward(sum, away) }
+        }
+        #[inline(always)]
+        fn end(s: f64, k: i32, away: f64, (shift_hi, shift_lo, err): (f64, f64, f64)) -> f64 {
+            let scaled = scale2(s, k);
+            let scaled =
+                if scaled.abs() < f64::MIN_POSITIVE && s != 0.0 { outward(scaled, away) } else { scaled };
+            let low = sum(shift_lo, scaled, away);
+            let low = if err > 0.0 { outward(away.mul_add(err, low), away) } else { low };
+            sum(shift_hi, low, away)
+        }
+        let shift = self.clock.shift();
+        (end(lo, self.clock.k, -1.0, shift), end(hi, self.clock.k, 1.0, shift))
     }
 
     /// Whether a crossing in the caller's bracket `[lo, hi]` is in the ray's closed range; `None` if the bracket straddles an end.
@@ -462,6 +518,7 @@ impl<'a> CentredRay<'a> {
 
     /// The ray's point at an end of its range, relative to the centre, in units of `2^scale`, with a bound on its error. Unlike
     /// `o + s d` it does not carry the rounding of the closest approach: where rays start on a surface, this is the sharper form.
+    #[inline(always)]
     pub fn point_at_end(&self, end: End) -> (Vec3, Vec3) {
         let (p, err) = self.ray.point_at(self.end(end));
         let (x, e) = relative(p, err, self.centre);

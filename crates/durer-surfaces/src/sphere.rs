@@ -10,9 +10,10 @@
 
 use crate::quadric::body::{Chart, Frame, Shape, View};
 use crate::quadric::form::{Form, Rounded};
-use crate::{LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use crate::roots::quadratic::Quadratic;
+use crate::{Flow, Kind, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use durer_math::eft::{exponent, scale2};
-use durer_math::{Aabb, Dyadic, Point3, Ring, U, Vec3, elementary};
+use durer_math::{Aabb, Affine, Point3, Ring, Run, U, Vec3, elementary};
 
 /// A sphere with its inside.
 ///
@@ -35,6 +36,9 @@ pub enum SphereError {
     #[error("sphere: the radius must be finite and positive, got {0}")]
     Radius(f64),
 }
+
+/// Pays for underflow in sums of products of numbers of size one.
+const FLOOR: f64 = 1e-290;
 
 impl Sphere {
     /// The sphere of `radius` about `centre`.
@@ -64,8 +68,75 @@ impl Sphere {
         exponent(self.radius).max(-1022)
     }
 
+    /// The roots, as far as f64 knows them well enough.
+    #[inline(always)]
+    fn quick_roots<K: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut K) -> Reach {
+        let scale = self.scale();
+        let at = ray.recentre(self.centre, scale);
+        let r = scale2(self.radius, -scale);
+        let (o, d, eo, ed) = (at.o, at.d, at.o_err, at.d_err);
+        let (od, dd) = (o.abs(), d.abs());
+        // Dot products of three terms: gamma(3); errors of o and d as for any form (see `Rounded::along`), with Q = 1.
+        let (k, up) = (3.0 * U * (1.0 + 16.0 * U), 1.0 + 16.0 * U);
+        let a = d.dot(d);
+        let e_a = (k * a + ed.dot(dd + dd + ed)) * up;
+        let b = o.dot(d);
+        let e_b = (k * od.dot(dd) + ed.dot(od) + eo.dot(dd + ed)) * up + FLOOR;
+        let oo = o.dot(o);
+        let c = (-r).mul_add(r, oo);
+        let e_c = (k * oo + U * c.abs() + eo.dot(od + od + eo)) * up + FLOOR;
+        let line =
+            Quadratic { a: Run::with_error(a, e_a), b: Run::with_error(b, e_b), c: Run::with_error(c, e_c) };
+        let disc = line.kahan_discriminant();
+        // B is all but zero, so neither root (-B ∓ √disc) / A suffers cancellation, and A is known to a few ulp.
+        let inverse = 1.0 / a;
+        let (ratio, e_rel) = (disc.e / disc.v, e_a * inverse);
+        if disc.v < -disc.e * (1.0 + 4.0 * U) {
+            return Reach::Done;
+        }
+        if !(disc.v > 0.0 && ratio < 0.5 && e_rel < 0.125) {
+            return Reach::Nothing;
+        }
+        // |√x - √v| <= e / (√v (2 - e/v)), and 1 / (2 - r) <= (1 + r) / 2.
+        let root = disc.v.sqrt();
+        let e_root = root * (0.5 * ratio * (1.0 + ratio) + U);
+        let e_top = (e_b + e_root) * inverse;
+        // One rounding of the sum, one of 1 / A, one of the product; |A - a| <= e_rel a.
+        let solution = |top: f64| {
+            let s = top * inverse;
+            let e = (e_top + s.abs() * (e_rel + 3.0 * U)) * (1.0 + 2.0 * e_rel) * (1.0 + 32.0 * U) + FLOOR;
+            (s, s - e, s + e)
+        };
+        let origin = at.shift();
+        for (sign, top) in [(-1, -b - root), (1, root - b)] {
+            let undecided = if sign < 0 { Reach::Nothing } else { Reach::Entry };
+            let (s, lo, hi) = solution(top);
+            let (near, far) = sink.range();
+            let (t_lo, t_hi) = at.bracket(lo.next_down(), hi.next_up());
+            if t_lo > far.min(ray.t_max) || t_hi < near.max(ray.t_min) {
+                continue;
+            }
+            let narrow = hi - lo <= 46.0 * U * (origin + s).abs().max(0.5);
+            if !narrow || at.admits(t_lo, t_hi) != Some(true) {
+                return undecided;
+            }
+            let t = at.t(s).clamp(t_lo, t_hi);
+            let root = Root { t, lo: t_lo, hi: t_hi, s, tag: [0.0; 2], face: 0, sign, kind: Kind::Simple };
+            if sink.push(root) == Flow::Stop {
+                break;
+            }
+        }
+        Reach::Done
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn slow_roots<K: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut K) {
+        self.with_view(|v| v.roots(ray, sink));
+    }
+
     fn with_view<R>(&self, f: impl FnOnce(View<'_, Self>) -> R) -> R {
-        let form = Rounded::new(&self.form(0), || self.form::<Dyadic>(0));
+        let form = Rounded::ball(scale2(self.radius, -self.scale()));
         f(View { shape: self, forms: &[form], frame: self.frame(), walls: 1 })
     }
 }
@@ -80,6 +151,7 @@ impl Shape for Sphere {
         1
     }
 
+    #[inline(always)]
     fn form<T: Ring>(&self, _: usize) -> Form<T> {
         let one = || T::exact(1.0);
         Form::diagonal([one(), one(), one()], -T::exact(self.radius).scale2(-self.scale()).square())
@@ -113,6 +185,37 @@ pub(crate) fn sphere_chart(y: Vec3) -> Chart {
     }
 }
 
+/// How far the quick way came.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Reach {
+    /// All is said.
+    Done,
+    /// Nothing was said.
+    Nothing,
+    /// What is to be said of the entry was said.
+    Entry,
+}
+
+/// Takes roots at which a ray leaves, and only those.
+struct Leaving<'k, K: ?Sized>(&'k mut K);
+
+impl<K: Sink + ?Sized> Sink for Leaving<'_, K> {
+    fn range(&self) -> (f64, f64) {
+        self.0.range()
+    }
+
+    fn push(&mut self, root: Root) -> Flow {
+        if root.sign > 0 { self.0.push(root) } else { Flow::Continue }
+    }
+}
+
+/// The length of a vector, at most 4 roundings below it; no over- or underflow on the way.
+pub(crate) fn length(v: [f64; 3]) -> f64 {
+    let v = Vec3::from(v);
+    let k = exponent(v.max_abs()).max(-1000);
+    durer_math::scale::ldexp(v.map(|x| scale2(x, -k)).length(), k)
+}
+
 impl Surface for Sphere {
     fn bounds(&self) -> Aabb {
         Shape::bounds(self)
@@ -120,9 +223,24 @@ impl Surface for Sphere {
 
     #[inline(always)]
     fn roots<K: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut K) {
-        self.with_view(|v| v.roots(ray, sink));
+        if ray.passes_by(self.centre, self.radius) {
+            return;
+        }
+        match self.quick_roots(ray, sink) {
+            Reach::Done => {}
+            Reach::Nothing => self.slow_roots(ray, sink),
+            Reach::Entry => self.slow_roots(ray, &mut Leaving(sink)),
+        }
     }
 
+    fn bounds_through(&self, map: &Affine) -> Aabb {
+        // The image is an ellipsoid: its half-widths are r times the lengths of L's rows.
+        let centre = map.bounds(&Aabb::new(self.centre, self.centre));
+        let rows = Vec3::from(map.linear().map(length));
+        centre.expanded(rows * (self.radius * (1.0 + 16.0 * U)))
+    }
+
+    #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         self.with_view(|v| v.resolve(ray, root, need))
     }

@@ -44,6 +44,7 @@ impl<S: Surface> Surface for Placed<S> {
         self.surface.roots(&ray.through(&self.map), sink);
     }
 
+    #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         place(&self.map, &self.surface.resolve(&ray.through(&self.map), root, need))
     }

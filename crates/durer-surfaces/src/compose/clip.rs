@@ -125,6 +125,7 @@ impl Shape for Block {
         6
     }
 
+    #[inline(always)]
     fn form<T: Ring>(&self, face: usize) -> Form<T> {
         let (axis, upper) = (face / 2, face % 2 == 1);
         let mut n = [0.0; 3];
@@ -150,6 +151,7 @@ impl Shape for HalfSpace {
         1
     }
 
+    #[inline(always)]
     fn form<T: Ring>(&self, _: usize) -> Form<T> {
         plane(self.normal.to_array(), self.distance)
     }
@@ -370,6 +372,7 @@ impl<S: Algebraic> Surface for Clip<S> {
         self.surface.roots(ray, &mut Keeping { clip: self, ray, sink });
     }
 
+    #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         self.surface.resolve(ray, root, need)
     }

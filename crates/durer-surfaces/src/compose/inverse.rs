@@ -41,6 +41,7 @@ impl<S: Surface> Surface for Inverse<S> {
         self.0.roots(&ray.from_side(turned(ray)), &mut Turning(sink));
     }
 
+    #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         let root = Root { sign: -root.sign, ..*root };
         let p = self.0.resolve(&ray.from_side(turned(ray)), &root, need);

@@ -404,11 +404,6 @@ pub trait Oracle {
 
     /// Whether it is a convex solid.
     fn is_convex(&self) -> bool;
-
-    /// Whether `size` is the size of all of it.
-    fn is_bounded(&self) -> bool {
-        true
-    }
 }
 
 /// `{ x : f_i(x) <= 0 for all i }`, or, if not all faces are walls, the part of the walls in it.
@@ -520,10 +515,6 @@ impl Oracle for ExactBody {
 
     fn is_convex(&self) -> bool {
         self.convex
-    }
-
-    fn is_bounded(&self) -> bool {
-        self.convex || self.faces.len() > 1
     }
 }
 

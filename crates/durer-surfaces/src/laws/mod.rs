@@ -43,7 +43,7 @@ pub fn all_roots<S: Surface>(surface: &S, ray: &Ray) -> Vec<Root> {
 pub fn check<S: Surface>(surface: &S, oracle: &dyn Oracle, ray: &Ray) -> Result<Vec<Root>, Broken> {
     let roots = roots_are_the_exact_crossings(surface, oracle, ray, None)?;
     closest_is_the_first_of_all(surface, ray, &roots)?;
-    brackets_are_narrow(oracle, ray, &roots)?;
+    brackets_are_narrow(surface, oracle, ray, &roots)?;
     a_reversed_ray_meets_the_same(surface, ray, &roots)?;
     powers_of_two_change_nothing(surface, ray, &roots)?;
     for root in &roots {
@@ -81,7 +81,7 @@ pub fn check_many<S: Surface + core::fmt::Debug>(
                 tally.roots += roots.len() as u64;
                 tally.grazing += roots.iter().filter(|r| r.kind == Kind::Grazing).count() as u64;
                 for root in &roots {
-                    tally.widths.push(width(oracle, &ray, root));
+                    tally.widths.push(width(surface, oracle, &ray, root));
                 }
             }
             Err(broken) => panic!("{broken}\n  ray {i} of seed {seed}: {ray:?}\n  surface: {surface:?}"),
@@ -114,11 +114,12 @@ impl Tally {
 }
 
 /// The width of a bracket, in ulp of `max(|t|, size / |d|)`. An unbounded surface is as large as the part of it that is looked at.
-pub fn width(oracle: &dyn Oracle, ray: &Ray, root: &Root) -> f64 {
+pub fn width<S: Surface>(surface: &S, oracle: &dyn Oracle, ray: &Ray, root: &Root) -> f64 {
     let k = durer_math::eft::exponent(ray.direction.max_abs());
     let length = ray.direction.map(|x| durer_math::scale::ldexp(x, -k)).length();
-    let size =
-        if oracle.is_bounded() { oracle.size() } else { oracle.size() + ray.at(root.t).to_vec().max_abs() };
+    let place = ray.at(root.t).to_vec().max_abs();
+    let seen = if surface.bounds().is_bounded() || place == f64::INFINITY { 0.0 } else { place };
+    let size = oracle.size() + seen;
     let unit = root.t.abs().max(durer_math::scale::ldexp(size / length, -k));
     (root.hi - root.lo) / (unit.next_up() - unit)
 }
@@ -138,19 +139,21 @@ pub fn roots_are_the_exact_crossings<S: Surface>(
         (!ray.t_min.is_finite() || t.cmp_exact(&ray.t_min.into()).is_ge())
             && (!ray.t_max.is_finite() || t.cmp_exact(&ray.t_max.into()).is_le())
     };
-    // A crossing beyond all numbers cannot be told.
-    let most = Exact::from(f64::MAX);
+    // A crossing whose t or place is beyond all numbers cannot be told.
+    let most = Exact::from(f64::MAX / ray.direction.max_abs().max(1.0)).shifted(-16);
     let exact: Vec<Crossing> = oracle
         .crossings(&line)
         .into_iter()
         .filter(|c| inside(&c.t) && c.t.cmp_exact(&most).is_le() && c.t.cmp_exact(&-most.clone()).is_ge())
         .collect();
+    let mut seen = roots.clone();
+    seen.retain(|r| (&Exact::from(r.t).abs() - &most).sign().is_le());
     let told = || {
         let exact: Vec<_> = exact.iter().map(|c| (c.t.about(2200).to_f64(), c.sign, c.grazing)).collect();
         format!("\n  found {roots:?}\n  exact {exact:?}")
     };
-    ensure!(roots.len() == exact.len(), "{} roots, but {} crossings{}", roots.len(), exact.len(), told());
-    for (root, crossing) in roots.iter().zip(&exact) {
+    ensure!(seen.len() == exact.len(), "{} roots, but {} crossings{}", seen.len(), exact.len(), told());
+    for (root, crossing) in seen.iter().zip(&exact) {
         ensure!(
             root.t.is_finite() && root.lo <= root.t && root.t <= root.hi,
             "t is not in its bracket{}",
@@ -183,9 +186,17 @@ pub fn closest_is_the_first_of_all<S: Surface>(surface: &S, ray: &Ray, roots: &[
 
 /// P8: a bracket is at most 96 ulp of `max(|t|, size / |d|)` wide: 48, where size over length is taken as a half though it may be 0.29, and
 /// what rounding `t` adds.
-pub fn brackets_are_narrow(oracle: &dyn Oracle, ray: &Ray, roots: &[Root]) -> Result<(), Broken> {
+pub fn brackets_are_narrow<S: Surface>(
+    surface: &S,
+    oracle: &dyn Oracle,
+    ray: &Ray,
+    roots: &[Root],
+) -> Result<(), Broken> {
     for root in roots {
-        let width = width(oracle, ray, root);
+        if !ray.at(root.t).is_finite() {
+            continue; // a place beyond all numbers
+        }
+        let width = width(surface, oracle, ray, root);
         ensure!(width <= 96.0, "a bracket is {width} ulp wide: {root:?}");
     }
     Ok(())
@@ -347,7 +358,7 @@ fn normal_is_the_exact_one(
 ) -> Result<(), Broken> {
     let g = oracle.face_normal(root.face, truth);
     let length = g.length();
-    if length > 0.0 && length.is_finite() {
+    if length > 0.0 && length.is_finite() && point.bend.is_finite() {
         let error = (g * (1.0 / length) - point.ng.to_vec()).length();
         // The normal turns by at most `bend` times the distance to the exact point.
         let turn = if point.bend == 0.0 { 0.0 } else { point.bend * point.dp.length() * 4.0 };

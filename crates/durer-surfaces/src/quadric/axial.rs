@@ -5,8 +5,12 @@
 use crate::quadric::body::{Chart, Frame, Shape, sheared};
 use crate::quadric::form::Form;
 use crate::quadric::solid::Body;
+use crate::sphere::length;
 use durer_math::eft::{exponent, scale2};
-use durer_math::{Aabb, Point3, Ring, Run, U, Vec3, elementary};
+use durer_math::{Aabb, Affine, Point3, Ring, Run, U, Vec3, elementary};
+
+/// Pays for results below the normal range.
+const TINY: f64 = f64::from_bits(16);
 
 /// A canonical quadric, as a surface.
 pub type Axial<W> = Body<AxialShape<W>>;
@@ -137,6 +141,7 @@ impl<W: Wall> Shape for AxialShape<W> {
         if self.open { 1 } else { self.faces() }
     }
 
+    #[inline(always)]
     fn form<T: Ring>(&self, face: usize) -> Form<T> {
         let (z, k) = (self.frame.centre.z, self.frame.scale);
         let unit = |x: f64| T::exact(x).scale2(-k);
@@ -153,6 +158,17 @@ impl<W: Wall> Shape for AxialShape<W> {
         let z = [from.max(low), to.min(high)];
         let [x, y] = self.wall.half_widths(z);
         Aabb::new(Point3::new(-x, -y, z[0]), Point3::new(x, y, z[1]))
+    }
+
+    fn bounds_through(&self, map: &Affine) -> Aabb {
+        let [low, high] = self.wall.heights();
+        if self.ends.is_some() || !(low.is_finite() && high.is_finite()) {
+            return map.bounds(&self.bounds());
+        }
+        // An ellipsoid: its half-widths are the lengths of the rows of L diag(a, b, c).
+        let [a, b] = self.wall.half_widths([low, high]);
+        let rows = map.linear().map(|[x, y, z]| length([x * a, y * b, z * high]) * (1.0 + 8.0 * U) + TINY);
+        Aabb::centred(map.centre(), Vec3::from(rows))
     }
 
     fn chart(&self, face: usize, y: Vec3, n: Vec3) -> Chart {

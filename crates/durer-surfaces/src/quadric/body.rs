@@ -18,7 +18,7 @@ use crate::{CentredRay, End, Flow, Kind, LocalPoint, RingRay, Root, Side, Sink};
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Equal, Greater, Less};
-use durer_math::{Aabb, Dd, Dyadic, Point3, RaySide, Ring, Run, U, Vec3};
+use durer_math::{Aabb, Affine, Dd, Dyadic, Isa, Point3, RaySide, Ring, Run, U, Vec3};
 
 /// The most faces a shape can have.
 pub const MAX_FACES: usize = 6;
@@ -85,6 +85,11 @@ pub trait Shape: Send + Sync {
 
     /// A box that provably holds the shape.
     fn bounds(&self) -> Aabb;
+
+    /// A box that provably holds the shape after `map` has moved it.
+    fn bounds_through(&self, map: &Affine) -> Aabb {
+        map.bounds(&self.bounds())
+    }
 
     /// Coordinates on a face, at `y` (close to the face), where the unit normal is `n`.
     fn chart(&self, face: usize, y: Vec3, n: Vec3) -> Chart;
@@ -221,11 +226,17 @@ impl<S: Shape> View<'_, S> {
         let none = LineRoots { roots: [None; 2], outside: false };
         let Some(in_dd) = ray.in_ring::<Run<Dd>>() else { return (none, true) };
         // Coefficients are homogeneous: the positive factor w² cancels in roots and signs.
-        let p = self.shape.form::<Run<Dd>>(face).along(&in_dd);
-        let disc = p.discriminant();
-        let known = [Known::from(&p.a), (&p.b).into(), (&p.c).into(), (&disc).into()];
-        let [a, b, c, d] = known;
-        if let Some(roots) = solve(a, b, c, d, 0.0, limits) {
+        let (known, found) = Isa::detect().run(
+            #[inline(always)]
+            || {
+                let p = self.shape.form::<Run<Dd>>(face).along(&in_dd);
+                let disc = p.discriminant();
+                let known = [Known::from(&p.a), (&p.b).into(), (&p.c).into(), (&disc).into()];
+                let [a, b, c, d] = known;
+                (known, solve(a, b, c, d, 0.0, limits))
+            },
+        );
+        if let Some(roots) = found {
             return (roots, true);
         }
         let limits = Limits { narrow: false, ..*limits };
@@ -413,6 +424,7 @@ impl<S: Shape> View<'_, S> {
     }
 
     /// Where an end of the range lies relative to a crossing.
+    #[inline(always)]
     fn end_against_root(&self, end: End, event: &Event, ray: &CentredRay<'_>) -> Ordering {
         // The polynomial at the end's own point, which does not carry the rounding of the closest approach. Rays that were spawned on
         // this surface start where its sign is certain.
@@ -462,7 +474,7 @@ fn solve_linear(line: &Quadratic<Run>, limits: &Limits) -> Option<LineRoots> {
         Greater => Crossing::Out,
         Less => Crossing::In,
     };
-    let root = admit(-line.c / line.b.scale2(1), 0.0, crossing, limits)?;
+    let root = admit(-line.c / Run::with_error(2.0 * line.b.v, 2.0 * line.b.e), 0.0, crossing, limits)?;
     Some(LineRoots { roots: [root, None], outside: false })
 }
 

@@ -49,15 +49,18 @@ impl<T: Ring> Form<T> {
         Self { q: self.q, b: [bx + x, by + y, bz + z], c }
     }
 
+    #[inline(always)]
     fn times(&self, v: &[T; 3]) -> [T; 3] {
-        let [xx, yy, zz, xy, xz, yz] = &self.q;
-        let row = |a: &T, b: &T, c: &T| {
+        #[inline(always)]
+        fn row<T: Ring>(a: &T, b: &T, c: &T, v: &[T; 3]) -> T {
             a.clone() * v[0].clone() + b.clone() * v[1].clone() + c.clone() * v[2].clone()
-        };
-        [row(xx, xy, xz), row(xy, yy, yz), row(xz, yz, zz)]
+        }
+        let [xx, yy, zz, xy, xz, yz] = &self.q;
+        [row(xx, xy, xz, v), row(xy, yy, yz, v), row(xz, yz, zz, v)]
     }
 
     /// `f w²` along the points `(o + s d) / w`.
+    #[inline(always)]
     pub fn along(&self, ray: &RingRay<T>) -> Quadratic<T> {
         let qd = self.times(&ray.d);
         let wb = self.b.each_ref().map(|b| b.clone() * ray.w.clone());
@@ -67,6 +70,7 @@ impl<T: Ring> Form<T> {
     }
 
     /// `f w²` at the point `p / w`.
+    #[inline(always)]
     pub fn at(&self, p: &[T; 3], w: &T) -> T {
         let qp = self.times(p);
         let wb = self.b.each_ref().map(|b| b.clone() * w.clone());
@@ -74,8 +78,15 @@ impl<T: Ring> Form<T> {
     }
 }
 
+#[inline(always)]
 fn dot<T: Ring>(a: &[T; 3], b: &[T; 3]) -> T {
     a[0].clone() * b[0].clone() + a[1].clone() * b[1].clone() + a[2].clone() * b[2].clone()
+}
+
+/// `a v_x + b v_y + c v_z`.
+#[inline(always)]
+fn row(a: f64, b: f64, c: f64, v: Vec3) -> f64 {
+    a.mul_add(v.x, b.mul_add(v.y, c * v.z))
 }
 
 /// A [`Form`] rounded to f64: each coefficient within the factor `1 ± rel` of the exact one, zeros exact.
@@ -124,6 +135,15 @@ impl Rounded {
         Self { q, b: [bx, by, bz], c, rel: rel * (1.0 + 8.0 * U), largest, bend }
     }
 
+    /// The form of a ball about the origin, `x·x - radius²`: what [`Rounded::new`] gives, without the detour.
+    #[inline(always)]
+    pub(crate) fn ball(radius: f64) -> Self {
+        /// Twice the Frobenius norm of the identity, rounded up.
+        const BEND: f64 = 3.464_101_615_137_755_6;
+        let (q, b) = ([1.0, 1.0, 1.0, 0.0, 0.0, 0.0], [0.0; 3]);
+        Self { q, b, c: -(radius * radius), rel: U * (1.0 + 8.0 * U), largest: 1.0, bend: BEND }
+    }
+
     /// Whether the form is that of a half-space.
     #[inline(always)]
     pub(crate) fn is_linear(&self) -> bool {
@@ -134,16 +154,14 @@ impl Rounded {
     #[inline(always)]
     pub(crate) fn times(&self, v: Vec3) -> Vec3 {
         let [xx, yy, zz, xy, xz, yz] = self.q;
-        let row = |a: f64, b: f64, c: f64| a.mul_add(v.x, b.mul_add(v.y, c * v.z));
-        Vec3::new(row(xx, xy, xz), row(xy, yy, yz), row(xz, yz, zz))
+        Vec3::new(row(xx, xy, xz, v), row(xy, yy, yz, v), row(xz, yz, zz, v))
     }
 
     /// `|Q| v`, for `v >= 0`.
     #[inline(always)]
     fn times_abs(&self, v: Vec3) -> Vec3 {
         let [xx, yy, zz, xy, xz, yz] = self.q.map(f64::abs);
-        let row = |a: f64, b: f64, c: f64| a.mul_add(v.x, b.mul_add(v.y, c * v.z));
-        Vec3::new(row(xx, xy, xz), row(xy, yy, yz), row(xz, yz, zz))
+        Vec3::new(row(xx, xy, xz, v), row(xy, yy, yz, v), row(xz, yz, zz, v))
     }
 
     /// `A`, `B`, `C` along `o + s d`, with `o` within `eo` and `d` within `ed`.

@@ -276,6 +276,7 @@ impl Shape for GeneralQuadric {
         1
     }
 
+    #[inline(always)]
     fn form<T: Ring>(&self, _: usize) -> Form<T> {
         // x = p + 2^s y: Q' = 4^s Q, b' = 2^s (Q p + b), c' = f(p), all times 2^gain.
         let (q, b, c) = matrix::<T>(&self.coefficients);

@@ -14,3 +14,5 @@ pub mod paraboloid;
 pub mod round;
 pub mod sector;
 pub mod solid;
+#[cfg(test)]
+mod tests;

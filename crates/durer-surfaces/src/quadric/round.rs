@@ -201,6 +201,7 @@ impl Shape for CylinderShape {
         if self.open { 1 } else { 3 }
     }
 
+    #[inline(always)]
     fn form<T: Ring>(&self, face: usize) -> Form<T> {
         if face as u32 != WALL {
             return self.axis.half_space(face as u32);
@@ -268,6 +269,7 @@ impl Shape for FrustumShape {
         if self.open { 1 } else { 3 }
     }
 
+    #[inline(always)]
     fn form<T: Ring>(&self, face: usize) -> Form<T> {
         if face as u32 != WALL {
             return self.axis.half_space(face as u32);

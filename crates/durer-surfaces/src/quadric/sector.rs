@@ -107,6 +107,7 @@ impl Shape for SectorShape {
         if self.cosine == 0.0 { 2 } else { 3 }
     }
 
+    #[inline(always)]
     fn form<T: Ring>(&self, face: usize) -> Form<T> {
         let a = self.unit_axis::<T>();
         let plane = self.faces() - 1;
@@ -163,7 +164,7 @@ impl Shape for SectorShape {
         }
         // Around the axis, and outward along the cone or the disc.
         let unit = scale2(self.radius, -self.scale());
-        let out = if y == Vec3::ZERO { e1 } else { y * (1.0 / y.length()) };
+        let out = if y.length() > f64::MIN_POSITIVE { y * (1.0 / y.length()) } else { e1 };
         Chart {
             uv: [uv[0], y.length() / unit],
             dpdu: sheared(back(dpdu), out, n),

@@ -4,7 +4,7 @@ use crate::quadric::body::{Frame, Shape, View, rounded};
 use crate::quadric::form::Rounded;
 use crate::{LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use durer_math::eft::{scale2, two_sum};
-use durer_math::{Aabb, Dd, Point3, Ring, Run, U, Vec3};
+use durer_math::{Aabb, Affine, Dd, Point3, Ring, Run, U, Vec3};
 
 /// Pays for results below the normal range.
 const TINY: f64 = f64::from_bits(4);
@@ -39,11 +39,16 @@ impl<S: Shape> Surface for Body<S> {
         self.shape.bounds()
     }
 
+    fn bounds_through(&self, map: &Affine) -> Aabb {
+        self.shape.bounds_through(map)
+    }
+
     #[inline(always)]
     fn roots<K: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut K) {
         self.view().roots(ray, sink);
     }
 
+    #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         self.view().resolve(ray, root, need)
     }
@@ -61,7 +66,11 @@ impl<S: Shape> View<'_, S> {
     /// All crossings in the ray's range, ascending.
     #[inline(always)]
     pub(crate) fn roots<K: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut K) {
-        let ray = ray.recentre(self.frame.centre, self.frame.scale);
+        let Frame { centre, scale, reach } = self.frame;
+        if reach < f64::INFINITY && ray.passes_by(centre, scale2(reach, scale)) {
+            return;
+        }
+        let ray = ray.recentre(centre, scale);
         let events = self.events(&ray, sink.range());
         self.push(&events, &ray, sink);
     }
@@ -121,6 +130,7 @@ impl<S: Shape> View<'_, S> {
     /// rounding adds away from the surface, has `|f| >= off |G| - h (off² + |τ|²) - η`; this is positive from
     /// `off = 2 η' / (|G| + √(|G|² - 4 h η'))` on, with `η' = η + h|τ|²`. `η` includes twice the error of an evaluation of `f`, so
     /// that a ray that starts there finds the sign of `f` in f64.
+    #[inline(always)]
     fn off(&self, face: usize, p: Point3, y: Vec3, lost: Vec3) -> Off {
         let form = &self.forms[face];
         let (f, half) = form.at(y, y.abs() * U);
@@ -172,6 +182,7 @@ impl<S: Shape> View<'_, S> {
 
 /// `y` moved onto the face by Newton's method along the gradient: one step, as a rule; more where the ray came from so far that `y` is off by
 /// more than the face's size.
+#[inline(always)]
 fn project(form: &Rounded, mut y: Vec3) -> Vec3 {
     let (mut f, mut half) = form.at(y, Vec3::ZERO);
     for _ in 0..64 {

@@ -117,12 +117,6 @@ impl<T: Ring> Quadratic<T> {
         self.b.clone().square() - self.a.clone() * self.c.clone()
     }
 
-    /// The value at `s`.
-    #[inline(always)]
-    pub(crate) fn at(&self, s: T) -> T {
-        (self.a.clone() * s.clone() + self.b.clone().scale2(1)) * s + self.c.clone()
-    }
-
     /// The value at `n / m`, times `m²`.
     fn at_ratio(&self, n: &T, m: &T) -> T {
         let (an, bm) = (self.a.clone() * n.clone(), self.b.clone() * m.clone());
@@ -152,6 +146,14 @@ impl Quadratic<Dyadic> {
 }
 
 impl Quadratic<Run> {
+    /// The value at `s`.
+    #[inline(always)]
+    pub(crate) fn at(&self, s: Run) -> Run {
+        // Doubling is exact.
+        let b = Run::with_error(2.0 * self.b.v, 2.0 * self.b.e);
+        (self.a * s + b) * s + self.c
+    }
+
     /// `B² - AC` with Kahan's difference.
     #[inline(always)]
     pub(crate) fn kahan_discriminant(&self) -> Run {
@@ -163,6 +165,24 @@ impl Quadratic<Run> {
         let floor = if zero { 0.0 } else { 1e-290 };
         Run::with_error(v, (inherited + 3.0 * U * v.abs()) * (1.0 + 16.0 * U) + floor)
     }
+}
+
+/// The square root of a number that is certainly positive: `|√x - √v| = |x - v| / (√x + √v)`, and `√x >= √v (1 - e/v)`.
+#[inline(always)]
+fn root_of(x: Run) -> Run {
+    let (root, ratio) = (x.v.sqrt(), x.e / x.v);
+    // Certain in an exact ring, but not in this enclosure.
+    if ratio < 0.9 {
+        Run::with_error(root, root * (ratio / (2.0 - ratio) + U) * (1.0 + 16.0 * U))
+    } else {
+        x.sqrt()
+    }
+}
+
+/// `x 2^k`, where `k` is nearly always a known 0.
+#[inline(always)]
+fn scaled(x: Run, k: i32) -> Run {
+    if k == 0 { x } else { x.scale2(k) }
 }
 
 /// The roots within the limits, or `None` if the numbers leave open what they are.
@@ -190,17 +210,17 @@ pub(crate) fn solve(
                 // B is zero too: the quadratic is the constant C.
                 Equal => return Some(LineRoots { roots: [None; 2], outside: c.sign? == Greater }),
             };
-            let root = admit((-b.value / a.value).scale2(-a.k), offset, crossing, limits)?;
+            let root = admit(scaled(-b.value / a.value, -a.k), offset, crossing, limits)?;
             Some(LineRoots { roots: [root, None], outside: false })
         }
         Greater => {
-            let sqrt = disc.value.sqrt();
+            let sqrt = root_of(disc.value);
             let falling = b.value.v >= 0.0;
             let q = if falling { -(b.value + sqrt) } else { sqrt - b.value };
             // The slope is -sign(B) √disc at q / A, and the opposite at C / q.
             let (first, second) =
                 if falling { (Crossing::In, Crossing::Out) } else { (Crossing::Out, Crossing::In) };
-            let near = admit((c.value / q).scale2(c.k), offset, second, limits)?;
+            let near = admit(scaled(c.value / q, c.k), offset, second, limits)?;
             let far = match a.sign {
                 Some(Equal) => None,
                 _ => {
@@ -214,7 +234,7 @@ pub(crate) fn solve(
                         None
                     } else {
                         a.sign?;
-                        admit((q / a.value).scale2(-a.k), offset, first, limits)?
+                        admit(scaled(q / a.value, -a.k), offset, first, limits)?
                     }
                 }
             };

@@ -1,0 +1,349 @@
+//! The named quadrics, the sector, and surfaces made from surfaces, against the laws.
+
+use crate::laws::{Dice, Exact, ExactBody, ExactForm, Feature, Tally, all_roots, check_many, exact3};
+use crate::quadric::axial::{Axial, Wall};
+use crate::*;
+use durer_math::{Point3, Vec3};
+
+/// The wall's polynomial in f64 numbers that products of few-bit numbers keep exact, written down once more.
+fn canonical(k: [f64; 10], ends: Option<[f64; 2]>, open: bool, size: f64, convex: bool) -> ExactBody {
+    let mut faces = vec![ExactForm::from_f64(k)];
+    if let Some([from, to]) = ends {
+        faces.push(ExactForm::half_space(exact3([0.0, 0.0, -1.0]), exact3([0.0, 0.0, from])));
+        faces.push(ExactForm::half_space(exact3([0.0, 0.0, 1.0]), exact3([0.0, 0.0, to])));
+    }
+    ExactBody { walls: if open { 1 } else { faces.len() }, faces, size, convex: convex && !open }
+}
+
+/// Places of a canonical quadric with semi-axes `a`, `b`, `c` at which something happens, and rims at the heights `ends`.
+fn features([a, b, c]: [f64; 3], ends: [f64; 2]) -> Vec<Feature> {
+    let points = [
+        [0.0, 0.0, 0.0],
+        [a, 0.0, 0.0],
+        [0.0, b, 0.0],
+        [0.0, 0.0, c],
+        [a, 0.0, c],
+        [0.0, -b, -c],
+        [a, b, c],
+        [-a, b, 0.0],
+        [0.0, 0.0, ends[0]],
+        [0.0, 0.0, ends[1]],
+        [a, 0.0, ends[1]],
+        [0.0, b, ends[0]],
+        [2.0 * a, 0.0, 4.0],
+        [a, 0.0, 1.0],
+        [0.6 * a, 0.8 * b, 0.0],
+        [0.0, 2.0 * b, ends[1]],
+    ];
+    let directions = [
+        [0.0, 0.0, 1.0],
+        [a, 0.0, c],
+        [0.0, b, c],
+        [a, b, 0.0],
+        [0.0, 1.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [-a, b, 0.0],
+        [a, 0.0, -c],
+        [4.0 * a, 3.0 * b, 5.0 * c],
+        [0.0, 0.0, 0.0],
+        [a, 0.0, 4.0],
+    ];
+    points.iter().flat_map(|p| directions.iter().map(move |d| Feature::new(*p, *d))).collect()
+}
+
+/// The laws for a whole quadric, a solid piece, an open piece, and each of them placed.
+fn each_way<W: Wall>(
+    whole: &Axial<W>,
+    k: [f64; 10],
+    axes: [f64; 3],
+    ends: [f64; 2],
+    convex: bool,
+    seed: u64,
+) -> Tally {
+    let size = axes[0].max(axes[1]).max(axes[2]).max(ends[0].abs()).max(ends[1].abs());
+    let [from, to] = ends;
+    let at = features(axes, ends);
+    let mut sum = Tally::default();
+    let mut add = |t: Tally| {
+        sum.roots += t.roots;
+        sum.grazing += t.grazing;
+        sum.widths.extend(t.widths);
+    };
+    let pieces = [
+        (whole.clone(), canonical(k, None, false, size, false)),
+        (whole.between(from, to).unwrap(), canonical(k, Some(ends), false, size, convex)),
+        (whole.open_between(from, to).unwrap(), canonical(k, Some(ends), true, size, false)),
+    ];
+    for (i, (piece, oracle)) in pieces.into_iter().enumerate() {
+        add(check_many(&piece, &oracle, &at, seed + i as u64, 150));
+        let map = Dice::new(seed + i as u64).map();
+        let placed: Vec<_> = at.iter().map(|f| f.placed(&map)).collect();
+        add(check_many(&Placed::new(piece, map), &oracle.placed(&map), &placed, seed + i as u64, 60));
+    }
+    sum
+}
+
+fn enough(mut tally: Tally) {
+    assert!(tally.roots > 150 && tally.grazing > 0, "{} roots, {} grazing", tally.roots, tally.grazing);
+    assert!(tally.median_width() < 40.0, "median width {}", tally.median_width());
+}
+
+#[test]
+fn ellipsoids_obey_the_laws() {
+    for (seed, axes) in
+        [[2.0, 1.0, 0.5], [1.0, 1.0, 4.0], [3.0, 3.0, 0.0625], [1024.0, 1.0, 2.0]].into_iter().enumerate()
+    {
+        let [a, b, c] = axes;
+        let (a2, b2, c2) = (a * a, b * b, c * c);
+        let k = [b2 * c2, a2 * c2, a2 * b2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -a2 * b2 * c2];
+        enough(each_way(
+            &Ellipsoid::new(a, b, c).unwrap(),
+            k,
+            axes,
+            [-0.5 * c, 0.25 * c],
+            true,
+            10 * seed as u64,
+        ));
+    }
+    assert_eq!(Ellipsoid::spheroid(2.0, 1.0).unwrap().wall().axes, [2.0, 2.0, 1.0]);
+}
+
+#[test]
+fn hyperboloids_obey_the_laws() {
+    for (seed, axes) in [[2.0, 1.0, 1.0], [0.5, 0.5, 2.0], [1.0, 16.0, 0.125]].into_iter().enumerate() {
+        let [a, b, c] = axes;
+        let (a2, b2, c2) = (a * a, b * b, c * c);
+        let seed = 10 * seed as u64;
+        let one = [b2 * c2, a2 * c2, -a2 * b2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -a2 * b2 * c2];
+        enough(each_way(
+            &HyperboloidOfOneSheet::new(a, b, c).unwrap(),
+            one,
+            axes,
+            [-c, 2.0 * c],
+            false,
+            seed,
+        ));
+        let two = [b2 * c2, a2 * c2, -a2 * b2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, a2 * b2 * c2];
+        enough(each_way(
+            &HyperboloidOfTwoSheets::new(a, b, c).unwrap(),
+            two,
+            axes,
+            [-2.0 * c, 3.0 * c],
+            false,
+            seed,
+        ));
+        enough(each_way(
+            &HyperboloidOfTwoSheets::new(a, b, c).unwrap(),
+            two,
+            axes,
+            [c, 2.0 * c],
+            true,
+            seed + 5,
+        ));
+    }
+}
+
+#[test]
+fn cones_obey_the_laws() {
+    for (seed, axes) in [[2.0, 1.0, 1.0], [0.5, 0.5, 2.0], [1.0, 16.0, 0.125]].into_iter().enumerate() {
+        let [a, b, c] = axes;
+        let (a2, b2, c2) = (a * a, b * b, c * c);
+        let k = [b2 * c2, a2 * c2, -a2 * b2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let cone = Cone::new(a, b, c).unwrap();
+        enough(each_way(&cone, k, axes, [-c, 2.0 * c], false, 10 * seed as u64));
+        enough(each_way(&cone, k, axes, [0.0, c], true, 10 * seed as u64 + 3));
+    }
+}
+
+#[test]
+fn cylinders_obey_the_laws() {
+    for (seed, axes) in [[2.0, 1.0, 1.0], [0.5, 0.5, 1.0], [1.0, 16.0, 1.0]].into_iter().enumerate() {
+        let [a, b, _] = axes;
+        let (a2, b2) = (a * a, b * b);
+        let seed = 10 * seed as u64;
+        let elliptic = [b2, a2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -a2 * b2];
+        enough(each_way(&EllipticCylinder::new(a, b).unwrap(), elliptic, axes, [-1.0, 2.0], true, seed));
+        let hyperbolic = [b2, -a2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -a2 * b2];
+        enough(each_way(&HyperbolicCylinder::new(a, b).unwrap(), hyperbolic, axes, [-1.0, 2.0], false, seed));
+        let parabolic = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -a2, 0.0, 0.0];
+        enough(each_way(&ParabolicCylinder::new(a).unwrap(), parabolic, axes, [-1.0, 2.0], true, seed));
+    }
+}
+
+#[test]
+fn paraboloids_obey_the_laws() {
+    for (seed, axes) in [[2.0, 1.0, 1.0], [0.5, 0.5, 1.0], [1.0, 16.0, 1.0]].into_iter().enumerate() {
+        let [a, b, _] = axes;
+        let (a2, b2) = (a * a, b * b);
+        let seed = 10 * seed as u64;
+        let bowl = [b2, a2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -a2 * b2, 0.0];
+        enough(each_way(&EllipticParaboloid::new(a, b).unwrap(), bowl, axes, [0.25, 4.0], true, seed));
+        let saddle = [b2, -a2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -a2 * b2, 0.0];
+        enough(each_way(&HyperbolicParaboloid::new(a, b).unwrap(), saddle, axes, [-1.0, 4.0], false, seed));
+    }
+}
+
+/// The faces of a sector, from its definition.
+fn exact_sector(centre: Point3, r: f64, axis: Vec3, cosine: f64) -> ExactBody {
+    let a = exact3(axis.to_array());
+    let aa = a.iter().fold(Exact::zero(), |s, x| &s + &x.squared());
+    let k = &aa * &Exact::from(cosine).squared();
+    let zero = || [Exact::zero(), Exact::zero(), Exact::zero()];
+    let sphere = ExactForm::from_f64([1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let sphere = ExactForm { c: -Exact::from(r).squared(), ..sphere };
+    let cone = ExactForm {
+        q: core::array::from_fn(|i| {
+            core::array::from_fn(|j| &(if i == j { k.clone() } else { Exact::zero() }) - &(&a[i] * &a[j]))
+        }),
+        b: zero(),
+        c: Exact::zero(),
+    };
+    let half = ExactForm::half_space(a.clone().map(|x| -x), zero());
+    let faces = if cosine == 0.0 { vec![sphere, half] } else { vec![sphere, cone, half] };
+    let centre = exact3(centre.to_array());
+    ExactBody::solid(faces.into_iter().map(|f| f.translated(&centre)).collect(), r, true)
+}
+
+#[test]
+fn sectors_obey_the_laws() {
+    let mut tally = Tally::default();
+    for seed in 0..24 {
+        let mut dice = Dice::new(seed);
+        // Axes and cosines with rational generators: 3-4-5.
+        let axis = dice.pick(&[Vec3::Z, -Vec3::X, Vec3::new(1.0, 2.0, 2.0), Vec3::new(-0.5, 0.25, 1.0)]);
+        let cosine = dice.pick(&[0.0, 0.6, 0.8, 0.5, 0.9990234375]);
+        let r = dice.power(-3, 6) * 5.0;
+        let centre = (dice.lattice(8) * 0.5).to_point();
+        let sector = SphericalSector::new(centre, r, axis, cosine).unwrap();
+        let mut at = vec![];
+        let unit = axis * (1.0 / axis.length());
+        let e = unit.cross(if axis.x == 0.0 { Vec3::X } else { Vec3::Z });
+        let e = e * (1.0 / e.length());
+        let sine = (1.0 - cosine * cosine).sqrt();
+        for out in [e, -e, unit.cross(e)] {
+            let rim = unit * cosine + out * sine;
+            for d in [axis, rim, out, e, unit.cross(e), unit * sine - out * cosine, Vec3::ZERO] {
+                for p in [Vec3::ZERO, unit * r, rim * r, rim * (0.5 * r), out * r] {
+                    at.push(Feature { point: centre + p, direction: d });
+                }
+            }
+        }
+        let t = check_many(&sector, &exact_sector(centre, r, axis, cosine), &at, seed, 200);
+        tally.roots += t.roots;
+        tally.grazing += t.grazing;
+        let map = dice.map();
+        let placed: Vec<_> = at.into_iter().map(|f| f.placed(&map)).collect();
+        check_many(
+            &Placed::new(sector, map),
+            &exact_sector(centre, r, axis, cosine).placed(&map),
+            &placed,
+            seed,
+            60,
+        );
+    }
+    assert!(tally.roots > 1000 && tally.grazing > 10);
+}
+
+/// A surface clipped: the walls stay, and the regions' faces cut.
+fn clipped(mut oracle: ExactBody, regions: &[ExactBody]) -> ExactBody {
+    oracle.convex = false;
+    for r in regions {
+        oracle.faces.extend(r.faces.iter().cloned());
+    }
+    oracle
+}
+
+fn exact_box(min: [f64; 3], max: [f64; 3]) -> ExactBody {
+    let mut faces = vec![];
+    for i in 0..3 {
+        let mut n = [0.0; 3];
+        n[i] = 1.0;
+        faces.push(ExactForm::half_space(exact3(n.map(|x| -x)), exact3(min)));
+        faces.push(ExactForm::half_space(exact3(n), exact3(max)));
+    }
+    ExactBody::solid(faces, 1.0, true)
+}
+
+#[test]
+fn clipped_surfaces_obey_the_laws() {
+    let mut roots = 0;
+    for seed in 0..30 {
+        let mut dice = Dice::new(seed);
+        let map = (seed % 3 == 2).then(|| dice.map());
+        let (min, max) = ([-1.0, -2.0, -0.5], [1.5, 1.0, 2.0]);
+        let block = Region::axis_box(min.into(), max.into()).unwrap();
+        let ball = Sphere::new(Point3::new(0.0, 0.0, 2.0), 2.0).unwrap();
+        let exact_ball = ExactBody::solid(
+            vec![ExactForm::from_f64([1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, -4.0, 0.0])],
+            2.0,
+            true,
+        );
+        let (regions, exact) = if seed % 2 == 0 {
+            (vec![block], vec![exact_box(min, max)])
+        } else {
+            (vec![Region::solid(ball), block], vec![exact_ball, exact_box(min, max)])
+        };
+        let (regions, exact): (Vec<_>, Vec<_>) = match map {
+            None => (regions, exact),
+            Some(m) => (
+                regions.into_iter().map(|r| r.placed(m)).collect(),
+                exact.iter().map(|e| e.placed(&m)).collect(),
+            ),
+        };
+        let mut at = features([2.0, 1.0, 1.0], [-0.5, 2.0]);
+        for x in [min[0], max[0]] {
+            for y in [min[1], max[1]] {
+                for z in [min[2], max[2]] {
+                    at.push(Feature::new([x, y, z], [x, y, z]));
+                }
+            }
+        }
+        // The rim where the sphere |x| = 2 meets the ball: z = 1, and where it meets the planes.
+        at.push(Feature::new([1.5, 1.0, 0.8660254037844386], [0.0, 1.0, 0.0]));
+        if let Some(m) = map {
+            at = at.into_iter().map(|f| f.placed(&m)).collect();
+        }
+        let k = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -4.0];
+        let sphere = Sphere::new(Point3::ORIGIN, 2.0).unwrap();
+        let body = ExactBody::solid(vec![ExactForm::from_f64(k)], 2.0, true);
+        match map {
+            None => {
+                let body = clipped(body, &exact);
+                roots += check_many(&Clip::new(sphere, regions.clone()), &body, &at, seed, 200).roots;
+                let cone = Cone::new(2.0, 1.0, 1.0).unwrap();
+                let k = [1.0, 4.0, -4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+                let body = clipped(ExactBody::solid(vec![ExactForm::from_f64(k)], 1.0, false), &exact);
+                roots += check_many(&Clip::new(cone, regions), &body, &at, seed, 200).roots;
+            }
+            Some(m) => {
+                let body = clipped(body.placed(&m), &exact);
+                roots += check_many(&Clip::new(Placed::new(sphere, m), regions), &body, &at, seed, 100).roots;
+            }
+        }
+    }
+    assert!(roots > 1000, "only {roots} roots");
+}
+
+#[test]
+fn an_inverse_region_keeps_the_rest() {
+    let sphere = Sphere::new(Point3::ORIGIN, 1.0).unwrap();
+    let lower = Region::half_space(durer_math::Normal3::Z, 0.0).unwrap();
+    let halves = [Clip::new(sphere, vec![lower.clone()]), Clip::new(sphere, vec![lower.inverse()])];
+    let count = |d: Vec3, from: Point3| {
+        let ray = durer_math::Ray::new(from, d);
+        halves.each_ref().map(|h| all_roots(h, &ray).len())
+    };
+    assert_eq!(count(Vec3::Z, Point3::new(0.25, 0.0, -4.0)), [1, 1]);
+    // Along the border both halves have it: each is closed.
+    assert_eq!(count(Vec3::X, Point3::new(-4.0, 0.0, 0.0)), [2, 2]);
+    assert_eq!(count(Vec3::X, Point3::new(-4.0, 0.0, f64::from_bits(1))), [0, 2]);
+}
+
+#[test]
+fn an_inverse_turns_signs_sides_and_normals() {
+    let sphere = Sphere::new(Point3::ORIGIN, 1.0).unwrap();
+    let form = ExactForm::from_f64([1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0]).negated();
+    let oracle = ExactBody::solid(vec![form], 1.0, false);
+    let tally = check_many(&Inverse(sphere), &oracle, &features([1.0, 1.0, 1.0], [-1.0, 1.0]), 7, 1000);
+    assert!(tally.roots > 300);
+}
