@@ -424,9 +424,8 @@ def named(rng):
     ways = [w for w in ways if any(w)]
     caps = [Form.linear((0, 0, -1), extent[0]), Form.linear((0, 0, 1), -extent[1])] if extent else []
     size = max(axes)
-    if rng.random() < 0.3:
-        bounded = extent and (extent[0] == 0 or extent[1] == 0 or extent[0] * extent[1] > 0)
-        tip = (0, 0, 0) if "cone" in word and bounded else None
+    if extent and rng.random() < 0.3:
+        tip = (0, 0, 0) if "cone" in word and extent[0] * extent[1] >= 0 else None
         return Sheet(body + " open }", form, caps, points, ways, size, tip)
     return Solid(body + " }", [form, *caps], points, ways, size)
 
