@@ -9,6 +9,6 @@ plane { y, 0 pigment { rgb <0.55, 0.6, 0.65> } }
 sphere { <-2.6, 1, 0>, 1 clipped_by { plane { <0.5, 1, -0.6>, 0.3 translate <-2.6, 1, 0> } } pigment { rgb <0.9, 0.4, 0.3> } finish { phong 0.5 } }
 cylinder { <-0.6, 0.02, 0>, <-0.6, 1.9, 0>, 0.7 open clipped_by { sphere { <-0.6, 1.1, -0.3>, 0.95 } } pigment { rgb <0.4, 0.75, 0.5> } finish { specular 0.5 } }
 cone { <1.2, 0.02, 0>, 0.9, <1.2, 1.8, 0>, 0.3 clipped_by { box { <-1, 0, -1>, <1, 2, 1> rotate y*30 translate <1.6, -0.2, 0.6> } } pigment { rgb <0.4, 0.5, 0.95> } }
-box { <2.1, 0.02, -0.6>, <3.3, 1.2, 0.6> clipped_by { sphere { <2.7, 0.7, 0>, 0.85 } } pigment { rgb <0.9, 0.8, 0.3> } bounded_by { clipped_by } }
-plane { y, 0.6 clipped_by { cylinder { <0.4, -1, -2>, <0.4, 3, -2.1>, 0.8 } } pigment { checker rgb 1, rgb <0.6, 0.2, 0.4> scale 0.3 } }
+cylinder { <2.7, 0.02, 0>, <2.7, 1.2, 0>, 0.7 clipped_by { sphere { <2.7, 0.7, -0.2>, 0.75 } } pigment { rgb <0.9, 0.8, 0.3> } bounded_by { clipped_by } }
+sphere { <0.4, 0.6, -2>, 0.6 clipped_by { cylinder { <0.4, -1, -2>, <0.4, 3, -2.1>, 0.4 inverse } } pigment { checker rgb 1, rgb <0.6, 0.2, 0.4> scale 0.3 } }
 union { sphere { 0, 0.6 } cylinder { -y, y, 0.3 } clipped_by { box { <-1, -1, -0.2>, <1, 0.8, 1> } } rotate <-20, 30, 0> translate <-1.6, 0.9, -1.9> pigment { rgb <0.7, 0.5, 0.9> } }

@@ -19,4 +19,4 @@ object { Base transform { Move } pigment { Stripes rotate z*90 } finish { Gloss 
 sphere { <-2, R, 0>, R material { Lens } }
 sphere { <2, R, 0.2>, R pigment { Stripes rotate <0, 45, 20> } finish { Gloss ambient 0.2 } }
 object { Base scale <0.4, 1, 0.4> transform { Move } translate <0, 0.8, 0> texture { pigment { color rgb Unit } finish { Gloss } } }
-cylinder { <1, 0, -1.8>, <1, 0.5, -1.8>, 0.35 material { Lens scale 2 } }
+cylinder { <1, 0.02, -1.8>, <1, 0.5, -1.8>, 0.35 material { Lens scale 2 } }

@@ -34,7 +34,7 @@ pub(crate) struct SceneArgs {
     #[arg(short = 'L', value_name = "DIR")]
     pub(crate) library: Vec<PathBuf>,
     /// The value of `clock`.
-    #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true, value_parser = finite)]
     pub(crate) clock: f64,
     /// Declares a number before the scene is read; may be given several times.
     #[arg(long, value_name = "NAME=NUMBER", value_parser = declaration)]

@@ -290,6 +290,7 @@ impl Affine {
     ///
     /// `adjugate / determinant` is `L^-1`. Predicates about a placed surface multiply by the determinant instead of dividing, and stay
     /// polynomial in the exact data.
+    #[inline(always)]
     pub fn adjugate<T: Ring>(&self) -> ([[T; 3]; 3], T) {
         let (a, d) = adjugate(&self.linear.map(|r| r.map(T::exact)));
         if self.mirrored { (a.map(|r| r.map(|x| -x)), -d) } else { (a, d) }
@@ -351,14 +352,22 @@ fn frobenius(m: &Matrix3, e: &Matrix3) -> f64 {
 }
 
 /// The adjugate and the determinant.
+#[inline(always)]
 fn adjugate<T: Ring>(m: &[[T; 3]; 3]) -> ([[T; 3]; 3], T) {
-    let minor = |a: usize, b: usize, c: usize, d: usize| {
+    #[inline(always)]
+    fn minor<T: Ring>(m: &[[T; 3]; 3], [a, b]: [usize; 2], [c, d]: [usize; 2]) -> T {
         m[a][c].clone() * m[b][d].clone() - m[a][d].clone() * m[b][c].clone()
-    };
+    }
     // Entry (i, j) is the cofactor of (j, i); cyclic indices carry the sign.
-    let a = [0, 1, 2].map(|i| [0, 1, 2].map(|j| minor((j + 1) % 3, (j + 2) % 3, (i + 1) % 3, (i + 2) % 3)));
-    let term = |k: usize| m[0][k].clone() * a[k][0].clone();
-    let determinant = term(0) + term(1) + term(2);
+    let (x, y, z) = ([1, 2], [2, 0], [0, 1]);
+    let a = [
+        [minor(m, x, x), minor(m, y, x), minor(m, z, x)],
+        [minor(m, x, y), minor(m, y, y), minor(m, z, y)],
+        [minor(m, x, z), minor(m, y, z), minor(m, z, z)],
+    ];
+    let determinant = m[0][0].clone() * a[0][0].clone()
+        + m[0][1].clone() * a[1][0].clone()
+        + m[0][2].clone() * a[2][0].clone();
     (a, determinant)
 }
 

@@ -91,6 +91,16 @@ impl fmt::Display for PovError {
     }
 }
 
+/// A word for a message: whole, unless it is longer than any name in earnest.
+pub(crate) fn shortened(word: &str) -> std::borrow::Cow<'_, str> {
+    /// Letters shown.
+    const MOST: usize = 60;
+    match word.char_indices().nth(MOST) {
+        None => word.into(),
+        Some((end, _)) => format!("{}...", &word[..end]).into(),
+    }
+}
+
 /// Routes longer than this are cut in the middle: a runaway recursion has a thousand equal steps.
 const ROUTE_SHOWN: usize = 4;
 

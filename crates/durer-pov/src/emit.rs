@@ -174,14 +174,6 @@ impl Reader<'_> {
                 }
                 scene::Shape::Union(shown)
             }
-            Shape::Triangle(corners) if Self::is_degenerate(corners) => {
-                self.notice(at, "this triangle has no area: it is left out");
-                return Ok(None);
-            }
-            Shape::SmoothTriangle(both) if Self::is_degenerate(&both.0) => {
-                self.notice(at, "this triangle has no area: it is left out");
-                return Ok(None);
-            }
             leaf => surface(leaf, at)?,
         };
         let mut made = scene::Object::new(shape);

@@ -445,7 +445,7 @@ impl<'a> Reader<'a> {
                 return Fault::at(lexeme.place, crate::FaultKind::Unsupported, what.text.clone());
             }
             Item::Unknown(name) => {
-                let text = self.names.text(*name);
+                let text = crate::diagnostics::shortened(self.names.text(*name));
                 let hint =
                     self.similar(*name).map_or_else(String::new, |s| format!(" (did you mean `{s}`?)"));
                 return Fault::invalid(

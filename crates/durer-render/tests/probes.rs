@@ -156,7 +156,7 @@ fn rays_that_count_for_little_are_not_traced() {
         let mut scene = scene(vec![at(1.0), at(-5.0)]);
         scene.settings.max_trace_level = 100;
         scene.settings.adc_bailout = bailout;
-        check_grey(&scene, (0..terms).map(|i| 0.05 * 0.5_f64.powi(i)).sum());
+        check_grey(&scene, (0..terms).map(|i| 0.05 / f64::from(1 << i)).sum());
     }
 }
 

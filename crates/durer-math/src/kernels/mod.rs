@@ -129,11 +129,9 @@ impl Isa {
             Path::Reference | Path::Unfused => f(),
             // SAFETY: an `Isa` with this path is made only by `with`, after `is_available` has seen every feature that the
             // function is compiled for on this CPU.
+            // Code that is not written for lanes gains nothing from AVX-512, so both paths share one compiled copy of it.
             #[cfg(target_arch = "x86_64")]
-            Path::Avx2 => unsafe { run_avx2(f) },
-            // SAFETY: as above.
-            #[cfg(target_arch = "x86_64")]
-            Path::Avx512 => unsafe { run_avx512(f) },
+            Path::Avx2 | Path::Avx512 => unsafe { run_avx2(f) },
             #[cfg(not(target_arch = "x86_64"))]
             Path::Avx2 | Path::Avx512 => f(),
         }
@@ -143,12 +141,6 @@ impl Isa {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 fn run_avx2<R>(f: impl FnOnce() -> R) -> R {
-    f()
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt,avx512f,avx512vl,avx512dq,avx512bw")]
-fn run_avx512<R>(f: impl FnOnce() -> R) -> R {
     f()
 }
 

@@ -7,7 +7,7 @@ use crate::diagnostics::{Fault, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::reader::Reader;
-use crate::transform::{cross, length};
+use crate::transform::length;
 
 impl Reader<'_> {
     /// The numbers of the shape `keyword`, after its opening brace.
@@ -140,14 +140,5 @@ impl Reader<'_> {
             return Err(Fault::invalid(place, "a loop of this polygon has fewer than three corners"));
         }
         Ok(loops)
-    }
-
-    /// Whether three corners span no area.
-    pub(crate) fn is_degenerate(corners: &[[f64; 3]; 3]) -> bool {
-        let edge = |i: usize| std::array::from_fn(|k| corners[i][k] - corners[0][k]);
-        corners[0] == corners[1]
-            || corners[1] == corners[2]
-            || corners[0] == corners[2]
-            || cross(edge(1), edge(2)) == [0.0; 3]
     }
 }

@@ -250,7 +250,7 @@ mod tests {
         let paint = Paint::new(&texture, &Affine::IDENTITY, Rgb::WHITE).unwrap();
         let mut sum = 0.0;
         paint.each(Point3::new(0.25, 0.0, 0.0), 1.0, &mut |coats, w, p| {
-            sum += w * coats[0].pigment.at(p).rgb.r
+            sum += w * coats[0].pigment.at(p).rgb.r;
         });
         assert_eq!(sum, 1.25);
     }

@@ -50,7 +50,8 @@ mod tests {
         let quarters = |wave| [0.0, 0.25, 0.5, 0.75].map(|w| (Shape::new(wave).bend(w) * 1e6).round() / 1e6);
         assert_eq!(quarters(Wave::Triangle), [0.0, 0.5, 1.0, 0.5]);
         assert_eq!(quarters(Wave::Sine), [0.5, 1.0, 0.5, 0.0]);
-        assert_eq!(quarters(Wave::Scallop), [0.0, 0.707_107, 1.0, 0.707_107]);
+        let half_root = (core::f64::consts::FRAC_1_SQRT_2 * 1e6).round() / 1e6;
+        assert_eq!(quarters(Wave::Scallop), [0.0, half_root, 1.0, half_root]);
         assert_eq!(quarters(Wave::Cubic), [0.0, 0.15625, 0.5, 0.84375]);
         assert_eq!(quarters(Wave::Poly(2.0)), [0.0, 0.0625, 0.25, 0.5625]);
     }

@@ -68,7 +68,7 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             }
         }
         Shape::Quadric(coefficients) => {
-            target.add_final(Quadric::new(**coefficients).map_err(shape_error)?, map)
+            target.add_final(Quadric::new(**coefficients).map_err(shape_error)?, map);
         }
         Shape::Named(quadric) => named::build(quadric, open, map, &mut target)?,
         &Shape::SphericalSector { centre, radius, axis, half_angle } => {
