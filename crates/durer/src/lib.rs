@@ -17,3 +17,8 @@ pub use durer_pov as pov;
 pub use durer_render as render;
 pub use durer_scene as scene;
 pub use durer_surfaces as surfaces;
+
+/// The examples of the README, run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;
