@@ -6,5 +6,5 @@
 
 #include "stage.inc"
 hyperbolic_paraboloid { <1, 1, 0.75>
-  clipped_by { circular_cylinder { 1.15 } }
+  clipped_by { cylinder { -3*z, 3*z, 1.15 } }
   rotate x*-90 rotate y*20 translate y*1.1 texture { Gold } }

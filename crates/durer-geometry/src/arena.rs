@@ -29,10 +29,8 @@ pub(crate) type Visit<'a> = dyn FnMut(u32, Id, Root) -> Flow + 'a;
 
 /// The object-safe face of an [`Arena`], for ranges of slots.
 pub(crate) trait AnyArena: Send + Sync {
-    /// Improves `best` by the slots of a leaf.
-    fn closest(&self, isa: Isa, leaf: Range<u32>, ray: &LocalRay<'_>, filter: &Filter, best: &mut Best);
-    /// Whether a slot of the leaf is hit.
-    fn any(&self, isa: Isa, leaf: Range<u32>, ray: &LocalRay<'_>, filter: &Filter) -> bool;
+    /// Improves `best` by the slots of a leaf, until it is satisfied.
+    fn improve(&self, isa: Isa, leaf: Range<u32>, ray: &LocalRay<'_>, filter: &Filter, best: &mut Best);
     /// Shows every hit of the leaf to `visit`, until it says stop.
     fn each(
         &self,
@@ -43,13 +41,20 @@ pub(crate) trait AnyArena: Send + Sync {
         visit: &mut Visit<'_>,
     ) -> Flow;
     /// Adds the crossings of the leaf's solids.
-    fn spans(&self, leaf: Range<u32>, ray: &LocalRay<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks);
+    fn spans(
+        &self,
+        isa: Isa,
+        leaf: Range<u32>,
+        ray: &LocalRay<'_>,
+        start: &LocalPoint<'_>,
+        tracks: &mut Tracks,
+    );
     /// Adds what a solid of many parts needs to know beside the crossings of its parts: whether the ray starts inside.
     fn start_of(&self, surface: u32, ray: &LocalRay<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks);
     /// On which side of a surface a point lies; `Out` for open surfaces.
     fn side(&self, surface: u32, point: &LocalPoint<'_>) -> Side;
     /// The point of a hit.
-    fn resolve(&self, slot: u32, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint;
+    fn resolve(&self, isa: Isa, slot: u32, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint;
     /// Which part of its surface a slot is.
     fn part(&self, slot: u32) -> PartId;
     /// The name of a slot.
@@ -148,11 +153,10 @@ impl<S: Surface + 'static> Arena<S> {
         mut f: impl FnMut(Slot<'_, S>, &LocalRay<'_>) -> Flow,
     ) -> Flow {
         for slot in leaf {
-            let (surface, part) = self.locate(slot);
-            if !self.ids.admits(surface, filter.mask) {
+            let item = self.slot(slot);
+            if !self.ids.admits(item.index, filter.mask) {
                 continue;
             }
-            let item = Slot { arena: self, surface: &self.surfaces[surface], index: surface, slot, part };
             let flow = match filter.source {
                 Some((source, side)) if source == slot => f(item, &ray.from_side(Some(side))),
                 _ => f(item, ray),
@@ -165,11 +169,13 @@ impl<S: Surface + 'static> Arena<S> {
     }
 
     #[inline(always)]
-    fn locate(&self, slot: u32) -> (usize, Option<PartId>) {
-        match self.placed.get(slot as usize) {
-            Some(p) => (p.surface as usize, Some(PartId(p.part))),
-            None => (slot as usize, None),
-        }
+    fn slot(&self, slot: u32) -> Slot<'_, S> {
+        // An arena without parts keeps no list of them: slot and surface are the same number.
+        let (index, part) = match self.placed.get(slot as usize) {
+            Some(p) => (p.surface as usize, PartId(p.part)),
+            None => (slot as usize, PartId(0)),
+        };
+        Slot { arena: self, surface: &self.surfaces[index], index, slot, part }
     }
 
     fn slot_boxes(&self) -> impl IndexedParallelIterator<Item = Aabb> {
@@ -187,23 +193,24 @@ struct Slot<'a, S> {
     surface: &'a S,
     index: usize,
     slot: u32,
-    part: Option<PartId>,
+    part: PartId,
 }
 
 impl<S: Surface> Slot<'_, S> {
-    #[inline(always)]
-    fn roots<K: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut K) {
-        match self.part {
-            None => self.surface.roots(ray, sink),
-            Some(part) => self.surface.part_roots(part, ray, sink),
-        }
+    /// Shows the roots to any sink. Compiled once per path, where [`AnyArena::improve`] has a copy of its own.
+    #[inline(never)]
+    fn show(&self, isa: Isa, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+        isa.run(
+            #[inline(always)]
+            || self.surface.part_roots(self.part, ray, sink),
+        );
     }
 
     /// The name: each part of a surface is a primitive of its own.
     #[inline(always)]
     fn name(&self) -> Id {
         let id = self.arena.ids.name(self.index);
-        Id { primitive: id.primitive.wrapping_add(self.part.map_or(0, |p| p.0)), ..id }
+        Id { primitive: id.primitive.wrapping_add(self.part.0), ..id }
     }
 }
 
@@ -239,24 +246,14 @@ impl<S: Surface> Sink for Challenger<'_, '_, S> {
     #[inline(always)]
     fn push(&mut self, root: Root) -> Flow {
         // Roots ascend: behind one that lost, the others lose too.
-        let taken = self.best.offer(self.slot.slot, &in_range(root, self.ray), || self.slot.name());
+        let root = in_range(root, self.ray);
+        let taken = self.best.offer(
+            self.slot.slot,
+            &root,
+            #[inline(always)]
+            || self.slot.name(),
+        );
         if taken { Flow::Continue } else { Flow::Stop }
-    }
-}
-
-/// Whether there is a root.
-struct First(bool);
-
-impl Sink for First {
-    #[inline(always)]
-    fn range(&self) -> (f64, f64) {
-        ALL
-    }
-
-    #[inline(always)]
-    fn push(&mut self, _: Root) -> Flow {
-        self.0 = true;
-        Flow::Stop
     }
 }
 
@@ -285,7 +282,7 @@ impl Sink for Forward<'_, '_> {
 }
 
 impl<S: Surface + 'static> AnyArena for Arena<S> {
-    fn closest(&self, isa: Isa, leaf: Range<u32>, ray: &LocalRay<'_>, filter: &Filter, best: &mut Best) {
+    fn improve(&self, isa: Isa, leaf: Range<u32>, ray: &LocalRay<'_>, filter: &Filter, best: &mut Best) {
         isa.run(
             #[inline(always)]
             || {
@@ -295,32 +292,13 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
                     filter,
                     #[inline(always)]
                     |slot, ray| {
-                        slot.roots(ray, &mut Challenger { slot: &slot, ray, best });
-                        Flow::Continue
+                        let challenger = &mut Challenger { slot: &slot, ray, best };
+                        slot.surface.part_roots(slot.part, ray, challenger);
+                        if best.is_satisfied() { Flow::Stop } else { Flow::Continue }
                     },
                 )
             },
         );
-    }
-
-    fn any(&self, isa: Isa, leaf: Range<u32>, ray: &LocalRay<'_>, filter: &Filter) -> bool {
-        let flow = isa.run(
-            #[inline(always)]
-            || {
-                self.walk(
-                    leaf,
-                    ray,
-                    filter,
-                    #[inline(always)]
-                    |slot, ray| {
-                        let mut first = First(false);
-                        slot.roots(ray, &mut first);
-                        if first.0 { Flow::Stop } else { Flow::Continue }
-                    },
-                )
-            },
-        );
-        flow == Flow::Stop
     }
 
     fn each(
@@ -331,39 +309,33 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
         filter: &Filter,
         visit: &mut Visit<'_>,
     ) -> Flow {
-        isa.run(
-            #[inline(always)]
-            || {
-                self.walk(
-                    leaf,
-                    ray,
-                    filter,
-                    #[inline(always)]
-                    |slot, ray| {
-                        let mut forward =
-                            Forward { slot: slot.slot, name: slot.name(), ray, visit, flow: Flow::Continue };
-                        slot.roots(ray, &mut forward);
-                        forward.flow
-                    },
-                )
-            },
-        )
+        self.walk(leaf, ray, filter, |slot, ray| {
+            let (name, flow) = (slot.name(), Flow::Continue);
+            let mut forward = Forward { slot: slot.slot, name, ray, visit, flow };
+            slot.show(isa, ray, &mut forward);
+            forward.flow
+        })
     }
 
-    fn spans(&self, leaf: Range<u32>, ray: &LocalRay<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks) {
+    fn spans(
+        &self,
+        isa: Isa,
+        leaf: Range<u32>,
+        ray: &LocalRay<'_>,
+        start: &LocalPoint<'_>,
+        tracks: &mut Tracks,
+    ) {
         let filter = tracks.filter();
         self.walk(leaf, ray, &filter, |slot, ray| {
             if slot.surface.solidity() == Solidity::Solid {
                 let before = tracks.len();
-                let id = slot.name();
-                let mut visit = |_: u32, _: Id, root: Root| {
-                    tracks.push(slot.index as u32, id, &root);
+                let (name, flow) = (slot.name(), Flow::Continue);
+                let visit = &mut |_: u32, _: Id, root: Root| {
+                    tracks.push(slot.index as u32, name, &root);
                     Flow::Continue
                 };
-                let mut forward =
-                    Forward { slot: slot.slot, name: id, ray, visit: &mut visit, flow: Flow::Continue };
-                slot.roots(ray, &mut forward);
-                if slot.part.is_none() && tracks.len() == before {
+                slot.show(isa, ray, &mut Forward { slot: slot.slot, name, ray, visit, flow });
+                if !self.is_in_parts() && tracks.len() == before {
                     tracks.start(slot.index as u32, starts_inside(slot.surface, ray, start));
                 }
             }
@@ -382,17 +354,20 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
         if surface.solidity() == Solidity::Solid { surface.side(point) } else { Side::Out }
     }
 
-    fn resolve(&self, slot: u32, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
-        self.surfaces[self.locate(slot).0].resolve(ray, root, need)
+    fn resolve(&self, isa: Isa, slot: u32, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
+        let surface = self.slot(slot).surface;
+        isa.run(
+            #[inline(always)]
+            || surface.resolve(ray, root, need),
+        )
     }
 
     fn part(&self, slot: u32) -> PartId {
-        self.locate(slot).1.unwrap_or(PartId(0))
+        self.slot(slot).part
     }
 
     fn name(&self, slot: u32) -> Id {
-        let (index, part) = self.locate(slot);
-        Slot { arena: self, surface: &self.surfaces[index], index, slot, part }.name()
+        self.slot(slot).name()
     }
 
     fn is_in_parts(&self) -> bool {
@@ -434,7 +409,7 @@ fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint
         let mut part_of_line = *ray;
         (part_of_line.t_min, part_of_line.t_max) = (t_min, t_max);
         let mut ends = Ends::default();
-        surface.roots(&part_of_line, &mut ends);
+        surface.roots::<dyn Sink>(&part_of_line, &mut ends);
         ends
     };
     if let Some(sign) = signs(f64::NEG_INFINITY, ray.t_min).last {

@@ -44,11 +44,27 @@ pub(crate) struct Best {
     limit: f64,
     pub(crate) placement: Placement,
     pub(crate) arena: u32,
+    /// Any hit will do, and what it is does not matter.
+    any: bool,
+    satisfied: bool,
 }
 
 impl Best {
-    pub(crate) fn new(t_max: f64) -> Self {
-        Self { hit: None, limit: t_max, placement: Placement::default(), arena: 0 }
+    /// Looks for the least hit.
+    pub(crate) fn least() -> Self {
+        let (placement, limit) = (Placement::default(), f64::INFINITY);
+        Self { hit: None, limit, placement, arena: 0, any: false, satisfied: false }
+    }
+
+    /// Looks for any hit.
+    pub(crate) fn any() -> Self {
+        Self { any: true, ..Self::least() }
+    }
+
+    /// Whether no further hit matters.
+    #[inline(always)]
+    pub(crate) fn is_satisfied(&self) -> bool {
+        self.satisfied
     }
 
     /// Beyond this no root can win; ties are not beyond.
@@ -60,6 +76,10 @@ impl Best {
     /// Takes the root if it is less than the best; says whether it did.
     #[inline(always)]
     pub(crate) fn offer(&mut self, slot: u32, root: &Root, name: impl FnOnce() -> Id) -> bool {
+        if self.any {
+            self.satisfied = true;
+            return false;
+        }
         if let Some(best) = &self.hit {
             if root.t > best.t {
                 return false;

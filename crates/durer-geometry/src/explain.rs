@@ -193,7 +193,7 @@ impl Story {
                 let hit = walk.placement.hit(leaf.kind, slot, name, &root);
                 let verdict = match &self.best {
                     Some(best) if hit.t > best.t => Verdict::Farther,
-                    Some(best) if hit.order(best).is_gt() => Verdict::LaterInOrder,
+                    Some(best) if hit.order(best).is_ge() => Verdict::LaterInOrder,
                     _ => {
                         self.best = Some(hit);
                         Verdict::Closest

@@ -18,7 +18,7 @@ impl Geometry {
     /// The first hit of what has a bit in common with `mask`.
     pub fn closest_masked(&self, ray: &Ray, mask: u32) -> Option<Hit> {
         self.walk(ray, mask, |walk| {
-            let mut best = Best::new(ray.t_max);
+            let mut best = Best::least();
             closest(walk, &mut best);
             best.hit
         })?
@@ -63,7 +63,8 @@ impl Geometry {
                 Flow::Continue
             })
         });
-        hits.sort_unstable_by(Hit::order);
+        // Stable: two crossings of one face may round to one t, and the surface gave them in their exact order.
+        hits.sort_by(Hit::order);
     }
 
     /// Where the ray is inside the union of all solids: merged, ascending; open surfaces are ignored.
@@ -126,7 +127,7 @@ fn closest_in(walk: &Walk<'_>, leaf: Leaf, best: &mut Best) {
     match geometry.arenas.get(leaf.kind as usize) {
         Some(arena) => {
             (best.placement, best.arena) = (walk.placement, leaf.kind);
-            arena.closest(geometry.isa, slots(&leaf), walk.ray, &walk.filter(leaf.kind), best);
+            arena.improve(geometry.isa, slots(&leaf), walk.ray, &walk.filter(leaf.kind), best);
         }
         None => {
             for i in slots(&leaf) {
@@ -151,7 +152,11 @@ fn any(walk: &Walk<'_>) -> bool {
 fn any_in(walk: &Walk<'_>, leaf: Leaf) -> bool {
     let geometry = walk.geometry;
     match geometry.arenas.get(leaf.kind as usize) {
-        Some(arena) => arena.any(geometry.isa, slots(&leaf), walk.ray, &walk.filter(leaf.kind)),
+        Some(arena) => {
+            let mut best = Best::any();
+            arena.improve(geometry.isa, slots(&leaf), walk.ray, &walk.filter(leaf.kind), &mut best);
+            best.is_satisfied()
+        }
         None => slots(&leaf).any(|i| walk.enter(geometry.instance(i), any) == Some(true)),
     }
 }
@@ -188,7 +193,7 @@ fn spans(walk: &Walk<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks) {
         } else {
             (tracks.placement, tracks.arena) = (walk.placement, leaf.kind);
             tracks.source = walk.filter(leaf.kind).source;
-            geometry.arenas[leaf.kind as usize].spans(slots(&leaf), walk.ray, start, tracks);
+            geometry.arenas[leaf.kind as usize].spans(geometry.isa, slots(&leaf), walk.ray, start, tracks);
         }
     };
     for beside in &geometry.beside {

@@ -35,7 +35,7 @@ impl Geometry {
     fn resolve_in(&self, ray: &LocalRay<'_>, placement: u32, hit: &Hit, need: Need) -> (SurfacePoint, u32) {
         let Some(instance) = self.instance_of(placement) else {
             let arena = &self.arenas[hit.arena as usize];
-            return (arena.resolve(hit.slot, ray, &hit.root(), need), arena.part(hit.slot).0);
+            return (arena.resolve(self.isa, hit.slot, ray, &hit.root(), need), arena.part(hit.slot).0);
         };
         let inner = placement - instance.first_placement;
         let local = ray.through(&instance.affine);

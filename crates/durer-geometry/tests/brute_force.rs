@@ -152,3 +152,47 @@ fn builds_on_any_number_of_threads_answer_alike() {
         assert_eq!(one.closest(&ray), three.closest(&ray));
     }
 }
+
+#[test]
+fn extreme_rays_and_sizes() {
+    let mut dice = Dice(51);
+    for scale in [1.0, 1e-150, 1e150] {
+        let (tree, flat) = both(|builder| {
+            let mut dice = Dice(52);
+            for _ in 0..60 {
+                let c = dice.point(4.0).map(|x| x * scale);
+                builder.add(durer_surfaces::Sphere::new(c, (0.5 + 0.4 * dice.signed()) * scale).unwrap());
+            }
+        });
+        let mut crossings = 0;
+        for _ in 0..600 {
+            // Aimed from 2^k sizes away, in steps of 2^j sizes.
+            let power = |dice: &mut Dice, most: u64| {
+                let halves = dice.below(2 * most) as i32 - most as i32;
+                durer_math::eft::scale2(1.0, halves)
+            };
+            let far = power(&mut dice, 60);
+            let step = power(&mut dice, 400);
+            let target = dice.point(3.0).map(|x| x * scale);
+            let way = dice.vector(1.0);
+            let origin = target - way * (far * scale);
+            let direction = way * step;
+            let ray = Ray::new(origin, direction);
+            if ray.is_valid() {
+                crossings += assert_same(&tree, &flat, &[ray]);
+            }
+        }
+        assert!(crossings > 200, "{crossings} crossings at scale {scale}");
+    }
+    // Crossings beyond the range of f64 have no parameter to compare, but nothing panics.
+    let (tree, _) = both(|builder| fill(builder, &mut Dice(53), 40, true));
+    let wild = [0.0, -0.0, 5e-324, 1e-310, 1e-160, 1.0, 4.0, 1e17, 1e160, f64::MAX];
+    for _ in 0..4000 {
+        let mut x =
+            || wild[dice.below(wild.len() as u64) as usize] * if dice.below(2) == 0 { 1.0 } else { -1.0 };
+        let ray = Ray::new(durer_math::Point3::new(x(), x(), x()), durer_math::Vec3::new(x(), x(), x()));
+        if ray.is_valid() {
+            let _ = (tree.closest(&ray), tree.any(&ray), tree.all(&ray), tree.spans(&ray));
+        }
+    }
+}

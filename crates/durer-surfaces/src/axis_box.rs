@@ -356,8 +356,8 @@ impl Surface for AxisBox {
         // The entry is known to come first: brackets that overlap are told so.
         if entry.crossing.s > exit.crossing.s {
             let middle = 0.5 * entry.crossing.s + 0.5 * exit.crossing.s;
-            entry.crossing.s = middle.clamp(entry.crossing.s_lo, entry.crossing.s_hi);
-            exit.crossing.s = middle.clamp(exit.crossing.s_lo, exit.crossing.s_hi);
+            entry.crossing.s = middle.max(entry.crossing.s_lo).min(entry.crossing.s_hi);
+            exit.crossing.s = middle.max(exit.crossing.s_lo).min(exit.crossing.s_hi);
         }
         for (event, sign) in [(entry, -1), (exit, 1)] {
             let crossing = &event.crossing;

@@ -1,6 +1,6 @@
 //! One triangle's worth of work, shared by [`Triangle`](crate::Triangle) and [`Mesh`](crate::Mesh).
 //!
-//! A ray meets the triangle if it passes its three edges on the same side: `U`, `V`, `W` of [`edges`](crate::edges) have one
+//! A ray meets the triangle if it passes its three edges on the same side: `U`, `V`, `W` of `edges.rs` have one
 //! sign. Their ratios to the sum are the barycentric coordinates (R. J. Segura, F. R. Feito, "Algorithms to test ray-triangle intersection.
 //! Comparative study", WSCG 2001; A. Kensler, P. Shirley, "Optimizing ray-triangle intersection via automated search", RT 2006). The crossing's
 //! parameter comes from the plane of the three vertices, exact numbers all of them.

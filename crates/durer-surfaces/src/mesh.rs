@@ -1,6 +1,6 @@
 //! The mesh: triangles that share vertices.
 //!
-//! Every face is met by the rule of [`edges`](crate::edges) on *one* ray for the whole mesh, so a ray through a shared edge or vertex meets
+//! Every face is met by the rule of `edges.rs` on *one* ray for the whole mesh, so a ray through a shared edge or vertex meets
 //! exactly one of the faces there (or none, or two, at a silhouette), and a closed mesh is crossed an even number of times. A mesh may be
 //! declared solid: a point is inside if a ray from it crosses the faces an odd number of times (J. Arvo, D. Kirk, "A survey of ray
 //! tracing acceleration techniques", in A. Glassner (ed.), *An Introduction to Ray Tracing*, 1989; the scene language's `inside_vector`).

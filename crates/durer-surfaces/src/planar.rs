@@ -7,11 +7,17 @@
 //! [`Dyadic`]. The first step uses the re-centred ray with its rounding charged (rule W3), which stands for the exact ray:
 //! a sign that is certain there is the sign for the ray that was given.
 
+mod vectors;
+
+pub(crate) use vectors::{
+    cross, cross_and_error, dot, exact3, least_length, middle, origin_from, scaled_to_one, seen_from, unit,
+};
+
 use crate::{CentredRay, End, Kind, LocalPoint, LocalRay, RingRay, Root, Side};
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
 use durer_math::rounding::{add_up, div_down, div_up, sub_down};
-use durer_math::{Aabb, Dd, Dyadic, Isa, Normal3, Point3, RaySide, Ring, Run, U, Vec3};
+use durer_math::{Dd, Dyadic, Isa, Point3, RaySide, Ring, Run, U, Vec3};
 
 /// A bracket that is wider than 32 ulp of `max(|t|, size / |d|)` is found again in double-double; here relative to `size / |d|`, taking the ulp
 /// at its smallest.
@@ -86,13 +92,14 @@ impl Quick {
     #[inline(always)]
     fn crossing(&self) -> Option<(f64, f64, Ordering)> {
         let least = self.slope.abs() - self.slope_err;
-        if !(least > 0.0) {
-            return None;
+        // Not so if it is NaN.
+        if least > 0.0 {
+            let s = -self.height / self.slope;
+            let err = s.abs().mul_add(self.slope_err, self.height_err) / least;
+            let err = s.abs().mul_add(U, err).mul_add(1.0 + 16.0 * U, TINY);
+            return Some((s, err, if self.slope > 0.0 { Ordering::Greater } else { Ordering::Less }));
         }
-        let s = -self.height / self.slope;
-        let err = s.abs().mul_add(self.slope_err, self.height_err) / least;
-        let err = s.abs().mul_add(U, err).mul_add(1.0 + 16.0 * U, TINY);
-        Some((s, err, if self.slope > 0.0 { Ordering::Greater } else { Ordering::Less }))
+        None
     }
 }
 
@@ -556,33 +563,6 @@ pub(crate) fn clearance<F: PlaneForm>(plane: &F, p: Point3, centre: Point3, scal
     scale2(height / length, scale).mul_add(1.0 + 32.0 * U, f64::MIN_POSITIVE)
 }
 
-/// The middle of a box that is not empty, rounded, and half its largest width.
-#[inline(always)]
-pub(crate) fn middle(b: &Aabb) -> (Point3, f64) {
-    // Halves first: no overflow.
-    let (min, max) = (b.min.map(|x| 0.5 * x), b.max.map(|x| 0.5 * x));
-    (min + max.to_vec(), (max - min).max_abs())
-}
-
-/// The unit normal of a vector whose largest component is in [1, 2) in magnitude; each component within 4u, relatively.
-#[inline(always)]
-pub(crate) fn unit(n: Vec3) -> Normal3 {
-    (n / n.length()).to_normal()
-}
-
-/// A vector scaled by a power of two so that its largest component is in [1, 2) in magnitude; `None` if it is zero or not finite.
-/// Components more than `2^1022` below the largest may lose bits.
-pub(crate) fn scaled_to_one(n: Vec3) -> Option<Vec3> {
-    if !n.is_finite() || n == Vec3::ZERO {
-        return None;
-    }
-    let k = exponent(n.max_abs());
-    let up = if k < -1022 { 60 } else { 0 };
-    let n = n.map(|x| scale2(x, up));
-    let k = exponent(n.max_abs());
-    Some(n.map(|x| scale2(x, -k)))
-}
-
 /// Two quotients with a common denominator: coordinates in a plane of the point where a ray meets it.
 pub(crate) trait Ratios {
     /// Both numerators, then the denominator.
@@ -623,13 +603,6 @@ fn ratios_climb<R: Ratios>(probe: &Probe<'_>, r: &R) -> Option<[Run; 2]> {
     )
 }
 
-/// A lower bound of a vector's length; zero if nothing better is known.
-#[inline(always)]
-pub(crate) fn least_length(n: [Run; 3]) -> f64 {
-    let least = n.map(|x| (x.v.abs() - x.e).max(0.0));
-    Vec3::from(least).length() * (1.0 - 8.0 * U)
-}
-
 /// A plane through three points, seen from a centre; its normal is `(b - a) x (c - a)`.
 pub(crate) struct ThreePoints {
     pub(crate) points: [Point3; 3],
@@ -648,25 +621,6 @@ impl ThreePoints {
         };
         (seen_from(a, self.centre, self.scale), cross(&edge(b), &edge(c)))
     }
-}
-
-/// The cross product of two vectors of which each component was rounded at most once, and a bound on its error per component.
-#[inline(always)]
-pub(crate) fn cross_and_error(a: Vec3, b: Vec3) -> (Vec3, Vec3) {
-    let (p, q) = (a.abs(), b.abs());
-    // A product of two such components errs by 2u and a little; Kahan's minor by 1.5 ulp of the difference.
-    let err =
-        |i: usize, j: usize| (p[i].mul_add(q[j], p[j] * q[i])).mul_add(6.0 * U * (1.0 + 16.0 * U), TINY);
-    (a.cross(b), Vec3::new(err(1, 2), err(2, 0), err(0, 1)))
-}
-
-/// The ray's origin relative to a point, and a bound on its error per axis.
-#[inline(always)]
-pub(crate) fn origin_from(ray: &CentredRay<'_>, p: Point3) -> (Vec3, Vec3) {
-    let p = (p - ray.centre).map(|x| scale2(x, -ray.scale));
-    let q = ray.o - p;
-    let err = |i: usize| (p[i].abs() + q[i].abs()).mul_add(U * (1.0 + 8.0 * U), ray.o_err[i] + TINY);
-    (q, Vec3::new(err(0), err(1), err(2)))
 }
 
 impl PlaneForm for ThreePoints {
@@ -690,30 +644,4 @@ impl PlaneForm for ThreePoints {
         let [ox, oy, oz] = o;
         Some(dot(&n, &[ox - x, oy - y, oz - z]))
     }
-}
-
-/// The exact vector `v` in a ring, as three numbers.
-#[inline(always)]
-pub(crate) fn exact3<T: Ring>(v: Vec3) -> [T; 3] {
-    [T::exact(v.x), T::exact(v.y), T::exact(v.z)]
-}
-
-/// The dot product in a ring.
-#[inline(always)]
-pub(crate) fn dot<T: Ring>(a: &[T; 3], b: &[T; 3]) -> T {
-    a[0].clone() * b[0].clone() + a[1].clone() * b[1].clone() + a[2].clone() * b[2].clone()
-}
-
-/// The cross product in a ring.
-#[inline(always)]
-pub(crate) fn cross<T: Ring>(a: &[T; 3], b: &[T; 3]) -> [T; 3] {
-    let minor = |i: usize, j: usize| a[i].clone() * b[j].clone() - a[j].clone() * b[i].clone();
-    [minor(1, 2), minor(2, 0), minor(0, 1)]
-}
-
-/// The exact point `p` relative to `centre` in units of `2^scale`.
-#[inline(always)]
-pub(crate) fn seen_from<T: Ring>(p: Point3, centre: Point3, scale: i32) -> [T; 3] {
-    let axis = |p: f64, c: f64| (T::exact(p) - T::exact(c)).scale2(-scale);
-    [axis(p.x, centre.x), axis(p.y, centre.y), axis(p.z, centre.z)]
 }

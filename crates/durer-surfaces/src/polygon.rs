@@ -11,7 +11,7 @@
 //! A. Appel, "Some techniques for shading machine renderings of solids", AFIPS 1968, counted crossings in the plane; here they are counted about
 //! the ray itself. Seen along the ray, an edge that crosses a fixed half-line from the ray's point counts by its direction; which edges do
 //! is told by the sign of one 2x2 minor for each vertex and of `U` for the edges in question, the edge function of the triangles with its
-//! rule for ties (see [`edges`](crate::edges)). So a polygon is watertight against polygons and triangles with the same vertices.
+//! rule for ties (see `edges.rs`). So a polygon is watertight against polygons and triangles with the same vertices.
 //!
 //! The plane goes through three of the vertices. The others may lie off it by the rounding of single-precision numbers, in which many
 //! files hold them; worse polygons are refused. If they do, the ray still has to pass through the outline of the stored vertices (so that there is no

@@ -120,7 +120,7 @@ impl Sphere {
             if !narrow || at.admits(t_lo, t_hi) != Some(true) {
                 return undecided;
             }
-            let t = at.t(s).clamp(t_lo, t_hi);
+            let t = at.t(s).max(t_lo).min(t_hi);
             let root = Root { t, lo: t_lo, hi: t_hi, s, tag: [0.0; 2], face: 0, sign, kind: Kind::Simple };
             if sink.push(root) == Flow::Stop {
                 break;

@@ -6,7 +6,7 @@
 //!         v0────v1
 //! ```
 //!
-//! Which edges belong to the triangle is told by the rule of [`edges`](crate::edges): each edge to exactly one of its two sides, for each ray.
+//! Which edges belong to the triangle is told by the rule of `edges.rs`: each edge to exactly one of its two sides, for each ray.
 
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};

@@ -367,8 +367,8 @@ impl<S: Shape> View<'_, S> {
             let (x, y) = (&mut before[i - 1], &mut after[0]);
             // r_x <= r_y.
             (y.lo, x.hi) = (y.lo.max(x.lo), x.hi.min(y.hi));
-            x.s = x.s.clamp(x.lo, x.hi);
-            y.s = y.s.clamp(y.lo, y.hi).max(x.s);
+            x.s = x.s.max(x.lo).min(x.hi);
+            y.s = y.s.max(y.lo).min(y.hi).max(x.s);
         }
     }
 
@@ -389,7 +389,7 @@ impl<S: Shape> View<'_, S> {
             if hi < least_t || lo > most_t {
                 continue;
             }
-            let t = ray.t(event.s).clamp(lo, hi).max(least);
+            let t = ray.t(event.s).max(lo).min(hi).max(least);
             least = t;
             let root = Root {
                 t,
