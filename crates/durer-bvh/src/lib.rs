@@ -31,7 +31,7 @@
 //! ```
 //!
 //! The way through: [`Frame`] chooses the units and makes an [`Entry`] of each box; [`Bvh::build`] sorts them into nodes of eight;
-//! [`Bvh::closest`], [`Bvh::any`] and [`Bvh::containing`] show the [`Leaf`]s that matter; [`Bvh::story`] tells how; [`Bvh::validate`] and
+//! [`Bvh::closest`], [`Bvh::any`], [`Bvh::in_shaft`] and [`Bvh::containing`] show the [`Leaf`]s that matter; [`Bvh::story`] tells how; [`Bvh::validate`] and
 //! [`Bvh::stats`] look at the result. A tree knows boxes and numbers only: what the things are is its caller's business.
 #![deny(unsafe_code)]
 
@@ -40,6 +40,7 @@ mod frame;
 mod kernels;
 mod node;
 mod ray;
+mod shaft;
 mod stats;
 mod story;
 mod traverse;

@@ -9,7 +9,7 @@ use crate::ids::{Id, Ids};
 use crate::spans::Tracks;
 use core::ops::Range;
 use durer_bvh::{Entry, Frame};
-use durer_math::{Aabb, Isa, RaySide};
+use durer_math::{Aabb, Isa, RaySide, Shaft};
 use durer_surfaces::{
     Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
 };
@@ -51,6 +51,8 @@ pub(crate) trait AnyArena: Send + Sync {
     );
     /// Adds what a solid of many parts needs to know beside the crossings of its parts: whether the ray starts inside.
     fn start_of(&self, surface: u32, ray: &LocalRay<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks);
+    /// Whether no ray of a bundle meets the surface in a slot: `true` is certain.
+    fn misses(&self, slot: u32, shaft: &Shaft) -> bool;
     /// On which side of a surface a point lies; `Out` for open surfaces.
     fn side(&self, surface: u32, point: &LocalPoint<'_>) -> Side;
     /// The point of a hit.
@@ -157,11 +159,16 @@ impl<S: Surface + 'static> Arena<S> {
             if !self.ids.admits(item.index, filter.mask) {
                 continue;
             }
-            let flow = match filter.source {
-                Some((source, side)) if source == slot => f(item, &ray.from_side(Some(side))),
-                _ => f(item, ray),
+            // One call: what is inlined here is large.
+            let started;
+            let ray = match filter.source {
+                Some((source, side)) if source == slot => {
+                    started = ray.from_side(Some(side));
+                    &started
+                }
+                _ => ray,
             };
-            if flow == Flow::Stop {
+            if f(item, ray) == Flow::Stop {
                 return Flow::Stop;
             }
         }
@@ -231,13 +238,14 @@ fn in_range(mut root: Root, ray: &LocalRay<'_>) -> Root {
 const ALL: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 
 /// A root of one slot against the best so far.
-struct Challenger<'a, 'b, S> {
-    slot: &'a Slot<'a, S>,
+struct Challenger<'a> {
+    slot: u32,
+    name: Id,
     ray: &'a LocalRay<'a>,
-    best: &'b mut Best,
+    best: &'a mut Best,
 }
 
-impl<S: Surface> Sink for Challenger<'_, '_, S> {
+impl Sink for Challenger<'_> {
     #[inline(always)]
     fn range(&self) -> (f64, f64) {
         ALL
@@ -247,13 +255,7 @@ impl<S: Surface> Sink for Challenger<'_, '_, S> {
     fn push(&mut self, root: Root) -> Flow {
         // Roots ascend: behind one that lost, the others lose too.
         let root = in_range(root, self.ray);
-        let taken = self.best.offer(
-            self.slot.slot,
-            &root,
-            #[inline(always)]
-            || self.slot.name(),
-        );
-        if taken { Flow::Continue } else { Flow::Stop }
+        if self.best.offer(self.slot, self.name, &root) { Flow::Continue } else { Flow::Stop }
     }
 }
 
@@ -292,7 +294,7 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
                     filter,
                     #[inline(always)]
                     |slot, ray| {
-                        let challenger = &mut Challenger { slot: &slot, ray, best };
+                        let challenger = &mut Challenger { slot: slot.slot, name: slot.name(), ray, best };
                         slot.surface.part_roots(slot.part, ray, challenger);
                         if best.is_satisfied() { Flow::Stop } else { Flow::Continue }
                     },
@@ -347,6 +349,10 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
         if self.ids.admits(surface as usize, tracks.filter().mask) {
             tracks.start(surface, starts_inside(&self.surfaces[surface as usize], ray, start));
         }
+    }
+
+    fn misses(&self, slot: u32, shaft: &Shaft) -> bool {
+        self.slot(slot).surface.misses(shaft)
     }
 
     fn side(&self, surface: u32, point: &LocalPoint<'_>) -> Side {

@@ -75,7 +75,7 @@ impl Best {
 
     /// Takes the root if it is less than the best; says whether it did.
     #[inline(always)]
-    pub(crate) fn offer(&mut self, slot: u32, root: &Root, name: impl FnOnce() -> Id) -> bool {
+    pub(crate) fn offer(&mut self, slot: u32, name: Id, root: &Root) -> bool {
         if self.any {
             self.satisfied = true;
             return false;
@@ -84,13 +84,13 @@ impl Best {
             if root.t > best.t {
                 return false;
             }
-            let hit = self.placement.hit(self.arena, slot, name(), root);
+            let hit = self.placement.hit(self.arena, slot, name, root);
             if hit.order(best).is_ge() {
                 return false;
             }
             self.hit = Some(hit);
         } else {
-            self.hit = Some(self.placement.hit(self.arena, slot, name(), root));
+            self.hit = Some(self.placement.hit(self.arena, slot, name, root));
         }
         self.limit = self.limit.min(root.hi);
         true

@@ -31,12 +31,13 @@
 //! array per type, in the order of the leaves of a [`durer_bvh`] tree; what is unbounded is tested beside it. Answers do not depend on
 //! the tree, the instruction set or the number of threads.
 //!
-//! Closest, any and all are in `query`, stretches inside solids in `spans`, points in `resolve`, many rays in `batch`, and the story of
+//! Closest, any and all are in `query`, bundles of rays that share one search in `beam`, stretches inside solids in `spans`, points in `resolve`, many rays in `batch`, and the story of
 //! one ray in `explain`.
 #![forbid(unsafe_code)]
 
 mod arena;
 mod batch;
+mod beam;
 mod best;
 mod builder;
 mod explain;
@@ -50,6 +51,7 @@ mod stats;
 mod walk;
 
 pub use crate::batch::Ragged;
+pub use crate::beam::Beam;
 pub use crate::builder::{BuildError, Builder};
 pub use crate::explain::{Event, Explanation, Verdict};
 pub use crate::geometry::Geometry;

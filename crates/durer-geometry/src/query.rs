@@ -24,6 +24,16 @@ impl Geometry {
         })?
     }
 
+    /// As [`Geometry::closest_masked`], for pictures: brackets may be as wide as [`durer_surfaces::ROUGH`] allows, so of two surfaces that are
+    /// nearer to each other either may be seen. What is hit at all is exact.
+    pub fn seen(&self, ray: &Ray, mask: u32) -> Option<Hit> {
+        self.walk_roughly(ray, mask, |walk| {
+            let mut best = Best::least();
+            closest(walk, &mut best);
+            best.hit
+        })?
+    }
+
     /// Whether anything is hit.
     pub fn any(&self, ray: &Ray) -> bool {
         self.any_masked(ray, EVERYTHING)
@@ -31,7 +41,7 @@ impl Geometry {
 
     /// Whether anything is hit that has a bit in common with `mask`.
     pub fn any_masked(&self, ray: &Ray, mask: u32) -> bool {
-        self.walk(ray, mask, any).unwrap_or(false)
+        self.walk_roughly(ray, mask, any).unwrap_or(false)
     }
 
     /// Whether there is a hit that `accept` accepts. The hits come in no particular order, each at most once, and nothing is allocated.
@@ -91,12 +101,40 @@ impl Geometry {
 
     #[inline(always)]
     pub(crate) fn walk<R>(&self, ray: &Ray, mask: u32, f: impl FnOnce(&Walk<'_>) -> R) -> Option<R> {
+        self.walk_along(ray, LocalRay::new, mask, f)
+    }
+
+    /// As `walk`, where nobody will see how wide a bracket is.
+    #[inline(always)]
+    pub(crate) fn walk_roughly<R>(&self, ray: &Ray, mask: u32, f: impl FnOnce(&Walk<'_>) -> R) -> Option<R> {
+        self.walk_along(
+            ray,
+            #[inline(always)]
+            |ray| LocalRay::new(ray).roughly(),
+            mask,
+            f,
+        )
+    }
+
+    #[inline(always)]
+    fn walk_along<R>(
+        &self,
+        ray: &Ray,
+        local: impl FnOnce(&Ray) -> LocalRay<'static>,
+        mask: u32,
+        f: impl FnOnce(&Walk<'_>) -> R,
+    ) -> Option<R> {
         if !ray.is_valid() {
             self.count_invalid();
             return None;
         }
-        let local = LocalRay::new(ray);
-        Some(f(&Walk::new(self, ray, &local, mask)))
+        Some(self.isa.run(
+            #[inline(always)]
+            || {
+                let local = local(ray);
+                f(&Walk::new(self, ray, &local, mask))
+            },
+        ))
     }
 }
 
@@ -122,7 +160,7 @@ pub(crate) fn closest(walk: &Walk<'_>, best: &mut Best) {
 }
 
 #[inline(always)]
-fn closest_in(walk: &Walk<'_>, leaf: Leaf, best: &mut Best) {
+pub(crate) fn closest_in(walk: &Walk<'_>, leaf: Leaf, best: &mut Best) {
     let geometry = walk.geometry;
     match geometry.arenas.get(leaf.kind as usize) {
         Some(arena) => {
@@ -149,7 +187,7 @@ fn any(walk: &Walk<'_>) -> bool {
 }
 
 #[inline(always)]
-fn any_in(walk: &Walk<'_>, leaf: Leaf) -> bool {
+pub(crate) fn any_in(walk: &Walk<'_>, leaf: Leaf) -> bool {
     let geometry = walk.geometry;
     match geometry.arenas.get(leaf.kind as usize) {
         Some(arena) => {

@@ -25,6 +25,7 @@ impl Geometry {
             arena: hit.arena,
             index: hit.slot,
             part,
+            face: hit.face,
             instance: hit.instance,
             side: RaySide::Front,
         });

@@ -18,7 +18,7 @@ pub(crate) struct Clock {
 
 impl Clock {
     /// The clock of a ray in its own frame.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn of(ray: &Ray) -> Self {
         Self { shift: 0.0, err: 0.0, k: -exponent(ray.direction.max_abs()) }
     }
@@ -69,6 +69,7 @@ pub(crate) struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
+    #[inline(always)]
     pub(crate) fn new(geometry: &'a Geometry, ray: &Ray, local: &'a LocalRay<'a>, mask: u32) -> Self {
         Self {
             geometry,
@@ -88,7 +89,7 @@ impl<'a> Walk<'a> {
     }
 
     /// The ray as the tree sees it.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn line(&self) -> Line {
         let r = self.ray;
         Line {

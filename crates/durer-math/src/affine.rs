@@ -5,7 +5,7 @@
 //! inverse, `x = L^-1 (p - c)`, because `L^-1 p - L^-1 c` cancels.
 
 use crate::rounding::{add_up, mul_up, sqrt_up};
-use crate::{Aabb, Dyadic, Interval, Normal3, Point3, Ring, Run, Vec3, elementary};
+use crate::{Aabb, Dyadic, Interval, Normal3, Point3, Ring, Run, U, Vec3, elementary};
 
 /// A 3x3 matrix by rows.
 pub type Matrix3 = [[f64; 3]; 3];
@@ -224,7 +224,7 @@ impl Affine {
     }
 
     /// The image of a point. Error: at most `gamma(3) (|L||p| + |c|)` in each coordinate.
-    #[inline]
+    #[inline(always)]
     pub fn point(&self, p: Point3) -> Point3 {
         let row = |r: [f64; 3], c: f64| r[0].mul_add(p.x, r[1].mul_add(p.y, r[2].mul_add(p.z, c)));
         Point3::new(
@@ -235,14 +235,14 @@ impl Affine {
     }
 
     /// The image of a vector. Error: at most `gamma(3) |L||v|` in each coordinate.
-    #[inline]
+    #[inline(always)]
     pub fn vector(&self, v: Vec3) -> Vec3 {
         apply(&self.linear, v)
     }
 
     /// The image of a normal, by the inverse transpose; not of unit length. Points to the same side of the surface, also if the map
     /// mirrors.
-    #[inline]
+    #[inline(always)]
     pub fn normal(&self, n: Normal3) -> Normal3 {
         apply_transposed(&self.inverse, n.to_vec()).to_normal()
     }
@@ -266,11 +266,13 @@ impl Affine {
     }
 
     /// An upper bound of `|L| v`, for `v >= 0`: how far displacements of up to `v` along each axis can reach.
+    #[inline(always)]
     pub fn linear_reach(&self, v: Vec3) -> Vec3 {
         reach(&self.linear, &[[0.0; 3]; 3], v)
     }
 
     /// An upper bound of `|L^-1| v` (of the exact inverse), for `v >= 0`.
+    #[inline(always)]
     pub fn inverse_reach(&self, v: Vec3) -> Vec3 {
         reach(&self.inverse, &self.inverse_error, v)
     }
@@ -335,14 +337,18 @@ fn apply_transposed(m: &Matrix3, v: Vec3) -> Vec3 {
 }
 
 /// `(|m| + e) v`, rounded up.
+#[inline(always)]
 fn reach(m: &Matrix3, e: &Matrix3, v: Vec3) -> Vec3 {
-    let row = |i: usize| {
-        (0..3).fold(0.0, |sum, j| {
-            let entry = add_up(m[i][j].abs(), e[i][j]);
-            if entry == 0.0 || v[j] == 0.0 { sum } else { add_up(sum, mul_up(entry, v[j])) }
-        })
-    };
-    Vec3::new(row(0), row(1), row(2))
+    #[inline(always)]
+    fn row(m: [f64; 3], e: [f64; 3], v: Vec3) -> f64 {
+        let (a, b, c) = (m[0].abs() + e[0], m[1].abs() + e[1], m[2].abs() + e[2]);
+        let sum = a.mul_add(v.x, b.mul_add(v.y, c * v.z));
+        // Four roundings; where nothing is left, either nothing was there or it underflowed.
+        let nothing =
+            sum == 0.0 && (a == 0.0 || v.x == 0.0) && (b == 0.0 || v.y == 0.0) && (c == 0.0 || v.z == 0.0);
+        if nothing { 0.0 } else { sum.mul_add(1.0 + 8.0 * U, f64::MIN_POSITIVE) }
+    }
+    Vec3::new(row(m[0], e[0], v), row(m[1], e[1], v), row(m[2], e[2], v))
 }
 
 fn frobenius(m: &Matrix3, e: &Matrix3) -> f64 {
@@ -375,7 +381,7 @@ fn adjugate<T: Ring>(m: &[[T; 3]; 3]) -> ([[T; 3]; 3], T) {
 fn quotient(n: &Dyadic, d: &Dyadic) -> Run<crate::Dd> {
     let ((n, kn), (d, kd)) = (n.to_scaled_dd(), d.to_scaled_dd());
     // `to_scaled_dd` is within 2^-106 of numbers below 2.
-    let error = 2.0 * crate::U * crate::U;
+    let error = 2.0 * U * U;
     let with_error = |x: crate::Dd| Run::with_error(x, if x.hi == 0.0 { 0.0 } else { error });
     let k = (kn - kd).clamp(-3000, 3000) as i32;
     (with_error(n) / with_error(d)).scale2(k)

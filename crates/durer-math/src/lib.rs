@@ -69,6 +69,7 @@ pub mod rounding;
 pub mod run;
 mod scalar;
 pub mod scale;
+mod shaft;
 mod vector;
 
 pub use crate::aabb::Aabb;
@@ -86,4 +87,5 @@ pub use crate::ray::{Ray, RaySide, Source};
 pub use crate::ring::Ring;
 pub use crate::run::Run;
 pub use crate::scalar::Scalar;
+pub use crate::shaft::Shaft;
 pub use crate::vector::{Normal3, Point3, Vec3};

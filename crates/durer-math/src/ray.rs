@@ -29,6 +29,8 @@ pub struct Source {
     pub index: u32,
     /// Its part, for surfaces with many.
     pub part: u32,
+    /// The face of the primitive.
+    pub face: u32,
     /// The instance it belongs to.
     pub instance: u32,
     /// The side of the surface on which the origin lies.
@@ -73,6 +75,7 @@ impl Ray {
 
     /// Whether the ray can meet anything: finite origin and direction, a direction that is not zero, and a range that
     /// holds at least one number.
+    #[inline(always)]
     pub fn is_valid(&self) -> bool {
         self.origin.is_finite()
             && self.direction.is_finite()

@@ -12,13 +12,14 @@
 //! leaves through the other slabs, since the box is closed.
 
 use crate::planar::{self, AlongRay, Crossing, Line, PlaneForm, PointLine, Probe};
+use crate::point::least_step;
 use crate::{
     CentredRay, Flow, Kind, LocalPoint, LocalRay, Need, RingRay, Root, Side, Sink, Solidity, Surface,
     SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
-use durer_math::{Aabb, Isa, Normal3, Point3, Ring, U, Vec3};
+use durer_math::{Aabb, Isa, Normal3, Point3, RaySide, Ring, U, Vec3};
 
 /// A solid box with faces across the axes. Face `2 i` is the one at the least coordinate of axis `i`, face `2 i + 1` the opposite one.
 ///
@@ -351,6 +352,15 @@ impl Surface for AxisBox {
 
     #[inline(always)]
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
+        // A ray that was spawned on a face and goes away from it has left the box.
+        let spawned = ray.source.filter(|_| ray.t_min == 0.0);
+        if spawned == Some(RaySide::Front) {
+            let axis = (ray.source_face / 2 % 3) as usize;
+            let away = if ray.source_face & 1 == 0 { -ray.d[axis] } else { ray.d[axis] };
+            if away > ray.d_err[axis] {
+                return;
+            }
+        }
         let probe = Probe::new(ray, self.centre(), self.size());
         let Some((mut entry, mut exit, touches)) = self.span(&probe) else { return };
         // The entry is known to come first: brackets that overlap are told so.
@@ -361,6 +371,10 @@ impl Surface for AxisBox {
         }
         for (event, sign) in [(entry, -1), (exit, 1)] {
             let crossing = &event.crossing;
+            if sign < 0 && !touches && spawned == Some(RaySide::Back) && event.number == ray.source_face {
+                // It came in before it was spawned.
+                continue;
+            }
             if probe.may_admit(crossing)
                 && !crossing.is_outside(sink.range())
                 && probe.admits(&event.face, crossing)
@@ -387,15 +401,18 @@ impl Surface for AxisBox {
         let probe = Probe::new(ray, self.centre(), self.size());
         let face = self.face(root.face);
         let (axis, outward) = (face.axis, if root.face & 1 == 0 { -1.0 } else { 1.0 });
-        let normal = Vec3::from(core::array::from_fn(|i| if i == axis { 1.0 } else { 0.0 }));
+        let along = |i: usize| if i == axis { 1.0 } else { 0.0 };
+        let normal = Vec3::new(along(0), along(1), along(2));
         let (p, dp) = planar::foot_point(&probe, &face, normal, 1.0, -level(&face));
         // On the face exactly, and within it: moving a point into a convex set brings it no farther from the set's points.
-        let mut p = Point3::from(core::array::from_fn(|i| p[i].clamp(self.min[i], self.max[i])));
+        let (low, high) = (self.min, self.max);
+        let mut p =
+            Point3::new(p.x.max(low.x).min(high.x), p.y.max(low.y).min(high.y), p.z.max(low.z).min(high.z));
         p[axis] = face.at;
         let mut dp = dp;
         dp[axis] = 0.0;
         // The face is a plane of numbers: the next one lies off it.
-        let off = f64::MIN_POSITIVE;
+        let off = least_step(p);
         let ng = (normal * outward).to_normal();
         let mut point = SurfacePoint::new(p, dp, off, ng);
         if need.contains(Need::UV) || need.contains(Need::DERIVATIVES) {

@@ -7,6 +7,7 @@
 
 use crate::edges::{self, EdgeFilter};
 use crate::planar::{self, Crossing, Line, Probe, Ratios, ThreePoints, cross, dot, seen_from};
+use crate::point::least_step;
 use crate::{Need, RingRay, SurfacePoint};
 use durer_math::eft::exponent;
 use durer_math::{Dyadic, Isa, Normal3, Point3, Ring, Run, U, Vec3};
@@ -246,12 +247,13 @@ pub(crate) fn resolve(probe: &Probe<'_>, v: &Facet, varying: &Varying, need: Nee
 pub(crate) fn settle(base: Point3, [e1, e2]: [Vec3; 2], [b1, b2]: [Run; 2], ng: Normal3) -> SurfacePoint {
     // Within the sheet, as the exact point is.
     let (x1, x2) = (b1.v.clamp(0.0, 1.0), b2.v.clamp(0.0, 1.0));
+    let least = least_step(base);
     let axis = |i: usize| {
         let p = x1.mul_add(e1[i], x2.mul_add(e2[i], base[i]));
         let (m1, m2) = (x1 * e1[i].abs(), x2 * e2[i].abs());
         // Edges are rounded once; two fused steps, the inner one of size |base| + m2 at most.
         let rounding = (base[i].abs() + p.abs()).mul_add(U, (m1 + 2.0 * m2) * (2.0 * U));
-        let rounding = rounding.mul_add(1.0 + 32.0 * U, f64::MIN_POSITIVE);
+        let rounding = rounding.mul_add(1.0 + 32.0 * U, least);
         let along = e1[i].abs().mul_add(b1.e, e2[i].abs() * b2.e);
         (p, rounding, along.mul_add(1.0 + 32.0 * U, rounding))
     };

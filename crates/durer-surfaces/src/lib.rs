@@ -31,7 +31,7 @@ pub use crate::compose::affine::Placed;
 pub use crate::compose::clip::{Algebraic, Clip, Region, RegionError};
 pub use crate::compose::inverse::Inverse;
 pub use crate::disc::{Disc, DiscError};
-pub use crate::local::{CentredRay, End, LocalPoint, LocalRay, RingRay};
+pub use crate::local::{CentredRay, End, LocalPoint, LocalRay, ROUGH, RingRay};
 pub use crate::mesh::{FLAT, Mesh, MeshData, MeshError};
 pub use crate::parallelogram::{Parallelogram, ParallelogramError};
 pub use crate::plane::{Plane, PlaneError};

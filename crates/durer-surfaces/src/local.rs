@@ -8,7 +8,7 @@
 
 use durer_math::affine::Matrix3;
 use durer_math::eft::{exponent, scale2, two_diff, two_sum};
-use durer_math::{Affine, Isa, Point3, Ray, RaySide, Ring, Vec3};
+use durer_math::{Affine, Isa, Point3, Ray, RaySide, Ring, Run, Vec3};
 
 /// Half an ulp of 1.
 const U: f64 = 1.0 / (1u64 << 53) as f64;
@@ -38,6 +38,10 @@ pub struct LocalRay<'a> {
     pub t_max: f64,
     /// The side on which the ray starts, if it was spawned on the very primitive under test.
     pub source: Option<RaySide>,
+    /// The face it was spawned on, if there is a source.
+    pub source_face: u32,
+    /// Whether brackets may be as wide as [`ROUGH`]: enough to see by.
+    pub rough: bool,
     /// `1 / d.d`, for the closest approach.
     inverse_d2: f64,
     clock: Clock,
@@ -95,6 +99,10 @@ impl Clock {
         }
     }
 }
+
+/// How wide a bracket may be, relative to `max(|t|, size / |d|)`, where nobody measures: a hundredth of a thousandth of a pixel. All
+/// decisions are exact all the same.
+pub const ROUGH: f64 = 1.0 / (1u64 << 30) as f64;
 
 /// An end of a ray's range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -195,6 +203,8 @@ impl LocalRay<'static> {
             t_min: ray.t_min,
             t_max: ray.t_max,
             source: None,
+            source_face: ray.source().map_or(0, |s| s.face),
+            rough: false,
             inverse_d2: 1.0 / d.length_squared(),
             clock: Clock { terms: [0.0; 4], len: 0, k },
             lineage: Lineage::Given { k, direction: ray.direction, d_err: given },
@@ -214,6 +224,20 @@ impl<'a> LocalRay<'a> {
     #[must_use]
     pub fn from_side(mut self, side: Option<RaySide>) -> Self {
         self.source = side;
+        self
+    }
+
+    /// Whether the parameter is the caller's but for a factor: `o` is the point at `t = 0`.
+    #[inline(always)]
+    pub fn starts_at_zero(&self) -> bool {
+        self.clock.len == 0
+    }
+
+    /// The same ray, for someone who looks and does not measure: see [`LocalRay::rough`].
+    #[inline(always)]
+    #[must_use]
+    pub fn roughly(mut self) -> Self {
+        self.rough = true;
         self
     }
 
@@ -315,6 +339,22 @@ impl<'a> LocalRay<'a> {
         }
     }
 
+    /// The ray as seen from its own start (of the parameter), in its own units: for surfaces that have no middle.
+    #[inline(always)]
+    pub fn unmoved(&'a self) -> CentredRay<'a> {
+        CentredRay {
+            o: Vec3::ZERO,
+            d: self.d,
+            o_err: self.o_err,
+            d_err: self.d_err,
+            centre: self.o,
+            scale: 0,
+            step: 0.0,
+            clock: self.clock,
+            ray: self,
+        }
+    }
+
     /// The ray in the frame of a surface that `affine` places: through the inverse map, re-centred on its centre first
     /// (rules W3 and W5), the inverse's own error charged.
     #[inline(always)]
@@ -334,6 +374,8 @@ impl<'a> LocalRay<'a> {
             t_min: self.t_min,
             t_max: self.t_max,
             source: self.source,
+            source_face: self.source_face,
+            rough: self.rough,
             inverse_d2: 1.0 / d.length_squared(),
             clock: self.clock.then(step, k),
             lineage: Lineage::Placed { parent: self, affine, step, k },
@@ -426,6 +468,12 @@ pub struct CentredRay<'a> {
 }
 
 impl<'a> CentredRay<'a> {
+    /// `1 / d.d`, rounded.
+    #[inline(always)]
+    pub fn inverse_d2(&self) -> f64 {
+        self.ray.inverse_d2
+    }
+
     /// The ray this one came from.
     #[inline(always)]
     pub fn local(&self) -> &'a LocalRay<'a> {
@@ -436,6 +484,17 @@ impl<'a> CentredRay<'a> {
     #[inline(always)]
     pub fn source(&self) -> Option<RaySide> {
         self.ray.source
+    }
+
+    /// Where a ray that was spawned on this primitive starts: the side, the face and the `s` of `t = 0`, if its range starts there too.
+    #[inline(always)]
+    pub fn spawned(&self) -> Option<(RaySide, u32, Run)> {
+        let side = self.ray.source?;
+        if self.ray.t_min != 0.0 {
+            return None;
+        }
+        let s = -self.shift();
+        Some((side, self.ray.source_face, Run::with_error(s, s.abs().mul_add(4.0 * U, TINY))))
     }
 
     /// The exact ray in a ring, in this ray's parameter, centre and unit of length.

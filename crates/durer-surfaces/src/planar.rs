@@ -13,6 +13,8 @@ pub(crate) use vectors::{
     cross, cross_and_error, dot, exact3, least_length, middle, origin_from, scaled_to_one, seen_from, unit,
 };
 
+use crate::local::ROUGH;
+use crate::point::least_step;
 use crate::{CentredRay, End, Kind, LocalPoint, LocalRay, RingRay, Root, Side};
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
@@ -198,7 +200,12 @@ impl<'a> Probe<'a> {
     /// The ray as seen from `centre`, in units of `2^scale`, of which the surface measures `size`.
     #[inline(always)]
     pub(crate) fn with_scale(ray: &'a LocalRay<'a>, centre: Point3, scale: i32, size: f64) -> Self {
-        let ray = ray.recentre(centre, scale);
+        Self::of(ray.recentre(centre, scale), size)
+    }
+
+    /// A re-centred ray, in whose units the surface measures `size`.
+    #[inline(always)]
+    pub(crate) fn of(ray: CentredRay<'a>, size: f64) -> Self {
         let run = |v: Vec3, e: Vec3| {
             [Run::with_error(v.x, e.x), Run::with_error(v.y, e.y), Run::with_error(v.z, e.z)]
         };
@@ -225,6 +232,9 @@ impl<'a> Probe<'a> {
     pub(crate) fn crossing_within<F: PlaneForm>(&self, plane: &F, range: (f64, f64)) -> Option<Crossing> {
         let matters = |c: &Crossing| !self.leaves(c) && !c.is_outside(range) && self.may_admit(c);
         if let Some((s, err, sign)) = plane.quick(&self.ray).and_then(|quick| quick.crossing()) {
+            if self.departs(sign as i8) {
+                return None;
+            }
             let crossing = self.bracketed(s, sub_down(s, err), add_up(s, err), sign);
             if s.is_finite() && !matters(&crossing) {
                 return None;
@@ -308,6 +318,9 @@ impl<'a> Probe<'a> {
     #[inline(always)]
     fn is_narrow(&self, c: &Crossing) -> bool {
         let (width, t) = (c.s_hi - c.s_lo, c.lo.abs().min(c.hi.abs()));
+        if self.ray.local().rough {
+            return width <= ROUGH * self.size || c.hi - c.lo <= ROUGH * t;
+        }
         // |d| < 4; the exact length is asked for only where it matters.
         width <= NARROW * 0.25 * self.size
             || c.hi - c.lo <= 32.0 * (t.next_up() - t)
@@ -382,9 +395,15 @@ impl<'a> Probe<'a> {
     /// then there is no crossing, and no exact arithmetic is needed to see that.
     #[inline(always)]
     pub(crate) fn leaves(&self, crossing: &Crossing) -> bool {
+        self.departs(crossing.sign)
+    }
+
+    /// The same, by the sign of normal . direction alone.
+    #[inline(always)]
+    fn departs(&self, sign: i8) -> bool {
         match self.ray.source() {
-            Some(RaySide::Front) => crossing.sign > 0 && self.ray.end(End::Min) >= 0.0,
-            Some(RaySide::Back) => crossing.sign < 0 && self.ray.end(End::Min) >= 0.0,
+            Some(RaySide::Front) => sign > 0 && self.ray.end(End::Min) >= 0.0,
+            Some(RaySide::Back) => sign < 0 && self.ray.end(End::Min) >= 0.0,
             None => false,
         }
     }
@@ -560,7 +579,7 @@ pub(crate) fn clearance<F: PlaneForm>(plane: &F, p: Point3, centre: Point3, scal
     let at = RingRay { o, d: [zero(), zero(), zero()], w: Run::exact(1.0) };
     let height = plane.height(&at).map_or(f64::INFINITY, Run::magnitude);
     // A step `off` along the rounded unit normal moves by `off (1 - 8u)` along the exact one, at least.
-    scale2(height / length, scale).mul_add(1.0 + 32.0 * U, f64::MIN_POSITIVE)
+    scale2(height / length, scale).mul_add(1.0 + 32.0 * U, least_step(p))
 }
 
 /// Two quotients with a common denominator: coordinates in a plane of the point where a ray meets it.

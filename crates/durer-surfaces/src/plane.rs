@@ -11,11 +11,12 @@
 //! plane has no rational point, yet every decision is rational: `n . p < h |n|` is a matter of signs and of `(n . p)^2 < h^2 n . n`.
 
 use crate::planar::{self, PlaneForm, PointLine, Probe, Quick, dot, exact3, scaled_to_one, unit};
+use crate::point::least_step;
 use crate::{
     CentredRay, Flow, LocalPoint, LocalRay, Need, RingRay, Root, Side, Sink, Solidity, Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
-use durer_math::{Aabb, Dd, Dyadic, Normal3, Point3, Ring, Run, U, Vec3};
+use durer_math::{Aabb, Dd, Dyadic, Normal3, Point3, RaySide, Ring, Run, Shaft, U, Vec3};
 
 /// A plane, which is also the boundary of the half-space behind it.
 ///
@@ -100,10 +101,28 @@ impl Plane {
         foot.map(|x| if x.is_finite() { x } else { 0.0 })
     }
 
-    /// The ray as seen from `centre`. A plane has no size but its distance from the origin.
+    /// Whether it is plain to see that the plane is not in front of the ray's start: the ray was spawned on it and goes away, or starts on one
+    /// side and goes to the same. The first and cheapest test.
     #[inline(always)]
-    fn probe<'a>(&self, ray: &'a LocalRay<'a>, centre: Point3) -> Probe<'a> {
-        Probe::with_scale(ray, centre, 0, self.distance.abs())
+    fn is_behind(&self, ray: &LocalRay<'_>) -> bool {
+        let (n, size) = (self.normal, self.normal.abs());
+        let slope = n.dot(ray.d);
+        // Three roundings in a dot product.
+        let slope_err = size.dot(ray.d.abs() * (4.0 * U) + ray.d_err) + planar::TINY;
+        if !(slope.abs() > slope_err && ray.t_min >= 0.0) {
+            return false;
+        }
+        match ray.source {
+            Some(side) => (side == RaySide::Front) == (slope > 0.0),
+            None => {
+                let height = n.dot(ray.o.to_vec()) - self.offset.v.hi;
+                let err = size.dot(ray.o.to_vec().abs() * (4.0 * U) + ray.o_err);
+                let err =
+                    err + (self.offset.v.hi.abs() + height.abs()) * (2.0 * U) + self.offset.e + planar::TINY;
+                // The low part of the offset is below an ulp of the high one.
+                ray.starts_at_zero() && height.abs() > err && (height > 0.0) == (slope > 0.0)
+            }
+        }
     }
 
     /// The signed distance from the origin.
@@ -178,10 +197,19 @@ impl Surface for Plane {
         Aabb::UNBOUNDED
     }
 
+    fn misses(&self, shaft: &Shaft) -> bool {
+        let offset = self.offset;
+        !shaft.may_cross(self.normal, offset.v.hi, offset.v.lo.abs() + offset.e)
+    }
+
     #[inline(always)]
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
-        // Seen from the ray's own origin, so that a near crossing is as precise as a far one: a plane has no middle.
-        let probe = self.probe(ray, ray.o);
+        // Seen from the ray's own origin, so that a near crossing is as precise as a far one: a plane has no middle, and no size but its
+        // distance from the origin.
+        if self.is_behind(ray) {
+            return;
+        }
+        let probe = Probe::of(ray.unmoved(), self.distance.abs());
         let seen = Seen { plane: self, centre: ray.o };
         if let Some(crossing) = probe.crossing_within(&seen, sink.range())
             && probe.admits(&seen, &crossing)
@@ -192,18 +220,34 @@ impl Surface for Plane {
 
     /// Texture coordinates are lengths along two axes across the normal.
     #[inline(always)]
-    fn resolve(&self, ray: &LocalRay<'_>, _root: &Root, need: Need) -> SurfacePoint {
-        let centre = self.foot();
-        let probe = self.probe(ray, centre);
-        let seen = Seen { plane: self, centre };
-        let n2 = self.normal.length_squared();
-        let ng = unit(self.normal);
-        let (p, dp) = planar::foot_point(&probe, &seen, self.normal, n2, 0.0);
-        let off = planar::clearance(&seen, p, centre, 0, n2.sqrt());
-        let mut point = SurfacePoint::new(p, dp, off, ng);
+    fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
+        let (n, offset, s) = (self.normal, self.offset, root.s);
+        let n2 = n.length_squared();
+        let length = n2.sqrt();
+        let x =
+            Vec3::new(s.mul_add(ray.d.x, ray.o.x), s.mul_add(ray.d.y, ray.o.y), s.mul_add(ray.d.z, ray.o.z));
+        // Moved onto the plane along the normal: once, and once more for what far crossings leave.
+        let onto = |x: Vec3| x - n * ((n.dot(x) - offset.v.hi) / n2);
+        let p = onto(onto(x));
+        let width = ray.unmoved().width(root.lo, root.hi);
+        let dp = ray.o_err
+            + ray.d_err * s.abs()
+            + ray.d.abs() * width
+            + (x - p).abs()
+            + (x.abs() + p.abs()) * (2.0 * U);
+        // The height over the plane: three roundings in the dot product, one in the difference, and what f64 does not hold of the offset.
+        let height = n.dot(p) - offset.v.hi;
+        let err = n.abs().dot(p.abs()) * (3.0 * U)
+            + (height.abs() + offset.v.hi.abs()) * U
+            + offset.v.lo.abs()
+            + offset.e;
+        let off = (height.abs() + err) / length * (1.0 + 64.0 * U) + least_step(p.to_point());
+        let dp = dp.map(|x| x * (1.0 + 16.0 * U) + f64::MIN_POSITIVE);
+        let ng = (n * (1.0 / length)).to_normal();
+        let mut point = SurfacePoint::new(p.to_point(), dp, off, ng);
         if need.contains(Need::UV) || need.contains(Need::DERIVATIVES) {
             let (a, b) = ng.to_vec().orthonormal_basis();
-            point.uv = [a.dot(p.to_vec()), b.dot(p.to_vec())];
+            point.uv = [a.dot(p), b.dot(p)];
             (point.dpdu, point.dpdv) = (a, b);
         }
         point

@@ -8,12 +8,13 @@
 //! `r² - |o|²` times `|d|²`: the form of E. Haines, J. Günther, T. Akenine-Möller, "Precision improvements for ray/sphere intersection",
 //! *Ray Tracing Gems* (2019), chapter 7, here without a unit direction.
 
+use crate::local::ROUGH;
 use crate::quadric::body::{Chart, Frame, Shape, View};
 use crate::quadric::form::{Form, Rounded};
 use crate::roots::quadratic::Quadratic;
 use crate::{Flow, Kind, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint};
-use durer_math::eft::{exponent, scale2};
-use durer_math::{Aabb, Affine, Point3, Ring, Run, U, Vec3, elementary};
+use durer_math::eft::{exponent, scale2, two_sum};
+use durer_math::{Aabb, Affine, Point3, RaySide, Ring, Run, U, Vec3, elementary};
 
 /// A sphere with its inside.
 ///
@@ -79,9 +80,22 @@ impl Sphere {
         // Dot products of three terms: gamma(3); errors of o and d as for any form (see `Rounded::along`), with Q = 1.
         let (k, up) = (3.0 * U * (1.0 + 16.0 * U), 1.0 + 16.0 * U);
         let a = d.dot(d);
+        let inverse = at.inverse_d2();
         let e_a = (k * a + ed.dot(dd + dd + ed)) * up;
         let b = o.dot(d);
         let e_b = (k * od.dot(dd) + ed.dot(od) + eo.dot(dd + ed)) * up + FLOOR;
+        let origin = at.shift();
+        // A ray that was spawned here starts outside or inside, for certain: if it leaves there is nothing ahead, and from within just the exit.
+        let spawned = at.spawned();
+        if let Some((side, ..)) = spawned
+            && side == RaySide::Front
+        {
+            let slope = b - a * origin;
+            if slope > (e_b + origin.abs() * (e_a + 8.0 * U * a) + b.abs() * U) * (1.0 + 16.0 * U) {
+                return Reach::Done;
+            }
+        }
+        let within = spawned.is_some_and(|(side, ..)| side == RaySide::Back);
         let oo = o.dot(o);
         let c = (-r).mul_add(r, oo);
         let e_c = (k * oo + U * c.abs() + eo.dot(od + od + eo)) * up + FLOOR;
@@ -89,7 +103,6 @@ impl Sphere {
             Quadratic { a: Run::with_error(a, e_a), b: Run::with_error(b, e_b), c: Run::with_error(c, e_c) };
         let disc = line.kahan_discriminant();
         // B is all but zero, so neither root (-B ∓ √disc) / A suffers cancellation, and A is known to a few ulp.
-        let inverse = 1.0 / a;
         let (ratio, e_rel) = (disc.e / disc.v, e_a * inverse);
         if disc.v < -disc.e * (1.0 + 4.0 * U) {
             return Reach::Done;
@@ -107,16 +120,21 @@ impl Sphere {
             let e = (e_top + s.abs() * (e_rel + 3.0 * U)) * (1.0 + 2.0 * e_rel) * (1.0 + 32.0 * U) + FLOOR;
             (s, s - e, s + e)
         };
-        let origin = at.shift();
+        let widest = if ray.rough { ROUGH } else { 46.0 * U };
         for (sign, top) in [(-1, -b - root), (1, root - b)] {
+            if within && sign < 0 {
+                continue;
+            }
             let undecided = if sign < 0 { Reach::Nothing } else { Reach::Entry };
             let (s, lo, hi) = solution(top);
             let (near, far) = sink.range();
             let (t_lo, t_hi) = at.bracket(lo.next_down(), hi.next_up());
+            let t_lo = if within { t_lo.max(ray.t_min) } else { t_lo };
+            let t_hi = t_hi.max(t_lo);
             if t_lo > far.min(ray.t_max) || t_hi < near.max(ray.t_min) {
                 continue;
             }
-            let narrow = hi - lo <= 46.0 * U * (origin + s).abs().max(0.5);
+            let narrow = hi - lo <= widest * (origin + s).abs().max(0.5);
             if !narrow || at.admits(t_lo, t_hi) != Some(true) {
                 return undecided;
             }
@@ -129,13 +147,65 @@ impl Sphere {
         Reach::Done
     }
 
+    /// The point of a root, if the sphere is neither far away nor seen dimly: what [`View::resolve`] finds, with the gradient `2 y` and the
+    /// Hessian `2 I`.
+    #[inline(always)]
+    fn quick_point(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> Option<SurfacePoint> {
+        let scale = self.scale();
+        let at = ray.recentre(self.centre, scale);
+        let (r, s) = (scale2(self.radius, -scale), root.s);
+        let y = Vec3::new(s.mul_add(at.d.x, at.o.x), s.mul_add(at.d.y, at.o.y), s.mul_add(at.d.z, at.o.z));
+        let e_y = at.o_err + at.d_err * s.abs() + y.abs() * U;
+        // One step of Newton's along the gradient.
+        let y1 = y * (1.0 - (-r).mul_add(r, y.dot(y)) * (0.5 / (r * r)));
+        let (c, back) = (self.centre, |x: f64| scale2(x, scale));
+        let (px, lx) = two_sum(c.x, back(y1.x));
+        let (py, ly) = two_sum(c.y, back(y1.y));
+        let (pz, lz) = two_sum(c.z, back(y1.z));
+        let p = Point3::new(px, py, pz);
+        let lost = Vec3::new(lx, ly, lz).map(|l| scale2(l.abs(), -scale) + FLOOR);
+        // f at y1: three products and sums, and the coordinates themselves.
+        let square = y1.dot(y1);
+        let f = (-r).mul_add(r, square);
+        let e_f = (5.0 * square + r * r) * U;
+        // See `View::off`: rays start at p ± off n, each coordinate at most 3 U further.
+        let tau = scale2(p.x.abs() + p.y.abs() + p.z.abs(), -scale) * (4.0 * U) + FLOOR;
+        let away = 2.0 * (2.0 * y1.abs().dot(lost) + 2.0 * (lost.dot(lost) + tau * tau));
+        let eta = f.abs() + 2.0 * e_f + away;
+        // off = 2 η / (G + √(G² - 4 h η)) with h = 2 and G = 2 |y1| >= 2 - ..., where 1 - √(1 - x) <= x for x <= 1.
+        if !(square > 0.75 && eta < 1.0 / (1u64 << 20) as f64 && scale > -900) {
+            return None;
+        }
+        let length = square.sqrt();
+        let off = eta / (2.0 * length) * (1.0 + 4.0 * eta) * (1.0 + 64.0 * U);
+        let n = y1 * (1.0 / length);
+        let width = at.width(root.lo, root.hi);
+        let dp = (e_y + at.d.abs() * width + (y1 - y).abs() * (1.0 + 4.0 * U) + lost) * (1.0 + 16.0 * U);
+        let mut point = SurfacePoint::new(
+            p,
+            dp.map(|x| back(x) + f64::MIN_POSITIVE),
+            back(off) + f64::MIN_POSITIVE,
+            n.to_normal(),
+        );
+        point.bend = scale2(1.0 / length, -scale) * (1.0 + 4.0 * U);
+        if need.contains(Need::UV) || need.contains(Need::DERIVATIVES) {
+            let chart = sphere_chart(y1);
+            point.uv = chart.uv;
+            if need.contains(Need::DERIVATIVES) {
+                (point.dpdu, point.dpdv) = (chart.dpdu.map(back), chart.dpdv.map(back));
+                (point.dndu, point.dndv) = (chart.dpdu * (1.0 / length), chart.dpdv * (1.0 / length));
+            }
+        }
+        Some(point)
+    }
+
     #[cold]
     #[inline(never)]
     fn slow_roots<K: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut K) {
         self.with_view(|v| v.roots(ray, sink));
     }
 
-    fn with_view<R>(&self, f: impl FnOnce(View<'_, Self>) -> R) -> R {
+    fn with_view<R>(&self, f: impl FnOnce(View<'_>) -> R) -> R {
         let form = Rounded::ball(scale2(self.radius, -self.scale()));
         f(View { shape: self, forms: &[form], frame: self.frame(), walls: 1 })
     }
@@ -242,7 +312,7 @@ impl Surface for Sphere {
 
     #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
-        self.with_view(|v| v.resolve(ray, root, need))
+        self.quick_point(ray, root, need).unwrap_or_else(|| self.with_view(|v| v.resolve(ray, root, need)))
     }
 
     fn solidity(&self) -> Solidity {

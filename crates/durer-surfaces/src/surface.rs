@@ -2,7 +2,7 @@
 
 use crate::{LocalPoint, LocalRay, Sink, SurfacePoint};
 use core::cmp::Ordering;
-use durer_math::{Aabb, Affine};
+use durer_math::{Aabb, Affine, Shaft};
 
 /// A surface, in its own frame. Its one question: *where does this ray meet you?*
 ///
@@ -14,6 +14,11 @@ pub trait Surface: Send + Sync {
     /// A box that provably holds the surface after `map` has moved it. A surface that can do better than the box of its box does.
     fn bounds_through(&self, map: &Affine) -> Aabb {
         map.bounds(&self.bounds())
+    }
+
+    /// Whether no ray of a bundle meets the surface: `true` is certain.
+    fn misses(&self, shaft: &Shaft) -> bool {
+        !shaft.may_meet(&self.bounds())
     }
 
     /// Pushes every crossing in the ray's closed range, once, ascending; the exact surface's crossings with the exact ray

@@ -11,7 +11,8 @@ mod perspective;
 pub use self::orthographic::Orthographic;
 pub use self::perspective::Perspective;
 
-use durer_math::{Point3, Ray, Vec3};
+use crate::vector::length;
+use durer_math::{Aabb, Point3, Ray, Shaft, Vec3};
 use durer_scene::Projection;
 
 /// Why a camera cannot be built.
@@ -57,6 +58,22 @@ impl Camera {
             Self::Perspective(camera) => camera.ray(px, py),
             Self::Orthographic(camera) => camera.ray(px, py),
         }
+    }
+
+    /// All rays through the points of the picture between two corners.
+    pub(crate) fn shaft(&self, [px0, px1]: [f64; 2], [py0, py1]: [f64; 2]) -> Shaft {
+        // Rounding is monotonic, so also the rounded rays are between those of the corners.
+        let corners = [(px0, py0), (px1, py0), (px0, py1), (px1, py1)].map(|(x, y)| self.ray(x, y));
+        let start = Aabb::from_points(corners.map(|ray| ray.origin));
+        let way = Aabb::from_points(corners.map(|ray| ray.direction.to_point()));
+        Shaft::new(start, way.min.to_vec(), way.max.to_vec())
+    }
+
+    /// How wide a pixel of a picture with so many columns is: what it grows by with each unit of the way, and where the rays start.
+    pub(crate) fn pixel_width(&self, columns: u32) -> (f64, f64) {
+        let step = (self.ray(2.0 / f64::from(columns), 0.0), self.ray(0.0, 0.0));
+        let speed = length(step.1.direction);
+        (length(step.0.direction - step.1.direction) / speed, length(step.0.origin - step.1.origin))
     }
 
     /// The ray through the middle of the pixel in column `x` and row `y` of a picture of `width` by `height` pixels.

@@ -61,6 +61,50 @@ impl Encoding {
     }
 }
 
+/// The bytes of an 8-bit file, by comparison: for each byte the least number that is written as it.
+#[derive(Clone, Debug)]
+pub(crate) struct Bytes {
+    least: [f64; 256],
+    /// The byte at the lower end of each of [`CELLS`] parts of `[0, 1]`, where the search starts.
+    start: Vec<u8>,
+}
+
+/// So fine that a part holds few bytes, also where the sRGB curve is steep.
+const CELLS: usize = 2048;
+
+impl Bytes {
+    pub(crate) fn new(encoding: Encoding) -> Self {
+        let byte = |v: f64| (encoding.file(v) * 255.0 + 0.5) as u8;
+        let mut least = [0.0; 256];
+        for k in 1..=255_u8 {
+            // Positive f64 are in the order of their bits.
+            let (mut below, mut above) = (0.0_f64.to_bits(), 1.0_f64.to_bits());
+            while above - below > 1 {
+                let middle = below + (above - below) / 2;
+                if byte(f64::from_bits(middle)) < k { below = middle } else { above = middle }
+            }
+            least[usize::from(k)] = f64::from_bits(above);
+        }
+        let start = (0..CELLS).map(|i| byte(i as f64 / CELLS as f64)).collect();
+        Self { least, start }
+    }
+
+    /// The byte for the number `v`.
+    #[inline(always)]
+    pub(crate) fn of(&self, v: f64) -> u8 {
+        if !(v < 1.0) {
+            // NaN is shown black.
+            return if v >= 1.0 { 255 } else { 0 };
+        }
+        // Negative numbers become 0.
+        let mut byte = self.start[(v * CELLS as f64) as usize & (CELLS - 1)];
+        while byte < 255 && self.least[usize::from(byte) + 1] <= v {
+            byte += 1;
+        }
+        byte
+    }
+}
+
 /// The sRGB curve: from light in `[0, 1]` to the file's value.
 fn encode(light: f64) -> f64 {
     match light {
@@ -93,6 +137,23 @@ mod tests {
     fn values_beyond_the_file_are_cut() {
         for encoding in [Encoding::Linear, Encoding::Power(2.2), Encoding::Srgb] {
             assert_eq!([-1.0, 0.0, 1.0, 7.0, f64::NAN].map(|v| encoding.file(v)), [0.0, 0.0, 1.0, 1.0, 0.0]);
+        }
+    }
+
+    #[test]
+    fn the_table_gives_the_formulas_bytes() {
+        for encoding in [Encoding::Linear, Encoding::Power(2.2), Encoding::Power(0.7), Encoding::Srgb] {
+            let table = Bytes::new(encoding);
+            let byte = |v: f64| (encoding.file(v) * 255.0 + 0.5) as u8;
+            for i in -100..=40_000 {
+                let v = f64::from(i) / 39_000.0;
+                assert_eq!(table.of(v), byte(v), "{encoding:?} {v}");
+            }
+            for k in 1..=255 {
+                let v = table.least[k];
+                assert_eq!((table.of(v.next_down()), table.of(v)), (k as u8 - 1, k as u8));
+            }
+            assert_eq!([f64::NAN, f64::INFINITY, f64::NEG_INFINITY].map(|v| table.of(v)), [0, 255, 0]);
         }
     }
 

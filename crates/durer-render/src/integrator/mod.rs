@@ -1,5 +1,6 @@
 //! Integrators: how much light comes along a ray.
 
+mod cells;
 mod shadow;
 mod whitted;
 

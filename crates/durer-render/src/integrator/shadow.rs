@@ -2,6 +2,7 @@
 
 use super::whitted::{Crossing, Node, Whitted};
 use crate::vector::{dot_n, length};
+use durer_geometry::Hit;
 use durer_math::{Point3, Ray};
 use durer_scene::{Rgb, mask};
 use durer_surfaces::{Need, SurfacePoint};
@@ -9,23 +10,48 @@ use durer_surfaces::{Need, SurfacePoint};
 impl Whitted<'_> {
     /// The part of the light at `target` that arrives at `point`: none behind anything opaque, else what all clear surfaces on the way let pass, not
     /// bent. Light fades in a medium when it leaves it.
-    pub(super) fn through(&mut self, point: &SurfacePoint, target: Point3, node: &Node) -> Rgb {
+    pub(super) fn through(
+        &mut self,
+        point: &SurfacePoint,
+        target: Point3,
+        lamp: (usize, bool),
+        cell: f64,
+        node: &Node,
+    ) -> Rgb {
         let world = self.world;
         let ray = point.spawn_to(target);
         self.counts.shadow += 1;
-        if world.geometry().any_masked(&ray, mask::SHADOW) {
+        let geometry = world.geometry();
+        let between = self.cells.between(geometry, &ray, lamp, cell);
+        let blocked = match between {
+            Some(beam) if beam.is_empty() => return Rgb::WHITE,
+            Some(beam) => geometry.any_in(beam, &ray, mask::SHADOW),
+            None => geometry.any_masked(&ray, mask::SHADOW),
+        };
+        if blocked {
             return Rgb::BLACK;
         }
-        if world.has_clear_shadows { self.through_clear(&ray, target, node) } else { Rgb::WHITE }
+        if !world.has_clear_shadows {
+            return Rgb::WHITE;
+        }
+        let first = match between {
+            Some(beam) => geometry.seen_in(beam, &ray, mask::CLEAR_SHADOW),
+            None => geometry.seen(&ray, mask::CLEAR_SHADOW),
+        };
+        match first {
+            Some(hit) => self.through_clear(&ray, hit, target, node),
+            None => Rgb::WHITE,
+        }
     }
 
-    fn through_clear(&mut self, first: &Ray, target: Point3, node: &Node) -> Rgb {
+    fn through_clear(&mut self, first: &Ray, hit: Hit, target: Point3, node: &Node) -> Rgb {
         let world = self.world;
         let start = self.media.len();
         self.media.extend_from_within(node.media.clone());
         let mut ray = *first;
         let mut left = Rgb::WHITE;
-        while let Some(hit) = world.geometry().closest_masked(&ray, mask::CLEAR_SHADOW) {
+        let mut next = Some(hit);
+        while let Some(hit) = next {
             let point = world.geometry().resolve_with(&ray, &hit, Need::POINT);
             let look = world.look_of(hit.object, hit.primitive);
             left = left * world.paints[look.paint as usize].passed(point.p);
@@ -48,6 +74,7 @@ impl Whitted<'_> {
             }
             ray = point.spawn_to(target);
             self.counts.shadow += 1;
+            next = world.geometry().seen(&ray, mask::CLEAR_SHADOW);
         }
         self.media.truncate(start);
         left

@@ -10,6 +10,7 @@
 //! Rays keep a list of the media they are in. A surface whose medium is in the list is left, any other is entered. The list decides,
 //! and not the normal, so that sheets and overlapping bodies have a meaning too.
 
+use super::cells::Cells;
 use crate::material::{Finish, Incidence, Mirror, reflectance, refract};
 use crate::sampler::random;
 use crate::stats::RayCounts;
@@ -17,6 +18,7 @@ use crate::texture::Coat;
 use crate::vector::{dot, dot_n, length, reflect};
 use crate::world::{Look, World};
 use core::ops::Range;
+use durer_geometry::{Beam, Hit};
 use durer_math::{Point3, Ray, Vec3};
 use durer_scene::{Rgb, mask};
 use durer_surfaces::{Need, SurfacePoint};
@@ -29,6 +31,9 @@ pub(crate) struct Whitted<'w> {
     mirrors: Vec<Mirrored<'w>>,
     /// Lists of media, each a range.
     pub(super) media: Vec<u32>,
+    pub(super) cells: Cells,
+    /// The width of a pixel at distance 1, and at the camera.
+    pixel: (f64, f64),
     pub(crate) counts: RayCounts,
     /// What random numbers depend on: the place in the picture, and how many were drawn there.
     seed: (u64, u64),
@@ -63,6 +68,8 @@ pub(super) struct Node {
     level: u32,
     /// The greatest channel of what its colour will be multiplied by.
     weight: f64,
+    /// How long the way from the camera to its start is.
+    way: f64,
     /// Which objects it meets.
     mask: u32,
     /// The media it is in, the one entered last at the end.
@@ -81,36 +88,53 @@ struct Place<'w> {
     cosine: f64,
     /// How far the ray came.
     distance: f64,
+    /// How long the way from the camera is.
+    way: f64,
     /// The ray only touches the surface.
     grazing: bool,
 }
 
 impl<'w> Whitted<'w> {
-    pub(crate) fn new(world: &'w World) -> Self {
+    /// `pixel` is the width of a pixel at distance 1, and at the camera.
+    pub(crate) fn new(world: &'w World, pixel: (f64, f64)) -> Self {
         Self {
             world,
             coats: Vec::new(),
             mirrors: Vec::new(),
             media: Vec::new(),
+            cells: Cells::new(),
+            pixel,
             counts: RayCounts::default(),
             seed: (0, 0),
         }
     }
 
-    /// The colour seen along a ray of the camera; `seed` names its place in the picture.
-    pub(crate) fn camera_ray(&mut self, ray: &Ray, seed: u64) -> Rgb {
+    /// The colour seen along a ray of the camera; `seed` names its place in the picture, `beam` holds what it may meet, if that is known.
+    pub(crate) fn camera_ray(&mut self, ray: &Ray, seed: u64, beam: Option<&Beam>) -> Rgb {
         self.seed = (seed, 0);
         self.counts.camera += 1;
         self.media.clear();
         self.world.media_around(ray.origin, &mut self.media);
         let media = 0..self.media.len();
-        self.look(ray, Node { level: 1, weight: 1.0, mask: mask::CAMERA, media })
+        let node = Node { level: 1, weight: 1.0, way: 0.0, mask: mask::CAMERA, media };
+        let geometry = self.world.geometry();
+        let hit = match beam {
+            Some(beam) => geometry.seen_in(beam, ray, node.mask),
+            None => geometry.seen(ray, node.mask),
+        };
+        self.seen(ray, hit, node)
     }
 
     /// The colour seen along a ray.
     fn look(&mut self, ray: &Ray, node: Node) -> Rgb {
+        let hit = self.world.geometry().seen(ray, node.mask);
+        self.seen(ray, hit, node)
+    }
+
+    /// The colour of what a ray meets first.
+    fn seen(&mut self, ray: &Ray, hit: Option<Hit>, node: Node) -> Rgb {
         let world = self.world;
-        let Some(hit) = world.geometry().closest_masked(ray, node.mask) else { return world.background };
+        let Some(hit) = hit else { return world.background };
         let point = world.geometry().resolve_with(ray, &hit, Need::SHADING_NORMAL);
         let speed = length(ray.direction);
         let eye = ray.direction * (1.0 / speed);
@@ -122,6 +146,7 @@ impl<'w> Whitted<'w> {
             normal,
             cosine: slope.abs().min(1.0),
             distance: hit.t * speed,
+            way: node.way + hit.t * speed,
             grazing: hit.sign == 0,
             point,
         };
@@ -197,7 +222,9 @@ impl<'w> Whitted<'w> {
         let double = place.look.double_illuminate;
         let behind = double || self.coats[first..].iter().any(|c| c.finish.lit_from_behind());
         let mut sum = Rgb::BLACK;
-        for lamp in &world.lamps {
+        // The cubes that shadow rays share are some pixels wide.
+        let cell = 8.0 * (self.pixel.0 * place.way + self.pixel.1);
+        for (number, lamp) in world.lamps.iter().enumerate() {
             let Some(beamed) = lamp.at(place.point.p) else { continue };
             let cosine = dot(beamed.to_light, place.normal);
             if cosine <= 0.0 && !behind {
@@ -218,7 +245,7 @@ impl<'w> Whitted<'w> {
             }
             let mut light = lamp.colour * beamed.strength;
             if let Some(target) = beamed.target {
-                let left = self.through(&place.point, target, node);
+                let left = self.through(&place.point, target, (number, lamp.parallel), cell, node);
                 if left.is_black() {
                     continue;
                 }
@@ -254,7 +281,7 @@ impl<'w> Whitted<'w> {
         let base = media.start;
         self.counts.transmitted += 1;
         let ray = place.point.spawn(direction);
-        let seen = self.look(&ray, Node { level, weight, mask: node.mask, media });
+        let seen = self.look(&ray, Node { level, weight, way: place.way, mask: node.mask, media });
         self.media.truncate(base);
         (seen * passed * faded, false)
     }
@@ -296,7 +323,7 @@ impl<'w> Whitted<'w> {
         let level = node.level + 1;
         self.counts.reflected += 1;
         let ray = place.point.spawn(reflect(place.eye, place.normal));
-        self.look(&ray, Node { level, weight, mask: mask::MIRROR, media: node.media.clone() })
+        self.look(&ray, Node { level, weight, way: place.way, mask: mask::MIRROR, media: node.media.clone() })
     }
 
     fn random(&mut self) -> f64 {

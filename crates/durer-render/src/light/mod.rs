@@ -13,7 +13,7 @@ pub(crate) struct Lamp {
     /// From the location to where it points, of length 1.
     axis: Vec3,
     beam: Beam,
-    parallel: bool,
+    pub(crate) parallel: bool,
     pub(crate) shadowless: bool,
     fade: Option<(f64, Power)>,
 }

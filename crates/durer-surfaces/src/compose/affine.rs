@@ -4,11 +4,12 @@
 //! rounding is charged to every bracket; points come back through `L` itself.
 
 use crate::local::through_inverse;
+use crate::point::least_step;
 use crate::{LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
-use durer_math::{Aabb, Affine, U, Vec3};
+use durer_math::{Aabb, Affine, Isa, U, Vec3};
 
 /// Pays for results below the normal range.
-const TINY: f64 = f64::from_bits(4);
+const TINY: f64 = f64::MIN_POSITIVE;
 
 /// The surface `S` placed by an invertible affine map.
 #[derive(Clone, Debug)]
@@ -83,12 +84,22 @@ impl SurfacePoint {
 }
 
 /// A point of the surface as the map places it, with its bounds.
+#[inline(never)]
 pub(crate) fn place(map: &Affine, local: &SurfacePoint) -> SurfacePoint {
+    Isa::detect().run(
+        #[inline(always)]
+        || place_here(map, local),
+    )
+}
+
+#[inline(always)]
+fn place_here(map: &Affine, local: &SurfacePoint) -> SurfacePoint {
     let p_l = local.p.to_vec();
     let p = map.centre() + map.vector(p_l);
+    let least = least_step(p);
     // |p - (c + L p_l)|: three roundings of the products' sums and one of the last sum.
     let rho = (map.linear_reach(p_l.abs()) * (3.0 * U) + p.to_vec().abs() * U) * (1.0 + 16.0 * U)
-        + Vec3::new(TINY, TINY, TINY);
+        + Vec3::new(least, least, least);
     let dp = (map.linear_reach(local.dp) + rho) * (1.0 + 4.0 * U);
 
     if local.bend == f64::INFINITY {
@@ -131,6 +142,9 @@ pub(crate) fn place(map: &Affine, local: &SurfacePoint) -> SurfacePoint {
     point.ns = if local.ns == local.ng { point.ng } else { turned(local.ns.to_vec()).to_normal() };
     point.uv = local.uv;
     point.bend = bend / sure.max(f64::MIN_POSITIVE);
+    if local.dpdu == Vec3::ZERO && local.dpdv == Vec3::ZERO {
+        return point;
+    }
     point.dpdu = map.vector(local.dpdu);
     point.dpdv = map.vector(local.dpdv);
     let change = |dn: Vec3| {
@@ -163,6 +177,7 @@ fn place_tip(map: &Affine, local: &SurfacePoint, mut point: SurfacePoint, rho: V
 }
 
 /// `L⁻ᵀ n` and a bound on its error.
+#[inline(always)]
 fn covector(map: &Affine, n: Vec3) -> (Vec3, Vec3) {
     let (m, e) = (map.inverse_linear(), map.inverse_error());
     let column = |i: usize| {

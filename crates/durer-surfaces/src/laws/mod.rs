@@ -133,10 +133,12 @@ pub fn roots_are_the_exact_crossings<S: Surface>(
     surface: &S,
     oracle: &dyn Oracle,
     ray: &Ray,
-    source: Option<RaySide>,
+    source: Option<(RaySide, u32)>,
 ) -> Result<Vec<Root>, Broken> {
     let mut sink = All::default();
-    send(surface, &LocalRay::new(ray).from_side(source), &mut sink);
+    let mut local = LocalRay::new(ray).from_side(source.map(|(side, _)| side));
+    local.source_face = source.map_or(0, |(_, face)| face);
+    send(surface, &local, &mut sink);
     let roots = sink.roots;
     let line = Line::new(ray);
     let inside = |t: &Surd| {
@@ -316,7 +318,7 @@ pub fn points_are_within_their_bounds<S: Surface>(
             let consistent =
                 (solid == Ordering::Greater) == (side == RaySide::Front) && solid != Ordering::Equal;
             if consistent {
-                roots_are_the_exact_crossings(surface, oracle, &leaving, Some(side))?;
+                roots_are_the_exact_crossings(surface, oracle, &leaving, Some((side, root.face)))?;
                 let met = all_roots(surface, &leaving);
                 ensure!(
                     !(oracle.is_convex() && side == RaySide::Front) || met.is_empty(),

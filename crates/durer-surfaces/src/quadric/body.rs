@@ -9,10 +9,11 @@
 //! - what the crossing is (entering, leaving, touching) follows from the signs of the slopes of all faces that are zero there;
 //! - a line that lies in a face is inside that face, so other faces end the interval.
 
+use crate::local::ROUGH;
 use crate::quadric::form::{Form, Rounded};
 use crate::roots::quadratic::{
-    Crossing, Known, Limits, LineRoots, Quadratic, admit, compare_roots, exact_sign, locate, locate_exact,
-    sign_at_root, slope_at_root, solve,
+    Crossing, Known, Limits, LineRoots, NARROW, Quadratic, admit, compare_roots, exact_sign, locate,
+    locate_exact, sign_at_root, slope_at_root, solve,
 };
 use crate::{CentredRay, End, Flow, Kind, LocalPoint, RingRay, Root, Side, Sink};
 use arrayvec::ArrayVec;
@@ -100,10 +101,43 @@ pub trait Shape: Send + Sync {
     }
 }
 
+/// [`Shape`] behind a pointer: what kernels ask it when f64 has left a doubt. They are compiled once and not for each shape.
+pub(crate) trait Faces: Send + Sync {
+    /// The face's polynomial, exactly.
+    fn exact(&self, face: usize) -> Form<Dyadic>;
+    /// The same in double-double.
+    fn double(&self, face: usize) -> Form<Run<Dd>>;
+    /// See [`Shape::chart`].
+    fn chart(&self, face: usize, y: Vec3, n: Vec3) -> Chart;
+    /// See [`Shape::tip`].
+    fn tip(&self, face: usize) -> Option<Vec3>;
+}
+
+impl<S: Shape> Faces for S {
+    fn exact(&self, face: usize) -> Form<Dyadic> {
+        self.form(face)
+    }
+
+    fn double(&self, face: usize) -> Form<Run<Dd>> {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.form(face),
+        )
+    }
+
+    fn chart(&self, face: usize, y: Vec3, n: Vec3) -> Chart {
+        Shape::chart(self, face, y, n)
+    }
+
+    fn tip(&self, face: usize) -> Option<Vec3> {
+        Shape::tip(self, face)
+    }
+}
+
 /// A shape together with what is computed from it once.
 #[derive(Clone, Copy)]
-pub(crate) struct View<'a, S> {
-    pub(crate) shape: &'a S,
+pub(crate) struct View<'a> {
+    pub(crate) shape: &'a dyn Faces,
     pub(crate) forms: &'a [Rounded],
     pub(crate) frame: Frame,
     pub(crate) walls: usize,
@@ -119,6 +153,8 @@ pub(crate) struct Event {
     pub(crate) s: f64,
     pub(crate) lo: f64,
     pub(crate) hi: f64,
+    /// It is known to be in front of the ray's start, which is the start of its range.
+    pub(crate) ahead: bool,
 }
 
 /// All events of one ray.
@@ -142,34 +178,34 @@ fn exact_ray(ray: &CentredRay<'_>) -> (RingRay<Dyadic>, bool) {
     }
 }
 
-impl<S: Shape> View<'_, S> {
+impl View<'_> {
     /// All faces along the ray, exactly; and whether the ray is exactly known.
     fn exact_lines(&self, ray: &CentredRay<'_>) -> (ExactLines, bool) {
         let (exact, known) = exact_ray(ray);
-        ((0..self.forms.len()).map(|i| self.shape.form::<Dyadic>(i).along(&exact)).collect(), known)
+        ((0..self.forms.len()).map(|i| self.shape.exact(i).along(&exact)).collect(), known)
     }
 
-    /// The bounds of `s` outside which no root matters to anyone; `None` if the line passes by.
+    /// The bounds of `s` outside which no root matters to anyone; `None` if nothing is within.
     #[inline(always)]
     fn limits(&self, ray: &CentredRay<'_>, range: (f64, f64)) -> Option<Limits> {
         let local = ray.local();
         let (mut lo, mut hi) = ray.window((local.t_min.max(range.0), local.t_max.min(range.1)));
         if self.frame.reach < f64::INFINITY {
-            // The distance from the centre is least near s = 0; what o·d leaves is subtracted.
-            let (oo, od, dd) = (ray.o.dot(ray.o), ray.o.dot(ray.d), ray.d.dot(ray.d));
-            let err = ray.o_err.x + ray.o_err.y + ray.o_err.z;
-            let reach = self.frame.reach + err;
-            if oo * (1.0 - 8.0 * U) - od * od / dd * (1.0 + 16.0 * U) > reach * reach * (1.0 + 8.0 * U) {
-                return None;
-            }
             // |s d| <= |o| + reach; the largest |d_i| is at least 1, but for its error.
             let derr = ray.d_err.x + ray.d_err.y + ray.d_err.z;
-            let far = (oo.sqrt() + reach) * (1.0 + 8.0 * U) / (1.0 - derr).max(0.5);
+            let o = ray.o.abs() + ray.o_err;
+            let far = (o.x + o.y + o.z + self.frame.reach) * (1.0 + 8.0 * U);
             if derr < 0.5 {
+                let far = if derr == 0.0 { far } else { far / (1.0 - derr) * (1.0 + 4.0 * U) };
                 (lo, hi) = (lo.max(-far), hi.min(far));
             }
         }
-        (lo <= hi).then(|| Limits { lo, hi, origin: ray.shift(), narrow: true })
+        (lo <= hi).then(|| Limits {
+            lo,
+            hi,
+            origin: ray.shift(),
+            width: if local.rough { ROUGH } else { NARROW },
+        })
     }
 
     /// The roots of one face within the limits.
@@ -226,10 +262,11 @@ impl<S: Shape> View<'_, S> {
         let none = LineRoots { roots: [None; 2], outside: false };
         let Some(in_dd) = ray.in_ring::<Run<Dd>>() else { return (none, true) };
         // Coefficients are homogeneous: the positive factor w² cancels in roots and signs.
+        let form = self.shape.double(face);
         let (known, found) = Isa::detect().run(
             #[inline(always)]
             || {
-                let p = self.shape.form::<Run<Dd>>(face).along(&in_dd);
+                let p = form.along(&in_dd);
                 let disc = p.discriminant();
                 let known = [Known::from(&p.a), (&p.b).into(), (&p.c).into(), (&disc).into()];
                 let [a, b, c, d] = known;
@@ -239,9 +276,9 @@ impl<S: Shape> View<'_, S> {
         if let Some(roots) = found {
             return (roots, true);
         }
-        let limits = Limits { narrow: false, ..*limits };
+        let limits = Limits { width: f64::INFINITY, ..*limits };
         let (exact, certain) = exact_ray(ray);
-        let p = self.shape.form::<Dyadic>(face).along(&exact).at_unit_size();
+        let p = self.shape.exact(face).along(&exact).at_unit_size();
         let disc = p.discriminant();
         let exact = [Known::of_any_size(&p.a), (&p.b).into(), Known::of_any_size(&p.c), (&disc).into()];
         let [a, b, c, d] = if certain {
@@ -258,17 +295,30 @@ impl<S: Shape> View<'_, S> {
     pub(crate) fn events(&self, ray: &CentredRay<'_>, range: (f64, f64)) -> Events {
         let mut events = Events::new();
         let Some(limits) = self.limits(ray, range) else { return events };
+        let along = |form: &Rounded| form.along(ray.o, ray.d, ray.o_err, ray.d_err);
+        let [first, rest @ ..] = self.forms else { return events };
         let mut lines = Lines::new();
-        for form in self.forms {
-            lines.push(form.along(ray.o, ray.d, ray.o_err, ray.d_err));
+        lines.push(along(first));
+        // Mostly the first face tells that the line passes by.
+        let mut known = Some(self.face_roots(0, &lines[0], ray, &limits));
+        if known.as_ref().is_some_and(|(found, _)| found.outside) {
+            return events;
         }
+        lines.extend(rest.iter().map(along));
         for face in 0..self.walls {
-            let (found, certain) = self.face_roots(face, &lines[face], ray, &limits);
+            let (found, certain) =
+                known.take().unwrap_or_else(|| self.face_roots(face, &lines[face], ray, &limits));
             if found.outside {
                 events.clear();
                 return events;
             }
+            let start = start(ray, face, &lines[face]);
             for root in found.roots.into_iter().flatten() {
+                // Where the ray was spawned, side and slope tell which roots are behind it: no exact arithmetic is needed.
+                let ahead = match start.and_then(|start| start.against(root.crossing)) {
+                    Some(Greater) => continue,
+                    known => known.is_some(),
+                };
                 let simple = (Kind::Simple, sign_of(root.crossing));
                 let simple = if simple.1 == 0 { (Kind::Grazing, 0) } else { simple };
                 let at = Run::with_error(root.s, (root.hi - root.s).max(root.s - root.lo));
@@ -280,7 +330,7 @@ impl<S: Shape> View<'_, S> {
                 if let Some((kind, sign)) = membership {
                     let kind = if certain { kind } else { Kind::Cluster };
                     let (s, lo, hi) = (root.s, root.lo, root.hi);
-                    events.push(Event { face, crossing: root.crossing, kind, sign, s, lo, hi });
+                    events.push(Event { face, crossing: root.crossing, kind, sign, s, lo, hi, ahead });
                 }
             }
         }
@@ -378,6 +428,8 @@ impl<S: Shape> View<'_, S> {
         let mut least = f64::NEG_INFINITY;
         for event in events {
             let (lo, hi) = ray.bracket(event.lo, event.hi);
+            let lo = if event.ahead { lo.max(ray.end(End::Min)) } else { lo };
+            let hi = hi.max(lo);
             let admitted = match ray.admits(lo, hi) {
                 Some(admitted) => admitted,
                 None => self.in_range(event, ray),
@@ -414,7 +466,8 @@ impl<S: Shape> View<'_, S> {
     #[inline(never)]
     fn in_range(&self, event: &Event, ray: &CentredRay<'_>) -> bool {
         let (lo, hi) = ray.bracket(event.lo, event.hi);
-        let low = !ray.end(End::Min).is_finite()
+        let low = event.ahead
+            || !ray.end(End::Min).is_finite()
             || lo >= ray.end(End::Min)
             || self.end_against_root(End::Min, event, ray) != Greater;
         let high = !ray.end(End::Max).is_finite()
@@ -440,7 +493,7 @@ impl<S: Shape> View<'_, S> {
             return order;
         }
         let (exact, _) = exact_ray(ray);
-        let p = self.shape.form::<Dyadic>(event.face).along(&exact);
+        let p = self.shape.exact(event.face).along(&exact);
         locate_exact(&p, event.crossing, &ray.end_in_ring::<Dyadic>(end))
     }
 
@@ -454,7 +507,7 @@ impl<S: Shape> View<'_, S> {
                 let (q, w) = exact.as_ref()?;
                 let c = self.frame.centre.to_array().map(Dyadic::from);
                 let relative = [0, 1, 2].map(|k| (&q[k] - &(&c[k] * w)).scale2(-self.frame.scale));
-                self.shape.form::<Dyadic>(i).at(&relative, w).sign()
+                self.shape.exact(i).at(&relative, w).sign()
             });
             match sign {
                 Some(Greater) => return Side::Out,
@@ -464,6 +517,32 @@ impl<S: Shape> View<'_, S> {
         }
         side
     }
+}
+
+/// Where a ray that was spawned on a face starts: the signs of `A`, of the polynomial and of its slope there.
+#[derive(Clone, Copy)]
+struct Start {
+    a: Option<Ordering>,
+    value: Ordering,
+    slope: Option<Ordering>,
+}
+
+impl Start {
+    /// Where the start lies relative to a root of the face.
+    #[inline(always)]
+    fn against(self, crossing: Crossing) -> Option<Ordering> {
+        locate(crossing, self.a, Some(self.value), self.slope)
+    }
+}
+
+#[inline(always)]
+fn start(ray: &CentredRay<'_>, face: usize, line: &Quadratic<Run>) -> Option<Start> {
+    let (side, source_face, s) = ray.spawned()?;
+    if source_face as usize != face {
+        return None;
+    }
+    let value = if side == RaySide::Front { Greater } else { Less };
+    Some(Start { a: line.a.sign(), value, slope: (line.a * s + line.b).sign() })
 }
 
 /// The root of a half-space's face, as far as f64 can tell.

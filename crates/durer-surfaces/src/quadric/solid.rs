@@ -4,10 +4,11 @@ use crate::quadric::body::{Frame, Shape, View, rounded};
 use crate::quadric::form::Rounded;
 use crate::{LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use durer_math::eft::{scale2, two_sum};
-use durer_math::{Aabb, Affine, Dd, Point3, Ring, Run, U, Vec3};
+use durer_math::{Aabb, Affine, Dd, Isa, Point3, Ring, Run, U, Vec3};
 
-/// Pays for results below the normal range.
-const TINY: f64 = f64::from_bits(4);
+/// Pays for results below the normal range, in units of the shape's size. Far more than needed, so that it and its square are normal numbers: a
+/// subnormal operand costs many CPUs a hundred times the operation itself.
+const TINY: f64 = durer_math::scale::pow2(-500);
 
 /// A shape with its rounded polynomials: a surface.
 #[derive(Clone, Debug)]
@@ -29,7 +30,7 @@ impl<S: Shape> Body<S> {
     }
 
     #[inline(always)]
-    pub(crate) fn view(&self) -> View<'_, S> {
+    pub(crate) fn view(&self) -> View<'_> {
         View { shape: &self.shape, forms: &self.forms, frame: self.frame, walls: self.shape.walls() }
     }
 }
@@ -45,7 +46,10 @@ impl<S: Shape> Surface for Body<S> {
 
     #[inline(always)]
     fn roots<K: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut K) {
-        self.view().roots(ray, sink);
+        let view = self.view();
+        if !view.is_passed_by(ray) {
+            view.roots(ray, sink);
+        }
     }
 
     #[inline(always)]
@@ -62,21 +66,38 @@ impl<S: Shape> Surface for Body<S> {
     }
 }
 
-impl<S: Shape> View<'_, S> {
-    /// All crossings in the ray's range, ascending.
+impl View<'_> {
+    /// Whether the line surely passes the shape by.
     #[inline(always)]
-    pub(crate) fn roots<K: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut K) {
+    pub(crate) fn is_passed_by(&self, ray: &LocalRay<'_>) -> bool {
         let Frame { centre, scale, reach } = self.frame;
-        if reach < f64::INFINITY && ray.passes_by(centre, scale2(reach, scale)) {
-            return;
-        }
-        let ray = ray.recentre(centre, scale);
-        let events = self.events(&ray, sink.range());
-        self.push(&events, &ray, sink);
+        reach < f64::INFINITY && ray.passes_by(centre, scale2(reach, scale))
+    }
+
+    /// All crossings in the ray's range, ascending.
+    #[inline(never)]
+    pub(crate) fn roots<K: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut K) {
+        Isa::detect().run(
+            #[inline(always)]
+            || {
+                let ray = ray.recentre(self.frame.centre, self.frame.scale);
+                let events = self.events(&ray, sink.range());
+                self.push(&events, &ray, sink);
+            },
+        );
     }
 
     /// The point of a root: projected once onto the face by Newton's method, with its bounds.
+    #[inline(never)]
     pub(crate) fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.resolve_here(ray, root, need),
+        )
+    }
+
+    #[inline(always)]
+    fn resolve_here(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         let Frame { centre, scale, .. } = self.frame;
         let face = root.face as usize;
         let form = &self.forms[face];
@@ -85,7 +106,7 @@ impl<S: Shape> View<'_, S> {
         let y = Vec3::new(s.mul_add(at.d.x, at.o.x), s.mul_add(at.d.y, at.o.y), s.mul_add(at.d.z, at.o.z));
         let e_y = at.o_err + at.d_err * s.abs() + y.abs() * U;
 
-        let y1 = project(form, y);
+        let (y1, f, half) = project(form, y);
 
         // The world's numbers; what their rounding loses is known exactly.
         let axis = |c: f64, y: f64| two_sum(c, scale2(y, scale));
@@ -95,13 +116,17 @@ impl<S: Shape> View<'_, S> {
         let p = Point3::new(px, py, pz);
         let lost = Vec3::new(lx, ly, lz).map(|l| scale2(l.abs(), -scale) + TINY);
 
-        let off = self.off(face, p, y1, lost);
+        let off = self.off(face, p, (f, half), lost);
         let (ng, gradient) = off.normal;
         let back = |x: f64| scale2(x, scale);
         let width = at.width(root.lo, root.hi);
         let dp = (e_y + at.d.abs() * width + (y1 - y).abs() * (1.0 + 4.0 * U) + lost) * (1.0 + 16.0 * U);
-        let mut point =
-            SurfacePoint::new(p, dp.map(|x| back(x) + TINY), back(off.distance) + TINY, ng.to_normal());
+        let mut point = SurfacePoint::new(
+            p,
+            dp.map(|x| back(x) + f64::MIN_POSITIVE),
+            back(off.distance) + f64::MIN_POSITIVE,
+            ng.to_normal(),
+        );
         (point.bend, point.slack) = match off.tip {
             true => (f64::INFINITY, back(TIP_SLACK)),
             false => (scale2(form.bend / gradient, -scale), 0.0),
@@ -124,16 +149,16 @@ impl<S: Shape> View<'_, S> {
         point
     }
 
-    /// A distance along the normal that leaves the face on either side, for the point `y` of which the world's numbers `p` miss `lost`.
+    /// A distance along the normal that leaves the face on either side, for a point of which the world's numbers `p` miss `lost`, and where `f` and half
+    /// its gradient are these.
     ///
     /// From `|f(p)| <= η`, gradient `G` and `|Hessian| <= h`: a start at `p ± off n + τ`, where `τ` is what
     /// rounding adds away from the surface, has `|f| >= off |G| - h (off² + |τ|²) - η`; this is positive from
     /// `off = 2 η' / (|G| + √(|G|² - 4 h η'))` on, with `η' = η + h|τ|²`. `η` includes twice the error of an evaluation of `f`, so
     /// that a ray that starts there finds the sign of `f` in f64.
     #[inline(always)]
-    fn off(&self, face: usize, p: Point3, y: Vec3, lost: Vec3) -> Off {
+    fn off(&self, face: usize, p: Point3, (f, half): (Run, Vec3), lost: Vec3) -> Off {
         let form = &self.forms[face];
-        let (f, half) = form.at(y, y.abs() * U);
         let g = half * 2.0;
         let gradient = g.length();
         let h = form.bend;
@@ -176,30 +201,30 @@ impl<S: Shape> View<'_, S> {
         type N = Run<Dd>;
         let Frame { centre, scale, .. } = self.frame;
         let y = [0, 1, 2].map(|i| (N::exact(p[i]) - N::exact(centre[i])).scale2(-scale));
-        self.shape.form::<N>(face).at(&y, &N::exact(1.0)).magnitude()
+        self.shape.double(face).at(&y, &N::exact(1.0)).magnitude()
     }
 }
 
 /// `y` moved onto the face by Newton's method along the gradient: one step, as a rule; more where the ray came from so far that `y` is off by
-/// more than the face's size.
+/// more than the face's size. With `f` and half its gradient there.
 #[inline(always)]
-fn project(form: &Rounded, mut y: Vec3) -> Vec3 {
-    let (mut f, mut half) = form.at(y, Vec3::ZERO);
+fn project(form: &Rounded, mut y: Vec3) -> (Vec3, Run, Vec3) {
+    let (mut f, mut half) = form.about(y);
     for _ in 0..64 {
-        let step = f.v / (2.0 * half.dot(half));
+        let step = f / (2.0 * half.dot(half));
         let next = y - half * step;
-        let (f1, half1) = form.at(next, Vec3::ZERO);
+        let (f1, half1) = form.at(next, next.abs() * U);
         // Where the gradient all but vanishes a step may overshoot: not taken.
-        if !(step.is_finite() && f1.v.abs() < f.v.abs()) {
+        if !(step.is_finite() && f1.v.abs() < f.abs()) {
             break;
         }
-        let done = f1.v.abs() <= 4.0 * f1.e;
-        (y, f, half) = (next, f1, half1);
-        if done {
-            break;
+        if f1.v.abs() <= 4.0 * f1.e {
+            return (next, f1, half1);
         }
+        (y, f, half) = (next, f1.v, half1);
     }
-    y
+    let (f, half) = form.at(y, y.abs() * U);
+    (y, f, half)
 }
 
 /// Within this distance of a tip, in units, a point counts as the tip itself.

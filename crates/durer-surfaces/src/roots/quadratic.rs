@@ -61,16 +61,18 @@ pub(crate) struct Limits {
     pub(crate) hi: f64,
     /// `t = 2^k (origin + s)`.
     pub(crate) origin: f64,
-    /// Whether a bracket wider than about 32 ulp of `max(|t|, size / |d|)` should be refused.
-    pub(crate) narrow: bool,
+    /// How wide a bracket may be, relative to `max(|t|, size / |d|)`.
+    pub(crate) width: f64,
 }
 
+/// 24 to 48 ulp: `U |t|` is between half an ulp of `t` and one.
+pub(crate) const NARROW: f64 = 48.0 * U;
+
 impl Limits {
-    /// 24 to 48 ulp of `max(|t|, size / |d|)`, in units of `s`: sizes are about 1 there, `|d|` is about 2, and `U |t|` is between half an ulp
-    /// and one. For unbounded surfaces the distance from their centre counts as a size.
+    /// In units of `s` sizes are about 1, and `|d|` is about 2. For unbounded surfaces the distance from their centre counts as a size.
     #[inline(always)]
     fn allows(&self, lo: f64, hi: f64, s: f64) -> bool {
-        !self.narrow || hi - lo <= 48.0 * U * (self.origin + s).abs().max(s.abs()).max(0.5)
+        self.width == f64::INFINITY || hi - lo <= self.width * (self.origin + s).abs().max(s.abs()).max(0.5)
     }
 }
 
@@ -390,7 +392,7 @@ mod tests {
 
     #[test]
     fn a_vanishing_leading_coefficient_keeps_the_finite_root() {
-        let limits = Limits { lo: -10.0, hi: 10.0, origin: 0.0, narrow: true };
+        let limits = Limits { lo: -10.0, hi: 10.0, origin: 0.0, width: NARROW };
         for a in [0.0, 1e-300, -1e-300, 1e-17] {
             let p = Quadratic::<Run> { a: Run::exact(a), b: Run::exact(0.5), c: Run::exact(-2.0) };
             let disc = p.kahan_discriminant();
