@@ -9,6 +9,7 @@ use crate::ids::{Id, Ids};
 use crate::spans::Tracks;
 use core::ops::Range;
 use durer_bvh::{Entry, Frame};
+use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Isa, RaySide};
 use durer_surfaces::{
     Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
@@ -418,7 +419,26 @@ fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint
     if let Some(sign) = signs(ray.t_max, f64::INFINITY).first {
         return sign > 0;
     }
-    surface.side(start) == Side::In
+    match surface.side(start) {
+        Side::In => true,
+        Side::Out => false,
+        Side::On => runs_inside(surface, ray),
+    }
+}
+
+/// Whether a line lies in a closed solid that it does not cross, though it may touch it in single points.
+///
+/// All its points but those lie on one side. Solids with quadric faces, of which there are six at most, are touched in no more than
+/// twelve points; a line in a face of a solid of many faces has left it where it has left the box. A line of which no point
+/// is off the boundary lies in it, and so in the closed solid.
+fn runs_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>) -> bool {
+    let bounds = surface.bounds();
+    let far = bounds.max.to_vec().max_abs().max(bounds.min.to_vec().max_abs()).max(ray.o.to_vec().max_abs());
+    let beyond = if far.is_finite() { scale2(1.0, (exponent(far) + 2).min(1000)) } else { 1.0 };
+    let near = (1..=7).map(f64::from);
+    let mut sides =
+        near.chain([beyond]).flat_map(|s| [s, -s]).map(|s| surface.side(&LocalPoint::along(ray, s)));
+    sides.find(|&side| side != Side::On) != Some(Side::Out)
 }
 
 /// The signs of the first and the last crossing that is not a touch.
