@@ -215,9 +215,10 @@ impl<S: Surface> Slot<'_, S> {
     }
 }
 
-/// A root with its `t` in the ray's range, where the exact crossing is: rounding may have put it a step outside.
+/// A root with its `t` in the ray's range, where the exact crossing is: rounding may have put it a step outside. `None` where the exact `t`
+/// is beyond all numbers: there is nothing to tell about such a crossing.
 #[inline(always)]
-fn in_range(mut root: Root, ray: &LocalRay<'_>) -> Root {
+fn in_range(mut root: Root, ray: &LocalRay<'_>) -> Option<Root> {
     root.t = if root.t < ray.t_min {
         ray.t_min
     } else if root.t > ray.t_max {
@@ -225,7 +226,14 @@ fn in_range(mut root: Root, ray: &LocalRay<'_>) -> Root {
     } else {
         root.t
     };
-    root
+    if root.t.is_finite() { Some(root) } else { brought_back(root, ray) }
+}
+
+/// A root with the number next to its infinite `t`, unless the crossing itself is as far.
+#[cold]
+fn brought_back(root: Root, ray: &LocalRay<'_>) -> Option<Root> {
+    let t = root.t.clamp(f64::MIN, f64::MAX);
+    (root.lo <= t && t <= root.hi && ray.t_min <= t && t <= ray.t_max).then_some(Root { t, ..root })
 }
 
 /// All of a line: what a surface computes must not depend on what was met before.
@@ -247,7 +255,7 @@ impl<S: Surface> Sink for Challenger<'_, '_, S> {
     #[inline(always)]
     fn push(&mut self, root: Root) -> Flow {
         // Roots ascend: behind one that lost, the others lose too.
-        let root = in_range(root, self.ray);
+        let Some(root) = in_range(root, self.ray) else { return Flow::Continue };
         let taken = self.best.offer(
             self.slot.slot,
             &root,
@@ -275,8 +283,10 @@ impl Sink for Forward<'_, '_> {
 
     #[inline(always)]
     fn push(&mut self, root: Root) -> Flow {
-        if self.flow == Flow::Continue {
-            self.flow = (self.visit)(self.slot, self.name, in_range(root, self.ray));
+        if self.flow == Flow::Continue
+            && let Some(root) = in_range(root, self.ray)
+        {
+            self.flow = (self.visit)(self.slot, self.name, root);
         }
         self.flow
     }

@@ -5,7 +5,10 @@ mod common;
 use common::{Dice, fill, ground, object, rays};
 use durer_geometry::{BuildError, EVERYTHING, Geometry};
 use durer_math::{Affine, Point3, Ray, Vec3};
-use durer_surfaces::{AxisBox, Frustum, Mesh, MeshData, Need, Placed, Side, Sphere};
+use durer_surfaces::{
+    AxisBox, Clip, EllipticCylinder, Frustum, Mesh, MeshData, Need, Placed, Plane, Quadric, Region, Side,
+    Sphere,
+};
 use std::sync::Arc;
 
 fn ball(x: f64, y: f64, z: f64, r: f64) -> Sphere {
@@ -174,6 +177,51 @@ fn a_cone_clipped_at_its_rim_is_entered_first() {
     assert_eq!(world.closest(&ray), Some(all[0]));
     assert_eq!(world.closest_batch(&[ray]), [Some(all[0])]);
     assert_eq!(world.all_batch(&[ray]).of(0), all);
+}
+
+/// Found by the examiner in `tests/outside`: the ray leaves the first of these, a cylinder clipped by a half-space, at `t` of about 1e321.
+#[test]
+fn what_is_met_beyond_all_numbers_is_not_met() {
+    let clipped = Clip::new(
+        EllipticCylinder::new(1.0, 5.0).unwrap(),
+        vec![Region::half_space(-Vec3::Y.to_normal(), 0.0).unwrap()],
+    );
+    let map = Affine::new(
+        [[0.00390625, 0.0, 0.0], [0.0, 0.001953125, 0.0], [0.0, 0.0, 128.0]],
+        Point3::new(0.0, 1000.0, 1000.0),
+    );
+    let first = Geometry::builder().add(Placed::new(clipped, map.unwrap())).build().unwrap();
+    let origin = Point3::new(0.0015024038461538462, 1000.0090144230769, 1000.0);
+    let first_ray = Ray::new(origin, Vec3::new(5e-324, 0.0, 0.6141631519109444));
+    // x² + y² <= 1, and the same as a plane.
+    let pipe = Quadric::new([1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0]).unwrap();
+    let second = Geometry::builder().add(pipe.clone()).build().unwrap();
+    let third = Geometry::builder().add(Plane::new(Vec3::X, 1.0).unwrap()).build().unwrap();
+    let whole = (f64::NEG_INFINITY, f64::INFINITY);
+    let along = |x: f64| Ray::new(Point3::ORIGIN, Vec3::new(x, 0.0, 1.0)).with_range(whole.0, whole.1);
+    for (world, ray) in
+        [(&first, first_ray), (&second, along(5e-324)), (&second, along(-1e-310)), (&third, along(5e-324))]
+    {
+        assert_eq!((world.all(&ray), world.closest(&ray), world.any(&ray)), (vec![], None, false), "{ray:?}");
+        assert!(!world.any_where(&ray, EVERYTHING, |_| true));
+    }
+    for world in [&second, &third] {
+        let spans = world.spans(&along(5e-324));
+        assert_eq!(
+            spans.iter().map(|s| (s.t_in, s.t_out, s.object_in, s.object_out)).collect::<Vec<_>>(),
+            [(whole.0, whole.1, None, None)]
+        );
+        assert!(world.spans(&Ray::new(Point3::new(2.0, 0.0, 0.0), Vec3::new(5e-324, 0.0, 1.0))).is_empty());
+    }
+    // Just within the numbers: met, though a bracket's end may be infinite.
+    for (world, count, x) in
+        [(&second, 2, 1e-307), (&second, 2, 6e-309), (&third, 1, 1e-307), (&third, 1, -1e-307)]
+    {
+        let all = world.all(&along(x));
+        assert_eq!(all.len(), count, "{x:e}: {all:?}");
+        assert!(all.iter().all(|h| h.t.is_finite() && h.t_lo <= h.t && h.t <= h.t_hi), "{all:?}");
+        assert_eq!(world.closest(&along(x)), Some(all[0]));
+    }
 }
 
 #[test]
