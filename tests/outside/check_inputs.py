@@ -196,7 +196,7 @@ def endless(x):
         "wait in a condition": "#while (vlength(<1, 2, 3>) > 0) #if (1) #else #end #end", "polygon without end": "polygon { 1e8, #while (1) x, #end }",
     }
     for name, words in cases.items():
-        x.scene(f"endless: {name}", GOOD + words + "\n", chatty="again" in words)
+        x.scene(f"endless: {name}", GOOD + words + "\n", chatty="#debug" in words)
     x.scene("includes itself", '#include "s.pov"\n')
     x.scene("includes in a circle", '#include "a.inc"\n', files={"a.inc": '#include "b.inc"', "b.inc": '#include "a.inc"'})
     x.scene("includes itself twice", '#include "s.pov"\n#include "s.pov"\n')
@@ -437,6 +437,9 @@ def check_region(x, whole, part):
 
 SLOW = CAMERA + "#declare R = seed(1); union { #for (I, 1, 3000) sphere { <rand(R)*4-2, rand(R)*4-2, rand(R)*4>, 0.1 pigment { rgb 1 } finish { reflection 0.5 } } #end }\n"
 
+GLASSY = ("global_settings { max_trace_level 30 adc_bailout 0 }\n"
+          + SLOW.replace("pigment { rgb 1 } finish { reflection 0.5 }", "pigment { rgb 1 transmit 0.9 } finish { reflection 0.9 }"))
+
 
 def interrupt(x):
     """Ctrl-C keeps what is done beside the output, and an older picture stays."""
@@ -449,6 +452,15 @@ def interrupt(x):
             if (w, h) != (3000, 3000):
                 x.wrong.append(("Ctrl-C", "size"))
                 print(f"\n== Ctrl-C: the partial picture has {w}x{h} pixels")
+    # A pixel of this takes minutes, and there are only a few: it is answered within one, too.
+    for aa in ("off", "9x9", "method1", "method2,0.1,5"):
+        words = ["render", "s.pov", "--width", "40", "--height", "30", "--aa", aa, "-o", "s.png"]
+        start = time.monotonic()
+        made = x.examine(f"Ctrl-C within a pixel, {aa}", words, 130, {"s.pov": GLASSY, "s.png": old}, makes=["s.partial.png"], stop_after=2.0)
+        waited = time.monotonic() - start - 2.0
+        if made and waited > 2.0:
+            x.wrong.append(("Ctrl-C", "late"))
+            print(f"\n== Ctrl-C within a pixel, {aa}: answered after {waited:.1f} s")
 
 
 def png_head(data):

@@ -82,6 +82,11 @@ impl Durer {
         Ok(Self { program })
     }
 
+    /// Where it is.
+    pub(crate) fn program(&self) -> &Path {
+        &self.program
+    }
+
     /// Renders `scene` into `picture`; the error holds what the command said.
     pub(crate) fn render(&self, scene: &Path, picture: &Path, shot: Shot<'_>) -> Outcome {
         let mut command = Command::new(&self.program);

@@ -2,7 +2,8 @@
 //!
 //! - `test`: what must pass before a change goes in ([`checks`]);
 //! - `conformance`: our pictures beside POV-Ray's, and what each cost ([`conformance`]);
-//! - `gallery`: the pictures and pages of docs/gallery.md ([`gallery`]).
+//! - `gallery`: the pictures and pages of docs/gallery.md ([`gallery`]);
+//! - `fused`: which compiled code calls `fma` where it should be one instruction ([`fused`]).
 //!
 //! Everything here drives the programs a user has: cargo, the `durer` command built for release, and `povray`.
 #![forbid(unsafe_code)]
@@ -11,6 +12,7 @@ mod checks;
 mod command;
 mod compare;
 mod conformance;
+mod fused;
 mod gallery;
 mod picture;
 mod povray;
@@ -25,7 +27,8 @@ usage: cargo xtask NAME
   test                             formatting, clippy, docs, all tests and doc-tests, then every scene is rendered
   conformance [--check] [SCENE]..  renders tests/conformance with durer and with POV-Ray, compares, times, and
                                    writes docs/conformance.md; --check only compares, SCENEs limit it to a few
-  gallery [SCENE]..                renders scenes/ into docs/gallery and writes docs/gallery.md";
+  gallery [SCENE]..                renders scenes/ into docs/gallery and writes docs/gallery.md
+  fused [BINARY]                   lists compiled code that calls fma where it should be one instruction";
 
 /// What a chore comes to: nothing to say, or the reason why it failed.
 type Outcome<T = ()> = Result<T, String>;
@@ -35,6 +38,7 @@ fn main() -> ExitCode {
     let outcome = match words.split_first() {
         Some((name, [])) if name == "test" => checks::run(),
         Some((name, rest)) if name == "conformance" => conformance::run(rest),
+        Some((name, rest)) if name == "fused" => fused::run(rest),
         Some((name, rest)) if name == "gallery" => gallery::run(rest),
         _ => {
             eprintln!("{USAGE}");

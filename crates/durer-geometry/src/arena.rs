@@ -9,6 +9,7 @@ use crate::ids::{Id, Ids};
 use crate::spans::Tracks;
 use core::ops::Range;
 use durer_bvh::{Entry, Frame};
+use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Isa, RaySide, Shaft};
 use durer_surfaces::{
     Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
@@ -221,9 +222,10 @@ impl<S: Surface> Slot<'_, S> {
     }
 }
 
-/// A root with its `t` in the ray's range, where the exact crossing is: rounding may have put it a step outside.
+/// A root with its `t` in the ray's range, where the exact crossing is: rounding may have put it a step outside. `None` where the exact `t`
+/// is beyond all numbers: there is nothing to tell about such a crossing.
 #[inline(always)]
-fn in_range(mut root: Root, ray: &LocalRay<'_>) -> Root {
+fn in_range(mut root: Root, ray: &LocalRay<'_>) -> Option<Root> {
     root.t = if root.t < ray.t_min {
         ray.t_min
     } else if root.t > ray.t_max {
@@ -231,7 +233,14 @@ fn in_range(mut root: Root, ray: &LocalRay<'_>) -> Root {
     } else {
         root.t
     };
-    root
+    if root.t.is_finite() { Some(root) } else { brought_back(root, ray) }
+}
+
+/// A root with the number next to its infinite `t`, unless the crossing itself is as far.
+#[cold]
+fn brought_back(root: Root, ray: &LocalRay<'_>) -> Option<Root> {
+    let t = root.t.clamp(f64::MIN, f64::MAX);
+    (root.lo <= t && t <= root.hi && ray.t_min <= t && t <= ray.t_max).then_some(Root { t, ..root })
 }
 
 /// All of a line: what a surface computes must not depend on what was met before.
@@ -254,7 +263,7 @@ impl Sink for Challenger<'_> {
     #[inline(always)]
     fn push(&mut self, root: Root) -> Flow {
         // Roots ascend: behind one that lost, the others lose too.
-        let root = in_range(root, self.ray);
+        let Some(root) = in_range(root, self.ray) else { return Flow::Continue };
         if self.best.offer(self.slot, self.name, &root) { Flow::Continue } else { Flow::Stop }
     }
 }
@@ -276,8 +285,10 @@ impl Sink for Forward<'_, '_> {
 
     #[inline(always)]
     fn push(&mut self, root: Root) -> Flow {
-        if self.flow == Flow::Continue {
-            self.flow = (self.visit)(self.slot, self.name, in_range(root, self.ray));
+        if self.flow == Flow::Continue
+            && let Some(root) = in_range(root, self.ray)
+        {
+            self.flow = (self.visit)(self.slot, self.name, root);
         }
         self.flow
     }
@@ -424,7 +435,26 @@ fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint
     if let Some(sign) = signs(ray.t_max, f64::INFINITY).first {
         return sign > 0;
     }
-    surface.side(start) == Side::In
+    match surface.side(start) {
+        Side::In => true,
+        Side::Out => false,
+        Side::On => runs_inside(surface, ray),
+    }
+}
+
+/// Whether a line lies in a closed solid that it does not cross, though it may touch it in single points.
+///
+/// All its points but those lie on one side. Solids with quadric faces, of which there are six at most, are touched in no more than
+/// twelve points; a line in a face of a solid of many faces has left it where it has left the box. A line of which no point
+/// is off the boundary lies in it, and so in the closed solid.
+fn runs_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>) -> bool {
+    let bounds = surface.bounds();
+    let far = bounds.max.to_vec().max_abs().max(bounds.min.to_vec().max_abs()).max(ray.o.to_vec().max_abs());
+    let beyond = if far.is_finite() { scale2(1.0, (exponent(far) + 2).min(1000)) } else { 1.0 };
+    let near = (1..=7).map(f64::from);
+    let mut sides =
+        near.chain([beyond]).flat_map(|s| [s, -s]).map(|s| surface.side(&LocalPoint::along(ray, s)));
+    sides.find(|&side| side != Side::On) != Some(Side::Out)
 }
 
 /// The signs of the first and the last crossing that is not a touch.

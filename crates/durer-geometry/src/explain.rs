@@ -114,7 +114,7 @@ pub enum Verdict {
     Closest,
     /// A closer one was known.
     Farther,
-    /// Equally far as the closest so far, and its (object, primitive, face) comes later.
+    /// Equally far as the closest so far, and its (object, primitive) comes later, or the same one gave it later.
     LaterInOrder,
 }
 

@@ -56,10 +56,13 @@ impl Hit {
         }
     }
 
-    /// The order of hits along a ray: by `t`, then object, primitive and face. What is equal in all these is ordered by placement and storage.
+    /// The order of hits along a ray: by `t`, then object and primitive. What is equal in all these is ordered by placement and storage.
+    ///
+    /// Two crossings of one surface may round to one `t`: they are equal here, and every query keeps the order in which the surface gave
+    /// them, which is their exact one. So a solid is entered before it is left.
     #[inline]
     pub fn order(&self, other: &Self) -> core::cmp::Ordering {
-        let key = |h: &Self| (h.object, h.primitive, h.face, h.instance, h.arena, h.slot);
+        let key = |h: &Self| (h.object, h.primitive, h.instance, h.arena, h.slot);
         self.t.total_cmp(&other.t).then_with(|| key(self).cmp(&key(other)))
     }
 }

@@ -10,7 +10,7 @@ use durer_math::{Point3, Ray};
 use durer_surfaces::{Flow, LocalPoint, LocalRay};
 
 impl Geometry {
-    /// The first hit: the least by (`t`, object, primitive, face).
+    /// The first hit: the least by (`t`, object, primitive), and of one primitive the first along the exact ray.
     pub fn closest(&self, ray: &Ray) -> Option<Hit> {
         self.closest_masked(ray, EVERYTHING)
     }
@@ -73,7 +73,7 @@ impl Geometry {
                 Flow::Continue
             })
         });
-        // Stable: two crossings of one face may round to one t, and the surface gave them in their exact order.
+        // Stable: two crossings of one surface may round to one t, and it gave them in their exact order.
         hits.sort_by(Hit::order);
     }
 

@@ -4,8 +4,9 @@ mod common;
 
 use common::{Dice, fill, ground, rays};
 use durer_geometry::Geometry;
-use durer_math::{Point3, Ray, Vec3};
-use durer_surfaces::{AxisBox, Disc, Side, Sphere};
+use durer_math::{Affine, Point3, Ray, Vec3};
+use durer_surfaces::{AxisBox, Disc, Frustum, Inverse, Placed, Quadric, Side, Sphere, Surface};
+use std::sync::Arc;
 
 /// A point of the ray in the middle of a stretch, if the stretch is long enough for rounding not to matter.
 fn middle(ray: &Ray, a: f64, b: f64) -> Option<Point3> {
@@ -98,4 +99,136 @@ fn boxes_that_share_a_face_are_one() {
     // The disc is open: it is hit, but holds nothing.
     assert_eq!(world.all(&Ray::new(Point3::new(-3.0, 1.5, 0.5), Vec3::X)).len(), 1);
     assert!(world.spans(&Ray::new(Point3::new(-3.0, 1.5, 0.5), Vec3::X)).is_empty());
+}
+
+/// Spans as (begin, end, whether it is entered, whether it is left).
+fn ends(world: &Geometry, ray: &Ray) -> Vec<(f64, f64, bool, bool)> {
+    let spans = world.spans(ray);
+    spans.iter().map(|s| (s.t_in, s.t_out, s.object_in.is_some(), s.object_out.is_some())).collect()
+}
+
+/// `a x² + b y² + c z² + w`.
+fn quadric([a, b, c, w]: [f64; 4]) -> Quadric {
+    Quadric::new([a, b, c, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, w]).unwrap()
+}
+
+/// Found by the examiner in `tests/outside`: at the start of these ranges the ray only touches the solid.
+#[test]
+fn ranges_that_begin_at_a_touch() {
+    const INF: f64 = f64::INFINITY;
+    let hyperboloid = quadric([1.0, 1.0, -1.0, -1.0]);
+    let cone = quadric([1.0, 9.0, -1.0, 0.0]);
+    let ball = Sphere::new(Point3::ORIGIN, 1.0).unwrap();
+    let along = |o: [f64; 3], d: [f64; 3], t_min: f64| {
+        Ray::new(Point3::from(o), Vec3::from(d)).with_range(t_min, INF)
+    };
+    let whole = |t_min: f64| vec![(t_min, INF, false, false)];
+    let one = |add: &dyn Fn(&mut durer_geometry::Builder)| {
+        let mut builder = Geometry::builder();
+        add(&mut builder);
+        let inner = Arc::new(builder.build().unwrap());
+        // The same within an instance, whose frame the rays enter by rounded numbers.
+        let map =
+            Affine::new([[0.5, 0.25, 0.0], [0.0, 2.0, 0.0], [0.0, -1.0, 4.0]], Point3::new(2.0, 3.0, 5.0))
+                .unwrap();
+        let outer = Geometry::builder().instance(&inner, map, durer_geometry::EVERYTHING).build().unwrap();
+        (inner, outer, map)
+    };
+    let check = |(inner, outer, map): &(Arc<Geometry>, Geometry, Affine),
+                 ray: Ray,
+                 expected: Vec<(f64, f64, bool, bool)>| {
+        assert_eq!(ends(inner, &ray), expected, "{ray:?}");
+        let placed =
+            Ray::new(map.point(ray.origin), map.vector(ray.direction)).with_range(ray.t_min, ray.t_max);
+        assert_eq!(ends(outer, &placed), expected, "placed {ray:?}");
+    };
+    // x² + y² - z² <= 1 along (1, t, 2t): -3t².
+    let world = one(&|b| _ = b.add(hyperboloid.clone()));
+    check(&world, along([1.0, 0.0, 0.0], [0.0, 1.0, 2.0], -1.0), whole(-1.0));
+    check(&world, along([1.0, 0.0, 0.0], [0.0, 1.0, 2.0], 0.0), whole(0.0));
+    check(&world, along([1.0, -1.0, -2.0], [0.0, 1.0, 2.0], 1.0), whole(1.0));
+    // Along a generator: in the boundary all the way, and so in the closed set.
+    check(&world, along([1.0, 0.0, 0.0], [0.0, 1.0, 1.0], 0.0), whole(0.0));
+    // The other side of the same.
+    let world = one(&|b| _ = b.add(Inverse(hyperboloid.clone())));
+    check(&world, along([1.0, 0.0, 0.0], [0.0, 1.0, 2.0], -1.0), vec![]);
+    // From the tip of a cone, within it and without.
+    let world = one(&|b| _ = b.add(cone.clone()));
+    check(&world, along([0.0, 0.0, 0.0], [0.0, 0.0, -0.348], 0.0), whole(0.0));
+    check(&world, along([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], 0.0), vec![]);
+    let world = one(&|b| _ = b.add(ball));
+    check(&world, along([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], 0.0), vec![]);
+    let world = one(&|b| _ = b.add(Inverse(ball)));
+    check(&world, along([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], 0.0), whole(0.0));
+    check(&world, along([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], -3.0), whole(-3.0));
+}
+
+/// What a ray meets does not depend on where on its line it has its origin: here every origin but one is off the boundary, the
+/// directions are such that tangents, rims, edges and corners are common, and all numbers are exact.
+#[test]
+fn spans_do_not_depend_on_the_origin() {
+    fn try_solid<S: Surface + Clone + 'static>(solid: &S, dice: &mut Dice, touches: &mut usize) {
+        let turned = Geometry::builder().add(Inverse(solid.clone())).build().unwrap();
+        let world = Geometry::builder().add(solid.clone()).build().unwrap();
+        for _ in 0..1500 {
+            let (a, b) = (dice.grid(), dice.grid());
+            if a == b {
+                continue;
+            }
+            let d = b - a;
+            for world in [&world, &turned] {
+                let from = |k: f64| {
+                    let ray = Ray::new(a + d * k, d).with_range(-k, f64::INFINITY);
+                    let mut spans = ends(world, &ray);
+                    // A range that begins where a solid ends may keep a stretch of no length but rounding.
+                    spans.retain(|s| s.1 - s.0 > 1e-12);
+                    // In the first ray's parameter.
+                    spans.iter().map(|s| (s.0 + k, s.1 + k, s.2, s.3)).collect::<Vec<_>>()
+                };
+                let at_origin = from(0.0);
+                for k in [-2.0, 1.0, 0.125, 7.0] {
+                    let other = from(k);
+                    assert_eq!(
+                        at_origin.len(),
+                        other.len(),
+                        "{at_origin:?} {other:?} from {a:?} along {d:?}"
+                    );
+                    for (x, y) in at_origin.iter().zip(&other) {
+                        assert_eq!((x.2, x.3), (y.2, y.3), "{at_origin:?} {other:?} from {a:?} along {d:?}");
+                        assert!(x.0 == y.0 || (x.0 - y.0).abs() < 1e-12, "{x:?} {y:?}");
+                        assert!(x.1 == y.1 || (x.1 - y.1).abs() < 1e-12, "{x:?} {y:?}");
+                    }
+                }
+                *touches += usize::from(world.side(a) == Side::On && at_origin.iter().all(|s| !s.2 && !s.3));
+            }
+        }
+    }
+    let (mut dice, mut touches) = (Dice(5), 0);
+    for r in [1.0, 2.0, 3.0] {
+        try_solid(&Sphere::new(Point3::new(0.0, 0.0, 1.0 - r), r).unwrap(), &mut dice, &mut touches);
+        try_solid(
+            &AxisBox::new(Point3::new(-1.0, -r, 0.0), Point3::new(1.0, 0.0, r)).unwrap(),
+            &mut dice,
+            &mut touches,
+        );
+        try_solid(
+            &Frustum::new(Point3::ORIGIN, r, Point3::new(0.0, 0.0, r), 0.0).unwrap(),
+            &mut dice,
+            &mut touches,
+        );
+        let map =
+            Affine::new([[1.0, 1.0, 0.0], [0.0, r, 0.0], [0.0, -1.0, 2.0]], Point3::new(1.0, 0.0, -1.0))
+                .unwrap();
+        try_solid(&Placed::new(Sphere::new(Point3::ORIGIN, 1.0).unwrap(), map), &mut dice, &mut touches);
+        for form in [
+            [1.0, 1.0, -1.0, -1.0],
+            [1.0, 1.0, -1.0, 0.0],
+            [1.0, 0.0, -1.0, -r],
+            [1.0, 1.0, 0.0, -r * r],
+            [1.0, 4.0, 1.0, -4.0],
+        ] {
+            try_solid(&quadric(form), &mut dice, &mut touches);
+        }
+    }
+    assert!(touches > 400, "{touches}");
 }

@@ -5,7 +5,10 @@ mod common;
 use common::{Dice, fill, ground, object, rays};
 use durer_geometry::{BuildError, EVERYTHING, Geometry};
 use durer_math::{Affine, Point3, Ray, Vec3};
-use durer_surfaces::{Mesh, MeshData, Need, Placed, Side, Sphere};
+use durer_surfaces::{
+    AxisBox, Clip, EllipticCylinder, Frustum, Mesh, MeshData, Need, Placed, Plane, Quadric, Region, Side,
+    Sphere,
+};
 use std::sync::Arc;
 
 fn ball(x: f64, y: f64, z: f64, r: f64) -> Sphere {
@@ -154,6 +157,117 @@ fn a_filter_sees_every_hit_and_may_stop() {
         });
         assert_eq!((stopped, calls), (!buffer.is_empty(), usize::from(!buffer.is_empty())));
     }
+}
+
+/// A cone whose wall a ray enters and whose disc it leaves behind it, both at one rounded `t`: found by the examiner in `tests/outside`.
+#[test]
+fn a_cone_clipped_at_its_rim_is_entered_first() {
+    let map = Affine::new(
+        [[1.0, -4.0, 8.0], [4.0, -7.0, -4.0], [-8.0, -4.0, -1.0]],
+        Point3::new(125.0, 0.125, 0.0),
+    );
+    let base = Point3::new(2048.0, 5120.0, 7168.0);
+    let cone = Frustum::new(base, 39936.0, Point3::new(12288.0, 10240.0, -3072.0), 39936.0).unwrap();
+    let world = Geometry::builder().add(Placed::new(cone, map.unwrap())).build().unwrap();
+    let origin = Point3::new(316870.8445767619, -19390.6469906667, -125622.15542323812);
+    let ray = Ray::new(origin, Vec3::new(-0.5, -0.875, -0.5));
+    let all = world.all(&ray);
+    assert_eq!(all.iter().map(|h| h.sign).collect::<Vec<_>>(), [-1, 1]);
+    assert_eq!(all[0].t, all[1].t);
+    assert_eq!(world.closest(&ray), Some(all[0]));
+    assert_eq!(world.closest_batch(&[ray]), [Some(all[0])]);
+    assert_eq!(world.all_batch(&[ray]).of(0), all);
+}
+
+/// Found by the examiner in `tests/outside`: the ray leaves the first of these, a cylinder clipped by a half-space, at `t` of about 1e321.
+#[test]
+fn what_is_met_beyond_all_numbers_is_not_met() {
+    let clipped = Clip::new(
+        EllipticCylinder::new(1.0, 5.0).unwrap(),
+        vec![Region::half_space(-Vec3::Y.to_normal(), 0.0).unwrap()],
+    );
+    let map = Affine::new(
+        [[0.00390625, 0.0, 0.0], [0.0, 0.001953125, 0.0], [0.0, 0.0, 128.0]],
+        Point3::new(0.0, 1000.0, 1000.0),
+    );
+    let first = Geometry::builder().add(Placed::new(clipped, map.unwrap())).build().unwrap();
+    let origin = Point3::new(0.0015024038461538462, 1000.0090144230769, 1000.0);
+    let first_ray = Ray::new(origin, Vec3::new(5e-324, 0.0, 0.6141631519109444));
+    // x² + y² <= 1, and the same as a plane.
+    let pipe = Quadric::new([1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0]).unwrap();
+    let second = Geometry::builder().add(pipe.clone()).build().unwrap();
+    let third = Geometry::builder().add(Plane::new(Vec3::X, 1.0).unwrap()).build().unwrap();
+    let whole = (f64::NEG_INFINITY, f64::INFINITY);
+    let along = |x: f64| Ray::new(Point3::ORIGIN, Vec3::new(x, 0.0, 1.0)).with_range(whole.0, whole.1);
+    for (world, ray) in
+        [(&first, first_ray), (&second, along(5e-324)), (&second, along(-1e-310)), (&third, along(5e-324))]
+    {
+        assert_eq!((world.all(&ray), world.closest(&ray), world.any(&ray)), (vec![], None, false), "{ray:?}");
+        assert!(!world.any_where(&ray, EVERYTHING, |_| true));
+    }
+    for world in [&second, &third] {
+        let spans = world.spans(&along(5e-324));
+        assert_eq!(
+            spans.iter().map(|s| (s.t_in, s.t_out, s.object_in, s.object_out)).collect::<Vec<_>>(),
+            [(whole.0, whole.1, None, None)]
+        );
+        assert!(world.spans(&Ray::new(Point3::new(2.0, 0.0, 0.0), Vec3::new(5e-324, 0.0, 1.0))).is_empty());
+    }
+    // Just within the numbers: met, though a bracket's end may be infinite.
+    for (world, count, x) in
+        [(&second, 2, 1e-307), (&second, 2, 6e-309), (&third, 1, 1e-307), (&third, 1, -1e-307)]
+    {
+        let all = world.all(&along(x));
+        assert_eq!(all.len(), count, "{x:e}: {all:?}");
+        assert!(all.iter().all(|h| h.t.is_finite() && h.t_lo <= h.t && h.t <= h.t_hi), "{all:?}");
+        assert_eq!(world.closest(&along(x)), Some(all[0]));
+    }
+}
+
+#[test]
+fn solids_are_entered_and_left_in_turn_where_t_cannot_tell() {
+    let mut dice = Dice(11);
+    let (mut tied, mut hits) = (0, 0);
+    for _ in 0..60 {
+        // Several in one arena; rays from afar that cut off a corner or a rim by about what `t` can tell.
+        let mut builder = Geometry::builder();
+        let maps = [0; 4].map(|_| dice.affine());
+        for map in &maps {
+            builder.add(Placed::new(AxisBox::new(Point3::ORIGIN, Point3::new(1.0, 1.0, 1.0)).unwrap(), *map));
+            builder.add(Placed::new(
+                Frustum::new(Point3::ORIGIN, 1.0, Point3::new(0.0, 0.0, 1.0), 0.5).unwrap(),
+                *map,
+            ));
+        }
+        let world = builder.build().unwrap();
+        for _ in 0..200 {
+            let map = dice.below(4) as usize;
+            let on_edge = Point3::new(1.0, 0.0, 0.0) + Vec3::Y * (0.5 * dice.signed() + 0.5);
+            let on_rim =
+                if dice.below(2) == 0 { Point3::new(0.0, -1.0, 0.0) } else { Point3::new(0.6, 0.8, 0.0) };
+            let (target, out) = if dice.below(2) == 0 {
+                (on_edge, Vec3::new(1.0, 0.0, -1.0))
+            } else {
+                (on_rim, on_rim.to_vec() - Vec3::Z)
+            };
+            // Nearly across the outward direction.
+            let across = out.cross(dice.vector(1.0));
+            let (target, d) = (maps[map].point(target), maps[map].vector(across));
+            let ray = Ray::new(target - d * 1e5, d);
+            let all = world.all(&ray);
+            assert_eq!(world.closest(&ray), all.first().copied(), "{ray:?}");
+            for object in 0..world.objects() {
+                let one: Vec<_> = all.iter().filter(|h| h.object == object && h.sign != 0).collect();
+                for pair in one.windows(2) {
+                    assert_eq!(pair[0].sign, -pair[1].sign, "{ray:?}: {one:?}");
+                    tied += usize::from(pair[0].t == pair[1].t);
+                }
+                assert!(one.first().is_none_or(|h| h.sign == -1), "{ray:?}: {one:?}");
+                hits += one.len();
+            }
+        }
+    }
+    assert!(tied > 1000 && hits > 10_000, "{tied} ties, {hits} hits");
 }
 
 #[test]

@@ -315,7 +315,7 @@ impl Reader<'_> {
         let source = &self.sources[place.file as usize];
         let at = self.messages.locate(source, place);
         let path = source.path.clone();
-        self.messages.push(Message { kind, path, at, text });
+        self.messages.push(place, Message { kind, path, at, text });
     }
 
     /// The reader's own warning.

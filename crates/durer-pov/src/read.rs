@@ -47,7 +47,8 @@ impl Default for ReadOptions {
 pub struct Read {
     /// The scene.
     pub scene: durer_scene::Scene,
-    /// `#debug`, `#warning` and the reader's own warnings, in their order (the first ten thousand).
+    /// `#debug`, `#warning` and the reader's own warnings, in their order (the first ten thousand). A `#warning` that says the same
+    /// again is said once, and once more at the end with the number of times.
     pub messages: Vec<Message>,
     /// The files, for messages about a [`durer_scene::Place`].
     pub sources: Sources,
@@ -116,7 +117,9 @@ fn on_this_thread<'a>(
     limits::reset_memory();
     let library = Library::new(path, &options.library_paths);
     let mut reader = Reader::new(options, library, Messages::new(listener));
-    match reader.scene(path) {
+    let scene = reader.scene(path);
+    reader.messages.finish();
+    match scene {
         Ok(scene) => {
             let messages = std::mem::take(&mut reader.messages.kept);
             let sources = reader.sources.drain(..).map(|source| {

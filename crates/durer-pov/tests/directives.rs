@@ -165,6 +165,38 @@ fn messages_are_kept_in_their_order() {
 }
 
 #[test]
+fn warnings_that_repeat_themselves_are_counted() {
+    let texts = |source: &str| -> Vec<String> {
+        read(source).unwrap().messages.into_iter().map(|m| m.text).collect()
+    };
+    assert_eq!(
+        texts("#for (I, 1, 5000) #warning \"again\\n\" #end #debug \"x\""),
+        ["again\n", "x", "again (said 5000 times)"]
+    );
+    // Two places that take turns are two warnings.
+    assert_eq!(
+        texts("#for (I, 1, 3) #warning \"a\" #warning \"b\" #end"),
+        ["a", "b", "a (said 3 times)", "b (said 3 times)"]
+    );
+    // What changes is told, up to a point; what is printed on purpose always.
+    assert_eq!(
+        texts("#for (I, 1, 4) #warning str(div(I, 3), 0, 0) #end"),
+        ["0", "0 (said 2 times)", "1", "1 (said 2 times)"]
+    );
+    let many = texts("#for (I, 1, 5000) #warning str(I, 0, 0) #end");
+    assert_eq!(
+        (many.len(), many[999].as_str(), many[1000].as_str()),
+        (1001, "1000", "4000 more warnings from here are not shown")
+    );
+    assert_eq!(texts("#for (I, 1, 3) #debug \".\" #end"), [".", ".", "."]);
+    // In a scene that fails, too.
+    let (folder, mut said) = (Folder::new(), Vec::new());
+    let file = folder.write("scene.pov", "#while (1) #warning \"again\" #end");
+    let failed = durer_pov::read_with(&file, &ReadOptions::default(), |m| said.push(m.text.clone()));
+    assert!(failed.is_err() && said.len() == 2 && said[1].starts_with("again (said "), "{said:?}");
+}
+
+#[test]
 fn what_cannot_be_done_yet_may_be_defined_but_not_used() {
     let defined = "#declare T = torus { 2, 0.5 } #declare F = function(x,y) { x*y } #declare S = spline { linear_spline 0,x 1,y }
         #declare M = texture { pigment { granite turbulence 0.5 color_map { [0 rgb 0][1 rgb 1] } } normal { bumps 1 } } texture { pigment { marble } }

@@ -54,7 +54,7 @@ impl<'a> Progress<'a> {
         self
     }
 
-    /// Begins no further tile once `cancel` is true: what is done by then stays on the film, the rest is clear.
+    /// Traces no further ray once `cancel` is true: pixels that are finished by then stay on the film, the rest is clear.
     #[must_use]
     pub fn cancelled_by(mut self, cancel: &'a AtomicBool) -> Self {
         self.cancel = Some(cancel);

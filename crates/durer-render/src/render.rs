@@ -97,7 +97,7 @@ fn render_here(
         },
     ));
     tiles.into_par_iter().for_each_init(
-        || Whitted::new(world, camera.pixel_width(width)),
+        || Whitted::new(world, camera.pixel_width(width)).stopped_by(progress),
         |tracer, tile| {
             if progress.is_cancelled() {
                 skipped.fetch_add(1, Ordering::Relaxed);
@@ -109,13 +109,18 @@ fn render_here(
                 // The place in the picture, to the last bit, names the ray.
                 let seed = x.to_bits().rotate_left(32) ^ y.to_bits();
                 let ray = camera.ray(on_picture(x, width), on_picture(y, height));
-                tracer.camera_ray(&ray, seed, beams.at(x, y))
+                let colour = tracer.camera_ray(&ray, seed, beams.at(x, y));
+                // What was stopped on its way is no colour.
+                (!progress.is_cancelled()).then_some(colour)
             });
+            if (pixels.len() as u64) < tile.pixels() {
+                skipped.fetch_add(1, Ordering::Relaxed);
+            }
             // A thread that panicked has put nothing half-way.
             let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
             let (film, status) = &mut *shared;
             film.put(tile, &pixels);
-            status.pixels_done += tile.pixels();
+            status.pixels_done += pixels.len() as u64;
             status.rays += tracer.counts;
             status.elapsed = start.elapsed();
             progress.tell(status);

@@ -295,3 +295,54 @@ fn what_is_cancelled_keeps_what_is_done() {
     assert_eq!(rendered.status.pixels_done, 32 * 32);
     assert_eq!(rendered.film.pixels().iter().filter(|p| p.alpha == 1.0).count(), 32 * 32);
 }
+
+/// Ctrl-C is answered within about a second, however long one pixel takes.
+#[test]
+fn a_pixel_that_takes_years_can_be_cancelled() {
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::time::{Duration, Instant};
+    // Each surface reflects all and lets all pass: two rays become four, and so on.
+    let reflection = Some(Box::new(Reflection::constant(Rgb::WHITE)));
+    let both = || paint(1.0, 1.0, Finish { reflection: reflection.clone(), ..dark() });
+    let shell = |i: i32| ball(Point3::new(2.0, 0.0, 5.0), 0.02 * f64::from(i)).with_texture(both());
+    let mut scene = Scene {
+        objects: (1..=60).map(shell).collect(),
+        camera: Some(Camera::default()),
+        background: Background(Colour::opaque(Rgb::WHITE)),
+        ..Scene::default()
+    };
+    scene.settings.max_trace_level = 200;
+    scene.settings.adc_bailout = 0.0;
+    let world = World::new(&scene).unwrap();
+    for anti_aliasing in [AntiAliasing::Off, AntiAliasing::Method2 { threshold: 0.3, depth: 3 }] {
+        let cancel = AtomicBool::new(false);
+        let (settings, progress) = (
+            RenderSettings { width: 20, height: 15, anti_aliasing, threads: Some(2), ..Default::default() },
+            Progress::none().cancelled_by(&cancel),
+        );
+        let start = Instant::now();
+        let (rendered, waited) = std::thread::scope(|scope| {
+            let work = scope.spawn(|| render(&world, &settings, &progress).unwrap());
+            std::thread::sleep(Duration::from_millis(500));
+            cancel.store(true, Ordering::Relaxed);
+            (work.join().unwrap(), start.elapsed())
+        });
+        assert!(waited < Duration::from_secs(3), "{waited:?}");
+        assert!(rendered.cancelled && !rendered.film.is_complete());
+        // What was done before: white, from the top left on.
+        let done = rendered.film.pixels().iter().filter(|p| p.alpha == 1.0).count();
+        assert!(done > 20 && rendered.film.pixel(0, 0).unwrap().rgb == Rgb::WHITE, "{done}");
+        assert_eq!(rendered.status.pixels_done, done as u64);
+    }
+}
+
+/// Rays that pass unbent do not raise the level: thousands of sheets in a row must neither exhaust a thread's stack nor turn black.
+#[test]
+fn thousands_of_clear_sheets_are_seen_through() {
+    let disc =
+        |z: f64| Shape::Disc { centre: Point3::new(0.0, 0.0, z), normal: Vec3::Z, radius: 1.0, hole: 0.0 };
+    let sheet = |i: i32| Object::new(disc(f64::from(i))).with_texture(clear());
+    let background = |objects: Vec<Object>| seen(objects, 0.5, Point3::new(0.0, 0.0, -1.0), Vec3::Z, 5);
+    assert_eq!(background((0..4000).map(sheet).collect()), background(Vec::new()));
+    assert_eq!(background((0..4200).map(sheet).collect()), 0.0);
+}

@@ -21,7 +21,7 @@ pub trait Sink {
     fn push(&mut self, root: Root) -> Flow;
 }
 
-/// Keeps the least root by (t, face).
+/// Keeps the least root by `t`; of equal ones the first, since surfaces push in the exact order.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Closest {
     /// The least root so far.
@@ -36,7 +36,7 @@ impl Sink for Closest {
 
     #[inline(always)]
     fn push(&mut self, root: Root) -> Flow {
-        if self.root.is_none_or(|best| root.order(&best).is_lt()) {
+        if self.root.is_none_or(|best| root.t < best.t) {
             self.root = Some(root);
         }
         Flow::Continue

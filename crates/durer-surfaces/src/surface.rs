@@ -84,7 +84,7 @@ pub struct Root {
 }
 
 impl Root {
-    /// The order of hits on one surface: by `t`, then by face.
+    /// By `t`, then by face: the order of crossings whose exact order is not known, those of different faces of a mesh.
     pub fn order(&self, other: &Self) -> Ordering {
         self.t.total_cmp(&other.t).then(self.face.cmp(&other.face))
     }

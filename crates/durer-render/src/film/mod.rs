@@ -70,10 +70,10 @@ impl Film {
         self.pixels.iter().all(|p| p.alpha == 1.0)
     }
 
-    /// Puts the pixels of `region`, row by row, into their places.
+    /// Puts the pixels of `region`, row by row, into their places; there may be fewer than it has.
     pub(crate) fn put(&mut self, region: Region, pixels: &[Rgb]) {
         let columns = (region.x1 - region.x0) as usize;
-        for (row, from) in (region.y0..region.y1).zip(pixels.chunks_exact(columns)) {
+        for (row, from) in (region.y0..region.y1).zip(pixels.chunks(columns)) {
             let start = row as usize * self.width as usize + region.x0 as usize;
             for (pixel, &rgb) in self.pixels[start..start + columns].iter_mut().zip(from) {
                 *pixel = Pixel { rgb, alpha: 1.0 };

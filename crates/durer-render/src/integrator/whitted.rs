@@ -2,7 +2,8 @@
 //!
 //! T. Whitted, "An improved illumination model for shaded display", Communications of the ACM 23(6), 1980: at each hit, shadow rays to the
 //! lights, one mirrored and one refracted ray. The camera's rays have level 1, mirrored and bent ones one more than the ray before; where the
-//! level is `max_trace_level`, and where a ray would count for less than `adc_bailout`, black is seen instead.
+//! level is `max_trace_level`, and where a ray would count for less than `adc_bailout`, black is seen instead. What passes unbent does not
+//! raise the level; so many clear sheets may lie in a row, up to 4096.
 //!
 //! Layers of paint are worked through from the outermost: each adds its own light, times what the layers above let pass; what all of them
 //! let pass is seen behind the surface. Reflections of all layers are added as they are.
@@ -12,6 +13,7 @@
 
 use super::cells::Cells;
 use crate::material::{Finish, Incidence, Mirror, reflectance, refract};
+use crate::progress::Progress;
 use crate::sampler::random;
 use crate::stats::RayCounts;
 use crate::texture::Coat;
@@ -22,6 +24,13 @@ use durer_geometry::{Beam, Hit};
 use durer_math::{Point3, Ray, Vec3};
 use durer_scene::{Rgb, mask};
 use durer_surfaces::{Need, SurfacePoint};
+
+/// After so many rays in a row the next ones get a stack of their own.
+const HOP: u32 = 128;
+/// Its size: 16 KiB for each.
+const STACK: usize = HOP as usize * 16 * 1024;
+/// Black is seen after so many rays in a row: each keeps a list of the media it is in.
+const DEEPEST: u32 = 4096;
 
 /// Traces rays for one thread; keeps its stacks, so that nothing is allocated for a ray.
 pub(crate) struct Whitted<'w> {
@@ -37,6 +46,8 @@ pub(crate) struct Whitted<'w> {
     pub(crate) counts: RayCounts,
     /// What random numbers depend on: the place in the picture, and how many were drawn there.
     seed: (u64, u64),
+    /// Whether the caller has had enough.
+    stop: Progress<'w>,
 }
 
 /// A layer that light changes.
@@ -66,6 +77,8 @@ struct Mirrored<'w> {
 pub(super) struct Node {
     /// The camera's rays have level 1.
     level: u32,
+    /// How many rays lead to it; those that pass unbent do not raise the level.
+    depth: u32,
     /// The greatest channel of what its colour will be multiplied by.
     weight: f64,
     /// How long the way from the camera to its start is.
@@ -106,7 +119,14 @@ impl<'w> Whitted<'w> {
             pixel,
             counts: RayCounts::default(),
             seed: (0, 0),
+            stop: Progress::none(),
         }
+    }
+
+    /// Follows no further ray once this is cancelled, also within one pixel; what is answered then is no colour.
+    #[must_use]
+    pub(crate) fn stopped_by(self, stop: &Progress<'w>) -> Self {
+        Self { stop: *stop, ..self }
     }
 
     /// The colour seen along a ray of the camera; `seed` names its place in the picture, `beam` holds what it may meet, if that is known.
@@ -116,7 +136,7 @@ impl<'w> Whitted<'w> {
         self.media.clear();
         self.world.media_around(ray.origin, &mut self.media);
         let media = 0..self.media.len();
-        let node = Node { level: 1, weight: 1.0, way: 0.0, mask: mask::CAMERA, media };
+        let node = Node { level: 1, depth: 0, weight: 1.0, way: 0.0, mask: mask::CAMERA, media };
         let geometry = self.world.geometry();
         let hit = match beam {
             Some(beam) => geometry.seen_in(beam, ray, node.mask),
@@ -127,8 +147,34 @@ impl<'w> Whitted<'w> {
 
     /// The colour seen along a ray.
     fn look(&mut self, ray: &Ray, node: Node) -> Rgb {
+        if self.stop.is_cancelled() {
+            return Rgb::BLACK;
+        }
+        if node.depth > 0 && node.depth.is_multiple_of(HOP) {
+            return self.look_on_a_new_stack(ray, node);
+        }
         let hit = self.world.geometry().seen(ray, node.mask);
         self.seen(ray, hit, node)
+    }
+
+    /// Thousands of clear sheets in a row make recursions that no thread's stack would hold.
+    #[cold]
+    fn look_on_a_new_stack(&mut self, ray: &Ray, node: Node) -> Rgb {
+        if node.depth >= DEEPEST {
+            return Rgb::BLACK;
+        }
+        std::thread::scope(|scope| {
+            let thread = std::thread::Builder::new().stack_size(STACK);
+            let look = || {
+                let hit = self.world.geometry().seen(ray, node.mask);
+                self.seen(ray, hit, node)
+            };
+            match thread.spawn_scoped(scope, look) {
+                Ok(work) => work.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+                // No more threads: as deep as this system goes.
+                Err(_) => Rgb::BLACK,
+            }
+        })
     }
 
     /// The colour of what a ray meets first.
@@ -281,7 +327,8 @@ impl<'w> Whitted<'w> {
         let base = media.start;
         self.counts.transmitted += 1;
         let ray = place.point.spawn(direction);
-        let seen = self.look(&ray, Node { level, weight, way: place.way, mask: node.mask, media });
+        let depth = node.depth + 1;
+        let seen = self.look(&ray, Node { level, depth, weight, way: place.way, mask: node.mask, media });
         self.media.truncate(base);
         (seen * passed * faded, false)
     }
@@ -323,7 +370,8 @@ impl<'w> Whitted<'w> {
         let level = node.level + 1;
         self.counts.reflected += 1;
         let ray = place.point.spawn(reflect(place.eye, place.normal));
-        self.look(&ray, Node { level, weight, way: place.way, mask: mask::MIRROR, media: node.media.clone() })
+        let (depth, media) = (node.depth + 1, node.media.clone());
+        self.look(&ray, Node { level, depth, weight, way: place.way, mask: mask::MIRROR, media })
     }
 
     fn random(&mut self) -> f64 {

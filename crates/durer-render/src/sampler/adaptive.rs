@@ -31,8 +31,8 @@ pub(super) fn method1(
     tile: Region,
     (width, height): (u32, u32),
     pixels: &mut Vec<Rgb>,
-    look: &mut impl FnMut(f64, f64) -> Rgb,
-) {
+    look: &mut impl FnMut(f64, f64) -> Option<Rgb>,
+) -> Option<()> {
     let (columns, rows) = ((tile.x1 - tile.x0) as usize, (tile.y1 - tile.y0) as usize);
     // One more pixel on every side; beyond the picture its outermost pixels are repeated.
     let mut middles = Vec::with_capacity((columns + 2) * (rows + 2));
@@ -41,7 +41,7 @@ pub(super) fn method1(
             let place = |first: u32, i: usize, size: u32| {
                 (f64::from(first) + i as f64 - 0.5).clamp(0.5, f64::from(size) - 0.5)
             };
-            let colour = look(place(tile.x0, x, width), place(tile.y0, y, height));
+            let colour = look(place(tile.x0, x, width), place(tile.y0, y, height))?;
             middles.push((colour, shown(colour)));
         }
     }
@@ -53,15 +53,22 @@ pub(super) fn method1(
             let around = [at - 1, at + 1, at - stride, at + stride];
             let rough = around.iter().any(|&i| difference(here, middles[i].1) >= threshold);
             pixels.push(if rough {
-                finer(depth, colour, tile.x0 + x as u32, tile.y0 + y as u32, look)
+                finer(depth, colour, tile.x0 + x as u32, tile.y0 + y as u32, look)?
             } else {
                 colour
             });
         }
     }
+    Some(())
 }
 
-fn finer(depth: u32, first: Rgb, x: u32, y: u32, look: &mut impl FnMut(f64, f64) -> Rgb) -> Rgb {
+fn finer(
+    depth: u32,
+    first: Rgb,
+    x: u32,
+    y: u32,
+    look: &mut impl FnMut(f64, f64) -> Option<Rgb>,
+) -> Option<Rgb> {
     let per = 1.0 / f64::from(depth);
     let mut sum = first;
     for j in 0..depth {
@@ -71,10 +78,10 @@ fn finer(depth: u32, first: Rgb, x: u32, y: u32, look: &mut impl FnMut(f64, f64)
             sum += look(
                 f64::from(x) + (middle(i) + shift(0)) * per,
                 f64::from(y) + (middle(j) + shift(1)) * per,
-            );
+            )?;
         }
     }
-    sum * (1.0 / f64::from(depth * depth + 1))
+    Some(sum * (1.0 / f64::from(depth * depth + 1)))
 }
 
 /// Recursive: a pixel is the mean of its corners, or of its four quarters where any two corners differ.
@@ -85,15 +92,15 @@ pub(super) fn method2(
     depth: u32,
     tile: Region,
     pixels: &mut Vec<Rgb>,
-    look: &mut impl FnMut(f64, f64) -> Rgb,
-) {
+    look: &mut impl FnMut(f64, f64) -> Option<Rgb>,
+) -> Option<()> {
     let cells = 1_usize << depth;
     let columns = (tile.x1 - tile.x0) as usize;
     let mut corner = |x: u64, y: u64| {
         let shift = |dimension| random(x, y, dimension) - 0.5;
         let per = 1.0 / cells as f64;
-        let colour = look((x as f64 + shift(0)) * per, (y as f64 + shift(1)) * per);
-        (colour, shown(colour))
+        let colour = look((x as f64 + shift(0)) * per, (y as f64 + shift(1)) * per)?;
+        Some((colour, shown(colour)))
     };
     let side = cells + 1;
     let mut known: Vec<Option<(Rgb, Rgb)>> = vec![None; side * side];
@@ -119,13 +126,14 @@ pub(super) fn method2(
                     corner(u64::from(x) * cells as u64 + i as u64, u64::from(y) * cells as u64 + j as u64)
                 },
             };
-            pixels.push(pixel.mean(0, 0, cells));
+            pixels.push(pixel.mean(0, 0, cells)?);
             for (row, corner) in left.iter_mut().enumerate() {
                 *corner = known[row * side + cells];
             }
             above[first..first + side].copy_from_slice(&known[cells * side..]);
         }
     }
+    Some(())
 }
 
 /// A pixel being cut into four.
@@ -136,28 +144,27 @@ struct Quarters<'a, F> {
     corner: F,
 }
 
-impl<F: FnMut(usize, usize) -> (Rgb, Rgb)> Quarters<'_, F> {
-    fn at(&mut self, i: usize, j: usize) -> (Rgb, Rgb) {
+impl<F: FnMut(usize, usize) -> Option<(Rgb, Rgb)>> Quarters<'_, F> {
+    fn at(&mut self, i: usize, j: usize) -> Option<(Rgb, Rgb)> {
         let index = j * self.side + i;
         if let Some(colour) = self.known[index] {
-            return colour;
+            return Some(colour);
         }
-        let colour = (self.corner)(i, j);
-        self.known[index] = Some(colour);
-        colour
+        self.known[index] = Some((self.corner)(i, j)?);
+        self.known[index]
     }
 
     /// The mean over the square of `size` cells with its upper left corner at (i, j).
-    fn mean(&mut self, i: usize, j: usize, size: usize) -> Rgb {
+    fn mean(&mut self, i: usize, j: usize, size: usize) -> Option<Rgb> {
         let corners =
-            [self.at(i, j), self.at(i + size, j), self.at(i, j + size), self.at(i + size, j + size)];
+            [self.at(i, j)?, self.at(i + size, j)?, self.at(i, j + size)?, self.at(i + size, j + size)?];
         let differ = |a: usize| (a + 1..4).any(|b| difference(corners[a].1, corners[b].1) >= self.threshold);
         if size > 1 && (0..3).any(differ) {
             let half = size / 2;
-            let upper = self.mean(i, j, half) + self.mean(i + half, j, half);
-            let lower = self.mean(i, j + half, half) + self.mean(i + half, j + half, half);
-            return (upper + lower) * 0.25;
+            let upper = self.mean(i, j, half)? + self.mean(i + half, j, half)?;
+            let lower = self.mean(i, j + half, half)? + self.mean(i + half, j + half, half)?;
+            return Some((upper + lower) * 0.25);
         }
-        (corners[0].0 + corners[1].0 + corners[2].0 + corners[3].0) * 0.25
+        Some((corners[0].0 + corners[1].0 + corners[2].0 + corners[3].0) * 0.25)
     }
 }

@@ -16,35 +16,42 @@ fn bounded(depth: u32) -> u32 {
 }
 
 /// Renders the pixels of `tile`, a part of a picture of the given size, row by row. `look` answers with the colour at a place of the picture, measured in pixels from the top left.
+///
+/// Where it answers `None` the work ends: what is returned are the pixels that were finished before.
 pub(crate) fn sample_tile(
     aa: AntiAliasing,
     tile: Region,
     picture: (u32, u32),
-    mut look: impl FnMut(f64, f64) -> Rgb,
+    mut look: impl FnMut(f64, f64) -> Option<Rgb>,
 ) -> Vec<Rgb> {
     let mut pixels = Vec::with_capacity(tile.pixels() as usize);
-    match aa {
-        AntiAliasing::Off => each_pixel(tile, |x, y| pixels.push(look(middle(x), middle(y)))),
+    let _: Option<()> = match aa {
+        AntiAliasing::Off => each_pixel(tile, &mut pixels, |x, y| look(middle(x), middle(y))),
         AntiAliasing::Grid(n) => {
             let n = n.clamp(1, 1 << AntiAliasing::MAX_DEPTH);
-            each_pixel(tile, |x, y| pixels.push(grid(n, x, y, &mut look)));
+            each_pixel(tile, &mut pixels, |x, y| grid(n, x, y, &mut look))
         }
         AntiAliasing::Method1 { threshold, depth } => {
-            adaptive::method1(threshold, bounded(depth), tile, picture, &mut pixels, &mut look);
+            adaptive::method1(threshold, bounded(depth), tile, picture, &mut pixels, &mut look)
         }
         AntiAliasing::Method2 { threshold, depth } => {
-            adaptive::method2(threshold, bounded(depth), tile, &mut pixels, &mut look);
+            adaptive::method2(threshold, bounded(depth), tile, &mut pixels, &mut look)
         }
-    }
+    };
     pixels
 }
 
-fn each_pixel(tile: Region, mut f: impl FnMut(u32, u32)) {
+fn each_pixel(
+    tile: Region,
+    pixels: &mut Vec<Rgb>,
+    mut pixel: impl FnMut(u32, u32) -> Option<Rgb>,
+) -> Option<()> {
     for y in tile.y0..tile.y1 {
         for x in tile.x0..tile.x1 {
-            f(x, y);
+            pixels.push(pixel(x, y)?);
         }
     }
+    Some(())
 }
 
 fn middle(x: u32) -> f64 {
@@ -52,15 +59,15 @@ fn middle(x: u32) -> f64 {
 }
 
 /// The mean of `n x n` evenly spread rays.
-fn grid(n: u32, x: u32, y: u32, look: &mut impl FnMut(f64, f64) -> Rgb) -> Rgb {
+fn grid(n: u32, x: u32, y: u32, look: &mut impl FnMut(f64, f64) -> Option<Rgb>) -> Option<Rgb> {
     let per = 1.0 / f64::from(n);
     let mut sum = Rgb::BLACK;
     for j in 0..n {
         for i in 0..n {
-            sum += look(f64::from(x) + middle(i) * per, f64::from(y) + middle(j) * per);
+            sum += look(f64::from(x) + middle(i) * per, f64::from(y) + middle(j) * per)?;
         }
     }
-    sum * (per * per)
+    Some(sum * (per * per))
 }
 
 #[cfg(test)]
@@ -70,8 +77,8 @@ mod tests {
     const TILE: Region = Region { x0: 2, y0: 1, x1: 6, y1: 4 };
 
     /// A white half plane right of x = 3.7.
-    fn edge(x: f64, _: f64) -> Rgb {
-        Rgb::grey(f64::from(x > 3.7))
+    fn edge(x: f64, _: f64) -> Option<Rgb> {
+        Some(Rgb::grey(f64::from(x > 3.7)))
     }
 
     #[test]
@@ -108,7 +115,7 @@ mod tests {
 
     #[test]
     fn tiles_do_not_change_the_picture() {
-        let wavy = |x: f64, y: f64| Rgb::grey(f64::from((x * 0.7 + (y * 0.3).floor()) as i64 % 2 == 0));
+        let wavy = |x: f64, y: f64| Some(Rgb::grey(f64::from((x * 0.7 + (y * 0.3).floor()) as i64 % 2 == 0)));
         for aa in [
             AntiAliasing::Method1 { threshold: 0.3, depth: 3 },
             AntiAliasing::Method2 { threshold: 0.3, depth: 3 },
@@ -119,6 +126,34 @@ mod tests {
             let joined: Vec<Rgb> =
                 left.chunks(4).zip(right.chunks(4)).flat_map(|(l, r)| [l, r].concat()).collect();
             assert_eq!(whole, joined, "{aa:?}");
+        }
+    }
+
+    #[test]
+    fn what_ends_early_leaves_finished_pixels_only() {
+        for aa in [
+            AntiAliasing::Off,
+            AntiAliasing::Grid(3),
+            AntiAliasing::Method1 { threshold: 0.3, depth: 2 },
+            AntiAliasing::Method2 { threshold: 0.3, depth: 2 },
+        ] {
+            let whole = sample_tile(aa, TILE, (6, 4), edge);
+            let rays = |most: usize| {
+                let mut rays = 0;
+                let pixels = sample_tile(aa, TILE, (6, 4), |x, y| {
+                    rays += 1;
+                    edge(x, y).filter(|_| rays <= most)
+                });
+                assert!(whole.starts_with(&pixels), "{aa:?}: {most} rays, {} pixels", pixels.len());
+                (rays, pixels.len())
+            };
+            let (all, _) = rays(usize::MAX);
+            let done: Vec<_> = (0..=all).map(rays).map(|(_, pixels)| pixels).collect();
+            assert!(
+                done.is_sorted() && done[0] == 0 && done[all - 1] < 12 && done[all] == 12,
+                "{aa:?}: {done:?}"
+            );
+            assert!((1..all).all(|most| rays(most).0 == most + 1), "{aa:?}: it went on");
         }
     }
 }
