@@ -1,6 +1,6 @@
 //! Quadrics by their names.
 
-use durer_math::{Affine, Point3};
+use durer_math::Affine;
 use durer_surfaces::quadric::axial::Wall;
 use durer_surfaces::{
     Axial, AxialError, Cone, Ellipsoid, EllipticCylinder, EllipticParaboloid, HyperbolicCylinder,
@@ -27,10 +27,9 @@ pub(super) fn build(
         QuadricKind::EllipticCone => add.piece(Cone::new(a, b, c)),
         QuadricKind::EllipticCylinder => add.piece(EllipticCylinder::new(a, b)),
         QuadricKind::HyperbolicCylinder => add.piece(HyperbolicCylinder::new(a, b)),
-        // Those of degree one in z (or y) have that axis in units of their last semi-axis.
-        QuadricKind::EllipticParaboloid => add.stretched([1.0, 1.0, c], EllipticParaboloid::new(a, b)),
-        QuadricKind::HyperbolicParaboloid => add.stretched([1.0, 1.0, c], HyperbolicParaboloid::new(a, b)),
-        QuadricKind::ParabolicCylinder => add.stretched([1.0, b, 1.0], ParabolicCylinder::new(a)),
+        QuadricKind::EllipticParaboloid => add.piece(EllipticParaboloid::new(a, b, c)),
+        QuadricKind::HyperbolicParaboloid => add.piece(HyperbolicParaboloid::new(a, b, c)),
+        QuadricKind::ParabolicCylinder => add.piece(ParabolicCylinder::new(a, b)),
     }
 }
 
@@ -60,27 +59,5 @@ impl Adder<'_, '_> {
         self.target.contain(&closed, self.map);
         self.target.add_rare(shown, self.map);
         Ok(())
-    }
-
-    /// The surface stretched along the axes before it is placed. Its ends are rounded once where the stretch is no power of two.
-    fn stretched<W: Wall + 'static>(
-        &mut self,
-        by: [f64; 3],
-        whole: std::result::Result<Axial<W>, AxialError>,
-    ) -> Result<()> {
-        if by == [1.0; 3] {
-            return self.piece(whole);
-        }
-        let [x, y, z] = by;
-        if let Some(bad) = by.into_iter().find(|s| !(s.is_finite() && *s > 0.0)) {
-            return Err(shape_error(format!("the semi-axes must be finite and positive, got {bad}")));
-        }
-        let stretch = Affine::new([[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]], Point3::ORIGIN)?;
-        let map = match self.map {
-            None => stretch,
-            Some(map) => stretch.then(map)?,
-        };
-        let extent = self.extent.map(|ends| ends.map(|end| end / z));
-        Adder { open: self.open, map: Some(&map), extent, target: self.target }.piece(whole)
     }
 }
