@@ -500,7 +500,8 @@ impl Oracle for ExactBody {
     fn face_normal(&self, face: u32, point: &[Exact; 3]) -> Vec3 {
         let g = self.faces[face as usize].half_gradient(point);
         // By a power of two to about one, so that any scale fits.
-        let top = g.iter().map(|x| x.m.clone().unsigned_abs_bits() as i64 + x.e).max().unwrap_or(0);
+        let nonzero = g.iter().filter(|x| x.sign().is_ne());
+        let top = nonzero.map(|x| x.m.clone().unsigned_abs_bits() as i64 + x.e).max().unwrap_or(0);
         Vec3::from(g.map(|x| x.shifted(-top).to_f64()))
     }
 
