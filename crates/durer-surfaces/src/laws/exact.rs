@@ -519,6 +519,44 @@ impl Oracle for ExactBody {
     }
 }
 
+/// What of a surface lies where some polynomials are not positive: a sheet.
+#[derive(Clone, Debug)]
+pub struct Clipped<O> {
+    /// The surface.
+    pub whole: O,
+    /// The polynomials.
+    pub cuts: Vec<ExactForm>,
+}
+
+impl<O: Oracle> Oracle for Clipped<O> {
+    fn crossings(&self, line: &Line) -> Vec<Crossing> {
+        let cuts: Vec<Poly> = self.cuts.iter().map(|f| f.along(line)).collect();
+        let mut all = self.whole.crossings(line);
+        all.retain(|c| cuts.iter().all(|q| c.t.sign_of(q).is_le()));
+        all
+    }
+
+    fn face_side(&self, face: u32, point: &[Exact; 3]) -> Ordering {
+        self.whole.face_side(face, point)
+    }
+
+    fn face_normal(&self, face: u32, point: &[Exact; 3]) -> Vec3 {
+        self.whole.face_normal(face, point)
+    }
+
+    fn side(&self, _: &[Exact; 3]) -> Option<Ordering> {
+        None
+    }
+
+    fn size(&self) -> f64 {
+        self.whole.size()
+    }
+
+    fn is_convex(&self) -> bool {
+        false
+    }
+}
+
 /// The point of a line nearest to `t`, in f64: for messages.
 pub fn near(line: &Line, t: &Surd) -> Point3 {
     Point3::from(line.at(&t.about(200)).map(|x| x.to_f64()))
