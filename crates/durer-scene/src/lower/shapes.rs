@@ -4,8 +4,8 @@ use std::fmt::Display;
 
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
-    Algebraic, Annulus, AxisBox, CappedCylinder, Disc, FLAT, FillRule, Frustum, Parallelogram, Plane,
-    Polygon, Quadric, Region, Sphere, SphericalSector, Triangle, TriangleError,
+    Algebraic, Annulus, AxisBox, CappedCylinder, Disc, FLAT, Frustum, Parallelogram, Plane, Polygon, Quadric,
+    Region, Sphere, SphericalSector, Triangle, TriangleError,
 };
 
 use super::build::{Inside, Target};
@@ -158,8 +158,8 @@ fn flat(shape: &Shape, map: Option<&Affine>, mut target: Target<'_>) -> Result<B
                 Err(e) => return Err(shape_error(e)),
             }
         }
-        Shape::Polygon(outlines) => {
-            target.add_rare(Polygon::new(outlines, FillRule::EvenOdd).map_err(shape_error)?, map);
+        Shape::Polygon { loops, rule } => {
+            target.add_rare(Polygon::new(loops, *rule).map_err(shape_error)?, map);
         }
         Shape::Mesh(data) => {
             let mesh = mesh(data)?;
@@ -278,7 +278,7 @@ fn name(shape: &Shape) -> &'static str {
         Shape::Parallelogram { .. } => "a parallelogram",
         Shape::Triangle(_) => "a triangle",
         Shape::SmoothTriangle(_) => "a smooth triangle",
-        Shape::Polygon(_) => "a polygon",
+        Shape::Polygon { .. } => "a polygon",
         Shape::Mesh(_) => "a mesh",
         Shape::Quadric(_) => "a quadric",
         Shape::Named(_) => "a named quadric",
