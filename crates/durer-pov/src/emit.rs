@@ -288,9 +288,10 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
         Shape::SmoothTriangle(both) => {
             scene::Shape::SmoothTriangle(Box::new((both.0.map(point), both.1.map(vector))))
         }
-        Shape::Polygon(loops) => scene::Shape::Polygon(
-            loops.iter().map(|points| points.iter().copied().map(point).collect()).collect(),
-        ),
+        Shape::Polygon(loops, rule) => scene::Shape::Polygon {
+            loops: loops.iter().map(|points| points.iter().copied().map(point).collect()).collect(),
+            rule: *rule,
+        },
         Shape::Mesh(mesh) => {
             let faces = mesh.faces.iter().map(|face| scene::Face {
                 vertices: face.vertices,

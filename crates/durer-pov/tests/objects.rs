@@ -3,7 +3,7 @@
 mod support;
 
 use durer_math::{Point3, Vec3};
-use durer_scene::{Cells, Pattern, Pigment, PigmentBody, QuadricKind, Scene, Shape, TextureBody};
+use durer_scene::{Cells, FillRule, Pattern, Pigment, PigmentBody, QuadricKind, Scene, Shape, TextureBody};
 use support::scene;
 
 /// The pigment of the top layer of object `index`.
@@ -192,8 +192,23 @@ fn a_polygon_has_the_loops_that_its_points_close() {
     let scene = scene(
         "polygon { 9, <-1,-1>, <1,-1>, <1,1>, <-1,1>, <-1,-1>, <0.5,0.5>, <0.5,-0.5>, <-0.5,-0.5>, <0.5,0.5> }",
     );
-    let Shape::Polygon(loops) = &scene.objects[0].shape else { panic!("no polygon") };
+    let Shape::Polygon { loops, rule } = &scene.objects[0].shape else { panic!("no polygon") };
     assert_eq!(loops.iter().map(Vec::len).collect::<Vec<_>>(), [4, 3]);
+    assert_eq!(*rule, FillRule::EvenOdd);
+}
+
+#[test]
+fn a_polygon_takes_a_fill_rule() {
+    let rule = |words: &str| {
+        let scene = scene(&format!("polygon {{ 4, 0, x, y, 0 {words} pigment {{ rgb 1 }} }}"));
+        match &scene.objects[0].shape {
+            Shape::Polygon { rule, .. } => *rule,
+            other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!(rule(""), FillRule::EvenOdd);
+    assert_eq!(rule("fill_rule even_odd"), FillRule::EvenOdd);
+    assert_eq!(rule("fill_rule non_zero"), FillRule::NonZero);
 }
 
 #[test]

@@ -44,3 +44,4 @@ pub use crate::placement::Placement;
 pub use crate::scene::{AssumedGamma, Background, Scene, Settings};
 pub use crate::shape::{Face, Mesh, NamedQuadric, QuadricKind, Shape};
 pub use crate::texture::{Layer, Pigment, PigmentBody, Texture, TextureBody};
+pub use durer_surfaces::FillRule;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use durer_math::{Point3, Vec3};
 
-use crate::{Object, Texture};
+use crate::{FillRule, Object, Texture};
 
 /// A surface in its object's own frame, not yet checked: lowering builds it and names what is wrong.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,8 +74,13 @@ pub enum Shape {
     Triangle([Point3; 3]),
     /// A triangle with a normal at each corner, interpolated between them.
     SmoothTriangle(Box<([Point3; 3], [Vec3; 3])>),
-    /// A plane polygon of one or more loops, by the even-odd rule. Loops are not repeated at their end.
-    Polygon(Vec<Vec<Point3>>),
+    /// A plane polygon.
+    Polygon {
+        /// Its loops, one or more. Their first points are not repeated at their ends.
+        loops: Vec<Vec<Point3>>,
+        /// What lies inside the loops.
+        rule: FillRule,
+    },
     /// Triangles over shared corners.
     Mesh(Arc<Mesh>),
     /// The general quadric `A x^2 + B y^2 + C z^2 + D xy + E xz + F yz + G x + H y + I z + J = 0`: the ten coefficients in this order.

@@ -178,7 +178,7 @@ impl Mesh {
     }
 
     #[inline(always)]
-    fn facet(&self, number: u32) -> Facet {
+    pub(crate) fn facet(&self, number: u32) -> Facet {
         self.data.faces[number as usize].map(|i| self.data.vertices[i as usize])
     }
 

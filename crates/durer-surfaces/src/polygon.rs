@@ -144,6 +144,11 @@ impl Polygon {
         self.rule
     }
 
+    /// Three vertices that span the plane.
+    pub(crate) fn spanning(&self) -> Facet {
+        self.plane
+    }
+
     #[inline(always)]
     fn probe<'a>(&self, ray: &'a LocalRay<'a>) -> Probe<'a> {
         let (centre, size) = planar::middle(&self.bounds);

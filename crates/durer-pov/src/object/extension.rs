@@ -9,6 +9,7 @@ use crate::keywords::Keyword;
 use crate::names::Name;
 use crate::reader::{Item, Reader};
 use crate::value::Terms;
+use durer_scene::FillRule;
 
 /// A quadric by its name, its axis along z.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -208,16 +209,12 @@ impl Reader<'_> {
     }
 
     /// `fill_rule` of a polygon is written like durer's other settings.
-    pub(crate) fn fill_rule(&mut self) -> Result<()> {
-        let place = self.here();
-        if !self.small_word("fill_rule")? {
-            return Ok(());
-        }
-        if self.small_word("even_odd")? {
-            return Ok(());
+    pub(crate) fn fill_rule(&mut self) -> Result<FillRule> {
+        if !self.small_word("fill_rule")? || self.small_word("even_odd")? {
+            return Ok(FillRule::EvenOdd);
         }
         if self.small_word("non_zero")? {
-            return Err(Fault::unsupported(place, "fill_rule non_zero"));
+            return Ok(FillRule::NonZero);
         }
         self.next()?;
         Err(Fault::invalid(self.here(), "a fill rule is even_odd or non_zero"))

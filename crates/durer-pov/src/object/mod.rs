@@ -16,6 +16,7 @@ use crate::reader::{Item, Reader};
 use crate::texture::{Interior, Layer, Texture};
 use crate::transform::Matrix;
 use crate::value::Value;
+use durer_scene::FillRule;
 
 pub(crate) use extension::Named;
 pub(crate) use mesh::Mesh;
@@ -62,7 +63,7 @@ pub(crate) enum Shape {
     },
     Triangle(Three),
     SmoothTriangle(Box<(Three, Three)>),
-    Polygon(Rc<Vec<Vec<[f64; 3]>>>),
+    Polygon(Rc<Vec<Vec<[f64; 3]>>>, FillRule),
     Mesh(Rc<Mesh>),
     /// Coefficients of x², y², z², xy, xz, yz, x, y, z, 1.
     Quadric(Box<[f64; 10]>),

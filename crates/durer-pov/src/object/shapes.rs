@@ -76,8 +76,8 @@ impl Reader<'_> {
             }
             Keyword::Polygon => {
                 let loops = self.polygon(place)?;
-                self.fill_rule()?;
-                Shape::Polygon(Rc::new(loops))
+                let rule = self.fill_rule()?;
+                Shape::Polygon(Rc::new(loops), rule)
             }
             Keyword::Mesh => self.mesh()?,
             Keyword::Mesh2 => self.mesh2()?,

@@ -42,7 +42,7 @@ impl Target<'_> {
         }
     }
 
-    /// Adds a surface of a rare kind.
+    /// Adds a surface of a rare kind. What is clipped is a sheet: turning it inside out changes nothing.
     pub(super) fn add_rare<S: Algebraic + 'static>(&mut self, surface: S, map: Option<&Affine>) {
         if self.clips.is_empty() {
             self.add_whole(surface, map);
@@ -55,13 +55,7 @@ impl Target<'_> {
         });
     }
 
-    /// Adds a flat surface of a kind that is common where its numbers are final.
-    pub(super) fn add_flat<S: Surface + 'static>(&mut self, surface: S, map: Option<&Affine>) {
-        if map.is_none() && !self.inverse { self.push(surface) } else { self.add_whole(surface, map) }
-    }
-
-    /// Adds a surface that cannot be clipped.
-    pub(super) fn add_whole<S: Surface + 'static>(&mut self, surface: S, map: Option<&Affine>) {
+    fn add_whole<S: Surface + 'static>(&mut self, surface: S, map: Option<&Affine>) {
         let erased = match map {
             None => Erased::new(surface),
             Some(map) => Erased::new(Placed::new(surface, *map)),

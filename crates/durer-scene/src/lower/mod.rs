@@ -73,14 +73,11 @@ pub enum LowerErrorKind {
     /// Its transformation cannot place anything.
     #[error(transparent)]
     Placement(#[from] AffineError),
-    /// What it is clipped by is not a convex solid.
+    /// What it is clipped by is not bounded by planes and quadrics.
     #[error(
-        "clipped_by: {0} cannot clip: spheres, boxes, cylinders, cones, planes, quadrics and their inverses can"
+        "clipped_by: {0} cannot clip: spheres, boxes, cylinders, cones, planes, all quadrics, spherical sectors and their inverses can"
     )]
     Clip(&'static str),
-    /// A shape that cannot be clipped.
-    #[error("clipped_by: {0} cannot be clipped yet")]
-    Clipped(&'static str),
     /// A mesh refers to a texture that it does not have.
     #[error("mesh: face {face} refers to texture {texture}, but there are {count}")]
     MeshTexture {

@@ -4,8 +4,8 @@ use std::fmt::Display;
 
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
-    Algebraic, Annulus, AxisBox, CappedCylinder, Disc, FLAT, FillRule, Frustum, Parallelogram, Plane,
-    Polygon, Quadric, Region, Sphere, SphericalSector, Surface, Triangle, TriangleError,
+    Algebraic, Annulus, AxisBox, CappedCylinder, Disc, FLAT, Frustum, Parallelogram, Plane, Polygon, Quadric,
+    Region, Sphere, SphericalSector, Triangle, TriangleError,
 };
 
 use super::build::{Inside, Target};
@@ -90,9 +90,6 @@ fn add<S: Algebraic + Clone + 'static>(target: &mut Target<'_>, solid: S, map: O
 
 /// The flat ones.
 fn flat(shape: &Shape, map: Option<&Affine>, mut target: Target<'_>) -> Result<Built> {
-    if !target.clips.is_empty() {
-        return Err(LowerErrorKind::Clipped(name(shape)));
-    }
     match shape {
         &Shape::Box { a, b } => {
             let corners = |m: &Affine| {
@@ -119,9 +116,9 @@ fn flat(shape: &Shape, map: Option<&Affine>, mut target: Target<'_>) -> Result<B
                 return Ok(Built::Nothing("disc: its hole is as large as itself, so it is left out".into()));
             }
             if hole > 0.0 {
-                target.add_whole(Annulus::new(centre, normal, hole, radius).map_err(shape_error)?, map);
+                target.add_rare(Annulus::new(centre, normal, hole, radius).map_err(shape_error)?, map);
             } else {
-                target.add_whole(Disc::new(centre, normal, radius).map_err(shape_error)?, map);
+                target.add_rare(Disc::new(centre, normal, radius).map_err(shape_error)?, map);
             }
         }
         &Shape::Parallelogram { corner, u, v } => {
@@ -131,7 +128,7 @@ fn flat(shape: &Shape, map: Option<&Affine>, mut target: Target<'_>) -> Result<B
                 Some(folded) => (None, folded),
                 None => (map, (corner, u, v)),
             };
-            target.add_whole(Parallelogram::new(corner, u, v).map_err(shape_error)?, map);
+            target.add_rare(Parallelogram::new(corner, u, v).map_err(shape_error)?, map);
         }
         Shape::Triangle(corners) => {
             let (map, corners) = match kept_side(map, |m| points(m, corners)) {
@@ -139,7 +136,7 @@ fn flat(shape: &Shape, map: Option<&Affine>, mut target: Target<'_>) -> Result<B
                 None => (map, *corners),
             };
             match Triangle::new(corners) {
-                Ok(triangle) => target.add_flat(triangle, map),
+                Ok(triangle) => target.add_final(triangle, map),
                 Err(TriangleError::Degenerate) => return Ok(Built::Nothing(DEGENERATE.into())),
                 Err(e) => return Err(shape_error(e)),
             }
@@ -155,14 +152,14 @@ fn flat(shape: &Shape, map: Option<&Affine>, mut target: Target<'_>) -> Result<B
             match Triangle::new(corners) {
                 Ok(triangle) => {
                     let normals = normals.map(Vec3::to_normal);
-                    target.add_flat(triangle.with_normals(normals).map_err(shape_error)?, map);
+                    target.add_final(triangle.with_normals(normals).map_err(shape_error)?, map);
                 }
                 Err(TriangleError::Degenerate) => return Ok(Built::Nothing(DEGENERATE.into())),
                 Err(e) => return Err(shape_error(e)),
             }
         }
-        Shape::Polygon(outlines) => {
-            target.add_whole(Polygon::new(outlines, FillRule::EvenOdd).map_err(shape_error)?, map);
+        Shape::Polygon { loops, rule } => {
+            target.add_rare(Polygon::new(loops, *rule).map_err(shape_error)?, map);
         }
         Shape::Mesh(data) => {
             let mesh = mesh(data)?;
@@ -175,9 +172,9 @@ fn flat(shape: &Shape, map: Option<&Affine>, mut target: Target<'_>) -> Result<B
 }
 
 /// Adds a flat-faced solid or sheet.
-fn add_flat<S: Surface + Clone + 'static>(target: &mut Target<'_>, surface: S, map: Option<&Affine>) {
+fn add_flat<S: Algebraic + Clone + 'static>(target: &mut Target<'_>, surface: S, map: Option<&Affine>) {
     target.contain(&surface, map);
-    target.add_flat(surface, map);
+    target.add_final(surface, map);
 }
 
 const DEGENERATE: &str = "triangle: its corners lie on one line, so it is left out";
@@ -233,7 +230,7 @@ fn mesh(data: &Mesh) -> Result<durer_surfaces::Mesh> {
     }
 }
 
-/// The region of a convex solid, placed in the world by its own placement and then by `around`.
+/// The region of a solid that clips, placed in the world by its own placement and then by `around`.
 pub(super) fn region(clip: &Object, around: &Affine) -> Result<Region> {
     let region = match &clip.shape {
         &Shape::Sphere { centre, radius } => {
@@ -254,6 +251,11 @@ pub(super) fn region(clip: &Object, around: &Affine) -> Result<Region> {
         }
         Shape::Quadric(coefficients) => {
             Region::solid(*Quadric::new(**coefficients).map_err(shape_error)?.shape())
+        }
+        Shape::Named(quadric) => named::region(quadric)?,
+        &Shape::SphericalSector { centre, radius, axis, half_angle } => {
+            let sector = SphericalSector::with_half_angle(centre, radius, axis, half_angle);
+            Region::solid(*sector.map_err(shape_error)?.shape())
         }
         shape => return Err(LowerErrorKind::Clip(name(shape))),
     };
@@ -276,7 +278,7 @@ fn name(shape: &Shape) -> &'static str {
         Shape::Parallelogram { .. } => "a parallelogram",
         Shape::Triangle(_) => "a triangle",
         Shape::SmoothTriangle(_) => "a smooth triangle",
-        Shape::Polygon(_) => "a polygon",
+        Shape::Polygon { .. } => "a polygon",
         Shape::Mesh(_) => "a mesh",
         Shape::Quadric(_) => "a quadric",
         Shape::Named(_) => "a named quadric",

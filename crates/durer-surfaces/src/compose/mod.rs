@@ -2,4 +2,5 @@
 
 pub mod affine;
 pub mod clip;
+mod flat;
 pub mod inverse;

@@ -500,7 +500,8 @@ impl Oracle for ExactBody {
     fn face_normal(&self, face: u32, point: &[Exact; 3]) -> Vec3 {
         let g = self.faces[face as usize].half_gradient(point);
         // By a power of two to about one, so that any scale fits.
-        let top = g.iter().map(|x| x.m.clone().unsigned_abs_bits() as i64 + x.e).max().unwrap_or(0);
+        let nonzero = g.iter().filter(|x| x.sign().is_ne());
+        let top = nonzero.map(|x| x.m.clone().unsigned_abs_bits() as i64 + x.e).max().unwrap_or(0);
         Vec3::from(g.map(|x| x.shifted(-top).to_f64()))
     }
 
@@ -515,6 +516,44 @@ impl Oracle for ExactBody {
 
     fn is_convex(&self) -> bool {
         self.convex
+    }
+}
+
+/// What of a surface lies where some polynomials are not positive: a sheet.
+#[derive(Clone, Debug)]
+pub struct Clipped<O> {
+    /// The surface.
+    pub whole: O,
+    /// The polynomials.
+    pub cuts: Vec<ExactForm>,
+}
+
+impl<O: Oracle> Oracle for Clipped<O> {
+    fn crossings(&self, line: &Line) -> Vec<Crossing> {
+        let cuts: Vec<Poly> = self.cuts.iter().map(|f| f.along(line)).collect();
+        let mut all = self.whole.crossings(line);
+        all.retain(|c| cuts.iter().all(|q| c.t.sign_of(q).is_le()));
+        all
+    }
+
+    fn face_side(&self, face: u32, point: &[Exact; 3]) -> Ordering {
+        self.whole.face_side(face, point)
+    }
+
+    fn face_normal(&self, face: u32, point: &[Exact; 3]) -> Vec3 {
+        self.whole.face_normal(face, point)
+    }
+
+    fn side(&self, _: &[Exact; 3]) -> Option<Ordering> {
+        None
+    }
+
+    fn size(&self) -> f64 {
+        self.whole.size()
+    }
+
+    fn is_convex(&self) -> bool {
+        false
     }
 }
 

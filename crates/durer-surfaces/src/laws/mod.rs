@@ -7,7 +7,7 @@ pub mod dice;
 pub mod exact;
 
 pub use dice::{Dice, Feature, aim};
-pub use exact::{Crossing, Exact, ExactBody, ExactForm, Line, Oracle, Surd, exact3, near};
+pub use exact::{Clipped, Crossing, Exact, ExactBody, ExactForm, Line, Oracle, Surd, exact3, near};
 
 use crate::{
     All, Any, Closest, Kind, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint,

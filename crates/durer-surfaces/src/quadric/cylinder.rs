@@ -3,7 +3,7 @@
 //! ```text
 //!   elliptic     x²/a² + y²/b² <= 1
 //!   hyperbolic   x²/a² - y²/b² <= 1      the inside is between the two sheets
-//!   parabolic    x²/a² - y     <= 0      a trough that opens towards +y
+//!   parabolic    x²/a² - y/b   <= 0      a trough that opens towards +y
 //! ```
 //!
 //! The cylinder between two arbitrary points is [`CappedCylinder`](crate::CappedCylinder).
@@ -11,6 +11,7 @@
 use crate::quadric::axial::{Axial, AxialError, Wall, around, positive};
 use crate::quadric::body::{Chart, sheared};
 use crate::quadric::form::Form;
+use durer_math::eft::exponent;
 use durer_math::{Ring, Vec3};
 
 /// An elliptic cylinder.
@@ -34,11 +35,11 @@ pub struct HyperbolicWall {
     pub axes: [f64; 2],
 }
 
-/// The width of a [`ParabolicCylinder`], positive.
+/// The semi-axes of a [`ParabolicCylinder`], positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParabolicWall {
-    /// Half the width at y = 1.
-    pub a: f64,
+    /// Half the width, and the y at which it is that.
+    pub axes: [f64; 2],
 }
 
 impl EllipticCylinder {
@@ -64,10 +65,10 @@ impl HyperbolicCylinder {
 }
 
 impl ParabolicCylinder {
-    /// The cylinder over the parabola y = x²/a².
-    pub fn new(a: f64) -> Result<Self, AxialError> {
-        positive("parabolic cylinder", [("half-width a", a)])?;
-        Ok(Self::whole(ParabolicWall { a }))
+    /// The cylinder over the parabola y/b = x²/a²: `a` is half its width at y = b.
+    pub fn new(a: f64, b: f64) -> Result<Self, AxialError> {
+        positive("parabolic cylinder", [("semi-axis a", a), ("semi-axis b", b)])?;
+        Ok(Self::whole(ParabolicWall { axes: [a, b] }))
     }
 }
 
@@ -116,18 +117,21 @@ impl Wall for HyperbolicWall {
 
 impl Wall for ParabolicWall {
     fn form<T: Ring>(&self, k: i32) -> Form<T> {
-        // x = 2^k X, so 4^k X² - a² 2^k Y; over 4^k: X² - a² 2^-k Y.
+        // b X² - a² Y in units of 2^k: a²b f, times the power of two that makes its larger coefficient about one.
+        let [e, f] = self.axes.map(|x| exponent(x) - k);
+        let [a, b] = self.axes.map(|x| T::exact(x).scale2(-exponent(x)));
+        let (x, y) = (f, 2 * e - 1);
+        let gain = -x.max(y);
         let zero = || T::exact(0.0);
-        let a2 = T::exact(self.a).square().scale2(-k);
         Form {
-            q: [T::exact(1.0), zero(), zero(), zero(), zero(), zero()],
-            b: [zero(), -a2.scale2(-1), zero()],
+            q: [b.scale2(x + gain), zero(), zero(), zero(), zero(), zero()],
+            b: [zero(), -a.square().scale2(y + gain), zero()],
             c: zero(),
         }
     }
 
     fn size(&self) -> f64 {
-        self.a
+        self.axes[0].max(self.axes[1])
     }
 
     fn half_widths(&self, _: [f64; 2]) -> [f64; 2] {

@@ -163,7 +163,7 @@ impl View<'_> {
         let gradient = g.length();
         let h = form.bend;
         // Each coordinate moves at most 1.5 ulp, so 3 U, further than asked.
-        let tau = scale2(p.to_vec().length(), -self.frame.scale) * (4.0 * U) + TINY;
+        let tau = scale2(p.to_vec().max_abs(), -self.frame.scale) * (6.0 * U) + TINY;
         let away = 2.0 * (g.abs().dot(lost) + h * (lost.dot(lost) + tau * tau));
         let normal = (g * (1.0 / gradient), gradient);
         let near_tip = gradient <= TIP * h;
