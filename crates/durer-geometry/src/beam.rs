@@ -7,6 +7,7 @@ use crate::{Hit, walk::Walk};
 use arrayvec::ArrayVec;
 use durer_bvh::Leaf;
 use durer_math::{Ray, Shaft};
+use durer_surfaces::{Need, SurfacePoint};
 
 /// What the rays of a bundle may meet: leaves of the tree, and what is beside it.
 #[derive(Clone, Debug, Default)]
@@ -43,7 +44,7 @@ impl Geometry {
 
     /// As [`Geometry::seen`], of a ray of the bundle that `beam` was made for: the same answer.
     #[inline]
-    pub fn seen_in(&self, beam: &Beam, ray: &Ray, mask: u32) -> Option<Hit> {
+    pub fn seen_in(&self, beam: &Beam, ray: &Ray, mask: u32, need: Need) -> Option<(Hit, SurfacePoint)> {
         if beam.is_empty() {
             return None;
         }
@@ -56,7 +57,8 @@ impl Geometry {
                 for leaf in &beam.leaves {
                     closest_in(walk, *leaf, &mut best);
                 }
-                best.hit
+                let hit = best.hit?;
+                Some((hit, self.point_of(walk.ray, ray.source(), &hit, need)))
             },
         )?
     }

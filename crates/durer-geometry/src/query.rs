@@ -7,7 +7,7 @@ use crate::walk::Walk;
 use crate::{Hit, Span, spans::Tracks};
 use durer_bvh::Leaf;
 use durer_math::{Point3, Ray};
-use durer_surfaces::{Flow, LocalPoint, LocalRay};
+use durer_surfaces::{Flow, LocalPoint, LocalRay, Need, SurfacePoint};
 
 impl Geometry {
     /// The first hit: the least by (`t`, object, primitive), and of one primitive the first along the exact ray.
@@ -24,14 +24,21 @@ impl Geometry {
         })?
     }
 
-    /// As [`Geometry::closest_masked`], for pictures: brackets may be as wide as [`durer_surfaces::ROUGH`] allows, so of two surfaces that are
+    /// The first hit and its point, for pictures: brackets may be as wide as [`durer_surfaces::ROUGH`] allows, so of two surfaces that are
     /// nearer to each other either may be seen. What is hit at all is exact.
-    pub fn seen(&self, ray: &Ray, mask: u32) -> Option<Hit> {
-        self.walk_roughly(ray, mask, |walk| {
-            let mut best = Best::least();
-            closest(walk, &mut best);
-            best.hit
-        })?
+    #[inline]
+    pub fn seen(&self, ray: &Ray, mask: u32, need: Need) -> Option<(Hit, SurfacePoint)> {
+        self.walk_roughly(
+            ray,
+            mask,
+            #[inline(always)]
+            |walk| {
+                let mut best = Best::least();
+                closest(walk, &mut best);
+                let hit = best.hit?;
+                Some((hit, self.point_of(walk.ray, ray.source(), &hit, need)))
+            },
+        )?
     }
 
     /// Whether anything is hit.

@@ -17,10 +17,23 @@ impl Geometry {
     ///
     /// If the hit is not one of this geometry's.
     pub fn resolve_with(&self, ray: &Ray, hit: &Hit, need: Need) -> SurfacePoint {
-        let source =
-            ray.source().filter(|s| (s.arena, s.index, s.instance) == (hit.arena, hit.slot, hit.instance));
-        let local = LocalRay::new(ray).from_side(source.map(|s| s.side));
-        let (mut point, part) = self.resolve_in(&local, hit.instance, hit, need);
+        self.point_of(&LocalRay::new(ray), ray.source(), hit, need)
+    }
+
+    /// The point of a hit on a ray that came from `source`.
+    #[inline(always)]
+    pub(crate) fn point_of(
+        &self,
+        local: &LocalRay<'_>,
+        source: Option<Source>,
+        hit: &Hit,
+        need: Need,
+    ) -> SurfacePoint {
+        let source = source.filter(|s| (s.arena, s.index, s.instance) == (hit.arena, hit.slot, hit.instance));
+        let (mut point, part) = match source {
+            None => self.resolve_in(local, hit.instance, hit, need),
+            Some(s) => self.resolve_in(&local.from_side(Some(s.side)), hit.instance, hit, need),
+        };
         point.source = Some(Source {
             arena: hit.arena,
             index: hit.slot,

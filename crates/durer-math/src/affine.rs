@@ -32,6 +32,8 @@ pub struct Affine {
     linear: Matrix3,
     inverse: Matrix3,
     inverse_error: Matrix3,
+    /// An upper bound of the spectral norm of the exact inverse.
+    inverse_norm: f64,
     centre: Point3,
     mirrored: bool,
 }
@@ -77,6 +79,8 @@ impl Affine {
         linear: IDENTITY,
         inverse: IDENTITY,
         inverse_error: [[0.0; 3]; 3],
+        // The square root of 3, rounded up.
+        inverse_norm: 1.732_050_807_568_877_4,
         centre: Point3::ORIGIN,
         mirrored: false,
     };
@@ -109,7 +113,8 @@ impl Affine {
             }
         }
         let mirrored = determinant.exact_sign().is_lt();
-        Ok(Self { linear: rows, inverse, inverse_error, centre, mirrored })
+        let inverse_norm = frobenius(&inverse, &inverse_error);
+        Ok(Self { linear: rows, inverse, inverse_error, inverse_norm, centre, mirrored })
     }
 
     /// Moves by `v`.
@@ -285,7 +290,7 @@ impl Affine {
 
     /// The same of the exact inverse of `L`.
     pub fn inverse_norm(&self) -> f64 {
-        frobenius(&self.inverse, &self.inverse_error)
+        self.inverse_norm
     }
 
     /// The adjugate of `L` and its determinant in the ring `T`, both times `sign(det L)`, so that the determinant is positive.

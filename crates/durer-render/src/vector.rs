@@ -33,15 +33,26 @@ pub(crate) fn reflect(d: Vec3, n: Vec3) -> Vec3 {
     d - n * (2.0 * dot(d, n))
 }
 
-/// The largest whole number not above `x`.
-#[inline(always)]
-pub(crate) fn floor(x: f64) -> f64 {
-    const EXACT: f64 = 9_007_199_254_740_992.0; // from 2^53 on every number is whole
-    if x.abs() < EXACT {
+/// The same for large numbers.
+#[cold]
+fn by_parts(x: f64) -> f64 {
+    if x.abs() < 9_007_199_254_740_992.0 {
         let cut = (x as i64) as f64;
         if cut > x { cut - 1.0 } else { cut }
     } else {
         x
+    }
+}
+
+/// The largest whole number not above `x`.
+#[inline(always)]
+pub(crate) fn floor(x: f64) -> f64 {
+    const EXACT: f64 = (1_u64 << 51) as f64; // from 2^52 on every number is whole, and below half of it the sum is exact but for its fraction
+    if x.abs() < EXACT {
+        let nearest = (x + 3.0 * EXACT) - 3.0 * EXACT;
+        if nearest > x { nearest - 1.0 } else { nearest }
+    } else {
+        by_parts(x)
     }
 }
 

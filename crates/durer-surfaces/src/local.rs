@@ -100,7 +100,7 @@ impl Clock {
     }
 }
 
-/// How wide a bracket may be, relative to `max(|t|, size / |d|)`, where nobody measures: a hundredth of a thousandth of a pixel. All
+/// How wide a bracket may be, relative to `max(|t|, size / |d|)`, where nobody measures: about a millionth of a pixel. All
 /// decisions are exact all the same.
 pub const ROUGH: f64 = 1.0 / (1u64 << 30) as f64;
 
@@ -189,7 +189,7 @@ impl LocalRay<'static> {
         let k = -exponent(ray.direction.max_abs());
         let d = ray.direction.map(|x| scale2(x, k));
         let given = d_err;
-        let d_err = d_err.map(|x| scale2(x, k));
+        let d_err = if d_err == Vec3::ZERO { d_err } else { d_err.map(|x| scale2(x, k)) };
         Self {
             o: ray.origin,
             d,

@@ -114,7 +114,6 @@ pub(crate) trait AlongRay {
 /// A re-centred ray, together with its first step of the ladder.
 pub(crate) struct Probe<'a> {
     pub(crate) ray: CentredRay<'a>,
-    pub(crate) run: RingRay<Run<f64>>,
     /// The surface's size in units of `2^scale`.
     size: f64,
 }
@@ -122,7 +121,7 @@ pub(crate) struct Probe<'a> {
 /// An oriented line on each step of the ladder, seen from a centre, in units of `2^scale`.
 pub(crate) trait Line {
     /// The line in f64, with its error.
-    fn running(&self) -> &RingRay<Run<f64>>;
+    fn running(&self) -> RingRay<Run<f64>>;
     /// The line in double-double.
     fn double(&self) -> Option<RingRay<Run<Dd>>>;
     /// The exact line; `None` if it is not exactly known.
@@ -135,7 +134,7 @@ pub(crate) trait Line {
     /// The sign of a polynomial. `None` only if the line is not exactly known and its error leaves the sign open.
     #[inline(always)]
     fn sign<P: AlongRay>(&self, p: &P) -> Option<Ordering> {
-        match p.eval(self.running()).and_then(|x| x.sign()) {
+        match p.eval(&self.running()).and_then(|x| x.sign()) {
             None => self.sign_climb(p),
             sign => sign,
         }
@@ -156,8 +155,13 @@ pub(crate) trait Line {
 
 impl Line for Probe<'_> {
     #[inline(always)]
-    fn running(&self) -> &RingRay<Run<f64>> {
-        &self.run
+    fn running(&self) -> RingRay<Run<f64>> {
+        #[inline(always)]
+        fn run(v: Vec3, e: Vec3) -> [Run; 3] {
+            [Run::with_error(v.x, e.x), Run::with_error(v.y, e.y), Run::with_error(v.z, e.z)]
+        }
+        let ray = &self.ray;
+        RingRay { o: run(ray.o, ray.o_err), d: run(ray.d, ray.d_err), w: Run::exact(1.0) }
     }
     fn double(&self) -> Option<RingRay<Run<Dd>>> {
         self.ray.in_ring()
@@ -206,11 +210,7 @@ impl<'a> Probe<'a> {
     /// A re-centred ray, in whose units the surface measures `size`.
     #[inline(always)]
     pub(crate) fn of(ray: CentredRay<'a>, size: f64) -> Self {
-        let run = |v: Vec3, e: Vec3| {
-            [Run::with_error(v.x, e.x), Run::with_error(v.y, e.y), Run::with_error(v.z, e.z)]
-        };
-        let run = RingRay { o: run(ray.o, ray.o_err), d: run(ray.d, ray.d_err), w: Run::exact(1.0) };
-        Self { ray, run, size }
+        Self { ray, size }
     }
 
     /// The crossing with a plane, wherever it is on the line; `None` if there is none: the slope is exactly zero. A crossing beyond
@@ -278,7 +278,7 @@ impl<'a> Probe<'a> {
             #[inline(always)]
             || {
                 // A slope of zero is seen at once where each term of it is zero.
-                if plane.slope(&self.run).sign() == Some(Ordering::Equal) {
+                if plane.slope(&self.running()).sign() == Some(Ordering::Equal) {
                     return None;
                 }
                 let mut best = None;
@@ -507,8 +507,8 @@ fn point_line<T: Ring>((p, w): ([T; 3], T), direction: Vec3, centre: Point3, sca
 
 impl Line for PointLine<'_> {
     #[inline(always)]
-    fn running(&self) -> &RingRay<Run<f64>> {
-        &self.run
+    fn running(&self) -> RingRay<Run<f64>> {
+        self.run.clone()
     }
     fn double(&self) -> Option<RingRay<Run<Dd>>> {
         Some(point_line(self.point.in_ring()?, self.direction, self.centre, self.scale))
@@ -591,7 +591,7 @@ pub(crate) trait Ratios {
 /// Both quotients with bounds: in f64 where that is tight, else higher up the ladder.
 #[inline(always)]
 pub(crate) fn ratios<R: Ratios>(probe: &Probe<'_>, r: &R) -> [Run; 2] {
-    let [a, b, d] = r.eval(&probe.run);
+    let [a, b, d] = r.eval(&probe.running());
     let first = [a / d, b / d];
     let tight = |x: &[Run; 2]| x.iter().all(|x| x.e <= TIGHT);
     if tight(&first) { first } else { ratios_climb(probe, r).unwrap_or(first) }

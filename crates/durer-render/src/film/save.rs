@@ -92,7 +92,7 @@ impl Film {
             let table = Bytes::new(self.encoding);
             let mut bytes = Vec::with_capacity(self.pixels.len() * channels);
             for Pixel { rgb, alpha } in &self.pixels {
-                bytes.extend([rgb.r, rgb.g, rgb.b].map(|v| table.of(v)));
+                bytes.extend_from_slice(&[table.of(rgb.r), table.of(rgb.g), table.of(rgb.b)]);
                 if with_alpha {
                     bytes.push((alpha * 255.0 + 0.5) as u8);
                 }

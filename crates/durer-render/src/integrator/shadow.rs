@@ -35,24 +35,23 @@ impl Whitted<'_> {
             return Rgb::WHITE;
         }
         let first = match between {
-            Some(beam) => geometry.seen_in(beam, &ray, mask::CLEAR_SHADOW),
-            None => geometry.seen(&ray, mask::CLEAR_SHADOW),
+            Some(beam) => geometry.seen_in(beam, &ray, mask::CLEAR_SHADOW, Need::POINT),
+            None => geometry.seen(&ray, mask::CLEAR_SHADOW, Need::POINT),
         };
         match first {
-            Some(hit) => self.through_clear(&ray, hit, target, node),
+            Some(first) => self.through_clear(&ray, first, target, node),
             None => Rgb::WHITE,
         }
     }
 
-    fn through_clear(&mut self, first: &Ray, hit: Hit, target: Point3, node: &Node) -> Rgb {
+    fn through_clear(&mut self, first: &Ray, seen: (Hit, SurfacePoint), target: Point3, node: &Node) -> Rgb {
         let world = self.world;
         let start = self.media.len();
         self.media.extend_from_within(node.media.clone());
         let mut ray = *first;
         let mut left = Rgb::WHITE;
-        let mut next = Some(hit);
-        while let Some(hit) = next {
-            let point = world.geometry().resolve_with(&ray, &hit, Need::POINT);
+        let mut next = Some(seen);
+        while let Some((hit, point)) = next {
             let look = world.look_of(hit.object, hit.primitive);
             left = left * world.paints[look.paint as usize].passed(point.p);
             if left.is_black() {
@@ -74,7 +73,7 @@ impl Whitted<'_> {
             }
             ray = point.spawn_to(target);
             self.counts.shadow += 1;
-            next = world.geometry().seen(&ray, mask::CLEAR_SHADOW);
+            next = world.geometry().seen(&ray, mask::CLEAR_SHADOW, Need::POINT);
         }
         self.media.truncate(start);
         left

@@ -138,11 +138,11 @@ impl<'w> Whitted<'w> {
         let media = 0..self.media.len();
         let node = Node { level: 1, depth: 0, weight: 1.0, way: 0.0, mask: mask::CAMERA, media };
         let geometry = self.world.geometry();
-        let hit = match beam {
-            Some(beam) => geometry.seen_in(beam, ray, node.mask),
-            None => geometry.seen(ray, node.mask),
+        let seen = match beam {
+            Some(beam) => geometry.seen_in(beam, ray, node.mask, Need::SHADING_NORMAL),
+            None => geometry.seen(ray, node.mask, Need::SHADING_NORMAL),
         };
-        self.seen(ray, hit, node)
+        self.seen(ray, seen, node)
     }
 
     /// The colour seen along a ray.
@@ -153,8 +153,8 @@ impl<'w> Whitted<'w> {
         if node.depth > 0 && node.depth.is_multiple_of(HOP) {
             return self.look_on_a_new_stack(ray, node);
         }
-        let hit = self.world.geometry().seen(ray, node.mask);
-        self.seen(ray, hit, node)
+        let seen = self.world.geometry().seen(ray, node.mask, Need::SHADING_NORMAL);
+        self.seen(ray, seen, node)
     }
 
     /// Thousands of clear sheets in a row make recursions that no thread's stack would hold.
@@ -166,8 +166,8 @@ impl<'w> Whitted<'w> {
         std::thread::scope(|scope| {
             let thread = std::thread::Builder::new().stack_size(STACK);
             let look = || {
-                let hit = self.world.geometry().seen(ray, node.mask);
-                self.seen(ray, hit, node)
+                let seen = self.world.geometry().seen(ray, node.mask, Need::SHADING_NORMAL);
+                self.seen(ray, seen, node)
             };
             match thread.spawn_scoped(scope, look) {
                 Ok(work) => work.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
@@ -178,10 +178,9 @@ impl<'w> Whitted<'w> {
     }
 
     /// The colour of what a ray meets first.
-    fn seen(&mut self, ray: &Ray, hit: Option<Hit>, node: Node) -> Rgb {
+    fn seen(&mut self, ray: &Ray, seen: Option<(Hit, SurfacePoint)>, node: Node) -> Rgb {
         let world = self.world;
-        let Some(hit) = hit else { return world.background };
-        let point = world.geometry().resolve_with(ray, &hit, Need::SHADING_NORMAL);
+        let Some((hit, point)) = seen else { return world.background };
         let speed = length(ray.direction);
         let eye = ray.direction * (1.0 / speed);
         let slope = dot_n(point.ns, eye);
@@ -211,7 +210,8 @@ impl<'w> Whitted<'w> {
         let (first_coat, first_mirror) = (self.coats.len(), self.mirrors.len());
         let mut sum = Rgb::BLACK;
         let mut passed = Rgb::WHITE;
-        let border = Border::new(self, place, node);
+        // Opaque, dull surfaces need none.
+        let mut border = None;
         for coat in layers.iter().rev() {
             if passed.luminance() <= world.adc_bailout {
                 break;
@@ -229,7 +229,9 @@ impl<'w> Whitted<'w> {
             }
             let mut mirrored = Rgb::BLACK;
             if let Some(mirror) = finish.mirror.as_deref() {
-                mirrored = mirror.reflectance(place.cosine, colour, || border.fresnel(place.cosine));
+                mirrored = mirror.reflectance(place.cosine, colour, || {
+                    border.get_or_insert_with(|| Border::new(self, place, node)).fresnel(place.cosine)
+                });
                 if !mirrored.is_black() {
                     let importance = passed.luminance() * mirrored.greatest();
                     self.mirrors.push(Mirrored { mirror, reflectance: mirrored, importance });
@@ -246,6 +248,7 @@ impl<'w> Whitted<'w> {
         }
         let mut total_reflection = false;
         if !passed.is_black() {
+            let border = border.unwrap_or_else(|| Border::new(self, place, node));
             let (seen, total) = self.behind(place, &border, passed, node);
             sum += seen;
             total_reflection = total;

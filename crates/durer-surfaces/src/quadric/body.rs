@@ -295,16 +295,17 @@ impl View<'_> {
     pub(crate) fn events(&self, ray: &CentredRay<'_>, range: (f64, f64)) -> Events {
         let mut events = Events::new();
         let Some(limits) = self.limits(ray, range) else { return events };
-        let along = |form: &Rounded| form.along(ray.o, ray.d, ray.o_err, ray.d_err);
         let [first, rest @ ..] = self.forms else { return events };
         let mut lines = Lines::new();
-        lines.push(along(first));
+        lines.push(first.along(ray.o, ray.d, ray.o_err, ray.d_err));
         // Mostly the first face tells that the line passes by.
         let mut known = Some(self.face_roots(0, &lines[0], ray, &limits));
         if known.as_ref().is_some_and(|(found, _)| found.outside) {
             return events;
         }
-        lines.extend(rest.iter().map(along));
+        for form in rest {
+            lines.push(form.along(ray.o, ray.d, ray.o_err, ray.d_err));
+        }
         for face in 0..self.walls {
             let (found, certain) =
                 known.take().unwrap_or_else(|| self.face_roots(face, &lines[face], ray, &limits));
