@@ -18,6 +18,7 @@ pub(super) struct Erased {
 trait Dynamic: Surface {
     fn roots_dyn(&self, isa: Isa, ray: &LocalRay<'_>, sink: &mut dyn Sink);
     fn part_roots_dyn(&self, isa: Isa, part: PartId, ray: &LocalRay<'_>, sink: &mut dyn Sink);
+    fn resolve_dyn(&self, isa: Isa, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint;
 }
 
 impl<S: Surface> Dynamic for S {
@@ -33,6 +34,13 @@ impl<S: Surface> Dynamic for S {
             #[inline(always)]
             || self.part_roots(part, ray, sink),
         );
+    }
+
+    fn resolve_dyn(&self, isa: Isa, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
+        isa.run(
+            #[inline(always)]
+            || self.resolve(ray, root, need),
+        )
     }
 }
 
@@ -69,7 +77,7 @@ impl Surface for Erased {
     }
 
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
-        self.surface.resolve(ray, root, need)
+        self.surface.resolve_dyn(self.isa, ray, root, need)
     }
 
     fn solidity(&self) -> Solidity {
