@@ -214,14 +214,40 @@ fn what_is_met_beyond_all_numbers_is_not_met() {
         assert!(world.spans(&Ray::new(Point3::new(2.0, 0.0, 0.0), Vec3::new(5e-324, 0.0, 1.0))).is_empty());
     }
     // Just within the numbers: met, though a bracket's end may be infinite.
-    for (world, count, x) in
-        [(&second, 2, 1e-307), (&second, 2, 6e-309), (&third, 1, 1e-307), (&third, 1, -1e-307)]
-    {
+    for (world, count, x) in [
+        (&second, 2, 1e-307),
+        (&second, 2, 6e-309),
+        (&third, 1, 1e-307),
+        (&third, 1, -1e-307),
+        (&third, 1, 6e-309),
+    ] {
         let all = world.all(&along(x));
         assert_eq!(all.len(), count, "{x:e}: {all:?}");
         assert!(all.iter().all(|h| h.t.is_finite() && h.t_lo <= h.t && h.t <= h.t_hi), "{all:?}");
         assert_eq!(world.closest(&along(x)), Some(all[0]));
     }
+}
+
+/// The crossings of a box's corner whose entry has a wide bracket and whose exit has a narrow one within it: found by the examiner, too.
+#[test]
+fn a_box_clipped_at_its_corner_is_entered_first() {
+    let map =
+        Affine::new([[8.0, -4.0, 1.0], [-1.0, -4.0, -8.0], [4.0, 7.0, -4.0]], Point3::new(1.0, -7.0, 0.0));
+    let corners = (Point3::new(0.0, -1.0, 0.0), Point3::new(2.0, 0.0, 1.0));
+    let world = Geometry::builder()
+        .add(Placed::new(AxisBox::new(corners.0, corners.1).unwrap(), map.unwrap()))
+        .build()
+        .unwrap();
+    let origin = Point3::new(1.485398358671441, -14.74269917933572, -1.169690972692925);
+    let ray = Ray::new(origin, Vec3::new(0.09375, -0.046875, -0.515625));
+    let all = world.all(&ray);
+    assert_eq!(all.iter().map(|h| h.sign).collect::<Vec<_>>(), [-1, 1], "{all:?}");
+    assert!(all[0].t <= all[1].t && all[0].t_hi <= all[1].t_hi && all[0].t_lo <= all[1].t_lo);
+    // By exact arithmetic: 5.489084174171296 and, an ulp or so behind it, 5.489084174171297.
+    assert!(all.iter().all(|h| h.t_lo <= 5.489084174171297 && 5.489084174171296 <= h.t_hi), "{all:?}");
+    assert_eq!(world.closest(&ray), Some(all[0]));
+    let spans = world.spans(&ray);
+    assert_eq!(spans.iter().map(|s| (s.t_in, s.t_out)).collect::<Vec<_>>(), [(all[0].t, all[1].t)]);
 }
 
 #[test]

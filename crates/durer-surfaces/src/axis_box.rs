@@ -363,11 +363,13 @@ impl Surface for AxisBox {
         }
         let probe = Probe::new(ray, self.centre(), self.size());
         let Some((mut entry, mut exit, touches)) = self.span(&probe) else { return };
-        // The entry is known to come first: brackets that overlap are told so.
-        if entry.crossing.s > exit.crossing.s {
-            let middle = 0.5 * entry.crossing.s + 0.5 * exit.crossing.s;
-            entry.crossing.s = middle.max(entry.crossing.s_lo).min(entry.crossing.s_hi);
-            exit.crossing.s = middle.max(exit.crossing.s_lo).min(exit.crossing.s_hi);
+        // The entry is known to come first: brackets that overlap are told so, and with them the numbers within.
+        if entry.crossing.s_hi >= exit.crossing.s_lo {
+            let (e, x) = (&mut entry.crossing, &mut exit.crossing);
+            (x.s_lo, e.s_hi) = (x.s_lo.max(e.s_lo), e.s_hi.min(x.s_hi));
+            (x.lo, e.hi) = (x.lo.max(e.lo), e.hi.min(x.hi));
+            e.s = e.s.max(e.s_lo).min(e.s_hi);
+            x.s = x.s.max(x.s_lo).min(x.s_hi).max(e.s);
         }
         for (event, sign) in [(entry, -1), (exit, 1)] {
             let crossing = &event.crossing;

@@ -306,8 +306,13 @@ impl<'a> Probe<'a> {
                     if slope.is_zero() {
                         return None;
                     }
+                    let most = Dyadic::exact(f64::MAX) * slope.clone().abs();
+                    let beyond = low.clone().abs() > most && high.clone().abs() > most;
                     let (lo, hi) = quotient_bounds(&-high, &-low, &slope);
-                    best = Some(self.bracketed(0.5 * lo + 0.5 * hi, lo, hi, slope.exact_sign()));
+                    let middle = 0.5 * lo + 0.5 * hi;
+                    // Only a crossing that is surely beyond the range of f64 is said to be there.
+                    let s = if beyond { middle } else { middle.clamp(f64::MIN, f64::MAX) };
+                    best = Some(self.bracketed(s, lo, hi, slope.exact_sign()));
                 }
                 best
             },
