@@ -501,7 +501,7 @@ DECOYS = "camera { location <0, 0, -9> look_at 0 }\nlight_source { <9, 9, -9>, r
 
 def leaf_of(rng, kind, clips=True):
     leaf = MAKERS[kind](rng)
-    if clips and rng.random() < 0.2 and kind not in ("mesh", "polygon", "plane"):
+    if clips and rng.random() < 0.2:
         clip(rng, leaf)
     elif isinstance(leaf, Solid) and rng.random() < 0.12:
         leaf.inverse = True

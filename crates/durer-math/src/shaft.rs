@@ -81,8 +81,8 @@ impl Shaft {
         axis(a.x, b.x, self.low.x, self.high.x, bounds.min.x, bounds.max.x);
         axis(a.y, b.y, self.low.y, self.high.y, bounds.min.y, bounds.max.y);
         axis(a.z, b.z, self.low.z, self.high.z, bounds.min.z, bounds.max.z);
-        // Not so where something is not a number: nothing is disproved then.
-        !(enter > exit)
+        // Neither is ever a NaN: what is not a number cuts nothing.
+        enter <= exit
     }
 
     /// Whether the bundle may meet the plane of the points with `normal . p = offset`, of which the offset is known within `error`: `false` is
@@ -110,7 +110,10 @@ impl Shaft {
         let highest = if climbs > 0.0 { most + self.t_max * climbs * (1.0 + 16.0 * U) } else { most };
         let rounded = (least.abs() + lowest.abs()).min(f64::MAX) * (4.0 * U);
         let rounded = rounded + (most.abs() + highest.abs()).min(f64::MAX) * (4.0 * U);
-        !(lowest > rounded || highest < -rounded)
+        // Where something is not a number, nothing is disproved.
+        let above = lowest > rounded;
+        let below = highest < -rounded;
+        !above && !below
     }
 }
 

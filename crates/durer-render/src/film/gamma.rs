@@ -92,12 +92,12 @@ impl Bytes {
     /// The byte for the number `v`.
     #[inline(always)]
     pub(crate) fn of(&self, v: f64) -> u8 {
-        if !(v < 1.0) {
-            // NaN is shown black.
-            return if v >= 1.0 { 255 } else { 0 };
+        if v >= 1.0 {
+            return 255;
         }
-        // Negative numbers become 0.
+        // Negative numbers become 0, and NaN is shown black.
         let mut byte = self.start[(v * CELLS as f64) as usize & (CELLS - 1)];
+        // Not so for NaN.
         while byte < 255 && self.least[usize::from(byte) + 1] <= v {
             byte += 1;
         }

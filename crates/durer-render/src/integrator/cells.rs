@@ -46,8 +46,9 @@ impl Cells {
     ) -> Option<&Beam> {
         let size = power_of_two(size);
         let scaled = ray.origin.to_vec() * (1.0 / size);
-        // Not so for NaN, or where there is no size.
-        if !(scaled.max_abs() < FARTHEST) {
+        // Not so where there is no size.
+        let has_place = scaled.max_abs() < FARTHEST;
+        if !has_place {
             return None;
         }
         let steps = [floor(scaled.x), floor(scaled.y), floor(scaled.z)];

@@ -185,7 +185,8 @@ impl<W: Wall> Shape for AxialShape<W> {
     fn tip(&self, face: usize) -> Option<Vec3> {
         // A piece that begins at the tip ends there: its outside is below.
         let below = self.ends.is_some_and(|[from, _]| from == 0.0);
-        (face == 0 && self.wall.has_tip()).then_some(if below { -Vec3::Z } else { Vec3::Z })
+        let holds_origin = self.ends.is_none_or(|[from, to]| from <= 0.0 && to >= 0.0);
+        (face == 0 && self.wall.has_tip() && holds_origin).then_some(if below { -Vec3::Z } else { Vec3::Z })
     }
 }
 

@@ -234,14 +234,6 @@ impl Rounded {
         (0..3).all(|i| d[i] == 0.0 || (self.b[i] == 0.0 && (0..3).all(|j| rows[i][j] == 0.0 || o[j] == 0.0)))
     }
 
-    /// `f(p)` and `grad f(p) / 2`, without a bound.
-    #[inline(always)]
-    pub(crate) fn about(&self, p: Vec3) -> (f64, Vec3) {
-        let linear = Vec3::from(self.b);
-        let half = self.times(p) + linear;
-        ((half + linear).dot(p) + self.c, half)
-    }
-
     /// `f(p)` and `grad f(p) / 2` with `p` within `ep`.
     #[inline(always)]
     pub(crate) fn at(&self, p: Vec3, ep: Vec3) -> (Run, Vec3) {

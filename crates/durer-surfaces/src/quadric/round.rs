@@ -308,7 +308,8 @@ impl Shape for FrustumShape {
     /// The tip of a full cone points away from the disc.
     fn tip(&self, face: usize) -> Option<Vec3> {
         let (k, _) = self.axis.direction();
-        (face as u32 == WALL).then_some(if self.radii[0] < self.radii[1] { -k } else { k })
+        let is_pointed = self.radii.contains(&0.0);
+        (face as u32 == WALL && is_pointed).then_some(if self.radii[0] < self.radii[1] { -k } else { k })
     }
 }
 

@@ -116,11 +116,11 @@ impl View<'_> {
         let p = Point3::new(px, py, pz);
         let lost = Vec3::new(lx, ly, lz).map(|l| scale2(l.abs(), -scale) + TINY);
 
-        let off = self.off(face, p, (f, half), lost);
-        let (ng, gradient) = off.normal;
-        let back = |x: f64| scale2(x, scale);
         let width = at.width(root.lo, root.hi);
         let dp = (e_y + at.d.abs() * width + (y1 - y).abs() * (1.0 + 4.0 * U) + lost) * (1.0 + 16.0 * U);
+        let off = self.off(face, p, (f, half), lost, dp.x + dp.y + dp.z);
+        let (ng, gradient) = off.normal;
+        let back = |x: f64| scale2(x, scale);
         let mut point = SurfacePoint::new(
             p,
             dp.map(|x| back(x) + f64::MIN_POSITIVE),
@@ -156,8 +156,11 @@ impl View<'_> {
     /// rounding adds away from the surface, has `|f| >= off |G| - h (off² + |τ|²) - η`; this is positive from
     /// `off = 2 η' / (|G| + √(|G|² - 4 h η'))` on, with `η' = η + h|τ|²`. `η` includes twice the error of an evaluation of `f`, so
     /// that a ray that starts there finds the sign of `f` in f64.
+    ///
+    /// `err` bounds the distance from `y` to the crossing. Where there is a tip within that and a few roundings of the coordinates, the point
+    /// counts as the tip: no point beside it could be told from it.
     #[inline(always)]
-    fn off(&self, face: usize, p: Point3, (f, half): (Run, Vec3), lost: Vec3) -> Off {
+    fn off(&self, face: usize, p: Point3, (f, half): (Run, Vec3), lost: Vec3, err: f64) -> Off {
         let form = &self.forms[face];
         let g = half * 2.0;
         let gradient = g.length();
@@ -166,7 +169,8 @@ impl View<'_> {
         let tau = scale2(p.to_vec().max_abs(), -self.frame.scale) * (6.0 * U) + TINY;
         let away = 2.0 * (g.abs().dot(lost) + h * (lost.dot(lost) + tau * tau));
         let normal = (g * (1.0 / gradient), gradient);
-        let near_tip = gradient <= TIP * h;
+        // On a cone `G / h` is about the distance from its axis: as near as this, the normal may turn by a sixteenth within those errors.
+        let near_tip = gradient <= 16.0 * h * (err + tau);
         let tip = if near_tip { self.shape.tip(face) } else { None };
         if tip.is_none() {
             let eta = f.v.abs() + 2.0 * f.e + away;
@@ -192,7 +196,7 @@ impl View<'_> {
         let b = gradient + 2.0 * e * qn.length();
         let c = f.v.abs() + 2.0 * f.e + away + e * gradient + 0.5 * e * e * h;
         let distance = (b + (b * b + 4.0 * growth * c).sqrt()) / (2.0 * growth) * (1.0 + 32.0 * U);
-        Off { distance: distance.min(f64::MAX), normal: (n, gradient.max(TIP * h)), tip: true }
+        Off { distance: distance.min(f64::MAX), normal: (n, gradient.max(TIP_SLACK * h)), tip: true }
     }
 
     /// An upper bound of `|f|` at a point of the world.
@@ -209,7 +213,12 @@ impl View<'_> {
 /// more than the face's size. With `f` and half its gradient there.
 #[inline(always)]
 fn project(form: &Rounded, mut y: Vec3) -> (Vec3, Run, Vec3) {
-    let (mut f, mut half) = form.about(y);
+    let (first, mut half) = form.at(y, y.abs() * U);
+    // On the face as far as f64 can see: a step would follow rounding, far where the gradient is small.
+    if first.v.abs() <= first.e {
+        return (y, first, half);
+    }
+    let mut f = first.v;
     for _ in 0..64 {
         let step = f / (2.0 * half.dot(half));
         let next = y - half * step;
@@ -227,8 +236,6 @@ fn project(form: &Rounded, mut y: Vec3) -> (Vec3, Run, Vec3) {
     (y, f, half)
 }
 
-/// Within this distance of a tip, in units, a point counts as the tip itself.
-const TIP: f64 = 1.0 / (1u64 << 26) as f64;
 /// How far, in units, a point may be moved about a tip.
 const TIP_SLACK: f64 = 1.0 / (1u64 << 40) as f64;
 

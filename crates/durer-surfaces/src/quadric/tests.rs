@@ -186,6 +186,40 @@ fn cylinders_obey_the_laws() {
     }
 }
 
+#[test]
+fn the_normal_of_a_cone_is_its_axis_only_where_the_point_may_be_the_tip() {
+    // Slender and large: far from the tip in the numbers' own units, near it in units of the semi-axes.
+    let large = Cone::circular(1073741824.0, 139586437120.0).unwrap();
+    let rows = [[0.5, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 3.0]];
+    let map = durer_math::Affine::new(rows, Point3::new(125.0, 0.125, 0.0)).unwrap();
+    let ray = durer_math::Ray::new(
+        Point3::new(127.4, 3.7249999999999996, -2340.0),
+        Vec3::new(-819.2, -1228.8, 798720.0),
+    );
+    let placed = Placed::new(large, map);
+    let normals = |surface: &dyn Surface, roots: Vec<Root>, ray: &durer_math::Ray| -> Vec<f64> {
+        let at = |r: &Root| surface.resolve(&LocalRay::new(ray), r, Need::POINT).ng.z;
+        roots.iter().map(at).collect()
+    };
+    let found = normals(&placed, all_roots(&placed, &ray), &ray);
+    // The first crossing cannot be told from the tip.
+    assert!(found.len() == 2 && found[1].abs() < 0.01, "{found:?}");
+    // Any distance from the tip of a cone at the origin.
+    let cone = Cone::circular(1.0, 1.0).unwrap();
+    for k in 1..40 {
+        let r = durer_math::scale::pow2(-10 * k);
+        let ray = durer_math::Ray::new(Point3::new(-4.0 * r, 0.0, r), Vec3::X);
+        let found = normals(&cone, all_roots(&cone, &ray), &ray);
+        assert!(
+            found.len() == 2 && found.iter().all(|z| (z + 0.5_f64.sqrt()).abs() < 1e-15),
+            "{k}: {found:?}"
+        );
+    }
+    // At the tip there is no normal but the axis.
+    let through = durer_math::Ray::new(Point3::new(-4.0, 0.0, 0.0), Vec3::X);
+    assert_eq!(normals(&cone, all_roots(&cone, &through), &through), [1.0]);
+}
+
 /// The polynomial `x²/a² + sign y²/b² - z/c` (without `sign`: `x²/a² - y/b`) times its denominators, exactly.
 fn parabolic_wall([a, b, c]: [f64; 3], sign: Option<f64>) -> ExactForm {
     let [a, b, c] = exact3([a, b, c]);
