@@ -54,6 +54,8 @@ pub(crate) trait AnyArena: Send + Sync {
     fn start_of(&self, surface: u32, ray: &LocalRay<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks);
     /// Whether no ray of a bundle meets the surface in a slot: `true` is certain.
     fn misses(&self, slot: u32, shaft: &Shaft) -> bool;
+    /// Whether no ray of a bundle that starts on this side of the surface in a slot comes back to it: `true` is certain.
+    fn is_left(&self, slot: u32, side: RaySide, shaft: &Shaft) -> bool;
     /// On which side of a surface a point lies; `Out` for open surfaces.
     fn side(&self, surface: u32, point: &LocalPoint<'_>) -> Side;
     /// The point of a hit.
@@ -364,6 +366,10 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
 
     fn misses(&self, slot: u32, shaft: &Shaft) -> bool {
         self.slot(slot).surface.misses(shaft)
+    }
+
+    fn is_left(&self, slot: u32, side: RaySide, shaft: &Shaft) -> bool {
+        self.slot(slot).surface.is_left(side, shaft)
     }
 
     fn side(&self, surface: u32, point: &LocalPoint<'_>) -> Side {

@@ -1,12 +1,12 @@
 //! Rays that belong together share one walk through the tree.
 
 use crate::best::Best;
-use crate::geometry::{Geometry, slots};
+use crate::geometry::{Beside, Geometry, slots};
 use crate::query::{any_in, closest_in};
 use crate::{Hit, walk::Walk};
 use arrayvec::ArrayVec;
 use durer_bvh::Leaf;
-use durer_math::{Ray, Shaft};
+use durer_math::{Ray, Shaft, Source};
 use durer_surfaces::{Need, SurfacePoint};
 
 /// What the rays of a bundle may meet: leaves of the tree, and what is beside it.
@@ -27,13 +27,26 @@ impl Beam {
 }
 
 impl Geometry {
-    /// What the rays of a bundle may meet; `None` if that is so much that each ray should walk through the tree by itself.
-    pub fn beam(&self, shaft: &Shaft) -> Option<Beam> {
+    /// The surface that a ray leaves, if it is one that no tree holds.
+    #[inline]
+    pub fn unbounded_source(&self, ray: &Ray) -> Option<Source> {
+        let source = ray.source().filter(|s| s.instance == 0)?;
+        let holds = |b: &Beside| b.arena == source.arena && slots(&b.leaf()).contains(&source.index);
+        self.beside.iter().any(holds).then_some(source)
+    }
+
+    /// What the rays of a bundle may meet; `None` if that is so much that each ray should walk through the tree by itself. They all come from
+    /// the same side of `source` ([`Geometry::unbounded_source`]), if there is one.
+    pub fn beam(&self, shaft: &Shaft, source: Option<Source>) -> Option<Beam> {
         let mut beam = Beam::default();
         for beside in &self.beside {
             for slot in slots(&beside.leaf()) {
-                let met = self.arenas.get(beside.arena as usize).is_none_or(|a| !a.misses(slot, shaft));
-                if met {
+                let is_source = |s: &Source| (s.arena, s.index) == (beside.arena, slot);
+                let missed = self.arenas.get(beside.arena as usize).is_some_and(|arena| {
+                    source.filter(is_source).is_some_and(|s| arena.is_left(slot, s.side, shaft))
+                        || arena.misses(slot, shaft)
+                });
+                if !missed {
                     beam.leaves.try_push(Leaf { kind: beside.arena, first: slot, count: 1 }).ok()?;
                 }
             }

@@ -5,7 +5,8 @@ mod common;
 use common::{Dice, both, fill, ground, rays};
 use durer_geometry::{Geometry, Hit};
 use durer_math::kernels::Path;
-use durer_math::{Isa, Ray};
+use durer_math::{Aabb, Isa, Point3, Ray, Shaft, Vec3};
+use durer_surfaces::Need;
 
 /// What a hit says, without where it is kept.
 fn public(hit: &Hit) -> impl PartialEq + core::fmt::Debug + use<> {
@@ -190,9 +191,78 @@ fn extreme_rays_and_sizes() {
     for _ in 0..4000 {
         let mut x =
             || wild[dice.below(wild.len() as u64) as usize] * if dice.below(2) == 0 { 1.0 } else { -1.0 };
-        let ray = Ray::new(durer_math::Point3::new(x(), x(), x()), durer_math::Vec3::new(x(), x(), x()));
+        let ray = Ray::new(Point3::new(x(), x(), x()), Vec3::new(x(), x(), x()));
         if ray.is_valid() {
             let _ = (tree.closest(&ray), tree.any(&ray), tree.all(&ray), tree.spans(&ray));
         }
+    }
+}
+
+/// Rays that share one search are answered as each by itself, and what is seen is what is closest.
+#[test]
+fn bundles_of_rays() {
+    let (mut shared, mut hits) = (0, 0);
+    for seed in 0..4 {
+        let (tree, _) = both(|builder| {
+            fill(builder, &mut Dice(seed), [3, 20, 60, 200][seed as usize], seed % 2 == 0);
+            builder.add(ground());
+        });
+        for ray in rays(&mut Dice(200 + seed), 250) {
+            if !ray.is_valid() || ray.t_min != 0.0 {
+                continue;
+            }
+            let seen = tree.seen(&ray, u32::MAX, Need::POINT);
+            assert_eq!(seen.is_some(), tree.any(&ray), "{ray:?}");
+            // Brackets may be wider, but they hold the same crossing.
+            if let (Some((seen, _)), Some(closest)) = (&seen, tree.closest(&ray)) {
+                assert!(seen.t_lo <= closest.t_hi && closest.t_lo <= seen.t_hi, "{seen:?} {closest:?}");
+            }
+            // A bundle around the ray, a thousandth as wide as it is long.
+            let width = ray.direction.abs() * 1e-3 + Vec3::new(1e-3, 1e-3, 1e-3);
+            let start = Aabb::centred(ray.origin, width);
+            let shaft = if ray.t_max == 1.0 {
+                Shaft::between(start, Aabb::centred(ray.origin + ray.direction, width))
+            } else {
+                Shaft::new(start, ray.direction - width, ray.direction + width)
+            };
+            if !shaft.holds(&ray) {
+                continue;
+            }
+            if let Some(beam) = tree.beam(&shaft, None) {
+                shared += 1;
+                let in_beam = tree.seen_in(&beam, &ray, u32::MAX, Need::POINT);
+                assert_eq!(
+                    in_beam.as_ref().map(|(hit, _)| public(hit)),
+                    seen.as_ref().map(|(hit, _)| public(hit))
+                );
+                assert_eq!(tree.any_in(&beam, &ray, u32::MAX), seen.is_some());
+                hits += usize::from(seen.is_some());
+            }
+        }
+    }
+    assert!(shared > 300 && hits > 100, "{shared} {hits}");
+}
+
+/// Rays that leave a plane do not meet it where they all end on its side.
+#[test]
+fn bundles_that_leave_a_plane() {
+    let mut builder = Geometry::builder();
+    builder.add(ground());
+    let world = builder.build().unwrap();
+    let down = Ray::new(Point3::new(0.3, 5.0, 0.2), -Vec3::Y);
+    let (_, point) = world.seen(&down, u32::MAX, Need::POINT).unwrap();
+    for (height, beam_is_empty) in [(9.0, true), (-9.0, true), (0.0, false)] {
+        let target = point.p + Vec3::new(1.0, height, 2.0);
+        let ray = point.spawn_to(target);
+        let wide = Vec3::new(0.1, 0.1, 0.1);
+        let shaft = Shaft::between(Aabb::centred(ray.origin, wide), Aabb::centred(target, wide));
+        assert!(shaft.holds(&ray));
+        let source = world.unbounded_source(&ray);
+        assert!(source.is_some());
+        let beam = world.beam(&shaft, source).unwrap();
+        assert_eq!(beam.is_empty(), beam_is_empty, "{height}");
+        // Without the source nothing is known.
+        assert!(!world.beam(&shaft, None).unwrap().is_empty());
+        assert!(!world.any_in(&beam, &ray, u32::MAX) || height == 0.0);
     }
 }

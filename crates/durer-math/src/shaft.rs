@@ -68,6 +68,16 @@ impl Shaft {
             && within([a.z, b.z], [self.low.z, self.high.z], o.z, d.z)
     }
 
+    /// A box in which all rays of the bundle end; unbounded if they do not.
+    pub fn end(&self) -> Aabb {
+        if self.t_max == f64::INFINITY {
+            return Aabb::UNBOUNDED;
+        }
+        // The sums are rounded once.
+        let (a, b) = (self.start.min + self.low, self.start.max + self.high);
+        Aabb::new(a, b).expanded((a.to_vec().abs() + b.to_vec().abs()) * (2.0 * U))
+    }
+
     /// Whether the bundle may meet a box: `false` is certain.
     #[inline(always)]
     pub fn may_meet(&self, bounds: &Aabb) -> bool {
@@ -148,5 +158,120 @@ fn clip(room: f64, slope: f64, enter: &mut f64, exit: &mut f64) {
         if t > *enter {
             *enter = t;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Point3;
+
+    /// Whole numbers at random, so that points of rays are exact.
+    struct Dice(u64);
+
+    impl Dice {
+        fn below(&mut self, n: u64) -> u64 {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (self.0 >> 33) % n
+        }
+
+        fn about(&mut self, n: u64) -> f64 {
+            self.below(2 * n + 1) as f64 - n as f64
+        }
+
+        fn point(&mut self, n: u64) -> Point3 {
+            Point3::new(self.about(n), self.about(n), self.about(n))
+        }
+
+        /// Mostly with a width of zero on some axis.
+        fn bounds(&mut self, n: u64) -> Aabb {
+            let (a, b) = (self.point(n), self.point(n));
+            let keep = self.below(8);
+            let b = Point3::from([0, 1, 2].map(|i| if keep >> i & 1 == 1 { a[i] } else { b[i] }));
+            Aabb::from_points([a, b])
+        }
+
+        fn corner(&mut self, b: &Aabb) -> Point3 {
+            Point3::from([0, 1, 2].map(|i| if self.below(2) == 0 { b.min[i] } else { b.max[i] }))
+        }
+    }
+
+    #[test]
+    fn no_box_that_a_ray_of_the_bundle_meets_is_missed() {
+        let (mut met, mut missed) = (0, 0);
+        let mut dice = Dice(1);
+        for _ in 0..20_000 {
+            let start = dice.bounds(9);
+            let toward = dice.bounds(9);
+            let (shaft, ray, far) = if dice.below(2) == 0 {
+                let (low, high) = (toward.min.to_vec(), toward.max.to_vec());
+                let ray = Ray::new(dice.corner(&start), dice.corner(&toward).to_vec());
+                (Shaft::new(start, low, high), ray, dice.below(9) as f64)
+            } else {
+                let o = dice.corner(&start);
+                let ray = Ray::new(o, dice.corner(&toward) - o).with_range(0.0, 1.0);
+                (Shaft::between(start, toward), ray, dice.below(5) as f64 / 4.0)
+            };
+            if ray.direction == Vec3::ZERO {
+                continue;
+            }
+            assert!(shaft.holds(&ray), "{shaft:?} {ray:?}");
+            // A box that the ray touches in this exact point, if no more.
+            let p = ray.at(far);
+            let side = dice.bounds(3).max.to_vec().abs();
+            let bounds = Aabb::new(p - if dice.below(2) == 0 { side } else { Vec3::ZERO }, p + side);
+            assert!(shaft.may_meet(&bounds), "{shaft:?} {ray:?} {bounds:?}");
+            met += 1;
+            // And any box: what is missed holds no point of the ray.
+            let other = dice.bounds(20);
+            if !shaft.may_meet(&other) {
+                missed += 1;
+                for k in 0..=8 {
+                    let t = if ray.t_max == 1.0 { f64::from(k) / 8.0 } else { f64::from(k) };
+                    assert!(!other.contains(ray.at(t)), "{shaft:?} {ray:?} {other:?}");
+                }
+            }
+        }
+        assert!(met > 15_000 && missed > 5_000, "{met} {missed}");
+    }
+
+    #[test]
+    fn no_plane_that_a_ray_of_the_bundle_crosses_is_missed() {
+        let (mut crossed, mut missed) = (0, 0);
+        let mut dice = Dice(2);
+        for _ in 0..20_000 {
+            let (start, end) = (dice.bounds(9), dice.bounds(9));
+            let shaft = Shaft::between(start, end);
+            let (a, b) = (dice.corner(&start), dice.corner(&end));
+            let n = dice.point(4).to_vec();
+            let on = a + (b - a) * (dice.below(5) as f64 / 4.0);
+            assert!(shaft.may_cross(n, n.dot(on.to_vec()), 0.0), "{shaft:?} {n:?} {on:?}");
+            crossed += 1;
+            let h = dice.about(60);
+            if !shaft.may_cross(n, h, 0.0) {
+                missed += 1;
+                let (low, high) = (n.dot(a.to_vec()) - h, n.dot(b.to_vec()) - h);
+                assert!(low * high > 0.0, "{shaft:?} {n:?} {h}");
+            }
+        }
+        assert!(crossed == 20_000 && missed > 5_000, "{missed}");
+    }
+
+    #[test]
+    fn rays_of_other_bundles_are_told() {
+        let unit = Aabb::new(Point3::ORIGIN, Point3::new(1.0, 1.0, 1.0));
+        let end = Aabb::new(Point3::new(0.0, 0.0, 9.0), Point3::new(1.0, 1.0, 9.0));
+        let shaft = Shaft::between(unit, end);
+        let to =
+            |x: f64, y: f64| Ray::new(Point3::new(0.5, 0.5, 0.0), Vec3::new(x, y, 9.0)).with_range(0.0, 1.0);
+        assert!(shaft.holds(&to(0.5, -0.5)));
+        assert!(!shaft.holds(&to(0.75, 0.0)) && !shaft.holds(&to(0.0, f64::NAN)));
+        assert!(
+            !shaft.holds(&to(0.0, 0.0).with_range(0.0, 1.5))
+                && !shaft.holds(&to(0.0, 0.0).with_range(-1.0, 1.0))
+        );
+        let forward = Shaft::new(unit, Vec3::new(-1.0, -1.0, 1.0), Vec3::new(1.0, 1.0, 1.0));
+        let along = |z: f64| Ray::new(Point3::new(0.5, 0.5, 0.5), Vec3::new(0.0, 1.0, z));
+        assert!(forward.holds(&along(1.0)) && !forward.holds(&along(0.5)));
     }
 }

@@ -167,7 +167,7 @@ impl<'a> Beams<'a> {
                 let ends = |first: f64, block: u32, size: u32| {
                     [block, block + 1].map(|k| on_picture(first + f64::from(k * BLOCK), size))
                 };
-                world.geometry().beam(&camera.shaft(ends(left, column, width), ends(top, row, height)))
+                world.geometry().beam(&camera.shaft(ends(left, column, width), ends(top, row, height)), None)
             })
             .as_ref()
     }

@@ -202,6 +202,24 @@ impl Surface for Plane {
         !shaft.may_cross(self.normal, offset.v.hi, offset.v.lo.abs() + offset.e)
     }
 
+    /// A half-space is convex: what starts and ends in it stays in it.
+    fn is_left(&self, side: RaySide, shaft: &Shaft) -> bool {
+        let (n, end) = (self.normal, shaft.end());
+        let (mut least, mut most, mut size) = (0.0, 0.0, self.offset.v.hi.abs());
+        for i in 0..3 {
+            let (a, b) = (n[i] * end.min[i], n[i] * end.max[i]);
+            least += a.min(b);
+            most += a.max(b);
+            size += a.abs().max(b.abs());
+        }
+        // Three products, three sums, the offset's low part.
+        let err = size * (8.0 * U) + self.offset.e + planar::TINY;
+        match side {
+            RaySide::Front => least - self.offset.v.hi > err,
+            RaySide::Back => most - self.offset.v.hi < -err,
+        }
+    }
+
     #[inline(always)]
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
         // Seen from the ray's own origin, so that a near crossing is as precise as a far one: a plane has no middle, and no size but its

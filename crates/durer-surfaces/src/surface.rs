@@ -2,7 +2,7 @@
 
 use crate::{LocalPoint, LocalRay, Sink, SurfacePoint};
 use core::cmp::Ordering;
-use durer_math::{Aabb, Affine, Shaft};
+use durer_math::{Aabb, Affine, RaySide, Shaft};
 
 /// A surface, in its own frame. Its one question: *where does this ray meet you?*
 ///
@@ -19,6 +19,11 @@ pub trait Surface: Send + Sync {
     /// Whether no ray of a bundle meets the surface: `true` is certain.
     fn misses(&self, shaft: &Shaft) -> bool {
         !shaft.may_meet(&self.bounds())
+    }
+
+    /// Whether no ray of a bundle that starts strictly on `side` of the surface ever comes back to it: `true` is certain.
+    fn is_left(&self, _side: RaySide, _shaft: &Shaft) -> bool {
+        false
     }
 
     /// Pushes every crossing in the ray's closed range, once, ascending; the exact surface's crossings with the exact ray

@@ -222,6 +222,9 @@ fn eigen(mut m: [[f64; 3]; 3]) -> ([f64; 3], [Vec3; 3]) {
     ([m[0][0], m[1][1], m[2][2]], v)
 }
 
+/// Below this share of the strongest, a bend counts as none for the choice of a centre.
+const NEARLY_PARABOLIC: f64 = 1.0 / 64.0;
+
 /// A frame for rays to be re-centred to: the centre or vertex, and the surface's size there. Any numbers would be right; these are good.
 fn frame(k: &[f64; 10]) -> (Frame, i32, Vec3) {
     let k_max = k.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
@@ -232,23 +235,27 @@ fn frame(k: &[f64; 10]) -> (Frame, i32, Vec3) {
     let b = Vec3::new(half(k[6]), half(k[7]), half(k[8]));
     let (values, vectors) = eigen(q);
     let largest = values.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    let mut c = Vec3::ZERO;
-    for (value, &v) in values.iter().zip(&vectors) {
-        if value.abs() > 1e-12 * largest {
-            c -= v * (b.dot(v) / value);
-        }
-    }
+    // The centre, as far as directions in which the surface bends more than this tell.
+    let centre_without = |weak: f64| {
+        let strong = values.iter().zip(&vectors).filter(|(value, _)| value.abs() > weak * largest);
+        strong.fold(Vec3::ZERO, |c, (value, &v)| c - v * (b.dot(v) / value))
+    };
     let qv = |v: Vec3| Vec3::new(Vec3::from(q[0]).dot(v), Vec3::from(q[1]).dot(v), Vec3::from(q[2]).dot(v));
     let f = |x: Vec3| x.dot(qv(x) + b * 2.0) + k[9];
-    let g = qv(c) + b;
-    let (mut size, level) = (0.0, f(c));
+    // A paraboloid's vertex: along the part of the gradient that Q cannot move.
+    let vertex = |c: Vec3, g: Vec3| (c - g * (f(c) / (2.0 * g.length_squared())), 2.0 * g.length() / largest);
+    let mut c = centre_without(1e-12);
+    let mut size = 0.0;
     if largest > 0.0 {
-        // A paraboloid's vertex: along the part of the gradient that Q cannot move.
-        if g.length() > 1e-9 * b.length() {
-            c -= g * (level / (2.0 * g.length_squared()));
-            size = 2.0 * g.length() / largest;
-        } else {
-            size = (level.abs() / largest).sqrt();
+        let g = qv(c) + b;
+        (c, size) =
+            if g.length() > 1e-9 * b.length() { vertex(c, g) } else { (c, (f(c).abs() / largest).sqrt()) };
+        // A surface that is all but a paraboloid has its centre far away, where nothing of it is: then its vertex, if that is nearer and on it.
+        let near = centre_without(NEARLY_PARABOLIC);
+        let (near, near_size) = vertex(near, qv(near) + b);
+        let slope = qv(near) + b;
+        if near.length() < 0.5 * c.length() && f(near).abs() <= near_size * slope.length() {
+            (c, size) = (near, near_size);
         }
     } else {
         c = b * (-0.5 * k[9] / b.length_squared());
@@ -466,5 +473,34 @@ mod tests {
         let b = Quadric::new(NAMED[0].0).unwrap().bounds();
         assert!(b.max.x >= 2.0 && b.max.x < 2.0 + 1e-14 && b.max.y >= 1.0 && b.max.y < 1.0 + 1e-14);
         assert_eq!(Quadric::new(NAMED[2].0).unwrap().bounds(), Aabb::UNBOUNDED);
+    }
+
+    /// Eigenvalues -2.78, 0.0026 and 4.78: the centre lies 770 away, the surface at the origin.
+    #[test]
+    fn nearly_parabolic_quadrics_are_bracketed_as_narrowly_as_others() {
+        let k = [
+            -1.761_590_687_233_151_3,
+            2.851_397_615_184_67,
+            0.918_960_358_388_875_9,
+            3.888_426_133_993_613_5,
+            3.251_953_448_049_5,
+            3.359_998_088_976_735_4,
+            3.642_265_064_905_554,
+            -3.387_228_737_948_286,
+            1.973_905_839_528_787_8,
+            1.0,
+        ];
+        let quadric = Quadric::new(k).unwrap();
+        let oracle = ExactBody::solid(vec![ExactForm::from_f64(k)], 1.0, false);
+        let mut dice = Dice::new(7);
+        let mut widths = vec![];
+        for _ in 0..600 {
+            let (o, p) = (dice.vector() * 5.0, dice.vector() * 5.0);
+            let ray = durer_math::Ray::new(o.to_point(), p - o);
+            let roots = crate::laws::check(&quadric, &oracle, &ray).unwrap();
+            widths.extend(roots.iter().map(|root| crate::laws::width(&quadric, &oracle, &ray, root)));
+        }
+        widths.sort_by(f64::total_cmp);
+        assert!(widths.len() > 400 && widths[widths.len() / 2] < 100.0, "{:?}", widths[widths.len() / 2]);
     }
 }
