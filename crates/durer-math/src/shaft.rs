@@ -36,17 +36,17 @@ impl Shaft {
 
     /// The rays with `t` in `[0, 1]` that start in one box and end in another.
     pub fn between(start: Aabb, end: Aabb) -> Self {
-        // Far more than the roundings of this difference and of those by which `holds` keeps clear of the border.
-        let slack = |a: f64, b: f64| (a.abs() + b.abs()) * (16.0 * U) + f64::MIN_POSITIVE;
-        let low = |a: f64, b: f64| (b - a) - slack(a, b);
-        let high = |a: f64, b: f64| (b - a) + slack(a, b);
+        let axis = |a0: f64, a1: f64, b0: f64, b1: f64| {
+            // Far more than the roundings of these differences and of those by which `holds` keeps clear of the border.
+            let size = a0.abs() + a1.abs() + b0.abs() + b1.abs();
+            let slack = size.mul_add(32.0 * U, f64::MIN_POSITIVE);
+            ((b0 - a0) - slack, (b1 - a1) + slack)
+        };
         let (a, b) = (start, end);
-        Self {
-            start,
-            low: Vec3::new(low(a.min.x, b.min.x), low(a.min.y, b.min.y), low(a.min.z, b.min.z)),
-            high: Vec3::new(high(a.max.x, b.max.x), high(a.max.y, b.max.y), high(a.max.z, b.max.z)),
-            t_max: 1.0,
-        }
+        let (x0, x1) = axis(a.min.x, a.max.x, b.min.x, b.max.x);
+        let (y0, y1) = axis(a.min.y, a.max.y, b.min.y, b.max.y);
+        let (z0, z1) = axis(a.min.z, a.max.z, b.min.z, b.max.z);
+        Self { start, low: Vec3::new(x0, y0, z0), high: Vec3::new(x1, y1, z1), t_max: 1.0 }
     }
 
     /// Whether a ray belongs to the bundle: `true` is certain.

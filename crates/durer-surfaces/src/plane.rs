@@ -244,13 +244,16 @@ impl Surface for Plane {
         let length = n2.sqrt();
         let x =
             Vec3::new(s.mul_add(ray.d.x, ray.o.x), s.mul_add(ray.d.y, ray.o.y), s.mul_add(ray.d.z, ray.o.z));
-        // Moved onto the plane along the normal: once, and once more for what far crossings leave.
-        let onto = |x: Vec3| x - n * ((n.dot(x) - offset.v.hi) / n2);
-        let p = onto(onto(x));
+        // Moved onto the plane: along the ray, which undoes the rounding of a far start's parameter, then along the normal.
+        let height = |x: Vec3| n.dot(x) - offset.v.hi;
+        let step = height(x) / n.dot(ray.d);
+        let step = if step.is_finite() { step } else { 0.0 };
+        let x = x - ray.d * step;
+        let p = x - n * (height(x) / n2);
         let width = ray.unmoved().width(root.lo, root.hi);
         let dp = ray.o_err
             + ray.d_err * s.abs()
-            + ray.d.abs() * width
+            + ray.d.abs() * (width + step.abs())
             + (x - p).abs()
             + (x.abs() + p.abs()) * (2.0 * U);
         // The height over the plane: three roundings in the dot product, one in the difference, and what f64 does not hold of the offset.
