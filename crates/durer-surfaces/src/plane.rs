@@ -244,13 +244,13 @@ impl Surface for Plane {
         let length = n2.sqrt();
         let x =
             Vec3::new(s.mul_add(ray.d.x, ray.o.x), s.mul_add(ray.d.y, ray.o.y), s.mul_add(ray.d.z, ray.o.z));
-        // Moved onto the plane: along the ray, which undoes the rounding of a far start's parameter, then along the normal.
+        // Moved onto the plane: within the bracket along the ray, which undoes the rounding of a far start's parameter; then along the normal.
         let height = |x: Vec3| n.dot(x) - offset.v.hi;
+        let width = ray.unmoved().width(root.lo, root.hi);
         let step = height(x) / n.dot(ray.d);
-        let step = if step.is_finite() { step } else { 0.0 };
+        let step = if step.abs() <= width { step } else { 0.0 };
         let x = x - ray.d * step;
         let p = x - n * (height(x) / n2);
-        let width = ray.unmoved().width(root.lo, root.hi);
         let dp = ray.o_err
             + ray.d_err * s.abs()
             + ray.d.abs() * (width + step.abs())
