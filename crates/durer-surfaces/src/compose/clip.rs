@@ -13,7 +13,7 @@ use crate::sphere::Sphere;
 use crate::{Flow, LocalRay, Need, PartId, Placed, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::eft::exponent;
-use durer_math::{Aabb, Affine, Dyadic, Normal3, Point3, Ring, Run, Vec3};
+use durer_math::{Aabb, Affine, Dyadic, Isa, Normal3, Point3, Ring, Run, Vec3};
 use std::sync::Arc;
 
 /// A surface each of whose faces is the zero set of a polynomial of degree at most two.
@@ -233,6 +233,14 @@ impl Region {
 
     /// Whether the closed region holds a root, if that can be told from its bracket.
     fn holds(&self, ray: &LocalRay<'_>, root: &Root) -> Option<bool> {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.holds_here(ray, root),
+        )
+    }
+
+    #[inline(always)]
+    fn holds_here(&self, ray: &LocalRay<'_>, root: &Root) -> Option<bool> {
         let placed;
         let local = match &self.map {
             None => ray,
