@@ -23,9 +23,7 @@ pub struct Shaft {
     t_max: f64,
 }
 
-/// A slope below this has no reciprocal worth dividing by: it gives no bound.
-const LEAST_SLOPE: f64 = 1.0 / (1_u128 << 100) as f64 / (1_u128 << 100) as f64;
-/// More than the roundings of a difference, of a reciprocal and of their product.
+/// More than the roundings of a difference, of a quotient and of what is added to it.
 const WIDEN: f64 = 8.0 * U;
 
 impl Shaft {
@@ -118,11 +116,9 @@ impl Shaft {
         let (falls, climbs) = (falls - slope, climbs + slope);
         let lowest = if falls < 0.0 { least + self.t_max * falls * (1.0 + 16.0 * U) } else { least };
         let highest = if climbs > 0.0 { most + self.t_max * climbs * (1.0 + 16.0 * U) } else { most };
-        let rounded = (least.abs() + lowest.abs()).min(f64::MAX) * (4.0 * U);
-        let rounded = rounded + (most.abs() + highest.abs()).min(f64::MAX) * (4.0 * U);
-        // Where something is not a number, nothing is disproved.
-        let above = lowest > rounded;
-        let below = highest < -rounded;
+        // What cancels in the last sum was rounded at its own size. Where something is not a number, nothing is disproved.
+        let above = lowest > (least.abs() + lowest.abs()) * (4.0 * U);
+        let below = highest < -((most.abs() + highest.abs()) * (4.0 * U));
         !above && !below
     }
 }
@@ -140,24 +136,24 @@ fn within([a, b]: [f64; 2], [low, high]: [f64; 2], o: f64, d: f64) -> bool {
 /// Cuts `[enter, exit]` to the `t` with `t slope <= room`; never too much.
 #[inline(always)]
 fn clip(room: f64, slope: f64, enter: &mut f64, exit: &mut f64) {
-    if slope.abs() < LEAST_SLOPE {
-        if slope == 0.0 && room < 0.0 {
+    // Pays for bounds and quotients that lost bits below the normal range.
+    const LOST: f64 = f64::MIN_POSITIVE;
+    let room = room + LOST;
+    if slope == 0.0 {
+        if room < 0.0 {
             *exit = f64::NEG_INFINITY;
         }
         return;
     }
     let t = room / slope;
+    let slack = t.abs() * WIDEN + LOST;
     // Comparisons with NaN keep what there was.
     if slope > 0.0 {
-        let t = t + t.abs() * WIDEN;
-        if t < *exit {
-            *exit = t;
+        if t + slack < *exit {
+            *exit = t + slack;
         }
-    } else {
-        let t = t - t.abs() * WIDEN;
-        if t > *enter {
-            *enter = t;
-        }
+    } else if t - slack > *enter {
+        *enter = t - slack;
     }
 }
 
@@ -255,6 +251,25 @@ mod tests {
             }
         }
         assert!(crossed == 20_000 && missed > 5_000, "{missed}");
+    }
+
+    #[test]
+    fn no_plane_ahead_of_endless_rays_is_missed() {
+        let (mut crossed, mut missed) = (0, 0);
+        let mut dice = Dice(3);
+        for _ in 0..20_000 {
+            let (start, way) = (dice.bounds(9), dice.bounds(9));
+            let shaft = Shaft::new(start, way.min.to_vec(), way.max.to_vec());
+            let (o, d) = (dice.corner(&start), dice.corner(&way).to_vec());
+            let (n, h) = (dice.point(4).to_vec(), dice.about(60));
+            let (height, slope) = (n.dot(o.to_vec()) - h, n.dot(d));
+            if height * slope < 0.0 || height == 0.0 {
+                crossed += 1;
+                assert!(shaft.may_cross(n, h, 0.0), "{shaft:?} {n:?} {h}");
+            }
+            missed += usize::from(!shaft.may_cross(n, h, 0.0));
+        }
+        assert!(crossed > 5_000 && missed > 1_000, "{crossed} {missed}");
     }
 
     #[test]

@@ -97,7 +97,7 @@ impl Bytes {
         }
         // Negative numbers become 0, and NaN is shown black.
         let mut byte = self.start[(v * CELLS as f64) as usize & (CELLS - 1)];
-        // Not so for NaN.
+        // Never so for NaN.
         while byte < 255 && self.least[usize::from(byte) + 1] <= v {
             byte += 1;
         }

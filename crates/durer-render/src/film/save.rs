@@ -119,7 +119,7 @@ impl Film {
             Bits::Eight => png::BitDepth::Eight,
             Bits::Sixteen => png::BitDepth::Sixteen,
         });
-        // Little larger than the best, and ten times as fast.
+        // The encoder's default took 4 % of a simple picture's time.
         encoder.set_compression(png::Compression::Fast);
         encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
         let mut writer = encoder.write_header()?;
