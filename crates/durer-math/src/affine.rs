@@ -391,3 +391,14 @@ fn quotient(n: &Dyadic, d: &Dyadic) -> Run<crate::Dd> {
     let k = (kn - kd).clamp(-3000, 3000) as i32;
     (with_error(n) / with_error(d)).scale2(k)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_identity_written_down_is_the_one_that_is_built() {
+        let built = Affine::new([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], Point3::ORIGIN).unwrap();
+        assert_eq!(built, Affine::IDENTITY);
+    }
+}
