@@ -31,7 +31,7 @@
 //! array per type, in the order of the leaves of a [`durer_bvh`] tree; what is unbounded is tested beside it. Answers do not depend on
 //! the tree, the instruction set or the number of threads.
 //!
-//! Closest, any and all are in `query`, bundles of rays that share one search in `beam`, stretches inside solids in `spans`, points in `resolve`, many rays in `batch`, and the story of
+//! Closest, any and all are in `query`, bundles of rays that share one search in `beam`, eight rays side by side in `lanes`, stretches inside solids in `spans`, points in `resolve`, many rays in `batch`, and the story of
 //! one ray in `explain`.
 #![forbid(unsafe_code)]
 
@@ -44,6 +44,7 @@ mod explain;
 mod geometry;
 mod hit;
 mod ids;
+mod lanes;
 mod query;
 mod resolve;
 mod spans;
@@ -57,5 +58,6 @@ pub use crate::explain::{Event, Explanation, Verdict};
 pub use crate::geometry::Geometry;
 pub use crate::hit::{Hit, ObjectId, Span};
 pub use crate::ids::EVERYTHING;
+pub use crate::lanes::{Hits8, Rays8, Sources8};
 pub use crate::stats::Stats;
 pub use durer_bvh::Settings;

@@ -136,6 +136,23 @@ impl Isa {
             Path::Avx2 | Path::Avx512 => f(),
         }
     }
+
+    /// As [`Isa::run`], for code that is written for lanes ([`crate::lanes`]): compiled for AVX-512 too.
+    #[inline(always)]
+    pub fn run_in_lanes<R>(self, f: impl FnOnce() -> R) -> R {
+        match self.0 {
+            // SAFETY: as in `run`: `is_available` has seen every feature of this path on this CPU.
+            #[cfg(target_arch = "x86_64")]
+            Path::Avx512 => unsafe { run_avx512(f) },
+            _ => self.run(f),
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+fn run_avx512<R>(f: impl FnOnce() -> R) -> R {
+    f()
 }
 
 #[cfg(target_arch = "x86_64")]

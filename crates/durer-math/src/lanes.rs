@@ -1,0 +1,341 @@
+//! Eight numbers side by side: the same formula for eight rays at once.
+//!
+//! Plain arrays with plain loops. Inside [`Isa::run_in_lanes`](crate::Isa::run_in_lanes) the compiler turns them into vector instructions, two registers
+//! with AVX2 and one with AVX-512; each lane has the bits of the scalar operation everywhere.
+
+use crate::{Scalar, Vec3};
+use core::ops::{Add, AddAssign, BitAnd, BitAndAssign, BitOr, BitOrAssign, Div, Mul, Neg, Not, Sub};
+
+/// How many lanes there are.
+pub const LANES: usize = 8;
+
+/// Eight f64.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(align(64))]
+pub struct F8(pub [f64; LANES]);
+
+/// Eight answers to a yes-no question.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(align(8))]
+pub struct M8(pub [bool; LANES]);
+
+#[inline(always)]
+fn zip<A: Copy, B: Copy, R>(a: [A; LANES], b: [B; LANES], f: impl Fn(A, B) -> R) -> [R; LANES] {
+    core::array::from_fn(
+        #[inline(always)]
+        |i| f(a[i], b[i]),
+    )
+}
+
+impl F8 {
+    /// Zero in every lane.
+    pub const ZERO: Self = Self([0.0; LANES]);
+    /// One in every lane.
+    pub const ONE: Self = Self([1.0; LANES]);
+
+    /// The same number in every lane.
+    #[inline(always)]
+    pub const fn splat(x: f64) -> Self {
+        Self([x; LANES])
+    }
+
+    /// A function of each lane.
+    #[inline(always)]
+    #[must_use]
+    pub fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        Self(self.0.map(f))
+    }
+
+    /// `self * a + b`, rounded once.
+    #[inline(always)]
+    #[must_use]
+    pub fn mul_add(self, a: Self, b: Self) -> Self {
+        Self(core::array::from_fn(
+            #[inline(always)]
+            |i| self.0[i].mul_add(a.0[i], b.0[i]),
+        ))
+    }
+
+    /// The square root.
+    #[inline(always)]
+    #[must_use]
+    pub fn sqrt(self) -> Self {
+        self.map(f64::sqrt)
+    }
+
+    /// The absolute value.
+    #[inline(always)]
+    #[must_use]
+    pub fn abs(self) -> Self {
+        self.map(f64::abs)
+    }
+
+    /// The lesser number; `other` where one is not a number.
+    #[inline(always)]
+    #[must_use]
+    pub fn min(self, other: Self) -> Self {
+        Self(zip(self.0, other.0, |a, b| if a < b { a } else { b }))
+    }
+
+    /// The greater number; `other` where one is not a number.
+    #[inline(always)]
+    #[must_use]
+    pub fn max(self, other: Self) -> Self {
+        Self(zip(self.0, other.0, |a, b| if a > b { a } else { b }))
+    }
+
+    /// The magnitude of `self` with the sign of `sign`.
+    #[inline(always)]
+    #[must_use]
+    pub fn copysign(self, sign: Self) -> Self {
+        Self(zip(self.0, sign.0, f64::copysign))
+    }
+
+    /// Where `self < other`.
+    #[inline(always)]
+    pub fn lt(self, other: Self) -> M8 {
+        M8(zip(self.0, other.0, |a, b| a < b))
+    }
+
+    /// Where `self <= other`.
+    #[inline(always)]
+    pub fn le(self, other: Self) -> M8 {
+        M8(zip(self.0, other.0, |a, b| a <= b))
+    }
+
+    /// Where `self > other`.
+    #[inline(always)]
+    pub fn gt(self, other: Self) -> M8 {
+        other.lt(self)
+    }
+
+    /// Where `self >= other`.
+    #[inline(always)]
+    pub fn ge(self, other: Self) -> M8 {
+        other.le(self)
+    }
+}
+
+impl M8 {
+    /// No lane.
+    pub const NONE: Self = Self([false; LANES]);
+    /// Every lane.
+    pub const ALL: Self = Self([true; LANES]);
+
+    /// The first `n` lanes.
+    #[inline(always)]
+    pub fn first(n: usize) -> Self {
+        Self(core::array::from_fn(
+            #[inline(always)]
+            |i| i < n,
+        ))
+    }
+
+    /// The same answer in every lane.
+    #[inline(always)]
+    pub const fn splat(x: bool) -> Self {
+        Self([x; LANES])
+    }
+
+    /// `yes` where the mask is set, `no` elsewhere.
+    #[inline(always)]
+    pub fn select(self, yes: F8, no: F8) -> F8 {
+        F8(core::array::from_fn(
+            #[inline(always)]
+            |i| if self.0[i] { yes.0[i] } else { no.0[i] },
+        ))
+    }
+
+    /// As [`M8::select`], for vectors.
+    #[inline(always)]
+    pub fn select3(self, yes: Vec3<F8>, no: Vec3<F8>) -> Vec3<F8> {
+        Vec3::new(self.select(yes.x, no.x), self.select(yes.y, no.y), self.select(yes.z, no.z))
+    }
+
+    /// Lane `i` as bit `i`.
+    #[inline(always)]
+    pub fn bits(self) -> u8 {
+        // Each byte is 0 or 1: the product gathers them in its highest byte.
+        (u64::from_le_bytes(self.0.map(u8::from)).wrapping_mul(0x0102_0408_1020_4080) >> 56) as u8
+    }
+
+    /// Bit `i` as lane `i`.
+    #[inline(always)]
+    pub fn from_bits(bits: u8) -> Self {
+        Self(core::array::from_fn(
+            #[inline(always)]
+            |i| bits >> i & 1 == 1,
+        ))
+    }
+
+    /// Whether any lane is set.
+    #[inline(always)]
+    pub fn any(self) -> bool {
+        u64::from_le_bytes(self.0.map(u8::from)) != 0
+    }
+
+    /// Whether every lane is set.
+    #[inline(always)]
+    pub fn all(self) -> bool {
+        u64::from_le_bytes(self.0.map(u8::from)) == u64::from_le_bytes([1; LANES])
+    }
+
+    /// How many lanes are set.
+    #[inline(always)]
+    pub fn count(self) -> usize {
+        self.bits().count_ones() as usize
+    }
+}
+
+impl Vec3<F8> {
+    /// The same vector in every lane.
+    #[inline(always)]
+    pub const fn splat(v: Vec3) -> Self {
+        Self::new(F8::splat(v.x), F8::splat(v.y), F8::splat(v.z))
+    }
+
+    /// The vector in lane `i`.
+    #[inline(always)]
+    pub fn lane(&self, i: usize) -> Vec3 {
+        Vec3::new(self.x.0[i], self.y.0[i], self.z.0[i])
+    }
+
+    /// Puts a vector into lane `i`.
+    #[inline(always)]
+    pub fn set_lane(&mut self, i: usize, v: Vec3) {
+        (self.x.0[i], self.y.0[i], self.z.0[i]) = (v.x, v.y, v.z);
+    }
+}
+
+impl From<f64> for F8 {
+    #[inline(always)]
+    fn from(x: f64) -> Self {
+        Self::splat(x)
+    }
+}
+
+macro_rules! arithmetic {
+    ($($trait:ident, $method:ident, $op:tt;)*) => {$(
+        impl $trait for F8 {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, o: Self) -> Self {
+                Self(zip(self.0, o.0, |a, b| a $op b))
+            }
+        }
+        impl $trait<f64> for F8 {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, o: f64) -> Self {
+                Self(self.0.map(|a| a $op o))
+            }
+        }
+    )*};
+}
+arithmetic! { Add, add, +; Sub, sub, -; Mul, mul, *; Div, div, /; }
+
+impl AddAssign for F8 {
+    #[inline(always)]
+    fn add_assign(&mut self, o: Self) {
+        *self = *self + o;
+    }
+}
+
+impl Neg for F8 {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.map(|x| -x)
+    }
+}
+
+macro_rules! logic {
+    ($($trait:ident, $method:ident, $assign:ident, $assigns:ident, $op:tt;)*) => {$(
+        impl $trait for M8 {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, o: Self) -> Self {
+                Self(zip(self.0, o.0, |a, b| a $op b))
+            }
+        }
+        impl $assign for M8 {
+            #[inline(always)]
+            fn $assigns(&mut self, o: Self) {
+                *self = *self $op o;
+            }
+        }
+    )*};
+}
+logic! { BitAnd, bitand, BitAndAssign, bitand_assign, &; BitOr, bitor, BitOrAssign, bitor_assign, |; }
+
+impl Not for M8 {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self(self.0.map(|x| !x))
+    }
+}
+
+impl Scalar for F8 {
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        Self::mul_add(self, a, b)
+    }
+    #[inline(always)]
+    fn difference_of_products(a: Self, b: Self, c: Self, d: Self) -> Self {
+        // Kahan's, as for f64.
+        let cd = c * d;
+        let lost = (-c).mul_add(d, cd);
+        a.mul_add(b, -cd) + lost
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self::abs(self)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self::sqrt(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Isa;
+
+    #[test]
+    fn lanes_have_the_bits_of_the_scalar_operations() {
+        let a = F8([1.5, -0.1, 3e300, 1e-310, 0.0, -0.0, f64::INFINITY, 7.0]);
+        let b = F8([0.1, 0.3, -2e10, 3.0, -0.0, 5.0, 1.0, f64::NAN]);
+        for isa in Isa::available() {
+            let (sum, fused, least, kahan, root) = isa.run_in_lanes(
+                #[inline(always)]
+                || (a + b, a.mul_add(b, a), a.min(b), F8::difference_of_products(a, b, b, a), a.sqrt()),
+            );
+            for i in 0..LANES {
+                let (x, y) = (a.0[i], b.0[i]);
+                let same = |got: F8, want: f64| assert_eq!(got.0[i].to_bits(), want.to_bits(), "{isa:?} {i}");
+                same(sum, x + y);
+                same(least, if x < y { x } else { y });
+                // The sign of a NaN means nothing.
+                if !(x * y).is_nan() && (x * y).is_finite() && x >= 0.0 {
+                    same(fused, x.mul_add(y, x));
+                    same(kahan, crate::eft::difference_of_products(x, y, y, x));
+                    same(root, x.sqrt());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn masks_and_bits_are_two_ways_to_say_the_same() {
+        for bits in 0..=255_u8 {
+            let mask = M8::from_bits(bits);
+            assert_eq!((mask.bits(), mask.count()), (bits, bits.count_ones() as usize));
+            assert_eq!((mask.any(), mask.all()), (bits != 0, bits == 255));
+            let chosen = mask.select(F8::ONE, F8::ZERO);
+            assert!((0..LANES).all(|i| (chosen.0[i] == 1.0) == mask.0[i]));
+        }
+        assert_eq!([0, 3, 8].map(|n| M8::first(n).bits()), [0, 7, 255]);
+    }
+}
