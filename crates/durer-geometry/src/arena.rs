@@ -11,6 +11,7 @@ use core::ops::Range;
 use durer_bvh::{Entry, Frame};
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Isa, RaySide, Shaft};
+use durer_surfaces::outline::Outline;
 use durer_surfaces::{
     Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
 };
@@ -60,6 +61,10 @@ pub(crate) trait AnyArena: Send + Sync {
     fn side(&self, surface: u32, point: &LocalPoint<'_>) -> Side;
     /// The point of a hit.
     fn resolve(&self, isa: Isa, slot: u32, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint;
+    /// A slot as lanes see it; `None` if its numbers are too large or too small for that.
+    fn outline(&self, slot: u32) -> Option<Outline>;
+    /// Whether a ray with this mask meets a slot.
+    fn admits(&self, slot: u32, mask: u32) -> bool;
     /// Which part of its surface a slot is.
     fn part(&self, slot: u32) -> PartId;
     /// The name of a slot.
@@ -383,6 +388,15 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
             #[inline(always)]
             || surface.resolve(ray, root, need),
         )
+    }
+
+    fn outline(&self, slot: u32) -> Option<Outline> {
+        let Slot { surface, part, .. } = self.slot(slot);
+        surface.sketch(part).outline()
+    }
+
+    fn admits(&self, slot: u32, mask: u32) -> bool {
+        self.ids.admits(self.slot(slot).index, mask)
     }
 
     fn part(&self, slot: u32) -> PartId {

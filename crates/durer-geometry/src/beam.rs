@@ -2,6 +2,7 @@
 
 use crate::best::Best;
 use crate::geometry::{Beside, Geometry, slots};
+use crate::ids::Id;
 use crate::query::{any_in, closest_in};
 use crate::{Hit, walk::Walk};
 use arrayvec::ArrayVec;
@@ -9,20 +10,36 @@ use durer_bvh::Leaf;
 use durer_math::{Ray, Shaft, Source};
 use durer_surfaces::{Need, SurfacePoint};
 
-/// What the rays of a bundle may meet: leaves of the tree, and what is beside it.
+/// What the rays of a bundle may meet, by object and primitive.
 #[derive(Clone, Debug, Default)]
 pub struct Beam {
-    leaves: ArrayVec<Leaf, { Beam::MOST }>,
+    pub(crate) candidates: ArrayVec<Candidate, { Beam::MOST }>,
+}
+
+/// A slot that rays may meet.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Candidate {
+    pub(crate) arena: u32,
+    pub(crate) slot: u32,
+    pub(crate) name: Id,
+}
+
+impl Candidate {
+    fn leaf(self) -> Leaf {
+        Leaf { kind: self.arena, first: self.slot, count: 1 }
+    }
 }
 
 impl Beam {
-    /// With more leaves than this the tree is the faster way.
-    const MOST: usize = 6;
+    /// With more slots than this the tree is the faster way.
+    const MOST: usize = 64;
+    /// The same for one ray.
+    const FEW: usize = 12;
 
     /// Whether the rays meet nothing.
     #[inline(always)]
     pub fn is_empty(&self) -> bool {
-        self.leaves.is_empty()
+        self.candidates.is_empty()
     }
 }
 
@@ -39,6 +56,7 @@ impl Geometry {
     /// the same side of `source` ([`Geometry::unbounded_source`]), if there is one.
     pub fn beam(&self, shaft: &Shaft, source: Option<Source>) -> Option<Beam> {
         let mut beam = Beam::default();
+        let candidates = &mut beam.candidates;
         for beside in &self.beside {
             for slot in slots(&beside.leaf()) {
                 let is_source = |s: &Source| (s.arena, s.index) == (beside.arena, slot);
@@ -47,12 +65,26 @@ impl Geometry {
                         || arena.misses(slot, shaft)
                 });
                 if !missed {
-                    beam.leaves.try_push(Leaf { kind: beside.arena, first: slot, count: 1 }).ok()?;
+                    candidates.try_push(self.candidate(beside.arena, slot)).ok()?;
                 }
             }
         }
-        let full = self.tree.in_shaft(shaft, |leaf| beam.leaves.try_push(leaf).is_err());
+        let full = self.tree.in_shaft(shaft, |leaf| {
+            slots(&leaf).any(|slot| {
+                let arena = self.arenas.get(leaf.kind as usize);
+                let missed = leaf.count > 1 && arena.is_some_and(|arena| arena.misses(slot, shaft));
+                !missed && candidates.try_push(self.candidate(leaf.kind, slot)).is_err()
+            })
+        });
+        // Where two hits have the same `t` the first one tested is kept.
+        candidates.sort_unstable_by_key(|c| (c.name.object, c.name.primitive, c.arena, c.slot));
         (!full).then_some(beam)
+    }
+
+    fn candidate(&self, arena: u32, slot: u32) -> Candidate {
+        // An instance has no name of its own: it is asked anyway.
+        let unnamed = Id { object: u32::MAX, primitive: u32::MAX };
+        Candidate { arena, slot, name: self.arenas.get(arena as usize).map_or(unnamed, |a| a.name(slot)) }
     }
 
     /// As [`Geometry::seen`], of a ray of the bundle that `beam` was made for: the same answer.
@@ -61,14 +93,17 @@ impl Geometry {
         if beam.is_empty() {
             return None;
         }
+        if beam.candidates.len() > Beam::FEW {
+            return self.seen(ray, mask, need);
+        }
         self.walk_roughly(
             ray,
             mask,
             #[inline(always)]
             |walk: &Walk<'_>| {
                 let mut best = Best::least();
-                for leaf in &beam.leaves {
-                    closest_in(walk, *leaf, &mut best);
+                for candidate in &beam.candidates {
+                    closest_in(walk, candidate.leaf(), &mut best);
                 }
                 let hit = best.hit?;
                 Some((hit, self.point_of(walk.ray, ray.source(), &hit, need)))
@@ -79,14 +114,17 @@ impl Geometry {
     /// As [`Geometry::any_masked`], of a ray of the bundle that `beam` was made for: the same answer.
     #[inline]
     pub fn any_in(&self, beam: &Beam, ray: &Ray, mask: u32) -> bool {
+        if beam.candidates.len() > Beam::FEW {
+            return self.any_masked(ray, mask);
+        }
         !beam.is_empty()
             && self.walk_roughly(
                 ray,
                 mask,
                 #[inline(always)]
                 |walk: &Walk<'_>| {
-                    for leaf in &beam.leaves {
-                        if any_in(walk, *leaf) {
+                    for candidate in &beam.candidates {
+                        if any_in(walk, candidate.leaf()) {
                             return true;
                         }
                     }

@@ -2,12 +2,13 @@
 
 use crate::arena::AnyArena;
 use crate::best::Placement;
+use crate::outlines::Outlines;
 use crate::{Builder, stats};
 use core::ops::Range;
 use core::sync::atomic::{AtomicU64, Ordering};
 use durer_bvh::{Bvh, Leaf};
 use durer_math::{Aabb, Affine, Isa};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// How deep instances may be nested.
 pub(crate) const MAX_NESTING: u32 = 8;
@@ -30,6 +31,8 @@ pub struct Geometry {
     placements: u32,
     depth: u32,
     invalid: AtomicU64,
+    /// Made when lanes first ask for them.
+    pub(crate) outlines: OnceLock<Outlines>,
 }
 
 /// A geometry, placed.
@@ -115,6 +118,7 @@ impl Geometry {
             placements,
             depth,
             invalid,
+            outlines: OnceLock::new(),
         }
     }
 

@@ -45,6 +45,7 @@ mod geometry;
 mod hit;
 mod ids;
 mod lanes;
+mod outlines;
 mod query;
 mod resolve;
 mod spans;

@@ -10,8 +10,9 @@
 //! Decided as the [disc](crate::Disc) is, against two circles; both rims belong to the annulus.
 
 use crate::disc::RoundSheet;
+use crate::outline::Sketch;
 use crate::planar::scaled_to_one;
-use crate::{Flow, LocalRay, Need, Root, Sink, Surface, SurfacePoint};
+use crate::{Flow, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::{Aabb, Point3, Vec3};
 
@@ -102,6 +103,10 @@ impl Surface for Annulus {
         {
             let _: Flow = sink.push(probe.root(&crossing, 0, [0.0; 2]));
         }
+    }
+
+    fn sketch(&self, _part: PartId) -> Sketch {
+        Sketch::ring(self.centre(), self.normal(), self.hole, self.radius())
     }
 
     #[inline(always)]

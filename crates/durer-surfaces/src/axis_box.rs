@@ -11,10 +11,11 @@
 //! to the first axis; a line that only touches an edge or a corner meets the box in one grazing root; a line within a face enters and
 //! leaves through the other slabs, since the box is closed.
 
+use crate::outline::Sketch;
 use crate::planar::{self, AlongRay, Crossing, Line, PlaneForm, PointLine, Probe};
 use crate::point::least_step;
 use crate::{
-    CentredRay, Flow, Kind, LocalPoint, LocalRay, Need, RingRay, Root, Side, Sink, Solidity, Surface,
+    CentredRay, Flow, Kind, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side, Sink, Solidity, Surface,
     SurfacePoint,
 };
 use core::cmp::Ordering;
@@ -425,6 +426,10 @@ impl Surface for AxisBox {
             point.dpdv[b] = width(b);
         }
         point
+    }
+
+    fn sketch(&self, _part: PartId) -> Sketch {
+        Sketch::axis_box(self.min, self.max)
     }
 
     fn solidity(&self) -> Solidity {

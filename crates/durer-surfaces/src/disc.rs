@@ -10,10 +10,11 @@
 //! The line `o + s d` (relative to `c`) meets the plane at `p = (n x (o x d)) / (n . d)`, so whether it meets the disc is the sign of
 //! `|n x (o x d)|^2 - r^2 (n . d)^2`: a polynomial, decided exactly; the rim belongs to the disc.
 
+use crate::outline::Sketch;
 use crate::planar::{
     self, AlongRay, Crossing, Line, PlaneForm, Probe, Quick, cross, dot, exact3, scaled_to_one, unit,
 };
-use crate::{CentredRay, Flow, LocalRay, Need, RingRay, Root, Sink, Surface, SurfacePoint};
+use crate::{CentredRay, Flow, LocalRay, Need, PartId, RingRay, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use core::f64::consts::TAU;
 use durer_math::eft::{exponent, scale2};
@@ -88,6 +89,10 @@ impl Surface for Disc {
         {
             let _: Flow = sink.push(probe.root(&crossing, 0, [0.0; 2]));
         }
+    }
+
+    fn sketch(&self, _part: PartId) -> Sketch {
+        Sketch::ring(self.centre(), self.normal(), 0.0, self.radius())
     }
 
     #[inline(always)]

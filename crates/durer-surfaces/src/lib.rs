@@ -12,6 +12,7 @@ mod facet;
 pub mod laws;
 mod local;
 pub mod mesh;
+pub mod outline;
 pub mod parallelogram;
 mod planar;
 pub mod plane;

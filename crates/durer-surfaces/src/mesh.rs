@@ -7,6 +7,7 @@
 
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
+use crate::outline::Sketch;
 use crate::planar::{self, PointLine, Probe, ThreePoints};
 use crate::{Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use arrayvec::ArrayVec;
@@ -182,6 +183,14 @@ impl Mesh {
         self.data.faces[number as usize].map(|i| self.data.vertices[i as usize])
     }
 
+    /// The normals at the corners of a face, if it is not flat.
+    #[inline(always)]
+    fn corner_normals(&self, number: u32) -> Option<[Normal3; 3]> {
+        let data = &self.data;
+        let smooth = !data.normals.is_empty() && normal_faces(data)[number as usize] != FLAT;
+        smooth.then(|| normal_faces(data)[number as usize].map(|i| data.normals[i as usize]))
+    }
+
     /// The middle of the bounding box, and half its largest width.
     #[inline(always)]
     fn view(&self) -> (Point3, f64) {
@@ -293,12 +302,20 @@ impl Surface for Mesh {
         let face = root.face as usize;
         let data = &self.data;
         let corners = |faces: &[[u32; 3]]| faces[face].map(|i| i as usize);
-        let smooth = !data.normals.is_empty() && normal_faces(data)[face] != FLAT;
         let varying = Varying {
-            normals: smooth.then(|| corners(normal_faces(data)).map(|i| data.normals[i])),
+            normals: self.corner_normals(root.face),
             uv: (!data.uv.is_empty()).then(|| corners(uv_faces(data)).map(|i| data.uv[i])),
         };
         facet::resolve(&self.probe(ray), &self.facet(root.face), &varying, need)
+    }
+
+    fn sketch(&self, part: PartId) -> Sketch {
+        let vertices = self.facet(part.0);
+        let flat = Sketch::facet(vertices).of_many();
+        match self.corner_normals(part.0) {
+            Some(normals) => flat.with_normals(vertices, normals.map(Normal3::to_vec)),
+            None => flat,
+        }
     }
 
     fn solidity(&self) -> Solidity {

@@ -12,8 +12,9 @@
 
 use crate::edges::EdgeFilter;
 use crate::facet;
+use crate::outline::Sketch;
 use crate::planar::{self, AlongRay, Line, PlaneForm, Probe, Ratios, cross, dot, seen_from};
-use crate::{CentredRay, Flow, LocalRay, Need, RingRay, Root, Sink, Surface, SurfacePoint};
+use crate::{CentredRay, Flow, LocalRay, Need, PartId, RingRay, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::eft::scale2;
 use durer_math::{Aabb, Point3, Ring, Run, U, Vec3};
@@ -225,6 +226,10 @@ impl Surface for Parallelogram {
             let tag = tag.unwrap_or_else(|| planar::ratios(&probe, &spanned)).map(|x| x.v.clamp(0.0, 1.0));
             let _: Flow = sink.push(probe.root(&crossing, 0, tag));
         }
+    }
+
+    fn sketch(&self, _part: PartId) -> Sketch {
+        Sketch::parallelogram(self.corner, self.u, self.v)
     }
 
     #[inline(always)]

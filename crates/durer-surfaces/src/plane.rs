@@ -10,10 +10,12 @@
 //! The surface is *exactly* this set for the stored normal `n` (of any length) and distance `h`. Where `|n|` is irrational the
 //! plane has no rational point, yet every decision is rational: `n . p < h |n|` is a matter of signs and of `(n . p)^2 < h^2 n . n`.
 
+use crate::outline::Sketch;
 use crate::planar::{self, PlaneForm, PointLine, Probe, Quick, dot, exact3, scaled_to_one, unit};
 use crate::point::least_step;
 use crate::{
-    CentredRay, Flow, LocalPoint, LocalRay, Need, RingRay, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+    CentredRay, Flow, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side, Sink, Solidity, Surface,
+    SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::{Aabb, Dd, Dyadic, Normal3, Point3, RaySide, Ring, Run, Shaft, U, Vec3};
@@ -272,6 +274,10 @@ impl Surface for Plane {
             (point.dpdu, point.dpdv) = (a, b);
         }
         point
+    }
+
+    fn sketch(&self, _part: PartId) -> Sketch {
+        Sketch::half_space(Point3::ORIGIN, self.normal, self.offset)
     }
 
     fn solidity(&self) -> Solidity {

@@ -9,10 +9,13 @@
 //! *Ray Tracing Gems* (2019), chapter 7, here without a unit direction.
 
 use crate::local::ROUGH;
+use crate::outline::Sketch;
 use crate::quadric::body::{Chart, Frame, Shape, View};
 use crate::quadric::form::{Form, Rounded};
 use crate::roots::quadratic::Quadratic;
-use crate::{Flow, Kind, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use crate::{
+    Flow, Kind, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+};
 use durer_math::eft::{exponent, scale2, two_sum};
 use durer_math::{Aabb, Affine, Point3, RaySide, Ring, Run, U, Vec3, elementary};
 
@@ -313,6 +316,10 @@ impl Surface for Sphere {
     #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         self.quick_point(ray, root, need).unwrap_or_else(|| self.with_view(|v| v.resolve(ray, root, need)))
+    }
+
+    fn sketch(&self, _part: PartId) -> Sketch {
+        Sketch::of_shape(self)
     }
 
     fn solidity(&self) -> Solidity {

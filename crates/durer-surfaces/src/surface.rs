@@ -1,5 +1,6 @@
 //! What a surface is: the one query an author writes, and what it answers with.
 
+use crate::outline::Sketch;
 use crate::{LocalPoint, LocalRay, Sink, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::{Aabb, Affine, RaySide, Shaft};
@@ -51,6 +52,11 @@ pub trait Surface: Send + Sync {
     /// Calls `f` for each part that a tree may hold by itself, with a box that provably holds the part.
     fn parts(&self, f: &mut dyn FnMut(Aabb, PartId)) {
         f(self.bounds(), PartId(0));
+    }
+
+    /// One part as lanes see it. Without more than its box, every ray that may meet that asks the surface itself.
+    fn sketch(&self, _part: PartId) -> Sketch {
+        Sketch::vague(self.bounds())
     }
 
     /// The crossings of one part; the union over all parts is what [`roots`](Surface::roots) pushes.

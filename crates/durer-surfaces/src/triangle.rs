@@ -10,8 +10,9 @@
 
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
+use crate::outline::Sketch;
 use crate::planar::{self, Probe};
-use crate::{Flow, LocalRay, Need, Root, Sink, Surface, SurfacePoint};
+use crate::{Flow, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
 use durer_math::{Aabb, Normal3, Point3};
 
 /// A triangle, by its vertices. A root's tag is `(b1, b2)`.
@@ -93,6 +94,14 @@ impl Triangle {
 impl Surface for Triangle {
     fn bounds(&self) -> Aabb {
         Aabb::from_points(self.vertices)
+    }
+
+    fn sketch(&self, _part: PartId) -> Sketch {
+        let flat = Sketch::facet(self.vertices);
+        match &self.normals {
+            Some(normals) => flat.with_normals(self.vertices, normals.map(Normal3::to_vec)),
+            None => flat,
+        }
     }
 
     #[inline(always)]

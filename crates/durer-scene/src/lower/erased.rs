@@ -1,6 +1,7 @@
 //! A surface behind a pointer: for the rarer kinds and combinations, which are not worth an array (and its code) of their own.
 
 use durer_math::{Aabb, Affine, Isa};
+use durer_surfaces::outline::Sketch;
 use durer_surfaces::{
     Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
 };
@@ -90,6 +91,10 @@ impl Surface for Erased {
 
     fn parts(&self, f: &mut dyn FnMut(Aabb, PartId)) {
         self.surface.parts(f);
+    }
+
+    fn sketch(&self, part: PartId) -> Sketch {
+        self.surface.sketch(part)
     }
 
     fn part_roots<K: Sink + ?Sized>(&self, part: PartId, ray: &LocalRay<'_>, sink: &mut K) {

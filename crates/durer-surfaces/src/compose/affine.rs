@@ -4,6 +4,7 @@
 //! rounding is charged to every bracket; points come back through `L` itself.
 
 use crate::local::through_inverse;
+use crate::outline::Sketch;
 use crate::point::least_step;
 use crate::{LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use durer_math::{Aabb, Affine, Isa, U, Vec3};
@@ -48,6 +49,10 @@ impl<S: Surface> Surface for Placed<S> {
     #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         place(&self.map, &self.surface.resolve(&ray.through(&self.map), root, need))
+    }
+
+    fn sketch(&self, part: PartId) -> Sketch {
+        self.surface.sketch(part).placed(&self.map)
     }
 
     fn solidity(&self) -> Solidity {

@@ -5,6 +5,7 @@
 //!
 //! The result is a sheet: clipping removes surface and does not cap what it opens. It has no inside, also where the surface had one.
 
+use crate::outline::Sketch;
 use crate::quadric::body::{Chart, Frame, Shape, tangents};
 use crate::quadric::form::{Form, Rounded};
 use crate::quadric::solid::Body;
@@ -86,6 +87,7 @@ trait Faces: Send + Sync {
     fn frame(&self) -> Frame;
     fn forms(&self) -> &[Rounded];
     fn exact(&self, face: usize) -> Form<Dyadic>;
+    fn sketch(&self) -> Sketch;
 }
 
 impl<S: Shape> Faces for Body<S> {
@@ -99,6 +101,10 @@ impl<S: Shape> Faces for Body<S> {
 
     fn exact(&self, face: usize) -> Form<Dyadic> {
         self.shape().form(face)
+    }
+
+    fn sketch(&self) -> Sketch {
+        Sketch::of_shape(self.shape())
     }
 }
 
@@ -229,6 +235,15 @@ impl Region {
     /// A box that holds the region.
     pub fn bounds(&self) -> Aabb {
         self.bounds
+    }
+
+    fn sketch(&self) -> Sketch {
+        let sketch = self.faces.sketch();
+        let sketch = if self.inverse { sketch.complement() } else { sketch };
+        match &self.map {
+            Some(map) => sketch.placed(map),
+            None => sketch,
+        }
     }
 
     /// Whether the closed region holds a root, if that can be told from its bracket.
@@ -383,6 +398,10 @@ impl<S: Algebraic> Surface for Clip<S> {
     #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         self.surface.resolve(ray, root, need)
+    }
+
+    fn sketch(&self, part: PartId) -> Sketch {
+        self.regions.iter().fold(self.surface.sketch(part), |sketch, region| sketch.cut_by(region.sketch()))
     }
 
     fn parts(&self, f: &mut dyn FnMut(Aabb, PartId)) {

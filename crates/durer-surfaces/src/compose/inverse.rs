@@ -1,5 +1,6 @@
 //! A solid turned inside out.
 
+use crate::outline::Sketch;
 use crate::{LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use durer_math::{Aabb, RaySide};
 
@@ -46,6 +47,10 @@ impl<S: Surface> Surface for Inverse<S> {
         let root = Root { sign: -root.sign, ..*root };
         let p = self.0.resolve(&ray.from_side(turned(ray)), &root, need);
         SurfacePoint { ng: -p.ng, ns: -p.ns, dndu: -p.dndu, dndv: -p.dndv, ..p }
+    }
+
+    fn sketch(&self, part: PartId) -> Sketch {
+        self.0.sketch(part).turned()
     }
 
     fn solidity(&self) -> Solidity {

@@ -1,8 +1,9 @@
 //! A [`Shape`] as a [`Surface`].
 
+use crate::outline::Sketch;
 use crate::quadric::body::{Frame, Shape, View, rounded};
 use crate::quadric::form::Rounded;
-use crate::{LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use crate::{LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use durer_math::eft::{scale2, two_sum};
 use durer_math::{Aabb, Affine, Dd, Isa, Point3, Ring, Run, U, Vec3};
 
@@ -55,6 +56,10 @@ impl<S: Shape> Surface for Body<S> {
     #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         self.view().resolve(ray, root, need)
+    }
+
+    fn sketch(&self, _part: PartId) -> Sketch {
+        Sketch::of_shape(&self.shape)
     }
 
     fn solidity(&self) -> Solidity {

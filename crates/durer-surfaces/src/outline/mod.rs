@@ -1,0 +1,56 @@
+//! Outlines: surfaces as lanes see them.
+//!
+//! Eight rays at a time can be told from most surfaces by the same short formula, because most surfaces are made of one thing: *faces*
+//! `f_i(x) = 0` of degree at most two, cut off where another `f_j` is positive. An [`Outline`] holds those polynomials in the world's frame, rounded
+//! to f64 with a bound on what that lost. Its answers come in three kinds: a ray *surely misses*, it *surely meets* a certain face first, or there is
+//! a *doubt*, and then the surface itself is asked. So lanes only ever save work: no decision is taken by them that the exact kernels would
+//! take otherwise.
+//!
+//! ```text
+//!   sketch     polynomials in double-double, moved by maps      (built once, `sketch.rs`)
+//!   outline    the same in f64, with their errors               (`face.rs`)
+//!   meet       which face eight rays meet first                 (`meet.rs`)
+//!   point      where, and how far rays start from there         (`point.rs`)
+//! ```
+
+mod face;
+mod meet;
+mod point;
+mod sketch;
+
+pub use self::meet::{From8, Nearest, RayLanes};
+pub use self::point::Points8;
+pub use self::sketch::Sketch;
+
+use self::face::Face;
+use durer_math::{Point3, Vec3};
+
+/// A surface as lanes see it. Made by [`Sketch::outline`].
+#[derive(Clone, Debug)]
+pub struct Outline {
+    /// Coordinates are counted from here.
+    centre: Point3,
+    faces: Box<[Face]>,
+    /// How many of them are part of the surface; the others cut it off.
+    walls: usize,
+    /// A ball of this radius about the centre holds the surface; infinite if there is none.
+    reach: f64,
+    /// The surface bounds the convex set where all faces are negative.
+    convex: bool,
+    /// Normals point to where the faces are negative.
+    turned: bool,
+    /// The outline only holds the surface: what meets it may still miss.
+    vague: bool,
+    /// It is one face of several that the surface counts.
+    part: bool,
+    /// Shading normals: a value and its change along x, y and z.
+    normals: Option<Box<[Vec3; 4]>>,
+}
+
+impl Outline {
+    /// Whether this is one part of a surface whose roots tell by their face which part they are on.
+    #[inline(always)]
+    pub fn is_part(&self) -> bool {
+        self.part
+    }
+}

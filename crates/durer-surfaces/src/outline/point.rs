@@ -1,0 +1,87 @@
+//! Where eight rays meet a face, and how far rays start from there.
+
+use super::face::{FaceKind, taxicab};
+use super::meet::RayLanes;
+use super::{Outline, face};
+use durer_math::{F8, M8, Point3, U, Vec3};
+
+/// Points of a surface with what a picture needs of a [`SurfacePoint`](crate::SurfacePoint), which says what each number means.
+#[derive(Clone, Copy, Debug)]
+pub struct Points8 {
+    /// Where the rest is proven. Elsewhere the surface itself has to be asked.
+    pub sure: M8,
+    /// The points.
+    pub p: Point3<F8>,
+    /// Unit geometric normals.
+    pub ng: Vec3<F8>,
+    /// Unit shading normals.
+    pub ns: Vec3<F8>,
+    /// How far along the normal the surface is surely left.
+    pub off: F8,
+}
+
+#[inline(always)]
+fn dot(a: Vec3<F8>, b: Vec3<F8>) -> F8 {
+    a.x.mul_add(b.x, a.y.mul_add(b.y, a.z * b.z))
+}
+
+#[inline(always)]
+fn times(v: Vec3<F8>, k: F8) -> Vec3<F8> {
+    Vec3::new(v.x * k, v.y * k, v.z * k)
+}
+
+impl Outline {
+    /// The points at `t` on face `i`, moved onto the face by one step of Newton's method.
+    ///
+    /// With `|f(p)| <= η`, gradient `G` and `|Hessian| <= h`, a start at `p ± off n + τ` has `|f| >= off |G| - h (off² + |τ|²) - η`. Where
+    /// `x = 4 h η / |G|²` is small, `off = η (1 + x) / |G|` is enough, since `1 - √(1 - x) <= x`. As in the scalar kernels `η` includes twice the error of `f`,
+    /// so that rays from there see on which side they start.
+    #[inline(always)]
+    pub fn points(&self, i: usize, rays: &RayLanes, t: F8) -> Points8 {
+        /// How small `x` has to be.
+        const SMALL: f64 = 1.0 / (1u64 << 20) as f64;
+        let face: &face::Face = &self.faces[i.min(self.faces.len() - 1)];
+        let c = self.centre;
+        let (o, d) = (rays.origin(), rays.direction);
+        let h = Vec3::new(o.x - c.x, o.y - c.y, o.z - c.z);
+        let y = Vec3::new(t.mul_add(d.x, h.x), t.mul_add(d.y, h.y), t.mul_add(d.z, h.z));
+        let (f, g) = face.value_and_half_gradient(y);
+        let step = f * 0.5 / dot(g, g);
+        let y = Vec3::new(y.x - g.x * step, y.y - g.y * step, y.z - g.z * step);
+        // The world's numbers, and what the centre sees of them: again with an error of U |y|, which the bounds of a face include.
+        let p = Point3::new(y.x + c.x, y.y + c.y, y.z + c.z);
+        let y = Vec3::new(p.x - c.x, p.y - c.y, p.z - c.z);
+        let (f, g) = face.value_and_half_gradient(y);
+        let (_, e_f) = face.at(y, taxicab(y), F8::ZERO);
+        let length = dot(g, g).sqrt();
+        let gradient = length * 2.0;
+        // A start is rounded at p's own size; `start_towards` steps as much further.
+        let tau = taxicab(p.to_vec()) * (4.0 * U);
+        let eta = f.abs() + e_f * 2.0 + tau * tau * (2.0 * face.bend);
+        let x = eta * (4.0 * face.bend) / (gradient * gradient);
+        let least =
+            p.x.abs().max(p.y.abs()).max(p.z.abs()) * durer_math::scale::pow2(-500) + f64::MIN_POSITIVE;
+        let off = eta / gradient * (1.0 + 2.0 * SMALL) + least;
+        let mut inverse = F8::ONE / length;
+        if self.turned {
+            inverse = -inverse;
+        }
+        let ng = times(g, inverse);
+        let ns = match self.normals.as_deref() {
+            Some(normals) if face.kind == FaceKind::Plane => shading_normal(normals, y, ng),
+            _ => ng,
+        };
+        let ordinary = off.lt(F8::splat(f64::MAX)) & dot(ns, ns).gt(F8::splat(0.5));
+        Points8 { sure: x.le(F8::splat(SMALL)) & ordinary, p, ng, ns, off }
+    }
+}
+
+/// The interpolated normal, of length one, on the side of `ng`.
+#[inline(always)]
+fn shading_normal(normals: &[Vec3; 4], y: Vec3<F8>, ng: Vec3<F8>) -> Vec3<F8> {
+    let [n, nx, ny, nz] = normals.map(Vec3::splat);
+    let axis = |n: F8, x: F8, dy: F8, z: F8| x.mul_add(y.x, dy.mul_add(y.y, z.mul_add(y.z, n)));
+    let n = Vec3::new(axis(n.x, nx.x, ny.x, nz.x), axis(n.y, nx.y, ny.y, nz.y), axis(n.z, nx.z, ny.z, nz.z));
+    let inverse = F8::ONE / dot(n, n).sqrt();
+    times(n, inverse.copysign(dot(n, ng)))
+}

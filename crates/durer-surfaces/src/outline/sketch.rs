@@ -1,0 +1,283 @@
+//! From a surface's own numbers to an outline.
+
+use super::{Face, Outline};
+use crate::quadric::body::Shape;
+use crate::quadric::form::Form;
+use durer_math::{Aabb, Affine, Dd, Dyadic, Point3, Ring, Run, U, Vec3};
+
+/// Precise enough that maps can be applied one after the other before anything is rounded to f64.
+type N = Run<Dd>;
+
+/// The polynomials of a surface's faces, not yet rounded.
+#[derive(Clone, Debug)]
+pub struct Sketch {
+    /// Coordinates are counted from here.
+    centre: Point3,
+    /// Negative inside. The first `walls` are part of the surface.
+    forms: Vec<Form<N>>,
+    walls: usize,
+    /// See [`Outline`].
+    reach: f64,
+    convex: bool,
+    turned: bool,
+    vague: bool,
+    part: bool,
+    normals: Option<[Vec3; 4]>,
+}
+
+/// Where the numbers of an outline are: far enough from the ends of the range of f64 for all products of them.
+pub(super) const LARGEST: f64 = durer_math::scale::pow2(150);
+
+/// Whether the set where a form is not positive is convex whatever its linear part: all principal minors of `Q` are at least zero.
+fn is_convex(form: &Form<Dyadic>) -> bool {
+    let [xx, yy, zz, xy, xz, yz] = &form.q;
+    let minor = |a: &Dyadic, b: &Dyadic, ab: &Dyadic| &(a * b) - &(ab * ab);
+    let determinant = &(&(xx * &minor(yy, zz, yz)) + &(&(xy * yz) * xz).scale2(1))
+        - &(&(yy * &(xz * xz)) + &(zz * &(xy * xy)));
+    [xx, yy, zz].iter().all(|x| !x.exact_sign().is_lt())
+        && ![minor(xx, yy, xy), minor(xx, zz, xz), minor(yy, zz, yz), determinant]
+            .iter()
+            .any(|m| m.exact_sign().is_lt())
+}
+
+fn zero() -> N {
+    N::exact(0.0)
+}
+
+fn exact(v: Vec3) -> [N; 3] {
+    v.to_array().map(N::exact)
+}
+
+fn minus(a: &[N; 3], b: &[N; 3]) -> [N; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn dot(a: &[N; 3], b: &[N; 3]) -> N {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: &[N; 3], b: &[N; 3]) -> [N; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+impl Sketch {
+    /// A sheet or solid made of these faces about `centre`, all within `reach` of it.
+    fn new(centre: Point3, forms: Vec<Form<N>>, walls: usize, reach: f64) -> Self {
+        Self {
+            centre,
+            forms,
+            walls,
+            reach,
+            convex: false,
+            turned: false,
+            vague: false,
+            part: false,
+            normals: None,
+        }
+    }
+
+    /// A solid with quadric faces.
+    pub(crate) fn of_shape<S: Shape>(shape: &S) -> Self {
+        let frame = shape.frame();
+        // y = (x - centre) / 2^k; f 2^k has the world's units and the same sign.
+        let k = frame.scale;
+        let forms = (0..shape.faces()).map(|i| {
+            let f: Form<N> = shape.form(i);
+            Form { q: f.q.map(|x| x.scale2(-k)), b: f.b, c: f.c.scale2(k) }
+        });
+        let reach = durer_math::scale::ldexp(frame.reach, k);
+        let convex = shape.walls() == shape.faces() && (0..shape.faces()).all(|i| is_convex(&shape.form(i)));
+        Self { convex, ..Self::new(frame.centre, forms.collect(), shape.walls(), reach) }
+    }
+
+    /// The half-space `normal·(x - p) <= offset`, with its boundary.
+    pub(crate) fn half_space(p: Point3, normal: Vec3, offset: N) -> Self {
+        let form = Form::half_space(exact(normal), -offset);
+        Self { convex: true, ..Self::new(p, vec![form], 1, f64::INFINITY) }
+    }
+
+    /// The solid box.
+    pub(crate) fn axis_box(min: Point3, max: Point3) -> Self {
+        let centre = Aabb::new(min, max).centre();
+        let mut forms = Vec::with_capacity(6);
+        for axis in 0..3 {
+            for (sign, corner) in [(-1.0, min), (1.0, max)] {
+                let mut n = [zero(), zero(), zero()];
+                n[axis] = N::exact(sign);
+                let width = (N::exact(corner[axis]) - N::exact(centre[axis])) * N::exact(sign);
+                forms.push(Form::half_space(n, -width));
+            }
+        }
+        let reach = (max - centre).length().max((min - centre).length()) * (1.0 + 16.0 * U);
+        Self { convex: true, ..Self::new(centre, forms, 6, reach) }
+    }
+
+    /// The flat round sheet about `centre` between two radii.
+    pub(crate) fn ring(centre: Point3, normal: Vec3, hole: f64, radius: f64) -> Self {
+        let ball = |r: f64| {
+            let one = || N::exact(1.0);
+            Form::diagonal([one(), one(), one()], -N::exact(r).square())
+        };
+        let mut forms = vec![Form::half_space(exact(normal), zero()), ball(radius)];
+        if hole > 0.0 {
+            forms.push(ball(hole).negated());
+        }
+        Self::new(centre, forms, 1, radius * (1.0 + 2.0 * U))
+    }
+
+    /// The flat convex sheet with these vertices, which go round the normal `(v1 - v0) x (v2 - v0)`.
+    pub(crate) fn facet(vertices: [Point3; 3]) -> Self {
+        let centre = Aabb::from_points(vertices).centre();
+        let [a, b, c] = vertices.map(|v| minus(&exact(v.to_vec()), &exact(centre.to_vec())));
+        let (ab, bc, ca) = (minus(&b, &a), minus(&c, &b), minus(&a, &c));
+        Self::sheet(centre, &cross(&ab, &minus(&c, &a)), &[(a, ab), (b, bc), (c, ca)])
+    }
+
+    /// The flat sheet `corner + a u + b v` with `a` and `b` in `[0, 1]`.
+    pub(crate) fn parallelogram(corner: Point3, u: Vec3, v: Vec3) -> Self {
+        let centre = corner + (u + v) * 0.5;
+        let (u, v) = (exact(u), exact(v));
+        let near = minus(&exact(corner.to_vec()), &exact(centre.to_vec()));
+        let back = |w: &[N; 3]| w.map(|x| -x);
+        let far = minus(&near, &minus(&back(&u), &v));
+        Self::sheet(centre, &cross(&u, &v), &[(near, u), (far, back(&u)), (near, back(&v)), (far, v)])
+    }
+
+    /// The part of the plane across `n` to the left of some edges, each by a point, counted from the centre, and a direction.
+    fn sheet(centre: Point3, n: &[N; 3], edges: &[([N; 3], [N; 3])]) -> Self {
+        let through = |n: &[N; 3], p: &[N; 3]| Form::half_space(*n, -dot(n, p));
+        let mut forms = vec![through(n, &edges[0].0)];
+        let mut reach = 0.0_f64;
+        for (point, direction) in edges {
+            forms.push(through(&cross(direction, n), point));
+            // Each corner is the start of an edge, or the end of one.
+            let end = minus(point, &direction.map(|x| -x));
+            reach = reach.max(dot(point, point).sqrt().hi()).max(dot(&end, &end).sqrt().hi());
+        }
+        Self::new(centre, forms, 1, reach)
+    }
+
+    /// A surface of which only a box is known that holds it.
+    pub fn vague(bounds: Aabb) -> Self {
+        Self { vague: true, ..Self::axis_box(bounds.min, bounds.max) }
+    }
+
+    /// The same sheet, shaded with normals that change linearly over the triangle.
+    pub(crate) fn with_normals(mut self, vertices: [Point3; 3], normals: [Vec3; 3]) -> Self {
+        let [v0, v1, v2] = vertices;
+        let (u, v) = (v1 - v0, v2 - v0);
+        let n = u.cross(v);
+        let square = n.length_squared();
+        // Gradients of the barycentric coordinates.
+        let (g1, g2) = (v.cross(n) * (1.0 / square), n.cross(u) * (1.0 / square));
+        let (n1, n2) = (normals[1] - normals[0], normals[2] - normals[0]);
+        let from = self.centre - v0;
+        let change = |i: usize| n1 * g1[i] + n2 * g2[i];
+        let at_centre = normals[0] + n1 * g1.dot(from) + n2 * g2.dot(from);
+        self.normals = Some([at_centre, change(0), change(1), change(2)]);
+        self
+    }
+
+    /// The surface moved by a map.
+    #[must_use]
+    pub fn placed(self, map: &Affine) -> Self {
+        if self.vague {
+            let half = Vec3::new(self.reach, self.reach, self.reach);
+            return Self::vague(map.bounds(&Aabb::centred(self.centre, half)));
+        }
+        let m = map.centre();
+        let centre = m + map.vector(self.centre.to_vec());
+        // With h = x - centre, and L⁻¹ = adj / det: det y = adj h + δ, δ = adj (centre - m) - det c.
+        let (adj, det) = map.adjugate::<N>();
+        let row = |i: usize, v: &[N; 3]| adj[i][0] * v[0] + adj[i][1] * v[1] + adj[i][2] * v[2];
+        let from = [0, 1, 2].map(|i| N::exact(centre[i]) - N::exact(m[i]));
+        let shift = [0, 1, 2].map(|i| row(i, &from) - det * N::exact(self.centre[i]));
+        let transposed =
+            |v: &[N; 3]| [0, 1, 2].map(|j| adj[0][j] * v[0] + adj[1][j] * v[1] + adj[2][j] * v[2]);
+        let forms = self.forms.into_iter().map(|f| {
+            // det² f(y) = z·Qz + 2 det b·z + det² c at z = adj h + δ.
+            let b = f.b.map(|x| x * det);
+            let scaled = Form { q: f.q, b, c: f.c * det.square() }.seen_from(&shift);
+            let [xx, yy, zz, xy, xz, yz] = scaled.q;
+            let q = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+            // adjᵀ Q adj, column by column.
+            let columns = [0, 1, 2].map(|j| {
+                let a = [adj[0][j], adj[1][j], adj[2][j]];
+                let qa = q.map(|r| r[0] * a[0] + r[1] * a[1] + r[2] * a[2]);
+                transposed(&qa)
+            });
+            Form {
+                q: [columns[0][0], columns[1][1], columns[2][2], columns[1][0], columns[2][0], columns[2][1]],
+                b: transposed(&scaled.b),
+                c: scaled.c,
+            }
+        });
+        let normals = self.normals.map(|[n, x, y, z]| {
+            // n(x) = L⁻ᵀ n(y), and y changes with L⁻¹ h.
+            let covector = |v: Vec3| {
+                let m = map.inverse_linear();
+                Vec3::from([0, 1, 2].map(|j| m[0][j] * v.x + m[1][j] * v.y + m[2][j] * v.z))
+            };
+            let [x, y, z] = [x, y, z].map(covector);
+            let m = map.inverse_linear();
+            let change = |j: usize| x * m[0][j] + y * m[1][j] + z * m[2][j];
+            [covector(n), change(0), change(1), change(2)]
+        });
+        let reach = self.reach * map.linear_norm() * (1.0 + 16.0 * U);
+        Self { centre, forms: forms.collect(), reach, normals, ..self }
+    }
+
+    /// The surface with its normals, and its inside, turned round.
+    #[must_use]
+    pub fn turned(self) -> Self {
+        // The inside of a solid is now all the rest; its surface is what it was.
+        Self { turned: !self.turned, ..self }
+    }
+
+    /// The closure of the complement of a region, as a region; only a box is known if it is not convex.
+    #[must_use]
+    pub(crate) fn complement(mut self) -> Self {
+        match self.forms.pop() {
+            Some(only) if self.forms.is_empty() => self.forms.push(only.negated()),
+            last => {
+                self.forms.extend(last);
+                self.vague = true;
+            }
+        }
+        self
+    }
+
+    /// The same, as one part of a surface whose roots tell by their face which part they are on.
+    #[must_use]
+    pub(crate) fn of_many(self) -> Self {
+        Self { part: true, ..self }
+    }
+
+    /// What of the surface lies in a region with these faces.
+    #[must_use]
+    pub(crate) fn cut_by(mut self, region: Self) -> Self {
+        // A vague region tells nothing of where the surface is cut.
+        if region.vague {
+            self.vague = true;
+            return self;
+        }
+        let shift = [0, 1, 2].map(|i| N::exact(self.centre[i]) - N::exact(region.centre[i]));
+        self.forms.extend(region.forms.into_iter().map(|f| f.seen_from(&shift)));
+        self.convex = false;
+        self
+    }
+
+    /// The outline; `None` if its numbers are too large or too small for lanes.
+    pub fn outline(&self) -> Option<Outline> {
+        let ordinary = self.centre.is_finite()
+            && self.centre.to_vec().max_abs() < LARGEST
+            && (self.reach == f64::INFINITY || self.reach < LARGEST && self.reach > 1.0 / LARGEST);
+        if !ordinary || self.forms.is_empty() {
+            return None;
+        }
+        let faces = self.forms.iter().map(Face::new).collect::<Option<Box<[_]>>>()?;
+        let Self { centre, walls, reach, convex, turned, vague, part, .. } = *self;
+        let normals = self.normals.map(Box::new);
+        Some(Outline { centre, faces, walls, reach, convex, turned, vague, part, normals })
+    }
+}
