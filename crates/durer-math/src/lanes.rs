@@ -14,10 +14,15 @@ pub const LANES: usize = 8;
 #[repr(align(64))]
 pub struct F8(pub [f64; LANES]);
 
-/// Eight answers to a yes-no question.
+/// Eight answers to a yes-no question: all bits set for a yes, as vector instructions have it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[repr(align(8))]
-pub struct M8(pub [bool; LANES]);
+#[repr(align(64))]
+pub struct M8([u64; LANES]);
+
+#[inline(always)]
+fn all_bits(yes: bool) -> u64 {
+    if yes { u64::MAX } else { 0 }
+}
 
 #[inline(always)]
 fn zip<A: Copy, B: Copy, R>(a: [A; LANES], b: [B; LANES], f: impl Fn(A, B) -> R) -> [R; LANES] {
@@ -94,13 +99,13 @@ impl F8 {
     /// Where `self < other`.
     #[inline(always)]
     pub fn lt(self, other: Self) -> M8 {
-        M8(zip(self.0, other.0, |a, b| a < b))
+        M8(zip(self.0, other.0, |a, b| all_bits(a < b)))
     }
 
     /// Where `self <= other`.
     #[inline(always)]
     pub fn le(self, other: Self) -> M8 {
-        M8(zip(self.0, other.0, |a, b| a <= b))
+        M8(zip(self.0, other.0, |a, b| all_bits(a <= b)))
     }
 
     /// Where `self > other`.
@@ -118,23 +123,44 @@ impl F8 {
 
 impl M8 {
     /// No lane.
-    pub const NONE: Self = Self([false; LANES]);
+    pub const NONE: Self = Self([0; LANES]);
     /// Every lane.
-    pub const ALL: Self = Self([true; LANES]);
+    pub const ALL: Self = Self([u64::MAX; LANES]);
 
     /// The first `n` lanes.
     #[inline(always)]
     pub fn first(n: usize) -> Self {
         Self(core::array::from_fn(
             #[inline(always)]
-            |i| i < n,
+            |i| all_bits(i < n),
         ))
     }
 
     /// The same answer in every lane.
     #[inline(always)]
     pub const fn splat(x: bool) -> Self {
-        Self([x; LANES])
+        if x { Self::ALL } else { Self::NONE }
+    }
+
+    /// An answer for each lane.
+    #[inline(always)]
+    pub fn from_fn(f: impl Fn(usize) -> bool) -> Self {
+        Self(core::array::from_fn(
+            #[inline(always)]
+            |i| all_bits(f(i)),
+        ))
+    }
+
+    /// The answer of lane `i`.
+    #[inline(always)]
+    pub fn lane(&self, i: usize) -> bool {
+        self.0[i] != 0
+    }
+
+    /// Sets the answer of lane `i`.
+    #[inline(always)]
+    pub fn set_lane(&mut self, i: usize, yes: bool) {
+        self.0[i] = all_bits(yes);
     }
 
     /// `yes` where the mask is set, `no` elsewhere.
@@ -142,7 +168,7 @@ impl M8 {
     pub fn select(self, yes: F8, no: F8) -> F8 {
         F8(core::array::from_fn(
             #[inline(always)]
-            |i| if self.0[i] { yes.0[i] } else { no.0[i] },
+            |i| if self.0[i] != 0 { yes.0[i] } else { no.0[i] },
         ))
     }
 
@@ -155,8 +181,11 @@ impl M8 {
     /// Lane `i` as bit `i`.
     #[inline(always)]
     pub fn bits(self) -> u8 {
-        // Each byte is 0 or 1: the product gathers them in its highest byte.
-        (u64::from_le_bytes(self.0.map(u8::from)).wrapping_mul(0x0102_0408_1020_4080) >> 56) as u8
+        let mut bits = 0;
+        for i in 0..LANES {
+            bits |= u8::from(self.0[i] != 0) << i;
+        }
+        bits
     }
 
     /// Bit `i` as lane `i`.
@@ -164,20 +193,38 @@ impl M8 {
     pub fn from_bits(bits: u8) -> Self {
         Self(core::array::from_fn(
             #[inline(always)]
-            |i| bits >> i & 1 == 1,
+            |i| all_bits(bits >> i & 1 == 1),
         ))
     }
 
     /// Whether any lane is set.
     #[inline(always)]
     pub fn any(self) -> bool {
-        u64::from_le_bytes(self.0.map(u8::from)) != 0
+        self.0.into_iter().fold(0, |a, b| a | b) != 0
     }
 
     /// Whether every lane is set.
     #[inline(always)]
     pub fn all(self) -> bool {
-        u64::from_le_bytes(self.0.map(u8::from)) == u64::from_le_bytes([1; LANES])
+        self.0.into_iter().fold(u64::MAX, |a, b| a & b) != 0
+    }
+
+    /// The first lane that is set.
+    #[inline(always)]
+    pub fn first_set(self) -> Option<usize> {
+        let bits = self.bits();
+        (bits != 0).then(|| bits.trailing_zeros() as usize)
+    }
+
+    /// The lanes that are set, in order.
+    #[inline(always)]
+    pub fn lanes(self) -> impl Iterator<Item = usize> {
+        let mut bits = self.bits();
+        core::iter::from_fn(move || {
+            let i = bits.trailing_zeros() as usize;
+            bits &= bits.wrapping_sub(1);
+            (i < LANES).then_some(i)
+        })
     }
 
     /// How many lanes are set.
@@ -332,9 +379,13 @@ mod tests {
         for bits in 0..=255_u8 {
             let mask = M8::from_bits(bits);
             assert_eq!((mask.bits(), mask.count()), (bits, bits.count_ones() as usize));
+            assert!(
+                mask.lanes().eq((0..LANES).filter(|&i| mask.lane(i)))
+                    && mask.first_set() == mask.lanes().next()
+            );
             assert_eq!((mask.any(), mask.all()), (bits != 0, bits == 255));
             let chosen = mask.select(F8::ONE, F8::ZERO);
-            assert!((0..LANES).all(|i| (chosen.0[i] == 1.0) == mask.0[i]));
+            assert!((0..LANES).all(|i| (chosen.0[i] == 1.0) == mask.lane(i)));
         }
         assert_eq!([0, 3, 8].map(|n| M8::first(n).bits()), [0, 7, 255]);
     }

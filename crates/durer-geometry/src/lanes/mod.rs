@@ -88,7 +88,7 @@ impl Sources8 {
             part: self.part[i],
             face: self.face[i],
             instance: self.instance[i],
-            side: if self.back.0[i] { RaySide::Back } else { RaySide::Front },
+            side: if self.back.lane(i) { RaySide::Back } else { RaySide::Front },
         })
     }
 
@@ -96,10 +96,10 @@ impl Sources8 {
     #[inline(always)]
     fn of(&self, arena: u32, slot: u32, outline: &Outline) -> Option<From8> {
         let number = slot_number(arena, slot);
-        let lanes = M8(core::array::from_fn(
+        let lanes = M8::from_fn(
             #[inline(always)]
             |i| self.slot[i] == number && self.instance[i] == 0,
-        ));
+        );
         lanes.any().then(|| From8 {
             lanes,
             face: if outline.is_part() { F8::ZERO } else { F8(self.face.map(f64::from)) },
@@ -113,7 +113,7 @@ impl Sources8 {
         self.slot[i] = source.map_or(NOWHERE, |s| slot_number(s.arena, s.index));
         if let Some(s) = source {
             (self.part[i], self.face[i], self.instance[i]) = (s.part, s.face, s.instance);
-            self.back.0[i] = s.side == RaySide::Back;
+            self.back.set_lane(i, s.side == RaySide::Back);
         }
     }
 
@@ -124,7 +124,7 @@ impl Sources8 {
         self.instance[i] = from.instance[j];
         self.part[i] = from.part[j];
         self.face[i] = from.face[j];
-        self.back.0[i] = from.back.0[j];
+        self.back.set_lane(i, from.back.lane(j));
     }
 }
 
@@ -166,9 +166,9 @@ impl Hits8 {
 
     /// What a ray saw by itself.
     fn set_lane(&mut self, i: usize, seen: Option<(Hit, SurfacePoint)>) {
-        self.hit.0[i] = seen.is_some();
+        self.hit.set_lane(i, seen.is_some());
         let Some((hit, point)) = seen else { return };
-        self.touching.0[i] = hit.sign == 0;
+        self.touching.set_lane(i, hit.sign == 0);
         self.t.0[i] = hit.t;
         (self.p.x.0[i], self.p.y.0[i], self.p.z.0[i]) = (point.p.x, point.p.y, point.p.z);
         self.ng.set_lane(i, point.ng.to_vec());
@@ -279,7 +279,7 @@ impl Geometry {
                 || self.see(beam, outlines, rays, mask, &mut hits),
             );
         }
-        for i in (0..LANES).filter(|&i| left.0[i]) {
+        for i in left.lanes() {
             let ray = rays.lane(i);
             let seen = match beam {
                 Some(beam) => self.seen_in(beam, &ray, mask, Need::SHADING_NORMAL),
@@ -302,7 +302,7 @@ impl Geometry {
         let mut waiting = hit & clear;
         let mut left = rays.live & !(waiting | (!hit & doubt.ge(F8::splat(f64::INFINITY))));
         hits.t = t;
-        while let Some(i) = waiting.0.iter().position(|&w| w) {
+        while let Some(i) = waiting.first_set() {
             let (n, f) = (number.0[i], face.0[i]);
             let same = |v: F8, x: f64| v.le(F8::splat(x)) & v.ge(F8::splat(x));
             let together = waiting & same(number, n) & same(face, f);
@@ -321,7 +321,7 @@ impl Geometry {
             let part = self.arenas[candidate.arena as usize].part(candidate.slot).0;
             // The kernels of meshes count faces, and lanes see one of them.
             let face = if outline.is_part() { part } else { f as u32 };
-            for i in (0..LANES).filter(|&i| sure.0[i]) {
+            for i in sure.lanes() {
                 (hits.object[i], hits.primitive[i]) = (candidate.name.object, candidate.name.primitive);
                 (hits.source.slot[i], hits.source.face[i]) = (slot, face);
                 (hits.source.part[i], hits.source.instance[i]) = (part, 0);
@@ -385,12 +385,15 @@ impl Geometry {
                 },
             );
         }
-        for i in (0..LANES).filter(|&i| left.0[i]) {
+        for i in left.lanes() {
             let ray = rays.lane(i);
-            met.0[i] = match beam {
-                Some(beam) => self.any_in(beam, &ray, mask),
-                None => self.any_masked(&ray, mask),
-            };
+            met.set_lane(
+                i,
+                match beam {
+                    Some(beam) => self.any_in(beam, &ray, mask),
+                    None => self.any_masked(&ray, mask),
+                },
+            );
         }
         met
     }

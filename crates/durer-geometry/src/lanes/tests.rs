@@ -95,7 +95,7 @@ fn eight(mut ray: impl FnMut(usize) -> Ray) -> Rays8 {
         rays.direction.set_lane(i, r.direction);
         rays.t_max.0[i] = r.t_max;
         rays.source.set_lane(i, r.source());
-        rays.live.0[i] = true;
+        rays.live.set_lane(i, true);
     }
     rays
 }
@@ -120,7 +120,11 @@ fn compare(name: &str, world: &Geometry, rays: &Rays8, dice: &mut Dice, depth: u
         let ray = rays.lane(i);
         let seen = world.seen(&ray, u32::MAX, Need::SHADING_NORMAL);
         tally.rays += 1;
-        assert_eq!((hits.hit.0[i], met.0[i]), (seen.is_some(), seen.is_some()), "{name}: {ray:?} {seen:?}");
+        assert_eq!(
+            (hits.hit.lane(i), met.lane(i)),
+            (seen.is_some(), seen.is_some()),
+            "{name}: {ray:?} {seen:?}"
+        );
         let Some((hit, point)) = seen else { continue };
         tally.met += 1;
         assert!(
@@ -128,7 +132,7 @@ fn compare(name: &str, world: &Geometry, rays: &Rays8, dice: &mut Dice, depth: u
             "{name}: {ray:?} {hit:?} {hits:?}"
         );
         assert_eq!(
-            (hits.object[i], hits.primitive[i], hits.touching.0[i]),
+            (hits.object[i], hits.primitive[i], hits.touching.lane(i)),
             (hit.object, hit.primitive, hit.sign == 0)
         );
         // Both brackets are as wide as is allowed, at most; normals turn with the curvature, here below 32.
@@ -155,7 +159,7 @@ fn compare(name: &str, world: &Geometry, rays: &Rays8, dice: &mut Dice, depth: u
         let (start, back) = hits.start_towards(onward.direction);
         (onward.origin, onward.source) = (start, hits.sources(back));
         // Spare lanes hold rays that were there already.
-        for i in (0..LANES).filter(|&i| !hits.hit.0[i]) {
+        for i in (0..LANES).filter(|&i| !hits.hit.lane(i)) {
             let ray = rays.lane(i);
             (onward.origin.x.0[i], onward.origin.y.0[i], onward.origin.z.0[i]) = ray.origin.to_array().into();
             onward.direction.set_lane(i, ray.direction);
