@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release -p durer-geometry --example bundles`
 
-use durer_geometry::{EVERYTHING, Geometry, Rays8};
+use durer_geometry::{EVERYTHING, Geometry, Hits8, Rays8};
 use durer_math::{Affine, M8, Point3, Ray, Vec3};
 use durer_surfaces::{AxisBox, CappedCylinder, Ellipsoid, Frustum, Need, Placed, Plane, Sphere};
 use std::hint::black_box;
@@ -27,7 +27,12 @@ fn worlds() -> Vec<(&'static str, Geometry)> {
     };
     vec![
         ("plane", with(&|_| {})),
-        ("sphere", with(&|b| drop(b.add(Sphere::new(o, 1.0).expect("a sphere"))))),
+        (
+            "sphere",
+            with(&|b| {
+                b.add(Sphere::new(o, 1.0).expect("a sphere"));
+            }),
+        ),
         (
             "box",
             with(&|b| {
@@ -103,9 +108,11 @@ fn trace(world: &Geometry, way: usize, (bx, by): (usize, usize)) {
         eight.live = M8::ALL;
     }
     let beam = if way > 0 { world.beam_of(&rays) } else { None };
+    let mut hits = Hits8::NONE;
     for (y, eight) in rays.iter().enumerate() {
         if way == 2 {
-            black_box(world.seen_by_lanes(beam.as_ref(), eight, EVERYTHING));
+            world.seen_by_lanes(beam.as_ref(), eight, EVERYTHING, &mut hits);
+            black_box(&hits);
             continue;
         }
         for x in 0..8 {

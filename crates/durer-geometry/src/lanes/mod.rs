@@ -4,8 +4,8 @@ use crate::beam::Candidate;
 use crate::outlines::Outlines;
 use crate::{Beam, Geometry, Hit};
 use durer_math::lanes::LANES;
-use durer_math::{Aabb, F8, M8, Point3, Ray, RaySide, Shaft, Source, U, Vec3};
-use durer_surfaces::outline::{From8, Nearest, Outline, RayLanes};
+use durer_math::{Aabb, F8, Isa, M8, Point3, Ray, RaySide, Shaft, Source, U, Vec3};
+use durer_surfaces::outline::{From8, Nearest, Outline, Points8, RayLanes};
 use durer_surfaces::{Need, ROUGH, SurfacePoint};
 
 /// Eight rays `o + t d` with `t` in `[0, t_max]`.
@@ -164,6 +164,21 @@ impl Hits8 {
         source: Sources8::NONE,
     };
 
+    /// Takes the lanes that are sure.
+    #[inline(never)]
+    fn take(&mut self, isa: Isa, sure: M8, points: &Points8) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                self.hit |= sure;
+                self.p = sure.select3(points.p.to_vec(), self.p.to_vec()).to_point();
+                self.ng = sure.select3(points.ng, self.ng);
+                self.ns = sure.select3(points.ns, self.ns);
+                self.off = sure.select(points.off, self.off);
+            },
+        );
+    }
+
     /// What a ray saw by itself.
     fn set_lane(&mut self, i: usize, seen: Option<(Hit, SurfacePoint)>) {
         self.hit.set_lane(i, seen.is_some());
@@ -258,10 +273,12 @@ impl Geometry {
         self.beam(&shaft, None)
     }
 
-    /// What each ray sees first, as [`Geometry::seen`] answers. `beam` holds what these rays may meet, if that is known.
-    pub fn seen_by_lanes(&self, beam: Option<&Beam>, rays: &Rays8, mask: u32) -> Hits8 {
+    /// Puts down what each ray sees first, as [`Geometry::seen`] answers. `beam` holds what these rays may meet, if that is known.
+    pub fn seen_by_lanes(&self, beam: Option<&Beam>, rays: &Rays8, mask: u32, hits: &mut Hits8) {
+        hits.hit = M8::NONE;
+        hits.touching = M8::NONE;
         if !rays.live.any() || beam.is_some_and(Beam::is_empty) {
-            return Hits8::NONE;
+            return;
         }
         let own;
         let beam = match beam {
@@ -271,13 +288,10 @@ impl Geometry {
                 own.as_ref()
             }
         };
-        let (mut hits, mut left) = (Hits8::NONE, rays.live);
+        let mut left = rays.live;
         if let Some(beam) = beam {
             let outlines = self.outlines.get_or_init(|| Outlines::of(self));
-            left = self.isa.run_in_lanes(
-                #[inline(always)]
-                || self.see(beam, outlines, rays, mask, &mut hits),
-            );
+            left = self.see(beam, outlines, rays, mask, hits);
         }
         for i in left.lanes() {
             let ray = rays.lane(i);
@@ -287,36 +301,40 @@ impl Geometry {
             };
             hits.set_lane(i, seen);
         }
-        hits
     }
 
     /// Puts down what is sure; answers with the rays of which something is not.
-    #[inline(always)]
     fn see(&self, beam: &Beam, outlines: &Outlines, rays: &Rays8, mask: u32, hits: &mut Hits8) -> M8 {
-        let lanes = RayLanes::new(rays.origin, rays.direction, rays.t_max, rays.live);
+        let lanes = RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
         let nearest = self.nearest(beam, outlines, rays, &lanes, mask);
-        let Nearest { t, e, number, face, doubt } = nearest;
-        let hit = t.lt(F8::splat(f64::INFINITY));
-        // Known well enough to be seen, and before all doubt.
-        let clear = doubt.gt(t + e) & e.le(t * (0.5 * ROUGH));
-        let mut waiting = hit & clear;
-        let mut left = rays.live & !(waiting | (!hit & doubt.ge(F8::splat(f64::INFINITY))));
-        hits.t = t;
+        let (mut waiting, mut left) = (M8::NONE, M8::NONE);
+        self.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let Nearest { t, e, doubt, .. } = nearest;
+                let never = F8::splat(f64::INFINITY);
+                // Known well enough to be seen, and before all doubt.
+                waiting = t.lt(never) & doubt.gt(t + e) & e.le(t * (0.5 * ROUGH));
+                left = rays.live & !(waiting | t.ge(never) & doubt.ge(never));
+            },
+        );
+        let Nearest { t, number, face, .. } = &nearest;
+        hits.t = *t;
+        let mut points = Points8::NONE;
         while let Some(i) = waiting.first_set() {
             let (n, f) = (number.0[i], face.0[i]);
-            let same = |v: F8, x: f64| v.le(F8::splat(x)) & v.ge(F8::splat(x));
-            let together = waiting & same(number, n) & same(face, f);
+            let together = waiting
+                & M8::from_fn(
+                    #[inline(always)]
+                    |j| number.0[j] == n && face.0[j] == f,
+                );
             waiting &= !together;
             let candidate = &beam.candidates[n as usize];
             let Some(outline) = outlines.get(candidate.arena, candidate.slot) else { continue };
-            let points = outline.points(f as usize, &lanes, t);
+            outline.points(f as usize, &lanes, t, &mut points);
             let sure = together & points.sure;
             left |= together & !sure;
-            hits.hit |= sure;
-            hits.p = sure.select3(points.p.to_vec(), hits.p.to_vec()).to_point();
-            hits.ng = sure.select3(points.ng, hits.ng);
-            hits.ns = sure.select3(points.ns, hits.ns);
-            hits.off = sure.select(points.off, hits.off);
+            hits.take(self.isa, sure, &points);
             let slot = slot_number(candidate.arena, candidate.slot);
             let part = self.arenas[candidate.arena as usize].part(candidate.slot).0;
             // The kernels of meshes count faces, and lanes see one of them.
@@ -331,13 +349,12 @@ impl Geometry {
     }
 
     /// The first sure hit of each ray among the candidates, and the first doubt.
-    #[inline(always)]
     fn nearest(
         &self,
         beam: &Beam,
         outlines: &Outlines,
         rays: &Rays8,
-        lanes: &RayLanes,
+        lanes: &RayLanes<'_>,
         mask: u32,
     ) -> Nearest {
         let mut nearest = Nearest::NONE;
@@ -374,14 +391,14 @@ impl Geometry {
         let (mut met, mut left) = (M8::NONE, rays.live);
         if let Some(beam) = beam {
             let outlines = self.outlines.get_or_init(|| Outlines::of(self));
-            (met, left) = self.isa.run_in_lanes(
+            let lanes = RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
+            let nearest = self.nearest(beam, outlines, rays, &lanes, mask);
+            self.isa.run_in_lanes(
                 #[inline(always)]
                 || {
-                    let lanes = RayLanes::new(rays.origin, rays.direction, rays.t_max, rays.live);
-                    let nearest = self.nearest(beam, outlines, rays, &lanes, mask);
                     let never = F8::splat(f64::INFINITY);
-                    let met = nearest.t.lt(never);
-                    (met & rays.live, rays.live & !(met | nearest.doubt.ge(never)))
+                    met = nearest.t.lt(never) & rays.live;
+                    left = rays.live & !(met | nearest.doubt.ge(never));
                 },
             );
         }

@@ -110,7 +110,8 @@ struct Tally {
 
 /// Compares lanes with single rays, and goes on with rays that are spawned where these meet something, `depth` times.
 fn compare(name: &str, world: &Geometry, rays: &Rays8, dice: &mut Dice, depth: u32, tally: &mut Tally) {
-    let hits = world.seen_by_lanes(None, rays, u32::MAX);
+    let mut hits = Hits8::NONE;
+    world.seen_by_lanes(None, rays, u32::MAX, &mut hits);
     let met = world.any_by_lanes(None, rays, u32::MAX);
     if let Some(beam) = world.beam_of(core::slice::from_ref(rays)) {
         let outlines = world.outlines.get_or_init(|| Outlines::of(world));
@@ -206,7 +207,14 @@ fn all_paths_see_the_same_bits() {
             let from = dice.vector(3.0).to_point();
             Ray::new(from, dice.vector(1.0).to_point() - from)
         });
-        let seen: Vec<_> = worlds.iter().map(|w| format!("{:?}", w.seen_by_lanes(None, &rays, 1))).collect();
+        let seen: Vec<_> = worlds
+            .iter()
+            .map(|w| {
+                let mut hits = Hits8::NONE;
+                w.seen_by_lanes(None, &rays, 1, &mut hits);
+                format!("{hits:?}")
+            })
+            .collect();
         assert!(seen.iter().all(|s| *s == seen[0]));
     }
 }

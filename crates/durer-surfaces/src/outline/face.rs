@@ -57,13 +57,15 @@ pub(super) struct Line {
 
 /// Eight rays seen from the outline's centre.
 #[derive(Clone, Copy)]
-pub(super) struct Seen {
+pub(super) struct Seen<'a> {
     pub(super) h: Vec3<F8>,
     /// `|h|₁`.
     pub(super) h1: F8,
-    pub(super) d: Vec3<F8>,
+    pub(super) d: &'a Vec3<F8>,
     /// `|d|₁`.
-    pub(super) d1: F8,
+    pub(super) d1: &'a F8,
+    /// A bound on every `t` at which the surface can be met.
+    pub(super) far: F8,
 }
 
 /// The sum of absolute values, rounded.
@@ -145,10 +147,10 @@ impl Face {
     ///
     /// Its error is told coefficient by coefficient, so that a ray along the plane has exactly `B = 0`.
     #[inline(always)]
-    pub(super) fn slope(&self, rays: &Seen) -> (F8, F8, F8, F8) {
-        let b = dot(self.b, rays.d);
+    pub(super) fn slope(&self, rays: &Seen<'_>) -> (F8, F8, F8, F8) {
+        let b = dot(self.b, *rays.d);
         let size = dot(self.b.map(f64::abs), rays.d.abs());
-        let e_b = size * (8.0 * U) + rays.d1 * self.e_b;
+        let e_b = size * (8.0 * U) + *rays.d1 * self.e_b;
         let c = dot(self.b, rays.h) * 2.0 + self.c;
         let e_c = rays.h1 * (2.0 * self.k_b) + self.k_c;
         (b, e_b, c, e_c)
@@ -156,8 +158,8 @@ impl Face {
 
     /// The polynomial along eight rays.
     #[inline(always)]
-    pub(super) fn along(&self, rays: &Seen) -> Line {
-        let Seen { h, h1, d, d1 } = *rays;
+    pub(super) fn along(&self, rays: &Seen<'_>) -> Line {
+        let (h, h1, d, d1) = (rays.h, rays.h1, *rays.d, *rays.d1);
         let e_a = d1 * d1 * self.k_q;
         if self.kind == FaceKind::Ball {
             let m = self.q[0];

@@ -8,15 +8,16 @@
 
 use super::Outline;
 use super::face::{Face, FaceKind, Line, Seen, taxicab};
-use durer_math::{F8, M8, Point3, U, Vec3};
+use durer_math::{F8, Isa, M8, Point3, U, Vec3};
 
-/// Eight rays, as far as outlines are concerned.
+/// Eight rays `o + t d` with `t` in `[0, t_max]`, as far as outlines are concerned.
 #[derive(Clone, Copy, Debug)]
-pub struct RayLanes {
-    origin: Point3<F8>,
-    pub(super) direction: Vec3<F8>,
-    t_max: F8,
-    live: M8,
+pub struct RayLanes<'a> {
+    pub(super) isa: Isa,
+    pub(super) origin: &'a Point3<F8>,
+    pub(super) direction: &'a Vec3<F8>,
+    t_max: &'a F8,
+    live: &'a M8,
     /// `|d|₁` and `d·d`.
     d1: F8,
     d2: F8,
@@ -64,8 +65,8 @@ impl Nearest {
 
     /// No crossing behind this can win.
     #[inline(always)]
-    fn limit(&self, rays: &RayLanes) -> F8 {
-        (self.t + self.e).min(rays.t_max)
+    fn limit(&self, rays: &RayLanes<'_>) -> F8 {
+        (self.t + self.e).min(*rays.t_max)
     }
 
     #[inline(always)]
@@ -85,46 +86,77 @@ impl Nearest {
     }
 }
 
-impl RayLanes {
-    /// Rays `o + t d` with `t` in `[0, t_max]`.
-    #[inline(always)]
-    pub fn new(origin: Point3<F8>, direction: Vec3<F8>, t_max: F8, live: M8) -> Self {
-        let d = direction;
-        let d2 = d.x * d.x + d.y * d.y + d.z * d.z;
-        Self { origin, direction, t_max, live, d1: taxicab(d) * SLACK, d2 }
-    }
-
-    #[inline(always)]
-    pub(super) fn origin(&self) -> Point3<F8> {
-        self.origin
-    }
-
-    #[inline(always)]
-    fn seen_from(&self, centre: Point3) -> Seen {
-        let o = self.origin;
-        let h = Vec3::new(o.x - centre.x, o.y - centre.y, o.z - centre.z);
-        Seen { h, h1: taxicab(h) * SLACK, d: self.direction, d1: self.d1 }
+impl<'a> RayLanes<'a> {
+    /// Eight rays; those that are not live may hold anything.
+    #[inline]
+    pub fn new(
+        isa: Isa,
+        origin: &'a Point3<F8>,
+        direction: &'a Vec3<F8>,
+        t_max: &'a F8,
+        live: &'a M8,
+    ) -> Self {
+        let (mut d1, mut d2) = (F8::ZERO, F8::ZERO);
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let d = direction;
+                d1 = taxicab(*d) * SLACK;
+                d2 = d.x * d.x + d.y * d.y + d.z * d.z;
+            },
+        );
+        Self { isa, origin, direction, t_max, live, d1, d2 }
     }
 }
 
 /// The two roots of a face along eight rays: that at which it is entered (the polynomial falls), and that at which it is left.
+#[derive(Default)]
 struct Roots {
     /// Both are there and both are known.
     known: M8,
     /// There is none: the polynomial has the sign of `A` all along.
     none: M8,
-    enter: (F8, F8),
-    leave: (F8, F8),
+    /// `A` is surely positive.
+    opens: M8,
+    enter: F8,
+    e_enter: F8,
+    leave: F8,
+    e_leave: F8,
 }
 
-impl Line {
-    /// Roots by the stable formula, with bounds.
+/// The root of a plane along eight rays.
+#[derive(Default)]
+struct PlaneRoot {
+    /// The ray surely crosses, going down or up.
+    falls: M8,
+    rises: M8,
+    /// It surely stays above, or surely below, as far as that matters.
+    above: M8,
+    below: M8,
+    t: F8,
+    e: F8,
+}
+
+/// Lanes that start on a face, and where its polynomial is negative at their start.
+type Leaving = Option<(M8, M8)>;
+
+// Each step below is a function of its own that takes from memory and puts into memory what eight lanes hold. In one large function the compiler would
+// mix lanes of different numbers, which costs several times as much as the loads and stores.
+impl Face {
+    /// Roots of `A t² + 2 B t + C` by the stable formula, with bounds.
     ///
-    /// `from` holds the lanes that start on this face, and whether the polynomial is negative there. Of these the near root is the one the ray left:
-    /// it lies behind if the ray goes away from the surface.
+    /// Of the rays that start on this face the near root is the one they left: it lies behind if they go away from the surface.
+    #[inline(never)]
+    fn roots(&self, isa: Isa, rays: &Seen<'_>, from: &Leaving, roots: &mut Roots) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || self.roots_here(rays, from, roots),
+        );
+    }
+
     #[inline(always)]
-    fn roots(&self, from: Option<(M8, M8)>) -> Roots {
-        let Self { a, b, c, e_a, e_b, e_c } = *self;
+    fn roots_here(&self, rays: &Seen<'_>, from: &Leaving, roots: &mut Roots) {
+        let Line { a, b, c, e_a, e_b, e_c } = self.along(rays);
         let (size_a, size_b, size_c) = (a.abs(), b.abs(), c.abs());
         let ac = a * c;
         let disc = b.mul_add(b, -ac);
@@ -133,7 +165,6 @@ impl Line {
             + size_c * e_a
             + (b * b + ac.abs()) * (4.0 * U))
             * SLACK;
-        let none = disc.lt(-e_disc);
         let some = disc.gt(e_disc);
         let root = some.select(disc, F8::ONE).sqrt();
         let q = -(b + root.copysign(b));
@@ -142,9 +173,10 @@ impl Line {
         let (far, near) = (q / a, c / q);
         let e_far = ((e_q + far.abs() * e_a) / (size_a - e_a) + far.abs() * (2.0 * U)) * SLACK;
         let e_near = ((e_c + near.abs() * e_q) / (size_q - e_q) + near.abs() * (2.0 * U)) * SLACK;
-        let mut known = some & size_a.gt(e_a * CLEAR) & size_q.gt(e_q * CLEAR);
+        let mut known =
+            some & size_a.gt(e_a * CLEAR) & size_q.gt(e_q * CLEAR) & (e_far + e_near).lt(F8::splat(FAR));
         let (mut near, mut e_near) = (near, e_near);
-        if let Some((lanes, negative)) = from {
+        if let Some((lanes, negative)) = *from {
             let away = negative.select(-b, b);
             known &= !lanes | away.gt(e_b);
             near = lanes.select(F8::splat(BEHIND), near);
@@ -152,49 +184,69 @@ impl Line {
         }
         // The slope at the far root has the sign of -B.
         let falls = b.gt(F8::ZERO);
-        Roots {
-            known,
-            none,
-            enter: (falls.select(far, near), falls.select(e_far, e_near)),
-            leave: (falls.select(near, far), falls.select(e_near, e_far)),
-        }
+        roots.known = known;
+        roots.none = disc.lt(-e_disc);
+        roots.opens = a.gt(e_a * CLEAR);
+        roots.enter = falls.select(far, near);
+        roots.e_enter = falls.select(e_far, e_near);
+        roots.leave = falls.select(near, far);
+        roots.e_leave = falls.select(e_near, e_far);
     }
-}
 
-/// The root of a plane along eight rays.
-struct PlaneRoot {
-    /// The ray surely crosses.
-    crosses: M8,
-    /// The ray surely stays above, or surely below, as far as it matters.
-    above: M8,
-    below: M8,
-    /// It goes down.
-    falls: M8,
-    t: F8,
-    e: F8,
-}
+    /// The crossing of a plane.
+    #[inline(never)]
+    fn crossing(&self, isa: Isa, rays: &Seen<'_>, from: &Leaving, root: &mut PlaneRoot) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || self.crossing_here(rays, from, root),
+        );
+    }
 
-impl Face {
-    /// The crossing of a plane; `far` bounds every `t` that matters.
     #[inline(always)]
-    fn crossing(&self, rays: &Seen, far: F8, from: Option<(M8, M8)>) -> PlaneRoot {
+    fn crossing_here(&self, rays: &Seen<'_>, from: &Leaving, root: &mut PlaneRoot) {
         let (b, e_b, c, e_c) = self.slope(rays);
         let (slope, e_slope) = (b * 2.0, e_b * 2.0);
         let size = slope.abs();
-        let mut crosses = size.gt(e_slope * CLEAR);
-        let t = -c / slope;
-        let e = ((e_c + t.abs() * e_slope) / (size - e_slope) + t.abs() * (2.0 * U)) * SLACK;
-        let reach = ((size + e_slope) * far + e_c) * SLACK;
-        let (above, below) = (c.gt(reach), c.lt(-reach));
-        let (mut t, mut e) = (t, e);
-        if let Some((lanes, negative)) = from {
+        let mut t = -c / slope;
+        let mut e = ((e_c + t.abs() * e_slope) / (size - e_slope) + t.abs() * (2.0 * U)) * SLACK;
+        let mut crosses = size.gt(e_slope * CLEAR) & e.lt(F8::splat(FAR));
+        let flat = size.le(e_slope * CLEAR);
+        let reach = ((size + e_slope) * rays.far + e_c) * SLACK;
+        if let Some((lanes, negative)) = *from {
             let away = negative.select(-slope, slope);
             crosses &= !lanes | away.gt(e_slope);
             t = lanes.select(F8::splat(BEHIND), t);
             e = lanes.select(F8::ZERO, e);
         }
-        PlaneRoot { crosses, above, below, falls: slope.lt(F8::ZERO), t, e }
+        let falls = slope.lt(F8::ZERO);
+        root.falls = crosses & falls;
+        root.rises = crosses & !falls;
+        root.above = flat & c.gt(reach);
+        root.below = flat & c.lt(-reach);
+        root.t = t;
+        root.e = e;
     }
+
+    /// Where this face cuts off points, and where it surely does not.
+    #[inline(never)]
+    fn cut(&self, isa: Isa, at: &Spot, inside: &mut M8, outside: &mut M8) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let (f, e_f) = self.at(at.y, at.y1, at.e1);
+                *inside &= f.lt(-e_f);
+                *outside |= f.gt(e_f);
+            },
+        );
+    }
+}
+
+/// Points of eight rays.
+struct Spot {
+    y: Vec3<F8>,
+    /// `|y|₁`, and a bound on the error of `y` in that norm.
+    y1: F8,
+    e1: F8,
 }
 
 /// The greatest of the entries, or with signs exchanged the least of the exits, so far.
@@ -214,23 +266,29 @@ impl Extreme {
         others: F8::splat(f64::NEG_INFINITY),
     };
 
-    #[inline(always)]
-    fn take(&mut self, lanes: M8, t: F8, e: F8, face: usize) {
-        let better = lanes & t.gt(self.t);
-        let loser = better.select(self.t + self.e, t + e);
-        self.others = lanes.select(loser.max(self.others), self.others);
-        self.t = better.select(t, self.t);
-        self.e = better.select(e, self.e);
-        self.face = better.select(F8::splat(face as f64), self.face);
+    #[inline(never)]
+    fn take(&mut self, isa: Isa, lanes: M8, t: &F8, e: &F8, sign: f64, face: usize) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let t = *t * sign;
+                let better = lanes & t.gt(self.t);
+                let loser = better.select(self.t + self.e, t + *e);
+                self.others = lanes.select(loser.max(self.others), self.others);
+                self.t = better.select(t, self.t);
+                self.e = better.select(*e, self.e);
+                self.face = better.select(F8::splat(face as f64), self.face);
+            },
+        );
     }
 }
 
 impl Outline {
     /// Offers the first crossing of each ray to `nearest`, under a number. `from` holds the rays that leave this very surface, if there are any.
-    #[inline(always)]
-    pub fn meet(&self, rays: &RayLanes, from: Option<&From8>, number: f64, nearest: &mut Nearest) {
-        let seen = rays.seen_from(self.centre);
-        if self.reach < f64::INFINITY && self.faces.len() > 1 && self.is_passed_by(rays, &seen) {
+    pub fn meet(&self, rays: &RayLanes<'_>, from: Option<&From8>, number: f64, nearest: &mut Nearest) {
+        let mut seen =
+            Seen { h: Vec3::splat(Vec3::ZERO), h1: F8::ZERO, d: rays.direction, d1: &rays.d1, far: F8::ZERO };
+        if self.is_passed_by(rays, &mut seen) {
             return;
         }
         if self.convex {
@@ -240,34 +298,42 @@ impl Outline {
         }
     }
 
-    /// Whether every ray surely passes the ball that holds the surface, or has left it behind.
-    #[inline(always)]
-    fn is_passed_by(&self, rays: &RayLanes, seen: &Seen) -> bool {
-        let (h, d) = (seen.h, seen.d);
-        let hd = h.x * d.x + h.y * d.y + h.z * d.z;
-        let h2 = h.x * h.x + h.y * h.y + h.z * h.z;
-        let size = seen.h1 * seen.h1;
-        // |h|² - R², less than three roundings of |h|₁² and one of R².
-        let outside = h2 - self.reach * self.reach - (size + self.reach * self.reach) * (8.0 * U);
-        // The distance of the line is above R where (|h|² - R²) d² > (h·d)².
-        let clear = (outside * rays.d2).gt((hd * hd + size * rays.d2 * (16.0 * U)) * SLACK);
-        let behind = outside.gt(F8::ZERO) & hd.gt(seen.h1 * seen.d1 * (8.0 * U));
-        (clear | behind | !rays.live).all()
+    /// Sees the rays from the centre; says whether every one surely passes the ball that holds the surface, or has left it behind.
+    #[inline(never)]
+    fn is_passed_by(&self, rays: &RayLanes<'_>, seen: &mut Seen<'_>) -> bool {
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || self.is_passed_by_here(rays, seen),
+        )
     }
 
-    /// A bound on every `t` at which the surface can be met.
     #[inline(always)]
-    fn farthest(&self, rays: &RayLanes, seen: &Seen) -> F8 {
+    fn is_passed_by_here(&self, rays: &RayLanes<'_>, seen: &mut Seen<'_>) -> bool {
+        let (o, c, d) = (rays.origin, self.centre, rays.direction);
+        let h = Vec3::new(o.x - c.x, o.y - c.y, o.z - c.z);
+        let h1 = taxicab(h) * SLACK;
+        (seen.h, seen.h1) = (h, h1);
         if self.reach == f64::INFINITY {
-            return rays.t_max.min(F8::splat(FAR));
+            seen.far = rays.t_max.min(F8::splat(FAR));
+            return false;
         }
         // |t d| <= |h| + R, and √3 |d| >= |d|₁.
-        ((seen.h1 + self.reach) * (1.75 * SLACK) / seen.d1).min(F8::splat(FAR))
+        seen.far = ((h1 + self.reach) * (1.75 * SLACK) / rays.d1).min(F8::splat(FAR));
+        let hd = h.x * d.x + h.y * d.y + h.z * d.z;
+        let h2 = h.x * h.x + h.y * h.y + h.z * h.z;
+        let size = h1 * h1;
+        // |h|² - R², less than three roundings of |h|₁² and one of R².
+        let square = self.reach * self.reach;
+        let outside = h2 - square - (size + square) * (8.0 * U);
+        // The distance of the line is above R where (|h|² - R²) d² > (h·d)².
+        let clear = (outside * rays.d2).gt((hd * hd + size * rays.d2 * (16.0 * U)) * SLACK);
+        let behind = outside.gt(F8::ZERO) & hd.gt(h1 * rays.d1 * (8.0 * U));
+        (clear | behind | !*rays.live).all()
     }
 
     /// The lanes of `from` that leave face `i`, and where its polynomial is negative at their start.
     #[inline(always)]
-    fn leaving(&self, from: Option<&From8>, i: usize) -> Option<(M8, M8)> {
+    fn leaving(&self, from: Option<&From8>, i: usize) -> Leaving {
         from.map(|f| {
             let here = F8::splat(i as f64);
             let lanes = f.lanes & f.face.le(here) & f.face.ge(here);
@@ -275,40 +341,64 @@ impl Outline {
         })
     }
 
-    #[inline(always)]
     fn meet_convex(
         &self,
-        rays: &RayLanes,
-        seen: &Seen,
+        rays: &RayLanes<'_>,
+        seen: &Seen<'_>,
         from: Option<&From8>,
         number: f64,
         nearest: &mut Nearest,
     ) {
         // The latest entry, and the earliest exit by its negative.
         let (mut enter, mut leave) = (Extreme::NONE, Extreme::NONE);
-        let (mut missed, mut unsure) = (!rays.live, M8::NONE);
-        let far = self.farthest(rays, seen);
+        let (mut missed, mut unsure) = (!*rays.live, M8::NONE);
         for (i, face) in self.faces.iter().enumerate() {
             let from = self.leaving(from, i);
             if face.kind == FaceKind::Plane {
-                let root = face.crossing(seen, far, from);
-                let known = root.crosses & root.e.lt(F8::splat(FAR));
-                missed |= !root.crosses & root.above;
-                unsure |= !known & !(!root.crosses & (root.above | root.below));
-                enter.take(known & root.falls, root.t, root.e, i);
-                leave.take(known & !root.falls, -root.t, root.e, i);
+                let mut root = PlaneRoot::default();
+                face.crossing(rays.isa, seen, &from, &mut root);
+                missed |= root.above;
+                unsure |= !(root.falls | root.rises | root.above | root.below);
+                enter.take(rays.isa, root.falls, &root.t, &root.e, 1.0, i);
+                leave.take(rays.isa, root.rises, &root.t, &root.e, -1.0, i);
             } else {
-                let line = face.along(seen);
-                let roots = line.roots(from);
-                let opens = line.a.gt(line.e_a * CLEAR);
-                missed |= roots.none & opens;
-                let ((t0, e0), (t1, e1)) = (roots.enter, roots.leave);
-                let known = roots.known & opens & (e0 + e1).lt(F8::splat(FAR));
-                unsure |= !known & !(roots.none & opens);
-                enter.take(known, t0, e0, i);
-                leave.take(known, -t1, e1, i);
+                let mut roots = Roots::default();
+                face.roots(rays.isa, seen, &from, &mut roots);
+                let (known, none) = (roots.known & roots.opens, roots.none & roots.opens);
+                missed |= none;
+                unsure |= !(known | none);
+                enter.take(rays.isa, known, &roots.enter, &roots.e_enter, 1.0, i);
+                leave.take(rays.isa, known, &roots.leave, &roots.e_leave, -1.0, i);
             }
         }
+        self.conclude(rays, (&enter, &leave), (missed, unsure), number, nearest);
+    }
+
+    /// What entries and exits come to.
+    #[inline(never)]
+    fn conclude(
+        &self,
+        rays: &RayLanes<'_>,
+        ends: (&Extreme, &Extreme),
+        doubts: (M8, M8),
+        number: f64,
+        nearest: &mut Nearest,
+    ) {
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || self.conclude_here(rays, ends, doubts, number, nearest),
+        );
+    }
+
+    #[inline(always)]
+    fn conclude_here(
+        &self,
+        rays: &RayLanes<'_>,
+        (enter, leave): (&Extreme, &Extreme),
+        (mut missed, unsure): (M8, M8),
+        number: f64,
+        nearest: &mut Nearest,
+    ) {
         let limit = nearest.limit(rays);
         let earliest = enter.t - enter.e;
         let latest = leave.e - leave.t;
@@ -317,14 +407,15 @@ impl Outline {
         let left = -((leave.t + leave.e).max(leave.others));
         let open = !(missed | unsure);
         let outside = open & entered.lt(left) & earliest.gt(F8::ZERO) & earliest.gt(enter.others);
-        let inside = open & entered.lt(F8::ZERO) & left.gt(F8::ZERO) & (leave.t - leave.e).gt(leave.others);
+        let within = open & entered.lt(F8::ZERO);
+        let inside = within & left.gt(F8::ZERO) & (leave.t - leave.e).gt(leave.others);
         // From within, what is left is met.
         let t = outside.select(enter.t, -leave.t);
         let e = outside.select(enter.e, leave.e);
         let face = outside.select(enter.face, leave.face);
         // What is never left is not met again from within.
-        missed |= open & entered.lt(F8::ZERO) & left.ge(NEVER) | inside & (t - e).gt(limit);
-        let sure = (outside | inside) & !missed & (t + e).le(rays.t_max);
+        missed |= within & left.ge(NEVER) | inside & (t - e).gt(limit);
+        let sure = (outside | inside) & !missed & (t + e).le(*rays.t_max);
         let unsure = !(missed | sure);
         self.put_down(sure, unsure, (t, e, face), earliest, number, nearest);
     }
@@ -344,80 +435,91 @@ impl Outline {
             nearest.doubt_from(unsure | sure, earliest);
         } else {
             nearest.take(sure, t, e, number, face);
-            if unsure.any() {
-                nearest.doubt_from(unsure, earliest);
-            }
+            nearest.doubt_from(unsure, earliest);
         }
     }
 
-    #[inline(always)]
     fn meet_walls(
         &self,
-        rays: &RayLanes,
-        seen: &Seen,
+        rays: &RayLanes<'_>,
+        seen: &Seen<'_>,
         from: Option<&From8>,
         number: f64,
         nearest: &mut Nearest,
     ) {
-        let far = self.farthest(rays, seen);
         for (i, face) in self.faces[..self.walls].iter().enumerate() {
             let from = self.leaving(from, i);
             if face.kind == FaceKind::Plane {
-                let root = face.crossing(seen, far, from);
-                let apart = !root.crosses & (root.above | root.below);
-                let unsure = rays.live & !(root.crosses | apart);
+                let mut root = PlaneRoot::default();
+                face.crossing(rays.isa, seen, &from, &mut root);
+                let crosses = *rays.live & (root.falls | root.rises);
+                let unsure = *rays.live & !(crosses | root.above | root.below);
                 if unsure.any() {
                     nearest.doubt_from(unsure, F8::ZERO);
                 }
-                self.meet_wall(rays, seen, i, rays.live & root.crosses, (root.t, root.e), number, nearest);
+                self.meet_wall(rays, seen, i, crosses, (&root.t, &root.e), number, nearest);
             } else {
-                let roots = face.along(seen).roots(from);
-                let unsure = rays.live & !(roots.known | roots.none);
+                let mut roots = Roots::default();
+                face.roots(rays.isa, seen, &from, &mut roots);
+                let known = *rays.live & roots.known;
+                let unsure = *rays.live & !(roots.known | roots.none);
                 if unsure.any() {
                     nearest.doubt_from(unsure, F8::ZERO);
                 }
-                let known = rays.live & roots.known;
-                self.meet_wall(rays, seen, i, known, roots.enter, number, nearest);
-                self.meet_wall(rays, seen, i, known, roots.leave, number, nearest);
+                self.meet_wall(rays, seen, i, known, (&roots.enter, &roots.e_enter), number, nearest);
+                self.meet_wall(rays, seen, i, known, (&roots.leave, &roots.e_leave), number, nearest);
             }
         }
     }
 
     /// Offers a root of one wall, where the others do not cut it off.
-    #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "a loop body that two kinds of faces share")]
     fn meet_wall(
         &self,
-        rays: &RayLanes,
-        seen: &Seen,
+        rays: &RayLanes<'_>,
+        seen: &Seen<'_>,
         wall: usize,
         lanes: M8,
-        (t, e): (F8, F8),
+        (t, e): (&F8, &F8),
         number: f64,
         nearest: &mut Nearest,
     ) {
-        let limit = nearest.limit(rays);
-        let apart = (t + e).lt(F8::ZERO) | (t - e).gt(limit);
-        let open = lanes & !apart;
-        if !open.any() {
+        let mut open = M8::NONE;
+        let Some(spot) = rays.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let limit = nearest.limit(rays);
+                open = lanes & !((*t + *e).lt(F8::ZERO) | (*t - *e).gt(limit));
+                open.any().then(|| Spot::on(seen, *t, *e))
+            },
+        ) else {
             return;
+        };
+        let (mut inside, mut outside) = (M8::ALL, M8::NONE);
+        for (j, other) in self.faces.iter().enumerate() {
+            if j != wall {
+                other.cut(rays.isa, &spot, &mut inside, &mut outside);
+            }
         }
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let (t, e) = (*t, *e);
+                let sure = open & inside & (t - e).gt(F8::ZERO) & (t + e).le(*rays.t_max);
+                let unsure = open & !(sure | outside);
+                self.put_down(sure, unsure, (t, e, F8::splat(wall as f64)), t - e, number, nearest);
+            },
+        );
+    }
+}
+
+impl Spot {
+    #[inline(always)]
+    fn on(seen: &Seen<'_>, t: F8, e: F8) -> Self {
         let (h, d) = (seen.h, seen.d);
         let y = Vec3::new(t.mul_add(d.x, h.x), t.mul_add(d.y, h.y), t.mul_add(d.z, h.z));
         let y1 = taxicab(y) * SLACK;
         // One rounding of h, one of y, and the error of t.
-        let e1 = ((seen.h1 + y1) * (2.0 * U) + e * seen.d1) * SLACK;
-        let (mut inside, mut outside) = (M8::ALL, M8::NONE);
-        for (j, other) in self.faces.iter().enumerate() {
-            if j == wall {
-                continue;
-            }
-            let (f, e_f) = other.at(y, y1, e1);
-            inside &= f.lt(-e_f);
-            outside |= f.gt(e_f);
-        }
-        let sure = open & inside & (t - e).gt(F8::ZERO) & (t + e).le(rays.t_max);
-        let unsure = open & !(sure | outside);
-        self.put_down(sure, unsure, (t, e, F8::splat(wall as f64)), t - e, number, nearest);
+        Self { y, y1, e1: ((seen.h1 + y1) * (2.0 * U) + e * *seen.d1) * SLACK }
     }
 }

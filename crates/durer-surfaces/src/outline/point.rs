@@ -20,6 +20,15 @@ pub struct Points8 {
     pub off: F8,
 }
 
+impl Points8 {
+    /// Nothing yet.
+    pub const NONE: Self = {
+        let (zero, up) = (Vec3::splat(Vec3::ZERO), Vec3::splat(Vec3::Z));
+        let p = Point3::new(zero.x, zero.y, zero.z);
+        Self { sure: M8::NONE, p, ng: up, ns: up, off: F8::ZERO }
+    };
+}
+
 #[inline(always)]
 fn dot(a: Vec3<F8>, b: Vec3<F8>) -> F8 {
     a.x.mul_add(b.x, a.y.mul_add(b.y, a.z * b.z))
@@ -36,13 +45,21 @@ impl Outline {
     /// With `|f(p)| <= η`, gradient `G` and `|Hessian| <= h`, a start at `p ± off n + τ` has `|f| >= off |G| - h (off² + |τ|²) - η`. Where
     /// `x = 4 h η / |G|²` is small, `off = η (1 + x) / |G|` is enough, since `1 - √(1 - x) <= x`. As in the scalar kernels `η` includes twice the error of `f`,
     /// so that rays from there see on which side they start.
+    #[inline(never)]
+    pub fn points(&self, i: usize, rays: &RayLanes<'_>, t: &F8, points: &mut Points8) {
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || self.points_here(i, rays, *t, points),
+        );
+    }
+
     #[inline(always)]
-    pub fn points(&self, i: usize, rays: &RayLanes, t: F8) -> Points8 {
+    fn points_here(&self, i: usize, rays: &RayLanes<'_>, t: F8, points: &mut Points8) {
         /// How small `x` has to be.
         const SMALL: f64 = 1.0 / (1u64 << 20) as f64;
         let face: &face::Face = &self.faces[i.min(self.faces.len() - 1)];
         let c = self.centre;
-        let (o, d) = (rays.origin(), rays.direction);
+        let (o, d) = (rays.origin, rays.direction);
         let h = Vec3::new(o.x - c.x, o.y - c.y, o.z - c.z);
         let y = Vec3::new(t.mul_add(d.x, h.x), t.mul_add(d.y, h.y), t.mul_add(d.z, h.z));
         let (f, g) = face.value_and_half_gradient(y);
@@ -72,7 +89,8 @@ impl Outline {
             _ => ng,
         };
         let ordinary = off.lt(F8::splat(f64::MAX)) & dot(ns, ns).gt(F8::splat(0.5));
-        Points8 { sure: x.le(F8::splat(SMALL)) & ordinary, p, ng, ns, off }
+        points.sure = x.le(F8::splat(SMALL)) & ordinary;
+        (points.p, points.ng, points.ns, points.off) = (p, ng, ns, off);
     }
 }
 
