@@ -63,8 +63,8 @@ pub(crate) trait AnyArena: Send + Sync {
     fn resolve(&self, isa: Isa, slot: u32, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint;
     /// A slot as lanes see it; `None` if its numbers are too large or too small for that.
     fn outline(&self, slot: u32) -> Option<Outline>;
-    /// Whether a ray with this mask meets a slot.
-    fn admits(&self, slot: u32, mask: u32) -> bool;
+    /// Which rays meet a slot.
+    fn mask(&self, slot: u32) -> u32;
     /// Which part of its surface a slot is.
     fn part(&self, slot: u32) -> PartId;
     /// The name of a slot.
@@ -395,8 +395,8 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
         surface.sketch(part).outline()
     }
 
-    fn admits(&self, slot: u32, mask: u32) -> bool {
-        self.ids.admits(self.slot(slot).index, mask)
+    fn mask(&self, slot: u32) -> u32 {
+        self.ids.mask(self.slot(slot).index)
     }
 
     fn part(&self, slot: u32) -> PartId {

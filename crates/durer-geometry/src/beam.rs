@@ -2,7 +2,7 @@
 
 use crate::best::Best;
 use crate::geometry::{Beside, Geometry, slots};
-use crate::ids::Id;
+use crate::ids::{EVERYTHING, Id};
 use crate::query::{any_in, closest_in};
 use crate::{Hit, walk::Walk};
 use arrayvec::ArrayVec;
@@ -22,6 +22,7 @@ pub(crate) struct Candidate {
     pub(crate) arena: u32,
     pub(crate) slot: u32,
     pub(crate) name: Id,
+    pub(crate) mask: u32,
 }
 
 impl Candidate {
@@ -82,9 +83,12 @@ impl Geometry {
     }
 
     fn candidate(&self, arena: u32, slot: u32) -> Candidate {
-        // An instance has no name of its own: it is asked anyway.
-        let unnamed = Id { object: u32::MAX, primitive: u32::MAX };
-        Candidate { arena, slot, name: self.arenas.get(arena as usize).map_or(unnamed, |a| a.name(slot)) }
+        let (name, mask) = match self.arenas.get(arena as usize) {
+            Some(a) => (a.name(slot), a.mask(slot)),
+            // An instance has no name of its own: it is asked anyway.
+            None => (Id { object: u32::MAX, primitive: u32::MAX }, EVERYTHING),
+        };
+        Candidate { arena, slot, name, mask }
     }
 
     /// As [`Geometry::seen`], of a ray of the bundle that `beam` was made for: the same answer.

@@ -34,10 +34,16 @@ impl Ids {
         self.names[surface]
     }
 
+    /// Which rays meet the surface.
+    #[inline(always)]
+    pub(crate) fn mask(&self, surface: usize) -> u32 {
+        self.masks.get(surface).copied().unwrap_or(EVERYTHING)
+    }
+
     /// Whether a ray with this mask meets the surface.
     #[inline(always)]
     pub(crate) fn admits(&self, surface: usize, mask: u32) -> bool {
-        self.masks.get(surface).copied().unwrap_or(EVERYTHING) & mask != 0
+        self.mask(surface) & mask != 0
     }
 
     pub(crate) fn swap(&mut self, a: usize, b: usize) {

@@ -1,8 +1,10 @@
 //! Eight rays side by side, and what they meet.
 
 use crate::beam::Candidate;
+use crate::ids::Id;
 use crate::outlines::Outlines;
 use crate::{Beam, Geometry, Hit};
+use arrayvec::ArrayVec;
 use durer_math::lanes::LANES;
 use durer_math::{Aabb, F8, Isa, M8, Point3, Ray, RaySide, Shaft, Source, U, Vec3};
 use durer_surfaces::outline::{From8, Nearest, Outline, Points8, RayLanes};
@@ -92,19 +94,26 @@ impl Sources8 {
         })
     }
 
-    /// The rays that leave a slot, if any do.
-    #[inline(always)]
-    fn of(&self, arena: u32, slot: u32, outline: &Outline) -> Option<From8> {
+    /// Every slot that some ray leaves, once.
+    #[inline]
+    fn all(&self) -> ArrayVec<u64, LANES> {
+        let mut all = ArrayVec::new();
+        for (&slot, &instance) in self.slot.iter().zip(&self.instance) {
+            if slot != NOWHERE && instance == 0 && !all.contains(&slot) {
+                all.push(slot);
+            }
+        }
+        all
+    }
+
+    /// The rays that leave a slot.
+    fn of(&self, arena: u32, slot: u32, outline: &Outline) -> From8 {
         let number = slot_number(arena, slot);
-        let lanes = M8::from_fn(
-            #[inline(always)]
-            |i| self.slot[i] == number && self.instance[i] == 0,
-        );
-        lanes.any().then(|| From8 {
-            lanes,
+        From8 {
+            lanes: M8::from_fn(|i| self.slot[i] == number && self.instance[i] == 0),
             face: if outline.is_part() { F8::ZERO } else { F8(self.face.map(f64::from)) },
             back: self.back,
-        })
+        }
     }
 
     /// Gives lane `i` a source.
@@ -306,7 +315,8 @@ impl Geometry {
     /// Puts down what is sure; answers with the rays of which something is not.
     fn see(&self, beam: &Beam, outlines: &Outlines, rays: &Rays8, mask: u32, hits: &mut Hits8) -> M8 {
         let lanes = RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
-        let nearest = self.nearest(beam, outlines, rays, &lanes, mask);
+        let mut nearest = Nearest::NONE;
+        self.nearest(beam, outlines, rays, &lanes, mask, &mut nearest);
         let (mut waiting, mut left) = (M8::NONE, M8::NONE);
         self.isa.run_in_lanes(
             #[inline(always)]
@@ -339,10 +349,18 @@ impl Geometry {
             let part = self.arenas[candidate.arena as usize].part(candidate.slot).0;
             // The kernels of meshes count faces, and lanes see one of them.
             let face = if outline.is_part() { part } else { f as u32 };
+            let Id { object, primitive } = candidate.name;
+            let to = &mut *hits;
+            if sure.all() {
+                (to.object, to.primitive) = ([object; LANES], [primitive; LANES]);
+                (to.source.slot, to.source.face) = ([slot; LANES], [face; LANES]);
+                (to.source.part, to.source.instance) = ([part; LANES], [0; LANES]);
+                continue;
+            }
             for i in sure.lanes() {
-                (hits.object[i], hits.primitive[i]) = (candidate.name.object, candidate.name.primitive);
-                (hits.source.slot[i], hits.source.face[i]) = (slot, face);
-                (hits.source.part[i], hits.source.instance[i]) = (part, 0);
+                (to.object[i], to.primitive[i]) = (object, primitive);
+                (to.source.slot[i], to.source.face[i]) = (slot, face);
+                (to.source.part[i], to.source.instance[i]) = (part, 0);
             }
         }
         left
@@ -356,23 +374,23 @@ impl Geometry {
         rays: &Rays8,
         lanes: &RayLanes<'_>,
         mask: u32,
-    ) -> Nearest {
-        let mut nearest = Nearest::NONE;
+        nearest: &mut Nearest,
+    ) {
+        let sources = rays.source.all();
         for (number, candidate) in beam.candidates.iter().enumerate() {
             let Candidate { arena, slot, .. } = *candidate;
-            let admitted = self.arenas.get(arena as usize).is_none_or(|a| a.admits(slot, mask));
-            if !admitted {
+            if candidate.mask & mask == 0 {
                 continue;
             }
             match outlines.get(arena, slot) {
-                Some(outline) => {
+                Some(outline) if sources.contains(&slot_number(arena, slot)) => {
                     let from = rays.source.of(arena, slot, outline);
-                    outline.meet(lanes, from.as_ref(), number as f64, &mut nearest);
+                    outline.meet(lanes, Some(&from), number as f64, nearest);
                 }
+                Some(outline) => outline.meet(lanes, None, number as f64, nearest),
                 None => nearest.doubt = F8::ZERO,
             }
         }
-        nearest
     }
 
     /// Which rays meet anything, as [`Geometry::any_masked`] answers.
@@ -392,7 +410,8 @@ impl Geometry {
         if let Some(beam) = beam {
             let outlines = self.outlines.get_or_init(|| Outlines::of(self));
             let lanes = RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
-            let nearest = self.nearest(beam, outlines, rays, &lanes, mask);
+            let mut nearest = Nearest::NONE;
+            self.nearest(beam, outlines, rays, &lanes, mask, &mut nearest);
             self.isa.run_in_lanes(
                 #[inline(always)]
                 || {

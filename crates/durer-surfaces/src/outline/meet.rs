@@ -137,8 +137,22 @@ struct PlaneRoot {
     e: F8,
 }
 
-/// Lanes that start on a face, and where its polynomial is negative at their start.
-type Leaving = Option<(M8, M8)>;
+/// Rays that leave a surface, as one of its faces sees them.
+struct Leaving<'a> {
+    from: &'a From8,
+    face: usize,
+    turned: bool,
+}
+
+impl Leaving<'_> {
+    /// The lanes that start on this face, and where its polynomial is negative at their start.
+    #[inline(always)]
+    fn lanes(&self) -> (M8, M8) {
+        let here = F8::splat(self.face as f64);
+        let lanes = self.from.lanes & self.from.face.le(here) & self.from.face.ge(here);
+        (lanes, if self.turned { !self.from.back } else { self.from.back })
+    }
+}
 
 // Each step below is a function of its own that takes from memory and puts into memory what eight lanes hold. In one large function the compiler would
 // mix lanes of different numbers, which costs several times as much as the loads and stores.
@@ -147,7 +161,7 @@ impl Face {
     ///
     /// Of the rays that start on this face the near root is the one they left: it lies behind if they go away from the surface.
     #[inline(never)]
-    fn roots(&self, isa: Isa, rays: &Seen<'_>, from: &Leaving, roots: &mut Roots) {
+    fn roots(&self, isa: Isa, rays: &Seen<'_>, from: Option<&Leaving<'_>>, roots: &mut Roots) {
         isa.run_in_lanes(
             #[inline(always)]
             || self.roots_here(rays, from, roots),
@@ -155,7 +169,7 @@ impl Face {
     }
 
     #[inline(always)]
-    fn roots_here(&self, rays: &Seen<'_>, from: &Leaving, roots: &mut Roots) {
+    fn roots_here(&self, rays: &Seen<'_>, from: Option<&Leaving<'_>>, roots: &mut Roots) {
         let Line { a, b, c, e_a, e_b, e_c } = self.along(rays);
         let (size_a, size_b, size_c) = (a.abs(), b.abs(), c.abs());
         let ac = a * c;
@@ -176,7 +190,7 @@ impl Face {
         let mut known =
             some & size_a.gt(e_a * CLEAR) & size_q.gt(e_q * CLEAR) & (e_far + e_near).lt(F8::splat(FAR));
         let (mut near, mut e_near) = (near, e_near);
-        if let Some((lanes, negative)) = *from {
+        if let Some((lanes, negative)) = from.map(Leaving::lanes) {
             let away = negative.select(-b, b);
             known &= !lanes | away.gt(e_b);
             near = lanes.select(F8::splat(BEHIND), near);
@@ -195,7 +209,7 @@ impl Face {
 
     /// The crossing of a plane.
     #[inline(never)]
-    fn crossing(&self, isa: Isa, rays: &Seen<'_>, from: &Leaving, root: &mut PlaneRoot) {
+    fn crossing(&self, isa: Isa, rays: &Seen<'_>, from: Option<&Leaving<'_>>, root: &mut PlaneRoot) {
         isa.run_in_lanes(
             #[inline(always)]
             || self.crossing_here(rays, from, root),
@@ -203,7 +217,7 @@ impl Face {
     }
 
     #[inline(always)]
-    fn crossing_here(&self, rays: &Seen<'_>, from: &Leaving, root: &mut PlaneRoot) {
+    fn crossing_here(&self, rays: &Seen<'_>, from: Option<&Leaving<'_>>, root: &mut PlaneRoot) {
         let (b, e_b, c, e_c) = self.slope(rays);
         let (slope, e_slope) = (b * 2.0, e_b * 2.0);
         let size = slope.abs();
@@ -212,7 +226,7 @@ impl Face {
         let mut crosses = size.gt(e_slope * CLEAR) & e.lt(F8::splat(FAR));
         let flat = size.le(e_slope * CLEAR);
         let reach = ((size + e_slope) * rays.far + e_c) * SLACK;
-        if let Some((lanes, negative)) = *from {
+        if let Some((lanes, negative)) = from.map(Leaving::lanes) {
             let away = negative.select(-slope, slope);
             crosses &= !lanes | away.gt(e_slope);
             t = lanes.select(F8::splat(BEHIND), t);
@@ -250,6 +264,7 @@ struct Spot {
 }
 
 /// The greatest of the entries, or with signs exchanged the least of the exits, so far.
+#[derive(Clone, Copy)]
 struct Extreme {
     t: F8,
     e: F8,
@@ -258,28 +273,76 @@ struct Extreme {
     others: F8,
 }
 
-impl Extreme {
-    const NONE: Self = Self {
-        t: F8::splat(f64::NEG_INFINITY),
-        e: F8::ZERO,
-        face: F8::ZERO,
-        others: F8::splat(f64::NEG_INFINITY),
-    };
+const BEFORE: F8 = F8::splat(f64::NEG_INFINITY);
 
+impl Extreme {
+    const NONE: Self = Self { t: BEFORE, e: F8::ZERO, face: F8::ZERO, others: BEFORE };
+
+    #[inline(always)]
+    fn take(&mut self, lanes: M8, t: F8, e: F8, face: usize) {
+        let better = lanes & t.gt(self.t);
+        let loser = better.select(self.t + self.e, t + e);
+        self.others = lanes.select(loser.max(self.others), self.others);
+        self.t = better.select(t, self.t);
+        self.e = better.select(e, self.e);
+        self.face = better.select(F8::splat(face as f64), self.face);
+    }
+
+    /// The same where nothing was before.
+    #[inline(always)]
+    fn start(&mut self, lanes: M8, t: F8, e: F8) {
+        self.t = lanes.select(t, BEFORE);
+        self.e = lanes.select(e, F8::ZERO);
+    }
+}
+
+/// What the faces of a convex solid say so far.
+struct Hull {
+    /// The latest entry.
+    enter: Extreme,
+    /// The earliest exit, by its negative.
+    leave: Extreme,
+    missed: M8,
+    unsure: M8,
+}
+
+impl Hull {
+    /// Adds face `i`, a plane.
     #[inline(never)]
-    fn take(&mut self, isa: Isa, lanes: M8, t: &F8, e: &F8, sign: f64, face: usize) {
+    fn add_plane(&mut self, isa: Isa, i: usize, root: &PlaneRoot) {
         isa.run_in_lanes(
             #[inline(always)]
             || {
-                let t = *t * sign;
-                let better = lanes & t.gt(self.t);
-                let loser = better.select(self.t + self.e, t + *e);
-                self.others = lanes.select(loser.max(self.others), self.others);
-                self.t = better.select(t, self.t);
-                self.e = better.select(*e, self.e);
-                self.face = better.select(F8::splat(face as f64), self.face);
+                self.missed |= root.above;
+                self.unsure |= !(root.falls | root.rises | root.above | root.below);
+                self.add(i, (root.falls, root.t, root.e), (root.rises, -root.t, root.e));
             },
         );
+    }
+
+    /// Adds face `i`, a quadric.
+    #[inline(never)]
+    fn add_quadric(&mut self, isa: Isa, i: usize, roots: &Roots) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let (known, none) = (roots.known & roots.opens, roots.none & roots.opens);
+                self.missed |= none;
+                self.unsure |= !(known | none);
+                self.add(i, (known, roots.enter, roots.e_enter), (known, -roots.leave, roots.e_leave));
+            },
+        );
+    }
+
+    #[inline(always)]
+    fn add(&mut self, i: usize, enter: (M8, F8, F8), leave: (M8, F8, F8)) {
+        if i == 0 {
+            self.enter.start(enter.0, enter.1, enter.2);
+            self.leave.start(leave.0, leave.1, leave.2);
+        } else {
+            self.enter.take(enter.0, enter.1, enter.2, i);
+            self.leave.take(leave.0, leave.1, leave.2, i);
+        }
     }
 }
 
@@ -331,14 +394,9 @@ impl Outline {
         (clear | behind | !*rays.live).all()
     }
 
-    /// The lanes of `from` that leave face `i`, and where its polynomial is negative at their start.
     #[inline(always)]
-    fn leaving(&self, from: Option<&From8>, i: usize) -> Leaving {
-        from.map(|f| {
-            let here = F8::splat(i as f64);
-            let lanes = f.lanes & f.face.le(here) & f.face.ge(here);
-            (lanes, if self.turned { !f.back } else { f.back })
-        })
+    fn leaving<'a>(&self, from: Option<&'a From8>, face: usize) -> Option<Leaving<'a>> {
+        from.map(|from| Leaving { from, face, turned: self.turned })
     }
 
     fn meet_convex(
@@ -349,56 +407,35 @@ impl Outline {
         number: f64,
         nearest: &mut Nearest,
     ) {
-        // The latest entry, and the earliest exit by its negative.
-        let (mut enter, mut leave) = (Extreme::NONE, Extreme::NONE);
-        let (mut missed, mut unsure) = (!*rays.live, M8::NONE);
+        let mut hull =
+            Hull { enter: Extreme::NONE, leave: Extreme::NONE, missed: !*rays.live, unsure: M8::NONE };
         for (i, face) in self.faces.iter().enumerate() {
             let from = self.leaving(from, i);
             if face.kind == FaceKind::Plane {
                 let mut root = PlaneRoot::default();
-                face.crossing(rays.isa, seen, &from, &mut root);
-                missed |= root.above;
-                unsure |= !(root.falls | root.rises | root.above | root.below);
-                enter.take(rays.isa, root.falls, &root.t, &root.e, 1.0, i);
-                leave.take(rays.isa, root.rises, &root.t, &root.e, -1.0, i);
+                face.crossing(rays.isa, seen, from.as_ref(), &mut root);
+                hull.add_plane(rays.isa, i, &root);
             } else {
                 let mut roots = Roots::default();
-                face.roots(rays.isa, seen, &from, &mut roots);
-                let (known, none) = (roots.known & roots.opens, roots.none & roots.opens);
-                missed |= none;
-                unsure |= !(known | none);
-                enter.take(rays.isa, known, &roots.enter, &roots.e_enter, 1.0, i);
-                leave.take(rays.isa, known, &roots.leave, &roots.e_leave, -1.0, i);
+                face.roots(rays.isa, seen, from.as_ref(), &mut roots);
+                hull.add_quadric(rays.isa, i, &roots);
             }
         }
-        self.conclude(rays, (&enter, &leave), (missed, unsure), number, nearest);
+        self.conclude(rays, &hull, number, nearest);
     }
 
     /// What entries and exits come to.
     #[inline(never)]
-    fn conclude(
-        &self,
-        rays: &RayLanes<'_>,
-        ends: (&Extreme, &Extreme),
-        doubts: (M8, M8),
-        number: f64,
-        nearest: &mut Nearest,
-    ) {
+    fn conclude(&self, rays: &RayLanes<'_>, hull: &Hull, number: f64, nearest: &mut Nearest) {
         rays.isa.run_in_lanes(
             #[inline(always)]
-            || self.conclude_here(rays, ends, doubts, number, nearest),
+            || self.conclude_here(rays, hull, number, nearest),
         );
     }
 
     #[inline(always)]
-    fn conclude_here(
-        &self,
-        rays: &RayLanes<'_>,
-        (enter, leave): (&Extreme, &Extreme),
-        (mut missed, unsure): (M8, M8),
-        number: f64,
-        nearest: &mut Nearest,
-    ) {
+    fn conclude_here(&self, rays: &RayLanes<'_>, hull: &Hull, number: f64, nearest: &mut Nearest) {
+        let Hull { enter, leave, mut missed, unsure } = *hull;
         let limit = nearest.limit(rays);
         let earliest = enter.t - enter.e;
         let latest = leave.e - leave.t;
@@ -451,7 +488,7 @@ impl Outline {
             let from = self.leaving(from, i);
             if face.kind == FaceKind::Plane {
                 let mut root = PlaneRoot::default();
-                face.crossing(rays.isa, seen, &from, &mut root);
+                face.crossing(rays.isa, seen, from.as_ref(), &mut root);
                 let crosses = *rays.live & (root.falls | root.rises);
                 let unsure = *rays.live & !(crosses | root.above | root.below);
                 if unsure.any() {
@@ -460,7 +497,7 @@ impl Outline {
                 self.meet_wall(rays, seen, i, crosses, (&root.t, &root.e), number, nearest);
             } else {
                 let mut roots = Roots::default();
-                face.roots(rays.isa, seen, &from, &mut roots);
+                face.roots(rays.isa, seen, from.as_ref(), &mut roots);
                 let known = *rays.live & roots.known;
                 let unsure = *rays.live & !(roots.known | roots.none);
                 if unsure.any() {
