@@ -173,21 +173,6 @@ impl Hits8 {
         source: Sources8::NONE,
     };
 
-    /// Takes the lanes that are sure.
-    #[inline(never)]
-    fn take(&mut self, isa: Isa, sure: M8, points: &Points8) {
-        isa.run_in_lanes(
-            #[inline(always)]
-            || {
-                self.hit |= sure;
-                self.p = sure.select3(points.p.to_vec(), self.p.to_vec()).to_point();
-                self.ng = sure.select3(points.ng, self.ng);
-                self.ns = sure.select3(points.ns, self.ns);
-                self.off = sure.select(points.off, self.off);
-            },
-        );
-    }
-
     /// What a ray saw by itself.
     fn set_lane(&mut self, i: usize, seen: Option<(Hit, SurfacePoint)>) {
         self.hit.set_lane(i, seen.is_some());
@@ -253,6 +238,18 @@ impl Bounds8 {
             Point3::new(most(b.x), most(b.y), most(b.z)),
         )
     }
+}
+
+/// The lanes that wait with these numbers.
+#[inline(never)]
+fn together(isa: Isa, waiting: &M8, (number, n): (&F8, f64), (face, f): (&F8, f64)) -> M8 {
+    isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            let same = |v: &F8, x: F8| v.le(x) & v.ge(x);
+            *waiting & same(number, F8::splat(n)) & same(face, F8::splat(f))
+        },
+    )
 }
 
 impl Geometry {
@@ -330,21 +327,16 @@ impl Geometry {
         );
         let Nearest { t, number, face, .. } = &nearest;
         hits.t = *t;
-        let mut points = Points8::NONE;
         while let Some(i) = waiting.first_set() {
             let (n, f) = (number.0[i], face.0[i]);
-            let together = waiting
-                & M8::from_fn(
-                    #[inline(always)]
-                    |j| number.0[j] == n && face.0[j] == f,
-                );
+            let together = together(self.isa, &waiting, (number, n), (face, f));
             waiting &= !together;
             let candidate = &beam.candidates[n as usize];
             let Some(outline) = outlines.get(candidate.arena, candidate.slot) else { continue };
-            outline.points(f as usize, &lanes, t, &mut points);
-            let sure = together & points.sure;
+            let Hits8 { p, ng, ns, off, .. } = &mut *hits;
+            let sure = outline.points(f as usize, &lanes, t, &together, Points8 { p, ng, ns, off });
             left |= together & !sure;
-            hits.take(self.isa, sure, &points);
+            hits.hit |= sure;
             let slot = slot_number(candidate.arena, candidate.slot);
             let part = self.arenas[candidate.arena as usize].part(candidate.slot).0;
             // The kernels of meshes count faces, and lanes see one of them.

@@ -5,28 +5,17 @@ use super::meet::RayLanes;
 use super::{Outline, face};
 use durer_math::{F8, M8, Point3, U, Vec3};
 
-/// Points of a surface with what a picture needs of a [`SurfacePoint`](crate::SurfacePoint), which says what each number means.
-#[derive(Clone, Copy, Debug)]
-pub struct Points8 {
-    /// Where the rest is proven. Elsewhere the surface itself has to be asked.
-    pub sure: M8,
+/// Where points of a surface are put, with what a picture needs of a [`SurfacePoint`](crate::SurfacePoint), which says what each number means.
+#[derive(Debug)]
+pub struct Points8<'a> {
     /// The points.
-    pub p: Point3<F8>,
+    pub p: &'a mut Point3<F8>,
     /// Unit geometric normals.
-    pub ng: Vec3<F8>,
+    pub ng: &'a mut Vec3<F8>,
     /// Unit shading normals.
-    pub ns: Vec3<F8>,
+    pub ns: &'a mut Vec3<F8>,
     /// How far along the normal the surface is surely left.
-    pub off: F8,
-}
-
-impl Points8 {
-    /// Nothing yet.
-    pub const NONE: Self = {
-        let (zero, up) = (Vec3::splat(Vec3::ZERO), Vec3::splat(Vec3::Z));
-        let p = Point3::new(zero.x, zero.y, zero.z);
-        Self { sure: M8::NONE, p, ng: up, ns: up, off: F8::ZERO }
-    };
+    pub off: &'a mut F8,
 }
 
 #[inline(always)]
@@ -40,21 +29,22 @@ fn times(v: Vec3<F8>, k: F8) -> Vec3<F8> {
 }
 
 impl Outline {
-    /// The points at `t` on face `i`, moved onto the face by one step of Newton's method.
+    /// Puts down the points at `t` on face `i`, moved onto the face by one step of Newton's method, for some lanes; answers with those for which all is proven. Of the
+    /// others the surface itself has to be asked.
     ///
     /// With `|f(p)| <= η`, gradient `G` and `|Hessian| <= h`, a start at `p ± off n + τ` has `|f| >= off |G| - h (off² + |τ|²) - η`. Where
     /// `x = 4 h η / |G|²` is small, `off = η (1 + x) / |G|` is enough, since `1 - √(1 - x) <= x`. As in the scalar kernels `η` includes twice the error of `f`,
     /// so that rays from there see on which side they start.
     #[inline(never)]
-    pub fn points(&self, i: usize, rays: &RayLanes<'_>, t: &F8, points: &mut Points8) {
+    pub fn points(&self, i: usize, rays: &RayLanes<'_>, t: &F8, lanes: &M8, points: Points8<'_>) -> M8 {
         rays.isa.run_in_lanes(
             #[inline(always)]
-            || self.points_here(i, rays, *t, points),
-        );
+            || self.points_here(i, rays, *t, *lanes, points),
+        )
     }
 
     #[inline(always)]
-    fn points_here(&self, i: usize, rays: &RayLanes<'_>, t: F8, points: &mut Points8) {
+    fn points_here(&self, i: usize, rays: &RayLanes<'_>, t: F8, lanes: M8, to: Points8<'_>) -> M8 {
         /// How small `x` has to be.
         const SMALL: f64 = 1.0 / (1u64 << 20) as f64;
         let face: &face::Face = &self.faces[i.min(self.faces.len() - 1)];
@@ -89,8 +79,12 @@ impl Outline {
             _ => ng,
         };
         let ordinary = off.lt(F8::splat(f64::MAX)) & dot(ns, ns).gt(F8::splat(0.5));
-        points.sure = x.le(F8::splat(SMALL)) & ordinary;
-        (points.p, points.ng, points.ns, points.off) = (p, ng, ns, off);
+        let sure = lanes & x.le(F8::splat(SMALL)) & ordinary;
+        *to.p = sure.select3(p.to_vec(), to.p.to_vec()).to_point();
+        *to.ng = sure.select3(ng, *to.ng);
+        *to.ns = sure.select3(ns, *to.ns);
+        *to.off = sure.select(off, *to.off);
+        sure
     }
 }
 
