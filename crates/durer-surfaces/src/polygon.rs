@@ -20,8 +20,9 @@
 
 use crate::edges::{self, EdgeFilter};
 use crate::facet::{self, Facet};
+use crate::outline::Sketch;
 use crate::planar::{self, AlongRay, Line, PlaneForm, Probe, ThreePoints};
-use crate::{Flow, LocalRay, Need, RingRay, Root, Sink, Surface, SurfacePoint};
+use crate::{Flow, LocalRay, Need, PartId, RingRay, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::eft::exponent;
 use durer_math::{Aabb, Isa, Point3, Ring, Vec3};
@@ -336,6 +337,14 @@ impl Surface for Polygon {
             && probe.admits(&plane, &crossing)
         {
             let _: Flow = sink.push(probe.root(&crossing, 0, [0.0; 2]));
+        }
+    }
+
+    fn sketch(&self, _part: PartId) -> Sketch {
+        if self.flat {
+            Sketch::polygon(self.plane, self.bounds, self.outlines(), self.rule)
+        } else {
+            Sketch::vague(self.bounds)
         }
     }
 

@@ -1,7 +1,7 @@
 //! Putting a surface into the geometry: placed, clipped, turned inside out.
 
 use durer_geometry::{Builder, ObjectId};
-use durer_math::{Aabb, Affine, Point3};
+use durer_math::{Aabb, Affine, Point3, Shaft, Vec3};
 use durer_surfaces::{Algebraic, Clip, Inverse, LocalPoint, Placed, Region, Side, Solidity, Surface};
 
 use super::erased::Erased;
@@ -73,6 +73,15 @@ impl Target<'_> {
         if self.camera.is_empty()
             || solid.solidity() != Solidity::Solid
             || !self.inverse && bounds().intersection(self.camera).is_empty()
+        {
+            return;
+        }
+        // Where the surface does not pass between the camera's rays, they all start on one side.
+        let standing = Shaft::new(self.camera, Vec3::ZERO, Vec3::ZERO);
+        let outside = |side: Side| if self.inverse { side == Side::In } else { side == Side::Out };
+        if map.is_none()
+            && solid.misses(&standing)
+            && outside(solid.side(&LocalPoint::new(self.camera.centre())))
         {
             return;
         }

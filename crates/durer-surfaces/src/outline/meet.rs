@@ -256,11 +256,11 @@ impl Face {
 }
 
 /// Points of eight rays.
-struct Spot {
-    y: Vec3<F8>,
+pub(super) struct Spot {
+    pub(super) y: Vec3<F8>,
     /// `|y|₁`, and a bound on the error of `y` in that norm.
-    y1: F8,
-    e1: F8,
+    pub(super) y1: F8,
+    pub(super) e1: F8,
 }
 
 /// The greatest of the entries, or with signs exchanged the least of the exits, so far.
@@ -537,6 +537,12 @@ impl Outline {
             if j != wall {
                 other.cut(rays.isa, &spot, &mut inside, &mut outside);
             }
+        }
+        if let Some(loops) = &self.loops {
+            rays.isa.run_in_lanes(
+                #[inline(always)]
+                || loops.cut(&spot, &mut inside, &mut outside),
+            );
         }
         rays.isa.run_in_lanes(
             #[inline(always)]

@@ -14,6 +14,7 @@
 //! ```
 
 mod face;
+mod loops;
 mod meet;
 mod point;
 mod sketch;
@@ -23,6 +24,7 @@ pub use self::point::Points8;
 pub use self::sketch::Sketch;
 
 use self::face::Face;
+use self::loops::Loops;
 use durer_math::{Point3, Vec3};
 
 /// A surface as lanes see it. Made by [`Sketch::outline`].
@@ -45,6 +47,8 @@ pub struct Outline {
     part: bool,
     /// Shading normals: a value and its change along x, y and z.
     normals: Option<Box<[Vec3; 4]>>,
+    /// What cuts off the first wall beside the other faces.
+    loops: Option<Box<Loops<Face>>>,
 }
 
 impl Outline {

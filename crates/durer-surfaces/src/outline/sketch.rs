@@ -1,6 +1,8 @@
 //! From a surface's own numbers to an outline.
 
+use super::loops::{Edge, Loops};
 use super::{Face, Outline};
+use crate::FillRule;
 use crate::quadric::body::Shape;
 use crate::quadric::form::Form;
 use durer_math::{Aabb, Affine, Dd, Dyadic, Point3, Ring, Run, U, Vec3};
@@ -23,6 +25,7 @@ pub struct Sketch {
     vague: bool,
     part: bool,
     normals: Option<[Vec3; 4]>,
+    loops: Option<Loops<Form<N>>>,
 }
 
 /// Where the numbers of an outline are: far enough from the ends of the range of f64 for all products of them.
@@ -73,6 +76,7 @@ impl Sketch {
             vague: false,
             part: false,
             normals: None,
+            loops: None,
         }
     }
 
@@ -143,6 +147,32 @@ impl Sketch {
         Self::sheet(centre, &cross(&u, &v), &[(near, u), (far, back(&u)), (near, back(&v)), (far, v)])
     }
 
+    /// The part of the plane through three points that some closed outlines in it go around.
+    pub(crate) fn polygon<'a>(
+        spanning: [Point3; 3],
+        bounds: Aabb,
+        outlines: impl Iterator<Item = &'a [Point3]>,
+        rule: FillRule,
+    ) -> Self {
+        let centre = bounds.centre();
+        let seen = |v: Point3| minus(&exact(v.to_vec()), &exact(centre.to_vec()));
+        let [a, b, c] = spanning.map(seen);
+        let up = minus(&b, &a);
+        let n = cross(&up, &minus(&c, &a));
+        let through = |n: &[N; 3], p: &[N; 3]| Form::half_space(*n, -dot(n, p));
+        let mut loops = Loops { edges: Vec::new(), ends: Vec::new(), rule };
+        for outline in outlines {
+            for (i, &vertex) in outline.iter().enumerate() {
+                let (from, to) = (seen(vertex), seen(outline[(i + 1) % outline.len()]));
+                let side = through(&cross(&minus(&to, &from), &n), &from);
+                loops.edges.push(Edge { level: through(&up, &from), side });
+            }
+            loops.ends.push(loops.edges.len());
+        }
+        let reach = bounds.reach_from(centre);
+        Self { loops: Some(loops), ..Self::new(centre, vec![through(&n, &a)], 1, reach) }
+    }
+
     /// The part of the plane across `n` to the left of some edges, each by a point, counted from the centre, and a direction.
     fn sheet(centre: Point3, n: &[N; 3], edges: &[([N; 3], [N; 3])]) -> Self {
         let through = |n: &[N; 3], p: &[N; 3]| Form::half_space(*n, -dot(n, p));
@@ -194,7 +224,7 @@ impl Sketch {
         let shift = [0, 1, 2].map(|i| row(i, &from) - det * N::exact(self.centre[i]));
         let transposed =
             |v: &[N; 3]| [0, 1, 2].map(|j| adj[0][j] * v[0] + adj[1][j] * v[1] + adj[2][j] * v[2]);
-        let forms = self.forms.into_iter().map(|f| {
+        let moved = |f: Form<N>| {
             // det² f(y) = z·Qz + 2 det b·z + det² c at z = adj h + δ.
             let b = f.b.map(|x| x * det);
             let scaled = Form { q: f.q, b, c: f.c * det.square() }.seen_from(&shift);
@@ -211,7 +241,7 @@ impl Sketch {
                 b: transposed(&scaled.b),
                 c: scaled.c,
             }
-        });
+        };
         let normals = self.normals.map(|[n, x, y, z]| {
             // n(x) = L⁻ᵀ n(y), and y changes with L⁻¹ h.
             let covector = |v: Vec3| {
@@ -224,7 +254,9 @@ impl Sketch {
             [covector(n), change(0), change(1), change(2)]
         });
         let reach = self.reach * map.linear_norm() * (1.0 + 16.0 * U);
-        Self { centre, forms: forms.collect(), reach, normals, ..self }
+        let forms = self.forms.into_iter().map(moved).collect();
+        let loops = self.loops.map(|l| l.map(moved));
+        Self { centre, forms, reach, normals, loops, ..self }
     }
 
     /// The surface with its normals, and its inside, turned round.
@@ -278,6 +310,10 @@ impl Sketch {
         let faces = self.forms.iter().map(Face::new).collect::<Option<Box<[_]>>>()?;
         let Self { centre, walls, reach, convex, turned, vague, part, .. } = *self;
         let normals = self.normals.map(Box::new);
-        Some(Outline { centre, faces, walls, reach, convex, turned, vague, part, normals })
+        let loops = match &self.loops {
+            Some(loops) => Some(Box::new(loops.try_map(Face::new)?)),
+            None => None,
+        };
+        Some(Outline { centre, faces, walls, reach, convex, turned, vague, part, normals, loops })
     }
 }
