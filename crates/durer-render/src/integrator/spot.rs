@@ -1,0 +1,135 @@
+//! Eight points of surfaces that look alike, gathered to be shaded together.
+
+use super::bundle::{Bundle, Paths8, is_dense};
+use super::split::Piece;
+use crate::lanes::{Lanes, Mask, Rgb8, less};
+use crate::material::View;
+use crate::vector::{dot, length};
+use durer_geometry::{Hits8, Rays8};
+use durer_math::lanes::LANES;
+use durer_math::{F8, Isa, Point3, Vec3};
+
+/// Eight points being shaded.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spot {
+    /// Which lanes hold a point.
+    pub(super) live: Mask,
+    /// The points.
+    pub(super) hits: Hits8,
+    /// What becomes of their colours.
+    pub(super) paths: Paths8,
+    /// How they are looked at; before [`face`] the eye is the ray's direction.
+    pub(super) view: View,
+    /// How far the rays came.
+    pub(super) distance: F8,
+    /// The points in the space of their paint.
+    pub(super) inside: Point3<F8>,
+    /// What is seen so far.
+    pub(super) sum: Rgb8,
+    /// What the layers so far let pass.
+    pub(super) passed: Rgb8,
+}
+
+impl Spot {
+    const NONE: Self = Self {
+        live: Mask::NONE,
+        hits: Hits8::NONE,
+        paths: Paths8::NONE,
+        view: View { eye: Rays8::NONE.direction, normal: Hits8::NONE.ns, cosine: F8::ONE },
+        distance: F8::ZERO,
+        inside: Hits8::NONE.p,
+        sum: Rgb8::BLACK,
+        passed: Rgb8::WHITE,
+    };
+
+    /// What a group of rays met. Their directions stand for the eye until [`face`] has looked at them.
+    fn met(hits: &Hits8, direction: Vec3<F8>, paths: &Paths8) -> Self {
+        let view = View { eye: direction, normal: hits.ns, cosine: F8::ONE };
+        Self { hits: *hits, paths: *paths, view, ..Self::NONE }
+    }
+
+    /// Lane `i` becomes lane `j` of what a group of rays met.
+    #[inline(always)]
+    fn copy_met(&mut self, i: usize, (hits, direction, paths): (&Hits8, Vec3<F8>, &Paths8), j: usize) {
+        let to = &mut self.hits;
+        to.t.0[i] = hits.t.0[j];
+        (to.p.x.0[i], to.p.y.0[i], to.p.z.0[i]) = (hits.p.x.0[j], hits.p.y.0[j], hits.p.z.0[j]);
+        to.ng.set_lane(i, hits.ng.lane(j));
+        to.ns.set_lane(i, hits.ns.lane(j));
+        to.off.0[i] = hits.off.0[j];
+        to.source.copy_lane(i, &hits.source, j);
+        self.view.eye.set_lane(i, direction.lane(j));
+        self.paths.copy_lane(i, paths, j);
+    }
+
+    /// Lane `i` becomes lane `j` of another eight, of which nothing was seen yet.
+    fn copy_lane(&mut self, i: usize, from: &Self, j: usize) {
+        self.copy_met(i, (&from.hits, from.view.eye, &from.paths), j);
+        self.view.normal.set_lane(i, from.view.normal.lane(j));
+        self.view.cosine.0[i] = from.view.cosine.0[j];
+        self.distance.0[i] = from.distance.0[j];
+        let p = &mut self.inside;
+        (p.x.0[i], p.y.0[i], p.z.0[i]) = (from.inside.x.0[j], from.inside.y.0[j], from.inside.z.0[j]);
+    }
+}
+
+/// Adds some lanes of some groups to `spots`: dense groups as `whole` gives them, single lanes by `copy(to, i, group, j)`.
+#[inline(always)]
+fn pack(
+    lists: impl Iterator<Item = (usize, u8)>,
+    whole: impl Fn(usize) -> Spot,
+    copy: impl Fn(&mut Spot, usize, usize, usize),
+    spots: &mut Vec<Spot>,
+) {
+    let (mut open, mut filled) = (0, LANES);
+    for (group, lanes) in lists {
+        if is_dense(lanes) {
+            spots.push(Spot { live: Mask::from_bits(lanes), ..whole(group) });
+            continue;
+        }
+        for j in Lanes(lanes) {
+            if filled == LANES {
+                (open, filled) = (spots.len(), 0);
+                spots.push(Spot::NONE);
+            }
+            copy(&mut spots[open], filled, group, j);
+            spots[open].live.set(filled);
+            filled += 1;
+        }
+    }
+}
+
+/// Gathers what some rays of a bundle met.
+pub(super) fn gather(pieces: &[Piece], bundle: &Bundle<'_>, hits: &[Hits8], spots: &mut Vec<Spot>) {
+    spots.clear();
+    let met = |g: usize| (&hits[g], bundle.rays[g].direction, &bundle.paths[g]);
+    let whole = |g: usize| {
+        let (hits, direction, paths) = met(g);
+        Spot::met(hits, direction, paths)
+    };
+    pack(pieces.iter().map(|p| (p.group as usize, p.lanes)), whole, |to, i, g, j| to.copy_met(i, met(g), j), spots);
+}
+
+/// Gathers some lanes of some spots, of which nothing was seen yet.
+pub(super) fn gather_again(lists: impl Iterator<Item = (usize, u8)>, from: &[Spot], spots: &mut Vec<Spot>) {
+    pack(lists, |g| from[g], |to, i, g, j| to.copy_lane(i, &from[g], j), spots);
+}
+
+/// Works out how the points are looked at.
+pub(super) fn face(isa: Isa, spots: &mut [Spot]) {
+    isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            for Spot { hits, view, distance, inside, .. } in spots {
+                let speed = length(view.eye);
+                let eye = view.eye * (F8::ONE / speed);
+                let slope = dot(hits.ns, eye);
+                let normal = less(F8::ZERO, slope).select3(-hits.ns, hits.ns);
+                // Rounding does not make it more than 1.
+                *view = View { eye, normal, cosine: slope.abs().min(F8::ONE) };
+                *distance = hits.t * speed;
+                *inside = hits.p;
+            }
+        },
+    );
+}
