@@ -392,10 +392,8 @@ mod tests {
 
     #[test]
     fn colours_are_those_of_the_lanes() {
-        let (c, d) = (
-            Colour::from_terms([0.1, 0.7, 0.3, 0.2, 0.5]),
-            Colour::from_terms([0.9, 0.2, 0.4, 0.6, 0.1]),
-        );
+        let (c, d) =
+            (Colour::from_terms([0.1, 0.7, 0.3, 0.2, 0.5]), Colour::from_terms([0.9, 0.2, 0.4, 0.6, 0.1]));
         let (c8, k) = (Colour8::splat(c), F8([0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.9, 1.0]));
         let mixed = Colour8::mixed(c, d, k);
         for i in 0..LANES {

@@ -130,7 +130,10 @@ mod tests {
             let (origin, direction) = camera.rays(x, y, (160, 120));
             for i in 0..8 {
                 let ray = camera.ray(on_picture(x.0[i], 160), on_picture(y.0[i], 120));
-                assert_eq!((origin.to_vec().lane(i).to_point(), direction.lane(i)), (ray.origin, ray.direction));
+                assert_eq!(
+                    (origin.to_vec().lane(i).to_point(), direction.lane(i)),
+                    (ray.origin, ray.direction)
+                );
             }
         }
     }

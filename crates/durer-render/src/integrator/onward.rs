@@ -153,7 +153,15 @@ impl<'w> Onward<'w> {
                             & !totally_reflected(border, spot);
                         if lanes.any() {
                             let factor = spot.paths.factor * layer.reflectance;
-                            send(reflected, spot, mirrored(spot), weight, factor, lanes, &mut counts.reflected);
+                            send(
+                                reflected,
+                                spot,
+                                mirrored(spot),
+                                weight,
+                                factor,
+                                lanes,
+                                &mut counts.reflected,
+                            );
                         }
                     }
                 },

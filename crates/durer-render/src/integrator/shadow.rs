@@ -3,7 +3,7 @@
 use super::bundle::{Bundle, Paths8, TOGETHER};
 use super::media::Crossing;
 use super::split::{Piece, cut, sort};
-use super::spot::{Spot, gather};
+use super::spot::{Spot, Spots};
 use crate::lanes::{Mask, Rgb8};
 use crate::progress::Progress;
 use crate::stats::RayCounts;
@@ -41,7 +41,7 @@ pub(super) struct Shadows<'w> {
     spare: Vec<Bundle<'w>>,
     hits: Vec<Hits8>,
     pieces: Vec<Piece>,
-    spots: Vec<Spot>,
+    spots: Spots,
 }
 
 impl<'w> Shadows<'w> {
@@ -154,7 +154,7 @@ impl<'w> Shadows<'w> {
             let look = part[0].look(world);
             let media = &bundle.standing.media;
             let crossing = Crossing::new(media, look.medium, part[0].is_grazing());
-            gather(part, bundle, &self.hits, &mut self.spots);
+            let spots = self.spots.gather(part, bundle, &self.hits);
             let mut behind = self.spare.pop().unwrap_or_else(Bundle::new);
             behind.clear();
             crossing.behind(look.medium, media, &mut behind.standing.media);
@@ -162,7 +162,7 @@ impl<'w> Shadows<'w> {
             isa.run_in_lanes(
                 #[inline(always)]
                 || {
-                    for spot in &mut self.spots {
+                    for spot in spots {
                         let goes_on = pass(world, look, crossing, spot);
                         let target = targets_of(spot, targets);
                         settle(light, &spot.paths, spot.live & !goes_on);

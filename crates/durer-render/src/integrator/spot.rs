@@ -42,12 +42,6 @@ impl Spot {
         passed: Rgb8::WHITE,
     };
 
-    /// What a group of rays met. Their directions stand for the eye until [`face`] has looked at them.
-    fn met(hits: &Hits8, direction: Vec3<F8>, paths: &Paths8) -> Self {
-        let view = View { eye: direction, normal: hits.ns, cosine: F8::ONE };
-        Self { hits: *hits, paths: *paths, view, ..Self::NONE }
-    }
-
     /// Lane `i` becomes lane `j` of what a group of rays met.
     #[inline(always)]
     fn copy_met(&mut self, i: usize, (hits, direction, paths): (&Hits8, Vec3<F8>, &Paths8), j: usize) {
@@ -73,46 +67,78 @@ impl Spot {
     }
 }
 
-/// Adds some lanes of some groups to `spots`: dense groups as `whole` gives them, single lanes by `copy(to, i, group, j)`.
-#[inline(always)]
-fn pack(
-    lists: impl Iterator<Item = (usize, u8)>,
-    whole: impl Fn(usize) -> Spot,
-    copy: impl Fn(&mut Spot, usize, usize, usize),
-    spots: &mut Vec<Spot>,
-) {
-    let (mut open, mut filled) = (0, LANES);
-    for (group, lanes) in lists {
-        if is_dense(lanes) {
-            spots.push(Spot { live: Mask::from_bits(lanes), ..whole(group) });
-            continue;
+/// Spots in use, before others that are kept to be used again.
+#[derive(Default)]
+pub(super) struct Spots {
+    spots: Vec<Spot>,
+    used: usize,
+}
+
+impl Spots {
+    /// One more, in which nothing is live and anything may be.
+    #[inline(always)]
+    fn next(&mut self) -> &mut Spot {
+        if self.used == self.spots.len() {
+            self.spots.push(Spot::NONE);
         }
-        for j in Lanes(lanes) {
-            if filled == LANES {
-                (open, filled) = (spots.len(), 0);
-                spots.push(Spot::NONE);
+        self.used += 1;
+        let spot = &mut self.spots[self.used - 1];
+        spot.live = Mask::NONE;
+        spot
+    }
+
+    /// Adds some lanes of some groups: dense groups by `whole(to, group)`, single lanes by `copy(to, i, group, j)`.
+    #[inline(always)]
+    fn pack(
+        &mut self,
+        lists: impl Iterator<Item = (usize, u8)>,
+        whole: impl Fn(&mut Spot, usize),
+        copy: impl Fn(&mut Spot, usize, usize, usize),
+    ) {
+        self.used = 0;
+        let (mut open, mut filled) = (0, LANES);
+        for (group, lanes) in lists {
+            if is_dense(lanes) {
+                let spot = self.next();
+                whole(spot, group);
+                spot.live = Mask::from_bits(lanes);
+                continue;
             }
-            copy(&mut spots[open], filled, group, j);
-            spots[open].live.set(filled);
-            filled += 1;
+            for j in Lanes(lanes) {
+                if filled == LANES {
+                    (open, filled) = (self.used, 0);
+                    self.next();
+                }
+                let spot = &mut self.spots[open];
+                copy(spot, filled, group, j);
+                spot.live.set(filled);
+                filled += 1;
+            }
         }
     }
-}
 
-/// Gathers what some rays of a bundle met.
-pub(super) fn gather(pieces: &[Piece], bundle: &Bundle<'_>, hits: &[Hits8], spots: &mut Vec<Spot>) {
-    spots.clear();
-    let met = |g: usize| (&hits[g], bundle.rays[g].direction, &bundle.paths[g]);
-    let whole = |g: usize| {
-        let (hits, direction, paths) = met(g);
-        Spot::met(hits, direction, paths)
-    };
-    pack(pieces.iter().map(|p| (p.group as usize, p.lanes)), whole, |to, i, g, j| to.copy_met(i, met(g), j), spots);
-}
+    /// Gathers what some rays of a bundle met. Their directions stand for the eye until [`face`] has looked at them.
+    pub(super) fn gather(&mut self, pieces: &[Piece], bundle: &Bundle<'_>, hits: &[Hits8]) -> &mut [Spot] {
+        let met = |g: usize| (&hits[g], bundle.rays[g].direction, &bundle.paths[g]);
+        let whole = |to: &mut Spot, g: usize| {
+            to.hits = hits[g];
+            to.view.eye = bundle.rays[g].direction;
+            to.paths = bundle.paths[g];
+        };
+        let lists = pieces.iter().map(|p| (p.group as usize, p.lanes));
+        self.pack(lists, whole, |to, i, g, j| to.copy_met(i, met(g), j));
+        &mut self.spots[..self.used]
+    }
 
-/// Gathers some lanes of some spots, of which nothing was seen yet.
-pub(super) fn gather_again(lists: impl Iterator<Item = (usize, u8)>, from: &[Spot], spots: &mut Vec<Spot>) {
-    pack(lists, |g| from[g], |to, i, g, j| to.copy_lane(i, &from[g], j), spots);
+    /// Gathers some lanes of some spots, of which nothing was seen yet.
+    pub(super) fn gather_again(
+        &mut self,
+        lists: impl Iterator<Item = (usize, u8)>,
+        from: &[Spot],
+    ) -> &mut [Spot] {
+        self.pack(lists, |to, g| *to = from[g], |to, i, g, j| to.copy_lane(i, &from[g], j));
+        &mut self.spots[..self.used]
+    }
 }
 
 /// Works out how the points are looked at.

@@ -16,7 +16,7 @@ use super::lamps::Lamps;
 use super::media::Border;
 use super::onward::{Onward, Part};
 use super::split::{Piece, cut, sort};
-use super::spot::{Spot, face, gather, gather_again};
+use super::spot::{Spot, Spots, face};
 use crate::camera::Camera;
 use crate::lanes::{Mask, Rgb8, equal};
 use crate::material::Mirror;
@@ -45,7 +45,7 @@ pub(crate) struct Whitted<'w> {
     sums: Vec<Rgb>,
     hits: Vec<Hits8>,
     pieces: Vec<Piece>,
-    spots: Vec<Spot>,
+    spots: Spots,
     coats: Coats<'w>,
     lamps: Lamps<'w>,
     onward: Onward<'w>,
@@ -71,7 +71,7 @@ impl<'w> Whitted<'w> {
             sums: Vec::new(),
             hits: Vec::new(),
             pieces: Vec::new(),
-            spots: Vec::new(),
+            spots: Spots::default(),
             coats: Coats::default(),
             lamps: Lamps::default(),
             onward: Onward::default(),
@@ -148,7 +148,8 @@ impl<'w> Whitted<'w> {
                 }
             },
         );
-        let first = Standing { level: 1, depth: 0, mask: mask::CAMERA, draws: 0, mirror: None, media: Vec::new() };
+        let first =
+            Standing { level: 1, depth: 0, mask: mask::CAMERA, draws: 0, mirror: None, media: Vec::new() };
         match self.world.standing() {
             Some(media) => {
                 all.standing = Standing { media: media.to_vec(), ..first };
@@ -217,13 +218,13 @@ impl<'w> Whitted<'w> {
             if self.stop.is_cancelled() {
                 break;
             }
-            gather(part, bundle, &self.hits, &mut spots);
-            face(self.isa, &mut spots);
+            let spots = spots.gather(part, bundle, &self.hits);
+            face(self.isa, spots);
             let (world, standing) = (self.world, &bundle.standing);
             let look = part[0].look(world);
             let border = Border::new(world, &standing.media, look.medium, part[0].is_grazing());
             let part = Part { look, border, standing };
-            self.paint(&part, &world.paints[look.paint as usize], &mut spots, &mut 0);
+            self.paint(&part, &world.paints[look.paint as usize], spots, &mut 0);
         }
         (self.pieces, self.spots) = (pieces, spots);
     }
@@ -279,10 +280,9 @@ impl<'w> Whitted<'w> {
             let at = |i| if spot.live.has(i) { blend.at(p.lane(i).to_point()) } else { None };
             shown.push(core::array::from_fn::<_, LANES, _>(at));
         }
-        let mut some: Vec<Spot> = Vec::new();
+        let mut some = Spots::default();
         for entry in 0..blend.len() {
             let weights = |group: usize| shown[group].map(|s| s.map_or(0.0, |s| s.part(entry)));
-            some.clear();
             let mut weighed = spots.to_vec();
             let mut lists = Vec::new();
             for (group, spot) in weighed.iter_mut().enumerate() {
@@ -291,9 +291,9 @@ impl<'w> Whitted<'w> {
                 spot.paths.factor = spot.paths.factor * weight;
                 lists.push((group, lanes.bits()));
             }
-            gather_again(lists.into_iter(), &weighed, &mut some);
+            let some = some.gather_again(lists.into_iter(), &weighed);
             if !some.is_empty() {
-                self.paint(part, blend.entry(entry), &mut some, stack);
+                self.paint(part, blend.entry(entry), some, stack);
             }
         }
     }
@@ -306,15 +306,22 @@ impl<'w> Whitted<'w> {
             let how = (&self.coats, part.look.double_illuminate);
             self.lamps.light((world, isa), how, &standing.media, spots, &self.stop, &mut self.counts);
         }
-        for spot in &*spots {
-            add(&mut self.sums, &spot.paths, spot.sum, spot.live);
-        }
+        let sums = &mut self.sums;
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                for spot in &*spots {
+                    add(sums, &spot.paths, spot.sum, spot.live);
+                }
+            },
+        );
         let stack = (stack, draws(layers));
         self.onward.send((world, isa), part, &self.coats, stack, spots, &mut self.counts);
     }
 }
 
 /// Adds colours to the sums to which they belong.
+#[inline(always)]
 fn add(sums: &mut [Rgb], paths: &Paths8, colour: Rgb8, lanes: Mask) {
     let colour = colour * paths.factor;
     for i in lanes.lanes() {

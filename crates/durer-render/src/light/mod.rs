@@ -114,8 +114,7 @@ impl Lamp {
             Beam::Tube { full, end, tightness } => {
                 let off_axis = length(from - axis * depth);
                 lit = lit & !(at_most(depth, F8::ZERO) | at_most(F8::splat(end), off_axis));
-                tightness.lanes(F8::ONE - off_axis / end, lit)
-                    * (F8::ONE - smooth_step(full, end, off_axis))
+                tightness.lanes(F8::ONE - off_axis / end, lit) * (F8::ONE - smooth_step(full, end, off_axis))
             }
         };
         if let Some((at, power)) = self.fade {

@@ -171,13 +171,7 @@ impl Mirror {
     /// What the reflected light is multiplied by. `cosine` is that of the angle between the normal and the eye; `fresnel` is Fresnel's
     /// reflectance, which mirrors of that kind need.
     #[inline(always)]
-    pub(crate) fn reflectance(
-        &self,
-        cosine: F8,
-        colour: Rgb8,
-        live: Mask,
-        fresnel: F8,
-    ) -> Rgb8 {
+    pub(crate) fn reflectance(&self, cosine: F8, colour: Rgb8, live: Mask, fresnel: F8) -> Rgb8 {
         let r = if self.fresnel {
             Rgb8::mixed(self.min, self.max, fresnel)
         } else if self.min == self.max {

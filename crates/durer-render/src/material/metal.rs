@@ -1,7 +1,7 @@
 //! Metals: highlights and mirror images that take the pigment's colour, except at grazing angles.
 
-use core::f64::consts::FRAC_2_PI;
 use crate::lanes::{Mask, Rgb8};
+use core::f64::consts::FRAC_2_PI;
 use durer_math::{F8, elementary};
 
 /// How near to grazing an angle is, from 0 (head-on) to 1: the scene language's fit to Fresnel's formula for metals,
@@ -34,13 +34,11 @@ mod tests {
     #[test]
     fn head_on_the_pigment_shows_and_grazing_it_does_not() {
         let c = Rgb::new(1.0, 0.5, 0.0);
-        let tint = |metallic, cosine, c| {
-            super::tint(metallic, F8::splat(cosine), Rgb8::splat(c), Mask::ALL).lane(2)
-        };
-        let head_on = tint(1.0, 1.0, c);
+        let of = |metallic, cosine, c| tint(metallic, F8::splat(cosine), Rgb8::splat(c), Mask::ALL).lane(2);
+        let head_on = of(1.0, 1.0, c);
         assert!((head_on.g - 0.5).abs() < 1e-6 && head_on.b.abs() < 1e-6);
-        let flat = tint(1.0, 0.0, c);
+        let flat = of(1.0, 0.0, c);
         assert!(flat.b > 0.99);
-        assert_eq!(tint(0.0, 0.7, c), Rgb::WHITE);
+        assert_eq!(of(0.0, 0.7, c), Rgb::WHITE);
     }
 }

@@ -38,7 +38,7 @@ pub(super) fn method1(
     let place = |first: u32, i: usize, size: u32| {
         (f64::from(first) + i as f64 - 0.5).clamp(0.5, f64::from(size) - 0.5)
     };
-    let order: Vec<_> = in_blocks(columns + 2, rows + 2).collect();
+    let order = in_blocks(columns + 2, rows + 2);
     let places: Vec<_> = order
         .iter()
         .map(|&(x, y)| Place { x: place(tile.x0, x, width), y: place(tile.y0, y, height) })
@@ -115,7 +115,8 @@ pub(super) fn method2(
     while y0 < tile.y1 {
         let rows = together.min(tile.y1 - y0) as usize;
         corners.forget(rows * cells + 1);
-        let mut squares: Vec<_> = in_blocks(columns, rows).map(|(x, y)| (x * cells, y * cells)).collect();
+        let mut squares = in_blocks(columns, rows);
+        squares.iter_mut().for_each(|(i, j)| (*i, *j) = (*i * cells, *j * cells));
         let mut size = cells;
         // All squares of one size, then those of half the size into which some of them are cut.
         while !squares.is_empty() {

@@ -46,9 +46,7 @@ pub(crate) fn sample_tile(
     let mut pixels = Vec::with_capacity(tile.pixels() as usize);
     let _: Option<()> = match aa {
         AntiAliasing::Off => grid(1, tile, &mut pixels, &mut look),
-        AntiAliasing::Grid(n) => {
-            grid(n.clamp(1, 1 << AntiAliasing::MAX_DEPTH), tile, &mut pixels, &mut look)
-        }
+        AntiAliasing::Grid(n) => grid(n.clamp(1, 1 << AntiAliasing::MAX_DEPTH), tile, &mut pixels, &mut look),
         AntiAliasing::Method1 { threshold, depth } => {
             adaptive::method1(threshold, bounded(depth), tile, picture, &mut pixels, &mut look)
         }
@@ -64,13 +62,16 @@ fn middle(x: u32) -> f64 {
 }
 
 /// Columns and rows of an area, square by square.
-fn in_blocks(columns: usize, rows: usize) -> impl Iterator<Item = (usize, usize)> {
-    let starts = |size: usize| (0..size).step_by(BLOCK);
-    let squares = starts(rows).flat_map(move |y0| starts(columns).map(move |x0| (x0, y0)));
-    squares.flat_map(move |(x0, y0)| {
-        let (x1, y1) = ((x0 + BLOCK).min(columns), (y0 + BLOCK).min(rows));
-        (y0..y1).flat_map(move |y| (x0..x1).map(move |x| (x, y)))
-    })
+fn in_blocks(columns: usize, rows: usize) -> Vec<(usize, usize)> {
+    let mut places = Vec::with_capacity(columns * rows);
+    for y0 in (0..rows).step_by(BLOCK) {
+        for x0 in (0..columns).step_by(BLOCK) {
+            for y in y0..(y0 + BLOCK).min(rows) {
+                places.extend((x0..(x0 + BLOCK).min(columns)).map(|x| (x, y)));
+            }
+        }
+    }
+    places
 }
 
 /// Each pixel is the mean of `n x n` evenly spread rays.
@@ -84,10 +85,12 @@ fn grid(n: u32, tile: Region, pixels: &mut Vec<Rgb>, look: &mut impl Look) -> Op
         // With many rays a row is enough.
         let rows = if rays == 1 { BLOCK as u32 } else { 1 }.min(tile.y1 - y0) as usize;
         let mut strip = vec![Rgb::BLACK; columns * rows];
-        for (number, (column, row)) in in_blocks(columns, rows).enumerate() {
+        for (number, (column, row)) in in_blocks(columns, rows).into_iter().enumerate() {
             let (x, y) = (f64::from(tile.x0 + column as u32), f64::from(y0 + row as u32));
             for j in 0..n {
-                places.extend((0..n).map(|i| Place { x: x + middle(i) * per, y: y + middle(j) * per }));
+                for i in 0..n {
+                    places.push(Place { x: x + middle(i) * per, y: y + middle(j) * per });
+                }
             }
             waiting.push(row * columns + column);
             if places.len() >= ENOUGH || number + 1 == strip.len() {
@@ -206,7 +209,7 @@ mod tests {
 
     #[test]
     fn blocks_cover_an_area_once() {
-        let places: Vec<_> = in_blocks(19, 10).collect();
+        let places = in_blocks(19, 10);
         assert_eq!((places.len(), places[0], places[8], places[64]), (190, (0, 0), (0, 1), (8, 0)));
         let mut sorted = places.clone();
         sorted.sort_unstable();

@@ -107,10 +107,9 @@ mod tests {
 
     #[test]
     fn lanes_have_the_values_of_single_points() {
-        for (k, wave) in
-            [Wave::Ramp, Wave::Triangle, Wave::Sine, Wave::Scallop, Wave::Cubic, Wave::Poly(2.5)]
-                .into_iter()
-                .enumerate()
+        for (k, wave) in [Wave::Ramp, Wave::Triangle, Wave::Sine, Wave::Scallop, Wave::Cubic, Wave::Poly(2.5)]
+            .into_iter()
+            .enumerate()
         {
             let (frequency, phase) = ([1.0, -2.5, 0.0][k % 3], 0.3);
             let ramp = Ramp::Gradient(Vec3::new(0.3, 2.0, -0.7));

@@ -333,7 +333,9 @@ mod tests {
         let hexagon = Pattern::Cells { cells: Cells::Hexagon, entries: vec![grey(0.1), clear(0.9)] };
         let hexagon = Pigment::colours(hexagon);
         let both = Pattern::Cells { cells: Cells::Checker, entries: vec![map.clone(), hexagon.clone()] };
-        for pigment in [map, hexagon, Pigment { body: PigmentBody::Pigments(both), ..Pigment::default() }] {
+        for pigment in
+            [map, hexagon, Pigment { body: PigmentBody::Pigments(Box::new(both)), ..Pigment::default() }]
+        {
             let shade = Shade::new(&pigment, &Affine::rotation_y(0.4).unwrap()).unwrap();
             for k in -50..50 {
                 let x = |a: f64| F8(core::array::from_fn(|i| (f64::from(k) + 0.125 * i as f64) * a));
