@@ -78,31 +78,28 @@ fn in_blocks(columns: usize, rows: usize) -> Vec<(usize, usize)> {
 fn grid(n: u32, tile: Region, pixels: &mut Vec<Rgb>, look: &mut impl Look) -> Option<()> {
     let per = 1.0 / f64::from(n);
     let rays = (n * n) as usize;
+    let shifts: Vec<_> =
+        (0..n).flat_map(|j| (0..n).map(move |i| Place { x: middle(i) * per, y: middle(j) * per })).collect();
     let columns = (tile.x1 - tile.x0) as usize;
-    let (mut places, mut colours, mut waiting) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut places, mut colours, mut strip) = (Vec::new(), Vec::new(), Vec::new());
     let mut y0 = tile.y0;
     while y0 < tile.y1 {
         // With many rays a row is enough.
         let rows = if rays == 1 { BLOCK as u32 } else { 1 }.min(tile.y1 - y0) as usize;
-        let mut strip = vec![Rgb::BLACK; columns * rows];
-        for (number, (column, row)) in in_blocks(columns, rows).into_iter().enumerate() {
-            let (x, y) = (f64::from(tile.x0 + column as u32), f64::from(y0 + row as u32));
-            for j in 0..n {
-                for i in 0..n {
-                    places.push(Place { x: x + middle(i) * per, y: y + middle(j) * per });
-                }
+        strip.resize(columns * rows, Rgb::BLACK);
+        for some in in_blocks(columns, rows).chunks(ENOUGH.div_ceil(rays)) {
+            places.clear();
+            for &(column, row) in some {
+                let (x, y) = (f64::from(tile.x0 + column as u32), f64::from(y0 + row as u32));
+                places.extend(shifts.iter().map(|shift| Place { x: x + shift.x, y: y + shift.y }));
             }
-            waiting.push(row * columns + column);
-            if places.len() >= ENOUGH || number + 1 == strip.len() {
-                look(&places, &mut colours)?;
-                for (&pixel, colours) in waiting.iter().zip(colours.chunks(rays)) {
-                    let sum = colours.iter().fold(Rgb::BLACK, |sum, &c| sum + c);
-                    strip[pixel] = sum * (per * per);
-                }
-                (places.clear(), waiting.clear());
+            look(&places, &mut colours)?;
+            for (&(column, row), colours) in some.iter().zip(colours.chunks_exact(rays)) {
+                let sum = colours.iter().fold(Rgb::BLACK, |sum, &c| sum + c);
+                strip[row * columns + column] = sum * (per * per);
             }
         }
-        pixels.extend_from_slice(&strip);
+        pixels.append(&mut strip);
         y0 += rows as u32;
     }
     Some(())
