@@ -71,7 +71,8 @@ pub(super) fn method1(
                 row[number - first] = sum * (1.0 / f64::from(depth * depth + 1));
             }
             pixels.append(&mut row);
-            (rough.clear(), places.clear());
+            rough.clear();
+            places.clear();
             first = number + 1;
         }
     }
