@@ -31,6 +31,7 @@
 pub mod camera;
 pub mod film;
 mod integrator;
+mod lanes;
 mod light;
 mod material;
 mod medium;

@@ -1,7 +1,8 @@
 //! What fills objects, made ready.
 
+use crate::lanes::{Mask, Rgb8};
 use crate::power::Power;
-use durer_math::elementary;
+use durer_math::{F8, elementary};
 use durer_scene::{Interior, Rgb};
 
 /// What fills an object.
@@ -36,17 +37,27 @@ impl Medium {
         Self { ior: interior.ior, fade, caustics }
     }
 
-    /// What is left of light after a distance in the medium.
-    #[inline]
-    pub(crate) fn left_after(&self, distance: f64) -> Rgb {
-        let Some(fade) = &self.fade else { return Rgb::WHITE };
+    /// What is left of light after some distances in the medium.
+    #[inline(always)]
+    pub(crate) fn left_after(&self, distance: F8, live: Mask) -> Rgb8 {
+        let Some(fade) = &self.fade else { return Rgb8::WHITE };
         let depth = distance / fade.distance;
+        let colour = Rgb8::splat(fade.colour);
         match fade.power {
             Some(power) => {
-                let k = 1.0 / (1.0 + power.of(depth));
-                fade.colour.map(|c| c + (1.0 - c) * k)
+                let k = F8::ONE / (F8::ONE + power.lanes(depth, live));
+                colour.map(
+                    #[inline(always)]
+                    |c| c + (F8::ONE - c) * k,
+                )
             }
-            None => fade.colour.map(|c| elementary::exp((c - 1.0) * depth)),
+            None => {
+                let mut left = Rgb8::WHITE;
+                for i in live.lanes() {
+                    left.set_lane(i, fade.colour.map(|c| elementary::exp((c - 1.0) * depth.0[i])));
+                }
+                left
+            }
         }
     }
 }
@@ -54,6 +65,10 @@ impl Medium {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn left_after(interior: &Interior, distance: f64) -> Rgb {
+        Medium::new(interior).left_after(F8::splat(distance), Mask::ALL).lane(5)
+    }
 
     #[test]
     fn light_fades_to_the_fade_colour() {
@@ -63,22 +78,22 @@ mod tests {
             fade_color: Rgb::new(1.0, 0.5, 0.0),
             ..Default::default()
         };
-        let left = Medium::new(&interior).left_after(2.0);
+        let left = left_after(&interior, 2.0);
         assert_eq!(left, Rgb::new(1.0, 0.75, 0.5));
-        let far = Medium::new(&interior).left_after(1e9);
+        let far = left_after(&interior, 1e9);
         assert!((far.g - 0.5).abs() < 1e-12 && far.b < 1e-12);
     }
 
     #[test]
     fn a_great_power_fades_exponentially() {
         let interior = Interior { fade_distance: 2.0, fade_power: 1000.0, ..Default::default() };
-        let left = Medium::new(&interior).left_after(6.0);
+        let left = left_after(&interior, 6.0);
         assert!((left.r - elementary::exp(-3.0)).abs() < 1e-15);
     }
 
     #[test]
     fn without_a_distance_nothing_fades() {
         let interior = Interior { fade_power: 2.0, ..Default::default() };
-        assert_eq!(Medium::new(&interior).left_after(5.0), Rgb::WHITE);
+        assert_eq!(left_after(&interior, 5.0), Rgb::WHITE);
     }
 }

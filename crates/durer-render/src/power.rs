@@ -1,6 +1,7 @@
 //! Powers with a fixed exponent, cheap where the exponent is.
 
-use durer_math::elementary;
+use crate::lanes::Mask;
+use durer_math::{F8, elementary};
 
 /// `x -> x^e` for `x >= 0` and one `e`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +40,36 @@ impl Power {
             Self::Real(e) => elementary::pow(x, e),
         }
     }
+
+    /// The same in lanes; those that are not live hold anything.
+    #[inline(always)]
+    pub(crate) fn lanes(self, x: F8, live: Mask) -> F8 {
+        match self {
+            Self::Zero => F8::ONE,
+            Self::One => x,
+            Self::Whole(n) => {
+                // As `elementary::powi`.
+                let (mut result, mut power, mut left) = (F8::ONE, x, n);
+                loop {
+                    if left & 1 == 1 {
+                        result = result * power;
+                    }
+                    left >>= 1;
+                    if left == 0 {
+                        return result;
+                    }
+                    power = power * power;
+                }
+            }
+            Self::Real(e) => {
+                let mut powers = F8::ZERO;
+                for i in live.lanes() {
+                    powers.0[i] = elementary::pow(x.0[i], e);
+                }
+                powers
+            }
+        }
+    }
 }
 
 #[cfg(test)]
@@ -52,6 +83,15 @@ mod tests {
                 let want = elementary::pow(x, e);
                 assert!((Power::new(e).of(x) - want).abs() <= 1e-12 * want, "{x}^{e}");
             }
+        }
+    }
+
+    #[test]
+    fn lanes_have_the_bits_of_single_numbers() {
+        let x = F8([0.0, 0.1, 0.25, 0.5, 0.99, 0.999_9, 1.0, 1.5]);
+        for e in [0.0, 1.0, 2.0, 7.0, 40.0, 1000.0, 4097.0, 0.5, 2.5] {
+            let power = Power::new(e);
+            assert_eq!(power.lanes(x, Mask::ALL), x.map(|x| power.of(x)), "{e}");
         }
     }
 }

@@ -4,10 +4,8 @@ use core::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use durer_geometry::Beam;
 use rayon::prelude::*;
 
-use crate::camera::{Camera, on_picture};
 use crate::film::Film;
 use crate::integrator::Whitted;
 use crate::progress::{Progress, Status};
@@ -97,21 +95,15 @@ fn render_here(
         },
     ));
     tiles.into_par_iter().for_each_init(
-        || Whitted::new(world, camera.pixel_width(width)).stopped_by(progress),
+        || Whitted::new(world).stopped_by(progress),
         |tracer, tile| {
             if progress.is_cancelled() {
                 skipped.fetch_add(1, Ordering::Relaxed);
                 return;
             }
             tracer.counts = RayCounts::default();
-            let mut beams = Beams::new(world, &camera, tile, (width, height));
-            let pixels = sample_tile(anti_aliasing, tile, (width, height), |x, y| {
-                // The place in the picture, to the last bit, names the ray.
-                let seed = x.to_bits().rotate_left(32) ^ y.to_bits();
-                let ray = camera.ray(on_picture(x, width), on_picture(y, height));
-                let colour = tracer.camera_ray(&ray, seed, beams.at(x, y));
-                // What was stopped on its way is no colour.
-                (!progress.is_cancelled()).then_some(colour)
+            let pixels = sample_tile(anti_aliasing, tile, (width, height), |places, colours| {
+                tracer.look(&camera, (width, height), places, colours)
             });
             if (pixels.len() as u64) < tile.pixels() {
                 skipped.fetch_add(1, Ordering::Relaxed);
@@ -129,48 +121,6 @@ fn render_here(
     let (film, mut status) = shared.into_inner().unwrap_or_else(PoisonError::into_inner);
     status.elapsed = start.elapsed();
     Ok(Rendered { film, cancelled: skipped.into_inner() > 0, status })
-}
-
-/// The camera's rays through each block of a tile share one search of the tree.
-struct Beams<'a> {
-    world: &'a World,
-    camera: &'a Camera,
-    tile: Region,
-    picture: (u32, u32),
-    /// Made when first asked for; `Some(None)` where each ray should look for itself.
-    blocks: Vec<Option<Option<Beam>>>,
-}
-
-/// Blocks are squares of this many pixels.
-const BLOCK: u32 = 8;
-const BLOCKS: u32 = TILE / BLOCK;
-
-impl<'a> Beams<'a> {
-    fn new(world: &'a World, camera: &'a Camera, tile: Region, picture: (u32, u32)) -> Self {
-        let blocks = (0..BLOCKS * BLOCKS).map(|_| None).collect();
-        Self { world, camera, tile, picture, blocks }
-    }
-
-    /// What the ray through a place of the picture, measured in pixels, may meet.
-    #[inline]
-    fn at(&mut self, x: f64, y: f64) -> Option<&Beam> {
-        let (left, top) = (f64::from(self.tile.x0), f64::from(self.tile.y0));
-        let size = f64::from(TILE);
-        // Neighbours of the tile's pixels are looked at too, now and then.
-        if !(left <= x && x < left + size && top <= y && y < top + size) {
-            return None;
-        }
-        let (column, row) = ((x - left) as u32 / BLOCK, (y - top) as u32 / BLOCK);
-        let (world, camera, (width, height)) = (self.world, self.camera, self.picture);
-        self.blocks[(row * BLOCKS + column) as usize]
-            .get_or_insert_with(|| {
-                let ends = |first: f64, block: u32, size: u32| {
-                    [block, block + 1].map(|k| on_picture(first + f64::from(k * BLOCK), size))
-                };
-                world.geometry().beam(&camera.shaft(ends(left, column, width), ends(top, row, height)), None)
-            })
-            .as_ref()
-    }
 }
 
 /// The tiles of a region, row by row.

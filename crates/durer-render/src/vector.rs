@@ -3,20 +3,15 @@
 //! The certified kernels use fused operations; shading needs no bounds, and unfused products and sums have the same bits on every CPU and
 //! cost no library call where the compiler may not assume a fused unit.
 
-use durer_math::{Normal3, Vec3};
+use durer_math::{F8, Scalar, Vec3};
 
 #[inline(always)]
-pub(crate) fn dot(a: Vec3, b: Vec3) -> f64 {
+pub(crate) fn dot<T: Scalar>(a: Vec3<T>, b: Vec3<T>) -> T {
     a.x * b.x + a.y * b.y + a.z * b.z
 }
 
 #[inline(always)]
-pub(crate) fn dot_n(n: Normal3, b: Vec3) -> f64 {
-    n.x * b.x + n.y * b.y + n.z * b.z
-}
-
-#[inline(always)]
-pub(crate) fn length(v: Vec3) -> f64 {
+pub(crate) fn length<T: Scalar>(v: Vec3<T>) -> T {
     dot(v, v).sqrt()
 }
 
@@ -29,8 +24,8 @@ pub(crate) fn unit(v: Vec3) -> Vec3 {
 
 /// The mirror image of direction `d` (of any length) in a plane with unit normal `n`.
 #[inline(always)]
-pub(crate) fn reflect(d: Vec3, n: Vec3) -> Vec3 {
-    d - n * (2.0 * dot(d, n))
+pub(crate) fn reflect<T: Scalar>(d: Vec3<T>, n: Vec3<T>) -> Vec3<T> {
+    d - n * (T::from(2.0) * dot(d, n))
 }
 
 /// The same for large numbers.
@@ -54,6 +49,12 @@ pub(crate) fn floor(x: f64) -> f64 {
     } else {
         by_parts(x)
     }
+}
+
+/// The largest whole numbers not above those in the lanes.
+#[inline(always)]
+pub(crate) fn floor_lanes(x: F8) -> F8 {
+    x.map(f64::floor)
 }
 
 #[cfg(test)]

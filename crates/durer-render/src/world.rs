@@ -15,7 +15,7 @@ use crate::texture::Paint;
 /// A scene made ready to be rendered: built once, then shared by all threads.
 pub struct World {
     pub(crate) lowered: Lowered,
-    looks: Vec<Look>,
+    pub(crate) looks: Vec<Look>,
     pub(crate) paints: Vec<Paint>,
     pub(crate) media: Vec<Medium>,
     pub(crate) lamps: Vec<Lamp>,
@@ -119,20 +119,21 @@ impl World {
         &self.lowered.warnings
     }
 
+    /// The number of what a primitive looks like, in [`World::looks`].
     #[inline(always)]
-    pub(crate) fn look_of(&self, object: u32, primitive: u32) -> &Look {
+    pub(crate) fn look_number(&self, object: u32, primitive: u32) -> u32 {
         // Every primitive of the geometry was given a look.
-        let number = self.lowered.look_of(object, primitive).map_or(0, |l| l.0 as usize);
-        &self.looks[number]
+        self.lowered.look_of(object, primitive).map_or(0, |l| l.0)
     }
 
-    /// Appends the media in which a ray of the camera starts.
-    #[inline]
-    pub(crate) fn media_around(&self, origin: Point3, media: &mut Vec<u32>) {
-        match self.camera {
-            Some(Camera::Perspective(_)) => media.extend_from_slice(&self.standing),
-            _ => self.lowered.media_at(origin, media),
-        }
+    /// The media in which all rays of the camera start, if it has one standpoint.
+    pub(crate) fn standing(&self) -> Option<&[u32]> {
+        matches!(self.camera, Some(Camera::Perspective(_))).then_some(&self.standing)
+    }
+
+    /// Appends the media in which a ray of the camera starts that comes from `origin`.
+    pub(crate) fn media_at(&self, origin: Point3, media: &mut Vec<u32>) {
+        self.lowered.media_at(origin, media);
     }
 }
 

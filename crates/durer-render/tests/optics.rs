@@ -317,7 +317,7 @@ fn a_pixel_that_takes_years_can_be_cancelled() {
     for anti_aliasing in [AntiAliasing::Off, AntiAliasing::Method2 { threshold: 0.3, depth: 3 }] {
         let cancel = AtomicBool::new(false);
         let (settings, progress) = (
-            RenderSettings { width: 20, height: 15, anti_aliasing, threads: Some(2), ..Default::default() },
+            RenderSettings { width: 64, height: 60, anti_aliasing, threads: Some(2), ..Default::default() },
             Progress::none().cancelled_by(&cancel),
         );
         let start = Instant::now();

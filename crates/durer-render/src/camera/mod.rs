@@ -11,8 +11,7 @@ mod perspective;
 pub use self::orthographic::Orthographic;
 pub use self::perspective::Perspective;
 
-use crate::vector::length;
-use durer_math::{Aabb, Point3, Ray, Shaft, Vec3};
+use durer_math::{F8, Point3, Ray, Vec3};
 use durer_scene::Projection;
 
 /// Why a camera cannot be built.
@@ -60,20 +59,14 @@ impl Camera {
         }
     }
 
-    /// All rays through the points of the picture between two corners.
-    pub(crate) fn shaft(&self, [px0, px1]: [f64; 2], [py0, py1]: [f64; 2]) -> Shaft {
-        // Rounding is monotonic, so also the rounded rays are between those of the corners.
-        let corners = [(px0, py0), (px1, py0), (px0, py1), (px1, py1)].map(|(x, y)| self.ray(x, y));
-        let start = Aabb::from_points(corners.map(|ray| ray.origin));
-        let way = Aabb::from_points(corners.map(|ray| ray.direction.to_point()));
-        Shaft::new(start, way.min.to_vec(), way.max.to_vec())
-    }
-
-    /// How wide a pixel of a picture with so many columns is: what it grows by with each unit of the way, and where the rays start.
-    pub(crate) fn pixel_width(&self, columns: u32) -> (f64, f64) {
-        let step = (self.ray(2.0 / f64::from(columns), 0.0), self.ray(0.0, 0.0));
-        let speed = length(step.1.direction);
-        (length(step.0.direction - step.1.direction) / speed, length(step.0.origin - step.1.origin))
+    /// The rays through some places of a picture of the given size, measured in pixels from the top left.
+    #[inline(always)]
+    pub(crate) fn rays(&self, x: F8, y: F8, (width, height): (u32, u32)) -> (Point3<F8>, Vec3<F8>) {
+        let (px, py) = (on_picture_lanes(x, width), on_picture_lanes(y, height));
+        match self {
+            Self::Perspective(camera) => camera.rays(px, py),
+            Self::Orthographic(camera) => camera.rays(px, py),
+        }
     }
 
     /// The ray through the middle of the pixel in column `x` and row `y` of a picture of `width` by `height` pixels.
@@ -86,6 +79,12 @@ impl Camera {
 #[inline]
 pub fn on_picture(x: f64, size: u32) -> f64 {
     2.0 * x / f64::from(size) - 1.0
+}
+
+/// The same in lanes.
+#[inline(always)]
+fn on_picture_lanes(x: F8, size: u32) -> F8 {
+    x * 2.0 / f64::from(size) - F8::ONE
 }
 
 fn check(origin: Point3, named: [(&'static str, Vec3); 3]) -> Result<(), CameraError> {
@@ -118,6 +117,25 @@ mod tests {
         let camera = Camera::new(&durer_scene::Camera::default()).unwrap();
         let ray = camera.pixel(0, 0, 2, 2);
         assert_eq!(ray.direction, Vec3::new(-1.33 / 4.0, 0.25, 1.0));
+    }
+
+    #[test]
+    fn lanes_have_the_rays_of_single_points() {
+        for projection in [Projection::Perspective, Projection::Orthographic] {
+            let block = durer_scene::Camera { projection, ..Default::default() };
+            let block = durer_scene::Camera { location: Point3::new(0.1, 0.2, -3.0), ..block };
+            let camera = Camera::new(&block).unwrap();
+            let x = F8([0.5, 1.5, 2.25, 3.0, 99.5, 7.1, 0.0, 160.0]);
+            let y = F8([0.5, 0.5, 17.25, 3.0, 11.5, 7.9, 0.0, 120.0]);
+            let (origin, direction) = camera.rays(x, y, (160, 120));
+            for i in 0..8 {
+                let ray = camera.ray(on_picture(x.0[i], 160), on_picture(y.0[i], 120));
+                assert_eq!(
+                    (origin.to_vec().lane(i).to_point(), direction.lane(i)),
+                    (ray.origin, ray.direction)
+                );
+            }
+        }
     }
 
     #[test]

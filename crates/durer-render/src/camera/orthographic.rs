@@ -7,7 +7,7 @@
 //! ```
 
 use super::{CameraError, check};
-use durer_math::{Point3, Ray, Vec3};
+use durer_math::{F8, Point3, Ray, Vec3};
 
 /// A camera with parallel rays: origins `o + px sx + py sy`, one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,5 +38,12 @@ impl Orthographic {
     #[inline]
     pub fn ray(&self, px: f64, py: f64) -> Ray {
         Ray::new(self.origin + (self.sx * px + self.sy * py), self.direction)
+    }
+    /// The origins and the direction of the rays through some points.
+    #[inline(always)]
+    pub(super) fn rays(&self, px: F8, py: F8) -> (Point3<F8>, Vec3<F8>) {
+        let splat = Vec3::<F8>::splat;
+        let aside = splat(self.sx) * px + splat(self.sy) * py;
+        (splat(self.origin.to_vec()).to_point() + aside, splat(self.direction))
     }
 }

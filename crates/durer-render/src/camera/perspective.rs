@@ -13,7 +13,7 @@
 //! view `w`, and `|sy| = |sx| Y / X` for square pixels.
 
 use super::{CameraError, check};
-use durer_math::{Point3, Ray, Vec3, elementary};
+use durer_math::{F8, Point3, Ray, Vec3, elementary};
 
 /// A pinhole camera: `d = f + px sx + py sy` from a fixed origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +63,13 @@ impl Perspective {
     #[inline]
     pub fn ray(&self, px: f64, py: f64) -> Ray {
         Ray::new(self.origin, self.f + self.sx * px + self.sy * py)
+    }
+
+    /// The origin and the directions of the rays through some points.
+    #[inline(always)]
+    pub(super) fn rays(&self, px: F8, py: F8) -> (Point3<F8>, Vec3<F8>) {
+        let splat = Vec3::<F8>::splat;
+        (splat(self.origin.to_vec()).to_point(), splat(self.f) + splat(self.sx) * px + splat(self.sy) * py)
     }
 
     /// Where all rays start.

@@ -90,11 +90,11 @@ impl Film {
         let channels = if with_alpha { 4 } else { 3 };
         if bits == Bits::Eight {
             let table = Bytes::new(self.encoding);
-            let mut bytes = Vec::with_capacity(self.pixels.len() * channels);
-            for Pixel { rgb, alpha } in &self.pixels {
-                bytes.extend_from_slice(&[table.of(rgb.r), table.of(rgb.g), table.of(rgb.b)]);
+            let mut bytes = vec![0; self.pixels.len() * channels];
+            for (Pixel { rgb, alpha }, bytes) in self.pixels.iter().zip(bytes.chunks_exact_mut(channels)) {
+                (bytes[0], bytes[1], bytes[2]) = (table.of(rgb.r), table.of(rgb.g), table.of(rgb.b));
                 if with_alpha {
-                    bytes.push((alpha * 255.0 + 0.5) as u8);
+                    bytes[3] = (alpha * 255.0 + 0.5) as u8;
                 }
             }
             return bytes;

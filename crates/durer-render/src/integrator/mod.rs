@@ -1,7 +1,13 @@
-//! Integrators: how much light comes along a ray.
+//! Integrators: how much light comes along rays.
 
-mod cells;
+mod bundle;
+mod coats;
+mod lamps;
+mod media;
+mod onward;
 mod shadow;
+mod split;
+mod spot;
 mod whitted;
 
 pub(crate) use self::whitted::Whitted;

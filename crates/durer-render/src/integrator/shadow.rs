@@ -1,81 +1,225 @@
-//! Shadow rays: what is left of a light on its way to a point.
+//! Shadow rays: what is left of a light on its way to points.
 
-use super::whitted::{Crossing, Node, Whitted};
-use crate::vector::{dot_n, length};
-use durer_geometry::Hit;
-use durer_math::{Point3, Ray};
-use durer_scene::{Rgb, mask};
-use durer_surfaces::{Need, SurfacePoint};
+use super::bundle::{Bundle, Paths8, TOGETHER};
+use super::media::Crossing;
+use super::split::{Piece, cut, sort};
+use super::spot::{Spot, Spots};
+use crate::lanes::{Mask, Rgb8};
+use crate::progress::Progress;
+use crate::stats::RayCounts;
+use crate::vector::{dot, length};
+use crate::world::{Look, World};
+use durer_geometry::{Beam, Hits8, Rays8};
+use durer_math::lanes::LANES;
+use durer_math::{F8, Isa, M8, Point3};
+use durer_scene::mask;
 
-impl Whitted<'_> {
-    /// The part of the light at `target` that arrives at `point`: none behind anything opaque, else what all clear surfaces on the way let pass, not
-    /// bent. Light fades in a medium when it leaves it.
-    pub(super) fn through(
+/// A light on eight points, and the rays on which something may be in its way.
+pub(super) struct Shade {
+    /// The light if nothing is between.
+    pub(super) light: Rgb8,
+    pub(super) rays: Rays8,
+    /// Where the rays end.
+    pub(super) target: Point3<F8>,
+}
+
+impl Shade {
+    /// No light.
+    pub(super) const NONE: Self =
+        Self { light: Rgb8::BLACK, rays: Rays8::NONE, target: Point3::new(F8::ZERO, F8::ZERO, F8::ZERO) };
+}
+
+/// Shadow rays of one lamp, group by group.
+#[derive(Default)]
+pub(super) struct Shadows<'w> {
+    light: Vec<Rgb8>,
+    rays: Vec<Rays8>,
+    targets: Vec<Point3<F8>>,
+    /// Rays on their way through clear surfaces: the factor is what is left of the light, the slot their number in `light`.
+    clear: Vec<Bundle<'w>>,
+    /// Bundles to be used again.
+    spare: Vec<Bundle<'w>>,
+    hits: Vec<Hits8>,
+    pieces: Vec<Piece>,
+    spots: Spots,
+}
+
+impl<'w> Shadows<'w> {
+    pub(super) fn clear(&mut self) {
+        self.light.clear();
+        self.rays.clear();
+        self.targets.clear();
+    }
+
+    #[inline(always)]
+    pub(super) fn push(&mut self, shade: Shade) {
+        self.light.push(shade.light);
+        self.rays.push(shade.rays);
+        self.targets.push(shade.target);
+    }
+
+    /// The light that arrives.
+    pub(super) fn light(&self) -> &[Rgb8] {
+        &self.light
+    }
+
+    /// Takes away what does not arrive: all behind anything opaque, else what clear surfaces on the way do not let pass. They do not bend it.
+    pub(super) fn cast(
         &mut self,
-        point: &SurfacePoint,
-        target: Point3,
-        lamp: (usize, bool),
-        cell: f64,
-        node: &Node,
-    ) -> Rgb {
-        let world = self.world;
-        let ray = point.spawn_to(target);
-        self.counts.shadow += 1;
-        let geometry = world.geometry();
-        let between = self.cells.between(geometry, &ray, lamp, cell);
-        let blocked = match between {
-            Some(beam) if beam.is_empty() => return Rgb::WHITE,
-            Some(beam) => geometry.any_in(beam, &ray, mask::SHADOW),
-            None => geometry.any_masked(&ray, mask::SHADOW),
-        };
-        if blocked {
-            return Rgb::BLACK;
+        (world, isa): (&'w World, Isa),
+        media: &[u32],
+        stop: &Progress<'_>,
+        counts: &mut RayCounts,
+    ) {
+        self.hits.clear();
+        for (rays, light) in self.rays.chunks_mut(TOGETHER).zip(self.light.chunks_mut(TOGETHER)) {
+            let first = self.hits.len();
+            self.hits.resize(first + rays.len(), Hits8::NONE);
+            let count: usize = rays.iter().map(|r| r.live.count()).sum();
+            if count == 0 {
+                continue;
+            }
+            counts.shadow += count as u64;
+            let beam = world.geometry().beam_of(rays);
+            if beam.as_ref().is_some_and(Beam::is_empty) {
+                continue;
+            }
+            for ((rays, light), hits) in rays.iter_mut().zip(light).zip(&mut self.hits[first..]) {
+                if !rays.live.any() {
+                    continue;
+                }
+                let met = world.geometry().any_by_lanes(beam.as_ref(), rays, mask::SHADOW);
+                if met.any() {
+                    *light = light.kept(!Mask::from(met));
+                    rays.live &= !met;
+                }
+                if world.has_clear_shadows && rays.live.any() {
+                    *hits = world.geometry().seen_by_lanes(beam.as_ref(), rays, mask::CLEAR_SHADOW);
+                }
+            }
         }
-        if !world.has_clear_shadows {
-            return Rgb::WHITE;
-        }
-        let first = match between {
-            Some(beam) => geometry.seen_in(beam, &ray, mask::CLEAR_SHADOW, Need::POINT),
-            None => geometry.seen(&ray, mask::CLEAR_SHADOW, Need::POINT),
-        };
-        match first {
-            Some(first) => self.through_clear(&ray, first, target, node),
-            None => Rgb::WHITE,
+        if world.has_clear_shadows && self.hits.iter().any(|h| h.hit.any()) {
+            self.go_through_clear((world, isa), media, stop, counts);
         }
     }
 
-    fn through_clear(&mut self, first: &Ray, seen: (Hit, SurfacePoint), target: Point3, node: &Node) -> Rgb {
-        let world = self.world;
-        let start = self.media.len();
-        self.media.extend_from_within(node.media.clone());
-        let mut ray = *first;
-        let mut left = Rgb::WHITE;
-        let mut next = Some(seen);
-        while let Some((hit, point)) = next {
-            let look = world.look_of(hit.object, hit.primitive);
-            left = left * world.paints[look.paint as usize].passed(point.p);
-            if left.is_black() {
-                break;
+    /// Follows the rays that met clear surfaces through all of them.
+    fn go_through_clear(
+        &mut self,
+        (world, isa): (&'w World, Isa),
+        media: &[u32],
+        stop: &Progress<'_>,
+        counts: &mut RayCounts,
+    ) {
+        let mut first = self.spare.pop().unwrap_or_else(Bundle::new);
+        first.clear();
+        first.rays.extend_from_slice(&self.rays);
+        first.paths.extend((0..self.rays.len()).map(|group| Paths8 {
+            slot: core::array::from_fn(|i| (group * LANES + i) as u32),
+            ..Paths8::NONE
+        }));
+        first.standing.media.clear();
+        first.standing.media.extend_from_slice(media);
+        self.cross((world, isa), &first);
+        self.spare.push(first);
+        while let Some(bundle) = self.clear.pop() {
+            if stop.is_cancelled() {
+                self.spare.push(bundle);
+                continue;
             }
-            let speed = length(ray.direction);
-            let medium = &world.media[look.medium as usize];
-            match Crossing::new(&self.media[start..], look.medium, hit.sign == 0) {
-                Crossing::Enter => self.media.push(look.medium),
-                Crossing::Leave { at } => {
-                    left = left * medium.left_after(hit.t * speed);
-                    self.media.remove(start + at);
+            self.hits.clear();
+            for rays in bundle.rays.chunks(TOGETHER) {
+                let beam = world.geometry().beam_of(rays);
+                for rays in rays {
+                    counts.shadow += rays.live.count() as u64;
+                    self.hits.push(world.geometry().seen_by_lanes(beam.as_ref(), rays, mask::CLEAR_SHADOW));
                 }
-                Crossing::Touch => {}
             }
-            if let Some(power) = medium.caustics {
-                let cosine = dot_n(point.ng, ray.direction).abs() / speed;
-                left = left * (1.0 + power.of(cosine));
+            for ((rays, paths), hits) in bundle.rays.iter().zip(&bundle.paths).zip(&self.hits) {
+                settle(&mut self.light, paths, (rays.live & !hits.hit).into());
             }
-            ray = point.spawn_to(target);
-            self.counts.shadow += 1;
-            next = world.geometry().seen(&ray, mask::CLEAR_SHADOW, Need::POINT);
+            self.cross((world, isa), &bundle);
+            self.spare.push(bundle);
         }
-        self.media.truncate(start);
-        left
+    }
+
+    /// Rays of a bundle go on behind the surfaces that they met.
+    fn cross(&mut self, (world, isa): (&'w World, Isa), bundle: &Bundle<'w>) {
+        self.pieces.clear();
+        for (group, hits) in self.hits.iter().enumerate() {
+            cut(world, group, hits, &mut self.pieces);
+        }
+        sort(&mut self.pieces);
+        for part in self.pieces.chunk_by(Piece::is_like) {
+            let look = part[0].look(world);
+            let media = &bundle.standing.media;
+            let crossing = Crossing::new(media, look.medium, part[0].is_grazing());
+            let spots = self.spots.gather(part, bundle, &self.hits);
+            let mut behind = self.spare.pop().unwrap_or_else(Bundle::new);
+            behind.clear();
+            crossing.behind(look.medium, media, &mut behind.standing.media);
+            let (light, targets) = (&mut self.light, &self.targets);
+            isa.run_in_lanes(
+                #[inline(always)]
+                || {
+                    for spot in spots {
+                        let goes_on = pass(world, look, crossing, spot);
+                        let target = targets_of(spot, targets);
+                        settle(light, &spot.paths, spot.live & !goes_on);
+                        let (origin, back) = spot.hits.start_towards(target - spot.hits.p);
+                        let rays = Rays8 {
+                            origin,
+                            direction: target - origin,
+                            t_max: F8::ONE,
+                            live: M8::NONE,
+                            source: spot.hits.sources(back),
+                        };
+                        behind.add(&rays, &spot.paths, goes_on);
+                    }
+                },
+            );
+            if behind.rays.is_empty() { &mut self.spare } else { &mut self.clear }.push(behind);
+        }
+    }
+}
+
+/// What is left of the light on some rays behind the surfaces that they meet; the answer tells where anything is.
+#[inline(always)]
+fn pass(world: &World, look: &Look, crossing: Crossing, spot: &mut Spot) -> Mask {
+    let direction = spot.view.eye;
+    let mut left = spot.paths.factor * world.paints[look.paint as usize].passed(spot.hits.p, spot.live);
+    let goes_on = spot.live & !left.is_black();
+    let speed = length(direction);
+    let medium = &world.media[look.medium as usize];
+    if matches!(crossing, Crossing::Leave { .. }) {
+        left = left * medium.left_after(spot.hits.t * speed, goes_on);
+    }
+    if let Some(power) = medium.caustics {
+        let cosine = dot(spot.hits.ng, direction).abs() / speed;
+        left = left * (F8::ONE + power.lanes(cosine, goes_on));
+    }
+    spot.paths.factor = left;
+    goes_on
+}
+
+/// Where some rays end.
+#[inline(always)]
+fn targets_of(spot: &Spot, targets: &[Point3<F8>]) -> Point3<F8> {
+    let mut target = spot.hits.p;
+    for i in spot.live.lanes() {
+        let slot = spot.paths.slot[i] as usize;
+        let (from, j) = (&targets[slot / LANES], slot % LANES);
+        (target.x.0[i], target.y.0[i], target.z.0[i]) = (from.x.0[j], from.y.0[j], from.z.0[j]);
+    }
+    target
+}
+
+/// Some rays have arrived, or nothing is left of their light.
+#[inline(always)]
+fn settle(light: &mut [Rgb8], paths: &Paths8, lanes: Mask) {
+    for i in lanes.lanes() {
+        let slot = paths.slot[i] as usize;
+        let (group, j) = (&mut light[slot / LANES], slot % LANES);
+        group.set_lane(j, group.lane(j) * paths.factor.lane(i));
     }
 }

@@ -1,440 +1,330 @@
-//! Whitted's recursive ray tracing with the scene language's shading.
+//! Whitted's ray tracing with the scene language's shading, many rays at once.
 //!
 //! T. Whitted, "An improved illumination model for shaded display", Communications of the ACM 23(6), 1980: at each hit, shadow rays to the
 //! lights, one mirrored and one refracted ray. The camera's rays have level 1, mirrored and bent ones one more than the ray before; where the
 //! level is `max_trace_level`, and where a ray would count for less than `adc_bailout`, black is seen instead. What passes unbent does not
 //! raise the level; so many clear sheets may lie in a row, up to 4096.
 //!
-//! Layers of paint are worked through from the outermost: each adds its own light, times what the layers above let pass; what all of them
-//! let pass is seen behind the surface. Reflections of all layers are added as they are.
-//!
-//! Rays keep a list of the media they are in. A surface whose medium is in the list is left, any other is entered. The list decides,
-//! and not the normal, so that sheets and overlapping bodies have a meaning too.
+//! Rays that belong together are followed together, in bundles: all rays of one have the same level and are in the same media. Where they
+//! meet surfaces that do not look alike the bundle is split, so that all that is decided by the look is decided once. A ray knows what it
+//! counts in the picture and to which sum its colour is added, so nothing waits for it: bundles lie on a stack, the last one is followed
+//! first, and there is no recursion. In which bundle a ray comes along, and beside which others, changes nothing about its colour.
 
-use super::cells::Cells;
-use crate::material::{Finish, Incidence, Mirror, reflectance, refract};
+use super::bundle::{Bundle, Paths8, Standing, TOGETHER};
+use super::coats::{Coats, draws};
+use super::lamps::Lamps;
+use super::media::Border;
+use super::onward::{Onward, Part};
+use super::split::{Piece, cut, sort};
+use super::spot::{Spot, Spots, face};
+use crate::camera::Camera;
+use crate::lanes::{Mask, Rgb8, equal};
+use crate::material::Mirror;
 use crate::progress::Progress;
-use crate::sampler::random;
+use crate::sampler::Place;
 use crate::stats::RayCounts;
-use crate::texture::Coat;
-use crate::vector::{dot, dot_n, length, reflect};
-use crate::world::{Look, World};
-use core::ops::Range;
-use durer_geometry::{Beam, Hit};
-use durer_math::{Point3, Ray, Vec3};
+use crate::texture::{Blend, Coat, Paint};
+use crate::world::World;
+use durer_geometry::{Beam, Hits8, Rays8};
+use durer_math::lanes::LANES;
+use durer_math::{F8, Isa, M8};
 use durer_scene::{Rgb, mask};
-use durer_surfaces::{Need, SurfacePoint};
 
-/// After so many rays in a row the next ones get a stack of their own.
-const HOP: u32 = 128;
-/// Its size: 16 KiB for each.
-const STACK: usize = HOP as usize * 16 * 1024;
+/// The camera's rays are followed in bundles of so many groups.
+const CAMERA_GROUPS: usize = 32;
 /// Black is seen after so many rays in a row: each keeps a list of the media it is in.
 const DEEPEST: u32 = 4096;
 
-/// Traces rays for one thread; keeps its stacks, so that nothing is allocated for a ray.
+/// Traces rays for one thread; keeps its buffers, so that nothing is allocated for a ray.
 pub(crate) struct Whitted<'w> {
-    pub(super) world: &'w World,
-    /// Layers of the surfaces being shaded, the innermost call's last.
-    coats: Vec<Lit<'w>>,
-    mirrors: Vec<Mirrored<'w>>,
-    /// Lists of media, each a range.
-    pub(super) media: Vec<u32>,
-    pub(super) cells: Cells,
-    /// The width of a pixel at distance 1, and at the camera.
-    pixel: (f64, f64),
+    world: &'w World,
+    isa: Isa,
+    /// What is still to be done, the next at the end.
+    tasks: Vec<Task<'w>>,
+    /// The sums of what is seen, those of the camera's rays first.
+    sums: Vec<Rgb>,
+    hits: Vec<Hits8>,
+    pieces: Vec<Piece>,
+    spots: Spots,
+    coats: Coats<'w>,
+    lamps: Lamps<'w>,
+    onward: Onward<'w>,
     pub(crate) counts: RayCounts,
-    /// What random numbers depend on: the place in the picture, and how many were drawn there.
-    seed: (u64, u64),
     /// Whether the caller has had enough.
     stop: Progress<'w>,
 }
 
-/// A layer that light changes.
-#[derive(Clone, Copy)]
-struct Lit<'w> {
-    finish: &'w Finish,
-    /// What scattered light is multiplied by.
-    scattered: Rgb,
-    /// What highlights are multiplied by.
-    shine: Rgb,
-    /// The paint's colour.
-    colour: Rgb,
-    grain: f64,
-}
-
-/// A layer that reflects.
-#[derive(Clone, Copy)]
-struct Mirrored<'w> {
-    mirror: &'w Mirror,
-    reflectance: Rgb,
-    /// How much it counts: the greatest channel, dimmed by the layers above (which do not dim what is seen).
-    importance: f64,
-}
-
-/// Where a ray stands in the tree of rays.
-#[derive(Debug)]
-pub(super) struct Node {
-    /// The camera's rays have level 1.
-    level: u32,
-    /// How many rays lead to it; those that pass unbent do not raise the level.
-    depth: u32,
-    /// The greatest channel of what its colour will be multiplied by.
-    weight: f64,
-    /// How long the way from the camera to its start is.
-    way: f64,
-    /// Which objects it meets.
-    mask: u32,
-    /// The media it is in, the one entered last at the end.
-    pub(super) media: Range<usize>,
-}
-
-/// A surface being shaded.
-struct Place<'w> {
-    point: SurfacePoint,
-    look: &'w Look,
-    /// The unit direction of sight.
-    eye: Vec3,
-    /// The unit normal, on the side of the eye.
-    normal: Vec3,
-    /// The cosine between them.
-    cosine: f64,
-    /// How far the ray came.
-    distance: f64,
-    /// How long the way from the camera is.
-    way: f64,
-    /// The ray only touches the surface.
-    grazing: bool,
+enum Task<'w> {
+    /// To see what rays see.
+    Follow(Bundle<'w>),
+    /// To add what was seen in a mirror that changes colours. The sums from `first` on are its own.
+    Show { mirror: &'w Mirror, first: usize, to: Vec<(u32, Rgb)> },
 }
 
 impl<'w> Whitted<'w> {
-    /// `pixel` is the width of a pixel at distance 1, and at the camera.
-    pub(crate) fn new(world: &'w World, pixel: (f64, f64)) -> Self {
+    /// For the rays of a world.
+    pub(crate) fn new(world: &'w World) -> Self {
         Self {
             world,
-            coats: Vec::new(),
-            mirrors: Vec::new(),
-            media: Vec::new(),
-            cells: Cells::new(),
-            pixel,
+            isa: Isa::detect(),
+            tasks: Vec::new(),
+            sums: Vec::new(),
+            hits: Vec::new(),
+            pieces: Vec::new(),
+            spots: Spots::default(),
+            coats: Coats::default(),
+            lamps: Lamps::default(),
+            onward: Onward::default(),
             counts: RayCounts::default(),
-            seed: (0, 0),
             stop: Progress::none(),
         }
     }
 
-    /// Follows no further ray once this is cancelled, also within one pixel; what is answered then is no colour.
+    /// Follows no further ray once this is cancelled, also within one pixel.
     #[must_use]
     pub(crate) fn stopped_by(self, stop: &Progress<'w>) -> Self {
         Self { stop: *stop, ..self }
     }
 
-    /// The colour seen along a ray of the camera; `seed` names its place in the picture, `beam` holds what it may meet, if that is known.
-    pub(crate) fn camera_ray(&mut self, ray: &Ray, seed: u64, beam: Option<&Beam>) -> Rgb {
-        self.seed = (seed, 0);
-        self.counts.camera += 1;
-        self.media.clear();
-        self.world.media_around(ray.origin, &mut self.media);
-        let media = 0..self.media.len();
-        let node = Node { level: 1, depth: 0, weight: 1.0, way: 0.0, mask: mask::CAMERA, media };
-        let geometry = self.world.geometry();
-        let seen = match beam {
-            Some(beam) => geometry.seen_in(beam, ray, node.mask, Need::SHADING_NORMAL),
-            None => geometry.seen(ray, node.mask, Need::SHADING_NORMAL),
-        };
-        self.seen(ray, seen, node)
-    }
-
-    /// The colour seen along a ray.
-    fn look(&mut self, ray: &Ray, node: Node) -> Rgb {
-        if self.stop.is_cancelled() {
-            return Rgb::BLACK;
-        }
-        if node.depth > 0 && node.depth.is_multiple_of(HOP) {
-            return self.look_on_a_new_stack(ray, node);
-        }
-        let seen = self.world.geometry().seen(ray, node.mask, Need::SHADING_NORMAL);
-        self.seen(ray, seen, node)
-    }
-
-    /// Thousands of clear sheets in a row make recursions that no thread's stack would hold.
-    #[cold]
-    fn look_on_a_new_stack(&mut self, ray: &Ray, node: Node) -> Rgb {
-        if node.depth >= DEEPEST {
-            return Rgb::BLACK;
-        }
-        std::thread::scope(|scope| {
-            let thread = std::thread::Builder::new().stack_size(STACK);
-            let look = || {
-                let seen = self.world.geometry().seen(ray, node.mask, Need::SHADING_NORMAL);
-                self.seen(ray, seen, node)
-            };
-            match thread.spawn_scoped(scope, look) {
-                Ok(work) => work.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
-                // No more threads: as deep as this system goes.
-                Err(_) => Rgb::BLACK,
+    /// The colours seen at some places of a picture of the given size, in their order; `None` if the work was stopped.
+    pub(crate) fn look(
+        &mut self,
+        camera: &Camera,
+        picture: (u32, u32),
+        places: &[Place],
+        colours: &mut Vec<Rgb>,
+    ) -> Option<()> {
+        colours.clear();
+        for places in places.chunks(CAMERA_GROUPS * LANES) {
+            self.sums.clear();
+            self.sums.resize(places.len(), Rgb::BLACK);
+            self.start(camera, picture, places);
+            while let Some(task) = self.tasks.pop() {
+                if self.stop.is_cancelled() {
+                    self.tasks.clear();
+                    return None;
+                }
+                match task {
+                    Task::Follow(bundle) => self.begin(bundle),
+                    Task::Show { mirror, first, to } => {
+                        for (i, (slot, factor)) in to.into_iter().enumerate() {
+                            let seen = mirror.shown(self.sums[first + i]);
+                            self.sums[slot as usize] += seen * factor;
+                        }
+                        self.sums.truncate(first);
+                    }
+                }
             }
-        })
+            // What was stopped on its way is no colour.
+            if self.stop.is_cancelled() {
+                return None;
+            }
+            colours.extend_from_slice(&self.sums);
+        }
+        Some(())
     }
 
-    /// The colour of what a ray meets first.
-    fn seen(&mut self, ray: &Ray, seen: Option<(Hit, SurfacePoint)>, node: Node) -> Rgb {
-        let world = self.world;
-        let Some((hit, point)) = seen else { return world.background };
-        let speed = length(ray.direction);
-        let eye = ray.direction * (1.0 / speed);
-        let slope = dot_n(point.ns, eye);
-        let normal = if slope > 0.0 { -point.ns.to_vec() } else { point.ns.to_vec() };
-        let place = Place {
-            look: world.look_of(hit.object, hit.primitive),
-            eye,
-            normal,
-            cosine: slope.abs().min(1.0),
-            distance: hit.t * speed,
-            way: node.way + hit.t * speed,
-            grazing: hit.sign == 0,
-            point,
-        };
-        let mut sum = Rgb::BLACK;
-        let paint = &world.paints[place.look.paint as usize];
-        paint.each(place.point.p, 1.0, &mut |coats, weight, p| {
-            let seen = self.shade(&place, coats, p, &node);
-            sum += if weight == 1.0 { seen } else { seen * weight };
-        });
-        sum
+    /// Makes bundles of the camera's rays: one, if all start in the same media.
+    fn start(&mut self, camera: &Camera, picture: (u32, u32), places: &[Place]) {
+        self.counts.camera += places.len() as u64;
+        let mut all = self.onward.empty();
+        self.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                for (group, places) in places.chunks(LANES).enumerate() {
+                    let (mut x, mut y) = (F8::splat(places[0].x), F8::splat(places[0].y));
+                    let mut paths = Paths8::NONE;
+                    for (i, place) in places.iter().enumerate() {
+                        (x.0[i], y.0[i]) = (place.x, place.y);
+                        // The place in the picture, to the last bit, names the ray.
+                        paths.seed[i] = place.x.to_bits().rotate_left(32) ^ place.y.to_bits();
+                        paths.slot[i] = (group * LANES + i) as u32;
+                    }
+                    let (origin, direction) = camera.rays(x, y, picture);
+                    let (t_max, source) = (F8::splat(f64::INFINITY), Rays8::NONE.source);
+                    let live = M8::first(places.len());
+                    all.rays.push(Rays8 { origin, direction, t_max, live, source });
+                    all.paths.push(paths);
+                }
+            },
+        );
+        let first =
+            Standing { level: 1, depth: 0, mask: mask::CAMERA, draws: 0, mirror: None, media: Vec::new() };
+        match self.world.standing() {
+            Some(media) => {
+                all.standing = Standing { media: media.to_vec(), ..first };
+                self.tasks.push(Task::Follow(all));
+            }
+            None => {
+                self.start_apart(&all, &first);
+                self.onward.give_back(all);
+            }
+        }
     }
 
-    /// The colour of a stack of layers at a point `p` of its space.
-    fn shade(&mut self, place: &Place<'w>, layers: &'w [Coat], p: Point3, node: &Node) -> Rgb {
-        let world = self.world;
-        let (first_coat, first_mirror) = (self.coats.len(), self.mirrors.len());
-        let mut sum = Rgb::BLACK;
-        let mut passed = Rgb::WHITE;
-        // Opaque, dull surfaces need none.
-        let mut border = None;
-        for coat in layers.iter().rev() {
-            if passed.luminance() <= world.adc_bailout {
+    /// Makes bundles of rays that may start in different media.
+    #[cold]
+    fn start_apart(&mut self, all: &Bundle<'w>, first: &Standing<'w>) {
+        let mut apart: Vec<Bundle<'w>> = Vec::new();
+        let mut media = Vec::new();
+        for (rays, paths) in all.rays.iter().zip(&all.paths) {
+            for i in Mask::from(rays.live).lanes() {
+                media.clear();
+                self.world.media_at(rays.lane(i).origin, &mut media);
+                let known = apart.iter().position(|b| b.standing.media == media);
+                let at = known.unwrap_or_else(|| {
+                    let mut bundle = self.onward.empty();
+                    bundle.standing = Standing { media: media.clone(), ..first.clone() };
+                    apart.push(bundle);
+                    apart.len() - 1
+                });
+                apart[at].add(rays, paths, Mask::from_bits(1 << i));
+            }
+        }
+        self.tasks.extend(apart.into_iter().map(Task::Follow));
+    }
+
+    /// Follows the rays of a bundle, if they are not too many in a row already.
+    fn begin(&mut self, mut bundle: Bundle<'w>) {
+        if bundle.standing.depth >= DEEPEST {
+            self.onward.give_back(bundle);
+            return;
+        }
+        if let Some(mirror) = bundle.standing.mirror.take() {
+            // What is seen is summed up by itself first.
+            let first = self.sums.len();
+            let mut to = Vec::new();
+            for (rays, paths) in bundle.rays.iter().zip(&mut bundle.paths) {
+                for i in Mask::from(rays.live).lanes() {
+                    to.push((paths.slot[i], paths.factor.lane(i)));
+                    paths.slot[i] = (first + to.len() - 1) as u32;
+                }
+                paths.factor = Rgb8::WHITE;
+            }
+            self.sums.resize(first + to.len(), Rgb::BLACK);
+            self.tasks.push(Task::Show { mirror, first, to });
+        }
+        self.follow(&bundle);
+        self.tasks.extend(self.onward.take().map(Task::Follow));
+        self.onward.give_back(bundle);
+    }
+
+    /// Adds what the rays of a bundle see, and puts those that go on into `onward`.
+    fn follow(&mut self, bundle: &Bundle<'w>) {
+        self.see(bundle);
+        let pieces = core::mem::take(&mut self.pieces);
+        let mut spots = core::mem::take(&mut self.spots);
+        for part in pieces.chunk_by(Piece::is_like) {
+            if self.stop.is_cancelled() {
                 break;
             }
-            let paint = coat.pigment.at(p);
-            let finish = &coat.finish;
-            let colour = paint.rgb;
-            let filtering =
-                if world.filter_by_colour { paint.filter * colour.greatest() } else { paint.filter };
-            let body = passed * colour * (1.0 - filtering - paint.transmit);
-            sum += body * finish.own_light;
-            if finish.is_lit {
-                let grain = if finish.crand > 0.0 { self.random() * finish.crand } else { 0.0 };
-                self.coats.push(Lit { finish, scattered: body, shine: passed, colour, grain });
-            }
-            let mut mirrored = Rgb::BLACK;
-            if let Some(mirror) = finish.mirror.as_deref() {
-                mirrored = mirror.reflectance(place.cosine, colour, || {
-                    border.get_or_insert_with(|| Border::new(self, place, node)).fresnel(place.cosine)
-                });
-                if !mirrored.is_black() {
-                    let importance = passed.luminance() * mirrored.greatest();
-                    self.mirrors.push(Mirrored { mirror, reflectance: mirrored, importance });
-                }
-            }
-            passed = passed * paint.passed();
-            if finish.conserve_energy {
-                passed = passed * mirrored.map(|r| 1.0 - r.min(1.0));
-            }
+            let spots = spots.gather(part, bundle, &self.hits);
+            face(self.isa, spots);
+            let (world, standing) = (self.world, &bundle.standing);
+            let look = part[0].look(world);
+            let border = Border::new(world, &standing.media, look.medium, part[0].is_grazing());
+            let part = Part { look, border, standing };
+            self.paint(&part, &world.paints[look.paint as usize], spots, &mut 0);
         }
-        if self.coats.len() > first_coat {
-            sum += self.light(place, first_coat, node);
-            self.coats.truncate(first_coat);
-        }
-        let mut total_reflection = false;
-        if !passed.is_black() {
-            let border = border.unwrap_or_else(|| Border::new(self, place, node));
-            let (seen, total) = self.behind(place, &border, passed, node);
-            sum += seen;
-            total_reflection = total;
-        }
-        if self.mirrors.len() > first_mirror {
-            if !total_reflection {
-                for i in first_mirror..self.mirrors.len() {
-                    sum += self.reflection(place, self.mirrors[i], node);
-                }
-            }
-            self.mirrors.truncate(first_mirror);
-        }
-        sum
+        (self.pieces, self.spots) = (pieces, spots);
     }
 
-    /// The light of all lamps on the layers from `first` on.
-    fn light(&mut self, place: &Place<'w>, first: usize, node: &Node) -> Rgb {
+    /// What the rays of a bundle meet first: in `hits`, and in `pieces` what is to be shaded together. Where they meet nothing the
+    /// background is seen.
+    fn see(&mut self, bundle: &Bundle<'w>) {
         let world = self.world;
-        let mirrored = reflect(place.eye, place.normal);
-        let double = place.look.double_illuminate;
-        let behind = double || self.coats[first..].iter().any(|c| c.finish.lit_from_behind());
-        let mut sum = Rgb::BLACK;
-        // The cubes that shadow rays share are some pixels wide.
-        let cell = 8.0 * (self.pixel.0 * place.way + self.pixel.1);
-        for (number, lamp) in world.lamps.iter().enumerate() {
-            let Some(beamed) = lamp.at(place.point.p) else { continue };
-            let cosine = dot(beamed.to_light, place.normal);
-            if cosine <= 0.0 && !behind {
+        self.hits.clear();
+        self.pieces.clear();
+        for rays in bundle.rays.chunks(TOGETHER) {
+            let beam = world.geometry().beam_of(rays);
+            if beam.as_ref().is_some_and(Beam::is_empty) {
+                self.hits.resize(self.hits.len() + rays.len(), Hits8::NONE);
                 continue;
             }
-            let at = Incidence { to_light: beamed.to_light, cosine, double };
-            let highlights = !lamp.shadowless && (cosine > 0.0 || double);
-            let mut shown = Rgb::BLACK;
-            for coat in &self.coats[first..] {
-                shown += coat.scattered * coat.finish.scattered(&at, coat.grain);
-                if highlights && coat.finish.shines() {
-                    let shine = coat.finish.highlight(&at, place.eye, mirrored, place.normal, coat.colour);
-                    shown += coat.shine * shine;
+            for rays in rays {
+                self.hits.push(world.geometry().seen_by_lanes(beam.as_ref(), rays, bundle.standing.mask));
+            }
+        }
+        let background = Rgb8::splat(world.background);
+        for (group, hits) in self.hits.iter().enumerate() {
+            let missed = bundle.rays[group].live & !hits.hit;
+            if missed.any() {
+                add(&mut self.sums, &bundle.paths[group], background, missed.into());
+            }
+            cut(world, group, hits, &mut self.pieces);
+        }
+        sort(&mut self.pieces);
+    }
+
+    /// Shades spots with a paint, in whose space `inside` is; `stack` counts the stacks of layers of the surface.
+    fn paint(&mut self, part: &Part<'_, 'w>, paint: &'w Paint, spots: &mut [Spot], stack: &mut u32) {
+        match paint {
+            Paint::Layers(layers) => {
+                self.shade(part, layers, spots, *stack);
+                *stack += 1;
+            }
+            Paint::Pattern(place, blend) => {
+                for spot in &mut *spots {
+                    spot.inside = place.inside_lanes(spot.inside);
                 }
+                self.blend(part, blend, spots, stack);
             }
-            if shown.is_black() || beamed.strength == 0.0 {
-                continue;
+        }
+    }
+
+    /// Shades spots with each of the textures that a pattern shows there.
+    fn blend(&mut self, part: &Part<'_, 'w>, blend: &'w Blend<Paint>, spots: &[Spot], stack: &mut u32) {
+        let mut shown = Vec::new();
+        for spot in spots {
+            let p = spot.inside.to_vec();
+            let at = |i| if spot.live.has(i) { blend.at(p.lane(i).to_point()) } else { None };
+            shown.push(core::array::from_fn::<_, LANES, _>(at));
+        }
+        let mut some = Spots::default();
+        for entry in 0..blend.len() {
+            let weights = |group: usize| shown[group].map(|s| s.map_or(0.0, |s| s.part(entry)));
+            let mut weighed = spots.to_vec();
+            let mut lists = Vec::new();
+            for (group, spot) in weighed.iter_mut().enumerate() {
+                let weight = F8(weights(group));
+                let lanes = spot.live & !equal(weight, F8::ZERO);
+                spot.paths.factor = spot.paths.factor * weight;
+                lists.push((group, lanes.bits()));
             }
-            let mut light = lamp.colour * beamed.strength;
-            if let Some(target) = beamed.target {
-                let left = self.through(&place.point, target, (number, lamp.parallel), cell, node);
-                if left.is_black() {
-                    continue;
+            let some = some.gather_again(lists.into_iter(), &weighed);
+            if !some.is_empty() {
+                self.paint(part, blend.entry(entry), some, stack);
+            }
+        }
+    }
+
+    /// Shades spots with a stack of layers.
+    fn shade(&mut self, part: &Part<'_, 'w>, layers: &'w [Coat], spots: &mut [Spot], stack: u32) {
+        let (world, isa, standing) = (self.world, self.isa, part.standing);
+        self.coats.lay((world, isa), layers, &part.border, standing.draws, spots);
+        if !self.coats.finishes.is_empty() {
+            let how = (&self.coats, part.look.double_illuminate);
+            self.lamps.light((world, isa), how, &standing.media, spots, &self.stop, &mut self.counts);
+        }
+        let sums = &mut self.sums;
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                for spot in &*spots {
+                    add(sums, &spot.paths, spot.sum, spot.live);
                 }
-                light = light * left;
-            }
-            sum += light * shown;
-        }
-        sum
-    }
-
-    /// What is seen through the surface, already multiplied by what it lets pass; and whether it was totally reflected instead. Either fades in
-    /// the medium that is left.
-    fn behind(&mut self, place: &Place<'w>, border: &Border, passed: Rgb, node: &Node) -> (Rgb, bool) {
-        let world = self.world;
-        let faded = match border.crossing {
-            Crossing::Leave { .. } => world.media[place.look.medium as usize].left_after(place.distance),
-            Crossing::Enter | Crossing::Touch => Rgb::WHITE,
-        };
-        let direction = if border.ratio == 1.0 {
-            place.eye
-        } else if let Some(bent) = refract(place.eye, place.normal, border.ratio) {
-            bent
-        } else {
-            // Total reflection: nothing passes, so the paint does not colour it.
-            return (self.mirrored_ray(place, node, node.weight) * faded, true);
-        };
-        let weight = node.weight * passed.luminance();
-        if node.level >= world.max_level || weight <= world.adc_bailout {
-            return (Rgb::BLACK, false);
-        }
-        let media = self.media_behind(border.crossing, place.look.medium, &node.media);
-        let level = node.level + u32::from(border.ratio != 1.0);
-        let base = media.start;
-        self.counts.transmitted += 1;
-        let ray = place.point.spawn(direction);
-        let depth = node.depth + 1;
-        let seen = self.look(&ray, Node { level, depth, weight, way: place.way, mask: node.mask, media });
-        self.media.truncate(base);
-        (seen * passed * faded, false)
-    }
-
-    /// The list of media behind a surface, as a new range at the end of the stack.
-    pub(super) fn media_behind(
-        &mut self,
-        crossing: Crossing,
-        medium: u32,
-        media: &Range<usize>,
-    ) -> Range<usize> {
-        let start = self.media.len();
-        self.media.extend_from_within(media.clone());
-        match crossing {
-            Crossing::Enter => self.media.push(medium),
-            Crossing::Leave { at } => {
-                self.media.remove(start + at);
-            }
-            Crossing::Touch => {}
-        }
-        start..self.media.len()
-    }
-
-    /// What a reflecting layer shows.
-    fn reflection(&mut self, place: &Place<'w>, layer: Mirrored<'w>, node: &Node) -> Rgb {
-        let weight = node.weight * layer.importance;
-        if weight < self.world.adc_bailout {
-            return Rgb::BLACK;
-        }
-        let seen = self.mirrored_ray(place, node, weight);
-        layer.mirror.shown(seen) * layer.reflectance
-    }
-
-    /// What is seen in the mirror direction.
-    fn mirrored_ray(&mut self, place: &Place<'w>, node: &Node, weight: f64) -> Rgb {
-        if node.level >= self.world.max_level {
-            return Rgb::BLACK;
-        }
-        let level = node.level + 1;
-        self.counts.reflected += 1;
-        let ray = place.point.spawn(reflect(place.eye, place.normal));
-        let (depth, media) = (node.depth + 1, node.media.clone());
-        self.look(&ray, Node { level, depth, weight, way: place.way, mask: mask::MIRROR, media })
-    }
-
-    fn random(&mut self) -> f64 {
-        self.seed.1 += 1;
-        random(self.seed.0, self.seed.1, 2)
+            },
+        );
+        let stack = (stack, draws(layers));
+        self.onward.send((world, isa), part, &self.coats, stack, spots, &mut self.counts);
     }
 }
 
-/// What a surface does to a list of media.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Crossing {
-    Enter,
-    Leave {
-        /// Which of the list is left.
-        at: usize,
-    },
-    /// The ray stays where it is.
-    Touch,
-}
-
-impl Crossing {
-    pub(super) fn new(media: &[u32], medium: u32, grazing: bool) -> Self {
-        if grazing {
-            return Self::Touch;
-        }
-        media.iter().rposition(|&m| m == medium).map_or(Self::Enter, |at| Self::Leave { at })
-    }
-}
-
-/// The border between two media.
-#[derive(Clone, Copy, Debug)]
-struct Border {
-    crossing: Crossing,
-    /// The index of refraction before the surface over that behind it.
-    ratio: f64,
-    /// The same as Fresnel's formula takes it. A fact of the scene language: behind the surface is always its own medium, save where a ray is in
-    /// that alone and leaves it.
-    fresnel_ratio: f64,
-}
-
-impl Border {
-    fn new(tracer: &Whitted<'_>, place: &Place<'_>, node: &Node) -> Self {
-        let world = tracer.world;
-        let list = &tracer.media[node.media.clone()];
-        let index = |medium: Option<&u32>| medium.map_or(1.0, |&m| world.media[m as usize].ior);
-        let crossing = Crossing::new(list, place.look.medium, place.grazing);
-        let ratio = match crossing {
-            Crossing::Enter => index(list.last()) / index(Some(&place.look.medium)),
-            // Only what was entered last bends the ray when it is left.
-            Crossing::Leave { at } if at + 1 == list.len() => {
-                index(Some(&place.look.medium)) / index(list[..at].last())
-            }
-            Crossing::Leave { .. } | Crossing::Touch => 1.0,
-        };
-        let own = index(Some(&place.look.medium));
-        let fresnel_ratio = if *list == [place.look.medium] { own } else { index(list.last()) / own };
-        Self { crossing, ratio, fresnel_ratio }
-    }
-
-    fn fresnel(&self, cosine: f64) -> f64 {
-        if self.fresnel_ratio == 1.0 { 0.0 } else { reflectance(self.fresnel_ratio, cosine) }
+/// Adds colours to the sums to which they belong.
+#[inline(always)]
+fn add(sums: &mut [Rgb], paths: &Paths8, colour: Rgb8, lanes: Mask) {
+    let colour = colour * paths.factor;
+    for i in lanes.lanes() {
+        sums[paths.slot[i] as usize] += colour.lane(i);
     }
 }

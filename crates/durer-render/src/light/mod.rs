@@ -1,8 +1,9 @@
 //! Lights made ready: from where they shine on a point, and how strongly.
 
+use crate::lanes::{Mask, at_most, equal, less};
 use crate::power::Power;
 use crate::vector::{dot, length, unit};
-use durer_math::{Point3, Vec3, elementary};
+use durer_math::{F8, Point3, Vec3, elementary};
 use durer_scene::{Light, LightKind, Rgb};
 
 /// A light.
@@ -35,27 +36,28 @@ enum Beam {
     },
 }
 
-/// A light at a point.
+/// A light at eight points.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Beamed {
-    /// The unit direction from the point to the light.
-    pub(crate) to_light: Vec3,
+    /// Where it shines. The rest is about these points.
+    pub(crate) lit: Mask,
+    /// The unit directions from the points to the light.
+    pub(crate) to_light: Vec3<F8>,
     /// What the light's colour is multiplied by.
-    pub(crate) strength: f64,
-    /// How far blockers may be: the light itself, or for parallel light the point of its plane above. `None` if nothing can block it.
-    pub(crate) target: Option<Point3>,
+    pub(crate) strength: F8,
+    /// How far blockers may be: the light itself, or for parallel light the point of its plane above.
+    pub(crate) target: Point3<F8>,
+    /// Where anything can block it.
+    pub(crate) blockable: Mask,
 }
 
 /// 0 up to `a`, 1 from `b` on, and between them a cubic with level ends.
-fn smooth_step(a: f64, b: f64, x: f64) -> f64 {
-    if x <= a {
-        return 0.0;
-    }
-    if x >= b {
-        return 1.0;
-    }
+#[inline(always)]
+fn smooth_step(a: f64, b: f64, x: F8) -> F8 {
     let t = (x - a) / (b - a);
-    t * t * (3.0 - 2.0 * t)
+    let between = t * t * (F8::splat(3.0) - t * 2.0);
+    let ended = at_most(F8::splat(b), x).select(F8::ONE, between);
+    at_most(x, F8::splat(a)).select(F8::ZERO, ended)
 }
 
 impl Lamp {
@@ -87,41 +89,43 @@ impl Lamp {
         })
     }
 
-    /// The light at `p`; `None` where it does not shine. Blockers are not looked for.
-    #[inline]
-    pub(crate) fn at(&self, p: Point3) -> Option<Beamed> {
-        let from = p - self.location;
-        let depth = dot(from, self.axis);
+    /// The light at some points. Blockers are not looked for.
+    #[inline(always)]
+    pub(crate) fn at(&self, p: Point3<F8>, live: Mask) -> Beamed {
+        let location = Vec3::<F8>::splat(self.location.to_vec());
+        let axis = Vec3::<F8>::splat(self.axis);
+        let from = p.to_vec() - location;
+        let depth = dot(from, axis);
         let distance = if self.parallel { depth } else { length(from) };
-        let to_light = if self.parallel { -self.axis } else { from * (-1.0 / distance) };
-        if !to_light.is_finite() {
-            return None;
-        }
+        let to_light = if self.parallel { -axis } else { from * (F8::splat(-1.0) / distance) };
+        // A sum is finite if its terms are: their length is 1.
+        let size = to_light.x.abs() + to_light.y.abs() + to_light.z.abs();
+        let mut lit = live & less(size, F8::splat(f64::INFINITY));
         let mut strength = match self.beam {
-            Beam::All => 1.0,
+            Beam::All => F8::ONE,
             Beam::Cone { full, end, tightness } => {
-                let cosine = if self.parallel { 1.0 } else { depth / distance };
+                let cosine = if self.parallel { F8::ONE } else { depth / distance };
                 // The full cone is asked for first, and decides alone where it is the wider one.
-                let edge = if cosine >= full { 1.0 } else { smooth_step(end, full, cosine) };
-                if edge == 0.0 || cosine <= 0.0 {
-                    return None;
-                }
-                edge * tightness.of(cosine)
+                let inside = at_most(F8::splat(full), cosine);
+                let edge = inside.select(F8::ONE, smooth_step(end, full, cosine));
+                lit = lit & !(equal(edge, F8::ZERO) | at_most(cosine, F8::ZERO));
+                edge * tightness.lanes(cosine, lit)
             }
             Beam::Tube { full, end, tightness } => {
-                let off_axis = length(from - self.axis * depth);
-                if depth <= 0.0 || off_axis >= end {
-                    return None;
-                }
-                tightness.of(1.0 - off_axis / end) * (1.0 - smooth_step(full, end, off_axis))
+                let off_axis = length(from - axis * depth);
+                lit = lit & !(at_most(depth, F8::ZERO) | at_most(F8::splat(end), off_axis));
+                tightness.lanes(F8::ONE - off_axis / end, lit) * (F8::ONE - smooth_step(full, end, off_axis))
             }
         };
         if let Some((at, power)) = self.fade {
-            strength *= 2.0 / (1.0 + power.of((distance / at).abs()));
+            strength = strength * (F8::splat(2.0) / (F8::ONE + power.lanes((distance / at).abs(), lit)));
         }
-        let target =
-            if !self.parallel { Some(self.location) } else { (depth > 0.0).then(|| p - self.axis * depth) };
-        Some(Beamed { to_light, strength, target: target.filter(|_| !self.shadowless) })
+        let (target, blockable) = match (self.shadowless, self.parallel) {
+            (true, _) => (location, Mask::NONE),
+            (false, false) => (location, lit),
+            (false, true) => (p.to_vec() - axis * depth, lit & less(F8::ZERO, depth)),
+        };
+        Beamed { lit, to_light, strength, target: target.to_point(), blockable }
     }
 }
 
@@ -135,8 +139,13 @@ mod tests {
         Light { kind, point_at: Point3::ORIGIN, ..Light::point(Point3::new(0.0, 10.0, 0.0), Rgb::WHITE) }
     }
 
+    fn point(p: [f64; 3]) -> Point3<F8> {
+        Vec3::<F8>::splat(p.into()).to_point()
+    }
+
     fn strength(light: &Light, p: [f64; 3]) -> f64 {
-        Lamp::new(light).unwrap().at(p.into()).map_or(0.0, |b| b.strength)
+        let beamed = Lamp::new(light).unwrap().at(point(p), Mask::ALL);
+        beamed.lit.keep(beamed.strength).0[3]
     }
 
     #[test]
@@ -175,14 +184,18 @@ mod tests {
     fn parallel_light_is_blocked_only_up_to_its_plane() {
         let light = Light { parallel: true, ..down(LightKind::Point) };
         let lamp = Lamp::new(&light).unwrap();
-        let below = lamp.at(Point3::new(3.0, 0.0, 4.0)).unwrap();
-        assert_eq!((below.to_light, below.target), (Vec3::Y, Some(Point3::new(3.0, 10.0, 4.0))));
-        let above = lamp.at(Point3::new(3.0, 20.0, 4.0)).unwrap();
-        assert_eq!((above.strength, above.target), (1.0, None));
+        let below = lamp.at(point([3.0, 0.0, 4.0]), Mask::ALL);
+        assert_eq!(below.to_light.lane(0), Vec3::Y);
+        assert_eq!(below.target.to_vec().lane(0), Vec3::new(3.0, 10.0, 4.0));
+        assert_eq!(below.blockable, Mask::ALL);
+        let above = lamp.at(point([3.0, 20.0, 4.0]), Mask::ALL);
+        assert_eq!((above.strength.0[0], above.blockable), (1.0, Mask::NONE));
     }
 
     #[test]
     fn a_light_at_the_point_itself_does_not_shine() {
-        assert!(Lamp::new(&down(LightKind::Point)).unwrap().at(Point3::new(0.0, 10.0, 0.0)).is_none());
+        let mut p = point([0.0, 10.0, 0.0]);
+        p.x.0[2] = 1.0;
+        assert_eq!(Lamp::new(&down(LightKind::Point)).unwrap().at(p, Mask::ALL).lit.bits(), 0b100);
     }
 }

@@ -1,9 +1,10 @@
 //! Finishes with their constants worked out.
 
 use super::metal::tint;
+use crate::lanes::{Mask, Rgb8, at_most, equal, less};
 use crate::power::Power;
-use crate::vector::dot;
-use durer_math::{Vec3, elementary};
+use crate::vector::{dot, reflect};
+use durer_math::{F8, Vec3, elementary};
 use durer_scene::Rgb;
 
 /// From this size on, Phong's highlight ends where its cosine is [`PHONG_END`]: a fact of the scene language.
@@ -37,21 +38,34 @@ pub(crate) struct Mirror {
     min: Rgb,
     max: Rgb,
     falloff: Power,
-    fresnel: bool,
+    pub(crate) fresnel: bool,
     metallic: f64,
     /// The reflected colour is raised to this.
     exponent: Power,
 }
 
-/// A light seen from a point of a surface.
+/// A light seen from eight points of surfaces.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Incidence {
-    /// The unit direction to the light.
-    pub(crate) to_light: Vec3,
-    /// The cosine of its angle to the normal; negative behind the surface.
-    pub(crate) cosine: f64,
+    /// The points that are asked about; elsewhere anything is answered.
+    pub(crate) live: Mask,
+    /// The unit directions to the light.
+    pub(crate) to_light: Vec3<F8>,
+    /// The cosines of their angles to the normals; negative behind the surface.
+    pub(crate) cosine: F8,
     /// Light from behind counts like light from the front.
     pub(crate) double: bool,
+}
+
+/// How eight points of surfaces are looked at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct View {
+    /// The unit directions of sight.
+    pub(crate) eye: Vec3<F8>,
+    /// The unit normals, on the side of the eye.
+    pub(crate) normal: Vec3<F8>,
+    /// The cosines between them.
+    pub(crate) cosine: F8,
 }
 
 impl Finish {
@@ -90,15 +104,17 @@ impl Finish {
     }
 
     /// The part of a light that is scattered evenly, less `grain`.
-    #[inline]
-    pub(crate) fn scattered(&self, at: &Incidence, grain: f64) -> f64 {
-        let k = if at.cosine >= 0.0 || at.double { self.diffuse } else { self.diffuse_back };
-        if k == 0.0 {
-            return 0.0;
+    #[inline(always)]
+    pub(crate) fn scattered(&self, at: &Incidence, grain: F8) -> F8 {
+        let front = if at.double { Mask::ALL } else { at_most(F8::ZERO, at.cosine) };
+        let k = front.select(F8::splat(self.diffuse), F8::splat(self.diffuse_back));
+        let scatters = !equal(k, F8::ZERO);
+        let mut shown = k * self.brilliance.lanes(at.cosine.abs(), at.live & scatters);
+        if self.crand > 0.0 {
+            shown = shown - grain;
+            shown = less(F8::ZERO, grain).select(shown.max(F8::ZERO), shown);
         }
-        let cosine = at.cosine.abs();
-        let shown = k * self.brilliance.of(cosine) - grain;
-        if grain > 0.0 { shown.max(0.0) } else { shown }
+        scatters.keep(shown)
     }
 
     /// Whether light from behind the surface changes anything.
@@ -113,63 +129,57 @@ impl Finish {
         self.phong != 0.0 || self.specular != 0.0
     }
 
-    /// The part of a light that is seen as a highlight, on paint of colour `colour`. `eye` is the unit direction of sight, `mirrored` its mirror
-    /// image in the surface, `normal` the unit normal that faces the eye.
-    #[inline]
-    pub(crate) fn highlight(
-        &self,
-        at: &Incidence,
-        eye: Vec3,
-        mirrored: Vec3,
-        normal: Vec3,
-        colour: Rgb,
-    ) -> Rgb {
-        let mut shine = 0.0;
+    /// The part of a light that is seen as a highlight, on paint of colour `colour`.
+    #[inline(always)]
+    pub(crate) fn highlight(&self, at: &Incidence, view: &View, colour: Rgb8) -> Rgb8 {
+        let mut shine = F8::ZERO;
         if self.phong != 0.0 {
-            let cosine = dot(mirrored, at.to_light);
-            if cosine > self.phong_end {
-                shine += self.phong * self.phong_power.of(cosine);
-            }
+            let cosine = dot(reflect(view.eye, view.normal), at.to_light);
+            let seen = less(F8::splat(self.phong_end), cosine);
+            shine += seen.keep(self.phong_power.lanes(cosine, at.live & seen) * self.phong);
         }
         if self.specular != 0.0 {
-            let half = at.to_light - eye;
+            let half = at.to_light - view.eye;
             let length = dot(half, half).sqrt();
-            let cosine = dot(half, normal);
-            if cosine > 0.0 && length > 0.0 {
-                shine += self.specular * self.specular_power.of(cosine / length);
-            }
+            let cosine = dot(half, view.normal);
+            let seen = less(F8::ZERO, cosine) & less(F8::ZERO, length);
+            let power = self.specular_power.lanes(cosine / length, at.live & seen);
+            shine += seen.keep(power * self.specular);
         }
-        if shine == 0.0 {
-            Rgb::BLACK
-        } else if self.metallic == 0.0 {
-            Rgb::grey(shine)
+        if self.metallic == 0.0 {
+            Rgb8::grey(shine)
         } else {
-            tint(self.metallic, at.cosine, colour) * shine
+            let live = at.live & !equal(shine, F8::ZERO);
+            tint(self.metallic, at.cosine, colour, live) * shine
         }
     }
 }
 
 impl Mirror {
+    /// Whether the mirror shows what is seen in it as it is.
+    #[inline]
+    pub(crate) fn is_plain(&self) -> bool {
+        self.exponent == Power::One
+    }
+
     /// What the mirror makes of what is seen in it.
     #[inline]
     pub(crate) fn shown(&self, seen: Rgb) -> Rgb {
-        if self.exponent == Power::One { seen } else { seen.map(|v| self.exponent.of(v.max(0.0))) }
+        seen.map(|v| self.exponent.of(v.max(0.0)))
     }
 
     /// What the reflected light is multiplied by. `cosine` is that of the angle between the normal and the eye; `fresnel` is Fresnel's
-    /// reflectance, asked for only if it is needed.
-    #[inline]
-    pub(crate) fn reflectance(&self, cosine: f64, colour: Rgb, fresnel: impl FnOnce() -> f64) -> Rgb {
+    /// reflectance, which mirrors of that kind need.
+    #[inline(always)]
+    pub(crate) fn reflectance(&self, cosine: F8, colour: Rgb8, live: Mask, fresnel: F8) -> Rgb8 {
         let r = if self.fresnel {
-            let k = fresnel();
-            self.min.zip(self.max, |a, b| a + (b - a) * k)
+            Rgb8::mixed(self.min, self.max, fresnel)
         } else if self.min == self.max {
-            self.min
+            Rgb8::splat(self.min)
         } else {
-            let k = self.falloff.of((1.0 - cosine).max(0.0));
-            self.min.zip(self.max, |a, b| a + (b - a) * k)
+            Rgb8::mixed(self.min, self.max, self.falloff.lanes((F8::ONE - cosine).max(F8::ZERO), live))
         };
-        if self.metallic == 0.0 { r } else { r * tint(self.metallic, cosine, colour) }
+        if self.metallic == 0.0 { r } else { r * tint(self.metallic, cosine, colour, live) }
     }
 }
 
@@ -183,13 +193,26 @@ mod tests {
     }
 
     fn incidence(to_light: Vec3) -> Incidence {
-        Incidence { to_light, cosine: to_light.y, double: false }
+        let to_light = Vec3::<F8>::splat(to_light);
+        Incidence { live: Mask::ALL, to_light, cosine: to_light.y, double: false }
+    }
+
+    /// How much of the light is scattered without any grain.
+    fn scattered(f: &Finish, to_light: Vec3) -> f64 {
+        f.scattered(&incidence(to_light), F8::ZERO).0[4]
+    }
+
+    /// The highlight, seen straight from above.
+    fn highlight(f: &Finish, to_light: Vec3) -> f64 {
+        let up = Vec3::<F8>::splat(Vec3::Y);
+        let view = View { eye: -up, normal: up, cosine: F8::ONE };
+        f.highlight(&incidence(to_light), &view, Rgb8::WHITE).lane(6).r
     }
 
     #[test]
     fn brilliance_is_an_exponent() {
         let f = ready(&durer_scene::Finish { brilliance: 3.0, diffuse: 0.5, ..Default::default() });
-        assert_eq!(f.scattered(&incidence(Vec3::new(0.0, 0.5, 0.0)), 0.0), 0.0625);
+        assert_eq!(scattered(&f, Vec3::new(0.0, 0.5, 0.0)), 0.0625);
     }
 
     #[test]
@@ -198,32 +221,37 @@ mod tests {
         // language's factor is (b + 1) / 2 all the same.
         let f =
             durer_scene::Finish { brilliance: 3.0, diffuse: 0.5, diffuse_albedo: true, ..Default::default() };
-        assert_eq!(ready(&f).scattered(&incidence(Vec3::Y), 0.0), 1.0);
+        assert_eq!(scattered(&ready(&f), Vec3::Y), 1.0);
     }
 
     #[test]
     fn light_from_behind_has_its_own_part() {
         let f = ready(&durer_scene::Finish { diffuse: 0.5, diffuse_back: 0.25, ..Default::default() });
-        assert_eq!(f.scattered(&incidence(-Vec3::Y), 0.0), 0.25);
+        assert_eq!(scattered(&f, -Vec3::Y), 0.25);
         let f = ready(&durer_scene::Finish { diffuse: 0.5, ..Default::default() });
-        assert_eq!(f.scattered(&incidence(-Vec3::Y), 0.0), 0.0);
+        assert_eq!(scattered(&f, -Vec3::Y), 0.0);
+    }
+
+    #[test]
+    fn grain_takes_light_away_but_not_more_than_there_is() {
+        let f = ready(&durer_scene::Finish { diffuse: 0.5, crand: 0.9, ..Default::default() });
+        let grain = F8([0.0, 0.25, 0.5, 0.75, 0.0, 0.25, 0.5, 0.75]);
+        let shown = f.scattered(&incidence(Vec3::Y), grain);
+        assert_eq!(shown, F8([0.5, 0.25, 0.0, 0.0, 0.5, 0.25, 0.0, 0.0]));
     }
 
     #[test]
     fn blinns_exponent_is_one_over_roughness() {
         let f = durer_scene::Finish { specular: 1.0, roughness: 0.5, ..Default::default() };
         // Eye straight down, light at 90 degrees: the half vector is at 45 degrees, cos^2 = 1/2.
-        let light = incidence(Vec3::X);
-        let shine = ready(&f).highlight(&light, -Vec3::Y, Vec3::Y, Vec3::Y, Rgb::WHITE);
-        assert!((shine.r - 0.5).abs() < 1e-15);
+        assert!((highlight(&ready(&f), Vec3::X) - 0.5).abs() < 1e-15);
     }
 
     #[test]
     fn a_sharp_phong_highlight_ends() {
         let shine = |size, cosine: f64| {
             let f = durer_scene::Finish { phong: 1.0, phong_size: size, ..Default::default() };
-            let light = incidence(Vec3::new((1.0 - cosine * cosine).sqrt(), cosine, 0.0));
-            ready(&f).highlight(&light, -Vec3::Y, Vec3::Y, Vec3::Y, Rgb::WHITE).r
+            highlight(&ready(&f), Vec3::new((1.0 - cosine * cosine).sqrt(), cosine, 0.0))
         };
         assert_eq!(shine(60.0, 0.0005), 0.0);
         assert_eq!(shine(2.0, 0.5), 0.25);
@@ -234,8 +262,12 @@ mod tests {
         let r = Reflection { falloff: 2.0, min: Rgb::grey(0.2), ..Reflection::constant(Rgb::grey(1.0)) };
         let f = durer_scene::Finish { reflection: Some(Box::new(r)), ..Default::default() };
         let mirror = ready(&f).mirror.unwrap();
-        assert_eq!(mirror.reflectance(1.0, Rgb::WHITE, || unreachable!()).r, 0.2);
-        assert!((mirror.reflectance(0.5, Rgb::WHITE, || unreachable!()).r - 0.4).abs() < 1e-15);
-        assert_eq!(mirror.reflectance(0.0, Rgb::WHITE, || unreachable!()).r, 1.0);
+        let at = |cosine| {
+            let cosine = F8::splat(cosine);
+            mirror.reflectance(cosine, Rgb8::WHITE, Mask::ALL, F8::ZERO).lane(1).r
+        };
+        assert_eq!(at(1.0), 0.2);
+        assert!((at(0.5) - 0.4).abs() < 1e-15);
+        assert_eq!(at(0.0), 1.0);
     }
 }

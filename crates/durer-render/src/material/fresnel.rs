@@ -1,32 +1,32 @@
 //! The border between two clear media: Snell's law of refraction and Fresnel's reflectance.
 
+use crate::lanes::{Mask, less};
 use crate::vector::dot;
-use durer_math::Vec3;
+use durer_math::{F8, Vec3};
 
 /// The part of unpolarised light that is reflected, for light that falls at an angle of cosine `cosine >= 0` from a medium of index `n` times
 /// that of the medium behind (`n = n_from / n_to`); 1 beyond the critical angle.
-pub(crate) fn reflectance(n: f64, cosine: f64) -> f64 {
-    let sine2 = n * n * (1.0 - cosine * cosine);
-    if sine2 >= 1.0 {
-        return 1.0;
-    }
-    let inner = (1.0 - sine2).sqrt();
-    let along = (n * cosine - inner) / (n * cosine + inner);
-    let across = (cosine - n * inner) / (cosine + n * inner);
-    let r = 0.5 * (along * along + across * across);
-    if r.is_nan() { 1.0 } else { r.clamp(0.0, 1.0) }
+#[inline(always)]
+pub(crate) fn reflectance(n: f64, cosine: F8) -> F8 {
+    let sine2 = (F8::ONE - cosine * cosine) * (n * n);
+    let inner = (F8::ONE - sine2).sqrt();
+    let (bent, bent_inner) = (cosine * n, inner * n);
+    let along = (bent - inner) / (bent + inner);
+    let across = (cosine - bent_inner) / (cosine + bent_inner);
+    let r = (along * along + across * across) * 0.5;
+    // What is not a number is 1 too.
+    let partial = less(sine2, F8::ONE) & less(r, F8::ONE);
+    partial.select(r.max(F8::ZERO), F8::ONE)
 }
 
-/// The unit direction in which light of unit direction `d` goes on behind a surface with unit normal `normal` that faces it
-/// (`d . normal <= 0`), from a medium of index `n` times that behind; `None` if it is totally reflected.
-pub(crate) fn refract(d: Vec3, normal: Vec3, n: f64) -> Option<Vec3> {
+/// The unit directions in which light of unit directions `d` goes on behind a surface with unit normals `normal` that face it
+/// (`d . normal <= 0`), from a medium of index `n` times that behind; and where it does, as it is totally reflected elsewhere.
+#[inline(always)]
+pub(crate) fn refract(d: Vec3<F8>, normal: Vec3<F8>, n: f64) -> (Vec3<F8>, Mask) {
     let cosine = -dot(d, normal);
-    let sine2 = n * n * (1.0 - cosine * cosine);
-    if sine2 > 1.0 {
-        return None;
-    }
-    let inner = (1.0 - sine2).sqrt();
-    Some(d * n + normal * (n * cosine - inner))
+    let sine2 = (F8::ONE - cosine * cosine) * (n * n);
+    let inner = (F8::ONE - sine2).sqrt();
+    (d * F8::splat(n) + normal * (cosine * n - inner), !less(F8::ONE, sine2))
 }
 
 #[cfg(test)]
@@ -36,6 +36,15 @@ mod tests {
 
     fn falling(angle: f64) -> Vec3 {
         Vec3::new(sin(angle), -cos(angle), 0.0)
+    }
+
+    fn refract(d: Vec3, normal: Vec3, n: f64) -> Option<Vec3> {
+        let (out, passes) = super::refract(Vec3::<F8>::splat(d), Vec3::<F8>::splat(normal), n);
+        (passes == Mask::ALL).then(|| out.lane(3))
+    }
+
+    fn reflectance(n: f64, cosine: f64) -> f64 {
+        super::reflectance(n, F8::splat(cosine)).0[7]
     }
 
     #[test]

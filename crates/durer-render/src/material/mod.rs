@@ -4,5 +4,5 @@ mod finish;
 mod fresnel;
 mod metal;
 
-pub(crate) use self::finish::{Finish, Incidence, Mirror};
+pub(crate) use self::finish::{Finish, Incidence, Mirror, View};
 pub(crate) use self::fresnel::{reflectance, refract};

@@ -1,7 +1,9 @@
 //! A wall of bricks: courses along y, every other one shifted by half a brick.
 
-use super::cells::cell;
-use durer_math::{Point3, Vec3};
+use super::cells::{cell, cell_lanes};
+use crate::lanes::{Mask, at_most, equal};
+use crate::vector::floor_lanes;
+use durer_math::{F8, Point3, Vec3};
 
 /// The wall's measures.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +33,24 @@ impl Brick {
         let mortar = part(y) >= self.start.y || part(x) >= self.start.x || part(z) >= self.start.z;
         usize::from(!mortar)
     }
+
+    /// Where the kind is 1.
+    #[inline(always)]
+    pub(super) fn brick_lanes(&self, p: Point3<F8>) -> Mask {
+        let y = p.y * self.per.y;
+        let half = cell_lanes(y) * 0.5;
+        let even = equal(half, floor_lanes(half));
+        let half_brick = F8::splat(0.5);
+        let x = p.x * self.per.x + (!even).keep(half_brick);
+        let z = p.z * self.per.z + even.keep(half_brick);
+        !(in_mortar(y, self.start.y) | in_mortar(x, self.start.x) | in_mortar(z, self.start.z))
+    }
+}
+
+/// Where `x` is in mortar that begins at `start` in each unit.
+#[inline(always)]
+fn in_mortar(x: F8, start: f64) -> Mask {
+    at_most(F8::splat(start), x - cell_lanes(x))
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! Patterns that cut space into cells.
 
 use super::{brick::Brick, checker, hexagon};
-use crate::vector::floor;
-use durer_math::Point3;
+use crate::lanes::Mask;
+use crate::vector::{floor, floor_lanes};
+use durer_math::{F8, Point3};
 use durer_scene::Cells;
 
 /// A way to cut space.
@@ -33,6 +34,32 @@ impl Cutter {
     }
 }
 
+/// The kinds of the cells in which eight points lie.
+pub(super) enum Kinds {
+    /// 1 where the mask is set, 0 elsewhere.
+    Two(Mask),
+    /// Any, of the points that were asked about.
+    Many([u8; 8]),
+}
+
+impl Cutter {
+    /// The kinds of the cells in which points lie.
+    #[inline(always)]
+    pub(super) fn kinds(&self, p: Point3<F8>, live: Mask) -> Kinds {
+        match self {
+            Self::Checker => Kinds::Two(checker::odd_lanes(p)),
+            Self::Brick(brick) => Kinds::Two(brick.brick_lanes(p)),
+            Self::Hexagon => {
+                let mut kinds = [0; 8];
+                for i in live.lanes() {
+                    kinds[i] = hexagon::kind(p.to_vec().lane(i).to_point()) as u8;
+                }
+                Kinds::Many(kinds)
+            }
+        }
+    }
+}
+
 /// How far below a border the next cell begins: a fact of the scene language (so that a plane at `y = 0`, say, shows one
 /// cell, whatever the last digit of its points), and no bound of any geometry.
 pub(super) const BORDER: f64 = 1e-10;
@@ -41,4 +68,35 @@ pub(super) const BORDER: f64 = 1e-10;
 #[inline(always)]
 pub(super) fn cell(x: f64) -> f64 {
     floor(x + BORDER)
+}
+
+/// The same in lanes.
+#[inline(always)]
+pub(super) fn cell_lanes(x: F8) -> F8 {
+    floor_lanes(x + F8::splat(BORDER))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use durer_math::Vec3;
+
+    #[test]
+    fn lanes_are_cut_as_single_points_are() {
+        let brick = Cells::Brick { size: Vec3::new(8.0, 3.0, 4.5), mortar: 0.5 };
+        for cells in [Cells::Checker, Cells::Hexagon, brick] {
+            let cutter = Cutter::new(cells);
+            for k in 0..500 {
+                let x = |a: f64| F8(core::array::from_fn(|i| (f64::from(k * 8 + i as i32) - 1999.0) * a));
+                let p = Point3::new(x(0.037), x(0.25), x(-0.113));
+                let kinds: [usize; 8] = match cutter.kinds(p, Mask::ALL) {
+                    Kinds::Two(one) => core::array::from_fn(|i| usize::from(one.bits() >> i & 1 == 1)),
+                    Kinds::Many(kinds) => kinds.map(usize::from),
+                };
+                for (i, kind) in kinds.into_iter().enumerate() {
+                    assert_eq!(kind, cutter.kind(p.to_vec().lane(i).to_point()));
+                }
+            }
+        }
+    }
 }

@@ -1,7 +1,9 @@
 //! Unit cubes in two colours, like a chess board in space.
 
-use super::cells::cell;
-use durer_math::Point3;
+use super::cells::{cell, cell_lanes};
+use crate::lanes::{Mask, equal};
+use crate::vector::floor_lanes;
+use durer_math::{F8, Point3};
 
 /// 0 where the cube's coordinates have an even sum, else 1.
 #[inline(always)]
@@ -9,6 +11,13 @@ pub(super) fn kind(p: Point3) -> usize {
     let sum = cell(p.x) + cell(p.y) + cell(p.z);
     // Half of an odd number is not whole; cubes far beyond 2^53 have only even numbers.
     usize::from(sum * 0.5 != crate::vector::floor(sum * 0.5))
+}
+
+/// Where the kind is 1.
+#[inline(always)]
+pub(super) fn odd_lanes(p: Point3<F8>) -> Mask {
+    let half = (cell_lanes(p.x) + cell_lanes(p.y) + cell_lanes(p.z)) * 0.5;
+    !equal(half, floor_lanes(half))
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! Ramps that begin anew with each unit, and the number they look up.
 
 use super::wave::Shape;
-use crate::vector::{dot, unit};
-use durer_math::{Point3, Vec3};
+use crate::lanes::{Mask, less};
+use crate::vector::{dot, floor_lanes, unit};
+use durer_math::{F8, Point3, Vec3};
 use durer_scene::{Ramp, Value};
 
 /// A number at each point.
@@ -41,6 +42,21 @@ impl Lookup {
         let x = ramp * self.frequency + self.phase;
         let w = if x.abs() < PERIOD { x } else { x % PERIOD };
         self.shape.bend(if w < 0.0 { w + 1.0 } else { w })
+    }
+
+    /// The numbers at some points.
+    #[inline(always)]
+    pub(super) fn values(&self, p: Point3<F8>, live: Mask) -> F8 {
+        let along = dot(Vec3::<F8>::splat(self.axis), p.to_vec());
+        let ramp = less(F8::ONE, along).select(along - floor_lanes(along), along);
+        if self.frequency == 0.0 {
+            return ramp;
+        }
+        let mut w = ramp * self.frequency + F8::splat(self.phase);
+        for i in (live & !less(w.abs(), F8::splat(PERIOD))).lanes() {
+            w.0[i] %= PERIOD;
+        }
+        self.shape.bend_lanes(less(w, F8::ZERO).select(w + F8::ONE, w), live)
     }
 }
 
@@ -87,5 +103,25 @@ mod tests {
         assert!(close(gradient(-1.0, 0.0)(0.25), 0.75));
         assert!(close(gradient(1.0, 0.5)(0.25), 0.75));
         assert!(close(gradient(0.0, 0.5)(0.25), 0.25));
+    }
+
+    #[test]
+    fn lanes_have_the_values_of_single_points() {
+        for (k, wave) in [Wave::Ramp, Wave::Triangle, Wave::Sine, Wave::Scallop, Wave::Cubic, Wave::Poly(2.5)]
+            .into_iter()
+            .enumerate()
+        {
+            let (frequency, phase) = ([1.0, -2.5, 0.0][k % 3], 0.3);
+            let ramp = Ramp::Gradient(Vec3::new(0.3, 2.0, -0.7));
+            let lookup = Lookup::new(&Value { ramp, frequency, phase, wave });
+            for k in -40..40 {
+                let x = |a: f64| F8(core::array::from_fn(|i| (f64::from(k) + 0.125 * i as f64) * a));
+                let p = Point3::new(x(0.7), x(1.0), x(-0.3));
+                let values = lookup.values(p, Mask::ALL);
+                for i in 0..8 {
+                    assert_eq!(values.0[i], lookup.value(p.to_vec().lane(i).to_point()), "{wave:?}");
+                }
+            }
+        }
     }
 }

@@ -10,11 +10,12 @@ mod wave;
 
 pub(crate) use self::place::Place;
 
-use durer_math::{Affine, AffineError, Point3};
+use durer_math::{Affine, AffineError, F8, Point3};
 use durer_scene::{Colour, Pattern, Pigment, PigmentBody, Rgb, Texture, TextureBody};
 
+use crate::lanes::{Colour8, Mask, Rgb8, at_most};
 use crate::material::Finish;
-use cells::Cutter;
+use cells::{Cutter, Kinds};
 use gradient::Lookup;
 
 /// A texture of a surface.
@@ -48,12 +49,25 @@ pub(crate) enum Blend<T> {
     Map(Lookup, Box<[(f64, T)]>),
 }
 
-/// What a pattern shows at a point.
-pub(crate) enum Shown<'a, T> {
+/// Which entries of a pattern are shown at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Shown {
     /// One entry.
-    One(&'a T),
-    /// The part `k` of the second entry, and the rest of the first.
-    Two(&'a T, &'a T, f64),
+    One(usize),
+    /// The part `k` of this entry, and the rest of the one before it.
+    Two(usize, f64),
+}
+
+impl Shown {
+    /// The part of an entry that is shown.
+    pub(crate) fn part(self, entry: usize) -> f64 {
+        match self {
+            Self::One(i) if i == entry => 1.0,
+            Self::Two(i, k) if i == entry => k,
+            Self::Two(i, k) if i == entry + 1 => 1.0 - k,
+            _ => 0.0,
+        }
+    }
 }
 
 impl<T> Blend<T> {
@@ -72,28 +86,76 @@ impl<T> Blend<T> {
         })
     }
 
+    /// The entry with a number.
+    pub(crate) fn entry(&self, i: usize) -> &T {
+        match self {
+            Self::Cells(_, entries) => &entries[i],
+            Self::Map(_, entries) => &entries[i].1,
+        }
+    }
+
+    /// How many entries there are.
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Self::Cells(_, entries) => entries.len(),
+            Self::Map(_, entries) => entries.len(),
+        }
+    }
+
     /// What is shown at a point; `None` only for a pattern without entries.
     #[inline]
-    pub(crate) fn at(&self, p: Point3) -> Option<Shown<'_, T>> {
+    pub(crate) fn at(&self, p: Point3) -> Option<Shown> {
         match self {
             Self::Cells(cutter, entries) => {
-                entries.get(cutter.kind(p)).or_else(|| entries.last()).map(Shown::One)
+                Some(Shown::One(cutter.kind(p).min(entries.len().checked_sub(1)?)))
             }
             Self::Map(lookup, entries) => {
                 let w = lookup.value(p);
-                let (last_at, last) = entries.last()?;
+                let (last_at, _) = entries.last()?;
                 if w >= *last_at {
-                    return Some(Shown::One(last));
+                    return Some(Shown::One(entries.len() - 1));
                 }
                 // Entries need not be sorted: the first one not below `w` counts.
                 let i = entries.iter().position(|(at, _)| w <= *at)?;
-                let (at, entry) = &entries[i];
                 if i == 0 {
-                    return Some(Shown::One(entry));
+                    return Some(Shown::One(i));
                 }
-                let (before_at, before) = &entries[i - 1];
-                let k = (w - before_at) / (at - before_at);
-                Some(if at > before_at { Shown::Two(before, entry, k) } else { Shown::One(entry) })
+                let (before, at) = (entries[i - 1].0, entries[i].0);
+                Some(if at > before { Shown::Two(i, (w - before) / (at - before)) } else { Shown::One(i) })
+            }
+        }
+    }
+}
+
+impl Blend<Colour> {
+    /// The colours at some points.
+    #[inline(always)]
+    fn colours(&self, p: Point3<F8>, live: Mask) -> Colour8 {
+        match self {
+            Self::Cells(cutter, entries) => {
+                let last = entries.len().saturating_sub(1);
+                let entry = |i: usize| entries.get(i.min(last)).copied().unwrap_or_default();
+                match cutter.kinds(p, live) {
+                    Kinds::Two(one) => Colour8::splat(entry(1)).or(one, Colour8::splat(entry(0))),
+                    Kinds::Many(kinds) => Colour8::by_lane(live, |i| entry(usize::from(kinds[i]))),
+                }
+            }
+            Self::Map(lookup, entries) => {
+                let w = lookup.values(p, live);
+                let mut shown = Colour8::splat(Colour::default());
+                // Backwards, so that the first entry not below `w` counts.
+                for (i, &(at, colour)) in entries.iter().enumerate().rev() {
+                    let here = match i.checked_sub(1).map(|before| entries[before]) {
+                        Some((before_at, before)) if at > before_at => {
+                            let k = (w - F8::splat(before_at)) / (at - before_at);
+                            Colour8::mixed(before, colour, k)
+                        }
+                        _ => Colour8::splat(colour),
+                    };
+                    shown = here.or(at_most(w, F8::splat(at)), shown);
+                }
+                let (last_at, last) = entries.last().copied().unwrap_or_default();
+                Colour8::splat(last).or(at_most(F8::splat(last_at), w), shown)
             }
         }
     }
@@ -115,23 +177,32 @@ impl Shade {
     }
 
     /// The colour at a point.
-    #[inline]
     pub(crate) fn at(&self, p: Point3) -> Colour {
         match self {
             Self::Solid(colour) => *colour,
             Self::Colours(place, blend) => match blend.at(place.inside(p)) {
-                Some(Shown::One(colour)) => *colour,
-                Some(Shown::Two(a, b, k)) => a.mix(*b, k),
+                Some(Shown::One(i)) => *blend.entry(i),
+                Some(Shown::Two(i, k)) => blend.entry(i - 1).mix(*blend.entry(i), k),
                 None => Colour::default(),
             },
             Self::Shades(place, blend) => {
                 let p = place.inside(p);
                 match blend.at(p) {
-                    Some(Shown::One(shade)) => shade.at(p),
-                    Some(Shown::Two(a, b, k)) => a.at(p).mix(b.at(p), k),
+                    Some(Shown::One(i)) => blend.entry(i).at(p),
+                    Some(Shown::Two(i, k)) => blend.entry(i - 1).at(p).mix(blend.entry(i).at(p), k),
                     None => Colour::default(),
                 }
             }
+        }
+    }
+
+    /// The colours at some points.
+    #[inline(always)]
+    pub(crate) fn colours(&self, p: Point3<F8>, live: Mask) -> Colour8 {
+        match self {
+            Self::Solid(colour) => Colour8::splat(*colour),
+            Self::Colours(place, blend) => blend.colours(place.inside_lanes(p), live),
+            Self::Shades(..) => Colour8::by_lane(live, |i| self.at(p.to_vec().lane(i).to_point())),
         }
     }
 }
@@ -161,32 +232,44 @@ impl Paint {
         })
     }
 
-    /// Calls `f` with each stack of layers shown at a point, its weight, and the point in its space.
-    pub(crate) fn each<'a>(&'a self, p: Point3, weight: f64, f: &mut impl FnMut(&'a [Coat], f64, Point3)) {
+    /// What light that passes at some points is multiplied by.
+    #[inline(always)]
+    pub(crate) fn passed(&self, p: Point3<F8>, live: Mask) -> Rgb8 {
         match self {
-            Self::Layers(coats) => f(coats, weight, p),
-            Self::Pattern(place, blend) => {
-                let p = place.inside(p);
-                match blend.at(p) {
-                    Some(Shown::One(paint)) => paint.each(p, weight, f),
-                    Some(Shown::Two(a, b, k)) => {
-                        a.each(p, weight * (1.0 - k), f);
-                        b.each(p, weight * k, f);
-                    }
-                    None => {}
+            Self::Layers(coats) => {
+                let mut left = Rgb8::WHITE;
+                for coat in coats {
+                    left = left * coat.pigment.colours(p, live).passed();
                 }
+                left
+            }
+            Self::Pattern(..) => {
+                let mut left = Rgb8::BLACK;
+                for i in live.lanes() {
+                    left.set_lane(i, self.passed_at(p.to_vec().lane(i).to_point()));
+                }
+                left
             }
         }
     }
 
     /// What light that passes at a point is multiplied by.
-    pub(crate) fn passed(&self, p: Point3) -> Rgb {
-        let mut sum = Rgb::BLACK;
-        self.each(p, 1.0, &mut |coats, weight, p| {
-            let all = coats.iter().fold(Rgb::WHITE, |left, coat| left * coat.pigment.at(p).passed());
-            sum += all * weight;
-        });
-        sum
+    fn passed_at(&self, p: Point3) -> Rgb {
+        match self {
+            Self::Layers(coats) => {
+                coats.iter().fold(Rgb::WHITE, |left, coat| left * coat.pigment.at(p).passed())
+            }
+            Self::Pattern(place, blend) => {
+                let p = place.inside(p);
+                match blend.at(p) {
+                    Some(Shown::One(i)) => blend.entry(i).passed_at(p),
+                    Some(Shown::Two(i, k)) => {
+                        blend.entry(i - 1).passed_at(p) * (1.0 - k) + blend.entry(i).passed_at(p) * k
+                    }
+                    None => Rgb::BLACK,
+                }
+            }
+        }
     }
 }
 
@@ -231,27 +314,57 @@ mod tests {
         let mut texture = Texture::plain(pigment, durer_scene::Finish::default());
         texture.transform(&Affine::translation(Vec3::new(10.0, 0.0, 0.0)).unwrap()).unwrap();
         let paint = Paint::new(&texture, &Affine::IDENTITY, Rgb::WHITE).unwrap();
-        let mut seen = Vec::new();
-        for x in [10.5, 11.5, 12.5, 13.5, 14.5] {
-            paint.each(Point3::new(x, 0.5, 0.5), 1.0, &mut |coats, _, p| {
-                seen.push(coats[0].pigment.at(p).rgb.r);
-            });
-        }
+        let Paint::Layers(coats) = &paint else { unreachable!() };
+        let seen = [10.5, 11.5, 12.5, 13.5, 14.5].map(|x| {
+            let p = Point3::new(x, 0.5, 0.5);
+            let lanes = coats[0].pigment.colours(Vec3::<F8>::splat(p.to_vec()).to_point(), Mask::ALL);
+            assert_eq!(lanes.rgb.lane(3), coats[0].pigment.at(p).rgb);
+            coats[0].pigment.at(p).rgb.r
+        });
         assert_eq!(seen, [0.0, 0.0, 1.0, 1.0, 0.0]);
     }
 
     #[test]
+    fn lanes_have_the_colours_of_single_points() {
+        let clear = |v: f64| Colour { rgb: Rgb::new(v, 0.5, 0.25), filter: 0.3, transmit: 0.2 };
+        let entries = vec![(0.2, clear(0.0)), (0.6, clear(1.0)), (0.6, grey(0.2)), (0.8, clear(0.7))];
+        let value = Value::new(Ramp::Gradient(Vec3::new(1.0, 0.2, 0.0)));
+        let map = Pigment::colours(Pattern::Map { value, entries });
+        let hexagon = Pattern::Cells { cells: Cells::Hexagon, entries: vec![grey(0.1), clear(0.9)] };
+        let hexagon = Pigment::colours(hexagon);
+        let both = Pattern::Cells { cells: Cells::Checker, entries: vec![map.clone(), hexagon.clone()] };
+        for pigment in
+            [map, hexagon, Pigment { body: PigmentBody::Pigments(Box::new(both)), ..Pigment::default() }]
+        {
+            let shade = Shade::new(&pigment, &Affine::rotation_y(0.4).unwrap()).unwrap();
+            for k in -50..50 {
+                let x = |a: f64| F8(core::array::from_fn(|i| (f64::from(k) + 0.125 * i as f64) * a));
+                let p = Point3::new(x(0.31), x(0.2), x(-0.17));
+                let colours = shade.colours(p, Mask::ALL);
+                for i in 0..8 {
+                    let want = shade.at(p.to_vec().lane(i).to_point());
+                    let (filter, transmit) = (colours.filter.0[i], colours.transmit.0[i]);
+                    assert_eq!(Colour { rgb: colours.rgb.lane(i), filter, transmit }, want);
+                }
+            }
+        }
+    }
+
+    #[test]
     fn patterns_of_textures_split_the_weight() {
-        let one =
-            |v| std::sync::Arc::new(Texture::plain(Pigment::solid(grey(v)), durer_scene::Finish::default()));
+        let one = |v| {
+            let pigment = Pigment::solid(Colour { transmit: 1.0, ..grey(v) });
+            std::sync::Arc::new(Texture::plain(pigment, durer_scene::Finish::default()))
+        };
         let value = Value::new(Ramp::Gradient(Vec3::X));
         let texture =
             Texture::pattern(Pattern::Map { value, entries: vec![(0.0, one(1.0)), (1.0, one(2.0))] });
         let paint = Paint::new(&texture, &Affine::IDENTITY, Rgb::WHITE).unwrap();
-        let mut sum = 0.0;
-        paint.each(Point3::new(0.25, 0.0, 0.0), 1.0, &mut |coats, w, p| {
-            sum += w * coats[0].pigment.at(p).rgb.r;
-        });
-        assert_eq!(sum, 1.25);
+        let Paint::Pattern(place, blend) = &paint else { unreachable!() };
+        let p = Point3::new(0.25, 0.0, 0.0);
+        let shown = blend.at(place.inside(p)).unwrap();
+        assert_eq!([0, 1, 2].map(|i| shown.part(i)), [0.75, 0.25, 0.0]);
+        assert_eq!((Shown::One(1).part(0), Shown::One(1).part(1)), (0.0, 1.0));
+        assert_eq!(paint.passed(Vec3::<F8>::splat(p.to_vec()).to_point(), Mask::ALL), Rgb8::WHITE);
     }
 }

@@ -1,6 +1,6 @@
 //! From the world into a texture's space.
 
-use durer_math::{Affine, Point3, Vec3};
+use durer_math::{Affine, F8, Point3, Vec3};
 
 /// The inverse of a placement, for shading.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,4 +34,22 @@ impl Place {
             }
         }
     }
+    /// The same in lanes.
+    #[inline(always)]
+    pub(crate) fn inside_lanes(&self, p: Point3<F8>) -> Point3<F8> {
+        match self {
+            Self::Identity => p,
+            Self::Moved(v) => p - Vec3::<F8>::splat(*v),
+            Self::Mapped(map) => {
+                let (rows, centre) = &**map;
+                let v = p.to_vec() - Vec3::<F8>::splat(centre.to_vec());
+                Point3::new(row(&rows[0], v), row(&rows[1], v), row(&rows[2], v))
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn row(row: &[f64; 3], v: Vec3<F8>) -> F8 {
+    v.x * row[0] + v.y * row[1] + v.z * row[2]
 }

@@ -1,8 +1,9 @@
 //! The forms into which a number from 0 to 1 is bent.
 
+use crate::lanes::{Mask, less};
 use crate::power::Power;
 use core::f64::consts::{PI, TAU};
-use durer_math::elementary;
+use durer_math::{F8, elementary};
 use durer_scene::Wave;
 
 /// A [`Wave`] with its constants worked out.
@@ -37,6 +38,24 @@ impl Shape {
             Self::Scallop => elementary::sin(PI * w).abs(),
             Self::Cubic => w * w * (3.0 - 2.0 * w),
             Self::Poly(power) => power.of(w),
+        }
+    }
+
+    /// The same in lanes.
+    #[inline(always)]
+    pub(super) fn bend_lanes(self, w: F8, live: Mask) -> F8 {
+        match self {
+            Self::Ramp => w,
+            Self::Triangle => less(w, F8::splat(0.5)).select(w, F8::ONE - w) * 2.0,
+            Self::Cubic => w * w * (F8::splat(3.0) - w * 2.0),
+            Self::Poly(power) => power.lanes(w, live),
+            Self::Sine | Self::Scallop => {
+                let mut bent = F8::ZERO;
+                for i in live.lanes() {
+                    bent.0[i] = self.bend(w.0[i]);
+                }
+                bent
+            }
         }
     }
 }

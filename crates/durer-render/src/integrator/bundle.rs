@@ -1,0 +1,160 @@
+//! Bundles: rays that are followed together.
+
+use crate::lanes::{Mask, Rgb8};
+use crate::material::Mirror;
+use durer_geometry::Rays8;
+use durer_math::F8;
+use durer_math::lanes::LANES;
+
+/// As many groups of neighbouring rays share one search of the tree.
+pub(super) const TOGETHER: usize = 8;
+
+/// A group with at least so many rays that belong together is used as it is; rays of others are gathered into new groups.
+const DENSE: u32 = 6;
+
+/// What is to become of what eight rays see.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Paths8 {
+    /// The greatest channel of what the colour counts in the picture.
+    pub(super) weight: F8,
+    /// What the colour is multiplied by
+    pub(super) factor: Rgb8,
+    /// and to which sum it is added.
+    pub(super) slot: [u32; LANES],
+    /// The places in the picture, on which random numbers depend.
+    pub(super) seed: [u64; LANES],
+}
+
+/// What is the same for all rays of a bundle.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Standing<'w> {
+    /// The camera's rays have level 1.
+    pub(super) level: u32,
+    /// How many rays lead to these; those that pass unbent do not raise the level.
+    pub(super) depth: u32,
+    /// Which objects they meet.
+    pub(super) mask: u32,
+    /// How many random numbers were drawn on the way.
+    pub(super) draws: u32,
+    /// What changes the colours before they are multiplied by anything.
+    pub(super) mirror: Option<&'w Mirror>,
+    /// The media they are in, the one entered last at the end.
+    pub(super) media: Vec<u32>,
+}
+
+/// Rays with all that they need.
+#[derive(Clone, Debug)]
+pub(super) struct Bundle<'w> {
+    pub(super) rays: Vec<Rays8>,
+    pub(super) paths: Vec<Paths8>,
+    pub(super) standing: Standing<'w>,
+    loose: Loose,
+}
+
+/// The group that is being filled with single rays.
+#[derive(Clone, Copy, Debug)]
+struct Loose {
+    group: usize,
+    /// How many it has; a full one is no longer asked for.
+    filled: usize,
+}
+
+/// Whether a group is used as it is for these of its lanes.
+#[inline(always)]
+pub(super) fn is_dense(lanes: u8) -> bool {
+    lanes.count_ones() >= DENSE
+}
+
+impl Paths8 {
+    pub(super) const NONE: Self =
+        Self { weight: F8::ONE, factor: Rgb8::WHITE, slot: [0; LANES], seed: [0; LANES] };
+
+    /// Lane `i` becomes lane `j` of another eight.
+    #[inline(always)]
+    pub(super) fn copy_lane(&mut self, i: usize, from: &Self, j: usize) {
+        self.weight.0[i] = from.weight.0[j];
+        self.factor.set_lane(i, from.factor.lane(j));
+        self.slot[i] = from.slot[j];
+        self.seed[i] = from.seed[j];
+    }
+}
+
+impl<'w> Bundle<'w> {
+    /// No rays yet. The camera's rays are outside of everything.
+    pub(super) fn new() -> Self {
+        let standing = Standing { level: 1, depth: 0, mask: 0, draws: 0, mirror: None, media: Vec::new() };
+        let loose = Loose { group: 0, filled: LANES };
+        Self { rays: Vec::new(), paths: Vec::new(), standing, loose }
+    }
+
+    /// Forgets the rays.
+    pub(super) fn clear(&mut self) {
+        self.rays.clear();
+        self.paths.clear();
+        self.loose.filled = LANES;
+    }
+
+    /// Adds some of eight rays.
+    pub(super) fn add(&mut self, rays: &Rays8, paths: &Paths8, lanes: Mask) {
+        let bits = lanes.bits();
+        if is_dense(bits) {
+            self.rays.push(Rays8 { live: lanes.into(), ..*rays });
+            self.paths.push(*paths);
+            return;
+        }
+        for j in lanes.lanes() {
+            if self.loose.filled == LANES {
+                self.loose = Loose { group: self.rays.len(), filled: 0 };
+                self.rays.push(Rays8::NONE);
+                self.paths.push(Paths8::NONE);
+            }
+            let Loose { group, filled: i } = self.loose;
+            copy_lane(&mut self.rays[group], i, rays, j);
+            self.paths[group].copy_lane(i, paths, j);
+            self.loose.filled += 1;
+        }
+    }
+}
+
+/// Lane `i` becomes the ray in lane `j` of another eight.
+#[inline(always)]
+pub(super) fn copy_lane(to: &mut Rays8, i: usize, from: &Rays8, j: usize) {
+    (to.origin.x.0[i], to.origin.y.0[i], to.origin.z.0[i]) =
+        (from.origin.x.0[j], from.origin.y.0[j], from.origin.z.0[j]);
+    to.direction.set_lane(i, from.direction.lane(j));
+    to.t_max.0[i] = from.t_max.0[j];
+    to.live.0[i] = true;
+    to.source.copy_lane(i, &from.source, j);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use durer_math::Vec3;
+
+    #[test]
+    fn no_ray_is_lost_and_groups_are_dense() {
+        let mut bundle = Bundle::new();
+        let mut want = Vec::new();
+        for bits in 0..=255_u8 {
+            let tell = |i: usize| f64::from(bits) * 8.0 + i as f64;
+            let mut rays = Rays8::NONE;
+            rays.direction = Vec3::new(F8(core::array::from_fn(tell)), F8::ONE, F8::ONE);
+            let mut paths = Paths8::NONE;
+            paths.slot = core::array::from_fn(|i| tell(i) as u32);
+            let lanes = Mask::from_bits(bits);
+            bundle.add(&rays, &paths, lanes);
+            want.extend(lanes.lanes().map(|i| tell(i) as u32));
+        }
+        let mut got = Vec::new();
+        for (rays, paths) in bundle.rays.iter().zip(&bundle.paths) {
+            for i in Mask::from(rays.live).lanes() {
+                assert_eq!(rays.direction.x.0[i], f64::from(paths.slot[i]));
+                got.push(paths.slot[i]);
+            }
+        }
+        got.sort_unstable();
+        assert_eq!(got, want);
+        assert!(bundle.rays.iter().rev().skip(1).filter(|r| r.live.count() < DENSE as usize).count() <= 1);
+    }
+}

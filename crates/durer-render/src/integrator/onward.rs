@@ -1,0 +1,234 @@
+//! The rays that go on behind a surface, and those that it mirrors.
+
+use super::bundle::{Bundle, Paths8, Standing};
+use super::coats::Coats;
+use super::media::{Border, Crossing};
+use super::spot::Spot;
+use crate::lanes::{Mask, Rgb8, at_most, less};
+use crate::material::{Mirror, refract};
+use crate::stats::RayCounts;
+use crate::vector::reflect;
+use crate::world::{Look, World};
+use durer_geometry::Rays8;
+use durer_math::{F8, Isa, M8, Vec3};
+use durer_scene::mask;
+
+/// Bundles of rays that surfaces of one bundle send on.
+#[derive(Default)]
+pub(super) struct Onward<'w> {
+    /// With what they are ordered by: of what comes together in one sum, the least is followed first, whatever else is in the bundles.
+    bundles: Vec<(Order, Bundle<'w>)>,
+    /// Bundles to be used again.
+    spare: Vec<Bundle<'w>>,
+}
+
+/// Which stack of layers of a surface, and which of its rays: through it, totally reflected, or of which reflecting layer.
+type Order = (u32, u32);
+const THROUGH: u32 = 0;
+const TOTAL: u32 = 1;
+const FIRST_MIRROR: u32 = 2;
+
+/// Surfaces that look alike, met by rays of one bundle.
+pub(super) struct Part<'a, 'w> {
+    pub(super) look: &'w Look,
+    pub(super) border: Border,
+    /// The rays that met them.
+    pub(super) standing: &'a Standing<'w>,
+}
+
+impl<'w> Onward<'w> {
+    /// The bundles, the last ones to be followed first.
+    pub(super) fn take(&mut self) -> impl Iterator<Item = Bundle<'w>> {
+        self.bundles.sort_by_key(|(order, _)| core::cmp::Reverse(*order));
+        self.bundles.drain(..).map(|(_, bundle)| bundle)
+    }
+
+    /// A bundle without rays.
+    pub(super) fn empty(&mut self) -> Bundle<'w> {
+        self.spare.pop().unwrap_or_else(Bundle::new)
+    }
+
+    /// Takes back a bundle.
+    pub(super) fn give_back(&mut self, mut bundle: Bundle<'w>) {
+        bundle.clear();
+        self.spare.push(bundle);
+    }
+
+    /// The bundle for rays of a kind.
+    fn bundle(
+        &mut self,
+        order: Order,
+        standing: &Standing<'w>,
+        (level, mask, draws): (u32, u32, u32),
+        mirror: Option<&'w Mirror>,
+        media: &[u32],
+    ) -> &mut Bundle<'w> {
+        let depth = standing.depth + 1;
+        let is_it = |(o, b): &(Order, Bundle<'w>)| {
+            let s = &b.standing;
+            *o == order
+                && (s.level, s.depth, s.mask, s.draws) == (level, depth, mask, draws)
+                && s.mirror.map(core::ptr::from_ref) == mirror.map(core::ptr::from_ref)
+                && s.media == media
+        };
+        let at = self.bundles.iter().position(is_it).unwrap_or_else(|| {
+            let mut bundle = self.empty();
+            let s = &mut bundle.standing;
+            (s.level, s.depth, s.mask, s.draws, s.mirror) = (level, depth, mask, draws, mirror);
+            s.media.clear();
+            s.media.extend_from_slice(media);
+            self.bundles.push((order, bundle));
+            self.bundles.len() - 1
+        });
+        &mut self.bundles[at].1
+    }
+
+    /// Sends rays on from some spots. `stack` is the number of their stack of layers among those of the surface; `drawn` tells how many
+    /// random numbers it took.
+    pub(super) fn send(
+        &mut self,
+        (world, isa): (&'w World, Isa),
+        part: &Part<'_, 'w>,
+        coats: &Coats<'w>,
+        (stack, drawn): (u32, u32),
+        spots: &[Spot],
+        counts: &mut RayCounts,
+    ) {
+        let Part { look, border, standing } = part;
+        let draws = standing.draws + drawn;
+        if standing.level >= world.max_level {
+            return;
+        }
+        if spots.iter().any(|spot| (spot.live & !spot.passed.is_black()).any()) {
+            let bends = border.ratio != 1.0;
+            let mut media = Vec::new();
+            border.crossing.behind(look.medium, &standing.media, &mut media);
+            let as_before = (standing.level + u32::from(bends), standing.mask, draws);
+            let through = self.bundle((stack, THROUGH), standing, as_before, None, &media);
+            isa.run_in_lanes(
+                #[inline(always)]
+                || {
+                    for spot in spots {
+                        let (direction, lanes) = passing(border, spot);
+                        let weight = spot.paths.weight * spot.passed.luminance();
+                        let lanes = lanes & !at_most(weight, F8::splat(world.adc_bailout));
+                        let factor = spot.paths.factor * spot.passed * faded(world, part, spot);
+                        send(through, spot, direction, weight, factor, lanes, &mut counts.transmitted);
+                    }
+                },
+            );
+            if bends {
+                let as_mirror = (standing.level + 1, mask::MIRROR, draws);
+                let total = self.bundle((stack, TOTAL), standing, as_mirror, None, &standing.media);
+                isa.run_in_lanes(
+                    #[inline(always)]
+                    || {
+                        for spot in spots {
+                            let lanes = totally_reflected(border, spot);
+                            if lanes.any() {
+                                // Nothing passes, so the paint does not colour it.
+                                let factor = spot.paths.factor * faded(world, part, spot);
+                                let (way, weight) = (mirrored(spot), spot.paths.weight);
+                                send(total, spot, way, weight, factor, lanes, &mut counts.reflected);
+                            }
+                        }
+                    },
+                );
+            }
+        }
+        for (k, mirror) in coats.mirrors.iter().enumerate() {
+            let as_mirror = (standing.level + 1, mask::MIRROR, draws);
+            let shown = (!mirror.is_plain()).then_some(*mirror);
+            let order = (stack, FIRST_MIRROR + k as u32);
+            let reflected = self.bundle(order, standing, as_mirror, shown, &standing.media);
+            isa.run_in_lanes(
+                #[inline(always)]
+                || {
+                    for (i, spot) in spots.iter().enumerate() {
+                        let layer = coats.mirrored_at(i, k);
+                        let weight = spot.paths.weight * layer.importance;
+                        let lanes = spot.live
+                            & !layer.reflectance.is_black()
+                            & !less(weight, F8::splat(world.adc_bailout))
+                            & !totally_reflected(border, spot);
+                        if lanes.any() {
+                            let factor = spot.paths.factor * layer.reflectance;
+                            send(
+                                reflected,
+                                spot,
+                                mirrored(spot),
+                                weight,
+                                factor,
+                                lanes,
+                                &mut counts.reflected,
+                            );
+                        }
+                    }
+                },
+            );
+        }
+    }
+}
+
+/// The mirror direction.
+#[inline(always)]
+fn mirrored(spot: &Spot) -> Vec3<F8> {
+    reflect(spot.view.eye, spot.view.normal)
+}
+
+/// The direction behind the surface, and where light passes it.
+#[inline(always)]
+fn passing(border: &Border, spot: &Spot) -> (Vec3<F8>, Mask) {
+    let open = spot.live & !spot.passed.is_black();
+    if border.ratio == 1.0 {
+        return (spot.view.eye, open);
+    }
+    let (bent, passes) = refract(spot.view.eye, spot.view.normal, border.ratio);
+    (bent, open & passes)
+}
+
+/// Where light that would pass is reflected instead.
+#[inline(always)]
+fn totally_reflected(border: &Border, spot: &Spot) -> Mask {
+    if border.ratio == 1.0 {
+        return Mask::NONE;
+    }
+    let (_, passes) = refract(spot.view.eye, spot.view.normal, border.ratio);
+    spot.live & !spot.passed.is_black() & !passes
+}
+
+/// What is left of light that has come through the medium which is left.
+#[inline(always)]
+fn faded(world: &World, part: &Part<'_, '_>, spot: &Spot) -> Rgb8 {
+    match part.border.crossing {
+        Crossing::Leave { .. } => world.media[part.look.medium as usize].left_after(spot.distance, spot.live),
+        Crossing::Enter | Crossing::Touch => Rgb8::WHITE,
+    }
+}
+
+/// Adds rays that leave a spot to a bundle.
+#[inline(always)]
+fn send(
+    bundle: &mut Bundle<'_>,
+    spot: &Spot,
+    direction: Vec3<F8>,
+    weight: F8,
+    factor: Rgb8,
+    lanes: Mask,
+    count: &mut u64,
+) {
+    let bits = lanes.bits();
+    if bits == 0 {
+        return;
+    }
+    *count += u64::from(bits.count_ones());
+    let (origin, back) = spot.hits.start_towards(direction);
+    let rays = Rays8 {
+        origin,
+        direction,
+        t_max: F8::splat(f64::INFINITY),
+        live: M8::NONE,
+        source: spot.hits.sources(back),
+    };
+    bundle.add(&rays, &Paths8 { weight, factor, ..spot.paths }, lanes);
+}

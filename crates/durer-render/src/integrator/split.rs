@@ -1,0 +1,61 @@
+//! Which rays of a bundle are shaded together: those that meet surfaces that look alike, in the same way.
+
+use crate::lanes::Lanes;
+use crate::world::{Look, World};
+use durer_geometry::Hits8;
+use durer_math::lanes::LANES;
+
+/// Lanes of a group that belong together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Piece {
+    /// The number of the look, and whether the rays only touch the surface.
+    key: u32,
+    pub(super) group: u32,
+    pub(super) lanes: u8,
+}
+
+/// Adds the pieces of a group's hits.
+#[inline]
+pub(super) fn cut(world: &World, group: usize, hits: &Hits8, pieces: &mut Vec<Piece>) {
+    let mut left = hits.hit.bits();
+    let mut keys = [0_u32; LANES];
+    let mut last = (u32::MAX, u32::MAX, 0);
+    for i in Lanes(left) {
+        let (object, primitive) = (hits.object[i], hits.primitive[i]);
+        if (object, primitive) != (last.0, last.1) {
+            last = (object, primitive, world.look_number(object, primitive) << 1);
+        }
+        keys[i] = last.2 | u32::from(hits.touching.0[i]);
+    }
+    while left != 0 {
+        let key = keys[left.trailing_zeros() as usize];
+        let same = (0..LANES).fold(0, |bits, i| bits | u8::from(keys[i] == key) << i);
+        pieces.push(Piece { key, group: group as u32, lanes: same & left });
+        left &= !same;
+    }
+}
+
+/// Brings pieces that belong together side by side.
+pub(super) fn sort(pieces: &mut [Piece]) {
+    // Most bundles meet one look.
+    if pieces.windows(2).any(|w| w[0].key != w[1].key) {
+        pieces.sort_unstable();
+    }
+}
+
+impl Piece {
+    /// Whether two pieces are shaded together.
+    #[inline]
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        self.key == other.key
+    }
+
+    pub(super) fn look<'w>(&self, world: &'w World) -> &'w Look {
+        &world.looks[(self.key >> 1) as usize]
+    }
+
+    /// The rays only touch the surface.
+    pub(super) fn is_grazing(&self) -> bool {
+        self.key & 1 == 1
+    }
+}

@@ -1,0 +1,161 @@
+//! Eight points of surfaces that look alike, gathered to be shaded together.
+
+use super::bundle::{Bundle, Paths8, is_dense};
+use super::split::Piece;
+use crate::lanes::{Lanes, Mask, Rgb8, less};
+use crate::material::View;
+use crate::vector::{dot, length};
+use durer_geometry::{Hits8, Rays8};
+use durer_math::lanes::LANES;
+use durer_math::{F8, Isa, Point3, Vec3};
+
+/// Eight points being shaded.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spot {
+    /// Which lanes hold a point.
+    pub(super) live: Mask,
+    /// The points.
+    pub(super) hits: Hits8,
+    /// What becomes of their colours.
+    pub(super) paths: Paths8,
+    /// How they are looked at; before [`face`] the eye is the ray's direction.
+    pub(super) view: View,
+    /// How far the rays came.
+    pub(super) distance: F8,
+    /// The points in the space of their paint.
+    pub(super) inside: Point3<F8>,
+    /// What is seen so far.
+    pub(super) sum: Rgb8,
+    /// What the layers so far let pass.
+    pub(super) passed: Rgb8,
+}
+
+impl Spot {
+    const NONE: Self = Self {
+        live: Mask::NONE,
+        hits: Hits8::NONE,
+        paths: Paths8::NONE,
+        view: View { eye: Rays8::NONE.direction, normal: Hits8::NONE.ns, cosine: F8::ONE },
+        distance: F8::ZERO,
+        inside: Hits8::NONE.p,
+        sum: Rgb8::BLACK,
+        passed: Rgb8::WHITE,
+    };
+
+    /// Lane `i` becomes lane `j` of what a group of rays met.
+    #[inline(always)]
+    fn copy_met(&mut self, i: usize, (hits, direction, paths): (&Hits8, Vec3<F8>, &Paths8), j: usize) {
+        let to = &mut self.hits;
+        to.t.0[i] = hits.t.0[j];
+        (to.p.x.0[i], to.p.y.0[i], to.p.z.0[i]) = (hits.p.x.0[j], hits.p.y.0[j], hits.p.z.0[j]);
+        to.ng.set_lane(i, hits.ng.lane(j));
+        to.ns.set_lane(i, hits.ns.lane(j));
+        to.off.0[i] = hits.off.0[j];
+        to.source.copy_lane(i, &hits.source, j);
+        self.view.eye.set_lane(i, direction.lane(j));
+        self.paths.copy_lane(i, paths, j);
+    }
+
+    /// Lane `i` becomes lane `j` of another eight, of which nothing was seen yet.
+    fn copy_lane(&mut self, i: usize, from: &Self, j: usize) {
+        self.copy_met(i, (&from.hits, from.view.eye, &from.paths), j);
+        self.view.normal.set_lane(i, from.view.normal.lane(j));
+        self.view.cosine.0[i] = from.view.cosine.0[j];
+        self.distance.0[i] = from.distance.0[j];
+        let p = &mut self.inside;
+        (p.x.0[i], p.y.0[i], p.z.0[i]) = (from.inside.x.0[j], from.inside.y.0[j], from.inside.z.0[j]);
+    }
+}
+
+/// Spots in use, before others that are kept to be used again.
+#[derive(Default)]
+pub(super) struct Spots {
+    spots: Vec<Spot>,
+    used: usize,
+}
+
+impl Spots {
+    /// One more, in which nothing is live and anything may be.
+    #[inline(always)]
+    fn next(&mut self) -> &mut Spot {
+        if self.used == self.spots.len() {
+            self.spots.push(Spot::NONE);
+        }
+        self.used += 1;
+        let spot = &mut self.spots[self.used - 1];
+        spot.live = Mask::NONE;
+        spot
+    }
+
+    /// Adds some lanes of some groups: dense groups by `whole(to, group)`, single lanes by `copy(to, i, group, j)`.
+    #[inline(always)]
+    fn pack(
+        &mut self,
+        lists: impl Iterator<Item = (usize, u8)>,
+        whole: impl Fn(&mut Spot, usize),
+        copy: impl Fn(&mut Spot, usize, usize, usize),
+    ) {
+        self.used = 0;
+        let (mut open, mut filled) = (0, LANES);
+        for (group, lanes) in lists {
+            if is_dense(lanes) {
+                let spot = self.next();
+                whole(spot, group);
+                spot.live = Mask::from_bits(lanes);
+                continue;
+            }
+            for j in Lanes(lanes) {
+                if filled == LANES {
+                    (open, filled) = (self.used, 0);
+                    self.next();
+                }
+                let spot = &mut self.spots[open];
+                copy(spot, filled, group, j);
+                spot.live.set(filled);
+                filled += 1;
+            }
+        }
+    }
+
+    /// Gathers what some rays of a bundle met. Their directions stand for the eye until [`face`] has looked at them.
+    pub(super) fn gather(&mut self, pieces: &[Piece], bundle: &Bundle<'_>, hits: &[Hits8]) -> &mut [Spot] {
+        let met = |g: usize| (&hits[g], bundle.rays[g].direction, &bundle.paths[g]);
+        let whole = |to: &mut Spot, g: usize| {
+            to.hits = hits[g];
+            to.view.eye = bundle.rays[g].direction;
+            to.paths = bundle.paths[g];
+        };
+        let lists = pieces.iter().map(|p| (p.group as usize, p.lanes));
+        self.pack(lists, whole, |to, i, g, j| to.copy_met(i, met(g), j));
+        &mut self.spots[..self.used]
+    }
+
+    /// Gathers some lanes of some spots, of which nothing was seen yet.
+    pub(super) fn gather_again(
+        &mut self,
+        lists: impl Iterator<Item = (usize, u8)>,
+        from: &[Spot],
+    ) -> &mut [Spot] {
+        self.pack(lists, |to, g| *to = from[g], |to, i, g, j| to.copy_lane(i, &from[g], j));
+        &mut self.spots[..self.used]
+    }
+}
+
+/// Works out how the points are looked at.
+pub(super) fn face(isa: Isa, spots: &mut [Spot]) {
+    isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            for Spot { hits, view, distance, inside, .. } in spots {
+                let speed = length(view.eye);
+                let eye = view.eye * (F8::ONE / speed);
+                let slope = dot(hits.ns, eye);
+                let normal = less(F8::ZERO, slope).select3(-hits.ns, hits.ns);
+                // Rounding does not make it more than 1.
+                *view = View { eye, normal, cosine: slope.abs().min(F8::ONE) };
+                *distance = hits.t * speed;
+                *inside = hits.p;
+            }
+        },
+    );
+}
