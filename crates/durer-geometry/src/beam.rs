@@ -1,7 +1,7 @@
 //! Rays that belong together share one walk through the tree.
 
 use crate::best::Best;
-use crate::geometry::{Beside, Geometry, slots};
+use crate::geometry::{Geometry, slots};
 use crate::ids::{EVERYTHING, Id};
 use crate::query::{any_in, closest_in};
 use crate::{Hit, walk::Walk};
@@ -45,16 +45,8 @@ impl Beam {
 }
 
 impl Geometry {
-    /// The surface that a ray leaves, if it is one that no tree holds.
-    #[inline]
-    pub fn unbounded_source(&self, ray: &Ray) -> Option<Source> {
-        let source = ray.source().filter(|s| s.instance == 0)?;
-        let holds = |b: &Beside| b.arena == source.arena && slots(&b.leaf()).contains(&source.index);
-        self.beside.iter().any(holds).then_some(source)
-    }
-
     /// What the rays of a bundle may meet; `None` if that is so much that each ray should walk through the tree by itself. They all come from
-    /// the same side of `source` ([`Geometry::unbounded_source`]), if there is one.
+    /// the same side of `source`, if there is one.
     pub fn beam(&self, shaft: &Shaft, source: Option<Source>) -> Option<Beam> {
         let mut beam = Beam::default();
         let candidates = &mut beam.candidates;

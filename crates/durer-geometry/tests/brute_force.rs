@@ -257,7 +257,7 @@ fn bundles_that_leave_a_plane() {
         let wide = Vec3::new(0.1, 0.1, 0.1);
         let shaft = Shaft::between(Aabb::centred(ray.origin, wide), Aabb::centred(target, wide));
         assert!(shaft.holds(&ray));
-        let source = world.unbounded_source(&ray);
+        let source = ray.source();
         assert!(source.is_some());
         let beam = world.beam(&shaft, source).unwrap();
         assert_eq!(beam.is_empty(), beam_is_empty, "{height}");

@@ -32,6 +32,16 @@ fn zip<A: Copy, B: Copy, R>(a: [A; LANES], b: [B; LANES], f: impl Fn(A, B) -> R)
     )
 }
 
+/// The numbers of the bits that are set, ascending.
+#[inline(always)]
+pub fn set_bits(mut bits: u8) -> impl Iterator<Item = usize> {
+    core::iter::from_fn(move || {
+        let i = bits.trailing_zeros() as usize;
+        bits &= bits.wrapping_sub(1);
+        (i < LANES).then_some(i)
+    })
+}
+
 impl F8 {
     /// Zero in every lane.
     pub const ZERO: Self = Self([0.0; LANES]);
@@ -108,6 +118,12 @@ impl F8 {
         M8(zip(self.0, other.0, |a, b| all_bits(a <= b)))
     }
 
+    /// Where `self == other`.
+    #[inline(always)]
+    pub fn eq(self, other: Self) -> M8 {
+        M8(zip(self.0, other.0, |a, b| all_bits(a == b)))
+    }
+
     /// Where `self > other`.
     #[inline(always)]
     pub fn gt(self, other: Self) -> M8 {
@@ -172,6 +188,15 @@ impl M8 {
         ))
     }
 
+    /// `x` where the mask is set, zero elsewhere.
+    #[inline(always)]
+    pub fn keep(self, x: F8) -> F8 {
+        F8(core::array::from_fn(
+            #[inline(always)]
+            |i| f64::from_bits(x.0[i].to_bits() & self.0[i]),
+        ))
+    }
+
     /// As [`M8::select`], for vectors.
     #[inline(always)]
     pub fn select3(self, yes: Vec3<F8>, no: Vec3<F8>) -> Vec3<F8> {
@@ -219,12 +244,7 @@ impl M8 {
     /// The lanes that are set, in order.
     #[inline(always)]
     pub fn lanes(self) -> impl Iterator<Item = usize> {
-        let mut bits = self.bits();
-        core::iter::from_fn(move || {
-            let i = bits.trailing_zeros() as usize;
-            bits &= bits.wrapping_sub(1);
-            (i < LANES).then_some(i)
-        })
+        set_bits(self.bits())
     }
 
     /// How many lanes are set.
@@ -375,6 +395,13 @@ mod tests {
     }
 
     #[test]
+    fn comparisons_are_those_of_numbers() {
+        let a = F8([1.0, 2.0, 3.0, f64::NAN, 0.0, -0.0, f64::INFINITY, -1.0]);
+        let b = F8([2.0, 2.0, 2.0, 2.0, -0.0, 0.0, f64::INFINITY, f64::NAN]);
+        assert_eq!([a.lt(b), a.le(b), a.eq(b)].map(M8::bits), [0b1, 0b111_0011, 0b111_0010]);
+    }
+
+    #[test]
     fn masks_and_bits_are_two_ways_to_say_the_same() {
         for bits in 0..=255_u8 {
             let mask = M8::from_bits(bits);
@@ -386,6 +413,7 @@ mod tests {
             assert_eq!((mask.any(), mask.all()), (bits != 0, bits == 255));
             let chosen = mask.select(F8::ONE, F8::ZERO);
             assert!((0..LANES).all(|i| (chosen.0[i] == 1.0) == mask.lane(i)));
+            assert_eq!(chosen, mask.keep(F8::ONE));
         }
         assert_eq!([0, 3, 8].map(|n| M8::first(n).bits()), [0, 7, 255]);
     }

@@ -1,8 +1,8 @@
 //! What fills objects, made ready.
 
-use crate::lanes::{Mask, Rgb8};
+use crate::lanes::Rgb8;
 use crate::power::Power;
-use durer_math::{F8, elementary};
+use durer_math::{F8, M8, elementary};
 use durer_scene::{Interior, Rgb};
 
 /// What fills an object.
@@ -39,7 +39,7 @@ impl Medium {
 
     /// What is left of light after some distances in the medium.
     #[inline(always)]
-    pub(crate) fn left_after(&self, distance: F8, live: Mask) -> Rgb8 {
+    pub(crate) fn left_after(&self, distance: F8, live: M8) -> Rgb8 {
         let Some(fade) = &self.fade else { return Rgb8::WHITE };
         let depth = distance / fade.distance;
         let colour = Rgb8::splat(fade.colour);
@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     fn left_after(interior: &Interior, distance: f64) -> Rgb {
-        Medium::new(interior).left_after(F8::splat(distance), Mask::ALL).lane(5)
+        Medium::new(interior).left_after(F8::splat(distance), M8::ALL).lane(5)
     }
 
     #[test]

@@ -1,7 +1,6 @@
 //! Powers with a fixed exponent, cheap where the exponent is.
 
-use crate::lanes::Mask;
-use durer_math::{F8, elementary};
+use durer_math::{F8, M8, elementary};
 
 /// `x -> x^e` for `x >= 0` and one `e`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +42,7 @@ impl Power {
 
     /// The same in lanes; those that are not live hold anything.
     #[inline(always)]
-    pub(crate) fn lanes(self, x: F8, live: Mask) -> F8 {
+    pub(crate) fn lanes(self, x: F8, live: M8) -> F8 {
         match self {
             Self::Zero => F8::ONE,
             Self::One => x,
@@ -91,7 +90,7 @@ mod tests {
         let x = F8([0.0, 0.1, 0.25, 0.5, 0.99, 0.999_9, 1.0, 1.5]);
         for e in [0.0, 1.0, 2.0, 7.0, 40.0, 1000.0, 4097.0, 0.5, 2.5] {
             let power = Power::new(e);
-            assert_eq!(power.lanes(x, Mask::ALL), x.map(|x| power.of(x)), "{e}");
+            assert_eq!(power.lanes(x, M8::ALL), x.map(|x| power.of(x)), "{e}");
         }
     }
 }

@@ -240,6 +240,18 @@ impl Bounds8 {
     }
 }
 
+/// The source of all rays, if they have the same and start on the same side of it.
+fn common_source(rays: &[Rays8]) -> Option<Source> {
+    let source = rays.iter().find_map(|r| r.live.first_set().map(|i| r.source.lane(i)))??;
+    let (slot, back) = (slot_number(source.arena, source.index), source.side == RaySide::Back);
+    let shared = |r: &Rays8| {
+        let same =
+            |i: usize| r.source.slot[i] == slot && r.source.instance[i] == 0 && r.source.back.lane(i) == back;
+        r.live.lanes().all(same)
+    };
+    (source.instance == 0 && rays.iter().all(shared)).then_some(source)
+}
+
 /// The lanes that wait with these numbers.
 #[inline(never)]
 fn together(isa: Isa, waiting: &M8, (number, n): (&F8, f64), (face, f): (&F8, f64)) -> M8 {
@@ -276,7 +288,7 @@ impl Geometry {
         } else {
             Shaft::between(start, end)
         };
-        self.beam(&shaft, None)
+        self.beam(&shaft, common_source(rays))
     }
 
     /// Puts down what each ray sees first, as [`Geometry::seen`] answers. `beam` holds what these rays may meet, if that is known.

@@ -1,10 +1,10 @@
 //! Bundles: rays that are followed together.
 
-use crate::lanes::{Mask, Rgb8};
+use crate::lanes::Rgb8;
 use crate::material::Mirror;
 use durer_geometry::Rays8;
-use durer_math::F8;
 use durer_math::lanes::LANES;
+use durer_math::{F8, M8};
 
 /// As many groups of neighbouring rays share one search of the tree.
 pub(super) const TOGETHER: usize = 8;
@@ -95,10 +95,10 @@ impl<'w> Bundle<'w> {
     }
 
     /// Adds some of eight rays.
-    pub(super) fn add(&mut self, rays: &Rays8, paths: &Paths8, lanes: Mask) {
+    pub(super) fn add(&mut self, rays: &Rays8, paths: &Paths8, lanes: M8) {
         let bits = lanes.bits();
         if is_dense(bits) {
-            self.rays.push(Rays8 { live: lanes.into(), ..*rays });
+            self.rays.push(Rays8 { live: lanes, ..*rays });
             self.paths.push(*paths);
             return;
         }
@@ -123,7 +123,7 @@ pub(super) fn copy_lane(to: &mut Rays8, i: usize, from: &Rays8, j: usize) {
         (from.origin.x.0[j], from.origin.y.0[j], from.origin.z.0[j]);
     to.direction.set_lane(i, from.direction.lane(j));
     to.t_max.0[i] = from.t_max.0[j];
-    to.live.0[i] = true;
+    to.live.set_lane(i, true);
     to.source.copy_lane(i, &from.source, j);
 }
 
@@ -142,13 +142,13 @@ mod tests {
             rays.direction = Vec3::new(F8(core::array::from_fn(tell)), F8::ONE, F8::ONE);
             let mut paths = Paths8::NONE;
             paths.slot = core::array::from_fn(|i| tell(i) as u32);
-            let lanes = Mask::from_bits(bits);
+            let lanes = M8::from_bits(bits);
             bundle.add(&rays, &paths, lanes);
             want.extend(lanes.lanes().map(|i| tell(i) as u32));
         }
         let mut got = Vec::new();
         for (rays, paths) in bundle.rays.iter().zip(&bundle.paths) {
-            for i in Mask::from(rays.live).lanes() {
+            for i in rays.live.lanes() {
                 assert_eq!(rays.direction.x.0[i], f64::from(paths.slot[i]));
                 got.push(paths.slot[i]);
             }

@@ -5,7 +5,7 @@
 
 use super::media::Border;
 use super::spot::Spot;
-use crate::lanes::{Rgb8, at_most};
+use crate::lanes::Rgb8;
 use crate::material::{Finish, Mirror};
 use crate::sampler::random;
 use crate::texture::Coat;
@@ -79,7 +79,7 @@ impl<'w> Coats<'w> {
         let mut passed = Rgb8::WHITE;
         let mut sum = Rgb8::BLACK;
         for coat in layers.iter().rev() {
-            live = live & !at_most(passed.luminance(), F8::splat(world.adc_bailout));
+            live &= !passed.luminance().le(F8::splat(world.adc_bailout));
             let paint = coat.pigment.colours(spot.inside, live);
             let finish = &coat.finish;
             let colour = paint.rgb;

@@ -3,7 +3,7 @@
 use super::coats::Coats;
 use super::shadow::{Shade, Shadows};
 use super::spot::Spot;
-use crate::lanes::{Mask, Rgb8, at_most, equal, less};
+use crate::lanes::Rgb8;
 use crate::light::Lamp;
 use crate::material::Incidence;
 use crate::progress::Progress;
@@ -64,15 +64,15 @@ impl<'w> Lamps<'w> {
 fn shine(lamp: &Lamp, coats: &Coats<'_>, i: usize, spot: &Spot, (double, behind): (bool, bool)) -> Shade {
     let beamed = lamp.at(spot.hits.p, spot.live);
     let cosine = dot(beamed.to_light, spot.view.normal);
-    let lit = if behind { beamed.lit } else { beamed.lit & !at_most(cosine, F8::ZERO) };
-    let lit = lit & !equal(beamed.strength, F8::ZERO);
+    let lit = if behind { beamed.lit } else { beamed.lit & !cosine.le(F8::ZERO) };
+    let lit = lit & !beamed.strength.eq(F8::ZERO);
     if !lit.any() {
         return Shade::NONE;
     }
     let highlit = match (lamp.shadowless, double) {
-        (true, _) => Mask::NONE,
+        (true, _) => M8::NONE,
         (false, true) => lit,
-        (false, false) => lit & less(F8::ZERO, cosine),
+        (false, false) => lit & (F8::ZERO).lt(cosine),
     };
     let at = Incidence { live: lit, to_light: beamed.to_light, cosine, double };
     let shiny = Incidence { live: highlit, ..at };
@@ -91,7 +91,7 @@ fn shine(lamp: &Lamp, coats: &Coats<'_>, i: usize, spot: &Spot, (double, behind)
         origin,
         direction: beamed.target - origin,
         t_max: F8::ONE,
-        live: M8::from(needed & beamed.blockable),
+        live: needed & beamed.blockable,
         source: spot.hits.sources(back),
     };
     Shade { light, rays, target: beamed.target }

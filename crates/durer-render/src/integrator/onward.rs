@@ -4,7 +4,7 @@ use super::bundle::{Bundle, Paths8, Standing};
 use super::coats::Coats;
 use super::media::{Border, Crossing};
 use super::spot::Spot;
-use crate::lanes::{Mask, Rgb8, at_most, less};
+use crate::lanes::Rgb8;
 use crate::material::{Mirror, refract};
 use crate::stats::RayCounts;
 use crate::vector::reflect;
@@ -111,7 +111,7 @@ impl<'w> Onward<'w> {
                     for spot in spots {
                         let (direction, lanes) = passing(border, spot);
                         let weight = spot.paths.weight * spot.passed.luminance();
-                        let lanes = lanes & !at_most(weight, F8::splat(world.adc_bailout));
+                        let lanes = lanes & !weight.le(F8::splat(world.adc_bailout));
                         let factor = spot.paths.factor * spot.passed * faded(world, part, spot);
                         send(through, spot, direction, weight, factor, lanes, &mut counts.transmitted);
                     }
@@ -149,7 +149,7 @@ impl<'w> Onward<'w> {
                         let weight = spot.paths.weight * layer.importance;
                         let lanes = spot.live
                             & !layer.reflectance.is_black()
-                            & !less(weight, F8::splat(world.adc_bailout))
+                            & !weight.lt(F8::splat(world.adc_bailout))
                             & !totally_reflected(border, spot);
                         if lanes.any() {
                             let factor = spot.paths.factor * layer.reflectance;
@@ -178,7 +178,7 @@ fn mirrored(spot: &Spot) -> Vec3<F8> {
 
 /// The direction behind the surface, and where light passes it.
 #[inline(always)]
-fn passing(border: &Border, spot: &Spot) -> (Vec3<F8>, Mask) {
+fn passing(border: &Border, spot: &Spot) -> (Vec3<F8>, M8) {
     let open = spot.live & !spot.passed.is_black();
     if border.ratio == 1.0 {
         return (spot.view.eye, open);
@@ -189,9 +189,9 @@ fn passing(border: &Border, spot: &Spot) -> (Vec3<F8>, Mask) {
 
 /// Where light that would pass is reflected instead.
 #[inline(always)]
-fn totally_reflected(border: &Border, spot: &Spot) -> Mask {
+fn totally_reflected(border: &Border, spot: &Spot) -> M8 {
     if border.ratio == 1.0 {
-        return Mask::NONE;
+        return M8::NONE;
     }
     let (_, passes) = refract(spot.view.eye, spot.view.normal, border.ratio);
     spot.live & !spot.passed.is_black() & !passes
@@ -214,7 +214,7 @@ fn send(
     direction: Vec3<F8>,
     weight: F8,
     factor: Rgb8,
-    lanes: Mask,
+    lanes: M8,
     count: &mut u64,
 ) {
     let bits = lanes.bits();

@@ -4,7 +4,7 @@ use super::bundle::{Bundle, Paths8, TOGETHER};
 use super::media::Crossing;
 use super::split::{Piece, cut, sort};
 use super::spot::{Spot, Spots};
-use crate::lanes::{Mask, Rgb8};
+use crate::lanes::Rgb8;
 use crate::progress::Progress;
 use crate::stats::RayCounts;
 use crate::vector::{dot, length};
@@ -90,11 +90,11 @@ impl<'w> Shadows<'w> {
                 }
                 let met = world.geometry().any_by_lanes(beam.as_ref(), rays, mask::SHADOW);
                 if met.any() {
-                    *light = light.kept(!Mask::from(met));
+                    *light = light.kept(!met);
                     rays.live &= !met;
                 }
                 if world.has_clear_shadows && rays.live.any() {
-                    *hits = world.geometry().seen_by_lanes(beam.as_ref(), rays, mask::CLEAR_SHADOW);
+                    world.geometry().seen_by_lanes(beam.as_ref(), rays, mask::CLEAR_SHADOW, hits);
                 }
             }
         }
@@ -132,11 +132,18 @@ impl<'w> Shadows<'w> {
                 let beam = world.geometry().beam_of(rays);
                 for rays in rays {
                     counts.shadow += rays.live.count() as u64;
-                    self.hits.push(world.geometry().seen_by_lanes(beam.as_ref(), rays, mask::CLEAR_SHADOW));
+                    self.hits.push(Hits8::NONE);
+                    let last = self.hits.len() - 1;
+                    world.geometry().seen_by_lanes(
+                        beam.as_ref(),
+                        rays,
+                        mask::CLEAR_SHADOW,
+                        &mut self.hits[last],
+                    );
                 }
             }
             for ((rays, paths), hits) in bundle.rays.iter().zip(&bundle.paths).zip(&self.hits) {
-                settle(&mut self.light, paths, (rays.live & !hits.hit).into());
+                settle(&mut self.light, paths, rays.live & !hits.hit);
             }
             self.cross((world, isa), &bundle);
             self.spare.push(bundle);
@@ -185,7 +192,7 @@ impl<'w> Shadows<'w> {
 
 /// What is left of the light on some rays behind the surfaces that they meet; the answer tells where anything is.
 #[inline(always)]
-fn pass(world: &World, look: &Look, crossing: Crossing, spot: &mut Spot) -> Mask {
+fn pass(world: &World, look: &Look, crossing: Crossing, spot: &mut Spot) -> M8 {
     let direction = spot.view.eye;
     let mut left = spot.paths.factor * world.paints[look.paint as usize].passed(spot.hits.p, spot.live);
     let goes_on = spot.live & !left.is_black();
@@ -216,7 +223,7 @@ fn targets_of(spot: &Spot, targets: &[Point3<F8>]) -> Point3<F8> {
 
 /// Some rays have arrived, or nothing is left of their light.
 #[inline(always)]
-fn settle(light: &mut [Rgb8], paths: &Paths8, lanes: Mask) {
+fn settle(light: &mut [Rgb8], paths: &Paths8, lanes: M8) {
     for i in lanes.lanes() {
         let slot = paths.slot[i] as usize;
         let (group, j) = (&mut light[slot / LANES], slot % LANES);

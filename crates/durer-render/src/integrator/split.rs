@@ -1,9 +1,8 @@
 //! Which rays of a bundle are shaded together: those that meet surfaces that look alike, in the same way.
 
-use crate::lanes::Lanes;
 use crate::world::{Look, World};
 use durer_geometry::Hits8;
-use durer_math::lanes::LANES;
+use durer_math::lanes::{LANES, set_bits};
 
 /// Lanes of a group that belong together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -20,12 +19,12 @@ pub(super) fn cut(world: &World, group: usize, hits: &Hits8, pieces: &mut Vec<Pi
     let mut left = hits.hit.bits();
     let mut keys = [0_u32; LANES];
     let mut last = (u32::MAX, u32::MAX, 0);
-    for i in Lanes(left) {
+    for i in set_bits(left) {
         let (object, primitive) = (hits.object[i], hits.primitive[i]);
         if (object, primitive) != (last.0, last.1) {
             last = (object, primitive, world.look_number(object, primitive) << 1);
         }
-        keys[i] = last.2 | u32::from(hits.touching.0[i]);
+        keys[i] = last.2 | u32::from(hits.touching.lane(i));
     }
     while left != 0 {
         let key = keys[left.trailing_zeros() as usize];

@@ -2,18 +2,18 @@
 
 use super::bundle::{Bundle, Paths8, is_dense};
 use super::split::Piece;
-use crate::lanes::{Lanes, Mask, Rgb8, less};
+use crate::lanes::Rgb8;
 use crate::material::View;
 use crate::vector::{dot, length};
 use durer_geometry::{Hits8, Rays8};
-use durer_math::lanes::LANES;
-use durer_math::{F8, Isa, Point3, Vec3};
+use durer_math::lanes::{LANES, set_bits};
+use durer_math::{F8, Isa, M8, Point3, Vec3};
 
 /// Eight points being shaded.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spot {
     /// Which lanes hold a point.
-    pub(super) live: Mask,
+    pub(super) live: M8,
     /// The points.
     pub(super) hits: Hits8,
     /// What becomes of their colours.
@@ -32,7 +32,7 @@ pub(super) struct Spot {
 
 impl Spot {
     const NONE: Self = Self {
-        live: Mask::NONE,
+        live: M8::NONE,
         hits: Hits8::NONE,
         paths: Paths8::NONE,
         view: View { eye: Rays8::NONE.direction, normal: Hits8::NONE.ns, cosine: F8::ONE },
@@ -83,7 +83,7 @@ impl Spots {
         }
         self.used += 1;
         let spot = &mut self.spots[self.used - 1];
-        spot.live = Mask::NONE;
+        spot.live = M8::NONE;
         spot
     }
 
@@ -101,17 +101,17 @@ impl Spots {
             if is_dense(lanes) {
                 let spot = self.next();
                 whole(spot, group);
-                spot.live = Mask::from_bits(lanes);
+                spot.live = M8::from_bits(lanes);
                 continue;
             }
-            for j in Lanes(lanes) {
+            for j in set_bits(lanes) {
                 if filled == LANES {
                     (open, filled) = (self.used, 0);
                     self.next();
                 }
                 let spot = &mut self.spots[open];
                 copy(spot, filled, group, j);
-                spot.live.set(filled);
+                spot.live.set_lane(filled, true);
                 filled += 1;
             }
         }
@@ -150,7 +150,7 @@ pub(super) fn face(isa: Isa, spots: &mut [Spot]) {
                 let speed = length(view.eye);
                 let eye = view.eye * (F8::ONE / speed);
                 let slope = dot(hits.ns, eye);
-                let normal = less(F8::ZERO, slope).select3(-hits.ns, hits.ns);
+                let normal = (F8::ZERO).lt(slope).select3(-hits.ns, hits.ns);
                 // Rounding does not make it more than 1.
                 *view = View { eye, normal, cosine: slope.abs().min(F8::ONE) };
                 *distance = hits.t * speed;

@@ -18,7 +18,7 @@ use super::onward::{Onward, Part};
 use super::split::{Piece, cut, sort};
 use super::spot::{Spot, Spots, face};
 use crate::camera::Camera;
-use crate::lanes::{Mask, Rgb8, equal};
+use crate::lanes::Rgb8;
 use crate::material::Mirror;
 use crate::progress::Progress;
 use crate::sampler::Place;
@@ -168,7 +168,7 @@ impl<'w> Whitted<'w> {
         let mut apart: Vec<Bundle<'w>> = Vec::new();
         let mut media = Vec::new();
         for (rays, paths) in all.rays.iter().zip(&all.paths) {
-            for i in Mask::from(rays.live).lanes() {
+            for i in rays.live.lanes() {
                 media.clear();
                 self.world.media_at(rays.lane(i).origin, &mut media);
                 let known = apart.iter().position(|b| b.standing.media == media);
@@ -178,7 +178,7 @@ impl<'w> Whitted<'w> {
                     apart.push(bundle);
                     apart.len() - 1
                 });
-                apart[at].add(rays, paths, Mask::from_bits(1 << i));
+                apart[at].add(rays, paths, M8::from_bits(1 << i));
             }
         }
         self.tasks.extend(apart.into_iter().map(Task::Follow));
@@ -195,7 +195,7 @@ impl<'w> Whitted<'w> {
             let first = self.sums.len();
             let mut to = Vec::new();
             for (rays, paths) in bundle.rays.iter().zip(&mut bundle.paths) {
-                for i in Mask::from(rays.live).lanes() {
+                for i in rays.live.lanes() {
                     to.push((paths.slot[i], paths.factor.lane(i)));
                     paths.slot[i] = (first + to.len() - 1) as u32;
                 }
@@ -242,14 +242,21 @@ impl<'w> Whitted<'w> {
                 continue;
             }
             for rays in rays {
-                self.hits.push(world.geometry().seen_by_lanes(beam.as_ref(), rays, bundle.standing.mask));
+                self.hits.push(Hits8::NONE);
+                let last = self.hits.len() - 1;
+                world.geometry().seen_by_lanes(
+                    beam.as_ref(),
+                    rays,
+                    bundle.standing.mask,
+                    &mut self.hits[last],
+                );
             }
         }
         let background = Rgb8::splat(world.background);
         for (group, hits) in self.hits.iter().enumerate() {
             let missed = bundle.rays[group].live & !hits.hit;
             if missed.any() {
-                add(&mut self.sums, &bundle.paths[group], background, missed.into());
+                add(&mut self.sums, &bundle.paths[group], background, missed);
             }
             cut(world, group, hits, &mut self.pieces);
         }
@@ -277,7 +284,7 @@ impl<'w> Whitted<'w> {
         let mut shown = Vec::new();
         for spot in spots {
             let p = spot.inside.to_vec();
-            let at = |i| if spot.live.has(i) { blend.at(p.lane(i).to_point()) } else { None };
+            let at = |i| if spot.live.lane(i) { blend.at(p.lane(i).to_point()) } else { None };
             shown.push(core::array::from_fn::<_, LANES, _>(at));
         }
         let mut some = Spots::default();
@@ -287,7 +294,7 @@ impl<'w> Whitted<'w> {
             let mut lists = Vec::new();
             for (group, spot) in weighed.iter_mut().enumerate() {
                 let weight = F8(weights(group));
-                let lanes = spot.live & !equal(weight, F8::ZERO);
+                let lanes = spot.live & !weight.eq(F8::ZERO);
                 spot.paths.factor = spot.paths.factor * weight;
                 lists.push((group, lanes.bits()));
             }
@@ -322,7 +329,7 @@ impl<'w> Whitted<'w> {
 
 /// Adds colours to the sums to which they belong.
 #[inline(always)]
-fn add(sums: &mut [Rgb], paths: &Paths8, colour: Rgb8, lanes: Mask) {
+fn add(sums: &mut [Rgb], paths: &Paths8, colour: Rgb8, lanes: M8) {
     let colour = colour * paths.factor;
     for i in lanes.lanes() {
         sums[paths.slot[i] as usize] += colour.lane(i);

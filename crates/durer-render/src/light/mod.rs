@@ -1,9 +1,8 @@
 //! Lights made ready: from where they shine on a point, and how strongly.
 
-use crate::lanes::{Mask, at_most, equal, less};
 use crate::power::Power;
 use crate::vector::{dot, length, unit};
-use durer_math::{F8, Point3, Vec3, elementary};
+use durer_math::{F8, M8, Point3, Vec3, elementary};
 use durer_scene::{Light, LightKind, Rgb};
 
 /// A light.
@@ -40,7 +39,7 @@ enum Beam {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Beamed {
     /// Where it shines. The rest is about these points.
-    pub(crate) lit: Mask,
+    pub(crate) lit: M8,
     /// The unit directions from the points to the light.
     pub(crate) to_light: Vec3<F8>,
     /// What the light's colour is multiplied by.
@@ -48,7 +47,7 @@ pub(crate) struct Beamed {
     /// How far blockers may be: the light itself, or for parallel light the point of its plane above.
     pub(crate) target: Point3<F8>,
     /// Where anything can block it.
-    pub(crate) blockable: Mask,
+    pub(crate) blockable: M8,
 }
 
 /// 0 up to `a`, 1 from `b` on, and between them a cubic with level ends.
@@ -56,8 +55,8 @@ pub(crate) struct Beamed {
 fn smooth_step(a: f64, b: f64, x: F8) -> F8 {
     let t = (x - a) / (b - a);
     let between = t * t * (F8::splat(3.0) - t * 2.0);
-    let ended = at_most(F8::splat(b), x).select(F8::ONE, between);
-    at_most(x, F8::splat(a)).select(F8::ZERO, ended)
+    let ended = (F8::splat(b)).le(x).select(F8::ONE, between);
+    x.le(F8::splat(a)).select(F8::ZERO, ended)
 }
 
 impl Lamp {
@@ -91,7 +90,7 @@ impl Lamp {
 
     /// The light at some points. Blockers are not looked for.
     #[inline(always)]
-    pub(crate) fn at(&self, p: Point3<F8>, live: Mask) -> Beamed {
+    pub(crate) fn at(&self, p: Point3<F8>, live: M8) -> Beamed {
         let location = Vec3::<F8>::splat(self.location.to_vec());
         let axis = Vec3::<F8>::splat(self.axis);
         let from = p.to_vec() - location;
@@ -100,20 +99,20 @@ impl Lamp {
         let to_light = if self.parallel { -axis } else { from * (F8::splat(-1.0) / distance) };
         // A sum is finite if its terms are: their length is 1.
         let size = to_light.x.abs() + to_light.y.abs() + to_light.z.abs();
-        let mut lit = live & less(size, F8::splat(f64::INFINITY));
+        let mut lit = live & size.lt(F8::splat(f64::INFINITY));
         let mut strength = match self.beam {
             Beam::All => F8::ONE,
             Beam::Cone { full, end, tightness } => {
                 let cosine = if self.parallel { F8::ONE } else { depth / distance };
                 // The full cone is asked for first, and decides alone where it is the wider one.
-                let inside = at_most(F8::splat(full), cosine);
+                let inside = (F8::splat(full)).le(cosine);
                 let edge = inside.select(F8::ONE, smooth_step(end, full, cosine));
-                lit = lit & !(equal(edge, F8::ZERO) | at_most(cosine, F8::ZERO));
+                lit &= !(edge.eq(F8::ZERO) | cosine.le(F8::ZERO));
                 edge * tightness.lanes(cosine, lit)
             }
             Beam::Tube { full, end, tightness } => {
                 let off_axis = length(from - axis * depth);
-                lit = lit & !(at_most(depth, F8::ZERO) | at_most(F8::splat(end), off_axis));
+                lit &= !(depth.le(F8::ZERO) | (F8::splat(end)).le(off_axis));
                 tightness.lanes(F8::ONE - off_axis / end, lit) * (F8::ONE - smooth_step(full, end, off_axis))
             }
         };
@@ -121,9 +120,9 @@ impl Lamp {
             strength = strength * (F8::splat(2.0) / (F8::ONE + power.lanes((distance / at).abs(), lit)));
         }
         let (target, blockable) = match (self.shadowless, self.parallel) {
-            (true, _) => (location, Mask::NONE),
+            (true, _) => (location, M8::NONE),
             (false, false) => (location, lit),
-            (false, true) => (p.to_vec() - axis * depth, lit & less(F8::ZERO, depth)),
+            (false, true) => (p.to_vec() - axis * depth, lit & (F8::ZERO).lt(depth)),
         };
         Beamed { lit, to_light, strength, target: target.to_point(), blockable }
     }
@@ -144,7 +143,7 @@ mod tests {
     }
 
     fn strength(light: &Light, p: [f64; 3]) -> f64 {
-        let beamed = Lamp::new(light).unwrap().at(point(p), Mask::ALL);
+        let beamed = Lamp::new(light).unwrap().at(point(p), M8::ALL);
         beamed.lit.keep(beamed.strength).0[3]
     }
 
@@ -184,18 +183,18 @@ mod tests {
     fn parallel_light_is_blocked_only_up_to_its_plane() {
         let light = Light { parallel: true, ..down(LightKind::Point) };
         let lamp = Lamp::new(&light).unwrap();
-        let below = lamp.at(point([3.0, 0.0, 4.0]), Mask::ALL);
+        let below = lamp.at(point([3.0, 0.0, 4.0]), M8::ALL);
         assert_eq!(below.to_light.lane(0), Vec3::Y);
         assert_eq!(below.target.to_vec().lane(0), Vec3::new(3.0, 10.0, 4.0));
-        assert_eq!(below.blockable, Mask::ALL);
-        let above = lamp.at(point([3.0, 20.0, 4.0]), Mask::ALL);
-        assert_eq!((above.strength.0[0], above.blockable), (1.0, Mask::NONE));
+        assert_eq!(below.blockable, M8::ALL);
+        let above = lamp.at(point([3.0, 20.0, 4.0]), M8::ALL);
+        assert_eq!((above.strength.0[0], above.blockable), (1.0, M8::NONE));
     }
 
     #[test]
     fn a_light_at_the_point_itself_does_not_shine() {
         let mut p = point([0.0, 10.0, 0.0]);
         p.x.0[2] = 1.0;
-        assert_eq!(Lamp::new(&down(LightKind::Point)).unwrap().at(p, Mask::ALL).lit.bits(), 0b100);
+        assert_eq!(Lamp::new(&down(LightKind::Point)).unwrap().at(p, M8::ALL).lit.bits(), 0b100);
     }
 }

@@ -1,10 +1,10 @@
 //! Finishes with their constants worked out.
 
 use super::metal::tint;
-use crate::lanes::{Mask, Rgb8, at_most, equal, less};
+use crate::lanes::Rgb8;
 use crate::power::Power;
 use crate::vector::{dot, reflect};
-use durer_math::{F8, Vec3, elementary};
+use durer_math::{F8, M8, Vec3, elementary};
 use durer_scene::Rgb;
 
 /// From this size on, Phong's highlight ends where its cosine is [`PHONG_END`]: a fact of the scene language.
@@ -48,7 +48,7 @@ pub(crate) struct Mirror {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Incidence {
     /// The points that are asked about; elsewhere anything is answered.
-    pub(crate) live: Mask,
+    pub(crate) live: M8,
     /// The unit directions to the light.
     pub(crate) to_light: Vec3<F8>,
     /// The cosines of their angles to the normals; negative behind the surface.
@@ -106,13 +106,13 @@ impl Finish {
     /// The part of a light that is scattered evenly, less `grain`.
     #[inline(always)]
     pub(crate) fn scattered(&self, at: &Incidence, grain: F8) -> F8 {
-        let front = if at.double { Mask::ALL } else { at_most(F8::ZERO, at.cosine) };
+        let front = if at.double { M8::ALL } else { (F8::ZERO).le(at.cosine) };
         let k = front.select(F8::splat(self.diffuse), F8::splat(self.diffuse_back));
-        let scatters = !equal(k, F8::ZERO);
+        let scatters = !k.eq(F8::ZERO);
         let mut shown = k * self.brilliance.lanes(at.cosine.abs(), at.live & scatters);
         if self.crand > 0.0 {
             shown = shown - grain;
-            shown = less(F8::ZERO, grain).select(shown.max(F8::ZERO), shown);
+            shown = (F8::ZERO).lt(grain).select(shown.max(F8::ZERO), shown);
         }
         scatters.keep(shown)
     }
@@ -135,21 +135,21 @@ impl Finish {
         let mut shine = F8::ZERO;
         if self.phong != 0.0 {
             let cosine = dot(reflect(view.eye, view.normal), at.to_light);
-            let seen = less(F8::splat(self.phong_end), cosine);
+            let seen = (F8::splat(self.phong_end)).lt(cosine);
             shine += seen.keep(self.phong_power.lanes(cosine, at.live & seen) * self.phong);
         }
         if self.specular != 0.0 {
             let half = at.to_light - view.eye;
             let length = dot(half, half).sqrt();
             let cosine = dot(half, view.normal);
-            let seen = less(F8::ZERO, cosine) & less(F8::ZERO, length);
+            let seen = (F8::ZERO).lt(cosine) & (F8::ZERO).lt(length);
             let power = self.specular_power.lanes(cosine / length, at.live & seen);
             shine += seen.keep(power * self.specular);
         }
         if self.metallic == 0.0 {
             Rgb8::grey(shine)
         } else {
-            let live = at.live & !equal(shine, F8::ZERO);
+            let live = at.live & !shine.eq(F8::ZERO);
             tint(self.metallic, at.cosine, colour, live) * shine
         }
     }
@@ -171,7 +171,7 @@ impl Mirror {
     /// What the reflected light is multiplied by. `cosine` is that of the angle between the normal and the eye; `fresnel` is Fresnel's
     /// reflectance, which mirrors of that kind need.
     #[inline(always)]
-    pub(crate) fn reflectance(&self, cosine: F8, colour: Rgb8, live: Mask, fresnel: F8) -> Rgb8 {
+    pub(crate) fn reflectance(&self, cosine: F8, colour: Rgb8, live: M8, fresnel: F8) -> Rgb8 {
         let r = if self.fresnel {
             Rgb8::mixed(self.min, self.max, fresnel)
         } else if self.min == self.max {
@@ -194,7 +194,7 @@ mod tests {
 
     fn incidence(to_light: Vec3) -> Incidence {
         let to_light = Vec3::<F8>::splat(to_light);
-        Incidence { live: Mask::ALL, to_light, cosine: to_light.y, double: false }
+        Incidence { live: M8::ALL, to_light, cosine: to_light.y, double: false }
     }
 
     /// How much of the light is scattered without any grain.
@@ -264,7 +264,7 @@ mod tests {
         let mirror = ready(&f).mirror.unwrap();
         let at = |cosine| {
             let cosine = F8::splat(cosine);
-            mirror.reflectance(cosine, Rgb8::WHITE, Mask::ALL, F8::ZERO).lane(1).r
+            mirror.reflectance(cosine, Rgb8::WHITE, M8::ALL, F8::ZERO).lane(1).r
         };
         assert_eq!(at(1.0), 0.2);
         assert!((at(0.5) - 0.4).abs() < 1e-15);

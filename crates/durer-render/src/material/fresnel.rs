@@ -1,8 +1,7 @@
 //! The border between two clear media: Snell's law of refraction and Fresnel's reflectance.
 
-use crate::lanes::{Mask, less};
 use crate::vector::dot;
-use durer_math::{F8, Vec3};
+use durer_math::{F8, M8, Vec3};
 
 /// The part of unpolarised light that is reflected, for light that falls at an angle of cosine `cosine >= 0` from a medium of index `n` times
 /// that of the medium behind (`n = n_from / n_to`); 1 beyond the critical angle.
@@ -15,18 +14,18 @@ pub(crate) fn reflectance(n: f64, cosine: F8) -> F8 {
     let across = (cosine - bent_inner) / (cosine + bent_inner);
     let r = (along * along + across * across) * 0.5;
     // What is not a number is 1 too.
-    let partial = less(sine2, F8::ONE) & less(r, F8::ONE);
+    let partial = sine2.lt(F8::ONE) & r.lt(F8::ONE);
     partial.select(r.max(F8::ZERO), F8::ONE)
 }
 
 /// The unit directions in which light of unit directions `d` goes on behind a surface with unit normals `normal` that face it
 /// (`d . normal <= 0`), from a medium of index `n` times that behind; and where it does, as it is totally reflected elsewhere.
 #[inline(always)]
-pub(crate) fn refract(d: Vec3<F8>, normal: Vec3<F8>, n: f64) -> (Vec3<F8>, Mask) {
+pub(crate) fn refract(d: Vec3<F8>, normal: Vec3<F8>, n: f64) -> (Vec3<F8>, M8) {
     let cosine = -dot(d, normal);
     let sine2 = (F8::ONE - cosine * cosine) * (n * n);
     let inner = (F8::ONE - sine2).sqrt();
-    (d * F8::splat(n) + normal * (cosine * n - inner), !less(F8::ONE, sine2))
+    (d * F8::splat(n) + normal * (cosine * n - inner), !(F8::ONE).lt(sine2))
 }
 
 #[cfg(test)]
@@ -40,7 +39,7 @@ mod tests {
 
     fn refract(d: Vec3, normal: Vec3, n: f64) -> Option<Vec3> {
         let (out, passes) = super::refract(Vec3::<F8>::splat(d), Vec3::<F8>::splat(normal), n);
-        (passes == Mask::ALL).then(|| out.lane(3))
+        (passes == M8::ALL).then(|| out.lane(3))
     }
 
     fn reflectance(n: f64, cosine: f64) -> f64 {

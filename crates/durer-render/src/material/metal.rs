@@ -1,8 +1,8 @@
 //! Metals: highlights and mirror images that take the pigment's colour, except at grazing angles.
 
-use crate::lanes::{Mask, Rgb8};
+use crate::lanes::Rgb8;
 use core::f64::consts::FRAC_2_PI;
-use durer_math::{F8, elementary};
+use durer_math::{F8, M8, elementary};
 
 /// How near to grazing an angle is, from 0 (head-on) to 1: the scene language's fit to Fresnel's formula for metals,
 /// `0.014567225 / (x - 1.12)^2 - 0.011612903` with `x` the angle in units of 90 degrees.
@@ -14,7 +14,7 @@ fn grazing(cosine: f64) -> f64 {
 
 /// What light is multiplied by at surfaces of colour `colour` that are metallic to the degree `metallic`.
 #[inline(always)]
-pub(crate) fn tint(metallic: f64, cosine: F8, colour: Rgb8, live: Mask) -> Rgb8 {
+pub(crate) fn tint(metallic: f64, cosine: F8, colour: Rgb8, live: M8) -> Rgb8 {
     let mut grazed = F8::ZERO;
     for i in live.lanes() {
         grazed.0[i] = grazing(cosine.0[i]);
@@ -34,7 +34,7 @@ mod tests {
     #[test]
     fn head_on_the_pigment_shows_and_grazing_it_does_not() {
         let c = Rgb::new(1.0, 0.5, 0.0);
-        let of = |metallic, cosine, c| tint(metallic, F8::splat(cosine), Rgb8::splat(c), Mask::ALL).lane(2);
+        let of = |metallic, cosine, c| tint(metallic, F8::splat(cosine), Rgb8::splat(c), M8::ALL).lane(2);
         let head_on = of(1.0, 1.0, c);
         assert!((head_on.g - 0.5).abs() < 1e-6 && head_on.b.abs() < 1e-6);
         let flat = of(1.0, 0.0, c);

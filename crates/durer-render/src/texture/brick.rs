@@ -1,9 +1,8 @@
 //! A wall of bricks: courses along y, every other one shifted by half a brick.
 
 use super::cells::{cell, cell_lanes};
-use crate::lanes::{Mask, at_most, equal};
 use crate::vector::floor_lanes;
-use durer_math::{F8, Point3, Vec3};
+use durer_math::{F8, M8, Point3, Vec3};
 
 /// The wall's measures.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,10 +35,10 @@ impl Brick {
 
     /// Where the kind is 1.
     #[inline(always)]
-    pub(super) fn brick_lanes(&self, p: Point3<F8>) -> Mask {
+    pub(super) fn brick_lanes(&self, p: Point3<F8>) -> M8 {
         let y = p.y * self.per.y;
         let half = cell_lanes(y) * 0.5;
-        let even = equal(half, floor_lanes(half));
+        let even = half.eq(floor_lanes(half));
         let half_brick = F8::splat(0.5);
         let x = p.x * self.per.x + (!even).keep(half_brick);
         let z = p.z * self.per.z + even.keep(half_brick);
@@ -49,8 +48,8 @@ impl Brick {
 
 /// Where `x` is in mortar that begins at `start` in each unit.
 #[inline(always)]
-fn in_mortar(x: F8, start: f64) -> Mask {
-    at_most(F8::splat(start), x - cell_lanes(x))
+fn in_mortar(x: F8, start: f64) -> M8 {
+    (F8::splat(start)).le(x - cell_lanes(x))
 }
 
 #[cfg(test)]

@@ -1,9 +1,8 @@
 //! Patterns that cut space into cells.
 
 use super::{brick::Brick, checker, hexagon};
-use crate::lanes::Mask;
 use crate::vector::{floor, floor_lanes};
-use durer_math::{F8, Point3};
+use durer_math::{F8, M8, Point3};
 use durer_scene::Cells;
 
 /// A way to cut space.
@@ -37,7 +36,7 @@ impl Cutter {
 /// The kinds of the cells in which eight points lie.
 pub(super) enum Kinds {
     /// 1 where the mask is set, 0 elsewhere.
-    Two(Mask),
+    Two(M8),
     /// Any, of the points that were asked about.
     Many([u8; 8]),
 }
@@ -45,7 +44,7 @@ pub(super) enum Kinds {
 impl Cutter {
     /// The kinds of the cells in which points lie.
     #[inline(always)]
-    pub(super) fn kinds(&self, p: Point3<F8>, live: Mask) -> Kinds {
+    pub(super) fn kinds(&self, p: Point3<F8>, live: M8) -> Kinds {
         match self {
             Self::Checker => Kinds::Two(checker::odd_lanes(p)),
             Self::Brick(brick) => Kinds::Two(brick.brick_lanes(p)),
@@ -89,7 +88,7 @@ mod tests {
             for k in 0..500 {
                 let x = |a: f64| F8(core::array::from_fn(|i| (f64::from(k * 8 + i as i32) - 1999.0) * a));
                 let p = Point3::new(x(0.037), x(0.25), x(-0.113));
-                let kinds: [usize; 8] = match cutter.kinds(p, Mask::ALL) {
+                let kinds: [usize; 8] = match cutter.kinds(p, M8::ALL) {
                     Kinds::Two(one) => core::array::from_fn(|i| usize::from(one.bits() >> i & 1 == 1)),
                     Kinds::Many(kinds) => kinds.map(usize::from),
                 };

@@ -1,9 +1,8 @@
 //! Unit cubes in two colours, like a chess board in space.
 
 use super::cells::{cell, cell_lanes};
-use crate::lanes::{Mask, equal};
 use crate::vector::floor_lanes;
-use durer_math::{F8, Point3};
+use durer_math::{F8, M8, Point3};
 
 /// 0 where the cube's coordinates have an even sum, else 1.
 #[inline(always)]
@@ -15,9 +14,9 @@ pub(super) fn kind(p: Point3) -> usize {
 
 /// Where the kind is 1.
 #[inline(always)]
-pub(super) fn odd_lanes(p: Point3<F8>) -> Mask {
+pub(super) fn odd_lanes(p: Point3<F8>) -> M8 {
     let half = (cell_lanes(p.x) + cell_lanes(p.y) + cell_lanes(p.z)) * 0.5;
-    !equal(half, floor_lanes(half))
+    !half.eq(floor_lanes(half))
 }
 
 #[cfg(test)]

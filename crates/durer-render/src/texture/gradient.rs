@@ -1,9 +1,8 @@
 //! Ramps that begin anew with each unit, and the number they look up.
 
 use super::wave::Shape;
-use crate::lanes::{Mask, less};
 use crate::vector::{dot, floor_lanes, unit};
-use durer_math::{F8, Point3, Vec3};
+use durer_math::{F8, M8, Point3, Vec3};
 use durer_scene::{Ramp, Value};
 
 /// A number at each point.
@@ -46,17 +45,17 @@ impl Lookup {
 
     /// The numbers at some points.
     #[inline(always)]
-    pub(super) fn values(&self, p: Point3<F8>, live: Mask) -> F8 {
+    pub(super) fn values(&self, p: Point3<F8>, live: M8) -> F8 {
         let along = dot(Vec3::<F8>::splat(self.axis), p.to_vec());
-        let ramp = less(F8::ONE, along).select(along - floor_lanes(along), along);
+        let ramp = (F8::ONE).lt(along).select(along - floor_lanes(along), along);
         if self.frequency == 0.0 {
             return ramp;
         }
         let mut w = ramp * self.frequency + F8::splat(self.phase);
-        for i in (live & !less(w.abs(), F8::splat(PERIOD))).lanes() {
+        for i in (live & !w.abs().lt(F8::splat(PERIOD))).lanes() {
             w.0[i] %= PERIOD;
         }
-        self.shape.bend_lanes(less(w, F8::ZERO).select(w + F8::ONE, w), live)
+        self.shape.bend_lanes(w.lt(F8::ZERO).select(w + F8::ONE, w), live)
     }
 }
 
@@ -117,7 +116,7 @@ mod tests {
             for k in -40..40 {
                 let x = |a: f64| F8(core::array::from_fn(|i| (f64::from(k) + 0.125 * i as f64) * a));
                 let p = Point3::new(x(0.7), x(1.0), x(-0.3));
-                let values = lookup.values(p, Mask::ALL);
+                let values = lookup.values(p, M8::ALL);
                 for i in 0..8 {
                     assert_eq!(values.0[i], lookup.value(p.to_vec().lane(i).to_point()), "{wave:?}");
                 }

@@ -10,10 +10,10 @@ mod wave;
 
 pub(crate) use self::place::Place;
 
-use durer_math::{Affine, AffineError, F8, Point3};
+use durer_math::{Affine, AffineError, F8, M8, Point3};
 use durer_scene::{Colour, Pattern, Pigment, PigmentBody, Rgb, Texture, TextureBody};
 
-use crate::lanes::{Colour8, Mask, Rgb8, at_most};
+use crate::lanes::{Colour8, Rgb8};
 use crate::material::Finish;
 use cells::{Cutter, Kinds};
 use gradient::Lookup;
@@ -130,7 +130,7 @@ impl<T> Blend<T> {
 impl Blend<Colour> {
     /// The colours at some points.
     #[inline(always)]
-    fn colours(&self, p: Point3<F8>, live: Mask) -> Colour8 {
+    fn colours(&self, p: Point3<F8>, live: M8) -> Colour8 {
         match self {
             Self::Cells(cutter, entries) => {
                 let last = entries.len().saturating_sub(1);
@@ -152,10 +152,10 @@ impl Blend<Colour> {
                         }
                         _ => Colour8::splat(colour),
                     };
-                    shown = here.or(at_most(w, F8::splat(at)), shown);
+                    shown = here.or(w.le(F8::splat(at)), shown);
                 }
                 let (last_at, last) = entries.last().copied().unwrap_or_default();
-                Colour8::splat(last).or(at_most(F8::splat(last_at), w), shown)
+                Colour8::splat(last).or((F8::splat(last_at)).le(w), shown)
             }
         }
     }
@@ -198,7 +198,7 @@ impl Shade {
 
     /// The colours at some points.
     #[inline(always)]
-    pub(crate) fn colours(&self, p: Point3<F8>, live: Mask) -> Colour8 {
+    pub(crate) fn colours(&self, p: Point3<F8>, live: M8) -> Colour8 {
         match self {
             Self::Solid(colour) => Colour8::splat(*colour),
             Self::Colours(place, blend) => blend.colours(place.inside_lanes(p), live),
@@ -234,7 +234,7 @@ impl Paint {
 
     /// What light that passes at some points is multiplied by.
     #[inline(always)]
-    pub(crate) fn passed(&self, p: Point3<F8>, live: Mask) -> Rgb8 {
+    pub(crate) fn passed(&self, p: Point3<F8>, live: M8) -> Rgb8 {
         match self {
             Self::Layers(coats) => {
                 let mut left = Rgb8::WHITE;
@@ -317,7 +317,7 @@ mod tests {
         let Paint::Layers(coats) = &paint else { unreachable!() };
         let seen = [10.5, 11.5, 12.5, 13.5, 14.5].map(|x| {
             let p = Point3::new(x, 0.5, 0.5);
-            let lanes = coats[0].pigment.colours(Vec3::<F8>::splat(p.to_vec()).to_point(), Mask::ALL);
+            let lanes = coats[0].pigment.colours(Vec3::<F8>::splat(p.to_vec()).to_point(), M8::ALL);
             assert_eq!(lanes.rgb.lane(3), coats[0].pigment.at(p).rgb);
             coats[0].pigment.at(p).rgb.r
         });
@@ -340,7 +340,7 @@ mod tests {
             for k in -50..50 {
                 let x = |a: f64| F8(core::array::from_fn(|i| (f64::from(k) + 0.125 * i as f64) * a));
                 let p = Point3::new(x(0.31), x(0.2), x(-0.17));
-                let colours = shade.colours(p, Mask::ALL);
+                let colours = shade.colours(p, M8::ALL);
                 for i in 0..8 {
                     let want = shade.at(p.to_vec().lane(i).to_point());
                     let (filter, transmit) = (colours.filter.0[i], colours.transmit.0[i]);
@@ -365,6 +365,6 @@ mod tests {
         let shown = blend.at(place.inside(p)).unwrap();
         assert_eq!([0, 1, 2].map(|i| shown.part(i)), [0.75, 0.25, 0.0]);
         assert_eq!((Shown::One(1).part(0), Shown::One(1).part(1)), (0.0, 1.0));
-        assert_eq!(paint.passed(Vec3::<F8>::splat(p.to_vec()).to_point(), Mask::ALL), Rgb8::WHITE);
+        assert_eq!(paint.passed(Vec3::<F8>::splat(p.to_vec()).to_point(), M8::ALL), Rgb8::WHITE);
     }
 }

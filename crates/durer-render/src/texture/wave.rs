@@ -1,9 +1,8 @@
 //! The forms into which a number from 0 to 1 is bent.
 
-use crate::lanes::{Mask, less};
 use crate::power::Power;
 use core::f64::consts::{PI, TAU};
-use durer_math::{F8, elementary};
+use durer_math::{F8, M8, elementary};
 use durer_scene::Wave;
 
 /// A [`Wave`] with its constants worked out.
@@ -43,10 +42,10 @@ impl Shape {
 
     /// The same in lanes.
     #[inline(always)]
-    pub(super) fn bend_lanes(self, w: F8, live: Mask) -> F8 {
+    pub(super) fn bend_lanes(self, w: F8, live: M8) -> F8 {
         match self {
             Self::Ramp => w,
-            Self::Triangle => less(w, F8::splat(0.5)).select(w, F8::ONE - w) * 2.0,
+            Self::Triangle => w.lt(F8::splat(0.5)).select(w, F8::ONE - w) * 2.0,
             Self::Cubic => w * w * (F8::splat(3.0) - w * 2.0),
             Self::Poly(power) => power.lanes(w, live),
             Self::Sine | Self::Scallop => {
