@@ -7,7 +7,7 @@ use crate::{Beam, Geometry, Hit};
 use arrayvec::ArrayVec;
 use durer_math::lanes::LANES;
 use durer_math::{Aabb, F8, Isa, M8, Point3, Ray, RaySide, Shaft, Source, U, Vec3};
-use durer_surfaces::outline::{From8, Nearest, Outline, Points8, RayLanes};
+use durer_surfaces::outline::{From8, Nearest, Outline, Points8, RayLanes, Scratch};
 use durer_surfaces::{Need, ROUGH, SurfacePoint};
 
 /// Eight rays `o + t d` with `t` in `[0, t_max]`.
@@ -381,6 +381,7 @@ impl Geometry {
         nearest: &mut Nearest,
     ) {
         let sources = rays.source.all();
+        let mut scratch = Scratch::default();
         for (number, candidate) in beam.candidates.iter().enumerate() {
             let Candidate { arena, slot, .. } = *candidate;
             if candidate.mask & mask == 0 {
@@ -389,9 +390,9 @@ impl Geometry {
             match outlines.get(arena, slot) {
                 Some(outline) if sources.contains(&slot_number(arena, slot)) => {
                     let from = rays.source.of(arena, slot, outline);
-                    outline.meet(lanes, Some(&from), number as f64, nearest);
+                    outline.meet(lanes, Some(&from), number as f64, nearest, &mut scratch);
                 }
-                Some(outline) => outline.meet(lanes, None, number as f64, nearest),
+                Some(outline) => outline.meet(lanes, None, number as f64, nearest, &mut scratch),
                 None => nearest.doubt = F8::ZERO,
             }
         }

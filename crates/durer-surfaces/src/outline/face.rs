@@ -58,12 +58,18 @@ pub(super) struct Line {
 /// Eight rays seen from the outline's centre.
 #[derive(Clone, Copy)]
 pub(super) struct Seen<'a> {
-    pub(super) h: Vec3<F8>,
-    /// `|h|₁`.
-    pub(super) h1: F8,
     pub(super) d: &'a Vec3<F8>,
     /// `|d|₁`.
     pub(super) d1: &'a F8,
+    pub(super) start: &'a Start,
+}
+
+/// Where they start.
+#[derive(Debug)]
+pub(super) struct Start {
+    pub(super) h: Vec3<F8>,
+    /// `|h|₁`.
+    pub(super) h1: F8,
     /// A bound on every `t` at which the surface can be met.
     pub(super) far: F8,
 }
@@ -143,23 +149,34 @@ impl Face {
         Vec3::new(dot([xx, xy, xz], v), dot([xy, yy, yz], v), dot([xz, yz, zz], v))
     }
 
-    /// The linear part and the constant along eight rays, of a plane: `2 B t + C`.
+    /// `B`, a bound on its error, and `C` without the constant, along eight rays, of a plane: `2 B t + C`.
     ///
-    /// Its error is told coefficient by coefficient, so that a ray along the plane has exactly `B = 0`.
+    /// The error of `B` is told coefficient by coefficient, so that a ray along the plane has exactly `B = 0`.
     #[inline(always)]
-    pub(super) fn slope(&self, rays: &Seen<'_>) -> (F8, F8, F8, F8) {
+    pub(super) fn slope(&self, rays: &Seen<'_>) -> (F8, F8, F8) {
         let b = dot(self.b, *rays.d);
         let size = dot(self.b.map(f64::abs), rays.d.abs());
         let e_b = size * (8.0 * U) + *rays.d1 * self.e_b;
-        let c = dot(self.b, rays.h) * 2.0 + self.c;
-        let e_c = rays.h1 * (2.0 * self.k_b) + self.k_c;
-        (b, e_b, c, e_c)
+        let c = dot(self.b, rays.start.h) * 2.0;
+        (b, e_b, c)
+    }
+
+    /// The constant, and a bound on the error of `C` along eight rays, of a plane.
+    #[inline(always)]
+    pub(super) fn height(&self, rays: &Seen<'_>) -> (f64, F8) {
+        (self.c, rays.start.h1 * (2.0 * self.k_b) + self.k_c)
+    }
+
+    /// Whether this and another face are parallel planes that look away from each other.
+    pub(super) fn is_opposite(&self, other: &Self) -> bool {
+        let planes = self.kind == FaceKind::Plane && other.kind == FaceKind::Plane;
+        planes && (0..3).all(|i| self.b[i] == -other.b[i]) && self.e_b == other.e_b
     }
 
     /// The polynomial along eight rays.
     #[inline(always)]
     pub(super) fn along(&self, rays: &Seen<'_>) -> Line {
-        let (h, h1, d, d1) = (rays.h, rays.h1, *rays.d, *rays.d1);
+        let (h, h1, d, d1) = (rays.start.h, rays.start.h1, *rays.d, *rays.d1);
         let e_a = d1 * d1 * self.k_q;
         if self.kind == FaceKind::Ball {
             let m = self.q[0];

@@ -7,7 +7,7 @@
 //! at which it can matter. Comparisons are written so that what is not a number ends as a doubt.
 
 use super::Outline;
-use super::face::{Face, FaceKind, Line, Seen, taxicab};
+use super::face::{Face, FaceKind, Line, Seen, Start, taxicab};
 use durer_math::{F8, Isa, M8, Point3, U, Vec3};
 
 /// Eight rays `o + t d` with `t` in `[0, t_max]`, as far as outlines are concerned.
@@ -18,8 +18,9 @@ pub struct RayLanes<'a> {
     pub(super) direction: &'a Vec3<F8>,
     t_max: &'a F8,
     live: &'a M8,
-    /// `|d|₁` and `d·d`.
+    /// `|d|₁`, one over it, and `d·d`.
     d1: F8,
+    inverse_d1: F8,
     d2: F8,
 }
 
@@ -78,6 +79,15 @@ impl Nearest {
         self.face = better.select(face, self.face);
     }
 
+    /// Of live rays of which none of these is known nothing is sure.
+    #[inline(always)]
+    fn doubt_unless(&mut self, live: &M8, known: &[&M8]) {
+        let unsure = known.iter().fold(*live, |unsure, known| unsure & !**known);
+        if unsure.any() {
+            self.doubt_from(unsure, F8::ZERO);
+        }
+    }
+
     #[inline(always)]
     fn doubt_from(&mut self, where_: M8, t: F8) {
         // `max` answers zero for what is not a number.
@@ -96,21 +106,22 @@ impl<'a> RayLanes<'a> {
         t_max: &'a F8,
         live: &'a M8,
     ) -> Self {
-        let (mut d1, mut d2) = (F8::ZERO, F8::ZERO);
+        let (mut d1, mut inverse_d1, mut d2) = (F8::ZERO, F8::ZERO, F8::ZERO);
         isa.run_in_lanes(
             #[inline(always)]
             || {
                 let d = direction;
                 d1 = taxicab(*d) * SLACK;
+                inverse_d1 = F8::ONE / d1;
                 d2 = d.x * d.x + d.y * d.y + d.z * d.z;
             },
         );
-        Self { isa, origin, direction, t_max, live, d1, d2 }
+        Self { isa, origin, direction, t_max, live, d1, inverse_d1, d2 }
     }
 }
 
 /// The two roots of a face along eight rays: that at which it is entered (the polynomial falls), and that at which it is left.
-#[derive(Default)]
+#[derive(Debug, Default)]
 struct Roots {
     /// Both are there and both are known.
     known: M8,
@@ -125,11 +136,12 @@ struct Roots {
 }
 
 /// The root of a plane along eight rays.
-#[derive(Default)]
+#[derive(Debug, Default)]
 struct PlaneRoot {
-    /// The ray surely crosses, going down or up.
+    /// The ray surely crosses.
+    crosses: M8,
+    /// It goes down.
     falls: M8,
-    rises: M8,
     /// It surely stays above, or surely below, as far as that matters.
     above: M8,
     below: M8,
@@ -137,7 +149,24 @@ struct PlaneRoot {
     e: F8,
 }
 
+/// Where eight rays are inside a slab, that is between two parallel planes.
+#[derive(Debug, Default)]
+struct SlabRoots {
+    /// They surely cross both planes.
+    known: M8,
+    /// They surely stay outside, or surely inside, as far as that matters.
+    outside: M8,
+    inside: M8,
+    /// They enter by the first plane.
+    rises: M8,
+    enter: F8,
+    e_enter: F8,
+    leave: F8,
+    e_leave: F8,
+}
+
 /// Rays that leave a surface, as one of its faces sees them.
+#[derive(Clone, Copy)]
 struct Leaving<'a> {
     from: &'a From8,
     face: usize,
@@ -152,6 +181,16 @@ impl Leaving<'_> {
         let lanes = self.from.lanes & self.from.face.le(here) & self.from.face.ge(here);
         (lanes, if self.turned { !self.from.back } else { self.from.back })
     }
+}
+
+/// `c / slope` with a bound on its error, if `c` is within `e_c` and the slope within `e_slope`; `inverse` is one over the slope, rounded.
+#[inline(always)]
+fn quotient(c: F8, e_c: F8, inverse: F8, e_slope: F8) -> (F8, F8) {
+    let t = c * inverse;
+    let far = t.abs();
+    // Two roundings, and what exact numbers may differ by: (e_c + |t| e_slope) / (|slope| - e_slope), where that is at most 4/3 of the division by |slope|.
+    let e = ((e_c + far * e_slope) * inverse.abs() * (CLEAR / (CLEAR - 1.0)) + far * (4.0 * U)) * SLACK;
+    (t, e)
 }
 
 // Each step below is a function of its own that takes from memory and puts into memory what eight lanes hold. In one large function the compiler would
@@ -218,27 +257,84 @@ impl Face {
 
     #[inline(always)]
     fn crossing_here(&self, rays: &Seen<'_>, from: Option<&Leaving<'_>>, root: &mut PlaneRoot) {
-        let (b, e_b, c, e_c) = self.slope(rays);
-        let (slope, e_slope) = (b * 2.0, e_b * 2.0);
+        let (b, e_b, c) = self.slope(rays);
+        let (constant, e_c) = self.height(rays);
+        let (c, slope, e_slope) = (c + constant, b * 2.0, e_b * 2.0);
         let size = slope.abs();
-        let mut t = -c / slope;
-        let mut e = ((e_c + t.abs() * e_slope) / (size - e_slope) + t.abs() * (2.0 * U)) * SLACK;
-        let mut crosses = size.gt(e_slope * CLEAR) & e.lt(F8::splat(FAR));
-        let flat = size.le(e_slope * CLEAR);
-        let reach = ((size + e_slope) * rays.far + e_c) * SLACK;
+        let inverse = F8::ONE / slope;
+        let (mut t, mut e) = quotient(-c, e_c, inverse, e_slope);
+        let steep = size.gt(e_slope * CLEAR);
+        let mut crosses = steep & e.lt(F8::splat(FAR));
         if let Some((lanes, negative)) = from.map(Leaving::lanes) {
-            let away = negative.select(-slope, slope);
-            crosses &= !lanes | away.gt(e_slope);
+            crosses &= !lanes | negative.select(-slope, slope).gt(e_slope);
             t = lanes.select(F8::splat(BEHIND), t);
             e = lanes.select(F8::ZERO, e);
         }
-        let falls = slope.lt(F8::ZERO);
-        root.falls = crosses & falls;
-        root.rises = crosses & !falls;
-        root.above = flat & c.gt(reach);
-        root.below = flat & c.lt(-reach);
+        let reach = ((size + e_slope) * rays.start.far + e_c) * SLACK;
+        root.crosses = crosses;
+        root.falls = slope.lt(F8::ZERO);
+        root.above = !steep & c.gt(reach);
+        root.below = !steep & c.lt(-reach);
         root.t = t;
         root.e = e;
+    }
+
+    /// The crossings of two parallel planes that look away from each other.
+    #[inline(never)]
+    fn slab(
+        &self,
+        opposite: &Self,
+        isa: Isa,
+        rays: &Seen<'_>,
+        from: [Option<&Leaving<'_>>; 2],
+        roots: &mut SlabRoots,
+    ) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || self.slab_here(opposite, rays, from, roots),
+        );
+    }
+
+    #[inline(always)]
+    fn slab_here(
+        &self,
+        opposite: &Self,
+        rays: &Seen<'_>,
+        from: [Option<&Leaving<'_>>; 2],
+        roots: &mut SlabRoots,
+    ) {
+        // Along the second plane's normal.
+        let (b, e_b, c) = opposite.slope(rays);
+        let ((first, e_first), (second, e_second)) = (self.height(rays), opposite.height(rays));
+        let (slope, e_slope) = (b * 2.0, e_b * 2.0);
+        let size = slope.abs();
+        let inverse = F8::ONE / slope;
+        let (c0, c1) = (-c + first, c + second);
+        let (mut t0, mut e0) = quotient(c0, e_first, inverse, e_slope);
+        let (mut t1, mut e1) = quotient(-c1, e_second, inverse, e_slope);
+        let steep = size.gt(e_slope * CLEAR);
+        let mut known = steep & (e0 + e1).lt(F8::splat(FAR));
+        let [from0, from1] = from;
+        if let Some((lanes, negative)) = from0.map(Leaving::lanes) {
+            known &= !lanes | negative.select(slope, -slope).gt(e_slope);
+            t0 = lanes.select(F8::splat(BEHIND), t0);
+            e0 = lanes.select(F8::ZERO, e0);
+        }
+        if let Some((lanes, negative)) = from1.map(Leaving::lanes) {
+            known &= !lanes | negative.select(-slope, slope).gt(e_slope);
+            t1 = lanes.select(F8::splat(BEHIND), t1);
+            e1 = lanes.select(F8::ZERO, e1);
+        }
+        let reach = ((size + e_slope) * rays.start.far + e_first.max(e_second)) * SLACK;
+        let rises = slope.gt(F8::ZERO);
+        roots.known = known;
+        roots.outside = !steep & (c0.gt(reach) | c1.gt(reach));
+        roots.inside = !steep & c0.lt(-reach) & c1.lt(-reach);
+        roots.rises = rises;
+        roots.enter = rises.select(t0, t1);
+        roots.e_enter = rises.select(e0, e1);
+        roots.leave = rises.select(t1, t0);
+        roots.e_leave = rises.select(e1, e0);
     }
 
     /// Where this face cuts off points, and where it surely does not.
@@ -264,7 +360,7 @@ pub(super) struct Spot {
 }
 
 /// The greatest of the entries, or with signs exchanged the least of the exits, so far.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Extreme {
     t: F8,
     e: F8,
@@ -276,27 +372,26 @@ struct Extreme {
 const BEFORE: F8 = F8::splat(f64::NEG_INFINITY);
 
 impl Extreme {
-    const NONE: Self = Self { t: BEFORE, e: F8::ZERO, face: F8::ZERO, others: BEFORE };
-
     #[inline(always)]
-    fn take(&mut self, lanes: M8, t: F8, e: F8, face: usize) {
+    fn take(&mut self, is_first: bool, lanes: M8, t: F8, e: F8, face: F8) {
+        if is_first {
+            self.t = lanes.select(t, BEFORE);
+            self.e = lanes.keep(e);
+            self.face = face;
+            self.others = BEFORE;
+            return;
+        }
         let better = lanes & t.gt(self.t);
         let loser = better.select(self.t + self.e, t + e);
         self.others = lanes.select(loser.max(self.others), self.others);
         self.t = better.select(t, self.t);
         self.e = better.select(e, self.e);
-        self.face = better.select(F8::splat(face as f64), self.face);
-    }
-
-    /// The same where nothing was before.
-    #[inline(always)]
-    fn start(&mut self, lanes: M8, t: F8, e: F8) {
-        self.t = lanes.select(t, BEFORE);
-        self.e = lanes.select(e, F8::ZERO);
+        self.face = better.select(face, self.face);
     }
 }
 
 /// What the faces of a convex solid say so far.
+#[derive(Clone, Copy, Debug, Default)]
 struct Hull {
     /// The latest entry.
     enter: Extreme,
@@ -313,9 +408,25 @@ impl Hull {
         isa.run_in_lanes(
             #[inline(always)]
             || {
-                self.missed |= root.above;
-                self.unsure |= !(root.falls | root.rises | root.above | root.below);
-                self.add(i, (root.falls, root.t, root.e), (root.rises, -root.t, root.e));
+                self.add_doubts(i, root.above, root.crosses | root.below);
+                let face = F8::splat(i as f64);
+                self.enter.take(i == 0, root.crosses & root.falls, root.t, root.e, face);
+                self.leave.take(i == 0, root.crosses & !root.falls, -root.t, root.e, face);
+            },
+        );
+    }
+
+    /// Adds the faces `i` and `i + 1`, two planes that bound a slab.
+    #[inline(never)]
+    fn add_slab(&mut self, isa: Isa, i: usize, roots: &SlabRoots) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                self.add_doubts(i, roots.outside, roots.known | roots.inside);
+                let (first, second) = (F8::splat(i as f64), F8::splat((i + 1) as f64));
+                let (enter, leave) = (roots.rises.select(first, second), roots.rises.select(second, first));
+                self.enter.take(i == 0, roots.known, roots.enter, roots.e_enter, enter);
+                self.leave.take(i == 0, roots.known, -roots.leave, roots.e_leave, leave);
             },
         );
     }
@@ -326,62 +437,91 @@ impl Hull {
         isa.run_in_lanes(
             #[inline(always)]
             || {
-                let (known, none) = (roots.known & roots.opens, roots.none & roots.opens);
-                self.missed |= none;
-                self.unsure |= !(known | none);
-                self.add(i, (known, roots.enter, roots.e_enter), (known, -roots.leave, roots.e_leave));
+                let known = roots.known & roots.opens;
+                self.add_doubts(i, roots.none & roots.opens, known);
+                let face = F8::splat(i as f64);
+                self.enter.take(i == 0, known, roots.enter, roots.e_enter, face);
+                self.leave.take(i == 0, known, -roots.leave, roots.e_leave, face);
             },
         );
     }
 
     #[inline(always)]
-    fn add(&mut self, i: usize, enter: (M8, F8, F8), leave: (M8, F8, F8)) {
+    fn add_doubts(&mut self, i: usize, missed: M8, known: M8) {
+        let unsure = !(missed | known);
         if i == 0 {
-            self.enter.start(enter.0, enter.1, enter.2);
-            self.leave.start(leave.0, leave.1, leave.2);
+            (self.missed, self.unsure) = (missed, unsure);
         } else {
-            self.enter.take(enter.0, enter.1, enter.2, i);
-            self.leave.take(leave.0, leave.1, leave.2, i);
+            self.missed |= missed;
+            self.unsure |= unsure;
+        }
+    }
+}
+
+/// Memory for what is known of eight rays and one outline on the way: kept, so that it need not be cleared for each.
+#[derive(Debug)]
+pub struct Scratch {
+    start: Start,
+    plane: PlaneRoot,
+    slab: SlabRoots,
+    roots: Roots,
+    hull: Hull,
+}
+
+impl Default for Scratch {
+    fn default() -> Self {
+        let start = Start { h: Vec3::splat(Vec3::ZERO), h1: F8::ZERO, far: F8::ZERO };
+        Self {
+            start,
+            plane: PlaneRoot::default(),
+            slab: SlabRoots::default(),
+            roots: Roots::default(),
+            hull: Hull::default(),
         }
     }
 }
 
 impl Outline {
     /// Offers the first crossing of each ray to `nearest`, under a number. `from` holds the rays that leave this very surface, if there are any.
-    pub fn meet(&self, rays: &RayLanes<'_>, from: Option<&From8>, number: f64, nearest: &mut Nearest) {
-        let mut seen =
-            Seen { h: Vec3::splat(Vec3::ZERO), h1: F8::ZERO, d: rays.direction, d1: &rays.d1, far: F8::ZERO };
-        if self.is_passed_by(rays, &mut seen) {
+    pub fn meet(
+        &self,
+        rays: &RayLanes<'_>,
+        from: Option<&From8>,
+        number: f64,
+        nearest: &mut Nearest,
+        scratch: &mut Scratch,
+    ) {
+        if self.is_passed_by(rays, &mut scratch.start) {
             return;
         }
-        if self.convex {
-            self.meet_convex(rays, &seen, from, number, nearest);
+        if self.convex && self.faces.len() > 1 {
+            self.meet_convex(rays, from, number, nearest, scratch);
         } else {
-            self.meet_walls(rays, &seen, from, number, nearest);
+            self.meet_walls(rays, from, number, nearest, scratch);
         }
     }
 
     /// Sees the rays from the centre; says whether every one surely passes the ball that holds the surface, or has left it behind.
     #[inline(never)]
-    fn is_passed_by(&self, rays: &RayLanes<'_>, seen: &mut Seen<'_>) -> bool {
+    fn is_passed_by(&self, rays: &RayLanes<'_>, start: &mut Start) -> bool {
         rays.isa.run_in_lanes(
             #[inline(always)]
-            || self.is_passed_by_here(rays, seen),
+            || self.is_passed_by_here(rays, start),
         )
     }
 
     #[inline(always)]
-    fn is_passed_by_here(&self, rays: &RayLanes<'_>, seen: &mut Seen<'_>) -> bool {
+    fn is_passed_by_here(&self, rays: &RayLanes<'_>, start: &mut Start) -> bool {
         let (o, c, d) = (rays.origin, self.centre, rays.direction);
         let h = Vec3::new(o.x - c.x, o.y - c.y, o.z - c.z);
         let h1 = taxicab(h) * SLACK;
-        (seen.h, seen.h1) = (h, h1);
+        (start.h, start.h1) = (h, h1);
         if self.reach == f64::INFINITY {
-            seen.far = rays.t_max.min(F8::splat(FAR));
+            start.far = rays.t_max.min(F8::splat(FAR));
             return false;
         }
         // |t d| <= |h| + R, and √3 |d| >= |d|₁.
-        seen.far = ((h1 + self.reach) * (1.75 * SLACK) / rays.d1).min(F8::splat(FAR));
+        start.far = ((h1 + self.reach) * (1.75 * SLACK) * rays.inverse_d1).min(F8::splat(FAR));
         let hd = h.x * d.x + h.y * d.y + h.z * d.z;
         let h2 = h.x * h.x + h.y * h.y + h.z * h.z;
         let size = h1 * h1;
@@ -402,26 +542,34 @@ impl Outline {
     fn meet_convex(
         &self,
         rays: &RayLanes<'_>,
-        seen: &Seen<'_>,
         from: Option<&From8>,
         number: f64,
         nearest: &mut Nearest,
+        scratch: &mut Scratch,
     ) {
-        let mut hull =
-            Hull { enter: Extreme::NONE, leave: Extreme::NONE, missed: !*rays.live, unsure: M8::NONE };
-        for (i, face) in self.faces.iter().enumerate() {
-            let from = self.leaving(from, i);
-            if face.kind == FaceKind::Plane {
-                let mut root = PlaneRoot::default();
-                face.crossing(rays.isa, seen, from.as_ref(), &mut root);
-                hull.add_plane(rays.isa, i, &root);
-            } else {
-                let mut roots = Roots::default();
-                face.roots(rays.isa, seen, from.as_ref(), &mut roots);
-                hull.add_quadric(rays.isa, i, &roots);
+        let Scratch { start, plane, slab, roots, hull } = scratch;
+        let seen = Seen { d: rays.direction, d1: &rays.d1, start };
+        let mut i = 0;
+        while let Some(face) = self.faces.get(i) {
+            let leaving = self.leaving(from, i);
+            if self.slabs[i] {
+                let opposite = &self.faces[i + 1];
+                let next = self.leaving(from, i + 1);
+                face.slab(opposite, rays.isa, &seen, [leaving.as_ref(), next.as_ref()], slab);
+                hull.add_slab(rays.isa, i, slab);
+                i += 2;
+                continue;
             }
+            if face.kind == FaceKind::Plane {
+                face.crossing(rays.isa, &seen, leaving.as_ref(), plane);
+                hull.add_plane(rays.isa, i, plane);
+            } else {
+                face.roots(rays.isa, &seen, leaving.as_ref(), roots);
+                hull.add_quadric(rays.isa, i, roots);
+            }
+            i += 1;
         }
-        self.conclude(rays, &hull, number, nearest);
+        self.conclude(rays, hull, number, nearest);
     }
 
     /// What entries and exits come to.
@@ -435,14 +583,15 @@ impl Outline {
 
     #[inline(always)]
     fn conclude_here(&self, rays: &RayLanes<'_>, hull: &Hull, number: f64, nearest: &mut Nearest) {
-        let Hull { enter, leave, mut missed, unsure } = *hull;
+        let Hull { enter, leave, missed, unsure } = hull;
+        let mut missed = *missed | !*rays.live;
         let limit = nearest.limit(rays);
         let earliest = enter.t - enter.e;
         let latest = leave.e - leave.t;
         missed |= earliest.gt(latest) | latest.lt(F8::ZERO) | earliest.gt(limit);
         let entered = (enter.t + enter.e).max(enter.others);
         let left = -((leave.t + leave.e).max(leave.others));
-        let open = !(missed | unsure);
+        let open = !(missed | *unsure);
         let outside = open & entered.lt(left) & earliest.gt(F8::ZERO) & earliest.gt(enter.others);
         let within = open & entered.lt(F8::ZERO);
         let inside = within & left.gt(F8::ZERO) & (leave.t - leave.e).gt(leave.others);
@@ -472,39 +621,33 @@ impl Outline {
             nearest.doubt_from(unsure | sure, earliest);
         } else {
             nearest.take(sure, t, e, number, face);
-            nearest.doubt_from(unsure, earliest);
+            if unsure.any() {
+                nearest.doubt_from(unsure, earliest);
+            }
         }
     }
 
     fn meet_walls(
         &self,
         rays: &RayLanes<'_>,
-        seen: &Seen<'_>,
         from: Option<&From8>,
         number: f64,
         nearest: &mut Nearest,
+        scratch: &mut Scratch,
     ) {
+        let Scratch { start, plane, roots, .. } = scratch;
+        let seen = &Seen { d: rays.direction, d1: &rays.d1, start };
         for (i, face) in self.faces[..self.walls].iter().enumerate() {
             let from = self.leaving(from, i);
             if face.kind == FaceKind::Plane {
-                let mut root = PlaneRoot::default();
-                face.crossing(rays.isa, seen, from.as_ref(), &mut root);
-                let crosses = *rays.live & (root.falls | root.rises);
-                let unsure = *rays.live & !(crosses | root.above | root.below);
-                if unsure.any() {
-                    nearest.doubt_from(unsure, F8::ZERO);
-                }
-                self.meet_wall(rays, seen, i, crosses, (&root.t, &root.e), number, nearest);
+                face.crossing(rays.isa, seen, from.as_ref(), plane);
+                nearest.doubt_unless(rays.live, &[&plane.crosses, &plane.above, &plane.below]);
+                self.meet_wall(rays, seen, i, &plane.crosses, (&plane.t, &plane.e), number, nearest);
             } else {
-                let mut roots = Roots::default();
-                face.roots(rays.isa, seen, from.as_ref(), &mut roots);
-                let known = *rays.live & roots.known;
-                let unsure = *rays.live & !(roots.known | roots.none);
-                if unsure.any() {
-                    nearest.doubt_from(unsure, F8::ZERO);
-                }
-                self.meet_wall(rays, seen, i, known, (&roots.enter, &roots.e_enter), number, nearest);
-                self.meet_wall(rays, seen, i, known, (&roots.leave, &roots.e_leave), number, nearest);
+                face.roots(rays.isa, seen, from.as_ref(), roots);
+                nearest.doubt_unless(rays.live, &[&roots.known, &roots.none]);
+                self.meet_wall(rays, seen, i, &roots.known, (&roots.enter, &roots.e_enter), number, nearest);
+                self.meet_wall(rays, seen, i, &roots.known, (&roots.leave, &roots.e_leave), number, nearest);
             }
         }
     }
@@ -516,17 +659,21 @@ impl Outline {
         rays: &RayLanes<'_>,
         seen: &Seen<'_>,
         wall: usize,
-        lanes: M8,
+        lanes: &M8,
         (t, e): (&F8, &F8),
         number: f64,
         nearest: &mut Nearest,
     ) {
+        if self.faces.len() == 1 && self.loops.is_none() {
+            self.meet_only_wall(rays, lanes, (t, e), number, nearest);
+            return;
+        }
         let mut open = M8::NONE;
         let Some(spot) = rays.isa.run_in_lanes(
             #[inline(always)]
             || {
                 let limit = nearest.limit(rays);
-                open = lanes & !((*t + *e).lt(F8::ZERO) | (*t - *e).gt(limit));
+                open = *rays.live & *lanes & !((*t + *e).lt(F8::ZERO) | (*t - *e).gt(limit));
                 open.any().then(|| Spot::on(seen, *t, *e))
             },
         ) else {
@@ -556,13 +703,37 @@ impl Outline {
     }
 }
 
+impl Outline {
+    /// Offers a root of a surface with one face.
+    #[inline(never)]
+    fn meet_only_wall(
+        &self,
+        rays: &RayLanes<'_>,
+        lanes: &M8,
+        (t, e): (&F8, &F8),
+        number: f64,
+        nearest: &mut Nearest,
+    ) {
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let (t, e) = (*t, *e);
+                let (first, last) = (t - e, t + e);
+                let open = *rays.live & *lanes & !(last.lt(F8::ZERO) | first.gt(nearest.limit(rays)));
+                let sure = open & first.gt(F8::ZERO) & last.le(*rays.t_max);
+                self.put_down(sure, open & !sure, (t, e, F8::ZERO), first, number, nearest);
+            },
+        );
+    }
+}
+
 impl Spot {
     #[inline(always)]
     fn on(seen: &Seen<'_>, t: F8, e: F8) -> Self {
-        let (h, d) = (seen.h, seen.d);
+        let (h, d) = (seen.start.h, seen.d);
         let y = Vec3::new(t.mul_add(d.x, h.x), t.mul_add(d.y, h.y), t.mul_add(d.z, h.z));
         let y1 = taxicab(y) * SLACK;
         // One rounding of h, one of y, and the error of t.
-        Self { y, y1, e1: ((seen.h1 + y1) * (2.0 * U) + e * *seen.d1) * SLACK }
+        Self { y, y1, e1: ((seen.start.h1 + y1) * (2.0 * U) + e * *seen.d1) * SLACK }
     }
 }

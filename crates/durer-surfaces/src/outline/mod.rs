@@ -19,7 +19,7 @@ mod meet;
 mod point;
 mod sketch;
 
-pub use self::meet::{From8, Nearest, RayLanes};
+pub use self::meet::{From8, Nearest, RayLanes, Scratch};
 pub use self::point::Points8;
 pub use self::sketch::Sketch;
 
@@ -39,6 +39,8 @@ pub struct Outline {
     reach: f64,
     /// The surface bounds the convex set where all faces are negative.
     convex: bool,
+    /// Which faces are planes that, with the next one, bound a slab.
+    slabs: Box<[bool]>,
     /// Normals point to where the faces are negative.
     turned: bool,
     /// The outline only holds the surface: what meets it may still miss.

@@ -308,12 +308,14 @@ impl Sketch {
             return None;
         }
         let faces = self.forms.iter().map(Face::new).collect::<Option<Box<[_]>>>()?;
+        let slabs = (0..faces.len()).map(|i| faces.get(i + 1).is_some_and(|next| faces[i].is_opposite(next)));
+        let slabs = slabs.collect();
         let Self { centre, walls, reach, convex, turned, vague, part, .. } = *self;
         let normals = self.normals.map(Box::new);
         let loops = match &self.loops {
             Some(loops) => Some(Box::new(loops.try_map(Face::new)?)),
             None => None,
         };
-        Some(Outline { centre, faces, walls, reach, convex, turned, vague, part, normals, loops })
+        Some(Outline { centre, faces, walls, reach, convex, slabs, turned, vague, part, normals, loops })
     }
 }
