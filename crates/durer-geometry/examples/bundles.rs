@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release -p durer-geometry --example bundles`
 
-use durer_geometry::{EVERYTHING, Geometry, Hits8, Rays8};
+use durer_geometry::{EVERYTHING, Geometry, Hits8, Rays8, Scratch};
 use durer_math::{Affine, M8, Point3, Ray, Vec3};
 use durer_surfaces::{AxisBox, CappedCylinder, Ellipsoid, Frustum, Need, Placed, Plane, Sphere};
 use std::hint::black_box;
@@ -79,6 +79,7 @@ fn ray(x: usize, y: usize) -> Ray {
 
 fn main() {
     println!("{:>10}{:>10}{:>10}{:>10}", "world", "alone", "shared", "lanes");
+    let mut scratch = Scratch::default();
     for (name, world) in worlds() {
         let mut times = [f64::INFINITY; 3];
         for _ in 0..5 {
@@ -86,7 +87,7 @@ fn main() {
                 let start = Instant::now();
                 for block in 0..(SIZE / BLOCK) * (SIZE / BLOCK) {
                     let (bx, by) = (block % (SIZE / BLOCK) * BLOCK, block / (SIZE / BLOCK) * BLOCK);
-                    trace(&world, way, (bx, by));
+                    trace(&world, way, (bx, by), &mut scratch);
                 }
                 *time = time.min(start.elapsed().as_secs_f64() * 1e9 / (SIZE * SIZE) as f64);
             }
@@ -95,7 +96,7 @@ fn main() {
     }
 }
 
-fn trace(world: &Geometry, way: usize, (bx, by): (usize, usize)) {
+fn trace(world: &Geometry, way: usize, (bx, by): (usize, usize), scratch: &mut Scratch) {
     let mut rays = [Rays8::NONE; BLOCK];
     for (y, eight) in rays.iter_mut().enumerate() {
         for x in 0..8 {
@@ -111,7 +112,7 @@ fn trace(world: &Geometry, way: usize, (bx, by): (usize, usize)) {
     let mut hits = Hits8::NONE;
     for (y, eight) in rays.iter().enumerate() {
         if way == 2 {
-            world.seen_by_lanes(beam.as_ref(), eight, EVERYTHING, &mut hits);
+            world.seen_by_lanes(beam.as_ref(), eight, EVERYTHING, &mut hits, scratch);
             black_box(&hits);
             continue;
         }

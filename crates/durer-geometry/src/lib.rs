@@ -62,3 +62,4 @@ pub use crate::ids::EVERYTHING;
 pub use crate::lanes::{Hits8, Rays8, Sources8};
 pub use crate::stats::Stats;
 pub use durer_bvh::Settings;
+pub use durer_surfaces::outline::Scratch;

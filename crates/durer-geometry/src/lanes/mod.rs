@@ -241,15 +241,23 @@ impl Bounds8 {
 }
 
 /// The source of all rays, if they have the same and start on the same side of it.
-fn common_source(rays: &[Rays8]) -> Option<Source> {
+fn common_source(isa: Isa, rays: &[Rays8]) -> Option<Source> {
     let source = rays.iter().find_map(|r| r.live.first_set().map(|i| r.source.lane(i)))??;
-    let (slot, back) = (slot_number(source.arena, source.index), source.side == RaySide::Back);
-    let shared = |r: &Rays8| {
-        let same =
-            |i: usize| r.source.slot[i] == slot && r.source.instance[i] == 0 && r.source.back.lane(i) == back;
-        r.live.lanes().all(same)
-    };
-    (source.instance == 0 && rays.iter().all(shared)).then_some(source)
+    let (slot, back) = (slot_number(source.arena, source.index), M8::splat(source.side == RaySide::Back));
+    let shared = isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            rays.iter().all(|Rays8 { live, source: from, .. }| {
+                let same = M8::from_fn(
+                    #[inline(always)]
+                    |i| from.slot[i] == slot && from.instance[i] == 0,
+                );
+                let side = from.back & back | !from.back & !back;
+                (!*live | same & side).all()
+            })
+        },
+    );
+    (source.instance == 0 && shared).then_some(source)
 }
 
 /// The lanes that wait with these numbers.
@@ -288,11 +296,19 @@ impl Geometry {
         } else {
             Shaft::between(start, end)
         };
-        self.beam(&shaft, common_source(rays))
+        self.beam(&shaft, common_source(self.isa, rays))
     }
 
-    /// Puts down what each ray sees first, as [`Geometry::seen`] answers. `beam` holds what these rays may meet, if that is known.
-    pub fn seen_by_lanes(&self, beam: Option<&Beam>, rays: &Rays8, mask: u32, hits: &mut Hits8) {
+    /// Puts down what each ray sees first, as [`Geometry::seen`] answers. `beam` holds what these rays may meet, if that is known; `scratch`
+    /// may hold anything.
+    pub fn seen_by_lanes(
+        &self,
+        beam: Option<&Beam>,
+        rays: &Rays8,
+        mask: u32,
+        hits: &mut Hits8,
+        scratch: &mut Scratch,
+    ) {
         hits.hit = M8::NONE;
         hits.touching = M8::NONE;
         if !rays.live.any() || beam.is_some_and(Beam::is_empty) {
@@ -308,8 +324,7 @@ impl Geometry {
         };
         let mut left = rays.live;
         if let Some(beam) = beam {
-            let outlines = self.outlines.get_or_init(|| Outlines::of(self));
-            left = self.see(beam, outlines, rays, mask, hits);
+            left = self.see(beam, rays, mask, hits, scratch);
         }
         for i in left.lanes() {
             let ray = rays.lane(i);
@@ -322,10 +337,10 @@ impl Geometry {
     }
 
     /// Puts down what is sure; answers with the rays of which something is not.
-    fn see(&self, beam: &Beam, outlines: &Outlines, rays: &Rays8, mask: u32, hits: &mut Hits8) -> M8 {
+    fn see(&self, beam: &Beam, rays: &Rays8, mask: u32, hits: &mut Hits8, scratch: &mut Scratch) -> M8 {
         let lanes = RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
-        let mut nearest = Nearest::NONE;
-        self.nearest(beam, outlines, rays, &lanes, mask, &mut nearest);
+        let (outlines, mut nearest) = (self.outlines(), Nearest::NONE);
+        self.nearest(beam, rays, &lanes, mask, &mut nearest, scratch);
         let (mut waiting, mut left) = (M8::NONE, M8::NONE);
         self.isa.run_in_lanes(
             #[inline(always)]
@@ -370,18 +385,21 @@ impl Geometry {
         left
     }
 
+    fn outlines(&self) -> &Outlines {
+        self.outlines.get_or_init(|| Outlines::of(self))
+    }
+
     /// The first sure hit of each ray among the candidates, and the first doubt.
     fn nearest(
         &self,
         beam: &Beam,
-        outlines: &Outlines,
         rays: &Rays8,
         lanes: &RayLanes<'_>,
         mask: u32,
         nearest: &mut Nearest,
+        scratch: &mut Scratch,
     ) {
-        let sources = rays.source.all();
-        let mut scratch = Scratch::default();
+        let (outlines, sources) = (self.outlines(), rays.source.all());
         for (number, candidate) in beam.candidates.iter().enumerate() {
             let Candidate { arena, slot, .. } = *candidate;
             if candidate.mask & mask == 0 {
@@ -390,16 +408,16 @@ impl Geometry {
             match outlines.get(arena, slot) {
                 Some(outline) if sources.contains(&slot_number(arena, slot)) => {
                     let from = rays.source.of(arena, slot, outline);
-                    outline.meet(lanes, Some(&from), number as f64, nearest, &mut scratch);
+                    outline.meet(lanes, Some(&from), number as f64, nearest, scratch);
                 }
-                Some(outline) => outline.meet(lanes, None, number as f64, nearest, &mut scratch),
+                Some(outline) => outline.meet(lanes, None, number as f64, nearest, scratch),
                 None => nearest.doubt = F8::ZERO,
             }
         }
     }
 
     /// Which rays meet anything, as [`Geometry::any_masked`] answers.
-    pub fn any_by_lanes(&self, beam: Option<&Beam>, rays: &Rays8, mask: u32) -> M8 {
+    pub fn any_by_lanes(&self, beam: Option<&Beam>, rays: &Rays8, mask: u32, scratch: &mut Scratch) -> M8 {
         if !rays.live.any() || beam.is_some_and(Beam::is_empty) {
             return M8::NONE;
         }
@@ -413,10 +431,9 @@ impl Geometry {
         };
         let (mut met, mut left) = (M8::NONE, rays.live);
         if let Some(beam) = beam {
-            let outlines = self.outlines.get_or_init(|| Outlines::of(self));
             let lanes = RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
             let mut nearest = Nearest::NONE;
-            self.nearest(beam, outlines, rays, &lanes, mask, &mut nearest);
+            self.nearest(beam, rays, &lanes, mask, &mut nearest, scratch);
             self.isa.run_in_lanes(
                 #[inline(always)]
                 || {

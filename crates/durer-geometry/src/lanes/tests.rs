@@ -118,11 +118,11 @@ struct Tally {
 /// Compares lanes with single rays, and goes on with rays that are spawned where these meet something, `depth` times.
 fn compare(name: &str, world: &Geometry, rays: &Rays8, dice: &mut Dice, depth: u32, tally: &mut Tally) {
     let mut hits = Hits8::NONE;
-    world.seen_by_lanes(None, rays, u32::MAX, &mut hits);
-    let met = world.any_by_lanes(None, rays, u32::MAX);
+    let scratch = &mut Scratch::default();
+    world.seen_by_lanes(None, rays, u32::MAX, &mut hits, scratch);
+    let met = world.any_by_lanes(None, rays, u32::MAX, scratch);
     if let Some(beam) = world.beam_of(core::slice::from_ref(rays)) {
-        let outlines = world.outlines.get_or_init(|| Outlines::of(world));
-        tally.asked += world.see(&beam, outlines, rays, u32::MAX, &mut Hits8::NONE.clone()).count();
+        tally.asked += world.see(&beam, rays, u32::MAX, &mut Hits8::NONE.clone(), scratch).count();
     }
     for i in 0..LANES {
         let ray = rays.lane(i);
@@ -218,7 +218,7 @@ fn all_paths_see_the_same_bits() {
             .iter()
             .map(|w| {
                 let mut hits = Hits8::NONE;
-                w.seen_by_lanes(None, &rays, 1, &mut hits);
+                w.seen_by_lanes(None, &rays, 1, &mut hits, &mut Scratch::default());
                 format!("{hits:?}")
             })
             .collect();

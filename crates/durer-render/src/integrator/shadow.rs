@@ -9,7 +9,7 @@ use crate::progress::Progress;
 use crate::stats::RayCounts;
 use crate::vector::{dot, length};
 use crate::world::{Look, World};
-use durer_geometry::{Beam, Hits8, Rays8};
+use durer_geometry::{Beam, Hits8, Rays8, Scratch};
 use durer_math::lanes::LANES;
 use durer_math::{F8, Isa, M8, Point3};
 use durer_scene::mask;
@@ -40,6 +40,7 @@ pub(super) struct Shadows<'w> {
     /// Bundles to be used again.
     spare: Vec<Bundle<'w>>,
     hits: Vec<Hits8>,
+    scratch: Box<Scratch>,
     pieces: Vec<Piece>,
     spots: Spots,
 }
@@ -88,13 +89,19 @@ impl<'w> Shadows<'w> {
                 if !rays.live.any() {
                     continue;
                 }
-                let met = world.geometry().any_by_lanes(beam.as_ref(), rays, mask::SHADOW);
+                let met = world.geometry().any_by_lanes(beam.as_ref(), rays, mask::SHADOW, &mut self.scratch);
                 if met.any() {
                     *light = light.kept(!met);
                     rays.live &= !met;
                 }
                 if world.has_clear_shadows && rays.live.any() {
-                    world.geometry().seen_by_lanes(beam.as_ref(), rays, mask::CLEAR_SHADOW, hits);
+                    world.geometry().seen_by_lanes(
+                        beam.as_ref(),
+                        rays,
+                        mask::CLEAR_SHADOW,
+                        hits,
+                        &mut self.scratch,
+                    );
                 }
             }
         }
@@ -139,6 +146,7 @@ impl<'w> Shadows<'w> {
                         rays,
                         mask::CLEAR_SHADOW,
                         &mut self.hits[last],
+                        &mut self.scratch,
                     );
                 }
             }

@@ -25,7 +25,7 @@ use crate::sampler::Place;
 use crate::stats::RayCounts;
 use crate::texture::{Blend, Coat, Paint};
 use crate::world::World;
-use durer_geometry::{Beam, Hits8, Rays8};
+use durer_geometry::{Beam, Hits8, Rays8, Scratch};
 use durer_math::lanes::LANES;
 use durer_math::{F8, Isa, M8};
 use durer_scene::{Rgb, mask};
@@ -44,6 +44,7 @@ pub(crate) struct Whitted<'w> {
     /// The sums of what is seen, those of the camera's rays first.
     sums: Vec<Rgb>,
     hits: Vec<Hits8>,
+    scratch: Box<Scratch>,
     pieces: Vec<Piece>,
     spots: Spots,
     coats: Coats<'w>,
@@ -70,6 +71,7 @@ impl<'w> Whitted<'w> {
             tasks: Vec::new(),
             sums: Vec::new(),
             hits: Vec::new(),
+            scratch: Box::default(),
             pieces: Vec::new(),
             spots: Spots::default(),
             coats: Coats::default(),
@@ -249,6 +251,7 @@ impl<'w> Whitted<'w> {
                     rays,
                     bundle.standing.mask,
                     &mut self.hits[last],
+                    &mut self.scratch,
                 );
             }
         }
