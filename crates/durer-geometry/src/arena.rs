@@ -6,12 +6,12 @@
 
 use crate::best::Best;
 use crate::ids::{Id, Ids};
+use crate::outlines::Drawn;
 use crate::spans::Tracks;
 use core::ops::Range;
 use durer_bvh::{Entry, Frame};
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Isa, RaySide, Shaft};
-use durer_surfaces::outline::Outline;
 use durer_surfaces::{
     Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
 };
@@ -61,8 +61,8 @@ pub(crate) trait AnyArena: Send + Sync {
     fn side(&self, surface: u32, point: &LocalPoint<'_>) -> Side;
     /// The point of a hit.
     fn resolve(&self, isa: Isa, slot: u32, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint;
-    /// A slot as lanes see it; `None` if its numbers are too large or too small for that.
-    fn outline(&self, slot: u32) -> Option<Outline>;
+    /// A slot as lanes see it.
+    fn drawn(&self, slot: u32) -> Drawn;
     /// Which rays meet a slot.
     fn mask(&self, slot: u32) -> u32;
     /// Which part of its surface a slot is.
@@ -390,9 +390,12 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
         )
     }
 
-    fn outline(&self, slot: u32) -> Option<Outline> {
+    fn drawn(&self, slot: u32) -> Drawn {
         let Slot { surface, part, .. } = self.slot(slot);
-        surface.sketch(part).outline()
+        let sketch = surface.sketch(part);
+        // The surface's own box is the tighter one, unless this is a small part of it.
+        let bounds = if self.is_in_parts() { sketch.bounds() } else { surface.bounds() };
+        Drawn { outline: sketch.outline(), bounds }
     }
 
     fn mask(&self, slot: u32) -> u32 {

@@ -48,6 +48,7 @@ impl Geometry {
     /// What the rays of a bundle may meet; `None` if that is so much that each ray should walk through the tree by itself. They all come from
     /// the same side of `source`, if there is one.
     pub fn beam(&self, shaft: &Shaft, source: Option<Source>) -> Option<Beam> {
+        let outlines = self.outlines();
         let mut beam = Beam::default();
         let candidates = &mut beam.candidates;
         for beside in &self.beside {
@@ -64,8 +65,8 @@ impl Geometry {
         }
         let full = self.tree.in_shaft(shaft, |leaf| {
             slots(&leaf).any(|slot| {
-                let arena = self.arenas.get(leaf.kind as usize);
-                let missed = leaf.count > 1 && arena.is_some_and(|arena| arena.misses(slot, shaft));
+                // The tree has looked at the box of all slots together.
+                let missed = leaf.count > 1 && outlines.misses(leaf.kind, slot, shaft);
                 !missed && candidates.try_push(self.candidate(leaf.kind, slot)).is_err()
             })
         });

@@ -385,7 +385,8 @@ impl Geometry {
         left
     }
 
-    fn outlines(&self) -> &Outlines {
+    /// Made when first asked for.
+    pub(crate) fn outlines(&self) -> &Outlines {
         self.outlines.get_or_init(|| Outlines::of(self))
     }
 

@@ -5,7 +5,7 @@ use super::{Face, Outline};
 use crate::FillRule;
 use crate::quadric::body::Shape;
 use crate::quadric::form::Form;
-use durer_math::{Aabb, Affine, Dd, Dyadic, Point3, Ring, Run, U, Vec3};
+use durer_math::{Aabb, Affine, Dd, Dyadic, Isa, Point3, Ring, Run, U, Vec3};
 
 /// Precise enough that maps can be applied one after the other before anything is rounded to f64.
 type N = Run<Dd>;
@@ -47,18 +47,22 @@ fn zero() -> N {
     N::exact(0.0)
 }
 
+#[inline(always)]
 fn exact(v: Vec3) -> [N; 3] {
     v.to_array().map(N::exact)
 }
 
+#[inline(always)]
 fn minus(a: &[N; 3], b: &[N; 3]) -> [N; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
+#[inline(always)]
 fn dot(a: &[N; 3], b: &[N; 3]) -> N {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+#[inline(always)]
 fn cross(a: &[N; 3], b: &[N; 3]) -> [N; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
@@ -132,9 +136,14 @@ impl Sketch {
     /// The flat convex sheet with these vertices, which go round the normal `(v1 - v0) x (v2 - v0)`.
     pub(crate) fn facet(vertices: [Point3; 3]) -> Self {
         let centre = Aabb::from_points(vertices).centre();
-        let [a, b, c] = vertices.map(|v| minus(&exact(v.to_vec()), &exact(centre.to_vec())));
-        let (ab, bc, ca) = (minus(&b, &a), minus(&c, &b), minus(&a, &c));
-        Self::sheet(centre, &cross(&ab, &minus(&c, &a)), &[(a, ab), (b, bc), (c, ca)])
+        Isa::detect().run(
+            #[inline(always)]
+            || {
+                let [a, b, c] = vertices.map(|v| minus(&exact(v.to_vec()), &exact(centre.to_vec())));
+                let (ab, bc, ca) = (minus(&b, &a), minus(&c, &b), minus(&a, &c));
+                Self::sheet(centre, &cross(&ab, &minus(&c, &a)), &[(a, ab), (b, bc), (c, ca)])
+            },
+        )
     }
 
     /// The flat sheet `corner + a u + b v` with `a` and `b` in `[0, 1]`.
@@ -174,6 +183,7 @@ impl Sketch {
     }
 
     /// The part of the plane across `n` to the left of some edges, each by a point, counted from the centre, and a direction.
+    #[inline(always)]
     fn sheet(centre: Point3, n: &[N; 3], edges: &[([N; 3], [N; 3])]) -> Self {
         let through = |n: &[N; 3], p: &[N; 3]| Form::half_space(*n, -dot(n, p));
         let mut forms = vec![through(n, &edges[0].0)];
@@ -224,23 +234,42 @@ impl Sketch {
         let shift = [0, 1, 2].map(|i| row(i, &from) - det * N::exact(self.centre[i]));
         let transposed =
             |v: &[N; 3]| [0, 1, 2].map(|j| adj[0][j] * v[0] + adj[1][j] * v[1] + adj[2][j] * v[2]);
+        let isa = Isa::detect();
         let moved = |f: Form<N>| {
-            // det² f(y) = z·Qz + 2 det b·z + det² c at z = adj h + δ.
-            let b = f.b.map(|x| x * det);
-            let scaled = Form { q: f.q, b, c: f.c * det.square() }.seen_from(&shift);
-            let [xx, yy, zz, xy, xz, yz] = scaled.q;
-            let q = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-            // adjᵀ Q adj, column by column.
-            let columns = [0, 1, 2].map(|j| {
-                let a = [adj[0][j], adj[1][j], adj[2][j]];
-                let qa = q.map(|r| r[0] * a[0] + r[1] * a[1] + r[2] * a[2]);
-                transposed(&qa)
-            });
-            Form {
-                q: [columns[0][0], columns[1][1], columns[2][2], columns[1][0], columns[2][0], columns[2][1]],
-                b: transposed(&scaled.b),
-                c: scaled.c,
-            }
+            isa.run(
+                #[inline(always)]
+                || {
+                    // det² f(y) = z·Qz + 2 det b·z + det² c at z = adj h + δ.
+                    let b = f.b.map(|x| x * det);
+                    let c = f.c * det.square();
+                    if f.q.iter().all(|x| x.magnitude() == 0.0) {
+                        // A plane, and one factor det less.
+                        let (b, c) = (f.b, f.c * det + dot(&f.b, &shift).scale2(1));
+                        return Form { q: f.q, b: transposed(&b), c };
+                    }
+                    let scaled = Form { q: f.q, b, c }.seen_from(&shift);
+                    let [xx, yy, zz, xy, xz, yz] = scaled.q;
+                    let q = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+                    // adjᵀ Q adj, column by column.
+                    let columns = [0, 1, 2].map(|j| {
+                        let a = [adj[0][j], adj[1][j], adj[2][j]];
+                        let qa = q.map(|r| r[0] * a[0] + r[1] * a[1] + r[2] * a[2]);
+                        transposed(&qa)
+                    });
+                    Form {
+                        q: [
+                            columns[0][0],
+                            columns[1][1],
+                            columns[2][2],
+                            columns[1][0],
+                            columns[2][0],
+                            columns[2][1],
+                        ],
+                        b: transposed(&scaled.b),
+                        c: scaled.c,
+                    }
+                },
+            )
         };
         let normals = self.normals.map(|[n, x, y, z]| {
             // n(x) = L⁻ᵀ n(y), and y changes with L⁻¹ h.
@@ -297,6 +326,15 @@ impl Sketch {
         self.forms.extend(region.forms.into_iter().map(|f| f.seen_from(&shift)));
         self.convex = false;
         self
+    }
+
+    /// A box that holds the surface; unbounded if only its faces tell where it is.
+    pub fn bounds(&self) -> Aabb {
+        if self.reach < f64::INFINITY {
+            Aabb::centred(self.centre, Vec3::new(self.reach, self.reach, self.reach))
+        } else {
+            Aabb::UNBOUNDED
+        }
     }
 
     /// The outline; `None` if its numbers are too large or too small for lanes.
