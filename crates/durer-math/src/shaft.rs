@@ -12,7 +12,7 @@
 //! region to one lamp) can so share one walk through the tree. After E. A. Haines, J. R. Wallace, "Shaft culling for efficient ray-traced
 //! radiosity", *Eurographics Workshop on Rendering* (1991).
 
-use crate::{Aabb, Ray, U, Vec3};
+use crate::{Aabb, U, Vec3};
 
 /// A bundle of rays: origins in a box, directions between two bounds per axis, `t` in `[0, t_max]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +35,7 @@ impl Shaft {
     /// The rays with `t` in `[0, 1]` that start in one box and end in another.
     pub fn between(start: Aabb, end: Aabb) -> Self {
         let axis = |a0: f64, a1: f64, b0: f64, b1: f64| {
-            // Far more than the roundings of these differences and of those by which `holds` keeps clear of the border.
+            // Far more than the roundings of these differences, and of a direction that is one itself.
             let size = a0.abs() + a1.abs() + b0.abs() + b1.abs();
             let slack = size.mul_add(32.0 * U, f64::MIN_POSITIVE);
             ((b0 - a0) - slack, (b1 - a1) + slack)
@@ -45,25 +45,6 @@ impl Shaft {
         let (y0, y1) = axis(a.min.y, a.max.y, b.min.y, b.max.y);
         let (z0, z1) = axis(a.min.z, a.max.z, b.min.z, b.max.z);
         Self { start, low: Vec3::new(x0, y0, z0), high: Vec3::new(x1, y1, z1), t_max: 1.0 }
-    }
-
-    /// Whether a ray belongs to the bundle: `true` is certain.
-    #[inline(always)]
-    pub fn holds(&self, ray: &Ray) -> bool {
-        let Aabb { min: a, max: b } = self.start;
-        let (o, d) = (ray.origin, ray.direction);
-        if self.t_max == f64::INFINITY {
-            return ray.t_min >= 0.0
-                && (a.x <= o.x && a.y <= o.y && a.z <= o.z && o.x <= b.x && o.y <= b.y && o.z <= b.z)
-                && (self.low.x <= d.x && self.low.y <= d.y && self.low.z <= d.z)
-                && (d.x <= self.high.x && d.y <= self.high.y && d.z <= self.high.z);
-        }
-        // Linear in t, so both ends tell. The sums are rounded; `within` keeps clear of the border by more than that.
-        ray.t_min >= 0.0
-            && ray.t_max <= self.t_max
-            && within([a.x, b.x], [self.low.x, self.high.x], o.x, d.x)
-            && within([a.y, b.y], [self.low.y, self.high.y], o.y, d.y)
-            && within([a.z, b.z], [self.low.z, self.high.z], o.z, d.z)
     }
 
     /// A box in which all rays of the bundle end; unbounded if they do not.
@@ -123,16 +104,6 @@ impl Shaft {
     }
 }
 
-/// Whether `o + t d` is between `a + t low` and `b + t high` for all `t` in `[0, 1]`, surely.
-#[inline(always)]
-fn within([a, b]: [f64; 2], [low, high]: [f64; 2], o: f64, d: f64) -> bool {
-    let end = o + d;
-    let slack = (o.abs() + d.abs()) * (2.0 * U);
-    let (least, most) =
-        ((a + low) + (a.abs() + low.abs()) * (2.0 * U), (b + high) - (b.abs() + high.abs()) * (2.0 * U));
-    a <= o && o <= b && end - slack >= least && end + slack <= most
-}
-
 /// Cuts `[enter, exit]` to the `t` with `t slope <= room`; never too much.
 #[inline(always)]
 fn clip(room: f64, slope: f64, enter: &mut f64, exit: &mut f64) {
@@ -160,7 +131,7 @@ fn clip(room: f64, slope: f64, enter: &mut f64, exit: &mut f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Point3;
+    use crate::{Point3, Ray};
 
     /// Whole numbers at random, so that points of rays are exact.
     struct Dice(u64);
@@ -211,7 +182,6 @@ mod tests {
             if ray.direction == Vec3::ZERO {
                 continue;
             }
-            assert!(shaft.holds(&ray), "{shaft:?} {ray:?}");
             // A box that the ray touches in this exact point, if no more.
             let p = ray.at(far);
             let side = dice.bounds(3).max.to_vec().abs();
@@ -270,23 +240,5 @@ mod tests {
             missed += usize::from(!shaft.may_cross(n, h, 0.0));
         }
         assert!(crossed > 5_000 && missed > 1_000, "{crossed} {missed}");
-    }
-
-    #[test]
-    fn rays_of_other_bundles_are_told() {
-        let unit = Aabb::new(Point3::ORIGIN, Point3::new(1.0, 1.0, 1.0));
-        let end = Aabb::new(Point3::new(0.0, 0.0, 9.0), Point3::new(1.0, 1.0, 9.0));
-        let shaft = Shaft::between(unit, end);
-        let to =
-            |x: f64, y: f64| Ray::new(Point3::new(0.5, 0.5, 0.0), Vec3::new(x, y, 9.0)).with_range(0.0, 1.0);
-        assert!(shaft.holds(&to(0.5, -0.5)));
-        assert!(!shaft.holds(&to(0.75, 0.0)) && !shaft.holds(&to(0.0, f64::NAN)));
-        assert!(
-            !shaft.holds(&to(0.0, 0.0).with_range(0.0, 1.5))
-                && !shaft.holds(&to(0.0, 0.0).with_range(-1.0, 1.0))
-        );
-        let forward = Shaft::new(unit, Vec3::new(-1.0, -1.0, 1.0), Vec3::new(1.0, 1.0, 1.0));
-        let along = |z: f64| Ray::new(Point3::new(0.5, 0.5, 0.5), Vec3::new(0.0, 1.0, z));
-        assert!(forward.holds(&along(1.0)) && !forward.holds(&along(0.5)));
     }
 }
