@@ -48,7 +48,6 @@ impl Geometry {
     /// What the rays of a bundle may meet; `None` if that is so much that each ray should walk through the tree by itself. They all come from
     /// the same side of `source`, if there is one.
     pub fn beam(&self, shaft: &Shaft, source: Option<Source>) -> Option<Beam> {
-        let outlines = self.outlines();
         let mut beam = Beam::default();
         let candidates = &mut beam.candidates;
         for beside in &self.beside {
@@ -66,7 +65,7 @@ impl Geometry {
         let full = self.tree.in_shaft(shaft, |leaf| {
             slots(&leaf).any(|slot| {
                 // The tree has looked at the box of all slots together.
-                let missed = leaf.count > 1 && outlines.misses(leaf.kind, slot, shaft);
+                let missed = leaf.count > 1 && self.is_beside(leaf.kind, slot, shaft);
                 !missed && candidates.try_push(self.candidate(leaf.kind, slot)).is_err()
             })
         });

@@ -1,12 +1,13 @@
-//! The outlines of all slots, for small geometries.
+//! The outlines of slots, each made when lanes first ask for it.
 
 use crate::Geometry;
 use durer_math::{Aabb, Shaft};
 use durer_surfaces::outline::Outline;
+use std::sync::OnceLock;
 
 /// Outlines by arena and slot.
 #[derive(Debug, Default)]
-pub(crate) struct Outlines(Vec<Vec<Drawn>>);
+pub(crate) struct Outlines(Vec<Vec<OnceLock<Box<Drawn>>>>);
 
 /// A slot as lanes see it.
 #[derive(Debug)]
@@ -18,31 +19,37 @@ pub(crate) struct Drawn {
 }
 
 impl Outlines {
-    /// An outline takes several times the memory of the surface it is made of, and takes microseconds to make. Where there are more slots than this, few rays side by
-    /// side meet the same ones, so lanes would be empty anyway.
-    const MOST: u64 = 1 << 14;
+    /// With more slots than this few rays side by side meet the same ones, and lanes would be empty.
+    const MOST: u64 = 1 << 20;
 
+    /// Room for all, none of them made.
     pub(crate) fn of(geometry: &Geometry) -> Self {
         let slots: u64 = geometry.arenas.iter().map(|a| u64::from(a.len())).sum();
         if slots > Self::MOST {
             return Self::default();
         }
-        Self(geometry.arenas.iter().map(|a| (0..a.len()).map(|slot| a.drawn(slot)).collect()).collect())
+        let empty = |len: u32| (0..len).map(|_| OnceLock::new()).collect();
+        Self(geometry.arenas.iter().map(|a| empty(a.len())).collect())
     }
+}
 
-    #[inline(always)]
-    pub(crate) fn get(&self, arena: u32, slot: u32) -> Option<&Outline> {
-        self.drawn(arena, slot)?.outline.as_ref()
-    }
-
-    #[inline(always)]
+impl Geometry {
+    #[inline]
     fn drawn(&self, arena: u32, slot: u32) -> Option<&Drawn> {
-        self.0.get(arena as usize)?.get(slot as usize)
+        let outlines = self.outlines.get_or_init(|| Outlines::of(self));
+        let place = outlines.0.get(arena as usize)?.get(slot as usize)?;
+        Some(place.get_or_init(|| Box::new(self.arenas[arena as usize].drawn(slot))))
+    }
+
+    /// The outline of a slot, if it has one.
+    #[inline]
+    pub(crate) fn outline(&self, arena: u32, slot: u32) -> Option<&Outline> {
+        self.drawn(arena, slot)?.outline.as_ref()
     }
 
     /// Whether no ray of a bundle meets a slot, by its box: `true` is certain.
     #[inline]
-    pub(crate) fn misses(&self, arena: u32, slot: u32, shaft: &Shaft) -> bool {
+    pub(crate) fn is_beside(&self, arena: u32, slot: u32, shaft: &Shaft) -> bool {
         self.drawn(arena, slot).is_some_and(|drawn| !shaft.may_meet(&drawn.bounds))
     }
 }

@@ -2,7 +2,6 @@
 
 use crate::beam::Candidate;
 use crate::ids::Id;
-use crate::outlines::Outlines;
 use crate::{Beam, Geometry, Hit};
 use arrayvec::ArrayVec;
 use durer_math::lanes::LANES;
@@ -339,7 +338,7 @@ impl Geometry {
     /// Puts down what is sure; answers with the rays of which something is not.
     fn see(&self, beam: &Beam, rays: &Rays8, mask: u32, hits: &mut Hits8, scratch: &mut Scratch) -> M8 {
         let lanes = RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
-        let (outlines, mut nearest) = (self.outlines(), Nearest::NONE);
+        let mut nearest = Nearest::NONE;
         self.nearest(beam, rays, &lanes, mask, &mut nearest, scratch);
         let (mut waiting, mut left) = (M8::NONE, M8::NONE);
         self.isa.run_in_lanes(
@@ -359,7 +358,7 @@ impl Geometry {
             let together = together(self.isa, &waiting, (number, n), (face, f));
             waiting &= !together;
             let candidate = &beam.candidates[n as usize];
-            let Some(outline) = outlines.get(candidate.arena, candidate.slot) else { continue };
+            let Some(outline) = self.outline(candidate.arena, candidate.slot) else { continue };
             let Hits8 { p, ng, ns, off, .. } = &mut *hits;
             let sure = outline.points(f as usize, &lanes, t, &together, Points8 { p, ng, ns, off });
             left |= together & !sure;
@@ -385,11 +384,6 @@ impl Geometry {
         left
     }
 
-    /// Made when first asked for.
-    pub(crate) fn outlines(&self) -> &Outlines {
-        self.outlines.get_or_init(|| Outlines::of(self))
-    }
-
     /// The first sure hit of each ray among the candidates, and the first doubt.
     fn nearest(
         &self,
@@ -400,13 +394,13 @@ impl Geometry {
         nearest: &mut Nearest,
         scratch: &mut Scratch,
     ) {
-        let (outlines, sources) = (self.outlines(), rays.source.all());
+        let sources = rays.source.all();
         for (number, candidate) in beam.candidates.iter().enumerate() {
             let Candidate { arena, slot, .. } = *candidate;
             if candidate.mask & mask == 0 {
                 continue;
             }
-            match outlines.get(arena, slot) {
+            match self.outline(arena, slot) {
                 Some(outline) if sources.contains(&slot_number(arena, slot)) => {
                     let from = rays.source.of(arena, slot, outline);
                     outline.meet(lanes, Some(&from), number as f64, nearest, scratch);
