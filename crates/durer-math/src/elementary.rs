@@ -9,6 +9,8 @@
 //! None of them has a proven bound, most err by less than 1 ulp: good for shading and for building
 //! matrices, which are then the exact data; never for a certified bracket.
 
+use crate::{F8, M8};
+
 macro_rules! one {
     ($($(#[$doc:meta])* $name:ident = $libm:ident;)*) => {$(
         $(#[$doc])*
@@ -84,6 +86,54 @@ pub fn pow(x: f64, y: f64) -> f64 {
     libm::pow(x, y)
 }
 
+/// `x^y` in lanes, within one part in 10^12 of the true power for positive normal `x`; zero where that is below `2^-1021`.
+///
+/// With `x = 2^e m` and `m` between the roots of 1/2 and 2, the logarithm is `e + log2 m`, where `ln m = 2 artanh s` with
+/// `s = (m - 1) / (m + 1)`; both that series and the one of `2^r` for `|r| <= 1/2` are cut where less than the last place is left. The
+/// products with `y` and with `log2 e` err by a few last places of an exponent below 1024. Lanes that are not live hold anything.
+#[inline(always)]
+pub fn pow_lanes(x: F8, y: f64, live: M8) -> F8 {
+    if !live.any() {
+        return F8::ZERO;
+    }
+    const ROOT: u64 = 0x3fe6_a09e_667f_3bcd; // of 1/2, in bits
+    const ONE: u64 = 0x3ff0_0000_0000_0000;
+    const WHOLE: f64 = 6_755_399_441_055_744.0; // 1.5 * 2^52: a sum with it is a whole number, which its last bits say
+    let bits = |x: F8, f: fn(u64) -> u64| x.map(|x| f64::from_bits(f(x.to_bits())));
+    let e = bits(x, |b| (b.wrapping_add(ONE - ROOT) >> 52) | WHOLE.to_bits()) - F8::splat(WHOLE + 1023.0);
+    let m = bits(x, |b| b.wrapping_sub(b.wrapping_sub(ROOT) & (u64::MAX << 52)));
+    let s = (m - F8::ONE) / (m + F8::ONE);
+    let square = s * s;
+    let mut artanh = F8::splat(1.0 / 19.0);
+    for k in [17.0, 15.0, 13.0, 11.0, 9.0, 7.0, 5.0, 3.0, 1.0] {
+        artanh = artanh * square + F8::splat(1.0 / k);
+    }
+    let t = (e + s * artanh * (2.0 * core::f64::consts::LOG2_E)) * y;
+    let rounded = t + F8::splat(WHOLE);
+    let r = (t - (rounded - F8::splat(WHOLE))) * core::f64::consts::LN_2;
+    let mut power = F8::splat(1.0 / 12.0) * r + F8::ONE;
+    for k in [11.0, 10.0, 9.0, 8.0, 7.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.0] {
+        power = power * r * (1.0 / k) + F8::ONE;
+    }
+    // Half of the power of two is always a normal number.
+    let scaled = power * bits(rounded, |b| b.wrapping_add(1022) << 52) * 2.0;
+    let scaled = t.lt(F8::splat(1024.0)).select(scaled, F8::splat(f64::INFINITY));
+    let scaled = t.ge(F8::splat(-1021.0)).keep(scaled);
+    let other = live & !(x.ge(F8::splat(f64::MIN_POSITIVE)) & x.le(F8::splat(f64::MAX)));
+    if other.any() { other.select(others(x, y, other), scaled) } else { scaled }
+}
+
+/// The powers of what is zero, negative, subnormal, infinite or no number.
+#[cold]
+#[inline(never)]
+fn others(x: F8, y: f64, lanes: M8) -> F8 {
+    let mut powers = F8::ZERO;
+    for i in lanes.lanes() {
+        powers.0[i] = pow(x.0[i], y);
+    }
+    powers
+}
+
 /// `x^n` by repeated squaring; at most `2 log2 |n|` roundings, and one more for a negative `n`.
 #[inline]
 pub fn powi(x: f64, n: i32) -> f64 {
@@ -152,6 +202,42 @@ mod tests {
         assert!(near(hypot(3.0, 4.0), 5.0) && near(atan2(0.0, -1.0), PI));
         assert_eq!((floor(-1.5), ceil(-1.5)), (-2.0, -1.0));
         assert!(acos(2.0).is_nan() && ln(-1.0).is_nan());
+    }
+
+    #[test]
+    fn powers_in_lanes_are_powers() {
+        let check = |x: F8, y: f64| {
+            let all: Vec<F8> = crate::Isa::available()
+                .map(|isa| {
+                    isa.run_in_lanes(
+                        #[inline(always)]
+                        || pow_lanes(x, y, M8::ALL),
+                    )
+                })
+                .collect();
+            assert!(
+                all.iter().all(|p| p.0.map(f64::to_bits) == pow_lanes(x, y, M8::ALL).0.map(f64::to_bits))
+            );
+            for (got, x) in all[0].0.into_iter().zip(x.0) {
+                let want = pow(x, y);
+                let low = want < 1e-307 && got <= want;
+                assert!(low || got == want || (got - want).abs() <= 1e-12 * want, "{x}^{y}: {got}, {want}");
+            }
+        };
+        let root = core::f64::consts::FRAC_1_SQRT_2;
+        for y in [0.5, 2.5, 1.0 / 3.0, 40.1, 1e4, 12345.6, -0.7, -3.0, 1e-9] {
+            for k in 1..400 {
+                let near = 1.0 - f64::from(k) * 1e-5;
+                let x = f64::from(k) * 0.0025;
+                check(F8([x, near, 1.0 / near, near.next_up(), root, root.next_down(), 40.0 * x, 1.0]), y);
+            }
+            check(F8([0.0, f64::INFINITY, 1e-310, f64::MIN_POSITIVE, f64::MAX, 1e-200, 1e200, 1e-30]), y);
+        }
+        assert!(
+            pow_lanes(F8([f64::NAN, -1.0, -0.5, -2.0, 1.0, 1.0, 1.0, 1.0]), 0.5, M8::ALL).0[..4]
+                .iter()
+                .all(|p| p.is_nan())
+        );
     }
 
     #[test]

@@ -36,7 +36,7 @@ impl Power {
             Self::Zero => 1.0,
             Self::One => x,
             Self::Whole(n) => elementary::powi(x, n),
-            Self::Real(e) => elementary::pow(x, e),
+            Self::Real(_) => self.lanes(F8::splat(x), M8::ALL).0[0],
         }
     }
 
@@ -60,13 +60,7 @@ impl Power {
                     power = power * power;
                 }
             }
-            Self::Real(e) => {
-                let mut powers = F8::ZERO;
-                for i in live.lanes() {
-                    powers.0[i] = elementary::pow(x.0[i], e);
-                }
-                powers
-            }
+            Self::Real(e) => elementary::pow_lanes(x, e, live),
         }
     }
 }

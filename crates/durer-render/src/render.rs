@@ -39,7 +39,7 @@ pub enum RenderError {
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
 
-/// The most pixels a film holds: 32 bytes each, 8 GiB in all.
+/// The most pixels a film holds: 25 bytes each, 6.25 GiB in all.
 const MOST_PIXELS: u64 = 1 << 28;
 
 /// A picture, or as much of it as there was time for.

@@ -293,7 +293,7 @@ fn what_is_cancelled_keeps_what_is_done() {
     let rendered = render(&world, &settings, &progress).unwrap();
     assert!(rendered.cancelled && !rendered.film.is_complete());
     assert_eq!(rendered.status.pixels_done, 32 * 32);
-    assert_eq!(rendered.film.pixels().iter().filter(|p| p.alpha == 1.0).count(), 32 * 32);
+    assert_eq!(rendered.film.pixels().filter(|p| p.alpha == 1.0).count(), 32 * 32);
 }
 
 /// Ctrl-C is answered within about a second, however long one pixel takes.
@@ -330,7 +330,7 @@ fn a_pixel_that_takes_years_can_be_cancelled() {
         assert!(waited < Duration::from_secs(3), "{waited:?}");
         assert!(rendered.cancelled && !rendered.film.is_complete());
         // What was done before: white, from the top left on.
-        let done = rendered.film.pixels().iter().filter(|p| p.alpha == 1.0).count();
+        let done = rendered.film.pixels().filter(|p| p.alpha == 1.0).count();
         assert!(done > 20 && rendered.film.pixel(0, 0).unwrap().rgb == Rgb::WHITE, "{done}");
         assert_eq!(rendered.status.pixels_done, done as u64);
     }

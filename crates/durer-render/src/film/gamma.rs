@@ -59,46 +59,81 @@ impl Encoding {
         // NaN is shown black.
         if value > 0.0 { value.min(1.0) } else { 0.0 }
     }
+
+    /// The number that stands for a light: undoes [`Encoding::light`].
+    fn number(self, light: f64) -> f64 {
+        match self {
+            Self::Linear => light,
+            Self::Power(power) => elementary::pow(light, 1.0 / power),
+            Self::Srgb => encode(light),
+        }
+    }
+
+    /// The least number that is written as the byte `k` or a greater one.
+    fn least(self, k: u8) -> f64 {
+        let reaches = |bits| (self.file(f64::from_bits(bits)) * 255.0 + 0.5) as u8 >= k;
+        // Positive f64 are in the order of their bits. Rounding has moved the guess by a few of them.
+        let guess = self.number(decode((f64::from(k) - 0.5) / 255.0)).clamp(0.0, 1.0).to_bits();
+        let (mut below, mut above, mut step) = (guess, guess, 1);
+        while reaches(below) {
+            below = below.saturating_sub(step);
+            step *= 2;
+        }
+        while !reaches(above) {
+            above = (above + step).min(1.0_f64.to_bits());
+            step *= 2;
+        }
+        while above - below > 1 {
+            let middle = below + (above - below) / 2;
+            if reaches(middle) { above = middle } else { below = middle }
+        }
+        f64::from_bits(above)
+    }
 }
 
 /// The bytes of an 8-bit file, by comparison: for each byte the least number that is written as it.
 #[derive(Clone, Debug)]
 pub(crate) struct Bytes {
-    least: [f64; 256],
-    /// The byte at the lower end of each of [`CELLS`] parts of `[0, 1]`, where the search starts.
-    start: Vec<u8>,
+    /// In the end what no number reaches.
+    least: [f64; 257],
+    /// The byte at the lower end of each cell, where the search starts.
+    start: Box<[u8; 2 * CELLS]>,
 }
 
-/// So fine that a part holds few bytes, also where the sRGB curve is steep.
-const CELLS: usize = 2048;
+/// `[0, 1]` has so many cells, around the multiples of one over this: so fine that few hold the ends of two bytes, also where the sRGB curve
+/// is steep.
+const CELLS: usize = 4096;
+
+/// Numbers in `[0, 1]` are rounded to the middle of their cell when this is added, and its number is what the last bits say.
+const ROUNDER: f64 = (1_u64 << 52) as f64 / CELLS as f64;
 
 impl Bytes {
     pub(crate) fn new(encoding: Encoding) -> Self {
-        let byte = |v: f64| (encoding.file(v) * 255.0 + 0.5) as u8;
-        let mut least = [0.0; 256];
+        let mut least = [f64::INFINITY; 257];
+        least[0] = 0.0;
         for k in 1..=255_u8 {
-            // Positive f64 are in the order of their bits.
-            let (mut below, mut above) = (0.0_f64.to_bits(), 1.0_f64.to_bits());
-            while above - below > 1 {
-                let middle = below + (above - below) / 2;
-                if byte(f64::from_bits(middle)) < k { below = middle } else { above = middle }
-            }
-            least[usize::from(k)] = f64::from_bits(above);
+            least[usize::from(k)] = encoding.least(k);
         }
-        let start = (0..CELLS).map(|i| byte(i as f64 / CELLS as f64)).collect();
-        Self { least, start }
+        let mut byte = 0;
+        let start = core::array::from_fn(|i| {
+            let end = (i as f64 - 0.5) / CELLS as f64;
+            while least[byte + 1] <= end {
+                byte += 1;
+            }
+            byte as u8
+        });
+        Self { least, start: Box::new(start) }
     }
 
     /// The byte for the number `v`.
     #[inline(always)]
     pub(crate) fn of(&self, v: f64) -> u8 {
-        if v >= 1.0 {
-            return 255;
-        }
-        // Negative numbers become 0, and NaN is shown black.
-        let mut byte = self.start[(v * CELLS as f64) as usize & (CELLS - 1)];
-        // Never so for NaN.
-        while byte < 255 && self.least[usize::from(byte) + 1] <= v {
+        // NaN is shown black.
+        let v = if v > 0.0 { v } else { 0.0 };
+        let v = if v < 1.0 { v } else { 1.0 };
+        let mut byte = self.start[(v + ROUNDER).to_bits() as usize & (2 * CELLS - 1)];
+        byte += u8::from(self.least[usize::from(byte) + 1] <= v);
+        while self.least[usize::from(byte) + 1] <= v {
             byte += 1;
         }
         byte

@@ -15,7 +15,10 @@ pub struct Film {
     width: u32,
     height: u32,
     encoding: Encoding,
-    pixels: Vec<Pixel>,
+    /// Red, green and blue of each pixel.
+    colours: Vec<[f64; 3]>,
+    /// Which pixels were rendered.
+    rendered: Vec<bool>,
 }
 
 /// A pixel: colour in the scene's own numbers, not multiplied by the opacity.
@@ -30,8 +33,10 @@ pub struct Pixel {
 impl Film {
     /// A film on which nothing is seen yet: every pixel is clear.
     pub fn new(width: u32, height: u32, encoding: Encoding) -> Self {
-        let pixels = vec![Pixel::default(); width as usize * height as usize];
-        Self { width, height, encoding, pixels }
+        let size = width as usize * height as usize;
+        // Numbers, and no type of our own: zeros of theirs need not be written.
+        let (colours, rendered) = (vec![[0.0; 3]; size], vec![false; size]);
+        Self { width, height, encoding, colours, rendered }
     }
 
     /// Columns.
@@ -50,13 +55,19 @@ impl Film {
     }
 
     /// All pixels, row by row from the top.
-    pub fn pixels(&self) -> &[Pixel] {
-        &self.pixels
+    pub fn pixels(&self) -> impl Iterator<Item = Pixel> {
+        (0..self.colours.len()).map(|i| self.at(i))
+    }
+
+    /// The pixel with a number, counted row by row.
+    fn at(&self, i: usize) -> Pixel {
+        let [r, g, b] = self.colours[i];
+        Pixel { rgb: Rgb::new(r, g, b), alpha: if self.rendered[i] { 1.0 } else { 0.0 } }
     }
 
     /// The pixel in column `x` and row `y`; `None` outside the picture.
     pub fn pixel(&self, x: u32, y: u32) -> Option<Pixel> {
-        (x < self.width).then(|| self.pixels.get(y as usize * self.width as usize + x as usize).copied())?
+        (x < self.width && y < self.height).then(|| self.at(y as usize * self.width as usize + x as usize))
     }
 
     /// The colour of a pixel as light, red, green and blue: for measurements and linear files.
@@ -67,7 +78,7 @@ impl Film {
 
     /// Whether every pixel was rendered.
     pub fn is_complete(&self) -> bool {
-        self.pixels.iter().all(|p| p.alpha == 1.0)
+        !self.rendered.contains(&false)
     }
 
     /// Puts the pixels of `region`, row by row, into their places; there may be fewer than it has.
@@ -75,9 +86,11 @@ impl Film {
         let columns = (region.x1 - region.x0) as usize;
         for (row, from) in (region.y0..region.y1).zip(pixels.chunks(columns)) {
             let start = row as usize * self.width as usize + region.x0 as usize;
-            for (pixel, &rgb) in self.pixels[start..start + columns].iter_mut().zip(from) {
-                *pixel = Pixel { rgb, alpha: 1.0 };
+            let places = start..start + from.len();
+            for (colour, rgb) in self.colours[places.clone()].iter_mut().zip(from) {
+                *colour = [rgb.r, rgb.g, rgb.b];
             }
+            self.rendered[places].fill(true);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Files: written beside the goal under another name, then renamed, so that a half-written picture never has the picture's name.
 
+use super::Film;
 use super::gamma::Bytes;
-use super::{Film, Pixel};
 use durer_scene::Rgb;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -90,17 +90,20 @@ impl Film {
         let channels = if with_alpha { 4 } else { 3 };
         if bits == Bits::Eight {
             let table = Bytes::new(self.encoding);
-            let mut bytes = vec![0; self.pixels.len() * channels];
-            for (Pixel { rgb, alpha }, bytes) in self.pixels.iter().zip(bytes.chunks_exact_mut(channels)) {
-                (bytes[0], bytes[1], bytes[2]) = (table.of(rgb.r), table.of(rgb.g), table.of(rgb.b));
-                if with_alpha {
-                    bytes[3] = (alpha * 255.0 + 0.5) as u8;
-                }
+            if !with_alpha {
+                return self.colours.as_flattened().iter().map(|&v| table.of(v)).collect();
+            }
+            let mut bytes = vec![0; self.colours.len() * channels];
+            for ((bytes, colour), &rendered) in
+                bytes.as_chunks_mut::<4>().0.iter_mut().zip(&self.colours).zip(&self.rendered)
+            {
+                let [r, g, b] = colour.map(|v| table.of(v));
+                *bytes = [r, g, b, if rendered { 255 } else { 0 }];
             }
             return bytes;
         }
-        let mut bytes = Vec::with_capacity(self.pixels.len() * channels * 2);
-        for pixel in &self.pixels {
+        let mut bytes = Vec::with_capacity(self.colours.len() * channels * 2);
+        for pixel in self.pixels() {
             let Rgb { r, g, b } = pixel.rgb;
             let [r, g, b] = [r, g, b].map(|v| self.encoding.file(v));
             for v in &[r, g, b, pixel.alpha][..channels] {
@@ -120,7 +123,7 @@ impl Film {
             Bits::Sixteen => png::BitDepth::Sixteen,
         });
         // The encoder's default took 4 % of a simple picture's time.
-        encoder.set_compression(png::Compression::Fast);
+        encoder.set_compression(png::Compression::Fastest);
         encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
         let mut writer = encoder.write_header()?;
         writer.write_image_data(&self.bytes(bits, with_alpha))?;
@@ -141,7 +144,7 @@ impl Film {
         use exr::prelude::{Image, SpecificChannels, WritableImage};
         let size = (self.width as usize, self.height as usize);
         let at = |p: exr::math::Vec2<usize>| {
-            let pixel = self.pixels[p.y() * self.width as usize + p.x()];
+            let pixel = self.at(p.y() * self.width as usize + p.x());
             let Rgb { r, g, b } = pixel.rgb;
             ([r, g, b].map(|v| self.encoding.light(v) as f32), pixel.alpha as f32)
         };

@@ -7,7 +7,7 @@ use durer_math::lanes::LANES;
 use durer_math::{F8, M8};
 
 /// As many groups of neighbouring rays share one search of the tree.
-pub(super) const TOGETHER: usize = 8;
+pub(super) const TOGETHER: usize = 16;
 
 /// A group with at least so many rays that belong together is used as it is; rays of others are gathered into new groups.
 const DENSE: u32 = 6;

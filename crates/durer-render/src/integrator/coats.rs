@@ -5,24 +5,31 @@
 
 use super::media::Border;
 use super::spot::Spot;
-use crate::lanes::Rgb8;
+use crate::lanes::{Colour8, Rgb8};
 use crate::material::{Finish, Mirror};
 use crate::sampler::random;
 use crate::texture::Coat;
 use crate::world::World;
-use durer_math::{F8, Isa};
+use durer_math::{F8, Isa, M8};
+use durer_scene::Colour;
 
 /// What the layers of some spots leave to be done.
 #[derive(Default)]
 pub(super) struct Coats<'w> {
     /// The finishes of layers that light changes, the outermost first.
     pub(super) finishes: Vec<&'w Finish>,
-    /// The same layers at each spot, all of the first spot first.
+    /// The same layers at each spot, all spots of the first layer first.
     lit: Vec<Lit>,
     /// The mirrors of layers that reflect.
     pub(super) mirrors: Vec<&'w Mirror>,
-    /// The same layers at each spot.
+    /// The same layers at each spot, as above.
     mirrored: Vec<Mirrored>,
+    /// How many spots there are.
+    spots: usize,
+    /// Which lanes of the spots see the layer at hand,
+    live: Vec<M8>,
+    /// and its paint there.
+    paint: Vec<Colour8>,
 }
 
 /// A layer that light changes, at a spot.
@@ -53,7 +60,7 @@ impl<'w> Coats<'w> {
         (world, isa): (&'w World, Isa),
         layers: &'w [Coat],
         border: &Border,
-        draws: u32,
+        mut draws: u32,
         spots: &mut [Spot],
     ) {
         let finishes = || layers.iter().rev().map(|coat| &coat.finish);
@@ -63,71 +70,125 @@ impl<'w> Coats<'w> {
         self.mirrors.extend(finishes().filter_map(|f| f.mirror.as_deref()));
         self.lit.clear();
         self.mirrored.clear();
+        self.spots = spots.len();
+        self.live.resize(spots.len(), M8::NONE);
+        self.paint.resize(spots.len(), Colour8::splat(Colour::default()));
+        for (live, spot) in self.live.iter_mut().zip(&mut *spots) {
+            *live = spot.live;
+            (spot.sum, spot.passed) = (Rgb8::BLACK, Rgb8::WHITE);
+        }
+        for coat in layers.iter().rev() {
+            // Small steps, each of which leaves its results in memory: the compiler mixes the lanes of large ones.
+            let bailout = F8::splat(world.adc_bailout);
+            isa.run_in_lanes(
+                #[inline(always)]
+                || {
+                    for (live, spot) in self.live.iter_mut().zip(&*spots) {
+                        *live &= !spot.passed.luminance().le(bailout);
+                    }
+                },
+            );
+            coat.pigment.show(
+                isa,
+                spots.iter().zip(&self.live).map(|(s, &live)| (s.inside, live)),
+                &mut self.paint,
+            );
+            self.lay_on((world, isa), &coat.finish, spots);
+            if coat.finish.is_lit && coat.finish.crand > 0.0 {
+                draws += 1;
+                self.grind(coat.finish.crand, draws, spots);
+            }
+            match coat.finish.mirror.as_deref() {
+                Some(mirror) => self.mirror(isa, (mirror, coat.finish.conserve_energy), border, spots),
+                None => self.pass(isa, spots),
+            }
+        }
+    }
+
+    /// Adds the layer's own light, and what lamps need to know of it.
+    fn lay_on(&mut self, (world, isa): (&World, Isa), finish: &Finish, spots: &mut [Spot]) {
+        let own_light = Rgb8::splat(finish.own_light);
+        let (live, paint, lit) = (&self.live, &self.paint, &mut self.lit);
         isa.run_in_lanes(
             #[inline(always)]
             || {
-                for spot in spots {
-                    self.lay_on(world, layers, border, draws, spot);
+                for ((spot, paint), &live) in spots.iter_mut().zip(paint).zip(live) {
+                    let (passed, colour) = (spot.passed, paint.rgb);
+                    let filtering =
+                        if world.filter_by_colour { paint.filter * colour.greatest() } else { paint.filter };
+                    let body = (passed * colour * (F8::ONE - filtering - paint.transmit)).kept(live);
+                    spot.sum += (body * own_light).kept(live);
+                    if finish.is_lit {
+                        lit.push(Lit { scattered: body, shine: passed.kept(live), colour, grain: F8::ZERO });
+                    }
                 }
             },
         );
     }
 
-    #[inline(always)]
-    fn lay_on(&mut self, world: &World, layers: &[Coat], border: &Border, mut draws: u32, spot: &mut Spot) {
-        let mut live = spot.live;
-        let mut passed = Rgb8::WHITE;
-        let mut sum = Rgb8::BLACK;
-        for coat in layers.iter().rev() {
-            live &= !passed.luminance().le(F8::splat(world.adc_bailout));
-            let paint = coat.pigment.colours(spot.inside, live);
-            let finish = &coat.finish;
-            let colour = paint.rgb;
-            let filtering =
-                if world.filter_by_colour { paint.filter * colour.greatest() } else { paint.filter };
-            let body = (passed * colour * (F8::ONE - filtering - paint.transmit)).kept(live);
-            sum += (body * Rgb8::splat(finish.own_light)).kept(live);
-            if finish.is_lit {
-                let mut grain = F8::ZERO;
-                if finish.crand > 0.0 {
-                    draws += 1;
-                    for i in live.lanes() {
-                        grain.0[i] = random(spot.paths.seed[i], u64::from(draws), 2) * finish.crand;
-                    }
-                }
-                self.lit.push(Lit { scattered: body, shine: passed.kept(live), colour, grain });
+    /// Draws the grain of the layer that was laid on last.
+    fn grind(&mut self, crand: f64, draws: u32, spots: &[Spot]) {
+        let first = self.lit.len() - self.spots;
+        for ((lit, spot), live) in self.lit[first..].iter_mut().zip(spots).zip(&self.live) {
+            for i in live.lanes() {
+                lit.grain.0[i] = random(spot.paths.seed[i], u64::from(draws), 2) * crand;
             }
-            let mut left = passed * paint.passed();
-            if let Some(mirror) = finish.mirror.as_deref() {
-                let cosine = spot.view.cosine;
-                let fresnel = if mirror.fresnel { border.fresnel(cosine) } else { F8::ZERO };
-                let reflectance = mirror.reflectance(cosine, colour, live, fresnel).kept(live);
-                let importance = passed.luminance() * reflectance.greatest();
-                self.mirrored.push(Mirrored { reflectance, importance });
-                if finish.conserve_energy {
-                    left = left
-                        * reflectance.map(
-                            #[inline(always)]
-                            |r| F8::ONE - r.min(F8::ONE),
-                        );
-                }
-            }
-            passed = left.or(live, passed);
         }
-        (spot.sum, spot.passed) = (sum, passed);
     }
 
-    /// The layers at spot `i` that light changes, with their finishes.
-    #[inline(always)]
-    pub(super) fn lit_at(&self, i: usize) -> impl Iterator<Item = (&'w Finish, &Lit)> {
-        let count = self.finishes.len();
-        self.finishes.iter().copied().zip(&self.lit[i * count..(i + 1) * count])
+    /// Leaves what the layer lets pass.
+    fn pass(&self, isa: Isa, spots: &mut [Spot]) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                for ((spot, paint), &live) in spots.iter_mut().zip(&self.paint).zip(&self.live) {
+                    spot.passed = (spot.passed * paint.passed()).or(live, spot.passed);
+                }
+            },
+        );
+    }
+
+    /// The same of a layer that reflects.
+    fn mirror(
+        &mut self,
+        isa: Isa,
+        (mirror, conserve_energy): (&Mirror, bool),
+        border: &Border,
+        spots: &mut [Spot],
+    ) {
+        let (live, paint, mirrored) = (&self.live, &self.paint, &mut self.mirrored);
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                for ((spot, paint), &live) in spots.iter_mut().zip(paint).zip(live) {
+                    let (passed, cosine) = (spot.passed, spot.view.cosine);
+                    let fresnel = if mirror.fresnel { border.fresnel(cosine) } else { F8::ZERO };
+                    let reflectance = mirror.reflectance(cosine, paint.rgb, live, fresnel).kept(live);
+                    let importance = passed.luminance() * reflectance.greatest();
+                    mirrored.push(Mirrored { reflectance, importance });
+                    let mut left = passed * paint.passed();
+                    if conserve_energy {
+                        left = left
+                            * reflectance.map(
+                                #[inline(always)]
+                                |r| F8::ONE - r.min(F8::ONE),
+                            );
+                    }
+                    spot.passed = left.or(live, passed);
+                }
+            },
+        );
+    }
+
+    /// The `k`th layer that light changes, at each spot.
+    pub(super) fn lit(&self, k: usize) -> &[Lit] {
+        &self.lit[k * self.spots..(k + 1) * self.spots]
     }
 
     /// The `k`th layer that reflects, at spot `i`.
     #[inline(always)]
     pub(super) fn mirrored_at(&self, i: usize, k: usize) -> &Mirrored {
-        &self.mirrored[i * self.mirrors.len() + k]
+        &self.mirrored[k * self.spots + i]
     }
 }
 

@@ -1,22 +1,33 @@
 //! The light of lamps on surfaces.
 
-use super::coats::Coats;
-use super::shadow::{Shade, Shadows};
+use super::coats::{Coats, Lit};
+use super::shadow::Shadows;
 use super::spot::Spot;
 use crate::lanes::Rgb8;
-use crate::light::Lamp;
-use crate::material::Incidence;
+use crate::light::{Beamed, Lamp};
+use crate::material::{Finish, Incidence};
 use crate::progress::Progress;
 use crate::stats::RayCounts;
 use crate::vector::dot;
 use crate::world::World;
-use durer_geometry::Rays8;
 use durer_math::{F8, Isa, M8};
 
 /// Lights some spots.
 #[derive(Default)]
 pub(super) struct Lamps<'w> {
     shadows: Shadows<'w>,
+    /// How the light of the lamp at hand falls on each spot.
+    falling: Vec<Falling>,
+}
+
+/// How light falls on eight points.
+#[derive(Clone, Copy)]
+struct Falling {
+    at: Incidence,
+    /// What the light's colour is multiplied by.
+    strength: F8,
+    /// Where anything can block it.
+    blockable: M8,
 }
 
 impl<'w> Lamps<'w> {
@@ -36,16 +47,15 @@ impl<'w> Lamps<'w> {
             if stop.is_cancelled() {
                 return;
             }
-            self.shadows.clear();
-            isa.run_in_lanes(
-                #[inline(always)]
-                || {
-                    for (i, spot) in spots.iter().enumerate() {
-                        let shade = shine(lamp, coats, i, spot, (double, behind));
-                        self.shadows.push(shade);
-                    }
-                },
-            );
+            // Small steps, each of which leaves its results in memory: the compiler mixes the lanes of large ones.
+            self.fall(isa, lamp, (double, behind), spots);
+            for (k, finish) in coats.finishes.iter().enumerate() {
+                self.scatter(isa, finish, coats.lit(k));
+                if finish.shines() && !lamp.shadowless {
+                    self.highlight(isa, finish, coats.lit(k), spots);
+                }
+            }
+            self.aim(isa, lamp, spots);
             self.shadows.cast((world, isa), media, stop, counts);
             isa.run_in_lanes(
                 #[inline(always)]
@@ -57,42 +67,77 @@ impl<'w> Lamps<'w> {
             );
         }
     }
-}
 
-/// What a lamp adds to a spot if nothing is between, and the rays that look for it.
-#[inline(always)]
-fn shine(lamp: &Lamp, coats: &Coats<'_>, i: usize, spot: &Spot, (double, behind): (bool, bool)) -> Shade {
-    let beamed = lamp.at(spot.hits.p, spot.live);
-    let cosine = dot(beamed.to_light, spot.view.normal);
-    let lit = if behind { beamed.lit } else { beamed.lit & !cosine.le(F8::ZERO) };
-    let lit = lit & !beamed.strength.eq(F8::ZERO);
-    if !lit.any() {
-        return Shade::NONE;
+    /// Lets light fall on spots; none of it is seen yet.
+    fn fall(&mut self, isa: Isa, lamp: &Lamp, (double, behind): (bool, bool), spots: &[Spot]) {
+        let falling = &mut self.falling;
+        falling.clear();
+        let places = self.shadows.places(spots.len());
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                for (spot, to) in spots.iter().zip(places) {
+                    let Beamed { lit, to_light, strength, target, blockable } =
+                        lamp.at(spot.hits.p, spot.live);
+                    let cosine = dot(to_light, spot.view.normal);
+                    let lit = if behind { lit } else { lit & !cosine.le(F8::ZERO) };
+                    let live = lit & !strength.eq(F8::ZERO);
+                    let at = Incidence { live, to_light, cosine, double };
+                    falling.push(Falling { at, strength, blockable });
+                    (*to.light, *to.target) = (Rgb8::BLACK, target);
+                }
+            },
+        );
     }
-    let highlit = match (lamp.shadowless, double) {
-        (true, _) => M8::NONE,
-        (false, true) => lit,
-        (false, false) => lit & (F8::ZERO).lt(cosine),
-    };
-    let at = Incidence { live: lit, to_light: beamed.to_light, cosine, double };
-    let shiny = Incidence { live: highlit, ..at };
-    let mut shown = Rgb8::BLACK;
-    for (finish, coat) in coats.lit_at(i) {
-        shown += coat.scattered * finish.scattered(&at, coat.grain);
-        if finish.shines() && !lamp.shadowless {
-            let shine = finish.highlight(&shiny, &spot.view, coat.colour);
-            shown += (coat.shine * shine).kept(highlit);
-        }
+
+    /// Adds what a layer scatters.
+    fn scatter(&mut self, isa: Isa, finish: &Finish, lit: &[Lit]) {
+        let (falling, places) = (&self.falling, self.shadows.places(lit.len()));
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                for ((Falling { at, .. }, lit), to) in falling.iter().zip(lit).zip(places) {
+                    *to.light += lit.scattered * finish.scattered(at, lit.grain);
+                }
+            },
+        );
     }
-    let needed = lit & !shown.is_black();
-    let light = (Rgb8::splat(lamp.colour) * beamed.strength * shown).kept(needed);
-    let (origin, back) = spot.hits.start_towards(beamed.target - spot.hits.p);
-    let rays = Rays8 {
-        origin,
-        direction: beamed.target - origin,
-        t_max: F8::ONE,
-        live: needed & beamed.blockable,
-        source: spot.hits.sources(back),
-    };
-    Shade { light, rays, target: beamed.target }
+
+    /// Adds the highlights of a layer: on both sides if light from behind counts like light from the front.
+    fn highlight(&mut self, isa: Isa, finish: &Finish, lit: &[Lit], spots: &[Spot]) {
+        let (falling, places) = (&self.falling, self.shadows.places(lit.len()));
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                for (((Falling { at, .. }, lit), spot), to) in falling.iter().zip(lit).zip(spots).zip(places)
+                {
+                    let live = if at.double { at.live } else { at.live & (F8::ZERO).lt(at.cosine) };
+                    let shine = finish.highlight(&Incidence { live, ..*at }, &spot.view, lit.colour);
+                    *to.light += (lit.shine * shine).kept(live);
+                }
+            },
+        );
+    }
+
+    /// Colours what is seen of the light, and aims rays at the lamp from where anything is.
+    fn aim(&mut self, isa: Isa, lamp: &Lamp, spots: &[Spot]) {
+        let (falling, places) = (&self.falling, self.shadows.places(spots.len()));
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                for ((Falling { at, strength, blockable }, spot), to) in falling.iter().zip(spots).zip(places)
+                {
+                    let needed = at.live & !to.light.is_black();
+                    *to.light = (Rgb8::splat(lamp.colour) * *strength * *to.light).kept(needed);
+                    let rays = to.rays;
+                    rays.live = needed & *blockable;
+                    if rays.live.any() {
+                        let (origin, back) = spot.hits.start_towards(*to.target - spot.hits.p);
+                        (rays.origin, rays.direction) = (origin, *to.target - origin);
+                        (rays.t_max, rays.source) = (F8::ONE, spot.hits.sources(back));
+                    }
+                }
+            },
+        );
+    }
 }

@@ -69,7 +69,7 @@ impl<'w> Onward<'w> {
             *o == order
                 && (s.level, s.depth, s.mask, s.draws) == (level, depth, mask, draws)
                 && s.mirror.map(core::ptr::from_ref) == mirror.map(core::ptr::from_ref)
-                && s.media == media
+                && s.media.iter().eq(media)
         };
         let at = self.bundles.iter().position(is_it).unwrap_or_else(|| {
             let mut bundle = self.empty();

@@ -14,19 +14,13 @@ use durer_math::lanes::LANES;
 use durer_math::{F8, Isa, M8, Point3};
 use durer_scene::mask;
 
-/// A light on eight points, and the rays on which something may be in its way.
-pub(super) struct Shade {
+/// A light on eight points, and the rays on which something may be in its way: places to put them.
+pub(super) struct Shade<'a> {
     /// The light if nothing is between.
-    pub(super) light: Rgb8,
-    pub(super) rays: Rays8,
+    pub(super) light: &'a mut Rgb8,
+    pub(super) rays: &'a mut Rays8,
     /// Where the rays end.
-    pub(super) target: Point3<F8>,
-}
-
-impl Shade {
-    /// No light.
-    pub(super) const NONE: Self =
-        Self { light: Rgb8::BLACK, rays: Rays8::NONE, target: Point3::new(F8::ZERO, F8::ZERO, F8::ZERO) };
+    pub(super) target: &'a mut Point3<F8>,
 }
 
 /// Shadow rays of one lamp, group by group.
@@ -46,17 +40,16 @@ pub(super) struct Shadows<'w> {
 }
 
 impl<'w> Shadows<'w> {
-    pub(super) fn clear(&mut self) {
-        self.light.clear();
-        self.rays.clear();
-        self.targets.clear();
-    }
-
-    #[inline(always)]
-    pub(super) fn push(&mut self, shade: Shade) {
-        self.light.push(shade.light);
-        self.rays.push(shade.rays);
-        self.targets.push(shade.target);
+    /// Places for a light on so many groups of points; anything may be in them.
+    pub(super) fn places(&mut self, groups: usize) -> impl Iterator<Item = Shade<'_>> {
+        self.light.resize(groups, Rgb8::BLACK);
+        self.rays.resize(groups, Rays8::NONE);
+        self.targets.resize(groups, Rays8::NONE.origin);
+        let both = self.light.iter_mut().zip(&mut self.rays).zip(&mut self.targets);
+        both.map(
+            #[inline(always)]
+            |((light, rays), target)| Shade { light, rays, target },
+        )
     }
 
     /// The light that arrives.
@@ -72,10 +65,13 @@ impl<'w> Shadows<'w> {
         stop: &Progress<'_>,
         counts: &mut RayCounts,
     ) {
-        self.hits.clear();
-        for (rays, light) in self.rays.chunks_mut(TOGETHER).zip(self.light.chunks_mut(TOGETHER)) {
-            let first = self.hits.len();
-            self.hits.resize(first + rays.len(), Hits8::NONE);
+        let clear = world.has_clear_shadows;
+        self.hits.resize(if clear { self.rays.len() } else { 0 }, Hits8::NONE);
+        for hits in &mut self.hits {
+            hits.hit = M8::NONE;
+        }
+        let chunks = self.rays.chunks_mut(TOGETHER).zip(self.light.chunks_mut(TOGETHER));
+        for (chunk, (rays, light)) in chunks.enumerate() {
             let count: usize = rays.iter().map(|r| r.live.count()).sum();
             if count == 0 {
                 continue;
@@ -85,16 +81,14 @@ impl<'w> Shadows<'w> {
             if beam.as_ref().is_some_and(Beam::is_empty) {
                 continue;
             }
-            for ((rays, light), hits) in rays.iter_mut().zip(light).zip(&mut self.hits[first..]) {
-                if !rays.live.any() {
-                    continue;
-                }
+            for (i, (rays, light)) in rays.iter_mut().zip(light).enumerate() {
                 let met = world.geometry().any_by_lanes(beam.as_ref(), rays, mask::SHADOW, &mut self.scratch);
                 if met.any() {
                     *light = light.kept(!met);
                     rays.live &= !met;
                 }
-                if world.has_clear_shadows && rays.live.any() {
+                if clear {
+                    let hits = &mut self.hits[chunk * TOGETHER + i];
                     world.geometry().seen_by_lanes(
                         beam.as_ref(),
                         rays,
@@ -105,7 +99,7 @@ impl<'w> Shadows<'w> {
                 }
             }
         }
-        if world.has_clear_shadows && self.hits.iter().any(|h| h.hit.any()) {
+        if self.hits.iter().any(|h| h.hit.any()) {
             self.go_through_clear((world, isa), media, stop, counts);
         }
     }
@@ -134,18 +128,16 @@ impl<'w> Shadows<'w> {
                 self.spare.push(bundle);
                 continue;
             }
-            self.hits.clear();
-            for rays in bundle.rays.chunks(TOGETHER) {
+            self.hits.resize(bundle.rays.len(), Hits8::NONE);
+            for (rays, hits) in bundle.rays.chunks(TOGETHER).zip(self.hits.chunks_mut(TOGETHER)) {
                 let beam = world.geometry().beam_of(rays);
-                for rays in rays {
+                for (rays, hits) in rays.iter().zip(hits) {
                     counts.shadow += rays.live.count() as u64;
-                    self.hits.push(Hits8::NONE);
-                    let last = self.hits.len() - 1;
                     world.geometry().seen_by_lanes(
                         beam.as_ref(),
                         rays,
                         mask::CLEAR_SHADOW,
-                        &mut self.hits[last],
+                        hits,
                         &mut self.scratch,
                     );
                 }

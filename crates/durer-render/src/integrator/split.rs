@@ -17,6 +17,18 @@ pub(super) struct Piece {
 #[inline]
 pub(super) fn cut(world: &World, group: usize, hits: &Hits8, pieces: &mut Vec<Piece>) {
     let mut left = hits.hit.bits();
+    let (object, primitive) = (hits.object[0], hits.primitive[0]);
+    let differ =
+        (0..LANES).fold(0, |all, i| all | (hits.object[i] ^ object) | (hits.primitive[i] ^ primitive));
+    // Most groups meet one surface.
+    if left == u8::MAX && differ == 0 && !hits.touching.any() {
+        pieces.push(Piece {
+            key: world.look_number(object, primitive) << 1,
+            group: group as u32,
+            lanes: left,
+        });
+        return;
+    }
     let mut keys = [0_u32; LANES];
     let mut last = (u32::MAX, u32::MAX, 0);
     for i in set_bits(left) {

@@ -25,7 +25,7 @@ use crate::sampler::Place;
 use crate::stats::RayCounts;
 use crate::texture::{Blend, Coat, Paint};
 use crate::world::World;
-use durer_geometry::{Beam, Hits8, Rays8, Scratch};
+use durer_geometry::{Hits8, Rays8, Scratch};
 use durer_math::lanes::LANES;
 use durer_math::{F8, Isa, M8};
 use durer_scene::{Rgb, mask};
@@ -168,19 +168,26 @@ impl<'w> Whitted<'w> {
     #[cold]
     fn start_apart(&mut self, all: &Bundle<'w>, first: &Standing<'w>) {
         let mut apart: Vec<Bundle<'w>> = Vec::new();
+        // Compared number by number: the library's comparison of blocks is slow where both lists are empty.
         let mut media = Vec::new();
         for (rays, paths) in all.rays.iter().zip(&all.paths) {
+            let mut of = [0; LANES];
             for i in rays.live.lanes() {
                 media.clear();
                 self.world.media_at(rays.lane(i).origin, &mut media);
-                let known = apart.iter().position(|b| b.standing.media == media);
-                let at = known.unwrap_or_else(|| {
+                let known = apart.iter().position(|b| b.standing.media.iter().eq(&media));
+                of[i] = known.unwrap_or_else(|| {
                     let mut bundle = self.onward.empty();
                     bundle.standing = Standing { media: media.clone(), ..first.clone() };
                     apart.push(bundle);
                     apart.len() - 1
                 });
-                apart[at].add(rays, paths, M8::from_bits(1 << i));
+            }
+            let mut left = rays.live;
+            while let Some(first) = left.first_set() {
+                let same = left & M8::from_fn(|i| of[i] == of[first]);
+                apart[of[first]].add(rays, paths, same);
+                left &= !same;
             }
         }
         self.tasks.extend(apart.into_iter().map(Task::Follow));
@@ -235,22 +242,17 @@ impl<'w> Whitted<'w> {
     /// background is seen.
     fn see(&mut self, bundle: &Bundle<'w>) {
         let world = self.world;
-        self.hits.clear();
         self.pieces.clear();
-        for rays in bundle.rays.chunks(TOGETHER) {
+        // What is there of another bundle is written over.
+        self.hits.resize(bundle.rays.len(), Hits8::NONE);
+        for (rays, hits) in bundle.rays.chunks(TOGETHER).zip(self.hits.chunks_mut(TOGETHER)) {
             let beam = world.geometry().beam_of(rays);
-            if beam.as_ref().is_some_and(Beam::is_empty) {
-                self.hits.resize(self.hits.len() + rays.len(), Hits8::NONE);
-                continue;
-            }
-            for rays in rays {
-                self.hits.push(Hits8::NONE);
-                let last = self.hits.len() - 1;
+            for (rays, hits) in rays.iter().zip(hits) {
                 world.geometry().seen_by_lanes(
                     beam.as_ref(),
                     rays,
                     bundle.standing.mask,
-                    &mut self.hits[last],
+                    hits,
                     &mut self.scratch,
                 );
             }

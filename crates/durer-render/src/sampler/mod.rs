@@ -82,13 +82,27 @@ fn grid(n: u32, tile: Region, pixels: &mut Vec<Rgb>, look: &mut impl Look) -> Op
         (0..n).flat_map(|j| (0..n).map(move |i| Place { x: middle(i) * per, y: middle(j) * per })).collect();
     let columns = (tile.x1 - tile.x0) as usize;
     let (mut places, mut colours, mut strip) = (Vec::new(), Vec::new(), Vec::new());
+    let mut order = Vec::new();
     let mut y0 = tile.y0;
     while y0 < tile.y1 {
         // With many rays a row is enough.
         let rows = if rays == 1 { BLOCK as u32 } else { 1 }.min(tile.y1 - y0) as usize;
         strip.resize(columns * rows, Rgb::BLACK);
-        for some in in_blocks(columns, rows).chunks(ENOUGH.div_ceil(rays)) {
+        if order.len() != strip.len() {
+            order = in_blocks(columns, rows);
+        }
+        for some in order.chunks(ENOUGH.div_ceil(rays)) {
             places.clear();
+            if rays == 1 {
+                let place =
+                    |&(column, row)| Place { x: middle(tile.x0 + column as u32), y: middle(y0 + row as u32) };
+                places.extend(some.iter().map(place));
+                look(&places, &mut colours)?;
+                for (&(column, row), &colour) in some.iter().zip(&colours) {
+                    strip[row * columns + column] = colour;
+                }
+                continue;
+            }
             for &(column, row) in some {
                 let (x, y) = (f64::from(tile.x0 + column as u32), f64::from(y0 + row as u32));
                 places.extend(shifts.iter().map(|shift| Place { x: x + shift.x, y: y + shift.y }));

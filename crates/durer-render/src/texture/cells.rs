@@ -37,24 +37,18 @@ impl Cutter {
 pub(super) enum Kinds {
     /// 1 where the mask is set, 0 elsewhere.
     Two(M8),
-    /// Any, of the points that were asked about.
-    Many([u8; 8]),
+    /// 0, 1 or 2.
+    Three(F8),
 }
 
 impl Cutter {
     /// The kinds of the cells in which points lie.
     #[inline(always)]
-    pub(super) fn kinds(&self, p: Point3<F8>, live: M8) -> Kinds {
+    pub(super) fn kinds(&self, p: Point3<F8>) -> Kinds {
         match self {
             Self::Checker => Kinds::Two(checker::odd_lanes(p)),
             Self::Brick(brick) => Kinds::Two(brick.brick_lanes(p)),
-            Self::Hexagon => {
-                let mut kinds = [0; 8];
-                for i in live.lanes() {
-                    kinds[i] = hexagon::kind(p.to_vec().lane(i).to_point()) as u8;
-                }
-                Kinds::Many(kinds)
-            }
+            Self::Hexagon => Kinds::Three(hexagon::kinds(p)),
         }
     }
 }
@@ -88,9 +82,9 @@ mod tests {
             for k in 0..500 {
                 let x = |a: f64| F8(core::array::from_fn(|i| (f64::from(k * 8 + i as i32) - 1999.0) * a));
                 let p = Point3::new(x(0.037), x(0.25), x(-0.113));
-                let kinds: [usize; 8] = match cutter.kinds(p, M8::ALL) {
+                let kinds: [usize; 8] = match cutter.kinds(p) {
                     Kinds::Two(one) => core::array::from_fn(|i| usize::from(one.bits() >> i & 1 == 1)),
-                    Kinds::Many(kinds) => kinds.map(usize::from),
+                    Kinds::Three(kinds) => kinds.0.map(|k| k as usize),
                 };
                 for (i, kind) in kinds.into_iter().enumerate() {
                     assert_eq!(kind, cutter.kind(p.to_vec().lane(i).to_point()));

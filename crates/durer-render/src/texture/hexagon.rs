@@ -4,8 +4,8 @@
 //! `(x, z) = (1.5 a, (sqrt 3 / 2)(a + 2 b))` for whole `a`, `b`, and a point belongs to the nearest. The colour is `(b + 2 a) mod 3`,
 //! so that no two neighbours share it.
 
-use crate::vector::floor;
-use durer_math::Point3;
+use crate::vector::{floor, floor_lanes};
+use durer_math::{F8, Point3};
 
 const HALF_HEIGHT: f64 = 0.866_025_403_784_438_6; // sqrt(3) / 2
 
@@ -27,6 +27,25 @@ pub(super) fn kind(p: Point3) -> usize {
         }
     }
     (best.1 - 3.0 * floor(best.1 / 3.0)) as usize
+}
+
+/// The same in lanes.
+#[inline(always)]
+pub(super) fn kinds(p: Point3<F8>) -> F8 {
+    let a = p.x / 1.5;
+    let b = (p.z / HALF_HEIGHT - a) * 0.5;
+    let (a0, b0) = (floor_lanes(a), floor_lanes(b));
+    let (mut nearest, mut best) = (F8::splat(f64::INFINITY), F8::ZERO);
+    for da in -1..=2 {
+        for db in -1..=2 {
+            let (a, b) = (a0 + F8::splat(f64::from(da)), b0 + F8::splat(f64::from(db)));
+            let (x, z) = (p.x - a * 1.5, p.z - (a + b * 2.0) * HALF_HEIGHT);
+            let distance = x * x + z * z;
+            best = distance.lt(nearest).select(b + a * 2.0, best);
+            nearest = distance.min(nearest);
+        }
+    }
+    best - floor_lanes(best / 3.0) * 3.0
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ mod wave;
 
 pub(crate) use self::place::Place;
 
-use durer_math::{Affine, AffineError, F8, M8, Point3};
+use durer_math::{Affine, AffineError, F8, Isa, M8, Point3};
 use durer_scene::{Colour, Pattern, Pigment, PigmentBody, Rgb, Texture, TextureBody};
 
 use crate::lanes::{Colour8, Rgb8};
@@ -135,9 +135,12 @@ impl Blend<Colour> {
             Self::Cells(cutter, entries) => {
                 let last = entries.len().saturating_sub(1);
                 let entry = |i: usize| entries.get(i.min(last)).copied().unwrap_or_default();
-                match cutter.kinds(p, live) {
+                match cutter.kinds(p) {
                     Kinds::Two(one) => Colour8::splat(entry(1)).or(one, Colour8::splat(entry(0))),
-                    Kinds::Many(kinds) => Colour8::by_lane(live, |i| entry(usize::from(kinds[i]))),
+                    Kinds::Three(kind) => {
+                        let first = Colour8::splat(entry(0)).or(kind.lt(F8::ONE), Colour8::splat(entry(1)));
+                        Colour8::splat(entry(2)).or(kind.gt(F8::ONE), first)
+                    }
                 }
             }
             Self::Map(lookup, entries) => {
@@ -194,6 +197,27 @@ impl Shade {
                 }
             }
         }
+    }
+
+    /// Puts down the colours at some points, of which some lanes are asked about.
+    pub(crate) fn show(
+        &self,
+        isa: Isa,
+        points: impl Iterator<Item = (Point3<F8>, M8)>,
+        colours: &mut [Colour8],
+    ) {
+        if let Self::Solid(colour) = self {
+            colours.fill(Colour8::splat(*colour));
+            return;
+        }
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                for ((p, live), colours) in points.zip(colours) {
+                    *colours = self.colours(p, live);
+                }
+            },
+        );
     }
 
     /// The colours at some points.
