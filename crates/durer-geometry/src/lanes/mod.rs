@@ -4,7 +4,7 @@ use crate::beam::Candidate;
 use crate::ids::Id;
 use crate::{Beam, Geometry, Hit};
 use arrayvec::ArrayVec;
-use durer_math::lanes::LANES;
+use durer_math::lanes::{LANES, set_bits};
 use durer_math::{Aabb, F8, Isa, M8, Point3, Ray, RaySide, Shaft, Source, U, Vec3};
 use durer_surfaces::outline::{From8, Nearest, Outline, Points8, RayLanes, Scratch};
 use durer_surfaces::{Need, ROUGH, SurfacePoint};
@@ -93,16 +93,17 @@ impl Sources8 {
         })
     }
 
-    /// Every slot that some ray leaves, once.
+    /// Puts down every slot that some ray leaves, once.
     #[inline]
-    fn all(&self) -> ArrayVec<u64, LANES> {
-        let mut all = ArrayVec::new();
+    fn all(&self, all: &mut ArrayVec<u64, LANES>) {
+        let mut last = NOWHERE;
         for (&slot, &instance) in self.slot.iter().zip(&self.instance) {
-            if slot != NOWHERE && instance == 0 && !all.contains(&slot) {
+            // Mostly they leave the same one.
+            if slot != last && slot != NOWHERE && instance == 0 && !all.contains(&slot) {
                 all.push(slot);
+                last = slot;
             }
         }
-        all
     }
 
     /// The rays that leave a slot.
@@ -171,6 +172,23 @@ impl Hits8 {
         primitive: [0; LANES],
         source: Sources8::NONE,
     };
+
+    /// Says what these lanes meet, an instance of nothing.
+    #[inline(always)]
+    fn name(&mut self, lanes: u8, name: Id, (slot, part, face): (u64, u32, u32)) {
+        let from = &mut self.source;
+        if lanes == u8::MAX {
+            (self.object, self.primitive) = ([name.object; LANES], [name.primitive; LANES]);
+            (from.slot, from.face) = ([slot; LANES], [face; LANES]);
+            (from.part, from.instance) = ([part; LANES], [0; LANES]);
+            return;
+        }
+        for i in set_bits(lanes) {
+            (self.object[i], self.primitive[i]) = (name.object, name.primitive);
+            (from.slot[i], from.face[i]) = (slot, face);
+            (from.part[i], from.instance[i]) = (part, 0);
+        }
+    }
 
     /// What a ray saw by itself.
     fn set_lane(&mut self, i: usize, seen: Option<(Hit, SurfacePoint)>) {
@@ -259,14 +277,15 @@ fn common_source(isa: Isa, rays: &[Rays8]) -> Option<Source> {
     (source.instance == 0 && shared).then_some(source)
 }
 
-/// The lanes that wait with these numbers.
+/// Puts down the lanes that wait with these numbers; answers with their bits.
 #[inline(never)]
-fn together(isa: Isa, waiting: &M8, (number, n): (&F8, f64), (face, f): (&F8, f64)) -> M8 {
+fn together(isa: Isa, waiting: &M8, (number, n): (&F8, f64), (face, f): (&F8, f64), to: &mut M8) -> u8 {
     isa.run_in_lanes(
         #[inline(always)]
         || {
             let same = |v: &F8, x: F8| v.le(x) & v.ge(x);
-            *waiting & same(number, F8::splat(n)) & same(face, F8::splat(f))
+            *to = *waiting & same(number, F8::splat(n)) & same(face, F8::splat(f));
+            to.bits()
         },
     )
 }
@@ -340,46 +359,43 @@ impl Geometry {
         let lanes = RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
         let mut nearest = Nearest::NONE;
         self.nearest(beam, rays, &lanes, mask, &mut nearest, scratch);
-        let (mut waiting, mut left) = (M8::NONE, M8::NONE);
-        self.isa.run_in_lanes(
+        let (mut clear, mut left) = (M8::NONE, M8::NONE);
+        let mut waiting = self.isa.run_in_lanes(
             #[inline(always)]
             || {
                 let Nearest { t, e, doubt, .. } = nearest;
                 let never = F8::splat(f64::INFINITY);
                 // Known well enough to be seen, and before all doubt.
-                waiting = t.lt(never) & doubt.gt(t + e) & e.le(t * (0.5 * ROUGH));
-                left = rays.live & !(waiting | t.ge(never) & doubt.ge(never));
+                clear = t.lt(never) & doubt.gt(t + e) & e.le(t * (0.5 * ROUGH));
+                left = rays.live & !(clear | t.ge(never) & doubt.ge(never));
+                clear.bits()
             },
         );
         let Nearest { t, number, face, .. } = &nearest;
         hits.t = *t;
-        while let Some(i) = waiting.first_set() {
+        let (mut is_first, mut these) = (true, M8::NONE);
+        while waiting != 0 {
+            let i = waiting.trailing_zeros() as usize;
             let (n, f) = (number.0[i], face.0[i]);
-            let together = together(self.isa, &waiting, (number, n), (face, f));
-            waiting &= !together;
+            waiting &= !together(self.isa, &clear, (number, n), (face, f), &mut these);
             let candidate = &beam.candidates[n as usize];
             let Some(outline) = self.outline(candidate.arena, candidate.slot) else { continue };
             let Hits8 { p, ng, ns, off, .. } = &mut *hits;
-            let sure = outline.points(f as usize, &lanes, t, &together, Points8 { p, ng, ns, off });
-            left |= together & !sure;
-            hits.hit |= sure;
-            let slot = slot_number(candidate.arena, candidate.slot);
+            let sure = outline.points(f as usize, &lanes, t, &these, Points8 { p, ng, ns, off });
+            let lanes = self.isa.run_in_lanes(
+                #[inline(always)]
+                || {
+                    left |= these & !sure;
+                    hits.hit |= sure;
+                    sure.bits()
+                },
+            );
             let part = self.arenas[candidate.arena as usize].part(candidate.slot).0;
             // The kernels of meshes count faces, and lanes see one of them.
             let face = if outline.is_part() { part } else { f as u32 };
-            let Id { object, primitive } = candidate.name;
-            let to = &mut *hits;
-            if sure.all() {
-                (to.object, to.primitive) = ([object; LANES], [primitive; LANES]);
-                (to.source.slot, to.source.face) = ([slot; LANES], [face; LANES]);
-                (to.source.part, to.source.instance) = ([part; LANES], [0; LANES]);
-                continue;
-            }
-            for i in sure.lanes() {
-                (to.object[i], to.primitive[i]) = (object, primitive);
-                (to.source.slot[i], to.source.face[i]) = (slot, face);
-                (to.source.part[i], to.source.instance[i]) = (part, 0);
-            }
+            let slot = slot_number(candidate.arena, candidate.slot);
+            hits.name(if is_first { u8::MAX } else { lanes }, candidate.name, (slot, part, face));
+            is_first = false;
         }
         left
     }
@@ -394,7 +410,8 @@ impl Geometry {
         nearest: &mut Nearest,
         scratch: &mut Scratch,
     ) {
-        let sources = rays.source.all();
+        let mut sources = ArrayVec::new();
+        rays.source.all(&mut sources);
         for (number, candidate) in beam.candidates.iter().enumerate() {
             let Candidate { arena, slot, .. } = *candidate;
             if candidate.mask & mask == 0 {
