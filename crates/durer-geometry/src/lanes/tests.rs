@@ -1,6 +1,8 @@
 //! Lanes see what single rays see, and rarely have to ask.
 
 use super::*;
+use durer_math::Ray;
+use durer_math::lanes::LANES;
 use durer_math::{Affine, Isa, Normal3};
 use durer_surfaces::{
     Annulus, AxisBox, CappedCylinder, Clip, Disc, Ellipsoid, EllipticParaboloid, FillRule, Frustum,

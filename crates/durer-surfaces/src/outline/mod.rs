@@ -9,18 +9,23 @@
 //! ```text
 //!   sketch     polynomials in double-double, moved by maps      (built once, `sketch.rs`)
 //!   outline    the same in f64, with their errors               (`face.rs`)
-//!   meet       which face eight rays meet first                 (`meet.rs`)
+//!   roots      where eight rays cross a face                    (`roots.rs`)
+//!   meet       which face they meet first                       (`meet.rs`, `hull.rs`)
 //!   point      where, and how far rays start from there         (`point.rs`)
 //! ```
 
 mod face;
+mod hull;
 mod loops;
 mod meet;
 mod point;
+mod rays;
+mod roots;
 mod sketch;
 
-pub use self::meet::{From8, Nearest, RayLanes, Scratch};
+pub use self::meet::Scratch;
 pub use self::point::Points8;
+pub use self::rays::{From8, Nearest, RayLanes};
 pub use self::sketch::Sketch;
 
 use self::face::Face;

@@ -1,7 +1,7 @@
 //! Where eight rays meet a face, and how far rays start from there.
 
 use super::face::{FaceKind, taxicab};
-use super::meet::RayLanes;
+use super::rays::RayLanes;
 use super::{Outline, face};
 use durer_math::{F8, M8, Point3, U, Vec3};
 
