@@ -65,7 +65,7 @@ impl Geometry {
         let full = self.tree.in_shaft(shaft, |leaf| {
             slots(&leaf).any(|slot| {
                 // The tree has looked at the box of all slots together.
-                let missed = leaf.count > 1 && self.is_beside(leaf.kind, slot, shaft);
+                let missed = leaf.count > 1 && self.slot_misses(leaf.kind, slot, shaft);
                 !missed && candidates.try_push(self.candidate(leaf.kind, slot)).is_err()
             })
         });

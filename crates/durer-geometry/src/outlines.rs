@@ -19,7 +19,7 @@ pub(crate) struct Drawn {
 }
 
 impl Outlines {
-    /// With more slots than this few rays side by side meet the same ones, and lanes would be empty.
+    /// Each slot needs 16 bytes, made or not: 16 MiB are enough.
     const MOST: u64 = 1 << 20;
 
     /// Room for all, none of them made.
@@ -49,7 +49,7 @@ impl Geometry {
 
     /// Whether no ray of a bundle meets a slot, by its box: `true` is certain.
     #[inline]
-    pub(crate) fn is_beside(&self, arena: u32, slot: u32, shaft: &Shaft) -> bool {
+    pub(crate) fn slot_misses(&self, arena: u32, slot: u32, shaft: &Shaft) -> bool {
         self.drawn(arena, slot).is_some_and(|drawn| !shaft.may_meet(&drawn.bounds))
     }
 }

@@ -120,7 +120,7 @@ impl F8 {
 
     /// Where `self == other`.
     #[inline(always)]
-    pub fn eq(self, other: Self) -> M8 {
+    pub fn equals(self, other: Self) -> M8 {
         M8(zip(self.0, other.0, |a, b| all_bits(a == b)))
     }
 
@@ -398,7 +398,7 @@ mod tests {
     fn comparisons_are_those_of_numbers() {
         let a = F8([1.0, 2.0, 3.0, f64::NAN, 0.0, -0.0, f64::INFINITY, -1.0]);
         let b = F8([2.0, 2.0, 2.0, 2.0, -0.0, 0.0, f64::INFINITY, f64::NAN]);
-        assert_eq!([a.lt(b), a.le(b), a.eq(b)].map(M8::bits), [0b1, 0b111_0011, 0b111_0010]);
+        assert_eq!([a.lt(b), a.le(b), a.equals(b)].map(M8::bits), [0b1, 0b111_0011, 0b111_0010]);
     }
 
     #[test]

@@ -68,7 +68,7 @@ impl Rgb8 {
     /// Where every channel is exactly zero.
     #[inline(always)]
     pub(crate) fn is_black(self) -> M8 {
-        self.r.eq(F8::ZERO) & self.g.eq(F8::ZERO) & self.b.eq(F8::ZERO)
+        self.r.equals(F8::ZERO) & self.g.equals(F8::ZERO) & self.b.equals(F8::ZERO)
     }
 
     /// Black where the mask is not set.

@@ -311,7 +311,7 @@ impl Surface for Mesh {
 
     fn sketch(&self, part: PartId) -> Sketch {
         let vertices = self.facet(part.0);
-        let flat = Sketch::facet(vertices).of_many();
+        let flat = Sketch::facet(vertices).part_of_many();
         match self.corner_normals(part.0) {
             Some(normals) => flat.with_normals(vertices, normals.map(Normal3::to_vec)),
             None => flat,

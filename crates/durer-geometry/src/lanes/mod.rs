@@ -11,7 +11,7 @@ use crate::beam::Candidate;
 use crate::{Beam, Geometry};
 use arrayvec::ArrayVec;
 use durer_math::{Aabb, F8, Isa, M8, Point3, RaySide, Shaft, Source, Vec3};
-use durer_surfaces::outline::{Nearest, Points8, RayLanes, Scratch};
+use durer_surfaces::outline::{Nearest, Points8, Question, RayLanes, Scratch};
 use durer_surfaces::{Need, ROUGH};
 
 /// Boxes around points, lane by lane.
@@ -71,8 +71,7 @@ fn together(isa: Isa, waiting: &M8, (number, n): (&F8, f64), (face, f): (&F8, f6
     isa.run_in_lanes(
         #[inline(always)]
         || {
-            let same = |v: &F8, x: F8| v.le(x) & v.ge(x);
-            *to = *waiting & same(number, F8::splat(n)) & same(face, F8::splat(f));
+            *to = *waiting & number.equals(F8::splat(n)) & face.equals(F8::splat(f));
             to.bits()
         },
     )
@@ -120,14 +119,11 @@ impl Geometry {
         if !rays.live.any() || beam.is_some_and(Beam::is_empty) {
             return;
         }
-        let own;
-        let beam = match beam {
-            Some(beam) => Some(beam),
-            None => {
-                own = self.beam_of(core::slice::from_ref(rays));
-                own.as_ref()
-            }
-        };
+        let mut own = None;
+        let beam = beam.or_else(|| {
+            own = self.beam_of(core::slice::from_ref(rays));
+            own.as_ref()
+        });
         let mut left = rays.live;
         if let Some(beam) = beam {
             left = self.see(beam, rays, mask, hits, scratch);
@@ -206,11 +202,12 @@ impl Geometry {
                 continue;
             }
             match self.outline(arena, slot) {
-                Some(outline) if sources.contains(&slot_number(arena, slot)) => {
-                    let from = rays.source.of(arena, slot, outline);
-                    outline.meet(lanes, Some(&from), number as f64, nearest, scratch);
+                Some(outline) => {
+                    let leaves = sources.contains(&slot_number(arena, slot));
+                    let from = leaves.then(|| rays.source.of(arena, slot, outline));
+                    let asked = Question { rays: lanes, from: from.as_ref(), number: number as f64 };
+                    outline.meet(&asked, nearest, scratch);
                 }
-                Some(outline) => outline.meet(lanes, None, number as f64, nearest, scratch),
                 None => nearest.doubt = F8::ZERO,
             }
         }
@@ -221,14 +218,11 @@ impl Geometry {
         if !rays.live.any() || beam.is_some_and(Beam::is_empty) {
             return M8::NONE;
         }
-        let own;
-        let beam = match beam {
-            Some(beam) => Some(beam),
-            None => {
-                own = self.beam_of(core::slice::from_ref(rays));
-                own.as_ref()
-            }
-        };
+        let mut own = None;
+        let beam = beam.or_else(|| {
+            own = self.beam_of(core::slice::from_ref(rays));
+            own.as_ref()
+        });
         let (mut met, mut left) = (M8::NONE, rays.live);
         if let Some(beam) = beam {
             let lanes = RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);

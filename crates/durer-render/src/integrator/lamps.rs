@@ -81,7 +81,7 @@ impl<'w> Lamps<'w> {
                         lamp.at(spot.hits.p, spot.live);
                     let cosine = dot(to_light, spot.view.normal);
                     let lit = if behind { lit } else { lit & !cosine.le(F8::ZERO) };
-                    let live = lit & !strength.eq(F8::ZERO);
+                    let live = lit & !strength.equals(F8::ZERO);
                     let at = Incidence { live, to_light, cosine, double };
                     falling.push(Falling { at, strength, blockable });
                     (*to.light, *to.target) = (Rgb8::BLACK, target);

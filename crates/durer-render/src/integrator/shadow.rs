@@ -1,6 +1,6 @@
 //! Shadow rays: what is left of a light on its way to points.
 
-use super::bundle::{Bundle, Paths8, TOGETHER};
+use super::bundle::{Bundle, Paths8, TOGETHER, see};
 use super::media::Crossing;
 use super::split::{Piece, cut, sort};
 use super::spot::{Spot, Spots};
@@ -129,19 +129,8 @@ impl<'w> Shadows<'w> {
                 continue;
             }
             self.hits.resize(bundle.rays.len(), Hits8::NONE);
-            for (rays, hits) in bundle.rays.chunks(TOGETHER).zip(self.hits.chunks_mut(TOGETHER)) {
-                let beam = world.geometry().beam_of(rays);
-                for (rays, hits) in rays.iter().zip(hits) {
-                    counts.shadow += rays.live.count() as u64;
-                    world.geometry().seen_by_lanes(
-                        beam.as_ref(),
-                        rays,
-                        mask::CLEAR_SHADOW,
-                        hits,
-                        &mut self.scratch,
-                    );
-                }
-            }
+            counts.shadow += bundle.rays.iter().map(|rays| rays.live.count() as u64).sum::<u64>();
+            see(world.geometry(), &bundle.rays, mask::CLEAR_SHADOW, &mut self.hits, &mut self.scratch);
             for ((rays, paths), hits) in bundle.rays.iter().zip(&bundle.paths).zip(&self.hits) {
                 settle(&mut self.light, paths, rays.live & !hits.hit);
             }

@@ -10,7 +10,7 @@
 //! counts in the picture and to which sum its colour is added, so nothing waits for it: bundles lie on a stack, the last one is followed
 //! first, and there is no recursion. In which bundle a ray comes along, and beside which others, changes nothing about its colour.
 
-use super::bundle::{Bundle, Paths8, Standing, TOGETHER};
+use super::bundle::{Bundle, Paths8, Standing, see};
 use super::coats::{Coats, draws};
 use super::lamps::Lamps;
 use super::media::Border;
@@ -245,18 +245,7 @@ impl<'w> Whitted<'w> {
         self.pieces.clear();
         // What is there of another bundle is written over.
         self.hits.resize(bundle.rays.len(), Hits8::NONE);
-        for (rays, hits) in bundle.rays.chunks(TOGETHER).zip(self.hits.chunks_mut(TOGETHER)) {
-            let beam = world.geometry().beam_of(rays);
-            for (rays, hits) in rays.iter().zip(hits) {
-                world.geometry().seen_by_lanes(
-                    beam.as_ref(),
-                    rays,
-                    bundle.standing.mask,
-                    hits,
-                    &mut self.scratch,
-                );
-            }
-        }
+        see(world.geometry(), &bundle.rays, bundle.standing.mask, &mut self.hits, &mut self.scratch);
         let background = Rgb8::splat(world.background);
         for (group, hits) in self.hits.iter().enumerate() {
             let missed = bundle.rays[group].live & !hits.hit;
@@ -299,7 +288,7 @@ impl<'w> Whitted<'w> {
             let mut lists = Vec::new();
             for (group, spot) in weighed.iter_mut().enumerate() {
                 let weight = F8(weights(group));
-                let lanes = spot.live & !weight.eq(F8::ZERO);
+                let lanes = spot.live & !weight.equals(F8::ZERO);
                 spot.paths.factor = spot.paths.factor * weight;
                 lists.push((group, lanes.bits()));
             }

@@ -107,7 +107,7 @@ impl Lamp {
                 // The full cone is asked for first, and decides alone where it is the wider one.
                 let inside = (F8::splat(full)).le(cosine);
                 let edge = inside.select(F8::ONE, smooth_step(end, full, cosine));
-                lit &= !(edge.eq(F8::ZERO) | cosine.le(F8::ZERO));
+                lit &= !(edge.equals(F8::ZERO) | cosine.le(F8::ZERO));
                 edge * tightness.lanes(cosine, lit)
             }
             Beam::Tube { full, end, tightness } => {

@@ -108,7 +108,7 @@ impl Finish {
     pub(crate) fn scattered(&self, at: &Incidence, grain: F8) -> F8 {
         let front = if at.double { M8::ALL } else { (F8::ZERO).le(at.cosine) };
         let k = front.select(F8::splat(self.diffuse), F8::splat(self.diffuse_back));
-        let scatters = !k.eq(F8::ZERO);
+        let scatters = !k.equals(F8::ZERO);
         let mut shown = k * self.brilliance.lanes(at.cosine.abs(), at.live & scatters);
         if self.crand > 0.0 {
             shown = shown - grain;
@@ -149,7 +149,7 @@ impl Finish {
         if self.metallic == 0.0 {
             Rgb8::grey(shine)
         } else {
-            let live = at.live & !shine.eq(F8::ZERO);
+            let live = at.live & !shine.equals(F8::ZERO);
             tint(self.metallic, at.cosine, colour, live) * shine
         }
     }

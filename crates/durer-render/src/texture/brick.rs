@@ -38,7 +38,7 @@ impl Brick {
     pub(super) fn brick_lanes(&self, p: Point3<F8>) -> M8 {
         let y = p.y * self.per.y;
         let half = cell_lanes(y) * 0.5;
-        let even = half.eq(floor_lanes(half));
+        let even = half.equals(floor_lanes(half));
         let half_brick = F8::splat(0.5);
         let x = p.x * self.per.x + (!even).keep(half_brick);
         let z = p.z * self.per.z + even.keep(half_brick);

@@ -16,7 +16,7 @@ pub(super) fn kind(p: Point3) -> usize {
 #[inline(always)]
 pub(super) fn odd_lanes(p: Point3<F8>) -> M8 {
     let half = (cell_lanes(p.x) + cell_lanes(p.y) + cell_lanes(p.z)) * 0.5;
-    !half.eq(floor_lanes(half))
+    !half.equals(floor_lanes(half))
 }
 
 #[cfg(test)]

@@ -41,23 +41,27 @@ impl Default for Scratch {
     }
 }
 
+/// Eight rays that ask an outline.
+#[derive(Clone, Copy, Debug)]
+pub struct Question<'a> {
+    /// The rays.
+    pub rays: &'a RayLanes<'a>,
+    /// Those that leave this very surface, if there are any.
+    pub from: Option<&'a From8>,
+    /// The outline's number.
+    pub number: f64,
+}
+
 impl Outline {
-    /// Offers the first crossing of each ray to `nearest`, under a number. `from` holds the rays that leave this very surface, if there are any.
-    pub fn meet(
-        &self,
-        rays: &RayLanes<'_>,
-        from: Option<&From8>,
-        number: f64,
-        nearest: &mut Nearest,
-        scratch: &mut Scratch,
-    ) {
-        if self.is_passed_by(rays, &mut scratch.start) {
+    /// Offers the first crossing of each ray to `nearest`, under the outline's number.
+    pub fn meet(&self, asked: &Question<'_>, nearest: &mut Nearest, scratch: &mut Scratch) {
+        if self.is_passed_by(asked.rays, &mut scratch.start) {
             return;
         }
         if self.convex && self.faces.len() > 1 {
-            self.meet_convex(rays, from, number, nearest, scratch);
+            self.meet_convex(asked, nearest, scratch);
         } else {
-            self.meet_walls(rays, from, number, nearest, scratch);
+            self.meet_walls(asked, nearest, scratch);
         }
     }
 
@@ -99,14 +103,8 @@ impl Outline {
         from.map(|from| Leaving { from, face, turned: self.turned })
     }
 
-    fn meet_convex(
-        &self,
-        rays: &RayLanes<'_>,
-        from: Option<&From8>,
-        number: f64,
-        nearest: &mut Nearest,
-        scratch: &mut Scratch,
-    ) {
+    fn meet_convex(&self, asked: &Question<'_>, nearest: &mut Nearest, scratch: &mut Scratch) {
+        let &Question { rays, from, .. } = asked;
         let Scratch { start, plane, slab, roots, hull } = scratch;
         let seen = Seen { d: rays.direction, d1: &rays.d1, start };
         let mut i = 0;
@@ -129,20 +127,21 @@ impl Outline {
             }
             i += 1;
         }
-        self.conclude(rays, hull, number, nearest);
+        self.conclude(asked, hull, nearest);
     }
 
     /// What entries and exits come to.
     #[inline(never)]
-    fn conclude(&self, rays: &RayLanes<'_>, hull: &Hull, number: f64, nearest: &mut Nearest) {
-        rays.isa.run_in_lanes(
+    fn conclude(&self, asked: &Question<'_>, hull: &Hull, nearest: &mut Nearest) {
+        asked.rays.isa.run_in_lanes(
             #[inline(always)]
-            || self.conclude_here(rays, hull, number, nearest),
+            || self.conclude_here(asked, hull, nearest),
         );
     }
 
     #[inline(always)]
-    fn conclude_here(&self, rays: &RayLanes<'_>, hull: &Hull, number: f64, nearest: &mut Nearest) {
+    fn conclude_here(&self, asked: &Question<'_>, hull: &Hull, nearest: &mut Nearest) {
+        let rays = asked.rays;
         let Hull { enter, leave, missed, unsure } = hull;
         let mut missed = *missed | !*rays.live;
         let limit = nearest.limit(rays);
@@ -163,7 +162,7 @@ impl Outline {
         missed |= within & left.ge(NEVER) | inside & (t - e).gt(limit);
         let sure = (outside | inside) & !missed & (t + e).le(*rays.t_max);
         let unsure = !(missed | sure);
-        self.put_down(sure, unsure, (t, e, face), earliest, number, nearest);
+        self.put_down(sure, unsure, (t, e, face), earliest, asked.number, nearest);
     }
 
     /// Sure hits of a vague outline are doubts.
@@ -187,14 +186,8 @@ impl Outline {
         }
     }
 
-    fn meet_walls(
-        &self,
-        rays: &RayLanes<'_>,
-        from: Option<&From8>,
-        number: f64,
-        nearest: &mut Nearest,
-        scratch: &mut Scratch,
-    ) {
+    fn meet_walls(&self, asked: &Question<'_>, nearest: &mut Nearest, scratch: &mut Scratch) {
+        let &Question { rays, from, .. } = asked;
         let Scratch { start, plane, roots, .. } = scratch;
         let seen = &Seen { d: rays.direction, d1: &rays.d1, start };
         for (i, face) in self.faces[..self.walls].iter().enumerate() {
@@ -202,32 +195,31 @@ impl Outline {
             if face.kind == FaceKind::Plane {
                 face.crossing(rays.isa, seen, from.as_ref(), plane);
                 nearest.doubt_unless(rays.live, &[&plane.crosses, &plane.above, &plane.below]);
-                self.meet_wall(rays, seen, i, &plane.crosses, (&plane.t, &plane.e), number, nearest);
+                self.meet_wall(asked, seen, i, &plane.crosses, (&plane.t, &plane.e), nearest);
             } else {
                 face.roots(rays.isa, seen, from.as_ref(), roots);
                 nearest.doubt_unless(rays.live, &[&roots.known, &roots.none]);
-                self.meet_wall(rays, seen, i, &roots.known, (&roots.enter, &roots.e_enter), number, nearest);
-                self.meet_wall(rays, seen, i, &roots.known, (&roots.leave, &roots.e_leave), number, nearest);
+                self.meet_wall(asked, seen, i, &roots.known, (&roots.enter, &roots.e_enter), nearest);
+                self.meet_wall(asked, seen, i, &roots.known, (&roots.leave, &roots.e_leave), nearest);
             }
         }
     }
 
     /// Offers a root of one wall, where the others do not cut it off.
-    #[expect(clippy::too_many_arguments, reason = "a loop body that two kinds of faces share")]
     fn meet_wall(
         &self,
-        rays: &RayLanes<'_>,
+        asked: &Question<'_>,
         seen: &Seen<'_>,
         wall: usize,
         lanes: &M8,
         (t, e): (&F8, &F8),
-        number: f64,
         nearest: &mut Nearest,
     ) {
         if self.faces.len() == 1 && self.loops.is_none() {
-            self.meet_only_wall(rays, lanes, (t, e), number, nearest);
+            self.meet_only_wall(asked, lanes, (t, e), nearest);
             return;
         }
+        let rays = asked.rays;
         let mut open = M8::NONE;
         let Some(spot) = rays.isa.run_in_lanes(
             #[inline(always)]
@@ -257,23 +249,15 @@ impl Outline {
                 let (t, e) = (*t, *e);
                 let sure = open & inside & (t - e).gt(F8::ZERO) & (t + e).le(*rays.t_max);
                 let unsure = open & !(sure | outside);
-                self.put_down(sure, unsure, (t, e, F8::splat(wall as f64)), t - e, number, nearest);
+                self.put_down(sure, unsure, (t, e, F8::splat(wall as f64)), t - e, asked.number, nearest);
             },
         );
     }
-}
 
-impl Outline {
     /// Offers a root of a surface with one face.
     #[inline(never)]
-    fn meet_only_wall(
-        &self,
-        rays: &RayLanes<'_>,
-        lanes: &M8,
-        (t, e): (&F8, &F8),
-        number: f64,
-        nearest: &mut Nearest,
-    ) {
+    fn meet_only_wall(&self, asked: &Question<'_>, lanes: &M8, (t, e): (&F8, &F8), nearest: &mut Nearest) {
+        let rays = asked.rays;
         rays.isa.run_in_lanes(
             #[inline(always)]
             || {
@@ -281,7 +265,7 @@ impl Outline {
                 let (first, last) = (t - e, t + e);
                 let open = *rays.live & *lanes & !(last.lt(F8::ZERO) | first.gt(nearest.limit(rays)));
                 let sure = open & first.gt(F8::ZERO) & last.le(*rays.t_max);
-                self.put_down(sure, open & !sure, (t, e, F8::ZERO), first, number, nearest);
+                self.put_down(sure, open & !sure, (t, e, F8::ZERO), first, asked.number, nearest);
             },
         );
     }

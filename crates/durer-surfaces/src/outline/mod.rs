@@ -23,7 +23,7 @@ mod rays;
 mod roots;
 mod sketch;
 
-pub use self::meet::Scratch;
+pub use self::meet::{Question, Scratch};
 pub use self::point::Points8;
 pub use self::rays::{From8, Nearest, RayLanes};
 pub use self::sketch::Sketch;
@@ -50,7 +50,7 @@ pub struct Outline {
     turned: bool,
     /// The outline only holds the surface: what meets it may still miss.
     vague: bool,
-    /// It is one face of several that the surface counts.
+    /// See [`Outline::is_part`].
     part: bool,
     /// Shading normals: a value and its change along x, y and z.
     normals: Option<Box<[Vec3; 4]>>,

@@ -63,7 +63,7 @@ impl Leaving<'_> {
     #[inline(always)]
     pub(super) fn lanes(&self) -> (M8, M8) {
         let here = F8::splat(self.face as f64);
-        let lanes = self.from.lanes & self.from.face.le(here) & self.from.face.ge(here);
+        let lanes = self.from.lanes & self.from.face.equals(here);
         (lanes, if self.turned { !self.from.back } else { self.from.back })
     }
 }

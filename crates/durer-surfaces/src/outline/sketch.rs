@@ -282,7 +282,9 @@ impl Sketch {
             let change = |j: usize| x * m[0][j] + y * m[1][j] + z * m[2][j];
             [covector(n), change(0), change(1), change(2)]
         });
-        let reach = self.reach * map.linear_norm() * (1.0 + 16.0 * U);
+        // The rounded centre is off the mapped one by three roundings of the products' sums and one of the last sum.
+        let slip = map.linear_reach(self.centre.to_vec().abs()).length() * 4.0 + centre.to_vec().length();
+        let reach = (self.reach * map.linear_norm() + slip * (2.0 * U)) * (1.0 + 16.0 * U);
         let forms = self.forms.into_iter().map(moved).collect();
         let loops = self.loops.map(|l| l.map(moved));
         Self { centre, forms, reach, normals, loops, ..self }
@@ -310,7 +312,7 @@ impl Sketch {
 
     /// The same, as one part of a surface whose roots tell by their face which part they are on.
     #[must_use]
-    pub(crate) fn of_many(self) -> Self {
+    pub(crate) fn part_of_many(self) -> Self {
         Self { part: true, ..self }
     }
 
