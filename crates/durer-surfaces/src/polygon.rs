@@ -51,8 +51,8 @@ pub struct Polygon {
     rule: FillRule,
     /// Three vertices that span the plane.
     plane: Facet,
-    /// Whether all vertices lie in the plane, exactly.
-    flat: bool,
+    /// If not all vertices lie in the plane, exactly: by how much the box exceeds theirs.
+    margin: Option<f64>,
     bounds: Aabb,
 }
 
@@ -126,8 +126,9 @@ impl Polygon {
             }
         }
         let flat = vertices.iter().all(|&v| facet::holds_in_plane(&plane, v));
-        let bounds = if flat { bounds } else { bounds.expanded(Vec3::new(allowed, allowed, allowed)) };
-        Ok(Self { vertices, ends, rule, plane, flat, bounds })
+        let margin = (!flat).then_some(allowed);
+        let bounds = margin.map_or(bounds, |by| bounds.expanded(Vec3::new(by, by, by)));
+        Ok(Self { vertices, ends, rule, plane, margin, bounds })
     }
 
     /// The outlines.
@@ -333,7 +334,7 @@ impl Surface for Polygon {
         let plane = self.plane(&probe);
         if let Some(crossing) = probe.crossing_within(&plane, sink.range())
             && self.holds(&probe)
-            && (self.flat || within(&probe, &plane, crossing.sign, &self.bounds))
+            && (self.margin.is_none() || within(&probe, &plane, crossing.sign, &self.bounds))
             && probe.admits(&plane, &crossing)
         {
             let _: Flow = sink.push(probe.root(&crossing, 0, [0.0; 2]));
@@ -341,11 +342,7 @@ impl Surface for Polygon {
     }
 
     fn sketch(&self, _part: PartId) -> Sketch {
-        if self.flat {
-            Sketch::polygon(self.plane, self.bounds, self.outlines(), self.rule)
-        } else {
-            Sketch::vague(self.bounds)
-        }
+        Sketch::polygon(self.plane, self.bounds, self.outlines(), self.rule, self.margin)
     }
 
     /// Texture coordinates are lengths along two axes across the normal, from the first vertex.
@@ -502,7 +499,7 @@ mod tests {
                     let at = Vec3::new(i as f64, -3.0, 7.0 * j as f64);
                     let outlines: Vec<_> = set.iter().map(|o| tilted(o, axes, at)).collect();
                     let polygon = Polygon::new(&outlines, rule).unwrap();
-                    assert!(polygon.flat);
+                    assert!(polygon.margin.is_none());
                     let n = facet::unit_normal(&polygon.plane);
                     let flip = n.dot(axes[0].cross(axes[1])) < 0.0;
                     let outlines = set.iter().map(|o| o.to_vec()).collect();
@@ -590,7 +587,7 @@ mod tests {
                 FillRule::EvenOdd,
             )
         };
-        assert!(with(1e-9).is_ok_and(|p| !p.flat));
+        assert!(with(1e-9).is_ok_and(|p| p.margin.is_some()));
         assert!(matches!(with(1e-3), Err(PolygonError::NotPlanar { .. })));
         // A ray that skims the plane meets it within the bounds or not at all.
         let polygon = with(1e-9).unwrap();

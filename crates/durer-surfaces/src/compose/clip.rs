@@ -237,17 +237,18 @@ impl Region {
         self.bounds
     }
 
-    fn sketch(&self) -> Sketch {
-        let sketch = self.faces.sketch();
-        let sketch = if self.inverse { sketch.complement() } else { sketch };
-        match &self.map {
-            Some(map) => sketch.placed(map),
-            None => sketch,
-        }
+    /// What the region leaves of a surface.
+    fn cut(&self, surface: Sketch) -> Sketch {
+        let region = self.faces.sketch();
+        let region = match &self.map {
+            Some(map) => region.placed(map),
+            None => region,
+        };
+        if self.inverse { surface.without(region) } else { surface.within(region) }
     }
 
-    /// Whether the closed region holds a root, if that can be told from its bracket.
-    fn holds(&self, ray: &LocalRay<'_>, root: &Root) -> Option<bool> {
+    /// Whether the closed region holds a root, if that can be told from its bracket; else the faces that do not tell.
+    fn holds(&self, ray: &LocalRay<'_>, root: &Root) -> Result<bool, Doubtful> {
         Isa::detect().run(
             #[inline(always)]
             || self.holds_here(ray, root),
@@ -255,7 +256,7 @@ impl Region {
     }
 
     #[inline(always)]
-    fn holds_here(&self, ray: &LocalRay<'_>, root: &Root) -> Option<bool> {
+    fn holds_here(&self, ray: &LocalRay<'_>, root: &Root) -> Result<bool, Doubtful> {
         let placed;
         let local = match &self.map {
             None => ray,
@@ -269,22 +270,25 @@ impl Region {
         let (lo, hi) = at.window((root.lo, root.hi));
         let s = 0.5 * (lo + hi);
         let s = Run::with_error(s, (hi - s).max(s - lo));
-        let mut inside = Some(true);
-        for form in self.faces.forms() {
+        let mut doubtful = Doubtful(0);
+        for (i, form) in self.faces.forms().iter().enumerate() {
             match form.along(at.o, at.d, at.o_err, at.d_err).at(s).sign() {
-                Some(Ordering::Greater) => {
-                    inside = Some(false);
-                    break;
-                }
+                Some(Ordering::Greater) => return Ok(self.inverse),
                 Some(Ordering::Less) => {}
-                _ => inside = None,
+                _ => doubtful.0 |= 1 << i,
             }
         }
-        inside.map(|x| x != self.inverse)
+        if doubtful.0 == 0 { Ok(!self.inverse) } else { Err(doubtful) }
     }
 
-    /// The same, exactly, for a root of `p`.
-    fn holds_exactly(&self, ray: &LocalRay<'_>, p: &Quadratic<Dyadic>, crossing: Crossing) -> Option<bool> {
+    /// The same, exactly, for a root of `p` that is inside all faces but the doubtful ones.
+    fn holds_exactly(
+        &self,
+        ray: &LocalRay<'_>,
+        p: &Quadratic<Dyadic>,
+        crossing: Crossing,
+        doubtful: Doubtful,
+    ) -> Option<bool> {
         let frame = self.faces.frame();
         let placed;
         let (local, clock) = match &self.map {
@@ -296,6 +300,7 @@ impl Region {
         };
         let exact = local.in_ring_from::<Dyadic>(frame.centre, frame.scale)?;
         let worst = (0..self.faces.forms().len())
+            .filter(|i| doubtful.0 >> i & 1 == 1)
             .map(|i| {
                 let q = self.faces.exact(i).along(&exact);
                 let q = match clock {
@@ -309,6 +314,10 @@ impl Region {
         Some(if self.inverse { worst.is_ge() } else { worst.is_le() })
     }
 }
+
+/// Faces of a region, by bits: those of which it is not certain on what side a root lies. No shape has more than six.
+#[derive(Clone, Copy, Debug)]
+struct Doubtful(u8);
 
 /// A polynomial in `s'` as one in `s = step + 2^k s'`: `s' = 2^-k (s - step)`.
 fn in_parents_parameter(p: Quadratic<Dyadic>, step: f64, k: i32) -> Quadratic<Dyadic> {
@@ -338,15 +347,17 @@ impl<S: Algebraic> Clip<S> {
     }
 
     fn keeps(&self, ray: &LocalRay<'_>, root: &Root) -> bool {
-        self.regions.iter().all(|r| r.holds(ray, root).unwrap_or_else(|| self.keeps_exactly(r, ray, root)))
+        self.regions
+            .iter()
+            .all(|r| r.holds(ray, root).unwrap_or_else(|doubtful| self.keeps_exactly(r, doubtful, ray, root)))
     }
 
     #[cold]
     #[inline(never)]
-    fn keeps_exactly(&self, region: &Region, ray: &LocalRay<'_>, root: &Root) -> bool {
+    fn keeps_exactly(&self, region: &Region, doubtful: Doubtful, ray: &LocalRay<'_>, root: &Root) -> bool {
         let decided = self.surface.polynomial(root.face, ray).and_then(|p| {
             let crossing = name(&p, root);
-            region.holds_exactly(ray, &p, crossing)
+            region.holds_exactly(ray, &p, crossing, doubtful)
         });
         // A ray that is known within errors only may be on the border: then it is, and closed sets hold their border.
         decided.unwrap_or(true)
@@ -401,7 +412,7 @@ impl<S: Algebraic> Surface for Clip<S> {
     }
 
     fn sketch(&self, part: PartId) -> Sketch {
-        self.regions.iter().fold(self.surface.sketch(part), |sketch, region| sketch.cut_by(region.sketch()))
+        self.regions.iter().fold(self.surface.sketch(part), |sketch, region| region.cut(sketch))
     }
 
     fn parts(&self, f: &mut dyn FnMut(Aabb, PartId)) {

@@ -167,6 +167,18 @@ impl Face {
         (self.c, rays.start.h1 * (2.0 * self.k_b) + self.k_c)
     }
 
+    /// A lower bound of `|b·d|` along eight rays; not positive if there is none.
+    #[inline(always)]
+    pub(super) fn slope_at_least(&self, rays: &Seen<'_>) -> F8 {
+        let (b, e_b, _) = self.slope(rays);
+        b.abs() - e_b * (1.0 + 4.0 * U)
+    }
+
+    /// An upper bound of `|b|₁`.
+    pub(super) fn b1(&self) -> f64 {
+        (self.b.iter().map(|b| b.abs()).sum::<f64>() + 3.0 * self.e_b) * (1.0 + 8.0 * U)
+    }
+
     /// Whether this and another face are parallel planes that look away from each other.
     pub(super) fn is_opposite(&self, other: &Self) -> bool {
         let planes = self.kind == FaceKind::Plane && other.kind == FaceKind::Plane;

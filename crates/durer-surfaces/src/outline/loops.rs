@@ -2,11 +2,15 @@
 //!
 //! The winding number counts the edges that pass a point's level, upward on its one side and downward on the other (`polygon.rs` counts in the same way, about
 //! the exact ray). A level is the height along some direction in the plane; both it and the side of an edge are linear.
+//!
+//! Vertices of a polygon may lie off its plane by a small distance `δ`, and the ray passes the edges between the stored ones. Moved into the plane along the ray,
+//! a vertex is at most `δ / cos θ` from its foot, `θ` the angle of ray and normal; so are the points of moved edges from those of the edges between feet, of which
+//! `level` and `side` tell. A point that is farther than that from a level, or from the line of an edge that passes its level, is above or beside it in both.
 
-use super::face::Face;
+use super::face::{Face, Seen};
 use super::meet::Spot;
 use crate::FillRule;
-use durer_math::{F8, M8};
+use durer_math::{F8, M8, U};
 
 /// Outlines, one after the other, by the linear forms of their edges.
 #[derive(Clone, Debug)]
@@ -15,6 +19,17 @@ pub(super) struct Loops<F> {
     /// Where each outline ends.
     pub(super) ends: Vec<usize>,
     pub(super) rule: FillRule,
+    /// `None` if all vertices lie in the plane, exactly.
+    pub(super) off: Option<Off>,
+}
+
+/// How far vertices lie off the plane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Off {
+    /// At most so far.
+    pub(super) distance: f64,
+    /// Points of the plane that are at most so far outside the feet of the outlines still lie in the polygon's box.
+    pub(super) room: f64,
 }
 
 /// An edge.
@@ -30,13 +45,14 @@ impl<F> Loops<F> {
     /// The same loops in other numbers.
     pub(super) fn map<G>(self, f: impl Fn(F) -> G) -> Loops<G> {
         let edges = self.edges.into_iter().map(|e| Edge { level: f(e.level), side: f(e.side) });
-        Loops { edges: edges.collect(), ends: self.ends, rule: self.rule }
+        Loops { edges: edges.collect(), ends: self.ends, rule: self.rule, off: self.off }
     }
 
     /// The same, if there are such numbers.
     pub(super) fn try_map<G>(&self, f: impl Fn(&F) -> Option<G>) -> Option<Loops<G>> {
         let edges = self.edges.iter().map(|e| Some(Edge { level: f(&e.level)?, side: f(&e.side)? }));
-        Some(Loops { edges: edges.collect::<Option<_>>()?, ends: self.ends.clone(), rule: self.rule })
+        let edges = edges.collect::<Option<_>>()?;
+        Some(Loops { edges, ends: self.ends.clone(), rule: self.rule, off: self.off })
     }
 }
 
@@ -44,11 +60,15 @@ impl<F> Loops<F> {
 type Level = (M8, M8);
 
 impl Loops<Face> {
-    /// Where points are surely inside, and where they are surely outside.
+    /// Where points of a plane are surely inside, and where they are surely outside.
     #[inline(always)]
-    pub(super) fn cut(&self, spot: &Spot, inside: &mut M8, outside: &mut M8) {
+    pub(super) fn cut(&self, plane: &Face, rays: &Seen<'_>, spot: &Spot, inside: &mut M8, outside: &mut M8) {
         let mut turns = F8::ZERO;
-        let mut unsure = M8::NONE;
+        let (slip, mut unsure) = match &self.off {
+            Some(off) => off.slip(plane, rays),
+            None => (F8::ZERO, M8::NONE),
+        };
+        let spot = &Spot { e1: spot.e1 + slip, ..*spot };
         let mut start = 0;
         for &end in &self.ends {
             let outline = &self.edges[start..end];
@@ -77,6 +97,18 @@ impl Loops<Face> {
         };
         *inside &= within & !unsure;
         *outside |= !within & !unsure;
+    }
+}
+
+impl Off {
+    /// How far vertices move that are moved into the plane along eight rays, as a sum of absolute values; and where that may be too far.
+    #[inline(always)]
+    fn slip(&self, plane: &Face, rays: &Seen<'_>) -> (F8, M8) {
+        let slope = plane.slope_at_least(rays);
+        // cos θ >= |b·d| / (|b|₁ |d|₁); a length of one is at most √3 as a sum of absolute values.
+        let slip = *rays.d1 * (plane.b1() * self.distance) / slope * (1.0 + 16.0 * U);
+        let near = slope.gt(F8::ZERO) & slip.le(F8::splat(self.room));
+        (near.keep(slip) * 1.75, !near)
     }
 }
 

@@ -215,7 +215,7 @@ impl Outline {
         (t, e): (&F8, &F8),
         nearest: &mut Nearest,
     ) {
-        if self.faces.len() == 1 && self.loops.is_none() {
+        if self.faces.len() == 1 && self.loops.is_none() && self.holes.is_empty() {
             self.meet_only_wall(asked, lanes, (t, e), nearest);
             return;
         }
@@ -237,10 +237,18 @@ impl Outline {
                 other.cut(rays.isa, &spot, &mut inside, &mut outside);
             }
         }
+        for hole in &self.holes {
+            let (mut within, mut beside) = (M8::ALL, M8::NONE);
+            for face in hole {
+                face.cut(rays.isa, &spot, &mut within, &mut beside);
+            }
+            inside &= beside;
+            outside |= within;
+        }
         if let Some(loops) = &self.loops {
             rays.isa.run_in_lanes(
                 #[inline(always)]
-                || loops.cut(&spot, &mut inside, &mut outside),
+                || loops.cut(&self.faces[wall], seen, &spot, &mut inside, &mut outside),
             );
         }
         rays.isa.run_in_lanes(

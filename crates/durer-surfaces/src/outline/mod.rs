@@ -56,6 +56,8 @@ pub struct Outline {
     normals: Option<Box<[Vec3; 4]>>,
     /// What cuts off the first wall beside the other faces.
     loops: Option<Box<Loops<Face>>>,
+    /// What lies where all of some faces are negative is cut away.
+    holes: Box<[Box<[Face]>]>,
 }
 
 impl Outline {

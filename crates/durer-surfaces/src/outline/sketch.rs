@@ -1,6 +1,6 @@
 //! From a surface's own numbers to an outline.
 
-use super::loops::{Edge, Loops};
+use super::loops::{Edge, Loops, Off};
 use super::{Face, Outline};
 use crate::FillRule;
 use crate::quadric::body::Shape;
@@ -26,6 +26,8 @@ pub struct Sketch {
     part: bool,
     normals: Option<[Vec3; 4]>,
     loops: Option<Loops<Form<N>>>,
+    /// See [`Outline`].
+    holes: Vec<Vec<Form<N>>>,
 }
 
 /// Where the numbers of an outline are: far enough from the ends of the range of f64 for all products of them.
@@ -81,6 +83,7 @@ impl Sketch {
             part: false,
             normals: None,
             loops: None,
+            holes: Vec::new(),
         }
     }
 
@@ -156,12 +159,14 @@ impl Sketch {
         Self::sheet(centre, &cross(&u, &v), &[(near, u), (far, back(&u)), (near, back(&v)), (far, v)])
     }
 
-    /// The part of the plane through three points that some closed outlines in it go around.
+    /// The part of the plane through three points that some closed outlines go around; these lie in it, or so near that the polygon's box exceeds
+    /// theirs by `margin`.
     pub(crate) fn polygon<'a>(
         spanning: [Point3; 3],
         bounds: Aabb,
         outlines: impl Iterator<Item = &'a [Point3]>,
         rule: FillRule,
+        margin: Option<f64>,
     ) -> Self {
         let centre = bounds.centre();
         let seen = |v: Point3| minus(&exact(v.to_vec()), &exact(centre.to_vec()));
@@ -169,16 +174,23 @@ impl Sketch {
         let up = minus(&b, &a);
         let n = cross(&up, &minus(&c, &a));
         let through = |n: &[N; 3], p: &[N; 3]| Form::half_space(*n, -dot(n, p));
-        let mut loops = Loops { edges: Vec::new(), ends: Vec::new(), rule };
+        let mut loops = Loops { edges: Vec::new(), ends: Vec::new(), rule, off: None };
+        let mut height = 0.0_f64;
         for outline in outlines {
             for (i, &vertex) in outline.iter().enumerate() {
                 let (from, to) = (seen(vertex), seen(outline[(i + 1) % outline.len()]));
                 let side = through(&cross(&minus(&to, &from), &n), &from);
                 loops.edges.push(Edge { level: through(&up, &from), side });
+                height = height.max(dot(&n, &minus(&from, &a)).magnitude());
             }
             loops.ends.push(loops.edges.len());
         }
         let reach = bounds.reach_from(centre);
+        loops.off = margin.map(|margin| {
+            let length = dot(&n, &n).sqrt();
+            let distance = height / (length.hi() * (1.0 - 16.0 * U));
+            Off { distance, room: (margin - distance) * (1.0 - 4.0 * U) }
+        });
         Self { loops: Some(loops), ..Self::new(centre, vec![through(&n, &a)], 1, reach) }
     }
 
@@ -286,8 +298,15 @@ impl Sketch {
         let slip = map.linear_reach(self.centre.to_vec().abs()).length() * 4.0 + centre.to_vec().length();
         let reach = (self.reach * map.linear_norm() + slip * (2.0 * U)) * (1.0 + 16.0 * U);
         let forms = self.forms.into_iter().map(moved).collect();
-        let loops = self.loops.map(|l| l.map(moved));
-        Self { centre, forms, reach, normals, loops, ..self }
+        let holes = self.holes.into_iter().map(|hole| hole.into_iter().map(moved).collect()).collect();
+        let loops = self.loops.map(|l| {
+            let off = l.off.map(|off| Off {
+                distance: off.distance * map.linear_norm() * (1.0 + 4.0 * U),
+                room: off.room / map.inverse_norm() * (1.0 - 4.0 * U),
+            });
+            Loops { off, ..l.map(moved) }
+        });
+        Self { centre, forms, reach, normals, loops, holes, ..self }
     }
 
     /// The surface with its normals, and its inside, turned round.
@@ -297,37 +316,34 @@ impl Sketch {
         Self { turned: !self.turned, ..self }
     }
 
-    /// The closure of the complement of a region, as a region; only a box is known if it is not convex.
-    #[must_use]
-    pub(crate) fn complement(mut self) -> Self {
-        match self.forms.pop() {
-            Some(only) if self.forms.is_empty() => self.forms.push(only.negated()),
-            last => {
-                self.forms.extend(last);
-                self.vague = true;
-            }
-        }
-        self
-    }
-
     /// The same, as one part of a surface whose roots tell by their face which part they are on.
     #[must_use]
     pub(crate) fn part_of_many(self) -> Self {
         Self { part: true, ..self }
     }
 
-    /// What of the surface lies in a region with these faces.
+    /// What of the surface lies in the region where all faces of another are negative.
     #[must_use]
-    pub(crate) fn cut_by(mut self, region: Self) -> Self {
-        // A vague region tells nothing of where the surface is cut.
-        if region.vague {
-            self.vague = true;
-            return self;
-        }
-        let shift = [0, 1, 2].map(|i| N::exact(self.centre[i]) - N::exact(region.centre[i]));
-        self.forms.extend(region.forms.into_iter().map(|f| f.seen_from(&shift)));
+    pub(crate) fn within(mut self, region: Self) -> Self {
+        let seen = region.faces_from(self.centre);
+        self.forms.extend(seen);
         self.convex = false;
         self
+    }
+
+    /// What of the surface does not.
+    #[must_use]
+    pub(crate) fn without(mut self, region: Self) -> Self {
+        let seen = region.faces_from(self.centre);
+        self.holes.push(seen.collect());
+        self.convex = false;
+        self
+    }
+
+    /// The faces with coordinates counted from another point.
+    fn faces_from(self, centre: Point3) -> impl Iterator<Item = Form<N>> {
+        let shift = [0, 1, 2].map(|i| N::exact(centre[i]) - N::exact(self.centre[i]));
+        self.forms.into_iter().map(move |f| f.seen_from(&shift))
     }
 
     /// A box that holds the surface; unbounded if only its faces tell where it is.
@@ -347,7 +363,9 @@ impl Sketch {
         if !ordinary || self.forms.is_empty() {
             return None;
         }
-        let faces = self.forms.iter().map(Face::new).collect::<Option<Box<[_]>>>()?;
+        let round = |forms: &Vec<Form<N>>| forms.iter().map(Face::new).collect::<Option<Box<[_]>>>();
+        let faces = round(&self.forms)?;
+        let holes = self.holes.iter().map(round).collect::<Option<_>>()?;
         let slabs = (0..faces.len()).map(|i| faces.get(i + 1).is_some_and(|next| faces[i].is_opposite(next)));
         let slabs = slabs.collect();
         let Self { centre, walls, reach, convex, turned, vague, part, .. } = *self;
@@ -356,6 +374,19 @@ impl Sketch {
             Some(loops) => Some(Box::new(loops.try_map(Face::new)?)),
             None => None,
         };
-        Some(Outline { centre, faces, walls, reach, convex, slabs, turned, vague, part, normals, loops })
+        Some(Outline {
+            centre,
+            faces,
+            walls,
+            reach,
+            convex,
+            slabs,
+            turned,
+            vague,
+            part,
+            normals,
+            loops,
+            holes,
+        })
     }
 }
