@@ -29,6 +29,8 @@ pub(super) struct Shadows<'w> {
     light: Vec<Rgb8>,
     rays: Vec<Rays8>,
     targets: Vec<Point3<F8>>,
+    /// The paths of the rays as they start: group by group, nothing of the light is lost yet.
+    starts: Vec<Paths8>,
     /// Rays on their way through clear surfaces: the factor is what is left of the light, the slot their number in `light`.
     clear: Vec<Bundle<'w>>,
     /// Bundles to be used again.
@@ -112,17 +114,13 @@ impl<'w> Shadows<'w> {
         stop: &Progress<'_>,
         counts: &mut RayCounts,
     ) {
-        let mut first = self.spare.pop().unwrap_or_else(Bundle::new);
-        first.clear();
-        first.rays.extend_from_slice(&self.rays);
-        first.paths.extend((0..self.rays.len()).map(|group| Paths8 {
+        self.starts.extend((self.starts.len()..self.rays.len()).map(|group| Paths8 {
             slot: core::array::from_fn(|i| (group * LANES + i) as u32),
             ..Paths8::NONE
         }));
-        first.standing.media.clear();
-        first.standing.media.extend_from_slice(media);
-        self.cross((world, isa), &first);
-        self.spare.push(first);
+        let (rays, starts) = (core::mem::take(&mut self.rays), core::mem::take(&mut self.starts));
+        self.cross((world, isa), (&rays, &starts), media);
+        (self.rays, self.starts) = (rays, starts);
         while let Some(bundle) = self.clear.pop() {
             if stop.is_cancelled() {
                 self.spare.push(bundle);
@@ -134,13 +132,13 @@ impl<'w> Shadows<'w> {
             for ((rays, paths), hits) in bundle.rays.iter().zip(&bundle.paths).zip(&self.hits) {
                 settle(&mut self.light, paths, rays.live & !hits.hit);
             }
-            self.cross((world, isa), &bundle);
+            self.cross((world, isa), (&bundle.rays, &bundle.paths), &bundle.standing.media);
             self.spare.push(bundle);
         }
     }
 
-    /// Rays of a bundle go on behind the surfaces that they met.
-    fn cross(&mut self, (world, isa): (&'w World, Isa), bundle: &Bundle<'w>) {
+    /// Rays in some media go on behind the surfaces that they met.
+    fn cross(&mut self, (world, isa): (&'w World, Isa), rays: (&[Rays8], &[Paths8]), media: &[u32]) {
         self.pieces.clear();
         for (group, hits) in self.hits.iter().enumerate() {
             cut(world, group, hits, &mut self.pieces);
@@ -148,9 +146,8 @@ impl<'w> Shadows<'w> {
         sort(&mut self.pieces);
         for part in self.pieces.chunk_by(Piece::is_like) {
             let look = part[0].look(world);
-            let media = &bundle.standing.media;
             let crossing = Crossing::new(media, look.medium, part[0].is_grazing());
-            let spots = self.spots.gather(part, bundle, &self.hits);
+            let spots = self.spots.gather(part, rays, &self.hits);
             let mut behind = self.spare.pop().unwrap_or_else(Bundle::new);
             behind.clear();
             crossing.behind(look.medium, media, &mut behind.standing.media);

@@ -1,6 +1,6 @@
 //! Eight points of surfaces that look alike, gathered to be shaded together.
 
-use super::bundle::{Bundle, Paths8, is_dense};
+use super::bundle::{Paths8, is_dense};
 use super::split::Piece;
 use crate::lanes::Rgb8;
 use crate::material::View;
@@ -117,13 +117,18 @@ impl Spots {
         }
     }
 
-    /// Gathers what some rays of a bundle met. Their directions stand for the eye until [`face`] has looked at them.
-    pub(super) fn gather(&mut self, pieces: &[Piece], bundle: &Bundle<'_>, hits: &[Hits8]) -> &mut [Spot] {
-        let met = |g: usize| (&hits[g], bundle.rays[g].direction, &bundle.paths[g]);
+    /// Gathers what some rays met. Their directions stand for the eye until [`face`] has looked at them.
+    pub(super) fn gather(
+        &mut self,
+        pieces: &[Piece],
+        (rays, paths): (&[Rays8], &[Paths8]),
+        hits: &[Hits8],
+    ) -> &mut [Spot] {
+        let met = |g: usize| (&hits[g], rays[g].direction, &paths[g]);
         let whole = |to: &mut Spot, g: usize| {
             to.hits = hits[g];
-            to.view.eye = bundle.rays[g].direction;
-            to.paths = bundle.paths[g];
+            to.view.eye = rays[g].direction;
+            to.paths = paths[g];
         };
         let lists = pieces.iter().map(|p| (p.group as usize, p.lanes));
         self.pack(lists, whole, |to, i, g, j| to.copy_met(i, met(g), j));

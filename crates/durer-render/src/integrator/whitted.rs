@@ -227,7 +227,7 @@ impl<'w> Whitted<'w> {
             if self.stop.is_cancelled() {
                 break;
             }
-            let spots = spots.gather(part, bundle, &self.hits);
+            let spots = spots.gather(part, (&bundle.rays, &bundle.paths), &self.hits);
             face(self.isa, spots);
             let (world, standing) = (self.world, &bundle.standing);
             let look = part[0].look(world);
