@@ -27,7 +27,7 @@ use crate::texture::{Blend, Coat, Paint};
 use crate::world::World;
 use durer_geometry::{Hits8, Rays8, Scratch};
 use durer_math::lanes::LANES;
-use durer_math::{F8, Isa, M8};
+use durer_math::{Aabb, F8, Isa, M8};
 use durer_scene::{Rgb, mask};
 
 /// The camera's rays are followed in bundles of so many groups.
@@ -152,9 +152,9 @@ impl<'w> Whitted<'w> {
         );
         let first =
             Standing { level: 1, depth: 0, mask: mask::CAMERA, draws: 0, mirror: None, media: Vec::new() };
-        match self.world.standing() {
+        match self.standing(&all.rays) {
             Some(media) => {
-                all.standing = Standing { media: media.to_vec(), ..first };
+                all.standing = Standing { media, ..first };
                 self.tasks.push(Task::Follow(all));
             }
             None => {
@@ -162,6 +162,20 @@ impl<'w> Whitted<'w> {
                 self.onward.give_back(all);
             }
         }
+    }
+
+    /// The media in which rays of the camera start, if they are surely the same for all.
+    fn standing(&self, rays: &[Rays8]) -> Option<Vec<u32>> {
+        if let Some(media) = self.world.standing() {
+            return Some(media.to_vec());
+        }
+        let origins = || rays.iter().flat_map(|rays| rays.live.lanes().map(|i| rays.lane(i).origin));
+        if !self.world.geometry().is_clear(Aabb::from_points(origins())) {
+            return None;
+        }
+        let mut media = Vec::new();
+        origins().take(1).for_each(|origin| self.world.media_at(origin, &mut media));
+        Some(media)
     }
 
     /// Makes bundles of rays that may start in different media.
