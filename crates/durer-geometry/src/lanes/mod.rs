@@ -141,7 +141,7 @@ impl Geometry {
     /// Puts down what is sure; answers with the rays of which something is not.
     fn see(&self, beam: &Beam, rays: &Rays8, mask: u32, hits: &mut Hits8, scratch: &mut Scratch) -> M8 {
         let lanes = RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
-        let mut nearest = Nearest::NONE;
+        let mut nearest = Nearest::of(&lanes);
         self.nearest(beam, rays, &lanes, mask, &mut nearest, scratch);
         let (mut clear, mut left) = (M8::NONE, M8::NONE);
         let mut waiting = self.isa.run_in_lanes(
@@ -226,7 +226,7 @@ impl Geometry {
         let (mut met, mut left) = (M8::NONE, rays.live);
         if let Some(beam) = beam {
             let lanes = RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
-            let mut nearest = Nearest::NONE;
+            let mut nearest = Nearest::of(&lanes);
             self.nearest(beam, rays, &lanes, mask, &mut nearest, scratch);
             self.isa.run_in_lanes(
                 #[inline(always)]

@@ -10,9 +10,16 @@
 //! ```
 //!
 //! where the 16 covers the second order and the rounding of these bounds themselves.
+//!
+//! **Underflow.** Forms are scaled so that `max(M, B)` is between 1 and 2, and `|d|₁` is between `2^-200` and its inverse (`rays.rs`). With `TINY = 2^-550` added to
+//! `k_c` the error of the discriminant is at least `|δA| |δC| >= 2^-450 2^-550` where `M >= 1`, and at least `|δB|² >= 2^-500` where `B >= 1`: far above the
+//! `2^-1074` that a product may lose below the normal numbers. Where `A` itself is so small its far root is beyond `FAR`.
 
 use crate::quadric::form::Form;
 use durer_math::{Dd, F8, Run, U, Vec3};
+
+/// See the file's head.
+const TINY: f64 = durer_math::scale::pow2(-550);
 
 /// A face in f64.
 #[derive(Clone, Copy, Debug)]
@@ -135,7 +142,7 @@ impl Face {
             c,
             k_q: 16.0 * U * m + e_q,
             k_b: 16.0 * U * big + e_b,
-            k_c: 16.0 * U * c.abs() + e_c,
+            k_c: 16.0 * U * c.abs() + e_c + TINY,
             largest: (m, big),
             e_b,
             bend: 2.0 * (frobenius * (1.0 + 16.0 * U) + 3.0 * e_q),
@@ -228,6 +235,12 @@ impl Face {
         // |f(y + δ) - f(y)| <= |δ|₁ (2 (M |y|₁ + B) + M |δ|₁).
         let drift = e1 * ((y1 * m + big) * 2.0 + e1 * m);
         (f, y1 * (y1 * self.k_q + 2.0 * self.k_b) + self.k_c + drift * (1.0 + 16.0 * U))
+    }
+
+    /// A bound on the error of each entry of half the gradient at points with this `|y|₁`.
+    #[inline(always)]
+    pub(super) fn gradient_error(&self, y1: F8) -> F8 {
+        y1 * self.k_q + self.k_b
     }
 
     /// `f` and half its gradient.

@@ -58,6 +58,8 @@ impl Outline {
         if self.is_passed_by(asked.rays, &mut scratch.start) {
             return;
         }
+        // The faces of a box are not those that rays leave.
+        let asked = &Question { from: asked.from.filter(|_| !self.vague), ..*asked };
         if self.convex && self.faces.len() > 1 {
             self.meet_convex(asked, nearest, scratch);
         } else {
@@ -158,8 +160,8 @@ impl Outline {
         let t = outside.select(enter.t, -leave.t);
         let e = outside.select(enter.e, leave.e);
         let face = outside.select(enter.face, leave.face);
-        // What is never left is not met again from within.
-        missed |= within & left.ge(NEVER) | inside & (t - e).gt(limit);
+        // What is never left is not met again from within; of a vague outline the surface may be met before that is left.
+        missed |= M8::splat(!self.vague) & (within & left.ge(NEVER) | inside & (t - e).gt(limit));
         let sure = (outside | inside) & !missed & (t + e).le(*rays.t_max);
         let unsure = !(missed | sure);
         self.put_down(sure, unsure, (t, e, face), earliest, asked.number, nearest);

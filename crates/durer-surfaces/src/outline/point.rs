@@ -33,7 +33,8 @@ impl Outline {
     /// others the surface itself has to be asked.
     ///
     /// With `|f(p)| <= η`, gradient `G` and `|Hessian| <= h`, a start at `p ± off n + τ` has `|f| >= off |G| - h (off² + |τ|²) - η`. Where
-    /// `x = 4 h η / |G|²` is small, `off = η (1 + x) / |G|` is enough, since `1 - √(1 - x) <= x`. As in the scalar kernels `η` includes twice the error of `f`,
+    /// `x = 4 h η / |G|²` is small, `off = η (1 + x) / |G|` is enough, since `1 - √(1 - x) <= x`. `G` is rounded: its own relative error, which may be large for slivers
+    /// and near tips, has to be as small as `x`. As in the scalar kernels `η` includes twice the error of `f`,
     /// so that rays from there see on which side they start.
     #[inline(never)]
     pub fn points(&self, i: usize, rays: &RayLanes<'_>, t: &F8, lanes: &M8, points: Points8<'_>) -> M8 {
@@ -59,7 +60,8 @@ impl Outline {
         let p = Point3::new(y.x + c.x, y.y + c.y, y.z + c.z);
         let y = Vec3::new(p.x - c.x, p.y - c.y, p.z - c.z);
         let (f, g) = face.value_and_half_gradient(y);
-        let (_, e_f) = face.at(y, taxicab(y), F8::ZERO);
+        let y1 = taxicab(y);
+        let (_, e_f) = face.at(y, y1, F8::ZERO);
         let length = dot(g, g).sqrt();
         let gradient = length * 2.0;
         // A start is rounded at p's own size; `start_towards` steps as much further.
@@ -79,7 +81,9 @@ impl Outline {
             _ => ng,
         };
         let ordinary = off.lt(F8::splat(f64::MAX)) & dot(ns, ns).gt(F8::splat(0.5));
-        let sure = lanes & x.le(F8::splat(SMALL)) & ordinary;
+        // The error of the gradient is at most √3 that of its entries.
+        let steady = (face.gradient_error(y1) * (2.0 / SMALL)).le(length);
+        let sure = lanes & x.le(F8::splat(SMALL)) & steady & ordinary;
         *to.p = sure.select3(p.to_vec(), to.p.to_vec()).to_point();
         *to.ng = sure.select3(ng, *to.ng);
         *to.ns = sure.select3(ns, *to.ns);

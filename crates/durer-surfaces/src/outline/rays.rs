@@ -56,9 +56,24 @@ pub(super) const BEHIND: f64 = -f64::MIN_POSITIVE;
 /// Farther than anything; its products with ordinary numbers are ordinary.
 pub(super) const FAR: f64 = durer_math::scale::pow2(500);
 
+/// Directions are shorter than this, and longer than one over it, or their products could leave the range in which error bounds hold. A face adds what products
+/// of its own and of these may lose below the normal numbers (`face.rs`).
+const LONGEST: f64 = durer_math::scale::pow2(200);
+
 impl Nearest {
-    /// Nothing yet.
-    pub const NONE: Self = Self { t: NEVER, e: F8::ZERO, number: F8::ZERO, face: F8::ZERO, doubt: NEVER };
+    /// Nothing is met yet; of rays with directions too long or too short for lanes nothing is sure.
+    #[inline]
+    pub fn of(rays: &RayLanes<'_>) -> Self {
+        let mut doubt = NEVER;
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let ordinary = rays.d1.lt(F8::splat(LONGEST)) & rays.d1.gt(F8::splat(1.0 / LONGEST));
+                doubt = ordinary.select(NEVER, F8::ZERO);
+            },
+        );
+        Self { t: NEVER, e: F8::ZERO, number: F8::ZERO, face: F8::ZERO, doubt }
+    }
 
     /// No crossing behind this can win.
     #[inline(always)]

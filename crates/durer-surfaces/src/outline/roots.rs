@@ -120,8 +120,8 @@ impl Face {
             near = lanes.select(F8::splat(BEHIND), near);
             e_near = lanes.select(F8::ZERO, e_near);
         }
-        // The slope at the far root has the sign of -B.
-        let falls = b.gt(F8::ZERO);
+        // The slope at the far root has the sign of q, also where B is zero of either sign.
+        let falls = q.lt(F8::ZERO);
         roots.known = known;
         roots.none = disc.lt(-e_disc);
         roots.opens = a.gt(e_a * CLEAR);

@@ -1,0 +1,119 @@
+//! Rays that are aimed at trouble: at edges, rims, tips and tangents, exactly and by a few ulps beside.
+
+use super::worlds::{World, all_worlds};
+use super::{Aim, Dice, Tally, compare, eight, point};
+use durer_math::{Isa, Point3, Ray};
+
+/// The range of a ray that is aimed at `t = 1`.
+fn range(dice: &mut Dice) -> f64 {
+    [f64::INFINITY, f64::INFINITY, f64::INFINITY, 1.0, 1.0_f64.next_down(), 0.5][dice.below(6)]
+}
+
+/// A point of a grid of quarters, half the time of one of halves, up to 2 from the origin.
+fn grid(dice: &mut Dice) -> Point3 {
+    let step = [2.0, 4.0][dice.below(2)];
+    let mut axis = || (dice.unit() * 2.0 * step).round() / step;
+    point(axis(), axis(), axis())
+}
+
+/// A number that is up to `2^k` ulps beside `x`, for one `k` at random.
+fn beside(x: f64, dice: &mut Dice) -> f64 {
+    let far = dice.unit() * durer_math::scale::pow2(dice.below(30) as i32 - 4);
+    x + far * x.abs().max(0.25) * f64::EPSILON
+}
+
+#[test]
+fn rays_on_a_grid() {
+    let mut dice = Dice(3);
+    for world in all_worlds(Isa::detect()) {
+        let mut tally = Tally::default();
+        for round in 0..60 {
+            let rays = eight(|_| {
+                let (mut from, mut to) = (grid(&mut dice), grid(&mut dice));
+                if round % 3 == 0 {
+                    // Along an axis of the surface's own.
+                    let axis = dice.below(3);
+                    let keep = to;
+                    to = from;
+                    match axis {
+                        0 => to.x = keep.x,
+                        1 => to.y = keep.y,
+                        _ => to.z = keep.z,
+                    }
+                }
+                if round % 3 == 1 {
+                    (to.x, to.y, from.z) =
+                        (beside(to.x, &mut dice), beside(to.y, &mut dice), beside(from.z, &mut dice));
+                }
+                let (from, to) = (world.place(from), world.place(to));
+                Ray::new(from, to - from).with_range(0.0, range(&mut dice))
+            });
+            compare(&world, Aim::Trouble, &rays, &mut dice, 1, &mut tally);
+        }
+    }
+}
+
+/// What a ray meets first, and where on it, as far as edges tell.
+fn met(world: &World, from: Point3, to: Point3) -> Option<(u32, u32, u32)> {
+    let hit = world.geometry.closest(&Ray::new(from, to - from))?;
+    Some((hit.primitive, hit.face, u32::from(hit.sign > 0)))
+}
+
+#[test]
+fn rays_at_a_border() {
+    // Between two targets of which one is met and the other not, or another face of it, there is a border. Exact answers lead to it.
+    let mut dice = Dice(4);
+    for world in all_worlds(Isa::detect()) {
+        let mut tally = Tally::default();
+        for round in 0..40 {
+            let from = world.place(dice.vector([3.0, 100.0, 1.0][round % 3]).to_point());
+            let (mut a, mut b) =
+                (world.place(dice.vector(1.5).to_point()), world.place(dice.vector(1.5).to_point()));
+            let here = met(&world, from, a);
+            if met(&world, from, b) == here {
+                continue;
+            }
+            for _ in 0..60 {
+                let middle = a + (b - a) * 0.5;
+                if met(&world, from, middle) == here {
+                    a = middle;
+                } else {
+                    b = middle;
+                }
+            }
+            let rays = eight(|i| {
+                let mut to = [a, b][i % 2];
+                if i > 1 {
+                    (to.x, to.y, to.z) =
+                        (beside(to.x, &mut dice), beside(to.y, &mut dice), beside(to.z, &mut dice));
+                }
+                Ray::new(from, to - from).with_range(0.0, range(&mut dice))
+            });
+            compare(&world, Aim::Trouble, &rays, &mut dice, 1, &mut tally);
+        }
+    }
+}
+
+#[test]
+fn numbers_near_the_end_of_their_range() {
+    // Products of lengths like these are below the normal numbers, or infinite.
+    let mut dice = Dice(5);
+    for world in all_worlds(Isa::detect()) {
+        let mut tally = Tally::default();
+        for k in [-540, -525, -510, -300, -101, 101, 300, 510, 525] {
+            let long = eight(|_| {
+                let (from, to) = (dice.vector(2.0).to_point(), dice.vector(1.0).to_point());
+                let (from, to) = (world.place(from), world.place(to));
+                Ray::new(from, (to - from) * durer_math::scale::pow2(k))
+            });
+            compare(&world, Aim::Trouble, &long, &mut dice, 0, &mut tally);
+            // Near the origin, which is a tip or a centre of some.
+            let near = eight(|i| {
+                let small = durer_math::scale::pow2(k.min(-k));
+                let (from, to) = (dice.vector(2.0) * small, dice.vector(1.0) * small);
+                Ray::new(from.to_point(), (to - from) * if i < 4 { 1.0 } else { 1.0 / small })
+            });
+            compare(&world, Aim::Trouble, &near, &mut dice, 0, &mut tally);
+        }
+    }
+}

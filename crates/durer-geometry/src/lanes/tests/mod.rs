@@ -1,0 +1,290 @@
+//! Lanes see what single rays see, and rarely have to ask.
+//!
+//! Every claim of lanes is held against the kernels that decide exactly: `closest` and `any` for what is met, `side` and exact planes for where rays start.
+
+mod aimed;
+mod boxed;
+mod worlds;
+
+use self::worlds::{Sides, World, all_worlds};
+use super::*;
+use crate::Hit;
+use durer_math::lanes::LANES;
+use durer_math::{Ray, U};
+use durer_surfaces::{Side, SurfacePoint};
+
+/// Numbers at random in `[-1, 1)`.
+struct Dice(u64);
+
+impl Dice {
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    fn vector(&mut self, size: f64) -> Vec3 {
+        Vec3::new(self.unit(), self.unit(), self.unit()) * size
+    }
+
+    /// One of `0..n`.
+    fn below(&mut self, n: usize) -> usize {
+        (((self.unit() + 1.0) * 0.5 * n as f64) as usize).min(n - 1)
+    }
+}
+
+fn point(x: f64, y: f64, z: f64) -> Point3 {
+    Point3::new(x, y, z)
+}
+
+fn eight(mut ray: impl FnMut(usize) -> Ray) -> Rays8 {
+    let mut rays = Rays8::NONE;
+    for i in 0..LANES {
+        let r = ray(i);
+        (rays.origin.x.0[i], rays.origin.y.0[i], rays.origin.z.0[i]) = (r.origin.x, r.origin.y, r.origin.z);
+        rays.direction.set_lane(i, r.direction);
+        rays.t_max.0[i] = r.t_max;
+        rays.source.set_lane(i, r.source());
+        rays.live.set_lane(i, true);
+    }
+    rays
+}
+
+/// How many rays meet anything, and how many lanes had to ask.
+#[derive(Default)]
+struct Tally {
+    rays: usize,
+    met: usize,
+    asked: usize,
+}
+
+impl Tally {
+    fn add(&mut self, other: &Self) {
+        (self.rays, self.met, self.asked) =
+            (self.rays + other.rays, self.met + other.met, self.asked + other.asked);
+    }
+}
+
+/// How rays are aimed.
+#[derive(Clone, Copy, PartialEq)]
+enum Aim {
+    Random,
+    /// At edges, rims, tips and tangents.
+    Trouble,
+}
+
+/// Compares lanes with single rays, and goes on with rays that are spawned where these meet something, `depth` times.
+fn compare(world: &World, aim: Aim, rays: &Rays8, dice: &mut Dice, depth: u32, tally: &mut Tally) {
+    let geometry = &world.geometry;
+    let mut hits = Hits8::NONE;
+    let scratch = &mut Scratch::default();
+    geometry.seen_by_lanes(None, rays, u32::MAX, &mut hits, scratch);
+    let met = geometry.any_by_lanes(None, rays, u32::MAX, scratch);
+    let beam = geometry.beam_of(core::slice::from_ref(rays)).unwrap();
+    let asked = geometry.see(&beam, rays, u32::MAX, &mut Hits8::NONE.clone(), scratch);
+    tally.asked += asked.count();
+    let mut starts = hits.hit;
+    for i in 0..LANES {
+        let ray = rays.lane(i);
+        let exact = geometry.closest(&ray);
+        tally.rays += 1;
+        assert_eq!(
+            (hits.hit.lane(i), met.lane(i)),
+            (exact.is_some(), exact.is_some()),
+            "{}: {ray:?} {exact:?} {:?}",
+            world.name,
+            hits.t.0[i]
+        );
+        let Some(hit) = exact else { continue };
+        tally.met += 1;
+        if asked.lane(i) {
+            let mut single = Hits8::NONE;
+            let seen = geometry.seen(&ray, u32::MAX, Need::SHADING_NORMAL);
+            single.set_lane(i, seen);
+            assert_eq!(
+                format!("{:?}", one(&hits, i)),
+                format!("{:?}", one(&single, i)),
+                "{}: {ray:?}",
+                world.name
+            );
+            // At a tip, or nearer than its own bounds tell, there is no tangent plane.
+            starts.set_lane(i, seen.is_some_and(|(_, p)| p.bend * p.off < 0.5));
+        } else {
+            check_hit(world, &ray, &hit, &hits, i);
+        }
+    }
+    check_starts(world, aim, &hits, starts);
+    if depth > 0 && hits.hit.any() {
+        let onward = onward(aim, rays, &hits, dice);
+        compare(world, aim, &onward, dice, depth - 1, tally);
+    }
+}
+
+/// All that is put down of one hit.
+fn one(hits: &Hits8, i: usize) -> impl core::fmt::Debug {
+    let p = Vec3::new(hits.p.x.0[i], hits.p.y.0[i], hits.p.z.0[i]);
+    let numbers = (hits.t.0[i], p, hits.ng.lane(i), hits.ns.lane(i), hits.off.0[i]);
+    (numbers, hits.object[i], hits.primitive[i], hits.touching.lane(i), hits.source.lane(i))
+}
+
+/// A sure hit of lanes beside the first exact one.
+fn check_hit(world: &World, ray: &Ray, first: &Hit, hits: &Hits8, i: usize) {
+    let name = &world.name;
+    // The bound that `see` asks for; the exact crossing is in a bracket, too.
+    let apart = 0.5 * ROUGH * first.t + (first.t_hi - first.t_lo);
+    assert!((hits.t.0[i] - first.t).abs() <= apart, "{name}: {ray:?} {first:?} {}", hits.t.0[i]);
+    assert_eq!(
+        (hits.object[i], hits.primitive[i], hits.touching.lane(i)),
+        (first.object, first.primitive, first.sign == 0),
+        "{name}: {ray:?} {first:?}"
+    );
+    let exact = world.geometry.resolve_with(ray, first, Need::SHADING_NORMAL);
+    let length = ray.direction.length();
+    // The point of the ray is moved onto the face, at most as far again.
+    let p = Vec3::new(hits.p.x.0[i], hits.p.y.0[i], hits.p.z.0[i]);
+    let far = 2.0 * apart * length + exact.dp.max_abs();
+    assert!((p - exact.p.to_vec()).max_abs() <= far, "{name}: {ray:?} {p:?} {exact:?}");
+    check_normals(world, far, &exact, (hits.ng.lane(i), hits.ns.lane(i)));
+    // `off` is |f| and twice its error, over the gradient. With 16 U for each term of f that is at most 3 * 16 U of the coordinates' sum for a plane; where the
+    // surface is curved, the squares of coordinates add as much times the curvature.
+    let off = hits.off.0[i];
+    let extent = world.reach() + p.x.abs() + p.y.abs() + p.z.abs();
+    let most = 64.0 * U * extent * (1.0 + exact.bend * extent);
+    assert!(off > 0.0 && off <= most, "{name}: {ray:?} off {off} > {most} of {exact:?}");
+    let (ours, theirs) = (hits.source.lane(i).unwrap(), exact.source.unwrap());
+    assert_eq!(
+        (ours.arena, ours.index, ours.part, ours.face, ours.instance),
+        (theirs.arena, theirs.index, theirs.part, theirs.face, theirs.instance),
+        "{name}: {ray:?}"
+    );
+}
+
+/// Normals of points that are at most `far` from each other.
+fn check_normals(world: &World, far: f64, exact: &SurfacePoint, (ng, ns): (Vec3, Vec3)) {
+    // A unit normal turns by at most the curvature times the way, twice as far over the short way that `bend` itself may change on. Where the gradient
+    // is small, as near tips, the rounding of coordinates counts as a way, too. Normals of planes are rounded, as they are and by inverse maps.
+    let rounding = 64.0 * U;
+    let turn = 2.0 * exact.bend * (far + rounding * world.size()) + rounding;
+    let off_by = (ng - exact.ng.to_vec()).max_abs();
+    assert!(off_by.is_finite() && off_by <= turn, "{}: {ng:?} {exact:?}: {off_by} > {turn}", world.name);
+    // Normals over the triangle differ by less than 3 from each other, are longer than 0.5, and its heights are above a third of its size; placed, they are longer
+    // than a quarter of that.
+    let shading = turn + 4.0 * 3.0 * 3.0 / 0.5 * far / world.size();
+    let off_by = (ns - exact.ns.to_vec()).max_abs();
+    assert!(off_by <= shading, "{}: {ns:?} {exact:?}: {off_by} > {shading}", world.name);
+}
+
+/// Rays start strictly on the side that is asked for.
+fn check_starts(world: &World, aim: Aim, hits: &Hits8, lanes: M8) {
+    let sides = [1.0, -1.0].map(|k| {
+        let n = hits.ng;
+        let (start, back) = hits.start_towards(Vec3::new(n.x * k, n.y * k, n.z * k));
+        assert_eq!(hits.hit & back, if k < 0.0 { hits.hit } else { M8::NONE });
+        start
+    });
+    for i in lanes.lanes() {
+        let [front, back] = sides.map(|s| point(s.x.0[i], s.y.0[i], s.z.0[i]));
+        let place = || format!("{}: {front:?} {back:?} {:?}", world.name, hits.ng.lane(i));
+        if matches!(world.sides, Sides::Flat(..)) {
+            let (above, below) = (world.height(front).unwrap(), world.height(back).unwrap());
+            assert!(above.is_ne() && below == above.reverse(), "{}", place());
+            let clear = front + hits.ng.lane(i) * (world.size() * 0.125);
+            assert_eq!(world.height(clear), Some(above), "{}", place());
+        }
+        let (outer, inner) = if world.turned { (back, front) } else { (front, back) };
+        let (out, within) = if world.turned { (Side::In, Side::Out) } else { (Side::Out, Side::In) };
+        // At an edge a step off one face may cross another one.
+        let (check_outer, check_inner) = match world.sides {
+            Sides::Smooth => (true, true),
+            Sides::Convex => (true, aim == Aim::Random),
+            Sides::Solid => (aim == Aim::Random, aim == Aim::Random),
+            Sides::Flat(..) | Sides::Sheet => (false, false),
+        };
+        assert!(!check_outer || world.geometry.side(outer) == out, "{}", place());
+        assert!(!check_inner || world.geometry.side(inner) == within, "{}", place());
+    }
+}
+
+/// Rays that go on from hits, at random or all but along the surface. Spare lanes hold rays that were there already.
+fn onward(aim: Aim, rays: &Rays8, hits: &Hits8, dice: &mut Dice) -> Rays8 {
+    let mut onward = *rays;
+    for i in hits.hit.lanes() {
+        let (d, n) = (dice.vector(1.0), hits.ng.lane(i));
+        let graze = if aim == Aim::Trouble { 1.0 - durer_math::scale::pow2(-7 * i as i32) } else { 0.0 };
+        onward.direction.set_lane(i, d - n * (n.dot(d) * graze));
+    }
+    let (start, back) = hits.start_towards(onward.direction);
+    let sources = hits.sources(back);
+    for i in hits.hit.lanes() {
+        (onward.origin.x.0[i], onward.origin.y.0[i], onward.origin.z.0[i]) =
+            (start.x.0[i], start.y.0[i], start.z.0[i]);
+        onward.source.copy_lane(i, &sources, i);
+    }
+    onward
+}
+
+#[test]
+fn lanes_see_what_single_rays_see() {
+    let mut dice = Dice(1);
+    let mut surfaces: Vec<(&str, Tally)> = Vec::new();
+    let mut many = Vec::new();
+    let worlds = all_worlds(Isa::detect());
+    for world in &worlds {
+        let mut tally = Tally::default();
+        for round in 0..64 {
+            // From about, from far away, and from within.
+            let far = [4.0, 1.0, 1000.0, 30.0][round % 4];
+            let rays = eight(|_| {
+                let from = world.place(dice.vector(far).to_point());
+                let way = world.place(dice.vector(1.0).to_point()) - from;
+                // Directions have any length.
+                let length = durer_math::scale::pow2([0, 60, -60][dice.below(3)]);
+                let t_max = if round % 8 < 6 { f64::INFINITY } else { 1.0 / length };
+                Ray::new(from, way * length).with_range(0.0, t_max)
+            });
+            compare(world, Aim::Random, &rays, &mut dice, 3, &mut tally);
+        }
+        assert!(tally.met > 100, "{}: {} met", world.name, tally.met);
+        match surfaces.last_mut().filter(|(name, _)| *name == world.surface) {
+            Some((_, all)) => all.add(&tally),
+            None => surfaces.push((world.surface, tally)),
+        }
+    }
+    for (name, Tally { rays, asked, .. }) in surfaces {
+        println!("{name}: {rays} rays, {asked} asked");
+        let least = match name {
+            // Lanes know little more than a box.
+            "bent frame" | "sphere without a box" | "box without a box" => 0,
+            // It goes on for ever, hardly bent: rays from within meet it thousands of times its size away, where the rounding of their squares is that of the form.
+            "parabolic cylinder" => 300,
+            // They have a tip, or go on for ever, too.
+            "double cone" => 500,
+            _ => 1000,
+        };
+        if asked * least >= rays {
+            many.push(format!("{name}: {asked} of {rays}"));
+        }
+    }
+    assert!(many.is_empty(), "asked: {many:?}");
+}
+
+#[test]
+fn all_paths_see_the_same_bits() {
+    let paths: Vec<_> = Isa::available().map(all_worlds).collect();
+    let mut dice = Dice(2);
+    for i in 0..paths[0].len() {
+        for _ in 0..8 {
+            let world = &paths[0][i];
+            let rays = eight(|_| {
+                let from = world.place(dice.vector(3.0).to_point());
+                Ray::new(from, world.place(dice.vector(1.0).to_point()) - from)
+            });
+            let seen = paths.iter().map(|worlds| {
+                let mut hits = Hits8::NONE;
+                worlds[i].geometry.seen_by_lanes(None, &rays, 1, &mut hits, &mut Scratch::default());
+                format!("{hits:?}")
+            });
+            let seen: Vec<_> = seen.collect();
+            assert!(seen.iter().all(|s| *s == seen[0]), "{}: {seen:?}", world.name);
+        }
+    }
+}

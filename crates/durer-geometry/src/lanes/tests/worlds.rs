@@ -1,0 +1,214 @@
+//! Worlds of one surface each: as it is, inside out, and moved in ways that are hard on an outline.
+
+use super::boxed::Boxed;
+use super::point;
+use crate::Geometry;
+use durer_math::{Affine, Dyadic, Isa, Normal3, Point3, Vec3};
+use durer_surfaces::{
+    Annulus, AxisBox, CappedCylinder, Clip, Cone, Disc, Ellipsoid, EllipticCylinder, EllipticParaboloid,
+    FillRule, Frustum, HyperbolicCylinder, HyperbolicParaboloid, HyperboloidOfOneSheet,
+    HyperboloidOfTwoSheets, Inverse, Mesh, MeshData, ParabolicCylinder, Parallelogram, Placed, Plane,
+    Polygon, Quadric, Region, Sphere, SphericalSector, Surface, Triangle,
+};
+
+/// What is known exactly of points beside the surface.
+#[derive(Clone, Copy)]
+pub(super) enum Sides {
+    /// A solid with a single face: it has an inside and an outside along the normal everywhere.
+    Smooth,
+    /// A convex solid with edges: what leaves it is outside, also at an edge.
+    Convex,
+    /// A solid that is not convex, with edges.
+    Solid,
+    /// Part of the plane across this vector through this point, both exact.
+    Flat(Vec3, Point3),
+    /// A sheet that is not flat.
+    Sheet,
+}
+
+/// A surface, and how it was placed.
+pub(super) struct World {
+    pub(super) surface: &'static str,
+    pub(super) name: String,
+    pub(super) geometry: Geometry,
+    pub(super) sides: Sides,
+    pub(super) turned: bool,
+    /// The maps that placed it, the first one first.
+    maps: Vec<Affine>,
+}
+
+impl World {
+    /// Where a point of the surface's own frame went; rounded, or exact if all numbers are short.
+    pub(super) fn place(&self, p: Point3) -> Point3 {
+        self.maps.iter().fold(p, |p, map| map.point(p))
+    }
+
+    /// About how large the surface is, or what of it rays are aimed at.
+    pub(super) fn size(&self) -> f64 {
+        self.maps.iter().fold(2.0, |size, map| size * map.linear_norm())
+    }
+
+    /// A bound on all coordinates of it on the way through its maps.
+    pub(super) fn reach(&self) -> f64 {
+        self.maps.iter().fold(2.0, |reach, map| reach * map.linear_norm() + map.centre().to_vec().length())
+    }
+
+    /// On which side of a flat surface's plane a point is, exactly; positive where the mapped normal points.
+    pub(super) fn height(&self, p: Point3) -> Option<core::cmp::Ordering> {
+        let Sides::Flat(normal, q) = self.sides else { return None };
+        let exact = |v: Vec3| v.to_array().map(|x| Dyadic::new(x).unwrap());
+        let dot =
+            |a: &[Dyadic; 3], b: &[Dyadic; 3]| &(&(&a[0] * &b[0]) + &(&a[1] * &b[1])) + &(&a[2] * &b[2]);
+        // The point in the surface's own frame, as a fraction.
+        let (mut y, mut whole) = (exact(p.to_vec()), Dyadic::new(1.0).unwrap());
+        for map in self.maps.iter().rev() {
+            let (adjugate, det) = map.adjugate::<Dyadic>();
+            let c = exact(map.centre().to_vec());
+            let from: [_; 3] = core::array::from_fn(|i| &y[i] - &(&whole * &c[i]));
+            y = adjugate.map(|row| dot(&row, &from));
+            whole = &whole * &det;
+        }
+        let n = exact(normal);
+        let above = &dot(&n, &y) - &(&whole * &dot(&n, &exact(q.to_vec())));
+        let sign = above.exact_sign();
+        Some(if whole.exact_sign().is_lt() { sign.reverse() } else { sign })
+    }
+}
+
+/// Rotated, sheared and moved a little: nothing stays dyadic.
+fn map() -> Affine {
+    let turn = Affine::rotation_x(0.7).unwrap().then(&Affine::rotation_z(-0.4).unwrap()).unwrap();
+    let sheared = Affine::new([[1.0, 0.3, 0.0], [0.0, 0.8, -0.2], [0.1, 0.0, 1.3]], Point3::ORIGIN).unwrap();
+    turn.then(&sheared).unwrap().then(&Affine::translation(Vec3::new(0.1, -0.2, 0.3)).unwrap()).unwrap()
+}
+
+fn moved(x: f64, y: f64, z: f64) -> Affine {
+    Affine::translation(Vec3::new(x, y, z)).unwrap()
+}
+
+fn scaled(k: f64) -> Affine {
+    Affine::scaling(k, k, k).unwrap()
+}
+
+/// Every way to place a surface, by name: chains of maps, the first one first.
+fn placements() -> Vec<(&'static str, Vec<Affine>)> {
+    let sheared = [[1.0, 0.5, 0.0], [0.0, -1.0, 0.25], [0.25, 0.0, 1.0]];
+    let dyadic = Affine::new(sheared, point(0.5, -0.25, 1.0)).unwrap();
+    let far = moved(1e6, -3e6 + 0.1, 2e6 + 0.7);
+    vec![
+        ("placed", vec![map()]),
+        // Mirrored, too. Rays that are aimed at edges by short numbers meet them exactly.
+        ("sheared", vec![dyadic]),
+        ("tiny", vec![scaled(durer_math::scale::pow2(-60))]),
+        ("huge", vec![scaled(durer_math::scale::pow2(60)), map()]),
+        ("far", vec![map(), far]),
+        ("far, exactly", vec![moved(1_048_576.0, -3_145_728.0, 2_097_152.0)]),
+        // There and back again: the centre is moved by a map whose products are a million times as large as what is left of them.
+        ("returned", vec![far, moved(-1e6, 3e6, -2e6), map()]),
+        ("turned about a far point", vec![far, moved(-1e6, 3e6, -2e6).then(&map()).unwrap()]),
+        ("far and tiny", vec![scaled(1e-6), moved(1.0, 2.0, -0.7), map()]),
+    ]
+}
+
+/// What has been built so far, and for which instructions.
+type Worlds = (Isa, Vec<World>);
+
+/// A surface in all its placements.
+fn worlds<S: Surface + 'static>(name: &'static str, sides: Sides, surface: S, (isa, out): &mut Worlds) {
+    let surface = Boxed::new(surface);
+    let mut world = |how: &str, turned: bool, maps: Vec<Affine>, surface: Boxed| {
+        let geometry = Geometry::builder().isa(*isa).add(surface).build().unwrap();
+        out.push(World { surface: name, name: format!("{name}, {how}"), geometry, sides, turned, maps });
+    };
+    world("as it is", false, Vec::new(), surface.clone());
+    world("inside out", true, Vec::new(), Boxed::new(Inverse(surface.clone())));
+    for (how, maps) in placements() {
+        let placed = maps.iter().fold(surface.clone(), |s, map| Boxed::new(Placed::new(s, *map)));
+        world(how, false, maps, placed);
+    }
+}
+
+fn tent() -> MeshData {
+    MeshData {
+        vertices: vec![
+            point(-1.0, -1.0, 0.0),
+            point(1.0, -1.0, 0.0),
+            point(0.0, 1.0, 0.0),
+            point(0.0, 0.0, 1.0),
+        ],
+        faces: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
+        ..MeshData::default()
+    }
+}
+
+/// Every kind of surface that lanes know, in every placement, and some of which they know only a box. Numbers are short, so that rays can
+/// be aimed at edges, rims, tips and tangents exactly.
+pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
+    let mut all = (isa, Vec::new());
+    let all = &mut all;
+    let o = Point3::ORIGIN;
+    let up = Vec3::new(0.25, 1.0, -0.5);
+    worlds("sphere", Sides::Smooth, Sphere::new(point(0.25, 0.0, -0.25), 1.0).unwrap(), all);
+    worlds("plane", Sides::Smooth, Plane::new(up, -0.5).unwrap(), all);
+    worlds("level plane", Sides::Smooth, Plane::new(Vec3::Y, 0.5).unwrap(), all);
+    let block = AxisBox::new(point(-1.0, -0.5, -0.75), point(0.75, 0.5, 1.0)).unwrap();
+    worlds("box", Sides::Convex, block, all);
+    worlds("disc", Sides::Flat(up, o), Disc::new(o, up, 1.0).unwrap(), all);
+    let ring = Annulus::new(point(0.0, 0.25, 0.0), Vec3::Y, 0.5, 1.0).unwrap();
+    worlds("annulus", Sides::Flat(Vec3::Y, point(0.0, 0.25, 0.0)), ring, all);
+    let (corner, u, v) = (point(-0.5, -0.5, 0.0), Vec3::new(1.5, 0.0, 0.0), Vec3::new(0.25, 1.25, 0.25));
+    let tile = Parallelogram::new(corner, u, v).unwrap();
+    worlds("parallelogram", Sides::Flat(u.cross(v), corner), tile, all);
+    let corners = [point(-1.0, -0.75, 0.25), point(1.0, -0.5, 0.0), point(0.25, 1.0, -0.25)];
+    let across = Sides::Flat((corners[1] - corners[0]).cross(corners[2] - corners[0]), corners[0]);
+    let flat = Triangle::new(corners).unwrap();
+    let normals = [Normal3::new(0.1, 0.2, 1.0), Normal3::new(-0.3, 0.1, 1.0), Normal3::new(0.0, -0.4, 2.0)];
+    worlds("smooth triangle", across, flat.clone().with_normals(normals).unwrap(), all);
+    worlds("triangle", across, flat, all);
+    worlds("mesh", Sides::Convex, Mesh::new(tent()).unwrap().solid(Vec3::X).unwrap(), all);
+    let (base, cap) = (point(0.0, -0.75, 0.0), point(0.25, 1.0, 0.0));
+    worlds("cylinder", Sides::Convex, CappedCylinder::new(base, cap, 0.5).unwrap(), all);
+    worlds("open cylinder", Sides::Sheet, CappedCylinder::open(base, cap, 0.5).unwrap(), all);
+    worlds("frustum", Sides::Convex, Frustum::new(base, 1.0, cap, 0.25).unwrap(), all);
+    worlds("cone", Sides::Convex, Frustum::new(base, 1.0, cap, 0.0).unwrap(), all);
+    worlds("open frustum", Sides::Sheet, Frustum::open(base, 0.25, point(0.0, 1.0, 0.0), 1.0).unwrap(), all);
+    worlds("double cone", Sides::Smooth, Cone::new(0.5, 0.75, 1.0).unwrap(), all);
+    worlds("ellipsoid", Sides::Smooth, Ellipsoid::new(1.0, 0.5, 0.75).unwrap(), all);
+    let bowl = EllipticParaboloid::new(0.5, 0.75, 1.0).unwrap();
+    worlds("paraboloid", Sides::Smooth, bowl.clone(), all);
+    worlds("capped paraboloid", Sides::Convex, bowl.between(0.0, 1.0).unwrap(), all);
+    let saddle = HyperbolicParaboloid::new(0.5, 0.75, 1.0).unwrap();
+    worlds("hyperbolic paraboloid", Sides::Smooth, saddle, all);
+    let tower = HyperboloidOfOneSheet::new(0.5, 0.5, 0.75).unwrap();
+    worlds("capped hyperboloid", Sides::Solid, tower.between(-0.75, 0.75).unwrap(), all);
+    worlds("hyperboloid of one sheet", Sides::Smooth, tower, all);
+    let two = HyperboloidOfTwoSheets::new(0.5, 0.5, 0.25).unwrap();
+    worlds("hyperboloid of two sheets", Sides::Smooth, two, all);
+    worlds("elliptic cylinder", Sides::Smooth, EllipticCylinder::new(0.5, 1.0).unwrap(), all);
+    worlds("hyperbolic cylinder", Sides::Smooth, HyperbolicCylinder::new(0.5, 0.75).unwrap(), all);
+    worlds("parabolic cylinder", Sides::Smooth, ParabolicCylinder::new(0.5, 1.0).unwrap(), all);
+    worlds("spherical sector", Sides::Solid, SphericalSector::new(o, 1.0, up, 0.625).unwrap(), all);
+    let any = Quadric::new([1.0, 2.0, -0.5, 0.25, 0.0, 0.25, 0.125, 0.0, -0.5, -0.625]).unwrap();
+    worlds("quadric", Sides::Smooth, any, all);
+    // A square with a hole, and a star that winds twice around its middle.
+    let square = |r: f64| [[-r, -r], [r, -r], [r, r], [-r, r]].map(|[x, y]| point(x, y, 0.5));
+    let frame = Polygon::new(&[square(1.0), square(0.5)], FillRule::EvenOdd).unwrap();
+    worlds("frame", Sides::Flat(Vec3::Z, point(0.0, 0.0, 0.5)), frame, all);
+    let star =
+        [[-1.5, -2.5], [2.5, 0.5], [-2.5, 0.5], [1.5, -2.5], [-0.5, 2.5]].map(|[x, y]| point(x, 0.0, y));
+    for (name, rule) in [("star", FillRule::EvenOdd), ("full star", FillRule::NonZero)] {
+        worlds(name, Sides::Flat(-Vec3::Y, o), Polygon::new(&[star], rule).unwrap(), all);
+    }
+    let cut = Region::half_space(Normal3::new(0.25, 1.0, 0.125), 0.25).unwrap();
+    let hole = Region::solid(Sphere::new(point(0.0, 0.0, 1.0), 0.5).unwrap()).inverse();
+    let ball = Sphere::new(o, 1.0).unwrap();
+    worlds("clipped sphere", Sides::Sheet, Clip::new(ball, vec![cut, hole]), all);
+    // A sheet of which one corner is out of the plane by a little, and a surface without what lies in a box.
+    let mut bent = square(1.0);
+    bent[3].z = 0.5 + durer_math::scale::pow2(-40);
+    worlds("bent frame", Sides::Sheet, Polygon::new(&[bent], FillRule::EvenOdd).unwrap(), all);
+    let hole = Region::axis_box(point(-0.5, -0.5, -0.25), point(2.0, 2.0, 0.75)).unwrap().inverse();
+    worlds("sphere without a box", Sides::Sheet, Clip::new(ball, vec![hole.clone()]), all);
+    worlds("box without a box", Sides::Sheet, Clip::new(block, vec![hole]), all);
+    core::mem::take(&mut all.1)
+}
