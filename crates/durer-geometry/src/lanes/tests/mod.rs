@@ -252,8 +252,8 @@ fn lanes_see_what_single_rays_see() {
     for (name, Tally { rays, asked, .. }) in surfaces {
         println!("{name}: {rays} rays, {asked} asked");
         let least = match name {
-            // Lanes know little more than a box.
-            "bent frame" | "sphere without a box" | "box without a box" => 0,
+            // Part of one of its faces lies exactly in a face of what is cut away: only exact arithmetic can tell that it stays.
+            "box without a box" => 20,
             // It goes on for ever, hardly bent: rays from within meet it thousands of times its size away, where the rounding of their squares is that of the form.
             "parabolic cylinder" => 300,
             // They have a tip, or go on for ever, too.

@@ -141,7 +141,7 @@ fn tent() -> MeshData {
     }
 }
 
-/// Every kind of surface that lanes know, in every placement, and some of which they know only a box. Numbers are short, so that rays can
+/// Every kind of surface that lanes know, in every placement. Numbers are short, so that rays can
 /// be aimed at edges, rims, tips and tangents exactly.
 pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     let mut all = (isa, Vec::new());
