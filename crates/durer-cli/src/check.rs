@@ -3,6 +3,7 @@
 use crate::args::CheckArgs;
 use crate::failure::Failure;
 use crate::input;
+use durer::mesh::Topology;
 
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     let loaded = input::load(&args.scene, (800, 600))?;
@@ -14,6 +15,9 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     println!("  primitives  {}", stats.primitives);
     for (kind, count) in stats.kinds.iter().filter(|kind| kind.1 > 0) {
         println!("    {count:>8}  {}", short(kind));
+    }
+    for topology in loaded.topologies() {
+        report(&topology);
     }
     println!("  lights      {}", scene.lights.len());
     println!(
@@ -35,6 +39,22 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     );
     println!("  memory      {} bytes", stats.bytes);
     Ok(())
+}
+
+/// How the triangles of a mesh hang together.
+fn report(topology: &Topology) {
+    let Topology { degenerate, duplicates, open_edges, turned_edges, shared_edges, is_closed } = *topology;
+    println!("  mesh        {}", if is_closed { "closed: a solid" } else { "open: a sheet" });
+    let lines = [
+        (open_edges, "open edges"),
+        (turned_edges, "edges between faces that are turned against each other"),
+        (shared_edges, "edges of more than two faces"),
+        (degenerate, "faces without area or with coordinates that are not finite, left out"),
+        (duplicates, "faces over the same corners as another"),
+    ];
+    for (count, what) in lines.into_iter().filter(|line| line.0 > 0) {
+        println!("    {count:>8}  {what}");
+    }
 }
 
 /// A type's name without the path to it.

@@ -3,20 +3,29 @@
 use crate::args::SceneArgs;
 use crate::failure::Failure;
 use durer::math::Isa;
+use durer::mesh::{Format, Topology};
 use durer::pov::{Limits, MessageKind, Read, ReadOptions};
 use durer::render::{World, WorldError};
-use durer::scene::{LowerError, Lowered, Place, Scene};
-use std::path::Path;
+use durer::scene::{LowerError, Lowered, Place, Scene, Shape};
+use std::path::{Path, PathBuf};
 
-/// Endings of mesh files, which are announced but cannot be read yet.
-const MESHES: [&str; 5] = ["obj", "ply", "stl", "gltf", "glb"];
+/// Endings of mesh files that are announced but cannot be read yet.
+const NOT_YET: [&str; 2] = ["gltf", "glb"];
 
 /// A scene that was read.
-pub(crate) struct Loaded(Read);
+pub(crate) enum Loaded {
+    /// A scene in POV-Ray's language, with its text for messages.
+    Pov(Box<Read>),
+    /// A mesh file.
+    Mesh(PathBuf, Box<Scene>),
+}
 
 /// Reads the scene; what it says goes to stderr.
 pub(crate) fn load(args: &SceneArgs, (width, height): (u32, u32)) -> Result<Loaded, Failure> {
     Isa::requested().map_err(|e| Failure::Usage(e.to_string()))?;
+    if Format::of(&args.scene).is_some() {
+        return load_mesh(&args.scene, (width, height));
+    }
     check_ending(&args.scene)?;
     let mut limits = Limits::default();
     for (name, value) in &args.limit {
@@ -38,49 +47,76 @@ pub(crate) fn load(args: &SceneArgs, (width, height): (u32, u32)) -> Result<Load
         MessageKind::Warning | MessageKind::Notice => eprintln!("{}", message.to_string().trim_end()),
     };
     let read = durer::pov::read_with(&args.scene, &options, listener);
-    read.map(Loaded).map_err(|e| Failure::Input(e.to_string()))
+    read.map(|read| Loaded::Pov(Box::new(read))).map_err(|e| Failure::Input(e.to_string()))
+}
+
+fn load_mesh(path: &Path, (width, height): (u32, u32)) -> Result<Loaded, Failure> {
+    let model = durer::mesh::read(path).map_err(|e| Failure::Input(format!("error: {e}")))?;
+    Ok(Loaded::Mesh(path.to_path_buf(), Box::new(model.into_scene(width, height))))
 }
 
 fn check_ending(scene: &Path) -> Result<(), Failure> {
     let ending = scene.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
     if ending == "pov" {
         Ok(())
-    } else if MESHES.contains(&ending.as_str()) {
+    } else if NOT_YET.contains(&ending.as_str()) {
         Err(Failure::file(scene, format_args!("not supported yet: .{ending} files")))
     } else {
-        Err(Failure::Usage(format!("the scene must be a .pov file, got '{}'", scene.display())))
+        let got = scene.display();
+        Err(Failure::Usage(format!("the scene must be a .pov, .obj, .ply or .stl file, got '{got}'")))
     }
 }
 
 impl Loaded {
     pub(crate) fn scene(&self) -> &Scene {
-        &self.0.scene
+        match self {
+            Self::Pov(read) => &read.scene,
+            Self::Mesh(_, scene) => scene,
+        }
+    }
+
+    /// How the triangles of each mesh of a mesh file hang together.
+    pub(crate) fn topologies(&self) -> Vec<Topology> {
+        let Self::Mesh(_, scene) = self else { return Vec::new() };
+        let meshes = scene.objects.iter().filter_map(|object| match &object.shape {
+            Shape::Mesh(mesh) => Some(Topology::of(mesh)),
+            _ => None,
+        });
+        meshes.collect()
+    }
+
+    /// A message about the input, with its place if it is known.
+    fn message(&self, place: Option<Place>, text: String) -> String {
+        match self {
+            Self::Pov(read) => read.sources.error(place, text).to_string(),
+            Self::Mesh(path, _) => format!("error: {}: {text}", path.display()),
+        }
     }
 
     /// Builds the geometry; what the scene's author should know goes to stderr.
     pub(crate) fn lower(&self) -> Result<Lowered, Failure> {
-        let lowered = self.0.scene.lower().map_err(|e| self.refused(&e))?;
+        let lowered = self.scene().lower().map_err(|e| self.refused(&e))?;
         self.warn(&lowered.warnings);
         Ok(lowered)
     }
 
     /// Builds all that a picture needs, warnings as for [`Loaded::lower`].
     pub(crate) fn world(&self) -> Result<World, Failure> {
-        let world = World::new(&self.0.scene).map_err(|e| match e {
+        let world = World::new(self.scene()).map_err(|e| match e {
             WorldError::Lower(e) => self.refused(&e),
-            other => Failure::Input(self.0.sources.error(None, other.to_string()).to_string()),
+            other => Failure::Input(self.message(None, other.to_string())),
         })?;
         self.warn(world.warnings());
         Ok(world)
     }
 
     fn refused(&self, error: &LowerError) -> Failure {
-        Failure::Input(self.0.sources.error(error.place, error.to_string()).to_string())
+        Failure::Input(self.message(error.place, error.to_string()))
     }
 
     fn warn(&self, warnings: &[(Option<Place>, String)]) {
         for (place, why) in warnings {
-            eprintln!("{}", self.0.sources.error(*place, format!("warning: {why}")));
+            eprintln!("{}", self.message(*place, format!("warning: {why}")));
         }
     }
 }

@@ -6,13 +6,14 @@
 //! - [`surfaces`]: the surfaces; each answers with brackets that provably hold the crossing.
 //! - [`bvh`]: the tree over any of them.
 //! - [`geometry`]: the built world, and its queries for one ray and for batches.
-//! - [`scene`]: a scene as plain data; [`pov`] reads one from POV-Ray's language.
+//! - [`scene`]: a scene as plain data; [`pov`] reads one from POV-Ray's language, [`mesh`] from mesh files.
 //! - [`render`]: cameras, lights, textures and Whitted's recursion.
 #![forbid(unsafe_code)]
 
 pub use durer_bvh as bvh;
 pub use durer_geometry as geometry;
 pub use durer_math as math;
+pub use durer_mesh as mesh;
 pub use durer_pov as pov;
 pub use durer_render as render;
 pub use durer_scene as scene;

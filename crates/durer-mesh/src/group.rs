@@ -1,0 +1,98 @@
+//! Groups while they are read.
+
+use crate::Group;
+use crate::error::{ErrorKind, Spot};
+use crate::polygon;
+use durer_math::{Point3, Vec3};
+use durer_scene::Face;
+
+/// A corner of a face: the numbers of its vertex and of its normal in the file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Corner {
+    pub(crate) vertex: u32,
+    pub(crate) normal: Option<u32>,
+}
+
+/// All vertices and normals of a file, and the group that is being read.
+#[derive(Default)]
+pub(crate) struct Groups {
+    pub(crate) vertices: Vec<Point3>,
+    pub(crate) normals: Vec<Vec3>,
+    done: Vec<Group>,
+    now: Group,
+    /// The numbers that the file's vertices and normals have in the group; [`NONE`] for those it has not used.
+    vertex_here: Vec<u32>,
+    normal_here: Vec<u32>,
+    /// Memory for one face.
+    corners: Vec<Point3>,
+}
+
+const NONE: u32 = u32::MAX;
+
+/// The number in a group of an item of the file; new ones are added.
+fn here<T: Copy>(map: &mut Vec<u32>, all: &[T], used: &mut Vec<T>, number: u32) -> Result<u32, ErrorKind> {
+    if map.len() < all.len() {
+        map.resize(all.len(), NONE);
+    }
+    let place = &mut map[number as usize];
+    if *place == NONE {
+        *place = u32::try_from(used.len()).ok().filter(|n| *n != NONE).ok_or(ErrorKind::TooMany)?;
+        used.push(all[number as usize]);
+    }
+    Ok(*place)
+}
+
+impl Groups {
+    /// What follows belongs to another group.
+    pub(crate) fn begin(&mut self, name: &str) {
+        self.finish();
+        self.now.name = name.to_string();
+    }
+
+    fn finish(&mut self) {
+        let group = std::mem::take(&mut self.now);
+        if !group.mesh.faces.is_empty() {
+            self.vertex_here.fill(NONE);
+            self.normal_here.fill(NONE);
+            self.done.push(group);
+        }
+    }
+
+    /// Adds a face whose indices are in range. Points and lines are left out.
+    pub(crate) fn face(&mut self, face: &[Corner], spot: Spot) -> Result<(), ErrorKind> {
+        if face.len() < 3 {
+            return Ok(());
+        }
+        self.corners.clear();
+        self.corners.extend(face.iter().map(|c| self.vertices[c.vertex as usize]));
+        let Some(triangles) = polygon::triangles(&self.corners) else {
+            return Err(ErrorKind::Corners { spot, count: face.len(), most: polygon::MOST });
+        };
+        let mesh = &mut self.now.mesh;
+        for triangle in triangles {
+            let mut vertices = [0; 3];
+            let mut normals = [0; 3];
+            let mut smooth = true;
+            for (i, corner) in triangle.map(|i| face[i]).into_iter().enumerate() {
+                vertices[i] = here(&mut self.vertex_here, &self.vertices, &mut mesh.vertices, corner.vertex)?;
+                match corner.normal {
+                    Some(n) => {
+                        normals[i] = here(&mut self.normal_here, &self.normals, &mut mesh.normals, n)?;
+                    }
+                    None => smooth = false,
+                }
+            }
+            if mesh.faces.len() >= NONE as usize {
+                return Err(ErrorKind::TooMany);
+            }
+            mesh.faces.push(Face { vertices, normals: smooth.then_some(normals), texture: None });
+        }
+        Ok(())
+    }
+
+    /// All groups that have faces.
+    pub(crate) fn end(mut self) -> Vec<Group> {
+        self.finish();
+        self.done
+    }
+}

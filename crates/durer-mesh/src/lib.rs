@@ -1,0 +1,89 @@
+//! Mesh files as scene data: OBJ, PLY (as text and both binary orders) and STL (as text and binary).
+//!
+//! [`read`] gives a [`Model`]: groups of triangles in the file's order, with the coordinates as f64 wherever the file has that many digits.
+//! [`Model::into_scene`] frames and lights them; [`Topology`] says whether they are closed.
+//!
+//! Nothing in a file is trusted: counts in headers reserve no memory, indices are checked, and whatever is wrong is told with its place.
+//!
+//! ```
+//! use durer_mesh::{Format, read_bytes};
+//! let model = read_bytes(b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", Format::Obj)?;
+//! assert_eq!(model.groups[0].mesh.faces.len(), 2);
+//! # Ok::<(), durer_mesh::ErrorKind>(())
+//! ```
+#![forbid(unsafe_code)]
+
+mod error;
+mod group;
+mod obj;
+mod ply;
+mod polygon;
+mod stage;
+mod stl;
+mod text;
+mod topology;
+
+pub use crate::error::{ErrorKind, MeshError, Spot};
+pub use crate::topology::Topology;
+
+use durer_scene::Mesh;
+use std::path::Path;
+
+/// What a file holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    /// Its groups, in its order; there is at least one, and each has a triangle.
+    pub groups: Vec<Group>,
+    /// Its format.
+    pub format: Format,
+}
+
+/// Triangles that belong together.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Group {
+    /// Its name in the file; may be empty.
+    pub name: String,
+    /// Its triangles. Polygons are cut into triangles, in the order of the file.
+    pub mesh: Mesh,
+}
+
+/// The formats that can be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Wavefront's text format.
+    Obj,
+    /// The polygon file format of Stanford.
+    Ply,
+    /// The format of stereolithography.
+    Stl,
+}
+
+impl Format {
+    /// The format that goes with a file's ending, whatever its case.
+    pub fn of(path: &Path) -> Option<Self> {
+        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "obj" => Some(Self::Obj),
+            "ply" => Some(Self::Ply),
+            "stl" => Some(Self::Stl),
+            _ => None,
+        }
+    }
+}
+
+/// Reads a mesh file; its ending tells the format.
+pub fn read(path: &Path) -> Result<Model, MeshError> {
+    let fail = |kind| MeshError { path: path.to_path_buf(), kind };
+    let format = Format::of(path).ok_or_else(|| fail(ErrorKind::Format))?;
+    let bytes = std::fs::read(path).map_err(|e| fail(ErrorKind::Read(e.to_string())))?;
+    read_bytes(&bytes, format).map_err(fail)
+}
+
+/// Reads a mesh file that is in memory.
+pub fn read_bytes(bytes: &[u8], format: Format) -> Result<Model, ErrorKind> {
+    let groups = match format {
+        Format::Obj => obj::read(bytes),
+        Format::Ply => ply::read(bytes),
+        Format::Stl => stl::read(bytes),
+    }?;
+    if groups.is_empty() { Err(ErrorKind::Empty) } else { Ok(Model { groups, format }) }
+}

@@ -1,0 +1,190 @@
+//! PLY: a header that declares elements and their properties, in any order, then the elements as text or binary numbers of either byte order. (G. Turk, "The PLY
+//! polygon file format", Stanford 1994.)
+//!
+//! Read are `x y z` and `nx ny nz` of `vertex`, and the lists `vertex_indices` or `vertex_index` of `face`. Everything else is passed over; elements `tristrips` are refused.
+
+use crate::Group;
+use crate::error::{ErrorKind, Spot};
+use crate::group::{Corner, Groups};
+use crate::text::shortened;
+use durer_math::{Point3, Vec3};
+use ply_rs_bw::parser::{ParseError, Parser, Reader};
+use ply_rs_bw::ply::{ElementDef, Encoding, Property, PropertyAccess, PropertyAccessResult, PropertyType};
+use std::io::BufRead;
+
+/// One element of the file, as far as it is of use.
+#[derive(Default)]
+struct Item {
+    position: [f64; 3],
+    normal: [f64; 3],
+    corners: Vec<i64>,
+}
+
+impl PropertyAccess for Item {
+    fn new() -> Self {
+        Self::default()
+    }
+
+    fn set_property(&mut self, name: &str, value: Property) -> PropertyAccessResult {
+        let number = match value {
+            Property::Char(x) => f64::from(x),
+            Property::UChar(x) => f64::from(x),
+            Property::Short(x) => f64::from(x),
+            Property::UShort(x) => f64::from(x),
+            Property::Int(x) => f64::from(x),
+            Property::UInt(x) => f64::from(x),
+            Property::Float(x) => f64::from(x),
+            Property::Double(x) => x,
+            list => return self.set_corners(name, list),
+        };
+        let place = match name {
+            "x" => &mut self.position[0],
+            "y" => &mut self.position[1],
+            "z" => &mut self.position[2],
+            "nx" => &mut self.normal[0],
+            "ny" => &mut self.normal[1],
+            "nz" => &mut self.normal[2],
+            _ => return PropertyAccessResult::Ignored,
+        };
+        *place = number;
+        PropertyAccessResult::Set
+    }
+}
+
+fn is_corners(name: &str) -> bool {
+    matches!(name, "vertex_indices" | "vertex_index")
+}
+
+fn wide<T: Into<i64>>(list: Vec<T>) -> Vec<i64> {
+    list.into_iter().map(Into::into).collect()
+}
+
+impl Item {
+    fn set_corners(&mut self, name: &str, list: Property) -> PropertyAccessResult {
+        if !is_corners(name) {
+            return PropertyAccessResult::Ignored;
+        }
+        self.corners = match list {
+            Property::ListChar(list) => wide(list),
+            Property::ListUChar(list) => wide(list),
+            Property::ListShort(list) => wide(list),
+            Property::ListUShort(list) => wide(list),
+            Property::ListInt(list) => wide(list),
+            Property::ListUInt(list) => wide(list),
+            _ => return PropertyAccessResult::UnsupportedType,
+        };
+        PropertyAccessResult::Set
+    }
+}
+
+/// What the library says, on one line.
+fn said(error: &ParseError) -> String {
+    let text = error.to_string();
+    text.split_whitespace().map(shortened).collect::<Vec<_>>().join(" ")
+}
+
+/// What messages call an element.
+fn kind(name: &str) -> &'static str {
+    match name {
+        "vertex" => "vertex",
+        "face" => "face",
+        _ => "element",
+    }
+}
+
+/// The least number of bytes that an element takes.
+fn least_size(element: &ElementDef, encoding: Encoding) -> usize {
+    let size = |property: &PropertyType| match (encoding, property) {
+        (Encoding::Ascii, _) => 2,
+        (_, PropertyType::Scalar(scalar) | PropertyType::List(scalar, _)) => {
+            use ply_rs_bw::ply::ScalarType::{Char, Double, Float, Int, Short, UChar, UInt, UShort};
+            match scalar {
+                Char | UChar => 1,
+                Short | UShort => 2,
+                Int | UInt | Float => 4,
+                Double => 8,
+            }
+        }
+    };
+    element.properties.values().map(|p| size(&p.data_type)).sum::<usize>().max(1)
+}
+
+pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
+    let parser = Parser::<Item>::new();
+    let mut reader = Reader::new(bytes);
+    let header = parser.read_header(&mut reader).map_err(|e| ErrorKind::Header(said(&e)))?;
+    let mut groups = Groups::default();
+    let mut has_normals = false;
+    // The file's order is kept, but faces may come before the vertices that they name.
+    let mut faces: Vec<(Vec<i64>, usize)> = Vec::new();
+    for element in header.elements.values() {
+        let left = reader.get_ref().len();
+        let room = (left + 1) / least_size(element, header.encoding);
+        if element.count > room {
+            let what = shortened(&format!("elements '{}'", element.name));
+            return Err(ErrorKind::Promise { what, promised: element.count as u64, room: room as u64 });
+        }
+        let has = |names: &[&str]| names.iter().all(|name| element.properties.contains_key(*name));
+        let is_vertices = element.name == "vertex";
+        if is_vertices && !has(&["x", "y", "z"]) {
+            return Err(ErrorKind::End {
+                spot: Spot::Element("vertex", 0),
+                expected: "the properties x, y and z",
+            });
+        }
+        if element.name == "tristrips" {
+            let spot = Spot::Element("tristrips", 0);
+            return Err(ErrorKind::Unsupported { spot, what: "triangle strips".into() });
+        }
+        has_normals |= is_vertices && has(&["nx", "ny", "nz"]);
+        for number in 0..element.count {
+            let spot = Spot::Element(kind(&element.name), number);
+            let item = next(&parser, &mut reader, element, header.encoding, spot)?;
+            match element.name.as_str() {
+                "vertex" => {
+                    groups.vertices.push(Point3::from(item.position));
+                    if has_normals {
+                        groups.normals.push(Vec3::from(item.normal));
+                    }
+                }
+                "face" => faces.push((item.corners, number)),
+                _ => {}
+            }
+        }
+    }
+    let mut face = Vec::new();
+    for (corners, number) in faces {
+        let spot = Spot::Element("face", number);
+        face.clear();
+        for index in corners {
+            let count = groups.vertices.len();
+            let vertex = u32::try_from(index).ok().filter(|v| (*v as usize) < count);
+            let vertex = vertex.ok_or(ErrorKind::Index { spot, what: "vertex", index, count })?;
+            face.push(Corner { vertex, normal: has_normals.then_some(vertex) });
+        }
+        groups.face(&face, spot)?;
+    }
+    Ok(groups.end())
+}
+
+fn next(
+    parser: &Parser<Item>,
+    reader: &mut Reader<&[u8]>,
+    element: &ElementDef,
+    encoding: Encoding,
+    spot: Spot,
+) -> Result<Item, ErrorKind> {
+    let item = match encoding {
+        Encoding::Ascii => {
+            let mut line = Vec::new();
+            let length = reader.get_mut().read_until(b'\n', &mut line);
+            if length.is_err() || line.is_empty() {
+                return Err(ErrorKind::End { spot, expected: "an element" });
+            }
+            parser.read_ascii_element(&String::from_utf8_lossy(&line), element)
+        }
+        Encoding::BinaryBigEndian => parser.read_big_endian_element(reader.get_mut(), element),
+        Encoding::BinaryLittleEndian => parser.read_little_endian_element(reader.get_mut(), element),
+    };
+    item.map_err(|e| ErrorKind::Element { spot, said: said(&e) })
+}

@@ -1,0 +1,135 @@
+//! STL: triangles one by one, as text (`solid ... endsolid`, each a group) or binary (80 bytes, a count, then 50 bytes for each).
+//!
+//! A file is binary if its length is what its count says, whatever its first word: many binary files begin with `solid` too. Corners with the same coordinates
+//! become one vertex. The normals in the file are passed over: the order of the corners tells the side. (3D Systems, *StereoLithography Interface Specification*, 1988.)
+
+use crate::Group;
+use crate::error::{ErrorKind, Spot};
+use crate::text::{lines, shortened, three};
+use durer_math::Point3;
+use durer_scene::Face;
+use std::collections::HashMap;
+
+const HEADER: usize = 84;
+const RECORD: usize = 50;
+
+pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
+    let promised = bytes.get(80..HEADER).and_then(|b| b.try_into().ok()).map(u32::from_le_bytes);
+    let room = bytes.len().saturating_sub(HEADER) / RECORD;
+    let is_text = bytes.trim_ascii_start().get(..5).is_some_and(|b| b.eq_ignore_ascii_case(b"solid"));
+    match promised {
+        Some(n) if n as usize == room && bytes.len() == HEADER + RECORD * room => binary(bytes, room),
+        _ if is_text => text(bytes),
+        Some(n) if n as usize <= room => binary(bytes, n as usize),
+        Some(n) => {
+            Err(ErrorKind::Promise { what: "triangles".into(), promised: n.into(), room: room as u64 })
+        }
+        None => {
+            let found = shortened(&String::from_utf8_lossy(bytes.get(..16).unwrap_or(bytes)));
+            Err(ErrorKind::Expected { spot: Spot::Byte(0), expected: "'solid' or a binary header", found })
+        }
+    }
+}
+
+/// Triangles whose corners become vertices.
+#[derive(Default)]
+struct Welder {
+    group: Group,
+    known: HashMap<[u64; 3], u32>,
+}
+
+impl Welder {
+    fn triangle(&mut self, corners: [[f64; 3]; 3]) -> Result<(), ErrorKind> {
+        let mesh = &mut self.group.mesh;
+        let mut vertices = [0; 3];
+        for (vertex, corner) in vertices.iter_mut().zip(corners) {
+            // Adding zero makes the two zeros one.
+            let key = corner.map(|x| (x + 0.0).to_bits());
+            *vertex = match self.known.get(&key) {
+                Some(&v) => v,
+                None => {
+                    let v = u32::try_from(mesh.vertices.len()).map_err(|_| ErrorKind::TooMany)?;
+                    mesh.vertices.push(Point3::from(corner));
+                    self.known.insert(key, v);
+                    v
+                }
+            };
+        }
+        mesh.faces.push(Face { vertices, normals: None, texture: None });
+        Ok(())
+    }
+}
+
+fn binary(bytes: &[u8], count: usize) -> Result<Vec<Group>, ErrorKind> {
+    let mut welder = Welder::default();
+    for record in bytes[HEADER..].chunks_exact(RECORD).take(count) {
+        let number = |at: usize| f64::from(f32::from_le_bytes(core::array::from_fn(|i| record[at + i])));
+        let corner = |i: usize| core::array::from_fn(|axis| number(12 + 12 * i + 4 * axis));
+        welder.triangle([corner(0), corner(1), corner(2)])?;
+    }
+    Ok(if welder.group.mesh.faces.is_empty() { Vec::new() } else { vec![welder.group] })
+}
+
+/// What may stand on a line, by the words before it.
+#[derive(Clone, Copy, PartialEq)]
+enum Inside {
+    File,
+    Solid,
+    Facet,
+    Loop,
+    LoopDone,
+}
+
+fn text(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
+    let mut groups = Vec::new();
+    let mut welder = Welder::default();
+    let mut inside = Inside::File;
+    let mut corners = Vec::with_capacity(3);
+    let mut last = 1;
+    for (number, line) in lines(bytes) {
+        let mut words = line.split_whitespace();
+        let Some(word) = words.next() else { continue };
+        last = number;
+        let spot = Spot::Line(number);
+        let wrong = |expected| Err(ErrorKind::Expected { spot, expected, found: shortened(line.trim()) });
+        let lower = word.to_ascii_lowercase();
+        inside = match (inside, lower.as_str()) {
+            (Inside::File, "solid") => {
+                welder.group.name = line.trim_start()[word.len()..].trim().to_string();
+                Inside::Solid
+            }
+            (Inside::Solid, "facet") => Inside::Facet,
+            (Inside::Solid, "endsolid") => {
+                let Welder { group, .. } = std::mem::take(&mut welder);
+                if !group.mesh.faces.is_empty() {
+                    groups.push(group);
+                }
+                Inside::File
+            }
+            (Inside::Facet, "outer") => Inside::Loop,
+            (Inside::Loop, "vertex") if corners.len() < 3 => {
+                corners.push(three(&mut words, number, "three coordinates")?);
+                Inside::Loop
+            }
+            (Inside::Loop, "endloop") => match *corners {
+                [a, b, c] => {
+                    welder.triangle([a, b, c])?;
+                    corners.clear();
+                    Inside::LoopDone
+                }
+                _ => return wrong("'vertex', three times"),
+            },
+            (Inside::LoopDone, "endfacet") => Inside::Solid,
+            (Inside::File, _) => return wrong("'solid'"),
+            (Inside::Solid, _) => return wrong("'facet' or 'endsolid'"),
+            (Inside::Facet, _) => return wrong("'outer loop'"),
+            (Inside::Loop, _) if corners.len() == 3 => return wrong("'endloop'"),
+            (Inside::Loop, _) => return wrong("'vertex'"),
+            (Inside::LoopDone, _) => return wrong("'endfacet'"),
+        };
+    }
+    match inside {
+        Inside::File => Ok(groups),
+        _ => Err(ErrorKind::End { spot: Spot::Line(last), expected: "'endsolid'" }),
+    }
+}

@@ -1,0 +1,42 @@
+//! Lines and words of text formats.
+
+use crate::error::{ErrorKind, Spot};
+use std::borrow::Cow;
+
+/// The lines of a file, numbered from 1; what is not UTF-8 is replaced.
+pub(crate) fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
+    let lines = bytes.split(|&b| b == b'\n').enumerate();
+    lines.map(|(i, line)| (i + 1, String::from_utf8_lossy(line.strip_suffix(b"\r").unwrap_or(line))))
+}
+
+/// Not more of a word than fits a message.
+pub(crate) fn shortened(word: &str) -> String {
+    const MOST: usize = 40;
+    let clean = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
+    let mut short: String = word.chars().take(MOST).map(clean).collect();
+    if word.chars().nth(MOST).is_some() {
+        short.push('…');
+    }
+    short
+}
+
+/// The next word as a number.
+pub(crate) fn number<'a>(
+    words: &mut impl Iterator<Item = &'a str>,
+    line: usize,
+    expected: &'static str,
+) -> Result<f64, ErrorKind> {
+    let spot = Spot::Line(line);
+    let word = words.next().ok_or(ErrorKind::End { spot, expected })?;
+    word.parse().map_err(|_| ErrorKind::Expected { spot, expected, found: shortened(word) })
+}
+
+/// The next three words as numbers.
+pub(crate) fn three<'a>(
+    words: &mut impl Iterator<Item = &'a str>,
+    line: usize,
+    expected: &'static str,
+) -> Result<[f64; 3], ErrorKind> {
+    let mut next = || number(words, line, expected);
+    Ok([next()?, next()?, next()?])
+}
