@@ -53,6 +53,8 @@ pub(crate) trait AnyArena: Send + Sync {
     );
     /// Adds what a solid of many parts needs to know beside the crossings of its parts: whether the ray starts inside.
     fn start_of(&self, surface: u32, ray: &LocalRay<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks);
+    /// Whether a ray starts inside the solid in a slot, which it does not cross in its range.
+    fn starts_inside(&self, slot: u32, ray: &LocalRay<'_>) -> bool;
     /// Whether no ray of a bundle meets the surface in a slot: `true` is certain.
     fn misses(&self, slot: u32, shaft: &Shaft) -> bool;
     /// Whether no ray of a bundle that starts on this side of the surface in a slot comes back to it: `true` is certain.
@@ -69,6 +71,8 @@ pub(crate) trait AnyArena: Send + Sync {
     fn part(&self, slot: u32) -> PartId;
     /// The name of a slot.
     fn name(&self, slot: u32) -> Id;
+    /// The object of a surface.
+    fn object_of(&self, surface: u32) -> u32;
     /// Whether slots are parts of surfaces.
     fn is_in_parts(&self) -> bool;
     /// Solids of several parts, with their boxes.
@@ -369,6 +373,10 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
         }
     }
 
+    fn starts_inside(&self, slot: u32, ray: &LocalRay<'_>) -> bool {
+        starts_inside(self.slot(slot).surface, ray, &LocalPoint::along(ray, 0.0))
+    }
+
     fn misses(&self, slot: u32, shaft: &Shaft) -> bool {
         self.slot(slot).surface.misses(shaft)
     }
@@ -408,6 +416,10 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
 
     fn name(&self, slot: u32) -> Id {
         self.slot(slot).name()
+    }
+
+    fn object_of(&self, surface: u32) -> u32 {
+        self.ids.name(surface as usize).object
     }
 
     fn is_in_parts(&self) -> bool {

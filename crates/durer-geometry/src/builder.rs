@@ -1,6 +1,7 @@
 //! How a geometry comes to be.
 
 use crate::arena::{AnyArena, Arena, Arrange, Unsorted};
+use crate::csg::{Compound, Compounds};
 use crate::geometry::{Beside, Geometry, Instance, SolidInParts};
 use crate::ids::{EVERYTHING, Id};
 use crate::{ObjectId, geometry};
@@ -91,6 +92,31 @@ impl Builder {
         self
     }
 
+    /// Adds a solid made of solids as an object of its own, with the next free number.
+    pub fn add_compound(&mut self, body: impl Into<Arc<Compound>>) -> &mut Self {
+        self.add_compound_as(body, ObjectId(self.next_object), 0, EVERYTHING)
+    }
+
+    /// Adds a solid made of solids under the given numbers: `primitive` is added to those of its leaves.
+    pub fn add_compound_as(
+        &mut self,
+        body: impl Into<Arc<Compound>>,
+        object: ObjectId,
+        primitive: u32,
+        mask: u32,
+    ) -> &mut Self {
+        let arenas = &mut self.arenas;
+        let index = *self.by_type.entry(TypeId::of::<Compound>()).or_insert_with(|| {
+            arenas.push(Box::new(Compounds::default()));
+            arenas.len() - 1
+        });
+        if let Some(bodies) = self.arenas[index].as_any().downcast_mut::<Compounds>() {
+            bodies.push(body.into(), Id { object: object.0, primitive }, mask);
+        }
+        self.next_object = self.next_object.max(object.0.saturating_add(1));
+        self
+    }
+
     /// Adds a placement of a whole geometry; its objects get the next free numbers, in their order.
     pub fn instance(&mut self, geometry: &Arc<Geometry>, affine: Affine, mask: u32) -> &mut Self {
         self.instance_as(geometry, affine, ObjectId(self.next_object), 0, mask)
@@ -152,6 +178,13 @@ impl Builder {
             extent = extent.union(bounds);
         }
 
+        let leaf_slots: u64 = arenas.iter_mut().map(|a| leaf_slots(&mut **a)).sum();
+        if leaf_slots > Compounds::MOST_SLOTS {
+            return Err(BuildError::TooMany {
+                count: leaf_slots as usize,
+                limit: Compounds::MOST_SLOTS as usize,
+            });
+        }
         let frame = Frame::around(&extent);
         let mut entries: Vec<Entry> = Vec::new();
         let mut unsorted = Vec::new();
@@ -215,6 +248,11 @@ impl Builder {
             placements,
         ))
     }
+}
+
+/// How many surfaces the leaves of an arena's compounds have.
+fn leaf_slots(arena: &mut dyn Arrange) -> u64 {
+    arena.as_any().downcast_ref::<Compounds>().map_or(0, Compounds::leaf_slots)
 }
 
 /// Numbers the placements in the order in which instances were added, each followed by what is nested in it; says how many there are, the

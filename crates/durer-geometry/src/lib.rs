@@ -31,7 +31,7 @@
 //! array per type, in the order of the leaves of a [`durer_bvh`] tree; what is unbounded is tested beside it. Answers do not depend on
 //! the tree, the instruction set or the number of threads.
 //!
-//! Closest, any and all are in `query`, bundles of rays that share one search in `beam`, eight rays side by side in `lanes`, stretches inside solids in `spans`, points in `resolve`, many rays in `batch`, and the story of
+//! Closest, any and all are in `query`, bundles of rays that share one search in `beam`, eight rays side by side in `lanes`, stretches inside solids in `spans`, solids made of solids in `csg`, points in `resolve`, many rays in `batch`, and the story of
 //! one ray in `explain`.
 #![forbid(unsafe_code)]
 
@@ -40,6 +40,7 @@ mod batch;
 mod beam;
 mod best;
 mod builder;
+mod csg;
 mod explain;
 mod geometry;
 mod hit;
@@ -55,6 +56,7 @@ mod walk;
 pub use crate::batch::Ragged;
 pub use crate::beam::Beam;
 pub use crate::builder::{BuildError, Builder};
+pub use crate::csg::{Compound, CompoundBuilder, CsgError, Part, Shown};
 pub use crate::explain::{Event, Explanation, Verdict};
 pub use crate::geometry::Geometry;
 pub use crate::hit::{Hit, ObjectId, Span};

@@ -1,6 +1,7 @@
 //! From a hit to a point of a surface; and on which side of all solids a point lies.
 
 use crate::Hit;
+use crate::csg::same_surface;
 use crate::geometry::{Geometry, slots};
 use durer_math::{Point3, Ray, RaySide, Source};
 use durer_surfaces::{LocalPoint, LocalRay, Need, Side, SurfacePoint};
@@ -29,7 +30,9 @@ impl Geometry {
         hit: &Hit,
         need: Need,
     ) -> SurfacePoint {
-        let source = source.filter(|s| (s.arena, s.index, s.instance) == (hit.arena, hit.slot, hit.instance));
+        let source = source.filter(|s| {
+            s.arena == hit.arena && same_surface(s.index, hit.slot) && s.instance == hit.instance
+        });
         let (mut point, part) = match source {
             None => self.resolve_in(local, hit.instance, hit, need),
             Some(s) => self.resolve_in(&local.from_side(Some(s.side)), hit.instance, hit, need),

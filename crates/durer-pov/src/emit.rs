@@ -174,6 +174,13 @@ impl Reader<'_> {
                 }
                 scene::Shape::Union(shown)
             }
+            Shape::Csg(operation, parts) => {
+                let mut shown = Vec::with_capacity(parts.len());
+                for part in parts {
+                    shown.extend(self.emitted(part, lights)?);
+                }
+                scene::Shape::Csg(*operation, shown)
+            }
             leaf => surface(leaf, at)?,
         };
         let mut made = scene::Object::new(shape);
@@ -321,7 +328,7 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             axis: vector(*axis),
             half_angle: *half_angle,
         },
-        Shape::Union(_) | Shape::Light(_) => {
+        Shape::Union(_) | Shape::Csg(..) | Shape::Light(_) => {
             return Err(Fault::invalid(at, "a single surface is needed here"));
         }
     })

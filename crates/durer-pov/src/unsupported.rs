@@ -64,7 +64,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | DensityMap
             | Dents
             | Df3
-            | Difference
             | DistExp
             | Distance
             | Eccentricity
@@ -103,7 +102,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | InteriorTexture
             | Internal
             | Interpolate
-            | Intersection
             | Intervals
             | Irid
             | Isosurface
@@ -131,7 +129,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | MaxTrace
             | MaximumReuse
             | Media
-            | Merge
             | Method
             | Metric
             | MinExtent

@@ -100,6 +100,19 @@ pub enum Shape {
     },
     /// All the parts' surfaces together. Parts are placed in the union's own frame.
     Union(Vec<Object>),
+    /// A solid made of solids. Parts are placed in its own frame; a union among them is the solid of all its parts.
+    Csg(Operation, Vec<Object>),
+}
+
+/// How solids make a solid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operation {
+    /// What is in any of them, without surfaces inside.
+    Merge,
+    /// What is in all of them.
+    Intersection,
+    /// What is in the first and in none of the others.
+    Difference,
 }
 
 /// A quadric in its principal frame.

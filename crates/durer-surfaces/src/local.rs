@@ -287,6 +287,11 @@ impl<'a> LocalRay<'a> {
         (Vec3::new(x, y, z), Vec3::new(ex, ey, ez))
     }
 
+    /// The point at which the range begins, rounded.
+    pub fn point_at_start(&self) -> Point3 {
+        self.point_at(self.t_min).0
+    }
+
     /// The point at the caller's parameter `t`, with a bound on its error, without the detour over the closest approach.
     fn point_at(&self, t: f64) -> (Point3, Vec3) {
         match self.lineage {

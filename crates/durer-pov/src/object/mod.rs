@@ -16,7 +16,7 @@ use crate::reader::{Item, Reader};
 use crate::texture::{Interior, Layer, Texture};
 use crate::transform::Matrix;
 use crate::value::Value;
-use durer_scene::FillRule;
+use durer_scene::{FillRule, Operation};
 
 pub(crate) use extension::Named;
 pub(crate) use mesh::Mesh;
@@ -75,6 +75,7 @@ pub(crate) enum Shape {
         half_angle: f64,
     },
     Union(Vec<Rc<Object>>),
+    Csg(Operation, Vec<Rc<Object>>),
     Light(Rc<Light>),
 }
 
@@ -116,7 +117,7 @@ const DEEPEST: u32 = 256;
 impl Object {
     pub(crate) fn new(shape: Shape, at: Place) -> Self {
         let (depth, leaves, extra) = match &shape {
-            Shape::Union(parts) => {
+            Shape::Union(parts) | Shape::Csg(_, parts) => {
                 let depth = parts.iter().map(|part| part.depth).max().unwrap_or(0);
                 let leaves = parts.iter().fold(0_u64, |sum, part| sum.saturating_add(part.leaves));
                 (depth + 1, leaves, parts.len() * 8)
@@ -148,13 +149,26 @@ impl Object {
         }
     }
 
+    /// Whether it or something in it shines.
+    fn holds_light(&self) -> bool {
+        match &self.shape {
+            Shape::Light(_) => true,
+            Shape::Union(parts) => parts.iter().any(|part| part.holds_light()),
+            _ => false,
+        }
+    }
+
     /// Counts the parts that were added to it.
     fn recount(&mut self) {
         let parts = self.clips.iter().chain(&self.bounds);
         let deepest = parts.clone().map(|part| part.depth + 1).max().unwrap_or(0);
         self.depth = self.depth.max(deepest);
         let texture = self.texture.as_ref().map_or(0, |texture| texture.size() * size_of::<Layer>());
-        let parts = parts.count() + if let Shape::Union(parts) = &self.shape { parts.len() } else { 0 };
+        let own = match &self.shape {
+            Shape::Union(parts) | Shape::Csg(_, parts) => parts.len(),
+            _ => 0,
+        };
+        let parts = parts.count() + own;
         self.charge.resize(size_of::<Self>() + parts * size_of::<Self>() + texture);
     }
 }
@@ -177,6 +191,9 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
             | Mesh2
             | Quadric
             | Union
+            | Merge
+            | Intersection
+            | Difference
             | Object
             | LightSource
     )
@@ -208,7 +225,10 @@ impl Reader<'_> {
                     inner.at = place;
                     inner
                 }
-                Item::Word(Keyword::Union) => r.union(place)?,
+                Item::Word(Keyword::Union) => Object::new(Shape::Union(r.parts("union", place)?), place),
+                Item::Word(Keyword::Merge) => r.combined(Operation::Merge, place)?,
+                Item::Word(Keyword::Intersection) => r.combined(Operation::Intersection, place)?,
+                Item::Word(Keyword::Difference) => r.combined(Operation::Difference, place)?,
                 Item::Word(keyword) if begins_object(*keyword) => {
                     r.expect(Mark::BraceOpen)?;
                     match r.copied(place)? {
@@ -252,7 +272,25 @@ impl Reader<'_> {
         Ok(Some(known))
     }
 
-    fn union(&mut self, place: Place) -> Result<Object> {
+    /// A merge, intersection or difference.
+    fn combined(&mut self, operation: Operation, place: Place) -> Result<Object> {
+        let what = match operation {
+            Operation::Merge => "merge",
+            Operation::Intersection => "intersection",
+            Operation::Difference => "difference",
+        };
+        let parts = self.parts(what, place)?;
+        if let Some(light) = parts.iter().find(|part| part.holds_light()) {
+            return Err(Fault::invalid(
+                light.at,
+                format!("a light has no place in a {what}: a union holds lights"),
+            ));
+        }
+        Ok(Object::new(Shape::Csg(operation, parts), place))
+    }
+
+    /// The objects of a union or of another combination, after its word.
+    fn parts(&mut self, what: &str, place: Place) -> Result<Vec<Rc<Object>>> {
         self.expect(Mark::BraceOpen)?;
         let mut parts = Vec::new();
         while self.starts_object()? {
@@ -261,9 +299,9 @@ impl Reader<'_> {
         }
         if parts.is_empty() {
             let lexeme = self.next()?;
-            return Err(self.unexpected(&lexeme, "the first object of the union"));
+            return Err(self.unexpected(&lexeme, &format!("the first object of the {what}")));
         }
-        Ok(Object::new(Shape::Union(parts), place))
+        Ok(parts)
     }
 
     /// `{ object }`.

@@ -1,6 +1,6 @@
 //! Putting a surface into the geometry: placed, clipped, turned inside out.
 
-use durer_geometry::{Builder, ObjectId};
+use durer_geometry::{Builder, CompoundBuilder, ObjectId, Part, Shown};
 use durer_math::{Aabb, Affine, Point3, Shaft, Vec3};
 use durer_surfaces::{Algebraic, Clip, Inverse, LocalPoint, Placed, Region, Side, Solidity, Surface};
 
@@ -9,12 +9,18 @@ use super::erased::Erased;
 /// Whether a point lies in a solid.
 pub(super) type Inside = Box<dyn Fn(Point3) -> bool + Send + Sync>;
 
+/// Where a surface goes.
+pub(super) enum To<'b> {
+    /// It is a primitive of the scene, met by rays with the mask.
+    Scene(&'b mut Builder, ObjectId, u32),
+    /// It is a leaf of a solid made of solids; its part of it, once it is there.
+    Leaf(&'b mut CompoundBuilder, Shown, &'b mut Option<Part>),
+}
+
 /// Where a surface goes, and what is done to it on the way.
 pub(super) struct Target<'b> {
-    pub(super) builder: &'b mut Builder,
-    pub(super) object: ObjectId,
+    pub(super) to: To<'b>,
     pub(super) primitive: u32,
-    pub(super) mask: u32,
     pub(super) clips: Vec<Region>,
     pub(super) inverse: bool,
     /// The test for the inside, if rays of the camera may start there.
@@ -101,6 +107,12 @@ impl Target<'_> {
     }
 
     fn push<S: Surface + 'static>(&mut self, surface: S) {
-        self.builder.add_as(surface, self.object, self.primitive, self.mask);
+        match &mut self.to {
+            To::Scene(builder, object, mask) => {
+                builder.add_as(surface, *object, self.primitive, *mask);
+            }
+            // Whoever asks for a leaf sees whether there is one: sheets are none.
+            To::Leaf(csg, shown, part) => **part = csg.leaf_as(surface, self.primitive, *shown).ok(),
+        }
     }
 }

@@ -4,6 +4,7 @@
 //! scene's objects in the order of the text, `primitive` the surfaces within the object, each face of a mesh by itself.
 
 mod build;
+mod csg;
 mod erased;
 mod exact;
 mod named;
@@ -78,6 +79,9 @@ pub enum LowerErrorKind {
         "clipped_by: {0} cannot clip: spheres, boxes, cylinders, cones, planes, all quadrics, spherical sectors and their inverses can"
     )]
     Clip(&'static str),
+    /// A part of a solid has no inside.
+    #[error("{0} has no inside, so it cannot be part of a merge, intersection or difference")]
+    Sheet(&'static str),
     /// A mesh refers to a texture that it does not have.
     #[error("mesh: face {face} refers to texture {texture}, but there are {count}")]
     MeshTexture {
@@ -159,14 +163,24 @@ impl core::fmt::Debug for Lowered {
 
 /// What an object inherits from the unions around it.
 #[derive(Clone, Default)]
-struct Context {
+struct Context<'s> {
     /// From the space around the object to the world.
     frame: Arc<Placement>,
     texture: Option<(Arc<Texture>, Arc<Placement>)>,
     medium: Option<u32>,
     flags: Flags,
-    /// What the unions are clipped by, in the world.
-    clips: Vec<durer_surfaces::Region>,
+    /// What the unions are clipped by.
+    clips: Vec<Cutter<'s>>,
+}
+
+/// What something is clipped by.
+#[derive(Clone)]
+struct Cutter<'s> {
+    object: &'s Object,
+    /// From the space around it to the world.
+    frame: Arc<Placement>,
+    /// What it holds, in the world, if it is bounded by planes and quadrics alone.
+    region: Option<durer_surfaces::Region>,
 }
 
 /// The work at hand.
@@ -226,12 +240,26 @@ impl Lowering {
     }
 
     /// Lowers an object with all its parts.
-    fn walk(&mut self, object: &Object, around: &Context) -> Result<(), LowerError> {
+    fn walk<'s>(&mut self, object: &'s Object, around: &Context<'s>) -> Result<(), LowerError> {
         let fail = |kind: LowerErrorKind| kind.at(object.place);
+        let inner = self.inherited(object, around)?;
+        let place = join(&object.placement, &around.frame).map_err(|e| fail(e.into()))?;
+        if let Shape::Union(parts) = &object.shape {
+            let inner = Context { frame: Arc::new(place), ..inner };
+            return parts.iter().try_for_each(|part| self.walk(part, &inner));
+        }
+        if matches!(object.shape, Shape::Csg(..)) || inner.clips.iter().any(|c| c.region.is_none()) {
+            return self.compound(object, around, inner);
+        }
+        self.leaf(object, place.affine(), inner).map_err(fail)
+    }
+
+    /// What an object hands down to its parts: its own, and what it has none of from those around it.
+    fn inherited<'s>(&mut self, object: &'s Object, around: &Context<'s>) -> Result<Context<'s>, LowerError> {
         let texture = match &object.texture {
             Some(texture) => {
                 if texture.has_empty_pattern() {
-                    return Err(fail(LowerErrorKind::EmptyPattern));
+                    return Err(LowerErrorKind::EmptyPattern.at(object.place));
                 }
                 Some((Arc::clone(texture), self.frame(around)))
             }
@@ -243,27 +271,18 @@ impl Lowering {
         };
         let mut clips = around.clips.clone();
         for clip in &object.clips {
-            clips.push(
-                shapes::region(clip, around.frame.affine()).map_err(|k| k.at(clip.place.or(object.place)))?,
-            );
+            let region = match shapes::region(clip, around.frame.affine()) {
+                Ok(region) => Some(region),
+                Err(LowerErrorKind::Clip(_)) => None,
+                Err(other) => return Err(other.at(clip.place.or(object.place))),
+            };
+            clips.push(Cutter { object: clip, frame: Arc::clone(&around.frame), region });
         }
-        let inner = Context {
-            frame: Arc::clone(&around.frame),
-            texture,
-            medium,
-            flags: around.flags.or(object.flags),
-            clips,
-        };
-        if let Shape::Union(parts) = &object.shape {
-            let frame = join(&object.placement, &around.frame).map_err(|e| fail(e.into()))?;
-            let inner = Context { frame: Arc::new(frame), ..inner };
-            return parts.iter().try_for_each(|part| self.walk(part, &inner));
-        }
-        let place = join(&object.placement, &around.frame).map_err(|e| fail(e.into()))?;
-        self.leaf(object, place.affine(), inner).map_err(fail)
+        let flags = around.flags.or(object.flags);
+        Ok(Context { frame: Arc::clone(&around.frame), texture, medium, flags, clips })
     }
 
-    fn frame(&self, around: &Context) -> Arc<Placement> {
+    fn frame(&self, around: &Context<'_>) -> Arc<Placement> {
         if around.frame.is_identity() { Arc::clone(&self.world) } else { Arc::clone(&around.frame) }
     }
 
@@ -284,15 +303,16 @@ impl Lowering {
         })
     }
 
+    /// The texture in force and its frame.
+    fn texture_of(&self, context: &Context<'_>) -> (Arc<Texture>, Arc<Placement>) {
+        let default = || (Arc::clone(&self.default_texture), Arc::clone(&self.world));
+        context.texture.clone().unwrap_or_else(default)
+    }
+
     /// Lowers an object that is no union, placed in the world by `place`.
-    fn leaf(&mut self, object: &Object, place: &Affine, context: Context) -> Result<(), LowerErrorKind> {
-        let (texture, frame) = context
-            .texture
-            .clone()
-            .unwrap_or_else(|| (Arc::clone(&self.default_texture), Arc::clone(&self.world)));
-        let mesh = if let Shape::Mesh(mesh) = &object.shape { Some(mesh) } else { None };
-        let is_clear =
-            !texture.is_opaque() || mesh.is_some_and(|m| m.textures.iter().any(|t| !t.is_opaque()));
+    fn leaf(&mut self, object: &Object, place: &Affine, context: Context<'_>) -> Result<(), LowerErrorKind> {
+        let (texture, frame) = self.texture_of(&context);
+        let is_clear = is_clear(object, &texture);
         // Each clear object without an interior has one of its own all the same: leaving it is leaving it alone.
         let medium = match context.medium {
             Some(medium) => medium,
@@ -300,35 +320,12 @@ impl Lowering {
             None => 0,
         };
         let flags = context.flags;
-        let look = self.look(texture, frame, medium, flags);
-        let primitive = self.count().map_err(|e| e.kind)? - self.first.last().copied().unwrap_or(0);
-        match mesh {
-            None => self.of_primitive.push(look),
-            Some(mesh) => {
-                let own_frame = Arc::new(Placement::new(*place));
-                let mut own = Vec::with_capacity(mesh.textures.len());
-                for texture in &mesh.textures {
-                    own.push(self.look(Arc::clone(texture), Arc::clone(&own_frame), medium, flags));
-                }
-                for (number, face) in mesh.faces.iter().enumerate() {
-                    self.of_primitive.push(match face.texture {
-                        None => look,
-                        Some(t) => *own.get(t as usize).ok_or(LowerErrorKind::MeshTexture {
-                            face: number,
-                            texture: t,
-                            count: own.len(),
-                        })?,
-                    });
-                }
-            }
-        }
+        let primitive = self.looks_of(object, place, (texture, frame), medium, flags)?;
         let mask = if self.is_plain { EVERYTHING } else { mask_of(flags, is_clear) };
         let target = build::Target {
-            builder: &mut self.builder,
-            object: self.object,
+            to: build::To::Scene(&mut self.builder, self.object, mask),
             primitive,
-            mask,
-            clips: context.clips,
+            clips: context.clips.into_iter().filter_map(|c| c.region).collect(),
             inverse: flags.inverse,
             inside: None,
             camera: self.camera,
@@ -339,6 +336,41 @@ impl Lowering {
             shapes::Built::Done(None) => {}
         }
         Ok(())
+    }
+}
+
+impl Lowering {
+    /// Numbers the primitives of a shape, each with its look; says which is the first.
+    fn looks_of(
+        &mut self,
+        object: &Object,
+        place: &Affine,
+        (texture, frame): (Arc<Texture>, Arc<Placement>),
+        medium: u32,
+        flags: Flags,
+    ) -> Result<u32, LowerErrorKind> {
+        let look = self.look(texture, frame, medium, flags);
+        let primitive = self.count().map_err(|e| e.kind)? - self.first.last().copied().unwrap_or(0);
+        let Shape::Mesh(mesh) = &object.shape else {
+            self.of_primitive.push(look);
+            return Ok(primitive);
+        };
+        let own_frame = Arc::new(Placement::new(*place));
+        let mut own = Vec::with_capacity(mesh.textures.len());
+        for texture in &mesh.textures {
+            own.push(self.look(Arc::clone(texture), Arc::clone(&own_frame), medium, flags));
+        }
+        for (face, given) in mesh.faces.iter().enumerate() {
+            self.of_primitive.push(match given.texture {
+                None => look,
+                Some(texture) => {
+                    let count = own.len();
+                    let missing = LowerErrorKind::MeshTexture { face, texture, count };
+                    *own.get(texture as usize).ok_or(missing)?
+                }
+            });
+        }
+        Ok(primitive)
     }
 }
 
@@ -357,6 +389,12 @@ fn join(first: &Placement, next: &Placement) -> Result<Placement, AffineError> {
     Ok(all)
 }
 
+/// Whether some light may pass a shape of this texture.
+fn is_clear(object: &Object, texture: &Texture) -> bool {
+    let textures = if let Shape::Mesh(mesh) = &object.shape { mesh.textures.as_slice() } else { &[] };
+    !texture.is_opaque() || textures.iter().any(|t| !t.is_opaque())
+}
+
 /// Whether every ray meets the object, and no light passes it.
 fn is_plain(object: &Object) -> bool {
     let Flags { no_shadow, no_image, no_reflection, .. } = object.flags;
@@ -364,7 +402,7 @@ fn is_plain(object: &Object) -> bool {
     !(no_shadow || no_image || no_reflection)
         && object.texture.as_ref().is_none_or(opaque)
         && match &object.shape {
-            Shape::Union(parts) => parts.iter().all(is_plain),
+            Shape::Union(parts) | Shape::Csg(_, parts) => parts.iter().all(is_plain),
             Shape::Mesh(mesh) => mesh.textures.iter().all(opaque),
             _ => true,
         }

@@ -10,7 +10,7 @@ use durer_surfaces::{
 
 use super::build::{Inside, Target};
 use super::{LowerErrorKind, exact, named};
-use crate::{Mesh, Object, Shape};
+use crate::{Mesh, Object, Operation, Shape};
 
 /// What became of a shape.
 pub(super) enum Built {
@@ -267,7 +267,7 @@ pub(super) fn region(clip: &Object, around: &Affine) -> Result<Region> {
     Ok(if place == Affine::IDENTITY { region } else { region.placed(place) })
 }
 
-fn name(shape: &Shape) -> &'static str {
+pub(super) fn name(shape: &Shape) -> &'static str {
     match shape {
         Shape::Sphere { .. } => "a sphere",
         Shape::Box { .. } => "a box",
@@ -284,5 +284,8 @@ fn name(shape: &Shape) -> &'static str {
         Shape::Named(_) => "a named quadric",
         Shape::SphericalSector { .. } => "a spherical sector",
         Shape::Union(_) => "a union",
+        Shape::Csg(Operation::Merge, _) => "a merge",
+        Shape::Csg(Operation::Intersection, _) => "an intersection",
+        Shape::Csg(Operation::Difference, _) => "a difference",
     }
 }

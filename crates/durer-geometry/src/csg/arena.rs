@@ -1,0 +1,274 @@
+//! Bodies as a geometry holds them: one slot in the tree each.
+//!
+//! What rays meet are the surfaces of leaves. So hits and sources name those, by slots that are counted over all leaves of all bodies, with
+//! two flags above the number.
+
+use super::compound::{Compound, Found, Start};
+use crate::arena::{AnyArena, Arrange, Filter, Unsorted, Visit};
+use crate::best::Best;
+use crate::ids::{Id, Ids};
+use crate::outlines::Drawn;
+use crate::spans::Tracks;
+use core::ops::Range;
+use durer_bvh::{Entry, Frame};
+use durer_math::{Aabb, Isa, RaySide, Shaft};
+use durer_surfaces::outline::Sketch;
+use durer_surfaces::{Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Solidity, SurfacePoint};
+use std::sync::Arc;
+
+/// In the slot of a hit: its normal is that of the leaf turned round.
+const TURNED: u32 = 1 << 31;
+/// In the slot of a hit: it was decided together with crossings of other leaves.
+const TIED: u32 = 1 << 30;
+/// The slot itself.
+const SLOT: u32 = TIED - 1;
+
+/// Whether two slots of hits name one surface, turned the same way. Other arenas have no slots with flags.
+#[inline(always)]
+pub(crate) fn same_surface(a: u32, b: u32) -> bool {
+    (a ^ b) & !TIED == 0
+}
+
+/// All bodies of a geometry.
+#[derive(Default)]
+pub(crate) struct Compounds {
+    bodies: Vec<Arc<Compound>>,
+    ids: Ids,
+    /// The first slot of each body's leaves; one more at the end.
+    first: Vec<u32>,
+}
+
+impl Compounds {
+    pub(crate) fn push(&mut self, body: Arc<Compound>, id: Id, mask: u32) {
+        self.bodies.push(body);
+        self.ids.push(id, mask);
+    }
+
+    /// How many slots the leaves have.
+    pub(crate) fn leaf_slots(&self) -> u64 {
+        self.bodies.iter().map(|b| u64::from(b.slots())).sum()
+    }
+
+    /// How many there may be.
+    pub(crate) const MOST_SLOTS: u64 = SLOT as u64;
+
+    /// The body of a hit's slot, and the slot in it.
+    fn body(&self, slot: u32) -> (usize, u32) {
+        let slot = slot & SLOT;
+        // Bodies without leaves have no slot.
+        let body = self.first.partition_point(|&first| first <= slot) - 1;
+        (body, slot - self.first[body])
+    }
+
+    /// Where on a body the ray starts.
+    fn from(&self, body: usize, filter: &Filter) -> Option<Start> {
+        let (named, side) = filter.source?;
+        let (of, slot) = self.body(named);
+        let inside = side == RaySide::Back;
+        let behind = inside != (named & TURNED != 0);
+        let side = if behind { RaySide::Back } else { RaySide::Front };
+        (of == body).then_some(Start { slot, side, inside, tied: named & TIED != 0 })
+    }
+
+    fn slot(&self, body: usize, found: &Found) -> u32 {
+        let flags = if found.turned { TURNED } else { 0 } | if found.tied { TIED } else { 0 };
+        (self.first[body] + found.slot) | flags
+    }
+
+    fn id(&self, body: usize, found: &Found) -> Id {
+        let id = self.ids.name(body);
+        Id { primitive: id.primitive.wrapping_add(found.primitive), ..id }
+    }
+
+    /// Shows the crossings of the admitted bodies of a leaf, those of each ascending, until `show` says for one that no more of it are
+    /// wanted (then the next one's turn is), or that nothing is.
+    fn each_body(
+        &self,
+        isa: Isa,
+        leaf: Range<u32>,
+        ray: &LocalRay<'_>,
+        filter: &Filter,
+        mut show: impl FnMut(u32, Id, Root) -> Flow,
+        mut is_done: impl FnMut() -> bool,
+    ) {
+        for body in leaf.map(|i| i as usize) {
+            if is_done() {
+                return;
+            }
+            if self.ids.admits(body, filter.mask) {
+                self.bodies[body].trace(isa, ray, self.from(body, filter), &mut |found| {
+                    show(self.slot(body, &found), self.id(body, &found), found.root)
+                });
+            }
+        }
+    }
+}
+
+impl AnyArena for Compounds {
+    fn improve(&self, isa: Isa, leaf: Range<u32>, ray: &LocalRay<'_>, filter: &Filter, best: &mut Best) {
+        for body in leaf.map(|i| i as usize) {
+            if best.is_satisfied() {
+                return;
+            }
+            if self.ids.admits(body, filter.mask) {
+                self.bodies[body].trace(isa, ray, self.from(body, filter), &mut |found| {
+                    let (slot, id) = (self.slot(body, &found), self.id(body, &found));
+                    if best.offer(slot, id, &found.root) { Flow::Continue } else { Flow::Stop }
+                });
+            }
+        }
+    }
+
+    fn each(
+        &self,
+        isa: Isa,
+        leaf: Range<u32>,
+        ray: &LocalRay<'_>,
+        filter: &Filter,
+        visit: &mut Visit<'_>,
+    ) -> Flow {
+        let flow = core::cell::Cell::new(Flow::Continue);
+        let show = |slot, id, root| {
+            flow.set(visit(slot, id, root));
+            flow.get()
+        };
+        self.each_body(isa, leaf, ray, filter, show, || flow.get() == Flow::Stop);
+        flow.get()
+    }
+
+    fn spans(
+        &self,
+        isa: Isa,
+        leaf: Range<u32>,
+        ray: &LocalRay<'_>,
+        _start: &LocalPoint<'_>,
+        tracks: &mut Tracks,
+    ) {
+        let filter = tracks.filter();
+        let solid =
+            |&b: &usize| self.bodies[b].solidity() == Solidity::Solid && self.ids.admits(b, filter.mask);
+        for body in leaf.map(|i| i as usize).filter(solid) {
+            let before = tracks.len();
+            let inside = self.bodies[body].trace(isa, ray, self.from(body, &filter), &mut |found| {
+                tracks.push(body as u32, self.id(body, &found), &found.root);
+                Flow::Continue
+            });
+            if tracks.len() == before {
+                tracks.start(body as u32, inside);
+            }
+        }
+    }
+
+    fn start_of(&self, _: u32, _: &LocalRay<'_>, _: &LocalPoint<'_>, _: &mut Tracks) {
+        // No body is in parts.
+    }
+
+    fn starts_inside(&self, slot: u32, ray: &LocalRay<'_>) -> bool {
+        self.bodies[slot as usize].trace(Isa::detect(), ray, None, &mut |_| Flow::Stop)
+    }
+
+    fn misses(&self, slot: u32, shaft: &Shaft) -> bool {
+        !shaft.may_meet(&self.bodies[slot as usize].bounds())
+    }
+
+    fn is_left(&self, _: u32, _: RaySide, _: &Shaft) -> bool {
+        false
+    }
+
+    fn side(&self, surface: u32, point: &LocalPoint<'_>) -> Side {
+        self.bodies[surface as usize].side(point)
+    }
+
+    fn resolve(&self, isa: Isa, slot: u32, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
+        let (body, inner) = self.body(slot);
+        let how = (slot & TURNED != 0, slot & TIED != 0);
+        isa.run(
+            #[inline(always)]
+            || self.bodies[body].resolve(isa, inner, how, ray, root, need),
+        )
+    }
+
+    fn drawn(&self, slot: u32) -> Drawn {
+        let bounds = self.bodies[slot as usize].bounds();
+        Drawn { outline: Sketch::vague(bounds).outline(), bounds }
+    }
+
+    fn mask(&self, slot: u32) -> u32 {
+        self.ids.mask(slot as usize)
+    }
+
+    fn part(&self, _: u32) -> PartId {
+        PartId(0)
+    }
+
+    fn name(&self, slot: u32) -> Id {
+        self.ids.name(slot as usize)
+    }
+
+    fn object_of(&self, surface: u32) -> u32 {
+        self.ids.name(surface as usize).object
+    }
+
+    fn is_in_parts(&self) -> bool {
+        false
+    }
+
+    fn solids_in_parts(&self) -> Vec<(u32, Aabb)> {
+        Vec::new()
+    }
+
+    fn type_name(&self) -> &'static str {
+        core::any::type_name::<Compound>()
+    }
+
+    fn len(&self) -> u32 {
+        self.bodies.len() as u32
+    }
+
+    fn bytes(&self) -> usize {
+        self.bodies.iter().map(|b| size_of::<Compound>() + b.bytes()).sum::<usize>() + self.ids.bytes()
+    }
+}
+
+impl Arrange for Compounds {
+    fn seal(&mut self) {
+        self.ids.shrink();
+    }
+
+    fn extent(&self) -> Aabb {
+        let bounds = self.bodies.iter().map(|b| b.bounds());
+        bounds.filter(Aabb::is_bounded).fold(Aabb::EMPTY, Aabb::union)
+    }
+
+    fn entries(&self, frame: &Frame, kind: u32, entries: &mut Vec<Entry>) -> Unsorted {
+        let mut unsorted = Unsorted::default();
+        for (i, body) in self.bodies.iter().enumerate() {
+            let entry = frame.entry(&body.bounds(), kind, i as u32);
+            unsorted.take(&entry);
+            entries.extend(Some(entry).filter(Entry::is_bounded));
+        }
+        unsorted
+    }
+
+    fn arrange(&mut self, order: Vec<u32>) {
+        let mut bodies: Vec<_> = core::mem::take(&mut self.bodies).into_iter().map(Some).collect();
+        let old = core::mem::take(&mut self.ids);
+        self.first = vec![0];
+        for i in order {
+            // Each one stands in the order once.
+            if let Some(body) = bodies[i as usize].take() {
+                self.first.push(self.first[self.first.len() - 1] + body.slots());
+                self.ids.push(old.name(i as usize), old.mask(i as usize));
+                self.bodies.push(body);
+            }
+        }
+    }
+
+    fn as_any(&mut self) -> &mut dyn core::any::Any {
+        self
+    }
+
+    fn finish(self: Box<Self>) -> Box<dyn AnyArena> {
+        self
+    }
+}

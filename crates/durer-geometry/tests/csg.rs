@@ -1,0 +1,609 @@
+//! Solids made of solids against the exact truth: the exact crossings of all leaves, merged exactly, and the Boolean expression itself.
+
+mod common;
+
+use common::Dice;
+use core::cmp::Ordering;
+use durer_geometry::{Compound, CompoundBuilder, Geometry, Part};
+use durer_math::{Affine, Point3, Ray, Vec3};
+use durer_surfaces::laws::exact::{Crossing, Exact, ExactBody, ExactForm, Line, Oracle, Surd, exact3};
+use durer_surfaces::{
+    AxisBox, CappedCylinder, Ellipsoid, Inverse, Kind, LocalPoint, Placed, Plane, Quadric, Side, Sphere,
+};
+
+/// A solid with its witness.
+#[derive(Clone, Debug)]
+enum Leaf {
+    Ball(Point3, f64),
+    Block(Point3, Point3),
+    Half(Vec3, f64),
+    /// From a point along an axis, so that its equation has f64 coefficients.
+    Rod(Point3, usize, f64, f64),
+    General([f64; 10]),
+    Moved(Box<Leaf>, Affine),
+    Turned(Box<Leaf>),
+}
+
+impl Leaf {
+    fn witness(&self) -> ExactBody {
+        match self {
+            Leaf::Ball(c, r) => {
+                let ball = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+                let mut form = ExactForm::from_f64(ball);
+                form.c = -Exact::from(*r).squared();
+                ExactBody::solid(vec![form.translated(&exact3(c.to_array()))], *r, true)
+            }
+            Leaf::Block(a, b) => {
+                let mut faces = Vec::new();
+                for i in 0..3 {
+                    let mut n = [0.0; 3];
+                    n[i] = 1.0;
+                    faces.push(ExactForm::half_space(exact3(n.map(|x| -x)), exact3(a.to_array())));
+                    faces.push(ExactForm::half_space(exact3(n), exact3(b.to_array())));
+                }
+                ExactBody::solid(faces, (*b - *a).max_abs(), true)
+            }
+            Leaf::Half(n, d) => {
+                // n.x <= d |n|, for normals whose length is a number.
+                let form = ExactForm::half_space(exact3(n.to_array()), exact3([0.0; 3]));
+                let form = ExactForm { c: -(Exact::from(*d) * Exact::from(n.length())), ..form };
+                ExactBody::solid(vec![form], 1.0, true)
+            }
+            Leaf::Rod(c, axis, length, r) => {
+                let mut k = [0.0; 10];
+                let mut n = [0.0; 3];
+                n[*axis] = 1.0;
+                for (i, k) in k.iter_mut().take(3).enumerate() {
+                    *k = if i == *axis { 0.0 } else { 1.0 };
+                }
+                let mut wall = ExactForm::from_f64(k);
+                wall.c = -Exact::from(*r).squared();
+                let wall = wall.translated(&exact3(c.to_array()));
+                let mut end = *c;
+                end[*axis] += length;
+                let faces = vec![
+                    wall,
+                    ExactForm::half_space(exact3(n.map(|x| -x)), exact3(c.to_array())),
+                    ExactForm::half_space(exact3(n), exact3(end.to_array())),
+                ];
+                ExactBody::solid(faces, r.max(*length), true)
+            }
+            Leaf::General(k) => ExactBody::solid(vec![ExactForm::from_f64(*k)], 2.0, false),
+            Leaf::Moved(leaf, map) => leaf.witness().placed(map),
+            Leaf::Turned(leaf) => leaf.witness(),
+        }
+    }
+
+    fn is_turned(&self) -> bool {
+        match self {
+            Leaf::Moved(leaf, _) => leaf.is_turned(),
+            Leaf::Turned(leaf) => !leaf.is_turned(),
+            _ => false,
+        }
+    }
+
+    fn add(&self, csg: &mut CompoundBuilder) -> Part {
+        let mut rod_end = Point3::ORIGIN;
+        if let Leaf::Rod(c, axis, length, _) = self {
+            rod_end = *c;
+            rod_end[*axis] += length;
+        }
+        match self {
+            Leaf::Ball(c, r) => csg.leaf(Sphere::new(*c, *r).unwrap()),
+            Leaf::Block(a, b) => csg.leaf(AxisBox::new(*a, *b).unwrap()),
+            Leaf::Half(n, d) => csg.leaf(Plane::new(*n, *d).unwrap()),
+            Leaf::Rod(c, _, _, r) => csg.leaf(CappedCylinder::new(*c, rod_end, *r).unwrap()),
+            Leaf::General(k) => csg.leaf(Quadric::new(*k).unwrap()),
+            Leaf::Moved(leaf, map) => match &**leaf {
+                Leaf::Ball(c, r) => csg.leaf(Placed::new(Sphere::new(*c, *r).unwrap(), *map)),
+                Leaf::Block(a, b) => csg.leaf(Placed::new(AxisBox::new(*a, *b).unwrap(), *map)),
+                Leaf::Half(n, d) => csg.leaf(Placed::new(Plane::new(*n, *d).unwrap(), *map)),
+                Leaf::Rod(c, axis, length, r) => {
+                    rod_end = *c;
+                    rod_end[*axis] += length;
+                    csg.leaf(Placed::new(CappedCylinder::new(*c, rod_end, *r).unwrap(), *map))
+                }
+                Leaf::General(k) => csg.leaf(Placed::new(Quadric::new(*k).unwrap(), *map)),
+                _ => panic!("leaves are moved once"),
+            },
+            Leaf::Turned(leaf) => match &**leaf {
+                Leaf::Ball(c, r) => csg.leaf(Inverse(Sphere::new(*c, *r).unwrap())),
+                Leaf::Block(a, b) => csg.leaf(Inverse(AxisBox::new(*a, *b).unwrap())),
+                _ => panic!("balls and blocks are turned"),
+            },
+        }
+        .unwrap()
+    }
+}
+
+/// An expression over leaves by number.
+#[derive(Clone, Debug)]
+enum Expr {
+    Leaf(usize),
+    All(Vec<Expr>),
+    Any(Vec<Expr>),
+    Minus(Box<Expr>, Vec<Expr>),
+    Not(Box<Expr>),
+}
+
+impl Expr {
+    fn holds(&self, bits: &[bool]) -> bool {
+        match self {
+            Expr::Leaf(i) => bits[*i],
+            Expr::All(parts) => parts.iter().all(|p| p.holds(bits)),
+            Expr::Any(parts) => parts.iter().any(|p| p.holds(bits)),
+            Expr::Minus(a, others) => a.holds(bits) && !others.iter().any(|p| p.holds(bits)),
+            Expr::Not(a) => !a.holds(bits),
+        }
+    }
+
+    fn build(&self, leaves: &mut [Option<Part>], csg: &mut CompoundBuilder) -> Part {
+        match self {
+            Expr::Leaf(i) => leaves[*i].take().unwrap(),
+            Expr::All(parts) => {
+                let parts: Vec<Part> = parts.iter().map(|p| p.build(leaves, csg)).collect();
+                csg.intersection(parts)
+            }
+            Expr::Any(parts) => {
+                let parts: Vec<Part> = parts.iter().map(|p| p.build(leaves, csg)).collect();
+                csg.union(parts)
+            }
+            Expr::Minus(a, others) => {
+                let a = a.build(leaves, csg);
+                let others: Vec<Part> = others.iter().map(|p| p.build(leaves, csg)).collect();
+                csg.difference(a, others)
+            }
+            Expr::Not(a) => {
+                let a = a.build(leaves, csg);
+                csg.inverse(a)
+            }
+        }
+    }
+}
+
+fn random_expr(dice: &mut Dice, first: usize, count: usize) -> Expr {
+    if count == 1 {
+        let leaf = Expr::Leaf(first);
+        return if dice.below(8) == 0 { Expr::Not(Box::new(leaf)) } else { leaf };
+    }
+    let mut cuts = vec![0, count];
+    for _ in 0..=dice.below(3) {
+        cuts.push(dice.below(count as u64 + 1) as usize);
+    }
+    cuts.sort_unstable();
+    cuts.dedup();
+    let mut parts: Vec<Expr> = cuts
+        .windows(2)
+        .map(|w| {
+            if w[1] - w[0] == count {
+                Expr::All(vec![random_expr(dice, first, 1), random_expr(dice, first + 1, count - 1)])
+            } else {
+                random_expr(dice, first + w[0], w[1] - w[0])
+            }
+        })
+        .collect();
+    match dice.below(4) {
+        0 => Expr::All(parts),
+        1 => Expr::Any(parts),
+        2 => {
+            let rest = parts.split_off(1);
+            Expr::Minus(Box::new(parts.remove(0)), rest)
+        }
+        _ => Expr::Not(Box::new(Expr::All(parts))),
+    }
+}
+
+/// A body with its witnesses.
+struct Body {
+    scene: Geometry,
+    leaves: Vec<Leaf>,
+    witnesses: Vec<ExactBody>,
+    expr: Expr,
+}
+
+fn body(leaves: Vec<Leaf>, expr: Expr) -> Body {
+    let mut csg = Compound::builder();
+    let mut parts: Vec<Option<Part>> = leaves.iter().map(|l| Some(l.add(&mut csg))).collect();
+    let whole = expr.build(&mut parts, &mut csg);
+    let scene = Geometry::builder().add_compound(csg.build(whole).unwrap()).build().unwrap();
+    let witnesses = leaves.iter().map(Leaf::witness).collect();
+    Body { scene, leaves, witnesses, expr }
+}
+
+/// A crossing of the body, exactly.
+struct Truth {
+    t: Surd,
+    sign: i8,
+}
+
+/// Crossings of leaves closer than this, but not equal, may be taken together.
+const CLOSE: i64 = 36;
+
+impl Body {
+    /// All crossings of the line `t >= 0`; `None` where distinct ones are so close that a tie may take them together.
+    fn truth(&self, ray: &Ray) -> Option<Vec<Truth>> {
+        let line = Line::new(ray);
+        let zero = Exact::zero();
+        let mut events: Vec<(usize, Crossing)> = Vec::new();
+        let mut bits = Vec::new();
+        for (i, w) in self.witnesses.iter().enumerate() {
+            let all = w.crossings(&line);
+            let (before, ahead): (Vec<_>, Vec<_>) =
+                all.into_iter().partition(|c| c.t.cmp_exact(&zero).is_lt());
+            if ahead.iter().any(|c| c.grazing) {
+                return None;
+            }
+            let last = before.iter().rev().find(|c| !c.grazing).map(|c| c.sign < 0);
+            let first = ahead.first().map(|c| c.sign > 0);
+            let start = || w.side(&line.o).is_some_and(Ordering::is_lt);
+            if first.is_none() && last.is_none() && w.side(&line.o).is_some_and(Ordering::is_eq) {
+                // The line lies in the surface.
+                return None;
+            }
+            bits.push(first.or(last).unwrap_or_else(start));
+            events.extend(ahead.into_iter().map(|c| (i, c)));
+        }
+        let value = |t: &Surd| t.about(400);
+        let close =
+            |a: &Surd, b: &Surd, bits: i64| (&value(a) - &value(b)).abs().shifted(bits).to_f64() < 1.0;
+        events.sort_by(|a, b| (&value(&a.1.t) - &value(&b.1.t)).sign());
+        let state = |bits: &[bool]| {
+            let told: Vec<bool> = bits.iter().zip(&self.leaves).map(|(b, l)| *b != l.is_turned()).collect();
+            self.expr.holds(&told)
+        };
+        let mut out = Vec::new();
+        let mut i = 0;
+        while i < events.len() {
+            let mut end = i + 1;
+            while end < events.len() && close(&events[i].1.t, &events[end].1.t, 380) {
+                end += 1;
+            }
+            if end < events.len() && close(&events[i].1.t, &events[end].1.t, CLOSE) {
+                return None;
+            }
+            let before = state(&bits);
+            for (leaf, crossing) in &events[i..end] {
+                bits[*leaf] = crossing.sign < 0;
+            }
+            let after = state(&bits);
+            if before != after {
+                out.push(Truth { t: events[i].1.t.clone(), sign: if after { -1 } else { 1 } });
+            }
+            i = end;
+        }
+        Some(out)
+    }
+
+    /// Compares every query with the truth; says whether the ray told anything.
+    fn check(&self, ray: &Ray) -> usize {
+        let Some(truth) = self.truth(ray) else { return 0 };
+        let hits = self.scene.all(ray);
+        let told = || {
+            let exact: Vec<_> = truth.iter().map(|c| (c.t.about(200).to_f64(), c.sign)).collect();
+            format!("{ray:?}\nfound {hits:?}\nexact {exact:?}\n{:?}", self.expr)
+        };
+        assert_eq!(hits.len(), truth.len(), "{}", told());
+        for (hit, exact) in hits.iter().zip(&truth) {
+            assert_eq!(hit.sign, exact.sign, "{}", told());
+            assert_eq!(hit.kind, Kind::Simple, "{}", told());
+            assert!(exact.t.cmp_exact(&hit.t_lo.into()).is_ge(), "{}", told());
+            assert!(exact.t.cmp_exact(&hit.t_hi.into()).is_le(), "{}", told());
+            assert!(hit.t_lo <= hit.t && hit.t <= hit.t_hi, "{}", told());
+        }
+        assert_eq!(self.scene.closest(ray), hits.first().copied(), "{}", told());
+        assert_eq!(self.scene.any(ray), !hits.is_empty(), "{}", told());
+        // Spans take turns: in, out.
+        let spans = self.scene.spans(ray);
+        let ends: Vec<f64> = spans
+            .iter()
+            .flat_map(|s| {
+                let a = s.object_in.map(|_| s.t_in);
+                let b = s.object_out.map(|_| s.t_out);
+                a.into_iter().chain(b)
+            })
+            .collect();
+        // A range that begins where the body ends has nothing of it.
+        let all: Vec<f64> = hits
+            .iter()
+            .enumerate()
+            .filter(|(i, h)| *i > 0 || h.sign < 0 || h.t > 0.0)
+            .map(|x| x.1.t)
+            .collect();
+        assert_eq!(ends, all, "{}", told());
+        if all.len() < hits.len() {
+            return hits.len();
+        }
+        let starts_inside = spans.first().is_some_and(|s| s.object_in.is_none());
+        match truth.first() {
+            Some(first) => assert_eq!(starts_inside, first.sign > 0, "{}", told()),
+            None => {
+                let side = self.scene.side(ray.origin);
+                assert!(side == Side::On || starts_inside == (side == Side::In), "{}", told());
+            }
+        }
+        for hit in &hits {
+            let point = self.scene.resolve(ray, hit);
+            let along = point.ng.to_vec().dot(ray.direction);
+            assert!(along * f64::from(hit.sign) > -1e-6, "{along} {}", told());
+        }
+        hits.len()
+    }
+}
+
+fn small(dice: &mut Dice) -> f64 {
+    // Coarse numbers: faces and edges coincide often.
+    (1 + dice.below(4)) as f64 * 0.5
+}
+
+fn random_leaf(dice: &mut Dice) -> Leaf {
+    let c = dice.grid();
+    let c = Point3::new(c.x * 0.5, c.y * 0.5, c.z * 0.5);
+    match dice.below(8) {
+        0 | 1 => Leaf::Ball(c, small(dice)),
+        2 | 3 => {
+            let d = Vec3::new(small(dice), small(dice), small(dice));
+            Leaf::Block(c, c + d)
+        }
+        4 => {
+            let mut n = Vec3::ZERO;
+            n[dice.below(3) as usize] = if dice.below(2) == 0 { 1.0 } else { -1.0 };
+            Leaf::Half(n, small(dice) - 1.0)
+        }
+        5 => Leaf::Rod(c, dice.below(3) as usize, small(dice), small(dice) * 0.5),
+        6 => Leaf::General([1.0, 2.0, 1.0, 0.0, 0.5, 0.0, c.x, c.y, 0.0, -1.0]),
+        _ => {
+            let turned = dice.below(2) == 0;
+            let leaf = if dice.below(2) == 0 {
+                Leaf::Ball(c, small(dice))
+            } else {
+                Leaf::Block(c, c + Vec3::new(1.0, 0.5, 1.0))
+            };
+            if turned { Leaf::Turned(Box::new(leaf)) } else { Leaf::Moved(Box::new(leaf), dice.affine()) }
+        }
+    }
+}
+
+fn random_ray(dice: &mut Dice) -> Ray {
+    let axis = |dice: &mut Dice| {
+        let mut d = Vec3::ZERO;
+        d[dice.below(3) as usize] = if dice.below(2) == 0 { 1.0 } else { -1.0 };
+        d
+    };
+    let start = dice.grid();
+    let start = Point3::new(start.x * 0.25, start.y * 0.25, start.z * 0.25);
+    match dice.below(4) {
+        0 => Ray::new(start - axis(dice) * 8.0, dice.vector(1.0)),
+        1 => {
+            let d = axis(dice);
+            Ray::new(start - d * 8.0, d)
+        }
+        2 => Ray::new(dice.point(6.0), start - dice.point(6.0)),
+        _ => Ray::new(start, dice.vector(1.0)),
+    }
+}
+
+#[test]
+fn random_trees_are_what_their_leaves_say() {
+    let mut met = 0;
+    for seed in 0..400 {
+        let mut dice = Dice(seed);
+        let count = 1 + dice.below(7) as usize;
+        let leaves: Vec<Leaf> = (0..count).map(|_| random_leaf(&mut dice)).collect();
+        let expr = random_expr(&mut dice, 0, count);
+        let body = body(leaves, expr);
+        for _ in 0..150 {
+            met += body.check(&random_ray(&mut dice));
+        }
+    }
+    assert!(met > 5_000, "only {met} crossings");
+}
+
+/// Every kind of solid once, at places where many of their faces lie in common planes.
+fn kinds() -> Vec<Leaf> {
+    let p = Point3::new;
+    let turn = Affine::rotation_x(0.4).unwrap().then(&Affine::rotation_z(1.1).unwrap()).unwrap();
+    let block = Leaf::Block(p(-1.0, -0.5, -1.0), p(1.0, 1.0, 0.5));
+    vec![
+        Leaf::Ball(p(0.5, 0.0, 0.0), 1.25),
+        block.clone(),
+        Leaf::Half(Vec3::new(0.0, 1.0, 0.0), 0.25),
+        Leaf::Half(Vec3::new(3.0, 4.0, 0.0), 0.5),
+        Leaf::Rod(p(0.0, -0.5, 0.0), 1, 1.5, 0.75),
+        Leaf::General([1.0, 1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -0.25]),
+        Leaf::General([1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0, -0.5]),
+        Leaf::General([0.25, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0]),
+        Leaf::Moved(Box::new(block), turn),
+        Leaf::Moved(Box::new(Leaf::Rod(p(0.0, -0.5, 0.0), 1, 1.5, 0.75)), turn),
+        Leaf::Turned(Box::new(Leaf::Ball(p(0.0, 0.0, 0.25), 1.0))),
+    ]
+}
+
+fn two(a: usize, b: usize) -> (Box<Expr>, Vec<Expr>) {
+    (Box::new(Expr::Leaf(a)), vec![Expr::Leaf(b)])
+}
+
+#[test]
+fn nothing_is_left_of_a_solid_without_itself() {
+    for leaf in kinds() {
+        let (a, b) = two(0, 1);
+        let empty = body(vec![leaf.clone(), leaf], Expr::Minus(a, b));
+        let mut dice = Dice(3);
+        for _ in 0..300 {
+            let ray = random_ray(&mut dice);
+            assert_eq!(empty.scene.all(&ray), []);
+            assert_eq!(empty.scene.spans(&ray), []);
+        }
+    }
+}
+
+/// What hits of a geometry say without naming leaves.
+fn told(scene: &Geometry, ray: &Ray) -> Vec<(u64, u64, u64, i8, Kind)> {
+    let bits = |x: f64| x.to_bits();
+    scene.all(ray).iter().map(|h| (bits(h.t), bits(h.t_lo), bits(h.t_hi), h.sign, h.kind)).collect()
+}
+
+#[test]
+fn identities_hold_for_every_pair_of_kinds() {
+    let kinds = kinds();
+    let mut met = 0;
+    for (i, a) in kinds.iter().enumerate() {
+        for (j, b) in kinds.iter().enumerate() {
+            let leaf = |n: usize| Expr::Leaf(n);
+            let not = |e: Expr| Expr::Not(Box::new(e));
+            let minus = |x: Expr, y: Expr| Expr::Minus(Box::new(x), vec![y]);
+            let (a, b) = (a.clone(), b.clone());
+            let alone = body(vec![a.clone()], leaf(0));
+            let twice = body(vec![a.clone(), a.clone()], Expr::Any(vec![leaf(0), leaf(1)]));
+            let both = body(vec![a.clone(), b.clone()], Expr::All(vec![leaf(0), leaf(1)]));
+            let less_less =
+                body(vec![a.clone(), a.clone(), b.clone()], minus(leaf(0), minus(leaf(1), leaf(2))));
+            let either = body(vec![a.clone(), b.clone()], Expr::Any(vec![leaf(0), leaf(1)]));
+            let morgan = body(vec![a.clone(), b.clone()], not(Expr::All(vec![not(leaf(0)), not(leaf(1))])));
+            let neither = body(vec![a.clone(), b.clone()], not(Expr::Any(vec![leaf(0), leaf(1)])));
+            let outside = body(vec![a.clone(), b.clone()], Expr::All(vec![not(leaf(0)), not(leaf(1))]));
+            let split = body(
+                vec![a.clone(), b.clone(), a.clone(), b.clone()],
+                Expr::Any(vec![minus(leaf(0), leaf(1)), Expr::All(vec![leaf(2), leaf(3)])]),
+            );
+            let mut dice = Dice((i * 100 + j) as u64);
+            for _ in 0..60 {
+                let ray = random_ray(&mut dice);
+                let own = told(&alone.scene, &ray);
+                assert_eq!(told(&twice.scene, &ray), own, "A|A = A for {i}: {ray:?}");
+                assert_eq!(told(&either.scene, &ray), told(&morgan.scene, &ray), "{i} {j}: {ray:?}");
+                assert_eq!(told(&neither.scene, &ray), told(&outside.scene, &ray), "{i} {j}: {ray:?}");
+                let met_both = told(&both.scene, &ray);
+                assert_eq!(told(&less_less.scene, &ray), met_both, "A-(A-B) = A&B for {i} {j}: {ray:?}");
+                let whole = told(&split.scene, &ray);
+                // What is cut in two and put together again has no seam.
+                let close = either.truth(&ray).is_none();
+                assert!(whole == own || close, "(A-B)|(A&B) = A for {i} {j}: {ray:?} {whole:?} {own:?}");
+                met += met_both.len() + both.check(&ray) + either.check(&ray);
+            }
+        }
+    }
+    assert!(met > 3_000, "only {met} crossings");
+}
+
+#[test]
+fn bodies_that_touch_fuse() {
+    let p = Point3::new;
+    let blocks = (0..10).map(|i| Leaf::Block(p(f64::from(i), 0.0, 0.0), p(f64::from(i + 1), 1.0, 1.0)));
+    let expr = Expr::Any((0..10).map(Expr::Leaf).collect());
+    let row = body(blocks.collect(), expr);
+    let through = row.scene.all(&Ray::new(p(-1.0, 0.5, 0.5), Vec3::X));
+    assert_eq!(through.iter().map(|h| (h.t, h.sign)).collect::<Vec<_>>(), [(1.0, -1), (11.0, 1)]);
+    // Along the seam, where two blocks have an edge in common, and down on it.
+    assert_eq!(row.scene.all(&Ray::new(p(3.0, 5.0, 0.5), -Vec3::Y)).len(), 2);
+    assert_eq!(row.scene.all(&Ray::new(p(3.0, 5.0, 0.5), Vec3::new(0.25, -1.0, 0.0))).len(), 2);
+    // A ray that leaves the seam does not come back to it.
+    let ray = Ray::new(p(3.0, 5.0, 0.5), -Vec3::Y);
+    let hit = row.scene.closest(&ray).unwrap();
+    let point = row.scene.resolve(&ray, &hit);
+    assert!(!row.scene.any(&point.spawn(Vec3::new(0.3, 1.0, 0.2))));
+    assert_eq!(row.scene.all(&point.spawn(-Vec3::Y)).len(), 1);
+}
+
+#[test]
+fn differences_nest_a_hundred_deep() {
+    let p = Point3::new;
+    // Onion: ((((b0 - b1) | b2) - b3) ... from the outside in.
+    let mut csg = Compound::builder();
+    let ball = |i: u32| Sphere::new(Point3::ORIGIN, f64::from(101 - i)).unwrap();
+    let mut whole = csg.leaf(ball(0)).unwrap();
+    for i in 1..=100 {
+        let next = csg.leaf(ball(i)).unwrap();
+        whole = if i % 2 == 1 { csg.difference(whole, [next]) } else { csg.union([whole, next]) };
+    }
+    let scene = Geometry::builder().add_compound(csg.build(whole).unwrap()).build().unwrap();
+    let hits = scene.all(&Ray::new(p(-200.0, 0.0, 0.0), Vec3::X));
+    assert_eq!(hits.len(), 202);
+    assert!(hits.iter().enumerate().all(|(i, h)| h.sign == if i % 2 == 0 { -1 } else { 1 }));
+    assert_eq!(scene.side(p(0.5, 0.0, 0.0)), Side::In);
+    assert_eq!(scene.side(p(1.5, 0.0, 0.0)), Side::Out);
+    // A - (B - (C - ...)), from the inside out, is the same set.
+    let mut csg = Compound::builder();
+    let mut whole = csg.leaf(ball(100)).unwrap();
+    for i in (0..100).rev() {
+        let outer = csg.leaf(ball(i)).unwrap();
+        whole = csg.difference(outer, [whole]);
+    }
+    let scene = Geometry::builder().add_compound(csg.build(whole).unwrap()).build().unwrap();
+    assert_eq!(scene.all(&Ray::new(p(-200.0, 0.0, 0.0), Vec3::X)).len(), 202);
+}
+
+#[test]
+fn points_are_in_where_the_expression_says() {
+    for seed in 0..200 {
+        let mut dice = Dice(seed + 5000);
+        let count = 1 + dice.below(6) as usize;
+        let leaves: Vec<Leaf> = (0..count).map(|_| random_leaf(&mut dice)).collect();
+        let expr = random_expr(&mut dice, 0, count);
+        let body = body(leaves, expr);
+        for _ in 0..40 {
+            let q = dice.point(3.0);
+            let at = exact3(q.to_array());
+            let bits = body.witnesses.iter().zip(&body.leaves);
+            let bits: Vec<bool> = bits.map(|(w, l)| w.side(&at).unwrap().is_lt() != l.is_turned()).collect();
+            let want = if body.expr.holds(&bits) { Side::In } else { Side::Out };
+            assert_eq!(body.scene.side(q), want);
+        }
+    }
+}
+
+#[test]
+fn rays_leave_a_body_on_the_side_they_are_asked_for() {
+    let mut left = 0;
+    for seed in 0..200 {
+        let mut dice = Dice(seed + 900);
+        let count = 2 + dice.below(5) as usize;
+        let leaves: Vec<Leaf> = (0..count).map(|_| random_leaf(&mut dice)).collect();
+        let expr = random_expr(&mut dice, 0, count);
+        let body = body(leaves, expr);
+        for _ in 0..30 {
+            let ray = random_ray(&mut dice);
+            let (Some(truth), hits) = (body.truth(&ray), body.scene.all(&ray)) else { continue };
+            for (i, hit) in hits.iter().enumerate() {
+                let point = body.scene.resolve(&ray, hit);
+                let ahead = point.spawn(ray.direction);
+                // What is left of the ray: the crossings behind this one, once.
+                let rest = body.scene.all(&ahead);
+                let far = truth
+                    .get(i + 1)
+                    .is_none_or(|c| (c.t.about(100).to_f64() - hit.t) * ray.direction.length() > 1e-6);
+                let slant = point.ng.to_vec().dot(ray.direction).abs() / ray.direction.length();
+                // On an edge of a leaf its own faces disagree about the side.
+                let line = Line::new(&ray);
+                let on = |w: &ExactBody| {
+                    w.faces.iter().filter(|f| truth[i].t.sign_of(&f.along(&line)).is_eq()).count()
+                };
+                let edge = on(&body.witnesses[hit.primitive as usize]) > 1;
+                if far && slant > 1e-3 && !edge {
+                    let signs =
+                        |hits: &[durer_geometry::Hit]| hits.iter().map(|h| h.sign).collect::<Vec<_>>();
+                    assert_eq!(
+                        signs(&rest),
+                        signs(&hits[i + 1..]),
+                        "{ray:?} {hits:?} {rest:?} {:?} {:?}",
+                        body.expr,
+                        body.leaves
+                    );
+                    left += 1;
+                }
+            }
+        }
+    }
+    assert!(left > 500, "only {left} rays");
+}
+
+#[test]
+fn local_points_are_asked_too() {
+    let mut csg = Compound::builder();
+    let a = csg.leaf(Sphere::new(Point3::ORIGIN, 1.0).unwrap()).unwrap();
+    let b = csg.leaf(Ellipsoid::new(0.5, 0.5, 2.0).unwrap()).unwrap();
+    let whole = csg.difference(a, [b]);
+    let body = csg.build(whole).unwrap();
+    assert_eq!(body.side(&LocalPoint::new(Point3::new(0.75, 0.0, 0.0))), Side::In);
+    assert_eq!(body.side(&LocalPoint::new(Point3::new(0.5, 0.0, 0.0))), Side::On);
+    assert_eq!(body.side(&LocalPoint::new(Point3::ORIGIN)), Side::Out);
+}

@@ -1,0 +1,185 @@
+//! Solids made of solids: one body each, with its leaves in the order of the text.
+
+use std::sync::Arc;
+
+use durer_geometry::{Compound, CompoundBuilder, CsgError, Part, Shown};
+use durer_math::{Aabb, Point3};
+use durer_surfaces::{LocalPoint, Side};
+
+use super::build::{Inside, Target, To};
+use super::{Context, Cutter, Flags, LowerError, LowerErrorKind, Lowering, is_clear, join, mask_of, shapes};
+use crate::{Object, Operation, Placement, Shape};
+
+/// A body under construction.
+struct Work {
+    csg: CompoundBuilder,
+    /// The medium of clear leaves without an interior: that of the whole body.
+    medium: Option<u32>,
+    /// Some light may pass a leaf.
+    is_clear: bool,
+}
+
+/// What becomes of a part.
+#[derive(Clone, Copy)]
+struct How {
+    shown: Shown,
+    /// Its complement is wanted.
+    inverse: bool,
+}
+
+impl Lowering {
+    /// Lowers a body. `inner` is what `object` hands down to its parts.
+    pub(super) fn compound<'s>(
+        &mut self,
+        object: &'s Object,
+        around: &Context<'s>,
+        inner: Context<'s>,
+    ) -> Result<(), LowerError> {
+        let fail = |kind: LowerErrorKind| kind.at(object.place);
+        let flags = inner.flags;
+        let first = self.count()? - self.first.last().copied().unwrap_or(0);
+        let mut work = Work { csg: Compound::builder(), medium: inner.medium, is_clear: false };
+        let whole =
+            Context { flags: Flags { inverse: false, open: false, ..flags }, clips: Vec::new(), ..inner };
+        let how = How { shown: Shown::All, inverse: around.flags.inverse };
+        let part = self.part_of(object, &whole, &mut work, how)?;
+        // What clips the unions around it clips it too; its own clips are in the part.
+        let part = self.cut(part, &around.clips, &mut work)?;
+        let is_clipped = !around.clips.is_empty() || !object.clips.is_empty();
+        let body = work.csg.build(part).map_err(|e| match e {
+            CsgError::Build(e) => fail(e.into()),
+            CsgError::Sheet(name) => fail(LowerErrorKind::Sheet(name)),
+        })?;
+        let body = Arc::new(if is_clipped { body.as_sheet() } else { body });
+        let mask = if self.is_plain { durer_geometry::EVERYTHING } else { mask_of(flags, work.is_clear) };
+        if !is_clipped {
+            self.stand_in(&body, work.medium.unwrap_or(0));
+        }
+        self.builder.add_compound_as(body, self.object, first, mask);
+        Ok(())
+    }
+
+    /// Keeps the test for the inside of a body in which rays of the camera may start.
+    fn stand_in(&mut self, body: &Arc<Compound>, medium: u32) {
+        if self.camera.is_empty() || body.bounds().intersection(self.camera).is_empty() {
+            return;
+        }
+        let body = Arc::clone(body);
+        let inside: Inside = Box::new(move |p: Point3| body.side(&LocalPoint::new(p)) == Side::In);
+        self.around_camera.push((medium, inside));
+    }
+
+    /// What `part` has in common with what clips it.
+    fn cut(&mut self, part: Part, clips: &[Cutter<'_>], work: &mut Work) -> Result<Part, LowerError> {
+        if clips.is_empty() {
+            return Ok(part);
+        }
+        let mut parts = vec![part];
+        for clip in clips {
+            let around = Context { frame: Arc::clone(&clip.frame), ..Context::default() };
+            let how = How { shown: Shown::None, inverse: false };
+            parts.push(self.part(clip.object, &around, work, how)?);
+        }
+        Ok(work.csg.intersection(parts))
+    }
+
+    /// The part that an object makes, given what is around it.
+    fn part<'s>(
+        &mut self,
+        object: &'s Object,
+        around: &Context<'s>,
+        work: &mut Work,
+        how: How,
+    ) -> Result<Part, LowerError> {
+        let inner = if how.shown == Shown::None {
+            around.clone()
+        } else {
+            Context { clips: Vec::new(), ..self.inherited(object, around)? }
+        };
+        self.part_of(object, &inner, work, how)
+    }
+
+    /// The part that an object makes, given what it hands down.
+    ///
+    /// A fact of the scene language: what clips a part clips it after everything around it has been turned inside out, so it is never turned
+    /// itself. Complements are therefore handed down to the leaves.
+    fn part_of<'s>(
+        &mut self,
+        object: &'s Object,
+        inner: &Context<'s>,
+        work: &mut Work,
+        how: How,
+    ) -> Result<Part, LowerError> {
+        let how = How { inverse: how.inverse != object.flags.inverse, ..how };
+        let place =
+            join(&object.placement, &inner.frame).map_err(|e| LowerErrorKind::from(e).at(object.place))?;
+        let whole = match &object.shape {
+            Shape::Union(parts) => self.parts(Operation::Merge, parts, place, inner, work, how)?,
+            Shape::Csg(operation, parts) => self.parts(*operation, parts, place, inner, work, how)?,
+            _ => self.leaf_of(object, &place, inner, work, how).map_err(|k| k.at(object.place))?,
+        };
+        let mut clips = Vec::with_capacity(object.clips.len());
+        for object in &object.clips {
+            clips.push(Cutter { object, frame: Arc::clone(&inner.frame), region: None });
+        }
+        self.cut(whole, &clips, work)
+    }
+
+    fn parts<'s>(
+        &mut self,
+        operation: Operation,
+        parts: &'s [Object],
+        place: Placement,
+        inner: &Context<'s>,
+        work: &mut Work,
+        how: How,
+    ) -> Result<Part, LowerError> {
+        let inner = Context { frame: Arc::new(place), ..inner.clone() };
+        let mut made = Vec::with_capacity(parts.len());
+        for (i, part) in parts.iter().enumerate() {
+            let is_taken_away = operation == Operation::Difference && i > 0;
+            let how = How { inverse: how.inverse != is_taken_away, ..how };
+            made.push(self.part(part, &inner, work, how)?);
+        }
+        // De Morgan's laws: the complement of an intersection is the union of complements.
+        let any = (operation == Operation::Merge) != how.inverse;
+        Ok(if any { work.csg.union(made) } else { work.csg.intersection(made) })
+    }
+
+    /// A leaf: one primitive, or as many as a mesh has faces.
+    fn leaf_of(
+        &mut self,
+        object: &Object,
+        place: &Placement,
+        context: &Context<'_>,
+        work: &mut Work,
+        How { shown, inverse }: How,
+    ) -> Result<Part, LowerErrorKind> {
+        let primitive = if shown == Shown::None {
+            0
+        } else {
+            let (texture, frame) = self.texture_of(context);
+            let is_clear = is_clear(object, &texture);
+            work.is_clear |= is_clear;
+            let medium = match context.medium.or(work.medium) {
+                Some(medium) => medium,
+                None if is_clear => *work.medium.insert(self.medium(&Arc::default())),
+                None => 0,
+            };
+            self.looks_of(object, place.affine(), (texture, frame), medium, context.flags)?
+        };
+        let mut part = None;
+        let shown = if object.flags.open && shown == Shown::All { Shown::Wall } else { shown };
+        let target = Target {
+            to: To::Leaf(&mut work.csg, shown, &mut part),
+            primitive,
+            clips: Vec::new(),
+            inverse: false,
+            inside: None,
+            camera: Aabb::EMPTY,
+        };
+        shapes::build(object, false, place.affine(), target)?;
+        let part = part.ok_or(LowerErrorKind::Sheet(shapes::name(&object.shape)))?;
+        Ok(if inverse { work.csg.inverse(part) } else { part })
+    }
+}
