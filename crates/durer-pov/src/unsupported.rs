@@ -10,12 +10,10 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
         AaLevel
             | AaThreshold
             | Absorption
-            | Accuracy
             | Adaptive
             | Agate
             | AgateTurb
             | All
-            | AllIntersections
             | Alpha
             | Altitude
             | AlwaysSample
@@ -48,7 +46,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Composite
             | Confidence
             | ConicSweep
-            | ContainedBy
             | Control0
             | Control1
             | Coords
@@ -69,7 +66,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Distance
             | Eccentricity
             | ErrorBound
-            | Evaluate
             | ExpandThresholds
             | Exr
             | Exterior
@@ -85,7 +81,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | FogOffset
             | FogType
             | Form
-            | Function
             | Gamma
             | Gather
             | Gif
@@ -101,12 +96,10 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Importance
             | Inside
             | InteriorTexture
-            | Internal
             | Interpolate
             | Intersection
             | Intervals
             | Irid
-            | Isosurface
             | Jitter
             | Jpeg
             | Julia
@@ -125,10 +118,8 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Marble
             | MaterialMap
             | MaxExtent
-            | MaxGradient
             | MaxIteration
             | MaxSample
-            | MaxTrace
             | MaximumReuse
             | Media
             | Merge
@@ -207,7 +198,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Spiral2
             | Spline
             | Spotted
-            | Sqr
             | Square
             | Strength
             | Subsurface
@@ -217,7 +207,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Text
             | Tga
             | Thickness
-            | Threshold
             | Tiff
             | Tile2
             | Tiles
