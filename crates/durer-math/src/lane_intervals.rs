@@ -3,9 +3,11 @@
 //! Sums, products and quotients are rounded to nearest and then widened: by S. M. Rump, P. Zimmermann, S. Boldo, G. Melquiond, "Computing
 //! predecessor and successor in rounding to nearest", *BIT* 49 (2009), `fl(x - fl(phi |x|))` with `phi = u (1 + 2u)` is at or below the
 //! predecessor of a normal `x`, and so at or below everything that rounds to `x`. Where results may be subnormal a step of `2^-1000` is added.
-//! That is branch-free, as vector instructions need it. Elementary functions are those of [`Interval`], lane by lane.
+//! That is branch-free, as vector instructions need it. Sines and cosines are
+//! worked out in lanes too (`lane_waves.rs`), the other elementary functions are those of [`Interval`], lane by lane.
 
 use crate::interval::elementary::{Defined, Range};
+use crate::lane_waves::wave;
 use crate::number::{Comparison, Function, Number};
 use crate::{F8, Interval};
 
@@ -305,7 +307,11 @@ impl Number for I8 {
 
     #[inline(always)]
     fn function(f: Function, a: &Self) -> Self {
-        function(f, a)
+        match f {
+            Function::Sin => wave(a, 0.0),
+            Function::Cos => wave(a, 1.0),
+            _ => function(f, a),
+        }
     }
 
     #[inline(always)]

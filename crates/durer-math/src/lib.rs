@@ -63,6 +63,7 @@ pub mod interval;
 pub mod kernels;
 pub mod ladder;
 pub mod lane_intervals;
+mod lane_waves;
 pub mod lanes;
 pub mod number;
 pub mod predicates;

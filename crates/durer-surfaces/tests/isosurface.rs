@@ -219,8 +219,10 @@ fn a_container_closes_what_it_cuts() {
     // A ball of radius 1.2 in a cube of half-width 1: a rounded cube whose faces are partly the container's.
     let closed = iso(&sphere(0.0, 1.2), 1.0);
     let open = iso(&sphere(0.0, 1.2), 1.0).without_caps();
-    let (ball, block) =
-        (Sphere::new(Point3::ORIGIN, 1.2).unwrap(), AxisBox::new(Point3::new(-1.0, -1.0, -1.0), Point3::new(1.0, 1.0, 1.0)).unwrap());
+    let (ball, block) = (
+        Sphere::new(Point3::ORIGIN, 1.2).unwrap(),
+        AxisBox::new(Point3::new(-1.0, -1.0, -1.0), Point3::new(1.0, 1.0, 1.0)).unwrap(),
+    );
     let mut dice = Dice(3);
     for _ in 0..20_000 {
         let d = dice.vector();
@@ -236,7 +238,10 @@ fn a_container_closes_what_it_cuts() {
         match span {
             Some((s, e)) if e - s > 2.0 * size(e) => {
                 let [a, b] = roots.as_slice() else { panic!("{ray:?}: {roots:?}") };
-                assert!((a.t - s).abs() <= size(s) && (b.t - e).abs() <= size(e), "{ray:?}: {roots:?}, {span:?}");
+                assert!(
+                    (a.t - s).abs() <= size(s) && (b.t - e).abs() <= size(e),
+                    "{ray:?}: {roots:?}, {span:?}"
+                );
                 assert_eq!((a.sign, b.sign), (-1, 1));
             }
             Some(_) => {}
@@ -247,7 +252,8 @@ fn a_container_closes_what_it_cuts() {
         assert_eq!(walls.len(), sheet.len(), "{ray:?}");
         let p = ray.origin;
         let side = closed.side(&LocalPoint::new(p));
-        let within = ball.side(&LocalPoint::new(p)) == Side::In && block.side(&LocalPoint::new(p)) == Side::In;
+        let within =
+            ball.side(&LocalPoint::new(p)) == Side::In && block.side(&LocalPoint::new(p)) == Side::In;
         assert_eq!(side == Side::In, within, "{p:?}");
     }
 }
@@ -263,7 +269,11 @@ fn rays_leave_what_they_were_spawned_on() {
             for root in all(&surface, &ray).iter().filter(|r| r.kind == Kind::Simple) {
                 let point = surface.resolve(&LocalRay::new(&ray), root, Need::ALL);
                 let truth = point.p.to_vec() * (1.0 / point.p.to_vec().length());
-                assert!((point.ng.to_vec() - truth).length() < 1e-6, "{point:?} {ray:?} {root:?} {:?}", ray.at(root.t));
+                assert!(
+                    (point.ng.to_vec() - truth).length() < 1e-6,
+                    "{point:?} {ray:?} {root:?} {:?}",
+                    ray.at(root.t)
+                );
                 assert!(point.off < 1e-12, "{point:?}");
                 for (side, way) in [(RaySide::Front, 1.0), (RaySide::Back, -1.0)] {
                     let out = point.spawn_from(side, point.ng.to_vec() * way + dice.vector() * 0.9);
@@ -319,7 +329,11 @@ fn no_root_is_lost_where_a_formula_is_wild() {
             changes += usize::from(before.is_some_and(|b: bool| b != (value > 0.0)));
             before = Some(value > 0.0);
         }
-        assert!(roots.len() >= changes && (roots.len() - changes) % 2 == 0, "{} roots, {changes} changes", roots.len());
+        assert!(
+            roots.len() >= changes && (roots.len() - changes).is_multiple_of(2),
+            "{} roots, {changes} changes",
+            roots.len()
+        );
         met += roots.len();
     }
     assert!(met > 1000, "{met}");

@@ -108,7 +108,8 @@ impl Cells {
         (a, b): (f64, f64),
         take: &mut dyn FnMut(f64, f64, Place<'a>) -> bool,
     ) {
-        if line.err.iter().any(|&e| !(e < 0.5 * self.margin)) {
+        let known = line.err.iter().all(|&e| e < 0.5 * self.margin);
+        if !known {
             // The ray is not known well enough to say which cells it is in.
             take(a, b, Place::Open(&self.tapes[0]));
             return;

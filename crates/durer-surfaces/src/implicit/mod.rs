@@ -104,7 +104,7 @@ impl Surface for Isosurface {
 
     #[inline(always)]
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
-        self.all_roots(ray, &mut |root| sink.push(root));
+        self.all_roots(ray, &mut roots::Outlet(sink));
     }
 
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {

@@ -4,7 +4,7 @@ use super::Isosurface;
 use super::line::Line;
 use crate::point::least_step;
 use crate::{LocalRay, Need, Root, SurfacePoint};
-use durer_math::{Dual, F8, I8, Interval, Number, Point3, U, Vec3};
+use durer_math::{Dual, F8, I8, Interval, Point3, U, Vec3};
 
 /// What is known of the formula near a point.
 struct Near {
@@ -34,37 +34,6 @@ impl Isosurface {
         (defined && finite).then(|| Near { value: g.v.lane(0), gradient })
     }
 
-    /// A bound on the norm of the second derivatives within `r` of `p`.
-    fn bend(&self, p: Point3, r: f64) -> f64 {
-        let p = p.to_array();
-        // Six pairs of axes in six lanes.
-        const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
-        let unit = |axis: usize, of: fn((usize, usize)) -> usize| {
-            let mut d = I8::new(F8::ZERO, F8::ZERO);
-            for (lane, pair) in PAIRS.into_iter().enumerate() {
-                if of(pair) == axis {
-                    d.set_lane(lane, Interval { lo: 1.0, hi: 1.0 });
-                }
-            }
-            d
-        };
-        let zero = I8::constant(Interval { lo: 0.0, hi: 0.0 });
-        let x = [0, 1, 2].map(|i| {
-            let v = I8::splat(Interval::around(p[i], r));
-            Dual { v: Dual { v, d: unit(i, |pair| pair.0) }, d: Dual { v: unit(i, |pair| pair.1), d: zero } }
-        });
-        let h = self.tape.bends(&x).d;
-        if (h.d.partial | h.v.jump | h.v.partial) & 63 != 0 {
-            return f64::INFINITY;
-        }
-        let square = |lane: usize| {
-            let m = h.d.lane(lane).magnitude();
-            m * m
-        };
-        let sum = square(0) + square(1) + square(2) + 2.0 * (square(3) + square(4) + square(5));
-        sum.sqrt() * (1.0 + 16.0 * U)
-    }
-
     pub(super) fn point(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         if root.face > 0 {
             let mut own = *ray;
@@ -92,7 +61,7 @@ impl Isosurface {
         let dp = (err * 2.0 + direction.abs() * width + moved + Vec3::new(size, size, size) * (2.0 * U))
             * (1.0 + 16.0 * U)
             + Vec3::new(slack, slack, slack);
-        let (off, bend) = self.off(p, n, width + size * U);
+        let (off, bend) = self.off(p, n, size * U, width);
         let mut point = SurfacePoint::new(p, dp, off + slack, n.to_normal());
         point.bend = bend;
         if need.contains(Need::UV) || need.contains(Need::DERIVATIVES) {
@@ -135,10 +104,9 @@ impl Isosurface {
     ///
     /// Within `r` of `p` the slope along `n` is at least `m`. So `f(p ± off n)` is on its side of zero if `m off` exceeds `|f(p)|` and what
     /// rounding the start moves it: three roundings per axis, each times the largest slope along it. `r` must hold the whole way.
-    fn off(&self, p: Point3, n: Vec3, scale: f64) -> (f64, f64) {
+    fn off(&self, p: Point3, n: Vec3, scale: f64, width: f64) -> (f64, f64) {
         let here = self.near(p, 0.0).map_or(f64::INFINITY, |near| near.value.magnitude());
         let mut r = 64.0 * scale + least_step(p);
-        let mut best = (64.0 * scale, 0.0);
         for _ in 0..16 {
             if let Some(near) = self.near(p, r) {
                 let along = |i: usize| near.gradient[i] * Interval { lo: n[i], hi: n[i] };
@@ -148,14 +116,16 @@ impl Isosurface {
                     (0..3).map(|i| near.gradient[i].magnitude() * (ulp[i] + r * 4.0 * U)).sum::<f64>();
                 let off = (here + stray) / m * (1.0 + 16.0 * U);
                 if m > 0.0 && off + ulp.max_abs() * 2.0 <= r {
-                    let bend = self.bend(p, r) / m;
-                    return (off, if bend.is_finite() { bend } else { 1.0 / r });
+                    // Within r the gradient turns by at most `turn`, so that at a distance d the surface has left its tangent plane by at most
+                    // `turn d`: no more than `bend / 2 d^2` from one rounding of the place on, and nothing that counts below that.
+                    let width = |i: usize| near.gradient[i].width();
+                    let turn = Vec3::new(width(0), width(1), width(2)).length() / m;
+                    return (off, 2.0 * turn / ulp.max_abs() * (1.0 + 16.0 * U));
                 }
             }
-            best.0 = r;
             r *= 4.0;
         }
-        // A point without a normal (a tip, a seam, a cluster): some way off, in the scale of what was tried first.
-        (best.0.min(4096.0 * scale), 0.0)
+        // A point without a normal (a tip, a seam, a cluster): some way off, in the scale of the coordinates and of what is not known.
+        (4096.0 * scale + 4.0 * width, 0.0)
     }
 }

@@ -23,6 +23,23 @@ impl Sink for Caps {
     }
 }
 
+/// Makes a sink of unknown type one of known size.
+pub(super) struct Outlet<'a, S: ?Sized>(pub(super) &'a mut S);
+
+impl<S: Sink + ?Sized> Sink for Outlet<'_, S> {
+    fn range(&self) -> (f64, f64) {
+        self.0.range()
+    }
+
+    fn limit(&self) -> f64 {
+        self.0.limit()
+    }
+
+    fn push(&mut self, root: Root) -> Flow {
+        self.0.push(root)
+    }
+}
+
 /// How a stretch of the ray begins or ends.
 #[derive(Clone, Copy)]
 enum Border {
@@ -33,8 +50,8 @@ enum Border {
 }
 
 impl Isosurface {
-    /// Shows all roots to `push`, ascending.
-    pub(super) fn all_roots(&self, ray: &LocalRay<'_>, push: &mut dyn FnMut(Root) -> Flow) {
+    /// Shows all roots to `sink`, ascending.
+    pub(super) fn all_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         let mut whole = *ray;
         (whole.t_min, whole.t_max, whole.source) = (f64::NEG_INFINITY, f64::INFINITY, None);
         let mut caps = Caps::default();
@@ -47,7 +64,7 @@ impl Isosurface {
         let (in_lo, in_hi) = at.window((entry.lo, entry.hi));
         let (out_lo, out_hi) = at.window((exit.lo, exit.hi));
         let line = Line::new(&at, in_lo.abs().max(out_hi.abs()));
-        let mut query = Query { surface: self, ray, at: &at, line: &line, push, passes: 0 };
+        let mut query = Query { surface: self, ray, at: &at, line: &line, sink, passes: 0 };
         query.run(&[(*entry, in_lo, in_hi), (*exit, out_lo, out_hi)]);
     }
 }
@@ -58,7 +75,7 @@ struct Query<'a> {
     ray: &'a LocalRay<'a>,
     at: &'a CentredRay<'a>,
     line: &'a Line,
-    push: &'a mut dyn FnMut(Root) -> Flow,
+    sink: &'a mut dyn Sink,
     passes: u32,
 }
 
@@ -101,8 +118,8 @@ impl Query<'_> {
     fn declared(&self, lo: f64, hi: f64) -> bool {
         let tape = &self.surface.tape;
         self.line.sign_on(tape, lo, hi).unwrap_or_else(|| {
-            let value = self.line.value(tape, 0.5 * lo + 0.5 * hi);
-            !(value < 0.0)
+            let within = self.line.value(tape, 0.5 * lo + 0.5 * hi) < 0.0;
+            !within
         })
     }
 
@@ -153,7 +170,7 @@ impl Query<'_> {
         let mut caps = Caps::default();
         self.surface.container.roots(&own, &mut caps);
         match caps.0.iter().find(|root| root.sign == cap.sign) {
-            Some(root) => (self.push)(Root { face: root.face + 1, ..*root }),
+            Some(root) => self.sink.push(Root { face: root.face + 1, ..*root }),
             None => Flow::Continue,
         }
     }
@@ -164,6 +181,10 @@ impl Query<'_> {
         let mut flow = Flow::Continue;
         let mut passes = self.passes;
         surface.cells.walk(line, (a, b), &mut |a, b, place| {
+            if tracker.is_idle() && self.at.bracket(a, a).0 > self.sink.limit() {
+                flow = Flow::Stop;
+                return false;
+            }
             let mut take = |a: f64, b: f64, verdict: Verdict, tape| {
                 if let Some(found) = tracker.take(a, b, verdict, tape) {
                     flow = self.found(&found);
@@ -197,7 +218,7 @@ impl Query<'_> {
             lo = lo.max(0.0).min(hi);
         }
         let t = self.at.t(found.s).max(lo).min(hi);
-        (self.push)(Root {
+        self.sink.push(Root {
             t,
             lo,
             hi,

@@ -103,14 +103,14 @@ impl<'a> Tracker<'a> {
         None
     }
 
+    /// Whether all that was taken is told.
+    pub(super) fn is_idle(&self) -> bool {
+        self.run.is_none()
+    }
+
     /// The end of the line, where `g` has the sign `after`.
     pub(super) fn finish(&mut self, after: Option<bool>) -> Option<Found> {
         self.close(after)
-    }
-
-    /// The end of what is known as a run.
-    pub(super) fn end(&self) -> Option<f64> {
-        self.run.as_ref().map(|run| run.hi)
     }
 
     fn close(&mut self, after: Option<bool>) -> Option<Found> {
@@ -220,11 +220,11 @@ fn sectioned(line: &Line, tape: &Tape, lo: f64, hi: f64, rises: bool) -> (f64, f
         let sign = signs(&line.bounds(tape, &at, &at));
         let before = (0..8).rev().find(|&i| sign[i] == Some(!rises)).map_or(a, |i| at[i]);
         let after = (0..8).find(|&i| sign[i] == Some(rises)).map_or(b, |i| at[i]);
-        let done = !(after - before < 0.75 * (b - a));
+        let gained = after - before < 0.75 * (b - a);
         if before <= after {
             (a, b) = (before, after);
         }
-        if done || before > after {
+        if !gained || before > after {
             return (a, b);
         }
     }

@@ -15,7 +15,6 @@ thread_local! {
     static DUALS: Cell<Vec<Dual<I8>>> = const { Cell::new(Vec::new()) };
     static BOXES: Cell<Vec<I8>> = const { Cell::new(Vec::new()) };
     static NUMBERS: Cell<Vec<f64>> = const { Cell::new(Vec::new()) };
-    static SECOND: Cell<Vec<Dual<Dual<I8>>>> = const { Cell::new(Vec::new()) };
 }
 
 /// Runs `f` with memory of this thread that is kept for the next time.
@@ -134,11 +133,6 @@ impl Tape {
         })
     }
 
-    /// The same with second derivatives.
-    pub fn bends(&self, x: &[Dual<Dual<I8>>; 3]) -> Dual<Dual<I8>> {
-        with_memory(&SECOND, self.ops.len(), zero(), |registers| run(&self.ops, x, registers))
-    }
-
     /// The value in any kind of number.
     pub fn eval<T: Number>(&self, x: &[T; 3]) -> T {
         let mut registers = vec![zero(); self.ops.len()];
@@ -234,7 +228,7 @@ fn decided(op: &Op, registers: &[I8], lane: usize) -> Option<Decided> {
             }
         }
         Op::Compare(_, a, b) => {
-            (at(a)?, at(b)?);
+            at(a).and(at(b))?;
             let answer = answer(op, registers, lane)?;
             constant(answer)
         }
