@@ -74,6 +74,8 @@ pub(crate) enum Shape {
         axis: [f64; 3],
         half_angle: f64,
     },
+    /// And whether it is open.
+    Isosurface(Rc<durer_scene::Isosurface>, bool),
     Union(Vec<Rc<Object>>),
     Csg(Operation, Vec<Rc<Object>>),
     Light(Rc<Light>),
@@ -190,6 +192,7 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
             | Mesh
             | Mesh2
             | Quadric
+            | Isosurface
             | Union
             | Merge
             | Intersection

@@ -92,6 +92,7 @@ impl Reader<'_> {
                 }
                 Shape::Quadric(Box::new([a, b, c, d, e, f, g, h, i, constant]))
             }
+            Keyword::Isosurface => self.isosurface(place)?,
             // `begins_object` lists no other shape.
             _ => return Err(Fault::unsupported(place, keyword.text())),
         })
