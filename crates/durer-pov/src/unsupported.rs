@@ -52,7 +52,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Count
             | Crackle
             | Cube
-            | Cubic
             | CubicSpline
             | CutawayTextures
             | Cylindrical
@@ -147,7 +146,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | PigmentPattern
             | Planar
             | Png
-            | Poly
             | Pot
             | Ppm
             | Precision
@@ -160,7 +158,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | ProjectedThrough
             | Pwr
             | QuadraticSpline
-            | Quartic
             | Quaternion
             | Quilted
             | Radial
@@ -210,7 +207,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Tiling
             | Tolerance
             | Toroidal
-            | Torus
             | Trace
             | Translucency
             | Triangular

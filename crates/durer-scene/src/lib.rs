@@ -44,4 +44,5 @@ pub use crate::placement::Placement;
 pub use crate::scene::{AssumedGamma, Background, Scene, Settings};
 pub use crate::shape::{Container, Face, Isosurface, Mesh, NamedQuadric, Operation, QuadricKind, Shape};
 pub use crate::texture::{Layer, Pigment, PigmentBody, Texture, TextureBody};
+pub use durer_surfaces::algebraic::{MAX_ORDER, coefficient_count, place_of};
 pub use durer_surfaces::{FillRule, tape};
