@@ -70,12 +70,12 @@ fn ply_binary(big: bool) -> Vec<u8> {
     };
     for [x, y, z] in CORNERS {
         put(&[200]);
-        [z, x, y].map(|v| put(&v.to_le_bytes()));
+        [z, x, y].iter().for_each(|v| put(&v.to_le_bytes()));
     }
     put(&7_i32.to_le_bytes());
     for face in FACES {
         put(&[3]);
-        face.map(|v| put(&v.to_le_bytes()));
+        face.iter().for_each(|v| put(&v.to_le_bytes()));
         put(&0.5_f32.to_le_bytes());
     }
     out
@@ -99,7 +99,7 @@ fn stl_binary(title: &str) -> Vec<u8> {
     for face in FACES {
         out.extend([0; 12]);
         for v in face {
-            CORNERS[v as usize].map(|x| out.extend((x as f32).to_le_bytes()));
+            CORNERS[v as usize].iter().for_each(|x| out.extend((*x as f32).to_le_bytes()));
         }
         out.extend([0; 2]);
     }
