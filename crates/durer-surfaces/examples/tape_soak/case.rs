@@ -100,7 +100,7 @@ fn formula(bytes: &mut Bytes<'_>) -> Option<durer_surfaces::tape::Formula> {
 /// # Panics
 ///
 /// If something does not hold.
-pub fn check(data: &[u8]) {
+pub(crate) fn check(data: &[u8]) {
     let mut bytes = Bytes(data);
     let Some(formula) = formula(&mut bytes) else { return };
     let tape = Tape::new(&formula);
@@ -115,7 +115,10 @@ pub fn check(data: &[u8]) {
     });
     bounds_hold(&formula, &tape, &boxes);
     slopes_hold(&tape, &boxes);
-    roots_are_in_order(&formula, &mut bytes);
+    // Cells are dear: a few formulas stand for all.
+    if bytes.next().is_multiple_of(64) {
+        roots_are_in_order(&formula, &mut bytes);
+    }
 }
 
 fn point(boxes: &[I8; 3], lane: usize, k: [f64; 3]) -> Point3 {
