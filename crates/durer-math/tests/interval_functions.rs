@@ -149,13 +149,13 @@ fn powers_and_angles_hold_the_exact_values() {
     let mut constants = Consts::new().unwrap();
     let mut dice = Dice(77);
     let mut worst = 0.0_f64;
-    for _ in 0..4000 {
+    for _ in 0..2000 {
         let (x, y) = (dice.number(50.0).abs(), dice.number(20.0));
         // The witness does not take subnormal numbers as they are.
         if x < f64::MIN_POSITIVE {
             continue;
         }
-        let exact = big(x).pow(&big(y), P, RM, &mut constants);
+        let exact = big(x).ln(2 * P, RM, &mut constants).mul(&big(y), 2 * P, RM).exp(P, RM, &mut constants);
         let reach = dice.unit().abs() * 0.1;
         let (a, b) =
             (Interval::new(x * (1.0 - reach), x * (1.0 + reach)), Interval::new(y - reach, y + reach));
@@ -163,7 +163,9 @@ fn powers_and_angles_hold_the_exact_values() {
         assert!(holds(range, &exact) && range.contains(elementary::pow(x, y)), "{x}^{y}: {range:?}");
         let (thin, _) = Interval::from(x).pow(Interval::from(y));
         assert!(holds(thin, &exact), "{x}^{y}: {thin:?}");
-        worst = worst.max(ulps(elementary::pow(x, y), &exact));
+        if elementary::pow(x, y).is_normal() {
+            worst = worst.max(ulps(elementary::pow(x, y), &exact));
+        }
         // The angle of (u, v) is that of the quotient, turned.
         let (u, v) = (dice.number(10.0), dice.number(10.0));
         if u == 0.0 || v == 0.0 {

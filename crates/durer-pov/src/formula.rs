@@ -137,6 +137,33 @@ impl Reader<'_> {
     /// What stands between the braces, and the closing one.
     fn function_body(&mut self, parameters: &Option<Vec<Parameter>>, place: Place) -> Result<Formula> {
         let mut draft = Draft { builder: Builder::new(), words: Vec::new(), inputs: 3 };
+        self.scopes.enter();
+        match parameters {
+            None => {
+                use Keyword::{U, V, X, Y, Z};
+                draft.words = vec![(X, 0), (Y, 1), (Z, 2), (U, 0), (V, 1)];
+            }
+            Some(names) => {
+                draft.inputs = names.len() as u32;
+                for (number, parameter) in (0_u32..).zip(names) {
+                    match *parameter {
+                        Parameter::Word(word) => draft.words.push((word, number)),
+                        Parameter::Name(name) => self.scopes.parameter(name, Value::Parameter(number)),
+                    }
+                }
+            }
+        }
+        // The names go also where the body is wrong: a declaration may be skipped.
+        let read = self.named_body(draft);
+        self.scopes.leave();
+        let formula = read?;
+        self.expect(Mark::BraceClose)?;
+        self.check_memory(formula.ops().len() * 24, place)?;
+        Ok(formula)
+    }
+
+    /// The body, when its parameters have their names.
+    fn named_body(&mut self, mut draft: Draft) -> Result<Formula> {
         let word = self.peek_word()?;
         match word {
             Some(Keyword::Internal) => return self.internal_function(),
@@ -155,31 +182,9 @@ impl Reader<'_> {
             }
             _ => {}
         }
-        self.scopes.enter();
-        match parameters {
-            None => {
-                use Keyword::{U, V, X, Y, Z};
-                draft.words = vec![(X, 0), (Y, 1), (Z, 2), (U, 0), (V, 1)];
-            }
-            Some(names) => {
-                draft.inputs = names.len() as u32;
-                for (number, parameter) in (0_u32..).zip(names) {
-                    match *parameter {
-                        Parameter::Word(word) => draft.words.push((word, number)),
-                        Parameter::Name(name) => self.scopes.parameter(name, Value::Parameter(number)),
-                    }
-                }
-            }
-        }
         let inputs = draft.inputs;
-        let root = self.logical_formula(&mut draft);
-        // The names go also where the body is wrong: a declaration may be skipped.
-        self.scopes.leave();
-        let root = root?;
-        self.expect(Mark::BraceClose)?;
-        let formula = draft.builder.finish(root, inputs);
-        self.check_memory(formula.ops().len() * 24, place)?;
-        Ok(formula)
+        let root = self.logical_formula(&mut draft)?;
+        Ok(draft.builder.finish(root, inputs))
     }
 
     /// `internal(n)`: one of the functions that functions.inc names.
@@ -189,7 +194,6 @@ impl Reader<'_> {
         self.expect(Mark::ParenOpen)?;
         let number = self.float()?;
         self.expect(Mark::ParenClose)?;
-        self.expect(Mark::BraceClose)?;
         match crate::formulas::internal(number) {
             Ok(formula) => Ok(formula),
             Err(crate::formulas::Lacking::Unknown) => {
