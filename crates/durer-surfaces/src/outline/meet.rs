@@ -58,6 +58,14 @@ impl Outline {
         if self.is_passed_by(asked.rays, &mut scratch.start) {
             return;
         }
+        // A vague outline is a box around the surface: rays leave the surface, and the box has other faces.
+        let inside;
+        let asked = if self.vague {
+            inside = Question { from: None, ..*asked };
+            &inside
+        } else {
+            asked
+        };
         if self.convex && self.faces.len() > 1 {
             self.meet_convex(asked, nearest, scratch);
         } else {
@@ -158,8 +166,10 @@ impl Outline {
         let t = outside.select(enter.t, -leave.t);
         let e = outside.select(enter.e, leave.e);
         let face = outside.select(enter.face, leave.face);
-        // What is never left is not met again from within.
-        missed |= within & left.ge(NEVER) | inside & (t - e).gt(limit);
+        // What is never left is not met again from within. Within a box around the surface, it may be anywhere.
+        if !self.vague {
+            missed |= within & left.ge(NEVER) | inside & (t - e).gt(limit);
+        }
         let sure = (outside | inside) & !missed & (t + e).le(*rays.t_max);
         let unsure = !(missed | sure);
         self.put_down(sure, unsure, (t, e, face), earliest, asked.number, nearest);
