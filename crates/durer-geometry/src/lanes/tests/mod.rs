@@ -3,6 +3,7 @@
 //! Every claim of lanes is held against the kernels that decide exactly: `closest` and `any` for what is met, `side` and exact planes for where rays start.
 
 mod aimed;
+mod bodies;
 mod boxed;
 mod worlds;
 

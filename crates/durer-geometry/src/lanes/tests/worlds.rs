@@ -38,6 +38,12 @@ pub(super) struct World {
 }
 
 impl World {
+    /// Surfaces of which nothing more is known.
+    pub(super) fn of(surface: &'static str, geometry: Geometry) -> Self {
+        let (name, sides) = (surface.to_string(), Sides::Sheet);
+        Self { surface, name, geometry, sides, turned: false, maps: Vec::new() }
+    }
+
     /// Where a point of the surface's own frame went; rounded, or exact if all numbers are short.
     pub(super) fn place(&self, p: Point3) -> Point3 {
         self.maps.iter().fold(p, |p, map| map.point(p))
@@ -76,7 +82,7 @@ impl World {
 }
 
 /// Rotated, sheared and moved a little: nothing stays dyadic.
-fn map() -> Affine {
+pub(super) fn map() -> Affine {
     let turn = Affine::rotation_x(0.7).unwrap().then(&Affine::rotation_z(-0.4).unwrap()).unwrap();
     let sheared = Affine::new([[1.0, 0.3, 0.0], [0.0, 0.8, -0.2], [0.1, 0.0, 1.3]], Point3::ORIGIN).unwrap();
     turn.then(&sheared).unwrap().then(&Affine::translation(Vec3::new(0.1, -0.2, 0.3)).unwrap()).unwrap()
@@ -128,7 +134,7 @@ fn worlds<S: Surface + 'static>(name: &'static str, sides: Sides, surface: S, (i
     }
 }
 
-fn tent() -> MeshData {
+pub(super) fn tent() -> MeshData {
     MeshData {
         vertices: vec![
             point(-1.0, -1.0, 0.0),
