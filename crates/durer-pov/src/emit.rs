@@ -310,6 +310,10 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             scene::Shape::Mesh(Arc::new(made))
         }
         Shape::Quadric(coefficients) => scene::Shape::Quadric(coefficients.clone()),
+        Shape::Polynomial(order, coefficients) => {
+            scene::Shape::Polynomial { order: *order, coefficients: coefficients.iter().copied().collect() }
+        }
+        &Shape::Torus { major, minor } => scene::Shape::Torus { major, minor },
         Shape::Named(named) => scene::Shape::Named(Box::new(scene::NamedQuadric {
             kind: named.kind,
             semi_axes: named.semi_axes,

@@ -55,7 +55,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Count
             | Crackle
             | Cube
-            | Cubic
             | CubicSpline
             | CutawayTextures
             | Cylindrical
@@ -159,7 +158,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | PigmentPattern
             | Planar
             | Png
-            | Poly
             | Pot
             | Ppm
             | Precision
@@ -172,7 +170,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | ProjectedThrough
             | Pwr
             | QuadraticSpline
-            | Quartic
             | Quaternion
             | Quilted
             | Radial
@@ -224,7 +221,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Tiling
             | Tolerance
             | Toroidal
-            | Torus
             | Trace
             | Translucency
             | Triangular

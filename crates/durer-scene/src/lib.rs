@@ -45,3 +45,4 @@ pub use crate::scene::{AssumedGamma, Background, Scene, Settings};
 pub use crate::shape::{Face, Mesh, NamedQuadric, QuadricKind, Shape};
 pub use crate::texture::{Layer, Pigment, PigmentBody, Texture, TextureBody};
 pub use durer_surfaces::FillRule;
+pub use durer_surfaces::algebraic::{MAX_ORDER, coefficient_count, place_of};

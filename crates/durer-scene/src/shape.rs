@@ -85,6 +85,20 @@ pub enum Shape {
     Mesh(Arc<Mesh>),
     /// The general quadric `A x^2 + B y^2 + C z^2 + D xy + E xz + F yz + G x + H y + I z + J = 0`: the ten coefficients in this order.
     Quadric(Box<[f64; 10]>),
+    /// The zero set of a polynomial in x, y and z; its inside is where the polynomial is negative.
+    Polynomial {
+        /// The greatest sum of powers.
+        order: u32,
+        /// All coefficients, by falling powers of x, then of y, then of z.
+        coefficients: Box<[f64]>,
+    },
+    /// A tube around a circle about the y axis.
+    Torus {
+        /// The radius of the circle.
+        major: f64,
+        /// The radius of the tube.
+        minor: f64,
+    },
     /// A quadric by its name, centred at the origin with its axis along z.
     Named(Box<NamedQuadric>),
     /// The part of a ball within `half_angle` of an axis.

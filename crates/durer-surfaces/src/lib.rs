@@ -1,6 +1,7 @@
 //! Exact surfaces. Each answers one question: *where does this ray meet you?*
 #![forbid(unsafe_code)]
 
+pub mod algebraic;
 pub mod annulus;
 pub mod axis_box;
 pub mod compose;
@@ -24,8 +25,11 @@ mod sink;
 pub mod sphere;
 mod surface;
 pub mod textbook;
+pub mod torus;
 pub mod triangle;
+pub mod zero_set;
 
+pub use crate::algebraic::{AlgebraicError, AlgebraicSurface};
 pub use crate::annulus::{Annulus, AnnulusError};
 pub use crate::axis_box::{AxisBox, AxisBoxError};
 pub use crate::compose::affine::Placed;
@@ -51,4 +55,5 @@ pub use crate::quadric::solid::Body;
 pub use crate::sink::{All, Any, Closest, Flow, Sink};
 pub use crate::sphere::{Sphere, SphereError};
 pub use crate::surface::{Kind, Need, PartId, Root, Side, Solidity, Surface};
+pub use crate::torus::{Axis, Torus, TorusError};
 pub use crate::triangle::{Triangle, TriangleError};

@@ -4,8 +4,8 @@ use std::fmt::Display;
 
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
-    Algebraic, Annulus, AxisBox, CappedCylinder, Disc, FLAT, Frustum, Parallelogram, Plane, Polygon, Quadric,
-    Region, Sphere, SphericalSector, Triangle, TriangleError,
+    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, CappedCylinder, Disc, FLAT, Frustum, Parallelogram,
+    Plane, Polygon, Quadric, Region, Sphere, SphericalSector, Torus, Triangle, TriangleError,
 };
 
 use super::build::{Inside, Target};
@@ -70,6 +70,22 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
         Shape::Quadric(coefficients) => {
             target.add_final(Quadric::new(**coefficients).map_err(shape_error)?, map);
         }
+        Shape::Polynomial { order, coefficients } => {
+            let surface = AlgebraicSurface::new(*order, coefficients).map_err(shape_error)?;
+            target.contain(&surface, map);
+            target.add_rare(surface, map);
+        }
+        &Shape::Torus { major, minor } => {
+            let made = |c, axis, major, minor| Torus::new(c, axis, major, minor).map_err(shape_error);
+            let all = |m: &Affine| {
+                let (axis, size) = exact::axis(m, 1)?;
+                Some((m.centre(), AXES[axis], exact::product(size, major)?, exact::product(size, minor)?))
+            };
+            match folded(map, all) {
+                Some((c, axis, major, minor)) => add(&mut target, made(c, axis, major, minor)?, None),
+                None => add(&mut target, made(Point3::ORIGIN, Axis::Y, major, minor)?, map),
+            }
+        }
         Shape::Named(quadric) => named::build(quadric, open, map, &mut target)?,
         &Shape::SphericalSector { centre, radius, axis, half_angle } => {
             let sector =
@@ -81,6 +97,8 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
     }
     Ok(Built::Done(target.inside))
 }
+
+const AXES: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 
 /// Adds a solid that has an array of its own.
 fn add<S: Algebraic + Clone + 'static>(target: &mut Target<'_>, solid: S, map: Option<&Affine>) {
@@ -281,6 +299,8 @@ fn name(shape: &Shape) -> &'static str {
         Shape::Polygon { .. } => "a polygon",
         Shape::Mesh(_) => "a mesh",
         Shape::Quadric(_) => "a quadric",
+        Shape::Polynomial { .. } => "a polynomial",
+        Shape::Torus { .. } => "a torus",
         Shape::Named(_) => "a named quadric",
         Shape::SphericalSector { .. } => "a spherical sector",
         Shape::Union(_) => "a union",
