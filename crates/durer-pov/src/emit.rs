@@ -197,7 +197,7 @@ impl Reader<'_> {
             no_reflection: habits.no_reflection,
             hollow: habits.hollow,
             inverse: habits.inverse,
-            open: habits.open,
+            open: habits.open || matches!(object.shape, Shape::Isosurface(_, true)),
             double_illuminate: habits.double_illuminate,
         };
         made.place = Some(scene::Place { file: at.file, start: at.start });
@@ -325,6 +325,7 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             axis: vector(*axis),
             half_angle: *half_angle,
         },
+        Shape::Isosurface(iso, _) => scene::Shape::Isosurface(Box::new((**iso).clone())),
         Shape::Union(_) | Shape::Light(_) => {
             return Err(Fault::invalid(at, "a single surface is needed here"));
         }

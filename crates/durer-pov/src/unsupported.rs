@@ -10,12 +10,10 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
         AaLevel
             | AaThreshold
             | Absorption
-            | Accuracy
             | Adaptive
             | Agate
             | AgateTurb
             | All
-            | AllIntersections
             | Alpha
             | Altitude
             | AlwaysSample
@@ -48,7 +46,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Composite
             | Confidence
             | ConicSweep
-            | ContainedBy
             | Control0
             | Control1
             | Coords
@@ -68,7 +65,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Distance
             | Eccentricity
             | ErrorBound
-            | Evaluate
             | ExpandThresholds
             | Exr
             | Exterior
@@ -84,7 +80,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | FogOffset
             | FogType
             | Form
-            | Function
             | Gamma
             | Gather
             | Gif
@@ -100,12 +95,10 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Importance
             | Inside
             | InteriorTexture
-            | Internal
             | Interpolate
             | Intersection
             | Intervals
             | Irid
-            | Isosurface
             | Jitter
             | Jpeg
             | Julia
@@ -124,10 +117,8 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Marble
             | MaterialMap
             | MaxExtent
-            | MaxGradient
             | MaxIteration
             | MaxSample
-            | MaxTrace
             | MaximumReuse
             | Media
             | Merge
@@ -204,7 +195,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Spiral2
             | Spline
             | Spotted
-            | Sqr
             | Square
             | Strength
             | Subsurface
@@ -214,7 +204,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Text
             | Tga
             | Thickness
-            | Threshold
             | Tiff
             | Tile2
             | Tiles

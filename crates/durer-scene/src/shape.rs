@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use durer_math::{Point3, Vec3};
 
+use crate::tape::Formula;
 use crate::{FillRule, Object, Texture};
 
 /// A surface in its object's own frame, not yet checked: lowering builds it and names what is wrong.
@@ -112,8 +113,30 @@ pub enum Shape {
         /// The angle between the axis and the cone, in radians.
         half_angle: f64,
     },
+    /// Where a formula has a value.
+    Isosurface(Box<Isosurface>),
     /// All the parts' surfaces together. Parts are placed in the union's own frame.
     Union(Vec<Object>),
+}
+
+/// The points of a container where a function of `x`, `y` and `z` has the value `threshold`; the inside is where it is below.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Isosurface {
+    /// The function.
+    pub function: Arc<Formula>,
+    /// The value.
+    pub threshold: f64,
+    /// What holds the surface. Where it cuts the inside it is closed by its own face, unless the object is open.
+    pub container: Container,
+}
+
+/// What holds the surface of a function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Container {
+    /// A box between two opposite corners.
+    Box(Point3, Point3),
+    /// A ball: its middle and its radius.
+    Ball(Point3, f64),
 }
 
 /// A quadric in its principal frame.

@@ -8,6 +8,7 @@ pub mod compose;
 pub mod disc;
 mod edges;
 mod facet;
+pub mod implicit;
 #[cfg(any(test, feature = "laws"))]
 #[doc(hidden)]
 pub mod laws;
@@ -24,6 +25,7 @@ mod roots;
 mod sink;
 pub mod sphere;
 mod surface;
+pub mod tape;
 pub mod textbook;
 pub mod torus;
 pub mod triangle;
@@ -36,6 +38,7 @@ pub use crate::compose::affine::Placed;
 pub use crate::compose::clip::{Algebraic, Clip, Region, RegionError};
 pub use crate::compose::inverse::Inverse;
 pub use crate::disc::{Disc, DiscError};
+pub use crate::implicit::{Container, Isosurface, IsosurfaceError};
 pub use crate::local::{CentredRay, End, LocalPoint, LocalRay, ROUGH, RingRay};
 pub use crate::mesh::{FLAT, Mesh, MeshData, MeshError};
 pub use crate::parallelogram::{Parallelogram, ParallelogramError};

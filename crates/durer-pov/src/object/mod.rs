@@ -81,6 +81,8 @@ pub(crate) enum Shape {
         axis: [f64; 3],
         half_angle: f64,
     },
+    /// And whether it is open.
+    Isosurface(Rc<durer_scene::Isosurface>, bool),
     Union(Vec<Rc<Object>>),
     Light(Rc<Light>),
 }
@@ -183,6 +185,7 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
             | Mesh
             | Mesh2
             | Quadric
+            | Isosurface
             | Torus
             | Cubic
             | Quartic

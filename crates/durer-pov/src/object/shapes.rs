@@ -93,6 +93,7 @@ impl Reader<'_> {
                 }
                 Shape::Quadric(Box::new([a, b, c, d, e, f, g, h, i, constant]))
             }
+            Keyword::Isosurface => self.isosurface(place)?,
             Keyword::Torus => {
                 let major = self.radius("the torus's major radius")?;
                 self.skip_comma()?;

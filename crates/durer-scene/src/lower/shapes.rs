@@ -4,13 +4,13 @@ use std::fmt::Display;
 
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
-    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, CappedCylinder, Disc, FLAT, Frustum, Parallelogram,
-    Plane, Polygon, Quadric, Region, Sphere, SphericalSector, Torus, Triangle, TriangleError,
+    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, CappedCylinder, Disc, FLAT, Frustum, Isosurface,
+    Parallelogram, Plane, Polygon, Quadric, Region, Sphere, SphericalSector, Torus, Triangle, TriangleError,
 };
 
 use super::build::{Inside, Target};
 use super::{LowerErrorKind, exact, named};
-use crate::{Mesh, Object, Shape};
+use crate::{Container, Mesh, Object, Shape};
 
 /// What became of a shape.
 pub(super) enum Built {
@@ -92,6 +92,19 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
                 SphericalSector::with_half_angle(centre, radius, axis, half_angle).map_err(shape_error)?;
             target.contain(&sector, map);
             target.add_rare(sector, map);
+        }
+        Shape::Isosurface(iso) => {
+            let container = match iso.container {
+                Container::Box(a, b) => {
+                    durer_surfaces::Container::Box(AxisBox::new(a, b).map_err(shape_error)?)
+                }
+                Container::Ball(centre, radius) => {
+                    durer_surfaces::Container::Ball(Sphere::new(centre, radius.abs()).map_err(shape_error)?)
+                }
+            };
+            let solid = Isosurface::new(&iso.function, iso.threshold, container).map_err(shape_error)?;
+            target.contain(&solid, map);
+            target.add_rare(if open { solid.without_caps() } else { solid }, map);
         }
         shape => return flat(shape, map, target),
     }
@@ -303,6 +316,7 @@ fn name(shape: &Shape) -> &'static str {
         Shape::Torus { .. } => "a torus",
         Shape::Named(_) => "a named quadric",
         Shape::SphericalSector { .. } => "a spherical sector",
+        Shape::Isosurface(_) => "an isosurface",
         Shape::Union(_) => "a union",
     }
 }
