@@ -170,11 +170,13 @@ impl Number for f64 {
     }
     #[inline(always)]
     fn powi(a: &Self, n: i32) -> Self {
-        if *a == 0.0 && n < 0 { Self::NAN } else { elementary::powi(*a, n) }
+        // What is undefined stays so, also to the power of zero.
+        if a.is_nan() || (*a == 0.0 && n < 0) { Self::NAN } else { elementary::powi(*a, n) }
     }
     #[inline(always)]
     fn pow(a: &Self, b: &Self) -> Self {
-        if *a == 0.0 && *b < 0.0 { Self::NAN } else { elementary::pow(*a, *b) }
+        let undefined = a.is_nan() || b.is_nan() || (*a == 0.0 && *b < 0.0);
+        if undefined { Self::NAN } else { elementary::pow(*a, *b) }
     }
     #[inline(always)]
     fn atan2(y: &Self, x: &Self) -> Self {
