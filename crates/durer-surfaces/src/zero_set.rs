@@ -5,7 +5,7 @@
 use crate::local::ROUGH;
 use crate::point::least_step;
 use crate::quadric::body::{Chart, Frame};
-use crate::roots::polynomial::{Along, Found, Stretch, solve};
+use crate::roots::polynomial::{Along, Found, Stretch, solve, stays};
 use crate::roots::quadratic::{Limits, NARROW, Quadratic};
 use crate::roots::sturm::Sturm;
 use crate::{
@@ -27,7 +27,14 @@ pub trait ZeroSet<const N: usize>: Send + Sync {
     /// `f` along a ray in the frame, times any positive factor: the coefficients of the powers of the ray's parameter, the constant first.
     fn along<T: Ring>(&self, ray: &RingRay<T>) -> [T; N];
 
+    /// The same in f64, for a ray whose origin and direction are known within `eo` and `ed`. An author who counts the roundings by hand makes it faster.
+    #[inline(always)]
+    fn along_in_f64(&self, o: Vec3, d: Vec3, eo: Vec3, ed: Vec3) -> [Run; N] {
+        self.along(&RingRay { o: within(o, eo), d: within(d, ed), w: Run::exact(1.0) })
+    }
+
     /// `f` at the point `p / w`, times any positive factor that depends on `w` only and is 1 for `w = 1`.
+    #[inline(always)]
     fn at<T: Ring>(&self, p: &[T; 3], w: &T) -> T {
         let zero = || T::exact(0.0);
         let [value, ..] =
@@ -68,8 +75,11 @@ fn moved<T: Ring>(ray: RingRay<T>, mid: f64) -> RingRay<T> {
         return ray;
     }
     let [o, d] = [ray.o, ray.d];
-    let step = |o: &T, d: &T| o.clone() + T::exact(mid) * d.clone();
-    RingRay { o: [step(&o[0], &d[0]), step(&o[1], &d[1]), step(&o[2], &d[2])], d, w: ray.w }
+    #[inline(always)]
+    fn step<T: Ring>(o: &T, d: &T, mid: f64) -> T {
+        o.clone() + T::exact(mid) * d.clone()
+    }
+    RingRay { o: [step(&o[0], &d[0], mid), step(&o[1], &d[1], mid), step(&o[2], &d[2], mid)], d, w: ray.w }
 }
 
 /// The exact ray; if it is not exactly known, the one that the rounded numbers describe, and `false`.
@@ -97,7 +107,7 @@ impl<const N: usize, Z: ZeroSet<N>> Along<N> for Line<'_, Z> {
             o = Vec3::new(mid.mul_add(ray.d.x, o.x), mid.mul_add(ray.d.y, o.y), mid.mul_add(ray.d.z, o.z));
             e = (e + ray.d_err * mid.abs() + o.abs() * U) * (1.0 + 8.0 * U);
         }
-        self.shape.along(&RingRay { o: within(o, e), d: within(ray.d, ray.d_err), w: Run::exact(1.0) })
+        self.shape.along_in_f64(o, ray.d, e, ray.d_err)
     }
 
     #[inline(always)]
@@ -146,6 +156,9 @@ fn roots_here<const N: usize, Z: ZeroSet<N>>(shape: &Z, ray: &LocalRay<'_>, sink
         return;
     }
     let Some((mid, half)) = shape.stretch(&at) else { return };
+    if half < f64::INFINITY && leaves(shape, &at, mid + half) {
+        return;
+    }
     let stretch = if half < f64::INFINITY {
         Stretch::Within { mid, half: eight_bits(half) }
     } else {
@@ -154,7 +167,7 @@ fn roots_here<const N: usize, Z: ZeroSet<N>>(shape: &Z, ray: &LocalRay<'_>, sink
     let limits = Limits { lo, hi, origin: at.shift(), width: if ray.rough { ROUGH } else { NARROW } };
     let mut least = f64::NEG_INFINITY;
     solve(&Line { shape, ray: &at, mid }, stretch, &limits, |found: &Found<'_>| {
-        let (lo, hi) = at.bracket(found.lo, found.hi);
+        let (lo, hi) = at.bracket(outward(found.lo, -1.0), outward(found.hi, 1.0));
         let (near, far) = sink.range();
         if lo > far.min(ray.t_max) {
             return Flow::Stop;
@@ -175,6 +188,33 @@ fn roots_here<const N: usize, Z: ZeroSet<N>>(shape: &Z, ray: &LocalRay<'_>, sink
         let kind = if found.certain { kind } else { Kind::Cluster };
         sink.push(Root { t, lo, hi: hi.max(t), s: found.s, tag: [0.0; 2], face: 0, sign, kind })
     });
+}
+
+/// The end of a bracket, moved outward where it is so near zero that scaling it might cost it bits.
+#[inline(always)]
+fn outward(s: f64, away: f64) -> f64 {
+    if s.abs() >= TINY {
+        s
+    } else if s * away > 0.0 {
+        TINY * away
+    } else {
+        0.0
+    }
+}
+
+/// Whether a ray that was spawned on this surface certainly does not meet it again before `end`: as seen from its start, where the side is known.
+#[inline(always)]
+fn leaves<const N: usize, Z: ZeroSet<N>>(shape: &Z, ray: &CentredRay<'_>, end: f64) -> bool {
+    let Some((side, _, start)) = ray.spawned() else { return false };
+    let half = 0.5 * (end - start.v) * (1.0 + 4.0 * U);
+    if half <= 0.0 {
+        return true;
+    }
+    let (p, e) = ray.point_at_end(End::Min);
+    let d = ray.d;
+    let o = Vec3::new(half.mul_add(d.x, p.x), half.mul_add(d.y, p.y), half.mul_add(d.z, p.z));
+    let e = (e + ray.d_err * half + o.abs() * U) * (1.0 + 8.0 * U);
+    stays(&shape.along_in_f64(o, d, e, ray.d_err), half, side == RaySide::Front)
 }
 
 /// The least number with 8 significant bits that is not below `x`.
@@ -198,11 +238,25 @@ fn in_range<const N: usize, Z: ZeroSet<N>>(
         let at = ray.end(end);
         !at.is_finite()
             || outer
-            || Isa::detect().run(|| end_against_root(shape, end, found, ray, mid)) != {
+            || end_against_root_in_door(shape, end, found, ray, mid) != {
                 if end == End::Min { Greater } else { Less }
             }
     };
     inside(End::Min, lo >= ray.end(End::Min)) && inside(End::Max, hi <= ray.end(End::Max))
+}
+
+#[inline(never)]
+fn end_against_root_in_door<const N: usize, Z: ZeroSet<N>>(
+    shape: &Z,
+    end: End,
+    found: &Found<'_>,
+    ray: &CentredRay<'_>,
+    mid: f64,
+) -> Ordering {
+    Isa::detect().run(
+        #[inline(always)]
+        || end_against_root(shape, end, found, ray, mid),
+    )
 }
 
 /// Where an end of the range lies relative to a crossing.
@@ -388,13 +442,15 @@ fn project<const N: usize, Z: ZeroSet<N>>(shape: &Z, mut y: Vec3) -> (Vec3, Run,
 }
 
 /// How far to go along `n`, either way, until the sign of `f` is certain, also for all points within `e` and a 64th of the way.
+#[inline(always)]
 fn leave<const N: usize, Z: ZeroSet<N>>(shape: &Z, y: Vec3, n: Vec3, e: Vec3) -> f64 {
     let mut way = 64.0 * (e.max_abs() + U * y.max_abs());
     for _ in 0..120 {
         let slack = way * (1.0 / 32.0);
         let e = e + Vec3::new(slack, slack, slack);
-        let known = |y: Vec3| value(shape, y, e).sign().is_some_and(Ordering::is_ne);
-        if known(y + n * way) && known(y - n * way) {
+        let plus = value(shape, y + n * way, e).sign();
+        let minus = value(shape, y - n * way, e).sign();
+        if plus.is_some_and(Ordering::is_ne) && minus.is_some_and(Ordering::is_ne) {
             break;
         }
         way *= 2.0;

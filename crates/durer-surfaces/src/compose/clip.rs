@@ -56,7 +56,10 @@ impl<S: Algebraic> Algebraic for Placed<S> {
     }
 
     fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {
-        let local = ray.through(self.map());
+        let local = Isa::detect().run(
+            #[inline(always)]
+            || ray.through(self.map()),
+        );
         let (step, k) = local.parent_clock()?;
         self.surface().sign_at_root(&local, root, &in_childs_parameter(q, step, k))
     }
@@ -307,7 +310,10 @@ impl Region {
         let (local, clock) = match &self.map {
             None => (ray, None),
             Some(map) => {
-                placed = ray.through(map);
+                placed = Isa::detect().run(
+                    #[inline(always)]
+                    || ray.through(map),
+                );
                 (&placed, placed.parent_clock())
             }
         };

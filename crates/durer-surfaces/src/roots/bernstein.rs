@@ -189,6 +189,15 @@ impl<const N: usize> Bernstein<f64, N> {
         Self { b, e: size.mul_add(unit, slack) * (1.0 + 64.0 * f64::EPSILON) + FLOOR }
     }
 
+    /// Whether all coefficients but the first are of this sign for certain, and the first is not of the other. If the first is of this sign too, for other
+    /// reasons, there is no root.
+    #[inline(always)]
+    pub(crate) fn stays(&self, positive: bool) -> bool {
+        let sign = if positive { 1.0 } else { -1.0 };
+        let e = self.e * (1.0 + 4.0 * f64::EPSILON);
+        self.b[1..].iter().fold(self.b[0] * sign >= -e, |all, b| all & (b * sign > e))
+    }
+
     /// Where the control polygon crosses zero, if it does so once: a good guess at the root.
     #[inline(always)]
     pub(crate) fn guess(&self) -> f64 {
@@ -234,10 +243,10 @@ mod tests {
         parts: impl Fn(T) -> (f64, f64),
         exact: &[Dyadic; N],
     ) {
-        for j in 0..N {
+        for (j, exact) in exact.iter().enumerate() {
             let (hi, lo) = parts(found.b[j]);
             let c = Dyadic::from(choose(N - 1, j) as f64);
-            let error = &(&(&Dyadic::from(hi) + &Dyadic::from(lo)) * &c) - &exact[j];
+            let error = &(&(&Dyadic::from(hi) + &Dyadic::from(lo)) * &c) - exact;
             assert!(error.abs() <= &Dyadic::from(found.e) * &c, "coefficient {j} of {N}");
         }
     }

@@ -220,7 +220,10 @@ impl<T: Word, const N: usize> Scaled<T, N> {
             }
             let w = widest(x);
             if b - a <= w {
-                return Some((0.5 * (a + b), a, b));
+                // The point itself is wanted as well as it can be had, also where far origins allow wide brackets.
+                let middle = 0.5 * (a + b);
+                let better = middle - side(middle).0 / self.slope(middle);
+                return Some((if better > a && better < b { better } else { middle }, a, b));
             }
             let (value, above) = side(x);
             let step = value / self.slope(x);
@@ -327,6 +330,13 @@ impl<const N: usize> Scaled<f64, N> {
     }
 }
 
+/// Whether a polynomial in `y` has no root on `[-half, half]`, where its sign at `-half` is known.
+#[inline(always)]
+pub(crate) fn stays<const N: usize>(a: &[Run; N], half: f64, positive: bool) -> bool {
+    let scaled = Scaled::<f64, N>::new(a, half);
+    Bernstein::quick(&scaled.c, scaled.slack()).stays(positive)
+}
+
 /// What is being solved.
 struct Work<'w, L, F, const N: usize> {
     line: &'w L,
@@ -390,15 +400,21 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
     #[inline(always)]
     fn settle_double(&mut self, scaled: &Scaled<f64, N>, place: Place) -> Result<Flow, Doubt> {
         let (limits, emit) = (self.limits, &mut self.emit);
-        scaled.walk(-1.0, false, skips(place, limits), |node, rising| {
-            let widest = |x: f64| place.widest(x, limits);
-            let ends = (node.l, node.r);
-            let start = node.form.guess().mul_add(node.r - node.l, node.l);
-            let found =
-                scaled.newton(ends, start, widest).or_else(|| scaled.refine(ends, rising, start, widest));
-            let found = found.ok_or(Doubt(node.l))?;
-            Ok(emit(&named(place, ends, found, rising)))
-        })
+        scaled.walk(
+            -1.0,
+            false,
+            skips(place, limits),
+            #[inline(always)]
+            |node, rising| {
+                let widest = |x: f64| place.widest(x, limits);
+                let ends = (node.l, node.r);
+                let start = node.form.guess().mul_add(node.r - node.l, node.l);
+                let found =
+                    scaled.newton(ends, start, widest).or_else(|| scaled.refine(ends, rising, start, widest));
+                let found = found.ok_or(Doubt(node.l))?;
+                Ok(emit(&named(place, ends, found, rising)))
+            },
+        )
     }
 
     /// On a stretch from `x` on.
@@ -475,16 +491,22 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
                 hi.next_up() < limits.lo || lo.next_down() > limits.hi
             }
         };
-        let walked = reversed.walk(-1.0, true, skips, |node, rising| {
-            let ends = (node.l, node.r);
-            let widest = |x: f64| Place::Inverse.widest(x, limits);
-            let found =
-                reversed.refine(ends, rising, 0.5 * (node.l + node.r), widest).ok_or(Doubt(node.l))?;
-            // p(s) = s^n q(1 / s): on the negative side an odd degree turns the sign; and σ falls as s rises.
-            let turned = ends.1 <= 0.0 && scaled.degree % 2 == 1;
-            out.push((ends, found, rising == turned));
-            Ok(Flow::Continue)
-        });
+        let walked = reversed.walk(
+            -1.0,
+            true,
+            skips,
+            #[inline(always)]
+            |node, rising| {
+                let ends = (node.l, node.r);
+                let widest = |x: f64| Place::Inverse.widest(x, limits);
+                let found =
+                    reversed.refine(ends, rising, 0.5 * (node.l + node.r), widest).ok_or(Doubt(node.l))?;
+                // p(s) = s^n q(1 / s): on the negative side an odd degree turns the sign; and σ falls as s rises.
+                let turned = ends.1 <= 0.0 && scaled.degree % 2 == 1;
+                out.push((ends, found, rising == turned));
+                Ok(Flow::Continue)
+            },
+        );
         walked.is_ok().then_some(out)
     }
 
@@ -496,11 +518,10 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
         let Some(sturm) = Sturm::new(coefficients) else { return };
         let (from, to) = (sturm.beside(from, -1.0), sturm.beside(to, 1.0));
         let width = if self.limits.width < 1.0 { self.limits.width } else { U };
-        let limits = Limits { width, ..*self.limits };
         for mut root in sturm.isolate(&from, &to) {
             let enough = |lo: f64, hi: f64| {
                 let s = mid + lo;
-                hi - lo <= 0.5 * width * (limits.origin + s).abs().max(s.abs()).max(0.5)
+                hi - lo <= 0.5 * width * s.abs().max(0.5)
             };
             let (lo, hi) = sturm.bracket(&mut root, enough);
             let (lo, hi) = if mid == 0.0 { (lo, hi) } else { ((mid + lo).next_down(), (mid + hi).next_up()) };

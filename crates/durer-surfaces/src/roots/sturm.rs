@@ -139,17 +139,6 @@ impl Sturm {
         n
     }
 
-    /// A point between `l` and `r` at which there is no root.
-    fn between(&self, l: &Dyadic, r: &Dyadic) -> Dyadic {
-        let first = middle(l, r);
-        // Dyadic fractions of the upper half, as many as there may be roots and one more.
-        let mut next = first.clone();
-        while sign_at(&self.simple, &next).is_eq() {
-            next = (&next + r).scale2(-1);
-        }
-        next
-    }
-
     /// The distinct roots strictly between two numbers which are no roots, ascending, each by itself.
     pub(crate) fn isolate(&self, from: &Dyadic, to: &Dyadic) -> Vec<Isolated> {
         let mut out = vec![];
@@ -160,20 +149,47 @@ impl Sturm {
         while let Some((l, r, at_l, at_r)) = open.pop() {
             match at_l.saturating_sub(at_r) {
                 0 => {}
-                1 => {
-                    let (before, after) = (sign_at(&self.whole, &l), sign_at(&self.whole, &r));
-                    let turn = sign_at(&self.simple, &r);
-                    out.push(Isolated { l, r, before, after, turn });
-                }
+                1 => out.push(self.named(l, r)),
                 _ => {
-                    let m = self.between(&l, &r);
-                    let at_m = self.changes(&m);
-                    open.push((m.clone(), r, at_m, at_r));
-                    open.push((l, m, at_l, at_m));
+                    let m = middle(&l, &r);
+                    if sign_at(&self.simple, &m).is_eq() {
+                        // A root itself: alone within some distance.
+                        let (a, b, at_a, at_b) = self.about(&m, &l, &r);
+                        open.push((b.clone(), r, at_b, at_r));
+                        open.push((a.clone(), b, at_a, at_b));
+                        open.push((l, a, at_l, at_a));
+                    } else {
+                        let at_m = self.changes(&m);
+                        open.push((m.clone(), r, at_m, at_r));
+                        open.push((l, m, at_l, at_m));
+                    }
                 }
             }
         }
         out
+    }
+
+    /// The one root between `l` and `r`.
+    fn named(&self, l: Dyadic, r: Dyadic) -> Isolated {
+        let (before, after) = (sign_at(&self.whole, &l), sign_at(&self.whole, &r));
+        let turn = sign_at(&self.simple, &r);
+        Isolated { l, r, before, after, turn }
+    }
+
+    /// Numbers on either side of a root, within `l` and `r`, between which there is no other, and how often the chain changes there.
+    fn about(&self, root: &Dyadic, l: &Dyadic, r: &Dyadic) -> (Dyadic, Dyadic, usize, usize) {
+        let mut way = (root - l).min(r - root).scale2(-1);
+        let mut less = 1;
+        loop {
+            let (a, b) = (root - &way, root + &way);
+            let (at_a, at_b) = (self.changes(&a), self.changes(&b));
+            let clear = sign_at(&self.simple, &a).is_ne() && sign_at(&self.simple, &b).is_ne();
+            if clear && at_a == at_b + 1 {
+                return (a, b, at_a, at_b);
+            }
+            way = way.scale2(-less);
+            less *= 2;
+        }
     }
 
     /// A number near `x` which is no root, not above it (`away` is -1) or not below it (+1).
@@ -186,6 +202,8 @@ impl Sturm {
         let mut step = Dyadic::from(away);
         if let Some(e) = at.exponent() {
             step = step.scale2((e - 60) as i32);
+        } else {
+            step = step.scale2(-1100);
         }
         while sign_at(&self.simple, &at).is_eq() {
             at = &at + &step;
@@ -319,7 +337,7 @@ mod tests {
     #[test]
     fn every_distinct_root_is_found_once_with_its_signs() {
         let near = 1.0_f64.next_up();
-        let cases: [&[f64]; 9] = [
+        let cases: [&[f64]; 10] = [
             &[],
             &[0.0],
             &[0.0, 0.0],
@@ -329,6 +347,7 @@ mod tests {
             &[1e-300, 1e300, -1e-300],
             &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0],
             &[0.5, 0.5, 0.5, 0.5, 1.5, 1.5, -1.0, -1.0, -1.0],
+            &[0.0, -5e-324, -5e-324, 5e-324],
         ];
         for roots in cases {
             for extra in 0..3 {
