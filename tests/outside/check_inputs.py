@@ -151,7 +151,7 @@ def wrong_values(x):
         "mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, 3> } }": "", "mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, -1> } }": "",
         "mesh2 { vertex_vectors { -3, 0, x, y } face_indices { 1, <0, 1, 2> } }": "", "mesh2 { vertex_vectors { 1e9, 0, x, y } face_indices { 1, <0, 1, 2> } }": "",
         "polygon { 2, 0, x }": "", "polygon { 1e18, 0, x, y }": "", "polygon { -4, 0, x, y, 0 }": "", "triangle { 0, x }": "", "sphere { 0 }": "", "sphere { }": "", "sphere": "",
-        "mesh { }": None, "union { }": None, "sphere { 0, 1 clipped_by { torus { 1, .5 } } }": "torus", "torus { 1, .5 }": "not supported yet: torus",
+        "mesh { }": None, "union { }": None, "sphere { 0, 1 clipped_by { torus { 1, .5 } } }": "torus", "lathe { 1, .5 }": "not supported yet: lathe",
         "blob { sphere { 0, 1, 1 } }": "not supported yet: blob", "isosurface { function { x } }": "not supported yet: isosurface",
         "fog { distance 10 }": "not supported yet: fog", "sphere { 0, 1 pigment { marble } }": "not supported yet: marble", "media { }": "not supported yet: media",
         "#declare A = array[3] { 1, 2 }; sphere { 0, A[7] }": "", "#declare A = array[1e12]": "", "#declare A = array[0]": "", "sphere { Nothing, 1 }": "Nothing",
@@ -165,20 +165,23 @@ def wrong_values(x):
         "light_source { 0, rgb 1 spotlight radius -1 falloff -2 }": None, "sphere { 0, 1 pigment { checker color_map { [0 rgb 1] } } }": "", "sphere { 0, 1 interior { ior 0 } }": None, "sphere { 0, 1 interior { ior -1 } }": None,
         "sphere { 0, 1 finish { phong_size -1 } }": None, "sphere { 0, 1 finish { roughness 0 } }": None, "hyperboloid { <1, 1, 0>, sheets 1 }": "", "ellipsoid { <1, 1, -1> }": "", "hyperboloid { <1, 1, 1>, sheets 3 }": "",
         "hyperboloid { 1, 1, sheets 1, from 1 to -1 }": "", "spherical_sector { 0, 1, y, 0 }": "", "parallelogram { 0, x, x }": "",
+        "torus { 0, 1 }": "zero", "torus { 1, 0 }": "zero", "torus { 1 }": "", "poly { 40, <1, 2, 3> }": "from 2 to 16", "poly { 2.5, <1> }": "from 2 to 16", "poly { 1, <1, 2, 3, 4> }": "from 2 to 16",
+        "quartic { <1, 2, 3> }": "35 coefficients", "poly { 2, <1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1> }": "10 coefficients", "cubic { 1 }": "", "poly { 2, <0, 0, 0, 0, 0, 0, 0, 0, 0, 5> }": "no variable",
+        "polynomial { 4, xyz(3, 2, 0): 1 }": "add up to 4", "polynomial { 4, xyz(-1, 2, 0): 1 }": "add up to 4", "polynomial { 4, xyz(1, 0.5, 0): 1 }": "add up to 4", "polynomial { 3 }": "no variable", "polynomial { 3, xyz(1, 0): 1 }": "",
     }
     for words, says in flat.items():
         x.scene(f"wrong value: {words}", GOOD + words + "\n", code=(0, 1) if says is None else 1, says=says or None, needs_place=says is not None)
         x.scene(f"wrong value, checked: {words}", GOOD + words + "\n", code=(0, 1) if says is None else 1, command="check", needs_place=says is not None)
     x.scene("no camera", "sphere { 0, 1 }", says="camera", needs_place=False)
     places = {
-        "sphere { 0, 1 }\n  torus { 1, 0.5 }\n": (2, 3), "sphere { 0, 1\n}\n\tsphere { 0, 1/0 }\n": None, "#declare A = 3;\nsphere { A, B }\n": (2, 13),
-        "\n\n   sphere { 0, 1 pigment { marble } }": (3, 28), "/* a\n b */ torus { 1, .5 }": (2, 7), "#macro M()\n  torus { 1, .5 }\n#end\nM()\n": (2, 3),
-        "#if (1)\n#while (0)\n#end\n": None, "sphere { 0, 1 }\r\n\r\ntorus { 1, .5 }\r\n": (3, 1), "// \xe4\xf6\xfc\nsphere { 0, 1 } /* \xe9 */ torus { 1, .5 }": (2, 25),
+        "sphere { 0, 1 }\n  lathe { 1, 0.5 }\n": (2, 3), "sphere { 0, 1\n}\n\tsphere { 0, 1/0 }\n": None, "#declare A = 3;\nsphere { A, B }\n": (2, 13),
+        "\n\n   sphere { 0, 1 pigment { marble } }": (3, 28), "/* a\n b */ lathe { 1, .5 }": (2, 7), "#macro M()\n  lathe { 1, .5 }\n#end\nM()\n": (2, 3),
+        "#if (1)\n#while (0)\n#end\n": None, "sphere { 0, 1 }\r\n\r\nlathe { 1, .5 }\r\n": (3, 1), "// \xe4\xf6\xfc\nsphere { 0, 1 } /* \xe9 */ lathe { 1, .5 }": (2, 25),
     }
     for words, at in places.items():
         x.scene(f"place of: {words!r}", words, place=at)
-    x.scene("place in a Latin-1 file", "// \xe4\xf6\xfc\n/* \xe9 */ torus { 1, .5 }".encode("latin-1"), place=(2, 9))
-    x.scene("place in an included file", 'sphere { 0, 1 }\n#include "part.inc"\n', files={"part.inc": "\n torus { 1, .5 }"}, place=("part.inc", 2, 2))
+    x.scene("place in a Latin-1 file", "// \xe4\xf6\xfc\n/* \xe9 */ lathe { 1, .5 }".encode("latin-1"), place=(2, 9))
+    x.scene("place in an included file", 'sphere { 0, 1 }\n#include "part.inc"\n', files={"part.inc": "\n lathe { 1, .5 }"}, place=("part.inc", 2, 2))
 
 
 def endless(x):

@@ -24,7 +24,7 @@ import numpy as np
 
 import scenes
 from exact import to_float, union
-from shapes import Form, IDENTITY, Loops, add, cross, dot, small, sub, times
+from shapes import IDENTITY, Loops, add, cross, dot, small, sub, times
 
 INF = float("inf")
 U = 2.0**-53
@@ -51,7 +51,7 @@ def aim(rng, leaf):
     """A local point of interest and a local direction through it."""
     points = list(leaf.points())
     p = rng.choice(points)
-    forms = [f for f in (*getattr(leaf, "forms", ()), *leaf.clip, getattr(leaf, "face", None)) if isinstance(f, Form)]
+    forms = [f for f in (*getattr(leaf, "forms", ()), *leaf.clip, getattr(leaf, "face", None)) if hasattr(f, "gradient")]
     slopes = [g for g in (f.gradient(p) for f in forms) if any(g)]
     ways = ["axis", "small", "any", "chord"] + ["special"] * 2 * bool(leaf.directions) + ["tangent"] * 4 * bool(slopes)
     ways += ["rim", "normal"] * (len(slopes) > 1)
@@ -222,11 +222,12 @@ def close_normal(event, leaf, n, ray, width, direction):
     stretch = max(abs(to_float(x)) for r in leaf.whole.rows for x in r) * max(abs(to_float(F(x, leaf.whole.w))) for r in leaf.whole.n for x in r)
     best, allowed = INF, 1e-9 * stretch
     for source, flip in event.normals:
-        g = source.gradient(p) if isinstance(source, Form) else source
+        curved = hasattr(source, "gradient")
+        g = source.gradient(p) if curved else source
         if not any(g):
             return True
         # The gradient turns by the second derivatives times that distance.
-        turn = 6 * max(map(abs, source.k[:6])) * F(off) / max(map(abs, g)) if isinstance(source, Form) else 0
+        turn = 6 * source.bend(p) * F(off) / max(map(abs, g)) if curved else 0
         if turn > F(1, 1000):
             return True
         allowed = max(allowed, 1e-9 * stretch + 100 * stretch * to_float(turn))

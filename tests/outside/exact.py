@@ -48,6 +48,8 @@ class Number:
             if other in (float("inf"), float("-inf")):
                 return -sign(other)
             other = Number.of(other)
+        if not isinstance(other, Number):
+            return -other.cmp(self)
         p = self.p * other.a - other.p * self.a
         q, r = self.q * other.a, -other.q * self.a
         if r == 0:
@@ -88,6 +90,8 @@ def to_float(x):
 def sign_at(poly, t):
     """The sign of c0 + c1 t + c2 t^2 at a Number."""
     c0, c1, c2 = poly
+    if not isinstance(t, Number):
+        return t.sign_of(poly)
     p, q, d, a = t.p, t.q, t.d, t.a
     if q == 0:
         return sign((c2 * p + c1 * a) * p + c0 * a * a)

@@ -7,6 +7,7 @@ from shapes import (
     Form, IDENTITY, Loops, Map, Sheet, Solid, TURNS, UNITS, add, cross, distance_form, dot, dyadic, frame, halfspace, on_circle,
     signed_permutation, small, sub, text, times, vec, wall_form,
 )
+from zero_sets import ZeroSet, polynomial, torus
 
 
 def wild(rng, low=-4, high=4):
@@ -485,7 +486,7 @@ def placement(rng):
 
 MAKERS = {
     "sphere": sphere, "box": box, "cylinder": cylinder, "cone": cone, "plane": plane, "disc": disc, "triangle": triangle,
-    "polygon": polygon, "mesh": mesh, "quadric": quadric, "named": named,
+    "polygon": polygon, "mesh": mesh, "quadric": quadric, "named": named, "torus": torus, "polynomial": polynomial,
 }
 
 
@@ -503,7 +504,7 @@ def leaf_of(rng, kind, clips=True):
     leaf = MAKERS[kind](rng)
     if clips and rng.random() < 0.2:
         clip(rng, leaf)
-    elif isinstance(leaf, Solid) and rng.random() < 0.12:
+    elif isinstance(leaf, (Solid, ZeroSet)) and rng.random() < 0.12:
         leaf.inverse = True
     leaf.map = placement(rng)
     return leaf

@@ -89,6 +89,10 @@ class Form:
         x, y, z = p
         return (2 * a * x + d * y + e * z + g, 2 * b * y + d * x + f * z + h, 2 * c * z + e * x + f * y + i)
 
+    def bend(self, _):
+        """The size of the second derivatives."""
+        return max(map(abs, self.k[:6]))
+
 
 class Map:
     """x -> L x + c, exact."""

@@ -13,6 +13,7 @@ import scenes
 from check_trace import Expected, in_world, make_ray
 from exact import Number, holds, sign
 from shapes import Loops, Sheet, Solid, dot, sub
+from zero_sets import ZeroSet, multiply, real_roots
 
 TINY = F(1, 1 << 4000)  # below all products of subnormal numbers
 
@@ -49,6 +50,15 @@ def holds_point(body, p):
     if word == "quadric":
         monomials = (p[0] ** 2, p[1] ** 2, p[2] ** 2, p[0] * p[1], p[0] * p[2], p[1] * p[2], *p, 1)
         return sum(a * b for a, b in zip(x, monomials)) <= 0
+    if word == "torus":
+        k = dot(p, p) + x[0] ** 2 - x[1] ** 2
+        return k * k <= 4 * x[0] ** 2 * (p[0] ** 2 + p[2] ** 2)
+    if word == "polynomial":
+        return sum(c * p[0] ** i * p[1] ** j * p[2] ** k for i, j, k, c in ((*map(int, x[n : n + 3]), x[n + 3]) for n in range(1, len(x), 4))) <= 0
+    if word in ("cubic", "quartic", "poly"):
+        n, terms = {"cubic": (3, x), "quartic": (4, x)}.get(word) or (int(x[0]), x[1:])
+        powers = sorted(((i, j, k) for i in range(n + 1) for j in range(n + 1 - i) for k in range(n + 1 - i - j)), reverse=True)
+        return sum(c * p[0] ** i * p[1] ** j * p[2] ** k for c, (i, j, k) in zip(terms, powers, strict=True)) <= 0
     raise AssertionError(word)
 
 
@@ -70,10 +80,10 @@ class Oracle(unittest.TestCase):
                 yield rng, scene, leaf, make_ray(rng, leaf, False)
 
     def test_solids_are_the_sets_of_their_text(self):
-        for kind in ("sphere", "box", "cylinder", "cone", "plane", "quadric"):
+        for kind in ("sphere", "box", "cylinder", "cone", "plane", "quadric", "torus", "polynomial"):
             with self.subTest(kind):
-                for rng, _, leaf, ray in self.cases(kind):
-                    if not isinstance(leaf, Solid):
+                for rng, _, leaf, ray in self.cases(kind, 12 if kind in ("torus", "polynomial") else 40):
+                    if not isinstance(leaf, (Solid, ZeroSet)):
                         continue
                     leaf.inverse = False
                     inside = leaf.answer(ray[:3], ray[3:6], leaf.whole).inside
@@ -83,9 +93,9 @@ class Oracle(unittest.TestCase):
                         self.assertEqual(said, holds_point(leaf.body, local(leaf, at(ray, t))), (leaf.sdl(), ray, t))
 
     def test_events_are_the_changes_of_the_set(self):
-        for kind in ("sphere", "box", "cylinder", "cone", "quadric"):
-            for _, _, leaf, ray in self.cases(kind):
-                if not isinstance(leaf, Solid) or leaf.clip:
+        for kind in ("sphere", "box", "cylinder", "cone", "quadric", "torus", "polynomial"):
+            for _, _, leaf, ray in self.cases(kind, 12 if kind in ("torus", "polynomial") else 40):
+                if not isinstance(leaf, (Solid, ZeroSet)) or leaf.clip:
                     continue
                 answer = leaf.answer(ray[:3], ray[3:6], leaf.whole)
                 ts = [e.t for e in answer.events]
@@ -156,6 +166,23 @@ class Oracle(unittest.TestCase):
             for _ in range(20):
                 ray = make_ray(rng, leaf, False)
                 self.assertEqual(sum(e.sign for e in leaf.answer(ray[:3], ray[3:6], leaf.whole).events), 0)
+
+    def test_roots_of_products_are_those_of_the_factors(self):
+        rng = random.Random(2)
+        for _ in range(300):
+            zeros = sorted(F(rng.randint(-20, 20), rng.choice((1, 1, 2, 7))) for _ in range(rng.randint(0, 6)))
+            p = [rng.choice((-3, 1))]
+            for z in zeros:
+                p = multiply(p, [-z.numerator, z.denominator])
+            for _ in range(rng.randint(0, 2)):
+                p = multiply(p, [rng.randint(1, 5), 0, 1])
+            found = real_roots(p)
+            self.assertEqual([r.against(z) for r, z in zip(found, sorted(set(zeros)), strict=True)], [0] * len(found))
+            for r, z in zip(found, sorted(set(zeros))):
+                self.assertEqual(r.before == r.after, zeros.count(z) % 2 == 0)
+                self.assertEqual(r.sign_of([-z.numerator, z.denominator]), 0)
+                n, m = z.numerator, z.denominator
+                self.assertEqual((r.sign_of([-n - m, m]), r.sign_of([m - 9 * n, 9 * m])), (-1, 1))
 
     def test_surds_compare_as_rationals_say(self):
         rng = random.Random(1)

@@ -272,6 +272,11 @@ impl Sink for Challenger<'_> {
     }
 
     #[inline(always)]
+    fn limit(&self) -> f64 {
+        self.best.limit()
+    }
+
+    #[inline(always)]
     fn push(&mut self, root: Root) -> Flow {
         // Roots ascend: behind one that lost, the others lose too.
         let Some(root) = in_range(root, self.ray) else { return Flow::Continue };

@@ -207,6 +207,41 @@ impl Dyadic {
         Self::normalized(a.negative != b.negative, a.exponent + b.exponent, out)
     }
 
+    /// The quotient, if `divisor` divides this number: if it is a whole number times a power of two. `None` otherwise.
+    ///
+    /// From the low end: both magnitudes are odd, so each limb of the quotient follows from the lowest limb that is left, modulo `2^64`
+    /// (T. Jebelean, "An algorithm for exact division", *Journal of Symbolic Computation* 15, 1993).
+    pub fn exact_quotient(&self, divisor: &Self) -> Option<Self> {
+        if divisor.is_zero() {
+            return None;
+        }
+        if self.is_zero() {
+            return Some(Self::ZERO);
+        }
+        let n = (self.limbs.len() + 1).checked_sub(divisor.limbs.len())?;
+        let inverse = odd_inverse(divisor.limbs[0]);
+        let mut rest: Vec<u64> = self.limbs[..n.min(self.limbs.len())].to_vec();
+        rest.resize(n, 0);
+        let mut quotient = Limbs::zeros(n);
+        for i in 0..n {
+            let q = rest[i].wrapping_mul(inverse);
+            quotient[i] = q;
+            let (mut carry, mut borrow) = (0_u128, false);
+            for (j, x) in rest[i..].iter_mut().enumerate() {
+                let d = divisor.limbs.get(j).copied().unwrap_or(0);
+                let product = u128::from(q) * u128::from(d) + carry;
+                carry = product >> 64;
+                let (y, b1) = x.overflowing_sub(product as u64);
+                let (y, b2) = y.overflowing_sub(u64::from(borrow));
+                *x = y;
+                borrow = b1 || b2;
+            }
+        }
+        let negative = self.negative != divisor.negative;
+        let quotient = Self::normalized(negative, self.exponent - divisor.exponent, quotient);
+        (&quotient * divisor == *self).then_some(quotient)
+    }
+
     /// The nearest f64, ties to even; infinite if it is too large.
     pub fn to_f64(&self) -> f64 {
         let Some(e) = self.exponent() else { return 0.0 };
@@ -264,6 +299,11 @@ impl Dyadic {
         let lo = (&scaled - &Self::from_finite(hi)).to_f64();
         (crate::Dd { hi, lo }, k)
     }
+}
+
+/// The inverse of an odd number modulo `2^64`, by Newton's iteration: three bits are right at first, and each step doubles them.
+fn odd_inverse(x: u64) -> u64 {
+    (0..5).fold(x, |y, _| y.wrapping_mul(2_u64.wrapping_sub(x.wrapping_mul(y))))
 }
 
 fn add_limbs(x: &[u64], y: &[u64]) -> Limbs {

@@ -122,6 +122,17 @@ impl Reader<'_> {
                 return self.text_value(text, place);
             }
             Item::Value(Value::Number(_)) | Item::Number(_) => return self.number_value(),
+            Item::Value(Value::Function(_)) => {
+                // A function's name alone is the function.
+                let lexeme = self.next()?;
+                if let (Item::Value(value), true) =
+                    (&lexeme.item, self.raw() != Some(Kind::Mark(Mark::ParenOpen)))
+                {
+                    return Ok(value.clone());
+                }
+                self.put_back(lexeme);
+                return self.number_value();
+            }
             Item::Value(_) => {
                 let lexeme = self.next()?;
                 return match lexeme.item {
@@ -251,6 +262,7 @@ impl Reader<'_> {
                 self.next()?;
                 self.camera_value()
             }
+            Keyword::Function => Ok(Value::Function(Rc::new(self.function_block()?))),
             _ => self.object_value(),
         }
     }

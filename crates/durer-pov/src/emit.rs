@@ -204,7 +204,7 @@ impl Reader<'_> {
             no_reflection: habits.no_reflection,
             hollow: habits.hollow,
             inverse: habits.inverse,
-            open: habits.open,
+            open: habits.open || matches!(object.shape, Shape::Isosurface(_, true)),
             double_illuminate: habits.double_illuminate,
         };
         made.place = Some(scene::Place { file: at.file, start: at.start });
@@ -317,6 +317,10 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             scene::Shape::Mesh(Arc::new(made))
         }
         Shape::Quadric(coefficients) => scene::Shape::Quadric(coefficients.clone()),
+        Shape::Polynomial(order, coefficients) => {
+            scene::Shape::Polynomial { order: *order, coefficients: coefficients.iter().copied().collect() }
+        }
+        &Shape::Torus { major, minor } => scene::Shape::Torus { major, minor },
         Shape::Named(named) => scene::Shape::Named(Box::new(scene::NamedQuadric {
             kind: named.kind,
             semi_axes: named.semi_axes,
@@ -328,6 +332,7 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             axis: vector(*axis),
             half_angle: *half_angle,
         },
+        Shape::Isosurface(iso, _) => scene::Shape::Isosurface(Box::new((**iso).clone())),
         Shape::Union(_) | Shape::Csg(..) | Shape::Light(_) => {
             return Err(Fault::invalid(at, "a single surface is needed here"));
         }

@@ -116,7 +116,7 @@ keywords! {
     Phase = "phase", Phong = "phong", PhongSize = "phong_size", Photons = "photons", Pi = "pi",
     Pigment = "pigment", PigmentMap = "pigment_map", PigmentPattern = "pigment_pattern",
     Planar = "planar", Plane = "plane", Png = "png", PointAt = "point_at", Poly = "poly",
-    PolyWave = "poly_wave", Polygon = "polygon", Pot = "pot", Pow = "pow", Ppm = "ppm",
+    PolyWave = "poly_wave", Polygon = "polygon", Polynomial = "polynomial", Pot = "pot", Pow = "pow", Ppm = "ppm",
     Precision = "precision", Precompute = "precompute", Premultiplied = "premultiplied",
     PretraceEnd = "pretrace_end", PretraceStart = "pretrace_start", Prism = "prism", Prod = "prod",
     ProjectedThrough = "projected_through", Pwr = "pwr", QuadraticSpline = "quadratic_spline",

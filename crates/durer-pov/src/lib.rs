@@ -26,6 +26,8 @@ mod diagnostics;
 mod directives;
 mod emit;
 mod expression;
+mod formula;
+mod formulas;
 mod functions;
 mod keywords;
 mod lexer;

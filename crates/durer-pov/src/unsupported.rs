@@ -10,12 +10,10 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
         AaLevel
             | AaThreshold
             | Absorption
-            | Accuracy
             | Adaptive
             | Agate
             | AgateTurb
             | All
-            | AllIntersections
             | Alpha
             | Altitude
             | AlwaysSample
@@ -48,14 +46,12 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Composite
             | Confidence
             | ConicSweep
-            | ContainedBy
             | Control0
             | Control1
             | Coords
             | Count
             | Crackle
             | Cube
-            | Cubic
             | CubicSpline
             | CutawayTextures
             | Cylindrical
@@ -68,7 +64,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Distance
             | Eccentricity
             | ErrorBound
-            | Evaluate
             | ExpandThresholds
             | Exr
             | Exterior
@@ -84,7 +79,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | FogOffset
             | FogType
             | Form
-            | Function
             | Gamma
             | Gather
             | Gif
@@ -100,11 +94,9 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Importance
             | Inside
             | InteriorTexture
-            | Internal
             | Interpolate
             | Intervals
             | Irid
-            | Isosurface
             | Jitter
             | Jpeg
             | Julia
@@ -123,10 +115,8 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Marble
             | MaterialMap
             | MaxExtent
-            | MaxGradient
             | MaxIteration
             | MaxSample
-            | MaxTrace
             | MaximumReuse
             | Media
             | Method
@@ -156,7 +146,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | PigmentPattern
             | Planar
             | Png
-            | Poly
             | Pot
             | Ppm
             | Precision
@@ -169,7 +158,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | ProjectedThrough
             | Pwr
             | QuadraticSpline
-            | Quartic
             | Quaternion
             | Quilted
             | Radial
@@ -204,7 +192,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Spiral2
             | Spline
             | Spotted
-            | Sqr
             | Square
             | Strength
             | Subsurface
@@ -214,14 +201,12 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Text
             | Tga
             | Thickness
-            | Threshold
             | Tiff
             | Tile2
             | Tiles
             | Tiling
             | Tolerance
             | Toroidal
-            | Torus
             | Trace
             | Translucency
             | Triangular

@@ -171,6 +171,9 @@ pub(crate) enum Value {
     Camera(Rc<crate::camera::Camera>),
     Object(Rc<crate::object::Object>),
     Macro(Rc<Macro>),
+    Function(Rc<durer_scene::tape::Formula>),
+    /// A parameter of the function that is being read.
+    Parameter(u32),
     Unsupported(Rc<Unsupported>),
 }
 
@@ -198,6 +201,8 @@ impl Value {
             Self::Camera(_) => "a camera",
             Self::Object(_) => "an object",
             Self::Macro(_) => "a macro",
+            Self::Function(_) => "a function",
+            Self::Parameter(_) => "a function's parameter",
             Self::Unsupported(_) => "something not supported yet",
         }
     }
@@ -211,6 +216,7 @@ impl Value {
             Self::Material(material) => {
                 material.texture.as_ref().map_or(0, crate::texture::Texture::size) * layer + layer
             }
+            Self::Function(formula) => formula.ops().len() * 24,
             Self::Interior(_) | Self::Transform(_) | Self::Camera(_) => 256,
             _ => 0,
         }

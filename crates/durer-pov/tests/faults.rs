@@ -120,10 +120,10 @@ fn impossible_shapes_are_named() {
 
 #[test]
 fn the_place_is_underlined_and_the_way_there_told() {
-    let error = read("#macro Bad(R)\n  sphere { 0, R torus }\n#end\n\nBad(1)").unwrap_err().to_string();
+    let error = read("#macro Bad(R)\n  sphere { 0, R lathe }\n#end\n\nBad(1)").unwrap_err().to_string();
     let lines: Vec<_> = error.lines().collect();
-    assert!(lines[0].ends_with("scene.pov:3:17: not supported yet: torus"), "{error}");
-    assert_eq!(lines[2], "3 |   sphere { 0, R torus }");
+    assert!(lines[0].ends_with("scene.pov:3:17: not supported yet: lathe"), "{error}");
+    assert_eq!(lines[2], "3 |   sphere { 0, R lathe }");
     assert_eq!(lines[3], "  |                 ^^^^^");
     assert!(lines[4].contains("in macro Bad, called at") && lines[4].ends_with("scene.pov:6:1"), "{error}");
 }
@@ -137,8 +137,8 @@ fn a_misspelling_is_recognised() {
 #[test]
 fn what_is_not_there_yet_is_called_by_its_name() {
     for word in [
-        "torus { 1, 0.5 }",
-        "difference { sphere { 0, 1 } }",
+        "lathe { 1, 0.5 }",
+        "blob { sphere { 0, 1, 1 } }",
         "fog { distance 1 }",
         "sky_sphere { }",
         "media { }",
@@ -154,4 +154,19 @@ fn what_is_not_there_yet_is_called_by_its_name() {
     assert_eq!(fault("light_source { 0 rgb 1 area_light x, y, 2, 2 }").2, "not supported yet: area_light");
     assert_eq!(fault("camera { fisheye }").2, "not supported yet: fisheye");
     assert_eq!(fault("#fopen F \"x\" read").2, "not supported yet: #fopen");
+}
+
+#[test]
+fn polynomials_say_what_is_wrong_with_their_numbers() {
+    assert!(fault("poly { 40, <1, 2> }").2.contains("from 2 to 16, not 40"));
+    assert!(fault("poly { 2.5, <1, 2> }").2.contains("from 2 to 16"));
+    assert!(fault("quartic { <1, 2, 3> }").2.contains("35 coefficients, and here are 3"));
+    assert!(fault("poly { 2, <1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1> }").2.contains("10 coefficients"));
+    assert!(
+        fault("cubic { <0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 7> }")
+            .2
+            .contains("no variable")
+    );
+    assert!(fault("polynomial { 4, xyz(3, 2, 0): 1 }").2.contains("add up to 4 at most"));
+    assert!(fault("torus { 0, 1 }").2.contains("major radius is zero"));
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use durer_math::{Point3, Vec3};
 
+use crate::tape::Formula;
 use crate::{FillRule, Object, Texture};
 
 /// A surface in its object's own frame, not yet checked: lowering builds it and names what is wrong.
@@ -85,6 +86,20 @@ pub enum Shape {
     Mesh(Arc<Mesh>),
     /// The general quadric `A x^2 + B y^2 + C z^2 + D xy + E xz + F yz + G x + H y + I z + J = 0`: the ten coefficients in this order.
     Quadric(Box<[f64; 10]>),
+    /// The zero set of a polynomial in x, y and z; its inside is where the polynomial is negative.
+    Polynomial {
+        /// The greatest sum of powers.
+        order: u32,
+        /// All coefficients, by falling powers of x, then of y, then of z.
+        coefficients: Box<[f64]>,
+    },
+    /// A tube around a circle about the y axis.
+    Torus {
+        /// The radius of the circle.
+        major: f64,
+        /// The radius of the tube.
+        minor: f64,
+    },
     /// A quadric by its name, centred at the origin with its axis along z.
     Named(Box<NamedQuadric>),
     /// The part of a ball within `half_angle` of an axis.
@@ -98,6 +113,8 @@ pub enum Shape {
         /// The angle between the axis and the cone, in radians.
         half_angle: f64,
     },
+    /// Where a formula has a value.
+    Isosurface(Box<Isosurface>),
     /// All the parts' surfaces together. Parts are placed in the union's own frame.
     Union(Vec<Object>),
     /// A solid made of solids. Parts are placed in its own frame; a union among them is the solid of all its parts.
@@ -113,6 +130,26 @@ pub enum Operation {
     Intersection,
     /// What is in the first and in none of the others.
     Difference,
+}
+
+/// The points of a container where a function of `x`, `y` and `z` has the value `threshold`; the inside is where it is below.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Isosurface {
+    /// The function.
+    pub function: Arc<Formula>,
+    /// The value.
+    pub threshold: f64,
+    /// What holds the surface. Where it cuts the inside it is closed by its own face, unless the object is open.
+    pub container: Container,
+}
+
+/// What holds the surface of a function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Container {
+    /// A box between two opposite corners.
+    Box(Point3, Point3),
+    /// A ball: its middle and its radius.
+    Ball(Point3, f64),
 }
 
 /// A quadric in its principal frame.

@@ -1,12 +1,14 @@
 //! Exact surfaces. Each answers one question: *where does this ray meet you?*
 #![forbid(unsafe_code)]
 
+pub mod algebraic;
 pub mod annulus;
 pub mod axis_box;
 pub mod compose;
 pub mod disc;
 mod edges;
 mod facet;
+pub mod implicit;
 #[cfg(any(test, feature = "laws"))]
 #[doc(hidden)]
 pub mod laws;
@@ -23,15 +25,20 @@ mod roots;
 mod sink;
 pub mod sphere;
 mod surface;
+pub mod tape;
 pub mod textbook;
+pub mod torus;
 pub mod triangle;
+pub mod zero_set;
 
+pub use crate::algebraic::{AlgebraicError, AlgebraicSurface};
 pub use crate::annulus::{Annulus, AnnulusError};
 pub use crate::axis_box::{AxisBox, AxisBoxError};
 pub use crate::compose::affine::Placed;
 pub use crate::compose::clip::{Algebraic, Clip, Region, RegionError};
 pub use crate::compose::inverse::Inverse;
 pub use crate::disc::{Disc, DiscError};
+pub use crate::implicit::{Container, Isosurface, IsosurfaceError};
 pub use crate::local::{CentredRay, End, LocalPoint, LocalRay, ROUGH, RingRay};
 pub use crate::mesh::{FLAT, Mesh, MeshData, MeshError};
 pub use crate::parallelogram::{Parallelogram, ParallelogramError};
@@ -51,4 +58,5 @@ pub use crate::quadric::solid::Body;
 pub use crate::sink::{All, Any, Closest, Flow, Sink};
 pub use crate::sphere::{Sphere, SphereError};
 pub use crate::surface::{Kind, Need, PartId, Root, Side, Solidity, Surface};
+pub use crate::torus::{Axis, Torus, TorusError};
 pub use crate::triangle::{Triangle, TriangleError};

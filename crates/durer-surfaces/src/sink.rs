@@ -17,6 +17,12 @@ pub trait Sink {
     /// root whose bracket lies outside, and does nothing else with it.
     fn range(&self) -> (f64, f64);
 
+    /// Roots whose brackets begin behind this (caller's parameter) can no longer matter. A producer may stop before them; it enters no
+    /// arithmetic either.
+    fn limit(&self) -> f64 {
+        f64::INFINITY
+    }
+
     /// Takes a root.
     fn push(&mut self, root: Root) -> Flow;
 }
@@ -32,6 +38,11 @@ impl Sink for Closest {
     #[inline(always)]
     fn range(&self) -> (f64, f64) {
         (f64::NEG_INFINITY, self.root.map_or(f64::INFINITY, |r| r.hi))
+    }
+
+    #[inline(always)]
+    fn limit(&self) -> f64 {
+        self.root.map_or(f64::INFINITY, |r| r.hi)
     }
 
     #[inline(always)]

@@ -67,6 +67,13 @@ pub(crate) enum Shape {
     Mesh(Rc<Mesh>),
     /// Coefficients of x², y², z², xy, xz, yz, x, y, z, 1.
     Quadric(Box<[f64; 10]>),
+    /// Order and coefficients, by falling powers of x, then of y, then of z.
+    Polynomial(u32, Rc<[f64]>),
+    /// About the y axis.
+    Torus {
+        major: f64,
+        minor: f64,
+    },
     Named(Box<Named>),
     Sector {
         center: [f64; 3],
@@ -74,6 +81,8 @@ pub(crate) enum Shape {
         axis: [f64; 3],
         half_angle: f64,
     },
+    /// And whether it is open.
+    Isosurface(Rc<durer_scene::Isosurface>, bool),
     Union(Vec<Rc<Object>>),
     Csg(Operation, Vec<Rc<Object>>),
     Light(Rc<Light>),
@@ -190,6 +199,12 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
             | Mesh
             | Mesh2
             | Quadric
+            | Isosurface
+            | Torus
+            | Cubic
+            | Quartic
+            | Poly
+            | Polynomial
             | Union
             | Merge
             | Intersection

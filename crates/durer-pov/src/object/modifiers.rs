@@ -38,7 +38,7 @@ impl Reader<'_> {
                 Keyword::Open
                     if matches!(
                         object.shape,
-                        Shape::Cylinder { .. } | Shape::Cone { .. } | Shape::Named(_)
+                        Shape::Cylinder { .. } | Shape::Cone { .. } | Shape::Named(_) | Shape::Isosurface(..)
                     ) =>
                 {
                     habits.open = true;

@@ -8,6 +8,7 @@ use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::reader::Reader;
 use crate::transform::length;
+use durer_scene::{MAX_ORDER, coefficient_count, place_of};
 
 impl Reader<'_> {
     /// The numbers of the shape `keyword`, after its opening brace.
@@ -92,6 +93,22 @@ impl Reader<'_> {
                 }
                 Shape::Quadric(Box::new([a, b, c, d, e, f, g, h, i, constant]))
             }
+            Keyword::Isosurface => self.isosurface(place)?,
+            Keyword::Torus => {
+                let major = self.radius("the torus's major radius")?;
+                self.skip_comma()?;
+                Shape::Torus { major, minor: self.radius("the torus's minor radius")? }
+            }
+            Keyword::Cubic => Shape::Polynomial(3, self.coefficients(3, place)?),
+            Keyword::Quartic => Shape::Polynomial(4, self.coefficients(4, place)?),
+            Keyword::Poly => {
+                let order = self.order()?;
+                Shape::Polynomial(order, self.coefficients(order, place)?)
+            }
+            Keyword::Polynomial => {
+                let order = self.order()?;
+                Shape::Polynomial(order, self.terms(order, place)?)
+            }
             // `begins_object` lists no other shape.
             _ => return Err(Fault::unsupported(place, keyword.text())),
         })
@@ -102,6 +119,86 @@ impl Reader<'_> {
         let v = self.vector()?;
         self.skip_comma()?;
         Ok(v)
+    }
+
+    /// The order of a polynomial and the comma behind it.
+    fn order(&mut self) -> Result<u32> {
+        self.peek()?;
+        let at = self.here();
+        let order = self.float()?;
+        self.skip_comma()?;
+        if order.fract() != 0.0 || !(2.0..=f64::from(MAX_ORDER)).contains(&order) {
+            return Err(Fault::invalid(
+                at,
+                format!("the order of a polynomial is a whole number from 2 to {MAX_ORDER}, not {order}"),
+            ));
+        }
+        Ok(order as u32)
+    }
+
+    /// `<A1, A2, ...>`: all coefficients of a polynomial, by falling powers of x, then of y, then of z.
+    fn coefficients(&mut self, order: u32, place: Place) -> Result<Rc<[f64]>> {
+        let wanted = coefficient_count(order);
+        let mut list = Vec::with_capacity(wanted);
+        self.expect(Mark::Less)?;
+        while !self.take_mark(Mark::Greater)? {
+            self.peek()?;
+            let at = self.here();
+            if list.len() == wanted {
+                return Err(Fault::invalid(
+                    at,
+                    format!("a polynomial of order {order} has {wanted} coefficients, and this is one more"),
+                ));
+            }
+            list.push(self.float()?);
+            self.skip_comma()?;
+        }
+        if list.len() < wanted {
+            let found = list.len();
+            return Err(Fault::invalid(
+                place,
+                format!("a polynomial of order {order} has {wanted} coefficients, and here are {found}"),
+            ));
+        }
+        self.varies(&list, place)?;
+        Ok(list.into())
+    }
+
+    /// `xyz(i, j, k): value, ...`: the coefficients that are not zero.
+    fn terms(&mut self, order: u32, place: Place) -> Result<Rc<[f64]>> {
+        let mut list = vec![0.0; coefficient_count(order)];
+        while self.take_word(Keyword::Xyz)? {
+            self.expect(Mark::ParenOpen)?;
+            let at = self.here();
+            let mut powers = [0.0; 3];
+            for (n, power) in powers.iter_mut().enumerate() {
+                if n > 0 {
+                    self.expect(Mark::Comma)?;
+                }
+                *power = self.float()?;
+            }
+            self.expect(Mark::ParenClose)?;
+            let whole = powers.iter().all(|p| p.fract() == 0.0 && *p >= 0.0);
+            if !whole || powers.iter().sum::<f64>() > f64::from(order) {
+                return Err(Fault::invalid(
+                    at,
+                    format!("the powers of a term are whole numbers that add up to {order} at most"),
+                ));
+            }
+            self.expect(Mark::Colon)?;
+            list[place_of(order, powers.map(|p| p as u32))] = self.float()?;
+            self.skip_comma()?;
+        }
+        self.varies(&list, place)?;
+        Ok(list.into())
+    }
+
+    /// Refuses what has no variable in it.
+    fn varies(&self, list: &[f64], place: Place) -> Result<()> {
+        if list.iter().rev().skip(1).all(|c| *c == 0.0) {
+            return Err(Fault::invalid(place, "this polynomial has no variable in it"));
+        }
+        Ok(())
     }
 
     /// A direction and the comma behind it.

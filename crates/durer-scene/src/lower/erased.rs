@@ -53,6 +53,10 @@ impl<K: Sink + ?Sized> Sink for Forward<'_, K> {
         self.0.range()
     }
 
+    fn limit(&self) -> f64 {
+        self.0.limit()
+    }
+
     fn push(&mut self, root: Root) -> Flow {
         self.0.push(root)
     }

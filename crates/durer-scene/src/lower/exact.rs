@@ -55,6 +55,26 @@ pub(super) fn is_diagonal(map: &Affine) -> bool {
     (0..3).all(|i| (0..3).all(|j| i == j || l[i][j] == 0.0))
 }
 
+/// Where a map takes the direction of an axis, and by how much it stretches, if it only turns axes into axes (either way round) and is the same in
+/// all directions.
+pub(super) fn axis(map: &Affine, of: usize) -> Option<(usize, f64)> {
+    let l = map.linear();
+    let (mut image, mut size) = (None, None);
+    for (i, row) in l.iter().enumerate() {
+        let mut entries = row.iter().enumerate().filter(|(_, x)| **x != 0.0);
+        let (j, x) = entries.next()?;
+        if entries.next().is_some() || size.is_some_and(|s: f64| s != x.abs()) {
+            return None;
+        }
+        size = Some(x.abs());
+        if j == of {
+            image = Some(i);
+        }
+    }
+    // A matrix with an inverse has an entry in each column.
+    Some((image?, size?))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -77,6 +97,15 @@ mod tests {
         assert_eq!(image, Some(Point3::new(9.0, 2.5, 2.75)));
         let third = Affine::rotation_y(1.0).unwrap();
         assert_eq!(point(&third, Point3::new(0.1, 0.0, 0.3)), None);
+    }
+
+    #[test]
+    fn axes_go_to_axes_under_quarter_turns_only() {
+        let turn =
+            Affine::new([[0.0, 0.0, 2.0], [-2.0, 0.0, 0.0], [0.0, -2.0, 0.0]], Point3::ORIGIN).unwrap();
+        assert_eq!([0, 1, 2].map(|i| axis(&turn, i)), [Some((1, 2.0)), Some((2, 2.0)), Some((0, 2.0))]);
+        assert_eq!(axis(&Affine::scaling(2.0, 2.0, 1.0).unwrap(), 1), None);
+        assert_eq!(axis(&Affine::rotation_x(0.5).unwrap(), 1), None);
     }
 
     #[test]

@@ -4,13 +4,13 @@ use std::fmt::Display;
 
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
-    Algebraic, Annulus, AxisBox, CappedCylinder, Disc, FLAT, Frustum, Parallelogram, Plane, Polygon, Quadric,
-    Region, Sphere, SphericalSector, Triangle, TriangleError,
+    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, CappedCylinder, Disc, FLAT, Frustum, Isosurface,
+    Parallelogram, Plane, Polygon, Quadric, Region, Sphere, SphericalSector, Torus, Triangle, TriangleError,
 };
 
 use super::build::{Inside, Target};
 use super::{LowerErrorKind, exact, named};
-use crate::{Mesh, Object, Operation, Shape};
+use crate::{Container, Mesh, Object, Operation, Shape};
 
 /// What became of a shape.
 pub(super) enum Built {
@@ -70,6 +70,22 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
         Shape::Quadric(coefficients) => {
             target.add_final(Quadric::new(**coefficients).map_err(shape_error)?, map);
         }
+        Shape::Polynomial { order, coefficients } => {
+            let surface = AlgebraicSurface::new(*order, coefficients).map_err(shape_error)?;
+            target.contain(&surface, map);
+            target.add_rare(surface, map);
+        }
+        &Shape::Torus { major, minor } => {
+            let made = |c, axis, major, minor| Torus::new(c, axis, major, minor).map_err(shape_error);
+            let all = |m: &Affine| {
+                let (axis, size) = exact::axis(m, 1)?;
+                Some((m.centre(), AXES[axis], exact::product(size, major)?, exact::product(size, minor)?))
+            };
+            match folded(map, all) {
+                Some((c, axis, major, minor)) => add(&mut target, made(c, axis, major, minor)?, None),
+                None => add(&mut target, made(Point3::ORIGIN, Axis::Y, major, minor)?, map),
+            }
+        }
         Shape::Named(quadric) => named::build(quadric, open, map, &mut target)?,
         &Shape::SphericalSector { centre, radius, axis, half_angle } => {
             let sector =
@@ -77,10 +93,25 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             target.contain(&sector, map);
             target.add_rare(sector, map);
         }
+        Shape::Isosurface(iso) => {
+            let container = match iso.container {
+                Container::Box(a, b) => {
+                    durer_surfaces::Container::Box(AxisBox::new(a, b).map_err(shape_error)?)
+                }
+                Container::Ball(centre, radius) => {
+                    durer_surfaces::Container::Ball(Sphere::new(centre, radius.abs()).map_err(shape_error)?)
+                }
+            };
+            let solid = Isosurface::new(&iso.function, iso.threshold, container).map_err(shape_error)?;
+            target.contain(&solid, map);
+            target.add_rare(if open { solid.without_caps() } else { solid }, map);
+        }
         shape => return flat(shape, map, target),
     }
     Ok(Built::Done(target.inside))
 }
+
+const AXES: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 
 /// Adds a solid that has an array of its own.
 fn add<S: Algebraic + Clone + 'static>(target: &mut Target<'_>, solid: S, map: Option<&Affine>) {
@@ -281,8 +312,11 @@ pub(super) fn name(shape: &Shape) -> &'static str {
         Shape::Polygon { .. } => "a polygon",
         Shape::Mesh(_) => "a mesh",
         Shape::Quadric(_) => "a quadric",
+        Shape::Polynomial { .. } => "a polynomial",
+        Shape::Torus { .. } => "a torus",
         Shape::Named(_) => "a named quadric",
         Shape::SphericalSector { .. } => "a spherical sector",
+        Shape::Isosurface(_) => "an isosurface",
         Shape::Union(_) => "a union",
         Shape::Csg(Operation::Merge, _) => "a merge",
         Shape::Csg(Operation::Intersection, _) => "an intersection",

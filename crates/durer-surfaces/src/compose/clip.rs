@@ -17,11 +17,19 @@ use durer_math::eft::exponent;
 use durer_math::{Aabb, Affine, Dyadic, Isa, Normal3, Point3, Ring, Run, Vec3};
 use std::sync::Arc;
 
-/// A surface each of whose faces is the zero set of a polynomial of degree at most two.
+/// A surface each of whose faces is the zero set of a polynomial.
 pub trait Algebraic: Surface {
     /// The polynomial of the face along the ray, in the ray's own parameter `s`, times any positive factor; negative behind the face.
-    /// `None` if the ray is not exactly known.
-    fn polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>>;
+    /// `None` if the ray is not exactly known, and on faces of a degree above two.
+    fn polynomial(&self, _face: u32, _ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+        None
+    }
+
+    /// The exact sign of a polynomial in the ray's own parameter at a root of this surface; `None` if the ray is not exactly known.
+    fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {
+        let p = self.polynomial(root.face, ray)?;
+        Some(sign_at_root(&p, name(&p, root), q))
+    }
 }
 
 impl<S: Shape> Algebraic for Body<S> {
@@ -45,6 +53,15 @@ impl<S: Algebraic> Algebraic for Placed<S> {
         let p = self.surface().polynomial(face, &local)?;
         let (step, k) = local.parent_clock()?;
         Some(in_parents_parameter(p, step, k))
+    }
+
+    fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {
+        let local = Isa::detect().run(
+            #[inline(always)]
+            || ray.through(self.map()),
+        );
+        let (step, k) = local.parent_clock()?;
+        self.surface().sign_at_root(&local, root, &in_childs_parameter(q, step, k))
     }
 }
 
@@ -283,29 +300,34 @@ impl Region {
         inside.map(|x| x != self.inverse)
     }
 
-    /// The same, exactly, for a root of `p`.
-    fn holds_exactly(&self, ray: &LocalRay<'_>, p: &Quadratic<Dyadic>, crossing: Crossing) -> Option<bool> {
+    /// The same, exactly, where `sign` tells that of a polynomial at the root.
+    fn holds_exactly(
+        &self,
+        ray: &LocalRay<'_>,
+        sign: impl Fn(&Quadratic<Dyadic>) -> Option<Ordering>,
+    ) -> Option<bool> {
         let frame = self.faces.frame();
         let placed;
         let (local, clock) = match &self.map {
             None => (ray, None),
             Some(map) => {
-                placed = ray.through(map);
+                placed = Isa::detect().run(
+                    #[inline(always)]
+                    || ray.through(map),
+                );
                 (&placed, placed.parent_clock())
             }
         };
         let exact = local.in_ring_from::<Dyadic>(frame.centre, frame.scale)?;
-        let worst = (0..self.faces.forms().len())
-            .map(|i| {
-                let q = self.faces.exact(i).along(&exact);
-                let q = match clock {
-                    None => q,
-                    Some((step, k)) => in_parents_parameter(q, step, k),
-                };
-                sign_at_root(p, crossing, &q)
-            })
-            .max()
-            .unwrap_or(Ordering::Less);
+        let mut worst = Ordering::Less;
+        for i in 0..self.faces.forms().len() {
+            let q = self.faces.exact(i).along(&exact);
+            let q = match clock {
+                None => q,
+                Some((step, k)) => in_parents_parameter(q, step, k),
+            };
+            worst = worst.max(sign(&q)?);
+        }
         Some(if self.inverse { worst.is_ge() } else { worst.is_le() })
     }
 }
@@ -317,6 +339,14 @@ fn in_parents_parameter(p: Quadratic<Dyadic>, step: f64, k: i32) -> Quadratic<Dy
     let am = &a * &m;
     let c = &(&(&am + &b.clone().scale2(1)) * &m) + &p.c;
     Quadratic { b: &am + &b, a, c }
+}
+
+/// A polynomial in `s = step + 2^k s'` as one in `s'`.
+fn in_childs_parameter(p: &Quadratic<Dyadic>, step: f64, k: i32) -> Quadratic<Dyadic> {
+    let m = Dyadic::from(step);
+    let am = &p.a * &m;
+    let c = &(&(&am + &p.b.clone().scale2(1)) * &m) + &p.c;
+    Quadratic { a: p.a.clone().scale2(2 * k), b: (&am + &p.b).scale2(k), c }
 }
 
 /// The part of the surface `S` that lies in all of some closed regions.
@@ -344,10 +374,7 @@ impl<S: Algebraic> Clip<S> {
     #[cold]
     #[inline(never)]
     fn keeps_exactly(&self, region: &Region, ray: &LocalRay<'_>, root: &Root) -> bool {
-        let decided = self.surface.polynomial(root.face, ray).and_then(|p| {
-            let crossing = name(&p, root);
-            region.holds_exactly(ray, &p, crossing)
-        });
+        let decided = region.holds_exactly(ray, |q| self.surface.sign_at_root(ray, root, q));
         // A ray that is known within errors only may be on the border: then it is, and closed sets hold their border.
         decided.unwrap_or(true)
     }
@@ -420,5 +447,9 @@ impl<S: Algebraic> Surface for Clip<S> {
 impl<S: Algebraic> Algebraic for Clip<S> {
     fn polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
         self.surface.polynomial(face, ray)
+    }
+
+    fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {
+        self.surface.sign_at_root(ray, root, q)
     }
 }

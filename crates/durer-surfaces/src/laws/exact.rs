@@ -1,6 +1,7 @@
 //! The witness: exact arithmetic that shares nothing with the kernels (big integers from `dashu`), and exact crossings of a line
 //! with anything that quadratic polynomials bound.
 
+use super::real_root::RealRoot;
 use core::cmp::Ordering;
 use core::ops::{Add, Mul, Neg, Sub};
 use dashu::base::{Abs, BitTest, SquareRoot, UnsignedAbs};
@@ -10,8 +11,8 @@ use durer_math::{Affine, Point3, Ray, Vec3};
 /// The exact number `m 2^e`.
 #[derive(Clone, Debug)]
 pub struct Exact {
-    m: IBig,
-    e: i64,
+    pub(super) m: IBig,
+    pub(super) e: i64,
 }
 
 impl Exact {
@@ -45,7 +46,7 @@ impl Exact {
     }
 
     /// The integer part (rounded down) of this number times `2^bits`.
-    fn floor_at(&self, bits: i64) -> IBig {
+    pub(super) fn floor_at(&self, bits: i64) -> IBig {
         let shift = self.e + bits;
         if shift >= 0 { &self.m << (shift as usize) } else { &self.m >> ((-shift) as usize) }
     }
@@ -138,52 +139,70 @@ fn surd_sign(u: &Exact, v: &Exact, d: &Exact) -> Ordering {
     if su.is_gt() { squares } else { squares.reverse() }
 }
 
-/// The real number `(p + k √d) / a`, `k` one of -1, 0, 1.
+/// An exact real number: `(p + k √d) / a`, `k` one of -1, 0, 1, or a root of a polynomial of any degree.
 #[derive(Clone, Debug)]
-pub struct Surd {
-    p: Exact,
-    k: i8,
-    d: Exact,
-    a: Exact,
+pub struct Surd(Number);
+
+#[derive(Clone, Debug)]
+enum Number {
+    Quadratic { p: Exact, k: i8, d: Exact, a: Exact },
+    Root(RealRoot),
+}
+
+impl From<RealRoot> for Surd {
+    fn from(root: RealRoot) -> Self {
+        Self(Number::Root(root))
+    }
 }
 
 impl Surd {
     /// The number `n / m`.
     pub fn ratio(n: Exact, m: Exact) -> Self {
-        Self { p: n, k: 0, d: Exact::zero(), a: m }
+        Self::with_root(n, 0, Exact::zero(), m)
     }
 
     /// The number `(p + k √d) / a`, `k` one of -1, 0, 1.
     pub fn with_root(p: Exact, k: i8, d: Exact, a: Exact) -> Self {
-        Self { p, k, d, a }
+        Self(Number::Quadratic { p, k, d, a })
     }
 
     /// Compared with an exact number.
     pub fn cmp_exact(&self, x: &Exact) -> Ordering {
-        let u = &self.p - &(&self.a * x);
-        let sign = surd_sign(&u, &Exact::from(f64::from(self.k)), &self.d);
-        if self.a.sign().is_lt() { sign.reverse() } else { sign }
+        let (p, k, d, a) = match &self.0 {
+            Number::Quadratic { p, k, d, a } => (p, *k, d, a),
+            Number::Root(root) => return root.cmp_exact(x),
+        };
+        let u = p - &(a * x);
+        let sign = surd_sign(&u, &Exact::from(f64::from(k)), d);
+        if a.sign().is_lt() { sign.reverse() } else { sign }
     }
 
     /// The sign of a polynomial there.
     pub fn sign_of(&self, q: &Poly) -> Ordering {
-        let (p, a, d) = (&self.p, &self.a, &self.d);
+        let (p, k, d, a) = match &self.0 {
+            Number::Quadratic { p, k, d, a } => (p, *k, d, a),
+            Number::Root(root) => return root.sign_of(&[q.c.clone(), q.b.clone().shifted(1), q.a.clone()]),
+        };
         let two = |x: Exact| x.shifted(1);
         let u = &(&(&q.a * &(&p.squared() + d)) + &two(&(&q.b * a) * p)) + &(&q.c * &a.squared());
         let v = two(&(&q.a * p) + &(&q.b * a));
-        let v = if self.k < 0 { -v } else { v };
-        if self.k == 0 { u.sign() } else { surd_sign(&u, &v, d) }
+        let v = if k < 0 { -v } else { v };
+        if k == 0 { u.sign() } else { surd_sign(&u, &v, d) }
     }
 
     /// An exact number at most `2^-bits` below this one, and at most `2^-bits` above.
     pub fn about(&self, bits: i64) -> Exact {
+        let (p, k, d, a) = match &self.0 {
+            Number::Quadratic { p, k, d, a } => (p, *k, d, a),
+            Number::Root(root) => return root.about(bits),
+        };
         // Enough digits that the quotient's error stays below.
         let top = |x: &Exact| x.m.clone().unsigned_abs_bits() as i64 + x.e;
-        let extra = bits + 16 + (-top(&self.a)).max(0) * 2 + top(&self.p).max(top(&self.d)).max(0);
-        let radicand = self.d.floor_at(2 * extra);
+        let extra = bits + 16 + (-top(a)).max(0) * 2 + top(p).max(top(d)).max(0);
+        let radicand = d.floor_at(2 * extra);
         let root = IBig::from(radicand.unsigned_abs().sqrt());
-        let n = self.p.floor_at(extra) + IBig::from(self.k) * root;
-        let a = self.a.floor_at(extra);
+        let n = p.floor_at(extra) + IBig::from(k) * root;
+        let a = a.floor_at(extra);
         Exact { m: (n << (bits + 8) as usize) / a, e: -(bits + 8) }
     }
 
@@ -232,7 +251,7 @@ impl Poly {
             return if b.sign().is_eq() { vec![] } else { vec![Surd::ratio(-self.c.clone(), b)] };
         }
         let d = &self.b.squared() - &(&self.a * &self.c);
-        let root = |k| Surd { p: -self.b.clone(), k, d: d.clone(), a: self.a.clone() };
+        let root = |k| Surd::with_root(-self.b.clone(), k, d.clone(), self.a.clone());
         match d.sign() {
             Ordering::Less => vec![],
             Ordering::Equal => vec![root(0)],

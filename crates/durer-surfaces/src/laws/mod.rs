@@ -5,9 +5,11 @@
 
 pub mod dice;
 pub mod exact;
+pub mod real_root;
 
 pub use dice::{Dice, Feature, aim};
 pub use exact::{Clipped, Crossing, Exact, ExactBody, ExactForm, Line, Oracle, Surd, exact3, near};
+pub use real_root::{RealRoot, ZeroOracle, real_roots};
 
 use crate::{
     All, Any, Closest, Kind, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint,

@@ -5,7 +5,7 @@ use crate::roots::quadratic::Quadratic;
 use durer_math::{Dd, Dyadic, Ring, Run, U, Vec3};
 
 /// Pays for underflow in sums of products of numbers of size one.
-const FLOOR: f64 = 1e-290;
+pub(crate) const FLOOR: f64 = 1e-290;
 
 /// `f(x) = x·Qx + 2 b·x + c` with coefficients in a ring. Negative inside.
 #[derive(Clone, Debug)]

@@ -1,3 +1,6 @@
-//! Root finders: one solver, one file.
+//! Solvers of equations in one unknown. One solver, one file.
 
+pub(crate) mod bernstein;
+pub(crate) mod polynomial;
 pub(crate) mod quadratic;
+pub(crate) mod sturm;

@@ -3,6 +3,8 @@
 //! R. E. Moore, "Interval Analysis", Prentice-Hall (1966); the treatment of undefined parts follows IEEE 1788-2015's set-based flavour.
 //! Each end is the tightest f64 that bounds the exact result (see [`rounding`](crate::rounding)).
 
+pub mod elementary;
+
 use crate::Scalar;
 use crate::rounding::{
     add_down, add_up, div_down, div_up, mul_down, mul_up, sqrt_down, sqrt_up, sub_down, sub_up,

@@ -1,0 +1,448 @@
+//! Eight intervals side by side: one formula on eight boxes, or on eight stretches of a ray, at once.
+//!
+//! Sums, products and quotients are rounded to nearest and then widened: by S. M. Rump, P. Zimmermann, S. Boldo, G. Melquiond, "Computing
+//! predecessor and successor in rounding to nearest", *BIT* 49 (2009), `fl(x - fl(phi |x|))` with `phi = u (1 + 2u)` is at or below the
+//! predecessor of a normal `x`, and so at or below everything that rounds to `x`. Where results may be subnormal a step of `2^-1000` is added.
+//! That is branch-free, as vector instructions need it. Sines and cosines are
+//! worked out in lanes too (`lane_waves.rs`), the other elementary functions are those of [`Interval`], lane by lane.
+
+use crate::interval::elementary::{Defined, Range};
+use crate::lane_waves::wave;
+use crate::number::{Comparison, Function, Number};
+use crate::{F8, Interval};
+
+/// How many there are.
+const LANES: usize = crate::lanes::LANES;
+/// `u (1 + 2 u)`.
+const PHI: f64 = crate::U * (1.0 + f64::EPSILON);
+/// Pays for results below the normal range, and is a normal number itself.
+const TINY: f64 = crate::scale::pow2(-1000);
+
+/// Eight intervals. No end is NaN, no lower end is `inf`, no upper end `-inf`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct I8 {
+    /// The least numbers.
+    pub lo: F8,
+    /// The greatest numbers.
+    pub hi: F8,
+    /// Lanes (as bits) where the formula may be undefined somewhere.
+    pub partial: u8,
+    /// Lanes where it is undefined everywhere; the interval there means nothing. Such a lane is also in `partial`.
+    pub empty: u8,
+    /// Lanes where it may jump.
+    pub jump: u8,
+}
+
+impl I8 {
+    /// From `lo` to `hi` in each lane. Ends must not be NaN.
+    #[inline(always)]
+    pub fn new(lo: F8, hi: F8) -> Self {
+        Self { lo, hi, partial: 0, empty: 0, jump: 0 }
+    }
+
+    /// The same interval in each lane.
+    #[inline(always)]
+    pub fn splat(x: Interval) -> Self {
+        Self::new(F8::splat(x.lo), F8::splat(x.hi))
+    }
+
+    /// The interval of a lane; empty where nothing is defined.
+    #[inline(always)]
+    pub fn lane(&self, i: usize) -> Interval {
+        if self.empty >> i & 1 == 1 {
+            Interval::EMPTY
+        } else {
+            Interval { lo: self.lo.0[i], hi: self.hi.0[i] }
+        }
+    }
+
+    /// Sets a lane's interval.
+    #[inline(always)]
+    pub fn set_lane(&mut self, i: usize, x: Interval) {
+        (self.lo.0[i], self.hi.0[i]) = (x.lo, x.hi);
+    }
+
+    /// The same intervals with what is said of the operands.
+    #[inline(always)]
+    fn said(mut self, a: &Self, b: &Self) -> Self {
+        self.partial |= a.partial | b.partial;
+        self.empty |= a.empty | b.empty;
+        self.jump |= a.jump | b.jump;
+        self
+    }
+
+    /// A function of each lane's interval.
+    #[inline(always)]
+    fn each(a: &Self, f: impl Fn(Interval) -> Range) -> Self {
+        Self::each2(a, a, |x, _| f(x))
+    }
+
+    #[inline(always)]
+    fn each2(a: &Self, b: &Self, f: impl Fn(Interval, Interval) -> Range) -> Self {
+        let mut out = Self::new(F8::ZERO, F8::ZERO).said(a, b);
+        for i in 0..LANES {
+            if out.empty >> i & 1 == 1 {
+                continue;
+            }
+            let (range, defined) = f(a.lane(i), b.lane(i));
+            match defined {
+                Defined::Continuous => {}
+                Defined::Jumps => out.jump |= 1 << i,
+                Defined::Partly => out.partial |= 1 << i,
+                Defined::Nowhere => {
+                    out.partial |= 1 << i;
+                    out.empty |= 1 << i;
+                    continue;
+                }
+            }
+            let lost = range.lo.is_nan() || range.hi.is_nan();
+            out.set_lane(i, if lost { Interval::ENTIRE } else { range });
+        }
+        out
+    }
+}
+
+/// At or below all numbers that round to `x`.
+#[inline(always)]
+fn below(x: f64) -> f64 {
+    let x = if x > f64::MAX { f64::MAX } else { x };
+    x - (x.abs() * PHI + TINY)
+}
+
+#[inline(always)]
+fn above(x: f64) -> f64 {
+    let x = if x < f64::MIN { f64::MIN } else { x };
+    x + (x.abs() * PHI + TINY)
+}
+
+/// The same for sums, which are exact where they are subnormal; where the sum is zero it is exact too.
+#[inline(always)]
+fn sum_below(x: f64) -> f64 {
+    let x = if x > f64::MAX { f64::MAX } else { x };
+    x - if x == 0.0 { 0.0 } else { x.abs() * PHI + TINY }
+}
+
+#[inline(always)]
+fn sum_above(x: f64) -> f64 {
+    let x = if x < f64::MIN { f64::MIN } else { x };
+    x + if x == 0.0 { 0.0 } else { x.abs() * PHI + TINY }
+}
+
+/// A product that takes `0 inf` as 0: an infinite end is never reached.
+#[inline(always)]
+fn times(a: f64, b: f64) -> f64 {
+    let p = a * b;
+    if p.is_nan() { 0.0 } else { p }
+}
+
+#[inline(always)]
+fn least(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+#[inline(always)]
+fn most(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+impl Number for I8 {
+    #[inline(always)]
+    fn constant(c: Interval) -> Self {
+        Self::splat(c)
+    }
+
+    #[inline(always)]
+    fn add(a: &Self, b: &Self) -> Self {
+        let mut out = Self::new(F8::ZERO, F8::ZERO).said(a, b);
+        for i in 0..LANES {
+            out.lo.0[i] = sum_below(a.lo.0[i] + b.lo.0[i]);
+        }
+        for i in 0..LANES {
+            out.hi.0[i] = sum_above(a.hi.0[i] + b.hi.0[i]);
+        }
+        out
+    }
+
+    #[inline(always)]
+    fn sub(a: &Self, b: &Self) -> Self {
+        let mut out = Self::new(F8::ZERO, F8::ZERO).said(a, b);
+        for i in 0..LANES {
+            out.lo.0[i] = sum_below(a.lo.0[i] - b.hi.0[i]);
+        }
+        for i in 0..LANES {
+            out.hi.0[i] = sum_above(a.hi.0[i] - b.lo.0[i]);
+        }
+        out
+    }
+
+    #[inline(always)]
+    fn mul(a: &Self, b: &Self) -> Self {
+        let mut out = Self::new(F8::ZERO, F8::ZERO).said(a, b);
+        for i in 0..LANES {
+            let (al, ah, bl, bh) = (a.lo.0[i], a.hi.0[i], b.lo.0[i], b.hi.0[i]);
+            let (p, q, r, s) = (times(al, bl), times(al, bh), times(ah, bl), times(ah, bh));
+            let lo = below(least(least(p, q), least(r, s)));
+            let hi = above(most(most(p, q), most(r, s)));
+            // Of numbers with known signs the product has one, which underflow must not lose.
+            let same = (al >= 0.0) & (bl >= 0.0) | (ah <= 0.0) & (bh <= 0.0);
+            let opposite = (al >= 0.0) & (bh <= 0.0) | (ah <= 0.0) & (bl >= 0.0);
+            out.lo.0[i] = if same & (lo < 0.0) { 0.0 } else { lo };
+            out.hi.0[i] = if opposite & (hi > 0.0) { 0.0 } else { hi };
+        }
+        out
+    }
+
+    #[inline(always)]
+    fn div(a: &Self, b: &Self) -> Self {
+        let mut inverse = Self::new(F8::ZERO, F8::ZERO);
+        let mut holed = 0;
+        for i in 0..LANES {
+            let (lo, hi) = (b.lo.0[i], b.hi.0[i]);
+            let positive = lo > 0.0;
+            let apart = positive | (hi < 0.0);
+            let (l, h) = (below(1.0 / hi), above(1.0 / lo));
+            // What has one sign keeps it.
+            let l = if positive & (l < 0.0) { 0.0 } else { l };
+            let h = if !positive & (h > 0.0) { 0.0 } else { h };
+            inverse.lo.0[i] = if apart { l } else { f64::NEG_INFINITY };
+            inverse.hi.0[i] = if apart { h } else { f64::INFINITY };
+            holed |= u8::from(!apart) << i;
+        }
+        if holed != 0 {
+            holes(&mut inverse, b, holed);
+        }
+        let mut out = Self::mul(a, &inverse);
+        out = out.said(b, b);
+        out.partial |= holed;
+        out.empty |= inverse.empty;
+        out
+    }
+
+    #[inline(always)]
+    fn neg(a: &Self) -> Self {
+        Self { lo: -a.hi, hi: -a.lo, ..*a }
+    }
+
+    #[inline(always)]
+    fn sqr(a: &Self) -> Self {
+        let mut out = *a;
+        for i in 0..LANES {
+            let (l, h) = (a.lo.0[i], a.hi.0[i]);
+            let straddles = (l < 0.0) & (h > 0.0);
+            let (l, h) = (l * l, h * h);
+            let lo = below(least(l, h));
+            out.lo.0[i] = if straddles | (lo < 0.0) { 0.0 } else { lo };
+            out.hi.0[i] = above(most(l, h));
+        }
+        out
+    }
+
+    #[inline(always)]
+    fn abs(a: &Self) -> Self {
+        let mut out = *a;
+        for i in 0..LANES {
+            let (l, h) = (a.lo.0[i], a.hi.0[i]);
+            let straddles = (l < 0.0) & (h > 0.0);
+            let (l, h) = (l.abs(), h.abs());
+            out.lo.0[i] = if straddles { 0.0 } else { least(l, h) };
+            out.hi.0[i] = most(l, h);
+        }
+        out
+    }
+
+    #[inline(always)]
+    fn sqrt(a: &Self) -> Self {
+        let mut out = *a;
+        let (mut partial, mut empty) = (0, 0);
+        for i in 0..LANES {
+            let (l, h) = (a.lo.0[i], a.hi.0[i]);
+            partial |= u8::from(l < 0.0) << i;
+            empty |= u8::from(h < 0.0) << i;
+            let (l, h) = (if l > 0.0 { l } else { 0.0 }, if h > 0.0 { h } else { 0.0 });
+            // Roots are normal numbers; that of an infinite lower end there is none.
+            let lo = below(l.sqrt());
+            out.lo.0[i] = if lo < 0.0 { 0.0 } else { lo };
+            out.hi.0[i] = if h == 0.0 { 0.0 } else { above(h.sqrt()) };
+        }
+        out.partial |= partial;
+        out.empty |= empty;
+        out
+    }
+
+    #[inline(always)]
+    fn min(a: &Self, b: &Self) -> Self {
+        Self::new(a.lo.min(b.lo), a.hi.min(b.hi)).said(a, b)
+    }
+
+    #[inline(always)]
+    fn max(a: &Self, b: &Self) -> Self {
+        Self::new(a.lo.max(b.lo), a.hi.max(b.hi)).said(a, b)
+    }
+
+    #[inline(always)]
+    fn powi(a: &Self, n: i32) -> Self {
+        match n {
+            1 => *a,
+            2 => Self::sqr(a),
+            3 => cube(a),
+            4 => Self::sqr(&Self::sqr(a)),
+            _ => powers(a, n),
+        }
+    }
+
+    #[inline(always)]
+    fn pow(a: &Self, b: &Self) -> Self {
+        pow(a, b)
+    }
+
+    #[inline(always)]
+    fn atan2(y: &Self, x: &Self) -> Self {
+        atan2(y, x)
+    }
+
+    #[inline(always)]
+    fn rem(a: &Self, b: &Self) -> Self {
+        rem(a, b)
+    }
+
+    #[inline(always)]
+    fn function(f: Function, a: &Self) -> Self {
+        match f {
+            Function::Sin => wave(a, 0.0),
+            Function::Cos => wave(a, 1.0),
+            _ => function(f, a),
+        }
+    }
+
+    #[inline(always)]
+    fn compare(c: Comparison, a: &Self, b: &Self) -> Self {
+        let (mut yes, mut no) = ([false; LANES], [false; LANES]);
+        for i in 0..LANES {
+            let (al, ah, bl, bh) = (a.lo.0[i], a.hi.0[i], b.lo.0[i], b.hi.0[i]);
+            let (a_is, a_not) = ((al > 0.0) | (ah < 0.0), (al == 0.0) & (ah == 0.0));
+            let (b_is, b_not) = ((bl > 0.0) | (bh < 0.0), (bl == 0.0) & (bh == 0.0));
+            let (apart, equal) = ((ah < bl) | (bh < al), (al == ah) & (bl == bh) & (al == bl));
+            (yes[i], no[i]) = match c {
+                Comparison::Less => (ah < bl, al >= bh),
+                Comparison::LessEqual => (ah <= bl, al > bh),
+                Comparison::Equal => (equal, apart),
+                Comparison::NotEqual => (apart, equal),
+                Comparison::And => (a_is & b_is, a_not | b_not),
+                Comparison::Or => (a_is | b_is, a_not & b_not),
+            };
+        }
+        let mut out = Self::new(F8::ZERO, F8::ZERO).said(a, b);
+        for i in 0..LANES {
+            out.lo.0[i] = if yes[i] { 1.0 } else { 0.0 };
+            out.hi.0[i] = if no[i] { 0.0 } else { 1.0 };
+            out.jump |= u8::from(!yes[i] & !no[i]) << i;
+        }
+        out
+    }
+
+    #[inline(always)]
+    fn select(c: &Self, below: &Self, at: &Self, above: &Self) -> Self {
+        let (mut may_below, mut may_at, mut may_above) = (0_u8, 0_u8, 0_u8);
+        for i in 0..LANES {
+            let (lo, hi) = (c.lo.0[i], c.hi.0[i]);
+            may_below |= u8::from(lo < 0.0) << i;
+            may_at |= u8::from((lo <= 0.0) & (hi >= 0.0)) << i;
+            may_above |= u8::from(hi > 0.0) << i;
+        }
+        let mut out = Self::new(F8::splat(f64::INFINITY), F8::splat(f64::NEG_INFINITY)).said(c, c);
+        let mut all_empty = 0xff;
+        for (may, x) in [(may_below, below), (may_at, at), (may_above, above)] {
+            let use_it = crate::M8::from_bits(may & !x.empty);
+            out.lo = use_it.select(out.lo.min(x.lo), out.lo);
+            out.hi = use_it.select(out.hi.max(x.hi), out.hi);
+            out.partial |= may & x.partial;
+            out.jump |= may & x.jump;
+            all_empty &= !(may & !x.empty);
+        }
+        out.jump |= may_below & may_at | may_at & may_above | may_below & may_above;
+        out.empty |= all_empty;
+        out.partial |= all_empty;
+        let none = crate::M8::from_bits(out.empty);
+        out.lo = none.select(F8::ZERO, out.lo);
+        out.hi = none.select(F8::ZERO, out.hi);
+        out
+    }
+}
+
+/// Reciprocals where the divisor has a zero.
+#[cold]
+#[inline(never)]
+fn holes(inverse: &mut I8, b: &I8, lanes: u8) {
+    for i in crate::lanes::set_bits(lanes) {
+        let (lo, hi) = (b.lo.0[i], b.hi.0[i]);
+        if lo == 0.0 && hi == 0.0 {
+            inverse.empty |= 1 << i;
+            (inverse.lo.0[i], inverse.hi.0[i]) = (0.0, 0.0);
+        } else if lo == 0.0 {
+            inverse.lo.0[i] = below(1.0 / hi).max(0.0);
+        } else if hi == 0.0 {
+            inverse.hi.0[i] = above(1.0 / lo).min(0.0);
+        }
+    }
+}
+
+#[inline(always)]
+fn cube(a: &I8) -> I8 {
+    let mut out = *a;
+    for i in 0..LANES {
+        let (l, h) = (a.lo.0[i], a.hi.0[i]);
+        // Two products, each widened towards the same side.
+        out.lo.0[i] =
+            if l >= 0.0 { most(below(most(below(l * l), 0.0) * l), 0.0) } else { below(above(l * l) * l) };
+        out.hi.0[i] =
+            if h <= 0.0 { least(above(most(below(h * h), 0.0) * h), 0.0) } else { above(above(h * h) * h) };
+    }
+    out
+}
+
+#[inline(never)]
+fn powers(a: &I8, n: i32) -> I8 {
+    I8::each(a, |x| x.powi(n))
+}
+
+#[inline(never)]
+fn pow(a: &I8, b: &I8) -> I8 {
+    I8::each2(a, b, Interval::pow)
+}
+
+#[inline(never)]
+fn atan2(y: &I8, x: &I8) -> I8 {
+    I8::each2(y, x, Interval::atan2)
+}
+
+#[inline(never)]
+fn rem(a: &I8, b: &I8) -> I8 {
+    I8::each2(a, b, Interval::remainder)
+}
+
+#[inline(never)]
+fn function(f: Function, a: &I8) -> I8 {
+    fn whole(f: impl Fn(Interval) -> Interval) -> impl Fn(Interval) -> Range {
+        move |x| (f(x), Defined::Continuous)
+    }
+    match f {
+        Function::Sin => I8::each(a, whole(Interval::sin)),
+        Function::Cos => I8::each(a, whole(Interval::cos)),
+        Function::Tan => I8::each(a, Interval::tan),
+        Function::Asin => I8::each(a, Interval::asin),
+        Function::Acos => I8::each(a, Interval::acos),
+        Function::Atan => I8::each(a, whole(Interval::atan)),
+        Function::Sinh => I8::each(a, whole(Interval::sinh)),
+        Function::Cosh => I8::each(a, whole(Interval::cosh)),
+        Function::Tanh => I8::each(a, whole(Interval::tanh)),
+        Function::Asinh => I8::each(a, whole(Interval::asinh)),
+        Function::Acosh => I8::each(a, Interval::acosh),
+        Function::Atanh => I8::each(a, Interval::atanh),
+        Function::Exp => I8::each(a, whole(Interval::exp)),
+        Function::Ln => I8::each(a, Interval::ln),
+        Function::Log10 => I8::each(a, Interval::log10),
+        Function::Floor => I8::each(a, Interval::floor),
+        Function::Ceil => I8::each(a, Interval::ceil),
+        Function::Trunc => I8::each(a, Interval::trunc),
+    }
+}

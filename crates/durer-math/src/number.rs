@@ -1,0 +1,353 @@
+//! The number types in which a formula can be evaluated: f64, eight intervals, and dual numbers over either.
+//!
+//! A formula of a scene is written once and asked in several ways: for its value, for a bound of its values on boxes, for its slope along a
+//! ray. [`Number`] lists what such formulas are made of; a type that has these operations can be put through any of them.
+
+use crate::{Dual, Interval, elementary};
+
+/// What formulas are made of. Operations take references: the types may be large.
+pub trait Number: Copy {
+    /// A number that is known within an interval.
+    fn constant(c: Interval) -> Self;
+    /// `a + b`.
+    fn add(a: &Self, b: &Self) -> Self;
+    /// `a - b`.
+    fn sub(a: &Self, b: &Self) -> Self;
+    /// `a b`.
+    fn mul(a: &Self, b: &Self) -> Self;
+    /// `a / b`.
+    fn div(a: &Self, b: &Self) -> Self;
+    /// `-a`.
+    fn neg(a: &Self) -> Self;
+    /// `a^2`.
+    fn sqr(a: &Self) -> Self;
+    /// `|a|`.
+    fn abs(a: &Self) -> Self;
+    /// The square root.
+    fn sqrt(a: &Self) -> Self;
+    /// The lesser one.
+    fn min(a: &Self, b: &Self) -> Self;
+    /// The greater one.
+    fn max(a: &Self, b: &Self) -> Self;
+    /// `a^n`.
+    fn powi(a: &Self, n: i32) -> Self;
+    /// `a^b`.
+    fn pow(a: &Self, b: &Self) -> Self;
+    /// The angle of `(x, y)`.
+    fn atan2(y: &Self, x: &Self) -> Self;
+    /// What whole numbers of `b` leave of `a`, with the sign of `a`.
+    fn rem(a: &Self, b: &Self) -> Self;
+    /// A function of one number.
+    fn function(f: Function, a: &Self) -> Self;
+    /// 1 or 0.
+    fn compare(c: Comparison, a: &Self, b: &Self) -> Self;
+    /// One of three by the sign of `c`: below, at and above zero.
+    fn select(c: &Self, below: &Self, at: &Self, above: &Self) -> Self;
+}
+
+/// The functions of one number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Function {
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Sinh,
+    Cosh,
+    Tanh,
+    Asinh,
+    Acosh,
+    Atanh,
+    Exp,
+    Ln,
+    Log10,
+    Floor,
+    Ceil,
+    Trunc,
+}
+
+/// The questions about two numbers. `And` and `Or` take zero for no.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Comparison {
+    Less,
+    LessEqual,
+    Equal,
+    NotEqual,
+    And,
+    Or,
+}
+
+impl Comparison {
+    /// The answer for two f64.
+    #[inline]
+    pub fn holds(self, a: f64, b: f64) -> bool {
+        match self {
+            Self::Less => a < b,
+            Self::LessEqual => a <= b,
+            Self::Equal => a == b,
+            Self::NotEqual => a != b,
+            Self::And => a != 0.0 && b != 0.0,
+            Self::Or => a != 0.0 || b != 0.0,
+        }
+    }
+}
+
+impl Function {
+    /// The function of an f64.
+    pub fn of(self, x: f64) -> f64 {
+        match self {
+            Self::Sin => elementary::sin(x),
+            Self::Cos => elementary::cos(x),
+            Self::Tan => elementary::tan(x),
+            Self::Asin => elementary::asin(x),
+            Self::Acos => elementary::acos(x),
+            Self::Atan => elementary::atan(x),
+            Self::Sinh => elementary::sinh(x),
+            Self::Cosh => elementary::cosh(x),
+            Self::Tanh => elementary::tanh(x),
+            Self::Asinh => elementary::asinh(x),
+            Self::Acosh => elementary::acosh(x),
+            Self::Atanh => elementary::atanh(x),
+            Self::Exp => elementary::exp(x),
+            Self::Ln => elementary::ln(x),
+            Self::Log10 => elementary::log10(x),
+            Self::Floor => x.floor(),
+            Self::Ceil => x.ceil(),
+            Self::Trunc => x.trunc(),
+        }
+    }
+}
+
+impl Number for f64 {
+    #[inline(always)]
+    fn constant(c: Interval) -> Self {
+        c.mid()
+    }
+    #[inline(always)]
+    fn add(a: &Self, b: &Self) -> Self {
+        a + b
+    }
+    #[inline(always)]
+    fn sub(a: &Self, b: &Self) -> Self {
+        a - b
+    }
+    #[inline(always)]
+    fn mul(a: &Self, b: &Self) -> Self {
+        a * b
+    }
+    #[inline(always)]
+    fn div(a: &Self, b: &Self) -> Self {
+        // Undefined, not infinite.
+        if *b == 0.0 { Self::NAN } else { a / b }
+    }
+    #[inline(always)]
+    fn neg(a: &Self) -> Self {
+        -a
+    }
+    #[inline(always)]
+    fn sqr(a: &Self) -> Self {
+        a * a
+    }
+    #[inline(always)]
+    fn abs(a: &Self) -> Self {
+        f64::abs(*a)
+    }
+    #[inline(always)]
+    fn sqrt(a: &Self) -> Self {
+        f64::sqrt(*a)
+    }
+    #[inline(always)]
+    fn min(a: &Self, b: &Self) -> Self {
+        if a.is_nan() || b.is_nan() { Self::NAN } else { f64::min(*a, *b) }
+    }
+    #[inline(always)]
+    fn max(a: &Self, b: &Self) -> Self {
+        if a.is_nan() || b.is_nan() { Self::NAN } else { f64::max(*a, *b) }
+    }
+    #[inline(always)]
+    fn powi(a: &Self, n: i32) -> Self {
+        // What is undefined stays so, also to the power of zero.
+        if a.is_nan() || (*a == 0.0 && n < 0) { Self::NAN } else { elementary::powi(*a, n) }
+    }
+    #[inline(always)]
+    fn pow(a: &Self, b: &Self) -> Self {
+        let undefined = a.is_nan() || b.is_nan() || (*a == 0.0 && *b < 0.0);
+        if undefined { Self::NAN } else { elementary::pow(*a, *b) }
+    }
+    #[inline(always)]
+    fn atan2(y: &Self, x: &Self) -> Self {
+        // -0 is 0.
+        if *y == 0.0 && *x == 0.0 { Self::NAN } else { elementary::atan2(*y + 0.0, *x) }
+    }
+    #[inline(always)]
+    fn rem(a: &Self, b: &Self) -> Self {
+        a % b
+    }
+    #[inline(always)]
+    fn function(f: Function, a: &Self) -> Self {
+        let value = f.of(*a);
+        // The logarithm of zero and the like.
+        if value.is_infinite()
+            && a.is_finite()
+            && !matches!(f, Function::Exp | Function::Sinh | Function::Cosh)
+        {
+            return Self::NAN;
+        }
+        value
+    }
+    #[inline(always)]
+    fn compare(c: Comparison, a: &Self, b: &Self) -> Self {
+        if a.is_nan() || b.is_nan() {
+            return Self::NAN;
+        }
+        Self::from(u8::from(c.holds(*a, *b)))
+    }
+    #[inline(always)]
+    fn select(c: &Self, below: &Self, at: &Self, above: &Self) -> Self {
+        if *c < 0.0 {
+            *below
+        } else if *c == 0.0 {
+            *at
+        } else if *c > 0.0 {
+            *above
+        } else {
+            Self::NAN
+        }
+    }
+}
+
+impl<T: Number> Dual<T> {
+    /// A value whose derivative is `slope` times that of `a`.
+    #[inline(always)]
+    fn chain(v: T, slope: &T, a: &Self) -> Self {
+        Self { v, d: T::mul(slope, &a.d) }
+    }
+}
+
+#[inline(always)]
+fn number<T: Number>(x: f64) -> T {
+    T::constant(Interval { lo: x, hi: x })
+}
+
+impl<T: Number> Number for Dual<T> {
+    #[inline(always)]
+    fn constant(c: Interval) -> Self {
+        Self { v: T::constant(c), d: number(0.0) }
+    }
+    #[inline(always)]
+    fn add(a: &Self, b: &Self) -> Self {
+        Self { v: T::add(&a.v, &b.v), d: T::add(&a.d, &b.d) }
+    }
+    #[inline(always)]
+    fn sub(a: &Self, b: &Self) -> Self {
+        Self { v: T::sub(&a.v, &b.v), d: T::sub(&a.d, &b.d) }
+    }
+    #[inline(always)]
+    fn mul(a: &Self, b: &Self) -> Self {
+        let (l, r) = (T::mul(&a.v, &b.d), T::mul(&a.d, &b.v));
+        Self { v: T::mul(&a.v, &b.v), d: T::add(&l, &r) }
+    }
+    #[inline(always)]
+    fn div(a: &Self, b: &Self) -> Self {
+        let v = T::div(&a.v, &b.v);
+        let top = T::sub(&a.d, &T::mul(&v, &b.d));
+        Self { v, d: T::div(&top, &b.v) }
+    }
+    #[inline(always)]
+    fn neg(a: &Self) -> Self {
+        Self { v: T::neg(&a.v), d: T::neg(&a.d) }
+    }
+    #[inline(always)]
+    fn sqr(a: &Self) -> Self {
+        Self::chain(T::sqr(&a.v), &T::add(&a.v, &a.v), a)
+    }
+    /// At zero: all slopes between -1 and 1, as for an interval around it.
+    #[inline(always)]
+    fn abs(a: &Self) -> Self {
+        let back = T::neg(&a.d);
+        Self { v: T::abs(&a.v), d: T::select(&a.v, &back, &a.d, &a.d) }
+    }
+    #[inline(always)]
+    fn sqrt(a: &Self) -> Self {
+        let v = T::sqrt(&a.v);
+        Self { v, d: T::div(&a.d, &T::add(&v, &v)) }
+    }
+    #[inline(always)]
+    fn min(a: &Self, b: &Self) -> Self {
+        let d = T::select(&T::sub(&a.v, &b.v), &a.d, &a.d, &b.d);
+        Self { v: T::min(&a.v, &b.v), d }
+    }
+    #[inline(always)]
+    fn max(a: &Self, b: &Self) -> Self {
+        let d = T::select(&T::sub(&a.v, &b.v), &b.d, &a.d, &a.d);
+        Self { v: T::max(&a.v, &b.v), d }
+    }
+    #[inline(always)]
+    fn powi(a: &Self, n: i32) -> Self {
+        let slope = T::mul(&number(f64::from(n)), &T::powi(&a.v, n.saturating_sub(1)));
+        Self::chain(T::powi(&a.v, n), &slope, a)
+    }
+    #[inline(always)]
+    fn pow(a: &Self, b: &Self) -> Self {
+        // (a^b)' = b a^(b - 1) a' + a^b ln(a) b'
+        let v = T::pow(&a.v, &b.v);
+        let less = T::pow(&a.v, &T::sub(&b.v, &number(1.0)));
+        let along = T::mul(&T::mul(&b.v, &less), &a.d);
+        let turn = T::mul(&T::mul(&v, &T::function(Function::Ln, &a.v)), &b.d);
+        Self { v, d: T::add(&along, &turn) }
+    }
+    #[inline(always)]
+    fn atan2(y: &Self, x: &Self) -> Self {
+        // (x y' - y x') / (x^2 + y^2)
+        let top = T::sub(&T::mul(&x.v, &y.d), &T::mul(&y.v, &x.d));
+        let square = T::add(&T::sqr(&x.v), &T::sqr(&y.v));
+        Self { v: T::atan2(&y.v, &x.v), d: T::div(&top, &square) }
+    }
+    #[inline(always)]
+    fn rem(a: &Self, b: &Self) -> Self {
+        // Between its jumps a - b trunc(a / b), with a factor that stays.
+        let v = T::rem(&a.v, &b.v);
+        let whole = T::function(Function::Trunc, &T::div(&a.v, &b.v));
+        Self { v, d: T::sub(&a.d, &T::mul(&whole, &b.d)) }
+    }
+    #[inline(always)]
+    fn function(f: Function, a: &Self) -> Self {
+        let v = T::function(f, &a.v);
+        let one = number(1.0);
+        let slope = match f {
+            Function::Sin => T::function(Function::Cos, &a.v),
+            Function::Cos => T::neg(&T::function(Function::Sin, &a.v)),
+            Function::Tan => T::add(&one, &T::sqr(&v)),
+            Function::Asin => T::div(&one, &T::sqrt(&T::sub(&one, &T::sqr(&a.v)))),
+            Function::Acos => T::neg(&T::div(&one, &T::sqrt(&T::sub(&one, &T::sqr(&a.v))))),
+            Function::Atan => T::div(&one, &T::add(&one, &T::sqr(&a.v))),
+            Function::Sinh => T::function(Function::Cosh, &a.v),
+            Function::Cosh => T::function(Function::Sinh, &a.v),
+            Function::Tanh => T::sub(&one, &T::sqr(&v)),
+            Function::Asinh => T::div(&one, &T::sqrt(&T::add(&T::sqr(&a.v), &one))),
+            Function::Acosh => T::div(&one, &T::sqrt(&T::sub(&T::sqr(&a.v), &one))),
+            Function::Atanh => T::div(&one, &T::sub(&one, &T::sqr(&a.v))),
+            Function::Exp => v,
+            Function::Ln => T::div(&one, &a.v),
+            Function::Log10 => {
+                // 1 / ln 10, rounded down and up.
+                let k = core::f64::consts::LOG10_E;
+                T::div(&T::constant(Interval { lo: k.next_down(), hi: k.next_up() }), &a.v)
+            }
+            Function::Floor | Function::Ceil | Function::Trunc => return Self { v, d: number(0.0) },
+        };
+        Self::chain(v, &slope, a)
+    }
+    #[inline(always)]
+    fn compare(c: Comparison, a: &Self, b: &Self) -> Self {
+        Self { v: T::compare(c, &a.v, &b.v), d: number(0.0) }
+    }
+    #[inline(always)]
+    fn select(c: &Self, below: &Self, at: &Self, above: &Self) -> Self {
+        Self { v: T::select(&c.v, &below.v, &at.v, &above.v), d: T::select(&c.v, &below.d, &at.d, &above.d) }
+    }
+}

@@ -1,0 +1,588 @@
+//! `function { }`: a formula of parameters, read into the steps that surfaces evaluate; and what is made of formulas.
+//!
+//! Inside a function numbers are written as in POV-Ray's manual, section "User-defined functions": floats, parameters, the float functions, calls of
+//! functions declared before. Everything is written out where it is called, so that what is left has no calls in it.
+
+use std::rc::Rc;
+use std::sync::Arc;
+
+use durer_math::{Comparison, Function, Point3};
+use durer_scene::tape::{Builder, Formula, FormulaError, NodeId, Op};
+use durer_scene::{Container, Isosurface};
+
+use crate::diagnostics::{Fault, FaultKind, Place, Result};
+use crate::keywords::Keyword;
+use crate::lexer::{Kind, Mark};
+use crate::names::Name;
+use crate::object::Shape;
+use crate::reader::{Item, Lexeme, Reader};
+use crate::value::{Terms, Value};
+
+/// More parameters than this no function has.
+const MOST_PARAMETERS: usize = 56;
+/// More steps than this no `sum` or `prod` has.
+const MOST_ROUNDS: f64 = 10_000.0;
+
+/// A parameter's name: a word such as `x`, or any other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Parameter {
+    Word(Keyword),
+    Name(Name),
+}
+
+/// A function on its way from text to steps.
+struct Draft {
+    builder: Builder,
+    /// The words that are parameters, and the numbers they stand for.
+    words: Vec<(Keyword, u32)>,
+    /// How many inputs there are, those of loops included.
+    inputs: u32,
+}
+
+fn too_long(place: Place) -> impl FnOnce(FormulaError) -> Box<Fault> {
+    move |error| Fault::at(place, FaultKind::Limit, error.to_string())
+}
+
+/// The functions of one number.
+fn function_of_one(keyword: Keyword) -> Option<Function> {
+    Some(match keyword {
+        Keyword::Sin => Function::Sin,
+        Keyword::Cos => Function::Cos,
+        Keyword::Tan => Function::Tan,
+        Keyword::Asin => Function::Asin,
+        Keyword::Acos => Function::Acos,
+        Keyword::Atan => Function::Atan,
+        Keyword::Sinh => Function::Sinh,
+        Keyword::Cosh => Function::Cosh,
+        Keyword::Tanh => Function::Tanh,
+        Keyword::Asinh => Function::Asinh,
+        Keyword::Acosh => Function::Acosh,
+        Keyword::Atanh => Function::Atanh,
+        Keyword::Exp => Function::Exp,
+        Keyword::Ln => Function::Ln,
+        Keyword::Log => Function::Log10,
+        Keyword::Floor => Function::Floor,
+        Keyword::Ceil => Function::Ceil,
+        Keyword::Int => Function::Trunc,
+        _ => return None,
+    })
+}
+
+impl Draft {
+    fn push(&mut self, op: Op, place: Place) -> Result<NodeId> {
+        self.builder.push(op).map_err(too_long(place))
+    }
+
+    fn constant(&mut self, value: f64, place: Place) -> Result<NodeId> {
+        self.builder.constant(value).map_err(too_long(place))
+    }
+}
+
+impl Reader<'_> {
+    /// `function (a, b) { ... }`, the word included.
+    pub(crate) fn function_block(&mut self) -> Result<Formula> {
+        self.next()?;
+        let place = self.here();
+        let parameters = self.parameters()?;
+        self.expect(Mark::BraceOpen)?;
+        self.nested(|r| r.function_body(&parameters, place))
+    }
+
+    /// The names in parentheses, as they stand: one that is declared elsewhere is a parameter all the same.
+    fn parameters(&mut self) -> Result<Option<Vec<Parameter>>> {
+        if self.has_peeked() || !self.take_raw_mark(Mark::ParenOpen) {
+            return Ok(None);
+        }
+        let mut names = Vec::new();
+        loop {
+            match self.take_raw() {
+                Some((Kind::Mark(Mark::ParenClose), _)) if !names.is_empty() => return Ok(Some(names)),
+                Some((Kind::Mark(Mark::Comma), _)) => {}
+                Some((kind @ (Kind::Name(_) | Kind::Word(_)), at)) => {
+                    let parameter = match kind {
+                        Kind::Name(name) => Parameter::Name(name),
+                        Kind::Word(
+                            word @ (Keyword::X
+                            | Keyword::Y
+                            | Keyword::Z
+                            | Keyword::U
+                            | Keyword::V
+                            | Keyword::T),
+                        ) => Parameter::Word(word),
+                        Kind::Word(word) => {
+                            let text = format!(
+                                "`{}` is a word of the language and cannot be a parameter",
+                                word.text()
+                            );
+                            return Err(Fault::invalid(at, text));
+                        }
+                        _ => return Err(Fault::invalid(at, "expected the name of a parameter")),
+                    };
+                    if names.contains(&parameter) {
+                        return Err(Fault::invalid(at, "this function has two parameters of the same name"));
+                    }
+                    if names.len() == MOST_PARAMETERS {
+                        return Err(Fault::invalid(
+                            at,
+                            format!("a function has at most {MOST_PARAMETERS} parameters"),
+                        ));
+                    }
+                    names.push(parameter);
+                }
+                _ => return Err(Fault::invalid(self.here(), "expected the name of a parameter, or `)`")),
+            }
+        }
+    }
+
+    /// What stands between the braces, and the closing one.
+    fn function_body(&mut self, parameters: &Option<Vec<Parameter>>, place: Place) -> Result<Formula> {
+        let mut draft = Draft { builder: Builder::new(), words: Vec::new(), inputs: 3 };
+        self.scopes.enter();
+        match parameters {
+            None => {
+                use Keyword::{U, V, X, Y, Z};
+                draft.words = vec![(X, 0), (Y, 1), (Z, 2), (U, 0), (V, 1)];
+            }
+            Some(names) => {
+                draft.inputs = names.len() as u32;
+                for (number, parameter) in (0_u32..).zip(names) {
+                    match *parameter {
+                        Parameter::Word(word) => draft.words.push((word, number)),
+                        Parameter::Name(name) => self.scopes.parameter(name, Value::Parameter(number)),
+                    }
+                }
+            }
+        }
+        // The names go also where the body is wrong: a declaration may be skipped.
+        let read = self.named_body(draft);
+        self.scopes.leave();
+        let formula = read?;
+        self.expect(Mark::BraceClose)?;
+        self.check_memory(formula.ops().len() * 24, place)?;
+        Ok(formula)
+    }
+
+    /// The body, when its parameters have their names.
+    fn named_body(&mut self, mut draft: Draft) -> Result<Formula> {
+        let word = self.peek_word()?;
+        match word {
+            Some(Keyword::Internal) => return self.internal_function(),
+            Some(
+                word @ (Keyword::Pattern
+                | Keyword::Pigment
+                | Keyword::Spline
+                | Keyword::Transform
+                | Keyword::Texture),
+            ) => {
+                let text = format!(
+                    "not supported yet: a {} as a function: no bound of its values over a box is known, which an exact root needs",
+                    word.text()
+                );
+                return Err(Fault::at(self.here(), FaultKind::Unsupported, text));
+            }
+            _ => {}
+        }
+        let inputs = draft.inputs;
+        let root = self.logical_formula(&mut draft)?;
+        Ok(draft.builder.finish(root, inputs))
+    }
+
+    /// `internal(n)`: one of the functions that functions.inc names.
+    fn internal_function(&mut self) -> Result<Formula> {
+        self.next()?;
+        let place = self.here();
+        self.expect(Mark::ParenOpen)?;
+        let number = self.float()?;
+        self.expect(Mark::ParenClose)?;
+        match crate::formulas::internal(number) {
+            Ok(formula) => Ok(formula),
+            Err(crate::formulas::Lacking::Unknown) => {
+                Err(Fault::invalid(place, format!("there is no internal function {number}")))
+            }
+            Err(crate::formulas::Lacking::NotYet(why)) => Err(Fault::at(
+                place,
+                FaultKind::Unsupported,
+                format!("not supported yet: internal({number}): {why}"),
+            )),
+        }
+    }
+
+    /// `&` and `|`, from left to right.
+    fn logical_formula(&mut self, draft: &mut Draft) -> Result<NodeId> {
+        let mut left = self.compared_formula(draft)?;
+        loop {
+            let comparison = match self.peek()? {
+                Item::Mark(Mark::And) => Comparison::And,
+                Item::Mark(Mark::Or) => Comparison::Or,
+                _ => return Ok(left),
+            };
+            let place = self.next()?.place;
+            let right = self.compared_formula(draft)?;
+            left = draft.push(Op::Compare(comparison, left, right), place)?;
+        }
+    }
+
+    fn compared_formula(&mut self, draft: &mut Draft) -> Result<NodeId> {
+        let mut left = self.sum_formula(draft)?;
+        loop {
+            let (comparison, swapped) = match self.peek()? {
+                Item::Mark(Mark::Less) => (Comparison::Less, false),
+                Item::Mark(Mark::LessEqual) => (Comparison::LessEqual, false),
+                Item::Mark(Mark::Greater) => (Comparison::Less, true),
+                Item::Mark(Mark::GreaterEqual) => (Comparison::LessEqual, true),
+                Item::Mark(Mark::Equal) => (Comparison::Equal, false),
+                Item::Mark(Mark::NotEqual) => (Comparison::NotEqual, false),
+                _ => return Ok(left),
+            };
+            let place = self.next()?.place;
+            let right = self.sum_formula(draft)?;
+            let (a, b) = if swapped { (right, left) } else { (left, right) };
+            left = draft.push(Op::Compare(comparison, a, b), place)?;
+        }
+    }
+
+    fn sum_formula(&mut self, draft: &mut Draft) -> Result<NodeId> {
+        let mut left = self.product_formula(draft)?;
+        loop {
+            let plus = match self.peek()? {
+                Item::Mark(Mark::Plus) => true,
+                Item::Mark(Mark::Minus) => false,
+                _ => return Ok(left),
+            };
+            let place = self.next()?.place;
+            let right = self.product_formula(draft)?;
+            left = draft.push(if plus { Op::Add(left, right) } else { Op::Sub(left, right) }, place)?;
+        }
+    }
+
+    fn product_formula(&mut self, draft: &mut Draft) -> Result<NodeId> {
+        let mut left = self.signed_formula(draft)?;
+        loop {
+            let times = match self.peek()? {
+                Item::Mark(Mark::Star) => true,
+                Item::Mark(Mark::Slash) => false,
+                _ => return Ok(left),
+            };
+            let place = self.next()?.place;
+            let right = self.signed_formula(draft)?;
+            left = draft.push(if times { Op::Mul(left, right) } else { Op::Div(left, right) }, place)?;
+        }
+    }
+
+    fn signed_formula(&mut self, draft: &mut Draft) -> Result<NodeId> {
+        self.nested(|r| {
+            if r.take_mark(Mark::Minus)? {
+                let place = r.here();
+                let value = r.signed_formula(draft)?;
+                return draft.push(Op::Neg(value), place);
+            }
+            if r.take_mark(Mark::Plus)? {
+                return r.signed_formula(draft);
+            }
+            r.operand_formula(draft)
+        })
+    }
+
+    fn operand_formula(&mut self, draft: &mut Draft) -> Result<NodeId> {
+        let lexeme = self.next()?;
+        let place = lexeme.place;
+        match &lexeme.item {
+            Item::Number(value) => draft.constant(*value, place),
+            Item::Value(Value::Number(terms)) => match terms.float() {
+                Some(value) => draft.constant(value, place),
+                None => Err(Fault::invalid(
+                    place,
+                    "a function is made of floats: put the part of this vector that is meant into a float first",
+                )),
+            },
+            Item::Value(Value::Parameter(number)) => draft.builder.input(*number).map_err(too_long(place)),
+            Item::Value(Value::Function(formula)) => {
+                let formula = formula.clone();
+                self.call_formula(draft, &formula, place)
+            }
+            Item::Mark(Mark::ParenOpen) => {
+                let value = self.logical_formula(draft)?;
+                self.expect(Mark::ParenClose)?;
+                Ok(value)
+            }
+            Item::Word(word) => {
+                if let Some(&(_, number)) = draft.words.iter().find(|(known, _)| known == word) {
+                    return draft.builder.input(number).map_err(too_long(place));
+                }
+                self.word_formula(draft, *word, &lexeme)
+            }
+            _ => Err(self.unexpected(&lexeme, "a number, a parameter or a function")),
+        }
+    }
+
+    /// The arguments in parentheses.
+    fn formula_arguments(&mut self, draft: &mut Draft) -> Result<Vec<NodeId>> {
+        self.expect(Mark::ParenOpen)?;
+        let mut arguments = Vec::new();
+        while !self.take_mark(Mark::ParenClose)? {
+            arguments.push(self.logical_formula(draft)?);
+            if !self.take_mark(Mark::Comma)? {
+                self.expect(Mark::ParenClose)?;
+                break;
+            }
+            if arguments.len() > 4 * MOST_PARAMETERS {
+                return Err(Fault::invalid(self.here(), "too many arguments"));
+            }
+        }
+        Ok(arguments)
+    }
+
+    fn call_formula(&mut self, draft: &mut Draft, formula: &Formula, place: Place) -> Result<NodeId> {
+        let arguments = self.formula_arguments(draft)?;
+        check_count(arguments.len(), formula.inputs() as usize, place)?;
+        draft.builder.call(formula, &arguments).map_err(too_long(place))
+    }
+
+    /// A word of the language inside a function.
+    fn word_formula(&mut self, draft: &mut Draft, word: Keyword, lexeme: &Lexeme) -> Result<NodeId> {
+        let place = lexeme.place;
+        let constant = match word {
+            Keyword::Pi => Some(std::f64::consts::PI),
+            Keyword::True | Keyword::On | Keyword::Yes => Some(1.0),
+            Keyword::False | Keyword::Off | Keyword::No => Some(0.0),
+            Keyword::Clock => Some(self.options.clock),
+            Keyword::Version => Some(self.language.version),
+            _ => None,
+        };
+        if let Some(value) = constant {
+            return draft.constant(value, place);
+        }
+        if matches!(word, Keyword::Sum | Keyword::Prod) {
+            return self.loop_formula(draft, word, place);
+        }
+        let count = match word {
+            Keyword::Abs | Keyword::Sqrt | Keyword::Sqr | Keyword::Degrees | Keyword::Radians => Some(1),
+            Keyword::Atan2 | Keyword::Pow | Keyword::Mod | Keyword::Div => Some(2),
+            Keyword::Min | Keyword::Max | Keyword::Select => None,
+            _ if function_of_one(word).is_some() => Some(1),
+            _ => {
+                if crate::functions::begins_expression(word) {
+                    let text = format!("`{}` cannot be used in a function", word.text());
+                    return Err(Fault::invalid(place, text));
+                }
+                return Err(self.unexpected(lexeme, "a number, a parameter or a function"));
+            }
+        };
+        let arguments = self.formula_arguments(draft)?;
+        if let Some(count) = count {
+            check_count(arguments.len(), count, place)?;
+        }
+        let step = match (word, arguments.as_slice()) {
+            (Keyword::Abs, &[a]) => Op::Abs(a),
+            (Keyword::Sqrt, &[a]) => Op::Sqrt(a),
+            (Keyword::Sqr, &[a]) => Op::Sqr(a),
+            (Keyword::Degrees, &[a]) => {
+                let factor = draft.constant(180.0 / std::f64::consts::PI, place)?;
+                Op::Mul(a, factor)
+            }
+            (Keyword::Radians, &[a]) => {
+                let factor = draft.constant(std::f64::consts::PI / 180.0, place)?;
+                Op::Mul(a, factor)
+            }
+            (Keyword::Atan2, &[a, b]) => Op::Atan2(a, b),
+            (Keyword::Pow, &[a, b]) => Op::Pow(a, b),
+            (Keyword::Mod, &[a, b]) => Op::Rem(a, b),
+            (Keyword::Div, &[a, b]) => Op::Function(Function::Trunc, draft.push(Op::Div(a, b), place)?),
+            (Keyword::Min | Keyword::Max, &[first, ref rest @ ..]) => {
+                let mut value = first;
+                for &next in rest {
+                    let step = if word == Keyword::Min { Op::Min(value, next) } else { Op::Max(value, next) };
+                    value = draft.push(step, place)?;
+                }
+                return Ok(value);
+            }
+            (Keyword::Select, &[c, below, other]) => Op::Select([c, below, other, other]),
+            (Keyword::Select, &[c, below, at, above]) => Op::Select([c, below, at, above]),
+            (Keyword::Select, _) => {
+                return Err(Fault::invalid(place, "select needs three or four arguments"));
+            }
+            (_, &[a]) if let Some(function) = function_of_one(word) => Op::Function(function, a),
+            _ => return Err(Fault::invalid(place, format!("{} needs an argument", word.text()))),
+        };
+        draft.push(step, place)
+    }
+
+    /// `sum(i, first, last, expression)` and `prod`, written out.
+    fn loop_formula(&mut self, draft: &mut Draft, word: Keyword, place: Place) -> Result<NodeId> {
+        self.expect(Mark::ParenOpen)?;
+        let variable = match self.take_raw() {
+            Some((Kind::Name(name), _)) => Parameter::Name(name),
+            Some((
+                Kind::Word(
+                    word @ (Keyword::X | Keyword::Y | Keyword::Z | Keyword::U | Keyword::V | Keyword::T),
+                ),
+                _,
+            )) => Parameter::Word(word),
+            _ => return Err(Fault::invalid(self.here(), "expected the name of the variable that counts")),
+        };
+        self.expect(Mark::Comma)?;
+        let first = self.whole_bound(draft)?;
+        let last = self.whole_bound(draft)?;
+        if last - first > MOST_ROUNDS {
+            let text = format!("{} over more than {MOST_ROUNDS} numbers", word.text());
+            return Err(Fault::at(place, FaultKind::Limit, text));
+        }
+        // The expression as a function of what is known outside, and of the variable.
+        let number = draft.inputs;
+        let mut inner = Draft { builder: Builder::new(), words: draft.words.clone(), inputs: number + 1 };
+        self.scopes.enter();
+        match variable {
+            Parameter::Word(word) => inner.words.insert(0, (word, number)),
+            Parameter::Name(name) => self.scopes.parameter(name, Value::Parameter(number)),
+        }
+        let root = self.logical_formula(&mut inner);
+        self.scopes.leave();
+        let root = root?;
+        self.expect(Mark::ParenClose)?;
+        let term = inner.builder.finish(root, number + 1);
+        let mut arguments = Vec::new();
+        for i in 0..number {
+            arguments.push(draft.builder.input(i).map_err(too_long(place))?);
+        }
+        let mut value = draft.constant(if word == Keyword::Sum { 0.0 } else { 1.0 }, place)?;
+        let mut at = first;
+        while at <= last {
+            arguments.push(draft.constant(at, place)?);
+            let next = draft.builder.call(&term, &arguments).map_err(too_long(place))?;
+            arguments.pop();
+            let step = if word == Keyword::Sum { Op::Add(value, next) } else { Op::Mul(value, next) };
+            value = draft.push(step, place)?;
+            at += 1.0;
+        }
+        Ok(value)
+    }
+
+    /// A bound of a loop and its comma: it must be known when the function is read.
+    fn whole_bound(&mut self, draft: &mut Draft) -> Result<f64> {
+        self.peek()?;
+        let place = self.here();
+        let bound = self.logical_formula(draft)?;
+        self.expect(Mark::Comma)?;
+        let constant = draft.builder.finish(bound, draft.inputs).as_constant();
+        match constant {
+            Some(value) if value.lo == value.hi => Ok(value.lo),
+            _ => Err(Fault::at(
+                place,
+                FaultKind::Unsupported,
+                "not supported yet: a loop in a function whose bounds depend on its parameters",
+            )),
+        }
+    }
+
+    /// The value of a function that is called where a float is wanted, after its name.
+    pub(crate) fn called_formula(&mut self, formula: &Rc<Formula>, place: Place) -> Result<Terms> {
+        self.expect(Mark::ParenOpen)?;
+        let mut arguments = Vec::new();
+        while !self.take_mark(Mark::ParenClose)? {
+            arguments.push(self.float()?);
+            self.skip_comma()?;
+            if arguments.len() > MOST_PARAMETERS {
+                break;
+            }
+        }
+        check_count(arguments.len(), formula.inputs() as usize, place)?;
+        self.count_steps(formula.ops().len() as u64, place)?;
+        let value = formula.value(&arguments);
+        if value.is_nan() {
+            return Err(Fault::invalid(place, "this function is undefined here"));
+        }
+        Ok(value.into())
+    }
+
+    /// The items of an isosurface, after its opening brace.
+    pub(crate) fn isosurface(&mut self, place: Place) -> Result<Shape> {
+        let mut function = None;
+        let (mut threshold, mut open) = (0.0, false);
+        let mut container = Container::Box(Point3::new(-1.0, -1.0, -1.0), Point3::new(1.0, 1.0, 1.0));
+        loop {
+            match self.peek_word()? {
+                Some(Keyword::Function) => {
+                    let at = self.here();
+                    let formula = self.function_block()?;
+                    if formula.inputs() != 3 {
+                        let text = format!(
+                            "the function of an isosurface has three parameters, this one has {}",
+                            formula.inputs()
+                        );
+                        return Err(Fault::invalid(at, text));
+                    }
+                    function = Some(Arc::new(formula));
+                }
+                Some(Keyword::ContainedBy) => {
+                    self.next()?;
+                    container = self.container()?;
+                }
+                Some(Keyword::Threshold) => {
+                    self.next()?;
+                    threshold = self.float()?;
+                }
+                // Roots are certain without them.
+                Some(Keyword::Accuracy | Keyword::MaxGradient | Keyword::MaxTrace) => {
+                    self.next()?;
+                    self.float()?;
+                }
+                Some(Keyword::AllIntersections) => {
+                    self.next()?;
+                }
+                Some(Keyword::Evaluate) => {
+                    self.next()?;
+                    for _ in 0..3 {
+                        self.float()?;
+                        self.skip_comma()?;
+                    }
+                }
+                Some(Keyword::Open) => {
+                    self.next()?;
+                    open = true;
+                }
+                _ => break,
+            }
+        }
+        let Some(function) = function else {
+            return Err(Fault::invalid(place, "this isosurface has no function"));
+        };
+        Ok(Shape::Isosurface(Rc::new(Isosurface { function, threshold, container }), open))
+    }
+
+    /// `{ box { } }` or `{ sphere { } }`.
+    fn container(&mut self) -> Result<Container> {
+        let point = |[x, y, z]: [f64; 3]| Point3::new(x, y, z);
+        self.expect(Mark::BraceOpen)?;
+        let lexeme = self.next()?;
+        let container = match lexeme.item {
+            Item::Word(Keyword::Box) => {
+                self.expect(Mark::BraceOpen)?;
+                let (a, b) = (self.corner()?, self.vector()?);
+                if (0..3).any(|i| a[i] == b[i]) {
+                    return Err(Fault::invalid(
+                        lexeme.place,
+                        "this container has no thickness: nothing is in it",
+                    ));
+                }
+                Container::Box(point(a), point(b))
+            }
+            Item::Word(Keyword::Sphere) => {
+                self.expect(Mark::BraceOpen)?;
+                let centre = self.corner()?;
+                Container::Ball(point(centre), self.radius("the container's radius")?)
+            }
+            _ => return Err(self.unexpected(&lexeme, "`box` or `sphere`")),
+        };
+        self.expect(Mark::BraceClose)?;
+        self.expect(Mark::BraceClose)?;
+        Ok(container)
+    }
+}
+
+fn check_count(found: usize, wanted: usize, place: Place) -> Result<()> {
+    if found == wanted {
+        return Ok(());
+    }
+    let s = |n: usize| if n == 1 { "" } else { "s" };
+    Err(Fault::invalid(place, format!("this function takes {wanted} argument{}, found {found}", s(wanted))))
+}

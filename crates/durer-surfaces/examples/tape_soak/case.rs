@@ -1,0 +1,243 @@
+//! One random formula, and all that must hold of it: made of any bytes.
+
+use durer_math::{Comparison, Dual, F8, Function, I8, Interval, Number, Point3, Ray, Vec3};
+use durer_surfaces::tape::{Builder, NodeId, Op, Tape};
+use durer_surfaces::{All, AxisBox, Container, Isosurface, Kind, LocalRay, Need, Surface};
+
+/// Bytes, and zeros behind their end.
+struct Bytes<'a>(&'a [u8]);
+
+impl Bytes<'_> {
+    fn next(&mut self) -> u8 {
+        let Some((&first, rest)) = self.0.split_first() else { return 0 };
+        self.0 = rest;
+        first
+    }
+
+    /// Mostly small round numbers, sometimes any.
+    fn number(&mut self) -> f64 {
+        match self.next() {
+            0 => f64::from_bits(u64::from_le_bytes(core::array::from_fn(|_| self.next()))),
+            1 => f64::from(self.next()) * 1e-3,
+            n => (f64::from(n) - 128.0) / 16.0,
+        }
+    }
+
+    fn finite(&mut self) -> f64 {
+        let x = self.number();
+        if x.is_finite() && x.abs() < 1e6 { x } else { 1.0 }
+    }
+}
+
+/// The formula that the bytes spell: each takes operands from what is there already.
+fn formula(bytes: &mut Bytes<'_>) -> Option<durer_surfaces::tape::Formula> {
+    const FUNCTIONS: [Function; 18] = [
+        Function::Sin,
+        Function::Cos,
+        Function::Tan,
+        Function::Asin,
+        Function::Acos,
+        Function::Atan,
+        Function::Sinh,
+        Function::Cosh,
+        Function::Tanh,
+        Function::Asinh,
+        Function::Acosh,
+        Function::Atanh,
+        Function::Exp,
+        Function::Ln,
+        Function::Log10,
+        Function::Floor,
+        Function::Ceil,
+        Function::Trunc,
+    ];
+    const COMPARISONS: [Comparison; 6] = [
+        Comparison::Less,
+        Comparison::LessEqual,
+        Comparison::Equal,
+        Comparison::NotEqual,
+        Comparison::And,
+        Comparison::Or,
+    ];
+    let mut b = Builder::new();
+    let mut made: Vec<NodeId> = (0..3).map(|i| b.input(i)).collect::<Result<_, _>>().ok()?;
+    for _ in 0..bytes.next() % 24 + 1 {
+        let code = bytes.next() % 20;
+        let mut pick = || made[made.len() - 1 - usize::from(bytes.next()) % made.len()];
+        let (x, y) = (pick(), pick());
+        let op = match code {
+            0 => Op::Add(x, y),
+            1 => Op::Sub(x, y),
+            2 => Op::Mul(x, y),
+            3 => Op::Div(x, y),
+            4 => Op::Min(x, y),
+            5 => Op::Max(x, y),
+            6 => Op::Sqr(x),
+            7 => Op::Sqrt(x),
+            8 => Op::Abs(x),
+            9 => Op::Neg(x),
+            10 => Op::Pow(x, y),
+            11 => Op::Atan2(x, y),
+            12 => Op::Rem(x, y),
+            13 => Op::Select([x, y, pick(), pick()]),
+            14 => Op::Powi(x, i32::from(bytes.next() % 9) - 3),
+            15 => Op::Compare(COMPARISONS[usize::from(bytes.next()) % 6], x, y),
+            16 => {
+                let c = bytes.finite();
+                made.push(b.constant(c).ok()?);
+                continue;
+            }
+            _ => Op::Function(FUNCTIONS[usize::from(bytes.next()) % 18], x),
+        };
+        made.push(b.push(op).ok()?);
+    }
+    let root = *made.last()?;
+    Some(b.finish(root, 3))
+}
+
+/// Checks everything about the formula that the bytes spell.
+///
+/// # Panics
+///
+/// If something does not hold.
+pub(crate) fn check(data: &[u8]) {
+    let mut bytes = Bytes(data);
+    let Some(formula) = formula(&mut bytes) else { return };
+    let tape = Tape::new(&formula);
+    let boxes: [I8; 3] = core::array::from_fn(|_| {
+        let (mut lo, mut hi) = (F8::ZERO, F8::ZERO);
+        for i in 0..8 {
+            let (a, b) = (bytes.finite(), bytes.finite());
+            let b = if i % 2 == 0 { b } else { a + b * 1e-4 };
+            (lo.0[i], hi.0[i]) = (a.min(b), a.max(b));
+        }
+        I8::new(lo, hi)
+    });
+    bounds_hold(&formula, &tape, &boxes);
+    slopes_hold(&tape, &boxes);
+    // Cells are dear: a few formulas stand for all.
+    if bytes.next().is_multiple_of(64) {
+        roots_are_in_order(&formula, &mut bytes);
+    }
+}
+
+fn point(boxes: &[I8; 3], lane: usize, k: [f64; 3]) -> Point3 {
+    let at = |axis: usize| {
+        let x = boxes[axis].lane(lane);
+        (x.lo + (x.hi - x.lo) * k[axis]).clamp(x.lo, x.hi)
+    };
+    Point3::new(at(0), at(1), at(2))
+}
+
+/// Bounds hold the values of points; a tape that was shortened on a box has the same values there.
+fn bounds_hold(formula: &durer_surfaces::tape::Formula, tape: &Tape, boxes: &[I8; 3]) {
+    let (v, shorter) = tape.shortened(boxes, |_, _| true);
+    for lane in 0..8 {
+        let range = v.lane(lane);
+        for k in [[0.0; 3], [1.0; 3], [0.5; 3], [0.0, 1.0, 0.3], [0.9, 0.1, 0.6]] {
+            let p = point(boxes, lane, k);
+            let value = tape.value(p);
+            assert_eq!(value.to_bits(), formula.value(&p.to_array()).to_bits());
+            // What overflowed on the way says nothing.
+            let tame = range.lo.is_finite() && range.hi.is_finite() && !may_overflow(formula);
+            if value.is_nan() {
+                assert!(v.partial >> lane & 1 == 1 || !tame, "{formula:?} is undefined at {p:?}, {v:?}");
+            } else if value.is_finite() {
+                assert!(range.contains(value), "{formula:?} at {p:?} is {value}, lane {lane} of {v:?}");
+                if let Some(shorter) = &shorter[lane] {
+                    let same = shorter.value(p);
+                    assert!(same == value, "{formula:?} at {p:?} is {value}, shortened {same}");
+                }
+            }
+        }
+    }
+}
+
+/// Between two points of a box a smooth formula changes by a slope that is in the bounds.
+fn slopes_hold(tape: &Tape, boxes: &[I8; 3]) {
+    let zero = I8::constant(Interval { lo: 0.0, hi: 0.0 });
+    let one = I8::constant(Interval { lo: 1.0, hi: 1.0 });
+    let g = tape.slopes(&[
+        Dual { v: boxes[0], d: one },
+        Dual { v: boxes[1], d: zero },
+        Dual { v: boxes[2], d: zero },
+    ]);
+    for lane in 0..8 {
+        if (g.v.partial | g.v.jump | g.d.partial) >> lane & 1 == 1 {
+            continue;
+        }
+        let (p, q) = (point(boxes, lane, [0.0, 0.5, 0.5]), point(boxes, lane, [1.0, 0.5, 0.5]));
+        let at = |p: Point3| {
+            let x = p.to_array().map(|x| I8::splat(Interval { lo: x, hi: x }));
+            tape.bounds(&x).lane(0)
+        };
+        let change = at(q) - at(p);
+        let run = Interval { lo: q.x, hi: q.x } - Interval { lo: p.x, hi: p.x };
+        let told = g.d.lane(lane) * run;
+        assert!(told.intersection(change).is_some(), "the slope says {told:?}, it is {change:?}: {tape:?}");
+    }
+}
+
+/// Roots ascend, those of a solid alternate, points can be had of them.
+fn roots_are_in_order(formula: &durer_surfaces::tape::Formula, bytes: &mut Bytes<'_>) {
+    let block = AxisBox::new(Point3::new(-1.0, -1.0, -1.0), Point3::new(1.0, 1.0, 1.0));
+    let Ok(block) = block else { return };
+    let Ok(surface) = Isosurface::new(formula, 0.0, Container::Box(block)) else { return };
+    for _ in 0..2 {
+        let origin = Point3::new(bytes.finite(), bytes.finite(), bytes.finite());
+        let ray = Ray::new(origin, Point3::ORIGIN - origin + Vec3::new(0.1, bytes.finite() * 0.01, 0.03));
+        if !ray.is_valid() {
+            continue;
+        }
+        let ray = ray.with_range(f64::NEG_INFINITY, f64::INFINITY);
+        let (local, mut all) = (LocalRay::new(&ray), All::default());
+        surface.roots(&local, &mut all);
+        let roots = all.roots;
+        assert!(roots.windows(2).all(|w| w[0].t <= w[1].t), "{formula:?}, {ray:?}: {roots:?}");
+        assert!(roots.iter().all(|r| r.lo <= r.t && r.t <= r.hi), "{formula:?}, {ray:?}: {roots:?}");
+        if roots.iter().all(|r| r.kind == Kind::Simple) && always_defined(formula) {
+            let alternate = roots.iter().enumerate().all(|(i, r)| r.sign == if i % 2 == 0 { -1 } else { 1 });
+            assert!(alternate && roots.len() % 2 == 0, "{formula:?}, {ray:?}: {roots:?}");
+        }
+        for root in roots.iter().take(4) {
+            let point = surface.resolve(&local, root, Need::ALL);
+            assert!(point.p.is_finite() && point.off > 0.0, "{formula:?}, {ray:?}: {point:?}");
+        }
+    }
+}
+
+/// Whether a step of the formula may leave the range of f64: what comes of its infinity says nothing of the formula.
+fn may_overflow(formula: &durer_surfaces::tape::Formula) -> bool {
+    let grows = |op: &Op| {
+        matches!(
+            op,
+            Op::Pow(..)
+                | Op::Powi(..)
+                | Op::Sqr(_)
+                | Op::Mul(..)
+                | Op::Div(..)
+                | Op::Function(Function::Exp | Function::Sinh | Function::Cosh | Function::Tan, _)
+        )
+    };
+    formula.ops().iter().any(grows)
+}
+
+/// Whether no step of the formula is ever undefined.
+fn always_defined(formula: &durer_surfaces::tape::Formula) -> bool {
+    formula.ops().iter().all(|op| {
+        matches!(
+            op,
+            Op::Input(_)
+                | Op::Constant(_)
+                | Op::Neg(_)
+                | Op::Abs(_)
+                | Op::Sqr(_)
+                | Op::Add(..)
+                | Op::Sub(..)
+                | Op::Mul(..)
+                | Op::Min(..)
+                | Op::Max(..)
+                | Op::Function(Function::Sin | Function::Cos | Function::Atan | Function::Tanh, _)
+        )
+    })
+}

@@ -1,0 +1,97 @@
+//! Telling stretches of a line apart: where there is certainly no root, where there is at most one, and where it cannot be told.
+//!
+//! R. E. Moore, *Interval Analysis*, Prentice-Hall 1966; D. P. Mitchell, "Robust ray intersection with interval arithmetic", Graphics Interface 1990,
+//! here with eight stretches of one ray in each pass over the tape.
+
+use super::line::{Line, signs};
+use super::tracker::Verdict;
+use crate::tape::Tape;
+use durer_math::I8;
+
+/// After so many passes over a tape for one ray what is left counts as murky: the work for a ray is bounded.
+pub(super) const MOST_PASSES: u32 = 40_000;
+
+/// Tells `[lo, hi]` apart. `take` gets the stretches in ascending order, without holes, and says whether to go on.
+pub(super) fn isolate(
+    line: &Line,
+    tape: &Tape,
+    (lo, hi): (f64, f64),
+    passes: &mut u32,
+    take: &mut dyn FnMut(f64, f64, Verdict) -> bool,
+) -> bool {
+    let node: [f64; 9] = core::array::from_fn(|i| match i {
+        0 => lo,
+        8 => hi,
+        _ => (lo + (hi - lo) * (i as f64 / 8.0)).max(lo).min(hi),
+    });
+    let a: [f64; 8] = core::array::from_fn(|i| node[i]);
+    let b: [f64; 8] = core::array::from_fn(|i| node[i + 1]);
+    let g = line.slopes(tape, &a, &b);
+    *passes += 1;
+    let mut verdict = [None; 8];
+    let smooth = !(g.v.partial | g.v.jump | g.d.partial);
+    let sign = signs(&g.v);
+    for i in 0..8 {
+        let (v, d) = ((g.v.lo.0[i], g.v.hi.0[i]), (g.d.lo.0[i], g.d.hi.0[i]));
+        verdict[i] = if let Some(sign) = sign[i] {
+            Some(Verdict::Sign(sign))
+        } else if g.v.empty >> i & 1 == 1 || v.0 > 0.0 || v.1 < 0.0 {
+            Some(Verdict::Gap)
+        } else if smooth >> i & 1 == 1 && d.0 > 0.0 {
+            Some(Verdict::Monotone(true))
+        } else if smooth >> i & 1 == 1 && d.1 < 0.0 {
+            Some(Verdict::Monotone(false))
+        } else {
+            None
+        };
+    }
+    if verdict.iter().any(Option::is_none) {
+        let middle: [f64; 8] = core::array::from_fn(|i| 0.5 * a[i] + 0.5 * b[i]);
+        let m = line.bounds(tape, &middle, &middle);
+        *passes += 1;
+        for i in 0..8 {
+            if verdict[i].is_none() {
+                let slope = g.d.lo.0[i].abs().max(g.d.hi.0[i].abs());
+                let slope = (smooth >> i & 1 == 1).then_some(slope);
+                let reach = (middle[i] - a[i]).max(b[i] - middle[i]);
+                verdict[i] = by_mean_value(line, &m, i, slope, reach, *passes);
+            }
+        }
+    }
+    for i in 0..8 {
+        let go_on = match verdict[i] {
+            Some(verdict) => take(a[i], b[i], verdict),
+            None => isolate(line, tape, (a[i], b[i]), passes, take),
+        };
+        if !go_on {
+            return false;
+        }
+    }
+    true
+}
+
+/// What the value in the middle and the steepest slope say of a stretch that reaches so far from there; `None`: it must be divided.
+fn by_mean_value(
+    line: &Line,
+    middle: &I8,
+    i: usize,
+    slope: Option<f64>,
+    reach: f64,
+    passes: u32,
+) -> Option<Verdict> {
+    if let Some(slope) = slope {
+        let spread = slope * reach * (1.0 + 8.0 * f64::EPSILON) + f64::MIN_POSITIVE;
+        let (lo, hi) = (middle.lo.0[i], middle.hi.0[i]);
+        if lo > spread {
+            return Some(Verdict::Sign(true));
+        }
+        if hi < -spread {
+            return Some(Verdict::Sign(false));
+        }
+        // The value cannot be told from zero at the middle, and the stretch adds no more than the rounding.
+        if lo <= 0.0 && hi >= 0.0 && spread <= hi - lo {
+            return Some(Verdict::Murky);
+        }
+    }
+    (reach <= line.ulp || passes >= MOST_PASSES).then_some(Verdict::Murky)
+}

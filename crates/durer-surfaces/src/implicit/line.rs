@@ -1,0 +1,126 @@
+//! A tape along a line: what `g(s) = f(q + s d)` is on stretches of `s`, with every rounding of the ray charged.
+
+use crate::CentredRay;
+use crate::tape::Tape;
+use durer_math::eft::two_sum;
+use durer_math::{Dual, F8, I8, Point3, U, Vec3};
+
+/// Pays for results below the normal range.
+const TINY: f64 = durer_math::scale::pow2(-1000);
+
+/// The line `q + s d`, each coordinate known within an error, for `|s| <= reach`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    q: [f64; 3],
+    d: [f64; 3],
+    d_err: [f64; 3],
+    /// Per-axis bound on the error of a computed point.
+    pub(super) err: [f64; 3],
+    /// The spacing of parameters that are worth telling apart: an ulp of `reach`.
+    pub(super) ulp: f64,
+}
+
+impl Line {
+    /// The line of a ray that was re-centred with scale 0, as far as `reach`.
+    pub(super) fn new(at: &CentredRay<'_>, reach: f64) -> Self {
+        let (c, o, d) = (at.centre.to_array(), at.o.to_array(), at.d.to_array());
+        let (o_err, d_err) = (at.o_err.to_array(), at.d_err.to_array());
+        let mut line = Self { q: [0.0; 3], d, d_err, err: [0.0; 3], ulp: reach * f64::EPSILON + TINY };
+        for i in 0..3 {
+            let (q, lost) = two_sum(c[i], o[i]);
+            line.q[i] = q;
+            // One rounding of the point, and two where its error is added and taken off.
+            let size = q.abs() + reach * d[i].abs();
+            line.err[i] =
+                (lost.abs() + o_err[i] + reach * d_err[i] + 3.0 * U * size) * (1.0 + 16.0 * U) + TINY;
+        }
+        line
+    }
+
+    /// The point at `s`, rounded.
+    #[inline(always)]
+    pub(super) fn point(&self, s: f64) -> Point3 {
+        let x = |i: usize| s * self.d[i] + self.q[i];
+        Point3::new(x(0), x(1), x(2))
+    }
+
+    /// The direction.
+    pub(super) fn direction(&self) -> Vec3 {
+        Vec3::from(self.d)
+    }
+
+    /// Where along an axis the line is at `x`, rounded; not finite where it never is.
+    #[inline(always)]
+    pub(super) fn meets(&self, axis: usize, x: f64) -> f64 {
+        (x - self.q[axis]) / self.d[axis]
+    }
+
+    /// The stretches from `a` to `b`, as boxes.
+    #[inline(always)]
+    fn boxes(&self, a: &[f64; 8], b: &[f64; 8]) -> [I8; 3] {
+        core::array::from_fn(
+            #[inline(always)]
+            |i| {
+                let (mut lo, mut hi) = (F8::ZERO, F8::ZERO);
+                for k in 0..8 {
+                    // Not fused, but rounded twice: the error of the product is one of the three that `err` pays for.
+                    let (x, y) = (a[k] * self.d[i] + self.q[i], b[k] * self.d[i] + self.q[i]);
+                    lo.0[k] = (if x < y { x } else { y }) - self.err[i];
+                    hi.0[k] = (if x < y { y } else { x }) + self.err[i];
+                }
+                I8::new(lo, hi)
+            },
+        )
+    }
+
+    /// Bounds of `g` on eight stretches.
+    pub(super) fn bounds(&self, tape: &Tape, a: &[f64; 8], b: &[f64; 8]) -> I8 {
+        tape.bounds(&self.boxes(a, b))
+    }
+
+    /// Bounds of `g` and of its slope on eight stretches.
+    pub(super) fn slopes(&self, tape: &Tape, a: &[f64; 8], b: &[f64; 8]) -> Dual<I8> {
+        let v = self.boxes(a, b);
+        let slope =
+            |i: usize| I8::new(F8::splat(self.d[i] - self.d_err[i]), F8::splat(self.d[i] + self.d_err[i]));
+        // Rounded once, by less than the next number: where there is an error at all.
+        let d = [0, 1, 2].map(|i| {
+            let mut d = slope(i);
+            if self.d_err[i] > 0.0 {
+                d = I8::new(d.lo.map(f64::next_down), d.hi.map(f64::next_up));
+            }
+            d
+        });
+        tape.slopes(&[0, 1, 2].map(|i| Dual { v: v[i], d: d[i] }))
+    }
+
+    /// The sign of `g` at `s` (up is `true`), if it is certain; `None` also where `f` may be undefined.
+    pub(super) fn sign(&self, tape: &Tape, s: f64) -> Option<bool> {
+        self.sign_on(tape, s, s)
+    }
+
+    /// The one sign of `g` from `a` to `b`, if it is certain.
+    pub(super) fn sign_on(&self, tape: &Tape, a: f64, b: f64) -> Option<bool> {
+        signs(&self.bounds(tape, &[a; 8], &[b; 8]))[0]
+    }
+
+    /// The rounded value at `s`; NaN where `f` is undefined.
+    pub(super) fn value(&self, tape: &Tape, s: f64) -> f64 {
+        tape.value(self.point(s))
+    }
+}
+
+/// The certain signs of eight bounds.
+pub(super) fn signs(v: &I8) -> [Option<bool>; 8] {
+    core::array::from_fn(|i| {
+        if v.partial >> i & 1 == 1 {
+            None
+        } else if v.lo.0[i] > 0.0 {
+            Some(true)
+        } else if v.hi.0[i] < 0.0 {
+            Some(false)
+        } else {
+            None
+        }
+    })
+}

@@ -1,0 +1,148 @@
+//! The surface of a formula: all points of a container where `f(x, y, z) = threshold`.
+//!
+//! ```text
+//!   { p in C : f(p) = T },  inside: f(p) < T;  C is a box or a ball, and shows its face where that is inside
+//! ```
+//!
+//! No knowledge of the formula is asked for, no bound of its gradient and no accuracy: along a ray the formula is evaluated in interval arithmetic,
+//! and a stretch is passed over only if the bounds exclude a root (R. E. Moore 1966; D. P. Mitchell 1990; D. Kalra, A. H. Barr, "Guaranteed ray
+//! intersections with implicit surfaces", SIGGRAPH 1989, does it with Lipschitz constants that the user must give). A root is called simple where
+//! the formula is strictly monotone between two certain and opposite signs.
+//!
+//! What is exact here is the formula with its numbers. Where rounding leaves the sign open over a whole stretch (at tangents, mostly) the
+//! crossings of that stretch are one [`Kind::Cluster`](crate::Kind). Where the formula jumps from one sign to the other, also over a pole, the solid
+//! has a wall, which is a cluster too: no derivative says that there is just one. Where it is undefined there is no surface.
+
+mod cells;
+mod container;
+mod isolate;
+mod line;
+mod point;
+mod roots;
+mod tracker;
+
+pub use container::Container;
+
+use crate::compose::clip::Algebraic;
+use crate::roots::quadratic::Quadratic;
+use crate::tape::{Builder, Formula, FormulaError, Op, Tape};
+use crate::{LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use cells::Cells;
+use durer_math::{Aabb, Dyadic, F8, I8};
+use std::sync::Arc;
+
+/// A formula's surface in a container. Face 0 is the formula's, the container's faces follow.
+///
+/// # Invariants
+///
+/// The formula takes three numbers, the threshold is finite.
+#[derive(Clone, Debug)]
+pub struct Isosurface {
+    /// `f - T`.
+    tape: Tape,
+    container: Container,
+    open: bool,
+    cells: Arc<Cells>,
+}
+
+/// Why an [`Isosurface`] cannot exist.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum IsosurfaceError {
+    /// The threshold is infinite or NaN.
+    #[error("isosurface: the threshold must be finite, got {0}")]
+    Threshold(f64),
+    /// The formula takes another number of arguments.
+    #[error("isosurface: its function must have three arguments, this one has {0}")]
+    Arguments(u32),
+    /// The formula is too long.
+    #[error("isosurface: {0}")]
+    Formula(#[from] FormulaError),
+}
+
+impl Isosurface {
+    /// The surface of `formula`, at `threshold`, in `container`; it closes the solid where the container cuts it.
+    pub fn new(formula: &Formula, threshold: f64, container: Container) -> Result<Self, IsosurfaceError> {
+        if !threshold.is_finite() {
+            return Err(IsosurfaceError::Threshold(threshold));
+        }
+        if formula.inputs() != 3 {
+            return Err(IsosurfaceError::Arguments(formula.inputs()));
+        }
+        let mut builder = Builder::new();
+        let inputs = [builder.input(0)?, builder.input(1)?, builder.input(2)?];
+        let value = builder.call(formula, &inputs)?;
+        let threshold = builder.constant(threshold)?;
+        let level = builder.push(Op::Sub(value, threshold))?;
+        let tape = Tape::new(&builder.finish(level, 3));
+        let cells = Arc::new(Cells::new(&tape, container.bounds()));
+        Ok(Self { tape, container, open: false, cells })
+    }
+
+    /// The same surface without the container's faces: a sheet.
+    #[must_use]
+    pub fn without_caps(mut self) -> Self {
+        self.open = true;
+        self
+    }
+
+    /// How many cells of the container there may be surface in, and how many steps their tapes have on average; the formula has
+    /// as many as the third number says.
+    pub fn cells(&self) -> (usize, f64, usize) {
+        let (open, steps) = self.cells.open();
+        (open, steps, self.tape.len())
+    }
+}
+
+impl Surface for Isosurface {
+    fn bounds(&self) -> Aabb {
+        self.container.bounds()
+    }
+
+    fn bounds_through(&self, map: &durer_math::Affine) -> Aabb {
+        self.container.bounds_through(map)
+    }
+
+    #[inline(always)]
+    fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
+        self.all_roots(ray, &mut roots::Outlet(sink));
+    }
+
+    fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
+        self.point(ray, root, need)
+    }
+
+    fn solidity(&self) -> Solidity {
+        if self.open { Solidity::Open } else { Solidity::Solid }
+    }
+
+    fn side(&self, point: &LocalPoint<'_>) -> Side {
+        if self.open {
+            return Side::Out;
+        }
+        let held = self.container.side(point);
+        if held == Side::Out {
+            return Side::Out;
+        }
+        let (p, e) = (point.p.to_array(), point.p_err.to_array());
+        let around = |i: usize| {
+            let (lo, hi) = ((p[i] - e[i]).next_down(), (p[i] + e[i]).next_up());
+            let exact = e[i] == 0.0;
+            I8::new(F8::splat(if exact { p[i] } else { lo }), F8::splat(if exact { p[i] } else { hi }))
+        };
+        let v = self.tape.bounds(&[around(0), around(1), around(2)]);
+        if v.empty & 1 == 1 || v.lo.0[0] > 0.0 {
+            Side::Out
+        } else if v.hi.0[0] < 0.0 && v.partial & 1 == 0 {
+            held
+        } else {
+            Side::On
+        }
+    }
+}
+
+impl Algebraic for Isosurface {
+    /// None: a formula has no polynomial.
+    fn polynomial(&self, _face: u32, _ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+        None
+    }
+}

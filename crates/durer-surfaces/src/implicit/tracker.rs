@@ -1,0 +1,249 @@
+//! From stretches of a line to roots: each once, ascending, in brackets with certain signs at their ends.
+
+use super::line::{Line, signs};
+use crate::tape::Tape;
+use crate::{Kind, ROUGH};
+
+/// What is known of `g` on a stretch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Verdict {
+    /// It is defined and has this sign (`true`: positive) on all of it.
+    Sign(bool),
+    /// It has no root there, and may be undefined.
+    Gap,
+    /// It is continuous, and strictly rises (`true`) or falls.
+    Monotone(bool),
+    /// Its sign cannot be told from zero, down to the rounding of the formula.
+    Murky,
+}
+
+/// A root in `[lo, hi]`; `s` lies in it too.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found {
+    pub(super) s: f64,
+    pub(super) lo: f64,
+    pub(super) hi: f64,
+    /// +1 where `g` goes from below to above, -1 the other way, 0 where it returns to its side.
+    pub(super) sign: i8,
+    pub(super) kind: Kind,
+}
+
+/// A run of stretches in which there may be a root.
+#[derive(Clone, Copy)]
+struct Run<'a> {
+    lo: f64,
+    hi: f64,
+    /// The way `g` goes; `None` if that is not known.
+    rises: Option<bool>,
+    tape: &'a Tape,
+}
+
+/// Takes stretches in ascending order, without holes, and gives the roots.
+pub(super) struct Tracker<'a> {
+    line: &'a Line,
+    /// A tape that is right everywhere.
+    whole: &'a Tape,
+    /// The sign before the run, if it is known.
+    before: Option<bool>,
+    run: Option<Run<'a>>,
+    rough: bool,
+}
+
+impl<'a> Tracker<'a> {
+    /// A tracker that starts where `g` has the sign `before`.
+    pub(super) fn new(line: &'a Line, whole: &'a Tape, before: Option<bool>, rough: bool) -> Self {
+        Self { line, whole, before, run: None, rough }
+    }
+
+    /// The next stretch. `tape` is right on it and near it.
+    pub(super) fn take(&mut self, a: f64, b: f64, verdict: Verdict, tape: &'a Tape) -> Option<Found> {
+        match verdict {
+            Verdict::Sign(sign) => {
+                let found = self.close(Some(sign));
+                self.before = Some(sign);
+                found
+            }
+            Verdict::Gap => {
+                // The run ends at a point of its own, where the formula is still defined, or jumps.
+                let found = self.run.and_then(|run| {
+                    let end = self.line.sign(run.tape, run.hi);
+                    self.close(end)
+                });
+                self.before = None;
+                found
+            }
+            Verdict::Monotone(rises) => self.go_on(a, b, Some(rises), tape),
+            Verdict::Murky => self.go_on(a, b, None, tape),
+        }
+    }
+
+    fn go_on(&mut self, a: f64, b: f64, rises: Option<bool>, tape: &'a Tape) -> Option<Found> {
+        let Some(run) = &mut self.run else {
+            if self.before.is_none() {
+                self.before = self.line.sign(tape, a);
+            }
+            self.run = Some(Run { lo: a, hi: b, rises, tape });
+            return None;
+        };
+        let tape = if std::ptr::eq(run.tape, tape) { tape } else { self.whole };
+        if run.rises == rises {
+            (run.hi, run.tape) = (b, tape);
+            return None;
+        }
+        if let Some(sign) = self.line.sign(self.whole, a) {
+            let found = self.close(Some(sign));
+            self.before = Some(sign);
+            self.run = Some(Run { lo: a, hi: b, rises, tape });
+            return found;
+        }
+        // The turn itself cannot be told from a root: all of it is one cluster, without what is certainly none.
+        let lo = if run.rises.is_some() { narrowed(self.line, self.whole, run.lo, run.hi).0 } else { run.lo };
+        let hi = if rises.is_some() { narrowed(self.line, self.whole, a, b).1 } else { b };
+        *run = Run { lo, hi: hi.max(lo), rises: None, tape: self.whole };
+        None
+    }
+
+    /// Whether all that was taken is told.
+    pub(super) fn is_idle(&self) -> bool {
+        self.run.is_none()
+    }
+
+    /// The end of the line, where `g` has the sign `after`.
+    pub(super) fn finish(&mut self, after: Option<bool>) -> Option<Found> {
+        self.close(after)
+    }
+
+    fn close(&mut self, after: Option<bool>) -> Option<Found> {
+        let run = self.run.take()?;
+        let before = self.before;
+        match (run.rises, before, after) {
+            // What rises comes from below and goes above, if it meets zero at all.
+            (Some(rises), before, after) => {
+                let (start, end) = (before.unwrap_or(!rises), after.unwrap_or(rises));
+                if start == end || start == rises {
+                    return None;
+                }
+                let (s, lo, hi) = polished(self.line, run.tape, run.lo, run.hi, rises, self.rough);
+                // Where one sign is not known the root may lie on an end, or just not be there: it cannot be disproved.
+                let kind = if before.is_some() && after.is_some() { Kind::Simple } else { Kind::Cluster };
+                Some(Found { s, lo, hi, sign: if rises { 1 } else { -1 }, kind })
+            }
+            (None, before, after) => {
+                let sign = match (before, after) {
+                    (Some(false), Some(true)) => 1,
+                    (Some(true), Some(false)) => -1,
+                    _ => 0,
+                };
+                let s = (0.5 * run.lo + 0.5 * run.hi).max(run.lo).min(run.hi);
+                Some(Found { s, lo: run.lo, hi: run.hi, sign, kind: Kind::Cluster })
+            }
+        }
+    }
+}
+
+/// The root of a monotone `g` in `[lo, hi]`, and a bracket with certain signs at its ends where there are any.
+fn polished(line: &Line, tape: &Tape, lo: f64, hi: f64, rises: bool, rough: bool) -> (f64, f64, f64) {
+    let sense = if rises { 1.0 } else { -1.0 };
+    let g = |s: f64| sense * line.value(tape, s);
+    let widest = if rough { ROUGH * (line.ulp / f64::EPSILON) * 0.25 } else { line.ulp };
+    let s = guess(g, lo, hi, 0.125 * widest);
+    // Steps on both sides: how far must one go for certain signs?
+    let first = if rough { 0.03125 * widest } else { 2.0 * widest };
+    let steps = [first, 8.0 * first, 64.0 * first, 512.0 * first];
+    let at: [f64; 8] = core::array::from_fn(|i| if i < 4 { s - steps[i] } else { s + steps[i - 4] });
+    let v = line.bounds(tape, &at, &at);
+    let sign = signs(&v);
+    let usable = if rough { 3 } else { 4 };
+    let left = (0..usable).find(|&i| sign[i] == Some(!rises)).map(|i| at[i]);
+    let right = (4..4 + usable).find(|&i| sign[i] == Some(rises)).map(|i| at[i]);
+    if let (Some(left), Some(right)) = (left, right) {
+        return (s, left, right);
+    }
+    let (a, b) = sectioned(line, tape, lo, hi, rises);
+    let (a, b) = (left.unwrap_or(a), right.unwrap_or(b));
+    let (a, b) = if a <= b { (a, b) } else { (lo, hi) };
+    (s.max(a).min(b), a, b)
+}
+
+/// A root of `g`, which rises, in `[lo, hi]`, as well as f64 knows it: false position that halves the weight of an end that stays (M. Dowell, P.
+/// Jarratt, "A modified regula falsi method for computing the root of an equation", *BIT* 11, 1971), with bisection where that is slow.
+fn guess(g: impl Fn(f64) -> f64, lo: f64, hi: f64, close: f64) -> f64 {
+    let (mut a, mut b) = (lo, hi);
+    let (mut ga, mut gb) = (g(a), g(b));
+    if ga >= 0.0 {
+        return a;
+    }
+    if gb <= 0.0 {
+        return b;
+    }
+    let mut stayed = 0_i32;
+    for step in 0..100 {
+        let middle = 0.5 * a + 0.5 * b;
+        let secant = b - gb * ((b - a) / (gb - ga));
+        let s = if step % 4 == 3 || !(secant > a && secant < b) { middle } else { secant };
+        if !(s > a && s < b) || b - a <= close {
+            return s.max(a).min(b);
+        }
+        let gs = g(s);
+        if gs == 0.0 {
+            return s;
+        }
+        if gs < 0.0 {
+            if (s - a).abs() <= close && stayed < 0 {
+                return s;
+            }
+            (a, ga) = (s, gs);
+            if stayed < 0 {
+                gb *= gb / (gb - gs);
+            }
+            stayed = -1;
+        } else {
+            if (b - s).abs() <= close && stayed > 0 {
+                return s;
+            }
+            // A value that is no number goes with the upper end: one step of bisection.
+            (b, gb) = (s, gs);
+            if stayed > 0 {
+                ga *= ga / (ga - gs);
+            }
+            stayed = 1;
+        }
+    }
+    0.5 * a + 0.5 * b
+}
+
+/// The narrowest part of `[lo, hi]` with certain signs at its ends, by sections of eight.
+fn sectioned(line: &Line, tape: &Tape, lo: f64, hi: f64, rises: bool) -> (f64, f64) {
+    let (mut a, mut b) = (lo, hi);
+    loop {
+        let at: [f64; 8] = core::array::from_fn(|i| a + (b - a) * ((i as f64 + 1.0) / 9.0));
+        let sign = signs(&line.bounds(tape, &at, &at));
+        let before = (0..8).rev().find(|&i| sign[i] == Some(!rises)).map_or(a, |i| at[i]);
+        let after = (0..8).find(|&i| sign[i] == Some(rises)).map_or(b, |i| at[i]);
+        let gained = after - before < 0.75 * (b - a);
+        if before <= after {
+            (a, b) = (before, after);
+        }
+        if !gained || before > after {
+            return (a, b);
+        }
+    }
+}
+
+/// `[lo, hi]` without its ends, as far as `g` is certainly not zero there.
+fn narrowed(line: &Line, tape: &Tape, lo: f64, hi: f64) -> (f64, f64) {
+    let (mut a, mut b) = (lo, hi);
+    loop {
+        let node = |i: usize| a + (b - a) * (i as f64 / 8.0);
+        let from: [f64; 8] = core::array::from_fn(node);
+        let to: [f64; 8] = core::array::from_fn(|i| node(i + 1));
+        let v = line.bounds(tape, &from, &to);
+        let open = |i: &usize| signs(&v)[*i].is_none();
+        let (Some(first), Some(last)) = ((0..8).find(open), (0..8).rev().find(open)) else { return (a, b) };
+        let (next_a, next_b) = (from[first], to[last]);
+        if next_b - next_a > 0.8 * (b - a) || next_b - next_a <= 4.0 * line.ulp {
+            return (next_a, next_b);
+        }
+        (a, b) = (next_a, next_b);
+    }
+}

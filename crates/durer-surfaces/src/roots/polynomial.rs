@@ -1,0 +1,561 @@
+//! The real roots of a polynomial of degree up to 16 along a ray, each in a proven bracket, in ascending order.
+//!
+//! One ladder, as everywhere: in f64 with proven errors, then in double-double, then exactly. What a step has proven stands; where it is in
+//! doubt the next one goes on, from a point at which the sign is certain. On the first two steps:
+//!
+//! 1. The polynomial is put into Bernstein form ([`Bernstein`]) over the stretch of the line where roots may be. All coefficients of one sign:
+//!    no root. This is what mostly happens.
+//! 2. Exactly one change of sign: one simple root. Otherwise the stretch is halved, the first half first.
+//! 3. A root is found by Newton's method and its bracket proven: by the size of the polynomial and of its slope (Kantorovich), or by certain
+//!    signs on either side.
+//!
+//! On the last step, [`Sturm`] counts the roots with their multiplicities.
+//!
+//! A line on which the surface has no end is cut at `s = -1` and `s = 1`; what is outside is looked at as `σ = 1 / s`.
+
+use crate::Flow;
+use crate::roots::bernstein::{Bernstein, Count, FLOOR};
+use crate::roots::quadratic::Limits;
+use crate::roots::sturm::{Isolated, Sturm};
+use arrayvec::ArrayVec;
+use core::cmp::Ordering;
+use core::cmp::Ordering::{Greater, Less};
+use durer_math::run::Word;
+use durer_math::{Dd, Dyadic, Isa, Ring, Run, U};
+
+/// A polynomial along a line, in `y = s - mid`, at every step of the ladder; its first coefficient is the constant.
+pub(crate) trait Along<const N: usize> {
+    /// In f64.
+    fn double(&self) -> [Run; N];
+    /// In double-double, times any positive number.
+    fn wide(&self) -> Option<[Run<Dd>; N]>;
+    /// Exactly, times any positive number; and whether that is the line itself and not only one near it.
+    fn exact(&self) -> (Vec<Dyadic>, bool);
+}
+
+/// Where on the line roots may be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Stretch {
+    /// Strictly within `half` of `mid`. `half` has at most 8 significant bits.
+    Within { mid: f64, half: f64 },
+    /// Anywhere.
+    Everywhere,
+}
+
+/// A root.
+pub(crate) struct Found<'a> {
+    pub(crate) s: f64,
+    pub(crate) lo: f64,
+    pub(crate) hi: f64,
+    /// It is the only root between these, and the signs before and after it are those of the polynomial from the one to it, and from it to
+    /// the other.
+    pub(crate) alone: (f64, f64),
+    pub(crate) before: Ordering,
+    pub(crate) after: Ordering,
+    /// False if the ray was not known well enough to be sure.
+    pub(crate) certain: bool,
+    /// How the root was found, if f64 and double-double could not.
+    pub(crate) exact: Option<(&'a Sturm, &'a Isolated)>,
+}
+
+/// From `x` in `[-1, 1]` to the line.
+#[derive(Clone, Copy)]
+enum Place {
+    /// `s = mid + half x`.
+    Linear { mid: f64, half: f64 },
+    /// `s = 1 / x`.
+    Inverse,
+}
+
+impl Place {
+    #[inline(always)]
+    fn s(self, x: f64) -> f64 {
+        match self {
+            Self::Linear { mid, half } => half.mul_add(x, mid),
+            Self::Inverse => 1.0 / x,
+        }
+    }
+
+    /// The ends of the image of `[l, r]`, ascending, within a rounding.
+    #[inline(always)]
+    fn ends(self, l: f64, r: f64) -> (f64, f64) {
+        match self {
+            Self::Linear { .. } => (self.s(l), self.s(r)),
+            // An end at zero is an end at infinity, on the side of the other.
+            Self::Inverse if r > 0.0 => (1.0 / r, 1.0 / l.abs()),
+            Self::Inverse => (-1.0 / r.abs(), 1.0 / l),
+        }
+    }
+
+    /// Whether a bracket is narrow enough: its greatest width in `x`.
+    #[inline(always)]
+    fn widest(self, x: f64, limits: &Limits) -> f64 {
+        match self {
+            Self::Linear { half, .. } => {
+                let s = self.s(x);
+                limits.width * (limits.origin + s).abs().max(s.abs()).max(0.5) / half * (1.0 - 8.0 * U)
+            }
+            Self::Inverse => limits.width * x.abs() * 0.5,
+        }
+    }
+}
+
+/// Below this share of a stretch nothing is halved any more.
+const FINEST: u32 = 40;
+
+/// A polynomial in `x` over `[-1, 1]`, with the bound of each coefficient's error.
+#[derive(Clone, Copy)]
+struct Scaled<T, const N: usize> {
+    c: [T; N],
+    e: [f64; N],
+    /// Coefficients above are zero for certain.
+    degree: usize,
+}
+
+/// A part `l..r` of the stretch and the polynomial on it. The sign at `l` is certain, unless it is the stretch's own end.
+struct Node<T, const N: usize> {
+    form: Bernstein<T, N>,
+    l: f64,
+    r: f64,
+    /// `l` and `r` are multiples of `2^-bits`.
+    bits: u32,
+}
+
+/// A doubt: all up to `x` is settled.
+struct Doubt(f64);
+
+impl<T: Word, const N: usize> Scaled<T, N> {
+    /// `a(half x)`.
+    #[inline(always)]
+    fn new(a: &[Run<T>; N], half: f64) -> Self {
+        let (h, size) = (T::from(half), half.abs());
+        let (mut power, mut big) = (T::from(1.0), 1.0);
+        let (mut c, mut e) = (a.map(|a| a.v), a.map(|a| a.e));
+        let degree = (0..N).rev().find(|&k| a[k].value() != 0.0 || a[k].e != 0.0).unwrap_or(0);
+        for k in 1..N {
+            power = power * h;
+            big *= size * (1.0 + 2.0 * f64::EPSILON);
+            c[k] = c[k] * power;
+            // k roundings, of the power and of the product.
+            e[k] = e[k].mul_add(big, c[k].to_f64().abs() * (k as f64 * T::MUL) * (1.0 + 64.0 * f64::EPSILON))
+                * (1.0 + 8.0 * f64::EPSILON)
+                + FLOOR;
+        }
+        Self { c, e, degree }
+    }
+
+    /// The polynomial whose roots are the inverses.
+    #[inline(always)]
+    fn reversed(&self) -> Self {
+        let mut out = Self { c: [T::from(0.0); N], e: [0.0; N], degree: self.degree };
+        for k in 0..=self.degree {
+            (out.c[k], out.e[k]) = (self.c[self.degree - k], self.e[self.degree - k]);
+        }
+        out
+    }
+
+    /// The part from `l` to 1, again over `[-1, 1]`: shifted (W. G. Horner's scheme), then scaled.
+    #[inline(always)]
+    fn from(&self, l: f64) -> Self {
+        let (mid, half) = (0.5 + 0.5 * l, 0.5 - 0.5 * l);
+        let (mut c, mut e, mut big) = (self.c, self.e, self.c.map(|c| c.to_f64().abs()));
+        for i in 0..N - 1 {
+            for j in (i..N - 1).rev() {
+                c[j] = c[j] + T::from(mid) * c[j + 1];
+                big[j] += mid.abs() * big[j + 1];
+                e[j] += mid.abs() * e[j + 1];
+            }
+        }
+        // Two roundings a step, at most N steps a coefficient.
+        let unit = 2.0 * N as f64 * (T::ADD + T::MUL);
+        let a = core::array::from_fn(|k| {
+            Run::with_error(c[k], big[k].mul_add(unit, e[k]) * (1.0 + 128.0 * f64::EPSILON) + FLOOR)
+        });
+        Self::new(&a, half)
+    }
+
+    /// The sum of all errors.
+    #[inline(always)]
+    fn slack(&self) -> f64 {
+        self.e.iter().sum::<f64>() * (1.0 + 16.0 * f64::EPSILON)
+    }
+
+    /// The value at `x` and a bound on its error: Horner's scheme takes `2 N` roundings.
+    #[inline(always)]
+    fn at(&self, x: f64) -> Run<T> {
+        let (t, size) = (T::from(x), x.abs());
+        let unit = 2.0 * N as f64 * (T::ADD + T::MUL);
+        let (mut v, mut e) = (T::from(0.0), 0.0);
+        for k in (0..N).rev() {
+            v = v * t + self.c[k];
+            e = f64::mul_add(e, size, self.c[k].to_f64().abs().mul_add(unit, self.e[k]));
+        }
+        Run::with_error(v, e * (1.0 + 64.0 * f64::EPSILON) + FLOOR)
+    }
+
+    /// The slope at `x`, roughly.
+    #[inline(always)]
+    fn slope(&self, x: f64) -> f64 {
+        (1..N).rev().fold(0.0_f64, |sum, k| sum.mul_add(x, k as f64 * self.c[k].to_f64()))
+    }
+
+    /// The root between `a` and `b`, where the signs are certain and opposite, in a bracket no wider than `widest`.
+    #[inline(always)]
+    fn refine(
+        &self,
+        (mut a, mut b): (f64, f64),
+        rising: bool,
+        start: f64,
+        widest: impl Fn(f64) -> f64,
+    ) -> Option<(f64, f64, f64)> {
+        let side = |x: f64| {
+            let value = self.at(x);
+            let sign = value.sign().filter(|s| s.is_ne());
+            (value.value(), sign.map(|s| (s == Greater) == rising))
+        };
+        let mut x = start;
+        for round in 0..200 {
+            if !(x > a && x < b) || round % 4 == 3 {
+                x = 0.5 * (a + b);
+            }
+            let w = widest(x);
+            if b - a <= w {
+                // The point itself is wanted as well as it can be had, also where far origins allow wide brackets.
+                let middle = 0.5 * (a + b);
+                let better = middle - side(middle).0 / self.slope(middle);
+                return Some((if better > a && better < b { better } else { middle }, a, b));
+            }
+            let (value, above) = side(x);
+            let step = value / self.slope(x);
+            match above {
+                // Newton's step, and a little more, so that the next point is on the other side.
+                Some(true) => (b, x) = (x, x - step - 0.25 * w),
+                Some(false) => (a, x) = (x, x - step + 0.25 * w),
+                None => {
+                    let (l, r) = ((x - 0.4 * w).max(a), (x + 0.4 * w).min(b));
+                    let low = l <= a || side(l).1 == Some(false);
+                    let high = r >= b || side(r).1 == Some(true);
+                    return (low && high).then_some((x, l, r));
+                }
+            }
+        }
+        None
+    }
+
+    /// Settles the stretch, first parts first: shows each part with one root to `visit`, until it says stop or is in doubt. Parts that `skips`
+    /// does not want are passed over.
+    #[inline(always)]
+    fn walk(
+        &self,
+        from: f64,
+        cut: bool,
+        skips: impl Fn(f64, f64) -> bool,
+        mut visit: impl FnMut(&Node<T, N>, bool) -> Result<Flow, Doubt>,
+    ) -> Result<Flow, Doubt> {
+        let slack = self.slack();
+        let whole = Node { form: Bernstein::new(&self.c, slack), l: from, r: 1.0, bits: 0 };
+        let mut open = ArrayVec::<Node<T, N>, 64>::new();
+        open.push(whole);
+        while let Some(node) = open.pop() {
+            let across_cut = cut && node.l < 0.0 && node.r > 0.0;
+            match node.form.count() {
+                Count::None => continue,
+                count @ (Count::Rise | Count::Fall) if !across_cut => {
+                    if !skips(node.l, node.r) && visit(&node, count == Count::Rise)? == Flow::Stop {
+                        return Ok(Flow::Stop);
+                    }
+                    continue;
+                }
+                _ if skips(node.l, node.r) => continue,
+                _ => {}
+            }
+            if node.bits > FINEST || !node.form.tells() {
+                return Err(Doubt(node.l));
+            }
+            // A split where the sign is certain; near the middle there is one, unless all is in doubt.
+            let parts: &[(f64, u32)] =
+                if across_cut { &[(0.5, 1)] } else { &[(0.5, 1), (0.4375, 4), (0.5625, 4)] };
+            let split = parts.iter().find_map(|&(part, bits)| {
+                let (left, right) = node.form.split(part);
+                left.last_is_certain().then_some((part, bits, left, right))
+            });
+            let Some((part, bits, left, right)) = split else { return Err(Doubt(node.l)) };
+            let (m, bits) = (part.mul_add(node.r - node.l, node.l), node.bits + bits);
+            open.push(Node { form: right, l: m, r: node.r, bits });
+            open.push(Node { form: left, l: node.l, r: m, bits });
+        }
+        Ok(Flow::Continue)
+    }
+}
+
+impl<const N: usize> Scaled<f64, N> {
+    /// As [`Scaled::refine`], without certain signs: with `|p(x)| <= η`, a slope of `g` at `x` that is wrong by less than `g / 256` and `|p''| <= H` all
+    /// over, `H δ <= g / 256` makes the slope at least `g (1 - 1/64)` within `δ = 33/32 η / g` of `x`; so there is one root there, and if all of that
+    /// is between `a` and `b` it is theirs.
+    #[inline(always)]
+    fn newton(&self, (a, b): (f64, f64), start: f64, widest: impl Fn(f64) -> f64) -> Option<(f64, f64, f64)> {
+        let mut x = start;
+        let mut last = f64::INFINITY;
+        for _ in 0..8 {
+            let (mut v, mut slope) = (0.0_f64, 0.0_f64);
+            for k in (0..N).rev() {
+                slope = slope.mul_add(x, v);
+                v = v.mul_add(x, self.c[k]);
+            }
+            let step = v / slope;
+            let next = x - step;
+            if !(next > a && next < b) {
+                return None;
+            }
+            x = next;
+            // Quadratic convergence: after a step this short the next would be below all errors.
+            if step.abs() < 1e-9 || step.abs() >= last {
+                break;
+            }
+            last = 0.5 * step.abs();
+        }
+        let value = self.at(x);
+        let slope = self.slope(x).abs();
+        let (mut bend, mut doubt) = (0.0, 0.0);
+        for k in 1..N {
+            let k_f = k as f64;
+            bend += k_f * (k_f - 1.0) * (self.c[k].abs() + self.e[k]);
+            doubt += k_f * self.c[k].abs().mul_add(2.0 * N as f64 * U, self.e[k]);
+        }
+        let eta = value.v.abs() + value.e;
+        let delta = eta / slope * (1.0 + 1.0 / 32.0);
+        let (l, r) = ((x - delta).next_down(), (x + delta).next_up());
+        let proven = bend * delta <= slope / 256.0 && doubt <= slope / 256.0 && l >= a && r <= b;
+        (proven && 2.0 * delta <= widest(x)).then_some((x, l, r))
+    }
+}
+
+/// Whether a polynomial in `y` has no root on `[-half, half]`, where its sign at `-half` is known.
+#[inline(always)]
+pub(crate) fn stays<const N: usize>(a: &[Run; N], half: f64, positive: bool) -> bool {
+    let scaled = Scaled::<f64, N>::new(a, half);
+    Bernstein::quick(&scaled.c, scaled.slack()).stays(positive)
+}
+
+/// What is being solved.
+struct Work<'w, L, F, const N: usize> {
+    line: &'w L,
+    limits: &'w Limits,
+    emit: F,
+}
+
+/// Shows every root of the line to `emit`, ascending, until it says stop. Roots outside the limits may be left out.
+#[inline(always)]
+pub(crate) fn solve<const N: usize, L: Along<N>>(
+    line: &L,
+    stretch: Stretch,
+    limits: &Limits,
+    emit: impl FnMut(&Found<'_>) -> Flow,
+) {
+    let a = line.double();
+    match stretch {
+        Stretch::Within { mid, half } => {
+            let scaled = Scaled::<f64, N>::new(&a, half);
+            // The common case: no root at all.
+            if Bernstein::quick(&scaled.c, scaled.slack()).count() == Count::None {
+                return;
+            }
+            let mut work = Work::<_, _, N> { line, limits, emit };
+            work.within(&scaled, mid, half);
+        }
+        Stretch::Everywhere => {
+            let mut work = Work::<_, _, N> { line, limits, emit };
+            work.everywhere(&Scaled::new(&a, 1.0));
+        }
+    }
+}
+
+impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N> {
+    #[inline(always)]
+    fn within(&mut self, scaled: &Scaled<f64, N>, mid: f64, half: f64) {
+        let place = Place::Linear { mid, half };
+        if let Err(Doubt(x)) = self.settle_double(scaled, place) {
+            self.climb(place, x);
+        }
+    }
+
+    /// The step after f64, from `x` on.
+    #[cold]
+    #[inline(never)]
+    fn climb(&mut self, place: Place, x: f64) {
+        let Place::Linear { mid, half } = place else { return };
+        let doubt = Isa::detect().run(
+            #[inline(always)]
+            || match self.line.wide() {
+                Some(a) => self.settle(&Scaled::new(&a, half), x, place).err(),
+                None => Some(Doubt(x)),
+            },
+        );
+        if let Some(Doubt(x)) = doubt {
+            self.exactly(mid, x * half, half);
+        }
+    }
+
+    /// In f64, on a stretch from its start.
+    #[inline(always)]
+    fn settle_double(&mut self, scaled: &Scaled<f64, N>, place: Place) -> Result<Flow, Doubt> {
+        let (limits, emit) = (self.limits, &mut self.emit);
+        scaled.walk(
+            -1.0,
+            false,
+            skips(place, limits),
+            #[inline(always)]
+            |node, rising| {
+                let widest = |x: f64| place.widest(x, limits);
+                let ends = (node.l, node.r);
+                let start = node.form.guess().mul_add(node.r - node.l, node.l);
+                let found =
+                    scaled.newton(ends, start, widest).or_else(|| scaled.refine(ends, rising, start, widest));
+                let found = found.ok_or(Doubt(node.l))?;
+                Ok(emit(&named(place, ends, found, rising)))
+            },
+        )
+    }
+
+    /// On a stretch from `x` on.
+    #[inline(always)]
+    fn settle<T: Word>(&mut self, scaled: &Scaled<T, N>, from: f64, place: Place) -> Result<Flow, Doubt> {
+        let (limits, emit) = (self.limits, &mut self.emit);
+        let part = if from > -1.0 { scaled.from(from) } else { *scaled };
+        // x = from + (1 - from)(x' + 1) / 2.
+        let back = |x: f64| (0.5 - 0.5 * from).mul_add(x + 1.0, from);
+        let skips = skips(place, limits);
+        let walked = part.walk(
+            -1.0,
+            false,
+            |l, r| skips(back(l), back(r)),
+            |node, rising| {
+                let ends = (back(node.l), back(node.r));
+                let start = 0.5 * (ends.0 + ends.1);
+                let found =
+                    scaled.refine(ends, rising, start, |x| place.widest(x, limits)).ok_or(Doubt(node.l))?;
+                Ok(emit(&named(place, ends, found, rising)))
+            },
+        );
+        walked.map_err(|Doubt(x)| Doubt(back(x)))
+    }
+
+    /// The whole line: what is left of -1, what is between, what is right of 1.
+    #[inline(always)]
+    fn everywhere(&mut self, scaled: &Scaled<f64, N>) {
+        let tails = match self.tails(scaled) {
+            Some(tails) => Some(tails),
+            None => self.line.wide().and_then(|a| self.tails(&Scaled::new(&a, 1.0))),
+        };
+        let Some(tails) = tails else {
+            self.exactly(0.0, f64::MIN, f64::MAX);
+            return;
+        };
+        for &(ends, found, rising) in tails.iter().rev().filter(|t| t.0.1 <= 0.0) {
+            if (self.emit)(&named(Place::Inverse, ends, found, rising)) == Flow::Stop {
+                return;
+            }
+        }
+        let place = Place::Linear { mid: 0.0, half: 1.0 };
+        match self.settle_double(scaled, place) {
+            Ok(Flow::Stop) => return,
+            Ok(Flow::Continue) => {}
+            Err(Doubt(x)) => {
+                let wide = self.line.wide().map(|a| Scaled::new(&a, 1.0));
+                match wide.map_or(Err(Doubt(x)), |wide| self.settle(&wide, x, place)) {
+                    Ok(Flow::Stop) => return,
+                    Ok(Flow::Continue) => {}
+                    Err(Doubt(x)) => {
+                        self.exactly(0.0, x, f64::MAX);
+                        return;
+                    }
+                }
+            }
+        }
+        for &(ends, found, rising) in tails.iter().rev().filter(|t| t.0.0 >= 0.0) {
+            if (self.emit)(&named(Place::Inverse, ends, found, rising)) == Flow::Stop {
+                return;
+            }
+        }
+    }
+
+    /// The roots beyond -1 and 1, as inverses, ascending; `None` where there is a doubt.
+    #[inline(always)]
+    fn tails<T: Word>(&self, scaled: &Scaled<T, N>) -> Option<ArrayVec<Tail, 32>> {
+        let reversed = scaled.reversed();
+        let mut out = ArrayVec::new();
+        let limits = self.limits;
+        let skips = |l: f64, r: f64| {
+            !(l < 0.0 && r > 0.0) && {
+                let (lo, hi) = Place::Inverse.ends(l, r);
+                hi.next_up() < limits.lo || lo.next_down() > limits.hi
+            }
+        };
+        let walked = reversed.walk(
+            -1.0,
+            true,
+            skips,
+            #[inline(always)]
+            |node, rising| {
+                let ends = (node.l, node.r);
+                let widest = |x: f64| Place::Inverse.widest(x, limits);
+                let found =
+                    reversed.refine(ends, rising, 0.5 * (node.l + node.r), widest).ok_or(Doubt(node.l))?;
+                // p(s) = s^n q(1 / s): on the negative side an odd degree turns the sign; and σ falls as s rises.
+                let turned = ends.1 <= 0.0 && scaled.degree % 2 == 1;
+                out.push((ends, found, rising == turned));
+                Ok(Flow::Continue)
+            },
+        );
+        walked.is_ok().then_some(out)
+    }
+
+    /// Exactly, between `from` and `to` of `y = s - mid`.
+    #[cold]
+    #[inline(never)]
+    fn exactly(&mut self, mid: f64, from: f64, to: f64) {
+        let (coefficients, certain) = self.line.exact();
+        let Some(sturm) = Sturm::new(coefficients) else { return };
+        let (from, to) = (sturm.beside(from, -1.0), sturm.beside(to, 1.0));
+        let width = if self.limits.width < 1.0 { self.limits.width } else { U };
+        for mut root in sturm.isolate(&from, &to) {
+            let enough = |lo: f64, hi: f64| {
+                let s = mid + lo;
+                hi - lo <= 0.5 * width * s.abs().max(0.5)
+            };
+            let (lo, hi) = sturm.bracket(&mut root, enough);
+            let (lo, hi) = if mid == 0.0 { (lo, hi) } else { ((mid + lo).next_down(), (mid + hi).next_up()) };
+            let alone = (f64::INFINITY, f64::NEG_INFINITY);
+            let (before, after) = (root.before, root.after);
+            let s = if lo == hi { lo } else { (lo + 0.5 * (hi - lo)).clamp(lo, hi) };
+            let exact = Some((&sturm, &root));
+            let found = Found { s, lo, hi, alone, before, after, certain, exact };
+            if (self.emit)(&found) == Flow::Stop {
+                return;
+            }
+        }
+    }
+}
+
+/// Ends, root with its bracket, whether the polynomial rises with `s`.
+type Tail = ((f64, f64), (f64, f64, f64), bool);
+
+/// Whether a part of a stretch is outside the limits.
+#[inline(always)]
+fn skips(place: Place, limits: &Limits) -> impl Fn(f64, f64) -> bool {
+    move |l, r| {
+        let (lo, hi) = place.ends(l, r);
+        hi.next_up() < limits.lo || lo.next_down() > limits.hi
+    }
+}
+
+/// A root in the terms of the line.
+#[inline(always)]
+fn named<'a>(place: Place, ends: (f64, f64), (x, a, b): (f64, f64, f64), rising: bool) -> Found<'a> {
+    let (lo, hi) = place.ends(a, b);
+    let (l, r) = place.ends(ends.0, ends.1);
+    let (lo, hi) = (lo.next_down(), hi.next_up());
+    let (before, after) = if rising { (Less, Greater) } else { (Greater, Less) };
+    let alone = (l.next_up(), r.next_down());
+    Found { s: place.s(x).clamp(lo, hi), lo, hi, alone, before, after, certain: true, exact: None }
+}

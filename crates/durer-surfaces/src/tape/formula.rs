@@ -1,0 +1,270 @@
+//! What a formula is: steps, each of which uses the results of earlier ones.
+
+use super::fold;
+use durer_math::{Comparison, Function, Interval};
+use std::collections::HashMap;
+
+/// More steps than this no formula may have.
+pub const MOST_STEPS: usize = 100_000;
+
+/// Names a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct NodeId(pub(crate) u32);
+
+/// One step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Op {
+    /// The input with this number.
+    Input(u32),
+    /// A number within an interval; an f64 as it was written is its own interval.
+    Constant(Interval),
+    /// `-a`.
+    Neg(NodeId),
+    /// `|a|`.
+    Abs(NodeId),
+    /// `a^2`.
+    Sqr(NodeId),
+    /// The square root; undefined below zero.
+    Sqrt(NodeId),
+    /// A whole power.
+    Powi(NodeId, i32),
+    /// A function of one number.
+    Function(Function, NodeId),
+    /// `a + b`.
+    Add(NodeId, NodeId),
+    /// `a - b`.
+    Sub(NodeId, NodeId),
+    /// `a b`.
+    Mul(NodeId, NodeId),
+    /// `a / b`; undefined at zero.
+    Div(NodeId, NodeId),
+    /// The lesser one.
+    Min(NodeId, NodeId),
+    /// The greater one.
+    Max(NodeId, NodeId),
+    /// `a^b`.
+    Pow(NodeId, NodeId),
+    /// The angle of `(b, a)`.
+    Atan2(NodeId, NodeId),
+    /// What whole numbers of `b` leave of `a`, with the sign of `a`.
+    Rem(NodeId, NodeId),
+    /// 1 or 0.
+    Compare(Comparison, NodeId, NodeId),
+    /// By the sign of the first: one of the three others, for below, at and above zero.
+    Select([NodeId; 4]),
+}
+
+impl Op {
+    /// The same step with its operands renamed.
+    #[must_use]
+    pub(crate) fn renamed(self, f: impl Fn(NodeId) -> NodeId) -> Self {
+        match self {
+            Self::Input(_) | Self::Constant(_) => self,
+            Self::Neg(a) => Self::Neg(f(a)),
+            Self::Abs(a) => Self::Abs(f(a)),
+            Self::Sqr(a) => Self::Sqr(f(a)),
+            Self::Sqrt(a) => Self::Sqrt(f(a)),
+            Self::Powi(a, n) => Self::Powi(f(a), n),
+            Self::Function(g, a) => Self::Function(g, f(a)),
+            Self::Add(a, b) => Self::Add(f(a), f(b)),
+            Self::Sub(a, b) => Self::Sub(f(a), f(b)),
+            Self::Mul(a, b) => Self::Mul(f(a), f(b)),
+            Self::Div(a, b) => Self::Div(f(a), f(b)),
+            Self::Min(a, b) => Self::Min(f(a), f(b)),
+            Self::Max(a, b) => Self::Max(f(a), f(b)),
+            Self::Pow(a, b) => Self::Pow(f(a), f(b)),
+            Self::Atan2(a, b) => Self::Atan2(f(a), f(b)),
+            Self::Rem(a, b) => Self::Rem(f(a), f(b)),
+            Self::Compare(c, a, b) => Self::Compare(c, f(a), f(b)),
+            Self::Select(all) => Self::Select(all.map(f)),
+        }
+    }
+
+    /// Calls `f` with each operand.
+    pub(crate) fn operands(&self, mut f: impl FnMut(NodeId)) {
+        match *self {
+            Self::Input(_) | Self::Constant(_) => {}
+            Self::Neg(a)
+            | Self::Abs(a)
+            | Self::Sqr(a)
+            | Self::Sqrt(a)
+            | Self::Powi(a, _)
+            | Self::Function(_, a) => f(a),
+            Self::Add(a, b)
+            | Self::Sub(a, b)
+            | Self::Mul(a, b)
+            | Self::Div(a, b)
+            | Self::Min(a, b)
+            | Self::Max(a, b)
+            | Self::Pow(a, b)
+            | Self::Atan2(a, b)
+            | Self::Rem(a, b)
+            | Self::Compare(_, a, b) => {
+                f(a);
+                f(b);
+            }
+            Self::Select(all) => all.into_iter().for_each(f),
+        }
+    }
+
+    /// Its bits, for finding equal steps.
+    fn key(&self) -> (u8, u64, u64, u64) {
+        let two = |tag: u8, a: NodeId, b: NodeId| (tag, u64::from(a.0), u64::from(b.0), 0);
+        match *self {
+            Self::Input(i) => (0, u64::from(i), 0, 0),
+            Self::Constant(c) => (1, c.lo.to_bits(), c.hi.to_bits(), 0),
+            Self::Neg(a) => (2, u64::from(a.0), 0, 0),
+            Self::Abs(a) => (3, u64::from(a.0), 0, 0),
+            Self::Sqr(a) => (4, u64::from(a.0), 0, 0),
+            Self::Sqrt(a) => (5, u64::from(a.0), 0, 0),
+            Self::Powi(a, n) => (6, u64::from(a.0), n as u64, 0),
+            Self::Function(f, a) => (7, u64::from(a.0), f as u64, 0),
+            Self::Add(a, b) => two(8, a, b),
+            Self::Sub(a, b) => two(9, a, b),
+            Self::Mul(a, b) => two(10, a, b),
+            Self::Div(a, b) => two(11, a, b),
+            Self::Min(a, b) => two(12, a, b),
+            Self::Max(a, b) => two(13, a, b),
+            Self::Pow(a, b) => two(14, a, b),
+            Self::Atan2(a, b) => two(15, a, b),
+            Self::Rem(a, b) => two(16, a, b),
+            Self::Compare(c, a, b) => (17, u64::from(a.0), u64::from(b.0), c as u64),
+            Self::Select([a, b, c, d]) => {
+                let pack = |a: NodeId, b: NodeId| u64::from(a.0) << 32 | u64::from(b.0);
+                (18, pack(a, b), pack(c, d), 0)
+            }
+        }
+    }
+}
+
+/// Why a [`Formula`] cannot be had.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FormulaError {
+    /// It has too many steps.
+    #[error("this formula has more than {MOST_STEPS} steps once all functions in it are written out")]
+    TooLong,
+}
+
+/// A function of a few numbers. Plain data.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Formula {
+    pub(crate) ops: Vec<Op>,
+    pub(crate) root: NodeId,
+    inputs: u32,
+}
+
+impl Formula {
+    /// How many numbers it takes.
+    pub fn inputs(&self) -> u32 {
+        self.inputs
+    }
+
+    /// Its steps, each of which uses only earlier ones.
+    pub fn ops(&self) -> &[Op] {
+        &self.ops
+    }
+
+    /// The step whose result is the formula's.
+    pub fn root(&self) -> NodeId {
+        self.root
+    }
+
+    /// Its rounded value; NaN where it is undefined, or if there are too few numbers.
+    pub fn value(&self, inputs: &[f64]) -> f64 {
+        super::program::value_of(&self.ops, inputs)
+    }
+
+    /// The one value of a formula that uses none of its inputs.
+    pub fn as_constant(&self) -> Option<Interval> {
+        match self.ops[self.root.0 as usize] {
+            Op::Constant(c) => Some(c),
+            _ => None,
+        }
+    }
+}
+
+/// Makes a [`Formula`]: each new step is folded if it is a constant, and found if it is there already.
+#[derive(Clone, Debug, Default)]
+pub struct Builder {
+    ops: Vec<Op>,
+    known: HashMap<(u8, u64, u64, u64), NodeId>,
+}
+
+impl Builder {
+    /// A builder without steps.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The input with this number.
+    pub fn input(&mut self, number: u32) -> Result<NodeId, FormulaError> {
+        self.push(Op::Input(number))
+    }
+
+    /// The number `x`, which must be finite.
+    pub fn constant(&mut self, x: f64) -> Result<NodeId, FormulaError> {
+        // -0 is 0.
+        self.push(Op::Constant(Interval { lo: x + 0.0, hi: x + 0.0 }))
+    }
+
+    /// A number that is known within an interval: pi, for one.
+    pub fn enclosed(&mut self, x: Interval) -> Result<NodeId, FormulaError> {
+        self.push(Op::Constant(x))
+    }
+
+    /// A step; the operands must be this builder's.
+    pub fn push(&mut self, op: Op) -> Result<NodeId, FormulaError> {
+        let op = match fold::simpler(op, |id| self.ops[id.0 as usize]) {
+            fold::Simpler::Same(id) => return Ok(id),
+            fold::Simpler::Op(op) => op,
+        };
+        if let Some(&id) = self.known.get(&op.key()) {
+            return Ok(id);
+        }
+        if self.ops.len() >= MOST_STEPS {
+            return Err(FormulaError::TooLong);
+        }
+        let id = NodeId(self.ops.len() as u32);
+        self.ops.push(op);
+        self.known.insert(op.key(), id);
+        Ok(id)
+    }
+
+    /// Writes out `formula` with these numbers as its inputs; it must have as many.
+    pub fn call(&mut self, formula: &Formula, arguments: &[NodeId]) -> Result<NodeId, FormulaError> {
+        let mut here: Vec<NodeId> = Vec::with_capacity(formula.ops.len());
+        for &op in &formula.ops {
+            here.push(match op {
+                Op::Input(i) => arguments[i as usize],
+                op => self.push(op.renamed(|id| here[id.0 as usize]))?,
+            });
+        }
+        Ok(here[formula.root.0 as usize])
+    }
+
+    /// The formula of `inputs` numbers whose value is that of `root`; what does not matter to it is left out.
+    pub fn finish(&self, root: NodeId, inputs: u32) -> Formula {
+        let (ops, root) = live(&self.ops, root);
+        Formula { ops, root, inputs }
+    }
+}
+
+/// The steps that matter to `root`, renumbered.
+pub(super) fn live(ops: &[Op], root: NodeId) -> (Vec<Op>, NodeId) {
+    let mut used = vec![false; root.0 as usize + 1];
+    used[root.0 as usize] = true;
+    for i in (0..=root.0 as usize).rev() {
+        if used[i] {
+            ops[i].operands(|id| used[id.0 as usize] = true);
+        }
+    }
+    let mut names = vec![NodeId(0); used.len()];
+    let mut kept = Vec::with_capacity(used.len());
+    for (i, &op) in ops[..used.len()].iter().enumerate() {
+        if used[i] {
+            names[i] = NodeId(kept.len() as u32);
+            kept.push(op.renamed(|id| names[id.0 as usize]));
+        }
+    }
+    (kept, names[root.0 as usize])
+}

@@ -1,0 +1,257 @@
+//! A formula of three coordinates, ready to run.
+
+use super::formula::{Formula, NodeId, Op, live};
+use durer_math::{Dual, I8, Interval, Isa, Number, Point3};
+use std::cell::Cell;
+use std::sync::Arc;
+
+/// The steps of a formula of `x`, `y` and `z`; shared by all who use them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tape {
+    ops: Arc<[Op]>,
+}
+
+thread_local! {
+    static DUALS: Cell<Vec<Dual<I8>>> = const { Cell::new(Vec::new()) };
+    static BOXES: Cell<Vec<I8>> = const { Cell::new(Vec::new()) };
+    static NUMBERS: Cell<Vec<f64>> = const { Cell::new(Vec::new()) };
+}
+
+/// Runs `f` with memory of this thread that is kept for the next time.
+#[inline(always)]
+fn with_memory<T: Copy, R>(
+    memory: &'static std::thread::LocalKey<Cell<Vec<T>>>,
+    len: usize,
+    zero: T,
+    f: impl FnOnce(&mut [T]) -> R,
+) -> R {
+    let mut registers = memory.take();
+    if registers.len() < len {
+        registers.resize(len, zero);
+    }
+    let result = f(&mut registers[..len]);
+    memory.set(registers);
+    result
+}
+
+/// Walks along the steps. The result is the last one's.
+#[inline(always)]
+fn run<T: Number>(ops: &[Op], inputs: &[T], registers: &mut [T]) -> T {
+    for (i, op) in ops.iter().enumerate() {
+        let (before, rest) = registers.split_at_mut(i);
+        let at = |id: NodeId| &before[id.0 as usize];
+        rest[0] = match *op {
+            Op::Input(i) => inputs[i as usize],
+            Op::Constant(c) => T::constant(c),
+            Op::Neg(a) => T::neg(at(a)),
+            Op::Abs(a) => T::abs(at(a)),
+            Op::Sqr(a) => T::sqr(at(a)),
+            Op::Sqrt(a) => T::sqrt(at(a)),
+            Op::Powi(a, n) => T::powi(at(a), n),
+            Op::Function(f, a) => T::function(f, at(a)),
+            Op::Add(a, b) => T::add(at(a), at(b)),
+            Op::Sub(a, b) => T::sub(at(a), at(b)),
+            Op::Mul(a, b) => T::mul(at(a), at(b)),
+            Op::Div(a, b) => T::div(at(a), at(b)),
+            Op::Min(a, b) => T::min(at(a), at(b)),
+            Op::Max(a, b) => T::max(at(a), at(b)),
+            Op::Pow(a, b) => T::pow(at(a), at(b)),
+            Op::Atan2(a, b) => T::atan2(at(a), at(b)),
+            Op::Rem(a, b) => T::rem(at(a), at(b)),
+            Op::Compare(c, a, b) => T::compare(c, at(a), at(b)),
+            Op::Select([c, x, y, z]) => T::select(at(c), at(x), at(y), at(z)),
+        };
+    }
+    registers[ops.len() - 1]
+}
+
+fn zero<T: Number>() -> T {
+    T::constant(Interval { lo: 0.0, hi: 0.0 })
+}
+
+/// The value of the last of these steps.
+pub(super) fn value_of(ops: &[Op], inputs: &[f64]) -> f64 {
+    let needed = ops.iter().map(|op| if let Op::Input(i) = op { *i as usize + 1 } else { 0 }).max();
+    if needed.is_none_or(|needed| needed > inputs.len()) {
+        return f64::NAN;
+    }
+    run(ops, inputs, &mut vec![0.0; ops.len()])
+}
+
+impl Tape {
+    /// The tape of a formula of three numbers.
+    ///
+    /// # Panics
+    ///
+    /// If the formula takes more than three.
+    pub fn new(formula: &Formula) -> Self {
+        assert!(formula.inputs() <= 3, "a tape is a function of x, y and z");
+        let (ops, root) = live(&formula.ops, formula.root);
+        debug_assert_eq!(root.0 as usize + 1, ops.len());
+        Self { ops: ops.into() }
+    }
+
+    /// How many steps it has.
+    pub fn len(&self) -> usize {
+        self.ops.len()
+    }
+
+    /// A tape always has a step.
+    pub fn is_empty(&self) -> bool {
+        self.ops.is_empty()
+    }
+
+    /// The rounded value at a point; NaN where the formula is undefined.
+    pub fn value(&self, p: Point3) -> f64 {
+        with_memory(&NUMBERS, self.ops.len(), 0.0, |registers| {
+            Isa::detect().run(
+                #[inline(always)]
+                || run(&self.ops, &p.to_array(), registers),
+            )
+        })
+    }
+
+    /// Bounds of the values on eight boxes.
+    pub fn bounds(&self, x: &[I8; 3]) -> I8 {
+        with_memory(&BOXES, self.ops.len(), zero(), |registers| self.bounds_with(x, registers))
+    }
+
+    fn bounds_with(&self, x: &[I8; 3], registers: &mut [I8]) -> I8 {
+        Isa::detect().run_in_lanes(
+            #[inline(always)]
+            || run(&self.ops, x, registers),
+        )
+    }
+
+    /// Bounds of the values on eight boxes and of the slopes along what the inputs' derivatives say.
+    pub fn slopes(&self, x: &[Dual<I8>; 3]) -> Dual<I8> {
+        with_memory(&DUALS, self.ops.len(), zero(), |registers| {
+            Isa::detect().run_in_lanes(
+                #[inline(always)]
+                || run(&self.ops, x, registers),
+            )
+        })
+    }
+
+    /// The value in any kind of number.
+    pub fn eval<T: Number>(&self, x: &[T; 3]) -> T {
+        let mut registers = vec![zero(); self.ops.len()];
+        run(&self.ops, x, &mut registers)
+    }
+
+    /// Bounds on eight boxes, and for each box that `wanted` names a shorter tape with the same values there, if there is one.
+    pub fn shortened(&self, x: &[I8; 3], wanted: impl Fn(usize, &I8) -> bool) -> (I8, [Option<Self>; 8]) {
+        with_memory(&BOXES, self.ops.len(), zero(), |registers| {
+            let bounds = self.bounds_with(x, registers);
+            let shorter = core::array::from_fn(|lane| {
+                if wanted(lane, &bounds) { self.shorter(registers, lane) } else { None }
+            });
+            (bounds, shorter)
+        })
+    }
+
+    /// The tape with what is decided on one lane's box taken as decided.
+    fn shorter(&self, registers: &[I8], lane: usize) -> Option<Self> {
+        let mut changed = false;
+        let mut names: Vec<NodeId> = Vec::with_capacity(self.ops.len());
+        let mut ops: Vec<Op> = Vec::with_capacity(self.ops.len());
+        for op in self.ops.iter() {
+            let kept = match decided(op, registers, lane) {
+                Some(Decided::Same(id)) => {
+                    changed = true;
+                    names.push(names[id.0 as usize]);
+                    continue;
+                }
+                Some(Decided::Op(op)) => {
+                    changed = true;
+                    op
+                }
+                None => *op,
+            };
+            names.push(NodeId(ops.len() as u32));
+            ops.push(kept.renamed(|id| names[id.0 as usize]));
+        }
+        if !changed {
+            return None;
+        }
+        let (ops, _) = live(&ops, *names.last()?);
+        Some(Self { ops: ops.into() })
+    }
+}
+
+/// What a step comes to on a box.
+enum Decided {
+    Same(NodeId),
+    Op(Op),
+}
+
+fn decided(op: &Op, registers: &[I8], lane: usize) -> Option<Decided> {
+    let bit = 1_u8 << lane;
+    let at = |id: NodeId| {
+        let r = &registers[id.0 as usize];
+        // Where an operand may be undefined, so may the step: nothing is decided.
+        (r.partial & bit == 0).then(|| r.lane(lane))
+    };
+    let constant = |x: f64| Decided::Op(Op::Constant(Interval { lo: x, hi: x }));
+    Some(match *op {
+        Op::Min(a, b) | Op::Max(a, b) => {
+            let (x, y) = (at(a)?, at(b)?);
+            let least = matches!(op, Op::Min(..));
+            if x.hi <= y.lo {
+                Decided::Same(if least { a } else { b })
+            } else if y.hi <= x.lo {
+                Decided::Same(if least { b } else { a })
+            } else {
+                return None;
+            }
+        }
+        Op::Abs(a) => {
+            let x = at(a)?;
+            if x.lo >= 0.0 {
+                Decided::Same(a)
+            } else if x.hi <= 0.0 {
+                Decided::Op(Op::Neg(a))
+            } else {
+                return None;
+            }
+        }
+        Op::Select([c, below, zero, above]) => {
+            let c = at(c)?;
+            if c.hi < 0.0 {
+                Decided::Same(below)
+            } else if c.lo > 0.0 {
+                Decided::Same(above)
+            } else if c.lo == 0.0 && c.hi == 0.0 {
+                Decided::Same(zero)
+            } else {
+                return None;
+            }
+        }
+        Op::Compare(_, a, b) => {
+            at(a).and(at(b))?;
+            let answer = answer(op, registers, lane)?;
+            constant(answer)
+        }
+        Op::Function(f, a) => {
+            let x = at(a)?;
+            let (range, defined) = match f {
+                durer_math::Function::Floor => x.floor(),
+                durer_math::Function::Ceil => x.ceil(),
+                durer_math::Function::Trunc => x.trunc(),
+                _ => return None,
+            };
+            if defined != durer_math::interval::elementary::Defined::Continuous {
+                return None;
+            }
+            constant(range.lo)
+        }
+        _ => return None,
+    })
+}
+
+/// The certain answer of a comparison.
+fn answer(op: &Op, registers: &[I8], lane: usize) -> Option<f64> {
+    let Op::Compare(c, a, b) = *op else { return None };
+    let said = I8::compare(c, &registers[a.0 as usize], &registers[b.0 as usize]).lane(lane);
+    (said.lo == said.hi).then_some(said.lo)
+}

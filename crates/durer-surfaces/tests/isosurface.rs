@@ -1,0 +1,386 @@
+//! Formulas as surfaces against the same surfaces as quadrics, against other formulas of the same set, and against themselves.
+
+use durer_math::{Comparison, Function, Point3, Ray, RaySide, Vec3};
+use durer_surfaces::tape::{Builder, Formula, NodeId, Op};
+use durer_surfaces::{
+    All, AxisBox, Container, Isosurface, Kind, LocalPoint, LocalRay, Need, Root, Side, Sphere, Surface,
+};
+
+/// A counter-based generator (S. Vigna's SplitMix64).
+struct Dice(u64);
+
+impl Dice {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// In `[-1, 1)`.
+    fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 * f64::EPSILON - 1.0
+    }
+
+    fn vector(&mut self) -> Vec3 {
+        Vec3::new(self.unit(), self.unit(), self.unit())
+    }
+
+    fn below(&mut self, n: u64) -> u64 {
+        self.bits() % n
+    }
+}
+
+/// Writes formulas as one would on paper.
+struct Pen(Builder);
+
+impl Pen {
+    fn new() -> (Self, [NodeId; 3]) {
+        let mut b = Builder::new();
+        let inputs = [0, 1, 2].map(|i| b.input(i).unwrap());
+        (Self(b), inputs)
+    }
+    fn c(&mut self, x: f64) -> NodeId {
+        self.0.constant(x).unwrap()
+    }
+    fn op(&mut self, op: Op) -> NodeId {
+        self.0.push(op).unwrap()
+    }
+    fn add(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.op(Op::Add(a, b))
+    }
+    fn sub(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.op(Op::Sub(a, b))
+    }
+    fn mul(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.op(Op::Mul(a, b))
+    }
+    fn sqr(&mut self, a: NodeId) -> NodeId {
+        self.op(Op::Sqr(a))
+    }
+    fn squares(&mut self, of: &[NodeId]) -> NodeId {
+        let first = self.sqr(of[0]);
+        of[1..].iter().fold(first, |sum, &x| {
+            let square = self.sqr(x);
+            self.add(sum, square)
+        })
+    }
+    fn done(&self, root: NodeId) -> Formula {
+        self.0.finish(root, 3)
+    }
+}
+
+/// `(x - a)^2 + y^2 + z^2 - r^2`.
+fn sphere(a: f64, r: f64) -> Formula {
+    let (mut p, [x, y, z]) = Pen::new();
+    let a = p.c(a);
+    let x = p.sub(x, a);
+    let sum = p.squares(&[x, y, z]);
+    let square = p.c(r * r);
+    let f = p.sub(sum, square);
+    p.done(f)
+}
+
+/// `sqrt(x^2 + y^2 + z^2) - r`.
+fn distance_sphere(r: f64) -> Formula {
+    let (mut p, [x, y, z]) = Pen::new();
+    let sum = p.squares(&[x, y, z]);
+    let root = p.op(Op::Sqrt(sum));
+    let r = p.c(r);
+    let f = p.sub(root, r);
+    p.done(f)
+}
+
+/// `(sqrt(x^2 + z^2) - R)^2 + y^2 - r^2`.
+fn torus(major: f64, minor: f64) -> Formula {
+    let (mut p, [x, y, z]) = Pen::new();
+    let rho = p.squares(&[x, z]);
+    let rho = p.op(Op::Sqrt(rho));
+    let major = p.c(major);
+    let off = p.sub(rho, major);
+    let sum = p.squares(&[off, y]);
+    let square = p.c(minor * minor);
+    let f = p.sub(sum, square);
+    p.done(f)
+}
+
+/// The torus as a polynomial: `(x^2 + y^2 + z^2 + R^2 - r^2)^2 - 4 R^2 (x^2 + z^2)`.
+fn quartic_torus(major: f64, minor: f64) -> Formula {
+    let (mut p, [x, y, z]) = Pen::new();
+    let sum = p.squares(&[x, y, z]);
+    let k = p.c(major * major - minor * minor);
+    let left = p.add(sum, k);
+    let left = p.sqr(left);
+    let rho = p.squares(&[x, z]);
+    let factor = p.c(4.0 * major * major);
+    let right = p.mul(factor, rho);
+    let f = p.sub(left, right);
+    p.done(f)
+}
+
+fn cube(half: f64) -> Container {
+    Container::Box(AxisBox::new(Point3::new(-half, -half, -half), Point3::new(half, half, half)).unwrap())
+}
+
+fn iso(formula: &Formula, half: f64) -> Isosurface {
+    Isosurface::new(formula, 0.0, cube(half)).unwrap()
+}
+
+fn all<S: Surface>(surface: &S, ray: &Ray) -> Vec<Root> {
+    let mut sink = All::default();
+    surface.roots(&LocalRay::new(ray), &mut sink);
+    sink.roots
+}
+
+/// Rays from anywhere through points near the surface of a unit ball, often all but tangent to it, with all kinds of ranges.
+fn ray_at_a_ball(dice: &mut Dice, radius: f64) -> Ray {
+    let direction = dice.vector();
+    let across = direction.cross(dice.vector());
+    let near = match dice.below(4) {
+        0 => 1.0,
+        1 => 1.0 + dice.unit() * 1e-12,
+        2 => 1.0 + dice.unit() * 1e-6,
+        _ => dice.unit() * 1.2,
+    };
+    let through = across * (radius * near / across.length());
+    let back = [0.0, 1.0, 2.0, 3.0, 1e3, 1e6][dice.below(6) as usize] * dice.unit().abs();
+    let ray = Ray::new(through.to_point() - direction * back, direction);
+    match dice.below(3) {
+        0 => ray.with_range(f64::NEG_INFINITY, f64::INFINITY),
+        1 => ray,
+        _ => ray.with_range(back * dice.unit().abs(), back * 1.5),
+    }
+}
+
+/// Each root of one has a root of the other in an overlapping bracket; where one could not tell roots apart only the parity counts.
+fn same(a: &[Root], b: &[Root]) -> bool {
+    let sure = |roots: &[Root]| roots.iter().all(|r| r.kind == Kind::Simple);
+    if sure(a) && sure(b) {
+        return a.len() == b.len()
+            && a.iter().zip(b).all(|(a, b)| a.lo <= b.hi && b.lo <= a.hi && a.sign == b.sign);
+    }
+    // A touch may lie at an end of the range, or may not.
+    let net = |roots: &[Root]| roots.iter().map(|r| i32::from(r.sign)).sum::<i32>();
+    net(a) == net(b) || a.iter().any(|r| r.kind == Kind::Cluster && r.sign == 0)
+}
+
+#[test]
+fn a_sphere_as_a_formula_is_the_sphere() {
+    let mut dice = Dice(1);
+    for (formula, r) in [(sphere(0.0, 1.0), 1.0), (distance_sphere(1.0), 1.0), (sphere(0.0, 0.75), 0.75)] {
+        let formula = iso(&formula, 1.5);
+        let exact = Sphere::new(Point3::ORIGIN, r).unwrap();
+        let (mut met, mut unsure, mut widths) = (0, 0, Vec::new());
+        for _ in 0..20_000 {
+            let ray = ray_at_a_ball(&mut dice, r);
+            let (a, b) = (all(&formula, &ray), all(&exact, &ray));
+            assert!(same(&a, &b), "{ray:?}\n formula {a:?}\n sphere {b:?}");
+            assert!(a.windows(2).all(|w| w[0].t <= w[1].t));
+            met += a.len();
+            unsure += a.iter().filter(|r| r.kind == Kind::Cluster).count();
+            let unit = ray.direction.length();
+            // Brackets are as wide as the crossing is ill-conditioned: those of rays that do not graze are looked at.
+            let o = ray.origin.to_vec();
+            let apart = o.cross(ray.direction).length() / unit;
+            if apart > 0.9 * r {
+                continue;
+            }
+            widths.extend(a.iter().map(|r| (r.hi - r.lo) / (r.t.abs().max(1.0 / unit) * f64::EPSILON)));
+        }
+        widths.sort_by(f64::total_cmp);
+        let median = widths[widths.len() / 2];
+        println!("{met} roots, {unsure} clusters, median width {median:.1} ulp");
+        assert!(met > 10_000 && median < 100.0, "{met} roots, median width {median} ulp");
+        // A quarter of the rays is aimed at tangents within rounding.
+        assert!(unsure < met / 4, "{unsure} of {met} unsure");
+    }
+}
+
+#[test]
+fn two_formulas_of_a_torus_agree() {
+    let mut dice = Dice(2);
+    let (a, b) = (iso(&torus(1.0, 0.25), 1.5), iso(&quartic_torus(1.0, 0.25), 1.5));
+    let (mut met, mut unsure) = (0, 0);
+    for _ in 0..20_000 {
+        let radius = [1.25, 0.75, 1.0][dice.below(3) as usize];
+        let ray = ray_at_a_ball(&mut dice, radius);
+        let (x, y) = (all(&a, &ray), all(&b, &ray));
+        assert!(same(&x, &y), "{ray:?}\n one {x:?}\n other {y:?}");
+        met += x.len();
+        unsure += x.iter().filter(|r| r.kind != Kind::Simple).count();
+    }
+    println!("{met} roots, {unsure} clusters");
+    assert!(met > 10_000 && unsure * 100 < met, "{met} roots, {unsure} unsure");
+}
+
+#[test]
+fn a_container_closes_what_it_cuts() {
+    // A ball of radius 1.2 in a cube of half-width 1: a rounded cube whose faces are partly the container's.
+    let closed = iso(&sphere(0.0, 1.2), 1.0);
+    let open = iso(&sphere(0.0, 1.2), 1.0).without_caps();
+    let (ball, block) = (
+        Sphere::new(Point3::ORIGIN, 1.2).unwrap(),
+        AxisBox::new(Point3::new(-1.0, -1.0, -1.0), Point3::new(1.0, 1.0, 1.0)).unwrap(),
+    );
+    let mut dice = Dice(3);
+    for _ in 0..20_000 {
+        let d = dice.vector();
+        let ray = Ray::new((dice.vector() * 1.5).to_point(), d).with_range(f64::NEG_INFINITY, f64::INFINITY);
+        let (x, y) = (all(&ball, &ray), all(&block, &ray));
+        let roots = all(&closed, &ray);
+        // The intersection of two convex solids.
+        let span = match (x.as_slice(), y.as_slice()) {
+            ([a, b], [c, d]) => Some((a.t.max(c.t), b.t.min(d.t))).filter(|(s, e)| s < e),
+            _ => None,
+        };
+        let size = |t: f64| 1e-12 / d.length() + t.abs() * 1e-14;
+        match span {
+            Some((s, e)) if e - s > 2.0 * size(e) => {
+                let [a, b] = roots.as_slice() else { panic!("{ray:?}: {roots:?}") };
+                assert!(
+                    (a.t - s).abs() <= size(s) && (b.t - e).abs() <= size(e),
+                    "{ray:?}: {roots:?}, {span:?}"
+                );
+                assert_eq!((a.sign, b.sign), (-1, 1));
+            }
+            Some(_) => {}
+            None => assert!(roots.is_empty(), "{ray:?}: {roots:?}"),
+        }
+        let walls: Vec<_> = roots.iter().filter(|r| r.face == 0).copied().collect();
+        let sheet = all(&open, &ray);
+        assert_eq!(walls.len(), sheet.len(), "{ray:?}");
+        let p = ray.origin;
+        let side = closed.side(&LocalPoint::new(p));
+        let within =
+            ball.side(&LocalPoint::new(p)) == Side::In && block.side(&LocalPoint::new(p)) == Side::In;
+        assert_eq!(side == Side::In, within, "{p:?}");
+    }
+}
+
+#[test]
+fn rays_leave_what_they_were_spawned_on() {
+    let mut dice = Dice(4);
+    for formula in [sphere(0.0, 1.0), distance_sphere(1.0)] {
+        let surface = iso(&formula, 1.5);
+        let mut spawned = 0;
+        for _ in 0..5_000 {
+            let ray = ray_at_a_ball(&mut dice, 0.9);
+            for root in all(&surface, &ray).iter().filter(|r| r.kind == Kind::Simple) {
+                let point = surface.resolve(&LocalRay::new(&ray), root, Need::ALL);
+                let truth = point.p.to_vec() * (1.0 / point.p.to_vec().length());
+                assert!(
+                    (point.ng.to_vec() - truth).length() < 1e-6,
+                    "{point:?} {ray:?} {root:?} {:?}",
+                    ray.at(root.t)
+                );
+                assert!(point.off < 1e-12, "{point:?}");
+                for (side, way) in [(RaySide::Front, 1.0), (RaySide::Back, -1.0)] {
+                    let out = point.spawn_from(side, point.ng.to_vec() * way + dice.vector() * 0.9);
+                    let on = surface.side(&LocalPoint::new(out.origin));
+                    assert_eq!(on == Side::In, side == RaySide::Back, "{point:?}");
+                    let along = out.direction.dot(point.ng.to_vec()) * way;
+                    if along > 0.0 {
+                        let local = LocalRay::new(&out).from_side(Some(side));
+                        let mut met = All::default();
+                        surface.roots(&local, &mut met);
+                        let expected = usize::from(side == RaySide::Back);
+                        assert_eq!(met.roots.len(), expected, "{out:?} from {point:?}: {:?}", met.roots);
+                        spawned += 1;
+                    }
+                }
+            }
+        }
+        assert!(spawned > 5_000);
+    }
+}
+
+#[test]
+fn no_root_is_lost_where_a_formula_is_wild() {
+    // sin(40 x) sin(40 y) sin(40 z) + 0.1: hundreds of sheets, none of which a sample may find that we do not.
+    let (mut p, xyz) = Pen::new();
+    let forty = p.c(40.0);
+    let waves = xyz.map(|x| {
+        let x = p.mul(forty, x);
+        p.op(Op::Function(Function::Sin, x))
+    });
+    let product = p.mul(waves[0], waves[1]);
+    let product = p.mul(product, waves[2]);
+    let lift = p.c(0.1);
+    let f = p.add(product, lift);
+    let formula = p.done(f);
+    let surface = iso(&formula, 1.0);
+    let mut dice = Dice(5);
+    let mut met = 0;
+    for _ in 0..300 {
+        let ray = Ray::new((dice.vector() * 0.9).to_point(), dice.vector()).with_range(0.0, 0.8);
+        let roots: Vec<Root> = all(&surface, &ray).into_iter().filter(|r| r.face == 0).collect();
+        assert!(roots.windows(2).all(|w| w[0].sign == -w[1].sign), "{ray:?}: {roots:?}");
+        // Samples see a subset of the changes of sign.
+        let mut changes = 0;
+        let mut before = None;
+        for i in 0..=20_000 {
+            let t = 0.8 * f64::from(i) / 20_000.0;
+            let p = ray.at(t);
+            if p.to_vec().max_abs() > 1.0 {
+                break;
+            }
+            let value = formula.value(&p.to_array());
+            changes += usize::from(before.is_some_and(|b: bool| b != (value > 0.0)));
+            before = Some(value > 0.0);
+        }
+        assert!(
+            roots.len() >= changes && (roots.len() - changes).is_multiple_of(2),
+            "{} roots, {changes} changes",
+            roots.len()
+        );
+        met += roots.len();
+    }
+    assert!(met > 1000, "{met}");
+}
+
+#[test]
+fn jumps_are_walls_and_undefined_is_nothing() {
+    // select(x, -1, 1): all that is below x = 0.
+    let (mut p, [x, _, z]) = Pen::new();
+    let (below, above) = (p.c(-1.0), p.c(1.0));
+    let step = p.op(Op::Select([x, below, above, above]));
+    let half = iso(&p.done(step), 1.0);
+    let ray = Ray::new(Point3::new(-3.0, 0.25, 0.1), Vec3::X);
+    let roots = all(&half, &ray);
+    assert_eq!(roots.iter().map(|r| r.sign).collect::<Vec<_>>(), [-1, 1], "{roots:?}");
+    assert!(roots[0].face > 0 && roots[1].face == 0 && (roots[1].t - 3.0).abs() < 1e-14);
+    // sqrt(x) - 0.5: nothing where x < 0.
+    let root = p.op(Op::Sqrt(x));
+    let c = p.c(0.5);
+    let f = p.sub(root, c);
+    let sheet = iso(&p.done(f), 1.0).without_caps();
+    let roots = all(&sheet, &ray);
+    assert_eq!(roots.len(), 1, "{roots:?}");
+    assert!(roots[0].lo <= 3.25 && 3.25 <= roots[0].hi && roots[0].kind == Kind::Simple);
+    // A comparison is a formula too: x < z.
+    let less = p.op(Op::Compare(Comparison::Less, x, z));
+    let c = p.c(0.5);
+    let f = p.sub(c, less);
+    let slanted = iso(&p.done(f), 1.0);
+    let roots = all(&slanted, &ray);
+    assert!(roots.len() == 2 && (roots[1].t - 3.1).abs() < 1e-14, "{roots:?}");
+}
+
+#[test]
+fn cells_shorten_tapes() {
+    // The union of nine balls: in most cells one or two are left.
+    let (mut p, [x, y, z]) = Pen::new();
+    let mut union = None;
+    for i in 0..9 {
+        let c = p.c(f64::from(i) * 0.2 - 0.8);
+        let moved = p.sub(x, c);
+        let sum = p.squares(&[moved, y, z]);
+        let r = p.c(0.05);
+        let ball = p.sub(sum, r);
+        union = Some(union.map_or(ball, |u| p.op(Op::Min(u, ball))));
+    }
+    let surface = iso(&p.done(union.unwrap()), 1.0);
+    let (open, steps, whole) = surface.cells();
+    assert!(open > 50 && steps * 3.0 < whole as f64, "{open} cells, {steps} of {whole} steps");
+}
