@@ -138,7 +138,7 @@ fn a_misspelling_is_recognised() {
 fn what_is_not_there_yet_is_called_by_its_name() {
     for word in [
         "lathe { 1, 0.5 }",
-        "difference { sphere { 0, 1 } }",
+        "blob { sphere { 0, 1, 1 } }",
         "fog { distance 1 }",
         "sky_sphere { }",
         "media { }",
