@@ -1,6 +1,6 @@
 //! Surfaces that are the zero set of one polynomial: what their authors write, and what follows from it.
 //!
-//! Along a ray the polynomial has one unknown ([`roots`](crate::roots)); where it is negative is the inside.
+//! Along a ray the polynomial has one unknown (`roots`); where it is negative is the inside.
 
 use crate::local::ROUGH;
 use crate::point::least_step;
