@@ -198,15 +198,13 @@ fn warnings_that_repeat_themselves_are_counted() {
 
 #[test]
 fn what_cannot_be_done_yet_may_be_defined_but_not_used() {
-    let defined = "#declare T = lathe { 2, 0.5 } #declare F = function(x,y) { x*y } #declare S = spline { linear_spline 0,x 1,y }
+    let defined = "#declare T = lathe { 2, 0.5 } #declare S = spline { linear_spline 0,x 1,y }
         #declare M = texture { pigment { granite turbulence 0.5 color_map { [0 rgb 0][1 rgb 1] } } normal { bumps 1 } } texture { pigment { marble } }
-        #declare V = F(1,2); #declare N = normal { bumps 0.5 } #declare U = union { sphere { 0, 1 } object { T } }
+        #declare N = normal { bumps 0.5 } #declare U = union { sphere { 0, 1 } object { T } }
         #macro W() #fopen F \"x\" write #end #declare After = 7; #debug str(After,0,0)";
     assert_eq!(debug(defined), "7");
     for (use_it, word) in [
         ("object { T }", "lathe"),
-        ("#debug str(F(1,2),0,0)", "function"),
-        ("#debug str(V,0,0)", "function"),
         ("sphere { 0, 1 texture { M } }", "granite"),
         ("object { U }", "lathe"),
         ("sphere { 0, 1 normal { N } }", "normal"),

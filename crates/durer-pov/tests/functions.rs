@@ -109,7 +109,7 @@ fn named_functions_have_povrays_values() {
 fn what_is_wrong_with_a_function_is_said_once_and_where() {
     let says = |text: &str, column: usize, expected: &str| {
         let (line, at, said) = fault(text);
-        assert!(said.contains(expected) && (line, at) == (2, column), "{text}: {line}:{at} {said}");
+        assert!(said.contains(expected) && (line, at) == (1, column), "{text}: {line}:{at} {said}");
     };
     says("#declare F = function(a, b) { a + b }; #declare A = F(1);", 53, "takes 2 arguments, found 1");
     says("#declare F = function(a) { a + q };", 32, "undeclared `q`");

@@ -113,7 +113,7 @@ fn settings_without_effect_are_taken() {
     );
 }
 
-/// Every standard file that stands alone, after the colours that some of them expect.
+/// Every standard file, after the colours and shapes that some of them expect.
 #[test]
 fn the_standard_include_files_are_read() {
     let installed = ["/usr/share/povray-3.7/include", "/usr/local/share/povray-3.7/include"];
@@ -128,7 +128,9 @@ fn the_standard_include_files_are_read() {
         if !name.ends_with(".inc") || name == "stdcam.inc" {
             continue;
         }
-        scene(&format!("#include \"colors.inc\"\n#include \"{name}\"\n#include \"{name}\""));
+        scene(&format!(
+            "#include \"colors.inc\"\n#include \"shapes.inc\"\n#include \"{name}\"\n#include \"{name}\""
+        ));
         read += 1;
     }
     assert!(read > 30, "{read}");
