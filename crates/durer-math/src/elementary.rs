@@ -42,8 +42,6 @@ one! {
     tanh = tanh;
     /// The inverse hyperbolic sine.
     asinh = asinh;
-    /// The inverse hyperbolic cosine; NaN below 1.
-    acosh = acosh;
     /// The inverse hyperbolic tangent; NaN outside `[-1, 1]`.
     atanh = atanh;
     /// `e^x`.
@@ -66,6 +64,13 @@ one! {
     floor = floor;
     /// The smallest whole number not below `x`.
     ceil = ceil;
+}
+
+/// The inverse hyperbolic cosine; NaN below 1.
+#[inline]
+pub fn acosh(x: f64) -> f64 {
+    // Between -2^26 and -2 `libm` makes the logarithm of a rounding error out of it.
+    if x < 1.0 { f64::NAN } else { libm::acosh(x) }
 }
 
 /// The sine and the cosine of `x` radians.
@@ -202,6 +207,7 @@ mod tests {
         assert!(near(hypot(3.0, 4.0), 5.0) && near(atan2(0.0, -1.0), PI));
         assert_eq!((floor(-1.5), ceil(-1.5)), (-2.0, -1.0));
         assert!(acos(2.0).is_nan() && ln(-1.0).is_nan());
+        assert!((0..1000).all(|i| acosh(0.999 - f64::from(i).powi(3) * 1e3).is_nan()) && acosh(1.0) == 0.0);
     }
 
     #[test]
