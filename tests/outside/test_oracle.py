@@ -70,6 +70,16 @@ def at(ray, t):
     return tuple(F(a) + t * F(b) for a, b in zip(ray, ray[3:6]))
 
 
+def between(a, b):
+    """A rational number strictly between two numbers a < b."""
+    bits = 160
+    while True:
+        middle = (a.rational(bits) + b.rational(bits)) / 2
+        if a.cmp(Number.of(middle)) < 0 < b.cmp(Number.of(middle)):
+            return middle
+        bits *= 2
+
+
 class Oracle(unittest.TestCase):
     def cases(self, kind, count=40):
         for i in range(count):
@@ -102,9 +112,11 @@ class Oracle(unittest.TestCase):
                 self.assertTrue(all(a.cmp(b) < 0 for a, b in zip(ts, ts[1:])), (leaf.sdl(), ray))
                 turns = [e.sign for e in answer.events if e.sign]
                 self.assertTrue(all(a == -b for a, b in zip(turns, turns[1:])))
-                step = lambda t, s: any(holds(a, b, Number.of(t.rational(400) + s * F(1, 1 << 250) * max(1, abs(t.rational())))) for a, b in answer.inside)
-                for e in answer.events:
-                    before, after = step(e.t, -1), step(e.t, 1)
+                stretches = [ts[0].rational() - 1] if ts else []
+                stretches += [between(a, b) for a, b in zip(ts, ts[1:])]
+                stretches += [ts[-1].rational() + 1] if ts else []
+                held = [any(holds(a, b, Number.of(t)) for a, b in answer.inside) for t in stretches]
+                for e, before, after in zip(answer.events, held, held[1:]):
                     wanted = {-1: (False, True), 1: (True, False)}.get(e.sign)
                     self.assertTrue((before, after) == wanted if wanted else before == after, (leaf.sdl(), ray, e))
 
