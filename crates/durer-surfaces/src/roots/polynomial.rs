@@ -220,10 +220,7 @@ impl<T: Word, const N: usize> Scaled<T, N> {
             }
             let w = widest(x);
             if b - a <= w {
-                // The point itself is wanted as well as it can be had, also where far origins allow wide brackets.
-                let middle = 0.5 * (a + b);
-                let better = middle - side(middle).0 / self.slope(middle);
-                return Some((if better > a && better < b { better } else { middle }, a, b));
+                return Some((self.polished(a, b, rising), a, b));
             }
             let (value, above) = side(x);
             let step = value / self.slope(x);
@@ -240,6 +237,25 @@ impl<T: Word, const N: usize> Scaled<T, N> {
             }
         }
         None
+    }
+
+    /// The one root between `a` and `b`, where the signs are certain, as well as it can be had: where far origins allow wide brackets the point
+    /// itself need not suffer. Newton's steps from the middle as long as they shrink, a half where one would leave.
+    #[inline(always)]
+    fn polished(&self, mut a: f64, mut b: f64, rising: bool) -> f64 {
+        let (mut x, mut last) = (0.5 * (a + b), f64::INFINITY);
+        loop {
+            let value = self.at(x).value();
+            if (value > 0.0) == rising { b = x } else { a = x }
+            let step = value / self.slope(x);
+            let newton = x - step;
+            let next = if newton >= a && newton <= b { newton } else { 0.5 * (a + b) };
+            let way = (next - x).abs();
+            if way.partial_cmp(&last) != Some(Less) {
+                return x;
+            }
+            (x, last) = (next, 0.75 * way);
+        }
     }
 
     /// Settles the stretch, first parts first: shows each part with one root to `visit`, until it says stop or is in doubt. Parts that `skips`
