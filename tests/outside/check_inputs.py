@@ -167,6 +167,9 @@ def wrong_values(x):
         "hyperboloid { 1, 1, sheets 1, from 1 to -1 }": "", "spherical_sector { 0, 1, y, 0 }": "", "parallelogram { 0, x, x }": "",
         "torus { 0, 1 }": "zero", "torus { 1, 0 }": "zero", "torus { 1 }": "", "poly { 40, <1, 2, 3> }": "from 2 to 16", "poly { 2.5, <1> }": "from 2 to 16", "poly { 1, <1, 2, 3, 4> }": "from 2 to 16",
         "quartic { <1, 2, 3> }": "35 coefficients", "poly { 2, <1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1> }": "10 coefficients", "cubic { 1 }": "", "poly { 2, <0, 0, 0, 0, 0, 0, 0, 0, 0, 5> }": "no variable",
+        "prism { 0, 0, 4, <0, 0>, <1, 0>, <1, 1>, <0, 0> }": "no height", "prism { 0, 1, 2, <0, 0>, <1, 0> }": "at least 3 points", "prism { 0, 1, 5, <0, 0>, <1, 0> <0, 0>, <5, 5>, <6, 6> }": "outline 1",
+        "prism { 0, 1, 4, <0, 0>, <1, 1>, <2, 2>, <0, 0> }": "one line", "prism { 0, 1, 4, <0, 0>, <1, 0>, <1, 1> }": "", "prism { cubic_spline 0, 1, 4, <0, 0>, <1, 0>, <1, 1>, <0, 0> }": "not supported yet: cubic_spline",
+        "prism { 0, 1, 3, <0, 0>, <1, 0>, <1, 1> }": None, "prism { conic_sweep 1, 1e308, 3, <0, 0>, <9, 0>, <9, 9> }": "too large", "prism { }": "", "torus { 1, 1 open }": "open",
         "polynomial { 4, xyz(3, 2, 0): 1 }": "add up to 4", "polynomial { 4, xyz(-1, 2, 0): 1 }": "add up to 4", "polynomial { 4, xyz(1, 0.5, 0): 1 }": "add up to 4", "polynomial { 3 }": "no variable", "polynomial { 3, xyz(1, 0): 1 }": "",
     }
     for words, says in flat.items():

@@ -321,6 +321,11 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             scene::Shape::Polynomial { order: *order, coefficients: coefficients.iter().copied().collect() }
         }
         &Shape::Torus { major, minor } => scene::Shape::Torus { major, minor },
+        Shape::Prism(prism) => {
+            let points: usize = prism.outlines.iter().map(Vec::len).sum();
+            limits::charge_for_good(points * 16);
+            scene::Shape::Prism(Arc::new((**prism).clone()))
+        }
         Shape::Named(named) => scene::Shape::Named(Box::new(scene::NamedQuadric {
             kind: named.kind,
             semi_axes: named.semi_axes,

@@ -45,7 +45,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Component
             | Composite
             | Confidence
-            | ConicSweep
             | Control0
             | Control1
             | Coords
@@ -104,8 +103,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Lathe
             | Leopard
             | LightGroup
-            | LinearSpline
-            | LinearSweep
             | LoadFile
             | LowErrorFactor
             | Magnet
@@ -153,7 +150,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Premultiplied
             | PretraceEnd
             | PretraceStart
-            | Prism
             | Prod
             | ProjectedThrough
             | Pwr

@@ -157,6 +157,21 @@ fn what_is_not_there_yet_is_called_by_its_name() {
 }
 
 #[test]
+fn prisms_say_what_is_wrong_with_them() {
+    assert!(fault("prism { 0, 0, 3, <0, 0>, <1, 0>, <1, 1> }").2.contains("no height"));
+    assert!(fault("prism { 0, 1, 2, <0, 0>, <1, 0> }").2.contains("at least 3 points, not 2"));
+    assert!(
+        fault("prism { 0, 1, 6, <0, 0>, <1, 0>, <0, 0>, <5, 5>, <6, 6>, <5, 5> }")
+            .2
+            .contains("outline 1 of this prism has 2")
+    );
+    assert_eq!(
+        fault("prism { cubic_spline 0, 1, 3, <0, 0>, <1, 0>, <1, 1> }").2,
+        "not supported yet: cubic_spline"
+    );
+}
+
+#[test]
 fn polynomials_say_what_is_wrong_with_their_numbers() {
     assert!(fault("poly { 40, <1, 2> }").2.contains("from 2 to 16, not 40"));
     assert!(fault("poly { 2.5, <1, 2> }").2.contains("from 2 to 16"));

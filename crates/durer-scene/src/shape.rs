@@ -100,6 +100,8 @@ pub enum Shape {
         /// The radius of the tube.
         minor: f64,
     },
+    /// An outline swept along y.
+    Prism(Arc<Prism>),
     /// A quadric by its name, centred at the origin with its axis along z.
     Named(Box<NamedQuadric>),
     /// The part of a ball within `half_angle` of an axis.
@@ -141,6 +143,26 @@ pub struct Isosurface {
     pub threshold: f64,
     /// What holds the surface. Where it cuts the inside it is closed by its own face, unless the object is open.
     pub container: Container,
+}
+
+/// An outline in the xz plane, swept from one height to another; closed by flat caps unless the object is open.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prism {
+    /// Closed outlines, `[x, z]` for each point. Inside is what they go round an odd number of times.
+    pub outlines: Vec<Vec<[f64; 2]>>,
+    /// The heights of both ends, in any order.
+    pub heights: [f64; 2],
+    /// How the outline changes with the height.
+    pub sweep: Sweep,
+}
+
+/// How an outline changes along its sweep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sweep {
+    /// Not at all.
+    Linear,
+    /// At the height y it is y times as large.
+    Conic,
 }
 
 /// What holds the surface of a function.

@@ -244,20 +244,24 @@ fn check_indices(what: &'static str, faces: &[[u32; 3]], len: usize) -> Result<(
 
 /// Whether a point's box meets a face's.
 #[inline(always)]
-fn may_hold(facet: &Facet, point: &LocalPoint<'_>) -> bool {
+pub(crate) fn may_hold(facet: &Facet, point: &LocalPoint<'_>) -> bool {
     let Aabb { min, max, .. } = Aabb::from_points(*facet).expanded(point.p_err);
     (0..3).all(|i| min[i] <= point.p[i] && point.p[i] <= max[i])
 }
 
 /// Roots in the order of their parameter: a few on the stack, many on the heap.
-struct Sorted {
+pub(crate) struct Sorted {
     few: ArrayVec<Root, 16>,
     many: Vec<Root>,
 }
 
 impl Sorted {
+    pub(crate) fn new() -> Self {
+        Self { few: ArrayVec::new(), many: Vec::new() }
+    }
+
     #[inline(always)]
-    fn push(&mut self, root: Root) {
+    pub(crate) fn push(&mut self, root: Root) {
         if self.many.is_empty() {
             match self.few.try_push(root) {
                 Ok(()) => return,
@@ -268,7 +272,7 @@ impl Sorted {
     }
 
     #[inline(always)]
-    fn pour<S: Sink + ?Sized>(mut self, sink: &mut S) {
+    pub(crate) fn pour<S: Sink + ?Sized>(mut self, sink: &mut S) {
         let roots = if self.many.is_empty() { self.few.as_mut_slice() } else { &mut self.many };
         roots.sort_unstable_by(Root::order);
         for root in roots {
@@ -288,7 +292,7 @@ impl Surface for Mesh {
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
         let probe = self.probe(ray);
         let filter = EdgeFilter::new(&probe);
-        let mut roots = Sorted { few: ArrayVec::new(), many: Vec::new() };
+        let mut roots = Sorted::new();
         for number in self.live() {
             if let Some(root) = self.face_root(number, &probe, &filter, sink.range()) {
                 roots.push(root);

@@ -158,14 +158,14 @@ impl Polygon {
     }
 
     #[inline(always)]
-    fn plane(&self, probe: &Probe<'_>) -> ThreePoints {
+    pub(crate) fn plane(&self, probe: &Probe<'_>) -> ThreePoints {
         facet::plane(probe, &self.plane)
     }
 
-    /// Whether the ray passes through the outlines.
+    /// Whether a line passes through the outlines. Its view holds the polygon within one unit of its centre.
     #[inline(always)]
-    fn holds(&self, probe: &Probe<'_>) -> bool {
-        let winding = Winding::new(probe);
+    pub(crate) fn holds<L: Line>(&self, line: &L) -> bool {
+        let winding = Winding::new(line);
         let turns: i64 = self.outlines().map(|outline| winding.of(outline)).sum();
         match self.rule {
             FillRule::EvenOdd => turns & 1 == 1,
@@ -228,10 +228,11 @@ fn spanning(vertices: &[Point3], first_end: usize) -> Option<Facet> {
     Some(if n.dot(newell) < 0.0 { [a, c, b] } else { [a, b, c] })
 }
 
-/// Counts windings about a ray.
-struct Winding<'a> {
-    probe: &'a Probe<'a>,
+/// Counts windings about a line.
+struct Winding<'a, L> {
+    line: &'a L,
     filter: EdgeFilter,
+    d: Vec3,
     /// The axis that tells above from below, and the one along which vertices are moved onto a plane across it.
     level: usize,
     main: usize,
@@ -259,14 +260,17 @@ impl AlongRay for Above {
     }
 }
 
-impl<'a> Winding<'a> {
-    fn new(probe: &'a Probe<'a>) -> Self {
-        let filter = EdgeFilter::new(probe);
-        let [a, level] = edges::displacement(probe.ray.d);
+impl<'a, L: Line> Winding<'a, L> {
+    #[inline(always)]
+    fn new(line: &'a L) -> Self {
+        let filter = EdgeFilter::new(line);
+        let ray = line.running();
+        let (o, d) = (Vec3::from(ray.o.map(|x| x.v)), Vec3::from(ray.d.map(|x| x.v)));
+        let [a, level] = edges::displacement(d);
         // The centre lies in the bounding box, which is less than two units wide.
-        let reach = probe.ray.o.max_abs() + 2.0;
+        let reach = o.max_abs() + 2.0;
         let (edge_bound, level_bound) = (filter.bound(reach), filter.minor_bound(reach));
-        Self { probe, filter, level, main: 3 - a - level, edge_bound, level_bound }
+        Self { line, filter, d, level, main: 3 - a - level, edge_bound, level_bound }
     }
 
     /// How often an outline goes around the ray.
@@ -294,7 +298,7 @@ impl<'a> Winding<'a> {
     /// Whether a vertex is above the ray. One that is level with it is below: the ray is moved up, by less than anything.
     #[inline(always)]
     fn above(&self, v: Point3) -> bool {
-        let d = self.probe.ray.d;
+        let d = self.d;
         let seen = self.filter.seen(v);
         let minor = seen[self.level].mul_add(d[self.main], -(seen[self.main] * d[self.level]));
         let sign = if minor.abs() > self.level_bound { minor } else { self.exactly_above(v) };
@@ -307,9 +311,9 @@ impl<'a> Winding<'a> {
         Isa::detect().run(
             #[inline(always)]
             || {
-                let (centre, scale) = self.probe.view();
+                let (centre, scale) = self.line.view();
                 let form = Above { vertex, level: self.level, main: self.main, centre, scale };
-                self.probe.sign(&form).map_or(0.0, |sign| f64::from(sign as i8))
+                self.line.sign(&form).map_or(0.0, |sign| f64::from(sign as i8))
             },
         )
     }
@@ -319,7 +323,7 @@ impl<'a> Winding<'a> {
         if value.abs() > self.edge_bound {
             return if value > 0.0 { 1 } else { -1 };
         }
-        edges::exact_side(self.probe, a, b).unwrap_or(0)
+        edges::exact_side(self.line, a, b).unwrap_or(0)
     }
 }
 

@@ -4,6 +4,7 @@ pub(crate) mod extension;
 mod mesh;
 mod modifiers;
 mod shapes;
+mod swept;
 
 use std::rc::Rc;
 
@@ -74,6 +75,7 @@ pub(crate) enum Shape {
         major: f64,
         minor: f64,
     },
+    Prism(Rc<durer_scene::Prism>),
     Named(Box<Named>),
     Sector {
         center: [f64; 3],
@@ -201,6 +203,7 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
             | Quadric
             | Isosurface
             | Torus
+            | Prism
             | Cubic
             | Quartic
             | Poly

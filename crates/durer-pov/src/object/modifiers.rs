@@ -38,7 +38,11 @@ impl Reader<'_> {
                 Keyword::Open
                     if matches!(
                         object.shape,
-                        Shape::Cylinder { .. } | Shape::Cone { .. } | Shape::Named(_) | Shape::Isosurface(..)
+                        Shape::Cylinder { .. }
+                            | Shape::Cone { .. }
+                            | Shape::Named(_)
+                            | Shape::Isosurface(..)
+                            | Shape::Prism(_)
                     ) =>
                 {
                     habits.open = true;

@@ -99,6 +99,7 @@ impl Reader<'_> {
                 self.skip_comma()?;
                 Shape::Torus { major, minor: self.radius("the torus's minor radius")? }
             }
+            Keyword::Prism => self.prism(place)?,
             Keyword::Cubic => Shape::Polynomial(3, self.coefficients(3, place)?),
             Keyword::Quartic => Shape::Polynomial(4, self.coefficients(4, place)?),
             Keyword::Poly => {

@@ -5,12 +5,13 @@ use std::fmt::Display;
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, CappedCylinder, Disc, FLAT, Frustum, Isosurface,
-    Parallelogram, Plane, Polygon, Quadric, Region, Sphere, SphericalSector, Torus, Triangle, TriangleError,
+    Parallelogram, Plane, Polygon, Prism, Quadric, Region, Sphere, SphericalSector, Torus, Triangle,
+    TriangleError,
 };
 
 use super::build::{Inside, Target};
 use super::{LowerErrorKind, exact, named};
-use crate::{Container, Mesh, Object, Operation, Shape};
+use crate::{Container, Mesh, Object, Operation, Shape, Sweep};
 
 /// What became of a shape.
 pub(super) enum Built {
@@ -85,6 +86,16 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
                 Some((c, axis, major, minor)) => add(&mut target, made(c, axis, major, minor)?, None),
                 None => add(&mut target, made(Point3::ORIGIN, Axis::Y, major, minor)?, map),
             }
+        }
+        Shape::Prism(prism) => {
+            let [from, to] = prism.heights;
+            let solid = match prism.sweep {
+                Sweep::Linear => Prism::linear(&prism.outlines, from, to),
+                Sweep::Conic => Prism::conic(&prism.outlines, from, to),
+            }
+            .map_err(shape_error)?;
+            target.contain(&solid, map);
+            target.add_rare(if open { solid.without_caps() } else { solid }, map);
         }
         Shape::Named(quadric) => named::build(quadric, open, map, &mut target)?,
         &Shape::SphericalSector { centre, radius, axis, half_angle } => {
@@ -314,6 +325,7 @@ pub(super) fn name(shape: &Shape) -> &'static str {
         Shape::Quadric(_) => "a quadric",
         Shape::Polynomial { .. } => "a polynomial",
         Shape::Torus { .. } => "a torus",
+        Shape::Prism(_) => "a prism",
         Shape::Named(_) => "a named quadric",
         Shape::SphericalSector { .. } => "a spherical sector",
         Shape::Isosurface(_) => "an isosurface",

@@ -6,8 +6,9 @@
 
 use crate::compose::clip::Algebraic;
 use crate::planar::{ThreePoints, cross, dot, exact3};
-use crate::roots::quadratic::Quadratic;
-use crate::{Annulus, AxisBox, Disc, LocalRay, Mesh, Parallelogram, Plane, Polygon, Triangle};
+use crate::roots::quadratic::{Crossing, Quadratic, exact_sign, sign_at_root};
+use crate::{Annulus, AxisBox, Disc, LocalRay, Mesh, Parallelogram, Plane, Polygon, Prism, Root, Triangle};
+use core::cmp::Ordering;
 use durer_math::{Dyadic, Point3, Ring};
 
 /// `n·(x - p)` along the ray.
@@ -79,6 +80,14 @@ impl Algebraic for Triangle {
 impl Algebraic for Mesh {
     fn polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
         through(self.facet(face), ray)
+    }
+}
+
+impl Algebraic for Prism {
+    fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {
+        let p = through(self.plane_of(root)?, ray)?;
+        let crossing = if exact_sign(&p.b).is_gt() { Crossing::Out } else { Crossing::In };
+        Some(sign_at_root(&p, crossing, q))
     }
 }
 

@@ -1,0 +1,357 @@
+//! The prism: an outline in the xz plane, swept along y, or towards a point.
+//!
+//! ```text
+//!       linear                conic
+//!      ┌──────┐ top         ┌──────┐ top
+//!     ╱|     ╱|              ╲    ╱          a point <x, z> of the outline sweeps
+//!    ┌──────┐ |               ╲  ╱           <x, y, z>       (linear)
+//!    | └────|-┘ bottom         ╲╱  apex      <x y, y, z y>   (conic)
+//!    └──────┘                                for bottom <= y <= top
+//! ```
+//!
+//! A point is inside where the outlines go round an odd number of times. All faces are flat: walls of two triangles for each edge, and two caps,
+//! polygons with the walls' own corners. Triangles and polygons share one rule for rays that meet an edge or a corner exactly (see `edges.rs`), so the
+//! solid is closed: a line crosses it an even number of times, exactly. The corners of a conic sweep are the products rounded to f64, which
+//! are the exact solid's.
+//!
+//! J. T. Kajiya, "New techniques for ray tracing procedurally defined objects", SIGGRAPH 1983, sweeps curves; straight edges need no equation but that
+//! of a plane.
+
+mod outline;
+
+use crate::edges::EdgeFilter;
+use crate::facet::{self, Facet, Varying};
+use crate::mesh::{Sorted, may_hold};
+use crate::outline::Sketch;
+use crate::planar::{self, Crossing, PointLine, Probe, ThreePoints};
+use crate::{
+    FillRule, LocalPoint, LocalRay, Need, PartId, Polygon, PolygonError, Root, Side, Sink, Solidity, Surface,
+    SurfacePoint,
+};
+use core::cmp::Ordering;
+use durer_math::eft::exponent;
+use durer_math::{Aabb, Point3, Vec3};
+use outline::Point;
+
+/// A solid between two planes across y, within outlines that are swept from one to the other; without its caps a sheet.
+///
+/// Faces: 0 the walls, 1 the cap at the bottom, 2 the one at the top. A root's tag names the triangle of the wall.
+///
+/// # Invariants
+///
+/// The walls and both caps together are closed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prism {
+    walls: Vec<Wall>,
+    caps: Vec<Cap>,
+    /// The outlines cross or touch themselves or each other, so that an edge may have the inside on either side.
+    tangled: bool,
+    open: bool,
+    bounds: Aabb,
+}
+
+/// A triangle of a wall; unless the outlines are tangled its normal points outward.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Wall {
+    facet: Facet,
+    uv: [[f64; 2]; 3],
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Cap {
+    polygon: Polygon,
+    /// The polygon's normal points inward.
+    turned: bool,
+    /// 1 at the bottom, 2 at the top.
+    face: u32,
+}
+
+/// Why a [`Prism`] cannot exist.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum PrismError {
+    /// There is no outline.
+    #[error("prism: there is no outline")]
+    Empty,
+    /// An outline has fewer than three different points.
+    #[error("prism: outline {outline} has {len} different points, it needs 3 at least")]
+    TooShort {
+        /// The outline, from 0.
+        outline: usize,
+        /// Its number of points.
+        len: usize,
+    },
+    /// A point is infinite or NaN.
+    #[error("prism: a point of the outline must be finite, got <{x}, {z}>")]
+    Point {
+        /// Its x.
+        x: f64,
+        /// Its z.
+        z: f64,
+    },
+    /// The heights are not finite, or the same.
+    #[error("prism: the heights must be finite and different, got {0} and {1}")]
+    Heights(f64, f64),
+    /// A corner of a conic sweep is beyond the range of f64.
+    #[error("prism: at the height {0:?} the outline is too large for the range of f64")]
+    TooLarge(f64),
+    /// A cap cannot exist.
+    #[error("prism: all points of the outline lie on one line")]
+    Flat,
+}
+
+/// How the outline changes from one height to another.
+#[derive(Clone, Copy, PartialEq)]
+enum Sweep {
+    Linear,
+    Conic,
+}
+
+impl Sweep {
+    /// Where a point of the outline is at the height `y`.
+    fn at(self, [x, z]: Point, y: f64) -> Point3 {
+        match self {
+            Self::Linear => Point3::new(x, y, z),
+            Self::Conic => Point3::new(x * y, y, z * y),
+        }
+    }
+}
+
+impl Prism {
+    /// The prism between the heights `bottom` and `top` (in any order) within these outlines, `[x, z]` each. An outline is closed by itself; a last point
+    /// equal to the first is left out.
+    pub fn linear(outlines: &[impl AsRef<[Point]>], bottom: f64, top: f64) -> Result<Self, PrismError> {
+        Self::new(outlines, bottom, top, Sweep::Linear)
+    }
+
+    /// The same, the outlines at the height `y` being `y` times as large: a pyramid with its apex at the origin, or the part of one between the
+    /// heights, or two that meet.
+    pub fn conic(outlines: &[impl AsRef<[Point]>], bottom: f64, top: f64) -> Result<Self, PrismError> {
+        Self::new(outlines, bottom, top, Sweep::Conic)
+    }
+
+    fn new(
+        outlines: &[impl AsRef<[Point]>],
+        bottom: f64,
+        top: f64,
+        sweep: Sweep,
+    ) -> Result<Self, PrismError> {
+        let (low, high) = (bottom.min(top), bottom.max(top));
+        if !(bottom.is_finite() && top.is_finite() && low < high && (high - low).is_finite()) {
+            return Err(PrismError::Heights(bottom, top));
+        }
+        let outlines = outline::cleaned(outlines)?;
+        let edges = outline::edges(&outlines);
+        let inside_is_left = outline::inside_is_left(&edges);
+        let levels = if sweep == Sweep::Conic && low < 0.0 && high > 0.0 {
+            vec![[low, 0.0], [0.0, high]]
+        } else {
+            vec![[low, high]]
+        };
+        let mut walls = Vec::with_capacity(2 * levels.len() * edges.len());
+        for [y0, y1] in levels {
+            for (i, &[a, b]) in edges.iter().enumerate() {
+                let left = inside_is_left.as_ref().is_none_or(|left| left[i]);
+                let (a, b) = if left { (a, b) } else { (b, a) };
+                let [a0, a1] = [y0, y1].map(|y| sweep.at(a, y));
+                let [b0, b1] = [y0, y1].map(|y| sweep.at(b, y));
+                let u = [i as f64 / edges.len() as f64, (i + 1) as f64 / edges.len() as f64];
+                let [ua, ub] = if left { u } else { [u[1], u[0]] };
+                let v = [y0, y1].map(|y| (y - low) / (high - low));
+                walls.push(Wall { facet: [a0, b1, b0], uv: [[ua, v[0]], [ub, v[1]], [ub, v[0]]] });
+                walls.push(Wall { facet: [a0, a1, b1], uv: [[ua, v[0]], [ua, v[1]], [ub, v[1]]] });
+            }
+        }
+        let bounds = Aabb::from_points(walls.iter().flat_map(|w| w.facet));
+        if !bounds.is_bounded() || !bounds.widths().is_finite() {
+            return Err(PrismError::TooLarge(if low.abs() > high.abs() { low } else { high }));
+        }
+        // Without area they meet no ray: two of three corners at an apex.
+        walls.retain(|w| !facet::is_degenerate(&w.facet));
+        let mut caps = Vec::with_capacity(2);
+        for (y, face) in [(low, 1), (high, 2)] {
+            if sweep == Sweep::Conic && y == 0.0 {
+                continue;
+            }
+            let swept: Vec<Vec<Point3>> =
+                outlines.iter().map(|points| points.iter().map(|&p| sweep.at(p, y)).collect()).collect();
+            let polygon = Polygon::new(&swept, FillRule::EvenOdd).map_err(|e| match e {
+                PolygonError::TooMany(_) => PrismError::TooLarge(y),
+                _ => PrismError::Flat,
+            })?;
+            let up = facet::unit_normal(&polygon.spanning()).y > 0.0;
+            caps.push(Cap { polygon, turned: up != (face == 2), face });
+        }
+        Ok(Self { walls, caps, tangled: inside_is_left.is_none(), open: false, bounds })
+    }
+
+    /// The walls alone.
+    #[must_use]
+    pub fn without_caps(mut self) -> Self {
+        self.open = true;
+        self
+    }
+
+    #[inline(always)]
+    fn view(&self) -> (Point3, f64) {
+        planar::middle(&self.bounds)
+    }
+
+    #[inline(always)]
+    fn probe<'a>(&self, ray: &'a LocalRay<'a>) -> Probe<'a> {
+        let (centre, size) = self.view();
+        Probe::new(ray, centre, size)
+    }
+
+    /// Three points of the plane of a root's face.
+    pub(crate) fn plane_of(&self, root: &Root) -> Option<Facet> {
+        match root.face {
+            0 => self.walls.get(root.tag[0] as usize).map(|w| w.facet),
+            face => self.caps.iter().find(|c| c.face == face).map(|c| c.polygon.spanning()),
+        }
+    }
+
+    /// Every crossing of the line with a face, in no order: the crossing, its plane, its face and tag, and whether the sign is to be turned.
+    #[inline(always)]
+    fn each_crossing(&self, probe: &Probe<'_>, mut f: impl FnMut(Crossing, ThreePoints, u32, f64, bool)) {
+        let filter = EdgeFilter::new(probe);
+        for (i, wall) in self.walls.iter().enumerate() {
+            if facet::passes(probe, &filter, &wall.facet).is_some() {
+                let plane = facet::plane(probe, &wall.facet);
+                if let Some(crossing) = probe.crossing(&plane) {
+                    f(crossing, plane, 0, i as f64, false);
+                }
+            }
+        }
+        for cap in &self.caps {
+            let plane = cap.polygon.plane(probe);
+            let Some(crossing) = probe.crossing(&plane) else { continue };
+            // The prism lies within one unit of its centre: what is certainly farther away needs no look at the outline.
+            let (at, err) = probe.place(&crossing);
+            if at.max_abs() <= 1.0 + err.max_abs() && cap.polygon.holds(probe) {
+                f(crossing, plane, cap.face, 0.0, cap.turned);
+            }
+        }
+    }
+}
+
+/// A root, before it is known whether it lies in the range.
+fn root(probe: &Probe<'_>, crossing: &Crossing, face: u32, wall: f64, turned: bool) -> Root {
+    let root = probe.root(crossing, face, [wall, f64::from(u8::from(turned))]);
+    Root { sign: if turned { -root.sign } else { root.sign }, ..root }
+}
+
+impl Surface for Prism {
+    fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+
+    #[inline(always)]
+    fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
+        let probe = self.probe(ray);
+        let mut roots = Sorted::new();
+        let is_shown = |face: u32| !self.open || face == 0;
+        let range = sink.range();
+        let admitted = |crossing: &Crossing, plane: &ThreePoints| {
+            !crossing.is_outside(range) && probe.may_admit(crossing) && probe.admits(plane, crossing)
+        };
+        if self.tangled {
+            // Along the line, inside and outside alternate.
+            let mut all = Vec::new();
+            self.each_crossing(&probe, |crossing, plane, face, wall, _| {
+                all.push((crossing, plane, face, wall))
+            });
+            all.sort_by(|a, b| a.0.s.total_cmp(&b.0.s));
+            for (i, (crossing, plane, face, wall)) in all.iter().enumerate() {
+                let sign = if i % 2 == 0 { -1 } else { 1 };
+                if is_shown(*face) && admitted(crossing, plane) {
+                    roots.push(root(&probe, crossing, *face, *wall, crossing.sign != sign));
+                }
+            }
+        } else {
+            self.each_crossing(&probe, |crossing, plane, face, wall, turned| {
+                if is_shown(face) && admitted(&crossing, &plane) {
+                    roots.push(root(&probe, &crossing, face, wall, turned));
+                }
+            });
+        }
+        roots.pour(sink);
+    }
+
+    /// Texture coordinates: of the walls once round all outlines, edge by edge, and from the bottom to the top; of the caps lengths.
+    #[inline(always)]
+    fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
+        let point = match self.walls.get(root.tag[0] as usize) {
+            Some(wall) if root.face == 0 => {
+                let varying = Varying { normals: None, uv: Some(wall.uv) };
+                facet::resolve(&self.probe(ray), &wall.facet, &varying, need)
+            }
+            _ => match self.caps.iter().find(|c| c.face == root.face) {
+                Some(cap) => cap.polygon.resolve(ray, root, need),
+                // Not a root of this surface: nothing is known.
+                None => SurfacePoint::new(
+                    self.view().0,
+                    Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY),
+                    f64::INFINITY,
+                    Vec3::Y.to_normal(),
+                ),
+            },
+        };
+        if root.tag[1] == 0.0 {
+            return point;
+        }
+        SurfacePoint { ng: -point.ng, ns: -point.ns, dndu: -point.dndu, dndv: -point.dndv, ..point }
+    }
+
+    fn sketch(&self, _part: PartId) -> Sketch {
+        Sketch::vague(self.bounds)
+    }
+
+    fn solidity(&self) -> Solidity {
+        if self.open { Solidity::Open } else { Solidity::Solid }
+    }
+
+    fn side(&self, point: &LocalPoint<'_>) -> Side {
+        if self.open {
+            return Side::Out;
+        }
+        let (centre, size) = self.view();
+        let scale = exponent(size) + 1;
+        let line = PointLine::new(point, Vec3::Y, centre, scale);
+        let filter = EdgeFilter::new(&line);
+        let mut odd = false;
+        for Wall { facet, .. } in &self.walls {
+            let plane = ThreePoints { points: *facet, centre, scale };
+            if may_hold(facet, point)
+                // Only an inexact point leaves the height open.
+                && line.side_of(&plane).is_none_or(Ordering::is_eq)
+                && facet::holds_start(&line, facet)
+            {
+                return Side::On;
+            }
+            // Ahead of the point if it lies above the plane and the line goes down, or below and up; walls along y are never passed.
+            if let Some(passed) = facet::passes(&line, &filter, facet)
+                && line.side_of(&plane).is_some_and(|height| height as i8 == passed.side)
+            {
+                odd = !odd;
+            }
+        }
+        for Cap { polygon, turned, face } in &self.caps {
+            let plane = ThreePoints { points: polygon.spanning(), centre, scale };
+            // The rims are the walls' own, and have been looked at.
+            if !polygon.holds(&line) {
+                continue;
+            }
+            // Above the plane, as y grows.
+            let up = *turned != (*face == 2);
+            match line.side_of(&plane) {
+                Some(Ordering::Equal) | None => return Side::On,
+                Some(height) if (height == Ordering::Greater) != up => odd = !odd,
+                Some(_) => {}
+            }
+        }
+        if odd { Side::In } else { Side::Out }
+    }
+}
+
+#[cfg(test)]
+mod tests;
