@@ -54,6 +54,8 @@ pub struct Prism {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Wall {
     facet: Facet,
+    /// The edges from the bottom to the top at both ends of the wall that the triangle is half of.
+    ribs: [[Point3; 2]; 2],
     uv: [[f64; 2]; 3],
 }
 
@@ -157,8 +159,9 @@ impl Prism {
                 let u = [i as f64 / edges.len() as f64, (i + 1) as f64 / edges.len() as f64];
                 let [ua, ub] = if left { u } else { [u[1], u[0]] };
                 let v = [y0, y1].map(|y| (y - low) / (high - low));
-                walls.push(Wall { facet: [a0, b1, b0], uv: [[ua, v[0]], [ub, v[1]], [ub, v[0]]] });
-                walls.push(Wall { facet: [a0, a1, b1], uv: [[ua, v[0]], [ua, v[1]], [ub, v[1]]] });
+                let ribs = [[a0, a1], [b0, b1]];
+                walls.push(Wall { ribs, facet: [a0, b1, b0], uv: [[ua, v[0]], [ub, v[1]], [ub, v[0]]] });
+                walls.push(Wall { ribs, facet: [a0, a1, b1], uv: [[ua, v[0]], [ua, v[1]], [ub, v[1]]] });
             }
         }
         let bounds = Aabb::from_points(walls.iter().flat_map(|w| w.facet));
@@ -214,7 +217,20 @@ impl Prism {
     #[inline(always)]
     fn each_crossing(&self, probe: &Probe<'_>, mut f: impl FnMut(Crossing, ThreePoints, u32, f64, bool)) {
         let filter = EdgeFilter::new(probe);
+        // The prism lies within one unit of its centre.
+        let bound = filter.bound(probe.ray.o.max_abs() + 2.0);
+        // Neighbours share ribs: the last two are remembered.
+        let mut known = [([Point3::ORIGIN; 2], 0.0); 2];
         for (i, wall) in self.walls.iter().enumerate() {
+            let sides = wall.ribs.map(|rib| match known.iter().find(|k| k.0 == rib) {
+                Some(known) => known.1,
+                None => filter.side(filter.seen(rib[0]), filter.seen(rib[1])),
+            });
+            known = [(wall.ribs[0], sides[0]), (wall.ribs[1], sides[1])];
+            // A ray that surely passes both ribs on one side passes beside the wall.
+            if sides[0] > bound && sides[1] > bound || sides[0] < -bound && sides[1] < -bound {
+                continue;
+            }
             if facet::passes(probe, &filter, &wall.facet).is_some() {
                 let plane = facet::plane(probe, &wall.facet);
                 if let Some(crossing) = probe.crossing(&plane) {
