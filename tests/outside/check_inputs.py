@@ -170,6 +170,9 @@ def wrong_values(x):
         "prism { 0, 0, 4, <0, 0>, <1, 0>, <1, 1>, <0, 0> }": "no height", "prism { 0, 1, 2, <0, 0>, <1, 0> }": "at least 3 points", "prism { 0, 1, 5, <0, 0>, <1, 0> <0, 0>, <5, 5>, <6, 6> }": "outline 1",
         "prism { 0, 1, 4, <0, 0>, <1, 1>, <2, 2>, <0, 0> }": "one line", "prism { 0, 1, 4, <0, 0>, <1, 0>, <1, 1> }": "", "prism { cubic_spline 0, 1, 4, <0, 0>, <1, 0>, <1, 1>, <0, 0> }": "not supported yet: cubic_spline",
         "prism { 0, 1, 3, <0, 0>, <1, 0>, <1, 1> }": None, "prism { conic_sweep 1, 1e308, 3, <0, 0>, <9, 0>, <9, 9> }": "too large", "prism { }": "", "torus { 1, 1 open }": "open",
+        "sor { 3, <1, 0>, <1, 1>, <1, 2> }": "at least 4 points", "sor { 4, <1, 0>, <1, 2>, <1, 1>, <1, 3> }": "ascend", "sor { 4, <1, 0>, <-1, 1>, <1, 2>, <1, 3> }": "negative",
+        "sor { 4, <1, 5>, <1, 1>, <1, 2>, <1, 3> }": "ascend", "sor { 4, <1, 0>, <1e200, 1>, <1, 2>, <1, 3> }": "too large", "ovus { 0, 1 }": "zero", "ovus { 1 }": "", "ovus { 1, 1 open }": "open",
+        "lemon { 0, 0, 0, 0, 1 }": "same point", "lemon { 0, 0, y, 0, 0.5 }": "greater than 0.5", "lemon { 0, -1, y, 0, 5 }": "negative", "lemon { 0, 0, y }": "", "sor { 1e18, <0, 0> }": "",
         "polynomial { 4, xyz(3, 2, 0): 1 }": "add up to 4", "polynomial { 4, xyz(-1, 2, 0): 1 }": "add up to 4", "polynomial { 4, xyz(1, 0.5, 0): 1 }": "add up to 4", "polynomial { 3 }": "no variable", "polynomial { 3, xyz(1, 0): 1 }": "",
     }
     for words, says in flat.items():

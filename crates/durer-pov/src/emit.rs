@@ -326,6 +326,15 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             limits::charge_for_good(points * 16);
             scene::Shape::Prism(Arc::new((**prism).clone()))
         }
+        Shape::Sor(points) => {
+            limits::charge_for_good(points.len() * 16);
+            scene::Shape::Sor(Arc::from(&points[..]))
+        }
+        &Shape::Ovus { bottom, top } => scene::Shape::Ovus { bottom, top },
+        &Shape::Lemon { ends: [base, apex], radii: [base_radius, apex_radius], inner_radius } => {
+            let (base, apex) = (point(base), point(apex));
+            scene::Shape::Lemon { base, base_radius, apex, apex_radius, inner_radius }
+        }
         Shape::Named(named) => scene::Shape::Named(Box::new(scene::NamedQuadric {
             kind: named.kind,
             semi_axes: named.semi_axes,

@@ -133,7 +133,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Onion
             | Orient
             | Orientation
-            | Ovus
             | Panoramic
             | Parametric
             | PassThrough
@@ -180,7 +179,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | SlopeMap
             | Smooth
             | Solid
-            | Sor
             | Spacing
             | SphereSweep
             | Spherical

@@ -172,6 +172,16 @@ fn prisms_say_what_is_wrong_with_them() {
 }
 
 #[test]
+fn turned_solids_say_what_is_wrong_with_them() {
+    assert!(fault("sor { 3, <1, 0>, <1, 1>, <1, 2> }").2.contains("at least 4 points, not 3"));
+    assert!(fault("sor { 4, <1, 0>, <1, 2>, <1, 1>, <1, 3> }").2.contains("1 comes after 2"));
+    assert!(fault("sor { 4, <1, 0>, <-1, 1>, <1, 2>, <1, 3> }").2.contains("negative: -1"));
+    assert!(fault("ovus { 1, 0 }").2.contains("top radius is zero"));
+    assert!(fault("lemon { 0, 0, 0, 0, 1 }").2.contains("same point"));
+    assert!(fault("lemon { 0, -1, y, 0, 1 }").2.contains("negative: -1"));
+}
+
+#[test]
 fn polynomials_say_what_is_wrong_with_their_numbers() {
     assert!(fault("poly { 40, <1, 2> }").2.contains("from 2 to 16, not 40"));
     assert!(fault("poly { 2.5, <1, 2> }").2.contains("from 2 to 16"));

@@ -102,6 +102,29 @@ pub enum Shape {
     },
     /// An outline swept along y.
     Prism(Arc<Prism>),
+    /// A smooth curve through these points, a radius and a height each, turned about the y axis; the first and the last point only tell slopes. Closed
+    /// by flat ends unless the object is open.
+    Sor(Arc<[[f64; 2]]>),
+    /// An egg about the y axis: two spheres with a piece of a spindle between them.
+    Ovus {
+        /// The radius of the sphere about the origin.
+        bottom: f64,
+        /// The radius of the sphere about the point `bottom` above it.
+        top: f64,
+    },
+    /// A spindle, cut off by planes across its axis; closed there unless the object is open.
+    Lemon {
+        /// The middle of one end.
+        base: Point3,
+        /// The radius there.
+        base_radius: f64,
+        /// The middle of the other end.
+        apex: Point3,
+        /// The radius there.
+        apex_radius: f64,
+        /// The radius of the arc from one end to the other.
+        inner_radius: f64,
+    },
     /// A quadric by its name, centred at the origin with its axis along z.
     Named(Box<NamedQuadric>),
     /// The part of a ball within `half_angle` of an axis.

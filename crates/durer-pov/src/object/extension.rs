@@ -36,6 +36,7 @@ pub(crate) enum Word {
     SphericalSector,
     Annulus,
     Parallelogram,
+    Lemon,
 }
 
 impl Word {
@@ -55,6 +56,7 @@ impl Word {
             "spherical_sector" => Self::SphericalSector,
             "annulus" => Self::Annulus,
             "parallelogram" => Self::Parallelogram,
+            "lemon" => Self::Lemon,
             _ => return None,
         })
     }
@@ -113,6 +115,7 @@ impl Reader<'_> {
                 }
                 return Ok(Shape::Sector { center, radius, axis, half_angle: degrees.to_radians() });
             }
+            Word::Lemon => return self.lemon(place),
             Word::Annulus => return self.shape(Keyword::Disc, place),
             Word::Parallelogram => {
                 let corner = self.corner()?;

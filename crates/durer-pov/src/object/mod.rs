@@ -76,6 +76,17 @@ pub(crate) enum Shape {
         minor: f64,
     },
     Prism(Rc<durer_scene::Prism>),
+    /// Radii and heights.
+    Sor(Rc<[[f64; 2]]>),
+    Ovus {
+        bottom: f64,
+        top: f64,
+    },
+    Lemon {
+        ends: [[f64; 3]; 2],
+        radii: [f64; 2],
+        inner_radius: f64,
+    },
     Named(Box<Named>),
     Sector {
         center: [f64; 3],
@@ -204,6 +215,8 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
             | Isosurface
             | Torus
             | Prism
+            | Sor
+            | Ovus
             | Cubic
             | Quartic
             | Poly

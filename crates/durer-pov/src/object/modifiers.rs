@@ -43,6 +43,8 @@ impl Reader<'_> {
                             | Shape::Named(_)
                             | Shape::Isosurface(..)
                             | Shape::Prism(_)
+                            | Shape::Sor(_)
+                            | Shape::Lemon { .. }
                     ) =>
                 {
                     habits.open = true;

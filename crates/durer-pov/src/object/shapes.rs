@@ -100,6 +100,8 @@ impl Reader<'_> {
                 Shape::Torus { major, minor: self.radius("the torus's minor radius")? }
             }
             Keyword::Prism => self.prism(place)?,
+            Keyword::Sor => self.sor()?,
+            Keyword::Ovus => self.ovus()?,
             Keyword::Cubic => Shape::Polynomial(3, self.coefficients(3, place)?),
             Keyword::Quartic => Shape::Polynomial(4, self.coefficients(4, place)?),
             Keyword::Poly => {

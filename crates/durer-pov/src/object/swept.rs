@@ -36,6 +36,68 @@ impl Reader<'_> {
         Ok(Shape::Prism(Rc::new(Prism { outlines, heights: [from, to], sweep })))
     }
 
+    /// `number of points, <radius, height>, ...`.
+    pub(super) fn sor(&mut self) -> Result<Shape> {
+        let count = self.point_count("a sor", 4)?;
+        let mut points = Vec::<[f64; 2]>::new();
+        for n in 0..count {
+            self.peek()?;
+            let at = self.here();
+            let [radius, height] = self.vector2()?;
+            self.skip_comma()?;
+            self.check_memory(n * 32, at)?;
+            if radius < 0.0 {
+                let text = format!("the radius of a sor's point must not be negative: {radius}");
+                return Err(Fault::invalid(at, text));
+            }
+            // The first and the last point are not on the curve.
+            if let [_, .., [_, below]] = points[..]
+                && n + 1 < count
+                && height <= below
+            {
+                let text = format!("the heights of a sor ascend, but {height} comes after {below}");
+                return Err(Fault::invalid(at, text));
+            }
+            points.push([radius, height]);
+        }
+        Ok(Shape::Sor(points.into()))
+    }
+
+    /// `bottom radius, top radius`.
+    pub(super) fn ovus(&mut self) -> Result<Shape> {
+        let bottom = self.radius("the ovus's bottom radius")?;
+        self.skip_comma()?;
+        Ok(Shape::Ovus { bottom, top: self.radius("the ovus's top radius")? })
+    }
+
+    /// `base, radius, apex, radius, inner radius`.
+    pub(super) fn lemon(&mut self, place: Place) -> Result<Shape> {
+        let base = self.corner()?;
+        let base_radius = self.end_radius()?;
+        let apex = self.corner()?;
+        let apex_radius = self.end_radius()?;
+        let inner_radius = self.radius("the lemon's inner radius")?;
+        if base == apex {
+            return Err(Fault::invalid(place, "this lemon's ends are the same point"));
+        }
+        Ok(Shape::Lemon { ends: [base, apex], radii: [base_radius, apex_radius], inner_radius })
+    }
+
+    /// A radius that may be zero, and the comma behind it.
+    fn end_radius(&mut self) -> Result<f64> {
+        self.peek()?;
+        let at = self.here();
+        let radius = self.float()?;
+        self.skip_comma()?;
+        if radius < 0.0 {
+            return Err(Fault::invalid(
+                at,
+                format!("the radius of a lemon's end must not be negative: {radius}"),
+            ));
+        }
+        Ok(radius)
+    }
+
     /// How many points follow, and the comma behind it.
     fn point_count(&mut self, what: &str, least: u32) -> Result<usize> {
         self.peek()?;

@@ -6,7 +6,7 @@ use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, CappedCylinder, Disc, FLAT, Frustum, Isosurface,
     Parallelogram, Plane, Polygon, Prism, Quadric, Region, Sphere, SphericalSector, Torus, Triangle,
-    TriangleError,
+    TriangleError, Turned,
 };
 
 use super::build::{Inside, Target};
@@ -97,6 +97,21 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             target.contain(&solid, map);
             target.add_rare(if open { solid.without_caps() } else { solid }, map);
         }
+        Shape::Sor(points) => turned(Turned::sor(points).map_err(shape_error)?, open, map, &mut target),
+        &Shape::Ovus { bottom, top } => {
+            turned(Turned::ovus(bottom, top).map_err(shape_error)?, open, map, &mut target);
+        }
+        &Shape::Lemon { base, base_radius, apex, apex_radius, inner_radius } => {
+            let axis = apex - base;
+            // A length beyond the range of f64 is refused as such.
+            let height = axis.length();
+            let solid = Turned::lemon(height, base_radius, apex_radius, inner_radius).map_err(shape_error)?;
+            let up = axis / height;
+            let (u, v) = up.orthonormal_basis();
+            let rows = [0, 1, 2].map(|i| [v[i], up[i], u[i]]);
+            let all = Affine::new(rows, base)?.then(place)?;
+            turned(solid, open, Some(&all), &mut target);
+        }
         Shape::Named(quadric) => named::build(quadric, open, map, &mut target)?,
         &Shape::SphericalSector { centre, radius, axis, half_angle } => {
             let sector =
@@ -120,6 +135,12 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
         shape => return flat(shape, map, target),
     }
     Ok(Built::Done(target.inside))
+}
+
+/// Adds a solid of revolution.
+fn turned(solid: Turned, open: bool, map: Option<&Affine>, target: &mut Target<'_>) {
+    target.contain(&solid, map);
+    target.add_rare(if open { solid.without_ends() } else { solid }, map);
 }
 
 const AXES: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
@@ -326,6 +347,9 @@ pub(super) fn name(shape: &Shape) -> &'static str {
         Shape::Polynomial { .. } => "a polynomial",
         Shape::Torus { .. } => "a torus",
         Shape::Prism(_) => "a prism",
+        Shape::Sor(_) => "a sor",
+        Shape::Ovus { .. } => "an ovus",
+        Shape::Lemon { .. } => "a lemon",
         Shape::Named(_) => "a named quadric",
         Shape::SphericalSector { .. } => "a spherical sector",
         Shape::Isosurface(_) => "an isosurface",

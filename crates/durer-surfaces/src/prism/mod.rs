@@ -274,7 +274,7 @@ impl Surface for Prism {
             // Along the line, inside and outside alternate.
             let mut all = Vec::new();
             self.each_crossing(&probe, |crossing, plane, face, wall, _| {
-                all.push((crossing, plane, face, wall))
+                all.push((crossing, plane, face, wall));
             });
             all.sort_by(|a, b| a.0.s.total_cmp(&b.0.s));
             for (i, (crossing, plane, face, wall)) in all.iter().enumerate() {

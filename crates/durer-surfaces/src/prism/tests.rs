@@ -161,7 +161,7 @@ impl Swept {
         if found.windows(2).any(|w| order(&w[0], &w[1]).is_eq()) {
             return None;
         }
-        assert!(found.len() % 2 == 0, "the witness itself leaks");
+        assert!(found.len().is_multiple_of(2), "the witness itself leaks");
         let crossing = |(i, (n, d, face)): (usize, Found)| {
             let sign = if i % 2 == 0 { -1 } else { 1 };
             (Crossing { t: Surd::ratio(n, d), sign, grazing: false }, face)

@@ -1,0 +1,55 @@
+//! A plane across the axis of a turned solid.
+
+use crate::planar::{self, AlongRay, Line, PlaneForm, Probe};
+use crate::{CentredRay, RingRay};
+use durer_math::{Dyadic, Point3, Ring, Vec3};
+
+/// The plane at a height, its normal upward.
+pub(super) struct Level {
+    pub(super) height: f64,
+    /// The height of the frame's centre, and its unit.
+    pub(super) centre: f64,
+    pub(super) scale: i32,
+}
+
+/// How far the start of a ray is above a level.
+pub(super) struct Above(pub(super) Level);
+
+impl AlongRay for Above {
+    fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
+        self.0.height(ray)
+    }
+}
+
+impl PlaneForm for Level {
+    #[inline(always)]
+    fn quick(&self, ray: &CentredRay<'_>) -> Option<planar::Quick> {
+        let at = Point3::new(0.0, self.height, 0.0);
+        Some(planar::Quick::new((Vec3::Y, Vec3::ZERO), planar::origin_from(ray, at), (0.0, 0.0), ray))
+    }
+
+    #[inline(always)]
+    fn slope<T: Ring>(&self, ray: &RingRay<T>) -> T {
+        ray.d[1].clone()
+    }
+
+    #[inline(always)]
+    fn height<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
+        let level = (T::exact(self.height) - T::exact(self.centre)).scale2(-self.scale);
+        Some(ray.o[1].clone() - level * ray.w.clone())
+    }
+}
+
+impl Level {
+    /// The exact ray with its start moved to this height, times a positive number.
+    pub(super) fn passing(&self, probe: &Probe<'_>) -> Option<RingRay<Dyadic>> {
+        let ray = probe.exact()?;
+        let (mut height, mut slope) = (self.height(&ray)?, self.slope(&ray));
+        if slope.exact_sign().is_lt() {
+            (height, slope) = (-height, -slope);
+        }
+        let o = [0, 1, 2].map(|i| ray.o[i].clone() * slope.clone() - ray.d[i].clone() * height.clone());
+        let d = ray.d.map(|d| d * slope.clone());
+        Some(RingRay { o, d, w: ray.w * slope })
+    }
+}

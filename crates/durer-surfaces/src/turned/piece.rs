@@ -1,0 +1,109 @@
+//! What encloses a turned solid between two of its heights: one wall or the other.
+
+use super::wall::{Cubic, Spindle};
+use crate::planar::{AlongRay, Line, PointLine, Probe};
+use crate::quadric::body::Frame;
+use crate::roots::quadratic::Quadratic;
+use crate::zero_set::{self, ZeroSet};
+use crate::{LocalPoint, LocalRay, RingRay, Root, Side};
+use core::cmp::Ordering;
+use durer_math::{Dyadic, Ring, Run, Vec3};
+
+/// What encloses the solid between two heights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Wall {
+    Cubic(Cubic),
+    Spindle(Spindle),
+}
+
+impl Wall {
+    /// Whether a point known within `err` is inside, if that is certain.
+    #[inline(always)]
+    pub(super) fn rough(&self, at: Vec3, err: Vec3) -> Option<bool> {
+        let run = |x: f64, e: f64| Run::with_error(x, e);
+        let o = [run(at.x, err.x), run(at.y, err.y), run(at.z, err.z)];
+        let one = Run::exact(1.0);
+        let inside = |sign: Option<Ordering>| sign.filter(|s| s.is_ne()).map(Ordering::is_lt);
+        match self {
+            Self::Cubic(w) => inside(w.at(&o, &one).sign()),
+            Self::Spindle(w) => {
+                let zero = || Run::exact(0.0);
+                let ray = RingRay { o, d: [zero(), zero(), zero()], w: one };
+                match inside(w.inner(&ray).c.sign()) {
+                    Some(false) => Some(false),
+                    inner => {
+                        inside(w.at(&o, &one).sign()).and_then(|is| if is { inner } else { Some(false) })
+                    }
+                }
+            }
+        }
+    }
+
+    pub(super) fn polynomial(&self, ray: &RingRay<Dyadic>) -> Vec<Dyadic> {
+        match self {
+            Self::Cubic(w) => w.along(ray).to_vec(),
+            Self::Spindle(w) => w.along(ray).to_vec(),
+        }
+    }
+
+    /// What is negative on the sheet that counts, if there are others.
+    pub(super) fn sheet(&self, ray: &RingRay<Dyadic>) -> Option<Vec<Dyadic>> {
+        match self {
+            Self::Cubic(_) => None,
+            Self::Spindle(w) => {
+                let Quadratic { a, b, c } = w.inner(ray);
+                Some(vec![c, b.scale2(1), a])
+            }
+        }
+    }
+
+    pub(super) fn sign_at_root(
+        &self,
+        ray: &LocalRay<'_>,
+        root: &Root,
+        q: &Quadratic<Dyadic>,
+    ) -> Option<Ordering> {
+        match self {
+            Self::Cubic(w) => zero_set::sign_at_root(w, ray, root, q),
+            Self::Spindle(w) => zero_set::sign_at_root(w, ray, root, q),
+        }
+    }
+
+    /// Whether a root is on the sheet that counts.
+    pub(super) fn holds(&self, probe: &Probe<'_>, root: &Root) -> bool {
+        let Self::Spindle(w) = self else { return true };
+        let (lo, hi) = probe.ray.window((root.lo, root.hi));
+        let s = Run::with_error(root.s, (hi - root.s).max(root.s - lo));
+        let Quadratic { a, b, c } = w.inner(&probe.running());
+        if let Some(sign) = ((a * s + b.scale2(1)) * s + c).sign().filter(|s| s.is_ne()) {
+            return sign.is_lt();
+        }
+        let ray = probe.ray.local();
+        let Some(exact) = ray.in_ring_from::<Dyadic>(w.frame().centre, w.frame().scale) else { return true };
+        // Where both sheets meet, on the axis, it is outside by construction.
+        self.sign_at_root(ray, root, &w.inner(&exact)).is_none_or(Ordering::is_lt)
+    }
+
+    pub(super) fn side(&self, point: &LocalPoint<'_>) -> Side {
+        match self {
+            Self::Cubic(w) => zero_set::side(w, point),
+            Self::Spindle(w) => {
+                let Frame { centre, scale, .. } = w.frame();
+                let line = PointLine::new(point, Vec3::ZERO, centre, scale);
+                match line.sign(&Inner(w)) {
+                    Some(Ordering::Less) => zero_set::side(w, point),
+                    _ => Side::Out,
+                }
+            }
+        }
+    }
+}
+
+/// `Q` of a spindle at the start of a line.
+struct Inner<'a>(&'a Spindle);
+
+impl AlongRay for Inner<'_> {
+    fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
+        Some(self.0.inner(ray).c)
+    }
+}
