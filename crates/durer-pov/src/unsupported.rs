@@ -29,7 +29,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | BezierSpline
             | BicubicPatch
             | BlackHole
-            | Blob
             | BlurSamples
             | Bmp
             | Bokeh
@@ -42,7 +41,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Cells
             | Circular
             | Collect
-            | Component
             | Composite
             | Confidence
             | ConicSweep
@@ -51,7 +49,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Coords
             | Count
             | Crackle
-            | Cube
             | CubicSpline
             | CutawayTextures
             | Cylindrical
@@ -87,7 +84,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | GrayThreshold
             | Hdr
             | HeightField
-            | Hypercomplex
             | Iff
             | ImageMap
             | ImagePattern
@@ -100,7 +96,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Jitter
             | Jpeg
             | Julia
-            | JuliaFractal
             | Lathe
             | Leopard
             | LightGroup
@@ -115,7 +110,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Marble
             | MaterialMap
             | MaxExtent
-            | MaxIteration
             | MaxSample
             | MaximumReuse
             | Media
@@ -148,7 +142,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Png
             | Pot
             | Ppm
-            | Precision
             | Precompute
             | Premultiplied
             | PretraceEnd
@@ -158,7 +151,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | ProjectedThrough
             | Pwr
             | QuadraticSpline
-            | Quaternion
             | Quilted
             | Radial
             | Radiosity
@@ -179,7 +171,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Sint8
             | Size
             | SkySphere
-            | Slice
             | Slope
             | SlopeMap
             | Smooth
@@ -193,10 +184,8 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Spline
             | Spotted
             | Square
-            | Strength
             | Subsurface
             | Sum
-            | Superellipsoid
             | Target
             | Text
             | Tga

@@ -246,7 +246,11 @@ impl<T: Word, const N: usize> Scaled<T, N> {
         let (mut x, mut last) = (0.5 * (a + b), f64::INFINITY);
         loop {
             let value = self.at(x).value();
-            if (value > 0.0) == rising { b = x } else { a = x }
+            if (value > 0.0) == rising {
+                b = x
+            } else {
+                a = x
+            }
             let step = value / self.slope(x);
             let newton = x - step;
             let next = if newton >= a && newton <= b { newton } else { 0.5 * (a + b) };
