@@ -6,7 +6,7 @@
 
 use crate::best::Best;
 use crate::ids::{Id, Ids};
-use crate::outlines::Drawn;
+use crate::outlines::{Drawn, Seen};
 use crate::spans::Tracks;
 use core::ops::Range;
 use durer_bvh::{Entry, Frame};
@@ -408,7 +408,7 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
         let sketch = surface.sketch(part);
         // The surface's own box is the tighter one, unless this is a small part of it.
         let bounds = if self.is_in_parts() { sketch.bounds() } else { surface.bounds() };
-        Drawn { outline: sketch.outline(), bounds }
+        Drawn { seen: Seen::of(&sketch), bounds }
     }
 
     fn mask(&self, slot: u32) -> u32 {

@@ -61,7 +61,6 @@ pub use crate::explain::{Event, Explanation, Verdict};
 pub use crate::geometry::Geometry;
 pub use crate::hit::{Hit, ObjectId, Span};
 pub use crate::ids::EVERYTHING;
-pub use crate::lanes::{Hits8, Rays8, Sources8};
+pub use crate::lanes::{Hits8, Rays8, Scratch, Sources8};
 pub use crate::stats::Stats;
 pub use durer_bvh::Settings;
-pub use durer_surfaces::outline::Scratch;

@@ -1,8 +1,9 @@
 //! The outlines of slots, each made when lanes first ask for it.
 
 use crate::Geometry;
+use crate::csg::Body;
 use durer_math::{Aabb, Shaft};
-use durer_surfaces::outline::Outline;
+use durer_surfaces::outline::{Outline, Sketch};
 use std::sync::OnceLock;
 
 /// Outlines by arena and slot.
@@ -12,10 +13,26 @@ pub(crate) struct Outlines(Vec<Vec<OnceLock<Box<Drawn>>>>);
 /// A slot as lanes see it.
 #[derive(Debug)]
 pub(crate) struct Drawn {
-    /// `None` if its numbers are too large or too small for that.
-    pub(crate) outline: Option<Outline>,
+    pub(crate) seen: Seen,
     /// A box that holds the slot's surface or part.
     pub(crate) bounds: Aabb,
+}
+
+/// What lanes see.
+#[derive(Debug)]
+pub(crate) enum Seen {
+    /// A surface.
+    Outline(Outline),
+    /// A body made of several solids.
+    Body(Box<Body>),
+    /// Its numbers are too large or too small.
+    Nothing,
+}
+
+impl Seen {
+    pub(crate) fn of(sketch: &Sketch) -> Self {
+        sketch.outline().map_or(Self::Nothing, Self::Outline)
+    }
 }
 
 impl Outlines {
@@ -41,10 +58,10 @@ impl Geometry {
         Some(place.get_or_init(|| Box::new(self.arenas[arena as usize].drawn(slot))))
     }
 
-    /// The outline of a slot, if it has one.
+    /// What lanes see of a slot.
     #[inline]
-    pub(crate) fn outline(&self, arena: u32, slot: u32) -> Option<&Outline> {
-        self.drawn(arena, slot)?.outline.as_ref()
+    pub(crate) fn seen_of(&self, arena: u32, slot: u32) -> &Seen {
+        self.drawn(arena, slot).map_or(&Seen::Nothing, |drawn| &drawn.seen)
     }
 
     /// Whether no ray of a bundle meets a slot, by its box: `true` is certain.

@@ -4,10 +4,11 @@
 //! two flags above the number.
 
 use super::compound::{Compound, Found, Start};
+use super::lanes::Body;
 use crate::arena::{AnyArena, Arrange, Filter, Unsorted, Visit};
 use crate::best::Best;
 use crate::ids::{Id, Ids};
-use crate::outlines::Drawn;
+use crate::outlines::{Drawn, Seen};
 use crate::spans::Tracks;
 use core::ops::Range;
 use durer_bvh::{Entry, Frame};
@@ -17,11 +18,11 @@ use durer_surfaces::{Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Solid
 use std::sync::Arc;
 
 /// In the slot of a hit: its normal is that of the leaf turned round.
-const TURNED: u32 = 1 << 31;
+pub(super) const TURNED: u32 = 1 << 31;
 /// In the slot of a hit: it was decided together with crossings of other leaves.
-const TIED: u32 = 1 << 30;
+pub(super) const TIED: u32 = 1 << 30;
 /// The slot itself.
-const SLOT: u32 = TIED - 1;
+pub(super) const SLOT: u32 = TIED - 1;
 
 /// Whether two slots of hits name one surface, turned the same way. Other arenas have no slots with flags.
 #[inline(always)]
@@ -189,8 +190,14 @@ impl AnyArena for Compounds {
     }
 
     fn drawn(&self, slot: u32) -> Drawn {
-        let bounds = self.bodies[slot as usize].bounds();
-        Drawn { outline: Sketch::vague(bounds).outline(), bounds }
+        let body = &self.bodies[slot as usize];
+        let bounds = body.bounds();
+        let first = self.first[slot as usize];
+        let seen = match Body::new(body, first..first + body.slots()) {
+            Some(body) => Seen::Body(Box::new(body)),
+            None => Seen::of(&Sketch::vague(bounds)),
+        };
+        Drawn { seen, bounds }
     }
 
     fn mask(&self, slot: u32) -> u32 {

@@ -1,10 +1,12 @@
 //! A body with its leaves.
 
+use super::lanes::Operand;
 use super::sweep::{Crossing, Event, Scratch, Sense, partners};
 use super::tree::{Expr, Tree, Values};
 use crate::arena::{AnyArena, Filter};
 use crate::geometry::slots;
 use crate::ids::EVERYTHING;
+use crate::outlines::Seen;
 use crate::{BuildError, Builder, Geometry, ObjectId};
 use core::cell::RefCell;
 use durer_bvh::{Leaf, Line};
@@ -256,6 +258,28 @@ impl Compound {
     fn place(&self, slot: u32) -> (u32, u32) {
         let arena = self.first_slot.partition_point(|&first| first <= slot) - 1;
         (arena as u32, slot - self.first_slot[arena])
+    }
+
+    pub(super) fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
+    /// The leaves as lanes see them, in their order; `None` if lanes cannot see one.
+    pub(super) fn operands(&self) -> Option<Vec<Operand>> {
+        let mut operands: Vec<Option<Operand>> = self.traits.iter().map(|_| None).collect();
+        for (arena, &first) in self.leaves.arenas.iter().zip(&self.first_slot) {
+            if arena.is_in_parts() {
+                return None;
+            }
+            for slot in 0..arena.len() {
+                let (name, seen) = (arena.name(slot), arena.drawn(slot).seen);
+                let Seen::Outline(outline) = seen else { return None };
+                let shown = self.traits[name.object as usize].shown;
+                let operand = Operand { outline, slot: first + slot, primitive: name.primitive, shown };
+                operands[name.object as usize] = Some(operand);
+            }
+        }
+        operands.into_iter().collect()
     }
 
     fn arena(&self, arena: u32) -> &dyn AnyArena {

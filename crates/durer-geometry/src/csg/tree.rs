@@ -48,6 +48,13 @@ pub(crate) struct Tree {
     places: Vec<Place>,
 }
 
+/// What a node is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Child {
+    Leaf(u32),
+    Node(u32),
+}
+
 const NONE: u32 = u32::MAX;
 
 impl Tree {
@@ -103,6 +110,23 @@ impl Tree {
     /// Whether the leaf counts where it is not.
     pub(crate) fn is_inverted(&self, leaf: u32) -> bool {
         self.places[leaf as usize].inverted
+    }
+
+    /// Where each leaf stands: its node, and whether it is inverted there.
+    pub(crate) fn places(&self) -> impl Iterator<Item = Option<(u32, bool)>> {
+        self.places.iter().map(|p| (p.node != NONE).then_some((p.node, p.inverted)))
+    }
+
+    /// Each node's parent, whether it is an intersection, and its children.
+    pub(crate) fn lists(&self) -> impl Iterator<Item = (Option<u32>, bool, Vec<Child>)> {
+        let mut children = vec![Vec::new(); self.nodes.len()];
+        let leaves = self.places.iter().map(|p| p.node).zip((0..).map(Child::Leaf));
+        let nodes = self.nodes.iter().map(|n| n.parent).zip((0..).map(Child::Node));
+        for (parent, child) in leaves.chain(nodes).filter(|(parent, _)| *parent != NONE) {
+            children[parent as usize].push(child);
+        }
+        let parent = |n: &Node| (n.parent != NONE).then_some(n.parent);
+        self.nodes.iter().zip(children).map(move |(n, children)| (parent(n), n.all, children))
     }
 
     /// A box that holds the set, given boxes that hold the leaves.

@@ -8,11 +8,31 @@ pub use self::rays::{Hits8, Rays8, Sources8};
 
 use self::rays::slot_number;
 use crate::beam::Candidate;
+use crate::csg::{Body, Memory};
+use crate::ids::Id;
+use crate::outlines::Seen;
 use crate::{Beam, Geometry};
 use arrayvec::ArrayVec;
 use durer_math::{Aabb, F8, Isa, M8, Point3, RaySide, Shaft, Source, Vec3};
-use durer_surfaces::outline::{Nearest, Points8, Question, RayLanes, Scratch};
+use durer_surfaces::outline::{self, Nearest, Outline, Points8, Question, RayLanes};
 use durer_surfaces::{Need, ROUGH};
+
+/// Memory for what is known of eight rays on the way: kept, so that it need not be cleared for each.
+#[derive(Debug, Default)]
+pub struct Scratch {
+    outline: outline::Scratch,
+    body: Memory,
+}
+
+/// What lanes meet: a face of an outline, with the names of hits on it.
+struct Face<'g> {
+    outline: &'g Outline,
+    face: u32,
+    turned: bool,
+    name: Id,
+    slot: u64,
+    part: u32,
+}
 
 /// Boxes around points, lane by lane.
 struct Bounds8 {
@@ -163,25 +183,47 @@ impl Geometry {
             let (n, f) = (number.0[i], face.0[i]);
             waiting &= !together(self.isa, &clear, (number, n), (face, f), &mut these);
             let candidate = &beam.candidates[n as usize];
-            let Some(outline) = self.outline(candidate.arena, candidate.slot) else { continue };
+            let Some(met) = self.face(candidate, f) else { continue };
             let Hits8 { p, ng, ns, off, .. } = &mut *hits;
-            let sure = outline.points(f as usize, &lanes, t, &these, Points8 { p, ng, ns, off });
+            let to = Points8 { p, ng, ns, off };
+            let sure = met.outline.points(met.face as usize, &lanes, t, &these, to);
             let lanes = self.isa.run_in_lanes(
                 #[inline(always)]
                 || {
                     left |= these & !sure;
                     hits.hit |= sure;
+                    if met.turned {
+                        (hits.ng, hits.ns) =
+                            (sure.select3(-hits.ng, hits.ng), sure.select3(-hits.ns, hits.ns));
+                    }
                     sure.bits()
                 },
             );
-            let part = self.arenas[candidate.arena as usize].part(candidate.slot).0;
             // The kernels of meshes count faces, and lanes see one of them.
-            let face = if outline.is_part() { part } else { f as u32 };
-            let slot = slot_number(candidate.arena, candidate.slot);
-            hits.name(if is_first { u8::MAX } else { lanes }, candidate.name, (slot, part, face));
+            let face = if met.outline.is_part() { met.part } else { met.face };
+            hits.name(if is_first { u8::MAX } else { lanes }, met.name, (met.slot, met.part, face));
             is_first = false;
         }
         left
+    }
+
+    /// The face that lanes call by a number.
+    fn face(&self, candidate: &Candidate, face: f64) -> Option<Face<'_>> {
+        let Candidate { arena, slot, name, .. } = *candidate;
+        match self.seen_of(arena, slot) {
+            Seen::Outline(outline) => {
+                let part = self.arenas[arena as usize].part(slot).0;
+                let (face, slot) = (face as u32, slot_number(arena, slot));
+                Some(Face { outline, face, turned: false, name, slot, part })
+            }
+            Seen::Body(body) => {
+                let skin = body.skin(face);
+                let (name, slot) = (Body::name(name, &skin), slot_number(arena, skin.slot));
+                let (outline, face, turned) = (skin.outline, skin.face, skin.turned);
+                Some(Face { outline, face, turned, name, slot, part: 0 })
+            }
+            Seen::Nothing => None,
+        }
     }
 
     /// The first sure hit of each ray among the candidates, and the first doubt.
@@ -201,14 +243,19 @@ impl Geometry {
             if candidate.mask & mask == 0 {
                 continue;
             }
-            match self.outline(arena, slot) {
-                Some(outline) => {
+            let number = number as f64;
+            match self.seen_of(arena, slot) {
+                Seen::Outline(outline) => {
                     let leaves = sources.contains(&slot_number(arena, slot));
                     let from = leaves.then(|| rays.source.of(arena, slot, outline));
-                    let asked = Question { rays: lanes, from: from.as_ref(), number: number as f64 };
-                    outline.meet(&asked, nearest, scratch);
+                    let asked = Question { rays: lanes, from: from.as_ref(), number };
+                    outline.meet(&asked, nearest, &mut scratch.outline);
                 }
-                None => nearest.doubt = F8::ZERO,
+                Seen::Body(body) => {
+                    let memory = (&mut scratch.outline, &mut scratch.body);
+                    body.meet(self.isa, (arena, number), (rays, lanes), nearest, memory);
+                }
+                Seen::Nothing => nearest.doubt = F8::ZERO,
             }
         }
     }

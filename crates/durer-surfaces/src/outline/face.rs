@@ -81,6 +81,12 @@ pub(super) struct Start {
     pub(super) far: F8,
 }
 
+impl Default for Start {
+    fn default() -> Self {
+        Self { h: Vec3::splat(Vec3::ZERO), h1: F8::ZERO, far: F8::ZERO }
+    }
+}
+
 /// The sum of absolute values, rounded.
 #[inline(always)]
 pub(super) fn taxicab(v: Vec3<F8>) -> F8 {

@@ -19,26 +19,19 @@ pub(super) struct Spot {
 }
 
 /// Memory for what is known of eight rays and one outline on the way: kept, so that it need not be cleared for each.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Scratch {
     start: Start,
-    plane: PlaneRoot,
-    slab: SlabRoots,
-    roots: Roots,
-    hull: Hull,
+    pub(super) steps: Steps,
 }
 
-impl Default for Scratch {
-    fn default() -> Self {
-        let start = Start { h: Vec3::splat(Vec3::ZERO), h1: F8::ZERO, far: F8::ZERO };
-        Self {
-            start,
-            plane: PlaneRoot::default(),
-            slab: SlabRoots::default(),
-            roots: Roots::default(),
-            hull: Hull::default(),
-        }
-    }
+/// What each step leaves to the next.
+#[derive(Debug, Default)]
+pub(super) struct Steps {
+    pub(super) plane: PlaneRoot,
+    pub(super) slab: SlabRoots,
+    pub(super) roots: Roots,
+    pub(super) hull: Hull,
 }
 
 /// Eight rays that ask an outline.
@@ -69,7 +62,7 @@ impl Outline {
 
     /// Sees the rays from the centre; says whether every one surely passes the ball that holds the surface, or has left it behind.
     #[inline(never)]
-    fn is_passed_by(&self, rays: &RayLanes<'_>, start: &mut Start) -> bool {
+    pub(super) fn is_passed_by(&self, rays: &RayLanes<'_>, start: &mut Start) -> bool {
         rays.isa.run_in_lanes(
             #[inline(always)]
             || self.is_passed_by_here(rays, start),
@@ -101,35 +94,40 @@ impl Outline {
     }
 
     #[inline(always)]
-    fn leaving<'a>(&self, from: Option<&'a From8>, face: usize) -> Option<Leaving<'a>> {
+    pub(super) fn leaving<'a>(&self, from: Option<&'a From8>, face: usize) -> Option<Leaving<'a>> {
         from.map(|from| Leaving { from, face, turned: self.turned })
     }
 
     fn meet_convex(&self, asked: &Question<'_>, nearest: &mut Nearest, scratch: &mut Scratch) {
         let &Question { rays, from, .. } = asked;
-        let Scratch { start, plane, slab, roots, hull } = scratch;
-        let seen = Seen { d: rays.direction, d1: &rays.d1, start };
+        let Scratch { start, steps } = scratch;
+        self.hull(rays, from, &Seen { d: rays.direction, d1: &rays.d1, start }, steps);
+        self.conclude(asked, &steps.hull, nearest);
+    }
+
+    /// Where the faces of a convex solid are entered and left.
+    pub(super) fn hull(&self, rays: &RayLanes<'_>, from: Option<&From8>, seen: &Seen<'_>, steps: &mut Steps) {
+        let Steps { plane, slab, roots, hull } = steps;
         let mut i = 0;
         while let Some(face) = self.faces.get(i) {
             let leaving = self.leaving(from, i);
             if self.slabs[i] {
                 let opposite = &self.faces[i + 1];
                 let next = self.leaving(from, i + 1);
-                face.slab(opposite, rays.isa, &seen, [leaving.as_ref(), next.as_ref()], slab);
+                face.slab(opposite, rays.isa, seen, [leaving.as_ref(), next.as_ref()], slab);
                 hull.add_slab(rays.isa, i, slab);
                 i += 2;
                 continue;
             }
             if face.kind == FaceKind::Plane {
-                face.crossing(rays.isa, &seen, leaving.as_ref(), plane);
+                face.crossing(rays.isa, seen, leaving.as_ref(), plane);
                 hull.add_plane(rays.isa, i, plane);
             } else {
-                face.roots(rays.isa, &seen, leaving.as_ref(), roots);
+                face.roots(rays.isa, seen, leaving.as_ref(), roots);
                 hull.add_quadric(rays.isa, i, roots);
             }
             i += 1;
         }
-        self.conclude(asked, hull, nearest);
     }
 
     /// What entries and exits come to.
@@ -190,7 +188,7 @@ impl Outline {
 
     fn meet_walls(&self, asked: &Question<'_>, nearest: &mut Nearest, scratch: &mut Scratch) {
         let &Question { rays, from, .. } = asked;
-        let Scratch { start, plane, roots, .. } = scratch;
+        let Scratch { start, steps: Steps { plane, roots, .. } } = scratch;
         let seen = &Seen { d: rays.direction, d1: &rays.d1, start };
         for (i, face) in self.faces[..self.walls].iter().enumerate() {
             let from = self.leaving(from, i);
@@ -283,7 +281,7 @@ impl Outline {
 
 impl Spot {
     #[inline(always)]
-    fn on(seen: &Seen<'_>, t: F8, e: F8) -> Self {
+    pub(super) fn on(seen: &Seen<'_>, t: F8, e: F8) -> Self {
         let (h, d) = (seen.start.h, seen.d);
         let y = Vec3::new(t.mul_add(d.x, h.x), t.mul_add(d.y, h.y), t.mul_add(d.z, h.z));
         let y1 = taxicab(y) * SLACK;

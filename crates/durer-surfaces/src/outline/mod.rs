@@ -11,6 +11,7 @@
 //!   outline    the same in f64, with their errors               (`face.rs`)
 //!   roots      where eight rays cross a face                    (`roots.rs`)
 //!   meet       which face they meet first                       (`meet.rs`, `hull.rs`)
+//!   operand    all crossings with solids, for bodies made of several   (`operand.rs`)
 //!   point      where, and how far rays start from there         (`point.rs`)
 //! ```
 
@@ -18,12 +19,14 @@ mod face;
 mod hull;
 mod loops;
 mod meet;
+mod operand;
 mod point;
 mod rays;
 mod roots;
 mod sketch;
 
 pub use self::meet::{Question, Scratch};
+pub use self::operand::{Crossing8, Crossings, Sight};
 pub use self::point::Points8;
 pub use self::rays::{From8, Nearest, RayLanes};
 pub use self::sketch::Sketch;

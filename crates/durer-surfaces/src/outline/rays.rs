@@ -77,12 +77,13 @@ impl Nearest {
 
     /// No crossing behind this can win.
     #[inline(always)]
-    pub(super) fn limit(&self, rays: &RayLanes<'_>) -> F8 {
+    pub fn limit(&self, rays: &RayLanes<'_>) -> F8 {
         (self.t + self.e).min(*rays.t_max)
     }
 
+    /// Some rays surely cross a face at `t` within `e`.
     #[inline(always)]
-    pub(super) fn take(&mut self, sure: M8, t: F8, e: F8, number: f64, face: F8) {
+    pub fn take(&mut self, sure: M8, t: F8, e: F8, number: f64, face: F8) {
         let better = sure & t.lt(self.t);
         self.t = better.select(t, self.t);
         self.e = better.select(e, self.e);
@@ -99,8 +100,9 @@ impl Nearest {
         }
     }
 
+    /// Of some rays nothing is sure from `t` on.
     #[inline(always)]
-    pub(super) fn doubt_from(&mut self, where_: M8, t: F8) {
+    pub fn doubt_from(&mut self, where_: M8, t: F8) {
         // `max` answers zero for what is not a number.
         let from = t.max(F8::ZERO);
         self.doubt = where_.select(from.min(self.doubt), self.doubt);

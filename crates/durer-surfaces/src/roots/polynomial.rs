@@ -247,9 +247,9 @@ impl<T: Word, const N: usize> Scaled<T, N> {
         loop {
             let value = self.at(x).value();
             if (value > 0.0) == rising {
-                b = x
+                b = x;
             } else {
-                a = x
+                a = x;
             }
             let step = value / self.slope(x);
             let newton = x - step;

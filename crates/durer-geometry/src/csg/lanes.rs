@@ -1,0 +1,285 @@
+//! Bodies as lanes see them.
+//!
+//! Where a ray crosses a leaf it crosses the body if, of the other leaves, those that could outvote this one do not: up from the leaf to the
+//! root of the tree every node needs the same of its other children, that all hold in an intersection and that none does in a union. So no
+//! crossings are put in order. Each crossing is taken by itself, and the point's place in other leaves is asked for as far as it matters.
+//!
+//! Leaves answer with *surely in*, *surely out*, or neither, and so do nodes. Where faces coincide or nearly so, neither is the answer, and rays
+//! for which that matters walk through their crossings in order (`sweep.rs`).
+
+use super::arena::{SLOT, TIED, TURNED};
+use super::compound::{Compound, Shown};
+use super::tree::Child;
+use crate::ids::Id;
+use crate::lanes::Rays8;
+use durer_math::{F8, Isa, M8};
+use durer_surfaces::outline::{self, Crossing8, Crossings, From8, Nearest, Outline, RayLanes, Sight};
+
+/// A body with the outlines of its leaves.
+#[derive(Debug)]
+pub(crate) struct Body {
+    leaves: Vec<Operand>,
+    places: Vec<Place>,
+    nodes: Vec<Node>,
+    children: Vec<Child>,
+    /// The slots of the body's leaves, counted over all bodies.
+    slots: core::ops::Range<u32>,
+}
+
+/// A leaf.
+#[derive(Debug)]
+pub(super) struct Operand {
+    pub(super) outline: Outline,
+    /// Its slot, counted over all leaves of the body.
+    pub(super) slot: u32,
+    pub(super) primitive: u32,
+    pub(super) shown: Shown,
+}
+
+/// Where a leaf stands in the tree.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    node: u32,
+    inverted: bool,
+}
+
+/// A union or an intersection.
+#[derive(Debug)]
+struct Node {
+    parent: Option<u32>,
+    all: bool,
+    children: core::ops::Range<usize>,
+}
+
+/// Memory for what is known of eight rays and the leaves of one body.
+#[derive(Debug, Default)]
+pub(crate) struct Memory {
+    sights: Vec<Sight>,
+    /// Leaves that no ray meets.
+    passed: Vec<bool>,
+    crossings: Crossings,
+}
+
+/// A face of a body, in one number.
+const FACES: f64 = 16.0;
+
+/// A face of a leaf, as hits name it.
+pub(crate) struct Skin<'b> {
+    pub(crate) outline: &'b Outline,
+    pub(crate) face: u32,
+    /// The body's normal is the leaf's turned round.
+    pub(crate) turned: bool,
+    pub(crate) slot: u32,
+    /// The primitive, counted from the body's first.
+    pub(crate) primitive: u32,
+}
+
+/// Eight rays and all that is known of them here.
+struct Look<'a> {
+    isa: Isa,
+    rays: &'a RayLanes<'a>,
+    sights: &'a [Sight],
+    passed: &'a [bool],
+}
+
+/// Where something surely holds, and where it surely does not.
+#[derive(Clone, Copy)]
+struct Sure {
+    yes: M8,
+    no: M8,
+}
+
+impl Sure {
+    fn inverted(self, inverted: bool) -> Self {
+        if inverted { Self { yes: self.no, no: self.yes } } else { self }
+    }
+}
+
+impl Body {
+    /// More leaves than this are walked through in order.
+    const MOST: usize = 32;
+
+    /// The body whose leaves have these slots; `None` if lanes cannot see it.
+    pub(super) fn new(body: &Compound, slots: core::ops::Range<u32>) -> Option<Self> {
+        if body.len() > Self::MOST {
+            return None;
+        }
+        let leaves = body.operands()?;
+        let places = body.tree().places().map(|p| p.map(|(node, inverted)| Place { node, inverted }));
+        let places = places.collect::<Option<Vec<_>>>()?;
+        if leaves.is_empty() || !leaves.iter().all(|leaf| leaf.outline.is_operand()) {
+            return None;
+        }
+        let mut children = Vec::new();
+        let nodes = body.tree().lists().map(|(parent, all, list)| {
+            let first = children.len();
+            children.extend(list);
+            Node { parent, all, children: first..children.len() }
+        });
+        let nodes = nodes.collect();
+        Some(Self { leaves, places, nodes, children, slots })
+    }
+
+    /// The face with this number.
+    pub(crate) fn skin(&self, number: f64) -> Skin<'_> {
+        let leaf = ((number / FACES) as usize).min(self.leaves.len() - 1);
+        let (Operand { outline, slot, primitive, .. }, turned) =
+            (&self.leaves[leaf], self.places[leaf].inverted);
+        Skin {
+            outline,
+            face: (number - leaf as f64 * FACES) as u32,
+            turned,
+            slot: (self.slots.start + slot) | if turned { TURNED } else { 0 },
+            primitive: *primitive,
+        }
+    }
+
+    /// The name of a leaf's hits.
+    pub(crate) fn name(body: Id, skin: &Skin<'_>) -> Id {
+        Id { primitive: body.primitive.wrapping_add(skin.primitive), ..body }
+    }
+
+    /// Offers the first crossing of each ray to `nearest`, under the body's number.
+    pub(crate) fn meet(
+        &self,
+        isa: Isa,
+        (arena, number): (u32, f64),
+        (rays, lanes): (&Rays8, &RayLanes<'_>),
+        nearest: &mut Nearest,
+        (steps, memory): (&mut outline::Scratch, &mut Memory),
+    ) {
+        let Memory { sights, passed, crossings } = memory;
+        sights.resize_with(self.leaves.len().max(sights.len()), Sight::default);
+        passed.clear();
+        for (leaf, sight) in self.leaves.iter().zip(&mut *sights) {
+            passed.push(leaf.outline.sight(lanes, sight));
+        }
+        let look = Look { isa, rays: lanes, sights, passed };
+        let Sure { yes, no } = self.node(0, &look, None);
+        if (yes | no | !rays.live).all() {
+            return;
+        }
+        let own = self.own_rays(arena, rays);
+        if let Some(own) = &own {
+            // What was decided for several leaves together is not told by one of them.
+            let tied = M8::from_fn(|i| own.lane(i) && rays.source.slot[i] as u32 & TIED != 0);
+            nearest.doubt_from(tied, F8::ZERO);
+        }
+        for (i, leaf) in self.leaves.iter().enumerate() {
+            if look.passed[i] || leaf.shown == Shown::None {
+                continue;
+            }
+            let from = own.and_then(|own| self.from(leaf, own, rays));
+            leaf.outline.crossings(lanes, from.as_ref(), &look.sights[i], steps, crossings);
+            nearest.doubt_from(rays.live, crossings.doubt);
+            for crossing in crossings.iter() {
+                self.decide(i, crossing, (rays, &look), number, nearest);
+            }
+        }
+    }
+
+    /// The rays that leave this body.
+    fn own_rays(&self, arena: u32, rays: &Rays8) -> Option<M8> {
+        let source = &rays.source;
+        let own = M8::from_fn(|i| {
+            let slot = source.slot[i] as u32 & SLOT;
+            source.slot[i] >> 32 == u64::from(arena) && source.instance[i] == 0 && self.slots.contains(&slot)
+        });
+        let own = own & rays.live;
+        own.any().then_some(own)
+    }
+
+    /// Offers a crossing of a leaf where it is one of the body.
+    fn decide(
+        &self,
+        leaf: usize,
+        crossing: &Crossing8,
+        (rays, look): (&Rays8, &Look<'_>),
+        number: f64,
+        nearest: &mut Nearest,
+    ) {
+        let (shown, Place { node, .. }) = (self.leaves[leaf].shown, self.places[leaf]);
+        let Crossing8 { sure, t, e, face } = crossing;
+        let mut open = M8::NONE;
+        look.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let limit = nearest.limit(look.rays);
+                open = rays.live & *sure & !((*t + *e).lt(F8::ZERO) | (*t - *e).gt(limit));
+                if shown == Shown::Wall {
+                    open &= face.equals(F8::ZERO);
+                }
+            },
+        );
+        let (mut matters, mut idle) = (M8::ALL, M8::NONE);
+        let (mut child, mut above) = (Child::Leaf(leaf as u32), Some(node));
+        while let Some(node) = above {
+            let Node { parent, all, children } = &self.nodes[node as usize];
+            for &sibling in self.children[children.clone()].iter().filter(|&&c| c != child) {
+                if !(open & !idle).any() {
+                    return;
+                }
+                let Sure { yes, no } = self.child(sibling, look, Some((t, e)));
+                matters &= if *all { yes } else { no };
+                idle |= if *all { no } else { yes };
+            }
+            (child, above) = (Child::Node(node), *parent);
+        }
+        look.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let open = open & !idle;
+                let sure = open & matters & (*t - *e).gt(F8::ZERO) & (*t + *e).le(rays.t_max);
+                nearest.take(sure, *t, *e, number, *face + leaf as f64 * FACES);
+                nearest.doubt_from(open & !sure, *t - *e);
+            },
+        );
+    }
+
+    /// Whether a child of a node holds at some points of the rays, or on all of them.
+    fn child(&self, child: Child, look: &Look<'_>, at: Option<(&F8, &F8)>) -> Sure {
+        match child {
+            Child::Node(node) => self.node(node, look, at),
+            Child::Leaf(leaf) => {
+                let i = leaf as usize;
+                let outline = &self.leaves[i].outline;
+                let sure = match at {
+                    _ if look.passed[i] => Sure { yes: M8::NONE, no: M8::ALL }.inverted(outline.is_turned()),
+                    Some(at) => {
+                        let (yes, no) = outline.holds(look.rays, &look.sights[i], at);
+                        Sure { yes, no }
+                    }
+                    None => Sure { yes: M8::NONE, no: M8::NONE },
+                };
+                sure.inverted(self.places[i].inverted)
+            }
+        }
+    }
+
+    /// The same for a node.
+    fn node(&self, node: u32, look: &Look<'_>, at: Option<(&F8, &F8)>) -> Sure {
+        let Node { all, children, .. } = &self.nodes[node as usize];
+        // A union is the complement of the complements' intersection.
+        let mut sum = Sure { yes: M8::ALL, no: M8::NONE };
+        for &child in &self.children[children.clone()] {
+            let Sure { yes, no } = self.child(child, look, at).inverted(!*all);
+            sum.yes &= yes;
+            sum.no |= no;
+            if sum.no.all() {
+                break;
+            }
+        }
+        sum.inverted(!*all)
+    }
+
+    /// Those of the body's own rays that leave this leaf.
+    fn from(&self, leaf: &Operand, own: M8, rays: &Rays8) -> Option<From8> {
+        let of = |i: usize| rays.source.slot[i] as u32;
+        let lanes = own & M8::from_fn(|i| of(i) & SLOT == self.slots.start + leaf.slot);
+        // The side is that of the body's normal.
+        let turned = M8::from_fn(|i| of(i) & TURNED != 0);
+        let back = rays.source.back & !turned | !rays.source.back & turned;
+        let face = F8(rays.source.face.map(f64::from));
+        lanes.any().then_some(From8 { lanes, face, back })
+    }
+}

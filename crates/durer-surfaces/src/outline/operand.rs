@@ -1,0 +1,215 @@
+//! Outlines of solids as operands: every crossing of eight rays, and on which side points of the rays are.
+//!
+//! What a body made of several solids needs to know of each (S. D. Roth, "Ray casting for modeling solids", Computer Graphics and Image
+//! Processing 18, 1982). A solid is the set where all its faces are negative, or the rest where it is turned round.
+
+use super::Outline;
+use super::face::{FaceKind, Seen, Start};
+use super::hull::Hull;
+use super::meet::{Scratch, Spot, Steps};
+use super::rays::{FAR, From8, NEVER, RayLanes};
+use arrayvec::ArrayVec;
+use durer_math::{F8, M8};
+
+/// Eight rays as one outline sees them.
+#[derive(Debug, Default)]
+pub struct Sight(Start);
+
+/// Crossings of eight rays.
+#[derive(Clone, Copy, Debug)]
+pub struct Crossing8 {
+    /// Which rays surely cross here, and from one side to the other.
+    pub sure: M8,
+    /// Where, within `e`: it may lie behind a ray's start, or beyond its end.
+    pub t: F8,
+    /// See `t`.
+    pub e: F8,
+    /// The face.
+    pub face: F8,
+}
+
+/// All crossings of eight rays with a solid, in no order.
+#[derive(Debug)]
+pub struct Crossings {
+    list: ArrayVec<Crossing8, { Crossings::MOST }>,
+    /// From here on there may be others; infinite without a doubt.
+    pub doubt: F8,
+}
+
+impl Default for Crossings {
+    fn default() -> Self {
+        Self { list: ArrayVec::new(), doubt: NEVER }
+    }
+}
+
+impl Crossings {
+    /// As many are told: two of each of six faces.
+    const MOST: usize = 12;
+
+    /// What is told.
+    pub fn iter(&self) -> core::slice::Iter<'_, Crossing8> {
+        self.list.iter()
+    }
+
+    /// Of these lanes nothing is sure from `t` on.
+    #[inline(always)]
+    fn doubt_from(&mut self, lanes: M8, t: F8) {
+        // `max` answers zero for what is not a number.
+        self.doubt = lanes.select(t.max(F8::ZERO).min(self.doubt), self.doubt);
+    }
+}
+
+impl Sight {
+    #[inline(always)]
+    fn seen<'a>(&'a self, rays: &'a RayLanes<'_>) -> Seen<'a> {
+        Seen { d: rays.direction, d1: &rays.d1, start: &self.0 }
+    }
+}
+
+impl Outline {
+    /// Whether the outline tells all about a solid: what else cuts off a surface is no face of its inside.
+    pub fn is_operand(&self) -> bool {
+        let told = self.faces.len() <= Crossings::MOST / 2;
+        told && self.loops.is_none() && self.holes.is_empty() && !self.part
+    }
+
+    /// Whether the solid is the outside of the faces.
+    pub fn is_turned(&self) -> bool {
+        self.turned
+    }
+
+    /// Sees the rays from the outline's centre; whether every one surely passes the solid by, or has left it behind.
+    pub fn sight(&self, rays: &RayLanes<'_>, sight: &mut Sight) -> bool {
+        self.is_passed_by(rays, &mut sight.0)
+    }
+
+    /// Puts down all crossings of the solid. `from` names the rays that leave its own surface.
+    pub fn crossings(
+        &self,
+        rays: &RayLanes<'_>,
+        from: Option<&From8>,
+        sight: &Sight,
+        scratch: &mut Scratch,
+        to: &mut Crossings,
+    ) {
+        to.list.clear();
+        to.doubt = NEVER;
+        if self.convex {
+            // The faces of a box are not those that rays leave.
+            let from = from.filter(|_| !self.vague);
+            self.hull(rays, from, &sight.seen(rays), &mut scratch.steps);
+            self.both_ends(rays, &scratch.steps.hull, to);
+        } else {
+            self.each_wall(rays, from, &sight.seen(rays), &mut scratch.steps, to);
+        }
+    }
+
+    /// Where a convex solid is entered and where it is left.
+    #[inline(never)]
+    fn both_ends(&self, rays: &RayLanes<'_>, hull: &Hull, to: &mut Crossings) {
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || self.both_ends_here(rays, hull, to),
+        );
+    }
+
+    #[inline(always)]
+    fn both_ends_here(&self, rays: &RayLanes<'_>, hull: &Hull, to: &mut Crossings) {
+        let Hull { enter, leave, missed, unsure } = hull;
+        let earliest = enter.t - enter.e;
+        let latest = leave.e - leave.t;
+        let missed = *missed | !*rays.live | earliest.gt(latest) | latest.lt(F8::ZERO);
+        let entered = (enter.t + enter.e).max(enter.others);
+        let left = -((leave.t + leave.e).max(leave.others));
+        let through = !(missed | *unsure) & entered.lt(left);
+        if self.vague {
+            to.doubt_from(!missed, earliest);
+            return;
+        }
+        // What is behind the start matters no more; half-spaces have one end.
+        let ahead = !entered.lt(F8::ZERO);
+        let ends = !left.ge(NEVER);
+        let enters = through & ahead & earliest.gt(enter.others);
+        let leaves = through & ends & (leave.t - leave.e).gt(leave.others);
+        to.doubt_from(!(missed | through), earliest);
+        to.doubt_from(through & ahead & !enters, earliest);
+        to.doubt_from(through & ends & !leaves, left);
+        to.list.push(Crossing8 { sure: enters, t: enter.t, e: enter.e, face: enter.face });
+        to.list.push(Crossing8 { sure: leaves, t: -leave.t, e: leave.e, face: leave.face });
+    }
+
+    /// The roots of each wall, where the other faces are negative.
+    fn each_wall(
+        &self,
+        rays: &RayLanes<'_>,
+        from: Option<&From8>,
+        seen: &Seen<'_>,
+        steps: &mut Steps,
+        to: &mut Crossings,
+    ) {
+        let Steps { plane, roots, .. } = steps;
+        for (i, face) in self.faces[..self.walls].iter().enumerate() {
+            let from = self.leaving(from, i);
+            if face.kind == FaceKind::Plane {
+                face.crossing(rays.isa, seen, from.as_ref(), plane);
+                to.doubt_from(*rays.live & !(plane.crosses | plane.above | plane.below), F8::ZERO);
+                self.wall(rays, seen, i, plane.crosses, (plane.t, plane.e), to);
+            } else {
+                face.roots(rays.isa, seen, from.as_ref(), roots);
+                to.doubt_from(*rays.live & !(roots.known | roots.none), F8::ZERO);
+                self.wall(rays, seen, i, roots.known, (roots.enter, roots.e_enter), to);
+                self.wall(rays, seen, i, roots.known, (roots.leave, roots.e_leave), to);
+            }
+        }
+    }
+
+    /// One root of a wall.
+    fn wall(
+        &self,
+        rays: &RayLanes<'_>,
+        seen: &Seen<'_>,
+        wall: usize,
+        known: M8,
+        (t, e): (F8, F8),
+        to: &mut Crossings,
+    ) {
+        let mut open = M8::NONE;
+        let Some(spot) = rays.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                open = *rays.live & known & !(t + e).lt(F8::ZERO);
+                open.any().then(|| Spot::on(seen, t, e))
+            },
+        ) else {
+            return;
+        };
+        let (mut inside, mut outside) = (M8::ALL, M8::NONE);
+        for (j, other) in self.faces.iter().enumerate() {
+            if j != wall {
+                other.cut(rays.isa, &spot, &mut inside, &mut outside);
+            }
+        }
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let sure = open & inside & t.lt(F8::splat(FAR));
+                to.doubt_from(open & !(sure | outside), t - e);
+                to.list.push(Crossing8 { sure, t, e, face: F8::splat(wall as f64) });
+            },
+        );
+    }
+
+    /// Which points at `t` within `e` are surely in the solid, and which surely not.
+    pub fn holds(&self, rays: &RayLanes<'_>, sight: &Sight, (t, e): (&F8, &F8)) -> (M8, M8) {
+        let seen = sight.seen(rays);
+        let spot = rays.isa.run_in_lanes(
+            #[inline(always)]
+            || Spot::on(&seen, *t, *e),
+        );
+        let (mut inside, mut outside) = (M8::splat(!self.vague), M8::NONE);
+        for face in &self.faces {
+            face.cut(rays.isa, &spot, &mut inside, &mut outside);
+        }
+        if self.turned { (outside, inside) } else { (inside, outside) }
+    }
+}
