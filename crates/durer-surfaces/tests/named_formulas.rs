@@ -419,15 +419,15 @@ fn normals_point_out_of_blobs() {
 
 #[test]
 fn what_makes_no_blob_is_named() {
-    let one = ball(Point3::ORIGIN, 1.0, 1.0);
-    assert!(matches!(blob(0.0, &[one.clone()]), Err(BlobError::Threshold(_))));
-    assert!(matches!(blob(f64::NAN, &[one.clone()]), Err(BlobError::Threshold(_))));
+    let one = [ball(Point3::ORIGIN, 1.0, 1.0)];
+    assert!(matches!(blob(0.0, &one), Err(BlobError::Threshold(_))));
+    assert!(matches!(blob(f64::NAN, &one), Err(BlobError::Threshold(_))));
     assert!(matches!(blob(0.5, &[]), Err(BlobError::Nothing)));
     assert!(matches!(blob(0.5, &[ball(Point3::ORIGIN, 1.0, -1.0)]), Err(BlobError::Nothing)));
     assert!(matches!(blob(0.5, &[ball(Point3::ORIGIN, 0.0, 1.0)]), Err(BlobError::Component(_))));
     assert!(matches!(blob(0.5, &[ball(Point3::ORIGIN, 1.0, f64::NAN)]), Err(BlobError::Strength(_))));
     // Strength below the threshold: it is there, and empty.
-    assert!(all(&blob(2.0, &[one]).unwrap(), &Ray::new(Point3::new(0.0, 0.0, -3.0), Vec3::Z)).is_empty());
+    assert!(all(&blob(2.0, &one).unwrap(), &Ray::new(Point3::new(0.0, 0.0, -3.0), Vec3::Z)).is_empty());
 }
 
 fn julia_of(c: [f64; 4], algebra: JuliaAlgebra, power: JuliaPower, iterations: u32) -> Julia {
@@ -470,8 +470,8 @@ fn a_julia_set_of_zero_is_a_ball() {
 fn times<T: Ring>(algebra: JuliaAlgebra, z: &[T; 4], y: &[T; 4]) -> [T; 4] {
     let quaternion = algebra == JuliaAlgebra::Quaternion;
     let mut out: [T; 4] = core::array::from_fn(|_| T::exact(0.0));
-    for i in 0..4_usize {
-        for j in 0..4_usize {
+    for (i, z) in z.iter().enumerate() {
+        for (j, y) in y.iter().enumerate() {
             // 1 times anything, i i = j j = -1, and then as the algebra has it.
             let minus = match (i, j) {
                 (0, _) | (_, 0) => false,
@@ -481,7 +481,7 @@ fn times<T: Ring>(algebra: JuliaAlgebra, z: &[T; 4], y: &[T; 4]) -> [T; 4] {
                 (2, 3) | (3, 1) if quaternion => false,
                 _ => !matches!((i, j), (2, 1)) || quaternion,
             };
-            let term = z[i].clone() * y[j].clone();
+            let term = z.clone() * y.clone();
             let k = i ^ j;
             out[k] = if minus { out[k].clone() - term } else { out[k].clone() + term };
         }

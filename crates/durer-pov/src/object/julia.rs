@@ -18,8 +18,7 @@ impl Reader<'_> {
             normal: [0.0, 0.0, 0.0, 1.0],
             distance: 0.0,
         };
-        loop {
-            let Some(keyword) = self.peek_word()? else { break };
+        while let Some(keyword) = self.peek_word()? {
             let at = self.here();
             match keyword {
                 Keyword::Quaternion => set.algebra = JuliaAlgebra::Quaternion,

@@ -118,10 +118,10 @@ fn formula(set: &Julia) -> Result<Formula, FormulaError> {
     let length = b.push(Op::Sqrt(length2))?;
     let distance = b.constant(set.distance)?;
     let mut w = b.push(Op::Mul(distance, length))?;
-    for axis in 0..3 {
-        if set.normal[axis] != 0.0 {
-            let n = b.constant(set.normal[axis])?;
-            let term = b.push(Op::Mul(n, p[axis]))?;
+    for (x, normal) in p.into_iter().zip(set.normal) {
+        if normal != 0.0 {
+            let n = b.constant(normal)?;
+            let term = b.push(Op::Mul(n, x))?;
             w = b.push(Op::Sub(w, term))?;
         }
     }
