@@ -367,6 +367,18 @@ impl Number for I8 {
         out.hi = none.select(F8::ZERO, out.hi);
         out
     }
+
+    #[inline(always)]
+    fn is_zero(&self) -> bool {
+        let zero = |x: &F8| x.0.iter().all(|&x| x == 0.0);
+        self.partial | self.empty | self.jump == 0 && zero(&self.lo) && zero(&self.hi)
+    }
+
+    #[inline(always)]
+    fn above(a: &Self) -> Option<Self> {
+        let certain = a.partial | a.empty == 0 && a.lo.0.iter().all(|&lo| lo > 1.0);
+        certain.then(|| Self { hi: F8::splat(f64::INFINITY), ..*a })
+    }
 }
 
 /// Reciprocals where the divisor has a zero.

@@ -43,6 +43,10 @@ pub trait Number: Copy {
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self;
     /// One of three by the sign of `c`: below, at and above zero.
     fn select(c: &Self, below: &Self, at: &Self, above: &Self) -> Self;
+    /// Whether it is defined and exactly zero.
+    fn is_zero(&self) -> bool;
+    /// What is known of a number that is at least `a`, if `a` is certainly above 1.
+    fn above(a: &Self) -> Option<Self>;
 }
 
 /// The functions of one number.
@@ -218,6 +222,14 @@ impl Number for f64 {
             Self::NAN
         }
     }
+    #[inline(always)]
+    fn is_zero(&self) -> bool {
+        *self == 0.0
+    }
+    #[inline(always)]
+    fn above(a: &Self) -> Option<Self> {
+        (*a > 1.0).then_some(*a)
+    }
 }
 
 impl<T: Number> Dual<T> {
@@ -297,6 +309,10 @@ impl<T: Number> Number for Dual<T> {
         let v = T::pow(&a.v, &b.v);
         let less = T::pow(&a.v, &T::sub(&b.v, &number(1.0)));
         let along = T::mul(&T::mul(&b.v, &less), &a.d);
+        if b.d.is_zero() {
+            // A power that stays: no logarithm, which would be undefined at a = 0.
+            return Self { v, d: along };
+        }
         let turn = T::mul(&T::mul(&v, &T::function(Function::Ln, &a.v)), &b.d);
         Self { v, d: T::add(&along, &turn) }
     }
@@ -349,5 +365,13 @@ impl<T: Number> Number for Dual<T> {
     #[inline(always)]
     fn select(c: &Self, below: &Self, at: &Self, above: &Self) -> Self {
         Self { v: T::select(&c.v, &below.v, &at.v, &above.v), d: T::select(&c.v, &below.d, &at.d, &above.d) }
+    }
+    #[inline(always)]
+    fn is_zero(&self) -> bool {
+        self.v.is_zero() && self.d.is_zero()
+    }
+    #[inline(always)]
+    fn above(a: &Self) -> Option<Self> {
+        T::above(&a.v).map(|v| Self { v, d: T::constant(Interval::ENTIRE) })
     }
 }

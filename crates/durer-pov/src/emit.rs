@@ -50,7 +50,7 @@ fn rgb(c: [f64; 3]) -> scene::Rgb {
 }
 
 /// The map as the geometry has it: columns on the right of the matrix, not rows on its left.
-fn affine(matrix: &Matrix, at: Place) -> Result<Affine> {
+pub(crate) fn affine(matrix: &Matrix, at: Place) -> Result<Affine> {
     let [x, y, z, t] = matrix.rows;
     let rows = std::array::from_fn(|i| [x[i], y[i], z[i]]);
     Affine::new(rows, point(t)).map_err(|why| {
@@ -347,6 +347,12 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             half_angle: *half_angle,
         },
         Shape::Isosurface(iso, _) => scene::Shape::Isosurface(Box::new((**iso).clone())),
+        &Shape::Superellipsoid { e, n } => scene::Shape::Superellipsoid { e, n },
+        Shape::Julia(set) => scene::Shape::Julia(set.clone()),
+        Shape::Blob(blob) => {
+            limits::charge_for_good(blob.components.len() * size_of::<scene::BlobComponent>());
+            scene::Shape::Blob(Box::new((**blob).clone()))
+        }
         Shape::Union(_) | Shape::Csg(..) | Shape::Light(_) => {
             return Err(Fault::invalid(at, "a single surface is needed here"));
         }

@@ -29,7 +29,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | BezierSpline
             | BicubicPatch
             | BlackHole
-            | Blob
             | BlurSamples
             | Bmp
             | Bokeh
@@ -42,7 +41,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Cells
             | Circular
             | Collect
-            | Component
             | Composite
             | Confidence
             | Control0
@@ -50,7 +48,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Coords
             | Count
             | Crackle
-            | Cube
             | CubicSpline
             | CutawayTextures
             | Cylindrical
@@ -86,7 +83,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | GrayThreshold
             | Hdr
             | HeightField
-            | Hypercomplex
             | Iff
             | ImageMap
             | ImagePattern
@@ -99,7 +95,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Jitter
             | Jpeg
             | Julia
-            | JuliaFractal
             | Lathe
             | Leopard
             | LightGroup
@@ -112,7 +107,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Marble
             | MaterialMap
             | MaxExtent
-            | MaxIteration
             | MaxSample
             | MaximumReuse
             | Media
@@ -144,7 +138,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Png
             | Pot
             | Ppm
-            | Precision
             | Precompute
             | Premultiplied
             | PretraceEnd
@@ -153,7 +146,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | ProjectedThrough
             | Pwr
             | QuadraticSpline
-            | Quaternion
             | Quilted
             | Radial
             | Radiosity
@@ -174,7 +166,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Sint8
             | Size
             | SkySphere
-            | Slice
             | Slope
             | SlopeMap
             | Smooth
@@ -187,10 +178,8 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Spline
             | Spotted
             | Square
-            | Strength
             | Subsurface
             | Sum
-            | Superellipsoid
             | Target
             | Text
             | Tga

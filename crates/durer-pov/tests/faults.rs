@@ -136,13 +136,8 @@ fn a_misspelling_is_recognised() {
 
 #[test]
 fn what_is_not_there_yet_is_called_by_its_name() {
-    for word in [
-        "lathe { 1, 0.5 }",
-        "blob { sphere { 0, 1, 1 } }",
-        "fog { distance 1 }",
-        "sky_sphere { }",
-        "media { }",
-    ] {
+    for word in ["lathe { 1, 0.5 }", "height_field { }", "fog { distance 1 }", "sky_sphere { }", "media { }"]
+    {
         let expected = format!("not supported yet: {}", word.split(' ').next().unwrap());
         assert_eq!(fault(word).2, expected);
     }
@@ -194,4 +189,31 @@ fn polynomials_say_what_is_wrong_with_their_numbers() {
     );
     assert!(fault("polynomial { 4, xyz(3, 2, 0): 1 }").2.contains("add up to 4 at most"));
     assert!(fault("torus { 0, 1 }").2.contains("major radius is zero"));
+}
+
+#[test]
+fn blobs_and_superellipsoids_say_what_is_wrong_with_their_numbers() {
+    assert!(fault("superellipsoid { <0, 1> }").2.contains("between 1e-9 and 1e9, not 0"));
+    assert!(fault("superellipsoid { <1, -2> }").2.contains("not -2"));
+    assert!(fault("blob { threshold 0.5 }").2.contains("no components"));
+    assert!(fault("blob { }").2.contains("no components"));
+    assert!(fault("blob { threshold 0 sphere { 0, 1, 1 } }").2.contains("greater than 0, not 0"));
+    assert!(fault("blob { sphere { 0, 0, 1 } }").2.contains("component is greater than 0, not 0"));
+    assert!(fault("blob { cylinder { 0, x, -1, 1 } }").2.contains("component is greater than 0, not -1"));
+    assert!(fault("blob { component 1, 0, <0, 0, 0> }").2.contains("component is greater than 0, not 0"));
+    assert!(fault("blob { cylinder { x, x, 1, 1 } }").2.contains("same point"));
+    assert!(
+        fault("blob { sphere { 0, 1, 1 scale 2 box { 0, 1 } } }").2.contains("a transform of the component")
+    );
+    let textured = fault("blob { sphere { 0, 1, 1 pigment { rgb 1 } } }").2;
+    assert_eq!(textured, "not supported yet: the texture of a blob's component");
+}
+
+#[test]
+fn julia_sets_say_what_is_wrong_with_their_numbers() {
+    assert!(fault("julia_fractal { <0, 0, 0, 0> slice <1, 0, 0, 0>, 0 }").2.contains("fourth component"));
+    assert!(fault("julia_fractal { <0, 0, 0, 0> max_iteration -1 }").2.contains("0 to 1000, not -1"));
+    assert!(fault("julia_fractal { <0, 0, 0, 0, 0> }").2.contains("vector of four"));
+    assert_eq!(fault("julia_fractal { 0 hypercomplex exp }").2, "not supported yet: exp in julia_fractal");
+    assert_eq!(fault("julia_fractal { 0 hypercomplex pwr(1, 2) }").2, "not supported yet: pwr");
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use durer_math::{Point3, Vec3};
 
 use crate::tape::Formula;
-use crate::{FillRule, Object, Texture};
+use crate::{BlobComponent, FillRule, Julia, Object, Texture};
 
 /// A surface in its object's own frame, not yet checked: lowering builds it and names what is wrong.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,6 +140,17 @@ pub enum Shape {
     },
     /// Where a formula has a value.
     Isosurface(Box<Isosurface>),
+    /// `(|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) = 1`.
+    Superellipsoid {
+        /// The exponent of the sections across z.
+        e: f64,
+        /// The exponent along z.
+        n: f64,
+    },
+    /// Where the fields of some balls and sausages add up to a value.
+    Blob(Box<Blob>),
+    /// A Julia set.
+    Julia(Box<Julia>),
     /// All the parts' surfaces together. Parts are placed in the union's own frame.
     Union(Vec<Object>),
     /// A solid made of solids. Parts are placed in its own frame; a union among them is the solid of all its parts.
@@ -186,6 +197,15 @@ pub enum Sweep {
     Linear,
     /// At the height y it is y times as large.
     Conic,
+}
+
+/// The points where fields add up to `threshold`; the inside is where there is more.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Blob {
+    /// The value, which is positive.
+    pub threshold: f64,
+    /// The fields.
+    pub components: Vec<BlobComponent>,
 }
 
 /// What holds the surface of a function.

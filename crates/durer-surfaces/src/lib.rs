@@ -43,7 +43,10 @@ pub use crate::compose::affine::Placed;
 pub use crate::compose::clip::{Algebraic, Clip, Region, RegionError};
 pub use crate::compose::inverse::Inverse;
 pub use crate::disc::{Disc, DiscError};
-pub use crate::implicit::{Container, Isosurface, IsosurfaceError};
+pub use crate::implicit::{
+    BlobComponent, BlobError, BlobShape, Container, Isosurface, IsosurfaceError, Julia, JuliaAlgebra,
+    JuliaError, JuliaPower, SuperellipsoidError, blob, julia, superellipsoid,
+};
 pub use crate::lemon::LemonError;
 pub use crate::local::{CentredRay, End, LocalPoint, LocalRay, ROUGH, RingRay};
 pub use crate::mesh::{FLAT, Mesh, MeshData, MeshError};

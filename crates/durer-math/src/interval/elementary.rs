@@ -288,11 +288,20 @@ impl Interval {
         if self.hi < 0.0 && !whole {
             return NONE;
         }
+        // The one power for a base up to 1, the other beyond.
+        let corner = |x: f64, to_one: f64, beyond: f64| f64s::pow(x, if x <= 1.0 { to_one } else { beyond });
         let power = |x: Self| {
-            // Each edge of the rectangle is monotone and its inside has no extreme: the corners say all.
-            let c = [(x.lo, y.lo), (x.lo, y.hi), (x.hi, y.lo), (x.hi, y.hi)].map(|(x, y)| f64s::pow(x, y));
-            let least = c.into_iter().fold(f64::INFINITY, f64::min);
-            let most = c.into_iter().fold(0.0, f64::max);
+            // Each edge of the rectangle is monotone and its inside has no extreme: the corners say all. Which two of them do is plain where the
+            // power has one sign.
+            let (least, most) = if y.lo >= 0.0 {
+                (corner(x.lo, y.hi, y.lo), corner(x.hi, y.lo, y.hi))
+            } else if y.hi <= 0.0 {
+                (corner(x.hi, y.hi, y.lo), corner(x.lo, y.lo, y.hi))
+            } else {
+                let c =
+                    [(x.lo, y.lo), (x.lo, y.hi), (x.hi, y.lo), (x.hi, y.hi)].map(|(x, y)| f64s::pow(x, y));
+                (c.into_iter().fold(f64::INFINITY, f64::min), c.into_iter().fold(0.0, f64::max))
+            };
             let inner = x.lo <= 0.0 && y.lo <= 0.0;
             Self { lo: lower(least).max(0.0), hi: if inner { f64::INFINITY } else { upper(most) } }
         };

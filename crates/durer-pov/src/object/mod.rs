@@ -1,6 +1,8 @@
 //! Objects: shapes with a place, a look and habits.
 
+mod blob;
 pub(crate) mod extension;
+mod julia;
 mod mesh;
 mod modifiers;
 mod shapes;
@@ -96,6 +98,12 @@ pub(crate) enum Shape {
     },
     /// And whether it is open.
     Isosurface(Rc<durer_scene::Isosurface>, bool),
+    Superellipsoid {
+        e: f64,
+        n: f64,
+    },
+    Blob(Rc<durer_scene::Blob>),
+    Julia(Box<durer_scene::Julia>),
     Union(Vec<Rc<Object>>),
     Csg(Operation, Vec<Rc<Object>>),
     Light(Rc<Light>),
@@ -213,6 +221,9 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
             | Mesh2
             | Quadric
             | Isosurface
+            | Superellipsoid
+            | Blob
+            | JuliaFractal
             | Torus
             | Prism
             | Sor

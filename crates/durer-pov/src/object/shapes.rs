@@ -94,6 +94,9 @@ impl Reader<'_> {
                 Shape::Quadric(Box::new([a, b, c, d, e, f, g, h, i, constant]))
             }
             Keyword::Isosurface => self.isosurface(place)?,
+            Keyword::Superellipsoid => self.superellipsoid()?,
+            Keyword::Blob => self.blob(place)?,
+            Keyword::JuliaFractal => self.julia_fractal()?,
             Keyword::Torus => {
                 let major = self.radius("the torus's major radius")?;
                 self.skip_comma()?;
@@ -115,6 +118,22 @@ impl Reader<'_> {
             // `begins_object` lists no other shape.
             _ => return Err(Fault::unsupported(place, keyword.text())),
         })
+    }
+
+    /// `<e, n>`.
+    fn superellipsoid(&mut self) -> Result<Shape> {
+        self.peek()?;
+        let at = self.here();
+        let terms = self.vector2()?;
+        for exponent in terms {
+            if !(1e-9..=1e9).contains(&exponent) {
+                return Err(Fault::invalid(
+                    at,
+                    format!("the exponents of a superellipsoid are between 1e-9 and 1e9, not {exponent}"),
+                ));
+            }
+        }
+        Ok(Shape::Superellipsoid { e: terms[0], n: terms[1] })
     }
 
     /// A point and the comma behind it.

@@ -4,9 +4,9 @@ use std::fmt::Display;
 
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
-    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, CappedCylinder, Disc, FLAT, Frustum, Isosurface,
-    Parallelogram, Plane, Polygon, Prism, Quadric, Region, Sphere, SphericalSector, Torus, Triangle,
-    TriangleError, Turned,
+    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, BlobError, CappedCylinder, Disc, FLAT, Frustum,
+    Isosurface, Parallelogram, Plane, Polygon, Prism, Quadric, Region, Sphere, SphericalSector, Torus,
+    Triangle, TriangleError, Turned, blob, julia, superellipsoid,
 };
 
 use super::build::{Inside, Target};
@@ -132,6 +132,14 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             target.contain(&solid, map);
             target.add_rare(if open { solid.without_caps() } else { solid }, map);
         }
+        &Shape::Superellipsoid { e, n } => {
+            add_formula(&mut target, superellipsoid(e, n).map_err(shape_error)?, map);
+        }
+        Shape::Julia(set) => add_formula(&mut target, julia(set).map_err(shape_error)?, map),
+        Shape::Blob(it) => match blob(it.threshold, &it.components) {
+            Err(nothing @ BlobError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
+            made => add_formula(&mut target, made.map_err(shape_error)?, map),
+        },
         shape => return flat(shape, map, target),
     }
     Ok(Built::Done(target.inside))
@@ -149,6 +157,12 @@ const AXES: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 fn add<S: Algebraic + Clone + 'static>(target: &mut Target<'_>, solid: S, map: Option<&Affine>) {
     target.contain(&solid, map);
     target.add(solid, map);
+}
+
+/// Adds a solid that is made of a formula.
+fn add_formula(target: &mut Target<'_>, solid: Isosurface, map: Option<&Affine>) {
+    target.contain(&solid, map);
+    target.add_rare(solid, map);
 }
 
 /// The flat ones.
@@ -353,6 +367,9 @@ pub(super) fn name(shape: &Shape) -> &'static str {
         Shape::Named(_) => "a named quadric",
         Shape::SphericalSector { .. } => "a spherical sector",
         Shape::Isosurface(_) => "an isosurface",
+        Shape::Superellipsoid { .. } => "a superellipsoid",
+        Shape::Blob(_) => "a blob",
+        Shape::Julia(_) => "a Julia set",
         Shape::Union(_) => "a union",
         Shape::Csg(Operation::Merge, _) => "a merge",
         Shape::Csg(Operation::Intersection, _) => "an intersection",

@@ -75,7 +75,7 @@ pub(super) fn simpler(op: Op, at: impl Fn(NodeId) -> Op) -> Simpler {
 fn folded(op: &Op, constant: &impl Fn(NodeId) -> Option<Interval>) -> Option<Interval> {
     let sure = |(x, d): Range| (d == Defined::Continuous).then_some(x);
     let value = match *op {
-        Op::Input(_) | Op::Constant(_) => return None,
+        Op::Input(_) | Op::Constant(_) | Op::Settled(_) => return None,
         Op::Neg(a) => -constant(a)?,
         Op::Abs(a) => constant(a)?.abs(),
         Op::Sqr(a) => constant(a)?.square(),

@@ -52,6 +52,8 @@ pub enum Op {
     Compare(Comparison, NodeId, NodeId),
     /// By the sign of the first: one of the three others, for below, at and above zero.
     Select([NodeId; 4]),
+    /// `a`, with the promise that the formula's value is at least `a`. Where that is more than 1, far from zero, nothing that follows need be known.
+    Settled(NodeId),
 }
 
 impl Op {
@@ -77,6 +79,7 @@ impl Op {
             Self::Rem(a, b) => Self::Rem(f(a), f(b)),
             Self::Compare(c, a, b) => Self::Compare(c, f(a), f(b)),
             Self::Select(all) => Self::Select(all.map(f)),
+            Self::Settled(a) => Self::Settled(f(a)),
         }
     }
 
@@ -89,6 +92,7 @@ impl Op {
             | Self::Sqr(a)
             | Self::Sqrt(a)
             | Self::Powi(a, _)
+            | Self::Settled(a)
             | Self::Function(_, a) => f(a),
             Self::Add(a, b)
             | Self::Sub(a, b)
@@ -133,6 +137,7 @@ impl Op {
                 let pack = |a: NodeId, b: NodeId| u64::from(a.0) << 32 | u64::from(b.0);
                 (18, pack(a, b), pack(c, d), 0)
             }
+            Self::Settled(a) => (19, u64::from(a.0), 0, 0),
         }
     }
 }

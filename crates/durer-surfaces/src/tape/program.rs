@@ -1,5 +1,6 @@
 //! A formula of three coordinates, ready to run.
 
+use super::fold;
 use super::formula::{Formula, NodeId, Op, live};
 use durer_math::{Dual, I8, Interval, Isa, Number, Point3};
 use std::cell::Cell;
@@ -60,6 +61,10 @@ fn run<T: Number>(ops: &[Op], inputs: &[T], registers: &mut [T]) -> T {
             Op::Rem(a, b) => T::rem(at(a), at(b)),
             Op::Compare(c, a, b) => T::compare(c, at(a), at(b)),
             Op::Select([c, x, y, z]) => T::select(at(c), at(x), at(y), at(z)),
+            Op::Settled(a) => match T::above(at(a)) {
+                Some(above) => return above,
+                None => *at(a),
+            },
         };
     }
     registers[ops.len() - 1]
@@ -139,7 +144,8 @@ impl Tape {
         run(&self.ops, x, &mut registers)
     }
 
-    /// Bounds on eight boxes, and for each box that `wanted` names a shorter tape with the same values there, if there is one.
+    /// Bounds on eight boxes, and for each box that `wanted` names a shorter tape with the same values there, if there is one. Boxes on which
+    /// the formula is positive must not be wanted: not all of it need have been evaluated there.
     pub fn shortened(&self, x: &[I8; 3], wanted: impl Fn(usize, &I8) -> bool) -> (I8, [Option<Self>; 8]) {
         with_memory(&BOXES, self.ops.len(), zero(), |registers| {
             let bounds = self.bounds_with(x, registers);
@@ -168,8 +174,20 @@ impl Tape {
                 }
                 None => *op,
             };
-            names.push(NodeId(ops.len() as u32));
-            ops.push(kept.renamed(|id| names[id.0 as usize]));
+            let renamed = kept.renamed(|id| names[id.0 as usize]);
+            if !changed {
+                names.push(NodeId(ops.len() as u32));
+                ops.push(renamed);
+                continue;
+            }
+            // What was decided may make constants of what follows: a term of a sum that is zero here is gone.
+            match fold::simpler(renamed, |id| ops[id.0 as usize]) {
+                fold::Simpler::Same(id) => names.push(id),
+                fold::Simpler::Op(op) => {
+                    names.push(NodeId(ops.len() as u32));
+                    ops.push(op);
+                }
+            }
         }
         if !changed {
             return None;

@@ -1,0 +1,97 @@
+//! `julia_fractal { <a, b, c, d> quaternion|hypercomplex sqr|cube max_iteration N precision P slice <a, b, c, d>, D }`.
+
+use durer_scene::{Julia, JuliaAlgebra, JuliaPower, MOST_ITERATIONS};
+
+use super::Shape;
+use crate::diagnostics::{Fault, Result};
+use crate::keywords::Keyword;
+use crate::reader::Reader;
+
+impl Reader<'_> {
+    /// The items of a Julia set, after its opening brace.
+    pub(crate) fn julia_fractal(&mut self) -> Result<Shape> {
+        let mut set = Julia {
+            c: self.vector4()?,
+            algebra: JuliaAlgebra::Quaternion,
+            power: JuliaPower::Square,
+            iterations: 20,
+            normal: [0.0, 0.0, 0.0, 1.0],
+            distance: 0.0,
+        };
+        while let Some(keyword) = self.peek_word()? {
+            let at = self.here();
+            match keyword {
+                Keyword::Quaternion => set.algebra = JuliaAlgebra::Quaternion,
+                Keyword::Hypercomplex => set.algebra = JuliaAlgebra::Hypercomplex,
+                Keyword::Sqr => set.power = JuliaPower::Square,
+                Keyword::Cube => set.power = JuliaPower::Cube,
+                Keyword::MaxIteration => {
+                    self.next()?;
+                    let count = self.float()?;
+                    if !(0.0..=f64::from(MOST_ITERATIONS)).contains(&count) {
+                        let text =
+                            format!("the iterations of a Julia set are 0 to {MOST_ITERATIONS}, not {count}");
+                        return Err(Fault::invalid(at, text));
+                    }
+                    set.iterations = count as u32;
+                    continue;
+                }
+                // Roots are certain without it.
+                Keyword::Precision => {
+                    self.next()?;
+                    self.float()?;
+                    continue;
+                }
+                Keyword::Slice => {
+                    self.next()?;
+                    set.normal = self.vector4()?;
+                    self.skip_comma()?;
+                    set.distance = self.float()?;
+                    if set.normal[3] == 0.0 {
+                        return Err(Fault::invalid(
+                            at,
+                            "the fourth component of the slice's normal is zero: the fourth coordinate does not follow from the others",
+                        ));
+                    }
+                    continue;
+                }
+                Keyword::Exp
+                | Keyword::Ln
+                | Keyword::Log
+                | Keyword::Sin
+                | Keyword::Asin
+                | Keyword::Sinh
+                | Keyword::Asinh
+                | Keyword::Cos
+                | Keyword::Acos
+                | Keyword::Cosh
+                | Keyword::Acosh
+                | Keyword::Tan
+                | Keyword::Atan
+                | Keyword::Tanh
+                | Keyword::Atanh => {
+                    return Err(Fault::unsupported(at, &format!("{} in julia_fractal", keyword.text())));
+                }
+                _ => break,
+            }
+            self.next()?;
+        }
+        Ok(Shape::Julia(Box::new(set)))
+    }
+
+    /// A vector of four; a float stands for four equal ones, missing ones are zero.
+    fn vector4(&mut self) -> Result<[f64; 4]> {
+        self.peek()?;
+        let place = self.here();
+        let value = self.expression()?;
+        if value.len() > 4 {
+            return Err(Fault::invalid(place, "expected a vector of four"));
+        }
+        let v = value.promoted(4);
+        let mut out = [0.0; 4];
+        for (out, &x) in out.iter_mut().zip(v.as_slice()) {
+            *out = crate::expression::finite(x, place)?;
+        }
+        Ok(out)
+    }
+}
