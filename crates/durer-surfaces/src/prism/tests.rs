@@ -301,7 +301,10 @@ fn leaves_clearly(prism: &Prism, oracle: &Swept, ray: &Ray) -> bool {
         let n = point.ng.to_vec();
         [(RaySide::Front, n), (RaySide::Back, -n)]
             .iter()
-            .all(|&(side, d)| oracle.met(&Line::new(&point.spawn_from(side, d))).is_some())
+            .all(|&(side, d)| {
+                let line = Line::new(&point.spawn_from(side, d));
+                oracle.met(&line).is_some() && oracle.is_spread(&line)
+            })
     })
 }
 
