@@ -8,7 +8,7 @@
 
 use durer_math::affine::Matrix3;
 use durer_math::eft::{exponent, scale2, two_diff, two_sum};
-use durer_math::{Affine, Isa, Point3, Ray, RaySide, Ring, Run, Vec3};
+use durer_math::{Aabb, Affine, Isa, Point3, Ray, RaySide, Ring, Run, Vec3};
 
 /// Half an ulp of 1.
 const U: f64 = 1.0 / (1u64 << 53) as f64;
@@ -239,6 +239,35 @@ impl<'a> LocalRay<'a> {
     pub fn roughly(mut self) -> Self {
         self.rough = true;
         self
+    }
+
+    /// A range of `t` (caller's parameter) that holds all points of the ray in a box; `None` if there surely are none.
+    ///
+    /// Slabs (T. L. Kay, J. T. Kajiya, SIGGRAPH 1986). On an axis on which the direction is known to `2^-20` of itself the ends' parameters are
+    /// off by less than `2^-19` of their size: that, the origin's error and its rounding are added. Other axes give no bound.
+    #[inline(always)]
+    pub fn within(&self, bounds: &Aabb) -> Option<(f64, f64)> {
+        const SURE: f64 = durer_math::scale::pow2(-20);
+        let (mut near, mut far) = (f64::NEG_INFINITY, f64::INFINITY);
+        for axis in 0..3 {
+            let (o, d) = (self.o[axis], self.d[axis]);
+            let room = self.o_err[axis] + o.abs() * (4.0 * U);
+            let (lo, hi) = (bounds.min[axis] - o, bounds.max[axis] - o);
+            let (lo, hi) = (lo - room - lo.abs() * (4.0 * U), hi + room + hi.abs() * (4.0 * U));
+            if self.d_err[axis] <= d.abs() * SURE && d != 0.0 {
+                let (a, b) = (lo / d, hi / d);
+                let (a, b) = (a.min(b), a.max(b));
+                near = near.max(a - a.abs() * (2.0 * SURE) - TINY);
+                far = far.min(b + b.abs() * (2.0 * SURE) + TINY);
+            }
+        }
+        // What is not a number is no bound, and not in order either.
+        if near > far {
+            return None;
+        }
+        let (near, far) = self.unmoved().bracket(near, far);
+        let end = |t: f64, none: f64| if t.is_nan() { none } else { t };
+        Some((end(near, f64::NEG_INFINITY), end(far, f64::INFINITY)))
     }
 
     /// Whether the line passes the ball of `radius` about `centre` at a distance that leaves no doubt: the first and cheapest test.

@@ -155,7 +155,7 @@ fn roots_here<const N: usize, Z: ZeroSet<N>>(shape: &Z, ray: &LocalRay<'_>, sink
     if lo > hi {
         return;
     }
-    let Some((mid, half)) = shape.stretch(&at) else { return };
+    let Some((mid, half)) = shape.stretch(&at).map(|stretch| shorter(stretch, (lo, hi))) else { return };
     if half < f64::INFINITY && leaves(shape, &at, mid + half) {
         return;
     }
@@ -188,6 +188,21 @@ fn roots_here<const N: usize, Z: ZeroSet<N>>(shape: &Z, ray: &LocalRay<'_>, sink
         let kind = if found.certain { kind } else { Kind::Cluster };
         sink.push(Root { t, lo, hi: hi.max(t), s: found.s, tag: [0.0; 2], face: 0, sign, kind })
     });
+}
+
+/// An endless stretch cut off a little beyond the ends of the window in which roots matter; where that is so long that powers of it might
+/// leave the range of f64 it is left as it is.
+#[inline(always)]
+fn shorter((mid, half): (f64, f64), (lo, hi): (f64, f64)) -> (f64, f64) {
+    const LONGEST: f64 = durer_math::scale::pow2(16);
+    let (middle, reach) = (0.5 * (lo + hi), 0.5 * (hi - lo));
+    // The least length, so that a window that is a point is a stretch, too.
+    let reach = reach * 1.125 + lo.abs().max(hi.abs()).max(1.0) * durer_math::scale::pow2(-10);
+    if half == f64::INFINITY && middle.abs() < LONGEST && reach < LONGEST {
+        (middle, reach)
+    } else {
+        (mid, half)
+    }
 }
 
 /// The end of a bracket, moved outward where it is so near zero that scaling it might cost it bits.

@@ -370,6 +370,19 @@ impl<S: Algebraic> Clip<S> {
         &self.surface
     }
 
+    /// The part of a ray that holds all that is kept; `None` if nothing is.
+    #[inline(always)]
+    fn range(&self, ray: &LocalRay<'_>) -> Option<(f64, f64)> {
+        let mut bounds = Aabb::UNBOUNDED;
+        for region in &self.regions {
+            bounds = bounds.intersection(region.bounds);
+        }
+        if bounds == Aabb::UNBOUNDED {
+            return Some((f64::NEG_INFINITY, f64::INFINITY));
+        }
+        ray.within(&bounds)
+    }
+
     fn keeps(&self, ray: &LocalRay<'_>, root: &Root) -> bool {
         self.regions
             .iter()
@@ -403,12 +416,15 @@ struct Keeping<'a, 'r, S, K: ?Sized> {
     clip: &'a Clip<S>,
     ray: &'a LocalRay<'r>,
     sink: &'a mut K,
+    /// What lies elsewhere is in none of the regions' boxes.
+    range: (f64, f64),
 }
 
 impl<S: Algebraic, K: Sink + ?Sized> Sink for Keeping<'_, '_, S, K> {
     #[inline(always)]
     fn range(&self) -> (f64, f64) {
-        self.sink.range()
+        let ((a, b), (near, far)) = (self.sink.range(), self.range);
+        (a.max(near), b.min(far))
     }
 
     #[inline(always)]
@@ -424,7 +440,9 @@ impl<S: Algebraic> Surface for Clip<S> {
 
     #[inline(always)]
     fn roots<K: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut K) {
-        self.surface.roots(ray, &mut Keeping { clip: self, ray, sink });
+        if let Some(range) = self.range(ray) {
+            self.surface.roots(ray, &mut Keeping { clip: self, ray, sink, range });
+        }
     }
 
     #[inline(always)]
@@ -445,7 +463,9 @@ impl<S: Algebraic> Surface for Clip<S> {
 
     #[inline(always)]
     fn part_roots<K: Sink + ?Sized>(&self, part: PartId, ray: &LocalRay<'_>, sink: &mut K) {
-        self.surface.part_roots(part, ray, &mut Keeping { clip: self, ray, sink });
+        if let Some(range) = self.range(ray) {
+            self.surface.part_roots(part, ray, &mut Keeping { clip: self, ray, sink, range });
+        }
     }
 }
 

@@ -168,9 +168,10 @@ impl<T: Word, const N: usize> Scaled<T, N> {
         }
         // Two roundings a step, at most N steps a coefficient.
         let unit = 2.0 * N as f64 * (T::ADD + T::MUL);
-        let a = core::array::from_fn(|k| {
-            Run::with_error(c[k], big[k].mul_add(unit, e[k]) * (1.0 + 128.0 * f64::EPSILON) + FLOOR)
-        });
+        let a = core::array::from_fn(
+            #[inline(always)]
+            |k| Run::with_error(c[k], big[k].mul_add(unit, e[k]) * (1.0 + 128.0 * f64::EPSILON) + FLOOR),
+        );
         Self::new(&a, half)
     }
 
@@ -199,6 +200,14 @@ impl<T: Word, const N: usize> Scaled<T, N> {
         (1..N).rev().fold(0.0_f64, |sum, k| sum.mul_add(x, k as f64 * self.c[k].to_f64()))
     }
 
+    /// The value at `x`, and if it is certain whether that is behind the root.
+    #[inline(always)]
+    fn side(&self, x: f64, rising: bool) -> (f64, Option<bool>) {
+        let value = self.at(x);
+        let sign = value.sign().filter(|s| s.is_ne());
+        (value.value(), sign.map(|s| (s == Greater) == rising))
+    }
+
     /// The root between `a` and `b`, where the signs are certain and opposite, in a bracket no wider than `widest`.
     #[inline(always)]
     fn refine(
@@ -208,11 +217,6 @@ impl<T: Word, const N: usize> Scaled<T, N> {
         start: f64,
         widest: impl Fn(f64) -> f64,
     ) -> Option<(f64, f64, f64)> {
-        let side = |x: f64| {
-            let value = self.at(x);
-            let sign = value.sign().filter(|s| s.is_ne());
-            (value.value(), sign.map(|s| (s == Greater) == rising))
-        };
         let mut x = start;
         for round in 0..200 {
             if !(x > a && x < b) || round % 4 == 3 {
@@ -222,7 +226,7 @@ impl<T: Word, const N: usize> Scaled<T, N> {
             if b - a <= w {
                 return Some((self.polished(a, b, rising), a, b));
             }
-            let (value, above) = side(x);
+            let (value, above) = self.side(x, rising);
             let step = value / self.slope(x);
             match above {
                 // Newton's step, and a little more, so that the next point is on the other side.
@@ -230,8 +234,8 @@ impl<T: Word, const N: usize> Scaled<T, N> {
                 Some(false) => (a, x) = (x, x - step + 0.25 * w),
                 None => {
                     let (l, r) = ((x - 0.4 * w).max(a), (x + 0.4 * w).min(b));
-                    let low = l <= a || side(l).1 == Some(false);
-                    let high = r >= b || side(r).1 == Some(true);
+                    let low = l <= a || self.side(l, rising).1 == Some(false);
+                    let high = r >= b || self.side(r, rising).1 == Some(true);
                     return (low && high).then_some((x, l, r));
                 }
             }
