@@ -2,7 +2,7 @@
 //
 // Equation: |z_n|² ≤ 4 for n = 0 … N,  z_(n+1) = z_n² + c,  z_0 = (x, y, z, w) in the slice
 //
-// A. Norton's quaternion Julia sets of 1982, as solids: one cut open, one of cubes.
+// One of A. Norton's quaternion Julia sets of 1982, as the solid that eight iterations make.
 
 #include "stage.inc"
 julia_fractal {

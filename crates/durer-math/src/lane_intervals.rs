@@ -286,6 +286,7 @@ impl Number for I8 {
             2 => Self::sqr(a),
             3 => cube(a),
             4 => Self::sqr(&Self::sqr(a)),
+            5..=64 => product(a, n),
             _ => powers(a, n),
         }
     }
@@ -408,6 +409,48 @@ fn cube(a: &I8) -> I8 {
             if l >= 0.0 { most(below(most(below(l * l), 0.0) * l), 0.0) } else { below(above(l * l) * l) };
         out.hi.0[i] =
             if h <= 0.0 { least(above(most(below(h * h), 0.0) * h), 0.0) } else { above(above(h * h) * h) };
+    }
+    out
+}
+
+/// `a^n` by squaring, each product widened: the ends of `a` without their signs, rounded down or up, and then the sign.
+#[inline(always)]
+fn product(a: &I8, n: i32) -> I8 {
+    let power = |x: &[f64; LANES], up: bool| {
+        let (mut result, mut base, mut left) = ([1.0; LANES], *x, n);
+        loop {
+            for i in 0..LANES {
+                let (r, b) = (result[i] * base[i], base[i] * base[i]);
+                if left & 1 == 1 {
+                    result[i] = if up { above(r) } else { most(below(r), 0.0) };
+                }
+                base[i] = if up { above(b) } else { most(below(b), 0.0) };
+            }
+            left >>= 1;
+            if left == 0 {
+                return result;
+            }
+        }
+    };
+    let odd = n & 1 == 1;
+    // The ends that are nearer to zero and farther from it where the power is even; else the lower and the upper one.
+    let (mut x, mut y) = ([0.0; LANES], [0.0; LANES]);
+    for i in 0..LANES {
+        let (l, h) = (a.lo.0[i], a.hi.0[i]);
+        let straddles = (l < 0.0) & (h > 0.0);
+        let near = if straddles { 0.0 } else { least(l.abs(), h.abs()) };
+        (x[i], y[i]) = if odd { (l.abs(), h.abs()) } else { (near, most(l.abs(), h.abs())) };
+    }
+    let (x_down, y_up) = (power(&x, false), power(&y, true));
+    let mut out = *a;
+    if !odd {
+        (out.lo, out.hi) = (F8(x_down), F8(y_up));
+        return out;
+    }
+    let (x_up, y_down) = (power(&x, true), power(&y, false));
+    for i in 0..LANES {
+        out.lo.0[i] = if a.lo.0[i] >= 0.0 { x_down[i] } else { -x_up[i] };
+        out.hi.0[i] = if a.hi.0[i] >= 0.0 { y_up[i] } else { -y_down[i] };
     }
     out
 }

@@ -8,7 +8,7 @@
 
 use super::line::Line;
 use crate::tape::Tape;
-use durer_math::{Aabb, F8, I8};
+use durer_math::{Aabb, F8, I8, Point3};
 
 /// No cell is smaller than the container divided by two to this power.
 const DEEPEST: u32 = 6;
@@ -99,6 +99,28 @@ impl Cells {
             };
         }
         Cell::Inner(first as u32)
+    }
+
+    /// What is known of all points within `reach` of `p` along each axis; `None` if that is more than the margin pays for.
+    pub(super) fn place(&self, p: Point3, reach: f64) -> Option<Place<'_>> {
+        let spare = 0.5 * self.margin;
+        let held = (0..3).all(|i| p[i] >= self.extent.min[i] - spare && p[i] <= self.extent.max[i] + spare);
+        if !(held && reach < spare) {
+            return None;
+        }
+        let (mut cell, mut bounds) = (self.root, self.extent);
+        loop {
+            let first = match cell {
+                Cell::Sign(sign) => return Some(Place::Sign(sign)),
+                Cell::Gap => return Some(Place::Gap),
+                Cell::Leaf(tape) => return Some(Place::Open(&self.tapes[tape as usize])),
+                Cell::Inner(first) => first,
+            };
+            let centre = bounds.centre();
+            let half = (0..3).fold(0, |half, axis| half | usize::from(p[axis] >= centre[axis]) << axis);
+            cell = self.cells[first as usize + half];
+            bounds = octant(&bounds, half);
+        }
     }
 
     /// Divides the stretch from `a` to `b` of a line by the cells, in ascending order, without holes, as long as `take` says so.

@@ -44,6 +44,14 @@ impl Line {
         Point3::new(x(0), x(1), x(2))
     }
 
+    /// The middle of the stretch from `a` to `b`, and how far from it along any axis the exact line can be there.
+    pub(super) fn around(&self, a: f64, b: f64) -> (Point3, f64) {
+        let middle = self.point(0.5 * a + 0.5 * b);
+        let reach = (b - a).abs() * Vec3::from(self.d).max_abs();
+        // Half of it would do: the other half pays for rounding.
+        (middle, reach + 2.0 * Vec3::from(self.err).max_abs())
+    }
+
     /// The direction.
     pub(super) fn direction(&self) -> Vec3 {
         Vec3::from(self.d)

@@ -33,8 +33,8 @@ use crate::compose::clip::Algebraic;
 use crate::roots::quadratic::Quadratic;
 use crate::tape::{Builder, Formula, FormulaError, Op, Tape};
 use crate::{LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint};
-use cells::Cells;
-use durer_math::{Aabb, Dyadic, F8, I8};
+use cells::{Cells, Place};
+use durer_math::{Aabb, Dyadic, F8, I8, Point3};
 use std::sync::Arc;
 
 /// A formula's surface in a container. Face 0 is the formula's, the container's faces follow.
@@ -84,6 +84,14 @@ impl Isosurface {
         Ok(Self { tape, container, open: false, cells })
     }
 
+    /// A tape that is right within `reach` of `p` along each axis: a cell's own, if it can be.
+    fn tape_near(&self, p: Point3, reach: f64) -> &Tape {
+        match self.cells.place(p, reach) {
+            Some(Place::Open(tape)) => tape,
+            _ => &self.tape,
+        }
+    }
+
     /// The same surface without the container's faces: a sheet.
     #[must_use]
     pub fn without_caps(mut self) -> Self {
@@ -129,13 +137,18 @@ impl Surface for Isosurface {
         if held == Side::Out {
             return Side::Out;
         }
+        let tape = match self.cells.place(point.p, point.p_err.max_abs()) {
+            Some(Place::Sign(above)) => return if above { Side::Out } else { held },
+            Some(Place::Open(tape)) => tape,
+            Some(Place::Gap) | None => &self.tape,
+        };
         let (p, e) = (point.p.to_array(), point.p_err.to_array());
         let around = |i: usize| {
             let (lo, hi) = ((p[i] - e[i]).next_down(), (p[i] + e[i]).next_up());
             let exact = e[i] == 0.0;
             I8::new(F8::splat(if exact { p[i] } else { lo }), F8::splat(if exact { p[i] } else { hi }))
         };
-        let v = self.tape.bounds(&[around(0), around(1), around(2)]);
+        let v = tape.bounds(&[around(0), around(1), around(2)]);
         if v.empty & 1 == 1 || v.lo.0[0] > 0.0 {
             Side::Out
         } else if v.hi.0[0] < 0.0 && v.partial & 1 == 0 {

@@ -22,12 +22,14 @@ fn seed(axis: usize) -> I8 {
 impl Isosurface {
     /// Bounds of the formula and of its gradient within `r` of `p`, per axis; `None` where they are not finite or it may not be smooth.
     fn near(&self, p: Point3, r: f64) -> Option<Near> {
+        // Rounding the ends of the boxes outward is charged to the reach.
+        let tape = self.tape_near(p, 2.0 * r + least_step(p));
         let p = p.to_array();
         let x = [0, 1, 2].map(|i| {
             let around = Interval::around(p[i], r);
             Dual { v: I8::splat(around), d: seed(i) }
         });
-        let g = self.tape.slopes(&x);
+        let g = tape.slopes(&x);
         let gradient = [0, 1, 2].map(|i| g.d.lane(i));
         let defined = (g.v.partial | g.v.jump | g.d.partial) & 7 == 0;
         let finite = gradient.iter().all(|d| d.lo.is_finite() && d.hi.is_finite());
@@ -77,12 +79,12 @@ impl Isosurface {
     /// Not inlined: where it was, the optimiser lost a coordinate of the point.
     #[inline(never)]
     fn nearer(&self, mut p: Point3, reach: f64) -> (Point3, Option<Vec3>) {
-        let (mut f, mut slope) = (self.tape.value(p), self.slope(p));
+        let (mut f, mut slope) = (self.tape_near(p, 0.0).value(p), self.slope(p));
         for _ in 0..3 {
             let Some(g) = slope else { break };
             let step = g * (-f / g.dot(g));
             let moved = p + step;
-            let value = self.tape.value(moved);
+            let value = self.tape_near(moved, 0.0).value(moved);
             // NaN is not nearer.
             let nearer = value.abs() < f.abs() && step.max_abs() <= reach;
             if !nearer {

@@ -82,7 +82,6 @@ struct Query<'a> {
 impl Query<'_> {
     fn run(&mut self, [entry, exit]: &[(Root, f64, f64); 2]) {
         let (from, to) = self.at.window((self.ray.t_min, self.ray.t_max));
-        let tape = &self.surface.tape;
         let slack = 16.0 * self.line.ulp;
         // The stretch, its borders and the signs of the formula there.
         let (a, first, before) = if from > entry.2 {
@@ -103,7 +102,7 @@ impl Query<'_> {
         }
         let after = match last {
             Border::Face(_) => Some(self.declared(exit.1, exit.2)),
-            Border::Range => self.line.sign(tape, b),
+            Border::Range => self.sign_on(b, b),
         };
         if a < b && self.between(a, b, before, after) == Flow::Stop {
             return;
@@ -116,11 +115,20 @@ impl Query<'_> {
     /// The formula's sign where the line crosses the container: the certain one, or else that of the rounded value, which then decides for the
     /// cap and for the formula's own surface alike, so that none is lost between them. Undefined is outside.
     fn declared(&self, lo: f64, hi: f64) -> bool {
-        let tape = &self.surface.tape;
-        self.line.sign_on(tape, lo, hi).unwrap_or_else(|| {
-            let within = self.line.value(tape, 0.5 * lo + 0.5 * hi) < 0.0;
+        self.sign_on(lo, hi).unwrap_or_else(|| {
+            let within = self.line.value(&self.surface.tape, 0.5 * lo + 0.5 * hi) < 0.0;
             !within
         })
+    }
+
+    /// The one sign of the formula on a short stretch, if it is certain: the cell knows, or its tape.
+    fn sign_on(&self, lo: f64, hi: f64) -> Option<bool> {
+        let (middle, reach) = self.line.around(lo, hi);
+        match self.surface.cells.place(middle, reach) {
+            Some(Place::Sign(sign)) => Some(sign),
+            Some(Place::Open(tape)) => self.line.sign_on(tape, lo, hi),
+            Some(Place::Gap) | None => self.line.sign_on(&self.surface.tape, lo, hi),
+        }
     }
 
     /// Where to begin for a ray that starts inside the container, and the sign there.
@@ -134,7 +142,7 @@ impl Query<'_> {
         let mut back = slack;
         for _ in 0..24 {
             let a = (from - back).max(least);
-            let sign = self.line.sign(&self.surface.tape, a);
+            let sign = self.sign_on(a, a);
             if sign.is_some() || a == least {
                 return (a, sign);
             }
@@ -148,7 +156,7 @@ impl Query<'_> {
         let mut on = slack;
         for _ in 0..24 {
             let b = (to + on).min(most);
-            if b == most || self.line.sign(&self.surface.tape, b).is_some() {
+            if b == most || self.sign_on(b, b).is_some() {
                 return b;
             }
             on *= 4.0;
