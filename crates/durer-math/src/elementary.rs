@@ -207,7 +207,7 @@ mod tests {
         assert!(near(hypot(3.0, 4.0), 5.0) && near(atan2(0.0, -1.0), PI));
         assert_eq!((floor(-1.5), ceil(-1.5)), (-2.0, -1.0));
         assert!(acos(2.0).is_nan() && ln(-1.0).is_nan());
-        assert!((0..1000).all(|i| acosh(0.999 - f64::from(i).powi(3) * 1e3).is_nan()) && acosh(1.0) == 0.0);
+        assert!((0..1000).all(|i| acosh(0.999 - f64::from(i * i) * 1e3).is_nan()) && acosh(1.0) == 0.0);
     }
 
     #[test]

@@ -299,12 +299,10 @@ fn leaves_clearly(prism: &Prism, oracle: &Swept, ray: &Ray) -> bool {
     all_roots(prism, ray).iter().all(|root| {
         let point = prism.resolve(&LocalRay::new(ray), root, Need::POINT);
         let n = point.ng.to_vec();
-        [(RaySide::Front, n), (RaySide::Back, -n)]
-            .iter()
-            .all(|&(side, d)| {
-                let line = Line::new(&point.spawn_from(side, d));
-                oracle.met(&line).is_some() && oracle.is_spread(&line)
-            })
+        [(RaySide::Front, n), (RaySide::Back, -n)].iter().all(|&(side, d)| {
+            let line = Line::new(&point.spawn_from(side, d));
+            oracle.met(&line).is_some() && oracle.is_spread(&line)
+        })
     })
 }
 
