@@ -13,10 +13,10 @@ use crate::quadric::body::{Chart, Frame, sheared, tangents};
 use crate::quadric::form::FLOOR;
 use crate::roots::quadratic::Quadratic;
 use crate::sphere::sphere_chart;
-use crate::zero_set::{self, Forward, ZeroSet};
+use crate::zero_set::{self, ZeroSet};
 use crate::{
-    Algebraic, CentredRay, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side, Sink, Solidity, Surface,
-    SurfacePoint,
+    Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side, Sink, Solidity,
+    Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::eft::exponent;

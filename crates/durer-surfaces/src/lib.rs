@@ -66,7 +66,7 @@ pub use crate::quadric::paraboloid::{EllipticParaboloid, HyperbolicParaboloid};
 pub use crate::quadric::round::{CappedCylinder, Frustum, RoundError};
 pub use crate::quadric::sector::{SectorError, SphericalSector};
 pub use crate::quadric::solid::Body;
-pub use crate::sink::{All, Any, Closest, Flow, Sink};
+pub use crate::sink::{All, Any, Closest, Flow, Forward, Sink};
 pub use crate::sor::SorError;
 pub use crate::sphere::{Sphere, SphereError};
 pub use crate::surface::{Kind, Need, PartId, Root, Side, Solidity, Surface};

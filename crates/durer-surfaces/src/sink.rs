@@ -27,6 +27,24 @@ pub trait Sink {
     fn push(&mut self, root: Root) -> Flow;
 }
 
+/// Passes everything on to a sink of any type: a type of known size that a pointer can name, so that a kernel behind `dyn Sink` is compiled once.
+#[derive(Debug)]
+pub struct Forward<'k, K: ?Sized>(pub &'k mut K);
+
+impl<K: Sink + ?Sized> Sink for Forward<'_, K> {
+    fn range(&self) -> (f64, f64) {
+        self.0.range()
+    }
+
+    fn limit(&self) -> f64 {
+        self.0.limit()
+    }
+
+    fn push(&mut self, root: Root) -> Flow {
+        self.0.push(root)
+    }
+}
+
 /// Keeps the least root by `t`; of equal ones the first, since surfaces push in the exact order.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Closest {

@@ -16,10 +16,10 @@ use crate::quadric::body::{Chart, Frame};
 use crate::quadric::form::FLOOR;
 use crate::roots::quadratic::Quadratic;
 use crate::sphere::length;
-use crate::zero_set::{self, Forward, ZeroSet};
+use crate::zero_set::{self, ZeroSet};
 use crate::{
-    Algebraic, CentredRay, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side, Sink, Solidity, Surface,
-    SurfacePoint,
+    Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side, Sink, Solidity,
+    Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
@@ -213,7 +213,10 @@ impl ZeroSet<5> for Torus {
 
     #[inline(always)]
     fn stretch(&self, ray: &CentredRay<'_>) -> Option<(f64, f64)> {
-        stretch(self, ray)
+        let (_, minor) = self.radii();
+        let thick = minor * (1.0 + MARGIN) + MARGIN;
+        let along = (self.along_axis(ray.o), self.along_axis(ray.d));
+        zero_set::ball_and_slab(ray, self.frame().reach * (1.0 + MARGIN), along, (-thick, thick), MARGIN)
     }
 
     #[inline(always)]
@@ -267,35 +270,6 @@ impl ZeroSet<5> for Torus {
 
 /// By how much the body is taken larger than it is, in units, so that no rounding matters.
 const MARGIN: f64 = 1.0 / 256.0;
-
-/// The part of the ray within the ball and the slab that hold the torus.
-#[inline(always)]
-fn stretch(torus: &Torus, ray: &CentredRay<'_>) -> Option<(f64, f64)> {
-    let (o, d) = (ray.o, ray.d);
-    let (_, minor) = torus.radii();
-    let err = (ray.o_err + ray.d_err).max_abs();
-    if err >= MARGIN / 64.0 || err.is_nan() {
-        return Some((0.0, f64::INFINITY));
-    }
-    let reach = torus.frame().reach * (1.0 + MARGIN);
-    let inverse = ray.inverse_d2();
-    let middle = -o.dot(d) * inverse;
-    let square = reach.mul_add(reach, -o.dot(o)) * inverse + middle * middle;
-    if square <= 0.0 {
-        return None;
-    }
-    let half = square.sqrt();
-    let (lo, hi) = (middle - half, middle + half);
-    let (a0, a1) = (torus.along_axis(o), torus.along_axis(d));
-    let thick = minor * (1.0 + MARGIN) + MARGIN;
-    // Along the slab, 0 / 0 is no bound; min and max leave it out.
-    let (x, y) = ((-thick - a0) / a1, (thick - a0) / a1);
-    let (lo, hi) = (x.min(y).max(lo), x.max(y).min(hi));
-    if lo > hi || (a1 == 0.0 && a0.abs() > thick) {
-        return None;
-    }
-    Some((0.5 * (lo + hi), (0.5 * (hi - lo)).max(MARGIN * MARGIN)))
-}
 
 impl Surface for Torus {
     fn bounds(&self) -> Aabb {

@@ -125,19 +125,6 @@ impl<const N: usize, Z: ZeroSet<N>> Along<N> for Line<'_, Z> {
     }
 }
 
-/// Makes a sink of any type one that a pointer can name, so that each surface's kernel is compiled once.
-pub(crate) struct Forward<'k, K: ?Sized>(pub(crate) &'k mut K);
-
-impl<K: Sink + ?Sized> Sink for Forward<'_, K> {
-    fn range(&self) -> (f64, f64) {
-        self.0.range()
-    }
-
-    fn push(&mut self, root: Root) -> Flow {
-        self.0.push(root)
-    }
-}
-
 /// All crossings in the ray's range, ascending.
 pub(crate) fn roots<const N: usize, Z: ZeroSet<N>>(shape: &Z, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
     Isa::detect().run(
@@ -203,6 +190,36 @@ fn shorter((mid, half): (f64, f64), (lo, hi): (f64, f64)) -> (f64, f64) {
     } else {
         (mid, half)
     }
+}
+
+/// The part of a ray within the ball of radius `reach` about the frame's centre and the slab `low <= o + s d <= high` of one coordinate along it.
+/// All of them have to be larger than what they hold by `margin` at least, which pays for every rounding; the result is no shorter than its square.
+#[inline(always)]
+pub(crate) fn ball_and_slab(
+    ray: &CentredRay<'_>,
+    reach: f64,
+    (o, d): (f64, f64),
+    (low, high): (f64, f64),
+    margin: f64,
+) -> Option<(f64, f64)> {
+    let err = (ray.o_err + ray.d_err).max_abs();
+    if err >= margin / 64.0 || err.is_nan() {
+        return Some((0.0, f64::INFINITY));
+    }
+    let inverse = ray.inverse_d2();
+    let middle = -ray.o.dot(ray.d) * inverse;
+    let square = reach.mul_add(reach, -ray.o.dot(ray.o)) * inverse + middle * middle;
+    if square <= 0.0 {
+        return None;
+    }
+    let half = square.sqrt();
+    // Along the slab, 0 / 0 is no bound; min and max leave it out.
+    let (x, y) = ((low - o) / d, (high - o) / d);
+    let (lo, hi) = (x.min(y).max(middle - half), x.max(y).min(middle + half));
+    if lo > hi || (d == 0.0 && !(low..=high).contains(&o)) {
+        return None;
+    }
+    Some((0.5 * (lo + hi), (0.5 * (hi - lo)).max(margin * margin)))
 }
 
 /// The end of a bracket, moved outward where it is so near zero that scaling it might cost it bits.

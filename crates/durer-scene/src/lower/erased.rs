@@ -3,7 +3,7 @@
 use durer_math::{Aabb, Affine, Isa};
 use durer_surfaces::outline::Sketch;
 use durer_surfaces::{
-    Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+    Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
 };
 use std::sync::Arc;
 
@@ -42,23 +42,6 @@ impl<S: Surface> Dynamic for S {
             #[inline(always)]
             || self.resolve(ray, root, need),
         )
-    }
-}
-
-/// Makes a sink of unknown type one of known size.
-struct Forward<'k, K: ?Sized>(&'k mut K);
-
-impl<K: Sink + ?Sized> Sink for Forward<'_, K> {
-    fn range(&self) -> (f64, f64) {
-        self.0.range()
-    }
-
-    fn limit(&self) -> f64 {
-        self.0.limit()
-    }
-
-    fn push(&mut self, root: Root) -> Flow {
-        self.0.push(root)
     }
 }
 

@@ -32,7 +32,7 @@ pub use superellipsoid::{SuperellipsoidError, superellipsoid};
 use crate::compose::clip::Algebraic;
 use crate::roots::quadratic::Quadratic;
 use crate::tape::{Builder, Formula, FormulaError, Op, Tape};
-use crate::{LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use crate::{Forward, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use cells::{Cells, Place};
 use durer_math::{Aabb, Dyadic, F8, I8, Point3};
 use std::sync::Arc;
@@ -118,7 +118,7 @@ impl Surface for Isosurface {
 
     #[inline(always)]
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
-        self.all_roots(ray, &mut roots::Outlet(sink));
+        self.all_roots(ray, &mut Forward(sink));
     }
 
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {

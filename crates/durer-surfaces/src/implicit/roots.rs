@@ -23,23 +23,6 @@ impl Sink for Caps {
     }
 }
 
-/// Makes a sink of unknown type one of known size.
-pub(super) struct Outlet<'a, S: ?Sized>(pub(super) &'a mut S);
-
-impl<S: Sink + ?Sized> Sink for Outlet<'_, S> {
-    fn range(&self) -> (f64, f64) {
-        self.0.range()
-    }
-
-    fn limit(&self) -> f64 {
-        self.0.limit()
-    }
-
-    fn push(&mut self, root: Root) -> Flow {
-        self.0.push(root)
-    }
-}
-
 /// How a stretch of the ray begins or ends.
 #[derive(Clone, Copy)]
 enum Border {

@@ -231,12 +231,7 @@ impl Outline {
         ) else {
             return;
         };
-        let (mut inside, mut outside) = (M8::ALL, M8::NONE);
-        for (j, other) in self.faces.iter().enumerate() {
-            if j != wall {
-                other.cut(rays.isa, &spot, &mut inside, &mut outside);
-            }
-        }
+        let (mut inside, mut outside) = self.cut_by_others(rays, wall, &spot);
         for hole in &self.holes {
             let (mut within, mut beside) = (M8::ALL, M8::NONE);
             for face in hole {
@@ -260,6 +255,17 @@ impl Outline {
                 self.put_down(sure, unsure, (t, e, F8::splat(wall as f64)), t - e, asked.number, nearest);
             },
         );
+    }
+
+    /// Which points of a wall are surely inside all other faces, and which surely outside of one.
+    pub(super) fn cut_by_others(&self, rays: &RayLanes<'_>, wall: usize, spot: &Spot) -> (M8, M8) {
+        let (mut inside, mut outside) = (M8::ALL, M8::NONE);
+        for (j, other) in self.faces.iter().enumerate() {
+            if j != wall {
+                other.cut(rays.isa, spot, &mut inside, &mut outside);
+            }
+        }
+        (inside, outside)
     }
 
     /// Offers a root of a surface with one face.

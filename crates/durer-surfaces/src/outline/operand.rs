@@ -183,12 +183,7 @@ impl Outline {
         ) else {
             return;
         };
-        let (mut inside, mut outside) = (M8::ALL, M8::NONE);
-        for (j, other) in self.faces.iter().enumerate() {
-            if j != wall {
-                other.cut(rays.isa, &spot, &mut inside, &mut outside);
-            }
-        }
+        let (inside, outside) = self.cut_by_others(rays, wall, &spot);
         rays.isa.run_in_lanes(
             #[inline(always)]
             || {

@@ -20,8 +20,10 @@ mod wall;
 use crate::planar::{self, Crossing, Line, PlaneForm, PointLine, Probe};
 use crate::quadric::body::Frame;
 use crate::roots::quadratic::{self, Quadratic};
-use crate::zero_set::{self, Forward};
-use crate::{Algebraic, Flow, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use crate::zero_set;
+use crate::{
+    Algebraic, Flow, Forward, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+};
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Dyadic, Isa, Point3, Ring, Vec3};

@@ -2,7 +2,7 @@
 
 use crate::quadric::body::{Chart, Frame};
 use crate::roots::quadratic::Quadratic;
-use crate::zero_set::ZeroSet;
+use crate::zero_set::{self, ZeroSet};
 use crate::{CentredRay, RingRay};
 use durer_math::eft::scale2;
 use durer_math::{Point3, Ring, U, Vec3, elementary};
@@ -45,28 +45,9 @@ impl Stand {
     fn stretch(&self, ray: &CentredRay<'_>) -> Option<(f64, f64)> {
         /// By how much both are enlarged, in units, so that no rounding matters.
         const MARGIN: f64 = 1.0 / 1024.0;
-        let (o, d) = (ray.o, ray.d);
-        let err = (ray.o_err + ray.d_err).max_abs();
-        if err >= MARGIN / 64.0 || err.is_nan() {
-            return Some((0.0, f64::INFINITY));
-        }
         let reach = self.frame.reach * (1.0 + MARGIN) + MARGIN;
-        let inverse = ray.inverse_d2();
-        let middle = -o.dot(d) * inverse;
-        let square = reach.mul_add(reach, -o.dot(o)) * inverse + middle * middle;
-        if square <= 0.0 {
-            return None;
-        }
-        let half = square.sqrt();
-        let (lo, hi) = (middle - half, middle + half);
-        let [low, high] = [self.slab[0] - MARGIN, self.slab[1] + MARGIN];
-        // Along the slab, 0 / 0 is no bound; min and max leave it out.
-        let (x, y) = ((low - o.y) / d.y, (high - o.y) / d.y);
-        let (lo, hi) = (x.min(y).max(lo), x.max(y).min(hi));
-        if lo > hi || d.y == 0.0 && !(low..=high).contains(&o.y) {
-            return None;
-        }
-        Some((0.5 * (lo + hi), (0.5 * (hi - lo)).max(MARGIN * MARGIN)))
+        let slab = (self.slab[0] - MARGIN, self.slab[1] + MARGIN);
+        zero_set::ball_and_slab(ray, reach, (ray.o.y, ray.d.y), slab, MARGIN)
     }
 
     /// Once round the axis, and from the bottom of the solid to its top.

@@ -3,7 +3,7 @@
 use durer_math::{Aabb, Affine, RaySide, Shaft};
 use durer_surfaces::outline::Sketch;
 use durer_surfaces::{
-    Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+    Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
 };
 use std::sync::Arc;
 
@@ -24,19 +24,6 @@ impl<S: Surface> Dynamic for S {
 
     fn part_roots_dyn(&self, part: PartId, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         self.part_roots(part, ray, sink);
-    }
-}
-
-/// Makes a sink of unknown type one of known size.
-struct Forward<'k, K: ?Sized>(&'k mut K);
-
-impl<K: Sink + ?Sized> Sink for Forward<'_, K> {
-    fn range(&self) -> (f64, f64) {
-        self.0.range()
-    }
-
-    fn push(&mut self, root: Root) -> Flow {
-        self.0.push(root)
     }
 }
 
