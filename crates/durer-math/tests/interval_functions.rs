@@ -1,6 +1,9 @@
 //! Intervals of elementary functions against multi-precision values, and how far the f64 functions are from those.
 
+mod common;
+
 use astro_float::{BigFloat, Consts, RoundingMode};
+use common::Dice;
 use durer_math::interval::elementary::{Defined, Range, ULPS};
 use durer_math::{F8, Function, I8, Interval, Number, elementary};
 
@@ -8,23 +11,7 @@ use durer_math::{F8, Function, I8, Interval, Number, elementary};
 const P: usize = 256;
 const RM: RoundingMode = RoundingMode::ToEven;
 
-/// A counter-based generator (S. Vigna's SplitMix64).
-struct Dice(u64);
-
 impl Dice {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// In `[-1, 1)`.
-    fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 * f64::EPSILON - 1.0
-    }
-
     /// Numbers of all sizes up to `most`, near whole numbers and near multiples of a quarter turn.
     fn number(&mut self, most: f64) -> f64 {
         let quarter = core::f64::consts::FRAC_PI_2;

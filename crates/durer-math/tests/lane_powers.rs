@@ -1,35 +1,29 @@
 //! Powers of eight intervals hold the exact powers of numbers in them, whatever their signs and sizes, and little else.
 
+mod common;
+
+use common::Dice;
 use durer_math::{Dyadic, F8, I8, Interval, Number, Ring};
 
-/// A counter-based generator (S. Vigna's SplitMix64).
-fn bits(state: &mut u64) -> u64 {
-    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let mut z = *state;
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
-}
-
 /// Of either sign, from 2^-40 to 2^40, sometimes zero or so small or large that powers leave the range.
-fn number(state: &mut u64) -> f64 {
-    let unit = (bits(state) >> 11) as f64 * f64::EPSILON - 1.0;
-    match bits(state) % 8 {
+fn number(dice: &mut Dice) -> f64 {
+    let unit = dice.unit();
+    match dice.bits() % 8 {
         0 => 0.0,
         1 => unit * durer_math::scale::pow2(-300),
         2 => unit * durer_math::scale::pow2(300),
-        _ => unit * durer_math::scale::pow2((bits(state) % 81) as i32 - 40),
+        _ => unit * durer_math::scale::pow2((dice.bits() % 81) as i32 - 40),
     }
 }
 
 #[test]
 fn powers_hold_the_exact_ones() {
-    let mut state = 1;
+    let mut dice = Dice(1);
     let mut tight = 0;
     for round in 0..4_000 {
         let n = 2 + (round % 64);
         let ends: [(f64, f64); 8] = core::array::from_fn(|i| {
-            let (a, b) = (number(&mut state), number(&mut state));
+            let (a, b) = (number(&mut dice), number(&mut dice));
             if i % 2 == 0 { (a, a) } else { (a.min(b), a.max(b)) }
         });
         let x = I8::new(F8(ends.map(|e| e.0)), F8(ends.map(|e| e.1)));

@@ -1,36 +1,13 @@
 //! Formulas as surfaces against the same surfaces as quadrics, against other formulas of the same set, and against themselves.
 
+mod common;
+
+use common::Dice;
 use durer_math::{Comparison, Function, Point3, Ray, RaySide, Vec3};
 use durer_surfaces::tape::{Builder, Formula, NodeId, Op};
 use durer_surfaces::{
     All, AxisBox, Container, Isosurface, Kind, LocalPoint, LocalRay, Need, Root, Side, Sphere, Surface,
 };
-
-/// A counter-based generator (S. Vigna's SplitMix64).
-struct Dice(u64);
-
-impl Dice {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// In `[-1, 1)`.
-    fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 * f64::EPSILON - 1.0
-    }
-
-    fn vector(&mut self) -> Vec3 {
-        Vec3::new(self.unit(), self.unit(), self.unit())
-    }
-
-    fn below(&mut self, n: u64) -> u64 {
-        self.bits() % n
-    }
-}
 
 /// Writes formulas as one would on paper.
 struct Pen(Builder);

@@ -1,5 +1,8 @@
 //! Surfaces that are written as formulas (superellipsoids, blobs, Julia sets) against the same surfaces in other kernels, and against exact arithmetic.
 
+mod common;
+
+use common::Dice;
 use durer_math::{Affine, Dyadic, Point3, Ray, Ring, Vec3};
 use durer_surfaces::algebraic::{coefficient_count, place_of};
 use durer_surfaces::{
@@ -8,31 +11,7 @@ use durer_surfaces::{
     julia, superellipsoid,
 };
 
-/// A counter-based generator (S. Vigna's SplitMix64).
-struct Dice(u64);
-
 impl Dice {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// In `[-1, 1)`.
-    fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 * f64::EPSILON - 1.0
-    }
-
-    fn vector(&mut self) -> Vec3 {
-        Vec3::new(self.unit(), self.unit(), self.unit())
-    }
-
-    fn below(&mut self, n: u64) -> u64 {
-        self.bits() % n
-    }
-
     /// Through the cube around the origin, from near and far; often along an axis, in a plane between octants, or through the origin.
     fn ray(&mut self) -> Ray {
         let mut through = self.vector();
