@@ -16,6 +16,8 @@ const HALF: f64 = 1.0 + 1.0 / 64.0;
 const KNOWN: f64 = pow2(-12);
 /// So many passes at most are spent on a ray that comes near, before the tape is asked.
 const MOST_PASSES: usize = 8;
+/// So many at most on a crossing. Mostly it is two or three; each other one divides by nine.
+const MOST_STEPS: usize = 40;
 
 /// A place on the line: the gauge and its slope there.
 #[derive(Clone, Copy, Debug)]
@@ -233,7 +235,7 @@ impl Along<'_> {
     /// The crossing between a place outside and one inside: where it is about, and two such places, nearer to each other.
     fn refined(&self, mut out: Node, mut inn: Node, widest: f64) -> (f64, f64, f64) {
         let mut even = false;
-        for _ in 0..MOST_PASSES {
+        for _ in 0..MOST_STEPS {
             let width = inn.s - out.s;
             let fall = (out.g - inn.g) / width.abs();
             let first = (widest / 32.0).max(1.25 * self.noise / fall);
@@ -269,28 +271,30 @@ impl Along<'_> {
     }
 }
 
-/// About where the gauge is 1 between a place outside and one inside, and how far from there the tangent and the chord put it.
+/// About where the gauge is 1 between a place outside and one inside, and how far apart the tangents and the chord put it.
 fn guess(out: &Node, inn: &Node) -> (f64, f64) {
     let width = inn.s - out.s;
     let share = (out.g - 1.0) / (out.g - inn.g);
     let chord = share * width;
-    let tangent = (1.0 - out.g) / out.slope;
-    // Convexity puts the crossing between the two, as long as rounding does not count.
-    let tangent = if tangent / width > 0.0 && tangent.abs() <= chord.abs() { tangent } else { 0.0 };
-    let spread = (chord - tangent).abs();
-    // The cubic with the values and slopes of the inverse at both places (C. Hermite), if it goes one way.
-    let middle = 0.5 * (chord + tangent);
-    let alike = inn.slope / out.slope;
-    let from_start = if alike > 0.0 {
-        let (x, rest) = (share, 1.0 - share);
-        let run = inn.g - out.g;
-        width * x * x * (3.0 - 2.0 * x) + x * rest * run * (rest / out.slope - x / inn.slope)
+    // Convexity puts the crossing between the later of the two tangents' and the chord's, as long as rounding does not count.
+    let before = |x: f64| if x / width > 0.0 && x.abs() <= chord.abs() { x } else { 0.0 };
+    let falls = inn.slope / out.slope > 0.0;
+    let (first, second) = ((1.0 - out.g) / out.slope, width + (1.0 - inn.g) / inn.slope);
+    let (first, second) = (before(first), if falls { before(second) } else { 0.0 });
+    let tangent = if first.abs() > second.abs() { first } else { second };
+    // The cubic with the values and slopes of the inverse at both places (C. Hermite). If it does not go there, there is an edge between, and a tangent is
+    // the surface's.
+    let (x, rest) = (share, 1.0 - share);
+    let run = inn.g - out.g;
+    let cubic = width * x * x * (3.0 - 2.0 * x) + x * rest * run * (rest / out.slope - x / inn.slope);
+    let fits = falls && cubic / width > 0.0 && cubic.abs() <= chord.abs() && cubic.abs() >= tangent.abs();
+    let way = if fits {
+        cubic
+    } else if falls {
+        tangent
     } else {
-        middle
+        0.5 * (chord + tangent)
     };
-    let within =
-        from_start.abs() <= chord.abs() && from_start.abs() >= tangent.abs() && from_start / width > 0.0;
-    let from_start = if within { from_start } else { middle };
     let (lo, hi) = (out.s.min(inn.s), out.s.max(inn.s));
-    ((out.s + from_start).max(lo).min(hi), spread)
+    ((out.s + way).max(lo).min(hi), (chord - tangent).abs())
 }
