@@ -101,13 +101,13 @@ impl Camera {
             return Err("the camera looks at its own location");
         }
         let (long, wide, high) = (length(self.direction), length(self.right), length(self.up));
-        let hand = dot(cross(self.up, self.direction), self.right);
+        // As POV-Ray has it, `up` along the direction is a mirror, too.
+        let hand = if dot(cross(self.up, self.direction), self.right) > 0.0 { 1.0 } else { -1.0 };
         self.direction = scaled(towards, long / distance);
         let side = cross(self.sky, self.direction);
         let side_length = length(side);
         if side_length > 0.0 {
-            let sign = if hand >= 0.0 { 1.0 } else { -1.0 };
-            self.right = scaled(side, sign * wide / side_length);
+            self.right = scaled(side, hand * wide / side_length);
         }
         let upward = cross(self.direction, self.right);
         let upward_length = length(upward);
@@ -115,8 +115,7 @@ impl Camera {
             return Err("the camera looks along its own right vector");
         }
         // For a mirrored camera the product points down.
-        let sign = if hand >= 0.0 { 1.0 } else { -1.0 };
-        self.up = scaled(upward, sign * high / upward_length);
+        self.up = scaled(upward, hand * high / upward_length);
         Ok(())
     }
 }

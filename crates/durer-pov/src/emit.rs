@@ -16,7 +16,7 @@ use crate::object::{Object, Shape};
 use crate::reader::Reader;
 use crate::settings::{Gamma, Globals};
 use crate::texture::{Finish, Interior, Layer, Map, Paint, Pattern, PatternKind, Pigment, Texture, Wave};
-use crate::transform::Matrix;
+use crate::transform::{Matrix, length};
 
 /// What the statements so far amount to.
 #[derive(Debug, Default)]
@@ -43,6 +43,12 @@ fn point(p: [f64; 3]) -> Point3 {
 
 fn vector(v: [f64; 3]) -> Vec3 {
     Vec3::new(v[0], v[1], v[2])
+}
+
+/// A normal as POV-Ray mixes it with others: of length one. One without length stays what it is.
+fn unit(v: [f64; 3]) -> Vec3 {
+    let length = length(v);
+    if length > 0.0 && length.is_finite() { vector(v.map(|x| x / length)) } else { vector(v) }
 }
 
 fn rgb(c: [f64; 3]) -> scene::Rgb {
@@ -293,7 +299,7 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
         }
         Shape::Triangle(corners) => scene::Shape::Triangle(corners.map(point)),
         Shape::SmoothTriangle(both) => {
-            scene::Shape::SmoothTriangle(Box::new((both.0.map(point), both.1.map(vector))))
+            scene::Shape::SmoothTriangle(Box::new((both.0.map(point), both.1.map(unit))))
         }
         Shape::Polygon(loops, rule) => scene::Shape::Polygon {
             loops: loops.iter().map(|points| points.iter().copied().map(point).collect()).collect(),
@@ -308,7 +314,7 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             let textures = mesh.textures.iter().map(|own| texture(own, at).map(Arc::new));
             let made = scene::Mesh {
                 vertices: mesh.vertices.iter().copied().map(point).collect(),
-                normals: mesh.normals.iter().copied().map(vector).collect(),
+                normals: mesh.normals.iter().copied().map(unit).collect(),
                 faces: faces.collect(),
                 textures: textures.collect::<Result<_>>()?,
                 inside_vector: mesh.inside_vector.map(vector),

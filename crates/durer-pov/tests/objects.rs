@@ -188,6 +188,22 @@ fn meshes_share_corners_and_keep_all_faces() {
 }
 
 #[test]
+fn normals_at_corners_are_mixed_at_length_one() {
+    let scene = scene(
+        "smooth_triangle { 0, z*4, x, <0,3,4>, y, -z } mesh { smooth_triangle { 0, z*4, x, <0,3,4>, y, -z } }
+        mesh2 { vertex_vectors { 3, 0, x, y } normal_vectors { 3, z*4, <0,3,4>, -z } face_indices { 1, <0,1,2> } }",
+    );
+    for object in &scene.objects {
+        let normals = match &object.shape {
+            Shape::SmoothTriangle(both) => both.1.to_vec(),
+            Shape::Mesh(mesh) => mesh.normals.clone(),
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(normals, [Vec3::Z, Vec3::new(0.0, 0.6, 0.8), -Vec3::Z]);
+    }
+}
+
+#[test]
 fn a_polygon_has_the_loops_that_its_points_close() {
     let scene = scene(
         "polygon { 9, <-1,-1>, <1,-1>, <1,1>, <-1,1>, <-1,-1>, <0.5,0.5>, <0.5,-0.5>, <-0.5,-0.5>, <0.5,0.5> }",

@@ -30,6 +30,8 @@ fn look_at_keeps_lengths_and_handedness() {
     assert!(close(plain.up, [0.0, 1.0, 0.0]));
     let mirrored = camera("camera { location -z*5 right -x*1.33 look_at 0 }");
     assert!(close(mirrored.right, [-1.33, 0.0, 0.0]) && close(mirrored.up, [0.0, 1.0, 0.0]));
+    // `up` along the direction, before it is turned, is a mirror.
+    assert_eq!(camera("camera { up z location -z*5 look_at 0 }"), mirrored);
     let side = camera("camera { location x*5 direction z*2 look_at 0 }");
     assert!(close(side.direction, [-2.0, 0.0, 0.0]) && close(side.right, [0.0, 0.0, 1.33]));
 }

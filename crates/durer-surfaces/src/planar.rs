@@ -639,11 +639,10 @@ impl ThreePoints {
     #[inline(always)]
     pub(crate) fn normal<T: Ring>(&self) -> ([T; 3], [T; 3]) {
         let [a, b, c] = self.points;
-        let edge = |to: Point3| {
-            let axis = |from: f64, to: f64| (T::exact(to) - T::exact(from)).scale2(-self.scale);
-            [axis(a.x, to.x), axis(a.y, to.y), axis(a.z, to.z)]
-        };
-        (seen_from(a, self.centre, self.scale), cross(&edge(b), &edge(c)))
+        (
+            seen_from(a, self.centre, self.scale),
+            cross(&seen_from(b, a, self.scale), &seen_from(c, a, self.scale)),
+        )
     }
 }
 
@@ -663,9 +662,7 @@ impl PlaneForm for ThreePoints {
     #[inline(always)]
     fn height<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
         let (a, n) = self.normal::<T>();
-        let [x, y, z] = a.map(|a| a * ray.w.clone());
-        let o = ray.o.clone();
-        let [ox, oy, oz] = o;
-        Some(dot(&n, &[ox - x, oy - y, oz - z]))
+        let ([x, y, z], [ox, oy, oz], w) = (a, ray.o.clone(), || ray.w.clone());
+        Some(dot(&n, &[ox - x * w(), oy - y * w(), oz - z * w()]))
     }
 }

@@ -208,7 +208,11 @@ impl ZeroSet<5> for Torus {
             4.0 * (m2 * e1 + m1 * e2) + (5.0 * U) * (4.0 * m2 * m1),
             2.0 * m2 * e2 + (5.0 * U) * (m2 * m2),
         ];
-        core::array::from_fn(|k| Run::with_error(c[k], e[k].mul_add(1.0 + 64.0 * U, FLOOR)))
+        let mut out = [Run::exact(0.0); 5];
+        for (out, (c, e)) in out.iter_mut().zip(c.into_iter().zip(e)) {
+            *out = Run::with_error(c, f64::mul_add(e, 1.0 + 64.0 * U, FLOOR));
+        }
+        out
     }
 
     #[inline(always)]

@@ -152,29 +152,60 @@ fn roots_here<const N: usize, Z: ZeroSet<N>>(shape: &Z, ray: &LocalRay<'_>, sink
         Stretch::Everywhere
     };
     let limits = Limits { lo, hi, origin: at.shift(), width: if ray.rough { ROUGH } else { NARROW } };
-    let mut least = f64::NEG_INFINITY;
-    solve(&Line { shape, ray: &at, mid }, stretch, &limits, |found: &Found<'_>| {
+    let mut showing = Showing { shape, ray, at: &at, mid, least: f64::NEG_INFINITY, sink };
+    solve(&Line { shape, ray: &at, mid }, stretch, &limits, |found: &Found<'_>| showing.show(found));
+}
+
+/// Shows roots to a sink, ascending.
+struct Showing<'a, Z> {
+    shape: &'a Z,
+    ray: &'a LocalRay<'a>,
+    at: &'a CentredRay<'a>,
+    mid: f64,
+    /// The last root.
+    least: f64,
+    sink: &'a mut dyn Sink,
+}
+
+impl<Z> Showing<'_, Z> {
+    #[inline(never)]
+    fn show<const N: usize>(&mut self, found: &Found<'_>) -> Flow
+    where
+        Z: ZeroSet<N>,
+    {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.show_here(found),
+        )
+    }
+
+    #[inline(always)]
+    fn show_here<const N: usize>(&mut self, found: &Found<'_>) -> Flow
+    where
+        Z: ZeroSet<N>,
+    {
+        let &mut Self { shape, ray, at, mid, .. } = self;
         let (lo, hi) = at.bracket(outward(found.lo, -1.0), outward(found.hi, 1.0));
-        let (near, far) = sink.range();
+        let (near, far) = self.sink.range();
         if lo > far.min(ray.t_max) {
             return Flow::Stop;
         }
         if hi < near.max(ray.t_min) {
             return Flow::Continue;
         }
-        if at.admits(lo, hi) != Some(true) && !in_range(shape, found, &at, mid) {
+        if at.admits(lo, hi) != Some(true) && !in_range(shape, found, at, mid) {
             return Flow::Continue;
         }
-        let t = at.t(found.s).max(lo).min(hi).max(ray.t_min).min(ray.t_max).max(least);
-        least = t;
+        let t = at.t(found.s).max(lo).min(hi).max(ray.t_min).min(ray.t_max).max(self.least);
+        self.least = t;
         let (sign, kind) = match (found.before, found.after) {
             (Greater, Less) => (-1, Kind::Simple),
             (Less, Greater) => (1, Kind::Simple),
             _ => (0, Kind::Grazing),
         };
         let kind = if found.certain { kind } else { Kind::Cluster };
-        sink.push(Root { t, lo, hi: hi.max(t), s: found.s, tag: [0.0; 2], face: 0, sign, kind })
-    });
+        self.sink.push(Root { t, lo, hi: hi.max(t), s: found.s, tag: [0.0; 2], face: 0, sign, kind })
+    }
 }
 
 /// An endless stretch cut off a little beyond the ends of the window in which roots matter; where that is so long that powers of it might

@@ -20,15 +20,22 @@ pub(crate) fn dot<T: Ring>(a: &[T; 3], b: &[T; 3]) -> T {
 /// The cross product in a ring.
 #[inline(always)]
 pub(crate) fn cross<T: Ring>(a: &[T; 3], b: &[T; 3]) -> [T; 3] {
-    let minor = |i: usize, j: usize| a[i].clone() * b[j].clone() - a[j].clone() * b[i].clone();
-    [minor(1, 2), minor(2, 0), minor(0, 1)]
+    // A closure could be compiled by itself, without fused sums.
+    #[inline(always)]
+    fn minor<T: Ring>(a: &[T; 3], b: &[T; 3], i: usize, j: usize) -> T {
+        a[i].clone() * b[j].clone() - a[j].clone() * b[i].clone()
+    }
+    [minor(a, b, 1, 2), minor(a, b, 2, 0), minor(a, b, 0, 1)]
 }
 
 /// The exact point `p` relative to `centre` in units of `2^scale`.
 #[inline(always)]
 pub(crate) fn seen_from<T: Ring>(p: Point3, centre: Point3, scale: i32) -> [T; 3] {
-    let axis = |p: f64, c: f64| (T::exact(p) - T::exact(c)).scale2(-scale);
-    [axis(p.x, centre.x), axis(p.y, centre.y), axis(p.z, centre.z)]
+    #[inline(always)]
+    fn axis<T: Ring>(p: f64, c: f64, scale: i32) -> T {
+        (T::exact(p) - T::exact(c)).scale2(-scale)
+    }
+    [axis(p.x, centre.x, scale), axis(p.y, centre.y, scale), axis(p.z, centre.z, scale)]
 }
 
 /// The cross product of two vectors of which each component was rounded at most once, and a bound on its error per component.

@@ -99,13 +99,14 @@ impl<T: Word, const N: usize> Bernstein<T, N> {
     pub(crate) fn new(c: &[T; N], slack: f64) -> Self {
         let unit = (N + 1) as f64 * (T::ADD + T::MUL) + T::DIV;
         let size = c.iter().fold(0.0, |sum, c| sum + c.to_f64().abs());
-        let b = core::array::from_fn(
-            #[inline(always)]
-            |j| {
-                let sum = (0..N).fold(T::from(0.0), |sum, k| sum + T::from(Matrix::<N>::K[k][j]) * c[k]);
-                sum / T::from(Matrix::<N>::BINOMIALS[j])
-            },
-        );
+        // Loops: functions of arrays are too large to be inlined, and by themselves would be compiled without fused sums.
+        let mut b = [T::from(0.0); N];
+        for (j, b) in b.iter_mut().enumerate() {
+            for (row, &c) in Matrix::<N>::K.iter().zip(c) {
+                *b = *b + T::from(row[j]) * c;
+            }
+            *b = *b / T::from(Matrix::<N>::BINOMIALS[j]);
+        }
         Self { b, e: size.mul_add(unit, slack) * (1.0 + 64.0 * f64::EPSILON) + FLOOR }
     }
 
@@ -186,13 +187,13 @@ impl<const N: usize> Bernstein<f64, N> {
     pub(crate) fn quick(c: &[f64; N], slack: f64) -> Self {
         let unit = (N + 3) as f64 * f64::ADD;
         let size = c.iter().fold(0.0, |sum, c| sum + c.abs());
-        let b = core::array::from_fn(
-            #[inline(always)]
-            |j| {
-                (0..N).fold(0.0_f64, |sum, k| Matrix::<N>::K[k][j].mul_add(c[k], sum))
-                    * Matrix::<N>::INVERSES[j]
-            },
-        );
+        let mut b = [0.0_f64; N];
+        for (j, b) in b.iter_mut().enumerate() {
+            for (row, &c) in Matrix::<N>::K.iter().zip(c) {
+                *b = row[j].mul_add(c, *b);
+            }
+            *b *= Matrix::<N>::INVERSES[j];
+        }
         Self { b, e: size.mul_add(unit, slack) * (1.0 + 64.0 * f64::EPSILON) + FLOOR }
     }
 

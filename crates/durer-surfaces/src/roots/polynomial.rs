@@ -130,7 +130,10 @@ impl<T: Word, const N: usize> Scaled<T, N> {
     fn new(a: &[Run<T>; N], half: f64) -> Self {
         let (h, size) = (T::from(half), half.abs());
         let (mut power, mut big) = (T::from(1.0), 1.0);
-        let (mut c, mut e) = (a.map(|a| a.v), a.map(|a| a.e));
+        let (mut c, mut e) = ([T::from(0.0); N], [0.0; N]);
+        for k in 0..N {
+            (c[k], e[k]) = (a[k].v, a[k].e);
+        }
         let degree = (0..N).rev().find(|&k| a[k].value() != 0.0 || a[k].e != 0.0).unwrap_or(0);
         for k in 1..N {
             power = power * h;
@@ -158,7 +161,10 @@ impl<T: Word, const N: usize> Scaled<T, N> {
     #[inline(always)]
     fn from(&self, l: f64) -> Self {
         let (mid, half) = (0.5 + 0.5 * l, 0.5 - 0.5 * l);
-        let (mut c, mut e, mut big) = (self.c, self.e, self.c.map(|c| c.to_f64().abs()));
+        let (mut c, mut e, mut big) = (self.c, self.e, [0.0; N]);
+        for k in 0..N {
+            big[k] = c[k].to_f64().abs();
+        }
         for i in 0..N - 1 {
             for j in (i..N - 1).rev() {
                 c[j] = c[j] + T::from(mid) * c[j + 1];
@@ -168,10 +174,10 @@ impl<T: Word, const N: usize> Scaled<T, N> {
         }
         // Two roundings a step, at most N steps a coefficient.
         let unit = 2.0 * N as f64 * (T::ADD + T::MUL);
-        let a = core::array::from_fn(
-            #[inline(always)]
-            |k| Run::with_error(c[k], big[k].mul_add(unit, e[k]) * (1.0 + 128.0 * f64::EPSILON) + FLOOR),
-        );
+        let mut a = [Run::exact(0.0); N];
+        for k in 0..N {
+            a[k] = Run::with_error(c[k], big[k].mul_add(unit, e[k]) * (1.0 + 128.0 * f64::EPSILON) + FLOOR);
+        }
         Self::new(&a, half)
     }
 
@@ -427,14 +433,29 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
         scaled.walk(
             -1.0,
             false,
-            skips(place, limits),
+            #[inline(always)]
+            |l, r| is_skipped(place, limits, l, r),
             #[inline(always)]
             |node, rising| {
-                let widest = |x: f64| place.widest(x, limits);
                 let ends = (node.l, node.r);
                 let start = node.form.guess().mul_add(node.r - node.l, node.l);
-                let found =
-                    scaled.newton(ends, start, widest).or_else(|| scaled.refine(ends, rising, start, widest));
+                // Each closure here is a caller's argument, or it would be compiled by itself, without fused sums.
+                let newton = scaled.newton(
+                    ends,
+                    start,
+                    #[inline(always)]
+                    |x| place.widest(x, limits),
+                );
+                let found = match newton {
+                    None => scaled.refine(
+                        ends,
+                        rising,
+                        start,
+                        #[inline(always)]
+                        |x| place.widest(x, limits),
+                    ),
+                    found => found,
+                };
                 let found = found.ok_or(Doubt(node.l))?;
                 Ok(emit(&named(place, ends, found, rising)))
             },
@@ -446,22 +467,27 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
     fn settle<T: Word>(&mut self, scaled: &Scaled<T, N>, from: f64, place: Place) -> Result<Flow, Doubt> {
         let (limits, emit) = (self.limits, &mut self.emit);
         let part = if from > -1.0 { scaled.from(from) } else { *scaled };
-        // x = from + (1 - from)(x' + 1) / 2.
-        let back = |x: f64| (0.5 - 0.5 * from).mul_add(x + 1.0, from);
-        let skips = skips(place, limits);
         let walked = part.walk(
             -1.0,
             false,
-            |l, r| skips(back(l), back(r)),
+            #[inline(always)]
+            |l, r| is_skipped(place, limits, back(from, l), back(from, r)),
+            #[inline(always)]
             |node, rising| {
-                let ends = (back(node.l), back(node.r));
+                let ends = (back(from, node.l), back(from, node.r));
                 let start = 0.5 * (ends.0 + ends.1);
-                let found =
-                    scaled.refine(ends, rising, start, |x| place.widest(x, limits)).ok_or(Doubt(node.l))?;
+                let found = scaled.refine(
+                    ends,
+                    rising,
+                    start,
+                    #[inline(always)]
+                    |x| place.widest(x, limits),
+                );
+                let found = found.ok_or(Doubt(node.l))?;
                 Ok(emit(&named(place, ends, found, rising)))
             },
         );
-        walked.map_err(|Doubt(x)| Doubt(back(x)))
+        walked.map_err(|Doubt(x)| Doubt(back(from, x)))
     }
 
     /// The whole line: what is left of -1, what is between, what is right of 1.
@@ -566,11 +592,15 @@ type Tail = ((f64, f64), (f64, f64, f64), bool);
 
 /// Whether a part of a stretch is outside the limits.
 #[inline(always)]
-fn skips(place: Place, limits: &Limits) -> impl Fn(f64, f64) -> bool {
-    move |l, r| {
-        let (lo, hi) = place.ends(l, r);
-        hi.next_up() < limits.lo || lo.next_down() > limits.hi
-    }
+fn is_skipped(place: Place, limits: &Limits, l: f64, r: f64) -> bool {
+    let (lo, hi) = place.ends(l, r);
+    hi.next_up() < limits.lo || lo.next_down() > limits.hi
+}
+
+/// From `x` in `[-1, 1]` over the part of a stretch from `from` on to the whole stretch: `from + (1 - from)(x + 1) / 2`.
+#[inline(always)]
+fn back(from: f64, x: f64) -> f64 {
+    (0.5 - 0.5 * from).mul_add(x + 1.0, from)
 }
 
 /// A root in the terms of the line.

@@ -149,6 +149,14 @@ impl Turned {
 
     #[inline(never)]
     fn all_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.all_roots_here(ray, sink),
+        );
+    }
+
+    #[inline(always)]
+    fn all_roots_here(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         // Which wall a ray was spawned on is not known; it starts where the sign of that wall's polynomial is certain.
         let ray = &ray.from_side(None);
         let probe = self.probe(ray);
@@ -203,6 +211,7 @@ impl Turned {
 
     /// Pushes the crossing at a height, if what the wall behind says at its end and what the wall ahead says at its beginning are not the same; a wall
     /// that the ray passes by says outside.
+    #[inline(always)]
     fn seam(
         &self,
         i: usize,
@@ -222,6 +231,7 @@ impl Turned {
     }
 
     /// Pushes a crossing at a height, where the ray goes inside or outside.
+    #[inline(never)]
     fn at_height(&self, i: usize, inward: bool, probe: &Probe<'_>, crossing: &Crossing, out: &mut Out<'_>) {
         let face = match i {
             0 => 1,
@@ -257,6 +267,7 @@ impl Turned {
     }
 
     /// Whether the ray is inside a wall just after (`ahead`) or just before it passes a height.
+    #[inline(always)]
     fn is_inside(
         &self,
         wall: usize,
@@ -266,10 +277,15 @@ impl Turned {
         ahead: bool,
     ) -> bool {
         let (at, err) = probe.place(crossing);
-        let wall = &self.walls[wall];
-        if let Some(inside) = wall.rough(at, err) {
-            return inside;
+        match self.walls[wall].rough(at, err) {
+            Some(inside) => inside,
+            None => self.is_exactly_inside(&self.walls[wall], height, probe, ahead),
         }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn is_exactly_inside(&self, wall: &Wall, height: usize, probe: &Probe<'_>, ahead: bool) -> bool {
         Isa::detect().run(
             #[inline(always)]
             || {
@@ -339,6 +355,7 @@ struct Axial<'a> {
 }
 
 impl<'a> Axial<'a> {
+    #[inline(always)]
     fn new(ray: &'a CentredRay<'a>) -> Self {
         let (o, d) = (ray.o, ray.d);
         Self { ray, a: d.x * d.x + d.z * d.z, b: o.x * d.x + o.z * d.z, c: o.x * o.x + o.z * o.z }
@@ -348,6 +365,7 @@ impl<'a> Axial<'a> {
     ///
     /// With `p >= |o| + |s| |d|` the sums are wrong by `5 U p²` at most, and by less than a rounding since `s` is not exactly the least point; coordinates that
     /// are wrong by `e` change the square by `2 (p + e) e` at most.
+    #[inline(always)]
     fn misses(&self, reach: f64, entry: &Crossing, exit: &Crossing) -> bool {
         let (low, high) = (entry.s_lo.min(exit.s_lo), entry.s_hi.max(exit.s_hi));
         let s = (-self.b / self.a).max(low).min(high);

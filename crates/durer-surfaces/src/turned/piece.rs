@@ -7,7 +7,7 @@ use crate::roots::quadratic::Quadratic;
 use crate::zero_set::{self, ZeroSet};
 use crate::{LocalPoint, LocalRay, RingRay, Root, Side};
 use core::cmp::Ordering;
-use durer_math::{Dyadic, Ring, Run, Vec3};
+use durer_math::{Dyadic, Isa, Ring, Run, Vec3};
 
 /// What encloses the solid between two heights.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +71,17 @@ impl Wall {
 
     /// Whether a root is on the sheet that counts.
     pub(super) fn holds(&self, probe: &Probe<'_>, root: &Root) -> bool {
-        let Self::Spindle(w) = self else { return true };
+        match self {
+            Self::Cubic(_) => true,
+            Self::Spindle(w) => Isa::detect().run(
+                #[inline(always)]
+                || self.holds_here(w, probe, root),
+            ),
+        }
+    }
+
+    #[inline(always)]
+    fn holds_here(&self, w: &Spindle, probe: &Probe<'_>, root: &Root) -> bool {
         let (lo, hi) = probe.ray.window((root.lo, root.hi));
         let s = Run::with_error(root.s, (hi - root.s).max(root.s - lo));
         let Quadratic { a, b, c } = w.inner(&probe.running());

@@ -116,6 +116,7 @@ impl ZeroSet<4> for Cubic {
         (x.square() + z.square()) * w.clone() - square
     }
 
+    #[inline(always)]
     fn stretch(&self, ray: &CentredRay<'_>) -> Option<(f64, f64)> {
         self.stand.stretch(ray)
     }
@@ -223,6 +224,7 @@ impl ZeroSet<5> for Spindle {
         ]
     }
 
+    #[inline(always)]
     fn stretch(&self, ray: &CentredRay<'_>) -> Option<(f64, f64)> {
         self.stand.stretch(ray)
     }
