@@ -1,5 +1,6 @@
 //! A tape along a line: what `g(s) = f(q + s d)` is on stretches of `s`, with every rounding of the ray charged.
 
+use super::tracker::Curve;
 use crate::CentredRay;
 use crate::tape::Tape;
 use durer_math::eft::two_sum;
@@ -102,19 +103,29 @@ impl Line {
         tape.slopes(&[0, 1, 2].map(|i| Dual { v: v[i], d: d[i] }))
     }
 
-    /// The sign of `g` at `s` (up is `true`), if it is certain; `None` also where `f` may be undefined.
-    pub(super) fn sign(&self, tape: &Tape, s: f64) -> Option<bool> {
-        self.sign_on(tape, s, s)
-    }
-
     /// The one sign of `g` from `a` to `b`, if it is certain.
     pub(super) fn sign_on(&self, tape: &Tape, a: f64, b: f64) -> Option<bool> {
         signs(&self.bounds(tape, &[a; 8], &[b; 8]))[0]
     }
+}
 
-    /// The rounded value at `s`; NaN where `f` is undefined.
-    pub(super) fn value(&self, tape: &Tape, s: f64) -> f64 {
+impl Curve for Line {
+    type Form<'a> = &'a Tape;
+
+    fn same(a: &Tape, b: &Tape) -> bool {
+        std::ptr::eq(a, b)
+    }
+
+    fn ulp(&self) -> f64 {
+        self.ulp
+    }
+
+    fn value(&self, tape: &Tape, s: f64) -> f64 {
         tape.value(self.point(s))
+    }
+
+    fn signs(&self, tape: &Tape, a: &[f64; 8], b: &[f64; 8]) -> [Option<bool>; 8] {
+        signs(&self.bounds(tape, a, b))
     }
 }
 
