@@ -65,6 +65,18 @@ pub(super) struct Piece {
     pub(super) speed: f64,
 }
 
+/// Where on a ray a component is asked for which of its pieces.
+struct Segment {
+    /// The height of the point of the axis from which distances are measured; without one, they are measured from the axis.
+    lift: Option<f64>,
+    low: f64,
+    high: f64,
+    /// See [`Piece::joint`].
+    joint: [f64; 2],
+    /// The error of `w_z`, where there are ends to be told by it.
+    doubt: f64,
+}
+
 /// What a component adds at a point, within an error; and its gradient.
 pub(super) struct Added {
     pub(super) value: f64,
@@ -164,9 +176,9 @@ impl Part {
     pub(super) fn pieces(&self, ray: &Along, charge: &mut f64, mut show: impl FnMut(Piece)) {
         let r = ray.o - self.centre;
         let a = self.turned(ray.d);
-        let all = (-REACH, REACH);
+        let whole = Segment { lift: Some(0.0), low: -REACH, high: REACH, joint: [0.0; 2], doubt: 0.0 };
         if self.length == 0.0 {
-            self.piece(ray, r, a, Some(0.0), all, ([0.0; 2], 0.0), charge, &mut show);
+            self.piece(ray, (r, a), &whole, charge, &mut show);
             return;
         }
         // w_z along the ray, within `doubt` on all of it.
@@ -176,7 +188,7 @@ impl Part {
             + (height.abs() + REACH * rate.abs() + self.length) * (16.0 * U);
         let (low, high) = (-height / rate, (self.length - height) / rate);
         // Where it passes the ends of the axis, in the order of the ray; it may be between them, or beyond one, all along.
-        let within = |s: f64| s.max(-REACH).min(REACH);
+        let within = |s: f64| s.clamp(-REACH, REACH);
         let (enter, leave) = if rate == 0.0 {
             match height {
                 h if h < 0.0 => (REACH, REACH),
@@ -190,13 +202,16 @@ impl Part {
         let joint = |s: f64| if s.abs() < REACH { rate.abs() } else { 0.0 };
         let ends = [joint(enter), joint(leave)];
         if enter > -REACH {
-            self.piece(ray, r, a, Some(first), (-REACH, enter), ([0.0, ends[0]], doubt), charge, &mut show);
+            let before = Segment { lift: Some(first), high: enter, joint: [0.0, ends[0]], doubt, ..whole };
+            self.piece(ray, (r, a), &before, charge, &mut show);
         }
         if leave > enter {
-            self.piece(ray, r, a, None, (enter, leave), (ends, doubt), charge, &mut show);
+            let tube = Segment { lift: None, low: enter, high: leave, joint: ends, doubt };
+            self.piece(ray, (r, a), &tube, charge, &mut show);
         }
         if leave < REACH {
-            self.piece(ray, r, a, Some(last), (leave, REACH), ([ends[1], 0.0], doubt), charge, &mut show);
+            let behind = Segment { lift: Some(last), low: leave, joint: [ends[1], 0.0], doubt, ..whole };
+            self.piece(ray, (r, a), &behind, charge, &mut show);
         }
     }
 
@@ -216,19 +231,17 @@ impl Part {
         self.size * ray.d_err + (self.size_err + self.size * (4.0 * U)) * 2.0 + TINY
     }
 
-    /// One piece, between two parameters: about the point of the axis that is `lift` from its start, or about the axis.
+    /// One piece. `r` is the ray's start as seen from the component, and `a` is `W d`.
     #[inline(always)]
     fn piece(
         &self,
         ray: &Along,
-        r: Vec3,
-        a: Vec3,
-        lift: Option<f64>,
-        (low, high): (f64, f64),
-        (joint, doubt): ([f64; 2], f64),
+        (r, a): (Vec3, Vec3),
+        segment: &Segment,
         charge: &mut f64,
         show: &mut impl FnMut(Piece),
     ) {
+        let &Segment { lift, low, high, joint, doubt } = segment;
         let placed = |w: Vec3| match lift {
             Some(lift) => Vec3::new(w.x, w.y, w.z - lift),
             None => Vec3::new(w.x, w.y, 0.0),

@@ -38,7 +38,7 @@ impl Blob {
                 let added = part.added(y, e);
                 sum.value -= added.value;
                 sum.error += added.error;
-                sum.gradient = sum.gradient - added.gradient;
+                sum.gradient -= added.gradient;
                 sum.gradient_err += added.gradient_err;
                 sum.bend += part.bend;
                 size += added.value.abs();

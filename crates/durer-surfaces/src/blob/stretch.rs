@@ -154,9 +154,9 @@ impl Stretch {
         let (mut value, mut slope) = self.at(x);
         for _ in 0..60 {
             if value * sense > 0.0 {
-                b = x
+                b = x;
             } else {
-                a = x
+                a = x;
             }
             let next = x - value / slope;
             let next = if next > a && next < b { next } else { 0.5 * (a + b) };

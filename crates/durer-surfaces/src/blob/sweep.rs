@@ -11,7 +11,7 @@ use super::tree::{Inner, is_known};
 use crate::roots::quadratic::NARROW;
 use crate::{CentredRay, Flow, Kind, ROUGH, Root, Sink};
 use core::cell::Cell;
-use durer_math::{RaySide, Run, U, Vec3};
+use durer_math::{Isa, RaySide, Run, U, Vec3};
 
 /// A ray in the frame of a blob, in units.
 #[derive(Clone, Copy, Debug)]
@@ -329,7 +329,16 @@ impl Query<'_> {
     }
 
     /// Shows a root, unless it is certainly out of the ray's range.
-    fn show(&mut self, s: f64, (lo, hi): (f64, f64), sign: i8, kind: Kind) -> Flow {
+    #[inline(never)]
+    fn show(&mut self, s: f64, ends: (f64, f64), sign: i8, kind: Kind) -> Flow {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.show_here(s, ends, sign, kind),
+        )
+    }
+
+    #[inline(always)]
+    fn show_here(&mut self, s: f64, (lo, hi): (f64, f64), sign: i8, kind: Kind) -> Flow {
         let (mut lo, hi) = self.at.bracket(lo, hi);
         if self.at.admits(lo, hi) == Some(false) {
             return Flow::Continue;

@@ -86,10 +86,8 @@ impl<const M: usize, const C: usize> Lift<M, C> {
     #[inline(always)]
     pub(super) fn at(&self, p: Vec3) -> [[f64; C]; M] {
         let mut z = self.turned(p);
-        for m in 0..M {
-            for i in 0..C {
-                z[m][i] += self.b[m][i];
-            }
+        for (z, b) in z.iter_mut().flatten().zip(self.b.iter().flatten()) {
+            *z += b;
         }
         z
     }

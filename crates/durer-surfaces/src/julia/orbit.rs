@@ -92,9 +92,9 @@ impl<const C: usize> Ball<C> {
             let slope_rounding = (q_size * v_size) * (20.0 * U);
             self.d.0[k] =
                 2.0 * way.mul_add(v_size + d, q_size.mul_add(d, slope_rounding)) * (1.0 + 32.0 * U) + TINY;
-            for i in 1..C {
+            for (i, c) in c.iter().enumerate().skip(1) {
                 let (q, v) = (self.q[i].0[k], self.v[i].0[k]);
-                self.q[i].0[k] = (2.0 * q0).mul_add(q, c[i]);
+                self.q[i].0[k] = (2.0 * q0).mul_add(q, *c);
                 self.v[i].0[k] = 2.0 * q0.mul_add(v, v0 * q);
             }
             self.q[0].0[k] = q0.mul_add(q0, c[0] - q2);
@@ -129,15 +129,39 @@ impl<const C: usize> Ball<C> {
             let s0 = q0 * q0;
             let factor = 3.0 * s0 - q2;
             let change = 6.0 * q0 * v0 - 2.0 * qv;
-            for i in 1..C {
+            for (i, c) in c.iter().enumerate().skip(1) {
                 let (q, v) = (self.q[i].0[k], self.v[i].0[k]);
-                self.q[i].0[k] = factor.mul_add(q, c[i]);
+                self.q[i].0[k] = factor.mul_add(q, *c);
                 self.v[i].0[k] = factor.mul_add(v, change * q);
             }
             self.q[0].0[k] = q0.mul_add(s0 - 3.0 * q2, c[0]);
             self.v[0].0[k] = (3.0 * (s0 - q2)).mul_add(v0, -6.0 * q0 * qv);
         }
     }
+}
+
+/// Positive where the points are certainly outside: a part of [`tell`].
+#[inline(always)]
+fn outside<const M: usize, const C: usize>(balls: &[Ball<C>; M], radius: f64) -> F8 {
+    let mut out = F8::ZERO;
+    let share = 1.0 / M as f64;
+    for k in 0..8 {
+        let (mut a, mut b, mut c, mut r) = (0.0, 0.0, 0.0, 0.0_f64);
+        for ball in balls {
+            for i in 0..C {
+                let (q, v) = (ball.q[i].0[k], ball.v[i].0[k]);
+                a = q.mul_add(q, a);
+                b = q.mul_add(v, b);
+                c = v.mul_add(v, c);
+            }
+            r = r.max(ball.r.0[k]);
+        }
+        (a, b, c) = (a * share, b * share, c * share);
+        let rounding = (a + 2.0 * b.abs() + c) * (16.0 * U);
+        let (least, over) = (a - 2.0 * b.abs() + c.min(b.abs()), radius + r);
+        out.0[k] = least - rounding - over * over * (1.0 + 8.0 * U);
+    }
+    out
 }
 
 /// What the `n`-th points say of `|z_n|`, as numbers that are positive where something is certain.
@@ -208,12 +232,17 @@ impl<const M: usize, const C: usize> Rule<M, C> {
         let mut known = Known::default();
         let (mut one, mut many, mut rises, mut falls) = (0_u8, 0_u8, 0_u8, 0_u8);
         for n in 0..=self.iterations {
-            let told = tell(&balls, self.radius);
-            known.out |= positive(&told.out);
-            if known.out == u8::MAX {
-                return known;
-            }
-            if !self.escapes || n == self.iterations {
+            if self.escapes && n < self.iterations {
+                known.out |= positive(&outside(&balls, self.radius));
+                if known.out == u8::MAX {
+                    return known;
+                }
+            } else {
+                let told = tell(&balls, self.radius);
+                known.out |= positive(&told.out);
+                if known.out == u8::MAX {
+                    return known;
+                }
                 let open = !(positive(&told.within) | known.out);
                 many |= one & open;
                 one |= open;

@@ -1,10 +1,11 @@
 //! What a Julia set is at a point: on which side it lies, and where the surface is near it.
 
 use super::Solid;
-use super::orbit::{Ball, TINY};
+use super::orbit::{Ball, Rule, TINY};
 use crate::point::least_step;
 use crate::quadric::body::tangents;
 use crate::{LocalPoint, LocalRay, Need, Root, Side, SurfacePoint};
+use core::cmp::Ordering::Less;
 use durer_math::{F8, Isa, Point3, U, Vec3};
 
 impl<const M: usize, const C: usize> Solid<M, C> {
@@ -18,8 +19,8 @@ impl<const M: usize, const C: usize> Solid<M, C> {
                 for k in 0..8 {
                     let z = self.lift.at(points[k]);
                     for (ball, z) in balls.iter_mut().zip(&z) {
-                        for i in 0..C {
-                            ball.q[i].0[k] = z[i];
+                        for (q, z) in ball.q.iter_mut().zip(z) {
+                            q.0[k] = *z;
                         }
                         ball.r.0[k] = self.lift.error(points[k].max_abs(), e[k]) + TINY;
                     }
@@ -56,6 +57,14 @@ impl<const M: usize, const C: usize> Solid<M, C> {
     }
 
     pub(super) fn point(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.point_here(ray, root, need),
+        )
+    }
+
+    #[inline(always)]
+    fn point_here(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         let at = ray.recentre(Point3::ORIGIN, 0);
         let s = root.s;
         let p0 = Vec3::new(at.o.x + s * at.d.x, at.o.y + s * at.d.y, at.o.z + s * at.d.z);
@@ -70,6 +79,12 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         let dp = dp + Vec3::new(slack, slack, slack);
         let (off, plain) = self.leave(p, n);
         let mut point = SurfacePoint::new(p.to_point(), dp, off + slack, n.to_normal());
+        if let Some(shading) = self.next_normal(p)
+            && need.contains(Need::SHADING_NORMAL)
+            && shading.x * n.x + shading.y * n.y + shading.z * n.z > 0.0
+        {
+            point.ns = shading.to_normal();
+        }
         let bend = bend / length * (1.0 + 1.0 / 1024.0);
         (point.bend, point.slack) =
             if plain && bend.is_finite() { (bend, 0.0) } else { (f64::INFINITY, off / 64.0) };
@@ -82,6 +97,22 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         point
     }
 
+    /// The unit normal of the surface that one iteration more would make, at the same point: it shows the finer folds that the surface itself does not have
+    /// yet, and is what POV-Ray shades with.
+    #[inline(never)]
+    fn next_normal(&self, p: Vec3) -> Option<Vec3> {
+        let rule = Rule { iterations: self.rule.iterations + 1, escapes: true, ..self.rule };
+        let (g, _) = Isa::detect().run(
+            #[inline(always)]
+            || rule.gradient(self.lift.at(p), self.lift.axes(), 0.0, self.lift.stretch()),
+        );
+        let g = Vec3::from(g);
+        let size = g.max_abs();
+        let g = g * (1.0 / size);
+        let n = g * (1.0 / (g.x * g.x + g.y * g.y + g.z * g.z).sqrt());
+        n.is_finite().then_some(n)
+    }
+
     /// A point at most `reach` away whose value is nearer to zero, by a few steps of Newton's along the gradient; and the gradient there, with a bound of
     /// the second derivatives around.
     fn nearer(&self, mut p: Vec3, reach: f64) -> (Vec3, Vec3, f64) {
@@ -91,14 +122,15 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         for _ in 0..3 {
             let square = g.x * g.x + g.y * g.y + g.z * g.z;
             let step = g * (-f / square);
-            if !(step.max_abs() <= reach) || f == 0.0 {
+            // What is not a number is no step.
+            if f == 0.0 || step.max_abs().partial_cmp(&reach) != Some(Less) {
                 break;
             }
             let there = self.near(p + step, AROUND);
-            if !(there.0.abs() < f.abs()) {
+            if there.0.abs().partial_cmp(&f.abs()) != Some(Less) {
                 break;
             }
-            p = p + step;
+            p += step;
             (f, g, bend) = there;
         }
         (p, g, bend)

@@ -4,7 +4,7 @@ use super::Solid;
 use super::lift::Line;
 use crate::implicit::{Curve, Found, Tracker, Verdict};
 use crate::{CentredRay, Flow, LocalRay, Root, Sink};
-use durer_math::{Point3, RaySide};
+use durer_math::{Isa, Point3, RaySide};
 
 /// After so many looks at eight stretches for one ray what is left counts as murky: the work for a ray is bounded.
 const MOST_PASSES: u32 = 20_000;
@@ -23,6 +23,14 @@ struct Query<'a, const M: usize, const C: usize> {
 impl<const M: usize, const C: usize> Solid<M, C> {
     /// Shows all roots to `sink`, ascending.
     pub(super) fn roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.roots_here(ray, sink),
+        );
+    }
+
+    #[inline(always)]
+    fn roots_here(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         let at = ray.recentre(Point3::ORIGIN, 0);
         let Some((first, last)) = self.stretch(&at) else { return };
         let (from, to) = at.window((ray.t_min, ray.t_max.min(sink.limit())));
@@ -49,6 +57,7 @@ impl<const M: usize, const C: usize> Solid<M, C> {
     }
 
     /// The part of a ray within the ball that holds the solid; all of it that can be if the ray is not well known.
+    #[inline(always)]
     fn stretch(&self, at: &CentredRay<'_>) -> Option<(f64, f64)> {
         let (mid, half) =
             crate::zero_set::ball_and_slab(at, self.radius, (0.0, 0.0), (-1.0, 1.0), super::ROOM / 2.0)?;
@@ -138,7 +147,16 @@ impl<const M: usize, const C: usize> Query<'_, M, C> {
     }
 
     /// Shows a root, unless it is certainly out of the ray's range.
+    #[inline(never)]
     fn show(&mut self, found: &Found) -> Flow {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.show_here(found),
+        )
+    }
+
+    #[inline(always)]
+    fn show_here(&mut self, found: &Found) -> Flow {
         let (mut lo, hi) = self.at.bracket(found.lo.next_down(), found.hi.next_up());
         if self.at.admits(lo, hi) == Some(false) {
             return Flow::Continue;
