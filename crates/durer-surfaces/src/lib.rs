@@ -44,6 +44,7 @@ pub use crate::axis_box::{AxisBox, AxisBoxError};
 pub use crate::blob::{Blob, BlobComponent, BlobError, BlobShape};
 pub use crate::compose::affine::Placed;
 pub use crate::compose::clip::{Algebraic, Clip, Region, RegionError};
+pub use crate::compose::erased::Erased;
 pub use crate::compose::inverse::Inverse;
 pub use crate::disc::{Disc, DiscError};
 pub use crate::implicit::{Container, Isosurface, IsosurfaceError, SuperellipsoidError, superellipsoid};
