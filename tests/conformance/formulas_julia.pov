@@ -1,4 +1,4 @@
-// Julia sets: quaternions squared and cubed, hypercomplex numbers squared, a slanted slice.
+// Julia sets: quaternions squared and cubed, hypercomplex numbers squared, a slice beside the origin.
 #version 3.7;
 global_settings { assumed_gamma 1 }
 camera { location <0, 2.5, -9> look_at <0, 0, 0> angle 42 right x*image_width/image_height }
@@ -19,7 +19,7 @@ julia_fractal {
   quaternion cube
   max_iteration 4
   precision 400
-  slice <0.2, 0.1, 0, 1>, 0.1
+  slice <0, 0, 0, 1>, 0.1
   pigment { rgb <0.4, 0.7, 0.4> }
   rotate <30, 0, 20> translate <0.1, 0, -0.5>
 }
