@@ -14,6 +14,20 @@ pub(crate) trait Curve {
     fn value(&self, form: Self::Form<'_>, s: f64) -> f64;
     /// The one sign (up is `true`) on each of eight stretches, if it is certain; `None` also where `g` may be undefined.
     fn signs(&self, form: Self::Form<'_>, a: &[f64; 8], b: &[f64; 8]) -> [Option<bool>; 8];
+    /// Whether one is so much shorter than the other that it is worth another look.
+    fn is_shorter(_form: Self::Form<'_>, _than: Self::Form<'_>) -> bool {
+        false
+    }
+    /// The root of a monotone `g` between two numbers in a bracket about as wide as `first`, if there is a quicker way to it than one value after another.
+    fn closed_in(
+        &self,
+        _form: Self::Form<'_>,
+        _ends: (f64, f64),
+        _rises: bool,
+        _first: f64,
+    ) -> Option<(f64, f64, f64)> {
+        None
+    }
     /// The sign at `s`, if it is certain.
     fn sign(&self, form: Self::Form<'_>, s: f64) -> Option<bool> {
         self.signs(form, &[s; 8], &[s; 8])[0]
@@ -101,12 +115,22 @@ impl<'a, C: Curve> Tracker<'a, C> {
             self.run = Some(Run { lo: a, hi: b, rises, form });
             return None;
         };
-        let form = if C::same(run.form, form) { form } else { self.whole };
-        if run.rises == rises {
+        let same = C::same(run.form, form);
+        // Where the form of all of the container is much longer, one look at the border saves many at that.
+        let worth = !same && C::is_shorter(form, self.whole);
+        let own = form;
+        let form = if same { form } else { self.whole };
+        if run.rises == rises && !(worth && rises.is_some()) {
             (run.hi, run.form) = (b, form);
             return None;
         }
-        if let Some(sign) = self.line.sign(self.whole, a) {
+        let border = if worth { self.line.sign(own, a) } else { None };
+        if run.rises == rises && border.is_none() {
+            (run.hi, run.form) = (b, form);
+            return None;
+        }
+        let form = if border.is_some() { own } else { form };
+        if let Some(sign) = border.or_else(|| self.line.sign(self.whole, a)) {
             let found = self.close(Some(sign));
             self.before = Some(sign);
             self.run = Some(Run { lo: a, hi: b, rises, form });
@@ -169,9 +193,12 @@ fn polished<C: Curve>(
     let sense = if rises { 1.0 } else { -1.0 };
     let g = |s: f64| sense * line.value(form, s);
     let widest = if rough { ROUGH * (line.ulp() / f64::EPSILON) * 0.25 } else { line.ulp() };
-    let s = guess(g, lo, hi, 0.125 * widest);
     // Steps on both sides: how far must one go for certain signs?
     let first = if rough { 0.03125 * widest } else { 2.0 * widest };
+    if rough && let Some(found) = line.closed_in(form, (lo, hi), rises, first) {
+        return found;
+    }
+    let s = guess(g, lo, hi, 0.125 * widest);
     let steps = [first, 8.0 * first, 64.0 * first, 512.0 * first];
     let at: [f64; 8] = core::array::from_fn(|i| if i < 4 { s - steps[i] } else { s + steps[i - 4] });
     let sign = line.signs(form, &at, &at);
@@ -185,6 +212,30 @@ fn polished<C: Curve>(
     let (a, b) = (left.unwrap_or(a), right.unwrap_or(b));
     let (a, b) = if a <= b { (a, b) } else { (lo, hi) };
     (s.max(a).min(b), a, b)
+}
+
+/// Where `g` is zero, by the polynomial of degree three of its inverse through the four places around there (E. H. Neville's scheme), and how far from those of degree
+/// two that is. `None` where the values do not rise, or there is no zero between.
+pub(super) fn interpolated(at: &[f64; 8], g: &[f64; 8]) -> Option<(f64, f64)> {
+    let above = g.iter().position(|&g| g > 0.0).filter(|&above| above > 0)?;
+    let first = above.saturating_sub(2).min(4);
+    let mut s: [f64; 4] = core::array::from_fn(|i| at[first + i]);
+    let mut lower = [0.0; 2];
+    for k in 1..4 {
+        if k == 3 {
+            lower = [s[0], s[1]];
+        }
+        for i in 0..4 - k {
+            let (a, b) = (g[first + i], g[first + i + k]);
+            let rises = a < b;
+            if !rises {
+                return None;
+            }
+            s[i] = (s[i] * b - s[i + 1] * a) / (b - a);
+        }
+    }
+    let between = s[0] >= at[above - 1] && s[0] <= at[above];
+    between.then(|| (s[0], (s[0] - lower[0]).abs().max((s[0] - lower[1]).abs())))
 }
 
 /// A root of `g`, which rises, in `[lo, hi]`, as well as f64 knows it: false position that halves the weight of an end that stays (M. Dowell, P.
