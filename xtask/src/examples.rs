@@ -22,6 +22,15 @@ const SIZE: (u32, u32) = (320, 240);
 /// A scene with more replacements than this is not the scene any more.
 const MOST_REPLACED: usize = 40;
 
+/// Why pictures differ, where that is known.
+const NOTES: [(&str, &str); 2] = [
+    (
+        "quartic/hyptorus",
+        "`bounded_by` promises that nothing lies outside of a ball, which this surface leaves. POV-Ray does not look outside; durer draws all of it.",
+    ),
+    ("fractal", "What durer draws as a Julia set is stated in [language.md](language.md)."),
+];
+
 /// What became of a scene.
 struct Row {
     name: String,
@@ -209,6 +218,9 @@ fn document(rows: &[Row], version: &str) -> String {
     for row in rows.iter().filter(|r| r.outcome.as_ref().is_ok_and(|d| !d.passes())) {
         let path = PathBuf::from("examples").join(format!("{}.png", row.name.replace('/', "_")));
         let _ = write!(text, "\n## {}\n\n![durer, POV-Ray, difference]({})\n", row.name, path.display());
+        if let Some((_, note)) = NOTES.iter().find(|(start, _)| row.name.starts_with(start)) {
+            let _ = write!(text, "\n{note}\n");
+        }
     }
     text
 }
