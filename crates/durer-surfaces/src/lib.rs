@@ -5,6 +5,7 @@ pub mod algebraic;
 pub mod annulus;
 pub mod axis_box;
 pub mod compose;
+pub mod cyclide;
 pub mod disc;
 mod edges;
 mod facet;
@@ -42,7 +43,10 @@ pub use crate::axis_box::{AxisBox, AxisBoxError};
 pub use crate::compose::affine::Placed;
 pub use crate::compose::clip::{Algebraic, Clip, Region, RegionError};
 pub use crate::compose::inverse::Inverse;
+pub use crate::cyclide::{Cyclide, CyclideError};
 pub use crate::disc::{Disc, DiscError};
+pub use crate::implicit::deform::{DeformError, Warp};
+pub use crate::implicit::level_set::LevelSet;
 pub use crate::implicit::{
     BlobComponent, BlobError, BlobShape, Container, Isosurface, IsosurfaceError, Julia, JuliaAlgebra,
     JuliaError, JuliaPower, SuperellipsoidError, blob, julia, superellipsoid,

@@ -62,8 +62,8 @@ pub enum BlobError {
     Surface(#[from] IsosurfaceError),
 }
 
-/// The solid in which the fields of `components` add up to more than `threshold`.
-pub fn blob(threshold: f64, components: &[BlobComponent]) -> Result<Isosurface, BlobError> {
+/// Where the solid is, and minus its field, if all numbers are in order.
+pub(super) fn checked(threshold: f64, components: &[BlobComponent]) -> Result<(Aabb, Formula), BlobError> {
     if !(threshold > 0.0 && threshold.is_finite()) {
         return Err(BlobError::Threshold(threshold));
     }
@@ -80,8 +80,14 @@ pub fn blob(threshold: f64, components: &[BlobComponent]) -> Result<Isosurface, 
     if bounds.is_empty() {
         return Err(BlobError::Nothing);
     }
-    let held = AxisBox::new(bounds.min, bounds.max)?;
     let formula = missing(components).map_err(IsosurfaceError::from)?;
+    Ok((bounds, formula))
+}
+
+/// The solid in which the fields of `components` add up to more than `threshold`.
+pub fn blob(threshold: f64, components: &[BlobComponent]) -> Result<Isosurface, BlobError> {
+    let (bounds, formula) = checked(threshold, components)?;
+    let held = AxisBox::new(bounds.min, bounds.max)?;
     Ok(Isosurface::new(&formula, -threshold, Container::Box(held))?)
 }
 

@@ -16,8 +16,10 @@
 mod blob;
 mod cells;
 mod container;
+pub mod deform;
 mod isolate;
 mod julia;
+pub mod level_set;
 mod line;
 mod point;
 mod roots;
@@ -63,6 +65,9 @@ pub enum IsosurfaceError {
     /// The formula is too long.
     #[error("isosurface: {0}")]
     Formula(#[from] FormulaError),
+    /// Its container is none.
+    #[error("isosurface: {0}")]
+    Container(#[from] crate::AxisBoxError),
 }
 
 impl Isosurface {

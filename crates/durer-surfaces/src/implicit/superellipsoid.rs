@@ -39,14 +39,19 @@ pub enum SuperellipsoidError {
 
 /// The solid superellipsoid of the exponents `e` and `n`, within the cube from -1 to 1.
 pub fn superellipsoid(e: f64, n: f64) -> Result<Isosurface, SuperellipsoidError> {
+    let formula = checked(e, n)?;
+    let held = AxisBox::new(Point3::new(-HALF, -HALF, -HALF), Point3::new(HALF, HALF, HALF))?;
+    Ok(Isosurface::new(&formula, 1.0, Container::Box(held))?)
+}
+
+/// The left side of the equation, if the exponents are in range.
+pub(super) fn checked(e: f64, n: f64) -> Result<Formula, SuperellipsoidError> {
     for exponent in [e, n] {
         if !(1e-9..=1e9).contains(&exponent) {
             return Err(SuperellipsoidError::Exponent(exponent));
         }
     }
-    let formula = formula(e, n).map_err(IsosurfaceError::from)?;
-    let held = AxisBox::new(Point3::new(-HALF, -HALF, -HALF), Point3::new(HALF, HALF, HALF))?;
-    Ok(Isosurface::new(&formula, 1.0, Container::Box(held))?)
+    Ok(formula(e, n).map_err(IsosurfaceError::from)?)
 }
 
 /// The left side of the equation.
