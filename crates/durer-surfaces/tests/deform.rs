@@ -749,3 +749,43 @@ fn nothing_stays_nothing() {
     assert!(deformed(&both, core::slice::from_ref(&twist)).surface().unwrap().is_some());
     assert!(deformed(&none, &[twist]).surface().unwrap().is_none());
 }
+
+#[test]
+fn coincident_faces_leave_no_skin() {
+    let block = |low: [f64; 3], high: [f64; 3]| {
+        let (a, b) = (Point3::from(low), Point3::from(high));
+        LevelSet::new(leaves::cuboid(a, b).unwrap(), Aabb::new(a, b))
+    };
+    let twist = Warp::Twist { axis: Vec3::Y, degrees: 50.0, from: 0.0, to: 1.0 };
+    let whole = block([-0.5, 0.0, -0.5], [0.5, 1.0, 0.5]);
+    // Two halves, and the whole without its upper half: coincident faces within and on top.
+    let (low, high) = (block([-0.5, 0.0, -0.5], [0.5, 0.5, 0.5]), block([-0.5, 0.5, -0.5], [0.5, 1.0, 0.5]));
+    let both = LevelSet::union(&[low.clone(), high.clone()]).unwrap();
+    let rest = LevelSet::intersection(&[whole.clone(), high.complement().unwrap()]).unwrap();
+    let mut dice = Dice(37);
+    for (made, same_as) in [(both, whole), (rest, low)] {
+        let [made, same_as] =
+            [made, same_as].map(|solid| surface(&deformed(&solid, core::slice::from_ref(&twist))));
+        let mut met = 0;
+        for _ in 0..1000 {
+            let ray = ray_at(&mut dice, &Surface::bounds(&same_as));
+            let (a, b) = (all(&made, &ray), all(&same_as, &ray));
+            let overlap = |(a, b): (&Root, &Root)| a.lo <= b.hi && b.lo <= a.hi && a.sign == b.sign;
+            // Touches of edges are told in some formulas only.
+            let b: Vec<Root> = b.into_iter().filter(|r| r.sign != 0).collect();
+            assert!(a.len() == b.len() && a.iter().zip(&b).all(overlap), "{ray:?}\n {a:?}\n {b:?}");
+            met += a.len();
+        }
+        assert!(met > 800, "{met}");
+    }
+}
+
+#[test]
+fn a_formulas_box_gives_an_end() {
+    let ground = LevelSet::new(leaves::half_space(Vec3::Y, 0.0).unwrap(), Aabb::UNBOUNDED);
+    let waves = surface(&ground.deformed(&wave()).unwrap());
+    let down = Ray::new(Point3::new(0.25, 5.0, 0.5), -Vec3::Y);
+    let roots = all(&waves, &down);
+    let height = 0.125 * durer_math::elementary::sin(0.75);
+    assert!(roots.len() == 2 && (roots[0].t - (5.0 - height)).abs() < 1e-14, "{roots:?}");
+}

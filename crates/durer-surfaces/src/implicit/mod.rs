@@ -50,6 +50,8 @@ pub struct Isosurface {
     tape: Tape,
     container: Container,
     open: bool,
+    /// What the surface only touches is none of it: see [`Isosurface::regular`].
+    regular: bool,
     cells: Arc<Cells>,
 }
 
@@ -86,7 +88,7 @@ impl Isosurface {
         let level = builder.push(Op::Sub(value, threshold))?;
         let tape = Tape::new(&builder.finish(level, 3));
         let cells = Arc::new(Cells::new(&tape, container.bounds()));
-        Ok(Self { tape, container, open: false, cells })
+        Ok(Self { tape, container, open: false, regular: false, cells })
     }
 
     /// A tape that is right within `reach` of `p` along each axis: a cell's own, if it can be.
@@ -101,6 +103,15 @@ impl Isosurface {
     #[must_use]
     pub fn without_caps(mut self) -> Self {
         self.open = true;
+        self
+    }
+
+    /// The same solid without its touches: where a ray certainly is on one side before and behind, it has not crossed. A solid of solids as one formula
+    /// has zeros where two of its parts' faces coincide, which are no surface of it (R. B. Tilove, A. A. G. Requicha, "Closure of Boolean operations on
+    /// geometric entities", *Computer-Aided Design* 12(5), 1980: the regularised one). Rays tangent to it within rounding do not meet it either.
+    #[must_use]
+    pub fn regular(mut self) -> Self {
+        self.regular = true;
         self
     }
 

@@ -201,6 +201,9 @@ impl Query<'_> {
 
     /// Shows a root, unless it is certainly out of the ray's range.
     fn found(&mut self, found: &Found) -> Flow {
+        if self.surface.regular && found.touches {
+            return Flow::Continue;
+        }
         let (mut lo, hi) = self.at.bracket(found.lo.next_down(), found.hi.next_up());
         if self.at.admits(lo, hi) == Some(false) {
             return Flow::Continue;

@@ -26,6 +26,8 @@ pub(super) struct Found {
     /// +1 where `g` goes from below to above, -1 the other way, 0 where it returns to its side.
     pub(super) sign: i8,
     pub(super) kind: Kind,
+    /// `g` certainly has the same sign before and behind.
+    pub(super) touches: bool,
 }
 
 /// A run of stretches in which there may be a root.
@@ -126,7 +128,7 @@ impl<'a> Tracker<'a> {
                 let (s, lo, hi) = polished(self.line, run.tape, run.lo, run.hi, rises, self.rough);
                 // Where one sign is not known the root may lie on an end, or just not be there: it cannot be disproved.
                 let kind = if before.is_some() && after.is_some() { Kind::Simple } else { Kind::Cluster };
-                Some(Found { s, lo, hi, sign: if rises { 1 } else { -1 }, kind })
+                Some(Found { s, lo, hi, sign: if rises { 1 } else { -1 }, kind, touches: false })
             }
             (None, before, after) => {
                 let sign = match (before, after) {
@@ -135,7 +137,8 @@ impl<'a> Tracker<'a> {
                     _ => 0,
                 };
                 let s = (0.5 * run.lo + 0.5 * run.hi).max(run.lo).min(run.hi);
-                Some(Found { s, lo: run.lo, hi: run.hi, sign, kind: Kind::Cluster })
+                let touches = before.is_some() && before == after;
+                Some(Found { s, lo: run.lo, hi: run.hi, sign, kind: Kind::Cluster, touches })
             }
         }
     }

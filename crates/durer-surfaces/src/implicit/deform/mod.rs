@@ -77,7 +77,7 @@ pub enum Warp {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DeformError {
     /// The solid has no end.
-    #[error("deform: this solid has no end; only what a box holds can be deformed: intersect it with one")]
+    #[error("deform: this solid has no end; only what a box holds can be deformed so: intersect it with one")]
     Unbounded,
     /// The axis has no direction.
     #[error("{warp}: the axis must be finite and not zero, got <{}, {}, {}>", .axis.x, .axis.y, .axis.z)]
@@ -168,7 +168,8 @@ struct Stretch {
 impl LevelSet {
     /// The solid that a map makes of this one.
     pub fn deformed(&self, warp: &Warp) -> Result<Self, DeformError> {
-        if !self.bounds().is_bounded() && !self.bounds().is_empty() {
+        let bounded = self.bounds().is_bounded() || self.bounds().is_empty();
+        if !bounded && !matches!(warp, Warp::Inverse { .. }) {
             return Err(DeformError::Unbounded);
         }
         match *warp {
@@ -224,7 +225,7 @@ impl LevelSet {
             let outside = pen.number(1.0)?;
             f = pen.select(nothing, outside, f)?;
         }
-        Ok(Self::new(pen.done(f), bounds))
+        Ok(self.rewritten(pen.done(f), bounds))
     }
 }
 

@@ -26,6 +26,8 @@ const DEPTH: u32 = 4;
 pub struct LevelSet {
     formula: Formula,
     bounds: Aabb,
+    /// It is made of several, whose faces may coincide.
+    combined: bool,
 }
 
 impl LevelSet {
@@ -36,7 +38,7 @@ impl LevelSet {
     /// If the formula does not take three numbers.
     pub fn new(formula: Formula, bounds: Aabb) -> Self {
         assert_eq!(formula.inputs(), 3, "a level set is a function of x, y and z");
-        Self { formula, bounds }
+        Self { formula, bounds, combined: false }
     }
 
     /// The formula.
@@ -58,7 +60,12 @@ impl LevelSet {
         let (mut pen, p) = Pen::new()?;
         let q = inverse(&mut pen, p)?;
         let f = pen.call(&self.formula, q)?;
-        Ok(Self { formula: pen.done(f), bounds })
+        Ok(Self { formula: pen.done(f), bounds, combined: self.combined })
+    }
+
+    /// The same in another formula.
+    pub(crate) fn rewritten(&self, formula: Formula, bounds: Aabb) -> Self {
+        Self { formula, bounds, ..*self }
     }
 
     /// The solid that `place` makes of this one.
@@ -69,7 +76,7 @@ impl LevelSet {
     /// The same if a tighter box is known.
     pub fn placed_within(&self, place: &Affine, bounds: Aabb) -> Result<Self, FormulaError> {
         if *place == Affine::IDENTITY {
-            return Ok(Self { formula: self.formula.clone(), bounds });
+            return Ok(Self { bounds, ..self.clone() });
         }
         self.pulled_back(bounds, |pen, p| pen.undone(p, place))
     }
@@ -91,7 +98,7 @@ impl LevelSet {
         let (mut pen, p) = Pen::new()?;
         let f = pen.call(&self.formula, p)?;
         let f = pen.neg(f)?;
-        Ok(Self { formula: pen.done(f), bounds: Aabb::UNBOUNDED })
+        Ok(Self { formula: pen.done(f), bounds: Aabb::UNBOUNDED, combined: self.combined })
     }
 
     fn joined(
@@ -113,7 +120,8 @@ impl LevelSet {
             Some(f) => f,
             None => pen.number(of_none)?,
         };
-        Ok(Self { formula: pen.done(f), bounds })
+        let combined = parts.len() > 1 || parts.iter().any(|part| part.combined);
+        Ok(Self { formula: pen.done(f), bounds, combined })
     }
 
     /// Boxes that provably hold all of it, small ones if that helps. Its own box must be bounded.
@@ -132,7 +140,7 @@ impl LevelSet {
         cells
     }
 
-    /// Its surface; `None` if it is certainly empty. Its box must be bounded.
+    /// Its surface, without skins where faces of its parts coincide; `None` if it is certainly empty. Its box must be bounded.
     pub fn surface(&self) -> Result<Option<Isosurface>, IsosurfaceError> {
         let bounds = self.cells().iter().fold(Aabb::EMPTY, |all, cell| all.union(*cell));
         if bounds.is_empty() {
@@ -141,7 +149,8 @@ impl LevelSet {
         let room = bounds.widths().max_abs() * ROOM + f64::MIN_POSITIVE;
         let held = bounds.expanded(Vec3::new(room, room, room));
         let held = AxisBox::new(held.min, held.max)?;
-        Ok(Some(Isosurface::new(&self.formula, 0.0, Container::Box(held))?))
+        let surface = Isosurface::new(&self.formula, 0.0, Container::Box(held))?;
+        Ok(Some(if self.combined { surface.regular() } else { surface }))
     }
 }
 
