@@ -2,7 +2,7 @@
 //
 // Equation: (x^2 + y^2 + z^2 - b^2 - d^2)^2 + 4 b^2 y^2 = 4 (a d - c x)^2, b^2 = a^2 - c^2
 //
-// A ring, thick on one side; a horn, whose two crescents meet in two points; a spindle cut open: C. Dupin's surfaces, all of whose lines of curvature are circles.
+// Two rings, thick on one side; a horn, whose two crescents meet in two points; a spindle cut open: C. Dupin's surfaces, all of whose lines of curvature are circles.
 
 #include "stage.inc"
 cyclide { 0.62, 0.2, 0.27 texture { Gold } rotate x*-80 rotate y*-20 translate <-0.75, 0.98, 0.75> }

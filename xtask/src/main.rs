@@ -3,15 +3,18 @@
 //! - `test`: what must pass before a change goes in ([`checks`]);
 //! - `conformance`: our pictures beside POV-Ray's, and what each cost ([`conformance`]);
 //! - `gallery`: the pictures and pages of docs/gallery.md ([`gallery`]);
+//! - `examples`: the scenes that come with POV-Ray, beside its pictures ([`examples`]);
 //! - `fused`: which compiled code calls `fma` where it should be one instruction ([`fused`]).
 //!
 //! Everything here drives the programs a user has: cargo, the `durer` command built for release, and `povray`.
 #![forbid(unsafe_code)]
 
+mod blocks;
 mod checks;
 mod command;
 mod compare;
 mod conformance;
+mod examples;
 mod fused;
 mod gallery;
 mod picture;
@@ -28,6 +31,7 @@ usage: cargo xtask NAME
   conformance [--check] [SCENE]..  renders tests/conformance with durer and with POV-Ray, compares, times, and
                                    writes docs/conformance.md; --check only compares, SCENEs limit it to a few
   gallery [SCENE]..                renders scenes/ into docs/gallery and writes docs/gallery.md
+  examples [SCENE]..               compares the scenes that come with POV-Ray and writes docs/examples.md
   fused [BINARY]                   lists compiled code that calls fma where it should be one instruction";
 
 /// What a chore comes to: nothing to say, or the reason why it failed.
@@ -38,6 +42,7 @@ fn main() -> ExitCode {
     let outcome = match words.split_first() {
         Some((name, [])) if name == "test" => checks::run(),
         Some((name, rest)) if name == "conformance" => conformance::run(rest),
+        Some((name, rest)) if name == "examples" => examples::run(rest),
         Some((name, rest)) if name == "fused" => fused::run(rest),
         Some((name, rest)) if name == "gallery" => gallery::run(rest),
         _ => {

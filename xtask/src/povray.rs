@@ -26,10 +26,22 @@ impl Povray {
 
     /// Renders `scene` into `picture` with 8 bits per channel, on one thread.
     pub(crate) fn render(&self, scene: &Path, picture: &Path, shot: Shot<'_>) -> Outcome {
+        self.render_with(scene, picture, shot, scene.parent().unwrap_or(scene))
+    }
+
+    /// The same with a folder to search for included files.
+    pub(crate) fn render_with(
+        &self,
+        scene: &Path,
+        picture: &Path,
+        shot: Shot<'_>,
+        library: &Path,
+    ) -> Outcome {
         assert_eq!(shot.aa, "off", "pictures are compared without anti-aliasing only");
         let output = Command::new("povray")
             .arg(format!("+I{}", scene.display()))
             .arg(format!("+O{}", picture.display()))
+            .arg(format!("+L{}", library.display()))
             .args([format!("+W{}", shot.width), format!("+H{}", shot.height)])
             .args(["+FN8", "-A", "-D", "-P", "Work_Threads=1"])
             .stdin(Stdio::null())

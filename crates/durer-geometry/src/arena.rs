@@ -73,8 +73,8 @@ pub(crate) trait AnyArena: Send + Sync {
     fn name(&self, slot: u32) -> Id;
     /// The object of a surface.
     fn object_of(&self, surface: u32) -> u32;
-    /// Whether slots are parts of surfaces.
-    fn is_in_parts(&self) -> bool;
+    /// The surface of which a slot is all, if it is not a part of one.
+    fn whole(&self, slot: u32) -> Option<u32>;
     /// Solids of several parts, with their boxes.
     fn solids_in_parts(&self) -> Vec<(u32, Aabb)>;
     /// The type's name.
@@ -133,6 +133,8 @@ impl Unsorted {
 struct PartRef {
     surface: u32,
     part: u32,
+    /// The surface has no other part.
+    whole: bool,
 }
 
 /// All surfaces of one type.
@@ -190,11 +192,11 @@ impl<S: Surface + 'static> Arena<S> {
     #[inline(always)]
     fn slot(&self, slot: u32) -> Slot<'_, S> {
         // An arena without parts keeps no list of them: slot and surface are the same number.
-        let (index, part) = match self.placed.get(slot as usize) {
-            Some(p) => (p.surface as usize, PartId(p.part)),
-            None => (slot as usize, PartId(0)),
+        let (index, part, whole) = match self.placed.get(slot as usize) {
+            Some(p) => (p.surface as usize, PartId(p.part), p.whole),
+            None => (slot as usize, PartId(0), true),
         };
-        Slot { arena: self, surface: &self.surfaces[index], index, slot, part }
+        Slot { arena: self, surface: &self.surfaces[index], index, slot, part, whole }
     }
 
     fn slot_boxes(&self) -> impl IndexedParallelIterator<Item = Aabb> {
@@ -213,6 +215,7 @@ struct Slot<'a, S> {
     index: usize,
     slot: u32,
     part: PartId,
+    whole: bool,
 }
 
 impl<S: Surface> Slot<'_, S> {
@@ -225,11 +228,11 @@ impl<S: Surface> Slot<'_, S> {
         );
     }
 
-    /// The name: each part of a surface is a primitive of its own.
+    /// The name: parts of a surface may be primitives of their own.
     #[inline(always)]
     fn name(&self) -> Id {
         let id = self.arena.ids.name(self.index);
-        Id { primitive: id.primitive.wrapping_add(self.part.0), ..id }
+        Id { primitive: id.primitive.wrapping_add(self.surface.primitive_of(self.part)), ..id }
     }
 }
 
@@ -364,7 +367,7 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
                     Flow::Continue
                 };
                 slot.show(isa, ray, &mut Forward { slot: slot.slot, name, ray, visit, flow });
-                if !self.is_in_parts() && tracks.len() == before {
+                if slot.whole && tracks.len() == before {
                     tracks.start(slot.index as u32, starts_inside(slot.surface, ray, start));
                 }
             }
@@ -404,10 +407,10 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
     }
 
     fn drawn(&self, slot: u32) -> Drawn {
-        let Slot { surface, part, .. } = self.slot(slot);
+        let Slot { surface, part, whole, .. } = self.slot(slot);
         let sketch = surface.sketch(part);
         // The surface's own box is the tighter one, unless this is a small part of it.
-        let bounds = if self.is_in_parts() { sketch.bounds() } else { surface.bounds() };
+        let bounds = if whole { surface.bounds() } else { sketch.bounds() };
         Drawn { seen: Seen::of(&sketch), bounds }
     }
 
@@ -427,16 +430,17 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
         self.ids.name(surface as usize).object
     }
 
-    fn is_in_parts(&self) -> bool {
-        !self.placed.is_empty()
+    fn whole(&self, slot: u32) -> Option<u32> {
+        let slot = self.slot(slot);
+        slot.whole.then_some(slot.index as u32)
     }
 
     fn solids_in_parts(&self) -> Vec<(u32, Aabb)> {
-        if self.placed.is_empty() {
-            return Vec::new();
-        }
-        let solid = |(_, s): &(usize, &S)| s.solidity() == Solidity::Solid;
-        self.surfaces.iter().enumerate().filter(solid).map(|(i, s)| (i as u32, s.bounds())).collect()
+        let mut surfaces: Vec<u32> = self.placed.iter().filter(|p| !p.whole).map(|p| p.surface).collect();
+        surfaces.sort_unstable();
+        surfaces.dedup();
+        let solid = |i: &u32| self.surfaces[*i as usize].solidity() == Solidity::Solid;
+        surfaces.into_iter().filter(solid).map(|i| (i, self.surfaces[i as usize].bounds())).collect()
     }
 
     fn type_name(&self) -> &'static str {
@@ -522,21 +526,16 @@ impl<S: Surface + 'static> Arrange for Arena<S> {
     fn seal(&mut self) {
         self.surfaces.shrink_to_fit();
         self.ids.shrink();
-        let simple = |s: &S| {
-            let (mut count, mut first) = (0, true);
-            s.parts(&mut |_, part| {
-                count += 1;
-                first &= part == PartId(0);
-            });
-            count == 1 && first
-        };
-        if self.surfaces.par_iter().all(simple) {
+        if !self.surfaces.iter().any(Surface::is_in_parts) {
             return;
         }
         let mut parts = Vec::new();
         for (i, s) in self.surfaces.iter().enumerate() {
-            let surface = i as u32;
-            s.parts(&mut |bounds, part| parts.push((PartRef { surface, part: part.0 }, bounds)));
+            let (surface, whole, first) = (i as u32, false, parts.len());
+            s.parts(&mut |bounds, part| parts.push((PartRef { surface, part: part.0, whole }, bounds)));
+            if let [(part, _)] = &mut parts[first..] {
+                part.whole = true;
+            }
         }
         self.parts = Some(parts);
     }

@@ -89,7 +89,7 @@ impl Geometry {
             }
             let arena = &self.arenas[leaf.kind as usize];
             // The inside of a solid in parts is in no part's box.
-            !arena.is_in_parts() && slots(&leaf).any(|slot| learn(arena.side(slot, point)))
+            slots(&leaf).filter_map(|slot| arena.whole(slot)).any(|surface| learn(arena.side(surface, point)))
         };
         let done = self.beside.iter().any(|b| test(b.leaf()))
             || self.tree.containing(point.p, point.p_err, &mut test);

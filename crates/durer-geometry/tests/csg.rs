@@ -8,7 +8,8 @@ use durer_geometry::{Compound, CompoundBuilder, Geometry, Part};
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::laws::exact::{Crossing, Exact, ExactBody, ExactForm, Line, Oracle, Surd, exact3};
 use durer_surfaces::{
-    AxisBox, CappedCylinder, Ellipsoid, Inverse, Kind, LocalPoint, Placed, Plane, Quadric, Side, Sphere,
+    AxisBox, CappedCylinder, Ellipsoid, Erased, Inverse, Kind, LocalPoint, Placed, Plane, Quadric, Side,
+    Sphere,
 };
 
 /// A solid with its witness.
@@ -83,36 +84,28 @@ impl Leaf {
     }
 
     fn add(&self, csg: &mut CompoundBuilder) -> Part {
-        let mut rod_end = Point3::ORIGIN;
-        if let Leaf::Rod(c, axis, length, _) = self {
-            rod_end = *c;
-            rod_end[*axis] += length;
-        }
+        // Two arrays of leaves, one for balls and one for all else.
         match self {
             Leaf::Ball(c, r) => csg.leaf(Sphere::new(*c, *r).unwrap()),
-            Leaf::Block(a, b) => csg.leaf(AxisBox::new(*a, *b).unwrap()),
-            Leaf::Half(n, d) => csg.leaf(Plane::new(*n, *d).unwrap()),
-            Leaf::Rod(c, _, _, r) => csg.leaf(CappedCylinder::new(*c, rod_end, *r).unwrap()),
-            Leaf::General(k) => csg.leaf(Quadric::new(*k).unwrap()),
-            Leaf::Moved(leaf, map) => match &**leaf {
-                Leaf::Ball(c, r) => csg.leaf(Placed::new(Sphere::new(*c, *r).unwrap(), *map)),
-                Leaf::Block(a, b) => csg.leaf(Placed::new(AxisBox::new(*a, *b).unwrap(), *map)),
-                Leaf::Half(n, d) => csg.leaf(Placed::new(Plane::new(*n, *d).unwrap(), *map)),
-                Leaf::Rod(c, axis, length, r) => {
-                    rod_end = *c;
-                    rod_end[*axis] += length;
-                    csg.leaf(Placed::new(CappedCylinder::new(*c, rod_end, *r).unwrap(), *map))
-                }
-                Leaf::General(k) => csg.leaf(Placed::new(Quadric::new(*k).unwrap(), *map)),
-                _ => panic!("leaves are moved once"),
-            },
-            Leaf::Turned(leaf) => match &**leaf {
-                Leaf::Ball(c, r) => csg.leaf(Inverse(Sphere::new(*c, *r).unwrap())),
-                Leaf::Block(a, b) => csg.leaf(Inverse(AxisBox::new(*a, *b).unwrap())),
-                _ => panic!("balls and blocks are turned"),
-            },
+            _ => csg.leaf(self.solid()),
         }
         .unwrap()
+    }
+
+    fn solid(&self) -> Erased {
+        match self {
+            Leaf::Ball(c, r) => Erased::new(Sphere::new(*c, *r).unwrap()),
+            Leaf::Block(a, b) => Erased::new(AxisBox::new(*a, *b).unwrap()),
+            Leaf::Half(n, d) => Erased::new(Plane::new(*n, *d).unwrap()),
+            Leaf::Rod(c, axis, length, r) => {
+                let mut end = *c;
+                end[*axis] += length;
+                Erased::new(CappedCylinder::new(*c, end, *r).unwrap())
+            }
+            Leaf::General(k) => Erased::new(Quadric::new(*k).unwrap()),
+            Leaf::Moved(leaf, map) => Erased::new(Placed::new(leaf.solid(), *map)),
+            Leaf::Turned(leaf) => Erased::new(Inverse(leaf.solid())),
+        }
     }
 }
 

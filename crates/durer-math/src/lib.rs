@@ -63,6 +63,7 @@ pub mod interval;
 pub mod kernels;
 pub mod ladder;
 pub mod lane_intervals;
+pub mod lane_logs;
 mod lane_waves;
 pub mod lanes;
 pub mod number;

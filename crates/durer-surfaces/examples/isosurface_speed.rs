@@ -1,38 +1,68 @@
 //! What a ray costs that meets a formula: `cargo run --release -p durer-surfaces --example isosurface_speed`.
 
-use durer_math::{Function, Point3, Ray, Vec3};
+use durer_math::{Function, Point3, Ray, RaySide, Vec3};
 use durer_surfaces::tape::{Builder, FormulaError, Op};
-use durer_surfaces::{AxisBox, Closest, Container, Isosurface, LocalRay, Need, Surface};
+use durer_surfaces::{Any, AxisBox, Closest, Container, Isosurface, LocalRay, Need, Surface, superellipsoid};
 use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let block = AxisBox::new(Point3::new(-1.1, -1.1, -1.1), Point3::new(1.1, 1.1, 1.1))?;
     for (name, formula) in [("sphere", bumpy(0.0)?), ("bumpy sphere", bumpy(0.03)?)] {
-        let started = Instant::now();
-        let surface = Isosurface::new(&formula, 0.0, Container::Box(block))?;
-        let built = started.elapsed();
-        let (cells, steps, whole) = surface.cells();
-        let (mut met, mut rays) = (0, 0);
-        let started = Instant::now();
-        for i in 0..400 {
-            for j in 0..400 {
-                let (u, v) = (f64::from(i) / 200.0 - 1.0, f64::from(j) / 200.0 - 1.0);
-                let ray = Ray::new(Point3::new(0.3, 0.2, -4.0), Vec3::new(u * 0.4, v * 0.4, 1.0));
-                let local = LocalRay::new(&ray).roughly();
-                let mut closest = Closest::default();
-                surface.roots(&local, &mut closest);
-                rays += 1;
-                if let Some(root) = closest.root {
-                    met += 1;
-                    let _ = surface.resolve(&local, &root, Need::POINT);
-                }
-            }
-        }
-        let ns = started.elapsed().as_nanos() as f64 / f64::from(rays);
-        println!(
-            "{name}: {whole} steps; {cells} cells of {steps:.1} steps in {built:.1?}; {met} of {rays} rays meet it, {ns:.0} ns a ray"
-        );
+        timed(name, || Ok(Isosurface::new(&formula, 0.0, Container::Box(block))?))?;
     }
+    for (e, n) in [(1.0, 1.0), (0.25, 0.25), (0.1, 1.0), (1.5, 0.7), (2.0, 2.0), (3.2, 2.5)] {
+        timed(&format!("superellipsoid <{e}, {n}>"), || Ok(superellipsoid(e, n)?))?;
+    }
+    Ok(())
+}
+
+/// Rays of a picture: all of them, and of those that meet the surface the points and the rays that leave them.
+fn timed(
+    name: &str,
+    make: impl Fn() -> Result<Isosurface, Box<dyn std::error::Error>>,
+) -> Result<(), Box<dyn std::error::Error>> {
+    let started = Instant::now();
+    let surface = make()?;
+    let built = started.elapsed();
+    let (cells, steps, whole) = surface.cells();
+    let mut rays: Vec<Ray> = Vec::new();
+    for i in 0..200 {
+        for j in 0..200 {
+            let (u, v) = (f64::from(i) / 100.0 - 1.0, f64::from(j) / 100.0 - 1.0);
+            rays.push(Ray::new(Point3::new(0.3, 0.2, -4.0), Vec3::new(u * 0.4, v * 0.4, 1.0)));
+        }
+    }
+    let started = Instant::now();
+    let mut met = Vec::new();
+    for ray in &rays {
+        let mut closest = Closest::default();
+        surface.roots(&LocalRay::new(ray).roughly(), &mut closest);
+        met.extend(closest.root.map(|root| (ray, root)));
+    }
+    let ns = |started: Instant, n: usize| started.elapsed().as_nanos() as f64 / n.max(1) as f64;
+    let roots = ns(started, rays.len());
+    let started = Instant::now();
+    let points: Vec<_> = met
+        .iter()
+        .map(|(ray, root)| surface.resolve(&LocalRay::new(ray).roughly(), root, Need::POINT))
+        .collect();
+    let resolved = ns(started, points.len());
+    let shadows: Vec<Ray> = points.iter().map(|point| point.spawn_to(Point3::new(5.0, 9.0, -7.0))).collect();
+    let started = Instant::now();
+    let mut blocked = 0;
+    for (ray, point) in shadows.iter().zip(&points) {
+        let mut any = Any::default();
+        let side = if point.ng.to_vec().dot(ray.direction) < 0.0 { RaySide::Back } else { RaySide::Front };
+        surface.roots(&LocalRay::new(ray).roughly().from_side(Some(side)), &mut any);
+        blocked += usize::from(any.hit);
+    }
+    let shadow = ns(started, shadows.len());
+    println!(
+        "{name}: {whole} steps; {cells} cells of {steps:.1} steps in {built:.1?}; {} of {} rays meet it, {roots:.0} ns a ray, {resolved:.0} a point, {shadow:.0} a \
+         shadow ray ({blocked} blocked)",
+        points.len(),
+        rays.len(),
+    );
     Ok(())
 }
 

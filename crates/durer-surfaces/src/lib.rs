@@ -42,6 +42,7 @@ pub use crate::annulus::{Annulus, AnnulusError};
 pub use crate::axis_box::{AxisBox, AxisBoxError};
 pub use crate::compose::affine::Placed;
 pub use crate::compose::clip::{Algebraic, Clip, Region, RegionError};
+pub use crate::compose::erased::Erased;
 pub use crate::compose::inverse::Inverse;
 pub use crate::cyclide::{Cyclide, CyclideError};
 pub use crate::disc::{Disc, DiscError};

@@ -315,7 +315,7 @@ impl Surface for Mesh {
 
     fn sketch(&self, part: PartId) -> Sketch {
         let vertices = self.facet(part.0);
-        let flat = Sketch::facet(vertices).part_of_many();
+        let flat = Sketch::flat(vertices).on_face(part.0);
         match self.corner_normals(part.0) {
             Some(normals) => flat.with_normals(vertices, normals.map(Normal3::to_vec)),
             None => flat,
@@ -353,10 +353,20 @@ impl Surface for Mesh {
         if odd { Side::In } else { Side::Out }
     }
 
+    #[inline(always)]
+    fn is_in_parts(&self) -> bool {
+        true
+    }
+
     fn parts(&self, f: &mut dyn FnMut(Aabb, PartId)) {
         for number in self.live() {
             f(Aabb::from_points(self.facet(number)), PartId(number));
         }
+    }
+
+    #[inline(always)]
+    fn primitive_of(&self, part: PartId) -> u32 {
+        part.0
     }
 
     #[inline(always)]

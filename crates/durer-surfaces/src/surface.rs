@@ -49,9 +49,22 @@ pub trait Surface: Send + Sync {
         Side::Out
     }
 
+    /// Whether there may be more parts than one.
+    #[inline(always)]
+    fn is_in_parts(&self) -> bool {
+        false
+    }
+
     /// Calls `f` for each part that a tree may hold by itself, with a box that provably holds the part.
     fn parts(&self, f: &mut dyn FnMut(Aabb, PartId)) {
         f(self.bounds(), PartId(0));
+    }
+
+    /// By how much the number of a part, as a primitive, is above the surface's own: the faces of a mesh are primitives by themselves, the
+    /// walls of a prism are not.
+    #[inline(always)]
+    fn primitive_of(&self, _part: PartId) -> u32 {
+        0
     }
 
     /// One part as lanes see it. Without more than its box, every ray that may meet that asks the surface itself.

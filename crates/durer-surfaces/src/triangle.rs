@@ -97,7 +97,7 @@ impl Surface for Triangle {
     }
 
     fn sketch(&self, _part: PartId) -> Sketch {
-        let flat = Sketch::facet(self.vertices);
+        let flat = Sketch::flat(self.vertices);
         match &self.normals {
             Some(normals) => flat.with_normals(self.vertices, normals.map(Normal3::to_vec)),
             None => flat,

@@ -216,8 +216,8 @@ impl AnyArena for Compounds {
         self.ids.name(surface as usize).object
     }
 
-    fn is_in_parts(&self) -> bool {
-        false
+    fn whole(&self, slot: u32) -> Option<u32> {
+        Some(slot)
     }
 
     fn solids_in_parts(&self) -> Vec<(u32, Aabb)> {

@@ -11,6 +11,7 @@ use crate::{BuildError, Builder, Geometry, ObjectId};
 use core::cell::RefCell;
 use durer_bvh::{Leaf, Line};
 use durer_math::{Aabb, Isa, RaySide};
+use durer_surfaces::outline::Sketch;
 use durer_surfaces::{Flow, LocalPoint, LocalRay, Need, Root, Side, Solidity, Surface, SurfacePoint};
 
 /// Unions, intersections and differences of solids as one solid: for [`Builder::add_compound`].
@@ -268,10 +269,13 @@ impl Compound {
     pub(super) fn operands(&self) -> Option<Vec<Operand>> {
         let mut operands: Vec<Option<Operand>> = self.traits.iter().map(|_| None).collect();
         for (arena, &first) in self.leaves.arenas.iter().zip(&self.first_slot) {
-            if arena.is_in_parts() {
-                return None;
+            // Of a leaf in parts lanes see the box.
+            for (surface, bounds) in arena.solids_in_parts() {
+                let (leaf, outline) = (arena.object_of(surface) as usize, Sketch::vague(bounds).outline()?);
+                operands[leaf] =
+                    Some(Operand { outline, slot: first, primitive: 0, shown: self.traits[leaf].shown });
             }
-            for slot in 0..arena.len() {
+            for slot in (0..arena.len()).filter(|&slot| arena.whole(slot).is_some()) {
                 let (name, seen) = (arena.name(slot), arena.drawn(slot).seen);
                 let Seen::Outline(outline) = seen else { return None };
                 let shown = self.traits[name.object as usize].shown;
@@ -505,10 +509,8 @@ impl Compound {
         let leaves = &self.leaves;
         let mut ask = |leaf: Leaf| {
             let arena = self.arena(leaf.kind);
-            if !arena.is_in_parts() {
-                for slot in slots(&leaf) {
-                    learn(arena.name(slot).object, arena.side(slot, point));
-                }
+            for surface in slots(&leaf).filter_map(|slot| arena.whole(slot)) {
+                learn(arena.object_of(surface), arena.side(surface, point));
             }
             false
         };

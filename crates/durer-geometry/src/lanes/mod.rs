@@ -199,8 +199,7 @@ impl Geometry {
                     sure.bits()
                 },
             );
-            // The kernels of meshes count faces, and lanes see one of them.
-            let face = if met.outline.is_part() { met.part } else { met.face };
+            let face = met.outline.own_face().unwrap_or(met.face);
             hits.name(if is_first { u8::MAX } else { lanes }, met.name, (met.slot, met.part, face));
             is_first = false;
         }

@@ -110,7 +110,7 @@ impl Sources8 {
         let number = slot_number(arena, slot);
         From8 {
             lanes: M8::from_fn(|i| self.slot[i] == number && self.instance[i] == 0),
-            face: if outline.is_part() { F8::ZERO } else { F8(self.face.map(f64::from)) },
+            face: if outline.own_face().is_some() { F8::ZERO } else { F8(self.face.map(f64::from)) },
             back: self.back,
         }
     }

@@ -2,9 +2,7 @@
 
 use durer_geometry::{Builder, CompoundBuilder, ObjectId, Part, Shown};
 use durer_math::{Aabb, Affine, Point3, Shaft, Vec3};
-use durer_surfaces::{Algebraic, Clip, Inverse, LocalPoint, Placed, Region, Side, Solidity, Surface};
-
-use super::erased::Erased;
+use durer_surfaces::{Algebraic, Clip, Erased, Inverse, LocalPoint, Placed, Region, Side, Solidity, Surface};
 
 /// Whether a point lies in a solid.
 pub(super) type Inside = Box<dyn Fn(Point3) -> bool + Send + Sync>;
@@ -55,18 +53,12 @@ impl Target<'_> {
             return;
         }
         let clips = core::mem::take(&mut self.clips);
-        self.push(match map {
-            None => Erased::new(Clip::new(surface, clips)),
-            Some(map) => Erased::new(Clip::new(Placed::new(surface, *map), clips)),
-        });
+        self.push(Erased::new(Clip::new(erased(surface, map), clips)));
     }
 
-    fn add_whole<S: Surface + 'static>(&mut self, surface: S, map: Option<&Affine>) {
-        let erased = match map {
-            None => Erased::new(surface),
-            Some(map) => Erased::new(Placed::new(surface, *map)),
-        };
-        if self.inverse { self.push(Erased::new(Inverse(erased))) } else { self.push(erased) }
+    fn add_whole<S: Algebraic + 'static>(&mut self, surface: S, map: Option<&Affine>) {
+        let whole = erased(surface, map);
+        if self.inverse { self.push(Inverse(whole)) } else { self.push(whole) }
     }
 
     fn is_changed(&self) -> bool {
@@ -114,5 +106,14 @@ impl Target<'_> {
             // Whoever asks for a leaf sees whether there is one: sheets are none.
             To::Leaf(csg, shown, part) => **part = csg.leaf_as(surface, self.primitive, *shown).ok(),
         }
+    }
+}
+
+/// A surface, placed by `map`, behind pointers. What is done to it is done outside of its own, so that each kind is compiled once.
+fn erased<S: Algebraic + 'static>(surface: S, map: Option<&Affine>) -> Erased {
+    let surface = Erased::new(surface);
+    match map {
+        None => surface,
+        Some(map) => Erased::new(Placed::new(surface, *map)),
     }
 }

@@ -5,7 +5,6 @@
 
 mod build;
 mod csg;
-mod erased;
 mod exact;
 mod level_set;
 mod named;

@@ -63,6 +63,11 @@ impl<S: Surface> Surface for Placed<S> {
         self.surface.side(&point.through(&self.map))
     }
 
+    #[inline(always)]
+    fn is_in_parts(&self) -> bool {
+        self.surface.is_in_parts()
+    }
+
     fn parts(&self, f: &mut dyn FnMut(Aabb, PartId)) {
         let mut n = 0;
         self.surface.parts(&mut |_, _| n += 1);
@@ -72,6 +77,11 @@ impl<S: Surface> Surface for Placed<S> {
         } else {
             self.surface.parts(&mut |b, id| f(self.map.bounds(&b), id));
         }
+    }
+
+    #[inline(always)]
+    fn primitive_of(&self, part: PartId) -> u32 {
+        self.surface.primitive_of(part)
     }
 
     #[inline(always)]

@@ -454,11 +454,21 @@ impl<S: Algebraic> Surface for Clip<S> {
         self.regions.iter().fold(self.surface.sketch(part), |sketch, region| region.cut(sketch))
     }
 
+    #[inline(always)]
+    fn is_in_parts(&self) -> bool {
+        self.surface.is_in_parts()
+    }
+
     fn parts(&self, f: &mut dyn FnMut(Aabb, PartId)) {
         let mut n = 0;
         self.surface.parts(&mut |_, _| n += 1);
         let all = self.bounds();
         self.surface.parts(&mut |b, id| f(if n == 1 { all } else { b.intersection(all) }, id));
+    }
+
+    #[inline(always)]
+    fn primitive_of(&self, part: PartId) -> u32 {
+        self.surface.primitive_of(part)
     }
 
     #[inline(always)]

@@ -1,8 +1,11 @@
 //! A solid turned inside out.
 
+use crate::compose::clip::Algebraic;
 use crate::outline::Sketch;
+use crate::roots::quadratic::Quadratic;
 use crate::{LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
-use durer_math::{Aabb, RaySide};
+use core::cmp::Ordering;
+use durer_math::{Aabb, Dyadic, RaySide};
 
 /// The complement of the solid `S`, with its boundary: entering becomes leaving, and normals point the other way. An open surface
 /// keeps its place and turns its normal.
@@ -66,13 +69,34 @@ impl<S: Surface> Surface for Inverse<S> {
         }
     }
 
+    #[inline(always)]
+    fn is_in_parts(&self) -> bool {
+        self.0.is_in_parts()
+    }
+
     fn parts(&self, f: &mut dyn FnMut(Aabb, PartId)) {
         // The surface itself is where it was, so a tree may still hold it.
         self.0.parts(f);
     }
 
     #[inline(always)]
+    fn primitive_of(&self, part: PartId) -> u32 {
+        self.0.primitive_of(part)
+    }
+
+    #[inline(always)]
     fn part_roots<K: Sink + ?Sized>(&self, part: PartId, ray: &LocalRay<'_>, sink: &mut K) {
         self.0.part_roots(part, &ray.from_side(turned(ray)), &mut Turning(sink));
+    }
+}
+
+impl<S: Algebraic> Algebraic for Inverse<S> {
+    fn polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+        let Quadratic { a, b, c } = self.0.polynomial(face, ray)?;
+        Some(Quadratic { a: -a, b: -b, c: -c })
+    }
+
+    fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {
+        self.0.sign_at_root(ray, &Root { sign: -root.sign, ..*root }, q)
     }
 }

@@ -2,5 +2,6 @@
 
 pub mod affine;
 pub mod clip;
+pub mod erased;
 mod flat;
 pub mod inverse;

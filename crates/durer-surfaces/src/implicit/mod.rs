@@ -16,6 +16,7 @@
 mod blob;
 mod cells;
 mod container;
+mod convex;
 pub mod deform;
 mod isolate;
 mod julia;
@@ -36,8 +37,9 @@ use crate::roots::quadratic::Quadratic;
 use crate::tape::{Builder, Formula, FormulaError, Op, Tape};
 use crate::{Forward, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use cells::{Cells, Place};
+use convex::Gauge;
 use durer_math::{Aabb, Dyadic, F8, I8, Point3};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A formula's surface in a container. Face 0 is the formula's, the container's faces follow.
 ///
@@ -52,7 +54,10 @@ pub struct Isosurface {
     open: bool,
     /// What the surface only touches is none of it: see [`Isosurface::regular`].
     regular: bool,
-    cells: Arc<Cells>,
+    /// Divided when they are asked for: a convex superellipsoid hardly ever asks.
+    cells: Arc<OnceLock<Cells>>,
+    /// Of a convex superellipsoid: most rays do without the tape.
+    gauge: Option<Gauge>,
 }
 
 /// Why an [`Isosurface`] cannot exist.
@@ -75,6 +80,13 @@ pub enum IsosurfaceError {
 impl Isosurface {
     /// The surface of `formula`, at `threshold`, in `container`; it closes the solid where the container cuts it.
     pub fn new(formula: &Formula, threshold: f64, container: Container) -> Result<Self, IsosurfaceError> {
+        let surface = Self::undivided(formula, threshold, container)?;
+        surface.divided();
+        Ok(surface)
+    }
+
+    /// The same, with its container to be divided when that is asked for.
+    fn undivided(formula: &Formula, threshold: f64, container: Container) -> Result<Self, IsosurfaceError> {
         if !threshold.is_finite() {
             return Err(IsosurfaceError::Threshold(threshold));
         }
@@ -87,13 +99,17 @@ impl Isosurface {
         let threshold = builder.constant(threshold)?;
         let level = builder.push(Op::Sub(value, threshold))?;
         let tape = Tape::new(&builder.finish(level, 3));
-        let cells = Arc::new(Cells::new(&tape, container.bounds()));
-        Ok(Self { tape, container, open: false, regular: false, cells })
+        Ok(Self { tape, container, open: false, regular: false, cells: Arc::default(), gauge: None })
+    }
+
+    /// The container's cells.
+    fn divided(&self) -> &Cells {
+        self.cells.get_or_init(|| Cells::new(&self.tape, self.container.bounds()))
     }
 
     /// A tape that is right within `reach` of `p` along each axis: a cell's own, if it can be.
     fn tape_near(&self, p: Point3, reach: f64) -> &Tape {
-        match self.cells.place(p, reach) {
+        match self.divided().place(p, reach) {
             Some(Place::Open(tape)) => tape,
             _ => &self.tape,
         }
@@ -118,7 +134,7 @@ impl Isosurface {
     /// How many cells of the container there may be surface in, and how many steps their tapes have on average; the formula has
     /// as many as the third number says.
     pub fn cells(&self) -> (usize, f64, usize) {
-        let (open, steps) = self.cells.open();
+        let (open, steps) = self.divided().open();
         (open, steps, self.tape.len())
     }
 }
@@ -149,11 +165,14 @@ impl Surface for Isosurface {
         if self.open {
             return Side::Out;
         }
+        if let Some(side) = self.gauge.as_ref().and_then(|gauge| gauge.side(point)) {
+            return side;
+        }
         let held = self.container.side(point);
         if held == Side::Out {
             return Side::Out;
         }
-        let tape = match self.cells.place(point.p, point.p_err.max_abs()) {
+        let tape = match self.divided().place(point.p, point.p_err.max_abs()) {
             Some(Place::Sign(above)) => return if above { Side::Out } else { held },
             Some(Place::Open(tape)) => tape,
             Some(Place::Gap) | None => &self.tape,

@@ -6,6 +6,17 @@ use crate::point::least_step;
 use crate::{LocalRay, Need, Root, SurfacePoint};
 use durer_math::{Dual, F8, I8, Interval, Point3, U, Vec3};
 
+/// A point next to the surface.
+pub(super) struct Foot {
+    pub(super) p: Point3,
+    /// The normal, of length 1.
+    pub(super) n: Vec3,
+    /// How far along it one must go to leave the surface for certain.
+    pub(super) off: f64,
+    /// A bound on the curvature.
+    pub(super) bend: f64,
+}
+
 /// What is known of the formula near a point.
 struct Near {
     value: Interval,
@@ -52,18 +63,15 @@ impl Isosurface {
         let size = p0.to_vec().max_abs();
         let width = at.width(root.lo, root.hi);
         let direction = line.direction();
-        // Towards the surface along the gradient, until rounding stops it.
-        let (p, ng) = self.nearer(p0, 64.0 * (width + size * U) + f64::MIN_POSITIVE);
-        let ng = ng.unwrap_or(-direction);
-        let n = ng * (1.0 / ng.length());
-        let n = if n.is_finite() { n } else { direction * (-1.0 / direction.length()) };
+        let reach = 64.0 * (width + size * U) + f64::MIN_POSITIVE;
+        let foot = self.gauge.as_ref().and_then(|gauge| gauge.foot(p0, reach));
+        let Foot { p, n, off, bend } = foot.unwrap_or_else(|| self.foot(p0, direction, reach, width));
         let moved = (p - p0).abs();
         let slack = least_step(p);
         let err = Vec3::from(line.err);
         let dp = (err * 2.0 + direction.abs() * width + moved + Vec3::new(size, size, size) * (2.0 * U))
             * (1.0 + 16.0 * U)
             + Vec3::new(slack, slack, slack);
-        let (off, bend) = self.off(p, n, size * U, width);
         let mut point = SurfacePoint::new(p, dp, off + slack, n.to_normal());
         point.bend = bend;
         if need.contains(Need::UV) || need.contains(Need::DERIVATIVES) {
@@ -72,6 +80,16 @@ impl Isosurface {
             (point.dpdu, point.dpdv) = (u, v);
         }
         point
+    }
+
+    /// The point next to `p0` for any formula: towards the surface along the gradient, until rounding stops it.
+    fn foot(&self, p0: Point3, direction: Vec3, reach: f64, width: f64) -> Foot {
+        let (p, ng) = self.nearer(p0, reach);
+        let ng = ng.unwrap_or(-direction);
+        let n = ng * (1.0 / ng.length());
+        let n = if n.is_finite() { n } else { direction * (-1.0 / direction.length()) };
+        let (off, bend) = self.off(p, n, p0.to_vec().max_abs() * U, width);
+        Foot { p, n, off, bend }
     }
 
     /// A point at most `reach` away whose value is nearer to zero, by a few steps of Newton's along the gradient; and the gradient there.

@@ -35,6 +35,14 @@ enum Border {
 impl Isosurface {
     /// Shows all roots to `sink`, ascending.
     pub(super) fn all_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+        let told = self.gauge.as_ref().is_some_and(|gauge| gauge.roots(ray, sink));
+        if !told {
+            self.roots_of_the_tape(ray, sink);
+        }
+    }
+
+    /// The same for any formula.
+    pub(super) fn roots_of_the_tape(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         let mut whole = *ray;
         (whole.t_min, whole.t_max, whole.source) = (f64::NEG_INFINITY, f64::INFINITY, None);
         let mut caps = Caps::default();
@@ -107,7 +115,7 @@ impl Query<'_> {
     /// The one sign of the formula on a short stretch, if it is certain: the cell knows, or its tape.
     fn sign_on(&self, lo: f64, hi: f64) -> Option<bool> {
         let (middle, reach) = self.line.around(lo, hi);
-        match self.surface.cells.place(middle, reach) {
+        match self.surface.divided().place(middle, reach) {
             Some(Place::Sign(sign)) => Some(sign),
             Some(Place::Open(tape)) => self.line.sign_on(tape, lo, hi),
             Some(Place::Gap) | None => self.line.sign_on(&self.surface.tape, lo, hi),
@@ -171,14 +179,16 @@ impl Query<'_> {
         let mut tracker = Tracker::new(line, &surface.tape, before, self.ray.rough);
         let mut flow = Flow::Continue;
         let mut passes = self.passes;
-        surface.cells.walk(line, (a, b), &mut |a, b, place| {
+        surface.divided().walk(line, (a, b), &mut |a, b, place| {
             if tracker.is_idle() && self.at.bracket(a, a).0 > self.sink.limit() {
                 flow = Flow::Stop;
                 return false;
             }
             let mut take = |a: f64, b: f64, verdict: Verdict, tape| {
-                if let Some(found) = tracker.take(a, b, verdict, tape) {
-                    flow = self.found(&found);
+                if let Some(found) = tracker.take(a, b, verdict, tape)
+                    && !(surface.regular && found.touches)
+                {
+                    flow = shown(self.at, self.sink, &found);
                 }
                 flow == Flow::Continue
             };
@@ -193,34 +203,24 @@ impl Query<'_> {
         self.passes = passes;
         if flow == Flow::Continue
             && let Some(found) = tracker.finish(after)
+            && !(surface.regular && found.touches)
         {
-            flow = self.found(&found);
+            flow = shown(self.at, self.sink, &found);
         }
         flow
     }
+}
 
-    /// Shows a root, unless it is certainly out of the ray's range.
-    fn found(&mut self, found: &Found) -> Flow {
-        if self.surface.regular && found.touches {
-            return Flow::Continue;
-        }
-        let (mut lo, hi) = self.at.bracket(found.lo.next_down(), found.hi.next_up());
-        if self.at.admits(lo, hi) == Some(false) {
-            return Flow::Continue;
-        }
-        if self.ray.source.is_some() && self.ray.t_min == 0.0 && self.ray.source_face == 0 {
-            lo = lo.max(0.0).min(hi);
-        }
-        let t = self.at.t(found.s).max(lo).min(hi);
-        self.sink.push(Root {
-            t,
-            lo,
-            hi,
-            s: found.s,
-            tag: [0.0; 2],
-            face: 0,
-            sign: found.sign,
-            kind: found.kind,
-        })
+/// Shows a root of the formula, unless it is certainly out of the ray's range.
+pub(super) fn shown(at: &CentredRay<'_>, sink: &mut dyn Sink, found: &Found) -> Flow {
+    let (mut lo, hi) = at.bracket(found.lo.next_down(), found.hi.next_up());
+    if at.admits(lo, hi) == Some(false) {
+        return Flow::Continue;
     }
+    let ray = at.local();
+    if ray.source.is_some() && ray.t_min == 0.0 && ray.source_face == 0 {
+        lo = lo.max(0.0).min(hi);
+    }
+    let t = at.t(found.s).max(lo).min(hi);
+    sink.push(Root { t, lo, hi, s: found.s, tag: [0.0; 2], face: 0, sign: found.sign, kind: found.kind })
 }

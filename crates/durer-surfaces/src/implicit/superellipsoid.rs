@@ -6,6 +6,8 @@
 //!   e shapes the sections across z (1: circles, towards 0: squares, 2: diamonds, beyond: stars), n those along z
 //! ```
 //!
+//! With `e <= 2` and `n <= 2` it is convex, and most rays do without what follows (`convex/`).
+//!
 //! A. H. Barr, "Superquadrics and angle-preserving transformations", *IEEE Computer Graphics and Applications* 1(1), 1981.
 //!
 //! Powers rise, so bounds of the formula on a box are as tight as those of `|x|`, `|y|` and `|z|`. Its slope is not: it is unbounded at the planes
@@ -13,6 +15,7 @@
 //! told apart by the bounds alone, down to the rounding of the formula if need be: no crossing is lost, but one on an edge or at a tip of the
 //! surface itself may be reported as a cluster.
 
+use super::convex::Gauge;
 use super::{Container, Isosurface, IsosurfaceError};
 use crate::tape::{Builder, Formula, FormulaError, NodeId, Op};
 use crate::{AxisBox, AxisBoxError};
@@ -41,7 +44,11 @@ pub enum SuperellipsoidError {
 pub fn superellipsoid(e: f64, n: f64) -> Result<Isosurface, SuperellipsoidError> {
     let formula = checked(e, n)?;
     let held = AxisBox::new(Point3::new(-HALF, -HALF, -HALF), Point3::new(HALF, HALF, HALF))?;
-    Ok(Isosurface::new(&formula, 1.0, Container::Box(held))?)
+    let container = Container::Box(held);
+    match Gauge::new(e, n) {
+        None => Ok(Isosurface::new(&formula, 1.0, container)?),
+        gauge => Ok(Isosurface { gauge, ..Isosurface::undivided(&formula, 1.0, container)? }),
+    }
 }
 
 /// The left side of the equation, if the exponents are in range.

@@ -30,21 +30,27 @@ macro_rules! ensure {
     };
 }
 
-/// One way in for all sinks: each surface's kernel is compiled once.
-#[inline(never)]
-fn send<S: Surface>(surface: &S, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
-    surface.roots(ray, sink);
+/// A surface under test, behind a pointer, so that the laws and each surface's kernel are compiled once.
+pub trait Subject: Surface + core::fmt::Debug {
+    /// Shows the roots to any sink.
+    fn send(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink);
+}
+
+impl<S: Surface + core::fmt::Debug> Subject for S {
+    fn send(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+        self.roots(ray, sink);
+    }
 }
 
 /// All roots of a surface.
-pub fn all_roots<S: Surface>(surface: &S, ray: &Ray) -> Vec<Root> {
+pub fn all_roots(surface: &dyn Subject, ray: &Ray) -> Vec<Root> {
     let mut sink = All::default();
-    send(surface, &LocalRay::new(ray), &mut sink);
+    surface.send(&LocalRay::new(ray), &mut sink);
     sink.roots
 }
 
 /// Every law that one ray can test. Returns the roots.
-pub fn check<S: Surface>(surface: &S, oracle: &dyn Oracle, ray: &Ray) -> Result<Vec<Root>, Broken> {
+pub fn check(surface: &dyn Subject, oracle: &dyn Oracle, ray: &Ray) -> Result<Vec<Root>, Broken> {
     let roots = roots_are_the_exact_crossings(surface, oracle, ray, None)?;
     closest_is_the_first_of_all(surface, ray, &roots)?;
     brackets_are_narrow(surface, oracle, ray, &roots)?;
@@ -65,8 +71,8 @@ pub fn check<S: Surface>(surface: &S, oracle: &dyn Oracle, ray: &Ray) -> Result<
 /// # Panics
 ///
 /// If a law is broken: with the law, the seed and the ray.
-pub fn check_many<S: Surface + core::fmt::Debug>(
-    surface: &S,
+pub fn check_many(
+    surface: &dyn Subject,
     oracle: &dyn Oracle,
     features: &[Feature],
     seed: u64,
@@ -120,7 +126,7 @@ impl Tally {
 }
 
 /// The width of a bracket, in ulp of `max(|t|, size / |d|)`. An unbounded surface is as large as the part of it that is looked at.
-pub fn width<S: Surface>(surface: &S, oracle: &dyn Oracle, ray: &Ray, root: &Root) -> f64 {
+pub fn width(surface: &dyn Subject, oracle: &dyn Oracle, ray: &Ray, root: &Root) -> f64 {
     let k = durer_math::eft::exponent(ray.direction.max_abs());
     let length = ray.direction.map(|x| durer_math::scale::ldexp(x, -k)).length();
     let place = ray.at(root.t).to_vec().max_abs();
@@ -131,8 +137,8 @@ pub fn width<S: Surface>(surface: &S, oracle: &dyn Oracle, ray: &Ray, root: &Roo
 }
 
 /// P1, P2, P3, P6: no crossing is missing, extra or doubled; each lies in its bracket, in order, with its sign and kind.
-pub fn roots_are_the_exact_crossings<S: Surface>(
-    surface: &S,
+pub fn roots_are_the_exact_crossings(
+    surface: &dyn Subject,
     oracle: &dyn Oracle,
     ray: &Ray,
     source: Option<(RaySide, u32)>,
@@ -140,7 +146,7 @@ pub fn roots_are_the_exact_crossings<S: Surface>(
     let mut sink = All::default();
     let mut local = LocalRay::new(ray).from_side(source.map(|(side, _)| side));
     local.source_face = source.map_or(0, |(_, face)| face);
-    send(surface, &local, &mut sink);
+    surface.send(&local, &mut sink);
     let roots = sink.roots;
     let line = Line::new(ray);
     let inside = |t: &Surd| {
@@ -182,10 +188,10 @@ pub fn roots_are_the_exact_crossings<S: Surface>(
 }
 
 /// P3: closest is the least of all, and any says whether there is one.
-pub fn closest_is_the_first_of_all<S: Surface>(surface: &S, ray: &Ray, roots: &[Root]) -> Result<(), Broken> {
+pub fn closest_is_the_first_of_all(surface: &dyn Subject, ray: &Ray, roots: &[Root]) -> Result<(), Broken> {
     let (mut closest, mut any) = (Closest::default(), Any::default());
-    send(surface, &LocalRay::new(ray), &mut closest);
-    send(surface, &LocalRay::new(ray), &mut any);
+    surface.send(&LocalRay::new(ray), &mut closest);
+    surface.send(&LocalRay::new(ray), &mut any);
     // Of roots with equal t the first: they are in the exact order.
     let least = roots.iter().copied().min_by(|a, b| a.t.total_cmp(&b.t));
     ensure!(closest.root == least, "closest {:?} is not the least {least:?}", closest.root);
@@ -195,8 +201,8 @@ pub fn closest_is_the_first_of_all<S: Surface>(surface: &S, ray: &Ray, roots: &[
 
 /// P8: a bracket is at most 96 ulp of `max(|t|, size / |d|)` wide: 48, where size over length is taken as a half though it may be 0.29, and
 /// what rounding `t` adds.
-pub fn brackets_are_narrow<S: Surface>(
-    surface: &S,
+pub fn brackets_are_narrow(
+    surface: &dyn Subject,
     oracle: &dyn Oracle,
     ray: &Ray,
     roots: &[Root],
@@ -212,11 +218,7 @@ pub fn brackets_are_narrow<S: Surface>(
 }
 
 /// P7: a ray read backwards meets the same crossings, in the opposite order.
-pub fn a_reversed_ray_meets_the_same<S: Surface>(
-    surface: &S,
-    ray: &Ray,
-    roots: &[Root],
-) -> Result<(), Broken> {
+pub fn a_reversed_ray_meets_the_same(surface: &dyn Subject, ray: &Ray, roots: &[Root]) -> Result<(), Broken> {
     let back = Ray::new(ray.origin, -ray.direction).with_range(-ray.t_max, -ray.t_min);
     let reversed = all_roots(surface, &back);
     ensure!(reversed.len() == roots.len(), "backwards {} roots, forwards {}", reversed.len(), roots.len());
@@ -230,11 +232,7 @@ pub fn a_reversed_ray_meets_the_same<S: Surface>(
 }
 
 /// P7: a direction times a power of two divides every `t` by it, bit for bit.
-pub fn powers_of_two_change_nothing<S: Surface>(
-    surface: &S,
-    ray: &Ray,
-    roots: &[Root],
-) -> Result<(), Broken> {
+pub fn powers_of_two_change_nothing(surface: &dyn Subject, ray: &Ray, roots: &[Root]) -> Result<(), Broken> {
     let scaled = Ray::new(ray.origin, ray.direction * 8.0).with_range(ray.t_min * 0.125, ray.t_max * 0.125);
     // Subnormal numbers are rounded outward once more.
     let exact = |x: f64| x == 0.0 || (x * 0.125 * 8.0 == x && (x * 0.125).abs() >= f64::MIN_POSITIVE);
@@ -253,8 +251,8 @@ pub fn powers_of_two_change_nothing<S: Surface>(
 
 /// P4, P5, P11, P12: the point is within `dp` of the exact one and in the bounds; its normal is the surface's; rays start on the asked side, and
 /// what they meet is what the exact ray meets.
-pub fn points_are_within_their_bounds<S: Surface>(
-    surface: &S,
+pub fn points_are_within_their_bounds(
+    surface: &dyn Subject,
     oracle: &dyn Oracle,
     ray: &Ray,
     root: &Root,

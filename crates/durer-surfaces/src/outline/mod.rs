@@ -53,8 +53,8 @@ pub struct Outline {
     turned: bool,
     /// The outline only holds the surface: what meets it may still miss.
     vague: bool,
-    /// See [`Outline::is_part`].
-    part: bool,
+    /// See [`Outline::own_face`].
+    own_face: Option<u32>,
     /// Shading normals: a value and its change along x, y and z.
     normals: Option<Box<[Vec3; 4]>>,
     /// What cuts off the first wall beside the other faces.
@@ -64,9 +64,9 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// Whether this is one part of a surface whose roots tell by their face which part they are on.
+    /// If this is one part of a surface: the face that its roots have there.
     #[inline(always)]
-    pub fn is_part(&self) -> bool {
-        self.part
+    pub fn own_face(&self) -> Option<u32> {
+        self.own_face
     }
 }

@@ -70,7 +70,7 @@ impl Outline {
     /// Whether the outline tells all about a solid: what else cuts off a surface is no face of its inside.
     pub fn is_operand(&self) -> bool {
         let told = self.faces.len() <= Crossings::MOST / 2;
-        told && self.loops.is_none() && self.holes.is_empty() && !self.part
+        told && self.loops.is_none() && self.holes.is_empty() && self.own_face.is_none()
     }
 
     /// Whether the solid is the outside of the faces.

@@ -22,8 +22,9 @@ pub struct Sketch {
     reach: f64,
     convex: bool,
     turned: bool,
-    vague: bool,
-    part: bool,
+    /// If the forms only hold the surface: a box that does, too.
+    vague: Option<Aabb>,
+    own_face: Option<u32>,
     normals: Option<[Vec3; 4]>,
     loops: Option<Loops<Form<N>>>,
     /// See [`Outline`].
@@ -79,8 +80,8 @@ impl Sketch {
             reach,
             convex: false,
             turned: false,
-            vague: false,
-            part: false,
+            vague: None,
+            own_face: None,
             normals: None,
             loops: None,
             holes: Vec::new(),
@@ -136,15 +137,16 @@ impl Sketch {
         Self::new(centre, forms, 1, radius * (1.0 + 2.0 * U))
     }
 
-    /// The flat convex sheet with these vertices, which go round the normal `(v1 - v0) x (v2 - v0)`.
-    pub(crate) fn facet(vertices: [Point3; 3]) -> Self {
+    /// The flat convex sheet with these vertices, which lie in one plane and go round the normal `(v1 - v0) x (v2 - v0)`.
+    pub(crate) fn flat<const K: usize>(vertices: [Point3; K]) -> Self {
         let centre = Aabb::from_points(vertices).centre();
         Isa::detect().run(
             #[inline(always)]
             || {
-                let [a, b, c] = vertices.map(|v| minus(&exact(v.to_vec()), &exact(centre.to_vec())));
-                let (ab, bc, ca) = (minus(&b, &a), minus(&c, &b), minus(&a, &c));
-                Self::sheet(centre, &cross(&ab, &minus(&c, &a)), &[(a, ab), (b, bc), (c, ca)])
+                let seen = vertices.map(|v| minus(&exact(v.to_vec()), &exact(centre.to_vec())));
+                let edges: [_; K] = core::array::from_fn(|i| (seen[i], minus(&seen[(i + 1) % K], &seen[i])));
+                let n = cross(&edges[0].1, &minus(&seen[2], &seen[0]));
+                Self::sheet(centre, &n, &edges)
             },
         )
     }
@@ -211,7 +213,7 @@ impl Sketch {
 
     /// A surface of which only a box is known that holds it.
     pub fn vague(bounds: Aabb) -> Self {
-        Self { vague: true, ..Self::axis_box(bounds.min, bounds.max) }
+        Self { vague: Some(bounds), ..Self::axis_box(bounds.min, bounds.max) }
     }
 
     /// The same sheet, shaded with normals that change linearly over the triangle.
@@ -233,10 +235,6 @@ impl Sketch {
     /// The surface moved by a map.
     #[must_use]
     pub fn placed(self, map: &Affine) -> Self {
-        if self.vague {
-            let half = Vec3::new(self.reach, self.reach, self.reach);
-            return Self::vague(map.bounds(&Aabb::centred(self.centre, half)));
-        }
         let m = map.centre();
         let centre = m + map.vector(self.centre.to_vec());
         // With h = x - centre, and L⁻¹ = adj / det: det y = adj h + δ, δ = adj (centre - m) - det c.
@@ -306,7 +304,8 @@ impl Sketch {
             });
             Loops { off, ..l.map(moved) }
         });
-        Self { centre, forms, reach, normals, loops, holes, ..self }
+        let vague = self.vague.map(|bounds| map.bounds(&bounds));
+        Self { centre, forms, reach, normals, loops, holes, vague, ..self }
     }
 
     /// The surface with its normals, and its inside, turned round.
@@ -316,10 +315,10 @@ impl Sketch {
         Self { turned: !self.turned, ..self }
     }
 
-    /// The same, as one part of a surface whose roots tell by their face which part they are on.
+    /// The same, as one part of a surface, all of whose roots are on this face.
     #[must_use]
-    pub(crate) fn part_of_many(self) -> Self {
-        Self { part: true, ..self }
+    pub(crate) fn on_face(self, face: u32) -> Self {
+        Self { own_face: Some(face), ..self }
     }
 
     /// What of the surface lies in the region where all faces of another are negative.
@@ -348,7 +347,9 @@ impl Sketch {
 
     /// A box that holds the surface; unbounded if only its faces tell where it is.
     pub fn bounds(&self) -> Aabb {
-        if self.reach < f64::INFINITY {
+        if let Some(bounds) = self.vague {
+            bounds
+        } else if self.reach < f64::INFINITY {
             Aabb::centred(self.centre, Vec3::new(self.reach, self.reach, self.reach))
         } else {
             Aabb::UNBOUNDED
@@ -368,7 +369,7 @@ impl Sketch {
         let holes = self.holes.iter().map(round).collect::<Option<_>>()?;
         let slabs = (0..faces.len()).map(|i| faces.get(i + 1).is_some_and(|next| faces[i].is_opposite(next)));
         let slabs = slabs.collect();
-        let Self { centre, walls, reach, convex, turned, vague, part, .. } = *self;
+        let Self { centre, walls, reach, convex, turned, vague, own_face, .. } = *self;
         let normals = self.normals.map(Box::new);
         let loops = match &self.loops {
             Some(loops) => Some(Box::new(loops.try_map(Face::new)?)),
@@ -382,8 +383,8 @@ impl Sketch {
             convex,
             slabs,
             turned,
-            vague,
-            part,
+            vague: vague.is_some(),
+            own_face,
             normals,
             loops,
             holes,

@@ -35,7 +35,8 @@ use outline::Point;
 
 /// A solid between two planes across y, within outlines that are swept from one to the other; without its caps a sheet.
 ///
-/// Faces: 0 the walls, 1 the cap at the bottom, 2 the one at the top. A root's tag names the triangle of the wall.
+/// Faces: 0 the walls, 1 the cap at the bottom, 2 the one at the top. A root's tag names the triangle of the wall. Parts: the walls of the edges, then the
+/// caps, so that a ray only asks those that it comes near. A tangled prism is one part, since its signs alternate along the whole line.
 ///
 /// # Invariants
 ///
@@ -47,6 +48,7 @@ pub struct Prism {
     /// The outlines cross or touch themselves or each other, so that an edge may have the inside on either side.
     tangled: bool,
     open: bool,
+    sweep: Sweep,
     bounds: Aabb,
 }
 
@@ -102,7 +104,7 @@ pub enum PrismError {
 }
 
 /// How the outline changes from one height to another.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Sweep {
     Linear,
     Conic,
@@ -116,6 +118,21 @@ impl Sweep {
             Self::Conic => Point3::new(x * y, y, z * y),
         }
     }
+
+    /// How many triangles of a wall are one part: both, if they lie in one plane, exactly.
+    fn together(self) -> usize {
+        match self {
+            Self::Linear => 2,
+            Self::Conic => 1,
+        }
+    }
+}
+
+/// A part of a prism.
+enum PrismPart<'a> {
+    /// Some triangles, the first one's number, and their corners in order.
+    Walls(&'a [Wall], usize),
+    Cap(&'a Cap),
 }
 
 impl Prism {
@@ -184,7 +201,7 @@ impl Prism {
             let up = facet::unit_normal(&polygon.spanning()).y > 0.0;
             caps.push(Cap { polygon, turned: up != (face == 2), face });
         }
-        Ok(Self { walls, caps, tangled: inside_is_left.is_none(), open: false, bounds })
+        Ok(Self { walls, caps, tangled: inside_is_left.is_none(), open: false, sweep, bounds })
     }
 
     /// The walls alone.
@@ -213,15 +230,41 @@ impl Prism {
         }
     }
 
+    fn part(&self, PartId(part): PartId) -> Option<PrismPart<'_>> {
+        let (part, together) = (part as usize, self.sweep.together());
+        let walls = self.walls.len() / together;
+        match part.checked_sub(walls) {
+            None => {
+                let first = part * together;
+                Some(PrismPart::Walls(&self.walls[first..first + together], first))
+            }
+            Some(cap) => self.caps.get(cap).map(PrismPart::Cap),
+        }
+    }
+
     /// Every crossing of the line with a face, in no order: the crossing, its plane, its face and tag, and whether the sign is to be turned.
     #[inline(always)]
     fn each_crossing(&self, probe: &Probe<'_>, mut f: impl FnMut(Crossing, ThreePoints, u32, f64, bool)) {
+        self.wall_crossings(probe, (&self.walls, 0), &mut f);
+        for cap in &self.caps {
+            cap_crossing(probe, cap, &mut f);
+        }
+    }
+
+    /// The crossings with some triangles of the walls, the first one's number given.
+    #[inline(always)]
+    fn wall_crossings(
+        &self,
+        probe: &Probe<'_>,
+        (walls, first): (&[Wall], usize),
+        f: &mut impl FnMut(Crossing, ThreePoints, u32, f64, bool),
+    ) {
         let filter = EdgeFilter::new(probe);
         // The prism lies within one unit of its centre.
         let bound = filter.bound(probe.ray.o.max_abs() + 2.0);
         // Neighbours share ribs: the last two are remembered.
         let mut known = [([Point3::ORIGIN; 2], 0.0); 2];
-        for (i, wall) in self.walls.iter().enumerate() {
+        for (i, wall) in walls.iter().enumerate() {
             let sides = wall.ribs.map(|rib| match known.iter().find(|k| k.0 == rib) {
                 Some(known) => known.1,
                 None => filter.side(filter.seen(rib[0]), filter.seen(rib[1])),
@@ -234,19 +277,22 @@ impl Prism {
             if facet::passes(probe, &filter, &wall.facet).is_some() {
                 let plane = facet::plane(probe, &wall.facet);
                 if let Some(crossing) = probe.crossing(&plane) {
-                    f(crossing, plane, 0, i as f64, false);
+                    f(crossing, plane, 0, (first + i) as f64, false);
                 }
             }
         }
-        for cap in &self.caps {
-            let plane = cap.polygon.plane(probe);
-            let Some(crossing) = probe.crossing(&plane) else { continue };
-            // The prism lies within one unit of its centre: what is certainly farther away needs no look at the outline.
-            let (at, err) = probe.place(&crossing);
-            if at.max_abs() <= 1.0 + err.max_abs() && cap.polygon.holds(probe) {
-                f(crossing, plane, cap.face, 0.0, cap.turned);
-            }
-        }
+    }
+}
+
+/// The crossing with a cap.
+#[inline(always)]
+fn cap_crossing(probe: &Probe<'_>, cap: &Cap, f: &mut impl FnMut(Crossing, ThreePoints, u32, f64, bool)) {
+    let plane = cap.polygon.plane(probe);
+    let Some(crossing) = probe.crossing(&plane) else { return };
+    // The prism lies within one unit of its centre: what is certainly farther away needs no look at the outline.
+    let (at, err) = probe.place(&crossing);
+    if at.max_abs() <= 1.0 + err.max_abs() && cap.polygon.holds(probe) {
+        f(crossing, plane, cap.face, 0.0, cap.turned);
     }
 }
 
@@ -318,8 +364,57 @@ impl Surface for Prism {
         SurfacePoint { ng: -point.ng, ns: -point.ns, dndu: -point.dndu, dndv: -point.dndv, ..point }
     }
 
-    fn sketch(&self, _part: PartId) -> Sketch {
-        Sketch::vague(self.bounds)
+    #[inline(always)]
+    fn is_in_parts(&self) -> bool {
+        !self.tangled
+    }
+
+    fn parts(&self, f: &mut dyn FnMut(Aabb, PartId)) {
+        if self.tangled {
+            return f(self.bounds, PartId(0));
+        }
+        let together = self.sweep.together();
+        let walls = self.walls.chunks(together).map(|w| Aabb::from_points(w.iter().flat_map(|w| w.facet)));
+        let caps = self.caps.iter().filter(|_| !self.open).map(|cap| cap.polygon.bounds());
+        for (bounds, number) in walls.chain(caps).zip(0..) {
+            f(bounds, PartId(number));
+        }
+    }
+
+    fn sketch(&self, part: PartId) -> Sketch {
+        match self.part(part) {
+            _ if self.tangled => Sketch::vague(self.bounds),
+            Some(PrismPart::Walls(&[Wall { ribs: [[a0, a1], [b0, b1]], .. }, _], _)) => {
+                Sketch::flat([a0, a1, b1, b0]).on_face(0)
+            }
+            Some(PrismPart::Walls(&[Wall { facet, .. }], _)) => Sketch::flat(facet).on_face(0),
+            Some(PrismPart::Cap(cap)) => {
+                let sketch = cap.polygon.sketch(PartId(0)).on_face(cap.face);
+                if cap.turned { sketch.turned() } else { sketch }
+            }
+            _ => Sketch::vague(self.bounds),
+        }
+    }
+
+    #[inline(always)]
+    fn part_roots<S: Sink + ?Sized>(&self, part: PartId, ray: &LocalRay<'_>, sink: &mut S) {
+        if self.tangled {
+            return self.roots(ray, sink);
+        }
+        let probe = self.probe(ray);
+        let range = sink.range();
+        let mut roots = Sorted::new();
+        let mut take = |crossing: Crossing, plane: ThreePoints, face, wall, turned| {
+            if !crossing.is_outside(range) && probe.may_admit(&crossing) && probe.admits(&plane, &crossing) {
+                roots.push(root(&probe, &crossing, face, wall, turned));
+            }
+        };
+        match self.part(part) {
+            Some(PrismPart::Walls(walls, first)) => self.wall_crossings(&probe, (walls, first), &mut take),
+            Some(PrismPart::Cap(cap)) => cap_crossing(&probe, cap, &mut take),
+            None => {}
+        }
+        roots.pour(sink);
     }
 
     fn solidity(&self) -> Solidity {

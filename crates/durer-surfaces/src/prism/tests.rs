@@ -368,7 +368,7 @@ fn rays_through_edges_and_corners_go_in_as_often_as_out() {
             let back = dice.pick(&[7.0, 1000.0, 1048577.0]);
             let ray = Ray::new(target - direction * back, direction);
             let roots = all_roots(prism, &ray);
-            assert!(roots.len() % 2 == 0, "{roots:?} for {ray:?} and {prism:?}");
+            assert!(roots.len().is_multiple_of(2), "{roots:?} for {ray:?} and {prism:?}");
             assert_eq!(
                 roots.iter().map(|r| i32::from(r.sign)).sum::<i32>(),
                 0,
@@ -451,6 +451,34 @@ fn without_caps_the_walls_stay() {
         closed.retain(|r| r.face == 0);
         assert_eq!(all_roots(&open, &ray), closed);
     }
+}
+
+#[test]
+fn parts_together_are_the_whole() {
+    let (mut parts, mut met) = (0, 0);
+    for (seed, (prism, _)) in cases().into_iter().enumerate() {
+        let mut dice = Dice::new(300 + seed as u64);
+        let prism = if dice.once_in(3) { prism.without_caps() } else { prism };
+        let all = corners(&prism);
+        for _ in 0..100 {
+            let ray = Ray::new((dice.vector() * 9.0).to_point(), dice.vector());
+            let ray = if dice.once_in(2) { Ray::new(ray.origin, dice.pick(&all) - ray.origin) } else { ray };
+            let mut sink = crate::All::default();
+            prism.parts(&mut |bounds, part| {
+                let before = sink.roots.len();
+                prism.part_roots(part, &LocalRay::new(&ray), &mut sink);
+                for root in &sink.roots[before..] {
+                    let p = prism.resolve(&LocalRay::new(&ray), root, Need::POINT);
+                    assert!(bounds.expanded(p.dp).contains(p.p), "{p:?} of {part:?} in {bounds:?}");
+                }
+                parts += 1;
+            });
+            sink.roots.sort_by(Root::order);
+            assert_eq!(sink.roots, all_roots(&prism, &ray), "{ray:?} {prism:?}");
+            met += sink.roots.len();
+        }
+    }
+    assert!(parts > 10_000 && met > 1000, "{parts} {met}");
 }
 
 #[test]

@@ -22,11 +22,12 @@ use crate::quadric::body::Frame;
 use crate::roots::quadratic::{self, Quadratic};
 use crate::zero_set;
 use crate::{
-    Algebraic, Flow, Forward, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+    Algebraic, CentredRay, Flow, Forward, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface,
+    SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
-use durer_math::{Aabb, Dyadic, Isa, Point3, Ring, Vec3};
+use durer_math::{Aabb, Dyadic, Isa, Point3, Ring, U, Vec3};
 use level::{Above, Level};
 use piece::Wall;
 use wall::{Cubic, Spindle, Stand};
@@ -42,6 +43,8 @@ use wall::{Cubic, Spindle, Stand};
 pub struct Turned {
     heights: Vec<f64>,
     walls: Vec<Wall>,
+    /// No less than the radius of each wall, in units.
+    widths: Vec<f64>,
     open: bool,
     frame: Frame,
     bounds: Aabb,
@@ -79,7 +82,8 @@ impl Turned {
         let (centre, scale) = (wall::on_axis(0.5 * low + 0.5 * high), exponent(size) + 1);
         let unit = |y: f64| scale2(y - centre.y, -scale);
         let mut frame = Frame { centre, scale, reach: f64::INFINITY };
-        let mut walls = Vec::with_capacity(profiles.len());
+        let (mut walls, mut widths) =
+            (Vec::with_capacity(profiles.len()), Vec::with_capacity(profiles.len()));
         let mut reach = 0.0_f64;
         for (profile, slab) in profiles.iter().zip(heights.windows(2)) {
             let stand = |at| Stand {
@@ -111,6 +115,7 @@ impl Turned {
             }
             reach = reach.max(widest);
             walls.push(wall);
+            widths.push(widest);
         }
         let radius = scale2(reach, scale);
         let bounds = Aabb::new(Point3::new(-radius, low, -radius), Point3::new(radius, high, radius));
@@ -122,7 +127,7 @@ impl Turned {
                 Wall::Spindle(w) => w.stand.frame = frame,
             }
         }
-        Ok(Self { heights, walls, open: false, frame, bounds })
+        Ok(Self { heights, walls, widths, open: false, frame, bounds })
     }
 
     /// The walls alone, without their rims.
@@ -167,28 +172,52 @@ impl Turned {
             0 => Some(first),
             i => probe.crossing(&self.level(i)),
         };
+        let axis = Axial::new(&probe.ray);
         let Some(mut entry) = crossing(0) else { return };
-        let mut inside = false;
+        // The wall behind, unless the ray surely passes all of it by.
+        let mut behind = None;
         for k in 0..=last {
-            // What the wall behind us says at its end, and what the wall ahead says at its beginning.
-            let (before, after) =
-                (inside, k < last && self.is_inside(wall(k), height(k), &probe, &entry, true));
-            if before != after {
-                self.at_height(height(k), after, &probe, &entry, &mut out);
-            }
-            if k == last || out.stopped {
-                return;
-            }
-            let Some(exit) = crossing(k + 1) else { return };
+            let exit = if k < last { crossing(k + 1) } else { None };
+            let ahead = match &exit {
+                Some(exit) if axis.misses(self.widths[wall(k)], &entry, exit) => None,
+                Some(_) => Some(wall(k)),
+                None => None,
+            };
+            self.seam(height(k), (behind, ahead), &probe, &entry, &mut out);
+            let Some(exit) = exit else { return };
             let (near, far) = out.sink.range();
-            if entry.lo > far.min(ray.t_max) {
+            if out.stopped || entry.lo > far.min(ray.t_max) {
                 return;
             }
-            if exit.hi >= near.max(ray.t_min) {
-                self.wall_roots(wall(k), ray, &probe, Some((&entry, &exit)), &mut out);
+            if let Some(wall) = ahead
+                && exit.hi >= near.max(ray.t_min)
+            {
+                self.wall_roots(wall, ray, &probe, Some((&entry, &exit)), &mut out);
+                if out.stopped {
+                    return;
+                }
             }
-            inside = self.is_inside(wall(k), height(k + 1), &probe, &exit, false);
-            entry = exit;
+            (behind, entry) = (ahead, exit);
+        }
+    }
+
+    /// Pushes the crossing at a height, if what the wall behind says at its end and what the wall ahead says at its beginning are not the same; a wall
+    /// that the ray passes by says outside.
+    fn seam(
+        &self,
+        i: usize,
+        (behind, ahead): (Option<usize>, Option<usize>),
+        probe: &Probe<'_>,
+        crossing: &Crossing,
+        out: &mut Out<'_>,
+    ) {
+        if crossing.is_outside(out.sink.range()) || !probe.may_admit(crossing) {
+            return;
+        }
+        let before = behind.is_some_and(|wall| self.is_inside(wall, i, probe, crossing, false));
+        let after = ahead.is_some_and(|wall| self.is_inside(wall, i, probe, crossing, true));
+        if before != after {
+            self.at_height(i, after, probe, crossing, out);
         }
     }
 
@@ -199,10 +228,7 @@ impl Turned {
             i if i == self.walls.len() => 2,
             _ => 0,
         };
-        if self.open && face > 0 || crossing.is_outside(out.sink.range()) || !probe.may_admit(crossing) {
-            return;
-        }
-        if !probe.admits(&self.level(i), crossing) {
+        if self.open && face > 0 || !probe.admits(&self.level(i), crossing) {
             return;
         }
         let sign = if inward { -1 } else { 1 };
@@ -301,6 +327,35 @@ impl Turned {
             Wall::Cubic(w) => zero_set::roots(w, ray, &mut keeping),
             Wall::Spindle(w) => zero_set::roots(w, ray, &mut keeping),
         }
+    }
+}
+
+/// A ray and the axis: the square of their distance is `a s² + 2 b s + c`, in units.
+struct Axial<'a> {
+    ray: &'a CentredRay<'a>,
+    a: f64,
+    b: f64,
+    c: f64,
+}
+
+impl<'a> Axial<'a> {
+    fn new(ray: &'a CentredRay<'a>) -> Self {
+        let (o, d) = (ray.o, ray.d);
+        Self { ray, a: d.x * d.x + d.z * d.z, b: o.x * d.x + o.z * d.z, c: o.x * o.x + o.z * o.z }
+    }
+
+    /// Whether the ray surely passes by a wall of this radius between the two heights that bound it: all the way it is farther from the axis.
+    ///
+    /// With `p >= |o| + |s| |d|` the sums are wrong by `5 U p²` at most, and by less than a rounding since `s` is not exactly the least point; coordinates that
+    /// are wrong by `e` change the square by `2 (p + e) e` at most.
+    fn misses(&self, reach: f64, entry: &Crossing, exit: &Crossing) -> bool {
+        let (low, high) = (entry.s_lo.min(exit.s_lo), entry.s_hi.max(exit.s_hi));
+        let s = (-self.b / self.a).max(low).min(high);
+        let square = (self.a * s + 2.0 * self.b) * s + self.c;
+        let sum = |v: Vec3| v.x.abs() + v.y.abs() + v.z.abs();
+        let p = sum(self.ray.o) + s.abs() * sum(self.ray.d);
+        let e = sum(self.ray.o_err) + s.abs() * sum(self.ray.d_err);
+        square - (p * p * (16.0 * U) + (p + e) * e * 4.0) > reach * reach * (1.0 + 4.0 * U)
     }
 }
 

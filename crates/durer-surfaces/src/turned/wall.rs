@@ -105,6 +105,17 @@ impl ZeroSet<4> for Cubic {
         ]
     }
 
+    #[inline(always)]
+    fn at<T: Ring>(&self, p: &[T; 3], w: &T) -> T {
+        let [x, y, z] = p.clone();
+        let v = y - self.stand.height::<T>() * w.clone();
+        let [a0, a1, a2, a3] = self.a.map(T::exact);
+        let w2 = w.clone().square();
+        let square =
+            ((a3 * v.clone() + a2 * w.clone()) * v.clone() + a1 * w2.clone()) * v + a0 * w2 * w.clone();
+        (x.square() + z.square()) * w.clone() - square
+    }
+
     fn stretch(&self, ray: &CentredRay<'_>) -> Option<(f64, f64)> {
         self.stand.stretch(ray)
     }

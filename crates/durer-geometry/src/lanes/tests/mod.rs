@@ -4,7 +4,6 @@
 
 mod aimed;
 mod bodies;
-mod boxed;
 mod worlds;
 
 use self::worlds::{Sides, World, all_worlds};

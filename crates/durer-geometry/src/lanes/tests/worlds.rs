@@ -1,14 +1,13 @@
 //! Worlds of one surface each: as it is, inside out, and moved in ways that are hard on an outline.
 
-use super::boxed::Boxed;
 use super::point;
 use crate::Geometry;
 use durer_math::{Affine, Dyadic, Isa, Normal3, Point3, Vec3};
 use durer_surfaces::{
-    Annulus, AxisBox, CappedCylinder, Clip, Cone, Disc, Ellipsoid, EllipticCylinder, EllipticParaboloid,
-    FillRule, Frustum, HyperbolicCylinder, HyperbolicParaboloid, HyperboloidOfOneSheet,
-    HyperboloidOfTwoSheets, Inverse, Mesh, MeshData, ParabolicCylinder, Parallelogram, Placed, Plane,
-    Polygon, Quadric, Region, Sphere, SphericalSector, Surface, Triangle,
+    Algebraic, Annulus, AxisBox, CappedCylinder, Clip, Cone, Disc, Ellipsoid, EllipticCylinder,
+    EllipticParaboloid, Erased, FillRule, Frustum, HyperbolicCylinder, HyperbolicParaboloid,
+    HyperboloidOfOneSheet, HyperboloidOfTwoSheets, Inverse, Mesh, MeshData, ParabolicCylinder, Parallelogram,
+    Placed, Plane, Polygon, Prism, Quadric, Region, Sphere, SphericalSector, Triangle,
 };
 
 /// What is known exactly of points beside the surface.
@@ -120,16 +119,16 @@ fn placements() -> Vec<(&'static str, Vec<Affine>)> {
 type Worlds = (Isa, Vec<World>);
 
 /// A surface in all its placements.
-fn worlds<S: Surface + 'static>(name: &'static str, sides: Sides, surface: S, (isa, out): &mut Worlds) {
-    let surface = Boxed::new(surface);
-    let mut world = |how: &str, turned: bool, maps: Vec<Affine>, surface: Boxed| {
+fn worlds<S: Algebraic + 'static>(name: &'static str, sides: Sides, surface: S, (isa, out): &mut Worlds) {
+    let surface = Erased::new(surface);
+    let mut world = |how: &str, turned: bool, maps: Vec<Affine>, surface: Erased| {
         let geometry = Geometry::builder().isa(*isa).add(surface).build().unwrap();
         out.push(World { surface: name, name: format!("{name}, {how}"), geometry, sides, turned, maps });
     };
     world("as it is", false, Vec::new(), surface.clone());
-    world("inside out", true, Vec::new(), Boxed::new(Inverse(surface.clone())));
+    world("inside out", true, Vec::new(), Erased::new(Inverse(surface.clone())));
     for (how, maps) in placements() {
-        let placed = maps.iter().fold(surface.clone(), |s, map| Boxed::new(Placed::new(s, *map)));
+        let placed = maps.iter().fold(surface.clone(), |s, map| Erased::new(Placed::new(s, *map)));
         world(how, false, maps, placed);
     }
 }
@@ -209,6 +208,13 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     let hole = Region::solid(Sphere::new(point(0.0, 0.0, 1.0), 0.5).unwrap()).inverse();
     let ball = Sphere::new(o, 1.0).unwrap();
     worlds("clipped sphere", Sides::Sheet, Clip::new(ball, vec![cut, hole]), all);
+    let outlines = [
+        [[-1.0, -1.0], [1.0, -1.0], [0.25, 0.25], [-1.0, 1.0]],
+        [[-0.75, -0.75], [-0.5, 0.0], [0.0, -0.25], [0.0, -0.5]],
+    ];
+    worlds("prism", Sides::Solid, Prism::linear(&outlines, -0.5, 0.75).unwrap(), all);
+    worlds("conic prism", Sides::Solid, Prism::conic(&outlines, -0.5, 1.0).unwrap(), all);
+    worlds("open prism", Sides::Sheet, Prism::conic(&outlines, 0.25, 1.0).unwrap().without_caps(), all);
     // A sheet of which one corner is out of the plane by a little, and a surface without what lies in a box.
     let mut bent = square(1.0);
     bent[3].z = 0.5 + durer_math::scale::pow2(-40);

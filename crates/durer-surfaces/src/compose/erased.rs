@@ -1,28 +1,42 @@
 //! A surface behind a pointer: for the rarer kinds and combinations, which are not worth an array (and its code) of their own.
 
-use durer_math::{Aabb, Affine, Isa};
-use durer_surfaces::outline::Sketch;
-use durer_surfaces::{
-    Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
-};
+use crate::compose::clip::Algebraic;
+use crate::outline::Sketch;
+use crate::roots::quadratic::Quadratic;
+use crate::{Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use core::cmp::Ordering;
+use durer_math::{Aabb, Affine, Dyadic, Isa, RaySide, Shaft};
 use std::sync::Arc;
 
 /// Any surface. What it answers is what the surface within answers.
+///
+/// ```
+/// use durer_math::{Affine, Point3, Vec3};
+/// use durer_surfaces::{AxisBox, Erased, Placed, Sphere, Surface};
+///
+/// // Two kinds in one array, and one type for both where they are placed.
+/// let unit = AxisBox::new(Point3::ORIGIN, Point3::new(1.0, 1.0, 1.0))?;
+/// let both = [Erased::new(Sphere::new(Point3::ORIGIN, 1.0)?), Erased::new(unit)];
+/// let map = Affine::translation(Vec3::X)?;
+/// let moved = both.map(|s| Placed::new(s, map));
+/// assert_eq!(moved[1].bounds().max, Point3::new(2.0, 1.0, 1.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone)]
-pub(super) struct Erased {
+pub struct Erased {
     surface: Arc<dyn Dynamic>,
     /// The code within is entered through the feature door too.
     isa: Isa,
 }
 
-/// [`Surface`] without its generic methods.
-trait Dynamic: Surface {
+/// [`Algebraic`] without its generic methods.
+trait Dynamic: Algebraic {
     fn roots_dyn(&self, isa: Isa, ray: &LocalRay<'_>, sink: &mut dyn Sink);
     fn part_roots_dyn(&self, isa: Isa, part: PartId, ray: &LocalRay<'_>, sink: &mut dyn Sink);
     fn resolve_dyn(&self, isa: Isa, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint;
 }
 
-impl<S: Surface> Dynamic for S {
+impl<S: Algebraic> Dynamic for S {
     fn roots_dyn(&self, isa: Isa, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         isa.run(
             #[inline(always)]
@@ -31,6 +45,10 @@ impl<S: Surface> Dynamic for S {
     }
 
     fn part_roots_dyn(&self, isa: Isa, part: PartId, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+        // One copy of the code is enough where all is one part.
+        if !self.is_in_parts() {
+            return self.roots_dyn(isa, ray, sink);
+        }
         isa.run(
             #[inline(always)]
             || self.part_roots(part, ray, sink),
@@ -46,7 +64,8 @@ impl<S: Surface> Dynamic for S {
 }
 
 impl Erased {
-    pub(super) fn new<S: Surface + 'static>(surface: S) -> Self {
+    /// `surface` behind a pointer.
+    pub fn new<S: Algebraic + 'static>(surface: S) -> Self {
         Self { surface: Arc::new(surface), isa: Isa::detect() }
     }
 }
@@ -58,6 +77,14 @@ impl Surface for Erased {
 
     fn bounds_through(&self, map: &Affine) -> Aabb {
         self.surface.bounds_through(map)
+    }
+
+    fn misses(&self, shaft: &Shaft) -> bool {
+        self.surface.misses(shaft)
+    }
+
+    fn is_left(&self, side: RaySide, shaft: &Shaft) -> bool {
+        self.surface.is_left(side, shaft)
     }
 
     fn roots<K: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut K) {
@@ -84,7 +111,31 @@ impl Surface for Erased {
         self.surface.sketch(part)
     }
 
+    fn is_in_parts(&self) -> bool {
+        self.surface.is_in_parts()
+    }
+
+    fn primitive_of(&self, part: PartId) -> u32 {
+        self.surface.primitive_of(part)
+    }
+
     fn part_roots<K: Sink + ?Sized>(&self, part: PartId, ray: &LocalRay<'_>, sink: &mut K) {
         self.surface.part_roots_dyn(self.isa, part, ray, &mut Forward(sink));
+    }
+}
+
+impl Algebraic for Erased {
+    fn polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+        self.surface.polynomial(face, ray)
+    }
+
+    fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {
+        self.surface.sign_at_root(ray, root, q)
+    }
+}
+
+impl core::fmt::Debug for Erased {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Erased").field("bounds", &self.bounds()).finish_non_exhaustive()
     }
 }
