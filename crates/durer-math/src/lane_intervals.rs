@@ -85,20 +85,27 @@ impl I8 {
                 continue;
             }
             let (range, defined) = f(a.lane(i), b.lane(i));
-            match defined {
-                Defined::Continuous => {}
-                Defined::Jumps => out.jump |= 1 << i,
-                Defined::Partly => out.partial |= 1 << i,
-                Defined::Nowhere => {
-                    out.partial |= 1 << i;
-                    out.empty |= 1 << i;
-                    continue;
-                }
-            }
-            let lost = range.lo.is_nan() || range.hi.is_nan();
-            out.set_lane(i, if lost { Interval::ENTIRE } else { range });
+            out.put(i, range, defined);
         }
         out
+    }
+
+    /// Sets a lane to the values of a function.
+    #[inline(always)]
+    fn put(&mut self, i: usize, range: Interval, defined: Defined) {
+        match defined {
+            Defined::Continuous => {}
+            Defined::Jumps => self.jump |= 1 << i,
+            Defined::Partly => self.partial |= 1 << i,
+            Defined::Nowhere => {
+                self.partial |= 1 << i;
+                self.empty |= 1 << i;
+                self.set_lane(i, Interval { lo: 0.0, hi: 0.0 });
+                return;
+            }
+        }
+        let lost = range.lo.is_nan() || range.hi.is_nan();
+        self.set_lane(i, if lost { Interval::ENTIRE } else { range });
     }
 }
 
@@ -462,12 +469,23 @@ fn powers(a: &I8, n: i32) -> I8 {
 
 #[inline(never)]
 fn pow(a: &I8, b: &I8) -> I8 {
-    I8::each2(a, b, Interval::pow)
+    or_by_itself(a, b, crate::lane_powers::pow(a, b), Interval::pow)
+}
+
+/// What was worked out in lanes, and the lanes that were not: each by itself.
+#[inline(always)]
+fn or_by_itself(a: &I8, b: &I8, (out, left): (I8, u8), f: impl Fn(Interval, Interval) -> Range) -> I8 {
+    let mut out = out.said(a, b);
+    for i in crate::lanes::set_bits(left & !out.empty) {
+        let (range, defined) = f(a.lane(i), b.lane(i));
+        out.put(i, range, defined);
+    }
+    out
 }
 
 #[inline(never)]
 fn atan2(y: &I8, x: &I8) -> I8 {
-    I8::each2(y, x, Interval::atan2)
+    or_by_itself(y, x, crate::lane_angles::atan2(y, x), Interval::atan2)
 }
 
 #[inline(never)]

@@ -10,12 +10,19 @@
 //! which leaves out `0.06 u`; Horner's scheme, fused, errs by `1.5 u` before its last rounding of at most `1.42 u`, of a value of at least 0.707. Together `3.1 u` of the
 //! power: claimed is [`EXP2_ERROR`].
 
+//!
+//! **Any power.** `x^p = 2^(p e + p log2 m)`: the product `p e` is taken with its error, a whole number `k` is taken off, and what is left has errors of `3.2 u |p|` from
+//! the logarithm of `m`, at most 1/2, and of `u |p| / 2 + u` from its own rounding. That makes `(2.6 |p| + 4) u` of the power: claimed is [`power_error`].
+
 use crate::{F8, U};
 
 /// Bound on the error of [`log2`], relative to the logarithm.
 pub const LOG2_ERROR: f64 = 8.0 * U;
 /// Bound on the error of [`exp2`], relative to the power.
 pub const EXP2_ERROR: f64 = 4.0 * U;
+
+/// The largest exponent that [`power`] takes.
+pub const MOST_POWER: f64 = 512.0;
 
 /// A sum with it is a whole number, which its last bits say.
 const WHOLE: f64 = 6_755_399_441_055_744.0;
@@ -55,10 +62,16 @@ const EXP: [f64; 14] = [
     1.0,
 ];
 
-/// The logarithms to base 2 of eight positive normal numbers, within [`LOG2_ERROR`]; of anything else, anything.
+/// Bound on the error of [`power`], relative to the power.
 #[inline(always)]
 #[must_use]
-pub fn log2(x: F8) -> F8 {
+pub fn power_error(p: f64) -> f64 {
+    (p.abs() * 4.0 + 8.0) * U
+}
+
+/// `x = 2^e m`: the exponent, and the logarithm of `m` to base `e`, halved: `artanh s`.
+#[inline(always)]
+fn split(x: F8) -> (F8, F8) {
     let bits = |x: F8, f: fn(u64) -> u64| x.map(|x| f64::from_bits(f(x.to_bits())));
     let e = bits(x, |b| (b.wrapping_add(ONE - ROOT) >> 52) | WHOLE.to_bits()) - F8::splat(WHOLE + 1023.0);
     let m = bits(x, |b| b.wrapping_sub(b.wrapping_sub(ROOT) & (u64::MAX << 52)));
@@ -68,7 +81,27 @@ pub fn log2(x: F8) -> F8 {
     for c in &ARTANH[1..] {
         series = series.mul_add(z, F8::splat(*c));
     }
-    (s * series).mul_add(F8::splat(2.0 * core::f64::consts::LOG2_E), e)
+    (e, s * series)
+}
+
+/// Two to the power `k + f`; the last bits of `rounded` are the whole number `k`.
+#[inline(always)]
+fn raised(rounded: F8, f: F8) -> F8 {
+    let r = f * core::f64::consts::LN_2;
+    let mut series = F8::splat(EXP[0]);
+    for c in &EXP[1..] {
+        series = series.mul_add(r, F8::splat(*c));
+    }
+    // 1023 more than k are the exponent of a number.
+    series * rounded.map(|x| f64::from_bits(x.to_bits().wrapping_add(1023) << 52))
+}
+
+/// The logarithms to base 2 of eight positive normal numbers, within [`LOG2_ERROR`]; of anything else, anything.
+#[inline(always)]
+#[must_use]
+pub fn log2(x: F8) -> F8 {
+    let (e, half) = split(x);
+    half.mul_add(F8::splat(2.0 * core::f64::consts::LOG2_E), e)
 }
 
 /// Two to the power of eight numbers from -1020 to 1020, within [`EXP2_ERROR`]; of anything else, anything.
@@ -76,11 +109,20 @@ pub fn log2(x: F8) -> F8 {
 #[must_use]
 pub fn exp2(t: F8) -> F8 {
     let rounded = t + F8::splat(WHOLE);
-    let r = (t - (rounded - F8::splat(WHOLE))) * core::f64::consts::LN_2;
-    let mut series = F8::splat(EXP[0]);
-    for c in &EXP[1..] {
-        series = series.mul_add(r, F8::splat(*c));
-    }
-    // The last bits of the sum are k: 1023 more of it are the exponent of a number.
-    series * rounded.map(|x| f64::from_bits(x.to_bits().wrapping_add(1023) << 52))
+    raised(rounded, t - (rounded - F8::splat(WHOLE)))
+}
+
+/// `x^p` of eight positive normal numbers and exponents of size up to [`MOST_POWER`], within [`power_error`], and the exponent to base 2, rounded: where that is not
+/// within 1010 the power is anything.
+#[inline(always)]
+#[must_use]
+pub fn power(x: F8, p: F8) -> (F8, F8) {
+    let (e, half) = split(x);
+    let y = half * (2.0 * core::f64::consts::LOG2_E);
+    let high = p * e;
+    let low = p.mul_add(e, -high);
+    let t = p.mul_add(y, high);
+    let rounded = t + F8::splat(WHOLE);
+    let f = (high - (rounded - F8::splat(WHOLE))) + p.mul_add(y, low);
+    (raised(rounded, f), t)
 }

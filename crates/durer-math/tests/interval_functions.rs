@@ -166,6 +166,21 @@ fn powers_and_angles_hold_the_exact_values() {
         let (a, b) = (Interval::new(v - reach, v + reach), Interval::new(u - reach, u + reach));
         let (range, _) = a.atan2(b);
         assert!(holds(range, &angle), "atan2({v}, {u}) within {reach}: {angle} not in {range:?}");
+        // The same in lanes, which is as narrow.
+        let lanes = I8::atan2(&I8::splat(a), &I8::splat(b)).lane(3);
+        assert!(holds(lanes, &angle), "atan2({v}, {u}) within {reach}: {angle} not in {lanes:?}");
+        let same = |x: f64, y: f64| (x - y).abs() <= 32.0 * f64::EPSILON * y.abs();
+        assert!(same(lanes.lo, range.lo) && same(lanes.hi, range.hi), "{a:?} {b:?}: {lanes:?} {range:?}");
+        // The witness does not take subnormal numbers as they are.
+        if !u.is_normal() || !v.is_normal() {
+            continue;
+        }
+        let thin = I8::atan2(&I8::splat(Interval::from(v)), &I8::splat(Interval::from(u))).lane(7);
+        assert!(
+            holds(thin, &angle)
+                && thin.width() <= 64.0 * f64::EPSILON * elementary::atan2(v, u).abs() + 1e-300,
+            "{thin:?}"
+        );
     }
     assert!(worst <= ULPS / 2.0, "pow: {worst} ulp");
 }

@@ -4,8 +4,8 @@ mod common;
 
 use astro_float::{BigFloat, Consts, RoundingMode};
 use common::Dice;
-use durer_math::lane_logs::{EXP2_ERROR, LOG2_ERROR, exp2, log2};
-use durer_math::{F8, Isa, U};
+use durer_math::lane_logs::{EXP2_ERROR, LOG2_ERROR, exp2, log2, power, power_error};
+use durer_math::{F8, I8, Interval, Isa, Number, U};
 
 const P: usize = 256;
 const RM: RoundingMode = RoundingMode::ToEven;
@@ -92,4 +92,97 @@ fn powers_keep_their_bound() {
         }
     }
     println!("exp2: at most {:.2} u", worst / U);
+}
+
+#[test]
+fn any_power_keeps_its_bound() {
+    let mut constants = Consts::new().unwrap();
+    let (mut dice, mut worst) = (Dice(3), 0.0_f64);
+    for _ in 0..800 {
+        let p = match dice.bits() % 4 {
+            0 => dice.unit() * 500.0,
+            1 => dice.unit(),
+            _ => dice.unit() * 10.0,
+        };
+        let x = F8(core::array::from_fn(|_| {
+            let unit = dice.unit();
+            match dice.bits() % 5 {
+                0 => 1.0 + unit * durer_math::scale::pow2(-((dice.bits() % 53) as i32)),
+                1 => (1.0 + unit.abs()) * durer_math::scale::pow2((dice.bits() % 1900) as i32 - 950),
+                2 => durer_math::scale::pow2((dice.bits() % 40) as i32 - 20),
+                _ => unit.abs().max(1e-9) * 4.0,
+            }
+            .abs()
+            .max(1e-300)
+        }));
+        let y = on_all_paths(|x| power(x, F8::splat(p)).0, x);
+        let t = power(x, F8::splat(p)).1;
+        for i in (0..8).filter(|&i| t.0[i].abs() < 1010.0) {
+            let exact =
+                big(x.0[i]).ln(2 * P, RM, &mut constants).mul(&big(p), 2 * P, RM).exp(P, RM, &mut constants);
+            let error = relative(y.0[i], &exact);
+            assert!(error <= power_error(p), "{:e}^{p}: {:e}, off by {} u", x.0[i], y.0[i], error / U);
+            worst = worst.max(error / power_error(p));
+        }
+    }
+    println!("power: at most {worst:.3} of its bound");
+}
+
+/// Bases with every kind of end, exponents of every kind: the interval holds the exact powers, and is not much wider than the one of a single lane.
+#[test]
+fn powers_of_intervals_hold_the_exact_ones() {
+    let mut constants = Consts::new().unwrap();
+    let mut dice = Dice(4);
+    for _ in 0..600 {
+        let mut base = || {
+            let unit = dice.unit();
+            match dice.bits() % 8 {
+                0 => 0.0,
+                1 => 1.0,
+                2 => unit.abs() * durer_math::scale::pow2(-((dice.bits() % 1074) as i32)),
+                3 => unit.abs() * durer_math::scale::pow2((dice.bits() % 1000) as i32),
+                4 => -unit.abs(),
+                _ => unit.abs() * 3.0,
+            }
+        };
+        let ends: [(f64, f64); 8] = core::array::from_fn(|i| {
+            let (a, b) = (base(), base());
+            if i % 3 == 0 { (a, a) } else { (a.min(b), a.max(b)) }
+        });
+        let p = match dice.bits() % 5 {
+            0 => dice.unit() * 700.0,
+            1 => (dice.unit() * 9.0).round(),
+            _ => dice.unit() * 6.0,
+        };
+        let q = if dice.bits().is_multiple_of(2) { p } else { p + dice.unit().abs() * 0.1 };
+        let (a, b) = (I8::new(F8(ends.map(|e| e.0)), F8(ends.map(|e| e.1))), Interval::new(p, q));
+        let y = <I8 as Number>::pow(&a, &I8::splat(b));
+        for (i, (lo, hi)) in ends.into_iter().enumerate() {
+            let (alone, _) = Interval::new(lo, hi).pow(b);
+            let got = y.lane(i);
+            assert_eq!(alone.is_empty(), got.is_empty(), "[{lo}, {hi}]^{b:?}: {got:?} {alone:?}");
+            if lo > 1e-270 && hi < 1e270 && alone.lo > 1e-270 && alone.hi < 1e270 {
+                let wider = |x: f64, y: f64| {
+                    (x - y).abs() <= 2.0 * (power_error(p.abs().max(q.abs())) + 32.0 * U) * y.abs()
+                };
+                assert!(
+                    wider(got.lo, alone.lo) && wider(got.hi, alone.hi),
+                    "[{lo}, {hi}]^{b:?}: {got:?} {alone:?}"
+                );
+            }
+            for (x, z) in [(lo, p), (hi, q), (lo, q), (hi, p), (0.5 * lo + 0.5 * hi, 0.5 * p + 0.5 * q)] {
+                // The witness does not take subnormal numbers as they are.
+                if x < f64::MIN_POSITIVE || got.is_empty() {
+                    continue;
+                }
+                let exact =
+                    big(x).ln(2 * P, RM, &mut constants).mul(&big(z), 2 * P, RM).exp(P, RM, &mut constants);
+                let below = got.lo == f64::NEG_INFINITY || big(got.lo).cmp(&exact).is_some_and(|o| o <= 0);
+                let above = got.hi == f64::INFINITY || big(got.hi).cmp(&exact).is_some_and(|o| o >= 0);
+                assert!(below && above, "{x:e}^{z} is not in {got:?}, of [{lo:e}, {hi:e}]^{b:?}");
+            }
+            // Zero to a positive power is zero.
+            assert!(lo > 0.0 || hi < 0.0 || p <= 0.0 || got.contains(0.0), "[{lo}, {hi}]^{b:?}: {got:?}");
+        }
+    }
 }

@@ -174,6 +174,51 @@ fn a_sphere_as_a_formula_is_the_sphere() {
     }
 }
 
+/// Waves that cells tell apart only here and there, with edges where the planes of `max` meet them.
+fn wavy() -> Formula {
+    let (mut p, [x, y, z]) = Pen::new();
+    let nine = p.c(9.0);
+    let waves = [x, y, z].map(|x| {
+        let x = p.mul(x, nine);
+        p.op(Op::Function(Function::Sin, x))
+    });
+    let sum = p.add(waves[0], waves[1]);
+    let sum = p.add(sum, waves[2]);
+    let angle = p.op(Op::Atan2(y, x));
+    let sum = p.op(Op::Max(sum, angle));
+    let level = p.c(0.4);
+    let f = p.sub(sum, level);
+    p.done(f)
+}
+
+/// Rays that look ask less of a bracket: the same roots, in brackets about the narrow ones, no wider than they may be.
+#[test]
+fn who_looks_roughly_sees_the_same_roots() {
+    let mut dice = Dice(40);
+    for formula in [sphere(0.25, 1.0), distance_sphere(1.0), torus(0.7, 0.3), quartic_torus(0.7, 0.3), wavy()]
+    {
+        let surface = iso(&formula, 1.5);
+        let (mut met, mut wide) = (0, 0);
+        for _ in 0..2_000 {
+            let ray = ray_at_a_ball(&mut dice, 1.0);
+            let narrow = all(&surface, &ray);
+            let mut sink = All::default();
+            surface.roots(&LocalRay::new(&ray).roughly(), &mut sink);
+            let rough = sink.roots;
+            assert!(same(&narrow, &rough), "{ray:?}\n narrow {narrow:?}\n rough {rough:?}");
+            for root in rough.iter().filter(|r| r.kind == Kind::Simple) {
+                met += 1;
+                let most = durer_surfaces::ROUGH * root.t.abs().max(3.0 / ray.direction.length());
+                // Where the ray is not known better, or is all but tangent, no bracket can be that narrow.
+                let clear = |r: &Root| r.hi - r.lo < most / 1024.0 && r.lo <= root.hi && root.lo <= r.hi;
+                wide += usize::from(narrow.iter().any(clear) && root.hi - root.lo > 2.0 * most);
+            }
+        }
+        println!("{wide} of {met} brackets are too wide");
+        assert!(met > 300 && wide == 0, "{wide} of {met} brackets are too wide");
+    }
+}
+
 #[test]
 fn two_formulas_of_a_torus_agree() {
     let mut dice = Dice(2);

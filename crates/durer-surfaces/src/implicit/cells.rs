@@ -3,12 +3,16 @@
 //! Each cell is asked for bounds of the formula, eight cells in one pass. Cells in which it has one sign are dropped; the others are divided,
 //! and keep a tape in which what is decided there is decided (T. Duff 1992; M. Keeter 2020).
 //!
+//! The smallest cells know bounds of the gradient, too. Where these say that the formula rises or falls along a ray's direction, a stretch in the cell needs
+//! not be looked at: what has the same sign at both ends has no root between.
+//!
 //! Bounds are taken of cells grown by a margin. A ray is divided where *rounded* numbers say that it changes cells; as long as its points are
 //! known to less than the margin, what is said of a cell holds on its stretch.
 
 use super::line::Line;
 use crate::tape::Tape;
-use durer_math::{Aabb, F8, I8, Point3};
+use durer_math::{Aabb, Dual, F8, I8, Interval, Point3, U};
+use std::collections::HashMap;
 
 /// No cell is smaller than the container divided by two to this power.
 const DEEPEST: u32 = 6;
@@ -22,10 +26,48 @@ enum Cell {
     Sign(bool),
     /// There is no surface, but the formula is not everywhere defined.
     Gap,
-    /// There may be surface; the number of the tape.
+    /// There may be surface; the number of the leaf.
     Leaf(u32),
     /// Divided; the number of the first of eight.
     Inner(u32),
+}
+
+/// A cell in which there may be surface.
+#[derive(Clone, Debug)]
+struct Leaf {
+    /// The number of its tape.
+    tape: u32,
+    gradient: Gradient,
+}
+
+/// Bounds of the gradient, rounded outward; infinite where there may be none.
+#[derive(Clone, Copy, Debug)]
+struct Gradient {
+    lo: [f32; 3],
+    hi: [f32; 3],
+}
+
+impl Gradient {
+    const UNKNOWN: Self = Self { lo: [f32::NEG_INFINITY; 3], hi: [f32::INFINITY; 3] };
+
+    fn new(of: [Interval; 3]) -> Self {
+        Self { lo: of.map(|x| (x.lo as f32).next_down()), hi: of.map(|x| (x.hi as f32).next_up()) }
+    }
+
+    /// The way the formula goes along a line, if that is certain: up is `true`.
+    fn rises(&self, line: &Line) -> Option<bool> {
+        // Pays for what may be lost below the normal range.
+        let (mut lo, mut hi, mut unsure) = (0.0, 0.0, durer_math::scale::pow2(-1000));
+        for ((&least, &most), (&d, &e)) in self.lo.iter().zip(&self.hi).zip(line.d.iter().zip(&line.d_err)) {
+            let (least, most) = (f64::from(least), f64::from(most));
+            let (a, b) = (least * d, most * d);
+            lo += a.min(b);
+            hi += a.max(b);
+            // The product's rounding, those of the sums, and what is not known of the direction. NaN where there are no bounds.
+            unsure += least.abs().max(most.abs()) * (d.abs() * (8.0 * U) + e * (1.0 + 8.0 * U));
+        }
+        if lo > unsure { Some(true) } else { (hi < -unsure).then_some(false) }
+    }
 }
 
 /// The octree.
@@ -35,8 +77,12 @@ pub(super) struct Cells {
     margin: f64,
     root: Cell,
     cells: Vec<Cell>,
+    leaves: Vec<Leaf>,
     tapes: Vec<Tape>,
 }
+
+/// The tapes there are, by a number that their steps say, so that cells that ask the same share one.
+type Known = HashMap<u64, Vec<u32>>;
 
 /// What a stretch of a ray is in.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +93,8 @@ pub(super) enum Place<'a> {
     Gap,
     /// Perhaps; this tape says more.
     Open(&'a Tape),
+    /// Perhaps; the formula, of which this is a tape, strictly rises (`true`) or falls along the line.
+    Slope(&'a Tape, bool),
 }
 
 impl Cells {
@@ -54,17 +102,20 @@ impl Cells {
     pub(super) fn new(tape: &Tape, extent: Aabb) -> Self {
         let reach = extent.max.to_vec().max_abs().max(extent.min.to_vec().max_abs());
         let margin = reach * MARGIN;
-        let mut made =
-            Self { extent, margin, root: Cell::Leaf(0), cells: Vec::new(), tapes: vec![tape.clone()] };
-        made.root = made.divided(&extent, 0, 0);
+        let mut made = Self {
+            extent,
+            margin,
+            root: Cell::Gap,
+            cells: Vec::new(),
+            leaves: Vec::new(),
+            tapes: vec![tape.clone()],
+        };
+        made.root = made.divided(&extent, 0, 0, &mut Known::new());
         made
     }
 
     /// What becomes of a cell in which there may be surface.
-    fn divided(&mut self, bounds: &Aabb, tape: u32, depth: u32) -> Cell {
-        if depth == DEEPEST {
-            return Cell::Leaf(tape);
-        }
+    fn divided(&mut self, bounds: &Aabb, tape: u32, depth: u32, known: &mut Known) -> Cell {
         let halves: [Aabb; 8] = core::array::from_fn(|i| octant(bounds, i));
         let grow = self.margin;
         let boxes: [I8; 3] = core::array::from_fn(|axis| {
@@ -73,7 +124,8 @@ impl Cells {
             I8::new(lo, hi)
         });
         let is_open = |i: usize, v: &I8| v.empty >> i & 1 == 0 && v.lo.0[i] <= 0.0 && v.hi.0[i] >= 0.0;
-        let (v, shorter) = self.tapes[tape as usize].clone().shortened(&boxes, is_open);
+        let whole = self.tapes[tape as usize].clone();
+        let (v, shorter) = whole.shortened(&boxes, is_open);
         let told: [Option<Cell>; 8] = core::array::from_fn(|i| match () {
             () if is_open(i, &v) => None,
             () if v.partial >> i & 1 == 1 => Some(Cell::Gap),
@@ -86,19 +138,34 @@ impl Cells {
         }
         let first = self.cells.len();
         self.cells.extend([Cell::Gap; 8]);
-        let tapes = shorter.map(|shorter| {
-            shorter.map_or(tape, |shorter| {
-                self.tapes.push(shorter);
-                self.tapes.len() as u32 - 1
-            })
-        });
+        let tapes = shorter.map(|shorter| shorter.map_or(tape, |shorter| self.shared(shorter, known)));
+        let gradients = if depth + 1 == DEEPEST { gradients(&whole, &boxes) } else { [Gradient::UNKNOWN; 8] };
         for i in 0..8 {
             self.cells[first + i] = match told[i] {
                 Some(cell) => cell,
-                None => self.divided(&halves[i], tapes[i], depth + 1),
+                None if depth + 1 == DEEPEST => {
+                    self.leaves.push(Leaf { tape: tapes[i], gradient: gradients[i] });
+                    Cell::Leaf(self.leaves.len() as u32 - 1)
+                }
+                None => self.divided(&halves[i], tapes[i], depth + 1, known),
             };
         }
         Cell::Inner(first as u32)
+    }
+
+    /// The number of a tape: that of an equal one, if there is one.
+    fn shared(&mut self, tape: Tape, known: &mut Known) -> u32 {
+        let alike = known.entry(tape.fingerprint()).or_default();
+        if let Some(&same) = alike.iter().find(|&&other| self.tapes[other as usize] == tape) {
+            return same;
+        }
+        self.tapes.push(tape);
+        alike.push(self.tapes.len() as u32 - 1);
+        self.tapes.len() as u32 - 1
+    }
+
+    fn tape_of(&self, leaf: u32) -> &Tape {
+        &self.tapes[self.leaves[leaf as usize].tape as usize]
     }
 
     /// What is known of all points within `reach` of `p` along each axis; `None` if that is more than the margin pays for.
@@ -113,7 +180,7 @@ impl Cells {
             let first = match cell {
                 Cell::Sign(sign) => return Some(Place::Sign(sign)),
                 Cell::Gap => return Some(Place::Gap),
-                Cell::Leaf(tape) => return Some(Place::Open(&self.tapes[tape as usize])),
+                Cell::Leaf(leaf) => return Some(Place::Open(self.tape_of(leaf))),
                 Cell::Inner(first) => first,
             };
             let centre = bounds.centre();
@@ -150,7 +217,14 @@ impl Cells {
         let first = match cell {
             Cell::Sign(sign) => return take(a, b, Place::Sign(sign)),
             Cell::Gap => return take(a, b, Place::Gap),
-            Cell::Leaf(tape) => return take(a, b, Place::Open(&self.tapes[tape as usize])),
+            Cell::Leaf(leaf) => {
+                let tape = self.tape_of(leaf);
+                let place = match self.leaves[leaf as usize].gradient.rises(line) {
+                    Some(rises) => Place::Slope(tape, rises),
+                    None => Place::Open(tape),
+                };
+                return take(a, b, place);
+            }
             Cell::Inner(first) => first,
         };
         let centre = bounds.centre();
@@ -192,13 +266,26 @@ impl Cells {
 
     /// How many cells there may be surface in, and the steps of their tapes on average.
     pub(super) fn open(&self) -> (usize, f64) {
-        let tapes = self.cells.iter().filter_map(|cell| match cell {
-            Cell::Leaf(tape) => Some(self.tapes[*tape as usize].len()),
-            _ => None,
-        });
+        let tapes = self.leaves.iter().map(|leaf| self.tapes[leaf.tape as usize].len());
         let (count, steps) = tapes.fold((0, 0), |(n, sum), len| (n + 1, sum + len));
         (count, steps as f64 / count.max(1) as f64)
     }
+}
+
+/// Bounds of the gradient on eight boxes.
+fn gradients(tape: &Tape, boxes: &[I8; 3]) -> [Gradient; 8] {
+    let along = [0, 1, 2].map(|axis| {
+        let d = |i: usize| F8::splat(if i == axis { 1.0 } else { 0.0 });
+        tape.slopes(&[0, 1, 2].map(|i| Dual { v: boxes[i], d: I8::new(d(i), d(i)) }))
+    });
+    let rough = along.iter().fold(0, |bits, g| bits | g.v.partial | g.v.jump | g.d.partial);
+    core::array::from_fn(|lane| {
+        if rough >> lane & 1 == 1 {
+            Gradient::UNKNOWN
+        } else {
+            Gradient::new([0, 1, 2].map(|axis| along[axis].d.lane(lane)))
+        }
+    })
 }
 
 /// One of the eight halves of a box: bit `i` of `number` says which along axis `i`.

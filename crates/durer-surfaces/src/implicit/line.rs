@@ -12,8 +12,9 @@ const TINY: f64 = durer_math::scale::pow2(-1000);
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line {
     q: [f64; 3],
-    d: [f64; 3],
-    d_err: [f64; 3],
+    pub(super) d: [f64; 3],
+    /// Per-axis bound on the error of the direction.
+    pub(super) d_err: [f64; 3],
     /// Per-axis bound on the error of a computed point.
     pub(super) err: [f64; 3],
     /// The spacing of parameters that are worth telling apart: an ulp of `reach`.

@@ -110,7 +110,7 @@ impl Isosurface {
     /// A tape that is right within `reach` of `p` along each axis: a cell's own, if it can be.
     fn tape_near(&self, p: Point3, reach: f64) -> &Tape {
         match self.divided().place(p, reach) {
-            Some(Place::Open(tape)) => tape,
+            Some(Place::Open(tape) | Place::Slope(tape, _)) => tape,
             _ => &self.tape,
         }
     }
@@ -174,7 +174,7 @@ impl Surface for Isosurface {
         }
         let tape = match self.divided().place(point.p, point.p_err.max_abs()) {
             Some(Place::Sign(above)) => return if above { Side::Out } else { held },
-            Some(Place::Open(tape)) => tape,
+            Some(Place::Open(tape) | Place::Slope(tape, _)) => tape,
             Some(Place::Gap) | None => &self.tape,
         };
         let (p, e) = (point.p.to_array(), point.p_err.to_array());

@@ -3,6 +3,7 @@
 use super::Isosurface;
 use super::line::Line;
 use crate::point::least_step;
+use crate::tape::Tape;
 use crate::{LocalRay, Need, Root, SurfacePoint};
 use durer_math::{Dual, F8, I8, Interval, Point3, U, Vec3};
 
@@ -23,6 +24,46 @@ struct Near {
     gradient: [Interval; 3],
 }
 
+impl Near {
+    /// What is known within `r` of `p`, per axis, by a tape that is right there; `None` where bounds are not finite or the formula may not be smooth.
+    fn new(tape: &Tape, p: Point3, r: f64) -> Option<Self> {
+        Self::with_value(tape, p, r).map(|(near, _)| near)
+    }
+
+    /// The same, and bounds of the value at `p` itself, which the fourth lane looks at.
+    fn with_value(tape: &Tape, p: Point3, r: f64) -> Option<(Self, Interval)> {
+        let p = p.to_array();
+        let x = [0, 1, 2].map(|i| {
+            let mut v = I8::splat(Interval::around(p[i], r));
+            v.set_lane(3, Interval { lo: p[i], hi: p[i] });
+            Dual { v, d: seed(i) }
+        });
+        let g = tape.slopes(&x);
+        let gradient = [0, 1, 2].map(|i| g.d.lane(i));
+        let defined = (g.v.partial | g.v.jump | g.d.partial) & 7 == 0 && g.v.partial >> 3 & 1 == 0;
+        let finite = gradient.iter().all(|d| d.lo.is_finite() && d.hi.is_finite());
+        (defined && finite).then(|| (Self { value: g.v.lane(0), gradient }, g.v.lane(3)))
+    }
+
+    /// How far along `n` one must go from `p` to leave the surface for certain, and a bound on its curvature; `None` if `r` does not hold the whole way.
+    ///
+    /// Within `r` of `p` the slope along `n` is at least `m`. So `f(p ± off n)` is on its side of zero if `m off` exceeds `|f(p)|`, which is at most `here`, and
+    /// what rounding the start moves it: three roundings per axis, each times the largest slope along it.
+    fn off(&self, p: Point3, n: Vec3, here: f64, r: f64) -> Option<(f64, f64)> {
+        let along = |i: usize| self.gradient[i] * Interval { lo: n[i], hi: n[i] };
+        let m = (along(0) + along(1) + along(2)).lo;
+        let ulp = p.to_vec().abs() * (4.0 * U) + Vec3::new(1.0, 1.0, 1.0) * least_step(p);
+        let stray = (0..3).map(|i| self.gradient[i].magnitude() * (ulp[i] + r * 4.0 * U)).sum::<f64>();
+        let off = (here + stray) / m * (1.0 + 16.0 * U);
+        let holds = m > 0.0 && off + ulp.max_abs() * 2.0 <= r;
+        // Within r the gradient turns by at most `turn`, so that at a distance d the surface has left its tangent plane by at most
+        // `turn d`: no more than `bend / 2 d^2` from one rounding of the place on, and nothing that counts below that.
+        let width = |i: usize| self.gradient[i].width();
+        let turn = Vec3::new(width(0), width(1), width(2)).length() / m;
+        holds.then(|| (off, 2.0 * turn / ulp.max_abs() * (1.0 + 16.0 * U)))
+    }
+}
+
 /// The unit vectors in the first lanes: what `axis` contributes to each.
 fn seed(axis: usize) -> I8 {
     let mut d = I8::new(F8::ZERO, F8::ZERO);
@@ -34,17 +75,7 @@ impl Isosurface {
     /// Bounds of the formula and of its gradient within `r` of `p`, per axis; `None` where they are not finite or it may not be smooth.
     fn near(&self, p: Point3, r: f64) -> Option<Near> {
         // Rounding the ends of the boxes outward is charged to the reach.
-        let tape = self.tape_near(p, 2.0 * r + least_step(p));
-        let p = p.to_array();
-        let x = [0, 1, 2].map(|i| {
-            let around = Interval::around(p[i], r);
-            Dual { v: I8::splat(around), d: seed(i) }
-        });
-        let g = tape.slopes(&x);
-        let gradient = [0, 1, 2].map(|i| g.d.lane(i));
-        let defined = (g.v.partial | g.v.jump | g.d.partial) & 7 == 0;
-        let finite = gradient.iter().all(|d| d.lo.is_finite() && d.hi.is_finite());
-        (defined && finite).then(|| Near { value: g.v.lane(0), gradient })
+        Near::new(self.tape_near(p, 2.0 * r + least_step(p)), p, r)
     }
 
     pub(super) fn point(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
@@ -84,12 +115,34 @@ impl Isosurface {
 
     /// The point next to `p0` for any formula: towards the surface along the gradient, until rounding stops it.
     fn foot(&self, p0: Point3, direction: Vec3, reach: f64, width: f64) -> Foot {
+        if let Some(foot) = self.quick_foot(p0, reach) {
+            return foot;
+        }
         let (p, ng) = self.nearer(p0, reach);
         let ng = ng.unwrap_or(-direction);
         let n = ng * (1.0 / ng.length());
         let n = if n.is_finite() { n } else { direction * (-1.0 / direction.length()) };
         let (off, bend) = self.off(p, n, p0.to_vec().max_abs() * U, width);
         Foot { p, n, off, bend }
+    }
+
+    /// The same in two looks at the formula, as it goes where one step of Newton's is enough; `None` where it is not.
+    fn quick_foot(&self, p0: Point3, reach: f64) -> Option<Foot> {
+        let r = 256.0 * (p0.to_vec().max_abs() * U) + least_step(p0);
+        let tape = self.tape_near(p0, reach + 4.0 * r);
+        let here = Near::new(tape, p0, 0.0)?;
+        let g = Vec3::from(here.gradient.map(Interval::mid));
+        let step = g * (-here.value.mid() / g.dot(g));
+        let near = step.max_abs() <= reach;
+        if !near {
+            return None;
+        }
+        let p = p0 + step;
+        let (near, value) = Near::with_value(tape, p, r)?;
+        let g = Vec3::from(near.gradient.map(Interval::mid));
+        let n = g * (1.0 / g.length());
+        let (off, bend) = near.off(p, n, value.magnitude(), r)?;
+        Some(Foot { p, n, off, bend })
     }
 
     /// A point at most `reach` away whose value is nearer to zero, by a few steps of Newton's along the gradient; and the gradient there.
@@ -121,27 +174,12 @@ impl Isosurface {
     }
 
     /// How far along `n` one must go from `p` to leave the surface for certain, and a bound on its curvature there.
-    ///
-    /// Within `r` of `p` the slope along `n` is at least `m`. So `f(p ± off n)` is on its side of zero if `m off` exceeds `|f(p)|` and what
-    /// rounding the start moves it: three roundings per axis, each times the largest slope along it. `r` must hold the whole way.
     fn off(&self, p: Point3, n: Vec3, scale: f64, width: f64) -> (f64, f64) {
         let here = self.near(p, 0.0).map_or(f64::INFINITY, |near| near.value.magnitude());
         let mut r = 64.0 * scale + least_step(p);
         for _ in 0..16 {
-            if let Some(near) = self.near(p, r) {
-                let along = |i: usize| near.gradient[i] * Interval { lo: n[i], hi: n[i] };
-                let m = (along(0) + along(1) + along(2)).lo;
-                let ulp = p.to_vec().abs() * (4.0 * U) + Vec3::new(1.0, 1.0, 1.0) * least_step(p);
-                let stray =
-                    (0..3).map(|i| near.gradient[i].magnitude() * (ulp[i] + r * 4.0 * U)).sum::<f64>();
-                let off = (here + stray) / m * (1.0 + 16.0 * U);
-                if m > 0.0 && off + ulp.max_abs() * 2.0 <= r {
-                    // Within r the gradient turns by at most `turn`, so that at a distance d the surface has left its tangent plane by at most
-                    // `turn d`: no more than `bend / 2 d^2` from one rounding of the place on, and nothing that counts below that.
-                    let width = |i: usize| near.gradient[i].width();
-                    let turn = Vec3::new(width(0), width(1), width(2)).length() / m;
-                    return (off, 2.0 * turn / ulp.max_abs() * (1.0 + 16.0 * U));
-                }
+            if let Some(told) = self.near(p, r).and_then(|near| near.off(p, n, here, r)) {
+                return told;
             }
             r *= 4.0;
         }

@@ -117,7 +117,7 @@ impl Query<'_> {
         let (middle, reach) = self.line.around(lo, hi);
         match self.surface.divided().place(middle, reach) {
             Some(Place::Sign(sign)) => Some(sign),
-            Some(Place::Open(tape)) => self.line.sign_on(tape, lo, hi),
+            Some(Place::Open(tape) | Place::Slope(tape, _)) => self.line.sign_on(tape, lo, hi),
             Some(Place::Gap) | None => self.line.sign_on(&self.surface.tape, lo, hi),
         }
     }
@@ -195,6 +195,7 @@ impl Query<'_> {
             match place {
                 Place::Sign(sign) => take(a, b, Verdict::Sign(sign), &surface.tape),
                 Place::Gap => take(a, b, Verdict::Gap, &surface.tape),
+                Place::Slope(tape, rises) => take(a, b, Verdict::Monotone(rises), tape),
                 Place::Open(tape) => {
                     isolate(line, tape, (a, b), &mut passes, &mut |a, b, verdict| take(a, b, verdict, tape))
                 }

@@ -87,12 +87,22 @@ impl<'a> Tracker<'a> {
             self.run = Some(Run { lo: a, hi: b, rises, tape });
             return None;
         };
-        let tape = if std::ptr::eq(run.tape, tape) { tape } else { self.whole };
-        if run.rises == rises {
+        let same = std::ptr::eq(run.tape, tape);
+        // Where the tape of all of the container is much longer, one look at the border saves many at that.
+        let worth = !same && self.whole.len() > 2 * tape.len();
+        let own = tape;
+        let tape = if same { tape } else { self.whole };
+        if run.rises == rises && !(worth && rises.is_some()) {
             (run.hi, run.tape) = (b, tape);
             return None;
         }
-        if let Some(sign) = self.line.sign(self.whole, a) {
+        let border = if worth { self.line.sign(own, a) } else { None };
+        if run.rises == rises && border.is_none() {
+            (run.hi, run.tape) = (b, tape);
+            return None;
+        }
+        let tape = if border.is_some() { own } else { tape };
+        if let Some(sign) = border.or_else(|| self.line.sign(self.whole, a)) {
             let found = self.close(Some(sign));
             self.before = Some(sign);
             self.run = Some(Run { lo: a, hi: b, rises, tape });
@@ -149,9 +159,12 @@ fn polished(line: &Line, tape: &Tape, lo: f64, hi: f64, rises: bool, rough: bool
     let sense = if rises { 1.0 } else { -1.0 };
     let g = |s: f64| sense * line.value(tape, s);
     let widest = if rough { ROUGH * (line.ulp / f64::EPSILON) * 0.25 } else { line.ulp };
-    let s = guess(g, lo, hi, 0.125 * widest);
     // Steps on both sides: how far must one go for certain signs?
     let first = if rough { 0.03125 * widest } else { 2.0 * widest };
+    if rough && let Some(found) = closed_in(line, tape, lo, hi, rises, first) {
+        return found;
+    }
+    let s = guess(g, lo, hi, 0.125 * widest);
     let steps = [first, 8.0 * first, 64.0 * first, 512.0 * first];
     let at: [f64; 8] = core::array::from_fn(|i| if i < 4 { s - steps[i] } else { s + steps[i - 4] });
     let v = line.bounds(tape, &at, &at);
@@ -166,6 +179,60 @@ fn polished(line: &Line, tape: &Tape, lo: f64, hi: f64, rises: bool, rough: bool
     let (a, b) = (left.unwrap_or(a), right.unwrap_or(b));
     let (a, b) = if a <= b { (a, b) } else { (lo, hi) };
     (s.max(a).min(b), a, b)
+}
+
+/// The root of a monotone `g` in `[lo, hi]`, and places with certain signs around it, 128 times `first` apart at most; by eight values at a time. `None` where that does
+/// not close in at once.
+fn closed_in(line: &Line, tape: &Tape, lo: f64, hi: f64, rises: bool, first: f64) -> Option<(f64, f64, f64)> {
+    let sense = if rises { 1.0 } else { -1.0 };
+    let mut at: [f64; 8] =
+        core::array::from_fn(|i| if i == 7 { hi } else { lo + (hi - lo) * (i as f64 / 7.0) });
+    let mut about = 0.5 * lo + 0.5 * hi;
+    for _ in 0..4 {
+        let v = line.bounds(tape, &at, &at);
+        let sign = signs(&v);
+        let before = sign.iter().rposition(|&sign| sign == Some(!rises));
+        let after = sign.iter().position(|&sign| sign == Some(rises));
+        if let (Some(before), Some(after)) = (before, after) {
+            let (a, b) = (at[before], at[after]);
+            if a <= b && b - a <= 128.0 * first {
+                return Some((about.max(a).min(b), a, b));
+            }
+        }
+        let g: [f64; 8] = core::array::from_fn(|i| sense * (0.5 * v.lo.0[i] + 0.5 * v.hi.0[i]));
+        let (s, doubt) = interpolated(&at, &g)?;
+        if doubt > 0.25 * (hi - lo) {
+            return None;
+        }
+        about = s;
+        let step = first.max(doubt / 16.0);
+        at = [-64.0, -16.0, -4.0, -1.0, 1.0, 4.0, 16.0, 64.0].map(|k| s + k * step);
+    }
+    None
+}
+
+/// Where `g` is zero, by the polynomial of degree three of its inverse through the four places around there (E. H. Neville's scheme), and how far from those of degree
+/// two that is. `None` where the values do not rise, or there is no zero between.
+fn interpolated(at: &[f64; 8], g: &[f64; 8]) -> Option<(f64, f64)> {
+    let above = g.iter().position(|&g| g > 0.0).filter(|&above| above > 0)?;
+    let first = above.saturating_sub(2).min(4);
+    let mut s: [f64; 4] = core::array::from_fn(|i| at[first + i]);
+    let mut lower = [0.0; 2];
+    for k in 1..4 {
+        if k == 3 {
+            lower = [s[0], s[1]];
+        }
+        for i in 0..4 - k {
+            let (a, b) = (g[first + i], g[first + i + k]);
+            let rises = a < b;
+            if !rises {
+                return None;
+            }
+            s[i] = (s[i] * b - s[i + 1] * a) / (b - a);
+        }
+    }
+    let between = s[0] >= at[above - 1] && s[0] <= at[above];
+    between.then(|| (s[0], (s[0] - lower[0]).abs().max((s[0] - lower[1]).abs())))
 }
 
 /// A root of `g`, which rises, in `[lo, hi]`, as well as f64 knows it: false position that halves the weight of an end that stays (M. Dowell, P.

@@ -112,7 +112,7 @@ impl Op {
     }
 
     /// Its bits, for finding equal steps.
-    fn key(&self) -> (u8, u64, u64, u64) {
+    pub(super) fn key(&self) -> (u8, u64, u64, u64) {
         let two = |tag: u8, a: NodeId, b: NodeId| (tag, u64::from(a.0), u64::from(b.0), 0);
         match *self {
             Self::Input(i) => (0, u64::from(i), 0, 0),

@@ -106,6 +106,13 @@ impl Tape {
         self.ops.is_empty()
     }
 
+    /// A number that equal tapes share, and others hardly ever.
+    pub(crate) fn fingerprint(&self) -> u64 {
+        use std::hash::{BuildHasher, BuildHasherDefault, DefaultHasher};
+        let keys: Vec<_> = self.ops.iter().map(Op::key).collect();
+        BuildHasherDefault::<DefaultHasher>::default().hash_one(keys)
+    }
+
     /// The rounded value at a point; NaN where the formula is undefined.
     pub fn value(&self, p: Point3) -> f64 {
         with_memory(&NUMBERS, self.ops.len(), 0.0, |registers| {
