@@ -1,8 +1,8 @@
 // Julia sets
 //
-// Equation: |z_n|² ≤ 4 for n = 0 … N,  z_(n+1) = z_n² + c,  z_0 = (x, y, z, w) in the slice
+// Equation: |z_n| ≤ R for n = 0 … N − 1,  z_(n+1) = z_n² + c,  z_0 = (x, y, z, w) in the slice
 //
-// One of A. Norton's quaternion Julia sets of 1982, as the solid that eight iterations make.
+// One of A. Norton's quaternion Julia sets of 1982, as the solid whose points stay within R = 1 + |c| for eight steps.
 
 #include "stage.inc"
 julia_fractal {

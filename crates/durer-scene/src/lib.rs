@@ -48,5 +48,5 @@ pub use crate::shape::{
 };
 pub use crate::texture::{Layer, Pigment, PigmentBody, Texture, TextureBody};
 pub use durer_surfaces::algebraic::{MAX_ORDER, coefficient_count, place_of};
-pub use durer_surfaces::implicit::MOST_ITERATIONS;
+pub use durer_surfaces::julia::MOST_ITERATIONS;
 pub use durer_surfaces::{BlobComponent, BlobShape, FillRule, Julia, JuliaAlgebra, JuliaPower, Warp, tape};

@@ -4,12 +4,14 @@
 pub mod algebraic;
 pub mod annulus;
 pub mod axis_box;
+pub mod blob;
 pub mod compose;
 pub mod cyclide;
 pub mod disc;
 mod edges;
 mod facet;
 pub mod implicit;
+pub mod julia;
 #[cfg(any(test, feature = "laws"))]
 #[doc(hidden)]
 pub mod laws;
@@ -40,6 +42,7 @@ pub mod zero_set;
 pub use crate::algebraic::{AlgebraicError, AlgebraicSurface};
 pub use crate::annulus::{Annulus, AnnulusError};
 pub use crate::axis_box::{AxisBox, AxisBoxError};
+pub use crate::blob::{Blob, BlobComponent, BlobError, BlobShape};
 pub use crate::compose::affine::Placed;
 pub use crate::compose::clip::{Algebraic, Clip, Region, RegionError};
 pub use crate::compose::erased::Erased;
@@ -48,10 +51,8 @@ pub use crate::cyclide::{Cyclide, CyclideError};
 pub use crate::disc::{Disc, DiscError};
 pub use crate::implicit::deform::{DeformError, Warp};
 pub use crate::implicit::level_set::LevelSet;
-pub use crate::implicit::{
-    BlobComponent, BlobError, BlobShape, Container, Isosurface, IsosurfaceError, Julia, JuliaAlgebra,
-    JuliaError, JuliaPower, SuperellipsoidError, blob, julia, superellipsoid,
-};
+pub use crate::implicit::{Container, Isosurface, IsosurfaceError, SuperellipsoidError, superellipsoid};
+pub use crate::julia::{Julia, JuliaAlgebra, JuliaError, JuliaPower, JuliaSet};
 pub use crate::lemon::LemonError;
 pub use crate::local::{CentredRay, End, LocalPoint, LocalRay, ROUGH, RingRay};
 pub use crate::mesh::{FLAT, Mesh, MeshData, MeshError};

@@ -8,9 +8,9 @@ use durer_math::{Aabb, Affine, Point3, Ray, Vec3};
 use durer_surfaces::algebraic::{coefficient_count, place_of};
 use durer_surfaces::implicit::level_set::leaves;
 use durer_surfaces::{
-    AlgebraicSurface, All, Axis, AxisBox, BlobComponent, BlobShape, CappedCylinder, Cyclide, Ellipsoid,
+    AlgebraicSurface, All, Axis, AxisBox, Blob, BlobComponent, BlobShape, CappedCylinder, Cyclide, Ellipsoid,
     EllipticCylinder, Kind, LevelSet, LocalRay, Prism, Quadric, Root, Sphere, Surface, Torus, Turned, Warp,
-    blob, superellipsoid,
+    superellipsoid,
 };
 
 /// A surface and what it is called.
@@ -107,7 +107,7 @@ fn spheres() {
             named("polynomial of order 2", polynomial(2, &squares)),
             named("polynomial of order 4", polynomial(4, &quartic)),
             named("superellipsoid", superellipsoid(1.0, 1.0).unwrap()),
-            named("blob", blob(0.5625, &[field]).unwrap()),
+            named("blob", Blob::new(0.5625, &[field]).unwrap()),
             named("formula", level.surface().unwrap().unwrap()),
             named("twisted formula", level.deformed(&twist).unwrap().surface().unwrap().unwrap()),
         ],

@@ -15,6 +15,7 @@ impl Reader<'_> {
             algebra: JuliaAlgebra::Quaternion,
             power: JuliaPower::Square,
             iterations: 20,
+            radius: 0.0,
             normal: [0.0, 0.0, 0.0, 1.0],
             distance: 0.0,
         };
@@ -76,6 +77,13 @@ impl Reader<'_> {
             }
             self.next()?;
         }
+        // POV-Ray's pictures show the points whose first N, their own included, are not further out than this.
+        let size = set.c.iter().fold(0.0, |sum, x| sum + x * x).sqrt();
+        set.radius = match set.algebra {
+            JuliaAlgebra::Quaternion => (1.0 + size).min(2.0),
+            JuliaAlgebra::Hypercomplex => 4.0,
+        };
+        set.iterations = set.iterations.saturating_sub(1);
         Ok(Shape::Julia(Box::new(set)))
     }
 

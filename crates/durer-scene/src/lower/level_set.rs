@@ -4,8 +4,8 @@ use durer_math::{Aabb, Affine, elementary};
 use durer_surfaces::implicit::level_set::leaves::{self, Principal};
 use durer_surfaces::tape::Formula;
 use durer_surfaces::{
-    AxisBox, CappedCylinder, Cyclide, Frustum, Isosurface, LevelSet, Plane, Quadric, Sphere, SphericalSector,
-    Surface, Torus,
+    AxisBox, Blob, CappedCylinder, Cyclide, Frustum, Isosurface, LevelSet, Plane, Quadric, Sphere,
+    SphericalSector, Surface, Torus,
 };
 
 use super::shapes::{self, Result, shape_error};
@@ -129,7 +129,8 @@ fn leaf(shape: &Shape, place: &Affine, inverse: bool) -> Result<LevelSet> {
             leaves::superellipsoid(e, n).map_err(shape_error)?.placed(place).map_err(shape_error)
         }
         Shape::Blob(it) => {
-            let own = leaves::blob(it.threshold, &it.components).map_err(shape_error)?;
+            let surface = Blob::new(it.threshold, &it.components).map_err(shape_error)?;
+            let own = leaves::blob(it.threshold, &it.components, surface.bounds()).map_err(shape_error)?;
             own.placed(place).map_err(shape_error)
         }
         Shape::Deform(deform) => {

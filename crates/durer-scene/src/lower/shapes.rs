@@ -4,9 +4,9 @@ use std::fmt::Display;
 
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
-    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, BlobError, CappedCylinder, Cyclide, Disc, FLAT,
-    Frustum, Isosurface, Parallelogram, Plane, Polygon, Prism, Quadric, Region, Sphere, SphericalSector,
-    Torus, Triangle, TriangleError, Turned, blob, julia, superellipsoid,
+    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Blob, BlobError, CappedCylinder, Cyclide, Disc,
+    FLAT, Frustum, Isosurface, JuliaSet, Parallelogram, Plane, Polygon, Prism, Quadric, Region, Sphere,
+    SphericalSector, Torus, Triangle, TriangleError, Turned, superellipsoid,
 };
 
 use super::build::{Inside, Target};
@@ -131,18 +131,18 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             target.add_rare(if open { solid.without_caps() } else { solid }, map);
         }
         &Shape::Superellipsoid { e, n } => {
-            add_formula(&mut target, superellipsoid(e, n).map_err(shape_error)?, map);
+            add_closed(&mut target, superellipsoid(e, n).map_err(shape_error)?, map);
         }
-        Shape::Julia(set) => add_formula(&mut target, julia(set).map_err(shape_error)?, map),
-        Shape::Blob(it) => match blob(it.threshold, &it.components) {
+        Shape::Julia(set) => add_closed(&mut target, JuliaSet::new(set).map_err(shape_error)?, map),
+        Shape::Blob(it) => match Blob::new(it.threshold, &it.components) {
             Err(nothing @ BlobError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
-            made => add_formula(&mut target, made.map_err(shape_error)?, map),
+            made => add_closed(&mut target, made.map_err(shape_error)?, map),
         },
         Shape::Deform(deform) => match level_set::deformed(deform)? {
             None => {
                 return Ok(Built::Nothing("deform: nothing is left of this solid, so it is left out".into()));
             }
-            Some(solid) => add_formula(&mut target, solid, map),
+            Some(solid) => add_closed(&mut target, solid, map),
         },
         shape => return flat(shape, map, target),
     }
@@ -173,8 +173,8 @@ fn add<S: Algebraic + Clone + 'static>(target: &mut Target<'_>, solid: S, map: O
     target.add(solid, map);
 }
 
-/// Adds a solid that is made of a formula.
-fn add_formula(target: &mut Target<'_>, solid: Isosurface, map: Option<&Affine>) {
+/// Adds a solid whose ends are its own: it has none that could be left open.
+fn add_closed<S: Algebraic + Clone + 'static>(target: &mut Target<'_>, solid: S, map: Option<&Affine>) {
     target.contain(&solid, map);
     target.add_rare(solid, map);
 }

@@ -1,5 +1,6 @@
 //! A tape along a line: what `g(s) = f(q + s d)` is on stretches of `s`, with every rounding of the ray charged.
 
+use super::tracker::{Curve, interpolated};
 use crate::CentredRay;
 use crate::tape::Tape;
 use durer_math::eft::two_sum;
@@ -103,20 +104,74 @@ impl Line {
         tape.slopes(&[0, 1, 2].map(|i| Dual { v: v[i], d: d[i] }))
     }
 
-    /// The sign of `g` at `s` (up is `true`), if it is certain; `None` also where `f` may be undefined.
-    pub(super) fn sign(&self, tape: &Tape, s: f64) -> Option<bool> {
-        self.sign_on(tape, s, s)
-    }
-
     /// The one sign of `g` from `a` to `b`, if it is certain.
     pub(super) fn sign_on(&self, tape: &Tape, a: f64, b: f64) -> Option<bool> {
         signs(&self.bounds(tape, &[a; 8], &[b; 8]))[0]
     }
+}
 
-    /// The rounded value at `s`; NaN where `f` is undefined.
-    pub(super) fn value(&self, tape: &Tape, s: f64) -> f64 {
+impl Curve for Line {
+    type Form<'a> = &'a Tape;
+
+    fn same(a: &Tape, b: &Tape) -> bool {
+        std::ptr::eq(a, b)
+    }
+
+    fn ulp(&self) -> f64 {
+        self.ulp
+    }
+
+    fn value(&self, tape: &Tape, s: f64) -> f64 {
         tape.value(self.point(s))
     }
+
+    fn signs(&self, tape: &Tape, a: &[f64; 8], b: &[f64; 8]) -> [Option<bool>; 8] {
+        signs(&self.bounds(tape, a, b))
+    }
+
+    fn is_shorter(tape: &Tape, than: &Tape) -> bool {
+        than.len() > 2 * tape.len()
+    }
+
+    fn closed_in(&self, tape: &Tape, ends: (f64, f64), rises: bool, first: f64) -> Option<(f64, f64, f64)> {
+        closed_in(self, tape, ends, rises, first)
+    }
+}
+
+/// The root of a monotone `g` in `[lo, hi]`, and places with certain signs around it, 128 times `first` apart at most; by eight values at a time. `None` where that does
+/// not close in at once.
+fn closed_in(
+    line: &Line,
+    tape: &Tape,
+    (lo, hi): (f64, f64),
+    rises: bool,
+    first: f64,
+) -> Option<(f64, f64, f64)> {
+    let sense = if rises { 1.0 } else { -1.0 };
+    let mut at: [f64; 8] =
+        core::array::from_fn(|i| if i == 7 { hi } else { lo + (hi - lo) * (i as f64 / 7.0) });
+    let mut about = 0.5 * lo + 0.5 * hi;
+    for _ in 0..4 {
+        let v = line.bounds(tape, &at, &at);
+        let sign = signs(&v);
+        let before = sign.iter().rposition(|&sign| sign == Some(!rises));
+        let after = sign.iter().position(|&sign| sign == Some(rises));
+        if let (Some(before), Some(after)) = (before, after) {
+            let (a, b) = (at[before], at[after]);
+            if a <= b && b - a <= 128.0 * first {
+                return Some((about.max(a).min(b), a, b));
+            }
+        }
+        let g: [f64; 8] = core::array::from_fn(|i| sense * (0.5 * v.lo.0[i] + 0.5 * v.hi.0[i]));
+        let (s, doubt) = interpolated(&at, &g)?;
+        if doubt > 0.25 * (hi - lo) {
+            return None;
+        }
+        about = s;
+        let step = first.max(doubt / 16.0);
+        at = [-64.0, -16.0, -4.0, -1.0, 1.0, 4.0, 16.0, 64.0].map(|k| s + k * step);
+    }
+    None
 }
 
 /// The certain signs of eight bounds.

@@ -13,13 +13,11 @@
 //! crossings of that stretch are one [`Kind::Cluster`](crate::Kind). Where the formula jumps from one sign to the other, also over a pole, the solid
 //! has a wall, which is a cluster too: no derivative says that there is just one. Where it is undefined there is no surface.
 
-mod blob;
 mod cells;
 mod container;
 mod convex;
 pub mod deform;
 mod isolate;
-mod julia;
 pub mod level_set;
 mod line;
 mod point;
@@ -27,10 +25,9 @@ mod roots;
 mod superellipsoid;
 mod tracker;
 
-pub use blob::{BlobComponent, BlobError, BlobShape, blob};
 pub use container::Container;
-pub use julia::{Julia, JuliaAlgebra, JuliaError, JuliaPower, MOST_ITERATIONS, julia};
 pub use superellipsoid::{SuperellipsoidError, superellipsoid};
+pub(crate) use tracker::{Curve, Found, Tracker, Verdict};
 
 use crate::compose::clip::Algebraic;
 use crate::roots::quadratic::Quadratic;

@@ -4,7 +4,7 @@ use super::Isosurface;
 use super::cells::Place;
 use super::isolate::isolate;
 use super::line::Line;
-use super::tracker::{Found, Tracker, Verdict};
+use super::tracker::{Curve, Found, Tracker, Verdict};
 use crate::{CentredRay, Flow, LocalRay, Root, Sink};
 use arrayvec::ArrayVec;
 use durer_math::RaySide;

@@ -1,12 +1,42 @@
 //! From stretches of a line to roots: each once, ascending, in brackets with certain signs at their ends.
 
-use super::line::{Line, signs};
-use crate::tape::Tape;
 use crate::{Kind, ROUGH};
+
+/// A function `g` of one number whose roots are wanted.
+pub(crate) trait Curve {
+    /// What is evaluated on a stretch and near it.
+    type Form<'a>: Copy;
+    /// Whether two are one and the same.
+    fn same(a: Self::Form<'_>, b: Self::Form<'_>) -> bool;
+    /// The spacing of numbers that are worth telling apart.
+    fn ulp(&self) -> f64;
+    /// The rounded value at `s`; NaN where `g` is undefined.
+    fn value(&self, form: Self::Form<'_>, s: f64) -> f64;
+    /// The one sign (up is `true`) on each of eight stretches, if it is certain; `None` also where `g` may be undefined.
+    fn signs(&self, form: Self::Form<'_>, a: &[f64; 8], b: &[f64; 8]) -> [Option<bool>; 8];
+    /// Whether one is so much shorter than the other that it is worth another look.
+    fn is_shorter(_form: Self::Form<'_>, _than: Self::Form<'_>) -> bool {
+        false
+    }
+    /// The root of a monotone `g` between two numbers in a bracket about as wide as `first`, if there is a quicker way to it than one value after another.
+    fn closed_in(
+        &self,
+        _form: Self::Form<'_>,
+        _ends: (f64, f64),
+        _rises: bool,
+        _first: f64,
+    ) -> Option<(f64, f64, f64)> {
+        None
+    }
+    /// The sign at `s`, if it is certain.
+    fn sign(&self, form: Self::Form<'_>, s: f64) -> Option<bool> {
+        self.signs(form, &[s; 8], &[s; 8])[0]
+    }
+}
 
 /// What is known of `g` on a stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Verdict {
+pub(crate) enum Verdict {
     /// It is defined and has this sign (`true`: positive) on all of it.
     Sign(bool),
     /// It has no root there, and may be undefined.
@@ -19,46 +49,46 @@ pub(super) enum Verdict {
 
 /// A root in `[lo, hi]`; `s` lies in it too.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Found {
-    pub(super) s: f64,
-    pub(super) lo: f64,
-    pub(super) hi: f64,
+pub(crate) struct Found {
+    pub(crate) s: f64,
+    pub(crate) lo: f64,
+    pub(crate) hi: f64,
     /// +1 where `g` goes from below to above, -1 the other way, 0 where it returns to its side.
-    pub(super) sign: i8,
-    pub(super) kind: Kind,
+    pub(crate) sign: i8,
+    pub(crate) kind: Kind,
     /// `g` certainly has the same sign before and behind.
-    pub(super) touches: bool,
+    pub(crate) touches: bool,
 }
 
 /// A run of stretches in which there may be a root.
 #[derive(Clone, Copy)]
-struct Run<'a> {
+struct Run<F> {
     lo: f64,
     hi: f64,
     /// The way `g` goes; `None` if that is not known.
     rises: Option<bool>,
-    tape: &'a Tape,
+    form: F,
 }
 
 /// Takes stretches in ascending order, without holes, and gives the roots.
-pub(super) struct Tracker<'a> {
-    line: &'a Line,
-    /// A tape that is right everywhere.
-    whole: &'a Tape,
+pub(crate) struct Tracker<'a, C: Curve> {
+    line: &'a C,
+    /// A form that is right everywhere.
+    whole: C::Form<'a>,
     /// The sign before the run, if it is known.
     before: Option<bool>,
-    run: Option<Run<'a>>,
+    run: Option<Run<C::Form<'a>>>,
     rough: bool,
 }
 
-impl<'a> Tracker<'a> {
+impl<'a, C: Curve> Tracker<'a, C> {
     /// A tracker that starts where `g` has the sign `before`.
-    pub(super) fn new(line: &'a Line, whole: &'a Tape, before: Option<bool>, rough: bool) -> Self {
+    pub(crate) fn new(line: &'a C, whole: C::Form<'a>, before: Option<bool>, rough: bool) -> Self {
         Self { line, whole, before, run: None, rough }
     }
 
-    /// The next stretch. `tape` is right on it and near it.
-    pub(super) fn take(&mut self, a: f64, b: f64, verdict: Verdict, tape: &'a Tape) -> Option<Found> {
+    /// The next stretch. `form` is right on it and near it.
+    pub(crate) fn take(&mut self, a: f64, b: f64, verdict: Verdict, form: C::Form<'a>) -> Option<Found> {
         match verdict {
             Verdict::Sign(sign) => {
                 let found = self.close(Some(sign));
@@ -68,60 +98,60 @@ impl<'a> Tracker<'a> {
             Verdict::Gap => {
                 // The run ends at a point of its own, where the formula is still defined, or jumps.
                 let found = self.run.and_then(|run| {
-                    let end = self.line.sign(run.tape, run.hi);
+                    let end = self.line.sign(run.form, run.hi);
                     self.close(end)
                 });
                 self.before = None;
                 found
             }
-            Verdict::Monotone(rises) => self.go_on(a, b, Some(rises), tape),
-            Verdict::Murky => self.go_on(a, b, None, tape),
+            Verdict::Monotone(rises) => self.go_on(a, b, Some(rises), form),
+            Verdict::Murky => self.go_on(a, b, None, form),
         }
     }
 
-    fn go_on(&mut self, a: f64, b: f64, rises: Option<bool>, tape: &'a Tape) -> Option<Found> {
+    fn go_on(&mut self, a: f64, b: f64, rises: Option<bool>, form: C::Form<'a>) -> Option<Found> {
         let Some(run) = &mut self.run else {
             if self.before.is_none() {
-                self.before = self.line.sign(tape, a);
+                self.before = self.line.sign(form, a);
             }
-            self.run = Some(Run { lo: a, hi: b, rises, tape });
+            self.run = Some(Run { lo: a, hi: b, rises, form });
             return None;
         };
-        let same = std::ptr::eq(run.tape, tape);
-        // Where the tape of all of the container is much longer, one look at the border saves many at that.
-        let worth = !same && self.whole.len() > 2 * tape.len();
-        let own = tape;
-        let tape = if same { tape } else { self.whole };
+        let same = C::same(run.form, form);
+        // Where the form of all of the container is much longer, one look at the border saves many at that.
+        let worth = !same && C::is_shorter(form, self.whole);
+        let own = form;
+        let form = if same { form } else { self.whole };
         if run.rises == rises && !(worth && rises.is_some()) {
-            (run.hi, run.tape) = (b, tape);
+            (run.hi, run.form) = (b, form);
             return None;
         }
         let border = if worth { self.line.sign(own, a) } else { None };
         if run.rises == rises && border.is_none() {
-            (run.hi, run.tape) = (b, tape);
+            (run.hi, run.form) = (b, form);
             return None;
         }
-        let tape = if border.is_some() { own } else { tape };
+        let form = if border.is_some() { own } else { form };
         if let Some(sign) = border.or_else(|| self.line.sign(self.whole, a)) {
             let found = self.close(Some(sign));
             self.before = Some(sign);
-            self.run = Some(Run { lo: a, hi: b, rises, tape });
+            self.run = Some(Run { lo: a, hi: b, rises, form });
             return found;
         }
         // The turn itself cannot be told from a root: all of it is one cluster, without what is certainly none.
         let lo = if run.rises.is_some() { narrowed(self.line, self.whole, run.lo, run.hi).0 } else { run.lo };
         let hi = if rises.is_some() { narrowed(self.line, self.whole, a, b).1 } else { b };
-        *run = Run { lo, hi: hi.max(lo), rises: None, tape: self.whole };
+        *run = Run { lo, hi: hi.max(lo), rises: None, form: self.whole };
         None
     }
 
     /// Whether all that was taken is told.
-    pub(super) fn is_idle(&self) -> bool {
+    pub(crate) fn is_idle(&self) -> bool {
         self.run.is_none()
     }
 
     /// The end of the line, where `g` has the sign `after`.
-    pub(super) fn finish(&mut self, after: Option<bool>) -> Option<Found> {
+    pub(crate) fn finish(&mut self, after: Option<bool>) -> Option<Found> {
         self.close(after)
     }
 
@@ -135,7 +165,7 @@ impl<'a> Tracker<'a> {
                 if start == end || start == rises {
                     return None;
                 }
-                let (s, lo, hi) = polished(self.line, run.tape, run.lo, run.hi, rises, self.rough);
+                let (s, lo, hi) = polished(self.line, run.form, run.lo, run.hi, rises, self.rough);
                 // Where one sign is not known the root may lie on an end, or just not be there: it cannot be disproved.
                 let kind = if before.is_some() && after.is_some() { Kind::Simple } else { Kind::Cluster };
                 Some(Found { s, lo, hi, sign: if rises { 1 } else { -1 }, kind, touches: false })
@@ -155,65 +185,41 @@ impl<'a> Tracker<'a> {
 }
 
 /// The root of a monotone `g` in `[lo, hi]`, and a bracket with certain signs at its ends where there are any.
-fn polished(line: &Line, tape: &Tape, lo: f64, hi: f64, rises: bool, rough: bool) -> (f64, f64, f64) {
+fn polished<C: Curve>(
+    line: &C,
+    form: C::Form<'_>,
+    lo: f64,
+    hi: f64,
+    rises: bool,
+    rough: bool,
+) -> (f64, f64, f64) {
     let sense = if rises { 1.0 } else { -1.0 };
-    let g = |s: f64| sense * line.value(tape, s);
-    let widest = if rough { ROUGH * (line.ulp / f64::EPSILON) * 0.25 } else { line.ulp };
+    let g = |s: f64| sense * line.value(form, s);
+    let widest = if rough { ROUGH * (line.ulp() / f64::EPSILON) * 0.25 } else { line.ulp() };
     // Steps on both sides: how far must one go for certain signs?
     let first = if rough { 0.03125 * widest } else { 2.0 * widest };
-    if rough && let Some(found) = closed_in(line, tape, lo, hi, rises, first) {
+    if rough && let Some(found) = line.closed_in(form, (lo, hi), rises, first) {
         return found;
     }
     let s = guess(g, lo, hi, 0.125 * widest);
     let steps = [first, 8.0 * first, 64.0 * first, 512.0 * first];
     let at: [f64; 8] = core::array::from_fn(|i| if i < 4 { s - steps[i] } else { s + steps[i - 4] });
-    let v = line.bounds(tape, &at, &at);
-    let sign = signs(&v);
+    let sign = line.signs(form, &at, &at);
     let usable = if rough { 3 } else { 4 };
     let left = (0..usable).find(|&i| sign[i] == Some(!rises)).map(|i| at[i]);
     let right = (4..4 + usable).find(|&i| sign[i] == Some(rises)).map(|i| at[i]);
     if let (Some(left), Some(right)) = (left, right) {
         return (s, left, right);
     }
-    let (a, b) = sectioned(line, tape, lo, hi, rises);
+    let (a, b) = sectioned(line, form, lo, hi, rises);
     let (a, b) = (left.unwrap_or(a), right.unwrap_or(b));
     let (a, b) = if a <= b { (a, b) } else { (lo, hi) };
     (s.max(a).min(b), a, b)
 }
 
-/// The root of a monotone `g` in `[lo, hi]`, and places with certain signs around it, 128 times `first` apart at most; by eight values at a time. `None` where that does
-/// not close in at once.
-fn closed_in(line: &Line, tape: &Tape, lo: f64, hi: f64, rises: bool, first: f64) -> Option<(f64, f64, f64)> {
-    let sense = if rises { 1.0 } else { -1.0 };
-    let mut at: [f64; 8] =
-        core::array::from_fn(|i| if i == 7 { hi } else { lo + (hi - lo) * (i as f64 / 7.0) });
-    let mut about = 0.5 * lo + 0.5 * hi;
-    for _ in 0..4 {
-        let v = line.bounds(tape, &at, &at);
-        let sign = signs(&v);
-        let before = sign.iter().rposition(|&sign| sign == Some(!rises));
-        let after = sign.iter().position(|&sign| sign == Some(rises));
-        if let (Some(before), Some(after)) = (before, after) {
-            let (a, b) = (at[before], at[after]);
-            if a <= b && b - a <= 128.0 * first {
-                return Some((about.max(a).min(b), a, b));
-            }
-        }
-        let g: [f64; 8] = core::array::from_fn(|i| sense * (0.5 * v.lo.0[i] + 0.5 * v.hi.0[i]));
-        let (s, doubt) = interpolated(&at, &g)?;
-        if doubt > 0.25 * (hi - lo) {
-            return None;
-        }
-        about = s;
-        let step = first.max(doubt / 16.0);
-        at = [-64.0, -16.0, -4.0, -1.0, 1.0, 4.0, 16.0, 64.0].map(|k| s + k * step);
-    }
-    None
-}
-
 /// Where `g` is zero, by the polynomial of degree three of its inverse through the four places around there (E. H. Neville's scheme), and how far from those of degree
 /// two that is. `None` where the values do not rise, or there is no zero between.
-fn interpolated(at: &[f64; 8], g: &[f64; 8]) -> Option<(f64, f64)> {
+pub(super) fn interpolated(at: &[f64; 8], g: &[f64; 8]) -> Option<(f64, f64)> {
     let above = g.iter().position(|&g| g > 0.0).filter(|&above| above > 0)?;
     let first = above.saturating_sub(2).min(4);
     let mut s: [f64; 4] = core::array::from_fn(|i| at[first + i]);
@@ -283,11 +289,11 @@ fn guess(g: impl Fn(f64) -> f64, lo: f64, hi: f64, close: f64) -> f64 {
 }
 
 /// The narrowest part of `[lo, hi]` with certain signs at its ends, by sections of eight.
-fn sectioned(line: &Line, tape: &Tape, lo: f64, hi: f64, rises: bool) -> (f64, f64) {
+fn sectioned<C: Curve>(line: &C, form: C::Form<'_>, lo: f64, hi: f64, rises: bool) -> (f64, f64) {
     let (mut a, mut b) = (lo, hi);
     loop {
         let at: [f64; 8] = core::array::from_fn(|i| a + (b - a) * ((i as f64 + 1.0) / 9.0));
-        let sign = signs(&line.bounds(tape, &at, &at));
+        let sign = line.signs(form, &at, &at);
         let before = (0..8).rev().find(|&i| sign[i] == Some(!rises)).map_or(a, |i| at[i]);
         let after = (0..8).find(|&i| sign[i] == Some(rises)).map_or(b, |i| at[i]);
         let gained = after - before < 0.75 * (b - a);
@@ -301,17 +307,17 @@ fn sectioned(line: &Line, tape: &Tape, lo: f64, hi: f64, rises: bool) -> (f64, f
 }
 
 /// `[lo, hi]` without its ends, as far as `g` is certainly not zero there.
-fn narrowed(line: &Line, tape: &Tape, lo: f64, hi: f64) -> (f64, f64) {
+fn narrowed<C: Curve>(line: &C, form: C::Form<'_>, lo: f64, hi: f64) -> (f64, f64) {
     let (mut a, mut b) = (lo, hi);
     loop {
         let node = |i: usize| a + (b - a) * (i as f64 / 8.0);
         let from: [f64; 8] = core::array::from_fn(node);
         let to: [f64; 8] = core::array::from_fn(|i| node(i + 1));
-        let v = line.bounds(tape, &from, &to);
-        let open = |i: &usize| signs(&v)[*i].is_none();
+        let sign = line.signs(form, &from, &to);
+        let open = |i: &usize| sign[*i].is_none();
         let (Some(first), Some(last)) = ((0..8).find(open), (0..8).rev().find(open)) else { return (a, b) };
         let (next_a, next_b) = (from[first], to[last]);
-        if next_b - next_a > 0.8 * (b - a) || next_b - next_a <= 4.0 * line.ulp {
+        if next_b - next_a > 0.8 * (b - a) || next_b - next_a <= 4.0 * line.ulp() {
             return (next_a, next_b);
         }
         (a, b) = (next_a, next_b);

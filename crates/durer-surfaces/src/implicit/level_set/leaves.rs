@@ -5,8 +5,9 @@
 
 use super::LevelSet;
 use super::pen::{Pen, Step};
+use crate::BlobComponent;
 use crate::algebraic::powers;
-use crate::implicit::{BlobComponent, BlobError, Container, IsosurfaceError, SuperellipsoidError};
+use crate::implicit::{Container, IsosurfaceError, SuperellipsoidError};
 use crate::tape::{Formula, FormulaError, NodeId, Op};
 use durer_math::{Aabb, Point3, Vec3};
 
@@ -197,11 +198,9 @@ pub fn superellipsoid(e: f64, n: f64) -> Result<LevelSet, SuperellipsoidError> {
     Ok(LevelSet::new(f, Aabb::centred(Point3::ORIGIN, Vec3::new(1.0, 1.0, 1.0))))
 }
 
-/// The blob in which the fields of these components add up to more than a threshold.
-pub fn blob(threshold: f64, components: &[BlobComponent]) -> Result<LevelSet, BlobError> {
-    let (bounds, formula) = crate::implicit::blob::checked(threshold, components)?;
-    let f = below(&formula, -threshold).map_err(IsosurfaceError::from)?;
-    Ok(LevelSet::new(f, bounds))
+/// The blob in which the fields of these components add up to more than a threshold, within its bounds.
+pub fn blob(threshold: f64, components: &[BlobComponent], bounds: Aabb) -> Result<LevelSet, FormulaError> {
+    Ok(LevelSet::new(below(&super::blob::missing(components)?, -threshold)?, bounds))
 }
 
 /// What is below a value of a function, in a container.

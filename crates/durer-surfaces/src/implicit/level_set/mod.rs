@@ -7,6 +7,7 @@
 //! A. Ricci, "A constructive geometry for computer graphics", *The Computer Journal* 16(2), 1973. So every solid of solids is a formula, and on
 //! a box where it is known which of two operands counts, the other is gone from the tape.
 
+mod blob;
 pub mod leaves;
 pub(crate) mod pen;
 

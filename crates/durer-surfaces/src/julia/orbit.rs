@@ -1,0 +1,362 @@
+//! Orbits of balls: what is certain of `|z_n|` on eight stretches of a line at once.
+//!
+//! Along a stretch `s = mid + half x`, `|x| <= 1`, the orbit's `n`-th point and its derivative by `x` are
+//!
+//! ```text
+//!   z_n  = q + v x + (no longer than r),    z_n' = v + (no longer than d)
+//! ```
+//!
+//! With `δ = v x + e`, `|e| <= r`, the square `(q + δ)² + c` is `q² + c + (q v + v q) x` and a rest of `q e + e q + δ²`; the cube likewise. Lengths of
+//! products are products of lengths, for quaternions as for complex numbers, so that the rests stay as small as they are: second order in
+//! the stretch's length. A point is a stretch without length. Hypercomplex numbers are two complex numbers side by side,
+//!
+//! ```text
+//!   a + b i + c j + d k  ->  (a - d) + (b + c) i,  (a + d) + (b - c) i,    |z|² = half the sum of their squares
+//! ```
+//!
+//! each with an orbit of its own.
+
+use super::JuliaPower;
+use durer_math::{F8, U};
+
+/// Pays for results below the normal range.
+pub(super) const TINY: f64 = durer_math::scale::pow2(-900);
+
+/// A point of an orbit on eight stretches; `C` coordinates, of which the first is the real one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ball<const C: usize> {
+    pub(super) q: [F8; C],
+    pub(super) v: [F8; C],
+    pub(super) r: F8,
+    pub(super) d: F8,
+}
+
+/// What is known of eight stretches, one bit each.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Known {
+    /// Certainly outside.
+    pub(super) out: u8,
+    /// Certainly inside.
+    pub(super) within: u8,
+    /// What decides is one `|z_n|`, and it grows; or it shrinks.
+    pub(super) rises: u8,
+    pub(super) falls: u8,
+    /// How much `|z_n|` may change for the stretch's length, and by what is not known, for the last `n` that was not certain.
+    pub(super) spread: F8,
+    pub(super) blur: F8,
+}
+
+/// What is iterated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Rule<const M: usize, const C: usize> {
+    pub(super) c: [[f64; C]; M],
+    /// A bound on the error of each `c`, and on its length.
+    pub(super) c_err: f64,
+    pub(super) c_size: f64,
+    pub(super) power: JuliaPower,
+    pub(super) iterations: u32,
+    /// What leaves the ball of this radius is outside.
+    pub(super) radius: f64,
+    /// Whether an orbit that leaves that ball never comes back, so that the last point decides.
+    pub(super) escapes: bool,
+}
+
+impl<const C: usize> Ball<C> {
+    /// The next point.
+    #[inline(always)]
+    fn step(&mut self, c: &[f64; C], power: JuliaPower, c_err: f64, c_size: f64) {
+        match power {
+            JuliaPower::Square => self.square(c, c_err, c_size),
+            JuliaPower::Cube => self.cube(c, c_err, c_size),
+        }
+    }
+
+    #[inline(always)]
+    fn square(&mut self, c: &[f64; C], c_err: f64, c_size: f64) {
+        for k in 0..8 {
+            let (q0, v0) = (self.q[0].0[k], self.v[0].0[k]);
+            let (mut q2, mut v2, mut qv) = (0.0, 0.0, 0.0);
+            for i in 1..C {
+                let (q, v) = (self.q[i].0[k], self.v[i].0[k]);
+                q2 = q.mul_add(q, q2);
+                v2 = v.mul_add(v, v2);
+                qv = q.mul_add(v, qv);
+            }
+            let (q_all, v_all) = (q0.mul_add(q0, q2), v0.mul_add(v0, v2));
+            let (q_size, v_size) = (q_all.sqrt(), v_all.sqrt());
+            let (r, d) = (self.r.0[k], self.d.0[k]);
+            let way = v_size + r;
+            // 8 U (|q|² + |c|) for the new middle and 16 U |q| |v| for the new slope; what is left pays for this line.
+            let rounding = (q_all + c_size + 2.0 * q_size * v_size).mul_add(10.0 * U, c_err);
+            self.r.0[k] = (2.0 * q_size).mul_add(r, way.mul_add(way, rounding)) * (1.0 + 32.0 * U) + TINY;
+            let slope_rounding = (q_size * v_size) * (20.0 * U);
+            self.d.0[k] =
+                2.0 * way.mul_add(v_size + d, q_size.mul_add(d, slope_rounding)) * (1.0 + 32.0 * U) + TINY;
+            for (i, c) in c.iter().enumerate().skip(1) {
+                let (q, v) = (self.q[i].0[k], self.v[i].0[k]);
+                self.q[i].0[k] = (2.0 * q0).mul_add(q, *c);
+                self.v[i].0[k] = 2.0 * q0.mul_add(v, v0 * q);
+            }
+            self.q[0].0[k] = q0.mul_add(q0, c[0] - q2);
+            self.v[0].0[k] = 2.0 * q0.mul_add(v0, -qv);
+        }
+    }
+
+    /// `(a + w)³ = a (a² - 3 |w|²) + (3 a² - |w|²) w`, and its differential.
+    #[inline(always)]
+    fn cube(&mut self, c: &[f64; C], c_err: f64, c_size: f64) {
+        for k in 0..8 {
+            let (q0, v0) = (self.q[0].0[k], self.v[0].0[k]);
+            let (mut q2, mut v2, mut qv) = (0.0, 0.0, 0.0);
+            for i in 1..C {
+                let (q, v) = (self.q[i].0[k], self.v[i].0[k]);
+                q2 = q.mul_add(q, q2);
+                v2 = v.mul_add(v, v2);
+                qv = q.mul_add(v, qv);
+            }
+            let (q_all, v_all) = (q0.mul_add(q0, q2), v0.mul_add(v0, v2));
+            let (q_size, v_size) = (q_all.sqrt(), v_all.sqrt());
+            let (r, d) = (self.r.0[k], self.d.0[k]);
+            let way = v_size + r;
+            let rounding = (q_all * (q_size + v_size) + c_size).mul_add(64.0 * U, c_err);
+            let rest = way * way * (3.0 * q_size + way);
+            self.r.0[k] = (3.0 * q_all).mul_add(r, rest + rounding) * (1.0 + 64.0 * U) + TINY;
+            let turned = way * (6.0 * q_size + 3.0 * way);
+            let slope_rounding = q_all * v_size * (64.0 * U);
+            self.d.0[k] = (3.0 * q_all).mul_add(d, turned.mul_add(v_size + d, slope_rounding))
+                * (1.0 + 64.0 * U)
+                + TINY;
+            let s0 = q0 * q0;
+            let factor = 3.0 * s0 - q2;
+            let change = 6.0 * q0 * v0 - 2.0 * qv;
+            for (i, c) in c.iter().enumerate().skip(1) {
+                let (q, v) = (self.q[i].0[k], self.v[i].0[k]);
+                self.q[i].0[k] = factor.mul_add(q, *c);
+                self.v[i].0[k] = factor.mul_add(v, change * q);
+            }
+            self.q[0].0[k] = q0.mul_add(s0 - 3.0 * q2, c[0]);
+            self.v[0].0[k] = (3.0 * (s0 - q2)).mul_add(v0, -6.0 * q0 * qv);
+        }
+    }
+}
+
+/// Positive where the points are certainly outside: a part of [`tell`].
+#[inline(always)]
+fn outside<const M: usize, const C: usize>(balls: &[Ball<C>; M], radius: f64) -> F8 {
+    let mut out = F8::ZERO;
+    let share = 1.0 / M as f64;
+    for k in 0..8 {
+        let (mut a, mut b, mut c, mut r) = (0.0, 0.0, 0.0, 0.0_f64);
+        for ball in balls {
+            for i in 0..C {
+                let (q, v) = (ball.q[i].0[k], ball.v[i].0[k]);
+                a = q.mul_add(q, a);
+                b = q.mul_add(v, b);
+                c = v.mul_add(v, c);
+            }
+            r = r.max(ball.r.0[k]);
+        }
+        (a, b, c) = (a * share, b * share, c * share);
+        let rounding = (a + 2.0 * b.abs() + c) * (16.0 * U);
+        let (least, over) = (a - 2.0 * b.abs() + c.min(b.abs()), radius + r);
+        out.0[k] = least - rounding - over * over * (1.0 + 8.0 * U);
+    }
+    out
+}
+
+/// What the `n`-th points say of `|z_n|`, as numbers that are positive where something is certain.
+struct Told {
+    out: F8,
+    within: F8,
+    rises: F8,
+    falls: F8,
+    spread: F8,
+    blur: F8,
+}
+
+/// Bits of the lanes that are positive.
+#[inline(always)]
+fn positive(x: &F8) -> u8 {
+    (0..8).fold(0, |bits, k| bits | u8::from(x.0[k] > 0.0) << k)
+}
+
+#[inline(always)]
+fn tell<const M: usize, const C: usize>(balls: &[Ball<C>; M], radius: f64) -> Told {
+    let mut told = Told {
+        out: F8::ZERO,
+        within: F8::ZERO,
+        rises: F8::ZERO,
+        falls: F8::ZERO,
+        spread: F8::ZERO,
+        blur: F8::ZERO,
+    };
+    let share = 1.0 / M as f64;
+    for k in 0..8 {
+        let (mut a, mut b, mut c, mut r2, mut d2) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        for ball in balls {
+            for i in 0..C {
+                let (q, v) = (ball.q[i].0[k], ball.v[i].0[k]);
+                a = q.mul_add(q, a);
+                b = q.mul_add(v, b);
+                c = v.mul_add(v, c);
+            }
+            r2 = ball.r.0[k].mul_add(ball.r.0[k], r2);
+            d2 = ball.d.0[k].mul_add(ball.d.0[k], d2);
+        }
+        (a, b, c) = (a * share, b * share, c * share);
+        // The mean square of the parts; of one alone, its own size.
+        let size = |x: f64| (x * share).sqrt() * (1.0 + 8.0 * U);
+        let (r, d) = if M == 1 { (balls[0].r.0[k], balls[0].d.0[k]) } else { (size(r2), size(d2)) };
+        let rounding = (a + 2.0 * b.abs() + c) * (16.0 * U);
+        // |q + v x|² = a + 2 b x + c x² is least where x = -b / c, if that is in reach: no less than a - |b| there.
+        let least = a - 2.0 * b.abs() + c.min(b.abs());
+        let most = a + 2.0 * b.abs() + c;
+        let (over, under) = (radius + r, (radius - r).max(0.0));
+        told.out.0[k] = least - rounding - over * over * (1.0 + 8.0 * U);
+        told.within.0[k] = under * under * (1.0 - 8.0 * U) - (most + rounding);
+        // z · z' = (q + v x + e) · (v + ε).
+        let (q_size, v_size) = (a.sqrt(), c.sqrt());
+        let doubt = (c + q_size * d + v_size * (d + r) + r * d) * (1.0 + 64.0 * U) + rounding + TINY;
+        told.rises.0[k] = b - doubt;
+        told.falls.0[k] = -b - doubt;
+        told.spread.0[k] = v_size;
+        told.blur.0[k] = r;
+    }
+    told
+}
+
+impl<const M: usize, const C: usize> Rule<M, C> {
+    /// What is certain of eight stretches that begin as `balls`. Where a lane is outside it may be anything else, too.
+    #[inline(always)]
+    pub(super) fn known(&self, mut balls: [Ball<C>; M]) -> Known {
+        let mut known = Known::default();
+        let (mut one, mut many, mut rises, mut falls) = (0_u8, 0_u8, 0_u8, 0_u8);
+        for n in 0..=self.iterations {
+            if self.escapes && n < self.iterations {
+                known.out |= positive(&outside(&balls, self.radius));
+                if known.out == u8::MAX {
+                    return known;
+                }
+            } else {
+                let told = tell(&balls, self.radius);
+                known.out |= positive(&told.out);
+                if known.out == u8::MAX {
+                    return known;
+                }
+                let open = !(positive(&told.within) | known.out);
+                many |= one & open;
+                one |= open;
+                rises |= open & positive(&told.rises);
+                falls |= open & positive(&told.falls);
+                for k in 0..8 {
+                    if open >> k & 1 == 1 {
+                        (known.spread.0[k], known.blur.0[k]) = (told.spread.0[k], told.blur.0[k]);
+                    }
+                }
+            }
+            if n < self.iterations {
+                for (ball, c) in balls.iter_mut().zip(&self.c) {
+                    ball.step(c, self.power, self.c_err, self.c_size);
+                }
+            }
+        }
+        known.within = !(known.out | one);
+        let alone = one & !many & !known.out;
+        (known.rises, known.falls) = (alone & rises, alone & falls);
+        known
+    }
+
+    /// The largest `|z_n|² - R²`, rounded; large as soon as it is certain to be positive by far.
+    #[inline(always)]
+    pub(super) fn value(&self, mut z: [[f64; C]; M]) -> f64 {
+        let (mut most, level) = (f64::NEG_INFINITY, self.radius * self.radius);
+        for n in 0..=self.iterations {
+            let size = z.iter().flatten().fold(0.0, |sum: f64, x| x.mul_add(*x, sum)) / M as f64;
+            most = if self.escapes { size - level } else { most.max(size - level) };
+            if n == self.iterations || most > 1e12 {
+                break;
+            }
+            for (z, c) in z.iter_mut().zip(&self.c) {
+                *z = self.next(z, c);
+            }
+        }
+        most
+    }
+
+    #[inline(always)]
+    fn next(&self, z: &[f64; C], c: &[f64; C]) -> [f64; C] {
+        let a = z[0];
+        let w2 = z[1..].iter().fold(0.0, |sum: f64, x| x.mul_add(*x, sum));
+        let (real, factor) = match self.power {
+            JuliaPower::Square => (a * a - w2, 2.0 * a),
+            JuliaPower::Cube => (a * (a * a - 3.0 * w2), 3.0 * a * a - w2),
+        };
+        core::array::from_fn(|i| if i == 0 { real + c[0] } else { factor.mul_add(z[i], c[i]) })
+    }
+
+    /// The gradient of the largest `|z_n|²` by what moves along `tangents`, rounded; and, with a ball of radius `r` about the point, a bound on the
+    /// second derivatives there. `stretch` is no less than how much longer than a way in space the way of the start is.
+    #[inline(always)]
+    pub(super) fn gradient(
+        &self,
+        mut z: [[f64; C]; M],
+        mut tangents: [[[f64; C]; M]; 3],
+        r: f64,
+        stretch: f64,
+    ) -> ([f64; 3], f64) {
+        let mut found = ([0.0; 3], 0.0);
+        let mut most = f64::NEG_INFINITY;
+        let (mut ball, mut slope, mut bend) = ([r * stretch; M], [stretch; M], [0.0_f64; M]);
+        for n in 0..=self.iterations {
+            let share = 2.0 / M as f64;
+            let sizes: [f64; M] =
+                core::array::from_fn(|m| z[m].iter().fold(0.0, |sum: f64, x| x.mul_add(*x, sum)));
+            let size: f64 = sizes.iter().sum::<f64>() / M as f64;
+            if n == self.iterations || (!self.escapes && size > most) {
+                most = size;
+                let along = |t: &[[f64; C]; M]| {
+                    let terms = t.iter().flatten().zip(z.iter().flatten());
+                    terms.fold(0.0, |sum: f64, (t, z)| t.mul_add(*z, sum)) * share
+                };
+                let second = (0..M).map(|m| {
+                    let far = sizes[m].sqrt() + ball[m];
+                    slope[m] * slope[m] + far * bend[m]
+                });
+                let bound = second.sum::<f64>() * share * (1.0 + 1.0 / 1024.0);
+                found = (core::array::from_fn(|i| along(&tangents[i])), bound);
+            }
+            if n == self.iterations || size > 1e12 {
+                break;
+            }
+            for m in 0..M {
+                let far = (sizes[m].sqrt() + ball[m]) * (1.0 + 1.0 / 4096.0);
+                let (l, h) = match self.power {
+                    JuliaPower::Square => (2.0 * far, 2.0),
+                    JuliaPower::Cube => (3.0 * far * far, 6.0 * far),
+                };
+                bend[m] = l * bend[m] + h * (slope[m] * slope[m]);
+                (slope[m], ball[m]) =
+                    (l * slope[m], l * ball[m] + self.c_err + far * far * far.max(1.0) * (64.0 * U));
+                let (a, w2) = (z[m][0], z[m][1..].iter().fold(0.0, |sum: f64, x| x.mul_add(*x, sum)));
+                for t in &mut tangents {
+                    let t = &mut t[m];
+                    let wt = (1..C).fold(0.0, |sum: f64, i| z[m][i].mul_add(t[i], sum));
+                    let (real, factor, change) = match self.power {
+                        JuliaPower::Square => (2.0 * (a * t[0] - wt), 2.0 * a, 2.0 * t[0]),
+                        JuliaPower::Cube => (
+                            3.0 * (a * a - w2) * t[0] - 6.0 * a * wt,
+                            3.0 * a * a - w2,
+                            6.0 * a * t[0] - 2.0 * wt,
+                        ),
+                    };
+                    for i in 1..C {
+                        t[i] = factor.mul_add(t[i], change * z[m][i]);
+                    }
+                    t[0] = real;
+                }
+                z[m] = self.next(&z[m], &self.c[m]);
+            }
+        }
+        found
+    }
+}

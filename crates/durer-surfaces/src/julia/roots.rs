@@ -1,0 +1,176 @@
+//! The roots of a ray: stretches told apart by the balls around their orbits, and put in one row.
+
+use super::Solid;
+use super::lift::Line;
+use crate::implicit::{Curve, Found, Tracker, Verdict};
+use crate::{CentredRay, Flow, LocalRay, Root, Sink};
+use durer_math::{Isa, Point3, RaySide};
+
+/// After so many looks at eight stretches for one ray what is left counts as murky: the work for a ray is bounded.
+const MOST_PASSES: u32 = 20_000;
+
+struct Query<'a, const M: usize, const C: usize> {
+    line: &'a Line<'a, M, C>,
+    ray: &'a LocalRay<'a>,
+    at: &'a CentredRay<'a>,
+    sink: &'a mut dyn Sink,
+    /// Roots behind this are of no interest.
+    last: f64,
+    tracker: Tracker<'a, Line<'a, M, C>>,
+    passes: u32,
+}
+
+impl<const M: usize, const C: usize> Solid<M, C> {
+    /// Shows all roots to `sink`, ascending.
+    pub(super) fn roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.roots_here(ray, sink),
+        );
+    }
+
+    #[inline(always)]
+    fn roots_here(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+        let at = ray.recentre(Point3::ORIGIN, 0);
+        let Some((first, last)) = self.stretch(&at) else { return };
+        let (from, to) = at.window((ray.t_min, ray.t_max.min(sink.limit())));
+        if from > last || to < first {
+            return;
+        }
+        let line = Line::new(&self.rule, &self.lift, &at, first.abs().max(last.abs()));
+        let slack = 16.0 * line.ulp();
+        // Outside of the ball all is outside. A ray that was spawned on the surface starts on a side that is known.
+        let (a, before) = match ray.source {
+            _ if from <= first => (first, Some(true)),
+            Some(side) if ray.t_min == 0.0 => (from, Some(side == RaySide::Front)),
+            _ => certain(&line, from, -slack, first),
+        };
+        let (b, after) = if to >= last { (last, Some(true)) } else { certain(&line, to, slack, last) };
+        let tracker = Tracker::new(&line, (), before, ray.rough);
+        let mut query = Query { line: &line, ray, at: &at, sink, last: to, tracker, passes: 0 };
+        if a < b
+            && query.isolate(a, b) == Flow::Continue
+            && let Some(found) = query.tracker.finish(after)
+        {
+            query.show(&found);
+        }
+    }
+
+    /// The part of a ray within the ball that holds the solid; all of it that can be if the ray is not well known.
+    #[inline(always)]
+    fn stretch(&self, at: &CentredRay<'_>) -> Option<(f64, f64)> {
+        let (mid, half) =
+            crate::zero_set::ball_and_slab(at, self.radius, (0.0, 0.0), (-1.0, 1.0), super::ROOM / 2.0)?;
+        // The direction is no shorter than one.
+        let far = 2.0 * self.radius;
+        Some(if half < f64::INFINITY { (mid - half, mid + half) } else { (-far, far) })
+    }
+}
+
+/// A point from `s` on, in the direction of `step`, at which the sign is certain; no further than `end`.
+fn certain<const M: usize, const C: usize>(
+    line: &Line<'_, M, C>,
+    s: f64,
+    step: f64,
+    end: f64,
+) -> (f64, Option<bool>) {
+    let mut step = step;
+    loop {
+        let x = s + step;
+        if (x - end) * step >= 0.0 {
+            return (end, Some(true));
+        }
+        let sign = line.sign((), x);
+        if sign.is_some() {
+            return (x, sign);
+        }
+        step *= 4.0;
+    }
+}
+
+impl<const M: usize, const C: usize> Query<'_, M, C> {
+    /// Tells the stretch from `lo` to `hi` apart, and shows the roots on it that are complete.
+    fn isolate(&mut self, lo: f64, hi: f64) -> Flow {
+        let node: [f64; 9] = core::array::from_fn(|i| match i {
+            0 => lo,
+            8 => hi,
+            _ => (lo + (hi - lo) * (i as f64 / 8.0)).max(lo).min(hi),
+        });
+        let a: [f64; 8] = core::array::from_fn(|i| node[i]);
+        let b: [f64; 8] = core::array::from_fn(|i| node[i + 1]);
+        let known = self.line.between(&a, &b);
+        self.passes += 1;
+        let told = known.out | known.within | known.rises | known.falls;
+        let width = (hi - lo) * 0.0625;
+        let mut murky = 0_u8;
+        if told != u8::MAX {
+            if width <= 4.0 * self.line.ulp() || self.passes >= MOST_PASSES {
+                murky = !told;
+            } else if width < durer_math::scale::pow2(-20) {
+                // Where even a point's side is open, and no more certain than the stretch's.
+                let middle: [f64; 8] = core::array::from_fn(|i| 0.5 * (a[i] + b[i]));
+                let points = self.line.at(&middle);
+                self.passes += 1;
+                for i in 0..8 {
+                    let open = (told | points.out | points.within) >> i & 1 == 0;
+                    let lost = known.spread.0[i] <= 4.0 * points.blur.0[i];
+                    murky |= u8::from(open && lost) << i;
+                }
+            }
+        }
+        for i in 0..8 {
+            let is = |bits: u8| bits >> i & 1 == 1;
+            let verdict = match () {
+                () if is(known.out) => Verdict::Sign(true),
+                () if is(known.within) => Verdict::Sign(false),
+                () if is(known.rises) => Verdict::Monotone(true),
+                () if is(known.falls) => Verdict::Monotone(false),
+                () if is(murky) => Verdict::Murky,
+                () => {
+                    if self.isolate(a[i], b[i]) == Flow::Stop {
+                        return Flow::Stop;
+                    }
+                    continue;
+                }
+            };
+            let found = self.tracker.take(a[i], b[i], verdict, ());
+            if let Some(found) = found
+                && self.show(&found) == Flow::Stop
+            {
+                return Flow::Stop;
+            }
+            if self.tracker.is_idle() && b[i] > self.last {
+                return Flow::Stop;
+            }
+        }
+        Flow::Continue
+    }
+
+    /// Shows a root, unless it is certainly out of the ray's range.
+    #[inline(never)]
+    fn show(&mut self, found: &Found) -> Flow {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.show_here(found),
+        )
+    }
+
+    #[inline(always)]
+    fn show_here(&mut self, found: &Found) -> Flow {
+        let (mut lo, hi) = self.at.bracket(found.lo.next_down(), found.hi.next_up());
+        if self.at.admits(lo, hi) == Some(false) {
+            return Flow::Continue;
+        }
+        if self.ray.source.is_some() && self.ray.t_min == 0.0 {
+            lo = lo.max(0.0).min(hi);
+        }
+        let t = self.at.t(found.s).max(lo).min(hi);
+        let root = Root { t, lo, hi, s: found.s, tag: [0.0; 2], face: 0, sign: found.sign, kind: found.kind };
+        let flow = self.sink.push(root);
+        let limit = self.sink.limit();
+        if limit < f64::INFINITY {
+            self.last = self.last.min(self.at.window((limit, limit)).1);
+        }
+        flow
+    }
+}

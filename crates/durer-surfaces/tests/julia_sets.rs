@@ -1,0 +1,191 @@
+//! Julia sets against balls, and against exact arithmetic.
+
+mod common;
+#[path = "common/solids.rs"]
+mod solids;
+
+use common::Dice;
+use durer_math::{Dyadic, Ray, Ring};
+use durer_surfaces::{
+    Julia, JuliaAlgebra, JuliaError, JuliaPower, JuliaSet, Kind, LocalPoint, LocalRay, Need, Root, Side,
+    Surface,
+};
+use solids::{Met, all};
+
+fn julia_of(c: [f64; 4], algebra: JuliaAlgebra, power: JuliaPower, iterations: u32) -> Julia {
+    Julia { c, algebra, power, iterations, radius: 2.0, normal: [0.0, 0.0, 0.0, 1.0], distance: 0.0 }
+}
+
+#[test]
+fn a_julia_set_of_zero_is_a_ball() {
+    // |z|^(2^N) = 2: the radius is the root of 2 that N square roots give.
+    for (iterations, power, radius) in [
+        (0, JuliaPower::Square, 2.0_f64),
+        (1, JuliaPower::Square, 2.0_f64.sqrt()),
+        (3, JuliaPower::Square, 2.0_f64.sqrt().sqrt().sqrt()),
+        (2, JuliaPower::Cube, durer_math::elementary::pow(2.0, 1.0 / 9.0)),
+    ] {
+        let set = JuliaSet::new(&julia_of([0.0; 4], JuliaAlgebra::Quaternion, power, iterations)).unwrap();
+        let (mut dice, mut met) = (Dice(20), Met::default());
+        for _ in 0..1_000 {
+            let ray = dice.ray();
+            let roots = all(&set, &ray);
+            for root in &roots {
+                // Distance from the origin at both ends of the bracket, in ray parameters times their speed.
+                let speed = ray.direction.length();
+                let off = |t: f64| (ray.at(t).to_vec().length() - radius).abs();
+                let slack = 1e-13 * (1.0 + root.t * speed) + (root.hi - root.lo) * speed;
+                assert!(off(root.lo) <= slack && off(root.hi) <= slack, "{ray:?} {root:?}");
+            }
+            let o = ray.origin.to_vec();
+            let apart = o.cross(ray.direction).length() / ray.direction.length();
+            if (apart - radius).abs() > 1e-6 * o.length() {
+                assert_eq!(roots.len(), if apart < radius { 2 } else { 0 }, "{ray:?}");
+            }
+            met.add(&roots);
+        }
+        assert!(met.simple > 500 && met.clusters * 100 < met.simple, "{} {}", met.simple, met.clusters);
+    }
+}
+
+/// The product of two quaternions or hypercomplex numbers, from the table of units.
+fn times<T: Ring>(algebra: JuliaAlgebra, z: &[T; 4], y: &[T; 4]) -> [T; 4] {
+    let quaternion = algebra == JuliaAlgebra::Quaternion;
+    let mut out: [T; 4] = core::array::from_fn(|_| T::exact(0.0));
+    for (i, z) in z.iter().enumerate() {
+        for (j, y) in y.iter().enumerate() {
+            // 1 times anything, i i = j j = -1, and then as the algebra has it.
+            let minus = match (i, j) {
+                (0, _) | (_, 0) => false,
+                (1, 1) | (2, 2) => true,
+                (3, 3) => quaternion,
+                (1, 2) => false,
+                (2, 3) | (3, 1) if quaternion => false,
+                _ => !matches!((i, j), (2, 1)) || quaternion,
+            };
+            let term = z.clone() * y.clone();
+            let k = i ^ j;
+            out[k] = if minus { out[k].clone() - term } else { out[k].clone() + term };
+        }
+    }
+    out
+}
+
+/// Whether the point at `t` belongs to the set, in exact numbers.
+fn exactly_in(set: &Julia, ray: &Ray, t: f64) -> bool {
+    let x = |x: f64| Dyadic::new(x).unwrap();
+    let mut z: [Dyadic; 4] = core::array::from_fn(|i| {
+        if i < 3 { x(ray.origin[i]) + x(t) * x(ray.direction[i]) } else { x(set.distance) }
+    });
+    for n in 0..=set.iterations {
+        let square = z.iter().fold(-(x(set.radius) * x(set.radius)), |sum, a| sum + a.clone() * a.clone());
+        if square.exact_sign().is_gt() {
+            return false;
+        }
+        if n < set.iterations {
+            let mut power = times(set.algebra, &z, &z);
+            if set.power == JuliaPower::Cube {
+                power = times(set.algebra, &z, &power);
+            }
+            z = core::array::from_fn(|i| power[i].clone() + x(set.c[i]));
+        }
+    }
+    true
+}
+
+#[test]
+fn brackets_of_julia_sets_have_the_signs_of_exact_arithmetic_at_their_ends() {
+    let mut dice = Dice(21);
+    let cases = [
+        (JuliaAlgebra::Quaternion, JuliaPower::Square, [-0.083, 0.0, -0.83, -0.025], 5),
+        (JuliaAlgebra::Quaternion, JuliaPower::Square, [-1.5, 0.25, 0.0, 0.0], 4),
+        (JuliaAlgebra::Quaternion, JuliaPower::Cube, [-0.25, 0.5, 0.125, 0.5], 3),
+        (JuliaAlgebra::Hypercomplex, JuliaPower::Square, [-0.5, 0.25, 0.5, -0.125], 4),
+        (JuliaAlgebra::Hypercomplex, JuliaPower::Cube, [0.25, 0.5, -0.25, 0.0], 3),
+    ];
+    // Radii from which orbits never return, and others.
+    let radii = [2.0, 1.875, 1.25, 4.0, 0.875];
+    for (i, (algebra, power, c, iterations)) in cases.into_iter().cycle().take(2 * cases.len()).enumerate() {
+        let radius = if i < cases.len() { 2.0 } else { radii[i % radii.len()] };
+        let data = Julia { distance: 0.125, radius, ..julia_of(c, algebra, power, iterations) };
+        let surface = JuliaSet::new(&data).unwrap();
+        let mut met = Met::default();
+        for _ in 0..60 {
+            let through = (dice.vector() * 0.7).to_point();
+            let direction = dice.vector();
+            let ray = Ray::new(through - direction * (4.0 / direction.length()), direction);
+            let roots = all(&surface, &ray);
+            let signs: Vec<_> = roots.iter().filter(|r| r.sign != 0).map(|r| r.sign).collect();
+            assert!(
+                signs.iter().enumerate().all(|(i, &s)| s == if i % 2 == 0 { -1 } else { 1 }),
+                "{ray:?}: {roots:?}"
+            );
+            for root in roots.iter().filter(|r| r.kind == Kind::Simple) {
+                let (lo, hi) = (exactly_in(&data, &ray, root.lo), exactly_in(&data, &ray, root.hi));
+                assert_eq!((lo, hi), (root.sign > 0, root.sign < 0), "{data:?} {ray:?} {root:?}");
+            }
+            // Between roots all is in or out.
+            for i in 0..200 {
+                let t = (2.0 + f64::from(i) / 50.0) / ray.direction.length();
+                if roots.iter().all(|r| t < r.lo || t > r.hi) {
+                    let crossed: i32 = roots.iter().filter(|r| r.hi < t).map(|r| i32::from(r.sign)).sum();
+                    assert_eq!(crossed < 0, exactly_in(&data, &ray, t), "{data:?} {ray:?} at {t}: {roots:?}");
+                }
+            }
+            met.add(&roots);
+        }
+        println!(
+            "{algebra:?} {power:?}: {} simple, {} clusters, median {:.1} ulp",
+            met.simple,
+            met.clusters,
+            met.median()
+        );
+        assert!(met.simple > 20 && met.clusters * 100 <= met.simple, "{} {}", met.simple, met.clusters);
+    }
+}
+
+#[test]
+fn what_makes_no_julia_set_is_named() {
+    let good = julia_of([0.0; 4], JuliaAlgebra::Quaternion, JuliaPower::Square, 3);
+    assert!(matches!(JuliaSet::new(&Julia { normal: [1.0, 0.0, 0.0, 0.0], ..good }), Err(JuliaError::Slice)));
+    assert!(matches!(JuliaSet::new(&Julia { c: [f64::NAN; 4], ..good }), Err(JuliaError::Number(_))));
+    assert!(matches!(JuliaSet::new(&Julia { iterations: 1001, ..good }), Err(JuliaError::Iterations(1001))));
+}
+
+#[test]
+fn normals_and_starts_are_on_their_sides() {
+    let mut dice = Dice(23);
+    for (algebra, power, c, iterations) in [
+        (JuliaAlgebra::Quaternion, JuliaPower::Square, [-0.083, 0.0, -0.83, -0.025], 8),
+        (JuliaAlgebra::Quaternion, JuliaPower::Cube, [-0.25, 0.5, 0.125, 0.5], 3),
+        (JuliaAlgebra::Hypercomplex, JuliaPower::Square, [-0.5, 0.25, 0.5, -0.125], 4),
+    ] {
+        let set = julia_of(c, algebra, power, iterations);
+        let surface = JuliaSet::new(&set).unwrap();
+        let (mut left, mut blocked) = (0, 0);
+        for _ in 0..400 {
+            let (to, d) = ((dice.vector() * 0.5).to_point(), dice.vector());
+            let ray = Ray::new(to - d * ([3.0, 1e4][dice.below(2) as usize] / d.length()), d);
+            for root in all(&surface, &ray).iter().filter(|r| r.kind == Kind::Simple) {
+                let point = surface.resolve(&LocalRay::new(&ray), root, Need::POINT);
+                let along = point.ng.to_vec().dot(d) / d.length();
+                assert!(along * f64::from(root.sign) > -1e-4, "{ray:?} {point:?}");
+                for side in [durer_math::RaySide::Front, durer_math::RaySide::Back] {
+                    let start = point.spawn_from(side, d).origin;
+                    let expected = if side == durer_math::RaySide::Front { Side::Out } else { Side::In };
+                    assert_eq!(surface.side(&LocalPoint::new(start)), expected, "{ray:?} {point:?}");
+                    assert_eq!(exactly_in(&set, &Ray::new(start, d), 0.0), expected == Side::In, "{point:?}");
+                }
+                // Straight away from the surface it is not met again at once.
+                let away = point.spawn(point.ng.to_vec());
+                let local = LocalRay::new(&away).from_side(Some(durer_math::RaySide::Front));
+                let mut again = durer_surfaces::All::default();
+                surface.roots(&local, &mut again);
+                let first: Option<&Root> = again.roots.first();
+                blocked += usize::from(first.is_some_and(|r| r.kind != Kind::Simple || r.sign > 0));
+                left += 1;
+            }
+        }
+        assert!(left > 200 && blocked == 0, "{left} {blocked}");
+    }
+}
