@@ -187,6 +187,7 @@ impl Reader<'_> {
                 }
                 scene::Shape::Csg(*operation, shown)
             }
+            Shape::Deform(solid, warps) => return self.emitted_deformed(object, solid, warps).map(Some),
             leaf => surface(leaf, at)?,
         };
         let mut made = scene::Object::new(shape);
@@ -203,18 +204,43 @@ impl Reader<'_> {
         for clip in &object.clips {
             made.clips.extend(self.emitted(clip, &mut Vec::new())?);
         }
-        let habits = object.habits;
-        made.flags = scene::Flags {
-            no_shadow: habits.no_shadow,
-            no_image: habits.no_image,
-            no_reflection: habits.no_reflection,
-            hollow: habits.hollow,
-            inverse: habits.inverse,
-            open: habits.open || matches!(object.shape, Shape::Isosurface(_, true)),
-            double_illuminate: habits.double_illuminate,
-        };
+        made.flags = flags(object);
         made.place = Some(scene::Place { file: at.file, start: at.start });
         Ok(Some(made))
+    }
+
+    /// A deformed solid; a union of deformed parts, if the solid is a union.
+    fn emitted_deformed(
+        &mut self,
+        object: &Object,
+        solid: &Object,
+        warps: &[scene::Warp],
+    ) -> Result<scene::Object> {
+        let at = object.at;
+        let Some(solid) = self.emitted(solid, &mut Vec::new())? else {
+            return Err(Fault::invalid(at, "there is no solid here to deform"));
+        };
+        let singular = |why| {
+            Fault::invalid(at, format!("this object is placed by a transform that cannot be undone: {why}"))
+        };
+        let mut made = scene::Object::deformed(solid, warps).map_err(singular)?;
+        let own = placement(&object.place, at)?;
+        made.transform(own.affine()).map_err(singular)?;
+        limits::charge_for_good(size_of::<scene::Object>() + size_of_val(warps));
+        self.check_memory(0, at)?;
+        if let Some(texture) = &object.texture {
+            let texture = self.shared_texture(texture, at)?;
+            made.texture.get_or_insert(texture);
+        }
+        if let Some(interior) = &object.interior {
+            made.interior.get_or_insert_with(|| Arc::new(filling(interior)));
+        }
+        for clip in &object.clips {
+            made.clips.extend(self.emitted(clip, &mut Vec::new())?);
+        }
+        made.flags = made.flags.or(flags(object));
+        made.place = Some(scene::Place { file: at.file, start: at.start });
+        Ok(made)
     }
 
     fn shared_texture(&mut self, own: &Rc<Texture>, at: Place) -> Result<Arc<scene::Texture>> {
@@ -268,6 +294,19 @@ impl Reader<'_> {
                 ambient_light: rgb(globals.ambient_light),
             },
         }
+    }
+}
+
+fn flags(object: &Object) -> scene::Flags {
+    let habits = object.habits;
+    scene::Flags {
+        no_shadow: habits.no_shadow,
+        no_image: habits.no_image,
+        no_reflection: habits.no_reflection,
+        hollow: habits.hollow,
+        inverse: habits.inverse,
+        open: habits.open || matches!(object.shape, Shape::Isosurface(_, true)),
+        double_illuminate: habits.double_illuminate,
     }
 }
 
@@ -327,6 +366,7 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             scene::Shape::Polynomial { order: *order, coefficients: coefficients.iter().copied().collect() }
         }
         &Shape::Torus { major, minor } => scene::Shape::Torus { major, minor },
+        &Shape::Cyclide { a, c, d } => scene::Shape::Cyclide { a, c, d },
         Shape::Prism(prism) => {
             let points: usize = prism.outlines.iter().map(Vec::len).sum();
             limits::charge_for_good(points * 16);
@@ -359,7 +399,7 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             limits::charge_for_good(blob.components.len() * size_of::<scene::BlobComponent>());
             scene::Shape::Blob(Box::new((**blob).clone()))
         }
-        Shape::Union(_) | Shape::Csg(..) | Shape::Light(_) => {
+        Shape::Deform(..) | Shape::Union(_) | Shape::Csg(..) | Shape::Light(_) => {
             return Err(Fault::invalid(at, "a single surface is needed here"));
         }
     })

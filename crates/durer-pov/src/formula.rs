@@ -550,7 +550,7 @@ impl Reader<'_> {
     }
 
     /// `{ box { } }` or `{ sphere { } }`.
-    fn container(&mut self) -> Result<Container> {
+    pub(crate) fn container(&mut self) -> Result<Container> {
         let point = |[x, y, z]: [f64; 3]| Point3::new(x, y, z);
         self.expect(Mark::BraceOpen)?;
         let lexeme = self.next()?;

@@ -278,3 +278,129 @@ fn equal_textures_are_shared() {
     let texture = |i: usize| scene.objects[i].texture.as_ref().unwrap();
     assert!(std::sync::Arc::ptr_eq(texture(0), texture(1)));
 }
+
+#[test]
+fn solids_are_deformed_in_the_order_of_the_text() {
+    use durer_math::Vec3;
+    use durer_scene::Warp;
+    let scene = scene(
+        "deform { cylinder { 0, 3*y, 0.2 } twist { y, 90, from 0 to 2 } taper { <1, 2, 2>, 0.5, from -1 to 1 },
+         bend { y, -x, -45, from 0.5 to 2.5, } translate 2*z pigment { rgb 1 } }",
+    );
+    let object = &scene.objects[0];
+    let Shape::Deform(deform) = &object.shape else { panic!("{object:?}") };
+    assert!(matches!(deform.solid.shape, Shape::Cylinder { .. }));
+    let axis = Vec3::Y;
+    assert_eq!(
+        deform.warps,
+        [
+            Warp::Twist { axis, degrees: 90.0, from: 0.0, to: 2.0 },
+            Warp::Taper { axis: Vec3::new(1.0, 2.0, 2.0), factor: 0.5, from: -1.0, to: 1.0 },
+            Warp::Bend { axis, toward: -Vec3::X, degrees: -45.0, from: 0.5, to: 2.5 },
+        ]
+    );
+    assert_eq!(object.placement.affine().centre().z, 2.0);
+}
+
+#[test]
+fn a_deformed_union_is_a_union_whose_parts_keep_their_looks() {
+    let scene = scene(
+        "deform { union { sphere { 0, 1 pigment { rgb <1, 0, 0> } } object { box { 0, 1 } inverse } translate y } twist { y, 9, from 0 to 1 }
+         pigment { rgb <0, 0, 1> } translate 3*x }",
+    );
+    let Shape::Union(parts) = &scene.objects[0].shape else { panic!("{:?}", scene.objects[0]) };
+    assert!(scene.objects[0].texture.is_some() && parts[0].texture.is_some() && parts[1].texture.is_none());
+    for part in parts {
+        let Shape::Deform(deform) = &part.shape else { panic!("{part:?}") };
+        assert!(deform.solid.texture.is_none() && deform.solid.placement.affine().centre().y == 1.0);
+        assert!(part.placement.is_identity());
+    }
+    assert!(parts[1].flags.inverse);
+}
+
+#[test]
+fn a_users_own_names_win_over_deform_and_its_small_words() {
+    let scene =
+        scene("#declare deform = sphere { 0, 1 }; #declare twist = 3; object { deform translate twist*x }");
+    assert!(matches!(scene.objects[0].shape, Shape::Sphere { .. }));
+    assert_eq!(scene.objects[0].placement.affine().centre().x, 3.0);
+}
+
+#[test]
+fn parts_of_a_deformed_difference_keep_their_looks() {
+    let scene = scene(
+        "deform { difference { sphere { 0, 1 } box { 0, 1 pigment { rgb 1 } } } twist { y, 90, from 0 to 1 } }
+         deform { difference { sphere { 0, 1 } box { 0, 1 } pigment { rgb 1 } } twist { y, 90, from 0 to 1 } }",
+    );
+    let Shape::Csg(_, parts) = &scene.objects[0].shape else { panic!("{:?}", scene.objects[0]) };
+    assert!(parts.iter().all(|part| matches!(part.shape, Shape::Deform(_))));
+    assert!(parts[0].texture.is_none() && parts[1].texture.is_some());
+    assert!(matches!(scene.objects[1].shape, Shape::Deform(_)) && scene.objects[1].texture.is_some());
+}
+
+#[test]
+fn a_map_is_three_functions_and_a_box() {
+    use durer_scene::Warp;
+    let scene = scene(
+        "#declare F = function(x, y, z) { y - 0.1*sin(x) }
+         deform { sphere { 0, 1 } formula { function { x }, function { F(x, y, z) } function { z }, contained_by { box { -2, 2 } } } }",
+    );
+    let Shape::Deform(deform) = &scene.objects[0].shape else { panic!("{:?}", scene.objects[0]) };
+    let [Warp::Inverse { functions, within }] = deform.warps.as_slice() else { panic!("{:?}", deform.warps) };
+    assert_eq!(functions[0].value(&[0.5, 1.0, 2.0]), 0.5);
+    assert!(
+        (functions[1].value(&[0.5, 1.0, 2.0]) - (1.0 - 0.1 * durer_math::elementary::sin(0.5))).abs() < 1e-12
+    );
+    assert_eq!((within.min.x, within.max.z), (-2.0, 2.0));
+}
+
+#[test]
+fn a_cyclide_has_three_numbers() {
+    let scene = scene("cyclide { 0.6, 0.2, 0.25 rotate x*90 }");
+    assert_eq!(scene.objects[0].shape, Shape::Cyclide { a: 0.6, c: 0.2, d: 0.25 });
+}
+
+#[test]
+fn what_cannot_be_deformed_is_refused_with_its_place() {
+    use support::fault;
+    let refused = |text: &str, says: &str| {
+        let (_, column, said) = fault(text);
+        assert!(said.contains(says) && column > 0, "{text}: {said}");
+        (column, said)
+    };
+    refused("deform { twist { y, 90, from 0 to 1 } }", "the object that is deformed");
+    refused("deform { sphere { 0, 1 } }", "`twist`, `taper`, `bend` or `formula`");
+    refused(
+        "deform { sphere { 0, 1 } shear { y, 9, from 0 to 1 } }",
+        "`twist`, `taper`, `bend` or `formula`",
+    );
+    refused("deform { sphere { 0, 1 } twist { 90, from 0 to 1 } }", "expected a direction");
+    refused("deform { sphere { 0, 1 } twist { from 0 to 1 } }", "expected a direction");
+    refused("deform { sphere { 0, 1 } twist { 0*y, 90, from 0 to 1 } }", "no length");
+    refused("deform { sphere { 0, 1 } twist { y, from 0 to 1 } }", "the angle of the twist");
+    refused("deform { sphere { 0, 1 } twist { y, 90 } }", "`from A to B`");
+    refused("deform { sphere { 0, 1 } bend { y, x, 90, from 1 to 1 } }", "a below b");
+    refused("deform { sphere { 0, 1 } bend { y, 2*y, 90, from 0 to 1 } }", "the side of its axis");
+    refused("deform { sphere { 0, 1 } taper { y, 0, from 0 to 1 } }", "greater than 0");
+    refused("deform { sphere { 0, 1 } formula { function { x } function { y } } }", "which z");
+    refused(
+        "deform { sphere { 0, 1 } formula { function { x } function { y } function { z } } }",
+        "contained_by",
+    );
+    refused(
+        "deform { sphere { 0, 1 } formula { function { x } function { y } function { z } contained_by { sphere { 0, 1 } } } }",
+        "by a box",
+    );
+    refused("deform { disc { 0, y, 1 } twist { y, 90, from 0 to 1 } }", "a disc has no formula");
+    refused(
+        "deform { union { sphere { 0, 1 } torus { 1, 0.2 clipped_by { box { 0, 1 } } } } twist { y, 90, from 0 to 1 } }",
+        "clipped",
+    );
+    refused("deform { cylinder { 0, y, 1 open } twist { y, 90, from 0 to 1 } }", "open");
+    let (column, _) = refused(
+        "deform { difference { sphere { 0, 1 } sor { 4, <1, 0>, <1, 1>, <1, 2>, <1, 3> } } twist { y, 90, from 0 to 1 } }",
+        "a sor",
+    );
+    assert_eq!(column, 39);
+    refused("cyclide { 1, 1, 0.5 }", "less than its semi-axis");
+}

@@ -43,9 +43,10 @@ pub use crate::pattern::{Cells, Pattern, Ramp, Value, Wave};
 pub use crate::placement::Placement;
 pub use crate::scene::{AssumedGamma, Background, Scene, Settings};
 pub use crate::shape::{
-    Blob, Container, Face, Isosurface, Mesh, NamedQuadric, Operation, Prism, QuadricKind, Shape, Sweep,
+    Blob, Container, Deform, Face, Isosurface, Mesh, NamedQuadric, Operation, Prism, QuadricKind, Shape,
+    Sweep,
 };
 pub use crate::texture::{Layer, Pigment, PigmentBody, Texture, TextureBody};
 pub use durer_surfaces::algebraic::{MAX_ORDER, coefficient_count, place_of};
 pub use durer_surfaces::julia::MOST_ITERATIONS;
-pub use durer_surfaces::{BlobComponent, BlobShape, FillRule, Julia, JuliaAlgebra, JuliaPower, tape};
+pub use durer_surfaces::{BlobComponent, BlobShape, FillRule, Julia, JuliaAlgebra, JuliaPower, Warp, tape};

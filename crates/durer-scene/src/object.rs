@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use durer_math::{Affine, AffineError};
 
-use crate::{Interior, Placement, Shape, Texture};
+use crate::{Deform, Interior, Placement, Shape, Texture, Warp};
 
 /// A shape with its place and its look.
 ///
@@ -84,6 +84,49 @@ impl Object {
             flags: Flags::default(),
             place: None,
         }
+    }
+
+    /// A solid, deformed. A union becomes a union of deformed parts, so that each keeps its look; so does a merge, intersection or difference if one
+    /// of its parts has a look of its own, since the deformation of an intersection is that of its parts' deformations. Each part must have an end then.
+    ///
+    /// Textures are not deformed: they are placed in the space around the deformed object, where the solid's own were placed around the solid.
+    pub fn deformed(mut solid: Self, warps: &[Warp]) -> Result<Self, AffineError> {
+        let mut made = Self::new(Shape::Union(Vec::new()));
+        (made.texture, made.interior, made.place) =
+            (solid.texture.take(), solid.interior.take(), solid.place);
+        // Turned inside out after or before is the same.
+        let open = Flags { open: solid.flags.open, ..Flags::default() };
+        made.flags = Flags { open: false, ..core::mem::replace(&mut solid.flags, open) };
+        let is_plain = solid.clips.is_empty() && !solid.flags.open;
+        let each = |parts: Vec<Self>, place: &Placement| {
+            let moved = |mut part: Self| {
+                part.transform(place.affine())?;
+                Self::deformed(part, warps)
+            };
+            parts.into_iter().map(moved).collect::<Result<Vec<_>, AffineError>>()
+        };
+        made.shape = match solid.shape {
+            Shape::Union(parts) if is_plain => Shape::Union(each(parts, &solid.placement)?),
+            Shape::Csg(operation, parts) if is_plain && parts.iter().any(Self::has_look) => {
+                Shape::Csg(operation, each(parts, &solid.placement)?)
+            }
+            shape => {
+                solid.shape = shape;
+                Shape::Deform(Box::new(Deform { solid, warps: warps.to_vec() }))
+            }
+        };
+        Ok(made)
+    }
+
+    /// Whether it or a part of it has a texture or an interior.
+    fn has_look(&self) -> bool {
+        self.texture.is_some()
+            || self.interior.is_some()
+            || match &self.shape {
+                Shape::Union(parts) | Shape::Csg(_, parts) => parts.iter().any(Self::has_look),
+                Shape::Deform(deform) => deform.solid.has_look(),
+                _ => false,
+            }
     }
 
     /// The same object with a texture.

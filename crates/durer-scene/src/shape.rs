@@ -5,7 +5,7 @@ use std::sync::Arc;
 use durer_math::{Point3, Vec3};
 
 use crate::tape::Formula;
-use crate::{BlobComponent, FillRule, Julia, Object, Texture};
+use crate::{BlobComponent, FillRule, Julia, Object, Texture, Warp};
 
 /// A surface in its object's own frame, not yet checked: lowering builds it and names what is wrong.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,6 +100,15 @@ pub enum Shape {
         /// The radius of the tube.
         minor: f64,
     },
+    /// A Dupin cyclide: swept by a sphere whose centre goes round an ellipse in the xz plane.
+    Cyclide {
+        /// The ellipse's semi-axis along x.
+        a: f64,
+        /// The distance of its foci from its centre, less than `a`.
+        c: f64,
+        /// The mean radius of the sphere, which is `d - c x / a` where the centre is at x.
+        d: f64,
+    },
     /// An outline swept along y.
     Prism(Arc<Prism>),
     /// A smooth curve through these points, a radius and a height each, turned about the y axis; the first and the last point only tell slopes. Closed
@@ -151,6 +160,8 @@ pub enum Shape {
     Blob(Box<Blob>),
     /// A Julia set.
     Julia(Box<Julia>),
+    /// A solid, deformed. See [`Object::deformed`].
+    Deform(Box<Deform>),
     /// All the parts' surfaces together. Parts are placed in the union's own frame.
     Union(Vec<Object>),
     /// A solid made of solids. Parts are placed in its own frame; a union among them is the solid of all its parts.
@@ -177,6 +188,15 @@ pub struct Isosurface {
     pub threshold: f64,
     /// What holds the surface. Where it cuts the inside it is closed by its own face, unless the object is open.
     pub container: Container,
+}
+
+/// A solid and what is done to it, in this order. All of it is one surface with one texture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Deform {
+    /// The solid: of shapes with an inside that have a formula, combined in any way. A union is the solid of its parts here. Textures in it do not count.
+    pub solid: Object,
+    /// What is done to it.
+    pub warps: Vec<Warp>,
 }
 
 /// An outline in the xz plane, swept from one height to another; closed by flat caps unless the object is open.

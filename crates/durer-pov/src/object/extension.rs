@@ -37,6 +37,8 @@ pub(crate) enum Word {
     Annulus,
     Parallelogram,
     Lemon,
+    Deform,
+    Cyclide,
 }
 
 impl Word {
@@ -57,6 +59,8 @@ impl Word {
             "annulus" => Self::Annulus,
             "parallelogram" => Self::Parallelogram,
             "lemon" => Self::Lemon,
+            "deform" => Self::Deform,
+            "cyclide" => Self::Cyclide,
             _ => return None,
         })
     }
@@ -85,7 +89,7 @@ impl Reader<'_> {
     }
 
     /// Takes the small word `text`, if it comes next.
-    fn small_word(&mut self, text: &str) -> Result<bool> {
+    pub(crate) fn small_word(&mut self, text: &str) -> Result<bool> {
         let Item::Unknown(name) = self.peek()? else { return Ok(false) };
         let name = *name;
         let here = self.names.text(name) == text;
@@ -116,6 +120,8 @@ impl Reader<'_> {
                 return Ok(Shape::Sector { center, radius, axis, half_angle: degrees.to_radians() });
             }
             Word::Lemon => return self.lemon(place),
+            Word::Deform => return self.deform(place),
+            Word::Cyclide => return self.cyclide(),
             Word::Annulus => return self.shape(Keyword::Disc, place),
             Word::Parallelogram => {
                 let corner = self.corner()?;
@@ -162,8 +168,25 @@ impl Reader<'_> {
         Ok(Shape::Named(Box::new(named)))
     }
 
+    /// The semi-axis and the focal distance of a cyclide's ellipse, and the mean radius of its spheres.
+    fn cyclide(&mut self) -> Result<Shape> {
+        let a = self.radius("the semi-axis of the cyclide's ellipse")?;
+        self.skip_comma()?;
+        self.peek()?;
+        let at = self.here();
+        let c = self.float()?;
+        if !(0.0..a).contains(&c) {
+            let text = format!(
+                "the focal distance of a cyclide's ellipse is at least 0 and less than its semi-axis {a}, not {c}"
+            );
+            return Err(Fault::invalid(at, text));
+        }
+        self.skip_comma()?;
+        Ok(Shape::Cyclide { a, c, d: self.radius("the mean radius of the cyclide's spheres")? })
+    }
+
     /// The rest of `from a to b`.
-    fn extent(&mut self) -> Result<[f64; 2]> {
+    pub(crate) fn extent(&mut self) -> Result<[f64; 2]> {
         let at = self.here();
         let from = self.float()?;
         if !self.small_word("to")? {

@@ -1,6 +1,7 @@
 //! Objects: shapes with a place, a look and habits.
 
 mod blob;
+mod deform;
 pub(crate) mod extension;
 mod julia;
 mod mesh;
@@ -77,6 +78,12 @@ pub(crate) enum Shape {
         major: f64,
         minor: f64,
     },
+    /// Swept by spheres on an ellipse: its semi-axis, its focal distance, their mean radius.
+    Cyclide {
+        a: f64,
+        c: f64,
+        d: f64,
+    },
     Prism(Rc<durer_scene::Prism>),
     /// Radii and heights.
     Sor(Rc<[[f64; 2]]>),
@@ -104,6 +111,8 @@ pub(crate) enum Shape {
     },
     Blob(Rc<durer_scene::Blob>),
     Julia(Box<durer_scene::Julia>),
+    /// A solid and what is done to it.
+    Deform(Rc<Object>, Rc<[durer_scene::Warp]>),
     Union(Vec<Rc<Object>>),
     Csg(Operation, Vec<Rc<Object>>),
     Light(Rc<Light>),
@@ -152,6 +161,7 @@ impl Object {
                 let leaves = parts.iter().fold(0_u64, |sum, part| sum.saturating_add(part.leaves));
                 (depth + 1, leaves, parts.len() * 8)
             }
+            Shape::Deform(solid, _) => (solid.depth + 1, solid.leaves, 8),
             Shape::Light(light) => (1, light.looks_like.as_ref().map_or(0, |shown| shown.leaves), 200),
             _ => (1, 1, 0),
         };
@@ -279,6 +289,7 @@ impl Reader<'_> {
                     }
                 }
                 Item::Unknown(name) => match r.extension(*name) {
+                    Some(extension::Word::Deform) => Object::new(r.deform(place)?, place),
                     Some(word) => {
                         r.expect(Mark::BraceOpen)?;
                         match r.copied(place)? {

@@ -6,6 +6,7 @@
 mod build;
 mod csg;
 mod exact;
+mod level_set;
 mod named;
 mod shapes;
 
@@ -81,6 +82,11 @@ pub enum LowerErrorKind {
     /// A part of a solid has no inside.
     #[error("{0} has no inside, so it cannot be part of a merge, intersection or difference")]
     Sheet(&'static str),
+    /// Something has no formula, so it cannot be deformed.
+    #[error(
+        "{0} cannot be deformed: spheres, boxes, cylinders, cones, planes, quadrics, tori, polynomials, superellipsoids, blobs, isosurfaces and solids of them can"
+    )]
+    Deform(&'static str),
     /// A mesh refers to a texture that it does not have.
     #[error("mesh: face {face} refers to texture {texture}, but there are {count}")]
     MeshTexture {

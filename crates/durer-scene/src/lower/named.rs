@@ -1,10 +1,10 @@
 //! Quadrics by their names.
 
-use durer_math::Affine;
+use durer_math::{Aabb, Affine};
 use durer_surfaces::quadric::axial::Wall;
 use durer_surfaces::{
     Axial, AxialError, Cone, Ellipsoid, EllipticCylinder, EllipticParaboloid, HyperbolicCylinder,
-    HyperbolicParaboloid, HyperboloidOfOneSheet, HyperboloidOfTwoSheets, ParabolicCylinder, Region,
+    HyperbolicParaboloid, HyperboloidOfOneSheet, HyperboloidOfTwoSheets, ParabolicCylinder, Region, Surface,
 };
 
 use super::build::Target;
@@ -24,6 +24,11 @@ pub(super) fn build(
 /// What a named quadric encloses, caps included whether they are drawn or not.
 pub(super) fn region(q: &NamedQuadric) -> Result<Region> {
     visit(q, Enclosed { extent: q.extent })
+}
+
+/// A box around a named quadric that `place` has moved, unbounded if it is.
+pub(super) fn bounds(q: &NamedQuadric, place: &Affine) -> Result<Aabb> {
+    visit(q, Bounded { extent: q.extent, place })
 }
 
 /// What is to be done with a quadric, whichever it is.
@@ -96,5 +101,20 @@ impl Visitor for Enclosed {
 
     fn visit<W: Wall + 'static>(self, whole: Axial<W>) -> Result<Region> {
         Ok(Region::solid(*closed(whole, self.extent)?.shape()))
+    }
+}
+
+/// Makes a box around a quadric.
+struct Bounded<'a> {
+    extent: Option<[f64; 2]>,
+    place: &'a Affine,
+}
+
+impl Visitor for Bounded<'_> {
+    type Output = Aabb;
+
+    fn visit<W: Wall + 'static>(self, whole: Axial<W>) -> Result<Aabb> {
+        let closed = closed(whole, self.extent)?;
+        Ok(if closed.bounds().is_bounded() { closed.bounds_through(self.place) } else { Aabb::UNBOUNDED })
     }
 }

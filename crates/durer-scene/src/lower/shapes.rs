@@ -4,13 +4,13 @@ use std::fmt::Display;
 
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
-    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Blob, BlobError, CappedCylinder, Disc, FLAT,
-    Frustum, Isosurface, JuliaSet, Parallelogram, Plane, Polygon, Prism, Quadric, Region, Sphere,
+    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Blob, BlobError, CappedCylinder, Cyclide, Disc,
+    FLAT, Frustum, Isosurface, JuliaSet, Parallelogram, Plane, Polygon, Prism, Quadric, Region, Sphere,
     SphericalSector, Torus, Triangle, TriangleError, Turned, superellipsoid,
 };
 
 use super::build::{Inside, Target};
-use super::{LowerErrorKind, exact, named};
+use super::{LowerErrorKind, exact, level_set, named};
 use crate::{Container, Mesh, Object, Operation, Shape, Sweep};
 
 /// What became of a shape.
@@ -87,6 +87,11 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
                 None => add(&mut target, made(Point3::ORIGIN, Axis::Y, major, minor)?, map),
             }
         }
+        &Shape::Cyclide { a, c, d } => {
+            let solid = Cyclide::new(a, c, d).map_err(shape_error)?;
+            target.contain(&solid, map);
+            target.add_rare(solid, map);
+        }
         Shape::Prism(prism) => {
             let [from, to] = prism.heights;
             let solid = match prism.sweep {
@@ -120,14 +125,7 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             target.add_rare(sector, map);
         }
         Shape::Isosurface(iso) => {
-            let container = match iso.container {
-                Container::Box(a, b) => {
-                    durer_surfaces::Container::Box(AxisBox::new(a, b).map_err(shape_error)?)
-                }
-                Container::Ball(centre, radius) => {
-                    durer_surfaces::Container::Ball(Sphere::new(centre, radius.abs()).map_err(shape_error)?)
-                }
-            };
+            let container = container(iso.container)?;
             let solid = Isosurface::new(&iso.function, iso.threshold, container).map_err(shape_error)?;
             target.contain(&solid, map);
             target.add_rare(if open { solid.without_caps() } else { solid }, map);
@@ -140,9 +138,25 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             Err(nothing @ BlobError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
             made => add_closed(&mut target, made.map_err(shape_error)?, map),
         },
+        Shape::Deform(deform) => match level_set::deformed(deform)? {
+            None => {
+                return Ok(Built::Nothing("deform: nothing is left of this solid, so it is left out".into()));
+            }
+            Some(solid) => add_closed(&mut target, solid, map),
+        },
         shape => return flat(shape, map, target),
     }
     Ok(Built::Done(target.inside))
+}
+
+/// What holds a function's surface.
+pub(super) fn container(it: Container) -> Result<durer_surfaces::Container> {
+    Ok(match it {
+        Container::Box(a, b) => durer_surfaces::Container::Box(AxisBox::new(a, b).map_err(shape_error)?),
+        Container::Ball(centre, radius) => {
+            durer_surfaces::Container::Ball(Sphere::new(centre, radius.abs()).map_err(shape_error)?)
+        }
+    })
 }
 
 /// Adds a solid of revolution.
@@ -360,6 +374,7 @@ pub(super) fn name(shape: &Shape) -> &'static str {
         Shape::Quadric(_) => "a quadric",
         Shape::Polynomial { .. } => "a polynomial",
         Shape::Torus { .. } => "a torus",
+        Shape::Cyclide { .. } => "a cyclide",
         Shape::Prism(_) => "a prism",
         Shape::Sor(_) => "a sor",
         Shape::Ovus { .. } => "an ovus",
@@ -370,6 +385,7 @@ pub(super) fn name(shape: &Shape) -> &'static str {
         Shape::Superellipsoid { .. } => "a superellipsoid",
         Shape::Blob(_) => "a blob",
         Shape::Julia(_) => "a Julia set",
+        Shape::Deform(_) => "a deformed solid",
         Shape::Union(_) => "a union",
         Shape::Csg(Operation::Merge, _) => "a merge",
         Shape::Csg(Operation::Intersection, _) => "an intersection",

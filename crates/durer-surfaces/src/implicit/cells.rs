@@ -289,7 +289,7 @@ fn gradients(tape: &Tape, boxes: &[I8; 3]) -> [Gradient; 8] {
 }
 
 /// One of the eight halves of a box: bit `i` of `number` says which along axis `i`.
-fn octant(bounds: &Aabb, number: usize) -> Aabb {
+pub(super) fn octant(bounds: &Aabb, number: usize) -> Aabb {
     let centre = bounds.centre();
     let mut half = *bounds;
     for axis in 0..3 {

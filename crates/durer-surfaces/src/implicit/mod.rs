@@ -16,7 +16,9 @@
 mod cells;
 mod container;
 mod convex;
+pub mod deform;
 mod isolate;
+pub mod level_set;
 mod line;
 mod point;
 mod roots;
@@ -47,6 +49,8 @@ pub struct Isosurface {
     tape: Tape,
     container: Container,
     open: bool,
+    /// What the surface only touches is none of it: see [`Isosurface::regular`].
+    regular: bool,
     /// Divided when they are asked for: a convex superellipsoid hardly ever asks.
     cells: Arc<OnceLock<Cells>>,
     /// Of a convex superellipsoid: most rays do without the tape.
@@ -65,6 +69,9 @@ pub enum IsosurfaceError {
     /// The formula is too long.
     #[error("isosurface: {0}")]
     Formula(#[from] FormulaError),
+    /// Its container is none.
+    #[error("isosurface: {0}")]
+    Container(#[from] crate::AxisBoxError),
 }
 
 impl Isosurface {
@@ -89,7 +96,7 @@ impl Isosurface {
         let threshold = builder.constant(threshold)?;
         let level = builder.push(Op::Sub(value, threshold))?;
         let tape = Tape::new(&builder.finish(level, 3));
-        Ok(Self { tape, container, open: false, cells: Arc::default(), gauge: None })
+        Ok(Self { tape, container, open: false, regular: false, cells: Arc::default(), gauge: None })
     }
 
     /// The container's cells.
@@ -109,6 +116,15 @@ impl Isosurface {
     #[must_use]
     pub fn without_caps(mut self) -> Self {
         self.open = true;
+        self
+    }
+
+    /// The same solid without its touches: where a ray certainly is on one side before and behind, it has not crossed. A solid of solids as one formula
+    /// has zeros where two of its parts' faces coincide, which are no surface of it (R. B. Tilove, A. A. G. Requicha, "Closure of Boolean operations on
+    /// geometric entities", *Computer-Aided Design* 12(5), 1980: the regularised one). Rays tangent to it within rounding do not meet it either.
+    #[must_use]
+    pub fn regular(mut self) -> Self {
+        self.regular = true;
         self
     }
 

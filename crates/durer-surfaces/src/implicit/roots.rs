@@ -185,7 +185,9 @@ impl Query<'_> {
                 return false;
             }
             let mut take = |a: f64, b: f64, verdict: Verdict, tape| {
-                if let Some(found) = tracker.take(a, b, verdict, tape) {
+                if let Some(found) = tracker.take(a, b, verdict, tape)
+                    && !(surface.regular && found.touches)
+                {
                     flow = shown(self.at, self.sink, &found);
                 }
                 flow == Flow::Continue
@@ -202,6 +204,7 @@ impl Query<'_> {
         self.passes = passes;
         if flow == Flow::Continue
             && let Some(found) = tracker.finish(after)
+            && !(surface.regular && found.touches)
         {
             flow = shown(self.at, self.sink, &found);
         }

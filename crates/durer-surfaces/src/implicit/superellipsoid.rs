@@ -42,18 +42,23 @@ pub enum SuperellipsoidError {
 
 /// The solid superellipsoid of the exponents `e` and `n`, within the cube from -1 to 1.
 pub fn superellipsoid(e: f64, n: f64) -> Result<Isosurface, SuperellipsoidError> {
-    for exponent in [e, n] {
-        if !(1e-9..=1e9).contains(&exponent) {
-            return Err(SuperellipsoidError::Exponent(exponent));
-        }
-    }
-    let formula = formula(e, n).map_err(IsosurfaceError::from)?;
+    let formula = checked(e, n)?;
     let held = AxisBox::new(Point3::new(-HALF, -HALF, -HALF), Point3::new(HALF, HALF, HALF))?;
     let container = Container::Box(held);
     match Gauge::new(e, n) {
         None => Ok(Isosurface::new(&formula, 1.0, container)?),
         gauge => Ok(Isosurface { gauge, ..Isosurface::undivided(&formula, 1.0, container)? }),
     }
+}
+
+/// The left side of the equation, if the exponents are in range.
+pub(super) fn checked(e: f64, n: f64) -> Result<Formula, SuperellipsoidError> {
+    for exponent in [e, n] {
+        if !(1e-9..=1e9).contains(&exponent) {
+            return Err(SuperellipsoidError::Exponent(exponent));
+        }
+    }
+    Ok(formula(e, n).map_err(IsosurfaceError::from)?)
 }
 
 /// The left side of the equation.

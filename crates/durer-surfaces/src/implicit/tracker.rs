@@ -56,6 +56,8 @@ pub(crate) struct Found {
     /// +1 where `g` goes from below to above, -1 the other way, 0 where it returns to its side.
     pub(crate) sign: i8,
     pub(crate) kind: Kind,
+    /// `g` certainly has the same sign before and behind.
+    pub(crate) touches: bool,
 }
 
 /// A run of stretches in which there may be a root.
@@ -166,7 +168,7 @@ impl<'a, C: Curve> Tracker<'a, C> {
                 let (s, lo, hi) = polished(self.line, run.form, run.lo, run.hi, rises, self.rough);
                 // Where one sign is not known the root may lie on an end, or just not be there: it cannot be disproved.
                 let kind = if before.is_some() && after.is_some() { Kind::Simple } else { Kind::Cluster };
-                Some(Found { s, lo, hi, sign: if rises { 1 } else { -1 }, kind })
+                Some(Found { s, lo, hi, sign: if rises { 1 } else { -1 }, kind, touches: false })
             }
             (None, before, after) => {
                 let sign = match (before, after) {
@@ -175,7 +177,8 @@ impl<'a, C: Curve> Tracker<'a, C> {
                     _ => 0,
                 };
                 let s = (0.5 * run.lo + 0.5 * run.hi).max(run.lo).min(run.hi);
-                Some(Found { s, lo: run.lo, hi: run.hi, sign, kind: Kind::Cluster })
+                let touches = before.is_some() && before == after;
+                Some(Found { s, lo: run.lo, hi: run.hi, sign, kind: Kind::Cluster, touches })
             }
         }
     }

@@ -220,14 +220,14 @@ impl Along<'_> {
         }
         if enters {
             let (s, lo, hi) = self.refined(*left, *first, widest);
-            let root = Found { s, lo, hi, sign: -1, kind: Kind::Simple };
+            let root = Found { s, lo, hi, sign: -1, kind: Kind::Simple, touches: false };
             if shown(at, sink, &root) == Flow::Stop {
                 return true;
             }
         }
         if leaves && at.bracket(last.s, last.s).0 <= sink.limit() {
             let (s, hi, lo) = self.refined(*right, *last, widest);
-            shown(at, sink, &Found { s, lo, hi, sign: 1, kind: Kind::Simple });
+            shown(at, sink, &Found { s, lo, hi, sign: 1, kind: Kind::Simple, touches: false });
         }
         true
     }

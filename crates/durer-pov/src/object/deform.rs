@@ -1,0 +1,225 @@
+//! `deform { OBJECT  twist { ... }  taper { ... }  bend { ... }  formula { ... }  modifiers }`.
+//!
+//! What is done to the solid is done in the order of the text. The blocks follow durer's own form: numbers first, then `word value`.
+
+use std::rc::Rc;
+use std::sync::Arc;
+
+use durer_math::{Aabb, Vec3};
+use durer_scene::{Container, Warp};
+
+use super::{Object, Shape};
+use crate::diagnostics::{Fault, Place, Result};
+use crate::keywords::Keyword;
+use crate::lexer::Mark;
+use crate::reader::Reader;
+
+/// More than this no solid is deformed in one block.
+const MOST_WARPS: usize = 64;
+
+impl Reader<'_> {
+    /// The solid and what is done to it, from the opening brace on.
+    pub(crate) fn deform(&mut self, place: Place) -> Result<Shape> {
+        self.expect(Mark::BraceOpen)?;
+        if !self.starts_object()? {
+            let lexeme = self.next()?;
+            return Err(self.unexpected(&lexeme, "the object that is deformed"));
+        }
+        let solid = self.object()?;
+        check(&solid)?;
+        let mut warps = Vec::new();
+        loop {
+            self.skip_comma()?;
+            let warp = if self.small_word("twist")? {
+                self.warp(|r| {
+                    let axis = r.side("twist { y, 90, from 0 to 1 }")?;
+                    let degrees = r.number("the angle of the twist, in degrees")?;
+                    let [from, to] = r.stretch("twist")?;
+                    Ok(Warp::Twist { axis, degrees, from, to })
+                })?
+            } else if self.small_word("taper")? {
+                self.warp(|r| {
+                    let axis = r.side("taper { y, 0.5, from 0 to 1 }")?;
+                    r.peek()?;
+                    let at = r.here();
+                    let factor = r.number("the factor of the taper")?;
+                    if factor <= 0.0 {
+                        let text = format!(
+                            "the factor of a taper is greater than 0, not {factor}: at 0 it would shrink to a line"
+                        );
+                        return Err(Fault::invalid(at, text));
+                    }
+                    let [from, to] = r.stretch("taper")?;
+                    Ok(Warp::Taper { axis, factor, from, to })
+                })?
+            } else if self.small_word("bend")? {
+                self.warp(|r| {
+                    let axis = r.side("bend { y, x, 90, from 0 to 1 }")?;
+                    r.peek()?;
+                    let at = r.here();
+                    let toward = r.side("bend { y, x, 90, from 0 to 1 }")?;
+                    let [a, b] = [axis, toward].map(Vec3::to_array);
+                    if crate::transform::cross(a, b) == [0.0; 3] {
+                        let text =
+                            "a bend goes to the side of its axis, and this is the direction of the axis";
+                        return Err(Fault::invalid(at, text));
+                    }
+                    let degrees = r.number("the angle of the bend, in degrees")?;
+                    let [from, to] = r.stretch("bend")?;
+                    Ok(Warp::Bend { axis, toward, degrees, from, to })
+                })?
+            } else if self.small_word("formula")? {
+                self.warp(Self::inverse_map)?
+            } else {
+                break;
+            };
+            warps.push(warp);
+            if warps.len() > MOST_WARPS {
+                return Err(Fault::invalid(
+                    place,
+                    format!("a solid is deformed at most {MOST_WARPS} times in one block"),
+                ));
+            }
+        }
+        if warps.is_empty() {
+            let lexeme = self.next()?;
+            return Err(self.unexpected(&lexeme, "how it is deformed: `twist`, `taper`, `bend` or `formula`"));
+        }
+        Ok(Shape::Deform(solid, warps.into()))
+    }
+
+    /// What stands in the braces of one of the words.
+    fn warp(&mut self, inner: impl FnOnce(&mut Self) -> Result<Warp>) -> Result<Warp> {
+        self.expect(Mark::BraceOpen)?;
+        let warp = inner(self)?;
+        self.skip_comma()?;
+        self.expect(Mark::BraceClose)?;
+        Ok(warp)
+    }
+
+    /// A direction and its comma. A float, which would be a vector elsewhere, is a forgotten axis.
+    fn side(&mut self, example: &str) -> Result<Vec3> {
+        self.peek()?;
+        let at = self.here();
+        let missing = || Fault::invalid(at, format!("expected a direction, as in `{example}`"));
+        if !self.starts_number()? {
+            return Err(missing());
+        }
+        let terms = self.expression()?;
+        let v = match *terms.as_slice() {
+            [x, y] => [x, y, 0.0],
+            [x, y, z] => [x, y, z],
+            _ => return Err(missing()),
+        };
+        if v == [0.0; 3] {
+            return Err(Fault::invalid(
+                at,
+                format!("this direction has no length: expected one, as in `{example}`"),
+            ));
+        }
+        self.skip_comma()?;
+        Ok(Vec3::from(v))
+    }
+
+    /// A float and its comma.
+    fn number(&mut self, what: &str) -> Result<f64> {
+        if !self.starts_number()? {
+            let lexeme = self.next()?;
+            return Err(self.unexpected(&lexeme, what));
+        }
+        let value = self.float()?;
+        self.skip_comma()?;
+        Ok(value)
+    }
+
+    /// `from a to b`.
+    fn stretch(&mut self, warp: &str) -> Result<[f64; 2]> {
+        if !self.small_word("from")? {
+            let lexeme = self.next()?;
+            return Err(self.unexpected(
+                &lexeme,
+                &format!("`from A to B`, the piece of the axis along which the {warp} goes"),
+            ));
+        }
+        self.extent()
+    }
+
+    /// Three functions and their box.
+    fn inverse_map(&mut self) -> Result<Warp> {
+        let mut functions = Vec::with_capacity(3);
+        while functions.len() < 3 {
+            if self.peek_word()? != Some(Keyword::Function) {
+                let lexeme = self.next()?;
+                let which = ["x", "y", "z"][functions.len()];
+                let text =
+                    format!("the function that says which {which} a point of the deformed solid came from");
+                return Err(self.unexpected(&lexeme, &text));
+            }
+            let at = self.here();
+            let formula = self.function_block()?;
+            if formula.inputs() != 3 {
+                let text =
+                    format!("a function of a point has three parameters, this one has {}", formula.inputs());
+                return Err(Fault::invalid(at, text));
+            }
+            functions.push(formula);
+            self.skip_comma()?;
+        }
+        let at = self.here();
+        if !self.take_word(Keyword::ContainedBy)? {
+            let lexeme = self.next()?;
+            return Err(
+                self.unexpected(&lexeme, "`contained_by { box { ... } }`, which holds the deformed solid")
+            );
+        }
+        let Container::Box(a, b) = self.container()? else {
+            return Err(Fault::invalid(at, "a deformed solid is contained by a box"));
+        };
+        let functions: Box<[_; 3]> = functions
+            .into_boxed_slice()
+            .try_into()
+            .map_err(|_| Fault::invalid(at, "expected three functions"))?;
+        Ok(Warp::Inverse { functions: Arc::from(functions), within: Aabb::from_points([a, b]) })
+    }
+}
+
+/// Refuses what has no formula.
+fn check(object: &Rc<Object>) -> Result<()> {
+    let refuse = |why: &str| Err(Fault::invalid(object.at, why));
+    if !object.clips.is_empty() {
+        return refuse("what is clipped cannot be deformed: an intersection can");
+    }
+    if object.habits.open || matches!(object.shape, Shape::Isosurface(_, true)) {
+        return refuse("what is open is no solid, so it cannot be deformed");
+    }
+    let without_formula = match &object.shape {
+        Shape::Union(parts) | Shape::Csg(_, parts) => return parts.iter().try_for_each(check),
+        Shape::Deform(solid, _) => return check(solid),
+        Shape::Sphere { .. }
+        | Shape::Box { .. }
+        | Shape::Cylinder { .. }
+        | Shape::Cone { .. }
+        | Shape::Plane { .. }
+        | Shape::Quadric(_)
+        | Shape::Polynomial(..)
+        | Shape::Torus { .. }
+        | Shape::Cyclide { .. }
+        | Shape::Named(_)
+        | Shape::Sector { .. }
+        | Shape::Isosurface(..)
+        | Shape::Superellipsoid { .. }
+        | Shape::Blob(_) => return Ok(()),
+        Shape::Disc { .. } => "a disc",
+        Shape::Parallelogram { .. } => "a parallelogram",
+        Shape::Triangle(_) | Shape::SmoothTriangle(_) => "a triangle",
+        Shape::Polygon(..) => "a polygon",
+        Shape::Mesh(_) => "a mesh",
+        Shape::Prism(_) => "a prism",
+        Shape::Sor(_) => "a sor",
+        Shape::Ovus { .. } => "an ovus",
+        Shape::Lemon { .. } => "a lemon",
+        Shape::Julia(_) => "a Julia set",
+        Shape::Light(_) => "a light",
+    };
+    refuse(&format!("{without_formula} has no formula here, so it cannot be deformed"))
+}

@@ -1,0 +1,301 @@
+//! Deformed solids: twisted, tapered, bent, or moved by any map whose inverse is a formula.
+//!
+//! ```text
+//!   D(S) = { p : f(D^-1(p)) < 0 }  for the solid S = { p : f(p) < 0 }
+//! ```
+//!
+//! A. H. Barr, "Global and local deformations of solid primitives", SIGGRAPH 1984. The inverse is written before the solid's own formula, and what
+//! rays meet is an [`Isosurface`](super::Isosurface): no curve is traced through the undeformed space (A. H. Barr, "Ray tracing deformed surfaces",
+//! SIGGRAPH 1986, integrates one), a ray stays straight and the formula is deformed, so that each root has its certified bracket.
+//!
+//! A map that sends two points of the solid to one has no inverse there. Twists never do, tapers as long as they do not shrink to nothing, bends
+//! as long as the solid stays on its side of the centre and does not come round to itself; of other maps it has to be proven on a box
+//! ([`Warp::Inverse`]).
+
+mod bend;
+mod inverse;
+mod turn;
+
+use super::level_set::LevelSet;
+use super::level_set::pen::Pen;
+use crate::IsosurfaceError;
+use crate::tape::{Formula, FormulaError, NodeId};
+use bend::Bend;
+use durer_math::{Aabb, Affine, AffineError, Interval, Point3, Vec3};
+use std::sync::Arc;
+use turn::{Taper, Twist};
+
+/// A map of space. The first three act about an axis through the origin, along which heights are measured, between two of them: below the lower
+/// one nothing moves, and above the upper one all moves as it does there.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Warp {
+    /// Turns about the axis, by an angle that grows evenly with the height, counter-clockwise as seen from the axis' tip.
+    Twist {
+        /// The axis, of any length but zero.
+        axis: Vec3,
+        /// By how much it turns from one height to the other.
+        degrees: f64,
+        /// The lower height.
+        from: f64,
+        /// The upper height.
+        to: f64,
+    },
+    /// Scales across the axis, by a factor that goes evenly from 1 to `factor`.
+    Taper {
+        /// The axis, of any length but zero.
+        axis: Vec3,
+        /// The factor at the upper height; positive.
+        factor: f64,
+        /// The lower height.
+        from: f64,
+        /// The upper height.
+        to: f64,
+    },
+    /// Makes an arc of the piece of the axis between the heights, of its length, and moves with it what lies beside it.
+    Bend {
+        /// The axis, of any length but zero.
+        axis: Vec3,
+        /// To which side it bends; what it has along the axis does not matter.
+        toward: Vec3,
+        /// By how much it bends from one height to the other.
+        degrees: f64,
+        /// The lower height.
+        from: f64,
+        /// The upper height.
+        to: f64,
+    },
+    /// The map whose inverse has these coordinates, as far as its images lie in a box. All of the solid's image that is not in the box is cut off.
+    Inverse {
+        /// For a point of the deformed solid, where it was.
+        functions: Arc<[Formula; 3]>,
+        /// The box, in which they must be shown to have an inverse.
+        within: Aabb,
+    },
+}
+
+/// Why a deformed solid cannot exist.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum DeformError {
+    /// The solid has no end.
+    #[error("deform: this solid has no end; only what a box holds can be deformed so: intersect it with one")]
+    Unbounded,
+    /// The axis has no direction.
+    #[error("{warp}: the axis must be finite and not zero, got <{}, {}, {}>", .axis.x, .axis.y, .axis.z)]
+    Axis {
+        /// Which warp.
+        warp: &'static str,
+        /// The axis.
+        axis: Vec3,
+    },
+    /// There is nothing between the heights.
+    #[error("{warp}: it must go from one height to a greater one, got from {from} to {to}")]
+    Stretch {
+        /// Which warp.
+        warp: &'static str,
+        /// The lower height.
+        from: f64,
+        /// The upper height.
+        to: f64,
+    },
+    /// The angle is no number.
+    #[error("{warp}: the angle must be finite, got {degrees}")]
+    Angle {
+        /// Which warp.
+        warp: &'static str,
+        /// The angle.
+        degrees: f64,
+    },
+    /// A taper shrinks to nothing or beyond.
+    #[error(
+        "taper: the factor must be finite and greater than 0, got {0}: at 0 all points of a height would be one"
+    )]
+    Factor(f64),
+    /// A bend's direction is that of its axis.
+    #[error("bend: the direction must not be that of the axis, got <{}, {}, {}>", .0.x, .0.y, .0.z)]
+    Toward(Vec3),
+    /// The solid reaches the centre of a bend.
+    #[error(
+        "bend: the solid reaches {reach} from the axis to the inner side, and the centre of the bend is at {radius}: there two of its points may become one"
+    )]
+    Centre {
+        /// How far it may reach.
+        reach: f64,
+        /// How far the centre is.
+        radius: f64,
+    },
+    /// The solid comes round to itself.
+    #[error(
+        "bend: the solid would reach {degrees} degrees around the centre of the bend, which may bring its ends together: less than 360 are possible"
+    )]
+    Round {
+        /// How far it may reach.
+        degrees: f64,
+    },
+    /// The functions are not smooth.
+    #[error(
+        "formula: the functions may jump, be undefined or have no bounded slope near <{}, {}, {}>, so nothing shows that they have an inverse", .0.x, .0.y, .0.z
+    )]
+    Rough(Point3),
+    /// The functions may send two points to one.
+    #[error(
+        "formula: the functions may take two points of their box to one: bounds of the determinant of their slopes, each within its own over the box, are {} to {}, and do not exclude 0", .0.lo, .0.hi
+    )]
+    Injective(Interval),
+    /// The functions take something else than a point.
+    #[error("formula: its functions must have three arguments, one has {0}")]
+    Arguments(u32),
+    /// The box is none.
+    #[error("formula: its box must be finite and not flat, from <{}, {}, {}> to <{}, {}, {}>", .0.min.x, .0.min.y, .0.min.z, .0.max.x, .0.max.y, .0.max.z)]
+    Within(Aabb),
+    /// It has too many steps.
+    #[error("deform: {0}")]
+    Formula(#[from] FormulaError),
+    /// There is no such frame.
+    #[error("deform: {0}")]
+    Frame(#[from] AffineError),
+    /// There is no such surface.
+    #[error("deform: {0}")]
+    Surface(#[from] IsosurfaceError),
+}
+
+/// A piece of an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Stretch {
+    from: f64,
+    to: f64,
+}
+
+impl LevelSet {
+    /// The solid that a map makes of this one.
+    pub fn deformed(&self, warp: &Warp) -> Result<Self, DeformError> {
+        let bounded = self.bounds().is_bounded() || self.bounds().is_empty();
+        if !bounded && !matches!(warp, Warp::Inverse { .. }) {
+            return Err(DeformError::Unbounded);
+        }
+        match *warp {
+            Warp::Twist { axis, degrees, from, to } => {
+                let stretch = Stretch::new("twist", from, to)?;
+                let turn = angle("twist", degrees)?;
+                self.warped(&frame("twist", axis)?, &Twist { turn, stretch })
+            }
+            Warp::Taper { axis, factor, from, to } => {
+                let stretch = Stretch::new("taper", from, to)?;
+                if !(factor > 0.0 && factor.is_finite()) {
+                    return Err(DeformError::Factor(factor));
+                }
+                self.warped(&frame("taper", axis)?, &Taper { factor, stretch })
+            }
+            Warp::Bend { axis, toward, degrees, from, to } => {
+                let stretch = Stretch::new("bend", from, to)?;
+                let turn = angle("bend", degrees.abs())?;
+                let toward = if degrees < 0.0 { -toward } else { toward };
+                let frame = bend::frame(axis, toward)?;
+                if degrees == 0.0 {
+                    return Ok(self.clone());
+                }
+                let bend = Bend::new(turn, stretch, self.within(&frame)?)?;
+                self.warped(&frame, &bend)
+            }
+            Warp::Inverse { ref functions, within } => inverse::deformed(self, functions, within),
+        }
+    }
+
+    /// A box around it in another frame.
+    fn within(&self, frame: &Affine) -> Result<Aabb, DeformError> {
+        let back = frame.inverted()?;
+        Ok(self.cells().iter().fold(Aabb::EMPTY, |all, cell| all.union(back.bounds(cell))))
+    }
+
+    fn warped(&self, frame: &Affine, map: &impl Map) -> Result<Self, DeformError> {
+        let back = frame.inverted()?;
+        let mut bounds = Aabb::EMPTY;
+        for cell in self.cells() {
+            let own = back.bounds(&cell);
+            let image = map.image([0, 1, 2].map(|i| Interval { lo: own.min[i], hi: own.max[i] }));
+            let [x, y, z] = image;
+            let image = Aabb::new(Point3::new(x.lo, y.lo, z.lo), Point3::new(x.hi, y.hi, z.hi));
+            bounds = bounds.union(frame.bounds(&image));
+        }
+        let (mut pen, p) = Pen::new()?;
+        let own = pen.undone(p, frame)?;
+        let was = map.undone(&mut pen, own)?;
+        let was = pen.placed(was, frame)?;
+        let mut f = pen.call(self.formula(), was)?;
+        if let Some(nothing) = map.nothing(&mut pen, own)? {
+            let outside = pen.number(1.0)?;
+            f = pen.select(nothing, outside, f)?;
+        }
+        Ok(self.rewritten(pen.done(f), bounds))
+    }
+}
+
+/// A warp in its own frame, with the z axis for its axis.
+trait Map {
+    /// Bounds of the images of a box's points.
+    fn image(&self, p: [Interval; 3]) -> [Interval; 3];
+
+    /// Writes down the inverse.
+    fn undone(&self, pen: &mut Pen, p: [NodeId; 3]) -> Result<[NodeId; 3], FormulaError>;
+
+    /// Writes down a number that is negative only where nothing of the solid is.
+    fn nothing(&self, _: &mut Pen, _: [NodeId; 3]) -> Result<Option<NodeId>, FormulaError> {
+        Ok(None)
+    }
+}
+
+impl Stretch {
+    fn new(warp: &'static str, from: f64, to: f64) -> Result<Self, DeformError> {
+        if from < to && from.is_finite() && to.is_finite() && (to - from).is_finite() {
+            Ok(Self { from, to })
+        } else {
+            Err(DeformError::Stretch { warp, from, to })
+        }
+    }
+
+    fn length(self) -> Interval {
+        Interval::from(self.to) - Interval::from(self.from)
+    }
+}
+
+/// An angle, in radians.
+fn angle(warp: &'static str, degrees: f64) -> Result<Interval, DeformError> {
+    if degrees.is_finite() {
+        Ok(Interval::from(degrees).to_radians())
+    } else {
+        Err(DeformError::Angle { warp, degrees })
+    }
+}
+
+/// A right-handed frame with this axis for z: exact if it is one of the coordinate axes, else as f64 has it.
+fn frame(warp: &'static str, axis: Vec3) -> Result<Affine, DeformError> {
+    let z = direction(axis).ok_or(DeformError::Axis { warp, axis })?;
+    let along = (0..3).find(|&i| z[i].abs() == 1.0);
+    let (x, y) = match along {
+        Some(i) => {
+            let axes = [Vec3::X, Vec3::Y, Vec3::Z];
+            let (x, y) = (axes[(i + 1) % 3], axes[(i + 2) % 3]);
+            if z[i] > 0.0 { (x, y) } else { (y, x) }
+        }
+        None => z.orthonormal_basis(),
+    };
+    columns(x, y, z)
+}
+
+fn columns(x: Vec3, y: Vec3, z: Vec3) -> Result<Affine, DeformError> {
+    // 0.0 + gives no negative zeros.
+    let rows = [0, 1, 2].map(|i| [x[i] + 0.0, y[i] + 0.0, z[i] + 0.0]);
+    Ok(Affine::new(rows, Point3::ORIGIN)?)
+}
+
+/// The unit vector along `v`, exactly where `v` lies along a coordinate axis.
+fn direction(v: Vec3) -> Option<Vec3> {
+    if !v.is_finite() || v == Vec3::ZERO {
+        return None;
+    }
+    let parts = v.to_array();
+    if parts.iter().filter(|x| **x != 0.0).count() == 1 {
+        return Some(Vec3::from(parts.map(|x| if x == 0.0 { 0.0 } else { 1.0_f64.copysign(x) })));
+    }
+    let scaled = v * (1.0 / v.max_abs());
+    Some(scaled * (1.0 / scaled.length()))
+}

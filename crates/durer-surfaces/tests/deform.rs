@@ -1,0 +1,791 @@
+//! Deformed solids against multi-precision values of the same maps written another way, against solids that they are, and against themselves.
+
+mod common;
+
+use astro_float::{BigFloat, Consts, RoundingMode};
+use common::Dice;
+use durer_math::{Aabb, Affine, Point3, Ray, RaySide, Vec3};
+use durer_surfaces::implicit::level_set::leaves;
+use durer_surfaces::tape::{Builder, Formula, NodeId, Op};
+use durer_surfaces::{
+    All, Axis, DeformError, Isosurface, Kind, LevelSet, LocalPoint, LocalRay, Need, Root, Side, Sphere,
+    Surface, Torus, Warp,
+};
+use std::cell::RefCell;
+use std::sync::Arc;
+
+const P: usize = 256;
+const RM: RoundingMode = RoundingMode::ToEven;
+
+thread_local! {
+    static CONSTS: RefCell<Consts> = RefCell::new(Consts::new().unwrap());
+}
+
+/// What the witness computes with: f64 for samples, 256 bits for signs.
+trait Real: Clone {
+    fn of(x: f64) -> Self;
+    fn add(&self, b: &Self) -> Self;
+    fn sub(&self, b: &Self) -> Self;
+    fn mul(&self, b: &Self) -> Self;
+    fn div(&self, b: &Self) -> Self;
+    fn sqrt(&self) -> Self;
+    fn sin(&self) -> Self;
+    fn cos(&self) -> Self;
+    /// Within half a turn.
+    fn atan2(&self, x: &Self) -> Self;
+    fn pi() -> Self;
+    fn is_negative(&self) -> bool;
+
+    fn least(&self, b: &Self) -> Self {
+        if self.sub(b).is_negative() { self.clone() } else { b.clone() }
+    }
+    fn greatest(&self, b: &Self) -> Self {
+        if self.sub(b).is_negative() { b.clone() } else { self.clone() }
+    }
+    fn square(&self) -> Self {
+        self.mul(self)
+    }
+}
+
+impl Real for f64 {
+    fn of(x: f64) -> Self {
+        x
+    }
+    fn add(&self, b: &Self) -> Self {
+        self + b
+    }
+    fn sub(&self, b: &Self) -> Self {
+        self - b
+    }
+    fn mul(&self, b: &Self) -> Self {
+        self * b
+    }
+    fn div(&self, b: &Self) -> Self {
+        self / b
+    }
+    fn sqrt(&self) -> Self {
+        f64::sqrt(*self)
+    }
+    fn sin(&self) -> Self {
+        durer_math::elementary::sin(*self)
+    }
+    fn cos(&self) -> Self {
+        durer_math::elementary::cos(*self)
+    }
+    fn atan2(&self, x: &Self) -> Self {
+        durer_math::elementary::atan2(*self, *x)
+    }
+    fn pi() -> Self {
+        core::f64::consts::PI
+    }
+    fn is_negative(&self) -> bool {
+        *self < 0.0
+    }
+}
+
+impl Real for BigFloat {
+    fn of(x: f64) -> Self {
+        Self::from_f64(x, P)
+    }
+    fn add(&self, b: &Self) -> Self {
+        Self::add(self, b, P, RM)
+    }
+    fn sub(&self, b: &Self) -> Self {
+        Self::sub(self, b, P, RM)
+    }
+    fn mul(&self, b: &Self) -> Self {
+        Self::mul(self, b, P, RM)
+    }
+    fn div(&self, b: &Self) -> Self {
+        Self::div(self, b, P, RM)
+    }
+    fn sqrt(&self) -> Self {
+        Self::sqrt(self, P, RM)
+    }
+    fn sin(&self) -> Self {
+        CONSTS.with_borrow_mut(|c| Self::sin(self, P, RM, c))
+    }
+    fn cos(&self) -> Self {
+        CONSTS.with_borrow_mut(|c| Self::cos(self, P, RM, c))
+    }
+    fn atan2(&self, x: &Self) -> Self {
+        let right = Self::of(0.0);
+        if x.is_zero() {
+            let quarter = Self::pi().mul(&Self::of(0.5), P, RM);
+            return if Real::is_negative(self) { right.sub(&quarter, P, RM) } else { quarter };
+        }
+        let a = CONSTS.with_borrow_mut(|c| Self::div(self, x, P, RM).atan(P, RM, c));
+        match (Real::is_negative(x), Real::is_negative(self)) {
+            (false, _) => a,
+            (true, false) => Real::add(&a, &Self::pi()),
+            (true, true) => Real::sub(&a, &Self::pi()),
+        }
+    }
+    fn pi() -> Self {
+        CONSTS.with_borrow_mut(|c| c.pi(P, RM))
+    }
+    fn is_negative(&self) -> bool {
+        !self.is_zero() && Self::is_negative(self)
+    }
+}
+
+/// The solids under test.
+#[derive(Clone, Copy, Debug)]
+enum Solid {
+    Block,
+    Ball,
+    Ring,
+    /// The block without the ball.
+    Shell,
+}
+
+const LOW: [f64; 3] = [-0.5, -0.375, -1.0];
+const HIGH: [f64; 3] = [0.25, 0.5, 1.5];
+
+impl Solid {
+    fn level_set(self) -> LevelSet {
+        match self {
+            Self::Block => {
+                let (a, b) = (Point3::from(LOW), Point3::from(HIGH));
+                LevelSet::new(leaves::cuboid(a, b).unwrap(), Aabb::new(a, b))
+            }
+            Self::Ball => {
+                let ball = Sphere::new(Point3::new(0.2, -0.1, 0.3), 0.6).unwrap();
+                LevelSet::new(leaves::ball(ball.centre(), ball.radius()).unwrap(), Surface::bounds(&ball))
+            }
+            Self::Ring => {
+                let ring = Torus::new(Point3::ORIGIN, Axis::Y, 0.5, 0.2).unwrap();
+                LevelSet::new(leaves::torus(0.5, 0.2).unwrap(), ring.bounds())
+            }
+            Self::Shell => {
+                let without = Self::Ball.level_set().complement().unwrap();
+                LevelSet::intersection(&[Self::Block.level_set(), without]).unwrap()
+            }
+        }
+    }
+
+    /// Negative inside.
+    fn value<T: Real>(self, p: &[T; 3]) -> T {
+        match self {
+            Self::Block => (0..3)
+                .map(|i| T::of(LOW[i]).sub(&p[i]).greatest(&p[i].sub(&T::of(HIGH[i]))))
+                .reduce(|a, b| a.greatest(&b))
+                .unwrap(),
+            Self::Ball => {
+                let c = [0.2, -0.1, 0.3];
+                let square = |i: usize| p[i].sub(&T::of(c[i])).square();
+                square(0).add(&square(1)).add(&square(2)).sqrt().sub(&T::of(0.6))
+            }
+            Self::Ring => {
+                let far = p[0].square().add(&p[2].square()).sqrt().sub(&T::of(0.5));
+                far.square().add(&p[1].square()).sub(&T::of(0.2).square())
+            }
+            Self::Shell => {
+                let ball = Self::Ball.value(p);
+                Self::Block.value(p).greatest(&T::of(0.0).sub(&ball))
+            }
+        }
+    }
+}
+
+/// A warp about a coordinate axis, either way round, in the test's own words: where a point was.
+fn was<T: Real>(warp: &Warp, p: &[T; 3]) -> [T; 3] {
+    let along = |axis: &Vec3| {
+        let k = (0..3).find(|&k| axis[k] != 0.0).unwrap();
+        (k, T::of(axis[k].signum()))
+    };
+    let clamp = |t: T| t.greatest(&T::of(0.0)).least(&T::of(1.0));
+    let radians = |degrees: f64| T::of(degrees).mul(&T::pi()).div(&T::of(180.0));
+    let mut q = p.clone();
+    match warp {
+        Warp::Twist { axis, degrees, from, to } => {
+            let (k, sign) = along(axis);
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            let height = sign.mul(&p[k]);
+            let t = clamp(height.sub(&T::of(*from)).div(&T::of(*to).sub(&T::of(*from))));
+            let a = sign.mul(&radians(*degrees)).mul(&t);
+            // Polar coordinates: the angle is less by a.
+            let far = p[i].square().add(&p[j].square()).sqrt();
+            let angle = p[j].atan2(&p[i]).sub(&a);
+            q[i] = far.mul(&angle.cos());
+            q[j] = far.mul(&angle.sin());
+        }
+        Warp::Taper { axis, factor, from, to } => {
+            let (k, sign) = along(axis);
+            let height = sign.mul(&p[k]);
+            let t = clamp(height.sub(&T::of(*from)).div(&T::of(*to).sub(&T::of(*from))));
+            let s = T::of(1.0).sub(&t).add(&T::of(*factor).mul(&t));
+            for i in [(k + 1) % 3, (k + 2) % 3] {
+                q[i] = p[i].div(&s);
+            }
+        }
+        Warp::Bend { axis, toward, degrees, from, to } => {
+            let ((k, sign), (m, side)) = (along(axis), along(toward));
+            let side = if *degrees < 0.0 { T::of(0.0).sub(&side) } else { side };
+            let whole = radians(degrees.abs());
+            let radius = T::of(*to).sub(&T::of(*from)).div(&whole);
+            let (height, near) = (sign.mul(&p[k]), side.mul(&p[m]));
+            let (u, v) = (radius.sub(&near), height.sub(&T::of(*from)));
+            let mut a = v.atan2(&u);
+            // What is so far back is nothing, or past the other end.
+            if a.add(&T::of(1.9)).is_negative() {
+                a = a.add(&T::pi()).add(&T::pi());
+            }
+            let (height, near) = if a.is_negative() {
+                (height, near)
+            } else if whole.sub(&a).is_negative() {
+                let beyond = v.mul(&whole.cos()).sub(&u.mul(&whole.sin()));
+                let left = u.mul(&whole.cos()).add(&v.mul(&whole.sin()));
+                (T::of(*to).add(&beyond), radius.sub(&left))
+            } else {
+                let far = u.square().add(&v.square()).sqrt();
+                (T::of(*from).add(&radius.mul(&a)), radius.sub(&far))
+            };
+            q[k] = sign.mul(&height);
+            q[m] = side.mul(&near);
+        }
+        Warp::Inverse { .. } => {
+            // The one that these tests use; see `wave`.
+            let three = T::of(3.0).mul(&p[0]);
+            q[1] = p[1].sub(&T::of(0.125).mul(&three.sin()));
+        }
+    }
+    q
+}
+
+/// A rope of warps, and each solid under it.
+fn ropes() -> Vec<Vec<Warp>> {
+    let twist = |axis: Vec3, degrees: f64, from: f64, to: f64| Warp::Twist { axis, degrees, from, to };
+    let taper = |axis: Vec3, factor: f64, from: f64, to: f64| Warp::Taper { axis, factor, from, to };
+    let bend = |axis, toward, degrees, from, to| Warp::Bend { axis, toward, degrees, from, to };
+    vec![
+        vec![twist(Vec3::Z, 200.0, -1.0, 1.5)],
+        vec![twist(-Vec3::Y, 75.0, -0.25, 0.125)],
+        vec![taper(Vec3::Z, 0.25, -1.0, 1.5)],
+        vec![taper(-Vec3::X, 3.0, -0.125, 0.25)],
+        vec![bend(Vec3::Z, Vec3::X, 90.0, -1.0, 1.5)],
+        vec![bend(Vec3::Z, Vec3::X, 100.0, -0.5, 1.0)],
+        vec![bend(-Vec3::Z, Vec3::Y, -30.0, -0.25, 0.25)],
+        vec![wave()],
+        vec![
+            twist(Vec3::Z, 90.0, -1.0, 1.5),
+            taper(Vec3::Z, 0.5, -1.0, 1.5),
+            bend(Vec3::Z, -Vec3::X, 60.0, -1.0, 1.5),
+        ],
+    ]
+}
+
+/// `y` was `y - sin(3 x) / 8`.
+fn wave() -> Warp {
+    let mut b = Builder::new();
+    let [x, y, z] = [0, 1, 2].map(|i| b.input(i).unwrap());
+    let (three, eighth) = (b.constant(3.0).unwrap(), b.constant(0.125).unwrap());
+    let three = b.push(Op::Mul(three, x)).unwrap();
+    let sine = b.push(Op::Function(durer_math::Function::Sin, three)).unwrap();
+    let height = b.push(Op::Mul(eighth, sine)).unwrap();
+    let y = b.push(Op::Sub(y, height)).unwrap();
+    inverse([x, y, z], &b, 2.0)
+}
+
+fn inverse(roots: [NodeId; 3], b: &Builder, half: f64) -> Warp {
+    let functions = Arc::new(roots.map(|root| b.finish(root, 3)));
+    let half = Point3::new(half, half, half);
+    Warp::Inverse { functions, within: Aabb::new((-half.to_vec()).to_point(), half) }
+}
+
+fn deformed(solid: &LevelSet, warps: &[Warp]) -> LevelSet {
+    warps.iter().fold(solid.clone(), |solid, warp| solid.deformed(warp).unwrap())
+}
+
+fn surface(solid: &LevelSet) -> Isosurface {
+    solid.surface().unwrap().unwrap()
+}
+
+fn all<S: Surface>(surface: &S, ray: &Ray) -> Vec<Root> {
+    let mut sink = All::default();
+    surface.roots(&LocalRay::new(ray), &mut sink);
+    sink.roots
+}
+
+/// From outside through the box of a surface, from near and far, along axes too.
+fn ray_at(dice: &mut Dice, bounds: &Aabb) -> Ray {
+    let centre = bounds.centre();
+    let half = bounds.widths() * 0.45;
+    let mut direction = dice.vector();
+    let through = dice.vector();
+    match dice.below(5) {
+        0 => direction[dice.below(3) as usize] = 0.0,
+        1 => {
+            let axis = dice.below(3) as usize;
+            direction = [Vec3::X, Vec3::Y, Vec3::Z][axis] * if dice.below(2) == 0 { 1.0 } else { -1.0 };
+        }
+        _ => {}
+    }
+    let back = [8.0, 9.0, 1e3][dice.below(3) as usize] / direction.length();
+    let through = Vec3::new(through.x * half.x, through.y * half.y, through.z * half.z);
+    Ray::new(centre + through - direction * back, direction)
+}
+
+#[test]
+fn brackets_hold_changes_of_sign_in_256_bits_and_none_is_missing() {
+    let mut dice = Dice(7);
+    let (mut met, mut clusters, mut widths) = (0, 0, Vec::new());
+    for (n, rope) in ropes().iter().enumerate() {
+        for solid in [Solid::Block, Solid::Ball, Solid::Ring, Solid::Shell] {
+            let deformed = surface(&deformed(&solid.level_set(), rope));
+            let value = |p: [BigFloat; 3]| {
+                let q = rope.iter().rev().fold(p, |p, warp| was(warp, &p));
+                solid.value(&q)
+            };
+            let sample =
+                |p: Point3| solid.value(&rope.iter().rev().fold(p.to_array(), |p, warp| was(warp, &p)));
+            for _ in 0..60 {
+                let ray = ray_at(&mut dice, &Surface::bounds(&deformed));
+                let at = |t: f64| {
+                    let t = BigFloat::of(t);
+                    [0, 1, 2].map(|i| {
+                        Real::add(
+                            &BigFloat::of(ray.origin[i]),
+                            &Real::mul(&t, &BigFloat::of(ray.direction[i])),
+                        )
+                    })
+                };
+                let roots = all(&deformed, &ray);
+                let story = || format!("rope {n}, {solid:?}, {ray:?}: {roots:?}");
+                assert!(roots.windows(2).all(|w| w[0].t <= w[1].t && w[0].sign == -w[1].sign), "{}", story());
+                for root in &roots {
+                    assert!(root.face == 0 && root.lo <= root.t && root.t <= root.hi, "{}", story());
+                    if root.kind == Kind::Cluster && root.sign == 0 {
+                        clusters += 1;
+                        continue;
+                    }
+                    let before = Real::is_negative(&value(at(root.lo)));
+                    let after = Real::is_negative(&value(at(root.hi)));
+                    assert_eq!((before, after), (root.sign > 0, root.sign < 0), "{}", story());
+                    clusters += usize::from(root.kind == Kind::Cluster);
+                    met += 1;
+                    widths.push((root.hi - root.lo) / (root.t.abs() * f64::EPSILON));
+                }
+                // Samples see no more changes than there are, and miss them in pairs.
+                let length = ray.direction.length();
+                let bounds = Surface::bounds(&deformed);
+                let middle = (bounds.centre() - ray.origin).dot(ray.direction) / (length * length);
+                let reach = bounds.widths().length() / length;
+                let (mut changes, mut before) = (0, false);
+                for i in 0..=4000 {
+                    let t = middle + reach * (f64::from(i) / 2000.0 - 1.0);
+                    let inside = sample(ray.at(t)) < 0.0;
+                    changes += usize::from(inside != before);
+                    before = inside;
+                }
+                let real = roots.iter().filter(|r| r.sign != 0).count();
+                assert!(
+                    real >= changes && (real - changes).is_multiple_of(2),
+                    "{changes} changes, {}",
+                    story()
+                );
+            }
+        }
+    }
+    widths.sort_by(f64::total_cmp);
+    let median = widths[widths.len() / 2];
+    println!("{met} roots, {clusters} clusters, median width {median:.1} ulp");
+    assert!(
+        met > 2000 && clusters * 50 < met && median < 200.0,
+        "{met} roots, {clusters} clusters, {median} ulp"
+    );
+}
+
+/// Against the half-spaces `n . p <= d` that it is, in exact fractions.
+#[test]
+fn a_tapered_block_is_a_piece_of_a_pyramid() {
+    use durer_math::Dyadic;
+    // |x|, |y| <= 1 - z / 2 for z from 0 to 1.
+    let block = {
+        let (a, b) = (Point3::new(-1.0, -1.0, 0.0), Point3::new(1.0, 1.0, 1.0));
+        LevelSet::new(leaves::cuboid(a, b).unwrap(), Aabb::new(a, b))
+    };
+    let pyramid =
+        surface(&deformed(&block, &[Warp::Taper { axis: Vec3::Z, factor: 0.5, from: 0.0, to: 1.0 }]));
+    let planes: [([f64; 3], f64); 6] = [
+        ([1.0, 0.0, 0.5], 1.0),
+        ([-1.0, 0.0, 0.5], 1.0),
+        ([0.0, 1.0, 0.5], 1.0),
+        ([0.0, -1.0, 0.5], 1.0),
+        ([0.0, 0.0, 1.0], 1.0),
+        ([0.0, 0.0, -1.0], 0.0),
+    ];
+    let mut dice = Dice(11);
+    let mut met = 0;
+    for _ in 0..5000 {
+        let ray = ray_at(&mut dice, &Surface::bounds(&pyramid));
+        let dot = |n: &[f64; 3], v: [f64; 3]| {
+            (0..3).fold(Dyadic::from(0.0), |sum, i| &sum + &(&Dyadic::from(n[i]) * &Dyadic::from(v[i])))
+        };
+        // Each plane's crossing as top / bottom with a positive bottom, and whether it is an entry.
+        let (mut first, mut last) = (None::<(Dyadic, Dyadic)>, None::<(Dyadic, Dyadic)>);
+        let mut beside = false;
+        for (n, d) in &planes {
+            let top = &Dyadic::from(*d) - &dot(n, ray.origin.to_array());
+            let bottom = dot(n, ray.direction.to_array());
+            let less = |a: &(Dyadic, Dyadic), b: &(Dyadic, Dyadic)| {
+                (&(&a.0 * &b.1) - &(&b.0 * &a.1)).exact_sign().is_lt()
+            };
+            match bottom.exact_sign() {
+                core::cmp::Ordering::Equal => beside |= top.exact_sign().is_le(),
+                core::cmp::Ordering::Greater => {
+                    let at = (top, bottom);
+                    if last.as_ref().is_none_or(|known| less(&at, known)) {
+                        last = Some(at);
+                    }
+                }
+                core::cmp::Ordering::Less => {
+                    let at = (&Dyadic::from(0.0) - &top, &Dyadic::from(0.0) - &bottom);
+                    if first.as_ref().is_none_or(|known| less(known, &at)) {
+                        first = Some(at);
+                    }
+                }
+            }
+        }
+        let roots = all(&pyramid, &ray);
+        let (Some(first), Some(last)) = (first, last) else { continue };
+        let within = |t: &(Dyadic, Dyadic), root: &Root| {
+            let above = (&t.0 - &(&Dyadic::from(root.lo) * &t.1)).exact_sign().is_ge();
+            let below = (&t.0 - &(&Dyadic::from(root.hi) * &t.1)).exact_sign().is_le();
+            above && below
+        };
+        let order = (&(&first.0 * &last.1) - &(&last.0 * &first.1)).exact_sign();
+        if order.is_lt() && !beside {
+            let [a, b] = roots.as_slice() else { panic!("{ray:?}: {roots:?}") };
+            assert!(
+                within(&first, a) && within(&last, b) && (a.sign, b.sign) == (-1, 1),
+                "{ray:?}: {roots:?}"
+            );
+            met += 1;
+        } else {
+            assert!(roots.iter().all(|r| r.sign == 0), "{ray:?}: {roots:?}");
+        }
+    }
+    assert!(met > 2000, "{met}");
+}
+
+/// Each root of one has a root of the other in an overlapping bracket; where one cannot tell, only the sums of signs count.
+fn same(a: &[Root], b: &[Root]) -> bool {
+    let sure = |roots: &[Root]| roots.iter().all(|r| r.kind == Kind::Simple);
+    if sure(a) && sure(b) {
+        let overlap = |(a, b): (&Root, &Root)| a.lo <= b.hi && b.lo <= a.hi && a.sign == b.sign;
+        return a.len() == b.len() && a.iter().zip(b).all(overlap);
+    }
+    let net = |roots: &[Root]| roots.iter().map(|r| i32::from(r.sign)).sum::<i32>();
+    net(a) == net(b)
+}
+
+#[test]
+fn a_twist_by_nothing_and_a_twist_undone_change_nothing() {
+    let mut dice = Dice(13);
+    let twist = |degrees: f64| Warp::Twist { axis: Vec3::Y, degrees, from: -0.5, to: 0.75 };
+    let bend = |degrees: f64| Warp::Bend { axis: Vec3::Z, toward: Vec3::X, degrees, from: -1.0, to: 1.0 };
+    for solid in [Solid::Block, Solid::Ball, Solid::Ring, Solid::Shell] {
+        let own = surface(&solid.level_set());
+        for rope in [vec![twist(0.0)], vec![bend(0.0)], vec![twist(150.0), twist(-150.0)]] {
+            let rope = surface(&deformed(&solid.level_set(), &rope));
+            let mut met = 0;
+            for _ in 0..400 {
+                let ray = ray_at(&mut dice, &Surface::bounds(&own));
+                let (a, b) = (all(&own, &ray), all(&rope, &ray));
+                assert!(same(&a, &b), "{solid:?} {ray:?}\n {a:?}\n {b:?}");
+                met += a.len();
+            }
+            assert!(met > 200, "{met}");
+        }
+    }
+}
+
+#[test]
+fn a_twist_of_what_is_round_and_a_taper_by_one_change_nothing() {
+    let mut dice = Dice(17);
+    let ring = Torus::new(Point3::ORIGIN, Axis::Y, 0.5, 0.2).unwrap();
+    for warp in [
+        Warp::Twist { axis: Vec3::Y, degrees: 1000.0, from: -0.1, to: 0.15 },
+        Warp::Taper { axis: Vec3::new(1.0, 2.0, 2.0), factor: 1.0, from: 0.0, to: 1.0 },
+    ] {
+        let same_ring = surface(&deformed(&Solid::Ring.level_set(), &[warp]));
+        let mut met = 0;
+        for _ in 0..2000 {
+            let ray = ray_at(&mut dice, &ring.bounds());
+            let (a, b) = (all(&ring, &ray), all(&same_ring, &ray));
+            assert!(same(&a, &b), "{ray:?}\n {a:?}\n {b:?}");
+            met += a.len();
+        }
+        assert!(met > 2000, "{met}");
+    }
+}
+
+#[test]
+fn a_deformed_union_is_the_union_of_the_deformed() {
+    let mut dice = Dice(19);
+    for rope in ropes() {
+        let parts = [Solid::Block, Solid::Ring].map(Solid::level_set);
+        let whole = surface(&deformed(&LevelSet::union(&parts).unwrap(), &rope));
+        let parts = parts.map(|part| surface(&deformed(&part, &rope)));
+        let mut met = 0;
+        for _ in 0..200 {
+            let ray = ray_at(&mut dice, &Surface::bounds(&whole));
+            let mut events: Vec<Root> = parts.iter().flat_map(|part| all(part, &ray)).collect();
+            events.sort_by(|a, b| a.t.total_cmp(&b.t));
+            // Where brackets of both meet the order is not known.
+            if events.windows(2).any(|w| w[1].lo <= w[0].hi) {
+                continue;
+            }
+            let mut depth = 0;
+            let mut expected = Vec::new();
+            for root in events {
+                let before = depth;
+                depth -= i32::from(root.sign);
+                if (before == 0) != (depth == 0) {
+                    expected.push(root);
+                }
+            }
+            let roots = all(&whole, &ray);
+            assert!(same(&roots, &expected), "{ray:?}\n {roots:?}\n {expected:?}");
+            met += roots.len();
+        }
+        assert!(met > 100, "{met}");
+    }
+}
+
+#[test]
+fn a_bent_cylinder_is_a_piece_of_a_torus() {
+    // 180 degrees along 2: R = 2 / pi, which is no f64, so that roots agree to rounding times their condition.
+    let pipe = {
+        let (a, b) = (Point3::new(0.0, 0.0, 0.0), Point3::new(0.0, 0.0, 2.0));
+        let bounds = Aabb::new(Point3::new(-0.25, -0.25, 0.0), Point3::new(0.25, 0.25, 2.0));
+        LevelSet::new(leaves::frustum(a, 0.25, b, 0.25).unwrap(), bounds)
+    };
+    let arc = surface(&deformed(
+        &pipe,
+        &[Warp::Bend { axis: Vec3::Z, toward: Vec3::X, degrees: 180.0, from: 0.0, to: 2.0 }],
+    ));
+    let radius = 2.0 / core::f64::consts::PI;
+    let ring = Torus::new(Point3::new(radius, 0.0, 0.0), Axis::Y, radius, 0.25).unwrap();
+    let mut dice = Dice(23);
+    let mut met = 0;
+    for _ in 0..5000 {
+        let ray = ray_at(&mut dice, &Surface::bounds(&arc));
+        let roots = all(&arc, &ray);
+        for root in all(&ring, &ray) {
+            let point = ring.resolve(&LocalRay::new(&ray), &root, Need::POINT);
+            let slope = point.ng.to_vec().dot(ray.direction).abs();
+            let z = point.p.z;
+            if z.abs() < 1e-6 || slope < 0.05 * ray.direction.length() {
+                continue;
+            }
+            let close = 1e-14 * (10.0 / ray.direction.length() + root.t.abs()) / 0.05;
+            let found = roots.iter().any(|r| (r.t - root.t).abs() <= close && r.sign == root.sign);
+            assert_eq!(found, z > 0.0, "{ray:?} {root:?}: {roots:?}");
+            met += usize::from(found);
+        }
+    }
+    assert!(met > 1000, "{met}");
+}
+
+#[test]
+fn rays_leave_deformed_solids() {
+    let mut dice = Dice(29);
+    let (mut spawned, mut untold) = (0, 0);
+    for rope in ropes() {
+        for solid in [Solid::Ball, Solid::Shell] {
+            let deformed = surface(&deformed(&solid.level_set(), &rope));
+            for _ in 0..60 {
+                let ray = ray_at(&mut dice, &Surface::bounds(&deformed));
+                for root in all(&deformed, &ray).iter().filter(|r| r.kind == Kind::Simple) {
+                    let point = deformed.resolve(&LocalRay::new(&ray), root, Need::ALL);
+                    assert!(
+                        (point.ng.to_vec().length() - 1.0).abs() < 1e-12 && point.off < 1e-9,
+                        "{point:?}"
+                    );
+                    let along = point.ng.to_vec().dot(ray.direction);
+                    assert!(along * f64::from(root.sign) >= 0.0, "{ray:?} {root:?} {point:?}");
+                    for (side, way) in [(RaySide::Front, 1.0), (RaySide::Back, -1.0)] {
+                        let out = point.spawn_from(side, point.ng.to_vec() * way);
+                        let exact = rope
+                            .iter()
+                            .rev()
+                            .fold(out.origin.to_array().map(BigFloat::of), |p, warp| was(warp, &p));
+                        let inside = Real::is_negative(&solid.value(&exact));
+                        assert_eq!(inside, side == RaySide::Back, "{ray:?} {out:?} {point:?} {rope:?}");
+                        let told = deformed.side(&LocalPoint::new(out.origin));
+                        let wrong = if inside { Side::Out } else { Side::In };
+                        assert_ne!(told, wrong, "{ray:?} {out:?} {point:?} {rope:?}");
+                        untold += usize::from(told == Side::On);
+                        spawned += 1;
+                    }
+                }
+            }
+        }
+    }
+    println!("{spawned} rays, {untold} of them from where rounding leaves the side open");
+    assert!(spawned > 1000 && untold * 20 < spawned, "{spawned}, {untold}");
+}
+
+#[test]
+fn any_axis_will_do() {
+    // About a slanted axis: what a rotation makes of the twist about z.
+    let turn = Affine::rotation(Vec3::new(1.0, -2.0, 0.5), 0.7).unwrap();
+    let axis = turn.vector(Vec3::Z);
+    let warp = |axis: Vec3| Warp::Twist { axis, degrees: 120.0, from: -1.0, to: 1.0 };
+    let upright = deformed(&Solid::Block.level_set(), &[warp(Vec3::Z)]).placed(&turn).unwrap();
+    let slanted = deformed(&Solid::Block.level_set().placed(&turn).unwrap(), &[warp(axis * 3.0)]);
+    let (a, b) = (surface(&upright), surface(&slanted));
+    let mut dice = Dice(31);
+    let mut met = 0;
+    for _ in 0..500 {
+        let ray = ray_at(&mut dice, &Surface::bounds(&a));
+        let (x, y) = (all(&a, &ray), all(&b, &ray));
+        let close =
+            |(x, y): (&Root, &Root)| (x.t - y.t).abs() <= 1e-9 * (1.0 + x.t.abs()) && x.sign == y.sign;
+        let grazes = |roots: &[Root]| roots.windows(2).any(|w| w[1].t - w[0].t < 1e-4);
+        if grazes(&x) || grazes(&y) {
+            continue;
+        }
+        assert!(x.len() == y.len() && x.iter().zip(&y).all(close), "{ray:?}\n {x:?}\n {y:?}");
+        met += x.len();
+    }
+    assert!(met > 300, "{met}");
+}
+
+#[test]
+fn what_is_not_one_to_one_is_refused() {
+    let block = Solid::Block.level_set();
+    let refused = |warp: Warp| block.deformed(&warp).unwrap_err();
+    let bend =
+        |degrees: f64, from: f64, to: f64| Warp::Bend { axis: Vec3::Z, toward: Vec3::X, degrees, from, to };
+    // The centre at 0.2, the block up to 0.25.
+    let near = (2.0_f64 / 0.2).to_degrees();
+    assert!(matches!(refused(bend(near, -1.0, 1.0)), DeformError::Centre { .. }));
+    // Thin enough to come round: the piece of 2.5 by 360 degrees has R = 0.398; by 320 it is told apart from itself.
+    assert!(matches!(refused(bend(360.0, -1.0, 1.5)), DeformError::Round { .. }));
+    assert!(block.deformed(&bend(320.0, -1.0, 1.5)).is_ok());
+    assert!(matches!(refused(bend(10.0, 1.0, 1.0)), DeformError::Stretch { warp: "bend", .. }));
+    assert!(matches!(refused(bend(f64::NAN, 0.0, 1.0)), DeformError::Angle { .. }));
+    for toward in [Vec3::Z, Vec3::ZERO, -Vec3::Z] {
+        let warp = Warp::Bend { axis: Vec3::Z, toward, degrees: 10.0, from: 0.0, to: 1.0 };
+        assert!(matches!(refused(warp), DeformError::Toward(_)));
+    }
+    for factor in [0.0, -1.0, f64::INFINITY] {
+        let warp = Warp::Taper { axis: Vec3::Z, factor, from: 0.0, to: 1.0 };
+        assert_eq!(refused(warp), DeformError::Factor(factor));
+    }
+    let warp = Warp::Twist { axis: Vec3::ZERO, degrees: 10.0, from: 0.0, to: 1.0 };
+    assert!(matches!(refused(warp), DeformError::Axis { warp: "twist", .. }));
+    let space = LevelSet::new(leaves::half_space(Vec3::X, 0.0).unwrap(), Aabb::UNBOUNDED);
+    let twist = Warp::Twist { axis: Vec3::X, degrees: 10.0, from: 0.0, to: 1.0 };
+    assert_eq!(space.deformed(&twist).unwrap_err(), DeformError::Unbounded);
+}
+
+fn formula_map(write: impl FnOnce(&mut Builder, [NodeId; 3]) -> [NodeId; 3], half: f64) -> Warp {
+    let mut b = Builder::new();
+    let p = [0, 1, 2].map(|i| b.input(i).unwrap());
+    let roots = write(&mut b, p);
+    inverse(roots, &b, half)
+}
+
+#[test]
+fn formulas_without_an_inverse_are_refused() {
+    let block = Solid::Block.level_set();
+    let refused = |warp: &Warp| block.deformed(warp).unwrap_err();
+    // x^2: folds.
+    let folded = formula_map(|b, [x, y, z]| [b.push(Op::Sqr(x)).unwrap(), y, z], 1.0);
+    assert!(matches!(refused(&folded), DeformError::Injective(d) if d.contains(0.0)));
+    // Flattens.
+    let flat = formula_map(|_, [x, y, _]| [x, y, y], 1.0);
+    assert!(matches!(refused(&flat), DeformError::Injective(_)));
+    // A turn about z by an angle that grows with x: its determinant at a point is never zero where it turns little, and a box sees more.
+    let turning = |rate: f64| {
+        move |b: &mut Builder, [x, y, z]: [NodeId; 3]| {
+            let rate = b.constant(rate).unwrap();
+            let a = b.push(Op::Mul(rate, z)).unwrap();
+            let s = b.push(Op::Function(durer_math::Function::Sin, a)).unwrap();
+            let c = b.push(Op::Function(durer_math::Function::Cos, a)).unwrap();
+            let mut mul = |p, q| b.push(Op::Mul(p, q)).unwrap();
+            let (xc, ys, xs, yc) = (mul(x, c), mul(y, s), mul(x, s), mul(y, c));
+            [b.push(Op::Sub(xc, ys)).unwrap(), b.push(Op::Add(xs, yc)).unwrap(), z]
+        }
+    };
+    assert!(block.deformed(&formula_map(turning(0.2), 1.5)).is_ok());
+    // It is one to one (a twist is), but bounds of its slopes over the whole box do not show it.
+    assert!(matches!(refused(&formula_map(turning(4.0), 1.5)), DeformError::Injective(_)));
+    // Jumps, holes and infinite slopes.
+    let jumps = formula_map(
+        |b, [x, y, z]| [b.push(Op::Function(durer_math::Function::Floor, x)).unwrap(), y, z],
+        1.0,
+    );
+    assert!(matches!(refused(&jumps), DeformError::Rough(_)));
+    let roots = formula_map(|b, [x, y, z]| [b.push(Op::Sqrt(x)).unwrap(), y, z], 1.0);
+    assert!(matches!(refused(&roots), DeformError::Rough(_)));
+    let wrong = Warp::Inverse {
+        functions: Arc::new([0, 1, 2].map(|_| constant(2))),
+        within: Aabb::new(Point3::ORIGIN, Point3::new(1.0, 1.0, 1.0)),
+    };
+    assert_eq!(refused(&wrong), DeformError::Arguments(2));
+}
+
+fn constant(inputs: u32) -> Formula {
+    let mut b = Builder::new();
+    let one = b.constant(1.0).unwrap();
+    b.finish(one, inputs)
+}
+
+#[test]
+fn nothing_stays_nothing() {
+    // Two balls that do not meet.
+    let ball = |x: f64| {
+        let it = Sphere::new(Point3::new(x, 0.0, 0.0), 0.5).unwrap();
+        LevelSet::new(leaves::ball(it.centre(), it.radius()).unwrap(), Surface::bounds(&it))
+    };
+    let both = LevelSet::intersection(&[ball(0.0), ball(0.9)]).unwrap();
+    let none = LevelSet::intersection(&[ball(0.0), ball(2.0)]).unwrap();
+    let twist = Warp::Twist { axis: Vec3::Z, degrees: 90.0, from: -1.0, to: 1.0 };
+    assert!(deformed(&both, core::slice::from_ref(&twist)).surface().unwrap().is_some());
+    assert!(deformed(&none, &[twist]).surface().unwrap().is_none());
+}
+
+#[test]
+fn coincident_faces_leave_no_skin() {
+    let block = |low: [f64; 3], high: [f64; 3]| {
+        let (a, b) = (Point3::from(low), Point3::from(high));
+        LevelSet::new(leaves::cuboid(a, b).unwrap(), Aabb::new(a, b))
+    };
+    let twist = Warp::Twist { axis: Vec3::Y, degrees: 50.0, from: 0.0, to: 1.0 };
+    let whole = block([-0.5, 0.0, -0.5], [0.5, 1.0, 0.5]);
+    // Two halves, and the whole without its upper half: coincident faces within and on top.
+    let (low, high) = (block([-0.5, 0.0, -0.5], [0.5, 0.5, 0.5]), block([-0.5, 0.5, -0.5], [0.5, 1.0, 0.5]));
+    let both = LevelSet::union(&[low.clone(), high.clone()]).unwrap();
+    let rest = LevelSet::intersection(&[whole.clone(), high.complement().unwrap()]).unwrap();
+    let mut dice = Dice(37);
+    for (made, same_as) in [(both, whole), (rest, low)] {
+        let [made, same_as] =
+            [made, same_as].map(|solid| surface(&deformed(&solid, core::slice::from_ref(&twist))));
+        let mut met = 0;
+        for _ in 0..1000 {
+            let ray = ray_at(&mut dice, &Surface::bounds(&same_as));
+            let (a, b) = (all(&made, &ray), all(&same_as, &ray));
+            let overlap = |(a, b): (&Root, &Root)| a.lo <= b.hi && b.lo <= a.hi && a.sign == b.sign;
+            // Touches of edges are told in some formulas only.
+            let b: Vec<Root> = b.into_iter().filter(|r| r.sign != 0).collect();
+            assert!(a.len() == b.len() && a.iter().zip(&b).all(overlap), "{ray:?}\n {a:?}\n {b:?}");
+            met += a.len();
+        }
+        assert!(met > 800, "{met}");
+    }
+}
+
+#[test]
+fn a_formulas_box_gives_an_end() {
+    let ground = LevelSet::new(leaves::half_space(Vec3::Y, 0.0).unwrap(), Aabb::UNBOUNDED);
+    let waves = surface(&ground.deformed(&wave()).unwrap());
+    let down = Ray::new(Point3::new(0.25, 5.0, 0.5), -Vec3::Y);
+    let roots = all(&waves, &down);
+    let height = 0.125 * durer_math::elementary::sin(0.75);
+    assert!(roots.len() == 2 && (roots[0].t - (5.0 - height)).abs() < 1e-14, "{roots:?}");
+}
