@@ -22,6 +22,10 @@ use durer_math::{Aabb, Affine, Interval, Vec3, elementary};
 /// The least angle between the ends of a bent solid, across the gap: the cosine of the gap's edge, near -1, is told from it by half of this squared.
 const LEAST_GAP: f64 = 1.0 / (1 << 20) as f64;
 
+/// The least sine of the angle between a bend's axis and direction. Both are rounded unit vectors, and what the direction has across the axis is wrong by some `8 U`: with
+/// this it is across it within a millionth.
+const LEAST_SINE: f64 = 1.0 / (1 << 30) as f64;
+
 /// A bend towards x.
 pub(super) struct Bend {
     turn: Interval,
@@ -42,8 +46,7 @@ pub(super) fn frame(axis: Vec3, toward: Vec3) -> Result<Affine, DeformError> {
     let z = direction(axis).ok_or(DeformError::Axis { warp: "bend", axis })?;
     let unit = direction(toward).ok_or(DeformError::Toward(toward))?;
     let across = unit - z * z.dot(unit);
-    // What is left is rounding if it is that short.
-    if across.max_abs() < 1e-9 {
+    if across.length() < LEAST_SINE {
         return Err(DeformError::Toward(toward));
     }
     let x = direction(across).ok_or(DeformError::Toward(toward))?;
