@@ -139,8 +139,8 @@ fn powers_of_intervals_hold_the_exact_ones() {
             match dice.bits() % 8 {
                 0 => 0.0,
                 1 => 1.0,
-                2 => unit.abs() * durer_math::scale::pow2(-((dice.bits() % 1074) as i32)),
-                3 => unit.abs() * durer_math::scale::pow2((dice.bits() % 1000) as i32),
+                2 => durer_math::scale::ldexp(unit.abs(), -((dice.bits() % 1074) as i32)),
+                3 => durer_math::scale::ldexp(unit.abs(), (dice.bits() % 1000) as i32),
                 4 => -unit.abs(),
                 _ => unit.abs() * 3.0,
             }
