@@ -26,7 +26,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Autostop
             | Average
             | BSpline
-            | BezierSpline
             | BicubicPatch
             | BlackHole
             | BlurSamples
@@ -48,7 +47,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Coords
             | Count
             | Crackle
-            | CubicSpline
             | CutawayTextures
             | Cylindrical
             | Density
@@ -145,7 +143,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Prod
             | ProjectedThrough
             | Pwr
-            | QuadraticSpline
             | Quilted
             | Radial
             | Radiosity

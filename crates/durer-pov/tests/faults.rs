@@ -160,9 +160,39 @@ fn prisms_say_what_is_wrong_with_them() {
             .2
             .contains("outline 1 of this prism has 2")
     );
-    assert_eq!(
-        fault("prism { cubic_spline 0, 1, 3, <0, 0>, <1, 0>, <1, 1> }").2,
-        "not supported yet: cubic_spline"
+}
+
+#[test]
+fn curved_prisms_say_what_is_wrong_with_them() {
+    let says = |text: &str, message: &str| {
+        let told = fault(text).2;
+        assert!(told.contains(message), "{text}: {told}");
+    };
+    says("prism { quadratic_spline 0, 1, 4, <0, 0>, <1, 0>, <1, 1>, <1, 0> }", "at least 5 points, not 4");
+    says(
+        "prism { cubic_spline 0, 1, 5, <0, 0>, <1, 0>, <1, 1>, <1, 0>, <2, 2> }",
+        "at least 6 points, not 5",
+    );
+    says(
+        "prism { bezier_spline 0, 1, 6, <0, 0>, <1, 0>, <1, 1>, <0, 0>, <0, 0>, <0, 0> }",
+        "not a multiple of 4",
+    );
+    says(
+        "prism { quadratic_spline 0, 1, 5, <0, 0>, <1, 0>, <1, 1>, <0, 1>, <0, 0> }",
+        "does not come back to <1, 0>",
+    );
+    says(
+        "prism { cubic_spline 0, 1, 6, <0, 0>, <1, 0>, <1, 1>, <0, 1>, <2, 2>, <1, 0> }",
+        "come back to <1, 0>, with one point behind",
+    );
+    says("prism { bezier_spline 0, 1, 4, <0, 0>, <1, 0>, <1, 1>, <0, 1> }", "does not come back to <0, 0>");
+    says(
+        "prism { bezier_spline 0, 1, 8, <0, 0>, <1, 0>, <1, 1>, <0, 1>, <0, 2>, <1, 0>, <1, 1>, <0, 0> }",
+        "ends at <0, 1>, the next begins at <0, 2>",
+    );
+    says(
+        "prism { quadratic_spline 0, 1, 8, <0, 0>, <1, 0>, <1, 1>, <0, 1>, <1, 0>, <5, 5>, <6, 6>, <6, 6> }",
+        "outline 2 of this prism has 3 points, it needs 5",
     );
 }
 

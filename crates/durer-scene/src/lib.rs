@@ -44,9 +44,10 @@ pub use crate::placement::Placement;
 pub use crate::scene::{AssumedGamma, Background, Scene, Settings};
 pub use crate::shape::{
     Blob, Container, Deform, Face, Isosurface, Mesh, NamedQuadric, Operation, Prism, QuadricKind, Shape,
-    Sweep,
+    Spline, Sweep,
 };
 pub use crate::texture::{Layer, Pigment, PigmentBody, Texture, TextureBody};
+pub use durer_surfaces::Spline as Curve;
 pub use durer_surfaces::algebraic::{MAX_ORDER, coefficient_count, place_of};
 pub use durer_surfaces::julia::MOST_ITERATIONS;
 pub use durer_surfaces::{BlobComponent, BlobShape, FillRule, Julia, JuliaAlgebra, JuliaPower, Warp, tape};

@@ -61,6 +61,7 @@ pub use crate::parallelogram::{Parallelogram, ParallelogramError};
 pub use crate::plane::{Plane, PlaneError};
 pub use crate::point::SurfacePoint;
 pub use crate::polygon::{FillRule, Polygon, PolygonError};
+pub use crate::prism::curved::{Bezier, CurvedPrism, Spline};
 pub use crate::prism::{Prism, PrismError};
 pub use crate::quadric::axial::{Axial, AxialError};
 pub use crate::quadric::cone::Cone;

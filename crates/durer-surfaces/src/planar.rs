@@ -321,7 +321,7 @@ impl<'a> Probe<'a> {
 
     /// Whether a bracket needs no better one.
     #[inline(always)]
-    fn is_narrow(&self, c: &Crossing) -> bool {
+    pub(crate) fn is_narrow(&self, c: &Crossing) -> bool {
         let (width, t) = (c.s_hi - c.s_lo, c.lo.abs().min(c.hi.abs()));
         if self.ray.local().rough {
             return width <= ROUGH * self.size || c.hi - c.lo <= ROUGH * t;
@@ -332,8 +332,9 @@ impl<'a> Probe<'a> {
             || width * self.ray.d.length() <= NARROW * self.size
     }
 
+    /// A crossing at `s`, within a bracket of `s`, and the sign of the slope.
     #[inline(always)]
-    fn bracketed(&self, s: f64, s_lo: f64, s_hi: f64, slope: Ordering) -> Crossing {
+    pub(crate) fn bracketed(&self, s: f64, s_lo: f64, s_hi: f64, slope: Ordering) -> Crossing {
         let (lo, hi) = self.ray.bracket(s_lo, s_hi);
         Crossing { s, s_lo, s_hi, lo, hi, sign: slope as i8 }
     }

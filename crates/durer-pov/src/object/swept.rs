@@ -6,18 +6,26 @@ use super::Shape;
 use crate::diagnostics::{Fault, Place, Result};
 use crate::keywords::Keyword;
 use crate::reader::Reader;
-use durer_scene::{Prism, Sweep};
+use durer_scene::{Curve, Prism, Spline, Sweep};
 
 impl Reader<'_> {
-    /// `[linear_spline] [linear_sweep | conic_sweep] height, height, number of points, points`.
+    /// `[linear_spline | quadratic_spline | cubic_spline | bezier_spline] [linear_sweep | conic_sweep] height, height, number of points, points`.
     pub(super) fn prism(&mut self, place: Place) -> Result<Shape> {
-        let mut sweep = Sweep::Linear;
+        let (mut sweep, mut spline) = (Sweep::Linear, Spline::Linear);
         loop {
             if self.take_word(Keyword::LinearSweep)? {
                 sweep = Sweep::Linear;
             } else if self.take_word(Keyword::ConicSweep)? {
                 sweep = Sweep::Conic;
-            } else if !self.take_word(Keyword::LinearSpline)? {
+            } else if self.take_word(Keyword::LinearSpline)? {
+                spline = Spline::Linear;
+            } else if self.take_word(Keyword::QuadraticSpline)? {
+                spline = Spline::Curved(Curve::Quadratic);
+            } else if self.take_word(Keyword::CubicSpline)? {
+                spline = Spline::Curved(Curve::Cubic);
+            } else if self.take_word(Keyword::BezierSpline)? {
+                spline = Spline::Curved(Curve::Bezier);
+            } else {
                 break;
             }
         }
@@ -31,9 +39,80 @@ impl Reader<'_> {
                 format!("this prism has no height: it goes from {from} to {to}"),
             ));
         }
-        let count = self.point_count("a prism", 3)?;
-        let outlines = self.outlines(count, place)?;
-        Ok(Shape::Prism(Rc::new(Prism { outlines, heights: [from, to], sweep })))
+        let outlines = match spline {
+            Spline::Linear => {
+                let count = self.point_count("a prism", 3)?;
+                self.outlines(count, place)?
+            }
+            Spline::Curved(curve) => self.curves(curve)?,
+        };
+        Ok(Shape::Prism(Rc::new(Prism { outlines, spline, heights: [from, to], sweep })))
+    }
+
+    /// The points of closed curves, those before and behind each curve included.
+    fn curves(&mut self, curve: Curve) -> Result<Vec<Vec<[f64; 2]>>> {
+        // The name, the least number of points, where the first point of the curve is, and how many follow its last.
+        let (name, least, first, behind) = match curve {
+            Curve::Quadratic => ("a prism of quadratic_spline", 5, 1, 0),
+            Curve::Cubic => ("a prism of cubic_spline", 6, 1, 1),
+            Curve::Bezier => ("a prism of bezier_spline", 4, 0, 0),
+        };
+        self.peek()?;
+        let at = self.here();
+        let count = self.point_count(name, least)?;
+        if curve == Curve::Bezier && count % 4 != 0 {
+            let text = format!("{name} has four points for each piece, {count} is not a multiple of 4");
+            return Err(Fault::invalid(at, text));
+        }
+        let (mut outlines, mut current, mut start) = (Vec::new(), Vec::<[f64; 2]>::new(), at);
+        for n in 0..count {
+            self.peek()?;
+            let here = self.here();
+            if current.is_empty() {
+                start = here;
+            }
+            let point = self.vector2()?;
+            self.skip_comma()?;
+            self.check_memory(n * 32, here)?;
+            if curve == Curve::Bezier
+                && current.len() % 4 == 0
+                && current.last().is_some_and(|last| *last != point)
+            {
+                let [[a, b], [x, z]] = [current[current.len() - 1], point];
+                let text =
+                    format!("a piece of this outline ends at <{a}, {b}>, the next begins at <{x}, {z}>");
+                return Err(Fault::invalid(here, text));
+            }
+            current.push(point);
+            let last = current.len() - 1;
+            let closes = |last: usize| match curve {
+                Curve::Bezier => last % 4 == 3 && current[last] == current[0],
+                _ => last > first && current[last] == current[first],
+            };
+            if last >= behind && closes(last - behind) {
+                // A curve from a point to itself: three other points make an outline, except of Bezier pieces.
+                if current.len() < least as usize {
+                    let (n, len) = (outlines.len() + 1, current.len());
+                    let text =
+                        format!("outline {n} of this prism has {len} points, it needs {least} at least");
+                    return Err(Fault::invalid(start, text));
+                }
+                outlines.push(std::mem::take(&mut current));
+            }
+        }
+        if let Some([x, z]) = current.get(first).or(current.first()) {
+            let n = outlines.len() + 1;
+            let text = match curve {
+                Curve::Cubic => {
+                    format!(
+                        "outline {n} of this prism does not come back to <{x}, {z}>, with one point behind that"
+                    )
+                }
+                _ => format!("outline {n} of this prism does not come back to <{x}, {z}>, where it begins"),
+            };
+            return Err(Fault::invalid(start, text));
+        }
+        Ok(outlines)
     }
 
     /// `number of points, <radius, height>, ...`.

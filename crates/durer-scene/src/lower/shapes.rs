@@ -4,14 +4,14 @@ use std::fmt::Display;
 
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
-    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Blob, BlobError, CappedCylinder, Cyclide, Disc,
-    FLAT, Frustum, Isosurface, JuliaSet, Parallelogram, Plane, Polygon, Prism, Quadric, Region, Sphere,
-    SphericalSector, Torus, Triangle, TriangleError, Turned, superellipsoid,
+    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Blob, BlobError, CappedCylinder, CurvedPrism,
+    Cyclide, Disc, FLAT, Frustum, Isosurface, JuliaSet, Parallelogram, Plane, Polygon, Prism, Quadric,
+    Region, Sphere, SphericalSector, Torus, Triangle, TriangleError, Turned, superellipsoid,
 };
 
 use super::build::{Inside, Target};
 use super::{LowerErrorKind, exact, level_set, named};
-use crate::{Container, Mesh, Object, Operation, Shape, Sweep};
+use crate::{Container, Mesh, Object, Operation, Shape, Spline, Sweep};
 
 /// What became of a shape.
 pub(super) enum Built {
@@ -94,13 +94,28 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
         }
         Shape::Prism(prism) => {
             let [from, to] = prism.heights;
-            let solid = match prism.sweep {
-                Sweep::Linear => Prism::linear(&prism.outlines, from, to),
-                Sweep::Conic => Prism::conic(&prism.outlines, from, to),
+            match prism.spline {
+                Spline::Linear => {
+                    let solid = match prism.sweep {
+                        Sweep::Linear => Prism::linear(&prism.outlines, from, to),
+                        Sweep::Conic => Prism::conic(&prism.outlines, from, to),
+                    }
+                    .map_err(shape_error)?;
+                    target.contain(&solid, map);
+                    target.add_rare(if open { solid.without_caps() } else { solid }, map);
+                }
+                Spline::Curved(spline) => {
+                    let outlines: Vec<_> =
+                        prism.outlines.iter().map(|points| spline.pieces(points)).collect();
+                    let solid = match prism.sweep {
+                        Sweep::Linear => CurvedPrism::linear(&outlines, from, to),
+                        Sweep::Conic => CurvedPrism::conic(&outlines, from, to),
+                    }
+                    .map_err(shape_error)?;
+                    target.contain(&solid, map);
+                    target.add_rare(if open { solid.without_caps() } else { solid }, map);
+                }
             }
-            .map_err(shape_error)?;
-            target.contain(&solid, map);
-            target.add_rare(if open { solid.without_caps() } else { solid }, map);
         }
         Shape::Sor(points) => turned(Turned::sor(points).map_err(shape_error)?, open, map, &mut target),
         &Shape::Ovus { bottom, top } => {

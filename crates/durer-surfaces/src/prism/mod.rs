@@ -17,6 +17,7 @@
 //! J. T. Kajiya, "New techniques for ray tracing procedurally defined objects", SIGGRAPH 1983, sweeps curves; straight edges need no equation but that
 //! of a plane.
 
+pub mod curved;
 mod outline;
 
 use crate::edges::EdgeFilter;
@@ -83,6 +84,14 @@ pub enum PrismError {
         outline: usize,
         /// Its number of points.
         len: usize,
+    },
+    /// A piece of a curved outline does not end where the next one, or the first one, begins.
+    #[error("prism: piece {piece} of outline {outline} does not end where the next one begins")]
+    Gap {
+        /// The outline, from 0.
+        outline: usize,
+        /// The piece, from 0.
+        piece: usize,
     },
     /// A point is infinite or NaN.
     #[error("prism: a point of the outline must be finite, got <{x}, {z}>")]

@@ -232,6 +232,14 @@ impl Sturm {
         }
     }
 
+    /// Narrows a root's interval until it is no wider than `width`, and shows it.
+    pub(crate) fn narrowed(&self, root: &mut Isolated, width: &Dyadic) -> (Dyadic, Dyadic) {
+        while &root.r - &root.l > *width {
+            self.halve(root);
+        }
+        (root.l.clone(), root.r.clone())
+    }
+
     /// Where a number lies relative to a root.
     pub(crate) fn compare(&self, x: &Dyadic, root: &Isolated) -> Ordering {
         if root.l == root.r {

@@ -1,15 +1,15 @@
-//! A plane across the axis of a turned solid.
+//! A plane across the axis of a turned solid, or of a sweep.
 
 use crate::planar::{self, AlongRay, Line, PlaneForm, Probe};
 use crate::{CentredRay, RingRay};
 use durer_math::{Dyadic, Point3, Ring, Vec3};
 
 /// The plane at a height, its normal upward.
-pub(super) struct Level {
-    pub(super) height: f64,
+pub(crate) struct Level {
+    pub(crate) height: f64,
     /// The height of the frame's centre, and its unit.
-    pub(super) centre: f64,
-    pub(super) scale: i32,
+    pub(crate) centre: f64,
+    pub(crate) scale: i32,
 }
 
 /// How far the start of a ray is above a level.

@@ -13,7 +13,7 @@
 //! ray is inside or outside just before and just after, each by the exact sign of a polynomial, and where these differ there is one crossing. So a line
 //! crosses the solid's boundary in turn inward and outward, whatever the numbers are: a crossing exactly at a seam counts once.
 
-mod level;
+pub(crate) mod level;
 mod piece;
 mod wall;
 

@@ -1,0 +1,289 @@
+//! All crossings of a ray with a curved prism, by its walls and caps.
+
+use super::cut::{Meet, Scan};
+use super::forms::{Above, Cut};
+use super::piece::{Piece, View};
+use super::place::Places;
+use super::{CurvedPrism, Sweep};
+use crate::mesh::Sorted;
+use crate::planar::{Crossing, Line, Probe};
+use crate::turned::level::Level;
+use crate::{Kind, LocalRay, PartId, Root, Sink};
+use core::cmp::Ordering;
+use durer_math::eft::scale2;
+use durer_math::{Aabb, Isa, Ring, Run, Vec3};
+
+/// What a ray crosses.
+enum Face {
+    /// A wall, there, by its number.
+    Wall(Meet, usize),
+    /// A cap, the top one or not.
+    Cap(bool),
+}
+
+impl CurvedPrism {
+    /// The cut of a ray at a height that it passes: by `rise`, the sign of the ray's way up.
+    #[inline(always)]
+    fn at_height<'a>(&self, probe: &Probe<'_>, level: &'a Level, rise: i8) -> Cut<'a> {
+        let positive = match self.view.sweep {
+            Sweep::Linear => rise > 0,
+            Sweep::Conic => (rise > 0) == (level.height > 0.0),
+        };
+        if self.is_seen_as_a_point(probe) {
+            Cut::Point { level, positive }
+        } else {
+            Cut::Height { level, positive }
+        }
+    }
+
+    /// Whether a ray goes along the sweep, or through its apex.
+    #[inline(always)]
+    fn is_seen_as_a_point(&self, probe: &Probe<'_>) -> bool {
+        let scan = Scan::new(probe, &self.view, Cut::Ray);
+        scan.vanishes()
+    }
+
+    /// Shows the crossings with the wall of a piece: with its number, and where `g` turns.
+    #[inline(always)]
+    fn wall_crossings(
+        &self,
+        probe: &Probe<'_>,
+        places: &Places<'_, '_>,
+        i: usize,
+        mut f: impl FnMut(Crossing, Meet, usize),
+    ) {
+        let piece = &self.pieces[i];
+        places.scan.meets(
+            piece,
+            #[inline(always)]
+            |meet| {
+                let crossing = places.crossing(piece, &meet);
+                if self.is_between(probe, piece, &meet, &crossing) {
+                    f(crossing, meet, i);
+                }
+            },
+        );
+    }
+
+    /// Whether a crossing is between the heights.
+    #[inline(always)]
+    fn is_between(&self, probe: &Probe<'_>, piece: &Piece, meet: &Meet, crossing: &Crossing) -> bool {
+        let (at, err) = probe.place(crossing);
+        let y = Run::with_error(at.y, err.y);
+        #[inline(always)]
+        fn above(y: Run, height: f64, view: &View) -> Option<Ordering> {
+            (y - (Run::exact(height) - Run::exact(view.centre.y)).scale2(-view.scale)).sign()
+        }
+        match [above(y, self.heights[0], &self.view), above(y, self.heights[1], &self.view)] {
+            [Some(Ordering::Greater), Some(Ordering::Less)] => true,
+            [Some(Ordering::Less), _] | [_, Some(Ordering::Greater)] => false,
+            _ => self.is_exactly_between(probe, piece, meet),
+        }
+    }
+
+    /// The same by the order along the line of the crossing and the points at which the ray passes the heights.
+    #[cold]
+    #[inline(never)]
+    fn is_exactly_between(&self, probe: &Probe<'_>, piece: &Piece, meet: &Meet) -> bool {
+        let levels = [self.level(false), self.level(true)];
+        let Some(rise) = probe.crossing(&levels[0]).map(|c| c.sign) else {
+            // All of the ray at one height. At the bottom is above it, at the top too.
+            let above = |level: &Level| probe.sign(&Above(level)).is_none_or(Ordering::is_ge);
+            return above(&levels[0]) && !above(&levels[1]);
+        };
+        let is_behind = |level: &Level| {
+            let positive = match self.view.sweep {
+                Sweep::Linear => rise > 0,
+                Sweep::Conic => (rise > 0) == (level.height > 0.0),
+            };
+            Scan::new(probe, &self.view, Cut::Height { level, positive }).is_behind(piece, meet)
+        };
+        let order = if rise > 0 { [0, 1] } else { [1, 0] };
+        let [entry, exit] = order.map(|i| &levels[i]);
+        // A ray passes the apex's height far beyond all outlines, and comes back from the other side.
+        let at_apex = |level: &Level| self.view.sweep == Sweep::Conic && level.height == 0.0;
+        let (entered, left) = (at_apex(entry) || !is_behind(entry), !at_apex(exit) && !is_behind(exit));
+        let through_apex = self.view.sweep == Sweep::Conic && self.heights[0] < 0.0 && self.heights[1] > 0.0;
+        if through_apex { entered || !left } else { entered && !left }
+    }
+
+    /// The crossing with a cap, or, of a ray through the apex that goes on inside the other cap's outlines, with a tip.
+    #[inline(always)]
+    fn cap_crossing(&self, probe: &Probe<'_>, top: bool, range: Option<(f64, f64)>) -> Option<Crossing> {
+        let level = self.level(top);
+        let crossing = probe.crossing(&level)?;
+        if range.is_some_and(|range| crossing.is_outside(range))
+            || !probe.may_admit(&crossing) && range.is_some()
+        {
+            return None;
+        }
+        // What is certainly outside the box needs no look at the outlines.
+        let (at, err) = probe.place(&crossing);
+        let Vec3 { x, z, .. } = at;
+        let unit = |v: f64, c: f64| scale2(v - c, -self.view.scale);
+        let (Aabb { min, max, .. }, c) = (self.cap_boxes[usize::from(top)], self.view.centre);
+        let room = |e: f64| e + durer_math::U * 16.0;
+        if x < unit(min.x, c.x) - room(err.x)
+            || x > unit(max.x, c.x) + room(err.x)
+            || z < unit(min.z, c.z) - room(err.z)
+            || z > unit(max.z, c.z) + room(err.z)
+        {
+            return None;
+        }
+        let end = self.level(top != self.has_tip(top));
+        let cut = self.at_height(probe, &end, crossing.sign);
+        if self.has_tip(top) && !matches!(cut, Cut::Point { .. }) {
+            return None;
+        }
+        let scan = Scan::new(probe, &self.view, cut).roughly(probe.ray.local().rough);
+        let mut odd = false;
+        for piece in &self.pieces {
+            odd ^= scan.is_odd_behind(piece);
+        }
+        odd.then_some(crossing)
+    }
+
+    #[inline(always)]
+    fn wall_root(&self, probe: &Probe<'_>, crossing: &Crossing, meet: &Meet, i: usize, left: bool) -> Root {
+        let sign = if left { -meet.turn } else { meet.turn };
+        let tag = [(2 * i + usize::from(left)) as f64, meet.y];
+        let kind = match meet {
+            Meet { certain: false, .. } => Kind::Cluster,
+            Meet { turn: 0, .. } => Kind::Grazing,
+            _ => Kind::Simple,
+        };
+        Root { sign, kind, ..probe.root(crossing, 0, tag) }
+    }
+
+    #[inline(always)]
+    fn cap_root(&self, probe: &Probe<'_>, crossing: &Crossing, top: bool) -> Root {
+        let root = probe.root(crossing, 1 + u32::from(top), [0.0; 2]);
+        // Out of the bottom is down.
+        Root { sign: if top { root.sign } else { -root.sign }, ..root }
+    }
+
+    /// The roots of some walls and of some caps.
+    #[inline(always)]
+    fn roots_of(
+        &self,
+        walls: core::ops::Range<usize>,
+        caps: &[bool],
+        sides: &[bool],
+        ray: &LocalRay<'_>,
+        sink: &mut dyn Sink,
+    ) {
+        let probe = self.probe(ray);
+        let mut roots = Sorted::new();
+        if !walls.is_empty() {
+            let scan = Scan::new(&probe, &self.view, Cut::Ray).roughly(ray.rough);
+            let places = Places::new(&probe, &scan);
+            for i in walls {
+                self.wall_crossings(
+                    &probe,
+                    &places,
+                    i,
+                    #[inline(always)]
+                    |crossing: Crossing, meet: Meet, i: usize| {
+                        if self.admits_wall(&places, &crossing, &meet, i, sink.range()) {
+                            roots.push(self.wall_root(&probe, &crossing, &meet, i, sides[i]));
+                        }
+                    },
+                );
+            }
+        }
+        for &top in caps.iter().filter(|_| !self.open) {
+            if let Some(crossing) = self.cap_crossing(&probe, top, Some(sink.range()))
+                && probe.admits(&self.level(top), &crossing)
+            {
+                roots.push(self.cap_root(&probe, &crossing, top));
+            }
+        }
+        roots.pour(sink);
+    }
+
+    #[inline(always)]
+    fn admits_wall(
+        &self,
+        places: &Places<'_, '_>,
+        crossing: &Crossing,
+        meet: &Meet,
+        i: usize,
+        range: (f64, f64),
+    ) -> bool {
+        if crossing.is_outside(range) || !places.probe.may_admit(crossing) {
+            return false;
+        }
+        match places.probe.ray.admits(crossing.lo, crossing.hi) {
+            Some(admitted) => admitted,
+            None => places.is_in_range(&self.pieces[i], meet, crossing),
+        }
+    }
+
+    /// Along the line, inside and outside alternate.
+    #[inline(always)]
+    fn tangled_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+        let probe = self.probe(ray);
+        let scan = Scan::new(&probe, &self.view, Cut::Ray).roughly(ray.rough);
+        let places = Places::new(&probe, &scan);
+        let mut all: Vec<(Crossing, Face)> = Vec::new();
+        for i in 0..self.pieces.len() {
+            self.wall_crossings(&probe, &places, i, |crossing, meet, i| {
+                all.push((crossing, Face::Wall(meet, i)));
+            });
+        }
+        for top in [false, true] {
+            if let Some(crossing) = self.cap_crossing(&probe, top, None) {
+                all.push((crossing, Face::Cap(top)));
+            }
+        }
+        all.sort_by(|a, b| a.0.s.total_cmp(&b.0.s));
+        let mut roots = Sorted::new();
+        let mut inside = false;
+        for (crossing, face) in &all {
+            match face {
+                Face::Wall(meet, i) => {
+                    inside ^= meet.turn != 0;
+                    // Rising it enters what is to the left.
+                    let left = (meet.turn > 0) == inside;
+                    if self.admits_wall(&places, crossing, meet, *i, sink.range()) {
+                        roots.push(self.wall_root(&probe, crossing, meet, *i, left));
+                    }
+                }
+                Face::Cap(top) => {
+                    inside = !inside;
+                    if !self.open
+                        && !crossing.is_outside(sink.range())
+                        && probe.may_admit(crossing)
+                        && probe.admits(&self.level(*top), crossing)
+                    {
+                        roots.push(self.cap_root(&probe, crossing, *top));
+                    }
+                }
+            }
+        }
+        roots.pour(sink);
+    }
+
+    #[inline(never)]
+    pub(super) fn all_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+        Isa::detect().run(
+            #[inline(always)]
+            || match &self.inside_is_left {
+                Some(sides) => self.roots_of(0..self.pieces.len(), &[false, true], sides, ray, sink),
+                None => self.tangled_roots(ray, sink),
+            },
+        );
+    }
+
+    #[inline(never)]
+    pub(super) fn roots_of_part(&self, PartId(part): PartId, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+        let Some(sides) = &self.inside_is_left else { return self.all_roots(ray, sink) };
+        Isa::detect().run(
+            #[inline(always)]
+            || match (part as usize).checked_sub(self.pieces.len()) {
+                None => self.roots_of(part as usize..part as usize + 1, &[], sides, ray, sink),
+                Some(cap) => self.roots_of(0..0, &[cap > 0], sides, ray, sink),
+            },
+        );
+    }
+}

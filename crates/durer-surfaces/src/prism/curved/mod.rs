@@ -1,0 +1,364 @@
+//! The prism with curved walls: outlines of cubic curves in the xz plane, swept along y, or towards a point.
+//!
+//! ```text
+//!       linear                conic
+//!       .--.  top            .--.  top
+//!      (    )                 \  /          a point c(u) = <x, z> of an outline sweeps
+//!      |`--'|                  \/  apex     <x, y, z>       (linear)
+//!      (    )                               <x y, y, z y>   (conic)
+//!       `--'  bottom                        for bottom <= y <= top
+//! ```
+//!
+//! A ray and the direction of the sweep, or its apex, span a plane, which cuts the plane of the outlines in a line; where that meets an outline, a
+//! cubic in `u` vanishes (`cut.rs`), and where on the ray that is, a quotient of two cubics says (`place.rs`). A point is inside where the outlines
+//! go round an odd number of times: a cap is met where the line has met the outlines an odd number of times before it, by the very signs that decide
+//! about the walls. So the solid is closed, exactly: a line crosses it inward and outward in turn.
+//!
+//! J. T. Kajiya, "New techniques for ray tracing procedurally defined objects", SIGGRAPH 1983; J. J. van Wijk, "Ray tracing objects defined by
+//! sweeping planar cubic splines", *ACM Transactions on Graphics* 3, 1984.
+
+mod crossings;
+mod cut;
+mod exact;
+mod forms;
+mod piece;
+mod place;
+mod point;
+mod spline;
+mod tangle;
+
+use super::{PrismError, Sweep};
+use crate::outline::Sketch;
+use crate::planar::{self, Line, PlaneForm, PointLine, Probe};
+use crate::roots::quadratic::{self, Quadratic};
+use crate::turned::level::Level;
+use crate::{
+    Algebraic, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+};
+use core::cmp::Ordering;
+use cut::{Meet, Scan};
+use durer_math::eft::{exponent, scale2};
+use durer_math::rounding::{mul_down, mul_up};
+use durer_math::{Aabb, Dyadic, Point3, Ring, Vec3};
+use forms::{Above, Coordinate, Cut};
+use piece::{Piece, View};
+use point::Wall;
+pub use spline::{Bezier, Spline};
+
+/// A solid between two planes across y, within curved outlines that are swept from one to the other; without its caps a sheet.
+///
+/// Faces: 0 the walls, 1 the cap at the bottom, 2 the one at the top, or the tip there. Parts: the walls of the pieces, then the caps. A tangled prism is one part, since
+/// its signs alternate along the whole line.
+///
+/// # Invariants
+///
+/// Each outline is closed: a piece begins where the one before it ends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurvedPrism {
+    pieces: Vec<Piece>,
+    /// For each piece, whether the inside is to its left, x to the right and z up; `None` if the outlines may meet themselves or each other, so
+    /// that it may be on either side.
+    inside_is_left: Option<Vec<bool>>,
+    /// The bottom and the top.
+    heights: [f64; 2],
+    /// Of each wall.
+    boxes: Vec<Aabb>,
+    /// Of the bottom and the top.
+    cap_boxes: [Aabb; 2],
+    open: bool,
+    view: View,
+    /// In units.
+    size: f64,
+    bounds: Aabb,
+}
+
+/// Numbers beyond this leave no room for products.
+const LARGEST: f64 = durer_math::scale::pow2(200);
+
+impl CurvedPrism {
+    /// The prism between the heights `bottom` and `top` (in any order) within these outlines. A piece begins where the one before it ends, the first one
+    /// where the last one ends.
+    pub fn linear(outlines: &[impl AsRef<[Bezier]>], bottom: f64, top: f64) -> Result<Self, PrismError> {
+        Self::new(outlines, bottom, top, Sweep::Linear)
+    }
+
+    /// The same, the outlines at the height `y` being `y` times as large: a cone with its apex at the origin, or the part of one between the
+    /// heights, or two that meet.
+    pub fn conic(outlines: &[impl AsRef<[Bezier]>], bottom: f64, top: f64) -> Result<Self, PrismError> {
+        Self::new(outlines, bottom, top, Sweep::Conic)
+    }
+
+    fn new(
+        outlines: &[impl AsRef<[Bezier]>],
+        bottom: f64,
+        top: f64,
+        sweep: Sweep,
+    ) -> Result<Self, PrismError> {
+        let (low, high) = (bottom.min(top), bottom.max(top));
+        if !(bottom.is_finite() && top.is_finite() && low < high && (high - low).is_finite()) {
+            return Err(PrismError::Heights(bottom, top));
+        }
+        let outlines = closed(outlines)?;
+        // What a piece sweeps between two heights; roundings outward.
+        let swept = |b: &Bezier, [low, high]: [f64; 2]| {
+            let [x, z] = piece::extent(b).map(|[min, max]| match sweep {
+                Sweep::Linear => [min, max],
+                Sweep::Conic => {
+                    let pairs = [(min, low), (min, high), (max, low), (max, high)];
+                    [
+                        pairs.iter().fold(f64::INFINITY, |m, &(x, y)| m.min(mul_down(x, y))),
+                        pairs.iter().fold(f64::NEG_INFINITY, |m, &(x, y)| m.max(mul_up(x, y))),
+                    ]
+                }
+            });
+            Aabb::new(Point3::new(x[0], low, z[0]), Point3::new(x[1], high, z[1]))
+        };
+        let boxes: Vec<Aabb> = outlines.iter().flatten().map(|b| swept(b, [low, high])).collect();
+        let cap_boxes = [low, high]
+            .map(|y| outlines.iter().flatten().map(|b| swept(b, [y, y])).fold(Aabb::EMPTY, Aabb::union));
+        let bounds = boxes.iter().fold(Aabb::EMPTY, |all, b| all.union(*b));
+        let wide = outlines.iter().flatten().flatten().flatten().any(|x| x.abs() >= LARGEST);
+        let too_large = || PrismError::TooLarge(if low.abs() > high.abs() { low } else { high });
+        if !bounds.is_bounded() || bounds.magnitude() >= LARGEST || wide {
+            return Err(too_large());
+        }
+        let (centre, size) = match sweep {
+            Sweep::Linear => planar::middle(&bounds),
+            Sweep::Conic => (Point3::ORIGIN, bounds.magnitude()),
+        };
+        let view = View { sweep, centre, scale: exponent(size) + 1 };
+        let pieces: Vec<Piece> = outlines.iter().flatten().map(|&b| Piece::new(b, &view)).collect();
+        let size = scale2(planar::middle(&bounds).1, -view.scale);
+        let mut prism = Self {
+            pieces,
+            inside_is_left: None,
+            heights: [low, high],
+            boxes,
+            cap_boxes,
+            open: false,
+            view,
+            size,
+            bounds,
+        };
+        prism.inside_is_left = prism.sides(&outlines);
+        Ok(prism)
+    }
+
+    /// For each piece, whether the inside is to its left.
+    fn sides(&self, outlines: &[Vec<Bezier>]) -> Option<Vec<bool>> {
+        if !tangle::are_simple(outlines) {
+            return None;
+        }
+        let mut left = Vec::with_capacity(self.pieces.len());
+        for outline in outlines {
+            let own = left.len()..left.len() + outline.len();
+            let powers = self.pieces[own.clone()].iter().map(|piece| piece.in_powers(&self.view));
+            let turns_left = tangle::is_counter_clockwise(powers)?;
+            // Within how many of the others is it?
+            let [x, z] = outline[0][0];
+            let start = LocalPoint::new(Point3::new(x, 1.0, z));
+            let line = PointLine::new(&start, Vec3::ZERO, self.view.centre, self.view.scale);
+            let scan = Scan::new(&line, &self.view, Cut::Start { positive: true });
+            let others = self.pieces.iter().enumerate().filter(|(i, _)| !own.contains(i));
+            let within = others.fold(false, |odd, (_, piece)| odd ^ scan.is_odd_behind(piece));
+            left.extend(outline.iter().map(|_| turns_left != within));
+        }
+        Some(left)
+    }
+
+    /// The walls alone.
+    #[must_use]
+    pub fn without_caps(mut self) -> Self {
+        self.open = true;
+        self
+    }
+
+    #[inline(always)]
+    fn probe<'a>(&self, ray: &'a LocalRay<'a>) -> Probe<'a> {
+        Probe::with_scale(ray, self.view.centre, self.view.scale, self.size)
+    }
+
+    #[inline(always)]
+    fn level(&self, top: bool) -> Level {
+        Level { height: self.heights[usize::from(top)], centre: self.view.centre.y, scale: self.view.scale }
+    }
+
+    /// Whether the sweep ends in its apex there, and not in a cap.
+    #[inline(always)]
+    fn has_tip(&self, top: bool) -> bool {
+        self.view.sweep == Sweep::Conic && self.heights[usize::from(top)] == 0.0
+    }
+}
+
+/// The outlines without pieces that are points.
+fn closed(outlines: &[impl AsRef<[Bezier]>]) -> Result<Vec<Vec<Bezier>>, PrismError> {
+    if outlines.is_empty() {
+        return Err(PrismError::Empty);
+    }
+    let clean = |(outline, pieces): (usize, &[Bezier])| {
+        if let Some(&[x, z]) = pieces.iter().flatten().find(|p| !p.iter().all(|x| x.is_finite())) {
+            return Err(PrismError::Point { x, z });
+        }
+        let after = pieces.iter().cycle().skip(1);
+        if let Some(piece) = pieces.iter().zip(after).position(|(a, b)| a[3] != b[0]) {
+            return Err(PrismError::Gap { outline, piece });
+        }
+        let pieces: Vec<Bezier> = pieces.iter().filter(|b| b.iter().any(|p| *p != b[0])).copied().collect();
+        if pieces.is_empty() {
+            return Err(PrismError::TooShort { outline, len: 1 });
+        }
+        Ok(pieces)
+    };
+    outlines.iter().map(AsRef::as_ref).enumerate().map(clean).collect()
+}
+
+impl Surface for CurvedPrism {
+    fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+
+    #[inline(always)]
+    fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
+        if ray.within(&self.bounds).is_some() {
+            self.all_roots(ray, &mut Forward(sink));
+        }
+    }
+
+    /// Texture coordinates: of the walls once round all outlines, piece by piece, and from the bottom to the top; of the caps lengths.
+    #[inline(never)]
+    fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
+        if root.face == 0 {
+            let number = root.tag[0] as usize;
+            let Some(piece) = self.pieces.get(number / 2) else { return unknown(self.view.centre) };
+            let wall = Wall {
+                view: &self.view,
+                piece,
+                inside_is_left: number % 2 == 1,
+                number: (number / 2, self.pieces.len()),
+                heights: self.heights,
+            };
+            return wall.resolve(ray, root, root.tag[1], need);
+        }
+        let (probe, top) = (self.probe(ray), root.face == 2);
+        let level = self.level(top);
+        let lift = scale2(level.centre - level.height, -level.scale);
+        let (p, dp) = planar::foot_point(&probe, &level, Vec3::Y, 1.0, lift);
+        // Exactly at the height: the step back onto the plane rounds.
+        let p = Point3::new(p.x, level.height, p.z);
+        let off = planar::clearance(&level, p, self.view.centre, self.view.scale, 1.0);
+        let n = if top { Vec3::Y } else { -Vec3::Y };
+        let mut point = SurfacePoint::new(p, dp, off, n.to_normal());
+        if self.has_tip(top) {
+            point.bend = f64::INFINITY;
+        }
+        if need.contains(Need::UV) || need.contains(Need::DERIVATIVES) {
+            (point.uv, point.dpdu, point.dpdv) = ([p.x, p.z], Vec3::X, Vec3::Z);
+        }
+        point
+    }
+
+    #[inline(always)]
+    fn is_in_parts(&self) -> bool {
+        self.inside_is_left.is_some()
+    }
+
+    fn parts(&self, f: &mut dyn FnMut(Aabb, PartId)) {
+        if self.inside_is_left.is_none() {
+            return f(self.bounds, PartId(0));
+        }
+        let caps = self.cap_boxes.into_iter().filter(|_| !self.open);
+        for (bounds, number) in self.boxes.iter().copied().chain(caps).zip(0..) {
+            f(bounds, PartId(number));
+        }
+    }
+
+    fn sketch(&self, PartId(part): PartId) -> Sketch {
+        let boxes = self.boxes.iter().chain(&self.cap_boxes);
+        let part = if self.inside_is_left.is_some() { boxes.copied().nth(part as usize) } else { None };
+        Sketch::vague(part.unwrap_or(self.bounds))
+    }
+
+    #[inline(always)]
+    fn part_roots<S: Sink + ?Sized>(&self, part: PartId, ray: &LocalRay<'_>, sink: &mut S) {
+        self.roots_of_part(part, ray, &mut Forward(sink));
+    }
+
+    fn solidity(&self) -> Solidity {
+        if self.open { Solidity::Open } else { Solidity::Solid }
+    }
+
+    fn side(&self, point: &LocalPoint<'_>) -> Side {
+        if self.open {
+            return Side::Out;
+        }
+        let line = PointLine::new(point, Vec3::ZERO, self.view.centre, self.view.scale);
+        let above = |top: bool| line.side_of(&self.level(top)).unwrap_or(Ordering::Equal);
+        let (bottom, top) = (above(false), above(true));
+        if bottom.is_lt() || top.is_gt() {
+            return Side::Out;
+        }
+        let positive = match self.view.sweep {
+            Sweep::Linear => true,
+            Sweep::Conic => match line.sign(&Above(&self.level_at_apex())).unwrap_or(Ordering::Equal) {
+                Ordering::Greater => true,
+                Ordering::Less => false,
+                // At the apex's height there is only the apex.
+                Ordering::Equal => {
+                    let on_axis =
+                        [0, 2].iter().all(|&i| line.sign(&Coordinate(i)).is_none_or(Ordering::is_eq));
+                    return if on_axis { Side::On } else { Side::Out };
+                }
+            },
+        };
+        let scan = Scan::new(&line, &self.view, Cut::Start { positive });
+        if self.pieces.iter().any(|piece| scan.touches(piece)) {
+            return Side::On;
+        }
+        match self.pieces.iter().fold(false, |odd, piece| odd ^ scan.is_odd_behind(piece)) {
+            false => Side::Out,
+            true if bottom.is_eq() || top.is_eq() => Side::On,
+            true => Side::In,
+        }
+    }
+}
+
+impl CurvedPrism {
+    fn level_at_apex(&self) -> Level {
+        Level { height: 0.0, centre: self.view.centre.y, scale: self.view.scale }
+    }
+}
+
+impl Algebraic for CurvedPrism {
+    fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {
+        let exact = ray.in_ring_from::<Dyadic>(self.view.centre, self.view.scale)?;
+        if root.face == 0 {
+            let piece = self.pieces.get(root.tag[0] as usize / 2)?;
+            let probe = self.probe(ray);
+            let scan = Scan::new(&probe, &self.view, Cut::Ray).roughly(ray.rough);
+            // Found again as it was found: by the same numbers, or, if this ray is known more roughly or less, the nearest.
+            let mut found: Option<Meet> = None;
+            scan.meets(piece, |meet| {
+                let way = |m: &Meet| (m.y - root.tag[1]).abs();
+                if found.as_ref().is_none_or(|best| way(&meet) < way(best)) {
+                    found = Some(meet);
+                }
+            });
+            // The centre and its unit are the same, the parameter is the ray's own, and the curve's parameter does not depend on it.
+            return place::sign_at(&scan, &exact, piece, &found?, [&q.a, &q.b, &q.c]);
+        }
+        let level = self.level(root.face == 2);
+        let p =
+            Quadratic { a: Dyadic::exact(0.0), b: level.slope(&exact).scale2(-1), c: level.height(&exact)? };
+        let crossing =
+            if p.b.exact_sign().is_gt() { quadratic::Crossing::Out } else { quadratic::Crossing::In };
+        Some(quadratic::sign_at_root(&p, crossing, q))
+    }
+}
+
+fn unknown(p: Point3) -> SurfacePoint {
+    let far = Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY);
+    SurfacePoint::new(p, far, f64::INFINITY, Vec3::Y.to_normal())
+}
+
+#[cfg(test)]
+mod tests;
