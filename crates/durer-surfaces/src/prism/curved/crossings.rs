@@ -135,7 +135,7 @@ impl CurvedPrism {
         if self.has_tip(top) && !matches!(cut, Cut::Point { .. }) {
             return None;
         }
-        let scan = Scan::new(probe, &self.view, cut).roughly(probe.ray.local().rough);
+        let scan = Scan::new(probe, &self.view, cut);
         let mut odd = false;
         for piece in &self.pieces {
             odd ^= scan.is_odd_behind(piece);
@@ -175,7 +175,7 @@ impl CurvedPrism {
         let probe = self.probe(ray);
         let mut roots = Sorted::new();
         if !walls.is_empty() {
-            let scan = Scan::new(&probe, &self.view, Cut::Ray).roughly(ray.rough);
+            let scan = Scan::new(&probe, &self.view, Cut::Ray);
             let places = Places::new(&probe, &scan);
             for i in walls {
                 self.wall_crossings(
@@ -223,7 +223,7 @@ impl CurvedPrism {
     #[inline(always)]
     fn tangled_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         let probe = self.probe(ray);
-        let scan = Scan::new(&probe, &self.view, Cut::Ray).roughly(ray.rough);
+        let scan = Scan::new(&probe, &self.view, Cut::Ray);
         let places = Places::new(&probe, &scan);
         let mut all: Vec<(Crossing, Face)> = Vec::new();
         for i in 0..self.pieces.len() {

@@ -30,8 +30,6 @@ pub(super) struct Scan<'a, L> {
     pub(super) n: Form<Run>,
     /// Grows along the line; zero everywhere for [`Cut::Ray`].
     pub(super) r: Form<Run>,
-    /// How wide the bracket of a crossing may be.
-    width: f64,
 }
 
 /// A crossing of the line with a piece.
@@ -139,13 +137,7 @@ impl<'a, L: Line> Scan<'a, L> {
         let unknown = || [Run::with_error(0.0, f64::INFINITY); 3];
         let forms = cut.forms(view.sweep, &line.running());
         let (n, r) = forms.unwrap_or_else(|| (unknown(), unknown()));
-        Self { line, view, cut, n, r, width: NARROW }
-    }
-
-    /// The same for someone who looks and does not measure.
-    #[inline(always)]
-    pub(super) fn roughly(self, is_rough: bool) -> Self {
-        Self { width: if is_rough { ROUGH } else { NARROW }, ..self }
+        Self { line, view, cut, n, r }
     }
 
     /// Whether the trace is not a line but a point.
@@ -196,7 +188,8 @@ impl<'a, L: Line> Scan<'a, L> {
             self.exact_meets(piece, &mut f);
             return;
         }
-        let limits = Limits { lo: -1.0, hi: 1.0, origin: 0.0, width: self.width };
+        // Mostly the bracket is as narrow as f64 allows; where it matters on the ray, it is closed in from there.
+        let limits = Limits { lo: -1.0, hi: 1.0, origin: 0.0, width: ROUGH };
         solve(
             &Shadow { scan: self, piece },
             Stretch::Within { mid: 0.0, half: 0.5 },

@@ -334,7 +334,7 @@ impl Algebraic for CurvedPrism {
         if root.face == 0 {
             let piece = self.pieces.get(root.tag[0] as usize / 2)?;
             let probe = self.probe(ray);
-            let scan = Scan::new(&probe, &self.view, Cut::Ray).roughly(ray.rough);
+            let scan = Scan::new(&probe, &self.view, Cut::Ray);
             // Found again as it was found: by the same numbers, or, if this ray is known more roughly or less, the nearest.
             let mut found: Option<Meet> = None;
             scan.meets(piece, |meet| {
