@@ -7,7 +7,7 @@ from shapes import (
     Form, IDENTITY, Loops, Map, Sheet, Solid, TURNS, UNITS, add, cross, distance_form, dot, dyadic, frame, halfspace, on_circle,
     signed_permutation, small, sub, text, times, vec, wall_form,
 )
-from zero_sets import ZeroSet, polynomial, torus
+from zero_sets import ZeroSet, cyclide, polynomial, torus
 
 
 def wild(rng, low=-4, high=4):
@@ -487,6 +487,7 @@ def placement(rng):
 MAKERS = {
     "sphere": sphere, "box": box, "cylinder": cylinder, "cone": cone, "plane": plane, "disc": disc, "triangle": triangle,
     "polygon": polygon, "mesh": mesh, "quadric": quadric, "named": named, "torus": torus, "polynomial": polynomial,
+    "cyclide": cyclide,
 }
 
 

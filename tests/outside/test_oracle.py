@@ -53,6 +53,10 @@ def holds_point(body, p):
     if word == "torus":
         k = dot(p, p) + x[0] ** 2 - x[1] ** 2
         return k * k <= 4 * x[0] ** 2 * (p[0] ** 2 + p[2] ** 2)
+    if word == "cyclide":
+        a, c, d = x
+        k = dot(p, p) - (a * a - c * c) - d * d
+        return k * k + 4 * (a * a - c * c) * p[1] ** 2 <= 4 * (a * d - c * p[0]) ** 2
     if word == "polynomial":
         return sum(c * p[0] ** i * p[1] ** j * p[2] ** k for i, j, k, c in ((*map(int, x[n : n + 3]), x[n + 3]) for n in range(1, len(x), 4))) <= 0
     if word in ("cubic", "quartic", "poly"):
@@ -90,9 +94,9 @@ class Oracle(unittest.TestCase):
                 yield rng, scene, leaf, make_ray(rng, leaf, False)
 
     def test_solids_are_the_sets_of_their_text(self):
-        for kind in ("sphere", "box", "cylinder", "cone", "plane", "quadric", "torus", "polynomial"):
+        for kind in ("sphere", "box", "cylinder", "cone", "plane", "quadric", "torus", "cyclide", "polynomial"):
             with self.subTest(kind):
-                for rng, _, leaf, ray in self.cases(kind, 12 if kind in ("torus", "polynomial") else 40):
+                for rng, _, leaf, ray in self.cases(kind, 12 if kind in ("torus", "cyclide", "polynomial") else 40):
                     if not isinstance(leaf, (Solid, ZeroSet)):
                         continue
                     leaf.inverse = False
@@ -103,8 +107,8 @@ class Oracle(unittest.TestCase):
                         self.assertEqual(said, holds_point(leaf.body, local(leaf, at(ray, t))), (leaf.sdl(), ray, t))
 
     def test_events_are_the_changes_of_the_set(self):
-        for kind in ("sphere", "box", "cylinder", "cone", "quadric", "torus", "polynomial"):
-            for _, _, leaf, ray in self.cases(kind, 12 if kind in ("torus", "polynomial") else 40):
+        for kind in ("sphere", "box", "cylinder", "cone", "quadric", "torus", "cyclide", "polynomial"):
+            for _, _, leaf, ray in self.cases(kind, 12 if kind in ("torus", "cyclide", "polynomial") else 40):
                 if not isinstance(leaf, (Solid, ZeroSet)) or leaf.clip:
                     continue
                 answer = leaf.answer(ray[:3], ray[3:6], leaf.whole)

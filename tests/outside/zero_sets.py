@@ -1,4 +1,4 @@
-"""Surfaces of any degree: the torus, and the zero sets of polynomials in x, y and z.
+"""Surfaces of any degree: the torus, the cyclide, and the zero sets of polynomials in x, y and z.
 
 Along a ray the surface is a polynomial with whole-number coefficients. Sturm's theorem on whole numbers counts its real roots, separates them and
 says on which side of a number each lies; the greatest common divisor with the derivative takes multiple roots apart.
@@ -290,10 +290,9 @@ def torus(rng):
         for b, y in q.items():
             n = tuple(i + j for i, j in zip(a, b))
             terms[n] = terms.get(n, 0) + x * y
-    turns = [(F(1), F(0)), (F(0), F(1)), (F(3, 5), F(4, 5)), (F(4, 5), F(3, 5)), (F(5, 13), F(12, 13))]
 
     def points():
-        (a, b), (p, q) = rng.choice(turns), rng.choice(turns)
+        (a, b), (p, q) = rng.choice(TURNS), rng.choice(TURNS)
         p, q = rng.choice((-1, 1)) * p, rng.choice((-1, 1)) * q
         rho = major + minor * p
         yield near((rho * a, minor * q, rho * b))
@@ -312,6 +311,52 @@ def torus(rng):
         # In the plane that touches it twice: its lines meet two circles (Y. Villarceau, 1848).
         ways += [(c, r, 0), (c, r, 0), (c, r, m), (c, r, -m), (2 * c, 2 * r, m)]
     return ZeroSet(f"torus {{ {text(major)}, {text(minor)} }}", Field(terms), points, ways, major + minor)
+
+
+def product(a, b):
+    out = {}
+    for m, x in a.items():
+        for n, y in b.items():
+            k = tuple(i + j for i, j in zip(m, n))
+            out[k] = out.get(k, 0) + x * y
+    return out
+
+
+def total(*parts):
+    out = {}
+    for part in parts:
+        for n, x in part.items():
+            out[n] = out.get(n, 0) + x
+    return out
+
+
+TURNS = [(F(1), F(0)), (F(0), F(1)), (F(3, 5), F(4, 5)), (F(4, 5), F(3, 5)), (F(5, 13), F(12, 13))]
+
+
+def cyclide(rng):
+    """Ring, horn or spindle; the planes y = 0 and z = 0 cut it in circles."""
+    u = F(2) ** rng.choice((0, 0, -8, 3, -20, 20))
+    a, c, d = rng.choice(((5, 3, 4), (5, 4, 2), (13, 5, 9), (5, 3, 3), (5, 3, 2), (3, 1, 4), (5, 3, 5), (64, 1, 2)))
+    a, c, d = a * u, c * u, d * u
+    if rng.random() < 0.2:
+        a, c, d = F(rng.uniform(1, 2)), F(rng.uniform(0, 1)), F(rng.uniform(0.01, 3))
+    bb = a * a - c * c
+    q = {(2, 0, 0): 1, (0, 2, 0): 1, (0, 0, 2): 1, (0, 0, 0): -bb - d * d}
+    l = {(0, 0, 0): 2 * a * d, (1, 0, 0): -2 * c}
+    terms = total(product(q, q), {(0, 2, 0): 4 * bb}, {n: -x for n, x in product(l, l).items()})
+
+    def points():
+        p, q = rng.choice(TURNS)
+        p, q = rng.choice((-1, 1)) * p, rng.choice((-1, 1)) * q
+        yield near((-c + (a + d) * p, F(0), (a + d) * q))
+        yield near((c + (a - d) * p, F(0), (a - d) * q))
+        yield near((a + (d - c) * p, (d - c) * q, F(0)))
+        yield near((-a + (d + c) * p, (d + c) * q, F(0)))
+        # Double points of horns, highest points of the circles, the middle.
+        yield rng.choice((near((a, F(0), F(0))), near((-a, d + c, F(0))), near((a, d - c, F(0))), (F(0), F(0), F(0))))
+
+    ways = [(0, 1, 0), (1, 0, 0), (0, 0, 1), (3, 0, 4), (4, 3, 0), (3, 4, 0)]
+    return ZeroSet(f"cyclide {{ {text(a)}, {text(c)}, {text(d)} }}", Field(terms), points, ways, a + c + d)
 
 
 def near(p):

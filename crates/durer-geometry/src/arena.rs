@@ -89,10 +89,10 @@ pub(crate) trait AnyArena: Send + Sync {
 pub(crate) trait Arrange: AnyArena {
     /// Lists the parts; no surface is added afterwards.
     fn seal(&mut self);
-    /// The box of all bounded slots.
-    fn extent(&self) -> Aabb;
-    /// Appends the bounded slots, as entries of the given kind, to `entries`, and sorts out the others.
-    fn entries(&self, frame: &Frame, kind: u32, entries: &mut Vec<Entry>) -> Unsorted;
+    /// The box of all bounded slots, each cut by its object's limit, if there is one.
+    fn extent(&self, limits: &[Aabb]) -> Aabb;
+    /// Appends the bounded slots, cut like that, as entries of the given kind, to `entries`, and sorts out the others.
+    fn entries(&self, frame: &Frame, kind: u32, limits: &[Aabb], entries: &mut Vec<Entry>) -> Unsorted;
     /// Puts the slots into a new order: the new slot `i` is the old `order[i]`. The array is used up.
     fn arrange(&mut self, order: Vec<u32>);
     /// For taking the concrete arena back.
@@ -199,11 +199,17 @@ impl<S: Surface + 'static> Arena<S> {
         Slot { arena: self, surface: &self.surfaces[index], index, slot, part, whole }
     }
 
-    fn slot_boxes(&self) -> impl IndexedParallelIterator<Item = Aabb> {
+    fn slot_boxes(&self, limits: &[Aabb]) -> impl IndexedParallelIterator<Item = Aabb> {
         let count = self.parts.as_ref().map_or(self.surfaces.len(), Vec::len);
-        (0..count).into_par_iter().map(|i| match &self.parts {
-            Some(parts) => parts[i].1,
-            None => self.surfaces[i].bounds(),
+        (0..count).into_par_iter().map(|i| {
+            let (surface, bounds) = match &self.parts {
+                Some(parts) => (parts[i].0.surface as usize, parts[i].1),
+                None => (i, self.surfaces[i].bounds()),
+            };
+            match limits.get(self.ids.name(surface).object as usize) {
+                Some(limit) => bounds.intersection(*limit),
+                None => bounds,
+            }
         })
     }
 }
@@ -540,14 +546,14 @@ impl<S: Surface + 'static> Arrange for Arena<S> {
         self.parts = Some(parts);
     }
 
-    fn extent(&self) -> Aabb {
+    fn extent(&self, limits: &[Aabb]) -> Aabb {
         let bounded = |b: Aabb| if b.is_bounded() { b } else { Aabb::EMPTY };
-        self.slot_boxes().map(bounded).reduce(|| Aabb::EMPTY, Aabb::union)
+        self.slot_boxes(limits).map(bounded).reduce(|| Aabb::EMPTY, Aabb::union)
     }
 
-    fn entries(&self, frame: &Frame, kind: u32, entries: &mut Vec<Entry>) -> Unsorted {
+    fn entries(&self, frame: &Frame, kind: u32, limits: &[Aabb], entries: &mut Vec<Entry>) -> Unsorted {
         let first = entries.len();
-        entries.par_extend(self.slot_boxes().enumerate().map(|(i, b)| frame.entry(&b, kind, i as u32)));
+        entries.par_extend(self.slot_boxes(limits).enumerate().map(|(i, b)| frame.entry(&b, kind, i as u32)));
         let mut unsorted = Unsorted::default();
         entries[first..].iter().for_each(|e| unsorted.take(e));
         if !unsorted.is_empty() {

@@ -34,6 +34,7 @@ pub struct Builder {
     without_tree: bool,
     settings: Settings,
     isa: Option<Isa>,
+    limits: Vec<Aabb>,
 }
 
 /// Why a geometry cannot be built.
@@ -162,6 +163,11 @@ impl Builder {
         self
     }
 
+    /// By object: what lies outside of this box does not matter, so rays that pass the box by need not ask.
+    pub(crate) fn limits(&mut self, limits: Vec<Aabb>) {
+        self.limits = limits;
+    }
+
     /// Builds the geometry; the builder is empty afterwards.
     ///
     /// The result does not depend on the number of threads.
@@ -173,7 +179,7 @@ impl Builder {
         arenas.iter_mut().for_each(|a| a.seal());
 
         let placed_bounds = |i: &Instance| i.affine.bounds(&i.geometry.bounds());
-        let mut extent = arenas.iter().map(|a| a.extent()).fold(Aabb::EMPTY, Aabb::union);
+        let mut extent = arenas.iter().map(|a| a.extent(&builder.limits)).fold(Aabb::EMPTY, Aabb::union);
         for bounds in instances.iter().map(placed_bounds).filter(Aabb::is_bounded) {
             extent = extent.union(bounds);
         }
@@ -189,7 +195,7 @@ impl Builder {
         let mut entries: Vec<Entry> = Vec::new();
         let mut unsorted = Vec::new();
         for (kind, arena) in arenas.iter().enumerate() {
-            unsorted.push(arena.entries(&frame, kind as u32, &mut entries));
+            unsorted.push(arena.entries(&frame, kind as u32, &builder.limits, &mut entries));
         }
         let instance_kind = arenas.len() as u32;
         let mut unsorted_instances = Unsorted::default();

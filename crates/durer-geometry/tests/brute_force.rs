@@ -3,10 +3,15 @@
 mod common;
 
 use common::{Dice, both, fill, ground, rays};
-use durer_geometry::{Geometry, Hit};
+use durer_geometry::{Compound, CompoundBuilder, Geometry, Hit, Part};
 use durer_math::kernels::Path;
 use durer_math::{Aabb, Isa, Point3, Ray, Shaft, Vec3};
-use durer_surfaces::Need;
+use durer_surfaces::{
+    AxisBox, CappedCylinder, Erased, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Sphere, Surface,
+    SurfacePoint,
+};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What a hit says, without where it is kept.
 fn public(hit: &Hit) -> impl PartialEq + core::fmt::Debug + use<> {
@@ -80,7 +85,7 @@ fn nested_instances() {
                 if flat {
                     builder.without_tree();
                 }
-                std::sync::Arc::new(builder.build().unwrap())
+                Arc::new(builder.build().unwrap())
             };
             let mut inner = Geometry::builder();
             fill(&mut inner, &mut dice, 12, false);
@@ -162,7 +167,7 @@ fn extreme_rays_and_sizes() {
             let mut dice = Dice(52);
             for _ in 0..60 {
                 let c = dice.point(4.0).map(|x| x * scale);
-                builder.add(durer_surfaces::Sphere::new(c, (0.5 + 0.4 * dice.signed()) * scale).unwrap());
+                builder.add(Sphere::new(c, (0.5 + 0.4 * dice.signed()) * scale).unwrap());
             }
         });
         let mut crossings = 0;
@@ -261,4 +266,100 @@ fn bundles_that_leave_a_plane() {
         assert!(!world.beam(&shaft, None).unwrap().is_empty());
         assert!(!world.any_in(&beam, &ray, u32::MAX) || height == 0.0);
     }
+}
+
+/// A solid that counts how often a ray asks it.
+struct Counted(Erased, Arc<AtomicU64>);
+
+impl Surface for Counted {
+    fn bounds(&self) -> Aabb {
+        self.0.bounds()
+    }
+
+    fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
+        self.1.fetch_add(1, Ordering::Relaxed);
+        self.0.roots(ray, sink);
+    }
+
+    fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
+        self.0.resolve(ray, root, need)
+    }
+
+    fn solidity(&self) -> Solidity {
+        Solidity::Solid
+    }
+
+    fn side(&self, point: &LocalPoint<'_>) -> Side {
+        self.0.side(point)
+    }
+}
+
+/// How many leaves of a body the rays ask for their first crossings; these are the first of all.
+fn asked(rays: &[Ray], body: impl FnOnce(&mut CompoundBuilder, &dyn Fn(Erased) -> Counted) -> Part) -> u64 {
+    let count = Arc::new(AtomicU64::new(0));
+    let mut csg = Compound::builder();
+    let whole = body(&mut csg, &|solid| Counted(solid, Arc::clone(&count)));
+    let scene = Geometry::builder().add_compound(csg.build(whole).unwrap()).build().unwrap();
+    let first: Vec<_> = rays.iter().map(|ray| scene.closest(ray)).collect();
+    let asked = count.load(Ordering::Relaxed);
+    let mut met = 0;
+    for (ray, first) in rays.iter().zip(first) {
+        assert_eq!(scene.all(ray).first(), first.as_ref(), "{ray:?}");
+        assert_eq!(scene.any(ray), first.is_some());
+        met += usize::from(first.is_some());
+    }
+    assert!(met * 20 > rays.len(), "{met} of {} rays meet the body", rays.len());
+    asked
+}
+
+#[test]
+fn ten_thousand_leaves_are_asked_at_most_ten_times_as_often_as_a_hundred() {
+    let p = Point3::new;
+    let mut dice = Dice(8);
+    let rays: Vec<Ray> = (0..400)
+        .map(|_| {
+            let way = dice.vector(1.0);
+            let origin = (way * (4.0 / way.length())).to_point();
+            Ray::new(origin, dice.point(1.0) - origin)
+        })
+        .collect();
+    let plate = |side: u32| {
+        asked(&rays, |csg, counted| {
+            let at = |i: u32| 2.0 * (f64::from(i) + 0.5) / f64::from(side) - 1.0;
+            let plate = AxisBox::new(p(-1.0, -0.05, -1.0), p(1.0, 0.05, 1.0)).unwrap();
+            let plate = csg.leaf(counted(Erased::new(plate))).unwrap();
+            let holes = (0..side * side).map(|i| {
+                let (x, z) = (at(i % side), at(i / side));
+                let hole = CappedCylinder::new(p(x, -1.0, z), p(x, 1.0, z), 0.7 / f64::from(side)).unwrap();
+                csg.leaf(counted(Erased::new(hole))).unwrap()
+            });
+            let holes: Vec<Part> = holes.collect();
+            csg.difference(plate, holes)
+        })
+    };
+    let (few, many) = (plate(10), plate(100));
+    assert!(many < 4 * few, "a plate: {few} and {many}");
+    // Every ray that goes through it meets many, but the first few decide.
+    let sheets = |count: u32| {
+        asked(&rays, |csg, counted| {
+            let sheets = (0..count / 2).map(|i| {
+                let x = 4.0 * f64::from(i) / f64::from(count) - 1.0;
+                let sheet = AxisBox::new(p(x, -1.0, -1.0), p(x + 2.0 / f64::from(count), 1.0, 1.0)).unwrap();
+                csg.leaf(counted(Erased::new(sheet))).unwrap()
+            });
+            let sheets: Vec<Part> = sheets.collect();
+            let mut dice = Dice(9);
+            let craters = (0..count / 2).map(|_| {
+                let crater =
+                    Sphere::new(dice.point(1.0), 1.2 / durer_math::elementary::cbrt(f64::from(count)))
+                        .unwrap();
+                csg.leaf(counted(Erased::new(crater))).unwrap()
+            });
+            let craters: Vec<Part> = craters.collect();
+            let whole = csg.union(sheets);
+            csg.difference(whole, craters)
+        })
+    };
+    let (few, many) = (sheets(100), sheets(10_000));
+    assert!(many < 10 * few, "sheets: {few} and {many}");
 }

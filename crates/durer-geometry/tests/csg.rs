@@ -391,6 +391,37 @@ fn random_trees_are_what_their_leaves_say() {
     assert!(met > 5_000, "only {met} crossings");
 }
 
+#[test]
+fn trees_of_many_leaves_are_what_their_leaves_say() {
+    let mut met = 0;
+    for seed in 0..16 {
+        let mut dice = Dice(7000 + seed);
+        // So many are asked piece by piece.
+        let count = 64 + dice.below(64) as usize;
+        let leaves: Vec<Leaf> = (0..count).map(|_| random_leaf(&mut dice)).collect();
+        // Rooms side by side in a row of boxes, so that the parts are not all of one place.
+        let rooms = |i: usize| {
+            Leaf::Block(
+                Point3::new(i as f64 * 0.5 - 4.0, -2.0, -2.0),
+                Point3::new(i as f64 * 0.5 - 3.0, 2.0, 2.0),
+            )
+        };
+        let mut all = leaves;
+        let parts = (0..16).map(|i| {
+            all.push(rooms(i));
+            let (from, to) = (count * i / 16, count * (i + 1) / 16);
+            let inner = random_expr(&mut dice, from, to - from);
+            Expr::All(vec![Expr::Leaf(count + i), inner])
+        });
+        let expr = Expr::Any(parts.collect());
+        let body = body(all, expr);
+        for _ in 0..150 {
+            met += body.check(&random_ray(&mut dice));
+        }
+    }
+    assert!(met > 1_500, "only {met} crossings");
+}
+
 /// Every kind of solid once, at places where many of their faces lie in common planes.
 fn kinds() -> Vec<Leaf> {
     let p = Point3::new;
@@ -587,6 +618,18 @@ fn rays_leave_a_body_on_the_side_they_are_asked_for() {
         }
     }
     assert!(left > 500, "only {left} rays");
+}
+
+#[test]
+fn a_touch_does_not_tell_where_a_ray_starts() {
+    // The ray is in the first solid (outside of a cylinder without ends), touches its border and stays in; so what is in it cannot be seen.
+    let outside = Leaf::General([-1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+    let ball = Leaf::Ball(Point3::new(1.0, -3.0, 0.0), 0.5);
+    let union = body(vec![outside, ball], Expr::Any(vec![Expr::Leaf(0), Expr::Leaf(1)]));
+    let ray = Ray::new(Point3::new(1.0, -8.0, 0.0), Vec3::Y);
+    let signs: Vec<i8> = union.scene.all(&ray).iter().map(|h| h.sign).collect();
+    assert!(signs.iter().all(|&s| s == 0), "{signs:?}");
+    assert_eq!(union.scene.spans(&ray).len(), 1);
 }
 
 #[test]

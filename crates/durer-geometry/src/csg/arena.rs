@@ -3,8 +3,9 @@
 //! What rays meet are the surfaces of leaves. So hits and sources name those, by slots that are counted over all leaves of all bodies, with
 //! two flags above the number.
 
-use super::compound::{Compound, Found, Start};
+use super::compound::Compound;
 use super::lanes::Body;
+use super::trace::{Found, Start};
 use crate::arena::{AnyArena, Arrange, Filter, Unsorted, Visit};
 use crate::best::Best;
 use crate::ids::{Id, Ids};
@@ -112,9 +113,9 @@ impl AnyArena for Compounds {
                 return;
             }
             if self.ids.admits(body, filter.mask) {
-                self.bodies[body].trace(isa, ray, self.from(body, filter), &mut |found| {
-                    let (slot, id) = (self.slot(body, &found), self.id(body, &found));
-                    if best.offer(slot, id, &found.root) { Flow::Continue } else { Flow::Stop }
+                let until = if best.hit.is_some() { best.limit() } else { f64::INFINITY };
+                self.bodies[body].first(isa, ray, self.from(body, filter), until, &mut |found| {
+                    best.offer(self.slot(body, &found), self.id(body, &found), &found.root);
                 });
             }
         }
@@ -242,12 +243,12 @@ impl Arrange for Compounds {
         self.ids.shrink();
     }
 
-    fn extent(&self) -> Aabb {
+    fn extent(&self, _: &[Aabb]) -> Aabb {
         let bounds = self.bodies.iter().map(|b| b.bounds());
         bounds.filter(Aabb::is_bounded).fold(Aabb::EMPTY, Aabb::union)
     }
 
-    fn entries(&self, frame: &Frame, kind: u32, entries: &mut Vec<Entry>) -> Unsorted {
+    fn entries(&self, frame: &Frame, kind: u32, _: &[Aabb], entries: &mut Vec<Entry>) -> Unsorted {
         let mut unsorted = Unsorted::default();
         for (i, body) in self.bodies.iter().enumerate() {
             let entry = frame.entry(&body.bounds(), kind, i as u32);

@@ -1,18 +1,17 @@
 //! A body with its leaves.
 
 use super::lanes::Operand;
-use super::sweep::{Crossing, Event, Scratch, Sense, partners};
+use super::sweep::Sense;
 use super::tree::{Expr, Tree, Values};
-use crate::arena::{AnyArena, Filter};
+use crate::arena::AnyArena;
 use crate::geometry::slots;
 use crate::ids::EVERYTHING;
 use crate::outlines::Seen;
 use crate::{BuildError, Builder, Geometry, ObjectId};
-use core::cell::RefCell;
-use durer_bvh::{Leaf, Line};
-use durer_math::{Aabb, Isa, RaySide};
+use durer_bvh::Leaf;
+use durer_math::Aabb;
 use durer_surfaces::outline::Sketch;
-use durer_surfaces::{Flow, LocalPoint, LocalRay, Need, Root, Side, Solidity, Surface, SurfacePoint};
+use durer_surfaces::{LocalPoint, Side, Solidity, Surface};
 
 /// Unions, intersections and differences of solids as one solid: for [`Builder::add_compound`].
 ///
@@ -33,23 +32,33 @@ use durer_surfaces::{Flow, LocalPoint, LocalRay, Need, Root, Side, Solidity, Sur
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Compound {
-    /// The leaves; their objects are their numbers, their primitives are as they were given.
-    leaves: Geometry,
-    tree: Tree,
+    /// The leaves; their objects are their numbers, their primitives are as they were given. Each has the box in which it matters.
+    pub(super) leaves: Geometry,
+    pub(super) tree: Tree,
     /// What is known of each leaf.
-    traits: Vec<Traits>,
+    pub(super) traits: Vec<Traits>,
     /// The first slot of each arena of the leaves, counted over all; one more at the end.
-    first_slot: Vec<u32>,
+    pub(super) first_slot: Vec<u32>,
     bounds: Aabb,
+    /// An upper bound of the coordinates of all leaves that have an end.
+    pub(super) size: f64,
+    /// Some leaves stand in the tree in parts: whether a ray starts inside of one is told by all of them that it crosses.
+    pub(super) in_parts: bool,
+    /// Rays take their way through the leaves piece by piece.
+    pub(super) by_pieces: bool,
+    /// Some leaves have no end, or may be met in several pieces.
+    pub(super) one_by_one: bool,
     /// It has a surface and no inside.
     is_sheet: bool,
 }
 
 /// What is known of a leaf.
 #[derive(Clone, Copy, Debug)]
-struct Traits {
-    sense: Sense,
-    shown: Shown,
+pub(super) struct Traits {
+    pub(super) sense: Sense,
+    pub(super) shown: Shown,
+    /// It has no end, so a ray may be in it without ever crossing it.
+    pub(super) is_endless: bool,
 }
 
 /// Which faces of a leaf can be seen. What cannot be seen bounds the body all the same.
@@ -65,7 +74,7 @@ pub enum Shown {
 }
 
 impl Shown {
-    fn holds(self, face: u32) -> bool {
+    pub(super) fn holds(self, face: u32) -> bool {
         match self {
             Self::All => true,
             Self::Wall => face == 0,
@@ -119,8 +128,10 @@ impl CompoundBuilder {
         solid.parts(&mut |_, _| parts += 1);
         let sense = if parts > 1 { Sense::Parity } else { Sense::Sign };
         let leaf = self.traits.len() as u32;
-        self.traits.push(Traits { sense, shown });
-        self.bounds.push(solid.bounds());
+        let bounds = solid.bounds();
+        let is_endless = sense == Sense::Sign && !bounds.is_bounded() && !bounds.is_empty();
+        self.traits.push(Traits { sense, shown, is_endless });
+        self.bounds.push(bounds);
         self.primitives = self.primitives.max(primitive.saturating_add(parts.max(1)));
         self.leaves.add_as(solid, ObjectId(leaf), primitive, EVERYTHING);
         Ok(self.part(Expr::Leaf(leaf)))
@@ -171,49 +182,40 @@ impl CompoundBuilder {
     pub fn build(&mut self, whole: Part) -> Result<Compound, CsgError> {
         let mut all = core::mem::take(self);
         let tree = Tree::new(&all.exprs, whole.0, all.traits.len());
+        let mut limits = tree.where_leaves_matter(&all.bounds);
+        for (limit, _) in limits.iter_mut().zip(&all.traits).filter(|(_, t)| t.sense == Sense::Parity) {
+            *limit = Aabb::UNBOUNDED;
+        }
+        all.leaves.limits(limits);
         let leaves = all.leaves.build()?;
         let mut first_slot = vec![0_u32];
         for arena in &leaves.arenas {
             first_slot.push(first_slot[first_slot.len() - 1] + arena.len());
         }
         let bounds = tree.bounds(&all.bounds);
-        Ok(Compound { leaves, tree, traits: all.traits, first_slot, bounds, is_sheet: false })
+        let size = all.bounds.iter().filter(|b| b.is_bounded()).fold(0.0, |most, b| b.magnitude().max(most));
+        let in_parts = all.traits.iter().any(|t| t.sense == Sense::Parity);
+        let by_pieces = all.traits.len() >= Compound::MANY && !in_parts;
+        let one_by_one = by_pieces || all.traits.iter().any(|t| t.is_endless);
+        Ok(Compound {
+            leaves,
+            tree,
+            traits: all.traits,
+            first_slot,
+            bounds,
+            size,
+            in_parts,
+            by_pieces,
+            one_by_one,
+            is_sheet: false,
+        })
     }
 }
 
-/// A root of the body, as a geometry's queries take it.
-pub(super) struct Found {
-    /// The slot of the leaf's surface among all of the compound.
-    pub(super) slot: u32,
-    /// Whether the body's normal is the leaf's turned round.
-    pub(super) turned: bool,
-    /// See [`Crossing::tied`].
-    pub(super) tied: bool,
-    /// The primitive, counted from the compound's first.
-    pub(super) primitive: u32,
-    /// The leaf's root with the body's sign.
-    pub(super) root: Root,
-}
-
-thread_local! {
-    /// Each thread's memory for walks along rays.
-    static SCRATCH: RefCell<Scratch> = RefCell::default();
-}
-
-/// Where on a body a ray starts.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Start {
-    /// The slot among all of the compound.
-    pub(super) slot: u32,
-    /// The side of that leaf's own surface.
-    pub(super) side: RaySide,
-    /// Whether that is inside the body.
-    pub(super) inside: bool,
-    /// See [`Crossing::tied`].
-    pub(super) tied: bool,
-}
-
 impl Compound {
+    /// From how many leaves on rays take their way through them piece by piece.
+    const MANY: usize = 64;
+
     /// Starts a new body.
     pub fn builder() -> CompoundBuilder {
         CompoundBuilder::default()
@@ -256,7 +258,7 @@ impl Compound {
     }
 
     /// The arena and the slot in it of a slot among all.
-    fn place(&self, slot: u32) -> (u32, u32) {
+    pub(super) fn place(&self, slot: u32) -> (u32, u32) {
         let arena = self.first_slot.partition_point(|&first| first <= slot) - 1;
         (arena as u32, slot - self.first_slot[arena])
     }
@@ -286,210 +288,8 @@ impl Compound {
         operands.into_iter().collect()
     }
 
-    fn arena(&self, arena: u32) -> &dyn AnyArena {
+    pub(super) fn arena(&self, arena: u32) -> &dyn AnyArena {
         &*self.leaves.arenas[arena as usize]
-    }
-
-    /// Gathers the crossings of all leaves ahead of the ray's start.
-    fn gather(&self, isa: Isa, ray: &LocalRay<'_>, from: Option<Start>, scratch: &mut Scratch) {
-        scratch.begin(self.traits.len());
-        let (near, far) = ray.unmoved().window((ray.t_min, ray.t_max));
-        let line = Line {
-            origin: ray.o,
-            direction: ray.d,
-            origin_error: ray.o_err,
-            direction_error: ray.d_err,
-            t_min: near,
-            t_max: far,
-        };
-        let mut ahead = ray.from_side(None);
-        // What lies behind the range tells where a leaf is in it.
-        (ahead.t_max, ahead.rough) = (f64::INFINITY, false);
-        let from = from.map(|start| (self.place(start.slot), start.side));
-        for beside in &self.leaves.beside {
-            for slot in slots(&beside.leaf()) {
-                let before = scratch.len();
-                self.visit(isa, Leaf { kind: beside.arena, first: slot, count: 1 }, &ahead, from, scratch);
-                if scratch.len() == before {
-                    let side = from.filter(|(place, _)| *place == (beside.arena, slot)).map(|f| f.1);
-                    let arena = self.arena(beside.arena);
-                    if arena.starts_inside(slot, &ahead.from_side(side)) {
-                        scratch.start_inside(arena.name(slot).object);
-                    }
-                }
-            }
-        }
-        self.leaves.tree.any(isa, &line, |leaf| {
-            self.visit(isa, leaf, &ahead, from, scratch);
-            false
-        });
-    }
-
-    fn visit(
-        &self,
-        isa: Isa,
-        leaf: Leaf,
-        ray: &LocalRay<'_>,
-        from: Option<((u32, u32), RaySide)>,
-        scratch: &mut Scratch,
-    ) {
-        let arena = leaf.kind;
-        let source = from.filter(|(place, _)| place.0 == arena).map(|(place, side)| (place.1, side));
-        let filter = Filter { mask: EVERYTHING, source };
-        let mut take = |slot, id: crate::ids::Id, root| {
-            scratch.push(id.object, self.traits[id.object as usize].sense, (arena, slot), root);
-            Flow::Continue
-        };
-        self.arena(arena).each(isa, slots(&leaf), ray, &filter, &mut take);
-    }
-
-    /// Shows the crossings of the body in the ray's range, ascending; says whether the ray starts inside.
-    pub(super) fn trace(
-        &self,
-        isa: Isa,
-        ray: &LocalRay<'_>,
-        from: Option<Start>,
-        show: &mut dyn FnMut(Found) -> Flow,
-    ) -> bool {
-        SCRATCH.with_borrow_mut(|scratch| {
-            self.gather(isa, ray, from, scratch);
-            let mut inside = scratch.starts_inside(&self.tree);
-            // On an edge where leaves meet the ray's start is on the right side of one of them only.
-            let mut astray = from.is_some_and(|start| start.tied && start.inside != inside);
-            scratch.sweep(
-                &self.tree,
-                |leaf| self.traits[leaf as usize].sense,
-                |event| self.traits[event.leaf as usize].shown.holds(event.root.face),
-                |crossing| {
-                    if crossing.event.root.lo > ray.t_max {
-                        return Flow::Stop;
-                    }
-                    if core::mem::take(&mut astray) && self.starts_at(isa, ray, &crossing.event) {
-                        inside = !inside;
-                        return Flow::Continue;
-                    }
-                    match self.in_range(isa, ray, crossing) {
-                        Some(root) => show(self.found(crossing, root)),
-                        None => Flow::Continue,
-                    }
-                },
-            );
-            inside
-        })
-    }
-
-    /// Whether a ray starts so near to a surface that it crosses that nothing but rounding is between.
-    #[cold]
-    fn starts_at(&self, isa: Isa, ray: &LocalRay<'_>, event: &Event) -> bool {
-        let local = ray.from_side(None);
-        let q = self.arena(event.arena).resolve(isa, event.slot, &local, &event.root, Need::POINT);
-        let start = ray.point_at_start();
-        let way = q.p - start;
-        let height = q.ng.to_vec().dot(way).abs();
-        // Starts are at most a few roundings of their coordinates away from the point that was meant, and that is as far from the surface.
-        let spacing = start.to_vec().max_abs() * (64.0 * durer_math::U);
-        height <= 4.0 * q.off + spacing + q.bend * way.dot(way)
-    }
-
-    /// The crossing's root if it is in the ray's range. Its start was looked at where the crossing was found.
-    fn in_range(&self, isa: Isa, ray: &LocalRay<'_>, crossing: &Crossing) -> Option<Root> {
-        let Event { root, arena, slot, .. } = crossing.event;
-        if root.hi <= ray.t_max {
-            return Some(root);
-        }
-        let mut found = None;
-        let mut local = ray.from_side(None);
-        local.rough = false;
-        let filter = Filter { mask: EVERYTHING, source: None };
-        let mut take = |_, _, r: Root| {
-            if (r.s.to_bits(), r.face, r.sign) == (root.s.to_bits(), root.face, root.sign) {
-                found = Some(r);
-            }
-            Flow::Continue
-        };
-        self.arena(arena).each(isa, slot..slot + 1, &local, &filter, &mut take);
-        found
-    }
-
-    fn found(&self, crossing: &Crossing, root: Root) -> Found {
-        let Event { arena, slot, leaf, .. } = crossing.event;
-        let name = self.arena(arena).name(slot);
-        Found {
-            slot: self.first_slot[arena as usize] + slot,
-            turned: if crossing.sign == 0 { self.tree.is_inverted(leaf) } else { crossing.sign != root.sign },
-            tied: crossing.tied,
-            primitive: name.primitive,
-            root: Root { sign: crossing.sign, ..root },
-        }
-    }
-
-    /// The point of a root.
-    pub(super) fn resolve(
-        &self,
-        isa: Isa,
-        slot: u32,
-        (turned, tied): (bool, bool),
-        ray: &LocalRay<'_>,
-        root: &Root,
-        need: Need,
-    ) -> SurfacePoint {
-        let turn = |side: RaySide| match (turned, side) {
-            (false, side) => side,
-            (true, RaySide::Front) => RaySide::Back,
-            (true, RaySide::Back) => RaySide::Front,
-        };
-        let (arena, inner) = self.place(slot);
-        let own = Root { sign: if turned { -root.sign } else { root.sign }, ..*root };
-        let local = ray.from_side(ray.source.map(turn));
-        let mut point = self.arena(arena).resolve(isa, inner, &local, &own, need);
-        if tied {
-            point.off = self.clear_of_partners(isa, (arena, inner), &local, &own, &point);
-        }
-        if turned {
-            (point.ng, point.ns) = (-point.ng, -point.ns);
-            (point.dndu, point.dndv) = (-point.dndu, -point.dndv);
-        }
-        point
-    }
-
-    /// A distance along the normal that leaves all surfaces behind which lie along the point's own and could not be told from it.
-    ///
-    /// Where `n` and `n'` are the normals here and of another surface, and `h` its height over this point along `n'`, a step `x n` leaves it
-    /// if `x |n.n'| - |h|` is more than the other's own bound and what it bends away over the distance between its point and the end of the
-    /// step. A surface that crosses this one at an angle is not left by going along `n`, but rays decide exactly on which side of it they are.
-    #[cold]
-    fn clear_of_partners(
-        &self,
-        isa: Isa,
-        (arena, slot): (u32, u32),
-        ray: &LocalRay<'_>,
-        root: &Root,
-        point: &SurfacePoint,
-    ) -> f64 {
-        let event = |e: &Event| (e.arena, e.slot, e.root.face, e.root.s.to_bits());
-        let own = (arena, slot, root.face, root.s.to_bits());
-        SCRATCH.with_borrow_mut(|scratch| {
-            self.gather(isa, ray, None, scratch);
-            scratch.starts_inside(&self.tree);
-            scratch.sweep(&self.tree, |leaf| self.traits[leaf as usize].sense, |_| true, |_| Flow::Continue);
-            let mut off = point.off;
-            for other in partners(scratch, &|e| event(e) == own) {
-                let q = self.arena(other.arena).resolve(isa, other.slot, ray, &other.root, Need::POINT);
-                let (n, m) = (point.ng.to_vec(), q.ng.to_vec());
-                let along = n.dot(m).abs();
-                let apart = (q.p - point.p).length();
-                // Half: which surfaces lie along this one, and which cross it.
-                if along >= 0.5 && q.bend.is_finite() {
-                    let height = m.dot(q.p - point.p).abs();
-                    let reach = apart + 2.0 * (point.off + q.off);
-                    let away = q.bend * reach * reach;
-                    off = off.max(
-                        (height + 2.0 * q.off + away) / along * (1.0 + 64.0 * durer_math::U) + point.off,
-                    );
-                }
-            }
-            off
-        })
     }
 
     /// On which side of the body a point lies. Where it is on the borders of several leaves it is on the body's, unless the other leaves decide.

@@ -10,13 +10,14 @@
 //! IEEE Transactions on Computers C-29, 1980): `A - B` has no skin where both have a common face, bodies that touch fuse, and no sheet
 //! of zero thickness appears, however deep the nesting. No tolerance is involved.
 //!
-//! `tree` is the Boolean part, `sweep` the walk along a ray, `compound` a body with its leaves, `arena` bodies as a geometry holds them, and
-//! `lanes` what eight rays see of them at a time.
+//! `tree` is the Boolean part, `compound` a body with its leaves, `trace` what a ray asks of them and `sweep` the walk along the answers, `arena`
+//! bodies as a geometry holds them, and `lanes` what eight rays see of them at a time.
 
 mod arena;
 mod compound;
 mod lanes;
 mod sweep;
+mod trace;
 mod tree;
 
 pub(crate) use self::arena::{Compounds, same_surface};

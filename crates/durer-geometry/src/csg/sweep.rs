@@ -23,13 +23,15 @@ pub(super) struct Crossing {
     pub(super) event: Event,
     /// -1 where the body is entered, +1 where it is left, 0 where it is touched.
     pub(super) sign: i8,
-    /// Whether it was decided together with crossings of other leaves.
+    /// Whether it was decided together with crossings of other leaves, which matter there.
     pub(super) tied: bool,
 }
 
 /// What is known of a leaf on a ray.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tally {
+    /// The query in which its surface was asked.
+    asked: u64,
     /// The query in which it was met.
     query: u64,
     /// Whether the ray starts inside.
@@ -40,6 +42,8 @@ struct Tally {
     net: i32,
     /// How many crossings it has in that step.
     count: u32,
+    /// Whether it mattered before that step.
+    mattered: bool,
 }
 
 /// Memory for the walk along a ray, to be used again.
@@ -47,11 +51,19 @@ struct Tally {
 pub(super) struct Scratch {
     query: u64,
     events: Vec<Event>,
+    /// How many of the events have been walked past.
+    done: usize,
+    /// How many of the events have been in a walk.
+    looked_at: usize,
     leaves: Vec<Tally>,
     /// Leaves in which the ray starts.
     starts: Vec<u32>,
+    /// How many of them the values know.
+    started: usize,
     /// Leaves of a tie.
     tied: Vec<u32>,
+    /// Events of leaves that coincide.
+    together: Vec<Event>,
     values: Values,
 }
 
@@ -70,14 +82,23 @@ impl Scratch {
         self.query += 1;
         self.events.clear();
         self.starts.clear();
+        (self.done, self.looked_at, self.started) = (0, 0, 0);
         if self.leaves.len() < leaves {
             self.leaves.resize(leaves, Tally::default());
         }
     }
 
-    /// How many events there are.
-    pub(super) fn len(&self) -> usize {
-        self.events.len()
+    /// Whether a leaf is asked for the first time.
+    pub(super) fn is_new(&mut self, leaf: u32) -> bool {
+        let tally = &mut self.leaves[leaf as usize];
+        let is_new = tally.asked != self.query;
+        tally.asked = self.query;
+        is_new
+    }
+
+    /// Whether a crossing of the leaf has been taken, one that is no touch: it tells where the ray starts.
+    pub(super) fn is_crossed(&self, leaf: u32) -> bool {
+        self.leaves[leaf as usize].query == self.query
     }
 
     /// Takes a crossing ahead of the ray's start. Those of a surface come in their order.
@@ -86,7 +107,7 @@ impl Scratch {
         if tally.query != self.query {
             // The first crossing tells where the ray starts; a touch does not.
             if root.sign != 0 {
-                *tally = Tally { query: self.query, ..Tally::default() };
+                *tally = Tally { asked: tally.asked, query: self.query, ..Tally::default() };
                 tally.starts = sense == Sense::Sign && root.sign > 0;
                 if tally.starts {
                     self.starts.push(leaf);
@@ -115,41 +136,61 @@ impl Scratch {
     /// Whether the ray starts inside the body.
     pub(super) fn starts_inside(&mut self, tree: &Tree) -> bool {
         self.values.begin(tree);
-        for &leaf in &self.starts {
-            self.values.set(tree, leaf, true);
-        }
+        self.start_more(tree);
         self.values.holds(tree)
     }
 
-    /// Shows the body's crossings, in their order; `false` if it was told to stop. [`Scratch::starts_inside`] comes first.
+    /// Takes it in that the ray starts inside leaves that were asked since. What they are up to now has not mattered so far.
+    pub(super) fn start_more(&mut self, tree: &Tree) {
+        self.values.next_step();
+        for &leaf in &self.starts[self.started..] {
+            self.values.set(tree, leaf, true);
+        }
+        self.started = self.starts.len();
+    }
+
+    /// Whether an event that no walk has seen yet may belong before and behind this parameter.
+    pub(super) fn is_split_at(&self, t: f64) -> bool {
+        self.events[self.looked_at..].iter().any(|e| e.root.lo <= t && t <= e.root.hi)
+    }
+
+    /// Shows the body's crossings, in their order; `false` if it was told to stop. [`Scratch::starts_inside`] comes first. Goes on from where it
+    /// was before, no further than `until`: before that no event is missing.
     pub(super) fn sweep(
         &mut self,
         tree: &Tree,
+        until: f64,
         sense: impl Fn(u32) -> Sense,
         is_shown: impl Fn(&Event) -> bool,
         mut show: impl FnMut(&Crossing) -> Flow,
     ) -> bool {
         let mut events = core::mem::take(&mut self.events);
-        events.sort_unstable_by(|a, b| {
-            a.root
-                .lo
-                .total_cmp(&b.root.lo)
-                .then_with(|| a.root.t.total_cmp(&b.root.t))
-                .then(a.number.cmp(&b.number))
-        });
-        let mut rest = events.as_mut_slice();
+        self.looked_at = events.len();
+        let mut rest = &mut events[self.done..];
+        in_order(rest);
         let mut go_on = true;
         while go_on && !rest.is_empty() {
-            let count = overlapping(&rest[0], &rest[1..]);
+            let (count, reach) = overlapping(&rest[0], &rest[1..]);
+            if reach >= until && until < f64::INFINITY {
+                break;
+            }
+            self.done += count;
             let (group, others) = rest.split_at_mut(count);
             rest = others;
             let leaf = group[0].leaf;
             if group.iter().all(|e| e.leaf == leaf) {
-                match sense(leaf) {
-                    Sense::Sign => group.sort_unstable_by_key(|e| e.number),
-                    Sense::Parity => group.sort_unstable_by(|a, b| a.root.order(&b.root)),
-                }
+                in_leafs_order(group, &sense);
                 go_on = group.chunks(1).all(|event| self.step(tree, event, &sense, &is_shown, &mut show));
+            } else if let Some(leaves) = copies(group, &sense) {
+                // The same crossings of each, whose order is known: they take place together, one after the other.
+                let count = group.len() / leaves;
+                let mut together = core::mem::take(&mut self.together);
+                for i in 0..count {
+                    together.clear();
+                    together.extend((0..leaves).map(|leaf| group[leaf * count + i]));
+                    go_on = go_on && self.step(tree, &together, &sense, &is_shown, &mut show);
+                }
+                self.together = together;
             } else {
                 go_on = self.step(tree, group, &sense, &is_shown, &mut show);
             }
@@ -180,6 +221,12 @@ impl Scratch {
             }
             tally.net += i32::from(event.root.sign);
             tally.count += 1;
+        }
+        let several = tied.len() > 1;
+        if several {
+            for &leaf in &tied {
+                self.leaves[leaf as usize].mattered = self.values.matters(tree, leaf);
+            }
         }
         for &leaf in &tied {
             let Tally { net, count, .. } = self.leaves[leaf as usize];
@@ -213,7 +260,9 @@ impl Scratch {
                 } else {
                     1
                 };
-                go_on = show(&Crossing { event, sign, tied: tied.len() > 1 }) == Flow::Continue;
+                let matter = |l: &&u32| self.leaves[**l as usize].mattered || self.values.matters(tree, **l);
+                let tied = several && tied.iter().filter(matter).count() > 1;
+                go_on = show(&Crossing { event, sign, tied }) == Flow::Continue;
             }
         }
         if touches {
@@ -227,28 +276,65 @@ impl Scratch {
     }
 }
 
-/// How many of the events form a group with the first whose enclosures overlap transitively; they ascend by their lower ends.
-fn overlapping(first: &Event, rest: &[Event]) -> usize {
-    let mut reach = first.root.hi;
-    1 + rest
-        .iter()
-        .take_while(|e| {
-            let touches = e.root.lo <= reach;
-            reach = reach.max(e.root.hi);
-            touches
+/// Puts events into the order of leaves, and those of a leaf into the order in which they take place.
+fn in_leafs_order(group: &mut [Event], sense: &impl Fn(u32) -> Sense) {
+    group.sort_unstable_by(|a, b| {
+        a.leaf.cmp(&b.leaf).then_with(|| match sense(a.leaf) {
+            Sense::Sign => a.number.cmp(&b.number),
+            Sense::Parity => a.root.order(&b.root),
         })
-        .count()
+    });
+}
+
+/// If the events are several crossings of each of some leaves, the same of all to the last bit, how many leaves there are; the events are in
+/// their order then. Surfaces that coincide near a tangent are such.
+fn copies(group: &mut [Event], sense: &impl Fn(u32) -> Sense) -> Option<usize> {
+    if group.len() < 4 || group.iter().any(|e| e.root.sign == 0) {
+        return None;
+    }
+    in_leafs_order(group, sense);
+    let mut leaves = group.chunk_by(|a, b| a.leaf == b.leaf);
+    let first = leaves.next()?;
+    let key = |e: &Event| (e.root.lo.to_bits(), e.root.hi.to_bits(), e.root.t.to_bits(), e.root.sign);
+    let same = |leaf: &[Event]| leaf.iter().map(key).eq(first.iter().map(key));
+    (first.len() > 1 && leaves.all(same)).then(|| group.len() / first.len())
+}
+
+/// Puts events into the order in which their enclosures begin.
+fn in_order(events: &mut [Event]) {
+    events.sort_unstable_by(|a, b| {
+        a.root
+            .lo
+            .total_cmp(&b.root.lo)
+            .then_with(|| a.root.t.total_cmp(&b.root.t))
+            .then(a.number.cmp(&b.number))
+    });
+}
+
+/// How many of the events form a group with the first whose enclosures overlap transitively, and how far it reaches; they ascend by their
+/// lower ends.
+fn overlapping(first: &Event, rest: &[Event]) -> (usize, f64) {
+    let mut reach = first.root.hi;
+    let touches = |e: &&Event| {
+        let touches = e.root.lo <= reach;
+        if touches {
+            reach = reach.max(e.root.hi);
+        }
+        touches
+    };
+    (1 + rest.iter().take_while(touches).count(), reach)
 }
 
 /// The events whose enclosures overlap, transitively, with that of a given one, itself left out.
 pub(super) fn partners<'a>(
-    scratch: &'a Scratch,
+    scratch: &'a mut Scratch,
     is_it: &'a dyn Fn(&Event) -> bool,
 ) -> impl Iterator<Item = &'a Event> {
+    in_order(&mut scratch.events);
     let mut rest = scratch.events.as_slice();
     let mut groups = core::iter::from_fn(move || {
         let first = rest.first()?;
-        let (group, others) = rest.split_at(overlapping(first, &rest[1..]));
+        let (group, others) = rest.split_at(overlapping(first, &rest[1..]).0);
         rest = others;
         Some(group)
     });

@@ -131,11 +131,32 @@ impl Tree {
 
     /// A box that holds the set, given boxes that hold the leaves.
     pub(crate) fn bounds(&self, leaves: &[Aabb]) -> Aabb {
+        self.boxes(leaves)[0]
+    }
+
+    /// For each leaf, a box outside of which it does not matter whether it holds: there it does not, or a node above it does not.
+    ///
+    /// These are S-bounds (S. Cameron, "Efficient intersection tests for objects defined constructively", International Journal of Robotics
+    /// Research 8(1), 1989): boxes of nodes are made from below, and cut by those of the nodes above from above.
+    pub(crate) fn where_leaves_matter(&self, leaves: &[Aabb]) -> Vec<Aabb> {
+        let mut within = self.boxes(leaves);
+        for i in 1..within.len() {
+            within[i] = cut(within[i], within[self.nodes[i].parent as usize]);
+        }
+        let matters = |(place, bounds): (&Place, &Aabb)| match within.get(place.node as usize) {
+            Some(node) => cut(*bounds, *node),
+            None => Aabb::EMPTY,
+        };
+        self.places.iter().zip(leaves).map(matters).collect()
+    }
+
+    /// Boxes that hold the nodes.
+    fn boxes(&self, leaves: &[Aabb]) -> Vec<Aabb> {
         let start = |n: &Node| if n.all { Aabb::UNBOUNDED } else { Aabb::EMPTY };
         let mut boxes: Vec<Aabb> = self.nodes.iter().map(start).collect();
         let add = |boxes: &mut Vec<Aabb>, node: u32, part: Aabb| {
             let b = &mut boxes[node as usize];
-            *b = if self.nodes[node as usize].all { b.intersection(part) } else { b.union(part) };
+            *b = if self.nodes[node as usize].all { cut(*b, part) } else { b.union(part) };
         };
         for (place, bounds) in self.places.iter().zip(leaves) {
             if place.node != NONE {
@@ -143,12 +164,17 @@ impl Tree {
             }
         }
         for i in (1..boxes.len()).rev() {
-            // What is empty on one axis is empty.
-            let part = if boxes[i].is_empty() { Aabb::EMPTY } else { boxes[i] };
+            let part = boxes[i];
             add(&mut boxes, self.nodes[i].parent, part);
         }
-        if boxes[0].is_empty() { Aabb::EMPTY } else { boxes[0] }
+        boxes
     }
+}
+
+/// What two boxes have in common: what is empty on one axis is empty.
+fn cut(a: Aabb, b: Aabb) -> Aabb {
+    let both = a.intersection(b);
+    if both.is_empty() { Aabb::EMPTY } else { both }
 }
 
 /// What a node counts at the moment.
@@ -249,6 +275,22 @@ impl Values {
         }
     }
 
+    /// Whether the root would change if a leaf did: no node above the leaf is decided by its other children.
+    pub(crate) fn matters(&self, tree: &Tree, leaf: u32) -> bool {
+        let Place { mut node, inverted } = tree.places[leaf as usize];
+        let mut holds = self.leaf(leaf) != inverted;
+        while node != NONE {
+            let (state, its) = (&self.counts[node as usize], &tree.nodes[node as usize]);
+            let count = if state.epoch == self.epoch { state.count } else { its.outside };
+            let others = count - u32::from(holds);
+            if others != if its.all { its.children - 1 } else { 0 } {
+                return false;
+            }
+            (holds, node) = (its.holds(count), its.parent);
+        }
+        true
+    }
+
     /// Whether everything from a leaf up to the root has changed in this step, so that the leaf is a reason for the root's change.
     pub(crate) fn explains(&self, tree: &Tree, leaf: u32) -> bool {
         let mut node = tree.places[leaf as usize].node;
@@ -318,6 +360,12 @@ mod tests {
             for _ in 0..40 {
                 values.next_step();
                 let before = bits.clone();
+                for leaf in 0..leaves {
+                    let mut other = bits.clone();
+                    other[leaf as usize] ^= true;
+                    let would = direct(&exprs, root, &other) != direct(&exprs, root, &bits);
+                    assert_eq!(values.matters(&tree, leaf), would, "{exprs:?} {bits:?} {leaf}");
+                }
                 for _ in 0..=dice(3) {
                     let leaf = dice(leaves);
                     bits[leaf as usize] ^= true;
@@ -354,5 +402,11 @@ mod tests {
         assert_eq!(tree.bounds(&boxes), cube(0.0, 5.0));
         let disjoint = [cube(0.0, 1.0), Aabb::EMPTY, cube(3.0, 5.0), cube(6.0, 7.0)];
         assert_eq!(tree.bounds(&disjoint), cube(0.0, 1.0));
+        // What is taken away matters where there is something to take it from.
+        let matters = tree.where_leaves_matter(&boxes);
+        assert_eq!(matters, [cube(0.0, 1.0), cube(0.5, 1.0), cube(3.0, 5.0), cube(3.0, 5.0)]);
+        let apart = [cube(0.0, 1.0), cube(2.0, 3.0), cube(3.0, 5.0), cube(6.0, 7.0)];
+        let [a, b, c, d] = tree.where_leaves_matter(&apart)[..] else { panic!("four leaves") };
+        assert!(a == cube(0.0, 1.0) && [b, c, d].iter().all(Aabb::is_empty));
     }
 }
