@@ -200,6 +200,10 @@ impl Reader<'_> {
             Some(texture) => Some(self.shared_texture(texture, at)?),
             None => None,
         };
+        made.interior_texture = match &object.interior_texture {
+            Some(texture) => Some(self.shared_texture(texture, at)?),
+            None => None,
+        };
         made.interior = object.interior.as_ref().map(|interior| Arc::new(filling(interior)));
         for clip in &object.clips {
             made.clips.extend(self.emitted(clip, &mut Vec::new())?);
@@ -231,6 +235,10 @@ impl Reader<'_> {
         if let Some(texture) = &object.texture {
             let texture = self.shared_texture(texture, at)?;
             made.texture.get_or_insert(texture);
+        }
+        if let Some(texture) = &object.interior_texture {
+            let texture = self.shared_texture(texture, at)?;
+            made.interior_texture.get_or_insert(texture);
         }
         if let Some(interior) = &object.interior {
             made.interior.get_or_insert_with(|| Arc::new(filling(interior)));

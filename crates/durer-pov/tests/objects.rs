@@ -404,3 +404,32 @@ fn what_cannot_be_deformed_is_refused_with_its_place() {
     assert_eq!(column, 39);
     refused("cyclide { 1, 1, 0.5 }", "less than its semi-axis");
 }
+
+#[test]
+fn what_is_seen_from_inside_is_handed_down_and_moves_along() {
+    let scene = scene(
+        "union { sphere { 0, 1 pigment { rgb z } } sphere { 0, 1 interior_texture { pigment { rgb 1 } } pigment { rgb z } }
+           pigment { rgb x } interior_texture { pigment { gradient x } } translate 3*x }
+         sphere { 0, 1 } triangle { 0, x, y pigment { rgb x } interior_texture { pigment { rgb y } } }",
+    );
+    let Shape::Union(parts) = &scene.objects[0].shape else { panic!("a union") };
+    assert!(parts[0].interior_texture.is_none() && parts[1].interior_texture.is_some());
+    assert!(scene.objects[0].interior_texture.is_some() && scene.objects[1].interior_texture.is_none());
+    let lowered = scene.lower().unwrap();
+    let look = |object, primitive| &lowered.looks[lowered.look_of(object, primitive).unwrap().0 as usize];
+    let inside = |object, primitive| {
+        let inside = look(object, primitive).inside.map(|i| &lowered.looks[i.0 as usize]);
+        inside.map(|look| look.texture.clone())
+    };
+    // The union's where a part has none, moved as the union is; a part's own wins.
+    let handed_down = scene.objects[0].interior_texture.clone();
+    assert_eq!(inside(0, 0), handed_down);
+    assert_eq!(inside(0, 1), parts[1].interior_texture);
+    assert_ne!(inside(0, 1), handed_down);
+    assert_eq!(inside(1, 0), None);
+    // The corners of a triangle go round the other way.
+    assert_eq!(Some(look(2, 0).texture.clone()), scene.objects[2].interior_texture);
+    assert_eq!(inside(2, 0), scene.objects[2].texture);
+    let (_, _, text) = support::fault("sphere { 0, 1 interior_texture { pigment { rgb 1 } } }");
+    assert!(text.contains("needs a texture"), "{text}");
+}

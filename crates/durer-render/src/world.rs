@@ -28,6 +28,8 @@ pub struct World {
     /// The opacity of a layer counts its filter times its greatest channel.
     pub(crate) filter_by_colour: bool,
     pub(crate) has_clear_shadows: bool,
+    /// Some surfaces look different from inside.
+    pub(crate) has_insides: bool,
     pub(crate) encoding: Encoding,
 }
 
@@ -39,6 +41,8 @@ pub(crate) struct Look {
     /// The number of the medium behind it.
     pub(crate) medium: u32,
     pub(crate) double_illuminate: bool,
+    /// The number of the look that rays along the normal see.
+    pub(crate) inside: u32,
 }
 
 /// Why a scene cannot be rendered.
@@ -67,7 +71,7 @@ impl World {
         let mut looks = Vec::with_capacity(lowered.looks.len());
         // Looks that differ only in what is behind them share a paint.
         let mut known: HashMap<(*const Texture, *const Placement), u32> = HashMap::new();
-        for look in &lowered.looks {
+        for (own, look) in (0..).zip(&lowered.looks) {
             let key = (&raw const *look.texture, &raw const *look.frame);
             let paint = match known.get(&key) {
                 Some(&paint) => paint,
@@ -78,7 +82,9 @@ impl World {
                     number
                 }
             };
-            looks.push(Look { paint, medium: look.medium, double_illuminate: look.double_illuminate });
+            let inside = look.inside.map_or(own, |inside| inside.0);
+            let double_illuminate = look.double_illuminate;
+            looks.push(Look { paint, medium: look.medium, double_illuminate, inside });
         }
         let camera = scene.camera.as_ref().map(Camera::new).transpose()?;
         let mut standing = Vec::new();
@@ -87,6 +93,7 @@ impl World {
         }
         let background = scene.background.0;
         Ok(Self {
+            has_insides: lowered.looks.iter().any(|l| l.inside.is_some()),
             has_clear_shadows: lowered.looks.iter().any(|l| l.is_clear),
             media: lowered.media.iter().map(|i| Medium::new(i)).collect(),
             lamps: scene.lights.iter().filter_map(Lamp::new).collect(),

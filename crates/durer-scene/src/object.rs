@@ -20,6 +20,9 @@ pub struct Object {
     pub clips: Vec<Object>,
     /// Its texture, placed in the space around the object.
     pub texture: Option<Arc<Texture>>,
+    /// What is seen from inside in place of its texture, placed like that: where a ray leaves a solid, or goes along the normal of an open surface; of
+    /// triangles and open meshes where it comes from the other side of that (a fact of the scene language).
+    pub interior_texture: Option<Arc<Texture>>,
     /// What fills it.
     pub interior: Option<Arc<Interior>>,
     /// Its habits.
@@ -80,6 +83,7 @@ impl Object {
             placement: Placement::IDENTITY,
             clips: Vec::new(),
             texture: None,
+            interior_texture: None,
             interior: None,
             flags: Flags::default(),
             place: None,
@@ -94,6 +98,7 @@ impl Object {
         let mut made = Self::new(Shape::Union(Vec::new()));
         (made.texture, made.interior, made.place) =
             (solid.texture.take(), solid.interior.take(), solid.place);
+        made.interior_texture = solid.interior_texture.take();
         // Turned inside out after or before is the same.
         let open = Flags { open: solid.flags.open, ..Flags::default() };
         made.flags = Flags { open: false, ..core::mem::replace(&mut solid.flags, open) };
@@ -121,6 +126,7 @@ impl Object {
     /// Whether it or a part of it has a texture or an interior.
     fn has_look(&self) -> bool {
         self.texture.is_some()
+            || self.interior_texture.is_some()
             || self.interior.is_some()
             || match &self.shape {
                 Shape::Union(parts) | Shape::Csg(_, parts) => parts.iter().any(Self::has_look),
@@ -146,10 +152,10 @@ impl Object {
     /// Moves the object with all it has so far: its texture and its clips too.
     pub fn transform(&mut self, map: &Affine) -> Result<(), AffineError> {
         self.placement.then(map)?;
-        if let Some(texture) = &mut self.texture
-            && !texture.is_uniform()
-        {
-            Arc::make_mut(texture).transform(map)?;
+        for texture in self.texture.iter_mut().chain(&mut self.interior_texture) {
+            if !texture.is_uniform() {
+                Arc::make_mut(texture).transform(map)?;
+            }
         }
         self.clips.iter_mut().try_for_each(|clip| clip.transform(map))
     }

@@ -137,6 +137,8 @@ pub(crate) struct Object {
     /// From the shape's own numbers to the block around.
     pub(crate) place: Matrix,
     pub(crate) texture: Option<Rc<Texture>>,
+    /// What is seen from inside.
+    pub(crate) interior_texture: Option<Rc<Texture>>,
     pub(crate) interior: Option<Rc<Interior>>,
     pub(crate) clips: Vec<Rc<Self>>,
     pub(crate) bounds: Vec<Rc<Self>>,
@@ -169,6 +171,7 @@ impl Object {
             shape,
             place: Matrix::IDENTITY,
             texture: None,
+            interior_texture: None,
             interior: None,
             clips: Vec::new(),
             bounds: Vec::new(),
@@ -184,6 +187,7 @@ impl Object {
     pub(crate) fn transform(&mut self, by: &Matrix) {
         self.place = self.place.then(by);
         Reader::move_texture(&mut self.texture, by);
+        Reader::move_texture(&mut self.interior_texture, by);
         for part in self.clips.iter_mut().chain(&mut self.bounds) {
             Rc::make_mut(part).transform(by);
         }
@@ -203,7 +207,8 @@ impl Object {
         let parts = self.clips.iter().chain(&self.bounds);
         let deepest = parts.clone().map(|part| part.depth + 1).max().unwrap_or(0);
         self.depth = self.depth.max(deepest);
-        let texture = self.texture.as_ref().map_or(0, |texture| texture.size() * size_of::<Layer>());
+        let textures = self.texture.iter().chain(&self.interior_texture);
+        let texture = textures.map(|texture| texture.size() * size_of::<Layer>()).sum::<usize>();
         let own = match &self.shape {
             Shape::Union(parts) | Shape::Csg(_, parts) => parts.len(),
             _ => 0,

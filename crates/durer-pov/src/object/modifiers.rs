@@ -23,6 +23,12 @@ impl Reader<'_> {
             }
             let lexeme = self.next()?;
             let keyword = match &lexeme.item {
+                Item::Mark(Mark::BraceClose)
+                    if object.interior_texture.is_some() && object.texture.is_none() =>
+                {
+                    let text = "an object with an interior_texture needs a texture";
+                    return Err(Fault::invalid(lexeme.place, text));
+                }
                 Item::Mark(Mark::BraceClose) => return Ok(()),
                 Item::Word(keyword) => *keyword,
                 _ => return Err(self.unexpected(&lexeme, "a modifier of the object, or `}`")),
@@ -104,6 +110,15 @@ impl Reader<'_> {
                 let next = self.texture_value()?;
                 let below = object.texture.take().map(Rc::unwrap_or_clone);
                 object.texture = Some(Rc::new(match below {
+                    None => next,
+                    Some(below) => self.laid_on(below, next)?,
+                }));
+            }
+            Item::Word(Keyword::InteriorTexture) => {
+                self.next()?;
+                let next = self.nested(Self::texture_block)?;
+                let below = object.interior_texture.take().map(Rc::unwrap_or_clone);
+                object.interior_texture = Some(Rc::new(match below {
                     None => next,
                     Some(below) => self.laid_on(below, next)?,
                 }));

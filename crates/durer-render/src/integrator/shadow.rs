@@ -141,7 +141,7 @@ impl<'w> Shadows<'w> {
     fn cross(&mut self, (world, isa): (&'w World, Isa), rays: (&[Rays8], &[Paths8]), media: &[u32]) {
         self.pieces.clear();
         for (group, hits) in self.hits.iter().enumerate() {
-            cut(world, group, hits, &mut self.pieces);
+            cut(world, group, &rays.0[group], hits, &mut self.pieces);
         }
         sort(&mut self.pieces);
         for part in self.pieces.chunk_by(Piece::is_like) {

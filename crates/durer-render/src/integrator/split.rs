@@ -1,7 +1,8 @@
 //! Which rays of a bundle are shaded together: those that meet surfaces that look alike, in the same way.
 
+use crate::vector::dot;
 use crate::world::{Look, World};
-use durer_geometry::Hits8;
+use durer_geometry::{Hits8, Rays8};
 use durer_math::lanes::{LANES, set_bits};
 
 /// Lanes of a group that belong together.
@@ -15,13 +16,13 @@ pub(super) struct Piece {
 
 /// Adds the pieces of a group's hits.
 #[inline]
-pub(super) fn cut(world: &World, group: usize, hits: &Hits8, pieces: &mut Vec<Piece>) {
+pub(super) fn cut(world: &World, group: usize, rays: &Rays8, hits: &Hits8, pieces: &mut Vec<Piece>) {
     let mut left = hits.hit.bits();
     let (object, primitive) = (hits.object[0], hits.primitive[0]);
     let differ =
         (0..LANES).fold(0, |all, i| all | (hits.object[i] ^ object) | (hits.primitive[i] ^ primitive));
     // Most groups meet one surface.
-    if left == u8::MAX && differ == 0 && !hits.touching.any() {
+    if left == u8::MAX && differ == 0 && !hits.touching.any() && !world.has_insides {
         pieces.push(Piece {
             key: world.look_number(object, primitive) << 1,
             group: group as u32,
@@ -29,6 +30,7 @@ pub(super) fn cut(world: &World, group: usize, hits: &Hits8, pieces: &mut Vec<Pi
         });
         return;
     }
+    let along = if world.has_insides { dot(hits.ng, rays.direction).0 } else { [0.0; LANES] };
     let mut keys = [0_u32; LANES];
     let mut last = (u32::MAX, u32::MAX, 0);
     for i in set_bits(left) {
@@ -37,6 +39,9 @@ pub(super) fn cut(world: &World, group: usize, hits: &Hits8, pieces: &mut Vec<Pi
             last = (object, primitive, world.look_number(object, primitive) << 1);
         }
         keys[i] = last.2 | u32::from(hits.touching.lane(i));
+        if world.has_insides && along[i] > 0.0 {
+            keys[i] = world.looks[(last.2 >> 1) as usize].inside << 1 | keys[i] & 1;
+        }
     }
     while left != 0 {
         let key = keys[left.trailing_zeros() as usize];

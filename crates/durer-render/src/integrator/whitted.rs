@@ -266,7 +266,7 @@ impl<'w> Whitted<'w> {
             if missed.any() {
                 add(&mut self.sums, &bundle.paths[group], background, missed);
             }
-            cut(world, group, hits, &mut self.pieces);
+            cut(world, group, &bundle.rays[group], hits, &mut self.pieces);
         }
         sort(&mut self.pieces);
     }

@@ -7,7 +7,10 @@ use durer_math::{Aabb, Point3};
 use durer_surfaces::{LocalPoint, Side};
 
 use super::build::{Inside, Target, To};
-use super::{Context, Cutter, Flags, LowerError, LowerErrorKind, Lowering, is_clear, join, mask_of, shapes};
+use super::{
+    Context, Cutter, Flags, LowerError, LowerErrorKind, Lowering, is_clear, join, mask_of, shapes,
+    shows_through,
+};
 use crate::{Object, Operation, Placement, Shape};
 
 /// A body under construction.
@@ -159,14 +162,14 @@ impl Lowering {
             0
         } else {
             let (texture, frame) = self.texture_of(context);
-            let is_clear = is_clear(object, &texture);
+            let is_clear = is_clear(object, &texture) || shows_through(&context.inside);
             work.is_clear |= is_clear;
             let medium = match context.medium.or(work.medium) {
                 Some(medium) => medium,
                 None if is_clear => *work.medium.insert(self.medium(&Arc::default())),
                 None => 0,
             };
-            self.looks_of(object, place.affine(), (texture, frame), medium, context.flags)?
+            self.looks_of(object, place.affine(), (texture, frame), &context.inside, medium, context.flags)?
         };
         let mut part = None;
         let shown = if object.flags.open && shown == Shown::All { Shown::Wall } else { shown };

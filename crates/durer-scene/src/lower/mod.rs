@@ -52,6 +52,8 @@ pub struct Look {
     pub double_illuminate: bool,
     /// Some light may pass.
     pub is_clear: bool,
+    /// What is seen instead where a ray goes along the normal, if that is something else.
+    pub inside: Option<LookId>,
 }
 
 /// Why a scene has no geometry, and where it says so.
@@ -166,12 +168,17 @@ impl core::fmt::Debug for Lowered {
     }
 }
 
+/// A texture and the space in which it is placed.
+type Painted = (Arc<Texture>, Arc<Placement>);
+
 /// What an object inherits from the unions around it.
 #[derive(Clone, Default)]
 struct Context<'s> {
     /// From the space around the object to the world.
     frame: Arc<Placement>,
-    texture: Option<(Arc<Texture>, Arc<Placement>)>,
+    texture: Option<Painted>,
+    /// What is seen from inside.
+    inside: Option<Painted>,
     medium: Option<u32>,
     flags: Flags,
     /// What the unions are clipped by.
@@ -192,7 +199,7 @@ struct Cutter<'s> {
 struct Lowering {
     builder: Builder,
     looks: Vec<Look>,
-    known: HashMap<(*const Texture, *const Placement, u32, bool), LookId>,
+    known: HashMap<(*const Texture, *const Placement, u32, bool, Option<LookId>), LookId>,
     media: Vec<Arc<Interior>>,
     warnings: Vec<(Option<Place>, String)>,
     first: Vec<u32>,
@@ -261,15 +268,15 @@ impl Lowering {
 
     /// What an object hands down to its parts: its own, and what it has none of from those around it.
     fn inherited<'s>(&mut self, object: &'s Object, around: &Context<'s>) -> Result<Context<'s>, LowerError> {
-        let texture = match &object.texture {
-            Some(texture) => {
-                if texture.has_empty_pattern() {
-                    return Err(LowerErrorKind::EmptyPattern.at(object.place));
-                }
-                Some((Arc::clone(texture), self.frame(around)))
+        let own = |texture: &Option<Arc<Texture>>, inherited: &Option<Painted>| match texture {
+            Some(texture) if texture.has_empty_pattern() => {
+                Err(LowerErrorKind::EmptyPattern.at(object.place))
             }
-            None => around.texture.clone(),
+            Some(texture) => Ok(Some((Arc::clone(texture), self.frame(around)))),
+            None => Ok(inherited.clone()),
         };
+        let texture = own(&object.texture, &around.texture)?;
+        let inside = own(&object.interior_texture, &around.inside)?;
         let medium = match &object.interior {
             Some(interior) => Some(self.medium(interior)),
             None => around.medium,
@@ -284,7 +291,7 @@ impl Lowering {
             clips.push(Cutter { object: clip, frame: Arc::clone(&around.frame), region });
         }
         let flags = around.flags.or(object.flags);
-        Ok(Context { frame: Arc::clone(&around.frame), texture, medium, flags, clips })
+        Ok(Context { frame: Arc::clone(&around.frame), texture, inside, medium, flags, clips })
     }
 
     fn frame(&self, around: &Context<'_>) -> Arc<Placement> {
@@ -297,19 +304,25 @@ impl Lowering {
     }
 
     /// The number of a look. Objects that look alike share one.
-    fn look(&mut self, texture: Arc<Texture>, frame: Arc<Placement>, medium: u32, flags: Flags) -> LookId {
+    fn look(
+        &mut self,
+        (texture, frame): Painted,
+        medium: u32,
+        flags: Flags,
+        inside: Option<LookId>,
+    ) -> LookId {
         let frame = if texture.is_uniform() { Arc::clone(&self.world) } else { frame };
-        let key = (Arc::as_ptr(&texture), Arc::as_ptr(&frame), medium, flags.double_illuminate);
+        let key = (Arc::as_ptr(&texture), Arc::as_ptr(&frame), medium, flags.double_illuminate, inside);
         *self.known.entry(key).or_insert_with(|| {
             let is_clear = !texture.is_opaque();
             let double_illuminate = flags.double_illuminate;
-            self.looks.push(Look { texture, frame, medium, double_illuminate, is_clear });
+            self.looks.push(Look { texture, frame, medium, double_illuminate, is_clear, inside });
             LookId((self.looks.len() - 1) as u32)
         })
     }
 
     /// The texture in force and its frame.
-    fn texture_of(&self, context: &Context<'_>) -> (Arc<Texture>, Arc<Placement>) {
+    fn texture_of(&self, context: &Context<'_>) -> Painted {
         let default = || (Arc::clone(&self.default_texture), Arc::clone(&self.world));
         context.texture.clone().unwrap_or_else(default)
     }
@@ -317,7 +330,7 @@ impl Lowering {
     /// Lowers an object that is no union, placed in the world by `place`.
     fn leaf(&mut self, object: &Object, place: &Affine, context: Context<'_>) -> Result<(), LowerErrorKind> {
         let (texture, frame) = self.texture_of(&context);
-        let is_clear = is_clear(object, &texture);
+        let is_clear = is_clear(object, &texture) || shows_through(&context.inside);
         // Each clear object without an interior has one of its own all the same: leaving it is leaving it alone.
         let medium = match context.medium {
             Some(medium) => medium,
@@ -325,7 +338,15 @@ impl Lowering {
             None => 0,
         };
         let flags = context.flags;
-        let primitive = self.looks_of(object, place, (texture, frame), medium, flags)?;
+        let (mut outside, mut inside) = ((texture, frame), context.inside.clone());
+        // What is clipped keeps its normals (see `Target::add_rare`).
+        if flags.inverse
+            && !context.clips.is_empty()
+            && let Some(inside) = &mut inside
+        {
+            core::mem::swap(&mut outside, inside);
+        }
+        let primitive = self.looks_of(object, place, outside, &inside, medium, flags)?;
         let mask = if self.is_plain { EVERYTHING } else { mask_of(flags, is_clear) };
         let target = build::Target {
             to: build::To::Scene(&mut self.builder, self.object, mask),
@@ -350,11 +371,21 @@ impl Lowering {
         &mut self,
         object: &Object,
         place: &Affine,
-        (texture, frame): (Arc<Texture>, Arc<Placement>),
+        texture: Painted,
+        inside: &Option<Painted>,
         medium: u32,
         flags: Flags,
     ) -> Result<u32, LowerErrorKind> {
-        let look = self.look(texture, frame, medium, flags);
+        let look = match inside.clone() {
+            None => self.look(texture, medium, flags, None),
+            Some(inside) => {
+                // A fact of the scene language: the corners of a triangle go round the other way.
+                let (front, back) =
+                    if is_of_triangles(object) { (inside, texture) } else { (texture, inside) };
+                let back = self.look(back, medium, flags, None);
+                self.look(front, medium, flags, Some(back))
+            }
+        };
         let primitive = self.count().map_err(|e| e.kind)? - self.first.last().copied().unwrap_or(0);
         let Shape::Mesh(mesh) = &object.shape else {
             self.of_primitive.push(look);
@@ -363,7 +394,7 @@ impl Lowering {
         let own_frame = Arc::new(Placement::new(*place));
         let mut own = Vec::with_capacity(mesh.textures.len());
         for texture in &mesh.textures {
-            own.push(self.look(Arc::clone(texture), Arc::clone(&own_frame), medium, flags));
+            own.push(self.look((Arc::clone(texture), Arc::clone(&own_frame)), medium, flags, None));
         }
         for (face, given) in mesh.faces.iter().enumerate() {
             self.of_primitive.push(match given.texture {
@@ -400,12 +431,26 @@ fn is_clear(object: &Object, texture: &Texture) -> bool {
     !texture.is_opaque() || textures.iter().any(|t| !t.is_opaque())
 }
 
+/// Whether some light may pass a texture.
+fn shows_through(texture: &Option<Painted>) -> bool {
+    texture.as_ref().is_some_and(|(texture, _)| !texture.is_opaque())
+}
+
+/// Whether it is made of triangles and has no inside.
+fn is_of_triangles(object: &Object) -> bool {
+    match &object.shape {
+        Shape::Triangle(_) | Shape::SmoothTriangle(_) => true,
+        Shape::Mesh(mesh) => mesh.inside_vector.is_none(),
+        _ => false,
+    }
+}
+
 /// Whether every ray meets the object, and no light passes it.
 fn is_plain(object: &Object) -> bool {
     let Flags { no_shadow, no_image, no_reflection, .. } = object.flags;
     let opaque = |t: &Arc<Texture>| t.is_opaque();
     !(no_shadow || no_image || no_reflection)
-        && object.texture.as_ref().is_none_or(opaque)
+        && object.texture.iter().chain(&object.interior_texture).all(opaque)
         && match &object.shape {
             Shape::Union(parts) | Shape::Csg(_, parts) => parts.iter().all(is_plain),
             Shape::Mesh(mesh) => mesh.textures.iter().all(opaque),
