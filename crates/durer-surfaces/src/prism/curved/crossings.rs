@@ -236,7 +236,13 @@ impl CurvedPrism {
                 all.push((crossing, Face::Cap(top)));
             }
         }
-        all.sort_by(|a, b| a.0.s.total_cmp(&b.0.s));
+        // What is between the caps is, by the exact order along the line, after the one by which the ray enters and before the other.
+        let rank = |(crossing, face): &(Crossing, Face)| match face {
+            Face::Wall(..) => 1,
+            Face::Cap(top) if (crossing.sign > 0) != *top => 0,
+            Face::Cap(_) => 2,
+        };
+        all.sort_by(|a, b| rank(a).cmp(&rank(b)).then(a.0.s.total_cmp(&b.0.s)));
         let mut roots = Sorted::new();
         let mut inside = false;
         for (crossing, face) in &all {
