@@ -38,7 +38,7 @@ pub(crate) fn step(title: &str, command: &mut Command) -> Outcome {
     Ok(())
 }
 
-/// The `durer` command, built for release.
+/// The `durer` command.
 #[derive(Debug)]
 pub(crate) struct Durer {
     program: PathBuf,
@@ -56,18 +56,25 @@ pub(crate) struct Shot<'a> {
 }
 
 impl Durer {
-    /// Builds the command and finds where cargo put it.
+    /// Builds the command for release and finds where cargo put it.
     pub(crate) fn build() -> Outcome<Self> {
-        let title = "cargo build --release --package durer-cli";
+        Self::made_by(
+            "cargo build --release --package durer-cli",
+            &["build", "--release", "--package", "durer-cli"],
+        )
+    }
+
+    /// The command as `cargo test --workspace` builds it: optimised, with all assertions and checks for overflow.
+    pub(crate) fn tested() -> Outcome<Self> {
+        let title = "cargo test --workspace --lib --bins --tests --no-run";
+        Self::made_by(title, &["test", "--workspace", "--lib", "--bins", "--tests", "--no-run"])
+    }
+
+    fn made_by(title: &str, arguments: &[&str]) -> Outcome<Self> {
         println!("==> {title}");
         let output = cargo()
-            .args([
-                "build",
-                "--release",
-                "--package",
-                "durer-cli",
-                "--message-format=json-render-diagnostics",
-            ])
+            .args(arguments)
+            .arg("--message-format=json-render-diagnostics")
             .stderr(Stdio::inherit())
             .output()
             .map_err(|e| format!("{title}: cannot start: {e}"))?;
@@ -77,7 +84,7 @@ impl Durer {
         let program = String::from_utf8_lossy(&output.stdout)
             .lines()
             .filter_map(|line| executable(line).map(PathBuf::from))
-            .next_back()
+            .rfind(|path| path.file_stem().is_some_and(|name| name == "durer"))
             .ok_or_else(|| format!("{title}: cargo named no executable"))?;
         Ok(Self { program })
     }

@@ -4,7 +4,7 @@
 //! test charges each of its roundings to "may meet". What it costs is nothing: the test has the instructions of an unsafe one.
 //!
 //! ```
-//! use durer_bvh::{Bvh, Frame, Line, Settings};
+//! use durer_bvh::{Bvh, Frame, Leaf, Line, Settings};
 //! use durer_math::{Aabb, Isa, Point3, Vec3};
 //!
 //! // A row of unit boxes along x.
@@ -14,7 +14,7 @@
 //! let extent = boxes.iter().copied().fold(Aabb::EMPTY, Aabb::union);
 //! let frame = Frame::around(&extent);
 //! let entries = boxes.iter().enumerate().map(|(i, b)| frame.entry(b, 0, i as u32)).collect();
-//! let (tree, order) = Bvh::build(&frame, entries, 1, &Settings::GOOD);
+//! let (tree, order) = Bvh::build(&frame, entries, &[None], &Settings::GOOD);
 //!
 //! let down = Line {
 //!     origin: Point3::new(42.0, 0.0, 9.0),
@@ -23,10 +23,11 @@
 //!     direction_error: Vec3::ZERO,
 //!     t_min: 0.0,
 //!     t_max: f64::INFINITY,
+//!     inner: (0.0, f64::INFINITY),
 //! };
-//! let found = tree.any(Isa::detect(), &down, |leaf| {
-//!     (leaf.first..leaf.first + leaf.count).any(|slot| order[0][slot as usize] == 21)
-//! });
+//! let is_it = |slot: u32| order[0][slot as usize] == 21;
+//! let test = |leaf: Leaf| (leaf.first..leaf.first + leaf.count).any(is_it);
+//! let found = tree.any(Isa::detect(), &down, |_| false, test);
 //! assert!(found);
 //! ```
 //!
@@ -45,13 +46,15 @@ mod stats;
 mod story;
 mod traverse;
 mod tree;
+mod triangles;
 mod validate;
 
-pub use crate::build::Settings;
+pub use crate::build::{CornersOf, Settings};
 pub use crate::frame::{Entry, Frame};
 pub use crate::node::{Leaf, MAX_ENTRIES};
 pub use crate::ray::Line;
 pub use crate::stats::Stats;
 pub use crate::story::Step;
 pub use crate::tree::Bvh;
+pub use crate::triangles::Corners;
 pub use crate::validate::Violation;

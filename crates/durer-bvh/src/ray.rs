@@ -4,13 +4,17 @@ use crate::frame::{Frame, down32, up32};
 use durer_math::{Aabb, Point3, U, Vec3};
 
 /// Half an ulp of 1 in f32.
-const U32: f64 = 1.0 / (1 << 24) as f64;
+pub(crate) const U32: f64 = 1.0 / (1 << 24) as f64;
 /// Sizes below this count as this: it keeps flat trees from dividing nothing by nothing.
-const LEAST: f64 = 1.0 / (1_u64 << 60) as f64;
+pub(crate) const LEAST: f64 = 1.0 / (1_u64 << 60) as f64;
 /// The longest way through the tree that is culled; the ends of a ray from farther away are too uncertain.
-const LONGEST: f64 = (1 << 16) as f64;
+pub(crate) const LONGEST: f64 = (1 << 16) as f64;
 /// More than the roundings of a difference, of `1 / d`, of their product and of what is then added.
-const WIDEN: f64 = 8.0 * U;
+pub(crate) const WIDEN: f64 = 8.0 * U;
+/// The least component of a direction that is told from zero: within the longest way it moves a ray by 2^-284, which is nothing.
+pub(crate) const SLOWEST: f64 = f64::from_bits((1023 - 300) << 52);
+/// What is added so that the nearest f32 is a bound.
+pub(crate) const TO_NEAREST: f64 = U32 * (1.0 + 1.0 / (1 << 20) as f64);
 
 /// A ray in the caller's units: `origin + t direction`, known within errors (per axis).
 ///
@@ -29,6 +33,8 @@ pub struct Line {
     pub t_min: f64,
     /// Crossings above this do not matter.
     pub t_max: f64,
+    /// Crossings between these certainly do: the caller's range, where that of the line had to be widened.
+    pub inner: (f64, f64),
 }
 
 impl Line {
@@ -66,9 +72,13 @@ pub(crate) struct CullRay {
     pub(crate) octant: u32,
     /// How far the ray goes, from the entry.
     pub(crate) t_far: f32,
+    /// The entry's point, rounded once, in tree units.
+    pub(crate) start: [f64; 3],
+    /// A bound on the error of the ray's points within the tree, per axis.
+    pub(crate) error: f64,
     /// The entry.
-    t_enter: f64,
-    frame: Frame,
+    pub(crate) t_enter: f64,
+    pub(crate) frame: Frame,
 }
 
 /// The roundings a node test makes after `r`'s own: one if multiplication and addition are fused, else two.
@@ -80,10 +90,42 @@ pub(crate) enum Rounding {
 
 impl Rounding {
     /// In units of `u32 (M + |o|) |r|`.
-    fn slack(self) -> f64 {
+    pub(crate) fn slack(self) -> f64 {
         match self {
             Self::Fused => 2.5,
             Self::Unfused => 3.5,
+        }
+    }
+}
+
+/// A tree's box as exactly known rays are clipped to it; the fourth lane is any ray's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(32))]
+pub(crate) struct Clip {
+    /// The box, larger by [`MARGIN`].
+    pub(crate) lo: [f64; 4],
+    pub(crate) hi: [f64; 4],
+    /// The greatest magnitude of a coordinate.
+    pub(crate) most: [f64; 4],
+    /// What the caller's lengths are to be multiplied by, which is exact; 0 if one number cannot do that.
+    pub(crate) shrink: f64,
+}
+
+/// A ray that runs within a face of the box, or nearly so, enters it this much earlier: far more than [`SLOWEST`] moves it.
+const MARGIN: f64 = 1.0 / (1_u64 << 40) as f64;
+
+impl Clip {
+    pub(crate) fn to(frame: Frame, lo: [f32; 3], hi: [f32; 3]) -> Self {
+        let wide = |x: [f32; 3], by: f64, beyond: f64| {
+            [f64::from(x[0]) + by, f64::from(x[1]) + by, f64::from(x[2]) + by, beyond]
+        };
+        let most = |i: usize| f64::from(lo[i]).abs().max(f64::from(hi[i]).abs()).max(LEAST);
+        let shrink = frame.inward(1.0);
+        Self {
+            lo: wide(lo, -MARGIN, f64::MIN / 8.0),
+            hi: wide(hi, MARGIN, f64::MAX / 8.0),
+            most: [most(0), most(1), most(2), 1.0],
+            shrink: if shrink.is_normal() { shrink } else { 0.0 },
         }
     }
 }
@@ -137,9 +179,10 @@ impl CullRay {
         if way.is_nan() || way > LONGEST {
             return Some(Self::everywhere(&d, frame));
         }
-        let (mut r32, mut near, mut far) = ([0.0; 3], [0.0; 3], [0.0; 3]);
+        let (mut r32, mut near, mut far, mut starts) = ([0.0; 3], [0.0; 3], [0.0; 3], [0.0; 3]);
         for i in 0..3 {
             let start = if enter == 0.0 { o[i] } else { enter.mul_add(d[i], o[i]) };
+            starts[i] = start;
             let size = f64::from(lo[i]).abs().max(f64::from(hi[i]).abs()).max(LEAST) + start.abs();
             let r = inverse[i];
             let bends = 0.4 * U32 * size;
@@ -150,7 +193,17 @@ impl CullRay {
             far[i] = up32(-start * r + slack);
         }
         let t_far = up32(way.next_up());
-        Some(Self { r: r32, near, far, octant: octant(&d), t_far, t_enter: enter, frame })
+        Some(Self {
+            r: r32,
+            near,
+            far,
+            octant: octant(&d),
+            t_far,
+            start: starts,
+            error: error[0].max(error[1]).max(error[2]),
+            t_enter: enter,
+            frame,
+        })
     }
 
     /// A ray so far away, or so uncertain, that nothing can be disproved in these units: it meets every box.
@@ -164,6 +217,8 @@ impl CullRay {
             far: [big; 3],
             octant: octant(d),
             t_far: 1.0,
+            start: [0.0; 3],
+            error: f64::INFINITY,
             t_enter: f64::NEG_INFINITY,
             frame,
         }
@@ -175,6 +230,24 @@ impl CullRay {
         let way = self.frame.inward(t) - self.t_enter;
         // A ray that meets everything is never shortened: its entry is at minus infinity.
         up32(way.next_up()).min(self.t_far)
+    }
+
+    /// The parameter at the entry, in tree units.
+    #[inline(always)]
+    pub(crate) fn entry(&self) -> f64 {
+        self.t_enter
+    }
+
+    /// A range of the caller's `t` in the parameter of the node test, rounded inward.
+    #[inline(always)]
+    pub(crate) fn inner(&self, (from, to): (f64, f64)) -> (f32, f32) {
+        // Beyond a tree's longest way nothing is met; so far away f32 is coarse, but finite.
+        const BEYOND: f64 = (1_u64 << 40) as f64;
+        let single = |x: f64| (self.frame.inward(x) - self.t_enter).clamp(-BEYOND, BEYOND) as f32;
+        // More than the roundings of the difference and to f32, and than what scaling may have lost to underflow.
+        let step = |x: f32| x.abs().mul_add(1.0 / (1 << 22) as f32, 1.0 / (1_u128 << 120) as f32);
+        let (from, to) = (single(from), single(to));
+        (from + step(from), to - step(to))
     }
 
     /// The caller's `t` of a parameter of the node test.

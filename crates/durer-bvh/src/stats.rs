@@ -2,7 +2,8 @@
 
 use crate::build::Settings;
 use crate::node::{ChildRef, Node8};
-use crate::tree::Bvh;
+use crate::tree::{Bvh, KindOfLeaf};
+use crate::triangles::Block;
 
 /// Counts, memory and expected cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -25,7 +26,10 @@ impl Bvh {
     /// Walks the tree and counts.
     pub fn stats(&self) -> Stats {
         let mut stats = Stats {
-            bytes: self.nodes.capacity() * size_of::<Node8>() + self.starts.capacity() * 4,
+            bytes: self.nodes.capacity() * size_of::<Node8>()
+                + self.blocks.capacity() * size_of::<Block>()
+                + self.starts.capacity() * size_of::<u32>()
+                + self.kinds.capacity() * size_of::<KindOfLeaf>(),
             ..Stats::default()
         };
         if self.is_empty() {

@@ -2,7 +2,8 @@
 
 use crate::frame::Frame;
 use crate::node::{ChildRef, Leaf, Node8};
-use crate::ray::{CullRay, Line, Rounding};
+use crate::ray::{Clip, CullRay, Line, Rounding};
+use crate::triangles::Block;
 use durer_math::Aabb;
 
 /// A tree of boxes: which things might this ray meet?
@@ -15,25 +16,61 @@ pub struct Bvh {
     pub(crate) nodes: Vec<Node8>,
     /// The first slot of each kind, and the end.
     pub(crate) starts: Vec<u32>,
+    /// What references to leaves mean, kind by kind.
+    pub(crate) kinds: Vec<KindOfLeaf>,
+    /// The leaves that hold triangles.
+    pub(crate) blocks: Vec<Block>,
+    /// Whether f32 does not hold all corners of the blocks.
+    pub(crate) rounded: bool,
     pub(crate) lo: [f32; 3],
     pub(crate) hi: [f32; 3],
+    pub(crate) clip: Clip,
+}
+
+/// What references to leaves of one kind mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct KindOfLeaf {
+    /// The first reference.
+    pub(crate) first: u32,
+    /// For triangles, the number of its block; else references are slots.
+    pub(crate) blocks: Option<u32>,
 }
 
 impl Bvh {
     /// A tree over nothing.
     pub fn empty() -> Self {
-        Self::assembled(Frame::around(&Aabb::EMPTY), Vec::new(), vec![0])
+        Self::assembled(Frame::around(&Aabb::EMPTY), vec![0])
     }
 
-    pub(crate) fn assembled(frame: Frame, nodes: Vec<Node8>, starts: Vec<u32>) -> Self {
-        let (mut lo, mut hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    /// The same tree with these nodes.
+    pub(crate) fn with_nodes(mut self, nodes: Vec<Node8>) -> Self {
+        (self.lo, self.hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
         if let Some(root) = nodes.first() {
             for (a, b) in root.used().map(|slot| root.bounds(slot)) {
-                lo = [0, 1, 2].map(|i| lo[i].min(a[i]));
-                hi = [0, 1, 2].map(|i| hi[i].max(b[i]));
+                self.lo = [0, 1, 2].map(|i| self.lo[i].min(a[i]));
+                self.hi = [0, 1, 2].map(|i| self.hi[i].max(b[i]));
             }
         }
-        Self { frame, nodes, starts, lo, hi }
+        self.clip = Clip::to(self.frame, self.lo, self.hi);
+        self.nodes = nodes;
+        self
+    }
+
+    /// A tree without nodes over as many kinds as there are starts but one.
+    pub(crate) fn assembled(frame: Frame, starts: Vec<u32>) -> Self {
+        let (lo, hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+        let slots = |&first: &u32| KindOfLeaf { first, blocks: None };
+        Self {
+            frame,
+            nodes: Vec::new(),
+            kinds: starts[..starts.len() - 1].iter().map(slots).collect(),
+            starts,
+            blocks: Vec::new(),
+            rounded: false,
+            lo,
+            hi,
+            clip: Clip::to(frame, lo, hi),
+        }
     }
 
     /// How many things it holds.
@@ -51,22 +88,54 @@ impl Bvh {
         if self.is_empty() { Aabb::EMPTY } else { self.frame.bounds(self.lo, self.hi) }
     }
 
+    /// How many of its leaves hold triangles.
+    pub fn blocks(&self) -> usize {
+        self.blocks.len()
+    }
+
+    /// Whether the leaves of a kind hold triangles.
+    pub fn is_of_triangles(&self, kind: u32) -> bool {
+        self.kinds.get(kind as usize).is_some_and(|kind| kind.blocks.is_some())
+    }
+
     /// An upper bound of its coordinates.
     #[inline(always)]
     pub fn size(&self) -> f64 {
         self.frame.outward(1.0)
     }
 
+    /// The kind of a reference to a leaf, and the reference counted within the kind.
+    #[inline(always)]
+    fn kind_of(&self, child: ChildRef) -> (usize, u32) {
+        let (reference, _) = child.slots();
+        // Few kinds: a scan is faster than a search, and with one kind it ends at once.
+        let mut kind = 0;
+        while kind + 1 < self.kinds.len() && self.kinds[kind + 1].first <= reference {
+            kind += 1;
+        }
+        (kind, reference - self.kinds[kind].first)
+    }
+
     /// A leaf, from a reference to one.
     #[inline(always)]
     pub(crate) fn leaf(&self, child: ChildRef) -> Leaf {
-        let (slot, count) = child.slots();
-        // Few kinds: a scan is faster than a search, and with one kind it ends at once.
-        let mut kind = 0;
-        while kind + 2 < self.starts.len() && self.starts[kind + 1] <= slot {
-            kind += 1;
+        let (kind, at) = self.kind_of(child);
+        let first = match self.kinds[kind].blocks {
+            Some(first) => self.blocks[(first + at) as usize].slot(0),
+            None => at,
+        };
+        Leaf { kind: kind as u32, first, count: child.slots().1 }
+    }
+
+    /// The kind and the triangles of a leaf that holds triangles, from a reference to it.
+    #[inline(always)]
+    pub(crate) fn block(&self, child: ChildRef) -> Option<(u32, &Block)> {
+        if self.blocks.is_empty() {
+            return None;
         }
-        Leaf { kind: kind as u32, first: slot - self.starts[kind], count }
+        let (kind, at) = self.kind_of(child);
+        let first = self.kinds[kind].blocks?;
+        Some((kind as u32, &self.blocks[(first + at) as usize]))
     }
 
     #[inline(always)]

@@ -107,7 +107,7 @@ fn leaves_hold_one_kind() {
         let kind: Vec<_> = (0..count).map(|_| dice.below(kinds) as u32).collect();
         let frame = Frame::around(&boxes.iter().copied().fold(Aabb::EMPTY, Aabb::union));
         let entries = (0..count).map(|i| frame.entry(&boxes[i], kind[i], i as u32)).collect();
-        let (tree, order) = Bvh::build(&frame, entries, kinds as usize + 2, &Settings::GOOD);
+        let (tree, order) = Bvh::build(&frame, entries, &vec![None; kinds as usize + 2], &Settings::GOOD);
         tree.validate(|k, slot| {
             let index = order[k as usize][slot as usize] as usize;
             assert_eq!(kind[index], k);
@@ -160,14 +160,20 @@ fn the_story_is_the_traversal() {
             direction_error: Vec3::ZERO,
             t_min: 0.0,
             t_max: f64::INFINITY,
+            inner: (0.0, f64::INFINITY),
         };
         let limit = |n: usize| if n > 3 { 1.5 } else { f64::INFINITY };
         for isa in Isa::available().filter(|i| i.path() != durer_math::kernels::Path::Unfused) {
             let mut walked = Vec::new();
-            tree.closest(isa, &line, |leaf| {
-                walked.push(leaf);
-                limit(walked.len())
-            });
+            tree.closest(
+                isa,
+                &line,
+                |_| true,
+                |leaf| {
+                    walked.push(leaf);
+                    limit(walked.len())
+                },
+            );
             let mut told = Vec::new();
             tree.story(&line, |step| {
                 if let durer_bvh::Step::Leaf { leaf, .. } = step {

@@ -72,6 +72,7 @@ fn line(target: Place, (d, steps): (Place, i64), k: i32) -> (Line, f64) {
         direction_error: Vec3::ZERO,
         t_min: 0.0,
         t_max: f64::INFINITY,
+        inner: (0.0, f64::INFINITY),
     };
     (line, scale2(steps as f64, e + k))
 }
@@ -89,13 +90,19 @@ fn assert_shown(tree: &Bvh, order: &[u32], line: &Line, t_hit: f64, wanted: u32)
         ];
         for (t_min, t_max) in ranges {
             let line = Line { t_min, t_max, ..*line };
-            let found = tree.any(isa, &line, |leaf| (leaf.first..leaf.first + leaf.count).contains(&slot));
+            let found =
+                tree.any(isa, &line, |_| false, |leaf| (leaf.first..leaf.first + leaf.count).contains(&slot));
             assert!(found, "{isa:?}: box {wanted} is missed by {line:?}, which is in it at {t_hit}");
             let mut found = false;
-            tree.closest(isa, &line, |leaf| {
-                found |= (leaf.first..leaf.first + leaf.count).contains(&slot);
-                t_hit
-            });
+            tree.closest(
+                isa,
+                &line,
+                |_| true,
+                |leaf| {
+                    found |= (leaf.first..leaf.first + leaf.count).contains(&slot);
+                    t_hit
+                },
+            );
             assert!(found, "{isa:?}: box {wanted} is missed by {line:?} with the limit {t_hit}");
         }
     }
@@ -217,12 +224,18 @@ fn boxes_far_off_the_ray_are_not_tested() {
             direction_error: Vec3::ZERO,
             t_min: 0.0,
             t_max: f64::INFINITY,
+            inner: (0.0, f64::INFINITY),
         };
         let mut tested = 0;
-        tree.any(Isa::detect(), &line, |leaf| {
-            tested += leaf.count;
-            false
-        });
+        tree.any(
+            Isa::detect(),
+            &line,
+            |_| false,
+            |leaf| {
+                tested += leaf.count;
+                false
+            },
+        );
         assert!(tested <= 8, "{tested} boxes tested from {far}");
     }
 }

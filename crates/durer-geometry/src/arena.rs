@@ -11,7 +11,7 @@ use crate::spans::Tracks;
 use core::ops::Range;
 use durer_bvh::{Entry, Frame};
 use durer_math::eft::{exponent, scale2};
-use durer_math::{Aabb, Isa, RaySide, Shaft};
+use durer_math::{Aabb, Isa, Point3, RaySide, Shaft};
 use durer_surfaces::{
     Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
 };
@@ -93,6 +93,10 @@ pub(crate) trait Arrange: AnyArena {
     fn extent(&self, limits: &[Aabb]) -> Aabb;
     /// Appends the bounded slots, cut like that, as entries of the given kind, to `entries`, and sorts out the others.
     fn entries(&self, frame: &Frame, kind: u32, limits: &[Aabb], entries: &mut Vec<Entry>) -> Unsorted;
+    /// Whether all slots are flat triangles.
+    fn is_of_triangles(&self) -> bool;
+    /// The corners of a triangle, by its number in [`Arrange::entries`].
+    fn corners(&self, index: u32) -> [Point3; 3];
     /// Puts the slots into a new order: the new slot `i` is the old `order[i]`. The array is used up.
     fn arrange(&mut self, order: Vec<u32>);
     /// For taking the concrete arena back.
@@ -564,6 +568,22 @@ impl<S: Surface + 'static> Arrange for Arena<S> {
             });
         }
         unsorted
+    }
+
+    fn is_of_triangles(&self) -> bool {
+        // All surfaces of a type, or none.
+        self.surfaces.first().is_some_and(|surface| surface.corners(PartId(0)).is_some())
+    }
+
+    fn corners(&self, index: u32) -> [Point3; 3] {
+        let corners = match &self.parts {
+            Some(parts) => {
+                let part = &parts[index as usize].0;
+                self.surfaces[part.surface as usize].corners(PartId(part.part))
+            }
+            None => self.surfaces[index as usize].corners(PartId(0)),
+        };
+        corners.unwrap_or([Point3::ORIGIN; 3])
     }
 
     fn arrange(&mut self, mut order: Vec<u32>) {

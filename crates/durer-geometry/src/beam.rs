@@ -36,6 +36,10 @@ impl Beam {
     const MOST: usize = 64;
     /// The same for one ray.
     const FEW: usize = 12;
+    /// The same for triangles of large meshes: the tree tests eight of them at once, and few rays would share what lanes need to know of each.
+    const TRIANGLES: u32 = 8;
+    /// Meshes with more leaves than this are large.
+    const DENSE: usize = 1024;
 
     /// Whether the rays meet nothing.
     #[inline(always)]
@@ -62,7 +66,15 @@ impl Geometry {
                 }
             }
         }
+        let dense = self.tree.blocks() > Beam::DENSE;
+        let mut triangles = 0;
         let full = self.tree.in_shaft(shaft, |leaf| {
+            if dense && self.tree.is_of_triangles(leaf.kind) {
+                triangles += leaf.count;
+                if triangles > Beam::TRIANGLES {
+                    return true;
+                }
+            }
             slots(&leaf).any(|slot| {
                 // The tree has looked at the box of all slots together.
                 let missed = leaf.count > 1 && self.slot_misses(leaf.kind, slot, shaft);

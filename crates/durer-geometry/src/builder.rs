@@ -6,7 +6,7 @@ use crate::geometry::{Beside, Geometry, Instance, SolidInParts};
 use crate::ids::{EVERYTHING, Id};
 use crate::{ObjectId, geometry};
 use core::any::TypeId;
-use durer_bvh::{Bvh, Entry, Frame, Settings};
+use durer_bvh::{Bvh, CornersOf, Entry, Frame, Settings};
 use durer_math::{Aabb, Affine, Isa};
 use durer_surfaces::Surface;
 use std::collections::HashMap;
@@ -215,7 +215,15 @@ impl Builder {
             entries.iter().for_each(|e| orders[e.kind() as usize].push(e.index()));
             (Bvh::empty(), orders)
         } else {
-            Bvh::build(&frame, entries, unsorted.len(), &builder.settings)
+            let corners: Vec<_> = arenas
+                .iter()
+                .map(|arena| arena.is_of_triangles().then_some(|index| arena.corners(index)))
+                .collect();
+            let mut shapes: Vec<Option<CornersOf<'_>>> =
+                corners.iter().map(|of| of.as_ref().map(|of| of as CornersOf<'_>)).collect();
+            // Instances.
+            shapes.push(None);
+            Bvh::build(&frame, entries, &shapes, &builder.settings)
         };
         let mut beside = Vec::new();
         let mut bounds = extent;

@@ -159,6 +159,8 @@ pub(crate) fn closest(walk: &Walk<'_>, best: &mut Best) {
         geometry.isa,
         &line,
         #[inline(always)]
+        |triangle| walk.admits(triangle),
+        #[inline(always)]
         |leaf| {
             closest_in(walk, leaf, best);
             if best.hit.is_some() { walk.limit(best.limit()) } else { f64::INFINITY }
@@ -188,6 +190,8 @@ fn any(walk: &Walk<'_>) -> bool {
         || geometry.tree.any(
             geometry.isa,
             &walk.line(),
+            #[inline(always)]
+            |triangle| walk.admits(triangle),
             #[inline(always)]
             |leaf| any_in(walk, leaf),
         )
@@ -223,7 +227,7 @@ pub(crate) fn each(walk: &Walk<'_>, visit: &mut dyn FnMut(&Hit) -> Flow) -> Flow
         }
     };
     let stopped = geometry.beside.iter().any(|b| test(b.leaf()))
-        || geometry.tree.any(geometry.isa, &walk.line(), &mut test);
+        || geometry.tree.any(geometry.isa, &walk.line(), |_| false, &mut test);
     if stopped { Flow::Stop } else { Flow::Continue }
 }
 
@@ -245,10 +249,15 @@ fn spans(walk: &Walk<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks) {
         gather(beside.leaf(), tracks);
     }
     let line = walk.line();
-    geometry.tree.any(geometry.isa, &line, |leaf| {
-        gather(leaf, tracks);
-        false
-    });
+    geometry.tree.any(
+        geometry.isa,
+        &line,
+        |_| false,
+        |leaf| {
+            gather(leaf, tracks);
+            false
+        },
+    );
     // A solid in parts may hold the whole range without one of its parts being near it.
     (tracks.placement, tracks.source) = (walk.placement, None);
     for solid in &geometry.solids_in_parts {

@@ -3,7 +3,7 @@
 use crate::arena::Filter;
 use crate::best::Placement;
 use crate::geometry::{Geometry, Instance};
-use durer_bvh::Line;
+use durer_bvh::{Leaf, Line};
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Ray, Source, U};
 use durer_surfaces::LocalRay;
@@ -88,6 +88,12 @@ impl<'a> Walk<'a> {
         Filter { mask: self.mask, source: source.map(|s| (s.index, s.side)) }
     }
 
+    /// Whether the ray meets a triangle, as far as masks tell.
+    #[inline(always)]
+    pub(crate) fn admits(&self, triangle: Leaf) -> bool {
+        self.geometry.arenas[triangle.kind as usize].mask(triangle.first) & self.mask != 0
+    }
+
     /// The ray as the tree sees it.
     #[inline(always)]
     pub(crate) fn line(&self) -> Line {
@@ -99,6 +105,7 @@ impl<'a> Walk<'a> {
             direction_error: r.d_err,
             t_min: self.clock.below(r.t_min),
             t_max: self.clock.above(r.t_max),
+            inner: (self.clock.above(r.t_min), self.clock.below(r.t_max)),
         }
     }
 

@@ -32,6 +32,7 @@ mod sink;
 pub mod sor;
 pub mod sphere;
 mod surface;
+mod swift;
 pub mod tape;
 pub mod textbook;
 pub mod torus;

@@ -9,6 +9,7 @@ use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
 use crate::outline::Sketch;
 use crate::planar::{self, PointLine, Probe, ThreePoints};
+use crate::swift::{self, Swift};
 use crate::{Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
@@ -197,25 +198,27 @@ impl Mesh {
         if self.bounds.is_empty() { (Point3::ORIGIN, 1.0) } else { planar::middle(&self.bounds) }
     }
 
+    /// The ray as one face sees it: from the face's own middle, since a small face of a large mesh is not to pay for the mesh's size. Signs are those
+    /// of the one exact ray all the same.
     #[inline(always)]
-    fn probe<'a>(&self, ray: &'a LocalRay<'a>) -> Probe<'a> {
-        let (centre, size) = self.view();
+    fn probe<'a>(ray: &'a LocalRay<'a>, facet: &Facet) -> Probe<'a> {
+        let (centre, size) = planar::middle(&Aabb::from_points(*facet));
         Probe::new(ray, centre, size)
     }
 
     #[inline(always)]
-    fn face_root(
-        &self,
-        number: u32,
-        probe: &Probe<'_>,
-        filter: &EdgeFilter,
-        range: (f64, f64),
-    ) -> Option<Root> {
+    fn face_root(&self, number: u32, ray: &LocalRay<'_>, range: (f64, f64)) -> Option<Root> {
         let facet = self.facet(number);
-        let (crossing, tag) = facet::hit(probe, filter, &facet)?;
+        match swift::meet(ray, &facet, number, range) {
+            Swift::Missed => return None,
+            Swift::Met(root) => return Some(root),
+            Swift::Open => {}
+        }
+        let probe = Self::probe(ray, &facet);
+        let (crossing, tag) = facet::hit(&probe, &EdgeFilter::new(&probe), &facet)?;
         let here = !crossing.is_outside(range)
             && probe.may_admit(&crossing)
-            && probe.admits(&facet::plane(probe, &facet), &crossing);
+            && probe.admits(&facet::plane(&probe, &facet), &crossing);
         here.then(|| probe.root(&crossing, number, tag))
     }
 }
@@ -290,11 +293,9 @@ impl Surface for Mesh {
 
     #[inline(always)]
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
-        let probe = self.probe(ray);
-        let filter = EdgeFilter::new(&probe);
         let mut roots = Sorted::new();
         for number in self.live() {
-            if let Some(root) = self.face_root(number, &probe, &filter, sink.range()) {
+            if let Some(root) = self.face_root(number, ray, sink.range()) {
                 roots.push(root);
             }
         }
@@ -310,7 +311,8 @@ impl Surface for Mesh {
             normals: self.corner_normals(root.face),
             uv: (!data.uv.is_empty()).then(|| corners(uv_faces(data)).map(|i| data.uv[i])),
         };
-        facet::resolve(&self.probe(ray), &self.facet(root.face), &varying, need)
+        let facet = self.facet(root.face);
+        facet::resolve(&Self::probe(ray, &facet), &facet, &varying, need)
     }
 
     fn sketch(&self, part: PartId) -> Sketch {
@@ -369,10 +371,13 @@ impl Surface for Mesh {
         part.0
     }
 
+    fn corners(&self, part: PartId) -> Option<[Point3; 3]> {
+        Some(self.facet(part.0))
+    }
+
     #[inline(always)]
     fn part_roots<S: Sink + ?Sized>(&self, part: PartId, ray: &LocalRay<'_>, sink: &mut S) {
-        let probe = self.probe(ray);
-        if let Some(root) = self.face_root(part.0, &probe, &EdgeFilter::new(&probe), sink.range()) {
+        if let Some(root) = self.face_root(part.0, ray, sink.range()) {
             let _: Flow = sink.push(root);
         }
     }

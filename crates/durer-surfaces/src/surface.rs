@@ -3,7 +3,7 @@
 use crate::outline::Sketch;
 use crate::{LocalPoint, LocalRay, Sink, SurfacePoint};
 use core::cmp::Ordering;
-use durer_math::{Aabb, Affine, RaySide, Shaft};
+use durer_math::{Aabb, Affine, Point3, RaySide, Shaft};
 
 /// A surface, in its own frame. Its one question: *where does this ray meet you?*
 ///
@@ -65,6 +65,12 @@ pub trait Surface: Send + Sync {
     #[inline(always)]
     fn primitive_of(&self, _part: PartId) -> u32 {
         0
+    }
+
+    /// The corners of a part, if it is a flat triangle to which edges belong by the one rule of all triangles, and which nothing cuts. All parts of
+    /// all surfaces of a type have corners, or none has.
+    fn corners(&self, _part: PartId) -> Option<[Point3; 3]> {
+        None
     }
 
     /// One part as lanes see it. Without more than its box, every ray that may meet that asks the surface itself.

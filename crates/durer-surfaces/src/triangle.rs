@@ -12,6 +12,7 @@ use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
 use crate::outline::Sketch;
 use crate::planar::{self, Probe};
+use crate::swift::{self, Swift};
 use crate::{Flow, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
 use durer_math::{Aabb, Normal3, Point3};
 
@@ -96,6 +97,10 @@ impl Surface for Triangle {
         Aabb::from_points(self.vertices)
     }
 
+    fn corners(&self, _part: PartId) -> Option<[Point3; 3]> {
+        Some(self.vertices)
+    }
+
     fn sketch(&self, _part: PartId) -> Sketch {
         let flat = Sketch::flat(self.vertices);
         match &self.normals {
@@ -106,6 +111,14 @@ impl Surface for Triangle {
 
     #[inline(always)]
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
+        match swift::meet(ray, &self.vertices, 0, sink.range()) {
+            Swift::Missed => return,
+            Swift::Met(root) => {
+                let _: Flow = sink.push(root);
+                return;
+            }
+            Swift::Open => {}
+        }
         let probe = self.probe(ray);
         if let Some((crossing, tag)) = facet::hit(&probe, &EdgeFilter::new(&probe), &self.vertices)
             && !probe.leaves(&crossing)

@@ -15,7 +15,9 @@ use crate::frame::{Entry, Frame};
 use crate::kernels::MAX_DEPTH;
 use crate::node::{ChildRef, MAX_ENTRIES, MAX_LEAF, Node8, WIDTH};
 use crate::tree::Bvh;
+use crate::triangles::{Block, Corners, LANES};
 use area::Extent;
+use rayon::prelude::*;
 use split::Split;
 
 /// What a build weighs. Costs are in units of a node test.
@@ -23,7 +25,7 @@ use split::Split;
 pub struct Settings {
     /// How many things a leaf may hold, 1 to 16.
     pub max_leaf: usize,
-    /// The cost of testing one thing.
+    /// The cost of one test.
     pub test_cost: f32,
     /// The cost of entering a leaf.
     pub leaf_cost: f32,
@@ -40,6 +42,42 @@ impl Default for Settings {
     }
 }
 
+/// What leaves cost, in units of a node test.
+#[derive(Clone, Copy, Debug)]
+struct Costs {
+    max_leaf: usize,
+    /// How many things are tested together, at the cost of one test.
+    block: usize,
+    test: f32,
+    leaf: f32,
+}
+
+impl Costs {
+    fn of(settings: &Settings, shapes: &[Option<CornersOf<'_>>]) -> Self {
+        let Settings { max_leaf, test_cost, leaf_cost } = *settings;
+        if shapes.iter().all(Option::is_some) {
+            // Nothing but triangles: a block costs what it costs, full or not.
+            return Self { max_leaf: max_leaf.clamp(1, LANES), block: LANES, test: test_cost, leaf: 0.0 };
+        }
+        let most = if shapes.iter().any(Option::is_some) { LANES } else { MAX_LEAF };
+        Self { max_leaf: max_leaf.clamp(1, most), block: 1, test: test_cost, leaf: leaf_cost }
+    }
+
+    /// The cost of a leaf of `count` things.
+    fn of_leaf(&self, count: usize) -> f32 {
+        self.leaf + self.test * self.tests(count)
+    }
+
+    /// How many tests `count` things take.
+    #[inline(always)]
+    fn tests(&self, count: usize) -> f32 {
+        count.div_ceil(self.block) as f32
+    }
+}
+
+/// The corners of the triangle with an index, in the caller's units.
+pub type CornersOf<'a> = &'a (dyn Fn(u32) -> Corners + Sync);
+
 /// From this level on ranges are halved by count. Halving reaches single things in `log8(2^27) = 9` levels, and
 /// the kinds of a last range of 16 need two more; so no tree is deeper than 35, and [`MAX_DEPTH`] is 40.
 const BALANCED_FROM: usize = 24;
@@ -50,12 +88,11 @@ const _: () = assert!(BALANCED_FROM + 9 + 2 < MAX_DEPTH && MAX_ENTRIES == 1 << 2
 const PARALLEL: usize = 4096;
 
 /// Nodes over `entries`, which are put into leaf order. The first node is the root. Leaves refer to positions.
-pub(crate) fn build(entries: &mut [Entry], settings: &Settings) -> Vec<Node8> {
-    let settings = Settings { max_leaf: settings.max_leaf.clamp(1, MAX_LEAF), ..*settings };
+fn build(entries: &mut [Entry], costs: &Costs) -> Vec<Node8> {
     let mut nodes = Vec::new();
     if !entries.is_empty() {
         let whole = Range { first: 0, len: entries.len(), extent: split::extent(entries), closed: false };
-        subtree(entries, 0, &whole, 0, &settings, &mut nodes);
+        subtree(entries, 0, &whole, 0, costs, &mut nodes);
     }
     nodes
 }
@@ -83,7 +120,7 @@ fn subtree(
     base: usize,
     whole: &Range,
     level: usize,
-    settings: &Settings,
+    costs: &Costs,
     nodes: &mut Vec<Node8>,
 ) {
     let mut ranges = [*whole; WIDTH];
@@ -102,7 +139,7 @@ fn subtree(
         // The first of the largest, as `max_by` would give the last.
         let Some(widest) = open.rev().max_by(by_size) else { break };
         let range = ranges[widest];
-        match split(range.of(entries), &range.extent, level, settings) {
+        match split(range.of(entries), &range.extent, level, costs) {
             Some(Split { at, left, right }) => {
                 ranges[widest] = Range { len: at, extent: left, ..range };
                 ranges[count] =
@@ -116,7 +153,7 @@ fn subtree(
     // Neighbours in space stay neighbours in memory.
     ranges.sort_unstable_by_key(|r| r.first);
     for range in ranges.iter_mut().filter(|r| !r.closed) {
-        range.closed = range.len == 1 || split::is_better_as_leaf(range.of(entries), &range.extent, settings);
+        range.closed = range.len == 1 || split::is_better_as_leaf(range.of(entries), &range.extent, costs);
     }
 
     let this = nodes.len();
@@ -138,16 +175,15 @@ fn subtree(
     if whole.len < PARALLEL {
         for (slot, mine, range) in below {
             node.child[slot] = ChildRef::node(nodes.len());
-            subtree(mine, base + range.first, range, level + 1, settings, nodes);
+            subtree(mine, base + range.first, range, level + 1, costs, nodes);
         }
     } else {
-        use rayon::prelude::*;
         let grown: Vec<_> = below
             .into_par_iter()
             .with_max_len(1)
             .map(|(slot, mine, range)| {
                 let mut nodes = Vec::new();
-                subtree(mine, base + range.first, range, level + 1, settings, &mut nodes);
+                subtree(mine, base + range.first, range, level + 1, costs, &mut nodes);
                 (slot, nodes)
             })
             .collect();
@@ -173,18 +209,18 @@ fn move_by(node: &mut Node8, offset: usize) {
 }
 
 /// Splits a range in two; `None` if it is better, and possible, to make it a leaf.
-fn split(entries: &mut [Entry], extent: &Extent, level: usize, settings: &Settings) -> Option<Split> {
+fn split(entries: &mut [Entry], extent: &Extent, level: usize, costs: &Costs) -> Option<Split> {
     let one_kind = split::is_one_kind(entries);
-    let may_be_leaf = one_kind && entries.len() <= settings.max_leaf;
+    let may_be_leaf = one_kind && entries.len() <= costs.max_leaf;
     if level >= BALANCED_FROM {
         return (!may_be_leaf).then(|| split::halve_by_kind(entries));
     }
-    let best = split::best_plane(entries);
+    let best = split::best_plane(entries, costs);
     if may_be_leaf {
-        let leaf = settings.leaf_cost + settings.test_cost * entries.len() as f32;
+        let leaf = costs.of_leaf(entries.len());
         let whole = extent.half_area();
         // In this node another child costs no other node test.
-        let pays = best.as_ref().is_some_and(|b| b.cost(settings) < leaf * whole);
+        let pays = best.as_ref().is_some_and(|b| b.cost(costs) < leaf * whole);
         if !pays {
             return None;
         }
@@ -197,7 +233,8 @@ fn split(entries: &mut [Entry], extent: &Extent, level: usize, settings: &Settin
 }
 
 impl Bvh {
-    /// Builds a tree over `entries`, all [bounded](Entry::is_bounded) and made by `frame`, of `kinds` kinds.
+    /// Builds a tree over `entries`, all [bounded](Entry::is_bounded) and made by `frame`, of as many kinds as `shapes`
+    /// has elements: for a kind of triangles the corners of each, in the caller's units and within its entry's box.
     ///
     /// Also gives, for each kind, the indices of its entries in the order of the leaves: [`Leaf`](crate::Leaf)s
     /// refer to positions in these lists. The tree does not depend on the number of threads.
@@ -208,11 +245,12 @@ impl Bvh {
     pub fn build(
         frame: &Frame,
         mut entries: Vec<Entry>,
-        kinds: usize,
+        shapes: &[Option<CornersOf<'_>>],
         settings: &Settings,
     ) -> (Self, Vec<Vec<u32>>) {
         assert!(entries.len() <= MAX_ENTRIES, "at most {MAX_ENTRIES} entries, got {}", entries.len());
-        let mut nodes = build(&mut entries, settings);
+        let kinds = shapes.len();
+        let mut nodes = build(&mut entries, &Costs::of(settings, shapes));
         nodes.shrink_to_fit();
         let mut starts = vec![0_u32; kinds + 1];
         for entry in &entries {
@@ -222,26 +260,80 @@ impl Bvh {
         for kind in 0..kinds {
             starts[kind + 1] += starts[kind];
         }
-        if order.iter().filter(|o| o.capacity() > 0).count() == 1 {
-            let kind = entries[0].kind() as usize;
-            order[kind].extend(entries.iter().map(Entry::index));
-        } else {
-            // Positions of all leaves become slots, which are sorted by kind.
-            let mut slots = Vec::with_capacity(entries.len());
-            for entry in &entries {
-                let kind = entry.kind() as usize;
-                slots.push(starts[kind] + order[kind].len() as u32);
-                order[kind].push(entry.index());
-            }
-            for node in &mut nodes {
-                for slot in 0..WIDTH {
-                    if node.is_used(slot) && node.child[slot].is_leaf() {
-                        let (first, count) = node.child[slot].slots();
-                        node.child[slot] = ChildRef::leaf(slots[first as usize] as usize, count as usize);
-                    }
+        // Positions of all leaves become slots, which are counted within each kind.
+        let mut slots = Vec::with_capacity(entries.len());
+        for entry in &entries {
+            let kind = entry.kind() as usize;
+            slots.push(order[kind].len() as u32);
+            order[kind].push(entry.index());
+        }
+        let mut tree = Self::assembled(*frame, starts);
+        let leaves = leaves_of_triangles(&nodes, &entries, &slots, shapes);
+        tree.keep_triangles(&leaves, &order, shapes);
+        let mut next: Vec<u32> = tree.kinds.iter().map(|kind| kind.first).collect();
+        for node in &mut nodes {
+            for slot in 0..WIDTH {
+                if !node.is_used(slot) || !node.child[slot].is_leaf() {
+                    continue;
                 }
+                let (first, count) = node.child[slot].slots();
+                let kind = entries[first as usize].kind() as usize;
+                let reference = if shapes[kind].is_some() {
+                    next[kind] += 1;
+                    next[kind] - 1
+                } else {
+                    tree.kinds[kind].first + slots[first as usize]
+                };
+                node.child[slot] = ChildRef::leaf(reference as usize, count as usize);
             }
         }
-        (Self::assembled(*frame, nodes, starts), order)
+        (tree.with_nodes(nodes), order)
     }
+
+    /// Makes a block of each leaf of triangles, kind by kind, and says where references to leaves lead.
+    fn keep_triangles(
+        &mut self,
+        leaves: &[Vec<(u32, u32)>],
+        order: &[Vec<u32>],
+        shapes: &[Option<CornersOf<'_>>],
+    ) {
+        let frame = self.frame;
+        let mut first = 0;
+        for (kind, corners) in shapes.iter().enumerate() {
+            self.kinds[kind].first = first;
+            let Some(corners) = corners else {
+                first += order[kind].len() as u32;
+                continue;
+            };
+            let triangle = |slot: u32| (slot, corners(order[kind][slot as usize]));
+            let block =
+                |&(first, count): &(u32, u32)| Block::new(frame, (first..first + count).map(triangle));
+            let held = |&index: &u32| corners(index).into_iter().all(|v| Block::holds(frame, v));
+            self.rounded |= !order[kind].par_iter().all(held);
+            self.kinds[kind].blocks = Some(self.blocks.len() as u32);
+            self.blocks.par_extend(leaves[kind].par_iter().map(block));
+            first += leaves[kind].len() as u32;
+        }
+        self.blocks.shrink_to_fit();
+    }
+}
+
+/// First slot and count of the leaves of each kind of triangles, in the order of the nodes.
+fn leaves_of_triangles(
+    nodes: &[Node8],
+    entries: &[Entry],
+    slots: &[u32],
+    shapes: &[Option<CornersOf<'_>>],
+) -> Vec<Vec<(u32, u32)>> {
+    let mut leaves = vec![Vec::new(); shapes.len()];
+    for node in nodes {
+        for slot in node.used().filter(|&slot| node.child[slot].is_leaf()) {
+            let (first, count) = node.child[slot].slots();
+            let kind = entries[first as usize].kind() as usize;
+            if shapes[kind].is_some() {
+                leaves[kind].push((slots[first as usize], count));
+            }
+        }
+    }
+    leaves
 }

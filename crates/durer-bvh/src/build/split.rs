@@ -1,6 +1,6 @@
 //! Where to cut a range of entries.
 
-use super::Settings;
+use super::Costs;
 use super::area::Extent;
 use crate::frame::Entry;
 use rayon::prelude::*;
@@ -66,10 +66,8 @@ enum Cut {
 
 impl Plane {
     /// The area-weighted cost of two leaves.
-    pub(super) fn cost(&self, settings: &Settings) -> f32 {
-        let side = |(extent, count): &(Extent, usize)| {
-            extent.half_area() * (settings.leaf_cost + settings.test_cost * *count as f32)
-        };
+    pub(super) fn cost(&self, costs: &Costs) -> f32 {
+        let side = |(extent, count): &(Extent, usize)| extent.half_area() * costs.of_leaf(*count);
         side(&self.left) + side(&self.right)
     }
 
@@ -111,12 +109,12 @@ impl Bins {
 }
 
 /// The best cut along any axis by the surface area heuristic; `None` if all centres coincide (or nearly).
-pub(super) fn best_plane(entries: &[Entry]) -> Option<Plane> {
-    if entries.len() <= SWEPT { best_of_all(entries) } else { best_between_bins(entries) }
+pub(super) fn best_plane(entries: &[Entry], costs: &Costs) -> Option<Plane> {
+    if entries.len() <= SWEPT { best_of_all(entries, costs) } else { best_between_bins(entries, costs) }
 }
 
 /// The best of all cuts of a few entries sorted by their centres.
-fn best_of_all(entries: &[Entry]) -> Option<Plane> {
+fn best_of_all(entries: &[Entry], costs: &Costs) -> Option<Plane> {
     let n = entries.len();
     let mut best: Option<Plane> = None;
     let mut least = f32::INFINITY;
@@ -141,7 +139,7 @@ fn best_of_all(entries: &[Entry]) -> Option<Plane> {
         let mut left = Extent::EMPTY;
         for i in 1..n {
             left.add(&entries[usize::from(order[i - 1])]);
-            let cost = left.half_area() * i as f32 + right[i].half_area() * (n - i) as f32;
+            let cost = left.half_area() * costs.tests(i) + right[i].half_area() * costs.tests(n - i);
             if Plane::is_beaten_by(&best, least, cost, i, n - i) {
                 least = cost;
                 best = Some(Plane { cut: Cut::Order { order }, left: (left, i), right: (right[i], n - i) });
@@ -151,7 +149,7 @@ fn best_of_all(entries: &[Entry]) -> Option<Plane> {
     best
 }
 
-fn best_between_bins(entries: &[Entry]) -> Option<Plane> {
+fn best_between_bins(entries: &[Entry], costs: &Costs) -> Option<Plane> {
     type Filled = [[(Extent, usize); BINS]; 3];
     let bins = Bins::over(entries);
     let add = |filled: &mut Filled, entry: &Entry| {
@@ -184,7 +182,7 @@ fn best_between_bins(entries: &[Entry]) -> Option<Plane> {
             if left.1 == 0 || right.1 == 0 {
                 continue;
             }
-            let cost = left.0.half_area() * left.1 as f32 + right.0.half_area() * right.1 as f32;
+            let cost = left.0.half_area() * costs.tests(left.1) + right.0.half_area() * costs.tests(right.1);
             if Plane::is_beaten_by(&best, least, cost, left.1, right.1) {
                 least = cost;
                 best = Some(Plane { cut: Cut::Bin { axis, bin, bins }, left, right });
@@ -195,13 +193,13 @@ fn best_between_bins(entries: &[Entry]) -> Option<Plane> {
 }
 
 /// Whether a range that its node has no room to split should be a leaf rather than a node below.
-pub(super) fn is_better_as_leaf(entries: &[Entry], extent: &Extent, settings: &Settings) -> bool {
-    if entries.len() > settings.max_leaf || !is_one_kind(entries) {
+pub(super) fn is_better_as_leaf(entries: &[Entry], extent: &Extent, costs: &Costs) -> bool {
+    if entries.len() > costs.max_leaf || !is_one_kind(entries) {
         return false;
     }
     let whole = extent.half_area();
-    let leaf = (settings.leaf_cost + settings.test_cost * entries.len() as f32) * whole;
-    best_plane(entries).is_none_or(|plane| leaf <= whole + plane.cost(settings))
+    let leaf = costs.of_leaf(entries.len()) * whole;
+    best_plane(entries, costs).is_none_or(|plane| leaf <= whole + plane.cost(costs))
 }
 
 /// Makes the cut.

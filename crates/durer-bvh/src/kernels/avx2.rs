@@ -2,11 +2,14 @@
 #![expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")]
 
 use super::{Kernel, Stack};
-use crate::node::{Node8, WIDTH};
-use crate::ray::CullRay;
+use crate::frame::up32;
+use crate::node::{ChildRef, Node8, WIDTH};
+use crate::ray::{CullRay, LEAST, LONGEST, Line, Rounding, SLOWEST, TO_NEAREST, U32, WIDEN};
+use crate::tree::Bvh;
+use crate::triangles::{Block, FAR, FLAT, Filter, LANES, NEAR, Verdict};
 use core::arch::x86_64::*;
-use durer_math::Isa;
 use durer_math::kernels::Path;
+use durer_math::{Isa, Vec3};
 
 /// Proof that this CPU has AVX2, FMA and POPCNT.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +34,12 @@ pub(crate) struct Lanes {
     octant_shift: u32,
 }
 
+/// The ray as triangles see it, in all lanes.
+pub(crate) struct Sight {
+    o: [__m256; 3],
+    d: [__m256; 3],
+}
+
 /// For each set of lanes the lanes in it, in order, one per byte: what `vpcompressd` does, from a table.
 static COMPRESS: [u64; 256] = {
     let mut table = [0; 256];
@@ -51,6 +60,20 @@ static COMPRESS: [u64; 256] = {
 
 impl Kernel for Avx2 {
     type Lanes = Lanes;
+    type Sight = Sight;
+
+    #[inline(always)]
+    fn cull(self, tree: &Bvh, line: &Line) -> Option<CullRay> {
+        if line.origin_error != Vec3::ZERO || line.direction_error != Vec3::ZERO {
+            return tree.cull(line, Rounding::Fused);
+        }
+        // SAFETY: as below.
+        match unsafe { clip(tree, line) } {
+            Clipped::Missed => None,
+            Clipped::Enters(ray) => Some(ray),
+            Clipped::Unusual => tree.cull(line, Rounding::Fused),
+        }
+    }
 
     #[inline(always)]
     fn lanes(self, ray: &CullRay) -> Lanes {
@@ -69,6 +92,129 @@ impl Kernel for Avx2 {
         // SAFETY: as above.
         unsafe { push::<false>(node, lanes, t_far, stack) }
     }
+
+    #[inline(always)]
+    fn descend<const ORDERED: bool>(
+        self,
+        node: &Node8,
+        lanes: &Lanes,
+        t_far: f32,
+        stack: &mut Stack,
+    ) -> Option<ChildRef> {
+        // SAFETY: as above.
+        unsafe { descend::<ORDERED>(node, lanes, t_far, stack) }
+    }
+
+    #[inline(always)]
+    fn sight(self, filter: &Filter) -> Sight {
+        // SAFETY: as above.
+        unsafe { sight(filter) }
+    }
+
+    #[inline(always)]
+    fn judge(self, block: &Block, filter: &Filter, sight: &Sight, t_far: f32) -> Verdict {
+        // SAFETY: as above.
+        unsafe { judge(block, filter, sight, t_far) }
+    }
+}
+
+/// What [`clip`] says of a line.
+enum Clipped {
+    Missed,
+    Enters(CullRay),
+    /// Far away, or of unusual size: `Bvh::cull` knows.
+    Unusual,
+}
+
+/// `CullRay::new` for a line that is exactly known, all axes at once and without branches.
+///
+/// It differs in two ways, both conservative: a component of the direction that is (nearly) zero counts as [`SLOWEST`], for which the box is a
+/// little larger; and what is rounded to f32 is moved outward before, by what rounding to nearest may move it inward, instead of after.
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn clip(tree: &Bvh, line: &Line) -> Clipped {
+    let minus = _mm256_set1_pd(-0.0);
+    let all = |x: f64| _mm256_set1_pd(x);
+    let size = |x: __m256d| _mm256_andnot_pd(minus, x);
+    // SAFETY: four f64 each, aligned to 32 bytes as the first fields of a struct with that alignment.
+    let (lo, hi, most) = unsafe {
+        (
+            _mm256_load_pd(tree.clip.lo.as_ptr()),
+            _mm256_load_pd(tree.clip.hi.as_ptr()),
+            _mm256_load_pd(tree.clip.most.as_ptr()),
+        )
+    };
+    let (t_min, t_max) = (line.t_min * tree.clip.shrink, line.t_max * tree.clip.shrink);
+    if (t_min == 0.0 && line.t_min != 0.0) || (t_max == 0.0 && line.t_max != 0.0) || tree.clip.shrink == 0.0 {
+        return Clipped::Unusual;
+    }
+    let [x, y, z] = line.origin.to_array();
+    let o = _mm256_mul_pd(_mm256_setr_pd(x, y, z, 0.0), all(tree.clip.shrink));
+    let [x, y, z] = line.direction.to_array();
+    let d = _mm256_setr_pd(x, y, z, 1.0);
+    let sign = _mm256_and_pd(minus, d);
+    let inverse = _mm256_div_pd(all(1.0), _mm256_or_pd(sign, _mm256_max_pd(size(d), all(SLOWEST))));
+    let a = _mm256_mul_pd(_mm256_sub_pd(lo, o), inverse);
+    let b = _mm256_mul_pd(_mm256_sub_pd(hi, o), inverse);
+    let (near, far) = (_mm256_min_pd(a, b), _mm256_max_pd(a, b));
+    let near = _mm256_fnmadd_pd(size(near), all(WIDEN), near);
+    let far = _mm256_fmadd_pd(size(far), all(WIDEN), far);
+    let (enter, exit) = (greatest(near).max(t_min), least(far).min(t_max.next_up()));
+    if enter > exit {
+        return Clipped::Missed;
+    }
+    let way = (exit - enter).max(LEAST);
+    if way.is_nan() || way > LONGEST {
+        return Clipped::Unusual;
+    }
+    let start = _mm256_fmadd_pd(all(enter), d, o);
+    let extent = _mm256_add_pd(most, size(start));
+    let bends = _mm256_mul_pd(all(0.4 * U32), extent);
+    let bent = _mm256_cmp_pd::<_CMP_GT_OQ>(_mm256_mul_pd(size(inverse), bends), all(way));
+    let r = if _mm256_movemask_pd(bent) == 0 {
+        inverse
+    } else {
+        _mm256_blendv_pd(inverse, _mm256_or_pd(sign, _mm256_div_pd(all(way), bends)), bent)
+    };
+    let slack = _mm256_mul_pd(_mm256_mul_pd(all(Rounding::Fused.slack() * U32), extent), size(r));
+    let base = _mm256_xor_pd(minus, _mm256_mul_pd(start, r));
+    let (low, high) = (_mm256_sub_pd(base, slack), _mm256_add_pd(base, slack));
+    let low = _mm256_fnmadd_pd(size(low), all(TO_NEAREST), low);
+    let high = _mm256_fmadd_pd(size(high), all(TO_NEAREST), high);
+    let three = |x: __m256d| {
+        let mut four = [0.0_f32; 4];
+        // SAFETY: four f32.
+        unsafe { _mm_storeu_ps(four.as_mut_ptr(), _mm256_cvtpd_ps(x)) };
+        [four[0], four[1], four[2]]
+    };
+    let mut from = [0.0; 4];
+    // SAFETY: four f64.
+    unsafe { _mm256_storeu_pd(from.as_mut_ptr(), start) };
+    Clipped::Enters(CullRay {
+        r: three(r),
+        near: three(low),
+        far: three(high),
+        octant: _mm256_movemask_pd(sign) as u32 & 7,
+        t_far: up32(way.next_up()),
+        start: [from[0], from[1], from[2]],
+        error: f64::MIN_POSITIVE,
+        t_enter: enter,
+        frame: tree.frame,
+    })
+}
+
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn greatest(x: __m256d) -> f64 {
+    let two = _mm_max_pd(_mm256_castpd256_pd128(x), _mm256_extractf128_pd::<1>(x));
+    _mm_cvtsd_f64(_mm_max_sd(two, _mm_unpackhi_pd(two, two)))
+}
+
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn least(x: __m256d) -> f64 {
+    let two = _mm_min_pd(_mm256_castpd256_pd128(x), _mm256_extractf128_pd::<1>(x));
+    _mm_cvtsd_f64(_mm_min_sd(two, _mm_unpackhi_pd(two, two)))
 }
 
 #[inline]
@@ -85,11 +231,17 @@ fn lanes(ray: &CullRay) -> Lanes {
     }
 }
 
-/// Six fused multiply-adds, six minima and maxima; then a permutation that sorts and one that closes the gaps, in
-/// place of a branch per child.
+/// A node's children in the order of the ray's octant (or their own): those that are met, entries and references.
+struct Met {
+    mask: usize,
+    near: __m256,
+    child: __m256i,
+}
+
+/// Six fused multiply-adds, six minima and maxima; then a permutation that sorts.
 #[inline]
-#[target_feature(enable = "avx2,fma,popcnt")]
-fn push<const ORDERED: bool>(node: &Node8, lanes: &Lanes, t_far: f32, stack: &mut Stack) {
+#[target_feature(enable = "avx2,fma")]
+fn slabs<const ORDERED: bool>(node: &Node8, lanes: &Lanes, t_far: f32) -> Met {
     let plane = |i: usize, axis: usize, c: &[__m256; 3]| {
         // SAFETY: `i < 6` by construction of `near_plane` and `far_plane`, and a row holds eight f32, aligned to 32 bytes in a node
         // aligned to 64.
@@ -107,18 +259,26 @@ fn push<const ORDERED: bool>(node: &Node8, lanes: &Lanes, t_far: f32, stack: &mu
     let (child, order) = unsafe {
         (_mm256_load_si256(node.child.as_ptr().cast()), _mm256_load_si256(node.order.as_ptr().cast()))
     };
-    let mut mask = _mm256_movemask_ps(met) as usize;
-    let (near, child) = if ORDERED {
+    if ORDERED {
         // Only the low three bits of each index count.
         let order = _mm256_srl_epi32(order, _mm_cvtsi32_si128(lanes.octant_shift as i32));
-        mask = _mm256_movemask_ps(_mm256_permutevar8x32_ps(met, order)) as usize;
-        (_mm256_permutevar8x32_ps(near, order), _mm256_permutevar8x32_epi32(child, order))
+        Met {
+            mask: _mm256_movemask_ps(_mm256_permutevar8x32_ps(met, order)) as usize,
+            near: _mm256_permutevar8x32_ps(near, order),
+            child: _mm256_permutevar8x32_epi32(child, order),
+        }
     } else {
-        (near, child)
-    };
-    let close = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(COMPRESS[mask & 255] as i64));
-    let near = _mm256_permutevar8x32_ps(near, close);
-    let child = _mm256_permutevar8x32_epi32(child, close);
+        Met { mask: _mm256_movemask_ps(met) as usize, near, child }
+    }
+}
+
+/// Puts the met children onto the stack, all but the last `leave` of them: a permutation closes the gaps, in place of a branch per child.
+#[inline]
+#[target_feature(enable = "avx2,fma,popcnt")]
+fn stack_up(met: &Met, leave: usize, stack: &mut Stack) {
+    let close = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(COMPRESS[met.mask & 255] as i64));
+    let near = _mm256_permutevar8x32_ps(met.near, close);
+    let child = _mm256_permutevar8x32_epi32(met.child, close);
     // SAFETY: eight elements are written to each, through pointers to eight; at most eight are counted.
     unsafe {
         stack.push_lanes(
@@ -126,8 +286,123 @@ fn push<const ORDERED: bool>(node: &Node8, lanes: &Lanes, t_far: f32, stack: &mu
             |refs, distances| {
                 _mm256_storeu_si256(refs.cast(), child);
                 _mm256_storeu_ps(distances, near);
-                mask.count_ones() as usize
+                met.mask.count_ones() as usize - leave
             },
         );
     }
+}
+
+#[inline]
+#[target_feature(enable = "avx2,fma,popcnt")]
+fn push<const ORDERED: bool>(node: &Node8, lanes: &Lanes, t_far: f32, stack: &mut Stack) {
+    stack_up(&slabs::<ORDERED>(node, lanes, t_far), 0, stack);
+}
+
+/// The last child is found by the highest bit, from a copy in memory that was written while the boxes were still being tested.
+#[inline]
+#[target_feature(enable = "avx2,fma,popcnt,lzcnt")]
+fn descend<const ORDERED: bool>(
+    node: &Node8,
+    lanes: &Lanes,
+    t_far: f32,
+    stack: &mut Stack,
+) -> Option<ChildRef> {
+    #[repr(align(32))]
+    struct Children([u32; WIDTH]);
+    let met = slabs::<ORDERED>(node, lanes, t_far);
+    let mut children = Children([0; WIDTH]);
+    // SAFETY: eight u32, aligned to 32 bytes.
+    unsafe { _mm256_store_si256(children.0.as_mut_ptr().cast(), met.child) };
+    let last = (met.mask as u32 & 255).checked_ilog2()?;
+    stack_up(&met, 1, stack);
+    Some(ChildRef(children.0[last as usize & (WIDTH - 1)]))
+}
+
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn sight(filter: &Filter) -> Sight {
+    Sight {
+        o: [_mm256_set1_ps(filter.o[0]), _mm256_set1_ps(filter.o[1]), _mm256_set1_ps(filter.o[2])],
+        d: [_mm256_set1_ps(filter.d[0]), _mm256_set1_ps(filter.d[1]), _mm256_set1_ps(filter.d[2])],
+    }
+}
+
+/// Three products: one rounded, two fused.
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn dot(a: &[__m256; 3], b: &[__m256; 3]) -> __m256 {
+    _mm256_fmadd_ps(a[2], b[2], _mm256_fmadd_ps(a[1], b[1], _mm256_mul_ps(a[0], b[0])))
+}
+
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn cross(a: &[__m256; 3], b: &[__m256; 3]) -> [__m256; 3] {
+    let minor = |i: usize, j: usize| _mm256_fmsub_ps(a[i], b[j], _mm256_mul_ps(a[j], b[i]));
+    [minor(1, 2), minor(2, 0), minor(0, 1)]
+}
+
+/// What `Scalar::judge` does, eight triangles at once. Most blocks end at the first test.
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn judge(block: &Block, filter: &Filter, sight: &Sight, t_far: f32) -> Verdict {
+    let row = |r: usize| {
+        // SAFETY: a row holds eight f32, aligned to 32 bytes in a block aligned to 64.
+        let load = |r: usize| unsafe { _mm256_load_ps(block.rows[r].as_ptr()) };
+        [load(r), load(r + 1), load(r + 2)]
+    };
+    let difference = |a: &[__m256; 3], b: &[__m256; 3]| {
+        [_mm256_sub_ps(a[0], b[0]), _mm256_sub_ps(a[1], b[1]), _mm256_sub_ps(a[2], b[2])]
+    };
+    let v = row(0);
+    let (c, e1, e2) = (difference(&v, &sight.o), difference(&row(3), &v), difference(&row(6), &v));
+    let extent = block.size();
+    let slack = extent.mul_add(filter.b.mul_add(extent, filter.a), filter.g);
+    let minus = _mm256_set1_ps(-0.0);
+    let (r, n) = (cross(&c, &sight.d), cross(&e1, &e2));
+    let (u, v) = (dot(&r, &e2), _mm256_xor_ps(minus, dot(&r, &e1)));
+    let d = dot(&sight.d, &n);
+    let w = _mm256_sub_ps(_mm256_sub_ps(d, u), v);
+    let least = _mm256_min_ps(_mm256_min_ps(u, v), w);
+    let most = _mm256_max_ps(_mm256_max_ps(u, v), w);
+    let (above, below) = (_mm256_set1_ps(slack), _mm256_set1_ps(-slack));
+    let possible =
+        _mm256_or_ps(_mm256_cmp_ps::<_CMP_GE_OQ>(least, below), _mm256_cmp_ps::<_CMP_LE_OQ>(most, above));
+    let mut verdict = Verdict { alive: 0, sure: 0, lo: [0.0; LANES], hi: [0.0; LANES] };
+    if _mm256_movemask_ps(possible) == 0 {
+        return verdict;
+    }
+    let square = extent * extent;
+    let all = |x: f32| _mm256_set1_ps(x);
+    let size = |x: __m256| _mm256_andnot_ps(minus, x);
+    let inverse = _mm256_div_ps(all(1.0), d);
+    let t = _mm256_mul_ps(dot(&c, &n), inverse);
+    let length = |e: &[__m256; 3]| _mm256_add_ps(_mm256_add_ps(size(e[0]), size(e[1])), size(e[2]));
+    let spread = _mm256_mul_ps(size(inverse), _mm256_mul_ps(length(&e1), length(&e2)));
+    let nearby = NEAR.mul_add(extent, filter.p);
+    let far = _mm256_mul_ps(_mm256_fmadd_ps(all(filter.q), size(t), all(nearby)), spread);
+    let tau = _mm256_add_ps(far, _mm256_fmadd_ps(all(FAR), size(t), all(filter.s)));
+    let certain = 4.0_f32.mul_add(slack, filter.flat.mul_add(square, FLAT));
+    let known = _mm256_cmp_ps::<_CMP_GT_OQ>(size(d), all(certain));
+    let lo = _mm256_blendv_ps(all(f32::NEG_INFINITY), _mm256_sub_ps(t, tau), known);
+    let hi = _mm256_blendv_ps(all(f32::INFINITY), _mm256_add_ps(t, tau), known);
+    let here = _mm256_and_ps(
+        _mm256_cmp_ps::<_CMP_GE_OQ>(hi, _mm256_setzero_ps()),
+        _mm256_cmp_ps::<_CMP_LE_OQ>(lo, all(t_far)),
+    );
+    let alive = _mm256_and_ps(possible, here);
+    let through =
+        _mm256_or_ps(_mm256_cmp_ps::<_CMP_GT_OQ>(least, above), _mm256_cmp_ps::<_CMP_LT_OQ>(most, below));
+    let within = _mm256_and_ps(
+        _mm256_cmp_ps::<_CMP_GE_OQ>(lo, all(filter.first)),
+        _mm256_cmp_ps::<_CMP_LE_OQ>(hi, all(filter.last)),
+    );
+    let sure = _mm256_and_ps(_mm256_and_ps(alive, known), _mm256_and_ps(through, within));
+    verdict.alive = _mm256_movemask_ps(alive) as u32;
+    verdict.sure = _mm256_movemask_ps(sure) as u32;
+    // SAFETY: eight f32 each.
+    unsafe {
+        _mm256_storeu_ps(verdict.lo.as_mut_ptr(), lo);
+        _mm256_storeu_ps(verdict.hi.as_mut_ptr(), hi);
+    }
+    verdict
 }

@@ -10,8 +10,10 @@ pub(crate) use avx2::Avx2;
 pub(crate) use scalar::Scalar;
 pub(crate) use stack::{MAX_DEPTH, Stack};
 
-use crate::node::Node8;
-use crate::ray::CullRay;
+use crate::node::{ChildRef, Node8};
+use crate::ray::{CullRay, Line};
+use crate::tree::Bvh;
+use crate::triangles::{Block, Filter, Verdict};
 
 /// Tests a node's eight boxes against a ray and stacks the children it meets.
 ///
@@ -19,6 +21,11 @@ use crate::ray::CullRay;
 pub(crate) trait Kernel: Copy {
     /// The ray, spread over the lanes.
     type Lanes;
+    /// The ray as triangles see it, spread over the lanes.
+    type Sight;
+
+    /// Clips a line to the box of a tree; `None` if it certainly misses it.
+    fn cull(self, tree: &Bvh, line: &Line) -> Option<CullRay>;
 
     /// Spreads the ray.
     fn lanes(self, ray: &CullRay) -> Self::Lanes;
@@ -28,6 +35,21 @@ pub(crate) trait Kernel: Copy {
 
     /// Pushes the children whose boxes the ray meets, in the order of the node.
     fn push_unordered(self, node: &Node8, lanes: &Self::Lanes, t_far: f32, stack: &mut Stack);
+
+    /// As `push_ordered` (or `push_unordered`), but gives the last child instead of pushing it; `None` if the ray meets none.
+    fn descend<const ORDERED: bool>(
+        self,
+        node: &Node8,
+        lanes: &Self::Lanes,
+        t_far: f32,
+        stack: &mut Stack,
+    ) -> Option<ChildRef>;
+
+    /// Spreads the ray.
+    fn sight(self, filter: &Filter) -> Self::Sight;
+
+    /// What can be said of eight triangles, of crossings up to `t_far`.
+    fn judge(self, block: &Block, filter: &Filter, sight: &Self::Sight, t_far: f32) -> Verdict;
 }
 
 #[cfg(all(test, target_arch = "x86_64"))]

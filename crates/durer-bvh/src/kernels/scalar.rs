@@ -1,8 +1,10 @@
 //! The definition.
 
 use super::{Kernel, Stack};
-use crate::node::{Node8, WIDTH};
-use crate::ray::CullRay;
+use crate::node::{ChildRef, Node8, WIDTH};
+use crate::ray::{CullRay, Line, Rounding};
+use crate::tree::Bvh;
+use crate::triangles::{Block, FAR, FLAT, Filter, LANES, NEAR, Verdict};
 
 /// One lane after the other; fused, or for CPUs without fused multiply-add.
 #[derive(Clone, Copy, Debug)]
@@ -49,6 +51,12 @@ impl<const FUSED: bool> Scalar<FUSED> {
 
 impl<const FUSED: bool> Kernel for Scalar<FUSED> {
     type Lanes = CullRay;
+    type Sight = ();
+
+    #[inline(always)]
+    fn cull(self, tree: &Bvh, line: &Line) -> Option<CullRay> {
+        tree.cull(line, if FUSED { Rounding::Fused } else { Rounding::Unfused })
+    }
 
     #[inline(always)]
     fn lanes(self, ray: &CullRay) -> CullRay {
@@ -74,5 +82,70 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
                 stack.push(node.child[i], slabs.near[i]);
             }
         }
+    }
+
+    #[inline(always)]
+    fn descend<const ORDERED: bool>(
+        self,
+        node: &Node8,
+        ray: &CullRay,
+        t_far: f32,
+        stack: &mut Stack,
+    ) -> Option<ChildRef> {
+        let before = stack.len();
+        if ORDERED {
+            self.push_ordered(node, ray, t_far, stack);
+        } else {
+            self.push_unordered(node, ray, t_far, stack);
+        }
+        if stack.len() > before { stack.pop().map(|(child, _)| child) } else { None }
+    }
+
+    #[inline(always)]
+    fn sight(self, _: &Filter) {}
+
+    #[inline(always)]
+    fn judge(self, block: &Block, filter: &Filter, (): &(), t_far: f32) -> Verdict {
+        let fma = |a: f32, b: f32, c: f32| if FUSED { a.mul_add(b, c) } else { a * b + c };
+        let dot = |a: &[f32; 3], b: &[f32; 3]| fma(a[2], b[2], fma(a[1], b[1], a[0] * b[0]));
+        let cross = |a: &[f32; 3], b: &[f32; 3]| {
+            let minor = |i: usize, j: usize| fma(a[i], b[j], -(a[j] * b[i]));
+            [minor(1, 2), minor(2, 0), minor(0, 1)]
+        };
+        let size = block.size();
+        let square = size * size;
+        let slack = fma(size, fma(filter.b, size, filter.a), filter.g);
+        let nearby = fma(NEAR, size, filter.p);
+        let certain = fma(4.0, slack, fma(filter.flat, square, FLAT));
+        let mut verdict = Verdict { alive: 0, sure: 0, lo: [0.0; LANES], hi: [0.0; LANES] };
+        for i in 0..LANES {
+            let row = |r: usize| [block.rows[r][i], block.rows[r + 1][i], block.rows[r + 2][i]];
+            let (v, v1, v2) = (row(0), row(3), row(6));
+            let minus = |a: &[f32; 3], b: &[f32; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+            let (c, e1, e2) = (minus(&v, &filter.o), minus(&v1, &v), minus(&v2, &v));
+            let (r, n) = (cross(&c, &filter.d), cross(&e1, &e2));
+            let (u, v) = (dot(&r, &e2), -dot(&r, &e1));
+            let d = dot(&filter.d, &n);
+            let w = (d - u) - v;
+            let (least, most) = (min(min(u, v), w), max(max(u, v), w));
+            let possible = least >= -slack || most <= slack;
+            if !possible {
+                continue;
+            }
+            let inverse = 1.0 / d;
+            let t = dot(&c, &n) * inverse;
+            let length = |e: &[f32; 3]| e[0].abs() + e[1].abs() + e[2].abs();
+            let spread = inverse.abs() * (length(&e1) * length(&e2));
+            let far = fma(filter.q, t.abs(), nearby) * spread;
+            let tau = far + fma(FAR, t.abs(), filter.s);
+            let known = d.abs() > certain;
+            let (lo, hi) = if known { (t - tau, t + tau) } else { (f32::NEG_INFINITY, f32::INFINITY) };
+            let alive = hi >= 0.0 && lo <= t_far;
+            let sure = known && (least > slack || most < -slack) && lo >= filter.first && hi <= filter.last;
+            verdict.alive |= u32::from(alive) << i;
+            verdict.sure |= u32::from(alive && sure) << i;
+            (verdict.lo[i], verdict.hi[i]) = (lo, hi);
+        }
+        verdict
     }
 }

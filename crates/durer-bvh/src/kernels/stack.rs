@@ -29,6 +29,11 @@ impl Stack {
     }
 
     #[inline(always)]
+    pub(crate) fn len(&self) -> usize {
+        self.len
+    }
+
+    #[inline(always)]
     pub(crate) fn push(&mut self, child: ChildRef, near: f32) {
         assert!(self.len < CAPACITY, "the builder bounds the depth");
         self.refs[self.len].write(child.0);
@@ -42,6 +47,17 @@ impl Stack {
         // SAFETY: the element at the old length less one was below that length, so it has been written; a f32 and a u32 are plain
         // data.
         Some(unsafe { (ChildRef(self.refs[self.len].assume_init()), self.near[self.len].assume_init()) })
+    }
+
+    /// The last child that the ray enters no later than this; those above it that it enters later are dropped.
+    #[inline(always)]
+    pub(crate) fn pop_before(&mut self, t_far: f32) -> Option<ChildRef> {
+        loop {
+            let (child, near) = self.pop()?;
+            if near <= t_far {
+                return Some(child);
+            }
+        }
     }
 
     /// Lets `write` fill eight elements of each array; the first `count` of them are kept.

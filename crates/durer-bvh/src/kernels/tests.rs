@@ -2,6 +2,7 @@ use super::{Avx2, Kernel, Scalar, Stack};
 use crate::frame::Frame;
 use crate::node::{ChildRef, Node8, WIDTH};
 use crate::ray::{CullRay, Line, Rounding};
+use crate::triangles::{Block, Filter};
 use durer_math::{Aabb, Isa, Point3, Vec3};
 use proptest::prelude::*;
 
@@ -59,6 +60,7 @@ proptest! {
             direction_error: Vec3::ZERO,
             t_min: 0.0,
             t_max: f64::INFINITY,
+            inner: (0.0, f64::INFINITY),
         };
         let frame = Frame::around(&Aabb::EMPTY);
         let Some(ray) = CullRay::new(&line, frame, &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
@@ -70,5 +72,34 @@ proptest! {
         Scalar::<true>.push_unordered(&node, &ray, t_far, &mut a);
         avx2.push_unordered(&node, &avx2.lanes(&ray), t_far, &mut b);
         prop_assert_eq!(a.drain(), b.drain());
+    }
+
+    #[test]
+    fn all_kernels_judge_triangles_alike(
+        corners in prop::collection::vec(prop::array::uniform3(prop::array::uniform3(coordinate())), 1..=8),
+        o in prop::array::uniform3(coordinate()), d in direction(), far in 0.0..3.0_f32, rounded in any::<bool>(),
+    ) {
+        let Some(avx2) = Isa::available().find_map(Avx2::of) else { return Ok(()) };
+        let frame = Frame::around(&Aabb::EMPTY);
+        let triangle = |(slot, v): (usize, &[[f32; 3]; 3])| (slot as u32, v.map(|p| Point3::from(p.map(f64::from))));
+        let block = Block::new(frame, corners.iter().enumerate().map(triangle));
+        let line = Line {
+            origin: Point3::from(o.map(f64::from)),
+            direction: Vec3::from(d),
+            origin_error: Vec3::ZERO,
+            direction_error: Vec3::ZERO,
+            t_min: 0.0,
+            t_max: f64::INFINITY,
+            inner: (0.0, f64::INFINITY),
+        };
+        let Some(ray) = CullRay::new(&line, frame, &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
+        let filter = Filter::new(&line, &ray, rounded);
+        let one = Scalar::<true>.judge(&block, &filter, &(), far);
+        let eight = avx2.judge(&block, &filter, &avx2.sight(&filter), far);
+        prop_assert_eq!((one.alive, one.sure), (eight.alive, eight.sure));
+        for lane in (0..8).filter(|lane| one.alive >> lane & 1 != 0) {
+            prop_assert_eq!(one.lo[lane].to_bits(), eight.lo[lane].to_bits());
+            prop_assert_eq!(one.hi[lane].to_bits(), eight.hi[lane].to_bits());
+        }
     }
 }

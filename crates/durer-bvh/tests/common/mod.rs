@@ -34,10 +34,11 @@ impl Dice {
 }
 
 /// A tree over boxes of one kind, and where each slot comes from.
+#[allow(dead_code, reason = "not every test needs it")]
 pub(crate) fn tree(boxes: &[Aabb]) -> (Bvh, Vec<u32>) {
     let extent = boxes.iter().copied().fold(Aabb::EMPTY, Aabb::union);
     let frame = Frame::around(&extent);
     let entries = boxes.iter().enumerate().map(|(i, b)| frame.entry(b, 0, i as u32)).collect();
-    let (tree, mut order) = Bvh::build(&frame, entries, 1, &Settings::GOOD);
+    let (tree, mut order) = Bvh::build(&frame, entries, &[None], &Settings::GOOD);
     (tree, order.remove(0))
 }

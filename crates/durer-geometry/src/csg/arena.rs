@@ -13,7 +13,7 @@ use crate::outlines::{Drawn, Seen};
 use crate::spans::Tracks;
 use core::ops::Range;
 use durer_bvh::{Entry, Frame};
-use durer_math::{Aabb, Isa, RaySide, Shaft};
+use durer_math::{Aabb, Isa, Point3, RaySide, Shaft};
 use durer_surfaces::outline::Sketch;
 use durer_surfaces::{Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Solidity, SurfacePoint};
 use std::sync::Arc;
@@ -256,6 +256,14 @@ impl Arrange for Compounds {
             entries.extend(Some(entry).filter(Entry::is_bounded));
         }
         unsorted
+    }
+
+    fn is_of_triangles(&self) -> bool {
+        false
+    }
+
+    fn corners(&self, _index: u32) -> [Point3; 3] {
+        [Point3::ORIGIN; 3]
     }
 
     fn arrange(&mut self, order: Vec<u32>) {

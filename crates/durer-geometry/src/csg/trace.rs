@@ -189,6 +189,7 @@ impl Compound {
             direction_error: ray.d_err,
             t_min: near,
             t_max: far,
+            inner: (near, far),
         }
     }
 
@@ -225,10 +226,11 @@ impl Compound {
 
     /// Gathers the crossings of the leaves in whose boxes a line is, those of each leaf once and all of them.
     fn gather(&self, asked: &Asked<'_>, line: &Line, scratch: &mut Scratch) {
-        self.leaves.tree.any(asked.isa, line, |leaf| {
+        let visit = |leaf| {
             self.visit(asked, leaf, scratch);
             false
-        });
+        };
+        self.leaves.tree.any(asked.isa, line, |_| false, visit);
     }
 
     /// Asks some slots that were not asked before.

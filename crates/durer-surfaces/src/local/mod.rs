@@ -351,6 +351,16 @@ impl<'a> LocalRay<'a> {
         Some(RingRay { o: at.o.map(|x| x.scale2(-scale)), d: at.d.map(|x| x.scale2(-scale)), w: at.w })
     }
 
+    /// The caller's parameters of some of a ray's own that [starts at zero](LocalRay::starts_at_zero), which is exact; `None` if f64 cannot hold one.
+    #[inline(always)]
+    pub(crate) fn caller_t(&self, s: [f64; 3]) -> Option<[f64; 3]> {
+        let [a, b, c] = s;
+        let k = self.clock.k;
+        let t = [scale2(a, k), scale2(b, k), scale2(c, k)];
+        let holds = |s: f64, t: f64| s == 0.0 || t.is_normal();
+        (holds(a, t[0]) && holds(b, t[1]) && holds(c, t[2])).then_some(t)
+    }
+
     /// `(step, k)` with `parent's parameter = step + 2^k s`; `None` for a ray that was given.
     pub fn parent_clock(&self) -> Option<(f64, i32)> {
         match self.lineage {

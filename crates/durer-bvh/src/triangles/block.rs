@@ -1,0 +1,87 @@
+//! The leaf: eight triangles side by side, in f32.
+
+use crate::frame::Frame;
+use durer_math::Point3;
+use durer_math::eft::exponent;
+
+/// How many triangles a block holds.
+pub(crate) const LANES: usize = 8;
+
+/// How many bits of a lane's tag are its triangle's number; the others hold the [`Block::size`].
+const SLOT_BITS: u32 = 27;
+const SLOT: u32 = (1 << SLOT_BITS) - 1;
+
+/// The least size of a block: with a lesser one the filter's own roundings could underflow.
+const SMALLEST: f64 = 1.0 / (1_u128 << 100) as f64;
+
+/// Eight triangles in tree units: corners, each coordinate rounded once to f32, and slots. Five cache lines, all of which a test reads.
+///
+/// A lane without a triangle holds NaN, which no comparison finds.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(crate) struct Block {
+    /// `x`, `y`, `z` of `v0`, of `v1`, of `v2`.
+    pub(crate) rows: [[f32; LANES]; 9],
+    /// The triangle's slot in the lower 27 bits. The upper five of the first two lanes are the biased exponent of [`Block::size`].
+    tags: [u32; LANES],
+}
+
+const _: () = assert!(size_of::<Block>() == 5 * 64 && crate::node::MAX_ENTRIES == 1 << SLOT_BITS);
+
+/// The same bits: empty lanes are equal, too.
+impl PartialEq for Block {
+    fn eq(&self, other: &Self) -> bool {
+        let bits = |block: &Self| block.rows.map(|row| row.map(f32::to_bits));
+        self.tags == other.tags && bits(self) == bits(other)
+    }
+}
+
+/// Corners of a triangle in the caller's units.
+pub type Corners = [Point3; 3];
+
+impl Block {
+    /// A block of triangles: at most eight, each with its slot.
+    pub(crate) fn new(frame: Frame, triangles: impl Iterator<Item = (u32, Corners)>) -> Self {
+        let mut block = Self { rows: [[f32::NAN; LANES]; 9], tags: [SLOT; LANES] };
+        let (mut lo, mut hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+        for (lane, (slot, corners)) in triangles.enumerate().take(LANES) {
+            block.tags[lane] = slot;
+            for (i, v) in corners.iter().enumerate() {
+                for axis in 0..3 {
+                    let x = frame.inward(v[axis]) as f32;
+                    block.rows[3 * i + axis][lane] = x;
+                    (lo[axis], hi[axis]) = (lo[axis].min(x), hi[axis].max(x));
+                }
+            }
+        }
+        let widths: f64 = (0..3).map(|i| f64::from(hi[i]) - f64::from(lo[i])).sum();
+        let size = widths.max(SMALLEST);
+        // The next power of two, at most 2^3; f32's bias is 127.
+        let biased = (exponent(size) + 1 + 127) as u32;
+        block.tags[0] |= (biased & 31) << SLOT_BITS;
+        block.tags[1] |= (biased >> 5) << SLOT_BITS;
+        block
+    }
+
+    /// A power of two that the widths of a box around the eight do not exceed, all three added.
+    #[inline(always)]
+    pub(crate) fn size(&self) -> f32 {
+        let biased = (self.tags[0] >> SLOT_BITS) | (self.tags[1] >> SLOT_BITS << 5);
+        f32::from_bits(biased << 23)
+    }
+
+    /// The slot of a lane's triangle.
+    #[inline(always)]
+    pub(crate) fn slot(&self, lane: usize) -> u32 {
+        self.tags[lane & (LANES - 1)] & SLOT
+    }
+
+    /// Whether f32 holds a corner.
+    pub(crate) fn holds(frame: Frame, v: Point3) -> bool {
+        (0..3).all(|i| {
+            let x = frame.inward(v[i]);
+            // Neither scaling nor rounding has lost anything.
+            f64::from(x as f32) == x && frame.outward(x) == v[i]
+        })
+    }
+}

@@ -1,0 +1,120 @@
+//! A triangle met by a ray that is exactly known, in plain f64 and without re-centring: what nearly all rays need, in a tenth of the steps.
+//!
+//! With `C = v0 - o`, edges `e1`, `e2` from `v0`, `N = e1 x e2`, `R = C x d`:
+//!
+//! ```text
+//!     s = T / D,   T = C . N,   D = d . N,        b1 = U / D,   U = R . e2,      b2 = V / D,   V = -R . e1,      W = D - U - V
+//! ```
+//!
+//! (T. Moeller, B. Trumbore, "Fast, minimum storage ray-triangle intersection", Journal of Graphics Tools 2(1), 1997). Let `u = 2^-53`, `c` and `M` the
+//! greatest magnitudes in `C` and `d`, `S` the product and `E` the greater of the edges' sums of magnitudes. Corners and ray are
+//! exact; to first order, per component and counted without fused operations,
+//!
+//! ```text
+//!     C   u c        e   u |e|        R   4 u c M + 2 u c M            U, V   (6 + 6 + 2) u c M E
+//!     N   4 u S in sum                D   (3 + 4) u M S                W      9 u M S + 34 u c M E
+//! ```
+//!
+//! The quotient alone would carry the error of `N` over the whole way. So it is corrected once: with `p = C - s d`, which errs by `u |C| + u |p|`,
+//!
+//! ```text
+//!     s + N . p / D     errs by  (u sum |N_i C_i| + 8 u S |p|) / |D|  and what D and two roundings do to the correction.
+//! ```
+//!
+//! What is not certain by these bounds, or known less well than it should be, is left to [`facet`](crate::facet).
+
+use crate::facet::Facet;
+use crate::planar::TINY;
+use crate::{Kind, LocalRay, Root};
+use durer_math::rounding::{add_up, sub_down};
+use durer_math::{U, Vec3};
+
+/// Second-order terms, and the roundings of the bounds.
+const PAYS: f64 = 1.0 + 256.0 * U;
+/// A bracket this wide, relative to the parameter or to `size / |d|`, is narrow: 32 ulp at their smallest.
+const NARROW: f64 = 32.0 * U;
+/// How far a tag may be from the exact coordinates.
+const TAG: f64 = durer_math::scale::pow2(-32);
+/// Products of lengths between these do not leave the range of f64, whatever the direction.
+const RANGE: (f64, f64) = (durer_math::scale::pow2(-400), durer_math::scale::pow2(400));
+
+/// What can be said.
+pub(crate) enum Swift {
+    /// There is no crossing that matters.
+    Missed,
+    /// There is one.
+    Met(Root),
+    /// Something is not certain.
+    Open,
+}
+
+#[inline(always)]
+fn sum(v: Vec3) -> f64 {
+    v.x.abs() + v.y.abs() + v.z.abs()
+}
+
+/// Two roundings per component, where [`Vec3::cross`] spends more on fewer.
+#[inline(always)]
+fn cross(a: Vec3, b: Vec3) -> Vec3 {
+    let minor = |i: usize, j: usize| a[i].mul_add(b[j], -(a[j] * b[i]));
+    Vec3::new(minor(1, 2), minor(2, 0), minor(0, 1))
+}
+
+/// The crossing of a ray and a triangle, as far as it matters for a sink's range.
+#[inline(always)]
+pub(crate) fn meet(ray: &LocalRay<'_>, v: &Facet, face: u32, range: (f64, f64)) -> Swift {
+    let plain =
+        ray.starts_at_zero() && ray.source.is_none() && ray.o_err == Vec3::ZERO && ray.d_err == Vec3::ZERO;
+    if !plain {
+        return Swift::Open;
+    }
+    let (c, e1, e2, d) = (v[0] - ray.o, v[1] - v[0], v[2] - v[0], ray.d);
+    let (n, r) = (cross(e1, e2), cross(c, d));
+    let (u, v, along) = (r.dot(e2), -r.dot(e1), d.dot(n));
+    let w = (along - u) - v;
+    let (l1, l2) = (sum(e1), sum(e2));
+    let (reach, m, edge, area) = (c.max_abs(), d.max_abs(), l1.max(l2), l1 * l2);
+    // Not so if one of them is NaN.
+    if !(area > RANGE.0 && edge.max(reach) < RANGE.1) {
+        return Swift::Open;
+    }
+    let bound = (34.0 * reach).mul_add(edge, 9.0 * area) * (U * m * PAYS);
+    let (least, most) = (u.min(v).min(w), u.max(v).max(w));
+    if least < -bound && most > bound {
+        return Swift::Missed;
+    }
+    if least <= bound && most >= -bound {
+        return Swift::Open;
+    }
+    // All three have one sign, and so has their sum.
+    let slack = 7.0 * U * m * area * PAYS;
+    let sure = along.abs() - slack;
+    if !(sure > slack && bound <= TAG * sure) {
+        return Swift::Open;
+    }
+    let inverse = 1.0 / along;
+    let s = c.dot(n) * inverse;
+    // What is left of the way to the plane; now the error of N counts only as far as the corners are from there.
+    let p = Vec3::new((-s).mul_add(d.x, c.x), (-s).mul_add(d.y, c.y), (-s).mul_add(d.z, c.z));
+    let step = p.dot(n) * inverse;
+    let s = s + step;
+    let spread = (c.x * n.x).abs() + (c.y * n.y).abs() + (c.z * n.z).abs();
+    let err = (8.0 * area).mul_add(p.max_abs(), spread) * U;
+    let err = step.abs().mul_add((3.0 * U).mul_add(sure, slack), err) / sure;
+    let err = s.abs().mul_add(U, err).mul_add(PAYS, TINY);
+    // Half the largest width is a sixth of the longer edge's sum at least, and |d| is below 4.
+    let size = edge / 24.0;
+    if err > 0.5 * NARROW * s.abs().max(size) {
+        return Swift::Open;
+    }
+    let Some([lo, t, hi]) = ray.caller_t([sub_down(s, err), s, add_up(s, err)]) else { return Swift::Open };
+    if hi < range.0 || lo > range.1 || hi < ray.t_min || lo > ray.t_max {
+        return Swift::Missed;
+    }
+    if lo < ray.t_min || hi > ray.t_max {
+        return Swift::Open;
+    }
+    let tag = [(u * inverse).clamp(0.0, 1.0), (v * inverse).clamp(0.0, 1.0)];
+    let sign = if along > 0.0 { 1 } else { -1 };
+    Swift::Met(Root { t, lo, hi, s, tag, face, sign, kind: Kind::Simple })
+}
