@@ -70,7 +70,8 @@ impl Crossing {
 
 /// Triangles of which none is flat, some of which share edges and vertices.
 fn scene(dice: &mut Dice, grid: i64) -> Vec<Triangle> {
-    let spread = 1 + dice.below(grid as u64) as i64;
+    // From triangles as large as the scene to such as f32 hardly sees.
+    let spread = 1 + (grid >> dice.below(22));
     let corner = |dice: &mut Dice, about: Place, size: i64| -> Place {
         core::array::from_fn(|i| (about[i] + dice.about(size)).clamp(-grid, grid))
     };
@@ -226,6 +227,6 @@ fn what_the_filter_says_for_certain_is_true() {
             }
         }
     }
-    assert!(hits > 50_000 && trusted > 20_000, "{hits} hits, {trusted} of them certain");
+    assert!(hits > 50_000 && trusted > hits / 10, "{hits} hits, {trusted} rays certain of one");
     assert!(offered < 4 * hits, "{offered} questions for {hits} hits");
 }
