@@ -33,7 +33,7 @@
 //!
 //! The way through: [`Frame`] chooses the units and makes an [`Entry`] of each box; [`Bvh::build`] sorts them into nodes of eight;
 //! [`Bvh::closest`], [`Bvh::any`], [`Bvh::in_shaft`] and [`Bvh::containing`] show the [`Leaf`]s that matter; [`Bvh::story`] tells how; [`Bvh::validate`] and
-//! [`Bvh::stats`] look at the result. A tree knows boxes and numbers only: what the things are is its caller's business.
+//! [`Bvh::stats`] look at the result. A tree knows boxes and numbers, and of triangles their corners in f32: what else the things are is its caller's business.
 #![deny(unsafe_code)]
 
 mod build;

@@ -47,7 +47,7 @@ pub enum Step {
 }
 
 impl Bvh {
-    /// Tells the steps of [`Bvh::closest`], in the same order; `tell` returns the limit after a leaf (and is not asked otherwise). Says whether the
+    /// Tells the steps of [`Bvh::closest`], in the same order, but leaves of triangles whole; `tell` returns the limit after a leaf (and is not asked otherwise). Says whether the
     /// tree's own box was met at all.
     pub fn story(&self, line: &Line, mut tell: impl FnMut(&Step) -> f64) -> bool {
         let Some(ray) = self.cull(line, Rounding::Fused) else { return false };

@@ -230,3 +230,34 @@ fn what_the_filter_says_for_certain_is_true() {
     assert!(hits > 50_000 && trusted > hits / 10, "{hits} hits, {trusted} rays certain of one");
     assert!(offered < 4 * hits, "{offered} questions for {hits} hits");
 }
+
+/// What a mesh costs does not depend on what else there is, or could be.
+#[test]
+fn triangles_fill_their_blocks_beside_other_things() {
+    let mut dice = Dice(5);
+    let corner = |i: i64, j: i64, dice: &mut Dice| [8 * i, 8 * j, dice.about(3)];
+    let heights: Vec<Place> = (0..40 * 40).map(|n| corner(n / 40, n % 40, &mut dice)).collect();
+    let at = |i: usize, j: usize| heights[40 * i + j];
+    let cells = (0..39 * 39).map(|n| (n / 39, n % 39));
+    let triangles: Vec<Triangle> = cells
+        .flat_map(|(i, j)| {
+            [[at(i, j), at(i + 1, j), at(i, j + 1)], [at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]]
+        })
+        .collect();
+    let corners = |n: u32| triangles[n as usize].map(|v| point(v, 0));
+    let frame = Frame::around(&Aabb::from_points(heights.iter().map(|&v| point(v, 0))));
+    let entries = |kind: u32| -> Vec<_> {
+        let entry = |n: usize| frame.entry(&Aabb::from_points(corners(n as u32)), kind, n as u32);
+        (0..triangles.len()).map(entry).collect()
+    };
+    let (alone, order) = Bvh::build(&frame, entries(0), &[Some(&corners)], &Settings::GOOD);
+    let (among, other) = Bvh::build(&frame, entries(1), &[None, Some(&corners), None], &Settings::GOOD);
+    assert_eq!(order[0], other[1]);
+    assert_eq!(alone.stats().leaves, among.stats().leaves);
+    assert_eq!((alone.blocks(), among.blocks()), (alone.stats().leaves, among.stats().leaves));
+    // A box of its own beside them changes one leaf, not all.
+    let mut more = entries(1);
+    more.push(frame.entry(&Aabb::from_points(corners(0)), 0, 0));
+    let (mixed, _) = Bvh::build(&frame, more, &[None, Some(&corners), None], &Settings::GOOD);
+    assert!(mixed.blocks() < alone.blocks() + alone.blocks() / 8, "{} {}", mixed.blocks(), alone.blocks());
+}

@@ -62,6 +62,12 @@ impl SurfacePoint {
         }
     }
 
+    /// The point of a root that is not the surface's own: nothing is known of it.
+    pub(crate) fn unknown(p: Point3) -> Self {
+        let far = Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY);
+        Self::new(p, far, f64::INFINITY, Vec3::Y.to_normal())
+    }
+
     /// A ray that leaves the surface along `direction`, from the side to which it points, with `t` in `[0, inf]`.
     ///
     /// Its origin is provably on that side, so no hit needs to be ignored (Pharr, Jakob, Humphreys, *Physically Based

@@ -33,7 +33,7 @@ use durer_math::{U, Vec3};
 const PAYS: f64 = 1.0 + 256.0 * U;
 /// A bracket this wide, relative to the parameter or to `size / |d|`, is narrow: 32 ulp at their smallest.
 const NARROW: f64 = 32.0 * U;
-/// How far a tag may be from the exact coordinates.
+/// The error of the volumes over their sum up to which tags are taken: they are then within twice this of the exact coordinates.
 const TAG: f64 = durer_math::scale::pow2(-32);
 /// Products of lengths between these do not leave the range of f64, whatever the direction.
 const RANGE: (f64, f64) = (durer_math::scale::pow2(-400), durer_math::scale::pow2(400));

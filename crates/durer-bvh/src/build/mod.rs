@@ -43,26 +43,43 @@ impl Default for Settings {
 }
 
 /// What leaves cost, in units of a node test.
-#[derive(Clone, Copy, Debug)]
-struct Costs {
+#[derive(Clone, Copy)]
+struct Costs<'a> {
     max_leaf: usize,
+    test: f32,
+    leaf: f32,
+    shapes: &'a [Option<CornersOf<'a>>],
+}
+
+/// The same for one kind of things.
+#[derive(Clone, Copy, Debug)]
+struct KindCosts {
     /// How many things are tested together, at the cost of one test.
     block: usize,
     test: f32,
     leaf: f32,
 }
 
-impl Costs {
-    fn of(settings: &Settings, shapes: &[Option<CornersOf<'_>>]) -> Self {
+impl<'a> Costs<'a> {
+    fn of(settings: &Settings, shapes: &'a [Option<CornersOf<'a>>]) -> Self {
         let Settings { max_leaf, test_cost, leaf_cost } = *settings;
-        if shapes.iter().all(Option::is_some) {
-            // Nothing but triangles: a block costs what it costs, full or not.
-            return Self { max_leaf: max_leaf.clamp(1, LANES), block: LANES, test: test_cost, leaf: 0.0 };
-        }
         let most = if shapes.iter().any(Option::is_some) { LANES } else { MAX_LEAF };
-        Self { max_leaf: max_leaf.clamp(1, most), block: 1, test: test_cost, leaf: leaf_cost }
+        Self { max_leaf: max_leaf.clamp(1, most), test: test_cost, leaf: leaf_cost, shapes }
     }
 
+    /// What a range costs, as its first entry tells: mostly all of it is of one kind, and a leaf always is.
+    fn of_range(&self, entries: &[Entry]) -> KindCosts {
+        let is_triangles = entries.first().is_some_and(|e| self.shapes[e.kind() as usize].is_some());
+        if is_triangles {
+            // A block costs what it costs, full or not.
+            KindCosts { block: LANES, test: self.test, leaf: 0.0 }
+        } else {
+            KindCosts { block: 1, test: self.test, leaf: self.leaf }
+        }
+    }
+}
+
+impl KindCosts {
     /// The cost of a leaf of `count` things.
     fn of_leaf(&self, count: usize) -> f32 {
         self.leaf + self.test * self.tests(count)
@@ -88,7 +105,7 @@ const _: () = assert!(BALANCED_FROM + 9 + 2 < MAX_DEPTH && MAX_ENTRIES == 1 << 2
 const PARALLEL: usize = 4096;
 
 /// Nodes over `entries`, which are put into leaf order. The first node is the root. Leaves refer to positions.
-fn build(entries: &mut [Entry], costs: &Costs) -> Vec<Node8> {
+fn build(entries: &mut [Entry], costs: &Costs<'_>) -> Vec<Node8> {
     let mut nodes = Vec::new();
     if !entries.is_empty() {
         let whole = Range { first: 0, len: entries.len(), extent: split::extent(entries), closed: false };
@@ -120,7 +137,7 @@ fn subtree(
     base: usize,
     whole: &Range,
     level: usize,
-    costs: &Costs,
+    costs: &Costs<'_>,
     nodes: &mut Vec<Node8>,
 ) {
     let mut ranges = [*whole; WIDTH];
@@ -209,18 +226,19 @@ fn move_by(node: &mut Node8, offset: usize) {
 }
 
 /// Splits a range in two; `None` if it is better, and possible, to make it a leaf.
-fn split(entries: &mut [Entry], extent: &Extent, level: usize, costs: &Costs) -> Option<Split> {
+fn split(entries: &mut [Entry], extent: &Extent, level: usize, costs: &Costs<'_>) -> Option<Split> {
     let one_kind = split::is_one_kind(entries);
     let may_be_leaf = one_kind && entries.len() <= costs.max_leaf;
     if level >= BALANCED_FROM {
         return (!may_be_leaf).then(|| split::halve_by_kind(entries));
     }
-    let best = split::best_plane(entries, costs);
+    let kind = costs.of_range(entries);
+    let best = split::best_plane(entries, &kind);
     if may_be_leaf {
-        let leaf = costs.of_leaf(entries.len());
+        let leaf = kind.of_leaf(entries.len());
         let whole = extent.half_area();
         // In this node another child costs no other node test.
-        let pays = best.as_ref().is_some_and(|b| b.cost(costs) < leaf * whole);
+        let pays = best.as_ref().is_some_and(|b| b.cost(&kind) < leaf * whole);
         if !pays {
             return None;
         }

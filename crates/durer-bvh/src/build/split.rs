@@ -1,7 +1,7 @@
 //! Where to cut a range of entries.
 
-use super::Costs;
 use super::area::Extent;
+use super::{Costs, KindCosts};
 use crate::frame::Entry;
 use rayon::prelude::*;
 
@@ -66,7 +66,7 @@ enum Cut {
 
 impl Plane {
     /// The area-weighted cost of two leaves.
-    pub(super) fn cost(&self, costs: &Costs) -> f32 {
+    pub(super) fn cost(&self, costs: &KindCosts) -> f32 {
         let side = |(extent, count): &(Extent, usize)| extent.half_area() * costs.of_leaf(*count);
         side(&self.left) + side(&self.right)
     }
@@ -109,12 +109,12 @@ impl Bins {
 }
 
 /// The best cut along any axis by the surface area heuristic; `None` if all centres coincide (or nearly).
-pub(super) fn best_plane(entries: &[Entry], costs: &Costs) -> Option<Plane> {
+pub(super) fn best_plane(entries: &[Entry], costs: &KindCosts) -> Option<Plane> {
     if entries.len() <= SWEPT { best_of_all(entries, costs) } else { best_between_bins(entries, costs) }
 }
 
 /// The best of all cuts of a few entries sorted by their centres.
-fn best_of_all(entries: &[Entry], costs: &Costs) -> Option<Plane> {
+fn best_of_all(entries: &[Entry], costs: &KindCosts) -> Option<Plane> {
     let n = entries.len();
     let mut best: Option<Plane> = None;
     let mut least = f32::INFINITY;
@@ -149,7 +149,7 @@ fn best_of_all(entries: &[Entry], costs: &Costs) -> Option<Plane> {
     best
 }
 
-fn best_between_bins(entries: &[Entry], costs: &Costs) -> Option<Plane> {
+fn best_between_bins(entries: &[Entry], costs: &KindCosts) -> Option<Plane> {
     type Filled = [[(Extent, usize); BINS]; 3];
     let bins = Bins::over(entries);
     let add = |filled: &mut Filled, entry: &Entry| {
@@ -193,13 +193,14 @@ fn best_between_bins(entries: &[Entry], costs: &Costs) -> Option<Plane> {
 }
 
 /// Whether a range that its node has no room to split should be a leaf rather than a node below.
-pub(super) fn is_better_as_leaf(entries: &[Entry], extent: &Extent, costs: &Costs) -> bool {
+pub(super) fn is_better_as_leaf(entries: &[Entry], extent: &Extent, costs: &Costs<'_>) -> bool {
     if entries.len() > costs.max_leaf || !is_one_kind(entries) {
         return false;
     }
+    let costs = costs.of_range(entries);
     let whole = extent.half_area();
     let leaf = costs.of_leaf(entries.len()) * whole;
-    best_plane(entries, costs).is_none_or(|plane| leaf <= whole + plane.cost(costs))
+    best_plane(entries, &costs).is_none_or(|plane| leaf <= whole + plane.cost(&costs))
 }
 
 /// Makes the cut.

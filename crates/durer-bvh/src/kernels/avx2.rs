@@ -82,18 +82,6 @@ impl Kernel for Avx2 {
     }
 
     #[inline(always)]
-    fn push_ordered(self, node: &Node8, lanes: &Lanes, t_far: f32, stack: &mut Stack) {
-        // SAFETY: `self` exists, so an `Isa` has seen AVX2, FMA and POPCNT on this CPU.
-        unsafe { push::<true>(node, lanes, t_far, stack) }
-    }
-
-    #[inline(always)]
-    fn push_unordered(self, node: &Node8, lanes: &Lanes, t_far: f32, stack: &mut Stack) {
-        // SAFETY: as above.
-        unsafe { push::<false>(node, lanes, t_far, stack) }
-    }
-
-    #[inline(always)]
     fn descend<const ORDERED: bool>(
         self,
         node: &Node8,
@@ -272,33 +260,8 @@ fn slabs<const ORDERED: bool>(node: &Node8, lanes: &Lanes, t_far: f32) -> Met {
     }
 }
 
-/// Puts the met children onto the stack, all but the last `leave` of them: a permutation closes the gaps, in place of a branch per child.
-#[inline]
-#[target_feature(enable = "avx2,fma,popcnt")]
-fn stack_up(met: &Met, leave: usize, stack: &mut Stack) {
-    let close = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(COMPRESS[met.mask & 255] as i64));
-    let near = _mm256_permutevar8x32_ps(met.near, close);
-    let child = _mm256_permutevar8x32_epi32(met.child, close);
-    // SAFETY: eight elements are written to each, through pointers to eight; at most eight are counted.
-    unsafe {
-        stack.push_lanes(
-            #[inline(always)]
-            |refs, distances| {
-                _mm256_storeu_si256(refs.cast(), child);
-                _mm256_storeu_ps(distances, near);
-                met.mask.count_ones() as usize - leave
-            },
-        );
-    }
-}
-
-#[inline]
-#[target_feature(enable = "avx2,fma,popcnt")]
-fn push<const ORDERED: bool>(node: &Node8, lanes: &Lanes, t_far: f32, stack: &mut Stack) {
-    stack_up(&slabs::<ORDERED>(node, lanes, t_far), 0, stack);
-}
-
-/// The last child is found by the highest bit, from a copy in memory that was written while the boxes were still being tested.
+/// The last child is found by the highest bit, from a copy in memory that was written while the boxes were still being tested. The others go onto
+/// the stack through a permutation that closes the gaps, in place of a branch per child.
 #[inline]
 #[target_feature(enable = "avx2,fma,popcnt,lzcnt")]
 fn descend<const ORDERED: bool>(
@@ -314,7 +277,20 @@ fn descend<const ORDERED: bool>(
     // SAFETY: eight u32, aligned to 32 bytes.
     unsafe { _mm256_store_si256(children.0.as_mut_ptr().cast(), met.child) };
     let last = (met.mask as u32 & 255).checked_ilog2()?;
-    stack_up(&met, 1, stack);
+    let close = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(COMPRESS[met.mask & 255] as i64));
+    let near = _mm256_permutevar8x32_ps(met.near, close);
+    let child = _mm256_permutevar8x32_epi32(met.child, close);
+    // SAFETY: eight elements are written to each, through pointers to eight; at most seven are counted.
+    unsafe {
+        stack.push_lanes(
+            #[inline(always)]
+            |refs, distances| {
+                _mm256_storeu_si256(refs.cast(), child);
+                _mm256_storeu_ps(distances, near);
+                met.mask.count_ones() as usize - 1
+            },
+        );
+    }
     Some(ChildRef(children.0[last as usize & (WIDTH - 1)]))
 }
 

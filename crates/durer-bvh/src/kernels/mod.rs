@@ -30,13 +30,8 @@ pub(crate) trait Kernel: Copy {
     /// Spreads the ray.
     fn lanes(self, ray: &CullRay) -> Self::Lanes;
 
-    /// Pushes the children whose boxes the ray meets before `t_far`, the farthest first in the order of the ray's octant.
-    fn push_ordered(self, node: &Node8, lanes: &Self::Lanes, t_far: f32, stack: &mut Stack);
-
-    /// Pushes the children whose boxes the ray meets, in the order of the node.
-    fn push_unordered(self, node: &Node8, lanes: &Self::Lanes, t_far: f32, stack: &mut Stack);
-
-    /// As `push_ordered` (or `push_unordered`), but gives the last child instead of pushing it; `None` if the ray meets none.
+    /// Pushes the children whose boxes the ray meets before `t_far`, all but the last, which is the answer; `None` if it meets none. In the order
+    /// of the ray's octant, the farthest first, or in that of the node.
     fn descend<const ORDERED: bool>(
         self,
         node: &Node8,

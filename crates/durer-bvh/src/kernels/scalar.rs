@@ -64,27 +64,6 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
     }
 
     #[inline(always)]
-    fn push_ordered(self, node: &Node8, ray: &CullRay, t_far: f32, stack: &mut Stack) {
-        let slabs = self.slabs(node, ray, t_far);
-        for word in node.order {
-            let i = (word >> (3 * ray.octant) & 7) as usize;
-            if slabs.met[i] {
-                stack.push(node.child[i], slabs.near[i]);
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn push_unordered(self, node: &Node8, ray: &CullRay, t_far: f32, stack: &mut Stack) {
-        let slabs = self.slabs(node, ray, t_far);
-        for i in 0..WIDTH {
-            if slabs.met[i] {
-                stack.push(node.child[i], slabs.near[i]);
-            }
-        }
-    }
-
-    #[inline(always)]
     fn descend<const ORDERED: bool>(
         self,
         node: &Node8,
@@ -92,13 +71,17 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
         t_far: f32,
         stack: &mut Stack,
     ) -> Option<ChildRef> {
-        let before = stack.len();
-        if ORDERED {
-            self.push_ordered(node, ray, t_far, stack);
-        } else {
-            self.push_unordered(node, ray, t_far, stack);
+        let slabs = self.slabs(node, ray, t_far);
+        let mut last = None;
+        for i in 0..WIDTH {
+            let i = if ORDERED { (node.order[i] >> (3 * ray.octant) & 7) as usize } else { i };
+            if slabs.met[i]
+                && let Some((child, near)) = last.replace((node.child[i], slabs.near[i]))
+            {
+                stack.push(child, near);
+            }
         }
-        if stack.len() > before { stack.pop().map(|(child, _)| child) } else { None }
+        last.map(|(child, _)| child)
     }
 
     #[inline(always)]

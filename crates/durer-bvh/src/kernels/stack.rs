@@ -29,11 +29,6 @@ impl Stack {
     }
 
     #[inline(always)]
-    pub(crate) fn len(&self) -> usize {
-        self.len
-    }
-
-    #[inline(always)]
     pub(crate) fn push(&mut self, child: ChildRef, near: f32) {
         assert!(self.len < CAPACITY, "the builder bounds the depth");
         self.refs[self.len].write(child.0);

@@ -44,6 +44,19 @@ fn direction() -> impl Strategy<Value = [f64; 3]> {
     )
 }
 
+/// A ray from `origin`, all of it.
+fn line(origin: [f64; 3], direction: [f64; 3]) -> Line {
+    Line {
+        origin: Point3::from(origin),
+        direction: Vec3::from(direction),
+        origin_error: Vec3::ZERO,
+        direction_error: Vec3::ZERO,
+        t_min: 0.0,
+        t_max: f64::INFINITY,
+        inner: (0.0, f64::INFINITY),
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(4000))]
 
@@ -53,24 +66,17 @@ proptest! {
     ) {
         let Some(avx2) = Isa::available().find_map(Avx2::of) else { return Ok(()) };
         let o = o.map(|x| f64::from(x) * [1.0, 2.0, 1e3, 1e12][far as usize]);
-        let line = Line {
-            origin: Point3::from(o),
-            direction: Vec3::from(d),
-            origin_error: Vec3::ZERO,
-            direction_error: Vec3::ZERO,
-            t_min: 0.0,
-            t_max: f64::INFINITY,
-            inner: (0.0, f64::INFINITY),
-        };
+        let line = line(o, d);
         let frame = Frame::around(&Aabb::EMPTY);
         let Some(ray) = CullRay::new(&line, frame, &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
         let t_far = t_far.min(ray.t_far);
         let (mut a, mut b) = (Stack::new(), Stack::new());
-        Scalar::<true>.push_ordered(&node, &ray, t_far, &mut a);
-        avx2.push_ordered(&node, &avx2.lanes(&ray), t_far, &mut b);
+        let lanes = avx2.lanes(&ray);
+        let scalar = Scalar::<true>.descend::<true>(&node, &ray, t_far, &mut a);
+        prop_assert_eq!(scalar, avx2.descend::<true>(&node, &lanes, t_far, &mut b));
         prop_assert_eq!(a.drain(), b.drain());
-        Scalar::<true>.push_unordered(&node, &ray, t_far, &mut a);
-        avx2.push_unordered(&node, &avx2.lanes(&ray), t_far, &mut b);
+        let scalar = Scalar::<true>.descend::<false>(&node, &ray, t_far, &mut a);
+        prop_assert_eq!(scalar, avx2.descend::<false>(&node, &lanes, t_far, &mut b));
         prop_assert_eq!(a.drain(), b.drain());
     }
 
@@ -83,15 +89,7 @@ proptest! {
         let frame = Frame::around(&Aabb::EMPTY);
         let triangle = |(slot, v): (usize, &[[f32; 3]; 3])| (slot as u32, v.map(|p| Point3::from(p.map(f64::from))));
         let block = Block::new(frame, corners.iter().enumerate().map(triangle));
-        let line = Line {
-            origin: Point3::from(o.map(f64::from)),
-            direction: Vec3::from(d),
-            origin_error: Vec3::ZERO,
-            direction_error: Vec3::ZERO,
-            t_min: 0.0,
-            t_max: f64::INFINITY,
-            inner: (0.0, f64::INFINITY),
-        };
+        let line = line(o.map(f64::from), d);
         let Some(ray) = CullRay::new(&line, frame, &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
         let filter = Filter::new(&line, &ray, rounded);
         let one = Scalar::<true>.judge(&block, &filter, &(), far);

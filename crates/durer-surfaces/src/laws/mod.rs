@@ -187,6 +187,28 @@ pub fn roots_are_the_exact_crossings(
     Ok(roots)
 }
 
+/// The parts of a surface have the whole's roots, each within the part's box: says how many parts were asked and how many roots they have.
+pub fn parts_are_the_whole<S: Subject>(surface: &S, ray: &Ray) -> Result<(usize, usize), Broken> {
+    let local = LocalRay::new(ray);
+    let (mut sink, mut parts, mut astray) = (All::default(), 0, None);
+    surface.parts(&mut |bounds, part| {
+        let before = sink.roots.len();
+        surface.part_roots(part, &local, &mut sink);
+        for root in &sink.roots[before..] {
+            let p = surface.resolve(&local, root, Need::POINT);
+            if !bounds.expanded(p.dp).contains(p.p) {
+                astray = Some(format!("{p:?} of {part:?} is not in {bounds:?}"));
+            }
+        }
+        parts += 1;
+    });
+    ensure!(astray.is_none(), "{astray:?}: {ray:?} {surface:?}");
+    sink.roots.sort_by(Root::order);
+    let whole = all_roots(surface, ray);
+    ensure!(sink.roots == whole, "the parts have {:?}, the whole {whole:?}: {ray:?} {surface:?}", sink.roots);
+    Ok((parts, whole.len()))
+}
+
 /// P3: closest is the least of all, and any says whether there is one.
 pub fn closest_is_the_first_of_all(surface: &dyn Subject, ray: &Ray, roots: &[Root]) -> Result<(), Broken> {
     let (mut closest, mut any) = (Closest::default(), Any::default());

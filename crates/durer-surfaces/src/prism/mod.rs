@@ -137,6 +137,13 @@ impl Sweep {
     }
 }
 
+/// The heights of a sweep in order.
+fn ascending(bottom: f64, top: f64) -> Result<(f64, f64), PrismError> {
+    let (low, high) = (bottom.min(top), bottom.max(top));
+    let fits = bottom.is_finite() && top.is_finite() && low < high && (high - low).is_finite();
+    if fits { Ok((low, high)) } else { Err(PrismError::Heights(bottom, top)) }
+}
+
 /// A part of a prism.
 enum PrismPart<'a> {
     /// Some triangles, the first one's number, and their corners in order.
@@ -163,10 +170,7 @@ impl Prism {
         top: f64,
         sweep: Sweep,
     ) -> Result<Self, PrismError> {
-        let (low, high) = (bottom.min(top), bottom.max(top));
-        if !(bottom.is_finite() && top.is_finite() && low < high && (high - low).is_finite()) {
-            return Err(PrismError::Heights(bottom, top));
-        }
+        let (low, high) = ascending(bottom, top)?;
         let outlines = outline::cleaned(outlines)?;
         let edges = outline::edges(&outlines);
         let inside_is_left = outline::inside_is_left(&edges);

@@ -1,7 +1,9 @@
 //! A plane across the axis of a turned solid, or of a sweep.
 
 use crate::planar::{self, AlongRay, Line, PlaneForm, Probe};
+use crate::roots::quadratic::{self, Quadratic};
 use crate::{CentredRay, RingRay};
+use core::cmp::Ordering;
 use durer_math::{Dyadic, Point3, Ring, Vec3};
 
 /// The plane at a height, its normal upward.
@@ -12,12 +14,11 @@ pub(crate) struct Level {
     pub(crate) scale: i32,
 }
 
-/// How far the start of a ray is above a level.
-pub(super) struct Above(pub(super) Level);
-
-impl AlongRay for Above {
+/// How far the start of a ray is above the level.
+impl AlongRay for Level {
+    #[inline(always)]
     fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
-        self.0.height(ray)
+        self.height(ray)
     }
 }
 
@@ -41,6 +42,15 @@ impl PlaneForm for Level {
 }
 
 impl Level {
+    /// The exact sign of a quadratic where an exact ray passes this height.
+    pub(crate) fn sign_at_root(&self, ray: &RingRay<Dyadic>, q: &Quadratic<Dyadic>) -> Option<Ordering> {
+        let (slope, height) = (self.slope(ray).scale2(-1), self.height(ray)?);
+        let p = Quadratic { a: Dyadic::exact(0.0), b: slope, c: height };
+        let rises = p.b.exact_sign().is_gt();
+        let crossing = if rises { quadratic::Crossing::Out } else { quadratic::Crossing::In };
+        Some(quadratic::sign_at_root(&p, crossing, q))
+    }
+
     /// The exact ray with its start moved to this height, times a positive number.
     pub(super) fn passing(&self, probe: &Probe<'_>) -> Option<RingRay<Dyadic>> {
         let ray = probe.exact()?;

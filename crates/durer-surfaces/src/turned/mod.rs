@@ -19,7 +19,7 @@ mod wall;
 
 use crate::planar::{self, Crossing, Line, PlaneForm, PointLine, Probe};
 use crate::quadric::body::Frame;
-use crate::roots::quadratic::{self, Quadratic};
+use crate::roots::quadratic::Quadratic;
 use crate::zero_set;
 use crate::{
     Algebraic, CentredRay, Flow, Forward, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface,
@@ -28,7 +28,7 @@ use crate::{
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Dyadic, Isa, Point3, Ring, U, Vec3};
-use level::{Above, Level};
+use level::Level;
 use piece::Wall;
 use wall::{Cubic, Spindle, Stand};
 
@@ -164,7 +164,7 @@ impl Turned {
         let last = self.walls.len();
         let Some(first) = probe.crossing(&self.level(0)) else {
             // Across the axis: all of the ray is at one height. A seam belongs to what is above it.
-            let above = |i: usize| probe.sign(&Above(self.level(i))).is_none_or(Ordering::is_ge);
+            let above = |i: usize| probe.sign(&self.level(i)).is_none_or(Ordering::is_ge);
             if let Some(i) = (0..last).rev().find(|&i| above(i))
                 && !above(last)
             {
@@ -434,7 +434,7 @@ impl Surface for Turned {
                 Some(Wall::Cubic(w)) => zero_set::resolve(w, ray, root, need),
                 Some(Wall::Spindle(w)) => zero_set::resolve(w, ray, root, need),
                 // Not a root of this surface: nothing is known.
-                None => unknown(self.frame.centre),
+                None => SurfacePoint::unknown(self.frame.centre),
             };
         }
         let i = (root.tag[0] as usize).min(self.walls.len());
@@ -487,17 +487,8 @@ impl Algebraic for Turned {
         }
         let level = self.level((root.tag[0] as usize).min(self.walls.len()));
         let exact = ray.in_ring_from::<Dyadic>(self.frame.centre, self.frame.scale)?;
-        let p =
-            Quadratic { a: Dyadic::exact(0.0), b: level.slope(&exact).scale2(-1), c: level.height(&exact)? };
-        let crossing =
-            if p.b.exact_sign().is_gt() { quadratic::Crossing::Out } else { quadratic::Crossing::In };
-        Some(quadratic::sign_at_root(&p, crossing, q))
+        level.sign_at_root(&exact, q)
     }
-}
-
-fn unknown(p: Point3) -> SurfacePoint {
-    let far = Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY);
-    SurfacePoint::new(p, far, f64::INFINITY, Vec3::Y.to_normal())
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! All crossings of a ray with a curved prism, by its walls and caps.
 
 use super::cut::{Meet, Scan};
-use super::forms::{Above, Cut};
+use super::forms::Cut;
 use super::piece::{Piece, View};
 use super::place::Places;
 use super::{CurvedPrism, Sweep};
@@ -88,7 +88,7 @@ impl CurvedPrism {
         let levels = [self.level(false), self.level(true)];
         let Some(rise) = probe.crossing(&levels[0]).map(|c| c.sign) else {
             // All of the ray at one height. At the bottom is above it, at the top too.
-            let above = |level: &Level| probe.sign(&Above(level)).is_none_or(Ordering::is_ge);
+            let above = |level: &Level| probe.sign(level).is_none_or(Ordering::is_ge);
             return above(&levels[0]) && !above(&levels[1]);
         };
         let is_behind = |level: &Level| {
@@ -122,6 +122,7 @@ impl CurvedPrism {
         let Vec3 { x, z, .. } = at;
         let unit = |v: f64, c: f64| scale2(v - c, -self.view.scale);
         let (Aabb { min, max, .. }, c) = (self.cap_boxes[usize::from(top)], self.view.centre);
+        // The numbers compared are below 4, and each side has been rounded twice.
         let room = |e: f64| e + durer_math::U * 16.0;
         if x < unit(min.x, c.x) - room(err.x)
             || x > unit(max.x, c.x) + room(err.x)

@@ -138,16 +138,6 @@ pub(super) fn exact_line<L: Line>(line: &L) -> (RingRay<Dyadic>, bool) {
     }
 }
 
-/// How far the start of a line is above a height.
-pub(super) struct Above<'a>(pub(super) &'a Level);
-
-impl AlongRay for Above<'_> {
-    #[inline(always)]
-    fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
-        self.0.height(ray)
-    }
-}
-
 /// A coordinate of the start of a line.
 pub(super) struct Coordinate(pub(super) usize);
 

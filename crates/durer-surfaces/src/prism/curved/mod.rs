@@ -29,8 +29,8 @@ mod tangle;
 
 use super::{PrismError, Sweep};
 use crate::outline::Sketch;
-use crate::planar::{self, Line, PlaneForm, PointLine, Probe};
-use crate::roots::quadratic::{self, Quadratic};
+use crate::planar::{self, Line, PointLine, Probe};
+use crate::roots::quadratic::Quadratic;
 use crate::turned::level::Level;
 use crate::{
     Algebraic, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
@@ -39,8 +39,8 @@ use core::cmp::Ordering;
 use cut::{Meet, Scan};
 use durer_math::eft::{exponent, scale2};
 use durer_math::rounding::{mul_down, mul_up};
-use durer_math::{Aabb, Dyadic, Point3, Ring, Vec3};
-use forms::{Above, Coordinate, Cut};
+use durer_math::{Aabb, Dyadic, Point3, Vec3};
+use forms::{Coordinate, Cut};
 use piece::{Piece, View};
 use point::Wall;
 pub use spline::{Bezier, Spline};
@@ -94,10 +94,7 @@ impl CurvedPrism {
         top: f64,
         sweep: Sweep,
     ) -> Result<Self, PrismError> {
-        let (low, high) = (bottom.min(top), bottom.max(top));
-        if !(bottom.is_finite() && top.is_finite() && low < high && (high - low).is_finite()) {
-            return Err(PrismError::Heights(bottom, top));
-        }
+        let (low, high) = super::ascending(bottom, top)?;
         let outlines = closed(outlines)?;
         // What a piece sweeps between two heights; roundings outward.
         let swept = |b: &Bezier, [low, high]: [f64; 2]| {
@@ -229,7 +226,9 @@ impl Surface for CurvedPrism {
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         if root.face == 0 {
             let number = root.tag[0] as usize;
-            let Some(piece) = self.pieces.get(number / 2) else { return unknown(self.view.centre) };
+            let Some(piece) = self.pieces.get(number / 2) else {
+                return SurfacePoint::unknown(self.view.centre);
+            };
             let wall = Wall {
                 view: &self.view,
                 piece,
@@ -299,7 +298,7 @@ impl Surface for CurvedPrism {
         }
         let positive = match self.view.sweep {
             Sweep::Linear => true,
-            Sweep::Conic => match line.sign(&Above(&self.level_at_apex())).unwrap_or(Ordering::Equal) {
+            Sweep::Conic => match line.sign(&self.level_at_apex()).unwrap_or(Ordering::Equal) {
                 Ordering::Greater => true,
                 Ordering::Less => false,
                 // At the apex's height there is only the apex.
@@ -346,18 +345,8 @@ impl Algebraic for CurvedPrism {
             // The centre and its unit are the same, the parameter is the ray's own, and the curve's parameter does not depend on it.
             return place::sign_at(&scan, &exact, piece, &found?, [&q.a, &q.b, &q.c]);
         }
-        let level = self.level(root.face == 2);
-        let p =
-            Quadratic { a: Dyadic::exact(0.0), b: level.slope(&exact).scale2(-1), c: level.height(&exact)? };
-        let crossing =
-            if p.b.exact_sign().is_gt() { quadratic::Crossing::Out } else { quadratic::Crossing::In };
-        Some(quadratic::sign_at_root(&p, crossing, q))
+        self.level(root.face == 2).sign_at_root(&exact, q)
     }
-}
-
-fn unknown(p: Point3) -> SurfacePoint {
-    let far = Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY);
-    SurfacePoint::new(p, far, f64::INFINITY, Vec3::Y.to_normal())
 }
 
 #[cfg(test)]
