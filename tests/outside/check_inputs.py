@@ -8,6 +8,8 @@ panic, within 10 seconds of work and 1 GB. See README.md.
 """
 
 import argparse
+import base64
+import json
 import os
 import random
 import re
@@ -272,6 +274,105 @@ def npy(shape="(2, 6)", descr="'<f8'"):
     return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(head)) + head + struct.pack("<12d", *(0, 0, -3, 0, 0, 1) * 2)
 
 
+# ---- mesh files ----
+
+
+def gltf(positions=(0, 0, 0, 1.5, 0, 0, 0, 2.25, 0, 0, 0, 3), indices=(0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3), uri=None, change=None):
+    """A tetrahedron as a glTF document and its buffer; `change` alters the document."""
+    data = struct.pack(f"<{len(positions)}f", *positions) + struct.pack(f"<{len(indices)}H", *indices)
+    document = {
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(positions) // 3, "type": "VEC3"},
+                      {"bufferView": 1, "componentType": 5123, "count": len(indices), "type": "SCALAR"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 4 * len(positions)}, {"buffer": 0, "byteOffset": 4 * len(positions), "byteLength": 2 * len(indices)}],
+        "buffers": [{"byteLength": len(data)}],
+    }
+    if uri != "":
+        document["buffers"][0]["uri"] = uri or "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+    if change:
+        change(document)
+    return json.dumps(document).encode(), data
+
+
+def glb(document, data):
+    document += b" " * (-len(document) % 4)
+    data += b"\0" * (-len(data) % 4)
+    head = struct.pack("<4sII", b"glTF", 2, 28 + len(document) + len(data))
+    return head + struct.pack("<I4s", len(document), b"JSON") + document + struct.pack("<I4s", len(data), b"BIN\0") + data
+
+
+def mesh_files(x, rng):
+    def mesh(name, file, content, code=1, says=None, files=None, commands=("render", "check"), **rest):
+        for command in commands:
+            words = ["render", file, "-o", "m.png", "--width", "8", "--height", "6"] if command == "render" else ["check", file]
+            makes = ["m.png"] if command == "render" else []
+            x.examine(f"mesh file: {name}, {command}", words, code, {file: content, **(files or {})}, says=says, makes=makes, scene=content, **rest)
+
+    text, data = gltf()
+    whole = glb(gltf(uri="")[0], data)
+    mesh("glTF as text", "m.gltf", text, code=0)
+    mesh("glTF as binary", "m.glb", whole, code=0)
+    mesh("glTF with a buffer beside it", "m.gltf", gltf(uri="a%20b.bin")[0], code=0, files={"a b.bin": data})
+    x.examine("mesh file: trace", ["trace", "m.glb", "--rays", "r.npy", "-o", "h.npz"], 0, {"m.glb": whole, "r.npy": npy()}, makes=["h.npz"])
+    beside = gltf(uri="b.bin")[0]
+    mesh("its buffer is missing", "m.gltf", beside, says=["m.gltf", "buffer 0", "b.bin"])
+    mesh("its buffer is short", "m.gltf", beside, says="buffer 0: it promises 72 bytes", files={"b.bin": data[:-1]})
+    mesh("its buffer is a folder", "m.gltf", beside, says="buffer 0", setup=lambda f: (f / "b.bin").mkdir())
+    mesh("its buffer is a pipe", "m.gltf", beside, says="buffer 0", setup=lambda f: os.mkfifo(f / "b.bin"))
+    mesh("its buffer is /dev/zero", "m.gltf", beside, says="buffer 0", setup=lambda f: (f / "b.bin").symlink_to("/dev/zero"))
+    mesh("its buffer is far away", "m.gltf", gltf(uri="https://example.org/b.bin")[0], says="buffer 0")
+    for ending in ("glb", "gltf", "obj", "ply", "stl"):
+        x.examine(f"mesh file: a pipe, .{ending}", ["check", f"p.{ending}"], 1, setup=lambda f, e=ending: os.mkfifo(f / f"p.{e}"), says=f"p.{ending}")
+        x.examine(f"mesh file: a link to /dev/zero, .{ending}", ["check", f"p.{ending}"], 1, setup=lambda f, e=ending: (f / f"p.{e}").symlink_to("/dev/zero"), says=f"p.{ending}")
+        for size in (0, 1, 100, 100000):
+            mesh(f"noise of {size} bytes", f"m.{ending}", rng.randbytes(size), commands=("check",))
+            mesh(f"noise of {size} bytes behind a head", f"m.{ending}", {"glb": whole[:12], "ply": b"ply\nformat binary_little_endian 1.0\nelement vertex 2147483648\nproperty float x\n"}.get(ending, b"") + rng.randbytes(size), commands=("check",))
+    for cut in list(range(0, 30)) + list(range(30, len(whole), 41)):
+        mesh(f"cut at byte {cut}", "m.glb", whole[:cut], says="m.glb", commands=("check",))
+    for cut in range(1, len(text), 61):
+        mesh(f"cut at byte {cut}", "m.gltf", text[:cut], says="m.gltf", commands=("check",))
+
+    def put(path, value):
+        def change(document):
+            *way, last = path
+            for step in way:
+                document = document[step]
+            document[last] = value
+        return change
+
+    big = (1 << 31, 1 << 32, (1 << 64) - 1)
+    places = [("accessors", 0, "count"), ("accessors", 1, "count"), ("accessors", 0, "byteOffset"), ("bufferViews", 0, "byteLength"), ("bufferViews", 1, "byteOffset"), ("buffers", 0, "byteLength"),
+              ("accessors", 0, "bufferView"), ("bufferViews", 0, "buffer"), ("nodes", 0, "mesh"), ("scenes", 0, "nodes", 0), ("scene",), ("meshes", 0, "primitives", 0, "indices")]
+    for path in places:
+        for value in (*big, -1, 1.5, None, "x", [], 1e400):
+            if value is not None or path[-1] not in ("scene", "mesh", "indices", "byteOffset", "bufferView"):
+                mesh(f"{'.'.join(map(str, path))} = {value}", "m.glb", glb(gltf(uri="", change=put(path, value))[0], data), says="m.glb", commands=("check",))
+    said = {
+        "a cycle of nodes": ((("nodes", 0, "children"), [0]), "node 0: it is among its own descendants"),
+        "a node twice": ((("scenes", 0, "nodes"), [0, 0]), "node 0: it is in the tree twice"),
+        "a singular scale": ((("nodes", 0, "scale"), [1, 0, 1]), "node 0: transformation: the matrix is singular"),
+        "no rotation": ((("nodes", 0, "rotation"), [0, 0, 0, 0]), "node 0: its rotation"),
+        "an extension": ((("extensionsRequired",), ["KHR_draco_mesh_compression"]), "not supported yet: KHR_draco_mesh_compression"),
+        "a stride": ((("bufferViews", 0, "byteStride"), 0), "bufferView 0: its byteStride of 0"),
+        "an old version": ((("asset", "version"), "1.0"), "version 1.0"),
+        "zeros that are nowhere": ((("accessors", 0), {"componentType": 5126, "count": 1 << 31, "type": "VEC3"}), "accessor 0: it promises 2147483648 elements"),
+        "the same list again and again": ((("meshes", 0, "primitives"), [{"attributes": {"POSITION": 0}, "indices": 1}] * 20000), ""),
+    }
+    for name, ((path, value), says) in said.items():
+        code = (0, 1) if name.startswith("the same") else 1
+        mesh(name, "m.glb", glb(gltf(uri="", change=put(path, value))[0], data), code=code, says=says or None, commands=("check",))
+    mesh("an index out of range", "m.gltf", gltf(indices=(0, 1, 4))[0], says="accessor 1: there is no vertex 4, there are 4 so far")
+    mesh("coordinates that are not finite", "m.gltf", gltf(positions=(float("nan"), 0, 0, float("inf"), 0, 0, 0, 1, 0, 0, 0, 1))[0], code=0, says=None)
+    many = gltf(uri="", change=lambda d: (d.update(nodes=[{"mesh": 0, "translation": [2 * i, 0, 0]} for i in range(20000)]), put(("scenes", 0, "nodes"), list(range(20000)))(d)))
+    mesh("many instances", "m.glb", glb(many[0], data), code=0)
+    for i in range(60):
+        bad = bytearray(rng.choice((whole, text)))
+        for _ in range(rng.choice((1, 1, 3, 10))):
+            bad[rng.randrange(len(bad))] = rng.randrange(256)
+        mesh(f"glTF with wrong bytes {i}", "m.glb", bytes(bad), code=(0, 1), commands=("check",))
+
+
 def wrong_words(x):
     good = {"s.pov": GOOD, "r.npy": npy()}
     lines = [
@@ -491,6 +592,7 @@ def main():
     good_inputs(x)
     wrong_words(x)
     files_and_folders(x)
+    mesh_files(x, rng)
     wrong_values(x)
     cut_files(x, args.cut_every)
     noise(x, rng, max(3, args.mutants // 10))

@@ -28,7 +28,7 @@ pub(crate) enum Command {
 /// How to read a scene.
 #[derive(Debug, Args)]
 pub(crate) struct SceneArgs {
-    /// The scene: a .pov file, or a mesh as .obj, .ply or .stl, which is framed and lit by itself.
+    /// The scene: a .pov file, or a mesh as .obj, .ply, .stl, .gltf or .glb, which is framed and lit by itself.
     pub(crate) scene: PathBuf,
     /// A folder to search for included files; may be given several times.
     #[arg(short = 'L', value_name = "DIR")]

@@ -16,8 +16,14 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     for (kind, count) in stats.kinds.iter().filter(|kind| kind.1 > 0) {
         println!("    {count:>8}  {}", short(kind));
     }
-    for topology in loaded.topologies() {
-        report(&topology);
+    if stats.instances > 0 {
+        println!(
+            "  instances   {}: surfaces of theirs are neither in these counts nor in the memory",
+            stats.instances
+        );
+    }
+    for (faces, topology) in loaded.topologies() {
+        report(faces, &topology);
     }
     println!("  lights      {}", scene.lights.len());
     println!(
@@ -42,9 +48,9 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
 }
 
 /// How the triangles of a mesh hang together.
-fn report(topology: &Topology) {
+fn report(faces: usize, topology: &Topology) {
     let Topology { degenerate, duplicates, open_edges, turned_edges, shared_edges, is_closed } = *topology;
-    println!("  mesh        {}", if is_closed { "closed: a solid" } else { "open: a sheet" });
+    println!("  mesh        {faces} faces, {}", if is_closed { "closed: a solid" } else { "open: a sheet" });
     let lines = [
         (open_edges, "open edges"),
         (turned_edges, "edges between faces that are turned against each other"),

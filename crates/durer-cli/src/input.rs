@@ -7,10 +7,9 @@ use durer::mesh::{Format, Topology};
 use durer::pov::{Limits, MessageKind, Read, ReadOptions};
 use durer::render::{World, WorldError};
 use durer::scene::{LowerError, Lowered, Place, Scene, Shape};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
-
-/// Endings of mesh files that are announced but cannot be read yet.
-const NOT_YET: [&str; 2] = ["gltf", "glb"];
+use std::sync::Arc;
 
 /// A scene that was read.
 pub(crate) enum Loaded {
@@ -59,11 +58,11 @@ fn check_ending(scene: &Path) -> Result<(), Failure> {
     let ending = scene.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
     if ending == "pov" {
         Ok(())
-    } else if NOT_YET.contains(&ending.as_str()) {
-        Err(Failure::file(scene, format_args!("not supported yet: .{ending} files")))
     } else {
         let got = scene.display();
-        Err(Failure::Usage(format!("the scene must be a .pov, .obj, .ply or .stl file, got '{got}'")))
+        Err(Failure::Usage(format!(
+            "the scene must be a .pov, .obj, .ply, .stl, .gltf or .glb file, got '{got}'"
+        )))
     }
 }
 
@@ -75,11 +74,15 @@ impl Loaded {
         }
     }
 
-    /// How the triangles of each mesh of a mesh file hang together.
-    pub(crate) fn topologies(&self) -> Vec<Topology> {
+    /// How many faces each mesh of a mesh file has, and how they hang together.
+    pub(crate) fn topologies(&self) -> Vec<(usize, Topology)> {
         let Self::Mesh(_, scene) = self else { return Vec::new() };
+        let mut known = HashSet::new();
         let meshes = scene.objects.iter().filter_map(|object| match &object.shape {
-            Shape::Mesh(mesh) => Some(Topology::of(mesh)),
+            // Each mesh once, however many objects have it.
+            Shape::Mesh(mesh) => {
+                known.insert(Arc::as_ptr(mesh)).then(|| (mesh.faces.len(), Topology::of(mesh)))
+            }
             _ => None,
         });
         meshes.collect()

@@ -56,3 +56,61 @@ fn wrong_usage_is_told_from_wrong_input() {
     let output = durer(&["render", "nothing.pov"], &folder);
     assert_eq!(output.status.code(), Some(1), "{output:?}");
 }
+
+/// A tetrahedron twice, `x` to the right by 2 the second time: as OBJ, and as glTF that shows one mesh twice, or two.
+fn tetrahedra() -> [String; 3] {
+    let obj = |dx: f64| format!("v {dx} 0 0\nv {} 0 0\nv {dx} 1 0\nv {dx} 0 1\n", dx + 1.0);
+    let faces = |n: i32| {
+        let face = |[a, b, c]: [i32; 3]| format!("f {} {} {}\n", n + a, n + b, n + c);
+        [[1, 3, 2], [1, 2, 4], [2, 3, 4], [3, 1, 4]].map(face).concat()
+    };
+    let numbers: [f32; 12] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+    let mut bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
+    bytes.extend([0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3]);
+    const LETTERS: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    // 60 bytes are 80 letters.
+    let letters = bytes.chunks(3).flat_map(|three| {
+        let bits = three.iter().fold(0_usize, |bits, &b| bits << 8 | usize::from(b));
+        [18, 12, 6, 0].map(|shift| char::from(LETTERS[bits >> shift & 63]))
+    });
+    let letters: String = letters.collect();
+    let gltf = |meshes: usize| {
+        let mesh = r#"{ "primitives": [ { "attributes": { "POSITION": 0 }, "indices": 1 } ] }"#;
+        format!(
+            r#"{{ "asset": {{ "version": "2.0" }}, "meshes": [ {} ],
+                  "nodes": [ {{ "mesh": 0 }}, {{ "mesh": {}, "translation": [2, 0, 0] }} ],
+                  "accessors": [ {{ "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3" }},
+                                 {{ "bufferView": 1, "componentType": 5121, "count": 12, "type": "SCALAR" }} ],
+                  "bufferViews": [ {{ "buffer": 0, "byteLength": 48 }}, {{ "buffer": 0, "byteOffset": 48, "byteLength": 12 }} ],
+                  "buffers": [ {{ "byteLength": 60, "uri": "data:;base64,{letters}" }} ] }}"#,
+            vec![mesh; meshes].join(","),
+            meshes - 1
+        )
+    };
+    [format!("o a\n{}{}o b\n{}{}", obj(0.0), faces(0), obj(2.0), faces(4)), gltf(1), gltf(2)]
+}
+
+/// The same triangles make the same picture, whatever file they come from and however often a mesh is stored.
+#[test]
+fn a_mesh_shown_twice_looks_like_two_meshes() {
+    let folder = folder("meshes");
+    let names = ["two.obj", "one.gltf", "two.gltf"];
+    for (name, text) in names.iter().zip(tetrahedra()) {
+        write(&folder, name, &text);
+    }
+    let pictures = names.map(|name| {
+        let png = format!("{name}.png");
+        let output = durer(&["render", name, "-o", &png, "--width", "64", "--height", "48"], &folder);
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        std::fs::read(folder.join(&png)).unwrap_or_default()
+    });
+    assert!(pictures[0].len() > 200 && pictures[0] == pictures[1] && pictures[1] == pictures[2]);
+    let said = names.map(|name| {
+        let output = durer(&["check", name], &folder);
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    });
+    let closed = said.each_ref().map(|s| s.matches("4 faces, closed: a solid").count());
+    assert_eq!(closed, [2, 1, 2], "{said:?}");
+    assert!(said.iter().all(|s| s.contains("objects     2")), "{said:?}");
+}

@@ -22,6 +22,8 @@ pub enum Spot {
     Byte(usize),
     /// An element of a list, from 0: its kind and its number.
     Element(&'static str, usize),
+    /// A mesh, from 0, and a primitive of it.
+    Primitive(usize, usize),
 }
 
 impl fmt::Display for Spot {
@@ -30,6 +32,7 @@ impl fmt::Display for Spot {
             Self::Line(n) => write!(f, "line {n}"),
             Self::Byte(n) => write!(f, "byte {n}"),
             Self::Element(what, n) => write!(f, "{what} {n}"),
+            Self::Primitive(mesh, n) => write!(f, "mesh {mesh}, primitive {n}"),
         }
     }
 }
@@ -38,7 +41,7 @@ impl fmt::Display for Spot {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ErrorKind {
     /// The file's ending is none that can be read.
-    #[error("the ending tells no format that can be read: .obj, .ply or .stl")]
+    #[error("the ending tells no format that can be read: .obj, .ply, .stl, .gltf or .glb")]
     Format,
     /// The file cannot be read at all.
     #[error("cannot be read: {0}")]
@@ -85,6 +88,38 @@ pub enum ErrorKind {
         promised: u64,
         /// How many there can be.
         room: u64,
+    },
+    /// An element of a list promises more than there is.
+    #[error("{spot}: it promises {promised} {what}, but there is room for {room}")]
+    Room {
+        /// Where.
+        spot: Spot,
+        /// Of what.
+        what: String,
+        /// How many.
+        promised: u64,
+        /// How many there can be.
+        room: u64,
+    },
+    /// Few bytes that would fill any memory.
+    #[error(
+        "the meshes use the same lists over and over: {made} vertices and triangles so far, more than {most}"
+    )]
+    Repeated {
+        /// How many there would be.
+        made: u64,
+        /// How many a file of this size may have.
+        most: u64,
+    },
+    /// The text of a glTF file is no JSON, or not of this format.
+    #[error("JSON, line {line}, column {column}: {said}")]
+    Text {
+        /// The line, from 1.
+        line: usize,
+        /// The column, from 1.
+        column: usize,
+        /// What the reader says.
+        said: String,
     },
     /// Something known that cannot be read yet.
     #[error("{spot}: not supported yet: {what}")]

@@ -6,22 +6,25 @@ use crate::polygon;
 use durer_math::{Point3, Vec3};
 use durer_scene::Face;
 
-/// A corner of a face: the numbers of its vertex and of its normal in the file.
+/// A corner of a face: the numbers of its vertex, its texture coordinates and its normal in the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Corner {
     pub(crate) vertex: u32,
+    pub(crate) uv: Option<u32>,
     pub(crate) normal: Option<u32>,
 }
 
-/// All vertices and normals of a file, and the group that is being read.
+/// All vertices, texture coordinates and normals of a file, and the group that is being read.
 #[derive(Default)]
 pub(crate) struct Groups {
     pub(crate) vertices: Vec<Point3>,
+    pub(crate) uv: Vec<[f64; 2]>,
     pub(crate) normals: Vec<Vec3>,
     done: Vec<Group>,
     now: Group,
-    /// The numbers that the file's vertices and normals have in the group; [`NONE`] for those it has not used.
+    /// The numbers that the file's vertices, texture coordinates and normals have in the group; [`NONE`] for those it has not used.
     vertex_here: Vec<u32>,
+    uv_here: Vec<u32>,
     normal_here: Vec<u32>,
     /// Memory for one face.
     corners: Vec<Point3>,
@@ -42,6 +45,15 @@ fn here<T: Copy>(map: &mut Vec<u32>, all: &[T], used: &mut Vec<T>, number: u32) 
     Ok(*place)
 }
 
+impl Group {
+    /// All faces are there: where one has texture coordinates, all have some or none.
+    pub(crate) fn end(&mut self) {
+        if !self.mesh.uv_faces.is_empty() {
+            self.mesh.uv_faces.resize(self.mesh.faces.len(), None);
+        }
+    }
+}
+
 impl Groups {
     /// What follows belongs to another group.
     pub(crate) fn begin(&mut self, name: &str) {
@@ -50,9 +62,11 @@ impl Groups {
     }
 
     fn finish(&mut self) {
-        let group = std::mem::take(&mut self.now);
+        let mut group = std::mem::take(&mut self.now);
+        group.end();
         if !group.mesh.faces.is_empty() {
             self.vertex_here.fill(NONE);
+            self.uv_here.fill(NONE);
             self.normal_here.fill(NONE);
             self.done.push(group);
         }
@@ -71,10 +85,16 @@ impl Groups {
         let mesh = &mut self.now.mesh;
         for triangle in triangles {
             let mut vertices = [0; 3];
+            let mut uv = [0; 3];
             let mut normals = [0; 3];
+            let mut mapped = true;
             let mut smooth = true;
             for (i, corner) in triangle.map(|i| face[i]).into_iter().enumerate() {
                 vertices[i] = here(&mut self.vertex_here, &self.vertices, &mut mesh.vertices, corner.vertex)?;
+                match corner.uv {
+                    Some(n) => uv[i] = here(&mut self.uv_here, &self.uv, &mut mesh.uv, n)?,
+                    None => mapped = false,
+                }
                 match corner.normal {
                     Some(n) => {
                         normals[i] = here(&mut self.normal_here, &self.normals, &mut mesh.normals, n)?;
@@ -86,6 +106,10 @@ impl Groups {
                 return Err(ErrorKind::TooMany);
             }
             mesh.faces.push(Face { vertices, normals: smooth.then_some(normals), texture: None });
+            if mapped {
+                mesh.uv_faces.resize(mesh.faces.len() - 1, None);
+                mesh.uv_faces.push(Some(uv));
+            }
         }
         Ok(())
     }

@@ -1,6 +1,7 @@
-//! Mesh files as scene data: OBJ, PLY (as text and both binary orders) and STL (as text and binary).
+//! Mesh files as scene data: OBJ, PLY (as text and both binary orders), STL (as text and binary) and glTF 2.0 (as text and binary).
 //!
-//! [`read`] gives a [`Model`]: groups of triangles in the file's order, with the coordinates as f64 wherever the file has that many digits.
+//! [`read`] gives a [`Model`]: groups of triangles in the file's order, with the coordinates as f64 wherever the file has that many digits, and where each
+//! of them is shown. Texture coordinates come along to the hits of rays; no texture depends on them yet.
 //! [`Model::into_scene`] frames and lights them; [`Topology`] says whether they are closed.
 //!
 //! Nothing in a file is trusted: counts in headers reserve no memory, indices are checked, and whatever is wrong is told with its place.
@@ -14,6 +15,7 @@
 #![forbid(unsafe_code)]
 
 mod error;
+mod gltf;
 mod group;
 mod obj;
 mod ply;
@@ -26,6 +28,7 @@ mod topology;
 pub use crate::error::{ErrorKind, MeshError, Spot};
 pub use crate::topology::Topology;
 
+use durer_math::Affine;
 use durer_scene::Mesh;
 use std::path::Path;
 
@@ -34,6 +37,8 @@ use std::path::Path;
 pub struct Model {
     /// Its groups, in its order; there is at least one, and each has a triangle.
     pub groups: Vec<Group>,
+    /// Where they are shown; at least one. In formats without transforms each group stands once where its coordinates say.
+    pub instances: Vec<Instance>,
     /// Its format.
     pub format: Format,
 }
@@ -47,6 +52,15 @@ pub struct Group {
     pub mesh: Mesh,
 }
 
+/// A group in its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instance {
+    /// The number of the group.
+    pub group: usize,
+    /// From the group's own frame to the world.
+    pub placement: Affine,
+}
+
 /// The formats that can be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
@@ -56,6 +70,8 @@ pub enum Format {
     Ply,
     /// The format of stereolithography.
     Stl,
+    /// Khronos' format, as text or binary.
+    Gltf,
 }
 
 impl Format {
@@ -65,6 +81,7 @@ impl Format {
             "obj" => Some(Self::Obj),
             "ply" => Some(Self::Ply),
             "stl" => Some(Self::Stl),
+            "gltf" | "glb" => Some(Self::Gltf),
             _ => None,
         }
     }
@@ -74,16 +91,37 @@ impl Format {
 pub fn read(path: &Path) -> Result<Model, MeshError> {
     let fail = |kind| MeshError { path: path.to_path_buf(), kind };
     let format = Format::of(path).ok_or_else(|| fail(ErrorKind::Format))?;
-    let bytes = std::fs::read(path).map_err(|e| fail(ErrorKind::Read(e.to_string())))?;
-    read_bytes(&bytes, format).map_err(fail)
+    let failed = |e: std::io::Error| fail(ErrorKind::Read(e.to_string()));
+    // A pipe is not even opened: that could wait for ever.
+    if !std::fs::metadata(path).map_err(failed)?.is_file() {
+        return Err(fail(ErrorKind::Read("it is no file".into())));
+    }
+    let bytes = std::fs::read(path).map_err(failed)?;
+    read_beside(&bytes, format, path.parent()).map_err(fail)
 }
 
-/// Reads a mesh file that is in memory.
+/// Reads a mesh file that is in memory. There are no files beside it.
 pub fn read_bytes(bytes: &[u8], format: Format) -> Result<Model, ErrorKind> {
+    read_beside(bytes, format, None)
+}
+
+fn read_beside(bytes: &[u8], format: Format, folder: Option<&Path>) -> Result<Model, ErrorKind> {
     let groups = match format {
         Format::Obj => obj::read(bytes),
         Format::Ply => ply::read(bytes),
         Format::Stl => stl::read(bytes),
+        Format::Gltf => {
+            let (groups, instances) = gltf::read(bytes, folder)?;
+            return if groups.is_empty() {
+                Err(ErrorKind::Empty)
+            } else {
+                Ok(Model { groups, instances, format })
+            };
+        }
     }?;
-    if groups.is_empty() { Err(ErrorKind::Empty) } else { Ok(Model { groups, format }) }
+    if groups.is_empty() {
+        return Err(ErrorKind::Empty);
+    }
+    let instances = (0..groups.len()).map(|group| Instance { group, placement: Affine::IDENTITY }).collect();
+    Ok(Model { groups, instances, format })
 }

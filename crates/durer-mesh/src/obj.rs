@@ -1,18 +1,17 @@
 //! OBJ: text, one statement a line.
 //!
-//! Read are `v`, `vn`, `f` with indices from 1 or, negative, from the end of what was given so far, `o` and `g` (each begins a group), and lines that a
-//! backslash continues. Texture coordinates, points, lines, materials and smoothing groups are passed over: nothing in a scene depends on them yet. Free-form curves
+//! Read are `v`, `vt` (two numbers of up to three), `vn`, `f` with indices from 1 or, negative, from the end of what was given so far, `o` and `g` (each begins a group), and lines that a
+//! backslash continues. Points, lines, materials and smoothing groups are passed over. Free-form curves
 //! and surfaces are refused. (Alias/Wavefront, *Advanced Visualizer*, appendix B1, 1991.)
 
 use crate::Group;
 use crate::error::{ErrorKind, Spot};
 use crate::group::{Corner, Groups};
-use crate::text::{lines, shortened, three};
+use crate::text::{lines, number, shortened, three};
 use durer_math::{Point3, Vec3};
 
 /// Statements about what is passed over.
-const PASSED_OVER: [&str; 16] = [
-    "vt",
+const PASSED_OVER: [&str; 15] = [
     "p",
     "l",
     "s",
@@ -38,10 +37,9 @@ const FREE_FORM: [&str; 16] = [
 
 pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
     let mut groups = Groups::default();
-    let mut texture_coordinates = 0;
     let mut face = Vec::new();
     let mut continued = String::new();
-    for (number, line) in lines(bytes) {
+    for (at, line) in lines(bytes) {
         let line = line.split('#').next().unwrap_or_default();
         if let Some(part) = line.trim_end().strip_suffix('\\') {
             continued.push_str(part);
@@ -58,32 +56,43 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
         let mut words = line.split_whitespace();
         let Some(word) = words.next() else { continue };
         match word {
-            "v" => groups.vertices.push(Point3::from(three(&mut words, number, "three coordinates")?)),
-            "vn" => groups.normals.push(Vec3::from(three(&mut words, number, "three components")?)),
-            "vt" => texture_coordinates += 1,
+            "v" => groups.vertices.push(Point3::from(three(&mut words, at, "three coordinates")?)),
+            "vn" => groups.normals.push(Vec3::from(three(&mut words, at, "three components")?)),
+            "vt" => groups.uv.push(texture_coordinates(&mut words, at)?),
             "f" => {
-                let counts = [groups.vertices.len(), texture_coordinates, groups.normals.len()];
+                let counts = [groups.vertices.len(), groups.uv.len(), groups.normals.len()];
                 face.clear();
                 for word in words {
-                    face.push(corner(word, counts, Spot::Line(number))?);
+                    face.push(corner(word, counts, Spot::Line(at))?);
                 }
                 if face.is_empty() {
-                    return Err(ErrorKind::End { spot: Spot::Line(number), expected: "a face's corners" });
+                    return Err(ErrorKind::End { spot: Spot::Line(at), expected: "a face's corners" });
                 }
-                groups.face(&face, Spot::Line(number))?;
+                groups.face(&face, Spot::Line(at))?;
             }
             "o" | "g" => groups.begin(line.trim_start()[word.len()..].trim()),
             _ if PASSED_OVER.contains(&word) => {}
             _ if FREE_FORM.contains(&word) => {
-                return Err(ErrorKind::Unsupported { spot: Spot::Line(number), what: word.to_string() });
+                return Err(ErrorKind::Unsupported { spot: Spot::Line(at), what: word.to_string() });
             }
             _ => {
                 let found = shortened(word);
-                return Err(ErrorKind::Expected { spot: Spot::Line(number), expected: "a statement", found });
+                return Err(ErrorKind::Expected { spot: Spot::Line(at), expected: "a statement", found });
             }
         }
     }
     Ok(groups.end())
+}
+
+/// One or two numbers; a second one that is not there is zero, a third one is that of solid textures.
+fn texture_coordinates<'a>(
+    words: &mut impl Iterator<Item = &'a str>,
+    line: usize,
+) -> Result<[f64; 2], ErrorKind> {
+    const EXPECTED: &str = "texture coordinates";
+    let mut words = words.peekable();
+    let u = number(&mut words, line, EXPECTED)?;
+    Ok([u, if words.peek().is_some() { number(&mut words, line, EXPECTED)? } else { 0.0 }])
 }
 
 /// A corner as `v`, `v/vt`, `v//vn` or `v/vt/vn`.
@@ -104,7 +113,7 @@ fn corner(word: &str, counts: [usize; 3], spot: Spot) -> Result<Corner, ErrorKin
         let number = number.and_then(|n| u32::try_from(n).ok()).filter(|n| (*n as usize) < count);
         numbers[i] = Some(number.ok_or(ErrorKind::Index { spot, what: WHAT[i], index, count })?);
     }
-    let [vertex, _, normal] = numbers;
+    let [vertex, uv, normal] = numbers;
     // The first part is never left out: an empty one is no number.
-    Ok(Corner { vertex: vertex.unwrap_or_default(), normal })
+    Ok(Corner { vertex: vertex.unwrap_or_default(), uv, normal })
 }

@@ -1,14 +1,14 @@
 //! PLY: a header that declares elements and their properties, in any order, then the elements as text or binary numbers of either byte order. (G. Turk, "The PLY
 //! polygon file format", Stanford 1994.)
 //!
-//! Read are `x y z` and `nx ny nz` of `vertex`, and the lists `vertex_indices` or `vertex_index` of `face`. Everything else is passed over; elements `tristrips` are refused.
+//! Read are `x y z`, `nx ny nz` and `u v` (or `s t`, `texture_u texture_v`) of `vertex`, and the lists `vertex_indices` or `vertex_index` of `face`. Everything else is passed over; elements `tristrips` are refused.
 
 use crate::Group;
 use crate::error::{ErrorKind, Spot};
 use crate::group::{Corner, Groups};
-use crate::text::shortened;
+use crate::text::{one_line, shortened};
 use durer_math::{Point3, Vec3};
-use ply_rs_bw::parser::{ParseError, Parser, Reader};
+use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{ElementDef, Encoding, Property, PropertyAccess, PropertyAccessResult, PropertyType};
 use std::io::BufRead;
 
@@ -17,6 +17,7 @@ use std::io::BufRead;
 struct Item {
     position: [f64; 3],
     normal: [f64; 3],
+    uv: [f64; 2],
     corners: Vec<i64>,
 }
 
@@ -44,12 +45,17 @@ impl PropertyAccess for Item {
             "nx" => &mut self.normal[0],
             "ny" => &mut self.normal[1],
             "nz" => &mut self.normal[2],
+            "u" | "s" | "texture_u" => &mut self.uv[0],
+            "v" | "t" | "texture_v" => &mut self.uv[1],
             _ => return PropertyAccessResult::Ignored,
         };
         *place = number;
         PropertyAccessResult::Set
     }
 }
+
+/// What texture coordinates are called.
+const UV: [[&str; 2]; 3] = [["u", "v"], ["s", "t"], ["texture_u", "texture_v"]];
 
 fn is_corners(name: &str) -> bool {
     matches!(name, "vertex_indices" | "vertex_index")
@@ -75,12 +81,6 @@ impl Item {
         };
         PropertyAccessResult::Set
     }
-}
-
-/// What the library says, on one line.
-fn said(error: &ParseError) -> String {
-    let text = error.to_string();
-    text.split_whitespace().map(shortened).collect::<Vec<_>>().join(" ")
 }
 
 /// What messages call an element.
@@ -112,9 +112,10 @@ fn least_size(element: &ElementDef, encoding: Encoding) -> usize {
 pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
     let parser = Parser::<Item>::new();
     let mut reader = Reader::new(bytes);
-    let header = parser.read_header(&mut reader).map_err(|e| ErrorKind::Header(said(&e)))?;
+    let header = parser.read_header(&mut reader).map_err(|e| ErrorKind::Header(one_line(&e.to_string())))?;
     let mut groups = Groups::default();
     let mut has_normals = false;
+    let mut has_uv = false;
     // The file's order is kept, but faces may come before the vertices that they name.
     let mut faces: Vec<(Vec<i64>, usize)> = Vec::new();
     for element in header.elements.values() {
@@ -137,6 +138,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
             return Err(ErrorKind::Unsupported { spot, what: "triangle strips".into() });
         }
         has_normals |= is_vertices && has(&["nx", "ny", "nz"]);
+        has_uv |= is_vertices && UV.iter().any(|names| has(names));
         for number in 0..element.count {
             let spot = Spot::Element(kind(&element.name), number);
             let item = next(&parser, &mut reader, element, header.encoding, spot)?;
@@ -145,6 +147,9 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
                     groups.vertices.push(Point3::from(item.position));
                     if has_normals {
                         groups.normals.push(Vec3::from(item.normal));
+                    }
+                    if has_uv {
+                        groups.uv.push(item.uv);
                     }
                 }
                 "face" => faces.push((item.corners, number)),
@@ -160,7 +165,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
             let count = groups.vertices.len();
             let vertex = u32::try_from(index).ok().filter(|v| (*v as usize) < count);
             let vertex = vertex.ok_or(ErrorKind::Index { spot, what: "vertex", index, count })?;
-            face.push(Corner { vertex, normal: has_normals.then_some(vertex) });
+            face.push(Corner { vertex, uv: has_uv.then_some(vertex), normal: has_normals.then_some(vertex) });
         }
         groups.face(&face, spot)?;
     }
@@ -186,5 +191,5 @@ fn next(
         Encoding::BinaryBigEndian => parser.read_big_endian_element(reader.get_mut(), element),
         Encoding::BinaryLittleEndian => parser.read_little_endian_element(reader.get_mut(), element),
     };
-    item.map_err(|e| ErrorKind::Element { spot, said: said(&e) })
+    item.map_err(|e| ErrorKind::Element { spot, said: one_line(&e.to_string()) })
 }

@@ -1,9 +1,9 @@
 //! A mesh file as a scene: framed and lit.
 
-use crate::{Format, Model, Topology};
-use durer_math::{Aabb, Point3, Vec3};
+use crate::{Format, Instance, Model, Topology};
+use durer_math::{Aabb, Affine, Point3, Vec3};
 use durer_scene::{
-    Background, Camera, Colour, Finish, Light, Object, Pigment, Projection, Rgb, Scene, Shape, Texture,
+    Background, Camera, Colour, Finish, Light, Mesh, Object, Pigment, Projection, Rgb, Scene, Shape, Texture,
 };
 use std::sync::Arc;
 
@@ -16,20 +16,34 @@ const INSIDE: Vec3 = Vec3::new(0.48, 0.6, 0.64);
 impl Model {
     /// A box that holds all vertices that are finite.
     pub fn bounds(&self) -> Aabb {
-        let vertices = self.groups.iter().flat_map(|g| &g.mesh.vertices).copied();
-        Aabb::from_points(vertices.filter(|v: &Point3| v.is_finite()))
+        let of = |group: &crate::Group| {
+            let vertices = group.mesh.vertices.iter().copied();
+            Aabb::from_points(vertices.filter(|v: &Point3| v.is_finite()))
+        };
+        let groups: Vec<Aabb> = self.groups.iter().map(of).collect();
+        let placed = |instance: &Instance| match (groups[instance.group], instance.placement) {
+            (bounds, map) if bounds.is_empty() || map == Affine::IDENTITY => bounds,
+            (bounds, map) => map.bounds(&bounds),
+        };
+        self.instances.iter().map(placed).fold(Aabb::EMPTY, Aabb::union)
     }
 
-    /// The groups as objects in a plain light grey, in their order. Groups that are closed, as [`Topology`] has it, are solids.
+    /// An object for each instance, in their order, those of one group with one mesh; light grey where a file has no colours. Groups that are closed, as
+    /// [`Topology`] has it, are solids.
     pub fn into_objects(self) -> Vec<Object> {
-        let grey = Pigment::solid(Colour::opaque(Rgb::new(0.8, 0.8, 0.8)));
-        let texture = Arc::new(Texture::plain(grey, Finish { diffuse: 0.9, ..Finish::default() }));
-        let object = |group: crate::Group| {
+        let texture = Arc::new(paint(Colour::opaque(Rgb::new(0.8, 0.8, 0.8))));
+        let mesh = |group: crate::Group| {
             let mut mesh = group.mesh;
             mesh.inside_vector = Topology::of(&mesh).is_closed.then_some(INSIDE);
-            Object::new(Shape::Mesh(Arc::new(mesh))).with_texture(Arc::clone(&texture))
+            Arc::new(mesh)
         };
-        self.groups.into_iter().map(object).collect()
+        let meshes: Vec<Arc<Mesh>> = self.groups.into_iter().map(mesh).collect();
+        let object = |instance: Instance| {
+            let mesh = Arc::clone(&meshes[instance.group]);
+            let object = Object::new(Shape::Mesh(mesh)).with_texture(Arc::clone(&texture));
+            Object { placement: instance.placement.into(), ..object }
+        };
+        self.instances.into_iter().map(object).collect()
     }
 
     /// The objects with a camera that sees all of them and a light behind its left shoulder. The camera is right-handed: nothing is mirrored. Up is +y; in
@@ -72,6 +86,11 @@ impl Model {
             ..Scene::default()
         }
     }
+}
+
+/// A matt paint.
+pub(crate) fn paint(colour: Colour) -> Texture {
+    Texture::plain(Pigment::solid(colour), Finish { diffuse: 0.9, ..Finish::default() })
 }
 
 fn unit(v: Vec3) -> Vec3 {

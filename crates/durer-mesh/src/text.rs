@@ -9,12 +9,21 @@ pub(crate) fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, str>)>
     lines.map(|(i, line)| (i + 1, String::from_utf8_lossy(line.strip_suffix(b"\r").unwrap_or(line))))
 }
 
+/// Not more of what a library says than fits a line: it may repeat much of a file.
+pub(crate) fn one_line(text: &str) -> String {
+    let words: Vec<_> = text.split_whitespace().take(40).map(shortened).collect();
+    cut(&words.join(" "), 240)
+}
+
 /// Not more of a word than fits a message.
 pub(crate) fn shortened(word: &str) -> String {
-    const MOST: usize = 40;
+    cut(word, 40)
+}
+
+fn cut(word: &str, most: usize) -> String {
     let clean = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
-    let mut short: String = word.chars().take(MOST).map(clean).collect();
-    if word.chars().nth(MOST).is_some() {
+    let mut short: String = word.chars().take(most).map(clean).collect();
+    if word.chars().nth(most).is_some() {
         short.push('…');
     }
     short

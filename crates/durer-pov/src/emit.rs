@@ -363,6 +363,8 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
                 vertices: mesh.vertices.iter().copied().map(point).collect(),
                 normals: mesh.normals.iter().copied().map(unit).collect(),
                 faces: faces.collect(),
+                uv: Vec::new(),
+                uv_faces: Vec::new(),
                 textures: textures.collect::<Result<_>>()?,
                 inside_vector: mesh.inside_vector.map(vector),
             };

@@ -291,6 +291,11 @@ pub struct Mesh {
     pub normals: Vec<Vec3>,
     /// The triangles.
     pub faces: Vec<Face>,
+    /// The texture coordinates that faces may refer to.
+    pub uv: Vec<[f64; 2]>,
+    /// The numbers of the texture coordinates at each face's corners, if it has any; as many as there are faces, or none for all. The coordinates of hits are
+    /// interpolated between them; on other faces the corners have (0, 0), (1, 0) and (0, 1). No texture depends on them yet.
+    pub uv_faces: Vec<Option<[u32; 3]>>,
     /// The textures that faces may refer to, placed in the mesh's own frame.
     pub textures: Vec<Arc<Texture>>,
     /// A direction that decides what is inside: points from which it crosses the mesh an odd number of times. Without it the mesh

@@ -1,11 +1,17 @@
 //! Exact surfaces. Each answers one question: *where does this ray meet you?*
 #![forbid(unsafe_code)]
 
+// Cases that the fuzz targets share with the tests name this crate as others do.
+#[cfg(test)]
+extern crate self as durer_surfaces;
+
 pub mod algebraic;
 pub mod annulus;
 pub mod axis_box;
 pub mod blob;
 pub mod compose;
+#[cfg(test)]
+mod corpus;
 pub mod cyclide;
 pub mod disc;
 mod edges;

@@ -40,7 +40,7 @@ impl Lowering {
     ) -> Result<(), LowerError> {
         let fail = |kind: LowerErrorKind| kind.at(object.place);
         let flags = inner.flags;
-        let first = self.count()? - self.first.last().copied().unwrap_or(0);
+        let first = self.count()? - self.looks_at.last().map_or(0, |l| l.start);
         let mut work = Work { csg: Compound::builder(), medium: inner.medium, is_clear: false };
         let whole =
             Context { flags: Flags { inverse: false, open: false, ..flags }, clips: Vec::new(), ..inner };

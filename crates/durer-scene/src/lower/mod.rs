@@ -9,7 +9,9 @@ mod exact;
 mod level_set;
 mod named;
 mod shapes;
+mod shared;
 
+use core::ops::Range;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -29,8 +31,8 @@ pub struct Lowered {
     pub media: Vec<Arc<Interior>>,
     /// What the reader of the text should be told: the scene is rendered all the same.
     pub warnings: Vec<(Option<Place>, String)>,
-    /// For each object, where its primitives' looks begin.
-    first: Vec<u32>,
+    /// For each object, where its primitives' looks are.
+    looks_at: Vec<Range<u32>>,
     of_primitive: Vec<LookId>,
     around_camera: Vec<(u32, Inside)>,
 }
@@ -109,6 +111,16 @@ pub enum LowerErrorKind {
         /// How many there are.
         count: usize,
     },
+    /// A mesh refers to texture coordinates that it does not have.
+    #[error("mesh: face {face} refers to texture coordinates {uv}, but there are {count}")]
+    MeshUv {
+        /// The face.
+        face: usize,
+        /// The coordinates it names.
+        uv: u32,
+        /// How many there are.
+        count: usize,
+    },
     /// A pattern without entries.
     #[error("texture: a pattern needs at least one entry for each of its kinds")]
     EmptyPattern,
@@ -126,8 +138,11 @@ impl Scene {
         let mut lowering = Lowering::new(self);
         for (number, object) in (0..).zip(&self.objects) {
             lowering.object = ObjectId(number);
-            lowering.first.push(lowering.count()?);
+            let first = lowering.count()?;
+            lowering.looks_at.push(first..first);
+            lowering.top = object;
             lowering.walk(object, &Context::default())?;
+            lowering.close()?;
         }
         lowering.finish()
     }
@@ -137,7 +152,7 @@ impl Lowered {
     /// What a primitive of an object looks like; `None` if there is no such primitive.
     #[inline]
     pub fn look_of(&self, object: u32, primitive: u32) -> Option<LookId> {
-        let first = *self.first.get(object as usize)?;
+        let first = self.looks_at.get(object as usize)?.start;
         self.of_primitive.get(first as usize + primitive as usize).copied()
     }
 
@@ -152,8 +167,7 @@ impl Lowered {
 
     /// How many primitives an object has.
     pub fn primitives(&self, object: u32) -> u32 {
-        let at = |i: u32| self.first.get(i as usize).copied().unwrap_or(self.of_primitive.len() as u32);
-        at(object.saturating_add(1)).saturating_sub(at(object))
+        self.looks_at.get(object as usize).map_or(0, |looks| looks.end - looks.start)
     }
 }
 
@@ -202,10 +216,14 @@ struct Lowering {
     known: HashMap<(*const Texture, *const Placement, u32, bool, Option<LookId>), LookId>,
     media: Vec<Arc<Interior>>,
     warnings: Vec<(Option<Place>, String)>,
-    first: Vec<u32>,
+    looks_at: Vec<Range<u32>>,
     of_primitive: Vec<LookId>,
     around_camera: Vec<(u32, Inside)>,
+    /// Meshes of several objects.
+    shared: shared::Meshes,
     object: ObjectId,
+    /// The object with that number, to compare addresses with.
+    top: *const Object,
     /// Where rays of the camera start.
     camera: Aabb,
     default_texture: Arc<Texture>,
@@ -223,9 +241,11 @@ impl Lowering {
             known: HashMap::new(),
             media: vec![Arc::default()],
             warnings: Vec::new(),
-            first: Vec::with_capacity(scene.objects.len()),
+            looks_at: Vec::with_capacity(scene.objects.len()),
             of_primitive: Vec::new(),
             around_camera: Vec::new(),
+            shared: shared::Meshes::of(&scene.objects),
+            top: core::ptr::null(),
             camera: scene.camera.as_ref().map_or(Aabb::EMPTY, Camera::standpoints),
             object: ObjectId(0),
             default_texture: Arc::default(),
@@ -245,7 +265,7 @@ impl Lowering {
             looks: self.looks,
             media: self.media,
             warnings: self.warnings,
-            first: self.first,
+            looks_at: self.looks_at,
             of_primitive: self.of_primitive,
             around_camera: self.around_camera,
         })
@@ -348,6 +368,12 @@ impl Lowering {
         }
         let primitive = self.looks_of(object, place, outside, &inside, medium, flags)?;
         let mask = if self.is_plain { EVERYTHING } else { mask_of(flags, is_clear) };
+        if let Some(mesh) = self.shared.whole(object)
+            && context.clips.is_empty()
+            && !flags.inverse
+        {
+            return self.instance(mesh, place, primitive, mask, medium);
+        }
         let target = build::Target {
             to: build::To::Scene(&mut self.builder, self.object, mask),
             primitive,
@@ -386,7 +412,7 @@ impl Lowering {
                 self.look(front, medium, flags, Some(back))
             }
         };
-        let primitive = self.count().map_err(|e| e.kind)? - self.first.last().copied().unwrap_or(0);
+        let primitive = self.count().map_err(|e| e.kind)? - self.looks_at.last().map_or(0, |l| l.start);
         let Shape::Mesh(mesh) = &object.shape else {
             self.of_primitive.push(look);
             return Ok(primitive);
@@ -395,6 +421,10 @@ impl Lowering {
         let mut own = Vec::with_capacity(mesh.textures.len());
         for texture in &mesh.textures {
             own.push(self.look((Arc::clone(texture), Arc::clone(&own_frame)), medium, flags, None));
+        }
+        let is_shared = object.clips.is_empty() && self.shared.whole(object).is_some();
+        if is_shared && core::ptr::eq(object, self.top) && self.same_looks(mesh, look, own.clone()) {
+            return Ok(primitive);
         }
         for (face, given) in mesh.faces.iter().enumerate() {
             self.of_primitive.push(match given.texture {

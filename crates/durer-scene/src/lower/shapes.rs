@@ -300,7 +300,8 @@ fn points(map: &Affine, points: &[Point3; 3]) -> Option<[Point3; 3]> {
     Some([exact::point(map, *a)?, exact::point(map, *b)?, exact::point(map, *c)?])
 }
 
-fn mesh(data: &Mesh) -> Result<durer_surfaces::Mesh> {
+/// The surface of a mesh.
+pub(super) fn mesh(data: &Mesh) -> Result<durer_surfaces::Mesh> {
     let mut normal_faces = Vec::new();
     if data.faces.iter().any(|f| f.normals.is_some()) {
         for (number, face) in data.faces.iter().enumerate() {
@@ -322,11 +323,14 @@ fn mesh(data: &Mesh) -> Result<durer_surfaces::Mesh> {
         }
     }
     let normals = if normal_faces.is_empty() { Vec::new() } else { data.normals.clone() };
+    let (uv, uv_faces) = texture_coordinates(data)?;
     let built = durer_surfaces::Mesh::new(durer_surfaces::MeshData {
         vertices: data.vertices.clone(),
         faces: data.faces.iter().map(|f| f.vertices).collect(),
         normals: normals.into_iter().map(Vec3::to_normal).collect::<Vec<Normal3>>(),
         normal_faces,
+        uv,
+        uv_faces,
         ..Default::default()
     });
     let mesh = built.map_err(shape_error)?;
@@ -334,6 +338,30 @@ fn mesh(data: &Mesh) -> Result<durer_surfaces::Mesh> {
         None => Ok(mesh),
         Some(direction) => mesh.solid(direction).map_err(shape_error),
     }
+}
+
+/// A number for each corner of each face.
+type Triples = Vec<[u32; 3]>;
+
+/// The texture coordinates of all faces; those without any get the ones that faces have where no face has any.
+fn texture_coordinates(data: &Mesh) -> Result<(Vec<[f64; 2]>, Triples)> {
+    if data.uv_faces.iter().all(Option::is_none) {
+        return Ok((Vec::new(), Vec::new()));
+    }
+    let mut uv = data.uv.clone();
+    let count = uv.len();
+    uv.extend([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+    let default = [0, 1, 2].map(|i| (count + i) as u32);
+    let of = |face: usize| {
+        let named = data.uv_faces.get(face).copied().flatten();
+        let missing = named.iter().flatten().find(|&&i| i as usize >= count);
+        match missing {
+            Some(&uv) => Err(LowerErrorKind::MeshUv { face, uv, count }),
+            None => Ok(named.unwrap_or(default)),
+        }
+    };
+    let faces = (0..data.faces.len()).map(of).collect::<Result<_>>()?;
+    Ok((uv, faces))
 }
 
 /// The region of a solid that clips, placed in the world by its own placement and then by `around`.

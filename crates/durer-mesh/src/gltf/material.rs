@@ -1,0 +1,30 @@
+//! Materials: their base colours. Numbers in these files are light, as those of scenes are.
+
+use crate::error::{ErrorKind, Spot};
+use crate::stage;
+use durer_scene::{Colour, Rgb, Texture};
+use gltf::json::Material;
+use gltf::json::material::AlphaMode;
+use gltf::json::validation::Checked;
+use std::sync::Arc;
+
+/// What a material looks like as far as it can be told without its images.
+pub(super) fn texture(material: &Material, number: usize) -> Result<Arc<Texture>, ErrorKind> {
+    let spot = Spot::Element("material", number);
+    let factor = material.pbr_metallic_roughness.base_color_factor.0.map(f64::from);
+    if let Some(x) = factor.into_iter().find(|x| !(0.0..=1.0).contains(x)) {
+        return super::wrong(spot, format!("its baseColorFactor must be from 0 to 1, got {x}"));
+    }
+    let [r, g, b, alpha] = factor;
+    let cover = match material.alpha_mode {
+        Checked::Valid(AlphaMode::Opaque) => 1.0,
+        Checked::Valid(AlphaMode::Blend) => alpha,
+        Checked::Valid(AlphaMode::Mask) => {
+            let cutoff = material.alpha_cutoff.map_or(0.5, |c| f64::from(c.0));
+            f64::from(u8::from(alpha >= cutoff))
+        }
+        Checked::Invalid => return super::wrong(spot, "its alphaMode is unknown"),
+    };
+    let colour = Colour { transmit: 1.0 - cover, ..Colour::opaque(Rgb::new(r, g, b)) };
+    Ok(Arc::new(stage::paint(colour)))
+}

@@ -1,0 +1,75 @@
+//! glTF 2.0: a text in JSON with buffers beside it (`.gltf`) or behind it (`.glb`). (The Khronos Group, *glTF 2.0 Specification*, 2021.)
+//!
+//! Read are the nodes of the default scene (of the first one, if none is named; all nodes that are nobody's children, if there is no scene; all meshes,
+//! if there are no nodes), their transforms, and of their meshes `POSITION`, `NORMAL` and `TEXCOORD_0`, indices, strips and fans, all types of components,
+//! sparse accessors, and the base colours of materials. Each mesh becomes one group, however many primitives it has, and is there once, however many nodes show it.
+//!
+//! Coordinates and transforms are f32 in these files; transforms are composed in f64. Passed over are points, lines, vertex colours, images, everything else of
+//! materials, cameras, lights, skins, morph targets and animations. Files that require an extension that changes how their triangles are stored are refused.
+
+mod accessor;
+mod buffers;
+mod container;
+mod material;
+mod nodes;
+mod primitive;
+
+use crate::error::{ErrorKind, Spot};
+use crate::text::shortened;
+use crate::{Group, Instance};
+use buffers::Buffers;
+use primitive::Assembly;
+use std::path::Path;
+
+/// Extensions that may be required: what they change is understood, or passed over without harm to the triangles.
+const UNDERSTOOD: [&str; 3] = ["KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual"];
+
+/// Reads a file that is in memory; `folder` holds the buffers beside it.
+pub(crate) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Vec<Group>, Vec<Instance>), ErrorKind> {
+    let (text, chunk) = container::split(bytes)?;
+    let root = container::parse(text)?;
+    let major = root.asset.version.split('.').next();
+    if major != Some("2") {
+        let what = format!("version {} of glTF", shortened(&root.asset.version));
+        return Err(ErrorKind::Unsupported { spot: Spot::Element("asset", 0), what });
+    }
+    for (number, name) in root.extensions_required.iter().enumerate() {
+        if !UNDERSTOOD.contains(&name.as_str()) && !name.starts_with("KHR_materials_") {
+            let spot = Spot::Element("extensionsRequired", number);
+            return Err(ErrorKind::Unsupported { spot, what: shortened(name) });
+        }
+    }
+    let shown = nodes::shown(&root)?;
+    let mut groups = Vec::new();
+    let mut instances = Vec::new();
+    let mut known: Vec<Option<Option<usize>>> = vec![None; root.meshes.len()];
+    let mut assembly = Assembly::new(&root, Buffers::new(&root.buffers, chunk, folder, bytes.len()));
+    for (mesh, placement) in shown {
+        let group = match known[mesh] {
+            Some(group) => group,
+            None => {
+                let read = assembly.mesh(mesh)?;
+                // Points and lines leave nothing.
+                let group = (!read.mesh.faces.is_empty()).then(|| {
+                    groups.push(read);
+                    groups.len() - 1
+                });
+                known[mesh] = Some(group);
+                group
+            }
+        };
+        instances.extend(group.map(|group| Instance { group, placement }));
+    }
+    Ok((groups, instances))
+}
+
+/// What an index of a list names.
+fn item<'a, T>(list: &'a [T], index: usize, what: &'static str, spot: Spot) -> Result<&'a T, ErrorKind> {
+    let missing = ErrorKind::Index { spot, what, index: index as i64, count: list.len() };
+    list.get(index).ok_or(missing)
+}
+
+/// Something that the format does not allow.
+fn wrong<T>(spot: Spot, said: impl Into<String>) -> Result<T, ErrorKind> {
+    Err(ErrorKind::Element { spot, said: said.into() })
+}

@@ -1,0 +1,102 @@
+//! The tree of nodes: which meshes are shown, and where.
+
+use super::{item, wrong};
+use crate::error::{ErrorKind, Spot};
+use durer_math::{Affine, Point3};
+use gltf::json::{Node, Root};
+
+/// The meshes that the scene shows, each with its place in the world, in the order of the tree.
+pub(super) fn shown(root: &Root) -> Result<Vec<(usize, Affine)>, ErrorKind> {
+    let (tops, asked) = tops(root)?;
+    if root.nodes.is_empty() && tops.is_empty() {
+        return Ok((0..root.meshes.len()).map(|mesh| (mesh, Affine::IDENTITY)).collect());
+    }
+    let mut shown = Vec::new();
+    let mut seen = vec![false; root.nodes.len()];
+    let mut parents = vec![None; root.nodes.len()];
+    let mut open: Vec<(usize, Option<usize>, Affine)> =
+        tops.into_iter().rev().map(|node| (node, None, Affine::IDENTITY)).collect();
+    while let Some((number, parent, around)) = open.pop() {
+        let spot = Spot::Element("node", number);
+        let node = item(&root.nodes, number, "node", parent.map_or(asked, |p| Spot::Element("node", p)))?;
+        if std::mem::replace(&mut seen[number], true) {
+            let above = std::iter::successors(parent, |&p: &usize| parents[p]).any(|p| p == number);
+            return wrong(
+                spot,
+                if above { "it is among its own descendants" } else { "it is in the tree twice" },
+            );
+        }
+        parents[number] = parent;
+        let place = local(node, spot)?.then(&around);
+        let place = place.map_err(|e| ErrorKind::Element { spot, said: e.to_string() })?;
+        if let Some(mesh) = node.mesh {
+            item(&root.meshes, mesh.value(), "mesh", spot)?;
+            shown.push((mesh.value(), place));
+        }
+        open.extend(node.children.iter().flatten().rev().map(|child| (child.value(), Some(number), place)));
+    }
+    Ok(shown)
+}
+
+/// The nodes at the top, and what names them.
+fn tops(root: &Root) -> Result<(Vec<usize>, Spot), ErrorKind> {
+    let number = root.scene.map_or(0, |s| s.value());
+    if root.scene.is_some() || !root.scenes.is_empty() {
+        let scene = item(&root.scenes, number, "scene", Spot::Element("scene", number))?;
+        return Ok((
+            scene.nodes.iter().map(gltf::json::Index::value).collect(),
+            Spot::Element("scene", number),
+        ));
+    }
+    let mut is_child = vec![false; root.nodes.len()];
+    for child in root.nodes.iter().flat_map(|n| n.children.iter().flatten()) {
+        if let Some(is_child) = is_child.get_mut(child.value()) {
+            *is_child = true;
+        }
+    }
+    let tops: Vec<usize> = (0..root.nodes.len()).filter(|&n| !is_child[n]).collect();
+    match (tops.is_empty(), root.nodes.is_empty()) {
+        (true, false) => wrong(Spot::Element("node", 0), "all nodes are children of others"),
+        _ => Ok((tops, Spot::Element("scene", 0))),
+    }
+}
+
+/// From a node's frame to its parent's: a matrix, column by column, or a scale, then a rotation, then a translation.
+fn local(node: &Node, spot: Spot) -> Result<Affine, ErrorKind> {
+    let wide = |x: f32| f64::from(x);
+    let (rows, centre) = match node.matrix {
+        Some(m) => {
+            let m = m.map(wide);
+            if [m[3], m[7], m[11], m[15]] != [0.0, 0.0, 0.0, 1.0] {
+                return wrong(spot, "the last row of its matrix must be 0 0 0 1");
+            }
+            (
+                core::array::from_fn(|row| core::array::from_fn(|column| m[4 * column + row])),
+                [m[12], m[13], m[14]],
+            )
+        }
+        None => {
+            let scale = node.scale.map_or([1.0; 3], |s| s.map(wide));
+            let turn = rotation(node.rotation.unwrap_or_default().0.map(wide), spot)?;
+            let rows = turn.map(|row: [f64; 3]| core::array::from_fn(|column| row[column] * scale[column]));
+            (rows, node.translation.map_or([0.0; 3], |t| t.map(wide)))
+        }
+    };
+    Affine::new(rows, Point3::from(centre)).map_err(|e| ErrorKind::Element { spot, said: e.to_string() })
+}
+
+/// The rotation of a quaternion `x y z w` of any length but zero; that of one of length 1 that was rounded is still a rotation.
+fn rotation(q: [f64; 4], spot: Spot) -> Result<[[f64; 3]; 3], ErrorKind> {
+    let [x, y, z, w] = q;
+    let square: f64 = q.iter().map(|c| c * c).sum();
+    // f32 numbers have squares that are normal numbers.
+    if !(square.is_finite() && square > 0.0) {
+        return wrong(spot, "its rotation must be finite and not zero");
+    }
+    let s = 2.0 / square;
+    Ok([
+        [1.0 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)],
+        [s * (x * y + w * z), 1.0 - s * (x * x + z * z), s * (y * z - w * x)],
+        [s * (x * z - w * y), s * (y * z + w * x), 1.0 - s * (x * x + y * y)],
+    ])
+}
