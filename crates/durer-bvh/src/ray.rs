@@ -63,17 +63,23 @@ impl Line {
 /// clamped, for the direction that was bent (four tenths). So `near <= t <= far` for each `t` at which the exact ray is in the box.
 /// The same as growing each box by `1.5e-7 (M + |o|)`, in the instructions of an unsafe test. Compare T. Ize, "Robust
 /// BVH ray traversal", Journal of Computer Graphics Techniques 2(2), 2013, which computes differences per plane instead.
-#[derive(Clone, Copy, Debug, PartialEq)]
+///
+/// Of each four numbers three count: they are written and read all at once.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct CullRay {
-    pub(crate) r: [f32; 3],
-    pub(crate) near: [f32; 3],
-    pub(crate) far: [f32; 3],
+    pub(crate) r: [f32; 4],
+    pub(crate) near: [f32; 4],
+    pub(crate) far: [f32; 4],
     /// Bit `i` is set if `d_i` is negative (or -0).
     pub(crate) octant: u32,
-    /// How far the ray goes, from the entry.
+    /// The first and the last parameter that matter, from the entry.
+    pub(crate) t_near: f32,
     pub(crate) t_far: f32,
-    /// The entry's point, rounded once, in tree units.
-    pub(crate) start: [f64; 3],
+    /// The entry's point in tree units, rounded to f64 and to f32, and the direction, rounded to f32.
+    pub(crate) start: [f32; 4],
+    pub(crate) direction: [f32; 4],
+    /// Whether the ray is exactly known and its entry is its origin, at most [`NEARBY`].
+    pub(crate) is_nearby: bool,
     /// A bound on the error of the ray's points within the tree, per axis.
     pub(crate) error: f64,
     /// The entry.
@@ -109,7 +115,12 @@ pub(crate) struct Clip {
     pub(crate) most: [f64; 4],
     /// What the caller's lengths are to be multiplied by, which is exact; 0 if one number cannot do that.
     pub(crate) shrink: f64,
+    /// The greatest magnitude of a coordinate, for rays that start [nearby](NEARBY).
+    pub(crate) most32: [f32; 4],
 }
+
+/// Rays that start with coordinates up to this, in tree units, need no clipping: f32 tells where they are as well as where the tree is.
+pub(crate) const NEARBY: f32 = 4.0;
 
 /// A ray that runs within a face of the box, or nearly so, enters it this much earlier: far more than [`SLOWEST`] moves it.
 const MARGIN: f64 = 1.0 / (1_u64 << 40) as f64;
@@ -126,6 +137,7 @@ impl Clip {
             hi: wide(hi, MARGIN, f64::MAX / 8.0),
             most: [most(0), most(1), most(2), 1.0],
             shrink: if shrink.is_normal() { shrink } else { 0.0 },
+            most32: [most(0), most(1), most(2), 1.0].map(up32),
         }
     }
 }
@@ -179,10 +191,10 @@ impl CullRay {
         if way.is_nan() || way > LONGEST {
             return Some(Self::everywhere(&d, frame));
         }
-        let (mut r32, mut near, mut far, mut starts) = ([0.0; 3], [0.0; 3], [0.0; 3], [0.0; 3]);
+        let (mut r32, mut near, mut far, mut starts) = ([0.0; 4], [0.0; 4], [0.0; 4], [0.0; 4]);
         for i in 0..3 {
             let start = if enter == 0.0 { o[i] } else { enter.mul_add(d[i], o[i]) };
-            starts[i] = start;
+            starts[i] = start as f32;
             let size = f64::from(lo[i]).abs().max(f64::from(hi[i]).abs()).max(LEAST) + start.abs();
             let r = inverse[i];
             let bends = 0.4 * U32 * size;
@@ -198,8 +210,11 @@ impl CullRay {
             near,
             far,
             octant: octant(&d),
+            t_near: 0.0,
             t_far,
             start: starts,
+            direction: single(&d),
+            is_nearby: false,
             error: error[0].max(error[1]).max(error[2]),
             t_enter: enter,
             frame,
@@ -210,14 +225,17 @@ impl CullRay {
     #[cold]
     fn everywhere(d: &[f64; 3], frame: Frame) -> Self {
         let big = 4.0 * LONGEST as f32;
-        let r = d.map(|x| 1.0_f32.copysign(x as f32));
+        let direction = single(d);
         Self {
-            r,
-            near: [-big; 3],
-            far: [big; 3],
+            r: direction.map(|x| 1.0_f32.copysign(x)),
+            near: [-big; 4],
+            far: [big; 4],
             octant: octant(d),
+            t_near: 0.0,
             t_far: 1.0,
-            start: [0.0; 3],
+            start: [0.0; 4],
+            direction,
+            is_nearby: false,
             error: f64::INFINITY,
             t_enter: f64::NEG_INFINITY,
             frame,
@@ -254,6 +272,11 @@ impl CullRay {
     pub(crate) fn caller_t(&self, t: f32) -> f64 {
         self.frame.outward(f64::from(t) + self.t_enter)
     }
+}
+
+#[inline(always)]
+fn single(d: &[f64; 3]) -> [f32; 4] {
+    [d[0] as f32, d[1] as f32, d[2] as f32, 0.0]
 }
 
 #[inline(always)]

@@ -4,7 +4,7 @@
 use super::{Kernel, Stack};
 use crate::frame::up32;
 use crate::node::{ChildRef, Node8, WIDTH};
-use crate::ray::{CullRay, LEAST, LONGEST, Line, Rounding, SLOWEST, TO_NEAREST, U32, WIDEN};
+use crate::ray::{CullRay, LEAST, LONGEST, Line, NEARBY, Rounding, SLOWEST, TO_NEAREST, U32, WIDEN};
 use crate::tree::Bvh;
 use crate::triangles::{Block, FAR, FLAT, Filter, LANES, NEAR, Verdict};
 use core::arch::x86_64::*;
@@ -28,6 +28,7 @@ pub(crate) struct Lanes {
     r: [__m256; 3],
     near: [__m256; 3],
     far: [__m256; 3],
+    t_near: __m256,
     /// Which of a node's six plane arrays is the near one of each axis; the far one is three off.
     near_plane: [usize; 3],
     far_plane: [usize; 3],
@@ -68,6 +69,11 @@ impl Kernel for Avx2 {
             return tree.cull(line, Rounding::Fused);
         }
         // SAFETY: as below.
+        let nearby = unsafe { nearby(tree, line) };
+        if nearby.is_some() {
+            return nearby;
+        }
+        // SAFETY: as below.
         match unsafe { clip(tree, line) } {
             Clipped::Missed => None,
             Clipped::Enters(ray) => Some(ray),
@@ -104,6 +110,69 @@ impl Kernel for Avx2 {
         // SAFETY: as above.
         unsafe { judge(block, filter, sight, t_far) }
     }
+}
+
+/// A line that is exactly known and starts nearby, in f32: neither the way to the tree nor the end of that through it is looked for.
+///
+/// Let `u = 2^-24`, `M` the greatest magnitude of a coordinate of the tree on an axis, `o` that of the origin. Within the tree `t` is at most
+/// `1 + NEARBY = 5` in magnitude. A component of the direction below `(M + o) u / 20` counts as that, which moves the ray's points by a quarter of `u (M + o)` at most.
+/// `r` errs by two units, the one of `d` and its own; so a plane at `x` is met at `x r - o r` with an error of
+///
+/// ```text
+///     |r| u (2 M  +  4 o  +  o  +  M + o  +  (M + o) / 4)
+///            x r    o r    -slack  sum       bent
+/// ```
+///
+/// at most, and [`SLACK`] pays for this, for second-order terms, and for the roundings of the range, which are far smaller unless they are relative to it.
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn nearby(tree: &Bvh, line: &Line) -> Option<CullRay> {
+    /// Of the tree's coordinates, and of the origin's.
+    const SLACK: (f32, f32) = (4.0 * U32 as f32, 7.0 * U32 as f32);
+    let minus = _mm_set1_ps(-0.0);
+    let all = |x: f32| _mm_set1_ps(x);
+    let size = |x: __m128| _mm_andnot_ps(minus, x);
+    let shrink = tree.clip.shrink;
+    let [x, y, z] = line.origin.to_array();
+    let o = _mm256_mul_pd(_mm256_setr_pd(x, y, z, line.t_min), _mm256_set1_pd(shrink));
+    let [x, y, z] = line.direction.to_array();
+    let d = _mm256_mul_pd(_mm256_setr_pd(x, y, z, line.t_max), _mm256_setr_pd(1.0, 1.0, 1.0, shrink));
+    let (o, d) = (_mm256_cvtpd_ps(o), _mm256_cvtpd_ps(d));
+    let close = _mm_movemask_ps(_mm_cmp_ps::<_CMP_LE_OQ>(size(o), all(NEARBY)));
+    if close & 7 != 7 || shrink == 0.0 {
+        return None;
+    }
+    // SAFETY: four f32.
+    let most = unsafe { _mm_loadu_ps(tree.clip.most32.as_ptr()) };
+    let sign = _mm_and_ps(minus, d);
+    let least = _mm_mul_ps(_mm_add_ps(most, size(o)), all(0.05 * U32 as f32));
+    let r = _mm_div_ps(all(1.0), _mm_or_ps(sign, _mm_max_ps(size(d), least)));
+    let slack = _mm_mul_ps(size(r), _mm_fmadd_ps(size(o), all(SLACK.1), _mm_mul_ps(most, all(SLACK.0))));
+    let base = _mm_mul_ps(o, r);
+    let four = |x: __m128| {
+        let mut four = [0.0_f32; 4];
+        // SAFETY: four f32.
+        unsafe { _mm_storeu_ps(four.as_mut_ptr(), x) };
+        four
+    };
+    let (start, direction) = (four(o), four(d));
+    // Four units outward, of which one pays for the rounding to f32 and one for its own.
+    let (first, last) = (start[3], direction[3]);
+    const OUTWARD: f32 = 4.0 * U32 as f32;
+    Some(CullRay {
+        r: four(r),
+        near: four(_mm_sub_ps(_mm_sub_ps(_mm_setzero_ps(), base), slack)),
+        far: four(_mm_sub_ps(slack, base)),
+        octant: _mm_movemask_ps(sign) as u32 & 7,
+        t_near: first - first.abs() * OUTWARD,
+        t_far: last + last.abs() * OUTWARD,
+        start,
+        direction,
+        is_nearby: true,
+        error: f64::MIN_POSITIVE,
+        t_enter: 0.0,
+        frame: tree.frame,
+    })
 }
 
 /// What [`clip`] says of a line.
@@ -169,22 +238,22 @@ fn clip(tree: &Bvh, line: &Line) -> Clipped {
     let (low, high) = (_mm256_sub_pd(base, slack), _mm256_add_pd(base, slack));
     let low = _mm256_fnmadd_pd(size(low), all(TO_NEAREST), low);
     let high = _mm256_fmadd_pd(size(high), all(TO_NEAREST), high);
-    let three = |x: __m256d| {
+    let four = |x: __m256d| {
         let mut four = [0.0_f32; 4];
         // SAFETY: four f32.
         unsafe { _mm_storeu_ps(four.as_mut_ptr(), _mm256_cvtpd_ps(x)) };
-        [four[0], four[1], four[2]]
+        four
     };
-    let mut from = [0.0; 4];
-    // SAFETY: four f64.
-    unsafe { _mm256_storeu_pd(from.as_mut_ptr(), start) };
     Clipped::Enters(CullRay {
-        r: three(r),
-        near: three(low),
-        far: three(high),
+        r: four(r),
+        near: four(low),
+        far: four(high),
         octant: _mm256_movemask_pd(sign) as u32 & 7,
+        t_near: 0.0,
         t_far: up32(way.next_up()),
-        start: [from[0], from[1], from[2]],
+        start: four(start),
+        direction: four(d),
+        is_nearby: false,
         error: f64::MIN_POSITIVE,
         t_enter: enter,
         frame: tree.frame,
@@ -208,13 +277,20 @@ fn least(x: __m256d) -> f64 {
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 fn lanes(ray: &CullRay) -> Lanes {
-    let near_plane = [0, 1, 2].map(|i| i + 3 * (ray.octant as usize >> i & 1));
+    let mut near_plane = [0, 1, 2];
+    let mut far_plane = [3, 4, 5];
+    for i in 0..3 {
+        let sign = ray.octant as usize >> i & 1;
+        near_plane[i] += 3 * sign;
+        far_plane[i] -= 3 * sign;
+    }
     Lanes {
         r: [_mm256_set1_ps(ray.r[0]), _mm256_set1_ps(ray.r[1]), _mm256_set1_ps(ray.r[2])],
         near: [_mm256_set1_ps(ray.near[0]), _mm256_set1_ps(ray.near[1]), _mm256_set1_ps(ray.near[2])],
         far: [_mm256_set1_ps(ray.far[0]), _mm256_set1_ps(ray.far[1]), _mm256_set1_ps(ray.far[2])],
+        t_near: _mm256_set1_ps(ray.t_near),
         near_plane,
-        far_plane: near_plane.map(|i| if i < 3 { i + 3 } else { i - 3 }),
+        far_plane,
         octant_shift: 3 * ray.octant,
     }
 }
@@ -240,7 +316,7 @@ fn slabs<const ORDERED: bool>(node: &Node8, lanes: &Lanes, t_far: f32) -> Met {
     let [fx, fy, fz] = lanes.far_plane;
     let (ex, ey, ez) = (plane(nx, 0, &lanes.near), plane(ny, 1, &lanes.near), plane(nz, 2, &lanes.near));
     let (lx, ly, lz) = (plane(fx, 0, &lanes.far), plane(fy, 1, &lanes.far), plane(fz, 2, &lanes.far));
-    let near = _mm256_max_ps(_mm256_max_ps(ex, ey), _mm256_max_ps(ez, _mm256_setzero_ps()));
+    let near = _mm256_max_ps(_mm256_max_ps(ex, ey), _mm256_max_ps(ez, lanes.t_near));
     let far = _mm256_min_ps(_mm256_min_ps(lx, ly), _mm256_min_ps(lz, _mm256_set1_ps(t_far)));
     let met = _mm256_cmp_ps::<_CMP_LE_OQ>(near, far);
     // SAFETY: both arrays hold eight u32, aligned to 32 bytes in a node aligned to 64.
@@ -362,7 +438,7 @@ fn judge(block: &Block, filter: &Filter, sight: &Sight, t_far: f32) -> Verdict {
     let lo = _mm256_blendv_ps(all(f32::NEG_INFINITY), _mm256_sub_ps(t, tau), known);
     let hi = _mm256_blendv_ps(all(f32::INFINITY), _mm256_add_ps(t, tau), known);
     let here = _mm256_and_ps(
-        _mm256_cmp_ps::<_CMP_GE_OQ>(hi, _mm256_setzero_ps()),
+        _mm256_cmp_ps::<_CMP_GE_OQ>(hi, all(filter.t_near)),
         _mm256_cmp_ps::<_CMP_LE_OQ>(lo, all(t_far)),
     );
     let alive = _mm256_and_ps(possible, here);

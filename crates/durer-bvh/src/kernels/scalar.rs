@@ -40,7 +40,7 @@ impl<const FUSED: bool> Scalar<FUSED> {
         for i in 0..WIDTH {
             let near = |plane: usize, axis: usize| at(node.planes[plane][i], ray.r[axis], ray.near[axis]);
             let far = |plane: usize, axis: usize| at(node.planes[plane][i], ray.r[axis], ray.far[axis]);
-            let enter = max(max(near(nx, 0), near(ny, 1)), max(near(nz, 2), 0.0));
+            let enter = max(max(near(nx, 0), near(ny, 1)), max(near(nz, 2), ray.t_near));
             let leave = min(min(far(fx, 0), far(fy, 1)), min(far(fz, 2), t_far));
             slabs.near[i] = enter;
             slabs.met[i] = enter <= leave;
@@ -100,30 +100,31 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
         let slack = fma(size, fma(filter.b, size, filter.a), filter.g);
         let nearby = fma(NEAR, size, filter.p);
         let certain = fma(4.0, slack, fma(filter.flat, square, FLAT));
+        let ([o @ .., _], [d @ .., _]) = (filter.o, filter.d);
         let mut verdict = Verdict { alive: 0, sure: 0, lo: [0.0; LANES], hi: [0.0; LANES] };
         for i in 0..LANES {
             let row = |r: usize| [block.rows[r][i], block.rows[r + 1][i], block.rows[r + 2][i]];
             let (v, v1, v2) = (row(0), row(3), row(6));
             let minus = |a: &[f32; 3], b: &[f32; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-            let (c, e1, e2) = (minus(&v, &filter.o), minus(&v1, &v), minus(&v2, &v));
-            let (r, n) = (cross(&c, &filter.d), cross(&e1, &e2));
+            let (c, e1, e2) = (minus(&v, &o), minus(&v1, &v), minus(&v2, &v));
+            let (r, n) = (cross(&c, &d), cross(&e1, &e2));
             let (u, v) = (dot(&r, &e2), -dot(&r, &e1));
-            let d = dot(&filter.d, &n);
-            let w = (d - u) - v;
+            let along = dot(&d, &n);
+            let w = (along - u) - v;
             let (least, most) = (min(min(u, v), w), max(max(u, v), w));
             let possible = least >= -slack || most <= slack;
             if !possible {
                 continue;
             }
-            let inverse = 1.0 / d;
+            let inverse = 1.0 / along;
             let t = dot(&c, &n) * inverse;
             let length = |e: &[f32; 3]| e[0].abs() + e[1].abs() + e[2].abs();
             let spread = inverse.abs() * (length(&e1) * length(&e2));
             let far = fma(filter.q, t.abs(), nearby) * spread;
             let tau = far + fma(FAR, t.abs(), filter.s);
-            let known = d.abs() > certain;
+            let known = along.abs() > certain;
             let (lo, hi) = if known { (t - tau, t + tau) } else { (f32::NEG_INFINITY, f32::INFINITY) };
-            let alive = hi >= 0.0 && lo <= t_far;
+            let alive = hi >= filter.t_near && lo <= t_far;
             let sure = known && (least > slack || most < -slack) && lo >= filter.first && hi <= filter.last;
             verdict.alive |= u32::from(alive) << i;
             verdict.sure |= u32::from(alive && sure) << i;

@@ -71,8 +71,8 @@ pub(crate) const FLAT: f32 = 1.0 / (1_u128 << 100) as f32;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Filter {
     /// Where it enters the tree's box.
-    pub(crate) o: [f32; 3],
-    pub(crate) d: [f32; 3],
+    pub(crate) o: [f32; 4],
+    pub(crate) d: [f32; 4],
     /// `U`, `V`, `W` err by `E (a + b E) + g` at most.
     pub(crate) a: f32,
     pub(crate) b: f32,
@@ -83,6 +83,8 @@ pub(crate) struct Filter {
     pub(crate) p: f32,
     pub(crate) q: f32,
     pub(crate) s: f32,
+    /// A crossing before this does not matter.
+    pub(crate) t_near: f32,
     /// A crossing between these is certainly in the ray's range.
     pub(crate) first: f32,
     pub(crate) last: f32,
@@ -92,11 +94,38 @@ impl Filter {
     /// The ray from its entry on; `rounded` says that f32 does not hold the corners.
     #[inline(always)]
     pub(crate) fn new(line: &Line, cull: &CullRay, rounded: bool) -> Self {
-        let single = |v: [f64; 3]| [v[0] as f32, v[1] as f32, v[2] as f32];
-        let most = |v: &[f32; 3]| v[0].abs().max(v[1].abs()).max(v[2].abs());
-        let (o, d) = (single(cull.start), single(line.direction.to_array()));
+        let w = if rounded { U } else { 0.0 };
+        if cull.is_nearby { Self::nearby(line, cull, w) } else { Self::clipped(line, cull, w) }
+    }
+
+    /// The formulas above with `e = g = 0`.
+    #[inline(always)]
+    fn nearby(line: &Line, cull: &CullRay, w: f32) -> Self {
+        let (size, m) = (most(&cull.start), most(&cull.direction));
+        let c = 1.0 + size;
+        let b = (10.0 * U * PAYS) * m;
+        let (first, last) = cull.inner(line.inner);
+        Self {
+            o: cull.start,
+            d: cull.direction,
+            a: (42.0 * U * PAYS).mul_add(c, (12.0 * PAYS) * w) * m,
+            b,
+            g: w * c * (12.0 * b),
+            flat: 2.0 * b,
+            p: (2.0 * U * PAYS).mul_add(size, (4.0 * PAYS) * w),
+            q: 4.0 * b,
+            s: 8.0 * 128.0 * U * U * PAYS,
+            t_near: cull.t_near,
+            first,
+            last,
+        }
+    }
+
+    #[inline(always)]
+    fn clipped(line: &Line, cull: &CullRay, w: f32) -> Self {
+        let (o, d) = (cull.start, cull.direction);
         let (size, m) = (most(&o), most(&d));
-        let g = most(&single(line.direction_error.to_array()));
+        let g = line.direction_error.max_abs() as f32;
         // The start was rounded once more than the tests of boxes know, by 2^-53 of itself.
         let e = (cull.error as f32).mul_add(PAYS, U * U * size);
         let c = 1.0 + size;
@@ -104,12 +133,11 @@ impl Filter {
         if !(e <= ROUGH && g <= ROUGH * m) {
             return Self::NOTHING;
         }
-        let w = if rounded { U } else { 0.0 };
         let k = e.mul_add(m, c * g);
         let slope = (8.0 * U).mul_add(m, g);
         // Rounded parameters are within 32 ulp of `max(|t|, size / |d|)`; twice that, for each of two.
         let s = (128.0 * U * U) * (cull.entry().abs() as f32 + 8.0);
-        let (from, to) = cull.inner(line.inner);
+        let (first, last) = cull.inner(line.inner);
         Self {
             o,
             d,
@@ -120,15 +148,16 @@ impl Filter {
             p: 2.0 * U.mul_add(size, 2.0_f32.mul_add(w, e)) * PAYS,
             q: 2.0 * (8.0 * U).mul_add(m, slope) * PAYS,
             s: s * PAYS,
-            first: from,
-            last: to,
+            t_near: cull.t_near,
+            first,
+            last,
         }
     }
 
     /// A ray of which f32 can say nothing: every triangle is in doubt.
     pub(crate) const NOTHING: Self = Self {
-        o: [0.0; 3],
-        d: [0.0; 3],
+        o: [0.0; 4],
+        d: [0.0; 4],
         a: f32::INFINITY,
         b: 0.0,
         g: 0.0,
@@ -136,9 +165,17 @@ impl Filter {
         p: 0.0,
         q: 0.0,
         s: 0.0,
+        t_near: f32::NEG_INFINITY,
         first: f32::INFINITY,
         last: f32::NEG_INFINITY,
     };
+}
+
+/// The greatest magnitude of three.
+#[inline(always)]
+fn most(v: &[f32; 4]) -> f32 {
+    let max = |a: f32, b: f32| if a > b { a } else { b };
+    max(max(v[0].abs(), v[1].abs()), v[2].abs())
 }
 
 /// What the filter says of a block.
