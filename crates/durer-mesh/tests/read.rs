@@ -1,6 +1,6 @@
 //! Mesh files: what is read is what was written, and what is damaged is told with its place.
 
-use durer_math::{Point3, Vec3};
+use durer_math::{Point3, Ray, Vec3};
 use durer_mesh::{ErrorKind, Format, Model, Spot, Topology, read_bytes};
 
 type Read = Result<Model, ErrorKind>;
@@ -146,12 +146,51 @@ fn obj_statements_mean_what_they_say() -> Result<(), ErrorKind> {
     Ok(())
 }
 
+/// Texture coordinates of OBJ and PLY files are those of the hits; faces without any have those that faces have where there are none at all.
+#[test]
+fn texture_coordinates_reach_the_hits() -> Result<(), Box<dyn std::error::Error>> {
+    let obj = "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 9 0 0\nvt 0.5 8 7\nvt 2.5\nvt 0.5 16\nf 2 4 3\nf 1/1 2/2 3/3\nf 1/1 2/2 3\n";
+    let ply = |u: &str, v: &str| {
+        format!(
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n\
+             property float {u}\nproperty float {v}\nelement face 1\nproperty list uchar int vertex_index\nend_header\n\
+             0 0 0 0.5 8\n4 0 0 2.5 0\n0 4 0 0.5 16\n3 0 1 2\n"
+        )
+    };
+    let files = [
+        (obj.to_string(), Format::Obj),
+        (ply("u", "v"), Format::Ply),
+        (ply("s", "t"), Format::Ply),
+        (ply("texture_u", "texture_v"), Format::Ply),
+    ];
+    for (text, format) in files {
+        let lowered = read_bytes(text.as_bytes(), format)?.into_scene(4, 3).lower()?;
+        let uv = |x: f64, y: f64| {
+            let ray = Ray::new(Point3::new(x, y, 5.0), -Vec3::Z);
+            let hit = lowered.geometry.closest(&ray)?;
+            Some((hit.primitive, lowered.geometry.resolve(&ray, &hit).uv))
+        };
+        // A quarter of the way to the second corner, and half of that to the third: all in small dyadic numbers.
+        let face = u32::from(format == Format::Obj);
+        assert_eq!(uv(1.0, 2.0), Some((face, [1.0, 10.0])), "{format:?}");
+        if format == Format::Obj {
+            assert_eq!(uv(4.0, 2.0).map(|hit| hit.0), Some(0));
+            assert!(uv(4.0, 2.0).is_some_and(|hit| hit.1.iter().all(|x| (0.0..=1.0).contains(x))));
+        }
+    }
+    let stl = read_bytes(stl_text().as_bytes(), Format::Stl)?;
+    assert!(stl.groups[0].mesh.uv_faces.is_empty());
+    Ok(())
+}
+
 #[test]
 fn what_is_wrong_is_told_with_its_place_and_value() {
     let message = |read: Read| read.map(|_| String::new()).unwrap_or_else(|e| e.to_string());
     let three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (tail, said) in [
         ("f 1 2 4", "line 4: there is no vertex 4, there are 3 so far"),
+        ("vt x", "line 4: expected texture coordinates, found 'x'"),
+        ("vt 1\nf 1/2 2 3", "line 5: there is no texture coordinate 2, there are 1 so far"),
         ("f 1 2 0", "line 4: there is no vertex 0, there are 3 so far"),
         ("f 1 2 -4", "line 4: there is no vertex -4, there are 3 so far"),
         ("f 1//2 2 3", "line 4: there is no normal 2, there are 0 so far"),

@@ -3,7 +3,7 @@
 use astro_float::{BigFloat, Consts, RoundingMode};
 use dashu::rational::RBig;
 use durer_math::{Function, I8, Interval, Point3};
-use durer_surfaces::tape::{Builder, Op, Tape};
+use durer_surfaces::tape::{Builder, NodeId, Op, Tape};
 
 /// Bits of the witness of functions that are not rational.
 const P: usize = 256;
@@ -76,17 +76,19 @@ fn big(x: f64) -> BigFloat {
     BigFloat::from_f64(x, P)
 }
 
-/// The operation with this number, and what it is exactly at `x` and `y`; none where it is not defined or the witness is out of its depth.
-fn operation(
-    code: u8,
-    power: i32,
-) -> (fn([durer_surfaces::tape::NodeId; 2], i32) -> Op, fn(f64, f64, i32) -> Option<Exact>) {
+/// An operation of one or two operands, perhaps with a whole power.
+type Make = fn([NodeId; 2], i32) -> Op;
+
+/// What it is exactly, given the same; none where it is not defined or the witness is out of its depth.
+type Truth = fn(f64, f64, i32) -> Option<Exact>;
+
+/// The operation with this number.
+fn operation(code: u8) -> (Make, Truth) {
     use Exact::{Near, Ratio, Root};
     type Witness = fn(&BigFloat, &mut Consts) -> BigFloat;
     fn near(x: f64, most: f64, f: Witness) -> Option<Exact> {
         (x.abs() <= most).then(|| Consts::new().ok().map(|mut c| Near(f(&big(x), &mut c)))).flatten()
     }
-    let _ = power;
     macro_rules! function {
         ($name:ident, $most:expr, $f:expr) => {
             (|[x, _], _| Op::Function(Function::$name, x), |x, _, _| near(x, $most, $f))
@@ -147,10 +149,9 @@ pub(crate) fn check(data: &[u8]) {
     let mut bytes = Bytes(data);
     let code = bytes.next();
     let power = i32::from(bytes.next() % 12) - 4;
-    let (op, exact) = operation(code, power);
+    let (op, exact) = operation(code);
     let mut builder = Builder::new();
-    let (Ok(x), Ok(y), Ok(z)) = (builder.input(0), builder.input(1), builder.input(2)) else { return };
-    let _ = z;
+    let (Ok(x), Ok(y)) = (builder.input(0), builder.input(1)) else { return };
     let Ok(step) = builder.push(op([x, y], power)) else { return };
     let tape = Tape::new(&builder.finish(step, 3));
     let mut side = || {
