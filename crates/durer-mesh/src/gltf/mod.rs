@@ -24,6 +24,9 @@ use std::path::Path;
 /// Extensions that may be required: what they change is understood, or passed over without harm to the triangles.
 const UNDERSTOOD: [&str; 3] = ["KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual"];
 
+/// Each object that light passes is a body of its own, with a look for each face: few bytes could fill any memory with these.
+const MOST_CLEAR: usize = 1 << 26;
+
 /// Reads a file that is in memory; `folder` holds the buffers beside it.
 pub(crate) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Vec<Group>, Vec<Instance>), ErrorKind> {
     let (text, chunk) = container::split(bytes)?;
@@ -42,6 +45,7 @@ pub(crate) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Vec<Group>, V
     let shown = nodes::shown(&root)?;
     let mut groups = Vec::new();
     let mut instances = Vec::new();
+    let mut clear = 0;
     let mut known: Vec<Option<Option<usize>>> = vec![None; root.meshes.len()];
     let mut assembly = Assembly::new(&root, Buffers::new(&root.buffers, chunk, folder, bytes.len()));
     for (mesh, placement) in shown {
@@ -59,8 +63,18 @@ pub(crate) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Vec<Group>, V
             }
         };
         instances.extend(group.map(|group| Instance { group, placement }));
+        clear += group.map_or(0, |group| clear_faces(&groups[group]));
+        if clear > MOST_CLEAR {
+            let what = format!("{clear} clear faces, counted as often as they are shown");
+            return Err(ErrorKind::Unsupported { spot: Spot::Element("mesh", mesh), what });
+        }
     }
     Ok((groups, instances))
+}
+
+/// How many faces a mesh has, if light passes some of them.
+fn clear_faces(group: &Group) -> usize {
+    if group.mesh.textures.iter().all(|t| t.is_opaque()) { 0 } else { group.mesh.faces.len() }
 }
 
 /// What an index of a list names.

@@ -4,6 +4,7 @@ use astro_float::{BigFloat, Consts, RoundingMode};
 use dashu::rational::RBig;
 use durer_math::{Function, I8, Interval, Point3};
 use durer_surfaces::tape::{Builder, NodeId, Op, Tape};
+use std::cell::RefCell;
 
 /// Bits of the witness of functions that are not rational.
 const P: usize = 256;
@@ -76,6 +77,14 @@ fn big(x: f64) -> BigFloat {
     BigFloat::from_f64(x, P)
 }
 
+/// A value of many bits. The constants that it takes are made once: that takes longer than everything else.
+fn witness(value: impl FnOnce(&mut Consts) -> BigFloat) -> Option<Exact> {
+    thread_local! {
+        static CONSTANTS: RefCell<Option<Consts>> = RefCell::new(Consts::new().ok());
+    }
+    CONSTANTS.with_borrow_mut(|constants| constants.as_mut().map(|c| Exact::Near(value(c))))
+}
+
 /// An operation of one or two operands, perhaps with a whole power.
 type Make = fn([NodeId; 2], i32) -> Op;
 
@@ -84,10 +93,10 @@ type Truth = fn(f64, f64, i32) -> Option<Exact>;
 
 /// The operation with this number.
 fn operation(code: u8) -> (Make, Truth) {
-    use Exact::{Near, Ratio, Root};
+    use Exact::{Ratio, Root};
     type Witness = fn(&BigFloat, &mut Consts) -> BigFloat;
     fn near(x: f64, most: f64, f: Witness) -> Option<Exact> {
-        (x.abs() <= most).then(|| Consts::new().ok().map(|mut c| Near(f(&big(x), &mut c)))).flatten()
+        (x.abs() <= most).then(|| witness(|c| f(&big(x), c))).flatten()
     }
     macro_rules! function {
         ($name:ident, $most:expr, $f:expr) => {
@@ -113,8 +122,7 @@ fn operation(code: u8) -> (Make, Truth) {
             |[x, y], _| Op::Pow(x, y),
             |x, y, _| {
                 let tame = (1e-3..1e3).contains(&x) && y.abs() < 50.0;
-                tame.then(|| Consts::new().ok().map(|mut c| Near(big(x).pow(&big(y), P, RM, &mut c))))
-                    .flatten()
+                tame.then(|| witness(|c| big(x).pow(&big(y), P, RM, c))).flatten()
             },
         ),
         // The witness needs longer and longer for larger arguments of these.
