@@ -4,11 +4,14 @@
 //! - `conformance`: our pictures beside POV-Ray's, and what each cost ([`conformance`]);
 //! - `gallery`: the pictures and pages of docs/gallery.md ([`gallery`]);
 //! - `examples`: the scenes that come with POV-Ray, beside its pictures ([`examples`]);
+//! - `bench`: the triangle kernels beside Embree's, on the same rays ([`bench`]);
+//! - `soak`: the random tests, with many more cases ([`soak`]);
 //! - `fused`: which compiled code calls `fma` where it should be one instruction ([`fused`]).
 //!
 //! Everything here drives the programs a user has: cargo, the `durer` command built for release, and `povray`.
 #![forbid(unsafe_code)]
 
+mod bench;
 mod blocks;
 mod checks;
 mod command;
@@ -21,6 +24,7 @@ mod picture;
 mod povray;
 mod report;
 mod scenes;
+mod soak;
 
 use std::process::ExitCode;
 
@@ -32,6 +36,11 @@ usage: cargo xtask NAME
                                    writes docs/conformance.md; --check only compares, SCENEs limit it to a few
   gallery [SCENE]..                renders scenes/ into docs/gallery and writes docs/gallery.md
   examples [SCENE]..               compares the scenes that come with POV-Ray and writes docs/examples.md
+  bench [--rounds N] HARNESS MESH.tri..
+                                   traces the same rays with Embree and with durer, in turn, and prints both; HARNESS is
+                                   a folder with embree_bench.cpp
+  soak [N]                         runs the random tests with N times as many cases; without N, 10^9 rays at closed
+                                   meshes and about an hour of the rest
   fused [BINARY]                   lists compiled code that calls fma where it should be one instruction";
 
 /// What a chore comes to: nothing to say, or the reason why it failed.
@@ -44,6 +53,8 @@ fn main() -> ExitCode {
         Some((name, rest)) if name == "conformance" => conformance::run(rest),
         Some((name, rest)) if name == "examples" => examples::run(rest),
         Some((name, rest)) if name == "fused" => fused::run(rest),
+        Some((name, rest)) if name == "bench" => bench::run(rest),
+        Some((name, rest)) if name == "soak" => soak::run(rest),
         Some((name, rest)) if name == "gallery" => gallery::run(rest),
         _ => {
             eprintln!("{USAGE}");

@@ -78,8 +78,8 @@ pub(crate) struct CullRay {
     /// The entry's point in tree units, rounded to f64 and to f32, and the direction, rounded to f32.
     pub(crate) start: [f32; 4],
     pub(crate) direction: [f32; 4],
-    /// Whether the ray is exactly known and its entry is its origin, at most [`NEARBY`].
-    pub(crate) is_nearby: bool,
+    /// Whether the start is the ray's origin and nothing but the rounding to f32 makes it or the direction uncertain.
+    pub(crate) is_exact: bool,
     /// A bound on the error of the ray's points within the tree, per axis.
     pub(crate) error: f64,
     /// The entry.
@@ -214,7 +214,7 @@ impl CullRay {
             t_far,
             start: starts,
             direction: single(&d),
-            is_nearby: false,
+            is_exact: false,
             error: error[0].max(error[1]).max(error[2]),
             t_enter: enter,
             frame,
@@ -235,7 +235,7 @@ impl CullRay {
             t_far: 1.0,
             start: [0.0; 4],
             direction,
-            is_nearby: false,
+            is_exact: false,
             error: f64::INFINITY,
             t_enter: f64::NEG_INFINITY,
             frame,

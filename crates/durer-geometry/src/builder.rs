@@ -9,6 +9,7 @@ use core::any::TypeId;
 use durer_bvh::{Bvh, CornersOf, Entry, Frame, Settings};
 use durer_math::{Aabb, Affine, Isa};
 use durer_surfaces::Surface;
+use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -180,8 +181,9 @@ impl Builder {
 
         let placed_bounds = |i: &Instance| i.affine.bounds(&i.geometry.bounds());
         let mut extent = arenas.iter().map(|a| a.extent(&builder.limits)).fold(Aabb::EMPTY, Aabb::union);
-        for bounds in instances.iter().map(placed_bounds).filter(Aabb::is_bounded) {
-            extent = extent.union(bounds);
+        let placed: Vec<Aabb> = instances.par_iter().map(placed_bounds).collect();
+        for bounds in placed.iter().filter(|b| b.is_bounded()) {
+            extent = extent.union(*bounds);
         }
 
         let leaf_slots: u64 = arenas.iter_mut().map(|a| leaf_slots(&mut **a)).sum();
@@ -199,11 +201,13 @@ impl Builder {
         }
         let instance_kind = arenas.len() as u32;
         let mut unsorted_instances = Unsorted::default();
-        for (i, instance) in instances.iter().enumerate() {
-            let entry = frame.entry(&placed_bounds(instance), instance_kind, i as u32);
+        entries.reserve(instances.len());
+        for (i, bounds) in placed.iter().enumerate() {
+            let entry = frame.entry(bounds, instance_kind, i as u32);
             unsorted_instances.take(&entry);
             entries.extend(Some(entry).filter(Entry::is_bounded));
         }
+        drop(placed);
         unsorted.push(unsorted_instances);
         let count = entries.len() + unsorted.iter().map(Unsorted::len).sum::<usize>();
         if count > durer_bvh::MAX_ENTRIES {

@@ -147,6 +147,14 @@ impl Geometry {
 
 /// Improves `best` by what the ray meets in one geometry.
 pub(crate) fn closest(walk: &Walk<'_>, best: &mut Best) {
+    walk.geometry.isa.run(
+        #[inline(always)]
+        || closest_here(walk, best),
+    );
+}
+
+#[inline(always)]
+fn closest_here(walk: &Walk<'_>, best: &mut Best) {
     let geometry = walk.geometry;
     for beside in &geometry.beside {
         closest_in(walk, beside.leaf(), best);
@@ -185,6 +193,14 @@ pub(crate) fn closest_in(walk: &Walk<'_>, leaf: Leaf, best: &mut Best) {
 }
 
 fn any(walk: &Walk<'_>) -> bool {
+    walk.geometry.isa.run(
+        #[inline(always)]
+        || any_here(walk),
+    )
+}
+
+#[inline(always)]
+fn any_here(walk: &Walk<'_>) -> bool {
     let geometry = walk.geometry;
     geometry.beside.iter().any(|b| any_in(walk, b.leaf()))
         || geometry.tree.any(

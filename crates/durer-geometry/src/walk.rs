@@ -24,6 +24,7 @@ impl Clock {
     }
 
     /// The clock of a ray that went through an affine map.
+    #[inline(always)]
     fn then(self, ray: &LocalRay<'_>) -> Self {
         let Some((step, k)) = ray.parent_clock() else { return self };
         let shift = self.shift + scale2(step, self.k);
@@ -120,20 +121,25 @@ impl<'a> Walk<'a> {
         (t + self.geometry.tree.size()).mul_add(128.0 * U, s)
     }
 
-    /// Enters an instance, if the ray meets it at all.
-    #[inline]
+    /// Enters an instance, if the ray is to meet it at all.
+    #[inline(always)]
     pub(crate) fn enter<R>(&self, instance: &Instance, f: impl FnOnce(&Walk<'_>) -> R) -> Option<R> {
         if instance.mask & self.mask == 0 {
             return None;
         }
-        let ray = self.ray.through(&instance.affine);
-        Some(f(&Walk {
-            geometry: &instance.geometry,
-            ray: &ray,
-            clock: self.clock.then(&ray),
-            placement: instance.within(&self.placement),
-            mask: self.mask,
-            source: self.source,
-        }))
+        Some(self.geometry.isa.run(
+            #[inline(always)]
+            || {
+                let ray = self.ray.through(&instance.affine);
+                f(&Walk {
+                    geometry: &instance.geometry,
+                    ray: &ray,
+                    clock: self.clock.then(&ray),
+                    placement: instance.within(&self.placement),
+                    mask: self.mask,
+                    source: self.source,
+                })
+            },
+        ))
     }
 }

@@ -5,7 +5,7 @@
 //! inverse, `x = L^-1 (p - c)`, because `L^-1 p - L^-1 c` cancels.
 
 use crate::rounding::{add_up, mul_up, sqrt_up};
-use crate::{Aabb, Dyadic, Interval, Normal3, Point3, Ring, Run, U, Vec3, elementary};
+use crate::{Aabb, Dd, Dyadic, Interval, Isa, Normal3, Point3, Ring, Run, U, Vec3, elementary};
 
 /// A 3x3 matrix by rows.
 pub type Matrix3 = [[f64; 3]; 3];
@@ -30,12 +30,59 @@ const IDENTITY: Matrix3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Affine {
     linear: Matrix3,
+    /// Each entry is the number nearest to the exact one.
     inverse: Matrix3,
-    inverse_error: Matrix3,
     /// An upper bound of the spectral norm of the exact inverse.
     inverse_norm: f64,
     centre: Point3,
+    rounded: Rounded,
     mirrored: bool,
+}
+
+/// Which entries of an inverse are rounded: bit `3 i + j` is that of row `i` and column `j`; and whether one of them is [`TINY`](Self::TINY).
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Rounded(u16);
+
+impl Rounded {
+    const NONE: Self = Self(0);
+    /// Entries below this, other than zero, may have errors of more than half an ulp: see [`Rounded::slow`].
+    const TINY: f64 = crate::scale::pow2(-960);
+    const HAS_TINY: u16 = 1 << 9;
+    /// Half an ulp, and what is left of it when an entry has been rounded from a double-double that errs, too.
+    const HALF_ULP: f64 = U * (1.0 + crate::scale::pow2(-40));
+    const EXPONENT: u64 = 0x7ff << 52;
+
+    /// What rounding may have cost each entry.
+    #[inline(always)]
+    fn errors(self, inverse: &Matrix3) -> Matrix3 {
+        let mut errors = [[0.0; 3]; 3];
+        if self.0 == 0 {
+            return errors;
+        }
+        if self.0 & Self::HAS_TINY != 0 {
+            return self.slow(inverse);
+        }
+        for i in 0..3 {
+            for j in 0..3 {
+                let is_rounded = self.0 >> (3 * i + j) & 1 != 0;
+                let power = f64::from_bits(inverse[i][j].to_bits() & Self::EXPONENT);
+                errors[i][j] = if is_rounded { power * Self::HALF_ULP } else { 0.0 };
+            }
+        }
+        errors
+    }
+
+    /// At the bottom of the range the double-double errs by a few of the least number.
+    #[cold]
+    #[inline(never)]
+    fn slow(self, inverse: &Matrix3) -> Matrix3 {
+        const FEW: f64 = f64::from_bits(32);
+        let error = |bit: usize, x: f64| {
+            let power = f64::from_bits(x.to_bits() & Self::EXPONENT);
+            if self.0 >> bit & 1 != 0 { power.mul_add(Self::HALF_ULP, FEW) } else { 0.0 }
+        };
+        [0, 1, 2].map(|i| [0, 1, 2].map(|j| error(3 * i + j, inverse[i][j])))
+    }
 }
 
 /// Why an affine map cannot be used to place something.
@@ -78,10 +125,10 @@ impl Affine {
     pub const IDENTITY: Self = Self {
         linear: IDENTITY,
         inverse: IDENTITY,
-        inverse_error: [[0.0; 3]; 3],
         // The square root of 3, rounded up.
         inverse_norm: 1.732_050_807_568_877_4,
         centre: Point3::ORIGIN,
+        rounded: Rounded::NONE,
         mirrored: false,
     };
 
@@ -95,26 +142,16 @@ impl Affine {
             }
         }
         check_translation(centre)?;
-        let (adjugate, determinant) = adjugate(&rows.map(|r| r.map(Dyadic::from)));
-        if determinant.is_zero() {
-            return Err(AffineError::Singular(rows));
-        }
-        let (mut inverse, mut inverse_error) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
-        for i in 0..3 {
-            for j in 0..3 {
-                let entry = quotient(&adjugate[i][j], &determinant).value();
-                if !entry.is_finite() {
-                    return Err(AffineError::Inverse(rows));
-                }
-                inverse[i][j] = entry;
-                // What the rounding left: (adj - entry det) / det, with an exact numerator.
-                let left = &adjugate[i][j] - &(&Dyadic::from(entry) * &determinant);
-                inverse_error[i][j] = quotient(&left.abs(), &determinant.clone().abs()).hi();
-            }
-        }
-        let mirrored = determinant.exact_sign().is_lt();
-        let inverse_norm = frobenius(&inverse, &inverse_error);
-        Ok(Self { linear: rows, inverse, inverse_error, inverse_norm, centre, mirrored })
+        let swift = Isa::detect().run(
+            #[inline(always)]
+            || Inverse::in_double_double(&rows),
+        );
+        let Inverse { entries, rounded, mirrored } = match swift {
+            Some(inverse) => inverse,
+            None => Inverse::in_exact_numbers(&rows)?,
+        };
+        let inverse_norm = frobenius(&entries, &rounded.errors(&entries));
+        Ok(Self { linear: rows, inverse: entries, inverse_norm, centre, rounded, mirrored })
     }
 
     /// Moves by `v`.
@@ -200,7 +237,7 @@ impl Affine {
     /// otherwise (for subnormal entries a few of the least number).
     #[inline(always)]
     pub fn inverse_error(&self) -> Matrix3 {
-        self.inverse_error
+        self.rounded.errors(&self.inverse)
     }
 
     /// The image of the origin, `c`.
@@ -279,7 +316,7 @@ impl Affine {
     /// An upper bound of `|L^-1| v` (of the exact inverse), for `v >= 0`.
     #[inline(always)]
     pub fn inverse_reach(&self, v: Vec3) -> Vec3 {
-        reach(&self.inverse, &self.inverse_error, v)
+        reach(&self.inverse, &self.inverse_error(), v)
     }
 
     /// An upper bound of `L`'s spectral norm: the greatest length of the image of a unit vector, by Frobenius' norm (at most `sqrt 3`
@@ -308,13 +345,83 @@ impl Affine {
         if b.is_empty() {
             return Aabb::EMPTY;
         }
-        let side = |j: usize| Interval::new(b.min[j], b.max[j]);
-        let axis = |i: usize| {
-            let term = |j: usize| Interval::from(self.linear[i][j]) * side(j);
-            term(0) + term(1) + term(2) + Interval::from(self.centre[i])
-        };
-        let [x, y, z] = [axis(0), axis(1), axis(2)];
-        Aabb { min: Point3::new(x.lo, y.lo, z.lo), max: Point3::new(x.hi, y.hi, z.hi) }
+        Isa::detect().run(
+            #[inline(always)]
+            || {
+                let mut image = [Interval::from(0.0); 3];
+                for (i, axis) in image.iter_mut().enumerate() {
+                    for j in 0..3 {
+                        *axis = *axis + Interval::from(self.linear[i][j]) * Interval::new(b.min[j], b.max[j]);
+                    }
+                    *axis = *axis + Interval::from(self.centre[i]);
+                }
+                let [x, y, z] = image;
+                Aabb { min: Point3::new(x.lo, y.lo, z.lo), max: Point3::new(x.hi, y.hi, z.hi) }
+            },
+        )
+    }
+}
+
+/// The inverse of a matrix, each entry rounded to the nearest number.
+struct Inverse {
+    entries: Matrix3,
+    rounded: Rounded,
+    mirrored: bool,
+}
+
+impl Inverse {
+    /// In double-double with error bounds: a hundredth of the time. `None` if that does not tell the sign of the determinant, or whether an entry is
+    /// exact.
+    #[inline(always)]
+    fn in_double_double(rows: &Matrix3) -> Option<Self> {
+        // Three times the exponent, and 106 bits, stay in the range of f64.
+        let in_range =
+            |x: &f64| *x == 0.0 || (x.abs() > crate::scale::pow2(-100) && x.abs() < crate::scale::pow2(100));
+        if !rows.as_flattened().iter().all(in_range) {
+            return None;
+        }
+        let (adjugate, determinant) = adjugate(&rows.map(|r| r.map(Run::<Dd>::exact)));
+        let mirrored = determinant.sign()?.is_lt();
+        let (mut entries, mut rounded) = ([[0.0; 3]; 3], 0);
+        for i in 0..3 {
+            for j in 0..3 {
+                if adjugate[i][j].v.hi == 0.0 && adjugate[i][j].e == 0.0 {
+                    continue;
+                }
+                let quotient = adjugate[i][j] / determinant;
+                let (entry, lost) = (quotient.v.hi, quotient.v.lo.abs());
+                // Inexact for certain, and the nearest for certain but for what `Rounded::HALF_ULP` allows.
+                let known = lost > quotient.e && quotient.e <= crate::scale::pow2(-94) * entry.abs();
+                if !(known && entry.abs() > Rounded::TINY && entry.is_finite()) {
+                    return None;
+                }
+                entries[i][j] = entry;
+                rounded |= 1 << (3 * i + j);
+            }
+        }
+        Some(Self { entries, rounded: Rounded(rounded), mirrored })
+    }
+
+    fn in_exact_numbers(rows: &Matrix3) -> Result<Self, AffineError> {
+        let (adjugate, determinant) = adjugate(&rows.map(|r| r.map(Dyadic::from)));
+        if determinant.is_zero() {
+            return Err(AffineError::Singular(*rows));
+        }
+        let (mut entries, mut rounded) = ([[0.0; 3]; 3], 0);
+        for i in 0..3 {
+            for j in 0..3 {
+                let entry = quotient(&adjugate[i][j], &determinant).value();
+                if !entry.is_finite() {
+                    return Err(AffineError::Inverse(*rows));
+                }
+                entries[i][j] = entry;
+                if adjugate[i][j] != &Dyadic::from(entry) * &determinant {
+                    rounded |= 1 << (3 * i + j);
+                    rounded |= if entry.abs() < Rounded::TINY { Rounded::HAS_TINY } else { 0 };
+                }
+            }
+        }
+        Ok(Self { entries, rounded: Rounded(rounded), mirrored: determinant.exact_sign().is_lt() })
     }
 }
 
@@ -383,11 +490,11 @@ fn adjugate<T: Ring>(m: &[[T; 3]; 3]) -> ([[T; 3]; 3], T) {
 }
 
 /// The quotient of two exact numbers, with a bound on its error.
-fn quotient(n: &Dyadic, d: &Dyadic) -> Run<crate::Dd> {
+fn quotient(n: &Dyadic, d: &Dyadic) -> Run<Dd> {
     let ((n, kn), (d, kd)) = (n.to_scaled_dd(), d.to_scaled_dd());
     // `to_scaled_dd` is within 2^-106 of numbers below 2.
     let error = 2.0 * U * U;
-    let with_error = |x: crate::Dd| Run::with_error(x, if x.hi == 0.0 { 0.0 } else { error });
+    let with_error = |x: Dd| Run::with_error(x, if x.hi == 0.0 { 0.0 } else { error });
     let k = (kn - kd).clamp(-3000, 3000) as i32;
     (with_error(n) / with_error(d)).scale2(k)
 }

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 const BINS: usize = 16;
 
 /// With so few entries all cuts are tried, which is less work than bins.
-const SWEPT: usize = 12;
+const SWEPT: usize = 32;
 
 /// Ranges with more entries are binned by all threads.
 const PARALLEL: usize = 1 << 15;

@@ -9,7 +9,7 @@ use crate::tree::Bvh;
 use crate::triangles::{Block, FAR, FLAT, Filter, LANES, NEAR, Verdict};
 use core::arch::x86_64::*;
 use durer_math::kernels::Path;
-use durer_math::{Isa, Vec3};
+use durer_math::{Isa, Point3, Vec3};
 
 /// Proof that this CPU has AVX2, FMA and POPCNT.
 #[derive(Clone, Copy, Debug)]
@@ -65,13 +65,13 @@ impl Kernel for Avx2 {
 
     #[inline(always)]
     fn cull(self, tree: &Bvh, line: &Line) -> Option<CullRay> {
-        if line.origin_error != Vec3::ZERO || line.direction_error != Vec3::ZERO {
-            return tree.cull(line, Rounding::Fused);
-        }
         // SAFETY: as below.
         let nearby = unsafe { nearby(tree, line) };
         if nearby.is_some() {
             return nearby;
+        }
+        if line.origin_error != Vec3::ZERO || line.direction_error != Vec3::ZERO {
+            return tree.cull(line, Rounding::Fused);
         }
         // SAFETY: as below.
         match unsafe { clip(tree, line) } {
@@ -112,34 +112,50 @@ impl Kernel for Avx2 {
     }
 }
 
-/// A line that is exactly known and starts nearby, in f32: neither the way to the tree nor the end of that through it is looked for.
+/// A line that starts nearby, in f32: neither the way to the tree nor the end of that through it is looked for.
 ///
-/// Let `u = 2^-24`, `M` the greatest magnitude of a coordinate of the tree on an axis, `o` that of the origin. Within the tree `t` is at most
-/// `1 + NEARBY = 5` in magnitude. A component of the direction below `(M + o) u / 20` counts as that, which moves the ray's points by a quarter of `u (M + o)` at most.
-/// `r` errs by two units, the one of `d` and its own; so a plane at `x` is met at `x r - o r` with an error of
+/// Let `u = 2^-24`, `M` the greatest magnitude of a coordinate of the tree on an axis, `o` that of the origin, and `e` and `g` the errors of origin and
+/// direction. `e` and `g` are below 2^-10 (else the line is left to others), so `t` is at most `(1 + NEARBY + e) / (1 - g) < 6` in magnitude within the tree,
+/// where the ray's points err by `e + 6 g`. A component of the direction below `(M + o) u / 20` counts as that, which moves them by less than
+/// `0.3 u (M + o)`. `r` errs by two units, the one of `d` and its own; so a plane at `x` is met at `x r - o r` with an error of
 ///
 /// ```text
-///     |r| u (2 M  +  4 o  +  o  +  M + o  +  (M + o) / 4)
-///            x r    o r    -slack  sum       bent
+///     |r| (u (2 M  +  4 o  +  o  +  M + o  +  0.3 (M + o))  +  e + 6 g)
+///              x r    o r    -slack  sum       bent
 /// ```
 ///
-/// at most, and [`SLACK`] pays for this, for second-order terms, and for the roundings of the range, which are far smaller unless they are relative to it.
+/// at most. [`SLACK`] pays for this and for second-order terms; [`OUTWARD`] for the roundings of the errors and of the range. What underflow may take from
+/// them is far below either.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 fn nearby(tree: &Bvh, line: &Line) -> Option<CullRay> {
     /// Of the tree's coordinates, and of the origin's.
     const SLACK: (f32, f32) = (4.0 * U32 as f32, 7.0 * U32 as f32);
+    /// Four units: one for the rounding to f32, one for that of the sum.
+    const OUTWARD: f32 = 4.0 * U32 as f32;
+    const ROUGH: f32 = 1.0 / (1 << 10) as f32;
     let minus = _mm_set1_ps(-0.0);
     let all = |x: f32| _mm_set1_ps(x);
     let size = |x: __m128| _mm_andnot_ps(minus, x);
     let shrink = tree.clip.shrink;
-    let [x, y, z] = line.origin.to_array();
-    let o = _mm256_mul_pd(_mm256_setr_pd(x, y, z, line.t_min), _mm256_set1_pd(shrink));
-    let [x, y, z] = line.direction.to_array();
-    let d = _mm256_mul_pd(_mm256_setr_pd(x, y, z, line.t_max), _mm256_setr_pd(1.0, 1.0, 1.0, shrink));
+    let four = |v: Vec3, w: f64| _mm256_setr_pd(v.x, v.y, v.z, w);
+    let o = _mm256_mul_pd(four(line.origin - Point3::ORIGIN, line.t_min), _mm256_set1_pd(shrink));
+    let d = _mm256_mul_pd(four(line.direction, line.t_max), _mm256_setr_pd(1.0, 1.0, 1.0, shrink));
     let (o, d) = (_mm256_cvtpd_ps(o), _mm256_cvtpd_ps(d));
-    let close = _mm_movemask_ps(_mm_cmp_ps::<_CMP_LE_OQ>(size(o), all(NEARBY)));
-    if close & 7 != 7 || shrink == 0.0 {
+    let errors = (four(line.origin_error, 0.0), four(line.direction_error, 0.0));
+    let is_exact = _mm256_testz_si256(
+        _mm256_castpd_si256(_mm256_or_pd(errors.0, errors.1)),
+        _mm256_set1_epi64x(i64::MAX),
+    ) != 0;
+    let error =
+        _mm256_fmadd_pd(errors.0, _mm256_set1_pd(shrink), _mm256_mul_pd(errors.1, _mm256_set1_pd(6.0)));
+    let error = _mm256_cvtpd_ps(error);
+    let error = _mm_fmadd_ps(error, all(OUTWARD), error);
+    let close = _mm_and_ps(
+        _mm_cmp_ps::<_CMP_LE_OQ>(size(o), all(NEARBY)),
+        _mm_cmp_ps::<_CMP_LE_OQ>(error, all(ROUGH)),
+    );
+    if _mm_movemask_ps(close) & 7 != 7 || shrink == 0.0 {
         return None;
     }
     // SAFETY: four f32.
@@ -147,29 +163,30 @@ fn nearby(tree: &Bvh, line: &Line) -> Option<CullRay> {
     let sign = _mm_and_ps(minus, d);
     let least = _mm_mul_ps(_mm_add_ps(most, size(o)), all(0.05 * U32 as f32));
     let r = _mm_div_ps(all(1.0), _mm_or_ps(sign, _mm_max_ps(size(d), least)));
-    let slack = _mm_mul_ps(size(r), _mm_fmadd_ps(size(o), all(SLACK.1), _mm_mul_ps(most, all(SLACK.0))));
+    let slack = _mm_fmadd_ps(most, all(SLACK.0), _mm_fmadd_ps(size(o), all(SLACK.1), error));
+    let slack = _mm_mul_ps(size(r), slack);
     let base = _mm_mul_ps(o, r);
-    let four = |x: __m128| {
-        let mut four = [0.0_f32; 4];
+    let stored = |x: __m128| {
+        let mut stored = [0.0_f32; 4];
         // SAFETY: four f32.
-        unsafe { _mm_storeu_ps(four.as_mut_ptr(), x) };
-        four
+        unsafe { _mm_storeu_ps(stored.as_mut_ptr(), x) };
+        stored
     };
-    let (start, direction) = (four(o), four(d));
-    // Four units outward, of which one pays for the rounding to f32 and one for its own.
+    let (start, direction) = (stored(o), stored(d));
     let (first, last) = (start[3], direction[3]);
-    const OUTWARD: f32 = 4.0 * U32 as f32;
+    let error = _mm_max_ps(error, _mm_movehl_ps(error, error));
+    let error = _mm_cvtss_f32(_mm_max_ss(error, _mm_shuffle_ps::<1>(error, error)));
     Some(CullRay {
-        r: four(r),
-        near: four(_mm_sub_ps(_mm_sub_ps(_mm_setzero_ps(), base), slack)),
-        far: four(_mm_sub_ps(slack, base)),
+        r: stored(r),
+        near: stored(_mm_sub_ps(_mm_sub_ps(_mm_setzero_ps(), base), slack)),
+        far: stored(_mm_sub_ps(slack, base)),
         octant: _mm_movemask_ps(sign) as u32 & 7,
         t_near: first - first.abs() * OUTWARD,
         t_far: last + last.abs() * OUTWARD,
         start,
         direction,
-        is_nearby: true,
-        error: f64::MIN_POSITIVE,
+        is_exact,
+        error: f64::from(error),
         t_enter: 0.0,
         frame: tree.frame,
     })
@@ -253,7 +270,7 @@ fn clip(tree: &Bvh, line: &Line) -> Clipped {
         t_far: up32(way.next_up()),
         start: four(start),
         direction: four(d),
-        is_nearby: false,
+        is_exact: false,
         error: f64::MIN_POSITIVE,
         t_enter: enter,
         frame: tree.frame,

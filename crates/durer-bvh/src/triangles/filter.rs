@@ -95,16 +95,16 @@ impl Filter {
     #[inline(always)]
     pub(crate) fn new(line: &Line, cull: &CullRay, rounded: bool) -> Self {
         let w = if rounded { U } else { 0.0 };
-        if cull.is_nearby { Self::nearby(line, cull, w) } else { Self::clipped(line, cull, w) }
+        if cull.is_exact { Self::exact(cull, line.inner, w) } else { Self::known_within(line, cull, w) }
     }
 
     /// The formulas above with `e = g = 0`.
     #[inline(always)]
-    fn nearby(line: &Line, cull: &CullRay, w: f32) -> Self {
+    fn exact(cull: &CullRay, inner: (f64, f64), w: f32) -> Self {
         let (size, m) = (most(&cull.start), most(&cull.direction));
         let c = 1.0 + size;
         let b = (10.0 * U * PAYS) * m;
-        let (first, last) = cull.inner(line.inner);
+        let (first, last) = cull.inner(inner);
         Self {
             o: cull.start,
             d: cull.direction,
@@ -122,7 +122,7 @@ impl Filter {
     }
 
     #[inline(always)]
-    fn clipped(line: &Line, cull: &CullRay, w: f32) -> Self {
+    fn known_within(line: &Line, cull: &CullRay, w: f32) -> Self {
         let (o, d) = (cull.start, cull.direction);
         let (size, m) = (most(&o), most(&d));
         let g = line.direction_error.max_abs() as f32;

@@ -175,11 +175,11 @@ fn nothing_is_left_of_a_solid_without_itself() {
     }
 }
 
-/// One kind as `A` and some others as `B`. With `DURER_LAWS` set, all others.
+/// One kind as `A` and some others as `B`. With `DURER_SOAK` set, all others.
 #[test]
 fn identities_hold_for_every_kind() {
     let mut met = 0;
-    let all = std::env::var_os("DURER_LAWS").is_some();
+    let all = std::env::var_os("DURER_SOAK").is_some();
     let ways: Vec<usize> = if all { (0..KINDS.len()).collect() } else { vec![1, 7, 19] };
     for (i, &(a_name, a)) in KINDS.iter().enumerate() {
         for way in &ways {

@@ -80,7 +80,7 @@ pub fn check_many(
 ) -> Tally {
     let mut tally = Tally::default();
     // A soak multiplies the number of rays.
-    let more = std::env::var("DURER_LAWS").ok().and_then(|x| x.parse::<u64>().ok()).unwrap_or(1);
+    let more = std::env::var("DURER_SOAK").ok().and_then(|x| x.parse::<u64>().ok()).unwrap_or(1);
     for i in 0..count * more {
         let mut dice = Dice::new(seed.wrapping_mul(0x1_0000_0001).wrapping_add(i));
         let ray = aim(&mut dice, features, oracle.size());
