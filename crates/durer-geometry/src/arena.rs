@@ -470,8 +470,8 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
 
 /// Whether a ray starts (at `t_min`) inside a solid that it does not cross within its range; `start` is some point of its line.
 ///
-/// Decided by the signs of the crossings before and behind the range, and where the line meets the solid nowhere, by the exact side
-/// of a point of it.
+/// Decided by the signs of the crossings before and behind the range, and where the line crosses the solid nowhere, and the solid has no bounds, by the exact
+/// side of a point of it. A point may be known to be inside that is on no chord known: where a tangent touches a formula's solid within rounding.
 fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint<'_>) -> bool {
     if let Some(side) = ray.source {
         return side == RaySide::Back;
@@ -488,6 +488,10 @@ fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint
     }
     if let Some(sign) = signs(ray.t_max, f64::INFINITY).first {
         return sign > 0;
+    }
+    if surface.bounds().is_bounded() {
+        // The line comes from outside and goes there, and does not cross it on the way.
+        return false;
     }
     match surface.side(start) {
         Side::In => true,

@@ -242,6 +242,36 @@ impl Dyadic {
         (&quotient * divisor == *self).then_some(quotient)
     }
 
+    /// The `e` of the lowest bit that is set: this number is an odd one times `2^e`; `None` for zero.
+    pub fn lowest_bit(&self) -> Option<i64> {
+        (!self.is_zero()).then_some(self.exponent)
+    }
+
+    /// The remainder modulo an odd number, from 0 on, where `2^-1` stands for the inverse of 2: a homomorphism of rings.
+    ///
+    /// # Panics
+    ///
+    /// If the modulus is even or above `2^63`.
+    pub fn residue(&self, modulus: u64) -> u64 {
+        assert!(modulus % 2 == 1 && modulus < 1 << 63, "an odd modulus below 2^63");
+        let product = |a: u64, b: u64| (u128::from(a) * u128::from(b) % u128::from(modulus)) as u64;
+        let rest = self.limbs.iter().rev().fold(0, |rest: u64, &limb| {
+            ((u128::from(rest) << 64 | u128::from(limb)) % u128::from(modulus)) as u64
+        });
+        let (mut base, mut n) =
+            (if self.exponent < 0 { modulus / 2 + 1 } else { 2 % modulus }, self.exponent.unsigned_abs());
+        let mut power = 1 % modulus;
+        while n > 0 {
+            if n & 1 == 1 {
+                power = product(power, base);
+            }
+            base = product(base, base);
+            n >>= 1;
+        }
+        let rest = product(rest, power);
+        if self.negative && rest != 0 { modulus - rest } else { rest }
+    }
+
     /// The nearest f64, ties to even; infinite if it is too large.
     pub fn to_f64(&self) -> f64 {
         let Some(e) = self.exponent() else { return 0.0 };

@@ -324,6 +324,18 @@ proptest! {
         prop_assert_eq!(value(&u.clone().scale2(k)), &truth * pow2(k));
         prop_assert_eq!(&(&u - &u), &Dyadic::ZERO);
         prop_assert_eq!(&(&u + &z), &(&x * &y));
+        for modulus in [3_u64, 1_000_003, (1 << 61) - 1, (1 << 63) - 25] {
+            let of = |x: &Dyadic| u128::from(x.residue(modulus));
+            let m = u128::from(modulus);
+            prop_assert_eq!(of(&u), (of(&x) * of(&y) + m - of(&z)) % m);
+            prop_assert_eq!((of(&u) + of(&-u.clone())) % m, 0);
+            prop_assert_eq!(of(&u.clone().scale2(k).scale2(1)), 2 * of(&u.clone().scale2(k)) % m);
+            prop_assert_eq!(of(&Dyadic::from(c.abs().min(1e15).trunc())), c.abs().min(1e15).trunc() as u128 % m);
+        }
+        if let Some(e) = u.lowest_bit() {
+            let odd = value(&u) * pow2(-(e as i32));
+            prop_assert!(odd.is_int() && !(odd * pow2(-1)).is_int());
+        }
         prop_assert_eq!(x.to_f64(), a);
         let (lo, hi) = u.to_bounds();
         prop_assert!(below(lo, &truth) && above(hi, &truth) && (lo == hi || lo.next_up() == hi));

@@ -82,9 +82,7 @@ impl Reader<'_> {
         let default = self.default_look(at)?;
         let shown = self.emitted(object, &mut lights)?;
         if let Some(mut shown) = shown {
-            if shown.texture.is_none() {
-                shown.texture = Some(default.clone());
-            }
+            dress(&mut shown, &default);
             self.scene.objects.push(shown);
         }
         for (light, moved) in lights {
@@ -146,9 +144,7 @@ impl Reader<'_> {
         if let Some(mut shown) = self.emitted(&shown, &mut lights)? {
             // It must not shadow its own light; that it shadows no other is the price.
             shown.flags.no_shadow = true;
-            if shown.texture.is_none() {
-                shown.texture = Some(default.clone());
-            }
+            dress(&mut shown, default);
             self.scene.objects.push(shown);
         }
         Ok(())
@@ -204,6 +200,9 @@ impl Reader<'_> {
             Some(texture) => Some(self.shared_texture(texture, at)?),
             None => None,
         };
+        if object.cutaway_textures {
+            made.cutaway_textures = Some(self.default_look(at)?);
+        }
         made.interior = object.interior.as_ref().map(|interior| Arc::new(filling(interior)));
         for clip in &object.clips {
             made.clips.extend(self.emitted(clip, &mut Vec::new())?);
@@ -302,6 +301,24 @@ impl Reader<'_> {
                 ambient_light: rgb(globals.ambient_light),
             },
         }
+    }
+}
+
+/// Whether a part of it borrows the textures of others.
+fn borrows(object: &scene::Object) -> bool {
+    let within = || match &object.shape {
+        scene::Shape::Union(parts) | scene::Shape::Csg(_, parts) => parts.iter().any(borrows),
+        _ => false,
+    };
+    object.texture.is_none() && (object.cutaway_textures.is_some() || within())
+}
+
+/// Gives the default texture to what has none and borrows none.
+fn dress(object: &mut scene::Object, default: &Arc<scene::Texture>) {
+    if !borrows(object) {
+        object.texture.get_or_insert_with(|| default.clone());
+    } else if let scene::Shape::Union(parts) = &mut object.shape {
+        parts.iter_mut().for_each(|part| dress(part, default));
     }
 }
 

@@ -47,7 +47,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Coords
             | Count
             | Crackle
-            | CutawayTextures
             | Cylindrical
             | Density
             | DensityFile

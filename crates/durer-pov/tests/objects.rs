@@ -158,7 +158,7 @@ fn maps_keep_the_order_of_the_text() {
     let values = |i: usize| match pigment(&scene, i).body {
         PigmentBody::Colours(pattern) => match *pattern {
             Pattern::Map { entries, .. } => entries.iter().map(|(at, _)| *at).collect::<Vec<_>>(),
-            Pattern::Cells { .. } => panic!("cells"),
+            Pattern::Cells { .. } | Pattern::Mean(_) => panic!("no map"),
         },
         _ => panic!("no colours"),
     };
@@ -432,4 +432,51 @@ fn what_is_seen_from_inside_is_handed_down_and_moves_along() {
     assert_eq!(inside(2, 0), scene.objects[2].texture);
     let (_, _, text) = support::fault("sphere { 0, 1 interior_texture { pigment { rgb 1 } } }");
     assert!(text.contains("needs a texture"), "{text}");
+}
+
+#[test]
+fn what_is_cut_lends_its_texture_to_what_cuts() {
+    let red = "texture { pigment { rgb x } }";
+    let scene = scene(&format!(
+        "difference {{ sphere {{ 0, 1 {red} }} box {{ 0, 2 }} sphere {{ x, 1 pigment {{ rgb y }} }} cutaway_textures }}
+         intersection {{ sphere {{ 0, 1 {red} }} intersection {{ sphere {{ 0, 2 pigment {{ rgb z }} }} box {{ -1, 1 }} }} plane {{ x, 0 }} cutaway_textures }}
+         difference {{ sphere {{ 0, 1 }} box {{ 0, 2 {red} }} cutaway_textures }}
+         difference {{ sphere {{ 0, 1 {red} }} box {{ 0, 2 }} cutaway_textures pigment {{ rgb y }} }}
+         difference {{ union {{ sphere {{ 0, 1 }} sphere {{ x, 1 }} {red} }} union {{ box {{ 0, 2 }} box {{ -1, 1 }} }} intersection {{ box {{ 0, 2 }} box {{ -1, 1 }} }}
+           cutaway_textures }}
+         sphere {{ 0, 1 }}",
+    ));
+    let lowered = scene.lower().unwrap();
+    let of = |object, primitive| {
+        let look = &lowered.looks[lowered.look_of(object, primitive).unwrap().0 as usize];
+        look.texture.clone()
+    };
+    let Shape::Csg(_, parts) = &scene.objects[0].shape else { panic!("a difference") };
+    let red = parts[0].texture.clone().unwrap();
+    let green = parts[2].texture.clone().unwrap();
+    let none = scene.objects[5].texture.clone().unwrap();
+    assert_eq!([of(0, 0), of(0, 1), of(0, 2)], [red.clone(), red.clone(), green.clone()]);
+    // All others in equal parts: a part of a part has those of the parts beside that.
+    let Shape::Csg(_, parts) = &scene.objects[1].shape else { panic!("an intersection") };
+    let Shape::Csg(_, inner) = &parts[1].shape else { panic!("an intersection") };
+    let blue = inner[0].texture.clone().unwrap();
+    assert_eq!([of(1, 0), of(1, 1), of(1, 2)], [red.clone(), blue.clone(), red.clone()]);
+    let TextureBody::Pattern(pattern) = &of(1, 3).body else { panic!("a pattern") };
+    assert_eq!(**pattern, Pattern::Mean(vec![red.clone(), blue]));
+    // What is taken away lends none, and a texture around it all wins.
+    assert_eq!([of(2, 0), of(2, 1)], [none.clone(), red.clone()]);
+    assert_eq!([of(3, 0), of(3, 1)], [red.clone(), green]);
+    // A union that is taken away is an intersection of what is outside, and the other way round.
+    assert_eq!([of(4, 2), of(4, 3), of(4, 4), of(4, 5)], [red.clone(), red, none.clone(), none]);
+
+    let (_, _, text) = support::fault("union { sphere { 0, 1 } box { 0, 1 } cutaway_textures }");
+    assert!(text.contains("intersection or a difference"), "{text}");
+    let two = "union { sphere { 0, 1 pigment { rgb x } } box { 0, 1 pigment { rgb y } } }";
+    for refused in [
+        format!("difference {{ {two} plane {{ x, 0 }} cutaway_textures }}"),
+        "merge { difference { sphere { 0, 1 } plane { x, 0 } cutaway_textures } box { 0, 1 } }".into(),
+    ] {
+        let fault = support::scene(&refused).lower().unwrap_err();
+        assert!(fault.to_string().contains("cutaway_textures") && fault.place.is_some(), "{fault}");
+    }
 }

@@ -23,6 +23,9 @@ pub struct Object {
     /// What is seen from inside in place of its texture, placed like that: where a ray leaves a solid, or goes along the normal of an open surface; of
     /// triangles and open meshes where it comes from the other side of that (a fact of the scene language).
     pub interior_texture: Option<Arc<Texture>>,
+    /// Of an intersection or a difference: a part without a texture shows those of the other parts at each point, as far as they hold the point, in equal parts.
+    /// What is taken away lends no texture, and parts of unions borrow none (facts of the scene language). This is what those show that borrow none.
+    pub cutaway_textures: Option<Arc<Texture>>,
     /// What fills it.
     pub interior: Option<Arc<Interior>>,
     /// Its habits.
@@ -84,6 +87,7 @@ impl Object {
             clips: Vec::new(),
             texture: None,
             interior_texture: None,
+            cutaway_textures: None,
             interior: None,
             flags: Flags::default(),
             place: None,

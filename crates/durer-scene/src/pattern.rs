@@ -19,13 +19,15 @@ pub enum Pattern<T> {
         /// Positions in the map with what is shown there, in the order written; not empty.
         entries: Vec<(f64, T)>,
     },
+    /// Everywhere all entries, in equal parts.
+    Mean(Vec<T>),
 }
 
 impl<T> Pattern<T> {
     /// The entries, in the order written.
     pub fn entries(&self) -> impl Iterator<Item = &T> {
         let (cells, map) = match self {
-            Self::Cells { entries, .. } => (&entries[..], &[][..]),
+            Self::Cells { entries, .. } | Self::Mean(entries) => (&entries[..], &[][..]),
             Self::Map { entries, .. } => (&[][..], &entries[..]),
         };
         cells.iter().chain(map.iter().map(|(_, entry)| entry))
@@ -36,6 +38,7 @@ impl<T> Pattern<T> {
         match self {
             Self::Cells { cells, entries } => entries.len() < cells.kinds(),
             Self::Map { entries, .. } => entries.is_empty(),
+            Self::Mean(entries) => entries.is_empty(),
         }
     }
 }

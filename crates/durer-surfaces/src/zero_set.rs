@@ -5,9 +5,9 @@
 use crate::local::ROUGH;
 use crate::point::least_step;
 use crate::quadric::body::{Chart, Frame};
+use crate::roots::exact::ExactRoots;
 use crate::roots::polynomial::{Along, Found, Stretch, solve, stays};
 use crate::roots::quadratic::{Limits, NARROW, Quadratic};
-use crate::roots::sturm::Sturm;
 use crate::{
     CentredRay, End, Flow, Kind, LocalPoint, LocalRay, Need, RingRay, Root, Side, Sink, SurfacePoint,
 };
@@ -367,14 +367,14 @@ fn exact_end_against_root<const N: usize, Z: ZeroSet<N>>(
 ) -> Ordering {
     let y = |s: Dyadic| &s - &Dyadic::from(mid);
     let x = y(ray.end_in_ring::<Dyadic>(end));
-    if let Some((sturm, root)) = found.exact {
-        return sturm.compare(&x, root);
+    if let Some((exact, root)) = found.exact {
+        return exact.compare(&x, root);
     }
-    let Some(sturm) = Sturm::new(Line { shape, ray, mid }.exact().0) else { return Equal };
+    let Some(exact) = ExactRoots::new(Line { shape, ray, mid }.exact().0) else { return Equal };
     // The bracket's ends are certainly no roots, but for their rounding outward.
-    let from = sturm.beside_exact(y(found.lo.into()), -1.0);
-    let to = sturm.beside_exact(y(found.hi.into()), 1.0);
-    sturm.isolate(&from, &to).first().map_or(Equal, |root| sturm.compare(&x, root))
+    let from = exact.beside_exact(y(found.lo.into()), -1.0);
+    let to = exact.beside_exact(y(found.hi.into()), 1.0);
+    exact.isolate(&from, &to).first().map_or(Equal, |root| exact.compare(&x, root))
 }
 
 /// On which side of the surface a point lies.
@@ -529,11 +529,11 @@ pub(crate) fn sign_at_root<const N: usize, Z: ZeroSet<N>>(
     q: &Quadratic<Dyadic>,
 ) -> Option<Ordering> {
     let Frame { centre, scale, .. } = shape.frame();
-    let sturm = Sturm::new(shape.along(&ray.in_ring_from::<Dyadic>(centre, scale)?).to_vec())?;
+    let exact = ExactRoots::new(shape.along(&ray.in_ring_from::<Dyadic>(centre, scale)?).to_vec())?;
     let at = ray.unmoved();
     let (lo, hi) = at.window((root.lo, root.hi));
-    let (from, to) = (sturm.beside(lo.max(f64::MIN), -1.0), sturm.beside(hi.min(f64::MAX), 1.0));
-    let roots = sturm.isolate(&from, &to);
+    let (from, to) = (exact.beside(lo.max(f64::MIN), -1.0), exact.beside(hi.min(f64::MAX), 1.0));
+    let roots = exact.isolate(&from, &to);
     // Of several so close together that `t` cannot tell them apart, the one that goes the root's way.
     let goes = |before: Ordering, after: Ordering| match (before, after) {
         (Greater, Less) => -1,
@@ -541,5 +541,5 @@ pub(crate) fn sign_at_root<const N: usize, Z: ZeroSet<N>>(
         _ => 0,
     };
     let found = roots.iter().find(|r| goes(r.before, r.after) == root.sign).or(roots.first())?;
-    Some(sturm.sign_at_root(&[q.c.clone(), q.b.clone().scale2(1), q.a.clone()], found))
+    Some(exact.sign_at_root(&[q.c.clone(), q.b.clone().scale2(1), q.a.clone()], found))
 }

@@ -139,6 +139,8 @@ pub(crate) struct Object {
     pub(crate) texture: Option<Rc<Texture>>,
     /// What is seen from inside.
     pub(crate) interior_texture: Option<Rc<Texture>>,
+    /// Its parts lend each other their textures.
+    pub(crate) cutaway_textures: bool,
     pub(crate) interior: Option<Rc<Interior>>,
     pub(crate) clips: Vec<Rc<Self>>,
     pub(crate) bounds: Vec<Rc<Self>>,
@@ -172,6 +174,7 @@ impl Object {
             place: Matrix::IDENTITY,
             texture: None,
             interior_texture: None,
+            cutaway_textures: false,
             interior: None,
             clips: Vec::new(),
             bounds: Vec::new(),

@@ -2,6 +2,8 @@
 
 use std::rc::Rc;
 
+use durer_scene::Operation;
+
 use super::{Object, Shape};
 use crate::diagnostics::{Fault, Result};
 use crate::keywords::Keyword;
@@ -38,6 +40,13 @@ impl Reader<'_> {
                 Keyword::NoShadow => habits.no_shadow = true,
                 Keyword::NoImage => habits.no_image = true,
                 Keyword::NoReflection => habits.no_reflection = true,
+                Keyword::CutawayTextures => {
+                    let Shape::Csg(Operation::Intersection | Operation::Difference, _) = object.shape else {
+                        let text = "cutaway_textures is for an intersection or a difference";
+                        return Err(Fault::invalid(lexeme.place, text));
+                    };
+                    object.cutaway_textures = self.switch_value()?;
+                }
                 Keyword::Inverse => habits.inverse = !habits.inverse,
                 Keyword::Hollow => object.habits.hollow = self.switch_value()?,
                 Keyword::DoubleIlluminate => object.habits.double_illuminate = self.switch_value()?,

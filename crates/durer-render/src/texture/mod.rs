@@ -47,6 +47,7 @@ pub(crate) enum Shade {
 pub(crate) enum Blend<T> {
     Cells(Cutter, Box<[T]>),
     Map(Lookup, Box<[(f64, T)]>),
+    Mean(Box<[T]>),
 }
 
 /// Which entries of a pattern are shown at a point.
@@ -56,6 +57,8 @@ pub(crate) enum Shown {
     One(usize),
     /// The part `k` of this entry, and the rest of the one before it.
     Two(usize, f64),
+    /// This part of each entry.
+    Each(f64),
 }
 
 impl Shown {
@@ -65,6 +68,7 @@ impl Shown {
             Self::One(i) if i == entry => 1.0,
             Self::Two(i, k) if i == entry => k,
             Self::Two(i, k) if i == entry + 1 => 1.0 - k,
+            Self::Each(k) => k,
             _ => 0.0,
         }
     }
@@ -83,13 +87,14 @@ impl<T> Blend<T> {
                 Lookup::new(value),
                 entries.iter().map(|(at, e)| Ok((*at, entry(e)?))).collect::<Result<_, AffineError>>()?,
             ),
+            Pattern::Mean(entries) => Self::Mean(entries.iter().map(entry).collect::<Result<_, _>>()?),
         })
     }
 
     /// The entry with a number.
     pub(crate) fn entry(&self, i: usize) -> &T {
         match self {
-            Self::Cells(_, entries) => &entries[i],
+            Self::Cells(_, entries) | Self::Mean(entries) => &entries[i],
             Self::Map(_, entries) => &entries[i].1,
         }
     }
@@ -97,7 +102,7 @@ impl<T> Blend<T> {
     /// How many entries there are.
     pub(crate) fn len(&self) -> usize {
         match self {
-            Self::Cells(_, entries) => entries.len(),
+            Self::Cells(_, entries) | Self::Mean(entries) => entries.len(),
             Self::Map(_, entries) => entries.len(),
         }
     }
@@ -109,6 +114,7 @@ impl<T> Blend<T> {
             Self::Cells(cutter, entries) => {
                 Some(Shown::One(cutter.kind(p).min(entries.len().checked_sub(1)?)))
             }
+            Self::Mean(entries) => (!entries.is_empty()).then(|| Shown::Each(1.0 / entries.len() as f64)),
             Self::Map(lookup, entries) => {
                 let w = lookup.value(p);
                 let (last_at, _) = entries.last()?;
@@ -124,6 +130,14 @@ impl<T> Blend<T> {
                 Some(if at > before { Shown::Two(i, (w - before) / (at - before)) } else { Shown::One(i) })
             }
         }
+    }
+}
+
+impl<T> Blend<T> {
+    /// The mean of the colours of all entries.
+    fn mean(&self, colour: impl Fn(&T) -> Colour) -> Colour {
+        (1..self.len())
+            .fold(colour(self.entry(0)), |mean, i| mean.mix(colour(self.entry(i)), 1.0 / (i + 1) as f64))
     }
 }
 
@@ -143,6 +157,8 @@ impl Blend<Colour> {
                     }
                 }
             }
+            Self::Mean(entries) if entries.is_empty() => Colour8::splat(Colour::default()),
+            Self::Mean(_) => Colour8::splat(self.mean(|colour| *colour)),
             Self::Map(lookup, entries) => {
                 let w = lookup.values(p, live);
                 let mut shown = Colour8::splat(Colour::default());
@@ -186,6 +202,7 @@ impl Shade {
             Self::Colours(place, blend) => match blend.at(place.inside(p)) {
                 Some(Shown::One(i)) => *blend.entry(i),
                 Some(Shown::Two(i, k)) => blend.entry(i - 1).mix(*blend.entry(i), k),
+                Some(Shown::Each(_)) => blend.mean(|colour| *colour),
                 None => Colour::default(),
             },
             Self::Shades(place, blend) => {
@@ -193,6 +210,7 @@ impl Shade {
                 match blend.at(p) {
                     Some(Shown::One(i)) => blend.entry(i).at(p),
                     Some(Shown::Two(i, k)) => blend.entry(i - 1).at(p).mix(blend.entry(i).at(p), k),
+                    Some(Shown::Each(_)) => blend.mean(|shade| shade.at(p)),
                     None => Colour::default(),
                 }
             }
@@ -290,6 +308,8 @@ impl Paint {
                     Some(Shown::Two(i, k)) => {
                         blend.entry(i - 1).passed_at(p) * (1.0 - k) + blend.entry(i).passed_at(p) * k
                     }
+                    Some(Shown::Each(k)) => (0..blend.len())
+                        .fold(Rgb::BLACK, |passed, i| passed + blend.entry(i).passed_at(p) * k),
                     None => Rgb::BLACK,
                 }
             }

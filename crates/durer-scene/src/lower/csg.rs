@@ -11,7 +11,7 @@ use super::{
     Context, Cutter, Flags, LowerError, LowerErrorKind, Lowering, is_clear, join, mask_of, shapes,
     shows_through,
 };
-use crate::{Object, Operation, Placement, Shape};
+use crate::{Object, Operation, Pattern, Placement, Shape, Texture};
 
 /// A body under construction.
 struct Work {
@@ -96,6 +96,11 @@ impl Lowering {
     ) -> Result<Part, LowerError> {
         let inner = if how.shown == Shown::None {
             around.clone()
+        } else if object.cutaway_textures.is_some() && object.texture.is_none() && around.texture.is_none() {
+            let kind = LowerErrorKind::Cutaway(
+                "a merge, intersection or difference within another one cannot have it yet",
+            );
+            return Err(kind.at(object.place));
         } else {
             Context { clips: Vec::new(), ..self.inherited(object, around)? }
         };
@@ -118,7 +123,12 @@ impl Lowering {
             join(&object.placement, &inner.frame).map_err(|e| LowerErrorKind::from(e).at(object.place))?;
         let whole = match &object.shape {
             Shape::Union(parts) => self.parts(Operation::Merge, parts, place, inner, work, how)?,
-            Shape::Csg(operation, parts) => self.parts(*operation, parts, place, inner, work, how)?,
+            Shape::Csg(operation, parts) => {
+                match object.cutaway_textures.as_ref().filter(|_| inner.texture.is_none()) {
+                    Some(unlent) => self.cutaway((*operation, unlent), parts, place, inner, work, how)?,
+                    None => self.parts(*operation, parts, place, inner, work, how)?,
+                }
+            }
             _ => self.leaf_of(object, &place, inner, work, how).map_err(|k| k.at(object.place))?,
         };
         let mut clips = Vec::with_capacity(object.clips.len());
@@ -137,16 +147,50 @@ impl Lowering {
         work: &mut Work,
         how: How,
     ) -> Result<Part, LowerError> {
-        let inner = Context { frame: Arc::new(place), ..inner.clone() };
+        // De Morgan's laws: the complement of an intersection is the union of complements.
+        let any = (operation == Operation::Merge) != how.inverse;
+        let mut inner = Context { frame: Arc::new(place), ..inner.clone() };
+        if any && let Some(unlent) = inner.unlent.take() {
+            inner.texture = Some((unlent, Arc::clone(&inner.frame)));
+        }
         let mut made = Vec::with_capacity(parts.len());
         for (i, part) in parts.iter().enumerate() {
             let is_taken_away = operation == Operation::Difference && i > 0;
             let how = How { inverse: how.inverse != is_taken_away, ..how };
             made.push(self.part(part, &inner, work, how)?);
         }
-        // De Morgan's laws: the complement of an intersection is the union of complements.
-        let any = (operation == Operation::Merge) != how.inverse;
         Ok(if any { work.csg.union(made) } else { work.csg.intersection(made) })
+    }
+
+    /// As `parts`, for parts that lend each other their textures.
+    fn cutaway<'s>(
+        &mut self,
+        (operation, unlent): (Operation, &Arc<Texture>),
+        parts: &'s [Object],
+        place: Placement,
+        inner: &Context<'s>,
+        work: &mut Work,
+        how: How,
+    ) -> Result<Part, LowerError> {
+        let frame = Arc::new(place);
+        let painted = |texture: Arc<Texture>| Some((texture, Arc::clone(&frame)));
+        if operation == Operation::Merge || how.inverse {
+            let inner = Context { texture: painted(Arc::clone(unlent)), ..inner.clone() };
+            return self.parts(operation, parts, (*frame).clone(), &inner, work, how);
+        }
+        let mut made = Vec::with_capacity(parts.len());
+        for (i, part) in parts.iter().enumerate() {
+            let lenders = || parts.iter().enumerate().filter(|&(j, _)| j != i);
+            // What is taken away does not hold what is seen.
+            let lenders = lenders().filter(|&(j, _)| operation == Operation::Intersection || j == 0);
+            let lent = lent(lenders.map(|(_, lender)| lender), unlent)?;
+            let texture = painted(lent.unwrap_or_else(|| Arc::clone(unlent)));
+            let unlent = Some(Arc::clone(unlent));
+            let inner = Context { frame: Arc::clone(&frame), texture, unlent, ..inner.clone() };
+            let inverse = how.inverse != (operation == Operation::Difference && i > 0);
+            made.push(self.part(part, &inner, work, How { inverse, ..how })?);
+        }
+        Ok(work.csg.intersection(made))
     }
 
     /// A leaf: one primitive, or as many as a mesh has faces.
@@ -184,5 +228,92 @@ impl Lowering {
         shapes::build(object, false, place.affine(), target)?;
         let part = part.ok_or(LowerErrorKind::Sheet(shapes::name(&object.shape)))?;
         Ok(if inverse { work.csg.inverse(part) } else { part })
+    }
+}
+
+/// The mean of the textures of objects that hold a point; `None` if they have none.
+fn lent<'s>(
+    lenders: impl Iterator<Item = &'s Object>,
+    default: &Arc<Texture>,
+) -> Result<Option<Arc<Texture>>, LowerError> {
+    let mut lent = Lent { textures: Vec::new(), is_sure: true, default };
+    let mut at = None;
+    for lender in lenders {
+        lent.gather(lender, None, &Placement::IDENTITY, false).map_err(|kind| kind.at(lender.place))?;
+        at = at.or(lender.place);
+    }
+    let Some(first) = lent.textures.first() else { return Ok(None) };
+    if lent.textures.iter().all(|texture| texture == first) {
+        return Ok(Some(Arc::clone(first)));
+    }
+    if !lent.is_sure {
+        return Err(Lent::unsure().at(at));
+    }
+    Ok(Some(Arc::new(Texture::pattern(Pattern::Mean(lent.textures)))))
+}
+
+/// The textures of the leaves that hold a point.
+struct Lent<'d> {
+    textures: Vec<Arc<Texture>>,
+    /// Whether it is known how often each one counts.
+    is_sure: bool,
+    default: &'d Arc<Texture>,
+}
+
+impl Lent<'_> {
+    fn unsure() -> LowerErrorKind {
+        LowerErrorKind::Cutaway(
+            "which parts of a union or merge hold a point is not looked up yet: give all of its parts one texture, and other parts none or the same",
+        )
+    }
+
+    /// Adds those of an object that holds it, or does not if `outside`. `around` is what it inherits, `place` leads from the space around it to that of the
+    /// textures.
+    fn gather(
+        &mut self,
+        object: &Object,
+        around: Option<&Arc<Texture>>,
+        place: &Placement,
+        outside: bool,
+    ) -> Result<(), LowerErrorKind> {
+        let moved = match &object.texture {
+            Some(texture) if texture.is_uniform() || place.is_identity() => Some(Arc::clone(texture)),
+            Some(texture) => {
+                let mut texture = (**texture).clone();
+                texture.transform(place.affine())?;
+                Some(Arc::new(texture))
+            }
+            None => around.cloned(),
+        };
+        let outside = outside != object.flags.inverse;
+        let (parts, operation) = match &object.shape {
+            Shape::Union(parts) => (parts, Operation::Merge),
+            Shape::Csg(operation, parts) => (parts, *operation),
+            _ => {
+                self.textures.extend(moved);
+                return Ok(());
+            }
+        };
+        let inner = join(&object.placement, place)?;
+        let any = (operation == Operation::Merge) != outside;
+        // Who is in a union and has no texture shows the default one.
+        let around = if any { Some(moved.unwrap_or_else(|| Arc::clone(self.default))) } else { moved };
+        let first = self.textures.len();
+        for (i, part) in parts.iter().enumerate() {
+            let is_taken_away = operation == Operation::Difference && i > 0;
+            if any || !is_taken_away {
+                self.gather(part, around.as_ref(), &inner, outside != is_taken_away)?;
+            }
+        }
+        if any && let Some((one, others)) = self.textures[first..].split_first() {
+            if others.iter().any(|other| other != one) {
+                return Err(Self::unsure());
+            }
+            if !others.is_empty() {
+                self.is_sure = false;
+                self.textures.truncate(first + 1);
+            }
+        }
+        Ok(())
     }
 }

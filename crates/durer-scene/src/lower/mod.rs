@@ -111,6 +111,9 @@ pub enum LowerErrorKind {
         /// How many there are.
         count: usize,
     },
+    /// Which textures are shown where something is cut depends on the point.
+    #[error("cutaway_textures: {0}")]
+    Cutaway(&'static str),
     /// A mesh refers to texture coordinates that it does not have.
     #[error("mesh: face {face} refers to texture coordinates {uv}, but there are {count}")]
     MeshUv {
@@ -191,6 +194,8 @@ struct Context<'s> {
     /// From the space around the object to the world.
     frame: Arc<Placement>,
     texture: Option<Painted>,
+    /// The texture is that of the other parts of an intersection; parts of unions have this one.
+    unlent: Option<Arc<Texture>>,
     /// What is seen from inside.
     inside: Option<Painted>,
     medium: Option<u32>,
@@ -311,7 +316,8 @@ impl Lowering {
             clips.push(Cutter { object: clip, frame: Arc::clone(&around.frame), region });
         }
         let flags = around.flags.or(object.flags);
-        Ok(Context { frame: Arc::clone(&around.frame), texture, inside, medium, flags, clips })
+        let unlent = around.unlent.clone().filter(|_| object.texture.is_none());
+        Ok(Context { frame: Arc::clone(&around.frame), texture, unlent, inside, medium, flags, clips })
     }
 
     fn frame(&self, around: &Context<'_>) -> Arc<Placement> {
@@ -480,7 +486,7 @@ fn is_plain(object: &Object) -> bool {
     let Flags { no_shadow, no_image, no_reflection, .. } = object.flags;
     let opaque = |t: &Arc<Texture>| t.is_opaque();
     !(no_shadow || no_image || no_reflection)
-        && object.texture.iter().chain(&object.interior_texture).all(opaque)
+        && object.texture.iter().chain(&object.interior_texture).chain(&object.cutaway_textures).all(opaque)
         && match &object.shape {
             Shape::Union(parts) | Shape::Csg(_, parts) => parts.iter().all(is_plain),
             Shape::Mesh(mesh) => mesh.textures.iter().all(opaque),

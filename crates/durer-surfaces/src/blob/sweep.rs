@@ -51,6 +51,15 @@ struct Lists {
     active: Vec<u32>,
 }
 
+impl Lists {
+    fn clear(&mut self) {
+        self.nodes.clear();
+        self.pieces.clear();
+        self.waiting.clear();
+        self.active.clear();
+    }
+}
+
 thread_local! {
     static LISTS: Cell<Lists> = Cell::default();
 }
@@ -80,6 +89,8 @@ struct Query<'a> {
     /// Whether the ray starts inside, if it was spawned on the surface, and where.
     start: Option<(bool, Run)>,
     tracker: Tracker,
+    /// What could not be told reaches over the begin, so that the sign before it is not known: all of the ray has to be looked at.
+    blind: bool,
 }
 
 /// Shows all crossings to `sink`, ascending.
@@ -88,20 +99,39 @@ pub(super) fn roots(blob: &Blob, at: &CentredRay<'_>, sink: &mut dyn Sink) {
     let line = Along::new(at);
     let ray = at.local();
     let mut lists = LISTS.take();
-    lists.nodes.clear();
-    lists.pieces.clear();
-    lists.waiting.clear();
-    lists.active.clear();
+    lists.clear();
     let window = at.window((ray.t_min, ray.t_max.min(sink.limit())));
     let start = at.spawned().map(|(side, _, s)| (side == RaySide::Back, s));
     // A little before the range, where the sign is known more likely than at its very start.
     let begin = start.map_or(window.0 - 1.0 / 1024.0, |(_, s)| s.v);
-    let tracker = Tracker { before: None, open: None, least: f64::NEG_INFINITY };
-    let mut query =
-        Query { blob, at, line, sink, lists, charge: 0.0, bent: 0.0, last: window.1, begin, start, tracker };
-    query.meet(0);
-    query.run();
-    LISTS.set(query.lists);
+    let mut begin = begin;
+    loop {
+        let tracker = Tracker { before: None, open: None, least: f64::NEG_INFINITY };
+        let last = window.1;
+        let mut query = Query {
+            blob,
+            at,
+            line,
+            sink,
+            lists,
+            charge: 0.0,
+            bent: 0.0,
+            last,
+            begin,
+            start,
+            tracker,
+            blind: false,
+        };
+        query.meet(0);
+        query.run();
+        lists = query.lists;
+        if !query.blind {
+            break;
+        }
+        begin = f64::NEG_INFINITY;
+        lists.clear();
+    }
+    LISTS.set(lists);
 }
 
 impl Query<'_> {
@@ -176,7 +206,7 @@ impl Query<'_> {
             // What begins within a stretch must be known, also behind what is of interest.
             let ahead = if self.lists.active.is_empty() { self.last } else { leave };
             let next = self.reveal(ahead).min(leave);
-            if here > self.last || next == f64::INFINITY {
+            if (here > self.last && self.tracker.open.is_none()) || next == f64::INFINITY {
                 break;
             }
             if self.lists.active.is_empty() {
@@ -308,6 +338,15 @@ impl Query<'_> {
                 self.tracker.before = Some(rises);
                 let kind = if alone { Kind::Simple } else { Kind::Cluster };
                 self.show(s, (lo, hi), if rises { -1 } else { 1 }, kind)
+            }
+            Told::Murky { .. }
+                if self.tracker.before.is_none()
+                    && self.tracker.open.is_none()
+                    && self.start.is_none()
+                    && self.begin > f64::NEG_INFINITY =>
+            {
+                self.blind = true;
+                Flow::Stop
             }
             Told::Murky { lo, hi } => {
                 let (from, to) = self.tracker.open.unwrap_or((lo, hi));

@@ -129,6 +129,13 @@ impl Curve for Line {
         signs(&self.bounds(tape, a, b))
     }
 
+    fn is_plain(&self, tape: &Tape, s: f64) -> bool {
+        // Bounds are as far apart as rounding makes them.
+        let v = self.bounds(tape, &[s; 8], &[s; 8]);
+        let (lo, hi) = (v.lo.0[0], v.hi.0[0]);
+        v.partial & 1 == 0 && lo.max(-hi) > 8.0 * (hi - lo)
+    }
+
     fn is_shorter(tape: &Tape, than: &Tape) -> bool {
         than.len() > 2 * tape.len()
     }

@@ -23,15 +23,6 @@ impl Sink for Caps {
     }
 }
 
-/// How a stretch of the ray begins or ends.
-#[derive(Clone, Copy)]
-enum Border {
-    /// At the container's face.
-    Face(Root),
-    /// Where the ray's range does.
-    Range,
-}
-
 impl Isosurface {
     /// Shows all roots to `sink`, ascending.
     pub(super) fn all_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
@@ -55,7 +46,7 @@ impl Isosurface {
         let (in_lo, in_hi) = at.window((entry.lo, entry.hi));
         let (out_lo, out_hi) = at.window((exit.lo, exit.hi));
         let line = Line::new(&at, in_lo.abs().max(out_hi.abs()));
-        let mut query = Query { surface: self, ray, at: &at, line: &line, sink, passes: 0 };
+        let mut query = Query { surface: self, ray, at: &at, line: &line, sink };
         query.run(&[(*entry, in_lo, in_hi), (*exit, out_lo, out_hi)]);
     }
 }
@@ -67,39 +58,30 @@ struct Query<'a> {
     at: &'a CentredRay<'a>,
     line: &'a Line,
     sink: &'a mut dyn Sink,
-    passes: u32,
 }
 
 impl Query<'_> {
+    /// A ray that was spawned on the formula's own surface starts on a side that is known. Any other one is looked at as the whole line is, as far as its range
+    /// reaches, so that it has the same roots whatever its range is: what could not be told across an end of the range is one cluster for both sides of it.
     fn run(&mut self, [entry, exit]: &[(Root, f64, f64); 2]) {
         let (from, to) = self.at.window((self.ray.t_min, self.ray.t_max));
+        let within = from > entry.2;
+        let (a, before) = match self.ray.source {
+            Some(side) if within && self.ray.source_face == 0 && self.ray.t_min == 0.0 => {
+                (from, side == RaySide::Front)
+            }
+            _ => (entry.1, self.declared(entry.1, entry.2)),
+        };
+        if !within && !before && self.cap(&entry.0) == Flow::Stop {
+            return;
+        }
         let slack = 16.0 * self.line.ulp;
-        // The stretch, its borders and the signs of the formula there.
-        let (a, first, before) = if from > entry.2 {
-            let (a, sign) = self.start(from, slack, entry.1);
-            (a, Border::Range, sign)
-        } else {
-            (entry.1, Border::Face(entry.0), Some(self.declared(entry.1, entry.2)))
-        };
-        let (b, last) = if to < exit.1 {
-            (self.beyond(to, slack, exit.2), Border::Range)
-        } else {
-            (exit.2, Border::Face(exit.0))
-        };
-        if let (Border::Face(cap), Some(false)) = (first, before)
-            && self.cap(&cap) == Flow::Stop
-        {
-            return;
-        }
-        let after = match last {
-            Border::Face(_) => Some(self.declared(exit.1, exit.2)),
-            Border::Range => self.sign_on(b, b),
-        };
-        if a < b && self.between(a, b, before, after) == Flow::Stop {
-            return;
-        }
-        if let (Border::Face(cap), Some(false)) = (last, after) {
-            self.cap(&cap);
+        let range = (from - slack, if to < exit.1 { to + slack } else { f64::INFINITY });
+        let end = (exit.1, exit.2);
+        let after =
+            if a < end.1 { self.between(a, end, before, range) } else { Some(self.declared(end.0, end.1)) };
+        if after == Some(false) {
+            self.cap(&exit.0);
         }
     }
 
@@ -122,39 +104,6 @@ impl Query<'_> {
         }
     }
 
-    /// Where to begin for a ray that starts inside the container, and the sign there.
-    fn start(&self, from: f64, slack: f64, least: f64) -> (f64, Option<bool>) {
-        if self.ray.source_face == 0
-            && self.ray.t_min == 0.0
-            && let Some(side) = self.ray.source
-        {
-            return (from, Some(side == RaySide::Front));
-        }
-        let mut back = slack;
-        for _ in 0..24 {
-            let a = (from - back).max(least);
-            let sign = self.sign_on(a, a);
-            if sign.is_some() || a == least {
-                return (a, sign);
-            }
-            back *= 4.0;
-        }
-        ((from - slack).max(least), None)
-    }
-
-    /// Where to end for a ray whose range ends inside.
-    fn beyond(&self, to: f64, slack: f64, most: f64) -> f64 {
-        let mut on = slack;
-        for _ in 0..24 {
-            let b = (to + on).min(most);
-            if b == most || self.sign_on(b, b).is_some() {
-                return b;
-            }
-            on *= 4.0;
-        }
-        (to + slack).min(most)
-    }
-
     /// Shows a crossing of the container, if it is in the ray's range.
     fn cap(&mut self, cap: &Root) -> Flow {
         if self.surface.open {
@@ -174,41 +123,84 @@ impl Query<'_> {
         }
     }
 
-    fn between(&mut self, a: f64, b: f64, before: Option<bool>, after: Option<bool>) -> Flow {
-        let (line, surface) = (self.line, self.surface);
-        let mut tracker = Tracker::new(line, &surface.tape, before, self.ray.rough);
-        let mut flow = Flow::Continue;
-        let mut passes = self.passes;
-        surface.divided().walk(line, (a, b), &mut |a, b, place| {
-            if tracker.is_idle() && self.at.bracket(a, a).0 > self.sink.limit() {
-                flow = Flow::Stop;
-                return false;
+    /// Shows the roots from `a` to the end of the container that may be in `range`. The sign at that end; `None` if it was not asked for.
+    fn between(&mut self, a: f64, end: (f64, f64), before: bool, range: (f64, f64)) -> Option<bool> {
+        let surface = self.surface;
+        let mut walk = Walk {
+            surface,
+            line: self.line,
+            at: self.at,
+            sink: self.sink,
+            tracker: Tracker::new(self.line, &surface.tape, Some(before), self.ray.rough),
+            last: range.1,
+            passes: 0,
+        };
+        // Cells before the range that may hold surface, since the last of which it is plain that it does not.
+        let mut ahead = Vec::new();
+        let mut go_on = true;
+        surface.divided().walk(self.line, (a, end.1), &mut |a, b, place| {
+            if b >= range.0 {
+                go_on = ahead.drain(..).all(|(a, b, place)| walk.take(a, b, place)) && walk.take(a, b, place);
+            } else if let Place::Open(_) | Place::Slope(..) = place {
+                ahead.push((a, b, place));
+            } else {
+                ahead.clear();
+                go_on = walk.take(a, b, place);
             }
-            let mut take = |a: f64, b: f64, verdict: Verdict, tape| {
-                if let Some(found) = tracker.take(a, b, verdict, tape)
-                    && !(surface.regular && found.touches)
-                {
-                    flow = shown(self.at, self.sink, &found);
-                }
-                flow == Flow::Continue
-            };
-            match place {
-                Place::Sign(sign) => take(a, b, Verdict::Sign(sign), &surface.tape),
-                Place::Gap => take(a, b, Verdict::Gap, &surface.tape),
-                Place::Slope(tape, rises) => take(a, b, Verdict::Monotone(rises), tape),
-                Place::Open(tape) => {
-                    isolate(line, tape, (a, b), &mut passes, &mut |a, b, verdict| take(a, b, verdict, tape))
-                }
-            }
+            go_on
         });
-        self.passes = passes;
-        if flow == Flow::Continue
-            && let Some(found) = tracker.finish(after)
-            && !(surface.regular && found.touches)
-        {
-            flow = shown(self.at, self.sink, &found);
+        if !(go_on && ahead.drain(..).all(|(a, b, place)| walk.take(a, b, place))) {
+            return None;
         }
-        flow
+        let mut tracker = walk.tracker;
+        let after = self.declared(end.0, end.1);
+        let found = tracker.finish(Some(after)).filter(|found| !(surface.regular && found.touches));
+        match found {
+            Some(found) if shown(self.at, self.sink, &found) == Flow::Stop => None,
+            _ => Some(after),
+        }
+    }
+}
+
+/// A walk along the cells of a ray.
+struct Walk<'a, 's> {
+    surface: &'a Isosurface,
+    line: &'a Line,
+    at: &'a CentredRay<'a>,
+    sink: &'s mut dyn Sink,
+    tracker: Tracker<'a, Line>,
+    /// Roots behind this are of no interest.
+    last: f64,
+    passes: u32,
+}
+
+impl<'a> Walk<'a, '_> {
+    /// Takes the next cell's stretch; says whether to go on.
+    fn take(&mut self, a: f64, b: f64, place: Place<'a>) -> bool {
+        if self.tracker.is_idle() && (a > self.last || self.at.bracket(a, a).0 > self.sink.limit()) {
+            return false;
+        }
+        let whole = &self.surface.tape;
+        let found = match place {
+            Place::Sign(sign) => self.tracker.settle(sign),
+            Place::Gap => self.tracker.take(a, b, Verdict::Gap, whole),
+            Place::Slope(tape, rises) => self.tracker.take(a, b, Verdict::Monotone(rises), tape),
+            Place::Open(tape) => {
+                let (line, mut passes) = (self.line, self.passes);
+                let go_on = isolate(line, tape, (a, b), &mut passes, &mut |a, b, verdict| {
+                    let found = self.tracker.take(a, b, verdict, tape);
+                    self.show(found) && !(self.tracker.is_idle() && b > self.last)
+                });
+                self.passes = passes;
+                return go_on;
+            }
+        };
+        self.show(found)
+    }
+
+    fn show(&mut self, found: Option<Found>) -> bool {
+        let found = found.filter(|found| !(self.surface.regular && found.touches));
+        found.is_none_or(|found| shown(self.at, self.sink, &found) == Flow::Continue)
     }
 }
 

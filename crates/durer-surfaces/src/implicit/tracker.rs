@@ -28,6 +28,8 @@ pub(crate) trait Curve {
     ) -> Option<(f64, f64, f64)> {
         None
     }
+    /// Whether the sign at `s`, which is certain, is so by far: also with several times the rounding errors.
+    fn is_plain(&self, form: Self::Form<'_>, s: f64) -> bool;
     /// The sign at `s`, if it is certain.
     fn sign(&self, form: Self::Form<'_>, s: f64) -> Option<bool> {
         self.signs(form, &[s; 8], &[s; 8])[0]
@@ -68,6 +70,8 @@ struct Run<F> {
     /// The way `g` goes; `None` if that is not known.
     rises: Option<bool>,
     form: F,
+    /// The sign behind the run, certain by so little that the run may go on.
+    past: Option<bool>,
 }
 
 /// Takes stretches in ascending order, without holes, and gives the roots.
@@ -87,18 +91,26 @@ impl<'a, C: Curve> Tracker<'a, C> {
         Self { line, whole, before, run: None, rough }
     }
 
+    /// The next stretch, of which it is plain that `g` has one sign: a run ends before it.
+    pub(crate) fn settle(&mut self, sign: bool) -> Option<Found> {
+        let found = self.close(Some(sign));
+        self.before = Some(sign);
+        found
+    }
+
     /// The next stretch. `form` is right on it and near it.
+    ///
+    /// Along a tangent the sign is certain here and open there, as rounding has it. So what has become open stays open until the sign is plain.
     pub(crate) fn take(&mut self, a: f64, b: f64, verdict: Verdict, form: C::Form<'a>) -> Option<Found> {
         match verdict {
-            Verdict::Sign(sign) => {
-                let found = self.close(Some(sign));
-                self.before = Some(sign);
-                found
+            Verdict::Sign(sign) if self.run.is_some_and(|run| run.rises.is_none()) => {
+                self.hold(sign, b, form)
             }
+            Verdict::Sign(sign) => self.settle(sign),
             Verdict::Gap => {
                 // The run ends at a point of its own, where the formula is still defined, or jumps.
                 let found = self.run.and_then(|run| {
-                    let end = self.line.sign(run.form, run.hi);
+                    let end = run.past.or_else(|| self.line.sign(run.form, run.hi));
                     self.close(end)
                 });
                 self.before = None;
@@ -114,9 +126,13 @@ impl<'a, C: Curve> Tracker<'a, C> {
             if self.before.is_none() {
                 self.before = self.line.sign(form, a);
             }
-            self.run = Some(Run { lo: a, hi: b, rises, form });
+            self.run = Some(Run { lo: a, hi: b, rises, form, past: None });
             return None;
         };
+        if run.rises.is_none() && rises.is_some() {
+            return self.leave(a, b, rises, form);
+        }
+        run.past = None;
         let same = C::same(run.form, form);
         // Where the form of all of the container is much longer, one look at the border saves many at that.
         let worth = !same && C::is_shorter(form, self.whole);
@@ -133,15 +149,48 @@ impl<'a, C: Curve> Tracker<'a, C> {
         }
         let form = if border.is_some() { own } else { form };
         if let Some(sign) = border.or_else(|| self.line.sign(self.whole, a)) {
-            let found = self.close(Some(sign));
-            self.before = Some(sign);
-            self.run = Some(Run { lo: a, hi: b, rises, form });
+            let found = self.settle(sign);
+            self.run = Some(Run { lo: a, hi: b, rises, form, past: None });
             return found;
         }
-        // The turn itself cannot be told from a root: all of it is one cluster, without what is certainly none.
-        let lo = if run.rises.is_some() { narrowed(self.line, self.whole, run.lo, run.hi).0 } else { run.lo };
-        let hi = if rises.is_some() { narrowed(self.line, self.whole, a, b).1 } else { b };
-        *run = Run { lo, hi: hi.max(lo), rises: None, form: self.whole };
+        self.turn(a, b, rises)
+    }
+
+    /// From what could not be told to a stretch on which `g` is monotone.
+    fn leave(&mut self, a: f64, b: f64, rises: Option<bool>, form: C::Form<'a>) -> Option<Found> {
+        let past = self.run.and_then(|run| run.past);
+        let Some(sign) = past.or_else(|| self.line.sign(form, a)) else { return self.turn(a, b, rises) };
+        match (self.line.sign(form, b), &mut self.run) {
+            (Some(after), _) if after == sign => return self.hold(sign, b, form),
+            // Certain for a moment only.
+            (None, Some(run)) if !self.line.is_plain(form, a) => {
+                (run.hi, run.form, run.past) = (b, self.whole, None);
+                return None;
+            }
+            _ => {}
+        }
+        let found = self.settle(sign);
+        self.run = Some(Run { lo: a, hi: b, rises, form, past: None });
+        found
+    }
+
+    /// A turn from the run to the next stretch cannot be told from a root: all of it is one cluster, without what is certainly none.
+    fn turn(&mut self, a: f64, b: f64, rises: Option<bool>) -> Option<Found> {
+        let (line, whole) = (self.line, self.whole);
+        let run = self.run.as_mut()?;
+        let lo = if run.rises.is_some() { plain_until(line, whole, run.lo, run.hi) } else { run.lo };
+        let hi = if rises.is_some() { plain_until(line, whole, b, a) } else { b };
+        *run = Run { lo, hi: hi.max(lo), rises: None, form: whole, past: None };
+        let sign = rises.and_then(|_| line.sign(whole, b))?;
+        self.hold(sign, b, whole)
+    }
+
+    /// Behind what could not be told there is this sign as far as `b`: all of that is told if it is plain there.
+    fn hold(&mut self, sign: bool, b: f64, form: C::Form<'a>) -> Option<Found> {
+        if self.line.is_plain(form, b) {
+            return self.settle(sign);
+        }
+        self.run.as_mut()?.past = Some(sign);
         None
     }
 
@@ -157,7 +206,7 @@ impl<'a, C: Curve> Tracker<'a, C> {
 
     fn close(&mut self, after: Option<bool>) -> Option<Found> {
         let run = self.run.take()?;
-        let before = self.before;
+        let (before, after) = (self.before, after.or(run.past));
         match (run.rises, before, after) {
             // What rises comes from below and goes above, if it meets zero at all.
             (Some(rises), before, after) => {
@@ -306,20 +355,20 @@ fn sectioned<C: Curve>(line: &C, form: C::Form<'_>, lo: f64, hi: f64, rises: boo
     }
 }
 
-/// `[lo, hi]` without its ends, as far as `g` is certainly not zero there.
-fn narrowed<C: Curve>(line: &C, form: C::Form<'_>, lo: f64, hi: f64) -> (f64, f64) {
-    let (mut a, mut b) = (lo, hi);
+/// How far from `far` towards `near` the sign of a monotone `g` is certainly that at `far`: where it is so at a point, it is so at all points before.
+fn plain_until<C: Curve>(line: &C, form: C::Form<'_>, far: f64, near: f64) -> f64 {
+    let Some(sign) = line.sign(form, far) else { return far };
+    let (mut known, mut open) = (far, near);
     loop {
-        let node = |i: usize| a + (b - a) * (i as f64 / 8.0);
-        let from: [f64; 8] = core::array::from_fn(node);
-        let to: [f64; 8] = core::array::from_fn(|i| node(i + 1));
-        let sign = line.signs(form, &from, &to);
-        let open = |i: &usize| sign[*i].is_none();
-        let (Some(first), Some(last)) = ((0..8).find(open), (0..8).rev().find(open)) else { return (a, b) };
-        let (next_a, next_b) = (from[first], to[last]);
-        if next_b - next_a > 0.8 * (b - a) || next_b - next_a <= 4.0 * line.ulp() {
-            return (next_a, next_b);
+        let at: [f64; 8] = core::array::from_fn(|i| known + (open - known) * ((i as f64 + 1.0) / 9.0));
+        let signs = line.signs(form, &at, &at);
+        let held = signs.iter().take_while(|&&s| s == Some(sign)).count();
+        let next = (if held > 0 { at[held - 1] } else { known }, if held < 8 { at[held] } else { open });
+        let gained = (next.1 - next.0).abs() < 0.5 * (open - known).abs();
+        (known, open) = next;
+        // What is left may be a part of what is open beyond, but no more than that.
+        if !gained || (open - known).abs() <= 0.25 * (near - open).abs().max(16.0 * line.ulp()) {
+            return known;
         }
-        (a, b) = (next_a, next_b);
     }
 }

@@ -236,6 +236,13 @@ impl<const M: usize, const C: usize> Curve for Line<'_, M, C> {
         )
     }
 
+    fn is_plain(&self, (): (), s: f64) -> bool {
+        // The same line, known sixteen times worse.
+        let o_err = 16.0 * (self.o_err + self.o_size * U);
+        let d_err = 16.0 * (self.d_err + self.d_size * U);
+        Self { o_err, d_err, ..*self }.sign((), s).is_some()
+    }
+
     fn signs(&self, (): (), a: &[f64; 8], b: &[f64; 8]) -> [Option<bool>; 8] {
         let known = if a == b { self.at(a) } else { self.between(a, b) };
         core::array::from_fn(|k| match () {

@@ -38,19 +38,17 @@ impl<const M: usize, const C: usize> Solid<M, C> {
             return;
         }
         let line = Line::new(&self.rule, &self.lift, &at, first.abs().max(last.abs()));
-        let slack = 16.0 * line.ulp();
-        // Outside of the ball all is outside. A ray that was spawned on the surface starts on a side that is known.
+        // Outside of the ball all is outside. A ray that was spawned on the surface starts on a side that is known. Any other one is looked at all along, so that it
+        // has the same roots whatever its range is.
         let (a, before) = match ray.source {
-            _ if from <= first => (first, Some(true)),
-            Some(side) if ray.t_min == 0.0 => (from, Some(side == RaySide::Front)),
-            _ => certain(&line, from, -slack, first),
+            Some(side) if ray.t_min == 0.0 && from > first => (from, Some(side == RaySide::Front)),
+            _ => (first, Some(true)),
         };
-        let (b, after) = if to >= last { (last, Some(true)) } else { certain(&line, to, slack, last) };
         let tracker = Tracker::new(&line, (), before, ray.rough);
         let mut query = Query { line: &line, ray, at: &at, sink, last: to, tracker, passes: 0 };
-        if a < b
-            && query.isolate(a, b) == Flow::Continue
-            && let Some(found) = query.tracker.finish(after)
+        if a < last
+            && query.isolate(a, last) == Flow::Continue
+            && let Some(found) = query.tracker.finish(Some(true))
         {
             query.show(&found);
         }
@@ -64,27 +62,6 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         // The direction is no shorter than one.
         let far = 2.0 * self.radius;
         Some(if half < f64::INFINITY { (mid - half, mid + half) } else { (-far, far) })
-    }
-}
-
-/// A point from `s` on, in the direction of `step`, at which the sign is certain; no further than `end`.
-fn certain<const M: usize, const C: usize>(
-    line: &Line<'_, M, C>,
-    s: f64,
-    step: f64,
-    end: f64,
-) -> (f64, Option<bool>) {
-    let mut step = step;
-    loop {
-        let x = s + step;
-        if (x - end) * step >= 0.0 {
-            return (end, Some(true));
-        }
-        let sign = line.sign((), x);
-        if sign.is_some() {
-            return (x, sign);
-        }
-        step *= 4.0;
     }
 }
 

@@ -1,6 +1,7 @@
 //! Solvers of equations in one unknown. One solver, one file.
 
 pub(crate) mod bernstein;
+pub(crate) mod exact;
 pub(crate) mod polynomial;
 pub(crate) mod quadratic;
-pub(crate) mod sturm;
+mod residues;

@@ -9,14 +9,14 @@
 //! 3. A root is found by Newton's method and its bracket proven: by the size of the polynomial and of its slope (Kantorovich), or by certain
 //!    signs on either side.
 //!
-//! On the last step, [`Sturm`] counts the roots with their multiplicities.
+//! On the last step, [`ExactRoots`] counts the roots with their multiplicities.
 //!
 //! A line on which the surface has no end is cut at `s = -1` and `s = 1`; what is outside is looked at as `σ = 1 / s`.
 
 use crate::Flow;
 use crate::roots::bernstein::{Bernstein, Count, FLOOR};
+use crate::roots::exact::{ExactRoots, Isolated};
 use crate::roots::quadratic::Limits;
-use crate::roots::sturm::{Isolated, Sturm};
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Greater, Less};
@@ -55,7 +55,7 @@ pub(crate) struct Found<'a> {
     /// False if the ray was not known well enough to be sure.
     pub(crate) certain: bool,
     /// How the root was found, if f64 and double-double could not.
-    pub(crate) exact: Option<(&'a Sturm, &'a Isolated)>,
+    pub(crate) exact: Option<(&'a ExactRoots, &'a Isolated)>,
 }
 
 /// From `x` in `[-1, 1]` to the line.
@@ -565,20 +565,20 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
     #[inline(never)]
     fn exactly(&mut self, mid: f64, from: f64, to: f64) {
         let (coefficients, certain) = self.line.exact();
-        let Some(sturm) = Sturm::new(coefficients) else { return };
-        let (from, to) = (sturm.beside(from, -1.0), sturm.beside(to, 1.0));
+        let Some(exact) = ExactRoots::new(coefficients) else { return };
+        let (from, to) = (exact.beside(from, -1.0), exact.beside(to, 1.0));
         let width = if self.limits.width < 1.0 { self.limits.width } else { U };
-        for mut root in sturm.isolate(&from, &to) {
+        for mut root in exact.isolate(&from, &to) {
             let enough = |lo: f64, hi: f64| {
                 let s = mid + lo;
                 hi - lo <= 0.5 * width * s.abs().max(0.5)
             };
-            let (lo, hi) = sturm.bracket(&mut root, enough);
+            let (lo, hi) = exact.bracket(&mut root, enough);
             let (lo, hi) = if mid == 0.0 { (lo, hi) } else { ((mid + lo).next_down(), (mid + hi).next_up()) };
             let alone = (f64::INFINITY, f64::NEG_INFINITY);
             let (before, after) = (root.before, root.after);
             let s = if lo == hi { lo } else { (lo + 0.5 * (hi - lo)).clamp(lo, hi) };
-            let exact = Some((&sturm, &root));
+            let exact = Some((&exact, &root));
             let found = Found { s, lo, hi, alone, before, after, certain, exact };
             if (self.emit)(&found) == Flow::Stop {
                 return;

@@ -219,7 +219,7 @@ impl<'a, L: Line> Scan<'a, L> {
         }
         for mut root in roots.isolated(-0.5, 0.5) {
             let enough = |lo: f64, hi: f64| hi - lo <= NARROW * 0.25;
-            let (lo, hi) = roots.sturm.bracket(&mut root, enough);
+            let (lo, hi) = roots.exact.bracket(&mut root, enough);
             let y = (lo + 0.5 * (hi - lo)).clamp(lo, hi);
             f(Meet { y, lo, hi, turn: roots.turn(&root), certain });
         }
@@ -296,7 +296,7 @@ impl<'a, L: Line> Scan<'a, L> {
             // All of the piece lies on the line: is the point within?
             (None, Some(r)) => !r.isolated(-0.5, 0.5).is_empty(),
             (None, None) => true,
-            (Some(g), _) => g.isolated(-0.5, 0.5).iter().any(|root| g.sturm.sign_at_root(&r, root).is_eq()),
+            (Some(g), _) => g.isolated(-0.5, 0.5).iter().any(|root| g.exact.sign_at_root(&r, root).is_eq()),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Roots of a cubic on `[-1/2, 1/2]` in exact numbers, those at the ends included.
 
 use super::cut::Meet;
-use crate::roots::sturm::{Isolated, Sturm};
+use crate::roots::exact::{ExactRoots, Isolated};
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Greater, Less};
 use durer_math::{Dyadic, Ring};
@@ -28,7 +28,7 @@ pub(super) struct Ends {
     pub(super) first: bool,
     pub(super) last: bool,
     /// The polynomial without its roots at the ends.
-    pub(super) sturm: Sturm,
+    pub(super) exact: ExactRoots,
     /// Between the ends it has the other sign.
     turned: bool,
 }
@@ -57,15 +57,15 @@ impl Ends {
         let turned = at_last % 2 == 1;
         let is_minus = |y: f64| at(&p, y).exact_sign() == if turned { Greater } else { Less };
         let (first, last) = (at_first > 0 && is_minus(-0.5), at_last > 0 && is_minus(0.5));
-        Some(Self { first, last, sturm: Sturm::new(p)?, turned })
+        Some(Self { first, last, exact: ExactRoots::new(p)?, turned })
     }
 
     /// The roots between two numbers that are or are not roots, but for the ends.
     pub(super) fn isolated(&self, lo: f64, hi: f64) -> Vec<Isolated> {
         let beside = |y: f64, away: f64| {
-            if y.abs() >= 0.5 { Dyadic::from(0.5_f64.copysign(y)) } else { self.sturm.beside(y, away) }
+            if y.abs() >= 0.5 { Dyadic::from(0.5_f64.copysign(y)) } else { self.exact.beside(y, away) }
         };
-        self.sturm.isolate(&beside(lo, -1.0), &beside(hi, 1.0))
+        self.exact.isolate(&beside(lo, -1.0), &beside(hi, 1.0))
     }
 
     pub(super) fn turn(&self, root: &Isolated) -> i8 {
@@ -100,7 +100,7 @@ impl Exactly {
             Self::At(y) => (Dyadic::from(*y), Dyadic::from(*y)),
             Self::Root(found) => {
                 let (ends, root) = &mut **found;
-                ends.sturm.narrowed(root, &Dyadic::from(1.0).scale2(log))
+                ends.exact.narrowed(root, &Dyadic::from(1.0).scale2(log))
             }
         }
     }
@@ -109,7 +109,7 @@ impl Exactly {
     pub(super) fn sign(&self, q: &[Dyadic]) -> Ordering {
         match self {
             Self::At(y) => at(q, *y).exact_sign(),
-            Self::Root(found) => found.0.sturm.sign_at_root(q, &found.1),
+            Self::Root(found) => found.0.exact.sign_at_root(q, &found.1),
         }
     }
 }
