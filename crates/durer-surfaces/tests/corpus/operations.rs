@@ -121,7 +121,9 @@ fn operation(code: u8) -> (Make, Truth) {
         8 => (
             |[x, y], _| Op::Pow(x, y),
             |x, y, _| {
-                let tame = (1e-3..1e3).contains(&x) && y.abs() < 50.0;
+                // Where the power may be an f64 number itself the witness looks for more and more of its zeros, without end.
+                let tame =
+                    (1e-3..1e3).contains(&x) && x != 1.0 && y.abs() < 50.0 && (y * 1024.0).fract() != 0.0;
                 tame.then(|| witness(|c| big(x).pow(&big(y), P, RM, c))).flatten()
             },
         ),
