@@ -4,7 +4,7 @@
 //! - `conformance`: our pictures beside POV-Ray's, and what each cost ([`conformance`]);
 //! - `gallery`: the pictures and pages of docs/gallery.md ([`gallery`]);
 //! - `examples`: the scenes that come with POV-Ray, beside its pictures ([`examples`]);
-//! - `bench`: the triangle kernels beside Embree's, on the same rays ([`bench`]);
+//! - `bench`: the triangle kernels beside Embree's, on the same rays ([`mod@bench`]);
 //! - `soak`: the random tests, with many more cases ([`soak`]);
 //! - `fused`: which compiled code calls `fma` where it should be one instruction ([`fused`]).
 //!
