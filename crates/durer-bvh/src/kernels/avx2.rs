@@ -6,7 +6,7 @@ use crate::frame::up32;
 use crate::node::{ChildRef, Node8, WIDTH};
 use crate::ray::{CullRay, LEAST, LONGEST, Line, NEARBY, Rounding, SLOWEST, TO_NEAREST, U32, WIDEN};
 use crate::tree::Bvh;
-use crate::triangles::{Block, FAR, FLAT, Filter, LANES, NEAR, Verdict};
+use crate::triangles::{Block, FAR, FLAT, Filter, LANES, NEAR, ROUGH, Verdict};
 use core::arch::x86_64::*;
 use durer_math::kernels::Path;
 use durer_math::{Isa, Point3, Vec3};
@@ -115,7 +115,7 @@ impl Kernel for Avx2 {
 /// A line that starts nearby, in f32: neither the way to the tree nor the end of that through it is looked for.
 ///
 /// Let `u = 2^-24`, `M` the greatest magnitude of a coordinate of the tree on an axis, `o` that of the origin, and `e` and `g` the errors of origin and
-/// direction. `e` and `g` are below 2^-10 (else the line is left to others), so `t` is at most `(1 + NEARBY + e) / (1 - g) < 6` in magnitude within the tree,
+/// direction. Both `e + 6 g` and so `g` are at most [`ROUGH`] (else the line is left to others), so `t` is at most `(1 + NEARBY + e) / (1 - g) < 6` in magnitude within the tree,
 /// where the ray's points err by `e + 6 g`. A component of the direction below `(M + o) u / 20` counts as that, which moves them by less than
 /// `0.3 u (M + o)`. `r` errs by two units, the one of `d` and its own; so a plane at `x` is met at `x r - o r` with an error of
 ///
@@ -133,7 +133,6 @@ fn nearby(tree: &Bvh, line: &Line) -> Option<CullRay> {
     const SLACK: (f32, f32) = (4.0 * U32 as f32, 7.0 * U32 as f32);
     /// Four units: one for the rounding to f32, one for that of the sum.
     const OUTWARD: f32 = 4.0 * U32 as f32;
-    const ROUGH: f32 = 1.0 / (1 << 10) as f32;
     let minus = _mm_set1_ps(-0.0);
     let all = |x: f32| _mm_set1_ps(x);
     let size = |x: __m128| _mm_andnot_ps(minus, x);

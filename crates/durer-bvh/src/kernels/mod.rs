@@ -1,4 +1,5 @@
-//! The node test, once per instruction set. `scalar` is the definition; the others equal it bit for bit.
+//! What is done for each node and block, once per instruction set. `scalar` is the definition; the others equal it bit for bit, but for how a ray
+//! is made ready: there each may be as generous as its bounds allow.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
@@ -24,7 +25,7 @@ pub(crate) trait Kernel: Copy {
     /// The ray as triangles see it, spread over the lanes.
     type Sight;
 
-    /// Clips a line to the box of a tree; `None` if it certainly misses it.
+    /// What the tests need of a line, clipped to the tree's box or not; `None` if it certainly misses that.
     fn cull(self, tree: &Bvh, line: &Line) -> Option<CullRay>;
 
     /// Spreads the ray.

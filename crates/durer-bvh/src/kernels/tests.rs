@@ -63,12 +63,14 @@ proptest! {
     #[test]
     fn all_kernels_stack_the_same_bits(
         node in node(), o in prop::array::uniform3(coordinate()), far in 0..4_i32, d in direction(), t_far in 0.0..3.0_f32,
+        t_near in prop_oneof![Just(0.0_f32), -3.0..3.0_f32, Just(f32::NEG_INFINITY)],
     ) {
         let Some(avx2) = Isa::available().find_map(Avx2::of) else { return Ok(()) };
         let o = o.map(|x| f64::from(x) * [1.0, 2.0, 1e3, 1e12][far as usize]);
         let line = line(o, d);
         let frame = Frame::around(&Aabb::EMPTY);
         let Some(ray) = CullRay::new(&line, frame, &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
+        let ray = CullRay { t_near, ..ray };
         let t_far = t_far.min(ray.t_far);
         let (mut a, mut b) = (Stack::new(), Stack::new());
         let lanes = avx2.lanes(&ray);
@@ -84,6 +86,7 @@ proptest! {
     fn all_kernels_judge_triangles_alike(
         corners in prop::collection::vec(prop::array::uniform3(prop::array::uniform3(coordinate())), 1..=8),
         o in prop::array::uniform3(coordinate()), d in direction(), far in 0.0..3.0_f32, rounded in any::<bool>(),
+        t_near in prop_oneof![Just(0.0_f32), -3.0..3.0_f32], is_exact in any::<bool>(),
     ) {
         let Some(avx2) = Isa::available().find_map(Avx2::of) else { return Ok(()) };
         let frame = Frame::around(&Aabb::EMPTY);
@@ -91,6 +94,7 @@ proptest! {
         let block = Block::new(frame, corners.iter().enumerate().map(triangle));
         let line = line(o.map(f64::from), d);
         let Some(ray) = CullRay::new(&line, frame, &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
+        let ray = CullRay { t_near, is_exact, ..ray };
         let filter = Filter::new(&line, &ray, rounded);
         let one = Scalar::<true>.judge(&block, &filter, &(), far);
         let eight = avx2.judge(&block, &filter, &avx2.sight(&filter), far);

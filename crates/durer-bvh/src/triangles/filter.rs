@@ -58,7 +58,7 @@ use crate::ray::{CullRay, Line};
 /// Half an ulp of 1 in f32.
 const U: f32 = 1.0 / (1 << 24) as f32;
 /// The largest error of a ray, in tree units and relative to its direction, with which f32 can still say something.
-const ROUGH: f32 = 1.0 / (1 << 10) as f32;
+pub(crate) const ROUGH: f32 = 1.0 / (1 << 10) as f32;
 /// Second-order terms, and the roundings of bounds and of what they are made of.
 const PAYS: f32 = 1.0 + 1.0 / 64.0;
 /// Parts of the bound of `t` that are every ray's: see [`Filter::s`].

@@ -10,4 +10,4 @@ mod filter;
 
 pub use block::Corners;
 pub(crate) use block::{Block, LANES};
-pub(crate) use filter::{FAR, FLAT, Filter, NEAR, Verdict};
+pub(crate) use filter::{FAR, FLAT, Filter, NEAR, ROUGH, Verdict};
