@@ -1,23 +1,19 @@
 //! One random formula, and all that must hold of it: made of any bytes.
 
+#[path = "../../../../fuzz/shared/bytes.rs"]
+#[allow(clippy::duplicate_mod, reason = "each target stands alone, too; only the tests load them all")]
+mod bytes;
+
+use bytes::Bytes;
 use durer_math::{Comparison, Dual, F8, Function, I8, Interval, Number, Point3, Ray, Vec3};
 use durer_surfaces::tape::{Builder, Formula, NodeId, Op, Tape};
 use durer_surfaces::{All, AxisBox, Container, Isosurface, Kind, LocalRay, Need, Surface};
 
-/// Bytes, and zeros behind their end.
-struct Bytes<'a>(&'a [u8]);
-
 impl Bytes<'_> {
-    fn next(&mut self) -> u8 {
-        let Some((&first, rest)) = self.0.split_first() else { return 0 };
-        self.0 = rest;
-        first
-    }
-
     /// Mostly small round numbers, sometimes any.
     fn number(&mut self) -> f64 {
         match self.next() {
-            0 => f64::from_bits(u64::from_le_bytes(core::array::from_fn(|_| self.next()))),
+            0 => f64::from_bits(self.bits()),
             1 => f64::from(self.next()) * 1e-3,
             n => (f64::from(n) - 128.0) / 16.0,
         }

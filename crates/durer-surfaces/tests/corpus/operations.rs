@@ -1,6 +1,11 @@
 //! Any bytes as one operation of a formula and two intervals: the bounds hold what f64 computes, and what exact arithmetic does.
 
+#[path = "../../../../fuzz/shared/bytes.rs"]
+#[allow(clippy::duplicate_mod, reason = "each target stands alone, too; only the tests load them all")]
+mod bytes;
+
 use astro_float::{BigFloat, Consts, RoundingMode};
+use bytes::Bytes;
 use dashu::rational::RBig;
 use durer_math::{Function, I8, Interval, Point3};
 use durer_surfaces::tape::{Builder, NodeId, Op, Tape};
@@ -10,20 +15,7 @@ use std::cell::RefCell;
 const P: usize = 256;
 const RM: RoundingMode = RoundingMode::ToEven;
 
-/// Bytes, and zeros behind their end.
-struct Bytes<'a>(&'a [u8]);
-
 impl Bytes<'_> {
-    fn next(&mut self) -> u8 {
-        let Some((&first, rest)) = self.0.split_first() else { return 0 };
-        self.0 = rest;
-        first
-    }
-
-    fn bits(&mut self) -> u64 {
-        u64::from_le_bytes(core::array::from_fn(|_| self.next()))
-    }
-
     /// Small numbers, neighbours of whole ones, multiples of a quarter turn, numbers of any size.
     fn number(&mut self) -> f64 {
         let x = match self.next() % 8 {

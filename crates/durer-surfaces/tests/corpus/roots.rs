@@ -1,24 +1,20 @@
 //! Any bytes as a polynomial in x, y and z and a ray: what the solver finds is what Sturm's theorem on whole numbers counts.
 
+#[path = "../../../../fuzz/shared/bytes.rs"]
+#[allow(clippy::duplicate_mod, reason = "each target stands alone, too; only the tests load them all")]
+mod bytes;
+
+use bytes::Bytes;
 use durer_math::{Point3, Ray, Vec3};
 use durer_surfaces::AlgebraicSurface;
 use durer_surfaces::algebraic::{coefficient_count, place_of, powers};
 use durer_surfaces::laws::{self, Exact, ZeroOracle};
 
-/// Bytes, and zeros behind their end.
-struct Bytes<'a>(&'a [u8]);
-
 impl Bytes<'_> {
-    fn next(&mut self) -> u8 {
-        let Some((&first, rest)) = self.0.split_first() else { return 0 };
-        self.0 = rest;
-        first
-    }
-
     /// Mostly small round numbers, some of any size, some next to a round one.
     fn number(&mut self) -> f64 {
         let x = match self.next() {
-            0 => f64::from_bits(u64::from_le_bytes(core::array::from_fn(|_| self.next()))),
+            0 => f64::from_bits(self.bits()),
             1 => ((f64::from(self.next()) - 128.0) / 8.0).next_up(),
             2 => ((f64::from(self.next()) - 128.0) / 8.0).next_down(),
             3 => durer_math::scale::ldexp(f64::from(self.next()) - 128.0, i32::from(self.next()) - 128),
