@@ -3,7 +3,7 @@
 use super::*;
 use crate::AxisBox;
 use crate::laws::{
-    self, Crossing, Dice, Exact, Feature, Line, Oracle, Surd, aim, all_roots, check, exact3,
+    self, Broken, Crossing, Dice, Exact, Feature, Line, Oracle, Subject, Surd, aim, all_roots, check, exact3,
     roots_are_the_exact_crossings,
 };
 use durer_math::{Ray, RaySide};
@@ -205,21 +205,6 @@ impl Swept {
         let beside = [0, 1, 2].map(|i| &point[i] + &step[i]);
         self.side(&beside) != Some(Ordering::Less)
     }
-
-    /// Whether all crossings are so far apart that t in f64 tells their order.
-    fn is_spread(&self, line: &Line) -> bool {
-        let t: Vec<f64> = self.crossings(line).iter().map(|c| c.t.about(2400).to_f64()).collect();
-        t.windows(2).all(|t| t[1] - t[0] > 1e-12 * t[0].abs().max(t[1].abs()))
-    }
-
-    /// Whether each crossing is near one face only.
-    fn is_clear(&self, line: &Line) -> bool {
-        self.crossings(line).iter().all(|c| {
-            let p = line.at(&c.t.about(2400));
-            let caps = [self.low, self.high].iter().filter(|y| (p[1].to_f64() - **y).abs() < NEAR).count();
-            caps + self.nearest(&p).1 == 1
-        })
-    }
 }
 
 impl Oracle for Swept {
@@ -294,16 +279,86 @@ fn cases() -> Vec<(Prism, Swept)> {
     out
 }
 
+/// What is known of a prism besides its crossings.
+pub(super) trait Known: Oracle {
+    /// Whether a line passes by all edges, so that each crossing is one face's.
+    fn is_plain(&self, line: &Line) -> bool;
+    /// Whether the faces met are so far from the others that a point tells them apart.
+    fn is_clear(&self, line: &Line) -> bool;
+    /// Whether the crossings are so far apart that `t` tells their order.
+    fn is_spread(&self, line: &Line) -> bool;
+}
+
+impl Known for Swept {
+    fn is_plain(&self, line: &Line) -> bool {
+        self.met(line).is_some()
+    }
+
+    fn is_spread(&self, line: &Line) -> bool {
+        let t: Vec<f64> = self.crossings(line).iter().map(|c| c.t.about(2400).to_f64()).collect();
+        t.windows(2).all(|t| t[1] - t[0] > 1e-12 * t[0].abs().max(t[1].abs()))
+    }
+
+    fn is_clear(&self, line: &Line) -> bool {
+        self.crossings(line).iter().all(|c| {
+            let p = line.at(&c.t.about(2400));
+            let caps = [self.low, self.high].iter().filter(|y| (p[1].to_f64() - **y).abs() < NEAR).count();
+            caps + self.nearest(&p).1 == 1
+        })
+    }
+}
+
 /// Whether the rays that start along the normals, from where a ray meets the prism, meet no edge.
-fn leaves_clearly(prism: &Prism, oracle: &Swept, ray: &Ray) -> bool {
+fn leaves_clearly(prism: &dyn Subject, oracle: &impl Known, ray: &Ray) -> bool {
     all_roots(prism, ray).iter().all(|root| {
         let point = prism.resolve(&LocalRay::new(ray), root, Need::POINT);
         let n = point.ng.to_vec();
         [(RaySide::Front, n), (RaySide::Back, -n)].iter().all(|&(side, d)| {
             let line = Line::new(&point.spawn_from(side, d));
-            oracle.met(&line).is_some() && oracle.is_spread(&line)
+            oracle.is_plain(&line) && oracle.is_spread(&line)
         })
     })
+}
+
+/// How many rays have obeyed the laws, how many roots they had, and how many rays were clear of everything, so that all laws were asked.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Obeyed {
+    pub(super) rays: usize,
+    pub(super) roots: usize,
+    pub(super) clear: usize,
+}
+
+impl Obeyed {
+    /// Counts a ray that is plain, if it obeys as many of the laws as are claimed for it.
+    pub(super) fn count(
+        &mut self,
+        prism: &dyn Subject,
+        oracle: &impl Known,
+        ray: &Ray,
+    ) -> Result<(), Broken> {
+        let line = Line::new(ray);
+        if !ray.is_valid() || !oracle.is_plain(&line) {
+            return Ok(());
+        }
+        let is_spread = oracle.is_spread(&line);
+        let roots = if is_spread && oracle.is_clear(&line) && leaves_clearly(prism, oracle, ray) {
+            self.clear += 1;
+            check(prism, oracle, ray)?.len()
+        } else if is_spread {
+            roots_are_the_exact_crossings(prism, oracle, ray, None)?.len()
+        } else {
+            // The order of crossings of different faces that t cannot tell apart is not claimed.
+            let roots = all_roots(prism, &ray.with_range(f64::NEG_INFINITY, f64::INFINITY)).len();
+            let exact = oracle.crossings(&line).len();
+            if roots != exact {
+                return Err(format!("{roots} roots, and exactly {exact}"));
+            }
+            roots
+        };
+        self.rays += 1;
+        self.roots += roots;
+        Ok(())
+    }
 }
 
 fn corners(prism: &Prism) -> Vec<Point3> {
@@ -312,7 +367,7 @@ fn corners(prism: &Prism) -> Vec<Point3> {
 
 #[test]
 fn prisms_obey_the_laws_off_their_edges() {
-    let (mut rays, mut roots, mut clear) = (0, 0, 0);
+    let mut obeyed = Obeyed::default();
     for (seed, (prism, oracle)) in cases().iter().enumerate() {
         let mut features = vec![];
         for v in corners(prism).into_iter().step_by(3) {
@@ -328,28 +383,11 @@ fn prisms_obey_the_laws_off_their_edges() {
         for i in 0..150 {
             let ray = aim(&mut dice, &features, oracle.size());
             // Rays that meet an edge exactly are the business of the next test.
-            let line = Line::new(&ray);
-            if ray.is_valid() && oracle.met(&line).is_some() {
-                let met = if oracle.is_clear(&line)
-                    && oracle.is_spread(&line)
-                    && leaves_clearly(prism, oracle, &ray)
-                {
-                    clear += 1;
-                    check(prism, oracle, &ray)
-                } else if oracle.is_spread(&line) {
-                    roots_are_the_exact_crossings(prism, oracle, &ray, None)
-                } else {
-                    // The order of crossings of different faces that t cannot tell apart is not claimed.
-                    let whole = ray.with_range(f64::NEG_INFINITY, f64::INFINITY);
-                    let roots = all_roots(prism, &whole);
-                    assert_eq!(roots.len(), oracle.crossings(&line).len(), "{ray:?} {prism:?}");
-                    Ok(roots)
-                };
-                roots += met.unwrap_or_else(|e| panic!("{e}\n{seed} {i} {ray:?}\n{prism:?}")).len();
-                rays += 1;
-            }
+            let broken = |e| panic!("{e}\n{seed} {i} {ray:?}\n{prism:?}");
+            obeyed.count(prism, oracle, &ray).unwrap_or_else(broken);
         }
     }
+    let Obeyed { rays, roots, clear } = obeyed;
     assert!(rays > 2500 && roots > 2000 && clear > 2000, "{rays} {roots} {clear}");
 }
 

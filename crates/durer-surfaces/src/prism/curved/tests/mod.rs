@@ -1,0 +1,284 @@
+//! The laws, against crossings in exact numbers that share nothing with the kernel; and what must hold of rays through joints and rims.
+
+mod swept;
+
+use super::*;
+use crate::Kind;
+use crate::laws::{self, Dice, Feature, Oracle, aim, all_roots, exact3};
+use crate::prism::outline::Point;
+use crate::prism::tests::Obeyed;
+use durer_math::Ray;
+use swept::Swept;
+
+/// A round outline of four pieces.
+fn round(at: Point, r: f64, k: f64) -> Vec<Bezier> {
+    let p = |x: f64, z: f64| [at[0] + r * x, at[1] + r * z];
+    vec![
+        [p(1.0, 0.0), p(1.0, k), p(k, 1.0), p(0.0, 1.0)],
+        [p(0.0, 1.0), p(-k, 1.0), p(-1.0, k), p(-1.0, 0.0)],
+        [p(-1.0, 0.0), p(-1.0, -k), p(-k, -1.0), p(0.0, -1.0)],
+        [p(0.0, -1.0), p(k, -1.0), p(1.0, -k), p(1.0, 0.0)],
+    ]
+}
+
+/// Half a disc: straight edges and curves with corners between them.
+fn half() -> Vec<Bezier> {
+    vec![
+        [[-2.0, 0.0], [-1.0, 0.0], [1.0, 0.0], [2.0, 0.0]],
+        [[2.0, 0.0], [2.0, 3.0], [-2.0, 3.0], [-2.0, 0.0]],
+    ]
+}
+
+fn sets() -> Vec<(Vec<Vec<Bezier>>, bool)> {
+    let wave = [
+        [0.0, -4.0],
+        [-3.0, -2.0],
+        [0.0, -1.0],
+        [3.0, -2.0],
+        [2.0, 2.0],
+        [0.0, 1.0],
+        [-2.0, 3.0],
+        [-3.0, -2.0],
+        [1.0, 1.0],
+    ];
+    let eight = [[2.0, -2.0], [-2.0, -2.0], [2.0, 2.0], [-2.0, 2.0], [2.0, -2.0], [-2.0, -2.0], [1.0, 0.0]];
+    let arcs = [[-1.0, 3.0], [-2.0, -2.0], [3.0, -1.0], [2.0, 2.0], [-1.0, 3.0], [-2.0, -2.0]];
+    vec![
+        (vec![round([0.0; 2], 3.0, 0.5625)], false),
+        (vec![round([0.0; 2], 3.0, 0.5625), round([0.5, -0.25], 1.0, 0.5)], false),
+        (vec![half()], false),
+        (vec![Spline::Cubic.pieces(&wave)], false),
+        (vec![Spline::Quadratic.pieces(&arcs)], false),
+        (vec![Spline::Cubic.pieces(&eight)], true),
+        (vec![round([0.0; 2], 2.0, 0.75), round([1.0, 0.5], 2.0, 0.5)], true),
+    ]
+}
+
+fn cases() -> Vec<(CurvedPrism, Swept)> {
+    let mut out = vec![];
+    for (outlines, tangled) in sets() {
+        for (sweep, low, high) in [
+            (Sweep::Linear, -1.0, 2.0),
+            (Sweep::Linear, 0.25, 0.375),
+            (Sweep::Conic, 0.5, 1.0),
+            (Sweep::Conic, 0.0, 1.0),
+            (Sweep::Conic, -1.0, 0.5),
+        ] {
+            // The heights in the other order make no difference.
+            let prism = CurvedPrism::new(&outlines, high, low, sweep).unwrap();
+            assert_eq!(prism.inside_is_left.is_none(), tangled, "{outlines:?}");
+            out.push((prism, Swept { outlines: outlines.clone(), low, high, sweep }));
+        }
+    }
+    out
+}
+
+/// Points of the walls, with tangents and rulings; at few-bit places of curves with few-bit control points all of this is exact.
+fn features(oracle: &Swept) -> Vec<Feature> {
+    let mut out = vec![];
+    let heights = [oracle.low, oracle.high, 0.5 * oracle.low + 0.5 * oracle.high];
+    for b in oracle.pieces() {
+        for u in [0.0, 0.25, 0.5, 0.625, 1.0] {
+            let v = 1.0 - u;
+            let [x, z] = [0, 1].map(|k| {
+                v * v * v * b[0][k] + 3.0 * u * v * (v * b[1][k] + u * b[2][k]) + u * u * u * b[3][k]
+            });
+            let d = |i: usize, k: usize| b[i + 1][k] - b[i][k];
+            let [sx, sz] = [0, 1].map(|k| v * v * d(0, k) + 2.0 * u * v * d(1, k) + u * u * d(2, k));
+            for y in heights {
+                let w = if oracle.sweep == Sweep::Linear { 1.0 } else { y };
+                let ruling = if oracle.sweep == Sweep::Linear { Vec3::Y } else { Vec3::new(x, 1.0, z) };
+                let point = Point3::new(x * w, y, z * w);
+                for direction in [
+                    Vec3::new(sx, 0.0, sz),
+                    Vec3::new(sx, 0.5, sz) + ruling * 0.25,
+                    ruling,
+                    Vec3::new(sz, 0.25, -sx),
+                ] {
+                    out.push(Feature { point, direction });
+                }
+            }
+        }
+    }
+    out
+}
+
+#[test]
+fn curved_prisms_obey_the_laws_off_their_joints() {
+    let mut obeyed = Obeyed::default();
+    for (seed, (prism, oracle)) in cases().iter().enumerate() {
+        let features = features(oracle);
+        let mut dice = Dice::new(seed as u64);
+        for i in 0..4 {
+            let ray = aim(&mut dice, &features, oracle.size());
+            // Rays that meet a joint exactly are the business of the next test.
+            let broken = |e| panic!("{e}\n{seed} {i} {ray:?}\n{prism:?}");
+            obeyed.count(prism, oracle, &ray).unwrap_or_else(broken);
+        }
+    }
+    let Obeyed { rays, roots, clear } = obeyed;
+    assert!(rays > 60 && roots > 60 && clear > 30, "{rays} {roots} {clear}");
+}
+
+#[test]
+fn rays_through_joints_and_rims_go_in_as_often_as_out() {
+    let mut through = 0;
+    for (seed, (prism, oracle)) in cases().iter().enumerate() {
+        let features = features(oracle);
+        let mut dice = Dice::new(100 + seed as u64);
+        for _ in 0..300 {
+            let f = dice.pick(&features);
+            let target = if dice.once_in(4) { dice.lattice(6).to_point() } else { f.point };
+            let direction = match dice.below(3) {
+                0 => f.direction,
+                1 => dice.pick(&features).point - target,
+                _ => dice.lattice(4),
+            };
+            if direction == Vec3::ZERO {
+                continue;
+            }
+            let back = dice.pick(&[4.0, 1024.0, 1048576.0]);
+            let ray =
+                Ray::new(target - direction * back, direction).with_range(f64::NEG_INFINITY, f64::INFINITY);
+            let roots = all_roots(prism, &ray);
+            let (ins, outs) =
+                (roots.iter().filter(|r| r.sign < 0).count(), roots.iter().filter(|r| r.sign > 0).count());
+            assert!(
+                ins == outs && roots.iter().all(|r| (r.sign == 0) == (r.kind == Kind::Grazing)),
+                "{roots:?} for {ray:?} and {prism:?}"
+            );
+            through += usize::from(ins > 0);
+            // From within, out.
+            let from = (dice.lattice(12) * 0.5).to_point();
+            let at = exact3(from.to_array());
+            if oracle.side(&at) != Some(Ordering::Equal) {
+                let outward = Ray::new(from, f.point - from);
+                if outward.is_valid() {
+                    let inside = oracle.side(&at) == Some(Ordering::Less);
+                    let met = all_roots(prism, &outward).iter().filter(|r| r.sign != 0).count();
+                    assert_eq!(
+                        met % 2 == 1,
+                        inside,
+                        "{met} from {from:?} along {:?}: {prism:?}",
+                        outward.direction
+                    );
+                }
+            }
+        }
+    }
+    assert!(through > 1000, "{through}");
+}
+
+#[test]
+fn sides_are_exact() {
+    let mut told = [0; 3];
+    for (seed, (prism, oracle)) in cases().iter().enumerate() {
+        let mut dice = Dice::new(200 + seed as u64);
+        let features = features(oracle);
+        for _ in 0..150 {
+            let p = match dice.below(3) {
+                0 => dice.pick(&features).point,
+                1 => {
+                    dice.pick(&features).point
+                        + (dice.pick(&features).point - dice.pick(&features).point) * 0.25
+                }
+                _ => prism.bounds.centre() + dice.lattice(16) * (prism.bounds.widths().y / 32.0),
+            };
+            let p =
+                if dice.once_in(3) { Point3::new(dice.nudge(p.x, 1), dice.nudge(p.y, 1), p.z) } else { p };
+            let expected = oracle.side(&exact3(p.to_array())).unwrap();
+            let found = prism.side(&LocalPoint::new(p));
+            let expected = [Side::In, Side::On, Side::Out][(expected as i8 + 1) as usize];
+            assert_eq!(found, expected, "{p:?} of {prism:?}");
+            told[expected as usize] += 1;
+        }
+    }
+    assert!(told.iter().all(|&n| n > 150), "{told:?}");
+}
+
+#[test]
+fn parts_together_are_the_whole() {
+    let (mut parts, mut met) = (0, 0);
+    for (seed, (prism, oracle)) in cases().into_iter().enumerate() {
+        let mut dice = Dice::new(300 + seed as u64);
+        let prism = if dice.once_in(3) { prism.without_caps() } else { prism };
+        let features = features(&oracle);
+        for _ in 0..100 {
+            let ray = Ray::new((dice.vector() * 9.0).to_point(), dice.vector());
+            let ray = if dice.once_in(2) {
+                Ray::new(ray.origin, dice.pick(&features).point - ray.origin)
+            } else {
+                ray
+            };
+            let (asked, roots) = laws::parts_are_the_whole(&prism, &ray).unwrap_or_else(|e| panic!("{e}"));
+            (parts, met) = (parts + asked, met + roots);
+        }
+    }
+    assert!(parts > 10_000 && met > 1000, "{parts} {met}");
+}
+
+#[test]
+fn straight_pieces_make_the_straight_prism() {
+    let corners = [[-3.0, -3.0], [3.0, -2.0], [2.0, 3.0], [-3.0, 3.0]];
+    let edge = |i: usize| {
+        let (a, b) = (corners[i], corners[(i + 1) % 4]);
+        [a, a, b, b]
+    };
+    let pieces = vec![(0..4).map(edge).collect::<Vec<Bezier>>()];
+    let mut dice = Dice::new(7);
+    let mut met = 0;
+    for (curved, straight) in [
+        (CurvedPrism::linear(&pieces, -1.0, 2.0), crate::Prism::linear(&[corners], -1.0, 2.0)),
+        (CurvedPrism::conic(&pieces, -1.0, 2.0), crate::Prism::conic(&[corners], -1.0, 2.0)),
+    ] {
+        let (curved, straight) = (curved.unwrap(), straight.unwrap());
+        assert!(curved.inside_is_left.is_some());
+        assert_eq!(curved.bounds(), straight.bounds());
+        for _ in 0..1000 {
+            let from = (dice.vector() * 9.0).to_point();
+            let ray = Ray::new(from, (dice.vector() * 3.0).to_point() - from);
+            let (a, b) = (all_roots(&curved, &ray), all_roots(&straight, &ray));
+            assert_eq!(a.len(), b.len(), "{ray:?}");
+            for (a, b) in a.iter().zip(&b) {
+                assert!(a.sign == b.sign && a.face == b.face && a.lo <= b.hi && b.lo <= a.hi, "{a:?} {b:?}");
+            }
+            met += a.len();
+        }
+    }
+    assert!(met > 500, "{met}");
+}
+
+#[test]
+fn without_caps_the_walls_stay() {
+    for (outlines, _) in sets() {
+        let prism = CurvedPrism::linear(&outlines, 0.0, 1.0).unwrap();
+        let open = prism.clone().without_caps();
+        assert_eq!(open.solidity(), Solidity::Open);
+        let mut dice = Dice::new(8);
+        for _ in 0..100 {
+            let ray = Ray::new((dice.vector() * 9.0).to_point(), dice.vector());
+            let mut closed = all_roots(&prism, &ray);
+            closed.retain(|r| r.face == 0);
+            assert_eq!(all_roots(&open, &ray), closed);
+        }
+    }
+}
+
+#[test]
+fn bad_curved_prisms_are_named() {
+    let ring = round([0.0; 2], 1.0, 0.5);
+    assert_eq!(CurvedPrism::linear(&[] as &[Vec<Bezier>], 0.0, 1.0), Err(PrismError::Empty));
+    assert_eq!(CurvedPrism::linear(&[&ring], 1.0, 1.0), Err(PrismError::Heights(1.0, 1.0)));
+    assert_eq!(CurvedPrism::conic(&[&ring], 1.0, 1e308), Err(PrismError::TooLarge(1e308)));
+    assert_eq!(
+        CurvedPrism::linear(&[&ring, &ring[1..].to_vec()], 0.0, 1.0),
+        Err(PrismError::Gap { outline: 1, piece: 2 })
+    );
+    assert_eq!(
+        CurvedPrism::linear(&[[[[1.0, 1.0]; 4]]], 0.0, 1.0),
+        Err(PrismError::TooShort { outline: 0, len: 1 })
+    );
+    let mut far = ring.clone();
+    far[1][1] = [f64::NAN, 0.0];
+    assert!(matches!(CurvedPrism::linear(&[far], 0.0, 1.0), Err(PrismError::Point { .. })));
+}
