@@ -36,10 +36,12 @@
 //! [`Bvh::stats`] look at the result. A tree knows boxes and numbers, and of triangles their corners in f32: what else the things are is its caller's business.
 #![deny(unsafe_code)]
 
+mod batch;
 mod build;
 mod frame;
 mod kernels;
 mod node;
+mod quest;
 mod ray;
 mod shaft;
 mod stats;
@@ -49,6 +51,7 @@ mod tree;
 mod triangles;
 mod validate;
 
+pub use crate::batch::Rays;
 pub use crate::build::{CornersOf, Settings};
 pub use crate::frame::{Entry, Frame};
 pub use crate::node::{Leaf, MAX_ENTRIES};

@@ -2,16 +2,16 @@
 
 use crate::kernels::{Kernel, Scalar, Stack};
 use crate::node::{ChildRef, Leaf};
+use crate::quest::{Any, Closest, Pair, Quest, Reach};
 use crate::ray::{CullRay, Line};
 use crate::tree::Bvh;
-use crate::triangles::{Block, Filter};
 use durer_math::kernels::Path;
 use durer_math::{Isa, Point3, Vec3};
 
-/// What is done with a ray, for any kernel.
-trait Traversal {
+/// What is done with a tree, for any kernel.
+pub(crate) trait Errand {
     type Answer;
-    fn run<K: Kernel>(self, kernel: K, tree: &Bvh, line: &Line, ray: &CullRay) -> Self::Answer;
+    fn run<K: Kernel>(self, kernel: K, tree: &Bvh) -> Self::Answer;
 }
 
 impl Bvh {
@@ -29,7 +29,7 @@ impl Bvh {
         admits: impl Fn(Leaf) -> bool,
         test: impl FnMut(Leaf) -> f64,
     ) {
-        self.with_kernel(isa, line, Closest { admits, test });
+        self.with_kernel(isa, Single::<_, true> { line, quest: Closest(Pair { admits, test }) });
     }
 
     /// Shows what the ray might meet to `test`, until it says that it has found what it looked for; says whether it did, or
@@ -45,7 +45,7 @@ impl Bvh {
         trusts: impl Fn(Leaf) -> bool,
         test: impl FnMut(Leaf) -> bool,
     ) -> bool {
-        self.with_kernel(isa, line, Any { trusts, test }).unwrap_or(false)
+        self.with_kernel(isa, Single::<_, false> { line, quest: Any(Pair { admits: trusts, test }) })
     }
 
     /// Shows the leaves whose boxes may hold a point, known within `error` (per axis), to `test`, until it says that it
@@ -81,186 +81,71 @@ impl Bvh {
 
     /// Picks the kernel once and enters it through the one door.
     #[inline(always)]
-    fn with_kernel<T: Traversal>(&self, isa: Isa, line: &Line, traversal: T) -> Option<T::Answer> {
+    pub(crate) fn with_kernel<E: Errand>(&self, isa: Isa, errand: E) -> E::Answer {
         #[cfg(target_arch = "x86_64")]
         if let Some(kernel) = crate::kernels::Avx2::of(isa) {
             return isa.run(
                 #[inline(always)]
-                || self.enter(kernel, line, traversal),
+                || errand.run(kernel, self),
             );
         }
         if isa.path() == Path::Unfused {
-            return self.enter(Scalar::<false>, line, traversal);
+            return errand.run(Scalar::<false>, self);
         }
-        self.enter(Scalar::<true>, line, traversal)
-    }
-
-    #[inline(always)]
-    fn enter<K: Kernel, T: Traversal>(&self, kernel: K, line: &Line, traversal: T) -> Option<T::Answer> {
-        if self.is_empty() {
-            return None;
-        }
-        let ray = kernel.cull(self, line)?;
-        Some(traversal.run(kernel, self, line, &ray))
+        errand.run(Scalar::<true>, self)
     }
 }
 
-/// A triangle that the ray certainly meets, before any other that has been shown.
-#[derive(Clone, Copy)]
-struct Held {
-    leaf: Leaf,
-    lo: f32,
+/// One ray. The answer is whether it found what it looked for.
+struct Single<'a, Q, const ORDERED: bool> {
+    line: &'a Line,
+    quest: Q,
 }
 
-impl Held {
-    const NOTHING: Self = Self { leaf: Leaf { kind: 0, first: 0, count: 0 }, lo: f32::INFINITY };
-}
-
-struct Closest<A, F> {
-    admits: A,
-    test: F,
-}
-
-impl<A: Fn(Leaf) -> bool, F: FnMut(Leaf) -> f64> Traversal for Closest<A, F> {
-    type Answer = ();
-
-    #[inline(always)]
-    fn run<K: Kernel>(mut self, kernel: K, tree: &Bvh, line: &Line, ray: &CullRay) {
-        let lanes = kernel.lanes(ray);
-        let mut sight = None;
-        let mut stack = Stack::new();
-        // Nothing beyond `t_far` matters; a triangle held is not beyond it.
-        let mut t_far = ray.t_far;
-        let mut held = Held::NOTHING;
-        let mut child = ChildRef::node(0);
-        'ray: loop {
-            while !child.is_leaf() {
-                let node = &tree.nodes[child.index()];
-                match kernel.descend::<true>(node, &lanes, t_far, &mut stack) {
-                    Some(next) => child = next,
-                    None => match stack.pop_before(t_far) {
-                        Some(next) => child = next,
-                        None => break 'ray,
-                    },
-                }
-            }
-            match tree.block(child) {
-                None => t_far = t_far.min(ray.shortened((self.test)(tree.leaf(child)))),
-                Some((kind, block)) => {
-                    let (filter, sight) = sight.get_or_insert_with(
-                        #[inline(always)]
-                        || see(kernel, tree, line, ray),
-                    );
-                    let verdict = kernel.judge(block, filter, sight, t_far);
-                    let mut alive = verdict.alive;
-                    while alive != 0 {
-                        let lane = alive.trailing_zeros() as usize & 7;
-                        alive &= alive - 1;
-                        let (lo, hi) = (verdict.lo[lane], verdict.hi[lane]);
-                        // The limit may have come nearer since.
-                        if lo > t_far {
-                            continue;
-                        }
-                        let leaf = triangle(kind, block, lane);
-                        let is_sure = verdict.sure >> lane & 1 != 0 && (self.admits)(leaf);
-                        if is_sure && hi < held.lo {
-                            held = Held { leaf, lo };
-                            t_far = t_far.min(hi);
-                            continue;
-                        }
-                        // In doubt, or too near to the one held.
-                        if is_sure {
-                            t_far = t_far.min(ray.shortened((self.test)(held.leaf)));
-                            held = Held::NOTHING;
-                            if lo > t_far {
-                                continue;
-                            }
-                        }
-                        t_far = t_far.min(ray.shortened((self.test)(leaf)));
-                        if held.lo > t_far {
-                            held = Held::NOTHING;
-                        }
-                    }
-                }
-            }
-            match stack.pop_before(t_far) {
-                Some(next) => child = next,
-                None => break,
-            }
-        }
-        if held.lo < f32::INFINITY {
-            (self.test)(held.leaf);
-        }
-    }
-}
-
-/// What triangles need to know of a ray: many rays come to none.
-#[inline(always)]
-fn see<K: Kernel>(kernel: K, tree: &Bvh, line: &Line, ray: &CullRay) -> (Filter, K::Sight) {
-    let filter = Filter::new(line, ray, tree.rounded);
-    let sight = kernel.sight(&filter);
-    (filter, sight)
-}
-
-/// A triangle of a block.
-#[inline(always)]
-fn triangle(kind: u32, block: &Block, lane: usize) -> Leaf {
-    Leaf { kind, first: block.slot(lane), count: 1 }
-}
-
-struct Any<A, F> {
-    trusts: A,
-    test: F,
-}
-
-impl<A: Fn(Leaf) -> bool, F: FnMut(Leaf) -> bool> Traversal for Any<A, F> {
+impl<Q: Quest<ORDERED>, const ORDERED: bool> Errand for Single<'_, Q, ORDERED> {
     type Answer = bool;
 
     #[inline(always)]
-    fn run<K: Kernel>(mut self, kernel: K, tree: &Bvh, line: &Line, ray: &CullRay) -> bool {
-        let lanes = kernel.lanes(ray);
-        let mut sight = None;
-        let mut stack = Stack::new();
-        let mut child = ChildRef::node(0);
-        loop {
-            while !child.is_leaf() {
-                let node = &tree.nodes[child.index()];
-                match kernel.descend::<false>(node, &lanes, ray.t_far, &mut stack) {
+    fn run<K: Kernel>(self, kernel: K, tree: &Bvh) -> bool {
+        if tree.is_empty() {
+            return false;
+        }
+        let Some(ray) = kernel.cull(tree, self.line) else { return false };
+        follow(kernel, tree, self.line, &ray, self.quest)
+    }
+}
+
+#[inline(always)]
+fn follow<K: Kernel, Q: Quest<ORDERED>, const ORDERED: bool>(
+    kernel: K,
+    tree: &Bvh,
+    line: &Line,
+    ray: &CullRay,
+    mut quest: Q,
+) -> bool {
+    let lanes = kernel.lanes(ray);
+    let mut filter = None;
+    let mut stack = Stack::new();
+    let mut reach = Reach::of(ray);
+    let mut child = ChildRef::node(0);
+    'ray: loop {
+        while !child.is_leaf() {
+            let node = &tree.nodes[child.index()];
+            match kernel.descend::<ORDERED>(node, &lanes, reach.t_far, &mut stack) {
+                Some(next) => child = next,
+                None => match stack.pop_before(reach.t_far) {
                     Some(next) => child = next,
-                    None => match stack.pop() {
-                        Some((next, _)) => child = next,
-                        None => return false,
-                    },
-                }
-            }
-            match tree.block(child) {
-                None => {
-                    if (self.test)(tree.leaf(child)) {
-                        return true;
-                    }
-                }
-                Some((kind, block)) => {
-                    let (filter, sight) = sight.get_or_insert_with(
-                        #[inline(always)]
-                        || see(kernel, tree, line, ray),
-                    );
-                    let verdict = kernel.judge(block, filter, sight, ray.t_far);
-                    let mut alive = verdict.alive;
-                    while alive != 0 {
-                        let lane = alive.trailing_zeros() as usize & 7;
-                        alive &= alive - 1;
-                        let leaf = triangle(kind, block, lane);
-                        let is_sure = verdict.sure >> lane & 1 != 0 && (self.trusts)(leaf);
-                        if is_sure || (self.test)(leaf) {
-                            return true;
-                        }
-                    }
-                }
-            }
-            match stack.pop() {
-                Some((next, _)) => child = next,
-                None => return false,
+                    None => break 'ray,
+                },
             }
         }
+        if quest.leaf(kernel, tree, line, ray, child, &mut filter, &mut reach) {
+            return true;
+        }
+        match stack.pop_before(reach.t_far) {
+            Some(next) => child = next,
+            None => break,
+        }
     }
+    quest.end(&reach)
 }

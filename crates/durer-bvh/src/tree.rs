@@ -138,6 +138,19 @@ impl Bvh {
         Some((kind as u32, &self.blocks[(first + at) as usize]))
     }
 
+    /// How many bytes rays may read.
+    pub(crate) fn held(&self) -> usize {
+        size_of_val(self.nodes.as_slice()) + size_of_val(self.blocks.as_slice())
+    }
+
+    /// Where in memory a child begins, for prefetching: right for nodes, and for blocks if there is one kind.
+    #[inline(always)]
+    pub(crate) fn place(&self, child: ChildRef) -> *const u8 {
+        let node = self.nodes.as_ptr().wrapping_add(child.index()).cast::<u8>();
+        let block = self.blocks.as_ptr().wrapping_add(child.slots().0 as usize).cast::<u8>();
+        if child.is_leaf() { block } else { node }
+    }
+
     #[inline(always)]
     pub(crate) fn cull(&self, line: &Line, rounding: Rounding) -> Option<CullRay> {
         if self.is_empty() {

@@ -1,12 +1,12 @@
 //! Traces the rays of the comparison with other ray kernels, and prints what the other programs print.
 //!
 //! ```text
-//! cargo run --release -p durer-bvh --example peer_rays -- MESH.tri --load DIR [--threads N] [--repeats N] [--quality good] [--json]
+//! cargo run --release -p durer-bvh --example peer_rays -- MESH.tri --load DIR [--threads N] [--repeats N] [--builds N] [--modes single,batch] [--quality good] [--json]
 //! ```
 //!
 //! `DIR` holds `primary ao diffuse random` as `.rays` and the reference answers as `.hits`. The answers here are those of exact arithmetic on the
-//! coordinates of the file. Without `--threads`: one thread, then all. `--json` leaves out the table. Batches are single rays one after
-//! another so far.
+//! coordinates of the file. Without `--threads`: one thread, then all. `--json` leaves out the table. Batches are
+//! rays that are under way at the same time, with the same answers as alone.
 
 mod files;
 mod report;
@@ -30,15 +30,18 @@ struct Options {
     load: PathBuf,
     threads: Option<usize>,
     repeats: usize,
+    builds: usize,
+    modes: String,
     quality: String,
     json: bool,
 }
 
 fn options() -> Result<Options, String> {
-    let usage = "usage: peer_rays MESH.tri --load DIR [--threads N] [--repeats N] [--quality good] [--json]";
+    let usage = "usage: peer_rays MESH.tri --load DIR [--threads N] [--repeats N] [--builds N] [--modes single,batch] [--quality good] [--json]";
     let mut args = std::env::args().skip(1);
     let (mut mesh, mut load) = (None, None);
-    let (mut threads, mut repeats, mut quality, mut json) = (None, 5, "good".to_owned(), false);
+    let (mut threads, mut repeats, mut builds, mut json) = (None, 5, 3, false);
+    let (mut modes, mut quality) = ("single,batch".to_owned(), "good".to_owned());
     while let Some(arg) = args.next() {
         let mut value = || args.next().ok_or_else(|| format!("{arg} wants a value\n{usage}"));
         let number = |text: String| match text.parse::<usize>() {
@@ -49,6 +52,8 @@ fn options() -> Result<Options, String> {
             "--load" => load = Some(PathBuf::from(value()?)),
             "--threads" => threads = Some(number(value()?)?),
             "--repeats" => repeats = number(value()?)?,
+            "--builds" => builds = number(value()?)?,
+            "--modes" => modes = value()?,
             "--quality" => quality = value()?,
             "--json" => json = true,
             _ if arg.starts_with('-') => return Err(format!("unknown option {arg}\n{usage}")),
@@ -56,7 +61,7 @@ fn options() -> Result<Options, String> {
         }
     }
     let (Some(mesh), Some(load)) = (mesh, load) else { return Err(usage.to_owned()) };
-    Ok(Options { mesh, load, threads, repeats, quality, json })
+    Ok(Options { mesh, load, threads, repeats, builds, modes, quality, json })
 }
 
 /// Traces some rays and puts down `t` and the triangle of each; for any-hit queries `t` is 0 or infinite.
@@ -116,7 +121,7 @@ fn run() -> Result<(), String> {
     for &n in &threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build().map_err(|e| e.to_string())?;
         let mut times = Vec::new();
-        for _ in 0..3 {
+        for _ in 0..options.builds {
             let start = Instant::now();
             let world = pool.install(|| World::build(&mesh, exact, &settings));
             times.push(start.elapsed().as_secs_f64() * 1e3);
@@ -127,7 +132,7 @@ fn run() -> Result<(), String> {
     let world = World::build(&mesh, exact, &settings);
     report.memory(world.bytes());
 
-    for mode in ["single", "batch"] {
+    for mode in ["single", "batch"].into_iter().filter(|&mode| options.modes.split(',').any(|m| m == mode)) {
         for work in WORKLOADS {
             let file = |ending: &str| options.load.join(format!("{work}.{ending}"));
             let rays = files::rays(&file("rays")).map_err(text)?;

@@ -1,7 +1,7 @@
 //! The mesh and its tree.
 
 use crate::files::{MISS, Mesh, PeerRay};
-use durer_bvh::{Bvh, Frame, Leaf, Line, Settings};
+use durer_bvh::{Bvh, Frame, Leaf, Line, Rays, Settings};
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Isa, Point3, Ray, Vec3};
 use durer_surfaces::{Closest, LocalRay, MeshData, PartId, Surface};
@@ -53,15 +53,16 @@ impl World {
         self.tree.stats().bytes + self.numbers.capacity() * size_of::<u32>()
     }
 
+    /// The line of a ray, whose parameter is `2^k` times that of the ray.
     #[inline(always)]
-    fn ray(r: &PeerRay) -> (Ray, Line, i32) {
-        let (t_min, t_max) = (f64::from(r.t_near), f64::from(r.t_far));
-        let direction = Vec3::from(r.direction.map(f64::from));
-        let ray = Ray::new(point(r.origin), direction).with_range(t_min, t_max);
+    fn line(r: &PeerRay) -> (Line, i32) {
+        let [x, y, z] = r.direction;
+        let direction = Vec3::new(f64::from(x), f64::from(y), f64::from(z));
         let k = exponent(direction.max_abs());
-        let (t_min, t_max) = (scale2(t_min, k), scale2(t_max, k));
+        let (t_min, t_max) = (scale2(f64::from(r.t_near), k), scale2(f64::from(r.t_far), k));
+        let [x, y, z] = r.origin;
         let line = Line {
-            origin: ray.origin,
+            origin: Point3::new(f64::from(x), f64::from(y), f64::from(z)),
             direction: direction.scale2(-k),
             origin_error: Vec3::ZERO,
             direction_error: Vec3::ZERO,
@@ -69,17 +70,20 @@ impl World {
             t_max,
             inner: (t_min, t_max),
         };
-        (ray, line, k)
+        (line, k)
     }
 
     /// Where the ray meets one triangle, if it does.
     #[inline(never)]
-    fn exactly(&self, isa: Isa, ray: &Ray, number: u32) -> Option<f64> {
+    fn exactly(&self, isa: Isa, r: &PeerRay, number: u32) -> Option<f64> {
         isa.run(
             #[inline(always)]
             || {
+                let direction = Vec3::from(r.direction.map(f64::from));
+                let ray =
+                    Ray::new(point(r.origin), direction).with_range(f64::from(r.t_near), f64::from(r.t_far));
                 let mut sink = Closest::default();
-                self.exact.part_roots(PartId(number), &LocalRay::new(ray), &mut sink);
+                self.exact.part_roots(PartId(number), &LocalRay::new(&ray), &mut sink);
                 sink.root.map(|root| root.t)
             },
         )
@@ -87,7 +91,7 @@ impl World {
 
     #[inline(always)]
     fn closest_one(&self, isa: Isa, r: &PeerRay) -> (f32, u32) {
-        let (ray, line, k) = Self::ray(r);
+        let (line, k) = Self::line(r);
         let mut best = (f64::INFINITY, MISS);
         self.tree.closest(
             isa,
@@ -97,7 +101,7 @@ impl World {
             #[inline(always)]
             |leaf: Leaf| {
                 let number = self.numbers[leaf.first as usize];
-                if let Some(t) = self.exactly(isa, &ray, number)
+                if let Some(t) = self.exactly(isa, r, number)
                     && (t, number) < best
                 {
                     best = (t, number);
@@ -110,14 +114,14 @@ impl World {
 
     #[inline(always)]
     fn any_one(&self, isa: Isa, r: &PeerRay) -> bool {
-        let (ray, line, _) = Self::ray(r);
+        let (line, _) = Self::line(r);
         self.tree.any(
             isa,
             &line,
             #[inline(always)]
             |_| true,
             #[inline(always)]
-            |leaf: Leaf| self.exactly(isa, &ray, self.numbers[leaf.first as usize]).is_some(),
+            |leaf: Leaf| self.exactly(isa, r, self.numbers[leaf.first as usize]).is_some(),
         )
     }
 
@@ -145,10 +149,82 @@ impl World {
     }
 
     pub(crate) fn closest_batch(&self, isa: Isa, rays: &[PeerRay], t: &mut [f32], triangle: &mut [u32]) {
-        self.closest(isa, rays, t, triangle);
+        let mut batch =
+            ClosestOfEach { world: self, isa, rays, best: vec![(f64::INFINITY, MISS); rays.len()] };
+        self.tree.closest_of_each(isa, rays.len(), &mut batch);
+        for (i, &(at, number)) in batch.best.iter().enumerate() {
+            (t[i], triangle[i]) = (at as f32, number);
+        }
     }
 
     pub(crate) fn any_batch(&self, isa: Isa, rays: &[PeerRay], t: &mut [f32], triangle: &mut [u32]) {
-        self.any(isa, rays, t, triangle);
+        t.fill(f32::INFINITY);
+        triangle.fill(MISS);
+        self.tree.any_of_each(isa, rays.len(), &mut AnyOfEach { world: self, isa, rays, t, triangle });
+    }
+}
+
+struct ClosestOfEach<'a> {
+    world: &'a World,
+    isa: Isa,
+    rays: &'a [PeerRay],
+    best: Vec<(f64, u32)>,
+}
+
+impl Rays<f64> for ClosestOfEach<'_> {
+    #[inline(always)]
+    fn line(&mut self, ray: usize) -> Option<Line> {
+        Some(World::line(&self.rays[ray]).0)
+    }
+
+    #[inline(always)]
+    fn admits(&self, _: usize, _: Leaf) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn test(&mut self, ray: usize, leaf: Leaf) -> f64 {
+        let number = self.world.numbers[leaf.first as usize];
+        let (r, best) = (&self.rays[ray], &mut self.best[ray]);
+        if let Some(t) = self.world.exactly(self.isa, r, number)
+            && (t, number) < *best
+        {
+            *best = (t, number);
+        }
+        scale2(best.0, World::line(r).1).next_up()
+    }
+
+    #[inline(always)]
+    fn found(&mut self, _: usize) {}
+}
+
+struct AnyOfEach<'a> {
+    world: &'a World,
+    isa: Isa,
+    rays: &'a [PeerRay],
+    t: &'a mut [f32],
+    triangle: &'a mut [u32],
+}
+
+impl Rays<bool> for AnyOfEach<'_> {
+    #[inline(always)]
+    fn line(&mut self, ray: usize) -> Option<Line> {
+        Some(World::line(&self.rays[ray]).0)
+    }
+
+    #[inline(always)]
+    fn admits(&self, _: usize, _: Leaf) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn test(&mut self, ray: usize, leaf: Leaf) -> bool {
+        let number = self.world.numbers[leaf.first as usize];
+        self.world.exactly(self.isa, &self.rays[ray], number).is_some()
+    }
+
+    #[inline(always)]
+    fn found(&mut self, ray: usize) {
+        (self.t[ray], self.triangle[ray]) = (0.0, 0);
     }
 }

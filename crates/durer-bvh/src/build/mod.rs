@@ -1,6 +1,6 @@
-//! The builder: binned SAH, straight into eight children.
+//! The builder: binned SAH, straight into eight children; near the leaves, [optimal](collapse) ones.
 //!
-//! Each node starts as one range and keeps splitting the child with the largest surface until there are eight, by the surface area
+//! Each node of many entries starts as one range and keeps splitting the child with the largest surface until there are eight, by the surface area
 //! heuristic over bins (I. Wald, "On fast construction of SAH-based bounding volume hierarchies", IEEE Symposium on Interactive
 //! Ray Tracing, 2007; I. Wald, C. Benthin, S. Boulos, "Getting rid of packets", same, 2008, for the wide collapse). A leaf holds one
 //! kind of thing only, so that it is one call. The result is a function of the entries and their order alone: threads share out
@@ -9,10 +9,11 @@
 //! Depth is bounded: from level [`BALANCED_FROM`] on ranges are halved by count.
 
 mod area;
+mod collapse;
 mod split;
 
 use crate::frame::{Entry, Frame};
-use crate::kernels::MAX_DEPTH;
+use crate::kernels::{MAX_DEPTH, in_large_pages};
 use crate::node::{ChildRef, MAX_ENTRIES, MAX_LEAF, Node8, WIDTH};
 use crate::tree::Bvh;
 use crate::triangles::{Block, Corners, LANES};
@@ -65,6 +66,11 @@ impl<'a> Costs<'a> {
         let Settings { max_leaf, test_cost, leaf_cost } = *settings;
         let most = if shapes.iter().any(Option::is_some) { LANES } else { MAX_LEAF };
         Self { max_leaf: max_leaf.clamp(1, most), test: test_cost, leaf: leaf_cost, shapes }
+    }
+
+    /// Whether a range can be a leaf.
+    fn may_be_leaf(&self, entries: &[Entry]) -> bool {
+        entries.len() <= self.max_leaf && split::is_one_kind(entries)
     }
 
     /// What a range costs, as its first entry tells: mostly all of it is of one kind, and a leaf always is.
@@ -140,6 +146,10 @@ fn subtree(
     costs: &Costs<'_>,
     nodes: &mut Vec<Node8>,
 ) {
+    if whole.len < collapse::COLLAPSED && level < collapse::BALANCED_FROM {
+        collapse::subtree(entries, base, &whole.extent, level, costs, nodes);
+        return;
+    }
     let mut ranges = [*whole; WIDTH];
     ranges[0].first = 0;
     let mut count = 1;
@@ -205,6 +215,7 @@ fn subtree(
             })
             .collect();
         nodes.reserve_exact(grown.iter().map(|(_, subtree)| subtree.len()).sum());
+        in_large_pages(nodes);
         for (slot, mut subtree) in grown {
             let offset = nodes.len();
             node.child[slot] = ChildRef::node(offset);
@@ -275,6 +286,7 @@ impl Bvh {
             starts[entry.kind() as usize + 1] += 1;
         }
         let mut order: Vec<Vec<u32>> = starts[1..].iter().map(|&n| Vec::with_capacity(n as usize)).collect();
+        order.iter().for_each(in_large_pages);
         for kind in 0..kinds {
             starts[kind + 1] += starts[kind];
         }
@@ -316,6 +328,8 @@ impl Bvh {
         shapes: &[Option<CornersOf<'_>>],
     ) {
         let frame = self.frame;
+        self.blocks.reserve_exact(leaves.iter().map(Vec::len).sum());
+        in_large_pages(&self.blocks);
         let mut first = 0;
         for (kind, corners) in shapes.iter().enumerate() {
             self.kinds[kind].first = first;

@@ -11,7 +11,7 @@ use core::arch::x86_64::*;
 use durer_math::kernels::Path;
 use durer_math::{Isa, Point3, Vec3};
 
-/// Proof that this CPU has AVX2, FMA and POPCNT.
+/// Proof that this CPU has all that [`Path::Avx2`] asks for: AVX2, FMA, BMI1 and 2, LZCNT and POPCNT.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx2(());
 
@@ -30,15 +30,9 @@ pub(crate) struct Lanes {
     far: [__m256; 3],
     t_near: __m256,
     /// Which of a node's six plane arrays is the near one of each axis; the far one is three off.
-    near_plane: [usize; 3],
-    far_plane: [usize; 3],
+    near_plane: [u8; 3],
+    far_plane: [u8; 3],
     octant_shift: u32,
-}
-
-/// The ray as triangles see it, in all lanes.
-pub(crate) struct Sight {
-    o: [__m256; 3],
-    d: [__m256; 3],
 }
 
 /// For each set of lanes the lanes in it, in order, one per byte: what `vpcompressd` does, from a table.
@@ -59,9 +53,25 @@ static COMPRESS: [u64; 256] = {
     table
 };
 
+/// The near planes of rays of each octant, and the far ones.
+static PLANES: [[[u8; 3]; 2]; 8] = {
+    let mut table = [[[0, 1, 2], [3, 4, 5]]; 8];
+    let mut octant = 0;
+    while octant < 8 {
+        let mut axis = 0;
+        while axis < 3 {
+            if octant >> axis & 1 == 1 {
+                (table[octant][0][axis], table[octant][1][axis]) = (3 + axis as u8, axis as u8);
+            }
+            axis += 1;
+        }
+        octant += 1;
+    }
+    table
+};
+
 impl Kernel for Avx2 {
     type Lanes = Lanes;
-    type Sight = Sight;
 
     #[inline(always)]
     fn cull(self, tree: &Bvh, line: &Line) -> Option<CullRay> {
@@ -70,20 +80,25 @@ impl Kernel for Avx2 {
         if nearby.is_some() {
             return nearby;
         }
-        if line.origin_error != Vec3::ZERO || line.direction_error != Vec3::ZERO {
-            return tree.cull(line, Rounding::Fused);
-        }
-        // SAFETY: as below.
-        match unsafe { clip(tree, line) } {
-            Clipped::Missed => None,
-            Clipped::Enters(ray) => Some(ray),
-            Clipped::Unusual => tree.cull(line, Rounding::Fused),
-        }
+        self.apart(
+            #[inline(always)]
+            || {
+                if line.origin_error != Vec3::ZERO || line.direction_error != Vec3::ZERO {
+                    return tree.cull(line, Rounding::Fused);
+                }
+                // SAFETY: as below.
+                match unsafe { clip(tree, line) } {
+                    Clipped::Missed => None,
+                    Clipped::Enters(ray) => Some(ray),
+                    Clipped::Unusual => tree.cull(line, Rounding::Fused),
+                }
+            },
+        )
     }
 
     #[inline(always)]
     fn lanes(self, ray: &CullRay) -> Lanes {
-        // SAFETY: `self` exists, so an `Isa` has seen AVX2 and FMA on this CPU.
+        // SAFETY: `self` exists, so an `Isa` has seen all of its features on this CPU.
         unsafe { lanes(ray) }
     }
 
@@ -100,15 +115,24 @@ impl Kernel for Avx2 {
     }
 
     #[inline(always)]
-    fn sight(self, filter: &Filter) -> Sight {
+    fn judge(self, block: &Block, filter: &Filter, t_far: f32) -> Verdict {
         // SAFETY: as above.
-        unsafe { sight(filter) }
+        unsafe { judge(block, filter, t_far) }
     }
 
     #[inline(always)]
-    fn judge(self, block: &Block, filter: &Filter, sight: &Sight, t_far: f32) -> Verdict {
+    fn apart<R>(self, f: impl FnOnce() -> R) -> R {
         // SAFETY: as above.
-        unsafe { judge(block, filter, sight, t_far) }
+        unsafe { apart(f) }
+    }
+
+    #[inline(always)]
+    fn fetch(self, tree: &Bvh, child: ChildRef) {
+        let place = tree.place(child);
+        for line in 0..size_of::<Block>() / 64 {
+            // SAFETY: a prefetch reads nothing that the program could see, whatever the address.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(place.wrapping_add(64 * line).cast()) };
+        }
     }
 }
 
@@ -293,13 +317,7 @@ fn least(x: __m256d) -> f64 {
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 fn lanes(ray: &CullRay) -> Lanes {
-    let mut near_plane = [0, 1, 2];
-    let mut far_plane = [3, 4, 5];
-    for i in 0..3 {
-        let sign = ray.octant as usize >> i & 1;
-        near_plane[i] += 3 * sign;
-        far_plane[i] -= 3 * sign;
-    }
+    let [near_plane, far_plane] = PLANES[ray.octant as usize & 7];
     Lanes {
         r: [_mm256_set1_ps(ray.r[0]), _mm256_set1_ps(ray.r[1]), _mm256_set1_ps(ray.r[2])],
         near: [_mm256_set1_ps(ray.near[0]), _mm256_set1_ps(ray.near[1]), _mm256_set1_ps(ray.near[2])],
@@ -322,10 +340,10 @@ struct Met {
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 fn slabs<const ORDERED: bool>(node: &Node8, lanes: &Lanes, t_far: f32) -> Met {
-    let plane = |i: usize, axis: usize, c: &[__m256; 3]| {
-        // SAFETY: `i < 6` by construction of `near_plane` and `far_plane`, and a row holds eight f32, aligned to 32 bytes in a node
+    let plane = |i: u8, axis: usize, c: &[__m256; 3]| {
+        // SAFETY: `i < 6` as in `PLANES`, and a row holds eight f32, aligned to 32 bytes in a node
         // aligned to 64.
-        let planes = unsafe { _mm256_load_ps(node.planes.get_unchecked(i).as_ptr()) };
+        let planes = unsafe { _mm256_load_ps(node.planes.get_unchecked(usize::from(i)).as_ptr()) };
         _mm256_fmadd_ps(planes, lanes.r[axis], c[axis])
     };
     let [nx, ny, nz] = lanes.near_plane;
@@ -386,13 +404,10 @@ fn descend<const ORDERED: bool>(
     Some(ChildRef(children.0[last as usize & (WIDTH - 1)]))
 }
 
-#[inline]
-#[target_feature(enable = "avx2,fma")]
-fn sight(filter: &Filter) -> Sight {
-    Sight {
-        o: [_mm256_set1_ps(filter.o[0]), _mm256_set1_ps(filter.o[1]), _mm256_set1_ps(filter.o[2])],
-        d: [_mm256_set1_ps(filter.d[0]), _mm256_set1_ps(filter.d[1]), _mm256_set1_ps(filter.d[2])],
-    }
+#[inline(never)]
+#[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+fn apart<R>(f: impl FnOnce() -> R) -> R {
+    f()
 }
 
 /// Three products: one rounded, two fused.
@@ -412,7 +427,9 @@ fn cross(a: &[__m256; 3], b: &[__m256; 3]) -> [__m256; 3] {
 /// What `Scalar::judge` does, eight triangles at once. Most blocks end at the first test.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-fn judge(block: &Block, filter: &Filter, sight: &Sight, t_far: f32) -> Verdict {
+fn judge(block: &Block, filter: &Filter, t_far: f32) -> Verdict {
+    let spread = |v: &[f32; 4]| [_mm256_set1_ps(v[0]), _mm256_set1_ps(v[1]), _mm256_set1_ps(v[2])];
+    let (start, direction) = (spread(&filter.o), spread(&filter.d));
     let row = |r: usize| {
         // SAFETY: a row holds eight f32, aligned to 32 bytes in a block aligned to 64.
         let load = |r: usize| unsafe { _mm256_load_ps(block.rows[r].as_ptr()) };
@@ -422,13 +439,13 @@ fn judge(block: &Block, filter: &Filter, sight: &Sight, t_far: f32) -> Verdict {
         [_mm256_sub_ps(a[0], b[0]), _mm256_sub_ps(a[1], b[1]), _mm256_sub_ps(a[2], b[2])]
     };
     let v = row(0);
-    let (c, e1, e2) = (difference(&v, &sight.o), difference(&row(3), &v), difference(&row(6), &v));
+    let (c, e1, e2) = (difference(&v, &start), difference(&row(3), &v), difference(&row(6), &v));
     let extent = block.size();
     let slack = extent.mul_add(filter.b.mul_add(extent, filter.a), filter.g);
     let minus = _mm256_set1_ps(-0.0);
-    let (r, n) = (cross(&c, &sight.d), cross(&e1, &e2));
+    let (r, n) = (cross(&c, &direction), cross(&e1, &e2));
     let (u, v) = (dot(&r, &e2), _mm256_xor_ps(minus, dot(&r, &e1)));
-    let d = dot(&sight.d, &n);
+    let d = dot(&direction, &n);
     let w = _mm256_sub_ps(_mm256_sub_ps(d, u), v);
     let least = _mm256_min_ps(_mm256_min_ps(u, v), w);
     let most = _mm256_max_ps(_mm256_max_ps(u, v), w);

@@ -3,11 +3,13 @@
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
+mod pages;
 mod scalar;
 mod stack;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::Avx2;
+pub(crate) use pages::in_large_pages;
 pub(crate) use scalar::Scalar;
 pub(crate) use stack::{MAX_DEPTH, Stack};
 
@@ -22,8 +24,6 @@ use crate::triangles::{Block, Filter, Verdict};
 pub(crate) trait Kernel: Copy {
     /// The ray, spread over the lanes.
     type Lanes;
-    /// The ray as triangles see it, spread over the lanes.
-    type Sight;
 
     /// What the tests need of a line, clipped to the tree's box or not; `None` if it certainly misses that.
     fn cull(self, tree: &Bvh, line: &Line) -> Option<CullRay>;
@@ -41,11 +41,15 @@ pub(crate) trait Kernel: Copy {
         stack: &mut Stack,
     ) -> Option<ChildRef>;
 
-    /// Spreads the ray.
-    fn sight(self, filter: &Filter) -> Self::Sight;
-
     /// What can be said of eight triangles, of crossings up to `t_far`.
-    fn judge(self, block: &Block, filter: &Filter, sight: &Self::Sight, t_far: f32) -> Verdict;
+    fn judge(self, block: &Block, filter: &Filter, t_far: f32) -> Verdict;
+
+    /// Runs what few steps need, compiled for the same instructions but apart from the code around it: else compilers do parts of it
+    /// ahead, for every ray.
+    fn apart<R>(self, f: impl FnOnce() -> R) -> R;
+
+    /// Asks for what a step into a child will read.
+    fn fetch(self, tree: &Bvh, child: ChildRef);
 }
 
 #[cfg(all(test, target_arch = "x86_64"))]

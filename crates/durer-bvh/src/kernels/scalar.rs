@@ -51,7 +51,6 @@ impl<const FUSED: bool> Scalar<FUSED> {
 
 impl<const FUSED: bool> Kernel for Scalar<FUSED> {
     type Lanes = CullRay;
-    type Sight = ();
 
     #[inline(always)]
     fn cull(self, tree: &Bvh, line: &Line) -> Option<CullRay> {
@@ -85,10 +84,7 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
     }
 
     #[inline(always)]
-    fn sight(self, _: &Filter) {}
-
-    #[inline(always)]
-    fn judge(self, block: &Block, filter: &Filter, (): &(), t_far: f32) -> Verdict {
+    fn judge(self, block: &Block, filter: &Filter, t_far: f32) -> Verdict {
         let fma = |a: f32, b: f32, c: f32| if FUSED { a.mul_add(b, c) } else { a * b + c };
         let dot = |a: &[f32; 3], b: &[f32; 3]| fma(a[2], b[2], fma(a[1], b[1], a[0] * b[0]));
         let cross = |a: &[f32; 3], b: &[f32; 3]| {
@@ -132,4 +128,12 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
         }
         verdict
     }
+
+    #[inline(never)]
+    fn apart<R>(self, f: impl FnOnce() -> R) -> R {
+        f()
+    }
+
+    #[inline(always)]
+    fn fetch(self, _: &Bvh, _: ChildRef) {}
 }

@@ -29,6 +29,11 @@ impl Stack {
     }
 
     #[inline(always)]
+    pub(crate) fn clear(&mut self) {
+        self.len = 0;
+    }
+
+    #[inline(always)]
     pub(crate) fn push(&mut self, child: ChildRef, near: f32) {
         assert!(self.len < CAPACITY, "the builder bounds the depth");
         self.refs[self.len].write(child.0);

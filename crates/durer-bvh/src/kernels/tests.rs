@@ -96,8 +96,8 @@ proptest! {
         let Some(ray) = CullRay::new(&line, frame, &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
         let ray = CullRay { t_near, is_exact, ..ray };
         let filter = Filter::new(&line, &ray, rounded);
-        let one = Scalar::<true>.judge(&block, &filter, &(), far);
-        let eight = avx2.judge(&block, &filter, &avx2.sight(&filter), far);
+        let one = Scalar::<true>.judge(&block, &filter, far);
+        let eight = avx2.judge(&block, &filter, far);
         prop_assert_eq!((one.alive, one.sure), (eight.alive, eight.sure));
         for lane in (0..8).filter(|lane| one.alive >> lane & 1 != 0) {
             prop_assert_eq!(one.lo[lane].to_bits(), eight.lo[lane].to_bits());

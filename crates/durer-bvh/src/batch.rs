@@ -1,0 +1,232 @@
+//! Many rays at once: while one waits for memory, or for its own last step, others go on.
+//!
+//! Each step of a ray through a tree depends on the one before, so that a single ray leaves most of a CPU idle, and all of it while what
+//! it needs is not in the cache. Here some rays are under way at a time, each takes one step in turn, and what its next step will read is fetched
+//! meanwhile (O. Kocberber, B. Falsafi, B. Grot, "Asynchronous memory access chaining", Proceedings of the VLDB Endowment 9(4), 2015). Each
+//! ray takes the very steps that it takes alone.
+
+use crate::kernels::{Kernel, Stack};
+use crate::node::{ChildRef, Leaf};
+use crate::quest::{Answers, Any, Closest, Quest, Reach};
+use crate::ray::{CullRay, Line};
+use crate::traverse::Errand;
+use crate::tree::Bvh;
+use crate::triangles::Filter;
+use core::marker::PhantomData;
+use durer_math::Isa;
+
+/// How many rays are under way in trees that a cache near the CPU holds, and in larger ones, where each step takes longer.
+const FLIGHTS: (usize, usize) = (8, 16);
+
+/// A tree of more bytes than this is large.
+const LARGE: usize = 1 << 24;
+
+/// Rays by their numbers.
+///
+/// `R` is what a test says: for the closest hit the parameter beyond which nothing matters any more; for any hit, whether it was one.
+pub trait Rays<R> {
+    /// The line of a ray, asked for once, before its first test; `None` if it is to meet nothing.
+    fn line(&mut self, ray: usize) -> Option<Line>;
+
+    /// Whether a triangle that a ray certainly meets within its range counts.
+    fn admits(&self, ray: usize, triangle: Leaf) -> bool;
+
+    /// Tests what a ray may meet.
+    fn test(&mut self, ray: usize, leaf: Leaf) -> R;
+
+    /// The ray has found what it looked for, or a triangle that it certainly meets: only of any hit.
+    fn found(&mut self, ray: usize);
+}
+
+impl Bvh {
+    /// [`Bvh::closest`] of the rays `0..count`, each shown the same, in the same order, as if it were alone.
+    #[inline(always)]
+    pub fn closest_of_each(&self, isa: Isa, count: usize, rays: &mut impl Rays<f64>) {
+        self.with_kernel(isa, Many::<_, ForClosest, true> { count, rays, aim: PhantomData });
+    }
+
+    /// [`Bvh::any`] of the rays `0..count`, each shown the same, in the same order, as if it were alone.
+    #[inline(always)]
+    pub fn any_of_each(&self, isa: Isa, count: usize, rays: &mut impl Rays<bool>) {
+        self.with_kernel(isa, Many::<_, ForAny, false> { count, rays, aim: PhantomData });
+    }
+}
+
+/// What all rays look for.
+trait Aim<const ORDERED: bool> {
+    /// What a test says.
+    type Said;
+
+    fn quest(one: impl Answers<Self::Said>) -> impl Quest<ORDERED>;
+}
+
+struct ForClosest;
+struct ForAny;
+
+impl Aim<true> for ForClosest {
+    type Said = f64;
+
+    #[inline(always)]
+    fn quest(one: impl Answers<f64>) -> impl Quest<true> {
+        Closest(one)
+    }
+}
+
+impl Aim<false> for ForAny {
+    type Said = bool;
+
+    #[inline(always)]
+    fn quest(one: impl Answers<bool>) -> impl Quest<false> {
+        Any(one)
+    }
+}
+
+/// One of many rays.
+struct One<'a, B> {
+    rays: &'a mut B,
+    ray: usize,
+}
+
+impl<R, B: Rays<R>> Answers<R> for One<'_, B> {
+    #[inline(always)]
+    fn admits(&self, triangle: Leaf) -> bool {
+        self.rays.admits(self.ray, triangle)
+    }
+
+    #[inline(always)]
+    fn test(&mut self, leaf: Leaf) -> R {
+        self.rays.test(self.ray, leaf)
+    }
+}
+
+/// A ray under way.
+struct Flight<K: Kernel> {
+    number: usize,
+    line: Line,
+    ray: CullRay,
+    lanes: K::Lanes,
+    filter: Option<Filter>,
+    reach: Reach,
+    child: ChildRef,
+    stack: Stack,
+}
+
+struct Many<'a, B, M, const ORDERED: bool> {
+    count: usize,
+    rays: &'a mut B,
+    aim: PhantomData<M>,
+}
+
+impl<B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool> Errand for Many<'_, B, M, ORDERED> {
+    type Answer = ();
+
+    #[inline(always)]
+    fn run<K: Kernel>(self, kernel: K, tree: &Bvh) {
+        let rays = self.rays;
+        let mut next = 0;
+        let most = if tree.held() > LARGE { FLIGHTS.1 } else { FLIGHTS.0 };
+        let mut flights: Vec<Flight<K>> = Vec::with_capacity(most.min(self.count));
+        while flights.len() < most
+            && let Some((number, line, ray)) = upcoming(kernel, tree, rays, &mut next, self.count)
+        {
+            flights.push(Flight {
+                number,
+                line,
+                ray,
+                lanes: kernel.lanes(&ray),
+                filter: None,
+                reach: Reach::of(&ray),
+                child: ChildRef::node(0),
+                stack: Stack::new(),
+            });
+        }
+        let mut at = 0;
+        while !flights.is_empty() {
+            if at >= flights.len() {
+                at = 0;
+            }
+            let flight = &mut flights[at];
+            if !flight.is_over_after_step::<B, M, ORDERED>(kernel, tree, rays) {
+                at += 1;
+                continue;
+            }
+            match upcoming(kernel, tree, rays, &mut next, self.count) {
+                Some((number, line, ray)) => {
+                    (flight.number, flight.line, flight.ray) = (number, line, ray);
+                    flight.lanes = kernel.lanes(&ray);
+                    flight.filter = None;
+                    flight.reach = Reach::of(&ray);
+                    flight.child = ChildRef::node(0);
+                    flight.stack.clear();
+                    at += 1;
+                }
+                None => drop(flights.swap_remove(at)),
+            }
+        }
+    }
+}
+
+/// The next ray that does not certainly miss everything.
+#[inline(always)]
+fn upcoming<R, K: Kernel, B: Rays<R>>(
+    kernel: K,
+    tree: &Bvh,
+    rays: &mut B,
+    next: &mut usize,
+    count: usize,
+) -> Option<(usize, Line, CullRay)> {
+    while *next < count {
+        let number = *next;
+        *next += 1;
+        if let Some(line) = rays.line(number)
+            && !tree.is_empty()
+            && let Some(ray) = kernel.cull(tree, &line)
+        {
+            return Some((number, line, ray));
+        }
+    }
+    None
+}
+
+impl<K: Kernel> Flight<K> {
+    /// Goes through one node, or looks at one leaf; says whether that was all.
+    #[inline(always)]
+    fn is_over_after_step<B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool>(
+        &mut self,
+        kernel: K,
+        tree: &Bvh,
+        rays: &mut B,
+    ) -> bool {
+        let next = if self.child.is_leaf() {
+            let mut quest = M::quest(One { rays, ray: self.number });
+            let found = quest.leaf(
+                kernel,
+                tree,
+                &self.line,
+                &self.ray,
+                self.child,
+                &mut self.filter,
+                &mut self.reach,
+            );
+            drop(quest);
+            if found {
+                rays.found(self.number);
+                return true;
+            }
+            None
+        } else {
+            let node = &tree.nodes[self.child.index()];
+            kernel.descend::<ORDERED>(node, &self.lanes, self.reach.t_far, &mut self.stack)
+        };
+        let Some(child) = next.or_else(
+            #[inline(always)]
+            || self.stack.pop_before(self.reach.t_far),
+        ) else {
+            M::quest(One { rays, ray: self.number }).end(&self.reach);
+            return true;
+        };
+        self.child = child;
+        kernel.fetch(tree, child);
+        false
+    }
+}
