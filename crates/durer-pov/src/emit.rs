@@ -114,7 +114,7 @@ impl Reader<'_> {
             return Err(Fault::invalid(at, "a light's fade_distance and fade_power cannot be negative"));
         }
         let kind = match light.beam {
-            Beam::Point => scene::LightKind::Point,
+            Beam::Point | Beam::Shadowless => scene::LightKind::Point,
             Beam::Spot => scene::LightKind::Spot {
                 radius: light.radius.to_radians(),
                 falloff: light.falloff.to_radians(),
@@ -134,7 +134,7 @@ impl Reader<'_> {
             kind,
             point_at: point(moved.point(light.point_at)),
             parallel: light.parallel,
-            shadowless: light.shadowless,
+            shadowless: light.beam == Beam::Shadowless,
             fade: fades.then_some(scene::Fade { distance: light.fade_distance, power: light.fade_power }),
         });
         let Some(shown) = &light.looks_like else { return Ok(()) };
@@ -432,13 +432,16 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
     })
 }
 
+/// What the language's number for caustics is multiplied by to get the exponent of the cosine.
+const CAUSTICS: f64 = 45.0;
+
 fn filling(interior: &Interior) -> scene::Interior {
     scene::Interior {
         ior: interior.ior,
         fade_distance: interior.fade_distance,
         fade_power: interior.fade_power,
         fade_color: rgb(interior.fade_color),
-        caustics: interior.caustics,
+        caustics: interior.caustics * CAUSTICS,
     }
 }
 

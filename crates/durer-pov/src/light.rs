@@ -10,13 +10,15 @@ use crate::reader::{Item, Reader};
 use crate::transform::{Matrix, length};
 use crate::value::Value;
 
-/// How a light spreads.
+/// How a light spreads. What is said last counts, also `shadowless`: a spotlight that is made shadowless afterwards spreads to all sides, and a shadowless
+/// light that becomes a spotlight throws shadows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Beam {
     #[default]
     Point,
     Spot,
     Cylinder,
+    Shadowless,
 }
 
 /// A light.
@@ -32,7 +34,6 @@ pub(crate) struct Light {
     pub(crate) falloff: f64,
     pub(crate) tightness: f64,
     pub(crate) parallel: bool,
-    pub(crate) shadowless: bool,
     /// 0 if it does not fade.
     pub(crate) fade_distance: f64,
     pub(crate) fade_power: f64,
@@ -51,7 +52,6 @@ impl Light {
             falloff: 0.0,
             tightness: 0.0,
             parallel: false,
-            shadowless: false,
             fade_distance: 0.0,
             fade_power: 0.0,
             looks_like: None,
@@ -92,7 +92,7 @@ impl Reader<'_> {
             }
         };
         self.light_items(&mut light)?;
-        if (light.beam != Beam::Point || light.parallel)
+        if (matches!(light.beam, Beam::Spot | Beam::Cylinder) || light.parallel)
             && length(std::array::from_fn(|i| light.point_at[i] - light.location[i])) == 0.0
         {
             return Err(Fault::invalid(begin, "this light points at its own location"));
@@ -115,9 +115,10 @@ impl Reader<'_> {
                 }
                 Item::Word(Keyword::Cylinder) => {
                     (light.beam, light.radius, light.falloff) = (Beam::Cylinder, 0.75, 1.0);
+                    light.parallel = true;
                 }
                 Item::Word(Keyword::Parallel) => light.parallel = true,
-                Item::Word(Keyword::Shadowless) => light.shadowless = true,
+                Item::Word(Keyword::Shadowless) => light.beam = Beam::Shadowless,
                 Item::Word(Keyword::PointAt) => light.point_at = self.vector()?,
                 Item::Word(Keyword::Radius) => light.radius = self.float()?,
                 Item::Word(Keyword::Falloff) => light.falloff = self.float()?,

@@ -13,7 +13,7 @@ pub struct Interior {
     pub fade_power: f64,
     /// What light fades to.
     pub fade_color: Rgb,
-    /// How much brighter shadows are where light falls straight: a likeness of caustics.
+    /// A likeness of caustics: light that passes a surface is multiplied by `1 + cos^caustics` of the angle to the normal. 0 for none.
     pub caustics: f64,
 }
 

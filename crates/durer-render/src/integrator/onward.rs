@@ -99,7 +99,7 @@ impl<'w> Onward<'w> {
         if standing.level >= world.max_level {
             return;
         }
-        if spots.iter().any(|spot| (spot.live & !spot.passed.is_black()).any()) {
+        if spots.iter().any(|spot| open(world, spot).any()) {
             let bends = border.ratio != 1.0;
             let mut media = Vec::new();
             border.crossing.behind(look.medium, &standing.media, &mut media);
@@ -109,9 +109,9 @@ impl<'w> Onward<'w> {
                 #[inline(always)]
                 || {
                     for spot in spots {
-                        let (direction, lanes) = passing(border, spot);
-                        let weight = spot.paths.weight * spot.passed.luminance();
-                        let lanes = lanes & !weight.le(F8::splat(world.adc_bailout));
+                        let (direction, lanes) = passing(world, border, spot);
+                        let (weight, counts_for_enough) = dimmed(world, spot);
+                        let lanes = lanes & counts_for_enough;
                         let factor = spot.paths.factor * spot.passed * faded(world, part, spot);
                         send(through, spot, direction, weight, factor, lanes, &mut counts.transmitted);
                     }
@@ -124,12 +124,20 @@ impl<'w> Onward<'w> {
                     #[inline(always)]
                     || {
                         for spot in spots {
-                            let lanes = totally_reflected(border, spot);
+                            let (weight, counts_for_enough) = dimmed(world, spot);
+                            let lanes = totally_reflected(world, border, spot) & counts_for_enough;
                             if lanes.any() {
-                                // Nothing passes, so the paint does not colour it.
+                                // Nothing passes, so the paint does not colour it; but the ray counts as if it did.
                                 let factor = spot.paths.factor * faded(world, part, spot);
-                                let (way, weight) = (mirrored(spot), spot.paths.weight);
-                                send(total, spot, way, weight, factor, lanes, &mut counts.reflected);
+                                send(
+                                    total,
+                                    spot,
+                                    mirrored(spot),
+                                    weight,
+                                    factor,
+                                    lanes,
+                                    &mut counts.reflected,
+                                );
                             }
                         }
                     },
@@ -150,7 +158,7 @@ impl<'w> Onward<'w> {
                         let lanes = spot.live
                             & !layer.reflectance.is_black()
                             & !weight.lt(F8::splat(world.adc_bailout))
-                            & !totally_reflected(border, spot);
+                            & !totally_reflected(world, border, spot);
                         if lanes.any() {
                             let factor = spot.paths.factor * layer.reflectance;
                             send(
@@ -176,10 +184,23 @@ fn mirrored(spot: &Spot) -> Vec3<F8> {
     reflect(spot.view.eye, spot.view.normal)
 }
 
+/// Where the layers let enough pass that what is behind them is looked at.
+#[inline(always)]
+fn open(world: &World, spot: &Spot) -> M8 {
+    spot.live & !spot.passed.luminance().le(F8::splat(world.adc_bailout))
+}
+
+/// What rays count for behind the layers, and where that is enough.
+#[inline(always)]
+fn dimmed(world: &World, spot: &Spot) -> (F8, M8) {
+    let weight = spot.paths.weight * spot.passed.greatest();
+    (weight, !weight.lt(F8::splat(world.adc_bailout)))
+}
+
 /// The direction behind the surface, and where light passes it.
 #[inline(always)]
-fn passing(border: &Border, spot: &Spot) -> (Vec3<F8>, M8) {
-    let open = spot.live & !spot.passed.is_black();
+fn passing(world: &World, border: &Border, spot: &Spot) -> (Vec3<F8>, M8) {
+    let open = open(world, spot);
     if border.ratio == 1.0 {
         return (spot.view.eye, open);
     }
@@ -189,12 +210,12 @@ fn passing(border: &Border, spot: &Spot) -> (Vec3<F8>, M8) {
 
 /// Where light that would pass is reflected instead.
 #[inline(always)]
-fn totally_reflected(border: &Border, spot: &Spot) -> M8 {
+fn totally_reflected(world: &World, border: &Border, spot: &Spot) -> M8 {
     if border.ratio == 1.0 {
         return M8::NONE;
     }
     let (_, passes) = refract(spot.view.eye, spot.view.normal, border.ratio);
-    spot.live & !spot.passed.is_black() & !passes
+    open(world, spot) & !passes
 }
 
 /// What is left of light that has come through the medium which is left.

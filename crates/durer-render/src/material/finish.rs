@@ -168,10 +168,10 @@ impl Mirror {
         seen.map(|v| self.exponent.of(v.max(0.0)))
     }
 
-    /// What the reflected light is multiplied by. `cosine` is that of the angle between the normal and the eye; `fresnel` is Fresnel's
-    /// reflectance, which mirrors of that kind need.
+    /// What the reflected light is multiplied by, before and after a metal's colour is put on it. `cosine` is that of the angle between the normal and the eye; `fresnel` is
+    /// Fresnel's reflectance, which mirrors of that kind need.
     #[inline(always)]
-    pub(crate) fn reflectance(&self, cosine: F8, colour: Rgb8, live: M8, fresnel: F8) -> Rgb8 {
+    pub(crate) fn reflectance(&self, cosine: F8, colour: Rgb8, live: M8, fresnel: F8) -> [Rgb8; 2] {
         let r = if self.fresnel {
             Rgb8::mixed(self.min, self.max, fresnel)
         } else if self.min == self.max {
@@ -179,7 +179,7 @@ impl Mirror {
         } else {
             Rgb8::mixed(self.min, self.max, self.falloff.lanes((F8::ONE - cosine).max(F8::ZERO), live))
         };
-        if self.metallic == 0.0 { r } else { r * tint(self.metallic, cosine, colour, live) }
+        [r, if self.metallic == 0.0 { r } else { r * tint(self.metallic, cosine, colour, live) }]
     }
 }
 
@@ -264,7 +264,7 @@ mod tests {
         let mirror = ready(&f).mirror.unwrap();
         let at = |cosine| {
             let cosine = F8::splat(cosine);
-            mirror.reflectance(cosine, Rgb8::WHITE, M8::ALL, F8::ZERO).lane(1).r
+            mirror.reflectance(cosine, Rgb8::WHITE, M8::ALL, F8::ZERO)[1].lane(1).r
         };
         assert_eq!(at(1.0), 0.2);
         assert!((at(0.5) - 0.4).abs() < 1e-15);

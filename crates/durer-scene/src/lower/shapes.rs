@@ -249,6 +249,9 @@ fn flat(shape: &Shape, map: Option<&Affine>, mut target: Target<'_>) -> Result<B
         }
         Shape::SmoothTriangle(data) => {
             let (corners, normals) = &**data;
+            if !look_to_one_side(corners, normals) {
+                return Ok(Built::Nothing(TWO_SIDED.into()));
+            }
             // Only a translation leaves the normals exactly as they are.
             let moved = |m: &Affine| m.as_translation().and_then(|_| points(m, corners));
             let (map, corners) = match folded(map, moved) {
@@ -284,6 +287,15 @@ fn add_flat<S: Algebraic + Clone + 'static>(target: &mut Target<'_>, surface: S,
 }
 
 const DEGENERATE: &str = "triangle: its corners lie on one line, so it is left out";
+const TWO_SIDED: &str = "smooth_triangle: its normals do not all look to one side of it, so it is left out";
+
+/// Whether the normals of a smooth triangle are strictly on one side of it. The scene language knows no other ones, but for those of meshes.
+fn look_to_one_side(&[a, b, c]: &[Point3; 3], normals: &[Vec3; 3]) -> bool {
+    let n = (b - a).cross(c - a);
+    let sides = normals.map(|v| n.dot(v));
+    // Where the triangle has no normal it is told by its corners that it is none.
+    n == Vec3::ZERO || sides.iter().all(|&s| s > 0.0) || sides.iter().all(|&s| s < 0.0)
+}
 
 /// The numbers that the placement gives, if it can be worked into them; those of no placement are the text's own.
 fn folded<T>(map: Option<&Affine>, numbers: impl Fn(&Affine) -> Option<T>) -> Option<T> {

@@ -5,17 +5,16 @@
 //!
 //! The result is a sheet: clipping removes surface and does not cap what it opens. It has no inside, also where the surface had one.
 
+use super::region::{FaceSet, Region};
 use crate::outline::Sketch;
-use crate::quadric::body::{Chart, Frame, Shape, tangents};
-use crate::quadric::form::{Form, Rounded};
+use crate::quadric::body::{Frame, Shape};
 use crate::quadric::solid::Body;
 use crate::roots::quadratic::{Crossing, Quadratic, exact_sign, sign_at_root};
 use crate::sphere::Sphere;
 use crate::{Flow, LocalRay, Need, PartId, Placed, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
-use durer_math::eft::exponent;
-use durer_math::{Aabb, Affine, Dyadic, Isa, Normal3, Point3, Ring, Run, Vec3};
-use std::sync::Arc;
+use durer_math::{Aabb, Dyadic, Isa, Ring};
+use std::sync::OnceLock;
 
 /// A surface each of whose faces is the zero set of a polynomial.
 pub trait Algebraic: Surface {
@@ -65,278 +64,8 @@ impl<S: Algebraic> Algebraic for Placed<S> {
     }
 }
 
-/// The box `min <= x <= max` as a region.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Block {
-    min: Point3,
-    max: Point3,
-}
-
-/// The half-space `n·x <= distance`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct HalfSpace {
-    normal: Normal3,
-    distance: f64,
-}
-
-/// A closed set bounded by planes and quadrics, or the closure of its complement, placed by a map.
-#[derive(Clone)]
-pub struct Region {
-    faces: Arc<dyn Faces>,
-    map: Option<Affine>,
-    inverse: bool,
-    bounds: Aabb,
-}
-
-impl core::fmt::Debug for Region {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let Self { map, inverse, bounds, .. } = self;
-        f.debug_struct("Region")
-            .field("map", map)
-            .field("inverse", inverse)
-            .field("bounds", bounds)
-            .finish_non_exhaustive()
-    }
-}
-
-/// The faces of a region: [`Shape`] without the generic methods.
-trait Faces: Send + Sync {
-    fn frame(&self) -> Frame;
-    fn forms(&self) -> &[Rounded];
-    fn exact(&self, face: usize) -> Form<Dyadic>;
-    fn sketch(&self) -> Sketch;
-}
-
-impl<S: Shape> Faces for Body<S> {
-    fn frame(&self) -> Frame {
-        self.shape().frame()
-    }
-
-    fn forms(&self) -> &[Rounded] {
-        self.view().forms
-    }
-
-    fn exact(&self, face: usize) -> Form<Dyadic> {
-        self.shape().form(face)
-    }
-
-    fn sketch(&self) -> Sketch {
-        Sketch::of_shape(self.shape())
-    }
-}
-
-/// What a half-space's face is in a frame at the origin: its normal by a power of two to about one.
-fn plane<T: Ring>(n: [f64; 3], distance: f64) -> Form<T> {
-    let k = -exponent(Vec3::from(n).max_abs());
-    Form::half_space(n.map(|x| T::exact(x).scale2(k)), -T::exact(distance).scale2(k))
-}
-
-/// Two tangents and the coordinates along them.
-fn plane_chart(y: Vec3, n: Vec3) -> Chart {
-    let (u, v) = tangents(n);
-    Chart { uv: [u.dot(y), v.dot(y)], dpdu: u, dpdv: v }
-}
-
-const ORIGIN: Frame = Frame { centre: Point3::ORIGIN, scale: 0, reach: f64::INFINITY };
-
-impl Shape for Block {
-    fn frame(&self) -> Frame {
-        ORIGIN
-    }
-
-    fn faces(&self) -> usize {
-        6
-    }
-
-    #[inline(always)]
-    fn form<T: Ring>(&self, face: usize) -> Form<T> {
-        let (axis, upper) = (face / 2, face % 2 == 1);
-        let mut n = [0.0; 3];
-        n[axis] = if upper { 1.0 } else { -1.0 };
-        plane(n, if upper { self.max[axis] } else { -self.min[axis] })
-    }
-
-    fn bounds(&self) -> Aabb {
-        Aabb::new(self.min, self.max)
-    }
-
-    fn chart(&self, _: usize, y: Vec3, n: Vec3) -> Chart {
-        plane_chart(y, n)
-    }
-}
-
-impl Shape for HalfSpace {
-    fn frame(&self) -> Frame {
-        ORIGIN
-    }
-
-    fn faces(&self) -> usize {
-        1
-    }
-
-    #[inline(always)]
-    fn form<T: Ring>(&self, _: usize) -> Form<T> {
-        plane(self.normal.to_array(), self.distance)
-    }
-
-    fn bounds(&self) -> Aabb {
-        Aabb::UNBOUNDED
-    }
-
-    fn chart(&self, _: usize, y: Vec3, n: Vec3) -> Chart {
-        plane_chart(y, n)
-    }
-}
-
-/// Why a [`Region`] cannot exist.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum RegionError {
-    /// A corner of the box is infinite or NaN, or its lower corner is above its upper one.
-    #[error("clipping box: the corners must be finite and in order")]
-    Box,
-    /// The normal is zero, infinite or NaN.
-    #[error("clipping plane: the normal must be finite and not zero, got <{}, {}, {}>", .0.x, .0.y, .0.z)]
-    Normal(Normal3),
-    /// The distance is infinite or NaN.
-    #[error("clipping plane: the distance must be finite, got {0}")]
-    Distance(f64),
-}
-
-impl Region {
-    /// The inside of a solid with quadric faces, its boundary included; of a sheet, what its walls and its cut-offs enclose.
-    pub fn solid<S: Shape + 'static>(shape: S) -> Self {
-        let bounds = shape.bounds();
-        Self { faces: Arc::new(Body::of(shape)), map: None, inverse: false, bounds }
-    }
-
-    /// The box from `min` to `max`, its boundary included.
-    pub fn axis_box(min: Point3, max: Point3) -> Result<Self, RegionError> {
-        let bounds = Aabb::new(min, max);
-        if !bounds.is_bounded() {
-            return Err(RegionError::Box);
-        }
-        Ok(Self::solid(Block { min, max }))
-    }
-
-    /// The half-space `normal·x <= distance`: behind the plane.
-    pub fn half_space(normal: Normal3, distance: f64) -> Result<Self, RegionError> {
-        if !normal.is_finite() || normal == Normal3::ZERO {
-            return Err(RegionError::Normal(normal));
-        }
-        if !distance.is_finite() {
-            return Err(RegionError::Distance(distance));
-        }
-        Ok(Self::solid(HalfSpace { normal, distance }))
-    }
-
-    /// The region moved by a map.
-    #[must_use]
-    pub fn placed(mut self, map: Affine) -> Self {
-        self.bounds = if self.inverse { Aabb::UNBOUNDED } else { map.bounds(&self.bounds) };
-        // A second map is composed in f64, as transforms in a text are.
-        self.map = Some(match self.map {
-            Some(first) => first.then(&map).unwrap_or(map),
-            None => map,
-        });
-        self
-    }
-
-    /// The closure of the region's complement.
-    #[must_use]
-    pub fn inverse(mut self) -> Self {
-        self.inverse = !self.inverse;
-        self.bounds = Aabb::UNBOUNDED;
-        self
-    }
-
-    /// A box that holds the region.
-    pub fn bounds(&self) -> Aabb {
-        self.bounds
-    }
-
-    /// What the region leaves of a surface.
-    fn cut(&self, surface: Sketch) -> Sketch {
-        let region = self.faces.sketch();
-        let region = match &self.map {
-            Some(map) => region.placed(map),
-            None => region,
-        };
-        if self.inverse { surface.without(region) } else { surface.within(region) }
-    }
-
-    /// Whether the closed region holds a root, if that can be told from its bracket; else the faces that do not tell.
-    fn holds(&self, ray: &LocalRay<'_>, root: &Root) -> Result<bool, Doubtful> {
-        Isa::detect().run(
-            #[inline(always)]
-            || self.holds_here(ray, root),
-        )
-    }
-
-    #[inline(always)]
-    fn holds_here(&self, ray: &LocalRay<'_>, root: &Root) -> Result<bool, Doubtful> {
-        let placed;
-        let local = match &self.map {
-            None => ray,
-            Some(map) => {
-                placed = ray.through(map);
-                &placed
-            }
-        };
-        let frame = self.faces.frame();
-        let at = local.recentre(frame.centre, frame.scale);
-        let (lo, hi) = at.window((root.lo, root.hi));
-        let s = 0.5 * (lo + hi);
-        let s = Run::with_error(s, (hi - s).max(s - lo));
-        let mut doubtful = Doubtful(0);
-        for (i, form) in self.faces.forms().iter().enumerate() {
-            match form.along(at.o, at.d, at.o_err, at.d_err).at(s).sign() {
-                Some(Ordering::Greater) => return Ok(self.inverse),
-                Some(Ordering::Less) => {}
-                _ => doubtful.0 |= 1 << i,
-            }
-        }
-        if doubtful.0 == 0 { Ok(!self.inverse) } else { Err(doubtful) }
-    }
-
-    /// The same, exactly, for a root that is inside all faces but the doubtful ones; `sign` tells that of a polynomial at it.
-    fn holds_exactly(
-        &self,
-        ray: &LocalRay<'_>,
-        doubtful: Doubtful,
-        sign: impl Fn(&Quadratic<Dyadic>) -> Option<Ordering>,
-    ) -> Option<bool> {
-        let frame = self.faces.frame();
-        let placed;
-        let (local, clock) = match &self.map {
-            None => (ray, None),
-            Some(map) => {
-                placed = Isa::detect().run(
-                    #[inline(always)]
-                    || ray.through(map),
-                );
-                (&placed, placed.parent_clock())
-            }
-        };
-        let exact = local.in_ring_from::<Dyadic>(frame.centre, frame.scale)?;
-        let mut worst = Ordering::Less;
-        for i in (0..self.faces.forms().len()).filter(|i| doubtful.0 >> i & 1 == 1) {
-            let q = self.faces.exact(i).along(&exact);
-            let q = match clock {
-                None => q,
-                Some((step, k)) => in_parents_parameter(q, step, k),
-            };
-            worst = worst.max(sign(&q)?);
-        }
-        Some(if self.inverse { worst.is_ge() } else { worst.is_le() })
-    }
-}
-
-/// Faces of a region, by bits: those of which it is not certain on what side a root lies. No shape has more than six.
-#[derive(Clone, Copy, Debug)]
-struct Doubtful(u8);
-
 /// A polynomial in `s'` as one in `s = step + 2^k s'`: `s' = 2^-k (s - step)`.
-fn in_parents_parameter(p: Quadratic<Dyadic>, step: f64, k: i32) -> Quadratic<Dyadic> {
+pub(super) fn in_parents_parameter(p: Quadratic<Dyadic>, step: f64, k: i32) -> Quadratic<Dyadic> {
     let (a, b) = (p.a.scale2(-2 * k), p.b.scale2(-k));
     let m = -Dyadic::from(step);
     let am = &a * &m;
@@ -357,12 +86,19 @@ fn in_childs_parameter(p: &Quadratic<Dyadic>, step: f64, k: i32) -> Quadratic<Dy
 pub struct Clip<S> {
     surface: S,
     regions: Vec<Region>,
+    /// For each region, and each of the surface's first faces, the faces of the region on which all of that lies: looked for when a root is first
+    /// in doubt. Where a body ends in the very plane that cuts it, each ray that meets it there would ask in exact arithmetic.
+    around: Vec<[OnceLock<FaceSet>; REMEMBERED]>,
 }
+
+/// Faces of higher numbers, those of meshes, are asked about ray by ray.
+const REMEMBERED: usize = 8;
 
 impl<S: Algebraic> Clip<S> {
     /// What of `surface` lies in all `regions`, their borders included.
     pub fn new(surface: S, regions: Vec<Region>) -> Self {
-        Self { surface, regions }
+        let around = regions.iter().map(|_| Default::default()).collect();
+        Self { surface, regions, around }
     }
 
     /// The surface before it is clipped.
@@ -375,7 +111,7 @@ impl<S: Algebraic> Clip<S> {
     fn range(&self, ray: &LocalRay<'_>) -> Option<(f64, f64)> {
         let mut bounds = Aabb::UNBOUNDED;
         for region in &self.regions {
-            bounds = bounds.intersection(region.bounds);
+            bounds = bounds.intersection(region.bounds());
         }
         if bounds == Aabb::UNBOUNDED {
             return Some((f64::NEG_INFINITY, f64::INFINITY));
@@ -384,15 +120,25 @@ impl<S: Algebraic> Clip<S> {
     }
 
     fn keeps(&self, ray: &LocalRay<'_>, root: &Root) -> bool {
-        self.regions
-            .iter()
-            .all(|r| r.holds(ray, root).unwrap_or_else(|doubtful| self.keeps_exactly(r, doubtful, ray, root)))
+        (0..self.regions.len()).all(
+            #[inline(always)]
+            |r| {
+                self.regions[r]
+                    .holds(ray, root)
+                    .unwrap_or_else(|doubtful| self.keeps_exactly(r, doubtful, ray, root))
+            },
+        )
     }
 
     #[cold]
     #[inline(never)]
-    fn keeps_exactly(&self, region: &Region, doubtful: Doubtful, ray: &LocalRay<'_>, root: &Root) -> bool {
-        let decided = region.holds_exactly(ray, doubtful, |q| self.surface.sign_at_root(ray, root, q));
+    fn keeps_exactly(&self, r: usize, doubtful: FaceSet, ray: &LocalRay<'_>, root: &Root) -> bool {
+        let region = &self.regions[r];
+        let around = self.around[r].get(root.face as usize).map_or(FaceSet::NONE, |around| {
+            *around.get_or_init(|| region.faces_around(|ray| self.surface.polynomial(root.face, ray)))
+        });
+        let (on, doubtful) = doubtful.split(around);
+        let decided = region.holds_exactly(ray, (doubtful, on), |q| self.surface.sign_at_root(ray, root, q));
         // A ray that is known within errors only may be on the border: then it is, and closed sets hold their border.
         decided.unwrap_or(true)
     }

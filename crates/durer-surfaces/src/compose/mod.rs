@@ -5,3 +5,4 @@ pub mod clip;
 pub mod erased;
 mod flat;
 pub mod inverse;
+pub mod region;

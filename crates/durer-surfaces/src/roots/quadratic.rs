@@ -113,6 +113,16 @@ impl Known {
     }
 }
 
+impl Quadratic<Dyadic> {
+    /// Whether one of the two is a multiple of the other.
+    pub(crate) fn is_parallel_to(&self, o: &Self) -> bool {
+        let same = |x: &Dyadic, y: &Dyadic, u: &Dyadic, v: &Dyadic| (&(x * v) - &(y * u)).is_zero();
+        same(&self.a, &self.b, &o.a, &o.b)
+            && same(&self.b, &self.c, &o.b, &o.c)
+            && same(&self.a, &self.c, &o.a, &o.c)
+    }
+}
+
 impl<T: Ring> Quadratic<T> {
     /// `B² - AC`.
     pub(crate) fn discriminant(&self) -> T {
