@@ -1,5 +1,6 @@
 //! Many rays at once, over all threads.
 
+use crate::abreast::ABREAST;
 use crate::geometry::Geometry;
 use crate::{Hit, Span};
 use durer_math::Ray;
@@ -42,12 +43,12 @@ const CHUNK: usize = 1024;
 impl Geometry {
     /// [`Geometry::closest`] of each ray. The answers do not depend on the number of threads.
     pub fn closest_batch(&self, rays: &[Ray]) -> Vec<Option<Hit>> {
-        rays.par_iter().with_min_len(CHUNK).map(|ray| self.closest(ray)).collect()
+        each(rays, |some, hits| self.closest_abreast(some, hits))
     }
 
     /// [`Geometry::any`] of each ray.
     pub fn any_batch(&self, rays: &[Ray]) -> Vec<bool> {
-        rays.par_iter().with_min_len(CHUNK).map(|ray| self.any(ray)).collect()
+        each(rays, |some, hits| self.any_abreast(some, hits))
     }
 
     /// [`Geometry::all`] of each ray.
@@ -59,6 +60,19 @@ impl Geometry {
     pub fn spans_batch(&self, rays: &[Ray]) -> Ragged<Span> {
         ragged(rays, |ray| self.spans(ray))
     }
+}
+
+/// One answer for each ray, in the order of the rays.
+fn each<T: Send>(rays: &[Ray], query: impl Fn(&[Ray], &mut Vec<T>) + Sync) -> Vec<T> {
+    let part = |rays: &[Ray]| {
+        let mut answers = Vec::with_capacity(rays.len());
+        rays.chunks(ABREAST).for_each(|some| query(some, &mut answers));
+        answers
+    };
+    let parts: Vec<Vec<T>> = rays.par_chunks(CHUNK).map(part).collect();
+    let mut answers = Vec::with_capacity(rays.len());
+    parts.into_iter().for_each(|mut part| answers.append(&mut part));
+    answers
 }
 
 fn ragged<T: Send>(rays: &[Ray], query: impl Fn(&Ray) -> Vec<T> + Sync) -> Ragged<T> {

@@ -35,6 +35,7 @@
 //! one ray in `explain`.
 #![forbid(unsafe_code)]
 
+mod abreast;
 mod arena;
 mod batch;
 mod beam;

@@ -113,11 +113,18 @@ fn nested_instances() {
 
 #[test]
 fn batches_on_any_number_of_threads() {
+    // Many rays go side by side through the larger one.
+    for (things, count) in [(300, 3000), (5000, 1500)] {
+        batches_of(things, count);
+    }
+}
+
+fn batches_of(things: usize, count: usize) {
     let mut builder = Geometry::builder();
-    fill(&mut builder, &mut Dice(31), 300, true);
+    fill(&mut builder, &mut Dice(31), things, things < 1000);
     builder.add(ground());
     let world = builder.build().unwrap();
-    let rays = rays(&mut Dice(32), 3000);
+    let rays = rays(&mut Dice(32), count);
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {

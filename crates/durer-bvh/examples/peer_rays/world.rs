@@ -53,16 +53,45 @@ impl World {
         self.tree.stats().bytes + self.numbers.capacity() * size_of::<u32>()
     }
 
+    /// The `k` with which the largest component of a direction is in `[2^k, 2^(k+1))`, unless it is subnormal or not finite.
+    #[inline(always)]
+    fn clock(r: &PeerRay) -> i32 {
+        let [x, y, z] = r.direction;
+        let size = |x: f32| x.to_bits() & (u32::MAX >> 1);
+        (size(x).max(size(y)).max(size(z)) >> 23) as i32 - 127
+    }
+
     /// The line of a ray, whose parameter is `2^k` times that of the ray.
     #[inline(always)]
     fn line(r: &PeerRay) -> (Line, i32) {
-        let [x, y, z] = r.direction;
-        let direction = Vec3::new(f64::from(x), f64::from(y), f64::from(z));
-        let k = exponent(direction.max_abs());
-        let (t_min, t_max) = (scale2(f64::from(r.t_near), k), scale2(f64::from(r.t_far), k));
-        let [x, y, z] = r.origin;
+        let k = Self::clock(r);
+        if k == -127 {
+            return Self::slow_line(r);
+        }
+        let power = |k: i32| f64::from_bits(((1023 + k) as u64) << 52);
+        let (along, across) = (power(k), power(-k));
+        let ([x, y, z], [dx, dy, dz]) = (r.origin, r.direction);
+        let (t_min, t_max) = (f64::from(r.t_near) * along, f64::from(r.t_far) * along);
         let line = Line {
             origin: Point3::new(f64::from(x), f64::from(y), f64::from(z)),
+            direction: Vec3::new(f64::from(dx) * across, f64::from(dy) * across, f64::from(dz) * across),
+            origin_error: Vec3::ZERO,
+            direction_error: Vec3::ZERO,
+            t_min,
+            t_max,
+            inner: (t_min, t_max),
+        };
+        (line, k)
+    }
+
+    /// The same for directions that are subnormal numbers.
+    #[cold]
+    fn slow_line(r: &PeerRay) -> (Line, i32) {
+        let direction = Vec3::from(r.direction.map(f64::from));
+        let k = exponent(direction.max_abs());
+        let (t_min, t_max) = (scale2(f64::from(r.t_near), k), scale2(f64::from(r.t_far), k));
+        let line = Line {
+            origin: point(r.origin),
             direction: direction.scale2(-k),
             origin_error: Vec3::ZERO,
             direction_error: Vec3::ZERO,
@@ -92,24 +121,16 @@ impl World {
     #[inline(always)]
     fn closest_one(&self, isa: Isa, r: &PeerRay) -> (f32, u32) {
         let (line, k) = Self::line(r);
-        let mut best = (f64::INFINITY, MISS);
+        let mut asked = Asked { world: self, isa, r, k, best: (f64::INFINITY, MISS) };
         self.tree.closest(
             isa,
             &line,
             #[inline(always)]
             |_| true,
             #[inline(always)]
-            |leaf: Leaf| {
-                let number = self.numbers[leaf.first as usize];
-                if let Some(t) = self.exactly(isa, r, number)
-                    && (t, number) < best
-                {
-                    best = (t, number);
-                }
-                scale2(best.0, k).next_up()
-            },
+            |leaf: Leaf| asked.improve(leaf),
         );
-        (best.0 as f32, best.1)
+        (asked.best.0 as f32, asked.best.1)
     }
 
     #[inline(always)]
@@ -161,6 +182,28 @@ impl World {
         t.fill(f32::INFINITY);
         triangle.fill(MISS);
         self.tree.any_of_each(isa, rays.len(), &mut AnyOfEach { world: self, isa, rays, t, triangle });
+    }
+}
+
+/// A ray and what it has met.
+struct Asked<'a> {
+    world: &'a World,
+    isa: Isa,
+    r: &'a PeerRay,
+    k: i32,
+    best: (f64, u32),
+}
+
+impl Asked<'_> {
+    #[inline(always)]
+    fn improve(&mut self, leaf: Leaf) -> f64 {
+        let number = self.world.numbers[leaf.first as usize];
+        if let Some(t) = self.world.exactly(self.isa, self.r, number)
+            && (t, number) < self.best
+        {
+            self.best = (t, number);
+        }
+        scale2(self.best.0, self.k).next_up()
     }
 }
 

@@ -244,6 +244,9 @@ fn split(entries: &mut [Entry], extent: &Extent, level: usize, costs: &Costs<'_>
         return (!may_be_leaf).then(|| split::halve_by_kind(entries));
     }
     let kind = costs.of_range(entries);
+    if option_env!("WHOLE").is_some() && may_be_leaf && entries.len() <= kind.block {
+        return None;
+    }
     let best = split::best_plane(entries, &kind);
     if may_be_leaf {
         let leaf = kind.of_leaf(entries.len());

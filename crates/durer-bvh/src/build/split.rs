@@ -103,8 +103,13 @@ impl Bins {
 
     #[inline(always)]
     fn of(&self, entry: &Entry, axis: usize) -> usize {
-        // The conversion saturates; what rounds up to the end belongs to the last bin.
-        (((entry.centre2(axis) - self.from[axis]) * self.scale[axis]) as usize).min(BINS - 1)
+        /// Added to a small number it leaves its nearest integer in the lowest bits, which a conversion takes more steps to find.
+        const INTEGERS: f32 = (1 << 23) as f32;
+        const LAST: f32 = (BINS - 1) as f32;
+        let x = (entry.centre2(axis) - self.from[axis]) * self.scale[axis] - 0.5;
+        let x = if x > 0.0 { x } else { 0.0 };
+        let x = if x < LAST { x } else { LAST };
+        (x + INTEGERS).to_bits() as usize & (BINS - 1)
     }
 }
 
@@ -119,16 +124,16 @@ fn best_of_all(entries: &[Entry], costs: &KindCosts) -> Option<Plane> {
     let mut best: Option<Plane> = None;
     let mut least = f32::INFINITY;
     for axis in 0..3 {
-        let mut keys = [(0.0_f32, 0_u32); SWEPT];
-        let mut order = [0_u8; SWEPT];
+        // The centre, then the kind, then the place: one number to sort by.
+        let mut keys = [0_u64; SWEPT];
         for (i, entry) in entries.iter().enumerate() {
-            let key = (entry.centre2(axis), entry.kind());
-            let mut at = i;
-            while at > 0 && (keys[at - 1].0 > key.0 || (keys[at - 1].0 == key.0 && keys[at - 1].1 > key.1)) {
-                (keys[at], order[at]) = (keys[at - 1], order[at - 1]);
-                at -= 1;
-            }
-            (keys[at], order[at]) = (key, i as u8);
+            let kind = u64::from(entry.kind().min((1 << 24) - 1));
+            keys[i] = u64::from(in_order(entry.centre2(axis))) << 32 | kind << 8 | i as u64;
+        }
+        keys[..n].sort_unstable();
+        let mut order = [0_u8; SWEPT];
+        for (to, key) in order.iter_mut().zip(&keys[..n]) {
+            *to = *key as u8;
         }
         let mut right = [Extent::EMPTY; SWEPT];
         let mut so_far = Extent::EMPTY;
@@ -147,6 +152,14 @@ fn best_of_all(entries: &[Entry], costs: &KindCosts) -> Option<Plane> {
         }
     }
     best
+}
+
+/// A number that orders as f32 does.
+#[inline(always)]
+fn in_order(x: f32) -> u32 {
+    // Zeros of either sign are one.
+    let bits = (x + 0.0).to_bits();
+    if bits >> 31 == 0 { bits | 1 << 31 } else { !bits }
 }
 
 fn best_between_bins(entries: &[Entry], costs: &KindCosts) -> Option<Plane> {

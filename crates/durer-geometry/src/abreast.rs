@@ -1,0 +1,145 @@
+//! Rays that go through a tree side by side: see [`durer_bvh::Rays`].
+
+use crate::Hit;
+use crate::best::Best;
+use crate::geometry::Geometry;
+use crate::ids::EVERYTHING;
+use crate::query::{any_in, closest_in};
+use crate::walk::Walk;
+use durer_bvh::{Leaf, Line, Rays};
+use durer_math::Ray;
+use durer_surfaces::LocalRay;
+
+/// A tree of fewer things is in the cache, where single rays are as fast.
+const LEAST: usize = 1 << 12;
+
+/// How many rays of a batch are prepared at a time.
+pub(crate) const ABREAST: usize = 256;
+
+impl Geometry {
+    /// [`Geometry::closest`] of a few rays.
+    pub(crate) fn closest_abreast(&self, rays: &[Ray], hits: &mut Vec<Option<Hit>>) {
+        if self.tree.len() < LEAST {
+            hits.extend(rays.iter().map(|ray| self.closest(ray)));
+            return;
+        }
+        let mut best: Vec<Best> = Vec::with_capacity(rays.len());
+        best.resize_with(rays.len(), Best::least);
+        let mut all = Closest { all: All::of(self, rays), best };
+        self.tree.closest_of_each(self.isa, rays.len(), &mut all);
+        hits.extend(all.best.into_iter().map(|best| best.hit));
+    }
+
+    /// [`Geometry::any`] of a few rays.
+    pub(crate) fn any_abreast(&self, rays: &[Ray], hits: &mut Vec<bool>) {
+        if self.tree.len() < LEAST {
+            hits.extend(rays.iter().map(|ray| self.any(ray)));
+            return;
+        }
+        let mut all = Any { all: All::of(self, rays), met: vec![false; rays.len()] };
+        self.tree.any_of_each(self.isa, rays.len(), &mut all);
+        hits.append(&mut all.met);
+    }
+}
+
+/// Rays, and those under way in the geometry's frame.
+struct All<'a> {
+    geometry: &'a Geometry,
+    rays: &'a [Ray],
+    locals: Vec<LocalRay<'static>>,
+}
+
+impl<'a> All<'a> {
+    fn of(geometry: &'a Geometry, rays: &'a [Ray]) -> Self {
+        Self { geometry, rays, locals: Vec::with_capacity(rays.len()) }
+    }
+
+    /// Makes ready the next ray: they are asked for in their order.
+    #[inline(always)]
+    fn start(&mut self, ray: usize, local: LocalRay<'static>) -> bool {
+        debug_assert_eq!(ray, self.locals.len());
+        self.locals.push(local);
+        let is_valid = self.rays[ray].is_valid();
+        if !is_valid {
+            self.geometry.count_invalid();
+        }
+        is_valid
+    }
+
+    #[inline(always)]
+    fn walk(&self, ray: usize) -> Walk<'_> {
+        Walk::new(self.geometry, &self.rays[ray], &self.locals[ray], EVERYTHING)
+    }
+}
+
+struct Closest<'a> {
+    all: All<'a>,
+    best: Vec<Best>,
+}
+
+impl Rays<f64> for Closest<'_> {
+    #[inline(always)]
+    fn line(&mut self, ray: usize) -> Option<Line> {
+        if !self.all.start(ray, LocalRay::new(&self.all.rays[ray])) {
+            return None;
+        }
+        let (walk, best) = (self.all.walk(ray), &mut self.best[ray]);
+        for beside in &walk.geometry.beside {
+            closest_in(&walk, beside.leaf(), best);
+        }
+        let mut line = walk.line();
+        if best.hit.is_some() {
+            line.t_max = line.t_max.min(walk.limit(best.limit()));
+        }
+        Some(line)
+    }
+
+    #[inline(always)]
+    fn admits(&self, ray: usize, triangle: Leaf) -> bool {
+        self.all.walk(ray).admits(triangle)
+    }
+
+    #[inline(always)]
+    fn test(&mut self, ray: usize, leaf: Leaf) -> f64 {
+        let (walk, best) = (self.all.walk(ray), &mut self.best[ray]);
+        closest_in(&walk, leaf, best);
+        if best.hit.is_some() { walk.limit(best.limit()) } else { f64::INFINITY }
+    }
+
+    fn found(&mut self, _: usize) {}
+}
+
+struct Any<'a> {
+    all: All<'a>,
+    met: Vec<bool>,
+}
+
+impl Rays<bool> for Any<'_> {
+    #[inline(always)]
+    fn line(&mut self, ray: usize) -> Option<Line> {
+        if !self.all.start(ray, LocalRay::new(&self.all.rays[ray]).roughly()) {
+            return None;
+        }
+        let walk = self.all.walk(ray);
+        if walk.geometry.beside.iter().any(|b| any_in(&walk, b.leaf())) {
+            self.met[ray] = true;
+            return None;
+        }
+        Some(walk.line())
+    }
+
+    #[inline(always)]
+    fn admits(&self, ray: usize, triangle: Leaf) -> bool {
+        self.all.walk(ray).admits(triangle)
+    }
+
+    #[inline(always)]
+    fn test(&mut self, ray: usize, leaf: Leaf) -> bool {
+        any_in(&self.all.walk(ray), leaf)
+    }
+
+    #[inline(always)]
+    fn found(&mut self, ray: usize) {
+        self.met[ray] = true;
+    }
+}
