@@ -49,7 +49,7 @@ pub(super) struct Lit {
 pub(super) struct Mirrored {
     /// Black where there is nothing to be seen.
     pub(super) reflectance: Rgb8,
-    /// How much it counts: the greatest channel before a metal colours it, dimmed by the layers above (which do not dim what is seen).
+    /// How much it counts, dimmed by the layers above (which do not dim what is seen).
     pub(super) importance: F8,
 }
 
@@ -163,9 +163,9 @@ impl<'w> Coats<'w> {
                 for ((spot, paint), &live) in spots.iter_mut().zip(paint).zip(live) {
                     let (passed, cosine) = (spot.passed, spot.view.cosine);
                     let fresnel = if mirror.fresnel { border.fresnel(cosine) } else { F8::ZERO };
-                    let [plain, reflectance] = mirror.reflectance(cosine, paint.rgb, live, fresnel);
+                    let (reflectance, counts) = mirror.reflectance(cosine, paint.rgb, live, fresnel);
                     let reflectance = reflectance.kept(live);
-                    let importance = passed.luminance() * plain.greatest();
+                    let importance = passed.luminance() * counts;
                     mirrored.push(Mirrored { reflectance, importance });
                     let mut left = passed * paint.passed();
                     if conserve_energy {

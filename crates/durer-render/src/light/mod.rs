@@ -117,7 +117,13 @@ impl Lamp {
             }
         };
         if let Some((at, power)) = self.fade {
-            strength = strength * (F8::splat(2.0) / (F8::ONE + power.lanes((distance / at).abs(), lit)));
+            // Behind the plane of a parallel light distances are negative. The formula is taken at its word there: light may be negative; where there is no power
+            // there is no light.
+            let far = distance / at;
+            if let Power::Real(_) = power {
+                lit &= !far.lt(F8::ZERO);
+            }
+            strength = strength * (F8::splat(2.0) / (F8::ONE + power.lanes(far, lit)));
         }
         let (target, blockable) = match (self.shadowless, self.parallel) {
             (true, _) => (location, M8::NONE),
@@ -153,6 +159,17 @@ mod tests {
         let light = Light { fade, ..down(LightKind::Point) };
         assert!((strength(&light, [0.0, 0.0, 0.0]) - 0.4).abs() < 1e-15);
         assert!((strength(&light, [0.0, 5.0, 0.0]) - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn parallel_light_fades_behind_its_plane_as_the_formula_says() {
+        let at = |power, height| {
+            let fade = Some(Fade { distance: 4.0, power });
+            strength(&Light { fade, parallel: true, ..down(LightKind::Point) }, [1.0, height, 2.0])
+        };
+        assert_eq!([at(1.0, 9.0), at(1.0, 12.0), at(1.0, 18.0)], [2.0 / 1.25, 4.0, -2.0]);
+        assert_eq!([at(2.0, 9.0), at(2.0, 18.0)], [2.0 / 1.0625, 0.4]);
+        assert_eq!([at(0.5, 11.0), at(0.5, 6.0)], [0.0, 1.0]);
     }
 
     #[test]

@@ -168,18 +168,24 @@ impl Mirror {
         seen.map(|v| self.exponent.of(v.max(0.0)))
     }
 
-    /// What the reflected light is multiplied by, before and after a metal's colour is put on it. `cosine` is that of the angle between the normal and the eye; `fresnel` is
-    /// Fresnel's reflectance, which mirrors of that kind need.
+    /// What the reflected light is multiplied by, and what rays count for that bring it. `cosine` is that of the angle between the normal and the
+    /// eye; `fresnel` is Fresnel's reflectance, which mirrors of that kind need.
     #[inline(always)]
-    pub(crate) fn reflectance(&self, cosine: F8, colour: Rgb8, live: M8, fresnel: F8) -> [Rgb8; 2] {
-        let r = if self.fresnel {
-            Rgb8::mixed(self.min, self.max, fresnel)
+    pub(crate) fn reflectance(&self, cosine: F8, colour: Rgb8, live: M8, fresnel: F8) -> (Rgb8, F8) {
+        let most = F8::splat(self.min.greatest().max(self.max.greatest()));
+        let (r, importance) = if self.fresnel {
+            let r = Rgb8::mixed(self.min, self.max, fresnel);
+            (r, r.greatest())
         } else if self.min == self.max {
-            Rgb8::splat(self.min)
+            (Rgb8::splat(self.min), most)
         } else {
-            Rgb8::mixed(self.min, self.max, self.falloff.lanes((F8::ONE - cosine).max(F8::ZERO), live))
+            let k = self.falloff.lanes((F8::ONE - cosine).max(F8::ZERO), live);
+            // The angle does not count.
+            (Rgb8::mixed(self.min, self.max, k), most)
         };
-        [r, if self.metallic == 0.0 { r } else { r * tint(self.metallic, cosine, colour, live) }]
+        // Nor does a metal's colour.
+        let r = if self.metallic == 0.0 { r } else { r * tint(self.metallic, cosine, colour, live) };
+        (r, importance)
     }
 }
 
@@ -264,7 +270,7 @@ mod tests {
         let mirror = ready(&f).mirror.unwrap();
         let at = |cosine| {
             let cosine = F8::splat(cosine);
-            mirror.reflectance(cosine, Rgb8::WHITE, M8::ALL, F8::ZERO)[1].lane(1).r
+            mirror.reflectance(cosine, Rgb8::WHITE, M8::ALL, F8::ZERO).0.lane(1).r
         };
         assert_eq!(at(1.0), 0.2);
         assert!((at(0.5) - 0.4).abs() < 1e-15);
