@@ -11,7 +11,7 @@
 //! and Image Processing* 18 (1982). With `r > R` the tube meets itself on the axis (a *spindle*); what is inside twice is then outside, as the
 //! sign of `f` has it. `r = R` is a *horn*.
 
-use crate::outline::Sketch;
+use crate::outline::{Lathe, LatheWall, Sketch};
 use crate::quadric::body::{Chart, Frame};
 use crate::quadric::form::FLOOR;
 use crate::roots::quadratic::Quadratic;
@@ -309,7 +309,21 @@ impl Surface for Torus {
     }
 
     fn sketch(&self, _part: PartId) -> Sketch {
-        Sketch::vague(self.bounds())
+        let (major, minor) = self.radii();
+        let (big, small) = (major * major, minor * minor);
+        // (n + v² - R² - r²)² - 4R² (r² - v²), between planes that it does not touch.
+        let wall = LatheWall {
+            alpha: 1.0,
+            kappa: -(big + small),
+            beta: 0.0,
+            p: [4.0 * big * small, 0.0, -4.0 * big, 0.0],
+            at: 0.0,
+            slab: [-minor * (1.0 + MARGIN), minor * (1.0 + MARGIN)],
+            radius: (major + minor) * (1.0 + 4.0 * U),
+            kappa_size: big + small,
+        };
+        let (i, lathe) = (self.index(), Lathe::new(&[wall], false));
+        Sketch::lathe(self.bounds(), lathe, self.centre, self.scale(), [(i + 1) % 3, i, (i + 2) % 3])
     }
 
     fn solidity(&self) -> Solidity {

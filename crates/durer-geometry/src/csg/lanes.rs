@@ -198,7 +198,7 @@ impl Body {
         number: f64,
         nearest: &mut Nearest,
     ) {
-        let (shown, Place { node, .. }) = (self.leaves[leaf].shown, self.places[leaf]);
+        let (Operand { shown, outline, .. }, Place { node, .. }) = (&self.leaves[leaf], self.places[leaf]);
         let Crossing8 { sure, t, e, face } = crossing;
         let mut open = M8::NONE;
         look.isa.run_in_lanes(
@@ -206,8 +206,8 @@ impl Body {
             || {
                 let limit = nearest.limit(look.rays);
                 open = rays.live & *sure & !((*t + *e).lt(F8::ZERO) | (*t - *e).gt(limit));
-                if shown == Shown::Wall {
-                    open &= face.equals(F8::ZERO);
+                if *shown == Shown::Wall {
+                    open &= M8::from_fn(|i| outline.face_of(face.0[i] as u32) == 0);
                 }
             },
         );

@@ -175,7 +175,7 @@ impl Geometry {
                 clear.bits()
             },
         );
-        let Nearest { t, number, face, .. } = &nearest;
+        let Nearest { t, number, face, tag, .. } = &nearest;
         hits.t = *t;
         let (mut is_first, mut these) = (true, M8::NONE);
         while waiting != 0 {
@@ -186,7 +186,7 @@ impl Geometry {
             let Some(met) = self.face(candidate, f) else { continue };
             let Hits8 { p, ng, ns, off, .. } = &mut *hits;
             let to = Points8 { p, ng, ns, off };
-            let sure = met.outline.points(met.face as usize, &lanes, t, &these, to);
+            let sure = met.outline.points(met.face as usize, &lanes, (t, tag), &these, to);
             let lanes = self.isa.run_in_lanes(
                 #[inline(always)]
                 || {
@@ -199,7 +199,7 @@ impl Geometry {
                     sure.bits()
                 },
             );
-            let face = met.outline.own_face().unwrap_or(met.face);
+            let face = met.outline.face_of(met.face);
             hits.name(if is_first { u8::MAX } else { lanes }, met.name, (met.slot, met.part, face));
             is_first = false;
         }

@@ -4,6 +4,7 @@
 //! looked at: it counts where no other face is positive.
 
 use super::Outline;
+use super::detail;
 use super::face::{FaceKind, Seen, Start, taxicab};
 use super::hull::Hull;
 use super::rays::{FAR, From8, NEVER, Nearest, RayLanes, SLACK};
@@ -32,6 +33,7 @@ pub(super) struct Steps {
     pub(super) slab: SlabRoots,
     pub(super) roots: Roots,
     pub(super) hull: Hull,
+    pub(super) detail: detail::Memory,
 }
 
 /// Eight rays that ask an outline.
@@ -49,6 +51,10 @@ impl Outline {
     /// Offers the first crossing of each ray to `nearest`, under the outline's number.
     pub fn meet(&self, asked: &Question<'_>, nearest: &mut Nearest, scratch: &mut Scratch) {
         if self.is_passed_by(asked.rays, &mut scratch.start) {
+            return;
+        }
+        if let Some(detail) = &self.detail {
+            detail.meet((asked, self.turned), nearest, &scratch.start, &mut scratch.steps.detail);
             return;
         }
         // The faces of a box are not those that rays leave.
@@ -107,7 +113,7 @@ impl Outline {
 
     /// Where the faces of a convex solid are entered and left.
     pub(super) fn hull(&self, rays: &RayLanes<'_>, from: Option<&From8>, seen: &Seen<'_>, steps: &mut Steps) {
-        let Steps { plane, slab, roots, hull } = steps;
+        let Steps { plane, slab, roots, hull, .. } = steps;
         let mut i = 0;
         while let Some(face) = self.faces.get(i) {
             let leaving = self.leaving(from, i);

@@ -10,20 +10,28 @@
 //!   sketch     polynomials in double-double, moved by maps      (built once, `sketch.rs`)
 //!   outline    the same in f64, with their errors               (`face.rs`)
 //!   roots      where eight rays cross a face                    (`roots.rs`)
+//!   lathe      surfaces of revolution of higher degree, in coordinates of their own    (`lathe.rs`, `poly.rs`, `own.rs`, `detail.rs`)
+//!   swept      walls and caps of curved prisms, the same way        (`swept.rs`, `whole.rs`)
 //!   meet       which face they meet first                       (`meet.rs`, `hull.rs`)
 //!   operand    all crossings with solids, for bodies made of several   (`operand.rs`)
 //!   point      where, and how far rays start from there         (`point.rs`)
 //! ```
 
+mod detail;
 mod face;
 mod hull;
+mod lathe;
 mod loops;
 mod meet;
 mod operand;
+mod own;
 mod point;
+mod poly;
 mod rays;
 mod roots;
 mod sketch;
+mod swept;
+mod whole;
 
 pub use self::meet::{Question, Scratch};
 pub use self::operand::{Crossing8, Crossings, Sight};
@@ -31,8 +39,11 @@ pub use self::point::Points8;
 pub use self::rays::{From8, Nearest, RayLanes};
 pub use self::sketch::Sketch;
 
+use self::detail::Detail;
 use self::face::Face;
+pub(crate) use self::lathe::{Lathe, LatheWall};
 use self::loops::Loops;
+pub(crate) use self::swept::{Curve, Sweep8, Swept};
 use durer_math::{Point3, Vec3};
 
 /// A surface as lanes see it. Made by [`Sketch::outline`].
@@ -61,9 +72,20 @@ pub struct Outline {
     loops: Option<Box<Loops<Face>>>,
     /// What lies where all of some faces are negative is cut away.
     holes: Box<[Box<[Face]>]>,
+    /// What is known of a surface whose faces only hold it.
+    detail: Option<Box<Detail>>,
 }
 
 impl Outline {
+    /// The face of a surface's roots on the face that lanes call by a number.
+    #[inline(always)]
+    pub fn face_of(&self, face: u32) -> u32 {
+        match &self.detail {
+            Some(detail) => detail.face_of(face),
+            None => self.own_face.unwrap_or(face),
+        }
+    }
+
     /// If this is one part of a surface: the face that its roots have there.
     #[inline(always)]
     pub fn own_face(&self) -> Option<u32> {

@@ -4,8 +4,10 @@
 //! Processing 18, 1982). A solid is the set where all its faces are negative, or the rest where it is turned round.
 
 use super::Outline;
+use super::detail::Detail;
 use super::face::{FaceKind, Seen, Start};
 use super::hull::Hull;
+use super::lathe::Lathe;
 use super::meet::{Scratch, Spot, Steps};
 use super::rays::{FAR, From8, NEVER, RayLanes};
 use arrayvec::ArrayVec;
@@ -43,17 +45,27 @@ impl Default for Crossings {
 }
 
 impl Crossings {
-    /// As many are told: two of each of six faces.
-    const MOST: usize = 12;
+    /// As many are told: two of each of six faces, or those of a solid that has eight walls one above the other.
+    const MOST: usize = 24;
+    /// Of so many faces two each.
+    const FACES: usize = 6;
 
     /// What is told.
     pub fn iter(&self) -> core::slice::Iter<'_, Crossing8> {
         self.list.iter()
     }
 
+    /// Adds a crossing; what finds no room is a doubt.
+    #[inline(always)]
+    pub(super) fn push(&mut self, sure: M8, t: F8, e: F8, face: F8) {
+        if sure.any() && self.list.try_push(Crossing8 { sure, t, e, face }).is_err() {
+            self.doubt_from(sure, t - e);
+        }
+    }
+
     /// Of these lanes nothing is sure from `t` on.
     #[inline(always)]
-    fn doubt_from(&mut self, lanes: M8, t: F8) {
+    pub(super) fn doubt_from(&mut self, lanes: M8, t: F8) {
         // `max` answers zero for what is not a number.
         self.doubt = lanes.select(t.max(F8::ZERO).min(self.doubt), self.doubt);
     }
@@ -69,8 +81,14 @@ impl Sight {
 impl Outline {
     /// Whether the outline tells all about a solid: what else cuts off a surface is no face of its inside.
     pub fn is_operand(&self) -> bool {
-        let told = self.faces.len() <= Crossings::MOST / 2;
+        let told = self.faces.len() <= Crossings::FACES;
         told && self.loops.is_none() && self.holes.is_empty() && self.own_face.is_none()
+    }
+
+    /// What is known of it as an operand beside its faces.
+    fn as_detail(&self) -> Option<(&Detail, &Lathe)> {
+        let detail = self.detail.as_deref()?;
+        Some((detail, detail.operand()?))
     }
 
     /// Whether the solid is the outside of the faces.
@@ -94,6 +112,11 @@ impl Outline {
     ) {
         to.list.clear();
         to.doubt = NEVER;
+        if let Some((detail, lathe)) = self.as_detail() {
+            let rays = (rays, from.map(|from| (from, self.turned)));
+            detail.crossings(lathe, rays, &sight.0, to, &mut scratch.steps.detail);
+            return;
+        }
         if self.convex {
             // The faces of a box are not those that rays leave.
             let from = from.filter(|_| !self.vague);
@@ -196,6 +219,10 @@ impl Outline {
 
     /// Which points at `t` within `e` are surely in the solid, and which surely not.
     pub fn holds(&self, rays: &RayLanes<'_>, sight: &Sight, (t, e): (&F8, &F8)) -> (M8, M8) {
+        if let Some((detail, lathe)) = self.as_detail() {
+            let (inside, outside) = detail.holds(lathe, rays, &sight.0, (*t, *e));
+            return if self.turned { (outside, inside) } else { (inside, outside) };
+        }
         let seen = sight.seen(rays);
         let spot = rays.isa.run_in_lanes(
             #[inline(always)]

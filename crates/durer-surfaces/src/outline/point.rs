@@ -1,7 +1,8 @@
 //! Where eight rays meet a face, and how far rays start from there.
 
 use super::face::{FaceKind, taxicab};
-use super::rays::RayLanes;
+use super::lathe::Skin;
+use super::rays::{RayLanes, SLACK};
 use super::{Outline, face};
 use durer_math::{F8, M8, Point3, U, Vec3};
 
@@ -29,7 +30,7 @@ fn times(v: Vec3<F8>, k: F8) -> Vec3<F8> {
 }
 
 impl Outline {
-    /// Puts down the points at `t` on face `i`, moved onto the face by one step of Newton's method, for some lanes; answers with those for which all is proven. Of the
+    /// Puts down the points at `t` on face `i`, with what [`Nearest`](super::Nearest) keeps of them, moved onto the face by one step of Newton's method, for some lanes; answers with those for which all is proven. Of the
     /// others the surface itself has to be asked.
     ///
     /// With `|f(p)| <= η`, gradient `G` and `|Hessian| <= h`, a start at `p ± off n + τ` has `|f| >= off |G| - h (off² + |τ|²) - η`. Where
@@ -37,37 +38,84 @@ impl Outline {
     /// and near tips, has to be as small as `x`. As in the scalar kernels `η` includes twice the error of `f`,
     /// so that rays from there see on which side they start.
     #[inline(never)]
-    pub fn points(&self, i: usize, rays: &RayLanes<'_>, t: &F8, lanes: &M8, points: Points8<'_>) -> M8 {
+    pub fn points(
+        &self,
+        i: usize,
+        rays: &RayLanes<'_>,
+        (t, tag): (&F8, &F8),
+        lanes: &M8,
+        points: Points8<'_>,
+    ) -> M8 {
         rays.isa.run_in_lanes(
             #[inline(always)]
-            || self.points_here(i, rays, *t, *lanes, points),
+            || self.points_here(i, rays, (*t, *tag), *lanes, points),
         )
     }
 
     #[inline(always)]
-    fn points_here(&self, i: usize, rays: &RayLanes<'_>, t: F8, lanes: M8, to: Points8<'_>) -> M8 {
+    fn points_here(
+        &self,
+        i: usize,
+        rays: &RayLanes<'_>,
+        (t, tag): (F8, F8),
+        lanes: M8,
+        to: Points8<'_>,
+    ) -> M8 {
+        if let Some(detail) = &self.detail {
+            return self.put_points(
+                rays,
+                (t, lanes),
+                to,
+                None,
+                #[inline(always)]
+                |y| detail.skin(i, tag, y, taxicab(y) * SLACK),
+            );
+        }
+        let face: &face::Face = &self.faces[i.min(self.faces.len() - 1)];
+        let normals = self.normals.as_deref().filter(|_| face.kind == FaceKind::Plane);
+        self.put_points(
+            rays,
+            (t, lanes),
+            to,
+            normals,
+            #[inline(always)]
+            |y| {
+                let (f, half) = face.value_and_half_gradient(y);
+                let y1 = taxicab(y);
+                let (_, e_f) = face.at(y, y1, F8::ZERO);
+                Skin { f, half, e_f, e_half: face.gradient_error(y1), bend: F8::splat(face.bend) }
+            },
+        )
+    }
+
+    #[inline(always)]
+    fn put_points(
+        &self,
+        rays: &RayLanes<'_>,
+        (t, lanes): (F8, M8),
+        to: Points8<'_>,
+        normals: Option<&[Vec3; 4]>,
+        skin: impl Fn(Vec3<F8>) -> Skin,
+    ) -> M8 {
         /// How small `x` has to be.
         const SMALL: f64 = 1.0 / (1u64 << 20) as f64;
-        let face: &face::Face = &self.faces[i.min(self.faces.len() - 1)];
         let c = self.centre;
         let (o, d) = (rays.origin, rays.direction);
         let h = Vec3::new(o.x - c.x, o.y - c.y, o.z - c.z);
         let y = Vec3::new(t.mul_add(d.x, h.x), t.mul_add(d.y, h.y), t.mul_add(d.z, h.z));
-        let (f, g) = face.value_and_half_gradient(y);
+        let Skin { f, half: g, .. } = skin(y);
         let step = f * 0.5 / dot(g, g);
         let y = Vec3::new(y.x - g.x * step, y.y - g.y * step, y.z - g.z * step);
         // The world's numbers, and what the centre sees of them: again with an error of U |y|, which the bounds of a face include.
         let p = Point3::new(y.x + c.x, y.y + c.y, y.z + c.z);
         let y = Vec3::new(p.x - c.x, p.y - c.y, p.z - c.z);
-        let (f, g) = face.value_and_half_gradient(y);
-        let y1 = taxicab(y);
-        let (_, e_f) = face.at(y, y1, F8::ZERO);
+        let Skin { f, half: g, e_f, e_half, bend } = skin(y);
         let length = dot(g, g).sqrt();
         let gradient = length * 2.0;
         // A start is rounded at p's own size; `start_towards` steps as much further.
         let tau = taxicab(p.to_vec()) * (4.0 * U);
-        let eta = f.abs() + e_f * 2.0 + tau * tau * (2.0 * face.bend);
-        let x = eta * (4.0 * face.bend) / (gradient * gradient);
+        let eta = f.abs() + e_f * 2.0 + tau * tau * (bend * 2.0);
+        let x = eta * (bend * 4.0) / (gradient * gradient);
         let least =
             p.x.abs().max(p.y.abs()).max(p.z.abs()) * durer_math::scale::pow2(-500) + f64::MIN_POSITIVE;
         let off = eta / gradient * (1.0 + 2.0 * SMALL) + least;
@@ -76,13 +124,13 @@ impl Outline {
             inverse = -inverse;
         }
         let ng = times(g, inverse);
-        let ns = match self.normals.as_deref() {
-            Some(normals) if face.kind == FaceKind::Plane => shading_normal(normals, y, ng),
-            _ => ng,
+        let ns = match normals {
+            Some(normals) => shading_normal(normals, y, ng),
+            None => ng,
         };
         let ordinary = off.lt(F8::splat(f64::MAX)) & dot(ns, ns).gt(F8::splat(0.5));
         // The error of the gradient is at most √3 that of its entries.
-        let steady = (face.gradient_error(y1) * (2.0 / SMALL)).le(length);
+        let steady = (e_half * (2.0 / SMALL)).le(length);
         let sure = lanes & x.le(F8::splat(SMALL)) & steady & ordinary;
         *to.p = sure.select3(p.to_vec(), to.p.to_vec()).to_point();
         *to.ng = sure.select3(ng, *to.ng);

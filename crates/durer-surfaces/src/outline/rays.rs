@@ -42,6 +42,8 @@ pub struct Nearest {
     pub number: F8,
     /// The face of that outline.
     pub face: F8,
+    /// What the face wants to know of the point when that is asked for.
+    pub tag: F8,
     /// From here on nothing is sure; infinite without a doubt.
     pub doubt: F8,
 }
@@ -72,7 +74,7 @@ impl Nearest {
                 doubt = ordinary.select(NEVER, F8::ZERO);
             },
         );
-        Self { t: NEVER, e: F8::ZERO, number: F8::ZERO, face: F8::ZERO, doubt }
+        Self { t: NEVER, e: F8::ZERO, number: F8::ZERO, face: F8::ZERO, tag: F8::ZERO, doubt }
     }
 
     /// No crossing behind this can win.
@@ -89,6 +91,14 @@ impl Nearest {
         self.e = better.select(e, self.e);
         self.number = better.select(F8::splat(number), self.number);
         self.face = better.select(face, self.face);
+    }
+
+    /// The same of faces that want to know more of a point.
+    #[inline(always)]
+    pub(super) fn take_at(&mut self, sure: M8, (t, e): (F8, F8), number: f64, face: F8, tag: F8) {
+        let better = sure & t.lt(self.t);
+        self.tag = better.select(tag, self.tag);
+        self.take(sure, t, e, number, face);
     }
 
     /// Of live rays of which none of these is known nothing is sure.

@@ -1,11 +1,15 @@
 //! From a surface's own numbers to an outline.
 
+use super::detail::{DetailSketch, Kind8};
+use super::lathe::Lathe;
 use super::loops::{Edge, Loops, Off};
+use super::swept::Swept;
 use super::{Face, Outline};
 use crate::FillRule;
 use crate::quadric::body::Shape;
 use crate::quadric::form::Form;
 use durer_math::{Aabb, Affine, Dd, Dyadic, Isa, Point3, Ring, Run, U, Vec3};
+use std::sync::Arc;
 
 /// Precise enough that maps can be applied one after the other before anything is rounded to f64.
 type N = Run<Dd>;
@@ -29,6 +33,8 @@ pub struct Sketch {
     loops: Option<Loops<Form<N>>>,
     /// See [`Outline`].
     holes: Vec<Vec<Form<N>>>,
+    /// See [`Outline`].
+    detail: Option<DetailSketch>,
 }
 
 /// Where the numbers of an outline are: far enough from the ends of the range of f64 for all products of them.
@@ -85,6 +91,7 @@ impl Sketch {
             normals: None,
             loops: None,
             holes: Vec::new(),
+            detail: None,
         }
     }
 
@@ -216,6 +223,21 @@ impl Sketch {
         Self { vague: Some(bounds), ..Self::axis_box(bounds.min, bounds.max) }
     }
 
+    /// A surface of revolution within a box, in units of `2^scale` about `origin`; its axis is that of the second coordinate of these three.
+    pub(crate) fn lathe(bounds: Aabb, lathe: Lathe, origin: Point3, scale: i32, order: [usize; 3]) -> Self {
+        let vague = Self::vague(bounds);
+        let detail =
+            Some(DetailSketch::new(Kind8::Lathe(Arc::new(lathe)), vague.centre, origin, scale, order));
+        Self { detail, ..vague }
+    }
+
+    /// A part of a swept solid within a box, in units of `2^scale` about `origin`.
+    pub(crate) fn swept(bounds: Aabb, part: Swept, origin: Point3, scale: i32) -> Self {
+        let vague = Self::vague(bounds);
+        let shape = Kind8::Swept(Arc::new(part));
+        Self { detail: Some(DetailSketch::new(shape, vague.centre, origin, scale, [0, 1, 2])), ..vague }
+    }
+
     /// The same sheet, shaded with normals that change linearly over the triangle.
     pub(crate) fn with_normals(mut self, vertices: [Point3; 3], normals: [Vec3; 3]) -> Self {
         let [v0, v1, v2] = vertices;
@@ -305,7 +327,8 @@ impl Sketch {
             Loops { off, ..l.map(moved) }
         });
         let vague = self.vague.map(|bounds| map.bounds(&bounds));
-        Self { centre, forms, reach, normals, loops, holes, vague, ..self }
+        let detail = self.detail.map(|detail| detail.moved(det, moved));
+        Self { centre, forms, reach, normals, loops, holes, vague, detail, ..self }
     }
 
     /// The surface with its normals, and its inside, turned round.
@@ -327,6 +350,7 @@ impl Sketch {
         let seen = region.faces_from(self.centre);
         self.forms.extend(seen);
         self.convex = false;
+        self.detail = None;
         self
     }
 
@@ -336,6 +360,7 @@ impl Sketch {
         let seen = region.faces_from(self.centre);
         self.holes.push(seen.collect());
         self.convex = false;
+        self.detail = None;
         self
     }
 
@@ -388,6 +413,7 @@ impl Sketch {
             normals,
             loops,
             holes,
+            detail: self.detail.as_ref().and_then(DetailSketch::round).map(Box::new),
         })
     }
 }

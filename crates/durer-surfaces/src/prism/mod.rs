@@ -23,15 +23,15 @@ mod outline;
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
 use crate::mesh::{Sorted, may_hold};
-use crate::outline::Sketch;
+use crate::outline::{Curve, Sketch, Sweep8, Swept};
 use crate::planar::{self, Crossing, PointLine, Probe, ThreePoints};
 use crate::{
     FillRule, LocalPoint, LocalRay, Need, PartId, Polygon, PolygonError, Root, Side, Sink, Solidity, Surface,
     SurfacePoint,
 };
 use core::cmp::Ordering;
-use durer_math::eft::exponent;
-use durer_math::{Aabb, Point3, Vec3};
+use durer_math::eft::{exponent, scale2};
+use durer_math::{Aabb, Point3, U, Vec3};
 use outline::Point;
 
 /// A solid between two planes across y, within outlines that are swept from one to the other; without its caps a sheet.
@@ -255,6 +255,47 @@ impl Prism {
         }
     }
 
+    /// All of a tangled prism, its edges taken for curves.
+    fn tangled_sketch(&self) -> Sketch {
+        let [low, high] = [self.bounds.min.y, self.bounds.max.y];
+        let conic = self.sweep == Sweep::Conic;
+        // Corners of a conic sweep are rounded: near the apex that counts too much.
+        let steep = conic && low.abs().max(high.abs()) > 64.0 * low.abs().min(high.abs());
+        if self.open || steep || conic && low * high <= 0.0 {
+            return Sketch::vague(self.bounds);
+        }
+        let (centre, size) = if conic { (Point3::ORIGIN, self.bounds.magnitude()) } else { self.view() };
+        let scale = exponent(size) + 1;
+        let seen = |p: Point3| {
+            if conic {
+                [p.x / p.y, p.z / p.y]
+            } else {
+                [scale2(p.x - centre.x, -scale), scale2(p.z - centre.z, -scale)]
+            }
+        };
+        let edges = self.walls.chunks(2).map(|wall| wall[0].ribs.map(|rib| seen(rib[1])));
+        let reach =
+            |e: &[Point; 2]| e.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs())) * (1.0 + 4.0 * U);
+        // Corners at other heights are off by roundings of their own size.
+        let lost = if conic { 512.0 * U } else { 8.0 * U };
+        let curve = |e: [Point; 2]| {
+            let [a, b] = e;
+            let along = |k: usize| {
+                let step = (b[k] - a[k]) * (1.0 / 3.0);
+                [a[k], a[k] + step, b[k] - step, b[k]]
+            };
+            Curve {
+                points: [along(0), along(1)],
+                slack: reach(&e) * lost,
+                reach: reach(&e) * (1.0 + 8.0 * U),
+            }
+        };
+        let curves = edges.map(curve).collect();
+        let [low, high] = [low, high].map(|y| scale2(y - centre.y, -scale));
+        let sweep = Sweep8 { conic, low, high };
+        Sketch::swept(self.bounds, Swept::Whole { curves, sweep }, centre, scale)
+    }
+
     /// Every crossing of the line with a face, in no order: the crossing, its plane, its face and tag, and whether the sign is to be turned.
     #[inline(always)]
     fn each_crossing(&self, probe: &Probe<'_>, mut f: impl FnMut(Crossing, ThreePoints, u32, f64, bool)) {
@@ -396,7 +437,7 @@ impl Surface for Prism {
 
     fn sketch(&self, part: PartId) -> Sketch {
         match self.part(part) {
-            _ if self.tangled => Sketch::vague(self.bounds),
+            _ if self.tangled => self.tangled_sketch(),
             Some(PrismPart::Walls(&[Wall { ribs: [[a0, a1], [b0, b1]], .. }, _], _)) => {
                 Sketch::flat([a0, a1, b1, b0]).on_face(0)
             }

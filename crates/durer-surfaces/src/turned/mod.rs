@@ -17,16 +17,18 @@ pub(crate) mod level;
 mod piece;
 mod wall;
 
+use crate::outline::{Lathe, Sketch};
 use crate::planar::{self, Crossing, Line, PlaneForm, PointLine, Probe};
 use crate::quadric::body::Frame;
 use crate::roots::quadratic::Quadratic;
 use crate::zero_set;
 use crate::{
-    Algebraic, CentredRay, Flow, Forward, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface,
-    SurfacePoint,
+    Algebraic, CentredRay, Flow, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity,
+    Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
+use durer_math::scale::pow2;
 use durer_math::{Aabb, Dyadic, Isa, Point3, Ring, U, Vec3};
 use level::Level;
 use piece::Wall;
@@ -64,7 +66,7 @@ pub(crate) enum Profile {
 pub(crate) struct Unfit;
 
 /// Coefficients beyond this leave no room for products.
-const LARGEST: f64 = durer_math::scale::pow2(200);
+const LARGEST: f64 = pow2(200);
 
 impl Turned {
     /// The solid whose profile between `heights[i]` and `heights[i + 1]` is `profiles[i]`; `widest` is about its largest radius.
@@ -450,6 +452,21 @@ impl Surface for Turned {
             (point.uv, point.dpdu, point.dpdv) = ([p.x, p.z], Vec3::X, Vec3::Z);
         }
         point
+    }
+
+    fn sketch(&self, _part: PartId) -> Sketch {
+        let walls = self.walls.iter().zip(&self.widths);
+        let reach = self.widths.iter().copied().fold(0.0, f64::max);
+        // A wall that is all but a line is taken for a thicker one.
+        let walls: Option<Vec<_>> =
+            walls.map(|(wall, &width)| wall.for_lanes(width.max(reach * pow2(-10)))).collect();
+        match walls {
+            Some(walls) => {
+                let lathe = Lathe::new(&walls, !self.open);
+                Sketch::lathe(self.bounds, lathe, self.frame.centre, self.frame.scale, [0, 1, 2])
+            }
+            None => Sketch::vague(self.bounds),
+        }
     }
 
     fn solidity(&self) -> Solidity {

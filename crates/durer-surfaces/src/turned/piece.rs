@@ -1,6 +1,7 @@
 //! What encloses a turned solid between two of its heights: one wall or the other.
 
 use super::wall::{Cubic, Spindle};
+use crate::outline::LatheWall;
 use crate::planar::{AlongRay, Line, PointLine, Probe};
 use crate::quadric::body::Frame;
 use crate::roots::quadratic::Quadratic;
@@ -35,6 +36,28 @@ impl Wall {
                         inside(w.at(&o, &one).sign()).and_then(|is| if is { inner } else { Some(false) })
                     }
                 }
+            }
+        }
+    }
+
+    /// As lanes see it, no wider than `radius`; `None` if they would see more than the sheet that counts.
+    pub(super) fn for_lanes(&self, radius: f64) -> Option<LatheWall> {
+        let stand = match self {
+            Self::Cubic(w) => &w.stand,
+            Self::Spindle(w) => &w.stand,
+        };
+        let (at, slab) = (stand.at_height(), stand.slab);
+        match *self {
+            Self::Cubic(Cubic { a: p, .. }) => {
+                Some(LatheWall { alpha: 0.0, kappa: 0.0, beta: 1.0, p, at, slab, radius, kappa_size: 0.0 })
+            }
+            Self::Spindle(Spindle { major, minor, .. }) => {
+                let far = (slab[0] - at).abs().max((slab[1] - at).abs());
+                let outer = major + (minor * minor - far * far).max(major * major).sqrt();
+                let (kappa, beta) = ((major - minor) * (major + minor), 4.0 * major * major);
+                let kappa_size = major * major + minor * minor;
+                let wall = LatheWall { alpha: -1.0, kappa, beta, p: [0.0; 4], at, slab, radius, kappa_size };
+                (outer > radius * (1.0 + 1.0 / 16.0)).then_some(wall)
             }
         }
     }

@@ -255,7 +255,7 @@ fn solids() -> Vec<Turned> {
     let sor = |points: &[[f64; 2]]| Turned::sor(points).unwrap();
     vec![
         sor(&vase),
-        sor(&scaled(&vase, durer_math::scale::pow2(-40), 0.0)),
+        sor(&scaled(&vase, pow2(-40), 0.0)),
         sor(&scaled(&vase, 1024.0, 65536.0)),
         sor(&column),
         sor(&thin),

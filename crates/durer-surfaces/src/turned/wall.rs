@@ -34,10 +34,16 @@ impl Stand {
         [x, y - self.height::<T>() * ray.w.clone(), z]
     }
 
-    /// The same for a point in f64.
+    /// The same, rounded.
+    #[inline(always)]
+    pub(super) fn at_height(&self) -> f64 {
+        scale2(self.at - self.frame.centre.y, -self.frame.scale)
+    }
+
+    /// A point in f64 whose height is counted from `at`.
     #[inline(always)]
     fn point(&self, y: Vec3) -> Vec3 {
-        Vec3::new(y.x, y.y - scale2(self.at - self.frame.centre.y, -self.frame.scale), y.z)
+        Vec3::new(y.x, y.y - self.at_height(), y.z)
     }
 
     /// The part of a ray within the slab, a little enlarged, and the ball that holds the solid.

@@ -4,10 +4,11 @@ use super::point;
 use crate::Geometry;
 use durer_math::{Affine, Dyadic, Isa, Normal3, Point3, Vec3};
 use durer_surfaces::{
-    Algebraic, Annulus, AxisBox, CappedCylinder, Clip, Cone, Disc, Ellipsoid, EllipticCylinder,
-    EllipticParaboloid, Erased, FillRule, Frustum, HyperbolicCylinder, HyperbolicParaboloid,
-    HyperboloidOfOneSheet, HyperboloidOfTwoSheets, Inverse, Mesh, MeshData, ParabolicCylinder, Parallelogram,
-    Placed, Plane, Polygon, Prism, Quadric, Region, Sphere, SphericalSector, Triangle,
+    Algebraic, Annulus, Axis, AxisBox, CappedCylinder, Clip, Cone, CurvedPrism, Disc, Ellipsoid,
+    EllipticCylinder, EllipticParaboloid, Erased, FillRule, Frustum, HyperbolicCylinder,
+    HyperbolicParaboloid, HyperboloidOfOneSheet, HyperboloidOfTwoSheets, Inverse, Mesh, MeshData,
+    ParabolicCylinder, Parallelogram, Placed, Plane, Polygon, Prism, Quadric, Region, Sphere,
+    SphericalSector, Torus, Triangle, Turned,
 };
 
 /// What is known exactly of points beside the surface.
@@ -222,5 +223,41 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     let hole = Region::axis_box(point(-0.5, -0.5, -0.25), point(2.0, 2.0, 0.75)).unwrap().inverse();
     worlds("sphere without a box", Sides::Sheet, Clip::new(ball, vec![hole.clone()]), all);
     worlds("box without a box", Sides::Sheet, Clip::new(block, vec![hole]), all);
+    let ring = Torus::new(point(0.25, 0.0, -0.25), Axis::Y, 0.75, 0.25).unwrap();
+    worlds("torus", Sides::Smooth, ring, all);
+    worlds("horn torus", Sides::Solid, Torus::new(o, Axis::X, 0.5, 0.5).unwrap(), all);
+    let profile = [[0.25, -1.25], [0.5, -1.0], [0.75, -0.25], [0.25, 0.5], [0.5, 1.0], [1.0, 1.25]];
+    let vase = Turned::sor(&profile).unwrap();
+    worlds("sor", Sides::Solid, vase.clone(), all);
+    worlds("open sor", Sides::Sheet, vase.without_ends(), all);
+    worlds("ovus", Sides::Smooth, Turned::ovus(0.75, 0.5).unwrap(), all);
+    worlds("lemon", Sides::Convex, Turned::lemon(1.5, 0.5, 0.25, 1.25).unwrap(), all);
+    let (heart, hole) = (
+        [
+            [[0.0, -1.0], [0.5, -0.5], [1.0, 0.0], [1.0, 0.5]],
+            [[1.0, 0.5], [1.0, 1.0], [0.25, 1.25], [0.0, 0.5]],
+            [[0.0, 0.5], [-0.25, 1.25], [-1.0, 1.0], [-1.0, 0.5]],
+            [[-1.0, 0.5], [-1.0, 0.0], [-0.5, -0.5], [0.0, -1.0]],
+        ],
+        [
+            [[0.25, 0.0], [0.25, 0.5], [-0.25, 0.5], [-0.25, 0.0]],
+            [[-0.25, 0.0], [-0.25, -0.5], [0.25, -0.5], [0.25, 0.0]],
+        ],
+    );
+    let curves = [heart.as_slice(), hole.as_slice()];
+    worlds("curved prism", Sides::Solid, CurvedPrism::linear(&curves, -0.5, 0.75).unwrap(), all);
+    worlds("conic curved prism", Sides::Solid, CurvedPrism::conic(&curves, -0.5, 1.0).unwrap(), all);
+    let open = CurvedPrism::conic(&curves, 0.25, 1.0).unwrap().without_caps();
+    worlds("open curved prism", Sides::Sheet, open, all);
+    // A star that winds twice around its middle, and an eight.
+    let star = [[[-0.75, -1.25], [1.25, 0.25], [-1.25, 0.25], [0.75, -1.25], [-0.25, 1.25]]];
+    worlds("crossed prism", Sides::Solid, Prism::linear(&star, -0.5, 0.75).unwrap(), all);
+    worlds("crossed conic prism", Sides::Solid, Prism::conic(&star, 0.25, 1.0).unwrap(), all);
+    let eight = [[
+        [[0.0, 0.0], [1.0, 1.0], [1.5, -1.0], [0.25, -0.25]],
+        [[0.25, -0.25], [-0.75, 0.75], [-1.5, 0.75], [-1.0, -0.5]],
+        [[-1.0, -0.5], [-0.75, -1.0], [-0.5, -0.5], [0.0, 0.0]],
+    ]];
+    worlds("crossed curved prism", Sides::Solid, CurvedPrism::linear(&eight, -0.5, 0.75).unwrap(), all);
     core::mem::take(&mut all.1)
 }

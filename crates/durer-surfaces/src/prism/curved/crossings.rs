@@ -285,6 +285,13 @@ impl CurvedPrism {
     #[inline(never)]
     pub(super) fn roots_of_part(&self, PartId(part): PartId, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         let Some(sides) = &self.inside_is_left else { return self.all_roots(ray, sink) };
+        let passes = match (part as usize).checked_sub(self.pieces.len()) {
+            None => self.pieces[part as usize].is_passed_by(ray, self.view.sweep),
+            Some(cap) => ray.within(&self.cap_boxes[cap.min(1)]).is_none(),
+        };
+        if passes {
+            return;
+        }
         Isa::detect().run(
             #[inline(always)]
             || match (part as usize).checked_sub(self.pieces.len()) {

@@ -28,7 +28,7 @@ mod spline;
 mod tangle;
 
 use super::{PrismError, Sweep};
-use crate::outline::Sketch;
+use crate::outline::{Sketch, Sweep8, Swept};
 use crate::planar::{self, Line, PointLine, Probe};
 use crate::roots::quadratic::Quadratic;
 use crate::turned::level::Level;
@@ -272,9 +272,27 @@ impl Surface for CurvedPrism {
     }
 
     fn sketch(&self, PartId(part): PartId) -> Sketch {
-        let boxes = self.boxes.iter().chain(&self.cap_boxes);
-        let part = if self.inside_is_left.is_some() { boxes.copied().nth(part as usize) } else { None };
-        Sketch::vague(part.unwrap_or(self.bounds))
+        let View { sweep, centre, scale } = self.view;
+        let [low, high] = self.heights.map(|y| scale2(y - centre.y, -scale));
+        let sweep = Sweep8 { conic: sweep == Sweep::Conic, low, high };
+        let number = part as usize;
+        let curves = || self.pieces.iter().map(Piece::for_lanes).collect();
+        let Some(left) = &self.inside_is_left else {
+            // Caps that are not there, and tips, would have to be counted, too.
+            if self.open || self.has_tip(false) || self.has_tip(true) {
+                return Sketch::vague(self.bounds);
+            }
+            return Sketch::swept(self.bounds, Swept::Whole { curves: curves(), sweep }, centre, scale);
+        };
+        let mut boxes = self.boxes.iter().chain(&self.cap_boxes);
+        let Some(&bounds) = boxes.nth(number) else { return Sketch::vague(self.bounds) };
+        let part = match number.checked_sub(self.pieces.len()) {
+            None => Swept::Wall { curve: self.pieces[number].for_lanes(), sweep, left: left[number] },
+            // A tip is a point.
+            Some(cap) if self.has_tip(cap > 0) => return Sketch::vague(bounds),
+            Some(cap) => Swept::Cap { curves: curves(), sweep, top: cap > 0 },
+        };
+        Sketch::swept(bounds, part, centre, scale)
     }
 
     #[inline(always)]

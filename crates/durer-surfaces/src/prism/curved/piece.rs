@@ -2,9 +2,11 @@
 
 use super::Sweep;
 use super::spline::Bezier;
+use crate::LocalRay;
+use crate::outline::Curve;
 use crate::roots::bernstein::Bernstein;
 use durer_math::eft::scale2;
-use durer_math::{Point3, Ring, Run};
+use durer_math::{Point3, Ring, Run, U, Vec3};
 
 /// From where a prism is seen, and in which unit of length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +59,49 @@ impl Piece {
         };
         piece.powers = piece.in_powers(view);
         piece
+    }
+
+    /// Whether a ray surely passes by all that the piece sweeps: its trace has all control points on one side. The first and cheapest test.
+    ///
+    /// With `R` the largest `|x - ox| + |z - oz|`, `D = |dx| + |dz|` the values round by `4 U D R`, and the ray's own errors add `D e_o + R e_d` and their product, twice. The
+    /// form of a conic sweep is a cross product, of which each component rounds by `3 U |o|₁ |d|₁`, times `1 + |x| + |z|`.
+    #[inline(always)]
+    pub(super) fn is_passed_by(&self, ray: &LocalRay<'_>, sweep: Sweep) -> bool {
+        let (o, d) = (ray.o, ray.d);
+        let (e_o, e_d) = (ray.o_err.max_abs(), ray.d_err.max_abs());
+        let (mut least, mut most, mut far) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
+        let (size, own) = match sweep {
+            Sweep::Linear => {
+                for [x, z] in self.points {
+                    let (x, z) = (x - o.x, z - o.z);
+                    let g = d.z * x - d.x * z;
+                    (least, most) = (least.min(g), most.max(g));
+                    far = far.max(x.abs() + z.abs());
+                }
+                let size = d.x.abs() + d.z.abs();
+                (size * far, 2.0 * (size * e_o + far * e_d + e_o * e_d))
+            }
+            Sweep::Conic => {
+                let [a, b, c] = [o.y * d.z - o.z * d.y, o.z * d.x - o.x * d.z, o.x * d.y - o.y * d.x];
+                for [x, z] in self.points {
+                    let g = a * x + c * z + b;
+                    (least, most) = (least.min(g), most.max(g));
+                    far = far.max(x.abs() + z.abs());
+                }
+                let sum = |v: Vec3| v.x.abs() + v.y.abs() + v.z.abs();
+                let (o, d, far) = (sum(o.to_vec()), sum(d), 1.0 + far);
+                (o * d * far, 2.0 * far * (d * e_o + o * e_d + e_o * e_d))
+            }
+        };
+        // Not so if one of them is NaN.
+        let e = (size * (16.0 * U) + own) * (1.0 + 32.0 * U) + durer_math::scale::pow2(-900);
+        least > e || most < -e
+    }
+
+    /// As lanes see it.
+    pub(super) fn for_lanes(&self) -> Curve {
+        let larger = |[x, z]: [f64; 2]| x.max(z);
+        Curve { points: self.seen, slack: larger(self.slack), reach: larger(self.reach) }
     }
 
     /// The factors of the powers of `y = u - 1/2`, in any ring.

@@ -1,0 +1,549 @@
+//! Surfaces of revolution as lanes see them: walls, each between two planes across the axis, and the flat ends.
+//!
+//! ```text
+//!   f(x, v, z) = α (n + v² + κ)² + β n - p(v),   n = x² + z²,   p a cubic         negative inside
+//!
+//!   α = 0, β = 1      x² + z² = p(v), a piece of a `sor` or a ball
+//!   α = 1             (n + v² - R² - r²)² = 4R² (r² - v²), a torus
+//!   α = -1, β = 4R²   4R² n = (n + v² + R² - r²)², the inner sheet of a spindle
+//! ```
+//!
+//! A ray is cut to where it is between the planes, within a cylinder that is a little wider than the wall, and in its range: there `f` is a quartic
+//! (`poly.rs`). Outside the cylinder it is outside. Where it passes from one wall to the next both have to agree, for certain, on which side it is; else
+//! there is a doubt. So the walls may be asked in any order.
+//!
+//! **Errors.** With coordinates up to `M`, `F`, `F₁` and `F₂` bound `f`, the sum of its first derivatives and the norm of its second, all with
+//! absolute values throughout. A point that is wrong by `e` per axis puts `F₁ e` into `f` and so it does, in sum, into the coefficients along a
+//! ray; the formulas round fewer than 16 times at a point, and 64 times along a ray with all that `poly.rs` does.
+
+use super::face::Start;
+use super::operand::Crossings;
+use super::own::Own;
+use super::poly::{Part8, Poly8, Root8};
+use super::rays::{CLEAR, From8, Nearest, RayLanes, SLACK};
+use durer_math::scale::pow2;
+use durer_math::{F8, M8, U, Vec3};
+
+/// Where crossings go.
+pub(super) trait Offer {
+    /// All crossings are asked for, not only the first ones.
+    const ALL: bool;
+    /// Crossings behind this do not matter.
+    fn limit(&self, rays: &RayLanes<'_>) -> F8;
+    /// Some rays surely cross a face at `t` within `e`.
+    fn take(&mut self, sure: M8, at: (F8, F8), face: F8);
+    /// Of some rays nothing is sure from `t` on.
+    fn doubt(&mut self, lanes: M8, t: F8);
+}
+
+/// The first crossings, under the number of an outline.
+pub(super) struct First<'n> {
+    pub(super) nearest: &'n mut Nearest,
+    pub(super) number: f64,
+}
+
+impl Offer for First<'_> {
+    const ALL: bool = false;
+    #[inline(always)]
+    fn limit(&self, rays: &RayLanes<'_>) -> F8 {
+        self.nearest.limit(rays)
+    }
+    #[inline(always)]
+    fn take(&mut self, sure: M8, (t, e): (F8, F8), face: F8) {
+        self.nearest.take(sure, t, e, self.number, face);
+    }
+    #[inline(always)]
+    fn doubt(&mut self, lanes: M8, t: F8) {
+        self.nearest.doubt_from(lanes, t);
+    }
+}
+
+impl Offer for Crossings {
+    const ALL: bool = true;
+    #[inline(always)]
+    fn limit(&self, rays: &RayLanes<'_>) -> F8 {
+        *rays.t_max
+    }
+    #[inline(always)]
+    fn take(&mut self, sure: M8, (t, e): (F8, F8), face: F8) {
+        self.push(sure, t, e, face);
+    }
+    #[inline(always)]
+    fn doubt(&mut self, lanes: M8, t: F8) {
+        self.doubt_from(lanes, t);
+    }
+}
+
+/// A wall between two heights.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LatheWall {
+    pub(crate) alpha: f64,
+    pub(crate) kappa: f64,
+    pub(crate) beta: f64,
+    pub(crate) p: [f64; 4],
+    /// The height from which `v` is counted.
+    pub(crate) at: f64,
+    /// The planes between which the wall is.
+    pub(crate) slab: [f64; 2],
+    /// Between them it is no wider than this, and `f` is positive beyond.
+    pub(crate) radius: f64,
+    /// No less than `|κ|` and the terms of which it is the sum.
+    pub(crate) kappa_size: f64,
+}
+
+/// Walls, the lowest first, in coordinates of which the second is the height.
+#[derive(Clone, Debug)]
+pub(crate) struct Lathe {
+    walls: Box<[Bounded]>,
+    /// The flat ends belong to the surface.
+    closed: bool,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Bounded {
+    wall: LatheWall,
+    /// `F`, `F₁` at points of the wall, and for all that a ray's coefficients are made of.
+    near: Sizes,
+    wide: Sizes,
+    /// `F₂` near points of the wall.
+    bend: f64,
+    /// What rounding the heights lost.
+    slack: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Sizes {
+    f: f64,
+    slope: f64,
+    bend: f64,
+}
+
+impl LatheWall {
+    /// For `|x|, |z| <= m` and `|v| <= v`.
+    fn sizes(&self, m: f64, v: f64) -> Sizes {
+        let (alpha, beta) = (self.alpha.abs(), self.beta.abs());
+        let [a, b, c, d] = self.p.map(f64::abs);
+        let square = 2.0 * m * m + v * v;
+        let q = square + self.kappa_size;
+        let pay = 1.0 + 1.0 / 1024.0;
+        let p1 = (3.0 * d * v + 2.0 * c) * v + b;
+        Sizes {
+            f: (alpha * q * q + 2.0 * beta * m * m + ((d * v + c) * v + b) * v + a) * pay,
+            slope: (2.0 * m * (4.0 * alpha * q + 2.0 * beta) + 4.0 * alpha * q * v + p1) * pay,
+            bend: (alpha * (4.0 * q + 8.0 * square) + 2.0 * beta + 6.0 * d * v + 2.0 * c) * pay,
+        }
+    }
+}
+
+/// A point of a wall or an end: `f`, half its gradient, and bounds on what they lost.
+pub(super) struct Skin {
+    pub(super) f: F8,
+    pub(super) half: Vec3<F8>,
+    pub(super) e_f: F8,
+    pub(super) e_half: F8,
+    /// An upper bound of the Hessian's norm near the point.
+    pub(super) bend: F8,
+}
+
+/// Eight rays in the lathe's own coordinates.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sight {
+    o: [F8; 3],
+    d: [F8; 3],
+    e_o: F8,
+    e_d: F8,
+    /// The sum of the direction's coordinates.
+    d1: F8,
+    /// `a t² + 2 b t + c` is the square of the distance from the axis; the error of a point of the ray at most.
+    a: F8,
+    b: F8,
+    c: F8,
+    e: F8,
+    /// One over the way up, where that is surely not zero.
+    inverse: F8,
+    steep: M8,
+}
+
+/// Where eight rays pass a height.
+#[derive(Clone, Copy, Debug, Default)]
+struct Level {
+    t: F8,
+    e: F8,
+}
+
+/// Memory for one lathe on the way.
+#[derive(Debug, Default)]
+pub(super) struct Memory {
+    sight: Sight,
+    low: Level,
+    high: Level,
+    from: F8,
+    length: F8,
+    /// On which side of the wall a ray is where it passes the height below and the one above: 1 outside, -1 inside, 0 not known.
+    sides: [F8; 2],
+    /// The same where rays start, if that is known.
+    start: F8,
+    poly: Poly8,
+    part: Part8,
+    root: Root8,
+}
+
+impl Lathe {
+    /// `closed` with flat ends.
+    pub(crate) fn new(walls: &[LatheWall], closed: bool) -> Self {
+        let walls = walls.iter().map(|&wall| {
+            let [low, high] = wall.slab.map(|y| y - wall.at);
+            let far = low.abs().max(high.abs()) * (1.0 + 1.0 / 64.0);
+            let m = wall.radius * (1.0 + 1.0 / 64.0);
+            // A ray's coefficients are made of a point within and of what leads from there to another one, twice as long at most.
+            let (near, wide) = (wall.sizes(m, far), wall.sizes(3.0 * m, far + (high - low)));
+            let slack = (wall.slab[0].abs() + wall.slab[1].abs() + wall.at.abs()) * (4.0 * U);
+            Bounded { wall, near, wide, bend: wall.sizes(m * 1.25, far + 0.25 * m).bend, slack }
+        });
+        Self { walls: walls.collect(), closed }
+    }
+
+    /// The face of roots on the face that lanes call by a number.
+    pub(super) fn name(&self, face: u32) -> u32 {
+        face.saturating_sub(self.walls.len() as u32 - 1).min(2)
+    }
+
+    /// Shows the crossings of each ray to `to`, or the first one of each wall; and where there is a doubt. Of rays that leave the surface it is said whether the
+    /// surface is turned round.
+    pub(super) fn meet<K: Offer>(
+        &self,
+        own: &Own,
+        (rays, leaving): (&RayLanes<'_>, Option<(&From8, bool)>),
+        start: &Start,
+        to: &mut K,
+        memory: &mut Memory,
+    ) {
+        let isa = rays.isa;
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                see(own, rays, start, &mut memory.sight);
+                memory.start = match leaving {
+                    Some((from, turned)) if self.walls.len() == 1 && !self.closed => {
+                        let inside = if turned { !from.back } else { from.back };
+                        from.lanes.keep(inside.select(F8::splat(-1.0), F8::ONE))
+                    }
+                    _ => F8::ZERO,
+                };
+            },
+        );
+        self.level(rays, 0, memory);
+        let mut before = F8::ONE;
+        for i in 0..self.walls.len() {
+            memory.low = memory.high;
+            self.level(rays, i + 1, memory);
+            self.cut(rays, i, to, memory);
+            // A quartic has no more roots.
+            for _ in 0..4 {
+                if !memory.part.open.any() {
+                    break;
+                }
+                memory.poly.isolate(isa, &mut memory.part);
+                memory.poly.refine(isa, &memory.part, &mut memory.root);
+                self.offer(rays, i, to, memory);
+                if !K::ALL {
+                    break;
+                }
+                memory.poly.go_on(&mut memory.part);
+            }
+            let (low, [below, above]) = (memory.low, memory.sides);
+            self.seam(rays, i, &low, &(before, below), to);
+            before = above;
+        }
+        let high = memory.high;
+        self.seam(rays, self.walls.len(), &high, &(before, F8::ONE), to);
+    }
+
+    /// Which points at `t` within `e` are surely inside, and which surely outside; for rays seen from the outline's centre.
+    #[inline(never)]
+    pub(super) fn holds(&self, own: &Own, rays: &RayLanes<'_>, start: &Start, (t, e): (F8, F8)) -> (M8, M8) {
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let mut sight = Sight::default();
+                see(own, rays, start, &mut sight);
+                let Sight { o, d, e_o, e_d, d1, .. } = sight;
+                let (x, y, z) = (t.mul_add(d[0], o[0]), t.mul_add(d[1], o[1]), t.mul_add(d[2], o[2]));
+                let (mut inside, mut outside) = (M8::ALL, M8::ALL);
+                let n = x.mul_add(x, z * z);
+                let e_point = e_o + t.abs() * e_d + e * d1;
+                for (i, Bounded { wall, near, slack, .. }) in self.walls.iter().enumerate() {
+                    let e = (e_point + (*slack + wall.radius * (4.0 * U))) * SLACK;
+                    let known = e.lt(F8::splat(wall.radius * pow2(-12)));
+                    let (low, high) = (y - wall.slab[0], y - wall.slab[1]);
+                    let (below, above) = (low.lt(-e), high.gt(e));
+                    if i == 0 {
+                        inside &= low.gt(e);
+                    }
+                    if i + 1 == self.walls.len() {
+                        inside &= high.lt(-e);
+                    }
+                    let beside = below | above;
+                    // Beyond the cylinder; what `near` is made for.
+                    let far = known & n.gt(F8::splat(wall.radius * wall.radius * (1.0 + pow2(-8))));
+                    let f = value(wall, n, y - wall.at);
+                    let e_f = e * (2.0 * near.slope) + 16.0 * U * near.f;
+                    inside &= beside | known & !far & f.lt(-e_f);
+                    outside &= beside | far | known & f.gt(e_f);
+                }
+                (inside, outside)
+            },
+        )
+    }
+
+    /// How many numbers it takes to name the faces.
+    pub(super) fn faces(&self) -> usize {
+        self.walls.len() + 2
+    }
+
+    /// Where the rays pass height `i`.
+    #[inline(never)]
+    fn level(&self, rays: &RayLanes<'_>, i: usize, memory: &mut Memory) {
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let (wall, end) = if i == 0 { (0, 0) } else { (i - 1, 1) };
+                let Bounded { wall, slack, .. } = &self.walls[wall];
+                let Sight { o, e_o, e_d, inverse, .. } = memory.sight;
+                let way = -(o[1] - wall.slab[end]);
+                let t = way * inverse;
+                let e = (e_o + *slack + t.abs() * e_d) * inverse.abs() * (CLEAR / (CLEAR - 1.0))
+                    + t.abs() * (4.0 * U);
+                memory.high = Level { t, e: e * SLACK };
+            },
+        );
+    }
+
+    /// The part of each ray on which a wall has to be looked at, and the polynomial there.
+    #[inline(never)]
+    fn cut<K: Offer>(&self, rays: &RayLanes<'_>, i: usize, to: &mut K, memory: &mut Memory) {
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || self.cut_here(rays, i, to, memory),
+        );
+    }
+
+    #[inline(always)]
+    fn cut_here<K: Offer>(&self, rays: &RayLanes<'_>, i: usize, out: &mut K, memory: &mut Memory) {
+        let Bounded { wall, near, wide, slack, .. } = &self.walls[i];
+        let Memory { sight, low, high, .. } = memory;
+        let Sight { o, d, e_o, e_d, d1, a, b, c, e, inverse, steep } = *sight;
+        let square = wall.radius * wall.radius;
+        // Rays that are known so well that the wider cylinder has room for all that is not.
+        let known = steep & (c * (16.0 * U)).lt(F8::splat(square * pow2(-11)));
+        let known = known & e.lt(F8::splat(wall.radius * pow2(-12)));
+        let disc = b.mul_add(b, -(a * (c - square * (1.0 + pow2(-8)))));
+        let missed = disc.lt(F8::ZERO);
+        let root = disc.max(F8::ZERO).sqrt();
+        let (near_side, far_side) = ((-b - root) / a, (root - b) / a);
+        let up = inverse.gt(F8::ZERO);
+        let (enter, leave) = (up.select(low.t, high.t), up.select(high.t, low.t));
+        let (e_enter, e_leave) = (up.select(low.e, high.e), up.select(high.e, low.e));
+        // `max` and `min` answer the second where one is not a number.
+        let from = near_side.max(enter).max(F8::ZERO);
+        let limit = out.limit(rays);
+        let to = far_side.min(leave).min(limit);
+        let live = *rays.live & known & !missed & !to.le(from);
+        let unknown = *rays.live & !known;
+        if unknown.any() {
+            out.doubt(unknown, F8::ZERO);
+        }
+        // Where a ray passes a height outside the cylinder it is outside.
+        let room = F8::splat(wall.radius * pow2(-12));
+        let clear_enter = missed | (near_side.gt(enter) | far_side.lt(enter)) & (e_enter * d1).lt(room);
+        let clear_leave = missed | (near_side.gt(leave) | far_side.lt(leave)) & (e_leave * d1).lt(room);
+        let mut sides = (clear_enter.keep(F8::ONE), clear_leave.keep(F8::ONE));
+        memory.sides = [up.select(sides.0, sides.1), up.select(sides.1, sides.0)];
+        memory.part.open = live;
+        if !live.any() {
+            return;
+        }
+        let length = to - from;
+        (memory.from, memory.length) = (from, length);
+        // The point where the part begins, and what leads from there to its end.
+        let (x, y, z) = (from.mul_add(d[0], o[0]), from.mul_add(d[1], o[1]), from.mul_add(d[2], o[2]));
+        let v = y - wall.at;
+        let (dx, dv, dz) = (length * d[0], length * d[1], length * d[2]);
+        let n0 = x.mul_add(x, z * z);
+        let n1 = x.mul_add(dx, z * dz) * 2.0;
+        let n2 = dx.mul_add(dx, dz * dz);
+        let [p0, p1, p2, p3] = wall.p.map(F8::splat);
+        let dv2 = dv * dv;
+        let value = p3.mul_add(v, p2).mul_add(v, p1).mul_add(v, p0);
+        let slope = (p3 * 3.0).mul_add(v, p2 * 2.0).mul_add(v, p1);
+        let bend = (p3 * 3.0).mul_add(v, p2);
+        let beta = F8::splat(wall.beta);
+        let mut k = [
+            beta.mul_add(n0, -value),
+            beta.mul_add(n1, -(slope * dv)),
+            beta.mul_add(n2, -(bend * dv2)),
+            -(p3 * (dv2 * dv)),
+            F8::ZERO,
+        ];
+        if wall.alpha != 0.0 {
+            let q0 = v.mul_add(v, n0) + wall.kappa;
+            let q1 = (v * dv).mul_add(F8::splat(2.0), n1);
+            let q2 = n2 + dv2;
+            let alpha = F8::splat(wall.alpha);
+            k[0] = alpha.mul_add(q0 * q0, k[0]);
+            k[1] = alpha.mul_add(q0 * q1 * 2.0, k[1]);
+            k[2] = alpha.mul_add(q1.mul_add(q1, q0 * q2 * 2.0), k[2]);
+            k[3] = alpha.mul_add(q1 * q2 * 2.0, k[3]);
+            k[4] = alpha * (q2 * q2);
+        }
+        // The formulas' own rounding, that of the heights and of the points included.
+        let of_points = *slack + wall.radius * (4.0 * U);
+        let (rounding, at_point) = (64.0 * U * wide.f + 2.0 * wide.slope * of_points, 16.0 * U * near.f);
+        let (e_from, e_to) = (e_o + from * e_d, e_o + to * e_d);
+        // Where a part ends at a height, that is known within its own error.
+        let (at_enter, at_leave) = (enter.ge(from), leave.le(to));
+        let e_first = e_from + of_points + at_enter.keep(e_enter) * d1;
+        let e_last = e_to + at_leave.keep(e_leave) * d1;
+        let whole = e_to * (2.0 * wide.slope) + rounding;
+        memory.poly = Poly8 {
+            c: k,
+            e: whole,
+            e_first: e_first * (2.0 * near.slope) + at_point,
+            e_last: e_last * (2.0 * wide.slope) + rounding,
+        };
+        // What the sizes are made for; rays along the axis may be elsewhere.
+        let most = F8::splat(wall.radius * (1.0 + 1.0 / 64.0));
+        let within = n0.lt(most * most) & (x + dx).abs().lt(most) & (z + dz).abs().lt(most);
+        let open = live & within;
+        let (first, last) = memory.poly.ends();
+        sides.0 = (open & at_enter).select(first, sides.0);
+        sides.1 = (open & at_leave).select(last, sides.1);
+        memory.sides = [up.select(sides.0, sides.1), up.select(sides.1, sides.0)];
+        // Of a ray that leaves the only wall the side is known.
+        let start = memory.start;
+        let known = (from.le(F8::ZERO)).select(start, F8::ZERO);
+        memory.poly.begin_with(open, known, &mut memory.part);
+        let unsure = live & !within | memory.part.unsure;
+        if unsure.any() {
+            out.doubt(unsure, from);
+        }
+        memory.part.unsure = M8::NONE;
+    }
+
+    /// Offers what was found of a wall.
+    #[inline(never)]
+    fn offer<K: Offer>(&self, rays: &RayLanes<'_>, i: usize, to: &mut K, memory: &mut Memory) {
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let Memory { from, length, part, root, .. } = memory;
+                let t = root.x.mul_add(*length, *from);
+                let e = (root.e * *length + t * (2.0 * U)) * SLACK;
+                let sure = root.sure & (t - e).gt(F8::ZERO) & (t + e).le(*rays.t_max);
+                to.take(sure, (t, e), F8::splat(i as f64));
+                let unsure = part.unsure | part.one & !sure;
+                // Of what is beyond nothing is told.
+                part.unsure = M8::NONE;
+                if unsure.any() {
+                    to.doubt(unsure, part.l.mul_add(*length, *from) * (1.0 - 4.0 * U));
+                }
+            },
+        );
+    }
+
+    /// Whether a ray that passes height `i` comes from one side and goes on on the other.
+    #[inline(never)]
+    fn seam<K: Offer>(&self, rays: &RayLanes<'_>, i: usize, level: &Level, sides: &(F8, F8), to: &mut K) {
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let product = sides.0 * sides.1;
+                let Level { t, e } = *level;
+                let matters = *rays.live & !((t + e).lt(F8::ZERO) | (t - e).gt(to.limit(rays)));
+                let open = matters & !product.gt(F8::ZERO);
+                if !open.any() {
+                    return;
+                }
+                let end = i == 0 || i == self.walls.len();
+                let mut unsure = open;
+                if end {
+                    let passes = open & product.lt(F8::ZERO);
+                    let sure = if self.closed {
+                        let sure = passes & (t - e).gt(F8::ZERO) & (t + e).le(*rays.t_max);
+                        let face = self.walls.len() + usize::from(i > 0);
+                        to.take(sure, (t, e), F8::splat(face as f64));
+                        sure
+                    } else {
+                        passes
+                    };
+                    unsure &= !sure;
+                }
+                to.doubt(unsure, t - e);
+            },
+        );
+    }
+
+    /// What is at points `h` of a face, with `|h|₁`.
+    #[inline(always)]
+    pub(super) fn skin(&self, own: &Own, face: usize, h: Vec3<F8>, h1: F8) -> Skin {
+        let (y, e) = (own.point(h), own.point_error(h1));
+        let count = self.walls.len();
+        if face >= count {
+            let top = face > count;
+            let Bounded { wall, slack, .. } = &self.walls[if top { count - 1 } else { 0 }];
+            let up = if top { 1.0 } else { -1.0 };
+            let f = (y.y - wall.slab[usize::from(top)]) * up;
+            let half = own.covector(Vec3::new(F8::ZERO, F8::splat(0.5 * up), F8::ZERO));
+            return Skin {
+                f,
+                half,
+                e_f: (e + *slack) * 2.0,
+                e_half: F8::splat(own.norm * (4.0 * U)),
+                bend: F8::ZERO,
+            };
+        }
+        let Bounded { wall, near, bend, slack, .. } = &self.walls[face];
+        let v = y.y - wall.at;
+        let n = y.x.mul_add(y.x, y.z * y.z);
+        let [p0, p1, p2, p3] = wall.p.map(F8::splat);
+        let value = p3.mul_add(v, p2).mul_add(v, p1).mul_add(v, p0);
+        let slope = (p3 * 3.0).mul_add(v, p2 * 2.0).mul_add(v, p1);
+        let q = v.mul_add(v, n) + wall.kappa;
+        let alpha = q * wall.alpha;
+        let f = alpha.mul_add(q, F8::splat(wall.beta).mul_add(n, -value));
+        // Half of (4αq + 2β) (x, 0, z) + (4αq v - p') (0, 1, 0).
+        let across = alpha * 2.0 + wall.beta;
+        let half = Vec3::new(across * y.x, (alpha * 2.0).mul_add(v, slope * -0.5), across * y.z);
+        let e = e + (*slack + wall.radius * (4.0 * U));
+        let e_half = (e * near.bend + near.slope * (16.0 * U)) * (2.0 * own.norm);
+        // Twice, so that rays from there are certain of their side by the bound of a polynomial's first value.
+        let e_f = e * (4.0 * near.slope) + 32.0 * U * near.f;
+        let bend = F8::splat(*bend * own.norm * own.norm * (1.0 + 16.0 * U));
+        Skin { f, half: own.covector(half), e_f, e_half, bend }
+    }
+}
+
+/// `f` at a height `v` and the square of a distance from the axis.
+#[inline(always)]
+fn value(wall: &LatheWall, n: F8, v: F8) -> F8 {
+    let [p0, p1, p2, p3] = wall.p.map(F8::splat);
+    let p = p3.mul_add(v, p2).mul_add(v, p1).mul_add(v, p0);
+    let q = v.mul_add(v, n) + wall.kappa;
+    (q * wall.alpha).mul_add(q, F8::splat(wall.beta).mul_add(n, -p))
+}
+
+/// The rays in the lathe's own coordinates.
+#[inline(always)]
+fn see(own: &Own, rays: &RayLanes<'_>, start: &Start, sight: &mut Sight) {
+    let (o, d) = (own.point(start.h), own.vector(*rays.direction));
+    let (e_o, e_d) = (own.point_error(start.h1), own.vector_error(rays.d1));
+    (sight.o, sight.d) = ([o.x, o.y, o.z], [d.x, d.y, d.z]);
+    (sight.e_o, sight.e_d) = (e_o, e_d);
+    sight.d1 = d.x.abs() + d.y.abs() + d.z.abs();
+    sight.a = d.x.mul_add(d.x, d.z * d.z);
+    sight.b = o.x.mul_add(d.x, o.z * d.z);
+    sight.c = o.x.mul_add(o.x, o.z * o.z);
+    sight.e = (e_o + start.far * e_d) * 2.0;
+    sight.inverse = F8::ONE / d.y;
+    sight.steep = d.y.abs().gt(e_d * CLEAR);
+}
