@@ -214,6 +214,20 @@ fn a_polygon_has_the_loops_that_its_points_close() {
 }
 
 #[test]
+fn a_polygons_first_corners_tell_its_front() {
+    let corners = |points: &str| {
+        let scene = scene(&format!("polygon {{ 6, {points} pigment {{ rgb 1 }} }}"));
+        let Shape::Polygon { loops, .. } = &scene.objects[0].shape else { panic!("no polygon") };
+        loops[0].iter().map(|p| (p.x, p.y)).collect::<Vec<_>>()
+    };
+    // Counterclockwise, but for the notch at the second corner.
+    let notched = corners("<-1,0>, <0,0.5>, <1,0>, <1,2>, <-1,2>, <-1,0>");
+    assert_eq!(notched, [(-1.0, 0.0), (-1.0, 2.0), (1.0, 2.0), (1.0, 0.0), (0.0, 0.5)]);
+    let straight = corners("<-1,0>, <0,0>, <1,0>, <1,2>, <-1,2>, <-1,0>");
+    assert_eq!(straight, [(-1.0, 0.0), (0.0, 0.0), (1.0, 0.0), (1.0, 2.0), (-1.0, 2.0)]);
+}
+
+#[test]
 fn a_polygon_takes_a_fill_rule() {
     let rule = |words: &str| {
         let scene = scene(&format!("polygon {{ 4, 0, x, y, 0 {words} pigment {{ rgb 1 }} }}"));

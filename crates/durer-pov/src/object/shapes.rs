@@ -7,7 +7,7 @@ use crate::diagnostics::{Fault, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::reader::Reader;
-use crate::transform::length;
+use crate::transform::{cross, dot, length};
 use durer_scene::{MAX_ORDER, coefficient_count, place_of};
 
 impl Reader<'_> {
@@ -258,6 +258,22 @@ impl Reader<'_> {
         if loops.iter().any(|points| points.len() < 3) {
             return Err(Fault::invalid(place, "a loop of this polygon has fewer than three corners"));
         }
+        if loops.first().is_some_and(|outline| starts_inward(outline)) {
+            // The first corners stay the first.
+            loops.iter_mut().for_each(|points| points[1..].reverse());
+        }
         Ok(loops)
     }
+}
+
+/// Whether the first three corners of an outline that are not on one line go round the other way than all of it does. They tell which side is the front.
+fn starts_inward(points: &[[f64; 3]]) -> bool {
+    let from_first = |p: [f64; 3]| std::array::from_fn(|axis| p[axis] - points[0][axis]);
+    let turns = |a: [f64; 3], b: [f64; 3]| cross(from_first(a), from_first(b));
+    let all = points.windows(2).fold([0.0; 3], |sum, two| {
+        let turn = turns(two[0], two[1]);
+        std::array::from_fn(|axis| sum[axis] + turn[axis])
+    });
+    let first = points[2..].iter().map(|&p| turns(points[1], p)).find(|turn| turn.iter().any(|&x| x != 0.0));
+    first.is_some_and(|first| dot(first, all) < 0.0)
 }

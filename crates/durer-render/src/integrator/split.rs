@@ -30,7 +30,8 @@ pub(super) fn cut(world: &World, group: usize, rays: &Rays8, hits: &Hits8, piece
         });
         return;
     }
-    let along = if world.has_insides { dot(hits.ng, rays.direction).0 } else { [0.0; LANES] };
+    // From where a smooth face is seen is told by its normals, not by its plane.
+    let along = if world.has_insides { dot(hits.ns, rays.direction).0 } else { [0.0; LANES] };
     let mut keys = [0_u32; LANES];
     let mut last = (u32::MAX, u32::MAX, 0);
     for i in set_bits(left) {

@@ -248,15 +248,20 @@ fn flat(shape: &Shape, map: Option<&Affine>, mut target: Target<'_>) -> Result<B
             }
         }
         Shape::SmoothTriangle(data) => {
-            let (corners, normals) = &**data;
-            if !look_to_one_side(corners, normals) {
-                return Ok(Built::Nothing(TWO_SIDED.into()));
+            let (mut corners, mut normals) = **data;
+            match front(&corners, &normals, map) {
+                Some(true) => {}
+                Some(false) => {
+                    corners.swap(1, 2);
+                    normals.swap(1, 2);
+                }
+                None => return Ok(Built::Nothing(TWO_SIDED.into())),
             }
             // Only a translation leaves the normals exactly as they are.
-            let moved = |m: &Affine| m.as_translation().and_then(|_| points(m, corners));
+            let moved = |m: &Affine| m.as_translation().and_then(|_| points(m, &corners));
             let (map, corners) = match folded(map, moved) {
                 Some(folded) => (None, folded),
-                None => (map, *corners),
+                None => (map, corners),
             };
             match Triangle::new(corners) {
                 Ok(triangle) => {
@@ -289,12 +294,23 @@ fn add_flat<S: Algebraic + Clone + 'static>(target: &mut Target<'_>, surface: S,
 const DEGENERATE: &str = "triangle: its corners lie on one line, so it is left out";
 const TWO_SIDED: &str = "smooth_triangle: its normals do not all look to one side of it, so it is left out";
 
-/// Whether the normals of a smooth triangle are strictly on one side of it. The scene language knows no other ones, but for those of meshes.
-fn look_to_one_side(&[a, b, c]: &[Point3; 3], normals: &[Vec3; 3]) -> bool {
+/// Whether the normals of a smooth triangle look to the side from which its corners go round counterclockwise; `None` if they do not all look to
+/// one side, before or after it is placed (a shear turns a plane's normal and others apart). The scene language knows no such triangles, but for those of meshes.
+fn front(&[a, b, c]: &[Point3; 3], normals: &[Vec3; 3], map: Option<&Affine>) -> Option<bool> {
     let n = (b - a).cross(c - a);
-    let sides = normals.map(|v| n.dot(v));
-    // Where the triangle has no normal it is told by its corners that it is none.
-    n == Vec3::ZERO || sides.iter().all(|&s| s > 0.0) || sides.iter().all(|&s| s < 0.0)
+    if n == Vec3::ZERO {
+        // Its corners tell that it is none.
+        return Some(true);
+    }
+    let side = |n: Vec3, normals: [Vec3; 3]| {
+        let sides = normals.map(|v| n.dot(v));
+        let all_in_front = sides.iter().all(|&s| s > 0.0);
+        (all_in_front || sides.iter().all(|&s| s < 0.0)).then_some(all_in_front)
+    };
+    let here = side(n, *normals)?;
+    let Some(map) = map else { return Some(here) };
+    let placed = |v: Vec3| map.normal(v.to_normal()).to_vec();
+    side(placed(n), normals.map(placed))
 }
 
 /// The numbers that the placement gives, if it can be worked into them; those of no placement are the text's own.
