@@ -16,9 +16,9 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use durer_geometry::{BuildError, Builder, EVERYTHING, Geometry, ObjectId};
-use durer_math::{Aabb, Affine, AffineError, Point3};
+use durer_math::{Aabb, Affine, AffineError, Point3, Vec3};
 
-use crate::{Camera, Flags, Interior, Object, Place, Placement, Scene, Shape, Texture, mask};
+use crate::{Camera, Face, Flags, Interior, Mesh, Object, Place, Placement, Scene, Shape, Texture, mask};
 use build::Inside;
 
 /// A scene made ready for rays.
@@ -411,9 +411,9 @@ impl Lowering {
         let look = match inside.clone() {
             None => self.look(texture, medium, flags, None),
             Some(inside) => {
-                // A fact of the scene language: the corners of a triangle go round the other way.
+                // A fact of the scene language: the corners of a flat triangle go round the other way.
                 let (front, back) =
-                    if is_of_triangles(object) { (inside, texture) } else { (texture, inside) };
+                    if goes_round_backward(object) { (inside, texture) } else { (texture, inside) };
                 let back = self.look(back, medium, flags, None);
                 self.look(front, medium, flags, Some(back))
             }
@@ -472,13 +472,27 @@ fn shows_through(texture: &Option<Painted>) -> bool {
     texture.as_ref().is_some_and(|(texture, _)| !texture.is_opaque())
 }
 
-/// Whether it is made of triangles and has no inside.
-fn is_of_triangles(object: &Object) -> bool {
+/// Whether it is made of triangles, has no inside, and its outside is not where the corners go round counterclockwise. Flat triangles are such; of smooth ones the
+/// normals tell, those of most faces where they disagree.
+fn goes_round_backward(object: &Object) -> bool {
     match &object.shape {
-        Shape::Triangle(_) | Shape::SmoothTriangle(_) => true,
-        Shape::Mesh(mesh) => mesh.inside_vector.is_none(),
+        Shape::Triangle(_) => true,
+        Shape::Mesh(mesh) if mesh.inside_vector.is_none() => {
+            let forward = mesh.faces.iter().filter(|face| looks_forward(mesh, face)).count();
+            2 * forward <= mesh.faces.len()
+        }
         _ => false,
     }
+}
+
+/// Whether a face is smooth, and its normals look to where its corners go round counterclockwise.
+fn looks_forward(mesh: &Mesh, face: &Face) -> bool {
+    let Some(normals) = face.normals else { return false };
+    let corners = face.vertices.map(|i| mesh.vertices.get(i as usize).copied());
+    let [Some(a), Some(b), Some(c)] = corners else { return false };
+    let sum =
+        normals.iter().filter_map(|&i| mesh.normals.get(i as usize)).fold(Vec3::ZERO, |sum, &n| sum + n);
+    (b - a).cross(c - a).dot(sum) > 0.0
 }
 
 /// Whether every ray meets the object, and no light passes it.
