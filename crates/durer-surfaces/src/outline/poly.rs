@@ -54,6 +54,8 @@ pub(super) struct Root8 {
 const MOST_PARTS: usize = 16;
 /// Newton's steps at least before the first look whether all lanes are done, and at most.
 const STEPS: (usize, usize) = (3, 24);
+/// After a step as short as this the next one, which squares it, is at the end of f64. Only time depends on it: signs prove the root.
+const CONVERGED: f64 = 1.0 / (1u64 << 30) as f64;
 
 impl Poly8 {
     /// The value.
@@ -201,7 +203,7 @@ impl Poly8 {
             let next = fits.select(next, (lo + hi) * 0.5);
             let way = (next - x).abs();
             x = next;
-            if i >= STEPS.0 && !(part.one & way.gt(F8::splat(1e-9))).any() {
+            if i >= STEPS.0 && !(part.one & way.gt(F8::splat(CONVERGED))).any() {
                 break;
             }
         }

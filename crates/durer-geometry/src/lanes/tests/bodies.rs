@@ -173,7 +173,7 @@ fn lanes_see_what_single_rays_see_of_solids_of_solids() {
         let least = match world.surface {
             name if coincide.contains(&name) => 1,
             // Where one ray has asked, those that go on from there mostly ask, too.
-            name if OF_HIGHER_DEGREE.contains(&name) => 4,
+            name if OF_HIGHER_DEGREE.contains(&name) => 12,
             _ => 1000,
         };
         assert!(tally.asked * least <= tally.rays, "{}: {} of {}", world.name, tally.asked, tally.rays);
