@@ -8,7 +8,7 @@
 //! 1983. Coefficients are listed by falling powers of x, then of y, then of z, so that one pass over the list with nested Horner schemes puts
 //! a ray into `f`.
 
-use crate::outline::Sketch;
+use crate::outline::{Kind8, Sketch, Terms};
 use crate::quadric::body::{Chart, Frame, sheared, tangents};
 use crate::quadric::form::FLOOR;
 use crate::roots::quadratic::Quadratic;
@@ -22,6 +22,7 @@ use core::cmp::Ordering;
 use durer_math::eft::exponent;
 use durer_math::scale::ldexp;
 use durer_math::{Aabb, Dyadic, Isa, Point3, Ring, Run, Vec3};
+use std::sync::Arc;
 
 /// The greatest order.
 pub const MAX_ORDER: u32 = 16;
@@ -43,7 +44,7 @@ enum Fitting {
 struct Dense<const N: usize> {
     order: u32,
     /// In units of `2^scale`, times `2^gain`: exactly the given ones in that measure.
-    coefficients: Box<[f64]>,
+    coefficients: Arc<[f64]>,
     scale: i32,
     /// Of each total degree, the sum of the magnitudes.
     sizes: [f64; N],
@@ -151,10 +152,16 @@ impl<const N: usize> Dense<N> {
         }
         Self { order, coefficients, scale, sizes }
     }
+
+    /// The polynomial for lanes.
+    fn terms(&self) -> Terms<N> {
+        let Self { order, coefficients, sizes, .. } = self;
+        Terms { order: *order, coefficients: coefficients.clone(), sizes: *sizes }
+    }
 }
 
 /// A unit of length in which the surface is about one large, and the coefficients in it; the given ones if others would not be exact.
-fn measured(order: u32, coefficients: &[f64]) -> (i32, Box<[f64]>) {
+fn measured(order: u32, coefficients: &[f64]) -> (i32, Arc<[f64]>) {
     let mut largest = [0.0_f64; MAX_ORDER as usize + 1];
     for (c, n) in coefficients.iter().zip(powers(order)) {
         let size = &mut largest[n.iter().sum::<u32>() as usize];
@@ -168,7 +175,7 @@ fn measured(order: u32, coefficients: &[f64]) -> (i32, Box<[f64]>) {
     let of = |n: [u32; 3]| scale * n.iter().sum::<u32>() as i32;
     let gain = coefficients.iter().zip(powers(order)).filter(|(c, _)| **c != 0.0);
     let gain = -gain.map(|(c, n)| exponent(*c) + of(n)).max().unwrap_or(0);
-    let scaled: Box<[f64]> =
+    let scaled: Arc<[f64]> =
         coefficients.iter().zip(powers(order)).map(|(&c, n)| ldexp(c, of(n) + gain)).collect();
     let exact = scaled
         .iter()
@@ -383,7 +390,11 @@ impl Surface for AlgebraicSurface {
     }
 
     fn sketch(&self, _part: PartId) -> Sketch {
-        Sketch::vague(self.bounds())
+        match &self.0 {
+            Fitting::Four(p) => Sketch::algebraic(Kind8::Quartic(Arc::new(p.terms())), p.scale),
+            Fitting::Eight(p) => Sketch::algebraic(Kind8::Octic(Arc::new(p.terms())), p.scale),
+            Fitting::Sixteen(_) => Sketch::vague(self.bounds()),
+        }
     }
 
     fn solidity(&self) -> Solidity {

@@ -1,8 +1,11 @@
 //! What lanes know of surfaces whose faces are of a degree above two: an equation in coordinates of the surface's own.
 
+use super::algebraic::{self, Terms};
 use super::face::Start;
-use super::lathe::{self, First, Lathe, Skin};
+use super::hull::Hull;
+use super::lathe::{self, Lathe, Skin};
 use super::meet::Question;
+use super::offer::{First, Offer};
 use super::operand::Crossings;
 use super::own::{Own, OwnSketch};
 use super::rays::{From8, Nearest, RayLanes};
@@ -13,11 +16,15 @@ use std::sync::Arc;
 
 /// What kind of surface it is.
 #[derive(Clone, Debug)]
-pub(super) enum Kind8 {
+pub(crate) enum Kind8 {
     /// A surface of revolution.
     Lathe(Arc<Lathe>),
     /// A part of a swept solid.
     Swept(Arc<Swept>),
+    /// The zero set of a polynomial of degree up to four.
+    Quartic(Arc<Terms<5>>),
+    /// Of degree up to eight.
+    Octic(Arc<Terms<9>>),
 }
 
 /// The surface, and its coordinates before they are rounded.
@@ -39,12 +46,19 @@ pub(super) struct Detail {
 pub(super) struct Memory {
     lathe: lathe::Memory,
     swept: swept::Memory,
+    quartic: algebraic::Memory<5>,
+    octic: algebraic::Memory<9>,
 }
 
 impl DetailSketch {
     /// A surface of revolution; see [`OwnSketch::new`].
     pub(super) fn new(shape: Kind8, centre: Point3, origin: Point3, scale: i32, order: [usize; 3]) -> Self {
         Self { own: OwnSketch::new(centre, origin, scale, order), shape }
+    }
+
+    /// Whether nothing holds the surface but what clips it.
+    pub(super) fn is_endless(&self) -> bool {
+        self.shape.is_endless()
     }
 
     /// See [`OwnSketch::moved`].
@@ -57,59 +71,90 @@ impl DetailSketch {
     }
 }
 
+impl Kind8 {
+    fn is_endless(&self) -> bool {
+        matches!(self, Self::Quartic(_) | Self::Octic(_))
+    }
+}
+
 impl Detail {
+    /// See [`DetailSketch::is_endless`].
+    pub(super) fn is_endless(&self) -> bool {
+        self.shape.is_endless()
+    }
+
     /// The face of roots on the face that lanes call by a number.
     #[inline]
     pub(super) fn face_of(&self, face: u32) -> u32 {
         match &self.shape {
             Kind8::Lathe(lathe) => lathe.name(face),
             Kind8::Swept(swept) => swept.face(face),
+            Kind8::Quartic(_) | Kind8::Octic(_) => 0,
         }
     }
 
-    /// Offers the first crossing of each ray to `nearest`.
+    /// Offers the first crossing of each ray to `nearest`; of an endless surface what is within a convex cell.
     pub(super) fn meet(
         &self,
         (asked, turned): (&Question<'_>, bool),
         nearest: &mut Nearest,
-        start: &Start,
+        (start, cell): (&Start, Option<&Hull>),
         memory: &mut Memory,
     ) {
-        match &self.shape {
-            Kind8::Lathe(lathe) => {
-                let mut to = First { nearest, number: asked.number };
-                let leaving = asked.from.map(|from| (from, turned));
-                lathe.meet(&self.own, (asked.rays, leaving), start, &mut to, &mut memory.lathe);
-            }
-            Kind8::Swept(swept) => swept.meet(&self.own, asked, start, nearest, &mut memory.swept),
+        if let Kind8::Swept(swept) = &self.shape {
+            swept.meet(&self.own, asked, start, nearest, &mut memory.swept);
+            return;
         }
+        let mut to = First { nearest, number: asked.number };
+        let leaving = asked.from.map(|from| (from, turned));
+        self.show((asked.rays, leaving), (start, cell), &mut to, memory);
     }
 
-    /// What it can tell as an operand; see [`Detail::crossings`].
-    pub(super) fn operand(&self) -> Option<&Lathe> {
+    /// Whether it can tell all crossings, and on which side points are.
+    pub(super) fn is_operand(&self) -> bool {
         /// So many faces have numbers.
         const MOST: usize = 16;
         match &self.shape {
-            Kind8::Lathe(lathe) if lathe.faces() <= MOST => Some(lathe),
-            _ => None,
+            Kind8::Lathe(lathe) => lathe.faces() <= MOST,
+            Kind8::Swept(_) => false,
+            Kind8::Quartic(_) | Kind8::Octic(_) => true,
         }
     }
 
     /// Puts down all crossings of a solid.
     pub(super) fn crossings(
         &self,
-        lathe: &Lathe,
         rays: (&RayLanes<'_>, Option<(&From8, bool)>),
         start: &Start,
         to: &mut Crossings,
         memory: &mut Memory,
     ) {
-        lathe.meet(&self.own, rays, start, to, &mut memory.lathe);
+        self.show(rays, (start, None), to, memory);
+    }
+
+    fn show<K: Offer>(
+        &self,
+        rays: (&RayLanes<'_>, Option<(&From8, bool)>),
+        (start, cell): (&Start, Option<&Hull>),
+        to: &mut K,
+        memory: &mut Memory,
+    ) {
+        match &self.shape {
+            Kind8::Lathe(lathe) => lathe.meet(&self.own, rays, start, to, &mut memory.lathe),
+            Kind8::Swept(_) => {}
+            Kind8::Quartic(f) => f.meet(&self.own, rays, (start, cell), to, &mut memory.quartic),
+            Kind8::Octic(f) => f.meet(&self.own, rays, (start, cell), to, &mut memory.octic),
+        }
     }
 
     /// Which points at `t` within `e` are surely in the solid, and which surely not.
-    pub(super) fn holds(&self, lathe: &Lathe, rays: &RayLanes<'_>, start: &Start, at: (F8, F8)) -> (M8, M8) {
-        lathe.holds(&self.own, rays, start, at)
+    pub(super) fn holds(&self, rays: &RayLanes<'_>, start: &Start, at: (F8, F8)) -> (M8, M8) {
+        match &self.shape {
+            Kind8::Lathe(lathe) => lathe.holds(&self.own, rays, start, at),
+            Kind8::Swept(_) => (M8::NONE, M8::NONE),
+            Kind8::Quartic(f) => f.holds(&self.own, rays, start, at),
+            Kind8::Octic(f) => f.holds(&self.own, rays, start, at),
+        }
     }
 
     /// What is at points of a face; `tag` is what [`Nearest`] keeps of them.
@@ -118,6 +163,8 @@ impl Detail {
         match &self.shape {
             Kind8::Lathe(lathe) => lathe.skin(&self.own, face, h, h1),
             Kind8::Swept(swept) => swept.spot(&self.own, (face, tag), h, h1),
+            Kind8::Quartic(f) => f.skin(&self.own, h, h1),
+            Kind8::Octic(f) => f.skin(&self.own, h, h1),
         }
     }
 }

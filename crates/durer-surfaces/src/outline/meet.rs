@@ -54,7 +54,18 @@ impl Outline {
             return;
         }
         if let Some(detail) = &self.detail {
-            detail.meet((asked, self.turned), nearest, &scratch.start, &mut scratch.steps.detail);
+            let Scratch { start, steps } = scratch;
+            let is_cut = detail.is_endless() && !self.faces.is_empty();
+            if is_cut {
+                self.hull(
+                    asked.rays,
+                    None,
+                    &Seen { d: asked.rays.direction, d1: &asked.rays.d1, start },
+                    steps,
+                );
+            }
+            let Steps { hull, detail: memory, .. } = steps;
+            detail.meet((asked, self.turned), nearest, (start, is_cut.then_some(hull)), memory);
             return;
         }
         // The faces of a box are not those that rays leave.

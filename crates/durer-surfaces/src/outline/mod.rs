@@ -10,19 +10,22 @@
 //!   sketch     polynomials in double-double, moved by maps      (built once, `sketch.rs`)
 //!   outline    the same in f64, with their errors               (`face.rs`)
 //!   roots      where eight rays cross a face                    (`roots.rs`)
-//!   lathe      surfaces of revolution of higher degree, in coordinates of their own    (`lathe.rs`, `poly.rs`, `own.rs`, `detail.rs`)
-//!   swept      walls and caps of curved prisms, the same way        (`swept.rs`, `whole.rs`)
+//!   lathe      surfaces of revolution of higher degree, in coordinates of their own    (`lathe/`, `poly.rs`, `own.rs`, `detail.rs`)
+//!   algebraic  zero sets of polynomials up to degree eight, the same way               (`algebraic/`)
+//!   swept      walls and caps of curved prisms, the same way        (`swept/`, `whole.rs`)
 //!   meet       which face they meet first                       (`meet.rs`, `hull.rs`)
 //!   operand    all crossings with solids, for bodies made of several   (`operand.rs`)
 //!   point      where, and how far rays start from there         (`point.rs`)
 //! ```
 
+mod algebraic;
 mod detail;
 mod face;
 mod hull;
 mod lathe;
 mod loops;
 mod meet;
+mod offer;
 mod operand;
 mod own;
 mod point;
@@ -39,7 +42,9 @@ pub use self::point::Points8;
 pub use self::rays::{From8, Nearest, RayLanes};
 pub use self::sketch::Sketch;
 
+pub(crate) use self::algebraic::Terms;
 use self::detail::Detail;
+pub(crate) use self::detail::Kind8;
 use self::face::Face;
 pub(crate) use self::lathe::{Lathe, LatheWall};
 use self::loops::Loops;

@@ -7,7 +7,6 @@ use super::Outline;
 use super::detail::Detail;
 use super::face::{FaceKind, Seen, Start};
 use super::hull::Hull;
-use super::lathe::Lathe;
 use super::meet::{Scratch, Spot, Steps};
 use super::rays::{FAR, From8, NEVER, RayLanes};
 use arrayvec::ArrayVec;
@@ -86,9 +85,8 @@ impl Outline {
     }
 
     /// What is known of it as an operand beside its faces.
-    fn as_detail(&self) -> Option<(&Detail, &Lathe)> {
-        let detail = self.detail.as_deref()?;
-        Some((detail, detail.operand()?))
+    fn as_detail(&self) -> Option<&Detail> {
+        self.detail.as_deref().filter(|detail| detail.is_operand())
     }
 
     /// Whether the solid is the outside of the faces.
@@ -112,9 +110,9 @@ impl Outline {
     ) {
         to.list.clear();
         to.doubt = NEVER;
-        if let Some((detail, lathe)) = self.as_detail() {
+        if let Some(detail) = self.as_detail() {
             let rays = (rays, from.map(|from| (from, self.turned)));
-            detail.crossings(lathe, rays, &sight.0, to, &mut scratch.steps.detail);
+            detail.crossings(rays, &sight.0, to, &mut scratch.steps.detail);
             return;
         }
         if self.convex {
@@ -219,8 +217,8 @@ impl Outline {
 
     /// Which points at `t` within `e` are surely in the solid, and which surely not.
     pub fn holds(&self, rays: &RayLanes<'_>, sight: &Sight, (t, e): (&F8, &F8)) -> (M8, M8) {
-        if let Some((detail, lathe)) = self.as_detail() {
-            let (inside, outside) = detail.holds(lathe, rays, &sight.0, (*t, *e));
+        if let Some(detail) = self.as_detail() {
+            let (inside, outside) = detail.holds(rays, &sight.0, (*t, *e));
             return if self.turned { (outside, inside) } else { (inside, outside) };
         }
         let seen = sight.seen(rays);

@@ -1,7 +1,7 @@
-//! Where polynomials of degree four along eight rays have their roots, with proof.
+//! Where polynomials along eight rays have their roots, with proof.
 //!
 //! ```text
-//!   p(x) = Σ c_k x^k = Σ b_j C(4,j) x^j (1-x)^(4-j)     0 <= x <= 1
+//!   p(x) = Σ c_k x^k = Σ b_j C(n,j) x^j (1-x)^(n-j)     0 <= x <= 1, n = N - 1
 //! ```
 //!
 //! Signs of the `b_j` count roots (J. M. Lane, R. F. Riesenfeld, "Bounds on a polynomial", *BIT* 21, 1981; see `roots/bernstein.rs`): all of one sign, none; one change, one
@@ -9,16 +9,16 @@
 //! certain signs on either side.
 //!
 //! **Errors.** A value is wrong by `e` at most. That includes the rounding of Taylor's shift to a part (`Σ |c_k|` does not grow by it while the part is within `[0, 1]`), of the
-//! Bernstein coefficients, which are means of sums of the `c_k` with weights up to one, and of W. G. Horner's scheme: fewer than 32 roundings of numbers no larger than
-//! `Σ |c_k|`, for which whoever makes a polynomial pays.
+//! Bernstein coefficients, which are sums of the `c_k` with weights up to one, and of W. G. Horner's scheme: fewer than `6 N + 2` roundings, one after the other, of numbers no
+//! larger than `Σ |c_k|`, for which whoever makes a polynomial pays.
 
 use super::rays::SLACK;
 use durer_math::{F8, Isa, M8};
 
-/// Eight polynomials.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Poly8 {
-    pub(super) c: [F8; 5],
+/// Eight polynomials with `N` coefficients, the constant first.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Poly8<const N: usize> {
+    pub(super) c: [F8; N],
     /// Bounds on the errors: of all values, and of those at the ends.
     pub(super) e: F8,
     pub(super) e_first: F8,
@@ -33,7 +33,9 @@ pub(super) struct Part8 {
     /// The part. Before it all is told; the sign at its start is certain.
     pub(super) l: F8,
     pub(super) r: F8,
-    /// The sign there: 1 or -1.
+    /// Where all is told.
+    pub(super) end: F8,
+    /// The sign at the part's start: 1 or -1.
     pub(super) sign: F8,
     /// Lanes with exactly one root in the part, and certain signs at its ends.
     pub(super) one: M8,
@@ -57,25 +59,63 @@ const STEPS: (usize, usize) = (3, 24);
 /// After a step as short as this the next one, which squares it, is at the end of f64. Only time depends on it: signs prove the root.
 const CONVERGED: f64 = 1.0 / (1u64 << 30) as f64;
 
-impl Poly8 {
+impl<const N: usize> Default for Poly8<N> {
+    fn default() -> Self {
+        Self { c: [F8::ZERO; N], e: F8::ZERO, e_first: F8::ZERO, e_last: F8::ZERO }
+    }
+}
+
+/// The weight of coefficient `k` of `N` in Bernstein coefficient `j`: `C(j,k) / C(n,k)`.
+const fn weight<const N: usize>(j: usize, k: usize) -> f64 {
+    let (mut over, mut under) = (1.0, 1.0);
+    let mut i = 0;
+    while i < k {
+        over *= j.saturating_sub(i) as f64;
+        under *= (N - 1 - i) as f64;
+        i += 1;
+    }
+    over / under
+}
+
+/// Weights of all coefficients in all Bernstein coefficients.
+struct Weights<const N: usize>;
+
+impl<const N: usize> Weights<N> {
+    const ALL: [[f64; N]; N] = {
+        let mut all = [[0.0; N]; N];
+        let mut j = 0;
+        while j < N {
+            let mut k = 0;
+            while k <= j {
+                all[j][k] = weight::<N>(j, k);
+                k += 1;
+            }
+            j += 1;
+        }
+        all
+    };
+}
+
+impl<const N: usize> Poly8<N> {
     /// The value.
     #[inline(always)]
     fn at(&self, x: F8) -> F8 {
-        let [a, b, c, d, e] = self.c;
-        e.mul_add(x, d).mul_add(x, c).mul_add(x, b).mul_add(x, a)
+        let mut p = self.c[N - 1];
+        for k in (0..N - 1).rev() {
+            p = p.mul_add(x, self.c[k]);
+        }
+        p
     }
 
     /// Value and slope.
     #[inline(always)]
     fn value_and_slope(&self, x: F8) -> (F8, F8) {
-        let [a, b, c, d, e] = self.c;
-        let p = e.mul_add(x, d);
-        let q = e.mul_add(x, p);
-        let p2 = p.mul_add(x, c);
-        let q2 = q.mul_add(x, p2);
-        let p1 = p2.mul_add(x, b);
-        let q1 = q2.mul_add(x, p1);
-        (p1.mul_add(x, a), q1)
+        let (mut p, mut q) = (self.c[N - 1], F8::ZERO);
+        for k in (0..N - 1).rev() {
+            q = q.mul_add(x, p);
+            p = p.mul_add(x, self.c[k]);
+        }
+        (p, q)
     }
 
     /// The signs at both ends: 1, -1, or 0 where it is not certain.
@@ -94,20 +134,32 @@ impl Poly8 {
     #[inline(always)]
     pub(super) fn begin_with(&self, live: M8, known: F8, part: &mut Part8) {
         let sign = certain(self.c[0], self.e_first);
-        part.sign = known.equals(F8::ZERO).select(sign, known);
-        part.unsure = live & part.sign.equals(F8::ZERO);
+        self.go(live, (F8::ZERO, F8::ONE), known.equals(F8::ZERO).select(sign, known), part);
+    }
+
+    /// The same between two places other than 0 and 1.
+    #[inline(always)]
+    pub(super) fn begin_within(&self, live: M8, (l, end): (F8, F8), known: F8, part: &mut Part8) {
+        let sign = certain(self.at(l), self.e);
+        self.go(live, (l, end), known.equals(F8::ZERO).select(sign, known), part);
+    }
+
+    #[inline(always)]
+    fn go(&self, live: M8, (l, end): (F8, F8), sign: F8, part: &mut Part8) {
+        part.sign = sign;
+        part.unsure = live & sign.equals(F8::ZERO);
         part.open = live & !part.unsure;
-        (part.l, part.r) = (F8::ZERO, F8::ONE);
+        (part.l, part.r, part.end) = (l, end, end);
         part.one = M8::NONE;
     }
 
     /// Goes on behind the root in the part.
     #[inline(always)]
     pub(super) fn go_on(&self, part: &mut Part8) {
-        part.open = part.one & part.r.lt(F8::ONE);
+        part.sign = part.one.select(-part.sign, part.sign);
+        part.open = part.one & part.r.lt(part.end);
         part.l = part.open.select(part.r, part.l);
-        part.r = part.open.select(F8::ONE, part.r);
-        part.sign = part.open.select(-part.sign, part.sign);
+        part.r = part.open.select(part.end, part.r);
         part.one = M8::NONE;
     }
 
@@ -127,16 +179,16 @@ impl Poly8 {
                 return;
             }
             let b = self.bernstein(part.l, part.r);
-            let is_last = part.r.ge(F8::ONE);
+            let is_last = part.r.ge(part.end);
             let e_last = is_last.select(self.e_last, self.e);
             let (mut seen, mut fails) = (M8::NONE, M8::NONE);
-            for (j, b) in b.iter().enumerate() {
+            for (j, b) in b.iter().enumerate().skip(1) {
                 let q = *b * part.sign;
-                let e = if j == 3 { e_last } else { self.e };
+                let e = if j == N - 1 { e_last } else { self.e };
                 fails |= seen & !q.lt(-e);
                 seen |= !q.gt(e);
             }
-            let one = part.open & seen & !fails & (b[3] * part.sign).lt(-e_last);
+            let one = part.open & seen & !fails & (b[N - 1] * part.sign).lt(-e_last);
             let none = part.open & !seen;
             part.one |= one;
             part.open &= !(one | none & is_last);
@@ -144,38 +196,36 @@ impl Poly8 {
             let half = (l + r) * 0.5;
             let next = part.open & none;
             part.l = next.select(r, l);
-            part.r = next.select(F8::ONE, part.open.select(half, r));
+            part.r = next.select(part.end, part.open.select(half, r));
         }
         part.unsure |= part.open;
         part.open = M8::NONE;
     }
 
-    /// All Bernstein coefficients on a part but the first, the value at its start.
+    /// All Bernstein coefficients on a part; the first, the value at its start, is not to be used.
     #[inline(always)]
-    fn bernstein(&self, l: F8, r: F8) -> [F8; 4] {
-        let [mut a, mut b, mut c, mut d, e] = self.c;
+    fn bernstein(&self, l: F8, r: F8) -> [F8; N] {
         // Shifted to `l`.
-        d = e.mul_add(l, d);
-        c = d.mul_add(l, c);
-        b = c.mul_add(l, b);
-        a = b.mul_add(l, a);
-        d = e.mul_add(l, d);
-        c = d.mul_add(l, c);
-        b = c.mul_add(l, b);
-        d = e.mul_add(l, d);
-        c = d.mul_add(l, c);
-        d = e.mul_add(l, d);
+        let mut a = self.c;
+        for first in 0..N - 1 {
+            for k in (first..N - 1).rev() {
+                a[k] = a[k + 1].mul_add(l, a[k]);
+            }
+        }
         let w = r - l;
-        let w2 = w * w;
-        let (b, c, d, e) = (b * w, c * w2, d * (w2 * w), e * (w2 * w2));
-        let (quarter, sixth) = (F8::splat(0.25), F8::splat(1.0 / 6.0));
-        let (half, three) = (F8::splat(0.5), F8::splat(0.75));
-        [
-            b.mul_add(quarter, a),
-            c.mul_add(sixth, b.mul_add(half, a)),
-            d.mul_add(quarter, c.mul_add(half, b.mul_add(three, a))),
-            a + b + c + d + e,
-        ]
+        let mut power = w;
+        for c in &mut a[1..] {
+            *c = *c * power;
+            power = power * w;
+        }
+        let mut b = [F8::ZERO; N];
+        for (j, b) in b.iter_mut().enumerate().skip(1) {
+            *b = a[0];
+            for (a, weight) in a.iter().zip(&Weights::<N>::ALL[j]).skip(1).take(j) {
+                *b = a.mul_add(F8::splat(*weight), *b);
+            }
+        }
+        b
     }
 
     /// The root in the part of each lane with one.

@@ -238,6 +238,14 @@ impl Sketch {
         Self { detail: Some(DetailSketch::new(shape, vague.centre, origin, scale, [0, 1, 2])), ..vague }
     }
 
+    /// The zero set of a polynomial in units of `2^scale`.
+    pub(crate) fn algebraic(terms: Kind8, scale: i32) -> Self {
+        let o = Point3::ORIGIN;
+        let detail = Some(DetailSketch::new(terms, o, o, scale, [0, 1, 2]));
+        let endless = Self::new(o, Vec::new(), 0, f64::INFINITY);
+        Self { convex: true, vague: Some(Aabb::UNBOUNDED), detail, ..endless }
+    }
+
     /// The same sheet, shaded with normals that change linearly over the triangle.
     pub(crate) fn with_normals(mut self, vertices: [Point3; 3], normals: [Vec3; 3]) -> Self {
         let [v0, v1, v2] = vertices;
@@ -347,6 +355,9 @@ impl Sketch {
     /// What of the surface lies in the region where all faces of another are negative.
     #[must_use]
     pub(crate) fn within(mut self, region: Self) -> Self {
+        if self.detail.as_ref().is_some_and(DetailSketch::is_endless) {
+            return if region.convex { self.within_convex(region) } else { Self::vague(Aabb::UNBOUNDED) };
+        }
         let seen = region.faces_from(self.centre);
         self.forms.extend(seen);
         self.convex = false;
@@ -354,9 +365,21 @@ impl Sketch {
         self
     }
 
+    /// The same of an endless surface: its only faces are those that clip it.
+    fn within_convex(mut self, region: Self) -> Self {
+        let away = (region.centre - self.centre).length() + region.reach;
+        self.reach = self.reach.min(away * (1.0 + 16.0 * U));
+        self.forms.extend(region.faces_from(self.centre));
+        self.walls = self.forms.len();
+        self
+    }
+
     /// What of the surface does not.
     #[must_use]
     pub(crate) fn without(mut self, region: Self) -> Self {
+        if self.detail.as_ref().is_some_and(DetailSketch::is_endless) {
+            return Self::vague(Aabb::UNBOUNDED);
+        }
         let seen = region.faces_from(self.centre);
         self.holes.push(seen.collect());
         self.convex = false;
@@ -386,7 +409,9 @@ impl Sketch {
         let ordinary = self.centre.is_finite()
             && self.centre.to_vec().max_abs() < LARGEST
             && (self.reach == f64::INFINITY || self.reach < LARGEST && self.reach > 1.0 / LARGEST);
-        if !ordinary || self.forms.is_empty() {
+        let detail = self.detail.as_ref().and_then(DetailSketch::round);
+        let told = !self.forms.is_empty() || detail.is_some();
+        if !ordinary || !told {
             return None;
         }
         let round = |forms: &Vec<Form<N>>| forms.iter().map(Face::new).collect::<Option<Box<[_]>>>();
@@ -413,7 +438,7 @@ impl Sketch {
             normals,
             loops,
             holes,
-            detail: self.detail.as_ref().and_then(DetailSketch::round).map(Box::new),
+            detail: detail.map(Box::new),
         })
     }
 }

@@ -5,8 +5,8 @@ use super::{Aim, Dice, OF_HIGHER_DEGREE, Tally, compare, eight, point};
 use crate::{Geometry, Shown};
 use durer_math::{Point3, Ray, Vec3};
 use durer_surfaces::{
-    Axis, AxisBox, CappedCylinder, Cone, Frustum, Inverse, Mesh, Placed, Plane, Quadric, Sphere, Torus,
-    Turned,
+    AlgebraicSurface, Axis, AxisBox, CappedCylinder, Cone, Frustum, Inverse, Mesh, Placed, Plane, Quadric,
+    Sphere, Torus, Turned,
 };
 
 /// Solids of solids: convex and not, with faces in common, and several in one world.
@@ -61,6 +61,15 @@ fn bodies() -> Vec<World> {
         let ring = csg.leaf(Torus::new(point(0.0, 0.25, 0.0), Axis::Z, 1.0, 0.25).unwrap()).unwrap();
         let shell = csg.difference(outer, [inner, ring]);
         csg.intersection([shell, lid])
+    });
+    world("cushion without a ball", &|csg| {
+        // x^4 + y^4 + z^4 = 1/2.
+        let mut c = vec![0.0; 35];
+        (c[0], c[20], c[30], c[34]) = (1.0, 1.0, 1.0, -0.5);
+        let cushion = AlgebraicSurface::new(4, &c).unwrap();
+        let cushion = csg.leaf(Placed::new(cushion, map())).unwrap();
+        let hole = csg.leaf(ball(0.25, 0.625)).unwrap();
+        csg.difference(cushion, [hole])
     });
     world("blocks", &|csg| {
         let parts = [block(-1.0, 1.0), block(0.0, 1.0), block(-1.0, 0.0)].map(|b| csg.leaf(b).unwrap());

@@ -73,7 +73,12 @@ enum Aim {
 }
 
 /// Surfaces that lanes see in coordinates of their own.
-const OF_HIGHER_DEGREE: [&str; 14] = [
+const OF_HIGHER_DEGREE: [&str; 19] = [
+    "cushion without a ball",
+    "quartic",
+    "cubic",
+    "clipped cubic",
+    "sextic",
     "bowl",
     "egg shell and ring",
     "crossed prism",

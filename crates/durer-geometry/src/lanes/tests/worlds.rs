@@ -4,8 +4,8 @@ use super::point;
 use crate::Geometry;
 use durer_math::{Affine, Dyadic, Isa, Normal3, Point3, Vec3};
 use durer_surfaces::{
-    Algebraic, Annulus, Axis, AxisBox, CappedCylinder, Clip, Cone, CurvedPrism, Disc, Ellipsoid,
-    EllipticCylinder, EllipticParaboloid, Erased, FillRule, Frustum, HyperbolicCylinder,
+    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, CappedCylinder, Clip, Cone, CurvedPrism, Disc,
+    Ellipsoid, EllipticCylinder, EllipticParaboloid, Erased, FillRule, Frustum, HyperbolicCylinder,
     HyperbolicParaboloid, HyperboloidOfOneSheet, HyperboloidOfTwoSheets, Inverse, Mesh, MeshData,
     ParabolicCylinder, Parallelogram, Placed, Plane, Polygon, Prism, Quadric, Region, Sphere,
     SphericalSector, Torus, Triangle, Turned,
@@ -208,7 +208,7 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     let cut = Region::half_space(Normal3::new(0.25, 1.0, 0.125), 0.25).unwrap();
     let hole = Region::solid(Sphere::new(point(0.0, 0.0, 1.0), 0.5).unwrap()).inverse();
     let ball = Sphere::new(o, 1.0).unwrap();
-    worlds("clipped sphere", Sides::Sheet, Clip::new(ball, vec![cut, hole]), all);
+    worlds("clipped sphere", Sides::Sheet, Clip::new(ball, vec![cut.clone(), hole]), all);
     let outlines = [
         [[-1.0, -1.0], [1.0, -1.0], [0.25, 0.25], [-1.0, 1.0]],
         [[-0.75, -0.75], [-0.5, 0.0], [0.0, -0.25], [0.0, -0.5]],
@@ -232,6 +232,32 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     worlds("open sor", Sides::Sheet, vase.without_ends(), all);
     worlds("ovus", Sides::Smooth, Turned::ovus(0.75, 0.5).unwrap(), all);
     worlds("lemon", Sides::Convex, Turned::lemon(1.5, 0.5, 0.25, 1.25).unwrap(), all);
+    // A cushion with dimples, a cubic that goes on for ever, one that a ball and a half-space cut, and a bowl of degree six.
+    let of = |order: u32, terms: &[([u32; 3], f64)]| {
+        let mut c = vec![0.0; durer_surfaces::algebraic::coefficient_count(order)];
+        for &(powers, value) in terms {
+            c[durer_surfaces::algebraic::place_of(order, powers)] += value;
+        }
+        AlgebraicSurface::new(order, &c).unwrap()
+    };
+    let dimples = [([4, 0, 0], 1.0), ([0, 4, 0], 1.0), ([0, 0, 4], 1.0), ([2, 2, 0], 0.5)];
+    let lower = [([2, 0, 0], -0.5), ([0, 2, 0], -0.25), ([0, 1, 1], 0.25), ([0, 0, 0], -0.375)];
+    let cushion = of(4, &[dimples.as_slice(), lower.as_slice()].concat());
+    worlds("quartic", Sides::Smooth, cushion, all);
+    let cubic =
+        of(3, &[([3, 0, 0], 1.0), ([1, 2, 0], -3.0), ([0, 0, 2], 1.0), ([0, 0, 1], 0.5), ([0, 0, 0], -0.25)]);
+    worlds("cubic", Sides::Smooth, cubic.clone(), all);
+    let ball = Region::solid(Sphere::new(point(0.25, 0.0, 0.0), 1.25).unwrap());
+    worlds("clipped cubic", Sides::Sheet, Clip::new(cubic, vec![cut, ball]), all);
+    let sextic = [
+        ([6, 0, 0], 1.0),
+        ([0, 6, 0], 1.0),
+        ([0, 0, 6], 0.5),
+        ([2, 2, 2], -0.25),
+        ([0, 1, 0], 0.25),
+        ([0, 0, 0], -0.75),
+    ];
+    worlds("sextic", Sides::Smooth, of(6, &sextic), all);
     let (heart, hole) = (
         [
             [[0.0, -1.0], [0.5, -0.5], [1.0, 0.0], [1.0, 0.5]],

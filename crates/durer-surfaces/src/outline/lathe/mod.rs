@@ -18,7 +18,7 @@
 
 mod rays;
 
-pub(super) use self::rays::{First, Memory};
+pub(super) use self::rays::Memory;
 
 use super::own::Own;
 use durer_math::{F8, U, Vec3};

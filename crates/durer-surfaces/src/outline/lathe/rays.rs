@@ -2,62 +2,12 @@
 
 use super::{Bounded, Lathe, value};
 use crate::outline::face::Start;
-use crate::outline::operand::Crossings;
+use crate::outline::offer::Offer;
 use crate::outline::own::Own;
 use crate::outline::poly::{Part8, Poly8, Root8};
-use crate::outline::rays::{CLEAR, From8, Nearest, RayLanes, SLACK};
+use crate::outline::rays::{CLEAR, From8, RayLanes, SLACK};
 use durer_math::scale::pow2;
 use durer_math::{F8, M8, U};
-
-/// Where crossings go.
-pub(in crate::outline) trait Offer {
-    /// All crossings are asked for, not only the first ones.
-    const ALL: bool;
-    /// Crossings behind this do not matter.
-    fn limit(&self, rays: &RayLanes<'_>) -> F8;
-    /// Some rays surely cross a face at `t` within `e`.
-    fn take(&mut self, sure: M8, at: (F8, F8), face: F8);
-    /// Of some rays nothing is sure from `t` on.
-    fn doubt(&mut self, lanes: M8, t: F8);
-}
-
-/// The first crossings, under the number of an outline.
-pub(in crate::outline) struct First<'n> {
-    pub(in crate::outline) nearest: &'n mut Nearest,
-    pub(in crate::outline) number: f64,
-}
-
-impl Offer for First<'_> {
-    const ALL: bool = false;
-    #[inline(always)]
-    fn limit(&self, rays: &RayLanes<'_>) -> F8 {
-        self.nearest.limit(rays)
-    }
-    #[inline(always)]
-    fn take(&mut self, sure: M8, (t, e): (F8, F8), face: F8) {
-        self.nearest.take(sure, t, e, self.number, face);
-    }
-    #[inline(always)]
-    fn doubt(&mut self, lanes: M8, t: F8) {
-        self.nearest.doubt_from(lanes, t);
-    }
-}
-
-impl Offer for Crossings {
-    const ALL: bool = true;
-    #[inline(always)]
-    fn limit(&self, rays: &RayLanes<'_>) -> F8 {
-        *rays.t_max
-    }
-    #[inline(always)]
-    fn take(&mut self, sure: M8, (t, e): (F8, F8), face: F8) {
-        self.push(sure, t, e, face);
-    }
-    #[inline(always)]
-    fn doubt(&mut self, lanes: M8, t: F8) {
-        self.doubt_from(lanes, t);
-    }
-}
 
 /// Eight rays in the lathe's own coordinates.
 #[derive(Clone, Copy, Debug, Default)]
@@ -97,7 +47,7 @@ pub(in crate::outline) struct Memory {
     sides: [F8; 2],
     /// The same where rays start, if that is known.
     start: F8,
-    poly: Poly8,
+    poly: Poly8<5>,
     part: Part8,
     root: Root8,
 }

@@ -65,7 +65,7 @@ pub(super) struct Memory {
     d: [F8; 3],
     e_o: F8,
     e_d: F8,
-    pub(super) poly: Poly8,
+    pub(super) poly: Poly8<5>,
     pub(super) part: Part8,
     pub(super) root: Root8,
     /// Of a cap: where, and whether the point is within so far.
@@ -109,7 +109,7 @@ impl Curve {
 
 /// The cubic with these Bernstein coefficients, all within `e`.
 #[inline(always)]
-fn cubic(g: [F8; 4], e: F8) -> Poly8 {
+fn cubic(g: [F8; 4], e: F8) -> Poly8<5> {
     let [a, b, c, d] = g;
     let sum = a.abs() + b.abs() + c.abs() + d.abs();
     let e = (e + sum * (12.0 * 64.0 * U)) * SLACK;
