@@ -25,10 +25,11 @@ mod sweep;
 mod tree;
 
 use crate::compose::clip::Algebraic;
+use crate::outline::{Fields, Sketch};
 use crate::roots::quadratic::Quadratic;
 use crate::{
-    AxisBox, AxisBoxError, Forward, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, SphereError,
-    Surface, SurfacePoint,
+    AxisBox, AxisBoxError, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity,
+    SphereError, Surface, SurfacePoint,
 };
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Affine, Dyadic, Isa, Point3};
@@ -169,6 +170,13 @@ impl Surface for Blob {
 
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         self.point(ray, root, need)
+    }
+
+    fn sketch(&self, _part: PartId) -> Sketch {
+        match Fields::new(self.parts.iter().map(Part::for_lanes).collect(), self.threshold) {
+            Some(fields) => Sketch::fields(self.bounds, fields, self.centre, self.scale),
+            None => Sketch::vague(self.bounds),
+        }
     }
 
     fn solidity(&self) -> Solidity {

@@ -11,6 +11,7 @@
 
 use super::BlobShape;
 use super::{BlobComponent, sweep::Along};
+use crate::outline::Field;
 use crate::quadric::body::tangents;
 use crate::{SphereError, Surface};
 use durer_math::eft::{scale2, two_diff};
@@ -160,6 +161,12 @@ impl Part {
             strength: it.strength,
             bend: 8.0 * it.strength.abs() * norm * (1.0 + 1.0 / 1024.0),
         }
+    }
+
+    /// The same for eight rays at a time.
+    pub(super) fn for_lanes(&self) -> Field {
+        let Self { rows, centre, centre_err, size, size_err, length, strength, bend, .. } = *self;
+        Field { rows, size, size_err, centre, centre_err, length, strength, bend }
     }
 
     /// `W v`.

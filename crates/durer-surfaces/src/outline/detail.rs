@@ -2,6 +2,7 @@
 
 use super::algebraic::{self, Terms};
 use super::face::Start;
+use super::fields::{self, Fields};
 use super::hull::Hull;
 use super::lathe::{self, Lathe, Skin};
 use super::meet::Question;
@@ -25,6 +26,8 @@ pub(crate) enum Kind8 {
     Quartic(Arc<Terms<5>>),
     /// Of degree up to eight.
     Octic(Arc<Terms<9>>),
+    /// A blob.
+    Fields(Arc<Fields>),
 }
 
 /// The surface, and its coordinates before they are rounded.
@@ -48,6 +51,7 @@ pub(super) struct Memory {
     swept: swept::Memory,
     quartic: algebraic::Memory<5>,
     octic: algebraic::Memory<9>,
+    fields: fields::Memory,
 }
 
 impl DetailSketch {
@@ -89,7 +93,7 @@ impl Detail {
         match &self.shape {
             Kind8::Lathe(lathe) => lathe.name(face),
             Kind8::Swept(swept) => swept.face(face),
-            Kind8::Quartic(_) | Kind8::Octic(_) => 0,
+            Kind8::Quartic(_) | Kind8::Octic(_) | Kind8::Fields(_) => 0,
         }
     }
 
@@ -117,7 +121,7 @@ impl Detail {
         match &self.shape {
             Kind8::Lathe(lathe) => lathe.faces() <= MOST,
             Kind8::Swept(_) => false,
-            Kind8::Quartic(_) | Kind8::Octic(_) => true,
+            Kind8::Quartic(_) | Kind8::Octic(_) | Kind8::Fields(_) => true,
         }
     }
 
@@ -144,6 +148,7 @@ impl Detail {
             Kind8::Swept(_) => {}
             Kind8::Quartic(f) => f.meet(&self.own, rays, (start, cell), to, &mut memory.quartic),
             Kind8::Octic(f) => f.meet(&self.own, rays, (start, cell), to, &mut memory.octic),
+            Kind8::Fields(fields) => fields.meet(&self.own, rays, start, to, &mut memory.fields),
         }
     }
 
@@ -154,6 +159,7 @@ impl Detail {
             Kind8::Swept(_) => (M8::NONE, M8::NONE),
             Kind8::Quartic(f) => f.holds(&self.own, rays, start, at),
             Kind8::Octic(f) => f.holds(&self.own, rays, start, at),
+            Kind8::Fields(fields) => fields.holds(&self.own, rays, start, at),
         }
     }
 
@@ -165,6 +171,7 @@ impl Detail {
             Kind8::Swept(swept) => swept.spot(&self.own, (face, tag), h, h1),
             Kind8::Quartic(f) => f.skin(&self.own, h, h1),
             Kind8::Octic(f) => f.skin(&self.own, h, h1),
+            Kind8::Fields(fields) => fields.skin(&self.own, h, h1),
         }
     }
 }

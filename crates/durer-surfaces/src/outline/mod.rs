@@ -12,6 +12,7 @@
 //!   roots      where eight rays cross a face                    (`roots.rs`)
 //!   lathe      surfaces of revolution of higher degree, in coordinates of their own    (`lathe/`, `poly.rs`, `own.rs`, `detail.rs`)
 //!   algebraic  zero sets of polynomials up to degree eight, the same way               (`algebraic/`)
+//!   fields     blobs, the same way                            (`fields/`)
 //!   swept      walls and caps of curved prisms, the same way        (`swept/`, `whole.rs`)
 //!   meet       which face they meet first                       (`meet.rs`, `hull.rs`)
 //!   operand    all crossings with solids, for bodies made of several   (`operand.rs`)
@@ -21,6 +22,7 @@
 mod algebraic;
 mod detail;
 mod face;
+mod fields;
 mod hull;
 mod lathe;
 mod loops;
@@ -46,6 +48,7 @@ pub(crate) use self::algebraic::Terms;
 use self::detail::Detail;
 pub(crate) use self::detail::Kind8;
 use self::face::Face;
+pub(crate) use self::fields::{Field, Fields};
 pub(crate) use self::lathe::{Lathe, LatheWall};
 use self::loops::Loops;
 pub(crate) use self::swept::{Curve, Sweep8, Swept};

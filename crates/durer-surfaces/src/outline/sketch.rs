@@ -1,6 +1,7 @@
 //! From a surface's own numbers to an outline.
 
 use super::detail::{DetailSketch, Kind8};
+use super::fields::Fields;
 use super::lathe::Lathe;
 use super::loops::{Edge, Loops, Off};
 use super::swept::Swept;
@@ -235,6 +236,13 @@ impl Sketch {
     pub(crate) fn swept(bounds: Aabb, part: Swept, origin: Point3, scale: i32) -> Self {
         let vague = Self::vague(bounds);
         let shape = Kind8::Swept(Arc::new(part));
+        Self { detail: Some(DetailSketch::new(shape, vague.centre, origin, scale, [0, 1, 2])), ..vague }
+    }
+
+    /// A blob within a box, in units of `2^scale` about `origin`.
+    pub(crate) fn fields(bounds: Aabb, fields: Fields, origin: Point3, scale: i32) -> Self {
+        let vague = Self::vague(bounds);
+        let shape = Kind8::Fields(Arc::new(fields));
         Self { detail: Some(DetailSketch::new(shape, vague.centre, origin, scale, [0, 1, 2])), ..vague }
     }
 

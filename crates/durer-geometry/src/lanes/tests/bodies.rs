@@ -5,8 +5,8 @@ use super::{Aim, Dice, OF_HIGHER_DEGREE, Tally, compare, eight, point};
 use crate::{Geometry, Shown};
 use durer_math::{Point3, Ray, Vec3};
 use durer_surfaces::{
-    AlgebraicSurface, Axis, AxisBox, CappedCylinder, Cone, Frustum, Inverse, Mesh, Placed, Plane, Quadric,
-    Sphere, Torus, Turned,
+    AlgebraicSurface, Axis, AxisBox, Blob, BlobComponent, BlobShape, CappedCylinder, Cone, Frustum, Inverse,
+    Mesh, Placed, Plane, Quadric, Sphere, Torus, Turned,
 };
 
 /// Solids of solids: convex and not, with faces in common, and several in one world.
@@ -70,6 +70,17 @@ fn bodies() -> Vec<World> {
         let cushion = csg.leaf(Placed::new(cushion, map())).unwrap();
         let hole = csg.leaf(ball(0.25, 0.625)).unwrap();
         csg.difference(cushion, [hole])
+    });
+    world("blob with a hole", &|csg| {
+        let ball = |x: f64| BlobComponent {
+            shape: BlobShape::Ball(point(x, 0.0, 0.0)),
+            radius: 1.0,
+            strength: 1.0,
+            place: map(),
+        };
+        let blob = csg.leaf(Blob::new(0.5, &[ball(-0.5), ball(0.5)]).unwrap()).unwrap();
+        let hole = csg.leaf(Sphere::new(point(0.0, 0.25, 0.0), 0.375).unwrap()).unwrap();
+        csg.difference(blob, [hole])
     });
     world("blocks", &|csg| {
         let parts = [block(-1.0, 1.0), block(0.0, 1.0), block(-1.0, 0.0)].map(|b| csg.leaf(b).unwrap());

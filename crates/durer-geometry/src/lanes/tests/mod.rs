@@ -11,7 +11,7 @@ use super::*;
 use crate::Hit;
 use durer_math::lanes::LANES;
 use durer_math::{Ray, U};
-use durer_surfaces::{Side, SurfacePoint};
+use durer_surfaces::{Kind, Side, SurfacePoint};
 
 /// Numbers at random in `[-1, 1)`.
 struct Dice(u64);
@@ -73,7 +73,10 @@ enum Aim {
 }
 
 /// Surfaces that lanes see in coordinates of their own.
-const OF_HIGHER_DEGREE: [&str; 19] = [
+const OF_HIGHER_DEGREE: [&str; 22] = [
+    "balls",
+    "sausages",
+    "blob with a hole",
     "cushion without a ball",
     "quartic",
     "cubic",
@@ -110,6 +113,12 @@ fn compare(world: &World, aim: Aim, rays: &Rays8, dice: &mut Dice, depth: u32, t
         let ray = rays.lane(i);
         let exact = geometry.closest(&ray);
         tally.rays += 1;
+        // A tangent, as far as f64 can tell in a surface's frame; lanes, who know the way there better, may know that there is none.
+        let untold = exact.is_some_and(|hit| hit.kind == Kind::Cluster && hit.sign == 0);
+        if untold && !asked.lane(i) && matches!(world.sides, Sides::Rounded) {
+            assert_eq!(hits.hit.lane(i), met.lane(i), "{}: {ray:?} {exact:?}", world.name);
+            continue;
+        }
         assert_eq!(
             (hits.hit.lane(i), met.lane(i)),
             (exact.is_some(), exact.is_some()),
@@ -223,13 +232,17 @@ fn check_starts(world: &World, aim: Aim, hits: &Hits8, lanes: M8) {
         let (out, within) = if world.turned { (Side::In, Side::Out) } else { (Side::Out, Side::In) };
         // At an edge a step off one face may cross another one.
         let (check_outer, check_inner) = match world.sides {
-            Sides::Smooth => (true, true),
+            Sides::Smooth | Sides::Rounded => (true, true),
             Sides::Convex => (true, aim == Aim::Random),
             Sides::Solid => (aim == Aim::Random, aim == Aim::Random),
             Sides::Flat(..) | Sides::Sheet => (false, false),
         };
-        assert!(!check_outer || world.geometry.side(outer) == out, "{}", place());
-        assert!(!check_inner || world.geometry.side(inner) == within, "{}", place());
+        let is = |p: Point3, side: Side| {
+            let told = world.geometry.side(p);
+            told == side || told == Side::On && matches!(world.sides, Sides::Rounded)
+        };
+        assert!(!check_outer || is(outer, out), "{}", place());
+        assert!(!check_inner || is(inner, within), "{}", place());
     }
 }
 

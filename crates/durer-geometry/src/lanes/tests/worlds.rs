@@ -4,11 +4,11 @@ use super::point;
 use crate::Geometry;
 use durer_math::{Affine, Dyadic, Isa, Normal3, Point3, Vec3};
 use durer_surfaces::{
-    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, CappedCylinder, Clip, Cone, CurvedPrism, Disc,
-    Ellipsoid, EllipticCylinder, EllipticParaboloid, Erased, FillRule, Frustum, HyperbolicCylinder,
-    HyperbolicParaboloid, HyperboloidOfOneSheet, HyperboloidOfTwoSheets, Inverse, Mesh, MeshData,
-    ParabolicCylinder, Parallelogram, Placed, Plane, Polygon, Prism, Quadric, Region, Sphere,
-    SphericalSector, Torus, Triangle, Turned,
+    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Blob, BlobComponent, BlobShape, CappedCylinder,
+    Clip, Cone, CurvedPrism, Disc, Ellipsoid, EllipticCylinder, EllipticParaboloid, Erased, FillRule,
+    Frustum, HyperbolicCylinder, HyperbolicParaboloid, HyperboloidOfOneSheet, HyperboloidOfTwoSheets,
+    Inverse, Mesh, MeshData, ParabolicCylinder, Parallelogram, Placed, Plane, Polygon, Prism, Quadric,
+    Region, Sphere, SphericalSector, Torus, Triangle, Turned,
 };
 
 /// What is known exactly of points beside the surface.
@@ -16,6 +16,8 @@ use durer_surfaces::{
 pub(super) enum Sides {
     /// A solid with a single face: it has an inside and an outside along the normal everywhere.
     Smooth,
+    /// The same, of a solid whose kernel tells sides in f64: within rounding it says that a point is on the surface.
+    Rounded,
     /// A convex solid with edges: what leaves it is outside, also at an edge.
     Convex,
     /// A solid that is not convex, with edges.
@@ -258,6 +260,20 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
         ([0, 0, 0], -0.75),
     ];
     worlds("sextic", Sides::Smooth, of(6, &sextic), all);
+    // Two balls that flow together, with a dent; and a sausage across another one that is placed.
+    let component = |shape, radius, strength, place| BlobComponent { shape, radius, strength, place };
+    let ball = |x: f64, z: f64, r: f64, s: f64| {
+        component(BlobShape::Ball(point(x, 0.25, z)), r, s, Affine::IDENTITY)
+    };
+    let balls = [ball(-0.5, 0.0, 1.0, 1.0), ball(0.5, 0.25, 0.75, 1.5), ball(0.0, -0.5, 0.5, -0.75)];
+    worlds("balls", Sides::Rounded, Blob::new(0.5, &balls).unwrap(), all);
+    let segment = |a, b| BlobShape::Segment(a, b);
+    let sausages = [
+        component(segment(point(-1.0, 0.0, 0.0), point(1.0, 0.0, 0.0)), 0.5, 1.0, Affine::IDENTITY),
+        component(segment(point(0.0, -1.0, -0.25), point(0.0, 0.75, 0.5)), 0.5, 1.25, map()),
+        component(BlobShape::Ball(point(0.25, 0.25, 0.25)), 0.75, -0.5, Affine::IDENTITY),
+    ];
+    worlds("sausages", Sides::Rounded, Blob::new(0.375, &sausages).unwrap(), all);
     let (heart, hole) = (
         [
             [[0.0, -1.0], [0.5, -0.5], [1.0, 0.0], [1.0, 0.5]],

@@ -1,0 +1,140 @@
+//! Blobs as lanes see them: fields that begin and end, and between two such places a polynomial of degree four.
+//!
+//! ```text
+//!   f(y) = T - Σ S max(0, 1 - q)²      negative inside
+//!
+//!   w = W (y - m),   q = |w|² of a ball, |(w_x, w_y, w_z - clamp(w_z, 0, l))|² of a cylinder
+//! ```
+//!
+//! See `blob/part.rs` for what the letters mean and how far they are off; errors here are counted the same way, for eight rays (`rays.rs`) or points at a time.
+
+mod rays;
+
+pub(super) use self::rays::Memory;
+
+use super::lathe::Skin;
+use super::own::Own;
+use super::rays::SLACK;
+use durer_math::scale::pow2;
+use durer_math::{F8, U, Vec3};
+
+/// Pays for results below the normal range.
+const TINY: f64 = pow2(-500);
+/// Curvatures at a point hold where `q` has changed by no more than this.
+const ROOM: f64 = pow2(-10);
+
+/// One term of the sum.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Field {
+    /// `W`, the largest sum of magnitudes in a row of it, and of their errors.
+    pub(crate) rows: [Vec3; 3],
+    pub(crate) size: f64,
+    pub(crate) size_err: f64,
+    /// `m`, and its error along any axis.
+    pub(crate) centre: Vec3,
+    pub(crate) centre_err: f64,
+    /// Of the axis; zero for a ball.
+    pub(crate) length: f64,
+    pub(crate) strength: f64,
+    /// No less than the norm of the second derivatives of what it adds.
+    pub(crate) bend: f64,
+}
+
+/// All of them.
+#[derive(Clone, Debug)]
+pub(crate) struct Fields {
+    fields: Box<[Field]>,
+    threshold: f64,
+}
+
+impl Fields {
+    /// `None` if a ray could meet too many pieces of them.
+    pub(crate) fn new(fields: Vec<Field>, threshold: f64) -> Option<Self> {
+        let pieces: usize = fields.iter().map(|f| if f.length > 0.0 { 3 } else { 1 }).sum();
+        (pieces <= rays::MOST).then(|| Self { fields: fields.into(), threshold })
+    }
+
+    /// `f` and half its gradient at points that are known within `e`, with bounds on what they are off by and on the second derivatives.
+    #[inline(always)]
+    fn at(&self, y: Vec3<F8>, e: F8) -> (F8, Vec3<F8>, F8, F8, F8) {
+        let zero = F8::ZERO;
+        let (mut f, mut error) = (F8::splat(self.threshold), zero);
+        let mut g = Vec3::new(zero, zero, zero);
+        let (mut error_g, mut bend) = (zero, zero);
+        let mut total = self.threshold;
+        let own = largest(y);
+        for field in &self.fields {
+            let m = Vec3::splat(field.centre);
+            let z = Vec3::new(y.x - m.x, y.y - m.y, y.z - m.z);
+            let mut w = field.turned(z);
+            if field.length > 0.0 {
+                w.z = w.z.min(zero) + (w.z - field.length).max(zero);
+            }
+            let e_w = (e + field.centre_err + (own + field.centre.max_abs()) * U) * field.size
+                + largest(z) * (field.size_err + field.size * (4.0 * U))
+                + field.length * (8.0 * U)
+                + TINY;
+            let q = dot(w, w);
+            let e_q = ((w.x.abs() + w.y.abs() + w.z.abs()) * 2.0 + e_w * 3.0) * e_w + (q + 1.0) * (8.0 * U);
+            let left = (F8::ONE - q).max(zero);
+            let near = (q - e_q).lt(F8::splat(1.0 + ROOM));
+            let strength = field.strength.abs();
+            f = f - left * left * field.strength;
+            error += near.keep(((left * 2.0 + e_q) * e_q + left * left * (4.0 * U)) * strength);
+            let by = left * (2.0 * field.strength);
+            let [a, b, c] = field.rows.map(Vec3::splat);
+            g.x += by * a.x.mul_add(w.x, b.x.mul_add(w.y, c.x * w.z));
+            g.y += by * a.y.mul_add(w.x, b.y.mul_add(w.y, c.y * w.z));
+            g.z += by * a.z.mul_add(w.x, b.z.mul_add(w.y, c.z * w.z));
+            error_g += near.keep((e_q + e_w * 2.0 + 8.0 * U) * (6.0 * strength * field.size));
+            bend += near.keep(F8::splat(field.bend));
+            total += strength;
+        }
+        let count = self.fields.len() as f64 + 4.0;
+        let rounding = count * U * total;
+        (f, g, (error + rounding + TINY) * SLACK, error_g * SLACK + rounding, bend * SLACK)
+    }
+
+    /// What is at points `h` of the surface, with `|h|₁`.
+    #[inline(always)]
+    pub(super) fn skin(&self, own: &Own, h: Vec3<F8>, h1: F8) -> Skin {
+        let y = own.point(h);
+        // Rays that start there are looked at from a place that may be this far from it (`rays.rs`).
+        let e = own.point_error(h1) + (largest(y) + 1.0) * (128.0 * U);
+        let (f, half, e_f, e_half, bend) = self.at(y, e);
+        let e_half = e_half * own.norm + largest(half) * (16.0 * U * own.norm);
+        Skin {
+            f,
+            half: own.covector(half),
+            e_f: e_f * 2.0,
+            e_half,
+            bend: bend * (own.norm * own.norm * SLACK),
+        }
+    }
+}
+
+impl Field {
+    /// `W v`.
+    #[inline(always)]
+    fn turned(&self, v: Vec3<F8>) -> Vec3<F8> {
+        let [a, b, c] = self.rows.map(Vec3::splat);
+        Vec3::new(dot(a, v), dot(b, v), dot(c, v))
+    }
+}
+
+#[inline(always)]
+fn dot(a: Vec3<F8>, b: Vec3<F8>) -> F8 {
+    a.x.mul_add(b.x, a.y.mul_add(b.y, a.z * b.z))
+}
+
+/// The largest magnitude of a coordinate.
+#[inline(always)]
+fn largest(v: Vec3<F8>) -> F8 {
+    v.x.abs().max(v.y.abs()).max(v.z.abs())
+}
+
+/// `o + t d`.
+#[inline(always)]
+fn on(o: Vec3<F8>, t: F8, d: Vec3<F8>) -> Vec3<F8> {
+    Vec3::new(t.mul_add(d.x, o.x), t.mul_add(d.y, o.y), t.mul_add(d.z, o.z))
+}
