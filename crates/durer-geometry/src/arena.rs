@@ -65,6 +65,8 @@ pub(crate) trait AnyArena: Send + Sync {
     fn resolve(&self, isa: Isa, slot: u32, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint;
     /// A slot as lanes see it.
     fn drawn(&self, slot: u32) -> Drawn;
+    /// A solid of several parts as lanes see it, and the slots of its faces.
+    fn solid(&self, surface: u32) -> (Seen, Vec<u32>);
     /// Which rays meet a slot.
     fn mask(&self, slot: u32) -> u32;
     /// Which part of its surface a slot is.
@@ -422,6 +424,15 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
         // The surface's own box is the tighter one, unless this is a small part of it.
         let bounds = if whole { surface.bounds() } else { sketch.bounds() };
         Drawn { seen: Seen::of(&sketch), bounds }
+    }
+
+    fn solid(&self, surface: u32) -> (Seen, Vec<u32>) {
+        let (sketch, parts) = self.surfaces[surface as usize].solid_sketch();
+        let slot_of = |part: PartId| {
+            let slot = self.placed.iter().position(|p| p.surface == surface && p.part == part.0);
+            slot.map_or(surface, |slot| slot as u32)
+        };
+        (Seen::of(&sketch), parts.into_iter().map(slot_of).collect())
     }
 
     fn mask(&self, slot: u32) -> u32 {

@@ -78,6 +78,12 @@ pub trait Surface: Send + Sync {
         Sketch::vague(self.bounds())
     }
 
+    /// All of a solid as lanes see it, for bodies made of several, and the part on which each of its faces is, by the numbers that lanes have for them.
+    fn solid_sketch(&self) -> (Sketch, Vec<PartId>) {
+        let part = PartId(0);
+        (if self.is_in_parts() { Sketch::vague(self.bounds()) } else { self.sketch(part) }, vec![part])
+    }
+
     /// The crossings of one part; the union over all parts is what [`roots`](Surface::roots) pushes.
     #[inline(always)]
     fn part_roots<S: Sink + ?Sized>(&self, _part: PartId, ray: &LocalRay<'_>, sink: &mut S)

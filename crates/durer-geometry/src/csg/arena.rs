@@ -201,6 +201,10 @@ impl AnyArena for Compounds {
         Drawn { seen, bounds }
     }
 
+    fn solid(&self, surface: u32) -> (Seen, Vec<u32>) {
+        (self.drawn(surface).seen, vec![surface])
+    }
+
     fn mask(&self, slot: u32) -> u32 {
         self.ids.mask(slot as usize)
     }

@@ -10,7 +10,6 @@ use crate::outlines::Seen;
 use crate::{BuildError, Builder, Geometry, ObjectId};
 use durer_bvh::Leaf;
 use durer_math::Aabb;
-use durer_surfaces::outline::Sketch;
 use durer_surfaces::{LocalPoint, Side, Solidity, Surface};
 
 /// Unions, intersections and differences of solids as one solid: for [`Builder::add_compound`].
@@ -271,18 +270,22 @@ impl Compound {
     pub(super) fn operands(&self) -> Option<Vec<Operand>> {
         let mut operands: Vec<Option<Operand>> = self.traits.iter().map(|_| None).collect();
         for (arena, &first) in self.leaves.arenas.iter().zip(&self.first_slot) {
-            // Of a leaf in parts lanes see the box.
-            for (surface, bounds) in arena.solids_in_parts() {
-                let (leaf, outline) = (arena.object_of(surface) as usize, Sketch::vague(bounds).outline()?);
-                operands[leaf] =
-                    Some(Operand { outline, slot: first, primitive: 0, shown: self.traits[leaf].shown });
-            }
-            for slot in (0..arena.len()).filter(|&slot| arena.whole(slot).is_some()) {
-                let (name, seen) = (arena.name(slot), arena.drawn(slot).seen);
-                let Seen::Outline(outline) = seen else { return None };
-                let shown = self.traits[name.object as usize].shown;
-                let operand = Operand { outline, slot: first + slot, primitive: name.primitive, shown };
-                operands[name.object as usize] = Some(operand);
+            let in_parts = arena.solids_in_parts().into_iter().map(|(surface, _)| {
+                let (seen, slots) = arena.solid(surface);
+                // Crossings of leaves in parts count, whichever way these are turned.
+                let seen = match seen {
+                    Seen::Outline(outline) if outline.is_turned() => Seen::Nothing,
+                    seen => seen,
+                };
+                (arena.object_of(surface), seen, slots)
+            });
+            let whole = (0..arena.len()).filter(|&slot| arena.whole(slot).is_some());
+            let whole = whole.map(|slot| (arena.name(slot).object, arena.drawn(slot).seen, vec![slot]));
+            for (leaf, seen, slots) in in_parts.chain(whole) {
+                let (Seen::Outline(outline), Some(&any)) = (seen, slots.first()) else { return None };
+                let (primitive, shown) = (arena.name(any).primitive, self.traits[leaf as usize].shown);
+                let slots = slots.into_iter().map(|slot| first + slot).collect();
+                operands[leaf as usize] = Some(Operand { outline, slots, primitive, shown });
             }
         }
         operands.into_iter().collect()

@@ -30,8 +30,8 @@ pub(crate) struct Body {
 #[derive(Debug)]
 pub(super) struct Operand {
     pub(super) outline: Outline,
-    /// Its slot, counted over all leaves of the body.
-    pub(super) slot: u32,
+    /// The slots of its faces, counted over all leaves of the body; one if all have the same.
+    pub(super) slots: Box<[u32]>,
     pub(super) primitive: u32,
     pub(super) shown: Shown,
 }
@@ -61,7 +61,7 @@ pub(crate) struct Memory {
 }
 
 /// A face of a body, in one number.
-const FACES: f64 = 16.0;
+const FACES: f64 = Outline::FACES as f64;
 
 /// A face of a leaf, as hits name it.
 pub(crate) struct Skin<'b> {
@@ -80,6 +80,7 @@ struct Look<'a> {
     rays: &'a RayLanes<'a>,
     sights: &'a [Sight],
     passed: &'a [bool],
+    steps: &'a mut outline::Scratch,
 }
 
 /// Where something surely holds, and where it surely does not.
@@ -123,11 +124,13 @@ impl Body {
     /// The face with this number.
     pub(crate) fn skin(&self, number: f64) -> Skin<'_> {
         let leaf = ((number / FACES) as usize).min(self.leaves.len() - 1);
-        let (Operand { outline, slot, primitive, .. }, turned) =
+        let (Operand { outline, slots, primitive, .. }, turned) =
             (&self.leaves[leaf], self.places[leaf].inverted);
+        let face = (number - leaf as f64 * FACES) as u32;
+        let slot = slots[(face as usize).min(slots.len() - 1)];
         Skin {
             outline,
-            face: (number - leaf as f64 * FACES) as u32,
+            face,
             turned,
             slot: (self.slots.start + slot) | if turned { TURNED } else { 0 },
             primitive: *primitive,
@@ -154,8 +157,8 @@ impl Body {
         for (leaf, sight) in self.leaves.iter().zip(&mut *sights) {
             passed.push(leaf.outline.sight(lanes, sight));
         }
-        let look = Look { isa, rays: lanes, sights, passed };
-        let Sure { yes, no } = self.node(0, &look, None);
+        let look = &mut Look { isa, rays: lanes, sights, passed, steps };
+        let Sure { yes, no } = self.node(0, look, None);
         if (yes | no | !rays.live).all() {
             return;
         }
@@ -170,10 +173,10 @@ impl Body {
                 continue;
             }
             let from = own.and_then(|own| self.from(leaf, own, rays));
-            leaf.outline.crossings(lanes, from.as_ref(), &look.sights[i], steps, crossings);
+            leaf.outline.crossings(lanes, from.as_ref(), &look.sights[i], look.steps, crossings);
             nearest.doubt_from(rays.live, crossings.doubt);
             for crossing in crossings.iter() {
-                self.decide(i, crossing, (rays, &look), number, nearest);
+                self.decide(i, crossing, (rays, look), number, nearest);
             }
         }
     }
@@ -194,12 +197,12 @@ impl Body {
         &self,
         leaf: usize,
         crossing: &Crossing8,
-        (rays, look): (&Rays8, &Look<'_>),
+        (rays, look): (&Rays8, &mut Look<'_>),
         number: f64,
         nearest: &mut Nearest,
     ) {
         let (Operand { shown, outline, .. }, Place { node, .. }) = (&self.leaves[leaf], self.places[leaf]);
-        let Crossing8 { sure, t, e, face } = crossing;
+        let Crossing8 { sure, t, e, face, tag } = crossing;
         let mut open = M8::NONE;
         look.isa.run_in_lanes(
             #[inline(always)]
@@ -230,14 +233,14 @@ impl Body {
             || {
                 let open = open & !idle;
                 let sure = open & matters & (*t - *e).gt(F8::ZERO) & (*t + *e).le(rays.t_max);
-                nearest.take(sure, *t, *e, number, *face + leaf as f64 * FACES);
+                nearest.take_at(sure, (*t, *e), number, *face + leaf as f64 * FACES, *tag);
                 nearest.doubt_from(open & !sure, *t - *e);
             },
         );
     }
 
     /// Whether a child of a node holds at some points of the rays, or on all of them.
-    fn child(&self, child: Child, look: &Look<'_>, at: Option<(&F8, &F8)>) -> Sure {
+    fn child(&self, child: Child, look: &mut Look<'_>, at: Option<(&F8, &F8)>) -> Sure {
         match child {
             Child::Node(node) => self.node(node, look, at),
             Child::Leaf(leaf) => {
@@ -246,7 +249,7 @@ impl Body {
                 let sure = match at {
                     _ if look.passed[i] => Sure { yes: M8::NONE, no: M8::ALL }.inverted(outline.is_turned()),
                     Some(at) => {
-                        let (yes, no) = outline.holds(look.rays, &look.sights[i], at);
+                        let (yes, no) = outline.holds(look.rays, &look.sights[i], at, look.steps);
                         Sure { yes, no }
                     }
                     None => Sure { yes: M8::NONE, no: M8::NONE },
@@ -257,7 +260,7 @@ impl Body {
     }
 
     /// The same for a node.
-    fn node(&self, node: u32, look: &Look<'_>, at: Option<(&F8, &F8)>) -> Sure {
+    fn node(&self, node: u32, look: &mut Look<'_>, at: Option<(&F8, &F8)>) -> Sure {
         let Node { all, children, .. } = &self.nodes[node as usize];
         // A union is the complement of the complements' intersection.
         let mut sum = Sure { yes: M8::ALL, no: M8::NONE };
@@ -275,11 +278,19 @@ impl Body {
     /// Those of the body's own rays that leave this leaf.
     fn from(&self, leaf: &Operand, own: M8, rays: &Rays8) -> Option<From8> {
         let of = |i: usize| rays.source.slot[i] as u32;
-        let lanes = own & M8::from_fn(|i| of(i) & SLOT == self.slots.start + leaf.slot);
+        let mut lanes = M8::NONE;
+        let mut face = F8(rays.source.face.map(f64::from));
+        for i in own.lanes() {
+            let slot = (of(i) & SLOT) - self.slots.start;
+            let Some(place) = leaf.slots.iter().position(|&s| s == slot) else { continue };
+            lanes.set_lane(i, true);
+            if leaf.slots.len() > 1 {
+                face.0[i] = place as f64;
+            }
+        }
         // The side is that of the body's normal.
         let turned = M8::from_fn(|i| of(i) & TURNED != 0);
         let back = rays.source.back & !turned | !rays.source.back & turned;
-        let face = F8(rays.source.face.map(f64::from));
         lanes.any().then_some(From8 { lanes, face, back })
     }
 }

@@ -55,6 +55,11 @@ impl<S: Surface> Surface for Placed<S> {
         self.surface.sketch(part).placed(&self.map)
     }
 
+    fn solid_sketch(&self) -> (Sketch, Vec<PartId>) {
+        let (sketch, parts) = self.surface.solid_sketch();
+        (sketch.placed(&self.map), parts)
+    }
+
     fn solidity(&self) -> Solidity {
         self.surface.solidity()
     }

@@ -111,6 +111,10 @@ impl Surface for Erased {
         self.surface.sketch(part)
     }
 
+    fn solid_sketch(&self) -> (Sketch, Vec<PartId>) {
+        self.surface.solid_sketch()
+    }
+
     fn is_in_parts(&self) -> bool {
         self.surface.is_in_parts()
     }

@@ -56,6 +56,11 @@ impl<S: Surface> Surface for Inverse<S> {
         self.0.sketch(part).turned()
     }
 
+    fn solid_sketch(&self) -> (Sketch, Vec<PartId>) {
+        let (sketch, parts) = self.0.solid_sketch();
+        (sketch.turned(), parts)
+    }
+
     fn solidity(&self) -> Solidity {
         self.0.solidity()
     }

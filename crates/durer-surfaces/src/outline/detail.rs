@@ -1,5 +1,6 @@
 //! What lanes know of surfaces whose faces are of a degree above two: an equation in coordinates of the surface's own.
 
+use super::Outline;
 use super::algebraic::{self, Terms};
 use super::face::Start;
 use super::fields::{self, Fields};
@@ -116,11 +117,9 @@ impl Detail {
 
     /// Whether it can tell all crossings, and on which side points are.
     pub(super) fn is_operand(&self) -> bool {
-        /// So many faces have numbers.
-        const MOST: usize = 16;
         match &self.shape {
-            Kind8::Lathe(lathe) => lathe.faces() <= MOST,
-            Kind8::Swept(_) => false,
+            Kind8::Lathe(lathe) => lathe.faces() <= Outline::FACES,
+            Kind8::Swept(swept) => swept.is_operand(),
             Kind8::Quartic(_) | Kind8::Octic(_) | Kind8::Fields(_) => true,
         }
     }
@@ -133,6 +132,10 @@ impl Detail {
         to: &mut Crossings,
         memory: &mut Memory,
     ) {
+        if let Kind8::Swept(swept) = &self.shape {
+            swept.crossings(&self.own, rays, start, to, &mut memory.swept);
+            return;
+        }
         self.show(rays, (start, None), to, memory);
     }
 
@@ -153,10 +156,16 @@ impl Detail {
     }
 
     /// Which points at `t` within `e` are surely in the solid, and which surely not.
-    pub(super) fn holds(&self, rays: &RayLanes<'_>, start: &Start, at: (F8, F8)) -> (M8, M8) {
+    pub(super) fn holds(
+        &self,
+        rays: &RayLanes<'_>,
+        start: &Start,
+        at: (F8, F8),
+        memory: &mut Memory,
+    ) -> (M8, M8) {
         match &self.shape {
             Kind8::Lathe(lathe) => lathe.holds(&self.own, rays, start, at),
-            Kind8::Swept(_) => (M8::NONE, M8::NONE),
+            Kind8::Swept(swept) => swept.holds(&self.own, rays, start, at, &mut memory.swept),
             Kind8::Quartic(f) => f.holds(&self.own, rays, start, at),
             Kind8::Octic(f) => f.holds(&self.own, rays, start, at),
             Kind8::Fields(fields) => fields.holds(&self.own, rays, start, at),

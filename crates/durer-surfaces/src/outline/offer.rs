@@ -12,6 +12,8 @@ pub(super) trait Offer {
     fn limit(&self, rays: &RayLanes<'_>) -> F8;
     /// Some rays surely cross a face at `t` within `e`.
     fn take(&mut self, sure: M8, at: (F8, F8), face: F8);
+    /// The same of faces that want to know more of a point.
+    fn take_at(&mut self, sure: M8, at: (F8, F8), face: F8, tag: F8);
     /// Of some rays nothing is sure from `t` on.
     fn doubt(&mut self, lanes: M8, t: F8);
 }
@@ -33,6 +35,10 @@ impl Offer for First<'_> {
         self.nearest.take(sure, t, e, self.number, face);
     }
     #[inline(always)]
+    fn take_at(&mut self, sure: M8, at: (F8, F8), face: F8, tag: F8) {
+        self.nearest.take_at(sure, at, self.number, face, tag);
+    }
+    #[inline(always)]
     fn doubt(&mut self, lanes: M8, t: F8) {
         self.nearest.doubt_from(lanes, t);
     }
@@ -46,7 +52,11 @@ impl Offer for Crossings {
     }
     #[inline(always)]
     fn take(&mut self, sure: M8, (t, e): (F8, F8), face: F8) {
-        self.push(sure, t, e, face);
+        self.push(sure, t, e, (face, F8::ZERO));
+    }
+    #[inline(always)]
+    fn take_at(&mut self, sure: M8, (t, e): (F8, F8), face: F8, tag: F8) {
+        self.push(sure, t, e, (face, tag));
     }
     #[inline(always)]
     fn doubt(&mut self, lanes: M8, t: F8) {

@@ -27,6 +27,8 @@ pub struct Crossing8 {
     pub e: F8,
     /// The face.
     pub face: F8,
+    /// What the face wants to know of the point when that is asked for.
+    pub tag: F8,
 }
 
 /// All crossings of eight rays with a solid, in no order.
@@ -54,10 +56,26 @@ impl Crossings {
         self.list.iter()
     }
 
-    /// Adds a crossing; what finds no room is a doubt.
+    /// The same, to be changed.
+    pub(super) fn all(&mut self) -> &mut [Crossing8] {
+        &mut self.list
+    }
+
+    /// Adds a crossing, beside others of other rays if there are such; what finds no room is a doubt.
     #[inline(always)]
-    pub(super) fn push(&mut self, sure: M8, t: F8, e: F8, face: F8) {
-        if sure.any() && self.list.try_push(Crossing8 { sure, t, e, face }).is_err() {
+    pub(super) fn push(&mut self, sure: M8, t: F8, e: F8, (face, tag): (F8, F8)) {
+        if !sure.any() {
+            return;
+        }
+        for c in &mut self.list {
+            if !(c.sure & sure).any() {
+                (c.t, c.e) = (sure.select(t, c.t), sure.select(e, c.e));
+                (c.face, c.tag) = (sure.select(face, c.face), sure.select(tag, c.tag));
+                c.sure |= sure;
+                return;
+            }
+        }
+        if self.list.try_push(Crossing8 { sure, t, e, face, tag }).is_err() {
             self.doubt_from(sure, t - e);
         }
     }
@@ -78,6 +96,9 @@ impl Sight {
 }
 
 impl Outline {
+    /// So many faces of an operand have numbers.
+    pub const FACES: usize = 128;
+
     /// Whether the outline tells all about a solid: what else cuts off a surface is no face of its inside.
     pub fn is_operand(&self) -> bool {
         let told = self.faces.len() <= Crossings::FACES;
@@ -155,8 +176,9 @@ impl Outline {
         to.doubt_from(!(missed | through), earliest);
         to.doubt_from(through & ahead & !enters, earliest);
         to.doubt_from(through & ends & !leaves, left);
-        to.list.push(Crossing8 { sure: enters, t: enter.t, e: enter.e, face: enter.face });
-        to.list.push(Crossing8 { sure: leaves, t: -leave.t, e: leave.e, face: leave.face });
+        let tag = F8::ZERO;
+        to.list.push(Crossing8 { sure: enters, t: enter.t, e: enter.e, face: enter.face, tag });
+        to.list.push(Crossing8 { sure: leaves, t: -leave.t, e: leave.e, face: leave.face, tag });
     }
 
     /// The roots of each wall, where the other faces are negative.
@@ -210,15 +232,22 @@ impl Outline {
             || {
                 let sure = open & inside & t.lt(F8::splat(FAR));
                 to.doubt_from(open & !(sure | outside), t - e);
-                to.list.push(Crossing8 { sure, t, e, face: F8::splat(wall as f64) });
+                to.list.push(Crossing8 { sure, t, e, face: F8::splat(wall as f64), tag: F8::ZERO });
             },
         );
     }
 
     /// Which points at `t` within `e` are surely in the solid, and which surely not.
-    pub fn holds(&self, rays: &RayLanes<'_>, sight: &Sight, (t, e): (&F8, &F8)) -> (M8, M8) {
+    pub fn holds(
+        &self,
+        rays: &RayLanes<'_>,
+        sight: &Sight,
+        (t, e): (&F8, &F8),
+        scratch: &mut Scratch,
+    ) -> (M8, M8) {
         if let Some(detail) = self.as_detail() {
-            let (inside, outside) = detail.holds(rays, &sight.0, (*t, *e));
+            let memory = &mut scratch.steps.detail;
+            let (inside, outside) = detail.holds(rays, &sight.0, (*t, *e), memory);
             return if self.turned { (outside, inside) } else { (inside, outside) };
         }
         let seen = sight.seen(rays);

@@ -55,7 +55,7 @@ pub(super) struct Root8 {
 /// A part that is halved more often is a doubt.
 const MOST_PARTS: usize = 16;
 /// Newton's steps at least before the first look whether all lanes are done, and at most.
-const STEPS: (usize, usize) = (3, 24);
+const STEPS: (usize, usize) = (1, 24);
 /// After a step as short as this the next one, which squares it, is at the end of f64. Only time depends on it: signs prove the root.
 const CONVERGED: f64 = 1.0 / (1u64 << 30) as f64;
 
@@ -137,6 +137,13 @@ impl<const N: usize> Poly8<N> {
         self.go(live, (F8::ZERO, F8::ONE), known.equals(F8::ZERO).select(sign, known), part);
     }
 
+    /// The same where all Bernstein coefficients are known, within `e`.
+    #[inline(always)]
+    pub(super) fn begin_at(&self, live: M8, b: &[F8; N], part: &mut Part8) {
+        self.begin(live, part);
+        self.tell(b, part);
+    }
+
     /// The same between two places other than 0 and 1.
     #[inline(always)]
     pub(super) fn begin_within(&self, live: M8, (l, end): (F8, F8), known: F8, part: &mut Part8) {
@@ -179,27 +186,33 @@ impl<const N: usize> Poly8<N> {
                 return;
             }
             let b = self.bernstein(part.l, part.r);
-            let is_last = part.r.ge(part.end);
-            let e_last = is_last.select(self.e_last, self.e);
-            let (mut seen, mut fails) = (M8::NONE, M8::NONE);
-            for (j, b) in b.iter().enumerate().skip(1) {
-                let q = *b * part.sign;
-                let e = if j == N - 1 { e_last } else { self.e };
-                fails |= seen & !q.lt(-e);
-                seen |= !q.gt(e);
-            }
-            let one = part.open & seen & !fails & (b[N - 1] * part.sign).lt(-e_last);
-            let none = part.open & !seen;
-            part.one |= one;
-            part.open &= !(one | none & is_last);
-            let (l, r) = (part.l, part.r);
-            let half = (l + r) * 0.5;
-            let next = part.open & none;
-            part.l = next.select(r, l);
-            part.r = next.select(part.end, part.open.select(half, r));
+            self.tell(&b, part);
         }
         part.unsure |= part.open;
         part.open = M8::NONE;
+    }
+
+    /// What the Bernstein coefficients on a part tell of it, but for the first; and the part to look at next.
+    #[inline(always)]
+    fn tell(&self, b: &[F8; N], part: &mut Part8) {
+        let is_last = part.r.ge(part.end);
+        let e_last = is_last.select(self.e_last, self.e);
+        let (mut seen, mut fails) = (M8::NONE, M8::NONE);
+        for (j, b) in b.iter().enumerate().skip(1) {
+            let q = *b * part.sign;
+            let e = if j == N - 1 { e_last } else { self.e };
+            fails |= seen & !q.lt(-e);
+            seen |= !q.gt(e);
+        }
+        let one = part.open & seen & !fails & (b[N - 1] * part.sign).lt(-e_last);
+        let none = part.open & !seen;
+        part.one |= one;
+        part.open &= !(one | none & is_last);
+        let (l, r) = (part.l, part.r);
+        let half = (l + r) * 0.5;
+        let next = part.open & none;
+        part.l = next.select(r, l);
+        part.r = next.select(part.end, part.open.select(half, r));
     }
 
     /// All Bernstein coefficients on a part; the first, the value at its start, is not to be used.

@@ -95,7 +95,7 @@ impl Nearest {
 
     /// The same of faces that want to know more of a point.
     #[inline(always)]
-    pub(super) fn take_at(&mut self, sure: M8, (t, e): (F8, F8), number: f64, face: F8, tag: F8) {
+    pub fn take_at(&mut self, sure: M8, (t, e): (F8, F8), number: f64, face: F8, tag: F8) {
         let better = sure & t.lt(self.t);
         self.tag = better.select(tag, self.tag);
         self.take(sure, t, e, number, face);

@@ -255,15 +255,18 @@ impl Prism {
         }
     }
 
-    /// All of a tangled prism, its edges taken for curves.
-    fn tangled_sketch(&self) -> Sketch {
+    /// All of it, its edges taken for curves; `None` if triangles that are parts by themselves would have to be told from each other, or rounded corners count too much.
+    fn whole_for_lanes(&self) -> Option<Sketch> {
         let [low, high] = [self.bounds.min.y, self.bounds.max.y];
         let conic = self.sweep == Sweep::Conic;
-        // Corners of a conic sweep are rounded: near the apex that counts too much.
-        let steep = conic && low.abs().max(high.abs()) > 64.0 * low.abs().min(high.abs());
-        if self.open || steep || conic && low * high <= 0.0 {
-            return Sketch::vague(self.bounds);
+        // With an apex each wall is one triangle; the others of a conic sweep are two.
+        let apex = low == 0.0 || high == 0.0;
+        let steep = low.abs().max(high.abs()) > 64.0 * low.abs().min(high.abs());
+        let told = if self.tangled { !steep && low * high > 0.0 } else { apex };
+        if self.open || conic && !told {
+            return None;
         }
+        let each = if conic && apex { 1 } else { 2 };
         let (centre, size) = if conic { (Point3::ORIGIN, self.bounds.magnitude()) } else { self.view() };
         let scale = exponent(size) + 1;
         let seen = |p: Point3| {
@@ -273,11 +276,10 @@ impl Prism {
                 [scale2(p.x - centre.x, -scale), scale2(p.z - centre.z, -scale)]
             }
         };
-        let edges = self.walls.chunks(2).map(|wall| wall[0].ribs.map(|rib| seen(rib[1])));
+        let outer = |[a, b]: [Point3; 2]| if a.y.abs() > b.y.abs() { a } else { b };
+        let edges = self.walls.chunks(each).map(|wall| wall[0].ribs.map(|rib| seen(outer(rib))));
         let reach =
             |e: &[Point; 2]| e.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs())) * (1.0 + 4.0 * U);
-        // Corners at other heights are off by roundings of their own size.
-        let lost = if conic { 512.0 * U } else { 8.0 * U };
         let curve = |e: [Point; 2]| {
             let [a, b] = e;
             let along = |k: usize| {
@@ -286,14 +288,17 @@ impl Prism {
             };
             Curve {
                 points: [along(0), along(1)],
-                slack: reach(&e) * lost,
+                // A corner is rounded by U of its size at each height, and triangles lie between them; here it is divided, and a third of the way rounds by 4 U.
+                slack: reach(&e) * (8.0 * U),
                 reach: reach(&e) * (1.0 + 8.0 * U),
             }
         };
-        let curves = edges.map(curve).collect();
+        let curves: Box<[Curve]> = edges.map(curve).collect();
+        // Walls are turned so that the inside is to their left.
+        let left = (!self.tangled).then(|| vec![true; curves.len()].into());
         let [low, high] = [low, high].map(|y| scale2(y - centre.y, -scale));
         let sweep = Sweep8 { conic, low, high };
-        Sketch::swept(self.bounds, Swept::Whole { curves, sweep }, centre, scale)
+        Some(Sketch::swept(self.bounds, Swept::Whole { curves, sweep, left }, centre, scale))
     }
 
     /// Every crossing of the line with a face, in no order: the crossing, its plane, its face and tag, and whether the sign is to be turned.
@@ -437,7 +442,7 @@ impl Surface for Prism {
 
     fn sketch(&self, part: PartId) -> Sketch {
         match self.part(part) {
-            _ if self.tangled => self.tangled_sketch(),
+            _ if self.tangled => self.solid_sketch().0,
             Some(PrismPart::Walls(&[Wall { ribs: [[a0, a1], [b0, b1]], .. }, _], _)) => {
                 Sketch::flat([a0, a1, b1, b0]).on_face(0)
             }
@@ -448,6 +453,19 @@ impl Surface for Prism {
             }
             _ => Sketch::vague(self.bounds),
         }
+    }
+
+    fn solid_sketch(&self) -> (Sketch, Vec<PartId>) {
+        let Some(sketch) = self.whole_for_lanes() else {
+            return (Sketch::vague(self.bounds), vec![PartId(0)]);
+        };
+        if self.tangled {
+            return (sketch, vec![PartId(0)]);
+        }
+        // The walls, the bottom, the top. An apex has no face, and any part will do.
+        let walls = self.walls.len() / self.sweep.together();
+        let cap = |face: u32| self.caps.iter().position(|c| c.face == face).map_or(0, |i| walls + i);
+        (sketch, (0..walls).chain([cap(1), cap(2)]).map(|part| PartId(part as u32)).collect())
     }
 
     #[inline(always)]

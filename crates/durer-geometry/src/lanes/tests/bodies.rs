@@ -1,12 +1,12 @@
 //! Solids of solids, beside each other and beside simple surfaces.
 
-use super::worlds::{World, map, tent};
+use super::worlds::{World, crossed_eight, crossed_star, heart, map, placements, tent};
 use super::{Aim, Dice, OF_HIGHER_DEGREE, Tally, compare, eight, point};
 use crate::{Geometry, Shown};
-use durer_math::{Point3, Ray, Vec3};
+use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{
-    AlgebraicSurface, Axis, AxisBox, Blob, BlobComponent, BlobShape, CappedCylinder, Cone, Frustum, Inverse,
-    Mesh, Placed, Plane, Quadric, Sphere, Torus, Turned,
+    AlgebraicSurface, Axis, AxisBox, Blob, BlobComponent, BlobShape, CappedCylinder, Cone, CurvedPrism,
+    Erased, Frustum, Inverse, Mesh, Placed, Plane, Prism, Quadric, Sphere, Torus, Turned,
 };
 
 /// Solids of solids: convex and not, with faces in common, and several in one world.
@@ -135,6 +135,92 @@ fn bodies() -> Vec<World> {
         let both = csg.union([nappes, saddle]);
         csg.intersection([cone, both, block])
     });
+    let (outline, hole) = heart();
+    let curves = [outline.as_slice(), hole.as_slice()];
+    let upright = |low, high| CurvedPrism::linear(&curves, low, high).unwrap();
+    let cone = |low, high| CurvedPrism::conic(&curves, low, high).unwrap();
+    world("heart with holes", &|csg| {
+        let outer = csg.leaf(Placed::new(upright(-0.5, 0.75), map())).unwrap();
+        let inner = csg.leaf(ball(0.25, 0.625)).unwrap();
+        let tube = CappedCylinder::new(point(-2.0, 0.1, 0.2), point(2.0, 0.1, 0.2), 0.25).unwrap();
+        let tube = csg.leaf(tube).unwrap();
+        csg.difference(outer, [inner, tube])
+    });
+    world("two hearts", &|csg| {
+        let turn = Affine::rotation_x(1.5).unwrap();
+        let one = csg.leaf(upright(-0.5, 0.75)).unwrap();
+        let two = csg.leaf(Placed::new(cone(-0.5, 1.0), turn)).unwrap();
+        let block = csg.leaf(block(-0.9, 0.9)).unwrap();
+        let both = csg.union([one, two]);
+        csg.intersection([both, block])
+    });
+    world("cone of curves without a block", &|csg| {
+        let cone = csg.leaf(Placed::new(cone(0.0, 1.25), map())).unwrap();
+        let cut = csg.leaf(block(0.1, 2.0)).unwrap();
+        csg.difference(cone, [cut])
+    });
+    world("crossed star without a ball", &|csg| {
+        let star =
+            csg.leaf(Placed::new(Prism::linear(&[crossed_star()], -0.5, 0.75).unwrap(), map())).unwrap();
+        let hole = csg.leaf(ball(0.0, 0.5)).unwrap();
+        csg.difference(star, [hole])
+    });
+    world("crossed curve with a lid", &|csg| {
+        let curve = CurvedPrism::linear(&[crossed_eight()], -0.5, 0.75).unwrap();
+        let curve = csg.leaf(Inverse(curve)).unwrap();
+        let lid = csg.leaf(Plane::new(Vec3::new(0.25, 1.0, 0.0), 0.5).unwrap()).unwrap();
+        let curve = csg.inverse(curve);
+        csg.intersection([curve, lid])
+    });
+    world("pyramid without a wedge", &|csg| {
+        let square = [[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]];
+        let pyramid = Prism::conic(&square, -1.25, 0.0).unwrap();
+        let pyramid = csg.leaf(Placed::new(pyramid, map())).unwrap();
+        let wedge = Prism::linear(&[[[0.0, 0.0], [2.0, -1.0], [2.0, 1.0]]], -1.0, 2.0).unwrap();
+        let wedge = csg.leaf(wedge).unwrap();
+        csg.difference(pyramid, [wedge])
+    });
+    world("tiles", &|csg| {
+        let outlines = [
+            [[-1.0, -1.0], [1.0, -1.0], [0.25, 0.25], [-1.0, 1.0]],
+            [[-0.75, -0.75], [-0.5, 0.0], [0.0, -0.25], [0.0, -0.5]],
+        ];
+        let tile = Prism::linear(&outlines, -0.25, 0.5).unwrap();
+        let one = csg.leaf(tile.clone()).unwrap();
+        let two = csg.leaf(Placed::new(tile, map())).unwrap();
+        let two = csg.inverse(two);
+        let three = csg.leaf(Prism::conic(&outlines, 0.0, 1.5).unwrap()).unwrap();
+        let lower = csg.intersection([one, two]);
+        csg.union([lower, three])
+    });
+    all
+}
+
+/// Prisms in each other, in all placements.
+fn placed() -> Vec<World> {
+    let (outline, hole) = heart();
+    let curves = [outline.as_slice(), hole.as_slice()];
+    let square = [[[-0.75, -0.75], [0.75, -0.75], [0.75, 0.75], [-0.75, 0.75]]];
+    let upright = Erased::new(CurvedPrism::linear(&curves, -0.5, 0.75).unwrap());
+    let cone = Erased::new(CurvedPrism::conic(&curves, 0.25, 1.0).unwrap());
+    let pyramid = Erased::new(Prism::conic(&square, 0.0, 1.25).unwrap());
+    let star = Erased::new(Prism::linear(&[crossed_star()], -0.5, 0.625).unwrap());
+    let ball = Erased::new(Sphere::new(point(0.25, 0.25, 0.0), 0.75).unwrap());
+    let mut all = Vec::new();
+    for (name, one, two) in [
+        ("heart and ball", &upright, &ball),
+        ("cone of curves and crossed star", &cone, &star),
+        ("pyramid and heart", &pyramid, &upright),
+    ] {
+        for (how, maps) in placements() {
+            let put = |s: &Erased| maps.iter().fold(s.clone(), |s, map| Erased::new(Placed::new(s, *map)));
+            let csg = &mut crate::Compound::builder();
+            let (one, two) = (csg.leaf(put(one)).unwrap(), csg.leaf(put(two)).unwrap());
+            let rest = csg.difference(one, [two]);
+            let body = csg.build(rest).unwrap();
+            all.push(World::placed(name, how, Geometry::builder().add_compound(body).build().unwrap(), maps));
+        }
+    }
     all
 }
 
@@ -173,8 +259,8 @@ fn tally(world: &World, rounds: usize, dice: &mut Dice) -> Tally {
     for round in 0..rounds {
         let far = [4.0, 1.0, 1000.0, 30.0][round % 4];
         let rays = eight(|_| {
-            let from = dice.vector(far).to_point();
-            Ray::new(from, dice.vector(1.0).to_point() - from)
+            let from = world.place(dice.vector(far).to_point());
+            Ray::new(from, world.place(dice.vector(1.0).to_point()) - from)
         });
         compare(world, Aim::Random, &rays, dice, 3, &mut tally);
     }
@@ -197,6 +283,24 @@ fn lanes_see_what_single_rays_see_of_solids_of_solids() {
             _ => 1000,
         };
         assert!(tally.asked * least <= tally.rays, "{}: {} of {}", world.name, tally.asked, tally.rays);
+    }
+}
+
+#[test]
+fn lanes_see_prisms_in_each_other_wherever_they_are_placed() {
+    let mut dice = Dice(9);
+    let mut bodies: Vec<(&str, Tally)> = Vec::new();
+    for world in placed() {
+        let tally = tally(&world, 100, &mut dice);
+        println!("{}: {} rays, {} asked", world.name, tally.rays, tally.asked);
+        assert!(tally.met > 100, "{}: {} met", world.name, tally.met);
+        match bodies.last_mut().filter(|(name, _)| *name == world.surface) {
+            Some((_, all)) => all.add(&tally),
+            None => bodies.push((world.surface, tally)),
+        }
+    }
+    for (name, Tally { rays, asked, .. }) in bodies {
+        assert!(asked * 12 <= rays, "{name}: {asked} of {rays}");
     }
 }
 

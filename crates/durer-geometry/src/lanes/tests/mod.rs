@@ -73,15 +73,25 @@ enum Aim {
 }
 
 /// Surfaces that lanes see in coordinates of their own.
-const OF_HIGHER_DEGREE: [&str; 22] = [
+const OF_HIGHER_DEGREE: [&str; 32] = [
     "balls",
     "sausages",
     "blob with a hole",
+    "heart and ball",
+    "cone of curves and crossed star",
+    "pyramid and heart",
     "cushion without a ball",
     "quartic",
     "cubic",
     "clipped cubic",
     "sextic",
+    "heart with holes",
+    "two hearts",
+    "cone of curves without a block",
+    "crossed star without a ball",
+    "crossed curve with a lid",
+    "pyramid without a wedge",
+    "tiles",
     "bowl",
     "egg shell and ring",
     "crossed prism",

@@ -4,11 +4,11 @@ use super::point;
 use crate::Geometry;
 use durer_math::{Affine, Dyadic, Isa, Normal3, Point3, Vec3};
 use durer_surfaces::{
-    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Blob, BlobComponent, BlobShape, CappedCylinder,
-    Clip, Cone, CurvedPrism, Disc, Ellipsoid, EllipticCylinder, EllipticParaboloid, Erased, FillRule,
-    Frustum, HyperbolicCylinder, HyperbolicParaboloid, HyperboloidOfOneSheet, HyperboloidOfTwoSheets,
-    Inverse, Mesh, MeshData, ParabolicCylinder, Parallelogram, Placed, Plane, Polygon, Prism, Quadric,
-    Region, Sphere, SphericalSector, Torus, Triangle, Turned,
+    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Bezier, Blob, BlobComponent, BlobShape,
+    CappedCylinder, Clip, Cone, CurvedPrism, Disc, Ellipsoid, EllipticCylinder, EllipticParaboloid, Erased,
+    FillRule, Frustum, HyperbolicCylinder, HyperbolicParaboloid, HyperboloidOfOneSheet,
+    HyperboloidOfTwoSheets, Inverse, Mesh, MeshData, ParabolicCylinder, Parallelogram, Placed, Plane,
+    Polygon, Prism, Quadric, Region, Sphere, SphericalSector, Torus, Triangle, Turned,
 };
 
 /// What is known exactly of points beside the surface.
@@ -44,6 +44,11 @@ impl World {
     pub(super) fn of(surface: &'static str, geometry: Geometry) -> Self {
         let (name, sides) = (surface.to_string(), Sides::Sheet);
         Self { surface, name, geometry, sides, turned: false, maps: Vec::new() }
+    }
+
+    /// The same, placed.
+    pub(super) fn placed(surface: &'static str, how: &str, geometry: Geometry, maps: Vec<Affine>) -> Self {
+        Self { name: format!("{surface}, {how}"), maps, ..Self::of(surface, geometry) }
     }
 
     /// Where a point of the surface's own frame went; rounded, or exact if all numbers are short.
@@ -99,7 +104,7 @@ fn scaled(k: f64) -> Affine {
 }
 
 /// Every way to place a surface, by name: chains of maps, the first one first.
-fn placements() -> Vec<(&'static str, Vec<Affine>)> {
+pub(super) fn placements() -> Vec<(&'static str, Vec<Affine>)> {
     let sheared = [[1.0, 0.5, 0.0], [0.0, -1.0, 0.25], [0.25, 0.0, 1.0]];
     let dyadic = Affine::new(sheared, point(0.5, -0.25, 1.0)).unwrap();
     let far = moved(1e6, -3e6 + 0.1, 2e6 + 0.7);
@@ -147,6 +152,36 @@ pub(super) fn tent() -> MeshData {
         faces: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
         ..MeshData::default()
     }
+}
+
+/// A heart, and a round hole in it.
+pub(super) fn heart() -> ([Bezier; 4], [Bezier; 2]) {
+    (
+        [
+            [[0.0, -1.0], [0.5, -0.5], [1.0, 0.0], [1.0, 0.5]],
+            [[1.0, 0.5], [1.0, 1.0], [0.25, 1.25], [0.0, 0.5]],
+            [[0.0, 0.5], [-0.25, 1.25], [-1.0, 1.0], [-1.0, 0.5]],
+            [[-1.0, 0.5], [-1.0, 0.0], [-0.5, -0.5], [0.0, -1.0]],
+        ],
+        [
+            [[0.25, 0.0], [0.25, 0.5], [-0.25, 0.5], [-0.25, 0.0]],
+            [[-0.25, 0.0], [-0.25, -0.5], [0.25, -0.5], [0.25, 0.0]],
+        ],
+    )
+}
+
+/// A star that winds twice around its middle.
+pub(super) fn crossed_star() -> [[f64; 2]; 5] {
+    [[-0.75, -1.25], [1.25, 0.25], [-1.25, 0.25], [0.75, -1.25], [-0.25, 1.25]]
+}
+
+/// A curve that crosses itself.
+pub(super) fn crossed_eight() -> [Bezier; 3] {
+    [
+        [[0.0, 0.0], [1.0, 1.0], [1.5, -1.0], [0.25, -0.25]],
+        [[0.25, -0.25], [-0.75, 0.75], [-1.5, 0.75], [-1.0, -0.5]],
+        [[-1.0, -0.5], [-0.75, -1.0], [-0.5, -0.5], [0.0, 0.0]],
+    ]
 }
 
 /// Every kind of surface that lanes know, in every placement. Numbers are short, so that rays can
@@ -274,32 +309,17 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
         component(BlobShape::Ball(point(0.25, 0.25, 0.25)), 0.75, -0.5, Affine::IDENTITY),
     ];
     worlds("sausages", Sides::Rounded, Blob::new(0.375, &sausages).unwrap(), all);
-    let (heart, hole) = (
-        [
-            [[0.0, -1.0], [0.5, -0.5], [1.0, 0.0], [1.0, 0.5]],
-            [[1.0, 0.5], [1.0, 1.0], [0.25, 1.25], [0.0, 0.5]],
-            [[0.0, 0.5], [-0.25, 1.25], [-1.0, 1.0], [-1.0, 0.5]],
-            [[-1.0, 0.5], [-1.0, 0.0], [-0.5, -0.5], [0.0, -1.0]],
-        ],
-        [
-            [[0.25, 0.0], [0.25, 0.5], [-0.25, 0.5], [-0.25, 0.0]],
-            [[-0.25, 0.0], [-0.25, -0.5], [0.25, -0.5], [0.25, 0.0]],
-        ],
-    );
+    let (heart, hole) = heart();
     let curves = [heart.as_slice(), hole.as_slice()];
     worlds("curved prism", Sides::Solid, CurvedPrism::linear(&curves, -0.5, 0.75).unwrap(), all);
     worlds("conic curved prism", Sides::Solid, CurvedPrism::conic(&curves, -0.5, 1.0).unwrap(), all);
     let open = CurvedPrism::conic(&curves, 0.25, 1.0).unwrap().without_caps();
     worlds("open curved prism", Sides::Sheet, open, all);
     // A star that winds twice around its middle, and an eight.
-    let star = [[[-0.75, -1.25], [1.25, 0.25], [-1.25, 0.25], [0.75, -1.25], [-0.25, 1.25]]];
+    let star = [crossed_star()];
     worlds("crossed prism", Sides::Solid, Prism::linear(&star, -0.5, 0.75).unwrap(), all);
     worlds("crossed conic prism", Sides::Solid, Prism::conic(&star, 0.25, 1.0).unwrap(), all);
-    let eight = [[
-        [[0.0, 0.0], [1.0, 1.0], [1.5, -1.0], [0.25, -0.25]],
-        [[0.25, -0.25], [-0.75, 0.75], [-1.5, 0.75], [-1.0, -0.5]],
-        [[-1.0, -0.5], [-0.75, -1.0], [-0.5, -0.5], [0.0, 0.0]],
-    ]];
+    let eight = [crossed_eight()];
     worlds("crossed curved prism", Sides::Solid, CurvedPrism::linear(&eight, -0.5, 0.75).unwrap(), all);
     core::mem::take(&mut all.1)
 }

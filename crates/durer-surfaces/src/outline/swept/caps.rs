@@ -1,26 +1,54 @@
 //! Where eight rays cross the caps of a swept solid.
 
 use super::{Curve, Memory, Sweep8, cubic};
-use crate::outline::meet::Question;
-use crate::outline::rays::{CLEAR, Nearest, SLACK};
+use crate::outline::offer::Offer;
+use crate::outline::rays::{CLEAR, From8, RayLanes, SLACK};
 use crate::outline::roots::quotient;
-use durer_math::{F8, M8, U};
+use durer_math::{F8, Isa, M8, U};
 
 /// The least and the greatest of some numbers.
-fn range(v: &[f64; 4]) -> (f64, f64) {
+#[inline(always)]
+pub(super) fn range(v: &[f64; 4]) -> (f64, f64) {
     (v.iter().fold(f64::INFINITY, |m, x| m.min(*x)), v.iter().fold(f64::NEG_INFINITY, |m, x| m.max(*x)))
+}
+
+/// The strip along the way from a curve's start to its end that holds the curve: between the least and the greatest height `h(p) = dx (z - z0) - dz (x - x0)` of its control points.
+/// A point beside the strip has all or none of the curve ahead.
+struct Strip {
+    way: [f64; 2],
+    low: f64,
+    high: f64,
+    /// No less than the change of a height with a coordinate, and than the errors of heights but for that of their point.
+    slope: f64,
+    rounding: f64,
+}
+
+impl Strip {
+    /// A height takes five roundings, of numbers no larger than `|dx| + |dz|` times two coordinates.
+    #[inline(always)]
+    fn of(curve: &Curve) -> Self {
+        let [xs, zs] = curve.points;
+        let way @ [dx, dz] = [xs[3] - xs[0], zs[3] - zs[0]];
+        let (mut low, mut high) = (0.0_f64, 0.0_f64);
+        for i in 1..3 {
+            let h = dx * (zs[i] - zs[0]) - dz * (xs[i] - xs[0]);
+            (low, high) = (low.min(h), high.max(h));
+        }
+        let slope = dx.abs() + dz.abs();
+        Self { way, low, high, slope, rounding: slope * (curve.slack + curve.reach * (32.0 * U)) }
+    }
 }
 
 /// Where the rays reach the plane of a cap; false if none does where it matters, which is everywhere on the line or only ahead.
 #[inline(never)]
-pub(in crate::outline) fn reach(
-    asked: &Question<'_>,
+pub(in crate::outline) fn reach<K: Offer>(
+    (rays, from): (&RayLanes<'_>, Option<&From8>),
     (sweep, top): (&Sweep8, bool),
-    nearest: &mut Nearest,
+    to: &K,
     memory: &mut Memory,
     ahead: bool,
 ) -> bool {
-    asked.rays.isa.run_in_lanes(
+    rays.isa.run_in_lanes(
         #[inline(always)]
         || {
             let Memory { o: [ox, oy, oz], d: [dx, dy, dz], e_o, e_d, .. } = *memory;
@@ -28,19 +56,20 @@ pub(in crate::outline) fn reach(
             let steep = dy.abs().gt(e_d * CLEAR);
             let e_h = e_o + height.abs() * (4.0 * U);
             let (t, e) = quotient(-(oy - height), e_h, F8::ONE / dy, e_d);
-            // Of rays along the plane nothing is known from their start on.
+            // Of rays along the plane nothing is known from their start on, unless they stay away from it as far as that matters.
             let (t, e) = (steep.keep(t), steep.keep(e));
-            let mut open = *asked.rays.live;
-            memory.unsure = open & !steep;
+            let rise = (dy.abs() + e_d) * memory.far + e_h + oy.abs() * U;
+            let beside = !steep & (oy - height).abs().gt(rise * SLACK);
+            let mut open = *rays.live & !beside;
             if ahead {
-                if let Some(from) = asked.from {
+                if let Some(from) = from {
                     // Outward is up at the top; they left it on the side to which they go.
                     let outward = if top { dy.gt(F8::ZERO) } else { dy.lt(F8::ZERO) };
                     open &= !(from.lanes & steep & (outward & !from.back | !outward & from.back));
                 }
-                open &= !(steep & ((t + e).lt(F8::ZERO) | (t - e).gt(nearest.limit(asked.rays))));
-                memory.unsure = open & !(steep & (t - e).gt(F8::ZERO));
+                open &= !(steep & ((t + e).lt(F8::ZERO) | (t - e).gt(to.limit(rays))));
             }
+            memory.unsure = open & !steep;
             if !open.any() {
                 return false;
             }
@@ -62,8 +91,7 @@ pub(in crate::outline) fn reach(
 
 /// How often a line from the point of a cap along x crosses a curve, modulo two.
 #[inline(never)]
-pub(in crate::outline) fn count(asked: &Question<'_>, curve: &Curve, memory: &mut Memory) {
-    let isa = asked.rays.isa;
+pub(in crate::outline) fn count(isa: Isa, curve: &Curve, memory: &mut Memory) {
     let work = isa.run_in_lanes(
         #[inline(always)]
         || {
@@ -91,8 +119,20 @@ pub(in crate::outline) fn count(asked: &Question<'_>, curve: &Curve, memory: &mu
             if !open.any() {
                 return false;
             }
+            let Strip { way: [dx, dz], low, high, slope, rounding } = Strip::of(curve);
+            let h = F8::splat(dx).mul_add(pz - zs[0], -((px - xs[0]) * dz));
+            let e_h = ((e_place + (px.abs() + pz.abs()) * (16.0 * U)) * slope + rounding) * SLACK;
+            let (above, below) = ((h - high).gt(e_h), (h - low).lt(-e_h));
+            // Above the way the strip is ahead where that rises.
+            let sees = if dz > 0.0 { above } else { below };
+            let beside = open & (above | below) & certain;
+            memory.odd = flipped(memory.odd, beside & changes & sees);
+            open &= !beside;
+            if !open.any() {
+                return false;
+            }
             memory.poly = cubic(g, e * SLACK);
-            memory.poly.begin(open, &mut memory.part);
+            memory.poly.begin_at(open, &g, &mut memory.part);
             true
         },
     );
@@ -127,25 +167,29 @@ pub(in crate::outline) fn count(asked: &Question<'_>, curve: &Curve, memory: &mu
 }
 
 #[inline(always)]
-fn flipped(odd: M8, where_: M8) -> M8 {
+pub(in crate::outline) fn flipped(odd: M8, where_: M8) -> M8 {
     odd & !where_ | !odd & where_
 }
 
 /// Offers the crossing with a cap.
 #[inline(never)]
-pub(super) fn conclude(asked: &Question<'_>, nearest: &mut Nearest, memory: &mut Memory) {
-    let rays = asked.rays;
+pub(in crate::outline) fn conclude<K: Offer>(
+    rays: &RayLanes<'_>,
+    face: f64,
+    to: &mut K,
+    memory: &mut Memory,
+) {
     rays.isa.run_in_lanes(
         #[inline(always)]
         || {
             let Memory { t, e, open, odd, unsure, .. } = memory;
             let (t, e) = (*t, *e);
             let within = *open & *odd & !*unsure;
-            let sure = within & (t + e).le(*rays.t_max);
-            nearest.take(sure, t, e, asked.number, F8::ZERO);
+            let sure = within & (t - e).gt(F8::ZERO) & (t + e).le(*rays.t_max);
+            to.take(sure, (t, e), F8::splat(face));
             let unsure = *unsure | within & !sure;
             if unsure.any() {
-                nearest.doubt_from(unsure, t - e);
+                to.doubt(unsure, t - e);
             }
         },
     );

@@ -15,19 +15,20 @@
 mod caps;
 mod walls;
 
-pub(super) use self::caps::{count, reach};
-pub(super) use self::walls::{cubic_of, parted, placed};
+pub(super) use self::caps::{conclude, count, flipped, reach};
+pub(super) use self::walls::{Named, cubic_of, enclose, parted, placed, wall};
 
-use self::caps::conclude;
-use self::walls::wall;
-
+use self::walls::Form8;
+use super::Outline;
 use super::face::Start;
 use super::lathe::Skin;
 use super::meet::Question;
+use super::offer::First;
+use super::operand::Crossings;
 use super::own::Own;
 use super::poly::{Part8, Poly8, Root8};
-use super::rays::{Nearest, SLACK};
-use super::whole::{self, Tally};
+use super::rays::{From8, Nearest, RayLanes, SLACK};
+use super::whole;
 use durer_math::{F8, M8, U, Vec3};
 
 /// A cubic curve by its control points, all x and all z, each within `slack` of the exact one.
@@ -54,29 +55,53 @@ pub(crate) enum Swept {
     Wall { curve: Curve, sweep: Sweep8, left: bool },
     /// The cap at the bottom, or at the top, between all curves.
     Cap { curves: Box<[Curve]>, sweep: Sweep8, top: bool },
-    /// All of a closed solid whose curves may cross.
-    Whole { curves: Box<[Curve]>, sweep: Sweep8 },
+    /// All of a closed solid, and on which side of each curve the inside is; not known if curves may cross.
+    Whole { curves: Box<[Curve]>, sweep: Sweep8, left: Option<Box<[bool]>> },
 }
 
 /// Memory for one part on the way.
 #[derive(Debug, Default)]
 pub(super) struct Memory {
-    o: [F8; 3],
-    d: [F8; 3],
-    e_o: F8,
-    e_d: F8,
-    pub(super) poly: Poly8<5>,
+    pub(super) o: [F8; 3],
+    pub(super) d: [F8; 3],
+    pub(super) e_o: F8,
+    pub(super) e_d: F8,
+    /// A bound on every `t` at which the surface can be met.
+    far: F8,
+    /// Which rays are between the heights, and where their traces are there: the least and the greatest x, and z.
+    between: M8,
+    traces: [F8; 4],
+    form: Form8,
+    pub(super) poly: Poly8<4>,
     pub(super) part: Part8,
     pub(super) root: Root8,
     /// Of a cap: where, and whether the point is within so far.
     pub(super) t: F8,
     pub(super) e: F8,
-    place: [F8; 2],
-    e_place: F8,
+    pub(super) place: [F8; 2],
+    pub(super) e_place: F8,
     pub(super) open: M8,
     pub(super) odd: M8,
     pub(super) unsure: M8,
-    pub(super) tally: Tally,
+}
+
+impl Sweep8 {
+    /// Whether the sweep ends in its apex there, and not in a cap.
+    pub(super) fn has_tip(&self, top: bool) -> bool {
+        self.conic && (if top { self.high } else { self.low }) == 0.0
+    }
+}
+
+/// What a wall wants to know of a point: `u` round its curve, and, as the sign, whether the inside is to the left.
+#[inline(always)]
+pub(super) fn tag_of(u: F8, left: M8) -> F8 {
+    u.copysign(left.select(F8::ONE, F8::splat(-1.0)))
+}
+
+/// The same in two.
+#[inline(always)]
+pub(super) fn side_of(tag: F8) -> (F8, M8) {
+    (tag.abs(), F8::ONE.copysign(tag).gt(F8::ZERO))
 }
 
 impl Curve {
@@ -109,12 +134,12 @@ impl Curve {
 
 /// The cubic with these Bernstein coefficients, all within `e`.
 #[inline(always)]
-fn cubic(g: [F8; 4], e: F8) -> Poly8<5> {
+fn cubic(g: [F8; 4], e: F8) -> Poly8<4> {
     let [a, b, c, d] = g;
     let sum = a.abs() + b.abs() + c.abs() + d.abs();
     let e = (e + sum * (12.0 * 64.0 * U)) * SLACK;
     let (first, second) = (b - a, c - b);
-    let k = [a, first * 3.0, (second - first) * 3.0, (d - c) - second * 2.0 + first, F8::ZERO];
+    let k = [a, first * 3.0, (second - first) * 3.0, (d - c) - second * 2.0 + first];
     Poly8 { c: k, e, e_first: e, e_last: e }
 }
 
@@ -128,33 +153,68 @@ impl Swept {
         nearest: &mut Nearest,
         memory: &mut Memory,
     ) {
+        let rays = asked.rays;
+        let mut to = First { nearest, number: asked.number };
         match self {
             Self::Wall { curve, sweep, left } => {
-                let isa = asked.rays.isa;
-                isa.run_in_lanes(
+                rays.isa.run_in_lanes(
                     #[inline(always)]
-                    || see(own, asked, start, memory),
+                    || see(own, rays, start, memory),
                 );
-                if cubic_of(asked, (curve, sweep), nearest, memory) {
-                    wall(asked, (curve, sweep, *left), nearest, memory);
+                if enclose(rays, sweep, &to, memory, true) && cubic_of(rays, curve, &mut to, memory) {
+                    let named = Named { face: 0.0, left: *left };
+                    wall((rays, asked.from), (curve, sweep, named), &mut to, memory);
                 }
             }
             Self::Cap { curves, sweep, top } => {
-                let isa = asked.rays.isa;
-                isa.run_in_lanes(
+                rays.isa.run_in_lanes(
                     #[inline(always)]
-                    || see(own, asked, start, memory),
+                    || see(own, rays, start, memory),
                 );
-                if reach(asked, (sweep, *top), nearest, memory, true) {
+                if reach((rays, asked.from), (sweep, *top), &to, memory, true) {
                     for curve in curves {
-                        count(asked, curve, memory);
+                        count(rays.isa, curve, memory);
                     }
-                    conclude(asked, nearest, memory);
+                    conclude(rays, 0.0, &mut to, memory);
                 }
             }
-            Self::Whole { curves, sweep } => {
+            Self::Whole { curves, sweep, .. } => {
                 whole::meet(own, asked, start, (curves, sweep), nearest, memory);
             }
+        }
+    }
+
+    /// Whether it is all of a solid, whose faces have numbers.
+    pub(super) fn is_operand(&self) -> bool {
+        matches!(self, Self::Whole { curves, .. } if curves.len() + 2 <= Outline::FACES)
+    }
+
+    /// Puts down all crossings of a solid.
+    pub(super) fn crossings(
+        &self,
+        own: &Own,
+        rays: (&RayLanes<'_>, Option<(&From8, bool)>),
+        start: &Start,
+        to: &mut Crossings,
+        memory: &mut Memory,
+    ) {
+        if let Self::Whole { curves, sweep, left } = self {
+            whole::crossings(own, rays, start, (curves, sweep, left.as_deref()), to, memory);
+        }
+    }
+
+    /// Which points at `t` within `e` are surely in the solid, and which surely not.
+    pub(super) fn holds(
+        &self,
+        own: &Own,
+        rays: &RayLanes<'_>,
+        start: &Start,
+        at: (F8, F8),
+        memory: &mut Memory,
+    ) -> (M8, M8) {
+        match self {
+            Self::Whole { curves, sweep, .. } => whole::holds(own, rays, start, at, (curves, sweep), memory),
+            Self::Wall { .. } | Self::Cap { .. } => (M8::NONE, M8::NONE),
         }
     }
 
@@ -163,14 +223,16 @@ impl Swept {
     pub(super) fn spot(&self, own: &Own, (face, u): (usize, F8), h: Vec3<F8>, h1: F8) -> Skin {
         let (y, e) = (own.point(h), own.point_error(h1));
         match self {
-            Self::Whole { curves, sweep } => match curves.get(face) {
+            Self::Whole { curves, sweep, left: sides } => match curves.get(face) {
                 Some(curve) => {
-                    // The tag holds the side, too. So far out that its own crossing is surely behind: `cubic`'s bound along a ray, which comes with 12 U of 64 terms of
-                    // eight times the size, times what Newton's method and quotients make of it.
-                    let left = u.ge(F8::splat(2.0));
-                    let u = left.select(u - 2.0, u);
+                    let (u, left) = side_of(u);
                     let outward = left.select(F8::ONE, F8::splat(-1.0));
                     let skin = wall_skin(own, (curve, sweep), (u, outward), y, e);
+                    if sides.is_some() {
+                        return skin;
+                    }
+                    // So far out that its own crossing is surely behind: `cubic`'s bound along a ray, which comes with 12 U of 64 terms of
+                    // eight times the size, times what Newton's method and quotients make of it.
                     let stretch = if sweep.conic { 1.0 + sweep.low.abs().max(sweep.high.abs()) } else { 1.0 };
                     Skin { e_f: skin.e_f + curve.reach * (32768.0 * U) * stretch, ..skin }
                 }
@@ -179,7 +241,7 @@ impl Swept {
             Self::Cap { sweep, top, .. } => cap_skin(own, sweep, *top, y, e),
             Self::Wall { curve, sweep, left } => {
                 let outward = F8::splat(if *left { 1.0 } else { -1.0 });
-                wall_skin(own, (curve, sweep), (u, outward), y, e)
+                wall_skin(own, (curve, sweep), (side_of(u).0, outward), y, e)
             }
         }
     }
@@ -250,9 +312,9 @@ fn wall_skin(
 
 /// The rays in the sweep's own coordinates.
 #[inline(always)]
-pub(super) fn see(own: &Own, asked: &Question<'_>, start: &Start, memory: &mut Memory) {
-    let rays = asked.rays;
+pub(super) fn see(own: &Own, rays: &RayLanes<'_>, start: &Start, memory: &mut Memory) {
     let (o, d) = (own.point(start.h), own.vector(*rays.direction));
     (memory.o, memory.d) = ([o.x, o.y, o.z], [d.x, d.y, d.z]);
     (memory.e_o, memory.e_d) = (own.point_error(start.h1), own.vector_error(rays.d1));
+    memory.far = start.far;
 }

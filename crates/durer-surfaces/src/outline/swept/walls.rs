@@ -1,51 +1,118 @@
 //! Where eight rays cross the wall of a swept curve.
 
-use super::{Curve, Memory, Sweep8, cubic};
-use crate::outline::meet::Question;
-use crate::outline::rays::{CLEAR, Nearest, SLACK};
+use super::caps::range;
+use super::{Curve, Memory, Sweep8, cubic, tag_of};
+use crate::outline::offer::Offer;
+use crate::outline::rays::{CLEAR, From8, RayLanes, SLACK};
 use crate::outline::roots::quotient;
 use durer_math::{F8, M8, U};
 
-/// The cubic that the trace of the rays is along a curve; false if all pass by.
+/// Finds where the rays are between the heights, ahead of their starts or anywhere on their lines, and a box in the plane of the outlines that holds their traces there; false if no ray is
+/// there. Puts down their traces' form, too.
+///
+/// The places of the heights and of points are known as in `reach` of a cap. A trace is straight, so it lies between its ends; those of rays that may pass the apex are not bounded.
 #[inline(never)]
-pub(in crate::outline) fn cubic_of(
-    asked: &Question<'_>,
-    (curve, sweep): (&Curve, &Sweep8),
-    nearest: &mut Nearest,
+pub(in crate::outline) fn enclose<K: Offer>(
+    rays: &RayLanes<'_>,
+    sweep: &Sweep8,
+    to: &K,
     memory: &mut Memory,
+    ahead: bool,
 ) -> bool {
-    asked.rays.isa.run_in_lanes(
+    rays.isa.run_in_lanes(
         #[inline(always)]
         || {
-            let Memory { o: [ox, oy, oz], d: [dx, dy, dz], e_o, e_d, .. } = *memory;
-            let reach = curve.reach;
-            let ([x, w, z], e) = if sweep.conic {
-                let n = [oy.mul_add(dz, -(oz * dy)), oz.mul_add(dx, -(ox * dz)), ox.mul_add(dy, -(oy * dx))];
-                let (o1, d1) = (ox.abs() + oy.abs() + oz.abs(), dx.abs() + dy.abs() + dz.abs());
-                (n, (o1 * e_d + d1 * e_o + o1 * d1 * (4.0 * U)) * (1.0 + 2.0 * reach))
-            } else {
-                let n = [dz, dx.mul_add(oz, -(dz * ox)), -dx];
-                let (o1, d1) = (ox.abs() + oz.abs(), dx.abs() + dz.abs());
-                (n, d1 * e_o + (o1 + 2.0 * reach) * e_d + o1 * d1 * (4.0 * U))
-            };
-            let size = x.abs() + z.abs();
-            let e = (e + size * curve.slack + (size * reach + w.abs()) * (4.0 * U)) * SLACK;
-            let mut g = [F8::ZERO; 4];
+            let Memory { o: [ox, oy, oz], d: [dx, dy, dz], e_o, e_d, far, .. } = *memory;
+            let steep = dy.abs().gt(e_d * CLEAR);
+            let inverse = F8::ONE / dy;
+            let e_h = e_o + sweep.low.abs().max(sweep.high.abs()) * (4.0 * U);
+            let (low, e_low) = quotient(-(oy - sweep.low), e_h, inverse, e_d);
+            let (high, e_high) = quotient(-(oy - sweep.high), e_h, inverse, e_d);
+            let rises = dy.gt(F8::ZERO);
+            let enter = rises.select(low - e_low, high - e_high);
+            let leave = rises.select(high + e_high, low + e_low);
+            // What is not known does not bound.
+            let (mut from, mut till) =
+                (steep.select(enter.max(-far), -far), steep.select(leave.min(far), far));
+            if ahead {
+                (from, till) = (from.max(F8::ZERO), till.min(to.limit(rays)));
+            }
+            memory.between = *rays.live & !from.gt(till);
+            if !memory.between.any() {
+                return false;
+            }
+            let e = (e_o + from.abs().max(till.abs()) * e_d) * SLACK;
+            let mut ends = [[F8::ZERO; 2]; 2];
+            let mut slip = e;
+            let mut bounded = M8::ALL;
+            for (end, t) in ends.iter_mut().zip([from, till]) {
+                let (mut x, mut z) = (t.mul_add(dx, ox), t.mul_add(dz, oz));
+                // The last sum below, and what a curve's box loses by its slack, round as much.
+                let mut e_end = e + (x.abs() + z.abs()) * (4.0 * U);
+                if sweep.conic {
+                    let y = t.mul_add(dy, oy);
+                    let e_y = e_end + (y.abs() + (t * dy).abs()) * (2.0 * U);
+                    // Both heights and both ends on one side of the apex.
+                    bounded &=
+                        (y * sweep.low.signum()).gt(e_y * CLEAR) & M8::splat(sweep.low * sweep.high > 0.0);
+                    let inverse = F8::ONE / y;
+                    (x, z) = (x * inverse, z * inverse);
+                    let size = x.abs() + z.abs();
+                    e_end = e_y * (size + 1.0) * inverse.abs() * (CLEAR / (CLEAR - 1.0)) + size * (8.0 * U);
+                }
+                slip = slip.max(e_end);
+                *end = [x, z];
+            }
+            let slip = slip * SLACK;
+            let mut traces = [F8::ZERO; 4];
+            for k in 0..2 {
+                let (least, most) = (ends[0][k].min(ends[1][k]), ends[0][k].max(ends[1][k]));
+                traces[2 * k] = bounded.select(least - slip, F8::splat(f64::NEG_INFINITY));
+                traces[2 * k + 1] = bounded.select(most + slip, F8::splat(f64::INFINITY));
+            }
+            memory.traces = traces;
+            memory.form = Form8::of(sweep.conic, memory);
+            true
+        },
+    )
+}
+
+/// The cubic that the trace of the rays is along a curve; false if all pass by.
+#[inline(never)]
+pub(in crate::outline) fn cubic_of<K: Offer>(
+    rays: &RayLanes<'_>,
+    curve: &Curve,
+    to: &mut K,
+    memory: &mut Memory,
+) -> bool {
+    rays.isa.run_in_lanes(
+        #[inline(always)]
+        || {
             let [xs, zs] = &curve.points;
+            let [x_low, x_high, z_low, z_high] = memory.traces;
+            let ((x0, x1), (z0, z1), slack) = (range(xs), range(zs), curve.slack);
+            let away = x_high.lt(F8::splat(x0 - slack)) | x_low.gt(F8::splat(x1 + slack));
+            let away = away | z_high.lt(F8::splat(z0 - slack)) | z_low.gt(F8::splat(z1 + slack));
+            let near = memory.between & !away;
+            if !near.any() {
+                return false;
+            }
+            let Form8 { n: [x, w, z], size, e, e_reach } = memory.form;
+            let e = (e + e_reach * curve.reach + size * slack) * SLACK;
+            let mut g = [F8::ZERO; 4];
             for ((g, &px), &pz) in g.iter_mut().zip(xs).zip(zs) {
                 *g = x.mul_add(F8::splat(px), z.mul_add(F8::splat(pz), w));
             }
             let least = g[0].min(g[1]).min(g[2].min(g[3]));
             let most = g[0].max(g[1]).max(g[2].max(g[3]));
-            let beside = least.gt(e) | most.lt(-e);
-            let open = *asked.rays.live & !beside;
+            let open = near & !(least.gt(e) | most.lt(-e));
             if !open.any() {
                 return false;
             }
             memory.poly = cubic(g, e);
-            memory.poly.begin(open, &mut memory.part);
+            memory.poly.begin_at(open, &g, &mut memory.part);
             if memory.part.unsure.any() {
-                nearest.doubt_from(memory.part.unsure, F8::ZERO);
+                to.doubt(memory.part.unsure, F8::ZERO);
             }
             memory.part.unsure = M8::NONE;
             true
@@ -53,12 +120,41 @@ pub(in crate::outline) fn cubic_of(
     )
 }
 
+/// The form `n·(x, 1, z)` that vanishes on the traces of eight rays; how large its values can be, and the bound `e + e_reach R` on their errors at points of size `R`.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::outline) struct Form8 {
+    n: [F8; 3],
+    size: F8,
+    e: F8,
+    e_reach: F8,
+}
+
+impl Form8 {
+    #[inline(always)]
+    fn of(conic: bool, memory: &Memory) -> Self {
+        let Memory { o: [ox, oy, oz], d: [dx, dy, dz], e_o, e_d, .. } = *memory;
+        let (n, e, e_reach) = if conic {
+            let n = [oy.mul_add(dz, -(oz * dy)), oz.mul_add(dx, -(ox * dz)), ox.mul_add(dy, -(oy * dx))];
+            let (o1, d1) = (ox.abs() + oy.abs() + oz.abs(), dx.abs() + dy.abs() + dz.abs());
+            let e = o1 * e_d + d1 * e_o + o1 * d1 * (4.0 * U);
+            (n, e, e * 2.0)
+        } else {
+            let n = [dz, dx.mul_add(oz, -(dz * ox)), -dx];
+            let (o1, d1) = (ox.abs() + oz.abs(), dx.abs() + dz.abs());
+            (n, d1 * e_o + o1 * e_d + o1 * d1 * (4.0 * U), e_d * 2.0)
+        };
+        let [x, w, z] = n;
+        let size = x.abs() + z.abs();
+        Self { n, size, e: e + w.abs() * (4.0 * U), e_reach: e_reach + size * (4.0 * U) }
+    }
+}
+
 /// The next root of the cubic; false if there is none in any lane.
-pub(in crate::outline) fn parted(asked: &Question<'_>, nearest: &mut Nearest, memory: &mut Memory) -> bool {
-    let isa = asked.rays.isa;
+pub(in crate::outline) fn parted<K: Offer>(rays: &RayLanes<'_>, to: &mut K, memory: &mut Memory) -> bool {
+    let isa = rays.isa;
     memory.poly.isolate(isa, &mut memory.part);
     if memory.part.unsure.any() {
-        nearest.doubt_from(memory.part.unsure, F8::ZERO);
+        to.doubt(memory.part.unsure, F8::ZERO);
         memory.part.unsure = M8::NONE;
     }
     if !memory.part.one.any() {
@@ -79,18 +175,25 @@ pub(in crate::outline) struct Placed8 {
     pub(in crate::outline) outside: M8,
 }
 
-/// All crossings with a wall.
-pub(super) fn wall(
-    asked: &Question<'_>,
-    (curve, sweep, left): (&Curve, &Sweep8, bool),
-    nearest: &mut Nearest,
+/// A wall: the number of its face, and whether the inside is to the left of its curve.
+#[derive(Clone, Copy)]
+pub(in crate::outline) struct Named {
+    pub(in crate::outline) face: f64,
+    pub(in crate::outline) left: bool,
+}
+
+/// All crossings with a wall; `from` are rays that leave it.
+pub(in crate::outline) fn wall<K: Offer>(
+    (rays, from): (&RayLanes<'_>, Option<&From8>),
+    (curve, sweep, named): (&Curve, &Sweep8, Named),
+    to: &mut K,
     memory: &mut Memory,
 ) {
     for _ in 0..3 {
-        if !parted(asked, nearest, memory) {
+        if !parted(rays, to, memory) {
             return;
         }
-        offer(asked, (curve, sweep, left), nearest, memory);
+        offer((rays, from), (curve, sweep, named), to, memory);
         memory.poly.go_on(&mut memory.part);
     }
 }
@@ -148,31 +251,33 @@ pub(in crate::outline) fn placed((curve, sweep): (&Curve, &Sweep8), memory: &Mem
 }
 
 #[inline(never)]
-fn offer(
-    asked: &Question<'_>,
-    (curve, sweep, left): (&Curve, &Sweep8, bool),
-    nearest: &mut Nearest,
+fn offer<K: Offer>(
+    (rays, from): (&RayLanes<'_>, Option<&From8>),
+    (curve, sweep, Named { face, left }): (&Curve, &Sweep8, Named),
+    to: &mut K,
     memory: &mut Memory,
 ) {
-    let rays = asked.rays;
     rays.isa.run_in_lanes(
         #[inline(always)]
         || {
             let Placed8 { t, e, known: steep, inside, outside } = placed((curve, sweep), memory);
             let Memory { part, root, .. } = memory;
-            let away = steep & ((t + e).lt(F8::ZERO) | (t - e).gt(nearest.limit(rays)));
+            let away = steep & ((t + e).lt(F8::ZERO) | (t - e).gt(to.limit(rays)));
             let falls = part.sign.gt(F8::ZERO);
             let leaves = if left { falls } else { !falls };
-            let own = asked.from.map_or(M8::NONE, |from| {
-                from.lanes & steep & t.abs().le(e) & (leaves & !from.back | !leaves & from.back)
-            });
+            let own = match from {
+                Some(from) => {
+                    from.lanes & steep & t.abs().le(e) & (leaves & !from.back | !leaves & from.back)
+                }
+                None => M8::NONE,
+            };
             let open = part.one & !(steep & outside | away | own);
             let sure = open & steep & inside & (t - e).gt(F8::ZERO) & (t + e).le(*rays.t_max);
-            nearest.take_at(sure, (t, e), asked.number, F8::ZERO, root.x);
+            to.take_at(sure, (t, e), F8::splat(face), tag_of(root.x, M8::splat(left)));
             let unsure = open & !sure;
             if unsure.any() {
                 let from = steep.select(t - e, F8::ZERO);
-                nearest.doubt_from(unsure, from);
+                to.doubt(unsure, from);
             }
         },
     );

@@ -28,7 +28,7 @@ mod spline;
 mod tangle;
 
 use super::{PrismError, Sweep};
-use crate::outline::{Sketch, Sweep8, Swept};
+use crate::outline::{Curve, Sketch, Sweep8, Swept};
 use crate::planar::{self, Line, PointLine, Probe};
 use crate::roots::quadratic::Quadratic;
 use crate::turned::level::Level;
@@ -272,27 +272,31 @@ impl Surface for CurvedPrism {
     }
 
     fn sketch(&self, PartId(part): PartId) -> Sketch {
-        let View { sweep, centre, scale } = self.view;
-        let [low, high] = self.heights.map(|y| scale2(y - centre.y, -scale));
-        let sweep = Sweep8 { conic: sweep == Sweep::Conic, low, high };
+        let View { centre, scale, .. } = self.view;
+        let sweep = self.sweep_for_lanes();
         let number = part as usize;
-        let curves = || self.pieces.iter().map(Piece::for_lanes).collect();
-        let Some(left) = &self.inside_is_left else {
-            // Caps that are not there, and tips, would have to be counted, too.
-            if self.open || self.has_tip(false) || self.has_tip(true) {
-                return Sketch::vague(self.bounds);
-            }
-            return Sketch::swept(self.bounds, Swept::Whole { curves: curves(), sweep }, centre, scale);
-        };
+        let Some(left) = &self.inside_is_left else { return self.solid_sketch().0 };
         let mut boxes = self.boxes.iter().chain(&self.cap_boxes);
         let Some(&bounds) = boxes.nth(number) else { return Sketch::vague(self.bounds) };
         let part = match number.checked_sub(self.pieces.len()) {
             None => Swept::Wall { curve: self.pieces[number].for_lanes(), sweep, left: left[number] },
             // A tip is a point.
             Some(cap) if self.has_tip(cap > 0) => return Sketch::vague(bounds),
-            Some(cap) => Swept::Cap { curves: curves(), sweep, top: cap > 0 },
+            Some(cap) => Swept::Cap { curves: self.curves_for_lanes(), sweep, top: cap > 0 },
         };
         Sketch::swept(bounds, part, centre, scale)
+    }
+
+    fn solid_sketch(&self) -> (Sketch, Vec<PartId>) {
+        // Caps that are not there would have to be counted, too.
+        if self.open {
+            return (Sketch::vague(self.bounds), vec![PartId(0)]);
+        }
+        let left = self.inside_is_left.as_deref().map(Box::from);
+        let faces = if left.is_some() { self.pieces.len() as u32 + 2 } else { 1 };
+        let whole = Swept::Whole { curves: self.curves_for_lanes(), sweep: self.sweep_for_lanes(), left };
+        let View { centre, scale, .. } = self.view;
+        (Sketch::swept(self.bounds, whole, centre, scale), (0..faces).map(PartId).collect())
     }
 
     #[inline(always)]
@@ -340,6 +344,16 @@ impl Surface for CurvedPrism {
 }
 
 impl CurvedPrism {
+    fn curves_for_lanes(&self) -> Box<[Curve]> {
+        self.pieces.iter().map(Piece::for_lanes).collect()
+    }
+
+    fn sweep_for_lanes(&self) -> Sweep8 {
+        let View { sweep, centre, scale } = self.view;
+        let [low, high] = self.heights.map(|y| scale2(y - centre.y, -scale));
+        Sweep8 { conic: sweep == Sweep::Conic, low, high }
+    }
+
     fn level_at_apex(&self) -> Level {
         Level { height: 0.0, centre: self.view.centre.y, scale: self.view.scale }
     }
