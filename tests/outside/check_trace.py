@@ -25,6 +25,7 @@ import numpy as np
 import scenes
 from exact import to_float, union
 from shapes import IDENTITY, Loops, add, cross, dot, small, sub, times
+from solids import Region
 
 INF = float("inf")
 U = 2.0**-53
@@ -152,7 +153,7 @@ def in_world(leaf):
     """Outlines with their vertices where the map puts them."""
     if not hasattr(leaf, "moved"):
         faces = [[[leaf.whole.point(tuple(F(x, 1 << leaf.bits) for x in v)) for v in loop] for loop in loops] for loops in leaf.outlines]
-        leaf.moved = Loops(leaf.body, faces, leaf.points, size=leaf.size, oriented=leaf.oriented)
+        leaf.moved = leaf.with_faces(faces)
         leaf.moved.whole, leaf.moved.mirrored = IDENTITY, leaf.whole.det < 0
     return leaf.moved
 
@@ -199,7 +200,7 @@ class Report:
         self.wrong, self.examples = Counter(), defaultdict(list)
         self.rays = self.hits = self.spans = self.notes = 0
         self.widths = defaultdict(list)
-        self.counted = Counter()
+        self.counted, self.clusters = Counter(), Counter()
 
     def add(self, what, scene, ray, expected, got, limit=40):
         key = (scene.kind, what)
@@ -274,7 +275,7 @@ def check_hit(report, scene, ray, event, leaf, hit, widths):
         if abs(t) < 1e290:
             bad("bracket without an end", event)
         return
-    elif not close_normal(event, leaf, n, ray, hi - lo, d):
+    elif event.normals and not close_normal(event, leaf, n, ray, hi - lo, d):
         bad("wrong normal", event)
     if not all(map(math.isfinite, hit["uv"])):
         bad("uv not finite", event)
@@ -284,7 +285,9 @@ def check_hit(report, scene, ray, event, leaf, hit, widths):
     back = max(sum(abs(to_float(F(n, leaf.whole.w) * (p - c))) for n, p, c in zip(row, world, leaf.whole.c)) for row in leaf.whole.n) + to_float(leaf.size)
     for i, p in enumerate(world):
         about = sum(abs(to_float(m)) for m in leaf.whole.rows[i]) * back + abs(to_float(leaf.whole.c[i]))
-        allowed = 4 * float(hi - lo) * abs(ray[3 + i]) + 1024 * U * about
+        # Walls of pieces are resolved on the surface itself, so that what the bracket leaves open goes all ways.
+        moved = max(map(abs, ray[3:6])) if isinstance(leaf, Region) else abs(ray[3 + i])
+        allowed = 4 * float(hi - lo) * moved + 1024 * U * about
         if not abs(to_float(F(float(hit["position"][i])) - p)) <= allowed:
             bad("wrong position", f"{event} position[{i}] = {to_float(p)!r}, not {float(hit['position'][i])!r}")
             break
@@ -324,9 +327,73 @@ def rows_of(hits, mine):
     return [h for h in hits if any(h is m for m in mine)]
 
 
+def matched(report, scene, ray, expected, hits):
+    """Hits and crossings where clusters stand for what rounding leaves open, and touches of edges may be told or not: the pairs, or None.
+
+    A simple crossing's bracket holds one crossing, and that of a cluster any number of them, which add up to its sign.
+    """
+    everywhere = Expected(scene, (*ray[:6], -INF, INF))
+    found, wrong = defaultdict(list), []
+    for h in hits:
+        found[int(h["object"]), int(h["primitive"])].append(h)
+    pairs, clear = [], True
+    for key in {*found, *expected.events}:
+        leaf = scene.objects[key[0]][0] if len(scene.objects[key[0]]) == 1 else None
+        certain = leaf is None or getattr(leaf, "certain", True)
+        left = list(everywhere.events[key])
+        inside = lambda e, h: e.t.cmp(float(h["t_lo"])) >= 0 and e.t.cmp(float(h["t_hi"])) <= 0
+        # Simple ones first; of rounded surfaces one whose bracket holds an end of the range may be on either side of it.
+        for h in sorted(found[key], key=lambda h: h["kind"] == 2):
+            held = [pair for pair in left if inside(pair[0], h)]
+            if h["kind"] == 2:
+                report.clusters[scene.kind] += 1
+                clear = False
+                if sum(e.sign for e, _ in held) != h["sign"] and not (leaf and leaf.clip):
+                    wrong.append("cluster with another sign")
+                if certain:
+                    wrong.append("cluster where exact arithmetic decides")
+                elif len(held) < 2 and not any(len(e.normals) > 1 for e, _ in held) and not leaf.is_tangent(leaf.whole.ray(ray[:3], ray[3:6]), float(h["t_lo"]), float(h["t_hi"])):
+                    wrong.append("cluster away from tangents and edges")
+                left = [pair for pair in left if pair not in held]
+                continue
+            mine = [pair for pair in held if pair[0].sign == h["sign"]] or held
+            if certain or not any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:]):
+                mine = [pair for pair in mine if any(pair[0].t.cmp(e.t) == 0 for e, _ in expected.events[key])]
+            if not mine:
+                # Into a corner and out of it again, or not at all, where the corner is only touched.
+                corner = any((e.optional or len(e.normals) > 1) and inside(e, h) for e, _ in everywhere.events[key])
+                twin = any(g is not h and g["sign"] == -h["sign"] and g["t_lo"] <= h["t_hi"] and h["t_lo"] <= g["t_hi"] for g in found[key])
+                clear = False
+                if not (corner and twin):
+                    wrong.append("extra crossing")
+                continue
+            if mine[0][0].sign != h["sign"] and (mine[0][0].optional or len(mine[0][0].normals) > 1):
+                # One of several at a corner.
+                clear = False
+                continue
+            left.remove(mine[0])
+            pairs.append((*mine[0], h))
+        left = [e for e, _ in left if e.t.cmp(max(ray[6], -LARGEST)) >= 0 and e.t.cmp(min(ray[7], LARGEST)) <= 0]
+        if not all(e.optional for e in left):
+            wrong.append("missing crossing")
+        clear &= not left
+    if expected.within:
+        report.counted["line within a surface that is put together: not examined"] += 1
+        return None, []
+    for what in sorted(set(wrong)):
+        shown = {k: [e for e, _ in v] for k, v in expected.events.items() if v}
+        report.add(what, scene, ray, shown, [describe(h) for h in hits])
+    return (None, []) if wrong else (clear and len(pairs) == expected.count(), pairs)
+
+
 def check_ray(report, scene, ray, hits, widths):
     expected = Expected(scene, ray)
     report.hits += len(hits)
+    if any(isinstance(leaf, Region) for leaves in scene.objects for leaf in leaves):
+        clear, pairs = matched(report, scene, ray, expected, hits)
+        for event, leaf, hit in pairs:
+            check_hit(report, scene, ray, event, leaf, hit, widths)
+        return expected, pairs if clear else None
     ts = [h["t"] for h in hits]
     if any(a > b for a, b in zip(ts, ts[1:])):
         report.add("all: not ascending", scene, ray, "", ts)
@@ -350,6 +417,8 @@ def check_ray(report, scene, ray, hits, widths):
         return expected, None
     for leaf in {leaf for _, leaf, _ in pairs if leaf.solid()}:
         mine = [h for _, other, h in pairs if other is leaf]
+        if isinstance(leaf, Loops) and any(a["t_hi"] >= b["t_lo"] for a, b in zip(mine, mine[1:])):
+            continue  # On an edge: the two faces at one t come in any order.
         signs = [h["sign"] for h in rows_of(hits, mine) if h["sign"]]
         if any(a == b for a, b in zip(signs, signs[1:])) or signs and signs[0] != next(e.sign for e, other, _ in pairs if other is leaf and e.sign):
             report.add("not entered and left in turn", scene, ray, [e for e, other, _ in pairs if other is leaf], [describe(h) for h in rows_of(hits, mine)])
@@ -451,8 +520,9 @@ def check_scene(report, durer, scene, rng, count, folder):
         stretches = [tuple(spans[k][j] for k in SPANS) for j in range(span_at[i], span_at[i + 1])]
         check_spans(report, scene, ray, expected, pairs, stretches)
     report.widths[scene.kind] += widths
-    if len(widths) >= 30 and np.median(widths) >= 100:
-        report.add("median bracket width of 100 ulp or more", scene, None, "< 100", float(np.median(widths)))
+    most = 100 if all(getattr(leaf, "certain", True) for leaf in leaves) else 1000
+    if len(widths) >= 30 and np.median(widths) >= most:
+        report.add(f"median bracket width of {most} ulp or more", scene, None, f"< {most}", float(np.median(widths)))
 
 
 def check_queries_agree(report, scene, rays, found, at, closest, anyhit):
@@ -522,7 +592,7 @@ def main():
     parser.add_argument("--show", type=int, default=2, help="examples to print for each kind of mistake")
     args = parser.parse_args()
     report = Report()
-    kinds = args.kind or [*scenes.MAKERS, "union"]
+    kinds = args.kind or [*scenes.USUAL, "union"]
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
         check_refusals(report, args.durer, folder)
@@ -540,7 +610,7 @@ def main():
             print("  got     ", got)
     print(f"\n{report.rays} rays, {report.hits} crossings, {report.spans} spans; median width of simple brackets in ulp: "
           + ", ".join(f"{k} {np.median(w):.1f}" for k, w in sorted(report.widths.items()) if w))
-    for what, n in report.counted.items():
+    for what, n in [*report.counted.items(), *((f"{kind}: clusters", n) for kind, n in report.clusters.items())]:
         print(f"note: {what}: {n} times")
     print(f"{sum(report.wrong.values())} violations")
     return 1 if report.wrong else 0

@@ -7,6 +7,8 @@ from shapes import (
     Form, IDENTITY, Loops, Map, Sheet, Solid, TURNS, UNITS, add, cross, distance_form, dot, dyadic, frame, halfspace, on_circle,
     signed_permutation, small, sub, text, times, vec, wall_form,
 )
+from prisms import curved_prism, prism
+from solids import Region, blob, isosurface, julia, lemon, ovus, sor, superellipsoid
 from zero_sets import ZeroSet, cyclide, polynomial, torus
 
 
@@ -489,6 +491,14 @@ MAKERS = {
     "polygon": polygon, "mesh": mesh, "quadric": quadric, "named": named, "torus": torus, "polynomial": polynomial,
     "cyclide": cyclide,
 }
+# Examined unless kinds are named, and what unions are made of.
+USUAL = list(MAKERS)
+UNITED = [k for k in MAKERS if k != "plane"]
+# Put together from pieces, or rounded: slower to examine.
+MAKERS |= {
+    "sor": sor, "ovus": ovus, "lemon": lemon, "prism": prism, "curved prism": curved_prism,
+    "superellipsoid": superellipsoid, "blob": blob, "julia": julia, "isosurface": isosurface,
+}
 
 
 class Scene:
@@ -503,9 +513,11 @@ DECOYS = "camera { location <0, 0, -9> look_at 0 }\nlight_source { <9, 9, -9>, r
 
 def leaf_of(rng, kind, clips=True):
     leaf = MAKERS[kind](rng)
-    if clips and rng.random() < 0.2:
+    # Where a clip's border is next to a rounded crossing is not decided; a tangled prism's caps have no side once they are clipped.
+    plain = getattr(leaf, "certain", True) and kind not in ("prism", "curved prism")
+    if clips and plain and rng.random() < 0.2:
         clip(rng, leaf)
-    elif isinstance(leaf, (Solid, ZeroSet)) and rng.random() < 0.12:
+    elif isinstance(leaf, (Solid, ZeroSet, Region)) and rng.random() < 0.12:
         leaf.inverse = True
     leaf.map = placement(rng)
     return leaf
@@ -525,7 +537,7 @@ def union_scene(rng):
         leaves = []
         parts = []
         for _ in range(rng.randint(1, 3)):
-            leaf = leaf_of(rng, rng.choice([k for k in MAKERS if k != "plane"]), clips=False)
+            leaf = leaf_of(rng, rng.choice(UNITED), clips=False)
             leaf.inverse = False
             leaves.append(leaf)
             parts.append(leaf)

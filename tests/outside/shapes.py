@@ -148,12 +148,12 @@ IDENTITY = Map(words="")
 
 
 class Event:
-    """One crossing: where, -1 entering / +1 leaving / 0 touching, and the normals it may have (functions of the point, outward)."""
+    """One crossing: where, -1 entering / +1 leaving / 0 touching, and the normals it may have (functions of the point, outward). An optional one may be told or not."""
 
-    __slots__ = ("t", "sign", "any_sign", "normals", "leaf", "face")
+    __slots__ = ("t", "sign", "any_sign", "normals", "leaf", "face", "optional")
 
-    def __init__(self, t, sgn, normals, leaf, face=0, any_sign=False):
-        self.t, self.sign, self.normals, self.leaf, self.face, self.any_sign = t, sgn, normals, leaf, face, any_sign
+    def __init__(self, t, sgn, normals, leaf, face=0, any_sign=False, optional=False):
+        self.t, self.sign, self.normals, self.leaf, self.face, self.any_sign, self.optional = t, sgn, normals, leaf, face, any_sign, optional
 
     def __repr__(self):
         return f"(t={float(self.t)!r} sign={self.sign})"
@@ -270,6 +270,9 @@ class Loops(Leaf):
         self.planes = [face_normal(loops[0]) for loops in self.outlines]
         self.faces = len(faces)
         self.oriented = oriented
+
+    def with_faces(self, faces):
+        return Loops(self.body, faces, self.points, size=self.size, oriented=self.oriented)
 
     def axes(self, o, d, m):
         """The axes that a rounded direction in the leaf's frame may have as its largest."""

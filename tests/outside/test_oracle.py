@@ -4,6 +4,7 @@
     python3 test_oracle.py
 """
 
+import math
 import random
 import re
 import unittest
@@ -13,6 +14,7 @@ import scenes
 from check_trace import Expected, in_world, make_ray
 from exact import Number, holds, sign
 from shapes import Loops, Sheet, Solid, dot, sub
+from solids import places
 from zero_sets import ZeroSet, multiply, real_roots
 
 TINY = F(1, 1 << 4000)  # below all products of subnormal numbers
@@ -84,6 +86,64 @@ def between(a, b):
         bits *= 2
 
 
+def value_of(body, p):
+    """Negative inside a solid that is put together, read from its text, in floats: another make again."""
+    word = body.split()[0]
+    x, p = [float(n) for n in numbers(body)], [float(c) for c in p]
+    rho = math.hypot(p[0], p[2])
+    if word == "sor":
+        curve = [x[i : i + 2] for i in range(1, len(x), 2)]
+        for (r0, h0), (r1, h1), (r2, h2), (r3, h3) in zip(curve, curve[1:], curve[2:], curve[3:]):
+            if h1 <= p[1] <= h2:
+                # Hermite's basis on [0, 1].
+                u, w = (p[1] - h1) / (h2 - h1), h2 - h1
+                m1, m2 = 2 * r1 * (r2 - r0) / (h2 - h0) * w, 2 * r2 * (r3 - r1) / (h3 - h1) * w
+                square = r1**2 * (1 + 2 * u) * (1 - u) ** 2 + m1 * u * (1 - u) ** 2 + r2**2 * u * u * (3 - 2 * u) - m2 * u * u * (1 - u)
+                return rho**2 - square
+        return 1.0
+    if word == "ovus":
+        # Within one of the balls, or between them within the circle that touches both from outside.
+        a, b = x
+        balls = min(math.dist(p, (0, 0, 0)) - a, math.dist(p, (0, a, 0)) - b)
+        if b >= 2 * a:
+            return balls
+        r = 2 * max(a, b)
+        c = (a * a + (r - a) ** 2 - (r - b) ** 2) / (2 * a)
+        major = math.sqrt((r - a) ** 2 - c * c)
+        low, high = -c * a / (r - a), a + (a - c) * b / (r - b)
+        return math.hypot(rho + major, p[1] - c) - r if low <= p[1] <= high else balls
+    if word == "lemon":
+        radius, h, inner = x[3], x[5], x[8]
+        major = math.sqrt(inner**2 - (h / 2) ** 2) - radius
+        return max(-p[1], p[1] - h, math.hypot(rho + major, p[1] - h / 2) - inner)
+    if word == "superellipsoid":
+        e, n = x
+        return (abs(p[0]) ** (2 / e) + abs(p[1]) ** (2 / e)) ** (e / n) + abs(p[2]) ** (2 / n) - 1
+    if word == "julia_fractal":
+        c, count, normal, distance = x[:4], int(x[4]), x[5:9], x[9]
+        length = math.hypot(*normal)
+        w = (distance * length - sum(a * b for a, b in zip(normal, p))) / normal[3]
+        hyper = "hypercomplex" in body
+        radius = 4.0 if hyper else min(2.0, 1 + math.hypot(*c))
+        z, worst = (*p, w), -math.inf
+        for _ in range(count):
+            worst = max(worst, math.hypot(*z) - radius)
+            if worst > 9:
+                return worst
+            # Two complex numbers each: of hypercomplex ones the idempotents' (1 ± k) / 2 shares, of quaternions a power by its angle.
+            n = 3 if "cube" in body else 2
+            if hyper:
+                f, g = complex(z[0] + z[3], z[1] - z[2]) ** n, complex(z[0] - z[3], z[1] + z[2]) ** n
+                z = ((f.real + g.real) / 2, (f.imag + g.imag) / 2, (g.imag - f.imag) / 2, (f.real - g.real) / 2)
+            else:
+                v = math.hypot(*z[1:])
+                turned = complex(z[0], v) ** n
+                z = (turned.real, *(turned.imag * e / v if v else 0.0 for e in z[1:]))
+            z = tuple(a + b for a, b in zip(z, c))
+        return worst
+    raise AssertionError(word)
+
+
 class Oracle(unittest.TestCase):
     def cases(self, kind, count=40):
         for i in range(count):
@@ -123,6 +183,37 @@ class Oracle(unittest.TestCase):
                 for e, before, after in zip(answer.events, held, held[1:]):
                     wanted = {-1: (False, True), 1: (True, False)}.get(e.sign)
                     self.assertTrue((before, after) == wanted if wanted else before == after, (leaf.sdl(), ray, e))
+
+    def test_solids_that_are_put_together_are_those_of_their_text(self):
+        for kind in ("sor", "ovus", "lemon", "superellipsoid", "julia"):
+            told = 0
+            with self.subTest(kind):
+                for rng, _, leaf, ray in self.cases(kind, 12):
+                    body = scenes.times(leaf.size, tuple(F(rng.uniform(-1.2, 1.2)) for _ in range(3)))
+                    middle = sum(leaf.heights[:: len(leaf.heights) - 1]) / 2 if kind in ("sor", "ovus", "lemon") else 0
+                    p = (body[0], body[1] + middle, body[2])
+                    theirs, ours = value_of(leaf.body, p), leaf.value(p)
+                    if abs(theirs) > 1e-9 * float(leaf.size) ** 2:
+                        told += 1
+                        self.assertEqual(theirs < 0, ours < 0, (leaf.body, p))
+            self.assertGreater(told, 100)
+
+    def test_the_polynomials_of_a_solid_vanish_where_its_value_does(self):
+        """The roots of the polynomials along a ray against signs of the value, which knows none of them."""
+        for kind in ("sor", "ovus", "lemon", "superellipsoid", "blob", "julia", "isosurface"):
+            found = 0
+            for rng, _, leaf, ray in self.cases(kind, 8):
+                leaf.clip, leaf.inverse = [], False
+                answer = leaf.answer(ray[:3], ray[3:6], leaf.whole)
+                if answer.within:
+                    continue
+                found += len(answer.events)
+                along = places(leaf.whole.ray(ray[:3], ray[3:6]))
+                reach = max(abs(c[1]) for c in along)
+                for t in [F(rng.uniform(-2, 2)) * leaf.size / reach + (e.t.rational() if e else 0) for e in (*answer.events, None)]:
+                    value = leaf.value(tuple(c[0] + t * c[1] for c in along))
+                    self.assertEqual(value < 0, any(holds(a, b, Number.of(t)) for a, b in answer.inside), (leaf.sdl(), ray, t))
+            self.assertGreater(found, 20, kind)
 
     def test_a_sheet_is_crossed_where_its_equation_changes_sign(self):
         for kind in ("disc", "cylinder", "cone"):

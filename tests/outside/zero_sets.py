@@ -132,7 +132,17 @@ class Root:
             a, b = self.rational(bits), other.rational(bits)
             if abs(a - b) * (1 << (bits - 8)) > abs(a) + abs(b):
                 return sign(a - b)
+            if isinstance(other, Root) and self.equals(other):
+                return 0
         return 0
+
+    def equals(self, other):
+        """Whether two roots, of different polynomials perhaps, are one number."""
+        if self.l == self.r:
+            return other.against(self.l) == 0
+        if other.l == other.r:
+            return self.against(other.l) == 0
+        return self.sign_of(other.poly) == 0 and self.against(other.l) > 0 > self.against(other.r)
 
     def sign_of(self, q):
         """The sign of another polynomial, the constant first."""
@@ -180,7 +190,9 @@ def real_roots(p):
     while todo:
         l, r, a, b = todo.pop()
         if a - b == 1:
-            out.append(Root(simple, l, r, value(whole, l), value(whole, r)))
+            # A root at zero would never be narrow against its own size.
+            ends = (F(0), F(0)) if simple[0] == 0 and l < 0 < r else (l, r)
+            out.append(Root(simple, *ends, value(whole, l), value(whole, r)))
         elif a - b > 1:
             m = (l + r) / 2
             while value(simple, m) == 0:
