@@ -492,7 +492,7 @@ fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint
         (part_of_line.t_min, part_of_line.t_max) = (t_min, t_max);
         let mut ends = Ends::default();
         surface.roots::<dyn Sink>(&part_of_line, &mut ends);
-        ends
+        ends.closed()
     };
     if let Some(sign) = signs(f64::NEG_INFINITY, ray.t_min).last {
         return sign < 0;
@@ -526,11 +526,27 @@ fn runs_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>) -> bool {
     sides.find(|&side| side != Side::On) != Some(Side::Out)
 }
 
-/// The signs of the first and the last crossing that is not a touch.
+/// The signs of the first and the last crossing that changes sides. Crossings whose enclosures overlap count as one, by their sum: where the line touches an edge, it
+/// goes in and out at one point, or out and in, and their order says nothing.
 #[derive(Default)]
 struct Ends {
-    first: Option<i8>,
-    last: Option<i8>,
+    first: Option<i32>,
+    last: Option<i32>,
+    /// The crossings that overlap the last one: their sum, and how far they reach.
+    group: Option<(i32, f64)>,
+}
+
+impl Ends {
+    /// Ends the group.
+    fn closed(mut self) -> Self {
+        if let Some((sum, _)) = self.group.take()
+            && sum != 0
+        {
+            self.first = self.first.or(Some(sum));
+            self.last = Some(sum);
+        }
+        self
+    }
 }
 
 impl Sink for Ends {
@@ -539,9 +555,14 @@ impl Sink for Ends {
     }
 
     fn push(&mut self, root: Root) -> Flow {
-        if root.sign != 0 {
-            self.first = self.first.or(Some(root.sign));
-            self.last = Some(root.sign);
+        let sign = i32::from(root.sign);
+        if sign != 0 {
+            *self = match self.group {
+                Some((sum, reach)) if root.lo <= reach => {
+                    Self { group: Some((sum + sign, reach.max(root.hi))), ..core::mem::take(self) }
+                }
+                _ => Self { group: Some((sign, root.hi)), ..core::mem::take(self).closed() },
+            };
         }
         Flow::Continue
     }

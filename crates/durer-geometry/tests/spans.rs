@@ -5,7 +5,9 @@ mod common;
 use common::{Dice, fill, ground, rays};
 use durer_geometry::Geometry;
 use durer_math::{Affine, Point3, Ray, Vec3};
-use durer_surfaces::{Algebraic, AxisBox, Disc, Erased, Frustum, Inverse, Placed, Quadric, Side, Sphere};
+use durer_surfaces::{
+    Algebraic, AxisBox, CurvedPrism, Disc, Erased, Frustum, Inverse, Placed, Quadric, Side, Sphere,
+};
 use std::sync::Arc;
 
 /// A point of the ray in the middle of a stretch, if the stretch is long enough for rounding not to matter.
@@ -232,4 +234,51 @@ fn spans_do_not_depend_on_the_origin() {
         }
     }
     assert!(touches > 400, "{touches}");
+}
+
+/// Two crossings of one solid at one point, where the ray touches a corner of a rim: a range that ends just before it is outside all along.
+#[test]
+fn a_corner_that_is_touched_behind_the_range_says_nothing() {
+    let outline = [
+        [[0.0, 0.0], [16.0, 48.0], [32.0, -48.0], [48.0, 0.0]],
+        [[48.0, 0.0], [48.0, 0.0], [48.0, 64.0], [48.0, 64.0]],
+        [[48.0, 64.0], [32.0, 64.0], [16.0, 64.0], [0.0, 64.0]],
+        [[0.0, 64.0], [0.0, 48.0], [0.0, 16.0], [0.0, 0.0]],
+    ];
+    let prism = CurvedPrism::linear(&[outline], -48.0, 16.0).unwrap();
+    let mut builder = Geometry::builder();
+    builder.add(prism);
+    let world = builder.build().unwrap();
+    let corner = Point3::new(0.0, -48.0, 0.0);
+    let mut touched = 0;
+    for x in -6..=6 {
+        for y in -6..=6 {
+            for z in -6..=6 {
+                let d = Vec3::new(f64::from(x), f64::from(y), f64::from(z));
+                if d == Vec3::ZERO {
+                    continue;
+                }
+                let o = corner - d * 1024.0;
+                let mut line = Ray::new(o, d);
+                line.t_min = f64::NEG_INFINITY;
+                let all = world.all(&line);
+                let passes_by = all.iter().all(|h| h.t_lo <= 1024.0 && h.t_hi >= 1024.0);
+                touched += usize::from(passes_by && all.len() == 2);
+                for (t_min, t_max) in [(0.0, 1023.5), (0.0, 1024.0), (1024.0, 2000.0), (1024.5, 1e9)] {
+                    let mut ray = line;
+                    (ray.t_min, ray.t_max) = (t_min, t_max);
+                    let spans = world.spans(&ray);
+                    assert!(
+                        !passes_by || spans.iter().all(|s| s.t_in == s.t_out),
+                        "{d:?} from {t_min} to {t_max}: {spans:?}"
+                    );
+                    assert!(
+                        spans.iter().all(|s| s.t_out <= 1400.0),
+                        "{d:?} from {t_min} to {t_max}: {spans:?}"
+                    );
+                }
+            }
+        }
+    }
+    assert!(touched > 50, "{touched}");
 }

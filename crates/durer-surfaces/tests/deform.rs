@@ -789,3 +789,58 @@ fn a_formulas_box_gives_an_end() {
     let height = 0.125 * durer_math::elementary::sin(0.75);
     assert!(roots.len() == 2 && (roots[0].t - (5.0 - height)).abs() < 1e-14, "{roots:?}");
 }
+
+#[test]
+fn a_ray_in_a_face_that_two_parts_share_is_inside() {
+    let block = |low: [f64; 3], high: [f64; 3]| {
+        let (a, b) = (Point3::from(low), Point3::from(high));
+        LevelSet::new(leaves::cuboid(a, b).unwrap(), Aabb::new(a, b))
+    };
+    let twist = Warp::Twist { axis: Vec3::Y, degrees: 50.0, from: 0.0, to: 1.0 };
+    let low = block([-0.5, 0.0, -0.5], [0.5, 0.5, 0.5]);
+    // On all of it, on a half, on two quarters that are apart; the solid that has just that as its section at 0.5.
+    let upper: [&[LevelSet]; 3] = [
+        &[block([-0.5, 0.5, -0.5], [0.5, 1.0, 0.5])],
+        &[block([0.0, 0.5, -0.5], [0.5, 1.0, 0.5])],
+        &[block([-0.5, 0.5, -0.5], [-0.25, 1.0, 0.5]), block([0.25, 0.5, -0.5], [0.5, 1.0, 0.5])],
+    ];
+    let through: [&[LevelSet]; 3] = [
+        &[block([-0.5, 0.0, -0.5], [0.5, 1.0, 0.5])],
+        &[block([0.0, 0.0, -0.5], [0.5, 1.0, 0.5])],
+        &[block([-0.5, 0.0, -0.5], [-0.25, 1.0, 0.5]), block([0.25, 0.0, -0.5], [0.5, 1.0, 0.5])],
+    ];
+    let mut dice = Dice(41);
+    for (upper, through) in upper.into_iter().zip(through) {
+        let parts: Vec<LevelSet> = upper.iter().cloned().chain([low.clone()]).collect();
+        let (made, section) = (LevelSet::union(&parts).unwrap(), LevelSet::union(through).unwrap());
+        for warps in [&[][..], core::slice::from_ref(&twist)] {
+            let [made, section] = [&made, &section].map(|solid| surface(&deformed(solid, warps)));
+            let (mut met, mut missed) = (0, 0);
+            for _ in 0..300 {
+                let mut aside = |size: f64| size * (dice.unit() - 0.5);
+                let (o, to) =
+                    (Point3::new(aside(8.0), 0.5, aside(8.0)), Point3::new(aside(1.2), 0.5, aside(1.2)));
+                let ray = Ray::new(o, to - o);
+                let (a, b) = (all(&made, &ray), all(&section, &ray));
+                let b: Vec<Root> = b.into_iter().filter(|r| r.sign != 0).collect();
+                if b.windows(2).any(|w| w[1].t - w[0].t < 1e-6) {
+                    continue;
+                }
+                let same = |(a, b): (&Root, &Root)| {
+                    a.lo <= b.hi + 1e-11 && b.lo <= a.hi + 1e-11 && a.hi - a.lo < 1e-10 && a.sign == b.sign
+                };
+                assert!(a.len() == b.len() && a.iter().zip(&b).all(same), "{ray:?}\n {a:?}\n {b:?}");
+                met += a.len();
+                missed += usize::from(a.is_empty());
+            }
+            assert!(met > 150 && missed > 10, "{met}, {missed}");
+        }
+    }
+    // What a face shares with nothing, or with what is taken away, is not inside.
+    let none = LevelSet::intersection(&[low.clone(), low.complement().unwrap()]).unwrap();
+    for solid in [LevelSet::union(&[low.clone(), low]).unwrap(), none] {
+        let Some(made) = deformed(&solid, core::slice::from_ref(&twist)).surface().unwrap() else { continue };
+        let ray = Ray::new(Point3::new(-3.0, 0.5, 0.125), Vec3::new(1.0, 0.0, 0.0625));
+        assert!(all(&made, &ray).is_empty());
+    }
+}

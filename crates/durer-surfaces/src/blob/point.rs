@@ -3,7 +3,7 @@
 use super::Blob;
 use crate::point::least_step;
 use crate::quadric::body::tangents;
-use crate::{LocalPoint, LocalRay, Need, Root, Side, SurfacePoint};
+use crate::{CentredRay, LocalPoint, LocalRay, Need, Root, Side, SurfacePoint};
 use durer_math::eft::{scale2, two_sum};
 use durer_math::{Isa, Point3, U, Vec3};
 
@@ -20,6 +20,13 @@ struct Near {
     gradient_err: f64,
     /// A bound on the norm of the second derivatives within [`ROOM`].
     bend: f64,
+}
+
+/// The point of a ray at `s`, and how far off it may be along any axis.
+#[inline(always)]
+fn place(at: &CentredRay<'_>, s: f64) -> (Vec3, f64) {
+    let y = Vec3::new(s.mul_add(at.d.x, at.o.x), s.mul_add(at.d.y, at.o.y), s.mul_add(at.d.z, at.o.z));
+    (y, (at.o_err + at.d_err * s.abs() + y.abs() * U).max_abs() * (1.0 + 8.0 * U))
 }
 
 impl Blob {
@@ -55,6 +62,54 @@ impl Blob {
     fn is_out(&self, y: Vec3, e: f64) -> Option<bool> {
         let near = self.near(y, e);
         (near.value.abs() > near.error).then_some(near.value > 0.0)
+    }
+
+    /// The bracket `(s, lo, hi)` of a simple crossing, narrower where the sum's own sign at points of the ray says so: its error there is a few roundings, and not the
+    /// largest of a whole stretch.
+    #[inline(never)]
+    pub(super) fn narrowed(
+        &self,
+        at: &CentredRay<'_>,
+        bracket: (f64, f64, f64),
+        rises: bool,
+    ) -> (f64, f64, f64) {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.narrowed_here(at, bracket, rises),
+        )
+    }
+
+    #[inline(always)]
+    fn narrowed_here(
+        &self,
+        at: &CentredRay<'_>,
+        (mut s, mut lo, mut hi): (f64, f64, f64),
+        rises: bool,
+    ) -> (f64, f64, f64) {
+        let mut reach = f64::INFINITY;
+        for _ in 0..2 {
+            let (y, e) = place(at, s);
+            let near = self.near(y, e);
+            let slope = near.gradient.dot(at.d);
+            s = (s - near.value / slope).max(lo).min(hi);
+            reach = 1.25 * near.error / slope.abs();
+        }
+        for step in [reach, 4.0 * reach] {
+            let (before, after) = (s - step, s + step);
+            if before > lo {
+                let (y, e) = place(at, before);
+                if self.is_out(y, e) == Some(rises) {
+                    lo = before;
+                }
+            }
+            if after < hi {
+                let (y, e) = place(at, after);
+                if self.is_out(y, e) == Some(!rises) {
+                    hi = after;
+                }
+            }
+        }
+        (s, lo, hi)
     }
 
     pub(super) fn side_of(&self, point: &LocalPoint<'_>) -> Side {

@@ -265,10 +265,12 @@ impl Query<'_> {
         if (most + self.charge) * (1.0 + 1.0 / 1024.0) < self.blob.threshold {
             return (self.told(Told::Sign(false)) == Flow::Continue).then_some(hi);
         }
-        // A ray that was spawned on the surface starts where the side is known, though rounding may hide it.
-        let (mut lo, mut first, mut late) = (lo, None, 0.0);
+        // What the stretch before has told of its end is certain of the sum itself, though rounding may hide it here.
+        let told = if self.tracker.open.is_none() { self.tracker.before } else { None };
+        // So is where a ray starts that was spawned on the surface.
+        let (mut lo, mut first, mut late) = (lo, told, 0.0);
         if lo < self.begin {
-            lo = self.begin;
+            (lo, first) = (self.begin, None);
             if let Some((within, s)) = self.start {
                 (first, late) = (Some(within), s.e);
             }
@@ -336,6 +338,11 @@ impl Query<'_> {
                     return Flow::Stop;
                 }
                 self.tracker.before = Some(rises);
+                let (s, lo, hi) = if alone && !self.at.local().rough {
+                    self.blob.narrowed(self.at, (s, lo, hi), rises)
+                } else {
+                    (s, lo, hi)
+                };
                 let kind = if alone { Kind::Simple } else { Kind::Cluster };
                 self.show(s, (lo, hi), if rises { -1 } else { 1 }, kind)
             }

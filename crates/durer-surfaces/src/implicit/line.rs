@@ -39,6 +39,11 @@ impl Line {
         line
     }
 
+    /// The line next to it, as far away as this, however that is rounded.
+    pub(super) fn beside(&self, by: Vec3) -> Self {
+        Self { q: core::array::from_fn(|i| self.q[i] + by[i]), ..*self }
+    }
+
     /// The point at `s`, rounded.
     #[inline(always)]
     pub(super) fn point(&self, s: f64) -> Point3 {

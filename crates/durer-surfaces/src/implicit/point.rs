@@ -95,7 +95,8 @@ impl Isosurface {
         let width = at.width(root.lo, root.hi);
         let direction = line.direction();
         let reach = 64.0 * (width + size * U) + f64::MIN_POSITIVE;
-        let foot = self.gauge.as_ref().and_then(|gauge| gauge.foot(p0, reach));
+        let fold = width + 64.0 * (size * U) + f64::MIN_POSITIVE;
+        let foot = self.gauge.as_ref().and_then(|gauge| gauge.foot(p0, (fold, reach)));
         let Foot { p, n, off, bend } = foot.unwrap_or_else(|| self.foot(p0, direction, reach, width));
         let moved = (p - p0).abs();
         let slack = least_step(p);

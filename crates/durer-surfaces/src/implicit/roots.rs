@@ -1,6 +1,7 @@
 //! The roots of a ray: the container's stretch of it, divided by cells, told apart, in one row with the caps.
 
 use super::Isosurface;
+use super::along_face;
 use super::cells::Place;
 use super::isolate::isolate;
 use super::line::Line;
@@ -51,6 +52,24 @@ impl Isosurface {
     }
 }
 
+impl Isosurface {
+    /// The one sign of the formula on a short stretch of a line, if it is certain: the cell knows, or its tape.
+    fn sign_on(&self, line: &Line, (lo, hi): (f64, f64)) -> Option<bool> {
+        let (middle, reach) = line.around(lo, hi);
+        match self.divided().place(middle, reach) {
+            Some(Place::Sign(sign)) => Some(sign),
+            Some(Place::Open(tape) | Place::Slope(tape, _)) => line.sign_on(tape, lo, hi),
+            Some(Place::Gap) | None => line.sign_on(&self.tape, lo, hi),
+        }
+    }
+
+    /// The sign of the rounded value there. Undefined is outside.
+    fn rounded(&self, line: &Line, (lo, hi): (f64, f64)) -> bool {
+        let within = line.value(&self.tape, 0.5 * lo + 0.5 * hi) < 0.0;
+        !within
+    }
+}
+
 /// A ray's question, half answered.
 struct Query<'a> {
     surface: &'a Isosurface,
@@ -88,20 +107,8 @@ impl Query<'_> {
     /// The formula's sign where the line crosses the container: the certain one, or else that of the rounded value, which then decides for the
     /// cap and for the formula's own surface alike, so that none is lost between them. Undefined is outside.
     fn declared(&self, lo: f64, hi: f64) -> bool {
-        self.sign_on(lo, hi).unwrap_or_else(|| {
-            let within = self.line.value(&self.surface.tape, 0.5 * lo + 0.5 * hi) < 0.0;
-            !within
-        })
-    }
-
-    /// The one sign of the formula on a short stretch, if it is certain: the cell knows, or its tape.
-    fn sign_on(&self, lo: f64, hi: f64) -> Option<bool> {
-        let (middle, reach) = self.line.around(lo, hi);
-        match self.surface.divided().place(middle, reach) {
-            Some(Place::Sign(sign)) => Some(sign),
-            Some(Place::Open(tape) | Place::Slope(tape, _)) => self.line.sign_on(tape, lo, hi),
-            Some(Place::Gap) | None => self.line.sign_on(&self.surface.tape, lo, hi),
-        }
+        let at = (lo, hi);
+        self.surface.sign_on(self.line, at).unwrap_or_else(|| self.surface.rounded(self.line, at))
     }
 
     /// Shows a crossing of the container, if it is in the ray's range.
@@ -126,12 +133,13 @@ impl Query<'_> {
     /// Shows the roots from `a` to the end of the container that may be in `range`. The sign at that end; `None` if it was not asked for.
     fn between(&mut self, a: f64, end: (f64, f64), before: bool, range: (f64, f64)) -> Option<bool> {
         let surface = self.surface;
+        let ends = self.ray.rough.then(|| self.at.window((self.ray.t_min, self.ray.t_max)));
         let mut walk = Walk {
             surface,
             line: self.line,
             at: self.at,
             sink: self.sink,
-            tracker: Tracker::new(self.line, &surface.tape, Some(before), self.ray.rough),
+            tracker: Tracker::new(self.line, &surface.tape, Some(before), ends),
             last: range.1,
             passes: 0,
         };
@@ -152,13 +160,12 @@ impl Query<'_> {
         if !(go_on && ahead.drain(..).all(|(a, b, place)| walk.take(a, b, place))) {
             return None;
         }
-        let mut tracker = walk.tracker;
-        let after = self.declared(end.0, end.1);
-        let found = tracker.finish(Some(after)).filter(|found| !(surface.regular && found.touches));
-        match found {
-            Some(found) if shown(self.at, self.sink, &found) == Flow::Stop => None,
-            _ => Some(after),
-        }
+        // What the walk has told up to there counts before a rounded value.
+        let told = walk.tracker.settled();
+        let after =
+            surface.sign_on(walk.line, end).or(told).unwrap_or_else(|| surface.rounded(walk.line, end));
+        let found = walk.tracker.finish(Some(after));
+        if walk.show(found) { Some(after) } else { None }
     }
 }
 
@@ -198,9 +205,31 @@ impl<'a> Walk<'a, '_> {
         self.show(found)
     }
 
+    /// Shows a root. A touch from outside is none of a regular surface, unless the ray runs along a face that two of its parts share, which is in it.
     fn show(&mut self, found: Option<Found>) -> bool {
-        let found = found.filter(|found| !(self.surface.regular && found.touches));
-        found.is_none_or(|found| shown(self.at, self.sink, &found) == Flow::Continue)
+        let flow = match found {
+            None => Flow::Continue,
+            Some(Found { touches: Some(outside), lo, hi, .. }) if self.surface.regular => {
+                if outside {
+                    self.along_a_face(lo, hi)
+                } else {
+                    Flow::Continue
+                }
+            }
+            Some(found) => shown(self.at, self.sink, &found),
+        };
+        flow == Flow::Continue
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn along_a_face(&mut self, lo: f64, hi: f64) -> Flow {
+        let (at, sink) = (self.at, &mut *self.sink);
+        let told =
+            along_face::crossings(self.line, &self.surface.tape, (lo, hi), (false, false), &mut |found| {
+                shown(at, sink, found)
+            });
+        told.unwrap_or(Flow::Continue)
     }
 }
 

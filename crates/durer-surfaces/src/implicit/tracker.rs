@@ -58,8 +58,8 @@ pub(crate) struct Found {
     /// +1 where `g` goes from below to above, -1 the other way, 0 where it returns to its side.
     pub(crate) sign: i8,
     pub(crate) kind: Kind,
-    /// `g` certainly has the same sign before and behind.
-    pub(crate) touches: bool,
+    /// The sign that `g` certainly has both before and behind.
+    pub(crate) touches: Option<bool>,
 }
 
 /// A run of stretches in which there may be a root.
@@ -82,13 +82,24 @@ pub(crate) struct Tracker<'a, C: Curve> {
     /// The sign before the run, if it is known.
     before: Option<bool>,
     run: Option<Run<C::Form<'a>>>,
-    rough: bool,
+    /// Brackets may be wide, except of roots that may be on either side of one of these two numbers.
+    rough: Option<(f64, f64)>,
 }
 
 impl<'a, C: Curve> Tracker<'a, C> {
     /// A tracker that starts where `g` has the sign `before`.
-    pub(crate) fn new(line: &'a C, whole: C::Form<'a>, before: Option<bool>, rough: bool) -> Self {
+    pub(crate) fn new(
+        line: &'a C,
+        whole: C::Form<'a>,
+        before: Option<bool>,
+        rough: Option<(f64, f64)>,
+    ) -> Self {
         Self { line, whole, before, run: None, rough }
+    }
+
+    /// The sign where the last stretch ended, if that is known.
+    pub(crate) fn settled(&self) -> Option<bool> {
+        if self.run.is_none() { self.before } else { None }
     }
 
     /// The next stretch, of which it is plain that `g` has one sign: a run ends before it.
@@ -214,10 +225,16 @@ impl<'a, C: Curve> Tracker<'a, C> {
                 if start == end || start == rises {
                     return None;
                 }
-                let (s, lo, hi) = polished(self.line, run.form, run.lo, run.hi, rises, self.rough);
+                let polished = |rough| polished(self.line, run.form, run.lo, run.hi, rises, rough);
+                let (mut s, mut lo, mut hi) = polished(self.rough.is_some());
+                if let Some((from, to)) = self.rough
+                    && (lo <= from && from <= hi || lo <= to && to <= hi)
+                {
+                    (s, lo, hi) = polished(false);
+                }
                 // Where one sign is not known the root may lie on an end, or just not be there: it cannot be disproved.
                 let kind = if before.is_some() && after.is_some() { Kind::Simple } else { Kind::Cluster };
-                Some(Found { s, lo, hi, sign: if rises { 1 } else { -1 }, kind, touches: false })
+                Some(Found { s, lo, hi, sign: if rises { 1 } else { -1 }, kind, touches: None })
             }
             (None, before, after) => {
                 let sign = match (before, after) {
@@ -226,7 +243,7 @@ impl<'a, C: Curve> Tracker<'a, C> {
                     _ => 0,
                 };
                 let s = (0.5 * run.lo + 0.5 * run.hi).max(run.lo).min(run.hi);
-                let touches = before.is_some() && before == after;
+                let touches = before.filter(|_| before == after);
                 Some(Found { s, lo: run.lo, hi: run.hi, sign, kind: Kind::Cluster, touches })
             }
         }

@@ -214,20 +214,32 @@ impl Along<'_> {
                 RaySide::Front => return false,
             }
         }
-        let widest = if at.local().rough { ROUGH * reach * 0.25 } else { reach * pow2(-50) };
+        let fine = reach * pow2(-50);
+        let widest = if at.local().rough { ROUGH * reach * 0.25 } else { fine };
+        // The crossing in ascending order; as well as it can be told where the range may end in it.
+        let refined = |out: &Node, inn: &Node| {
+            let ascending = |(s, a, b): (f64, f64, f64)| (s, a.min(b), a.max(b));
+            let (s, lo, hi) = ascending(self.refined(*out, *inn, widest));
+            let (first, last) = at.bracket(lo, hi);
+            if widest > fine && at.admits(first, last).is_none() {
+                ascending(self.refined(*out, *inn, fine))
+            } else {
+                (s, lo, hi)
+            }
+        };
         if at.bracket(left.s, left.s).0 > sink.limit() {
             return true;
         }
         if enters {
-            let (s, lo, hi) = self.refined(*left, *first, widest);
-            let root = Found { s, lo, hi, sign: -1, kind: Kind::Simple, touches: false };
+            let (s, lo, hi) = refined(left, first);
+            let root = Found { s, lo, hi, sign: -1, kind: Kind::Simple, touches: None };
             if shown(at, sink, &root) == Flow::Stop {
                 return true;
             }
         }
         if leaves && at.bracket(last.s, last.s).0 <= sink.limit() {
-            let (s, hi, lo) = self.refined(*right, *last, widest);
-            shown(at, sink, &Found { s, lo, hi, sign: 1, kind: Kind::Simple, touches: false });
+            let (s, lo, hi) = refined(right, last);
+            shown(at, sink, &Found { s, lo, hi, sign: 1, kind: Kind::Simple, touches: None });
         }
         true
     }

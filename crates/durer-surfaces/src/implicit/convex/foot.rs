@@ -11,9 +11,9 @@ use durer_math::{F8, Isa, Point3, U, Vec3};
 /// How far below the point the solid is looked at.
 const DEPTHS: [f64; 8] = [0.25, pow2(-4), pow2(-6), pow2(-8), pow2(-10), pow2(-12), pow2(-16), pow2(-20)];
 
-/// The point, on each plane between octants that is no farther than `reach`: the surface may have an edge or a tip there.
-fn unfolded(p: Point3, reach: f64) -> Point3 {
-    p.map(|x| if x.abs() <= reach { 0.0 } else { x })
+/// The point, on each plane between octants that is no farther than `fold`: the surface may have an edge or a tip there.
+fn unfolded(p: Point3, fold: f64) -> Point3 {
+    p.map(|x| if x.abs() <= fold { 0.0 } else { x })
 }
 
 /// The gradient `m` at `p` without the parts that have no sign there. The gauge is even in each coordinate: where one is zero, zero is a fair part, and `m.p`
@@ -37,14 +37,15 @@ impl Gauge {
         if g - 1.0 > noise { Some(Side::Out) } else { (1.0 - g > noise).then_some(Side::In) }
     }
 
-    /// The point next to `p0`, at most `reach` away, in which the normal there meets the surface; `None` where f64 cannot say.
+    /// The point next to `p0`, at most `reach` away, in which the normal there meets the surface; `None` where f64 cannot say. Planes between octants attract within
+    /// `fold`.
     ///
     /// With the gradient `m` at `p` the gauge is at least `m.y` everywhere: outward, it exceeds 1 as soon as `m.y` does. Inward, it is at most what the chord
     /// from `p` to a point further down says, where it is known.
-    pub(in crate::implicit) fn foot(&self, p0: Point3, reach: f64) -> Option<Foot> {
+    pub(in crate::implicit) fn foot(&self, p0: Point3, (fold, reach): (f64, f64)) -> Option<Foot> {
         let isa = Isa::detect();
         let mut sample = Sample::new();
-        let p0 = unfolded(p0, reach);
+        let p0 = unfolded(p0, fold);
         self.sample(isa, &Vec3::splat(p0.to_vec()), &mut sample);
         let m = level(p0, sample.gradient.lane(0));
         let step = m * ((1.0 - sample.value.0[0]) / m.dot(m));
@@ -52,7 +53,7 @@ impl Gauge {
         if !near {
             return None;
         }
-        let p = unfolded(p0 + step, reach);
+        let p = unfolded(p0 + step, fold);
         let n = m * (1.0 / m.length());
         let at = |i: usize| F8(core::array::from_fn(|k| if k == 0 { p[i] } else { p[i] - DEPTHS[k] * n[i] }));
         self.sample(isa, &Vec3::new(at(0), at(1), at(2)), &mut sample);

@@ -363,10 +363,10 @@ fn the_bend_bounds_the_curvature() {
         let shape = SHAPES[round % SHAPES.len()];
         let gauge = Gauge::new(shape.0, shape.1).unwrap();
         let near = near_surface(&mut dice, shape, 0.0).to_point();
-        let Some(foot) = gauge.foot(near, 1e-9) else { continue };
+        let Some(foot) = gauge.foot(near, (1e-9, 1e-9)) else { continue };
         let way = 256.0 * U * (1.0 + dice.unit());
         let aside = foot.n.cross(Vec3::new(coordinate(&mut dice), coordinate(&mut dice), 0.3));
-        let Some(other) = gauge.foot(foot.p + aside * (way / aside.length()), 1e-9) else { continue };
+        let Some(other) = gauge.foot(foot.p + aside * (way / aside.length()), (1e-9, 1e-9)) else { continue };
         let apart = other.p - foot.p;
         let height = foot.n.dot(apart).abs();
         let most = 0.5 * foot.bend * apart.dot(apart) + foot.off + other.off;

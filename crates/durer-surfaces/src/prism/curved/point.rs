@@ -33,6 +33,16 @@ impl Wall<'_> {
         )
     }
 
+    /// The parameter near `y` where the curve is nearest to a point: one step of Newton's, if it is a small one.
+    #[inline(always)]
+    fn nearest(&self, [x, z]: [f64; 2], y: f64) -> f64 {
+        let [cx, cz] = Piece::at(&self.piece.powers, &Run::exact(y)).map(|c| c.v);
+        let ([x1, z1], _) = self.piece.slopes(self.view, y);
+        let step = ((x - cx) * x1 + (z - cz) * z1) / (x1 * x1 + z1 * z1);
+        let moved = (y + step).clamp(-0.5, 0.5);
+        if step.abs() < durer_math::scale::pow2(-20) { moved } else { y }
+    }
+
     #[inline(always)]
     fn resolve_here(&self, ray: &LocalRay<'_>, root: &Root, y: f64, need: Need) -> SurfacePoint {
         let View { sweep, centre, scale } = *self.view;
@@ -41,8 +51,9 @@ impl Wall<'_> {
         let q = Vec3::new(s.mul_add(at.d.x, at.o.x), s.mul_add(at.d.y, at.o.y), s.mul_add(at.d.z, at.o.z));
         let e_q = at.o_err + at.d_err * s.abs() + q.abs() * U;
 
-        // On the curve as f64 knows it, at the ray's height.
+        // On the curve as f64 knows it, at the ray's height; where that is nearest to the ray's own place there, as the root's bracket knows it better than `u`.
         let height = if sweep == Sweep::Conic { q.y } else { 1.0 };
+        let y = self.nearest([q.x / height, q.z / height], y);
         let [x, z] = Piece::at(&self.piece.powers, &Run::exact(y)).map(|c| c * Run::exact(height));
         let p = Vec3::new(x.v, q.y, z.v);
 
