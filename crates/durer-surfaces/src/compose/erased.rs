@@ -5,7 +5,7 @@ use crate::outline::Sketch;
 use crate::roots::quadratic::Quadratic;
 use crate::{Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use core::cmp::Ordering;
-use durer_math::{Aabb, Affine, Dyadic, Isa, RaySide, Shaft};
+use durer_math::{Aabb, Affine, Dd, Dyadic, Isa, RaySide, Run, Shaft};
 use std::sync::Arc;
 
 /// Any surface. What it answers is what the surface within answers.
@@ -131,6 +131,10 @@ impl Surface for Erased {
 impl Algebraic for Erased {
     fn polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
         self.surface.polynomial(face, ray)
+    }
+
+    fn wide_polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Run<Dd>>> {
+        self.surface.wide_polynomial(face, ray)
     }
 
     fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {

@@ -5,7 +5,7 @@ use crate::outline::Sketch;
 use crate::roots::quadratic::Quadratic;
 use crate::{LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use core::cmp::Ordering;
-use durer_math::{Aabb, Dyadic, RaySide};
+use durer_math::{Aabb, Dd, Dyadic, RaySide, Run};
 
 /// The complement of the solid `S`, with its boundary: entering becomes leaving, and normals point the other way. An open surface
 /// keeps its place and turns its normal.
@@ -98,6 +98,11 @@ impl<S: Surface> Surface for Inverse<S> {
 impl<S: Algebraic> Algebraic for Inverse<S> {
     fn polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
         let Quadratic { a, b, c } = self.0.polynomial(face, ray)?;
+        Some(Quadratic { a: -a, b: -b, c: -c })
+    }
+
+    fn wide_polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Run<Dd>>> {
+        let Quadratic { a, b, c } = self.0.wide_polynomial(face, ray)?;
         Some(Quadratic { a: -a, b: -b, c: -c })
     }
 

@@ -10,7 +10,7 @@ use crate::{LocalRay, Root};
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
 use durer_math::eft::exponent;
-use durer_math::{Aabb, Affine, Dyadic, Isa, Normal3, Point3, Ray, Ring, Run, Vec3};
+use durer_math::{Aabb, Affine, Dd, Dyadic, Isa, Normal3, Point3, Ray, Ring, Run, Vec3};
 use std::sync::Arc;
 
 /// The box `min <= x <= max` as a region.
@@ -52,6 +52,7 @@ trait Faces: Send + Sync {
     fn frame(&self) -> Frame;
     fn forms(&self) -> &[Rounded];
     fn exact(&self, face: usize) -> Form<Dyadic>;
+    fn wide(&self, face: usize) -> Form<Run<Dd>>;
     fn sketch(&self) -> Sketch;
 }
 
@@ -65,6 +66,10 @@ impl<S: Shape> Faces for Body<S> {
     }
 
     fn exact(&self, face: usize) -> Form<Dyadic> {
+        self.shape().form(face)
+    }
+
+    fn wide(&self, face: usize) -> Form<Run<Dd>> {
         self.shape().form(face)
     }
 
@@ -263,33 +268,59 @@ impl Region {
         Some(if self.inverse { worst.is_ge() } else { worst.is_le() })
     }
 
+    /// The same in double-doubles; `None` also where one of the signs is not certain.
+    pub(super) fn holds_widely(
+        &self,
+        ray: &LocalRay<'_>,
+        (doubtful, on): (FaceSet, FaceSet),
+        sign: impl Fn(&Quadratic<Run<Dd>>) -> Option<Ordering>,
+    ) -> Option<bool> {
+        let mut worst = if on.is_empty() { Ordering::Less } else { Ordering::Equal };
+        if !doubtful.is_empty() {
+            for (_, q) in self.polynomials_in(ray, doubtful, |i| self.faces.wide(i))? {
+                worst = worst.max(sign(&q)?);
+            }
+        }
+        Some(if self.inverse { worst.is_ge() } else { worst.is_le() })
+    }
+
     /// The exact polynomials of some faces along a ray, in its own parameter, each times a positive factor; `None` if the ray is not exactly known.
     fn polynomials(
         &self,
         ray: &LocalRay<'_>,
         faces: FaceSet,
     ) -> Option<ArrayVec<(usize, Quadratic<Dyadic>), MOST_FACES>> {
-        let frame = self.faces.frame();
-        let placed;
-        let (local, clock) = match &self.map {
-            None => (ray, None),
-            Some(map) => {
-                placed = Isa::detect().run(
-                    #[inline(always)]
-                    || ray.through(map),
-                );
-                (&placed, placed.parent_clock())
-            }
-        };
-        let exact = local.in_ring_from::<Dyadic>(frame.centre, frame.scale)?;
-        let along = |i| {
-            let q = self.faces.exact(i).along(&exact);
-            match clock {
-                None => q,
-                Some((step, k)) => in_parents_parameter(q, step, k),
-            }
-        };
-        Some(faces.iter().map(|i| (i, along(i))).collect())
+        self.polynomials_in(ray, faces, |i| self.faces.exact(i))
+    }
+
+    /// The same in any ring that can hold the ray.
+    fn polynomials_in<T: Ring>(
+        &self,
+        ray: &LocalRay<'_>,
+        faces: FaceSet,
+        form: impl Fn(usize) -> Form<T>,
+    ) -> Option<ArrayVec<(usize, Quadratic<T>), MOST_FACES>> {
+        Isa::detect().run(
+            #[inline(always)]
+            || {
+                let frame = self.faces.frame();
+                let placed;
+                let (local, clock) = match &self.map {
+                    None => (ray, None),
+                    Some(map) => {
+                        placed = ray.through(map);
+                        (&placed, placed.parent_clock())
+                    }
+                };
+                let seen = local.in_ring_from::<T>(frame.centre, frame.scale)?;
+                let mut all = ArrayVec::new();
+                for i in faces.iter() {
+                    let q = form(i).along(&seen);
+                    all.push((i, clock.map_or(q.clone(), |(step, k)| in_parents_parameter(q, step, k))));
+                }
+                Some(all)
+            },
+        )
     }
 
     /// The faces on which all of a face of a surface lies: those whose polynomial is a multiple of its own. `face` tells the latter along a ray.

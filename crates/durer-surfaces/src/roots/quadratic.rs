@@ -130,7 +130,7 @@ impl<T: Ring> Quadratic<T> {
     }
 
     /// The value at `n / m`, times `m²`.
-    fn at_ratio(&self, n: &T, m: &T) -> T {
+    pub(crate) fn at_ratio(&self, n: &T, m: &T) -> T {
         let (an, bm) = (self.a.clone() * n.clone(), self.b.clone() * m.clone());
         (an + bm.scale2(1)) * n.clone() + self.c.clone() * m.clone().square()
     }
