@@ -54,9 +54,9 @@ impl Fields {
         (pieces <= rays::MOST).then(|| Self { fields: fields.into(), threshold })
     }
 
-    /// `f` and half its gradient at points that are known within `e`, with bounds on what they are off by and on the second derivatives.
+    /// What is at points that are known within `e`, in these coordinates.
     #[inline(always)]
-    fn at(&self, y: Vec3<F8>, e: F8) -> (F8, Vec3<F8>, F8, F8, F8) {
+    fn at(&self, y: Vec3<F8>, e: F8) -> Skin {
         let zero = F8::ZERO;
         let (mut f, mut error) = (F8::splat(self.threshold), zero);
         let mut g = Vec3::new(zero, zero, zero);
@@ -92,7 +92,8 @@ impl Fields {
         }
         let count = self.fields.len() as f64 + 4.0;
         let rounding = count * U * total;
-        (f, g, (error + rounding + TINY) * SLACK, error_g * SLACK + rounding, bend * SLACK)
+        let (e_f, e_half) = ((error + rounding + TINY) * SLACK, error_g * SLACK + rounding);
+        Skin { f, half: g, e_f, e_half, bend: bend * SLACK }
     }
 
     /// What is at points `h` of the surface, with `|h|₁`.
@@ -101,15 +102,11 @@ impl Fields {
         let y = own.point(h);
         // Rays that start there are looked at from a place that may be this far from it (`rays.rs`).
         let e = own.point_error(h1) + (largest(y) + 1.0) * (128.0 * U);
-        let (f, half, e_f, e_half, bend) = self.at(y, e);
-        let e_half = e_half * own.norm + largest(half) * (16.0 * U * own.norm);
-        Skin {
-            f,
-            half: own.covector(half),
-            e_f: e_f * 2.0,
-            e_half,
-            bend: bend * (own.norm * own.norm * SLACK),
-        }
+        let Skin { f, half, e_f, e_half, bend } = self.at(y, e);
+        let e_half = (e_half + largest(half) * (16.0 * U)) * own.norm;
+        let bend = bend * (own.norm * own.norm * SLACK);
+        // Twice, so that rays from there are certain of their side.
+        Skin { f, half: own.covector(half), e_f: e_f * 2.0, e_half, bend }
     }
 }
 

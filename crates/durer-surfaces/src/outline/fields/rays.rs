@@ -12,6 +12,7 @@
 
 use super::{Field, Fields, TINY, dot, largest, on};
 use crate::outline::face::Start;
+use crate::outline::lathe::Skin;
 use crate::outline::offer::Offer;
 use crate::outline::own::Own;
 use crate::outline::poly::{Part8, Poly8, Root8};
@@ -181,7 +182,7 @@ impl Fields {
                 let (e_o, e_d) = (own.point_error(start.h1), own.vector_error(rays.d1));
                 let y = on(o, t, d);
                 let e_y = e_o + t.abs() * e_d + e * largest(d) + (largest(o) + largest(y)) * (4.0 * U);
-                let (f, _, e_f, _, _) = self.at(y, e_y);
+                let Skin { f, e_f, .. } = self.at(y, e_y);
                 (f.lt(-e_f), f.gt(e_f))
             },
         )
