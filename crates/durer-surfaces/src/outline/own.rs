@@ -131,8 +131,20 @@ impl Own {
 }
 
 #[inline(always)]
-fn dot(a: Vec3<F8>, b: Vec3<F8>) -> F8 {
+pub(super) fn dot(a: Vec3<F8>, b: Vec3<F8>) -> F8 {
     a.x.mul_add(b.x, a.y.mul_add(b.y, a.z * b.z))
+}
+
+/// `o + t d`.
+#[inline(always)]
+pub(super) fn on(o: Vec3<F8>, t: F8, d: Vec3<F8>) -> Vec3<F8> {
+    Vec3::new(t.mul_add(d.x, o.x), t.mul_add(d.y, o.y), t.mul_add(d.z, o.z))
+}
+
+/// The largest magnitude of a coordinate.
+#[inline(always)]
+pub(super) fn largest(v: Vec3<F8>) -> F8 {
+    v.x.abs().max(v.y.abs()).max(v.z.abs())
 }
 
 #[inline(always)]

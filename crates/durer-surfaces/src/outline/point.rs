@@ -2,6 +2,7 @@
 
 use super::face::{FaceKind, taxicab};
 use super::lathe::Skin;
+use super::own::dot;
 use super::rays::{RayLanes, SLACK};
 use super::{Outline, face};
 use durer_math::{F8, M8, Point3, U, Vec3};
@@ -17,11 +18,6 @@ pub struct Points8<'a> {
     pub ns: &'a mut Vec3<F8>,
     /// How far along the normal the surface is surely left.
     pub off: &'a mut F8,
-}
-
-#[inline(always)]
-fn dot(a: Vec3<F8>, b: Vec3<F8>) -> F8 {
-    a.x.mul_add(b.x, a.y.mul_add(b.y, a.z * b.z))
 }
 
 #[inline(always)]

@@ -31,6 +31,15 @@ pub struct From8 {
     pub back: M8,
 }
 
+impl From8 {
+    /// On which side of a solid that is negative inside they start: -1 inside, 1 outside, 0 where they leave something else. `turned` if the solid is inside out.
+    #[inline(always)]
+    pub(super) fn side(&self, turned: bool) -> F8 {
+        let inside = if turned { !self.back } else { self.back };
+        self.lanes.keep(inside.select(F8::splat(-1.0), F8::ONE))
+    }
+}
+
 /// The first sure hit so far, and the first doubt.
 #[derive(Clone, Copy, Debug)]
 pub struct Nearest {

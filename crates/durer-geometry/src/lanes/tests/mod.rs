@@ -310,6 +310,12 @@ fn lanes_see_what_single_rays_see() {
             "parabolic cylinder" => 300,
             // Where a plane through a ray and the origin meets an outline at a slant, its trace is known badly.
             "crossed conic prism" => 6,
+            // What is clipped is looked at within the clip only; what is not, to where it ends, and far away the degree counts.
+            "clipped cubic" => 800,
+            "cubic" => 200,
+            "quartic" | "balls" => 50,
+            "sausages" => 30,
+            "sextic" => 15,
             // Rays along a plane across the axis, and those that touch.
             _ if OF_HIGHER_DEGREE.contains(&name) => 12,
             // They have a tip, or go on for ever, too.

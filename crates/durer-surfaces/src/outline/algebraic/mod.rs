@@ -20,7 +20,7 @@ mod rays;
 pub(super) use self::rays::Memory;
 
 use super::lathe::Skin;
-use super::own::Own;
+use super::own::{Own, largest};
 use super::rays::SLACK;
 use durer_math::{F8, U, Vec3};
 use std::sync::Arc;
@@ -142,7 +142,7 @@ impl<const N: usize> Terms<N> {
     #[inline(always)]
     pub(super) fn skin(&self, own: &Own, h: Vec3<F8>, h1: F8) -> Skin {
         let (y, e) = (own.point(h), own.point_error(h1));
-        let m = y.x.abs().max(y.y.abs()).max(y.z.abs());
+        let m = largest(y);
         let Sizes { f: size, slope, bend } = self.sizes(m + 1.0 / 64.0);
         let (f, g) = self.at(y);
         // Rays that start there are looked at from a place that may be this far from it (`rays.rs`).

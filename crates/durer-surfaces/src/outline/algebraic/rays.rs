@@ -28,7 +28,7 @@ use super::{Sizes, Terms};
 use crate::outline::face::Start;
 use crate::outline::hull::Hull;
 use crate::outline::offer::Offer;
-use crate::outline::own::Own;
+use crate::outline::own::{Own, dot, largest, on};
 use crate::outline::poly::{Part8, Poly8, Root8};
 use crate::outline::rays::{From8, RayLanes, SLACK};
 use durer_math::scale::pow2;
@@ -120,13 +120,8 @@ impl<const N: usize> Terms<N> {
             #[inline(always)]
             || {
                 range(rays, cell, to, memory);
-                memory.sign = match leaving {
-                    Some((from, turned)) => {
-                        let inside = if turned { !from.back } else { from.back };
-                        (from.lanes & memory.from.le(F8::ZERO)).keep(inside.select(F8::splat(-1.0), F8::ONE))
-                    }
-                    None => F8::ZERO,
-                };
+                let side = leaving.map_or(F8::ZERO, |(from, turned)| from.side(turned));
+                memory.sign = memory.from.le(F8::ZERO).keep(side);
             },
         );
         if !memory.open.any() {
@@ -199,7 +194,7 @@ impl<const N: usize> Terms<N> {
                 let Memory { o, d, e_o, e_d, root, part, .. } = *memory;
                 let (t, e) = at(piece, (root.x, root.e), memory.t_c, memory.reach);
                 let (f, g) = self.at(on(o, t, d));
-                let slope = g.x.mul_add(d.x, g.y.mul_add(d.y, g.z * d.z));
+                let slope = dot(g, d);
                 let next = t - f / slope;
                 let y = on(o, next, d);
                 let (f, _) = self.at(y);
@@ -230,9 +225,7 @@ impl<const N: usize> Terms<N> {
                 let (o, d) = (own.point(start.h), own.vector(*rays.direction));
                 let (e_o, e_d) = (own.point_error(start.h1), own.vector_error(rays.d1));
                 let size = largest(d);
-                let od = o.x.mul_add(d.x, o.y.mul_add(d.y, o.z * d.z));
-                let dd = d.x.mul_add(d.x, d.y.mul_add(d.y, d.z * d.z));
-                let closest = (-od / dd).max(memory.from);
+                let closest = (-dot(o, d) / dot(d, d)).max(memory.from);
                 let reach = largest(on(o, closest, d)).mul_add(F8::splat(2.0), F8::splat(4.0)) / size;
                 let half = (memory.to - memory.from) * 0.5;
                 let short = half.le(reach);
@@ -422,16 +415,4 @@ fn shift<const N: usize>(p: &mut [F8; N], by: f64) {
             p[k] = p[k + 1].mul_add(F8::splat(by), p[k]);
         }
     }
-}
-
-/// `o + t d`.
-#[inline(always)]
-fn on(o: Vec3<F8>, t: F8, d: Vec3<F8>) -> Vec3<F8> {
-    Vec3::new(t.mul_add(d.x, o.x), t.mul_add(d.y, o.y), t.mul_add(d.z, o.z))
-}
-
-/// The largest magnitude of a coordinate.
-#[inline(always)]
-fn largest(v: Vec3<F8>) -> F8 {
-    v.x.abs().max(v.y.abs()).max(v.z.abs())
 }

@@ -13,7 +13,7 @@ mod rays;
 pub(super) use self::rays::Memory;
 
 use super::lathe::Skin;
-use super::own::Own;
+use super::own::{Own, dot, largest};
 use super::rays::SLACK;
 use durer_math::scale::pow2;
 use durer_math::{F8, U, Vec3};
@@ -117,21 +117,4 @@ impl Field {
         let [a, b, c] = self.rows.map(Vec3::splat);
         Vec3::new(dot(a, v), dot(b, v), dot(c, v))
     }
-}
-
-#[inline(always)]
-fn dot(a: Vec3<F8>, b: Vec3<F8>) -> F8 {
-    a.x.mul_add(b.x, a.y.mul_add(b.y, a.z * b.z))
-}
-
-/// The largest magnitude of a coordinate.
-#[inline(always)]
-fn largest(v: Vec3<F8>) -> F8 {
-    v.x.abs().max(v.y.abs()).max(v.z.abs())
-}
-
-/// `o + t d`.
-#[inline(always)]
-fn on(o: Vec3<F8>, t: F8, d: Vec3<F8>) -> Vec3<F8> {
-    Vec3::new(t.mul_add(d.x, o.x), t.mul_add(d.y, o.y), t.mul_add(d.z, o.z))
 }

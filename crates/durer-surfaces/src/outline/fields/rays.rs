@@ -10,11 +10,11 @@
 //! **Where a ray starts** is rounded outward by `8 U (|t_c| |d| + 2)`, which is less than `128 U (1 + |y|)` at the start `y`: within that a start has the sign that it is known to have,
 //! if it was put off the surface (`Fields::skin`).
 
-use super::{Field, Fields, TINY, dot, largest, on};
+use super::{Field, Fields, TINY};
 use crate::outline::face::Start;
 use crate::outline::lathe::Skin;
 use crate::outline::offer::Offer;
-use crate::outline::own::Own;
+use crate::outline::own::{Own, dot, largest, on};
 use crate::outline::poly::{Part8, Poly8, Root8};
 use crate::outline::rays::{From8, RayLanes, SLACK};
 use arrayvec::ArrayVec;
@@ -120,13 +120,7 @@ impl Fields {
             #[inline(always)]
             || {
                 begin(own, rays, start, to, memory);
-                memory.sign = match leaving {
-                    Some((from, turned)) => {
-                        let inside = if turned { !from.back } else { from.back };
-                        from.lanes.keep(inside.select(F8::splat(-1.0), F8::ONE))
-                    }
-                    None => F8::ZERO,
-                };
+                memory.sign = leaving.map_or(F8::ZERO, |(from, turned)| from.side(turned));
             },
         );
         memory.pieces.clear();

@@ -69,10 +69,7 @@ impl Lathe {
             || {
                 see(own, rays, start, &mut memory.sight);
                 memory.start = match leaving {
-                    Some((from, turned)) if self.walls.len() == 1 && !self.closed => {
-                        let inside = if turned { !from.back } else { from.back };
-                        from.lanes.keep(inside.select(F8::splat(-1.0), F8::ONE))
-                    }
+                    Some((from, turned)) if self.walls.len() == 1 && !self.closed => from.side(turned),
                     _ => F8::ZERO,
                 };
             },
