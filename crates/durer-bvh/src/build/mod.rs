@@ -13,11 +13,12 @@ mod collapse;
 mod split;
 
 use crate::frame::{Entry, Frame};
-use crate::kernels::{MAX_DEPTH, in_large_pages};
+use crate::kernels::MAX_DEPTH;
 use crate::node::{ChildRef, MAX_ENTRIES, MAX_LEAF, Node8, WIDTH};
 use crate::tree::Bvh;
 use crate::triangles::{Block, Corners, LANES};
 use area::Extent;
+use durer_math::kernels::in_large_pages;
 use rayon::prelude::*;
 use split::Split;
 

@@ -3,13 +3,11 @@
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
-mod pages;
 mod scalar;
 mod stack;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::Avx2;
-pub(crate) use pages::in_large_pages;
 pub(crate) use scalar::Scalar;
 pub(crate) use stack::{MAX_DEPTH, Stack};
 

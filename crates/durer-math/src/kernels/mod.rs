@@ -1,6 +1,10 @@
 //! The one door through which code gets the CPU's vector and fused instructions.
 #![expect(unsafe_code, reason = "calling a function compiled for CPU features is unsafe; an Isa proves them")]
 
+mod pages;
+
+pub use pages::in_large_pages;
+
 use std::sync::OnceLock;
 
 /// Which instructions a computation may use.

@@ -10,6 +10,7 @@
 //! The sRGB curve is that of IEC 61966-2-1 (1999).
 
 use durer_math::elementary;
+use durer_math::lanes::LANES;
 use durer_scene::AssumedGamma;
 
 /// How the numbers of a film relate to light.
@@ -98,6 +99,8 @@ pub(crate) struct Bytes {
     least: [f64; 257],
     /// The byte at the lower end of each cell, where the search starts.
     start: Box<[u8; 2 * CELLS]>,
+    /// Whether no cell holds the ends of two bytes.
+    is_fine: bool,
 }
 
 /// `[0, 1]` has so many cells, around the multiples of one over this: so fine that few hold the ends of two bytes, also where the sRGB curve
@@ -115,29 +118,72 @@ impl Bytes {
             least[usize::from(k)] = encoding.least(k);
         }
         let mut byte = 0;
-        let start = core::array::from_fn(|i| {
+        let mut start = Box::new([0; 2 * CELLS]);
+        let mut is_fine = true;
+        for (i, start) in start.iter_mut().enumerate() {
             let end = (i as f64 - 0.5) / CELLS as f64;
+            let before = byte;
             while least[byte + 1] <= end {
                 byte += 1;
             }
-            byte as u8
-        });
-        Self { least, start: Box::new(start) }
+            is_fine &= byte - before <= 1;
+            *start = byte as u8;
+        }
+        Self { least, start, is_fine }
+    }
+
+    /// The bytes for some numbers, one for each.
+    pub(crate) fn of_all(&self, numbers: &[f64], bytes: &mut [u8]) {
+        let (eights, rest) = numbers.as_chunks::<LANES>();
+        let (byte_eights, byte_rest) = bytes.as_chunks_mut::<LANES>();
+        for (numbers, bytes) in eights.iter().zip(byte_eights) {
+            let numbers = numbers.map(within);
+            let places = numbers.map(place);
+            for ((byte, v), place) in bytes.iter_mut().zip(numbers).zip(places) {
+                *byte = if self.is_fine { self.near(v, place) } else { self.from(v, place) };
+            }
+        }
+        for (&v, byte) in rest.iter().zip(byte_rest) {
+            *byte = self.of(v);
+        }
     }
 
     /// The byte for the number `v`.
     #[inline(always)]
     pub(crate) fn of(&self, v: f64) -> u8 {
-        // NaN is shown black.
-        let v = if v > 0.0 { v } else { 0.0 };
-        let v = if v < 1.0 { v } else { 1.0 };
-        let mut byte = self.start[(v + ROUNDER).to_bits() as usize & (2 * CELLS - 1)];
-        byte += u8::from(self.least[usize::from(byte) + 1] <= v);
+        let v = within(v);
+        self.from(v, place(v))
+    }
+
+    /// As [`Bytes::from`], where no cell holds the ends of two bytes.
+    #[inline(always)]
+    fn near(&self, v: f64, place: usize) -> u8 {
+        let byte = self.start[place];
+        byte + u8::from(self.least[usize::from(byte) + 1] <= v)
+    }
+
+    /// The byte for a number in the cell at this place.
+    #[inline(always)]
+    fn from(&self, v: f64, place: usize) -> u8 {
+        let mut byte = self.start[place];
         while self.least[usize::from(byte) + 1] <= v {
             byte += 1;
         }
         byte
     }
+}
+
+/// A number that is not beyond 0 and 1; NaN is shown black.
+#[inline(always)]
+fn within(v: f64) -> f64 {
+    let v = if v > 0.0 { v } else { 0.0 };
+    if v < 1.0 { v } else { 1.0 }
+}
+
+/// The cell of a number in `[0, 1]`.
+#[inline(always)]
+fn place(v: f64) -> usize {
+    (v + ROUNDER).to_bits() as usize & (2 * CELLS - 1)
 }
 
 /// The sRGB curve: from light in `[0, 1]` to the file's value.

@@ -7,6 +7,7 @@ pub use self::gamma::Encoding;
 pub use self::save::{Bits, FileFormat, SaveError};
 
 use crate::settings::Region;
+use durer_math::kernels::in_large_pages;
 use durer_scene::Rgb;
 
 /// A picture in the scene's own numbers, row 0 at the top.
@@ -36,6 +37,7 @@ impl Film {
         let size = width as usize * height as usize;
         // Numbers, and no type of our own: zeros of theirs need not be written.
         let (colours, rendered) = (vec![[0.0; 3]; size], vec![false; size]);
+        in_large_pages(&colours);
         Self { width, height, encoding, colours, rendered }
     }
 

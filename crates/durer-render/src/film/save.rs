@@ -2,6 +2,7 @@
 
 use super::Film;
 use super::gamma::Bytes;
+use durer_math::kernels::in_large_pages;
 use durer_scene::Rgb;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -90,10 +91,12 @@ impl Film {
         let channels = if with_alpha { 4 } else { 3 };
         if bits == Bits::Eight {
             let table = Bytes::new(self.encoding);
-            if !with_alpha {
-                return self.colours.as_flattened().iter().map(|&v| table.of(v)).collect();
-            }
             let mut bytes = vec![0; self.colours.len() * channels];
+            in_large_pages(&bytes);
+            if !with_alpha {
+                table.of_all(self.colours.as_flattened(), &mut bytes);
+                return bytes;
+            }
             for ((bytes, colour), &rendered) in
                 bytes.as_chunks_mut::<4>().0.iter_mut().zip(&self.colours).zip(&self.rendered)
             {

@@ -1,12 +1,13 @@
 //! Large arrays in large pages.
 //!
 //! A ray through millions of triangles reads memory all over the place, and for pages of 4 KiB most of these reads have to look up first where the page is.
+//! And what is written once, as a film, costs a call of the system for each page, which takes longer than to write it.
 //! Linux backs memory by pages of 2 MiB where it is asked to; elsewhere, and for small arrays, nothing is done.
 
-/// Asks for large pages for all the room that a list has, which should not have been written yet.
+/// Asks for large pages for all the room that a list has, which should not have been written yet: zeros from the system count as not written.
 #[cfg(target_os = "linux")]
 #[expect(unsafe_code, reason = "advice about a list's own memory, which changes nothing that can be seen")]
-pub(crate) fn in_large_pages<T>(list: &Vec<T>) {
+pub fn in_large_pages<T>(list: &Vec<T>) {
     use core::ffi::c_void;
     use core::ptr::NonNull;
     use nix::sys::mman::{MmapAdvise, madvise};
@@ -29,7 +30,7 @@ pub(crate) fn in_large_pages<T>(list: &Vec<T>) {
 
 /// Asks for nothing: this system is not known to give large pages on demand.
 #[cfg(not(target_os = "linux"))]
-pub(crate) fn in_large_pages<T>(_: &Vec<T>) {}
+pub fn in_large_pages<T>(_: &Vec<T>) {}
 
 #[cfg(test)]
 mod tests {
