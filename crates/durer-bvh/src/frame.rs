@@ -46,6 +46,11 @@ impl Frame {
         scale2(x, self.exponent)
     }
 
+    /// Lengths in tree units are the caller's by two to this power.
+    pub(crate) fn outward_exponent(self) -> i32 {
+        self.exponent
+    }
+
     /// A box for the builder: the box of the thing `index` of its `kind`, rounded outward. An unbounded box, or one that holds a
     /// NaN, gives an entry that is not [bounded](Entry::is_bounded).
     pub fn entry(self, bounds: &Aabb, kind: u32, index: u32) -> Entry {

@@ -1,22 +1,27 @@
 //! Which leaves lie in a shaft?
 
 use crate::kernels::MAX_DEPTH;
-use crate::node::{ChildRef, Leaf, WIDTH};
+use crate::node::{ChildRef, Leaf, Node8, WIDTH};
 use crate::tree::Bvh;
-use durer_math::Shaft;
+use arrayvec::ArrayVec;
+use durer_math::lanes::set_bits;
+use durer_math::scale::pow2;
+use durer_math::{F8, Isa, Shaft, Shaft8, Vec3};
 
 impl Bvh {
     /// Shows the leaves that a bundle of rays may meet to `visit`, in no particular order, until it says that it has seen enough; says
     /// whether it did. Every leaf that a ray of the bundle meets is shown.
-    pub fn in_shaft(&self, shaft: &Shaft, mut visit: impl FnMut(Leaf) -> bool) -> bool {
+    pub fn in_shaft(&self, isa: Isa, shaft: &Shaft, mut visit: impl FnMut(Leaf) -> bool) -> bool {
         if self.is_empty() {
             return false;
         }
-        let mut waiting = [ChildRef::node(0); MAX_DEPTH * WIDTH];
-        let mut count = 1;
-        while count > 0 {
-            count -= 1;
-            let child = waiting[count];
+        let lanes = shaft.lanes();
+        // A tree may be larger than one f64 can say.
+        let half = self.frame.outward_exponent() / 2;
+        let units = [pow2(half), pow2(self.frame.outward_exponent() - half)];
+        let mut waiting = ArrayVec::<ChildRef, { MAX_DEPTH * WIDTH }>::new();
+        waiting.push(ChildRef::node(0));
+        while let Some(child) = waiting.pop() {
             if child.is_leaf() {
                 if visit(self.leaf(child)) {
                     return true;
@@ -24,14 +29,37 @@ impl Bvh {
                 continue;
             }
             let node = &self.nodes[child.index()];
-            for slot in node.used() {
-                let (lo, hi) = node.bounds(slot);
-                if shaft.may_meet(&self.frame.bounds(lo, hi)) {
-                    waiting[count] = node.child[slot];
-                    count += 1;
-                }
+            for slot in set_bits(node.in_shaft(isa, &lanes, units)) {
+                waiting.push(node.child[slot]);
             }
         }
         false
     }
+}
+
+impl Node8 {
+    /// Which children a bundle may meet, as bits; a length is to be multiplied by both units.
+    #[inline(never)]
+    fn in_shaft(&self, isa: Isa, shaft: &Shaft8, units: [f64; 2]) -> u8 {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let [x0, y0, z0, x1, y1, z1] = &self.planes;
+                let min = Vec3::new(wide(x0, units), wide(y0, units), wide(z0, units));
+                let max = Vec3::new(wide(x1, units), wide(y1, units), wide(z1, units));
+                // A child that is not there has no room between its planes.
+                (min.x.le(max.x) & shaft.may_meet(&min, &max)).bits()
+            },
+        )
+    }
+}
+
+/// Planes in the caller's units.
+#[inline(always)]
+fn wide(planes: &[f32; WIDTH], [first, second]: [f64; 2]) -> F8 {
+    let planes = core::array::from_fn(
+        #[inline(always)]
+        |slot| f64::from(planes[slot]),
+    );
+    F8(planes) * first * second
 }

@@ -68,7 +68,7 @@ impl Geometry {
         }
         let dense = self.tree.blocks() > Beam::DENSE;
         let mut triangles = 0;
-        let full = self.tree.in_shaft(shaft, |leaf| {
+        let full = self.tree.in_shaft(self.isa, shaft, |leaf| {
             if dense && self.tree.is_of_triangles(leaf.kind) {
                 triangles += leaf.count;
                 if triangles > Beam::TRIANGLES {

@@ -97,5 +97,5 @@ pub use crate::ray::{Ray, RaySide, Source};
 pub use crate::ring::Ring;
 pub use crate::run::Run;
 pub use crate::scalar::Scalar;
-pub use crate::shaft::Shaft;
+pub use crate::shaft::{Shaft, Shaft8};
 pub use crate::vector::{Normal3, Point3, Vec3};

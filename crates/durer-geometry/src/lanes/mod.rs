@@ -97,6 +97,15 @@ fn together(isa: Isa, waiting: &M8, (number, n): (&F8, f64), (face, f): (&F8, f6
     )
 }
 
+/// Whether each ray surely meets something.
+#[inline(never)]
+fn all_meet(isa: Isa, rays: &Rays8, nearest: &Nearest) -> bool {
+    isa.run_in_lanes(
+        #[inline(always)]
+        || (!rays.live | nearest.t.lt(F8::splat(f64::INFINITY))).all(),
+    )
+}
+
 impl Geometry {
     /// What the rays of some eights may meet; `None` if that is so much that each ray should look for itself.
     pub fn beam_of(&self, rays: &[Rays8]) -> Option<Beam> {
@@ -162,7 +171,7 @@ impl Geometry {
     fn see(&self, beam: &Beam, rays: &Rays8, mask: u32, hits: &mut Hits8, scratch: &mut Scratch) -> M8 {
         let lanes = RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
         let mut nearest = Nearest::of(&lanes);
-        self.nearest(beam, rays, &lanes, mask, &mut nearest, scratch);
+        self.nearest::<false>(beam, rays, &lanes, mask, &mut nearest, scratch);
         let (mut clear, mut left) = (M8::NONE, M8::NONE);
         let mut waiting = self.isa.run_in_lanes(
             #[inline(always)]
@@ -225,8 +234,9 @@ impl Geometry {
         }
     }
 
-    /// The first sure hit of each ray among the candidates, and the first doubt.
-    fn nearest(
+    /// The first sure hit of each ray among the candidates, and the first doubt. Where `ANY` hit is enough it may be another, and once each ray has one no more
+    /// is asked.
+    fn nearest<const ANY: bool>(
         &self,
         beam: &Beam,
         rays: &Rays8,
@@ -256,6 +266,9 @@ impl Geometry {
                 }
                 Seen::Nothing => nearest.doubt = F8::ZERO,
             }
+            if ANY && all_meet(self.isa, rays, nearest) {
+                return;
+            }
         }
     }
 
@@ -273,7 +286,7 @@ impl Geometry {
         if let Some(beam) = beam {
             let lanes = RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
             let mut nearest = Nearest::of(&lanes);
-            self.nearest(beam, rays, &lanes, mask, &mut nearest, scratch);
+            self.nearest::<true>(beam, rays, &lanes, mask, &mut nearest, scratch);
             self.isa.run_in_lanes(
                 #[inline(always)]
                 || {

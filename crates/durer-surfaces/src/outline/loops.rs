@@ -73,10 +73,14 @@ impl Loops<Face> {
         for &end in &self.ends {
             let outline = &self.edges[start..end];
             start = end;
-            let Some(first) = outline.first().map(|e| level(e, spot)) else { continue };
+            let Some(first) = outline.first() else { continue };
+            let first = level(first, spot);
             let mut from = first;
             for (i, edge) in outline.iter().enumerate() {
-                let to = outline.get(i + 1).map_or(first, |next| level(next, spot));
+                let to = match outline.get(i + 1) {
+                    Some(next) => level(next, spot),
+                    None => first,
+                };
                 let (up, down) = (from.0 & !to.0, !from.0 & to.0);
                 let (f, e) = edge.side.at(spot.y, spot.y1, spot.e1);
                 unsure |= from.1 | (up | down) & f.abs().le(e);

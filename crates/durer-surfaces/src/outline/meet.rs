@@ -5,13 +5,14 @@
 
 use super::Outline;
 use super::detail;
-use super::face::{FaceKind, Seen, Start, taxicab};
+use super::face::{Face, FaceKind, Seen, Start, taxicab};
 use super::hull::Hull;
 use super::rays::{FAR, From8, NEVER, Nearest, RayLanes, SLACK};
 use super::roots::{Leaving, PlaneRoot, Roots, SlabRoots};
 use durer_math::{F8, M8, U, Vec3};
 
 /// Points of eight rays.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Spot {
     pub(super) y: Vec3<F8>,
     /// `|y|₁`, and a bound on the error of `y` in that norm.
@@ -33,6 +34,7 @@ pub(super) struct Steps {
     pub(super) slab: SlabRoots,
     pub(super) roots: Roots,
     pub(super) hull: Hull,
+    pub(super) spot: Spot,
     pub(super) detail: detail::Memory,
 }
 
@@ -205,19 +207,19 @@ impl Outline {
 
     fn meet_walls(&self, asked: &Question<'_>, nearest: &mut Nearest, scratch: &mut Scratch) {
         let &Question { rays, from, .. } = asked;
-        let Scratch { start, steps: Steps { plane, roots, .. } } = scratch;
+        let Scratch { start, steps: Steps { plane, roots, spot, .. } } = scratch;
         let seen = &Seen { d: rays.direction, d1: &rays.d1, start };
         for (i, face) in self.faces[..self.walls].iter().enumerate() {
             let from = self.leaving(from, i);
             if face.kind == FaceKind::Plane {
                 face.crossing(rays.isa, seen, from.as_ref(), plane);
                 nearest.doubt_unless(rays.live, &[&plane.crosses, &plane.above, &plane.below]);
-                self.meet_wall(asked, seen, i, &plane.crosses, (&plane.t, &plane.e), nearest);
+                self.meet_wall(asked, (seen, spot), i, &plane.crosses, (&plane.t, &plane.e), nearest);
             } else {
                 face.roots(rays.isa, seen, from.as_ref(), roots);
                 nearest.doubt_unless(rays.live, &[&roots.known, &roots.none]);
-                self.meet_wall(asked, seen, i, &roots.known, (&roots.enter, &roots.e_enter), nearest);
-                self.meet_wall(asked, seen, i, &roots.known, (&roots.leave, &roots.e_leave), nearest);
+                self.meet_wall(asked, (seen, spot), i, &roots.known, (&roots.enter, &roots.e_enter), nearest);
+                self.meet_wall(asked, (seen, spot), i, &roots.known, (&roots.leave, &roots.e_leave), nearest);
             }
         }
     }
@@ -226,7 +228,7 @@ impl Outline {
     fn meet_wall(
         &self,
         asked: &Question<'_>,
-        seen: &Seen<'_>,
+        (seen, spot): (&Seen<'_>, &mut Spot),
         wall: usize,
         lanes: &M8,
         (t, e): (&F8, &F8),
@@ -237,30 +239,36 @@ impl Outline {
             return;
         }
         let rays = asked.rays;
-        let mut open = M8::NONE;
-        let Some(spot) = rays.isa.run_in_lanes(
+        let (mut open, mut inside, mut outside) = (M8::NONE, M8::ALL, M8::NONE);
+        let is_reached = rays.isa.run_in_lanes(
             #[inline(always)]
             || {
                 let limit = nearest.limit(rays);
                 open = *rays.live & *lanes & !((*t + *e).lt(F8::ZERO) | (*t - *e).gt(limit));
-                open.any().then(|| Spot::on(seen, *t, *e))
+                spot.put(seen, *t, *e);
+                open.any()
             },
-        ) else {
+        );
+        if !is_reached {
             return;
-        };
-        let (mut inside, mut outside) = self.cut_by_others(rays, wall, &spot);
+        }
+        for (j, other) in self.faces.iter().enumerate() {
+            if j != wall && !other.cut(rays.isa, spot, &open, &mut inside, &mut outside) {
+                return;
+            }
+        }
         for hole in &self.holes {
             let (mut within, mut beside) = (M8::ALL, M8::NONE);
-            for face in hole {
-                face.cut(rays.isa, &spot, &mut within, &mut beside);
-            }
+            let is_within = |face: &Face| face.cut(rays.isa, spot, &open, &mut within, &mut beside);
+            // Where a point is surely beside one face the others no longer matter.
+            hole.iter().all(is_within);
             inside &= beside;
-            outside |= within;
+            outside |= within & !beside;
         }
         if let Some(loops) = &self.loops {
             rays.isa.run_in_lanes(
                 #[inline(always)]
-                || loops.cut(&self.faces[wall], seen, &spot, &mut inside, &mut outside),
+                || loops.cut(&self.faces[wall], seen, spot, &mut inside, &mut outside),
             );
         }
         rays.isa.run_in_lanes(
@@ -272,17 +280,6 @@ impl Outline {
                 self.put_down(sure, unsure, (t, e, F8::splat(wall as f64)), t - e, asked.number, nearest);
             },
         );
-    }
-
-    /// Which points of a wall are surely inside all other faces, and which surely outside of one.
-    pub(super) fn cut_by_others(&self, rays: &RayLanes<'_>, wall: usize, spot: &Spot) -> (M8, M8) {
-        let (mut inside, mut outside) = (M8::ALL, M8::NONE);
-        for (j, other) in self.faces.iter().enumerate() {
-            if j != wall {
-                other.cut(rays.isa, spot, &mut inside, &mut outside);
-            }
-        }
-        (inside, outside)
     }
 
     /// Offers a root of a surface with one face.
@@ -303,12 +300,20 @@ impl Outline {
 }
 
 impl Spot {
+    /// Becomes the points at `t` within `e`.
     #[inline(always)]
-    pub(super) fn on(seen: &Seen<'_>, t: F8, e: F8) -> Self {
+    pub(super) fn put(&mut self, seen: &Seen<'_>, t: F8, e: F8) {
         let (h, d) = (seen.start.h, seen.d);
         let y = Vec3::new(t.mul_add(d.x, h.x), t.mul_add(d.y, h.y), t.mul_add(d.z, h.z));
-        let y1 = taxicab(y) * SLACK;
+        self.y = y;
+        self.y1 = taxicab(y) * SLACK;
         // One rounding of h, one of y, and the error of t.
-        Self { y, y1, e1: ((seen.start.h1 + y1) * (2.0 * U) + e * *seen.d1) * SLACK }
+        self.e1 = ((seen.start.h1 + self.y1) * (2.0 * U) + e * *seen.d1) * SLACK;
+    }
+}
+
+impl Default for Spot {
+    fn default() -> Self {
+        Self { y: Vec3::splat(Vec3::ZERO), y1: F8::ZERO, e1: F8::ZERO }
     }
 }

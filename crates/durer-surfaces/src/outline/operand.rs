@@ -190,18 +190,18 @@ impl Outline {
         steps: &mut Steps,
         to: &mut Crossings,
     ) {
-        let Steps { plane, roots, .. } = steps;
+        let Steps { plane, roots, spot, .. } = steps;
         for (i, face) in self.faces[..self.walls].iter().enumerate() {
             let from = self.leaving(from, i);
             if face.kind == FaceKind::Plane {
                 face.crossing(rays.isa, seen, from.as_ref(), plane);
                 to.doubt_from(*rays.live & !(plane.crosses | plane.above | plane.below), F8::ZERO);
-                self.wall(rays, seen, i, plane.crosses, (plane.t, plane.e), to);
+                self.wall(rays, (seen, spot), i, plane.crosses, (plane.t, plane.e), to);
             } else {
                 face.roots(rays.isa, seen, from.as_ref(), roots);
                 to.doubt_from(*rays.live & !(roots.known | roots.none), F8::ZERO);
-                self.wall(rays, seen, i, roots.known, (roots.enter, roots.e_enter), to);
-                self.wall(rays, seen, i, roots.known, (roots.leave, roots.e_leave), to);
+                self.wall(rays, (seen, spot), i, roots.known, (roots.enter, roots.e_enter), to);
+                self.wall(rays, (seen, spot), i, roots.known, (roots.leave, roots.e_leave), to);
             }
         }
     }
@@ -210,23 +210,29 @@ impl Outline {
     fn wall(
         &self,
         rays: &RayLanes<'_>,
-        seen: &Seen<'_>,
+        (seen, spot): (&Seen<'_>, &mut Spot),
         wall: usize,
         known: M8,
         (t, e): (F8, F8),
         to: &mut Crossings,
     ) {
-        let mut open = M8::NONE;
-        let Some(spot) = rays.isa.run_in_lanes(
+        let (mut open, mut inside, mut outside) = (M8::NONE, M8::ALL, M8::NONE);
+        let is_reached = rays.isa.run_in_lanes(
             #[inline(always)]
             || {
                 open = *rays.live & known & !(t + e).lt(F8::ZERO);
-                open.any().then(|| Spot::on(seen, t, e))
+                spot.put(seen, t, e);
+                open.any()
             },
-        ) else {
+        );
+        if !is_reached {
             return;
-        };
-        let (inside, outside) = self.cut_by_others(rays, wall, &spot);
+        }
+        for (j, other) in self.faces.iter().enumerate() {
+            if j != wall && !other.cut(rays.isa, spot, &open, &mut inside, &mut outside) {
+                return;
+            }
+        }
         rays.isa.run_in_lanes(
             #[inline(always)]
             || {
@@ -250,15 +256,14 @@ impl Outline {
             let (inside, outside) = detail.holds(rays, &sight.0, (*t, *e), memory);
             return if self.turned { (outside, inside) } else { (inside, outside) };
         }
-        let seen = sight.seen(rays);
-        let spot = rays.isa.run_in_lanes(
+        let (seen, spot) = (sight.seen(rays), &mut scratch.steps.spot);
+        rays.isa.run_in_lanes(
             #[inline(always)]
-            || Spot::on(&seen, *t, *e),
+            || spot.put(&seen, *t, *e),
         );
         let (mut inside, mut outside) = (M8::splat(!self.vague), M8::NONE);
-        for face in &self.faces {
-            face.cut(rays.isa, &spot, &mut inside, &mut outside);
-        }
+        // Beside one face the others no longer matter.
+        self.faces.iter().all(|face| face.cut(rays.isa, spot, rays.live, &mut inside, &mut outside));
         if self.turned { (outside, inside) } else { (inside, outside) }
     }
 }

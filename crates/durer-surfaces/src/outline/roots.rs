@@ -228,16 +228,17 @@ impl Face {
         roots.e_leave = rises.select(e1, e0);
     }
 
-    /// Where this face cuts off points, and where it surely does not.
+    /// Where this face cuts off points, and where it surely does not; says whether any of the open ones may still be inside.
     #[inline(never)]
-    pub(super) fn cut(&self, isa: Isa, at: &Spot, inside: &mut M8, outside: &mut M8) {
+    pub(super) fn cut(&self, isa: Isa, at: &Spot, open: &M8, inside: &mut M8, outside: &mut M8) -> bool {
         isa.run_in_lanes(
             #[inline(always)]
             || {
                 let (f, e_f) = self.at(at.y, at.y1, at.e1);
                 *inside &= f.lt(-e_f);
                 *outside |= f.gt(e_f);
+                (*open & !*outside).any()
             },
-        );
+        )
     }
 }
