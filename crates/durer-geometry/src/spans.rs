@@ -92,7 +92,8 @@ impl Tracks {
         self.events.sort_by(|a, b| a.solid.cmp(&b.solid).then(a.t.total_cmp(&b.t)));
         let mut depth = self.inside_without_crossing();
         let mut changes = Vec::with_capacity(self.events.len());
-        for solid in self.events.chunk_by(|a, b| a.solid == b.solid) {
+        for solid in self.events.chunk_by_mut(|a, b| a.solid == b.solid) {
+            keep_order(solid);
             let told = self.starts.iter().find(|s| s.0 == solid[0].solid).map(|s| s.1);
             depth += usize::from(transitions(solid, told, &mut changes));
         }
@@ -109,6 +110,15 @@ impl Tracks {
         inside.sort_unstable();
         inside.dedup();
         inside.len()
+    }
+}
+
+/// A crossing of a solid is not before the earlier ones of the same: said by the lower ends, by which all solids' crossings are put in order.
+fn keep_order(events: &mut [Event]) {
+    let mut lo = f64::NEG_INFINITY;
+    for event in events {
+        lo = lo.max(event.lo);
+        event.lo = lo;
     }
 }
 
@@ -245,6 +255,13 @@ mod tests {
     #[test]
     fn a_range_that_begins_on_the_way_out_is_outside() {
         assert_eq!(merged(&[event(0, 0.0, 0.0, 1)], &[]), []);
+    }
+
+    #[test]
+    fn what_one_solid_does_in_a_row_stays_in_its_order() {
+        // Out and in again at the start, where the second is known less well than the first.
+        let events = [event(0, 0.0, 0.0, 1), event(0, 0.0, 0.5, -1)];
+        assert_eq!(merged(&events, &[(0, true)]), [(0.0, 100.0, Some(0), None)]);
     }
 
     #[test]
