@@ -127,7 +127,8 @@ class OnCurve:
             return self.side * self.u.sign_of(whole(minus(self.num, scaled(x, self.den))))
         for bits in (100, 400, 1600):
             a, b = self.rational(bits), other.rational(bits)
-            if abs(a - b) * (1 << (bits - 20)) > abs(a) + abs(b) + F(1, 1 << 200):
+            # The parts of a quotient may cancel: what is left is known to so many bits of 1.
+            if abs(a - b) * (1 << (bits - 20)) > abs(a) + abs(b) + F(1, 1 << 60):
                 return sign(a - b)
         return 0
 
