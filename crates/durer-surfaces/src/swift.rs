@@ -21,13 +21,21 @@
 //!     s + N . p / D     errs by  (u sum |N_i C_i| + 8 u S |p|) / |D|  and what D and two roundings do to the correction.
 //! ```
 //!
+//! Near the start that is not enough: `p` is as long as the triangle, `s` is not. There `T / D` is found once more, in double-double, from differences that
+//! are exact. Its operations err by `4 u^2` (products), `2 u^2` (by an f64), `3 u^2` (sums) and `15 u^2` (the quotient) of what they give: see [`Dd`]. So
+//!
+//! ```text
+//!     N   (4 + 3) u^2 S in sum        T   (7 + 4 + 6) u^2 c S          D   (7 + 2 + 6) u^2 M S
+//!     s   errs by  17 u^2 S (c + |s| M) / |D|  +  15 u^2 |s|,  and by u |s| where it is rounded.
+//! ```
+//!
 //! What is not certain by these bounds, or known less well than it should be, is left to [`facet`](crate::facet).
 
 use crate::facet::Facet;
 use crate::planar::TINY;
 use crate::{Kind, LocalRay, Root};
 use durer_math::rounding::{add_up, sub_down};
-use durer_math::{U, Vec3};
+use durer_math::{Dd, Isa, Point3, U, Vec3};
 
 /// Second-order terms, and the roundings of the bounds.
 const PAYS: f64 = 1.0 + 256.0 * U;
@@ -37,6 +45,10 @@ const NARROW: f64 = 32.0 * U;
 const TAG: f64 = durer_math::scale::pow2(-32);
 /// Products of lengths between these do not leave the range of f64, whatever the direction.
 const RANGE: (f64, f64) = (durer_math::scale::pow2(-400), durer_math::scale::pow2(400));
+
+/// The same for the second computation, with low parts of products: what underflow takes from these, below `2^-1071`, moves `s` by less than [`LOST`].
+const NEAR: (f64, f64) = (durer_math::scale::pow2(-200), durer_math::scale::pow2(100));
+const LOST: f64 = durer_math::scale::pow2(-700);
 
 /// What can be said.
 pub(crate) enum Swift {
@@ -60,15 +72,36 @@ fn cross(a: Vec3, b: Vec3) -> Vec3 {
     Vec3::new(minor(1, 2), minor(2, 0), minor(0, 1))
 }
 
+/// `T / D` in double-double, rounded.
+#[inline(never)]
+fn sharper(o: Point3, d: Vec3, v: &Facet) -> f64 {
+    Isa::detect().run(
+        #[inline(always)]
+        || {
+            let exact = |to: Point3, from: Point3| {
+                let axis = |i: usize| Dd::difference(to[i], from[i]);
+                [axis(0), axis(1), axis(2)]
+            };
+            let (c, e1, e2) = (exact(v[0], o), exact(v[1], v[0]), exact(v[2], v[0]));
+            let minor = |i: usize, j: usize| e1[i] * e2[j] - e1[j] * e2[i];
+            let n = [minor(1, 2), minor(2, 0), minor(0, 1)];
+            let way = c[0] * n[0] + c[1] * n[1] + c[2] * n[2];
+            let along = n[0] * d.x + n[1] * d.y + n[2] * d.z;
+            (way / along).to_f64()
+        },
+    )
+}
+
 /// The crossing of a ray and a triangle, as far as it matters for a sink's range.
 #[inline(always)]
-pub(crate) fn meet(ray: &LocalRay<'_>, v: &Facet, face: u32, range: (f64, f64)) -> Swift {
+pub(crate) fn meet(ray: &LocalRay<'_>, facet: &Facet, face: u32, range: (f64, f64)) -> Swift {
     let plain =
         ray.starts_at_zero() && ray.source.is_none() && ray.o_err == Vec3::ZERO && ray.d_err == Vec3::ZERO;
     if !plain {
         return Swift::Open;
     }
-    let (c, e1, e2, d) = (v[0] - ray.o, v[1] - v[0], v[2] - v[0], ray.d);
+    let [v0, v1, v2] = *facet;
+    let (c, e1, e2, d) = (v0 - ray.o, v1 - v0, v2 - v0, ray.d);
     let (n, r) = (cross(e1, e2), cross(c, d));
     let (u, v, along) = (r.dot(e2), -r.dot(e1), d.dot(n));
     let w = (along - u) - v;
@@ -104,9 +137,21 @@ pub(crate) fn meet(ray: &LocalRay<'_>, v: &Facet, face: u32, range: (f64, f64)) 
     let err = s.abs().mul_add(U, err).mul_add(PAYS, TINY);
     // Half the largest width is a sixth of the longer edge's sum at least, and |d| is below 4.
     let size = edge / 24.0;
-    if err > 0.5 * NARROW * s.abs().max(size) {
-        return Swift::Open;
-    }
+    let narrow = |s: f64, err: f64| err <= 0.5 * NARROW * s.abs().max(size);
+    let (s, err) = if narrow(s, err) {
+        (s, err)
+    } else {
+        if !(area > NEAR.0 && edge.max(reach) < NEAR.1) {
+            return Swift::Open;
+        }
+        let s = sharper(ray.o, d, facet);
+        let err = (17.0 * U * U) * (s.abs().mul_add(m, reach) * area / sure);
+        let err = s.abs().mul_add(U, err).mul_add(PAYS, LOST);
+        if !narrow(s, err) {
+            return Swift::Open;
+        }
+        (s, err)
+    };
     let Some([lo, t, hi]) = ray.caller_t([sub_down(s, err), s, add_up(s, err)]) else { return Swift::Open };
     if hi < range.0 || lo > range.1 || hi < ray.t_min || lo > ray.t_max {
         return Swift::Missed;

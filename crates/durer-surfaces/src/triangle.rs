@@ -57,6 +57,12 @@ impl Triangle {
         Ok(Self { vertices, normals: None, uv: None })
     }
 
+    /// The triangle with corners that are known to be finite and not in line, such as those of a mesh's face: nothing is looked at again.
+    #[inline(always)]
+    pub fn known(vertices: [Point3; 3]) -> Self {
+        Self { vertices, normals: None, uv: None }
+    }
+
     /// The same triangle, shaded with normals that are interpolated between these at the vertices (of any length).
     pub fn with_normals(mut self, normals: [Normal3; 3]) -> Result<Self, TriangleError> {
         if let Some(n) = normals.into_iter().find(|n| n.normalized().is_none()) {
