@@ -8,7 +8,7 @@
 use crate::kernels::{Kernel, Stack};
 use crate::node::{ChildRef, Leaf};
 use crate::quest::{Answers, Any, Closest, Quest, Reach};
-use crate::ray::{CullRay, Line};
+use crate::ray::{Line, Way};
 use crate::traverse::Errand;
 use crate::tree::Bvh;
 use crate::triangles::Filter;
@@ -103,7 +103,7 @@ impl<R, B: Rays<R>> Answers<R> for One<'_, B> {
 struct Flight<K: Kernel> {
     number: usize,
     line: Line,
-    ray: CullRay,
+    way: Way,
     lanes: K::Lanes,
     filter: Option<Filter>,
     reach: Reach,
@@ -127,15 +127,15 @@ impl<B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool> Errand for Many<'_,
         let most = if tree.held() > LARGE { FLIGHTS.1 } else { FLIGHTS.0 };
         let mut flights: Vec<Flight<K>> = Vec::with_capacity(most.min(self.count));
         while flights.len() < most
-            && let Some((number, line, ray)) = upcoming(kernel, tree, rays, &mut next, self.count)
+            && let Some((number, line, (lanes, way))) = upcoming(kernel, tree, rays, &mut next, self.count)
         {
             flights.push(Flight {
                 number,
                 line,
-                ray,
-                lanes: kernel.lanes(&ray),
+                way,
+                lanes,
                 filter: None,
-                reach: Reach::of(&ray),
+                reach: Reach::of(&way),
                 child: ChildRef::node(0),
                 stack: Stack::new(),
             });
@@ -151,11 +151,11 @@ impl<B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool> Errand for Many<'_,
                 continue;
             }
             match upcoming(kernel, tree, rays, &mut next, self.count) {
-                Some((number, line, ray)) => {
-                    (flight.number, flight.line, flight.ray) = (number, line, ray);
-                    flight.lanes = kernel.lanes(&ray);
+                Some((number, line, (lanes, way))) => {
+                    (flight.number, flight.line, flight.way) = (number, line, way);
+                    flight.lanes = lanes;
                     flight.filter = None;
-                    flight.reach = Reach::of(&ray);
+                    flight.reach = Reach::of(&way);
                     flight.child = ChildRef::node(0);
                     flight.stack.clear();
                     at += 1;
@@ -174,15 +174,15 @@ fn upcoming<R, K: Kernel, B: Rays<R>>(
     rays: &mut B,
     next: &mut usize,
     count: usize,
-) -> Option<(usize, Line, CullRay)> {
+) -> Option<(usize, Line, (K::Lanes, Way))> {
     while *next < count {
         let number = *next;
         *next += 1;
         if let Some(line) = rays.line(number)
             && !tree.is_empty()
-            && let Some(ray) = kernel.cull(tree, &line)
+            && let Some(ready) = kernel.ready(tree, &line)
         {
-            return Some((number, line, ray));
+            return Some((number, line, ready));
         }
     }
     None
@@ -197,13 +197,14 @@ impl<K: Kernel> Flight<K> {
         tree: &Bvh,
         rays: &mut B,
     ) -> bool {
-        let next = if self.child.is_leaf() {
+        self.child = if self.child.is_leaf() {
+            let before = self.reach.t_far;
             let mut quest = M::quest(One { rays, ray: self.number });
             let found = quest.leaf(
                 kernel,
                 tree,
                 &self.line,
-                &self.ray,
+                &self.way,
                 self.child,
                 &mut self.filter,
                 &mut self.reach,
@@ -213,20 +214,19 @@ impl<K: Kernel> Flight<K> {
                 rays.found(self.number);
                 return true;
             }
-            None
+            if self.reach.t_far < before {
+                self.stack.prune(self.reach.t_far);
+            }
+            self.stack.pop()
         } else {
             let node = &tree.nodes[self.child.index()];
             kernel.descend::<ORDERED>(node, &self.lanes, self.reach.t_far, &mut self.stack)
         };
-        let Some(child) = next.or_else(
-            #[inline(always)]
-            || self.stack.pop_before(self.reach.t_far),
-        ) else {
+        if self.child == ChildRef::END {
             M::quest(One { rays, ray: self.number }).end(&self.reach);
             return true;
-        };
-        self.child = child;
-        kernel.fetch(tree, child);
+        }
+        kernel.fetch(tree, self.child);
         false
     }
 }

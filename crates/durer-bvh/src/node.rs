@@ -106,6 +106,9 @@ impl ChildRef {
     const LEAF: u32 = 1 << 31;
     const COUNT_SHIFT: u32 = 27;
 
+    /// Nothing more: looks like a leaf that begins with the last thing that a tree can hold and has fifteen more.
+    pub(crate) const END: Self = Self(u32::MAX);
+
     pub(crate) fn node(index: usize) -> Self {
         debug_assert!(index < Self::LEAF as usize);
         Self(index as u32)
@@ -143,6 +146,18 @@ pub struct Leaf {
     pub first: u32,
     /// How many.
     pub count: u32,
+    /// For a triangle that is shown by itself eight times the number of its block, and its lane; else [`Leaf::NO_BLOCK`].
+    pub(crate) place: u32,
+}
+
+impl Leaf {
+    pub(crate) const NO_BLOCK: u32 = u32::MAX;
+
+    /// Things of one kind.
+    #[inline(always)]
+    pub fn new(kind: u32, first: u32, count: u32) -> Self {
+        Self { kind, first, count, place: Self::NO_BLOCK }
+    }
 }
 
 #[cfg(test)]

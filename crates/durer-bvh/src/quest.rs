@@ -2,9 +2,9 @@
 
 use crate::kernels::Kernel;
 use crate::node::{ChildRef, Leaf};
-use crate::ray::{CullRay, Line};
+use crate::ray::{Sight, Way};
 use crate::tree::Bvh;
-use crate::triangles::{Block, Filter, Verdict};
+use crate::triangles::{Block, Filter, LANES, Verdict};
 
 /// How far to look, and a triangle that is certainly met no farther away.
 #[derive(Clone, Copy)]
@@ -16,8 +16,8 @@ pub(crate) struct Reach {
 
 impl Reach {
     #[inline(always)]
-    pub(crate) fn of(ray: &CullRay) -> Self {
-        Self { t_far: ray.t_far, held: Held::NOTHING }
+    pub(crate) fn of(way: &Way) -> Self {
+        Self { t_far: way.t_far, held: Held::NOTHING }
     }
 }
 
@@ -29,7 +29,8 @@ struct Held {
 }
 
 impl Held {
-    const NOTHING: Self = Self { leaf: Leaf { kind: 0, first: 0, count: 0 }, lo: f32::INFINITY };
+    const NOTHING: Self =
+        Self { leaf: Leaf { kind: 0, first: 0, count: 0, place: Leaf::NO_BLOCK }, lo: f32::INFINITY };
 }
 
 /// What the caller knows of leaves.
@@ -70,8 +71,8 @@ pub(crate) trait Quest<const ORDERED: bool> {
         &mut self,
         kernel: K,
         tree: &Bvh,
-        line: &Line,
-        ray: &CullRay,
+        sight: &impl Sight,
+        way: &Way,
         child: ChildRef,
         filter: &mut Option<Filter>,
         reach: &mut Reach,
@@ -90,23 +91,24 @@ impl<T: Answers<f64>> Quest<true> for Closest<T> {
         &mut self,
         kernel: K,
         tree: &Bvh,
-        line: &Line,
-        ray: &CullRay,
+        sight: &impl Sight,
+        way: &Way,
         child: ChildRef,
         filter: &mut Option<Filter>,
         reach: &mut Reach,
     ) -> bool {
-        let Some((kind, block)) = tree.block(child) else {
-            reach.t_far = reach.t_far.min(ray.shortened(self.0.test(tree.leaf(child))));
+        let Some((kind, number)) = tree.block(child) else {
+            reach.t_far = reach.t_far.min(way.shortened(self.0.test(tree.leaf(child))));
             return false;
         };
-        let filter = filter_of(kernel, tree, line, ray, filter);
+        let block = &tree.blocks[number as usize];
+        let filter = filter_of(kernel, tree, sight, way, filter);
         let verdict = kernel.judge(block, filter, reach.t_far);
         if verdict.alive != 0 {
             let before = *reach;
             *reach = kernel.apart(
                 #[inline(always)]
-                || self.sort_out(ray, kind, block, &verdict, before),
+                || self.sort_out(way, (kind, number), block, &verdict, before),
             );
         }
         false
@@ -126,8 +128,8 @@ impl<T: Answers<f64>> Closest<T> {
     #[inline(always)]
     fn sort_out(
         &mut self,
-        ray: &CullRay,
-        kind: u32,
+        way: &Way,
+        of: (u32, u32),
         block: &Block,
         verdict: &Verdict,
         before: Reach,
@@ -142,7 +144,7 @@ impl<T: Answers<f64>> Closest<T> {
             if lo > t_far {
                 continue;
             }
-            let leaf = triangle(kind, block, lane);
+            let leaf = triangle(of, block, lane);
             let is_sure = verdict.sure >> lane & 1 != 0 && self.0.admits(leaf);
             if is_sure && hi < held.lo {
                 held = Held { leaf, lo };
@@ -151,13 +153,13 @@ impl<T: Answers<f64>> Closest<T> {
             }
             // In doubt, or too near to the one held.
             if is_sure {
-                t_far = t_far.min(ray.shortened(self.0.test(held.leaf)));
+                t_far = t_far.min(way.shortened(self.0.test(held.leaf)));
                 held = Held::NOTHING;
                 if lo > t_far {
                     continue;
                 }
             }
-            t_far = t_far.min(ray.shortened(self.0.test(leaf)));
+            t_far = t_far.min(way.shortened(self.0.test(leaf)));
             if held.lo > t_far {
                 held = Held::NOTHING;
             }
@@ -175,19 +177,20 @@ impl<T: Answers<bool>> Quest<false> for Any<T> {
         &mut self,
         kernel: K,
         tree: &Bvh,
-        line: &Line,
-        ray: &CullRay,
+        sight: &impl Sight,
+        way: &Way,
         child: ChildRef,
         filter: &mut Option<Filter>,
         reach: &mut Reach,
     ) -> bool {
-        let Some((kind, block)) = tree.block(child) else { return self.0.test(tree.leaf(child)) };
-        let filter = filter_of(kernel, tree, line, ray, filter);
+        let Some((kind, number)) = tree.block(child) else { return self.0.test(tree.leaf(child)) };
+        let block = &tree.blocks[number as usize];
+        let filter = filter_of(kernel, tree, sight, way, filter);
         let verdict = kernel.judge(block, filter, reach.t_far);
         verdict.alive != 0
             && kernel.apart(
                 #[inline(always)]
-                || self.is_met(kind, block, &verdict),
+                || self.is_met((kind, number), block, &verdict),
             )
     }
 
@@ -199,12 +202,12 @@ impl<T: Answers<bool>> Quest<false> for Any<T> {
 
 impl<T: Answers<bool>> Any<T> {
     #[inline(always)]
-    fn is_met(&mut self, kind: u32, block: &Block, verdict: &Verdict) -> bool {
+    fn is_met(&mut self, of: (u32, u32), block: &Block, verdict: &Verdict) -> bool {
         let mut alive = verdict.alive;
         while alive != 0 {
             let lane = alive.trailing_zeros() as usize & 7;
             alive &= alive - 1;
-            let leaf = triangle(kind, block, lane);
+            let leaf = triangle(of, block, lane);
             let is_sure = verdict.sure >> lane & 1 != 0 && self.0.admits(leaf);
             if is_sure || self.0.test(leaf) {
                 return true;
@@ -219,8 +222,8 @@ impl<T: Answers<bool>> Any<T> {
 fn filter_of<'a, K: Kernel>(
     kernel: K,
     tree: &Bvh,
-    line: &Line,
-    ray: &CullRay,
+    sight: &impl Sight,
+    way: &Way,
     filter: &'a mut Option<Filter>,
 ) -> &'a Filter {
     filter.get_or_insert_with(
@@ -228,14 +231,14 @@ fn filter_of<'a, K: Kernel>(
         || {
             kernel.apart(
                 #[inline(always)]
-                || Filter::new(line, ray, tree.rounded),
+                || Filter::new(sight, way, tree.rounded),
             )
         },
     )
 }
 
-/// A triangle of a block.
+/// A triangle of a block, by its kind and the number of the block.
 #[inline(always)]
-fn triangle(kind: u32, block: &Block, lane: usize) -> Leaf {
-    Leaf { kind, first: block.slot(lane), count: 1 }
+fn triangle((kind, number): (u32, u32), block: &Block, lane: usize) -> Leaf {
+    Leaf { kind, first: block.slot(lane), count: 1, place: number * LANES as u32 + lane as u32 }
 }

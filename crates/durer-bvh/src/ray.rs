@@ -55,6 +55,54 @@ impl Line {
     }
 }
 
+/// A ray that a tree is asked about.
+pub trait Sight {
+    /// The ray.
+    fn line(&self) -> Line;
+
+    /// The same at a glance, which is all that many rays need.
+    fn glance(&self) -> Glance;
+}
+
+/// The numbers of a [`Line`], each rounded to the nearest f32, and so perhaps to zero or infinity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Glance {
+    /// The origin, then `t_min`.
+    pub origin: [f32; 4],
+    /// The direction, then `t_max`.
+    pub direction: [f32; 4],
+    /// The errors, then 0.
+    pub origin_error: [f32; 4],
+    /// The errors, then 0.
+    pub direction_error: [f32; 4],
+    /// Whether the errors are zero and the inner range is the whole one.
+    pub is_exact: bool,
+}
+
+impl Sight for Line {
+    #[inline(always)]
+    fn line(&self) -> Line {
+        *self
+    }
+
+    #[inline(always)]
+    fn glance(&self) -> Glance {
+        #[inline(always)]
+        fn four(v: [f64; 3], w: f64) -> [f32; 4] {
+            [v[0] as f32, v[1] as f32, v[2] as f32, w as f32]
+        }
+        Glance {
+            origin: four(self.origin.to_array(), self.t_min),
+            direction: four(self.direction.to_array(), self.t_max),
+            origin_error: four(self.origin_error.to_array(), 0.0),
+            direction_error: four(self.direction_error.to_array(), 0.0),
+            is_exact: self.origin_error == Vec3::ZERO
+                && self.direction_error == Vec3::ZERO
+                && self.inner == (self.t_min, self.t_max),
+        }
+    }
+}
+
 /// What a node test needs: per axis `near = plane * r + c_near`, `far = plane * r + c_far`, in f32.
 ///
 /// In f64, once per ray: the ray is clipped to the tree's box and its origin moved to the entry. `r` is `1 / d`, clamped so that a
@@ -72,13 +120,20 @@ pub(crate) struct CullRay {
     pub(crate) far: [f32; 4],
     /// Bit `i` is set if `d_i` is negative (or -0).
     pub(crate) octant: u32,
-    /// The first and the last parameter that matter, from the entry.
-    pub(crate) t_near: f32,
-    pub(crate) t_far: f32,
+    pub(crate) way: Way,
+}
+
+/// A ray's way through a tree.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Way {
     /// The entry's point in tree units, rounded to f64 and to f32, and the direction, rounded to f32.
     pub(crate) start: [f32; 4],
     pub(crate) direction: [f32; 4],
-    /// Whether the start is the ray's origin and nothing but the rounding to f32 makes it or the direction uncertain.
+    /// The first and the last parameter that matter, from the entry.
+    pub(crate) t_near: f32,
+    pub(crate) t_far: f32,
+    /// Whether the start is the ray's origin, nothing but the rounding to f32 makes it or the direction uncertain, and crossings anywhere between the first
+    /// and the last parameter count.
     pub(crate) is_exact: bool,
     /// A bound on the error of the ray's points within the tree, per axis.
     pub(crate) error: f64,
@@ -115,9 +170,16 @@ pub(crate) struct Clip {
     pub(crate) most: [f64; 4],
     /// What the caller's lengths are to be multiplied by, which is exact; 0 if one number cannot do that.
     pub(crate) shrink: f64,
+    /// What lengths in tree units are to be multiplied by; 0 as above.
+    pub(crate) grow: f64,
     /// The greatest magnitude of a coordinate, for rays that start [nearby](NEARBY).
     pub(crate) most32: [f32; 4],
+    /// What the lengths of a [`Glance`] are to be multiplied by; infinite if the tree's size is [far](GLANCED) from 1.
+    pub(crate) shrink32: f32,
 }
+
+/// Trees of sizes between `2^-32` and `2^32` are seen at a glance: what underflow takes from f32 is then below `2^-117` in tree units.
+const GLANCED: (f64, f64) = (1.0 / (1_u64 << 32) as f64, (1_u64 << 32) as f64);
 
 /// Rays that start with coordinates up to this, in tree units, need no clipping: f32 tells where they are as well as where the tree is.
 pub(crate) const NEARBY: f32 = 4.0;
@@ -131,13 +193,16 @@ impl Clip {
             [f64::from(x[0]) + by, f64::from(x[1]) + by, f64::from(x[2]) + by, beyond]
         };
         let most = |i: usize| f64::from(lo[i]).abs().max(f64::from(hi[i]).abs()).max(LEAST);
-        let shrink = frame.inward(1.0);
+        let (shrink, grow) = (frame.inward(1.0), frame.outward(1.0));
+        let is_factor = shrink.is_normal() && grow.is_normal();
         Self {
             lo: wide(lo, -MARGIN, f64::MIN / 8.0),
             hi: wide(hi, MARGIN, f64::MAX / 8.0),
             most: [most(0), most(1), most(2), 1.0],
-            shrink: if shrink.is_normal() { shrink } else { 0.0 },
+            shrink: if is_factor { shrink } else { 0.0 },
+            grow: if is_factor { grow } else { 0.0 },
             most32: [most(0), most(1), most(2), 1.0].map(up32),
+            shrink32: if (GLANCED.0..=GLANCED.1).contains(&shrink) { shrink as f32 } else { f32::INFINITY },
         }
     }
 }
@@ -210,14 +275,16 @@ impl CullRay {
             near,
             far,
             octant: octant(&d),
-            t_near: 0.0,
-            t_far,
-            start: starts,
-            direction: single(&d),
-            is_exact: false,
-            error: error[0].max(error[1]).max(error[2]),
-            t_enter: enter,
-            frame,
+            way: Way {
+                start: starts,
+                direction: single(&d),
+                t_near: 0.0,
+                t_far,
+                is_exact: false,
+                error: error[0].max(error[1]).max(error[2]),
+                t_enter: enter,
+                frame,
+            },
         })
     }
 
@@ -231,17 +298,21 @@ impl CullRay {
             near: [-big; 4],
             far: [big; 4],
             octant: octant(d),
-            t_near: 0.0,
-            t_far: 1.0,
-            start: [0.0; 4],
-            direction,
-            is_exact: false,
-            error: f64::INFINITY,
-            t_enter: f64::NEG_INFINITY,
-            frame,
+            way: Way {
+                start: [0.0; 4],
+                direction,
+                t_near: 0.0,
+                t_far: 1.0,
+                is_exact: false,
+                error: f64::INFINITY,
+                t_enter: f64::NEG_INFINITY,
+                frame,
+            },
         }
     }
+}
 
+impl Way {
     /// How far to look if nothing beyond the caller's `t` matters.
     #[inline(always)]
     pub(crate) fn shortened(&self, t: f64) -> f32 {
@@ -266,6 +337,15 @@ impl CullRay {
         let step = |x: f32| x.abs().mul_add(1.0 / (1 << 22) as f32, 1.0 / (1_u128 << 120) as f32);
         let (from, to) = (single(from), single(to));
         (from + step(from), to - step(to))
+    }
+
+    /// The same for the whole range of a ray that is [exact](Way::is_exact): its ends are within ten units of the first and the last parameter.
+    #[inline(always)]
+    pub(crate) fn inside(&self) -> (f32, f32) {
+        let step = |x: f32| x.abs().mul_add(1.0 / (1 << 20) as f32, 1.0 / (1_u128 << 100) as f32);
+        // Beyond a tree's longest way nothing is met.
+        let last = if self.t_far > LONGEST as f32 { LONGEST as f32 } else { self.t_far };
+        (self.t_near + step(self.t_near), last - step(last))
     }
 
     /// The caller's `t` of a parameter of the node test.

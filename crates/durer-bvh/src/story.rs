@@ -51,15 +51,15 @@ impl Bvh {
     /// tree's own box was met at all.
     pub fn story(&self, line: &Line, mut tell: impl FnMut(&Step) -> f64) -> bool {
         let Some(ray) = self.cull(line, Rounding::Fused) else { return false };
-        let mut t_far = ray.t_far;
+        let mut t_far = ray.way.t_far;
         let mut waiting = vec![(ChildRef::node(0), 0.0_f32, 0_u32, self.bounds())];
         while let Some((child, near, level, bounds)) = waiting.pop() {
-            let t = ray.caller_t(near);
+            let t = ray.way.caller_t(near);
             if near > t_far {
                 tell(&Step::Skipped { level, bounds, t });
             } else if child.is_leaf() {
                 let limit = tell(&Step::Leaf { leaf: self.leaf(child), level, bounds, t });
-                t_far = t_far.min(ray.shortened(limit));
+                t_far = t_far.min(ray.way.shortened(limit));
             } else {
                 let node = &self.nodes[child.index()];
                 let slabs = Scalar::<true>.slabs(node, &ray, t_far);

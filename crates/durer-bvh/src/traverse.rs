@@ -3,7 +3,7 @@
 use crate::kernels::{Kernel, Scalar, Stack};
 use crate::node::{ChildRef, Leaf};
 use crate::quest::{Any, Closest, Pair, Quest, Reach};
-use crate::ray::{CullRay, Line};
+use crate::ray::{Sight, Way};
 use crate::tree::Bvh;
 use durer_math::kernels::Path;
 use durer_math::{Isa, Point3, Vec3};
@@ -25,11 +25,11 @@ impl Bvh {
     pub fn closest(
         &self,
         isa: Isa,
-        line: &Line,
+        sight: &impl Sight,
         admits: impl Fn(Leaf) -> bool,
         test: impl FnMut(Leaf) -> f64,
     ) {
-        self.with_kernel(isa, Single::<_, true> { line, quest: Closest(Pair { admits, test }) });
+        self.with_kernel(isa, Single::<_, _, true> { sight, quest: Closest(Pair { admits, test }) });
     }
 
     /// Shows what the ray might meet to `test`, until it says that it has found what it looked for; says whether it did, or
@@ -41,11 +41,11 @@ impl Bvh {
     pub fn any(
         &self,
         isa: Isa,
-        line: &Line,
+        sight: &impl Sight,
         trusts: impl Fn(Leaf) -> bool,
         test: impl FnMut(Leaf) -> bool,
     ) -> bool {
-        self.with_kernel(isa, Single::<_, false> { line, quest: Any(Pair { admits: trusts, test }) })
+        self.with_kernel(isa, Single::<_, _, false> { sight, quest: Any(Pair { admits: trusts, test }) })
     }
 
     /// Shows the leaves whose boxes may hold a point, known within `error` (per axis), to `test`, until it says that it
@@ -97,12 +97,12 @@ impl Bvh {
 }
 
 /// One ray. The answer is whether it found what it looked for.
-struct Single<'a, Q, const ORDERED: bool> {
-    line: &'a Line,
+struct Single<'a, S, Q, const ORDERED: bool> {
+    sight: &'a S,
     quest: Q,
 }
 
-impl<Q: Quest<ORDERED>, const ORDERED: bool> Errand for Single<'_, Q, ORDERED> {
+impl<S: Sight, Q: Quest<ORDERED>, const ORDERED: bool> Errand for Single<'_, S, Q, ORDERED> {
     type Answer = bool;
 
     #[inline(always)]
@@ -110,8 +110,8 @@ impl<Q: Quest<ORDERED>, const ORDERED: bool> Errand for Single<'_, Q, ORDERED> {
         if tree.is_empty() {
             return false;
         }
-        let Some(ray) = kernel.cull(tree, self.line) else { return false };
-        follow(kernel, tree, self.line, &ray, self.quest)
+        let Some((lanes, way)) = kernel.ready(tree, self.sight) else { return false };
+        follow(kernel, tree, self.sight, &lanes, &way, self.quest)
     }
 }
 
@@ -119,33 +119,30 @@ impl<Q: Quest<ORDERED>, const ORDERED: bool> Errand for Single<'_, Q, ORDERED> {
 fn follow<K: Kernel, Q: Quest<ORDERED>, const ORDERED: bool>(
     kernel: K,
     tree: &Bvh,
-    line: &Line,
-    ray: &CullRay,
+    sight: &impl Sight,
+    lanes: &K::Lanes,
+    way: &Way,
     mut quest: Q,
 ) -> bool {
-    let lanes = kernel.lanes(ray);
     let mut filter = None;
     let mut stack = Stack::new();
-    let mut reach = Reach::of(ray);
+    let mut reach = Reach::of(way);
     let mut child = ChildRef::node(0);
-    'ray: loop {
+    loop {
         while !child.is_leaf() {
-            let node = &tree.nodes[child.index()];
-            match kernel.descend::<ORDERED>(node, &lanes, reach.t_far, &mut stack) {
-                Some(next) => child = next,
-                None => match stack.pop_before(reach.t_far) {
-                    Some(next) => child = next,
-                    None => break 'ray,
-                },
-            }
+            child = kernel.descend::<ORDERED>(&tree.nodes[child.index()], lanes, reach.t_far, &mut stack);
         }
-        if quest.leaf(kernel, tree, line, ray, child, &mut filter, &mut reach) {
+        if child == ChildRef::END {
+            break;
+        }
+        let before = reach.t_far;
+        if quest.leaf(kernel, tree, sight, way, child, &mut filter, &mut reach) {
             return true;
         }
-        match stack.pop_before(reach.t_far) {
-            Some(next) => child = next,
-            None => break,
+        if reach.t_far < before {
+            stack.prune(reach.t_far);
         }
+        child = stack.pop();
     }
     quest.end(&reach)
 }

@@ -3,7 +3,7 @@
 use crate::frame::Frame;
 use crate::node::{ChildRef, Leaf, Node8};
 use crate::ray::{Clip, CullRay, Line, Rounding};
-use crate::triangles::Block;
+use crate::triangles::{Block, Corners, LANES};
 use durer_math::Aabb;
 
 /// A tree of boxes: which things might this ray meet?
@@ -22,6 +22,8 @@ pub struct Bvh {
     pub(crate) blocks: Vec<Block>,
     /// Whether f32 does not hold all corners of the blocks.
     pub(crate) rounded: bool,
+    /// Whether there is one kind, and of triangles: then references to leaves are the numbers of their blocks.
+    pub(crate) is_all_triangles: bool,
     pub(crate) lo: [f32; 3],
     pub(crate) hi: [f32; 3],
     pub(crate) clip: Clip,
@@ -67,6 +69,7 @@ impl Bvh {
             starts,
             blocks: Vec::new(),
             rounded: false,
+            is_all_triangles: false,
             lo,
             hi,
             clip: Clip::to(frame, lo, hi),
@@ -124,18 +127,32 @@ impl Bvh {
             Some(first) => self.blocks[(first + at) as usize].slot(0),
             None => at,
         };
-        Leaf { kind: kind as u32, first, count: child.slots().1 }
+        Leaf::new(kind as u32, first, child.slots().1)
     }
 
-    /// The kind and the triangles of a leaf that holds triangles, from a reference to it.
+    /// The kind and the number of the block of a leaf that holds triangles, from a reference to it.
     #[inline(always)]
-    pub(crate) fn block(&self, child: ChildRef) -> Option<(u32, &Block)> {
+    pub(crate) fn block(&self, child: ChildRef) -> Option<(u32, u32)> {
+        if self.is_all_triangles {
+            return Some((0, child.slots().0));
+        }
         if self.blocks.is_empty() {
             return None;
         }
         let (kind, at) = self.kind_of(child);
         let first = self.kinds[kind].blocks?;
-        Some((kind as u32, &self.blocks[(first + at) as usize]))
+        Some((kind as u32, first + at))
+    }
+
+    /// The exact corners of a triangle that was shown by itself, where f32 holds those of all: they are at hand, as the ray has just looked at them.
+    #[inline(always)]
+    pub fn corners(&self, triangle: &Leaf) -> Option<Corners> {
+        let grow = self.clip.grow;
+        if self.rounded || grow == 0.0 {
+            return None;
+        }
+        let place = triangle.place as usize;
+        self.blocks.get(place / LANES).map(|block| block.corners(grow, place % LANES))
     }
 
     /// How many bytes rays may read.

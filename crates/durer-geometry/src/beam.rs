@@ -27,7 +27,7 @@ pub(crate) struct Candidate {
 
 impl Candidate {
     fn leaf(self) -> Leaf {
-        Leaf { kind: self.arena, first: self.slot, count: 1 }
+        Leaf::new(self.arena, self.slot, 1)
     }
 }
 

@@ -67,7 +67,7 @@ pub(crate) struct Beside {
 
 impl Beside {
     pub(crate) fn leaf(&self) -> Leaf {
-        Leaf { kind: self.arena, first: self.first, count: self.count }
+        Leaf::new(self.arena, self.first, self.count)
     }
 }
 

@@ -1,10 +1,10 @@
 //! The mesh and its tree.
 
 use crate::files::{MISS, Mesh, PeerRay};
-use durer_bvh::{Bvh, Frame, Leaf, Line, Rays, Settings};
+use durer_bvh::{Bvh, Frame, Glance, Leaf, Line, Rays, Settings, Sight};
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Isa, Point3, Ray, Vec3};
-use durer_surfaces::{Closest, LocalRay, MeshData, PartId, Surface};
+use durer_surfaces::{Closest, LocalRay, MeshData, PartId, Surface, Triangle};
 use rayon::prelude::*;
 
 /// What a tree is built with.
@@ -53,78 +53,39 @@ impl World {
         self.tree.stats().bytes + self.numbers.capacity() * size_of::<u32>()
     }
 
-    /// The `k` with which the largest component of a direction is in `[2^k, 2^(k+1))`, unless it is subnormal or not finite.
-    #[inline(always)]
-    fn clock(r: &PeerRay) -> i32 {
-        let [x, y, z] = r.direction;
-        let size = |x: f32| x.to_bits() & (u32::MAX >> 1);
-        (size(x).max(size(y)).max(size(z)) >> 23) as i32 - 127
-    }
-
-    /// The line of a ray, whose parameter is `2^k` times that of the ray.
-    #[inline(always)]
-    fn line(r: &PeerRay) -> (Line, i32) {
-        let k = Self::clock(r);
-        if k == -127 {
-            return Self::slow_line(r);
-        }
-        let power = |k: i32| f64::from_bits(((1023 + k) as u64) << 52);
-        let (along, across) = (power(k), power(-k));
-        let ([x, y, z], [dx, dy, dz]) = (r.origin, r.direction);
-        let (t_min, t_max) = (f64::from(r.t_near) * along, f64::from(r.t_far) * along);
-        let line = Line {
-            origin: Point3::new(f64::from(x), f64::from(y), f64::from(z)),
-            direction: Vec3::new(f64::from(dx) * across, f64::from(dy) * across, f64::from(dz) * across),
-            origin_error: Vec3::ZERO,
-            direction_error: Vec3::ZERO,
-            t_min,
-            t_max,
-            inner: (t_min, t_max),
-        };
-        (line, k)
-    }
-
-    /// The same for directions that are subnormal numbers.
-    #[cold]
-    fn slow_line(r: &PeerRay) -> (Line, i32) {
-        let direction = Vec3::from(r.direction.map(f64::from));
-        let k = exponent(direction.max_abs());
-        let (t_min, t_max) = (scale2(f64::from(r.t_near), k), scale2(f64::from(r.t_far), k));
-        let line = Line {
-            origin: point(r.origin),
-            direction: direction.scale2(-k),
-            origin_error: Vec3::ZERO,
-            direction_error: Vec3::ZERO,
-            t_min,
-            t_max,
-            inner: (t_min, t_max),
-        };
-        (line, k)
-    }
-
     /// Where the ray meets one triangle, if it does.
     #[inline(never)]
-    fn exactly(&self, isa: Isa, r: &PeerRay, number: u32) -> Option<f64> {
+    fn exactly(&self, isa: Isa, r: &PeerRay, leaf: &Leaf) -> Option<f64> {
         isa.run(
             #[inline(always)]
             || {
                 let direction = Vec3::from(r.direction.map(f64::from));
                 let ray =
                     Ray::new(point(r.origin), direction).with_range(f64::from(r.t_near), f64::from(r.t_far));
+                let ray = LocalRay::new(&ray);
                 let mut sink = Closest::default();
-                self.exact.part_roots(PartId(number), &LocalRay::new(&ray), &mut sink);
+                match self.tree.corners(leaf) {
+                    Some(corners) => Triangle::known(corners).roots(&ray, &mut sink),
+                    None => self.exact.part_roots(PartId(self.number(leaf)), &ray, &mut sink),
+                }
                 sink.root.map(|root| root.t)
             },
         )
     }
 
+    /// The number of a triangle.
+    #[inline(always)]
+    fn number(&self, leaf: &Leaf) -> u32 {
+        self.numbers[leaf.first as usize]
+    }
+
     #[inline(always)]
     fn closest_one(&self, isa: Isa, r: &PeerRay) -> (f32, u32) {
-        let (line, k) = Self::line(r);
-        let mut asked = Asked { world: self, isa, r, k, best: (f64::INFINITY, MISS) };
+        let sight = Seen::new(r);
+        let mut asked = Asked { world: self, isa, sight, best: (f64::INFINITY, MISS) };
         self.tree.closest(
             isa,
-            &line,
+            &sight,
             #[inline(always)]
             |_| true,
             #[inline(always)]
@@ -135,14 +96,13 @@ impl World {
 
     #[inline(always)]
     fn any_one(&self, isa: Isa, r: &PeerRay) -> bool {
-        let (line, _) = Self::line(r);
         self.tree.any(
             isa,
-            &line,
+            &Seen::new(r),
             #[inline(always)]
             |_| true,
             #[inline(always)]
-            |leaf: Leaf| self.exactly(isa, r, self.numbers[leaf.first as usize]).is_some(),
+            |leaf: Leaf| self.exactly(isa, r, &leaf).is_some(),
         )
     }
 
@@ -185,25 +145,79 @@ impl World {
     }
 }
 
+/// A ray as the tree sees it: with a direction whose largest component is in `[1, 2)`, and a parameter that is `2^k` times the ray's.
+#[derive(Clone, Copy)]
+struct Seen<'a> {
+    r: &'a PeerRay,
+    k: i32,
+}
+
+impl<'a> Seen<'a> {
+    #[inline(always)]
+    fn new(r: &'a PeerRay) -> Self {
+        let [x, y, z] = r.direction;
+        let size = |x: f32| x.to_bits() & (u32::MAX >> 1);
+        let k = (size(x).max(size(y)).max(size(z)) >> 23) as i32 - 127;
+        Self { r, k: if k == -127 { Self::of_subnormal(r) } else { k } }
+    }
+
+    #[cold]
+    fn of_subnormal(r: &PeerRay) -> i32 {
+        exponent(Vec3::from(r.direction.map(f64::from)).max_abs())
+    }
+}
+
+impl Sight for Seen<'_> {
+    #[inline(always)]
+    fn line(&self) -> Line {
+        let (t_min, t_max) =
+            (scale2(f64::from(self.r.t_near), self.k), scale2(f64::from(self.r.t_far), self.k));
+        Line {
+            origin: point(self.r.origin),
+            direction: Vec3::from(self.r.direction.map(f64::from)).scale2(-self.k),
+            origin_error: Vec3::ZERO,
+            direction_error: Vec3::ZERO,
+            t_min,
+            t_max,
+            inner: (t_min, t_max),
+        }
+    }
+
+    #[inline(always)]
+    fn glance(&self) -> Glance {
+        // Out of the range of f32 nothing is seen of the ray, and the line is asked for.
+        let in_range = (-126..=126).contains(&self.k);
+        let power = |k: i32| if in_range { f32::from_bits(((127 + k) as u32) << 23) } else { f32::NAN };
+        let (along, across, one) = (power(self.k), power(-self.k), if in_range { 1.0 } else { f32::NAN });
+        let ([x, y, z], [dx, dy, dz]) = (self.r.origin, self.r.direction);
+        Glance {
+            origin: [x * one, y * one, z * one, self.r.t_near * along],
+            direction: [dx * across, dy * across, dz * across, self.r.t_far * along],
+            origin_error: [0.0; 4],
+            direction_error: [0.0; 4],
+            is_exact: true,
+        }
+    }
+}
+
 /// A ray and what it has met.
 struct Asked<'a> {
     world: &'a World,
     isa: Isa,
-    r: &'a PeerRay,
-    k: i32,
+    sight: Seen<'a>,
     best: (f64, u32),
 }
 
 impl Asked<'_> {
     #[inline(always)]
     fn improve(&mut self, leaf: Leaf) -> f64 {
-        let number = self.world.numbers[leaf.first as usize];
-        if let Some(t) = self.world.exactly(self.isa, self.r, number)
-            && (t, number) < self.best
-        {
-            self.best = (t, number);
+        if let Some(t) = self.world.exactly(self.isa, self.sight.r, &leaf) {
+            let number = self.world.number(&leaf);
+            if (t, number) < self.best {
+                self.best = (t, number);
+            }
         }
-        scale2(self.best.0, self.k).next_up()
+        scale2(self.best.0, self.sight.k).next_up()
     }
 }
 
@@ -217,7 +231,7 @@ struct ClosestOfEach<'a> {
 impl Rays<f64> for ClosestOfEach<'_> {
     #[inline(always)]
     fn line(&mut self, ray: usize) -> Option<Line> {
-        Some(World::line(&self.rays[ray]).0)
+        Some(Seen::new(&self.rays[ray]).line())
     }
 
     #[inline(always)]
@@ -227,14 +241,14 @@ impl Rays<f64> for ClosestOfEach<'_> {
 
     #[inline(always)]
     fn test(&mut self, ray: usize, leaf: Leaf) -> f64 {
-        let number = self.world.numbers[leaf.first as usize];
-        let (r, best) = (&self.rays[ray], &mut self.best[ray]);
-        if let Some(t) = self.world.exactly(self.isa, r, number)
-            && (t, number) < *best
-        {
-            *best = (t, number);
+        let (sight, best) = (Seen::new(&self.rays[ray]), &mut self.best[ray]);
+        if let Some(t) = self.world.exactly(self.isa, sight.r, &leaf) {
+            let number = self.world.number(&leaf);
+            if (t, number) < *best {
+                *best = (t, number);
+            }
         }
-        scale2(best.0, World::line(r).1).next_up()
+        scale2(best.0, sight.k).next_up()
     }
 
     #[inline(always)]
@@ -252,7 +266,7 @@ struct AnyOfEach<'a> {
 impl Rays<bool> for AnyOfEach<'_> {
     #[inline(always)]
     fn line(&mut self, ray: usize) -> Option<Line> {
-        Some(World::line(&self.rays[ray]).0)
+        Some(Seen::new(&self.rays[ray]).line())
     }
 
     #[inline(always)]
@@ -262,8 +276,7 @@ impl Rays<bool> for AnyOfEach<'_> {
 
     #[inline(always)]
     fn test(&mut self, ray: usize, leaf: Leaf) -> bool {
-        let number = self.world.numbers[leaf.first as usize];
-        self.world.exactly(self.isa, &self.rays[ray], number).is_some()
+        self.world.exactly(self.isa, &self.rays[ray], &leaf).is_some()
     }
 
     #[inline(always)]

@@ -352,6 +352,7 @@ impl Bvh {
             first += leaves[kind].len() as u32;
         }
         self.blocks.shrink_to_fit();
+        self.is_all_triangles = shapes.len() == 1 && shapes[0].is_some();
     }
 }
 

@@ -4,12 +4,14 @@
 use super::{Kernel, Stack};
 use crate::frame::up32;
 use crate::node::{ChildRef, Node8, WIDTH};
-use crate::ray::{CullRay, LEAST, LONGEST, Line, NEARBY, Rounding, SLOWEST, TO_NEAREST, U32, WIDEN};
+use crate::ray::{
+    CullRay, Glance, LEAST, LONGEST, Line, NEARBY, Rounding, SLOWEST, Sight, TO_NEAREST, U32, WIDEN, Way,
+};
 use crate::tree::Bvh;
 use crate::triangles::{Block, FAR, FLAT, Filter, LANES, NEAR, ROUGH, Verdict};
 use core::arch::x86_64::*;
 use durer_math::kernels::Path;
-use durer_math::{Isa, Point3, Vec3};
+use durer_math::{Isa, Vec3};
 
 /// Proof that this CPU has all that [`Path::Avx2`] asks for: AVX2, FMA, BMI1 and 2, LZCNT and POPCNT.
 #[derive(Clone, Copy, Debug)]
@@ -21,6 +23,13 @@ impl Avx2 {
     pub(crate) fn of(isa: Isa) -> Option<Self> {
         matches!(isa.path(), Path::Avx2 | Path::Avx512).then_some(Self(()))
     }
+
+    /// Spreads a ray.
+    #[inline(always)]
+    pub(super) fn lanes(self, ray: &CullRay) -> Lanes {
+        // SAFETY: `self` exists, so an `Isa` has seen all of its features on this CPU.
+        unsafe { lanes(ray) }
+    }
 }
 
 /// The ray in all lanes.
@@ -29,10 +38,10 @@ pub(crate) struct Lanes {
     near: [__m256; 3],
     far: [__m256; 3],
     t_near: __m256,
-    /// Which of a node's six plane arrays is the near one of each axis; the far one is three off.
-    near_plane: [u8; 3],
-    far_plane: [u8; 3],
-    octant_shift: u32,
+    /// Where a node's near planes of each axis begin, in bytes, and the far ones.
+    near_plane: [usize; 3],
+    far_plane: [usize; 3],
+    octant_shift: __m128i,
 }
 
 /// For each set of lanes the lanes in it, in order, one per byte: what `vpcompressd` does, from a table.
@@ -53,15 +62,17 @@ static COMPRESS: [u64; 256] = {
     table
 };
 
-/// The near planes of rays of each octant, and the far ones.
+/// Where the near planes for rays of each octant begin in a node, in bytes, and the far ones.
 static PLANES: [[[u8; 3]; 2]; 8] = {
-    let mut table = [[[0, 1, 2], [3, 4, 5]]; 8];
+    const ROW: u8 = 4 * WIDTH as u8;
+    let mut table = [[[0, ROW, 2 * ROW], [3 * ROW, 4 * ROW, 5 * ROW]]; 8];
     let mut octant = 0;
     while octant < 8 {
         let mut axis = 0;
         while axis < 3 {
             if octant >> axis & 1 == 1 {
-                (table[octant][0][axis], table[octant][1][axis]) = (3 + axis as u8, axis as u8);
+                (table[octant][0][axis], table[octant][1][axis]) =
+                    (table[octant][1][axis], table[octant][0][axis]);
             }
             axis += 1;
         }
@@ -74,32 +85,28 @@ impl Kernel for Avx2 {
     type Lanes = Lanes;
 
     #[inline(always)]
-    fn cull(self, tree: &Bvh, line: &Line) -> Option<CullRay> {
+    fn ready(self, tree: &Bvh, sight: &impl Sight) -> Option<(Lanes, Way)> {
         // SAFETY: as below.
-        let nearby = unsafe { nearby(tree, line) };
+        let nearby = unsafe { nearby(tree, &sight.glance()) };
         if nearby.is_some() {
             return nearby;
         }
-        self.apart(
+        let ray = self.apart(
             #[inline(always)]
             || {
+                let line = sight.line();
                 if line.origin_error != Vec3::ZERO || line.direction_error != Vec3::ZERO {
-                    return tree.cull(line, Rounding::Fused);
+                    return tree.cull(&line, Rounding::Fused);
                 }
                 // SAFETY: as below.
-                match unsafe { clip(tree, line) } {
+                match unsafe { clip(tree, &line) } {
                     Clipped::Missed => None,
                     Clipped::Enters(ray) => Some(ray),
-                    Clipped::Unusual => tree.cull(line, Rounding::Fused),
+                    Clipped::Unusual => tree.cull(&line, Rounding::Fused),
                 }
             },
-        )
-    }
-
-    #[inline(always)]
-    fn lanes(self, ray: &CullRay) -> Lanes {
-        // SAFETY: `self` exists, so an `Isa` has seen all of its features on this CPU.
-        unsafe { lanes(ray) }
+        )?;
+        Some((self.lanes(&ray), ray.way))
     }
 
     #[inline(always)]
@@ -109,7 +116,7 @@ impl Kernel for Avx2 {
         lanes: &Lanes,
         t_far: f32,
         stack: &mut Stack,
-    ) -> Option<ChildRef> {
+    ) -> ChildRef {
         // SAFETY: as above.
         unsafe { descend::<ORDERED>(node, lanes, t_far, stack) }
     }
@@ -136,10 +143,10 @@ impl Kernel for Avx2 {
     }
 }
 
-/// A line that starts nearby, in f32: neither the way to the tree nor the end of that through it is looked for.
+/// A ray that starts nearby, at a glance, in f32: neither the way to the tree nor the end of that through it is looked for.
 ///
 /// Let `u = 2^-24`, `M` the greatest magnitude of a coordinate of the tree on an axis, `o` that of the origin, and `e` and `g` the errors of origin and
-/// direction. Both `e + 6 g` and so `g` are at most [`ROUGH`] (else the line is left to others), so `t` is at most `(1 + NEARBY + e) / (1 - g) < 6` in magnitude within the tree,
+/// direction. Both `e + 6 g` and so `g` are at most [`ROUGH`] (else the ray is left to others), so `t` is at most `(1 + NEARBY + e) / (1 - g) < 6` in magnitude within the tree,
 /// where the ray's points err by `e + 6 g`. A component of the direction below `(M + o) u / 20` counts as that, which moves them by less than
 /// `0.3 u (M + o)`. `r` errs by two units, the one of `d` and its own; so a plane at `x` is met at `x r - o r` with an error of
 ///
@@ -152,67 +159,70 @@ impl Kernel for Avx2 {
 /// them is far below either.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-fn nearby(tree: &Bvh, line: &Line) -> Option<CullRay> {
+fn nearby(tree: &Bvh, glance: &Glance) -> Option<(Lanes, Way)> {
     /// Of the tree's coordinates, and of the origin's.
     const SLACK: (f32, f32) = (4.0 * U32 as f32, 7.0 * U32 as f32);
-    /// Four units: one for the rounding to f32, one for that of the sum.
-    const OUTWARD: f32 = 4.0 * U32 as f32;
+    /// Eight units: errors are rounded to f32, multiplied, added and grown by this, a rounding each; the range has fewer.
+    const OUTWARD: f32 = 8.0 * U32 as f32;
     let minus = _mm_set1_ps(-0.0);
     let all = |x: f32| _mm_set1_ps(x);
     let size = |x: __m128| _mm_andnot_ps(minus, x);
-    let shrink = tree.clip.shrink;
-    let four = |v: Vec3, w: f64| _mm256_setr_pd(v.x, v.y, v.z, w);
-    let o = _mm256_mul_pd(four(line.origin - Point3::ORIGIN, line.t_min), _mm256_set1_pd(shrink));
-    let d = _mm256_mul_pd(four(line.direction, line.t_max), _mm256_setr_pd(1.0, 1.0, 1.0, shrink));
-    let (o, d) = (_mm256_cvtpd_ps(o), _mm256_cvtpd_ps(d));
-    let errors = (four(line.origin_error, 0.0), four(line.direction_error, 0.0));
-    let is_exact = _mm256_testz_si256(
-        _mm256_castpd_si256(_mm256_or_pd(errors.0, errors.1)),
-        _mm256_set1_epi64x(i64::MAX),
-    ) != 0;
-    let error =
-        _mm256_fmadd_pd(errors.0, _mm256_set1_pd(shrink), _mm256_mul_pd(errors.1, _mm256_set1_pd(6.0)));
-    let error = _mm256_cvtpd_ps(error);
-    let error = _mm_fmadd_ps(error, all(OUTWARD), error);
-    let close = _mm_and_ps(
-        _mm_cmp_ps::<_CMP_LE_OQ>(size(o), all(NEARBY)),
-        _mm_cmp_ps::<_CMP_LE_OQ>(error, all(ROUGH)),
-    );
-    if _mm_movemask_ps(close) & 7 != 7 || shrink == 0.0 {
+    // SAFETY: four f32.
+    let four = |v: &[f32; 4]| unsafe { _mm_loadu_ps(v.as_ptr()) };
+    let shrink = tree.clip.shrink32;
+    let o = _mm_mul_ps(four(&glance.origin), all(shrink));
+    let d = _mm_mul_ps(four(&glance.direction), _mm_setr_ps(1.0, 1.0, 1.0, shrink));
+    let error = if glance.is_exact {
+        _mm_setzero_ps()
+    } else {
+        let errors = (four(&glance.origin_error), four(&glance.direction_error));
+        let error = _mm_fmadd_ps(errors.0, all(shrink), _mm_mul_ps(errors.1, all(6.0)));
+        _mm_fmadd_ps(error, all(OUTWARD), error)
+    };
+    let mut close = _mm_cmp_ps::<_CMP_LE_OQ>(size(o), all(NEARBY));
+    if !glance.is_exact {
+        close = _mm_and_ps(close, _mm_cmp_ps::<_CMP_LE_OQ>(error, all(ROUGH)));
+    }
+    // In a tree that is not to be looked at so all is far away, or NaN.
+    if _mm_movemask_ps(close) & 7 != 7 {
         return None;
     }
-    // SAFETY: four f32.
-    let most = unsafe { _mm_loadu_ps(tree.clip.most32.as_ptr()) };
+    let most = four(&tree.clip.most32);
     let sign = _mm_and_ps(minus, d);
     let least = _mm_mul_ps(_mm_add_ps(most, size(o)), all(0.05 * U32 as f32));
     let r = _mm_div_ps(all(1.0), _mm_or_ps(sign, _mm_max_ps(size(d), least)));
     let slack = _mm_fmadd_ps(most, all(SLACK.0), _mm_fmadd_ps(size(o), all(SLACK.1), error));
     let slack = _mm_mul_ps(size(r), slack);
     let base = _mm_mul_ps(o, r);
+    let (near, far) = (_mm_sub_ps(_mm_sub_ps(_mm_setzero_ps(), base), slack), _mm_sub_ps(slack, base));
+    let outward = _mm_set1_ps(OUTWARD);
+    let first = _mm_fnmadd_ps(size(o), outward, o);
+    let last = _mm_fmadd_ps(size(d), outward, d);
+    let octant = _mm_movemask_ps(sign) as usize & 7;
+    let error = if glance.is_exact {
+        0.0
+    } else {
+        let two = _mm_max_ps(error, _mm_movehl_ps(error, error));
+        f64::from(_mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps::<1>(error, error))))
+    };
+    let fourth = |x: __m128| _mm_cvtss_f32(_mm_shuffle_ps::<3>(x, x));
     let stored = |x: __m128| {
         let mut stored = [0.0_f32; 4];
         // SAFETY: four f32.
         unsafe { _mm_storeu_ps(stored.as_mut_ptr(), x) };
         stored
     };
-    let (start, direction) = (stored(o), stored(d));
-    let (first, last) = (start[3], direction[3]);
-    let error = _mm_max_ps(error, _mm_movehl_ps(error, error));
-    let error = _mm_cvtss_f32(_mm_max_ss(error, _mm_shuffle_ps::<1>(error, error)));
-    Some(CullRay {
-        r: stored(r),
-        near: stored(_mm_sub_ps(_mm_sub_ps(_mm_setzero_ps(), base), slack)),
-        far: stored(_mm_sub_ps(slack, base)),
-        octant: _mm_movemask_ps(sign) as u32 & 7,
-        t_near: first - first.abs() * OUTWARD,
-        t_far: last + last.abs() * OUTWARD,
-        start,
-        direction,
-        is_exact,
-        error: f64::from(error),
+    let way = Way {
+        start: stored(o),
+        direction: stored(d),
+        t_near: fourth(first),
+        t_far: fourth(last),
+        is_exact: glance.is_exact,
+        error,
         t_enter: 0.0,
         frame: tree.frame,
-    })
+    };
+    Some((spread(r, near, far, octant, way.t_near), way))
 }
 
 /// What [`clip`] says of a line.
@@ -289,14 +299,16 @@ fn clip(tree: &Bvh, line: &Line) -> Clipped {
         near: four(low),
         far: four(high),
         octant: _mm256_movemask_pd(sign) as u32 & 7,
-        t_near: 0.0,
-        t_far: up32(way.next_up()),
-        start: four(start),
-        direction: four(d),
-        is_exact: false,
-        error: f64::MIN_POSITIVE,
-        t_enter: enter,
-        frame: tree.frame,
+        way: Way {
+            start: four(start),
+            direction: four(d),
+            t_near: 0.0,
+            t_far: up32(way.next_up()),
+            is_exact: false,
+            error: f64::MIN_POSITIVE,
+            t_enter: enter,
+            frame: tree.frame,
+        },
     })
 }
 
@@ -317,33 +329,43 @@ fn least(x: __m256d) -> f64 {
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 fn lanes(ray: &CullRay) -> Lanes {
-    let [near_plane, far_plane] = PLANES[ray.octant as usize & 7];
+    // SAFETY: four f32.
+    let four = |v: &[f32; 4]| unsafe { _mm_loadu_ps(v.as_ptr()) };
+    spread(four(&ray.r), four(&ray.near), four(&ray.far), ray.octant as usize, ray.way.t_near)
+}
+
+/// Of each four numbers three count.
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn spread(r: __m128, near: __m128, far: __m128, octant: usize, t_near: f32) -> Lanes {
+    let each = |x: __m128| {
+        let x = _mm256_set_m128(x, x);
+        [_mm256_permute_ps::<0x00>(x), _mm256_permute_ps::<0x55>(x), _mm256_permute_ps::<0xaa>(x)]
+    };
+    let [near_plane, far_plane] = PLANES[octant & 7];
     Lanes {
-        r: [_mm256_set1_ps(ray.r[0]), _mm256_set1_ps(ray.r[1]), _mm256_set1_ps(ray.r[2])],
-        near: [_mm256_set1_ps(ray.near[0]), _mm256_set1_ps(ray.near[1]), _mm256_set1_ps(ray.near[2])],
-        far: [_mm256_set1_ps(ray.far[0]), _mm256_set1_ps(ray.far[1]), _mm256_set1_ps(ray.far[2])],
-        t_near: _mm256_set1_ps(ray.t_near),
-        near_plane,
-        far_plane,
-        octant_shift: 3 * ray.octant,
+        r: each(r),
+        near: each(near),
+        far: each(far),
+        t_near: _mm256_set1_ps(t_near),
+        near_plane: [0, 1, 2].map(|i| usize::from(near_plane[i])),
+        far_plane: [0, 1, 2].map(|i| usize::from(far_plane[i])),
+        octant_shift: _mm_cvtsi32_si128(3 * octant as i32),
     }
 }
 
-/// A node's children in the order of the ray's octant (or their own): those that are met, entries and references.
-struct Met {
-    mask: usize,
-    near: __m256,
-    child: __m256i,
-}
-
-/// Six fused multiply-adds, six minima and maxima; then a permutation that sorts.
+/// Six fused multiply-adds, six minima and maxima; a permutation that sorts children by the ray's octant (or none); and one that closes the
+/// gaps between those that are met, in place of a branch per child.
+///
+/// The way to the next child is as short as can be: all eight are written where those that are met go later, while the boxes are still being tested, and
+/// the highest bit of the mask says which to read; with no bit it is the one that was on top before.
 #[inline]
-#[target_feature(enable = "avx2,fma")]
-fn slabs<const ORDERED: bool>(node: &Node8, lanes: &Lanes, t_far: f32) -> Met {
-    let plane = |i: u8, axis: usize, c: &[__m256; 3]| {
+#[target_feature(enable = "avx2,fma,popcnt,lzcnt")]
+fn descend<const ORDERED: bool>(node: &Node8, lanes: &Lanes, t_far: f32, stack: &mut Stack) -> ChildRef {
+    let plane = |i: usize, axis: usize, c: &[__m256; 3]| {
         // SAFETY: `i < 6` as in `PLANES`, and a row holds eight f32, aligned to 32 bytes in a node
         // aligned to 64.
-        let planes = unsafe { _mm256_load_ps(node.planes.get_unchecked(usize::from(i)).as_ptr()) };
+        let planes = unsafe { _mm256_load_ps(node.planes.as_ptr().cast::<f32>().byte_add(i)) };
         _mm256_fmadd_ps(planes, lanes.r[axis], c[axis])
     };
     let [nx, ny, nz] = lanes.near_plane;
@@ -357,51 +379,33 @@ fn slabs<const ORDERED: bool>(node: &Node8, lanes: &Lanes, t_far: f32) -> Met {
     let (child, order) = unsafe {
         (_mm256_load_si256(node.child.as_ptr().cast()), _mm256_load_si256(node.order.as_ptr().cast()))
     };
-    if ORDERED {
+    let (met, near, child) = if ORDERED {
         // Only the low three bits of each index count.
-        let order = _mm256_srl_epi32(order, _mm_cvtsi32_si128(lanes.octant_shift as i32));
-        Met {
-            mask: _mm256_movemask_ps(_mm256_permutevar8x32_ps(met, order)) as usize,
-            near: _mm256_permutevar8x32_ps(near, order),
-            child: _mm256_permutevar8x32_epi32(child, order),
-        }
+        let order = _mm256_srl_epi32(order, lanes.octant_shift);
+        (
+            _mm256_permutevar8x32_ps(met, order),
+            _mm256_permutevar8x32_ps(near, order),
+            _mm256_permutevar8x32_epi32(child, order),
+        )
     } else {
-        Met { mask: _mm256_movemask_ps(met) as usize, near, child }
-    }
-}
-
-/// The last child is found by the highest bit, from a copy in memory that was written while the boxes were still being tested. The others go onto
-/// the stack through a permutation that closes the gaps, in place of a branch per child.
-#[inline]
-#[target_feature(enable = "avx2,fma,popcnt,lzcnt")]
-fn descend<const ORDERED: bool>(
-    node: &Node8,
-    lanes: &Lanes,
-    t_far: f32,
-    stack: &mut Stack,
-) -> Option<ChildRef> {
-    #[repr(align(32))]
-    struct Children([u32; WIDTH]);
-    let met = slabs::<ORDERED>(node, lanes, t_far);
-    let mut children = Children([0; WIDTH]);
-    // SAFETY: eight u32, aligned to 32 bytes.
-    unsafe { _mm256_store_si256(children.0.as_mut_ptr().cast(), met.child) };
-    let last = (met.mask as u32 & 255).checked_ilog2()?;
-    let close = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(COMPRESS[met.mask & 255] as i64));
-    let near = _mm256_permutevar8x32_ps(met.near, close);
-    let child = _mm256_permutevar8x32_epi32(met.child, close);
-    // SAFETY: eight elements are written to each, through pointers to eight; at most seven are counted.
+        (met, near, child)
+    };
+    let mask = _mm256_movemask_ps(met) as u32 & 255;
+    let close = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(COMPRESS[mask as usize] as i64));
+    // SAFETY: eight elements are written to each, through pointers to eight; a mask of eight bits has at most eight.
     unsafe {
-        stack.push_lanes(
+        stack.exchange(
+            (32 - mask.leading_zeros()) as usize,
+            mask.count_ones() as usize,
+            #[inline(always)]
+            |refs| _mm256_storeu_si256(refs.cast(), child),
             #[inline(always)]
             |refs, distances| {
-                _mm256_storeu_si256(refs.cast(), child);
-                _mm256_storeu_ps(distances, near);
-                met.mask.count_ones() as usize - 1
+                _mm256_storeu_si256(refs.cast(), _mm256_permutevar8x32_epi32(child, close));
+                _mm256_storeu_ps(distances, _mm256_permutevar8x32_ps(near, close));
             },
-        );
+        )
     }
-    Some(ChildRef(children.0[last as usize & (WIDTH - 1)]))
 }
 
 #[inline(never)]

@@ -12,7 +12,7 @@ pub(crate) use scalar::Scalar;
 pub(crate) use stack::{MAX_DEPTH, Stack};
 
 use crate::node::{ChildRef, Node8};
-use crate::ray::{CullRay, Line};
+use crate::ray::{Sight, Way};
 use crate::tree::Bvh;
 use crate::triangles::{Block, Filter, Verdict};
 
@@ -23,21 +23,18 @@ pub(crate) trait Kernel: Copy {
     /// The ray, spread over the lanes.
     type Lanes;
 
-    /// What the tests need of a line, clipped to the tree's box or not; `None` if it certainly misses that.
-    fn cull(self, tree: &Bvh, line: &Line) -> Option<CullRay>;
+    /// What the tests need of a ray, clipped to the tree's box or not; `None` if it certainly misses that.
+    fn ready(self, tree: &Bvh, sight: &impl Sight) -> Option<(Self::Lanes, Way)>;
 
-    /// Spreads the ray.
-    fn lanes(self, ray: &CullRay) -> Self::Lanes;
-
-    /// Pushes the children whose boxes the ray meets before `t_far`, all but the last, which is the answer; `None` if it meets none. In the order
-    /// of the ray's octant, the farthest first, or in that of the node.
+    /// Pushes the children whose boxes the ray meets before `t_far`, and takes the last off the stack, or what was there before if it meets none. In
+    /// the order of the ray's octant, the farthest first, or in that of the node.
     fn descend<const ORDERED: bool>(
         self,
         node: &Node8,
         lanes: &Self::Lanes,
         t_far: f32,
         stack: &mut Stack,
-    ) -> Option<ChildRef>;
+    ) -> ChildRef;
 
     /// What can be said of eight triangles, of crossings up to `t_far`.
     fn judge(self, block: &Block, filter: &Filter, t_far: f32) -> Verdict;

@@ -2,7 +2,7 @@
 
 use super::{Kernel, Stack};
 use crate::node::{ChildRef, Node8, WIDTH};
-use crate::ray::{CullRay, Line, Rounding};
+use crate::ray::{CullRay, Rounding, Sight, Way};
 use crate::tree::Bvh;
 use crate::triangles::{Block, FAR, FLAT, Filter, LANES, NEAR, Verdict};
 
@@ -40,7 +40,7 @@ impl<const FUSED: bool> Scalar<FUSED> {
         for i in 0..WIDTH {
             let near = |plane: usize, axis: usize| at(node.planes[plane][i], ray.r[axis], ray.near[axis]);
             let far = |plane: usize, axis: usize| at(node.planes[plane][i], ray.r[axis], ray.far[axis]);
-            let enter = max(max(near(nx, 0), near(ny, 1)), max(near(nz, 2), ray.t_near));
+            let enter = max(max(near(nx, 0), near(ny, 1)), max(near(nz, 2), ray.way.t_near));
             let leave = min(min(far(fx, 0), far(fy, 1)), min(far(fz, 2), t_far));
             slabs.near[i] = enter;
             slabs.met[i] = enter <= leave;
@@ -53,13 +53,9 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
     type Lanes = CullRay;
 
     #[inline(always)]
-    fn cull(self, tree: &Bvh, line: &Line) -> Option<CullRay> {
-        tree.cull(line, if FUSED { Rounding::Fused } else { Rounding::Unfused })
-    }
-
-    #[inline(always)]
-    fn lanes(self, ray: &CullRay) -> CullRay {
-        *ray
+    fn ready(self, tree: &Bvh, sight: &impl Sight) -> Option<(CullRay, Way)> {
+        let ray = tree.cull(&sight.line(), if FUSED { Rounding::Fused } else { Rounding::Unfused })?;
+        Some((ray, ray.way))
     }
 
     #[inline(always)]
@@ -69,18 +65,15 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
         ray: &CullRay,
         t_far: f32,
         stack: &mut Stack,
-    ) -> Option<ChildRef> {
+    ) -> ChildRef {
         let slabs = self.slabs(node, ray, t_far);
-        let mut last = None;
         for i in 0..WIDTH {
             let i = if ORDERED { (node.order[i] >> (3 * ray.octant) & 7) as usize } else { i };
-            if slabs.met[i]
-                && let Some((child, near)) = last.replace((node.child[i], slabs.near[i]))
-            {
-                stack.push(child, near);
+            if slabs.met[i] {
+                stack.push(node.child[i], slabs.near[i]);
             }
         }
-        last.map(|(child, _)| child)
+        stack.pop()
     }
 
     #[inline(always)]

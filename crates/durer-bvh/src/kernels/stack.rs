@@ -7,30 +7,34 @@ use core::mem::MaybeUninit;
 /// The deepest tree that is built.
 pub(crate) const MAX_DEPTH: usize = 40;
 
-/// On each level at most seven siblings wait while the eighth is entered; and one push writes eight lanes.
-const CAPACITY: usize = (WIDTH - 1) * MAX_DEPTH + WIDTH;
+/// On each level at most seven siblings wait while the eighth is entered; one push writes eight lanes; and at the bottom lies the end.
+const CAPACITY: usize = (WIDTH - 1) * MAX_DEPTH + WIDTH + 1;
 
-/// Children that wait, with the parameter at which the ray enters each.
+/// Children that wait, with the parameter at which the ray enters each; at the bottom [`ChildRef::END`].
 pub(crate) struct Stack {
     refs: [MaybeUninit<u32>; CAPACITY],
     near: [MaybeUninit<f32>; CAPACITY],
-    /// Everything below has been written. At most `CAPACITY`.
+    /// Everything below has been written. At most `CAPACITY`; 0 once the end was taken.
     len: usize,
 }
 
 impl Stack {
     #[inline(always)]
     pub(crate) fn new() -> Self {
-        Self {
+        let mut stack = Self {
             refs: [const { MaybeUninit::uninit() }; CAPACITY],
             near: [const { MaybeUninit::uninit() }; CAPACITY],
             len: 0,
-        }
+        };
+        stack.clear();
+        stack
     }
 
     #[inline(always)]
     pub(crate) fn clear(&mut self) {
-        self.len = 0;
+        self.refs[0].write(ChildRef::END.0);
+        self.near[0].write(f32::NEG_INFINITY);
+        self.len = 1;
     }
 
     #[inline(always)]
@@ -41,43 +45,63 @@ impl Stack {
         self.len += 1;
     }
 
+    /// The last child, or the end; not to be asked again after that.
     #[inline(always)]
-    pub(crate) fn pop(&mut self) -> Option<(ChildRef, f32)> {
-        self.len = self.len.checked_sub(1)?;
-        // SAFETY: the element at the old length less one was below that length, so it has been written; a f32 and a u32 are plain
-        // data.
-        Some(unsafe { (ChildRef(self.refs[self.len].assume_init()), self.near[self.len].assume_init()) })
+    pub(crate) fn pop(&mut self) -> ChildRef {
+        assert!(self.len > 0, "the end is taken once");
+        self.len -= 1;
+        // SAFETY: the element was below the length, so it has been written; a u32 is plain data.
+        ChildRef(unsafe { self.refs[self.len].assume_init() })
     }
 
-    /// The last child that the ray enters no later than this; those above it that it enters later are dropped.
-    #[inline(always)]
-    pub(crate) fn pop_before(&mut self, t_far: f32) -> Option<ChildRef> {
-        loop {
-            let (child, near) = self.pop()?;
-            if near <= t_far {
-                return Some(child);
-            }
+    /// Drops what the ray enters later than this; the others stay in their order. Without branches, which nobody could foresee.
+    pub(crate) fn prune(&mut self, t_far: f32) {
+        let mut kept = 0;
+        for i in 0..self.len {
+            // SAFETY: both elements are below the length, so they have been written; plain data.
+            let (child, near) = unsafe { (self.refs[i].assume_init(), self.near[i].assume_init()) };
+            self.refs[kept].write(child);
+            self.near[kept].write(near);
+            kept += usize::from(near <= t_far);
         }
+        self.len = kept;
     }
 
-    /// Lets `write` fill eight elements of each array; the first `count` of them are kept.
+    /// Pushes those of eight children that are met and pops the last, or what was on top before if none is. `stage` writes all eight, `push` the
+    /// `count` that are met without gaps; `last` is one more than the place of the last of them among the eight, 0 if there is none.
     ///
     /// # Safety
     ///
-    /// `write` gets pointers to eight unaligned elements, which it may write. It must write at least as many as it returns, at
-    /// most eight.
+    /// Both functions get pointers to eight unaligned elements. `stage` must write all of them; `push` must write at least `count` of each, at
+    /// most eight; `count` is at most eight, and so is `last`.
     #[inline(always)]
-    pub(crate) unsafe fn push_lanes(&mut self, write: impl FnOnce(*mut u32, *mut f32) -> usize) {
-        assert!(self.len <= CAPACITY - WIDTH, "the builder bounds the depth");
-        let refs = self.refs[self.len..][..WIDTH].as_mut_ptr();
-        let near = self.near[self.len..][..WIDTH].as_mut_ptr();
-        let count = write(refs.cast(), near.cast());
-        debug_assert!(count <= WIDTH);
-        self.len += count;
+    pub(crate) unsafe fn exchange(
+        &mut self,
+        last: usize,
+        count: usize,
+        stage: impl FnOnce(*mut u32),
+        push: impl FnOnce(*mut u32, *mut f32),
+    ) -> ChildRef {
+        // One comparison for both ends: there is something on top, and room.
+        assert!(self.len.wrapping_sub(1) < CAPACITY - WIDTH, "the builder bounds the depth");
+        debug_assert!(count <= WIDTH && last <= WIDTH);
+        // SAFETY: `1 <= len <= CAPACITY - 8`, so eight elements from `len` on are in the arrays, and so is the one before them.
+        unsafe {
+            let refs = self.refs.as_mut_ptr().add(self.len).cast::<u32>();
+            let near = self.near.as_mut_ptr().add(self.len).cast::<f32>();
+            stage(refs);
+            // The one before has been written as it is below the length, the others just now.
+            let next = refs.sub(1).add(last).read();
+            push(refs, near);
+            self.len = self.len + count - 1;
+            ChildRef(next)
+        }
     }
 
     #[cfg(test)]
     pub(crate) fn drain(&mut self) -> Vec<(u32, u32)> {
-        core::iter::from_fn(|| self.pop()).map(|(child, near)| (child.0, near.to_bits())).collect()
+        // SAFETY: both elements are below the length, so they have been written; plain data.
+        let one = |i: usize| unsafe { (self.refs[i].assume_init(), self.near[i].assume_init().to_bits()) };
+        (0..self.len).map(one).collect()
     }
 }

@@ -1,7 +1,7 @@
 use super::{Avx2, Kernel, Scalar, Stack};
 use crate::frame::Frame;
 use crate::node::{ChildRef, Node8, WIDTH};
-use crate::ray::{CullRay, Line, Rounding};
+use crate::ray::{CullRay, Line, Rounding, Way};
 use crate::triangles::{Block, Filter};
 use durer_math::{Aabb, Isa, Point3, Vec3};
 use proptest::prelude::*;
@@ -70,13 +70,15 @@ proptest! {
         let line = line(o, d);
         let frame = Frame::around(&Aabb::EMPTY);
         let Some(ray) = CullRay::new(&line, frame, &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
-        let ray = CullRay { t_near, ..ray };
-        let t_far = t_far.min(ray.t_far);
+        let ray = CullRay { way: Way { t_near, ..ray.way }, ..ray };
+        let t_far = t_far.min(ray.way.t_far);
         let (mut a, mut b) = (Stack::new(), Stack::new());
         let lanes = avx2.lanes(&ray);
         let scalar = Scalar::<true>.descend::<true>(&node, &ray, t_far, &mut a);
         prop_assert_eq!(scalar, avx2.descend::<true>(&node, &lanes, t_far, &mut b));
         prop_assert_eq!(a.drain(), b.drain());
+        a.clear();
+        b.clear();
         let scalar = Scalar::<true>.descend::<false>(&node, &ray, t_far, &mut a);
         prop_assert_eq!(scalar, avx2.descend::<false>(&node, &lanes, t_far, &mut b));
         prop_assert_eq!(a.drain(), b.drain());
@@ -94,8 +96,8 @@ proptest! {
         let block = Block::new(frame, corners.iter().enumerate().map(triangle));
         let line = line(o.map(f64::from), d);
         let Some(ray) = CullRay::new(&line, frame, &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
-        let ray = CullRay { t_near, is_exact, ..ray };
-        let filter = Filter::new(&line, &ray, rounded);
+        let way = Way { t_near, is_exact, ..ray.way };
+        let filter = Filter::new(&line, &way, rounded);
         let one = Scalar::<true>.judge(&block, &filter, far);
         let eight = avx2.judge(&block, &filter, far);
         prop_assert_eq!((one.alive, one.sure), (eight.alive, eight.sure));

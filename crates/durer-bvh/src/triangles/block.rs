@@ -76,6 +76,14 @@ impl Block {
         self.tags[lane & (LANES - 1)] & SLOT
     }
 
+    /// The corners of a lane's triangle as they are kept, in the caller's units, which are `1 / grow`.
+    #[inline(always)]
+    pub(crate) fn corners(&self, grow: f64, lane: usize) -> Corners {
+        let lane = lane & (LANES - 1);
+        let at = |row: usize| f64::from(self.rows[row][lane]) * grow;
+        [Point3::new(at(0), at(1), at(2)), Point3::new(at(3), at(4), at(5)), Point3::new(at(6), at(7), at(8))]
+    }
+
     /// Whether f32 holds a corner.
     pub(crate) fn holds(frame: Frame, v: Point3) -> bool {
         (0..3).all(|i| {

@@ -53,7 +53,7 @@
 //!
 //! where `s` keeps hits apart whose rounded f64 parameters may stand in another order than the exact ones.
 
-use crate::ray::{CullRay, Line};
+use crate::ray::{Line, Sight, Way};
 
 /// Half an ulp of 1 in f32.
 const U: f32 = 1.0 / (1 << 24) as f32;
@@ -93,21 +93,21 @@ pub(crate) struct Filter {
 impl Filter {
     /// The ray from its entry on; `rounded` says that f32 does not hold the corners.
     #[inline(always)]
-    pub(crate) fn new(line: &Line, cull: &CullRay, rounded: bool) -> Self {
+    pub(crate) fn new(sight: &impl Sight, way: &Way, rounded: bool) -> Self {
         let w = if rounded { U } else { 0.0 };
-        if cull.is_exact { Self::exact(cull, line.inner, w) } else { Self::known_within(line, cull, w) }
+        if way.is_exact { Self::exact(way, w) } else { Self::known_within(&sight.line(), way, w) }
     }
 
     /// The formulas above with `e = g = 0`.
     #[inline(always)]
-    fn exact(cull: &CullRay, inner: (f64, f64), w: f32) -> Self {
-        let (size, m) = (most(&cull.start), most(&cull.direction));
+    fn exact(way: &Way, w: f32) -> Self {
+        let (size, m) = (most(&way.start), most(&way.direction));
         let c = 1.0 + size;
         let b = (10.0 * U * PAYS) * m;
-        let (first, last) = cull.inner(inner);
+        let (first, last) = way.inside();
         Self {
-            o: cull.start,
-            d: cull.direction,
+            o: way.start,
+            d: way.direction,
             a: (42.0 * U * PAYS).mul_add(c, (12.0 * PAYS) * w) * m,
             b,
             g: w * c * (12.0 * b),
@@ -115,19 +115,19 @@ impl Filter {
             p: (2.0 * U * PAYS).mul_add(size, (4.0 * PAYS) * w),
             q: 4.0 * b,
             s: 8.0 * 128.0 * U * U * PAYS,
-            t_near: cull.t_near,
+            t_near: way.t_near,
             first,
             last,
         }
     }
 
     #[inline(always)]
-    fn known_within(line: &Line, cull: &CullRay, w: f32) -> Self {
-        let (o, d) = (cull.start, cull.direction);
+    fn known_within(line: &Line, way: &Way, w: f32) -> Self {
+        let (o, d) = (way.start, way.direction);
         let (size, m) = (most(&o), most(&d));
         let g = line.direction_error.max_abs() as f32;
         // The start was rounded once more than the tests of boxes know, by 2^-53 of itself.
-        let e = (cull.error as f32).mul_add(PAYS, U * U * size);
+        let e = (way.error as f32).mul_add(PAYS, U * U * size);
         let c = 1.0 + size;
         // An error that is not a number is not this small either.
         if !(e <= ROUGH && g <= ROUGH * m) {
@@ -136,8 +136,8 @@ impl Filter {
         let k = e.mul_add(m, c * g);
         let slope = (8.0 * U).mul_add(m, g);
         // Rounded parameters are within 32 ulp of `max(|t|, size / |d|)`; twice that, for each of two.
-        let s = (128.0 * U * U) * (cull.entry().abs() as f32 + 8.0);
-        let (first, last) = cull.inner(line.inner);
+        let s = (128.0 * U * U) * (way.entry().abs() as f32 + 8.0);
+        let (first, last) = way.inner(line.inner);
         Self {
             o,
             d,
@@ -148,7 +148,7 @@ impl Filter {
             p: 2.0 * U.mul_add(size, 2.0_f32.mul_add(w, e)) * PAYS,
             q: 2.0 * (8.0 * U).mul_add(m, slope) * PAYS,
             s: s * PAYS,
-            t_near: cull.t_near,
+            t_near: way.t_near,
             first,
             last,
         }
