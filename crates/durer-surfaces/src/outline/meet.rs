@@ -210,6 +210,9 @@ impl Outline {
         let Scratch { start, steps: Steps { plane, roots, spot, .. } } = scratch;
         let seen = &Seen { d: rays.direction, d1: &rays.d1, start };
         for (i, face) in self.faces[..self.walls].iter().enumerate() {
+            if self.cutters.get(i).is_some_and(Option::is_none) {
+                continue;
+            }
             let from = self.leaving(from, i);
             if face.kind == FaceKind::Plane {
                 face.crossing(rays.isa, seen, from.as_ref(), plane);
@@ -252,10 +255,8 @@ impl Outline {
         if !is_reached {
             return;
         }
-        for (j, other) in self.faces.iter().enumerate() {
-            if j != wall && !other.cut(rays.isa, spot, &open, &mut inside, &mut outside) {
-                return;
-            }
+        if !self.cut_by_others(rays, wall, (spot, &open), &mut inside, &mut outside) {
+            return;
         }
         for hole in &self.holes {
             let (mut within, mut beside) = (M8::ALL, M8::NONE);
@@ -280,6 +281,23 @@ impl Outline {
                 self.put_down(sure, unsure, (t, e, F8::splat(wall as f64)), t - e, asked.number, nearest);
             },
         );
+    }
+
+    /// Where other faces cut off points of a wall, and where they surely do not; says whether any of the open ones may still be there.
+    pub(super) fn cut_by_others(
+        &self,
+        rays: &RayLanes<'_>,
+        wall: usize,
+        (spot, open): (&Spot, &M8),
+        inside: &mut M8,
+        outside: &mut M8,
+    ) -> bool {
+        let mut may_stay = |j: usize| self.faces[j].cut(rays.isa, spot, open, inside, outside);
+        match self.cutters.get(wall) {
+            None => (0..self.faces.len()).all(|j| j == wall || may_stay(j)),
+            Some(None) => false,
+            Some(Some(others)) => others.iter().all(|&j| may_stay(j as usize)),
+        }
     }
 
     /// Offers a root of a surface with one face.

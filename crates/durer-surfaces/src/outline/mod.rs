@@ -68,6 +68,8 @@ pub struct Outline {
     convex: bool,
     /// Which faces are planes that, with the next one, bound a slab.
     slabs: Box<[bool]>,
+    /// For each wall the faces that may cut off some of it, `None` if it is cut off as a whole; empty if all faces may cut all others.
+    cutters: Box<[Option<Box<[u32]>>]>,
     /// Normals point to where the faces are negative.
     turned: bool,
     /// The outline only holds the surface: what meets it may still miss.

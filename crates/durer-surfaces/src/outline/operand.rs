@@ -228,10 +228,8 @@ impl Outline {
         if !is_reached {
             return;
         }
-        for (j, other) in self.faces.iter().enumerate() {
-            if j != wall && !other.cut(rays.isa, spot, &open, &mut inside, &mut outside) {
-                return;
-            }
+        if !self.cut_by_others(rays, wall, (spot, &open), &mut inside, &mut outside) {
+            return;
         }
         rays.isa.run_in_lanes(
             #[inline(always)]

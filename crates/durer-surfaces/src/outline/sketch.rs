@@ -36,6 +36,35 @@ pub struct Sketch {
     holes: Vec<Vec<Form<N>>>,
     /// See [`Outline`].
     detail: Option<DetailSketch>,
+    /// What is known of walls and faces that are parallel planes.
+    parallel: Vec<Parallel>,
+}
+
+/// A wall and a face that cuts others off, two parallel planes with some distance between them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Parallel {
+    wall: usize,
+    face: usize,
+    /// The face cuts off the whole wall, or nothing of it.
+    cuts: bool,
+}
+
+impl Parallel {
+    /// What two faces are to each other, where that is sure.
+    ///
+    /// With `b' = λ b`, `f' = 2 b'·x + c'` is `c' - λ c` where `2 b·x + c = 0`, which has the sign of `(c' b_k - c b'_k) b_k` for every `k`.
+    fn of(wall: (usize, &Form<N>), face: (usize, &Form<N>)) -> Option<Self> {
+        let is_flat = |f: &Form<N>| f.q.iter().all(|x| x.magnitude() == 0.0);
+        let (a, b) = (wall.1, face.1);
+        let is_parallel = cross(&a.b, &b.b).iter().all(|x| x.magnitude() == 0.0);
+        if !(is_flat(a) && is_flat(b) && is_parallel) {
+            return None;
+        }
+        let k = (0..3).find(|&k| a.b[k].lo() > 0.0 || a.b[k].hi() < 0.0)?;
+        let side = (b.c * a.b[k] - a.c * b.b[k]) * a.b[k];
+        let cuts = side.lo() > 0.0;
+        (cuts || side.hi() < 0.0).then_some(Self { wall: wall.0, face: face.0, cuts })
+    }
 }
 
 /// Where the numbers of an outline are: far enough from the ends of the range of f64 for all products of them.
@@ -93,6 +122,7 @@ impl Sketch {
             loops: None,
             holes: Vec::new(),
             detail: None,
+            parallel: Vec::new(),
         }
     }
 
@@ -366,8 +396,16 @@ impl Sketch {
         if self.detail.as_ref().is_some_and(DetailSketch::is_endless) {
             return if region.convex { self.within_convex(region) } else { Self::vague(Aabb::UNBOUNDED) };
         }
-        let seen = region.faces_from(self.centre);
-        self.forms.extend(seen);
+        let before = self.forms.len();
+        self.forms.extend(region.faces_from(self.centre));
+        // The faces of what is vague are not its walls.
+        if self.vague.is_none() {
+            let (forms, parallel) = (&self.forms, &mut self.parallel);
+            for wall in 0..self.walls {
+                let of = |face| Parallel::of((wall, &forms[wall]), (face, &forms[face]));
+                parallel.extend((before..forms.len()).filter_map(of));
+            }
+        }
         self.convex = false;
         self.detail = None;
         self
@@ -412,6 +450,16 @@ impl Sketch {
         }
     }
 
+    /// The faces that may cut off some of a wall; `None` if one cuts off all of it.
+    fn cutters(&self, wall: usize) -> Option<Box<[u32]>> {
+        let known = |face: usize| self.parallel.iter().find(|p| (p.wall, p.face) == (wall, face));
+        if self.parallel.iter().any(|p| p.wall == wall && p.cuts) {
+            return None;
+        }
+        let others = (0..self.forms.len()).filter(|&face| face != wall && known(face).is_none());
+        Some(others.map(|face| face as u32).collect())
+    }
+
     /// The outline; `None` if its numbers are too large or too small for lanes.
     pub fn outline(&self) -> Option<Outline> {
         let ordinary = self.centre.is_finite()
@@ -427,6 +475,8 @@ impl Sketch {
         let holes = self.holes.iter().map(round).collect::<Option<_>>()?;
         let slabs = (0..faces.len()).map(|i| faces.get(i + 1).is_some_and(|next| faces[i].is_opposite(next)));
         let slabs = slabs.collect();
+        let known = if self.parallel.is_empty() { 0 } else { self.walls };
+        let cutters = (0..known).map(|wall| self.cutters(wall)).collect();
         let Self { centre, walls, reach, convex, turned, vague, own_face, .. } = *self;
         let normals = self.normals.map(Box::new);
         let loops = match &self.loops {
@@ -440,6 +490,7 @@ impl Sketch {
             reach,
             convex,
             slabs,
+            cutters,
             turned,
             vague: vague.is_some(),
             own_face,
