@@ -155,7 +155,7 @@ impl Shaft8 {
             let slack = t.abs() * WIDEN + LOST;
             // Comparisons with NaN keep what there was.
             match cut.kind {
-                CutKind::Level => met = met & !room.lt(F8::ZERO),
+                CutKind::Level => met &= !room.lt(F8::ZERO),
                 CutKind::Exit => exit = (t + slack).lt(exit).select(t + slack, exit),
                 CutKind::Enter => enter = (t - slack).gt(enter).select(t - slack, enter),
                 CutKind::Nothing => {}
@@ -167,14 +167,15 @@ impl Shaft8 {
 
 impl Cut {
     fn new(base: f64, slope: f64) -> Self {
+        const STEEP: f64 = 1.0 / LOST;
         let kind = if slope == 0.0 {
             CutKind::Level
-        } else if !(slope.abs() < 1.0 / LOST) {
-            CutKind::Nothing
-        } else if slope > 0.0 {
+        } else if slope > 0.0 && slope < STEEP {
             CutKind::Exit
-        } else {
+        } else if slope < 0.0 && slope > -STEEP {
             CutKind::Enter
+        } else {
+            CutKind::Nothing
         };
         Self { base, inverse: 1.0 / slope, kind }
     }
@@ -264,7 +265,7 @@ mod tests {
             met += 1;
             // And any box: what is missed holds no point of the ray.
             let other = dice.bounds(20);
-            let eight = |i: usize| if i % 2 == 0 { &bounds } else { &other };
+            let eight = |i: usize| if i.is_multiple_of(2) { &bounds } else { &other };
             let corner = |f: fn(&Aabb) -> Vec3| {
                 let axis = |k: usize| F8(core::array::from_fn(|i| f(eight(i))[k]));
                 Vec3::new(axis(0), axis(1), axis(2))
