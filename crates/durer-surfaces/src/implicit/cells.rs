@@ -81,8 +81,14 @@ pub(super) struct Cells {
     tapes: Vec<Tape>,
 }
 
-/// The tapes there are, by a number that their steps say, so that cells that ask the same share one.
-type Known = HashMap<u64, Vec<u32>>;
+/// What is only needed while cells are divided.
+#[derive(Default)]
+struct Known {
+    /// The tapes there are, by a number that their steps say, so that cells that ask the same share one.
+    tapes: HashMap<u64, Vec<u32>>,
+    /// Where the leaves are.
+    leaves: Vec<Aabb>,
+}
 
 /// What a stretch of a ray is in.
 #[derive(Clone, Copy, Debug)]
@@ -110,7 +116,9 @@ impl Cells {
             leaves: Vec::new(),
             tapes: vec![tape.clone()],
         };
-        made.root = made.divided(&extent, 0, 0, &mut Known::new());
+        let mut known = Known::default();
+        made.root = made.divided(&extent, 0, 0, &mut known);
+        made.bound_gradients(&known.leaves);
         made
     }
 
@@ -118,11 +126,7 @@ impl Cells {
     fn divided(&mut self, bounds: &Aabb, tape: u32, depth: u32, known: &mut Known) -> Cell {
         let halves: [Aabb; 8] = core::array::from_fn(|i| octant(bounds, i));
         let grow = self.margin;
-        let boxes: [I8; 3] = core::array::from_fn(|axis| {
-            let lo = F8(core::array::from_fn(|i| (halves[i].min[axis] - grow).next_down()));
-            let hi = F8(core::array::from_fn(|i| (halves[i].max[axis] + grow).next_up()));
-            I8::new(lo, hi)
-        });
+        let boxes = grown(&halves, grow);
         let is_open = |i: usize, v: &I8| v.empty >> i & 1 == 0 && v.lo.0[i] <= 0.0 && v.hi.0[i] >= 0.0;
         let whole = self.tapes[tape as usize].clone();
         let (v, shorter) = whole.shortened(&boxes, is_open);
@@ -139,12 +143,12 @@ impl Cells {
         let first = self.cells.len();
         self.cells.extend([Cell::Gap; 8]);
         let tapes = shorter.map(|shorter| shorter.map_or(tape, |shorter| self.shared(shorter, known)));
-        let gradients = if depth + 1 == DEEPEST { gradients(&whole, &boxes) } else { [Gradient::UNKNOWN; 8] };
         for i in 0..8 {
             self.cells[first + i] = match told[i] {
                 Some(cell) => cell,
                 None if depth + 1 == DEEPEST => {
-                    self.leaves.push(Leaf { tape: tapes[i], gradient: gradients[i] });
+                    self.leaves.push(Leaf { tape: tapes[i], gradient: Gradient::UNKNOWN });
+                    known.leaves.push(halves[i]);
                     Cell::Leaf(self.leaves.len() as u32 - 1)
                 }
                 None => self.divided(&halves[i], tapes[i], depth + 1, known),
@@ -153,9 +157,24 @@ impl Cells {
         Cell::Inner(first as u32)
     }
 
+    /// Bounds the gradient in each leaf, in eight that share a tape at a time.
+    fn bound_gradients(&mut self, places: &[Aabb]) {
+        let mut order: Vec<(u32, usize)> = self.leaves.iter().map(|leaf| leaf.tape).zip(0..).collect();
+        order.sort_unstable();
+        for alike in order.chunk_by(|a, b| a.0 == b.0) {
+            for eight in alike.chunks(8) {
+                let cells: [Aabb; 8] = core::array::from_fn(|i| places[eight[i.min(eight.len() - 1)].1]);
+                let told = gradients(&self.tapes[eight[0].0 as usize], &grown(&cells, self.margin));
+                for (&(_, leaf), gradient) in eight.iter().zip(told) {
+                    self.leaves[leaf].gradient = gradient;
+                }
+            }
+        }
+    }
+
     /// The number of a tape: that of an equal one, if there is one.
     fn shared(&mut self, tape: Tape, known: &mut Known) -> u32 {
-        let alike = known.entry(tape.fingerprint()).or_default();
+        let alike = known.tapes.entry(tape.fingerprint()).or_default();
         if let Some(&same) = alike.iter().find(|&&other| self.tapes[other as usize] == tape) {
             return same;
         }
@@ -270,6 +289,15 @@ impl Cells {
         let (count, steps) = tapes.fold((0, 0), |(n, sum), len| (n + 1, sum + len));
         (count, steps as f64 / count.max(1) as f64)
     }
+}
+
+/// Eight cells, larger by a margin.
+fn grown(cells: &[Aabb; 8], margin: f64) -> [I8; 3] {
+    core::array::from_fn(|axis| {
+        let lo = F8(core::array::from_fn(|i| (cells[i].min[axis] - margin).next_down()));
+        let hi = F8(core::array::from_fn(|i| (cells[i].max[axis] + margin).next_up()));
+        I8::new(lo, hi)
+    })
 }
 
 /// Bounds of the gradient on eight boxes.

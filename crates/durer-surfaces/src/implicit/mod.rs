@@ -31,9 +31,10 @@ pub use superellipsoid::{SuperellipsoidError, superellipsoid};
 pub(crate) use tracker::{Curve, Found, Tracker, Verdict};
 
 use crate::compose::clip::Algebraic;
+use crate::outline::Sketch;
 use crate::roots::quadratic::Quadratic;
 use crate::tape::{Builder, Formula, FormulaError, Op, Tape};
-use crate::{Forward, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use crate::{Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use cells::{Cells, Place};
 use convex::Gauge;
 use durer_math::{Aabb, Dyadic, F8, I8, Point3};
@@ -153,6 +154,13 @@ impl Surface for Isosurface {
 
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         self.point(ray, root, need)
+    }
+
+    fn sketch(&self, _part: PartId) -> Sketch {
+        match &self.gauge {
+            None => Sketch::vague(self.bounds()),
+            Some(gauge) => Sketch::level(self.bounds(), Arc::new(gauge.clone()), Point3::ORIGIN),
+        }
     }
 
     fn solidity(&self) -> Solidity {

@@ -116,9 +116,49 @@ impl<const M: usize, const C: usize> Lift<M, C> {
 
     /// The same for the image of a direction.
     #[inline(always)]
-    fn error_of_way(&self, reach: f64, e: f64) -> f64 {
+    pub(super) fn error_of_way(&self, reach: f64, e: f64) -> f64 {
         let row = self.size * e + (self.a_err + self.size * (6.0 * U)) * (reach + e);
         row * root_of(C as f64) * (1.0 + 16.0 * U) + TINY
+    }
+}
+
+impl Lift<1, 4> {
+    /// `A v`, eight times.
+    #[inline(always)]
+    pub(super) fn turned8(&self, v: Vec3<F8>) -> [F8; 4] {
+        let [[a, b, c, d]] = self.a;
+        let row = |r: Vec3| F8::splat(r.x).mul_add(v.x, F8::splat(r.y).mul_add(v.y, v.z * r.z));
+        [row(a), row(b), row(c), row(d)]
+    }
+
+    /// The images of eight points, rounded.
+    #[inline(always)]
+    pub(super) fn at8(&self, p: Vec3<F8>) -> [F8; 4] {
+        let [a, b, c, d] = self.turned8(p);
+        let [[e, f, g, h]] = self.b;
+        [a + e, b + f, c + g, d + h]
+    }
+
+    /// [`Lift::error_of_way`], eight times.
+    #[inline(always)]
+    pub(super) fn errors_of_way(&self, reach: f64, e: F8) -> F8 {
+        (e * self.size + (e + reach) * (self.a_err + self.size * (6.0 * U))) * (2.0 * (1.0 + 16.0 * U)) + TINY
+    }
+
+    /// [`Lift::error`], eight times.
+    #[inline(always)]
+    pub(super) fn errors(&self, reach: F8, e: F8) -> F8 {
+        (e * self.size + (reach + e) * (self.a_err + self.size * (6.0 * U)) + self.b_err)
+            * (2.0 * (1.0 + 16.0 * U))
+    }
+
+    /// The images of the axes, in each lane.
+    #[inline(always)]
+    pub(super) fn axes8(&self) -> [[[F8; 4]; 3]; 1] {
+        let [rows] = self.a;
+        let [a, b, c, d] = rows;
+        let column = |i: usize| [F8::splat(a[i]), F8::splat(b[i]), F8::splat(c[i]), F8::splat(d[i])];
+        [[column(0), column(1), column(2)]]
     }
 }
 

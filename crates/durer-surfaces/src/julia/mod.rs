@@ -17,14 +17,16 @@
 //! **The extent.** A point is no longer than it is in its slice. Of quaternions `|z_(n+1)| <= ρ` needs `|z_n|^k <= ρ + |c|`, so that `N` roots leave a
 //! smaller ball than `n = 0` does; and so it is for the two complex numbers of a hypercomplex one, which are `√2` times as long at most.
 
+mod lanes;
 mod lift;
 mod orbit;
 mod point;
 mod roots;
 
 use crate::compose::clip::Algebraic;
+use crate::outline::Sketch;
 use crate::roots::quadratic::Quadratic;
-use crate::{Forward, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use crate::{Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use durer_math::{Aabb, Affine, Dyadic, Interval, Point3, Vec3, elementary};
 use lift::Lift;
 use orbit::{Rule, TINY};
@@ -220,6 +222,13 @@ impl Surface for JuliaSet {
         match &*self.0 {
             Algebra::Quaternion(set) => set.point(ray, root, need),
             Algebra::Hypercomplex(set) => set.point(ray, root, need),
+        }
+    }
+
+    fn sketch(&self, _part: PartId) -> Sketch {
+        match &*self.0 {
+            Algebra::Quaternion(set) => set.sketch(self.bounds()),
+            Algebra::Hypercomplex(_) => Sketch::vague(self.bounds()),
         }
     }
 

@@ -64,7 +64,7 @@ pub(super) struct Rule<const M: usize, const C: usize> {
 impl<const C: usize> Ball<C> {
     /// The next point.
     #[inline(always)]
-    fn step(&mut self, c: &[f64; C], power: JuliaPower, c_err: f64, c_size: f64) {
+    pub(super) fn step(&mut self, c: &[f64; C], power: JuliaPower, c_err: f64, c_size: f64) {
         match power {
             JuliaPower::Square => self.square(c, c_err, c_size),
             JuliaPower::Cube => self.cube(c, c_err, c_size),

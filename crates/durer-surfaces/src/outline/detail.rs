@@ -6,6 +6,7 @@ use super::face::Start;
 use super::fields::{self, Fields};
 use super::hull::Hull;
 use super::lathe::{self, Lathe, Skin};
+use super::level::{self, Level};
 use super::meet::Question;
 use super::offer::{First, Offer};
 use super::operand::Crossings;
@@ -13,7 +14,7 @@ use super::own::{Own, OwnSketch};
 use super::rays::{From8, Nearest, RayLanes};
 use super::swept::{self, Swept};
 use crate::quadric::form::Form;
-use durer_math::{Dd, F8, M8, Point3, Run, Vec3};
+use durer_math::{Dd, F8, Isa, M8, Point3, Run, Vec3};
 use std::sync::Arc;
 
 /// What kind of surface it is.
@@ -29,6 +30,8 @@ pub(crate) enum Kind8 {
     Octic(Arc<Terms<9>>),
     /// A blob.
     Fields(Arc<Fields>),
+    /// A solid that is told a stretch at a time.
+    Level(Arc<dyn Level>),
 }
 
 /// The surface, and its coordinates before they are rounded.
@@ -53,6 +56,7 @@ pub(super) struct Memory {
     quartic: algebraic::Memory<5>,
     octic: algebraic::Memory<9>,
     fields: fields::Memory,
+    level: level::Memory,
 }
 
 impl DetailSketch {
@@ -94,7 +98,7 @@ impl Detail {
         match &self.shape {
             Kind8::Lathe(lathe) => lathe.name(face),
             Kind8::Swept(swept) => swept.face(face),
-            Kind8::Quartic(_) | Kind8::Octic(_) | Kind8::Fields(_) => 0,
+            Kind8::Quartic(_) | Kind8::Octic(_) | Kind8::Fields(_) | Kind8::Level(_) => 0,
         }
     }
 
@@ -110,6 +114,10 @@ impl Detail {
             swept.meet(&self.own, asked, start, nearest, &mut memory.swept);
             return;
         }
+        if let Kind8::Level(level) = &self.shape {
+            level::meet(&**level, &self.own, (asked, turned), start, nearest, &mut memory.level);
+            return;
+        }
         let mut to = First { nearest, number: asked.number };
         let leaving = asked.from.map(|from| (from, turned));
         self.show((asked.rays, leaving), (start, cell), &mut to, memory);
@@ -121,6 +129,7 @@ impl Detail {
             Kind8::Lathe(lathe) => lathe.faces() <= Outline::FACES,
             Kind8::Swept(swept) => swept.is_operand(),
             Kind8::Quartic(_) | Kind8::Octic(_) | Kind8::Fields(_) => true,
+            Kind8::Level(_) => false,
         }
     }
 
@@ -148,7 +157,7 @@ impl Detail {
     ) {
         match &self.shape {
             Kind8::Lathe(lathe) => lathe.meet(&self.own, rays, start, to, &mut memory.lathe),
-            Kind8::Swept(_) => {}
+            Kind8::Swept(_) | Kind8::Level(_) => {}
             Kind8::Quartic(f) => f.meet(&self.own, rays, (start, cell), to, &mut memory.quartic),
             Kind8::Octic(f) => f.meet(&self.own, rays, (start, cell), to, &mut memory.octic),
             Kind8::Fields(fields) => fields.meet(&self.own, rays, start, to, &mut memory.fields),
@@ -169,18 +178,27 @@ impl Detail {
             Kind8::Quartic(f) => f.holds(&self.own, rays, start, at),
             Kind8::Octic(f) => f.holds(&self.own, rays, start, at),
             Kind8::Fields(fields) => fields.holds(&self.own, rays, start, at),
+            Kind8::Level(_) => (M8::NONE, M8::NONE),
         }
     }
 
     /// What is at points of a face; `tag` is what [`Nearest`] keeps of them.
     #[inline(always)]
-    pub(super) fn skin(&self, face: usize, tag: F8, h: Vec3<F8>, h1: F8) -> Skin {
+    pub(super) fn skin(&self, isa: Isa, (face, tag): (usize, F8), h: Vec3<F8>, h1: F8) -> Skin {
         match &self.shape {
             Kind8::Lathe(lathe) => lathe.skin(&self.own, face, h, h1),
             Kind8::Swept(swept) => swept.spot(&self.own, (face, tag), h, h1),
             Kind8::Quartic(f) => f.skin(&self.own, h, h1),
             Kind8::Octic(f) => f.skin(&self.own, h, h1),
             Kind8::Fields(fields) => fields.skin(&self.own, h, h1),
+            Kind8::Level(level) => level::skin(&**level, isa, &self.own, h, h1),
         }
+    }
+
+    /// The covectors that points are shaded by, if those are not those of the surface.
+    #[inline(always)]
+    pub(super) fn shading(&self, isa: Isa, h: Vec3<F8>) -> Option<Vec3<F8>> {
+        let Kind8::Level(level) = &self.shape else { return None };
+        level::shading(&**level, isa, &self.own, h)
     }
 }

@@ -13,6 +13,7 @@
 //!   lathe      surfaces of revolution of higher degree, in coordinates of their own    (`lathe/`, `poly.rs`, `own.rs`, `detail.rs`)
 //!   algebraic  zero sets of polynomials up to degree eight, the same way               (`algebraic/`)
 //!   fields     blobs, the same way                            (`fields/`)
+//!   level      solids of no polynomial, a stretch at a time   (`level/`)
 //!   swept      walls and caps of curved prisms, the same way        (`swept/`, `whole.rs`)
 //!   meet       which face they meet first                       (`meet.rs`, `hull.rs`)
 //!   operand    all crossings with solids, for bodies made of several   (`operand.rs`)
@@ -25,6 +26,7 @@ mod face;
 mod fields;
 mod hull;
 mod lathe;
+mod level;
 mod loops;
 mod meet;
 mod offer;
@@ -49,8 +51,10 @@ use self::detail::Detail;
 pub(crate) use self::detail::Kind8;
 use self::face::Face;
 pub(crate) use self::fields::{Field, Fields};
-pub(crate) use self::lathe::{Lathe, LatheWall};
+pub(crate) use self::lathe::{Lathe, LatheWall, Skin};
+pub(crate) use self::level::{Level, Line8, Part, Told8, Value8};
 use self::loops::Loops;
+pub(crate) use self::own::largest;
 pub(crate) use self::swept::{Curve, Sweep8, Swept};
 use durer_math::{Point3, Vec3};
 

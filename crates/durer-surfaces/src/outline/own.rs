@@ -143,7 +143,7 @@ pub(super) fn on(o: Vec3<F8>, t: F8, d: Vec3<F8>) -> Vec3<F8> {
 
 /// The largest magnitude of a coordinate.
 #[inline(always)]
-pub(super) fn largest(v: Vec3<F8>) -> F8 {
+pub(crate) fn largest(v: Vec3<F8>) -> F8 {
     v.x.abs().max(v.y.abs()).max(v.z.abs())
 }
 

@@ -3,7 +3,7 @@
 use super::face::{FaceKind, taxicab};
 use super::lathe::Skin;
 use super::own::dot;
-use super::rays::{RayLanes, SLACK};
+use super::rays::{NEVER, RayLanes, SLACK};
 use super::{Outline, face};
 use durer_math::{F8, M8, Point3, U, Vec3};
 
@@ -62,9 +62,13 @@ impl Outline {
                 rays,
                 (t, lanes),
                 to,
-                None,
                 #[inline(always)]
-                |y| detail.skin(i, tag, y, taxicab(y) * SLACK),
+                |y| detail.skin(rays.isa, (i, tag), y, taxicab(y) * SLACK),
+                #[inline(always)]
+                |y, ng| match detail.shading(rays.isa, y) {
+                    Some(g) => shaded_by(g, ng, self.turned),
+                    None => ng,
+                },
             );
         }
         let face: &face::Face = &self.faces[i.min(self.faces.len() - 1)];
@@ -73,13 +77,24 @@ impl Outline {
             rays,
             (t, lanes),
             to,
-            normals,
             #[inline(always)]
             |y| {
                 let (f, half) = face.value_and_half_gradient(y);
                 let y1 = taxicab(y);
                 let (_, e_f) = face.at(y, y1, F8::ZERO);
-                Skin { f, half, e_f, e_half: face.gradient_error(y1), bend: F8::splat(face.bend) }
+                Skin {
+                    f,
+                    half,
+                    e_f,
+                    e_half: face.gradient_error(y1),
+                    bend: F8::splat(face.bend),
+                    room: NEVER,
+                }
+            },
+            #[inline(always)]
+            |y, ng| match normals {
+                Some(normals) => shading_normal(normals, y, ng),
+                None => ng,
             },
         )
     }
@@ -90,8 +105,8 @@ impl Outline {
         rays: &RayLanes<'_>,
         (t, lanes): (F8, M8),
         to: Points8<'_>,
-        normals: Option<&[Vec3; 4]>,
         skin: impl Fn(Vec3<F8>) -> Skin,
+        shade: impl Fn(Vec3<F8>, Vec3<F8>) -> Vec3<F8>,
     ) -> M8 {
         /// How small `x` has to be.
         const SMALL: f64 = 1.0 / (1u64 << 20) as f64;
@@ -105,7 +120,7 @@ impl Outline {
         // The world's numbers, and what the centre sees of them: again with an error of U |y|, which the bounds of a face include.
         let p = Point3::new(y.x + c.x, y.y + c.y, y.z + c.z);
         let y = Vec3::new(p.x - c.x, p.y - c.y, p.z - c.z);
-        let Skin { f, half: g, e_f, e_half, bend } = skin(y);
+        let Skin { f, half: g, e_f, e_half, bend, room } = skin(y);
         let length = dot(g, g).sqrt();
         let gradient = length * 2.0;
         // A start is rounded at p's own size; `start_towards` steps as much further.
@@ -120,20 +135,27 @@ impl Outline {
             inverse = -inverse;
         }
         let ng = times(g, inverse);
-        let ns = match normals {
-            Some(normals) => shading_normal(normals, y, ng),
-            None => ng,
-        };
+        let ns = shade(y, ng);
         let ordinary = off.lt(F8::splat(f64::MAX)) & dot(ns, ns).gt(F8::splat(0.5));
         // The error of the gradient is at most √3 that of its entries.
         let steady = (e_half * (2.0 / SMALL)).le(length);
-        let sure = lanes & x.le(F8::splat(SMALL)) & steady & ordinary;
+        let near = (off + tau).le(room);
+        let sure = lanes & x.le(F8::splat(SMALL)) & steady & ordinary & near;
         *to.p = sure.select3(p.to_vec(), to.p.to_vec()).to_point();
         *to.ng = sure.select3(ng, *to.ng);
         *to.ns = sure.select3(ns, *to.ns);
         *to.off = sure.select(off, *to.off);
         sure
     }
+}
+
+/// A covector as a normal to shade by: of length one, if it is on the side of `ng`; else that.
+#[inline(always)]
+fn shaded_by(g: Vec3<F8>, ng: Vec3<F8>, turned: bool) -> Vec3<F8> {
+    let size = super::own::largest(g);
+    let g = times(g, F8::splat(if turned { -1.0 } else { 1.0 }) / size);
+    let n = times(g, F8::ONE / dot(g, g).sqrt());
+    dot(n, ng).gt(F8::ZERO).select3(n, ng)
 }
 
 /// The interpolated normal, of length one, on the side of `ng`.

@@ -3,6 +3,7 @@
 use super::detail::{DetailSketch, Kind8};
 use super::fields::Fields;
 use super::lathe::Lathe;
+use super::level::Level;
 use super::loops::{Edge, Loops, Off};
 use super::swept::Swept;
 use super::{Face, Outline};
@@ -274,6 +275,13 @@ impl Sketch {
         let vague = Self::vague(bounds);
         let shape = Kind8::Fields(Arc::new(fields));
         Self { detail: Some(DetailSketch::new(shape, vague.centre, origin, scale, [0, 1, 2])), ..vague }
+    }
+
+    /// A solid within a box that is told a stretch at a time, about `origin`.
+    pub(crate) fn level(bounds: Aabb, level: Arc<dyn Level>, origin: Point3) -> Self {
+        let vague = Self::vague(bounds);
+        let detail = DetailSketch::new(Kind8::Level(level), vague.centre, origin, 0, [0, 1, 2]);
+        Self { detail: Some(detail), ..vague }
     }
 
     /// The zero set of a polynomial in units of `2^scale`.

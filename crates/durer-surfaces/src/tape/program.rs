@@ -108,9 +108,13 @@ impl Tape {
 
     /// A number that equal tapes share, and others hardly ever.
     pub(crate) fn fingerprint(&self) -> u64 {
-        use std::hash::{BuildHasher, BuildHasherDefault, DefaultHasher};
-        let keys: Vec<_> = self.ops.iter().map(Op::key).collect();
-        BuildHasherDefault::<DefaultHasher>::default().hash_one(keys)
+        // Whoever meets an equal number compares the steps: the multiplication of rustc's hash will do.
+        self.ops.iter().fold(0, |hash, op| {
+            let (tag, a, b, c) = op.key();
+            [u64::from(tag), a, b, c].into_iter().fold(hash, |hash: u64, word| {
+                (hash.rotate_left(5) ^ word).wrapping_mul(0x517c_c1b7_2722_0a95)
+            })
+        })
     }
 
     /// The rounded value at a point; NaN where the formula is undefined.

@@ -73,7 +73,10 @@ enum Aim {
 }
 
 /// Surfaces that lanes see in coordinates of their own.
-const OF_HIGHER_DEGREE: [&str; 32] = [
+const OF_HIGHER_DEGREE: [&str; 35] = [
+    "julia",
+    "cubic julia",
+    "cushion",
     "balls",
     "sausages",
     "blob with a hole",
@@ -123,11 +126,24 @@ fn compare(world: &World, aim: Aim, rays: &Rays8, dice: &mut Dice, depth: u32, t
         let ray = rays.lane(i);
         let exact = geometry.closest(&ray);
         tally.rays += 1;
-        // A tangent, as far as f64 can tell in a surface's frame; lanes, who know the way there better, may know that there is none.
-        let untold = exact.is_some_and(|hit| hit.kind == Kind::Cluster && hit.sign == 0);
-        if untold && !asked.lane(i) && matches!(world.sides, Sides::Rounded) {
+        // A tangent, as far as f64 can tell in a surface's frame, or a crossing at an end of the range; lanes, who know the way there better, may know that there is none.
+        let untold = exact.is_some_and(|hit| {
+            let at_an_end = hit.t_lo <= 0.0 || hit.t_hi >= ray.t_max;
+            hit.kind == Kind::Cluster && hit.sign == 0 || at_an_end && matches!(world.sides, Sides::Bracketed)
+        });
+        if untold && !asked.lane(i) && matches!(world.sides, Sides::Rounded | Sides::Bracketed) {
             assert_eq!(hits.hit.lane(i), met.lane(i), "{}: {ray:?} {exact:?}", world.name);
             continue;
+        }
+        // Where a rim of a container's face is met within rounding, wide brackets and narrow ones may say different things.
+        if asked.lane(i) && matches!(world.sides, Sides::Bracketed) {
+            let seen = geometry.seen(&ray, u32::MAX, Need::SHADING_NORMAL).is_some();
+            let single = (seen, geometry.any(&ray));
+            assert_eq!((hits.hit.lane(i), met.lane(i)), single, "{}: {ray:?}", world.name);
+            if seen != exact.is_some() {
+                starts.set_lane(i, false);
+                continue;
+            }
         }
         assert_eq!(
             (hits.hit.lane(i), met.lane(i)),
@@ -242,14 +258,14 @@ fn check_starts(world: &World, aim: Aim, hits: &Hits8, lanes: M8) {
         let (out, within) = if world.turned { (Side::In, Side::Out) } else { (Side::Out, Side::In) };
         // At an edge a step off one face may cross another one.
         let (check_outer, check_inner) = match world.sides {
-            Sides::Smooth | Sides::Rounded => (true, true),
+            Sides::Smooth | Sides::Rounded | Sides::Bracketed => (true, true),
             Sides::Convex => (true, aim == Aim::Random),
             Sides::Solid => (aim == Aim::Random, aim == Aim::Random),
             Sides::Flat(..) | Sides::Sheet => (false, false),
         };
         let is = |p: Point3, side: Side| {
             let told = world.geometry.side(p);
-            told == side || told == Side::On && matches!(world.sides, Sides::Rounded)
+            told == side || told == Side::On && matches!(world.sides, Sides::Rounded | Sides::Bracketed)
         };
         assert!(!check_outer || is(outer, out), "{}", place());
         assert!(!check_inner || is(inner, within), "{}", place());
@@ -316,6 +332,9 @@ fn lanes_see_what_single_rays_see() {
             "quartic" | "balls" => 50,
             "sausages" => 30,
             "sextic" => 15,
+            // Where a place is known badly, far away, little is known of the gradient around it; what a container cuts shows its faces.
+            "cushion" => 3,
+            "julia" | "cubic julia" => 8,
             // Rays along a plane across the axis, and those that touch.
             _ if OF_HIGHER_DEGREE.contains(&name) => 12,
             // They have a tip, or go on for ever, too.

@@ -7,8 +7,9 @@ use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Bezier, Blob, BlobComponent, BlobShape,
     CappedCylinder, Clip, Cone, CurvedPrism, Disc, Ellipsoid, EllipticCylinder, EllipticParaboloid, Erased,
     FillRule, Frustum, HyperbolicCylinder, HyperbolicParaboloid, HyperboloidOfOneSheet,
-    HyperboloidOfTwoSheets, Inverse, Mesh, MeshData, ParabolicCylinder, Parallelogram, Placed, Plane,
-    Polygon, Prism, Quadric, Region, Sphere, SphericalSector, Torus, Triangle, Turned,
+    HyperboloidOfTwoSheets, Inverse, Julia, JuliaAlgebra, JuliaPower, JuliaSet, Mesh, MeshData,
+    ParabolicCylinder, Parallelogram, Placed, Plane, Polygon, Prism, Quadric, Region, Sphere,
+    SphericalSector, Torus, Triangle, Turned, superellipsoid,
 };
 
 /// What is known exactly of points beside the surface.
@@ -18,6 +19,8 @@ pub(super) enum Sides {
     Smooth,
     /// The same, of a solid whose kernel tells sides in f64: within rounding it says that a point is on the surface.
     Rounded,
+    /// The same, and whether a crossing is in a ray's range is told by its bracket, which may hold an end of that.
+    Bracketed,
     /// A convex solid with edges: what leaves it is outside, also at an edge.
     Convex,
     /// A solid that is not convex, with edges.
@@ -321,5 +324,25 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     worlds("crossed conic prism", Sides::Solid, Prism::conic(&star, 0.25, 1.0).unwrap(), all);
     let eight = [crossed_eight()];
     worlds("crossed curved prism", Sides::Solid, CurvedPrism::linear(&eight, -0.5, 0.75).unwrap(), all);
+    level_worlds(all);
     core::mem::take(&mut all.1)
+}
+
+/// Solids that are told a stretch at a time.
+fn level_worlds(all: &mut Worlds) {
+    let set = Julia {
+        c: [-0.083, 0.0, -0.83, -0.025],
+        algebra: JuliaAlgebra::Quaternion,
+        power: JuliaPower::Square,
+        iterations: 5,
+        radius: 2.0,
+        normal: [0.0, 0.25, 0.0, 1.0],
+        distance: 0.125,
+    };
+    worlds("julia", Sides::Bracketed, JuliaSet::new(&set).unwrap(), all);
+    let cube = Julia { c: [0.25, -0.5, 0.25, 0.0], power: JuliaPower::Cube, iterations: 3, ..set };
+    worlds("cubic julia", Sides::Bracketed, JuliaSet::new(&cube).unwrap(), all);
+    // A bit smaller, so that few rays on a grid touch it: such rays take the tape thousands of passes.
+    let cushion = Placed::new(superellipsoid(0.5, 1.25).unwrap(), scaled(0.9));
+    worlds("cushion", Sides::Bracketed, cushion, all);
 }

@@ -18,6 +18,7 @@
 mod crossings;
 mod foot;
 mod gauge;
+mod lanes;
 #[cfg(test)]
 mod tests;
 

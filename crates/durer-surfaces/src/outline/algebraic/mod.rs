@@ -21,7 +21,7 @@ pub(super) use self::rays::Memory;
 
 use super::lathe::Skin;
 use super::own::{Own, largest};
-use super::rays::SLACK;
+use super::rays::{NEVER, SLACK};
 use durer_math::{F8, U, Vec3};
 use std::sync::Arc;
 
@@ -150,6 +150,6 @@ impl<const N: usize> Terms<N> {
         let e_f = (e * slope + size * (16.0 * N as f64 * U)) * 2.0;
         let e_half = (e * bend + slope * (16.0 * N as f64 * U)) * own.norm;
         let half = own.covector(Vec3::new(g.x * 0.5, g.y * 0.5, g.z * 0.5));
-        Skin { f, half, e_f, e_half, bend: bend * (own.norm * own.norm * (1.0 + 16.0 * U)) }
+        Skin { f, half, e_f, e_half, bend: bend * (own.norm * own.norm * (1.0 + 16.0 * U)), room: NEVER }
     }
 }

@@ -14,7 +14,7 @@ pub(super) use self::rays::Memory;
 
 use super::lathe::Skin;
 use super::own::{Own, dot, largest};
-use super::rays::SLACK;
+use super::rays::{NEVER, SLACK};
 use durer_math::scale::pow2;
 use durer_math::{F8, U, Vec3};
 
@@ -93,7 +93,7 @@ impl Fields {
         let count = self.fields.len() as f64 + 4.0;
         let rounding = count * U * total;
         let (e_f, e_half) = ((error + rounding + TINY) * SLACK, error_g * SLACK + rounding);
-        Skin { f, half: g, e_f, e_half, bend: bend * SLACK }
+        Skin { f, half: g, e_f, e_half, bend: bend * SLACK, room: NEVER }
     }
 
     /// What is at points `h` of the surface, with `|h|₁`.
@@ -102,11 +102,11 @@ impl Fields {
         let y = own.point(h);
         // Rays that start there are looked at from a place that may be this far from it (`rays.rs`).
         let e = own.point_error(h1) + (largest(y) + 1.0) * (128.0 * U);
-        let Skin { f, half, e_f, e_half, bend } = self.at(y, e);
+        let Skin { f, half, e_f, e_half, bend, room } = self.at(y, e);
         let e_half = (e_half + largest(half) * (16.0 * U)) * own.norm;
         let bend = bend * (own.norm * own.norm * SLACK);
         // Twice, so that rays from there are certain of their side.
-        Skin { f, half: own.covector(half), e_f: e_f * 2.0, e_half, bend }
+        Skin { f, half: own.covector(half), e_f: e_f * 2.0, e_half, bend, room }
     }
 }
 

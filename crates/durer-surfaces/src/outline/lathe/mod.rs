@@ -21,6 +21,7 @@ mod rays;
 pub(super) use self::rays::Memory;
 
 use super::own::Own;
+use super::rays::NEVER;
 use durer_math::{F8, U, Vec3};
 
 /// A wall between two heights.
@@ -85,13 +86,15 @@ impl LatheWall {
 }
 
 /// A point of a wall or an end: `f`, half its gradient, and bounds on what they lost.
-pub(super) struct Skin {
-    pub(super) f: F8,
-    pub(super) half: Vec3<F8>,
-    pub(super) e_f: F8,
-    pub(super) e_half: F8,
+pub(crate) struct Skin {
+    pub(crate) f: F8,
+    pub(crate) half: Vec3<F8>,
+    pub(crate) e_f: F8,
+    pub(crate) e_half: F8,
     /// An upper bound of the Hessian's norm near the point.
-    pub(super) bend: F8,
+    pub(crate) bend: F8,
+    /// How near that is.
+    pub(crate) room: F8,
 }
 
 impl Lathe {
@@ -136,6 +139,7 @@ impl Lathe {
                 e_f: (e + *slack) * 2.0,
                 e_half: F8::splat(own.norm * (4.0 * U)),
                 bend: F8::ZERO,
+                room: NEVER,
             };
         }
         let Bounded { wall, near, bend, slack, .. } = &self.walls[face];
@@ -155,7 +159,7 @@ impl Lathe {
         // Twice, so that rays from there are certain of their side by the bound of a polynomial's first value.
         let e_f = e * (4.0 * near.slope) + 32.0 * U * near.f;
         let bend = F8::splat(*bend * own.norm * own.norm * (1.0 + 16.0 * U));
-        Skin { f, half: own.covector(half), e_f, e_half, bend }
+        Skin { f, half: own.covector(half), e_f, e_half, bend, room: NEVER }
     }
 }
 

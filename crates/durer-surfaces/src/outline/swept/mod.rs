@@ -27,7 +27,7 @@ use super::offer::First;
 use super::operand::Crossings;
 use super::own::Own;
 use super::poly::{Part8, Poly8, Root8};
-use super::rays::{From8, Nearest, RayLanes, SLACK};
+use super::rays::{From8, NEVER, Nearest, RayLanes, SLACK};
 use super::whole;
 use durer_math::{F8, M8, U, Vec3};
 
@@ -262,7 +262,14 @@ fn cap_skin(own: &Own, sweep: &Sweep8, top: bool, y: Vec3<F8>, e: F8) -> Skin {
     let (height, up) = if top { (sweep.high, 1.0) } else { (sweep.low, -1.0) };
     let half = own.covector(Vec3::new(F8::ZERO, F8::splat(0.5 * up), F8::ZERO));
     let e_f = (e + height.abs() * (4.0 * U)) * 2.0;
-    Skin { f: (y.y - height) * up, half, e_f, e_half: F8::splat(own.norm * (4.0 * U)), bend: F8::ZERO }
+    Skin {
+        f: (y.y - height) * up,
+        half,
+        e_f,
+        e_half: F8::splat(own.norm * (4.0 * U)),
+        bend: F8::ZERO,
+        room: NEVER,
+    }
 }
 
 /// What is at points of a wall, at `u` round the curve; `outward` is 1 where the inside is to the left, else -1.
@@ -307,7 +314,7 @@ fn wall_skin(
     let lost = F8::splat(speed * (16.0 * U)) / slow + 16.0 * U;
     let e_half = lost * (own.norm * sizes);
     let bend = bend * (own.norm * own.norm * sizes * sizes);
-    Skin { f, half, e_f, e_half, bend }
+    Skin { f, half, e_f, e_half, bend, room: NEVER }
 }
 
 /// The rays in the sweep's own coordinates.

@@ -1,0 +1,337 @@
+//! Quaternion Julia sets as lanes see them, if an orbit that leaves the ball never comes back: `g = |z_N|² - R²`.
+//!
+//! **Far from it** no stretch has to be tried: a point tells how far away the solid is at least (J. C. Hart, D. J. Sandin, L. H. Kauffman, "Ray tracing deterministic 3-D
+//! fractals", SIGGRAPH 1989, call it an unbounding sphere; theirs is an estimate). If no point within `ρ` of `z_(n+1)` is inside, then none within
+//!
+//! ```text
+//!   2 |z_n| ρ' + ρ'² = ρ - e,    ρ' = (ρ - e) / (|z_n| + √(|z_n|² + ρ - e))
+//! ```
+//!
+//! of `z_n` is, with what rounding does to the next point, `e = 10 U (|z_n|² + |c|)`, as for balls (`orbit.rs`). And none within `|z_n| - R`. Steps forward and back cost half of
+//! what balls along a stretch do, and no length has to be guessed. Cubes have `3 |z_n|² ρ' + 3 |z_n| ρ'² + ρ'³`, of which `ρ' = (ρ - e) / (3 (|z_n| + m)²)` is no more than the root for any `m` that is no less than this `ρ'`: for
+//! `(ρ - e) / 3 |z_n|²`, and for the larger one of 1 and `ρ - e`.
+//!
+//! **Near it** balls around the orbits of eight stretches say what they say of the eight stretches of one ray. How near, and how long these are at first, goes with the orbit's derivative; the
+//! factors were found by trying.
+
+use super::lift::Lift;
+use super::orbit::{Ball, Rule, TINY};
+use super::{JuliaPower, Solid};
+use crate::outline::{Level, Line8, Part, Sketch, Skin, Told8, Value8};
+use durer_math::scale::pow2;
+use durer_math::{Aabb, F8, Isa, M8, Point3, U, Vec3};
+use std::sync::Arc;
+
+/// In parts of what the orbit's stretch makes of a length of one: nearer than this the solid is looked at along stretches...
+const NEAR: f64 = 4.0;
+/// ...which start as long as this.
+const STRETCH: f64 = 8.0;
+/// They are never longer.
+const LONGEST: f64 = 1.0 / 2.0;
+/// An orbit beyond this has left for good, by far.
+const GONE: f64 = pow2(40);
+/// How many iterations' points are kept.
+const MOST: usize = 32;
+/// Second derivatives hold so far around a point.
+const AROUND: f64 = pow2(-30);
+
+impl Solid<1, 4> {
+    /// As lanes see it, if they can.
+    pub(super) fn sketch(&self, bounds: Aabb) -> Sketch {
+        let seen = self.rule.escapes && (self.rule.iterations as usize) < MOST && self.rule.radius > 1.0;
+        if seen {
+            Sketch::level(bounds, Arc::new(self.clone()), Point3::ORIGIN)
+        } else {
+            Sketch::vague(bounds)
+        }
+    }
+
+    /// Balls around points of lines.
+    #[inline(always)]
+    fn balls(&self, line: &Line8, s: F8, half: F8) -> [Ball<4>; 1] {
+        let p = line.point(s);
+        let far = s.abs() + half;
+        let q = self.lift.at8(p);
+        let v = self.lift.turned8(Vec3::new(line.d.x * half, line.d.y * half, line.d.z * half));
+        let size = sum(line.o) + far * 2.0;
+        let e = far.mul_add(line.e_d, line.e_o) + size * (4.0 * U);
+        let r = self.lift.errors(size, e) + TINY;
+        let d = half * self.lift.errors_of_way(2.0, line.e_d) + TINY;
+        [Ball { q, v, r, d }]
+    }
+
+    /// How far from points of lines the solid is at least, along the lines; and by how much less a way is than what the orbit makes of it.
+    #[inline(never)]
+    fn clearance(&self, line: &Line8, s: &F8, room: &mut F8, stretch: &mut F8) {
+        line.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let count = self.rule.iterations as usize;
+                let [Ball { mut q, r, .. }] = self.balls(line, *s, F8::ZERO);
+                let mut squares = [F8::ZERO; MOST];
+                for square in &mut squares[..count] {
+                    *square = self.forward(&mut q);
+                }
+                let [a, b, c, d] = q;
+                let over = self.rule.radius * (1.0 + 16.0 * U);
+                let size = a.mul_add(a, b.mul_add(b, c.mul_add(c, d * d))).sqrt() * (1.0 - 16.0 * U);
+                let mut free = (size - over).max(F8::ZERO);
+                let mut slope = F8::ONE;
+                for square in squares[..count].iter().rev() {
+                    self.back(*square, over, &mut free, &mut slope);
+                }
+                let v = self.lift.turned8(line.d);
+                let v2 = v[0].mul_add(v[0], v[1].mul_add(v[1], v[2].mul_add(v[2], v[3] * v[3])));
+                let speed = v2.sqrt() * (1.0 + 16.0 * U) + self.lift.errors_of_way(2.0, line.e_d);
+                *room = ((free - r) / speed * (1.0 - 16.0 * U)).max(F8::ZERO);
+                *stretch = F8::ONE / slope;
+            },
+        );
+    }
+
+    /// The next point of orbits, and `|z|²` of this one. What has left stays where it is, so that nothing overflows.
+    #[inline(always)]
+    fn forward(&self, q: &mut [F8; 4]) -> F8 {
+        let [x, y, z, w] = *q;
+        let [c0, c1, c2, c3] = self.rule.c[0].map(F8::splat);
+        let rest = y.mul_add(y, z.mul_add(z, w * w));
+        let all = x.mul_add(x, rest);
+        let stays = all.gt(F8::splat(GONE));
+        let (real, factor) = match self.rule.power {
+            JuliaPower::Square => (x * x - rest, x * 2.0),
+            JuliaPower::Cube => (x * (x * x - rest * 3.0), x * x * 3.0 - rest),
+        };
+        q[0] = stays.select(x, real + c0);
+        q[1] = stays.select(y, factor.mul_add(y, c1));
+        q[2] = stays.select(z, factor.mul_add(z, c2));
+        q[3] = stays.select(w, factor.mul_add(w, c3));
+        all
+    }
+
+    /// From what is free around the next point to what is free around this one; and by how much the orbit is stretched from here, as long as it is near.
+    #[inline(always)]
+    fn back(&self, square: F8, over: f64, free: &mut F8, slope: &mut F8) {
+        let rule = &self.rule;
+        let size = square.sqrt();
+        let own = size * (1.0 - 16.0 * U) - over;
+        let (back, by) = match rule.power {
+            JuliaPower::Square => {
+                let e = (square + rule.c_size) * (16.0 * U) + rule.c_err;
+                let left = (*free - e).max(F8::ZERO);
+                (left / (size + (square + left).sqrt() + TINY), size * 2.0)
+            }
+            JuliaPower::Cube => {
+                let e = (square * size + rule.c_size) * (64.0 * U) + rule.c_err;
+                let left = (*free - e).max(F8::ZERO);
+                let far = size + left.max(F8::ONE).min(left / (square * 3.0));
+                (left / (far * far * 3.0 + TINY), square * 3.0)
+            }
+        };
+        *free = own.max(back * (1.0 - 16.0 * U));
+        let near = square.lt(F8::splat(2.0 * rule.radius * rule.radius));
+        *slope = near.select(*slope * by, F8::ONE);
+    }
+
+    /// `|z_N|²`, the last point and the ball around it; what has left is somewhere far out.
+    #[inline(always)]
+    fn last(&self, ball: &mut Ball<4>) -> F8 {
+        let Rule { power, c_err, c_size, .. } = self.rule;
+        let mut gone = M8::NONE;
+        let mut square = F8::ZERO;
+        for n in 0..=self.rule.iterations {
+            let [a, b, c, d] = ball.q;
+            let now = a.mul_add(a, b.mul_add(b, c.mul_add(c, d * d)));
+            square = gone.select(square, now);
+            gone |= now.gt(F8::splat(GONE)) & (ball.r * ball.r * 4.0).lt(now);
+            if n == self.rule.iterations {
+                break;
+            }
+            ball.step(&self.rule.c[0], power, c_err, c_size);
+            if gone.any() {
+                // Its place no longer matters, and must not overflow.
+                for q in &mut ball.q {
+                    *q = gone.select(F8::ZERO, *q);
+                }
+                ball.r = gone.select(F8::ZERO, ball.r);
+            }
+        }
+        square
+    }
+}
+
+#[inline(always)]
+fn sum(v: Vec3<F8>) -> F8 {
+    v.x.abs() + v.y.abs() + v.z.abs()
+}
+
+impl Level for Solid<1, 4> {
+    fn reach(&self) -> f64 {
+        self.radius
+    }
+
+    fn part(&self, line: &Line8, part: &mut Part) {
+        line.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let o = line.o;
+                let away = o.x.mul_add(o.x, o.y.mul_add(o.y, o.z * o.z));
+                // The solid is within this by far: half of the room that its ball has.
+                let radius = self.radius - 0.5 * super::ROOM;
+                let room = F8::splat(radius * radius) - away;
+                // The direction is as long as 1, but for the rounding of it.
+                let half = room.max(F8::ZERO).sqrt();
+                (part.from, part.to) = (-half, half);
+                let known = line.error(F8::splat(2.0 * self.radius)).lt(F8::splat(super::ROOM / 64.0));
+                part.unsure = !known;
+                part.to = (part.unsure | room.gt(F8::ZERO)).select(part.to, -F8::ONE);
+            },
+        );
+    }
+
+    fn tell(&self, line: &Line8, told: &mut Told8) {
+        let mut far = M8::NONE;
+        let is_far = line.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                far = told.lanes & told.sign.gt(F8::ZERO) & told.hint.equals(F8::splat(f64::INFINITY));
+                far.any()
+            },
+        );
+        if is_far {
+            let (mut room, mut stretch) = (F8::ZERO, F8::ZERO);
+            self.clearance(line, &told.a, &mut room, &mut stretch);
+            line.isa.run_in_lanes(
+                #[inline(always)]
+                || {
+                    told.seen = far & room.gt(stretch.min(F8::ONE) * NEAR);
+                    told.out = told.seen;
+                    told.b = told.seen.select(told.a + room, told.b);
+                    told.hint = far.select(stretch * STRETCH, told.hint);
+                },
+            );
+            return;
+        }
+        told.seen = told.lanes;
+        let known = line.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                told.b = told.b.min(told.a + told.hint.min(F8::splat(LONGEST)));
+                let mid = (told.a + told.b) * 0.5;
+                let half = (told.b - told.a) * (0.5 * (1.0 + 4.0 * U)) + mid.abs() * (2.0 * U);
+                let mut balls = self.balls(line, mid, half);
+                // What is not asked must not keep the others from an early end.
+                balls[0].q[0] = told.lanes.select(balls[0].q[0], F8::splat(4.0 * self.rule.radius));
+                self.rule.known(balls)
+            },
+        );
+        (told.out, told.within) = (M8::from_bits(known.out), M8::from_bits(known.within));
+        (told.rises, told.falls) = (M8::from_bits(known.rises), M8::from_bits(known.falls));
+    }
+
+    fn values(&self, line: &Line8, s: &F8, _lanes: M8, value: &mut Value8) {
+        line.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let [mut ball] = self.balls(line, *s, F8::ZERO);
+                let square = self.last(&mut ball);
+                let level = self.rule.radius * self.rule.radius;
+                let size = square.sqrt();
+                let e = (size * 2.0 + ball.r) * ball.r + (square + level) * (32.0 * U);
+                let g = square - level;
+                // Of the same sign, and less steep far out.
+                value.g = g / (square + level);
+                (value.above, value.below) = (g.gt(e), g.lt(-e));
+            },
+        );
+    }
+
+    fn skin(&self, isa: Isa, (y, e): (&Vec3<F8>, &F8), skin: &mut Skin) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let gradient = gradient8(&self.rule, &self.lift, self.rule.iterations, y, e);
+                let Gradient { square, r, half, e_half, bend } = gradient;
+                let level = self.rule.radius * self.rule.radius;
+                skin.f = square - level;
+                skin.e_f = (square.sqrt() * 2.0 + r) * r + (square + level) * (32.0 * U);
+                (skin.half, skin.e_half, skin.bend) = (half, e_half, bend);
+                skin.room = F8::splat(AROUND);
+            },
+        );
+    }
+
+    /// The surface that one iteration more would make, at the same point: see `point.rs`.
+    fn shading(&self, isa: Isa, y: &Vec3<F8>, g: &mut Vec3<F8>) -> bool {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || *g = gradient8(&self.rule, &self.lift, self.rule.iterations + 1, y, &F8::ZERO).half,
+        );
+        true
+    }
+}
+
+/// `|z_N|²`, half its gradient by the point, and what is not known of them.
+struct Gradient {
+    square: F8,
+    /// How far the last point may be off.
+    r: F8,
+    half: Vec3<F8>,
+    e_half: F8,
+    bend: F8,
+}
+
+/// At points known within `e` along each axis. `|t|` is the size of the largest tangent, `d` a bound on the error of each, as `v` and `d` are for stretches (`orbit.rs`); `slope` and `curve`
+/// are bounds of the first and second derivatives of the last point, as far as `AROUND` from the point.
+#[inline(always)]
+fn gradient8(rule: &Rule<1, 4>, lift: &Lift<1, 4>, iterations: u32, y: &Vec3<F8>, e: &F8) -> Gradient {
+    let zero = F8::ZERO;
+    let mut ball = Ball { q: lift.at8(*y), v: [zero; 4], r: zero, d: zero };
+    ball.r = lift.errors(sum(*y), *e) + TINY;
+    let [[mut tx, mut ty, mut tz]] = lift.axes8();
+    let mut d = F8::splat(lift.error_of_way(1.0, 0.0));
+    let mut slope = F8::splat(lift.stretch());
+    let (mut curve, mut reach) = (zero, ball.r + lift.stretch() * (2.0 * AROUND));
+    for _ in 0..iterations {
+        let [a, b, c, w] = ball.q;
+        let square = a.mul_add(a, b.mul_add(b, c.mul_add(c, w * w)));
+        let size = square.sqrt();
+        let far = (size + reach) * (1.0 + 64.0 * U);
+        let (l, h) = match rule.power {
+            JuliaPower::Square => (far * 2.0, F8::splat(2.0)),
+            JuliaPower::Cube => (far * far * 3.0, far * 6.0),
+        };
+        // What a tangent is turned by, wrongly: the change of the differential within r, and its rounding.
+        d = (l * d + h * ball.r * (slope + d) + l * slope * (32.0 * U)) * (1.0 + 16.0 * U);
+        curve = (l * curve + h * slope * slope) * (1.0 + 16.0 * U);
+        slope = l * slope * (1.0 + 16.0 * U);
+        reach = l * reach + rule.c_err + (square * size.max(F8::ONE) + rule.c_size) * (64.0 * U);
+        for t in [&mut tx, &mut ty, &mut tz] {
+            let [t0, t1, t2, t3] = *t;
+            let turned = b.mul_add(t1, c.mul_add(t2, w * t3));
+            let (real, factor, change) = match rule.power {
+                JuliaPower::Square => ((a * t0 - turned) * 2.0, a * 2.0, t0 * 2.0),
+                JuliaPower::Cube => {
+                    let rest = square - a * a;
+                    let factor = a * a * 3.0 - rest;
+                    ((a * a - rest) * 3.0 * t0 - a * turned * 6.0, factor, a * t0 * 6.0 - turned * 2.0)
+                }
+            };
+            *t = [
+                real,
+                factor.mul_add(t1, change * b),
+                factor.mul_add(t2, change * c),
+                factor.mul_add(t3, change * w),
+            ];
+        }
+        ball.step(&rule.c[0], rule.power, rule.c_err, rule.c_size);
+    }
+    let [a, b, c, w] = ball.q;
+    let square = a.mul_add(a, b.mul_add(b, c.mul_add(c, w * w)));
+    let size = square.sqrt();
+    let along = |t: [F8; 4]| a.mul_add(t[0], b.mul_add(t[1], c.mul_add(t[2], w * t[3])));
+    let half = Vec3::new(along(tx), along(ty), along(tz));
+    let e_half = (size * d + ball.r * (slope + d) + size * slope * (16.0 * U)) * (1.0 + 16.0 * U) + TINY;
+    let far = size + reach;
+    let bend = (slope * slope + far * curve) * (2.0 * (1.0 + 1.0 / 1024.0));
+    Gradient { square, r: ball.r, half, e_half, bend }
+}

@@ -1,0 +1,402 @@
+//! Where eight rays cross a level set first.
+//!
+//! With `s` the way along a ray from where it is closest to the solid's centre, in the solid's units, `t = t_c + s unit`; the two numbers are what they are, and what rounding does to
+//! them is charged to the line.
+//!
+//! **Where a ray starts** is rounded outward by `8 U (|t_c| |d| + reach)`, which is less than `128 U (reach + |y|)` at the start `y`: within that a start has the sign that it is known to have,
+//! if it was put off the surface (`skin`).
+
+use super::{Level, Line8, Part, Told8, Value8};
+use crate::outline::face::Start;
+use crate::outline::meet::Question;
+use crate::outline::own::{Own, dot, largest, on};
+use crate::outline::rays::{Nearest, RayLanes, SLACK};
+use durer_math::scale::pow2;
+use durer_math::{F8, Isa, M8, U, Vec3};
+
+/// So many stretches are looked at.
+const MOST: u32 = 160;
+/// Values that a crossing is closed in by; each second one at least halves what is left.
+const MOST_VALUES: u32 = 24;
+/// How much longer the next stretch is than one that was passed, and how much shorter after one of which nothing was certain.
+const LONGER: f64 = 2.0;
+const SHORTER: f64 = 0.25;
+/// The first stretch, and the shortest one, in parts of what holds the solid.
+const FIRST: f64 = 0.25;
+const LEAST: f64 = pow2(-24);
+/// A crossing is known within this part of how far it is: a quarter of what pictures ask for.
+const CLOSE: f64 = crate::ROUGH / 8.0;
+const NEVER: F8 = F8::splat(f64::INFINITY);
+
+/// Memory for one solid on the way.
+#[derive(Debug)]
+pub(in crate::outline) struct Memory {
+    line: Line8,
+    part: Part,
+    /// `t = t_c + s unit`, and what that is rounded by.
+    t_c: F8,
+    unit: F8,
+    e_t: F8,
+    /// Where each ray is, where it ends, and how far it tries to go next.
+    here: F8,
+    last: F8,
+    step: F8,
+    /// The sign at `here`: 1, -1, or 0 if it is not known.
+    sign: F8,
+    /// Lanes that go on, and those of which a value is asked for.
+    open: M8,
+    asked: M8,
+    /// Lanes with one crossing between two places with opposite signs, and the values there with the sign of the first one.
+    found: M8,
+    a: F8,
+    b: F8,
+    g_a: F8,
+    g_b: F8,
+    told: Told8,
+    value: Value8,
+}
+
+impl Default for Memory {
+    fn default() -> Self {
+        let (z, none, zero) = (F8::ZERO, M8::NONE, Vec3::splat(Vec3::ZERO));
+        let told = Told8 {
+            lanes: none,
+            seen: none,
+            a: z,
+            b: z,
+            last: z,
+            out: none,
+            within: none,
+            rises: none,
+            falls: none,
+            sign: z,
+            hint: z,
+        };
+        Self {
+            line: Line8 { isa: Isa::REFERENCE, o: zero, d: zero, e_o: z, e_d: z },
+            part: Part { from: z, to: z, unsure: none },
+            t_c: z,
+            unit: z,
+            e_t: z,
+            here: z,
+            last: z,
+            step: z,
+            sign: z,
+            open: none,
+            asked: none,
+            found: none,
+            a: z,
+            b: z,
+            g_a: z,
+            g_b: z,
+            told,
+            value: Value8 { g: z, above: none, below: none },
+        }
+    }
+}
+
+/// Offers the first crossing of each ray to `nearest`; says whether the surface is turned round.
+pub(in crate::outline) fn meet(
+    level: &dyn Level,
+    own: &Own,
+    (asked, turned): (&Question<'_>, bool),
+    start: &Start,
+    nearest: &mut Nearest,
+    memory: &mut Memory,
+) {
+    let rays = asked.rays;
+    see(level.reach(), own, rays, start, memory);
+    level.part(&memory.line, &mut memory.part);
+    begin((asked, turned), level.reach(), nearest, memory);
+    if has_unknown(rays.isa, memory) {
+        level.values(&memory.line, &memory.here, memory.asked, &mut memory.value);
+        know(rays.isa, nearest, memory);
+    }
+    for _ in 0..MOST {
+        if !memory.open.any() {
+            break;
+        }
+        level.tell(&memory.line, &mut memory.told);
+        if against(rays.isa, memory) {
+            level.values(&memory.line, &memory.told.b, memory.asked, &mut memory.value);
+        }
+        go_on(rays.isa, level.reach(), nearest, memory);
+    }
+    nearest.doubt_from(memory.open, memory.here.mul_add(memory.unit, memory.t_c) - memory.e_t);
+    if memory.found.any() {
+        close_in(level, asked, nearest, memory);
+    }
+}
+
+/// Puts down the rays in the solid's units.
+#[inline(never)]
+fn see(reach: f64, own: &Own, rays: &RayLanes<'_>, start: &Start, memory: &mut Memory) {
+    rays.isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            let (o, d) = (own.point(start.h), own.vector(*rays.direction));
+            let (e_o, e_d) = (own.point_error(start.h1), own.vector_error(rays.d1));
+            let unit = F8::ONE / dot(d, d).sqrt();
+            let t_c = -dot(o, d) * unit * unit;
+            let way = t_c.abs() * largest(d);
+            let d8 = Vec3::new(d.x * unit, d.y * unit, d.z * unit);
+            memory.line = Line8 {
+                isa: rays.isa,
+                o: on(o, t_c, d),
+                d: d8,
+                e_o: e_o + t_c.abs() * e_d + (largest(o) + way) * (4.0 * U),
+                e_d: e_d * unit + 4.0 * U,
+            };
+            (memory.t_c, memory.unit) = (t_c, unit);
+            memory.e_t = (t_c.abs() + unit * reach) * (8.0 * U);
+        },
+    );
+}
+
+/// Puts down the part of each ray that is looked at, and the sign that it starts with.
+#[inline(never)]
+fn begin((asked, turned): (&Question<'_>, bool), reach: f64, nearest: &mut Nearest, memory: &mut Memory) {
+    let rays = asked.rays;
+    rays.isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            let Memory { part, t_c, unit, e_t, here, last, step, sign, open, found, told, .. } = &mut *memory;
+            let out = (t_c.abs() / *unit + reach) * (8.0 * U);
+            let start = -*t_c / *unit - out;
+            let within = start.gt(part.from);
+            *here = within.select(start, part.from);
+            *last = ((nearest.limit(rays) - *t_c) / *unit + out).min(part.to);
+            // Not a number stays, and ends as a doubt.
+            *open = *rays.live & !last.le(*here);
+            // Before the part all is outside.
+            let side = asked.from.map_or(F8::ZERO, |from| from.side(turned));
+            *sign = within.select(side, F8::ONE);
+            let unsure = *open & part.unsure;
+            if unsure.any() {
+                nearest.doubt_from(unsure, here.mul_add(*unit, *t_c) - *e_t);
+                *open &= !unsure;
+            }
+            *found = M8::NONE;
+            *step = F8::splat(FIRST * reach);
+            told.hint = NEVER;
+            ask(*open, (*here, *last), *step, *sign, told);
+        },
+    );
+}
+
+/// Whether rays start within the part that is looked at without it being known on which side.
+#[inline(never)]
+fn has_unknown(isa: Isa, memory: &mut Memory) -> bool {
+    isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            memory.asked = memory.open & memory.sign.equals(F8::ZERO);
+            memory.asked.any()
+        },
+    )
+}
+
+/// The value tells, or there is a doubt.
+#[inline(never)]
+fn know(isa: Isa, nearest: &mut Nearest, memory: &mut Memory) {
+    isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            let Memory { here, sign, open, t_c, unit, e_t, told, value, .. } = &mut *memory;
+            let unknown = *open & sign.equals(F8::ZERO);
+            let told_sign = value.above.keep(F8::ONE) - value.below.keep(F8::ONE);
+            *sign = unknown.select(told_sign, *sign);
+            let unsure = unknown & sign.equals(F8::ZERO);
+            if unsure.any() {
+                nearest.doubt_from(unsure, here.mul_add(*unit, *t_c) - *e_t);
+                *open &= !unsure;
+            }
+            (told.lanes, told.sign) = (*open, *sign);
+        },
+    );
+}
+
+/// Asks for the next stretches.
+#[inline(always)]
+fn ask(open: M8, (here, last): (F8, F8), step: F8, sign: F8, told: &mut Told8) {
+    (told.lanes, told.seen) = (open, M8::NONE);
+    (told.a, told.b, told.last, told.sign) = (here, (here + step).min(last), last, sign);
+    (told.out, told.within, told.rises, told.falls) = (M8::NONE, M8::NONE, M8::NONE, M8::NONE);
+}
+
+/// Whether `g` goes towards zero somewhere, so that its sign at the end has to be asked for.
+#[inline(never)]
+fn against(isa: Isa, memory: &mut Memory) -> bool {
+    isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            let Told8 { seen, out, within, rises, falls, .. } = memory.told;
+            let positive = memory.sign.gt(F8::ZERO);
+            memory.asked = seen & !(out | within) & (positive & falls | !positive & rises);
+            memory.asked.any()
+        },
+    )
+}
+
+/// Takes what was told.
+#[inline(never)]
+fn go_on(isa: Isa, reach: f64, nearest: &mut Nearest, memory: &mut Memory) {
+    isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            let Memory {
+                here, last, step, sign, open, found, a, b, g_b, t_c, unit, e_t, told, value, ..
+            } = &mut *memory;
+            let positive = sign.gt(F8::ZERO);
+            let seen = told.seen & *open;
+            let kept = positive & (told.out | told.rises) | !positive & (told.within | told.falls);
+            let against = !kept & (positive & told.falls | !positive & told.rises);
+            let same = against & (positive & value.above | !positive & value.below);
+            let crossed = seen & against & (positive & value.below | !positive & value.above);
+            *a = crossed.select(told.a, *a);
+            *b = crossed.select(told.b, *b);
+            *g_b = crossed.select(value.g * *sign, *g_b);
+            *found |= crossed;
+            let passed = seen & (kept | same);
+            let way = told.b - told.a;
+            *step = passed.select(step.max(way * LONGER), (seen & !passed).select(way * SHORTER, *step));
+            *here = passed.select(told.b, seen.select(told.a, *here));
+            told.hint = passed.select(NEVER, told.hint);
+            let stuck = *open & !crossed & here.lt(*last) & !step.ge(F8::splat(LEAST * reach));
+            if stuck.any() {
+                nearest.doubt_from(stuck, here.mul_add(*unit, *t_c) - *e_t);
+            }
+            *open &= !(crossed | stuck) & here.lt(*last);
+            ask(*open, (*here, *last), *step, *sign, told);
+        },
+    );
+}
+
+/// Closes in the crossings that were found, proves them and offers them.
+#[inline(never)]
+fn close_in(level: &dyn Level, asked: &Question<'_>, nearest: &mut Nearest, memory: &mut Memory) {
+    let rays = asked.rays;
+    let isa = rays.isa;
+    level.values(&memory.line, &memory.a, memory.found, &mut memory.value);
+    let (mut x, mut close, mut done, mut stayed) = (F8::ZERO, F8::ZERO, M8::NONE, F8::ZERO);
+    isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            memory.g_a = memory.value.g * memory.sign;
+            let (t_a, t_b) =
+                (memory.a.mul_add(memory.unit, memory.t_c), memory.b.mul_add(memory.unit, memory.t_c));
+            // Of the ray's parameter; along the line it is as much over the unit.
+            close = (t_a.abs().min(t_b.abs()) / memory.unit) * CLOSE;
+            x = next(memory, 0);
+            done = !memory.found;
+            memory.asked = memory.found;
+        },
+    );
+    for near in [64.0, 0.25] {
+        converge(level, (&close, near), (&mut x, &mut done, &mut stayed), memory);
+        prove(level, asked, (&x, &close), nearest, memory);
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                memory.asked = memory.found;
+                done = !memory.found;
+            },
+        );
+    }
+    nearest.doubt_from(memory.found, memory.here.mul_add(memory.unit, memory.t_c) - memory.e_t);
+}
+
+/// Steps towards crossings until the last one was at most `near` times as long as is close.
+#[inline(never)]
+fn converge(
+    level: &dyn Level,
+    (close, near): (&F8, f64),
+    (x, done, stayed): (&mut F8, &mut M8, &mut F8),
+    memory: &mut Memory,
+) {
+    let isa = memory.line.isa;
+    for i in 1..MOST_VALUES {
+        if !memory.asked.any() {
+            return;
+        }
+        level.values(&memory.line, x, memory.asked, &mut memory.value);
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let Memory { a, b, g_a, g_b, sign, value, .. } = &mut *memory;
+                let g = value.g * *sign;
+                let before = g.gt(F8::ZERO);
+                let certain = value.above | value.below;
+                let moving = !*done & certain;
+                let (first, second) = (moving & before, moving & !before);
+                // What stays once more weighs less (N. Anderson, A. Bjorck, 1973).
+                let share = F8::ONE - g / before.select(*g_a, *g_b);
+                let share = share.gt(F8::ZERO).select(share, F8::splat(0.5));
+                *g_b = (first & stayed.gt(F8::ZERO)).select(*g_b * share, *g_b);
+                *g_a = (second & stayed.lt(F8::ZERO)).select(*g_a * share, *g_a);
+                *stayed = before.select(F8::ONE, -F8::ONE);
+                (*a, *g_a) = (first.select(*x, *a), first.select(g, *g_a));
+                (*b, *g_b) = (second.select(*x, *b), second.select(g, *g_b));
+                let to = next(memory, i);
+                let moved = (to - *x).abs();
+                *done |= moved.le(*close * near) | !certain;
+                *x = moving.select(to, *x);
+                memory.asked = !*done;
+            },
+        );
+    }
+}
+
+/// Where to look next: where the chord is zero, each eighth time in the middle.
+#[inline(always)]
+fn next(memory: &Memory, turn: u32) -> F8 {
+    let Memory { a, b, g_a, g_b, .. } = memory;
+    let chord = *a + (*b - *a) * (*g_a / (*g_a - *g_b));
+    let between = chord.gt(*a) & chord.lt(*b);
+    let middle = *a * 0.5 + *b * 0.5;
+    if turn % 8 == 7 { middle } else { between.select(chord, middle) }
+}
+
+/// Offers what has certain signs on either side.
+#[inline(never)]
+fn prove(
+    level: &dyn Level,
+    asked: &Question<'_>,
+    (x, close): (&F8, &F8),
+    nearest: &mut Nearest,
+    memory: &mut Memory,
+) {
+    if !memory.found.any() {
+        return;
+    }
+    let rays = asked.rays;
+    let isa = rays.isa;
+    let (mut low, mut high, mut sure) = (F8::ZERO, F8::ZERO, M8::NONE);
+    isa.run_in_lanes(
+        #[inline(always)]
+        || (low, high) = (*x - *close, *x + *close),
+    );
+    level.values(&memory.line, &low, memory.found, &mut memory.value);
+    isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            let positive = memory.sign.gt(F8::ZERO);
+            sure = positive & memory.value.above | !positive & memory.value.below;
+        },
+    );
+    level.values(&memory.line, &high, memory.found, &mut memory.value);
+    isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            let Memory { sign, found, value, unit, t_c, e_t, .. } = &mut *memory;
+            let positive = sign.gt(F8::ZERO);
+            let sure = *found & sure & (positive & value.below | !positive & value.above);
+            let t = x.mul_add(*unit, *t_c);
+            let e = (*close * *unit + *e_t) * SLACK;
+            let open = *found & !(t - e).gt(nearest.limit(rays));
+            let met = open & sure & (t - e).gt(F8::ZERO) & (t + e).le(*rays.t_max);
+            nearest.take(met, t, e, asked.number, F8::ZERO);
+            *found &= !(met | sure & (t - e).gt(nearest.limit(rays)));
+        },
+    );
+}
