@@ -263,6 +263,9 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     let hole = Region::axis_box(point(-0.5, -0.5, -0.25), point(2.0, 2.0, 0.75)).unwrap().inverse();
     worlds("sphere without a box", Sides::Sheet, Clip::new(ball, vec![hole.clone()]), all);
     worlds("box without a box", Sides::Sheet, Clip::new(block, vec![hole]), all);
+    // Planes that cut off all of a wall, by far and by an ulp; that cut off nothing; and one that the wall lies in.
+    let room = Region::axis_box(point(-0.25, -0.5, -2.0), point(2.0, 0.5_f64.next_down(), 0.25)).unwrap();
+    worlds("box within a box", Sides::Sheet, Clip::new(block, vec![room]), all);
     let ring = Torus::new(point(0.25, 0.0, -0.25), Axis::Y, 0.75, 0.25).unwrap();
     worlds("torus", Sides::Smooth, ring, all);
     worlds("horn torus", Sides::Solid, Torus::new(o, Axis::X, 0.5, 0.5).unwrap(), all);
@@ -342,7 +345,7 @@ fn level_worlds(all: &mut Worlds) {
     worlds("julia", Sides::Bracketed, JuliaSet::new(&set).unwrap(), all);
     let cube = Julia { c: [0.25, -0.5, 0.25, 0.0], power: JuliaPower::Cube, iterations: 3, ..set };
     worlds("cubic julia", Sides::Bracketed, JuliaSet::new(&cube).unwrap(), all);
-    // A bit smaller, so that few rays on a grid touch it: such rays take the tape thousands of passes.
+    // A bit smaller, so that few rays on a grid touch it: the formula is asked thousands of times about each that does.
     let cushion = Placed::new(superellipsoid(0.5, 1.25).unwrap(), scaled(0.9));
     worlds("cushion", Sides::Bracketed, cushion, all);
 }

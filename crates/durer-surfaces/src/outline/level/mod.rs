@@ -50,7 +50,7 @@ pub(crate) struct Told8 {
     pub(crate) seen: M8,
     /// From here...
     pub(crate) a: F8,
-    /// ...to here; whoever is asked may bring it nearer, and move both on as far as `g` keeps its sign.
+    /// ...to here; whoever is asked may move it.
     pub(crate) b: F8,
     /// Here it ends.
     pub(crate) last: F8,
@@ -84,8 +84,8 @@ pub(crate) trait Level: core::fmt::Debug + Send + Sync {
     fn part(&self, line: &Line8, part: &mut Part);
     /// Tells what is certain of a stretch of each line.
     fn tell(&self, line: &Line8, told: &mut Told8);
-    /// The values at `s`; only those of some lanes matter.
-    fn values(&self, line: &Line8, s: &F8, lanes: M8, value: &mut Value8);
+    /// The values at `s`.
+    fn values(&self, line: &Line8, s: &F8, value: &mut Value8);
     /// `g` and its gradient at points known within `e` along any axis, and a bound on its second derivatives as far around as rays start.
     fn skin(&self, isa: Isa, at: (&Vec3<F8>, &F8), skin: &mut Skin);
     /// The covectors that points are shaded by, if those are others.

@@ -109,7 +109,7 @@ pub(in crate::outline) fn meet(
     level.part(&memory.line, &mut memory.part);
     begin((asked, turned), level.reach(), nearest, memory);
     if has_unknown(rays.isa, memory) {
-        level.values(&memory.line, &memory.here, memory.asked, &mut memory.value);
+        level.values(&memory.line, &memory.here, &mut memory.value);
         know(rays.isa, nearest, memory);
     }
     for _ in 0..MOST {
@@ -118,7 +118,7 @@ pub(in crate::outline) fn meet(
         }
         level.tell(&memory.line, &mut memory.told);
         if against(rays.isa, memory) {
-            level.values(&memory.line, &memory.told.b, memory.asked, &mut memory.value);
+            level.values(&memory.line, &memory.told.b, &mut memory.value);
         }
         go_on(rays.isa, level.reach(), nearest, memory);
     }
@@ -260,7 +260,7 @@ fn go_on(isa: Isa, reach: f64, nearest: &mut Nearest, memory: &mut Memory) {
             let passed = seen & (kept | same);
             let way = told.b - told.a;
             *step = passed.select(step.max(way * LONGER), (seen & !passed).select(way * SHORTER, *step));
-            *here = passed.select(told.b, seen.select(told.a, *here));
+            *here = passed.select(told.b, *here);
             told.hint = passed.select(NEVER, told.hint);
             let stuck = *open & !crossed & here.lt(*last) & !step.ge(F8::splat(LEAST * reach));
             if stuck.any() {
@@ -277,7 +277,7 @@ fn go_on(isa: Isa, reach: f64, nearest: &mut Nearest, memory: &mut Memory) {
 fn close_in(level: &dyn Level, asked: &Question<'_>, nearest: &mut Nearest, memory: &mut Memory) {
     let rays = asked.rays;
     let isa = rays.isa;
-    level.values(&memory.line, &memory.a, memory.found, &mut memory.value);
+    level.values(&memory.line, &memory.a, &mut memory.value);
     let (mut x, mut close, mut done, mut stayed) = (F8::ZERO, F8::ZERO, M8::NONE, F8::ZERO);
     isa.run_in_lanes(
         #[inline(always)]
@@ -319,7 +319,7 @@ fn converge(
         if !memory.asked.any() {
             return;
         }
-        level.values(&memory.line, x, memory.asked, &mut memory.value);
+        level.values(&memory.line, x, &mut memory.value);
         isa.run_in_lanes(
             #[inline(always)]
             || {
@@ -376,7 +376,7 @@ fn prove(
         #[inline(always)]
         || (low, high) = (*x - *close, *x + *close),
     );
-    level.values(&memory.line, &low, memory.found, &mut memory.value);
+    level.values(&memory.line, &low, &mut memory.value);
     isa.run_in_lanes(
         #[inline(always)]
         || {
@@ -384,7 +384,7 @@ fn prove(
             sure = positive & memory.value.above | !positive & memory.value.below;
         },
     );
-    level.values(&memory.line, &high, memory.found, &mut memory.value);
+    level.values(&memory.line, &high, &mut memory.value);
     isa.run_in_lanes(
         #[inline(always)]
         || {
