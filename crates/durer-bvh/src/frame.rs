@@ -12,13 +12,11 @@ pub struct Frame {
 }
 
 /// A box for the builder, in tree units, and what it is the box of. 32 bytes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(align(32))]
 pub struct Entry {
-    pub(crate) lo: [f32; 3],
-    kind: u32,
-    pub(crate) hi: [f32; 3],
-    index: u32,
+    /// The low corner, negated, so that boxes grow by maxima alone; the kind; the high corner; the index. Coordinates are the bits of f32.
+    pub(crate) words: [u32; 8],
 }
 
 impl Frame {
@@ -60,7 +58,7 @@ impl Frame {
         let high = |x: f64, y: f64| up32(if lost(x, y) { y.next_up() } else { y });
         let a = bounds.min.map(|x| low(x, self.inward(x))).to_array();
         let b = bounds.max.map(|x| high(x, self.inward(x))).to_array();
-        Entry { lo: a, kind, hi: b, index }
+        Entry::new(a, kind, b, index)
     }
 
     /// A box in tree units, in the caller's.
@@ -71,35 +69,63 @@ impl Frame {
 }
 
 impl Entry {
+    #[inline(always)]
+    fn new(lo: [f32; 3], kind: u32, hi: [f32; 3], index: u32) -> Self {
+        // Zeros are positive, so that no maximum depends on an order.
+        let low = |i: usize| (0.0 - lo[i]).to_bits();
+        let high = |i: usize| (hi[i] + 0.0).to_bits();
+        Self { words: [low(0), low(1), low(2), kind, high(0), high(1), high(2), index] }
+    }
+
     /// The kind of thing.
     #[inline]
     pub fn kind(&self) -> u32 {
-        self.kind
+        self.words[3]
     }
 
     /// Which one of its kind.
     #[inline]
     pub fn index(&self) -> u32 {
-        self.index
+        self.words[7]
+    }
+
+    /// The low corner, negated, and the high one; lanes 3 and 7 are zero.
+    #[inline(always)]
+    pub(crate) fn reach(&self) -> [f32; 8] {
+        let at = |i: usize| f32::from_bits(self.words[i]);
+        [at(0), at(1), at(2), 0.0, at(4), at(5), at(6), 0.0]
+    }
+
+    #[inline(always)]
+    pub(crate) fn lo(&self) -> [f32; 3] {
+        let [x, y, z, ..] = self.reach();
+        [0.0 - x, 0.0 - y, 0.0 - z]
+    }
+
+    #[inline(always)]
+    pub(crate) fn hi(&self) -> [f32; 3] {
+        let [.., x, y, z, _] = self.reach();
+        [x, y, z]
     }
 
     /// Whether a tree can hold it.
     #[inline]
     pub fn is_bounded(&self) -> bool {
-        (0..3)
-            .all(|i| self.lo[i] <= self.hi[i] && self.lo[i] > f32::NEG_INFINITY && self.hi[i] < f32::INFINITY)
+        let (lo, hi) = (self.lo(), self.hi());
+        (0..3).all(|i| lo[i] <= hi[i] && lo[i] > f32::NEG_INFINITY && hi[i] < f32::INFINITY)
     }
 
     /// Whether there is no point in it, so that nothing can be met. A NaN is not empty: nothing is known.
     #[inline]
     pub fn is_empty(&self) -> bool {
-        (0..3).any(|i| self.lo[i] > self.hi[i]) && self.lo.iter().chain(&self.hi).all(|x| !x.is_nan())
+        let (lo, hi) = (self.lo(), self.hi());
+        (0..3).any(|i| lo[i] > hi[i]) && lo.iter().chain(&hi).all(|x| !x.is_nan())
     }
 
     /// Twice the centre along an axis.
     #[inline(always)]
     pub(crate) fn centre2(&self, axis: usize) -> f32 {
-        self.lo[axis] + self.hi[axis]
+        f32::from_bits(self.words[4 + axis]) - f32::from_bits(self.words[axis])
     }
 }
 
@@ -130,8 +156,8 @@ mod tests {
             let frame = Frame::around(&bounds);
             let entry = frame.entry(&bounds, 0, 0);
             prop_assert!(entry.is_bounded() && !entry.is_empty());
-            prop_assert!(entry.lo.iter().chain(&entry.hi).all(|x| x.abs() <= 1.0));
-            prop_assert!(frame.bounds(entry.lo, entry.hi).encloses(&bounds));
+            prop_assert!(entry.lo().iter().chain(&entry.hi()).all(|x| x.abs() <= 1.0));
+            prop_assert!(frame.bounds(entry.lo(), entry.hi()).encloses(&bounds));
         }
     }
 

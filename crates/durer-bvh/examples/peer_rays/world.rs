@@ -39,8 +39,10 @@ impl World {
         let frame = Frame::around(&exact.bounds());
         let corners = |n: u32| mesh.faces[n as usize].map(|i| point(mesh.vertices[i as usize]));
         let entry = |n: u32| frame.entry(&Aabb::from_points(corners(n)), 0, n);
-        let live = |n: &u32| exact.dropped().is_empty() || exact.dropped().binary_search(n).is_err();
-        let entries = (0..mesh.faces.len() as u32).into_par_iter().filter(live).map(entry).collect();
+        let mut entries: Vec<_> = (0..mesh.faces.len() as u32).into_par_iter().map(entry).collect();
+        if !exact.dropped().is_empty() {
+            entries.retain(|entry| exact.dropped().binary_search(&entry.index()).is_err());
+        }
         let (tree, mut order) = Bvh::build(&frame, entries, &[Some(&corners)], settings);
         Self { exact, tree, numbers: order.remove(0) }
     }

@@ -2,52 +2,57 @@
 
 use crate::frame::Entry;
 
-/// A box in tree units, empty to begin with; four lanes, so that it grows by vector minima and maxima.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Extent {
-    lo: [f32; 4],
-    hi: [f32; 4],
-}
+/// A box in tree units, empty to begin with: the low corner, negated, and the high one, so that it grows by eight maxima at once.
+///
+/// Lanes 3 and 7 mean nothing.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
+pub(crate) struct Extent(pub(crate) [f32; 8]);
 
 impl Extent {
-    pub(crate) const EMPTY: Self = Self { lo: [f32::INFINITY; 4], hi: [f32::NEG_INFINITY; 4] };
+    pub(crate) const EMPTY: Self = Self([f32::NEG_INFINITY; 8]);
 
     #[inline(always)]
-    pub(crate) fn grow(&mut self, lo: [f32; 3], hi: [f32; 3]) {
-        self.unite(&Self { lo: [lo[0], lo[1], lo[2], 0.0], hi: [hi[0], hi[1], hi[2], 0.0] });
+    pub(crate) fn of(entry: &Entry) -> Self {
+        Self(entry.reach())
     }
 
     #[inline(always)]
     pub(crate) fn add(&mut self, entry: &Entry) {
-        self.grow(entry.lo, entry.hi);
+        self.unite(&Self::of(entry));
     }
 
     #[inline(always)]
     pub(crate) fn unite(&mut self, b: &Self) {
-        for i in 0..4 {
-            self.lo[i] = if b.lo[i] < self.lo[i] { b.lo[i] } else { self.lo[i] };
-            self.hi[i] = if b.hi[i] > self.hi[i] { b.hi[i] } else { self.hi[i] };
+        for i in 0..8 {
+            self.0[i] = if b.0[i] > self.0[i] { b.0[i] } else { self.0[i] };
         }
     }
 
+    #[inline(always)]
     pub(crate) fn united(mut self, b: &Self) -> Self {
         self.unite(b);
         self
     }
 
+    #[inline(always)]
     pub(crate) fn lo(&self) -> [f32; 3] {
-        [self.lo[0], self.lo[1], self.lo[2]]
+        [0.0 - self.0[0], 0.0 - self.0[1], 0.0 - self.0[2]]
     }
 
+    #[inline(always)]
     pub(crate) fn hi(&self) -> [f32; 3] {
-        [self.hi[0], self.hi[1], self.hi[2]]
+        [self.0[4], self.0[5], self.0[6]]
     }
 
     /// Half the surface; zero if empty.
     #[inline(always)]
     pub(crate) fn half_area(&self) -> f32 {
-        let w = |i: usize| (self.hi[i] - self.lo[i]).max(0.0);
-        let (x, y, z) = (w(0), w(1), w(2));
-        x * y + y * z + z * x
+        let mut widths = [0.0; 4];
+        for (i, width) in widths.iter_mut().enumerate() {
+            let w = self.0[4 + i] + self.0[i];
+            *width = if w > 0.0 { w } else { 0.0 };
+        }
+        widths[0] * widths[1] + widths[1] * widths[2] + widths[2] * widths[0]
     }
 }

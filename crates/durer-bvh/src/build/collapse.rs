@@ -48,8 +48,9 @@ pub(super) fn subtree(
     costs: &Costs<'_>,
     nodes: &mut Vec<Node8>,
 ) {
-    let mut binary = Binary { parts: Vec::with_capacity(entries.len()), costs };
+    let mut binary = Binary { parts: Vec::with_capacity(entries.len() / 2), costs };
     let root = binary.grow(entries, 0, extent, level);
+    nodes.reserve(binary.parts.len() / 8);
     binary.emit(root, base, nodes);
 }
 

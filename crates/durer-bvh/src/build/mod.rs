@@ -9,6 +9,7 @@
 //! Depth is bounded: from level [`BALANCED_FROM`] on ranges are halved by count.
 
 mod area;
+mod bins;
 mod collapse;
 mod split;
 
@@ -17,7 +18,10 @@ use crate::kernels::MAX_DEPTH;
 use crate::node::{ChildRef, MAX_ENTRIES, MAX_LEAF, Node8, WIDTH};
 use crate::tree::Bvh;
 use crate::triangles::{Block, Corners, LANES};
-use area::Extent;
+pub(crate) use area::Extent;
+pub(crate) use bins::{BINS, Bins, Filled, INTEGERS};
+use core::sync::atomic::{AtomicBool, Ordering};
+use durer_math::Isa;
 use durer_math::kernels::in_large_pages;
 use rayon::prelude::*;
 use split::Split;
@@ -51,13 +55,14 @@ struct Costs<'a> {
     test: f32,
     leaf: f32,
     shapes: &'a [Option<CornersOf<'a>>],
+    isa: Isa,
 }
 
 /// The same for one kind of things.
 #[derive(Clone, Copy, Debug)]
 struct KindCosts {
-    /// How many things are tested together, at the cost of one test.
-    block: usize,
+    /// Two to this power things are tested together, at the cost of one test.
+    block: u32,
     test: f32,
     leaf: f32,
 }
@@ -66,7 +71,8 @@ impl<'a> Costs<'a> {
     fn of(settings: &Settings, shapes: &'a [Option<CornersOf<'a>>]) -> Self {
         let Settings { max_leaf, test_cost, leaf_cost } = *settings;
         let most = if shapes.iter().any(Option::is_some) { LANES } else { MAX_LEAF };
-        Self { max_leaf: max_leaf.clamp(1, most), test: test_cost, leaf: leaf_cost, shapes }
+        let isa = Isa::detect();
+        Self { max_leaf: max_leaf.clamp(1, most), test: test_cost, leaf: leaf_cost, shapes, isa }
     }
 
     /// Whether a range can be a leaf.
@@ -79,9 +85,9 @@ impl<'a> Costs<'a> {
         let is_triangles = entries.first().is_some_and(|e| self.shapes[e.kind() as usize].is_some());
         if is_triangles {
             // A block costs what it costs, full or not.
-            KindCosts { block: LANES, test: self.test, leaf: 0.0 }
+            KindCosts { block: LANES.ilog2(), test: self.test, leaf: 0.0 }
         } else {
-            KindCosts { block: 1, test: self.test, leaf: self.leaf }
+            KindCosts { block: 0, test: self.test, leaf: self.leaf }
         }
     }
 }
@@ -95,7 +101,7 @@ impl KindCosts {
     /// How many tests `count` things take.
     #[inline(always)]
     fn tests(&self, count: usize) -> f32 {
-        count.div_ceil(self.block) as f32
+        ((count + (1 << self.block) - 1) >> self.block) as f32
     }
 }
 
@@ -106,6 +112,8 @@ pub type CornersOf<'a> = &'a (dyn Fn(u32) -> Corners + Sync);
 /// the kinds of a last range of 16 need two more; so no tree is deeper than 35, and [`MAX_DEPTH`] is 40.
 const BALANCED_FROM: usize = 24;
 
+const _: () = assert!(LANES.is_power_of_two());
+
 const _: () = assert!(BALANCED_FROM + 9 + 2 < MAX_DEPTH && MAX_ENTRIES == 1 << 27 && MAX_LEAF == 16);
 
 /// Ranges with fewer entries are one thread's.
@@ -113,12 +121,44 @@ const PARALLEL: usize = 4096;
 
 /// Nodes over `entries`, which are put into leaf order. The first node is the root. Leaves refer to positions.
 fn build(entries: &mut [Entry], costs: &Costs<'_>) -> Vec<Node8> {
-    let mut nodes = Vec::new();
-    if !entries.is_empty() {
-        let whole = Range { first: 0, len: entries.len(), extent: split::extent(entries), closed: false };
-        subtree(entries, 0, &whole, 0, costs, &mut nodes);
+    if entries.is_empty() {
+        return Vec::new();
     }
+    let whole = Range { first: 0, len: entries.len(), extent: split::extent(entries), closed: false };
+    let mut grown = grow(entries, 0, &whole, 0, costs);
+    if grown.below.is_empty() {
+        grown.nodes.shrink_to_fit();
+        return grown.nodes;
+    }
+    let mut nodes = Vec::with_capacity(grown.count());
+    in_large_pages(&nodes);
+    grown.append_to(&mut nodes);
     nodes
+}
+
+/// Nodes that are still in several lists: those of a subtree that one thread has made, or one node and those below it.
+struct Grown {
+    nodes: Vec<Node8>,
+    /// In which slot of the one node each of these begins.
+    below: Vec<(usize, Self)>,
+}
+
+impl Grown {
+    fn count(&self) -> usize {
+        self.nodes.len() + self.below.iter().map(|(_, grown)| grown.count()).sum::<usize>()
+    }
+
+    fn append_to(self, nodes: &mut Vec<Node8>) {
+        let this = nodes.len();
+        nodes.extend(self.nodes.into_iter().map(|mut node| {
+            move_by(&mut node, this);
+            node
+        }));
+        for (slot, grown) in self.below {
+            nodes[this].child[slot] = ChildRef::node(nodes.len());
+            grown.append_to(nodes);
+        }
+    }
 }
 
 /// A range of entries on its way to becoming a child.
@@ -138,18 +178,12 @@ impl Range {
     }
 }
 
-/// Appends the node over all of `entries`, and those below it; `base` is the position of the first entry.
-fn subtree(
-    entries: &mut [Entry],
-    base: usize,
-    whole: &Range,
-    level: usize,
-    costs: &Costs<'_>,
-    nodes: &mut Vec<Node8>,
-) {
+/// The node over all of `entries`, and those below it; `base` is the position of the first entry.
+fn grow(entries: &mut [Entry], base: usize, whole: &Range, level: usize, costs: &Costs<'_>) -> Grown {
     if whole.len < collapse::COLLAPSED && level < collapse::BALANCED_FROM {
-        collapse::subtree(entries, base, &whole.extent, level, costs, nodes);
-        return;
+        let mut nodes = Vec::new();
+        collapse::subtree(entries, base, &whole.extent, level, costs, &mut nodes);
+        return Grown { nodes, below: Vec::new() };
     }
     let mut ranges = [*whole; WIDTH];
     ranges[0].first = 0;
@@ -184,8 +218,6 @@ fn subtree(
         range.closed = range.len == 1 || split::is_better_as_leaf(range.of(entries), &range.extent, costs);
     }
 
-    let this = nodes.len();
-    nodes.push(Node8::EMPTY);
     let mut node = Node8::EMPTY;
     let mut below = Vec::new();
     let mut rest = entries;
@@ -200,32 +232,16 @@ fn subtree(
         };
         node.set(slot, range.extent.lo(), range.extent.hi(), child);
     }
-    if whole.len < PARALLEL {
-        for (slot, mine, range) in below {
-            node.child[slot] = ChildRef::node(nodes.len());
-            subtree(mine, base + range.first, range, level + 1, costs, nodes);
-        }
-    } else {
-        let grown: Vec<_> = below
-            .into_par_iter()
-            .with_max_len(1)
-            .map(|(slot, mine, range)| {
-                let mut nodes = Vec::new();
-                subtree(mine, base + range.first, range, level + 1, costs, &mut nodes);
-                (slot, nodes)
-            })
-            .collect();
-        nodes.reserve_exact(grown.iter().map(|(_, subtree)| subtree.len()).sum());
-        in_large_pages(nodes);
-        for (slot, mut subtree) in grown {
-            let offset = nodes.len();
-            node.child[slot] = ChildRef::node(offset);
-            subtree.iter_mut().for_each(|n| move_by(n, offset));
-            nodes.append(&mut subtree);
-        }
-    }
     node.sort();
-    nodes[this] = node;
+    let subtree = |(slot, mine, range): (usize, &mut [Entry], &Range)| {
+        (slot, grow(mine, base + range.first, range, level + 1, costs))
+    };
+    let below = if whole.len < PARALLEL {
+        below.into_iter().map(subtree).collect()
+    } else {
+        below.into_par_iter().with_max_len(1).map(subtree).collect()
+    };
+    Grown { nodes: vec![node], below }
 }
 
 /// Shifts a node's references to nodes.
@@ -249,7 +265,11 @@ fn split(entries: &mut [Entry], extent: &Extent, level: usize, costs: &Costs<'_>
         // One test does for all of them: parts would cost as much each, and as much memory.
         return None;
     }
-    let best = split::best_plane(entries, &kind);
+    if !one_kind {
+        // Where centres coincide kinds part.
+        entries.sort_by_key(Entry::kind);
+    }
+    let best = split::best_plane(entries, &kind, costs.isa);
     if may_be_leaf {
         let leaf = kind.of_leaf(entries.len());
         let whole = extent.half_area();
@@ -260,7 +280,7 @@ fn split(entries: &mut [Entry], extent: &Extent, level: usize, costs: &Costs<'_>
         }
     }
     match best {
-        Some(best) => Some(split::by_plane(entries, &best)),
+        Some(best) => Some(split::by_plane(entries, &best, costs.isa)),
         None if one_kind => Some(split::halve(entries)),
         None => Some(split::halve_by_kind(entries)),
     }
@@ -285,7 +305,6 @@ impl Bvh {
         assert!(entries.len() <= MAX_ENTRIES, "at most {MAX_ENTRIES} entries, got {}", entries.len());
         let kinds = shapes.len();
         let mut nodes = build(&mut entries, &Costs::of(settings, shapes));
-        nodes.shrink_to_fit();
         let mut starts = vec![0_u32; kinds + 1];
         for entry in &entries {
             starts[entry.kind() as usize + 1] += 1;
@@ -295,15 +314,26 @@ impl Bvh {
         for kind in 0..kinds {
             starts[kind + 1] += starts[kind];
         }
-        // Positions of all leaves become slots, which are counted within each kind.
-        let mut slots = Vec::with_capacity(entries.len());
-        for entry in &entries {
-            let kind = entry.kind() as usize;
-            slots.push(order[kind].len() as u32);
-            order[kind].push(entry.index());
+        // Positions of all leaves become slots, which are counted kind by kind. Of one kind, they are slots.
+        let mut slots = Vec::new();
+        if let Some(kind) = (0..kinds).find(|&k| (starts[k + 1] - starts[k]) as usize == entries.len()) {
+            order[kind].par_extend(entries.par_iter().map(Entry::index));
+        } else {
+            slots.reserve_exact(entries.len());
+            for entry in &entries {
+                let kind = entry.kind() as usize;
+                slots.push(starts[kind] + order[kind].len() as u32);
+                order[kind].push(entry.index());
+            }
         }
-        let mut tree = Self::assembled(*frame, starts);
-        let leaves = leaves_of_triangles(&nodes, &entries, &slots, shapes);
+        drop(entries);
+        let place = |position: u32| {
+            let slot = slots.get(position as usize).copied().unwrap_or(position);
+            let kind = starts[1..].partition_point(|&start| start <= slot);
+            (kind, slot - starts[kind])
+        };
+        let mut tree = Self::assembled(*frame, starts.clone());
+        let leaves = leaves_of_triangles(&nodes, place, shapes);
         tree.keep_triangles(&leaves, &order, shapes);
         let mut next: Vec<u32> = tree.kinds.iter().map(|kind| kind.first).collect();
         for node in &mut nodes {
@@ -312,12 +342,12 @@ impl Bvh {
                     continue;
                 }
                 let (first, count) = node.child[slot].slots();
-                let kind = entries[first as usize].kind() as usize;
+                let (kind, first) = place(first);
                 let reference = if shapes[kind].is_some() {
                     next[kind] += 1;
                     next[kind] - 1
                 } else {
-                    tree.kinds[kind].first + slots[first as usize]
+                    tree.kinds[kind].first + first
                 };
                 node.child[slot] = ChildRef::leaf(reference as usize, count as usize);
             }
@@ -342,13 +372,18 @@ impl Bvh {
                 first += order[kind].len() as u32;
                 continue;
             };
-            let triangle = |slot: u32| (slot, corners(order[kind][slot as usize]));
-            let block =
-                |&(first, count): &(u32, u32)| Block::new(frame, (first..first + count).map(triangle));
-            let held = |&index: &u32| corners(index).into_iter().all(|v| Block::holds(frame, v));
-            self.rounded |= !order[kind].par_iter().all(held);
+            let rounded = AtomicBool::new(false);
+            let block = |&(first, count): &(u32, u32)| {
+                let triangles = order[kind][first as usize..(first + count) as usize].iter();
+                let (block, is_held) = Block::new(frame, first, triangles.map(|&index| corners(index)));
+                if !is_held {
+                    rounded.store(true, Ordering::Relaxed);
+                }
+                block
+            };
             self.kinds[kind].blocks = Some(self.blocks.len() as u32);
             self.blocks.par_extend(leaves[kind].par_iter().map(block));
+            self.rounded |= rounded.into_inner();
             first += leaves[kind].len() as u32;
         }
         self.blocks.shrink_to_fit();
@@ -359,17 +394,16 @@ impl Bvh {
 /// First slot and count of the leaves of each kind of triangles, in the order of the nodes.
 fn leaves_of_triangles(
     nodes: &[Node8],
-    entries: &[Entry],
-    slots: &[u32],
+    place: impl Fn(u32) -> (usize, u32),
     shapes: &[Option<CornersOf<'_>>],
 ) -> Vec<Vec<(u32, u32)>> {
     let mut leaves = vec![Vec::new(); shapes.len()];
     for node in nodes {
         for slot in node.used().filter(|&slot| node.child[slot].is_leaf()) {
             let (first, count) = node.child[slot].slots();
-            let kind = entries[first as usize].kind() as usize;
+            let (kind, first) = place(first);
             if shapes[kind].is_some() {
-                leaves[kind].push((slots[first as usize], count));
+                leaves[kind].push((first, count));
             }
         }
     }

@@ -1,17 +1,17 @@
 //! Where to cut a range of entries.
 
 use super::area::Extent;
+use super::bins::{BINS, Bins, Filled};
 use super::{Costs, KindCosts};
 use crate::frame::Entry;
+use crate::kernels;
+use durer_math::Isa;
 use rayon::prelude::*;
-
-/// Bins per axis.
-const BINS: usize = 16;
 
 /// With so few entries all cuts are tried, which is less work than bins.
 const SWEPT: usize = 32;
 
-/// Ranges with more entries are binned by all threads.
+/// Ranges with more entries are binned and parted by all threads.
 const PARALLEL: usize = 1 << 15;
 
 /// A range cut in two: the first part's length, and the boxes of both.
@@ -23,19 +23,20 @@ pub(super) struct Split {
 
 /// The box of all entries.
 pub(super) fn extent(entries: &[Entry]) -> Extent {
-    fold(entries, || Extent::EMPTY, Extent::add, |a, b| a.united(&b))
+    let add = |extent: &mut Extent, part: &[Entry]| part.iter().for_each(|entry| extent.add(entry));
+    fold(entries, || Extent::EMPTY, add, |a, b| a.united(&b))
 }
 
 /// Folds in an order that does not matter: by all threads if it pays.
 fn fold<T: Send>(
     entries: &[Entry],
     identity: impl Fn() -> T + Sync + Send,
-    add: impl Fn(&mut T, &Entry) + Sync,
+    add: impl Fn(&mut T, &[Entry]) + Sync,
     join: impl Fn(T, T) -> T + Sync + Send,
 ) -> T {
     let some = |part: &[Entry]| {
         let mut value = identity();
-        part.iter().for_each(|entry| add(&mut value, entry));
+        add(&mut value, part);
         value
     };
     if entries.len() > PARALLEL {
@@ -59,7 +60,7 @@ pub(super) struct Plane {
 /// Which entries go left.
 enum Cut {
     /// Those in bins before this one.
-    Bin { axis: usize, bin: usize, bins: Bins },
+    Bin { axis: usize, bin: u32, bins: Bins },
     /// The first ones in this order; for few entries.
     Order { order: [u8; SWEPT] },
 }
@@ -70,135 +71,157 @@ impl Plane {
         let side = |(extent, count): &(Extent, usize)| extent.half_area() * costs.of_leaf(*count);
         side(&self.left) + side(&self.right)
     }
-
-    /// Whether a cut of this cost into parts so different is better than `best`. Flat in two directions, the surface says
-    /// nothing: then the most even cut wins.
-    fn is_beaten_by(best: &Option<Self>, least: f32, cost: f32, left: usize, right: usize) -> bool {
-        let uneven = |b: &Self| b.left.1.abs_diff(b.right.1);
-        cost < least || (cost == least && best.as_ref().is_none_or(|b| left.abs_diff(right) < uneven(b)))
-    }
 }
 
-/// How twice-centres map to bins.
-#[derive(Clone, Copy)]
-struct Bins {
-    from: [f32; 3],
-    scale: [f32; 3],
+/// The best cut so far.
+struct Best {
+    cost: f32,
+    axis: usize,
+    at: usize,
+    uneven: usize,
 }
 
-impl Bins {
-    fn over(entries: &[Entry]) -> Self {
-        let add = |e: &mut Extent, entry: &Entry| {
-            let c = [entry.centre2(0), entry.centre2(1), entry.centre2(2)];
-            e.grow(c, c);
-        };
-        let centres = fold(entries, || Extent::EMPTY, add, |a, b| a.united(&b));
-        let (lo, hi) = (centres.lo(), centres.hi());
-        let scale = core::array::from_fn(|i| {
-            let scale = BINS as f32 / (hi[i] - lo[i]);
-            if scale.is_finite() { scale } else { 0.0 }
-        });
-        Self { from: lo, scale }
-    }
+impl Best {
+    const NONE: Self = Self { cost: f32::INFINITY, axis: 0, at: 0, uneven: usize::MAX };
 
+    /// Takes a cut into `left` and `right` entries if it is better. Flat in two directions, the surface says nothing: then the most even cut wins.
     #[inline(always)]
-    fn of(&self, entry: &Entry, axis: usize) -> usize {
-        /// Added to a small number it leaves its nearest integer in the lowest bits, which a conversion takes more steps to find.
-        const INTEGERS: f32 = (1 << 23) as f32;
-        const LAST: f32 = (BINS - 1) as f32;
-        let x = (entry.centre2(axis) - self.from[axis]) * self.scale[axis] - 0.5;
-        let x = if x > 0.0 { x } else { 0.0 };
-        let x = if x < LAST { x } else { LAST };
-        (x + INTEGERS).to_bits() as usize & (BINS - 1)
+    fn improve(&mut self, cost: f32, axis: usize, at: usize, left: usize, right: usize) {
+        let uneven = left.abs_diff(right);
+        if cost < self.cost || (cost == self.cost && uneven < self.uneven) {
+            *self = Self { cost, axis, at, uneven };
+        }
     }
 }
 
 /// The best cut along any axis by the surface area heuristic; `None` if all centres coincide (or nearly).
-pub(super) fn best_plane(entries: &[Entry], costs: &KindCosts) -> Option<Plane> {
-    if entries.len() <= SWEPT { best_of_all(entries, costs) } else { best_between_bins(entries, costs) }
+pub(super) fn best_plane(entries: &[Entry], costs: &KindCosts, isa: Isa) -> Option<Plane> {
+    if entries.len() <= SWEPT {
+        isa.run(
+            #[inline(always)]
+            || best_of_all(entries, costs),
+        )
+    } else {
+        best_between_bins(entries, costs, isa)
+    }
 }
 
-/// The best of all cuts of a few entries sorted by their centres.
+/// The best of all cuts of a few entries in the order of their centres; equal ones stay as they stand.
+#[inline(always)]
 fn best_of_all(entries: &[Entry], costs: &KindCosts) -> Option<Plane> {
     let n = entries.len();
-    let mut best: Option<Plane> = None;
-    let mut least = f32::INFINITY;
-    for axis in 0..3 {
-        // The centre, then the kind, then the place: one number to sort by.
-        let mut keys = [0_u64; SWEPT];
-        for (i, entry) in entries.iter().enumerate() {
-            let kind = u64::from(entry.kind().min((1 << 24) - 1));
-            keys[i] = u64::from(in_order(entry.centre2(axis))) << 32 | kind << 8 | i as u64;
+    let mut boxes = [Extent::EMPTY; SWEPT];
+    for (to, entry) in boxes.iter_mut().zip(entries) {
+        *to = Extent::of(entry);
+    }
+    // Lanes where there is no cut are infinite.
+    let (mut tests_left, mut tests_right) = ([1.0; SWEPT], [1.0; SWEPT]);
+    for i in 1..n {
+        (tests_left[i], tests_right[i]) = (costs.tests(i), costs.tests(n - i));
+    }
+    let (mut best, mut orders) = (Best::NONE, [[0_u8; SWEPT]; 3]);
+    for (axis, order) in orders.iter_mut().enumerate() {
+        let mut centres = [f32::INFINITY; SWEPT];
+        for (to, entry) in centres.iter_mut().zip(entries) {
+            *to = entry.centre2(axis);
         }
-        keys[..n].sort_unstable();
-        let mut order = [0_u8; SWEPT];
-        for (to, key) in order.iter_mut().zip(&keys[..n]) {
-            *to = *key as u8;
+        for (i, rank) in ranks(&centres, n)[..n].iter().enumerate() {
+            order[*rank as usize % SWEPT] = i as u8;
         }
-        let mut right = [Extent::EMPTY; SWEPT];
-        let mut so_far = Extent::EMPTY;
-        for i in (1..n).rev() {
-            so_far.add(&entries[usize::from(order[i])]);
-            right[i] = so_far;
-        }
-        let mut left = Extent::EMPTY;
+        let at = |i: usize| &boxes[usize::from(order[i]) % SWEPT];
+        let (mut left, mut right) = ([f32::INFINITY; SWEPT], [f32::INFINITY; SWEPT]);
+        let (mut before, mut after) = (Extent::EMPTY, Extent::EMPTY);
         for i in 1..n {
-            left.add(&entries[usize::from(order[i - 1])]);
-            let cost = left.half_area() * costs.tests(i) + right[i].half_area() * costs.tests(n - i);
-            if Plane::is_beaten_by(&best, least, cost, i, n - i) {
-                least = cost;
-                best = Some(Plane { cut: Cut::Order { order }, left: (left, i), right: (right[i], n - i) });
+            before.unite(at(i - 1));
+            left[i] = before.half_area();
+            after.unite(at(n - i));
+            right[n - i] = after.half_area();
+        }
+        let (mut sums, mut least) = ([0.0; SWEPT], f32::INFINITY);
+        for i in 0..SWEPT {
+            sums[i] = left[i] * tests_left[i] + right[i] * tests_right[i];
+        }
+        for &sum in &sums {
+            least = if sum < least { sum } else { least };
+        }
+        if least <= best.cost {
+            for i in (1..n).filter(|&i| sums[i] == least) {
+                best.improve(least, axis, i, i, n - i);
             }
         }
     }
-    best
+    if best.at == 0 {
+        return None;
+    }
+    let order = orders[best.axis];
+    let all = |part: &[u8]| part.iter().fold(Extent::EMPTY, |e, &i| e.united(&boxes[usize::from(i)]));
+    let (left, right) = order[..n].split_at(best.at);
+    Some(Plane { left: (all(left), left.len()), right: (all(right), right.len()), cut: Cut::Order { order } })
 }
 
-/// A number that orders as f32 does.
+/// How many of `n` numbers come before each: lesser ones, and equal ones that stand before it. Without a branch, which sorting few numbers is full of.
 #[inline(always)]
-fn in_order(x: f32) -> u32 {
-    // Zeros of either sign are one.
-    let bits = (x + 0.0).to_bits();
-    if bits >> 31 == 0 { bits | 1 << 31 } else { !bits }
+fn ranks(x: &[f32; SWEPT], n: usize) -> [u32; SWEPT] {
+    const STEP: usize = 8;
+    let mut ranks = [0_u32; SWEPT];
+    for first in (0..n).step_by(STEP) {
+        let (mut some, mut mine) = ([0_u32; STEP], [0.0; STEP]);
+        mine.copy_from_slice(&x[first..first + STEP]);
+        for (j, &other) in x[..n].iter().enumerate() {
+            for lane in 0..STEP {
+                let is_first = (other < mine[lane]) | ((other == mine[lane]) & (j < first + lane));
+                some[lane] += u32::from(is_first);
+            }
+        }
+        ranks[first..first + STEP].copy_from_slice(&some);
+    }
+    ranks
 }
 
-fn best_between_bins(entries: &[Entry], costs: &KindCosts) -> Option<Plane> {
-    type Filled = [[(Extent, usize); BINS]; 3];
-    let bins = Bins::over(entries);
-    let add = |filled: &mut Filled, entry: &Entry| {
-        for (axis, row) in filled.iter_mut().enumerate() {
-            let (extent, count) = &mut row[bins.of(entry, axis)];
-            extent.add(entry);
-            *count += 1;
-        }
-    };
-    let join = |mut a: Filled, b: Filled| {
-        for ((extent, count), (other, more)) in a.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
-            extent.unite(other);
-            *count += more;
-        }
-        a
-    };
-    let filled = fold(entries, || [[(Extent::EMPTY, 0); BINS]; 3], add, join);
-    let mut best: Option<Plane> = None;
-    let mut least = f32::INFINITY;
-    for (axis, row) in filled.iter().enumerate() {
-        let grow = |(extent, count): (Extent, usize), b: &(Extent, usize)| (extent.united(&b.0), count + b.1);
-        let mut right = [(Extent::EMPTY, 0); BINS + 1];
+fn best_between_bins(entries: &[Entry], costs: &KindCosts, isa: Isa) -> Option<Plane> {
+    let bins = Bins::over(&fold(
+        entries,
+        || Extent::EMPTY,
+        |centres, part| kernels::add_centres(isa, part, centres),
+        |a, b| a.united(&b),
+    ));
+    let filled = fold(
+        entries,
+        || Filled::EMPTY,
+        |filled, part| kernels::fill(isa, part, &bins, filled),
+        Filled::joined,
+    );
+    let Best { axis, at, .. } = isa.run(
+        #[inline(always)]
+        || best_bin(&filled, costs),
+    );
+    (at > 0).then(|| Plane {
+        cut: Cut::Bin { axis, bin: at as u32, bins },
+        left: filled.all(axis, 0..at),
+        right: filled.all(axis, at..BINS),
+    })
+}
+
+/// The best cut before a bin that is not the first.
+#[inline(always)]
+fn best_bin(filled: &Filled, costs: &KindCosts) -> Best {
+    let mut best = Best::NONE;
+    for (axis, (extents, counts)) in filled.extents.iter().zip(&filled.counts).enumerate() {
+        let mut right = [(0.0, 0); BINS];
+        let (mut so_far, mut count) = (Extent::EMPTY, 0);
         for bin in (1..BINS).rev() {
-            right[bin] = grow(right[bin + 1], &row[bin]);
+            so_far.unite(&extents[bin]);
+            count += counts[bin] as usize;
+            right[bin] = (so_far.half_area(), count);
         }
-        let mut left = (Extent::EMPTY, 0);
+        let (mut left, mut count) = (Extent::EMPTY, 0);
         for bin in 1..BINS {
-            left = grow(left, &row[bin - 1]);
-            let right = right[bin];
-            if left.1 == 0 || right.1 == 0 {
-                continue;
-            }
-            let cost = left.0.half_area() * costs.tests(left.1) + right.0.half_area() * costs.tests(right.1);
-            if Plane::is_beaten_by(&best, least, cost, left.1, right.1) {
-                least = cost;
-                best = Some(Plane { cut: Cut::Bin { axis, bin, bins }, left, right });
+            left.unite(&extents[bin - 1]);
+            count += counts[bin - 1] as usize;
+            let (area, rest) = right[bin];
+            if count > 0 && rest > 0 {
+                let cost = left.half_area() * costs.tests(count) + area * costs.tests(rest);
+                best.improve(cost, axis, bin, count, rest);
             }
         }
     }
@@ -210,31 +233,18 @@ pub(super) fn is_better_as_leaf(entries: &[Entry], extent: &Extent, costs: &Cost
     if entries.len() > costs.max_leaf || !is_one_kind(entries) {
         return false;
     }
-    let costs = costs.of_range(entries);
+    let (isa, costs) = (costs.isa, costs.of_range(entries));
     let whole = extent.half_area();
     let leaf = costs.of_leaf(entries.len()) * whole;
-    best_plane(entries, &costs).is_none_or(|plane| leaf <= whole + plane.cost(&costs))
+    best_plane(entries, &costs, isa).is_none_or(|plane| leaf <= whole + plane.cost(&costs))
 }
 
 /// Makes the cut.
-pub(super) fn by_plane(entries: &mut [Entry], plane: &Plane) -> Split {
-    match plane.cut {
+pub(super) fn by_plane(entries: &mut [Entry], plane: &Plane, isa: Isa) -> Split {
+    match &plane.cut {
         Cut::Bin { axis, bin, bins } => {
-            let goes_left = |e: &Entry| bins.of(e, axis) < bin;
-            let (mut i, mut j) = (0, entries.len());
-            loop {
-                while i < j && goes_left(&entries[i]) {
-                    i += 1;
-                }
-                while i < j && !goes_left(&entries[j - 1]) {
-                    j -= 1;
-                }
-                if i >= j {
-                    break;
-                }
-                entries.swap(i, j - 1);
-            }
-            debug_assert_eq!(i, plane.left.1);
+            let at = part(entries, bins, *axis, *bin, isa);
+            debug_assert_eq!(at, plane.left.1);
         }
         Cut::Order { order } => {
             let mut sorted = [entries[0]; SWEPT];
@@ -245,6 +255,57 @@ pub(super) fn by_plane(entries: &mut [Entry], plane: &Plane) -> Split {
         }
     }
     Split { at: plane.left.1, left: plane.left.0, right: plane.right.0 }
+}
+
+/// Puts entries in bins before `bin` first, and says how many there are.
+fn part(entries: &mut [Entry], bins: &Bins, axis: usize, bin: u32, isa: Isa) -> usize {
+    const CHUNK: usize = PARALLEL / 4;
+    if entries.len() <= PARALLEL {
+        return isa.run(
+            #[inline(always)]
+            || part_in_turn(entries, bins, axis, bin),
+        );
+    }
+    let some = |chunk: &mut [Entry]| {
+        isa.run(
+            #[inline(always)]
+            || part_in_turn(chunk, bins, axis, bin),
+        )
+    };
+    let lefts: Vec<usize> = entries.par_chunks_mut(CHUNK).map(some).collect();
+    let (at, end) = (lefts.iter().sum(), entries.len());
+    // What went right in chunks that are on the left, and what went left in those on the right, changes places.
+    let chunks = || lefts.iter().enumerate().map(|(i, left)| (i * CHUNK, i * CHUNK + left));
+    let mut from_left = chunks().map(|(start, middle)| middle.min(at)..(start + CHUNK).min(end).min(at));
+    let mut from_right = chunks().map(|(start, middle)| start.max(at) - at..middle.max(at) - at);
+    let (left, right) = entries.split_at_mut(at);
+    let (mut a, mut b) = (0..0, 0..0);
+    loop {
+        while a.is_empty() {
+            let Some(next) = from_left.next() else { return at };
+            a = next;
+        }
+        while b.is_empty() {
+            let Some(next) = from_right.next() else { return at };
+            b = next;
+        }
+        let count = a.len().min(b.len());
+        left[a.start..a.start + count].swap_with_slice(&mut right[b.start..b.start + count]);
+        (a.start, b.start) = (a.start + count, b.start + count);
+    }
+}
+
+/// The same by one thread. Which side an entry goes to nobody could foresee, so there is no branch: each changes places with the first one that
+/// is not known to go left.
+#[inline(always)]
+fn part_in_turn(entries: &mut [Entry], bins: &Bins, axis: usize, bin: u32) -> usize {
+    let mut at = 0;
+    for i in 0..entries.len() {
+        let goes_left = bins.of(&entries[i], axis) < bin;
+        entries.swap(i, at);
+        at += usize::from(goes_left);
+    }
+    at
 }
 
 /// Cuts in the middle, as the entries stand.

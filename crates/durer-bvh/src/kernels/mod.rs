@@ -3,11 +3,13 @@
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
+mod bins;
 mod scalar;
 mod stack;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::Avx2;
+pub(crate) use bins::{add_centres, fill};
 pub(crate) use scalar::Scalar;
 pub(crate) use stack::{MAX_DEPTH, Stack};
 

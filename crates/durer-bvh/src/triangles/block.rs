@@ -40,17 +40,23 @@ impl PartialEq for Block {
 pub type Corners = [Point3; 3];
 
 impl Block {
-    /// A block of triangles: at most eight, each with its slot.
-    pub(crate) fn new(frame: Frame, triangles: impl Iterator<Item = (u32, Corners)>) -> Self {
+    /// A block of triangles: at most eight, with successive slots. Also says whether f32 holds all corners.
+    #[inline(always)]
+    pub(crate) fn new(frame: Frame, first: u32, triangles: impl Iterator<Item = Corners>) -> (Self, bool) {
         let mut block = Self { rows: [[f32::NAN; LANES]; 9], tags: [SLOT; LANES] };
         let (mut lo, mut hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-        for (lane, (slot, corners)) in triangles.enumerate().take(LANES) {
-            block.tags[lane] = slot;
+        let mut is_held = true;
+        for (lane, corners) in triangles.enumerate().take(LANES) {
+            block.tags[lane] = first + lane as u32;
             for (i, v) in corners.iter().enumerate() {
                 for axis in 0..3 {
-                    let x = frame.inward(v[axis]) as f32;
+                    let inward = frame.inward(v[axis]);
+                    let x = inward as f32;
+                    // Neither scaling nor rounding has lost anything.
+                    is_held &= (f64::from(x) == inward) & (frame.outward(inward) == v[axis]);
                     block.rows[3 * i + axis][lane] = x;
-                    (lo[axis], hi[axis]) = (lo[axis].min(x), hi[axis].max(x));
+                    lo[axis] = if x < lo[axis] { x } else { lo[axis] };
+                    hi[axis] = if x > hi[axis] { x } else { hi[axis] };
                 }
             }
         }
@@ -60,7 +66,7 @@ impl Block {
         let biased = (exponent(size) + 1 + 127) as u32;
         block.tags[0] |= (biased & 31) << SLOT_BITS;
         block.tags[1] |= (biased >> 5) << SLOT_BITS;
-        block
+        (block, is_held)
     }
 
     /// A power of two that the widths of a box around the eight do not exceed, all three added.
@@ -82,14 +88,5 @@ impl Block {
         let lane = lane & (LANES - 1);
         let at = |row: usize| f64::from(self.rows[row][lane]) * grow;
         [Point3::new(at(0), at(1), at(2)), Point3::new(at(3), at(4), at(5)), Point3::new(at(6), at(7), at(8))]
-    }
-
-    /// Whether f32 holds a corner.
-    pub(crate) fn holds(frame: Frame, v: Point3) -> bool {
-        (0..3).all(|i| {
-            let x = frame.inward(v[i]);
-            // Neither scaling nor rounding has lost anything.
-            f64::from(x as f32) == x && frame.outward(x) == v[i]
-        })
     }
 }
