@@ -30,8 +30,14 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
             return Err(Failure::file(&args.scene.scene, "the scene has no camera, and a picture needs one"));
         }
         let world = loaded.world()?;
-        let settings =
-            RenderSettings { width, height, anti_aliasing: args.aa, region: args.region, threads: None };
+        let settings = RenderSettings {
+            width,
+            height,
+            anti_aliasing: args.aa,
+            region: args.region,
+            depth: format.depth(),
+            threads: None,
+        };
         // If there can be no handler, Ctrl-C ends the program as it always did, and only the partial picture is lost.
         let _ = ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
         let rendered = watched(&world, &settings, args.no_progress);

@@ -39,7 +39,7 @@ pub enum RenderError {
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
 
-/// The most pixels a film holds: 25 bytes each, 6.25 GiB in all.
+/// The most pixels a film holds: up to 25 bytes each, 6.25 GiB in all.
 const MOST_PIXELS: u64 = 1 << 28;
 
 /// A picture, or as much of it as there was time for.
@@ -75,7 +75,7 @@ fn render_here(
     settings: &RenderSettings,
     progress: &Progress<'_>,
 ) -> Result<Rendered, RenderError> {
-    let RenderSettings { width, height, anti_aliasing, region, .. } = *settings;
+    let RenderSettings { width, height, anti_aliasing, region, depth, .. } = *settings;
     let camera = *world.camera().ok_or(RenderError::NoCamera)?;
     if !(1..=MOST_PIXELS).contains(&(u64::from(width) * u64::from(height))) {
         return Err(RenderError::Size { width, height });
@@ -86,7 +86,7 @@ fn render_here(
     let start = Instant::now();
     let skipped = AtomicU64::new(0);
     let shared = Mutex::new((
-        Film::new(width, height, world.encoding),
+        Film::new(width, height, world.encoding, depth),
         Status {
             pixels_done: 0,
             pixels: region.pixels(),

@@ -1,5 +1,7 @@
 //! What a picture shall be like.
 
+use crate::film::Depth;
+
 /// What a picture shall be like.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RenderSettings {
@@ -11,13 +13,22 @@ pub struct RenderSettings {
     pub anti_aliasing: AntiAliasing,
     /// The part to be rendered; all of it if absent.
     pub region: Option<Region>,
+    /// What is kept of colours.
+    pub depth: Depth,
     /// How many threads work; as many as there are processors (or as the surrounding pool has) if absent. The picture does not depend on it.
     pub threads: Option<usize>,
 }
 
 impl Default for RenderSettings {
     fn default() -> Self {
-        Self { width: 800, height: 600, anti_aliasing: AntiAliasing::Off, region: None, threads: None }
+        Self {
+            width: 800,
+            height: 600,
+            anti_aliasing: AntiAliasing::Off,
+            region: None,
+            depth: Depth::Numbers,
+            threads: None,
+        }
     }
 }
 

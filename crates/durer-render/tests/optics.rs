@@ -251,8 +251,13 @@ fn the_picture_does_not_depend_on_the_threads() {
         AntiAliasing::Method2 { threshold: 0.2, depth: 2 },
     ] {
         let with = |threads| {
-            let settings =
-                RenderSettings { width: 90, height: 70, anti_aliasing, threads: Some(threads), region: None };
+            let settings = RenderSettings {
+                width: 90,
+                height: 70,
+                anti_aliasing,
+                threads: Some(threads),
+                ..Default::default()
+            };
             render(&world, &settings, &Progress::none()).unwrap().film
         };
         let one = with(1);

@@ -61,6 +61,14 @@ impl Encoding {
         if value > 0.0 { value.min(1.0) } else { 0.0 }
     }
 
+    /// The number for the value of an sRGB file, from 0 to 1: undoes [`Encoding::file`].
+    fn shown(self, value: f64) -> f64 {
+        match self {
+            Self::Srgb => value,
+            _ => self.number(decode(value)),
+        }
+    }
+
     /// The number that stands for a light: undoes [`Encoding::light`].
     fn number(self, light: f64) -> f64 {
         match self {
@@ -93,14 +101,16 @@ impl Encoding {
 }
 
 /// The bytes of an 8-bit file, by comparison: for each byte the least number that is written as it.
-#[derive(Clone, Debug)]
-pub(crate) struct Bytes {
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Bytes {
     /// In the end what no number reaches.
     least: [f64; 257],
     /// The byte at the lower end of each cell, where the search starts.
     start: Box<[u8; 2 * CELLS]>,
     /// Whether no cell holds the ends of two bytes.
     is_fine: bool,
+    /// The number that stands for each byte.
+    numbers: [f64; 256],
 }
 
 /// `[0, 1]` has so many cells, around the multiples of one over this: so fine that few hold the ends of two bytes, also where the sRGB curve
@@ -111,7 +121,7 @@ const CELLS: usize = 4096;
 const ROUNDER: f64 = (1_u64 << 52) as f64 / CELLS as f64;
 
 impl Bytes {
-    pub(crate) fn new(encoding: Encoding) -> Self {
+    pub(super) fn new(encoding: Encoding) -> Self {
         let mut least = [f64::INFINITY; 257];
         least[0] = 0.0;
         for k in 1..=255_u8 {
@@ -129,11 +139,17 @@ impl Bytes {
             is_fine &= byte - before <= 1;
             *start = byte as u8;
         }
-        Self { least, start, is_fine }
+        let numbers = core::array::from_fn(|k| encoding.shown(k as f64 / 255.0));
+        Self { least, start, is_fine, numbers }
+    }
+
+    /// The number that stands for a byte.
+    pub(super) fn number(&self, byte: u8) -> f64 {
+        self.numbers[usize::from(byte)]
     }
 
     /// The bytes for some numbers, one for each.
-    pub(crate) fn of_all(&self, numbers: &[f64], bytes: &mut [u8]) {
+    pub(super) fn of_all(&self, numbers: &[f64], bytes: &mut [u8]) {
         let (eights, rest) = numbers.as_chunks::<LANES>();
         let (byte_eights, byte_rest) = bytes.as_chunks_mut::<LANES>();
         for (numbers, bytes) in eights.iter().zip(byte_eights) {
@@ -150,7 +166,7 @@ impl Bytes {
 
     /// The byte for the number `v`.
     #[inline(always)]
-    pub(crate) fn of(&self, v: f64) -> u8 {
+    pub(super) fn of(&self, v: f64) -> u8 {
         let v = within(v);
         self.from(v, place(v))
     }

@@ -6,20 +6,38 @@ mod save;
 pub use self::gamma::Encoding;
 pub use self::save::{Bits, FileFormat, SaveError};
 
+use self::gamma::Bytes;
 use crate::settings::Region;
 use durer_math::kernels::in_large_pages;
+use durer_math::lanes::LANES;
 use durer_scene::Rgb;
 
-/// A picture in the scene's own numbers, row 0 at the top.
+/// A picture, row 0 at the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
     width: u32,
     height: u32,
     encoding: Encoding,
     /// Red, green and blue of each pixel.
-    colours: Vec<[f64; 3]>,
+    colours: Colours,
     /// Which pixels were rendered.
     rendered: Vec<bool>,
+}
+
+/// What a film keeps of a colour.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Depth {
+    /// The scene's own numbers.
+    #[default]
+    Numbers,
+    /// The bytes of an 8-bit file, and no more: an eighth of the memory. Who wants nothing but such a file gets the same one.
+    Bytes,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Colours {
+    Numbers(Vec<[f64; 3]>),
+    Bytes(Vec<[u8; 3]>, Box<Bytes>),
 }
 
 /// A pixel: colour in the scene's own numbers, not multiplied by the opacity.
@@ -33,12 +51,18 @@ pub struct Pixel {
 
 impl Film {
     /// A film on which nothing is seen yet: every pixel is clear.
-    pub fn new(width: u32, height: u32, encoding: Encoding) -> Self {
+    pub fn new(width: u32, height: u32, encoding: Encoding, depth: Depth) -> Self {
         let size = width as usize * height as usize;
         // Numbers, and no type of our own: zeros of theirs need not be written.
-        let (colours, rendered) = (vec![[0.0; 3]; size], vec![false; size]);
-        in_large_pages(&colours);
-        Self { width, height, encoding, colours, rendered }
+        let colours = match depth {
+            Depth::Numbers => {
+                let colours = vec![[0.0; 3]; size];
+                in_large_pages(&colours);
+                Colours::Numbers(colours)
+            }
+            Depth::Bytes => Colours::Bytes(vec![[0; 3]; size], Box::new(Bytes::new(encoding))),
+        };
+        Self { width, height, encoding, colours, rendered: vec![false; size] }
     }
 
     /// Columns.
@@ -56,14 +80,17 @@ impl Film {
         self.encoding
     }
 
-    /// All pixels, row by row from the top.
+    /// All pixels, row by row from the top. Where only bytes were kept, the numbers are those that stand for them.
     pub fn pixels(&self) -> impl Iterator<Item = Pixel> {
-        (0..self.colours.len()).map(|i| self.at(i))
+        (0..self.rendered.len()).map(|i| self.at(i))
     }
 
     /// The pixel with a number, counted row by row.
     fn at(&self, i: usize) -> Pixel {
-        let [r, g, b] = self.colours[i];
+        let [r, g, b] = match &self.colours {
+            Colours::Numbers(colours) => colours[i],
+            Colours::Bytes(colours, table) => colours[i].map(|byte| table.number(byte)),
+        };
         Pixel { rgb: Rgb::new(r, g, b), alpha: if self.rendered[i] { 1.0 } else { 0.0 } }
     }
 
@@ -89,8 +116,21 @@ impl Film {
         for (row, from) in (region.y0..region.y1).zip(pixels.chunks(columns)) {
             let start = row as usize * self.width as usize + region.x0 as usize;
             let places = start..start + from.len();
-            for (colour, rgb) in self.colours[places.clone()].iter_mut().zip(from) {
-                *colour = [rgb.r, rgb.g, rgb.b];
+            match &mut self.colours {
+                Colours::Numbers(colours) => {
+                    for (colour, rgb) in colours[places.clone()].iter_mut().zip(from) {
+                        *colour = [rgb.r, rgb.g, rgb.b];
+                    }
+                }
+                Colours::Bytes(colours, table) => {
+                    let mut numbers = [[0.0; 3]; LANES];
+                    for (colours, from) in colours[places.clone()].chunks_mut(LANES).zip(from.chunks(LANES)) {
+                        for (numbers, rgb) in numbers.iter_mut().zip(from) {
+                            *numbers = [rgb.r, rgb.g, rgb.b];
+                        }
+                        table.of_all(numbers[..from.len()].as_flattened(), colours.as_flattened_mut());
+                    }
+                }
             }
             self.rendered[places].fill(true);
         }
@@ -102,8 +142,30 @@ mod tests {
     use super::*;
 
     #[test]
+    fn bytes_are_those_of_numbers() {
+        let colours: Vec<_> =
+            (0..64).map(|i| Rgb::new(f64::from(i) / 60.0, 0.003 * f64::from(i), -0.1)).collect();
+        for encoding in [Encoding::Linear, Encoding::Power(2.2), Encoding::Power(0.7), Encoding::Srgb] {
+            let [numbers, bytes] = [Depth::Numbers, Depth::Bytes].map(|depth| {
+                let mut film = Film::new(9, 9, encoding, depth);
+                film.put(Region { x0: 1, y0: 0, x1: 9, y1: 8 }, &colours);
+                film
+            });
+            assert_eq!(numbers.bytes(Bits::Eight, true), bytes.bytes(Bits::Eight, true));
+            assert_eq!(numbers.bytes(Bits::Eight, false), bytes.bytes(Bits::Eight, false));
+            // The numbers that stand for bytes are written as those.
+            let mut again = Film::new(9, 9, encoding, Depth::Numbers);
+            again.put(
+                Region { x0: 0, y0: 0, x1: 9, y1: 9 },
+                &bytes.pixels().map(|p| p.rgb).collect::<Vec<_>>(),
+            );
+            assert_eq!(again.bytes(Bits::Eight, false), bytes.bytes(Bits::Eight, false), "{encoding:?}");
+        }
+    }
+
+    #[test]
     fn tiles_land_where_they_belong() {
-        let mut film = Film::new(4, 3, Encoding::Linear);
+        let mut film = Film::new(4, 3, Encoding::Linear, Depth::Numbers);
         let tile = Region { x0: 1, y0: 1, x1: 3, y1: 3 };
         film.put(tile, &[1.0, 2.0, 3.0, 4.0].map(Rgb::grey));
         let value = |x, y| film.pixel(x, y).map(|p| (p.rgb.r, p.alpha));

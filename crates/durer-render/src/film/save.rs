@@ -1,9 +1,10 @@
 //! Files: written beside the goal under another name, then renamed, so that a half-written picture never has the picture's name.
 
-use super::Film;
 use super::gamma::Bytes;
+use super::{Colours, Depth, Film};
 use durer_math::kernels::in_large_pages;
 use durer_scene::Rgb;
+use std::borrow::Cow;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -57,6 +58,14 @@ impl FileFormat {
             _ => Err(SaveError::Ending(path.to_owned())),
         }
     }
+
+    /// The least that a film must keep so that no such file shows a difference.
+    pub fn depth(self) -> Depth {
+        match self {
+            Self::Png(Bits::Eight) | Self::Ppm(Bits::Eight) => Depth::Bytes,
+            Self::Png(Bits::Sixteen) | Self::Ppm(Bits::Sixteen) | Self::Exr => Depth::Numbers,
+        }
+    }
 }
 
 impl Film {
@@ -87,25 +96,28 @@ impl Film {
     }
 
     /// The channels as whole numbers of the given size, most significant byte first.
-    fn bytes(&self, bits: Bits, with_alpha: bool) -> Vec<u8> {
-        let channels = if with_alpha { 4 } else { 3 };
-        if bits == Bits::Eight {
-            let table = Bytes::new(self.encoding);
-            let mut bytes = vec![0; self.colours.len() * channels];
-            in_large_pages(&bytes);
-            if !with_alpha {
-                table.of_all(self.colours.as_flattened(), &mut bytes);
-                return bytes;
+    pub(super) fn bytes(&self, bits: Bits, with_alpha: bool) -> Cow<'_, [u8]> {
+        let opaque = match (bits, &self.colours) {
+            (Bits::Sixteen, _) => return Cow::Owned(self.words(with_alpha)),
+            (Bits::Eight, Colours::Bytes(colours, _)) => Cow::Borrowed(colours.as_flattened()),
+            (Bits::Eight, Colours::Numbers(colours)) => {
+                let mut bytes = vec![0; 3 * colours.len()];
+                in_large_pages(&bytes);
+                Bytes::new(self.encoding).of_all(colours.as_flattened(), &mut bytes);
+                Cow::Owned(bytes)
             }
-            for ((bytes, colour), &rendered) in
-                bytes.as_chunks_mut::<4>().0.iter_mut().zip(&self.colours).zip(&self.rendered)
-            {
-                let [r, g, b] = colour.map(|v| table.of(v));
-                *bytes = [r, g, b, if rendered { 255 } else { 0 }];
-            }
-            return bytes;
+        };
+        if !with_alpha {
+            return opaque;
         }
-        let mut bytes = Vec::with_capacity(self.colours.len() * channels * 2);
+        let pixels = opaque.as_chunks::<3>().0.iter().zip(&self.rendered);
+        pixels.flat_map(|(&[r, g, b], &rendered)| [r, g, b, if rendered { 255 } else { 0 }]).collect()
+    }
+
+    /// The channels as numbers of 16 bits.
+    fn words(&self, with_alpha: bool) -> Vec<u8> {
+        let channels = if with_alpha { 4 } else { 3 };
+        let mut bytes = Vec::with_capacity(self.rendered.len() * channels * 2);
         for pixel in self.pixels() {
             let Rgb { r, g, b } = pixel.rgb;
             let [r, g, b] = [r, g, b].map(|v| self.encoding.file(v));
@@ -179,7 +191,7 @@ mod tests {
     use crate::settings::Region;
 
     fn film() -> Film {
-        let mut film = Film::new(2, 1, Encoding::Srgb);
+        let mut film = Film::new(2, 1, Encoding::Srgb, Depth::Numbers);
         film.put(Region { x0: 0, y0: 0, x1: 2, y1: 1 }, &[Rgb::new(1.0, 0.5, 0.0), Rgb::grey(0.25)]);
         film
     }
@@ -204,7 +216,7 @@ mod tests {
     fn a_png_reads_back() {
         for (bits, film, want) in [
             (Bits::Eight, film(), &b"\xff\x80\x00\x40\x40\x40"[..]),
-            (Bits::Eight, Film::new(1, 1, Encoding::Srgb), &b"\0\0\0\0"[..]),
+            (Bits::Eight, Film::new(1, 1, Encoding::Srgb, Depth::Numbers), &b"\0\0\0\0"[..]),
             (Bits::Sixteen, film(), &b"\xff\xff\x80\x00\x00\x00\x40\x00\x40\x00\x40\x00"[..]),
         ] {
             let mut bytes = Vec::new();
