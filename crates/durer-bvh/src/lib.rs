@@ -32,7 +32,7 @@
 //! ```
 //!
 //! The way through: [`Frame`] chooses the units and makes an [`Entry`] of each box; [`Bvh::build`] sorts them into nodes of eight;
-//! [`Bvh::closest`] and [`Bvh::any`], which are asked about a ray ([`Sight`]), [`Bvh::in_shaft`] and [`Bvh::containing`] show the [`Leaf`]s that matter; [`Bvh::story`] tells how; [`Bvh::validate`] and
+//! [`Bvh::closest`] and [`Bvh::any`], which are asked about a ray ([`Sight`]), [`Bvh::in_shaft`] and [`Bvh::containing`] show the [`Leaf`]s that matter; [`Bvh::story`] tells how; [`Bvh::refit`] follows what moves; [`Bvh::validate`] and
 //! [`Bvh::stats`] look at the result. A tree knows boxes and numbers, and of triangles their corners in f32: what else the things are is its caller's business.
 #![deny(unsafe_code)]
 
@@ -43,6 +43,7 @@ mod kernels;
 mod node;
 mod quest;
 mod ray;
+mod refit;
 mod shaft;
 mod stats;
 mod story;
@@ -56,6 +57,7 @@ pub use crate::build::{CornersOf, Settings};
 pub use crate::frame::{Entry, Frame};
 pub use crate::node::{Leaf, MAX_ENTRIES};
 pub use crate::ray::{Glance, Line, Sight};
+pub use crate::refit::RefitError;
 pub use crate::stats::Stats;
 pub use crate::story::Step;
 pub use crate::tree::Bvh;

@@ -46,6 +46,12 @@ impl Bvh {
 
     /// The same tree with these nodes.
     pub(crate) fn with_nodes(mut self, nodes: Vec<Node8>) -> Self {
+        self.set_nodes(nodes);
+        self
+    }
+
+    /// Takes these nodes for its own, whose boxes are in units of its frame.
+    pub(crate) fn set_nodes(&mut self, nodes: Vec<Node8>) {
         (self.lo, self.hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
         if let Some(root) = nodes.first() {
             for (a, b) in root.used().map(|slot| root.bounds(slot)) {
@@ -55,7 +61,6 @@ impl Bvh {
         }
         self.clip = Clip::to(self.frame, self.lo, self.hi);
         self.nodes = nodes;
-        self
     }
 
     /// A tree without nodes over as many kinds as there are starts but one.

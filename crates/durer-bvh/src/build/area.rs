@@ -17,6 +17,11 @@ impl Extent {
         Self(entry.reach())
     }
 
+    /// A box between two corners.
+    pub(crate) fn between((lo, hi): ([f32; 3], [f32; 3])) -> Self {
+        Self([0.0 - lo[0], 0.0 - lo[1], 0.0 - lo[2], 0.0, hi[0], hi[1], hi[2], 0.0])
+    }
+
     #[inline(always)]
     pub(crate) fn add(&mut self, entry: &Entry) {
         self.unite(&Self::of(entry));

@@ -76,6 +76,11 @@ impl Block {
         f32::from_bits(biased << 23)
     }
 
+    /// How many triangles it holds.
+    pub(crate) fn len(&self) -> usize {
+        self.rows[0].iter().take_while(|x| !x.is_nan()).count()
+    }
+
     /// The slot of a lane's triangle.
     #[inline(always)]
     pub(crate) fn slot(&self, lane: usize) -> u32 {
