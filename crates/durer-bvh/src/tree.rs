@@ -86,6 +86,12 @@ impl Bvh {
         self.starts.last().map_or(0, |&n| n as usize)
     }
 
+    /// How many things of a kind it holds.
+    pub fn count(&self, kind: u32) -> usize {
+        let start = |kind: usize| self.starts.get(kind).map_or(0, |&n| n as usize);
+        start(kind as usize + 1).saturating_sub(start(kind as usize))
+    }
+
     /// Whether it holds nothing.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()

@@ -16,6 +16,7 @@ use durer_surfaces::{
     Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
 };
 use rayon::prelude::*;
+use std::collections::HashMap;
 
 /// What a ray meets of an arena.
 #[derive(Clone, Copy, Debug)]
@@ -79,6 +80,14 @@ pub(crate) trait AnyArena: Send + Sync {
     fn whole(&self, slot: u32) -> Option<u32>;
     /// Solids of several parts, with their boxes.
     fn solids_in_parts(&self) -> Vec<(u32, Aabb)>;
+    /// The box of each slot, as it is now.
+    fn slot_bounds(&self) -> Vec<Aabb>;
+    /// Whether all slots are flat triangles.
+    fn is_of_triangles(&self) -> bool;
+    /// The corners of the triangle in a slot.
+    fn slot_corners(&self, slot: u32) -> [Point3; 3];
+    /// For taking the concrete arena back.
+    fn as_any(&mut self) -> &mut dyn core::any::Any;
     /// The type's name.
     fn type_name(&self) -> &'static str;
     /// How many slots there are.
@@ -95,14 +104,10 @@ pub(crate) trait Arrange: AnyArena {
     fn extent(&self, limits: &[Aabb]) -> Aabb;
     /// Appends the bounded slots, cut like that, as entries of the given kind, to `entries`, and sorts out the others.
     fn entries(&self, frame: &Frame, kind: u32, limits: &[Aabb], entries: &mut Vec<Entry>) -> Unsorted;
-    /// Whether all slots are flat triangles.
-    fn is_of_triangles(&self) -> bool;
     /// The corners of a triangle, by its number in [`Arrange::entries`].
     fn corners(&self, index: u32) -> [Point3; 3];
     /// Puts the slots into a new order: the new slot `i` is the old `order[i]`. The array is used up.
     fn arrange(&mut self, order: Vec<u32>);
-    /// For taking the concrete arena back.
-    fn as_any(&mut self) -> &mut dyn core::any::Any;
     /// As the arena of a finished geometry.
     fn finish(self: Box<Self>) -> Box<dyn AnyArena>;
 }
@@ -163,6 +168,38 @@ impl<S: Surface + 'static> Arena<S> {
     pub(crate) fn push(&mut self, surface: S, id: Id, mask: u32) {
         self.surfaces.push(surface);
         self.ids.push(id, mask);
+    }
+
+    /// Puts other surfaces in the place of those for which there is one, if they have the same parts, and gives back the old ones with their places.
+    pub(crate) fn replace(
+        &mut self,
+        mut moved: impl FnMut(Id, &S) -> Option<S>,
+    ) -> Result<Vec<(usize, S)>, Id> {
+        let parts = |surface: &S| {
+            let mut parts = Vec::new();
+            surface.parts(&mut |_, part| parts.push(part));
+            parts
+        };
+        let mut new = Vec::new();
+        for (i, surface) in self.surfaces.iter().enumerate() {
+            let id = self.ids.name(i);
+            let Some(other) = moved(id, surface) else { continue };
+            let is_same = surface.is_in_parts() == other.is_in_parts()
+                && (!surface.is_in_parts() || parts(surface) == parts(&other));
+            if !is_same {
+                return Err(id);
+            }
+            new.push((i, other));
+        }
+        self.swap(&mut new);
+        Ok(new)
+    }
+
+    /// Puts surfaces in their places, and what was there in theirs.
+    pub(crate) fn swap(&mut self, others: &mut [(usize, S)]) {
+        for (i, other) in others {
+            core::mem::swap(&mut self.surfaces[*i], other);
+        }
     }
 
     /// Calls `f` with each admitted slot of a leaf: its surface, its part and the ray, which knows its side if it starts there.
@@ -464,6 +501,40 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
         surfaces.into_iter().filter(solid).map(|i| (i, self.surfaces[i as usize].bounds())).collect()
     }
 
+    fn slot_bounds(&self) -> Vec<Aabb> {
+        if self.placed.is_empty() {
+            return self.surfaces.par_iter().map(Surface::bounds).collect();
+        }
+        if self.is_of_triangles() {
+            return (0..self.len())
+                .into_par_iter()
+                .map(|slot| Aabb::from_points(self.slot_corners(slot)))
+                .collect();
+        }
+        let mut parts = HashMap::new();
+        for (surface, s) in self.surfaces.iter().enumerate() {
+            s.parts(&mut |bounds, part| {
+                parts.insert((surface as u32, part.0), bounds);
+            });
+        }
+        // A part that is gone is nowhere.
+        self.placed.iter().map(|p| parts.get(&(p.surface, p.part)).copied().unwrap_or(Aabb::EMPTY)).collect()
+    }
+
+    fn is_of_triangles(&self) -> bool {
+        // All surfaces of a type, or none.
+        self.surfaces.first().is_some_and(|surface| surface.corners(PartId(0)).is_some())
+    }
+
+    fn slot_corners(&self, slot: u32) -> [Point3; 3] {
+        let Slot { surface, part, .. } = self.slot(slot);
+        surface.corners(part).unwrap_or([Point3::ORIGIN; 3])
+    }
+
+    fn as_any(&mut self) -> &mut dyn core::any::Any {
+        self
+    }
+
     fn type_name(&self) -> &'static str {
         core::any::type_name::<S>()
     }
@@ -606,11 +677,6 @@ impl<S: Surface + 'static> Arrange for Arena<S> {
         unsorted
     }
 
-    fn is_of_triangles(&self) -> bool {
-        // All surfaces of a type, or none.
-        self.surfaces.first().is_some_and(|surface| surface.corners(PartId(0)).is_some())
-    }
-
     fn corners(&self, index: u32) -> [Point3; 3] {
         let corners = match &self.parts {
             Some(parts) => {
@@ -641,10 +707,6 @@ impl<S: Surface + 'static> Arrange for Arena<S> {
                 to = from;
             }
         }
-    }
-
-    fn as_any(&mut self) -> &mut dyn core::any::Any {
-        self
     }
 
     fn finish(self: Box<Self>) -> Box<dyn AnyArena> {

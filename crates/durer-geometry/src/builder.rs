@@ -2,7 +2,7 @@
 
 use crate::arena::{AnyArena, Arena, Arrange, Unsorted};
 use crate::csg::{Compound, Compounds};
-use crate::geometry::{Beside, Geometry, Instance, SolidInParts};
+use crate::geometry::{Beside, Geometry, Instance};
 use crate::ids::{EVERYTHING, Id};
 use crate::{ObjectId, geometry};
 use core::any::TypeId;
@@ -248,11 +248,7 @@ impl Builder {
             arena.arrange(order);
         }
         let arenas: Vec<Box<dyn AnyArena>> = arenas.into_iter().map(Arrange::finish).collect();
-        let mut solids_in_parts = Vec::new();
-        for (i, arena) in arenas.iter().enumerate() {
-            let solid = |(surface, bounds)| SolidInParts { arena: i as u32, surface, bounds };
-            solids_in_parts.extend(arena.solids_in_parts().into_iter().map(solid));
-        }
+        let solids_in_parts = geometry::solids_in_parts(&arenas);
         Ok(Geometry::assembled(
             builder.isa.unwrap_or_else(Isa::detect),
             arenas,

@@ -22,11 +22,11 @@ pub struct Geometry {
     /// In the order in which they were added, so that their placements ascend.
     instances: Vec<Instance>,
     /// Which instance each slot is.
-    instance_slots: Vec<u32>,
+    pub(crate) instance_slots: Vec<u32>,
     pub(crate) tree: Bvh,
     pub(crate) beside: Vec<Beside>,
     pub(crate) solids_in_parts: Vec<SolidInParts>,
-    bounds: Aabb,
+    pub(crate) bounds: Aabb,
     objects: u32,
     placements: u32,
     depth: u32,
@@ -76,6 +76,16 @@ pub(crate) struct SolidInParts {
     pub(crate) arena: u32,
     pub(crate) surface: u32,
     pub(crate) bounds: Aabb,
+}
+
+/// All of them.
+pub(crate) fn solids_in_parts(arenas: &[Box<dyn AnyArena>]) -> Vec<SolidInParts> {
+    let mut all = Vec::new();
+    for (i, arena) in arenas.iter().enumerate() {
+        let solid = |(surface, bounds)| SolidInParts { arena: i as u32, surface, bounds };
+        all.extend(arena.solids_in_parts().into_iter().map(solid));
+    }
+    all
 }
 
 /// The slots of a leaf.

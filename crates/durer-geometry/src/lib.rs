@@ -31,7 +31,7 @@
 //! array per type, in the order of the leaves of a [`durer_bvh`] tree; what is unbounded is tested beside it. Answers do not depend on
 //! the tree, the instruction set or the number of threads.
 //!
-//! Closest, any and all are in `query`, bundles of rays that share one search in `beam`, eight rays side by side in `lanes`, stretches inside solids in `spans`, solids made of solids in `csg`, points in `resolve`, many rays in `batch`, and the story of
+//! Closest, any and all are in `query`, bundles of rays that share one search in `beam`, eight rays side by side in `lanes`, stretches inside solids in `spans`, solids made of solids in `csg`, points in `resolve`, many rays in `batch`, surfaces that move in `refit`, and the story of
 //! one ray in `explain`.
 #![forbid(unsafe_code)]
 
@@ -49,6 +49,7 @@ mod ids;
 mod lanes;
 mod outlines;
 mod query;
+mod refit;
 mod resolve;
 mod spans;
 mod stats;
@@ -63,5 +64,6 @@ pub use crate::geometry::Geometry;
 pub use crate::hit::{Hit, ObjectId, Span};
 pub use crate::ids::EVERYTHING;
 pub use crate::lanes::{Hits8, Rays8, Scratch, Sources8};
+pub use crate::refit::RefitError;
 pub use crate::stats::Stats;
 pub use durer_bvh::Settings;

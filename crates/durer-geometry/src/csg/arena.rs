@@ -229,6 +229,22 @@ impl AnyArena for Compounds {
         Vec::new()
     }
 
+    fn slot_bounds(&self) -> Vec<Aabb> {
+        self.bodies.iter().map(|body| body.bounds()).collect()
+    }
+
+    fn is_of_triangles(&self) -> bool {
+        false
+    }
+
+    fn slot_corners(&self, _: u32) -> [Point3; 3] {
+        [Point3::ORIGIN; 3]
+    }
+
+    fn as_any(&mut self) -> &mut dyn core::any::Any {
+        self
+    }
+
     fn type_name(&self) -> &'static str {
         core::any::type_name::<Compound>()
     }
@@ -262,10 +278,6 @@ impl Arrange for Compounds {
         unsorted
     }
 
-    fn is_of_triangles(&self) -> bool {
-        false
-    }
-
     fn corners(&self, _index: u32) -> [Point3; 3] {
         [Point3::ORIGIN; 3]
     }
@@ -282,10 +294,6 @@ impl Arrange for Compounds {
                 self.bodies.push(body);
             }
         }
-    }
-
-    fn as_any(&mut self) -> &mut dyn core::any::Any {
-        self
     }
 
     fn finish(self: Box<Self>) -> Box<dyn AnyArena> {
