@@ -166,6 +166,11 @@ impl Geometry {
         stats::of(self)
     }
 
+    /// The same with all that its instances place, however deep.
+    pub fn inventory(&self) -> stats::Inventory {
+        stats::Inventory::of(self)
+    }
+
     /// The tree over the bounded surfaces and instances.
     pub fn tree(&self) -> &Bvh {
         &self.tree

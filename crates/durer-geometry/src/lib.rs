@@ -65,5 +65,5 @@ pub use crate::hit::{Hit, ObjectId, Span};
 pub use crate::ids::EVERYTHING;
 pub use crate::lanes::{Hits8, Rays8, Scratch, Sources8};
 pub use crate::refit::RefitError;
-pub use crate::stats::Stats;
+pub use crate::stats::{Inventory, Stats};
 pub use durer_bvh::Settings;

@@ -1,6 +1,8 @@
 //! What a geometry consists of and what it costs.
 
 use crate::geometry::{Geometry, Instance};
+use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Counts and memory.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,5 +33,87 @@ pub(crate) fn of(geometry: &Geometry) -> Stats {
             + tree.bytes,
         tree,
         kinds,
+    }
+}
+
+/// What a geometry consists of together with all that its instances place, at any depth.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Inventory {
+    /// Geometries, itself included, each once however often it is placed.
+    pub geometries: usize,
+    /// Each type of surface with the number of its surfaces or parts in these geometries.
+    pub kinds: Vec<(&'static str, u64)>,
+    /// Surfaces and parts as rays meet them: once for each placement.
+    pub placed: u128,
+    /// Bytes on the heap, as [`Stats::bytes`] counts them, of all of these geometries.
+    pub bytes: usize,
+}
+
+impl Inventory {
+    pub(crate) fn of(geometry: &Geometry) -> Self {
+        let (mut inventory, mut known) = (Self::default(), HashMap::new());
+        inventory.placed = inventory.count(geometry, &mut known);
+        inventory
+    }
+
+    /// Adds a geometry and those that it places, and says how many primitives it has as rays meet them.
+    fn count(&mut self, geometry: &Geometry, known: &mut HashMap<*const Geometry, u128>) -> u128 {
+        let stats = of(geometry);
+        self.geometries += 1;
+        self.bytes += stats.bytes;
+        for (name, count) in stats.kinds {
+            match self.kinds.iter_mut().find(|kind| kind.0 == name) {
+                Some(kind) => kind.1 += u64::from(count),
+                None => self.kinds.push((name, u64::from(count))),
+            }
+        }
+        let mut placed = u128::from(stats.primitives);
+        for instance in geometry.instances() {
+            let place = Arc::as_ptr(&instance.geometry);
+            placed += match known.get(&place) {
+                Some(&placed) => placed,
+                None => {
+                    let placed = self.count(&instance.geometry, known);
+                    known.insert(place, placed);
+                    placed
+                }
+            };
+        }
+        placed
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use durer_math::{Affine, Point3, Vec3};
+    use durer_surfaces::{AxisBox, Sphere};
+
+    #[test]
+    fn what_is_placed_often_is_held_once() {
+        let ball = Sphere::new(Point3::ORIGIN, 1.0).unwrap();
+        let block = AxisBox::new(Point3::ORIGIN, Point3::new(1.0, 1.0, 1.0)).unwrap();
+        let at = |x: f64| Affine::translation(Vec3::new(x, 0.0, 0.0)).unwrap();
+        let pair = Arc::new(Geometry::builder().add(ball).add(block).build().unwrap());
+        let row = |count: u32| {
+            let mut builder = Geometry::builder();
+            (0..count).for_each(|i| {
+                builder.instance(&pair, at(f64::from(i)), u32::MAX);
+            });
+            Arc::new(builder.add(ball).build().unwrap())
+        };
+        let (three, five) = (row(3), row(5));
+        let mut builder = Geometry::builder();
+        for (i, rows) in [&three, &five, &five].into_iter().enumerate() {
+            builder.instance(rows, at(i as f64), u32::MAX);
+        }
+        let all = builder.add(block).instance(&pair, at(9.0), u32::MAX).build().unwrap();
+        let inventory = all.inventory();
+        assert_eq!(inventory.geometries, 4);
+        assert_eq!(inventory.placed, (3 * 2 + 1) + 2 * (5 * 2 + 1) + 1 + 2);
+        let total = |name: &str| inventory.kinds.iter().find(|k| k.0.contains(name)).map(|k| k.1);
+        assert_eq!((total("Sphere"), total("AxisBox")), (Some(3), Some(2)));
+        let held: usize = [&all, &*three, &*five, &*pair].map(|g| g.stats().bytes).iter().sum();
+        assert_eq!(inventory.bytes, held);
     }
 }
