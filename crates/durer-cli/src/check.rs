@@ -9,18 +9,16 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     let loaded = input::load(&args.scene, (800, 600))?;
     let lowered = loaded.lower()?;
     let (scene, geometry) = (loaded.scene(), &lowered.geometry);
-    let stats = geometry.stats();
+    let (stats, inventory) = (geometry.stats(), geometry.inventory());
+    let held: u64 = inventory.kinds.iter().map(|kind| kind.1).sum();
     println!("{}", args.scene.scene.display());
     println!("  objects     {}", scene.objects.len());
-    println!("  primitives  {}", stats.primitives);
-    for (kind, count) in stats.kinds.iter().filter(|kind| kind.1 > 0) {
+    println!("  primitives  {held}");
+    for (kind, count) in inventory.kinds.iter().filter(|kind| kind.1 > 0) {
         println!("    {count:>8}  {}", short(kind));
     }
     if stats.instances > 0 {
-        println!(
-            "  instances   {}: surfaces of theirs are neither in these counts nor in the memory",
-            stats.instances
-        );
+        println!("  instances   {}: with them there are {} primitives", stats.instances, inventory.placed);
     }
     for (faces, topology) in loaded.topologies() {
         report(faces, &topology);
@@ -43,7 +41,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
         "  tree        {} nodes, {} leaves, depth {}",
         stats.tree.nodes, stats.tree.leaves, stats.tree.depth
     );
-    println!("  memory      {} bytes", stats.bytes);
+    println!("  memory      {} bytes", inventory.bytes);
     Ok(())
 }
 

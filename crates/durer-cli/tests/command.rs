@@ -113,4 +113,7 @@ fn a_mesh_shown_twice_looks_like_two_meshes() {
     let closed = said.each_ref().map(|s| s.matches("4 faces, closed: a solid").count());
     assert_eq!(closed, [2, 1, 2], "{said:?}");
     assert!(said.iter().all(|s| s.contains("objects     2")), "{said:?}");
+    let held = said.each_ref().map(|s| (s.contains("primitives  4\n"), s.contains("primitives  8\n")));
+    assert_eq!(held, [(false, true), (true, false), (false, true)], "{said:?}");
+    assert!(said[1].contains("instances   2: with them there are 8 primitives"), "{said:?}");
 }
