@@ -10,7 +10,7 @@ from fractions import Fraction as F
 from exact import complement, sign
 from shapes import Answer, Event, Loops, cross, dot, text
 from solids import Region, at, between, grouped, minus, multiply, places, plus, scaled, whole
-from zero_sets import near, real_roots, trim
+from zero_sets import Root, near, real_roots, trim
 
 
 # ---- straight edges ----
@@ -112,46 +112,44 @@ def minus3(a, b):
 # ---- curves ----
 
 
-class OnCurve:
-    """A number num(u) / den(u) at a root u."""
+class OnCurve(Root):
+    """The place on a ray, num(u) / den(u), of a root u of g: as a root of the polynomial in t that is left when u is eliminated."""
 
-    def __init__(self, u, num, den):
-        self.u, self.num, self.den = u, num, den
-        self.side = u.sign_of(whole(den))
+    __slots__ = ()
 
-    def cmp(self, other):
-        if isinstance(other, float) and other in (float("inf"), float("-inf")):
-            return -sign(other)
-        if isinstance(other, float) or getattr(other, "l", 0) == getattr(other, "r", 1):
-            x = F(other) if isinstance(other, float) else other.l
-            return self.side * self.u.sign_of(whole(minus(self.num, scaled(x, self.den))))
-        for bits in (100, 400, 1600):
-            a, b = self.rational(bits), other.rational(bits)
-            # The parts of a quotient may cancel: what is left is known to so many bits of 1.
-            if abs(a - b) * (1 << (bits - 20)) > abs(a) + abs(b) + F(1, 1 << 60):
-                return sign(a - b)
-        return 0
+    @staticmethod
+    def at(u, g, num, den):
+        found = real_roots(eliminated(g, num, den))
+        side = u.sign_of(whole(den))
+        index = 0
+        for a, b in zip(found, found[1:]):
+            a.cmp(b)
+            index += side * u.sign_of(whole(minus(num, scaled((a.r + b.l) / 2, den)))) > 0
+        r = found[index]
+        return OnCurve(r.poly, r.l, r.r, r.before, r.after)
 
-    def sign_of(self, poly):
-        """The sign of a polynomial of this number."""
-        top = len(poly) - 1
-        out = [F(0)]
-        for k, c in enumerate(poly):
-            term = [F(c)]
-            for factor in [self.num] * k + [self.den] * (top - k):
-                term = multiply(term, factor)
-            out = plus(out, term)
-        return self.u.sign_of(whole(out)) * (self.side if top % 2 else 1)
 
-    def rational(self, bits=160):
-        u = self.u.rational(bits + 64)
-        return at(self.num, u) / at(self.den, u)
+def eliminated(g, num, den):
+    """The resultant of g(u) and num(u) - t den(u): E. Bezout's determinant, a polynomial in t."""
+    n = max(len(trim(list(p))) for p in (g, num, den)) - 1
+    g, num, den = ([F(p[i]) if i < len(p) else F(0) for i in range(n + 1)] for p in (g, num, den))
+    pair = lambda i, j: [g[i] * num[j] - g[j] * num[i], g[j] * den[i] - g[i] * den[j]]
+    rows = [[[F(0)] for _ in range(n)] for _ in range(n)]
+    for i in range(n):
+        for j in range(n):
+            for k in range(max(0, i + j + 1 - n), min(i, j) + 1):
+                rows[i][j] = plus(rows[i][j], pair(i + j + 1 - k, k))
+    return whole(determinant(rows))
 
-    def __float__(self):
-        return float(self.rational())
 
-    def __repr__(self):
-        return f"{float(self)!r}"
+def determinant(rows):
+    if len(rows) == 1:
+        return rows[0][0]
+    out = [F(0)]
+    for i, row in enumerate(rows):
+        minor = determinant([r[1:] for k, r in enumerate(rows) if k != i])
+        out = plus(out, scaled((-1) ** i, multiply(row[0], minor)))
+    return out
 
 
 def curve(points):
@@ -187,10 +185,9 @@ class CurvedPrism(Region):
                 continue
             out += [(r, (0, -1 if h == self.low else 1, 0) if h in (self.low, self.high) else None, False) for r in found]
         for cx, cz in self.pieces:
-            for u, num, den in self.meet(x, y, z, cx, cz):
-                t = OnCurve(u, num, den)
+            for u, poly, num, den in self.meet(x, y, z, cx, cz):
                 n = self.normal(cx, cz, u.rational(120))
-                out.append((t, n, 0 < u.rational() < 1))
+                out.append((OnCurve.at(u, poly, num, den), n, u.against(F(0)) > 0 > u.against(F(1))))
         return out
 
     def meet(self, x, y, z, cx, cz):
@@ -217,7 +214,7 @@ class CurvedPrism(Region):
             if u.against(F(0)) >= 0 >= u.against(F(1)):
                 for num, den in ways:
                     if any(den) and u.sign_of(whole(den)):
-                        yield u, num, den
+                        yield u, poly, num, den
                         break
 
     def outward(self, n, d, turn):
@@ -277,7 +274,10 @@ class CurvedPrism(Region):
                     start = t
                     continue
             turn = 0 if before == after else flip * (1 if before else -1)
-            event = Event(t, turn, [(n, s) for _, n, _ in group if n is not None for s in self.outward(n, ray[1], turn)], self, any_sign=self.open)
+            normals = [(n, s) for _, n, _ in group if n is not None for s in self.outward(n, ray[1], turn)]
+            # Next to the apex the point is taken for the apex, whose normal is a direction to leave in.
+            apex = self.conic and abs(at(along[1], t.rational(80))) < self.size / (1 << 30)
+            event = Event(t, turn, [] if apex else normals, self, any_sign=self.open)
             event.optional = (before == after and not smooth) or (self.open and ends)
             events.append(event)
             if before != after:

@@ -8,7 +8,8 @@ from shapes import (
     signed_permutation, small, sub, text, times, vec, wall_form,
 )
 from prisms import curved_prism, prism
-from solids import Region, blob, isosurface, julia, lemon, ovus, sor, superellipsoid
+from rounded import blob, isosurface, julia, superellipsoid
+from solids import Region, lemon, ovus, sor
 from zero_sets import ZeroSet, cyclide, polynomial, torus
 
 

@@ -78,13 +78,22 @@ def value(p, x):
     return sign(total)
 
 
+def value_over(p, x, e):
+    """The value of a polynomial at x / 2^e, times 2^(e n)."""
+    total, shift = 0, 0
+    for c in reversed(p):
+        total = total * x + (c << shift)
+        shift += e
+    return total
+
+
 def changes(chain, x):
     signs = [s for s in (value(p, x) for p in chain) if s]
     return sum(a != b for a, b in zip(signs, signs[1:]))
 
 
 class Root:
-    """One real root of a polynomial with simple roots, the only one in (l, r); or the number l = r."""
+    """One real root of a polynomial with simple roots, the only one in (l, r), whose ends are dyadic; or the number l = r."""
 
     __slots__ = ("poly", "l", "r", "before", "after")
 
@@ -109,13 +118,40 @@ class Root:
             self.l = m
 
     def narrow(self, bits):
-        """Until the interval is 2^-bits of its own size; a root at or near zero ends at 2^-3000."""
-        while self.l != self.r:
-            if self.l * self.r > 0 and (self.r - self.l) * (1 << bits) <= abs(self.l):
-                break
-            if self.r - self.l < F(1, 1 << 3000):
-                break
-            self.halve()
+        """Until the interval is 2^-bits of its own size; a root at or near zero ends at 2^-6000.
+
+        By quadratic interval refinement: a chord says in which of 2^k parts the root should be, and where that is so, the next step tries 2^2k (J. Abbott, "Quadratic interval
+        refinement for real roots", ISSAC 2006).
+        """
+        if self.l == self.r:
+            return
+        # The ends are dyadic: whole numbers over 2^e.
+        e = max(self.l.denominator, self.r.denominator).bit_length() - 1
+        a, b, k = int(self.l * (1 << e)), int(self.r * (1 << e)), 2
+        high = value(self.poly, self.r)
+        while not (a * b > 0 and (b - a) << bits <= abs(a)) and (b - a) << 6000 >= 1 << e:
+            low_value, high_value = value_over(self.poly, a, e), value_over(self.poly, b, e)
+            width, a, b, e = b - a, a << k, b << k, e + k
+            m = min(max((low_value << k) // (low_value - high_value), 1), (1 << k) - 1)
+            x = a + m * width
+            s = sign(value_over(self.poly, x, e))
+            if s == 0:
+                self.l = self.r = F(x, 1 << e)
+                return
+            # The other end of the part that the chord names, or of the one beside it.
+            y = x - width if s == high else x + width
+            s_y = -high if y == a else high if y == b else sign(value_over(self.poly, y, e))
+            if s_y == 0:
+                self.l = self.r = F(y, 1 << e)
+                return
+            a, b = (max(a, x), b) if s != high else (a, x)
+            if s_y == s:
+                a, b = (y, b) if s != high else (a, y)
+                k = max(2, k // 2)
+            else:
+                a, b = min(x, y), max(x, y)
+                k *= 2
+            self.l, self.r = F(a, 1 << e), F(b, 1 << e)
 
     def rational(self, bits=160):
         self.narrow(bits)
@@ -128,12 +164,15 @@ class Root:
             return self.against(F(other))
         if isinstance(other, Number) and other.q == 0:
             return self.against(F(other.p, other.a))
-        for bits in (100, 400, 1600):
+        for bits in (60, 400, 1600, 6400):
             a, b = self.rational(bits), other.rational(bits)
-            if abs(a - b) * (1 << (bits - 8)) > abs(a) + abs(b):
+            if isinstance(other, Root):
+                if self.r < other.l or other.r < self.l:
+                    return sign(a - b)
+                if self.equals(other):
+                    return 0
+            elif abs(a - b) * (1 << (bits - 8)) > abs(a) + abs(b):
                 return sign(a - b)
-            if isinstance(other, Root) and self.equals(other):
-                return 0
         return 0
 
     def equals(self, other):
@@ -180,6 +219,9 @@ def real_roots(p):
         return None
     if len(whole) == 1:
         return []
+    if len(whole) == 2:
+        x = F(-whole[0], whole[1])
+        return [Root(whole, x, x, sign(-whole[1]), sign(whole[1]))]
     chain = chain_of(whole)
     simple = whole
     if len(chain[-1]) > 1:

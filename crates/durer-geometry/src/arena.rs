@@ -550,9 +550,9 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
     }
 }
 
-/// Whether a ray starts (at `t_min`) inside a solid that it does not cross within its range; `start` is some point of its line.
+/// Whether a ray comes to its start (at `t_min`) inside a solid whose crossings within its range leave that open; `start` is some point of its line.
 ///
-/// Decided by the signs of the crossings before and behind the range, and where the line crosses the solid nowhere, and the solid has no bounds, by the exact
+/// A crossing at the very start is one of the range, and says what was before. Else it is decided by the signs of the crossings before and behind the range, and where the line crosses the solid nowhere, and the solid has no bounds, by the exact
 /// side of a point of it. A point may be known to be inside that is on no chord known: where a tangent touches a formula's solid within rounding.
 fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint<'_>) -> bool {
     if let Some(side) = ray.source {
@@ -565,7 +565,14 @@ fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint
         surface.roots::<dyn Sink>(&part_of_line, &mut ends);
         ends.closed()
     };
+    if let Some(sign) = signs(ray.t_min, ray.t_min).first {
+        return sign > 0;
+    }
     if let Some(sign) = signs(f64::NEG_INFINITY, ray.t_min).last {
+        return sign < 0;
+    }
+    // One at the very end is one of the range, too: behind it is what was before, as the crossings of the range cancel.
+    if let Some(sign) = signs(ray.t_max, ray.t_max).last {
         return sign < 0;
     }
     if let Some(sign) = signs(ray.t_max, f64::INFINITY).first {

@@ -6,7 +6,7 @@ use common::{Dice, fill, ground, rays};
 use durer_geometry::Geometry;
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{
-    Algebraic, AxisBox, CurvedPrism, Disc, Erased, Frustum, Inverse, Placed, Quadric, Side, Sphere,
+    Algebraic, AxisBox, Bezier, CurvedPrism, Disc, Erased, Frustum, Inverse, Placed, Quadric, Side, Sphere,
 };
 use std::sync::Arc;
 
@@ -281,4 +281,37 @@ fn a_corner_that_is_touched_behind_the_range_says_nothing() {
         }
     }
     assert!(touched > 50, "{touched}");
+}
+
+/// The ray begins, or ends, exactly on the solid, next to a tangent, and its other crossing is within the bracket of that.
+#[test]
+fn crossings_at_the_ends_of_a_range_are_its_own() {
+    let p = |x: f64, z: f64| [x, z];
+    let outline: [Bezier; 4] = [
+        [p(1.0, 0.0), p(1.0, 0.5), p(0.5, 1.0), p(0.0, 1.0)],
+        [p(0.0, 1.0), p(-0.5, 1.0), p(-1.0, 0.5), p(-1.0, 0.0)],
+        [p(-1.0, 0.0), p(-1.0, -0.5), p(-0.5, -1.0), p(0.0, -1.0)],
+        [p(0.0, -1.0), p(0.5, -1.0), p(1.0, -0.5), p(1.0, 0.0)],
+    ];
+    let prism = CurvedPrism::linear(&[outline], -3.0, 1.0).unwrap();
+    let turn = [[-6.0, 3.0, 2.0], [3.0, 2.0, 6.0], [2.0, 6.0, -3.0]];
+    let place = Affine::new(turn, Point3::new(125.0, 1.0, 0.0)).unwrap();
+    let mut builder = Geometry::builder();
+    builder.add(Placed::new(prism, place));
+    let world = builder.build().unwrap();
+    let direction = Vec3::new(-0.7382812500000001, -0.24609375000000003, 0.7382812499999999);
+    let ray = Ray::new(Point3::new(124.75, -7.1875, -5.3125), direction);
+    let all = world.all(&ray);
+    assert_eq!(all.iter().map(|h| h.sign).collect::<Vec<_>>(), [-1, 1]);
+    assert!(all[0].t == 0.0 && all[1].t < 1e-15 && all[1].t_lo < all[0].t_hi);
+    let spans = world.spans(&ray);
+    assert!(spans.len() == 1 && spans[0].t_out == all[1].t, "{spans:?}");
+    assert_eq!(check(&world, &ray), 1);
+    // The other way round it ends exactly on the way out.
+    let mut back = Ray::new(ray.origin, -direction);
+    (back.t_min, back.t_max) = (f64::NEG_INFINITY, 0.0);
+    let all = world.all(&back);
+    assert_eq!(all.iter().map(|h| h.sign).collect::<Vec<_>>(), [-1, 1]);
+    let spans = world.spans(&back);
+    assert!(spans.len() == 1 && spans[0].t_in == all[0].t, "{spans:?}");
 }

@@ -11,7 +11,7 @@ mod solids;
 use common::Dice;
 use durer_math::{Affine, Dyadic, Point3, Ray, Vec3};
 use durer_surfaces::{
-    Blob, BlobComponent, BlobError, BlobShape, Kind, LocalRay, Need, Root, Sphere, Surface,
+    All, Blob, BlobComponent, BlobError, BlobShape, Kind, LocalRay, Need, Placed, Root, Sphere, Surface,
 };
 use laws::{holds_together, polynomial, same};
 use solids::{Met, all};
@@ -34,6 +34,62 @@ fn a_blob_of_one_ball_is_a_ball() {
     }
     println!("{} simple, {} clusters, median {:.1} ulp", met.simple, met.clusters, met.median());
     assert!(met.simple > 6_000 && met.clusters * 1000 < met.simple && met.median() < 1000.0);
+}
+
+/// Brackets are those of the exact placement, however much its inverse makes of a rounding; and the crossings next to a tangent are simple ones.
+#[test]
+fn a_shear_widens_no_bracket() {
+    let one = Blob::new(0.25, &[ball(Point3::ORIGIN, 2.0, 1.0)]).unwrap();
+    let exact = polynomial(2, &[([2, 0, 0], 1.0), ([0, 2, 0], 1.0), ([0, 0, 2], 1.0), ([0; 3], -2.0)]);
+    let shear = [[1.0, 500.0, 0.0], [0.0, 1.0, 500.0], [0.0, 0.0, 1.0]];
+    let place = Affine::new(shear, Point3::new(0.125, 125.0, 1000.0)).unwrap();
+    let (one, exact) = (Placed::new(one, place), Placed::new(exact, place));
+    let (mut dice, mut widths, mut clusters, mut met) = (Dice(21), vec![], 0, 0);
+    for i in 0..1000 {
+        // Half of them pass as near to the ball's rim as 2^-22 of its size.
+        let d = dice.vector();
+        let across = d.cross(dice.vector());
+        let beside = if i % 2 == 0 { 1.0 - durer_math::scale::pow2(-20 - (i % 3)) } else { 0.5 };
+        let at = across * (beside * 2.0_f64.sqrt() / across.length());
+        let ray = Ray::new(place.point((at - d * 4.0).to_point()), place.vector(d));
+        let (a, b) = (all(&one, &ray), all(&exact, &ray));
+        assert!(same(&a, &b), "{ray:?}\n blob {a:?}\n ball {b:?}");
+        clusters += a.iter().filter(|r| r.kind != Kind::Simple).count();
+        if i % 2 == 1 {
+            widths.extend(a.iter().map(|r| (r.hi - r.lo) / (r.t * f64::EPSILON)));
+        }
+        met += a.len();
+    }
+    widths.sort_by(f64::total_cmp);
+    let median = widths[widths.len() / 2];
+    println!("{met} crossings, {clusters} clusters, median {median:.1} ulp");
+    assert!(met > 1900 && clusters == 0 && median < 1000.0, "{clusters} of {met}: {median}");
+}
+
+#[test]
+fn pictures_know_as_well_on_which_side_of_an_end_a_crossing_is() {
+    let one = Blob::new(0.25, &[ball(Point3::ORIGIN, 2.0, 1.0)]).unwrap();
+    let shear = [[1.0, 16.0, 0.0], [0.0, 1.0, 16.0], [0.0, 0.0, 1.0]];
+    let one = Placed::new(one, Affine::new(shear, Point3::new(0.125, 125.0, 1000.0)).unwrap());
+    let (mut dice, mut met) = (Dice(22), 0);
+    for _ in 0..1000 {
+        let (from, to) = (dice.vector() * 4.0, dice.vector());
+        let place = |v: Vec3| one.map().point(v.to_point());
+        let mut ray = Ray::new(place(from), place(to) - place(from));
+        for root in all(&one, &ray) {
+            for k in -60..-20 {
+                let end = root.t * (1.0 + durer_math::scale::pow2(k) * f64::from(k % 3 - 1));
+                (ray.t_min, ray.t_max) = (end, end);
+                let mut rough = All::default();
+                one.roots(&LocalRay::new(&ray).roughly(), &mut rough);
+                let told = all(&one, &ray).len();
+                assert_eq!(rough.roots.len(), told, "{ray:?}");
+                met += told;
+            }
+            (ray.t_min, ray.t_max) = (0.0, f64::INFINITY);
+        }
+    }
+    assert!(met > 1000, "{met}");
 }
 
 #[test]
@@ -141,7 +197,7 @@ fn a_component_is_placed_like_an_object() {
     let place = Affine::new(rows, Point3::new(0.25, -0.5, 0.125)).unwrap();
     let part = BlobComponent { place, ..ball(Point3::ORIGIN, 1.0, 1.0) };
     let moved = Blob::new(0.25, &[part]).unwrap();
-    let exact = durer_surfaces::Placed::new(Sphere::new(Point3::ORIGIN, 0.5_f64.sqrt()).unwrap(), place);
+    let exact = Placed::new(Sphere::new(Point3::ORIGIN, 0.5_f64.sqrt()).unwrap(), place);
     let (mut dice, mut met) = (Dice(17), 0);
     for _ in 0..3_000 {
         let ray = dice.ray();
@@ -339,7 +395,7 @@ fn rays_that_leave_the_surface_do_not_meet_it_again_at_once() {
             let side = blob.side(&durer_surfaces::LocalPoint::new(next.origin));
             assert_eq!(side, durer_surfaces::Side::Out, "{ray:?} {point:?}");
             let local = LocalRay::new(&next).from_side(Some(durer_math::RaySide::Front));
-            let mut again = durer_surfaces::All::default();
+            let mut again = All::default();
             blob.roots(&local, &mut again);
             let first: Option<&Root> = again.roots.first();
             if let Some(first) = first {

@@ -406,3 +406,93 @@ fn cells_shorten_tapes() {
     let (open, steps, whole) = surface.cells();
     assert!(open > 50 && steps * 3.0 < whole as f64, "{open} cells, {steps} of {whole} steps");
 }
+
+/// Where a line only touches the container, and the formula holds there, it touches the solid.
+#[test]
+fn touches_of_the_container_are_told() {
+    let plane = |at: f64| {
+        let (mut p, [x, _, _]) = Pen::new();
+        let at = p.c(at);
+        let f = p.sub(x, at);
+        p.done(f)
+    };
+    let ball = || Container::Ball(Sphere::new(Point3::ORIGIN, 3.0).unwrap());
+    let cube =
+        || Container::Box(AxisBox::new(Point3::new(-3.0, -3.0, -3.0), Point3::new(3.0, 3.0, 3.0)).unwrap());
+    let pole = Ray::new(Point3::new(3.0, -1.0, 0.0), Vec3::Y);
+    let edge = Ray::new(Point3::new(2.0, 4.0, 0.0), Vec3::new(1.0, -1.0, 0.0));
+    for (container, line) in [(ball(), pole), (cube(), edge)] {
+        let of = |at: f64| Isosurface::new(&plane(at), 0.0, container.clone()).unwrap();
+        let met = |surface: &Isosurface, ray: &Ray| {
+            let mut all = All::default();
+            surface.roots(&LocalRay::new(ray), &mut all);
+            all.roots.iter().map(|r| (r.t, r.sign, r.kind, r.face > 0)).collect::<Vec<_>>()
+        };
+        assert_eq!(met(&of(5.0), &line), [(1.0, 0, Kind::Grazing, true)]);
+        assert_eq!(met(&of(5.0), &line.with_range(0.0, 0.5)), []);
+        assert_eq!(met(&of(5.0), &line.with_range(1.0, 1.0)).len(), 1);
+        // Outside of the formula, without caps, of a regular solid: nothing.
+        assert_eq!(met(&of(1.0), &line), []);
+        assert_eq!(met(&of(5.0).without_caps(), &line), []);
+        assert_eq!(met(&of(5.0).regular(), &line), []);
+    }
+}
+
+/// Next to its pole the ball is within the cushion by less than any bracket: a ray that starts outside of it and goes away meets nothing.
+#[test]
+fn a_start_outside_the_container_is_outside() {
+    let (mut p, [x, y, z]) = Pen::new();
+    let squares = [x, y, z].map(|x| p.sqr(x));
+    let fourths = squares.map(|x| p.sqr(x));
+    let sum = p.squares(&fourths);
+    let f = p.done(sum);
+    let ball = Sphere::new(Point3::ORIGIN, 1.0).unwrap();
+    let surface = Isosurface::new(&f, 1.0, Container::Ball(ball)).unwrap();
+    let direction = Vec3::new(-1.679595787263737e-05, 3.5129019819569826e-06, 1.1005548190928143e-05);
+    let start = |z: f64| Ray::new(Point3::new(0.0, 0.0, z), direction);
+    let met = |ray: &Ray| {
+        let mut all = All::default();
+        surface.roots(&LocalRay::new(ray), &mut all);
+        all.roots.iter().map(|r| r.sign).collect::<Vec<_>>()
+    };
+    assert_eq!(met(&start(1.0_f64.next_up())), []);
+    assert_eq!(met(&start(1.0_f64.next_down())), [1]);
+    let back = start(1.0_f64.next_up());
+    assert_eq!(met(&Ray::new(back.origin, -direction)), [-1, 1]);
+}
+
+/// A ball, cut off: rays that cut its rim by less than pictures care for meet it there all the same.
+#[test]
+fn pictures_see_as_much_of_a_rim() {
+    let held = AxisBox::new(Point3::new(-2.0, -2.0, -2.0), Point3::new(2.0, 0.5, 2.0)).unwrap();
+    let surface = Isosurface::new(&sphere(0.0, 1.0), 0.0, Container::Box(held)).unwrap();
+    let mut rays = vec![
+        Ray::new(
+            Point3::new(-2.421971852550793, 0.38233291942200814, -2.949871629503013),
+            Vec3::new(0.6051118760075633, 0.03922236019266394, 0.7772720728278901),
+        ),
+        Ray::new(
+            Point3::new(3.1048177793872296, 0.639127910690781, -1.2331864892610374),
+            Vec3::new(-1.0371295351417038, -0.04637597023026035, 0.6997289883843476),
+        ),
+    ];
+    let mut dice = Dice(31);
+    for _ in 0..4000 {
+        let a = dice.vector();
+        let rim =
+            Vec3::new(a.x, 0.0, a.z) * (0.75_f64.sqrt() / (a.x * a.x + a.z * a.z).sqrt()) + Vec3::Y * 0.5;
+        let (d, off) = (dice.vector(), dice.vector() * durer_math::scale::pow2(-30 - dice.below(24) as i32));
+        rays.push(Ray::new((rim + off - d * 3.0).to_point(), d));
+    }
+    let mut met = 0;
+    for ray in rays {
+        let [fine, rough] = [LocalRay::new(&ray), LocalRay::new(&ray).roughly()].map(|local| {
+            let mut all = All::default();
+            surface.roots(&local, &mut all);
+            all.roots.iter().map(|r| (r.face, r.sign)).collect::<Vec<_>>()
+        });
+        assert_eq!(rough, fine, "{ray:?}");
+        met += fine.len();
+    }
+    assert!(met > 2000, "{met}");
+}

@@ -6,6 +6,7 @@
 
 use super::Blob;
 use super::part::{Piece, REACH};
+use super::point::Bracket;
 use super::stretch::{Stretch, Told};
 use super::tree::{Inner, is_known};
 use crate::roots::quadratic::NARROW;
@@ -82,6 +83,8 @@ struct Query<'a> {
     /// What all known pieces could add where they are taken for none, and how fast that may change.
     charge: f64,
     bent: f64,
+    /// Of the ray's range.
+    ends: (f64, f64),
     /// Crossings behind this are of no interest.
     last: f64,
     /// Nothing before this is looked at.
@@ -100,6 +103,7 @@ pub(super) fn roots(blob: &Blob, at: &CentredRay<'_>, sink: &mut dyn Sink) {
     let ray = at.local();
     let mut lists = LISTS.take();
     lists.clear();
+    let ends = at.window((ray.t_min, ray.t_max));
     let window = at.window((ray.t_min, ray.t_max.min(sink.limit())));
     let start = at.spawned().map(|(side, _, s)| (side == RaySide::Back, s));
     // A little before the range, where the sign is known more likely than at its very start.
@@ -116,6 +120,7 @@ pub(super) fn roots(blob: &Blob, at: &CentredRay<'_>, sink: &mut dyn Sink) {
             lists,
             charge: 0.0,
             bent: 0.0,
+            ends,
             last,
             begin,
             start,
@@ -312,9 +317,13 @@ impl Query<'_> {
                 }
             }
         }
-        let origin = self.at.shift();
-        let width = if self.at.local().rough { ROUGH } else { NARROW };
-        let widest = |s: f64| width * (origin + s).abs().max(s.abs()).max(0.5);
+        let (ends, scale) = (self.ends, self.scale());
+        let rough = self.at.local().rough;
+        // Pictures, too, must know on which side of an end of the range a crossing is.
+        let widest = |s: f64| {
+            let rough = rough && (s - ends.0).abs().min((s - ends.1).abs()) > 4.0 * ROUGH * scale(s);
+            if rough { ROUGH * scale(s) } else { NARROW * scale(s) }
+        };
         let flow = stretch.tell(
             form,
             first,
@@ -338,13 +347,7 @@ impl Query<'_> {
                     return Flow::Stop;
                 }
                 self.tracker.before = Some(rises);
-                let (s, lo, hi) = if alone && !self.at.local().rough {
-                    self.blob.narrowed(self.at, (s, lo, hi), rises)
-                } else {
-                    (s, lo, hi)
-                };
-                let kind = if alone { Kind::Simple } else { Kind::Cluster };
-                self.show(s, (lo, hi), if rises { -1 } else { 1 }, kind)
+                self.crossing(Bracket { s, lo, hi, alone }, rises)
             }
             Told::Murky { .. }
                 if self.tracker.before.is_none()
@@ -363,6 +366,26 @@ impl Query<'_> {
         }
     }
 
+    /// What brackets are measured by.
+    #[inline(always)]
+    fn scale(&self) -> impl Fn(f64) -> f64 + use<> {
+        let origin = self.at.shift();
+        move |s: f64| (origin + s).abs().max(s.abs()).max(0.5)
+    }
+
+    /// Shows a crossing between certain signs, in a bracket as narrow as it can be; of pictures only where it may be on either side of an end of the range.
+    fn crossing(&mut self, found: Bracket, rises: bool) -> Flow {
+        let (lo, hi) = self.at.bracket(found.lo, found.hi);
+        let found = if self.at.local().rough && self.at.admits(lo, hi).is_some() {
+            found
+        } else {
+            let scale = self.scale();
+            self.blob.narrowed(self.at, found, rises, |s| NARROW * scale(s))
+        };
+        let kind = if found.alone { Kind::Simple } else { Kind::Cluster };
+        self.show(found.s, (found.lo, found.hi), if rises { -1 } else { 1 }, kind)
+    }
+
     /// What could not be told ends where the sign is `after`.
     fn close(&mut self, after: Option<bool>) -> Flow {
         let Some((lo, hi)) = self.tracker.open.take() else { return Flow::Continue };
@@ -371,7 +394,11 @@ impl Query<'_> {
             (Some(true), Some(false)) => 1,
             _ => 0,
         };
-        self.show((0.5 * lo + 0.5 * hi).max(lo).min(hi), (lo, hi), sign, Kind::Cluster)
+        let s = (0.5 * lo + 0.5 * hi).max(lo).min(hi);
+        match sign {
+            0 => self.show(s, (lo, hi), 0, Kind::Cluster),
+            _ => self.crossing(Bracket { s, lo, hi, alone: false }, sign < 0),
+        }
     }
 
     /// Shows a root, unless it is certainly out of the ray's range.

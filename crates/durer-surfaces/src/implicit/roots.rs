@@ -6,11 +6,11 @@ use super::cells::Place;
 use super::isolate::isolate;
 use super::line::Line;
 use super::tracker::{Curve, Found, Tracker, Verdict};
-use crate::{CentredRay, Flow, LocalRay, Root, Sink};
+use crate::{CentredRay, Flow, Kind, LocalRay, Root, Sink};
 use arrayvec::ArrayVec;
 use durer_math::RaySide;
 
-/// The container's crossings: at most two.
+/// The container's crossings, at most two, or the one point in which a line touches it.
 #[derive(Default)]
 struct Caps(ArrayVec<Root, 4>);
 
@@ -20,7 +20,7 @@ impl Sink for Caps {
     }
 
     fn push(&mut self, root: Root) -> Flow {
-        if root.sign != 0 && self.0.try_push(root).is_err() { Flow::Stop } else { Flow::Continue }
+        if self.0.try_push(root).is_err() { Flow::Stop } else { Flow::Continue }
     }
 }
 
@@ -37,10 +37,29 @@ impl Isosurface {
     pub(super) fn roots_of_the_tape(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         let mut whole = *ray;
         (whole.t_min, whole.t_max, whole.source) = (f64::NEG_INFINITY, f64::INFINITY, None);
+        // At a rim the formula's sign there decides whether there is anything: for pictures, too.
+        whole.rough = false;
         let mut caps = Caps::default();
         self.container.roots(&whole, &mut caps);
-        let [entry, exit] = caps.0.as_slice() else { return };
+        let [entry, exit] = match caps.0.as_slice() {
+            [entry, exit] => [entry, exit],
+            [touch] => return self.touched(ray, touch, sink),
+            _ => return,
+        };
         if exit.hi < ray.t_min || entry.lo > ray.t_max {
+            return;
+        }
+        // A range that begins behind the container, or ends before it, by less than a bracket: exactly.
+        let is_within = |t_min: f64, t_max: f64, root: &Root| {
+            let mut part = whole;
+            (part.t_min, part.t_max) = (t_min, t_max);
+            let mut caps = Caps::default();
+            self.container.roots(&part, &mut caps);
+            caps.0.iter().any(|r| r.sign == root.sign)
+        };
+        let ends_before = exit.lo < ray.t_min && !is_within(ray.t_min, f64::INFINITY, exit);
+        let begins_behind = entry.hi > ray.t_max && !is_within(f64::NEG_INFINITY, ray.t_max, entry);
+        if ray.source.is_none() && (ends_before || begins_behind) {
             return;
         }
         let at = ray.recentre(self.container.bounds().centre(), 0);
@@ -53,6 +72,42 @@ impl Isosurface {
 }
 
 impl Isosurface {
+    /// Shows where a line only touches the container, if the formula holds there. A regular solid has no such points.
+    #[cold]
+    #[inline(never)]
+    fn touched(&self, ray: &LocalRay<'_>, touch: &Root, sink: &mut dyn Sink) {
+        if self.regular || touch.sign != 0 {
+            return;
+        }
+        let at = ray.recentre(self.container.bounds().centre(), 0);
+        let stretch = at.window((touch.lo, touch.hi));
+        let line = Line::new(&at, stretch.0.abs().max(stretch.1.abs()));
+        let told = self.sign_on(&line, stretch);
+        if !told.unwrap_or_else(|| self.rounded(&line, stretch)) {
+            let kind = if told.is_some() { touch.kind } else { Kind::Cluster };
+            let _ = self.cap(ray, &Root { kind, ..*touch }, sink);
+        }
+    }
+
+    /// Shows a crossing of the container, or a touch, if it is in the ray's range.
+    fn cap(&self, ray: &LocalRay<'_>, cap: &Root, sink: &mut dyn Sink) -> Flow {
+        if self.open {
+            return Flow::Continue;
+        }
+        let mut own = *ray;
+        if own.source_face == 0 {
+            own.source = None;
+        } else {
+            own.source_face -= 1;
+        }
+        let mut caps = Caps::default();
+        self.container.roots(&own, &mut caps);
+        match caps.0.iter().find(|root| root.sign == cap.sign) {
+            Some(root) => sink.push(Root { face: root.face + 1, kind: cap.kind, ..*root }),
+            None => Flow::Continue,
+        }
+    }
+
     /// The one sign of the formula on a short stretch of a line, if it is certain: the cell knows, or its tape.
     fn sign_on(&self, line: &Line, (lo, hi): (f64, f64)) -> Option<bool> {
         let (middle, reach) = line.around(lo, hi);
@@ -91,7 +146,7 @@ impl Query<'_> {
             }
             _ => (entry.1, self.declared(entry.1, entry.2)),
         };
-        if !within && !before && self.cap(&entry.0) == Flow::Stop {
+        if !within && !before && self.surface.cap(self.ray, &entry.0, self.sink) == Flow::Stop {
             return;
         }
         let slack = 16.0 * self.line.ulp;
@@ -100,7 +155,7 @@ impl Query<'_> {
         let after =
             if a < end.1 { self.between(a, end, before, range) } else { Some(self.declared(end.0, end.1)) };
         if after == Some(false) {
-            self.cap(&exit.0);
+            self.surface.cap(self.ray, &exit.0, self.sink);
         }
     }
 
@@ -109,25 +164,6 @@ impl Query<'_> {
     fn declared(&self, lo: f64, hi: f64) -> bool {
         let at = (lo, hi);
         self.surface.sign_on(self.line, at).unwrap_or_else(|| self.surface.rounded(self.line, at))
-    }
-
-    /// Shows a crossing of the container, if it is in the ray's range.
-    fn cap(&mut self, cap: &Root) -> Flow {
-        if self.surface.open {
-            return Flow::Continue;
-        }
-        let mut own = *self.ray;
-        if own.source_face == 0 {
-            own.source = None;
-        } else {
-            own.source_face -= 1;
-        }
-        let mut caps = Caps::default();
-        self.surface.container.roots(&own, &mut caps);
-        match caps.0.iter().find(|root| root.sign == cap.sign) {
-            Some(root) => self.sink.push(Root { face: root.face + 1, ..*root }),
-            None => Flow::Continue,
-        }
     }
 
     /// Shows the roots from `a` to the end of the container that may be in `range`. The sign at that end; `None` if it was not asked for.

@@ -24,14 +24,14 @@ use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
 use crate::mesh::{Sorted, may_hold};
 use crate::outline::{Curve, Sketch, Sweep8, Swept};
-use crate::planar::{self, Crossing, PointLine, Probe, ThreePoints};
+use crate::planar::{self, AlongRay, Crossing, Line, PlaneForm, PointLine, Probe, ThreePoints};
 use crate::{
-    FillRule, LocalPoint, LocalRay, Need, PartId, Polygon, PolygonError, Root, Side, Sink, Solidity, Surface,
-    SurfacePoint,
+    FillRule, LocalPoint, LocalRay, Need, PartId, Polygon, PolygonError, RingRay, Root, Side, Sink, Solidity,
+    Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
-use durer_math::{Aabb, Point3, U, Vec3};
+use durer_math::{Aabb, Point3, Ring, U, Vec3};
 use outline::Point;
 
 /// A solid between two planes across y, within outlines that are swept from one to the other; without its caps a sheet.
@@ -355,6 +355,29 @@ fn cap_crossing(probe: &Probe<'_>, cap: &Cap, f: &mut impl FnMut(Crossing, Three
     }
 }
 
+/// Heights `h` and slopes `g` of two planes along a ray: `g₁ h₂ - g₂ h₁`.
+struct Apart<'a>(&'a ThreePoints, &'a ThreePoints);
+
+impl AlongRay for Apart<'_> {
+    #[inline(always)]
+    fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
+        let Self(p, q) = self;
+        Some(p.slope(ray) * q.height(ray)? - q.slope(ray) * p.height(ray)?)
+    }
+}
+
+/// The order of two crossings `s = -h / g`: equal if they are at one point, or if the ray is not exactly known.
+#[cold]
+#[inline(never)]
+fn order(
+    probe: &Probe<'_>,
+    (a, p): (&Crossing, &ThreePoints),
+    (b, q): (&Crossing, &ThreePoints),
+) -> Ordering {
+    let apart = probe.sign(&Apart(p, q)).unwrap_or(Ordering::Equal);
+    if a.sign == b.sign { apart } else { apart.reverse() }
+}
+
 /// A root, before it is known whether it lies in the range.
 fn root(probe: &Probe<'_>, crossing: &Crossing, face: u32, wall: f64, turned: bool) -> Root {
     let root = probe.root(crossing, face, [wall, f64::from(u8::from(turned))]);
@@ -382,6 +405,10 @@ impl Surface for Prism {
                 all.push((crossing, plane, face, wall));
             });
             all.sort_by(|a, b| a.0.s.total_cmp(&b.0.s));
+            // Where an outline crosses itself, what f64 cannot put in order is in the exact one.
+            for group in all.chunk_by_mut(|(a, ..), (b, ..)| a.s_hi >= b.s_lo).filter(|g| g.len() > 1) {
+                group.sort_by(|(a, p, ..), (b, q, ..)| order(&probe, (a, p), (b, q)));
+            }
             for (i, (crossing, plane, face, wall)) in all.iter().enumerate() {
                 let sign = if i % 2 == 0 { -1 } else { 1 };
                 if is_shown(*face) && admitted(crossing, plane) {

@@ -434,6 +434,38 @@ fn rays_through_edges_and_corners_go_in_as_often_as_out() {
     assert!(through > 3000, "{through}");
 }
 
+/// Edges z = x and z = -x cross at the origin, x to the right and z up. A line that passes above the crossing of the edges leaves its left half by the one that falls, and enters the other by the one that rises.
+#[test]
+fn beside_a_crossing_of_the_outline_walls_are_met_in_their_order() {
+    let bow = [[-2.0, -2.0], [2.0, 2.0], [2.0, -2.0], [-2.0, 2.0]];
+    let prism = Prism::linear(&[bow], -1.0, 1.0).unwrap();
+    assert!(prism.tangled);
+    let (mut dice, mut close) = (Dice::new(11), 0);
+    for _ in 0..4000 {
+        let d = Vec3::new(1.0, dice.between(-0.25, 0.25), dice.between(-0.875, 0.875));
+        let o = (d * -dice.between(0.5, 3.0)).to_point();
+        let o = Point3::new(dice.nudge(o.x, 2), o.y, dice.nudge(o.z, 2));
+        // The height over the crossing.
+        let exact = |a: f64, b: f64| &Exact::from(a) * &Exact::from(b);
+        let above = (&exact(o.z, d.x) - &exact(o.x, d.z)).sign();
+        if above.is_eq() {
+            continue;
+        }
+        let ray = Ray::new(o, d).with_range(f64::NEG_INFINITY, f64::INFINITY);
+        let t = -o.x;
+        let roots = all_roots(&prism, &ray);
+        let middle: Vec<&Root> = roots.iter().filter(|r| (r.t - t).abs() < 1e-3).collect();
+        assert_eq!(middle.len(), 2, "{roots:?}");
+        close += usize::from(middle[0].hi >= middle[1].lo);
+        for root in middle {
+            let n = prism.resolve(&LocalRay::new(&ray), root, Need::ALL).ng;
+            let falling = n.x * n.z > 0.0;
+            assert_eq!(falling == above.is_gt(), root.sign > 0, "{root:?} of {ray:?}: {n:?}");
+        }
+    }
+    assert!(close > 1000, "{close}");
+}
+
 #[test]
 fn sides_are_exact() {
     let mut told = [0; 3];

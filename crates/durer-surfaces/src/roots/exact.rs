@@ -40,6 +40,13 @@ pub(crate) struct Isolated {
     turn: Ordering,
 }
 
+impl Isolated {
+    /// A number behind the root, and not behind the next one; no root, as long as the interval has not been narrowed.
+    pub(crate) fn end(&self) -> &Dyadic {
+        &self.r
+    }
+}
+
 /// An interval to be looked at.
 struct Part {
     l: Dyadic,

@@ -244,6 +244,18 @@ impl CurvedPrism {
             Face::Cap(_) => 2,
         };
         all.sort_by(|a, b| rank(a).cmp(&rank(b)).then(a.0.s.total_cmp(&b.0.s)));
+        // Where an outline crosses another, what f64 cannot put in order is in the exact one.
+        let overlap = |(a, x): &(Crossing, Face), (b, y): &(Crossing, Face)| {
+            matches!((x, y), (Face::Wall(..), Face::Wall(..))) && a.s_lo.max(b.s_lo) <= a.s_hi.min(b.s_hi)
+        };
+        for group in all.chunk_by_mut(overlap).filter(|group| group.len() > 1) {
+            group.sort_by(|(_, a), (_, b)| match (a, b) {
+                (Face::Wall(a, i), Face::Wall(b, j)) => {
+                    places.order((&self.pieces[*i], a), (&self.pieces[*j], b))
+                }
+                _ => Ordering::Equal,
+            });
+        }
         let mut roots = Sorted::new();
         let mut inside = false;
         for (crossing, face) in &all {

@@ -21,6 +21,7 @@ mod crossings;
 mod cut;
 mod exact;
 mod forms;
+mod order;
 mod piece;
 mod place;
 mod point;

@@ -17,7 +17,7 @@ use durer_math::{Dd, Dyadic, Isa, Ring, Run, U};
 
 /// The forms of numerator and denominator. The denominator of a linear sweep is positive.
 #[inline(always)]
-fn quotient<T: Ring>(sweep: Sweep, ray: &RingRay<T>) -> (Form<T>, Form<T>) {
+pub(super) fn quotient<T: Ring>(sweep: Sweep, ray: &RingRay<T>) -> (Form<T>, Form<T>) {
     let (o, d) = (&ray.o, &ray.d);
     match sweep {
         Sweep::Linear => {
@@ -243,17 +243,19 @@ pub(super) fn sign_at<L: Line>(
     let found = Exactly::new(along(&n, &powers).to_vec(), meet)?;
     let (num, den) = quotient(scan.view.sweep, ray);
     let [num, den] = [num, den].map(|f| along(&f, &powers));
-    let product = |p: &[Dyadic; 4], q: &[Dyadic; 4]| {
-        let mut out = vec![Dyadic::ZERO; 7];
-        for (i, p) in p.iter().enumerate() {
-            for (j, q) in q.iter().enumerate() {
-                out[i + j] = &out[i + j] + &(p * q);
-            }
-        }
-        out
-    };
     let (nn, nd, dd) = (product(&num, &num), product(&num, &den), product(&den, &den));
     let terms = nn.iter().zip(&nd).zip(&dd);
     let q: Vec<_> = terms.map(|((x, y), z)| &(&(a * x) + &(b * y).scale2(1)) + &(c * z)).collect();
     Some(found.sign(&q))
+}
+
+/// The product of two polynomials.
+pub(super) fn product(p: &[Dyadic], q: &[Dyadic]) -> Vec<Dyadic> {
+    let mut out = vec![Dyadic::ZERO; p.len() + q.len() - 1];
+    for (i, p) in p.iter().enumerate() {
+        for (j, q) in q.iter().enumerate() {
+            out[i + j] = &out[i + j] + &(p * q);
+        }
+    }
+    out
 }

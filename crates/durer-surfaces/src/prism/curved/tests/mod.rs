@@ -170,6 +170,35 @@ fn rays_through_joints_and_rims_go_in_as_often_as_out() {
 }
 
 #[test]
+fn beside_a_crossing_of_outlines_walls_are_met_in_their_order() {
+    let outlines = vec![round([0.0; 2], 2.0, 0.75), round([1.0, 0.5], 2.0, 0.5)];
+    let prism = CurvedPrism::linear(&outlines, -1.0, 1.0).unwrap();
+    let oracle = Swept { outlines, low: -1.0, high: 1.0, sweep: Sweep::Linear };
+    // Where the two cross each other, in f64.
+    let crossings = [
+        [-0.245_676_154_133_823_1, 1.995_083_175_442_483_8],
+        [1.745_324_803_520_545_8, -1.322_975_631_290_527_4],
+    ];
+    let (mut dice, mut close) = (Dice::new(12), 0);
+    for _ in 0..400 {
+        let [x, z] = dice.pick(&crossings);
+        let d = Vec3::new(dice.between(-1.0, 1.0), dice.between(-0.02, 0.02), dice.between(-1.0, 1.0));
+        let ray = Ray::new(Point3::new(x, 0.0, z) - d * dice.between(0.5, 30.0), d)
+            .with_range(f64::NEG_INFINITY, f64::INFINITY);
+        let exact = oracle.crossings(&laws::Line::new(&ray));
+        for root in all_roots(&prism, &ray) {
+            let held = |c: &&laws::Crossing| {
+                c.t.cmp_exact(&root.lo.into()).is_ge() && c.t.cmp_exact(&root.hi.into()).is_le()
+            };
+            close += usize::from(exact.iter().filter(held).count() > 1);
+            let told = exact.iter().filter(held).any(|c| c.sign == root.sign);
+            assert!(told, "{root:?} of {ray:?}");
+        }
+    }
+    assert!(close > 300, "{close}");
+}
+
+#[test]
 fn sides_are_exact() {
     let mut told = [0; 3];
     for (seed, (prism, oracle)) in cases().iter().enumerate() {
