@@ -225,7 +225,8 @@ def close_normal(event, leaf, n, ray, width, direction):
     for source, flip in event.normals:
         curved = hasattr(source, "gradient")
         g = source.gradient(p) if curved else source
-        if not any(g):
+        # Singular; or beyond the range of f64.
+        if not any(g) or max(map(to_float, map(abs, g))) == INF:
             return True
         # The gradient turns by the second derivatives times that distance.
         turn = 6 * source.bend(p) * F(off) / max(map(abs, g)) if curved else 0
@@ -301,25 +302,27 @@ def describe(hit):
     return f"t={float(hit['t'])!r} [{float(hit['t_lo'])!r}, {float(hit['t_hi'])!r}] sign={hit['sign']} kind={hit['kind']} object={hit['object']} primitive={hit['primitive']} normal={[float(x) for x in hit['normal']]}"
 
 
-def compare(expected, hits):
+def compare(expected, hits, ray):
     """Pairs of expected events and hits, or None if the counts differ."""
     found = defaultdict(list)
     for h in hits:
         found[int(h["object"]), int(h["primitive"])].append(h)
     if {k: len(v) for k, v in found.items()} != {k: len(v) for k, v in expected.events.items()}:
         return None
-    return [(e, leaf, h) for key, events in expected.events.items() for (e, leaf), h in zip(events, in_turn(events, found[key]))]
+    return [(e, leaf, h) for key, events in expected.events.items() for (e, leaf), h in zip(events, in_turn(events, found[key], ray))]
 
 
-def in_turn(events, hits):
-    """The hits in the order of the events, if they only stand in another order where their brackets overlap: on an edge, which two faces share."""
-    signs = [e.sign for e, _ in events]
-    if [h["sign"] for h in hits] == signs:
+def in_turn(events, hits, ray):
+    """The hits in the order of the events, if they only stand in another order where their brackets overlap: on an edge, which two faces share. Normals say which is which."""
+    if [h["sign"] for h in hits] == [e.sign for e, _ in events] and not any(e.any_sign for e, _ in events):
         return hits
     left, order = list(hits), []
-    for e, _ in events:
-        inside = lambda h: e.t.cmp(float(h["t_lo"])) >= 0 and e.t.cmp(float(h["t_hi"])) <= 0
-        same = [h for h in left if h["sign"] == e.sign and h["t_lo"] <= left[0]["t_hi"] and inside(h)]
+    for e, leaf in events:
+        inside = lambda h: h["t_lo"] <= left[0]["t_hi"] and e.t.cmp(float(h["t_lo"])) >= 0 and e.t.cmp(float(h["t_hi"])) <= 0
+        normal = lambda h: close_normal(e, leaf, h["normal"], ray, h["t_hi"] - h["t_lo"], ray[3:6])
+        same = [h for h in left if inside(h) and (e.any_sign or h["sign"] == e.sign)]
+        if len(same) > 1:
+            same.sort(key=lambda h: not normal(h))
         order.append(same[0] if same else left[0])
         left = [h for h in left if h is not order[-1]]
     return order
@@ -406,12 +409,12 @@ def check_ray(report, scene, ray, hits, widths):
     ts = [h["t"] for h in hits]
     if any(a > b for a, b in zip(ts, ts[1:])):
         report.add("all: not ascending", scene, ray, "", ts)
-    pairs = compare(expected, hits)
+    pairs = compare(expected, hits, ray)
     if pairs is None and any(isinstance(leaf, Loops) for leaves in scene.objects for leaf in leaves):
         placed = any(isinstance(leaf, Loops) and leaf.whole.rows != IDENTITY.rows for leaves in scene.objects for leaf in leaves)
         for way in ({"world_ties": True}, {"turn": 0}, {"turn": 1}) if placed else ():
             other = Expected(scene, ray, **way)
-            pairs = compare(other, hits)
+            pairs = compare(other, hits, ray)
             if pairs is not None:
                 report.counted[f"ties of placed outlines taken otherwise: {way}"] += 1
                 expected = other
