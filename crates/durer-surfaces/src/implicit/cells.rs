@@ -56,9 +56,16 @@ impl Gradient {
 
     /// The way the formula goes along a line, if that is certain: up is `true`.
     fn rises(&self, line: &Line) -> Option<bool> {
+        let (lo, hi) = self.along(line.d, line.d_err);
+        if lo > 0.0 { Some(true) } else { (hi < 0.0).then_some(false) }
+    }
+
+    /// Bounds of the slope along a direction.
+    #[inline(always)]
+    fn along(&self, d: [f64; 3], d_err: [f64; 3]) -> (f64, f64) {
         // Pays for what may be lost below the normal range.
         let (mut lo, mut hi, mut unsure) = (0.0, 0.0, durer_math::scale::pow2(-1000));
-        for ((&least, &most), (&d, &e)) in self.lo.iter().zip(&self.hi).zip(line.d.iter().zip(&line.d_err)) {
+        for ((&least, &most), (&d, &e)) in self.lo.iter().zip(&self.hi).zip(d.iter().zip(&d_err)) {
             let (least, most) = (f64::from(least), f64::from(most));
             let (a, b) = (least * d, most * d);
             lo += a.min(b);
@@ -66,7 +73,9 @@ impl Gradient {
             // The product's rounding, those of the sums, and what is not known of the direction. NaN where there are no bounds.
             unsure += least.abs().max(most.abs()) * (d.abs() * (8.0 * U) + e * (1.0 + 8.0 * U));
         }
-        if lo > unsure { Some(true) } else { (hi < -unsure).then_some(false) }
+        // One rounding more.
+        let unsure = unsure + (lo.abs() + hi.abs()) * (2.0 * U);
+        (lo - unsure, hi + unsure)
     }
 }
 
@@ -74,6 +83,9 @@ impl Gradient {
 #[derive(Clone, Debug)]
 pub(super) struct Cells {
     extent: Aabb,
+    /// The size of the smallest cells, and one over it.
+    size: [f64; 3],
+    over: [f64; 3],
     margin: f64,
     root: Cell,
     cells: Vec<Cell>,
@@ -88,6 +100,17 @@ struct Known {
     tapes: HashMap<u64, Vec<u32>>,
     /// Where the leaves are.
     leaves: Vec<Aabb>,
+}
+
+/// What is known in the cell of a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Told {
+    /// The formula has this sign.
+    Sign(bool),
+    /// Nothing that counts.
+    Gap,
+    /// There may be surface; the number of the leaf.
+    Leaf(u32),
 }
 
 /// What a stretch of a ray is in.
@@ -108,8 +131,11 @@ impl Cells {
     pub(super) fn new(tape: &Tape, extent: Aabb) -> Self {
         let reach = extent.max.to_vec().max_abs().max(extent.min.to_vec().max_abs());
         let margin = reach * MARGIN;
+        let size = (extent.max - extent.min).to_array().map(|x| x / f64::from(1_u32 << DEEPEST));
         let mut made = Self {
             extent,
+            size,
+            over: size.map(|x| 1.0 / x),
             margin,
             root: Cell::Gap,
             cells: Vec::new(),
@@ -207,6 +233,78 @@ impl Cells {
             cell = self.cells[first as usize + half];
             bounds = octant(&bounds, half);
         }
+    }
+
+    /// How far from a cell its bounds hold.
+    pub(super) fn margin(&self) -> f64 {
+        self.margin
+    }
+
+    /// The cell of a point: what is known in it, the number of its place along each axis in parts of the smallest cells' size, and how many of these
+    /// it is wide.
+    #[inline(always)]
+    fn seek(&self, p: [f64; 3]) -> (Told, [u32; 3], u32) {
+        let most = (1 << DEEPEST) - 1;
+        // Saturates at zero; a point that is beyond the container by rounding is in the cell at the border.
+        let at = [0, 1, 2].map(|i| (((p[i] - self.extent.min[i]) * self.over[i]) as u32).min(most));
+        let (mut cell, mut shift) = (self.root, DEEPEST);
+        loop {
+            let told = match cell {
+                Cell::Sign(above) => Told::Sign(above),
+                Cell::Gap => Told::Gap,
+                Cell::Leaf(leaf) => Told::Leaf(leaf),
+                Cell::Inner(first) => {
+                    shift -= 1;
+                    let half = (0..3).fold(0, |half, axis| half | (at[axis] >> shift & 1) << axis);
+                    cell = self.cells[(first + half) as usize];
+                    continue;
+                }
+            };
+            return (told, at.map(|k| k >> shift << shift), 1 << shift);
+        }
+    }
+
+    /// What is known in the cell of a point, and where a line leaves it, by its origin and one over its direction. Cells at the border end nowhere.
+    #[inline(always)]
+    pub(super) fn ahead(&self, p: [f64; 3], o: [f64; 3], over: [f64; 3]) -> (Told, f64) {
+        let (told, at, wide) = self.seek(p);
+        let mut end = f64::INFINITY;
+        for axis in 0..3 {
+            let rises = over[axis] > 0.0;
+            let (number, edge) = if rises { (at[axis] + wide, 1 << DEEPEST) } else { (at[axis], 0) };
+            let to = f64::from(number) * self.size[axis] + self.extent.min[axis];
+            let s = (to - o[axis]) * over[axis];
+            // What is not a number ends nowhere, too.
+            if number != edge && s < end {
+                end = s;
+            }
+        }
+        (told, end)
+    }
+
+    /// What is known in the cell of a point.
+    pub(super) fn told(&self, p: [f64; 3]) -> Told {
+        self.seek(p).0
+    }
+
+    /// The number of the tape that is right in the cell of a point, and near it; the whole one where there is no surface.
+    pub(super) fn tape_at(&self, p: [f64; 3]) -> u32 {
+        match self.told(p) {
+            Told::Leaf(leaf) => self.leaves[leaf as usize].tape,
+            Told::Sign(_) | Told::Gap => 0,
+        }
+    }
+
+    /// A tape by its number.
+    pub(super) fn tape(&self, number: u32) -> &Tape {
+        &self.tapes[number as usize]
+    }
+
+    /// The tape of a leaf, and bounds of the slope along a direction that is known within `e` along each axis.
+    pub(super) fn slope(&self, leaf: u32, d: [f64; 3], e: f64) -> (u32, f64, f64) {
+        let Leaf { tape, gradient } = &self.leaves[leaf as usize];
+        let (lo, hi) = gradient.along(d, [e; 3]);
+        (*tape, lo, hi)
     }
 
     /// Divides the stretch from `a` to `b` of a line by the cells, in ascending order, without holes, as long as `take` says so.

@@ -1,6 +1,7 @@
 //! What a formula's surface is contained in.
 
-use crate::{AxisBox, LocalPoint, LocalRay, Need, Root, Side, Sink, Sphere, Surface, SurfacePoint};
+use crate::outline::Sketch;
+use crate::{AxisBox, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Sphere, Surface, SurfacePoint};
 use durer_math::{Aabb, Affine};
 
 /// A box or a ball.
@@ -39,6 +40,13 @@ impl Container {
         match self {
             Self::Box(it) => it.resolve(ray, root, need),
             Self::Ball(it) => it.resolve(ray, root, need),
+        }
+    }
+
+    pub(super) fn sketch(&self) -> Sketch {
+        match self {
+            Self::Box(it) => it.sketch(PartId(0)),
+            Self::Ball(it) => it.sketch(PartId(0)),
         }
     }
 

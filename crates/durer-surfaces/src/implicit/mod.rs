@@ -19,6 +19,7 @@ mod container;
 mod convex;
 pub mod deform;
 mod isolate;
+mod lanes;
 pub mod level_set;
 mod line;
 mod point;
@@ -158,7 +159,7 @@ impl Surface for Isosurface {
 
     fn sketch(&self, _part: PartId) -> Sketch {
         match &self.gauge {
-            None => Sketch::vague(self.bounds()),
+            None => Sketch::contained(self.container.sketch(), Arc::new(self.clone()), Point3::ORIGIN),
             Some(gauge) => Sketch::level(self.bounds(), Arc::new(gauge.clone()), Point3::ORIGIN),
         }
     }

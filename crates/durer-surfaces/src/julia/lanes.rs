@@ -228,7 +228,7 @@ impl Level for Solid<1, 4> {
         (told.rises, told.falls) = (M8::from_bits(known.rises), M8::from_bits(known.falls));
     }
 
-    fn values(&self, line: &Line8, s: &F8, value: &mut Value8) {
+    fn values(&self, line: &Line8, s: &F8, _lanes: M8, value: &mut Value8) {
         line.isa.run_in_lanes(
             #[inline(always)]
             || {

@@ -6,7 +6,7 @@ use super::face::Start;
 use super::fields::{self, Fields};
 use super::hull::Hull;
 use super::lathe::{self, Lathe, Skin};
-use super::level::{self, Level};
+use super::level::{self, Ends, Level};
 use super::meet::Question;
 use super::offer::{First, Offer};
 use super::operand::Crossings;
@@ -81,12 +81,21 @@ impl DetailSketch {
 }
 
 impl Kind8 {
+    fn is_contained(&self) -> bool {
+        matches!(self, Self::Level(level) if level.ends().0 != Ends::Free)
+    }
+
     fn is_endless(&self) -> bool {
         matches!(self, Self::Quartic(_) | Self::Octic(_))
     }
 }
 
 impl Detail {
+    /// Whether it lies in a container with faces of its own, which have the numbers after that of its only face.
+    pub(super) fn is_contained(&self) -> bool {
+        self.shape.is_contained()
+    }
+
     /// See [`DetailSketch::is_endless`].
     pub(super) fn is_endless(&self) -> bool {
         self.shape.is_endless()
@@ -98,11 +107,12 @@ impl Detail {
         match &self.shape {
             Kind8::Lathe(lathe) => lathe.name(face),
             Kind8::Swept(swept) => swept.face(face),
-            Kind8::Quartic(_) | Kind8::Octic(_) | Kind8::Fields(_) | Kind8::Level(_) => 0,
+            Kind8::Quartic(_) | Kind8::Octic(_) | Kind8::Fields(_) => 0,
+            Kind8::Level(_) => face,
         }
     }
 
-    /// Offers the first crossing of each ray to `nearest`; of an endless surface what is within a convex cell.
+    /// Offers the first crossing of each ray to `nearest`; of an endless surface, and of one in a container, what is within a convex cell.
     pub(super) fn meet(
         &self,
         (asked, turned): (&Question<'_>, bool),
@@ -115,7 +125,7 @@ impl Detail {
             return;
         }
         if let Kind8::Level(level) = &self.shape {
-            level::meet(&**level, &self.own, (asked, turned), start, nearest, &mut memory.level);
+            level::meet(&**level, &self.own, (asked, turned), (start, cell), nearest, &mut memory.level);
             return;
         }
         let mut to = First { nearest, number: asked.number };

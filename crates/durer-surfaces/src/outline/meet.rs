@@ -57,14 +57,12 @@ impl Outline {
         }
         if let Some(detail) = &self.detail {
             let Scratch { start, steps } = scratch;
-            let is_cut = detail.is_endless() && !self.faces.is_empty();
+            let is_contained = detail.is_contained();
+            let is_cut = is_contained || detail.is_endless() && !self.faces.is_empty();
             if is_cut {
-                self.hull(
-                    asked.rays,
-                    None,
-                    &Seen { d: asked.rays.direction, d1: &asked.rays.d1, start },
-                    steps,
-                );
+                let seen = &Seen { d: asked.rays.direction, d1: &asked.rays.d1, start };
+                // The faces that clip a surface are not those that rays leave.
+                self.hull(asked.rays, asked.from.filter(|_| is_contained), seen, steps);
             }
             let Steps { hull, detail: memory, .. } = steps;
             detail.meet((asked, self.turned), nearest, (start, is_cut.then_some(hull)), memory);
@@ -72,7 +70,8 @@ impl Outline {
         }
         // The faces of a box are not those that rays leave.
         let asked = &Question { from: asked.from.filter(|_| !self.vague), ..*asked };
-        if self.convex && self.faces.len() > 1 {
+        // What is only known to be within one face may be met before that is left.
+        if self.convex && (self.vague || self.faces.len() > 1) {
             self.meet_convex(asked, nearest, scratch);
         } else {
             self.meet_walls(asked, nearest, scratch);
@@ -114,6 +113,7 @@ impl Outline {
 
     #[inline(always)]
     pub(super) fn leaving<'a>(&self, from: Option<&'a From8>, face: usize) -> Option<Leaving<'a>> {
+        let face = face + self.first_face();
         from.map(|from| Leaving { from, face, turned: self.turned })
     }
 

@@ -52,7 +52,7 @@ pub(crate) use self::detail::Kind8;
 use self::face::Face;
 pub(crate) use self::fields::{Field, Fields};
 pub(crate) use self::lathe::{Lathe, LatheWall, Skin};
-pub(crate) use self::level::{Level, Line8, Part, Told8, Value8};
+pub(crate) use self::level::{Ends, Level, Line8, Part, Told8, Value8};
 use self::loops::Loops;
 pub(crate) use self::own::largest;
 pub(crate) use self::swept::{Curve, Sweep8, Swept};
@@ -98,6 +98,12 @@ impl Outline {
             Some(detail) => detail.face_of(face),
             None => self.own_face.unwrap_or(face),
         }
+    }
+
+    /// The number of the first of the faces: a container's come after that of what it holds.
+    #[inline(always)]
+    fn first_face(&self) -> usize {
+        usize::from(self.detail.as_ref().is_some_and(|detail| detail.is_contained()))
     }
 
     /// If this is one part of a surface: the face that its roots have there.

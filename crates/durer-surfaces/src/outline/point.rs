@@ -57,7 +57,10 @@ impl Outline {
         lanes: M8,
         to: Points8<'_>,
     ) -> M8 {
-        if let Some(detail) = &self.detail {
+        let first = self.first_face();
+        if let Some(detail) = &self.detail
+            && (i == 0 || first == 0)
+        {
             return self.put_points(
                 rays,
                 (t, lanes),
@@ -71,7 +74,7 @@ impl Outline {
                 },
             );
         }
-        let face: &face::Face = &self.faces[i.min(self.faces.len() - 1)];
+        let face: &face::Face = &self.faces[(i - first).min(self.faces.len() - 1)];
         let normals = self.normals.as_deref().filter(|_| face.kind == FaceKind::Plane);
         self.put_points(
             rays,

@@ -284,6 +284,12 @@ impl Sketch {
         Self { detail: Some(detail), ..vague }
     }
 
+    /// What of such a solid lies in a convex container, which has the faces after its own, about `origin`.
+    pub(crate) fn contained(container: Self, level: Arc<dyn Level>, origin: Point3) -> Self {
+        let detail = DetailSketch::new(Kind8::Level(level), container.centre, origin, 0, [0, 1, 2]);
+        Self { vague: Some(container.bounds()), detail: Some(detail), ..container }
+    }
+
     /// The zero set of a polynomial in units of `2^scale`.
     pub(crate) fn algebraic(terms: Kind8, scale: i32) -> Self {
         let o = Point3::ORIGIN;
@@ -404,22 +410,24 @@ impl Sketch {
         if self.detail.as_ref().is_some_and(DetailSketch::is_endless) {
             return if region.convex { self.within_convex(region) } else { Self::vague(Aabb::UNBOUNDED) };
         }
+        if self.vague.is_some() {
+            // Where in its box the surface is is not known: all that can be said is where both are.
+            self.detail = None;
+            return if region.convex { self.within_convex(region) } else { self };
+        }
         let before = self.forms.len();
         self.forms.extend(region.faces_from(self.centre));
-        // The faces of what is vague are not its walls.
-        if self.vague.is_none() {
-            let (forms, parallel) = (&self.forms, &mut self.parallel);
-            for wall in 0..self.walls {
-                let of = |face| Parallel::of((wall, &forms[wall]), (face, &forms[face]));
-                parallel.extend((before..forms.len()).filter_map(of));
-            }
+        let (forms, parallel) = (&self.forms, &mut self.parallel);
+        for wall in 0..self.walls {
+            let of = |face| Parallel::of((wall, &forms[wall]), (face, &forms[face]));
+            parallel.extend((before..forms.len()).filter_map(of));
         }
         self.convex = false;
         self.detail = None;
         self
     }
 
-    /// The same of an endless surface: its only faces are those that clip it.
+    /// The same of an endless surface, whose only faces are those that clip it, and of a convex set.
     fn within_convex(mut self, region: Self) -> Self {
         let away = (region.centre - self.centre).length() + region.reach;
         self.reach = self.reach.min(away * (1.0 + 16.0 * U));
@@ -433,6 +441,10 @@ impl Sketch {
     pub(crate) fn without(mut self, region: Self) -> Self {
         if self.detail.as_ref().is_some_and(DetailSketch::is_endless) {
             return Self::vague(Aabb::UNBOUNDED);
+        }
+        if self.vague.is_some() {
+            self.detail = None;
+            return self;
         }
         let seen = region.faces_from(self.centre);
         self.holes.push(seen.collect());

@@ -1,15 +1,17 @@
 //! Worlds of one surface each: as it is, inside out, and moved in ways that are hard on an outline.
 
 use super::point;
-use crate::Geometry;
-use durer_math::{Affine, Dyadic, Isa, Normal3, Point3, Vec3};
+use crate::{Geometry, Hit};
+use durer_math::{Affine, Dyadic, Function, Isa, Normal3, Point3, Ray, Vec3};
+use durer_surfaces::ROUGH;
+use durer_surfaces::tape::{Builder, Op};
 use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Bezier, Blob, BlobComponent, BlobShape,
-    CappedCylinder, Clip, Cone, CurvedPrism, Disc, Ellipsoid, EllipticCylinder, EllipticParaboloid, Erased,
-    FillRule, Frustum, HyperbolicCylinder, HyperbolicParaboloid, HyperboloidOfOneSheet,
-    HyperboloidOfTwoSheets, Inverse, Julia, JuliaAlgebra, JuliaPower, JuliaSet, Mesh, MeshData,
-    ParabolicCylinder, Parallelogram, Placed, Plane, Polygon, Prism, Quadric, Region, Sphere,
-    SphericalSector, Torus, Triangle, Turned, superellipsoid,
+    CappedCylinder, Clip, Cone, Container, CurvedPrism, Disc, Ellipsoid, EllipticCylinder,
+    EllipticParaboloid, Erased, FillRule, Frustum, HyperbolicCylinder, HyperbolicParaboloid,
+    HyperboloidOfOneSheet, HyperboloidOfTwoSheets, Inverse, Isosurface, Julia, JuliaAlgebra, JuliaPower,
+    JuliaSet, Mesh, MeshData, ParabolicCylinder, Parallelogram, Placed, Plane, Polygon, Prism, Quadric,
+    Region, Sphere, SphericalSector, Torus, Triangle, Turned, superellipsoid,
 };
 
 /// What is known exactly of points beside the surface.
@@ -21,6 +23,8 @@ pub(super) enum Sides {
     Rounded,
     /// The same, and whether a crossing is in a ray's range is told by its bracket, which may hold an end of that.
     Bracketed,
+    /// The same with edges, where a container cuts it off, closed or not: where a ray meets such an edge is told within rounding.
+    Rimmed { closed: bool },
     /// A convex solid with edges: what leaves it is outside, also at an edge.
     Convex,
     /// A solid that is not convex, with edges.
@@ -38,6 +42,8 @@ pub(super) struct World {
     pub(super) geometry: Geometry,
     pub(super) sides: Sides,
     pub(super) turned: bool,
+    /// Where two surfaces are both met there is an edge of this one; placed as it is.
+    edges: Option<[Geometry; 2]>,
     /// The maps that placed it, the first one first.
     maps: Vec<Affine>,
 }
@@ -46,7 +52,7 @@ impl World {
     /// Surfaces of which nothing more is known.
     pub(super) fn of(surface: &'static str, geometry: Geometry) -> Self {
         let (name, sides) = (surface.to_string(), Sides::Sheet);
-        Self { surface, name, geometry, sides, turned: false, maps: Vec::new() }
+        Self { surface, name, geometry, sides, turned: false, edges: None, maps: Vec::new() }
     }
 
     /// The same, placed.
@@ -67,6 +73,20 @@ impl World {
     /// A bound on all coordinates of it on the way through its maps.
     pub(super) fn reach(&self) -> f64 {
         self.maps.iter().fold(2.0, |reach, map| reach * map.linear_norm() + map.centre().to_vec().length())
+    }
+
+    /// Whether a ray may meet an edge where something is met at `t` within `e`: both surfaces are, within brackets as wide as those of pictures.
+    pub(super) fn has_edge_on(&self, ray: &Ray, (t, e): (f64, f64)) -> bool {
+        let line = Ray::new(ray.origin, ray.direction);
+        let near = |a: &Hit| a.t_lo <= t + e && a.t_hi >= t - e;
+        self.edges.as_ref().is_some_and(|[one, other]| {
+            let others = other.all(&line);
+            let meets = |a: &Hit, b: &Hit| {
+                let rough = ROUGH * a.t;
+                a.t_lo <= b.t_hi + rough && a.t_hi + rough >= b.t_lo && (near(a) || near(b))
+            };
+            one.all(&line).iter().any(|a| others.iter().any(|b| meets(a, b)))
+        })
     }
 
     /// On which side of a flat surface's plane a point is, exactly; positive where the mapped normal points.
@@ -134,7 +154,8 @@ fn worlds<S: Algebraic + 'static>(name: &'static str, sides: Sides, surface: S, 
     let surface = Erased::new(surface);
     let mut world = |how: &str, turned: bool, maps: Vec<Affine>, surface: Erased| {
         let geometry = Geometry::builder().isa(*isa).add(surface).build().unwrap();
-        out.push(World { surface: name, name: format!("{name}, {how}"), geometry, sides, turned, maps });
+        let full = format!("{name}, {how}");
+        out.push(World { surface: name, name: full, geometry, sides, turned, edges: None, maps });
     };
     world("as it is", false, Vec::new(), surface.clone());
     world("inside out", true, Vec::new(), Erased::new(Inverse(surface.clone())));
@@ -348,4 +369,84 @@ fn level_worlds(all: &mut Worlds) {
     // A bit smaller, so that few rays on a grid touch it: the formula is asked thousands of times about each that does.
     let cushion = Placed::new(superellipsoid(0.5, 1.25).unwrap(), scaled(0.9));
     worlds("cushion", Sides::Bracketed, cushion, all);
+    contained_worlds(all);
+}
+
+/// Formulas in containers.
+fn contained_worlds(all: &mut Worlds) {
+    let o = Point3::ORIGIN;
+    // x² + 2 y² + z⁴ + x z / 2 - 3/4, smooth and strictly within its container.
+    let mut b = Builder::new();
+    let [x, y, z] = [0, 1, 2].map(|i| b.input(i).unwrap());
+    let (two, half, rest) = (b.constant(2.0).unwrap(), b.constant(0.5).unwrap(), b.constant(0.75).unwrap());
+    let (xx, yy) = (b.push(Op::Sqr(x)).unwrap(), b.push(Op::Sqr(y)).unwrap());
+    let z4 = b.push(Op::Powi(z, 4)).unwrap();
+    let xz = b.push(Op::Mul(x, z)).unwrap();
+    let (yy, xz) = (b.push(Op::Mul(two, yy)).unwrap(), b.push(Op::Mul(half, xz)).unwrap());
+    let sum = b.push(Op::Add(xx, yy)).unwrap();
+    let sum = b.push(Op::Add(sum, z4)).unwrap();
+    let sum = b.push(Op::Add(sum, xz)).unwrap();
+    let root = b.push(Op::Sub(sum, rest)).unwrap();
+    let held = AxisBox::new(point(-1.25, -1.25, -1.25), point(1.25, 1.25, 1.25)).unwrap();
+    let egg = Isosurface::new(&b.finish(root, 3), 0.0, Container::Box(held)).unwrap();
+    worlds("egg", Sides::Bracketed, egg, all);
+    // sin 4x + y² - z, which a ball or a box cuts.
+    let mut b = Builder::new();
+    let [x, y, z] = [0, 1, 2].map(|i| b.input(i).unwrap());
+    let four = b.constant(4.0).unwrap();
+    let x = b.push(Op::Mul(four, x)).unwrap();
+    let wave = b.push(Op::Function(Function::Sin, x)).unwrap();
+    let size = b.push(Op::Sqr(y)).unwrap();
+    let sum = b.push(Op::Add(wave, size)).unwrap();
+    let root = b.push(Op::Sub(sum, z)).unwrap();
+    let formula = b.finish(root, 3);
+    let ball = Sphere::new(o, 1.0).unwrap();
+    let waves = Isosurface::new(&formula, 0.25, Container::Ball(ball)).unwrap();
+    let around = Container::Ball(Sphere::new(o, 4.0).unwrap());
+    let endless = Isosurface::new(&formula, 0.25, around).unwrap().without_caps();
+    let whole = || Erased::new(endless.clone());
+    let [closed, open] = [true, false].map(|closed| Sides::Rimmed { closed });
+    edged("waves", closed, waves.clone(), [Erased::new(ball), whole()], all);
+    edged("open waves", open, waves.clone().without_caps(), [Erased::new(ball), whole()], all);
+    let block = AxisBox::new(point(-1.0, -0.75, -0.5), point(0.75, 1.0, 0.875)).unwrap();
+    let boxed = Isosurface::new(&formula, 0.25, Container::Box(block)).unwrap();
+    edged("boxed waves", closed, boxed, [Erased::new(block), whole()], all);
+}
+
+/// What is clipped within the box that holds it, so that rays enter and leave that where nothing is left: lanes know no more than where it may be.
+pub(super) fn clipped_worlds(isa: Isa) -> Vec<World> {
+    let all = &mut (isa, Vec::new());
+    let pieces = [-0.5, 0.0, 0.5].map(|x| BlobComponent {
+        shape: BlobShape::Ball(point(x, 0.0, 0.0)),
+        radius: 1.0,
+        strength: 1.0,
+        place: Affine::IDENTITY,
+    });
+    let blob = Blob::new(0.5, &pieces).unwrap();
+    let middle = Region::solid(Sphere::new(point(0.125, 0.5, -0.25), 0.5).unwrap());
+    let hole = Region::solid(Sphere::new(point(0.25, 0.5, 0.0), 0.5).unwrap()).inverse();
+    worlds("clipped blob", Sides::Sheet, Clip::new(blob.clone(), vec![middle]), all);
+    worlds("blob with a bite", Sides::Sheet, Clip::new(blob, vec![hole]), all);
+    core::mem::take(&mut all.1)
+}
+
+/// A surface in all its placements that has edges where two others are met.
+fn edged<S: Algebraic + 'static>(
+    name: &'static str,
+    sides: Sides,
+    surface: S,
+    others: [Erased; 2],
+    all: &mut Worlds,
+) {
+    let first = all.1.len();
+    worlds(name, sides, surface, all);
+    let others = others.map(|other| {
+        let mut placed = (all.0, Vec::new());
+        worlds(name, sides, other, &mut placed);
+        placed.1
+    });
+    let [one, other] = others;
+    for ((world, one), other) in all.1[first..].iter_mut().zip(one).zip(other) {
+        world.edges = Some([one.geometry, other.geometry]);
+    }
 }

@@ -128,7 +128,7 @@ impl Level for Gauge {
         );
     }
 
-    fn values(&self, line: &Line8, s: &F8, value: &mut Value8) {
+    fn values(&self, line: &Line8, s: &F8, _lanes: M8, value: &mut Value8) {
         let mut sample = Sample::new();
         let node = self.node(line, s, &mut sample);
         line.isa.run_in_lanes(

@@ -42,6 +42,17 @@ pub(crate) struct Part {
     pub(crate) unsure: M8,
 }
 
+/// What is where a line leaves the part of space that a solid is told in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ends {
+    /// All is outside there.
+    Free,
+    /// A container's face cuts off what is inside, and closes the solid.
+    Capped,
+    /// It cuts that off, and leaves it open.
+    Open,
+}
+
 /// What is certain of `g` on a stretch of each line.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Told8 {
@@ -50,7 +61,7 @@ pub(crate) struct Told8 {
     pub(crate) seen: M8,
     /// From here...
     pub(crate) a: F8,
-    /// ...to here; whoever is asked may move it.
+    /// ...to here; whoever is asked may move it, and move both on as far as `g` keeps its sign.
     pub(crate) b: F8,
     /// Here it ends.
     pub(crate) last: F8,
@@ -80,12 +91,16 @@ pub(crate) struct Value8 {
 pub(crate) trait Level: core::fmt::Debug + Send + Sync {
     /// A bound on the distance from the centre of what is in the solid.
     fn reach(&self) -> f64;
+    /// What is where it ends: a solid in a container comes with that one's faces (`Sketch::contained`), and is told a bit beyond them, by `slack`.
+    fn ends(&self) -> (Ends, f64) {
+        (Ends::Free, 0.0)
+    }
     /// Where lines may meet it.
     fn part(&self, line: &Line8, part: &mut Part);
     /// Tells what is certain of a stretch of each line.
     fn tell(&self, line: &Line8, told: &mut Told8);
-    /// The values at `s`.
-    fn values(&self, line: &Line8, s: &F8, value: &mut Value8);
+    /// The values at `s`; only those of some lanes matter.
+    fn values(&self, line: &Line8, s: &F8, lanes: M8, value: &mut Value8);
     /// `g` and its gradient at points known within `e` along any axis, and a bound on its second derivatives as far around as rays start.
     fn skin(&self, isa: Isa, at: (&Vec3<F8>, &F8), skin: &mut Skin);
     /// The covectors that points are shaded by, if those are others.

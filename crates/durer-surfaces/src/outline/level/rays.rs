@@ -6,8 +6,9 @@
 //! **Where a ray starts** is rounded outward by `8 U (|t_c| |d| + reach)`, which is less than `128 U (reach + |y|)` at the start `y`: within that a start has the sign that it is known to have,
 //! if it was put off the surface (`skin`).
 
-use super::{Level, Line8, Part, Told8, Value8};
+use super::{Ends, Level, Line8, Part, Told8, Value8};
 use crate::outline::face::Start;
+use crate::outline::hull::Hull;
 use crate::outline::meet::Question;
 use crate::outline::own::{Own, dot, largest, on};
 use crate::outline::rays::{Nearest, RayLanes, SLACK};
@@ -28,11 +29,51 @@ const LEAST: f64 = pow2(-24);
 const CLOSE: f64 = crate::ROUGH / 8.0;
 const NEVER: F8 = F8::splat(f64::INFINITY);
 
+/// Where rays are in a container, which is convex: from the last face that is entered to the first that is left.
+#[derive(Debug)]
+struct Held {
+    ends: Ends,
+    /// Where a container's face is surely the one that is entered, or left, and its number.
+    enters: M8,
+    leaves: M8,
+    face_in: F8,
+    face_out: F8,
+    /// There, within what.
+    t_in: F8,
+    e_in: F8,
+    t_out: F8,
+    e_out: F8,
+    /// Between these they are surely in it.
+    after: F8,
+    before: F8,
+    /// How far from `s = here` a ray may enter.
+    e_s: F8,
+}
+
+impl Held {
+    /// By nothing.
+    const FREE: Self = Self {
+        ends: Ends::Free,
+        enters: M8::NONE,
+        leaves: M8::NONE,
+        face_in: F8::ZERO,
+        face_out: F8::ZERO,
+        t_in: F8::ZERO,
+        e_in: F8::ZERO,
+        t_out: F8::ZERO,
+        e_out: F8::ZERO,
+        after: F8::splat(f64::NEG_INFINITY),
+        before: NEVER,
+        e_s: F8::ZERO,
+    };
+}
+
 /// Memory for one solid on the way.
 #[derive(Debug)]
 pub(in crate::outline) struct Memory {
     line: Line8,
     part: Part,
+    held: Held,
     /// `t = t_c + s unit`, and what that is rounded by.
     t_c: F8,
     unit: F8,
@@ -75,6 +116,7 @@ impl Default for Memory {
         Self {
             line: Line8 { isa: Isa::REFERENCE, o: zero, d: zero, e_o: z, e_d: z },
             part: Part { from: z, to: z, unsure: none },
+            held: Held::FREE,
             t_c: z,
             unit: z,
             e_t: z,
@@ -95,22 +137,27 @@ impl Default for Memory {
     }
 }
 
-/// Offers the first crossing of each ray to `nearest`; says whether the surface is turned round.
+/// Offers the first crossing of each ray to `nearest`; of a solid in a container that is `cell`. It is said whether the surface is turned round.
 pub(in crate::outline) fn meet(
     level: &dyn Level,
     own: &Own,
     (asked, turned): (&Question<'_>, bool),
-    start: &Start,
+    (start, cell): (&Start, Option<&Hull>),
     nearest: &mut Nearest,
     memory: &mut Memory,
 ) {
     let rays = asked.rays;
     see(level.reach(), own, rays, start, memory);
     level.part(&memory.line, &mut memory.part);
+    match cell {
+        None => memory.held = Held::FREE,
+        Some(cell) => hold(rays, cell, level.ends(), memory),
+    }
     begin((asked, turned), level.reach(), nearest, memory);
     if has_unknown(rays.isa, memory) {
-        level.values(&memory.line, &memory.here, &mut memory.value);
-        know(rays.isa, nearest, memory);
+        let line = Line8 { e_o: memory.line.e_o + memory.held.e_s, ..memory.line };
+        level.values(&line, &memory.here, memory.asked, &mut memory.value);
+        know(asked, nearest, memory);
     }
     for _ in 0..MOST {
         if !memory.open.any() {
@@ -118,9 +165,9 @@ pub(in crate::outline) fn meet(
         }
         level.tell(&memory.line, &mut memory.told);
         if against(rays.isa, memory) {
-            level.values(&memory.line, &memory.told.b, &mut memory.value);
+            level.values(&memory.line, &memory.told.b, memory.asked, &mut memory.value);
         }
-        go_on(rays.isa, level.reach(), nearest, memory);
+        go_on(asked, level.reach(), nearest, memory);
     }
     nearest.doubt_from(memory.open, memory.here.mul_add(memory.unit, memory.t_c) - memory.e_t);
     if memory.found.any() {
@@ -153,6 +200,46 @@ fn see(reach: f64, own: &Own, rays: &RayLanes<'_>, start: &Start, memory: &mut M
     );
 }
 
+/// Puts down where the rays are in a container: what is looked at is as much longer as rounding asks for.
+#[inline(never)]
+fn hold(rays: &RayLanes<'_>, cell: &Hull, (ends, slack): (Ends, f64), memory: &mut Memory) {
+    rays.isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            let Memory { part, held, t_c, unit, .. } = &mut *memory;
+            let Hull { enter, leave, missed, unsure } = cell;
+            let (t_in, t_out) = (enter.t, -leave.t);
+            let (first, last) = (t_in - enter.e, t_out + leave.e);
+            let missed = *missed | first.gt(last) | last.lt(F8::ZERO);
+            let unsure = *unsure & !missed;
+            let after = (t_in + enter.e).max(enter.others);
+            let before = -((leave.t + leave.e).max(leave.others));
+            // Three roundings of each.
+            let (pad_in, pad_out) =
+                ((first.abs() + t_c.abs()) / *unit * (8.0 * U), (last.abs() + t_c.abs()) / *unit * (8.0 * U));
+            let (from, to) = ((first - *t_c) / *unit - pad_in, (last - *t_c) / *unit + pad_out);
+            let wide = enter.e.max(leave.e) / *unit * 2.0 + pad_in.max(pad_out) * 2.0;
+            part.unsure |= !missed & (unsure | !wide.lt(F8::splat(slack)));
+            part.from = missed.select(F8::ZERO, unsure.select(-NEVER, from));
+            part.to = missed.select(-F8::ONE, unsure.select(NEVER, to));
+            *held = Held {
+                ends,
+                enters: first.gt(F8::ZERO) & first.gt(enter.others) & after.lt(before),
+                leaves: (leave.t - leave.e).gt(leave.others) & after.lt(before),
+                face_in: enter.face,
+                face_out: leave.face,
+                t_in,
+                e_in: enter.e,
+                t_out,
+                e_out: leave.e,
+                after,
+                before,
+                e_s: after.lt(F8::ZERO).select(F8::ZERO, wide),
+            };
+        },
+    );
+}
+
 /// Puts down the part of each ray that is looked at, and the sign that it starts with.
 #[inline(never)]
 fn begin((asked, turned): (&Question<'_>, bool), reach: f64, nearest: &mut Nearest, memory: &mut Memory) {
@@ -160,7 +247,8 @@ fn begin((asked, turned): (&Question<'_>, bool), reach: f64, nearest: &mut Neare
     rays.isa.run_in_lanes(
         #[inline(always)]
         || {
-            let Memory { part, t_c, unit, e_t, here, last, step, sign, open, found, told, .. } = &mut *memory;
+            let Memory { part, held, t_c, unit, e_t, here, last, step, sign, open, found, told, .. } =
+                &mut *memory;
             let out = (t_c.abs() / *unit + reach) * (8.0 * U);
             let start = -*t_c / *unit - out;
             let within = start.gt(part.from);
@@ -168,9 +256,24 @@ fn begin((asked, turned): (&Question<'_>, bool), reach: f64, nearest: &mut Neare
             *last = ((nearest.limit(rays) - *t_c) / *unit + out).min(part.to);
             // Not a number stays, and ends as a doubt.
             *open = *rays.live & !last.le(*here);
-            // Before the part all is outside.
-            let side = asked.from.map_or(F8::ZERO, |from| from.side(turned));
-            *sign = within.select(side, F8::ONE);
+            let side = asked.from.map_or(
+                F8::ZERO,
+                #[inline(always)]
+                |from| from.side(turned),
+            );
+            *sign = match held.ends {
+                // Before the part all is outside.
+                Ends::Free => within.select(side, F8::ONE),
+                // The side of a container's face says nothing of the solid's own.
+                Ends::Capped | Ends::Open => {
+                    let own = asked.from.map_or(
+                        M8::NONE,
+                        #[inline(always)]
+                        |from| from.face.equals(F8::ZERO),
+                    );
+                    (own & held.after.lt(F8::ZERO)).keep(side)
+                }
+            };
             let unsure = *open & part.unsure;
             if unsure.any() {
                 nearest.doubt_from(unsure, here.mul_add(*unit, *t_c) - *e_t);
@@ -196,13 +299,13 @@ fn has_unknown(isa: Isa, memory: &mut Memory) -> bool {
     )
 }
 
-/// The value tells, or there is a doubt.
+/// The value tells, or there is a doubt. Where a container is entered and the sign is that of the inside its face is met.
 #[inline(never)]
-fn know(isa: Isa, nearest: &mut Nearest, memory: &mut Memory) {
-    isa.run_in_lanes(
+fn know(asked: &Question<'_>, nearest: &mut Nearest, memory: &mut Memory) {
+    asked.rays.isa.run_in_lanes(
         #[inline(always)]
         || {
-            let Memory { here, sign, open, t_c, unit, e_t, told, value, .. } = &mut *memory;
+            let Memory { held, here, sign, open, t_c, unit, e_t, told, value, .. } = &mut *memory;
             let unknown = *open & sign.equals(F8::ZERO);
             let told_sign = value.above.keep(F8::ONE) - value.below.keep(F8::ONE);
             *sign = unknown.select(told_sign, *sign);
@@ -210,6 +313,15 @@ fn know(isa: Isa, nearest: &mut Nearest, memory: &mut Memory) {
             if unsure.any() {
                 nearest.doubt_from(unsure, here.mul_add(*unit, *t_c) - *e_t);
                 *open &= !unsure;
+            }
+            // Who starts inside of the container has not entered it.
+            let covered = unknown & *open & sign.lt(F8::ZERO) & !held.after.lt(F8::ZERO);
+            if held.ends == Ends::Capped && covered.any() {
+                let (t, e) = (held.t_in, held.e_in);
+                let sure = covered & held.enters & (t + e).le(*asked.rays.t_max);
+                nearest.take(sure, t, e, asked.number, held.face_in + F8::ONE);
+                nearest.doubt_from(covered & !sure, t - e);
+                *open &= !covered;
             }
             (told.lanes, told.sign) = (*open, *sign);
         },
@@ -240,12 +352,28 @@ fn against(isa: Isa, memory: &mut Memory) -> bool {
 
 /// Takes what was told.
 #[inline(never)]
-fn go_on(isa: Isa, reach: f64, nearest: &mut Nearest, memory: &mut Memory) {
-    isa.run_in_lanes(
+fn go_on(asked: &Question<'_>, reach: f64, nearest: &mut Nearest, memory: &mut Memory) {
+    asked.rays.isa.run_in_lanes(
         #[inline(always)]
         || {
             let Memory {
-                here, last, step, sign, open, found, a, b, g_b, t_c, unit, e_t, told, value, ..
+                part,
+                held,
+                here,
+                last,
+                step,
+                sign,
+                open,
+                found,
+                a,
+                b,
+                g_b,
+                t_c,
+                unit,
+                e_t,
+                told,
+                value,
+                ..
             } = &mut *memory;
             let positive = sign.gt(F8::ZERO);
             let seen = told.seen & *open;
@@ -260,11 +388,21 @@ fn go_on(isa: Isa, reach: f64, nearest: &mut Nearest, memory: &mut Memory) {
             let passed = seen & (kept | same);
             let way = told.b - told.a;
             *step = passed.select(step.max(way * LONGER), (seen & !passed).select(way * SHORTER, *step));
-            *here = passed.select(told.b, *here);
+            *here = passed.select(told.b, seen.select(told.a, *here));
             told.hint = passed.select(NEVER, told.hint);
             let stuck = *open & !crossed & here.lt(*last) & !step.ge(F8::splat(LEAST * reach));
             if stuck.any() {
                 nearest.doubt_from(stuck, here.mul_add(*unit, *t_c) - *e_t);
+            }
+            // Inside all the way: a container's face is met where it is left.
+            let left = *open & !(crossed | stuck | positive) & here.ge(*last);
+            let left = left & !held.before.gt(nearest.limit(asked.rays));
+            if held.ends == Ends::Capped && left.any() {
+                let (t, e) = (held.t_out, held.e_out);
+                let ahead = (t - e).gt(F8::ZERO) & (t + e).le(*asked.rays.t_max);
+                let sure = left & here.ge(part.to) & held.leaves & ahead;
+                nearest.take(sure, t, e, asked.number, held.face_out + F8::ONE);
+                nearest.doubt_from(left & !sure, t - e);
             }
             *open &= !(crossed | stuck) & here.lt(*last);
             ask(*open, (*here, *last), *step, *sign, told);
@@ -277,7 +415,7 @@ fn go_on(isa: Isa, reach: f64, nearest: &mut Nearest, memory: &mut Memory) {
 fn close_in(level: &dyn Level, asked: &Question<'_>, nearest: &mut Nearest, memory: &mut Memory) {
     let rays = asked.rays;
     let isa = rays.isa;
-    level.values(&memory.line, &memory.a, &mut memory.value);
+    level.values(&memory.line, &memory.a, memory.found, &mut memory.value);
     let (mut x, mut close, mut done, mut stayed) = (F8::ZERO, F8::ZERO, M8::NONE, F8::ZERO);
     isa.run_in_lanes(
         #[inline(always)]
@@ -319,7 +457,7 @@ fn converge(
         if !memory.asked.any() {
             return;
         }
-        level.values(&memory.line, x, &mut memory.value);
+        level.values(&memory.line, x, memory.asked, &mut memory.value);
         isa.run_in_lanes(
             #[inline(always)]
             || {
@@ -376,7 +514,7 @@ fn prove(
         #[inline(always)]
         || (low, high) = (*x - *close, *x + *close),
     );
-    level.values(&memory.line, &low, &mut memory.value);
+    level.values(&memory.line, &low, memory.found, &mut memory.value);
     isa.run_in_lanes(
         #[inline(always)]
         || {
@@ -384,15 +522,16 @@ fn prove(
             sure = positive & memory.value.above | !positive & memory.value.below;
         },
     );
-    level.values(&memory.line, &high, &mut memory.value);
+    level.values(&memory.line, &high, memory.found, &mut memory.value);
     isa.run_in_lanes(
         #[inline(always)]
         || {
-            let Memory { sign, found, value, unit, t_c, e_t, .. } = &mut *memory;
+            let Memory { held, sign, found, value, unit, t_c, e_t, .. } = &mut *memory;
             let positive = sign.gt(F8::ZERO);
-            let sure = *found & sure & (positive & value.below | !positive & value.above);
             let t = x.mul_add(*unit, *t_c);
             let e = (*close * *unit + *e_t) * SLACK;
+            let within = (t - e).gt(held.after) & (t + e).lt(held.before);
+            let sure = *found & sure & within & (positive & value.below | !positive & value.above);
             let open = *found & !(t - e).gt(nearest.limit(rays));
             let met = open & sure & (t - e).gt(F8::ZERO) & (t + e).le(*rays.t_max);
             nearest.take(met, t, e, asked.number, F8::ZERO);

@@ -1,0 +1,307 @@
+//! Formulas' surfaces as lanes see them.
+//!
+//! Each line goes from cell to cell by itself, past those in which the formula has one sign. In a cell with surface the bounds of its gradient bound the slope `[l, h]` along the line:
+//!
+//! ```text
+//!   0 not in [l, h]                 g goes one way: the sign at the end tells
+//!   |g(m)| > max(|l|, |h|) w / 2    g has the sign that it has in the middle m of a stretch of length w
+//! ```
+//!
+//! Else the formula is asked for bounds on the stretch, of the slope too. What it is asked for, a value or a stretch of each line, it is asked eight times at once, by the tape that is right for all of
+//! these lines.
+//!
+//! Lines are divided where rounded numbers say that they change cells, as those of single rays are (`cells.rs`): a point is sought in the cell that is a sixteenth of the margin ahead, and
+//! lines whose points are known worse than half of that do without lanes.
+
+use super::Isosurface;
+use super::cells::{Cells, Told};
+use crate::outline::{Ends, Level, Line8, Part, Skin, Told8, Value8};
+use crate::tape::Tape;
+use durer_math::{Dual, F8, I8, Isa, M8, U, Vec3};
+
+/// A point of each line within an error, or a stretch of it, as boxes.
+#[inline(always)]
+fn boxes(line: &Line8, (a, b): (&F8, &F8), e: F8) -> [I8; 3] {
+    let axis = |o: F8, d: F8| {
+        let (x, y) = (a.mul_add(d, o), b.mul_add(d, o));
+        I8::new(x.min(y) - e, x.max(y) + e)
+    };
+    [axis(line.o.x, line.d.x), axis(line.o.y, line.d.y), axis(line.o.z, line.d.z)]
+}
+
+impl Isosurface {
+    /// The tape that is right at a point of each of some lines.
+    fn tape_of(&self, line: &Line8, s: &F8, lanes: M8) -> &Tape {
+        let cells = self.divided();
+        let mut number = None;
+        for i in lanes.lanes() {
+            let own = cells.tape_at(at(line, s.0[i], i));
+            match number {
+                None => number = Some(own),
+                Some(number) if number == own => {}
+                Some(_) => return &self.tape,
+            }
+        }
+        number.map_or(&self.tape, |number| cells.tape(number))
+    }
+}
+
+impl Isosurface {
+    /// Whether all cells that points of some lines are in know the sign.
+    fn in_signs(&self, line: &Line8, s: &F8, lanes: M8, value: &mut Value8) -> bool {
+        (value.above, value.below) = (M8::NONE, M8::NONE);
+        for i in lanes.lanes() {
+            let Told::Sign(above) = self.divided().told(at(line, s.0[i], i)) else { return false };
+            value.g.0[i] = if above { 1.0 } else { -1.0 };
+            if above { value.above.set_lane(i, true) } else { value.below.set_lane(i, true) }
+        }
+        true
+    }
+}
+
+/// A point of a line, rounded.
+#[inline(always)]
+fn at(line: &Line8, s: f64, i: usize) -> [f64; 3] {
+    let (o, d) = (&line.o, &line.d);
+    [s * d.x.0[i] + o.x.0[i], s * d.y.0[i] + o.y.0[i], s * d.z.0[i] + o.z.0[i]]
+}
+
+/// Where a line is in the cells, and what is known there.
+struct Step {
+    /// The formula keeps its sign until here.
+    a: f64,
+    /// Here the leaf ends; there is none if it is not known.
+    b: f64,
+    leaf: Option<u32>,
+    /// All of the rest has the sign.
+    done: bool,
+}
+
+/// A line that rounding takes out of so many cells as soon as it is in them runs along their faces: it does without lanes.
+const GRAZED: u32 = 8;
+
+/// Passes cells in which the formula has the sign that it has.
+fn forward(
+    cells: &Cells,
+    (o, d, over): ([f64; 3], [f64; 3], [f64; 3]),
+    a: f64,
+    last: f64,
+    positive: bool,
+) -> Step {
+    let ahead = cells.margin() * (1.0 / 16.0);
+    let (mut s, mut grazed) = (a, 0);
+    loop {
+        let p = core::array::from_fn(|i| (s + ahead) * d[i] + o[i]);
+        let (told, end) = cells.ahead(p, o, over);
+        let end = end.max(s);
+        match told {
+            Told::Sign(above) if above == positive => {
+                if end >= last {
+                    return Step { a: last, b: last, leaf: None, done: true };
+                }
+                // A cell that is grazed at a corner, so that rounding says that it is left at once.
+                if end <= s {
+                    grazed += 1;
+                    if grazed > GRAZED {
+                        return Step { a: s, b: s, leaf: None, done: false };
+                    }
+                }
+                s = if end > s { end } else { s + ahead };
+            }
+            Told::Leaf(leaf) => {
+                let end = if end > s { end } else { s + ahead };
+                return Step { a: s, b: end, leaf: Some(leaf), done: false };
+            }
+            _ => return Step { a: s, b: end, leaf: None, done: false },
+        }
+    }
+}
+
+impl Level for Isosurface {
+    fn reach(&self) -> f64 {
+        self.container.bounds().reach_from(durer_math::Point3::ORIGIN)
+    }
+
+    fn ends(&self) -> (Ends, f64) {
+        let ends = if self.open { Ends::Open } else { Ends::Capped };
+        (ends, self.divided().margin() * (1.0 / 32.0))
+    }
+
+    fn part(&self, line: &Line8, part: &mut Part) {
+        let margin = self.divided().margin();
+        let far = F8::splat(2.0 * self.reach());
+        line.isa.run_in_lanes(
+            #[inline(always)]
+            || part.unsure = !line.error(far).lt(F8::splat(margin * (1.0 / 32.0))),
+        );
+    }
+
+    fn tell(&self, line: &Line8, told: &mut Told8) {
+        let cells = self.divided();
+        let mut slope = [F8::ZERO; 2];
+        let mut asked = M8::NONE;
+        let mut tape = None;
+        let mut mixed = false;
+        let mut over = Vec3::splat(Vec3::ZERO);
+        line.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                over = Vec3::new(F8::ONE / line.d.x, F8::ONE / line.d.y, F8::ONE / line.d.z);
+            },
+        );
+        for i in told.lanes.lanes() {
+            let lane = |v: &Vec3<F8>| v.lane(i).to_array();
+            let (o, d) = (lane(&line.o), lane(&line.d));
+            let (from, last, positive) = (told.a.0[i], told.last.0[i], told.sign.0[i] > 0.0);
+            let step = forward(cells, (o, d, lane(&over)), from, last, positive);
+            let way = told.b.0[i] - from;
+            told.a.0[i] = step.a;
+            told.b.0[i] = step.b.min(step.a + way).min(last);
+            told.seen.set_lane(i, true);
+            if step.done || step.a >= last {
+                (told.a.0[i], told.b.0[i]) = (last, last);
+                if positive {
+                    told.out.set_lane(i, true);
+                } else {
+                    told.within.set_lane(i, true);
+                }
+                continue;
+            }
+            let Some(leaf) = step.leaf else { continue };
+            let (number, low, high) = cells.slope(leaf, d, line.e_d.0[i]);
+            if low > 0.0 {
+                told.rises.set_lane(i, true);
+            } else if high < 0.0 {
+                told.falls.set_lane(i, true);
+            } else {
+                asked.set_lane(i, true);
+                (slope[0].0[i], slope[1].0[i]) = (low, high);
+                mixed |= tape.is_some_and(|tape| tape != number);
+                tape = Some(number);
+            }
+        }
+        let Some(tape) = tape else { return };
+        let tape = if mixed { &self.tape } else { cells.tape(tape) };
+        let (mut x, mut e) = ([I8::new(F8::ZERO, F8::ZERO); 3], F8::ZERO);
+        line.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                e = line.error(told.a.abs().max(told.b.abs()));
+                let mid = (told.a + told.b) * 0.5;
+                x = boxes(line, (&mid, &mid), e);
+            },
+        );
+        let v = tape.bounds(&x);
+        let open = line.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let steepest = (-slope[0]).max(slope[1]);
+                // Half of it, and the middle's rounding.
+                let half =
+                    (told.b - told.a) * (0.5 * (1.0 + 8.0 * U)) + (told.a.abs() + told.b.abs()) * (2.0 * U);
+                let spread = steepest * half * (1.0 + 8.0 * U) + f64::MIN_POSITIVE;
+                let defined = asked & !M8::from_bits(v.partial | v.empty | v.jump);
+                told.out |= defined & v.lo.gt(spread);
+                told.within |= defined & v.hi.lt(-spread);
+                asked &= !(told.out | told.within);
+                asked.any()
+            },
+        );
+        if !open {
+            return;
+        }
+        let mut d = [I8::new(F8::ZERO, F8::ZERO); 3];
+        line.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                x = boxes(line, (&told.a, &told.b), e);
+                let axis = |d: F8| I8::new(d - line.e_d - d.abs() * U, d + line.e_d + d.abs() * U);
+                d = [axis(line.d.x), axis(line.d.y), axis(line.d.z)];
+            },
+        );
+        let g = tape.slopes(&[0, 1, 2].map(|i| Dual { v: x[i], d: d[i] }));
+        line.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let defined = asked & !M8::from_bits(g.v.partial | g.v.empty);
+                told.out |= defined & g.v.lo.gt(F8::ZERO);
+                told.within |= defined & g.v.hi.lt(F8::ZERO);
+                let smooth = defined & !M8::from_bits(g.v.jump | g.d.partial);
+                told.rises |= smooth & g.d.lo.gt(F8::ZERO);
+                told.falls |= smooth & g.d.hi.lt(F8::ZERO);
+            },
+        );
+    }
+
+    fn values(&self, line: &Line8, s: &F8, lanes: M8, value: &mut Value8) {
+        if self.in_signs(line, s, lanes, value) {
+            return;
+        }
+        let tape = self.tape_of(line, s, lanes);
+        let mut x = [I8::new(F8::ZERO, F8::ZERO); 3];
+        line.isa.run_in_lanes(
+            #[inline(always)]
+            || x = boxes(line, (s, s), line.error(s.abs())),
+        );
+        let v = tape.bounds(&x);
+        line.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let defined = !M8::from_bits(v.partial | v.empty);
+                value.g = v.lo * 0.5 + v.hi * 0.5;
+                value.above = defined & v.lo.gt(F8::ZERO);
+                value.below = defined & v.hi.lt(F8::ZERO);
+            },
+        );
+    }
+
+    fn skin(&self, isa: Isa, (y, e): (&Vec3<F8>, &F8), skin: &mut Skin) {
+        let reach = self.reach();
+        let cells = self.divided();
+        let (mut x, mut wide, mut near) =
+            ([I8::new(F8::ZERO, F8::ZERO); 3], [I8::new(F8::ZERO, F8::ZERO); 3], M8::NONE);
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let room = *e * 16.0 + reach * (1024.0 * U);
+                let axis = |y: F8, e: F8| I8::new(y - e - y.abs() * U, y + e + y.abs() * U);
+                x = [axis(y.x, *e), axis(y.y, *e), axis(y.z, *e)];
+                let all = *e + room;
+                wide = [axis(y.x, all), axis(y.y, all), axis(y.z, all)];
+                near = all.lt(F8::splat(cells.margin() * 0.25));
+                skin.room = near.select(room, F8::ZERO);
+            },
+        );
+        let mut tape = None;
+        for i in near.lanes() {
+            let own = cells.tape_at(y.lane(i).to_array());
+            tape = Some(if tape.is_none_or(|tape| tape == own) { own } else { 0 });
+        }
+        let tape = tape.map_or(&self.tape, |tape| cells.tape(tape));
+        let v = tape.bounds(&x);
+        let zero = I8::new(F8::ZERO, F8::ZERO);
+        let one = I8::new(F8::ONE, F8::ONE);
+        let g = [0, 1, 2].map(|axis| {
+            tape.slopes(&[0, 1, 2].map(|i| Dual { v: wide[i], d: if i == axis { one } else { zero } }))
+        });
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let mut rough = v.partial | v.empty;
+                let (mut half, mut e_half) = ([F8::ZERO; 3], F8::ZERO);
+                for (half, g) in half.iter_mut().zip(&g) {
+                    rough |= g.v.partial | g.v.jump | g.d.partial;
+                    *half = g.d.lo * 0.25 + g.d.hi * 0.25;
+                    e_half = e_half.max((g.d.hi - g.d.lo) * 0.25 + half.abs() * (4.0 * U));
+                }
+                let [a, b, c] = half;
+                skin.half = Vec3::new(a, b, c);
+                skin.f = v.lo * 0.5 + v.hi * 0.5;
+                skin.e_f =
+                    (v.hi - v.lo) * (0.5 * (1.0 + 4.0 * U)) + skin.f.abs() * (2.0 * U) + f64::MIN_POSITIVE;
+                skin.e_half = M8::from_bits(rough).select(F8::splat(f64::INFINITY), e_half);
+                skin.bend = F8::ZERO;
+            },
+        );
+    }
+}
