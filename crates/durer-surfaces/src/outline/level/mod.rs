@@ -10,6 +10,7 @@
 //!
 //! A stretch of which nothing is certain is tried again shorter. What is left after so many stretches, or where rounding leaves a sign open, is a doubt.
 
+mod held;
 mod rays;
 
 pub(super) use self::rays::{Memory, meet};

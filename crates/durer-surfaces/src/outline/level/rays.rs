@@ -6,6 +6,7 @@
 //! **Where a ray starts** is rounded outward by `8 U (|t_c| |d| + reach)`, which is less than `128 U (reach + |y|)` at the start `y`: within that a start has the sign that it is known to have,
 //! if it was put off the surface (`skin`).
 
+use super::held::Held;
 use super::{Ends, Level, Line8, Part, Told8, Value8};
 use crate::outline::face::Start;
 use crate::outline::hull::Hull;
@@ -28,45 +29,6 @@ const LEAST: f64 = pow2(-24);
 /// A crossing is known within this part of how far it is: a quarter of what pictures ask for.
 const CLOSE: f64 = crate::ROUGH / 8.0;
 const NEVER: F8 = F8::splat(f64::INFINITY);
-
-/// Where rays are in a container, which is convex: from the last face that is entered to the first that is left.
-#[derive(Debug)]
-struct Held {
-    ends: Ends,
-    /// Where a container's face is surely the one that is entered, or left, and its number.
-    enters: M8,
-    leaves: M8,
-    face_in: F8,
-    face_out: F8,
-    /// There, within what.
-    t_in: F8,
-    e_in: F8,
-    t_out: F8,
-    e_out: F8,
-    /// Between these they are surely in it.
-    after: F8,
-    before: F8,
-    /// How far from `s = here` a ray may enter.
-    e_s: F8,
-}
-
-impl Held {
-    /// By nothing.
-    const FREE: Self = Self {
-        ends: Ends::Free,
-        enters: M8::NONE,
-        leaves: M8::NONE,
-        face_in: F8::ZERO,
-        face_out: F8::ZERO,
-        t_in: F8::ZERO,
-        e_in: F8::ZERO,
-        t_out: F8::ZERO,
-        e_out: F8::ZERO,
-        after: F8::splat(f64::NEG_INFINITY),
-        before: NEVER,
-        e_s: F8::ZERO,
-    };
-}
 
 /// Memory for one solid on the way.
 #[derive(Debug)]
@@ -151,7 +113,10 @@ pub(in crate::outline) fn meet(
     level.part(&memory.line, &mut memory.part);
     match cell {
         None => memory.held = Held::FREE,
-        Some(cell) => hold(rays, cell, level.ends(), memory),
+        Some(cell) => {
+            let Memory { held, part, t_c, unit, .. } = &mut *memory;
+            held.put(rays.isa, cell, level.ends(), (t_c, unit), part);
+        }
     }
     begin((asked, turned), level.reach(), nearest, memory);
     if has_unknown(rays.isa, memory) {
@@ -196,46 +161,6 @@ fn see(reach: f64, own: &Own, rays: &RayLanes<'_>, start: &Start, memory: &mut M
             };
             (memory.t_c, memory.unit) = (t_c, unit);
             memory.e_t = (t_c.abs() + unit * reach) * (8.0 * U);
-        },
-    );
-}
-
-/// Puts down where the rays are in a container: what is looked at is as much longer as rounding asks for.
-#[inline(never)]
-fn hold(rays: &RayLanes<'_>, cell: &Hull, (ends, slack): (Ends, f64), memory: &mut Memory) {
-    rays.isa.run_in_lanes(
-        #[inline(always)]
-        || {
-            let Memory { part, held, t_c, unit, .. } = &mut *memory;
-            let Hull { enter, leave, missed, unsure } = cell;
-            let (t_in, t_out) = (enter.t, -leave.t);
-            let (first, last) = (t_in - enter.e, t_out + leave.e);
-            let missed = *missed | first.gt(last) | last.lt(F8::ZERO);
-            let unsure = *unsure & !missed;
-            let after = (t_in + enter.e).max(enter.others);
-            let before = -((leave.t + leave.e).max(leave.others));
-            // Three roundings of each.
-            let (pad_in, pad_out) =
-                ((first.abs() + t_c.abs()) / *unit * (8.0 * U), (last.abs() + t_c.abs()) / *unit * (8.0 * U));
-            let (from, to) = ((first - *t_c) / *unit - pad_in, (last - *t_c) / *unit + pad_out);
-            let wide = enter.e.max(leave.e) / *unit * 2.0 + pad_in.max(pad_out) * 2.0;
-            part.unsure |= !missed & (unsure | !wide.lt(F8::splat(slack)));
-            part.from = missed.select(F8::ZERO, unsure.select(-NEVER, from));
-            part.to = missed.select(-F8::ONE, unsure.select(NEVER, to));
-            *held = Held {
-                ends,
-                enters: first.gt(F8::ZERO) & first.gt(enter.others) & after.lt(before),
-                leaves: (leave.t - leave.e).gt(leave.others) & after.lt(before),
-                face_in: enter.face,
-                face_out: leave.face,
-                t_in,
-                e_in: enter.e,
-                t_out,
-                e_out: leave.e,
-                after,
-                before,
-                e_s: after.lt(F8::ZERO).select(F8::ZERO, wide),
-            };
         },
     );
 }
