@@ -225,15 +225,16 @@ def close_normal(event, leaf, n, ray, width, direction):
     for source, flip in event.normals:
         curved = hasattr(source, "gradient")
         g = source.gradient(p) if curved else source
-        # Singular; or beyond the range of f64.
-        if not any(g) or max(map(to_float, map(abs, g))) == INF:
+        if not any(g):
             return True
         # The gradient turns by the second derivatives times that distance.
-        turn = 6 * source.bend(p) * F(off) / max(map(abs, g)) if curved else 0
+        top = max(map(abs, map(F, g)))
+        turn = 6 * F(source.bend(p)) * F(off) / top if curved else 0
         if turn > F(1, 1000):
             return True
         allowed = max(allowed, 1e-9 * stretch + 100 * stretch * to_float(turn))
-        g = leaf.whole.normal(tuple(flip * F(x) for x in g))
+        # Of length one, about, lest it leaves the range of f64.
+        g = leaf.whole.normal(tuple(flip * F(x) / top for x in g))
         top = max(map(abs, g))
         g = [to_float(x / top) for x in g]
         length = math.sqrt(sum(x * x for x in g))

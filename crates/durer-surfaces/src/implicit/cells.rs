@@ -220,19 +220,11 @@ impl Cells {
         if !(held && reach < spare) {
             return None;
         }
-        let (mut cell, mut bounds) = (self.root, self.extent);
-        loop {
-            let first = match cell {
-                Cell::Sign(sign) => return Some(Place::Sign(sign)),
-                Cell::Gap => return Some(Place::Gap),
-                Cell::Leaf(leaf) => return Some(Place::Open(self.tape_of(leaf))),
-                Cell::Inner(first) => first,
-            };
-            let centre = bounds.centre();
-            let half = (0..3).fold(0, |half, axis| half | usize::from(p[axis] >= centre[axis]) << axis);
-            cell = self.cells[first as usize + half];
-            bounds = octant(&bounds, half);
-        }
+        Some(match self.seek(p.to_array()).0 {
+            Told::Sign(sign) => Place::Sign(sign),
+            Told::Gap => Place::Gap,
+            Told::Leaf(leaf) => Place::Open(self.tape_of(leaf)),
+        })
     }
 
     /// How far from a cell its bounds hold.

@@ -44,9 +44,7 @@ impl Isosurface {
         }
         number.map_or(&self.tape, |number| cells.tape(number))
     }
-}
 
-impl Isosurface {
     /// Whether all cells that points of some lines are in know the sign.
     fn in_signs(&self, line: &Line8, s: &F8, lanes: M8, value: &mut Value8) -> bool {
         (value.above, value.below) = (M8::NONE, M8::NONE);
@@ -263,11 +261,13 @@ impl Level for Isosurface {
         isa.run_in_lanes(
             #[inline(always)]
             || {
+                // So far around bounds of the gradient are asked for. Whether `off` stays within is looked at afterwards (`Outline::points`); the nearer, the tighter.
                 let room = *e * 16.0 + reach * (1024.0 * U);
                 let axis = |y: F8, e: F8| I8::new(y - e - y.abs() * U, y + e + y.abs() * U);
                 x = [axis(y.x, *e), axis(y.y, *e), axis(y.z, *e)];
                 let all = *e + room;
                 wide = [axis(y.x, all), axis(y.y, all), axis(y.z, all)];
+                // A cell's tape is right as far as the margin from it; a quarter pays for roundings many times over.
                 near = all.lt(F8::splat(cells.margin() * 0.25));
                 skin.room = near.select(room, F8::ZERO);
             },

@@ -4,13 +4,17 @@
 //! order of the leaves, so that a leaf is one contiguous range. Where every surface of an arena has one part, the surfaces
 //! themselves are moved into that order, and slot and surface are the same number.
 
+mod arrange;
+mod inside;
+
+pub(crate) use self::arrange::{Arrange, Unsorted};
+
+use self::inside::starts_inside;
 use crate::best::Best;
 use crate::ids::{Id, Ids};
 use crate::outlines::{Drawn, Seen};
 use crate::spans::Tracks;
 use core::ops::Range;
-use durer_bvh::{Entry, Frame};
-use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Isa, Point3, RaySide, Shaft};
 use durer_surfaces::{
     Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
@@ -94,49 +98,6 @@ pub(crate) trait AnyArena: Send + Sync {
     fn len(&self) -> u32;
     /// Heap memory held, without what the surfaces own in turn.
     fn bytes(&self) -> usize;
-}
-
-/// What the builder asks of an arena.
-pub(crate) trait Arrange: AnyArena {
-    /// Lists the parts; no surface is added afterwards.
-    fn seal(&mut self);
-    /// The box of all bounded slots, each cut by its object's limit, if there is one.
-    fn extent(&self, limits: &[Aabb]) -> Aabb;
-    /// Appends the bounded slots, cut like that, as entries of the given kind, to `entries`, and sorts out the others.
-    fn entries(&self, frame: &Frame, kind: u32, limits: &[Aabb], entries: &mut Vec<Entry>) -> Unsorted;
-    /// The corners of a triangle, by its number in [`Arrange::entries`].
-    fn corners(&self, index: u32) -> [Point3; 3];
-    /// Puts the slots into a new order: the new slot `i` is the old `order[i]`. The array is used up.
-    fn arrange(&mut self, order: Vec<u32>);
-    /// As the arena of a finished geometry.
-    fn finish(self: Box<Self>) -> Box<dyn AnyArena>;
-}
-
-/// Slots that no tree holds.
-#[derive(Debug, Default)]
-pub(crate) struct Unsorted {
-    /// Unbounded, or with a box that is not a number: nothing can be disproved, so they are always tested.
-    pub(crate) beside: Vec<u32>,
-    /// Empty: there is nothing to meet.
-    pub(crate) nothing: Vec<u32>,
-}
-
-impl Unsorted {
-    pub(crate) fn take(&mut self, entry: &Entry) {
-        if entry.is_empty() {
-            self.nothing.push(entry.index());
-        } else if !entry.is_bounded() {
-            self.beside.push(entry.index());
-        }
-    }
-
-    fn is_empty(&self) -> bool {
-        self.beside.is_empty() && self.nothing.is_empty()
-    }
-
-    pub(crate) fn len(&self) -> usize {
-        self.beside.len() + self.nothing.len()
-    }
 }
 
 /// A slot of an arena whose surfaces have parts.
@@ -240,20 +201,6 @@ impl<S: Surface + 'static> Arena<S> {
             None => (slot as usize, PartId(0), true),
         };
         Slot { arena: self, surface: &self.surfaces[index], index, slot, part, whole }
-    }
-
-    fn slot_boxes(&self, limits: &[Aabb]) -> impl IndexedParallelIterator<Item = Aabb> {
-        let count = self.parts.as_ref().map_or(self.surfaces.len(), Vec::len);
-        (0..count).into_par_iter().map(|i| {
-            let (surface, bounds) = match &self.parts {
-                Some(parts) => (parts[i].0.surface as usize, parts[i].1),
-                None => (i, self.surfaces[i].bounds()),
-            };
-            match limits.get(self.ids.name(surface).object as usize) {
-                Some(limit) => bounds.intersection(*limit),
-                None => bounds,
-            }
-        })
     }
 }
 
@@ -547,176 +494,5 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
         self.surfaces.capacity() * size_of::<S>()
             + self.ids.bytes()
             + self.placed.capacity() * size_of::<PartRef>()
-    }
-}
-
-/// Whether a ray comes to its start (at `t_min`) inside a solid whose crossings within its range leave that open; `start` is some point of its line.
-///
-/// A crossing at the very start is one of the range, and says what was before. Else it is decided by the signs of the crossings before and behind the range, and where the line crosses the solid nowhere, and the solid has no bounds, by the exact
-/// side of a point of it. A point may be known to be inside that is on no chord known: where a tangent touches a formula's solid within rounding.
-fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint<'_>) -> bool {
-    if let Some(side) = ray.source {
-        return side == RaySide::Back;
-    }
-    let signs = |t_min: f64, t_max: f64| {
-        let mut part_of_line = *ray;
-        (part_of_line.t_min, part_of_line.t_max) = (t_min, t_max);
-        let mut ends = Ends::default();
-        surface.roots::<dyn Sink>(&part_of_line, &mut ends);
-        ends.closed()
-    };
-    if let Some(sign) = signs(ray.t_min, ray.t_min).first {
-        return sign > 0;
-    }
-    if let Some(sign) = signs(f64::NEG_INFINITY, ray.t_min).last {
-        return sign < 0;
-    }
-    // One at the very end is one of the range, too: behind it is what was before, as the crossings of the range cancel.
-    if let Some(sign) = signs(ray.t_max, ray.t_max).last {
-        return sign < 0;
-    }
-    if let Some(sign) = signs(ray.t_max, f64::INFINITY).first {
-        return sign > 0;
-    }
-    if surface.bounds().is_bounded() {
-        // The line comes from outside and goes there, and does not cross it on the way.
-        return false;
-    }
-    match surface.side(start) {
-        Side::In => true,
-        Side::Out => false,
-        Side::On => runs_inside(surface, ray),
-    }
-}
-
-/// Whether a line lies in a closed solid that it does not cross, though it may touch it in single points.
-///
-/// All its points but those lie on one side. Solids with quadric faces, of which there are six at most, are touched in no more than
-/// twelve points; a line in a face of a solid of many faces has left it where it has left the box. A line of which no point
-/// is off the boundary lies in it, and so in the closed solid.
-fn runs_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>) -> bool {
-    let bounds = surface.bounds();
-    let far = bounds.max.to_vec().max_abs().max(bounds.min.to_vec().max_abs()).max(ray.o.to_vec().max_abs());
-    let beyond = if far.is_finite() { scale2(1.0, (exponent(far) + 2).min(1000)) } else { 1.0 };
-    let near = (1..=7).map(f64::from);
-    let mut sides =
-        near.chain([beyond]).flat_map(|s| [s, -s]).map(|s| surface.side(&LocalPoint::along(ray, s)));
-    sides.find(|&side| side != Side::On) != Some(Side::Out)
-}
-
-/// The signs of the first and the last crossing that changes sides. Crossings whose enclosures overlap count as one, by their sum: where the line touches an edge, it
-/// goes in and out at one point, or out and in, and their order says nothing.
-#[derive(Default)]
-struct Ends {
-    first: Option<i32>,
-    last: Option<i32>,
-    /// The crossings that overlap the last one: their sum, and how far they reach.
-    group: Option<(i32, f64)>,
-}
-
-impl Ends {
-    /// Ends the group.
-    fn closed(mut self) -> Self {
-        if let Some((sum, _)) = self.group.take()
-            && sum != 0
-        {
-            self.first = self.first.or(Some(sum));
-            self.last = Some(sum);
-        }
-        self
-    }
-}
-
-impl Sink for Ends {
-    fn range(&self) -> (f64, f64) {
-        ALL
-    }
-
-    fn push(&mut self, root: Root) -> Flow {
-        let sign = i32::from(root.sign);
-        if sign != 0 {
-            *self = match self.group {
-                Some((sum, reach)) if root.lo <= reach => {
-                    Self { group: Some((sum + sign, reach.max(root.hi))), ..core::mem::take(self) }
-                }
-                _ => Self { group: Some((sign, root.hi)), ..core::mem::take(self).closed() },
-            };
-        }
-        Flow::Continue
-    }
-}
-
-impl<S: Surface + 'static> Arrange for Arena<S> {
-    fn seal(&mut self) {
-        self.surfaces.shrink_to_fit();
-        self.ids.shrink();
-        if !self.surfaces.iter().any(Surface::is_in_parts) {
-            return;
-        }
-        let mut parts = Vec::new();
-        for (i, s) in self.surfaces.iter().enumerate() {
-            let (surface, whole, first) = (i as u32, false, parts.len());
-            s.parts(&mut |bounds, part| parts.push((PartRef { surface, part: part.0, whole }, bounds)));
-            if let [(part, _)] = &mut parts[first..] {
-                part.whole = true;
-            }
-        }
-        self.parts = Some(parts);
-    }
-
-    fn extent(&self, limits: &[Aabb]) -> Aabb {
-        let bounded = |b: Aabb| if b.is_bounded() { b } else { Aabb::EMPTY };
-        self.slot_boxes(limits).map(bounded).reduce(|| Aabb::EMPTY, Aabb::union)
-    }
-
-    fn entries(&self, frame: &Frame, kind: u32, limits: &[Aabb], entries: &mut Vec<Entry>) -> Unsorted {
-        let first = entries.len();
-        entries.par_extend(self.slot_boxes(limits).enumerate().map(|(i, b)| frame.entry(&b, kind, i as u32)));
-        let mut unsorted = Unsorted::default();
-        entries[first..].iter().for_each(|e| unsorted.take(e));
-        if !unsorted.is_empty() {
-            let mut at = 0;
-            entries.retain(|e| {
-                at += 1;
-                at <= first || e.is_bounded()
-            });
-        }
-        unsorted
-    }
-
-    fn corners(&self, index: u32) -> [Point3; 3] {
-        let corners = match &self.parts {
-            Some(parts) => {
-                let part = &parts[index as usize].0;
-                self.surfaces[part.surface as usize].corners(PartId(part.part))
-            }
-            None => self.surfaces[index as usize].corners(PartId(0)),
-        };
-        corners.unwrap_or([Point3::ORIGIN; 3])
-    }
-
-    fn arrange(&mut self, mut order: Vec<u32>) {
-        if let Some(parts) = self.parts.take() {
-            self.placed = order.iter().map(|&i| parts[i as usize].0).collect();
-            return;
-        }
-        // The permutation's cycles, in place: surfaces need not be `Clone`, and no second arena is held.
-        for start in 0..order.len() {
-            let mut to = start;
-            loop {
-                let from = order[to] as usize;
-                order[to] = to as u32;
-                if from == start {
-                    break;
-                }
-                self.surfaces.swap(to, from);
-                self.ids.swap(to, from);
-                to = from;
-            }
-        }
-    }
-
-    fn finish(self: Box<Self>) -> Box<dyn AnyArena> {
-        self
     }
 }

@@ -1,0 +1,102 @@
+//! On which side of a solid a ray starts.
+
+use super::ALL;
+use durer_math::RaySide;
+use durer_math::eft::{exponent, scale2};
+use durer_surfaces::{Flow, LocalPoint, LocalRay, Root, Side, Sink, Surface};
+
+/// Whether a ray comes to its start (at `t_min`) inside a solid whose crossings within its range leave that open; `start` is some point of its line.
+///
+/// A crossing at the very start is one of the range, and says what was before. Else it is decided by the signs of the crossings before and behind the range, and where the line crosses the solid nowhere, and the solid has no bounds, by the exact
+/// side of a point of it. A point may be known to be inside that is on no chord known: where a tangent touches a formula's solid within rounding.
+pub(super) fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint<'_>) -> bool {
+    if let Some(side) = ray.source {
+        return side == RaySide::Back;
+    }
+    let signs = |t_min: f64, t_max: f64| {
+        let mut part_of_line = *ray;
+        (part_of_line.t_min, part_of_line.t_max) = (t_min, t_max);
+        let mut ends = Ends::default();
+        surface.roots::<dyn Sink>(&part_of_line, &mut ends);
+        ends.closed()
+    };
+    if let Some(sign) = signs(ray.t_min, ray.t_min).first {
+        return sign > 0;
+    }
+    if let Some(sign) = signs(f64::NEG_INFINITY, ray.t_min).last {
+        return sign < 0;
+    }
+    // One at the very end is one of the range, too: behind it is what was before, as the crossings of the range cancel.
+    if let Some(sign) = signs(ray.t_max, ray.t_max).last {
+        return sign < 0;
+    }
+    if let Some(sign) = signs(ray.t_max, f64::INFINITY).first {
+        return sign > 0;
+    }
+    if surface.bounds().is_bounded() {
+        // The line comes from outside and goes there, and does not cross it on the way.
+        return false;
+    }
+    match surface.side(start) {
+        Side::In => true,
+        Side::Out => false,
+        Side::On => runs_inside(surface, ray),
+    }
+}
+
+/// Whether a line lies in a closed solid that it does not cross, though it may touch it in single points.
+///
+/// All its points but those lie on one side. Solids with quadric faces, of which there are six at most, are touched in no more than
+/// twelve points; a line in a face of a solid of many faces has left it where it has left the box. A line of which no point
+/// is off the boundary lies in it, and so in the closed solid.
+fn runs_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>) -> bool {
+    let bounds = surface.bounds();
+    let far = bounds.max.to_vec().max_abs().max(bounds.min.to_vec().max_abs()).max(ray.o.to_vec().max_abs());
+    let beyond = if far.is_finite() { scale2(1.0, (exponent(far) + 2).min(1000)) } else { 1.0 };
+    let near = (1..=7).map(f64::from);
+    let mut sides =
+        near.chain([beyond]).flat_map(|s| [s, -s]).map(|s| surface.side(&LocalPoint::along(ray, s)));
+    sides.find(|&side| side != Side::On) != Some(Side::Out)
+}
+
+/// The signs of the first and the last crossing that changes sides. Crossings whose enclosures overlap count as one, by their sum: where the line touches an edge, it
+/// goes in and out at one point, or out and in, and their order says nothing.
+#[derive(Default)]
+struct Ends {
+    first: Option<i32>,
+    last: Option<i32>,
+    /// The crossings that overlap the last one: their sum, and how far they reach.
+    group: Option<(i32, f64)>,
+}
+
+impl Ends {
+    /// Ends the group.
+    fn closed(mut self) -> Self {
+        if let Some((sum, _)) = self.group.take()
+            && sum != 0
+        {
+            self.first = self.first.or(Some(sum));
+            self.last = Some(sum);
+        }
+        self
+    }
+}
+
+impl Sink for Ends {
+    fn range(&self) -> (f64, f64) {
+        ALL
+    }
+
+    fn push(&mut self, root: Root) -> Flow {
+        let sign = i32::from(root.sign);
+        if sign != 0 {
+            *self = match self.group {
+                Some((sum, reach)) if root.lo <= reach => {
+                    Self { group: Some((sum + sign, reach.max(root.hi))), ..core::mem::take(self) }
+                }
+                _ => Self { group: Some((sign, root.hi)), ..core::mem::take(self).closed() },
+            };
+        }
+        Flow::Continue
+    }
+}
