@@ -6,7 +6,7 @@
 use crate::Scalar;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// `v + d eps` with `eps^2 = 0`.
+/// `v + d eps` with `eps^2 = 0`; or, with a [`Gradient`](crate::Gradient), `v + d_1 eps_1 + d_2 eps_2 + d_3 eps_3`, where all `eps_i eps_j = 0`.
 ///
 /// ```
 /// use durer_math::{Dual, Interval, Scalar};
@@ -16,11 +16,11 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 /// assert_eq!((x * x).d, Interval::new(2.0, 4.0)); // 2 x on [1, 2]
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dual<T = f64> {
+pub struct Dual<T = f64, D = T> {
     /// The value.
     pub v: T,
-    /// The derivative.
-    pub d: T,
+    /// The derivative, or several.
+    pub d: D,
 }
 
 impl<T: Scalar> Dual<T> {

@@ -38,6 +38,19 @@ fn angle(y: F8, x: F8) -> F8 {
     a.copysign(y)
 }
 
+/// Where a point's larger coordinate is neither too large nor too small.
+#[inline(always)]
+fn ordinary(y: F8, x: F8) -> M8 {
+    let size = y.abs().max(x.abs());
+    size.ge(F8::splat(1.0 / FAR)) & size.le(F8::splat(FAR))
+}
+
+/// The angles, rounded, and where they are that.
+#[inline(always)]
+pub(crate) fn rounded(y: F8, x: F8) -> (F8, M8) {
+    (angle(y + F8::ZERO, x), ordinary(y, x))
+}
+
 /// Bounds of the angles, and the lanes that are known.
 #[inline(always)]
 fn corners(y: &I8, x: &I8) -> (F8, F8, M8) {
@@ -51,10 +64,6 @@ fn corners(y: &I8, x: &I8) -> (F8, F8, M8) {
     let high_y =
         right.select(y.hi, up.select(x.lo.ge(zero).select(y.hi, y.lo), x.hi.ge(zero).select(y.hi, y.lo)));
     let high_x = right.select(y.hi.ge(zero).select(x.lo, x.hi), up.select(x.lo, x.hi));
-    let ordinary = |y: F8, x: F8| {
-        let size = y.abs().max(x.abs());
-        size.ge(F8::splat(1.0 / FAR)) & size.le(F8::splat(FAR))
-    };
     let known = (right | up | down) & ordinary(low_y, low_x) & ordinary(high_y, high_x);
     // A zero is positive: to the right both have the same angle, and nothing else comes here.
     let (low, high) = (angle(low_y + zero, low_x), angle(high_y + zero, high_x));

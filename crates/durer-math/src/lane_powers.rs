@@ -42,6 +42,14 @@ fn corners(a: &I8, b: &I8) -> (F8, F8, M8) {
     (lo, nothing.select(zero, hi), known)
 }
 
+/// `a^b`, rounded, and where it is that.
+#[inline(always)]
+pub(crate) fn rounded(a: F8, b: F8) -> (F8, M8) {
+    let (value, t) = power(a, b);
+    let ordinary = a.ge(F8::splat(LEAST)) & a.le(F8::splat(f64::MAX));
+    (value, ordinary & b.abs().le(F8::splat(MOST_POWER)) & t.abs().lt(F8::splat(FAR)))
+}
+
 /// `a^b` in lanes, and the lanes that must be done by themselves.
 #[inline(never)]
 pub(crate) fn pow(a: &I8, b: &I8) -> (I8, u8) {

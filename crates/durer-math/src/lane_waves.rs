@@ -5,7 +5,7 @@
 //! differences, multiples of `2^-53` below 1; the third rounds to `2^-54`, and what is left of `pi/2` is below `2^-88`. On `|r| <= 0.7855` Taylor's series to `r^17` and `r^18` leave out
 //! less than `1e-19`, and Horner's scheme rounds to less than `4 u` of the value. Claimed are [`RELATIVE`] and [`ABSOLUTE`], twice as much at least.
 
-use crate::{F8, I8};
+use crate::{F8, I8, M8};
 
 /// The largest argument that is taken; a sine of more is only known to be a sine.
 const FAR: f64 = (1u64 << 20) as f64;
@@ -60,6 +60,12 @@ fn waves(x: &F8, shift: f64) -> (F8, F8) {
         error.0[i] = v.abs() * RELATIVE + if k == 0.0 { TINY } else { ABSOLUTE };
     }
     (value, error)
+}
+
+/// Sines (`shift` 0) or cosines (1), rounded, and where they are those.
+#[inline(always)]
+pub(crate) fn rounded(x: &F8, shift: f64) -> (F8, M8) {
+    (waves(x, shift).0, x.abs().le(F8::splat(FAR)))
 }
 
 /// The sine of intervals plus `shift` quarter turns: 0 for the sine, 1 for the cosine.

@@ -232,11 +232,176 @@ impl Number for f64 {
     }
 }
 
-impl<T: Number> Dual<T> {
+/// What the derivatives of a [`Dual`] are: one number, or a [`Gradient`], whose directions share all that goes into slopes.
+pub trait Slopes<T>: Copy {
+    /// Of what does not vary.
+    fn zero() -> Self;
+    /// Nothing is known.
+    fn unknown() -> Self;
+    /// `a + b`.
+    fn sum(a: &Self, b: &Self) -> Self;
+    /// `a - b`.
+    fn difference(a: &Self, b: &Self) -> Self;
+    /// `-a`.
+    fn negated(a: &Self) -> Self;
+    /// `k a`.
+    fn scaled(k: &T, a: &Self) -> Self;
+    /// `a / k`.
+    fn divided(a: &Self, k: &T) -> Self;
+    /// One of three by the sign of `c`: below, at and above zero.
+    fn selected(c: &T, below: &Self, at: &Self, above: &Self) -> Self;
+    /// Whether all are exactly zero.
+    fn are_zero(&self) -> bool;
+}
+
+impl<T: Number> Slopes<T> for T {
+    #[inline(always)]
+    fn zero() -> Self {
+        number(0.0)
+    }
+    #[inline(always)]
+    fn unknown() -> Self {
+        T::constant(Interval::ENTIRE)
+    }
+    #[inline(always)]
+    fn sum(a: &Self, b: &Self) -> Self {
+        Number::add(a, b)
+    }
+    #[inline(always)]
+    fn difference(a: &Self, b: &Self) -> Self {
+        Number::sub(a, b)
+    }
+    #[inline(always)]
+    fn negated(a: &Self) -> Self {
+        Number::neg(a)
+    }
+    #[inline(always)]
+    fn scaled(k: &T, a: &Self) -> Self {
+        Number::mul(k, a)
+    }
+    #[inline(always)]
+    fn divided(a: &Self, k: &T) -> Self {
+        Number::div(a, k)
+    }
+    #[inline(always)]
+    fn selected(c: &T, below: &Self, at: &Self, above: &Self) -> Self {
+        Number::select(c, below, at, above)
+    }
+    #[inline(always)]
+    fn are_zero(&self) -> bool {
+        Number::is_zero(self)
+    }
+}
+
+/// Derivatives along three directions, and along which of them there is any (as bits): most parts of a formula vary along one or two, and what is zero is not multiplied.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gradient<T> {
+    /// The derivatives.
+    pub d: [T; 3],
+    varies: u8,
+}
+
+impl<T: Number> Gradient<T> {
+    /// That of the coordinate number `axis` in space.
+    #[inline(always)]
+    pub fn of_axis(axis: usize) -> Self {
+        let mut d = [number(0.0); 3];
+        d[axis] = number(1.0);
+        Self { d, varies: 1 << axis }
+    }
+
+    #[inline(always)]
+    fn varies(&self, axis: usize) -> bool {
+        self.varies >> axis & 1 == 1
+    }
+
+    /// A function that is zero at zero, of each derivative.
+    #[inline(always)]
+    fn each(&self, f: impl Fn(&T) -> T) -> Self {
+        let mut out = *self;
+        for (axis, out) in out.d.iter_mut().enumerate() {
+            if self.varies(axis) {
+                *out = f(out);
+            }
+        }
+        out
+    }
+}
+
+impl<T: Number> Slopes<T> for Gradient<T> {
+    #[inline(always)]
+    fn zero() -> Self {
+        Self { d: [number(0.0); 3], varies: 0 }
+    }
+    #[inline(always)]
+    fn unknown() -> Self {
+        Self { d: [T::constant(Interval::ENTIRE); 3], varies: 0b111 }
+    }
+    #[inline(always)]
+    fn sum(a: &Self, b: &Self) -> Self {
+        let mut out = *a;
+        out.varies |= b.varies;
+        for axis in 0..3 {
+            if b.varies(axis) {
+                out.d[axis] = if a.varies(axis) { T::add(&a.d[axis], &b.d[axis]) } else { b.d[axis] };
+            }
+        }
+        out
+    }
+    #[inline(always)]
+    fn difference(a: &Self, b: &Self) -> Self {
+        let mut out = *a;
+        out.varies |= b.varies;
+        for axis in 0..3 {
+            if b.varies(axis) {
+                let d = &b.d[axis];
+                out.d[axis] = if a.varies(axis) { T::sub(&a.d[axis], d) } else { T::neg(d) };
+            }
+        }
+        out
+    }
+    #[inline(always)]
+    fn negated(a: &Self) -> Self {
+        a.each(
+            #[inline(always)]
+            |d| T::neg(d),
+        )
+    }
+    #[inline(always)]
+    fn scaled(k: &T, a: &Self) -> Self {
+        a.each(
+            #[inline(always)]
+            |d| T::mul(k, d),
+        )
+    }
+    #[inline(always)]
+    fn divided(a: &Self, k: &T) -> Self {
+        a.each(
+            #[inline(always)]
+            |d| T::div(d, k),
+        )
+    }
+    #[inline(always)]
+    fn selected(c: &T, below: &Self, at: &Self, above: &Self) -> Self {
+        let mut out = Self { d: below.d, varies: below.varies | at.varies | above.varies };
+        for axis in 0..3 {
+            if out.varies(axis) {
+                out.d[axis] = T::select(c, &below.d[axis], &at.d[axis], &above.d[axis]);
+            }
+        }
+        out
+    }
+    #[inline(always)]
+    fn are_zero(&self) -> bool {
+        self.varies == 0
+    }
+}
+
+impl<T: Number, D: Slopes<T>> Dual<T, D> {
     /// A value whose derivative is `slope` times that of `a`.
     #[inline(always)]
     fn chain(v: T, slope: &T, a: &Self) -> Self {
-        Self { v, d: T::mul(slope, &a.d) }
+        Self { v, d: D::scaled(slope, &a.d) }
     }
 }
 
@@ -245,33 +410,33 @@ fn number<T: Number>(x: f64) -> T {
     T::constant(Interval { lo: x, hi: x })
 }
 
-impl<T: Number> Number for Dual<T> {
+impl<T: Number, D: Slopes<T>> Number for Dual<T, D> {
     #[inline(always)]
     fn constant(c: Interval) -> Self {
-        Self { v: T::constant(c), d: number(0.0) }
+        Self { v: T::constant(c), d: D::zero() }
     }
     #[inline(always)]
     fn add(a: &Self, b: &Self) -> Self {
-        Self { v: T::add(&a.v, &b.v), d: T::add(&a.d, &b.d) }
+        Self { v: T::add(&a.v, &b.v), d: D::sum(&a.d, &b.d) }
     }
     #[inline(always)]
     fn sub(a: &Self, b: &Self) -> Self {
-        Self { v: T::sub(&a.v, &b.v), d: T::sub(&a.d, &b.d) }
+        Self { v: T::sub(&a.v, &b.v), d: D::difference(&a.d, &b.d) }
     }
     #[inline(always)]
     fn mul(a: &Self, b: &Self) -> Self {
-        let (l, r) = (T::mul(&a.v, &b.d), T::mul(&a.d, &b.v));
-        Self { v: T::mul(&a.v, &b.v), d: T::add(&l, &r) }
+        let (l, r) = (D::scaled(&a.v, &b.d), D::scaled(&b.v, &a.d));
+        Self { v: T::mul(&a.v, &b.v), d: D::sum(&l, &r) }
     }
     #[inline(always)]
     fn div(a: &Self, b: &Self) -> Self {
         let v = T::div(&a.v, &b.v);
-        let top = T::sub(&a.d, &T::mul(&v, &b.d));
-        Self { v, d: T::div(&top, &b.v) }
+        let top = D::difference(&a.d, &D::scaled(&v, &b.d));
+        Self { v, d: D::divided(&top, &b.v) }
     }
     #[inline(always)]
     fn neg(a: &Self) -> Self {
-        Self { v: T::neg(&a.v), d: T::neg(&a.d) }
+        Self { v: T::neg(&a.v), d: D::negated(&a.d) }
     }
     #[inline(always)]
     fn sqr(a: &Self) -> Self {
@@ -280,22 +445,22 @@ impl<T: Number> Number for Dual<T> {
     /// At zero: all slopes between -1 and 1, as for an interval around it.
     #[inline(always)]
     fn abs(a: &Self) -> Self {
-        let back = T::neg(&a.d);
-        Self { v: T::abs(&a.v), d: T::select(&a.v, &back, &a.d, &a.d) }
+        let back = D::negated(&a.d);
+        Self { v: T::abs(&a.v), d: D::selected(&a.v, &back, &a.d, &a.d) }
     }
     #[inline(always)]
     fn sqrt(a: &Self) -> Self {
         let v = T::sqrt(&a.v);
-        Self { v, d: T::div(&a.d, &T::add(&v, &v)) }
+        Self { v, d: D::divided(&a.d, &T::add(&v, &v)) }
     }
     #[inline(always)]
     fn min(a: &Self, b: &Self) -> Self {
-        let d = T::select(&T::sub(&a.v, &b.v), &a.d, &a.d, &b.d);
+        let d = D::selected(&T::sub(&a.v, &b.v), &a.d, &a.d, &b.d);
         Self { v: T::min(&a.v, &b.v), d }
     }
     #[inline(always)]
     fn max(a: &Self, b: &Self) -> Self {
-        let d = T::select(&T::sub(&a.v, &b.v), &b.d, &a.d, &a.d);
+        let d = D::selected(&T::sub(&a.v, &b.v), &b.d, &a.d, &a.d);
         Self { v: T::max(&a.v, &b.v), d }
     }
     #[inline(always)]
@@ -308,27 +473,27 @@ impl<T: Number> Number for Dual<T> {
         // (a^b)' = b a^(b - 1) a' + a^b ln(a) b'
         let v = T::pow(&a.v, &b.v);
         let less = T::pow(&a.v, &T::sub(&b.v, &number(1.0)));
-        let along = T::mul(&T::mul(&b.v, &less), &a.d);
-        if b.d.is_zero() {
+        let along = D::scaled(&T::mul(&b.v, &less), &a.d);
+        if b.d.are_zero() {
             // A power that stays: no logarithm, which would be undefined at a = 0.
             return Self { v, d: along };
         }
-        let turn = T::mul(&T::mul(&v, &T::function(Function::Ln, &a.v)), &b.d);
-        Self { v, d: T::add(&along, &turn) }
+        let turn = D::scaled(&T::mul(&v, &T::function(Function::Ln, &a.v)), &b.d);
+        Self { v, d: D::sum(&along, &turn) }
     }
     #[inline(always)]
     fn atan2(y: &Self, x: &Self) -> Self {
         // (x y' - y x') / (x^2 + y^2)
-        let top = T::sub(&T::mul(&x.v, &y.d), &T::mul(&y.v, &x.d));
+        let top = D::difference(&D::scaled(&x.v, &y.d), &D::scaled(&y.v, &x.d));
         let square = T::add(&T::sqr(&x.v), &T::sqr(&y.v));
-        Self { v: T::atan2(&y.v, &x.v), d: T::div(&top, &square) }
+        Self { v: T::atan2(&y.v, &x.v), d: D::divided(&top, &square) }
     }
     #[inline(always)]
     fn rem(a: &Self, b: &Self) -> Self {
         // Between its jumps a - b trunc(a / b), with a factor that stays.
         let v = T::rem(&a.v, &b.v);
         let whole = T::function(Function::Trunc, &T::div(&a.v, &b.v));
-        Self { v, d: T::sub(&a.d, &T::mul(&whole, &b.d)) }
+        Self { v, d: D::difference(&a.d, &D::scaled(&whole, &b.d)) }
     }
     #[inline(always)]
     fn function(f: Function, a: &Self) -> Self {
@@ -354,24 +519,27 @@ impl<T: Number> Number for Dual<T> {
                 let k = core::f64::consts::LOG10_E;
                 T::div(&T::constant(Interval { lo: k.next_down(), hi: k.next_up() }), &a.v)
             }
-            Function::Floor | Function::Ceil | Function::Trunc => return Self { v, d: number(0.0) },
+            Function::Floor | Function::Ceil | Function::Trunc => return Self { v, d: D::zero() },
         };
         Self::chain(v, &slope, a)
     }
     #[inline(always)]
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self {
-        Self { v: T::compare(c, &a.v, &b.v), d: number(0.0) }
+        Self { v: T::compare(c, &a.v, &b.v), d: D::zero() }
     }
     #[inline(always)]
     fn select(c: &Self, below: &Self, at: &Self, above: &Self) -> Self {
-        Self { v: T::select(&c.v, &below.v, &at.v, &above.v), d: T::select(&c.v, &below.d, &at.d, &above.d) }
+        Self {
+            v: T::select(&c.v, &below.v, &at.v, &above.v),
+            d: D::selected(&c.v, &below.d, &at.d, &above.d),
+        }
     }
     #[inline(always)]
     fn is_zero(&self) -> bool {
-        self.v.is_zero() && self.d.is_zero()
+        self.v.is_zero() && self.d.are_zero()
     }
     #[inline(always)]
     fn above(a: &Self) -> Option<Self> {
-        T::above(&a.v).map(|v| Self { v, d: T::constant(Interval::ENTIRE) })
+        T::above(&a.v).map(|v| Self { v, d: D::unknown() })
     }
 }

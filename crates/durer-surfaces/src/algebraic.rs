@@ -232,19 +232,20 @@ impl<const N: usize> Dense<N> {
         })
     }
 
-    fn gradient(&self, y: Vec3) -> Vec3 {
+    /// The gradient at `y` over `w`, times w to the power of the order less one.
+    fn gradient(&self, y: Vec3, w: f64) -> Vec3 {
         Isa::detect().run(
             #[inline(always)]
-            || self.gradient_here(y),
+            || self.gradient_here(y, w),
         )
     }
 
     #[inline(always)]
-    fn gradient_here(&self, y: Vec3) -> Vec3 {
+    fn gradient_here(&self, y: Vec3, w: f64) -> Vec3 {
         let o = y.to_array().map(Run::exact);
         let mut g = [0.0; 3];
         for (slope, d) in g.iter_mut().zip([Vec3::X, Vec3::Y, Vec3::Z]) {
-            let ray = RingRay { o, d: d.to_array().map(Run::<f64>::exact), w: Run::exact(1.0) };
+            let ray = RingRay { o, d: d.to_array().map(Run::<f64>::exact), w: Run::exact(w) };
             *slope = self.along(&ray)[1].value();
         }
         g.into()
@@ -318,7 +319,7 @@ impl<const N: usize> ZeroSet<N> for Dense<N> {
         // The second derivatives of a term of degree m are at most m (m-1) |c| M^(m-2) in sum, M the largest coordinate.
         let far = y.max_abs() + 1.0 / 64.0;
         let bend = (2..N).rev().fold(0.0, |sum, m| sum * far + (m * (m - 1)) as f64 * self.sizes[m]);
-        (self.gradient(y), bend * (1.0 + 1.0 / 1024.0) + FLOOR)
+        (self.gradient(y, 1.0), bend * (1.0 + 1.0 / 1024.0) + FLOOR)
     }
 
     fn turn(&self, y: Vec3, v: Vec3) -> Vec3 {
@@ -329,7 +330,7 @@ impl<const N: usize> ZeroSet<N> for Dense<N> {
             return Vec3::ZERO;
         }
         let h = v * (step / size);
-        (self.gradient(y + h) - self.gradient(y - h)) * (size / (2.0 * step))
+        (self.gradient(y + h, 1.0) - self.gradient(y - h, 1.0)) * (size / (2.0 * step))
     }
 
     /// Longitude and latitude as seen from the origin.
@@ -353,6 +354,15 @@ impl<const N: usize> ZeroSet<N> for Dense<N> {
 impl<const N: usize> Dense<N> {
     #[inline(always)]
     fn tip_here(&self, y: Vec3) -> Vec3 {
+        // So far out the gradient itself may be beyond the range of f64; of homogeneous coordinates within one it is not, and has the same direction.
+        let far = exponent(y.max_abs());
+        if far > 0 {
+            let g = self.gradient_here(y.map(|x| ldexp(x, -far)), ldexp(1.0, -far));
+            if g.is_finite() && g != Vec3::ZERO && !self.gradient_here(y, 1.0).length().is_finite() {
+                let g = g.map(|x| ldexp(x, -exponent(g.max_abs())));
+                return g * (1.0 / g.length());
+            }
+        }
         // Of the thirteen directions of a cube, the one along which the polynomial leaves zero most.
         let mut best = (Vec3::Z, -1.0);
         for code in 14..27 {
@@ -458,6 +468,24 @@ mod tests {
         }
         let mut tally = check_many(&surface, &oracle, features, u64::from(order), count);
         (tally.grazing, tally.median_width())
+    }
+
+    /// x³ + y z² - 3 at z = 2^k, where the gradient, (3 x², z², 2 y z), leaves the range of f64 or its square does.
+    #[test]
+    fn normals_far_out_are_those_of_the_gradient() {
+        let list = list(3, &[([3, 0, 0], 1.0), ([0, 1, 2], 1.0), ([0, 0, 0], -3.0)]);
+        let surface = AlgebraicSurface::new(3, &list).unwrap();
+        for k in [0, 100, 255, 256, 300, 500, 511, 512, 600, 1000] {
+            let z = ldexp(1.0, k);
+            let ray = durer_math::Ray::new(Point3::new(1.0, 8.0, z), Vec3::new(0.0, -1.0, 0.0));
+            let roots = crate::laws::all_roots(&surface, &ray);
+            assert_eq!(roots.len(), 1, "z = 2^{k}");
+            let normal = surface.resolve(&LocalRay::new(&ray), &roots[0], Need::POINT).ng.to_vec();
+            // y = 2 / z², so the normal is that of (3 / z², 1, 4 / z³).
+            let exact = Vec3::new(3.0 / z / z, 1.0, 4.0 / z / z / z);
+            let exact = exact * (1.0 / exact.length());
+            assert!((normal - exact).max_abs() <= 16.0 * f64::EPSILON, "z = 2^{k}: {normal:?}");
+        }
     }
 
     /// A node, double lines, an order that is really lower, a quartic with singular points, a quintic, an octic.

@@ -58,7 +58,7 @@ pub trait ZeroSet<const N: usize>: Send + Sync {
     /// Coordinates at `y` (close to the surface), where the unit normal is `n`.
     fn chart(&self, y: Vec3, n: Vec3) -> Chart;
 
-    /// A direction in which `f` is not flat, for points where the gradient vanishes.
+    /// A direction in which `f` is not flat, for points where the gradient vanishes or is beyond the range of f64.
     fn tip(&self, y: Vec3) -> Vec3;
 }
 
@@ -447,7 +447,8 @@ fn resolve_here<const N: usize, Z: ZeroSet<N>>(
     let eta = f.v.abs() + 2.0 * f.e + away;
     let square = sure * sure - 4.0 * bend * eta;
     let back = |x: f64| scale2(x, scale);
-    let (normal, off, tip) = if square > 0.0 && bend * (2.0 * eta) < sure * sure / 64.0 {
+    let sheet = length.is_finite() && square > 0.0 && bend * (2.0 * eta) < sure * sure / 64.0;
+    let (normal, off, tip) = if sheet {
         (g * (1.0 / length), 2.0 * eta / (sure + square.sqrt()) * (1.0 + 64.0 * U), false)
     } else {
         let n = if length > 0.0 && length.is_finite() { g * (1.0 / length) } else { shape.tip(y1) };

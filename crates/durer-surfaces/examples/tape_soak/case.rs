@@ -129,6 +129,7 @@ pub(crate) fn check(data: &[u8]) {
     });
     bounds_hold(&steps, &formula, &tape, &boxes);
     slopes_hold(&tape, &boxes);
+    gradients_hold(&tape, &boxes);
     // Cells are dear: a few formulas stand for all.
     if bytes.next().is_multiple_of(64) {
         roots_are_in_order(&formula, &mut bytes);
@@ -188,6 +189,46 @@ fn slopes_hold(tape: &Tape, boxes: &[I8; 3]) {
         let run = Interval { lo: q.x, hi: q.x } - Interval { lo: p.x, hi: p.x };
         let told = g.d.lane(lane) * run;
         assert!(told.intersection(change).is_some(), "the slope says {told:?}, it is {change:?}: {tape:?}");
+    }
+}
+
+/// All directions at once say what they say one by one, or more; rounded numbers are within the bounds of their points.
+fn gradients_hold(tape: &Tape, boxes: &[I8; 3]) {
+    let number = |x: f64| I8::constant(Interval { lo: x, hi: x });
+    let all = tape.gradients(boxes);
+    for (axis, d) in all.d.d.iter().enumerate() {
+        let seed = |i: usize| number(if i == axis { 1.0 } else { 0.0 });
+        let one = tape.slopes(&[0, 1, 2].map(|i| Dual { v: boxes[i], d: seed(i) }));
+        let flags = |v: &I8| (v.partial, v.empty, v.jump);
+        assert_eq!(flags(&all.v), flags(&one.v), "{tape:?}");
+        for lane in 0..8 {
+            assert_eq!(all.v.lane(lane), one.v.lane(lane), "{tape:?}");
+            if (one.v.partial | one.v.jump | one.d.partial) >> lane & 1 == 1 {
+                continue;
+            }
+            let (told, wider) = (d.lane(lane), one.d.lane(lane));
+            let held = wider.lo <= told.lo && told.hi <= wider.hi && d.partial >> lane & 1 == 0;
+            assert!(held, "along {axis} {told:?}, by itself {wider:?}: {tape:?}");
+        }
+    }
+    let p = [0, 1, 2].map(|axis| F8(core::array::from_fn(|lane| point(boxes, lane, [0.3, 0.6, 0.9])[axis])));
+    let at = p.map(|p| I8::new(p, p));
+    let (bounds, values) = (tape.bounds(&at), tape.values(&p));
+    let (steep, slants) = (tape.gradients(&at), tape.slants(&p));
+    for lane in 0..8 {
+        if bounds.partial >> lane & 1 == 1 {
+            continue;
+        }
+        let holds = |bounds: &I8, value: &F8| {
+            let (bounds, value) = (bounds.lane(lane), value.0[lane]);
+            // Overflow is not bounded; what is rounded may lose its way where bounds know nothing.
+            !value.is_finite() || bounds.contains(value)
+        };
+        assert!(holds(&bounds, &values), "{values:?}, {bounds:?}: {tape:?}");
+        for (bounds, value) in steep.d.d.iter().zip(&slants.d.d) {
+            let smooth = (steep.v.jump | steep.v.partial | bounds.partial) >> lane & 1 == 0;
+            assert!(!smooth || holds(bounds, value), "{value:?}, {bounds:?}: {tape:?}");
+        }
     }
 }
 

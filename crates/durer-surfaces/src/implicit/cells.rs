@@ -392,16 +392,14 @@ fn grown(cells: &[Aabb; 8], margin: f64) -> [I8; 3] {
 
 /// Bounds of the gradient on eight boxes.
 fn gradients(tape: &Tape, boxes: &[I8; 3]) -> [Gradient; 8] {
-    let along = [0, 1, 2].map(|axis| {
-        let d = |i: usize| F8::splat(if i == axis { 1.0 } else { 0.0 });
-        tape.slopes(&[0, 1, 2].map(|i| Dual { v: boxes[i], d: I8::new(d(i), d(i)) }))
-    });
-    let rough = along.iter().fold(0, |bits, g| bits | g.v.partial | g.v.jump | g.d.partial);
+    let Dual { v, d } = tape.gradients(boxes);
+    let d = d.d;
+    let rough = d.iter().fold(v.partial | v.jump, |bits, d| bits | d.partial);
     core::array::from_fn(|lane| {
         if rough >> lane & 1 == 1 {
             Gradient::UNKNOWN
         } else {
-            Gradient::new([0, 1, 2].map(|axis| along[axis].d.lane(lane)))
+            Gradient::new(d.each_ref().map(|d| d.lane(lane)))
         }
     })
 }

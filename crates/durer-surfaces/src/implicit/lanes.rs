@@ -15,7 +15,7 @@
 
 use super::Isosurface;
 use super::cells::{Cells, Told};
-use crate::outline::{Ends, Level, Line8, Part, Skin, Told8, Value8};
+use crate::outline::{Ends, Level, Line8, Part, Skin, Slant, Told8, Value8};
 use crate::tape::Tape;
 use durer_math::{Dual, F8, I8, Isa, M8, U, Vec3};
 
@@ -30,19 +30,24 @@ fn boxes(line: &Line8, (a, b): (&F8, &F8), e: F8) -> [I8; 3] {
 }
 
 impl Isosurface {
-    /// The tape that is right at a point of each of some lines.
-    fn tape_of(&self, line: &Line8, s: &F8, lanes: M8) -> &Tape {
+    /// The tape that is right at some of eight points, and near them.
+    #[inline(always)]
+    fn tape_at(&self, lanes: M8, point: impl Fn(usize) -> [f64; 3]) -> &Tape {
         let cells = self.divided();
         let mut number = None;
         for i in lanes.lanes() {
-            let own = cells.tape_at(at(line, s.0[i], i));
-            match number {
-                None => number = Some(own),
-                Some(number) if number == own => {}
-                Some(_) => return &self.tape,
+            let own = cells.tape_at(point(i));
+            if number.is_some_and(|number| number != own) {
+                return &self.tape;
             }
+            number = Some(own);
         }
         number.map_or(&self.tape, |number| cells.tape(number))
+    }
+
+    /// The same at a point of each of some lines.
+    fn tape_of(&self, line: &Line8, s: &F8, lanes: M8) -> &Tape {
+        self.tape_at(lanes, |i| at(line, s.0[i], i))
     }
 
     /// Whether all cells that points of some lines are in know the sign.
@@ -68,50 +73,52 @@ fn at(line: &Line8, s: f64, i: usize) -> [f64; 3] {
 struct Step {
     /// The formula keeps its sign until here.
     a: f64,
-    /// Here the leaf ends; there is none if it is not known.
+    /// Here the leaf ends.
     b: f64,
-    leaf: Option<u32>,
-    /// All of the rest has the sign.
-    done: bool,
+    /// There is none if it is not known.
+    leaf: Option<Leaf>,
+}
+
+/// The number of a leaf's tape, and bounds of the slope along the line.
+struct Leaf {
+    tape: u32,
+    low: f64,
+    high: f64,
 }
 
 /// A line that rounding takes out of so many cells as soon as it is in them runs along their faces: it does without lanes.
 const GRAZED: u32 = 8;
 
-/// Passes cells in which the formula has the sign that it has.
-fn forward(
-    cells: &Cells,
-    (o, d, over): ([f64; 3], [f64; 3], [f64; 3]),
-    a: f64,
-    last: f64,
-    positive: bool,
-) -> Step {
+/// Passes cells in which the formula has the sign that it has, or goes away from zero.
+fn forward(line: &Line8, over: &Vec3<F8>, cells: &Cells, told: &Told8, i: usize) -> Step {
+    let (o, d, over) = (line.o.lane(i).to_array(), line.d.lane(i).to_array(), over.lane(i).to_array());
+    let (last, positive, e) = (told.last.0[i], told.sign.0[i] > 0.0, line.e_d.0[i]);
     let ahead = cells.margin() * (1.0 / 16.0);
-    let (mut s, mut grazed) = (a, 0);
+    let (mut s, mut grazed) = (told.a.0[i], 0);
     loop {
         let p = core::array::from_fn(|i| (s + ahead) * d[i] + o[i]);
         let (told, end) = cells.ahead(p, o, over);
-        let end = end.max(s);
+        let next = if end > s { end } else { s + ahead };
         match told {
-            Told::Sign(above) if above == positive => {
-                if end >= last {
-                    return Step { a: last, b: last, leaf: None, done: true };
-                }
-                // A cell that is grazed at a corner, so that rounding says that it is left at once.
-                if end <= s {
-                    grazed += 1;
-                    if grazed > GRAZED {
-                        return Step { a: s, b: s, leaf: None, done: false };
-                    }
-                }
-                s = if end > s { end } else { s + ahead };
-            }
+            Told::Sign(above) if above == positive => {}
             Told::Leaf(leaf) => {
-                let end = if end > s { end } else { s + ahead };
-                return Step { a: s, b: end, leaf: Some(leaf), done: false };
+                let (tape, low, high) = cells.slope(leaf, d, e);
+                let away = if positive { low > 0.0 } else { high < 0.0 };
+                if !away {
+                    return Step { a: s, b: next, leaf: Some(Leaf { tape, low, high }) };
+                }
             }
-            _ => return Step { a: s, b: end, leaf: None, done: false },
+            _ => return Step { a: s, b: end.max(s), leaf: None },
         }
+        if next >= last {
+            return Step { a: last, b: last, leaf: None };
+        }
+        // A cell that is grazed at a corner, so that rounding says that it is left at once.
+        grazed += u32::from(end <= s);
+        if grazed > GRAZED {
+            return Step { a: s, b: s, leaf: None };
+        }
+        s = next;
     }
 }
 
@@ -148,25 +155,17 @@ impl Level for Isosurface {
             },
         );
         for i in told.lanes.lanes() {
-            let lane = |v: &Vec3<F8>| v.lane(i).to_array();
-            let (o, d) = (lane(&line.o), lane(&line.d));
-            let (from, last, positive) = (told.a.0[i], told.last.0[i], told.sign.0[i] > 0.0);
-            let step = forward(cells, (o, d, lane(&over)), from, last, positive);
-            let way = told.b.0[i] - from;
+            let step = forward(line, &over, cells, told, i);
+            let way = told.b.0[i] - told.a.0[i];
             told.a.0[i] = step.a;
-            told.b.0[i] = step.b.min(step.a + way).min(last);
+            told.b.0[i] = step.b.min(step.a + way).min(told.last.0[i]);
             told.seen.set_lane(i, true);
-            if step.done || step.a >= last {
-                (told.a.0[i], told.b.0[i]) = (last, last);
-                if positive {
-                    told.out.set_lane(i, true);
-                } else {
-                    told.within.set_lane(i, true);
-                }
+            if step.a >= told.last.0[i] {
+                let all = if told.sign.0[i] > 0.0 { &mut told.out } else { &mut told.within };
+                all.set_lane(i, true);
                 continue;
             }
-            let Some(leaf) = step.leaf else { continue };
-            let (number, low, high) = cells.slope(leaf, d, line.e_d.0[i]);
+            let Some(Leaf { tape: number, low, high }) = step.leaf else { continue };
             if low > 0.0 {
                 told.rises.set_lane(i, true);
             } else if high < 0.0 {
@@ -253,6 +252,29 @@ impl Level for Isosurface {
         );
     }
 
+    fn about(&self, line: &Line8, s: &F8, lanes: M8, g: &mut F8) {
+        let tape = self.tape_of(line, s, lanes);
+        let mut p = [F8::ZERO; 3];
+        line.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let Vec3 { x, y, z } = line.point(*s);
+                p = [x, y, z];
+            },
+        );
+        *g = tape.values(&p);
+    }
+
+    fn slant(&self, isa: Isa, y: &Vec3<F8>, slant: &mut Slant) {
+        let tape = self.tape_at(M8::ALL, |i| y.lane(i).to_array());
+        let Dual { v, d } = tape.slants(&[y.x, y.y, y.z]);
+        let [x, y, z] = d.d;
+        isa.run_in_lanes(
+            #[inline(always)]
+            || *slant = Slant { f: v, half: Vec3::new(x * 0.5, y * 0.5, z * 0.5) },
+        );
+    }
+
     fn skin(&self, isa: Isa, (y, e): (&Vec3<F8>, &F8), skin: &mut Skin) {
         let reach = self.reach();
         let cells = self.divided();
@@ -272,27 +294,18 @@ impl Level for Isosurface {
                 skin.room = near.select(room, F8::ZERO);
             },
         );
-        let mut tape = None;
-        for i in near.lanes() {
-            let own = cells.tape_at(y.lane(i).to_array());
-            tape = Some(if tape.is_none_or(|tape| tape == own) { own } else { 0 });
-        }
-        let tape = tape.map_or(&self.tape, |tape| cells.tape(tape));
+        let tape = self.tape_at(near, |i| y.lane(i).to_array());
         let v = tape.bounds(&x);
-        let zero = I8::new(F8::ZERO, F8::ZERO);
-        let one = I8::new(F8::ONE, F8::ONE);
-        let g = [0, 1, 2].map(|axis| {
-            tape.slopes(&[0, 1, 2].map(|i| Dual { v: wide[i], d: if i == axis { one } else { zero } }))
-        });
+        let around = tape.gradients(&wide);
         isa.run_in_lanes(
             #[inline(always)]
             || {
-                let mut rough = v.partial | v.empty;
+                let mut rough = v.partial | v.empty | around.v.partial | around.v.jump;
                 let (mut half, mut e_half) = ([F8::ZERO; 3], F8::ZERO);
-                for (half, g) in half.iter_mut().zip(&g) {
-                    rough |= g.v.partial | g.v.jump | g.d.partial;
-                    *half = g.d.lo * 0.25 + g.d.hi * 0.25;
-                    e_half = e_half.max((g.d.hi - g.d.lo) * 0.25 + half.abs() * (4.0 * U));
+                for (half, d) in half.iter_mut().zip(&around.d.d) {
+                    rough |= d.partial;
+                    *half = d.lo * 0.25 + d.hi * 0.25;
+                    e_half = e_half.max((d.hi - d.lo) * 0.25 + half.abs() * (4.0 * U));
                 }
                 let [a, b, c] = half;
                 skin.half = Vec3::new(a, b, c);

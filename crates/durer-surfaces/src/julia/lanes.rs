@@ -245,6 +245,22 @@ impl Level for Solid<1, 4> {
         );
     }
 
+    fn about(&self, line: &Line8, s: &F8, _lanes: M8, g: &mut F8) {
+        line.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let mut q = self.lift.at8(line.point(*s));
+                for _ in 0..self.rule.iterations {
+                    self.forward(&mut q);
+                }
+                let [a, b, c, d] = q;
+                let square = a.mul_add(a, b.mul_add(b, c.mul_add(c, d * d)));
+                let level = self.rule.radius * self.rule.radius;
+                *g = (square - level) / (square + level);
+            },
+        );
+    }
+
     fn skin(&self, isa: Isa, (y, e): (&Vec3<F8>, &F8), skin: &mut Skin) {
         isa.run_in_lanes(
             #[inline(always)]

@@ -5,7 +5,7 @@ use super::algebraic::{self, Terms};
 use super::face::Start;
 use super::fields::{self, Fields};
 use super::hull::Hull;
-use super::lathe::{self, Lathe, Skin};
+use super::lathe::{self, Lathe, Skin, Slant};
 use super::level::{self, Ends, Level};
 use super::meet::Question;
 use super::offer::{First, Offer};
@@ -189,6 +189,18 @@ impl Detail {
             Kind8::Octic(f) => f.holds(&self.own, rays, start, at),
             Kind8::Fields(fields) => fields.holds(&self.own, rays, start, at),
             Kind8::Level(_) => (M8::NONE, M8::NONE),
+        }
+    }
+
+    /// What is next to a face, rounded.
+    #[inline(always)]
+    pub(super) fn slant(&self, isa: Isa, (face, tag): (usize, F8), h: Vec3<F8>, h1: F8) -> Slant {
+        match &self.shape {
+            Kind8::Level(level) => level::slant(&**level, isa, &self.own, h),
+            _ => {
+                let Skin { f, half, .. } = self.skin(isa, (face, tag), h, h1);
+                Slant { f, half }
+            }
         }
     }
 

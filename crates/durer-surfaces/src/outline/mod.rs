@@ -51,7 +51,7 @@ use self::detail::Detail;
 pub(crate) use self::detail::Kind8;
 use self::face::Face;
 pub(crate) use self::fields::{Field, Fields};
-pub(crate) use self::lathe::{Lathe, LatheWall, Skin};
+pub(crate) use self::lathe::{Lathe, LatheWall, Skin, Slant};
 pub(crate) use self::level::{Ends, Level, Line8, Part, Told8, Value8};
 use self::loops::Loops;
 pub(crate) use self::own::largest;

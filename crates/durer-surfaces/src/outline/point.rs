@@ -1,7 +1,7 @@
 //! Where eight rays meet a face, and how far rays start from there.
 
 use super::face::{FaceKind, taxicab};
-use super::lathe::Skin;
+use super::lathe::{Skin, Slant};
 use super::own::dot;
 use super::rays::{NEVER, RayLanes, SLACK};
 use super::{Outline, face};
@@ -66,6 +66,8 @@ impl Outline {
                 (t, lanes),
                 to,
                 #[inline(always)]
+                |y| detail.slant(rays.isa, (i, tag), y, taxicab(y) * SLACK),
+                #[inline(always)]
                 |y| detail.skin(rays.isa, (i, tag), y, taxicab(y) * SLACK),
                 #[inline(always)]
                 |y, ng| match detail.shading(rays.isa, y) {
@@ -80,6 +82,11 @@ impl Outline {
             rays,
             (t, lanes),
             to,
+            #[inline(always)]
+            |y| {
+                let (f, half) = face.value_and_half_gradient(y);
+                Slant { f, half }
+            },
             #[inline(always)]
             |y| {
                 let (f, half) = face.value_and_half_gradient(y);
@@ -108,6 +115,7 @@ impl Outline {
         rays: &RayLanes<'_>,
         (t, lanes): (F8, M8),
         to: Points8<'_>,
+        slant: impl Fn(Vec3<F8>) -> Slant,
         skin: impl Fn(Vec3<F8>) -> Skin,
         shade: impl Fn(Vec3<F8>, Vec3<F8>) -> Vec3<F8>,
     ) -> M8 {
@@ -117,7 +125,7 @@ impl Outline {
         let (o, d) = (rays.origin, rays.direction);
         let h = Vec3::new(o.x - c.x, o.y - c.y, o.z - c.z);
         let y = Vec3::new(t.mul_add(d.x, h.x), t.mul_add(d.y, h.y), t.mul_add(d.z, h.z));
-        let Skin { f, half: g, .. } = skin(y);
+        let Slant { f, half: g } = slant(y);
         let step = f * 0.5 / dot(g, g);
         let y = Vec3::new(y.x - g.x * step, y.y - g.y * step, y.z - g.z * step);
         // The world's numbers, and what the centre sees of them: again with an error of U |y|, which the bounds of a face include.

@@ -2,9 +2,10 @@
 
 use super::fold;
 use super::formula::{Formula, NodeId, Op, live};
-use durer_math::{Dual, I8, Interval, Isa, Number, Point3};
+use durer_math::{Dual, F8, Gradient, I8, Interval, Isa, Number, Point3};
 use std::cell::Cell;
 use std::sync::Arc;
+use std::thread::LocalKey;
 
 /// The steps of a formula of `x`, `y` and `z`; shared by all who use them.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,16 +13,22 @@ pub struct Tape {
     ops: Arc<[Op]>,
 }
 
+/// Memory of a thread for a run of a tape.
+type Registers<T> = LocalKey<Cell<Vec<T>>>;
+
 thread_local! {
     static DUALS: Cell<Vec<Dual<I8>>> = const { Cell::new(Vec::new()) };
+    static GRADIENTS: Cell<Vec<Dual<I8, Gradient<I8>>>> = const { Cell::new(Vec::new()) };
+    static SLANTS: Cell<Vec<Dual<F8, Gradient<F8>>>> = const { Cell::new(Vec::new()) };
     static BOXES: Cell<Vec<I8>> = const { Cell::new(Vec::new()) };
+    static LANES: Cell<Vec<F8>> = const { Cell::new(Vec::new()) };
     static NUMBERS: Cell<Vec<f64>> = const { Cell::new(Vec::new()) };
 }
 
 /// Runs `f` with memory of this thread that is kept for the next time.
 #[inline(always)]
 fn with_memory<T: Copy, R>(
-    memory: &'static std::thread::LocalKey<Cell<Vec<T>>>,
+    memory: &'static Registers<T>,
     len: usize,
     zero: T,
     f: impl FnOnce(&mut [T]) -> R,
@@ -127,6 +134,16 @@ impl Tape {
         })
     }
 
+    /// The rounded values at eight points; NaN where the formula is undefined.
+    pub fn values(&self, p: &[F8; 3]) -> F8 {
+        with_memory(&LANES, self.ops.len(), F8::ZERO, |registers| {
+            Isa::detect().run_in_lanes(
+                #[inline(always)]
+                || run(&self.ops, p, registers),
+            )
+        })
+    }
+
     /// Bounds of the values on eight boxes.
     pub fn bounds(&self, x: &[I8; 3]) -> I8 {
         with_memory(&BOXES, self.ops.len(), zero(), |registers| self.bounds_with(x, registers))
@@ -145,6 +162,34 @@ impl Tape {
             Isa::detect().run_in_lanes(
                 #[inline(always)]
                 || run(&self.ops, x, registers),
+            )
+        })
+    }
+
+    /// Bounds of the values on eight boxes and of the gradients there.
+    pub fn gradients(&self, x: &[I8; 3]) -> Dual<I8, Gradient<I8>> {
+        self.gradients_with(x, &GRADIENTS)
+    }
+
+    /// The rounded values and gradients at eight points; NaN where they are undefined.
+    pub fn slants(&self, p: &[F8; 3]) -> Dual<F8, Gradient<F8>> {
+        self.gradients_with(p, &SLANTS)
+    }
+
+    #[inline(always)]
+    fn gradients_with<T: Number>(
+        &self,
+        x: &[T; 3],
+        memory: &'static Registers<Dual<T, Gradient<T>>>,
+    ) -> Dual<T, Gradient<T>> {
+        with_memory(memory, self.ops.len(), zero(), |registers| {
+            Isa::detect().run_in_lanes(
+                #[inline(always)]
+                || {
+                    let [x, y, z] = *x;
+                    let inputs = [(x, 0), (y, 1), (z, 2)];
+                    run(&self.ops, &inputs.map(|(v, i)| Dual { v, d: Gradient::of_axis(i) }), registers)
+                },
             )
         })
     }
@@ -169,39 +214,29 @@ impl Tape {
 
     /// The tape with what is decided on one lane's box taken as decided.
     fn shorter(&self, registers: &[I8], lane: usize) -> Option<Self> {
-        let mut changed = false;
-        let mut names: Vec<NodeId> = Vec::with_capacity(self.ops.len());
-        let mut ops: Vec<Op> = Vec::with_capacity(self.ops.len());
-        for op in self.ops.iter() {
+        // Mostly nothing is.
+        let first =
+            self.ops.iter().position(|op| is_decidable(op) && decided(op, registers, lane).is_some())?;
+        let (before, rest) = self.ops.split_at(first);
+        let mut names: Vec<NodeId> = (0..first as u32).map(NodeId).collect();
+        let mut ops = before.to_vec();
+        for op in rest {
             let kept = match decided(op, registers, lane) {
                 Some(Decided::Same(id)) => {
-                    changed = true;
                     names.push(names[id.0 as usize]);
                     continue;
                 }
-                Some(Decided::Op(op)) => {
-                    changed = true;
-                    op
-                }
+                Some(Decided::Op(op)) => op,
                 None => *op,
             };
-            let renamed = kept.renamed(|id| names[id.0 as usize]);
-            if !changed {
-                names.push(NodeId(ops.len() as u32));
-                ops.push(renamed);
-                continue;
-            }
             // What was decided may make constants of what follows: a term of a sum that is zero here is gone.
-            match fold::simpler(renamed, |id| ops[id.0 as usize]) {
+            match fold::simpler(kept.renamed(|id| names[id.0 as usize]), |id| ops[id.0 as usize]) {
                 fold::Simpler::Same(id) => names.push(id),
                 fold::Simpler::Op(op) => {
                     names.push(NodeId(ops.len() as u32));
                     ops.push(op);
                 }
             }
-        }
-        if !changed {
-            return None;
         }
         let (ops, _) = live(&ops, *names.last()?);
         Some(Self { ops: ops.into() })
@@ -212,6 +247,16 @@ impl Tape {
 enum Decided {
     Same(NodeId),
     Op(Op),
+}
+
+/// Whether there is anything about a step that a box may decide.
+fn is_decidable(op: &Op) -> bool {
+    use durer_math::Function::{Ceil, Floor, Trunc};
+    match op {
+        Op::Min(..) | Op::Max(..) | Op::Abs(_) | Op::Select(_) | Op::Compare(..) => true,
+        Op::Function(f, _) => matches!(f, Floor | Ceil | Trunc),
+        _ => false,
+    }
 }
 
 fn decided(op: &Op, registers: &[I8], lane: usize) -> Option<Decided> {

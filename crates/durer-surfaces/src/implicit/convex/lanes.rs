@@ -11,7 +11,7 @@
 
 use super::Gauge;
 use super::gauge::{Factors, REST, Sample, VALUE};
-use crate::outline::{Level, Line8, Part, Skin, Told8, Value8};
+use crate::outline::{Level, Line8, Part, Skin, Slant, Told8, Value8};
 use durer_math::scale::pow2;
 use durer_math::{F8, Isa, M8, U, Vec3};
 
@@ -139,6 +139,27 @@ impl Level for Gauge {
                 value.g = node.g - 1.0;
                 value.above = value.g.gt(noise);
                 value.below = value.g.lt(-noise);
+            },
+        );
+    }
+
+    fn about(&self, line: &Line8, s: &F8, _lanes: M8, g: &mut F8) {
+        let mut sample = Sample::new();
+        let node = self.node(line, s, &mut sample);
+        line.isa.run_in_lanes(
+            #[inline(always)]
+            || *g = node.g - 1.0,
+        );
+    }
+
+    fn slant(&self, isa: Isa, y: &Vec3<F8>, slant: &mut Slant) {
+        let mut sample = Sample::new();
+        self.sample(isa, y, &mut sample);
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let g = &sample.gradient;
+                *slant = Slant { f: sample.value - 1.0, half: Vec3::new(g.x * 0.5, g.y * 0.5, g.z * 0.5) };
             },
         );
     }

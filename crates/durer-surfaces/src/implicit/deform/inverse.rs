@@ -10,7 +10,7 @@
 use super::DeformError;
 use crate::implicit::level_set::{LevelSet, boxes, leaves};
 use crate::tape::{Formula, Tape};
-use durer_math::{Aabb, Dual, I8, Interval, Point3};
+use durer_math::{Aabb, Dual, Interval, Point3};
 
 /// Into so many pieces along each axis the box is divided for the bounds of the slopes.
 const PIECES: usize = 16;
@@ -50,13 +50,12 @@ fn slopes(functions: &[Formula; 3], within: Aabb) -> Result<Bounds, DeformError>
             for k in (0..PIECES).step_by(8) {
                 let pieces: [Aabb; 8] = core::array::from_fn(|n| piece(&within, [i, j, k + n]));
                 let x = boxes(&pieces);
-                for (row, tape) in tapes.iter().enumerate() {
-                    for (axis, entry) in bounds[row].iter_mut().enumerate() {
-                        let seed = |i: usize| I8::splat(Interval::from(if i == axis { 1.0 } else { 0.0 }));
-                        let g = tape.slopes(&[0, 1, 2].map(|i| Dual { v: x[i], d: seed(i) }));
-                        let rough = g.v.partial | g.v.jump | g.d.partial;
+                for (row, tape) in bounds.iter_mut().zip(&tapes) {
+                    let Dual { v, d } = tape.gradients(&x);
+                    for (entry, d) in row.iter_mut().zip(&d.d) {
+                        let rough = v.partial | v.jump | d.partial;
                         for (lane, piece) in pieces.iter().enumerate() {
-                            let slope = g.d.lane(lane);
+                            let slope = d.lane(lane);
                             if rough >> lane & 1 == 1 || !(slope.lo.is_finite() && slope.hi.is_finite()) {
                                 return Err(DeformError::Rough(piece.centre()));
                             }

@@ -85,6 +85,12 @@ impl LatheWall {
     }
 }
 
+/// Next to a wall or an end: `f` and half its gradient, rounded.
+pub(crate) struct Slant {
+    pub(crate) f: F8,
+    pub(crate) half: Vec3<F8>,
+}
+
 /// A point of a wall or an end: `f`, half its gradient, and bounds on what they lost.
 pub(crate) struct Skin {
     pub(crate) f: F8,

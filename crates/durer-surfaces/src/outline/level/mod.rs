@@ -6,7 +6,7 @@
 //!
 //! What a [`Level`] says of a stretch is certain, of the exact ray: it knows how far lines are off. A ray whose sign is known goes on over stretches on which `g` keeps it: because it has
 //! one sign there, or goes away from zero, or goes towards zero and has kept its sign at the end. Where it has changed by the end of a stretch on which `g` only goes one
-//! way there is exactly one crossing, a simple one, and it is the first. It is closed in by values alone, and proven by two certain signs around it (`rays.rs`).
+//! way there is exactly one crossing, a simple one, and it is the first. It is closed in by rounded values, and proven by two certain signs around it (`rays.rs`).
 //!
 //! A stretch of which nothing is certain is tried again shorter. What is left after so many stretches, or where rounding leaves a sign open, is a doubt.
 
@@ -15,7 +15,7 @@ mod rays;
 
 pub(super) use self::rays::{Memory, meet};
 
-use super::lathe::Skin;
+use super::lathe::{Skin, Slant};
 use super::own::{Own, largest};
 use super::rays::SLACK;
 use durer_math::{F8, Isa, M8, U, Vec3};
@@ -102,6 +102,14 @@ pub(crate) trait Level: core::fmt::Debug + Send + Sync {
     fn tell(&self, line: &Line8, told: &mut Told8);
     /// The values at `s`; only those of some lanes matter.
     fn values(&self, line: &Line8, s: &F8, lanes: M8, value: &mut Value8);
+    /// `g` at `s`, rounded, NaN where that is not known: for closing in, which needs no bounds. Only some lanes matter.
+    fn about(&self, line: &Line8, s: &F8, lanes: M8, g: &mut F8);
+    /// `g` and half its gradient at points, rounded, as [`Level::about`] is.
+    fn slant(&self, isa: Isa, y: &Vec3<F8>, slant: &mut Slant) {
+        let mut skin = Skin::NONE;
+        self.skin(isa, (y, &F8::ZERO), &mut skin);
+        *slant = Slant { f: skin.f, half: skin.half };
+    }
     /// `g` and its gradient at points known within `e` along any axis, and a bound on its second derivatives as far around as rays start.
     fn skin(&self, isa: Isa, at: (&Vec3<F8>, &F8), skin: &mut Skin);
     /// The covectors that points are shaded by, if those are others.
@@ -119,6 +127,14 @@ impl Skin {
         bend: F8::ZERO,
         room: F8::ZERO,
     };
+}
+
+/// The value and half the gradient at points `h`, rounded.
+#[inline(always)]
+pub(super) fn slant(level: &dyn Level, isa: Isa, own: &Own, h: Vec3<F8>) -> Slant {
+    let mut slant = Slant { f: F8::ZERO, half: h };
+    level.slant(isa, &own.point(h), &mut slant);
+    Slant { half: own.covector(slant.half), ..slant }
 }
 
 /// What is at points `h` of the surface, with `|h|₁`.

@@ -340,7 +340,7 @@ fn go_on(asked: &Question<'_>, reach: f64, nearest: &mut Nearest, memory: &mut M
 fn close_in(level: &dyn Level, asked: &Question<'_>, nearest: &mut Nearest, memory: &mut Memory) {
     let rays = asked.rays;
     let isa = rays.isa;
-    level.values(&memory.line, &memory.a, memory.found, &mut memory.value);
+    level.about(&memory.line, &memory.a, memory.found, &mut memory.value.g);
     let (mut x, mut close, mut done, mut stayed) = (F8::ZERO, F8::ZERO, M8::NONE, F8::ZERO);
     isa.run_in_lanes(
         #[inline(always)]
@@ -382,15 +382,15 @@ fn converge(
         if !memory.asked.any() {
             return;
         }
-        level.values(&memory.line, x, memory.asked, &mut memory.value);
+        level.about(&memory.line, x, memory.asked, &mut memory.value.g);
         isa.run_in_lanes(
             #[inline(always)]
             || {
                 let Memory { a, b, g_a, g_b, sign, value, .. } = &mut *memory;
                 let g = value.g * *sign;
-                let before = g.gt(F8::ZERO);
-                let certain = value.above | value.below;
-                let moving = !*done & certain;
+                let (before, beyond) = (g.gt(F8::ZERO), g.lt(F8::ZERO));
+                let known = before | beyond;
+                let moving = !*done & known;
                 let (first, second) = (moving & before, moving & !before);
                 // What stays once more weighs less (N. Anderson, A. Bjorck, 1973).
                 let share = F8::ONE - g / before.select(*g_a, *g_b);
@@ -402,7 +402,7 @@ fn converge(
                 (*b, *g_b) = (second.select(*x, *b), second.select(g, *g_b));
                 let to = next(memory, i);
                 let moved = (to - *x).abs();
-                *done |= moved.le(*close * near) | !certain;
+                *done |= moved.le(*close * near) | !known;
                 *x = moving.select(to, *x);
                 memory.asked = !*done;
             },
