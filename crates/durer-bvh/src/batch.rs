@@ -7,8 +7,9 @@
 
 use crate::kernels::{Kernel, Stack};
 use crate::node::{ChildRef, Leaf};
-use crate::quest::{Answers, Any, Closest, Quest, Reach};
-use crate::ray::{Line, Way};
+use crate::quest::{Answers, Any, Closest, Late, Quest, Reach};
+use crate::ray::{Glances, Line, PACKET, Way};
+use crate::together::together;
 use crate::traverse::Errand;
 use crate::tree::Bvh;
 use crate::triangles::Filter;
@@ -19,7 +20,7 @@ use durer_math::Isa;
 const FLIGHTS: (usize, usize) = (8, 16);
 
 /// A tree of more bytes than this is large.
-const LARGE: usize = 1 << 24;
+pub(crate) const LARGE: usize = 1 << 24;
 
 /// Rays by their numbers.
 ///
@@ -28,11 +29,25 @@ pub trait Rays<R> {
     /// The line of a ray, asked for once, before its first test; `None` if it is to meet nothing.
     fn line(&mut self, ray: usize) -> Option<Line>;
 
+    /// Eight rays from this one on as f32 sees them, if they are exactly known and may go through a tree together: such rays are not asked for their lines.
+    fn glances(&mut self, _first: usize) -> Option<Glances> {
+        None
+    }
+
     /// Whether a triangle that a ray certainly meets within its range counts.
     fn admits(&self, ray: usize, triangle: Leaf) -> bool;
 
     /// Tests what a ray may meet.
     fn test(&mut self, ray: usize, leaf: Leaf) -> R;
+
+    /// The last tests of eight rays from this one on that went together: what they say does not matter any more.
+    fn last_tests(&mut self, first: usize, leaves: &[Option<Leaf>; PACKET]) {
+        for (i, leaf) in leaves.iter().enumerate() {
+            if let Some(leaf) = leaf {
+                self.test(first + i, *leaf);
+            }
+        }
+    }
 
     /// The ray has found what it looked for, or a triangle that it certainly meets: only of any hit.
     fn found(&mut self, ray: usize);
@@ -53,7 +68,7 @@ impl Bvh {
 }
 
 /// What all rays look for.
-trait Aim<const ORDERED: bool> {
+pub(crate) trait Aim<const ORDERED: bool> {
     /// What a test says.
     type Said;
 
@@ -82,9 +97,9 @@ impl Aim<false> for ForAny {
 }
 
 /// One of many rays.
-struct One<'a, B> {
-    rays: &'a mut B,
-    ray: usize,
+pub(crate) struct One<'a, B> {
+    pub(crate) rays: &'a mut B,
+    pub(crate) ray: usize,
 }
 
 impl<R, B: Rays<R>> Answers<R> for One<'_, B> {
@@ -123,11 +138,11 @@ impl<B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool> Errand for Many<'_,
     #[inline(always)]
     fn run<K: Kernel>(self, kernel: K, tree: &Bvh) {
         let rays = self.rays;
-        let mut next = 0;
+        let mut queue = Queue::of(self.count);
         let most = if tree.held() > LARGE { FLIGHTS.1 } else { FLIGHTS.0 };
         let mut flights: Vec<Flight<K>> = Vec::with_capacity(most.min(self.count));
         while flights.len() < most
-            && let Some((number, line, (lanes, way))) = upcoming(kernel, tree, rays, &mut next, self.count)
+            && let Some((number, line, (lanes, way))) = queue.upcoming::<K, B, M, ORDERED>(kernel, tree, rays)
         {
             flights.push(Flight {
                 number,
@@ -150,7 +165,7 @@ impl<B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool> Errand for Many<'_,
                 at += 1;
                 continue;
             }
-            match upcoming(kernel, tree, rays, &mut next, self.count) {
+            match queue.upcoming::<K, B, M, ORDERED>(kernel, tree, rays) {
                 Some((number, line, (lanes, way))) => {
                     (flight.number, flight.line, flight.way) = (number, line, way);
                     flight.lanes = lanes;
@@ -166,26 +181,67 @@ impl<B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool> Errand for Many<'_,
     }
 }
 
-/// The next ray that does not certainly miss everything.
-#[inline(always)]
-fn upcoming<R, K: Kernel, B: Rays<R>>(
-    kernel: K,
-    tree: &Bvh,
-    rays: &mut B,
-    next: &mut usize,
+/// The rays that are not yet under way.
+struct Queue {
+    next: usize,
     count: usize,
-) -> Option<(usize, Line, (K::Lanes, Way))> {
-    while *next < count {
-        let number = *next;
-        *next += 1;
-        if let Some(line) = rays.line(number)
-            && !tree.is_empty()
-            && let Some(ready) = kernel.ready(tree, &line)
-        {
-            return Some((number, line, ready));
-        }
+    /// Up to here rays go alone.
+    alone_until: usize,
+    /// For how many rays more that will be so if the next eight cannot go together either.
+    patience: usize,
+}
+
+/// Rays that go alone, at least and at most, before eight are asked again whether they could go together.
+const PATIENCE: (usize, usize) = (PACKET, 32 * PACKET);
+
+impl Queue {
+    fn of(count: usize) -> Self {
+        Self { next: 0, count, alone_until: 0, patience: PATIENCE.0 }
     }
-    None
+
+    /// The next ray that goes alone and does not certainly miss everything; before that, all that go together.
+    #[inline(always)]
+    fn upcoming<K: Kernel, B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool>(
+        &mut self,
+        kernel: K,
+        tree: &Bvh,
+        rays: &mut B,
+    ) -> Option<(usize, Line, (K::Lanes, Way))> {
+        while self.next < self.count {
+            if self.next >= self.alone_until && self.next + PACKET <= self.count && !tree.is_empty() {
+                let first = self.next;
+                let went = kernel.apart(
+                    #[inline(always)]
+                    || {
+                        let packet = rays.glances(first).and_then(
+                            #[inline(always)]
+                            |glances| kernel.gather(tree, &glances),
+                        );
+                        if let Some(packet) = &packet {
+                            together::<K, B, M, ORDERED>(kernel, tree, rays, first, packet);
+                        }
+                        packet.is_some()
+                    },
+                );
+                if went {
+                    self.next += PACKET;
+                    self.patience = PATIENCE.0;
+                    continue;
+                }
+                self.alone_until = first + self.patience;
+                self.patience = (2 * self.patience).min(PATIENCE.1);
+            }
+            let number = self.next;
+            self.next += 1;
+            if let Some(line) = rays.line(number)
+                && !tree.is_empty()
+                && let Some(ready) = kernel.ready(tree, &line)
+            {
+                return Some((number, line, ready));
+            }
+        }
+        None
+    }
 }
 
 impl<K: Kernel> Flight<K> {
@@ -200,15 +256,8 @@ impl<K: Kernel> Flight<K> {
         self.child = if self.child.is_leaf() {
             let before = self.reach.t_far;
             let mut quest = M::quest(One { rays, ray: self.number });
-            let found = quest.leaf(
-                kernel,
-                tree,
-                &self.line,
-                &self.way,
-                self.child,
-                &mut self.filter,
-                &mut self.reach,
-            );
+            let mut sieve = Late { sight: &self.line, filter: &mut self.filter };
+            let found = quest.leaf(kernel, tree, &self.way, self.child, &mut sieve, &mut self.reach);
             drop(quest);
             if found {
                 rays.found(self.number);

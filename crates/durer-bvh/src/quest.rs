@@ -11,7 +11,7 @@ use crate::triangles::{Block, Filter, LANES, Verdict};
 pub(crate) struct Reach {
     /// Nothing beyond matters; a triangle held is not beyond it.
     pub(crate) t_far: f32,
-    held: Held,
+    pub(crate) held: Held,
 }
 
 impl Reach {
@@ -23,14 +23,20 @@ impl Reach {
 
 /// A triangle that the ray certainly meets, before any other that has been shown.
 #[derive(Clone, Copy)]
-struct Held {
+pub(crate) struct Held {
     leaf: Leaf,
     lo: f32,
 }
 
 impl Held {
-    const NOTHING: Self =
+    pub(crate) const NOTHING: Self =
         Self { leaf: Leaf { kind: 0, first: 0, count: 0, place: Leaf::NO_BLOCK }, lo: f32::INFINITY };
+
+    /// The triangle, if there is one.
+    #[inline(always)]
+    pub(crate) fn leaf(&self) -> Option<Leaf> {
+        (self.lo < f32::INFINITY).then_some(self.leaf)
+    }
 }
 
 /// What the caller knows of leaves.
@@ -63,18 +69,24 @@ impl<R, A: Fn(Leaf) -> bool, F: FnMut(Leaf) -> R> Answers<R> for Pair<A, F> {
 /// The aim of a search; `ORDERED` says whether near leaves should come first.
 pub(crate) trait Quest<const ORDERED: bool> {
     /// Looks at a leaf; says whether the search is over.
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "what a ray is, in the parts that a search changes and does not change"
-    )]
     fn leaf<K: Kernel>(
         &mut self,
         kernel: K,
         tree: &Bvh,
-        sight: &impl Sight,
         way: &Way,
         child: ChildRef,
-        filter: &mut Option<Filter>,
+        sieve: &mut impl Sieve,
+        reach: &mut Reach,
+    ) -> bool;
+
+    /// What a block's triangles do that may be met; says whether the search is over.
+    fn judged<K: Kernel>(
+        &mut self,
+        kernel: K,
+        way: &Way,
+        of: (u32, u32),
+        block: &Block,
+        verdict: &Verdict,
         reach: &mut Reach,
     ) -> bool;
 
@@ -91,10 +103,9 @@ impl<T: Answers<f64>> Quest<true> for Closest<T> {
         &mut self,
         kernel: K,
         tree: &Bvh,
-        sight: &impl Sight,
         way: &Way,
         child: ChildRef,
-        filter: &mut Option<Filter>,
+        sieve: &mut impl Sieve,
         reach: &mut Reach,
     ) -> bool {
         let Some((kind, number)) = tree.block(child) else {
@@ -102,22 +113,33 @@ impl<T: Answers<f64>> Quest<true> for Closest<T> {
             return false;
         };
         let block = &tree.blocks[number as usize];
-        let filter = filter_of(kernel, tree, sight, way, filter);
+        let filter = sieve.filter(kernel, tree, way);
         let verdict = kernel.judge(block, filter, reach.t_far);
-        if verdict.alive != 0 {
-            let before = *reach;
-            *reach = kernel.apart(
-                #[inline(always)]
-                || self.sort_out(way, (kind, number), block, &verdict, before),
-            );
-        }
+        verdict.alive != 0 && self.judged(kernel, way, (kind, number), block, &verdict, reach)
+    }
+
+    #[inline(always)]
+    fn judged<K: Kernel>(
+        &mut self,
+        kernel: K,
+        way: &Way,
+        of: (u32, u32),
+        block: &Block,
+        verdict: &Verdict,
+        reach: &mut Reach,
+    ) -> bool {
+        let before = *reach;
+        *reach = kernel.apart(
+            #[inline(always)]
+            || self.sort_out(way, of, block, verdict, before),
+        );
         false
     }
 
     #[inline(always)]
     fn end(&mut self, reach: &Reach) -> bool {
-        if reach.held.lo < f32::INFINITY {
-            self.0.test(reach.held.leaf);
+        if let Some(leaf) = reach.held.leaf() {
+            self.0.test(leaf);
         }
         false
     }
@@ -177,21 +199,32 @@ impl<T: Answers<bool>> Quest<false> for Any<T> {
         &mut self,
         kernel: K,
         tree: &Bvh,
-        sight: &impl Sight,
         way: &Way,
         child: ChildRef,
-        filter: &mut Option<Filter>,
+        sieve: &mut impl Sieve,
         reach: &mut Reach,
     ) -> bool {
         let Some((kind, number)) = tree.block(child) else { return self.0.test(tree.leaf(child)) };
         let block = &tree.blocks[number as usize];
-        let filter = filter_of(kernel, tree, sight, way, filter);
+        let filter = sieve.filter(kernel, tree, way);
         let verdict = kernel.judge(block, filter, reach.t_far);
-        verdict.alive != 0
-            && kernel.apart(
-                #[inline(always)]
-                || self.is_met((kind, number), block, &verdict),
-            )
+        verdict.alive != 0 && self.judged(kernel, way, (kind, number), block, &verdict, reach)
+    }
+
+    #[inline(always)]
+    fn judged<K: Kernel>(
+        &mut self,
+        kernel: K,
+        _: &Way,
+        of: (u32, u32),
+        block: &Block,
+        verdict: &Verdict,
+        _: &mut Reach,
+    ) -> bool {
+        kernel.apart(
+            #[inline(always)]
+            || self.is_met(of, block, verdict),
+        )
     }
 
     #[inline(always)]
@@ -217,24 +250,46 @@ impl<T: Answers<bool>> Any<T> {
     }
 }
 
-/// What triangles need to know of a ray: many rays come to none, so nothing of it is done before.
-#[inline(always)]
-fn filter_of<'a, K: Kernel>(
-    kernel: K,
-    tree: &Bvh,
-    sight: &impl Sight,
-    way: &Way,
-    filter: &'a mut Option<Filter>,
-) -> &'a Filter {
-    filter.get_or_insert_with(
-        #[inline(always)]
-        || {
-            kernel.apart(
-                #[inline(always)]
-                || Filter::new(sight, way, tree.rounded),
-            )
-        },
-    )
+/// What triangles need to know of a ray.
+pub(crate) trait Sieve {
+    fn filter<K: Kernel>(&mut self, kernel: K, tree: &Bvh, way: &Way) -> &Filter;
+}
+
+/// Found when a ray comes to its first triangle: many rays come to none.
+pub(crate) struct Late<'a, S> {
+    pub(crate) sight: &'a S,
+    pub(crate) filter: &'a mut Option<Filter>,
+}
+
+impl<S: Sight> Sieve for Late<'_, S> {
+    #[inline(always)]
+    fn filter<K: Kernel>(&mut self, kernel: K, tree: &Bvh, way: &Way) -> &Filter {
+        let sight = self.sight;
+        self.filter.get_or_insert_with(
+            #[inline(always)]
+            || {
+                kernel.apart(
+                    #[inline(always)]
+                    || Filter::new(sight, way, tree.rounded),
+                )
+            },
+        )
+    }
+}
+
+/// The same for a ray that is exactly known.
+pub(crate) struct Known {
+    pub(crate) filter: Option<Filter>,
+}
+
+impl Sieve for Known {
+    #[inline(always)]
+    fn filter<K: Kernel>(&mut self, _: K, tree: &Bvh, way: &Way) -> &Filter {
+        self.filter.get_or_insert_with(
+            #[inline(always)]
+            || Filter::of_exact(way, tree.rounded),
+        )
+    }
 }
 
 /// A triangle of a block, by its kind and the number of the block.

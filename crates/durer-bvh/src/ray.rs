@@ -79,6 +79,56 @@ pub struct Glance {
     pub is_exact: bool,
 }
 
+impl Glance {
+    /// Of no ray.
+    pub const NOTHING: Self = Self {
+        origin: [f32::NAN; 4],
+        direction: [f32::NAN; 4],
+        origin_error: [0.0; 4],
+        direction_error: [0.0; 4],
+        is_exact: false,
+    };
+}
+
+/// How many rays go together.
+pub const PACKET: usize = 8;
+
+/// The numbers of eight [`Line`]s that are all exactly known, each rounded to the nearest f32.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Glances {
+    /// The origins, axis by axis.
+    pub origin: [[f32; PACKET]; 3],
+    /// The directions.
+    pub direction: [[f32; PACKET]; 3],
+    /// The least parameters that matter.
+    pub t_min: [f32; PACKET],
+    /// The greatest.
+    pub t_max: [f32; PACKET],
+}
+
+impl Glances {
+    /// Of eight rays, if all are exact.
+    #[inline(always)]
+    pub fn of(rays: &[Glance; PACKET]) -> Option<Self> {
+        let mut all = Self {
+            origin: [[0.0; PACKET]; 3],
+            direction: [[0.0; PACKET]; 3],
+            t_min: [0.0; PACKET],
+            t_max: [0.0; PACKET],
+        };
+        let mut are_exact = true;
+        for (i, ray) in rays.iter().enumerate() {
+            for axis in 0..3 {
+                all.origin[axis][i] = ray.origin[axis];
+                all.direction[axis][i] = ray.direction[axis];
+            }
+            (all.t_min[i], all.t_max[i]) = (ray.origin[3], ray.direction[3]);
+            are_exact &= ray.is_exact;
+        }
+        are_exact.then_some(all)
+    }
+}
+
 impl Sight for Line {
     #[inline(always)]
     fn line(&self) -> Line {
@@ -312,6 +362,9 @@ impl CullRay {
     }
 }
 
+/// What the ends of an exactly known ray's range are moved inward by: relative, and absolute.
+pub(crate) const INSIDE: (f32, f32) = (1.0 / (1 << 20) as f32, 1.0 / (1_u128 << 100) as f32);
+
 impl Way {
     /// How far to look if nothing beyond the caller's `t` matters.
     #[inline(always)]
@@ -342,7 +395,7 @@ impl Way {
     /// The same for the whole range of a ray that is [exact](Way::is_exact): its ends are within ten units of the first and the last parameter.
     #[inline(always)]
     pub(crate) fn inside(&self) -> (f32, f32) {
-        let step = |x: f32| x.abs().mul_add(1.0 / (1 << 20) as f32, 1.0 / (1_u128 << 100) as f32);
+        let step = |x: f32| x.abs().mul_add(INSIDE.0, INSIDE.1);
         // Beyond a tree's longest way nothing is met.
         let last = if self.t_far > LONGEST as f32 { LONGEST as f32 } else { self.t_far };
         (self.t_near + step(self.t_near), last - step(last))

@@ -2,7 +2,7 @@
 
 use crate::kernels::{Kernel, Scalar, Stack};
 use crate::node::{ChildRef, Leaf};
-use crate::quest::{Any, Closest, Pair, Quest, Reach};
+use crate::quest::{Any, Closest, Late, Pair, Quest, Reach, Sieve};
 use crate::ray::{Sight, Way};
 use crate::tree::Bvh;
 use durer_math::kernels::Path;
@@ -111,32 +111,39 @@ impl<S: Sight, Q: Quest<ORDERED>, const ORDERED: bool> Errand for Single<'_, S, 
             return false;
         }
         let Some((lanes, way)) = kernel.ready(tree, self.sight) else { return false };
-        follow(kernel, tree, self.sight, &lanes, &way, self.quest)
+        let (mut filter, mut reach, mut quest) = (None, Reach::of(&way), self.quest);
+        let mut sieve = Late { sight: self.sight, filter: &mut filter };
+        follow(kernel, tree, &lanes, &way, ChildRef::node(0), &mut sieve, &mut reach, &mut quest)
+            || quest.end(&reach)
     }
 }
 
+/// Goes through what is below a child; says whether the search is over.
 #[inline(always)]
-fn follow<K: Kernel, Q: Quest<ORDERED>, const ORDERED: bool>(
+#[expect(
+    clippy::too_many_arguments,
+    reason = "what a ray is, in the parts that a search changes and does not change"
+)]
+pub(crate) fn follow<K: Kernel, Q: Quest<ORDERED>, const ORDERED: bool>(
     kernel: K,
     tree: &Bvh,
-    sight: &impl Sight,
     lanes: &K::Lanes,
     way: &Way,
-    mut quest: Q,
+    mut child: ChildRef,
+    sieve: &mut impl Sieve,
+    reach: &mut Reach,
+    quest: &mut Q,
 ) -> bool {
-    let mut filter = None;
     let mut stack = Stack::new();
-    let mut reach = Reach::of(way);
-    let mut child = ChildRef::node(0);
     loop {
         while !child.is_leaf() {
             child = kernel.descend::<ORDERED>(&tree.nodes[child.index()], lanes, reach.t_far, &mut stack);
         }
         if child == ChildRef::END {
-            break;
+            return false;
         }
         let before = reach.t_far;
-        if quest.leaf(kernel, tree, sight, way, child, &mut filter, &mut reach) {
+        if quest.leaf(kernel, tree, way, child, sieve, reach) {
             return true;
         }
         if reach.t_far < before {
@@ -144,5 +151,4 @@ fn follow<K: Kernel, Q: Quest<ORDERED>, const ORDERED: bool>(
         }
         child = stack.pop();
     }
-    quest.end(&reach)
 }

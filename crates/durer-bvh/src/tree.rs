@@ -2,7 +2,7 @@
 
 use crate::frame::Frame;
 use crate::node::{ChildRef, Leaf, Node8};
-use crate::ray::{Clip, CullRay, Line, Rounding};
+use crate::ray::{Clip, CullRay, Line, PACKET, Rounding};
 use crate::triangles::{Block, Corners, LANES};
 use durer_math::Aabb;
 
@@ -164,6 +164,33 @@ impl Bvh {
         }
         let place = triangle.place as usize;
         self.blocks.get(place / LANES).map(|block| block.corners(grow, place % LANES))
+    }
+
+    /// [`Bvh::corners`] of a triangle for each of eight rays, corner by corner and axis by axis; zeros where there is none to tell of.
+    #[inline(always)]
+    pub fn corners_of_each(&self, triangles: &[Option<Leaf>; PACKET]) -> Option<[[[f64; PACKET]; 3]; 3]> {
+        let grow = self.clip.grow;
+        if self.rounded || grow == 0.0 {
+            return None;
+        }
+        let mut kept = [[0.0_f32; PACKET]; 9];
+        for (i, triangle) in triangles.iter().enumerate() {
+            let Some(triangle) = triangle else { continue };
+            let place = triangle.place as usize;
+            let block = self.blocks.get(place / LANES)?;
+            for (row, kept) in block.rows.iter().zip(&mut kept) {
+                kept[i] = row[place % LANES];
+            }
+        }
+        let mut corners = [[[0.0; PACKET]; 3]; 3];
+        for corner in 0..3 {
+            for axis in 0..3 {
+                for i in 0..PACKET {
+                    corners[corner][axis][i] = f64::from(kept[3 * corner + axis][i]) * grow;
+                }
+            }
+        }
+        Some(corners)
     }
 
     /// How many bytes rays may read.

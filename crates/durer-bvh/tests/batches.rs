@@ -3,8 +3,9 @@
 mod common;
 
 use common::Dice;
-use durer_bvh::{Bvh, Corners, Frame, Leaf, Line, Rays, Settings};
+use durer_bvh::{Bvh, Corners, Frame, Glance, Glances, Leaf, Line, PACKET, Rays, Settings, Sight};
 use durer_math::eft::exponent;
+use durer_math::kernels::Path;
 use durer_math::{Aabb, Isa, Point3, Vec3};
 
 /// Boxes and triangles, and the rays to send through them.
@@ -59,7 +60,35 @@ impl World {
                 inner: (0.0, t_max),
             })
         };
-        let lines = (0..300).map(|_| line(&mut dice)).collect();
+        let mut lines: Vec<Option<Line>> = (0..300).map(|_| line(&mut dice)).collect();
+        // Some that are much alike: side by side, or from one point, which may be a corner of a box, and along axes, or nearly so.
+        for some in lines.chunks_mut(2 * PACKET) {
+            let size = [0.5, 3.0][dice.below(2) as usize];
+            let mut origin = point(&mut dice, size);
+            let mut d = point(&mut dice, 1.0) - origin;
+            if let (true, Some((_, b))) = (dice.below(2) == 0, bounds.get(dice.below(300) as usize)) {
+                origin = Point3::new(b.max.x, b.min.y, [b.min.z, -2.0][dice.below(2) as usize]);
+                d = Vec3::new([0.0, -0.0, 1e-9, 1.0][dice.below(4) as usize], 0.0, 1.0);
+            }
+            let d = d.scale2(-exponent(d.max_abs()));
+            let spread = [0.0, 1e-3, 0.03][dice.below(3) as usize];
+            let aside = [0.0, 1e-2][dice.below(2) as usize];
+            for line in some.iter_mut().skip(PACKET / 2) {
+                let t_max = [f64::INFINITY, 0.5 + dice.unit()][dice.below(2) as usize];
+                let t_min = [0.0, 0.2][dice.below(2) as usize];
+                let bend = (point(&mut dice, spread) - Point3::ORIGIN).abs();
+                let bent = d + Vec3::new(bend.x.copysign(d.x), bend.y.copysign(d.y), 0.0) * d.z.abs();
+                *line = Some(Line {
+                    origin: origin + (point(&mut dice, aside) - Point3::ORIGIN),
+                    direction: bent.scale2(-exponent(bent.max_abs())),
+                    origin_error: Vec3::ZERO,
+                    direction_error: Vec3::ZERO,
+                    t_min,
+                    t_max,
+                    inner: (t_min, t_max),
+                });
+            }
+        }
         Self { tree, lines }
     }
 }
@@ -95,11 +124,28 @@ struct Log {
 struct Logging<'a> {
     world: &'a World,
     log: Log,
+    /// How many rays were asked for their lines.
+    asked: usize,
+}
+
+impl Logging<'_> {
+    fn glances(&self, first: usize) -> Option<Glances> {
+        let lines = self.world.lines[first..].first_chunk::<PACKET>()?;
+        if lines.iter().any(Option::is_none) {
+            return None;
+        }
+        Glances::of(&lines.map(|line| line.map_or(Glance::NOTHING, |line| line.glance())))
+    }
 }
 
 impl Rays<f64> for Logging<'_> {
     fn line(&mut self, ray: usize) -> Option<Line> {
+        self.asked += 1;
         self.world.lines[ray]
+    }
+
+    fn glances(&mut self, first: usize) -> Option<Glances> {
+        Logging::glances(self, first)
     }
 
     fn admits(&self, ray: usize, triangle: Leaf) -> bool {
@@ -118,7 +164,12 @@ impl Rays<f64> for Logging<'_> {
 
 impl Rays<bool> for Logging<'_> {
     fn line(&mut self, ray: usize) -> Option<Line> {
+        self.asked += 1;
         self.world.lines[ray]
+    }
+
+    fn glances(&mut self, first: usize) -> Option<Glances> {
+        Logging::glances(self, first)
     }
 
     fn admits(&self, ray: usize, triangle: Leaf) -> bool {
@@ -138,7 +189,7 @@ impl Rays<bool> for Logging<'_> {
 
 #[test]
 fn rays_are_shown_the_same_as_alone() {
-    let mut met = 0;
+    let (mut met, mut together) = (0, 0);
     for (seed, (boxes, triangles)) in
         [(0, 0), (1, 0), (300, 0), (0, 2000), (200, 2000)].into_iter().enumerate()
     {
@@ -161,9 +212,10 @@ fn rays_are_shown_the_same_as_alone() {
                     );
                     met += shown.len();
                 }
-                let mut rays = Logging { world: &world, log: nothing.clone() };
+                let mut rays = Logging { world: &world, log: nothing.clone(), asked: 0 };
                 world.tree.closest_of_each(isa, count, &mut rays);
                 assert_eq!(rays.log, alone, "seed {seed}, {isa:?}, closest");
+                together += count - rays.asked;
 
                 let mut alone = nothing.clone();
                 for (ray, line) in world.lines[..count].iter().enumerate() {
@@ -179,11 +231,14 @@ fn rays_are_shown_the_same_as_alone() {
                         },
                     );
                 }
-                let mut rays = Logging { world: &world, log: nothing };
+                let mut rays = Logging { world: &world, log: nothing, asked: 0 };
                 world.tree.any_of_each(isa, count, &mut rays);
                 assert_eq!(rays.log, alone, "seed {seed}, {isa:?}, any");
+                together += count - rays.asked;
             }
         }
     }
     assert!(met > 2000, "{met} leaves shown");
+    let has_packets = Isa::available().any(|isa| matches!(isa.path(), Path::Avx2 | Path::Avx512));
+    assert!(!has_packets || together > 500, "{together} rays went together");
 }

@@ -6,7 +6,7 @@ use crate::geometry::Geometry;
 use crate::ids::EVERYTHING;
 use crate::query::{any_in, closest_in};
 use crate::walk::Walk;
-use durer_bvh::{Leaf, Line, Rays};
+use durer_bvh::{Glance, Glances, Leaf, Line, PACKET, Rays, Sight};
 use durer_math::Ray;
 use durer_surfaces::LocalRay;
 
@@ -47,11 +47,13 @@ struct All<'a> {
     geometry: &'a Geometry,
     rays: &'a [Ray],
     locals: Vec<LocalRay<'static>>,
+    /// The last eight rays that were asked for together, from this one on, as the tree sees them.
+    together: (usize, [Option<Line>; PACKET]),
 }
 
 impl<'a> All<'a> {
     fn of(geometry: &'a Geometry, rays: &'a [Ray]) -> Self {
-        Self { geometry, rays, locals: Vec::with_capacity(rays.len()) }
+        Self { geometry, rays, locals: Vec::with_capacity(rays.len()), together: (0, [None; PACKET]) }
     }
 
     /// Makes ready the next ray: they are asked for in their order.
@@ -66,6 +68,19 @@ impl<'a> All<'a> {
         is_valid
     }
 
+    /// Whether eight rays look as if they could go together: the first and the last have much the same direction.
+    #[inline(always)]
+    fn are_alike(&self, first: usize) -> bool {
+        let Some([a, .., b]) = self.rays[first..].first_chunk::<PACKET>() else { return false };
+        (a.direction - b.direction).max_abs() <= a.direction.max_abs() * (1.0 / 8.0)
+    }
+
+    /// The line of a ray that was made ready together with others.
+    #[inline(always)]
+    fn made_ready(&self, ray: usize) -> Option<Option<Line>> {
+        if ray < self.locals.len() { self.together.1.get(ray - self.together.0).copied() } else { None }
+    }
+
     #[inline(always)]
     fn walk(&self, ray: usize) -> Walk<'_> {
         Walk::new(self.geometry, &self.rays[ray], &self.locals[ray], EVERYTHING)
@@ -77,9 +92,10 @@ struct Closest<'a> {
     best: Vec<Best>,
 }
 
-impl Rays<f64> for Closest<'_> {
+impl Closest<'_> {
+    /// Makes a ray ready; `None` if it is to meet nothing more.
     #[inline(always)]
-    fn line(&mut self, ray: usize) -> Option<Line> {
+    fn ready(&mut self, ray: usize) -> Option<Line> {
         if !self.all.start(ray, LocalRay::new(&self.all.rays[ray])) {
             return None;
         }
@@ -92,6 +108,32 @@ impl Rays<f64> for Closest<'_> {
             line.t_max = line.t_max.min(walk.limit(best.limit()));
         }
         Some(line)
+    }
+}
+
+impl Rays<f64> for Closest<'_> {
+    #[inline(always)]
+    fn line(&mut self, ray: usize) -> Option<Line> {
+        match self.all.made_ready(ray) {
+            Some(line) => line,
+            None => self.ready(ray),
+        }
+    }
+
+    #[inline(always)]
+    fn glances(&mut self, first: usize) -> Option<Glances> {
+        if !self.all.are_alike(first) {
+            return None;
+        }
+        let (mut lines, mut glances) = ([None; PACKET], [Glance::NOTHING; PACKET]);
+        for (i, (line, glance)) in lines.iter_mut().zip(&mut glances).enumerate() {
+            *line = self.ready(first + i);
+            if let Some(line) = line {
+                *glance = line.glance();
+            }
+        }
+        self.all.together = (first, lines);
+        Glances::of(&glances)
     }
 
     #[inline(always)]
@@ -114,9 +156,10 @@ struct Any<'a> {
     met: Vec<bool>,
 }
 
-impl Rays<bool> for Any<'_> {
+impl Any<'_> {
+    /// Makes a ray ready; `None` if it is to meet nothing more.
     #[inline(always)]
-    fn line(&mut self, ray: usize) -> Option<Line> {
+    fn ready(&mut self, ray: usize) -> Option<Line> {
         if !self.all.start(ray, LocalRay::new(&self.all.rays[ray]).roughly()) {
             return None;
         }
@@ -126,6 +169,32 @@ impl Rays<bool> for Any<'_> {
             return None;
         }
         Some(walk.line())
+    }
+}
+
+impl Rays<bool> for Any<'_> {
+    #[inline(always)]
+    fn line(&mut self, ray: usize) -> Option<Line> {
+        match self.all.made_ready(ray) {
+            Some(line) => line,
+            None => self.ready(ray),
+        }
+    }
+
+    #[inline(always)]
+    fn glances(&mut self, first: usize) -> Option<Glances> {
+        if !self.all.are_alike(first) {
+            return None;
+        }
+        let (mut lines, mut glances) = ([None; PACKET], [Glance::NOTHING; PACKET]);
+        for (i, (line, glance)) in lines.iter_mut().zip(&mut glances).enumerate() {
+            *line = self.ready(first + i);
+            if let Some(line) = line {
+                *glance = line.glance();
+            }
+        }
+        self.all.together = (first, lines);
+        Glances::of(&glances)
     }
 
     #[inline(always)]

@@ -124,7 +124,16 @@ fn batches_of(things: usize, count: usize) {
     fill(&mut builder, &mut Dice(31), things, things < 1000);
     builder.add(ground());
     let world = builder.build().unwrap();
-    let rays = rays(&mut Dice(32), count);
+    let mut rays = rays(&mut Dice(32), count);
+    // Some are neighbours, and go together where they can.
+    let mut dice = Dice(33);
+    for some in rays.chunks_mut(24) {
+        let one = some[0];
+        for ray in some.iter_mut().skip(8) {
+            let bend = dice.vector(0.005 * one.direction.max_abs());
+            *ray = Ray::new(one.origin, one.direction + bend).with_range(one.t_min, one.t_max);
+        }
+    }
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {

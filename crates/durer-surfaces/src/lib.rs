@@ -85,6 +85,7 @@ pub use crate::sink::{All, Any, Closest, Flow, Forward, Sink};
 pub use crate::sor::SorError;
 pub use crate::sphere::{Sphere, SphereError};
 pub use crate::surface::{Kind, Need, PartId, Root, Side, Solidity, Surface};
+pub use crate::swift::{Crossings, meet_eight};
 pub use crate::torus::{Axis, Torus, TorusError};
 pub use crate::triangle::{Triangle, TriangleError};
 pub use crate::turned::Turned;

@@ -34,6 +34,7 @@
 use crate::facet::Facet;
 use crate::planar::TINY;
 use crate::{Kind, LocalRay, Root};
+use durer_math::lanes::{F8, M8};
 use durer_math::rounding::{add_up, sub_down};
 use durer_math::{Dd, Isa, Point3, U, Vec3};
 
@@ -162,4 +163,132 @@ pub(crate) fn meet(ray: &LocalRay<'_>, facet: &Facet, face: u32, range: (f64, f6
     let tag = [(u * inverse).clamp(0.0, 1.0), (v * inverse).clamp(0.0, 1.0)];
     let sign = if along > 0.0 { 1 } else { -1 };
     Swift::Met(Root { t, lo, hi, s, tag, face, sign, kind: Kind::Simple })
+}
+
+#[inline(always)]
+fn sum_of_each(v: Vec3<F8>) -> F8 {
+    v.x.abs() + v.y.abs() + v.z.abs()
+}
+
+#[inline(always)]
+fn most_of_each(v: Vec3<F8>) -> F8 {
+    v.x.abs().max(v.y.abs()).max(v.z.abs())
+}
+
+/// [`cross`] for eight.
+#[inline(always)]
+fn cross_of_each(a: Vec3<F8>, b: Vec3<F8>) -> Vec3<F8> {
+    Vec3::new(a.y.mul_add(b.z, -(a.z * b.y)), a.z.mul_add(b.x, -(a.x * b.z)), a.x.mul_add(b.y, -(a.y * b.x)))
+}
+
+/// Where eight rays meet a triangle each.
+#[derive(Clone, Copy, Debug)]
+pub struct Crossings {
+    /// The parameters, to the bit those of [`Triangle::roots`](crate::Surface::roots).
+    pub s: F8,
+    /// Who certainly meets its triangle, within its range.
+    pub met: M8,
+    /// Of whom nothing is certain: it has to ask alone. Who neither meets its triangle nor is in doubt misses it.
+    pub open: M8,
+}
+
+/// The first of the two computations above for eight rays at once, each with a triangle of its own and its largest component of `d` in `[1, 2)`; compiled for lanes by
+/// [`Isa::run_in_lanes`].
+///
+/// A crossing counts if three times its error is within the range: once for itself, once for the rounding of `s + 3 err`, which is below `u |s| + 3 u err` and so below `1.01 err`.
+#[inline(always)]
+pub fn meet_eight(o: Vec3<F8>, d: Vec3<F8>, range: (F8, F8), corners: [Vec3<F8>; 3]) -> Crossings {
+    let all = F8::splat;
+    let [v0, v1, v2] = corners;
+    let (c, e1, e2) = (v0 - o, v1 - v0, v2 - v0);
+    let (n, r) = (cross_of_each(e1, e2), cross_of_each(c, d));
+    let (u, v, along) = (r.dot(e2), -r.dot(e1), d.dot(n));
+    let w = (along - u) - v;
+    let (l1, l2) = (sum_of_each(e1), sum_of_each(e2));
+    let (reach, m, edge, area) = (most_of_each(c), most_of_each(d), l1.max(l2), l1 * l2);
+    let fits = area.gt(all(RANGE.0)) & edge.max(reach).lt(all(RANGE.1));
+    let bound = (all(34.0) * reach).mul_add(edge, all(9.0) * area) * (all(U) * m * all(PAYS));
+    let (low, high) = (u.min(v).min(w), u.max(v).max(w));
+    let missed = fits & low.lt(-bound) & high.gt(bound);
+    let through = low.gt(bound) | high.lt(-bound);
+    let slack = all(7.0) * all(U) * m * area * all(PAYS);
+    let sure = along.abs() - slack;
+    let inverse = F8::ONE / along;
+    let s = c.dot(n) * inverse;
+    let p = Vec3::new((-s).mul_add(d.x, c.x), (-s).mul_add(d.y, c.y), (-s).mul_add(d.z, c.z));
+    let step = p.dot(n) * inverse;
+    let s = s + step;
+    let spread = (c.x * n.x).abs() + (c.y * n.y).abs() + (c.z * n.z).abs();
+    let err = (all(8.0) * area).mul_add(most_of_each(p), spread) * all(U);
+    let err = step.abs().mul_add(all(3.0 * U).mul_add(sure, slack), err) / sure;
+    let err = s.abs().mul_add(all(U), err).mul_add(all(PAYS), all(TINY));
+    let size = edge / all(24.0);
+    let narrow = err.le(all(0.5 * NARROW) * s.abs().max(size));
+    let three = all(3.0) * err;
+    let within = (s - three).ge(range.0) & (s + three).le(range.1);
+    let met = fits & through & sure.gt(slack) & bound.le(all(TAG) * sure) & narrow & within;
+    Crossings { s, met, open: !(met | missed) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::Dice;
+    use durer_math::Ray;
+
+    fn eight(v: impl Fn(usize) -> Vec3) -> Vec3<F8> {
+        let axis = |axis: usize| F8(core::array::from_fn(|i| v(i)[axis]));
+        Vec3::new(axis(0), axis(1), axis(2))
+    }
+
+    #[test]
+    fn eight_rays_meet_what_each_meets_alone() {
+        let (mut met, mut missed, mut open) = (0, 0, 0);
+        for seed in 0..2000 {
+            let mut dice = Dice::new(seed);
+            let cases: Vec<(Ray, Facet)> = (0..8)
+                .map(|_| {
+                    let facet = [dice.vector(), dice.vector(), dice.vector()].map(Vec3::to_point);
+                    let [a, b, c] = facet;
+                    let (p, q) = (dice.unit(), dice.unit());
+                    // Through the triangle, near it, or through one of its edges, from afar and from nearby.
+                    let at = match dice.below(3) {
+                        0 => a + (b - a) * (0.4 * p) + (c - a) * (0.4 * q),
+                        1 => a + (b - a) * (2.0 * p) + (c - a) * (2.0 * q),
+                        _ => a + (b - a) * p,
+                    };
+                    let back = dice.power(-2, 10);
+                    let d = dice.vector();
+                    let d = d.scale2(-durer_math::scale::exponent(d.max_abs()));
+                    let t_max = if dice.below(4) > 0 { f64::INFINITY } else { 2.0 * dice.unit() * back };
+                    (Ray::new(at - d * back, d).with_range(0.0, t_max), facet)
+                })
+                .collect();
+            let corner = |n: usize| eight(|i| cases[i].1[n] - Point3::ORIGIN);
+            let range = (F8::ZERO, F8(core::array::from_fn(|i| cases[i].0.t_max)));
+            let origins = eight(|i| cases[i].0.origin - Point3::ORIGIN);
+            let directions = eight(|i| cases[i].0.direction);
+            for isa in Isa::available() {
+                let together = isa.run_in_lanes(
+                    #[inline(always)]
+                    || meet_eight(origins, directions, range, [corner(0), corner(1), corner(2)]),
+                );
+                for (i, (ray, facet)) in cases.iter().enumerate() {
+                    let alone = meet(&LocalRay::new(ray), facet, 0, (f64::NEG_INFINITY, f64::INFINITY));
+                    match (together.met.lane(i), together.open.lane(i), alone) {
+                        (true, false, Swift::Met(root)) => {
+                            assert_eq!(root.s.to_bits(), together.s.0[i].to_bits());
+                            met += 1;
+                        }
+                        (false, false, Swift::Missed) => missed += 1,
+                        (false, true, _) => open += 1,
+                        (is_met, is_open, _) => {
+                            panic!("{isa:?} {seed} {i}: met {is_met}, open {is_open}, alone not so")
+                        }
+                    }
+                }
+            }
+        }
+        assert!(met > 5000 && missed > 5000 && open > 5000 && open < met + missed, "{met} {missed} {open}");
+    }
 }

@@ -1,10 +1,11 @@
 //! The mesh and its tree.
 
 use crate::files::{MISS, Mesh, PeerRay};
-use durer_bvh::{Bvh, Frame, Glance, Leaf, Line, Rays, Settings, Sight};
+use durer_bvh::{Bvh, Frame, Glance, Glances, Leaf, Line, Rays, Settings, Sight};
 use durer_math::eft::{exponent, scale2};
+use durer_math::lanes::F8;
 use durer_math::{Aabb, Isa, Point3, Ray, Vec3};
-use durer_surfaces::{Closest, LocalRay, MeshData, PartId, Surface, Triangle};
+use durer_surfaces::{Closest, LocalRay, MeshData, PartId, Surface, Triangle, meet_eight};
 use rayon::prelude::*;
 
 /// What a tree is built with.
@@ -71,6 +72,32 @@ impl World {
                     None => self.exact.part_roots(PartId(self.number(leaf)), &ray, &mut sink),
                 }
                 sink.root.map(|root| root.t)
+            },
+        )
+    }
+
+    /// Where each ray meets its triangle, if that is certain at once.
+    #[inline(never)]
+    fn exactly_eight(&self, isa: Isa, rays: &[PeerRay], leaves: &[Option<Leaf>; 8]) -> [Option<f64>; 8] {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let mut t = [None; 8];
+                let Some((rays, along)) = side_by_side(rays) else { return t };
+                let Some([v0, v1, v2]) = self.tree.corners_of_each(leaves) else { return t };
+                let along = widened(&along);
+                let across = F8::ONE / along;
+                let (o, d) = (widened_3(&rays.origin), widened_3(&rays.direction));
+                let d = Vec3::new(d.x * across, d.y * across, d.z * across);
+                let range = (widened(&rays.t_min) * along, widened(&rays.t_max) * along);
+                let corners = [three_of(v0), three_of(v1), three_of(v2)];
+                let found = meet_eight(o, d, range, corners);
+                let s = found.s * across;
+                // Of a ray without a triangle nobody asks.
+                for i in found.met.lanes() {
+                    t[i] = Some(s.0[i]);
+                }
+                t
             },
         )
     }
@@ -202,6 +229,64 @@ impl Sight for Seen<'_> {
     }
 }
 
+#[inline(always)]
+fn widened(v: &[f32; 8]) -> F8 {
+    let mut wide = F8::ZERO;
+    for (wide, &x) in wide.0.iter_mut().zip(v) {
+        *wide = f64::from(x);
+    }
+    wide
+}
+
+#[inline(always)]
+fn widened_3(v: &[[f32; 8]; 3]) -> Vec3<F8> {
+    Vec3::new(widened(&v[0]), widened(&v[1]), widened(&v[2]))
+}
+
+#[inline(always)]
+fn three_of(v: [[f64; 8]; 3]) -> Vec3<F8> {
+    Vec3::new(F8(v[0]), F8(v[1]), F8(v[2]))
+}
+
+/// Eight rays as they are given, and two to the power `k` of each (see [`Seen`]); `None` if there are fewer or one of these is extreme.
+#[inline(always)]
+fn side_by_side(rays: &[PeerRay]) -> Option<(Glances, [f32; 8])> {
+    let rays = rays.first_chunk::<8>()?;
+    let mut seen =
+        Glances { origin: [[0.0; 8]; 3], direction: [[0.0; 8]; 3], t_min: [0.0; 8], t_max: [0.0; 8] };
+    for (i, ray) in rays.iter().enumerate() {
+        for axis in 0..3 {
+            seen.origin[axis][i] = ray.origin[axis];
+            seen.direction[axis][i] = ray.direction[axis];
+        }
+        (seen.t_min[i], seen.t_max[i]) = (ray.t_near, ray.t_far);
+    }
+    let (mut are_in_range, mut powers) = (true, [0.0; 8]);
+    for (i, power) in powers.iter_mut().enumerate() {
+        let size = |axis: usize| seen.direction[axis][i].to_bits() & (u32::MAX >> 1);
+        let (x, y, z) = (size(0), size(1), size(2));
+        let biased = x.max(y).max(z) >> 23;
+        are_in_range &= (1..=253).contains(&biased);
+        *power = f32::from_bits(biased << 23);
+    }
+    are_in_range.then_some((seen, powers))
+}
+
+/// [`Seen::glance`] of eight rays.
+#[inline(always)]
+fn seen_together(rays: &[PeerRay]) -> Option<Glances> {
+    let (mut seen, along) = side_by_side(rays)?;
+    for (i, along) in along.into_iter().enumerate() {
+        let across = 1.0 / along;
+        for axis in 0..3 {
+            seen.direction[axis][i] *= across;
+        }
+        seen.t_min[i] *= along;
+        seen.t_max[i] *= along;
+    }
+    Some(seen)
+}
+
 /// A ray and what it has met.
 struct Asked<'a> {
     world: &'a World,
@@ -237,6 +322,11 @@ impl Rays<f64> for ClosestOfEach<'_> {
     }
 
     #[inline(always)]
+    fn glances(&mut self, first: usize) -> Option<Glances> {
+        seen_together(&self.rays[first..])
+    }
+
+    #[inline(always)]
     fn admits(&self, _: usize, _: Leaf) -> bool {
         true
     }
@@ -251,6 +341,25 @@ impl Rays<f64> for ClosestOfEach<'_> {
             }
         }
         scale2(best.0, sight.k).next_up()
+    }
+
+    #[inline(always)]
+    fn last_tests(&mut self, first: usize, leaves: &[Option<Leaf>; 8]) {
+        let met = self.world.exactly_eight(self.isa, &self.rays[first..], leaves);
+        for (i, leaf) in leaves.iter().enumerate() {
+            let Some(leaf) = leaf else { continue };
+            match met[i] {
+                Some(t) => {
+                    let number = self.world.number(leaf);
+                    if (t, number) < self.best[first + i] {
+                        self.best[first + i] = (t, number);
+                    }
+                }
+                None => {
+                    self.test(first + i, *leaf);
+                }
+            }
+        }
     }
 
     #[inline(always)]
@@ -269,6 +378,11 @@ impl Rays<bool> for AnyOfEach<'_> {
     #[inline(always)]
     fn line(&mut self, ray: usize) -> Option<Line> {
         Some(Seen::new(&self.rays[ray]).line())
+    }
+
+    #[inline(always)]
+    fn glances(&mut self, first: usize) -> Option<Glances> {
+        seen_together(&self.rays[first..])
     }
 
     #[inline(always)]

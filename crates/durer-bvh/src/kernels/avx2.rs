@@ -1,14 +1,16 @@
 //! Eight lanes at once with AVX2 and FMA.
 #![expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")]
 
-use super::{Kernel, Stack};
+use super::packet::{self, Filters, Packet};
+use super::{Kernel, Rows, Stack};
 use crate::frame::up32;
 use crate::node::{ChildRef, Node8, WIDTH};
 use crate::ray::{
-    CullRay, Glance, LEAST, LONGEST, Line, NEARBY, Rounding, SLOWEST, Sight, TO_NEAREST, U32, WIDEN, Way,
+    CullRay, Glance, Glances, LEAST, LONGEST, Line, NEARBY, PACKET, Rounding, SLOWEST, Sight, TO_NEAREST,
+    U32, WIDEN, Way,
 };
 use crate::tree::Bvh;
-use crate::triangles::{Block, FAR, FLAT, Filter, LANES, NEAR, ROUGH, Verdict};
+use crate::triangles::{Block, FAR, FLAT, Filter, NEAR, ROUGH, Verdict};
 use core::arch::x86_64::*;
 use durer_math::kernels::Path;
 use durer_math::{Isa, Vec3};
@@ -63,7 +65,7 @@ static COMPRESS: [u64; 256] = {
 };
 
 /// Where the near planes for rays of each octant begin in a node, in bytes, and the far ones.
-static PLANES: [[[u8; 3]; 2]; 8] = {
+pub(super) static PLANES: [[[u8; 3]; 2]; 8] = {
     const ROW: u8 = 4 * WIDTH as u8;
     let mut table = [[[0, ROW, 2 * ROW], [3 * ROW, 4 * ROW, 5 * ROW]]; 8];
     let mut octant = 0;
@@ -81,8 +83,34 @@ static PLANES: [[[u8; 3]; 2]; 8] = {
     table
 };
 
+impl Lanes {
+    /// A ray by what each lane of it holds.
+    #[inline]
+    #[target_feature(enable = "avx2,fma")]
+    pub(super) fn new(
+        r: [__m256; 3],
+        near: [__m256; 3],
+        far: [__m256; 3],
+        t_near: __m256,
+        octant: usize,
+    ) -> Self {
+        let [near_plane, far_plane] = PLANES[octant & 7];
+        Self {
+            r,
+            near,
+            far,
+            t_near,
+            near_plane: [0, 1, 2].map(|i| usize::from(near_plane[i])),
+            far_plane: [0, 1, 2].map(|i| usize::from(far_plane[i])),
+            octant_shift: _mm_cvtsi32_si128(3 * octant as i32),
+        }
+    }
+}
+
 impl Kernel for Avx2 {
     type Lanes = Lanes;
+    type Packet = Packet;
+    type Filters = Filters;
 
     #[inline(always)]
     fn ready(self, tree: &Bvh, sight: &impl Sight) -> Option<(Lanes, Way)> {
@@ -134,6 +162,68 @@ impl Kernel for Avx2 {
     }
 
     #[inline(always)]
+    fn gather(self, tree: &Bvh, rays: &Glances) -> Option<Packet> {
+        // SAFETY: as above.
+        unsafe { packet::gather(tree, rays) }
+    }
+
+    #[inline(always)]
+    fn ends(self, packet: &Packet) -> [f32; PACKET] {
+        // SAFETY: as above.
+        unsafe { packet.ends() }
+    }
+
+    #[inline(always)]
+    fn one(self, tree: &Bvh, packet: &Packet, ray: usize) -> (Lanes, Way) {
+        // SAFETY: as above.
+        unsafe { (packet.lanes(ray), packet.way(tree, ray)) }
+    }
+
+    #[inline(always)]
+    fn way(self, tree: &Bvh, packet: &Packet, ray: usize) -> Way {
+        // SAFETY: as above.
+        unsafe { packet.way(tree, ray) }
+    }
+
+    #[inline(always)]
+    fn awake(self, row: &[f32; PACKET], t_far: &[f32; PACKET]) -> u32 {
+        // SAFETY: as above.
+        unsafe { packet::awake(row, t_far) }
+    }
+
+    #[inline(always)]
+    fn filters(self, tree: &Bvh, packet: &Packet) -> Filters {
+        // SAFETY: as above.
+        unsafe { packet.filters(tree.rounded) }
+    }
+
+    #[inline(always)]
+    fn judge_together(
+        self,
+        block: &Block,
+        filters: &Filters,
+        awake: u32,
+        t_far: &[f32; PACKET],
+        verdicts: &mut [Verdict; PACKET],
+    ) -> u32 {
+        // SAFETY: as above.
+        unsafe { packet::judge(block, filters, awake, t_far, verdicts) }
+    }
+
+    #[inline(always)]
+    fn descend_together<const ORDERED: bool>(
+        self,
+        node: &Node8,
+        packet: &Packet,
+        row: &[f32; PACKET],
+        (t_far, far): (&[f32; PACKET], f32),
+        rows: &mut Rows,
+    ) {
+        // SAFETY: as above.
+        unsafe { packet::descend::<ORDERED>(node, packet, row, (t_far, far), rows) }
+    }
+
+    #[inline(always)]
     fn fetch(self, tree: &Bvh, child: ChildRef) {
         let place = tree.place(child);
         for line in 0..size_of::<Block>() / 64 {
@@ -142,6 +232,11 @@ impl Kernel for Avx2 {
         }
     }
 }
+
+/// What [`nearby`] charges of the tree's coordinates, and of the origin's.
+pub(super) const SLACK: (f32, f32) = (4.0 * U32 as f32, 7.0 * U32 as f32);
+/// Eight units: errors are rounded to f32, multiplied, added and grown by this, a rounding each; the range has fewer.
+pub(super) const OUTWARD: f32 = 8.0 * U32 as f32;
 
 /// A ray that starts nearby, at a glance, in f32: neither the way to the tree nor the end of that through it is looked for.
 ///
@@ -160,10 +255,6 @@ impl Kernel for Avx2 {
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 fn nearby(tree: &Bvh, glance: &Glance) -> Option<(Lanes, Way)> {
-    /// Of the tree's coordinates, and of the origin's.
-    const SLACK: (f32, f32) = (4.0 * U32 as f32, 7.0 * U32 as f32);
-    /// Eight units: errors are rounded to f32, multiplied, added and grown by this, a rounding each; the range has fewer.
-    const OUTWARD: f32 = 8.0 * U32 as f32;
     let minus = _mm_set1_ps(-0.0);
     let all = |x: f32| _mm_set1_ps(x);
     let size = |x: __m128| _mm_andnot_ps(minus, x);
@@ -342,19 +433,36 @@ fn spread(r: __m128, near: __m128, far: __m128, octant: usize, t_near: f32) -> L
         let x = _mm256_set_m128(x, x);
         [_mm256_permute_ps::<0x00>(x), _mm256_permute_ps::<0x55>(x), _mm256_permute_ps::<0xaa>(x)]
     };
-    let [near_plane, far_plane] = PLANES[octant & 7];
-    Lanes {
-        r: each(r),
-        near: each(near),
-        far: each(far),
-        t_near: _mm256_set1_ps(t_near),
-        near_plane: [0, 1, 2].map(|i| usize::from(near_plane[i])),
-        far_plane: [0, 1, 2].map(|i| usize::from(far_plane[i])),
-        octant_shift: _mm_cvtsi32_si128(3 * octant as i32),
-    }
+    Lanes::new(each(r), each(near), each(far), _mm256_set1_ps(t_near), octant)
 }
 
-/// Six fused multiply-adds, six minima and maxima; a permutation that sorts children by the ray's octant (or none); and one that closes the
+/// A node's boxes: where they are entered, and which are met up to `t_far`. A plane `x` is met at `x r + c`, with the `r` and `c` of near planes and of far ones; where each
+/// axis' planes begin is told in bytes. Six fused multiply-adds, six minima and maxima.
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+pub(super) fn boxes(
+    node: &Node8,
+    [near_plane, far_plane]: [[usize; 3]; 2],
+    [enter, leave]: [(&[__m256; 3], &[__m256; 3]); 2],
+    t_near: __m256,
+    t_far: f32,
+) -> (__m256, __m256) {
+    let plane = |i: usize, axis: usize, (r, c): (&[__m256; 3], &[__m256; 3])| {
+        // SAFETY: `i < 6` as in `PLANES`, and a row holds eight f32, aligned to 32 bytes in a node
+        // aligned to 64.
+        let planes = unsafe { _mm256_load_ps(node.planes.as_ptr().cast::<f32>().byte_add(i)) };
+        _mm256_fmadd_ps(planes, r[axis], c[axis])
+    };
+    let [nx, ny, nz] = near_plane;
+    let [fx, fy, fz] = far_plane;
+    let (ex, ey, ez) = (plane(nx, 0, enter), plane(ny, 1, enter), plane(nz, 2, enter));
+    let (lx, ly, lz) = (plane(fx, 0, leave), plane(fy, 1, leave), plane(fz, 2, leave));
+    let near = _mm256_max_ps(_mm256_max_ps(ex, ey), _mm256_max_ps(ez, t_near));
+    let far = _mm256_min_ps(_mm256_min_ps(lx, ly), _mm256_min_ps(lz, _mm256_set1_ps(t_far)));
+    (near, _mm256_cmp_ps::<_CMP_LE_OQ>(near, far))
+}
+
+/// A permutation that sorts children by the ray's octant (or none); and one that closes the
 /// gaps between those that are met, in place of a branch per child.
 ///
 /// The way to the next child is as short as can be: all eight are written where those that are met go later, while the boxes are still being tested, and
@@ -362,19 +470,13 @@ fn spread(r: __m128, near: __m128, far: __m128, octant: usize, t_near: f32) -> L
 #[inline]
 #[target_feature(enable = "avx2,fma,popcnt,lzcnt")]
 fn descend<const ORDERED: bool>(node: &Node8, lanes: &Lanes, t_far: f32, stack: &mut Stack) -> ChildRef {
-    let plane = |i: usize, axis: usize, c: &[__m256; 3]| {
-        // SAFETY: `i < 6` as in `PLANES`, and a row holds eight f32, aligned to 32 bytes in a node
-        // aligned to 64.
-        let planes = unsafe { _mm256_load_ps(node.planes.as_ptr().cast::<f32>().byte_add(i)) };
-        _mm256_fmadd_ps(planes, lanes.r[axis], c[axis])
-    };
-    let [nx, ny, nz] = lanes.near_plane;
-    let [fx, fy, fz] = lanes.far_plane;
-    let (ex, ey, ez) = (plane(nx, 0, &lanes.near), plane(ny, 1, &lanes.near), plane(nz, 2, &lanes.near));
-    let (lx, ly, lz) = (plane(fx, 0, &lanes.far), plane(fy, 1, &lanes.far), plane(fz, 2, &lanes.far));
-    let near = _mm256_max_ps(_mm256_max_ps(ex, ey), _mm256_max_ps(ez, lanes.t_near));
-    let far = _mm256_min_ps(_mm256_min_ps(lx, ly), _mm256_min_ps(lz, _mm256_set1_ps(t_far)));
-    let met = _mm256_cmp_ps::<_CMP_LE_OQ>(near, far);
+    let (near, met) = boxes(
+        node,
+        [lanes.near_plane, lanes.far_plane],
+        [(&lanes.r, &lanes.near), (&lanes.r, &lanes.far)],
+        lanes.t_near,
+        t_far,
+    );
     // SAFETY: both arrays hold eight u32, aligned to 32 bytes in a node aligned to 64.
     let (child, order) = unsafe {
         (_mm256_load_si256(node.child.as_ptr().cast()), _mm256_load_si256(node.order.as_ptr().cast()))
@@ -428,45 +530,72 @@ fn cross(a: &[__m256; 3], b: &[__m256; 3]) -> [__m256; 3] {
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
-/// What `Scalar::judge` does, eight triangles at once. Most blocks end at the first test.
+/// Eight triangles without a ray: the first corner, the edges from there, their cross product, and the size of the block.
+pub(super) struct Edges {
+    v: [__m256; 3],
+    e1: [__m256; 3],
+    e2: [__m256; 3],
+    n: [__m256; 3],
+    extent: f32,
+}
+
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-fn judge(block: &Block, filter: &Filter, t_far: f32) -> Verdict {
-    let spread = |v: &[f32; 4]| [_mm256_set1_ps(v[0]), _mm256_set1_ps(v[1]), _mm256_set1_ps(v[2])];
-    let (start, direction) = (spread(&filter.o), spread(&filter.d));
+fn difference(a: &[__m256; 3], b: &[__m256; 3]) -> [__m256; 3] {
+    [_mm256_sub_ps(a[0], b[0]), _mm256_sub_ps(a[1], b[1]), _mm256_sub_ps(a[2], b[2])]
+}
+
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+pub(super) fn edges(block: &Block) -> Edges {
     let row = |r: usize| {
         // SAFETY: a row holds eight f32, aligned to 32 bytes in a block aligned to 64.
         let load = |r: usize| unsafe { _mm256_load_ps(block.rows[r].as_ptr()) };
         [load(r), load(r + 1), load(r + 2)]
     };
-    let difference = |a: &[__m256; 3], b: &[__m256; 3]| {
-        [_mm256_sub_ps(a[0], b[0]), _mm256_sub_ps(a[1], b[1]), _mm256_sub_ps(a[2], b[2])]
-    };
     let v = row(0);
-    let (c, e1, e2) = (difference(&v, &start), difference(&row(3), &v), difference(&row(6), &v));
-    let extent = block.size();
+    let (e1, e2) = (difference(&row(3), &v), difference(&row(6), &v));
+    let n = cross(&e1, &e2);
+    Edges { v, e1, e2, n, extent: block.size() }
+}
+
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn judge(block: &Block, filter: &Filter, t_far: f32) -> Verdict {
+    let mut verdict = Verdict::NOTHING;
+    judge_edges(&edges(block), filter, t_far, &mut verdict);
+    verdict
+}
+
+/// What `Scalar::judge` does, eight triangles at once; says which are alive, and the rest only if one is. Most blocks end at the first test.
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+pub(super) fn judge_edges(edges: &Edges, filter: &Filter, t_far: f32, verdict: &mut Verdict) -> u32 {
+    let spread = |v: &[f32; 4]| [_mm256_set1_ps(v[0]), _mm256_set1_ps(v[1]), _mm256_set1_ps(v[2])];
+    let (start, direction) = (spread(&filter.o), spread(&filter.d));
+    let Edges { v, e1, e2, n, extent } = edges;
+    let (c, extent) = (difference(v, &start), *extent);
     let slack = extent.mul_add(filter.b.mul_add(extent, filter.a), filter.g);
     let minus = _mm256_set1_ps(-0.0);
-    let (r, n) = (cross(&c, &direction), cross(&e1, &e2));
-    let (u, v) = (dot(&r, &e2), _mm256_xor_ps(minus, dot(&r, &e1)));
-    let d = dot(&direction, &n);
+    let r = cross(&c, &direction);
+    let (u, v) = (dot(&r, e2), _mm256_xor_ps(minus, dot(&r, e1)));
+    let d = dot(&direction, n);
     let w = _mm256_sub_ps(_mm256_sub_ps(d, u), v);
     let least = _mm256_min_ps(_mm256_min_ps(u, v), w);
     let most = _mm256_max_ps(_mm256_max_ps(u, v), w);
     let (above, below) = (_mm256_set1_ps(slack), _mm256_set1_ps(-slack));
     let possible =
         _mm256_or_ps(_mm256_cmp_ps::<_CMP_GE_OQ>(least, below), _mm256_cmp_ps::<_CMP_LE_OQ>(most, above));
-    let mut verdict = Verdict { alive: 0, sure: 0, lo: [0.0; LANES], hi: [0.0; LANES] };
     if _mm256_movemask_ps(possible) == 0 {
-        return verdict;
+        return 0;
     }
     let square = extent * extent;
     let all = |x: f32| _mm256_set1_ps(x);
     let size = |x: __m256| _mm256_andnot_ps(minus, x);
     let inverse = _mm256_div_ps(all(1.0), d);
-    let t = _mm256_mul_ps(dot(&c, &n), inverse);
+    let t = _mm256_mul_ps(dot(&c, n), inverse);
     let length = |e: &[__m256; 3]| _mm256_add_ps(_mm256_add_ps(size(e[0]), size(e[1])), size(e[2]));
-    let spread = _mm256_mul_ps(size(inverse), _mm256_mul_ps(length(&e1), length(&e2)));
+    let spread = _mm256_mul_ps(size(inverse), _mm256_mul_ps(length(e1), length(e2)));
     let nearby = NEAR.mul_add(extent, filter.p);
     let far = _mm256_mul_ps(_mm256_fmadd_ps(all(filter.q), size(t), all(nearby)), spread);
     let tau = _mm256_add_ps(far, _mm256_fmadd_ps(all(FAR), size(t), all(filter.s)));
@@ -493,5 +622,5 @@ fn judge(block: &Block, filter: &Filter, t_far: f32) -> Verdict {
         _mm256_storeu_ps(verdict.lo.as_mut_ptr(), lo);
         _mm256_storeu_ps(verdict.hi.as_mut_ptr(), hi);
     }
-    verdict
+    verdict.alive
 }

@@ -4,6 +4,8 @@
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 mod bins;
+#[cfg(target_arch = "x86_64")]
+mod packet;
 mod scalar;
 mod stack;
 
@@ -11,10 +13,10 @@ mod stack;
 pub(crate) use avx2::Avx2;
 pub(crate) use bins::{add_centres, fill};
 pub(crate) use scalar::Scalar;
-pub(crate) use stack::{MAX_DEPTH, Stack};
+pub(crate) use stack::{MAX_DEPTH, Rows, Stack};
 
 use crate::node::{ChildRef, Node8};
-use crate::ray::{Sight, Way};
+use crate::ray::{Glances, PACKET, Sight, Way};
 use crate::tree::Bvh;
 use crate::triangles::{Block, Filter, Verdict};
 
@@ -24,6 +26,12 @@ use crate::triangles::{Block, Filter, Verdict};
 pub(crate) trait Kernel: Copy {
     /// The ray, spread over the lanes.
     type Lanes;
+
+    /// Eight rays that go through a tree together.
+    type Packet;
+
+    /// What triangles need to know of them.
+    type Filters;
 
     /// What the tests need of a ray, clipped to the tree's box or not; `None` if it certainly misses that.
     fn ready(self, tree: &Bvh, sight: &impl Sight) -> Option<(Self::Lanes, Way)>;
@@ -44,6 +52,45 @@ pub(crate) trait Kernel: Copy {
     /// Runs what few steps need, compiled for the same instructions but apart from the code around it: else compilers do parts of it
     /// ahead, for every ray.
     fn apart<R>(self, f: impl FnOnce() -> R) -> R;
+
+    /// Eight rays as a packet, if they are exactly known, nearby and so much alike that it pays.
+    fn gather(self, tree: &Bvh, rays: &Glances) -> Option<Self::Packet>;
+
+    /// How far each ray of a packet looks at most.
+    fn ends(self, packet: &Self::Packet) -> [f32; PACKET];
+
+    /// One of a packet's rays: the very numbers that [`Kernel::ready`] gives.
+    fn one(self, tree: &Bvh, packet: &Self::Packet, ray: usize) -> (Self::Lanes, Way);
+
+    /// The second half of that.
+    fn way(self, tree: &Bvh, packet: &Self::Packet, ray: usize) -> Way;
+
+    /// Which rays' parameters in a `row` are not beyond their `t_far`.
+    fn awake(self, row: &[f32; PACKET], t_far: &[f32; PACKET]) -> u32;
+
+    /// What [`Filter::of_exact`] gives for each ray.
+    fn filters(self, tree: &Bvh, packet: &Self::Packet) -> Self::Filters;
+
+    /// [`Kernel::judge`] for those rays that are `awake`: of whom a triangle is alive, and their verdicts.
+    fn judge_together(
+        self,
+        block: &Block,
+        filters: &Self::Filters,
+        awake: u32,
+        t_far: &[f32; PACKET],
+        verdicts: &mut [Verdict; PACKET],
+    ) -> u32;
+
+    /// Pushes the children that [`Kernel::descend`] pushes for any of the rays that are awake, and where each ray enters them, or NaN where it does not. Beyond
+    /// `far` none of the rays looks.
+    fn descend_together<const ORDERED: bool>(
+        self,
+        node: &Node8,
+        packet: &Self::Packet,
+        row: &[f32; PACKET],
+        t_far: (&[f32; PACKET], f32),
+        rows: &mut Rows,
+    );
 
     /// Asks for what a step into a child will read.
     fn fetch(self, tree: &Bvh, child: ChildRef);

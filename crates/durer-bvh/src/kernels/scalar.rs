@@ -1,8 +1,8 @@
 //! The definition.
 
-use super::{Kernel, Stack};
+use super::{Kernel, Rows, Stack};
 use crate::node::{ChildRef, Node8, WIDTH};
-use crate::ray::{CullRay, Rounding, Sight, Way};
+use crate::ray::{CullRay, Glances, PACKET, Rounding, Sight, Way};
 use crate::tree::Bvh;
 use crate::triangles::{Block, FAR, FLAT, Filter, LANES, NEAR, Verdict};
 
@@ -49,8 +49,13 @@ impl<const FUSED: bool> Scalar<FUSED> {
     }
 }
 
+/// One lane after the other nothing is gained together: there is no such packet.
+pub(crate) enum NoPacket {}
+
 impl<const FUSED: bool> Kernel for Scalar<FUSED> {
     type Lanes = CullRay;
+    type Packet = NoPacket;
+    type Filters = NoPacket;
 
     #[inline(always)]
     fn ready(self, tree: &Bvh, sight: &impl Sight) -> Option<(CullRay, Way)> {
@@ -90,7 +95,7 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
         let nearby = fma(NEAR, size, filter.p);
         let certain = fma(4.0, slack, fma(filter.flat, square, FLAT));
         let ([o @ .., _], [d @ .., _]) = (filter.o, filter.d);
-        let mut verdict = Verdict { alive: 0, sure: 0, lo: [0.0; LANES], hi: [0.0; LANES] };
+        let mut verdict = Verdict::NOTHING;
         for i in 0..LANES {
             let row = |r: usize| [block.rows[r][i], block.rows[r + 1][i], block.rows[r + 2][i]];
             let (v, v1, v2) = (row(0), row(3), row(6));
@@ -125,6 +130,60 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
     #[inline(never)]
     fn apart<R>(self, f: impl FnOnce() -> R) -> R {
         f()
+    }
+
+    #[inline(always)]
+    fn gather(self, _: &Bvh, _: &Glances) -> Option<NoPacket> {
+        None
+    }
+
+    #[inline(always)]
+    fn ends(self, packet: &NoPacket) -> [f32; PACKET] {
+        match *packet {}
+    }
+
+    #[inline(always)]
+    fn one(self, _: &Bvh, packet: &NoPacket, _: usize) -> (CullRay, Way) {
+        match *packet {}
+    }
+
+    #[inline(always)]
+    fn way(self, _: &Bvh, packet: &NoPacket, _: usize) -> Way {
+        match *packet {}
+    }
+
+    #[inline(always)]
+    fn awake(self, row: &[f32; PACKET], t_far: &[f32; PACKET]) -> u32 {
+        (0..PACKET).filter(|&i| row[i] <= t_far[i]).map(|i| 1 << i).sum()
+    }
+
+    #[inline(always)]
+    fn filters(self, _: &Bvh, packet: &NoPacket) -> NoPacket {
+        match *packet {}
+    }
+
+    #[inline(always)]
+    fn judge_together(
+        self,
+        _: &Block,
+        filters: &NoPacket,
+        _: u32,
+        _: &[f32; PACKET],
+        _: &mut [Verdict; PACKET],
+    ) -> u32 {
+        match *filters {}
+    }
+
+    #[inline(always)]
+    fn descend_together<const ORDERED: bool>(
+        self,
+        _: &Node8,
+        packet: &NoPacket,
+        _: &[f32; PACKET],
+        _: (&[f32; PACKET], f32),
+        _: &mut Rows,
+    ) {
+        match *packet {}
     }
 
     #[inline(always)]

@@ -1,7 +1,8 @@
-//! The traversal's stack: two arrays that are never cleared.
+//! The traversal's stacks, of one ray and of eight: two arrays each that are never cleared.
 #![expect(unsafe_code, reason = "a stack that is written before it is read needs no clearing, 2 KB per ray")]
 
 use crate::node::{ChildRef, WIDTH};
+use crate::ray::PACKET;
 use core::mem::MaybeUninit;
 
 /// The deepest tree that is built.
@@ -103,5 +104,57 @@ impl Stack {
         // SAFETY: both elements are below the length, so they have been written; plain data.
         let one = |i: usize| unsafe { (self.refs[i].assume_init(), self.near[i].assume_init().to_bits()) };
         (0..self.len).map(one).collect()
+    }
+}
+
+/// The same for rays that go together: children that wait, with the parameter at which each ray enters, NaN where one does not.
+pub(crate) struct Rows {
+    refs: [MaybeUninit<u32>; CAPACITY],
+    near: [MaybeUninit<[f32; PACKET]>; CAPACITY],
+    /// Everything below has been written. At most `CAPACITY`.
+    len: usize,
+}
+
+impl Rows {
+    #[inline(always)]
+    pub(crate) fn new() -> Self {
+        Self {
+            refs: [const { MaybeUninit::uninit() }; CAPACITY],
+            near: [const { MaybeUninit::uninit() }; CAPACITY],
+            len: 0,
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn push_if(&mut self, wanted: bool, child: ChildRef, near: [f32; PACKET]) {
+        assert!(self.len < CAPACITY, "the builder bounds the depth");
+        self.refs[self.len].write(child.0);
+        self.near[self.len].write(near);
+        self.len += usize::from(wanted);
+    }
+
+    #[inline(always)]
+    pub(crate) fn len(&self) -> usize {
+        self.len
+    }
+
+    /// A child that waits.
+    #[inline(always)]
+    pub(crate) fn child(&self, at: usize) -> ChildRef {
+        assert!(at < self.len);
+        // SAFETY: the element is below the length, so it has been written; a u32 is plain data.
+        ChildRef(unsafe { self.refs[at].assume_init() })
+    }
+
+    #[inline(always)]
+    pub(crate) fn pop(&mut self) -> Option<(ChildRef, [f32; PACKET])> {
+        self.len = self.len.checked_sub(1)?;
+        // SAFETY: the element was below the length, so it has been written; both are plain data.
+        Some(unsafe { (ChildRef(self.refs[self.len].assume_init()), self.near[self.len].assume_init()) })
+    }
+
+    #[cfg(test)]
+    pub(crate) fn drain(&mut self) -> Vec<(u32, [f32; PACKET])> {
+        core::iter::from_fn(|| self.pop()).map(|(child, near)| (child.0, near)).collect()
     }
 }

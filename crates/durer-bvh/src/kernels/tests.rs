@@ -1,8 +1,10 @@
-use super::{Avx2, Kernel, Scalar, Stack};
+use super::{Avx2, Kernel, Rows, Scalar, Stack};
 use crate::frame::Frame;
 use crate::node::{ChildRef, Node8, WIDTH};
-use crate::ray::{CullRay, Line, Rounding, Way};
+use crate::ray::{CullRay, Glance, Glances, Line, PACKET, Rounding, Sight, Way};
+use crate::tree::Bvh;
 use crate::triangles::{Block, Filter};
+use durer_math::eft::exponent;
 use durer_math::{Aabb, Isa, Point3, Vec3};
 use proptest::prelude::*;
 
@@ -104,6 +106,54 @@ proptest! {
         for lane in (0..8).filter(|lane| one.alive >> lane & 1 != 0) {
             prop_assert_eq!(one.lo[lane].to_bits(), eight.lo[lane].to_bits());
             prop_assert_eq!(one.hi[lane].to_bits(), eight.hi[lane].to_bits());
+        }
+    }
+
+    #[test]
+    fn rays_that_go_together_enter_what_each_enters_alone(
+        node in node(), o in prop::array::uniform3(coordinate()), far in 0..3_i32, d in direction(),
+        aside in prop::collection::vec((prop::array::uniform3(0.0..0.06_f64), any::<bool>()), PACKET),
+        bent in prop::collection::vec((prop::array::uniform3(0.0..0.06_f64), any::<bool>()), PACKET),
+        t_max in prop::collection::vec(prop_oneof![Just(f64::INFINITY), 0.0..4.0_f64], PACKET),
+    ) {
+        let Some(avx2) = Isa::available().find_map(Avx2::of) else { return Ok(()) };
+        let mut tree = Bvh::assembled(Frame::around(&Aabb::EMPTY), vec![0, 1]);
+        tree.set_nodes(vec![node]);
+        let lines: Vec<Line> = (0..PACKET).map(|i| {
+            let moved = |by: &([f64; 3], bool), i: usize| if by.1 { by.0[i] } else { 0.0 };
+            let origin = [0, 1, 2].map(|k| f64::from(o[k]) * [1.0, 2.0, 3.5][far as usize] + moved(&aside[i], k));
+            let d = [0, 1, 2].map(|k| d[k] + moved(&bent[i], k).copysign(d[k]));
+            let d = Vec3::from(d);
+            let d = d.scale2(-exponent(d.max_abs()));
+            Line { t_max: t_max[i], inner: (0.0, t_max[i]), ..line(origin, d.to_array()) }
+        }).collect();
+        let glances: [Glance; PACKET] = core::array::from_fn(|i| lines[i].glance());
+        let packet = Glances::of(&glances).and_then(|glances| avx2.gather(&tree, &glances));
+        let Some(packet) = packet else { return Ok(()) };
+        let ends = avx2.ends(&packet);
+        let far = ends.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+        let mut rows = Rows::new();
+        avx2.descend_together::<true>(&node, &packet, &[f32::NEG_INFINITY; PACKET], (&ends, far), &mut rows);
+        let rows = rows.drain();
+        for (i, line) in lines.iter().enumerate() {
+            let Some((lanes, way)) = avx2.ready(&tree, line) else { return Err(TestCaseError::fail("it is nearby")) };
+            let mut stack = Stack::new();
+            let last = avx2.descend::<true>(&node, &lanes, way.t_far, &mut stack);
+            let mut alone: Vec<u32> = stack.drain().into_iter().map(|(child, _)| child).collect();
+            alone.push(last.0);
+            alone.reverse();
+            let mut among: Vec<u32> = rows.iter().filter(|(_, near)| !near[i].is_nan()).map(|&(child, _)| child).collect();
+            among.push(ChildRef::END.0);
+            prop_assert_eq!(&alone, &among);
+            let (again, same) = avx2.one(&tree, &packet, i);
+            let mut stack = Stack::new();
+            avx2.descend::<true>(&node, &again, same.t_far, &mut stack);
+            let mut waiting: Vec<(u32, u32)> = rows.iter().filter(|(_, near)| !near[i].is_nan()).map(|&(child, near)| (child, near[i].to_bits())).collect();
+            waiting.reverse();
+            waiting.pop();
+            let mut stacked = stack.drain();
+            stacked.retain(|&(child, _)| child != ChildRef::END.0);
+            prop_assert_eq!(stacked, waiting);
         }
     }
 }

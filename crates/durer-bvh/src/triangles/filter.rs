@@ -94,27 +94,50 @@ impl Filter {
     /// The ray from its entry on; `rounded` says that f32 does not hold the corners.
     #[inline(always)]
     pub(crate) fn new(sight: &impl Sight, way: &Way, rounded: bool) -> Self {
-        let w = if rounded { U } else { 0.0 };
-        if way.is_exact { Self::exact(way, w) } else { Self::known_within(&sight.line(), way, w) }
+        if way.is_exact {
+            Self::of_exact(way, rounded)
+        } else {
+            Self::known_within(&sight.line(), way, Self::of_corners(rounded))
+        }
     }
+
+    /// The same for a ray that is [exactly known](Way::is_exact).
+    #[inline(always)]
+    pub(crate) fn of_exact(way: &Way, rounded: bool) -> Self {
+        Self::exact(way, Self::of_corners(rounded))
+    }
+
+    /// How far corners may be from where they are kept.
+    #[inline(always)]
+    pub(crate) fn of_corners(rounded: bool) -> f32 {
+        if rounded { U } else { 0.0 }
+    }
+
+    /// Factors for exactly known rays: of `c M` in `a`, of `M` in `b`, of `O` in `p`; `s`; and in `a` and `p` those of what rounding took from corners.
+    pub(crate) const A: f32 = 42.0 * U * PAYS;
+    pub(crate) const B: f32 = 10.0 * U * PAYS;
+    pub(crate) const P: f32 = 2.0 * U * PAYS;
+    pub(crate) const S: f32 = 8.0 * 128.0 * U * U * PAYS;
+    pub(crate) const ROUNDED_A: f32 = 12.0 * PAYS;
+    pub(crate) const ROUNDED_P: f32 = 4.0 * PAYS;
 
     /// The formulas above with `e = g = 0`.
     #[inline(always)]
     fn exact(way: &Way, w: f32) -> Self {
         let (size, m) = (most(&way.start), most(&way.direction));
         let c = 1.0 + size;
-        let b = (10.0 * U * PAYS) * m;
+        let b = Self::B * m;
         let (first, last) = way.inside();
         Self {
             o: way.start,
             d: way.direction,
-            a: (42.0 * U * PAYS).mul_add(c, (12.0 * PAYS) * w) * m,
+            a: Self::A.mul_add(c, Self::ROUNDED_A * w) * m,
             b,
             g: w * c * (12.0 * b),
             flat: 2.0 * b,
-            p: (2.0 * U * PAYS).mul_add(size, (4.0 * PAYS) * w),
+            p: Self::P.mul_add(size, Self::ROUNDED_P * w),
             q: 4.0 * b,
-            s: 8.0 * 128.0 * U * U * PAYS,
+            s: Self::S,
             t_near: way.t_near,
             first,
             last,
@@ -188,4 +211,9 @@ pub(crate) struct Verdict {
     /// Bounds of the crossing's parameter, from the entry, of the lanes alive.
     pub(crate) lo: [f32; 8],
     pub(crate) hi: [f32; 8],
+}
+
+impl Verdict {
+    /// All are missed.
+    pub(crate) const NOTHING: Self = Self { alive: 0, sure: 0, lo: [0.0; 8], hi: [0.0; 8] };
 }

@@ -1,0 +1,148 @@
+//! Rays of a batch that are much alike: eight of them go through the tree together, with one stack.
+//!
+//! Each is shown what it is shown alone, in the same order: who goes where is told ray by ray, with the arithmetic of a single ray. A ray that is left alone goes on alone.
+
+use crate::batch::{Aim, LARGE, One, Rays};
+use crate::kernels::{Kernel, Rows};
+use crate::node::ChildRef;
+use crate::quest::{Held, Known, Quest, Reach};
+use crate::ray::PACKET;
+use crate::traverse::follow;
+use crate::tree::Bvh;
+use crate::triangles::{Block, Verdict};
+use core::marker::PhantomData;
+
+/// Eight rays, and what each has found.
+struct Group<'a, K: Kernel, B, M> {
+    kernel: K,
+    tree: &'a Bvh,
+    rays: &'a mut B,
+    /// The number of the first.
+    first: usize,
+    packet: &'a K::Packet,
+    /// NaN for a ray that has found what it looked for: nothing is before this.
+    t_far: [f32; PACKET],
+    /// The greatest there was at the last step that changed one.
+    far: f32,
+    held: [Held; PACKET],
+    aim: PhantomData<M>,
+}
+
+/// Shows the tree to the rays `first` and those after it.
+#[inline(always)]
+pub(crate) fn together<K: Kernel, B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool>(
+    kernel: K,
+    tree: &Bvh,
+    rays: &mut B,
+    first: usize,
+    packet: &K::Packet,
+) {
+    let t_far = kernel.ends(packet);
+    let held = [Held::NOTHING; PACKET];
+    let far = greatest(&t_far);
+    let mut group: Group<'_, K, B, M> =
+        Group { kernel, tree, rays, first, packet, t_far, far, held, aim: PhantomData };
+    let mut for_triangles = None;
+    let is_large = tree.held() > LARGE;
+    let mut rows = Rows::new();
+    rows.push_if(true, ChildRef::node(0), [f32::NEG_INFINITY; PACKET]);
+    while let Some((child, row)) = rows.pop() {
+        let awake = kernel.awake(&row, &group.t_far);
+        let is_alone = awake & awake.wrapping_sub(1) == 0;
+        if !child.is_leaf() && !is_alone {
+            let node = &tree.nodes[child.index()];
+            let limits = (&group.t_far, group.far);
+            let before = rows.len();
+            kernel.descend_together::<ORDERED>(node, packet, &row, limits, &mut rows);
+            if is_large {
+                for at in before..rows.len() {
+                    kernel.fetch(tree, rows.child(at));
+                }
+            }
+            continue;
+        }
+        let block = if child.is_leaf() { tree.block(child) } else { None };
+        let Some(of) = block else {
+            for ray in lanes(awake) {
+                group.advance(ray, child, None);
+            }
+            continue;
+        };
+        let block = &tree.blocks[of.1 as usize];
+        let (filters, verdicts) = for_triangles.get_or_insert_with(
+            #[inline(always)]
+            || (kernel.filters(tree, packet), [Verdict::NOTHING; PACKET]),
+        );
+        let alive = kernel.judge_together(block, filters, awake, &group.t_far, verdicts);
+        for ray in lanes(alive) {
+            group.advance(ray, child, Some((of, block, &verdicts[ray])));
+        }
+    }
+    let mut leaves = [None; PACKET];
+    let mut are_any = false;
+    for (leaf, held) in leaves.iter_mut().zip(&group.held) {
+        *leaf = held.leaf();
+        are_any |= leaf.is_some();
+    }
+    if are_any {
+        group.rays.last_tests(first, &leaves);
+    }
+}
+
+/// The bits that are set.
+#[inline(always)]
+fn lanes(mut bits: u32) -> impl Iterator<Item = usize> {
+    core::iter::from_fn(
+        #[inline(always)]
+        move || {
+            let lane = bits.trailing_zeros() as usize;
+            bits &= bits.wrapping_sub(1);
+            (lane < PACKET).then_some(lane)
+        },
+    )
+}
+
+#[inline(always)]
+fn greatest(t_far: &[f32; PACKET]) -> f32 {
+    t_far.iter().fold(
+        f32::NEG_INFINITY,
+        #[inline(always)]
+        |a, &b| if b > a { b } else { a },
+    )
+}
+
+impl<K: Kernel, B, M> Group<'_, K, B, M> {
+    /// What one ray does with triangles that it may meet, or else with all that is in a child.
+    #[inline(always)]
+    fn advance<const ORDERED: bool>(
+        &mut self,
+        ray: usize,
+        child: ChildRef,
+        judged: Option<((u32, u32), &Block, &Verdict)>,
+    ) where
+        M: Aim<ORDERED>,
+        B: Rays<M::Said>,
+    {
+        let Self { kernel, tree, packet, .. } = *self;
+        let number = self.first + ray;
+        let before = self.t_far[ray];
+        let mut reach = Reach { t_far: before, held: self.held[ray] };
+        let mut quest = M::quest(One { rays: self.rays, ray: number });
+        let found = if let Some((of, block, verdict)) = judged {
+            quest.judged(kernel, &kernel.way(tree, packet, ray), of, block, verdict, &mut reach)
+        } else {
+            let (lanes, way) = kernel.one(tree, packet, ray);
+            let mut sieve = Known { filter: None };
+            follow(kernel, tree, &lanes, &way, child, &mut sieve, &mut reach, &mut quest)
+        };
+        drop(quest);
+        self.held[ray] = reach.held;
+        if found {
+            self.rays.found(number);
+            self.t_far[ray] = f32::NAN;
+        } else if reach.t_far < before {
+            self.t_far[ray] = reach.t_far;
+            self.far = greatest(&self.t_far);
+        }
+    }
+}
