@@ -26,6 +26,7 @@ import scenes
 from exact import to_float, union
 from shapes import IDENTITY, Loops, add, cross, dot, small, sub, times
 from solids import Region
+from zero_sets import ZeroSet
 
 INF = float("inf")
 U = 2.0**-53
@@ -288,8 +289,8 @@ def check_hit(report, scene, ray, event, leaf, hit, widths):
     speed = max(abs(to_float(dot(row, tuple(map(F, ray[3:6]))) / leaf.whole.w)) for row in leaf.whole.n)
     for i, p in enumerate(world):
         about = sum(abs(to_float(m)) for m in leaf.whole.rows[i]) * back + abs(to_float(leaf.whole.c[i]))
-        # Walls of pieces are resolved on the surface itself, in its own frame, so that what the bracket leaves open goes all ways there.
-        moved = max(speed * sum(abs(to_float(m)) for m in leaf.whole.rows[i]), abs(ray[3 + i])) if isinstance(leaf, Region) else abs(ray[3 + i])
+        # Zero sets and what is put together from them are resolved on the surface itself, in its own frame, so that what the bracket leaves open goes all ways there.
+        moved = max(speed * sum(abs(to_float(m)) for m in leaf.whole.rows[i]), abs(ray[3 + i])) if isinstance(leaf, (Region, ZeroSet)) else abs(ray[3 + i])
         allowed = 4 * float(hi - lo) * moved + 1024 * U * about
         if not abs(to_float(F(float(hit["position"][i])) - p)) <= allowed:
             bad("wrong position", f"{event} position[{i}] = {to_float(p)!r}, not {float(hit['position'][i])!r}")
@@ -363,7 +364,7 @@ def matched(report, scene, ray, expected, hits):
                     wrong.append("cluster with another sign")
                 if certain:
                     wrong.append("cluster where exact arithmetic decides")
-                elif len(held) < 2 and not any(e.sign == 0 or len(e.normals) > 1 for e, _ in held) and not leaf.is_tangent(leaf.whole.ray(ray[:3], ray[3:6]), float(h["t_lo"]), float(h["t_hi"])):
+                elif len(held) < 2 and not any(e.sign == 0 or len(e.normals) > 1 for e, _ in held) and not any(near(leaf.whole.ray(ray[:3], ray[3:6]), float(h["t_lo"]), float(h["t_hi"])) for near in (leaf.is_tangent, leaf.passes_an_edge)):
                     wrong.append("cluster away from tangents and edges")
                 left = [pair for pair in left if pair not in held]
                 continue

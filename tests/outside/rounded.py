@@ -121,6 +121,11 @@ class Superellipsoid(Region):
         left = plus(multiply(e, e), n)
         return minus(multiply(left, left), scaled(4, multiply(multiply(f, f), n)))
 
+    def is_met(self, root, ray):
+        """Beyond |z| = 1 there is none of it, only of what squaring adds, by which the least of numbers may be off."""
+        z = places(ray)[2]
+        return root.sign_of(whole(minus([F(1)], multiply(z, z)))) >= 0 and super().is_met(root, ray)
+
     def raised(self, x, e):
         """x >= 0 to a power that is a power of two."""
         while e < 1:
@@ -276,6 +281,10 @@ class Blob(Region):
 
     def unit(self):
         return self.threshold
+
+    def passes_an_edge(self, ray, lo, hi):
+        """There is none: where fields begin the surface is smooth."""
+        return False
 
 
 def blob(rng):

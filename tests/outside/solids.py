@@ -132,6 +132,17 @@ class Region(Leaf):
         """What grows where the solid's own surface is crossed, and not where its walls are."""
         return self.value(p)
 
+    def passes_an_edge(self, ray, lo, hi):
+        """Whether two faces, or what parts them, are met between two places that are next to each other; or an edge is missed by less than 2^-100."""
+        along = places(ray)
+        length = self.size / max(abs(c[1]) for c in along)
+        if (F(hi) - F(lo)) * (1 << 26) > length:
+            return False
+        held = [(r, source) for r, source, _ in self.candidates(ray) if r.cmp(lo) >= 0 and r.cmp(hi) <= 0]
+        if len(grouped([(r, s, True) for r, s in held])) > 1 and len({id(s) for _, s in held}) > 1:
+            return True
+        return any(abs(self.value(tuple(at(c, r.rational(300)) for c in along))) <= self.unit() / (1 << 100) for r, _ in held)
+
     def is_tangent(self, ray, lo, hi):
         """Whether the value hardly changes along the ray about there: less than a millionth of what it could."""
         along = places(ray)

@@ -453,6 +453,25 @@ mod tests {
         assert!(tight > 5000, "{tight}");
     }
 
+    /// Through a horn's tip, where the gradient's square is below the normal numbers.
+    #[test]
+    fn normals_at_a_tip_have_unit_length() {
+        let radius = 0.000_309_944_152_832_031_25;
+        let torus = Torus::new(Point3::ORIGIN, Axis::Y, radius, radius).unwrap();
+        for y in [0.0, 5e-324, 1e-200, 1e-165, 1e-160, 1e-155] {
+            let origin = Point3::new(-0.001_464_843_75, -y, -0.001_953_125);
+            let ray = durer_math::Ray::new(origin, Vec3::new(96.0, 0.0, 128.0));
+            let local = LocalRay::new(&ray);
+            let mut met = crate::All::default();
+            torus.roots(&local, &mut met);
+            assert!(met.roots.len() >= 2, "{y:e}: {:?}", met.roots);
+            for root in &met.roots {
+                let n = torus.resolve(&local, root, Need::ALL).ng.to_vec();
+                assert!((n.length() - 1.0).abs() < 4e-16, "{y:e}: {n:?}");
+            }
+        }
+    }
+
     #[test]
     fn bad_radii_are_named() {
         let o = Point3::ORIGIN;

@@ -451,7 +451,13 @@ fn resolve_here<const N: usize, Z: ZeroSet<N>>(
     let (normal, off, tip) = if sheet {
         (g * (1.0 / length), 2.0 * eta / (sure + square.sqrt()) * (1.0 + 64.0 * U), false)
     } else {
-        let n = if length > 0.0 && length.is_finite() { g * (1.0 / length) } else { shape.tip(y1) };
+        let n = if length > 0.0 && length.is_finite() {
+            // Next to a tip its squares may be below the normal numbers.
+            let g = g.map(|x| scale2(x, -exponent(g.max_abs())));
+            g * (1.0 / g.length())
+        } else {
+            shape.tip(y1)
+        };
         (n, leave(shape, y1, n, lost + Vec3::new(tau, tau, tau)), true)
     };
     let least = if tip { least_step(p) } else { f64::MIN_POSITIVE };

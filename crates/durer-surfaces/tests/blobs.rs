@@ -66,6 +66,34 @@ fn a_shear_widens_no_bracket() {
     assert!(met > 1900 && clusters == 0 && median < 1000.0, "{clusters} of {met}: {median}");
 }
 
+/// What f64 cannot tell of the sum of placed fields, double-double can: rays that miss a surface, or cut it, by a millionth of a millionth of its size.
+#[test]
+fn next_to_a_tangent_there_are_two_crossings_or_none() {
+    let squeeze = [[4.0, 0.0, -3.0], [0.0, 5.0, 0.0], [3.0, 0.0, 4.0]];
+    let place = Affine::new(squeeze, Point3::new(-1.0, 0.5, 1000.0)).unwrap();
+    // Far from the middle of what both reach, so that it is known badly in f64 how strong it is; alone it is a ball of radius 1.
+    let small = BlobComponent { place, ..ball(Point3::new(0.0, 0.0, -200.0), 2.0_f64.sqrt(), 4.0) };
+    let parts = [small, ball(Point3::new(-900.0, 0.0, 0.0), 500.0, 1.0)];
+    let blob = Blob::new(1.0, &parts).unwrap();
+    let (mut dice, mut two, mut none) = (Dice(23), 0, 0);
+    for i in 0..400 {
+        let d = dice.vector();
+        let across = d.cross(dice.vector());
+        let beside = 1.0 + f64::from(i % 2 * 2 - 1) * durer_math::scale::pow2(-36 - (i / 2 % 8));
+        let at = across * (beside / across.length());
+        let p = |v: Vec3| place.point((v - Vec3::Z * 200.0).to_point());
+        let ray = Ray::new(p(at - d * 4.0), place.vector(d));
+        let roots = all(&blob, &ray);
+        assert!(roots.iter().all(|r| r.kind == Kind::Simple), "{ray:?} {beside}: {roots:?}");
+        match roots.len() {
+            0 => none += 1,
+            2 => two += 1,
+            _ => panic!("{ray:?} {beside}: {roots:?}"),
+        }
+    }
+    assert!(two > 150 && none > 150, "{two} {none}");
+}
+
 #[test]
 fn pictures_know_as_well_on_which_side_of_an_end_a_crossing_is() {
     let one = Blob::new(0.25, &[ball(Point3::ORIGIN, 2.0, 1.0)]).unwrap();

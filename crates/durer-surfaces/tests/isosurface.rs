@@ -496,3 +496,26 @@ fn pictures_see_as_much_of_a_rim() {
     }
     assert!(met > 2000, "{met}");
 }
+
+/// A rim is where a formula's surface meets its container: a ray that passes there within rounding meets it once, if at all, or is inside for longer than that.
+#[test]
+fn a_rim_within_rounding_is_one_touch() {
+    let (mut p, [x, y, _]) = Pen::new();
+    let half = p.c(0.5);
+    let sum = p.add(x, y);
+    let f = p.add(sum, half);
+    let surface = iso(&p.done(f), 1.0);
+    let (mut dice, mut touches) = (Dice(32), 0);
+    for _ in 0..2000 {
+        // Through the rim at x = 1/2, y = -1, from below the one face to beyond the other.
+        let rim = Vec3::new(0.5, -1.0, 0.5 * dice.unit());
+        let d = Vec3::new(dice.unit() - 0.25, dice.unit(), dice.unit());
+        let d = if d.x + d.y > 0.1 && d.y > 0.1 { d } else { Vec3::new(0.3, 0.7, 0.1) };
+        let roots = all(&surface, &Ray::new((rim - d * (1.0 + 3.0 * dice.unit())).to_point(), d));
+        let signs: Vec<_> = roots.iter().map(|r| (r.sign, r.kind)).collect();
+        assert!(matches!(signs.as_slice(), [] | [(0, Kind::Cluster)]), "{d:?} {roots:?}");
+        assert!(roots.iter().all(|r| r.hi - r.lo < 1e-12), "{d:?} {roots:?}");
+        touches += roots.len();
+    }
+    assert!(touches > 200, "{touches}");
+}

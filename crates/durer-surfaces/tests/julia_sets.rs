@@ -5,10 +5,10 @@ mod common;
 mod solids;
 
 use common::Dice;
-use durer_math::{Dyadic, Ray, Ring};
+use durer_math::{Affine, Dyadic, Point3, Ray, Ring, Vec3};
 use durer_surfaces::{
-    Julia, JuliaAlgebra, JuliaError, JuliaPower, JuliaSet, Kind, LocalPoint, LocalRay, Need, Root, Side,
-    Surface,
+    Julia, JuliaAlgebra, JuliaError, JuliaPower, JuliaSet, Kind, LocalPoint, LocalRay, Need, Placed, Root,
+    Side, Surface, superellipsoid,
 };
 use solids::{Met, all};
 
@@ -46,6 +46,60 @@ fn a_julia_set_of_zero_is_a_ball() {
         }
         assert!(met.simple > 500 && met.clusters * 100 < met.simple, "{} {}", met.simple, met.clusters);
     }
+}
+
+/// What is a touch within rounding is no longer than that: about `√2⁻⁵⁰` of the set.
+#[test]
+fn a_touch_is_as_short_as_rounding_allows() {
+    let set = JuliaSet::new(&julia_of([0.0; 4], JuliaAlgebra::Quaternion, JuliaPower::Square, 0)).unwrap();
+    let turn = [[-4.0, 4.0, -7.0], [8.0, 1.0, -4.0], [1.0, 8.0, 4.0]];
+    let place = Affine::new(turn, Point3::new(0.0, -7.0, 1000.0)).unwrap();
+    let placed = Placed::new(set, place);
+    let (mut dice, mut touches) = (Dice(24), 0);
+    for _ in 0..300 {
+        let d = dice.vector();
+        let across = d.cross(dice.vector());
+        let at = across * (2.0 / across.length());
+        let ray = Ray::new(place.point((at - d * (0.5 / d.length())).to_point()), place.vector(d));
+        for root in all(&placed, &ray) {
+            let length = (root.hi - root.lo) * d.length();
+            assert!(length < 1e-5, "{ray:?}: {root:?}");
+            touches += usize::from(root.kind != Kind::Simple);
+        }
+    }
+    assert!(touches > 100, "{touches}");
+}
+
+/// Brackets are those of the exact placement, however much its inverse makes of a rounding.
+#[test]
+fn a_shear_widens_no_bracket() {
+    let shear = [[1.0, 500.0, 0.0], [0.0, 1.0, 500.0], [0.0, 0.0, 1.0]];
+    let place = Affine::new(shear, Point3::new(0.125, 125.0, 1000.0)).unwrap();
+    let julia = julia_of([-1.125, 0.0, 0.0, 0.125], JuliaAlgebra::Quaternion, JuliaPower::Square, 1);
+    let julia = Placed::new(JuliaSet::new(&julia).unwrap(), place);
+    let convex = Placed::new(superellipsoid(0.5, 1.0).unwrap(), place);
+    let dented = Placed::new(superellipsoid(1.0, 4.0).unwrap(), place);
+    let mut dice = Dice(25);
+    let (mut widths, mut points) = ([const { Vec::new() }; 3], 0);
+    for _ in 0..200 {
+        let (from, to) = (dice.vector() * 4.0, dice.vector() * 0.5);
+        let p = |v: Vec3| place.point(v.to_point());
+        let ray = Ray::new(p(from), p(to) - p(from));
+        for (i, roots) in [all(&julia, &ray), all(&convex, &ray), all(&dented, &ray)].iter().enumerate() {
+            widths[i].extend(roots.iter().map(|r| (r.hi - r.lo) / (r.t * f64::EPSILON)));
+        }
+        for root in all(&convex, &ray) {
+            let point = convex.resolve(&LocalRay::new(&ray), &root, Need::ALL);
+            assert!(point.off < 1e-9, "{ray:?}: {point:?}");
+            points += 1;
+        }
+    }
+    let medians = widths.map(|mut widths| {
+        widths.sort_by(f64::total_cmp);
+        widths[widths.len() / 2]
+    });
+    println!("medians {medians:?} ulp, {points} points");
+    assert!(points > 100 && medians.iter().all(|&median| median < 1000.0), "{medians:?}");
 }
 
 /// The product of two quaternions or hypercomplex numbers, from the table of units.

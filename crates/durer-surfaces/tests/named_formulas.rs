@@ -7,7 +7,7 @@ mod laws;
 mod solids;
 
 use common::Dice;
-use durer_math::{Point3, Vec3};
+use durer_math::{Point3, Ray, Vec3};
 use durer_surfaces::{SuperellipsoidError, superellipsoid};
 use laws::{holds_together, polynomial, same};
 use solids::{Met, all};
@@ -119,4 +119,22 @@ fn exponents_out_of_range_are_named() {
         assert!(matches!(superellipsoid(bad, 1.0), Err(SuperellipsoidError::Exponent(_))));
         assert!(matches!(superellipsoid(1.0, bad), Err(SuperellipsoidError::Exponent(_))));
     }
+}
+
+/// Beyond what rounding leaves open along a tangent of high order, or along a straight line in the surface, the sign is certain, and no cluster reaches there.
+#[test]
+fn clusters_end_where_rounding_does() {
+    let met = |(e, n): (f64, f64), o: [f64; 3], d: [f64; 3]| {
+        all(&superellipsoid(e, n).unwrap(), &Ray::new(Vec3::from(o).to_point(), Vec3::from(d)))
+    };
+    // |y|^4 / 4 above the surface.
+    let [touch] = met((0.5, 2.0), [-0.25, -0.25, 1.25], [0.75, 0.25, -0.75])[..] else { panic!() };
+    assert!(touch.lo < 1.0 && 1.0 < touch.hi && touch.hi - touch.lo < 0.01, "{touch:?}");
+    // From the tip of a cone to its rim, at t = 2; of a star's, at t = 1.134.
+    let cone = met((1.0, 2.0), [-0.6, -0.8, 2.0], [0.6, 0.8, -1.0]);
+    assert!(cone.iter().all(|r| r.lo > 0.9999 && r.hi < 2.0001), "{cone:?}");
+    let direction = [0.118_146_029_604_788_11, -0.354_438_088_814_364_34, -0.881_853_970_395_211_9];
+    let origin = [-0.708_876_177_628_728_7, 2.126_628_532_886_186, 6.291_123_822_371_271];
+    let star = met((4.0, 2.0), origin, direction);
+    assert!(star.iter().all(|r| r.lo > 5.9999 && r.hi < 6.0 + 1.0 / 0.8818), "{star:?}");
 }

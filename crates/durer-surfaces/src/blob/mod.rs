@@ -18,6 +18,7 @@
 //! What is proven: a root of kind simple is the only crossing in its bracket, at whose ends the sum is certainly on opposite sides of the threshold.
 //! Where f64 cannot tell the sign over a stretch (at tangents, mostly) the crossings there are one [`Kind::Cluster`](crate::Kind).
 
+mod closely;
 mod part;
 mod point;
 mod stretch;
@@ -96,6 +97,8 @@ pub struct Blob {
     /// A ball about the centre with this radius holds it.
     reach: f64,
     parts: Arc<[Part]>,
+    /// The components that the parts were made of.
+    components: Arc<[BlobComponent]>,
     tree: Arc<Tree>,
 }
 
@@ -130,6 +133,7 @@ impl Blob {
         // Components that are nowhere near add nothing where there is a surface.
         let meets = |b: &Aabb| b.intersection(bounds);
         let (mut parts, mut units) = (Vec::with_capacity(boxes.len()), Vec::with_capacity(boxes.len()));
+        let mut sources = Vec::with_capacity(boxes.len());
         for (component, reach) in components.iter().zip(&boxes) {
             let held = meets(reach);
             if component.strength == 0.0 || held.is_empty() {
@@ -138,10 +142,12 @@ impl Blob {
             let unit = |p: Point3| (p - centre).map(|x| scale2(x, -scale)).to_point();
             units.push(Aabb::new(unit(held.min), unit(held.max)));
             parts.push(Part::new(component, centre, scale));
+            sources.push(component);
         }
         let (tree, order) = Tree::new(&units);
         let parts = order.iter().map(|&i| parts[i as usize].clone()).collect();
-        Ok(Self { threshold, bounds, centre, scale, reach, parts, tree: Arc::new(tree) })
+        let components = order.iter().map(|&i| sources[i as usize].clone()).collect();
+        Ok(Self { threshold, bounds, centre, scale, reach, parts, components, tree: Arc::new(tree) })
     }
 
     #[inline(never)]
@@ -149,7 +155,7 @@ impl Blob {
         Isa::detect().run(
             #[inline(always)]
             || {
-                let at = ray.recentre(self.centre, self.scale);
+                let at = ray.recentre(self.centre, self.scale).sharp(1.0);
                 sweep::roots(self, &at, sink);
             },
         );

@@ -5,8 +5,8 @@
 //! serves where a crossing is so near such a point that the sign there is open: the stretch is then continued a little beyond it.
 
 use super::Blob;
+use super::closely::{Bracket, Touch};
 use super::part::{Piece, REACH};
-use super::point::Bracket;
 use super::stretch::{Stretch, Told};
 use super::tree::{Inner, is_known};
 use crate::roots::quadratic::NARROW;
@@ -347,7 +347,7 @@ impl Query<'_> {
                     return Flow::Stop;
                 }
                 self.tracker.before = Some(rises);
-                self.crossing(Bracket { s, lo, hi, alone }, rises)
+                self.crossing(Bracket { s, lo, hi, rises, alone })
             }
             Told::Murky { .. }
                 if self.tracker.before.is_none()
@@ -374,30 +374,47 @@ impl Query<'_> {
     }
 
     /// Shows a crossing between certain signs, in a bracket as narrow as it can be; of pictures only where it may be on either side of an end of the range.
-    fn crossing(&mut self, found: Bracket, rises: bool) -> Flow {
+    fn crossing(&mut self, found: Bracket) -> Flow {
         let (lo, hi) = self.at.bracket(found.lo, found.hi);
         let found = if self.at.local().rough && self.at.admits(lo, hi).is_some() {
             found
         } else {
             let scale = self.scale();
-            self.blob.narrowed(self.at, found, rises, |s| NARROW * scale(s))
+            self.blob.narrowed(self.at, found, |s| NARROW * scale(s))
         };
         let kind = if found.alone { Kind::Simple } else { Kind::Cluster };
-        self.show(found.s, (found.lo, found.hi), if rises { -1 } else { 1 }, kind)
+        self.show(found.s, (found.lo, found.hi), if found.rises { -1 } else { 1 }, kind)
     }
 
     /// What could not be told ends where the sign is `after`.
     fn close(&mut self, after: Option<bool>) -> Flow {
         let Some((lo, hi)) = self.tracker.open.take() else { return Flow::Continue };
-        let sign = match (self.tracker.before, after) {
-            (Some(false), Some(true)) => -1,
-            (Some(true), Some(false)) => 1,
-            _ => 0,
-        };
         let s = (0.5 * lo + 0.5 * hi).max(lo).min(hi);
-        match sign {
-            0 => self.show(s, (lo, hi), 0, Kind::Cluster),
-            _ => self.crossing(Bracket { s, lo, hi, alone: false }, sign < 0),
+        match (self.tracker.before, after) {
+            (Some(before), Some(after)) if before != after => {
+                self.crossing(Bracket { s, lo, hi, rises: after, alone: false })
+            }
+            (Some(within), Some(_)) if self.start.is_none() => self.touch((lo, hi), !within),
+            _ => self.show(s, (lo, hi), 0, Kind::Cluster),
+        }
+    }
+
+    /// What could not be told ends on the side on which it began.
+    #[cold]
+    fn touch(&mut self, stretch: (f64, f64), out: bool) -> Flow {
+        match self.blob.touched(self.at, stretch, out) {
+            Touch::Crossings(found) => {
+                for Bracket { s, lo, hi, rises, .. } in found {
+                    if self.show(s, (lo, hi), if rises { -1 } else { 1 }, Kind::Simple) == Flow::Stop {
+                        return Flow::Stop;
+                    }
+                }
+                Flow::Continue
+            }
+            Touch::Open(lo, hi) => {
+                let s = (0.5 * lo + 0.5 * hi).max(lo).min(hi);
+                self.show(s, (lo, hi), 0, Kind::Cluster)
+            }
         }
     }
 

@@ -7,8 +7,8 @@
 //!
 //! A regularised solid (A. A. G. Requicha, "Representations for rigid solids: theory, methods, and systems", *ACM Computing Surveys* 12(4), 1980) has the
 //! points next to which all is inside, so it holds such a face. The ray is in it where two lines beside the ray, across the face, are both inside for certain,
-//! and out of it where one of them is outside. They are as far away as it takes for rounding to leave the sign alone: some hundreds of units in the last place,
-//! which is what the brackets of the crossings are wider by. These are clusters, as all is that no sign of the ray's own proves.
+//! and out of it where one of them is outside. They are as far away as it takes for rounding to leave the sign alone: the distance begins with the error of a point and grows
+//! until something is told, at most to the length of what is asked about. It is what the brackets of the crossings are wider by. These are clusters, as all is that no sign of the ray's own proves.
 
 use super::line::Line;
 use super::tracker::{Curve, Found};
@@ -17,8 +17,6 @@ use crate::tape::Tape;
 use crate::{Flow, Kind};
 use durer_math::Vec3;
 
-/// How far the lines are away, in units of a point's error. What rounding does to a formula is mostly a few of these; the first that tells is taken.
-const AWAY: [f64; 3] = [64.0, 1024.0, 16384.0];
 /// Directions across the ray that are tried, in half a turn.
 const TURNS: usize = 8;
 /// Cosines of multiples of a sixteenth of a turn.
@@ -38,12 +36,14 @@ impl<'a> Beside<'a> {
     fn new(line: &Line, tape: &'a Tape, (lo, hi): (f64, f64)) -> Option<Self> {
         let (u, v) = tangents(line.direction() * (1.0 / line.direction().length()));
         let at: [f64; 8] = core::array::from_fn(|i| lo + (hi - lo) * ((i as f64 + 0.5) / 8.0));
-        let error = Vec3::from(line.err).max_abs();
-        AWAY.into_iter().find_map(|away| {
+        let length = (hi - lo) * line.direction().length();
+        let nearest = Vec3::from(line.err).max_abs();
+        let farther = |away: &f64| (4.0 * away <= length).then_some(4.0 * away);
+        core::iter::successors(Some(nearest), farther).find_map(|away| {
             let pairs = (0..TURNS).map(|k| {
                 let (cos, sin) =
                     if k <= 4 { (COSINES[k], COSINES[4 - k]) } else { (-COSINES[8 - k], COSINES[k - 4]) };
-                let n = (u * cos + v * sin) * (away * error);
+                let n = (u * cos + v * sin) * away;
                 let pair = Self { tape, lines: [line.beside(n), line.beside(-n)] };
                 let [x, y] = pair.signs(&at, &at);
                 let told = (0..8).filter(|&i| {

@@ -4,7 +4,7 @@
 //! here with eight stretches of one ray in each pass over the tape.
 
 use super::line::{Line, signs};
-use super::tracker::Verdict;
+use super::tracker::{Curve, Found, Verdict};
 use crate::tape::Tape;
 use durer_math::I8;
 
@@ -105,4 +105,48 @@ fn by_mean_value(
         }
     }
     (reach <= line.ulp || passes >= MOST_PASSES).then_some(Verdict::Murky)
+}
+
+/// So many passes are spent on each part of a cluster of which it is asked whether it has one sign.
+const PASSES_OF_A_PART: u32 = 256;
+/// So many parts are asked about at each end.
+const MOST_PARTS: u32 = 128;
+
+/// A cluster without what certainly has one sign at its ends, where the work for a ray was too much to look at each stretch alike.
+#[cold]
+pub(super) fn trimmed(line: &Line, tape: &Tape, mut found: Found) -> Found {
+    let end = |from: f64, to: f64| {
+        let Some(sign) = line.sign(tape, from) else { return from };
+        let (mut known, mut part) = (from, 0.5 * (to - from));
+        for _ in 0..MOST_PARTS {
+            if part.abs() <= 4.0 * line.ulp {
+                break;
+            }
+            let next = known + part;
+            let beyond = (to - next) * part <= 0.0;
+            if !beyond && has_sign(line, tape, (known.min(next), known.max(next)), sign) {
+                known = next;
+            } else {
+                part *= 0.5;
+            }
+        }
+        known
+    };
+    let (lo, hi) = (end(found.lo, found.hi), end(found.hi, found.lo));
+    if lo <= hi {
+        (found.lo, found.hi) = (lo, hi);
+        found.s = (0.5 * lo + 0.5 * hi).max(lo).min(hi);
+    }
+    found
+}
+
+/// Whether a stretch has this sign, as far as that can be told soon.
+fn has_sign(line: &Line, tape: &Tape, (lo, hi): (f64, f64), sign: bool) -> bool {
+    let mut passes = MOST_PASSES - PASSES_OF_A_PART;
+    isolate(line, tape, (lo, hi), &mut passes, &mut |a, b, verdict| match verdict {
+        Verdict::Sign(it) => it == sign,
+        // What rises is least where it begins.
+        Verdict::Monotone(rises) => line.sign(tape, if rises == sign { a } else { b }) == Some(sign),
+        Verdict::Gap | Verdict::Murky => false,
+    })
 }

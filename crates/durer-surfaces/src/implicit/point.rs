@@ -88,14 +88,15 @@ impl Isosurface {
             }
             return self.container.resolve(&own, &Root { face: root.face - 1, ..*root }, need);
         }
-        let at = ray.recentre(self.container.bounds().centre(), 0);
+        let at = self.centred(ray);
         let line = Line::new(&at, root.s.abs());
         let p0 = line.point(root.s);
         let size = p0.to_vec().max_abs();
         let width = at.width(root.lo, root.hi);
         let direction = line.direction();
         let reach = 64.0 * (width + size * U) + f64::MIN_POSITIVE;
-        let fold = width + 64.0 * (size * U) + f64::MIN_POSITIVE;
+        // The crossing is no farther than this, along any axis: so it may be on a plane that is not.
+        let fold = (width * direction.max_abs() + Vec3::from(line.err).max_abs()) * (1.0 + 8.0 * U);
         let foot = self.gauge.as_ref().and_then(|gauge| gauge.foot(p0, (fold, reach)));
         let Foot { p, n, off, bend } = foot.unwrap_or_else(|| self.foot(p0, direction, reach, width));
         let moved = (p - p0).abs();

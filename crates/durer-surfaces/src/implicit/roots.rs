@@ -3,7 +3,8 @@
 use super::Isosurface;
 use super::along_face;
 use super::cells::Place;
-use super::isolate::isolate;
+use super::convex::Answer;
+use super::isolate::{MOST_PASSES, isolate, trimmed};
 use super::line::Line;
 use super::tracker::{Curve, Found, Tracker, Verdict};
 use crate::{CentredRay, Flow, Kind, LocalRay, Root, Sink};
@@ -27,10 +28,35 @@ impl Sink for Caps {
 impl Isosurface {
     /// Shows all roots to `sink`, ascending.
     pub(super) fn all_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
-        let told = self.gauge.as_ref().is_some_and(|gauge| gauge.roots(ray, sink));
-        if !told {
-            self.roots_of_the_tape(ray, sink);
+        match self.gauge.as_ref().map_or(Answer::Open, |gauge| gauge.roots(ray, sink)) {
+            Answer::All => {}
+            Answer::Between(lo, hi) => self.roots_between(ray, (lo, hi), sink),
+            Answer::Open => self.roots_of_the_tape(ray, sink),
         }
+    }
+
+    /// The roots between two places beyond which all is outside.
+    #[cold]
+    #[inline(never)]
+    fn roots_between(&self, ray: &LocalRay<'_>, (lo, hi): (f64, f64), sink: &mut dyn Sink) {
+        let at = self.centred(ray);
+        let line = Line::new(&at, lo.abs().max(hi.abs()));
+        let ends = ray.rough.then(|| at.window((ray.t_min, ray.t_max)));
+        let mut tracker = Tracker::new(&line, &self.tape, Some(true), ends);
+        let mut passes = 0;
+        let mut show = |found: Option<Found>| found.is_none_or(|it| shown(&at, sink, &it) == Flow::Continue);
+        let told = isolate(&line, &self.tape, (lo, hi), &mut passes, &mut |a, b, verdict| {
+            show(tracker.take(a, b, verdict, &self.tape))
+        });
+        if told {
+            show(tracker.finish(Some(true)));
+        }
+    }
+
+    /// A ray as the container's centre sees it.
+    pub(super) fn centred<'a>(&self, ray: &'a LocalRay<'a>) -> CentredRay<'a> {
+        let bounds = self.container.bounds();
+        ray.recentre(bounds.centre(), 0).sharp(0.5 * (bounds.max - bounds.min).max_abs())
     }
 
     /// The same for any formula.
@@ -62,7 +88,7 @@ impl Isosurface {
         if ray.source.is_none() && (ends_before || begins_behind) {
             return;
         }
-        let at = ray.recentre(self.container.bounds().centre(), 0);
+        let at = self.centred(ray);
         let (in_lo, in_hi) = at.window((entry.lo, entry.hi));
         let (out_lo, out_hi) = at.window((exit.lo, exit.hi));
         let line = Line::new(&at, in_lo.abs().max(out_hi.abs()));
@@ -79,7 +105,7 @@ impl Isosurface {
         if self.regular || touch.sign != 0 {
             return;
         }
-        let at = ray.recentre(self.container.bounds().centre(), 0);
+        let at = self.centred(ray);
         let stretch = at.window((touch.lo, touch.hi));
         let line = Line::new(&at, stretch.0.abs().max(stretch.1.abs()));
         let told = self.sign_on(&line, stretch);
@@ -91,6 +117,11 @@ impl Isosurface {
 
     /// Shows a crossing of the container, or a touch, if it is in the ray's range.
     fn cap(&self, ray: &LocalRay<'_>, cap: &Root, sink: &mut dyn Sink) -> Flow {
+        self.cap_or_rim(ray, cap, (f64::INFINITY, f64::NEG_INFINITY), sink)
+    }
+
+    /// The same, in a bracket that holds a stretch beside it too.
+    fn cap_or_rim(&self, ray: &LocalRay<'_>, cap: &Root, beside: (f64, f64), sink: &mut dyn Sink) -> Flow {
         if self.open {
             return Flow::Continue;
         }
@@ -103,7 +134,10 @@ impl Isosurface {
         let mut caps = Caps::default();
         self.container.roots(&own, &mut caps);
         match caps.0.iter().find(|root| root.sign == cap.sign) {
-            Some(root) => sink.push(Root { face: root.face + 1, kind: cap.kind, ..*root }),
+            Some(root) => {
+                let (lo, hi) = (root.lo.min(beside.0), root.hi.max(beside.1));
+                sink.push(Root { lo, hi, face: root.face + 1, kind: cap.kind, ..*root })
+            }
             None => Flow::Continue,
         }
     }
@@ -116,6 +150,13 @@ impl Isosurface {
             Some(Place::Open(tape) | Place::Slope(tape, _)) => line.sign_on(tape, lo, hi),
             Some(Place::Gap) | None => line.sign_on(&self.tape, lo, hi),
         }
+    }
+
+    /// Whether a solid's formula may be zero where the line crosses the container; it is defined there.
+    fn is_rim(&self, line: &Line, (lo, hi): (f64, f64)) -> bool {
+        let v = line.bounds(&self.tape, &[lo; 8], &[hi; 8]);
+        let defined = (v.partial | v.empty) & 1 == 0;
+        !self.open && defined && v.lo.0[0] <= 0.0 && v.hi.0[0] >= 0.0
     }
 
     /// The sign of the rounded value there. Undefined is outside.
@@ -140,34 +181,61 @@ impl Query<'_> {
     fn run(&mut self, [entry, exit]: &[(Root, f64, f64); 2]) {
         let (from, to) = self.at.window((self.ray.t_min, self.ray.t_max));
         let within = from > entry.2;
-        let (a, before) = match self.ray.source {
+        let start = match self.ray.source {
             Some(side) if within && self.ray.source_face == 0 && self.ray.t_min == 0.0 => {
-                (from, side == RaySide::Front)
+                Start { at: from, before: side == RaySide::Front, rim: None }
             }
-            _ => (entry.1, self.declared(entry.1, entry.2)),
+            _ => self.start(entry.1, entry.2),
         };
-        if !within && !before && self.surface.cap(self.ray, &entry.0, self.sink) == Flow::Stop {
+        let enters = !within && !start.before && start.rim.is_none();
+        if enters && self.surface.cap(self.ray, &entry.0, self.sink) == Flow::Stop {
             return;
         }
         let slack = 16.0 * self.line.ulp;
         let range = (from - slack, if to < exit.1 { to + slack } else { f64::INFINITY });
         let end = (exit.1, exit.2);
-        let after =
-            if a < end.1 { self.between(a, end, before, range) } else { Some(self.declared(end.0, end.1)) };
+        let after = match start.rim {
+            _ if start.at < end.1 => {
+                self.between(&start, end, range, [(!within).then_some(&entry.0), Some(&exit.0)])
+            }
+            // The container's edge is all there is.
+            Some(lo) => {
+                let (hi, kind) = (end.1, Kind::Cluster);
+                let s = (0.5 * lo + 0.5 * hi).max(lo).min(hi);
+                let _ = shown(self.at, self.sink, &Found { s, lo, hi, sign: 0, kind, touches: None });
+                None
+            }
+            None => Some(self.declared(end.0, end.1)),
+        };
         if after == Some(false) {
             self.surface.cap(self.ray, &exit.0, self.sink);
         }
     }
 
-    /// The formula's sign where the line crosses the container: the certain one, or else that of the rounded value, which then decides for the
-    /// cap and for the formula's own surface alike, so that none is lost between them. Undefined is outside.
+    /// Where the line comes into the container, between two places. What cannot be told of the formula there cannot be told from its surface, which meets the container's
+    /// face at a rim: so it is what the line begins with, outside. A sheet has no such face.
+    fn start(&self, lo: f64, hi: f64) -> Start {
+        match self.surface.sign_on(self.line, (lo, hi)) {
+            Some(before) => Start { at: lo, before, rim: None },
+            None if self.surface.is_rim(self.line, (lo, hi)) => Start { at: hi, before: true, rim: Some(lo) },
+            None => Start { at: lo, before: self.declared(lo, hi), rim: None },
+        }
+    }
+
+    /// The formula's sign where the line crosses the container: the certain one, or else that of the rounded value. Undefined is outside.
     fn declared(&self, lo: f64, hi: f64) -> bool {
         let at = (lo, hi);
         self.surface.sign_on(self.line, at).unwrap_or_else(|| self.surface.rounded(self.line, at))
     }
 
-    /// Shows the roots from `a` to the end of the container that may be in `range`. The sign at that end; `None` if it was not asked for.
-    fn between(&mut self, a: f64, end: (f64, f64), before: bool, range: (f64, f64)) -> Option<bool> {
+    /// Shows the roots from the start to the end of the container that may be in `range`. The sign at that end; `None` if it was not asked for, or is that of a rim, which was shown.
+    fn between(
+        &mut self,
+        start: &Start,
+        end: (f64, f64),
+        range: (f64, f64),
+        [entry, exit]: [Option<&Root>; 2],
+    ) -> Option<bool> {
         let surface = self.surface;
         let ends = self.ray.rough.then(|| self.at.window((self.ray.t_min, self.ray.t_max)));
         let mut walk = Walk {
@@ -175,10 +243,15 @@ impl Query<'_> {
             line: self.line,
             at: self.at,
             sink: self.sink,
-            tracker: Tracker::new(self.line, &surface.tape, Some(before), ends),
+            tracker: Tracker::new(self.line, &surface.tape, Some(start.before), ends),
             last: range.1,
             passes: 0,
+            rim: start.rim.map(|_| entry),
         };
+        let a = start.at;
+        if let Some(rim) = start.rim {
+            let _ = walk.tracker.take(rim, a, Verdict::Murky, &surface.tape);
+        }
         // Cells before the range that may hold surface, since the last of which it is plain that it does not.
         let mut ahead = Vec::new();
         let mut go_on = true;
@@ -198,11 +271,26 @@ impl Query<'_> {
         }
         // What the walk has told up to there counts before a rounded value.
         let told = walk.tracker.settled();
-        let after =
-            surface.sign_on(walk.line, end).or(told).unwrap_or_else(|| surface.rounded(walk.line, end));
+        let after = surface.sign_on(walk.line, end).or(told);
+        if after.is_none() && surface.is_rim(walk.line, end) {
+            let _ = walk.tracker.take(end.0, end.1, Verdict::Murky, &surface.tape);
+            let found = walk.tracker.finish(Some(true));
+            walk.rim = Some(exit);
+            walk.show(found);
+            return None;
+        }
+        let after = after.unwrap_or_else(|| surface.rounded(walk.line, end));
         let found = walk.tracker.finish(Some(after));
         if walk.show(found) { Some(after) } else { None }
     }
+}
+
+/// Where the formula is looked at from, and its sign there.
+struct Start {
+    at: f64,
+    before: bool,
+    /// From here on it cannot be told, where the container's face begins.
+    rim: Option<f64>,
 }
 
 /// A walk along the cells of a ray.
@@ -215,6 +303,8 @@ struct Walk<'a, 's> {
     /// Roots behind this are of no interest.
     last: f64,
     passes: u32,
+    /// The next root that is found is at a rim, with this crossing of the container; without one if that is out of the ray's range.
+    rim: Option<Option<&'a Root>>,
 }
 
 impl<'a> Walk<'a, '_> {
@@ -243,8 +333,13 @@ impl<'a> Walk<'a, '_> {
 
     /// Shows a root. A touch from outside is none of a regular surface, unless the ray runs along a face that two of its parts share, which is in it.
     fn show(&mut self, found: Option<Found>) -> bool {
+        let rim = if found.is_some() { self.rim.take() } else { None };
         let flow = match found {
             None => Flow::Continue,
+            Some(found) if rim.is_some() && found.sign != 0 => match rim.flatten() {
+                Some(cap) => self.show_rim(cap, &found),
+                None => Flow::Continue,
+            },
             Some(Found { touches: Some(outside), lo, hi, .. }) if self.surface.regular => {
                 if outside {
                     self.along_a_face(lo, hi)
@@ -252,9 +347,23 @@ impl<'a> Walk<'a, '_> {
                     Flow::Continue
                 }
             }
+            // What was left when the passes had been used up may be much longer than what is open.
+            Some(found) if found.kind == Kind::Cluster && self.passes >= MOST_PASSES => {
+                shown(self.at, self.sink, &trimmed(self.line, &self.surface.tape, found))
+            }
             Some(found) => shown(self.at, self.sink, &found),
         };
         flow == Flow::Continue
+    }
+
+    /// Into the solid or out of it at a rim, by the container's face or right beside it: one crossing, told as the container's is.
+    #[cold]
+    #[inline(never)]
+    fn show_rim(&mut self, cap: &Root, found: &Found) -> Flow {
+        let (lo, hi) = self.at.bracket(found.lo.next_down(), found.hi.next_up());
+        let ray = self.at.local();
+        let lo = if ray.source.is_some() && ray.t_min == 0.0 { lo.max(0.0) } else { lo };
+        self.surface.cap_or_rim(ray, cap, (lo, hi), self.sink)
     }
 
     #[cold]

@@ -219,7 +219,8 @@ fn tell<const M: usize, const C: usize>(balls: &[Ball<C>; M], radius: f64) -> To
         let doubt = (c + q_size * d + v_size * (d + r) + r * d) * (1.0 + 64.0 * U) + rounding + TINY;
         told.rises.0[k] = b - doubt;
         told.falls.0[k] = -b - doubt;
-        told.spread.0[k] = v_size;
+        // Across the orbit's point, as at a tangent, it changes by the square of the way.
+        told.spread.0[k] = ((2.0 * b.abs() + c) / q_size).min(v_size);
         told.blur.0[k] = r;
     }
     told

@@ -65,7 +65,7 @@ impl<const M: usize, const C: usize> Solid<M, C> {
 
     #[inline(always)]
     fn point_here(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
-        let at = ray.recentre(Point3::ORIGIN, 0);
+        let at = ray.recentre(Point3::ORIGIN, 0).sharp(1.0);
         let s = root.s;
         let p0 = Vec3::new(at.o.x + s * at.d.x, at.o.y + s * at.d.y, at.o.z + s * at.d.z);
         let e = at.o_err + at.d_err * s.abs() + (at.o.abs() + at.d.abs() * s.abs()) * (2.0 * U);

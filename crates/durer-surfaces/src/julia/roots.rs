@@ -31,7 +31,7 @@ impl<const M: usize, const C: usize> Solid<M, C> {
 
     #[inline(always)]
     fn roots_here(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
-        let at = ray.recentre(Point3::ORIGIN, 0);
+        let at = ray.recentre(Point3::ORIGIN, 0).sharp(1.0);
         let Some((first, last)) = self.stretch(&at) else { return };
         let (from, to) = at.window((ray.t_min, ray.t_max.min(sink.limit())));
         if from > last || to < first {

@@ -2,7 +2,10 @@
 
 use super::{Clock, End, LocalRay, RingRay, TINY, U, relative};
 use durer_math::eft::{scale2, two_sum};
-use durer_math::{Point3, RaySide, Ring, Run, Vec3};
+use durer_math::{Dd, Point3, RaySide, Ring, Run, Vec3};
+
+/// With fewer roundings than this a ray is known well enough in f64: what double-double costs is what they cost.
+const MANY: f64 = 32.0;
 
 /// A local ray re-centred and rescaled: its points are `centre + 2^scale (o + s d)`, and `t = t0 + 2^k s`.
 #[derive(Clone, Copy, Debug)]
@@ -59,6 +62,35 @@ impl<'a> CentredRay<'a> {
         let at = self.ray.in_ring::<T>()?.moved(self.centre, self.step);
         // Lengths are divided by 2^scale; so is the direction, and the parameter's unit is 2^scale: d stays.
         Some(RingRay { o: at.o.map(|x| x.scale2(-self.scale)), d: at.d, w: at.w })
+    }
+
+    /// The same ray with origin and direction rounded from double-double, if maps on its way make more than 32 roundings of one, in a frame in which the surface is
+    /// `size` large: a shear makes lengths of what it takes away again, and with them what they are rounded by.
+    #[inline(always)]
+    #[must_use]
+    pub fn sharp(self, size: f64) -> Self {
+        let off = self.o_err.max_abs() + self.d_err.max_abs() * size;
+        if off <= (MANY * U) * (self.o.max_abs() + 2.0 * size) {
+            return self;
+        }
+        self.in_ring().map_or(self, |exact| self.rounded_from(&exact))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn rounded_from(self, RingRay { o, d, w }: &RingRay<Run<Dd>>) -> Self {
+        // Divided by `w`, in f64, and how far off that may be.
+        let rounded = |x: &[Run<Dd>; 3]| {
+            let mut v = [(0.0, 0.0); 3];
+            for (v, x) in v.iter_mut().zip(x) {
+                let x = *x / *w;
+                v.0 = x.value();
+                v.1 = (x.hi() - v.0).max(v.0 - x.lo()).next_up();
+            }
+            (Vec3::new(v[0].0, v[1].0, v[2].0), Vec3::new(v[0].1, v[1].1, v[2].1))
+        };
+        let ((o, o_err), (d, d_err)) = (rounded(o), rounded(d));
+        if o_err.is_finite() && d_err.is_finite() { Self { o, d, o_err, d_err, ..self } } else { self }
     }
 
     /// The caller's parameter for `s`, rounded.

@@ -27,12 +27,25 @@ struct Node {
     slope: f64,
 }
 
+/// What is said of a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::implicit) enum Answer {
+    /// All roots were shown.
+    All,
+    /// It is outside but for what is between these two places, which cannot be told.
+    Between(f64, f64),
+    /// It cannot be told.
+    Open,
+}
+
 /// What is known of a line after a few passes.
 enum Told {
     /// It misses.
     Misses,
     /// Outside, inside (the first and the last such place that was seen), outside.
     Meets([Node; 4]),
+    /// Between two places beyond which it is outside, rounding leaves it open.
+    Grazes(Node, Node),
     /// Rounding leaves it open.
     Open,
 }
@@ -50,16 +63,16 @@ struct Along<'a> {
 }
 
 impl Gauge {
-    /// Shows all roots in the ray's range to `sink`, ascending; `false` if it cannot be told which there are, and none was shown.
-    pub(in crate::implicit) fn roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) -> bool {
+    /// Shows all roots in the ray's range to `sink`, ascending, if it can be told which there are; else none.
+    pub(in crate::implicit) fn roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) -> Answer {
         if ray.passes_by(Point3::ORIGIN, self.reach) {
-            return true;
+            return Answer::All;
         }
-        let at = ray.recentre(Point3::ORIGIN, 0);
+        let at = ray.recentre(Point3::ORIGIN, 0).sharp(1.0);
         let known = Line::new(&at, 4.0).err.iter().sum::<f64>() < KNOWN;
         let near = at.o.max_abs() <= 2.0;
         if !(known && near) {
-            return false;
+            return Answer::Open;
         }
         // With a direction of size 1 to 2 the cube's part of the line is within |s| < 4.
         let (mut a, mut b) = (-4.0, 4.0);
@@ -70,13 +83,13 @@ impl Gauge {
                 a = if near < far { near } else { far }.max(a);
                 b = if near < far { far } else { near }.min(b);
             } else if o.abs() > HALF {
-                return true;
+                return Answer::All;
             }
         }
         let (from, to) = at.window((ray.t_min, ray.t_max));
         // The solid's part of the line is inside that of the larger cube.
         if a >= b || b < from || a > to || at.bracket(a, a).0 > sink.limit() {
-            return true;
+            return Answer::All;
         }
         let reach = a.abs().max(b.abs());
         let line = Line::new(&at, reach);
@@ -90,9 +103,17 @@ impl Gauge {
             off,
         };
         match along.told(a, b) {
-            Told::Misses => true,
-            Told::Open => false,
-            Told::Meets(places) => along.show(&at, (from, to), reach, &places, sink),
+            Told::Misses => Answer::All,
+            // Which side a ray starts on that was spawned here is told by the tape.
+            Told::Grazes(left, right) if at.spawned().is_none() => Answer::Between(left.s, right.s),
+            Told::Open | Told::Grazes(..) => Answer::Open,
+            Told::Meets(places) => {
+                if along.show(&at, (from, to), reach, &places, sink) {
+                    Answer::All
+                } else {
+                    Answer::Open
+                }
+            }
         }
     }
 }
@@ -130,6 +151,7 @@ impl Along<'_> {
         if self.side(&left) != Some(true) || self.side(&right) != Some(true) {
             return Told::Open;
         }
+        let mut turns = None;
         for _ in 0..MOST_PASSES {
             let mut inside: Option<(Node, Node)> = None;
             for node in &seen {
@@ -159,9 +181,10 @@ impl Along<'_> {
             if self.misses(&x, &y) {
                 return Told::Misses;
             }
+            turns = Some((x.s, y.s));
             let step = (y.s - x.s) / 9.0;
             if step <= pow2(-40) {
-                return Told::Open;
+                break;
             }
             let inner = self.nodes(&core::array::from_fn(|i| x.s + step * (i as f64 + 1.0)));
             seen.clear();
@@ -170,7 +193,42 @@ impl Along<'_> {
             seen.push(y);
             (left, right) = (first[0], first[7]);
         }
-        Told::Open
+        turns.map_or(Told::Open, |turns| self.grazed(first[0], first[7], turns))
+    }
+
+    /// What rounding leaves open about where the gauge is least: all that is beyond places where it is outside and certainly goes up is outside, too. The places are brought
+    /// as near to each other as they can be.
+    #[cold]
+    fn grazed(&self, mut left: Node, mut right: Node, (mut first, mut last): (f64, f64)) -> Told {
+        let sure = 8.0 * self.gauge.turn;
+        let outside = |node: &Node| self.side(node) == Some(true);
+        if !(outside(&left) && left.slope < -sure && outside(&right) && right.slope > sure) {
+            return Told::Open;
+        }
+        for _ in 0..MOST_STEPS {
+            let (before, behind) = (first - left.s, right.s - last);
+            if before <= pow2(-48) && behind <= pow2(-48) {
+                break;
+            }
+            let nodes = self.nodes(&core::array::from_fn(|i| match i {
+                0..4 => left.s + before * ((i as f64 + 1.0) / 5.0),
+                _ => last + behind * ((i as f64 - 3.0) / 5.0),
+            }));
+            if nodes.iter().any(|node| self.side(node) == Some(false)) {
+                return Told::Open;
+            }
+            match nodes[..4].iter().position(|node| !(outside(node) && node.slope < -sure)) {
+                Some(0) => first = nodes[0].s,
+                Some(open) => (left, first) = (nodes[open - 1], nodes[open].s),
+                None => left = nodes[3],
+            }
+            match nodes[4..].iter().rposition(|node| !(outside(node) && node.slope > sure)) {
+                Some(3) => last = nodes[7].s,
+                Some(open) => (right, last) = (nodes[open + 5], nodes[open + 4].s),
+                None => right = nodes[4],
+            }
+        }
+        Told::Grazes(left, right)
     }
 
     /// The gauge is least at one end of what was looked at: that end says whether it ever is below 1.

@@ -13,7 +13,8 @@
 //! - Two tangents, falling at one place and rising at a later one, bound `g` from below by the value where they meet: above 1, the ray misses.
 //!
 //! Both ask for signs of `g - 1` and for tangents at a few places, eight in one go, and nothing is said that the bounds of their errors (`gauge.rs`) do not
-//! bear out. A ray for which that is not enough (one that touches, mostly) asks the tape.
+//! bear out. A ray for which that is not enough asks the tape: one that touches, mostly, of the short
+//! stretch that is left.
 
 mod crossings;
 mod foot;
@@ -22,4 +23,5 @@ mod lanes;
 #[cfg(test)]
 mod tests;
 
+pub(super) use crossings::Answer;
 pub(super) use gauge::Gauge;

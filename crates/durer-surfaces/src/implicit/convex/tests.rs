@@ -1,7 +1,7 @@
 //! The gauge against multi-precision arithmetic; its crossings, points and sides against that and against the tape.
 
-use super::Gauge;
 use super::gauge::{Sample, VALUE};
+use super::{Answer, Gauge};
 use crate::implicit::{Isosurface, superellipsoid};
 use crate::laws::Dice;
 use crate::{All, Any, Closest, Kind, LocalPoint, LocalRay, Need, Root, Side, Surface};
@@ -227,7 +227,7 @@ fn the_crossings_are_those_of_the_tape() {
             let local = if rough { local.roughly() } else { local };
             rays += 1;
             let mut sink = All::default();
-            if !gauge.roots(&local, &mut sink) {
+            if gauge.roots(&local, &mut sink) != Answer::All {
                 assert!(sink.roots.is_empty(), "{shape:?} {ray:?}: shown before it was known");
                 continue;
             }
@@ -249,7 +249,10 @@ fn the_crossings_are_those_of_the_tape() {
             assert!(matches!(signs.as_slice(), [] | [-1] | [1] | [-1, 1]), "{ray:?}: {a:?}");
             // Whoever asks less is told the same.
             let (mut closest, mut any) = (Closest::default(), Any::default());
-            assert!(gauge.roots(&local, &mut closest) && gauge.roots(&local, &mut any));
+            assert_eq!(
+                (gauge.roots(&local, &mut closest), gauge.roots(&local, &mut any)),
+                (Answer::All, Answer::All)
+            );
             assert_eq!((closest.root, any.hit), (a.first().copied(), !a.is_empty()));
         }
         println!("{shape:?}: {told} of {rays} rays, {met} crossings");
@@ -267,7 +270,9 @@ fn nearly_every_ray_of_a_picture_is_told_without_the_tape() {
             let eye = Vec3::new(dice.between(-4.0, 4.0), dice.between(-4.0, 4.0), -5.0);
             let at = Vec3::new(dice.between(-1.0, 1.0), dice.between(-1.0, 1.0), dice.between(-1.0, 1.0));
             let ray = Ray::new(eye.to_point(), at - eye);
-            open += usize::from(!gauge.roots(&LocalRay::new(&ray).roughly(), &mut Closest::default()));
+            open += usize::from(
+                gauge.roots(&LocalRay::new(&ray).roughly(), &mut Closest::default()) != Answer::All,
+            );
         }
         println!("{shape:?}: {open} of 4000 ask the tape");
         assert!(open <= 8, "{shape:?}: {open}");
@@ -346,7 +351,7 @@ fn rays_leave_what_they_were_spawned_on() {
                     );
                 }
                 spawned += 1;
-                alone += usize::from(gauge.roots(&local, &mut All::default()));
+                alone += usize::from(gauge.roots(&local, &mut All::default()) == Answer::All);
             }
         }
     }
@@ -413,6 +418,6 @@ fn what_has_dents_has_no_gauge() {
     let origin = Point3::ORIGIN;
     let along = Ray::new(origin - Vec3::X * 4.0, Vec3::X);
     let mut sink = All::default();
-    assert!(Gauge::new(2.0, 2.0).unwrap().roots(&LocalRay::new(&along), &mut sink));
+    assert_eq!(Gauge::new(2.0, 2.0).unwrap().roots(&LocalRay::new(&along), &mut sink), Answer::All);
     assert!(sink.roots.iter().map(|r| r.t).eq([3.0, 5.0]), "{:?}", sink.roots);
 }
