@@ -7,7 +7,7 @@ use crate::query::{any_in, closest_in};
 use crate::{Hit, walk::Walk};
 use arrayvec::ArrayVec;
 use durer_bvh::Leaf;
-use durer_math::{Aabb, Ray, Shaft, Source};
+use durer_math::{Ray, Shaft, Source};
 use durer_surfaces::{Need, SurfacePoint};
 
 /// What the rays of a bundle may meet, by object and primitive.
@@ -84,11 +84,6 @@ impl Geometry {
         // Where two hits have the same `t` the first one tested is kept.
         candidates.sort_unstable_by_key(|c| (c.name.object, c.name.primitive, c.arena, c.slot));
         (!full).then_some(beam)
-    }
-
-    /// Whether surely no surface comes into a box: all its points are on the same side of every solid.
-    pub fn is_clear(&self, region: Aabb) -> bool {
-        self.beam(&Shaft::between(region, region), None).is_some_and(|beam| beam.is_empty())
     }
 
     fn candidate(&self, arena: u32, slot: u32) -> Candidate {

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use durer_geometry::Geometry;
-use durer_math::{AffineError, Point3};
+use durer_math::{Aabb, AffineError, Point3};
 use durer_scene::{LowerError, Lowered, Place, Placement, Rgb, Scene, Texture};
 
 use crate::camera::{Camera, CameraError};
@@ -20,8 +20,8 @@ pub struct World {
     pub(crate) media: Vec<Medium>,
     pub(crate) lamps: Vec<Lamp>,
     camera: Option<Camera>,
-    /// The media in which a camera with one standpoint stands.
-    standing: Vec<u32>,
+    /// The media in which all rays of the camera start, if it has one standpoint, or those are the same for all.
+    standing: Option<Vec<u32>>,
     pub(crate) background: Rgb,
     pub(crate) max_level: u32,
     pub(crate) adc_bailout: f64,
@@ -87,10 +87,14 @@ impl World {
             looks.push(Look { paint, medium: look.medium, double_illuminate, inside });
         }
         let camera = scene.camera.as_ref().map(Camera::new).transpose()?;
-        let mut standing = Vec::new();
-        if let Some(Camera::Perspective(camera)) = &camera {
-            lowered.media_at(camera.origin(), &mut standing);
-        }
+        let standing = match &camera {
+            Some(Camera::Perspective(camera)) => {
+                let mut media = Vec::new();
+                lowered.media_at(camera.origin(), &mut media);
+                Some(media)
+            }
+            _ => scene.camera.as_ref().and_then(|camera| lowered.media_in(&camera.standpoints())),
+        };
         let background = scene.background.0;
         Ok(Self {
             has_insides: lowered.looks.iter().any(|l| l.inside.is_some()),
@@ -133,9 +137,9 @@ impl World {
         self.lowered.look_of(object, primitive).map_or(0, |l| l.0)
     }
 
-    /// The media in which all rays of the camera start, if it has one standpoint.
-    pub(crate) fn standing(&self) -> Option<&[u32]> {
-        matches!(self.camera, Some(Camera::Perspective(_))).then_some(&self.standing)
+    /// The media in which rays of the camera from some points of a box start, if those are certainly the same.
+    pub(crate) fn standing(&self, origins: impl FnOnce() -> Aabb) -> Option<Vec<u32>> {
+        self.standing.clone().or_else(|| self.lowered.media_in(&origins()))
     }
 
     /// Appends the media in which a ray of the camera starts that comes from `origin`.

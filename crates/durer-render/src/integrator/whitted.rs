@@ -166,16 +166,8 @@ impl<'w> Whitted<'w> {
 
     /// The media in which rays of the camera start, if they are surely the same for all.
     fn standing(&self, rays: &[Rays8]) -> Option<Vec<u32>> {
-        if let Some(media) = self.world.standing() {
-            return Some(media.to_vec());
-        }
         let origins = || rays.iter().flat_map(|rays| rays.live.lanes().map(|i| rays.lane(i).origin));
-        if !self.world.geometry().is_clear(Aabb::from_points(origins())) {
-            return None;
-        }
-        let mut media = Vec::new();
-        origins().take(1).for_each(|origin| self.world.media_at(origin, &mut media));
-        Some(media)
+        self.world.standing(|| Aabb::from_points(origins()))
     }
 
     /// Makes bundles of rays that may start in different media.

@@ -1,11 +1,10 @@
 //! Putting a surface into the geometry: placed, clipped, turned inside out.
 
 use durer_geometry::{Builder, CompoundBuilder, ObjectId, Part, Shown};
-use durer_math::{Aabb, Affine, Point3, Shaft, Vec3};
-use durer_surfaces::{Algebraic, Clip, Erased, Inverse, LocalPoint, Placed, Region, Side, Solidity, Surface};
+use durer_math::{Aabb, Affine};
+use durer_surfaces::{Algebraic, Clip, Erased, Inverse, Placed, Region, Solidity, Surface};
 
-/// Whether a point lies in a solid.
-pub(super) type Inside = Box<dyn Fn(Point3) -> bool + Send + Sync>;
+use super::standing::{Around, Held};
 
 /// Where a surface goes.
 pub(super) enum To<'b> {
@@ -21,8 +20,8 @@ pub(super) struct Target<'b> {
     pub(super) primitive: u32,
     pub(super) clips: Vec<Region>,
     pub(super) inverse: bool,
-    /// The test for the inside, if rays of the camera may start there.
-    pub(super) inside: Option<Inside>,
+    /// The solid, if rays of the camera may start in it.
+    pub(super) inside: Option<Box<dyn Around>>,
     /// Where rays of the camera start.
     pub(super) camera: Aabb,
 }
@@ -65,7 +64,7 @@ impl Target<'_> {
         self.inverse || !self.clips.is_empty()
     }
 
-    /// Keeps the test for the inside of the closed, unclipped solid, which is what the scene language asks where the camera is concerned.
+    /// Keeps the closed, unclipped solid if rays of the camera may start in it: that is what the scene language asks where the camera is concerned.
     pub(super) fn contain<S: Surface + Clone + 'static>(&mut self, solid: &S, map: Option<&Affine>) {
         let bounds = || map.map_or_else(|| solid.bounds(), |m| solid.bounds_through(m));
         if self.camera.is_empty()
@@ -74,28 +73,12 @@ impl Target<'_> {
         {
             return;
         }
-        // Where the surface does not pass between the camera's rays, they all start on one side.
-        let standing = Shaft::new(self.camera, Vec3::ZERO, Vec3::ZERO);
-        let outside = |side: Side| if self.inverse { side == Side::In } else { side == Side::Out };
-        if map.is_none()
-            && solid.misses(&standing)
-            && outside(solid.side(&LocalPoint::new(self.camera.centre())))
-        {
-            return;
-        }
-        let (inverse, solid) = (self.inverse, solid.clone());
-        let holds = move |solid: &dyn Surface, p: Point3| match solid.side(&LocalPoint::new(p)) {
-            Side::In => !inverse,
-            Side::Out => inverse,
-            Side::On => false,
+        let (solid, inverse) = (solid.clone(), self.inverse);
+        let inside: Box<dyn Around> = match map {
+            None => Box::new(Held { solid, inverse }),
+            Some(map) => Box::new(Held { solid: Placed::new(solid, *map), inverse }),
         };
-        self.inside = Some(match map {
-            None => Box::new(move |p| holds(&solid, p)),
-            Some(map) => {
-                let placed = Placed::new(solid, *map);
-                Box::new(move |p| holds(&placed, p))
-            }
-        });
+        self.inside = (inside.holds_all(&self.camera) != Some(false)).then_some(inside);
     }
 
     fn push<S: Surface + 'static>(&mut self, surface: S) {

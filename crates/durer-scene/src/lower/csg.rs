@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use durer_geometry::{Compound, CompoundBuilder, CsgError, Part, Shown};
-use durer_math::{Aabb, Point3};
-use durer_surfaces::{LocalPoint, Side};
+use durer_math::Aabb;
 
-use super::build::{Inside, Target, To};
+use super::build::{Target, To};
+use super::standing::Around;
 use super::{
     Context, Cutter, Flags, LowerError, LowerErrorKind, Lowering, is_clear, join, mask_of, shapes,
     shows_through,
@@ -62,14 +62,12 @@ impl Lowering {
         Ok(())
     }
 
-    /// Keeps the test for the inside of a body in which rays of the camera may start.
+    /// Keeps a body in which rays of the camera may start.
     fn stand_in(&mut self, body: &Arc<Compound>, medium: u32) {
-        if self.camera.is_empty() || body.bounds().intersection(self.camera).is_empty() {
+        if self.camera.is_empty() || body.holds_all(&self.camera) == Some(false) {
             return;
         }
-        let body = Arc::clone(body);
-        let inside: Inside = Box::new(move |p: Point3| body.side(&LocalPoint::new(p)) == Side::In);
-        self.around_camera.push((medium, inside));
+        self.around_camera.push((medium, Box::new(Arc::clone(body))));
     }
 
     /// What `part` has in common with what clips it.

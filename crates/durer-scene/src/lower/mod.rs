@@ -10,6 +10,7 @@ mod level_set;
 mod named;
 mod shapes;
 mod shared;
+mod standing;
 
 use core::ops::Range;
 use std::collections::HashMap;
@@ -19,7 +20,7 @@ use durer_geometry::{BuildError, Builder, EVERYTHING, Geometry, ObjectId};
 use durer_math::{Aabb, Affine, AffineError, Point3, Vec3};
 
 use crate::{Camera, Face, Flags, Interior, Mesh, Object, Place, Placement, Scene, Shape, Texture, mask};
-use build::Inside;
+use standing::Around;
 
 /// A scene made ready for rays.
 pub struct Lowered {
@@ -34,7 +35,7 @@ pub struct Lowered {
     /// For each object, where its primitives' looks are.
     looks_at: Vec<Range<u32>>,
     of_primitive: Vec<LookId>,
-    around_camera: Vec<(u32, Inside)>,
+    around_camera: Vec<(u32, Box<dyn Around>)>,
 }
 
 /// The number of a [`Look`] among [`Lowered::looks`].
@@ -161,11 +162,22 @@ impl Lowered {
 
     /// Appends the media of all solids that hold `point`, at which a ray of the camera starts, in the order of the text.
     pub fn media_at(&self, point: Point3, media: &mut Vec<u32>) {
-        for (medium, inside) in &self.around_camera {
-            if !media.contains(medium) && inside(point) {
+        for (medium, solid) in &self.around_camera {
+            if !media.contains(medium) && solid.holds(point) {
                 media.push(*medium);
             }
         }
+    }
+
+    /// The same for all points of a box, if those are certainly in the same solids.
+    pub fn media_in(&self, region: &Aabb) -> Option<Vec<u32>> {
+        let mut media = Vec::new();
+        for (medium, solid) in &self.around_camera {
+            if solid.holds_all(region)? && !media.contains(medium) {
+                media.push(*medium);
+            }
+        }
+        Some(media)
     }
 
     /// How many primitives an object has.
@@ -223,7 +235,7 @@ struct Lowering {
     warnings: Vec<(Option<Place>, String)>,
     looks_at: Vec<Range<u32>>,
     of_primitive: Vec<LookId>,
-    around_camera: Vec<(u32, Inside)>,
+    around_camera: Vec<(u32, Box<dyn Around>)>,
     /// Meshes of several objects.
     shared: shared::Meshes,
     object: ObjectId,

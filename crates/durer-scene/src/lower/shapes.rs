@@ -9,14 +9,15 @@ use durer_surfaces::{
     Region, Sphere, SphericalSector, Torus, Triangle, TriangleError, Turned, superellipsoid,
 };
 
-use super::build::{Inside, Target};
+use super::build::Target;
+use super::standing::Around;
 use super::{LowerErrorKind, exact, level_set, named};
 use crate::{Container, Mesh, Object, Operation, Shape, Spline, Sweep};
 
 /// What became of a shape.
 pub(super) enum Built {
     /// It is in the geometry; where it is solid and asked for, with the test for its inside.
-    Done(Option<Inside>),
+    Done(Option<Box<dyn Around>>),
     /// It has no points, for this reason.
     Nothing(String),
 }

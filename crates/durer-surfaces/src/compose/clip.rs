@@ -13,7 +13,7 @@ use crate::roots::quadratic::{Crossing, Quadratic, exact_sign, sign_at_root};
 use crate::sphere::Sphere;
 use crate::{Flow, LocalRay, Need, PartId, Placed, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
-use durer_math::{Aabb, Dd, Dyadic, Isa, Ring, Run};
+use durer_math::{Aabb, Affine, Dd, Dyadic, Isa, Ring, Run};
 use std::sync::OnceLock;
 
 /// A surface each of whose faces is the zero set of a polynomial.
@@ -33,6 +33,11 @@ pub trait Algebraic: Surface {
     fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {
         let p = self.polynomial(root.face, ray)?;
         Some(sign_at_root(&p, name(&p, root), q))
+    }
+
+    /// A box of what of the surface, placed by a map, lies in all of some regions; of more, if that is not known.
+    fn bounds_among(&self, _regions: &[Region], map: Option<&Affine>) -> Aabb {
+        map.map_or_else(|| self.bounds(), |map| self.bounds_through(map))
     }
 }
 
@@ -58,6 +63,16 @@ impl<S: Shape> Algebraic for Body<S> {
 
     fn wide_polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Run<Dd>>> {
         wide_along(self.shape(), face, ray)
+    }
+
+    fn bounds_among(&self, regions: &[Region], map: Option<&Affine>) -> Aabb {
+        let slab = regions.iter().fold(Aabb::UNBOUNDED, |slab, r| slab.intersection(r.slab(map)));
+        let inner = self.shape().bounds_within(&slab);
+        match map {
+            None => inner,
+            Some(map) if inner.is_bounded() => self.bounds_through(map).intersection(map.bounds(&inner)),
+            Some(map) => self.bounds_through(map),
+        }
     }
 }
 
@@ -98,6 +113,13 @@ impl<S: Algebraic> Algebraic for Placed<S> {
         );
         let (step, k) = local.parent_clock()?;
         self.surface().sign_at_root(&local, root, &in_childs_parameter(q, step, k))
+    }
+
+    fn bounds_among(&self, regions: &[Region], map: Option<&Affine>) -> Aabb {
+        match map {
+            None => self.surface().bounds_among(regions, Some(self.map())),
+            Some(map) => self.bounds_through(map),
+        }
     }
 }
 
@@ -240,7 +262,8 @@ impl<S: Algebraic, K: Sink + ?Sized> Sink for Keeping<'_, '_, S, K> {
 
 impl<S: Algebraic> Surface for Clip<S> {
     fn bounds(&self) -> Aabb {
-        self.regions.iter().fold(self.surface.bounds(), |b, r| b.intersection(r.bounds()))
+        let whole = self.surface.bounds_among(&self.regions, None);
+        self.regions.iter().fold(whole, |b, r| b.intersection(r.bounds()))
     }
 
     #[inline(always)]
@@ -302,8 +325,8 @@ impl<S: Algebraic> Algebraic for Clip<S> {
 mod tests {
     use super::*;
     use crate::laws::Dice;
-    use crate::{CappedCylinder, Flow};
-    use durer_math::{Affine, Point3, Ray, Vec3};
+    use crate::{CappedCylinder, Flow, Quadric};
+    use durer_math::{Normal3, Point3, Ray, Vec3};
 
     /// All roots.
     struct Every(Vec<Root>);
@@ -354,5 +377,88 @@ mod tests {
             }
         }
         assert!(told > 100 && kept > 20 && kept < told - 20, "{told} {kept}");
+    }
+
+    /// Of quadrics along an axis, clipped across it: the box holds all that is left, and is no larger than that needs.
+    #[test]
+    fn what_is_clipped_across_its_axis_has_a_box() {
+        let below = |sign: f64, at: f64| Region::half_space(Normal3::new(0.0, sign, 0.0), sign * at).unwrap();
+        let above = |at: f64| below(1.0, at).inverse();
+        // Coefficients of x² y² z² xy xz yz x y z 1, regions, and the box.
+        let cases = [
+            // x² + 4 z² = y, below 9/16.
+            (
+                [1.0, 0.0, 4.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0],
+                vec![below(1.0, 0.5625)],
+                [[-0.75, 0.0, -0.375], [0.75, 0.5625, 0.375]],
+            ),
+            // The same turned inside out and hanging: 2 - y = (x - 1)² + z², above 1.
+            (
+                [-1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 2.0, -1.0, 0.0, 1.0],
+                vec![above(1.0)],
+                [[0.0, 1.0, -1.0], [2.0, 2.0, 1.0]],
+            ),
+            // A cylinder, a cone, a hyperboloid between two planes.
+            (
+                [1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -4.0],
+                vec![below(1.0, 3.0), below(-1.0, -1.0)],
+                [[-2.0, -1.0, -2.0], [2.0, 3.0, 2.0]],
+            ),
+            (
+                [1.0, -1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+                vec![below(3.0, 2.0), above(-3.0)],
+                [[-3.0, -3.0, -3.0], [3.0, 2.0, 3.0]],
+            ),
+            (
+                [1.0, -1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -16.0],
+                vec![below(1.0, 3.0), above(0.0)],
+                [[-5.0, 0.0, -5.0], [5.0, 3.0, 5.0]],
+            ),
+        ];
+        let mut dice = Dice::new(7);
+        for (coefficients, regions, [min, max]) in cases {
+            let quadric = Quadric::new(coefficients).unwrap();
+            let still = Clip::new(quadric.clone(), regions.clone());
+            let (exact, told) = (Aabb::new(min.into(), max.into()), still.bounds());
+            let ulps = 8.0 * f64::EPSILON;
+            assert!(
+                exact.min.to_array().iter().zip(told.min.to_array()).all(|(&a, b)| b <= a && a - b <= ulps),
+                "{told:?}"
+            );
+            assert!(
+                exact.max.to_array().iter().zip(told.max.to_array()).all(|(&a, b)| b >= a && b - a <= ulps),
+                "{told:?}"
+            );
+            // One end is not enough for what goes on both ways.
+            if regions.len() == 2 {
+                assert!(!Clip::new(quadric.clone(), regions[..1].to_vec()).bounds().is_bounded());
+            }
+            let map = Affine::rotation_x(0.7)
+                .unwrap()
+                .then(&Affine::translation(Vec3::new(3.0, -2.0, 0.5)).unwrap())
+                .unwrap();
+            let moved =
+                Clip::new(Placed::new(quadric, map), regions.iter().map(|r| r.clone().placed(map)).collect());
+            let bounds = moved.bounds();
+            assert!(bounds.is_bounded());
+            let mut met = 0;
+            for _ in 0..200 {
+                let [x, y, z] = [0, 1, 2].map(|i| dice.between(bounds.min[i], bounds.max[i]));
+                let to = Point3::new(x, y, z);
+                let from =
+                    to + Vec3::new(dice.between(-1.0, 1.0), dice.between(-1.0, 1.0), dice.between(-1.0, 1.0));
+                let ray = Ray::new(from, to - from).with_range(f64::NEG_INFINITY, f64::INFINITY);
+                let local = LocalRay::new(&ray);
+                let mut every = Every(Vec::new());
+                moved.roots(&local, &mut every);
+                for root in &every.0 {
+                    let at = moved.resolve(&local, root, Need::POINT);
+                    let near = Aabb::from_points([at.p]).expanded(at.dp);
+                    assert!(!near.intersection(bounds).is_empty(), "{:?} {bounds:?}", at.p);
+                    met += 1;
+                }
+            }
+            assert!(met > 50, "{met}");
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! A surface behind a pointer: for the rarer kinds and combinations, which are not worth an array (and its code) of their own.
 
 use crate::compose::clip::Algebraic;
+use crate::compose::region::Region;
 use crate::outline::Sketch;
 use crate::roots::quadratic::Quadratic;
 use crate::{Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
@@ -139,6 +140,10 @@ impl Algebraic for Erased {
 
     fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {
         self.surface.sign_at_root(ray, root, q)
+    }
+
+    fn bounds_among(&self, regions: &[Region], map: Option<&Affine>) -> Aabb {
+        self.surface.bounds_among(regions, map)
     }
 }
 

@@ -10,7 +10,7 @@ use crate::{LocalRay, Root};
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
 use durer_math::eft::exponent;
-use durer_math::{Aabb, Affine, Dd, Dyadic, Isa, Normal3, Point3, Ray, Ring, Run, Vec3};
+use durer_math::{Aabb, Affine, Dd, Dyadic, Interval, Isa, Normal3, Point3, Ray, Ring, Run, Vec3};
 use std::sync::Arc;
 
 /// The box `min <= x <= max` as a region.
@@ -34,6 +34,8 @@ pub struct Region {
     map: Option<Affine>,
     inverse: bool,
     bounds: Aabb,
+    /// Boxes that hold the region before it is placed, and the closure of its complement; of half-spaces they have one end.
+    slabs: [Aabb; 2],
 }
 
 impl core::fmt::Debug for Region {
@@ -141,6 +143,19 @@ impl Shape for HalfSpace {
     }
 }
 
+/// The boxes of a half-space and of its complement, if its normal is along an axis.
+fn slabs(normal: Normal3, distance: f64) -> [Aabb; 2] {
+    let mut slabs = [Aabb::UNBOUNDED; 2];
+    let n = normal.to_array();
+    if let Some(axis) = (0..3).find(|&axis| (0..3).all(|i| (n[i] == 0.0) == (i != axis))) {
+        let at = Interval::from(distance) / Interval::from(n[axis]);
+        let [below, above] = if n[axis] > 0.0 { [0, 1] } else { [1, 0] };
+        slabs[below].max[axis] = at.hi;
+        slabs[above].min[axis] = at.lo;
+    }
+    slabs
+}
+
 /// Why a [`Region`] cannot exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum RegionError {
@@ -159,7 +174,8 @@ impl Region {
     /// The inside of a solid with quadric faces, its boundary included; of a sheet, what its walls and its cut-offs enclose.
     pub fn solid<S: Shape + 'static>(shape: S) -> Self {
         let bounds = shape.bounds();
-        Self { faces: Arc::new(Body::of(shape)), map: None, inverse: false, bounds }
+        let slabs = [bounds, Aabb::UNBOUNDED];
+        Self { faces: Arc::new(Body::of(shape)), map: None, inverse: false, bounds, slabs }
     }
 
     /// The box from `min` to `max`, its boundary included.
@@ -179,7 +195,8 @@ impl Region {
         if !distance.is_finite() {
             return Err(RegionError::Distance(distance));
         }
-        Ok(Self::solid(HalfSpace { normal, distance }))
+        let slabs = slabs(normal, distance);
+        Ok(Self { slabs, ..Self::solid(HalfSpace { normal, distance }) })
     }
 
     /// The region moved by a map.
@@ -199,12 +216,18 @@ impl Region {
     pub fn inverse(mut self) -> Self {
         self.inverse = !self.inverse;
         self.bounds = Aabb::UNBOUNDED;
+        self.slabs.reverse();
         self
     }
 
     /// A box that holds the region.
     pub fn bounds(&self) -> Aabb {
         self.bounds
+    }
+
+    /// A box that holds the region where it is seen as a surface is that was placed by the same map; also one without all of its ends.
+    pub(super) fn slab(&self, map: Option<&Affine>) -> Aabb {
+        if self.map.as_ref() == map { self.slabs[0] } else { Aabb::UNBOUNDED }
     }
 
     /// What the region leaves of a surface.

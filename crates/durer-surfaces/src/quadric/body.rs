@@ -87,6 +87,11 @@ pub trait Shape: Send + Sync {
     /// A box that provably holds the shape.
     fn bounds(&self) -> Aabb;
 
+    /// A box that provably holds what of the shape lies in a box, of which some sides may be open.
+    fn bounds_within(&self, _slab: &Aabb) -> Aabb {
+        self.bounds()
+    }
+
     /// A box that provably holds the shape after `map` has moved it.
     fn bounds_through(&self, map: &Affine) -> Aabb {
         map.bounds(&self.bounds())
