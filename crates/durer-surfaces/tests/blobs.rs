@@ -94,6 +94,19 @@ fn next_to_a_tangent_there_are_two_crossings_or_none() {
     assert!(two > 150 && none > 150, "{two} {none}");
 }
 
+/// A crossing between the end of a range and the next number: it is in the range that goes on from there and in no other, of whatever length.
+#[test]
+fn a_crossing_next_to_an_end_is_on_one_side_of_it() {
+    let blob = Blob::new(9.0, &[ball(Point3::ORIGIN, 18.0, 16.0)]).unwrap();
+    let line = Ray::new(Point3::new(-9.0, 0.0, -1.998_401_444_325_281_8e-7), Vec3::X * -9.0);
+    let signs = |from, to| all(&blob, &line.with_range(from, to)).iter().map(|r| r.sign).collect::<Vec<_>>();
+    assert_eq!(signs(f64::NEG_INFINITY, f64::INFINITY), [-1, 1]);
+    assert_eq!(signs(-2.0, -1.0), [-1]);
+    for from in [f64::NEG_INFINITY, -4.0, -2.0_f64.next_up(), -2.0] {
+        assert_eq!(signs(from, -2.0), [], "{from}");
+    }
+}
+
 #[test]
 fn pictures_know_as_well_on_which_side_of_an_end_a_crossing_is() {
     let one = Blob::new(0.25, &[ball(Point3::ORIGIN, 2.0, 1.0)]).unwrap();

@@ -8,7 +8,7 @@
 
 use super::point::ROOM;
 use super::{Blob, BlobComponent, BlobShape};
-use crate::{CentredRay, RingRay};
+use crate::{CentredRay, End, RingRay};
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
 use durer_math::{Dd, Isa, Point3, Ring, Run, U, Vec3};
@@ -347,6 +347,25 @@ impl Blob {
                 if told { Touch::Crossings(sides.into_iter().collect()) } else { Touch::Open(lo, hi) }
             },
         )
+    }
+}
+
+impl Blob {
+    /// Whether the ray is outside at an end of its range, which is finite, if that is certain.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn is_out_at(&self, at: &CentredRay<'_>, end: End) -> Option<bool> {
+        let RingRay { o, d, w } = at.in_ring::<Exact>()?;
+        let s = at.end_in_ring::<Exact>(end);
+        let y = [0, 1, 2].map(|i| (o[i] + d[i] * s) / w);
+        let p = [0, 1, 2]
+            .map(|i| Moving::new(Exact::exact(self.centre[i]) + y[i].scale2(self.scale), Exact::zero()));
+        let [(x, ex), (v, ev), (z, ez)] = y.map(enclosed);
+        let mut sum = Exact::exact(self.threshold);
+        self.tree.near(Vec3::new(x, v, z), ex.max(ev).max(ez), |i| {
+            sum = sum - self.components[i].added(&p).value;
+        });
+        sum.sign().filter(|sign| sign.is_ne()).map(Ordering::is_gt)
     }
 }
 

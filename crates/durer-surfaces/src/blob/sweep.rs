@@ -10,7 +10,7 @@ use super::part::{Piece, REACH};
 use super::stretch::{Stretch, Told};
 use super::tree::{Inner, is_known};
 use crate::roots::quadratic::NARROW;
-use crate::{CentredRay, Flow, Kind, ROUGH, Root, Sink};
+use crate::{CentredRay, End, Flow, Kind, ROUGH, Root, Sink};
 use core::cell::Cell;
 use durer_math::{Isa, RaySide, Run, U, Vec3};
 
@@ -418,6 +418,17 @@ impl Query<'_> {
         }
     }
 
+    /// Whether a crossing whose bracket holds an end of the range is beyond it: there it is not yet on the side to which it goes, or already. So it is in one of two ranges that
+    /// meet there, however its bracket was found.
+    #[cold]
+    fn is_beyond(&self, (lo, hi): (f64, f64), sign: i8) -> bool {
+        let within = |end: f64| end.is_finite() && lo <= end && end <= hi;
+        let leaves = Some(sign > 0);
+        self.start.is_none()
+            && (within(self.at.end(End::Min)) && self.blob.is_out_at(self.at, End::Min) == leaves
+                || within(self.at.end(End::Max)) && self.blob.is_out_at(self.at, End::Max) == Some(sign < 0))
+    }
+
     /// Shows a root, unless it is certainly out of the ray's range.
     #[inline(never)]
     fn show(&mut self, s: f64, ends: (f64, f64), sign: i8, kind: Kind) -> Flow {
@@ -430,7 +441,10 @@ impl Query<'_> {
     #[inline(always)]
     fn show_here(&mut self, s: f64, (lo, hi): (f64, f64), sign: i8, kind: Kind) -> Flow {
         let (mut lo, hi) = self.at.bracket(lo, hi);
-        if self.at.admits(lo, hi) == Some(false) {
+        let admitted = self.at.admits(lo, hi);
+        if admitted == Some(false)
+            || admitted.is_none() && kind == Kind::Simple && self.is_beyond((lo, hi), sign)
+        {
             return Flow::Continue;
         }
         if self.start.is_some() {
