@@ -120,12 +120,18 @@ fn pictures_know_as_well_on_which_side_of_an_end_a_crossing_is() {
         for root in all(&one, &ray) {
             for k in -60..-20 {
                 let end = root.t * (1.0 + durer_math::scale::pow2(k) * f64::from(k % 3 - 1));
-                (ray.t_min, ray.t_max) = (end, end);
-                let mut rough = All::default();
-                one.roots(&LocalRay::new(&ray).roughly(), &mut rough);
-                let told = all(&one, &ray).len();
-                assert_eq!(rough.roots.len(), told, "{ray:?}");
-                met += told;
+                let mut sum = 0;
+                for (from, to) in [(f64::NEG_INFINITY, end), (end, f64::INFINITY)] {
+                    (ray.t_min, ray.t_max) = (from, to);
+                    let mut rough = All::default();
+                    one.roots(&LocalRay::new(&ray).roughly(), &mut rough);
+                    let told = all(&one, &ray).len();
+                    assert_eq!(rough.roots.len(), told, "{ray:?}");
+                    sum += told;
+                }
+                // Each is on one side of the end.
+                assert_eq!(sum, 2, "{ray:?}");
+                met += sum;
             }
             (ray.t_min, ray.t_max) = (0.0, f64::INFINITY);
         }
