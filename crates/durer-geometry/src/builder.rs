@@ -179,12 +179,13 @@ impl Builder {
         let placements = number_placements(&mut instances)?;
         arenas.iter_mut().for_each(|a| a.seal());
 
-        let placed_bounds = |i: &Instance| i.affine.bounds(&i.geometry.bounds());
-        let mut extent = arenas.iter().map(|a| a.extent(&builder.limits)).fold(Aabb::EMPTY, Aabb::union);
-        let placed: Vec<Aabb> = instances.par_iter().map(placed_bounds).collect();
-        for bounds in placed.iter().filter(|b| b.is_bounded()) {
-            extent = extent.union(*bounds);
-        }
+        // Asked for twice, which takes less than keeping them.
+        let placed = || instances.par_iter().map(|i| i.affine.bounds(&i.geometry.bounds()));
+        let bounded = |b: Aabb| if b.is_bounded() { b } else { Aabb::EMPTY };
+        let extent = arenas
+            .iter()
+            .map(|a| a.extent(&builder.limits))
+            .fold(placed().map(bounded).reduce(|| Aabb::EMPTY, Aabb::union), Aabb::union);
 
         let leaf_slots: u64 = arenas.iter_mut().map(|a| leaf_slots(&mut **a)).sum();
         if leaf_slots > Compounds::MOST_SLOTS {
@@ -200,15 +201,7 @@ impl Builder {
             unsorted.push(arena.entries(&frame, kind as u32, &builder.limits, &mut entries));
         }
         let instance_kind = arenas.len() as u32;
-        let mut unsorted_instances = Unsorted::default();
-        entries.reserve(instances.len());
-        for (i, bounds) in placed.iter().enumerate() {
-            let entry = frame.entry(bounds, instance_kind, i as u32);
-            unsorted_instances.take(&entry);
-            entries.extend(Some(entry).filter(Entry::is_bounded));
-        }
-        drop(placed);
-        unsorted.push(unsorted_instances);
+        unsorted.push(Unsorted::beside(&mut entries, &frame, instance_kind, placed()));
         let count = entries.len() + unsorted.iter().map(Unsorted::len).sum::<usize>();
         if count > durer_bvh::MAX_ENTRIES {
             return Err(BuildError::TooMany { count, limit: durer_bvh::MAX_ENTRIES });

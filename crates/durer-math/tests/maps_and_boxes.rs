@@ -145,6 +145,10 @@ proptest! {
         prop_assert!(lv2 <= rat(map.linear_norm()) * rat(map.linear_norm()) * &v2);
         let iv2 = square(&|i| (0..3).map(|j| &adj[i][j] * rat(p[j])).fold(RBig::ZERO, |s, x| s + x) / &det);
         prop_assert!(iv2 <= rat(map.inverse_norm()) * rat(map.inverse_norm()) * v2);
+        // Frobenius' norm of the exact inverse, of which the lower half of the bits is rounded upward.
+        let sum: RBig = (0..9).map(|i| &adj[i / 3][i % 3] / &det).map(|x| &x * &x).fold(RBig::ZERO, |s, x| s + x);
+        let norm2 = rat(map.inverse_norm()) * rat(map.inverse_norm());
+        prop_assert!(sum <= norm2 && norm2 <= sum * rat(1.0 + durer_math::scale::pow2(-18)));
     }
 
     #[test]

@@ -116,7 +116,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut builder = Geometry::builder();
     let mut first = 0;
     while first < count {
-        let next = count.min(first + (1 << 16));
+        let next = count.min(first + (1 << 13));
         let place = |i: u64| placement(i, count, size, middle).map_err(|e| e.to_string());
         let places: Result<Vec<Affine>, String> = (first..next).into_par_iter().map(place).collect();
         for place in places? {

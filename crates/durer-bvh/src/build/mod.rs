@@ -120,20 +120,12 @@ const _: () = assert!(BALANCED_FROM + 9 + 2 < MAX_DEPTH && MAX_ENTRIES == 1 << 2
 const PARALLEL: usize = 4096;
 
 /// Nodes over `entries`, which are put into leaf order. The first node is the root. Leaves refer to positions.
-fn build(entries: &mut [Entry], costs: &Costs<'_>) -> Vec<Node8> {
+fn build(entries: &mut [Entry], costs: &Costs<'_>) -> Grown {
     if entries.is_empty() {
-        return Vec::new();
+        return Grown { nodes: Vec::new(), below: Vec::new() };
     }
     let whole = Range { first: 0, len: entries.len(), extent: split::extent(entries), closed: false };
-    let mut grown = grow(entries, 0, &whole, 0, costs);
-    if grown.below.is_empty() {
-        grown.nodes.shrink_to_fit();
-        return grown.nodes;
-    }
-    let mut nodes = Vec::with_capacity(grown.count());
-    in_large_pages(&nodes);
-    grown.append_to(&mut nodes);
-    nodes
+    grow(entries, 0, &whole, 0, costs)
 }
 
 /// Nodes that are still in several lists: those of a subtree that one thread has made, or one node and those below it.
@@ -144,6 +136,18 @@ struct Grown {
 }
 
 impl Grown {
+    /// All of them in one list, as nodes before those below them.
+    fn listed(mut self) -> Vec<Node8> {
+        if self.below.is_empty() {
+            self.nodes.shrink_to_fit();
+            return self.nodes;
+        }
+        let mut nodes = Vec::with_capacity(self.count());
+        in_large_pages(&nodes);
+        self.append_to(&mut nodes);
+        nodes
+    }
+
     fn count(&self) -> usize {
         self.nodes.len() + self.below.iter().map(|(_, grown)| grown.count()).sum::<usize>()
     }
@@ -183,6 +187,7 @@ fn grow(entries: &mut [Entry], base: usize, whole: &Range, level: usize, costs: 
     if whole.len < collapse::COLLAPSED && level < collapse::BALANCED_FROM {
         let mut nodes = Vec::new();
         collapse::subtree(entries, base, &whole.extent, level, costs, &mut nodes);
+        nodes.shrink_to_fit();
         return Grown { nodes, below: Vec::new() };
     }
     let mut ranges = [*whole; WIDTH];
@@ -304,7 +309,7 @@ impl Bvh {
     ) -> (Self, Vec<Vec<u32>>) {
         assert!(entries.len() <= MAX_ENTRIES, "at most {MAX_ENTRIES} entries, got {}", entries.len());
         let kinds = shapes.len();
-        let mut nodes = build(&mut entries, &Costs::of(settings, shapes));
+        let grown = build(&mut entries, &Costs::of(settings, shapes));
         let mut starts = vec![0_u32; kinds + 1];
         for entry in &entries {
             starts[entry.kind() as usize + 1] += 1;
@@ -326,7 +331,9 @@ impl Bvh {
                 order[kind].push(entry.index());
             }
         }
+        // Before there is a second copy of the nodes.
         drop(entries);
+        let mut nodes = grown.listed();
         let place = |position: u32| {
             let slot = slots.get(position as usize).copied().unwrap_or(position);
             let kind = starts[1..].partition_point(|&start| start <= slot);

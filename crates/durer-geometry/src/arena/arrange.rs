@@ -32,7 +32,28 @@ pub(crate) struct Unsorted {
 }
 
 impl Unsorted {
-    pub(crate) fn take(&mut self, entry: &Entry) {
+    /// Appends bounded boxes, numbered in their order, as entries of a kind, and sorts out the others.
+    pub(crate) fn beside(
+        entries: &mut Vec<Entry>,
+        frame: &Frame,
+        kind: u32,
+        boxes: impl IndexedParallelIterator<Item = Aabb>,
+    ) -> Self {
+        let first = entries.len();
+        entries.par_extend(boxes.enumerate().map(|(i, b)| frame.entry(&b, kind, i as u32)));
+        let mut unsorted = Self::default();
+        entries[first..].iter().for_each(|e| unsorted.take(e));
+        if !unsorted.is_empty() {
+            let mut at = 0;
+            entries.retain(|e| {
+                at += 1;
+                at <= first || e.is_bounded()
+            });
+        }
+        unsorted
+    }
+
+    fn take(&mut self, entry: &Entry) {
         if entry.is_empty() {
             self.nothing.push(entry.index());
         } else if !entry.is_bounded() {
@@ -89,18 +110,7 @@ impl<S: Surface + 'static> Arrange for Arena<S> {
     }
 
     fn entries(&self, frame: &Frame, kind: u32, limits: &[Aabb], entries: &mut Vec<Entry>) -> Unsorted {
-        let first = entries.len();
-        entries.par_extend(self.slot_boxes(limits).enumerate().map(|(i, b)| frame.entry(&b, kind, i as u32)));
-        let mut unsorted = Unsorted::default();
-        entries[first..].iter().for_each(|e| unsorted.take(e));
-        if !unsorted.is_empty() {
-            let mut at = 0;
-            entries.retain(|e| {
-                at += 1;
-                at <= first || e.is_bounded()
-            });
-        }
-        unsorted
+        Unsorted::beside(entries, frame, kind, self.slot_boxes(limits))
     }
 
     fn corners(&self, index: u32) -> [Point3; 3] {

@@ -16,6 +16,7 @@ use durer_bvh::{Entry, Frame};
 use durer_math::{Aabb, Isa, Point3, RaySide, Shaft};
 use durer_surfaces::outline::Sketch;
 use durer_surfaces::{Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Solidity, SurfacePoint};
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// In the slot of a hit: its normal is that of the leaf turned round.
@@ -269,13 +270,7 @@ impl Arrange for Compounds {
     }
 
     fn entries(&self, frame: &Frame, kind: u32, _: &[Aabb], entries: &mut Vec<Entry>) -> Unsorted {
-        let mut unsorted = Unsorted::default();
-        for (i, body) in self.bodies.iter().enumerate() {
-            let entry = frame.entry(&body.bounds(), kind, i as u32);
-            unsorted.take(&entry);
-            entries.extend(Some(entry).filter(Entry::is_bounded));
-        }
-        unsorted
+        Unsorted::beside(entries, frame, kind, self.bodies.par_iter().map(|body| body.bounds()))
     }
 
     fn corners(&self, _index: u32) -> [Point3; 3] {
