@@ -7,6 +7,7 @@ use durer_geometry::Geometry;
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{
     Algebraic, AxisBox, Bezier, CurvedPrism, Disc, Erased, Frustum, Inverse, Placed, Quadric, Side, Sphere,
+    Turned,
 };
 use std::sync::Arc;
 
@@ -314,4 +315,45 @@ fn crossings_at_the_ends_of_a_range_are_its_own() {
     assert_eq!(all.iter().map(|h| h.sign).collect::<Vec<_>>(), [-1, 1]);
     let spans = world.spans(&back);
     assert!(spans.len() == 1 && spans[0].t_in == all[0].t, "{spans:?}");
+}
+
+/// The ray enters a spindle beside its apex and leaves it within rounding, from outside of which it comes and to which it goes; its origin is in between. That says nothing about a range that begins
+/// elsewhere.
+#[test]
+fn a_chord_within_rounding_does_not_tell_where_a_range_begins() {
+    let lemon = Turned::lemon(10_485_760.0, 0.0, 0.0, 13_631_488.0).unwrap();
+    // The text's matrices have their vectors in rows.
+    let rows = [[-2.0, 6.0, -3.0], [6.0, 3.0, 2.0], [-3.0, 2.0, 6.0]];
+    let place = Affine::new(rows, Point3::new(0.125, 0.0, -7.0)).unwrap();
+    let origin = Point3::new(0.125_000_015_910_094, 1.164_153_218_269_350_2e-9, -6.999_999_992_433_004);
+    let line = Ray::new(
+        origin,
+        Vec3::new(0.674_438_476_562_499_8, -0.079_345_703_124_999_92, -0.109_863_281_250_000_04),
+    );
+    let world = |inverse: bool| {
+        let placed = Placed::new(lemon.clone(), place);
+        let mut builder = Geometry::builder();
+        if inverse {
+            builder.add(Inverse(placed))
+        } else {
+            builder.add(placed)
+        };
+        builder.build().unwrap()
+    };
+    let (inside, outside) = (world(false), world(true));
+    let all = outside.all(&line.with_range(f64::NEG_INFINITY, f64::INFINITY));
+    assert_eq!(all.iter().map(|h| h.sign).collect::<Vec<_>>(), [1, -1]);
+    assert!(all[1].t_lo <= all[0].t_hi);
+    for (from, to) in [
+        (1.0, f64::INFINITY),
+        (46_642_178.790_090_51, f64::INFINITY),
+        (f64::NEG_INFINITY, -1.0),
+        (1e-3, 2.0),
+        (-9e9, -8e9),
+    ] {
+        let ray = line.with_range(from, to);
+        let spans = outside.spans(&ray);
+        assert_eq!(spans.iter().map(|s| (s.t_in, s.t_out)).collect::<Vec<_>>(), [(from, to)]);
+        assert_eq!(inside.spans(&ray), []);
+    }
 }

@@ -3,22 +3,26 @@
 use super::ALL;
 use durer_math::RaySide;
 use durer_math::eft::{exponent, scale2};
+use durer_math::scale::pow2;
 use durer_surfaces::{Flow, LocalPoint, LocalRay, Root, Side, Sink, Surface};
 
 /// Whether a ray comes to its start (at `t_min`) inside a solid whose crossings within its range leave that open; `start` is some point of its line.
 ///
 /// A crossing at the very start is one of the range, and says what was before. Else it is decided by the signs of the crossings before and behind the range, and where the line crosses the solid nowhere, and the solid has no bounds, by the exact
-/// side of a point of it. A point may be known to be inside that is on no chord known: where a tangent touches a formula's solid within rounding.
+/// side of a point of it, which must not be where the line goes in and out again within rounding. A point may be known to be inside that is on no chord known: where a tangent touches a formula's solid within rounding.
 pub(super) fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint<'_>) -> bool {
     if let Some(side) = ray.source {
         return side == RaySide::Back;
     }
-    let signs = |t_min: f64, t_max: f64| {
+    let mut pairs = Hull::default();
+    let mut signs = |t_min: f64, t_max: f64| {
         let mut part_of_line = *ray;
         (part_of_line.t_min, part_of_line.t_max) = (t_min, t_max);
         let mut ends = Ends::default();
         surface.roots::<dyn Sink>(&part_of_line, &mut ends);
-        ends.closed()
+        let ends = ends.closed();
+        pairs.add(ends.pairs);
+        ends
     };
     if let Some(sign) = signs(ray.t_min, ray.t_min).first {
         return sign > 0;
@@ -37,10 +41,39 @@ pub(super) fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: 
         // The line comes from outside and goes there, and does not cross it on the way.
         return false;
     }
-    match surface.side(start) {
+    match side_beside(surface, ray, start, pairs) {
         Side::In => true,
         Side::Out => false,
         Side::On => runs_inside(surface, ray),
+    }
+}
+
+/// On which side the line is but for touches and pairs of crossings, which are all within `pairs`; `On` if that is not found.
+fn side_beside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint<'_>, pairs: Hull) -> Side {
+    let Some((low, high)) = pairs.0 else { return surface.side(start) };
+    // Farther and farther away from where the ray's own parameter starts, which is near the surface's middle.
+    let places = (0..128).flat_map(|j| [pow2(j), -pow2(j)]);
+    let beside = places.filter(|&s| {
+        let (before, after) = ray.caller_bounds(s);
+        after < low || high < before
+    });
+    beside
+        .take(16)
+        .map(|s| surface.side(&LocalPoint::along(ray, s)))
+        .find(|&side| side != Side::On)
+        .unwrap_or(Side::On)
+}
+
+/// The least range that holds some brackets.
+#[derive(Clone, Copy, Default)]
+struct Hull(Option<(f64, f64)>);
+
+impl Hull {
+    fn add(&mut self, other: Self) {
+        self.0 = match (self.0, other.0) {
+            (Some((a, b)), Some((c, d))) => Some((a.min(c), b.max(d))),
+            (a, b) => a.or(b),
+        };
     }
 }
 
@@ -65,18 +98,22 @@ fn runs_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>) -> bool {
 struct Ends {
     first: Option<i32>,
     last: Option<i32>,
-    /// The crossings that overlap the last one: their sum, and how far they reach.
-    group: Option<(i32, f64)>,
+    /// The crossings that overlap the last one: their sum, where they begin, and how far they reach.
+    group: Option<(i32, (f64, f64))>,
+    /// Touches, and groups that cancel.
+    pairs: Hull,
 }
 
 impl Ends {
     /// Ends the group.
     fn closed(mut self) -> Self {
-        if let Some((sum, _)) = self.group.take()
-            && sum != 0
-        {
-            self.first = self.first.or(Some(sum));
-            self.last = Some(sum);
+        match self.group.take() {
+            Some((0, ends)) => self.pairs.add(Hull(Some(ends))),
+            Some((sum, _)) => {
+                self.first = self.first.or(Some(sum));
+                self.last = Some(sum);
+            }
+            None => {}
         }
         self
     }
@@ -89,14 +126,17 @@ impl Sink for Ends {
 
     fn push(&mut self, root: Root) -> Flow {
         let sign = i32::from(root.sign);
-        if sign != 0 {
-            *self = match self.group {
-                Some((sum, reach)) if root.lo <= reach => {
-                    Self { group: Some((sum + sign, reach.max(root.hi))), ..core::mem::take(self) }
-                }
-                _ => Self { group: Some((sign, root.hi)), ..core::mem::take(self).closed() },
-            };
+        if sign == 0 {
+            self.pairs.add(Hull(Some((root.lo, root.hi))));
+            return Flow::Continue;
         }
+        *self = match self.group {
+            Some((sum, (from, reach))) if root.lo <= reach => {
+                let ends = (from.min(root.lo), reach.max(root.hi));
+                Self { group: Some((sum + sign, ends)), ..core::mem::take(self) }
+            }
+            _ => Self { group: Some((sign, (root.lo, root.hi))), ..core::mem::take(self).closed() },
+        };
         Flow::Continue
     }
 }

@@ -361,6 +361,16 @@ impl<'a> LocalRay<'a> {
         (holds(a, t[0]) && holds(b, t[1]) && holds(c, t[2])).then_some(t)
     }
 
+    /// Bounds of the caller's parameter of one of the ray's own.
+    pub fn caller_bounds(&self, s: f64) -> (f64, f64) {
+        let (hi, lo, lost) = self.clock.shift();
+        let x = scale2(s, self.clock.k);
+        let t = hi + (lo + x);
+        // Two roundings, of numbers that are no larger than this sum but for theirs; and what scaling may have lost.
+        let err = (hi.abs() + lo.abs() + x.abs()).mul_add(4.0 * U, lost * 2.0) + TINY;
+        (t - err, t + err)
+    }
+
     /// `(step, k)` with `parent's parameter = step + 2^k s`; `None` for a ray that was given.
     pub fn parent_clock(&self) -> Option<(f64, i32)> {
         match self.lineage {

@@ -200,7 +200,7 @@ impl Tape {
         run(&self.ops, x, &mut registers)
     }
 
-    /// Bounds on eight boxes, and for each box that `wanted` names a shorter tape with the same values there, if there is one. Boxes on which
+    /// Bounds on eight boxes, and for each box that `wanted` names a shorter tape with the same exact values there, if there is one. Boxes on which
     /// the formula is positive must not be wanted: not all of it need have been evaluated there.
     pub fn shortened(&self, x: &[I8; 3], wanted: impl Fn(usize, &I8) -> bool) -> (I8, [Option<Self>; 8]) {
         with_memory(&BOXES, self.ops.len(), zero(), |registers| {
