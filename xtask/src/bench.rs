@@ -1,8 +1,8 @@
 //! `cargo xtask bench`: single rays and batches beside Embree's, interleaved.
 //!
 //! The other side is a harness: a folder with `embree_bench.cpp`, which traces files of rays with Embree and prints what `peer_rays` of durer-bvh prints, a last line
-//! of JSON among it. It is compiled here if Embree's headers are installed. Each round runs Embree with its default choice, with AVX2 alone and in robust mode, then
-//! durer, on the same rays; what is reported is medians over the rounds of processor nanoseconds per ray.
+//! of JSON among it. It is compiled here if Embree's headers are installed. Each round runs Embree with its default choice, with AVX2 alone, in robust mode and in high quality, then
+//! durer in each of its qualities, on the same rays; what is reported is medians over the rounds of processor nanoseconds per ray.
 
 use crate::Outcome;
 use crate::command::{cargo, root, scratch, step};
@@ -12,6 +12,8 @@ use std::process::Command;
 
 const USAGE: &str = "usage: cargo xtask bench [--rounds N] HARNESS MESH.tri..";
 const ROUNDS: usize = 5;
+/// How many programs and settings take turns.
+const ENGINES: usize = 7;
 const WORKLOADS: [&str; 4] = ["primary", "ao", "diffuse", "random"];
 
 /// Nanoseconds by mode, workload and threads, one for each round; builds and bytes under their names.
@@ -132,24 +134,49 @@ fn compare(embree: &Path, durer: &Path, mesh: &Path, rounds: usize) -> Outcome {
         std::fs::create_dir_all(&rays).map_err(|e| format!("{}: {e}", rays.display()))?;
         output(embree, &["--robust", "--repeats", "1", "--builds", "1"], [mesh, &rays], "--dump")?;
     }
-    let engines: [(&Path, &[&str]); 4] = [
+    let engines: [(&Path, &[&str]); ENGINES] = [
         (embree, &["--repeats", "1", "--modes", "1,8,16"]),
         (embree, &["--repeats", "1", "--modes", "1,8,16", "--config", "isa=avx2"]),
         (embree, &["--repeats", "1", "--modes", "1", "--robust"]),
+        (embree, &["--repeats", "1", "--modes", "1", "--config", "isa=avx2", "--high"]),
         (durer, &["--repeats", "1"]),
+        (durer, &["--repeats", "1", "--modes", "single", "--quality", "fast"]),
+        (durer, &["--repeats", "1", "--modes", "single", "--quality", "best"]),
     ];
-    let mut figures: [Figures; 4] = Default::default();
+    let mut figures: [Figures; ENGINES] = Default::default();
     for _ in 0..rounds {
         for ((program, arguments), figures) in engines.iter().zip(&mut figures) {
             figures.take(&output(program, arguments, [mesh, &rays], "--load")?)?;
         }
     }
-    report(&name, rounds, &figures);
+    let [default, avx2, robust, high, good, fast, best] = &figures;
+    report(&name, rounds, [default, avx2, robust, good]);
+    let qualities =
+        [("Embree medium", avx2), ("Embree high", high), ("fast", fast), ("good", good), ("best", best)];
+    report_qualities(&qualities);
     Ok(())
 }
 
+/// What each way to build a tree costs, and what its single rays take with one thread.
+fn report_qualities(qualities: &[(&str, &Figures)]) {
+    println!("  {:14} {:>10} {:>10} {:>12}  ns per ray: {WORKLOADS:?}", "", "ms 1 thr", "ms 2 thr", "bytes");
+    for (name, figures) in qualities {
+        let median = |what: &str| figures.median(what).unwrap_or(f64::NAN);
+        print!(
+            "  {name:14} {:10.1} {:10.1} {:12.0} ",
+            median("build_ms_1"),
+            median("build_ms_2"),
+            median("bytes")
+        );
+        for work in WORKLOADS {
+            print!(" {:8.1}", median(&format!("single {work} 1")));
+        }
+        println!();
+    }
+}
+
 /// Embree's best, its robust mode's and durer's time, and durer's as a multiple of either: above 1 is slower.
-fn report(name: &str, rounds: usize, [default, avx2, robust, durer]: &[Figures; 4]) {
+fn report(name: &str, rounds: usize, [default, avx2, robust, durer]: [&Figures; 4]) {
     let best = |names: &[String]| {
         let all = names.iter().flat_map(|n| [default.median(n), avx2.median(n)]).flatten();
         all.fold(f64::INFINITY, f64::min)

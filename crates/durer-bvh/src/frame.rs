@@ -1,5 +1,6 @@
 //! The tree's own units, and boxes in them: f32, rounded outward.
 
+use crate::build::Extent;
 use durer_math::eft::scale2;
 use durer_math::scale::exponent;
 use durer_math::{Aabb, Point3};
@@ -120,6 +121,16 @@ impl Entry {
     pub fn is_empty(&self) -> bool {
         let (lo, hi) = (self.lo(), self.hi());
         (0..3).any(|i| lo[i] > hi[i]) && lo.iter().chain(&hi).all(|x| !x.is_nan())
+    }
+
+    /// A box in tree units.
+    pub(crate) fn of_extent(extent: &Extent, kind: u32, index: u32) -> Self {
+        Self::new(extent.lo(), kind, extent.hi(), index)
+    }
+
+    /// The same thing, or a part of it, in another box.
+    pub(crate) fn with_extent(&self, extent: &Extent) -> Self {
+        Self::of_extent(extent, self.kind(), self.index())
     }
 
     /// Twice the centre along an axis.

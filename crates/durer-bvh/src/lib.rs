@@ -54,7 +54,7 @@ mod triangles;
 mod validate;
 
 pub use crate::batch::Rays;
-pub use crate::build::{CornersOf, Settings};
+pub use crate::build::{CornersOf, Quality, Settings};
 pub use crate::frame::{Entry, Frame};
 pub use crate::node::{Leaf, MAX_ENTRIES};
 pub use crate::ray::{Glance, Glances, Line, PACKET, Sight};

@@ -3,7 +3,7 @@
 use crate::kernels::Kernel;
 use crate::node::{ChildRef, Leaf};
 use crate::ray::{Sight, Way};
-use crate::tree::Bvh;
+use crate::tree::{Bvh, Splits};
 use crate::triangles::{Block, Filter, LANES, Verdict};
 
 /// How far to look, and a triangle that is certainly met no farther away.
@@ -31,6 +31,12 @@ pub(crate) struct Held {
 impl Held {
     pub(crate) const NOTHING: Self =
         Self { leaf: Leaf { kind: 0, first: 0, count: 0, place: Leaf::NO_BLOCK }, lo: f32::INFINITY };
+
+    /// Whether it is this triangle.
+    #[inline(always)]
+    fn is(&self, triangle: &Leaf) -> bool {
+        self.lo < f32::INFINITY && (self.leaf.first, self.leaf.kind) == (triangle.first, triangle.kind)
+    }
 
     /// The triangle, if there is one.
     #[inline(always)]
@@ -173,6 +179,10 @@ impl<T: Answers<f64>> Closest<T> {
                 t_far = t_far.min(hi);
                 continue;
             }
+            // In another of its leaves.
+            if held.is(&leaf) {
+                continue;
+            }
             // In doubt, or too near to the one held.
             if is_sure {
                 t_far = t_far.min(way.shortened(self.0.test(held.leaf)));
@@ -247,6 +257,86 @@ impl<T: Answers<bool>> Any<T> {
             }
         }
         false
+    }
+}
+
+/// All that may be met, each thing once.
+pub(crate) struct Each<'a, K: Kernel, F> {
+    pub(crate) kernel: K,
+    pub(crate) tree: &'a Bvh,
+    pub(crate) lanes: &'a K::Lanes,
+    pub(crate) test: F,
+}
+
+impl<L: Kernel, F: FnMut(Leaf) -> bool> Quest<false> for Each<'_, L, F> {
+    #[inline(always)]
+    fn leaf<K: Kernel>(
+        &mut self,
+        kernel: K,
+        tree: &Bvh,
+        way: &Way,
+        child: ChildRef,
+        sieve: &mut impl Sieve,
+        reach: &mut Reach,
+    ) -> bool {
+        let Some((kind, number)) = tree.block(child) else { return (self.test)(tree.leaf(child)) };
+        let block = &tree.blocks[number as usize];
+        let filter = sieve.filter(kernel, tree, way);
+        let verdict = kernel.judge(block, filter, reach.t_far);
+        verdict.alive != 0 && self.judged(kernel, way, (kind, number), block, &verdict, reach)
+    }
+
+    #[inline(always)]
+    fn judged<K: Kernel>(
+        &mut self,
+        kernel: K,
+        _: &Way,
+        of: (u32, u32),
+        block: &Block,
+        verdict: &Verdict,
+        reach: &mut Reach,
+    ) -> bool {
+        let t_far = reach.t_far;
+        kernel.apart(
+            #[inline(always)]
+            || {
+                let mut alive = verdict.alive;
+                while alive != 0 {
+                    let lane = alive.trailing_zeros() as usize & 7;
+                    alive &= alive - 1;
+                    let leaf = triangle(of, block, lane);
+                    if self.is_first(of.1, &leaf, t_far) && (self.test)(leaf) {
+                        return true;
+                    }
+                }
+                false
+            },
+        )
+    }
+
+    #[inline(always)]
+    fn end(&mut self, _: &Reach) -> bool {
+        false
+    }
+}
+
+impl<K: Kernel, F> Each<'_, K, F> {
+    /// Whether a block is the one that shows a triangle of it: see [`Splits`](crate::tree::Splits).
+    #[inline(always)]
+    fn is_first(&self, block: u32, triangle: &Leaf, t_far: f32) -> bool {
+        let tree = self.tree;
+        let Some(split) = tree.splits.number(triangle.kind, triangle.first) else { return true };
+        for &place in tree.splits.places(split) {
+            let (node, slot) = Splits::child(place);
+            let node = &tree.nodes[node];
+            if tree.block(node.child[slot]).is_some_and(|(_, number)| number == block) {
+                return true;
+            }
+            if self.kernel.meets(node, slot, self.lanes, t_far) {
+                return false;
+            }
+        }
+        true
     }
 }
 

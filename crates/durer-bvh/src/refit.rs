@@ -26,7 +26,8 @@ impl Bvh {
     /// Renews all boxes, from the leaves upwards and rounded outward, and all corners of triangles; also the tree's units.
     ///
     /// `bounds` gives the box of the thing at a position within its kind, as for [`Bvh::validate`], and `shapes` the corners of triangles: those of [`Bvh::build`], but by
-    /// position. Answers are those of a tree that is built anew. Rays take as long as before while neighbours stay neighbours; when the cost in
+    /// position. Answers are those of a tree that is built anew. Triangles that stand in several leaves (see [`Quality::Best`](crate::Quality::Best)) do so with all of their boxes from then
+    /// on, so that such a tree loses what its cuts in space had gained. Rays take as long as before while neighbours stay neighbours; when the cost in
     /// [`Bvh::stats`] has grown by half, it pays to build anew.
     ///
     /// # Errors
@@ -66,10 +67,10 @@ impl Bvh {
     fn refit_blocks(&mut self, shapes: &[Option<CornersOf<'_>>]) {
         let frame = self.frame;
         let renew = |corners: CornersOf<'_>, block: &mut Block| {
-            let first = block.slot(0);
-            let is_held;
-            let slots = first..first + block.len() as u32;
-            (*block, is_held) = Block::new(frame, first, slots.map(corners));
+            let (old, is_held);
+            old = *block;
+            let triangles = (0..old.len()).map(|lane| (old.slot(lane), corners(old.slot(lane))));
+            (*block, is_held) = Block::new(frame, triangles);
             is_held
         };
         self.rounded = false;
@@ -97,9 +98,12 @@ impl Bvh {
                 let child = node.child[slot];
                 let mut extent = Extent::EMPTY;
                 if child.is_leaf() {
-                    let leaf = self.leaf(child);
-                    let first = (self.starts[leaf.kind as usize] + leaf.first) as usize;
-                    entries[first..first + leaf.count as usize].iter().for_each(|entry| extent.add(entry));
+                    self.leaves(child, &mut |leaf| {
+                        let first = (self.starts[leaf.kind as usize] + leaf.first) as usize;
+                        let held = &entries[first..first + leaf.count as usize];
+                        held.iter().for_each(|entry| extent.add(entry));
+                        false
+                    });
                 } else {
                     let below = &nodes[child.index()];
                     below.used().for_each(|slot| extent.unite(&Extent::between(below.bounds(slot))));

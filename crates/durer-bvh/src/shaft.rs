@@ -10,7 +10,7 @@ use durer_math::{F8, Isa, Shaft, Shaft8, Vec3};
 
 impl Bvh {
     /// Shows the leaves that a bundle of rays may meet to `visit`, in no particular order, until it says that it has seen enough; says
-    /// whether it did. Every leaf that a ray of the bundle meets is shown.
+    /// whether it did. Every leaf that a ray of the bundle meets is shown; what stands in several leaves may be shown several times.
     pub fn in_shaft(&self, isa: Isa, shaft: &Shaft, mut visit: impl FnMut(Leaf) -> bool) -> bool {
         if self.is_empty() {
             return false;
@@ -23,7 +23,7 @@ impl Bvh {
         waiting.push(ChildRef::node(0));
         while let Some(child) = waiting.pop() {
             if child.is_leaf() {
-                if visit(self.leaf(child)) {
+                if self.leaves(child, &mut visit) {
                     return true;
                 }
                 continue;

@@ -12,7 +12,7 @@ pub struct Stats {
     pub nodes: usize,
     /// Leaves.
     pub leaves: usize,
-    /// Things in leaves.
+    /// Things in leaves; those in several leaves are counted in each.
     pub entries: usize,
     /// Levels, leaves not counted: 1 for a root with leaves only.
     pub depth: usize,
@@ -29,6 +29,8 @@ impl Bvh {
             bytes: self.nodes.capacity() * size_of::<Node8>()
                 + self.blocks.capacity() * size_of::<Block>()
                 + self.starts.capacity() * size_of::<u32>()
+                + (self.splits.starts.capacity() + self.splits.places.capacity()) * size_of::<u32>()
+                + self.splits.kinds.capacity() * size_of::<(u32, u32)>()
                 + self.kinds.capacity() * size_of::<KindOfLeaf>(),
             ..Stats::default()
         };

@@ -47,7 +47,7 @@ pub enum Step {
 }
 
 impl Bvh {
-    /// Tells the steps of [`Bvh::closest`], in the same order, but leaves of triangles whole; `tell` returns the limit after a leaf (and is not asked otherwise). Says whether the
+    /// Tells the steps of [`Bvh::closest`], in the same order, but leaves of triangles whole, those of which triangles stand in other leaves, too, piece by piece; `tell` returns the limit after a leaf (and is not asked otherwise). Says whether the
     /// tree's own box was met at all.
     pub fn story(&self, line: &Line, mut tell: impl FnMut(&Step) -> f64) -> bool {
         let Some(ray) = self.cull(line, Rounding::Fused) else { return false };
@@ -58,8 +58,11 @@ impl Bvh {
             if near > t_far {
                 tell(&Step::Skipped { level, bounds, t });
             } else if child.is_leaf() {
-                let limit = tell(&Step::Leaf { leaf: self.leaf(child), level, bounds, t });
-                t_far = t_far.min(ray.way.shortened(limit));
+                self.leaves(child, &mut |leaf| {
+                    let limit = tell(&Step::Leaf { leaf, level, bounds, t });
+                    t_far = t_far.min(ray.way.shortened(limit));
+                    false
+                });
             } else {
                 let node = &self.nodes[child.index()];
                 let slabs = Scalar::<true>.slabs(node, &ray, t_far);

@@ -2,7 +2,7 @@
 
 use crate::kernels::{Kernel, Scalar, Stack};
 use crate::node::{ChildRef, Leaf};
-use crate::quest::{Any, Closest, Late, Pair, Quest, Reach, Sieve};
+use crate::quest::{Any, Closest, Each, Late, Pair, Quest, Reach, Sieve};
 use crate::ray::{Sight, Way};
 use crate::tree::Bvh;
 use durer_math::kernels::Path;
@@ -36,7 +36,7 @@ impl Bvh {
     /// whether the ray certainly meets a triangle within its range that `trusts` says is it.
     ///
     /// Every leaf in whose box the exact ray is at some `t` in its range is shown, of triangles those alone that the ray may
-    /// meet there, one by one, all in no particular order.
+    /// meet there, one by one, all in no particular order; one that stands in several leaves may be shown several times.
     #[inline(always)]
     pub fn any(
         &self,
@@ -48,8 +48,14 @@ impl Bvh {
         self.with_kernel(isa, Single::<_, _, false> { sight, quest: Any(Pair { admits: trusts, test }) })
     }
 
+    /// [`Bvh::any`] that trusts in nothing and shows each triangle once.
+    #[inline(always)]
+    pub fn each(&self, isa: Isa, sight: &impl Sight, test: impl FnMut(Leaf) -> bool) -> bool {
+        self.with_kernel(isa, AllOnce { sight, test })
+    }
+
     /// Shows the leaves whose boxes may hold a point, known within `error` (per axis), to `test`, until it says that it
-    /// has found what it looked for; says whether it did.
+    /// has found what it looked for; says whether it did. What stands in several leaves may be shown several times.
     pub fn containing(&self, point: Point3, error: Vec3, mut test: impl FnMut(Leaf) -> bool) -> bool {
         if self.is_empty() {
             return false;
@@ -63,7 +69,7 @@ impl Bvh {
         let mut waiting = vec![ChildRef::node(0)];
         while let Some(child) = waiting.pop() {
             if child.is_leaf() {
-                if test(self.leaf(child)) {
+                if self.leaves(child, &mut test) {
                     return true;
                 }
                 continue;
@@ -115,6 +121,28 @@ impl<S: Sight, Q: Quest<ORDERED>, const ORDERED: bool> Errand for Single<'_, S, 
         let mut sieve = Late { sight: self.sight, filter: &mut filter };
         follow(kernel, tree, &lanes, &way, ChildRef::node(0), &mut sieve, &mut reach, &mut quest)
             || quest.end(&reach)
+    }
+}
+
+/// One ray that looks at everything.
+struct AllOnce<'a, S, F> {
+    sight: &'a S,
+    test: F,
+}
+
+impl<S: Sight, F: FnMut(Leaf) -> bool> Errand for AllOnce<'_, S, F> {
+    type Answer = bool;
+
+    #[inline(always)]
+    fn run<K: Kernel>(self, kernel: K, tree: &Bvh) -> bool {
+        if tree.is_empty() {
+            return false;
+        }
+        let Some((lanes, way)) = kernel.ready(tree, self.sight) else { return false };
+        let (mut filter, mut reach) = (None, Reach::of(&way));
+        let mut sieve = Late { sight: self.sight, filter: &mut filter };
+        let mut quest = Each { kernel, tree, lanes: &lanes, test: self.test };
+        follow(kernel, tree, &lanes, &way, ChildRef::node(0), &mut sieve, &mut reach, &mut quest)
     }
 }
 

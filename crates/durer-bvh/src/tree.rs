@@ -1,7 +1,7 @@
 //! The tree.
 
 use crate::frame::Frame;
-use crate::node::{ChildRef, Leaf, Node8};
+use crate::node::{ChildRef, Leaf, Node8, WIDTH};
 use crate::ray::{Clip, CullRay, Line, PACKET, Rounding};
 use crate::triangles::{Block, Corners, LANES};
 use durer_math::Aabb;
@@ -20,6 +20,8 @@ pub struct Bvh {
     pub(crate) kinds: Vec<KindOfLeaf>,
     /// The leaves that hold triangles.
     pub(crate) blocks: Vec<Block>,
+    /// Triangles that stand in several of them.
+    pub(crate) splits: Splits,
     /// Whether f32 does not hold all corners of the blocks.
     pub(crate) rounded: bool,
     /// Whether there is one kind, and of triangles: then references to leaves are the numbers of their blocks.
@@ -36,6 +38,53 @@ pub(crate) struct KindOfLeaf {
     pub(crate) first: u32,
     /// For triangles, the number of its block; else references are slots.
     pub(crate) blocks: Option<u32>,
+}
+
+/// Where triangles stand that are in several leaves: the last slots of their kinds.
+///
+/// A ray may come to several of these leaves. Let the *first* be the one that comes first in `places` of those whose boxes the ray meets by the
+/// test of nodes. That test is monotonous in the planes of a box, rounding included, so a ray comes to a leaf if and only if it meets the leaf's own box:
+/// boxes around it are met, too. So who shows a triangle in its first leaf alone shows it once, if the test is always up to the same `t`; and does not
+/// miss it, since where the ray meets the triangle it is in one of the boxes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Splits {
+    /// For each kind its first such slot, and how many there are of kinds before it. None if there are none at all.
+    pub(crate) kinds: Vec<(u32, u32)>,
+    /// Where the places of each begin, and the end.
+    pub(crate) starts: Vec<u32>,
+    /// Children of nodes, in the order of the nodes: see [`Splits::place`].
+    pub(crate) places: Vec<u32>,
+}
+
+impl Splits {
+    /// A child of a node in one number: there are fewer than `2^28` nodes.
+    pub(crate) fn place(node: usize, slot: usize) -> u32 {
+        (node * WIDTH + slot) as u32
+    }
+
+    /// Node and child of a place.
+    #[inline(always)]
+    pub(crate) fn child(place: u32) -> (usize, usize) {
+        (place as usize / WIDTH, place as usize % WIDTH)
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.places.is_empty()
+    }
+
+    /// The number of a slot among those in several leaves, if it is one.
+    #[inline(always)]
+    pub(crate) fn number(&self, kind: u32, slot: u32) -> Option<u32> {
+        let &(whole, before) = self.kinds.get(kind as usize)?;
+        (slot >= whole).then(|| before + slot - whole)
+    }
+
+    /// All places of a thing that stands in several leaves.
+    #[inline(always)]
+    pub(crate) fn places(&self, number: u32) -> &[u32] {
+        let number = number as usize;
+        &self.places[self.starts[number] as usize..self.starts[number + 1] as usize]
+    }
 }
 
 impl Bvh {
@@ -73,6 +122,7 @@ impl Bvh {
             kinds: starts[..starts.len() - 1].iter().map(slots).collect(),
             starts,
             blocks: Vec::new(),
+            splits: Splits::default(),
             rounded: false,
             is_all_triangles: false,
             lo,
@@ -139,6 +189,33 @@ impl Bvh {
             None => at,
         };
         Leaf::new(kind as u32, first, child.slots().1)
+    }
+
+    /// Shows all that is in a leaf to `visit`, in one piece where slots follow each other, until it says that it has seen enough; says whether it did.
+    #[inline(always)]
+    pub(crate) fn leaves(&self, child: ChildRef, visit: &mut impl FnMut(Leaf) -> bool) -> bool {
+        if self.splits.is_empty() {
+            return visit(self.leaf(child));
+        }
+        self.pieces(child, visit)
+    }
+
+    fn pieces(&self, child: ChildRef, visit: &mut impl FnMut(Leaf) -> bool) -> bool {
+        let Some((kind, number)) = self.block(child) else { return visit(self.leaf(child)) };
+        let block = &self.blocks[number as usize];
+        let (mut lane, end) = (0, block.len());
+        while lane < end {
+            let first = block.slot(lane);
+            let mut count = 1;
+            while lane + count < end && block.slot(lane + count) == first + count as u32 {
+                count += 1;
+            }
+            lane += count;
+            if visit(Leaf::new(kind, first, count as u32)) {
+                return true;
+            }
+        }
+        false
     }
 
     /// The kind and the number of the block of a leaf that holds triangles, from a reference to it.

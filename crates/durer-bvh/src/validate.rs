@@ -1,9 +1,11 @@
 //! Is this a tree? Every invariant, walked.
 
+use crate::build::spatial::{Bounds, is_covered};
 use crate::kernels::MAX_DEPTH;
-use crate::node::{ChildRef, Node8, WIDTH};
-use crate::tree::Bvh;
-use durer_math::Aabb;
+use crate::node::{ChildRef, Leaf, Node8, WIDTH};
+use crate::tree::{Bvh, Splits};
+use crate::triangles::Corners;
+use durer_math::{Aabb, Point3};
 
 /// An invariant that does not hold.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -56,16 +58,26 @@ pub enum Violation {
         /// The child.
         slot: usize,
     },
-    /// A slot is in no leaf or in several.
-    #[error("slot {slot} is in {times} leaves")]
+    /// A slot is in no leaf or in several, and the tree does not know of it.
+    #[error("slot {slot} is in {times} leaves, not in {known}")]
     Slot {
         /// The slot.
         slot: usize,
         /// In how many leaves.
         times: u32,
+        /// In how many the tree says.
+        known: u32,
     },
-    /// A thing is not inside its leaf's box.
-    #[error("kind {kind}, number {index}: sticks out of the box of its leaf")]
+    /// A place of a triangle that stands in several leaves is none of its leaves, or it comes twice.
+    #[error("kind {kind}, number {index}: is not in all leaves in which it should be, once each")]
+    Place {
+        /// Its kind.
+        kind: u32,
+        /// Its position within the kind.
+        index: u32,
+    },
+    /// A thing is not inside its leaf's box; if it stands in several leaves, not inside their boxes together, as far as f64 can tell.
+    #[error("kind {kind}, number {index}: sticks out of the box of its leaf, or of its leaves")]
     ThingSticksOut {
         /// Its kind.
         kind: u32,
@@ -113,29 +125,101 @@ impl Bvh {
                     waiting.push((child, depth + 1, (lo, hi)));
                     continue;
                 }
-                let leaf = self.leaf(child);
-                let kind = leaf.kind as usize;
-                let end = self.starts[kind] + leaf.first + leaf.count;
-                if end > self.starts[kind + 1] {
-                    return Err(Violation::Kind { node: index, slot });
-                }
                 let outer = self.frame.bounds(lo, hi);
-                for i in leaf.first..leaf.first + leaf.count {
-                    held[(self.starts[kind] + i) as usize] += 1;
-                    if !outer.encloses(&bounds(leaf.kind, i)) {
-                        return Err(Violation::ThingSticksOut { kind: leaf.kind, index: i });
+                let mut wrong = None;
+                self.leaves(child, &mut |leaf| {
+                    wrong = self.check_leaf(&leaf, &outer, &mut held, &bounds);
+                    wrong.is_some()
+                });
+                match wrong {
+                    Some(Wrong::Leaf) => return Err(Violation::Kind { node: index, slot }),
+                    Some(Wrong::Thing(index)) => {
+                        let kind = self.leaf(child).kind;
+                        return Err(Violation::ThingSticksOut { kind, index });
                     }
+                    None => {}
                 }
             }
         }
         if let Some((node, &times)) = reached.iter().enumerate().find(|(_, n)| **n != 1) {
             return Err(Violation::Reached { node, times });
         }
-        match held.iter().enumerate().find(|(_, n)| **n != 1) {
-            Some((slot, &times)) => Err(Violation::Slot { slot, times }),
-            None => Ok(()),
+        for kind in 0..self.kinds.len() as u32 {
+            for index in 0..self.count(kind) as u32 {
+                let slot = (self.starts[kind as usize] + index) as usize;
+                let split = self.splits.number(kind, index);
+                let known = split.map_or(1, |split| self.splits.places(split).len() as u32);
+                if held[slot] != known {
+                    return Err(Violation::Slot { slot, times: held[slot], known });
+                }
+                if let Some(split) = split {
+                    self.check_split(kind, index, self.splits.places(split), &bounds(kind, index))?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_leaf(
+        &self,
+        leaf: &Leaf,
+        outer: &Aabb,
+        held: &mut [u32],
+        bounds: &impl Fn(u32, u32) -> Aabb,
+    ) -> Option<Wrong> {
+        let kind = leaf.kind as usize;
+        if self.starts[kind] + leaf.first + leaf.count > self.starts[kind + 1] {
+            return Some(Wrong::Leaf);
+        }
+        for i in leaf.first..leaf.first + leaf.count {
+            held[(self.starts[kind] + i) as usize] += 1;
+            if self.splits.number(leaf.kind, i).is_none() && !outer.encloses(&bounds(leaf.kind, i)) {
+                return Some(Wrong::Thing(i));
+            }
+        }
+        None
+    }
+
+    /// A triangle that stands in several leaves is in each of its places, and their boxes hold all of it.
+    fn check_split(&self, kind: u32, index: u32, places: &[u32], bounds: &Aabb) -> Result<(), Violation> {
+        let mut boxes = Vec::new();
+        let (mut whole, mut corners) = (Aabb::EMPTY, None);
+        let is_new = |i: usize| !places[..i].contains(&places[i]);
+        for (i, &place) in places.iter().enumerate() {
+            let (node, slot) = Splits::child(place);
+            let parent = self.nodes.get(node).filter(|node| node.is_used(slot) && node.child[slot].is_leaf());
+            let block = parent.and_then(|node| self.block(node.child[slot]));
+            let (Some(parent), Some((_, number))) = (parent, block.filter(|of| of.0 == kind && is_new(i)))
+            else {
+                return Err(Violation::Place { kind, index });
+            };
+            let block = &self.blocks[number as usize];
+            let Some(lane) = (0..block.len()).find(|&lane| block.slot(lane) == index) else {
+                return Err(Violation::Place { kind, index });
+            };
+            let (lo, hi) = parent.bounds(slot);
+            whole = whole.union(self.frame.bounds(lo, hi));
+            boxes.push(Bounds { lo: lo.map(f64::from), hi: hi.map(f64::from) });
+            corners = Some(block.corners(1.0, lane));
+        }
+        // What is held of its corners may be rounded; its box may be cut by what bounds its object.
+        let is_covered = |corners: Corners| {
+            let inward = |p: Point3| p.map(|x| self.frame.inward(x)).to_array();
+            let bounds = Bounds { lo: inward(bounds.min), hi: inward(bounds.max) };
+            self.rounded || is_covered(&corners.map(Point3::to_array), &bounds, &boxes)
+        };
+        if whole.encloses(bounds) && corners.is_some_and(is_covered) {
+            Ok(())
+        } else {
+            Err(Violation::ThingSticksOut { kind, index })
         }
     }
+}
+
+/// What a leaf violates.
+enum Wrong {
+    Leaf,
+    Thing(u32),
 }
 
 fn check_order(index: usize, node: &Node8) -> Result<(), Violation> {

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::Dice;
+use common::{Dice, QUALITIES};
 use durer_bvh::{Bvh, Corners, Frame, Glance, Glances, Leaf, Line, PACKET, Rays, Settings, Sight};
 use durer_math::eft::exponent;
 use durer_math::kernels::Path;
@@ -23,7 +23,7 @@ fn point(dice: &mut Dice, size: f64) -> Point3 {
 }
 
 impl World {
-    fn of(seed: u64, boxes: usize, triangles: usize) -> Self {
+    fn of(seed: u64, boxes: usize, triangles: usize, settings: &Settings) -> Self {
         let mut dice = Dice(seed);
         let near = |dice: &mut Dice, p: Point3| p + (point(dice, 0.3) - Point3::ORIGIN);
         let corners: Vec<Corners> = (0..triangles)
@@ -41,7 +41,7 @@ impl World {
         let entry = |(i, (kind, b)): (usize, &(u32, Aabb))| frame.entry(b, *kind, i as u32);
         let entries = bounds.iter().enumerate().map(entry).collect();
         let shape = |n: u32| corners[n as usize];
-        let (tree, _) = Bvh::build(&frame, entries, &[None, Some(&shape)], &Settings::GOOD);
+        let (tree, _) = Bvh::build(&frame, entries, &[None, Some(&shape)], settings);
         let line = |dice: &mut Dice| {
             // From within, from near and from far; some have nothing to look for.
             let size = [0.5, 3.0, 1e6][dice.below(3) as usize];
@@ -190,10 +190,11 @@ impl Rays<bool> for Logging<'_> {
 #[test]
 fn rays_are_shown_the_same_as_alone() {
     let (mut met, mut together) = (0, 0);
-    for (seed, (boxes, triangles)) in
-        [(0, 0), (1, 0), (300, 0), (0, 2000), (200, 2000)].into_iter().enumerate()
+    let worlds = [(0, 0), (1, 0), (300, 0), (0, 2000), (200, 2000)].into_iter().enumerate();
+    for (seed, (boxes, triangles), settings) in
+        worlds.flat_map(|(seed, counts)| QUALITIES.map(|settings| (seed, counts, settings)))
     {
-        let world = World::of(seed as u64, boxes, triangles);
+        let world = World::of(seed as u64, boxes, triangles, &settings);
         for isa in Isa::available() {
             for count in [0, 1, 5, world.lines.len()] {
                 let nothing = Log { shown: vec![Vec::new(); count], found: vec![false; count] };

@@ -83,6 +83,9 @@ impl Geometry {
         });
         // Where two hits have the same `t` the first one tested is kept.
         candidates.sort_unstable_by_key(|c| (c.name.object, c.name.primitive, c.arena, c.slot));
+        // A triangle may stand in several leaves.
+        let mut last = None;
+        candidates.retain(|c| last.replace((c.arena, c.slot)) != Some((c.arena, c.slot)));
         (!full).then_some(beam)
     }
 

@@ -146,7 +146,7 @@ impl Builder {
         self
     }
 
-    /// How the tree is built.
+    /// How the tree is built: [`Settings::GOOD`] if not told otherwise. Answers do not depend on it.
     pub fn settings(&mut self, settings: Settings) -> &mut Self {
         self.settings = settings;
         self

@@ -66,4 +66,4 @@ pub use crate::ids::EVERYTHING;
 pub use crate::lanes::{Hits8, Rays8, Scratch, Sources8};
 pub use crate::refit::RefitError;
 pub use crate::stats::{Inventory, Stats};
-pub use durer_bvh::Settings;
+pub use durer_bvh::{Quality, Settings};

@@ -243,7 +243,7 @@ pub(crate) fn each(walk: &Walk<'_>, visit: &mut dyn FnMut(&Hit) -> Flow) -> Flow
         }
     };
     let stopped = geometry.beside.iter().any(|b| test(b.leaf()))
-        || geometry.tree.any(geometry.isa, &walk.line(), |_| false, &mut test);
+        || geometry.tree.each(geometry.isa, &walk.line(), &mut test);
     if stopped { Flow::Stop } else { Flow::Continue }
 }
 
@@ -265,15 +265,10 @@ fn spans(walk: &Walk<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks) {
         gather(beside.leaf(), tracks);
     }
     let line = walk.line();
-    geometry.tree.any(
-        geometry.isa,
-        &line,
-        |_| false,
-        |leaf| {
-            gather(leaf, tracks);
-            false
-        },
-    );
+    geometry.tree.each(geometry.isa, &line, |leaf| {
+        gather(leaf, tracks);
+        false
+    });
     // A solid in parts may hold the whole range without one of its parts being near it.
     (tracks.placement, tracks.source) = (walk.placement, None);
     for solid in &geometry.solids_in_parts {

@@ -3,12 +3,12 @@
 mod common;
 
 use common::{Dice, both, fill, ground, rays};
-use durer_geometry::{Compound, CompoundBuilder, Geometry, Hit, Part};
+use durer_geometry::{Builder, Compound, CompoundBuilder, Geometry, Hit, Part, Settings};
 use durer_math::kernels::Path;
-use durer_math::{Aabb, Isa, Point3, Ray, Shaft, Vec3};
+use durer_math::{Aabb, Isa, Point3, Ray, Shaft, Vec3, elementary};
 use durer_surfaces::{
-    AxisBox, CappedCylinder, Erased, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Sphere, Surface,
-    SurfacePoint,
+    AxisBox, CappedCylinder, Erased, LocalPoint, LocalRay, Mesh, MeshData, Need, Root, Side, Sink, Solidity,
+    Sphere, Surface, SurfacePoint, Triangle,
 };
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -53,6 +53,50 @@ fn mixed_surfaces() {
     assert!(crossings > 2000, "{crossings} crossings test little");
 }
 
+/// Small triangles and large ones through them, by themselves and as a mesh, a solid of long triangles, and other things.
+fn fill_with_triangles(builder: &mut Builder, dice: &mut Dice) {
+    for i in 0..600 {
+        let (a, size) = (dice.point(4.0), if i % 12 == 0 { 6.0 } else { 0.2 });
+        if let Ok(triangle) = Triangle::new([a, a + dice.vector(size), a + dice.vector(0.2)]) {
+            builder.add(triangle);
+        }
+    }
+    let vertices: Vec<Point3> = (0..300).map(|_| dice.point(4.0)).collect();
+    let faces = (0..300).map(|i| [i, (i + 1) % 300, dice.below(300) as u32]).collect();
+    builder.add(Mesh::new(MeshData { vertices, faces, ..MeshData::default() }).unwrap());
+    // Two pyramids on one base.
+    let mut vertices = vec![Point3::new(3.0, 3.0, 3.0), Point3::new(-3.0, -3.0, -3.0)];
+    for i in 0..150 {
+        let angle = f64::from(i) * core::f64::consts::TAU / 150.0;
+        let (sin, cos) = elementary::sin_cos(angle);
+        vertices.push(Point3::new(cos + sin, sin - cos, -2.0 * sin));
+    }
+    let side = |i: u32| [2 + i, 2 + (i + 1) % 150];
+    let faces = (0..150).map(side).flat_map(|[a, b]| [[0, a, b], [1, b, a]]).collect();
+    let data = MeshData { vertices, faces, ..MeshData::default() };
+    builder.add(Mesh::new(data).unwrap().solid(Vec3::Y).unwrap());
+    fill(builder, dice, 60, false);
+}
+
+#[test]
+fn trees_of_every_quality() {
+    for (settings, most) in [(Settings::FAST, 0), (Settings::GOOD, 0), (Settings::BEST, 1000)] {
+        for with_ground in [false, true] {
+            let (tree, flat) = both(|builder| {
+                fill_with_triangles(builder.settings(settings), &mut Dice(51));
+                if with_ground {
+                    builder.add(ground());
+                }
+            });
+            let stats = tree.stats();
+            let shared = stats.tree.entries as u64 + stats.beside - stats.primitives;
+            assert!(shared <= most && (shared > 0) == (most > 0), "{shared} triangles stand twice");
+            let crossings = assert_same(&tree, &flat, &rays(&mut Dice(52), 400));
+            assert!(crossings > 4000, "{crossings} crossings test little");
+        }
+    }
+}
+
 #[test]
 fn all_instruction_sets() {
     let build = |isa: Isa, flat: bool| {
@@ -81,7 +125,7 @@ fn nested_instances() {
     let (tree, flat) = {
         let build = |flat: bool| {
             let mut dice = Dice(21);
-            let finish = |builder: &mut durer_geometry::Builder| {
+            let finish = |builder: &mut Builder| {
                 if flat {
                     builder.without_tree();
                 }
@@ -366,9 +410,7 @@ fn ten_thousand_leaves_are_asked_at_most_ten_times_as_often_as_a_hundred() {
             let sheets: Vec<Part> = sheets.collect();
             let mut dice = Dice(9);
             let craters = (0..count / 2).map(|_| {
-                let crater =
-                    Sphere::new(dice.point(1.0), 1.2 / durer_math::elementary::cbrt(f64::from(count)))
-                        .unwrap();
+                let crater = Sphere::new(dice.point(1.0), 1.2 / elementary::cbrt(f64::from(count))).unwrap();
                 csg.leaf(counted(Erased::new(crater))).unwrap()
             });
             let craters: Vec<Part> = craters.collect();

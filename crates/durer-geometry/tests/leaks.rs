@@ -5,7 +5,7 @@
 mod common;
 
 use common::Dice;
-use durer_geometry::{EVERYTHING, Geometry};
+use durer_geometry::{EVERYTHING, Geometry, Settings};
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{Mesh, MeshData};
 use rayon::prelude::*;
@@ -97,6 +97,15 @@ fn icosphere(levels: u32) -> Body {
     Body { data: MeshData { vertices, faces, ..MeshData::default() }, room: 0.4 * RADIUS }
 }
 
+/// An icosphere with some corners pulled far out: long triangles, which are cut in space, beside small ones.
+fn urchin() -> Body {
+    let mut body = icosphere(4);
+    for v in body.data.vertices.iter_mut().step_by(9) {
+        *v = (v.to_vec() * 8.0).to_point();
+    }
+    body
+}
+
 /// The body scaled and moved, each coordinate rounded: neighbours still share their corners.
 fn moved(body: &Body, scale: f64, by: f64) -> (MeshData, Point3) {
     let centre = Point3::new(by, -0.5 * by, 0.25 * by);
@@ -145,11 +154,31 @@ fn shoot(world: &Geometry, data: &MeshData, centre: Point3, room: f64, name: &st
 
 #[test]
 fn closed_meshes_leak_nowhere() {
-    for (name, body) in [("cube", cube(12)), ("icosphere", icosphere(4))] {
+    leak_nowhere(&[("cube", cube(12)), ("icosphere", icosphere(4))], &Settings::GOOD);
+}
+
+#[test]
+fn closed_meshes_leak_nowhere_in_trees_that_were_built_fast() {
+    leak_nowhere(&[("urchin", urchin())], &Settings::FAST);
+}
+
+#[test]
+fn closed_meshes_leak_nowhere_where_triangles_stand_in_several_leaves() {
+    let shared = leak_nowhere(&[("urchin", urchin())], &Settings::BEST);
+    assert!(shared > 500, "{shared} more references than triangles");
+}
+
+/// Says how many more references than triangles there were.
+fn leak_nowhere(bodies: &[(&str, Body)], settings: &Settings) -> u64 {
+    let mut shared = 0;
+    for (name, body) in bodies {
         for (scale, by) in [(1.0, 0.0), (1.0, 1e5), (1.0, 1e6), (1e-6, 0.0), (1e-6, 1.0)] {
-            let (data, centre) = moved(&body, scale, by);
+            let (data, centre) = moved(body, scale, by);
             let room = body.room * scale;
-            let world = Geometry::builder().add(Mesh::new(data.clone()).unwrap()).build().unwrap();
+            let mesh = Mesh::new(data.clone()).unwrap();
+            let world = Geometry::builder().settings(*settings).add(mesh).build().unwrap();
+            let stats = world.stats();
+            shared += stats.tree.entries as u64 - stats.primitives;
             shoot(&world, &data, centre, room, &format!("{name} times {scale} at {by}"));
             // The same mesh, placed: now the rays are known within errors only.
             let place = Affine::rotation(Vec3::new(1.0, 2.0, -0.5), 0.7).unwrap();
@@ -159,4 +188,5 @@ fn closed_meshes_leak_nowhere() {
             shoot(&placed, &data, place.point(centre), room, &format!("placed {name} times {scale} at {by}"));
         }
     }
+    shared
 }

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Dice, rays};
-use durer_geometry::{Geometry, Hit, ObjectId, RefitError};
+use durer_geometry::{Geometry, Hit, ObjectId, RefitError, Settings};
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{AxisBox, Mesh, MeshData, Plane, Sphere, Triangle};
 use std::sync::Arc;
@@ -58,14 +58,17 @@ fn what_moved_is_met_where_it_is() {
     let mut dice = Dice(31);
     let small = Arc::new(Geometry::builder().add(Sphere::new(Point3::ORIGIN, 0.7).unwrap()).build().unwrap());
     let map = Affine::translation(Vec3::new(2.0, 1.0, 0.0)).unwrap();
-    for flat in [false, true] {
-        for sides in [4, 40] {
+    for (flat, settings) in
+        [(false, Settings::GOOD), (false, Settings::FAST), (false, Settings::BEST), (true, Settings::GOOD)]
+    {
+        for sides in [4, 40, 300] {
             let seed = dice.next();
             let old: Vec<Sphere> = (0..60).map(|_| ball(&mut dice)).collect();
             let new: Vec<Sphere> = (0..60).map(|_| ball(&mut dice)).collect();
             let (mesh, bent) = (drum(&mut Dice(seed), sides, 0.9), drum(&mut Dice(seed + 1), sides, 1.3));
             let build = |balls: &[Sphere], mesh: &Mesh| {
                 let mut builder = Geometry::builder();
+                builder.settings(settings);
                 balls.iter().for_each(|b| {
                     builder.add(*b);
                 });

@@ -1,7 +1,7 @@
 //! Traces the rays of the comparison with other ray kernels, and prints what the other programs print.
 //!
 //! ```text
-//! cargo run --release -p durer-bvh --example peer_rays -- MESH.tri --load DIR [--threads N] [--repeats N] [--builds N] [--modes single,batch] [--quality good] [--json]
+//! cargo run --release -p durer-bvh --example peer_rays -- MESH.tri --load DIR [--threads N] [--repeats N] [--builds N] [--modes single,batch] [--quality fast|good|best] [--json]
 //! ```
 //!
 //! `DIR` holds `primary ao diffuse random` as `.rays` and the reference answers as `.hits`. The answers here are those of exact arithmetic on the
@@ -37,7 +37,7 @@ struct Options {
 }
 
 fn options() -> Result<Options, String> {
-    let usage = "usage: peer_rays MESH.tri --load DIR [--threads N] [--repeats N] [--builds N] [--modes single,batch] [--quality good] [--json]";
+    let usage = "usage: peer_rays MESH.tri --load DIR [--threads N] [--repeats N] [--builds N] [--modes single,batch] [--quality fast|good|best] [--json]";
     let mut args = std::env::args().skip(1);
     let (mut mesh, mut load) = (None, None);
     let (mut threads, mut repeats, mut builds, mut json) = (None, 5, 3, false);
@@ -108,7 +108,7 @@ fn run() -> Result<(), String> {
     let text = |e: FileError| e.to_string();
     let mesh = files::mesh(&options.mesh).map_err(text)?;
     let settings = world::quality(&options.quality)
-        .ok_or_else(|| format!("the only quality so far is good, got {:?}", options.quality))?;
+        .ok_or_else(|| format!("the quality is fast, good or best, got {:?}", options.quality))?;
     let isa = Isa::detect();
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads =

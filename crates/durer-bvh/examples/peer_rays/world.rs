@@ -10,7 +10,12 @@ use rayon::prelude::*;
 
 /// What a tree is built with.
 pub(crate) fn quality(name: &str) -> Option<Settings> {
-    (name == "good").then_some(Settings::GOOD)
+    match name {
+        "fast" => Some(Settings::FAST),
+        "good" => Some(Settings::GOOD),
+        "best" => Some(Settings::BEST),
+        _ => None,
+    }
 }
 
 pub(crate) struct World {

@@ -40,6 +40,28 @@ impl Extent {
         self
     }
 
+    /// A point.
+    #[inline(always)]
+    pub(crate) fn at(p: &[f32; 3]) -> Self {
+        Self([-p[0], -p[1], -p[2], 0.0, p[0], p[1], p[2], 0.0])
+    }
+
+    /// Whether there is no point in it.
+    #[inline(always)]
+    pub(crate) fn is_empty(&self) -> bool {
+        let gap = |i: usize| self.0[i] + self.0[4 + i] < 0.0;
+        gap(0) | gap(1) | gap(2)
+    }
+
+    /// What is in both.
+    #[inline(always)]
+    pub(crate) fn common(mut self, b: &Self) -> Self {
+        for i in 0..8 {
+            self.0[i] = if b.0[i] < self.0[i] { b.0[i] } else { self.0[i] };
+        }
+        self
+    }
+
     #[inline(always)]
     pub(crate) fn lo(&self) -> [f32; 3] {
         [0.0 - self.0[0], 0.0 - self.0[1], 0.0 - self.0[2]]

@@ -5,8 +5,7 @@
 //! small ranges, which are nearly all of a tree; above them the largest range is cut first.
 
 use super::area::Extent;
-use super::split::Split;
-use super::{Costs, Range};
+use super::{Costs, Divided, Half, Range};
 use crate::frame::Entry;
 use crate::kernels::MAX_DEPTH;
 use crate::node::{ChildRef, MAX_LEAF, Node8, WIDTH};
@@ -18,7 +17,7 @@ pub(super) const COLLAPSED: usize = 4096;
 /// several kinds, and so do cuts by count. So eight and eight more levels follow, even if each cut makes a node.
 pub(super) const BALANCED_FROM: usize = 20;
 
-const _: () = assert!(BALANCED_FROM + 8 + 8 < MAX_DEPTH && COLLAPSED == 16 << 8 && MAX_LEAF == 16);
+const _: () = assert!(BALANCED_FROM + 8 + 8 + 1 < MAX_DEPTH && COLLAPSED == 16 << 8 && MAX_LEAF == 16);
 
 /// A range of a binary tree.
 struct Part {
@@ -39,35 +38,44 @@ struct Binary<'a> {
     costs: &'a Costs<'a>,
 }
 
-/// Appends the node over all of `entries`, and those below it; `base` is the position of the first entry.
+/// Appends the node over all of a range, of which these are the entries and the room, and those below it; `base` is the position of the first entry.
 pub(super) fn subtree(
     entries: &mut [Entry],
     base: usize,
-    extent: &Extent,
+    whole: &Range,
     level: usize,
     costs: &Costs<'_>,
     nodes: &mut Vec<Node8>,
 ) {
     let mut binary = Binary { parts: Vec::with_capacity(entries.len() / 2), costs };
-    let root = binary.grow(entries, 0, extent, level);
+    let root = binary.grow(entries, Range { first: 0, ..*whole }, level);
     nodes.reserve(binary.parts.len() / 8);
     binary.emit(root, base, nodes);
 }
 
 impl Binary<'_> {
     /// Cuts a range as long as it pays or has to be, and adds up costs.
-    fn grow(&mut self, entries: &mut [Entry], first: usize, extent: &Extent, level: usize) -> u32 {
-        let len = entries.len();
-        let kind = self.costs.of_range(entries);
-        let may_be_leaf = self.costs.may_be_leaf(entries);
+    fn grow(&mut self, entries: &mut [Entry], range: Range, level: usize) -> u32 {
+        let Range { first, len, extent, .. } = range;
+        let held = &entries[..len];
+        let kind = self.costs.of_range(held);
+        let may_be_leaf = self.costs.may_be_leaf(held);
         let area = extent.half_area();
         let leaf = if may_be_leaf { area * kind.of_leaf(len) } else { f32::INFINITY };
-        let halves = cut(entries, extent, level, self.costs).map(|Split { at, left, right }| {
+        let halves = cut(entries, len, &extent, level, self.costs).map(|Divided { left, right }| {
+            let at = left.len + left.room;
             let (a, b) = entries.split_at_mut(at);
-            (self.grow(a, first, &left, level + 1), self.grow(b, first + at, &right, level + 1))
+            let half = |first, half: Half| Range {
+                first,
+                len: half.len,
+                room: half.room,
+                extent: half.extent,
+                closed: false,
+            };
+            (self.grow(a, half(first, left), level + 1), self.grow(b, half(first + at, right), level + 1))
         });
         let mut part = Part {
-            range: Range { first, len, extent: *extent, closed: true },
+            range: Range { closed: true, ..range },
             halves,
             costs: [leaf; WIDTH],
             shares: [0; WIDTH],
@@ -153,10 +161,16 @@ impl Binary<'_> {
     }
 }
 
-/// Cuts a range in two, if it has more than one entry and it may pay.
-fn cut(entries: &mut [Entry], extent: &Extent, level: usize, costs: &Costs<'_>) -> Option<Split> {
-    if entries.len() < 2 {
+/// Cuts the first `len` entries in two, if that is more than one and it may pay.
+fn cut(
+    entries: &mut [Entry],
+    len: usize,
+    extent: &Extent,
+    level: usize,
+    costs: &Costs<'_>,
+) -> Option<Divided> {
+    if len < 2 {
         return None;
     }
-    super::split(entries, extent, level + (super::BALANCED_FROM - BALANCED_FROM), costs)
+    super::split(entries, len, extent, level + (super::BALANCED_FROM - BALANCED_FROM), costs)
 }

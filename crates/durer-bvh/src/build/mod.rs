@@ -6,11 +6,17 @@
 //! kind of thing only, so that it is one call. The result is a function of the entries and their order alone: threads share out
 //! subtrees and merge bins by minima, maxima and counts, which do not depend on order.
 //!
+//! That is [`Quality::Good`]. [`Quality::Fast`] makes leaves of [neighbours along a curve](curve) and a tree over these; [`Quality::Best`] also cuts
+//! triangles [in space](spatial), so that some [stand in several leaves](shared).
+//!
 //! Depth is bounded: from level [`BALANCED_FROM`] on ranges are halved by count.
 
 mod area;
 mod bins;
 mod collapse;
+mod curve;
+mod shared;
+pub(crate) mod spatial;
 mod split;
 
 use crate::frame::{Entry, Frame};
@@ -24,11 +30,26 @@ use core::sync::atomic::{AtomicBool, Ordering};
 use durer_math::Isa;
 use durer_math::kernels::in_large_pages;
 use rayon::prelude::*;
+use shared::{Arranged, Placed, Slots};
 use split::Split;
+
+/// How much work a tree is worth. Answers do not depend on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Quality {
+    /// Built in a fraction of the time; rays take longer.
+    Fast,
+    /// The surface area heuristic at each step.
+    #[default]
+    Good,
+    /// Triangles may stand in several leaves, a quarter more than there are at most: for scenes that are built once, with triangles that are large beside others.
+    Best,
+}
 
 /// What a build weighs. Costs are in units of a node test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
+    /// How much work the tree is worth.
+    pub quality: Quality,
     /// How many things a leaf may hold, 1 to 16.
     pub max_leaf: usize,
     /// The cost of one test.
@@ -39,7 +60,13 @@ pub struct Settings {
 
 impl Settings {
     /// Measured on spheres.
-    pub const GOOD: Self = Self { max_leaf: 8, test_cost: 1.0, leaf_cost: 1.0 };
+    pub const GOOD: Self = Self { quality: Quality::Good, max_leaf: 8, test_cost: 1.0, leaf_cost: 1.0 };
+
+    /// A tree soon.
+    pub const FAST: Self = Self { quality: Quality::Fast, ..Self::GOOD };
+
+    /// Rays fast.
+    pub const BEST: Self = Self { quality: Quality::Best, ..Self::GOOD };
 }
 
 impl Default for Settings {
@@ -55,6 +82,7 @@ struct Costs<'a> {
     test: f32,
     leaf: f32,
     shapes: &'a [Option<CornersOf<'a>>],
+    frame: Frame,
     isa: Isa,
 }
 
@@ -68,11 +96,18 @@ struct KindCosts {
 }
 
 impl<'a> Costs<'a> {
-    fn of(settings: &Settings, shapes: &'a [Option<CornersOf<'a>>]) -> Self {
-        let Settings { max_leaf, test_cost, leaf_cost } = *settings;
+    fn of(settings: &Settings, frame: Frame, shapes: &'a [Option<CornersOf<'a>>]) -> Self {
+        let Settings { max_leaf, test_cost, leaf_cost, .. } = *settings;
         let most = if shapes.iter().any(Option::is_some) { LANES } else { MAX_LEAF };
         let isa = Isa::detect();
-        Self { max_leaf: max_leaf.clamp(1, most), test: test_cost, leaf: leaf_cost, shapes, isa }
+        let max_leaf = max_leaf.clamp(1, most);
+        Self { max_leaf, test: test_cost, leaf: leaf_cost, shapes, frame, isa }
+    }
+
+    /// The triangle of an entry in the tree's units, if it is one and that loses nothing.
+    fn scaled(&self, entry: &Entry) -> Option<spatial::Scaled> {
+        let corners = self.shapes[entry.kind() as usize]?;
+        spatial::scaled(self.frame, &corners(entry.index()))
     }
 
     /// Whether a range can be a leaf.
@@ -109,22 +144,23 @@ impl KindCosts {
 pub type CornersOf<'a> = &'a (dyn Fn(u32) -> Corners + Sync);
 
 /// From this level on ranges are halved by count. Halving reaches single things in `log8(2^27) = 9` levels, and
-/// the kinds of a last range of 16 need two more; so no tree is deeper than 35, and [`MAX_DEPTH`] is 40.
+/// the kinds of a last range of 16 need two more; so no tree is deeper than 35, with nodes made along a [curve] below it than 36, and [`MAX_DEPTH`] is 40.
 const BALANCED_FROM: usize = 24;
 
 const _: () = assert!(LANES.is_power_of_two());
 
-const _: () = assert!(BALANCED_FROM + 9 + 2 < MAX_DEPTH && MAX_ENTRIES == 1 << 27 && MAX_LEAF == 16);
+const _: () = assert!(BALANCED_FROM + 9 + 2 + 1 < MAX_DEPTH && MAX_ENTRIES == 1 << 27 && MAX_LEAF == 16);
 
 /// Ranges with fewer entries are one thread's.
 const PARALLEL: usize = 4096;
 
-/// Nodes over `entries`, which are put into leaf order. The first node is the root. Leaves refer to positions.
-fn build(entries: &mut [Entry], costs: &Costs<'_>) -> Grown {
-    if entries.is_empty() {
+/// Nodes over the first `len` of `entries`, which are put into leaf order; the others are room. The first node is the root. Leaves refer to positions.
+fn build(entries: &mut [Entry], len: usize, costs: &Costs<'_>) -> Grown {
+    if len == 0 {
         return Grown { nodes: Vec::new(), below: Vec::new() };
     }
-    let whole = Range { first: 0, len: entries.len(), extent: split::extent(entries), closed: false };
+    let extent = split::extent(&entries[..len]);
+    let whole = Range { first: 0, len, room: entries.len() - len, extent, closed: false };
     grow(entries, 0, &whole, 0, costs)
 }
 
@@ -171,22 +207,70 @@ struct Range {
     /// Counted within the slice of its parent.
     first: usize,
     len: usize,
+    /// How many entries there may be behind these.
+    room: usize,
     extent: Extent,
     /// It is to be a leaf.
     closed: bool,
 }
 
 impl Range {
+    /// Its entries, and its room.
     fn of<'a>(&self, entries: &'a mut [Entry]) -> &'a mut [Entry] {
-        &mut entries[self.first..self.first + self.len]
+        &mut entries[self.first..self.first + self.len + self.room]
+    }
+
+    fn held<'a>(&self, entries: &'a [Entry]) -> &'a [Entry] {
+        &entries[self.first..self.first + self.len]
+    }
+}
+
+/// A range cut in two: the second half begins behind the room of the first.
+struct Divided {
+    left: Half,
+    right: Half,
+}
+
+#[derive(Clone, Copy)]
+struct Half {
+    len: usize,
+    room: usize,
+    extent: Extent,
+}
+
+impl Divided {
+    /// Halves with their shares of some room: by number and surface, as what a cut in space may gain grows with both.
+    fn sharing(room: usize, left: (usize, Extent), right: (usize, Extent)) -> Self {
+        let weight = |(len, extent): &(usize, Extent)| f64::from(extent.half_area()) * *len as f64;
+        let (a, b) = (weight(&left), weight(&right));
+        let share = a / (a + b);
+        let first = if share.is_finite() { (room as f64 * share) as usize } else { room / 2 }.min(room);
+        let half = |(len, extent): (usize, Extent), room: usize| Half { len, room, extent };
+        Self { left: half(left, first), right: half(right, room - first) }
+    }
+
+    /// Gives both halves of the first `len` entries their shares of the room behind them; what may be a leaf after all stays together.
+    fn of(entries: &mut [Entry], len: usize, may_be_leaf: bool, Split { at, left, right }: Split) -> Self {
+        let room = entries.len() - len;
+        if may_be_leaf {
+            return Self {
+                left: Half { len: at, room: 0, extent: left },
+                right: Half { len: len - at, room, extent: right },
+            };
+        }
+        let divided = Self::sharing(room, (at, left), (len - at, right));
+        // As many of the second half as have to go move to its other end.
+        let moved = divided.left.room.min(len - at);
+        entries.copy_within(at..at + moved, len + divided.left.room - moved);
+        divided
     }
 }
 
 /// The node over all of `entries`, and those below it; `base` is the position of the first entry.
 fn grow(entries: &mut [Entry], base: usize, whole: &Range, level: usize, costs: &Costs<'_>) -> Grown {
-    if whole.len < collapse::COLLAPSED && level < collapse::BALANCED_FROM {
+    if whole.len + whole.room < collapse::COLLAPSED && level < collapse::BALANCED_FROM {
         let mut nodes = Vec::new();
-        collapse::subtree(entries, base, &whole.extent, level, costs, &mut nodes);
+        collapse::subtree(entries, base, whole, level, costs, &mut nodes);
         nodes.shrink_to_fit();
         return Grown { nodes, below: Vec::new() };
     }
@@ -206,11 +290,11 @@ fn grow(entries: &mut [Entry], base: usize, whole: &Range, level: usize, costs: 
         // The first of the largest, as `max_by` would give the last.
         let Some(widest) = open.rev().max_by(by_size) else { break };
         let range = ranges[widest];
-        match split(range.of(entries), &range.extent, level, costs) {
-            Some(Split { at, left, right }) => {
-                ranges[widest] = Range { len: at, extent: left, ..range };
-                ranges[count] =
-                    Range { first: range.first + at, len: range.len - at, extent: right, closed: false };
+        match split(range.of(entries), range.len, &range.extent, level, costs) {
+            Some(Divided { left, right }) => {
+                ranges[widest] = Range { len: left.len, room: left.room, extent: left.extent, ..range };
+                let (first, Half { len, room, extent }) = (range.first + left.len + left.room, right);
+                ranges[count] = Range { first, len, room, extent, closed: false };
                 count += 1;
             }
             None => ranges[widest].closed = true,
@@ -220,14 +304,14 @@ fn grow(entries: &mut [Entry], base: usize, whole: &Range, level: usize, costs: 
     // Neighbours in space stay neighbours in memory.
     ranges.sort_unstable_by_key(|r| r.first);
     for range in ranges.iter_mut().filter(|r| !r.closed) {
-        range.closed = range.len == 1 || split::is_better_as_leaf(range.of(entries), &range.extent, costs);
+        range.closed = range.len == 1 || split::is_better_as_leaf(range.held(entries), &range.extent, costs);
     }
 
     let mut node = Node8::EMPTY;
     let mut below = Vec::new();
     let mut rest = entries;
     for (slot, range) in ranges.iter().enumerate() {
-        let (mine, tail) = rest.split_at_mut(range.len);
+        let (mine, tail) = rest.split_at_mut(range.len + range.room);
         rest = tail;
         let child = if range.closed {
             ChildRef::leaf(base + range.first, range.len)
@@ -258,25 +342,36 @@ fn move_by(node: &mut Node8, offset: usize) {
     }
 }
 
-/// Splits a range in two; `None` if it is better, and possible, to make it a leaf.
-fn split(entries: &mut [Entry], extent: &Extent, level: usize, costs: &Costs<'_>) -> Option<Split> {
-    let one_kind = split::is_one_kind(entries);
-    let may_be_leaf = one_kind && entries.len() <= costs.max_leaf;
+/// Splits the first `len` entries in two; `None` if it is better, and possible, to make them a leaf.
+fn split(
+    entries: &mut [Entry],
+    len: usize,
+    extent: &Extent,
+    level: usize,
+    costs: &Costs<'_>,
+) -> Option<Divided> {
+    let held = &mut entries[..len];
+    let one_kind = split::is_one_kind(held);
+    let may_be_leaf = one_kind && len <= costs.max_leaf;
     if level >= BALANCED_FROM {
-        return (!may_be_leaf).then(|| split::halve_by_kind(entries));
+        if may_be_leaf {
+            return None;
+        }
+        let halves = split::halve_by_kind(held);
+        return Some(Divided::of(entries, len, false, halves));
     }
-    let kind = costs.of_range(entries);
+    let kind = costs.of_range(held);
     if may_be_leaf && kind.block > 1 {
         // One test does for all of them: parts would cost as much each, and as much memory.
         return None;
     }
     if !one_kind {
         // Where centres coincide kinds part.
-        entries.sort_by_key(Entry::kind);
+        held.sort_by_key(Entry::kind);
     }
-    let best = split::best_plane(entries, &kind, costs.isa);
+    let best = split::best_plane(held, &kind, costs.isa);
     if may_be_leaf {
-        let leaf = kind.of_leaf(entries.len());
+        let leaf = kind.of_leaf(len);
         let whole = extent.half_area();
         // In this node another child costs no other node test.
         let pays = best.as_ref().is_some_and(|b| b.cost(&kind) < leaf * whole);
@@ -284,11 +379,16 @@ fn split(entries: &mut [Entry], extent: &Extent, level: usize, costs: &Costs<'_>
             return None;
         }
     }
-    match best {
-        Some(best) => Some(split::by_plane(entries, &best, costs.isa)),
-        None if one_kind => Some(split::halve(entries)),
-        None => Some(split::halve_by_kind(entries)),
+    if let Some(divided) = spatial::divide(entries, len, extent, best.as_ref(), (&kind, costs)) {
+        return Some(divided);
     }
+    let held = &mut entries[..len];
+    let halves = match best {
+        Some(best) => split::by_plane(held, &best, costs.isa),
+        None if one_kind => split::halve(held),
+        None => split::halve_by_kind(held),
+    };
+    Some(Divided::of(entries, len, may_be_leaf, halves))
 }
 
 impl Bvh {
@@ -308,48 +408,55 @@ impl Bvh {
         settings: &Settings,
     ) -> (Self, Vec<Vec<u32>>) {
         assert!(entries.len() <= MAX_ENTRIES, "at most {MAX_ENTRIES} entries, got {}", entries.len());
-        let kinds = shapes.len();
-        let grown = build(&mut entries, &Costs::of(settings, shapes));
-        let mut starts = vec![0_u32; kinds + 1];
-        for entry in &entries {
-            starts[entry.kind() as usize + 1] += 1;
-        }
-        let mut order: Vec<Vec<u32>> = starts[1..].iter().map(|&n| Vec::with_capacity(n as usize)).collect();
-        order.iter().for_each(in_large_pages);
-        for kind in 0..kinds {
-            starts[kind + 1] += starts[kind];
-        }
-        // Positions of all leaves become slots, which are counted kind by kind. Of one kind, they are slots.
-        let mut slots = Vec::new();
-        if let Some(kind) = (0..kinds).find(|&k| (starts[k + 1] - starts[k]) as usize == entries.len()) {
-            order[kind].par_extend(entries.par_iter().map(Entry::index));
-        } else {
-            slots.reserve_exact(entries.len());
-            for entry in &entries {
-                let kind = entry.kind() as usize;
-                slots.push(starts[kind] + order[kind].len() as u32);
-                order[kind].push(entry.index());
-            }
-        }
-        // Before there is a second copy of the nodes.
-        drop(entries);
-        let mut nodes = grown.listed();
-        let place = |position: u32| {
-            let slot = slots.get(position as usize).copied().unwrap_or(position);
-            let kind = starts[1..].partition_point(|&start| start <= slot);
-            (kind, slot - starts[kind])
+        let (costs, kinds, len) = (Costs::of(settings, *frame, shapes), shapes.len(), entries.len());
+        let by_position = |entries: Vec<Entry>, grown: Grown| {
+            let slots = Slots::of(&entries, kinds);
+            // Before there is a second copy of the nodes.
+            drop(entries);
+            let nodes = grown.listed();
+            let arranged = Arranged::by_position(&nodes, slots);
+            (nodes, arranged)
         };
-        let mut tree = Self::assembled(*frame, starts.clone());
-        let leaves = leaves_of_triangles(&nodes, place, shapes);
-        tree.keep_triangles(&leaves, &order, shapes);
+        let (nodes, arranged) = match settings.quality {
+            Quality::Fast => {
+                let grown = curve::build(&mut entries, &costs);
+                by_position(entries, grown)
+            }
+            Quality::Good => {
+                let grown = build(&mut entries, len, &costs);
+                by_position(entries, grown)
+            }
+            Quality::Best => {
+                let room = (len / spatial::BUDGET).min(MAX_ENTRIES - len);
+                if let Some(&filler) = entries.first() {
+                    entries.resize(len + room, filler);
+                }
+                let nodes = build(&mut entries, len, &costs).listed();
+                let arranged = Arranged::sharing(&nodes, &entries, kinds);
+                (nodes, arranged)
+            }
+        };
+        Self::of_nodes(*frame, nodes, arranged, shapes)
+    }
+
+    /// The tree of these nodes, whose leaves stand in the order of `arranged`.
+    fn of_nodes(
+        frame: Frame,
+        mut nodes: Vec<Node8>,
+        arranged: Arranged,
+        shapes: &[Option<CornersOf<'_>>],
+    ) -> (Self, Vec<Vec<u32>>) {
+        let mut tree = Self::assembled(frame, arranged.starts());
+        tree.keep_triangles(&arranged, shapes);
         let mut next: Vec<u32> = tree.kinds.iter().map(|kind| kind.first).collect();
+        let mut leaves = arranged.leaves.iter();
         for node in &mut nodes {
             for slot in 0..WIDTH {
                 if !node.is_used(slot) || !node.child[slot].is_leaf() {
                     continue;
                 }
-                let (first, count) = node.child[slot].slots();
-                let (kind, first) = place(first);
+                let Some(&Placed { kind, first, count }) = leaves.next() else { break };
+                let kind = kind as usize;
                 let reference = if shapes[kind].is_some() {
                     next[kind] += 1;
                     next[kind] - 1
@@ -359,60 +466,45 @@ impl Bvh {
                 node.child[slot] = ChildRef::leaf(reference as usize, count as usize);
             }
         }
-        (tree.with_nodes(nodes), order)
+        if let Some(listed) = arranged.listed {
+            tree.share(&nodes, &listed);
+        }
+        (tree.with_nodes(nodes), arranged.order)
     }
 
     /// Makes a block of each leaf of triangles, kind by kind, and says where references to leaves lead.
-    fn keep_triangles(
-        &mut self,
-        leaves: &[Vec<(u32, u32)>],
-        order: &[Vec<u32>],
-        shapes: &[Option<CornersOf<'_>>],
-    ) {
+    fn keep_triangles(&mut self, arranged: &Arranged, shapes: &[Option<CornersOf<'_>>]) {
         let frame = self.frame;
-        self.blocks.reserve_exact(leaves.iter().map(Vec::len).sum());
+        let is_block = |leaf: &&Placed| shapes[leaf.kind as usize].is_some();
+        self.blocks.reserve_exact(arranged.leaves.iter().filter(is_block).count());
         in_large_pages(&self.blocks);
         let mut first = 0;
         for (kind, corners) in shapes.iter().enumerate() {
             self.kinds[kind].first = first;
+            let order = &arranged.order[kind];
             let Some(corners) = corners else {
-                first += order[kind].len() as u32;
+                first += order.len() as u32;
                 continue;
             };
             let rounded = AtomicBool::new(false);
-            let block = |&(first, count): &(u32, u32)| {
-                let triangles = order[kind][first as usize..(first + count) as usize].iter();
-                let (block, is_held) = Block::new(frame, first, triangles.map(|&index| corners(index)));
+            let listed = arranged.listed.as_ref().map(|listed| &listed.slots[kind]);
+            let block = |&Placed { first, count, .. }: &Placed| {
+                let slots = (first..first + count).map(|at| listed.map_or(at, |slots| slots[at as usize]));
+                let (block, is_held) =
+                    Block::new(frame, slots.map(|slot| (slot, corners(order[slot as usize]))));
                 if !is_held {
                     rounded.store(true, Ordering::Relaxed);
                 }
                 block
             };
+            let leaves: Vec<Placed> =
+                arranged.leaves.iter().filter(|leaf| leaf.kind as usize == kind).copied().collect();
             self.kinds[kind].blocks = Some(self.blocks.len() as u32);
-            self.blocks.par_extend(leaves[kind].par_iter().map(block));
+            self.blocks.par_extend(leaves.par_iter().map(block));
             self.rounded |= rounded.into_inner();
-            first += leaves[kind].len() as u32;
+            first += leaves.len() as u32;
         }
         self.blocks.shrink_to_fit();
         self.is_all_triangles = shapes.len() == 1 && shapes[0].is_some();
     }
-}
-
-/// First slot and count of the leaves of each kind of triangles, in the order of the nodes.
-fn leaves_of_triangles(
-    nodes: &[Node8],
-    place: impl Fn(u32) -> (usize, u32),
-    shapes: &[Option<CornersOf<'_>>],
-) -> Vec<Vec<(u32, u32)>> {
-    let mut leaves = vec![Vec::new(); shapes.len()];
-    for node in nodes {
-        for slot in node.used().filter(|&slot| node.child[slot].is_leaf()) {
-            let (first, count) = node.child[slot].slots();
-            let (kind, first) = place(first);
-            if shapes[kind].is_some() {
-                leaves[kind].push((first, count));
-            }
-        }
-    }
-    leaves
 }

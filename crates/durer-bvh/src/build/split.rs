@@ -28,7 +28,7 @@ pub(super) fn extent(entries: &[Entry]) -> Extent {
 }
 
 /// Folds in an order that does not matter: by all threads if it pays.
-fn fold<T: Send>(
+pub(super) fn fold<T: Send>(
     entries: &[Entry],
     identity: impl Fn() -> T + Sync + Send,
     add: impl Fn(&mut T, &[Entry]) + Sync,
@@ -66,6 +66,11 @@ enum Cut {
 }
 
 impl Plane {
+    /// Half the surface of what both boxes have in common.
+    pub(super) fn overlap(&self) -> f32 {
+        self.left.0.common(&self.right.0).half_area()
+    }
+
     /// The area-weighted cost of two leaves.
     pub(super) fn cost(&self, costs: &KindCosts) -> f32 {
         let side = |(extent, count): &(Extent, usize)| extent.half_area() * costs.of_leaf(*count);

@@ -150,6 +150,12 @@ impl Kernel for Avx2 {
     }
 
     #[inline(always)]
+    fn meets(self, node: &Node8, slot: usize, lanes: &Lanes, t_far: f32) -> bool {
+        // SAFETY: as above.
+        unsafe { meets(node, slot, lanes, t_far) }
+    }
+
+    #[inline(always)]
     fn judge(self, block: &Block, filter: &Filter, t_far: f32) -> Verdict {
         // SAFETY: as above.
         unsafe { judge(block, filter, t_far) }
@@ -460,6 +466,15 @@ pub(super) fn boxes(
     let near = _mm256_max_ps(_mm256_max_ps(ex, ey), _mm256_max_ps(ez, t_near));
     let far = _mm256_min_ps(_mm256_min_ps(lx, ly), _mm256_min_ps(lz, _mm256_set1_ps(t_far)));
     (near, _mm256_cmp_ps::<_CMP_LE_OQ>(near, far))
+}
+
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn meets(node: &Node8, slot: usize, lanes: &Lanes, t_far: f32) -> bool {
+    let planes = [lanes.near_plane, lanes.far_plane];
+    let lines = [(&lanes.r, &lanes.near), (&lanes.r, &lanes.far)];
+    let (_, met) = boxes(node, planes, lines, lanes.t_near, t_far);
+    _mm256_movemask_ps(met) >> slot & 1 != 0
 }
 
 /// A permutation that sorts children by the ray's octant (or none); and one that closes the

@@ -46,6 +46,9 @@ pub(crate) trait Kernel: Copy {
         stack: &mut Stack,
     ) -> ChildRef;
 
+    /// Whether [`Kernel::descend`] pushes the child in a slot.
+    fn meets(self, node: &Node8, slot: usize, lanes: &Self::Lanes, t_far: f32) -> bool;
+
     /// What can be said of eight triangles, of crossings up to `t_far`.
     fn judge(self, block: &Block, filter: &Filter, t_far: f32) -> Verdict;
 

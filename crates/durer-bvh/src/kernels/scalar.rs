@@ -82,6 +82,11 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
     }
 
     #[inline(always)]
+    fn meets(self, node: &Node8, slot: usize, ray: &CullRay, t_far: f32) -> bool {
+        self.slabs(node, ray, t_far).met[slot]
+    }
+
+    #[inline(always)]
     fn judge(self, block: &Block, filter: &Filter, t_far: f32) -> Verdict {
         let fma = |a: f32, b: f32, c: f32| if FUSED { a.mul_add(b, c) } else { a * b + c };
         let dot = |a: &[f32; 3], b: &[f32; 3]| fma(a[2], b[2], fma(a[1], b[1], a[0] * b[0]));

@@ -95,7 +95,7 @@ proptest! {
         let Some(avx2) = Isa::available().find_map(Avx2::of) else { return Ok(()) };
         let frame = Frame::around(&Aabb::EMPTY);
         let triangle = |v: &[[f32; 3]; 3]| v.map(|p| Point3::from(p.map(f64::from)));
-        let (block, _) = Block::new(frame, 0, corners.iter().map(triangle));
+        let (block, _) = Block::new(frame, (0..).zip(corners.iter().map(triangle)));
         let line = line(o.map(f64::from), d);
         let Some(ray) = CullRay::new(&line, frame, &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
         let way = Way { t_near, is_exact, ..ray.way };

@@ -40,14 +40,14 @@ impl PartialEq for Block {
 pub type Corners = [Point3; 3];
 
 impl Block {
-    /// A block of triangles: at most eight, with successive slots. Also says whether f32 holds all corners.
+    /// A block of triangles and their slots: at most eight. Also says whether f32 holds all corners.
     #[inline(always)]
-    pub(crate) fn new(frame: Frame, first: u32, triangles: impl Iterator<Item = Corners>) -> (Self, bool) {
+    pub(crate) fn new(frame: Frame, triangles: impl Iterator<Item = (u32, Corners)>) -> (Self, bool) {
         let mut block = Self { rows: [[f32::NAN; LANES]; 9], tags: [SLOT; LANES] };
         let (mut lo, mut hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
         let mut is_held = true;
-        for (lane, corners) in triangles.enumerate().take(LANES) {
-            block.tags[lane] = first + lane as u32;
+        for (lane, (slot, corners)) in triangles.enumerate().take(LANES) {
+            block.tags[lane] = slot;
             for (i, v) in corners.iter().enumerate() {
                 for axis in 0..3 {
                     let inward = frame.inward(v[axis]);

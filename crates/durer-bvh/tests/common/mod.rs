@@ -33,12 +33,22 @@ impl Dice {
     }
 }
 
+/// Every way to build a tree.
+#[allow(dead_code, reason = "not every test needs it")]
+pub(crate) const QUALITIES: [Settings; 3] = [Settings::FAST, Settings::GOOD, Settings::BEST];
+
 /// A tree over boxes of one kind, and where each slot comes from.
 #[allow(dead_code, reason = "not every test needs it")]
 pub(crate) fn tree(boxes: &[Aabb]) -> (Bvh, Vec<u32>) {
+    tree_of(boxes, &Settings::GOOD)
+}
+
+/// The same of any quality.
+#[allow(dead_code, reason = "not every test needs it")]
+pub(crate) fn tree_of(boxes: &[Aabb], settings: &Settings) -> (Bvh, Vec<u32>) {
     let extent = boxes.iter().copied().fold(Aabb::EMPTY, Aabb::union);
     let frame = Frame::around(&extent);
     let entries = boxes.iter().enumerate().map(|(i, b)| frame.entry(b, 0, i as u32)).collect();
-    let (tree, mut order) = Bvh::build(&frame, entries, &[None], &Settings::GOOD);
+    let (tree, mut order) = Bvh::build(&frame, entries, &[None], settings);
     (tree, order.remove(0))
 }

@@ -230,7 +230,7 @@ impl Compound {
             self.visit(asked, leaf, scratch);
             false
         };
-        self.leaves.tree.any(asked.isa, line, |_| false, visit);
+        self.leaves.tree.each(asked.isa, line, visit);
     }
 
     /// Asks some slots that were not asked before.
