@@ -7,7 +7,7 @@
 //! worked out in lanes too (`lane_waves.rs`), the other elementary functions are those of [`Interval`], lane by lane.
 
 use crate::interval::elementary::{Defined, Range};
-use crate::lane_waves::wave;
+use crate::lane_waves::{wave, waves};
 use crate::number::{Comparison, Function, Number};
 use crate::{F8, Interval};
 
@@ -113,26 +113,26 @@ impl I8 {
 #[inline(always)]
 fn below(x: f64) -> f64 {
     let x = if x > f64::MAX { f64::MAX } else { x };
-    x - (x.abs() * PHI + TINY)
+    x - x.abs().mul_add(PHI, TINY)
 }
 
 #[inline(always)]
 fn above(x: f64) -> f64 {
     let x = if x < f64::MIN { f64::MIN } else { x };
-    x + (x.abs() * PHI + TINY)
+    x + x.abs().mul_add(PHI, TINY)
 }
 
 /// The same for sums, which are exact where they are subnormal; where the sum is zero it is exact too.
 #[inline(always)]
 fn sum_below(x: f64) -> f64 {
     let x = if x > f64::MAX { f64::MAX } else { x };
-    x - if x == 0.0 { 0.0 } else { x.abs() * PHI + TINY }
+    x - if x == 0.0 { 0.0 } else { x.abs().mul_add(PHI, TINY) }
 }
 
 #[inline(always)]
 fn sum_above(x: f64) -> f64 {
     let x = if x < f64::MIN { f64::MIN } else { x };
-    x + if x == 0.0 { 0.0 } else { x.abs() * PHI + TINY }
+    x + if x == 0.0 { 0.0 } else { x.abs().mul_add(PHI, TINY) }
 }
 
 /// A product that takes `0 inf` as 0: an infinite end is never reached.
@@ -323,6 +323,11 @@ impl Number for I8 {
     }
 
     #[inline(always)]
+    fn sine_and_cosine(a: &Self) -> (Self, Self) {
+        waves(a)
+    }
+
+    #[inline(always)]
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self {
         let (mut yes, mut no) = ([false; LANES], [false; LANES]);
         for i in 0..LANES {
@@ -420,25 +425,28 @@ fn cube(a: &I8) -> I8 {
     out
 }
 
-/// `a^n` by squaring, each product widened: the ends of `a` without their signs, rounded down or up, and then the sign.
+/// `x^n` by squaring of numbers that are not negative, each product widened up or down.
+#[inline(always)]
+fn widened(x: &[f64; LANES], n: i32, up: bool) -> [f64; LANES] {
+    let (mut result, mut base, mut left) = ([1.0; LANES], *x, n);
+    loop {
+        for i in 0..LANES {
+            let (r, b) = (result[i] * base[i], base[i] * base[i]);
+            if left & 1 == 1 {
+                result[i] = if up { above(r) } else { most(below(r), 0.0) };
+            }
+            base[i] = if up { above(b) } else { most(below(b), 0.0) };
+        }
+        left >>= 1;
+        if left == 0 {
+            return result;
+        }
+    }
+}
+
+/// `a^n`: of the ends of `a` without their signs, rounded down or up, and then the sign.
 #[inline(always)]
 fn product(a: &I8, n: i32) -> I8 {
-    let power = |x: &[f64; LANES], up: bool| {
-        let (mut result, mut base, mut left) = ([1.0; LANES], *x, n);
-        loop {
-            for i in 0..LANES {
-                let (r, b) = (result[i] * base[i], base[i] * base[i]);
-                if left & 1 == 1 {
-                    result[i] = if up { above(r) } else { most(below(r), 0.0) };
-                }
-                base[i] = if up { above(b) } else { most(below(b), 0.0) };
-            }
-            left >>= 1;
-            if left == 0 {
-                return result;
-            }
-        }
-    };
     let odd = n & 1 == 1;
     // The ends that are nearer to zero and farther from it where the power is even; else the lower and the upper one.
     let (mut x, mut y) = ([0.0; LANES], [0.0; LANES]);
@@ -448,13 +456,13 @@ fn product(a: &I8, n: i32) -> I8 {
         let near = if straddles { 0.0 } else { least(l.abs(), h.abs()) };
         (x[i], y[i]) = if odd { (l.abs(), h.abs()) } else { (near, most(l.abs(), h.abs())) };
     }
-    let (x_down, y_up) = (power(&x, false), power(&y, true));
+    let (x_down, y_up) = (widened(&x, n, false), widened(&y, n, true));
     let mut out = *a;
     if !odd {
         (out.lo, out.hi) = (F8(x_down), F8(y_up));
         return out;
     }
-    let (x_up, y_down) = (power(&x, true), power(&y, false));
+    let (x_up, y_down) = (widened(&x, n, true), widened(&y, n, false));
     for i in 0..LANES {
         out.lo.0[i] = if a.lo.0[i] >= 0.0 { x_down[i] } else { -x_up[i] };
         out.hi.0[i] = if a.hi.0[i] >= 0.0 { y_up[i] } else { -y_down[i] };

@@ -72,9 +72,13 @@ pub fn power_error(p: f64) -> f64 {
 /// `x = 2^e m`: the exponent, and the logarithm of `m` to base `e`, halved: `artanh s`.
 #[inline(always)]
 fn split(x: F8) -> (F8, F8) {
-    let bits = |x: F8, f: fn(u64) -> u64| x.map(|x| f64::from_bits(f(x.to_bits())));
-    let e = bits(x, |b| (b.wrapping_add(ONE - ROOT) >> 52) | WHOLE.to_bits()) - F8::splat(WHOLE + 1023.0);
-    let m = bits(x, |b| b.wrapping_sub(b.wrapping_sub(ROOT) & (u64::MAX << 52)));
+    let (mut e, mut m) = (F8::ZERO, F8::ZERO);
+    for i in 0..8 {
+        let b = x.0[i].to_bits();
+        e.0[i] = f64::from_bits((b.wrapping_add(ONE - ROOT) >> 52) | WHOLE.to_bits());
+        m.0[i] = f64::from_bits(b.wrapping_sub(b.wrapping_sub(ROOT) & (u64::MAX << 52)));
+    }
+    let e = e - F8::splat(WHOLE + 1023.0);
     let s = (m - F8::ONE) / (m + F8::ONE);
     let z = s * s;
     let mut series = F8::splat(ARTANH[0]);
@@ -93,7 +97,11 @@ fn raised(rounded: F8, f: F8) -> F8 {
         series = series.mul_add(r, F8::splat(*c));
     }
     // 1023 more than k are the exponent of a number.
-    series * rounded.map(|x| f64::from_bits(x.to_bits().wrapping_add(1023) << 52))
+    let mut power = F8::ZERO;
+    for i in 0..8 {
+        power.0[i] = f64::from_bits(rounded.0[i].to_bits().wrapping_add(1023) << 52);
+    }
+    series * power
 }
 
 /// The logarithms to base 2 of eight positive normal numbers, within [`LOG2_ERROR`]; of anything else, anything.

@@ -119,6 +119,18 @@ impl Number for F8 {
         )
     }
     #[inline(always)]
+    fn sine_and_cosine(a: &Self) -> (Self, Self) {
+        let (sine, cosine, known) = lane_waves::both_rounded(a);
+        let by_itself = |f: Function, told: Self| {
+            or_by_itself(
+                (told, known),
+                #[inline(always)]
+                |i| Number::function(f, &a.0[i]),
+            )
+        };
+        (by_itself(Function::Sin, sine), by_itself(Function::Cos, cosine))
+    }
+    #[inline(always)]
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self {
         let zero = Self::ZERO;
         let yes = match c {

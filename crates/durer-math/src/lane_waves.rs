@@ -24,33 +24,51 @@ const PARTS: [f64; 3] = [
 /// A sum with it is a whole number.
 const WHOLE: f64 = 6_755_399_441_055_744.0;
 
-/// The sine of `x` plus `shift` quarter turns, and the bound on its error; of anything in lanes that are [`FAR`].
+/// What arguments come to: the sine and the cosine of what is left of whole quarter turns, and the number of these.
+struct Turned {
+    sine: F8,
+    cosine: F8,
+    k: F8,
+}
+
+/// Of anything in lanes that are [`FAR`].
 #[inline(always)]
-fn waves(x: &F8, shift: f64) -> (F8, F8) {
-    let (mut value, mut error) = (F8::ZERO, F8::ZERO);
+fn turned(x: &F8) -> Turned {
+    let mut out = Turned { sine: F8::ZERO, cosine: F8::ZERO, k: F8::ZERO };
     for i in 0..8 {
         let x = x.0[i];
         let k = (x * core::f64::consts::FRAC_2_PI + WHOLE) - WHOLE;
-        let r = ((x - k * PARTS[0]) - k * PARTS[1]) - k * PARTS[2];
+        let r = (-k).mul_add(PARTS[2], (-k).mul_add(PARTS[1], (-k).mul_add(PARTS[0], x)));
         let z = r * r;
-        let mut s = 1.0 / 355_687_428_096_000.0;
-        s = s * z - 1.0 / 1_307_674_368_000.0;
-        s = s * z + 1.0 / 6_227_020_800.0;
-        s = s * z - 1.0 / 39_916_800.0;
-        s = s * z + 1.0 / 362_880.0;
-        s = s * z - 1.0 / 5040.0;
-        s = s * z + 1.0 / 120.0;
-        s = s * z - 1.0 / 6.0;
-        let sine = r + r * (z * s);
-        let mut c = -1.0 / 6_402_373_705_728_000.0;
-        c = c * z + 1.0 / 20_922_789_888_000.0;
-        c = c * z - 1.0 / 87_178_291_200.0;
-        c = c * z + 1.0 / 479_001_600.0;
-        c = c * z - 1.0 / 3_628_800.0;
-        c = c * z + 1.0 / 40_320.0;
-        c = c * z - 1.0 / 720.0;
-        c = c * z + 1.0 / 24.0;
-        let cosine = 1.0 - (0.5 * z - z * (z * c));
+        let mut s: f64 = 1.0 / 355_687_428_096_000.0;
+        s = s.mul_add(z, -1.0 / 1_307_674_368_000.0);
+        s = s.mul_add(z, 1.0 / 6_227_020_800.0);
+        s = s.mul_add(z, -1.0 / 39_916_800.0);
+        s = s.mul_add(z, 1.0 / 362_880.0);
+        s = s.mul_add(z, -1.0 / 5040.0);
+        s = s.mul_add(z, 1.0 / 120.0);
+        s = s.mul_add(z, -1.0 / 6.0);
+        out.sine.0[i] = r.mul_add(z * s, r);
+        let mut c: f64 = -1.0 / 6_402_373_705_728_000.0;
+        c = c.mul_add(z, 1.0 / 20_922_789_888_000.0);
+        c = c.mul_add(z, -1.0 / 87_178_291_200.0);
+        c = c.mul_add(z, 1.0 / 479_001_600.0);
+        c = c.mul_add(z, -1.0 / 3_628_800.0);
+        c = c.mul_add(z, 1.0 / 40_320.0);
+        c = c.mul_add(z, -1.0 / 720.0);
+        c = c.mul_add(z, 1.0 / 24.0);
+        out.cosine.0[i] = 1.0 - (0.5 * z - z * (z * c));
+        out.k.0[i] = k;
+    }
+    out
+}
+
+/// The sine of what was turned plus `shift` quarter turns, and the bound on its error.
+#[inline(always)]
+fn shifted(turned: &Turned, shift: f64) -> (F8, F8) {
+    let (mut value, mut error) = (F8::ZERO, F8::ZERO);
+    for i in 0..8 {
+        let (sine, cosine, k) = (turned.sine.0[i], turned.cosine.0[i], turned.k.0[i]);
         // The quarter's number from 0 to 3, as a number.
         let q = k + shift;
         let q = q - 4.0 * (q * 0.25).floor();
@@ -65,17 +83,36 @@ fn waves(x: &F8, shift: f64) -> (F8, F8) {
 /// Sines (`shift` 0) or cosines (1), rounded, and where they are those.
 #[inline(always)]
 pub(crate) fn rounded(x: &F8, shift: f64) -> (F8, M8) {
-    (waves(x, shift).0, x.abs().le(F8::splat(FAR)))
+    (shifted(&turned(x), shift).0, x.abs().le(F8::splat(FAR)))
+}
+
+/// Sines and cosines, rounded, and where they are those.
+#[inline(always)]
+pub(crate) fn both_rounded(x: &F8) -> (F8, F8, M8) {
+    let turned = turned(x);
+    (shifted(&turned, 0.0).0, shifted(&turned, 1.0).0, x.abs().le(F8::splat(FAR)))
 }
 
 /// The sine of intervals plus `shift` quarter turns: 0 for the sine, 1 for the cosine.
 #[inline(always)]
 pub(crate) fn wave(a: &I8, shift: f64) -> I8 {
+    between(a, (&turned(&a.lo), &turned(&a.hi)), shift)
+}
+
+/// The sine and the cosine of intervals.
+#[inline(always)]
+pub(crate) fn waves(a: &I8) -> (I8, I8) {
+    let ends = (&turned(&a.lo), &turned(&a.hi));
+    (between(a, ends, 0.0), between(a, ends, 1.0))
+}
+
+#[inline(always)]
+fn between(a: &I8, (lo, hi): (&Turned, &Turned), shift: f64) -> I8 {
     // An argument's quotient by a quarter turn errs by less: to see a crest needlessly costs next to nothing.
     const MARGIN: f64 = 1.0 / (1u64 << 26) as f64;
     let mut out = *a;
-    let (from, e_from) = waves(&a.lo, shift);
-    let (to, e_to) = waves(&a.hi, shift);
+    let (from, e_from) = shifted(lo, shift);
+    let (to, e_to) = shifted(hi, shift);
     for i in 0..8 {
         let (lo, hi) = (a.lo.0[i], a.hi.0[i]);
         let first = lo * core::f64::consts::FRAC_2_PI + (shift - MARGIN);

@@ -2,6 +2,9 @@
 //!
 //! Plain arrays with plain loops. Inside [`Isa::run_in_lanes`](crate::Isa::run_in_lanes) the compiler turns them into vector instructions, two registers
 //! with AVX2 and one with AVX-512; each lane has the bits of the scalar operation everywhere.
+//!
+//! Each operation is a loop by itself (`lanes!`). The library's `array::from_fn` and `array::map` are made of functions that the compiler leaves apart in
+//! large kernels, where they are compiled for the basic CPU: a fused product is eight calls there.
 
 use crate::{Scalar, Vec3};
 use core::ops::{Add, AddAssign, BitAnd, BitAndAssign, BitOr, BitOrAssign, Div, Mul, Neg, Not, Sub};
@@ -24,12 +27,17 @@ fn all_bits(yes: bool) -> u64 {
     if yes { u64::MAX } else { 0 }
 }
 
-#[inline(always)]
-fn zip<A: Copy, B: Copy, R>(a: [A; LANES], b: [B; LANES], f: impl Fn(A, B) -> R) -> [R; LANES] {
-    core::array::from_fn(
-        #[inline(always)]
-        |i| f(a[i], b[i]),
-    )
+/// An array of what an expression is in each lane.
+macro_rules! lanes {
+    ($zero:expr, $i:ident => $each:expr) => {{
+        let mut all = [$zero; LANES];
+        let mut $i = 0;
+        while $i < LANES {
+            all[$i] = $each;
+            $i += 1;
+        }
+        all
+    }};
 }
 
 /// The numbers of the bits that are set, ascending.
@@ -54,74 +62,83 @@ impl F8 {
         Self([x; LANES])
     }
 
+    /// The same numbers in every lane, one after the other.
+    #[inline(always)]
+    pub const fn splats<const N: usize>(x: [f64; N]) -> [Self; N] {
+        let mut all = [Self::ZERO; N];
+        let mut k = 0;
+        while k < N {
+            all[k] = Self::splat(x[k]);
+            k += 1;
+        }
+        all
+    }
+
     /// A function of each lane.
     #[inline(always)]
     #[must_use]
     pub fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        Self(self.0.map(f))
+        Self(lanes!(0.0, i => f(self.0[i])))
     }
 
     /// `self * a + b`, rounded once.
     #[inline(always)]
     #[must_use]
     pub fn mul_add(self, a: Self, b: Self) -> Self {
-        Self(core::array::from_fn(
-            #[inline(always)]
-            |i| self.0[i].mul_add(a.0[i], b.0[i]),
-        ))
+        Self(lanes!(0.0, i => self.0[i].mul_add(a.0[i], b.0[i])))
     }
 
     /// The square root.
     #[inline(always)]
     #[must_use]
     pub fn sqrt(self) -> Self {
-        self.map(f64::sqrt)
+        Self(lanes!(0.0, i => self.0[i].sqrt()))
     }
 
     /// The absolute value.
     #[inline(always)]
     #[must_use]
     pub fn abs(self) -> Self {
-        self.map(f64::abs)
+        Self(lanes!(0.0, i => self.0[i].abs()))
     }
 
     /// The lesser number; `other` where one is not a number.
     #[inline(always)]
     #[must_use]
     pub fn min(self, other: Self) -> Self {
-        Self(zip(self.0, other.0, |a, b| if a < b { a } else { b }))
+        Self(lanes!(0.0, i => if self.0[i] < other.0[i] { self.0[i] } else { other.0[i] }))
     }
 
     /// The greater number; `other` where one is not a number.
     #[inline(always)]
     #[must_use]
     pub fn max(self, other: Self) -> Self {
-        Self(zip(self.0, other.0, |a, b| if a > b { a } else { b }))
+        Self(lanes!(0.0, i => if self.0[i] > other.0[i] { self.0[i] } else { other.0[i] }))
     }
 
     /// The magnitude of `self` with the sign of `sign`.
     #[inline(always)]
     #[must_use]
     pub fn copysign(self, sign: Self) -> Self {
-        Self(zip(self.0, sign.0, f64::copysign))
+        Self(lanes!(0.0, i => self.0[i].copysign(sign.0[i])))
     }
 
     /// Where `self < other`.
     #[inline(always)]
     pub fn lt(self, other: Self) -> M8 {
-        M8(zip(self.0, other.0, |a, b| all_bits(a < b)))
+        M8(lanes!(0, i => all_bits(self.0[i] < other.0[i])))
     }
 
     /// Where `self <= other`.
     #[inline(always)]
     pub fn le(self, other: Self) -> M8 {
-        M8(zip(self.0, other.0, |a, b| all_bits(a <= b)))
+        M8(lanes!(0, i => all_bits(self.0[i] <= other.0[i])))
     }
 
     /// Where `self == other`.
     #[inline(always)]
     pub fn equals(self, other: Self) -> M8 {
-        M8(zip(self.0, other.0, |a, b| all_bits(a == b)))
+        M8(lanes!(0, i => all_bits(self.0[i] == other.0[i])))
     }
 
     /// Where `self > other`.
@@ -146,10 +163,7 @@ impl M8 {
     /// The first `n` lanes.
     #[inline(always)]
     pub fn first(n: usize) -> Self {
-        Self(core::array::from_fn(
-            #[inline(always)]
-            |i| all_bits(i < n),
-        ))
+        Self(lanes!(0, i => all_bits(i < n)))
     }
 
     /// The same answer in every lane.
@@ -161,10 +175,7 @@ impl M8 {
     /// An answer for each lane.
     #[inline(always)]
     pub fn from_fn(f: impl Fn(usize) -> bool) -> Self {
-        Self(core::array::from_fn(
-            #[inline(always)]
-            |i| all_bits(f(i)),
-        ))
+        Self(lanes!(0, i => all_bits(f(i))))
     }
 
     /// The answer of lane `i`.
@@ -182,19 +193,13 @@ impl M8 {
     /// `yes` where the mask is set, `no` elsewhere.
     #[inline(always)]
     pub fn select(self, yes: F8, no: F8) -> F8 {
-        F8(core::array::from_fn(
-            #[inline(always)]
-            |i| if self.0[i] != 0 { yes.0[i] } else { no.0[i] },
-        ))
+        F8(lanes!(0.0, i => if self.0[i] != 0 { yes.0[i] } else { no.0[i] }))
     }
 
     /// `x` where the mask is set, zero elsewhere.
     #[inline(always)]
     pub fn keep(self, x: F8) -> F8 {
-        F8(core::array::from_fn(
-            #[inline(always)]
-            |i| f64::from_bits(x.0[i].to_bits() & self.0[i]),
-        ))
+        F8(lanes!(0.0, i => f64::from_bits(x.0[i].to_bits() & self.0[i])))
     }
 
     /// As [`M8::select`], for vectors.
@@ -216,22 +221,27 @@ impl M8 {
     /// Bit `i` as lane `i`.
     #[inline(always)]
     pub fn from_bits(bits: u8) -> Self {
-        Self(core::array::from_fn(
-            #[inline(always)]
-            |i| all_bits(bits >> i & 1 == 1),
-        ))
+        Self(lanes!(0, i => all_bits(bits >> i & 1 == 1)))
     }
 
     /// Whether any lane is set.
     #[inline(always)]
     pub fn any(self) -> bool {
-        self.0.into_iter().fold(0, |a, b| a | b) != 0
+        let mut any = 0;
+        for i in 0..LANES {
+            any |= self.0[i];
+        }
+        any != 0
     }
 
     /// Whether every lane is set.
     #[inline(always)]
     pub fn all(self) -> bool {
-        self.0.into_iter().fold(u64::MAX, |a, b| a & b) != 0
+        let mut all = u64::MAX;
+        for i in 0..LANES {
+            all &= self.0[i];
+        }
+        all != 0
     }
 
     /// The first lane that is set.
@@ -261,6 +271,18 @@ impl Vec3<F8> {
         Self::new(F8::splat(v.x), F8::splat(v.y), F8::splat(v.z))
     }
 
+    /// The same vectors in every lane, one after the other.
+    #[inline(always)]
+    pub const fn splats<const N: usize>(v: [Vec3; N]) -> [Self; N] {
+        let mut all = [Self::splat(Vec3::ZERO); N];
+        let mut k = 0;
+        while k < N {
+            all[k] = Self::splat(v[k]);
+            k += 1;
+        }
+        all
+    }
+
     /// The vector in lane `i`.
     #[inline(always)]
     pub fn lane(&self, i: usize) -> Vec3 {
@@ -287,14 +309,14 @@ macro_rules! arithmetic {
             type Output = Self;
             #[inline(always)]
             fn $method(self, o: Self) -> Self {
-                Self(zip(self.0, o.0, |a, b| a $op b))
+                Self(lanes!(0.0, i => self.0[i] $op o.0[i]))
             }
         }
         impl $trait<f64> for F8 {
             type Output = Self;
             #[inline(always)]
             fn $method(self, o: f64) -> Self {
-                Self(self.0.map(|a| a $op o))
+                Self(lanes!(0.0, i => self.0[i] $op o))
             }
         }
     )*};
@@ -312,7 +334,7 @@ impl Neg for F8 {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        self.map(|x| -x)
+        Self(lanes!(0.0, i => -self.0[i]))
     }
 }
 
@@ -322,7 +344,7 @@ macro_rules! logic {
             type Output = Self;
             #[inline(always)]
             fn $method(self, o: Self) -> Self {
-                Self(zip(self.0, o.0, |a, b| a $op b))
+                Self(lanes!(0, i => self.0[i] $op o.0[i]))
             }
         }
         impl $assign for M8 {
@@ -339,7 +361,7 @@ impl Not for M8 {
     type Output = Self;
     #[inline(always)]
     fn not(self) -> Self {
-        Self(self.0.map(|x| !x))
+        Self(lanes!(0, i => !self.0[i]))
     }
 }
 

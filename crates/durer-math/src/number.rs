@@ -39,6 +39,11 @@ pub trait Number: Copy {
     fn rem(a: &Self, b: &Self) -> Self;
     /// A function of one number.
     fn function(f: Function, a: &Self) -> Self;
+    /// The sine and the cosine.
+    #[inline(always)]
+    fn sine_and_cosine(a: &Self) -> (Self, Self) {
+        (Self::function(Function::Sin, a), Self::function(Function::Cos, a))
+    }
     /// 1 or 0.
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self;
     /// One of three by the sign of `c`: below, at and above zero.
@@ -497,11 +502,19 @@ impl<T: Number, D: Slopes<T>> Number for Dual<T, D> {
     }
     #[inline(always)]
     fn function(f: Function, a: &Self) -> Self {
-        let v = T::function(f, &a.v);
         let one = number(1.0);
+        // A sine's slope is the cosine, and both take the work of one.
+        let (v, other) = match f {
+            Function::Sin => T::sine_and_cosine(&a.v),
+            Function::Cos => {
+                let (sine, cosine) = T::sine_and_cosine(&a.v);
+                (cosine, sine)
+            }
+            _ => (T::function(f, &a.v), one),
+        };
         let slope = match f {
-            Function::Sin => T::function(Function::Cos, &a.v),
-            Function::Cos => T::neg(&T::function(Function::Sin, &a.v)),
+            Function::Sin => other,
+            Function::Cos => T::neg(&other),
             Function::Tan => T::add(&one, &T::sqr(&v)),
             Function::Asin => T::div(&one, &T::sqrt(&T::sub(&one, &T::sqr(&a.v)))),
             Function::Acos => T::neg(&T::div(&one, &T::sqrt(&T::sub(&one, &T::sqr(&a.v))))),

@@ -6,12 +6,15 @@
 //!
 //! Leaves answer with *surely in*, *surely out*, or neither, and so do nodes. Where faces coincide or nearly so, neither is the answer, and rays
 //! for which that matters walk through their crossings in order (`sweep.rs`).
+//!
+//! Who says *surely* says it of eight rays by the bits of a byte: what trees of a few leaves do with such answers are single instructions.
 
 use super::arena::{SLOT, TIED, TURNED};
 use super::compound::{Compound, Shown};
 use super::tree::Child;
 use crate::ids::Id;
 use crate::lanes::Rays8;
+use durer_math::lanes::{LANES, set_bits};
 use durer_math::{F8, Isa, M8};
 use durer_surfaces::outline::{self, Crossing8, Crossings, From8, Nearest, Outline, RayLanes, Sight};
 
@@ -24,6 +27,8 @@ pub(crate) struct Body {
     children: Vec<Child>,
     /// The slots of the body's leaves, counted over all bodies.
     slots: core::ops::Range<u32>,
+    /// The leaf of each slot, and its place among the slots of that one.
+    owners: Box<[(u32, u32)]>,
 }
 
 /// A leaf.
@@ -83,14 +88,24 @@ struct Look<'a> {
     steps: &'a mut outline::Scratch,
 }
 
+/// Rays that leave the body: which, and of each the leaf, the face there, and whether it starts behind it.
+struct Own {
+    lanes: u8,
+    leaf: [u32; LANES],
+    face: F8,
+    back: M8,
+}
+
 /// Where something surely holds, and where it surely does not.
 #[derive(Clone, Copy)]
 struct Sure {
-    yes: M8,
-    no: M8,
+    yes: u8,
+    no: u8,
 }
 
 impl Sure {
+    const UNKNOWN: Self = Self { yes: 0, no: 0 };
+
     fn inverted(self, inverted: bool) -> Self {
         if inverted { Self { yes: self.no, no: self.yes } } else { self }
     }
@@ -118,7 +133,15 @@ impl Body {
             Node { parent, all, children: first..children.len() }
         });
         let nodes = nodes.collect();
-        Some(Self { leaves, places, nodes, children, slots })
+        let mut owners = vec![(u32::MAX, 0); slots.len()];
+        for (leaf, operand) in (0..).zip(&leaves) {
+            for (place, &slot) in (0..).zip(&operand.slots) {
+                if let Some(owner) = owners.get_mut(slot as usize) {
+                    *owner = (leaf, place);
+                }
+            }
+        }
+        Some(Self { leaves, places, nodes, children, slots, owners: owners.into() })
     }
 
     /// The face with this number.
@@ -158,23 +181,22 @@ impl Body {
             passed.push(leaf.outline.sight(lanes, sight));
         }
         let look = &mut Look { isa, rays: lanes, sights, passed, steps };
+        let live = rays.live.bits();
         let Sure { yes, no } = self.node(0, look, None);
-        if (yes | no | !rays.live).all() {
+        if yes | no | !live == u8::MAX {
             return;
         }
-        let own = self.own_rays(arena, rays);
-        if let Some(own) = &own {
-            // What was decided for several leaves together is not told by one of them.
-            let tied = M8::from_fn(|i| own.lane(i) && rays.source.slot[i] as u32 & TIED != 0);
-            nearest.doubt_from(tied, F8::ZERO);
-        }
+        let own = self.own_rays(arena, rays, live, nearest);
         for (i, leaf) in self.leaves.iter().enumerate() {
             if look.passed[i] || leaf.shown == Shown::None {
                 continue;
             }
-            let from = own.and_then(|own| self.from(leaf, own, rays));
+            let from = own.as_ref().and_then(|own| own.of(i));
             leaf.outline.crossings(lanes, from.as_ref(), &look.sights[i], look.steps, crossings);
-            nearest.doubt_from(rays.live, crossings.doubt);
+            isa.run_in_lanes(
+                #[inline(always)]
+                || nearest.doubt_from(rays.live, crossings.doubt),
+            );
             for crossing in crossings.iter() {
                 self.decide(i, crossing, (rays, look), number, nearest);
             }
@@ -182,14 +204,35 @@ impl Body {
     }
 
     /// The rays that leave this body.
-    fn own_rays(&self, arena: u32, rays: &Rays8) -> Option<M8> {
+    fn own_rays(&self, arena: u32, rays: &Rays8, live: u8, nearest: &mut Nearest) -> Option<Own> {
         let source = &rays.source;
-        let own = M8::from_fn(|i| {
-            let slot = source.slot[i] as u32 & SLOT;
-            source.slot[i] >> 32 == u64::from(arena) && source.instance[i] == 0 && self.slots.contains(&slot)
-        });
-        let own = own & rays.live;
-        own.any().then_some(own)
+        let slot = |i: usize| source.slot[i] as u32 & SLOT;
+        let is_own = |i: usize| {
+            source.slot[i] >> 32 == u64::from(arena)
+                && source.instance[i] == 0
+                && self.slots.contains(&slot(i))
+        };
+        let lanes = (0..LANES).fold(0, |lanes, i| lanes | u8::from(is_own(i)) << i) & live;
+        if lanes == 0 {
+            return None;
+        }
+        let (mut leaf, mut face, mut back) = ([u32::MAX; LANES], F8::ZERO, source.back);
+        let mut tied = 0;
+        for i in set_bits(lanes) {
+            let place;
+            (leaf[i], place) = self.owners[(slot(i) - self.slots.start) as usize];
+            let faces = self.leaves.get(leaf[i] as usize).map_or(0, |leaf| leaf.slots.len());
+            face.0[i] = f64::from(if faces > 1 { place } else { source.face[i] });
+            let named = source.slot[i] as u32;
+            // The side is that of the body's normal.
+            back.set_lane(i, source.back.lane(i) != (named & TURNED != 0));
+            tied |= u8::from(named & TIED != 0) << i;
+        }
+        if tied != 0 {
+            // What was decided for several leaves together is not told by one of them.
+            nearest.doubt_from(M8::from_bits(tied), F8::ZERO);
+        }
+        Some(Own { lanes, leaf, face, back })
     }
 
     /// Offers a crossing of a leaf where it is one of the body.
@@ -203,35 +246,39 @@ impl Body {
     ) {
         let (Operand { shown, outline, .. }, Place { node, .. }) = (&self.leaves[leaf], self.places[leaf]);
         let Crossing8 { sure, t, e, face, tag } = crossing;
-        let mut open = M8::NONE;
-        look.isa.run_in_lanes(
+        let mut open = look.isa.run_in_lanes(
             #[inline(always)]
             || {
                 let limit = nearest.limit(look.rays);
-                open = rays.live & *sure & !((*t + *e).lt(F8::ZERO) | (*t - *e).gt(limit));
-                if *shown == Shown::Wall {
-                    open &= M8::from_fn(|i| outline.face_of(face.0[i] as u32) == 0);
-                }
+                (rays.live & *sure & !((*t + *e).lt(F8::ZERO) | (*t - *e).gt(limit))).bits()
             },
         );
-        let (mut matters, mut idle) = (M8::ALL, M8::NONE);
+        if *shown == Shown::Wall {
+            for i in set_bits(open) {
+                open &= !(u8::from(outline.face_of(face.0[i] as u32) != 0) << i);
+            }
+        }
+        let mut matters = u8::MAX;
         let (mut child, mut above) = (Child::Leaf(leaf as u32), Some(node));
         while let Some(node) = above {
             let Node { parent, all, children } = &self.nodes[node as usize];
             for &sibling in self.children[children.clone()].iter().filter(|&&c| c != child) {
-                if !(open & !idle).any() {
+                if open == 0 {
                     return;
                 }
-                let Sure { yes, no } = self.child(sibling, look, Some((t, e)));
+                let Sure { yes, no } = self.child(sibling, look, Some((t, e, open)));
                 matters &= if *all { yes } else { no };
-                idle |= if *all { no } else { yes };
+                open &= !(if *all { no } else { yes });
             }
             (child, above) = (Child::Node(node), *parent);
+        }
+        if open == 0 {
+            return;
         }
         look.isa.run_in_lanes(
             #[inline(always)]
             || {
-                let open = open & !idle;
+                let (open, matters) = (M8::from_bits(open), M8::from_bits(matters));
                 let sure = open & matters & (*t - *e).gt(F8::ZERO) & (*t + *e).le(rays.t_max);
                 nearest.take_at(sure, (*t, *e), number, *face + leaf as f64 * FACES, *tag);
                 nearest.doubt_from(open & !sure, *t - *e);
@@ -239,20 +286,20 @@ impl Body {
         );
     }
 
-    /// Whether a child of a node holds at some points of the rays, or on all of them.
-    fn child(&self, child: Child, look: &mut Look<'_>, at: Option<(&F8, &F8)>) -> Sure {
+    /// Whether a child of a node holds at some points of some rays, or on all of them.
+    fn child(&self, child: Child, look: &mut Look<'_>, at: Option<(&F8, &F8, u8)>) -> Sure {
         match child {
             Child::Node(node) => self.node(node, look, at),
             Child::Leaf(leaf) => {
                 let i = leaf as usize;
                 let outline = &self.leaves[i].outline;
                 let sure = match at {
-                    _ if look.passed[i] => Sure { yes: M8::NONE, no: M8::ALL }.inverted(outline.is_turned()),
+                    _ if look.passed[i] => Sure { yes: 0, no: u8::MAX }.inverted(outline.is_turned()),
                     Some(at) => {
                         let (yes, no) = outline.holds(look.rays, &look.sights[i], at, look.steps);
                         Sure { yes, no }
                     }
-                    None => Sure { yes: M8::NONE, no: M8::NONE },
+                    None => Sure::UNKNOWN,
                 };
                 sure.inverted(self.places[i].inverted)
             }
@@ -260,37 +307,28 @@ impl Body {
     }
 
     /// The same for a node.
-    fn node(&self, node: u32, look: &mut Look<'_>, at: Option<(&F8, &F8)>) -> Sure {
+    fn node(&self, node: u32, look: &mut Look<'_>, at: Option<(&F8, &F8, u8)>) -> Sure {
         let Node { all, children, .. } = &self.nodes[node as usize];
         // A union is the complement of the complements' intersection.
-        let mut sum = Sure { yes: M8::ALL, no: M8::NONE };
+        let mut sum = Sure { yes: u8::MAX, no: 0 };
+        let asked = at.map_or(u8::MAX, |(_, _, lanes)| lanes);
         for &child in &self.children[children.clone()] {
             let Sure { yes, no } = self.child(child, look, at).inverted(!*all);
             sum.yes &= yes;
             sum.no |= no;
-            if sum.no.all() {
+            if sum.no & asked == asked {
                 break;
             }
         }
         sum.inverted(!*all)
     }
+}
 
-    /// Those of the body's own rays that leave this leaf.
-    fn from(&self, leaf: &Operand, own: M8, rays: &Rays8) -> Option<From8> {
-        let of = |i: usize| rays.source.slot[i] as u32;
-        let mut lanes = M8::NONE;
-        let mut face = F8(rays.source.face.map(f64::from));
-        for i in own.lanes() {
-            let slot = (of(i) & SLOT) - self.slots.start;
-            let Some(place) = leaf.slots.iter().position(|&s| s == slot) else { continue };
-            lanes.set_lane(i, true);
-            if leaf.slots.len() > 1 {
-                face.0[i] = place as f64;
-            }
-        }
-        // The side is that of the body's normal.
-        let turned = M8::from_fn(|i| of(i) & TURNED != 0);
-        let back = rays.source.back & !turned | !rays.source.back & turned;
-        lanes.any().then_some(From8 { lanes, face, back })
+impl Own {
+    /// Those that leave a leaf.
+    fn of(&self, leaf: usize) -> Option<From8> {
+        let lanes = (0..LANES).fold(0, |lanes, i| lanes | u8::from(self.leaf[i] as usize == leaf) << i);
+        let lanes = lanes & self.lanes;
+        (lanes != 0).then(|| From8 { lanes: M8::from_bits(lanes), face: self.face, back: self.back })
     }
 }

@@ -7,7 +7,8 @@
 //!   2 |z_n| ρ' + ρ'² = ρ - e,    ρ' = (ρ - e) / (|z_n| + √(|z_n|² + ρ - e))
 //! ```
 //!
-//! of `z_n` is, with what rounding does to the next point, `e = 10 U (|z_n|² + |c|)`, as for balls (`orbit.rs`). And none within `|z_n| - R`. Steps forward and back cost half of
+//! of `z_n` is, and as `√x <= (x + m²) / 2m` for any `m > 0`, none within `2 m (ρ - e) / (2 m |z_n| + |z_n|² + m² + ρ - e)`, which needs no root once the next point's `ρ` is known; `m` is
+//! `|z_n|` or 1/2. This, with what rounding does to the next point, `e = 10 U (|z_n|² + |c|)`, as for balls (`orbit.rs`). And none within `|z_n| - R`. Steps forward and back cost half of
 //! what balls along a stretch do, and no length has to be guessed. Cubes have `3 |z_n|² ρ' + 3 |z_n| ρ'² + ρ'³`, of which `ρ' = (ρ - e) / (3 (|z_n| + m)²)` is no more than the root for any `m` that is no less than this `ρ'`: for
 //! `(ρ - e) / 3 |z_n|²`, and for the larger one of 1 and `ρ - e`.
 //!
@@ -17,7 +18,7 @@
 use super::lift::Lift;
 use super::orbit::{Ball, Rule, TINY};
 use super::{JuliaPower, Solid};
-use crate::outline::{Level, Line8, Part, Sketch, Skin, Told8, Value8};
+use crate::outline::{Level, Line8, Part, Sketch, Skin, Slant, Told8, Value8};
 use durer_math::scale::pow2;
 use durer_math::{Aabb, F8, Isa, M8, Point3, U, Vec3};
 use std::sync::Arc;
@@ -93,7 +94,7 @@ impl Solid<1, 4> {
     #[inline(always)]
     fn forward(&self, q: &mut [F8; 4]) -> F8 {
         let [x, y, z, w] = *q;
-        let [c0, c1, c2, c3] = self.rule.c[0].map(F8::splat);
+        let [c0, c1, c2, c3] = F8::splats(self.rule.c[0]);
         let rest = y.mul_add(y, z.mul_add(z, w * w));
         let all = x.mul_add(x, rest);
         let stays = all.gt(F8::splat(GONE));
@@ -118,7 +119,10 @@ impl Solid<1, 4> {
             JuliaPower::Square => {
                 let e = (square + rule.c_size) * (16.0 * U) + rule.c_err;
                 let left = (*free - e).max(F8::ZERO);
-                (left / (size + (square + left).sqrt() + TINY), size * 2.0)
+                // √x <= (x + m²) / 2m for any m; what does not hang on `left` is there before it.
+                let twice = size.max(F8::splat(0.5)) * 2.0;
+                let rest = twice.mul_add(size, twice.mul_add(twice * 0.25, square));
+                (twice * left / (rest + left), size * 2.0)
             }
             JuliaPower::Cube => {
                 let e = (square * size + rule.c_size) * (64.0 * U) + rule.c_err;
@@ -272,6 +276,18 @@ impl Level for Solid<1, 4> {
                 skin.e_f = (square.sqrt() * 2.0 + r) * r + (square + level) * (32.0 * U);
                 (skin.half, skin.e_half, skin.bend) = (half, e_half, bend);
                 skin.room = F8::splat(AROUND);
+            },
+        );
+    }
+
+    fn slant(&self, isa: Isa, y: &Vec3<F8>, slant: &mut Slant) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                // What is not asked for is not worked out.
+                let gradient = gradient8(&self.rule, &self.lift, self.rule.iterations, y, &F8::ZERO);
+                let Gradient { square, half, .. } = gradient;
+                *slant = Slant { f: square - self.rule.radius * self.rule.radius, half };
             },
         );
     }

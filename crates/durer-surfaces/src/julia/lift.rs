@@ -127,8 +127,7 @@ impl Lift<1, 4> {
     #[inline(always)]
     pub(super) fn turned8(&self, v: Vec3<F8>) -> [F8; 4] {
         let [[a, b, c, d]] = self.a;
-        let row = |r: Vec3| F8::splat(r.x).mul_add(v.x, F8::splat(r.y).mul_add(v.y, v.z * r.z));
-        [row(a), row(b), row(c), row(d)]
+        [dot8(a, v), dot8(b, v), dot8(c, v), dot8(d, v)]
     }
 
     /// The images of eight points, rounded.
@@ -160,6 +159,11 @@ impl Lift<1, 4> {
         let column = |i: usize| [F8::splat(a[i]), F8::splat(b[i]), F8::splat(c[i]), F8::splat(d[i])];
         [[column(0), column(1), column(2)]]
     }
+}
+
+#[inline(always)]
+fn dot8(a: Vec3, v: Vec3<F8>) -> F8 {
+    F8::splat(a.x).mul_add(v.x, F8::splat(a.y).mul_add(v.y, v.z * a.z))
 }
 
 /// No less than the root of 2 or 4.

@@ -14,7 +14,7 @@ use super::own::{Own, OwnSketch};
 use super::rays::{From8, Nearest, RayLanes};
 use super::swept::{self, Swept};
 use crate::quadric::form::Form;
-use durer_math::{Dd, F8, Isa, M8, Point3, Run, Vec3};
+use durer_math::{Dd, F8, Isa, Point3, Run, Vec3};
 use std::sync::Arc;
 
 /// What kind of surface it is.
@@ -174,21 +174,21 @@ impl Detail {
         }
     }
 
-    /// Which points at `t` within `e` are surely in the solid, and which surely not.
+    /// Which points at `t` within `e` are surely in the solid, and which surely not, of the rays that are `asked` about: as bits.
     pub(super) fn holds(
         &self,
         rays: &RayLanes<'_>,
         start: &Start,
-        at: (F8, F8),
+        (at, asked): ((F8, F8), u8),
         memory: &mut Memory,
-    ) -> (M8, M8) {
+    ) -> (u8, u8) {
         match &self.shape {
             Kind8::Lathe(lathe) => lathe.holds(&self.own, rays, start, at),
-            Kind8::Swept(swept) => swept.holds(&self.own, rays, start, at, &mut memory.swept),
+            Kind8::Swept(swept) => swept.holds(&self.own, rays, start, (at, asked), &mut memory.swept),
             Kind8::Quartic(f) => f.holds(&self.own, rays, start, at),
             Kind8::Octic(f) => f.holds(&self.own, rays, start, at),
             Kind8::Fields(fields) => fields.holds(&self.own, rays, start, at),
-            Kind8::Level(_) => (M8::NONE, M8::NONE),
+            Kind8::Level(_) => (0, 0),
         }
     }
 

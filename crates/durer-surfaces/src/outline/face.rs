@@ -96,7 +96,7 @@ pub(super) fn taxicab(v: Vec3<F8>) -> F8 {
 /// `a·v` for one vector and eight.
 #[inline(always)]
 fn dot(a: [f64; 3], v: Vec3<F8>) -> F8 {
-    let [x, y, z] = a.map(F8::splat);
+    let [x, y, z] = F8::splats(a);
     x.mul_add(v.x, y.mul_add(v.y, z * v.z))
 }
 

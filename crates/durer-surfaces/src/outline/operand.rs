@@ -241,27 +241,48 @@ impl Outline {
         );
     }
 
-    /// Which points at `t` within `e` are surely in the solid, and which surely not.
+    /// Which points at `t` within `e` are surely in the solid, and which surely not, of the rays that are `asked` about: as bits.
     pub fn holds(
         &self,
         rays: &RayLanes<'_>,
         sight: &Sight,
-        (t, e): (&F8, &F8),
+        (t, e, asked): (&F8, &F8, u8),
         scratch: &mut Scratch,
-    ) -> (M8, M8) {
-        if let Some(detail) = self.as_detail() {
-            let memory = &mut scratch.steps.detail;
-            let (inside, outside) = detail.holds(rays, &sight.0, (*t, *e), memory);
-            return if self.turned { (outside, inside) } else { (inside, outside) };
-        }
-        let (seen, spot) = (sight.seen(rays), &mut scratch.steps.spot);
+    ) -> (u8, u8) {
+        let (inside, outside) = match self.as_detail() {
+            Some(detail) => {
+                let memory = &mut scratch.steps.detail;
+                let (inside, outside) = detail.holds(rays, &sight.0, ((*t, *e), asked), memory);
+                (inside & asked, outside & asked)
+            }
+            None => self.holds_by_faces(rays, sight, (t, e, asked), &mut scratch.steps.spot),
+        };
+        if self.turned { (outside, inside) } else { (inside, outside) }
+    }
+
+    #[inline(always)]
+    fn holds_by_faces(
+        &self,
+        rays: &RayLanes<'_>,
+        sight: &Sight,
+        (t, e, asked): (&F8, &F8, u8),
+        spot: &mut Spot,
+    ) -> (u8, u8) {
+        let seen = sight.seen(rays);
         rays.isa.run_in_lanes(
             #[inline(always)]
             || spot.put(&seen, *t, *e),
         );
-        let (mut inside, mut outside) = (M8::splat(!self.vague), M8::NONE);
+        let (mut inside, mut outside) = (if self.vague { 0 } else { asked }, 0);
         // Beside one face the others no longer matter.
-        self.faces.iter().all(|face| face.cut(rays.isa, spot, rays.live, &mut inside, &mut outside));
-        if self.turned { (outside, inside) } else { (inside, outside) }
+        for face in &self.faces {
+            let (below, above) = face.sides(rays.isa, spot);
+            inside &= below;
+            outside |= above & asked;
+            if outside == asked {
+                break;
+            }
+        }
+        (inside, outside)
     }
 }

@@ -94,22 +94,22 @@ impl Own {
     /// The coordinates of points.
     #[inline(always)]
     pub(super) fn point(&self, h: Vec3<F8>) -> Vec3<F8> {
-        let [x, y, z] = self.rows.map(Vec3::splat);
-        let [a, b, c] = self.c.map(F8::splat);
+        let [x, y, z] = Vec3::splats(self.rows);
+        let [a, b, c] = F8::splats(self.c);
         Vec3::new(plus(x, h, a), plus(y, h, b), plus(z, h, c))
     }
 
     /// The coordinates of directions.
     #[inline(always)]
     pub(super) fn vector(&self, d: Vec3<F8>) -> Vec3<F8> {
-        let [x, y, z] = self.rows.map(Vec3::splat);
+        let [x, y, z] = Vec3::splats(self.rows);
         Vec3::new(dot(x, d), dot(y, d), dot(z, d))
     }
 
     /// What a covector in these coordinates is in the outline's.
     #[inline(always)]
     pub(super) fn covector(&self, g: Vec3<F8>) -> Vec3<F8> {
-        let [x, y, z] = self.rows.map(Vec3::splat);
+        let [x, y, z] = Vec3::splats(self.rows);
         Vec3::new(
             x.x.mul_add(g.x, y.x.mul_add(g.y, z.x * g.z)),
             x.y.mul_add(g.x, y.y.mul_add(g.y, z.y * g.z)),

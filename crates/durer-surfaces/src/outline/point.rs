@@ -172,7 +172,7 @@ fn shaded_by(g: Vec3<F8>, ng: Vec3<F8>, turned: bool) -> Vec3<F8> {
 /// The interpolated normal, of length one, on the side of `ng`.
 #[inline(always)]
 fn shading_normal(normals: &[Vec3; 4], y: Vec3<F8>, ng: Vec3<F8>) -> Vec3<F8> {
-    let [n, nx, ny, nz] = normals.map(Vec3::splat);
+    let [n, nx, ny, nz] = Vec3::splats(*normals);
     let axis = |n: F8, x: F8, dy: F8, z: F8| x.mul_add(y.x, dy.mul_add(y.y, z.mul_add(y.z, n)));
     let n = Vec3::new(axis(n.x, nx.x, ny.x, nz.x), axis(n.y, nx.y, ny.y, nz.y), axis(n.z, nx.z, ny.z, nz.z));
     let inverse = F8::ONE / dot(n, n).sqrt();

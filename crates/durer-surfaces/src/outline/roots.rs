@@ -241,4 +241,16 @@ impl Face {
             },
         )
     }
+
+    /// Which points are surely below this face, and which above: as bits.
+    #[inline(never)]
+    pub(super) fn sides(&self, isa: Isa, at: &Spot) -> (u8, u8) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let (f, e_f) = self.at(at.y, at.y1, at.e1);
+                (f.lt(-e_f).bits(), f.gt(e_f).bits())
+            },
+        )
+    }
 }

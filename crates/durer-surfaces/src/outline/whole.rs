@@ -16,8 +16,8 @@ use super::operand::Crossings;
 use super::own::Own;
 use super::rays::{CLEAR, From8, Nearest, RayLanes, SLACK};
 use super::swept::{
-    Curve, Memory, Named, Sweep8, conclude, count, cubic_of, enclose, flipped, parted, placed, reach, see,
-    side_of, tag_of, wall,
+    Curve, Memory, Named, Sweep8, conclude, count, cubic_of, enclose, enclose_all, flipped, parted, placed,
+    reach, see, side_of, tag_of, wall,
 };
 use durer_math::{F8, M8, U};
 
@@ -89,8 +89,9 @@ pub(super) fn crossings(
     if !enclose(rays, sweep, to, memory, true) {
         return;
     }
+    enclose_all(rays, memory);
     for (i, (curve, &left)) in curves.iter().zip(left).enumerate() {
-        if cubic_of(rays, curve, to, memory) {
+        if !curve.is_beside(&memory.around) && cubic_of(rays, curve, to, memory) {
             let named = Named { face: i as f64, left };
             wall((rays, leaves(leaving, i).as_ref()), (curve, sweep, named), to, memory);
         }
@@ -99,9 +100,7 @@ pub(super) fn crossings(
         if !sweep.has_tip(top)
             && reach((rays, leaves(leaving, face).as_ref()), (sweep, top), to, memory, true)
         {
-            for curve in curves {
-                count(rays.isa, curve, memory);
-            }
+            count(rays.isa, curves, memory);
             conclude(rays, face as f64, to, memory);
         }
     }
@@ -115,15 +114,15 @@ fn leaves(leaving: Option<(&From8, bool)>, face: usize) -> Option<From8> {
     lanes.any().then_some(From8 { lanes, face: from.face, back: flipped(from.back, M8::splat(turned)) })
 }
 
-/// Which points at `t` within `e` are surely in the solid, and which surely not.
+/// Which points at `t` within `e` are surely in the solid, and which surely not, of the rays that are `asked` about: as bits.
 pub(super) fn holds(
     own: &Own,
     rays: &RayLanes<'_>,
     start: &Start,
-    (t, e): (F8, F8),
+    ((t, e), asked): ((F8, F8), u8),
     (curves, sweep): (&[Curve], &Sweep8),
     memory: &mut Memory,
-) -> (M8, M8) {
+) -> (u8, u8) {
     see_in_lanes(own, rays, start, memory);
     let (mut between, mut beyond) = (M8::NONE, M8::NONE);
     let open = rays.isa.run_in_lanes(
@@ -149,18 +148,21 @@ pub(super) fn holds(
             }
             (memory.place, memory.e_place) = ([x, z], e);
             memory.unsure = !known;
-            memory.open = *rays.live & known & !beyond;
+            memory.open = M8::from_bits(asked) & known & !beyond;
             memory.odd = M8::NONE;
             memory.open.any()
         },
     );
     if open {
-        for curve in curves {
-            count(rays.isa, curve, memory);
-        }
+        count(rays.isa, curves, memory);
     }
-    let counted = memory.open & !memory.unsure;
-    (counted & memory.odd & between, beyond | counted & !memory.odd)
+    rays.isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            let counted = memory.open & !memory.unsure;
+            ((counted & memory.odd & between).bits(), (beyond | counted & !memory.odd).bits())
+        },
+    )
 }
 
 #[inline(never)]
@@ -184,8 +186,9 @@ fn each<L: Line8>(
     if !enclose(rays, sweep, to, memory, false) {
         return;
     }
+    enclose_all(rays, memory);
     for (i, curve) in curves.iter().enumerate() {
-        if !cubic_of(rays, curve, to, memory) {
+        if curve.is_beside(&memory.around) || !cubic_of(rays, curve, to, memory) {
             continue;
         }
         for _ in 0..3 {
@@ -200,9 +203,7 @@ fn each<L: Line8>(
         if sweep.has_tip(top) || !reach((rays, None), (sweep, top), to, memory, false) {
             continue;
         }
-        for curve in curves {
-            count(rays.isa, curve, memory);
-        }
+        count(rays.isa, curves, memory);
         show_cap(rays, face, to, memory);
     }
 }

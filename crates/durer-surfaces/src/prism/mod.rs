@@ -286,12 +286,8 @@ impl Prism {
                 let step = (b[k] - a[k]) * (1.0 / 3.0);
                 [a[k], a[k] + step, b[k] - step, b[k]]
             };
-            Curve {
-                points: [along(0), along(1)],
-                // A corner is rounded by U of its size at each height, and triangles lie between them; here it is divided, and a third of the way rounds by 4 U.
-                slack: reach(&e) * (8.0 * U),
-                reach: reach(&e) * (1.0 + 8.0 * U),
-            }
+            // A corner is rounded by U of its size at each height, and triangles lie between them; here it is divided, and a third of the way rounds by 4 U.
+            Curve::new([along(0), along(1)], reach(&e) * (8.0 * U), reach(&e) * (1.0 + 8.0 * U))
         };
         let curves: Box<[Curve]> = edges.map(curve).collect();
         // Walls are turned so that the inside is to their left.

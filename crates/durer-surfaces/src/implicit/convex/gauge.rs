@@ -155,7 +155,8 @@ impl Gauge {
 
 #[inline(always)]
 fn sizes(x: &Vec3<F8>) -> Vec3<F8> {
-    x.map(|x| x.abs().max(F8::splat(LEAST)))
+    let least = F8::splat(LEAST);
+    Vec3::new(x.x.abs().max(least), x.y.abs().max(least), x.z.abs().max(least))
 }
 
 impl Sample {

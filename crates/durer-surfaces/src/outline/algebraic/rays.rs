@@ -153,7 +153,7 @@ impl<const N: usize> Terms<N> {
         }
     }
 
-    /// Which points at `t` within `e` are surely inside, and which surely outside; for rays seen from the outline's centre.
+    /// Which points at `t` within `e` are surely inside, and which surely outside, as bits; for rays seen from the outline's centre.
     #[inline(never)]
     pub(in crate::outline) fn holds(
         &self,
@@ -161,7 +161,7 @@ impl<const N: usize> Terms<N> {
         rays: &RayLanes<'_>,
         start: &Start,
         (t, e): (F8, F8),
-    ) -> (M8, M8) {
+    ) -> (u8, u8) {
         rays.isa.run_in_lanes(
             #[inline(always)]
             || {
@@ -171,7 +171,7 @@ impl<const N: usize> Terms<N> {
                 let e_y = e_o + t.abs() * e_d + e * largest(d) + (largest(o) + largest(y)) * (4.0 * U);
                 let e_f = self.error(largest(y), e_y);
                 let (f, _) = self.at(y);
-                (f.lt(-e_f), f.gt(e_f))
+                (f.lt(-e_f).bits(), f.gt(e_f).bits())
             },
         )
     }

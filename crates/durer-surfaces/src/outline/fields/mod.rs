@@ -82,7 +82,7 @@ impl Fields {
             f = f - left * left * field.strength;
             error += near.keep(((left * 2.0 + e_q) * e_q + left * left * (4.0 * U)) * strength);
             let by = left * (2.0 * field.strength);
-            let [a, b, c] = field.rows.map(Vec3::splat);
+            let [a, b, c] = Vec3::splats(field.rows);
             g.x += by * a.x.mul_add(w.x, b.x.mul_add(w.y, c.x * w.z));
             g.y += by * a.y.mul_add(w.x, b.y.mul_add(w.y, c.y * w.z));
             g.z += by * a.z.mul_add(w.x, b.z.mul_add(w.y, c.z * w.z));
@@ -114,7 +114,7 @@ impl Field {
     /// `W v`.
     #[inline(always)]
     fn turned(&self, v: Vec3<F8>) -> Vec3<F8> {
-        let [a, b, c] = self.rows.map(Vec3::splat);
+        let [a, b, c] = Vec3::splats(self.rows);
         Vec3::new(dot(a, v), dot(b, v), dot(c, v))
     }
 }

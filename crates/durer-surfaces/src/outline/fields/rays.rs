@@ -95,7 +95,18 @@ impl Default for Memory {
     }
 }
 
+/// Seen from the point of the axis, or from the axis.
+#[inline(always)]
+fn placed(w: Vec3<F8>, lift: Option<F8>) -> Vec3<F8> {
+    let z = match lift {
+        Some(lift) => w.z - lift,
+        None => F8::ZERO,
+    };
+    Vec3::new(w.x, w.y, z)
+}
+
 /// Where on the rays a field is asked for which of its pieces: between two places, distances being measured from a point of its axis, or from the axis.
+#[derive(Clone, Copy)]
 struct Segment {
     lift: Option<F8>,
     low: F8,
@@ -160,7 +171,7 @@ impl Fields {
         to.doubt(memory.open, F8::ZERO);
     }
 
-    /// Which points at `t` within `e` are surely inside, and which surely outside; for rays seen from the outline's centre.
+    /// Which points at `t` within `e` are surely inside, and which surely outside, as bits; for rays seen from the outline's centre.
     #[inline(never)]
     pub(in crate::outline) fn holds(
         &self,
@@ -168,7 +179,7 @@ impl Fields {
         rays: &RayLanes<'_>,
         start: &Start,
         (t, e): (F8, F8),
-    ) -> (M8, M8) {
+    ) -> (u8, u8) {
         rays.isa.run_in_lanes(
             #[inline(always)]
             || {
@@ -177,7 +188,7 @@ impl Fields {
                 let y = on(o, t, d);
                 let e_y = e_o + t.abs() * e_d + e * largest(d) + (largest(o) + largest(y)) * (4.0 * U);
                 let Skin { f, e_f, .. } = self.at(y, e_y);
-                (f.lt(-e_f), f.gt(e_f))
+                (f.lt(-e_f).bits(), f.gt(e_f).bits())
             },
         )
     }
@@ -298,18 +309,27 @@ impl Field {
     /// Adds its pieces along the rays, and what it could add where it all but misses them.
     #[inline(never)]
     fn pieces(&self, isa: Isa, memory: &mut Memory) {
+        let Memory { sight, pieces, charge, .. } = memory;
+        let zero = Vec3::splat(Vec3::ZERO);
+        let (mut r, mut a) = (zero, zero);
+        let reach = F8::splat(REACH);
         isa.run_in_lanes(
             #[inline(always)]
             || {
-                let Memory { sight, pieces, charge, .. } = memory;
-                let (m, reach) = (Vec3::splat(self.centre), F8::splat(REACH));
-                let r = Vec3::new(sight.o.x - m.x, sight.o.y - m.y, sight.o.z - m.z);
-                let a = self.turned(sight.d);
-                let ball = Segment { lift: Some(F8::ZERO), low: -reach, high: reach, doubt: F8::ZERO };
-                if self.length == 0.0 {
-                    self.piece(sight, (r, a), &ball, charge, pieces);
-                    return;
-                }
+                let m = Vec3::splat(self.centre);
+                r = Vec3::new(sight.o.x - m.x, sight.o.y - m.y, sight.o.z - m.z);
+                a = self.turned(sight.d);
+            },
+        );
+        if self.length == 0.0 {
+            let ball = Segment { lift: Some(F8::ZERO), low: -reach, high: reach, doubt: F8::ZERO };
+            self.piece(isa, (sight, &r, &a), &ball, charge, pieces);
+            return;
+        }
+        let mut segments = [Segment { lift: None, low: -reach, high: reach, doubt: F8::ZERO }; 3];
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
                 // w_z along the rays, within `doubt` on all of it.
                 let height = dot(Vec3::splat(self.rows[2]), r);
                 let rate = a.z;
@@ -320,22 +340,22 @@ impl Field {
                 let (low, high) = (-height / rate, -(height - self.length) / rate);
                 let level = rate.equals(F8::ZERO);
                 let (below, above) = (level & height.lt(F8::ZERO), level & height.gt(F8::splat(self.length)));
-                let clamp = |s: F8| s.max(-reach).min(reach);
-                let enter = level.select(-reach, clamp(low.min(high)));
-                let leave = level.select(reach, clamp(low.max(high)));
+                let enter = level.select(-reach, low.min(high).max(-reach).min(reach));
+                let leave = level.select(reach, low.max(high).max(-reach).min(reach));
                 let enter = below.select(reach, enter);
                 let leave = below.select(reach, above.select(-reach, leave));
                 let falls = rate.lt(F8::ZERO);
                 let length = F8::splat(self.length);
                 let (first, last) = (falls.select(length, F8::ZERO), falls.select(F8::ZERO, length));
-                let before = Segment { lift: Some(first), low: -reach, high: enter, doubt };
-                self.piece(sight, (r, a), &before, charge, pieces);
-                let tube = Segment { lift: None, low: enter, high: leave, doubt };
-                self.piece(sight, (r, a), &tube, charge, pieces);
-                let behind = Segment { lift: Some(last), low: leave, high: reach, doubt };
-                self.piece(sight, (r, a), &behind, charge, pieces);
+                let [before, tube, behind] = &mut segments;
+                *before = Segment { lift: Some(first), low: -reach, high: enter, doubt };
+                *tube = Segment { lift: None, low: enter, high: leave, doubt };
+                *behind = Segment { lift: Some(last), low: leave, high: reach, doubt };
             },
         );
+        for segment in &segments {
+            self.piece(isa, (sight, &r, &a), segment, charge, pieces);
+        }
     }
 
     /// The error of each coordinate of `w` at `s`, where `y - m` is `size` long along an axis.
@@ -355,8 +375,23 @@ impl Field {
     }
 
     /// One piece. `r` is where the rays are as seen from the field, and `a` is `W d`.
-    #[inline(always)]
+    #[inline(never)]
     fn piece(
+        &self,
+        isa: Isa,
+        (sight, r, a): (&Sight, &Vec3<F8>, &Vec3<F8>),
+        segment: &Segment,
+        charge: &mut F8,
+        pieces: &mut ArrayVec<Piece8, MOST>,
+    ) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || self.piece_here(sight, (*r, *a), segment, charge, pieces),
+        );
+    }
+
+    #[inline(always)]
+    fn piece_here(
         &self,
         sight: &Sight,
         (r, a): (Vec3<F8>, Vec3<F8>),
@@ -365,13 +400,12 @@ impl Field {
         pieces: &mut ArrayVec<Piece8, MOST>,
     ) {
         let &Segment { lift, low, high, doubt } = segment;
-        let placed = |w: Vec3<F8>| Vec3::new(w.x, w.y, lift.map_or(F8::ZERO, |lift| w.z - lift));
         let a = Vec3::new(a.x, a.y, if lift.is_some() { a.z } else { F8::ZERO });
         let n = dot(a, a);
         // The closest approach, as well as it can be had; any number will do. What is not a number becomes an end.
-        let at = (-dot(placed(self.turned(r)), a) / n).max(low).min(high);
+        let at = (-dot(placed(self.turned(r), lift), a) / n).max(low).min(high);
         let y = on(r, at, sight.d);
-        let w = placed(self.turned(y));
+        let w = placed(self.turned(y), lift);
         let (m, b) = (dot(w, w), dot(w, a));
         let (e_w, e_a) = (self.error_at(sight, largest(y), at), self.rate_error(sight));
         let top = n.gt(F8::ZERO).keep((-b / n).max(low - at).min(high - at));

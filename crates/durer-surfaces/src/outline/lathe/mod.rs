@@ -151,7 +151,7 @@ impl Lathe {
         let Bounded { wall, near, bend, slack, .. } = &self.walls[face];
         let v = y.y - wall.at;
         let n = y.x.mul_add(y.x, y.z * y.z);
-        let [p0, p1, p2, p3] = wall.p.map(F8::splat);
+        let [p0, p1, p2, p3] = F8::splats(wall.p);
         let value = p3.mul_add(v, p2).mul_add(v, p1).mul_add(v, p0);
         let slope = (p3 * 3.0).mul_add(v, p2 * 2.0).mul_add(v, p1);
         let q = v.mul_add(v, n) + wall.kappa;
@@ -172,7 +172,7 @@ impl Lathe {
 /// `f` at a height `v` and the square of a distance from the axis.
 #[inline(always)]
 fn value(wall: &LatheWall, n: F8, v: F8) -> F8 {
-    let [p0, p1, p2, p3] = wall.p.map(F8::splat);
+    let [p0, p1, p2, p3] = F8::splats(wall.p);
     let p = p3.mul_add(v, p2).mul_add(v, p1).mul_add(v, p0);
     let q = v.mul_add(v, n) + wall.kappa;
     (q * wall.alpha).mul_add(q, F8::splat(wall.beta).mul_add(n, -p))

@@ -101,7 +101,7 @@ impl Lathe {
         self.seam(rays, self.walls.len(), &high, &(before, F8::ONE), to);
     }
 
-    /// Which points at `t` within `e` are surely inside, and which surely outside; for rays seen from the outline's centre.
+    /// Which points at `t` within `e` are surely inside, and which surely outside, as bits; for rays seen from the outline's centre.
     #[inline(never)]
     pub(in crate::outline) fn holds(
         &self,
@@ -109,7 +109,7 @@ impl Lathe {
         rays: &RayLanes<'_>,
         start: &Start,
         (t, e): (F8, F8),
-    ) -> (M8, M8) {
+    ) -> (u8, u8) {
         rays.isa.run_in_lanes(
             #[inline(always)]
             || {
@@ -139,7 +139,7 @@ impl Lathe {
                     inside &= beside | known & !far & f.lt(-e_f);
                     outside &= beside | far | known & f.gt(e_f);
                 }
-                (inside, outside)
+                (inside.bits(), outside.bits())
             },
         )
     }
@@ -215,7 +215,7 @@ impl Lathe {
         let n0 = x.mul_add(x, z * z);
         let n1 = x.mul_add(dx, z * dz) * 2.0;
         let n2 = dx.mul_add(dx, dz * dz);
-        let [p0, p1, p2, p3] = wall.p.map(F8::splat);
+        let [p0, p1, p2, p3] = F8::splats(wall.p);
         let dv2 = dv * dv;
         let value = p3.mul_add(v, p2).mul_add(v, p1).mul_add(v, p0);
         let slope = (p3 * 3.0).mul_add(v, p2 * 2.0).mul_add(v, p1);

@@ -1,6 +1,6 @@
 //! Where eight rays cross the caps of a swept solid.
 
-use super::{Curve, Memory, Sweep8, cubic};
+use super::{Curve, Memory, Sweep8, cubic, lowest};
 use crate::outline::offer::Offer;
 use crate::outline::rays::{CLEAR, From8, RayLanes, SLACK};
 use crate::outline::roots::quotient;
@@ -89,9 +89,32 @@ pub(in crate::outline) fn reach<K: Offer>(
     )
 }
 
-/// How often a line from the point of a cap along x crosses a curve, modulo two.
+/// How often a line from the point of a cap along x crosses curves, modulo two.
+pub(in crate::outline) fn count(isa: Isa, curves: &[Curve], memory: &mut Memory) {
+    let ahead = ahead(isa, memory);
+    for curve in curves {
+        // None of the lines goes there.
+        if !curve.is_beside(&ahead) {
+            count_one(isa, curve, memory);
+        }
+    }
+}
+
+/// A box around these lines.
 #[inline(never)]
-pub(in crate::outline) fn count(isa: Isa, curve: &Curve, memory: &mut Memory) {
+fn ahead(isa: Isa, memory: &Memory) -> [f64; 4] {
+    isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            let Memory { place: [x, z], open, .. } = *memory;
+            let e = memory.e_place * SLACK + (x.abs() + z.abs()) * (4.0 * U);
+            [lowest(open, x - e), f64::INFINITY, lowest(open, z - e), -lowest(open, -(z + e))]
+        },
+    )
+}
+
+#[inline(never)]
+fn count_one(isa: Isa, curve: &Curve, memory: &mut Memory) {
     let work = isa.run_in_lanes(
         #[inline(always)]
         || {

@@ -16,7 +16,7 @@ mod caps;
 mod walls;
 
 pub(super) use self::caps::{conclude, count, flipped, reach};
-pub(super) use self::walls::{Named, cubic_of, enclose, parted, placed, wall};
+pub(super) use self::walls::{Named, cubic_of, enclose, enclose_all, parted, placed, wall};
 
 use self::walls::Form8;
 use super::Outline;
@@ -34,10 +34,12 @@ use durer_math::{F8, M8, U, Vec3};
 /// A cubic curve by its control points, all x and all z, each within `slack` of the exact one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Curve {
-    pub(crate) points: [[f64; 4]; 2],
-    pub(crate) slack: f64,
+    points: [[f64; 4]; 2],
+    slack: f64,
     /// No less than the magnitude of any number of it.
-    pub(crate) reach: f64,
+    reach: f64,
+    /// Least and greatest x, least and greatest z, with room for `slack` and for roundings of numbers of this size.
+    around: [f64; 4],
 }
 
 /// How the outlines are swept, and between which heights.
@@ -72,6 +74,8 @@ pub(super) struct Memory {
     between: M8,
     traces: [F8; 4],
     form: Form8,
+    /// A box around them.
+    pub(super) around: [f64; 4],
     pub(super) poly: Poly8<4>,
     pub(super) part: Part8,
     pub(super) root: Root8,
@@ -104,7 +108,37 @@ pub(super) fn side_of(tag: F8) -> (F8, M8) {
     (tag.abs(), F8::ONE.copysign(tag).gt(F8::ZERO))
 }
 
+/// The least number of some lanes, infinite if there are none; not a number if one of them is none.
+#[inline(always)]
+fn lowest(lanes: M8, v: F8) -> f64 {
+    let mut least = f64::INFINITY;
+    for x in lanes.select(v, F8::splat(f64::INFINITY)).0 {
+        least = if least <= x {
+            least
+        } else if x <= least {
+            x
+        } else {
+            f64::NAN
+        };
+    }
+    least
+}
+
 impl Curve {
+    /// By its control points, each within `slack`, and no number of them larger than `reach`.
+    pub(crate) fn new(points: [[f64; 4]; 2], slack: f64, reach: f64) -> Self {
+        let room = slack + reach * (8.0 * U);
+        let [(x0, x1), (z0, z1)] = points.each_ref().map(caps::range);
+        Self { points, slack, reach, around: [x0 - room, x1 + room, z0 - room, z1 + room] }
+    }
+
+    /// Whether it surely lies beside a box, given in the same way.
+    #[inline(always)]
+    pub(super) fn is_beside(&self, [x0, x1, z0, z1]: &[f64; 4]) -> bool {
+        let [a, b, c, d] = &self.around;
+        x1 < a || x0 > b || z1 < c || z0 > d
+    }
+
     /// A point and its change with `u`, for `u` in `[0, 1]`, by P. de Casteljau's scheme.
     #[inline(always)]
     fn at(&self, u: F8) -> ([F8; 2], [F8; 2]) {
@@ -112,7 +146,7 @@ impl Curve {
         let mut at = [F8::ZERO; 2];
         let mut slope = [F8::ZERO; 2];
         for k in 0..2 {
-            let [a, b, c, d] = self.points[k].map(F8::splat);
+            let [a, b, c, d] = F8::splats(self.points[k]);
             let (ab, bc, cd) = (w.mul_add(a, u * b), w.mul_add(b, u * c), w.mul_add(c, u * d));
             let (abc, bcd) = (w.mul_add(ab, u * bc), w.mul_add(bc, u * cd));
             at[k] = w.mul_add(abc, u * bcd);
@@ -172,9 +206,7 @@ impl Swept {
                     || see(own, rays, start, memory),
                 );
                 if reach((rays, asked.from), (sweep, *top), &to, memory, true) {
-                    for curve in curves {
-                        count(rays.isa, curve, memory);
-                    }
+                    count(rays.isa, curves, memory);
                     conclude(rays, 0.0, &mut to, memory);
                 }
             }
@@ -203,18 +235,18 @@ impl Swept {
         }
     }
 
-    /// Which points at `t` within `e` are surely in the solid, and which surely not.
+    /// Which points at `t` within `e` are surely in the solid, and which surely not, of the rays that are `asked` about: as bits.
     pub(super) fn holds(
         &self,
         own: &Own,
         rays: &RayLanes<'_>,
         start: &Start,
-        at: (F8, F8),
+        at: ((F8, F8), u8),
         memory: &mut Memory,
-    ) -> (M8, M8) {
+    ) -> (u8, u8) {
         match self {
             Self::Whole { curves, sweep, .. } => whole::holds(own, rays, start, at, (curves, sweep), memory),
-            Self::Wall { .. } | Self::Cap { .. } => (M8::NONE, M8::NONE),
+            Self::Wall { .. } | Self::Cap { .. } => (0, 0),
         }
     }
 

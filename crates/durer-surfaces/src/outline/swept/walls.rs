@@ -1,7 +1,7 @@
 //! Where eight rays cross the wall of a swept curve.
 
 use super::caps::range;
-use super::{Curve, Memory, Sweep8, cubic, tag_of};
+use super::{Curve, Memory, Sweep8, cubic, lowest, tag_of};
 use crate::outline::offer::Offer;
 use crate::outline::rays::{CLEAR, From8, RayLanes, SLACK};
 use crate::outline::roots::quotient;
@@ -75,6 +75,19 @@ pub(in crate::outline) fn enclose<K: Offer>(
             true
         },
     )
+}
+
+/// Puts down a box around the traces of all rays.
+#[inline(never)]
+pub(in crate::outline) fn enclose_all(rays: &RayLanes<'_>, memory: &mut Memory) {
+    rays.isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            let Memory { traces: [x0, x1, z0, z1], between, .. } = *memory;
+            memory.around =
+                [lowest(between, x0), -lowest(between, -x1), lowest(between, z0), -lowest(between, -z1)];
+        },
+    );
 }
 
 /// The cubic that the trace of the rays is along a curve; false if all pass by.

@@ -101,7 +101,7 @@ impl Piece {
     /// As lanes see it.
     pub(super) fn for_lanes(&self) -> Curve {
         let larger = |[x, z]: [f64; 2]| x.max(z);
-        Curve { points: self.seen, slack: larger(self.slack), reach: larger(self.reach) }
+        Curve::new(self.seen, larger(self.slack), larger(self.reach))
     }
 
     /// The factors of the powers of `y = u - 1/2`, in any ring.
