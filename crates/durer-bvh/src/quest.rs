@@ -75,6 +75,7 @@ impl<R, A: Fn(Leaf) -> bool, F: FnMut(Leaf) -> R> Answers<R> for Pair<A, F> {
 /// The aim of a search; `ORDERED` says whether near leaves should come first.
 pub(crate) trait Quest<const ORDERED: bool> {
     /// Looks at a leaf; says whether the search is over.
+    #[inline(always)]
     fn leaf<K: Kernel>(
         &mut self,
         kernel: K,
@@ -83,7 +84,16 @@ pub(crate) trait Quest<const ORDERED: bool> {
         child: ChildRef,
         sieve: &mut impl Sieve,
         reach: &mut Reach,
-    ) -> bool;
+    ) -> bool {
+        let Some((kind, number)) = tree.block(child) else { return self.shown(way, tree.leaf(child), reach) };
+        let block = &tree.blocks[number as usize];
+        let filter = sieve.filter(kernel, tree, way);
+        let verdict = kernel.judge(block, filter, reach.t_far);
+        verdict.alive != 0 && self.judged(kernel, way, (kind, number), block, &verdict, reach)
+    }
+
+    /// Looks at a leaf that holds no triangles; says whether the search is over.
+    fn shown(&mut self, way: &Way, leaf: Leaf, reach: &mut Reach) -> bool;
 
     /// What a block's triangles do that may be met; says whether the search is over.
     fn judged<K: Kernel>(
@@ -105,23 +115,9 @@ pub(crate) struct Closest<T>(pub(crate) T);
 
 impl<T: Answers<f64>> Quest<true> for Closest<T> {
     #[inline(always)]
-    fn leaf<K: Kernel>(
-        &mut self,
-        kernel: K,
-        tree: &Bvh,
-        way: &Way,
-        child: ChildRef,
-        sieve: &mut impl Sieve,
-        reach: &mut Reach,
-    ) -> bool {
-        let Some((kind, number)) = tree.block(child) else {
-            reach.t_far = reach.t_far.min(way.shortened(self.0.test(tree.leaf(child))));
-            return false;
-        };
-        let block = &tree.blocks[number as usize];
-        let filter = sieve.filter(kernel, tree, way);
-        let verdict = kernel.judge(block, filter, reach.t_far);
-        verdict.alive != 0 && self.judged(kernel, way, (kind, number), block, &verdict, reach)
+    fn shown(&mut self, way: &Way, leaf: Leaf, reach: &mut Reach) -> bool {
+        reach.t_far = reach.t_far.min(way.shortened(self.0.test(leaf)));
+        false
     }
 
     #[inline(always)]
@@ -205,20 +201,8 @@ pub(crate) struct Any<T>(pub(crate) T);
 
 impl<T: Answers<bool>> Quest<false> for Any<T> {
     #[inline(always)]
-    fn leaf<K: Kernel>(
-        &mut self,
-        kernel: K,
-        tree: &Bvh,
-        way: &Way,
-        child: ChildRef,
-        sieve: &mut impl Sieve,
-        reach: &mut Reach,
-    ) -> bool {
-        let Some((kind, number)) = tree.block(child) else { return self.0.test(tree.leaf(child)) };
-        let block = &tree.blocks[number as usize];
-        let filter = sieve.filter(kernel, tree, way);
-        let verdict = kernel.judge(block, filter, reach.t_far);
-        verdict.alive != 0 && self.judged(kernel, way, (kind, number), block, &verdict, reach)
+    fn shown(&mut self, _: &Way, leaf: Leaf, _: &mut Reach) -> bool {
+        self.0.test(leaf)
     }
 
     #[inline(always)]
@@ -270,20 +254,8 @@ pub(crate) struct Each<'a, K: Kernel, F> {
 
 impl<L: Kernel, F: FnMut(Leaf) -> bool> Quest<false> for Each<'_, L, F> {
     #[inline(always)]
-    fn leaf<K: Kernel>(
-        &mut self,
-        kernel: K,
-        tree: &Bvh,
-        way: &Way,
-        child: ChildRef,
-        sieve: &mut impl Sieve,
-        reach: &mut Reach,
-    ) -> bool {
-        let Some((kind, number)) = tree.block(child) else { return (self.test)(tree.leaf(child)) };
-        let block = &tree.blocks[number as usize];
-        let filter = sieve.filter(kernel, tree, way);
-        let verdict = kernel.judge(block, filter, reach.t_far);
-        verdict.alive != 0 && self.judged(kernel, way, (kind, number), block, &verdict, reach)
+    fn shown(&mut self, _: &Way, leaf: Leaf, _: &mut Reach) -> bool {
+        (self.test)(leaf)
     }
 
     #[inline(always)]
