@@ -255,7 +255,9 @@ pub trait Slopes<T>: Copy {
     fn divided(a: &Self, k: &T) -> Self;
     /// One of three by the sign of `c`: below, at and above zero.
     fn selected(c: &T, below: &Self, at: &Self, above: &Self) -> Self;
-    /// Whether all are exactly zero.
+    /// The same, and it is known of each whether it is exactly zero.
+    fn settled(&self) -> Self;
+    /// Whether all are known to be exactly zero.
     fn are_zero(&self) -> bool;
 }
 
@@ -291,6 +293,10 @@ impl<T: Number> Slopes<T> for T {
     #[inline(always)]
     fn selected(c: &T, below: &Self, at: &Self, above: &Self) -> Self {
         Number::select(c, below, at, above)
+    }
+    #[inline(always)]
+    fn settled(&self) -> Self {
+        *self
     }
     #[inline(always)]
     fn are_zero(&self) -> bool {
@@ -397,6 +403,14 @@ impl<T: Number> Slopes<T> for Gradient<T> {
         out
     }
     #[inline(always)]
+    fn settled(&self) -> Self {
+        let mut out = *self;
+        for (axis, d) in self.d.iter().enumerate() {
+            out.varies &= !(u8::from(d.is_zero()) << axis);
+        }
+        out
+    }
+    #[inline(always)]
     fn are_zero(&self) -> bool {
         self.varies == 0
     }
@@ -479,11 +493,12 @@ impl<T: Number, D: Slopes<T>> Number for Dual<T, D> {
         let v = T::pow(&a.v, &b.v);
         let less = T::pow(&a.v, &T::sub(&b.v, &number(1.0)));
         let along = D::scaled(&T::mul(&b.v, &less), &a.d);
-        if b.d.are_zero() {
-            // A power that stays: no logarithm, which would be undefined at a = 0.
+        // Where the power stays there is no logarithm, which would be undefined at a = 0.
+        let power = b.d.settled();
+        if power.are_zero() {
             return Self { v, d: along };
         }
-        let turn = D::scaled(&T::mul(&v, &T::function(Function::Ln, &a.v)), &b.d);
+        let turn = D::scaled(&T::mul(&v, &T::function(Function::Ln, &a.v)), &power);
         Self { v, d: D::sum(&along, &turn) }
     }
     #[inline(always)]
