@@ -2,13 +2,14 @@
 //!
 //! Each step of a ray through a tree depends on the one before, so that a single ray leaves most of a CPU idle, and all of it while what
 //! it needs is not in the cache. Here some rays are under way at a time, each takes one step in turn, and what its next step will read is fetched
-//! meanwhile (O. Kocberber, B. Falsafi, B. Grot, "Asynchronous memory access chaining", Proceedings of the VLDB Endowment 9(4), 2015). Each
-//! ray takes the very steps that it takes alone.
+//! meanwhile (O. Kocberber, B. Falsafi, B. Grot, "Asynchronous memory access chaining", Proceedings of the VLDB Endowment 9(4), 2015). Whether a step
+//! leads to a node or to a leaf nobody can foresee; so first all rays that are at nodes take their step, then all that are at leaves, and no branch
+//! depends on it. Each ray takes the very steps that it takes alone.
 
 use crate::kernels::{Kernel, Stack};
 use crate::node::{ChildRef, Leaf};
-use crate::quest::{Answers, Any, Closest, Late, Quest, Reach};
-use crate::ray::{Glances, Line, PACKET, Way};
+use crate::quest::{Answers, Any, Closest, Kept, Quest, Reach};
+use crate::ray::{Glances, PACKET, Sight, Way};
 use crate::together::together;
 use crate::traverse::Errand;
 use crate::tree::Bvh;
@@ -16,8 +17,8 @@ use crate::triangles::Filter;
 use core::marker::PhantomData;
 use durer_math::Isa;
 
-/// How many rays are under way in trees that a cache near the CPU holds, and in larger ones, where each step takes longer.
-const FLIGHTS: (usize, usize) = (8, 16);
+/// How many rays are under way. A word has a bit for each.
+const FLIGHTS: usize = 32;
 
 /// A tree of more bytes than this is large.
 pub(crate) const LARGE: usize = 1 << 24;
@@ -26,8 +27,11 @@ pub(crate) const LARGE: usize = 1 << 24;
 ///
 /// `R` is what a test says: for the closest hit the parameter beyond which nothing matters any more; for any hit, whether it was one.
 pub trait Rays<R> {
-    /// The line of a ray, asked for once, before its first test; `None` if it is to meet nothing.
-    fn line(&mut self, ray: usize) -> Option<Line>;
+    /// A ray as it is asked about.
+    type Sight: Sight;
+
+    /// A ray, asked for once, before its first test; `None` if it is to meet nothing.
+    fn sight(&mut self, ray: usize) -> Option<Self::Sight>;
 
     /// Eight rays from this one on as f32 sees them, if they are exactly known and may go through a tree together: such rays are not asked for their lines.
     fn glances(&mut self, _first: usize) -> Option<Glances> {
@@ -40,11 +44,11 @@ pub trait Rays<R> {
     /// Tests what a ray may meet.
     fn test(&mut self, ray: usize, leaf: Leaf) -> R;
 
-    /// The last tests of eight rays from this one on that went together: what they say does not matter any more.
-    fn last_tests(&mut self, first: usize, leaves: &[Option<Leaf>; PACKET]) {
-        for (i, leaf) in leaves.iter().enumerate() {
+    /// The last tests of eight rays: what they say does not matter any more. A ray without a leaf may be any.
+    fn last_tests(&mut self, rays: &[usize; PACKET], leaves: &[Option<Leaf>; PACKET]) {
+        for (&ray, leaf) in rays.iter().zip(leaves) {
             if let Some(leaf) = leaf {
-                self.test(first + i, *leaf);
+                self.test(ray, *leaf);
             }
         }
     }
@@ -115,14 +119,14 @@ impl<R, B: Rays<R>> Answers<R> for One<'_, B> {
 }
 
 /// A ray under way.
-struct Flight<K: Kernel> {
-    number: usize,
-    line: Line,
-    way: Way,
+struct Flight<K: Kernel, S> {
     lanes: K::Lanes,
-    filter: Option<Filter>,
     reach: Reach,
     child: ChildRef,
+    number: usize,
+    way: Way,
+    sight: S,
+    filter: Option<Filter>,
     stack: Stack,
 }
 
@@ -132,6 +136,19 @@ struct Many<'a, B, M, const ORDERED: bool> {
     aim: PhantomData<M>,
 }
 
+/// The bits that are set.
+#[inline(always)]
+pub(crate) fn each(mut bits: u32) -> impl Iterator<Item = usize> {
+    core::iter::from_fn(
+        #[inline(always)]
+        move || {
+            let bit = bits.trailing_zeros();
+            bits &= bits.wrapping_sub(1);
+            (bit < u32::BITS).then_some(bit as usize)
+        },
+    )
+}
+
 impl<B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool> Errand for Many<'_, B, M, ORDERED> {
     type Answer = ();
 
@@ -139,44 +156,78 @@ impl<B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool> Errand for Many<'_,
     fn run<K: Kernel>(self, kernel: K, tree: &Bvh) {
         let rays = self.rays;
         let mut queue = Queue::of(self.count);
-        let most = if tree.held() > LARGE { FLIGHTS.1 } else { FLIGHTS.0 };
-        let mut flights: Vec<Flight<K>> = Vec::with_capacity(most.min(self.count));
-        while flights.len() < most
-            && let Some((number, line, (lanes, way))) = queue.upcoming::<K, B, M, ORDERED>(kernel, tree, rays)
-        {
-            flights.push(Flight {
-                number,
-                line,
-                way,
-                lanes,
-                filter: None,
-                reach: Reach::of(&way),
-                child: ChildRef::node(0),
-                stack: Stack::new(),
-            });
-        }
-        let mut at = 0;
-        while !flights.is_empty() {
-            if at >= flights.len() {
-                at = 0;
-            }
-            let flight = &mut flights[at];
-            if !flight.is_over_after_step::<B, M, ORDERED>(kernel, tree, rays) {
-                at += 1;
-                continue;
-            }
-            match queue.upcoming::<K, B, M, ORDERED>(kernel, tree, rays) {
-                Some((number, line, (lanes, way))) => {
-                    (flight.number, flight.line, flight.way) = (number, line, way);
-                    flight.lanes = lanes;
-                    flight.filter = None;
-                    flight.reach = Reach::of(&way);
-                    flight.child = ChildRef::node(0);
-                    flight.stack.clear();
-                    at += 1;
+        let most = FLIGHTS.min(self.count);
+        let mut flights: Vec<Flight<K, B::Sight>> = Vec::with_capacity(most);
+        let mut last = Last { rays: [0; PACKET], leaves: [None; PACKET], count: 0 };
+        // Who comes to a node next, to a leaf, and who is over: at first all places.
+        let (mut at_nodes, mut at_leaves, mut over) = (0_u32, 0_u32, ((1_u64 << most) - 1) as u32);
+        loop {
+            for place in each(over) {
+                if let Some(flight) = flights.get(place)
+                    && let Some(leaf) = flight.reach.held.leaf()
+                {
+                    last.add(flight.number, leaf);
+                    if last.count == PACKET {
+                        last.test(kernel, rays);
+                    }
                 }
-                None => drop(flights.swap_remove(at)),
+                let is_under_way =
+                    queue.upcoming::<K, B, M, ORDERED>(kernel, tree, rays, &mut flights, place);
+                at_nodes |= u32::from(is_under_way) << place;
             }
+            if at_nodes | at_leaves == 0 {
+                last.test(kernel, rays);
+                return;
+            }
+            over = 0;
+            let (flights, nodes) = (flights.as_mut_slice(), tree.nodes.as_slice());
+            for place in each(at_nodes) {
+                let flight = &mut flights[place];
+                let node = &nodes[flight.child.index()];
+                let child =
+                    kernel.descend::<ORDERED>(node, &flight.lanes, flight.reach.t_far, &mut flight.stack);
+                flight.child = child;
+                kernel.fetch(tree, child);
+                at_leaves |= u32::from(child.is_leaf()) << place;
+                over |= u32::from(child == ChildRef::END) << place;
+            }
+            at_nodes &= !at_leaves;
+            for place in each(at_leaves & !over) {
+                let flight = &mut flights[place];
+                let child = flight.look::<B, M, ORDERED>(kernel, tree, rays);
+                flight.child = child;
+                kernel.fetch(tree, child);
+                at_nodes |= u32::from(!child.is_leaf()) << place;
+                over |= u32::from(child == ChildRef::END) << place;
+            }
+            at_leaves &= !(at_nodes | over);
+        }
+    }
+}
+
+/// Rays that are over, each with a triangle that it still has to ask about.
+struct Last {
+    rays: [usize; PACKET],
+    leaves: [Option<Leaf>; PACKET],
+    count: usize,
+}
+
+impl Last {
+    #[inline(always)]
+    fn add(&mut self, ray: usize, leaf: Leaf) {
+        (self.rays[self.count % PACKET], self.leaves[self.count % PACKET]) = (ray, Some(leaf));
+        self.count += 1;
+    }
+
+    /// Asks for all.
+    #[inline(always)]
+    fn test<R>(&mut self, kernel: impl Kernel, rays: &mut impl Rays<R>) {
+        if self.count > 0 {
+            kernel.apart(
+                #[inline(always)]
+                || rays.last_tests(&self.rays, &self.leaves),
+            );
+            (self.leaves, self.count) = ([None; PACKET], 0);
         }
     }
 }
@@ -199,30 +250,36 @@ impl Queue {
         Self { next: 0, count, alone_until: 0, patience: PATIENCE.0 }
     }
 
-    /// The next ray that goes alone and does not certainly miss everything; before that, all that go together.
+    /// Gives a place to the next ray that goes alone and does not certainly miss everything, if there is one; before that, all go that go together.
     #[inline(always)]
     fn upcoming<K: Kernel, B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool>(
         &mut self,
         kernel: K,
         tree: &Bvh,
         rays: &mut B,
-    ) -> Option<(usize, Line, (K::Lanes, Way))> {
+        flights: &mut Vec<Flight<K, B::Sight>>,
+        place: usize,
+    ) -> bool {
         while self.next < self.count {
             if self.next >= self.alone_until && self.next + PACKET <= self.count && !tree.is_empty() {
                 let first = self.next;
-                let went = kernel.apart(
+                let glances = kernel.apart(
                     #[inline(always)]
-                    || {
-                        let packet = rays.glances(first).and_then(
-                            #[inline(always)]
-                            |glances| kernel.gather(tree, &glances),
-                        );
-                        if let Some(packet) = &packet {
-                            together::<K, B, M, ORDERED>(kernel, tree, rays, first, packet);
-                        }
-                        packet.is_some()
-                    },
+                    || rays.glances(first),
                 );
+                let went = match &glances {
+                    Some(glances) => kernel.apart_in_lanes(
+                        #[inline(always)]
+                        || {
+                            let packet = kernel.gather(tree, glances);
+                            if let Some(packet) = &packet {
+                                together::<K, B, M, ORDERED>(kernel, tree, rays, first, packet);
+                            }
+                            packet.is_some()
+                        },
+                    ),
+                    None => false,
+                };
                 if went {
                     self.next += PACKET;
                     self.patience = PATIENCE.0;
@@ -233,49 +290,69 @@ impl Queue {
             }
             let number = self.next;
             self.next += 1;
-            if let Some(line) = rays.line(number)
-                && !tree.is_empty()
-                && let Some(ready) = kernel.ready(tree, &line)
-            {
-                return Some((number, line, ready));
+            let Some(sight) = rays.sight(number) else { continue };
+            if tree.is_empty() {
+                continue;
+            }
+            // Twice the same, so that compilers do not bring both ways together first and the ray into its place then.
+            if let Some(ready) = kernel.nearby(tree, &sight) {
+                seat(flights, place, number, sight, ready);
+                return true;
+            }
+            if let Some(ready) = kernel.afar(tree, &sight) {
+                seat(flights, place, number, sight, ready);
+                return true;
             }
         }
-        None
+        false
     }
 }
 
-impl<K: Kernel> Flight<K> {
-    /// Goes through one node, or looks at one leaf; says whether that was all.
+/// A ray takes a place that is free, or the next one.
+#[inline(always)]
+fn seat<K: Kernel, S>(
+    flights: &mut Vec<Flight<K, S>>,
+    place: usize,
+    number: usize,
+    sight: S,
+    (lanes, way): (K::Lanes, Way),
+) {
+    let (reach, child) = (Reach::of(&way), ChildRef::node(0));
+    if let Some(flight) = flights.get_mut(place) {
+        flight.lanes = lanes;
+        flight.way = way;
+        flight.number = number;
+        flight.sight = sight;
+        flight.reach = reach;
+        flight.child = child;
+        flight.filter = None;
+        flight.stack.clear();
+    } else {
+        flights.push(Flight { lanes, reach, child, number, way, sight, filter: None, stack: Stack::new() });
+    }
+}
+
+impl<K: Kernel, S: Sight> Flight<K, S> {
+    /// Looks at a leaf; says to which child to turn.
     #[inline(always)]
-    fn is_over_after_step<B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool>(
+    fn look<B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool>(
         &mut self,
         kernel: K,
         tree: &Bvh,
         rays: &mut B,
-    ) -> bool {
-        self.child = if self.child.is_leaf() {
-            let before = self.reach.t_far;
-            let mut quest = M::quest(One { rays, ray: self.number });
-            let mut sieve = Late { sight: &self.line, filter: &mut self.filter };
-            let found = quest.leaf(kernel, tree, &self.way, self.child, &mut sieve, &mut self.reach);
-            drop(quest);
-            if found {
-                rays.found(self.number);
-                return true;
-            }
-            if self.reach.t_far < before {
-                self.stack.prune(self.reach.t_far);
-            }
-            self.stack.pop()
-        } else {
-            let node = &tree.nodes[self.child.index()];
-            kernel.descend::<ORDERED>(node, &self.lanes, self.reach.t_far, &mut self.stack)
-        };
-        if self.child == ChildRef::END {
-            M::quest(One { rays, ray: self.number }).end(&self.reach);
-            return true;
+    ) -> ChildRef {
+        let before = self.reach.t_far;
+        let mut quest = M::quest(One { rays, ray: self.number });
+        let mut sieve = Kept { sight: &self.sight, filter: &mut self.filter };
+        let found = quest.leaf(kernel, tree, &self.way, self.child, &mut sieve, &mut self.reach);
+        drop(quest);
+        if found {
+            rays.found(self.number);
+            return ChildRef::END;
         }
-        kernel.fetch(tree, self.child);
-        false
+        if self.reach.t_far < before {
+            self.stack.prune(self.reach.t_far);
+        }
+        self.stack.pop()
     }
 }

@@ -107,7 +107,7 @@ pub(crate) trait Quest<const ORDERED: bool> {
     ) -> bool;
 
     /// There are no more leaves; says whether there was what it looked for.
-    fn end(&mut self, reach: &Reach) -> bool;
+    fn end<K: Kernel>(&mut self, kernel: K, reach: &Reach) -> bool;
 }
 
 /// The closest hit.
@@ -139,9 +139,12 @@ impl<T: Answers<f64>> Quest<true> for Closest<T> {
     }
 
     #[inline(always)]
-    fn end(&mut self, reach: &Reach) -> bool {
+    fn end<K: Kernel>(&mut self, kernel: K, reach: &Reach) -> bool {
         if let Some(leaf) = reach.held.leaf() {
-            self.0.test(leaf);
+            kernel.apart(
+                #[inline(always)]
+                || self.0.test(leaf),
+            );
         }
         false
     }
@@ -222,7 +225,7 @@ impl<T: Answers<bool>> Quest<false> for Any<T> {
     }
 
     #[inline(always)]
-    fn end(&mut self, _: &Reach) -> bool {
+    fn end<K: Kernel>(&mut self, _: K, _: &Reach) -> bool {
         false
     }
 }
@@ -287,7 +290,7 @@ impl<L: Kernel, F: FnMut(Leaf) -> bool> Quest<false> for Each<'_, L, F> {
     }
 
     #[inline(always)]
-    fn end(&mut self, _: &Reach) -> bool {
+    fn end<K: Kernel>(&mut self, _: K, _: &Reach) -> bool {
         false
     }
 }
@@ -326,10 +329,34 @@ pub(crate) struct Late<'a, S> {
 impl<S: Sight> Sieve for Late<'_, S> {
     #[inline(always)]
     fn filter<K: Kernel>(&mut self, kernel: K, tree: &Bvh, way: &Way) -> &Filter {
+        let (sight, filter) = (self.sight, &mut *self.filter);
+        if filter.is_none() {
+            // Written where it stays: what is written number by number and then copied has to wait for that.
+            kernel.apart(
+                #[inline(always)]
+                || *filter = Some(Filter::new(sight, way, tree.rounded)),
+            );
+        }
+        filter.get_or_insert(Filter::NOTHING)
+    }
+}
+
+/// The same for a ray that waits in memory for its turns: nothing is done ahead of the leaf.
+pub(crate) struct Kept<'a, S> {
+    pub(crate) sight: &'a S,
+    pub(crate) filter: &'a mut Option<Filter>,
+}
+
+impl<S: Sight> Sieve for Kept<'_, S> {
+    #[inline(always)]
+    fn filter<K: Kernel>(&mut self, kernel: K, tree: &Bvh, way: &Way) -> &Filter {
         let sight = self.sight;
         self.filter.get_or_insert_with(
             #[inline(always)]
             || {
+                if way.is_exact {
+                    return Filter::of_exact(way, tree.rounded);
+                }
                 kernel.apart(
                     #[inline(always)]
                     || Filter::new(sight, way, tree.rounded),

@@ -2,7 +2,7 @@
 //!
 //! Each is shown what it is shown alone, in the same order: who goes where is told ray by ray, with the arithmetic of a single ray. A ray that is left alone goes on alone.
 
-use crate::batch::{Aim, LARGE, One, Rays};
+use crate::batch::{Aim, LARGE, One, Rays, each};
 use crate::kernels::{Kernel, Rows};
 use crate::node::ChildRef;
 use crate::quest::{Held, Known, Quest, Reach};
@@ -63,7 +63,7 @@ pub(crate) fn together<K: Kernel, B: Rays<M::Said>, M: Aim<ORDERED>, const ORDER
         }
         let block = if child.is_leaf() { tree.block(child) } else { None };
         let Some(of) = block else {
-            for ray in lanes(awake) {
+            for ray in each(awake) {
                 group.advance(ray, child, None);
             }
             continue;
@@ -74,7 +74,7 @@ pub(crate) fn together<K: Kernel, B: Rays<M::Said>, M: Aim<ORDERED>, const ORDER
             || (kernel.filters(tree, packet), [Verdict::NOTHING; PACKET]),
         );
         let alive = kernel.judge_together(block, filters, awake, &group.t_far, verdicts);
-        for ray in lanes(alive) {
+        for ray in each(alive) {
             group.advance(ray, child, Some((of, block, &verdicts[ray])));
         }
     }
@@ -85,21 +85,8 @@ pub(crate) fn together<K: Kernel, B: Rays<M::Said>, M: Aim<ORDERED>, const ORDER
         are_any |= leaf.is_some();
     }
     if are_any {
-        group.rays.last_tests(first, &leaves);
+        group.rays.last_tests(&[0, 1, 2, 3, 4, 5, 6, 7].map(|i| first + i), &leaves);
     }
-}
-
-/// The bits that are set.
-#[inline(always)]
-fn lanes(mut bits: u32) -> impl Iterator<Item = usize> {
-    core::iter::from_fn(
-        #[inline(always)]
-        move || {
-            let lane = bits.trailing_zeros() as usize;
-            bits &= bits.wrapping_sub(1);
-            (lane < PACKET).then_some(lane)
-        },
-    )
 }
 
 #[inline(always)]

@@ -89,6 +89,13 @@ impl Bvh {
     #[inline(always)]
     pub(crate) fn with_kernel<E: Errand>(&self, isa: Isa, errand: E) -> E::Answer {
         #[cfg(target_arch = "x86_64")]
+        if let Some(kernel) = crate::kernels::Avx512::of(isa) {
+            return isa.run_in_lanes(
+                #[inline(always)]
+                || errand.run(kernel, self),
+            );
+        }
+        #[cfg(target_arch = "x86_64")]
         if let Some(kernel) = crate::kernels::Avx2::of(isa) {
             return isa.run(
                 #[inline(always)]
@@ -120,7 +127,7 @@ impl<S: Sight, Q: Quest<ORDERED>, const ORDERED: bool> Errand for Single<'_, S, 
         let (mut filter, mut reach, mut quest) = (None, Reach::of(&way), self.quest);
         let mut sieve = Late { sight: self.sight, filter: &mut filter };
         follow(kernel, tree, &lanes, &way, ChildRef::node(0), &mut sieve, &mut reach, &mut quest)
-            || quest.end(&reach)
+            || quest.end(kernel, &reach)
     }
 }
 

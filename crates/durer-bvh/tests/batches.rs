@@ -139,7 +139,9 @@ impl Logging<'_> {
 }
 
 impl Rays<f64> for Logging<'_> {
-    fn line(&mut self, ray: usize) -> Option<Line> {
+    type Sight = Line;
+
+    fn sight(&mut self, ray: usize) -> Option<Line> {
         self.asked += 1;
         self.world.lines[ray]
     }
@@ -163,7 +165,9 @@ impl Rays<f64> for Logging<'_> {
 }
 
 impl Rays<bool> for Logging<'_> {
-    fn line(&mut self, ray: usize) -> Option<Line> {
+    type Sight = Line;
+
+    fn sight(&mut self, ray: usize) -> Option<Line> {
         self.asked += 1;
         self.world.lines[ray]
     }

@@ -112,8 +112,10 @@ impl Closest<'_> {
 }
 
 impl Rays<f64> for Closest<'_> {
+    type Sight = Line;
+
     #[inline(always)]
-    fn line(&mut self, ray: usize) -> Option<Line> {
+    fn sight(&mut self, ray: usize) -> Option<Line> {
         match self.all.made_ready(ray) {
             Some(line) => line,
             None => self.ready(ray),
@@ -173,8 +175,10 @@ impl Any<'_> {
 }
 
 impl Rays<bool> for Any<'_> {
+    type Sight = Line;
+
     #[inline(always)]
-    fn line(&mut self, ray: usize) -> Option<Line> {
+    fn sight(&mut self, ray: usize) -> Option<Line> {
         match self.all.made_ready(ray) {
             Some(line) => line,
             None => self.ready(ray),

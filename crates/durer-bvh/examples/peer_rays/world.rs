@@ -83,7 +83,7 @@ impl World {
 
     /// Where each ray meets its triangle, if that is certain at once.
     #[inline(never)]
-    fn exactly_eight(&self, isa: Isa, rays: &[PeerRay], leaves: &[Option<Leaf>; 8]) -> [Option<f64>; 8] {
+    fn exactly_eight(&self, isa: Isa, rays: [&PeerRay; 8], leaves: &[Option<Leaf>; 8]) -> [Option<f64>; 8] {
         isa.run_in_lanes(
             #[inline(always)]
             || {
@@ -220,12 +220,14 @@ impl Sight for Seen<'_> {
     #[inline(always)]
     fn glance(&self) -> Glance {
         // Out of the range of f32 nothing is seen of the ray, and the line is asked for.
-        let in_range = (-126..=126).contains(&self.k);
-        let power = |k: i32| if in_range { f32::from_bits(((127 + k) as u32) << 23) } else { f32::NAN };
-        let (along, across, one) = (power(self.k), power(-self.k), if in_range { 1.0 } else { f32::NAN });
+        if !(-126..=126).contains(&self.k) {
+            return Glance::NOTHING;
+        }
+        let power = |k: i32| f32::from_bits(((127 + k) as u32) << 23);
+        let (along, across) = (power(self.k), power(-self.k));
         let ([x, y, z], [dx, dy, dz]) = (self.r.origin, self.r.direction);
         Glance {
-            origin: [x * one, y * one, z * one, self.r.t_near * along],
+            origin: [x, y, z, self.r.t_near * along],
             direction: [dx * across, dy * across, dz * across, self.r.t_far * along],
             origin_error: [0.0; 4],
             direction_error: [0.0; 4],
@@ -253,10 +255,9 @@ fn three_of(v: [[f64; 8]; 3]) -> Vec3<F8> {
     Vec3::new(F8(v[0]), F8(v[1]), F8(v[2]))
 }
 
-/// Eight rays as they are given, and two to the power `k` of each (see [`Seen`]); `None` if there are fewer or one of these is extreme.
+/// Eight rays as they are given, and two to the power `k` of each (see [`Seen`]); `None` if one of these is extreme.
 #[inline(always)]
-fn side_by_side(rays: &[PeerRay]) -> Option<(Glances, [f32; 8])> {
-    let rays = rays.first_chunk::<8>()?;
+fn side_by_side(rays: [&PeerRay; 8]) -> Option<(Glances, [f32; 8])> {
     let mut seen =
         Glances { origin: [[0.0; 8]; 3], direction: [[0.0; 8]; 3], t_min: [0.0; 8], t_max: [0.0; 8] };
     for (i, ray) in rays.iter().enumerate() {
@@ -280,7 +281,8 @@ fn side_by_side(rays: &[PeerRay]) -> Option<(Glances, [f32; 8])> {
 /// [`Seen::glance`] of eight rays.
 #[inline(always)]
 fn seen_together(rays: &[PeerRay]) -> Option<Glances> {
-    let (mut seen, along) = side_by_side(rays)?;
+    let [a, b, c, d, e, f, g, h] = rays.first_chunk()?;
+    let (mut seen, along) = side_by_side([a, b, c, d, e, f, g, h])?;
     for (i, along) in along.into_iter().enumerate() {
         let across = 1.0 / along;
         for axis in 0..3 {
@@ -320,10 +322,12 @@ struct ClosestOfEach<'a> {
     best: Vec<(f64, u32)>,
 }
 
-impl Rays<f64> for ClosestOfEach<'_> {
+impl<'a> Rays<f64> for ClosestOfEach<'a> {
+    type Sight = Seen<'a>;
+
     #[inline(always)]
-    fn line(&mut self, ray: usize) -> Option<Line> {
-        Some(Seen::new(&self.rays[ray]).line())
+    fn sight(&mut self, ray: usize) -> Option<Seen<'a>> {
+        Some(Seen::new(&self.rays[ray]))
     }
 
     #[inline(always)]
@@ -349,19 +353,23 @@ impl Rays<f64> for ClosestOfEach<'_> {
     }
 
     #[inline(always)]
-    fn last_tests(&mut self, first: usize, leaves: &[Option<Leaf>; 8]) {
-        let met = self.world.exactly_eight(self.isa, &self.rays[first..], leaves);
+    fn last_tests(&mut self, rays: &[usize; 8], leaves: &[Option<Leaf>; 8]) {
+        let mut eight = [&self.rays[0]; 8];
+        for (one, &ray) in eight.iter_mut().zip(rays) {
+            *one = &self.rays[ray];
+        }
+        let met = self.world.exactly_eight(self.isa, eight, leaves);
         for (i, leaf) in leaves.iter().enumerate() {
             let Some(leaf) = leaf else { continue };
             match met[i] {
                 Some(t) => {
                     let number = self.world.number(leaf);
-                    if (t, number) < self.best[first + i] {
-                        self.best[first + i] = (t, number);
+                    if (t, number) < self.best[rays[i]] {
+                        self.best[rays[i]] = (t, number);
                     }
                 }
                 None => {
-                    self.test(first + i, *leaf);
+                    self.test(rays[i], *leaf);
                 }
             }
         }
@@ -379,10 +387,12 @@ struct AnyOfEach<'a> {
     triangle: &'a mut [u32],
 }
 
-impl Rays<bool> for AnyOfEach<'_> {
+impl<'a> Rays<bool> for AnyOfEach<'a> {
+    type Sight = Seen<'a>;
+
     #[inline(always)]
-    fn line(&mut self, ray: usize) -> Option<Line> {
-        Some(Seen::new(&self.rays[ray]).line())
+    fn sight(&mut self, ray: usize) -> Option<Seen<'a>> {
+        Some(Seen::new(&self.rays[ray]))
     }
 
     #[inline(always)]

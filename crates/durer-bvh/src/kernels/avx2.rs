@@ -36,14 +36,14 @@ impl Avx2 {
 
 /// The ray in all lanes.
 pub(crate) struct Lanes {
-    r: [__m256; 3],
-    near: [__m256; 3],
-    far: [__m256; 3],
-    t_near: __m256,
+    pub(super) r: [__m256; 3],
+    pub(super) near: [__m256; 3],
+    pub(super) far: [__m256; 3],
+    pub(super) t_near: __m256,
     /// Where a node's near planes of each axis begin, in bytes, and the far ones.
-    near_plane: [usize; 3],
-    far_plane: [usize; 3],
-    octant_shift: __m128i,
+    pub(super) near_plane: [usize; 3],
+    pub(super) far_plane: [usize; 3],
+    pub(super) octant_shift: __m128i,
 }
 
 /// For each set of lanes the lanes in it, in order, one per byte: what `vpcompressd` does, from a table.
@@ -105,6 +105,22 @@ impl Lanes {
             octant_shift: _mm_cvtsi32_si128(3 * octant as i32),
         }
     }
+
+    /// Where the ray enters a node's boxes and leaves them, this up to `t_far`.
+    #[inline]
+    #[target_feature(enable = "avx2,fma")]
+    pub(super) fn slabs(&self, node: &Node8, t_far: f32) -> (__m256, __m256) {
+        let planes = [self.near_plane, self.far_plane];
+        slabs(node, planes, [(&self.r, &self.near), (&self.r, &self.far)], self.t_near, t_far)
+    }
+
+    /// Where it enters them, and which it meets.
+    #[inline]
+    #[target_feature(enable = "avx2,fma")]
+    fn boxes(&self, node: &Node8, t_far: f32) -> (__m256, __m256) {
+        let (near, far) = self.slabs(node, t_far);
+        (near, _mm256_cmp_ps::<_CMP_LE_OQ>(near, far))
+    }
 }
 
 impl Kernel for Avx2 {
@@ -113,12 +129,13 @@ impl Kernel for Avx2 {
     type Filters = Filters;
 
     #[inline(always)]
-    fn ready(self, tree: &Bvh, sight: &impl Sight) -> Option<(Lanes, Way)> {
+    fn nearby(self, tree: &Bvh, sight: &impl Sight) -> Option<(Lanes, Way)> {
         // SAFETY: as below.
-        let nearby = unsafe { nearby(tree, &sight.glance()) };
-        if nearby.is_some() {
-            return nearby;
-        }
+        unsafe { nearby(tree, &sight.glance()) }
+    }
+
+    #[inline(always)]
+    fn afar(self, tree: &Bvh, sight: &impl Sight) -> Option<(Lanes, Way)> {
         let ray = self.apart(
             #[inline(always)]
             || {
@@ -165,6 +182,11 @@ impl Kernel for Avx2 {
     fn apart<R>(self, f: impl FnOnce() -> R) -> R {
         // SAFETY: as above.
         unsafe { apart(f) }
+    }
+
+    #[inline(always)]
+    fn apart_in_lanes<R>(self, f: impl FnOnce() -> R) -> R {
+        self.apart(f)
     }
 
     #[inline(always)]
@@ -442,11 +464,11 @@ fn spread(r: __m128, near: __m128, far: __m128, octant: usize, t_near: f32) -> L
     Lanes::new(each(r), each(near), each(far), _mm256_set1_ps(t_near), octant)
 }
 
-/// A node's boxes: where they are entered, and which are met up to `t_far`. A plane `x` is met at `x r + c`, with the `r` and `c` of near planes and of far ones; where each
+/// A node's boxes: where they are entered and left, this up to `t_far`. A plane `x` is met at `x r + c`, with the `r` and `c` of near planes and of far ones; where each
 /// axis' planes begin is told in bytes. Six fused multiply-adds, six minima and maxima.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-pub(super) fn boxes(
+pub(super) fn slabs(
     node: &Node8,
     [near_plane, far_plane]: [[usize; 3]; 2],
     [enter, leave]: [(&[__m256; 3], &[__m256; 3]); 2],
@@ -465,15 +487,13 @@ pub(super) fn boxes(
     let (lx, ly, lz) = (plane(fx, 0, leave), plane(fy, 1, leave), plane(fz, 2, leave));
     let near = _mm256_max_ps(_mm256_max_ps(ex, ey), _mm256_max_ps(ez, t_near));
     let far = _mm256_min_ps(_mm256_min_ps(lx, ly), _mm256_min_ps(lz, _mm256_set1_ps(t_far)));
-    (near, _mm256_cmp_ps::<_CMP_LE_OQ>(near, far))
+    (near, far)
 }
 
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 fn meets(node: &Node8, slot: usize, lanes: &Lanes, t_far: f32) -> bool {
-    let planes = [lanes.near_plane, lanes.far_plane];
-    let lines = [(&lanes.r, &lanes.near), (&lanes.r, &lanes.far)];
-    let (_, met) = boxes(node, planes, lines, lanes.t_near, t_far);
+    let (_, met) = lanes.boxes(node, t_far);
     _mm256_movemask_ps(met) >> slot & 1 != 0
 }
 
@@ -485,13 +505,7 @@ fn meets(node: &Node8, slot: usize, lanes: &Lanes, t_far: f32) -> bool {
 #[inline]
 #[target_feature(enable = "avx2,fma,popcnt,lzcnt")]
 fn descend<const ORDERED: bool>(node: &Node8, lanes: &Lanes, t_far: f32, stack: &mut Stack) -> ChildRef {
-    let (near, met) = boxes(
-        node,
-        [lanes.near_plane, lanes.far_plane],
-        [(&lanes.r, &lanes.near), (&lanes.r, &lanes.far)],
-        lanes.t_near,
-        t_far,
-    );
+    let (near, met) = lanes.boxes(node, t_far);
     // SAFETY: both arrays hold eight u32, aligned to 32 bytes in a node aligned to 64.
     let (child, order) = unsafe {
         (_mm256_load_si256(node.child.as_ptr().cast()), _mm256_load_si256(node.order.as_ptr().cast()))

@@ -3,6 +3,8 @@
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
 mod bins;
 #[cfg(target_arch = "x86_64")]
 mod packet;
@@ -11,6 +13,8 @@ mod stack;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::Avx2;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use avx512::Avx512;
 pub(crate) use bins::{add_centres, fill};
 pub(crate) use scalar::Scalar;
 pub(crate) use stack::{MAX_DEPTH, Rows, Stack};
@@ -34,7 +38,17 @@ pub(crate) trait Kernel: Copy {
     type Filters;
 
     /// What the tests need of a ray, clipped to the tree's box or not; `None` if it certainly misses that.
-    fn ready(self, tree: &Bvh, sight: &impl Sight) -> Option<(Self::Lanes, Way)>;
+    #[inline(always)]
+    fn ready(self, tree: &Bvh, sight: &impl Sight) -> Option<(Self::Lanes, Way)> {
+        let nearby = self.nearby(tree, sight);
+        if nearby.is_some() { nearby } else { self.afar(tree, sight) }
+    }
+
+    /// The same at a glance; `None` if that is not enough.
+    fn nearby(self, tree: &Bvh, sight: &impl Sight) -> Option<(Self::Lanes, Way)>;
+
+    /// The same of a ray of which a glance did not say it.
+    fn afar(self, tree: &Bvh, sight: &impl Sight) -> Option<(Self::Lanes, Way)>;
 
     /// Pushes the children whose boxes the ray meets before `t_far`, and takes the last off the stack, or what was there before if it meets none. In
     /// the order of the ray's octant, the farthest first, or in that of the node.
@@ -52,9 +66,12 @@ pub(crate) trait Kernel: Copy {
     /// What can be said of eight triangles, of crossings up to `t_far`.
     fn judge(self, block: &Block, filter: &Filter, t_far: f32) -> Verdict;
 
-    /// Runs what few steps need, compiled for the same instructions but apart from the code around it: else compilers do parts of it
-    /// ahead, for every ray.
+    /// Runs what few steps need, and what is the caller's, compiled apart from the code around it: else compilers do parts of it ahead, for every
+    /// ray. For the instructions of [`Isa::run`](durer_math::Isa::run).
     fn apart<R>(self, f: impl FnOnce() -> R) -> R;
+
+    /// The same for what is made of this kernel's own steps, and compiled for its own instructions.
+    fn apart_in_lanes<R>(self, f: impl FnOnce() -> R) -> R;
 
     /// Eight rays as a packet, if they are exactly known, nearby and so much alike that it pays.
     fn gather(self, tree: &Bvh, rays: &Glances) -> Option<Self::Packet>;

@@ -19,7 +19,7 @@
 #![expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")]
 
 use super::Rows;
-use super::avx2::{Lanes, OUTWARD, PLANES, SLACK, boxes, edges, judge_edges};
+use super::avx2::{Lanes, OUTWARD, PLANES, SLACK, edges, judge_edges, slabs};
 use crate::node::Node8;
 use crate::ray::{Glances, INSIDE, LONGEST, NEARBY, U32, Way};
 use crate::tree::Bvh;
@@ -32,36 +32,36 @@ const NEIGHBOURS: f32 = 1.0 / 16.0;
 /// Eight rays.
 pub(crate) struct Packet {
     /// What bounds all of them.
-    hull: Hull,
+    pub(super) hull: Hull,
     /// Each as a node test needs it.
-    r: [__m256; 3],
-    near: [__m256; 3],
-    far: [__m256; 3],
-    t_near: __m256,
+    pub(super) r: [__m256; 3],
+    pub(super) near: [__m256; 3],
+    pub(super) far: [__m256; 3],
+    pub(super) t_near: __m256,
     /// And as triangles do.
     start: [__m256; 3],
     direction: [__m256; 3],
     t_far: __m256,
-    octant: usize,
+    pub(super) octant: usize,
 }
 
 /// `r` and `c` of near planes, and of far ones; and the least parameter.
-struct Hull {
-    enter: ([__m256; 3], [__m256; 3]),
-    leave: ([__m256; 3], [__m256; 3]),
-    t_near: __m256,
+pub(super) struct Hull {
+    pub(super) enter: ([__m256; 3], [__m256; 3]),
+    pub(super) leave: ([__m256; 3], [__m256; 3]),
+    pub(super) t_near: __m256,
 }
 
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-fn eight(v: &[f32; 8]) -> __m256 {
+pub(super) fn eight(v: &[f32; 8]) -> __m256 {
     // SAFETY: eight f32.
     unsafe { _mm256_loadu_ps(v.as_ptr()) }
 }
 
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-fn numbers(v: __m256) -> [f32; 8] {
+pub(super) fn numbers(v: __m256) -> [f32; 8] {
     let mut numbers = [0.0; 8];
     // SAFETY: eight f32.
     unsafe { _mm256_storeu_ps(numbers.as_mut_ptr(), v) };
@@ -173,15 +173,8 @@ pub(super) fn descend<const ORDERED: bool>(
     rows: &mut Rows,
 ) {
     let [near_plane, far_plane] = PLANES[packet.octant & 7];
-    let offsets = |planes: [u8; 3]| [usize::from(planes[0]), usize::from(planes[1]), usize::from(planes[2])];
-    let hull = &packet.hull;
-    let (_, met) = boxes(
-        node,
-        [offsets(near_plane), offsets(far_plane)],
-        [(&hull.enter.0, &hull.enter.1), (&hull.leave.0, &hull.leave.1)],
-        hull.t_near,
-        far,
-    );
+    let (near, far) = packet.slabs(node, far);
+    let met = _mm256_cmp_ps::<_CMP_LE_OQ>(near, far);
     let met = if ORDERED {
         // SAFETY: eight u32, aligned to 32 bytes in a node aligned to 64.
         let order = unsafe { _mm256_load_si256(node.order.as_ptr().cast()) };
@@ -228,6 +221,22 @@ pub(super) fn awake(row: &[f32; 8], t_far: &[f32; 8]) -> u32 {
 }
 
 impl Packet {
+    /// Where what bounds the rays enters a node's boxes and leaves them.
+    #[inline]
+    #[target_feature(enable = "avx2,fma")]
+    pub(super) fn slabs(&self, node: &Node8, far: f32) -> (__m256, __m256) {
+        let offsets =
+            |planes: &[u8; 3]| [usize::from(planes[0]), usize::from(planes[1]), usize::from(planes[2])];
+        let ([near_plane, far_plane], hull) = (&PLANES[self.octant & 7], &self.hull);
+        slabs(
+            node,
+            [offsets(near_plane), offsets(far_plane)],
+            [(&hull.enter.0, &hull.enter.1), (&hull.leave.0, &hull.leave.1)],
+            hull.t_near,
+            far,
+        )
+    }
+
     /// How far each ray looks at most.
     #[inline]
     #[target_feature(enable = "avx2,fma")]
@@ -265,15 +274,15 @@ impl Packet {
 
 /// What triangles need to know of eight rays: `Filter`, member by member.
 pub(crate) struct Filters {
-    o: [[f32; 8]; 3],
-    d: [[f32; 8]; 3],
-    a: [f32; 8],
-    b: [f32; 8],
-    g: [f32; 8],
-    p: [f32; 8],
-    t_near: [f32; 8],
-    first: [f32; 8],
-    last: [f32; 8],
+    pub(super) o: [[f32; 8]; 3],
+    pub(super) d: [[f32; 8]; 3],
+    pub(super) a: [f32; 8],
+    pub(super) b: [f32; 8],
+    pub(super) g: [f32; 8],
+    pub(super) p: [f32; 8],
+    pub(super) t_near: [f32; 8],
+    pub(super) first: [f32; 8],
+    pub(super) last: [f32; 8],
 }
 
 impl Packet {

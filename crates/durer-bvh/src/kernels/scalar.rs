@@ -58,7 +58,12 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
     type Filters = NoPacket;
 
     #[inline(always)]
-    fn ready(self, tree: &Bvh, sight: &impl Sight) -> Option<(CullRay, Way)> {
+    fn nearby(self, _: &Bvh, _: &impl Sight) -> Option<(CullRay, Way)> {
+        None
+    }
+
+    #[inline(always)]
+    fn afar(self, tree: &Bvh, sight: &impl Sight) -> Option<(CullRay, Way)> {
         let ray = tree.cull(&sight.line(), if FUSED { Rounding::Fused } else { Rounding::Unfused })?;
         Some((ray, ray.way))
     }
@@ -134,6 +139,11 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
 
     #[inline(never)]
     fn apart<R>(self, f: impl FnOnce() -> R) -> R {
+        f()
+    }
+
+    #[inline(never)]
+    fn apart_in_lanes<R>(self, f: impl FnOnce() -> R) -> R {
         f()
     }
 

@@ -1,9 +1,11 @@
-use super::{Avx2, Kernel, Rows, Scalar, Stack};
+use super::avx2::Lanes;
+use super::packet::{Filters, Packet};
+use super::{Avx2, Avx512, Kernel, Rows, Scalar, Stack};
 use crate::frame::Frame;
 use crate::node::{ChildRef, Node8, WIDTH};
 use crate::ray::{CullRay, Glance, Glances, Line, PACKET, Rounding, Sight, Way};
 use crate::tree::Bvh;
-use crate::triangles::{Block, Filter};
+use crate::triangles::{Block, Filter, Verdict};
 use durer_math::eft::exponent;
 use durer_math::{Aabb, Isa, Point3, Vec3};
 use proptest::prelude::*;
@@ -59,6 +61,150 @@ fn line(origin: [f64; 3], direction: [f64; 3]) -> Line {
     }
 }
 
+/// Eight rays much like one.
+fn neighbours(o: [f64; 3], d: [f64; 3], aside: &[Moved], bent: &[Moved], t_max: &[f64]) -> Vec<Line> {
+    let moved = |by: &Moved, i: usize| if by.1 { by.0[i] } else { 0.0 };
+    (0..PACKET)
+        .map(|i| {
+            let origin = [0, 1, 2].map(|k| o[k] + moved(&aside[i], k));
+            let d = [0, 1, 2].map(|k| d[k] + moved(&bent[i], k).copysign(d[k]));
+            let d = Vec3::from(d);
+            let d = d.scale2(-exponent(d.max_abs()));
+            Line { t_max: t_max[i], inner: (0.0, t_max[i]), ..line(origin, d.to_array()) }
+        })
+        .collect()
+}
+
+type Moved = ([f64; 3], bool);
+
+fn moved() -> impl Strategy<Value = Vec<Moved>> {
+    prop::collection::vec((prop::array::uniform3(0.0..0.06_f64), any::<bool>()), PACKET)
+}
+
+fn ends() -> impl Strategy<Value = Vec<f64>> {
+    prop::collection::vec(prop_oneof![Just(f64::INFINITY), 0.0..4.0_f64], PACKET)
+}
+
+fn as_packet(kernel: impl Kernel<Packet = Packet>, tree: &Bvh, lines: &[Line]) -> Option<Packet> {
+    let glances: [Glance; PACKET] = core::array::from_fn(|i| lines[i].glance());
+    Glances::of(&glances).and_then(|glances| kernel.gather(tree, &glances))
+}
+
+/// A kernel stacks what the scalar one does.
+fn stacks_alike(
+    kernel: impl Kernel<Lanes = Lanes>,
+    lanes: &Lanes,
+    node: &Node8,
+    ray: &CullRay,
+    t_far: f32,
+) -> Result<(), TestCaseError> {
+    let (mut a, mut b) = (Stack::new(), Stack::new());
+    let scalar = Scalar::<true>.descend::<true>(node, ray, t_far, &mut a);
+    prop_assert_eq!(scalar, kernel.descend::<true>(node, lanes, t_far, &mut b));
+    prop_assert_eq!(a.drain(), b.drain());
+    a.clear();
+    b.clear();
+    let scalar = Scalar::<true>.descend::<false>(node, ray, t_far, &mut a);
+    prop_assert_eq!(scalar, kernel.descend::<false>(node, lanes, t_far, &mut b));
+    prop_assert_eq!(a.drain(), b.drain());
+    Ok(())
+}
+
+/// The same verdict, and of lanes alive the same bounds.
+fn same_verdict(a: &Verdict, b: &Verdict) -> Result<(), TestCaseError> {
+    prop_assert_eq!((a.alive, a.sure), (b.alive, b.sure));
+    for lane in (0..8).filter(|lane| a.alive >> lane & 1 != 0) {
+        prop_assert_eq!(a.lo[lane].to_bits(), b.lo[lane].to_bits());
+        prop_assert_eq!(a.hi[lane].to_bits(), b.hi[lane].to_bits());
+    }
+    Ok(())
+}
+
+/// A packet pushes for each of its rays what the ray stacks alone.
+fn enters_alike(
+    kernel: impl Kernel<Lanes = Lanes, Packet = Packet>,
+    node: Node8,
+    lines: &[Line],
+) -> Result<(), TestCaseError> {
+    let mut tree = Bvh::assembled(Frame::around(&Aabb::EMPTY), vec![0, 1]);
+    tree.set_nodes(vec![node]);
+    let Some(packet) = as_packet(kernel, &tree, lines) else { return Ok(()) };
+    let ends = kernel.ends(&packet);
+    let far = ends.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+    let mut rows = Rows::new();
+    kernel.descend_together::<true>(&node, &packet, &[f32::NEG_INFINITY; PACKET], (&ends, far), &mut rows);
+    let rows = rows.drain();
+    for (i, line) in lines.iter().enumerate() {
+        let Some((lanes, way)) = kernel.ready(&tree, line) else {
+            return Err(TestCaseError::fail("it is nearby"));
+        };
+        let mut stack = Stack::new();
+        let last = kernel.descend::<true>(&node, &lanes, way.t_far, &mut stack);
+        let mut alone: Vec<u32> = stack.drain().into_iter().map(|(child, _)| child).collect();
+        alone.push(last.0);
+        alone.reverse();
+        let mut among: Vec<u32> =
+            rows.iter().filter(|(_, near)| !near[i].is_nan()).map(|&(child, _)| child).collect();
+        among.push(ChildRef::END.0);
+        prop_assert_eq!(&alone, &among);
+        let (again, same) = kernel.one(&tree, &packet, i);
+        let mut stack = Stack::new();
+        kernel.descend::<true>(&node, &again, same.t_far, &mut stack);
+        let mut waiting: Vec<(u32, u32)> = rows
+            .iter()
+            .filter(|(_, near)| !near[i].is_nan())
+            .map(|&(child, near)| (child, near[i].to_bits()))
+            .collect();
+        waiting.reverse();
+        waiting.pop();
+        let mut stacked = stack.drain();
+        stacked.retain(|&(child, _)| child != ChildRef::END.0);
+        prop_assert_eq!(stacked, waiting);
+    }
+    Ok(())
+}
+
+/// A packet says of a block for each of its rays that are awake what the scalar kernel says.
+fn judges_alike(
+    kernel: impl Kernel<Packet = Packet, Filters = Filters>,
+    block: &Block,
+    lines: &[Line],
+    awake: u32,
+    far: f32,
+    rounded: bool,
+) -> Result<(), TestCaseError> {
+    let mut tree = Bvh::assembled(Frame::around(&Aabb::EMPTY), vec![0, 1]);
+    let mut node = Node8::EMPTY;
+    node.set(0, [-1.0; 3], [1.0; 3], ChildRef::node(1));
+    tree.set_nodes(vec![node]);
+    tree.rounded = rounded;
+    let Some(packet) = as_packet(kernel, &tree, lines) else { return Ok(()) };
+    let t_far = kernel.ends(&packet).map(|end| end.min(far));
+    let filters = kernel.filters(&tree, &packet);
+    let mut verdicts = [Verdict::NOTHING; PACKET];
+    let alive = kernel.judge_together(block, &filters, awake, &t_far, &mut verdicts);
+    for ray in 0..PACKET {
+        let filter = Filter::of_exact(&kernel.way(&tree, &packet, ray), rounded);
+        let alone = Scalar::<true>.judge(block, &filter, t_far[ray]);
+        let is_alive = awake >> ray & 1 != 0 && alone.alive != 0;
+        prop_assert_eq!(alive >> ray & 1 != 0, is_alive);
+        if is_alive {
+            same_verdict(&alone, &verdicts[ray])?;
+        }
+    }
+    Ok(())
+}
+
+/// Some triangles as a block.
+fn block(corners: &[[[f32; 3]; 3]]) -> Block {
+    let triangle = |v: &[[f32; 3]; 3]| v.map(|p| Point3::from(p.map(f64::from)));
+    Block::new(Frame::around(&Aabb::EMPTY), (0..).zip(corners.iter().map(triangle))).0
+}
+
+fn corners() -> impl Strategy<Value = Vec<[[f32; 3]; 3]>> {
+    prop::collection::vec(prop::array::uniform3(prop::array::uniform3(coordinate())), 1..=8)
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(4000))]
 
@@ -74,86 +220,60 @@ proptest! {
         let Some(ray) = CullRay::new(&line, frame, &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
         let ray = CullRay { way: Way { t_near, ..ray.way }, ..ray };
         let t_far = t_far.min(ray.way.t_far);
-        let (mut a, mut b) = (Stack::new(), Stack::new());
         let lanes = avx2.lanes(&ray);
-        let scalar = Scalar::<true>.descend::<true>(&node, &ray, t_far, &mut a);
-        prop_assert_eq!(scalar, avx2.descend::<true>(&node, &lanes, t_far, &mut b));
-        prop_assert_eq!(a.drain(), b.drain());
-        a.clear();
-        b.clear();
-        let scalar = Scalar::<true>.descend::<false>(&node, &ray, t_far, &mut a);
-        prop_assert_eq!(scalar, avx2.descend::<false>(&node, &lanes, t_far, &mut b));
-        prop_assert_eq!(a.drain(), b.drain());
+        stacks_alike(avx2, &lanes, &node, &ray, t_far)?;
+        if let Some(avx512) = Isa::available().find_map(Avx512::of) {
+            stacks_alike(avx512, &lanes, &node, &ray, t_far)?;
+        }
     }
 
     #[test]
     fn all_kernels_judge_triangles_alike(
-        corners in prop::collection::vec(prop::array::uniform3(prop::array::uniform3(coordinate())), 1..=8),
-        o in prop::array::uniform3(coordinate()), d in direction(), far in 0.0..3.0_f32, rounded in any::<bool>(),
+        corners in corners(), o in prop::array::uniform3(coordinate()), d in direction(), far in 0.0..3.0_f32, rounded in any::<bool>(),
         t_near in prop_oneof![Just(0.0_f32), -3.0..3.0_f32], is_exact in any::<bool>(),
     ) {
         let Some(avx2) = Isa::available().find_map(Avx2::of) else { return Ok(()) };
-        let frame = Frame::around(&Aabb::EMPTY);
-        let triangle = |v: &[[f32; 3]; 3]| v.map(|p| Point3::from(p.map(f64::from)));
-        let (block, _) = Block::new(frame, (0..).zip(corners.iter().map(triangle)));
+        let block = block(&corners);
         let line = line(o.map(f64::from), d);
+        let frame = Frame::around(&Aabb::EMPTY);
         let Some(ray) = CullRay::new(&line, frame, &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
         let way = Way { t_near, is_exact, ..ray.way };
         let filter = Filter::new(&line, &way, rounded);
         let one = Scalar::<true>.judge(&block, &filter, far);
-        let eight = avx2.judge(&block, &filter, far);
-        prop_assert_eq!((one.alive, one.sure), (eight.alive, eight.sure));
-        for lane in (0..8).filter(|lane| one.alive >> lane & 1 != 0) {
-            prop_assert_eq!(one.lo[lane].to_bits(), eight.lo[lane].to_bits());
-            prop_assert_eq!(one.hi[lane].to_bits(), eight.hi[lane].to_bits());
+        same_verdict(&one, &avx2.judge(&block, &filter, far))?;
+        if let Some(avx512) = Isa::available().find_map(Avx512::of) {
+            same_verdict(&one, &avx512.judge(&block, &filter, far))?;
         }
     }
 
     #[test]
     fn rays_that_go_together_enter_what_each_enters_alone(
         node in node(), o in prop::array::uniform3(coordinate()), far in 0..3_i32, d in direction(),
-        aside in prop::collection::vec((prop::array::uniform3(0.0..0.06_f64), any::<bool>()), PACKET),
-        bent in prop::collection::vec((prop::array::uniform3(0.0..0.06_f64), any::<bool>()), PACKET),
-        t_max in prop::collection::vec(prop_oneof![Just(f64::INFINITY), 0.0..4.0_f64], PACKET),
+        aside in moved(), bent in moved(), t_max in ends(),
     ) {
-        let Some(avx2) = Isa::available().find_map(Avx2::of) else { return Ok(()) };
-        let mut tree = Bvh::assembled(Frame::around(&Aabb::EMPTY), vec![0, 1]);
-        tree.set_nodes(vec![node]);
-        let lines: Vec<Line> = (0..PACKET).map(|i| {
-            let moved = |by: &([f64; 3], bool), i: usize| if by.1 { by.0[i] } else { 0.0 };
-            let origin = [0, 1, 2].map(|k| f64::from(o[k]) * [1.0, 2.0, 3.5][far as usize] + moved(&aside[i], k));
-            let d = [0, 1, 2].map(|k| d[k] + moved(&bent[i], k).copysign(d[k]));
-            let d = Vec3::from(d);
-            let d = d.scale2(-exponent(d.max_abs()));
-            Line { t_max: t_max[i], inner: (0.0, t_max[i]), ..line(origin, d.to_array()) }
-        }).collect();
-        let glances: [Glance; PACKET] = core::array::from_fn(|i| lines[i].glance());
-        let packet = Glances::of(&glances).and_then(|glances| avx2.gather(&tree, &glances));
-        let Some(packet) = packet else { return Ok(()) };
-        let ends = avx2.ends(&packet);
-        let far = ends.iter().copied().fold(f32::NEG_INFINITY, f32::max);
-        let mut rows = Rows::new();
-        avx2.descend_together::<true>(&node, &packet, &[f32::NEG_INFINITY; PACKET], (&ends, far), &mut rows);
-        let rows = rows.drain();
-        for (i, line) in lines.iter().enumerate() {
-            let Some((lanes, way)) = avx2.ready(&tree, line) else { return Err(TestCaseError::fail("it is nearby")) };
-            let mut stack = Stack::new();
-            let last = avx2.descend::<true>(&node, &lanes, way.t_far, &mut stack);
-            let mut alone: Vec<u32> = stack.drain().into_iter().map(|(child, _)| child).collect();
-            alone.push(last.0);
-            alone.reverse();
-            let mut among: Vec<u32> = rows.iter().filter(|(_, near)| !near[i].is_nan()).map(|&(child, _)| child).collect();
-            among.push(ChildRef::END.0);
-            prop_assert_eq!(&alone, &among);
-            let (again, same) = avx2.one(&tree, &packet, i);
-            let mut stack = Stack::new();
-            avx2.descend::<true>(&node, &again, same.t_far, &mut stack);
-            let mut waiting: Vec<(u32, u32)> = rows.iter().filter(|(_, near)| !near[i].is_nan()).map(|&(child, near)| (child, near[i].to_bits())).collect();
-            waiting.reverse();
-            waiting.pop();
-            let mut stacked = stack.drain();
-            stacked.retain(|&(child, _)| child != ChildRef::END.0);
-            prop_assert_eq!(stacked, waiting);
+        let o = o.map(|x| f64::from(x) * [1.0, 2.0, 3.5][far as usize]);
+        let lines = neighbours(o, d, &aside, &bent, &t_max);
+        if let Some(avx2) = Isa::available().find_map(Avx2::of) {
+            enters_alike(avx2, node, &lines)?;
+        }
+        if let Some(avx512) = Isa::available().find_map(Avx512::of) {
+            enters_alike(avx512, node, &lines)?;
+        }
+    }
+
+    #[test]
+    fn rays_that_go_together_judge_triangles_as_each_does_alone(
+        corners in corners(), o in prop::array::uniform3(coordinate()), far in 0..3_i32, d in direction(),
+        aside in moved(), bent in moved(), t_max in ends(), awake in 0..256_u32, limit in 0.0..4.0_f32, rounded in any::<bool>(),
+    ) {
+        let block = block(&corners);
+        let o = o.map(|x| f64::from(x) * [1.0, 2.0, 3.5][far as usize]);
+        let lines = neighbours(o, d, &aside, &bent, &t_max);
+        if let Some(avx2) = Isa::available().find_map(Avx2::of) {
+            judges_alike(avx2, &block, &lines, awake, limit, rounded)?;
+        }
+        if let Some(avx512) = Isa::available().find_map(Avx512::of) {
+            judges_alike(avx512, &block, &lines, awake, limit, rounded)?;
         }
     }
 }
