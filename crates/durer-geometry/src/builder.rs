@@ -169,6 +169,36 @@ impl Builder {
         self.limits = limits;
     }
 
+    /// What a geometry holds: nothing is to be added, as types are not looked up any more.
+    pub(crate) fn again(
+        arenas: Vec<Box<dyn Arrange>>,
+        instances: Vec<Instance>,
+        next_object: u32,
+        settings: Option<Settings>,
+        isa: Isa,
+    ) -> Self {
+        Self {
+            arenas,
+            instances,
+            next_object,
+            without_tree: settings.is_none(),
+            settings: settings.unwrap_or_default(),
+            isa: Some(isa),
+            ..Self::default()
+        }
+    }
+
+    /// Puts other surfaces in the place of those of type `S`, where there is one for an object, a primitive and the surface as it is.
+    pub(crate) fn replace<S: Surface + 'static>(
+        &mut self,
+        mut moved: impl FnMut(ObjectId, u32, &S) -> Option<S>,
+    ) {
+        let arenas = self.arenas.iter_mut();
+        if let Some(arena) = arenas.filter_map(|arena| arena.as_any().downcast_mut::<Arena<S>>()).next() {
+            arena.renew(|Id { object, primitive }, surface| moved(ObjectId(object), primitive, surface));
+        }
+    }
+
     /// Builds the geometry; the builder is empty afterwards.
     ///
     /// The result does not depend on the number of threads.
@@ -251,6 +281,7 @@ impl Builder {
             beside,
             solids_in_parts,
             bounds,
+            (!builder.without_tree).then_some(builder.settings),
             builder.next_object,
             placements,
         ))

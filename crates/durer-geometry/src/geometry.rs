@@ -6,7 +6,7 @@ use crate::outlines::Outlines;
 use crate::{Builder, stats};
 use core::ops::Range;
 use core::sync::atomic::{AtomicU64, Ordering};
-use durer_bvh::{Bvh, Leaf};
+use durer_bvh::{Bvh, Leaf, Settings};
 use durer_math::{Aabb, Affine, Isa};
 use std::sync::{Arc, OnceLock};
 
@@ -27,6 +27,8 @@ pub struct Geometry {
     pub(crate) beside: Vec<Beside>,
     pub(crate) solids_in_parts: Vec<SolidInParts>,
     pub(crate) bounds: Aabb,
+    /// How the tree is built, if there is to be one.
+    settings: Option<Settings>,
     objects: u32,
     placements: u32,
     depth: u32,
@@ -110,6 +112,7 @@ impl Geometry {
         beside: Vec<Beside>,
         solids_in_parts: Vec<SolidInParts>,
         bounds: Aabb,
+        settings: Option<Settings>,
         objects: u32,
         placements: u32,
     ) -> Self {
@@ -124,12 +127,19 @@ impl Geometry {
             beside,
             solids_in_parts,
             bounds,
+            settings,
             objects,
             placements,
             depth,
             invalid,
             outlines: OnceLock::new(),
         }
+    }
+
+    /// A builder that holds what the geometry does.
+    pub(crate) fn reopened(self) -> Builder {
+        let arenas = self.arenas.into_iter().map(AnyArena::reopen).collect();
+        Builder::again(arenas, self.instances, self.objects, self.settings, self.isa)
     }
 
     /// A box that holds everything; unbounded if something in it is, empty if nothing is in it.

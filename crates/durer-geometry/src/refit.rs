@@ -1,10 +1,10 @@
 //! Surfaces that move, in the geometry that they are in.
 
-use crate::ObjectId;
 use crate::arena::Arena;
 use crate::geometry::{Geometry, solids_in_parts};
 use crate::ids::Id;
 use crate::outlines::Outlines;
+use crate::{BuildError, ObjectId};
 use durer_bvh::CornersOf;
 use durer_math::Aabb;
 use durer_surfaces::Surface;
@@ -37,7 +37,7 @@ impl Geometry {
     /// Puts other surfaces in the place of those of type `S`, where `moved` gives one for an object, a primitive and the surface as it is.
     ///
     /// The tree keeps its nodes and gets new boxes, in a fraction of the time that it takes to build one. Answers are those of a geometry that is
-    /// built anew. Rays take as long as before while neighbours stay neighbours; when the tree's cost in [`Geometry::stats`] has grown by half, it pays to build anew.
+    /// built anew. Rays take as long as before while neighbours stay neighbours; when the tree's cost in [`Geometry::stats`] has grown by half, it pays to [build anew](Geometry::rebuild).
     ///
     /// ```
     /// use durer_geometry::Geometry;
@@ -72,6 +72,35 @@ impl Geometry {
             arena.swap(&mut old);
         }
         refitted
+    }
+
+    /// The same with a tree that is built anew: as good as the first one, wherever things have moved, and with surfaces that have other parts or bounds.
+    ///
+    /// Of what is left alone nothing is made again but the order. Answers are those of a geometry that is built anew.
+    ///
+    /// ```
+    /// use durer_geometry::Geometry;
+    /// use durer_math::{Point3, Ray, Vec3};
+    /// use durer_surfaces::Sphere;
+    ///
+    /// let scene = Geometry::builder().add(Sphere::new(Point3::ORIGIN, 1.0)?).build()?;
+    /// let higher = Sphere::new(Point3::new(0.0, 0.0, 3.0), 1.0)?;
+    /// let scene = scene.rebuild(|_, _, _: &Sphere| Some(higher))?;
+    /// let hit = scene.closest(&Ray::new(Point3::new(0.0, 0.0, 9.0), -Vec3::Z)).unwrap();
+    /// assert_eq!(hit.t, 5.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// If there are too many parts now.
+    pub fn rebuild<S: Surface + 'static>(
+        self,
+        moved: impl FnMut(ObjectId, u32, &S) -> Option<S>,
+    ) -> Result<Self, BuildError> {
+        let mut builder = self.reopened();
+        builder.replace(moved);
+        builder.build()
     }
 
     /// Renews what depends on where the surfaces of a kind are; if that cannot be, nothing.

@@ -118,3 +118,60 @@ fn what_cannot_be_followed_is_named_and_changes_nothing() {
     assert_eq!(lost, Err(RefitError::Bounds { object: 0, primitive: 0 }));
     assert_same_answers(&geometry, &build(), &rays(&mut dice, 500));
 }
+
+#[test]
+fn what_is_built_again_answers_as_what_is_built_anew() {
+    let mut dice = Dice(34);
+    let small = Arc::new(Geometry::builder().add(Sphere::new(Point3::ORIGIN, 0.7).unwrap()).build().unwrap());
+    let map = Affine::translation(Vec3::new(2.0, 1.0, 0.0)).unwrap();
+    let qualities = [Some(Settings::GOOD), Some(Settings::FAST), Some(Settings::BEST), None];
+    for (settings, sides) in
+        qualities.into_iter().flat_map(|settings| [4, 300].map(|sides| (settings, sides)))
+    {
+        let mut balls: Vec<Sphere> = (0..60).map(|_| ball(&mut dice)).collect();
+        let mut planes = [Plane::new(Vec3::Y, -5.0).unwrap(), Plane::new(Vec3::X, -6.0).unwrap()];
+        let mut mesh = drum(&mut dice, sides, 0.9);
+        let build = |balls: &[Sphere], planes: &[Plane], mesh: &Mesh| {
+            let mut builder = Geometry::builder();
+            match settings {
+                Some(settings) => builder.settings(settings),
+                None => builder.without_tree(),
+            };
+            balls.iter().for_each(|b| {
+                builder.add(*b);
+            });
+            planes.iter().for_each(|p| {
+                builder.add(*p);
+            });
+            builder.add(mesh.clone()).instance(&small, map, u32::MAX);
+            builder.build().unwrap()
+        };
+        let mut geometry = build(&balls, &planes, &mesh);
+        let rays = rays(&mut dice, 600);
+        for round in 0..3 {
+            // Half of the balls, one of them beyond all boxes and back; one plane; and a mesh with more faces, or less.
+            for ball in balls.iter_mut().step_by(2) {
+                *ball = self::ball(&mut dice);
+            }
+            if round == 1 {
+                balls[4] = Sphere::new(Point3::new(1.7e308, 0.0, 0.0), 1e308).unwrap();
+            }
+            planes[1] = Plane::new(Vec3::X, -4.0 - dice.signed()).unwrap();
+            mesh = drum(&mut dice, sides + [40, 3, 0][round], 1.2);
+            let moved =
+                |ObjectId(object), _: u32, _: &Sphere| (object % 2 == 0).then(|| balls[object as usize]);
+            geometry = geometry.rebuild(moved).unwrap();
+            geometry = geometry
+                .rebuild(|ObjectId(object), _, _: &Plane| (object == 61).then_some(planes[1]))
+                .unwrap()
+                .rebuild(|_, _, _: &Mesh| Some(mesh.clone()))
+                .unwrap()
+                // Of this there is nothing.
+                .rebuild(|_, _, _: &Triangle| None)
+                .unwrap();
+            let anew = build(&balls, &planes, &mesh);
+            assert_eq!(geometry.objects(), anew.objects());
+            assert!(assert_same_answers(&geometry, &anew, &rays) > 100);
+        }
+    }
+}

@@ -125,6 +125,8 @@ impl<S: Surface + 'static> Arrange for Arena<S> {
     }
 
     fn arrange(&mut self, mut order: Vec<u32>) {
+        // Of an arena that is arranged anew.
+        self.placed = Vec::new();
         if let Some(parts) = self.parts.take() {
             self.placed = order.iter().map(|&i| parts[i as usize].0).collect();
             return;

@@ -92,6 +92,8 @@ pub(crate) trait AnyArena: Send + Sync {
     fn slot_corners(&self, slot: u32) -> [Point3; 3];
     /// For taking the concrete arena back.
     fn as_any(&mut self) -> &mut dyn core::any::Any;
+    /// As an arena that may be arranged anew.
+    fn reopen(self: Box<Self>) -> Box<dyn Arrange>;
     /// The type's name.
     fn type_name(&self) -> &'static str;
     /// How many slots there are.
@@ -154,6 +156,15 @@ impl<S: Surface + 'static> Arena<S> {
         }
         self.swap(&mut new);
         Ok(new)
+    }
+
+    /// Puts other surfaces in the place of those for which there is one, whatever parts they have.
+    pub(crate) fn renew(&mut self, mut moved: impl FnMut(Id, &S) -> Option<S>) {
+        for (i, surface) in self.surfaces.iter_mut().enumerate() {
+            if let Some(other) = moved(self.ids.name(i), surface) {
+                *surface = other;
+            }
+        }
     }
 
     /// Puts surfaces in their places, and what was there in theirs.
@@ -479,6 +490,10 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
     }
 
     fn as_any(&mut self) -> &mut dyn core::any::Any {
+        self
+    }
+
+    fn reopen(self: Box<Self>) -> Box<dyn Arrange> {
         self
     }
 

@@ -246,6 +246,10 @@ impl AnyArena for Compounds {
         self
     }
 
+    fn reopen(self: Box<Self>) -> Box<dyn Arrange> {
+        self
+    }
+
     fn type_name(&self) -> &'static str {
         core::any::type_name::<Compound>()
     }
