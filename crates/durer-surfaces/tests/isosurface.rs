@@ -389,6 +389,136 @@ fn jumps_are_walls_and_undefined_is_nothing() {
     assert!(roots.len() == 2 && (roots[1].t - 3.1).abs() < 1e-14, "{roots:?}");
 }
 
+/// `x` without its whole part, from 0 to 1, by each of the steps that can say it; and `|x|` by a choice.
+fn parts(p: &mut Pen, x: NodeId) -> Vec<NodeId> {
+    let one = p.c(1.0);
+    let floor = p.op(Op::Function(Function::Floor, x));
+    let ceil = p.op(Op::Function(Function::Ceil, x));
+    let (down, up) = (p.sub(x, floor), p.sub(x, ceil));
+    // Above zero only.
+    let far = p.c(100.0);
+    let positive = p.add(x, far);
+    let rest = p.op(Op::Rem(positive, one));
+    vec![down, p.add(up, one), rest]
+}
+
+/// A saw `|frac(x) - 1/2| - y` does not jump where `frac` does: a line meets its teeth and nothing else.
+#[test]
+fn what_jumps_to_and_fro_is_no_wall() {
+    for which in 0..3 {
+        let (mut p, [x, y, _]) = Pen::new();
+        let part = parts(&mut p, x)[which];
+        let half = p.c(0.5);
+        let tooth = p.sub(part, half);
+        let tooth = p.op(Op::Abs(tooth));
+        let f = p.sub(tooth, y);
+        let saw = iso(&p.done(f), 3.0);
+        for y in [0.25, 0.125, 0.4375] {
+            for (z, slope) in [(0.0, 0.0), (0.1, 1e-3), (0.7, 0.03)] {
+                let ray = Ray::new(Point3::new(-4.0, y, z), Vec3::new(1.0, 0.0, slope));
+                let found = all(&saw, &ray);
+                let teeth: Vec<&Root> = found.iter().filter(|root| root.face == 0).collect();
+                // |frac - 1/2| = y at n + 1/2 - y and n + 1/2 + y, n from -3 to 2.
+                let expected = (-3..3).flat_map(|n| [0.5 - y, 0.5 + y].map(|at| f64::from(n) + at + 4.0));
+                assert_eq!(teeth.len(), 12, "{which} {y} {slope}: {teeth:?}");
+                for (root, t) in teeth.iter().zip(expected) {
+                    let held = root.lo <= t && t <= root.hi;
+                    assert!(held && root.kind == Kind::Simple, "{which} {y} {slope}: {root:?}, expected {t}");
+                }
+            }
+        }
+    }
+}
+
+/// An angle jumps behind the axis, and so do its whole turns: a gear of seven teeth, `r + cos(7 (a - 2 pi floor(a / 2 pi))) / 8 = 1`, is round there. Rays through
+/// its axis meet it twice.
+#[test]
+fn angles_that_begin_anew_are_no_walls() {
+    let (mut p, [x, y, _]) = Pen::new();
+    let angle = p.op(Op::Atan2(y, x));
+    let turn = p.c(std::f64::consts::TAU);
+    let turns = p.op(Op::Div(angle, turn));
+    let whole = p.op(Op::Function(Function::Floor, turns));
+    let whole = p.mul(whole, turn);
+    let part = p.sub(angle, whole);
+    let seven = p.c(7.0);
+    let part = p.mul(part, seven);
+    let wave = p.op(Op::Function(Function::Cos, part));
+    let eighth = p.c(0.125);
+    let wave = p.mul(wave, eighth);
+    let square = p.squares(&[x, y]);
+    let r = p.op(Op::Sqrt(square));
+    let sum = p.add(r, wave);
+    let one = p.c(1.0);
+    let f = p.sub(sum, one);
+    let gear = iso(&p.done(f), 1.5);
+    // Near the axis, not through it: there is no angle on it. The last ones cross the place where the angle jumps inside and outside of the gear.
+    for (o, d) in [
+        ([3.0, 1e-3, 0.1], [-1.0, 0.0, 0.0]),
+        ([3.0, 0.25, 0.1], [-2.0, 0.0625, 0.0]),
+        ([-0.5, 3.0, 0.1], [0.0, -1.0, 0.0]),
+        ([-1.3, 3.0, 0.1], [0.0, -1.0, 0.0]),
+    ] {
+        let found = all(&gear, &Ray::new(Point3::from(o), Vec3::from(d)));
+        let signs: Vec<i8> = found.iter().map(|root| root.sign).collect();
+        let expected: &[i8] = if o[0] == -1.3 { &[] } else { &[-1, 1] };
+        assert_eq!(signs, expected, "{o:?}: {found:?}");
+        assert!(found.iter().all(|root| root.kind == Kind::Simple), "{o:?}: {found:?}");
+    }
+}
+
+/// What is chosen by a sign: `|x|` as `x < 0 ? -x : x` is nowhere a wall, and three jumps at one place are told apart.
+#[test]
+fn choices_that_meet_are_no_walls() {
+    let (mut p, [x, y, z]) = Pen::new();
+    let pen = &mut p;
+    let size = |pen: &mut Pen, x: NodeId| {
+        let less = pen.op(Op::Neg(x));
+        pen.op(Op::Select([x, less, x, x]))
+    };
+    // A diamond, |x| + |y| + |z| = 1.
+    let sizes = [x, y, z].map(|x| size(pen, x));
+    let sum = pen.add(sizes[0], sizes[1]);
+    let sum = pen.add(sum, sizes[2]);
+    let one = pen.c(1.0);
+    let f = pen.sub(sum, one);
+    let diamond = iso(&p.done(f), 2.0);
+    for d in [[1.0, 0.0, 0.0], [1.0, 2.0, 0.0], [1.0, -2.0, 4.0], [0.0, 0.0, 1.0]] {
+        let d = Vec3::from(d);
+        let found = all(&diamond, &Ray::new(Point3::ORIGIN - d * 8.0, d));
+        // Through its centre, where all three choices meet; the crossings lie at the corner or edge of a facet, or in it.
+        assert_eq!(found.iter().map(|root| root.sign).collect::<Vec<_>>(), [-1, 1], "{d:?}: {found:?}");
+        let l1 = d.abs().dot(Vec3::new(1.0, 1.0, 1.0));
+        for (root, t) in found.iter().zip([8.0 - 1.0 / l1, 8.0 + 1.0 / l1]) {
+            // t is rounded twice.
+            let held = root.lo.next_down() <= t.next_up() && t.next_down() <= root.hi.next_up();
+            assert!(held, "{d:?}: {root:?}, expected {t}");
+        }
+    }
+}
+
+/// Two choices by one sign: `a b = 2` on both sides, and -2 between them only where zero belongs to different sides.
+#[test]
+fn choices_by_one_sign_go_together() {
+    for apart in [false, true] {
+        let (mut p, [x, ..]) = Pen::new();
+        let [low, high] = [-1.0, 1.0].map(|c| p.c(c));
+        let [lower, higher] = [-2.0, 2.0].map(|c| p.c(c));
+        let a = p.op(Op::Select([x, low, if apart { low } else { high }, high]));
+        let b = p.op(Op::Select([x, lower, higher, higher]));
+        let product = p.mul(a, b);
+        let f = p.sub(product, high);
+        let surface = iso(&p.done(f), 1.0);
+        let found = all(&surface, &Ray::new(Point3::new(-3.0, 0.25, 0.1), Vec3::X));
+        if apart {
+            assert!(matches!(found[..], [Root { kind: Kind::Cluster, sign: 0, .. }]), "{found:?}");
+            assert!(found[0].lo <= 3.0 && 3.0 <= found[0].hi, "{found:?}");
+        } else {
+            assert!(found.is_empty(), "{found:?}");
+        }
+    }
+}
+
 #[test]
 fn cells_shorten_tapes() {
     // The union of nine balls: in most cells one or two are left.

@@ -150,6 +150,7 @@ fn bounds_hold(steps: &Steps, formula: &Formula, tape: &Tape, boxes: &[I8; 3]) {
     let (v, shorter) = tape.shortened(boxes, |_, _| true);
     for lane in 0..8 {
         let range = v.lane(lane);
+        let beside = tape.sign_beside_jumps(&boxes.each_ref().map(|x| I8::splat(x.lane(lane))));
         for k in [[0.0; 3], [1.0; 3], [0.5; 3], [0.0, 1.0, 0.3], [0.9, 0.1, 0.6]] {
             let p = point(boxes, lane, k);
             let value = tape.value(p);
@@ -159,6 +160,11 @@ fn bounds_hold(steps: &Steps, formula: &Formula, tape: &Tape, boxes: &[I8; 3]) {
                 assert!(told || steps.overflow(p), "{formula:?} is undefined at {p:?}, {v:?}");
             } else if value.is_finite() {
                 assert!(range.contains(value), "{formula:?} at {p:?} is {value}, lane {lane} of {v:?}");
+                let agrees = beside.is_none_or(|above| if above { value > 0.0 } else { value < 0.0 });
+                assert!(
+                    agrees,
+                    "{formula:?} at {p:?} is {value}, beside jumps {beside:?}, lane {lane} of {v:?}"
+                );
                 if let Some(shorter) = &shorter[lane] {
                     let short = shorter.value(p);
                     let here =

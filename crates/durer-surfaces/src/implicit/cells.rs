@@ -157,6 +157,9 @@ impl Cells {
         let whole = self.tapes[tape as usize].clone();
         let (v, shorter) = whole.shortened(&boxes, is_open);
         let told: [Option<Cell>; 8] = core::array::from_fn(|i| match () {
+            () if is_open(i, &v) && v.jump >> i & 1 == 1 => {
+                whole.sign_beside_jumps(&boxes.each_ref().map(|x| I8::splat(x.lane(i)))).map(Cell::Sign)
+            }
             () if is_open(i, &v) => None,
             () if v.partial >> i & 1 == 1 => Some(Cell::Gap),
             () => Some(Cell::Sign(v.lo.0[i] > 0.0)),

@@ -46,6 +46,12 @@ pub(super) fn isolate(
             *verdict = Some(Verdict::Monotone(false));
         }
     }
+    for (i, verdict) in verdict.iter_mut().enumerate() {
+        if verdict.is_none() && g.v.jump >> i & 1 == 1 {
+            *verdict = line.sign_beside_jumps(tape, a[i], b[i]).map(Verdict::Sign);
+            *passes += 1;
+        }
+    }
     if verdict.iter().any(Option::is_none) {
         let middle: [f64; 8] = core::array::from_fn(|i| 0.5 * a[i] + 0.5 * b[i]);
         let m = line.bounds(tape, &middle, &middle);

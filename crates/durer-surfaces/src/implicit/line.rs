@@ -109,9 +109,14 @@ impl Line {
         tape.slopes(&[0, 1, 2].map(|i| Dual { v: v[i], d: d[i] }))
     }
 
+    /// The one sign of `g` from `a` to `b`, if it is certain beside what jumps there.
+    pub(super) fn sign_beside_jumps(&self, tape: &Tape, a: f64, b: f64) -> Option<bool> {
+        tape.sign_beside_jumps(&self.boxes(&[a; 8], &[b; 8]))
+    }
+
     /// The one sign of `g` from `a` to `b`, if it is certain.
     pub(super) fn sign_on(&self, tape: &Tape, a: f64, b: f64) -> Option<bool> {
-        signs(&self.bounds(tape, &[a; 8], &[b; 8]))[0]
+        Curve::signs(self, tape, &[a; 8], &[b; 8])[0]
     }
 }
 
@@ -131,7 +136,16 @@ impl Curve for Line {
     }
 
     fn signs(&self, tape: &Tape, a: &[f64; 8], b: &[f64; 8]) -> [Option<bool>; 8] {
-        signs(&self.bounds(tape, a, b))
+        let v = self.bounds(tape, a, b);
+        let mut told = signs(&v);
+        if v.jump != 0 {
+            for (i, told) in told.iter_mut().enumerate() {
+                if told.is_none() && v.jump >> i & 1 == 1 {
+                    *told = self.sign_beside_jumps(tape, a[i], b[i]);
+                }
+            }
+        }
+        told
     }
 
     fn is_plain(&self, tape: &Tape, s: f64) -> bool {

@@ -25,6 +25,29 @@ impl Sink for Caps {
     }
 }
 
+/// Passes on what lies in the container: within rounding a root may seem to be beyond the container's own crossing, and is moved to it. The bracket is widened
+/// where that leaves it. Nothing depends on what was shown before, so that a root is the same whatever the range is.
+struct Held<'s> {
+    sink: &'s mut dyn Sink,
+    from: f64,
+    to: f64,
+}
+
+impl Sink for Held<'_> {
+    fn range(&self) -> (f64, f64) {
+        self.sink.range()
+    }
+
+    fn limit(&self) -> f64 {
+        self.sink.limit()
+    }
+
+    fn push(&mut self, root: Root) -> Flow {
+        let t = root.t.max(self.from).min(self.to);
+        self.sink.push(Root { t, lo: root.lo.min(t), hi: root.hi.max(t), ..root })
+    }
+}
+
 impl Isosurface {
     /// Shows all roots to `sink`, ascending.
     pub(super) fn all_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
@@ -92,7 +115,8 @@ impl Isosurface {
         let (in_lo, in_hi) = at.window((entry.lo, entry.hi));
         let (out_lo, out_hi) = at.window((exit.lo, exit.hi));
         let line = Line::new(&at, in_lo.abs().max(out_hi.abs()));
-        let mut query = Query { surface: self, ray, at: &at, line: &line, sink };
+        let mut held = Held { sink, from: entry.t, to: exit.t };
+        let mut query = Query { surface: self, ray, at: &at, line: &line, sink: &mut held };
         query.run(&[(*entry, in_lo, in_hi), (*exit, out_lo, out_hi)]);
     }
 }

@@ -58,6 +58,12 @@ pub(super) fn simpler(op: Op, at: impl Fn(NodeId) -> Op) -> Simpler {
             Op::Abs(_) | Op::Sqr(_) | Op::Sqrt(_) => Simpler::Same(a),
             _ => Simpler::Op(op),
         },
+        Op::Select([c, below, at, above]) => match constant(c) {
+            Some(Interval { hi, .. }) if hi < 0.0 => Simpler::Same(below),
+            Some(Interval { lo, .. }) if lo > 0.0 => Simpler::Same(above),
+            Some(Interval { lo, hi }) if (lo, hi) == (0.0, 0.0) => Simpler::Same(at),
+            _ => Simpler::Op(op),
+        },
         Op::Powi(a, 1) => Simpler::Same(a),
         Op::Powi(a, 2) => simpler(Op::Sqr(a), at),
         Op::Pow(a, b) => match constant(b) {
@@ -75,7 +81,7 @@ pub(super) fn simpler(op: Op, at: impl Fn(NodeId) -> Op) -> Simpler {
 fn folded(op: &Op, constant: &impl Fn(NodeId) -> Option<Interval>) -> Option<Interval> {
     let sure = |(x, d): Range| (d == Defined::Continuous).then_some(x);
     let value = match *op {
-        Op::Input(_) | Op::Constant(_) | Op::Settled(_) => return None,
+        Op::Input(_) | Op::Constant(_) | Op::Settled(_) | Op::Select(_) => return None,
         Op::Neg(a) => -constant(a)?,
         Op::Abs(a) => constant(a)?.abs(),
         Op::Sqr(a) => constant(a)?.square(),
@@ -110,15 +116,6 @@ fn folded(op: &Op, constant: &impl Fn(NodeId) -> Option<Interval>) -> Option<Int
                 return None;
             }
             exactly(f64::from(u8::from(Comparison::holds(c, a.lo, b.lo))))
-        }
-        Op::Select([c, below, at, above]) => {
-            let c = constant(c)?;
-            match (c.lo, c.hi) {
-                (_, hi) if hi < 0.0 => constant(below)?,
-                (lo, _) if lo > 0.0 => constant(above)?,
-                (0.0, 0.0) => constant(at)?,
-                _ => return None,
-            }
         }
     };
     (value.lo.is_finite() && value.hi.is_finite()).then_some(value)

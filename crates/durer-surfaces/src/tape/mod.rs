@@ -8,6 +8,7 @@
 
 mod fold;
 mod formula;
+mod jumps;
 mod program;
 
 pub use formula::{Builder, Formula, FormulaError, MOST_STEPS, NodeId, Op};

@@ -2,6 +2,7 @@
 
 use super::fold;
 use super::formula::{Formula, NodeId, Op, live};
+use super::jumps;
 use durer_math::{Dual, F8, Gradient, I8, Interval, Isa, Number, Point3};
 use std::cell::Cell;
 use std::sync::Arc;
@@ -45,10 +46,27 @@ fn with_memory<T: Copy, R>(
 /// Walks along the steps. The result is the last one's.
 #[inline(always)]
 fn run<T: Number>(ops: &[Op], inputs: &[T], registers: &mut [T]) -> T {
+    run_with(
+        ops,
+        inputs,
+        registers,
+        #[inline(always)]
+        |_, _, value| value,
+    )
+}
+
+/// The same, with what `amended` makes of each step, those before it, and its value.
+#[inline(always)]
+pub(super) fn run_with<T: Number>(
+    ops: &[Op],
+    inputs: &[T],
+    registers: &mut [T],
+    mut amended: impl FnMut(&Op, &[T], T) -> T,
+) -> T {
     for (i, op) in ops.iter().enumerate() {
         let (before, rest) = registers.split_at_mut(i);
         let at = |id: NodeId| &before[id.0 as usize];
-        rest[0] = match *op {
+        let value = match *op {
             Op::Input(i) => inputs[i as usize],
             Op::Constant(c) => T::constant(c),
             Op::Neg(a) => T::neg(at(a)),
@@ -73,6 +91,7 @@ fn run<T: Number>(ops: &[Op], inputs: &[T], registers: &mut [T]) -> T {
                 None => *at(a),
             },
         };
+        rest[0] = amended(op, before, value);
     }
     registers[ops.len() - 1]
 }
@@ -154,6 +173,16 @@ impl Tape {
             #[inline(always)]
             || run(&self.ops, x, registers),
         )
+    }
+
+    /// The one sign on a box, which is the same in all lanes, if it is certain on either side of what jumps there: positive is `true`.
+    pub fn sign_beside_jumps(&self, x: &[I8; 3]) -> Option<bool> {
+        with_memory(&BOXES, self.ops.len(), zero(), |registers| {
+            Isa::detect().run_in_lanes(
+                #[inline(always)]
+                || jumps::sign_beside(&self.ops, x, registers),
+            )
+        })
     }
 
     /// Bounds of the values on eight boxes and of the slopes along what the inputs' derivatives say.

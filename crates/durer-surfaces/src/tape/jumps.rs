@@ -1,0 +1,168 @@
+//! The sign of a formula on both sides of a jump.
+//!
+//! ```text
+//!   floor(x) on [k - h, k + h] is k - 1 or k, and nothing between
+//! ```
+//!
+//! Bounds of a step that jumps hold all between its sides, and so may bounds of the formula, however small the box is: `|x - floor(x) - 1/2|` is 1/2 at a whole number, from
+//! both sides, and bounds say 0 to 1/2. So each of the first three choices on a box halves the eight lanes: one half takes one side, the other one the other, and steps that
+//! ask for the same sign take the same side. At each point of the box every step is
+//! on one of its sides, so some lane's bounds hold its value there (by induction over the steps); the formula has a sign on the box if it has it in all lanes.
+
+use super::formula::{NodeId, Op};
+use super::program::run_with;
+use arrayvec::ArrayVec;
+use durer_math::{Function, I8, Interval, Number};
+
+/// Sides of so many choices are told apart: lanes are eight.
+const MOST_JUMPS: usize = 3;
+
+/// What decides on which side a step is.
+#[derive(Clone, Copy, PartialEq)]
+enum Choice {
+    /// The sign of this step, for all that take zero to the same side: below, above.
+    Sign(NodeId, [bool; 2]),
+    /// Its own.
+    Own,
+}
+
+impl Choice {
+    fn of(op: &Op) -> Self {
+        match *op {
+            Op::Select([c, below, zero, above]) => Self::Sign(c, [zero == below, zero == above]),
+            _ => Self::Own,
+        }
+    }
+}
+
+/// The one sign on a box, the same in all lanes of `x`, if it is certain beside what jumps.
+#[inline(always)]
+pub(super) fn sign_beside(ops: &[Op], x: &[I8; 3], registers: &mut [I8]) -> Option<bool> {
+    let mut known: ArrayVec<Choice, MOST_JUMPS> = ArrayVec::new();
+    let v = run_with(
+        ops,
+        x,
+        registers,
+        #[inline(always)]
+        |op, before, value| {
+            let choice = Choice::of(op);
+            let bit = known.iter().position(|&it| choice != Choice::Own && it == choice);
+            if bit.is_none() && known.is_full() {
+                return value;
+            }
+            let Some(side) = halved(op, before, &value, bit.unwrap_or(known.len())) else { return value };
+            if bit.is_none() {
+                known.push(choice);
+            }
+            side
+        },
+    );
+    if v.partial != 0 {
+        return None;
+    }
+    if v.lo.0.iter().all(|&lo| lo > 0.0) {
+        Some(true)
+    } else if v.hi.0.iter().all(|&hi| hi < 0.0) {
+        Some(false)
+    } else {
+        None
+    }
+}
+
+/// One side of a step in the lanes whose number has this bit, the other side in the others; `None` where it has no two sides.
+#[inline(never)]
+fn halved(op: &Op, before: &[I8], value: &I8, bit: usize) -> Option<I8> {
+    let upper = |lane: usize| lane >> bit & 1 == 1;
+    match *op {
+        Op::Function(Function::Floor | Function::Ceil | Function::Trunc, _) | Op::Compare(..) => {
+            one_of_two(value, upper)
+        }
+        // What whole numbers of b leave of a: a - b trunc(a/b).
+        Op::Rem(a, b) => {
+            let (a, b) = (&before[a.0 as usize], &before[b.0 as usize]);
+            let whole = I8::function(Function::Trunc, &I8::div(a, b));
+            let left = I8::sub(a, &I8::mul(b, &one_of_two(&whole, upper)?));
+            let mut out = *value;
+            for lane in (0..8).filter(|&lane| whole.partial >> lane & 1 == 0) {
+                let (told, held) = (left.lane(lane), value.lane(lane));
+                let (lo, hi) = (told.lo.max(held.lo), told.hi.min(held.hi));
+                // A side that is not there: anything is right of it.
+                if lo <= hi {
+                    (out.lo.0[lane], out.hi.0[lane]) = (lo, hi);
+                }
+            }
+            Some(out)
+        }
+        // The angle goes from pi to -pi where the point crosses the negative half of the axis.
+        Op::Atan2(y, x) => {
+            let (y, x) = (&before[y.0 as usize], &before[x.0 as usize]);
+            let crosses = |lane: usize| {
+                let known = (y.partial | x.partial) >> lane & 1 == 0;
+                known && x.hi.0[lane] < 0.0 && y.lo.0[lane] < 0.0 && y.hi.0[lane] > 0.0
+            };
+            if !(0..8).any(crosses) {
+                return None;
+            }
+            // The other side is the mirror image.
+            let mut upward = *y;
+            for lane in (0..8).filter(|&lane| crosses(lane)) {
+                let hi = if upper(lane) { y.hi.0[lane] } else { -y.lo.0[lane] };
+                upward.set_lane(lane, Interval { lo: 0.0, hi });
+            }
+            let angle = I8::atan2(&upward, x);
+            let mut out = *value;
+            for lane in (0..8).filter(|&lane| crosses(lane)) {
+                let side = angle.lane(lane);
+                out.set_lane(lane, if upper(lane) { side } else { -side });
+            }
+            Some(out)
+        }
+        Op::Select([c, below, zero, above]) => {
+            let c = &before[c.0 as usize];
+            let mut out = *value;
+            let mut any = false;
+            for lane in 0..8 {
+                let two = c.partial >> lane & 1 == 0 && c.lo.0[lane] < 0.0 && c.hi.0[lane] > 0.0;
+                if !two {
+                    continue;
+                }
+                any = true;
+                let (side, other) = if upper(lane) { (above, below) } else { (below, above) };
+                let mut set = |x: &I8| {
+                    (out.lo.0[lane], out.hi.0[lane]) = (x.lo.0[lane], x.hi.0[lane]);
+                    out.partial = out.partial & !(1 << lane) | x.partial & 1 << lane;
+                    out.empty = out.empty & !(1 << lane) | x.empty & 1 << lane;
+                };
+                let x = &before[side.0 as usize];
+                if zero == side || zero == other {
+                    set(x);
+                } else {
+                    // Either side with what is between.
+                    let zero = &before[zero.0 as usize];
+                    let mut hull = *x;
+                    hull.lo = hull.lo.min(zero.lo);
+                    hull.hi = hull.hi.max(zero.hi);
+                    hull.partial |= zero.partial;
+                    set(&hull);
+                }
+            }
+            any.then_some(out)
+        }
+        _ => None,
+    }
+}
+
+/// The less or the greater of two whole numbers that follow each other, as `upper` says of each lane; `None` where no lane has two.
+fn one_of_two(x: &I8, upper: impl Fn(usize) -> bool) -> Option<I8> {
+    let mut out = *x;
+    let mut any = false;
+    for lane in 0..8 {
+        let (lo, hi) = (x.lo.0[lane], x.hi.0[lane]);
+        if hi - lo == 1.0 {
+            any = true;
+            let side = if upper(lane) { hi } else { lo };
+            (out.lo.0[lane], out.hi.0[lane]) = (side, side);
+        }
+    }
+    any.then_some(out)
+}
