@@ -12,8 +12,8 @@
 //! what balls along a stretch do, and no length has to be guessed. Cubes have `3 |z_n|² ρ' + 3 |z_n| ρ'² + ρ'³`, of which `ρ' = (ρ - e) / (3 (|z_n| + m)²)` is no more than the root for any `m` that is no less than this `ρ'`: for
 //! `(ρ - e) / 3 |z_n|²`, and for the larger one of 1 and `ρ - e`.
 //!
-//! **Near it** balls around the orbits of eight stretches say what they say of the eight stretches of one ray. How near, and how long these are at first, goes with the orbit's derivative; the
-//! factors were found by trying.
+//! **Near it** balls around the orbits of eight stretches say what they say of the eight stretches of one ray. How near, and how long these are at first, goes with the orbit's derivative; behind one that
+//! was passed the next one is as long and half as long again, and nobody asks how far away the solid is until they are long, or lead away from it. The factors were found by trying.
 
 use super::lift::Lift;
 use super::orbit::{Ball, Rule, TINY};
@@ -27,7 +27,9 @@ use std::sync::Arc;
 const NEAR: f64 = 4.0;
 /// ...which start as long as this.
 const STRETCH: f64 = 8.0;
-/// They are never longer.
+/// The next one is so much longer.
+const LONGER: f64 = 1.5;
+/// They are never longer, and after one of half that a point tells how far away the solid is.
 const LONGEST: f64 = 1.0 / 2.0;
 /// An orbit beyond this has left for good, by far.
 const GONE: f64 = pow2(40);
@@ -230,6 +232,14 @@ impl Level for Solid<1, 4> {
         );
         (told.out, told.within) = (M8::from_bits(known.out), M8::from_bits(known.within));
         (told.rises, told.falls) = (M8::from_bits(known.rises), M8::from_bits(known.falls));
+        line.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let way = told.b - told.a;
+                let goes_on = !told.rises & way.lt(F8::splat(0.5 * LONGEST));
+                told.next = goes_on.select(way * LONGER, told.next);
+            },
+        );
     }
 
     fn values(&self, line: &Line8, s: &F8, _lanes: M8, value: &mut Value8) {

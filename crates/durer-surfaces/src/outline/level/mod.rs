@@ -74,8 +74,9 @@ pub(crate) struct Told8 {
     pub(crate) falls: M8,
     /// The sign of `g` at `a`, 1 or -1.
     pub(crate) sign: F8,
-    /// For whoever is asked to remember of each line; infinite at first, and after each stretch that was passed by `rises`, `falls` or a sign on all of it.
+    /// For whoever is asked to remember of each line: infinite at first, and `next` once a stretch is passed, which is infinite if nobody sets it.
     pub(crate) hint: F8,
+    pub(crate) next: F8,
 }
 
 /// `g` at a point of each line.

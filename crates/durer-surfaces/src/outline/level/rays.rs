@@ -74,6 +74,7 @@ impl Default for Memory {
             falls: none,
             sign: z,
             hint: z,
+            next: z,
         };
         Self {
             line: Line8 { isa: Isa::REFERENCE, o: zero, d: zero, e_o: z, e_d: z },
@@ -259,6 +260,7 @@ fn ask(open: M8, (here, last): (F8, F8), step: F8, sign: F8, told: &mut Told8) {
     (told.lanes, told.seen) = (open, M8::NONE);
     (told.a, told.b, told.last, told.sign) = (here, (here + step).min(last), last, sign);
     (told.out, told.within, told.rises, told.falls) = (M8::NONE, M8::NONE, M8::NONE, M8::NONE);
+    told.next = NEVER;
 }
 
 /// Whether `g` goes towards zero somewhere, so that its sign at the end has to be asked for.
@@ -314,7 +316,7 @@ fn go_on(asked: &Question<'_>, reach: f64, nearest: &mut Nearest, memory: &mut M
             let way = told.b - told.a;
             *step = passed.select(step.max(way * LONGER), (seen & !passed).select(way * SHORTER, *step));
             *here = passed.select(told.b, seen.select(told.a, *here));
-            told.hint = passed.select(NEVER, told.hint);
+            told.hint = passed.select(told.next, told.hint);
             let stuck = *open & !crossed & here.lt(*last) & !step.ge(F8::splat(LEAST * reach));
             if stuck.any() {
                 nearest.doubt_from(stuck, here.mul_add(*unit, *t_c) - *e_t);
