@@ -16,6 +16,8 @@ use std::collections::HashMap;
 
 /// No cell is smaller than the container divided by two to this power.
 const DEEPEST: u32 = 6;
+/// A brick of the [`Grid`] has two to this power places along each axis.
+const BRICK: u32 = 2;
 /// So many times larger than the margin is the container.
 const MARGIN: f64 = 1.0 / (1u64 << 28) as f64;
 
@@ -32,8 +34,9 @@ enum Cell {
     Inner(u32),
 }
 
-/// A cell in which there may be surface.
+/// A cell in which there may be surface. None lies across two lines of the cache.
 #[derive(Clone, Debug)]
+#[repr(align(32))]
 struct Leaf {
     /// The number of its tape.
     tape: u32,
@@ -87,17 +90,101 @@ pub(super) struct Cells {
     size: [f64; 3],
     over: [f64; 3],
     margin: f64,
+    /// How far from the origin the container is, at most.
+    reach: f64,
     root: Cell,
     cells: Vec<Cell>,
+    grid: Grid,
     leaves: Vec<Leaf>,
     tapes: Vec<Tape>,
 }
+
+/// The same cells by the numbers of places, so that two looks tell what is at a point, however deep it lies: for each place of a coarse grid a cell, or a brick of places. A cell is a
+/// number with its width: a power of two in the lowest three bits, or all of them set for a brick.
+#[derive(Clone, Debug)]
+struct Grid {
+    coarse: Box<[u32]>,
+    bricks: Vec<[u32; 1 << (3 * BRICK)]>,
+}
+
+/// The number of a place along three axes, of which there are two to this power along each.
+#[inline(always)]
+fn number(at: [u32; 3], power: u32) -> usize {
+    (at[0] | at[1] << power | at[2] << (2 * power)) as usize
+}
+
+impl Grid {
+    const IS_BRICK: u32 = 0b111;
+
+    /// Nothing anywhere.
+    fn new() -> Self {
+        Self { coarse: vec![0; 1 << (3 * (DEEPEST - BRICK))].into(), bricks: Vec::new() }
+    }
+
+    /// Puts down a cell that begins at a place, two to the power of `shift` places wide, and those below it.
+    fn put(&mut self, cells: &[Cell], cell: Cell, at: [u32; 3], shift: u32) {
+        let told = match cell {
+            Cell::Inner(first) => {
+                if shift == BRICK {
+                    let brick = self.bricks.len() as u32;
+                    self.coarse[number(at.map(|x| x >> BRICK), DEEPEST - BRICK)] =
+                        brick << 3 | Self::IS_BRICK;
+                    self.bricks.push([0; 1 << (3 * BRICK)]);
+                }
+                for (half, &cell) in (0_u32..).zip(&cells[first as usize..][..8]) {
+                    let bit = |axis: usize| (half >> axis & 1) << (shift - 1);
+                    self.put(cells, cell, [at[0] + bit(0), at[1] + bit(1), at[2] + bit(2)], shift - 1);
+                }
+                return;
+            }
+            Cell::Gap => shift,
+            Cell::Sign(above) => (1 + u32::from(above)) << 3 | shift,
+            Cell::Leaf(leaf) => (3 + leaf) << 3 | shift,
+        };
+        let wide = shift.saturating_sub(BRICK);
+        let all = 0..1_u32 << (3 * if shift < BRICK { shift } else { wide });
+        for k in all {
+            if shift < BRICK {
+                let axis = |i: usize| at[i] % (1 << BRICK) + (k >> (i as u32 * shift)) % (1 << shift);
+                if let Some(brick) = self.bricks.last_mut() {
+                    brick[number([axis(0), axis(1), axis(2)], BRICK)] = told;
+                }
+            } else {
+                let axis = |i: usize| (at[i] >> BRICK) + (k >> (i as u32 * wide)) % (1 << wide);
+                self.coarse[number([axis(0), axis(1), axis(2)], DEEPEST - BRICK)] = told;
+            }
+        }
+    }
+
+    /// What is at a place, and how wide its cell is, as a power of two.
+    #[inline(always)]
+    fn at(&self, at: [u32; 3]) -> (Told, u32) {
+        let [x, y, z] = at;
+        let mut cell = self.coarse[number([x >> BRICK, y >> BRICK, z >> BRICK], DEEPEST - BRICK)];
+        if cell & Self::IS_BRICK == Self::IS_BRICK {
+            let within = (1 << BRICK) - 1;
+            cell = self.bricks[(cell >> 3) as usize][number([x & within, y & within, z & within], BRICK)];
+        }
+        let told = match cell >> 3 {
+            0 => Told::Gap,
+            1 => Told::Sign(false),
+            2 => Told::Sign(true),
+            leaf => Told::Leaf(leaf - 3),
+        };
+        (told, cell & 0b111)
+    }
+}
+
+/// What was decided about the steps of a tape, and the number of the tape that is left.
+type Decisions = (Box<[u64]>, u32);
 
 /// What is only needed while cells are divided.
 #[derive(Default)]
 struct Known {
     /// The tapes there are, by a number that their steps say, so that cells that ask the same share one.
     tapes: HashMap<u64, Vec<u32>>,
+    /// What became of tapes by their numbers, so that each is made once.
+    shorter: HashMap<u32, Vec<Decisions>>,
     /// Where the leaves are.
     leaves: Vec<Aabb>,
 }
@@ -137,13 +224,16 @@ impl Cells {
             size,
             over: size.map(|x| 1.0 / x),
             margin,
+            reach: extent.reach_from(Point3::ORIGIN),
             root: Cell::Gap,
             cells: Vec::new(),
+            grid: Grid::new(),
             leaves: Vec::new(),
             tapes: vec![tape.clone()],
         };
         let mut known = Known::default();
         made.root = made.divided(&extent, 0, 0, &mut known);
+        made.grid.put(&made.cells, made.root, [0; 3], DEEPEST);
         made.bound_gradients(&known.leaves);
         made
     }
@@ -155,7 +245,19 @@ impl Cells {
         let boxes = grown(&halves, grow);
         let is_open = |i: usize, v: &I8| v.empty >> i & 1 == 0 && v.lo.0[i] <= 0.0 && v.hi.0[i] >= 0.0;
         let whole = self.tapes[tape as usize].clone();
-        let (v, shorter) = whole.shortened(&boxes, is_open);
+        let mut tapes = [tape; 8];
+        let v = whole.decided_on(&boxes, is_open, |i, decided, make| {
+            let same =
+                known.shorter.get(&tape).and_then(|all| all.iter().find(|(words, _)| **words == *decided));
+            tapes[i] = match same {
+                Some(&(_, number)) => number,
+                None => {
+                    let number = make().map_or(tape, |shorter| self.shared(shorter, known));
+                    known.shorter.entry(tape).or_default().push((decided.into(), number));
+                    number
+                }
+            };
+        });
         let told: [Option<Cell>; 8] = core::array::from_fn(|i| match () {
             () if is_open(i, &v) && v.jump >> i & 1 == 1 => {
                 whole.sign_beside_jumps(&boxes.each_ref().map(|x| I8::splat(x.lane(i)))).map(Cell::Sign)
@@ -171,7 +273,6 @@ impl Cells {
         }
         let first = self.cells.len();
         self.cells.extend([Cell::Gap; 8]);
-        let tapes = shorter.map(|shorter| shorter.map_or(tape, |shorter| self.shared(shorter, known)));
         for i in 0..8 {
             self.cells[first + i] = match told[i] {
                 Some(cell) => cell,
@@ -230,6 +331,11 @@ impl Cells {
         })
     }
 
+    /// See the field.
+    pub(super) fn reach(&self) -> f64 {
+        self.reach
+    }
+
     /// How far from a cell its bounds hold.
     pub(super) fn margin(&self) -> f64 {
         self.margin
@@ -242,21 +348,8 @@ impl Cells {
         let most = (1 << DEEPEST) - 1;
         // Saturates at zero; a point that is beyond the container by rounding is in the cell at the border.
         let at = [0, 1, 2].map(|i| (((p[i] - self.extent.min[i]) * self.over[i]) as u32).min(most));
-        let (mut cell, mut shift) = (self.root, DEEPEST);
-        loop {
-            let told = match cell {
-                Cell::Sign(above) => Told::Sign(above),
-                Cell::Gap => Told::Gap,
-                Cell::Leaf(leaf) => Told::Leaf(leaf),
-                Cell::Inner(first) => {
-                    shift -= 1;
-                    let half = (0..3).fold(0, |half, axis| half | (at[axis] >> shift & 1) << axis);
-                    cell = self.cells[(first + half) as usize];
-                    continue;
-                }
-            };
-            return (told, at.map(|k| k >> shift << shift), 1 << shift);
-        }
+        let (told, shift) = self.grid.at(at);
+        (told, at.map(|k| k >> shift << shift), 1 << shift)
     }
 
     /// What is known in the cell of a point, and where a line leaves it, by its origin and one over its direction. Cells at the border end nowhere.

@@ -124,7 +124,7 @@ fn forward(line: &Line8, over: &Vec3<F8>, cells: &Cells, told: &Told8, i: usize)
 
 impl Level for Isosurface {
     fn reach(&self) -> f64 {
-        self.container.bounds().reach_from(durer_math::Point3::ORIGIN)
+        self.divided().reach()
     }
 
     fn ends(&self) -> (Ends, f64) {

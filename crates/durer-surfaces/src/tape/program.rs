@@ -241,6 +241,37 @@ impl Tape {
         })
     }
 
+    /// Bounds on eight boxes, as [`Tape::shortened`]. Of each box that `wanted` names, and on which something is decided, `take` is shown what, as words that say all that a
+    /// shorter tape depends on, and how to make that.
+    pub(crate) fn decided_on(
+        &self,
+        x: &[I8; 3],
+        wanted: impl Fn(usize, &I8) -> bool,
+        mut take: impl FnMut(usize, &[u64], &dyn Fn() -> Option<Self>),
+    ) -> I8 {
+        with_memory(&BOXES, self.ops.len(), zero(), |registers| {
+            let bounds = self.bounds_with(x, registers);
+            let mut words = Vec::new();
+            for lane in (0..8).filter(|&lane| wanted(lane, &bounds)) {
+                words.clear();
+                for (step, op) in (0_u64..).zip(self.ops.iter()).filter(|(_, op)| is_decidable(op)) {
+                    match decided(op, registers, lane) {
+                        Some(Decided::Same(id)) => words.extend([step, u64::from(id.0)]),
+                        Some(Decided::Op(op)) => {
+                            let (tag, a, b, c) = op.key();
+                            words.extend([step, 1 << 32 | u64::from(tag), a, b, c]);
+                        }
+                        None => {}
+                    }
+                }
+                if !words.is_empty() {
+                    take(lane, &words, &|| self.shorter(registers, lane));
+                }
+            }
+            bounds
+        })
+    }
+
     /// The tape with what is decided on one lane's box taken as decided.
     fn shorter(&self, registers: &[I8], lane: usize) -> Option<Self> {
         // Mostly nothing is.
