@@ -13,6 +13,7 @@ use super::line::Line;
 use crate::tape::Tape;
 use durer_math::{Aabb, Dual, F8, I8, Interval, Point3, U};
 use std::collections::HashMap;
+use std::sync::OnceLock;
 
 /// No cell is smaller than the container divided by two to this power.
 const DEEPEST: u32 = 6;
@@ -34,13 +35,13 @@ enum Cell {
     Inner(u32),
 }
 
-/// A cell in which there may be surface. None lies across two lines of the cache.
-#[derive(Clone, Debug)]
-#[repr(align(32))]
+/// A cell in which there may be surface.
+#[derive(Clone, Copy, Debug)]
 struct Leaf {
     /// The number of its tape.
     tape: u32,
-    gradient: Gradient,
+    /// Where it is, in parts of its size.
+    at: [u8; 3],
 }
 
 /// Bounds of the gradient, rounded outward; infinite where there may be none.
@@ -95,8 +96,13 @@ pub(super) struct Cells {
     root: Cell,
     cells: Vec<Cell>,
     grid: Grid,
+    /// Eight with one tape after the other: where there are fewer of them the last one stands in for the rest.
     leaves: Vec<Leaf>,
+    /// Of eight leaves each, when one of them is first asked for.
+    gradients: Box<[OnceLock<[Gradient; 8]>]>,
     tapes: Vec<Tape>,
+    /// How many leaves there are, and the steps of their tapes on average.
+    open: (usize, f64),
 }
 
 /// The same cells by the numbers of places, so that two looks tell what is at a point, however deep it lies: for each place of a coarse grid a cell, or a brick of places. A cell is a
@@ -185,8 +191,6 @@ struct Known {
     tapes: HashMap<u64, Vec<u32>>,
     /// What became of tapes by their numbers, so that each is made once.
     shorter: HashMap<u32, Vec<Decisions>>,
-    /// Where the leaves are.
-    leaves: Vec<Aabb>,
 }
 
 /// What is known in the cell of a point.
@@ -229,17 +233,20 @@ impl Cells {
             cells: Vec::new(),
             grid: Grid::new(),
             leaves: Vec::new(),
+            gradients: Box::default(),
             tapes: vec![tape.clone()],
+            open: (0, 0.0),
         };
-        let mut known = Known::default();
-        made.root = made.divided(&extent, 0, 0, &mut known);
+        made.root = made.divided(&extent, ([0; 3], 0), 0, &mut Known::default());
+        let steps: usize = made.leaves.iter().map(|leaf| made.tapes[leaf.tape as usize].len()).sum();
+        made.open = (made.leaves.len(), steps as f64 / made.leaves.len().max(1) as f64);
+        made.bring_together();
         made.grid.put(&made.cells, made.root, [0; 3], DEEPEST);
-        made.bound_gradients(&known.leaves);
         made
     }
 
-    /// What becomes of a cell in which there may be surface.
-    fn divided(&mut self, bounds: &Aabb, tape: u32, depth: u32, known: &mut Known) -> Cell {
+    /// What becomes of a cell in which there may be surface; `at` is where it is, in parts of its size.
+    fn divided(&mut self, bounds: &Aabb, (at, depth): ([u8; 3], u32), tape: u32, known: &mut Known) -> Cell {
         let halves: [Aabb; 8] = core::array::from_fn(|i| octant(bounds, i));
         let grow = self.margin;
         let boxes = grown(&halves, grow);
@@ -274,32 +281,61 @@ impl Cells {
         let first = self.cells.len();
         self.cells.extend([Cell::Gap; 8]);
         for i in 0..8 {
+            let at = [0, 1, 2].map(|axis| at[axis] << 1 | (i >> axis & 1) as u8);
             self.cells[first + i] = match told[i] {
                 Some(cell) => cell,
                 None if depth + 1 == DEEPEST => {
-                    self.leaves.push(Leaf { tape: tapes[i], gradient: Gradient::UNKNOWN });
-                    known.leaves.push(halves[i]);
+                    self.leaves.push(Leaf { tape: tapes[i], at });
                     Cell::Leaf(self.leaves.len() as u32 - 1)
                 }
-                None => self.divided(&halves[i], tapes[i], depth + 1, known),
+                None => self.divided(&halves[i], (at, depth + 1), tapes[i], known),
             };
         }
         Cell::Inner(first as u32)
     }
 
-    /// Bounds the gradient in each leaf, in eight that share a tape at a time.
-    fn bound_gradients(&mut self, places: &[Aabb]) {
+    /// Brings leaves that share a tape together, in eights.
+    fn bring_together(&mut self) {
         let mut order: Vec<(u32, usize)> = self.leaves.iter().map(|leaf| leaf.tape).zip(0..).collect();
         order.sort_unstable();
+        let (mut together, mut number) = (Vec::with_capacity(order.len()), vec![0; order.len()]);
         for alike in order.chunk_by(|a, b| a.0 == b.0) {
-            for eight in alike.chunks(8) {
-                let cells: [Aabb; 8] = core::array::from_fn(|i| places[eight[i.min(eight.len() - 1)].1]);
-                let told = gradients(&self.tapes[eight[0].0 as usize], &grown(&cells, self.margin));
-                for (&(_, leaf), gradient) in eight.iter().zip(told) {
-                    self.leaves[leaf].gradient = gradient;
-                }
+            for &(_, leaf) in alike {
+                number[leaf] = together.len() as u32;
+                together.push(self.leaves[leaf]);
+            }
+            let last = self.leaves[alike[alike.len() - 1].1];
+            together.resize(together.len().next_multiple_of(8), last);
+        }
+        for cell in &mut self.cells {
+            if let Cell::Leaf(leaf) = cell {
+                *leaf = number[*leaf as usize];
             }
         }
+        self.gradients = (0..together.len() / 8).map(|_| OnceLock::new()).collect();
+        self.leaves = together;
+    }
+
+    /// Bounds of the gradient in a leaf.
+    #[inline(always)]
+    fn gradient(&self, leaf: u32) -> &Gradient {
+        let eight = leaf as usize / 8;
+        &self.gradients[eight].get_or_init(|| self.bounded(eight))[leaf as usize % 8]
+    }
+
+    /// The same in eight leaves.
+    #[cold]
+    fn bounded(&self, eight: usize) -> [Gradient; 8] {
+        let leaves = &self.leaves[8 * eight..][..8];
+        let cells: [Aabb; 8] = core::array::from_fn(|i| self.bounds_of(leaves[i].at));
+        gradients(&self.tapes[leaves[0].tape as usize], &grown(&cells, self.margin))
+    }
+
+    /// The box of a cell of the smallest size, as dividing made it.
+    fn bounds_of(&self, at: [u8; 3]) -> Aabb {
+        (0..DEEPEST).rev().fold(self.extent, |bounds, shift| {
+            octant(&bounds, (0..3).fold(0, |half, axis| half | usize::from(at[axis] >> shift & 1) << axis))
+        })
     }
 
     /// The number of a tape: that of an equal one, if there is one.
@@ -390,9 +426,8 @@ impl Cells {
 
     /// The tape of a leaf, and bounds of the slope along a direction that is known within `e` along each axis.
     pub(super) fn slope(&self, leaf: u32, d: [f64; 3], e: f64) -> (u32, f64, f64) {
-        let Leaf { tape, gradient } = &self.leaves[leaf as usize];
-        let (lo, hi) = gradient.along(d, [e; 3]);
-        (*tape, lo, hi)
+        let (lo, hi) = self.gradient(leaf).along(d, [e; 3]);
+        (self.leaves[leaf as usize].tape, lo, hi)
     }
 
     /// Divides the stretch from `a` to `b` of a line by the cells, in ascending order, without holes, as long as `take` says so.
@@ -424,7 +459,7 @@ impl Cells {
             Cell::Gap => return take(a, b, Place::Gap),
             Cell::Leaf(leaf) => {
                 let tape = self.tape_of(leaf);
-                let place = match self.leaves[leaf as usize].gradient.rises(line) {
+                let place = match self.gradient(leaf).rises(line) {
                     Some(rises) => Place::Slope(tape, rises),
                     None => Place::Open(tape),
                 };
@@ -471,9 +506,7 @@ impl Cells {
 
     /// How many cells there may be surface in, and the steps of their tapes on average.
     pub(super) fn open(&self) -> (usize, f64) {
-        let tapes = self.leaves.iter().map(|leaf| self.tapes[leaf.tape as usize].len());
-        let (count, steps) = tapes.fold((0, 0), |(n, sum), len| (n + 1, sum + len));
-        (count, steps as f64 / count.max(1) as f64)
+        self.open
     }
 }
 
