@@ -275,3 +275,32 @@ fn lanes_hold_the_values_of_points() {
         }
     }
 }
+
+/// Remainders of numbers are numbers, and an interval that meets no whole multiple, or only where it begins, has the remainders of its ends.
+#[test]
+fn remainders_are_those_of_the_ends() {
+    let mut dice = Dice(41);
+    let mut exact = 0;
+    for _ in 0..200_000 {
+        let (a, b) = (dice.number(60.0), dice.number(8.0).abs());
+        let wide = if dice.bits().is_multiple_of(3) { 0.0 } else { dice.unit().abs() * b * 1.5 };
+        let (x, y) = (Interval { lo: a, hi: a + wide }, Interval { lo: b, hi: b });
+        if b == 0.0 {
+            continue;
+        }
+        let (told, defined) = x.remainder(y);
+        for k in [0.0, 0.25, 0.5, 1.0] {
+            let inside = (x.lo + (x.hi - x.lo) * k).clamp(x.lo, x.hi);
+            // The remainder of an f64 is exact.
+            assert!(told.contains(inside % b), "{inside} of {x:?} mod {b}: {told:?}");
+        }
+        // Whole numbers of b in the quotients, as exact sums tell: remainders of one sign that rise by as much as the interval is wide.
+        let (first, last) = (x.lo % b, x.hi % b);
+        let together = if x.lo >= 0.0 || x.hi <= 0.0 { x.hi - x.lo < b && first <= last } else { false };
+        if together && (x.hi - x.lo).next_up() < b {
+            exact += 1;
+            assert_eq!((told.lo, told.hi, defined), (first, last, Defined::Continuous), "{x:?} mod {b}");
+        }
+    }
+    assert!(exact > 50_000, "{exact}");
+}

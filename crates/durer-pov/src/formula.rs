@@ -167,13 +167,8 @@ impl Reader<'_> {
         let word = self.peek_word()?;
         match word {
             Some(Keyword::Internal) => return self.internal_function(),
-            Some(
-                word @ (Keyword::Pattern
-                | Keyword::Pigment
-                | Keyword::Spline
-                | Keyword::Transform
-                | Keyword::Texture),
-            ) => {
+            Some(Keyword::Pattern) => return self.pattern_function(),
+            Some(word @ (Keyword::Pigment | Keyword::Spline | Keyword::Transform | Keyword::Texture)) => {
                 let text = format!(
                     "not supported yet: a {} as a function: no bound of its values over a box is known, which an exact root needs",
                     word.text()

@@ -37,6 +37,7 @@ mod macros;
 mod messages;
 mod names;
 mod object;
+mod pattern_function;
 mod read;
 mod reader;
 mod scope;

@@ -173,6 +173,77 @@ fn named_functions_have_povrays_values() {
     }
 }
 
+/// A point, and POV-Ray's value there.
+type Sample = ([f64; 3], f64);
+
+#[test]
+fn patterns_as_functions_have_povrays_values() {
+    let rows: &[(&str, [Sample; 2])] = &[
+        ("checker", [([-1.24, -0.79, 0.9], 1.0), ([0.25, -1.22, -0.2], 1.0)]),
+        (
+            "checker triangle_wave frequency 0.4",
+            [([-0.06, -1.02, 0.7], 0.800000011921), ([-1.16, -0.33, 0.05], 0.800000011921)],
+        ),
+        ("spherical", [([-0.08, 0.1, 0.29], 0.682982650317), ([0.55, -0.26, 0.18], 0.365571122978)]),
+        (
+            "spherical sine_wave",
+            [([0.24, -0.25, -0.6], 0.968156440509), ([0.57, -0.24, -0.22], 0.916048250016)],
+        ),
+        (
+            "cylindrical scale 2 cubic_wave",
+            [([0.47, 0.1, -0.03], 0.85976453646), ([0.33, -0.56, 0.25], 0.889190107004)],
+        ),
+        (
+            "planar rotate <20, 30, 40> scallop_wave",
+            [([-0.15, -0.49, 0.19], 0.769222389213), ([0.52, -0.35, 0.16], 0.99940281485)],
+        ),
+        (
+            "boxed scale <1, 2, 3> translate <0.1, 0.2, 0.3>",
+            [([-0.24, 0.29, 0.27], 0.66), ([-0.34, 0.4, 0.19], 0.56)],
+        ),
+        (
+            "onion frequency 2.3 phase 0.4",
+            [([0.55, 0.96, -0.21], 0.690130884669), ([0.78, 1.14, -1.19], 0.293366307124)],
+        ),
+        (
+            "leopard poly_wave 2.5",
+            [([1.05, -0.32, -0.06], 0.000119716903148), ([-1.06, 0.6, -0.62], 0.00228185121075)],
+        ),
+        ("radial", [([1.11, -0.67, 0.19], 0.973018747153), ([-0.3, 0.34, -0.91], 0.300682929243)]),
+        (
+            "radial frequency 6 triangle_wave",
+            [([-0.96, 0.74, 0.76], 0.721143820505), ([0.2, 1.26, -0.88], 0.573051131157)],
+        ),
+        ("marble", [([1.05, -0.99, 1.39], 0.09998), ([0.37, 0.32, 1.41], 0.74)]),
+        (
+            "marble ramp_wave frequency -1.7",
+            [([0.86, 0.87, -1.34], 0.538009958992), ([-0.39, -1.25, -0.92], 0.663000018597)],
+        ),
+        (
+            "gradient <1, 2, 3>",
+            [([-0.86, 1.08, -1.12], 0.44944184166), ([-0.61, -0.02, 1.05], 0.668153104781)],
+        ),
+        (
+            "gradient y frequency 0 scale 0.3",
+            [([1.4, 0.62, -0.86], 0.0666666666667), ([0.13, 0.62, -1.34], 0.0666666666667)],
+        ),
+        (
+            "gradient <1, 2, 3> sine_wave phase -0.6 scale 0.4",
+            [([0.54, -0.4, 0.27], 0.0030140722374), ([0.51, 0.51, 0.07], 0.308407602527)],
+        ),
+    ];
+    for (pattern, values) in rows {
+        for (p, expected) in values {
+            let said = value(
+                &format!("#declare F = function {{ pattern {{ {pattern} }} }};"),
+                &format!("F({}, {}, {})", p[0], p[1], p[2]),
+            );
+            let found: f64 = said.parse().unwrap();
+            assert!((found - expected).abs() < 2e-9, "{pattern} at {p:?}: {found}, POV-Ray has {expected}");
+        }
+    }
+}
+
 #[test]
 fn what_is_wrong_with_a_function_is_said_once_and_where() {
     let says = |text: &str, column: usize, expected: &str| {
@@ -190,6 +261,12 @@ fn what_is_wrong_with_a_function_is_said_once_and_where() {
     says("#declare F = function(a) { sqrt(a) }; #declare A = F(-1);", 52, "undefined here");
     says("#declare F = function { internal(99) };", 25, "no internal function 99");
     says("#declare F = function { pattern { bozo } }; sphere { 0, F(1, 2, 3) }", 57, "no bound");
+    says("#declare F = function { pattern { marble colour_map } };", 42, "the pattern's value");
+    says(
+        "#declare F = function { pattern { marble turbulence 1 } }; sphere { 0, F(1, 2, 3) }",
+        72,
+        "turbulence",
+    );
     says("#declare F = function { internal(76) }; sphere { 0, F(1, 2, 3) }", 53, "noise");
     says("isosurface { threshold 1 }", 1, "no function");
     says("isosurface { function(a, b) { a } }", 14, "three parameters, this one has 2");

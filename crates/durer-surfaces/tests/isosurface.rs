@@ -389,7 +389,7 @@ fn jumps_are_walls_and_undefined_is_nothing() {
     assert!(roots.len() == 2 && (roots[1].t - 3.1).abs() < 1e-14, "{roots:?}");
 }
 
-/// `x` without its whole part, from 0 to 1, by each of the steps that can say it; and `|x|` by a choice.
+/// `x` without its whole part, from 0 to 1, by each of the steps that can say it.
 fn parts(p: &mut Pen, x: NodeId) -> Vec<NodeId> {
     let one = p.c(1.0);
     let floor = p.op(Op::Function(Function::Floor, x));
@@ -399,13 +399,17 @@ fn parts(p: &mut Pen, x: NodeId) -> Vec<NodeId> {
     let far = p.c(100.0);
     let positive = p.add(x, far);
     let rest = p.op(Op::Rem(positive, one));
-    vec![down, p.add(up, one), rest]
+    // Of either sign, and one more where it is below zero.
+    let signed = p.op(Op::Rem(x, one));
+    let more = p.add(signed, one);
+    let chosen = p.op(Op::Select([signed, more, signed, signed]));
+    vec![down, p.add(up, one), rest, chosen]
 }
 
 /// A saw `|frac(x) - 1/2| - y` does not jump where `frac` does: a line meets its teeth and nothing else.
 #[test]
 fn what_jumps_to_and_fro_is_no_wall() {
-    for which in 0..3 {
+    for which in 0..4 {
         let (mut p, [x, y, _]) = Pen::new();
         let part = parts(&mut p, x)[which];
         let half = p.c(0.5);

@@ -344,6 +344,9 @@ impl Interval {
             return NONE;
         }
         let size = b.abs();
+        if let Some(exact) = self.remainder_of_one(size) {
+            return (exact, Continuous);
+        }
         if size.lo > 0.0 {
             let q = (self / b).trunc();
             if q.1 == Continuous && q.0.lo.is_finite() {
@@ -357,6 +360,17 @@ impl Interval {
         let lo = if self.lo < 0.0 { self.lo.max(-most) } else { 0.0 };
         let hi = if self.hi > 0.0 { self.hi.min(most) } else { 0.0 };
         (Self { lo, hi }, if size.lo > 0.0 { Jumps } else { Partly })
+    }
+
+    /// The same for one number `b > 0` where no whole multiple of it lies above the lower end (of what is positive): remainders of numbers are exact.
+    fn remainder_of_one(self, b: Self) -> Option<Self> {
+        if self.hi <= 0.0 && self.lo < 0.0 {
+            return (-self).remainder_of_one(b).map(|rest| -rest);
+        }
+        let (least, most) = (self.lo % b.lo, self.hi % b.lo);
+        // Less than b apart: k b + least and m b + most have the same k and m unless the remainder falls.
+        let is_one = b.lo == b.hi && self.lo >= 0.0 && (self.hi - self.lo).next_up() < b.lo;
+        (is_one && least <= most).then_some(Self { lo: least, hi: most })
     }
 
     /// An angle of degrees in radians.

@@ -299,6 +299,11 @@ pub(crate) fn internal(number: f64) -> Result<Formula, Lacking> {
     written(row).ok_or(Lacking::NotYet("its formula is not known here"))
 }
 
+/// A formula as on paper, of `x`, `y`, `z` and so many parameters; `None` if it cannot be read.
+pub(crate) fn on_paper(text: &'static str, parameters: u32) -> Option<Formula> {
+    written(&(0, parameters, Plain, text))
+}
+
 fn written(&(_, parameters, kept, text): &Row) -> Option<Formula> {
     let mut pen = Pen::new(text);
     let mut root = pen.formula()?;

@@ -139,6 +139,7 @@ impl Pen {
             ("min", &[a, ref others @ ..]) => others.iter().try_fold(a, |a, &b| self.push(Op::Min(a, b))),
             ("max", &[a, ref others @ ..]) => others.iter().try_fold(a, |a, &b| self.push(Op::Max(a, b))),
             ("pow", &[a, b]) => self.push(Op::Pow(a, b)),
+            ("rem", &[a, b]) => self.push(Op::Rem(a, b)),
             ("atan2", &[a, b]) => self.push(Op::Atan2(a, b)),
             ("select", &[c, below, at, above]) => self.push(Op::Select([c, below, at, above])),
             ("u" | "v", &[switch, offset, angle]) => self.revolved(word == "u", [switch, offset, angle]),

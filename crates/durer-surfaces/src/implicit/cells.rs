@@ -181,16 +181,13 @@ impl Grid {
     }
 }
 
-/// What was decided about the steps of a tape, and the number of the tape that is left.
-type Decisions = (Box<[u64]>, u32);
-
 /// What is only needed while cells are divided.
 #[derive(Default)]
 struct Known {
     /// The tapes there are, by a number that their steps say, so that cells that ask the same share one.
     tapes: HashMap<u64, Vec<u32>>,
-    /// What became of tapes by their numbers, so that each is made once.
-    shorter: HashMap<u32, Vec<Decisions>>,
+    /// What becomes of a tape by what is decided about its steps, so that each is made once.
+    shorter: HashMap<u32, HashMap<Box<[u64]>, u32>>,
 }
 
 /// What is known in the cell of a point.
@@ -254,16 +251,12 @@ impl Cells {
         let whole = self.tapes[tape as usize].clone();
         let mut tapes = [tape; 8];
         let v = whole.decided_on(&boxes, is_open, |i, decided, make| {
-            let same =
-                known.shorter.get(&tape).and_then(|all| all.iter().find(|(words, _)| **words == *decided));
-            tapes[i] = match same {
-                Some(&(_, number)) => number,
-                None => {
-                    let number = make().map_or(tape, |shorter| self.shared(shorter, known));
-                    known.shorter.entry(tape).or_default().push((decided.into(), number));
-                    number
-                }
-            };
+            let same = known.shorter.get(&tape).and_then(|all| all.get(decided)).copied();
+            tapes[i] = same.unwrap_or_else(|| {
+                let number = make().map_or(tape, |shorter| self.shared(shorter, known));
+                known.shorter.entry(tape).or_default().insert(decided.into(), number);
+                number
+            });
         });
         let told: [Option<Cell>; 8] = core::array::from_fn(|i| match () {
             () if is_open(i, &v) && v.jump >> i & 1 == 1 => {

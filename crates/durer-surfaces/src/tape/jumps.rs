@@ -121,30 +121,31 @@ fn halved(op: &Op, before: &[I8], value: &I8, bit: usize) -> Option<I8> {
             let c = &before[c.0 as usize];
             let mut out = *value;
             let mut any = false;
-            for lane in 0..8 {
-                let two = c.partial >> lane & 1 == 0 && c.lo.0[lane] < 0.0 && c.hi.0[lane] > 0.0;
-                if !two {
-                    continue;
-                }
-                any = true;
-                let (side, other) = if upper(lane) { (above, below) } else { (below, above) };
-                let mut set = |x: &I8| {
-                    (out.lo.0[lane], out.hi.0[lane]) = (x.lo.0[lane], x.hi.0[lane]);
-                    out.partial = out.partial & !(1 << lane) | x.partial & 1 << lane;
-                    out.empty = out.empty & !(1 << lane) | x.empty & 1 << lane;
+            for lane in (0..8).filter(|&lane| c.partial >> lane & 1 == 0) {
+                let (lo, hi) = (c.lo.0[lane], c.hi.0[lane]);
+                let (side, other) = match (lo < 0.0, hi > 0.0) {
+                    (true, true) if upper(lane) => (above, below),
+                    (true, true) => (below, above),
+                    // Only one side and zero.
+                    (true, false) if hi == 0.0 && zero != below => {
+                        (if upper(lane) { zero } else { below }, zero)
+                    }
+                    (false, true) if lo == 0.0 && zero != above => {
+                        (if upper(lane) { above } else { zero }, zero)
+                    }
+                    _ => continue,
                 };
-                let x = &before[side.0 as usize];
-                if zero == side || zero == other {
-                    set(x);
-                } else {
-                    // Either side with what is between.
+                any = true;
+                let mut x = before[side.0 as usize];
+                // Zero is on this side, on the other one, or else with both.
+                if zero != side && zero != other {
                     let zero = &before[zero.0 as usize];
-                    let mut hull = *x;
-                    hull.lo = hull.lo.min(zero.lo);
-                    hull.hi = hull.hi.max(zero.hi);
-                    hull.partial |= zero.partial;
-                    set(&hull);
+                    (x.lo, x.hi) = (x.lo.min(zero.lo), x.hi.max(zero.hi));
+                    x.partial |= zero.partial;
                 }
+                (out.lo.0[lane], out.hi.0[lane]) = (x.lo.0[lane], x.hi.0[lane]);
+                out.partial = out.partial & !(1 << lane) | x.partial & 1 << lane;
+                out.empty = out.empty & !(1 << lane) | x.empty & 1 << lane;
             }
             any.then_some(out)
         }
