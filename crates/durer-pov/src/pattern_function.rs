@@ -27,11 +27,11 @@ const AS_IT_IS: &str = "select(x, x - floor(x), x, x)";
 /// The value of a pattern by its word, and the wave that it has by itself; `None` where no formula is known here.
 fn value(word: Keyword) -> Option<(&'static str, Wave)> {
     let text = match word {
-        // Cells begin a little before a whole number. Each axis changes the sign from one to the next.
+        // Cells begin a little before a whole number. Each axis changes the sign from one to the next; what it chooses is exact.
         Keyword::Checker => {
             "a = x + 0.0000000001; b = y + 0.0000000001; c = z + 0.0000000001; \
              u = select(a - 2*floor(a/2) - 1, 1, -1, -1); v = select(b - 2*floor(b/2) - 1, 1, -1, -1); \
-             w = select(c - 2*floor(c/2) - 1, 1, -1, -1); (1 - u*v*w)/2"
+             w = select(c - 2*floor(c/2) - 1, 1, -1, -1); select(u*v*w, 1, 1, 0)"
         }
         Keyword::Spherical => "max(1 - sqrt(x*x + y*y + z*z), 0)",
         Keyword::Cylindrical => "max(1 - sqrt(x*x + z*z), 0)",
