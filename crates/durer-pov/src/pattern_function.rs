@@ -70,21 +70,25 @@ impl Reader<'_> {
     }
 
     fn pattern_function_items(&mut self, place: Place) -> Result<Formula> {
-        let word = self.peek_word()?;
         let mut direction = Vec::new();
-        let known = if word == Some(Keyword::Gradient) {
-            if let Some(PatternKind::Gradient(along)) = self.pattern_kind()? {
-                let length = transform::length(along);
-                direction = along.map(|part| part / length).to_vec();
+        let known = match self.peek_word()? {
+            Some(Keyword::Gradient) => {
+                if let Some(PatternKind::Gradient(along)) = self.pattern_kind()? {
+                    let length = transform::length(along);
+                    direction = along.map(|part| part / length).to_vec();
+                }
+                Some((GRADIENT, Wave::Ramp))
             }
-            Some((GRADIENT, Wave::Ramp))
-        } else {
-            word.and_then(value)
+            Some(word) => {
+                let known = value(word);
+                if known.is_some() {
+                    self.next()?;
+                }
+                known
+            }
+            None => None,
         };
         let Some((text, wave)) = known else { return Err(lacking(place)) };
-        if direction.is_empty() {
-            self.next()?;
-        }
         // Which kind it is says what its modifiers may be: those of a brick belong to no other.
         let mut pattern = Pattern { wave, ..Pattern::new(PatternKind::Checker) };
         while !self.at_mark(Mark::BraceClose)? {

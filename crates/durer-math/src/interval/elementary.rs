@@ -368,8 +368,8 @@ impl Interval {
             return (-self).remainder_of_one(b).map(|rest| -rest);
         }
         let (least, most) = (self.lo % b.lo, self.hi % b.lo);
-        // Less than b apart: k b + least and m b + most have the same k and m unless the remainder falls.
-        let is_one = b.lo == b.hi && self.lo >= 0.0 && (self.hi - self.lo).next_up() < b.lo;
+        // Less than b apart, as their rounded difference is no less than b where the exact one is not: k b + least and m b + most have the same k and m unless the remainder falls.
+        let is_one = b.lo == b.hi && self.lo >= 0.0 && self.hi - self.lo < b.lo;
         (is_one && least <= most).then_some(Self { lo: least, hi: most })
     }
 

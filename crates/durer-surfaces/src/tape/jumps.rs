@@ -98,7 +98,7 @@ fn halved(op: &Op, before: &[I8], value: &I8, bit: usize) -> Option<I8> {
             let (y, x) = (&before[y.0 as usize], &before[x.0 as usize]);
             let crosses = |lane: usize| {
                 let known = (y.partial | x.partial) >> lane & 1 == 0;
-                known && x.hi.0[lane] < 0.0 && y.lo.0[lane] < 0.0 && y.hi.0[lane] > 0.0
+                known && x.hi.0[lane] < 0.0 && y.lo.0[lane] < 0.0 && y.hi.0[lane] >= 0.0
             };
             if !(0..8).any(crosses) {
                 return None;
