@@ -26,7 +26,7 @@ impl Figures {
         let line = output.lines().rev().find_map(|l| l.strip_prefix("JSON "));
         let line = line.ok_or_else(|| format!("no line of JSON in: {output}"))?;
         let (head, rows) = line.split_once("\"rows\":").ok_or_else(|| format!("no rows in: {line}"))?;
-        for name in ["build_ms_1", "build_ms_2", "bytes"] {
+        for name in ["build_ms_1", "build_ms_2", "bytes", "peak_bytes"] {
             if let Some(value) = number(head, name) {
                 self.0.entry(name.into()).or_default().push(value);
             }
@@ -207,7 +207,7 @@ fn report(name: &str, rounds: usize, [default, avx2, robust, durer]: [&Figures; 
             }
         }
     }
-    for name in ["build_ms_1", "build_ms_2", "bytes"] {
+    for name in ["build_ms_1", "build_ms_2", "bytes", "peak_bytes"] {
         if let Some(ours) = durer.median(name) {
             let other = best(&[name.into()]);
             println!("  {name:10} {other:12.1} {ours:12.1}   ({:.2})", ours / other);

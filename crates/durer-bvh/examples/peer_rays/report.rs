@@ -80,12 +80,17 @@ impl Report {
         self.note(format!("build_ms_{threads}_best"), best);
     }
 
-    pub(crate) fn memory(&mut self, bytes: usize) {
+    /// What is held for rays, and what was held at most while it was built.
+    pub(crate) fn memory(&mut self, bytes: usize, most: Option<usize>) {
+        let peak = most.map_or_else(String::new, |most| format!(", {most} at the peak of the build"));
         self.say(&format!(
-            "  memory       {bytes} bytes held: {:.1} bytes a triangle",
+            "  memory       {bytes} bytes held{peak}: {:.1} bytes a triangle",
             bytes as f64 / self.triangles.max(1) as f64
         ));
         self.note("bytes".to_owned(), bytes as f64);
+        if let Some(most) = most {
+            self.note("peak_bytes".to_owned(), most as f64);
+        }
     }
 
     pub(crate) fn row(&mut self, mode: &str, work: &str, threads: usize, rate: &Rate) {
