@@ -5,7 +5,7 @@ mod common;
 use common::*;
 use dashu::rational::RBig;
 use durer_math::rounding::*;
-use durer_math::{Interval, Scalar};
+use durer_math::{I8, Interval, Number, Scalar};
 use proptest::prelude::*;
 
 /// `down` is the greatest f64 not above `truth`, `up` the least not below.
@@ -23,6 +23,21 @@ proptest! {
     fn sums_and_differences(a in number(), b in number()) {
         prop_assert!(tight(add_down(a, b), add_up(a, b), &(rat(a) + rat(b))));
         prop_assert!(tight(sub_down(a, b), sub_up(a, b), &(rat(a) - rat(b))));
+    }
+
+    /// In lanes a sum holds the exact one between bounds, and is it where f64 is.
+    #[test]
+    fn sums_in_lanes(a in number(), b in number()) {
+        let of = |x: f64| I8::splat(Interval::from(x));
+        let (sum, difference) = (<I8 as Number>::add(&of(a), &of(b)), <I8 as Number>::sub(&of(a), &of(b)));
+        for (said, truth) in [(sum, rat(a) + rat(b)), (difference, rat(a) - rat(b))] {
+            let Interval { lo, hi } = said.lane(5);
+            prop_assert!(below(lo, &truth) && above(hi, &truth), "{a:e} {b:e}: {lo:e} {hi:e}");
+            let nearest = truth.to_f64().value();
+            if nearest.is_finite() && rat(nearest) == truth {
+                prop_assert!(lo == nearest && hi == nearest, "{a:e} {b:e}: {lo:e} {hi:e}");
+            }
+        }
     }
 
     #[test]

@@ -389,6 +389,30 @@ fn jumps_are_walls_and_undefined_is_nothing() {
     assert!(roots.len() == 2 && (roots[1].t - 3.1).abs() < 1e-14, "{roots:?}");
 }
 
+/// Sums of whole numbers are exact: of `mod(floor(x) + floor(y) + 10, 2) = 1/2`, a checker, the walls are met, and nothing between them.
+#[test]
+fn sums_of_whole_numbers_are_whole() {
+    let (mut p, [x, y, _]) = Pen::new();
+    let (two, ten, half) = (p.c(2.0), p.c(10.0), p.c(0.5));
+    let (across, up) = (p.op(Op::Function(Function::Floor, x)), p.op(Op::Function(Function::Floor, y)));
+    let sum = p.add(across, up);
+    let sum = p.add(sum, ten);
+    let colour = p.op(Op::Rem(sum, two));
+    let f = p.sub(colour, half);
+    let checker = iso(&p.done(f), 3.25);
+    for (y, slope) in [(0.25, 0.0), (-1.5, 1e-3), (0.125, 0.03)] {
+        let ray = Ray::new(Point3::new(-4.0, y, 0.1), Vec3::new(1.0, 0.0, slope));
+        let found = all(&checker, &ray);
+        let walls: Vec<&Root> = found.iter().filter(|root| root.face == 0).collect();
+        assert_eq!(walls.len(), 7, "{y}: {walls:?}");
+        for (root, wall) in walls.iter().zip(1..) {
+            let t = f64::from(wall);
+            assert!(root.lo <= t && t <= root.hi && root.hi - root.lo < 1e-14, "{y}: {root:?}");
+            assert_eq!(root.sign, -walls[0].sign * (1 - 2 * (wall % 2) as i8), "{y}: {walls:?}");
+        }
+    }
+}
+
 /// `x` without its whole part, from 0 to 1, by each of the steps that can say it.
 fn parts(p: &mut Pen, x: NodeId) -> Vec<NodeId> {
     let one = p.c(1.0);
