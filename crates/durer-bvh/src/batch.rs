@@ -120,7 +120,7 @@ impl<R, B: Rays<R>> Answers<R> for One<'_, B> {
 
 /// A ray under way.
 struct Flight<K: Kernel, S> {
-    lanes: K::Lanes,
+    ray: K::Ray,
     reach: Reach,
     child: ChildRef,
     number: usize,
@@ -184,8 +184,8 @@ impl<B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool> Errand for Many<'_,
             for place in each(at_nodes) {
                 let flight = &mut flights[place];
                 let node = &nodes[flight.child.index()];
-                let child =
-                    kernel.descend::<ORDERED>(node, &flight.lanes, flight.reach.t_far, &mut flight.stack);
+                let lanes = kernel.spread(&flight.ray);
+                let child = kernel.descend::<ORDERED>(node, &lanes, flight.reach.t_far, &mut flight.stack);
                 flight.child = child;
                 kernel.fetch(tree, child);
                 at_leaves |= u32::from(child.is_leaf()) << place;
@@ -315,11 +315,11 @@ fn seat<K: Kernel, S>(
     place: usize,
     number: usize,
     sight: S,
-    (lanes, way): (K::Lanes, Way),
+    (ray, way): (K::Ray, Way),
 ) {
     let (reach, child) = (Reach::of(&way), ChildRef::node(0));
     if let Some(flight) = flights.get_mut(place) {
-        flight.lanes = lanes;
+        flight.ray = ray;
         flight.way = way;
         flight.number = number;
         flight.sight = sight;
@@ -328,7 +328,7 @@ fn seat<K: Kernel, S>(
         flight.filter = None;
         flight.stack.clear();
     } else {
-        flights.push(Flight { lanes, reach, child, number, way, sight, filter: None, stack: Stack::new() });
+        flights.push(Flight { ray, reach, child, number, way, sight, filter: None, stack: Stack::new() });
     }
 }
 

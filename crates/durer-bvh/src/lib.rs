@@ -31,7 +31,7 @@
 //! assert!(found);
 //! ```
 //!
-//! The way through: [`Frame`] chooses the units and makes an [`Entry`] of each box; [`Bvh::build`] sorts them into nodes of eight;
+//! The way through: [`Frame`] chooses the units and makes an [`Entry`] of each box; [`Bvh::build`] sorts them into nodes of sixteen;
 //! [`Bvh::closest`] and [`Bvh::any`], which are asked about a ray ([`Sight`]), [`Bvh::in_shaft`] and [`Bvh::containing`] show the [`Leaf`]s that matter; [`Bvh::story`] tells how; [`Bvh::refit`] follows what moves; [`Bvh::validate`] and
 //! [`Bvh::stats`] look at the result. A tree knows boxes and numbers, and of triangles their corners in f32: what else the things are is its caller's business.
 #![deny(unsafe_code)]

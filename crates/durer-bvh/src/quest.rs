@@ -164,12 +164,12 @@ impl<T: Answers<f64>> Closest<T> {
         let Reach { mut t_far, mut held } = before;
         let mut alive = verdict.alive;
         while alive != 0 {
-            let lane = alive.trailing_zeros() as usize & 7;
-            alive &= alive - 1;
+            let lane = first(alive, &verdict.lo);
+            alive &= !(1 << lane);
             let (lo, hi) = (verdict.lo[lane], verdict.hi[lane]);
             // The limit may have come nearer since.
             if lo > t_far {
-                continue;
+                break;
             }
             let leaf = triangle(of, block, lane);
             let is_sure = verdict.sure >> lane & 1 != 0 && self.0.admits(leaf);
@@ -197,6 +197,19 @@ impl<T: Answers<f64>> Closest<T> {
         }
         Reach { t_far, held }
     }
+}
+
+/// Of some lanes the one with the least number: what is met first may spare questions about the others.
+#[inline(always)]
+fn first(lanes: u32, lo: &[f32; LANES]) -> usize {
+    let lane = |lanes: u32| lanes.trailing_zeros() as usize % LANES;
+    let (mut first, mut rest) = (lane(lanes), lanes & lanes.wrapping_sub(1));
+    while rest != 0 {
+        let other = lane(rest);
+        rest &= rest - 1;
+        first = if lo[other] < lo[first] { other } else { first };
+    }
+    first
 }
 
 /// Any hit.
@@ -235,7 +248,7 @@ impl<T: Answers<bool>> Any<T> {
     fn is_met(&mut self, of: (u32, u32), block: &Block, verdict: &Verdict) -> bool {
         let mut alive = verdict.alive;
         while alive != 0 {
-            let lane = alive.trailing_zeros() as usize & 7;
+            let lane = alive.trailing_zeros() as usize % LANES;
             alive &= alive - 1;
             let leaf = triangle(of, block, lane);
             let is_sure = verdict.sure >> lane & 1 != 0 && self.0.admits(leaf);
@@ -277,7 +290,7 @@ impl<L: Kernel, F: FnMut(Leaf) -> bool> Quest<false> for Each<'_, L, F> {
             || {
                 let mut alive = verdict.alive;
                 while alive != 0 {
-                    let lane = alive.trailing_zeros() as usize & 7;
+                    let lane = alive.trailing_zeros() as usize % LANES;
                     alive &= alive - 1;
                     let leaf = triangle(of, block, lane);
                     if self.is_first(of.1, &leaf, t_far) && (self.test)(leaf) {

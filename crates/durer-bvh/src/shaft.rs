@@ -1,10 +1,10 @@
 //! Which leaves lie in a shaft?
 
+use crate::batch::each;
 use crate::kernels::MAX_DEPTH;
-use crate::node::{ChildRef, Leaf, Node8, WIDTH};
+use crate::node::{ChildRef, Leaf, Node, WIDTH};
 use crate::tree::Bvh;
 use arrayvec::ArrayVec;
-use durer_math::lanes::set_bits;
 use durer_math::scale::pow2;
 use durer_math::{F8, Isa, Shaft, Shaft8, Vec3};
 
@@ -29,7 +29,7 @@ impl Bvh {
                 continue;
             }
             let node = &self.nodes[child.index()];
-            for slot in set_bits(node.in_shaft(isa, &lanes, units)) {
+            for slot in each(node.in_shaft(isa, &lanes, units)) {
                 waiting.push(node.child[slot]);
             }
         }
@@ -37,18 +37,22 @@ impl Bvh {
     }
 }
 
-impl Node8 {
+impl Node {
     /// Which children a bundle may meet, as bits; a length is to be multiplied by both units.
     #[inline(never)]
-    fn in_shaft(&self, isa: Isa, shaft: &Shaft8, units: [f64; 2]) -> u8 {
+    fn in_shaft(&self, isa: Isa, shaft: &Shaft8, units: [f64; 2]) -> u32 {
         isa.run_in_lanes(
             #[inline(always)]
             || {
                 let [x0, y0, z0, x1, y1, z1] = &self.planes;
-                let min = Vec3::new(wide(x0, units), wide(y0, units), wide(z0, units));
-                let max = Vec3::new(wide(x1, units), wide(y1, units), wide(z1, units));
-                // A child that is not there has no room between its planes.
-                (min.x.le(max.x) & shaft.may_meet(&min, &max)).bits()
+                let mut met = 0;
+                for half in 0..WIDTH / 8 {
+                    let min = Vec3::new(wide(x0, half, units), wide(y0, half, units), wide(z0, half, units));
+                    let max = Vec3::new(wide(x1, half, units), wide(y1, half, units), wide(z1, half, units));
+                    // A child that is not there has no room between its planes.
+                    met |= u32::from((min.x.le(max.x) & shaft.may_meet(&min, &max)).bits()) << (8 * half);
+                }
+                met
             },
         )
     }
@@ -56,10 +60,10 @@ impl Node8 {
 
 /// Planes in the caller's units.
 #[inline(always)]
-fn wide(planes: &[f32; WIDTH], [first, second]: [f64; 2]) -> F8 {
+fn wide(planes: &[f32; WIDTH], half: usize, [first, second]: [f64; 2]) -> F8 {
     let planes = core::array::from_fn(
         #[inline(always)]
-        |slot| f64::from(planes[slot]),
+        |slot| f64::from(planes[8 * half + slot]),
     );
     F8(planes) * first * second
 }

@@ -1,7 +1,7 @@
 //! What a tree is like.
 
 use crate::build::Settings;
-use crate::node::{ChildRef, Node8};
+use crate::node::{ChildRef, Node};
 use crate::tree::{Bvh, KindOfLeaf};
 use crate::triangles::Block;
 
@@ -26,7 +26,7 @@ impl Bvh {
     /// Walks the tree and counts.
     pub fn stats(&self) -> Stats {
         let mut stats = Stats {
-            bytes: self.nodes.capacity() * size_of::<Node8>()
+            bytes: self.nodes.capacity() * size_of::<Node>()
                 + self.blocks.capacity() * size_of::<Block>()
                 + self.starts.capacity() * size_of::<u32>()
                 + (self.splits.starts.capacity() + self.splits.places.capacity()) * size_of::<u32>()

@@ -1,7 +1,7 @@
 //! The same way through the tree, told step by step.
 
 use crate::kernels::Scalar;
-use crate::node::{ChildRef, Leaf};
+use crate::node::{ChildRef, Leaf, SLOT_BITS, WIDTH};
 use crate::ray::{Line, Rounding};
 use crate::tree::Bvh;
 use durer_math::Aabb;
@@ -68,7 +68,7 @@ impl Bvh {
                 let slabs = Scalar::<true>.slabs(node, &ray, t_far);
                 let before = waiting.len();
                 for word in node.order {
-                    let slot = (word >> (3 * ray.octant) & 7) as usize;
+                    let slot = (word >> (SLOT_BITS * ray.octant)) as usize % WIDTH;
                     if slabs.met[slot] {
                         let (lo, hi) = node.bounds(slot);
                         waiting.push((

@@ -118,7 +118,8 @@ impl<K: Kernel, B, M> Group<'_, K, B, M> {
         let found = if let Some((of, block, verdict)) = judged {
             quest.judged(kernel, &kernel.way(tree, packet, ray), of, block, verdict, &mut reach)
         } else {
-            let (lanes, way) = kernel.one(tree, packet, ray);
+            let (ray, way) = kernel.one(tree, packet, ray);
+            let lanes = kernel.spread(&ray);
             let mut sieve = Known { filter: None };
             follow(kernel, tree, &lanes, &way, child, &mut sieve, &mut reach, &mut quest)
         };

@@ -123,7 +123,8 @@ impl<S: Sight, Q: Quest<ORDERED>, const ORDERED: bool> Errand for Single<'_, S, 
         if tree.is_empty() {
             return false;
         }
-        let Some((lanes, way)) = kernel.ready(tree, self.sight) else { return false };
+        let Some((ray, way)) = kernel.ready(tree, self.sight) else { return false };
+        let lanes = kernel.spread(&ray);
         let (mut filter, mut reach, mut quest) = (None, Reach::of(&way), self.quest);
         let mut sieve = Late { sight: self.sight, filter: &mut filter };
         follow(kernel, tree, &lanes, &way, ChildRef::node(0), &mut sieve, &mut reach, &mut quest)
@@ -145,7 +146,8 @@ impl<S: Sight, F: FnMut(Leaf) -> bool> Errand for AllOnce<'_, S, F> {
         if tree.is_empty() {
             return false;
         }
-        let Some((lanes, way)) = kernel.ready(tree, self.sight) else { return false };
+        let Some((ray, way)) = kernel.ready(tree, self.sight) else { return false };
+        let lanes = kernel.spread(&ray);
         let (mut filter, mut reach) = (None, Reach::of(&way));
         let mut sieve = Late { sight: self.sight, filter: &mut filter };
         let mut quest = Each { kernel, tree, lanes: &lanes, test: self.test };

@@ -1,7 +1,7 @@
 //! The tree.
 
 use crate::frame::Frame;
-use crate::node::{ChildRef, Leaf, Node8, WIDTH};
+use crate::node::{ChildRef, Leaf, Node, WIDTH};
 use crate::ray::{Clip, CullRay, Line, PACKET, Rounding};
 use crate::triangles::{Block, Corners, LANES};
 use durer_math::Aabb;
@@ -13,7 +13,7 @@ use durer_math::Aabb;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bvh {
     pub(crate) frame: Frame,
-    pub(crate) nodes: Vec<Node8>,
+    pub(crate) nodes: Vec<Node>,
     /// The first slot of each kind, and the end.
     pub(crate) starts: Vec<u32>,
     /// What references to leaves mean, kind by kind.
@@ -94,13 +94,13 @@ impl Bvh {
     }
 
     /// The same tree with these nodes.
-    pub(crate) fn with_nodes(mut self, nodes: Vec<Node8>) -> Self {
+    pub(crate) fn with_nodes(mut self, nodes: Vec<Node>) -> Self {
         self.set_nodes(nodes);
         self
     }
 
     /// Takes these nodes for its own, whose boxes are in units of its frame.
-    pub(crate) fn set_nodes(&mut self, nodes: Vec<Node8>) {
+    pub(crate) fn set_nodes(&mut self, nodes: Vec<Node>) {
         (self.lo, self.hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
         if let Some(root) = nodes.first() {
             for (a, b) in root.used().map(|slot| root.bounds(slot)) {

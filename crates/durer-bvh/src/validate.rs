@@ -2,7 +2,7 @@
 
 use crate::build::spatial::{Bounds, is_covered};
 use crate::kernels::MAX_DEPTH;
-use crate::node::{ChildRef, Leaf, Node8, WIDTH};
+use crate::node::{ChildRef, Leaf, Node, SLOT_BITS, WIDTH};
 use crate::tree::{Bvh, Splits};
 use crate::triangles::Corners;
 use durer_math::{Aabb, Point3};
@@ -222,9 +222,10 @@ enum Wrong {
     Thing(u32),
 }
 
-fn check_order(index: usize, node: &Node8) -> Result<(), Violation> {
+fn check_order(index: usize, node: &Node) -> Result<(), Violation> {
     for octant in 0..8 {
-        let set = node.order.iter().fold(0_u32, |set, w| set | 1 << (w >> (3 * octant) & 7));
+        let set =
+            node.order.iter().fold(0_u32, |set, w| set | 1 << ((w >> (SLOT_BITS * octant)) as usize % WIDTH));
         if set != (1 << WIDTH) - 1 {
             return Err(Violation::Order { node: index, octant });
         }

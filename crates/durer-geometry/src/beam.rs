@@ -36,10 +36,10 @@ impl Beam {
     const MOST: usize = 64;
     /// The same for one ray.
     const FEW: usize = 12;
-    /// The same for triangles of large meshes: the tree tests eight of them at once, and few rays would share what lanes need to know of each.
+    /// The same for triangles of large meshes: the tree tests sixteen of them at once, and few rays would share what lanes need to know of each.
     const TRIANGLES: u32 = 8;
     /// Meshes with more leaves than this are large.
-    const DENSE: usize = 1024;
+    const DENSE: usize = 512;
 
     /// Whether the rays meet nothing.
     #[inline(always)]

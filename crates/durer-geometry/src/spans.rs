@@ -11,7 +11,7 @@ use crate::arena::Filter;
 use crate::best::Placement;
 use crate::ids::Id;
 use crate::{ObjectId, Span};
-use durer_surfaces::Root;
+use durer_surfaces::{PartId, Root};
 
 /// Which solid: placement, arena, surface.
 type Key = (u32, u32, u32);
@@ -25,6 +25,7 @@ struct Event {
     hi: f64,
     sign: i8,
     object: u32,
+    part: u32,
 }
 
 /// What a traversal gathers for [`Tracks::merge`].
@@ -62,8 +63,8 @@ impl Tracks {
         self.events.len()
     }
 
-    /// A crossing of a solid; a touch has no length and is left out.
-    pub(crate) fn push(&mut self, surface: u32, id: Id, root: &Root) {
+    /// A crossing of a part of a solid; a touch has no length and is left out.
+    pub(crate) fn push(&mut self, surface: u32, part: PartId, id: Id, root: &Root) {
         if root.sign != 0 {
             self.events.push(Event {
                 solid: self.key(surface),
@@ -72,6 +73,7 @@ impl Tracks {
                 hi: root.hi,
                 sign: root.sign,
                 object: self.placement.object.wrapping_add(id.object),
+                part: part.0,
             });
         }
     }
@@ -89,7 +91,8 @@ impl Tracks {
 
     /// The spans of the union.
     pub(crate) fn merge(mut self, t_min: f64, t_max: f64) -> Vec<Span> {
-        self.events.sort_by(|a, b| a.solid.cmp(&b.solid).then(a.t.total_cmp(&b.t)));
+        // Where crossings of one solid fall together the order of its parts counts, not that in which a tree shows them.
+        self.events.sort_by(|a, b| a.solid.cmp(&b.solid).then(a.t.total_cmp(&b.t)).then(a.part.cmp(&b.part)));
         let mut depth = self.inside_without_crossing();
         let mut changes = Vec::with_capacity(self.events.len());
         for solid in self.events.chunk_by_mut(|a, b| a.solid == b.solid) {
@@ -220,7 +223,7 @@ mod tests {
     fn merged(events: &[(u32, Root)], starts: &[(u32, bool)]) -> Vec<(f64, f64, Option<u32>, Option<u32>)> {
         let mut tracks = Tracks::new(u32::MAX);
         for (surface, root) in events {
-            tracks.push(*surface, Id { object: *surface, primitive: 0 }, root);
+            tracks.push(*surface, PartId(0), Id { object: *surface, primitive: 0 }, root);
         }
         starts.iter().for_each(|&(s, inside)| tracks.start(s, inside));
         let spans = tracks.merge(0.0, 100.0);

@@ -1,6 +1,6 @@
-//! Which cuts of a binary tree become nodes of eight? The best choice, by dynamic programming.
+//! Which cuts of a binary tree become nodes of sixteen? The best choice, by dynamic programming.
 //!
-//! For each range of a binary tree and each number of children from one to eight the least cost of what is below is found from those of its two halves: after
+//! For each range of a binary tree and each number of children from one to sixteen the least cost of what is below is found from those of its two halves: after
 //! H. Ylitie, T. Karras, S. Laine, "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", High Performance Graphics (2017). Done for
 //! small ranges, which are nearly all of a tree; above them the largest range is cut first.
 
@@ -8,7 +8,7 @@ use super::area::Extent;
 use super::{Costs, Divided, Half, Range};
 use crate::frame::Entry;
 use crate::kernels::MAX_DEPTH;
-use crate::node::{ChildRef, MAX_LEAF, Node8, WIDTH};
+use crate::node::{ChildRef, MAX_LEAF, Node, WIDTH};
 
 /// Below this many entries a range is worth it.
 pub(super) const COLLAPSED: usize = 4096;
@@ -28,7 +28,7 @@ struct Part {
     costs: [f32; WIDTH],
     /// How many of `i + 1` children the first half gets; 0 if it is better to make do with one child less.
     shares: [u8; WIDTH],
-    /// How many of eight children the first half gets, if it becomes a node.
+    /// How many of sixteen children the first half gets, if it becomes a node.
     share_of_node: u8,
 }
 
@@ -45,7 +45,7 @@ pub(super) fn subtree(
     whole: &Range,
     level: usize,
     costs: &Costs<'_>,
-    nodes: &mut Vec<Node8>,
+    nodes: &mut Vec<Node>,
 ) {
     let mut binary = Binary { parts: Vec::with_capacity(entries.len() / 2), costs };
     let root = binary.grow(entries, Range { first: 0, ..*whole }, level);
@@ -111,9 +111,9 @@ impl Binary<'_> {
     }
 
     /// Appends the node over a range, and those below.
-    fn emit(&self, part: u32, base: usize, nodes: &mut Vec<Node8>) {
+    fn emit(&self, part: u32, base: usize, nodes: &mut Vec<Node>) {
         let this = nodes.len();
-        nodes.push(Node8::EMPTY);
+        nodes.push(Node::EMPTY);
         let (mut children, mut count) = ([part; WIDTH], 0);
         let whole = &self.parts[part as usize];
         match whole.halves {
@@ -124,7 +124,7 @@ impl Binary<'_> {
             }
             None => count = 1,
         }
-        let mut node = Node8::EMPTY;
+        let mut node = Node::EMPTY;
         for (slot, &child) in children[..count].iter().enumerate() {
             let range = &self.parts[child as usize].range;
             let reference = if range.closed {

@@ -1,4 +1,4 @@
-//! Leaves of neighbours along a space-filling curve, nodes of eight of these, and a tree over the nodes: a fraction of the work.
+//! Leaves of neighbours along a space-filling curve, nodes of sixteen of these, and a tree over the nodes: a fraction of the work.
 //!
 //! Things stand in the order of the Morton codes of their centres, kind by kind (C. Lauterbach, M. Garland, S. Sengupta, D. Luebke, D. Manocha, "Fast BVH
 //! construction on GPUs", Eurographics, 2009). Of each run of [`RUN`] things dynamic programming chooses the leaves with the least cost, and
@@ -7,7 +7,7 @@
 use super::area::Extent;
 use super::{Costs, Grown};
 use crate::frame::Entry;
-use crate::node::{ChildRef, MAX_LEAF, Node8, WIDTH};
+use crate::node::{ChildRef, MAX_LEAF, Node, WIDTH};
 use durer_math::Isa;
 use durer_math::kernels::in_large_pages;
 use rayon::prelude::*;
@@ -33,7 +33,7 @@ pub(super) fn build(entries: &mut Vec<Entry>, costs: &Costs<'_>) -> Grown {
         for (count, cost) in of_leaf.iter_mut().enumerate().skip(1) {
             *cost = kind.of_leaf(count);
         }
-        (costs.max_leaf, of_leaf)
+        (kind.most, of_leaf)
     };
     let leaves = grouped(entries, costs.isa, leaf_costs);
     // A node costs what it costs, full or not.
@@ -52,7 +52,7 @@ pub(super) fn build(entries: &mut Vec<Entry>, costs: &Costs<'_>) -> Grown {
     }
     let over_leaves = |range: &Entry| {
         let (first, count) = ChildRef(range.index()).slots();
-        let mut node = Node8::EMPTY;
+        let mut node = Node::EMPTY;
         for (slot, leaf) in leaves[first as usize..(first + count) as usize].iter().enumerate() {
             node.set(slot, leaf.lo(), leaf.hi(), ChildRef(leaf.index()));
         }

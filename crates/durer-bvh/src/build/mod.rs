@@ -1,6 +1,6 @@
-//! The builder: binned SAH, straight into eight children; near the leaves, [optimal](collapse) ones.
+//! The builder: binned SAH, straight into sixteen children; near the leaves, [optimal](collapse) ones.
 //!
-//! Each node of many entries starts as one range and keeps splitting the child with the largest surface until there are eight, by the surface area
+//! Each node of many entries starts as one range and keeps splitting the child with the largest surface until there are sixteen, by the surface area
 //! heuristic over bins (I. Wald, "On fast construction of SAH-based bounding volume hierarchies", IEEE Symposium on Interactive
 //! Ray Tracing, 2007; I. Wald, C. Benthin, S. Boulos, "Getting rid of packets", same, 2008, for the wide collapse). A leaf holds one
 //! kind of thing only, so that it is one call. The result is a function of the entries and their order alone: threads share out
@@ -21,7 +21,7 @@ mod split;
 
 use crate::frame::{Entry, Frame};
 use crate::kernels::MAX_DEPTH;
-use crate::node::{ChildRef, MAX_ENTRIES, MAX_LEAF, Node8, WIDTH};
+use crate::node::{ChildRef, MAX_ENTRIES, MAX_LEAF, Node, WIDTH};
 use crate::tree::Bvh;
 use crate::triangles::{Block, Corners, LANES};
 pub(crate) use area::Extent;
@@ -50,7 +50,7 @@ pub enum Quality {
 pub struct Settings {
     /// How much work the tree is worth.
     pub quality: Quality,
-    /// How many things a leaf may hold, 1 to 16.
+    /// How many things a leaf may hold, 1 to 16; triangles go by the sixteen that are tested together.
     pub max_leaf: usize,
     /// The cost of one test.
     pub test_cost: f32,
@@ -91,6 +91,8 @@ struct Costs<'a> {
 struct KindCosts {
     /// Two to this power things are tested together, at the cost of one test.
     block: u32,
+    /// How many a leaf may hold.
+    most: usize,
     test: f32,
     leaf: f32,
 }
@@ -98,9 +100,8 @@ struct KindCosts {
 impl<'a> Costs<'a> {
     fn of(settings: &Settings, frame: Frame, shapes: &'a [Option<CornersOf<'a>>]) -> Self {
         let Settings { max_leaf, test_cost, leaf_cost, .. } = *settings;
-        let most = if shapes.iter().any(Option::is_some) { LANES } else { MAX_LEAF };
         let isa = Isa::detect();
-        let max_leaf = max_leaf.clamp(1, most);
+        let max_leaf = max_leaf.clamp(1, MAX_LEAF);
         Self { max_leaf, test: test_cost, leaf: leaf_cost, shapes, frame, isa }
     }
 
@@ -112,7 +113,7 @@ impl<'a> Costs<'a> {
 
     /// Whether a range can be a leaf.
     fn may_be_leaf(&self, entries: &[Entry]) -> bool {
-        entries.len() <= self.max_leaf && split::is_one_kind(entries)
+        entries.len() <= self.of_range(entries).most && split::is_one_kind(entries)
     }
 
     /// What a range costs, as its first entry tells: mostly all of it is of one kind, and a leaf always is.
@@ -120,9 +121,9 @@ impl<'a> Costs<'a> {
         let is_triangles = entries.first().is_some_and(|e| self.shapes[e.kind() as usize].is_some());
         if is_triangles {
             // A block costs what it costs, full or not.
-            KindCosts { block: LANES.ilog2(), test: self.test, leaf: 0.0 }
+            KindCosts { block: LANES.ilog2(), most: LANES, test: self.test, leaf: 0.0 }
         } else {
-            KindCosts { block: 0, test: self.test, leaf: self.leaf }
+            KindCosts { block: 0, most: self.max_leaf, test: self.test, leaf: self.leaf }
         }
     }
 }
@@ -143,13 +144,13 @@ impl KindCosts {
 /// The corners of the triangle with an index, in the caller's units.
 pub type CornersOf<'a> = &'a (dyn Fn(u32) -> Corners + Sync);
 
-/// From this level on ranges are halved by count. Halving reaches single things in `log8(2^27) = 9` levels, and
-/// the kinds of a last range of 16 need two more; so no tree is deeper than 35, with nodes made along a [curve] below it than 36, and [`MAX_DEPTH`] is 40.
+/// From this level on ranges are halved by count. Halving reaches single things in `log16(2^27) < 7` levels, and
+/// the kinds of a last range of 16 need two more; so no tree is deeper than 33, with nodes made along a [curve] below it than 34, and [`MAX_DEPTH`] is 40.
 const BALANCED_FROM: usize = 24;
 
-const _: () = assert!(LANES.is_power_of_two());
+const _: () = assert!(LANES.is_power_of_two() && LANES <= MAX_LEAF);
 
-const _: () = assert!(BALANCED_FROM + 9 + 2 + 1 < MAX_DEPTH && MAX_ENTRIES == 1 << 27 && MAX_LEAF == 16);
+const _: () = assert!(BALANCED_FROM + 7 + 2 + 1 < MAX_DEPTH && MAX_ENTRIES == 1 << 27 && MAX_LEAF == 16);
 
 /// Ranges with fewer entries are one thread's.
 const PARALLEL: usize = 4096;
@@ -166,14 +167,14 @@ fn build(entries: &mut [Entry], len: usize, costs: &Costs<'_>) -> Grown {
 
 /// Nodes that are still in several lists: those of a subtree that one thread has made, or one node and those below it.
 struct Grown {
-    nodes: Vec<Node8>,
+    nodes: Vec<Node>,
     /// In which slot of the one node each of these begins.
     below: Vec<(usize, Self)>,
 }
 
 impl Grown {
     /// All of them in one list, as nodes before those below them.
-    fn listed(mut self) -> Vec<Node8> {
+    fn listed(mut self) -> Vec<Node> {
         if self.below.is_empty() {
             self.nodes.shrink_to_fit();
             return self.nodes;
@@ -188,7 +189,7 @@ impl Grown {
         self.nodes.len() + self.below.iter().map(|(_, grown)| grown.count()).sum::<usize>()
     }
 
-    fn append_to(self, nodes: &mut Vec<Node8>) {
+    fn append_to(self, nodes: &mut Vec<Node>) {
         let this = nodes.len();
         nodes.extend(self.nodes.into_iter().map(|mut node| {
             move_by(&mut node, this);
@@ -307,7 +308,7 @@ fn grow(entries: &mut [Entry], base: usize, whole: &Range, level: usize, costs: 
         range.closed = range.len == 1 || split::is_better_as_leaf(range.held(entries), &range.extent, costs);
     }
 
-    let mut node = Node8::EMPTY;
+    let mut node = Node::EMPTY;
     let mut below = Vec::new();
     let mut rest = entries;
     for (slot, range) in ranges.iter().enumerate() {
@@ -334,7 +335,7 @@ fn grow(entries: &mut [Entry], base: usize, whole: &Range, level: usize, costs: 
 }
 
 /// Shifts a node's references to nodes.
-fn move_by(node: &mut Node8, offset: usize) {
+fn move_by(node: &mut Node, offset: usize) {
     for slot in 0..WIDTH {
         if node.is_used(slot) && !node.child[slot].is_leaf() {
             node.child[slot] = ChildRef::node(node.child[slot].index() + offset);
@@ -352,7 +353,8 @@ fn split(
 ) -> Option<Divided> {
     let held = &mut entries[..len];
     let one_kind = split::is_one_kind(held);
-    let may_be_leaf = one_kind && len <= costs.max_leaf;
+    let kind = costs.of_range(held);
+    let may_be_leaf = one_kind && len <= kind.most;
     if level >= BALANCED_FROM {
         if may_be_leaf {
             return None;
@@ -360,7 +362,6 @@ fn split(
         let halves = split::halve_by_kind(held);
         return Some(Divided::of(entries, len, false, halves));
     }
-    let kind = costs.of_range(held);
     if may_be_leaf && kind.block > 1 {
         // One test does for all of them: parts would cost as much each, and as much memory.
         return None;
@@ -442,7 +443,7 @@ impl Bvh {
     /// The tree of these nodes, whose leaves stand in the order of `arranged`.
     fn of_nodes(
         frame: Frame,
-        mut nodes: Vec<Node8>,
+        mut nodes: Vec<Node>,
         arranged: Arranged,
         shapes: &[Option<CornersOf<'_>>],
     ) -> (Self, Vec<Vec<u32>>) {

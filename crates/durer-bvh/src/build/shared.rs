@@ -5,7 +5,7 @@
 //! (see [`Splits`]).
 
 use crate::frame::Entry;
-use crate::node::{Node8, WIDTH};
+use crate::node::{Node, WIDTH};
 use crate::tree::{Bvh, Splits};
 use durer_math::kernels::in_large_pages;
 use rayon::prelude::*;
@@ -35,8 +35,8 @@ pub(super) struct Listed {
 }
 
 /// First position and count of the leaves, in the order of the nodes.
-fn positions(nodes: &[Node8]) -> impl Iterator<Item = (usize, usize)> + '_ {
-    let leaves = |node: &'_ Node8| {
+fn positions(nodes: &[Node]) -> impl Iterator<Item = (usize, usize)> + '_ {
+    let leaves = |node: &'_ Node| {
         let child = node.child;
         let leaves: [bool; WIDTH] = core::array::from_fn(|slot| node.is_used(slot) && child[slot].is_leaf());
         (0..WIDTH).filter(move |&slot| leaves[slot]).map(move |slot| child[slot].slots())
@@ -46,7 +46,7 @@ fn positions(nodes: &[Node8]) -> impl Iterator<Item = (usize, usize)> + '_ {
 
 impl Arranged {
     /// Leaves that refer to positions of entries, each of which is in one.
-    pub(super) fn by_position(nodes: &[Node8], slots: Slots) -> Self {
+    pub(super) fn by_position(nodes: &[Node], slots: Slots) -> Self {
         let leaf = |(first, count): (usize, usize)| {
             let slot = slots.places.get(first).copied().unwrap_or(first as u32);
             let kind = slots.starts[1..].partition_point(|&start| start <= slot);
@@ -57,7 +57,7 @@ impl Arranged {
     }
 
     /// Leaves that refer to positions of references: a triangle may be in several, or several times in one, and there is room between them.
-    pub(super) fn sharing(nodes: &[Node8], entries: &[Entry], kinds: usize) -> Self {
+    pub(super) fn sharing(nodes: &[Node], entries: &[Entry], kinds: usize) -> Self {
         let mut leaves = Vec::new();
         // For each kind and index, in how many leaves.
         let mut times: Vec<Vec<u8>> = vec![Vec::new(); kinds];
@@ -165,7 +165,7 @@ impl Slots {
 
 impl Bvh {
     /// Puts down where triangles stand that are in several leaves of these nodes.
-    pub(super) fn share(&mut self, nodes: &[Node8], listed: &Listed) {
+    pub(super) fn share(&mut self, nodes: &[Node], listed: &Listed) {
         let mut splits = Splits::default();
         let mut starts: Vec<u32> = Vec::new();
         for (kind, &whole) in listed.whole.iter().enumerate() {

@@ -38,7 +38,7 @@ const BINS: usize = 16;
 /// instead: then it is looked for nearly everywhere, which takes three times as long and is worth nothing.
 const OVERLAP: f32 = 0.3;
 
-/// A range of fewer entries is not cut in space: it is eight blocks at most.
+/// A range of fewer entries is not cut in space: it is a few blocks.
 const LEAST: usize = 64;
 
 /// Of how many entries there may be one more reference.

@@ -235,7 +235,7 @@ fn best_bin(filled: &Filled, costs: &KindCosts) -> Best {
 
 /// Whether a range that its node has no room to split should be a leaf rather than a node below.
 pub(super) fn is_better_as_leaf(entries: &[Entry], extent: &Extent, costs: &Costs<'_>) -> bool {
-    if entries.len() > costs.max_leaf || !is_one_kind(entries) {
+    if entries.len() > costs.of_range(entries).most || !is_one_kind(entries) {
         return false;
     }
     let (isa, costs) = (costs.isa, costs.of_range(entries));

@@ -1,10 +1,10 @@
-//! Eight lanes at once with AVX2 and FMA.
+//! Eight lanes at once with AVX2 and FMA: nodes and blocks are asked in two halves.
 #![expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")]
 
 use super::packet::{self, Filters, Packet};
 use super::{Kernel, Rows, Stack};
 use crate::frame::up32;
-use crate::node::{ChildRef, Node8, WIDTH};
+use crate::node::{ChildRef, Node, SLOT_BITS, WIDTH};
 use crate::ray::{
     CullRay, Glance, Glances, LEAST, LONGEST, Line, NEARBY, PACKET, Rounding, SLOWEST, Sight, TO_NEAREST,
     U32, WIDEN, Way,
@@ -26,12 +26,72 @@ impl Avx2 {
         matches!(isa.path(), Path::Avx2 | Path::Avx512).then_some(Self(()))
     }
 
-    /// Spreads a ray.
     #[inline(always)]
-    pub(super) fn lanes(self, ray: &CullRay) -> Lanes {
-        // SAFETY: `self` exists, so an `Isa` has seen all of its features on this CPU.
-        unsafe { lanes(ray) }
+    fn clipped(self, tree: &Bvh, sight: &impl Sight) -> Option<CullRay> {
+        self.apart(
+            #[inline(always)]
+            || {
+                let line = sight.line();
+                if line.origin_error != Vec3::ZERO || line.direction_error != Vec3::ZERO {
+                    return tree.cull(&line, Rounding::Fused);
+                }
+                // SAFETY: as below.
+                match unsafe { clip(tree, &line) } {
+                    Clipped::Missed => None,
+                    Clipped::Enters(ray) => Some(ray),
+                    Clipped::Unusual => tree.cull(&line, Rounding::Fused),
+                }
+            },
+        )
     }
+}
+
+/// A ray as a node test needs it, number by number.
+#[derive(Clone, Copy)]
+pub(crate) struct Numbers {
+    pub(super) r: [f32; 4],
+    pub(super) near: [f32; 4],
+    pub(super) far: [f32; 4],
+    pub(super) t_near: f32,
+    octant: u32,
+}
+
+impl Numbers {
+    #[inline]
+    #[target_feature(enable = "avx2,fma")]
+    pub(super) fn new(r: __m128, near: __m128, far: __m128, octant: usize, t_near: f32) -> Self {
+        Self { r: stored(r), near: stored(near), far: stored(far), t_near, octant: octant as u32 }
+    }
+
+    #[inline(always)]
+    pub(super) fn of(ray: &CullRay) -> Self {
+        Self { r: ray.r, near: ray.near, far: ray.far, t_near: ray.way.t_near, octant: ray.octant }
+    }
+
+    /// Where a node's near planes of each axis begin, in bytes, and the far ones.
+    #[inline(always)]
+    pub(super) fn planes(&self) -> [[usize; 3]; 2] {
+        let [near, far] = &PLANES[self.octant as usize & 7];
+        let three =
+            |planes: &[u16; 3]| [usize::from(planes[0]), usize::from(planes[1]), usize::from(planes[2])];
+        [three(near), three(far)]
+    }
+
+    /// By how much the places for rays of its octant are to be shifted.
+    #[inline]
+    #[target_feature(enable = "avx2")]
+    pub(super) fn octant_shift(&self) -> __m128i {
+        _mm_cvtsi32_si128((SLOT_BITS * self.octant) as i32)
+    }
+}
+
+#[inline]
+#[target_feature(enable = "avx2")]
+fn stored(x: __m128) -> [f32; 4] {
+    let mut stored = [0.0_f32; 4];
+    // SAFETY: four f32.
+    unsafe { _mm_storeu_ps(stored.as_mut_ptr(), x) };
+    stored
 }
 
 /// The ray in all lanes.
@@ -43,7 +103,7 @@ pub(crate) struct Lanes {
     /// Where a node's near planes of each axis begin, in bytes, and the far ones.
     pub(super) near_plane: [usize; 3],
     pub(super) far_plane: [usize; 3],
-    pub(super) octant_shift: __m128i,
+    octant_shift: __m128i,
 }
 
 /// For each set of lanes the lanes in it, in order, one per byte: what `vpcompressd` does, from a table.
@@ -52,7 +112,7 @@ static COMPRESS: [u64; 256] = {
     let mut mask = 0;
     while mask < 256 {
         let (mut lane, mut filled) = (0, 0);
-        while lane < WIDTH as u64 {
+        while lane < 8 {
             if mask >> lane & 1 == 1 {
                 table[mask] |= lane << (8 * filled);
                 filled += 1;
@@ -65,8 +125,8 @@ static COMPRESS: [u64; 256] = {
 };
 
 /// Where the near planes for rays of each octant begin in a node, in bytes, and the far ones.
-pub(super) static PLANES: [[[u8; 3]; 2]; 8] = {
-    const ROW: u8 = 4 * WIDTH as u8;
+pub(super) static PLANES: [[[u16; 3]; 2]; 8] = {
+    const ROW: u16 = 4 * WIDTH as u16;
     let mut table = [[[0, ROW, 2 * ROW], [3 * ROW, 4 * ROW, 5 * ROW]]; 8];
     let mut octant = 0;
     while octant < 8 {
@@ -84,80 +144,67 @@ pub(super) static PLANES: [[[u8; 3]; 2]; 8] = {
 };
 
 impl Lanes {
-    /// A ray by what each lane of it holds.
     #[inline]
     #[target_feature(enable = "avx2,fma")]
-    pub(super) fn new(
-        r: [__m256; 3],
-        near: [__m256; 3],
-        far: [__m256; 3],
-        t_near: __m256,
-        octant: usize,
-    ) -> Self {
-        let [near_plane, far_plane] = PLANES[octant & 7];
+    fn of(ray: &Numbers) -> Self {
+        let three = |x: &[f32; 4]| [_mm256_set1_ps(x[0]), _mm256_set1_ps(x[1]), _mm256_set1_ps(x[2])];
+        let [near_plane, far_plane] = ray.planes();
         Self {
-            r,
-            near,
-            far,
-            t_near,
-            near_plane: [0, 1, 2].map(|i| usize::from(near_plane[i])),
-            far_plane: [0, 1, 2].map(|i| usize::from(far_plane[i])),
-            octant_shift: _mm_cvtsi32_si128(3 * octant as i32),
+            r: three(&ray.r),
+            near: three(&ray.near),
+            far: three(&ray.far),
+            t_near: _mm256_set1_ps(ray.t_near),
+            near_plane,
+            far_plane,
+            octant_shift: ray.octant_shift(),
         }
     }
 
     /// Where the ray enters a node's boxes and leaves them, this up to `t_far`.
     #[inline]
     #[target_feature(enable = "avx2,fma")]
-    pub(super) fn slabs(&self, node: &Node8, t_far: f32) -> (__m256, __m256) {
-        let planes = [self.near_plane, self.far_plane];
+    pub(super) fn slabs(&self, node: &Node, half: usize, t_far: f32) -> (__m256, __m256) {
+        let planes = [self.near_plane.map(|i| i + 32 * half), self.far_plane.map(|i| i + 32 * half)];
         slabs(node, planes, [(&self.r, &self.near), (&self.r, &self.far)], self.t_near, t_far)
     }
 
     /// Where it enters them, and which it meets.
     #[inline]
     #[target_feature(enable = "avx2,fma")]
-    fn boxes(&self, node: &Node8, t_far: f32) -> (__m256, __m256) {
-        let (near, far) = self.slabs(node, t_far);
+    fn boxes(&self, node: &Node, half: usize, t_far: f32) -> (__m256, __m256) {
+        let (near, far) = self.slabs(node, half, t_far);
         (near, _mm256_cmp_ps::<_CMP_LE_OQ>(near, far))
     }
 }
 
 impl Kernel for Avx2 {
+    type Ray = Numbers;
     type Lanes = Lanes;
     type Packet = Packet;
     type Filters = Filters;
 
     #[inline(always)]
-    fn nearby(self, tree: &Bvh, sight: &impl Sight) -> Option<(Lanes, Way)> {
+    fn nearby(self, tree: &Bvh, sight: &impl Sight) -> Option<(Numbers, Way)> {
         // SAFETY: as below.
         unsafe { nearby(tree, &sight.glance()) }
     }
 
     #[inline(always)]
-    fn afar(self, tree: &Bvh, sight: &impl Sight) -> Option<(Lanes, Way)> {
-        let ray = self.apart(
-            #[inline(always)]
-            || {
-                let line = sight.line();
-                if line.origin_error != Vec3::ZERO || line.direction_error != Vec3::ZERO {
-                    return tree.cull(&line, Rounding::Fused);
-                }
-                // SAFETY: as below.
-                match unsafe { clip(tree, &line) } {
-                    Clipped::Missed => None,
-                    Clipped::Enters(ray) => Some(ray),
-                    Clipped::Unusual => tree.cull(&line, Rounding::Fused),
-                }
-            },
-        )?;
-        Some((self.lanes(&ray), ray.way))
+    fn afar(self, tree: &Bvh, sight: &impl Sight) -> Option<(Numbers, Way)> {
+        let ray = self.clipped(tree, sight)?;
+        Some((Numbers::of(&ray), ray.way))
+    }
+
+    #[inline(always)]
+    fn spread(self, ray: &Numbers) -> Lanes {
+        // SAFETY: as below.
+        unsafe { Lanes::of(ray) }
     }
 
     #[inline(always)]
     fn descend<const ORDERED: bool>(
         self,
-        node: &Node8,
+        node: &Node,
         lanes: &Lanes,
         t_far: f32,
         stack: &mut Stack,
@@ -167,7 +214,7 @@ impl Kernel for Avx2 {
     }
 
     #[inline(always)]
-    fn meets(self, node: &Node8, slot: usize, lanes: &Lanes, t_far: f32) -> bool {
+    fn meets(self, node: &Node, slot: usize, lanes: &Lanes, t_far: f32) -> bool {
         // SAFETY: as above.
         unsafe { meets(node, slot, lanes, t_far) }
     }
@@ -202,9 +249,9 @@ impl Kernel for Avx2 {
     }
 
     #[inline(always)]
-    fn one(self, tree: &Bvh, packet: &Packet, ray: usize) -> (Lanes, Way) {
+    fn one(self, tree: &Bvh, packet: &Packet, ray: usize) -> (Numbers, Way) {
         // SAFETY: as above.
-        unsafe { (packet.lanes(ray), packet.way(tree, ray)) }
+        unsafe { (packet.numbers(ray), packet.way(tree, ray)) }
     }
 
     #[inline(always)]
@@ -241,7 +288,7 @@ impl Kernel for Avx2 {
     #[inline(always)]
     fn descend_together<const ORDERED: bool>(
         self,
-        node: &Node8,
+        node: &Node,
         packet: &Packet,
         row: &[f32; PACKET],
         (t_far, far): (&[f32; PACKET], f32),
@@ -282,7 +329,7 @@ pub(super) const OUTWARD: f32 = 8.0 * U32 as f32;
 /// them is far below either.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-fn nearby(tree: &Bvh, glance: &Glance) -> Option<(Lanes, Way)> {
+fn nearby(tree: &Bvh, glance: &Glance) -> Option<(Numbers, Way)> {
     let minus = _mm_set1_ps(-0.0);
     let all = |x: f32| _mm_set1_ps(x);
     let size = |x: __m128| _mm_andnot_ps(minus, x);
@@ -325,12 +372,6 @@ fn nearby(tree: &Bvh, glance: &Glance) -> Option<(Lanes, Way)> {
         f64::from(_mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps::<1>(error, error))))
     };
     let fourth = |x: __m128| _mm_cvtss_f32(_mm_shuffle_ps::<3>(x, x));
-    let stored = |x: __m128| {
-        let mut stored = [0.0_f32; 4];
-        // SAFETY: four f32.
-        unsafe { _mm_storeu_ps(stored.as_mut_ptr(), x) };
-        stored
-    };
     let way = Way {
         start: stored(o),
         direction: stored(d),
@@ -341,7 +382,7 @@ fn nearby(tree: &Bvh, glance: &Glance) -> Option<(Lanes, Way)> {
         t_enter: 0.0,
         frame: tree.frame,
     };
-    Some((spread(r, near, far, octant, way.t_near), way))
+    Some((Numbers::new(r, near, far, octant, way.t_near), way))
 }
 
 /// What [`clip`] says of a line.
@@ -445,38 +486,19 @@ fn least(x: __m256d) -> f64 {
     _mm_cvtsd_f64(_mm_min_sd(two, _mm_unpackhi_pd(two, two)))
 }
 
-#[inline]
-#[target_feature(enable = "avx2,fma")]
-fn lanes(ray: &CullRay) -> Lanes {
-    // SAFETY: four f32.
-    let four = |v: &[f32; 4]| unsafe { _mm_loadu_ps(v.as_ptr()) };
-    spread(four(&ray.r), four(&ray.near), four(&ray.far), ray.octant as usize, ray.way.t_near)
-}
-
-/// Of each four numbers three count.
-#[inline]
-#[target_feature(enable = "avx2,fma")]
-fn spread(r: __m128, near: __m128, far: __m128, octant: usize, t_near: f32) -> Lanes {
-    let each = |x: __m128| {
-        let x = _mm256_set_m128(x, x);
-        [_mm256_permute_ps::<0x00>(x), _mm256_permute_ps::<0x55>(x), _mm256_permute_ps::<0xaa>(x)]
-    };
-    Lanes::new(each(r), each(near), each(far), _mm256_set1_ps(t_near), octant)
-}
-
 /// A node's boxes: where they are entered and left, this up to `t_far`. A plane `x` is met at `x r + c`, with the `r` and `c` of near planes and of far ones; where each
 /// axis' planes begin is told in bytes. Six fused multiply-adds, six minima and maxima.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 pub(super) fn slabs(
-    node: &Node8,
+    node: &Node,
     [near_plane, far_plane]: [[usize; 3]; 2],
     [enter, leave]: [(&[__m256; 3], &[__m256; 3]); 2],
     t_near: __m256,
     t_far: f32,
 ) -> (__m256, __m256) {
     let plane = |i: usize, axis: usize, (r, c): (&[__m256; 3], &[__m256; 3])| {
-        // SAFETY: `i < 6` as in `PLANES`, and a row holds eight f32, aligned to 32 bytes in a node
+        // SAFETY: `i < 6` as in `PLANES`, and half a row holds eight f32, aligned to 32 bytes in a node
         // aligned to 64.
         let planes = unsafe { _mm256_load_ps(node.planes.as_ptr().cast::<f32>().byte_add(i)) };
         _mm256_fmadd_ps(planes, r[axis], c[axis])
@@ -492,48 +514,64 @@ pub(super) fn slabs(
 
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-fn meets(node: &Node8, slot: usize, lanes: &Lanes, t_far: f32) -> bool {
-    let (_, met) = lanes.boxes(node, t_far);
-    _mm256_movemask_ps(met) >> slot & 1 != 0
+fn meets(node: &Node, slot: usize, lanes: &Lanes, t_far: f32) -> bool {
+    let (_, met) = lanes.boxes(node, slot / 8, t_far);
+    _mm256_movemask_ps(met) >> (slot % 8) & 1 != 0
+}
+
+/// Sixteen elements in the order of `places`, of which the low four bits count: one half of them.
+#[inline]
+#[target_feature(enable = "avx2")]
+fn placed(places: __m256i, [low, high]: [__m256; 2]) -> __m256 {
+    let is_high = _mm256_castsi256_ps(_mm256_slli_epi32::<28>(places));
+    let (low, high) = (_mm256_permutevar8x32_ps(low, places), _mm256_permutevar8x32_ps(high, places));
+    _mm256_blendv_ps(low, high, is_high)
 }
 
 /// A permutation that sorts children by the ray's octant (or none); and one that closes the
-/// gaps between those that are met, in place of a branch per child.
+/// gaps between those that are met, in place of a branch per child. In two halves.
 ///
-/// The way to the next child is as short as can be: all eight are written where those that are met go later, while the boxes are still being tested, and
+/// The way to the next child is as short as can be: all sixteen are written to one place, while the boxes are still being tested, and
 /// the highest bit of the mask says which to read; with no bit it is the one that was on top before.
 #[inline]
 #[target_feature(enable = "avx2,fma,popcnt,lzcnt")]
-fn descend<const ORDERED: bool>(node: &Node8, lanes: &Lanes, t_far: f32, stack: &mut Stack) -> ChildRef {
-    let (near, met) = lanes.boxes(node, t_far);
-    // SAFETY: both arrays hold eight u32, aligned to 32 bytes in a node aligned to 64.
-    let (child, order) = unsafe {
-        (_mm256_load_si256(node.child.as_ptr().cast()), _mm256_load_si256(node.order.as_ptr().cast()))
-    };
-    let (met, near, child) = if ORDERED {
-        // Only the low three bits of each index count.
-        let order = _mm256_srl_epi32(order, lanes.octant_shift);
-        (
-            _mm256_permutevar8x32_ps(met, order),
-            _mm256_permutevar8x32_ps(near, order),
-            _mm256_permutevar8x32_epi32(child, order),
-        )
-    } else {
-        (met, near, child)
-    };
-    let mask = _mm256_movemask_ps(met) as u32 & 255;
-    let close = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(COMPRESS[mask as usize] as i64));
-    // SAFETY: eight elements are written to each, through pointers to eight; a mask of eight bits has at most eight.
+fn descend<const ORDERED: bool>(node: &Node, lanes: &Lanes, t_far: f32, stack: &mut Stack) -> ChildRef {
+    let ((near0, met0), (near1, met1)) = (lanes.boxes(node, 0, t_far), lanes.boxes(node, 1, t_far));
+    // SAFETY: both arrays hold sixteen u32, aligned to 64 bytes.
+    let eight = |words: *const u32, half: usize| unsafe { _mm256_load_si256(words.add(8 * half).cast()) };
+    let child = |half: usize| _mm256_castsi256_ps(eight(node.child.as_ptr().cast(), half));
+    let (mut near, mut met, mut child) = ([near0, near1], [met0, met1], [child(0), child(1)]);
+    if ORDERED {
+        // Only the low four bits of each place count.
+        let order = |half: usize| _mm256_srl_epi32(eight(node.order.as_ptr(), half), lanes.octant_shift);
+        let (a, b) = (order(0), order(1));
+        near = [placed(a, near), placed(b, near)];
+        met = [placed(a, met), placed(b, met)];
+        child = [placed(a, child), placed(b, child)];
+    }
+    let half = |met: __m256| _mm256_movemask_ps(met) as u32 & 255;
+    let (low, high) = (half(met[0]), half(met[1]));
+    let mask = low | high << 8;
+    let close = |mask: u32| _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(COMPRESS[mask as usize] as i64));
+    let (close0, close1) = (close(low), close(high));
+    // SAFETY: sixteen elements are written to each, or as many as a mask of sixteen bits has and at most eight more, through pointers to sixteen: the first of
+    // the second half go where the first half ends, after at most eight.
     unsafe {
         stack.exchange(
             (32 - mask.leading_zeros()) as usize,
             mask.count_ones() as usize,
             #[inline(always)]
-            |refs| _mm256_storeu_si256(refs.cast(), child),
+            |refs| {
+                _mm256_store_ps(refs.cast(), child[0]);
+                _mm256_store_ps(refs.add(8).cast(), child[1]);
+            },
             #[inline(always)]
             |refs, distances| {
-                _mm256_storeu_si256(refs.cast(), _mm256_permutevar8x32_epi32(child, close));
-                _mm256_storeu_ps(distances, _mm256_permutevar8x32_ps(near, close));
+                let ends = low.count_ones() as usize;
+                _mm256_storeu_ps(refs.cast(), _mm256_permutevar8x32_ps(child[0], close0));
+                _mm256_storeu_ps(refs.add(ends).cast(), _mm256_permutevar8x32_ps(child[1], close1));
+                _mm256_storeu_ps(distances, _mm256_permutevar8x32_ps(near[0], close0));
+                _mm256_storeu_ps(distances.add(ends), _mm256_permutevar8x32_ps(near[1], close1));
             },
         )
     }
@@ -559,7 +597,7 @@ fn cross(a: &[__m256; 3], b: &[__m256; 3]) -> [__m256; 3] {
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
-/// Eight triangles without a ray: the first corner, the edges from there, their cross product, and the size of the block.
+/// Eight triangles, half a block, without a ray: the first corner, the edges from there, their cross product, and the size of the block.
 pub(super) struct Edges {
     v: [__m256; 3],
     e1: [__m256; 3],
@@ -576,10 +614,10 @@ fn difference(a: &[__m256; 3], b: &[__m256; 3]) -> [__m256; 3] {
 
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-pub(super) fn edges(block: &Block) -> Edges {
+pub(super) fn edges(block: &Block, half: usize) -> Edges {
     let row = |r: usize| {
-        // SAFETY: a row holds eight f32, aligned to 32 bytes in a block aligned to 64.
-        let load = |r: usize| unsafe { _mm256_load_ps(block.rows[r].as_ptr()) };
+        // SAFETY: half a row holds eight f32, aligned to 32 bytes in a block aligned to 64.
+        let load = |r: usize| unsafe { _mm256_load_ps(block.rows[r].as_ptr().add(8 * half)) };
         [load(r), load(r + 1), load(r + 2)]
     };
     let v = row(0);
@@ -592,14 +630,29 @@ pub(super) fn edges(block: &Block) -> Edges {
 #[target_feature(enable = "avx2,fma")]
 fn judge(block: &Block, filter: &Filter, t_far: f32) -> Verdict {
     let mut verdict = Verdict::NOTHING;
-    judge_edges(&edges(block), filter, t_far, &mut verdict);
+    judge_halves(&[edges(block, 0), edges(block, 1)], filter, t_far, &mut verdict);
     verdict
 }
 
-/// What `Scalar::judge` does, eight triangles at once; says which are alive, and the rest only if one is. Most blocks end at the first test.
+/// What `Scalar::judge` does, in two halves; says which are alive, and the rest only if one is.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-pub(super) fn judge_edges(edges: &Edges, filter: &Filter, t_far: f32, verdict: &mut Verdict) -> u32 {
+pub(super) fn judge_halves(
+    [low, high]: &[Edges; 2],
+    filter: &Filter,
+    t_far: f32,
+    verdict: &mut Verdict,
+) -> u32 {
+    let a = judge_edges(low, 0, filter, t_far, verdict);
+    let b = judge_edges(high, 1, filter, t_far, verdict);
+    (verdict.alive, verdict.sure) = (a.0 | b.0 << 8, a.1 | b.1 << 8);
+    verdict.alive
+}
+
+/// One half: which are alive, and which of these surely met. Most end at the first test.
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn judge_edges(edges: &Edges, half: usize, filter: &Filter, t_far: f32, verdict: &mut Verdict) -> (u32, u32) {
     let spread = |v: &[f32; 4]| [_mm256_set1_ps(v[0]), _mm256_set1_ps(v[1]), _mm256_set1_ps(v[2])];
     let (start, direction) = (spread(&filter.o), spread(&filter.d));
     let Edges { v, e1, e2, n, extent } = edges;
@@ -616,7 +669,7 @@ pub(super) fn judge_edges(edges: &Edges, filter: &Filter, t_far: f32, verdict: &
     let possible =
         _mm256_or_ps(_mm256_cmp_ps::<_CMP_GE_OQ>(least, below), _mm256_cmp_ps::<_CMP_LE_OQ>(most, above));
     if _mm256_movemask_ps(possible) == 0 {
-        return 0;
+        return (0, 0);
     }
     let square = extent * extent;
     let all = |x: f32| _mm256_set1_ps(x);
@@ -644,12 +697,11 @@ pub(super) fn judge_edges(edges: &Edges, filter: &Filter, t_far: f32, verdict: &
         _mm256_cmp_ps::<_CMP_LE_OQ>(hi, all(filter.last)),
     );
     let sure = _mm256_and_ps(_mm256_and_ps(alive, known), _mm256_and_ps(through, within));
-    verdict.alive = _mm256_movemask_ps(alive) as u32;
-    verdict.sure = _mm256_movemask_ps(sure) as u32;
-    // SAFETY: eight f32 each.
+    // SAFETY: eight f32 each, of sixteen in two halves.
     unsafe {
-        _mm256_storeu_ps(verdict.lo.as_mut_ptr(), lo);
-        _mm256_storeu_ps(verdict.hi.as_mut_ptr(), hi);
+        _mm256_storeu_ps(verdict.lo.as_mut_ptr().add(8 * half), lo);
+        _mm256_storeu_ps(verdict.hi.as_mut_ptr().add(8 * half), hi);
     }
-    verdict.alive
+    let bits = |x: __m256| _mm256_movemask_ps(x) as u32 & 255;
+    (bits(alive), bits(sure))
 }

@@ -1,12 +1,12 @@
-//! Eight lanes at once with AVX-512, and sixteen where two children or two rays are asked side by side.
+//! Sixteen lanes at once with AVX-512: all of a node, all of a block, or two children for eight rays.
 //!
-//! Comparisons give masks in registers of their own, and such a mask closes gaps by itself. Rays are made ready as with AVX2, whose vectors serve here, too.
+//! Comparisons give masks in registers of their own, and such a mask closes gaps by itself. Rays are made ready as with AVX2.
 #![expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")]
 
-use super::avx2::{Lanes, PLANES};
+use super::avx2::{Numbers, PLANES};
 use super::packet::{Filters, Packet, eight, numbers};
 use super::{Avx2, Kernel, Rows, Stack};
-use crate::node::{ChildRef, Node8};
+use crate::node::{ChildRef, Node, SLOT_BITS, WIDTH};
 use crate::ray::{Glances, PACKET, Sight, Way};
 use crate::tree::Bvh;
 use crate::triangles::{Block, FAR, FLAT, Filter, NEAR, Verdict};
@@ -27,25 +27,32 @@ impl Avx512 {
 }
 
 impl Kernel for Avx512 {
-    type Lanes = Lanes;
+    type Ray = Numbers;
+    type Lanes = Wide;
     type Packet = Packet;
     type Filters = Filters;
 
     #[inline(always)]
-    fn nearby(self, tree: &Bvh, sight: &impl Sight) -> Option<(Lanes, Way)> {
+    fn nearby(self, tree: &Bvh, sight: &impl Sight) -> Option<(Numbers, Way)> {
         self.0.nearby(tree, sight)
     }
 
     #[inline(always)]
-    fn afar(self, tree: &Bvh, sight: &impl Sight) -> Option<(Lanes, Way)> {
+    fn afar(self, tree: &Bvh, sight: &impl Sight) -> Option<(Numbers, Way)> {
         self.0.afar(tree, sight)
+    }
+
+    #[inline(always)]
+    fn spread(self, ray: &Numbers) -> Wide {
+        // SAFETY: as below.
+        unsafe { Wide::of(ray) }
     }
 
     #[inline(always)]
     fn descend<const ORDERED: bool>(
         self,
-        node: &Node8,
-        lanes: &Lanes,
+        node: &Node,
+        lanes: &Wide,
         t_far: f32,
         stack: &mut Stack,
     ) -> ChildRef {
@@ -54,13 +61,15 @@ impl Kernel for Avx512 {
     }
 
     #[inline(always)]
-    fn meets(self, node: &Node8, slot: usize, lanes: &Lanes, t_far: f32) -> bool {
-        self.0.meets(node, slot, lanes, t_far)
+    fn meets(self, node: &Node, slot: usize, lanes: &Wide, t_far: f32) -> bool {
+        // SAFETY: as above.
+        unsafe { meets(node, slot, lanes, t_far) }
     }
 
     #[inline(always)]
     fn judge(self, block: &Block, filter: &Filter, t_far: f32) -> Verdict {
-        self.0.judge(block, filter, t_far)
+        // SAFETY: as above.
+        unsafe { judge(block, filter, t_far) }
     }
 
     #[inline(always)]
@@ -85,7 +94,7 @@ impl Kernel for Avx512 {
     }
 
     #[inline(always)]
-    fn one(self, tree: &Bvh, packet: &Packet, ray: usize) -> (Lanes, Way) {
+    fn one(self, tree: &Bvh, packet: &Packet, ray: usize) -> (Numbers, Way) {
         self.0.one(tree, packet, ray)
     }
 
@@ -121,7 +130,7 @@ impl Kernel for Avx512 {
     #[inline(always)]
     fn descend_together<const ORDERED: bool>(
         self,
-        node: &Node8,
+        node: &Node,
         packet: &Packet,
         row: &[f32; PACKET],
         (t_far, far): (&[f32; PACKET], f32),
@@ -143,39 +152,99 @@ fn apart<R>(f: impl FnOnce() -> R) -> R {
     f()
 }
 
+/// The ray in all sixteen lanes.
+pub(crate) struct Wide {
+    r: [__m512; 3],
+    near: [__m512; 3],
+    far: [__m512; 3],
+    t_near: __m512,
+    near_plane: [usize; 3],
+    far_plane: [usize; 3],
+    octant_shift: __m128i,
+}
+
+impl Wide {
+    #[inline]
+    #[target_feature(enable = "avx512f,avx512vl,avx2,fma")]
+    fn of(ray: &Numbers) -> Self {
+        let three = |x: &[f32; 4]| [_mm512_set1_ps(x[0]), _mm512_set1_ps(x[1]), _mm512_set1_ps(x[2])];
+        let [near_plane, far_plane] = ray.planes();
+        Self {
+            r: three(&ray.r),
+            near: three(&ray.near),
+            far: three(&ray.far),
+            t_near: _mm512_set1_ps(ray.t_near),
+            near_plane,
+            far_plane,
+            octant_shift: ray.octant_shift(),
+        }
+    }
+
+    /// Where the ray enters a node's boxes and leaves them, this up to `t_far`.
+    #[inline]
+    #[target_feature(enable = "avx512f,avx512vl,avx2,fma")]
+    fn slabs(&self, node: &Node, t_far: f32) -> (__m512, __m512) {
+        let plane = |i: usize, axis: usize, c: &[__m512; 3]| {
+            // SAFETY: `i` is of `PLANES`, so less than six rows, and a row holds sixteen f32, aligned to 64 bytes.
+            let planes = unsafe { _mm512_load_ps(node.planes.as_ptr().cast::<f32>().byte_add(i)) };
+            _mm512_fmadd_ps(planes, self.r[axis], c[axis])
+        };
+        let [nx, ny, nz] = self.near_plane;
+        let [fx, fy, fz] = self.far_plane;
+        let (ex, ey, ez) = (plane(nx, 0, &self.near), plane(ny, 1, &self.near), plane(nz, 2, &self.near));
+        let (lx, ly, lz) = (plane(fx, 0, &self.far), plane(fy, 1, &self.far), plane(fz, 2, &self.far));
+        let near = _mm512_max_ps(_mm512_max_ps(ex, ey), _mm512_max_ps(ez, self.t_near));
+        let far = _mm512_min_ps(_mm512_min_ps(lx, ly), _mm512_min_ps(lz, _mm512_set1_ps(t_far)));
+        (near, far)
+    }
+}
+
+#[inline]
+#[target_feature(enable = "avx512f,avx512vl,avx2,fma")]
+fn meets(node: &Node, slot: usize, lanes: &Wide, t_far: f32) -> bool {
+    let (near, far) = lanes.slabs(node, t_far);
+    _mm512_cmp_ps_mask::<_CMP_LE_OQ>(near, far) >> slot & 1 != 0
+}
+
 /// As with AVX2, but a mask closes the gaps.
 #[inline]
-#[target_feature(enable = "avx512f,avx512vl,avx2,fma,lzcnt,popcnt")]
-fn descend<const ORDERED: bool>(node: &Node8, lanes: &Lanes, t_far: f32, stack: &mut Stack) -> ChildRef {
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma,lzcnt,popcnt")]
+fn descend<const ORDERED: bool>(node: &Node, lanes: &Wide, t_far: f32, stack: &mut Stack) -> ChildRef {
     let (near, far) = lanes.slabs(node, t_far);
-    // SAFETY: both arrays hold eight u32, aligned to 32 bytes in a node aligned to 64.
+    // SAFETY: both arrays hold sixteen u32, in a node aligned to 64.
     let (child, order) = unsafe {
-        (_mm256_load_si256(node.child.as_ptr().cast()), _mm256_load_si256(node.order.as_ptr().cast()))
+        (_mm512_load_si512(node.child.as_ptr().cast()), _mm512_load_si512(node.order.as_ptr().cast()))
     };
     let (near, far, child) = if ORDERED {
-        // Only the low three bits of each index count.
-        let order = _mm256_srl_epi32(order, lanes.octant_shift);
+        // Only the low four bits of each index count.
+        let order = _mm512_srl_epi32(order, lanes.octant_shift);
         (
-            _mm256_permutexvar_ps(order, near),
-            _mm256_permutexvar_ps(order, far),
-            _mm256_permutexvar_epi32(order, child),
+            _mm512_permutexvar_ps(order, near),
+            _mm512_permutexvar_ps(order, far),
+            _mm512_permutexvar_epi32(order, child),
         )
     } else {
         (near, far, child)
     };
-    let met = _mm256_cmp_ps_mask::<_CMP_LE_OQ>(near, far);
+    let met = _mm512_cmp_ps_mask::<_CMP_LE_OQ>(near, far);
     let mask = u32::from(met);
-    // SAFETY: eight elements are written to each, through pointers to eight; a mask of eight bits has at most eight.
+    // SAFETY: sixteen elements are written to each, through pointers to sixteen; a mask of sixteen bits has at most sixteen.
     unsafe {
         stack.exchange(
             (32 - mask.leading_zeros()) as usize,
             mask.count_ones() as usize,
             #[inline(always)]
-            |refs| _mm256_storeu_si256(refs.cast(), child),
+            |refs| _mm512_store_si512(refs.cast(), child),
             #[inline(always)]
             |refs, distances| {
-                _mm256_storeu_si256(refs.cast(), _mm256_maskz_compress_epi32(met, child));
-                _mm256_storeu_ps(distances, _mm256_maskz_compress_ps(met, near));
+                let (child, near) =
+                    (_mm512_maskz_compress_epi32(met, child), _mm512_maskz_compress_ps(met, near));
+                _mm256_storeu_si256(refs.cast(), _mm512_castsi512_si256(child));
+                _mm256_storeu_ps(distances, _mm512_castps512_ps256(near));
+                if mask.count_ones() > 8 {
+                    _mm256_storeu_si256(refs.add(8).cast(), _mm512_extracti64x4_epi64::<1>(child));
+                    _mm256_storeu_ps(distances.add(8), _mm512_extractf32x8_ps::<1>(near));
+                }
             },
         )
     }
@@ -190,8 +259,8 @@ fn awake(row: &[f32; 8], t_far: &[f32; 8]) -> u32 {
 /// Two of eight numbers, each in half of the lanes.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx2,fma")]
-fn pair(numbers: &[f32; 8], (a, b): (usize, usize)) -> __m512 {
-    let of = |at: usize| _mm_set_ss(numbers[at & 7]);
+fn pair<const N: usize>(numbers: &[f32; N], (a, b): (usize, usize)) -> __m512 {
+    let of = |at: usize| _mm_set_ss(numbers[at % N]);
     _mm512_mask_broadcastss_ps(_mm512_broadcastss_ps(of(a)), 0xff00, of(b))
 }
 
@@ -205,30 +274,52 @@ fn halves(x: __m512) -> [__m256; 2] {
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 fn descend_together<const ORDERED: bool>(
-    node: &Node8,
+    node: &Node,
     packet: &Packet,
     row: &[f32; 8],
     (t_far, far): (&[f32; 8], f32),
     rows: &mut Rows,
 ) {
     let [near_plane, far_plane] = PLANES[packet.octant & 7];
-    let (mut near, mut far) = packet.slabs(node, far);
+    let hull = &packet.hull;
+    let twice = |x: __m256| _mm512_broadcast_f32x8(x);
+    let (mut near, mut far) = {
+        let plane = |begins: u16, axis: usize, (r, c): &([__m256; 3], [__m256; 3])| {
+            // SAFETY: a row holds sixteen f32, aligned to 64 bytes.
+            let planes =
+                unsafe { _mm512_load_ps(node.planes[usize::from(begins) / (4 * WIDTH) % 6].as_ptr()) };
+            _mm512_fmadd_ps(planes, twice(r[axis]), twice(c[axis]))
+        };
+        let (ex, ey, ez) = (
+            plane(near_plane[0], 0, &hull.enter),
+            plane(near_plane[1], 1, &hull.enter),
+            plane(near_plane[2], 2, &hull.enter),
+        );
+        let (lx, ly, lz) = (
+            plane(far_plane[0], 0, &hull.leave),
+            plane(far_plane[1], 1, &hull.leave),
+            plane(far_plane[2], 2, &hull.leave),
+        );
+        (
+            _mm512_max_ps(_mm512_max_ps(ex, ey), _mm512_max_ps(ez, twice(hull.t_near))),
+            _mm512_min_ps(_mm512_min_ps(lx, ly), _mm512_min_ps(lz, _mm512_set1_ps(far))),
+        )
+    };
     if ORDERED {
-        // SAFETY: eight u32, aligned to 32 bytes in a node aligned to 64.
-        let order = unsafe { _mm256_load_si256(node.order.as_ptr().cast()) };
-        let order = _mm256_srl_epi32(order, _mm_cvtsi32_si128(3 * packet.octant as i32));
-        near = _mm256_permutexvar_ps(order, near);
-        far = _mm256_permutexvar_ps(order, far);
+        // SAFETY: sixteen u32, aligned to 64 bytes.
+        let order = unsafe { _mm512_load_si512(node.order.as_ptr().cast()) };
+        let order = _mm512_srl_epi32(order, _mm_cvtsi32_si128((SLOT_BITS as usize * packet.octant) as i32));
+        near = _mm512_permutexvar_ps(order, near);
+        far = _mm512_permutexvar_ps(order, far);
     }
-    let mut left = u32::from(_mm256_cmp_ps_mask::<_CMP_LE_OQ>(near, far));
+    let mut left = u32::from(_mm512_cmp_ps_mask::<_CMP_LE_OQ>(near, far));
     let awake = _mm256_cmp_ps_mask::<_CMP_LE_OQ>(eight(row), eight(t_far));
     let awake = u16::from(awake) << 8 | u16::from(awake);
-    let twice = |x: __m256| _mm512_broadcast_f32x8(x);
     let (t_near, t_far) = (twice(packet.t_near), twice(eight(t_far)));
     let nothing = _mm512_set1_ps(f32::NAN);
     let slot = |at: u32| {
-        let at = at as usize & 7;
-        if ORDERED { (node.order[at] >> (3 * packet.octant)) as usize & 7 } else { at }
+        let at = at as usize % WIDTH;
+        if ORDERED { (node.order[at] >> (SLOT_BITS as usize * packet.octant)) as usize % WIDTH } else { at }
     };
     while left != 0 {
         let a = slot(left.trailing_zeros());
@@ -237,8 +328,8 @@ fn descend_together<const ORDERED: bool>(
         let is_pair = left != 0;
         let b = if is_pair { slot(left.trailing_zeros()) } else { a };
         left &= left.wrapping_sub(1);
-        let plane = |begins: u8, axis: usize, c: &[__m256; 3]| {
-            let planes = pair(&node.planes[usize::from(begins) / 32 % 6], (a, b));
+        let plane = |begins: u16, axis: usize, c: &[__m256; 3]| {
+            let planes = pair(&node.planes[usize::from(begins) / (4 * WIDTH) % 6], (a, b));
             _mm512_fmadd_ps(planes, twice(packet.r[axis]), twice(c[axis]))
         };
         let (ex, ey, ez) = (
@@ -282,7 +373,90 @@ fn cross(a: &Three, b: &Three) -> Three {
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
-/// What [`Kernel::judge`] says for each ray that is awake, two rays at a time.
+/// Sixteen triangles without a ray: the first corner, the edges from there, their cross product, and the size of the block.
+struct Edges {
+    first: Three,
+    e1: Three,
+    e2: Three,
+    n: Three,
+    extent: f32,
+}
+
+#[inline]
+#[target_feature(enable = "avx512f,avx2,fma")]
+fn edges(block: &Block) -> Edges {
+    let row = |r: usize| {
+        // SAFETY: a row holds sixteen f32, aligned to 64 bytes.
+        let load = |r: usize| unsafe { _mm512_load_ps(block.rows[r].as_ptr()) };
+        [load(r), load(r + 1), load(r + 2)]
+    };
+    let first = row(0);
+    let (e1, e2) = (difference(&row(3), &first), difference(&row(6), &first));
+    Edges { first, e1, e2, n: cross(&e1, &e2), extent: block.size() }
+}
+
+#[inline]
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+fn judge(block: &Block, filter: &Filter, t_far: f32) -> Verdict {
+    let mut verdict = Verdict::NOTHING;
+    judge_edges(&edges(block), filter, t_far, &mut verdict);
+    verdict
+}
+
+/// What `Scalar::judge` does, sixteen triangles at once; says which are alive, and the rest only if one is. Most blocks end at the first test.
+#[inline]
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+fn judge_edges(edges: &Edges, filter: &Filter, t_far: f32, verdict: &mut Verdict) -> u32 {
+    let all = |x: f32| _mm512_set1_ps(x);
+    let spread = |v: &[f32; 4]| [all(v[0]), all(v[1]), all(v[2])];
+    let (start, direction) = (spread(&filter.o), spread(&filter.d));
+    let Edges { first, e1, e2, n, extent } = edges;
+    let (c, extent) = (difference(first, &start), *extent);
+    let slack = extent.mul_add(filter.b.mul_add(extent, filter.a), filter.g);
+    let r = cross(&c, &direction);
+    let (u, v) = (dot(&r, e2), _mm512_xor_ps(all(-0.0), dot(&r, e1)));
+    let d = dot(&direction, n);
+    let w = _mm512_sub_ps(_mm512_sub_ps(d, u), v);
+    let least = _mm512_min_ps(_mm512_min_ps(u, v), w);
+    let most = _mm512_max_ps(_mm512_max_ps(u, v), w);
+    let (above, below) = (all(slack), all(-slack));
+    let possible =
+        _mm512_cmp_ps_mask::<_CMP_GE_OQ>(least, below) | _mm512_cmp_ps_mask::<_CMP_LE_OQ>(most, above);
+    if possible == 0 {
+        return 0;
+    }
+    let length = |e: &Three| {
+        _mm512_add_ps(_mm512_add_ps(_mm512_abs_ps(e[0]), _mm512_abs_ps(e[1])), _mm512_abs_ps(e[2]))
+    };
+    let square = extent * extent;
+    let inverse = _mm512_div_ps(all(1.0), d);
+    let t = _mm512_mul_ps(dot(&c, n), inverse);
+    let size = _mm512_abs_ps(t);
+    let spread = _mm512_mul_ps(_mm512_abs_ps(inverse), _mm512_mul_ps(length(e1), length(e2)));
+    let nearby = NEAR.mul_add(extent, filter.p);
+    let far = _mm512_mul_ps(_mm512_fmadd_ps(all(filter.q), size, all(nearby)), spread);
+    let tau = _mm512_add_ps(far, _mm512_fmadd_ps(all(FAR), size, all(filter.s)));
+    let certain = 4.0_f32.mul_add(slack, filter.flat.mul_add(square, FLAT));
+    let known = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(_mm512_abs_ps(d), all(certain));
+    let lo = _mm512_mask_sub_ps(all(f32::NEG_INFINITY), known, t, tau);
+    let hi = _mm512_mask_add_ps(all(f32::INFINITY), known, t, tau);
+    let alive = _mm512_mask_cmp_ps_mask::<_CMP_GE_OQ>(possible, hi, all(filter.t_near));
+    let alive = _mm512_mask_cmp_ps_mask::<_CMP_LE_OQ>(alive, lo, all(t_far));
+    let through =
+        _mm512_cmp_ps_mask::<_CMP_GT_OQ>(least, above) | _mm512_cmp_ps_mask::<_CMP_LT_OQ>(most, below);
+    let sure = _mm512_mask_cmp_ps_mask::<_CMP_GE_OQ>(alive & known & through, lo, all(filter.first));
+    let sure = _mm512_mask_cmp_ps_mask::<_CMP_LE_OQ>(sure, hi, all(filter.last));
+    verdict.alive = u32::from(alive);
+    verdict.sure = u32::from(sure);
+    // SAFETY: sixteen f32 each.
+    unsafe {
+        _mm512_storeu_ps(verdict.lo.as_mut_ptr(), lo);
+        _mm512_storeu_ps(verdict.hi.as_mut_ptr(), hi);
+    }
+    verdict.alive
+}
+
+/// What [`Kernel::judge`] says for each ray that is awake.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 fn judge_together(
@@ -292,82 +466,13 @@ fn judge_together(
     t_far: &[f32; 8],
     verdicts: &mut [Verdict; 8],
 ) -> u32 {
-    let all = |x: f32| _mm512_set1_ps(x);
-    let row = |r: usize| {
-        // SAFETY: a row holds eight f32, aligned to 32 bytes in a block aligned to 64.
-        let twice = |r: usize| _mm512_broadcast_f32x8(unsafe { _mm256_load_ps(block.rows[r].as_ptr()) });
-        [twice(r), twice(r + 1), twice(r + 2)]
-    };
-    let first = row(0);
-    let (e1, e2) = (difference(&row(3), &first), difference(&row(6), &first));
-    let n = cross(&e1, &e2);
-    let length = |e: &Three| {
-        _mm512_add_ps(_mm512_add_ps(_mm512_abs_ps(e[0]), _mm512_abs_ps(e[1])), _mm512_abs_ps(e[2]))
-    };
-    // What depends on ray and block, for all rays.
-    let (slack, nearby, certain) = {
-        let extent = block.size();
-        let (all, square) = (|x: f32| _mm256_set1_ps(x), extent * extent);
-        let (a, b, g) = (eight(&filters.a), eight(&filters.b), eight(&filters.g));
-        let slack = _mm256_fmadd_ps(all(extent), _mm256_fmadd_ps(b, all(extent), a), g);
-        let nearby = _mm256_fmadd_ps(all(NEAR), all(extent), eight(&filters.p));
-        let flat = _mm256_mul_ps(all(2.0), b);
-        let certain = _mm256_fmadd_ps(all(4.0), slack, _mm256_fmadd_ps(flat, all(square), all(FLAT)));
-        (numbers(slack), numbers(nearby), numbers(certain))
-    };
-    let mut are_alive = 0;
+    let edges = edges(block);
+    let mut alive = 0;
     while awake != 0 {
-        let a = awake.trailing_zeros() as usize & 7;
+        let ray = awake.trailing_zeros() as usize & 7;
         awake &= awake - 1;
-        // Without another the same again.
-        let b = if awake != 0 { awake.trailing_zeros() as usize & 7 } else { a };
-        awake &= awake.wrapping_sub(1);
-        let each = |x: &[f32; 8]| pair(x, (a, b));
-        let three = |x: &[[f32; 8]; 3]| [each(&x[0]), each(&x[1]), each(&x[2])];
-        let (start, direction) = (three(&filters.o), three(&filters.d));
-        let c = difference(&first, &start);
-        let r = cross(&c, &direction);
-        let (u, v) = (dot(&r, &e2), _mm512_xor_ps(all(-0.0), dot(&r, &e1)));
-        let d = dot(&direction, &n);
-        let w = _mm512_sub_ps(_mm512_sub_ps(d, u), v);
-        let least = _mm512_min_ps(_mm512_min_ps(u, v), w);
-        let most = _mm512_max_ps(_mm512_max_ps(u, v), w);
-        let above = each(&slack);
-        let below = _mm512_xor_ps(all(-0.0), above);
-        let possible =
-            _mm512_cmp_ps_mask::<_CMP_GE_OQ>(least, below) | _mm512_cmp_ps_mask::<_CMP_LE_OQ>(most, above);
-        if possible == 0 {
-            continue;
-        }
-        let inverse = _mm512_div_ps(all(1.0), d);
-        let t = _mm512_mul_ps(dot(&c, &n), inverse);
-        let size = _mm512_abs_ps(t);
-        let spread = _mm512_mul_ps(_mm512_abs_ps(inverse), _mm512_mul_ps(length(&e1), length(&e2)));
-        let q = _mm512_mul_ps(all(4.0), each(&filters.b));
-        let far = _mm512_mul_ps(_mm512_fmadd_ps(q, size, each(&nearby)), spread);
-        let tau = _mm512_add_ps(far, _mm512_fmadd_ps(all(FAR), size, all(Filter::S)));
-        let known = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(_mm512_abs_ps(d), each(&certain));
-        let lo = _mm512_mask_sub_ps(all(f32::NEG_INFINITY), known, t, tau);
-        let hi = _mm512_mask_add_ps(all(f32::INFINITY), known, t, tau);
-        let alive = _mm512_mask_cmp_ps_mask::<_CMP_GE_OQ>(possible, hi, each(&filters.t_near));
-        let alive = _mm512_mask_cmp_ps_mask::<_CMP_LE_OQ>(alive, lo, each(t_far));
-        if alive == 0 {
-            continue;
-        }
-        let through =
-            _mm512_cmp_ps_mask::<_CMP_GT_OQ>(least, above) | _mm512_cmp_ps_mask::<_CMP_LT_OQ>(most, below);
-        let sure = _mm512_mask_cmp_ps_mask::<_CMP_GE_OQ>(alive & known & through, lo, each(&filters.first));
-        let sure = _mm512_mask_cmp_ps_mask::<_CMP_LE_OQ>(sure, hi, each(&filters.last));
-        let ([lo_a, lo_b], [hi_a, hi_b]) = (halves(lo), halves(hi));
-        verdicts[a] = verdict(alive & 0xff, sure & 0xff, lo_a, hi_a);
-        verdicts[b] = verdict(alive >> 8, sure >> 8, lo_b, hi_b);
-        are_alive |= u32::from(alive & 0xff != 0) << a | u32::from(alive >> 8 != 0) << b;
+        let is_any = judge_edges(&edges, &filters.one(ray), t_far[ray], &mut verdicts[ray]) != 0;
+        alive |= u32::from(is_any) << ray;
     }
-    are_alive
-}
-
-#[inline]
-#[target_feature(enable = "avx2,fma")]
-fn verdict(alive: u16, sure: u16, lo: __m256, hi: __m256) -> Verdict {
-    Verdict { alive: u32::from(alive), sure: u32::from(sure), lo: numbers(lo), hi: numbers(hi) }
+    alive
 }

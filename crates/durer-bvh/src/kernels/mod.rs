@@ -19,16 +19,19 @@ pub(crate) use bins::{add_centres, fill};
 pub(crate) use scalar::Scalar;
 pub(crate) use stack::{MAX_DEPTH, Rows, Stack};
 
-use crate::node::{ChildRef, Node8};
+use crate::node::{ChildRef, Node};
 use crate::ray::{Glances, PACKET, Sight, Way};
 use crate::tree::Bvh;
 use crate::triangles::{Block, Filter, Verdict};
 
-/// Tests a node's eight boxes against a ray and stacks the children it meets.
+/// Tests a node's boxes against a ray and stacks the children it meets.
 ///
 /// A kernel for another instruction set is one more implementation, and one more line in `traverse::with_kernel`.
 pub(crate) trait Kernel: Copy {
-    /// The ray, spread over the lanes.
+    /// What node tests need of a ray.
+    type Ray;
+
+    /// The same, spread over the lanes.
     type Lanes;
 
     /// Eight rays that go through a tree together.
@@ -39,31 +42,34 @@ pub(crate) trait Kernel: Copy {
 
     /// What the tests need of a ray, clipped to the tree's box or not; `None` if it certainly misses that.
     #[inline(always)]
-    fn ready(self, tree: &Bvh, sight: &impl Sight) -> Option<(Self::Lanes, Way)> {
+    fn ready(self, tree: &Bvh, sight: &impl Sight) -> Option<(Self::Ray, Way)> {
         let nearby = self.nearby(tree, sight);
         if nearby.is_some() { nearby } else { self.afar(tree, sight) }
     }
 
     /// The same at a glance; `None` if that is not enough.
-    fn nearby(self, tree: &Bvh, sight: &impl Sight) -> Option<(Self::Lanes, Way)>;
+    fn nearby(self, tree: &Bvh, sight: &impl Sight) -> Option<(Self::Ray, Way)>;
 
     /// The same of a ray of which a glance did not say it.
-    fn afar(self, tree: &Bvh, sight: &impl Sight) -> Option<(Self::Lanes, Way)>;
+    fn afar(self, tree: &Bvh, sight: &impl Sight) -> Option<(Self::Ray, Way)>;
+
+    /// Brings a ray into the lanes.
+    fn spread(self, ray: &Self::Ray) -> Self::Lanes;
 
     /// Pushes the children whose boxes the ray meets before `t_far`, and takes the last off the stack, or what was there before if it meets none. In
     /// the order of the ray's octant, the farthest first, or in that of the node.
     fn descend<const ORDERED: bool>(
         self,
-        node: &Node8,
+        node: &Node,
         lanes: &Self::Lanes,
         t_far: f32,
         stack: &mut Stack,
     ) -> ChildRef;
 
     /// Whether [`Kernel::descend`] pushes the child in a slot.
-    fn meets(self, node: &Node8, slot: usize, lanes: &Self::Lanes, t_far: f32) -> bool;
+    fn meets(self, node: &Node, slot: usize, lanes: &Self::Lanes, t_far: f32) -> bool;
 
-    /// What can be said of eight triangles, of crossings up to `t_far`.
+    /// What can be said of sixteen triangles, of crossings up to `t_far`.
     fn judge(self, block: &Block, filter: &Filter, t_far: f32) -> Verdict;
 
     /// Runs what few steps need, and what is the caller's, compiled apart from the code around it: else compilers do parts of it ahead, for every
@@ -80,7 +86,7 @@ pub(crate) trait Kernel: Copy {
     fn ends(self, packet: &Self::Packet) -> [f32; PACKET];
 
     /// One of a packet's rays: the very numbers that [`Kernel::ready`] gives.
-    fn one(self, tree: &Bvh, packet: &Self::Packet, ray: usize) -> (Self::Lanes, Way);
+    fn one(self, tree: &Bvh, packet: &Self::Packet, ray: usize) -> (Self::Ray, Way);
 
     /// The second half of that.
     fn way(self, tree: &Bvh, packet: &Self::Packet, ray: usize) -> Way;
@@ -105,7 +111,7 @@ pub(crate) trait Kernel: Copy {
     /// `far` none of the rays looks.
     fn descend_together<const ORDERED: bool>(
         self,
-        node: &Node8,
+        node: &Node,
         packet: &Self::Packet,
         row: &[f32; PACKET],
         t_far: (&[f32; PACKET], f32),

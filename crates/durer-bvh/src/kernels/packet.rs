@@ -1,6 +1,6 @@
 //! Eight rays that go through a tree together, with AVX2 and FMA.
 //!
-//! A node's eight boxes are tested at once against what bounds all eight rays, then each box that is met there against the eight rays at once, so that a
+//! A node's boxes are tested at once against what bounds all eight rays, then each box that is met there against the eight rays at once, so that a
 //! ray is shown what it is shown alone, to the bit (I. Wald, P. Slusallek, C. Benthin, M. Wagner, "Interactive rendering with coherent ray tracing", Computer
 //! Graphics Forum 20(3), 2001; A. Reshetov, A. Soupikov, J. Hurley, "Multi-level ray tracing algorithm", ACM Transactions on Graphics 24(3), 2005).
 //!
@@ -19,8 +19,8 @@
 #![expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")]
 
 use super::Rows;
-use super::avx2::{Lanes, OUTWARD, PLANES, SLACK, edges, judge_edges, slabs};
-use crate::node::Node8;
+use super::avx2::{Numbers, OUTWARD, PLANES, SLACK, edges, judge_halves, slabs};
+use crate::node::{Node, SLOT_BITS, WIDTH};
 use crate::ray::{Glances, INSIDE, LONGEST, NEARBY, U32, Way};
 use crate::tree::Bvh;
 use crate::triangles::{Block, Filter, Verdict};
@@ -160,39 +160,57 @@ pub(super) fn gather(tree: &Bvh, rays: &Glances) -> Option<Packet> {
     Some(Packet { hull, r, near, far, t_near, start: o, direction: d, t_far, octant })
 }
 
+/// A mask of slots as one of places in the order of an octant.
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+pub(super) fn ordered(node: &Node, mask: u32, octant: usize) -> u32 {
+    let shift = _mm_cvtsi32_si128((SLOT_BITS as usize * octant) as i32);
+    let mut places = 0;
+    for half in 0..WIDTH / 8 {
+        // SAFETY: eight u32 of sixteen, aligned to 32 bytes in a node aligned to 64.
+        let order = unsafe { _mm256_load_si256(node.order.as_ptr().add(8 * half).cast()) };
+        let slot = _mm256_and_si256(_mm256_srl_epi32(order, shift), _mm256_set1_epi32(WIDTH as i32 - 1));
+        let bit = _mm256_slli_epi32::<31>(_mm256_srlv_epi32(_mm256_set1_epi32(mask as i32), slot));
+        places |= (_mm256_movemask_ps(_mm256_castsi256_ps(bit)) as u32 & 255) << (8 * half);
+    }
+    places
+}
+
 /// Pushes the children of a node that one of the rays meets which are `awake`: those whose entry into the node is not behind what they found.
 ///
 /// The hull's `far` is not below any of `t_far`.
 #[inline]
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 pub(super) fn descend<const ORDERED: bool>(
-    node: &Node8,
+    node: &Node,
     packet: &Packet,
     row: &[f32; 8],
     (t_far, far): (&[f32; 8], f32),
     rows: &mut Rows,
 ) {
     let [near_plane, far_plane] = PLANES[packet.octant & 7];
-    let (near, far) = packet.slabs(node, far);
-    let met = _mm256_cmp_ps::<_CMP_LE_OQ>(near, far);
-    let met = if ORDERED {
-        // SAFETY: eight u32, aligned to 32 bytes in a node aligned to 64.
-        let order = unsafe { _mm256_load_si256(node.order.as_ptr().cast()) };
-        let order = _mm256_srl_epi32(order, _mm_cvtsi32_si128(3 * packet.octant as i32));
-        _mm256_permutevar8x32_ps(met, order)
-    } else {
-        met
-    };
+    let mut left = 0;
+    for half in 0..WIDTH / 8 {
+        let (near, far) = packet.slabs(node, half, far);
+        let met = _mm256_cmp_ps::<_CMP_LE_OQ>(near, far);
+        left |= (_mm256_movemask_ps(met) as u32 & 255) << (8 * half);
+    }
+    if ORDERED {
+        left = ordered(node, left, packet.octant);
+    }
     let t_far = eight(t_far);
     let awake = _mm256_cmp_ps::<_CMP_LE_OQ>(eight(row), t_far);
     let nothing = _mm256_set1_ps(f32::NAN);
-    let mut left = _mm256_movemask_ps(met) as u32 & 255;
     while left != 0 {
-        let at = left.trailing_zeros() as usize & 7;
+        let at = left.trailing_zeros() as usize % WIDTH;
         left &= left - 1;
-        let slot = if ORDERED { (node.order[at] >> (3 * packet.octant)) as usize & 7 } else { at };
-        let plane = |begins: u8, axis: usize, c: &[__m256; 3]| {
-            let plane = _mm256_set1_ps(node.planes[usize::from(begins) / 32 % 6][slot]);
+        let slot = if ORDERED {
+            (node.order[at] >> (SLOT_BITS as usize * packet.octant)) as usize % WIDTH
+        } else {
+            at
+        };
+        let plane = |begins: u16, axis: usize, c: &[__m256; 3]| {
+            let plane = _mm256_set1_ps(node.planes[usize::from(begins) / (4 * WIDTH) % 6][slot]);
             _mm256_fmadd_ps(plane, packet.r[axis], c[axis])
         };
         let (ex, ey, ez) = (
@@ -224,9 +242,14 @@ impl Packet {
     /// Where what bounds the rays enters a node's boxes and leaves them.
     #[inline]
     #[target_feature(enable = "avx2,fma")]
-    pub(super) fn slabs(&self, node: &Node8, far: f32) -> (__m256, __m256) {
-        let offsets =
-            |planes: &[u8; 3]| [usize::from(planes[0]), usize::from(planes[1]), usize::from(planes[2])];
+    pub(super) fn slabs(&self, node: &Node, half: usize, far: f32) -> (__m256, __m256) {
+        let offsets = |planes: &[u16; 3]| {
+            [
+                usize::from(planes[0]) + 32 * half,
+                usize::from(planes[1]) + 32 * half,
+                usize::from(planes[2]) + 32 * half,
+            ]
+        };
         let ([near_plane, far_plane], hull) = (&PLANES[self.octant & 7], &self.hull);
         slabs(
             node,
@@ -247,11 +270,10 @@ impl Packet {
     /// One of the rays.
     #[inline]
     #[target_feature(enable = "avx2,fma")]
-    pub(super) fn lanes(&self, ray: usize) -> Lanes {
-        let one = |x: &__m256| _mm256_set1_ps(numbers(*x)[ray & 7]);
-        let three = |x: &[__m256; 3]| [one(&x[0]), one(&x[1]), one(&x[2])];
-        let r = three(&self.r);
-        Lanes::new(r, three(&self.near), three(&self.far), one(&self.t_near), self.octant)
+    pub(super) fn numbers(&self, ray: usize) -> Numbers {
+        let one = |x: &__m256| numbers(*x)[ray & 7];
+        let three = |x: &[__m256; 3]| _mm_setr_ps(one(&x[0]), one(&x[1]), one(&x[2]), 0.0);
+        Numbers::new(three(&self.r), three(&self.near), three(&self.far), self.octant, one(&self.t_near))
     }
 
     #[inline]
@@ -316,7 +338,7 @@ impl Packet {
 
 impl Filters {
     #[inline(always)]
-    fn one(&self, ray: usize) -> Filter {
+    pub(super) fn one(&self, ray: usize) -> Filter {
         let ray = ray & 7;
         Filter {
             o: [self.o[0][ray], self.o[1][ray], self.o[2][ray], 0.0],
@@ -345,12 +367,13 @@ pub(super) fn judge(
     t_far: &[f32; 8],
     verdicts: &mut [Verdict; 8],
 ) -> u32 {
-    let edges = edges(block);
+    let edges = [edges(block, 0), edges(block, 1)];
     let mut alive = 0;
     while awake != 0 {
         let ray = awake.trailing_zeros() as usize & 7;
         awake &= awake - 1;
-        let is_any = judge_edges(&edges, &filters.one(ray), t_far[ray], &mut verdicts[ray]) != 0;
+        let (filter, verdict) = (filters.one(ray), &mut verdicts[ray]);
+        let is_any = judge_halves(&edges, &filter, t_far[ray], verdict) != 0;
         alive |= u32::from(is_any) << ray;
     }
     alive

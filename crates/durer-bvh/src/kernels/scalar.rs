@@ -1,7 +1,7 @@
 //! The definition.
 
 use super::{Kernel, Rows, Stack};
-use crate::node::{ChildRef, Node8, WIDTH};
+use crate::node::{ChildRef, Node, SLOT_BITS, WIDTH};
 use crate::ray::{CullRay, Glances, PACKET, Rounding, Sight, Way};
 use crate::tree::Bvh;
 use crate::triangles::{Block, FAR, FLAT, Filter, LANES, NEAR, Verdict};
@@ -31,7 +31,7 @@ fn min(a: f32, b: f32) -> f32 {
 impl<const FUSED: bool> Scalar<FUSED> {
     /// Slabs: enter at the last near plane, leave at the first far plane.
     #[inline(always)]
-    pub(crate) fn slabs(self, node: &Node8, ray: &CullRay, t_far: f32) -> Slabs {
+    pub(crate) fn slabs(self, node: &Node, ray: &CullRay, t_far: f32) -> Slabs {
         let at = |plane: f32, r: f32, c: f32| if FUSED { plane.mul_add(r, c) } else { plane * r + c };
         let side =
             |axis: usize| if ray.octant >> axis & 1 == 0 { (axis, axis + 3) } else { (axis + 3, axis) };
@@ -53,6 +53,7 @@ impl<const FUSED: bool> Scalar<FUSED> {
 pub(crate) enum NoPacket {}
 
 impl<const FUSED: bool> Kernel for Scalar<FUSED> {
+    type Ray = CullRay;
     type Lanes = CullRay;
     type Packet = NoPacket;
     type Filters = NoPacket;
@@ -69,16 +70,21 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
     }
 
     #[inline(always)]
+    fn spread(self, ray: &CullRay) -> CullRay {
+        *ray
+    }
+
+    #[inline(always)]
     fn descend<const ORDERED: bool>(
         self,
-        node: &Node8,
+        node: &Node,
         ray: &CullRay,
         t_far: f32,
         stack: &mut Stack,
     ) -> ChildRef {
         let slabs = self.slabs(node, ray, t_far);
         for i in 0..WIDTH {
-            let i = if ORDERED { (node.order[i] >> (3 * ray.octant) & 7) as usize } else { i };
+            let i = if ORDERED { (node.order[i] >> (SLOT_BITS * ray.octant)) as usize % WIDTH } else { i };
             if slabs.met[i] {
                 stack.push(node.child[i], slabs.near[i]);
             }
@@ -87,7 +93,7 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
     }
 
     #[inline(always)]
-    fn meets(self, node: &Node8, slot: usize, ray: &CullRay, t_far: f32) -> bool {
+    fn meets(self, node: &Node, slot: usize, ray: &CullRay, t_far: f32) -> bool {
         self.slabs(node, ray, t_far).met[slot]
     }
 
@@ -192,7 +198,7 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
     #[inline(always)]
     fn descend_together<const ORDERED: bool>(
         self,
-        _: &Node8,
+        _: &Node,
         packet: &NoPacket,
         _: &[f32; PACKET],
         _: (&[f32; PACKET], f32),

@@ -8,16 +8,22 @@ use core::mem::MaybeUninit;
 /// The deepest tree that is built.
 pub(crate) const MAX_DEPTH: usize = 40;
 
-/// On each level at most seven siblings wait while the eighth is entered; one push writes eight lanes; and at the bottom lies the end.
+/// On each level at most fifteen siblings wait while the sixteenth is entered; one push writes sixteen lanes; and at the bottom lies the end.
 const CAPACITY: usize = (WIDTH - 1) * MAX_DEPTH + WIDTH + 1;
 
 /// Children that wait, with the parameter at which the ray enters each; at the bottom [`ChildRef::END`].
 pub(crate) struct Stack {
     refs: [MaybeUninit<u32>; CAPACITY],
     near: [MaybeUninit<f32>; CAPACITY],
+    staged: Staged,
     /// Everything below has been written. At most `CAPACITY`; 0 once the end was taken.
     len: usize,
 }
+
+/// The top of a stack in the last word of a cache line, and all children of a node in the next: who writes across a border of lines, and reads one
+/// word of it at once, has to wait.
+#[repr(align(64))]
+struct Staged([MaybeUninit<u32>; 2 * WIDTH]);
 
 impl Stack {
     #[inline(always)]
@@ -25,6 +31,7 @@ impl Stack {
         let mut stack = Self {
             refs: [const { MaybeUninit::uninit() }; CAPACITY],
             near: [const { MaybeUninit::uninit() }; CAPACITY],
+            staged: Staged([const { MaybeUninit::uninit() }; 2 * WIDTH]),
             len: 0,
         };
         stack.clear();
@@ -68,13 +75,13 @@ impl Stack {
         self.len = kept;
     }
 
-    /// Pushes those of eight children that are met and pops the last, or what was on top before if none is. `stage` writes all eight, `push` the
-    /// `count` that are met without gaps; `last` is one more than the place of the last of them among the eight, 0 if there is none.
+    /// Pushes those of sixteen children that are met and pops the last, or what was on top before if none is. `stage` writes all sixteen, `push` the
+    /// `count` that are met without gaps; `last` is one more than the place of the last of them among the sixteen, 0 if there is none.
     ///
     /// # Safety
     ///
-    /// Both functions get pointers to eight unaligned elements. `stage` must write all of them; `push` must write at least `count` of each, at
-    /// most eight; `count` is at most eight, and so is `last`.
+    /// Both functions get pointers to sixteen elements, `stage` to such as are aligned to 64 bytes. `stage` must write all of them; `push` must write at least `count` of each, at
+    /// most sixteen; `count` is at most sixteen, and so is `last`.
     #[inline(always)]
     pub(crate) unsafe fn exchange(
         &mut self,
@@ -86,13 +93,16 @@ impl Stack {
         // One comparison for both ends: there is something on top, and room.
         assert!(self.len.wrapping_sub(1) < CAPACITY - WIDTH, "the builder bounds the depth");
         debug_assert!(count <= WIDTH && last <= WIDTH);
-        // SAFETY: `1 <= len <= CAPACITY - 8`, so eight elements from `len` on are in the arrays, and so is the one before them.
+        // SAFETY: `1 <= len <= CAPACITY - 16`, so sixteen elements from `len` on are in the arrays, and so is the one before them. What is staged has sixteen words
+        // before the sixteen that `stage` writes.
         unsafe {
             let refs = self.refs.as_mut_ptr().add(self.len).cast::<u32>();
             let near = self.near.as_mut_ptr().add(self.len).cast::<f32>();
-            stage(refs);
-            // The one before has been written as it is below the length, the others just now.
-            let next = refs.sub(1).add(last).read();
+            let staged = self.staged.0.as_mut_ptr().add(WIDTH).cast::<u32>();
+            // It has been written as it is below the length.
+            staged.sub(1).write(refs.sub(1).read());
+            stage(staged);
+            let next = staged.sub(1).add(last).read();
             push(refs, near);
             self.len = self.len + count - 1;
             ChildRef(next)

@@ -1,11 +1,11 @@
-use super::avx2::Lanes;
+use super::avx2::Numbers;
 use super::packet::{Filters, Packet};
 use super::{Avx2, Avx512, Kernel, Rows, Scalar, Stack};
 use crate::frame::Frame;
-use crate::node::{ChildRef, Node8, WIDTH};
+use crate::node::{ChildRef, Node, WIDTH};
 use crate::ray::{CullRay, Glance, Glances, Line, PACKET, Rounding, Sight, Way};
 use crate::tree::Bvh;
-use crate::triangles::{Block, Filter, Verdict};
+use crate::triangles::{Block, Filter, LANES, Verdict};
 use durer_math::eft::exponent;
 use durer_math::{Aabb, Isa, Point3, Vec3};
 use proptest::prelude::*;
@@ -20,13 +20,13 @@ fn coordinate() -> impl Strategy<Value = f32> {
     ]
 }
 
-fn node() -> impl Strategy<Value = Node8> {
+fn node() -> impl Strategy<Value = Node> {
     let boxes = prop::collection::vec(
         (prop::array::uniform3(coordinate()), prop::array::uniform3(coordinate())),
         0..=WIDTH,
     );
     boxes.prop_map(|boxes| {
-        let mut node = Node8::EMPTY;
+        let mut node = Node::EMPTY;
         for (i, (a, b)) in boxes.into_iter().enumerate() {
             let lo = [0, 1, 2].map(|k| a[k].min(b[k]));
             let hi = [0, 1, 2].map(|k| a[k].max(b[k]));
@@ -92,12 +92,12 @@ fn as_packet(kernel: impl Kernel<Packet = Packet>, tree: &Bvh, lines: &[Line]) -
 
 /// A kernel stacks what the scalar one does.
 fn stacks_alike(
-    kernel: impl Kernel<Lanes = Lanes>,
-    lanes: &Lanes,
-    node: &Node8,
+    kernel: impl Kernel<Ray = Numbers>,
+    node: &Node,
     ray: &CullRay,
     t_far: f32,
 ) -> Result<(), TestCaseError> {
+    let lanes = &kernel.spread(&Numbers::of(ray));
     let (mut a, mut b) = (Stack::new(), Stack::new());
     let scalar = Scalar::<true>.descend::<true>(node, ray, t_far, &mut a);
     prop_assert_eq!(scalar, kernel.descend::<true>(node, lanes, t_far, &mut b));
@@ -107,13 +107,16 @@ fn stacks_alike(
     let scalar = Scalar::<true>.descend::<false>(node, ray, t_far, &mut a);
     prop_assert_eq!(scalar, kernel.descend::<false>(node, lanes, t_far, &mut b));
     prop_assert_eq!(a.drain(), b.drain());
+    for slot in 0..WIDTH {
+        prop_assert_eq!(Scalar::<true>.meets(node, slot, ray, t_far), kernel.meets(node, slot, lanes, t_far));
+    }
     Ok(())
 }
 
 /// The same verdict, and of lanes alive the same bounds.
 fn same_verdict(a: &Verdict, b: &Verdict) -> Result<(), TestCaseError> {
     prop_assert_eq!((a.alive, a.sure), (b.alive, b.sure));
-    for lane in (0..8).filter(|lane| a.alive >> lane & 1 != 0) {
+    for lane in (0..LANES).filter(|lane| a.alive >> lane & 1 != 0) {
         prop_assert_eq!(a.lo[lane].to_bits(), b.lo[lane].to_bits());
         prop_assert_eq!(a.hi[lane].to_bits(), b.hi[lane].to_bits());
     }
@@ -122,8 +125,8 @@ fn same_verdict(a: &Verdict, b: &Verdict) -> Result<(), TestCaseError> {
 
 /// A packet pushes for each of its rays what the ray stacks alone.
 fn enters_alike(
-    kernel: impl Kernel<Lanes = Lanes, Packet = Packet>,
-    node: Node8,
+    kernel: impl Kernel<Ray = Numbers, Packet = Packet>,
+    node: Node,
     lines: &[Line],
 ) -> Result<(), TestCaseError> {
     let mut tree = Bvh::assembled(Frame::around(&Aabb::EMPTY), vec![0, 1]);
@@ -135,9 +138,10 @@ fn enters_alike(
     kernel.descend_together::<true>(&node, &packet, &[f32::NEG_INFINITY; PACKET], (&ends, far), &mut rows);
     let rows = rows.drain();
     for (i, line) in lines.iter().enumerate() {
-        let Some((lanes, way)) = kernel.ready(&tree, line) else {
+        let Some((ray, way)) = kernel.ready(&tree, line) else {
             return Err(TestCaseError::fail("it is nearby"));
         };
+        let lanes = kernel.spread(&ray);
         let mut stack = Stack::new();
         let last = kernel.descend::<true>(&node, &lanes, way.t_far, &mut stack);
         let mut alone: Vec<u32> = stack.drain().into_iter().map(|(child, _)| child).collect();
@@ -149,7 +153,7 @@ fn enters_alike(
         prop_assert_eq!(&alone, &among);
         let (again, same) = kernel.one(&tree, &packet, i);
         let mut stack = Stack::new();
-        kernel.descend::<true>(&node, &again, same.t_far, &mut stack);
+        kernel.descend::<true>(&node, &kernel.spread(&again), same.t_far, &mut stack);
         let mut waiting: Vec<(u32, u32)> = rows
             .iter()
             .filter(|(_, near)| !near[i].is_nan())
@@ -174,7 +178,7 @@ fn judges_alike(
     rounded: bool,
 ) -> Result<(), TestCaseError> {
     let mut tree = Bvh::assembled(Frame::around(&Aabb::EMPTY), vec![0, 1]);
-    let mut node = Node8::EMPTY;
+    let mut node = Node::EMPTY;
     node.set(0, [-1.0; 3], [1.0; 3], ChildRef::node(1));
     tree.set_nodes(vec![node]);
     tree.rounded = rounded;
@@ -202,7 +206,7 @@ fn block(corners: &[[[f32; 3]; 3]]) -> Block {
 }
 
 fn corners() -> impl Strategy<Value = Vec<[[f32; 3]; 3]>> {
-    prop::collection::vec(prop::array::uniform3(prop::array::uniform3(coordinate())), 1..=8)
+    prop::collection::vec(prop::array::uniform3(prop::array::uniform3(coordinate())), 1..=LANES)
 }
 
 proptest! {
@@ -220,10 +224,9 @@ proptest! {
         let Some(ray) = CullRay::new(&line, frame, &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
         let ray = CullRay { way: Way { t_near, ..ray.way }, ..ray };
         let t_far = t_far.min(ray.way.t_far);
-        let lanes = avx2.lanes(&ray);
-        stacks_alike(avx2, &lanes, &node, &ray, t_far)?;
+        stacks_alike(avx2, &node, &ray, t_far)?;
         if let Some(avx512) = Isa::available().find_map(Avx512::of) {
-            stacks_alike(avx512, &lanes, &node, &ray, t_far)?;
+            stacks_alike(avx512, &node, &ray, t_far)?;
         }
     }
 

@@ -1,20 +1,22 @@
-//! The leaf: eight triangles side by side, in f32.
+//! The leaf: sixteen triangles side by side, in f32.
 
 use crate::frame::Frame;
 use durer_math::Point3;
-use durer_math::eft::exponent;
 
 /// How many triangles a block holds.
-pub(crate) const LANES: usize = 8;
+pub(crate) const LANES: usize = 16;
 
 /// How many bits of a lane's tag are its triangle's number; the others hold the [`Block::size`].
 const SLOT_BITS: u32 = 27;
 const SLOT: u32 = (1 << SLOT_BITS) - 1;
 
+/// How many bits of a size are not kept.
+const SIZE_SHIFT: u32 = 31 - 10;
+
 /// The least size of a block: with a lesser one the filter's own roundings could underflow.
 const SMALLEST: f64 = 1.0 / (1_u128 << 100) as f64;
 
-/// Eight triangles in tree units: corners, each coordinate rounded once to f32, and slots. Five cache lines, all of which a test reads.
+/// Sixteen triangles in tree units: corners, each coordinate rounded once to f32, and slots. Ten cache lines, all of which a test reads.
 ///
 /// A lane without a triangle holds NaN, which no comparison finds.
 #[derive(Clone, Copy, Debug)]
@@ -22,11 +24,11 @@ const SMALLEST: f64 = 1.0 / (1_u128 << 100) as f64;
 pub(crate) struct Block {
     /// `x`, `y`, `z` of `v0`, of `v1`, of `v2`.
     pub(crate) rows: [[f32; LANES]; 9],
-    /// The triangle's slot in the lower 27 bits. The upper five of the first two lanes are the biased exponent of [`Block::size`].
+    /// The triangle's slot in the lower 27 bits. The upper five of the first two lanes are the first ten bits of [`Block::size`] behind the sign.
     tags: [u32; LANES],
 }
 
-const _: () = assert!(size_of::<Block>() == 5 * 64 && crate::node::MAX_ENTRIES == 1 << SLOT_BITS);
+const _: () = assert!(size_of::<Block>() == 10 * 64 && crate::node::MAX_ENTRIES == 1 << SLOT_BITS);
 
 /// The same bits: empty lanes are equal, too.
 impl PartialEq for Block {
@@ -40,12 +42,12 @@ impl PartialEq for Block {
 pub type Corners = [Point3; 3];
 
 impl Block {
-    /// A block of triangles and their slots: at most eight. Also says whether f32 holds all corners.
+    /// A block of triangles and their slots: at most sixteen. Also says whether f32 holds all corners.
     #[inline(always)]
     pub(crate) fn new(frame: Frame, triangles: impl Iterator<Item = (u32, Corners)>) -> (Self, bool) {
         let mut block = Self { rows: [[f32::NAN; LANES]; 9], tags: [SLOT; LANES] };
         let (mut lo, mut hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-        let mut is_held = true;
+        let (mut is_held, mut edge) = (true, 0.0_f64);
         for (lane, (slot, corners)) in triangles.enumerate().take(LANES) {
             block.tags[lane] = slot;
             for (i, v) in corners.iter().enumerate() {
@@ -59,21 +61,28 @@ impl Block {
                     hi[axis] = if x > hi[axis] { x } else { hi[axis] };
                 }
             }
+            let along =
+                |i: usize| (f64::from(block.rows[i][lane]) - f64::from(block.rows[i % 3][lane])).abs();
+            for row in [3, 6] {
+                let sum = along(row) + along(row + 1) + along(row + 2);
+                edge = if sum > edge { sum } else { edge };
+            }
         }
         let widths: f64 = (0..3).map(|i| f64::from(hi[i]) - f64::from(lo[i])).sum();
-        let size = widths.max(SMALLEST);
-        // The next power of two, at most 2^3; f32's bias is 127.
-        let biased = (exponent(size) + 1 + 127) as u32;
-        block.tags[0] |= (biased & 31) << SLOT_BITS;
-        block.tags[1] |= (biased >> 5) << SLOT_BITS;
+        let size = if is_held { edge } else { widths };
+        // Two bits of the fraction: rounded by a unit of the 24th bit and more, and grown by one of the third.
+        let upper = (size.max(SMALLEST) as f32).to_bits() / (1 << SIZE_SHIFT) + 1;
+        block.tags[0] |= (upper & 31) << SLOT_BITS;
+        block.tags[1] |= (upper >> 5) << SLOT_BITS;
         (block, is_held)
     }
 
-    /// A power of two that the widths of a box around the eight do not exceed, all three added.
+    /// What the magnitudes of an edge from a first corner, all three added, do not exceed; nor do the widths of a box around all triangles if f32 does not
+    /// hold all corners.
     #[inline(always)]
     pub(crate) fn size(&self) -> f32 {
-        let biased = (self.tags[0] >> SLOT_BITS) | (self.tags[1] >> SLOT_BITS << 5);
-        f32::from_bits(biased << 23)
+        let upper = (self.tags[0] >> SLOT_BITS) | (self.tags[1] >> SLOT_BITS << 5);
+        f32::from_bits(upper << SIZE_SHIFT)
     }
 
     /// How many triangles it holds.

@@ -12,7 +12,7 @@
 //! # What f32 can say
 //!
 //! Let `u = 2^-24`, all coordinates of the tree at most 1, those of `o` at most `O` and known within `e`, those of `d` at most `M` and known
-//! within `g`; `c = 1 + O`; and `E` the sum of the widths of a box around the block, which no sum of magnitudes of an edge exceeds. To first order, per
+//! within `g`; `c = 1 + O`; and `E` the size of the block, which no sum of magnitudes of an edge from a `v0` in it exceeds. To first order, per
 //! component, for the triangle as it is kept:
 //!
 //! ```text
@@ -30,7 +30,7 @@
 //! counted without fused operations, which round less. The last is the largest, so it serves for `U`, `V` and `W`.
 //!
 //! Where f32 does not hold the corners they are within `u` of the exact ones. A volume `d . (b2 x b1)` of two corners as seen from `o` does not
-//! change when they move along `d`, so each corner's error counts as often as the other is away from the *ray*, not from `o`: at most `E` and
+//! change when they move along `d`, so each corner's error counts as often as the other is away from the *ray*, not from `o`: at most `E`, which then bounds the widths of a box around the block too, and
 //! what rounding and the boxes' tests have grown them by on three axes, less than `10 u c + 2 e`, since the ray meets the block's box. That is `3 u M`
 //! times this for either, and twice as much is charged. In sum `U`, `V` and `W` err by
 //!
@@ -53,6 +53,7 @@
 //!
 //! where `s` keeps hits apart whose rounded f64 parameters may stand in another order than the exact ones.
 
+use super::block::LANES;
 use crate::ray::{Line, Sight, Way};
 
 /// Half an ulp of 1 in f32.
@@ -209,11 +210,11 @@ pub(crate) struct Verdict {
     /// Lanes of these that it certainly meets, within its range.
     pub(crate) sure: u32,
     /// Bounds of the crossing's parameter, from the entry, of the lanes alive.
-    pub(crate) lo: [f32; 8],
-    pub(crate) hi: [f32; 8],
+    pub(crate) lo: [f32; LANES],
+    pub(crate) hi: [f32; LANES],
 }
 
 impl Verdict {
     /// All are missed.
-    pub(crate) const NOTHING: Self = Self { alive: 0, sure: 0, lo: [0.0; 8], hi: [0.0; 8] };
+    pub(crate) const NOTHING: Self = Self { alive: 0, sure: 0, lo: [0.0; LANES], hi: [0.0; LANES] };
 }

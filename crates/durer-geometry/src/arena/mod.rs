@@ -370,7 +370,7 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
                 let before = tracks.len();
                 let (name, flow) = (slot.name(), Flow::Continue);
                 let visit = &mut |_: u32, _: Id, root: Root| {
-                    tracks.push(slot.index as u32, name, &root);
+                    tracks.push(slot.index as u32, slot.part, name, &root);
                     Flow::Continue
                 };
                 slot.show(isa, ray, &mut Forward { slot: slot.slot, name, ray, visit, flow });

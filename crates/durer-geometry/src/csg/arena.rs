@@ -153,7 +153,7 @@ impl AnyArena for Compounds {
         for body in leaf.map(|i| i as usize).filter(solid) {
             let before = tracks.len();
             let inside = self.bodies[body].trace(isa, ray, self.from(body, &filter), &mut |found| {
-                tracks.push(body as u32, self.id(body, &found), &found.root);
+                tracks.push(body as u32, PartId(0), self.id(body, &found), &found.root);
                 Flow::Continue
             });
             if tracks.len() == before {
