@@ -131,7 +131,7 @@ fn sum_below(a: f64, b: f64) -> f64 {
     let lost = (a - (sum - other)) + (b - other);
     let finite = if sum > f64::MAX { f64::MAX } else { sum };
     // Of infinite sums it is not a number.
-    if (lost >= 0.0) & (lost <= f64::MAX) { sum } else { finite - finite.abs().mul_add(PHI, TINY) }
+    if lost >= 0.0 && lost != f64::INFINITY { sum } else { finite - finite.abs().mul_add(PHI, TINY) }
 }
 
 /// A sum rounded up.
