@@ -23,10 +23,14 @@ const SIZE: (u32, u32) = (320, 240);
 const MOST_REPLACED: usize = 40;
 
 /// Why pictures differ, where that is known.
-const NOTES: [(&str, &str); 2] = [
+const NOTES: [(&str, &str); 3] = [
     (
         "quartic/hyptorus",
         "`bounded_by` promises that nothing lies outside of a ball, which this surface leaves. POV-Ray does not look outside; durer draws all of it.",
+    ),
+    (
+        "isosurfaces",
+        "The green cylinder's bumps are noise, which has POV-Ray's look and not its grains ([numerics](numerics.md#noise)): there pictures cannot agree. On the ridged and the studded ball POV-Ray's steps of `accuracy` show.",
     ),
     (
         "fractal",

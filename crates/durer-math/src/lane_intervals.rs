@@ -8,8 +8,8 @@
 
 use crate::interval::elementary::{Defined, Range};
 use crate::lane_waves::{wave, waves};
-use crate::number::{Comparison, Function, Number};
-use crate::{F8, Interval};
+use crate::number::{Comparison, Function, Number, Sloped};
+use crate::{F8, Interval, noise};
 
 /// How many there are.
 const LANES: usize = crate::lanes::LANES;
@@ -64,7 +64,7 @@ impl I8 {
 
     /// The same intervals with what is said of the operands.
     #[inline(always)]
-    fn said(mut self, a: &Self, b: &Self) -> Self {
+    pub(crate) fn said(mut self, a: &Self, b: &Self) -> Self {
         self.partial |= a.partial | b.partial;
         self.empty |= a.empty | b.empty;
         self.jump |= a.jump | b.jump;
@@ -333,6 +333,11 @@ impl Number for I8 {
     }
 
     #[inline(always)]
+    fn noise(p: [&Self; 3]) -> Self {
+        noise::bounds(p)
+    }
+
+    #[inline(always)]
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self {
         let (mut yes, mut no) = ([false; LANES], [false; LANES]);
         for i in 0..LANES {
@@ -396,6 +401,13 @@ impl Number for I8 {
     fn above(a: &Self) -> Option<Self> {
         let certain = a.partial | a.empty == 0 && a.lo.0.iter().all(|&lo| lo > 1.0);
         certain.then(|| Self { hi: F8::splat(f64::INFINITY), ..*a })
+    }
+}
+
+impl Sloped for I8 {
+    #[inline(always)]
+    fn noise_and_slopes(p: [&Self; 3]) -> (Self, [Self; 3]) {
+        noise::slopes(p)
     }
 }
 

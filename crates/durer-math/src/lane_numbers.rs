@@ -2,8 +2,8 @@
 //!
 //! Each function errs by what its kernel errs by (`lane_waves.rs`, `lane_logs.rs`, `lane_angles.rs`), or is that of f64, lane by lane.
 
-use crate::number::{Comparison, Function, Number};
-use crate::{F8, Interval, M8, lane_angles, lane_powers, lane_waves};
+use crate::number::{Comparison, Function, Number, Sloped};
+use crate::{F8, Interval, M8, lane_angles, lane_powers, lane_waves, noise};
 
 const NAN: F8 = F8::splat(f64::NAN);
 
@@ -131,6 +131,10 @@ impl Number for F8 {
         (by_itself(Function::Sin, sine), by_itself(Function::Cos, cosine))
     }
     #[inline(always)]
+    fn noise(p: [&Self; 3]) -> Self {
+        noise::values(p)
+    }
+    #[inline(always)]
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self {
         let zero = Self::ZERO;
         let yes = match c {
@@ -155,6 +159,13 @@ impl Number for F8 {
     #[inline(always)]
     fn above(a: &Self) -> Option<Self> {
         a.gt(Self::ONE).all().then_some(*a)
+    }
+}
+
+impl Sloped for F8 {
+    #[inline(always)]
+    fn noise_and_slopes(p: [&Self; 3]) -> (Self, [Self; 3]) {
+        noise::slants(p)
     }
 }
 

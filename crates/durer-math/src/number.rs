@@ -3,7 +3,7 @@
 //! A formula of a scene is written once and asked in several ways: for its value, for a bound of its values on boxes, for its slope along a
 //! ray. [`Number`] lists what such formulas are made of; a type that has these operations can be put through any of them.
 
-use crate::{Dual, Interval, elementary};
+use crate::{Dual, F8, Interval, elementary, noise};
 
 /// What formulas are made of. Operations take references: the types may be large.
 pub trait Number: Copy {
@@ -44,6 +44,8 @@ pub trait Number: Copy {
     fn sine_and_cosine(a: &Self) -> (Self, Self) {
         (Self::function(Function::Sin, a), Self::function(Function::Cos, a))
     }
+    /// Noise at a point of space.
+    fn noise(p: [&Self; 3]) -> Self;
     /// 1 or 0.
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self;
     /// One of three by the sign of `c`: below, at and above zero.
@@ -52,6 +54,12 @@ pub trait Number: Copy {
     fn is_zero(&self) -> bool;
     /// What is known of a number that is at least `a`, if `a` is certainly above 1.
     fn above(a: &Self) -> Option<Self>;
+}
+
+/// A number that knows the slopes of all that has some: a [`Dual`] can be made of it.
+pub trait Sloped: Number {
+    /// Noise at a point of space, and its derivatives along the three axes.
+    fn noise_and_slopes(p: [&Self; 3]) -> (Self, [Self; 3]);
 }
 
 /// The functions of one number.
@@ -209,6 +217,10 @@ impl Number for f64 {
         value
     }
     #[inline(always)]
+    fn noise(p: [&Self; 3]) -> Self {
+        noise::values(F8::splats(p.map(|x| *x)).each_ref()).0[0]
+    }
+    #[inline(always)]
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self {
         if a.is_nan() || b.is_nan() {
             return Self::NAN;
@@ -234,6 +246,14 @@ impl Number for f64 {
     #[inline(always)]
     fn above(a: &Self) -> Option<Self> {
         (*a > 1.0).then_some(*a)
+    }
+}
+
+impl Sloped for f64 {
+    #[inline(always)]
+    fn noise_and_slopes(p: [&Self; 3]) -> (Self, [Self; 3]) {
+        let (v, d) = noise::slants(F8::splats(p.map(|x| *x)).each_ref());
+        (v.0[0], d.map(|d| d.0[0]))
     }
 }
 
@@ -429,7 +449,7 @@ fn number<T: Number>(x: f64) -> T {
     T::constant(Interval { lo: x, hi: x })
 }
 
-impl<T: Number, D: Slopes<T>> Number for Dual<T, D> {
+impl<T: Sloped, D: Slopes<T>> Number for Dual<T, D> {
     #[inline(always)]
     fn constant(c: Interval) -> Self {
         Self { v: T::constant(c), d: D::zero() }
@@ -550,6 +570,12 @@ impl<T: Number, D: Slopes<T>> Number for Dual<T, D> {
             Function::Floor | Function::Ceil | Function::Trunc => return Self { v, d: D::zero() },
         };
         Self::chain(v, &slope, a)
+    }
+    #[inline(always)]
+    fn noise([x, y, z]: [&Self; 3]) -> Self {
+        let (v, [dx, dy, dz]) = T::noise_and_slopes([&x.v, &y.v, &z.v]);
+        let d = D::sum(&D::scaled(&dx, &x.d), &D::scaled(&dy, &y.d));
+        Self { v, d: D::sum(&d, &D::scaled(&dz, &z.d)) }
     }
     #[inline(always)]
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self {

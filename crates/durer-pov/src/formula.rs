@@ -6,11 +6,12 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
-use durer_math::{Comparison, Function, Point3};
+use durer_math::{Comparison, Function, Interval, Point3};
 use durer_scene::tape::{Builder, Formula, FormulaError, NodeId, Op};
 use durer_scene::{Container, Isosurface};
 
 use crate::diagnostics::{Fault, FaultKind, Place, Result};
+use crate::formulas::{self, Lacking, Noisy};
 use crate::keywords::Keyword;
 use crate::lexer::{Kind, Mark};
 use crate::names::Name;
@@ -28,6 +29,31 @@ const MOST_ROUNDS: f64 = 10_000.0;
 enum Parameter {
     Word(Keyword),
     Name(Name),
+}
+
+/// A function that can be called.
+#[derive(Clone, Debug)]
+pub(crate) struct Called {
+    pub(crate) formula: Formula,
+    /// One of those whose arguments are checked.
+    noisy: Option<Noisy>,
+}
+
+impl From<Formula> for Called {
+    fn from(formula: Formula) -> Self {
+        Self { formula, noisy: None }
+    }
+}
+
+impl Called {
+    /// Whether it can be called with so many arguments, and with these.
+    fn check(&self, arguments: &[Option<f64>], place: Place) -> Result<()> {
+        check_count(arguments.len(), self.formula.inputs() as usize, place)?;
+        self.noisy.map_or(Ok(()), |function| {
+            formulas::check(function, arguments)
+                .map_err(|text| Fault::at(place, FaultKind::Unsupported, text))
+        })
+    }
 }
 
 /// A function on its way from text to steps.
@@ -80,7 +106,7 @@ impl Draft {
 
 impl Reader<'_> {
     /// `function (a, b) { ... }`, the word included.
-    pub(crate) fn function_block(&mut self) -> Result<Formula> {
+    pub(crate) fn function_block(&mut self) -> Result<Called> {
         self.next()?;
         let place = self.here();
         let parameters = self.parameters()?;
@@ -135,7 +161,7 @@ impl Reader<'_> {
     }
 
     /// What stands between the braces, and the closing one.
-    fn function_body(&mut self, parameters: &Option<Vec<Parameter>>, place: Place) -> Result<Formula> {
+    fn function_body(&mut self, parameters: &Option<Vec<Parameter>>, place: Place) -> Result<Called> {
         let mut draft = Draft { builder: Builder::new(), words: Vec::new(), inputs: 3 };
         self.scopes.enter();
         match parameters {
@@ -156,18 +182,18 @@ impl Reader<'_> {
         // The names go also where the body is wrong: a declaration may be skipped.
         let read = self.named_body(draft);
         self.scopes.leave();
-        let formula = read?;
+        let called = read?;
         self.expect(Mark::BraceClose)?;
-        self.check_memory(formula.ops().len() * 24, place)?;
-        Ok(formula)
+        self.check_memory(called.formula.ops().len() * 24, place)?;
+        Ok(called)
     }
 
     /// The body, when its parameters have their names.
-    fn named_body(&mut self, mut draft: Draft) -> Result<Formula> {
+    fn named_body(&mut self, mut draft: Draft) -> Result<Called> {
         let word = self.peek_word()?;
         match word {
             Some(Keyword::Internal) => return self.internal_function(),
-            Some(Keyword::Pattern) => return self.pattern_function(),
+            Some(Keyword::Pattern) => return Ok(self.pattern_function()?.into()),
             Some(word @ (Keyword::Pigment | Keyword::Spline | Keyword::Transform | Keyword::Texture)) => {
                 let text = format!(
                     "not supported yet: a {} as a function: no bound of its values over a box is known, which an exact root needs",
@@ -179,22 +205,23 @@ impl Reader<'_> {
         }
         let inputs = draft.inputs;
         let root = self.logical_formula(&mut draft)?;
-        Ok(draft.builder.finish(root, inputs))
+        Ok(draft.builder.finish(root, inputs).into())
     }
 
     /// `internal(n)`: one of the functions that functions.inc names.
-    fn internal_function(&mut self) -> Result<Formula> {
+    fn internal_function(&mut self) -> Result<Called> {
         self.next()?;
         let place = self.here();
         self.expect(Mark::ParenOpen)?;
         let number = self.float()?;
         self.expect(Mark::ParenClose)?;
-        match crate::formulas::internal(number) {
-            Ok(formula) => Ok(formula),
-            Err(crate::formulas::Lacking::Unknown) => {
+        self.language.noise_is_used |= number == formulas::PLAIN_NOISE;
+        match formulas::internal(number, self.language.noise_generator()) {
+            Ok((formula, noisy)) => Ok(Called { formula, noisy }),
+            Err(Lacking::Unknown) => {
                 Err(Fault::invalid(place, format!("there is no internal function {number}")))
             }
-            Err(crate::formulas::Lacking::NotYet(why)) => Err(Fault::at(
+            Err(Lacking::NotYet(why)) => Err(Fault::at(
                 place,
                 FaultKind::Unsupported,
                 format!("not supported yet: internal({number}): {why}"),
@@ -291,9 +318,9 @@ impl Reader<'_> {
                 )),
             },
             Item::Value(Value::Parameter(number)) => draft.builder.input(*number).map_err(too_long(place)),
-            Item::Value(Value::Function(formula)) => {
-                let formula = formula.clone();
-                self.call_formula(draft, &formula, place)
+            Item::Value(Value::Function(called)) => {
+                let called = called.clone();
+                self.call_formula(draft, &called, place)
             }
             Item::Mark(Mark::ParenOpen) => {
                 let value = self.logical_formula(draft)?;
@@ -327,10 +354,12 @@ impl Reader<'_> {
         Ok(arguments)
     }
 
-    fn call_formula(&mut self, draft: &mut Draft, formula: &Formula, place: Place) -> Result<NodeId> {
+    fn call_formula(&mut self, draft: &mut Draft, called: &Called, place: Place) -> Result<NodeId> {
         let arguments = self.formula_arguments(draft)?;
-        check_count(arguments.len(), formula.inputs() as usize, place)?;
-        draft.builder.call(formula, &arguments).map_err(too_long(place))
+        let number = |&id| draft.builder.finish(id, draft.inputs).as_constant().map(Interval::mid);
+        let numbers: Vec<Option<f64>> = arguments.iter().map(number).collect();
+        called.check(&numbers, place)?;
+        draft.builder.call(&called.formula, &arguments).map_err(too_long(place))
     }
 
     /// A word of the language inside a function.
@@ -470,7 +499,7 @@ impl Reader<'_> {
     }
 
     /// The value of a function that is called where a float is wanted, after its name.
-    pub(crate) fn called_formula(&mut self, formula: &Rc<Formula>, place: Place) -> Result<Terms> {
+    pub(crate) fn called_formula(&mut self, called: &Rc<Called>, place: Place) -> Result<Terms> {
         self.expect(Mark::ParenOpen)?;
         let mut arguments = Vec::new();
         while !self.take_mark(Mark::ParenClose)? {
@@ -480,9 +509,10 @@ impl Reader<'_> {
                 break;
             }
         }
-        check_count(arguments.len(), formula.inputs() as usize, place)?;
-        self.count_steps(formula.ops().len() as u64, place)?;
-        let value = formula.value(&arguments);
+        let numbers: Vec<Option<f64>> = arguments.iter().copied().map(Some).collect();
+        called.check(&numbers, place)?;
+        self.count_steps(called.formula.ops().len() as u64, place)?;
+        let value = called.formula.value(&arguments);
         if value.is_nan() {
             return Err(Fault::invalid(place, "this function is undefined here"));
         }
@@ -498,7 +528,7 @@ impl Reader<'_> {
             match self.peek_word()? {
                 Some(Keyword::Function) => {
                     let at = self.here();
-                    let formula = self.function_block()?;
+                    let formula = self.function_block()?.formula;
                     if formula.inputs() != 3 {
                         let text = format!(
                             "the function of an isosurface has three parameters, this one has {}",

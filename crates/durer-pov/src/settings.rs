@@ -25,13 +25,20 @@ pub(crate) struct Language {
     /// A `#version` was seen; a scene without any is treated as one of 3.62.
     pub(crate) version_given: bool,
     pub(crate) gamma: Option<Gamma>,
+    /// Which noise functions have that do not say it.
+    noise_generator: Option<f64>,
+    /// There are such functions.
+    pub(crate) noise_is_used: bool,
 }
 
 impl Default for Language {
     fn default() -> Self {
-        Self { version: 3.7, version_given: false, gamma: None }
+        Self { version: 3.7, version_given: false, gamma: None, noise_generator: None, noise_is_used: false }
     }
 }
+
+/// Noise of this kind came with this version.
+const NEW_NOISE: (f64, f64) = (2.0, 3.5);
 
 /// What scenes without any `#version` are written for.
 const UNVERSIONED: f64 = 3.62;
@@ -40,6 +47,12 @@ impl Language {
     /// The version by whose rules the scene is shaded.
     pub(crate) fn shading_version(&self) -> f64 {
         if self.version_given { self.version } else { UNVERSIONED }
+    }
+
+    /// The kind of noise of functions that do not say it.
+    pub(crate) fn noise_generator(&self) -> f64 {
+        let (new, since) = NEW_NOISE;
+        self.noise_generator.unwrap_or(if self.version < since { 1.0 } else { new })
     }
 
     /// An sRGB-encoded number in the scene's own scale.
@@ -128,16 +141,27 @@ impl Reader<'_> {
                         _ => return Err(self.unexpected(&lexeme, "ascii, utf8 or sys")),
                     }
                 }
-                Keyword::MaxIntersections
-                | Keyword::NoiseGenerator
-                | Keyword::NumberOfWaves
-                | Keyword::MmPerUnit => drop(self.float()?),
+                Keyword::NoiseGenerator => self.noise_generator(place)?,
+                Keyword::MaxIntersections | Keyword::NumberOfWaves | Keyword::MmPerUnit => {
+                    self.float()?;
+                }
                 Keyword::IridWavelength => drop(self.colour()?),
                 Keyword::Photons => return Err(Fault::unsupported(place, "photons")),
                 Keyword::HfGray16 => drop(self.switch_value()?),
                 _ => return Err(self.unexpected(&lexeme, "a global setting")),
             }
         }
+    }
+
+    fn noise_generator(&mut self, place: Place) -> Result<()> {
+        let before = self.language.noise_generator();
+        let generator = self.float()?;
+        self.language.noise_generator = Some(generator);
+        if self.language.noise_is_used && generator != before {
+            let text = format!("functions of noise that were declared before keep noise generator {before}");
+            self.notice(place, text);
+        }
+        Ok(())
     }
 
     fn assumed_gamma(&mut self, place: Place) -> Result<()> {

@@ -171,7 +171,7 @@ pub(crate) enum Value {
     Camera(Rc<crate::camera::Camera>),
     Object(Rc<crate::object::Object>),
     Macro(Rc<Macro>),
-    Function(Rc<durer_scene::tape::Formula>),
+    Function(Rc<crate::formula::Called>),
     /// A parameter of the function that is being read.
     Parameter(u32),
     Unsupported(Rc<Unsupported>),
@@ -216,7 +216,7 @@ impl Value {
             Self::Material(material) => {
                 material.texture.as_ref().map_or(0, crate::texture::Texture::size) * layer + layer
             }
-            Self::Function(formula) => formula.ops().len() * 24,
+            Self::Function(called) => called.formula.ops().len() * 24,
             Self::Interior(_) | Self::Transform(_) | Self::Camera(_) => 256,
             _ => 0,
         }

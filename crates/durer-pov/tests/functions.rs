@@ -173,6 +173,38 @@ fn named_functions_have_povrays_values() {
     }
 }
 
+/// The value of a function of noise less what its formula says, of the same noise: all are written out for the point <0.3, -1.2, 0.7>, generator 2 and a lacunarity of 2.1.
+#[test]
+fn functions_of_noise_are_their_formulas() {
+    let noise = "#declare G = function { internal(78) }; \
+        #declare N = function(f) { G(0.3*f, -1.2*f, 0.7*f, 2) }; #declare S = function(f) { 2*N(f) - 1 };";
+    let zero = |declarations: &str, left: &str, right: &str| {
+        let said = value(&format!("{noise} {declarations}"), &format!("abs({left} - ({right}))"));
+        assert_eq!(said, "0.000000000", "{left} is not {right}");
+    };
+    // The default is the second generator; the first one is made of the same sum, and what is neither 2 nor 3 is the first.
+    let plain = "#declare F = function { internal(76) };";
+    zero(plain, "F(0.3, -1.2, 0.7)", "N(1)");
+    let first = "min(max(N(1)/0.48985582 - 1.05242 + 0.5, 0), 1)";
+    zero("", "G(0.3, -1.2, 0.7, 1)", first);
+    zero("", "G(0.3, -1.2, 0.7, 0)", first);
+    zero(&format!("global_settings {{ noise_generator 1 }} {plain}"), "F(0.3, -1.2, 0.7)", first);
+    let ridged = "#declare F = function { internal(59) }; #declare A = pow(0.7 - abs(S(1)), 2); \
+        #declare B = pow(0.7 - abs(S(2.1)), 2)*min(max(A*1.5, 0), 1); #declare C = pow(0.7 - abs(S(4.41)), 2)*min(max(B*1.5, 0), 1);";
+    zero(ridged, "F(0.3, -1.2, 0.7, 0.4, 2.1, 1, 0.7, 1.5, 2)", "A");
+    zero(ridged, "F(0.3, -1.2, 0.7, 0.4, 2.1, 2.5, 0.7, 1.5, 2)", "A + B*pow(2.1, -0.4) + C*pow(2.1, -0.8)");
+    let hetero = "#declare F = function { internal(29) }; #declare A = S(1) + 0.7; \
+        #declare B = A + (S(2.1) + 0.7)*pow(2.1, -0.4)*A*A; #declare C = B + 0.5*(S(4.41) + 0.7)*pow(2.1, -0.8)*B;";
+    zero(hetero, "F(0.3, -1.2, 0.7, 0.4, 2.1, 2, 0.7, 2.3, 2)", "B");
+    zero(hetero, "F(0.3, -1.2, 0.7, 0.4, 2.1, 1.5, 0.7, 2.3, 2)", "C");
+    zero(hetero, "F(0.3, -1.2, 0.7, 0.4, 2.1, 2, 0.7, 0, 2)", "A + (S(2.1) + 0.7)*pow(2.1, -0.4)");
+    let ridge = "#declare F = function { internal(58) }; #declare R = function(f) { abs(N(f) - 0.4)/0.6 };";
+    zero(ridge, "F(0.3, -1.2, 0.7, 2.1, 1, 0.5, 0, 0.4, 2)", "R(1)");
+    let two = "(R(1) + 0.25*R(2.1))/1.25";
+    zero(ridge, "F(0.3, -1.2, 0.7, 2.1, 1.5, 0.5, 0, 0.4, 2)", two);
+    zero(ridge, "F(0.3, -1.2, 0.7, 2.1, 0.5, 0.5, 0.2, 0.4, 2)", &format!("({two} - 0.2)/0.8"));
+}
+
 /// A point, and POV-Ray's value there.
 type Sample = ([f64; 3], f64);
 
@@ -267,7 +299,13 @@ fn what_is_wrong_with_a_function_is_said_once_and_where() {
         72,
         "turbulence",
     );
-    says("#declare F = function { internal(76) }; sphere { 0, F(1, 2, 3) }", 53, "noise");
+    let ridged = "#declare F = function { internal(59) }";
+    says(&format!("{ridged} sphere {{ 0, F(1, 2, 3, 1, 2, 21, 1, 1, 2) }}"), 52, "20 at most");
+    says(&format!("{ridged} sphere {{ 0, F(1, 2, 3, 1, 2, 4, 1, 1, 3) }}"), 52, "noise generator 3");
+    let unknown = "isosurface { function { F(x, y, z, 1, 2, x, 1, 1, 2) } }";
+    says(&format!("{ridged} {unknown}"), 64, "number of octaves that is not known");
+    let third = "global_settings { noise_generator 3 } #declare F = function { internal(76) };";
+    says(&format!("{third} sphere {{ 0, F(1, 2, 3) }}"), 91, "noise generator 3");
     says("isosurface { threshold 1 }", 1, "no function");
     says("isosurface { function(a, b) { a } }", 14, "three parameters, this one has 2");
     says("isosurface { function { x } contained_by { box { 0, <1, 0, 1> } } }", 44, "no thickness");

@@ -4,10 +4,13 @@
 //! equations and POV-Ray's values (`tests/functions.rs` holds some of those), and agree with it to 1e-9 (the rounded box to 1e-6, by
 //! which POV-Ray's is larger than its description).
 
+mod fractal;
 mod pen;
 
 use durer_scene::tape::{Formula, Op};
 use pen::Pen;
+
+pub(crate) use fractal::PLAIN as PLAIN_NOISE;
 
 /// Why a number has no formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -284,19 +287,29 @@ const TABLE: &[Row] = &[
     (75, 6, Field, "a = u(P3, P4, P5); b = v(P3, P4, P5); -(P1*P1*b + a*a*b - P2)"),
 ];
 
-/// The functions that rest on POV-Ray's noise.
-const NOISE: [f64; 5] = [29.0, 58.0, 59.0, 76.0, 78.0];
+/// The number of a function that rests on noise: [`check`] asks something of its arguments.
+pub(crate) type Noisy = u32;
 
-/// The formula of `internal(number)`.
-pub(crate) fn internal(number: f64) -> Result<Formula, Lacking> {
-    if NOISE.contains(&number) {
-        return Err(Lacking::NotYet("no bound of noise over a box is known, which an exact root needs"));
+/// Asks of a call of a function of noise what its formula needs to be right; unknown are arguments that the call does not say as numbers.
+pub(crate) fn check(function: Noisy, arguments: &[Option<f64>]) -> Result<(), String> {
+    fractal::check(function, arguments)
+}
+
+/// The formula of `internal(number)`; functions of noise that do not say which one mean this generator.
+pub(crate) fn internal(number: f64, generator: f64) -> Result<(Formula, Option<Noisy>), Lacking> {
+    if number == PLAIN_NOISE && generator.trunc() == 3.0 {
+        return Err(Lacking::NotYet("noise generator 3; 1 and 2 are there"));
+    }
+    if let Some(formula) = fractal::internal(number, generator) {
+        let noisy = (number != PLAIN_NOISE).then_some(number as Noisy);
+        return Ok((formula, noisy));
     }
     let Some(row) = TABLE.iter().find(|row| f64::from(row.0) == number) else {
         let known = number.fract() == 0.0 && (0.0..=78.0).contains(&number);
         return Err(if known { Lacking::NotYet("its formula is not known here") } else { Lacking::Unknown });
     };
-    written(row).ok_or(Lacking::NotYet("its formula is not known here"))
+    let formula = written(row).ok_or(Lacking::NotYet("its formula is not known here"))?;
+    Ok((formula, None))
 }
 
 /// A formula as on paper, of `x`, `y`, `z` and so many parameters; `None` if it cannot be read.
@@ -334,9 +347,19 @@ mod tests {
     }
 
     #[test]
-    fn noise_and_unknown_numbers_are_told_apart() {
-        assert!(matches!(internal(76.0), Err(Lacking::NotYet(why)) if why.contains("noise")));
-        assert_eq!(internal(79.0), Err(Lacking::Unknown));
-        assert_eq!(internal(1.5), Err(Lacking::Unknown));
+    fn unknown_numbers_are_told_apart() {
+        assert!(matches!(internal(9.0, 2.0), Err(Lacking::NotYet(why)) if why.contains("not known here")));
+        assert_eq!(internal(79.0, 2.0), Err(Lacking::Unknown));
+        assert_eq!(internal(1.5, 2.0), Err(Lacking::Unknown));
+    }
+
+    #[test]
+    fn functions_of_noise_have_their_parameters() {
+        for (number, inputs) in [(76.0, 3), (78.0, 4), (29.0, 9), (58.0, 9), (59.0, 9)] {
+            let (formula, noisy) = internal(number, 2.0).unwrap();
+            assert_eq!((formula.inputs(), noisy.is_some()), (inputs, number != 76.0));
+            let value = formula.value(&[0.3, 0.2, 0.4, 0.5, 2.0, 3.0, 0.6, 0.4, 2.0][..inputs as usize]);
+            assert!(value.is_finite(), "{number}");
+        }
     }
 }

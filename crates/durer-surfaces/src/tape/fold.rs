@@ -2,7 +2,7 @@
 
 use super::formula::{NodeId, Op};
 use durer_math::interval::elementary::{Defined, Range};
-use durer_math::{Comparison, Function, Interval};
+use durer_math::{Comparison, Function, I8, Interval, Number};
 
 /// What a step comes to.
 pub(super) enum Simpler {
@@ -109,6 +109,10 @@ fn folded(op: &Op, constant: &impl Fn(NodeId) -> Option<Interval>) -> Option<Int
         Op::Pow(a, b) => sure(constant(a)?.pow(constant(b)?))?,
         Op::Atan2(a, b) => sure(constant(a)?.atan2(constant(b)?))?,
         Op::Rem(a, b) => sure(constant(a)?.remainder(constant(b)?))?,
+        Op::Noise([a, b, c]) => {
+            let p = [constant(a)?, constant(b)?, constant(c)?].map(I8::splat);
+            I8::noise(p.each_ref()).lane(0)
+        }
         Op::Compare(c, a, b) => {
             let (a, b) = (constant(a)?, constant(b)?);
             let exact = a.lo == a.hi && b.lo == b.hi;

@@ -48,6 +48,8 @@ pub enum Op {
     Atan2(NodeId, NodeId),
     /// What whole numbers of `b` leave of `a`, with the sign of `a`.
     Rem(NodeId, NodeId),
+    /// Noise at a point of space.
+    Noise([NodeId; 3]),
     /// 1 or 0.
     Compare(Comparison, NodeId, NodeId),
     /// By the sign of the first: one of the three others, for below, at and above zero.
@@ -77,6 +79,7 @@ impl Op {
             Self::Pow(a, b) => Self::Pow(f(a), f(b)),
             Self::Atan2(a, b) => Self::Atan2(f(a), f(b)),
             Self::Rem(a, b) => Self::Rem(f(a), f(b)),
+            Self::Noise(p) => Self::Noise(p.map(f)),
             Self::Compare(c, a, b) => Self::Compare(c, f(a), f(b)),
             Self::Select(all) => Self::Select(all.map(f)),
             Self::Settled(a) => Self::Settled(f(a)),
@@ -107,6 +110,7 @@ impl Op {
                 f(a);
                 f(b);
             }
+            Self::Noise(p) => p.into_iter().for_each(f),
             Self::Select(all) => all.into_iter().for_each(f),
         }
     }
@@ -138,6 +142,7 @@ impl Op {
                 (18, pack(a, b), pack(c, d), 0)
             }
             Self::Settled(a) => (19, u64::from(a.0), 0, 0),
+            Self::Noise([a, b, c]) => (20, u64::from(a.0), u64::from(b.0), u64::from(c.0)),
         }
     }
 }

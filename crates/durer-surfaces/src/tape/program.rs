@@ -3,7 +3,7 @@
 use super::fold;
 use super::formula::{Formula, NodeId, Op, live};
 use super::jumps;
-use durer_math::{Dual, F8, Gradient, I8, Interval, Isa, Number, Point3};
+use durer_math::{Dual, F8, Gradient, I8, Interval, Isa, Number, Point3, Sloped};
 use std::cell::Cell;
 use std::sync::Arc;
 use std::thread::LocalKey;
@@ -84,6 +84,7 @@ pub(super) fn run_with<T: Number>(
             Op::Pow(a, b) => T::pow(at(a), at(b)),
             Op::Atan2(a, b) => T::atan2(at(a), at(b)),
             Op::Rem(a, b) => T::rem(at(a), at(b)),
+            Op::Noise([a, b, c]) => T::noise([at(a), at(b), at(c)]),
             Op::Compare(c, a, b) => T::compare(c, at(a), at(b)),
             Op::Select([c, x, y, z]) => T::select(at(c), at(x), at(y), at(z)),
             Op::Settled(a) => match T::above(at(a)) {
@@ -206,7 +207,7 @@ impl Tape {
     }
 
     #[inline(always)]
-    fn gradients_with<T: Number>(
+    fn gradients_with<T: Sloped>(
         &self,
         x: &[T; 3],
         memory: &'static Registers<Dual<T, Gradient<T>>>,

@@ -1,0 +1,141 @@
+//! Surfaces of noise against exact arithmetic: what noise is, written out once more in numbers without rounding.
+
+mod common;
+
+use common::Dice;
+use durer_math::{Dyadic, Point3, Ray, Ring, Vec3};
+use durer_surfaces::tape::{Builder, Formula, Op};
+use durer_surfaces::{All, AxisBox, Container, Isosurface, Kind, LocalRay, Surface};
+use std::cmp::Ordering;
+
+fn number(x: f64) -> Dyadic {
+    Dyadic::exact(x)
+}
+
+/// The greatest whole number that is not above `x`, which is small.
+fn floor(x: &Dyadic) -> f64 {
+    let near = x.to_f64().floor();
+    if number(near) > *x { near - 1.0 } else { near }
+}
+
+fn noise(p: &[Dyadic; 3]) -> Dyadic {
+    let whole = [0, 1, 2].map(|i| floor(&p[i]));
+    let t = [0, 1, 2].map(|i| p[i].clone() - number(whole[i]));
+    let mut sum = Dyadic::ZERO;
+    for corner in 0..8_u32 {
+        let mut hash = 0_u32;
+        let (mut weight, mut from) = (number(1.0), Vec::new());
+        for (i, prime) in [0x9e37_79b1_u32, 0x85eb_ca77, 0xc2b2_ae3d].into_iter().enumerate() {
+            let upper = corner >> i & 1;
+            hash ^= (whole[i] as i64 as u32).wrapping_add(upper).wrapping_mul(prime);
+            let f = t[i].clone().square() * (number(3.0) - number(2.0) * t[i].clone());
+            weight = weight * if upper == 1 { f } else { number(1.0) - f };
+            from.push(t[i].clone() - number(f64::from(upper)));
+        }
+        hash = (hash ^ hash >> 16).wrapping_mul(0x85eb_ca6b);
+        hash = (hash ^ hash >> 13).wrapping_mul(0xc2b2_ae35);
+        let [v, gx, gy, gz] = (hash ^ hash >> 16).to_le_bytes();
+        let mut value = number((f64::from(v) - 132.0) / 256.0);
+        for (g, from) in [gx, gy, gz].into_iter().zip(from) {
+            value = value + number((2.0 * f64::from(g) - 255.0) / 256.0) * from;
+        }
+        sum = sum + weight * value;
+    }
+    sum
+}
+
+/// `x^2 + y^2 + z^2 - 1 + n(k p)/2`.
+fn bumpy(k: f64) -> Formula {
+    let mut b = Builder::new();
+    let mut write = || {
+        let p = [b.input(0)?, b.input(1)?, b.input(2)?];
+        let (k, one, half) = (b.constant(k)?, b.constant(1.0)?, b.constant(0.5)?);
+        let scaled = [b.push(Op::Mul(k, p[0]))?, b.push(Op::Mul(k, p[1]))?, b.push(Op::Mul(k, p[2]))?];
+        let noise = b.push(Op::Noise(scaled))?;
+        let mut sum = b.push(Op::Mul(half, noise))?;
+        for x in p {
+            let square = b.push(Op::Sqr(x))?;
+            sum = b.push(Op::Add(sum, square))?;
+        }
+        b.push(Op::Sub(sum, one))
+    };
+    let root = write().unwrap();
+    b.finish(root, 3)
+}
+
+/// The exact sign of the formula at the exact point `o + t d`.
+fn sign(k: f64, ray: &Ray, t: f64) -> Ordering {
+    let at = |i: usize| number(ray.origin[i]) + number(t) * number(ray.direction[i]);
+    let p = [at(0), at(1), at(2)];
+    let mut value = noise(&p.each_ref().map(|x| number(k) * x.clone())) * number(0.5) - number(1.0);
+    for x in p {
+        value = value + x.square();
+    }
+    value.exact_sign()
+}
+
+#[test]
+fn brackets_hold_a_change_of_the_exact_sign_and_none_is_left_out() {
+    let mut dice = Dice(76);
+    for k in [0.7, 3.0, 11.0] {
+        let container = AxisBox::new(Point3::new(-2.0, -2.0, -2.0), Point3::new(2.0, 2.0, 2.0)).unwrap();
+        let surface = Isosurface::new(&bumpy(k), 0.0, Container::Box(container)).unwrap();
+        let (mut simple, mut clusters, mut widths) = (0, 0, Vec::new());
+        for _ in 0..400 {
+            let through = dice.vector() * 1.1;
+            let away = dice.vector() * [1.0, 5.0, 100.0][dice.below(3) as usize];
+            let ray = Ray::new(through.to_point() + away, -away);
+            let ray = ray.with_range(f64::NEG_INFINITY, f64::INFINITY);
+            let mut all = All::default();
+            surface.roots(&LocalRay::new(&ray), &mut all);
+            // Outside, behind each crossing on the other side, and outside again.
+            let mut side = Ordering::Greater;
+            for root in &all.roots {
+                let expected = if root.sign < 0 { Ordering::Less } else { Ordering::Greater };
+                if root.kind == Kind::Cluster {
+                    clusters += 1;
+                } else {
+                    simple += 1;
+                    assert_eq!((sign(k, &ray, root.lo), sign(k, &ray, root.hi)), (side, expected), "{ray:?}");
+                    widths.push((root.hi - root.lo) / (root.t.abs().max(1.0) * f64::EPSILON));
+                }
+                if root.sign != 0 {
+                    side = expected;
+                }
+            }
+            assert_eq!(side, Ordering::Greater, "{ray:?}");
+            // Between the crossings the exact sign is what they say.
+            let reach = 3.0 / away.length();
+            for step in 0..96 {
+                let t = 1.0 + reach * (f64::from(step) / 48.0 - 1.0);
+                if (ray.at(t) - Point3::ORIGIN).max_abs() > 1.99
+                    || all.roots.iter().any(|r| r.lo <= t && t <= r.hi)
+                {
+                    continue;
+                }
+                let crossed: i32 = all.roots.iter().filter(|r| r.hi < t).map(|r| i32::from(r.sign)).sum();
+                let expected = if crossed == 0 { Ordering::Greater } else { Ordering::Less };
+                assert_eq!(sign(k, &ray, t), expected, "{ray:?} at {t}: {:?}", all.roots);
+            }
+        }
+        widths.sort_by(f64::total_cmp);
+        let median = widths[widths.len() / 2];
+        println!("k {k}: {simple} simple, {clusters} clusters, median {median:.1} ulp");
+        assert!(simple > 400 && clusters * 1000 < simple && median < 1000.0, "{simple} {clusters} {median}");
+    }
+}
+
+#[test]
+fn it_is_the_noise_of_the_tape() {
+    let mut dice = Dice(77);
+    let mut b = Builder::new();
+    let p = [b.input(0).unwrap(), b.input(1).unwrap(), b.input(2).unwrap()];
+    let root = b.push(Op::Noise(p)).unwrap();
+    let formula = b.finish(root, 3);
+    for _ in 0..1000 {
+        let Vec3 { x, y, z } = dice.vector() * 100.0;
+        let (rounded, exact) =
+            (formula.value(&[x, y, z]), noise(&[number(x), number(y), number(z)]).to_f64());
+        assert!((rounded - exact).abs() < 80.0 * durer_math::U, "{rounded} {exact}");
+    }
+}
