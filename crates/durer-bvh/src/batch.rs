@@ -157,7 +157,7 @@ impl<B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool> Errand for Many<'_,
         let rays = self.rays;
         let mut queue = Queue::of(self.count);
         let most = FLIGHTS.min(self.count);
-        let mut flights: Vec<Flight<K, B::Sight>> = Vec::with_capacity(most);
+        let mut flights: Vec<Flight<K, B::Sight>> = Vec::new();
         let mut last = Last { rays: [0; PACKET], leaves: [None; PACKET], count: 0 };
         // Who comes to a node next, to a leaf, and who is over: at first all places.
         let (mut at_nodes, mut at_leaves, mut over) = (0_u32, 0_u32, ((1_u64 << most) - 1) as u32);
@@ -328,6 +328,10 @@ fn seat<K: Kernel, S>(
         flight.filter = None;
         flight.stack.clear();
     } else {
+        // Where all rays go together none takes a place.
+        if flights.is_empty() {
+            flights.reserve_exact(FLIGHTS);
+        }
         flights.push(Flight { ray, reach, child, number, way, sight, filter: None, stack: Stack::new() });
     }
 }

@@ -8,7 +8,7 @@ use crate::query::{any_in, closest_in};
 use crate::walk::Walk;
 use durer_bvh::{Glance, Glances, Leaf, Line, PACKET, Rays, Sight};
 use durer_math::Ray;
-use durer_surfaces::LocalRay;
+use durer_surfaces::{LocalRay, Need, SurfacePoint};
 
 /// A tree of fewer things is in the cache, where single rays are as fast.
 const LEAST: usize = 1 << 12;
@@ -23,11 +23,31 @@ impl Geometry {
             hits.extend(rays.iter().map(|ray| self.closest(ray)));
             return;
         }
-        let mut best: Vec<Best> = Vec::with_capacity(rays.len());
-        best.resize_with(rays.len(), Best::least);
-        let mut all = Closest { all: All::of(self, rays), best };
+        let mut memory = Abreast::default();
+        let mut all = Closest::of(self, rays, EVERYTHING, false, &mut memory);
         self.tree.closest_of_each(self.isa, rays.len(), &mut all);
-        hits.extend(all.best.into_iter().map(|best| best.hit));
+        hits.extend(memory.best.into_iter().map(|best| best.hit));
+    }
+
+    /// [`Geometry::seen`] of a few rays, told to `put` by their numbers.
+    pub(crate) fn seen_abreast(
+        &self,
+        rays: &[Ray],
+        mask: u32,
+        need: Need,
+        memory: &mut Abreast,
+        mut put: impl FnMut(usize, Option<(Hit, SurfacePoint)>),
+    ) {
+        if self.tree.len() < LEAST || rays.len() == 1 {
+            rays.iter().enumerate().for_each(|(i, ray)| put(i, self.seen(ray, mask, need)));
+            return;
+        }
+        let mut all = Closest::of(self, rays, mask, true, memory);
+        self.tree.closest_of_each(self.isa, rays.len(), &mut all);
+        for (i, (ray, best)) in rays.iter().zip(&memory.best).enumerate() {
+            let point = |hit| (hit, self.point_of(&memory.locals[i], ray.source(), &hit, need));
+            put(i, best.hit.map(point));
+        }
     }
 
     /// [`Geometry::any`] of a few rays.
@@ -36,24 +56,40 @@ impl Geometry {
             hits.extend(rays.iter().map(|ray| self.any(ray)));
             return;
         }
-        let mut all = Any { all: All::of(self, rays), met: vec![false; rays.len()] };
+        let mut locals = Vec::with_capacity(rays.len());
+        let mut all = Any { all: All::of(self, rays, EVERYTHING, &mut locals), met: vec![false; rays.len()] };
         self.tree.any_of_each(self.isa, rays.len(), &mut all);
         hits.append(&mut all.met);
     }
+}
+
+/// Memory for what is known of rays on the way.
+#[derive(Debug, Default)]
+pub(crate) struct Abreast {
+    locals: Vec<LocalRay<'static>>,
+    best: Vec<Best>,
 }
 
 /// Rays, and those under way in the geometry's frame.
 struct All<'a> {
     geometry: &'a Geometry,
     rays: &'a [Ray],
-    locals: Vec<LocalRay<'static>>,
+    mask: u32,
+    locals: &'a mut Vec<LocalRay<'static>>,
     /// The last eight rays that were asked for together, from this one on, as the tree sees them.
     together: (usize, [Option<Line>; PACKET]),
 }
 
 impl<'a> All<'a> {
-    fn of(geometry: &'a Geometry, rays: &'a [Ray]) -> Self {
-        Self { geometry, rays, locals: Vec::with_capacity(rays.len()), together: (0, [None; PACKET]) }
+    fn of(
+        geometry: &'a Geometry,
+        rays: &'a [Ray],
+        mask: u32,
+        locals: &'a mut Vec<LocalRay<'static>>,
+    ) -> Self {
+        locals.clear();
+        locals.reserve(rays.len());
+        Self { geometry, rays, mask, locals, together: (0, [None; PACKET]) }
     }
 
     /// Makes ready the next ray: they are asked for in their order.
@@ -83,20 +119,35 @@ impl<'a> All<'a> {
 
     #[inline(always)]
     fn walk(&self, ray: usize) -> Walk<'_> {
-        Walk::new(self.geometry, &self.rays[ray], &self.locals[ray], EVERYTHING)
+        Walk::new(self.geometry, &self.rays[ray], &self.locals[ray], self.mask)
     }
 }
 
 struct Closest<'a> {
     all: All<'a>,
-    best: Vec<Best>,
+    best: &'a mut Vec<Best>,
+    /// Whether nobody will see how wide a bracket is.
+    rough: bool,
 }
 
-impl Closest<'_> {
+impl<'a> Closest<'a> {
+    fn of(
+        geometry: &'a Geometry,
+        rays: &'a [Ray],
+        mask: u32,
+        rough: bool,
+        Abreast { locals, best }: &'a mut Abreast,
+    ) -> Self {
+        best.clear();
+        best.resize_with(rays.len(), Best::least);
+        Self { all: All::of(geometry, rays, mask, locals), best, rough }
+    }
+
     /// Makes a ray ready; `None` if it is to meet nothing more.
     #[inline(always)]
     fn ready(&mut self, ray: usize) -> Option<Line> {
-        if !self.all.start(ray, LocalRay::new(&self.all.rays[ray])) {
+        let local = LocalRay::new(&self.all.rays[ray]);
+        if !self.all.start(ray, if self.rough { local.roughly() } else { local }) {
             return None;
         }
         let (walk, best) = (self.all.walk(ray), &mut self.best[ray]);
@@ -214,5 +265,87 @@ impl Rays<bool> for Any<'_> {
     #[inline(always)]
     fn found(&mut self, ray: usize) {
         self.met[ray] = true;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ObjectId;
+    use durer_math::{Isa, Point3, Vec3};
+    use durer_surfaces::{Mesh, MeshData, Plane, Sphere};
+
+    /// A hilly sheet of 8192 triangles, 900 balls half sunk into it, every other one seen by some rays only, and a plane below.
+    fn world(isa: Isa) -> Geometry {
+        const SIDE: u32 = 64;
+        let height = |i: u32, j: u32| f64::from((i * i + 3 * j * j + i * j) % 17) / 16.0;
+        let at = |i: u32, j: u32| i * (SIDE + 1) + j;
+        let (mut vertices, mut faces) = (Vec::new(), Vec::new());
+        for i in 0..=SIDE {
+            for j in 0..=SIDE {
+                vertices.push(Point3::new(f64::from(i), f64::from(j), height(i, j)));
+                if i < SIDE && j < SIDE {
+                    faces.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+                    faces.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+                }
+            }
+        }
+        let mut builder = Geometry::builder();
+        builder.isa(isa);
+        builder.add(Mesh::new(MeshData { vertices, faces, ..MeshData::default() }).unwrap());
+        for n in 0..900_u32 {
+            let (i, j) = (2 * (n / 30) + 1, 2 * (n % 30) + 1);
+            let ball = Sphere::new(Point3::new(f64::from(i), f64::from(j), height(i, j)), 0.6).unwrap();
+            builder.add_as(ball, ObjectId(1 + n), 0, if n % 2 == 0 { EVERYTHING } else { 2 });
+        }
+        builder.add(Plane::new(Vec3::Z, -1.0).unwrap());
+        builder.build().unwrap()
+    }
+
+    /// Many rays see what each sees alone, to the bit: those of a camera, those that leave what these see, and some that are no rays.
+    #[test]
+    fn what_is_seen_abreast_is_what_is_seen() {
+        for isa in Isa::available() {
+            let geometry = world(isa);
+            let mut rays: Vec<Ray> = (0..2048_u32)
+                .map(|n| {
+                    let (x, y) = (f64::from(n % 64), f64::from(n / 64));
+                    Ray::new(Point3::new(30.3, -20.1, 40.2), Vec3::new(x - 31.9, 20.0 + 2.0 * y, -40.0))
+                })
+                .collect();
+            rays[77].direction = Vec3::ZERO;
+            let mut memory = Abreast::default();
+            let mut hits = 0;
+            for (generation, mask) in [(0, EVERYTHING), (1, 1), (2, 2)] {
+                let mut next = Vec::new();
+                let mut rest = rays.as_slice();
+                for count in (1..=40).cycle() {
+                    let (some, others) = rest.split_at(rest.len().min(count));
+                    rest = others;
+                    let mut told = 0;
+                    geometry.seen_abreast(some, mask, Need::SHADING_NORMAL, &mut memory, |i, seen| {
+                        assert_eq!(i, told);
+                        told += 1;
+                        assert_eq!(
+                            seen,
+                            geometry.seen(&some[i], mask, Need::SHADING_NORMAL),
+                            "{generation}: {:?}",
+                            some[i]
+                        );
+                        if let Some((hit, point)) = seen {
+                            hits += 1;
+                            let away = f64::from(hit.object % 5) - 2.0;
+                            next.push(point.spawn(Vec3::new(away, f64::from(i as u32 % 7) - 3.0, 1.0)));
+                        }
+                    });
+                    assert_eq!(told, some.len());
+                    if rest.is_empty() {
+                        break;
+                    }
+                }
+                rays = next;
+            }
+            assert!(hits > 2500, "{hits}");
+        }
     }
 }

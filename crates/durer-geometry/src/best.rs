@@ -38,6 +38,7 @@ impl Placement {
 }
 
 /// The least hit so far, by [`Hit::order`]; of equal ones the first, which is the first in the exact order.
+#[derive(Debug)]
 pub(crate) struct Best {
     pub(crate) hit: Option<Hit>,
     /// The least upper end of a bracket: what begins behind it cannot win.

@@ -7,13 +7,15 @@ mod rays;
 pub use self::rays::{Hits8, Rays8, Sources8};
 
 use self::rays::slot_number;
+use crate::abreast::Abreast;
 use crate::beam::Candidate;
 use crate::csg::{Body, Memory};
 use crate::ids::Id;
 use crate::outlines::Seen;
 use crate::{Beam, Geometry};
 use arrayvec::ArrayVec;
-use durer_math::{Aabb, F8, Isa, M8, Point3, RaySide, Shaft, Source, Vec3};
+use durer_math::lanes::LANES;
+use durer_math::{Aabb, F8, Isa, M8, Point3, Ray, RaySide, Shaft, Source, Vec3};
 use durer_surfaces::outline::{self, Nearest, Outline, Points8, Question, RayLanes};
 use durer_surfaces::{Need, ROUGH};
 
@@ -22,6 +24,7 @@ use durer_surfaces::{Need, ROUGH};
 pub struct Scratch {
     outline: outline::Scratch,
     body: Memory,
+    abreast: Abreast,
 }
 
 /// What lanes meet: a face of an outline, with the names of hits on it.
@@ -157,13 +160,14 @@ impl Geometry {
         if let Some(beam) = beam {
             left = self.see(beam, rays, mask, hits, scratch);
         }
+        let Some(beam) = beam else {
+            let alone: ArrayVec<Ray, LANES> = left.lanes().map(|i| rays.lane(i)).collect();
+            let lanes: ArrayVec<usize, LANES> = left.lanes().collect();
+            let put = |i: usize, seen| hits.set_lane(lanes[i], seen);
+            return self.seen_abreast(&alone, mask, Need::SHADING_NORMAL, &mut scratch.abreast, put);
+        };
         for i in left.lanes() {
-            let ray = rays.lane(i);
-            let seen = match beam {
-                Some(beam) => self.seen_in(beam, &ray, mask, Need::SHADING_NORMAL),
-                None => self.seen(&ray, mask, Need::SHADING_NORMAL),
-            };
-            hits.set_lane(i, seen);
+            hits.set_lane(i, self.seen_in(beam, &rays.lane(i), mask, Need::SHADING_NORMAL));
         }
     }
 
