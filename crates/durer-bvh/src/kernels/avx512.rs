@@ -3,8 +3,9 @@
 //! Comparisons give masks in registers of their own, and such a mask closes gaps by itself. Rays are made ready as with AVX2.
 #![expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")]
 
-use super::avx2::{Numbers, PLANES};
+use super::avx2::Numbers;
 use super::packet::{Filters, Packet, eight, numbers};
+use super::planes::Planes;
 use super::{Avx2, Kernel, Rows, Stack};
 use crate::node::{ChildRef, Node, SLOT_BITS, WIDTH};
 use crate::ray::{Glances, PACKET, Sight, Way};
@@ -152,14 +153,15 @@ fn apart<R>(f: impl FnOnce() -> R) -> R {
     f()
 }
 
+type Three = [__m512; 3];
+
 /// The ray in all sixteen lanes.
 pub(crate) struct Wide {
-    r: [__m512; 3],
-    near: [__m512; 3],
-    far: [__m512; 3],
+    r: Three,
+    near: Three,
+    far: Three,
     t_near: __m512,
-    near_plane: [usize; 3],
-    far_plane: [usize; 3],
+    planes: Planes,
     octant_shift: __m128i,
 }
 
@@ -168,14 +170,12 @@ impl Wide {
     #[target_feature(enable = "avx512f,avx512vl,avx2,fma")]
     fn of(ray: &Numbers) -> Self {
         let three = |x: &[f32; 4]| [_mm512_set1_ps(x[0]), _mm512_set1_ps(x[1]), _mm512_set1_ps(x[2])];
-        let [near_plane, far_plane] = ray.planes();
         Self {
             r: three(&ray.r),
             near: three(&ray.near),
             far: three(&ray.far),
             t_near: _mm512_set1_ps(ray.t_near),
-            near_plane,
-            far_plane,
+            planes: ray.planes(),
             octant_shift: ray.octant_shift(),
         }
     }
@@ -184,19 +184,31 @@ impl Wide {
     #[inline]
     #[target_feature(enable = "avx512f,avx512vl,avx2,fma")]
     fn slabs(&self, node: &Node, t_far: f32) -> (__m512, __m512) {
-        let plane = |i: usize, axis: usize, c: &[__m512; 3]| {
-            // SAFETY: `i` is of `PLANES`, so less than six rows, and a row holds sixteen f32, aligned to 64 bytes.
-            let planes = unsafe { _mm512_load_ps(node.planes.as_ptr().cast::<f32>().byte_add(i)) };
-            _mm512_fmadd_ps(planes, self.r[axis], c[axis])
-        };
-        let [nx, ny, nz] = self.near_plane;
-        let [fx, fy, fz] = self.far_plane;
-        let (ex, ey, ez) = (plane(nx, 0, &self.near), plane(ny, 1, &self.near), plane(nz, 2, &self.near));
-        let (lx, ly, lz) = (plane(fx, 0, &self.far), plane(fy, 1, &self.far), plane(fz, 2, &self.far));
-        let near = _mm512_max_ps(_mm512_max_ps(ex, ey), _mm512_max_ps(ez, self.t_near));
-        let far = _mm512_min_ps(_mm512_min_ps(lx, ly), _mm512_min_ps(lz, _mm512_set1_ps(t_far)));
-        (near, far)
+        slabs(node, &self.planes, [(&self.r, &self.near), (&self.r, &self.far)], self.t_near, t_far)
     }
+}
+
+/// As with AVX2, all of a node at once.
+#[inline]
+#[target_feature(enable = "avx512f,avx512vl,avx2,fma")]
+fn slabs(
+    node: &Node,
+    planes: &Planes,
+    [enter, leave]: [(&Three, &Three); 2],
+    t_near: __m512,
+    t_far: f32,
+) -> (__m512, __m512) {
+    let plane = |begins: usize, axis: usize, (r, c): (&Three, &Three)| {
+        // SAFETY: one of six rows begins there, and a row holds sixteen f32, aligned to 64 bytes.
+        let planes = unsafe { _mm512_load_ps(node.planes.as_ptr().cast::<f32>().byte_add(begins)) };
+        _mm512_fmadd_ps(planes, r[axis], c[axis])
+    };
+    let ([nx, ny, nz], [fx, fy, fz]) = (planes.near(), planes.far());
+    let (ex, ey, ez) = (plane(nx, 0, enter), plane(ny, 1, enter), plane(nz, 2, enter));
+    let (lx, ly, lz) = (plane(fx, 0, leave), plane(fy, 1, leave), plane(fz, 2, leave));
+    let near = _mm512_max_ps(_mm512_max_ps(ex, ey), _mm512_max_ps(ez, t_near));
+    let far = _mm512_min_ps(_mm512_min_ps(lx, ly), _mm512_min_ps(lz, _mm512_set1_ps(t_far)));
+    (near, far)
 }
 
 #[inline]
@@ -228,7 +240,8 @@ fn descend<const ORDERED: bool>(node: &Node, lanes: &Wide, t_far: f32, stack: &m
     };
     let met = _mm512_cmp_ps_mask::<_CMP_LE_OQ>(near, far);
     let mask = u32::from(met);
-    // SAFETY: sixteen elements are written to each, through pointers to sixteen; a mask of sixteen bits has at most sixteen.
+    // SAFETY: sixteen elements are staged; eight or sixteen, and not fewer than are met, are written to each of the others, through pointers to sixteen; a mask of
+    // sixteen bits has at most sixteen.
     unsafe {
         stack.exchange(
             (32 - mask.leading_zeros()) as usize,
@@ -280,31 +293,14 @@ fn descend_together<const ORDERED: bool>(
     (t_far, far): (&[f32; 8], f32),
     rows: &mut Rows,
 ) {
-    let [near_plane, far_plane] = PLANES[packet.octant & 7];
-    let hull = &packet.hull;
+    let (planes, hull) = (Planes::of(packet.octant), &packet.hull);
+    let (near_plane, far_plane) = (planes.near(), planes.far());
     let twice = |x: __m256| _mm512_broadcast_f32x8(x);
-    let (mut near, mut far) = {
-        let plane = |begins: u16, axis: usize, (r, c): &([__m256; 3], [__m256; 3])| {
-            // SAFETY: a row holds sixteen f32, aligned to 64 bytes.
-            let planes =
-                unsafe { _mm512_load_ps(node.planes[usize::from(begins) / (4 * WIDTH) % 6].as_ptr()) };
-            _mm512_fmadd_ps(planes, twice(r[axis]), twice(c[axis]))
-        };
-        let (ex, ey, ez) = (
-            plane(near_plane[0], 0, &hull.enter),
-            plane(near_plane[1], 1, &hull.enter),
-            plane(near_plane[2], 2, &hull.enter),
-        );
-        let (lx, ly, lz) = (
-            plane(far_plane[0], 0, &hull.leave),
-            plane(far_plane[1], 1, &hull.leave),
-            plane(far_plane[2], 2, &hull.leave),
-        );
-        (
-            _mm512_max_ps(_mm512_max_ps(ex, ey), _mm512_max_ps(ez, twice(hull.t_near))),
-            _mm512_min_ps(_mm512_min_ps(lx, ly), _mm512_min_ps(lz, _mm512_set1_ps(far))),
-        )
-    };
+    let three = |x: &[__m256; 3]| [twice(x[0]), twice(x[1]), twice(x[2])];
+    let (enter, leave) =
+        ((three(&hull.enter.0), three(&hull.enter.1)), (three(&hull.leave.0), three(&hull.leave.1)));
+    let (mut near, mut far) =
+        slabs(node, &planes, [(&enter.0, &enter.1), (&leave.0, &leave.1)], twice(hull.t_near), far);
     if ORDERED {
         // SAFETY: sixteen u32, aligned to 64 bytes.
         let order = unsafe { _mm512_load_si512(node.order.as_ptr().cast()) };
@@ -328,8 +324,8 @@ fn descend_together<const ORDERED: bool>(
         let is_pair = left != 0;
         let b = if is_pair { slot(left.trailing_zeros()) } else { a };
         left &= left.wrapping_sub(1);
-        let plane = |begins: u16, axis: usize, c: &[__m256; 3]| {
-            let planes = pair(&node.planes[usize::from(begins) / (4 * WIDTH) % 6], (a, b));
+        let plane = |begins: usize, axis: usize, c: &[__m256; 3]| {
+            let planes = pair(&node.planes[Planes::row(begins)], (a, b));
             _mm512_fmadd_ps(planes, twice(packet.r[axis]), twice(c[axis]))
         };
         let (ex, ey, ez) = (
@@ -350,8 +346,6 @@ fn descend_together<const ORDERED: bool>(
         rows.push_if(is_pair & (met >> 8 != 0), node.child[b], numbers(second));
     }
 }
-
-type Three = [__m512; 3];
 
 #[inline]
 #[target_feature(enable = "avx512f")]

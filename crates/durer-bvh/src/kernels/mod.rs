@@ -8,6 +8,8 @@ mod avx512;
 mod bins;
 #[cfg(target_arch = "x86_64")]
 mod packet;
+#[cfg(target_arch = "x86_64")]
+mod planes;
 mod scalar;
 mod stack;
 

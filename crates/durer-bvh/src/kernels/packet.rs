@@ -19,7 +19,8 @@
 #![expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")]
 
 use super::Rows;
-use super::avx2::{Numbers, OUTWARD, PLANES, SLACK, edges, judge_halves, slabs};
+use super::avx2::{Numbers, OUTWARD, SLACK, edges, judge_halves, slabs};
+use super::planes::Planes;
 use crate::node::{Node, SLOT_BITS, WIDTH};
 use crate::ray::{Glances, INSIDE, LONGEST, NEARBY, U32, Way};
 use crate::tree::Bvh;
@@ -188,7 +189,8 @@ pub(super) fn descend<const ORDERED: bool>(
     (t_far, far): (&[f32; 8], f32),
     rows: &mut Rows,
 ) {
-    let [near_plane, far_plane] = PLANES[packet.octant & 7];
+    let planes = Planes::of(packet.octant);
+    let (near_plane, far_plane) = (planes.near(), planes.far());
     let mut left = 0;
     for half in 0..WIDTH / 8 {
         let (near, far) = packet.slabs(node, half, far);
@@ -209,8 +211,8 @@ pub(super) fn descend<const ORDERED: bool>(
         } else {
             at
         };
-        let plane = |begins: u16, axis: usize, c: &[__m256; 3]| {
-            let plane = _mm256_set1_ps(node.planes[usize::from(begins) / (4 * WIDTH) % 6][slot]);
+        let plane = |begins: usize, axis: usize, c: &[__m256; 3]| {
+            let plane = _mm256_set1_ps(node.planes[Planes::row(begins)][slot]);
             _mm256_fmadd_ps(plane, packet.r[axis], c[axis])
         };
         let (ex, ey, ez) = (
@@ -243,17 +245,10 @@ impl Packet {
     #[inline]
     #[target_feature(enable = "avx2,fma")]
     pub(super) fn slabs(&self, node: &Node, half: usize, far: f32) -> (__m256, __m256) {
-        let offsets = |planes: &[u16; 3]| {
-            [
-                usize::from(planes[0]) + 32 * half,
-                usize::from(planes[1]) + 32 * half,
-                usize::from(planes[2]) + 32 * half,
-            ]
-        };
-        let ([near_plane, far_plane], hull) = (&PLANES[self.octant & 7], &self.hull);
+        let (planes, hull) = (Planes::of(self.octant), &self.hull);
         slabs(
-            node,
-            [offsets(near_plane), offsets(far_plane)],
+            (node, half),
+            &planes,
             [(&hull.enter.0, &hull.enter.1), (&hull.leave.0, &hull.leave.1)],
             hull.t_near,
             far,

@@ -74,8 +74,9 @@ pub(crate) struct Told8 {
     pub(crate) falls: M8,
     /// The sign of `g` at `a`, 1 or -1.
     pub(crate) sign: F8,
-    /// For whoever is asked to remember of each line: infinite at first, and `next` once a stretch is passed, which is infinite if nobody sets it.
+    /// For whoever is asked to remember of each line: infinite at first, and `next` once a stretch is passed.
     pub(crate) hint: F8,
+    /// What `hint` is after this stretch; infinite if nobody sets it.
     pub(crate) next: F8,
 }
 

@@ -1,0 +1,191 @@
+//! Eight lanes at once with AVX2 and FMA: nodes and blocks are asked in two halves.
+#![expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")]
+
+mod blocks;
+mod node;
+mod ready;
+
+pub(super) use blocks::{edges, judge_halves};
+pub(super) use node::{Numbers, slabs};
+pub(super) use ready::{OUTWARD, SLACK};
+
+use super::packet::{self, Filters, Packet};
+use super::{Kernel, Rows, Stack};
+use crate::node::{ChildRef, Node};
+use crate::ray::{CullRay, Glances, PACKET, Rounding, Sight, Way};
+use crate::tree::Bvh;
+use crate::triangles::{Block, Filter, Verdict};
+use blocks::judge;
+use core::arch::x86_64::*;
+use durer_math::kernels::Path;
+use durer_math::{Isa, Vec3};
+use node::{Lanes, descend, meets};
+use ready::{Clipped, clip, nearby};
+
+/// Proof that this CPU has all that [`Path::Avx2`] asks for: AVX2, FMA, BMI1 and 2, LZCNT and POPCNT.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Avx2(());
+
+impl Avx2 {
+    /// What an [`Isa`] proves.
+    #[inline(always)]
+    pub(crate) fn of(isa: Isa) -> Option<Self> {
+        matches!(isa.path(), Path::Avx2 | Path::Avx512).then_some(Self(()))
+    }
+
+    #[inline(always)]
+    fn clipped(self, tree: &Bvh, sight: &impl Sight) -> Option<CullRay> {
+        self.apart(
+            #[inline(always)]
+            || {
+                let line = sight.line();
+                if line.origin_error != Vec3::ZERO || line.direction_error != Vec3::ZERO {
+                    return tree.cull(&line, Rounding::Fused);
+                }
+                // SAFETY: as below.
+                match unsafe { clip(tree, &line) } {
+                    Clipped::Missed => None,
+                    Clipped::Enters(ray) => Some(ray),
+                    Clipped::Unusual => tree.cull(&line, Rounding::Fused),
+                }
+            },
+        )
+    }
+}
+
+impl Kernel for Avx2 {
+    type Ray = Numbers;
+    type Lanes = Lanes;
+    type Packet = Packet;
+    type Filters = Filters;
+
+    #[inline(always)]
+    fn nearby(self, tree: &Bvh, sight: &impl Sight) -> Option<(Numbers, Way)> {
+        // SAFETY: as below.
+        unsafe { nearby(tree, &sight.glance()) }
+    }
+
+    #[inline(always)]
+    fn afar(self, tree: &Bvh, sight: &impl Sight) -> Option<(Numbers, Way)> {
+        let ray = self.clipped(tree, sight)?;
+        Some((Numbers::of(&ray), ray.way))
+    }
+
+    #[inline(always)]
+    fn spread(self, ray: &Numbers) -> Lanes {
+        // SAFETY: as below.
+        unsafe { Lanes::of(ray) }
+    }
+
+    #[inline(always)]
+    fn descend<const ORDERED: bool>(
+        self,
+        node: &Node,
+        lanes: &Lanes,
+        t_far: f32,
+        stack: &mut Stack,
+    ) -> ChildRef {
+        // SAFETY: as above.
+        unsafe { descend::<ORDERED>(node, lanes, t_far, stack) }
+    }
+
+    #[inline(always)]
+    fn meets(self, node: &Node, slot: usize, lanes: &Lanes, t_far: f32) -> bool {
+        // SAFETY: as above.
+        unsafe { meets(node, slot, lanes, t_far) }
+    }
+
+    #[inline(always)]
+    fn judge(self, block: &Block, filter: &Filter, t_far: f32) -> Verdict {
+        // SAFETY: as above.
+        unsafe { judge(block, filter, t_far) }
+    }
+
+    #[inline(always)]
+    fn apart<R>(self, f: impl FnOnce() -> R) -> R {
+        // SAFETY: as above.
+        unsafe { apart(f) }
+    }
+
+    #[inline(always)]
+    fn apart_in_lanes<R>(self, f: impl FnOnce() -> R) -> R {
+        self.apart(f)
+    }
+
+    #[inline(always)]
+    fn gather(self, tree: &Bvh, rays: &Glances) -> Option<Packet> {
+        // SAFETY: as above.
+        unsafe { packet::gather(tree, rays) }
+    }
+
+    #[inline(always)]
+    fn ends(self, packet: &Packet) -> [f32; PACKET] {
+        // SAFETY: as above.
+        unsafe { packet.ends() }
+    }
+
+    #[inline(always)]
+    fn one(self, tree: &Bvh, packet: &Packet, ray: usize) -> (Numbers, Way) {
+        // SAFETY: as above.
+        unsafe { (packet.numbers(ray), packet.way(tree, ray)) }
+    }
+
+    #[inline(always)]
+    fn way(self, tree: &Bvh, packet: &Packet, ray: usize) -> Way {
+        // SAFETY: as above.
+        unsafe { packet.way(tree, ray) }
+    }
+
+    #[inline(always)]
+    fn awake(self, row: &[f32; PACKET], t_far: &[f32; PACKET]) -> u32 {
+        // SAFETY: as above.
+        unsafe { packet::awake(row, t_far) }
+    }
+
+    #[inline(always)]
+    fn filters(self, tree: &Bvh, packet: &Packet) -> Filters {
+        // SAFETY: as above.
+        unsafe { packet.filters(tree.rounded) }
+    }
+
+    #[inline(always)]
+    fn judge_together(
+        self,
+        block: &Block,
+        filters: &Filters,
+        awake: u32,
+        t_far: &[f32; PACKET],
+        verdicts: &mut [Verdict; PACKET],
+    ) -> u32 {
+        // SAFETY: as above.
+        unsafe { packet::judge(block, filters, awake, t_far, verdicts) }
+    }
+
+    #[inline(always)]
+    fn descend_together<const ORDERED: bool>(
+        self,
+        node: &Node,
+        packet: &Packet,
+        row: &[f32; PACKET],
+        (t_far, far): (&[f32; PACKET], f32),
+        rows: &mut Rows,
+    ) {
+        // SAFETY: as above.
+        unsafe { packet::descend::<ORDERED>(node, packet, row, (t_far, far), rows) }
+    }
+
+    #[inline(always)]
+    fn fetch(self, tree: &Bvh, child: ChildRef) {
+        let place = tree.place(child);
+        for line in 0..size_of::<Block>() / 64 {
+            // SAFETY: a prefetch reads nothing that the program could see, whatever the address.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(place.wrapping_add(64 * line).cast()) };
+        }
+    }
+}
+
+#[inline(never)]
+#[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+fn apart<R>(f: impl FnOnce() -> R) -> R {
+    f()
+}

@@ -1,0 +1,346 @@
+//! Bounds of noise and of its derivatives on boxes.
+//!
+//! **In a cell.** `|n| <= 33/64 + 3/2`, since `(1 - f) t + f (1 - t) <= 1/2`. A derivative is a blend, along the other two axes, of what it is on the four edges along its own:
+//!
+//! ```text
+//!   f'(x) (b - a) + (1 - f(x)) a_x + f(x) b_x,     a and b: v + g . (x - i, y - j, z - k) of the edge's two corners
+//! ```
+//!
+//! `b - a` is linear, so it is as far from its value in the box's middle as its slopes say; `f` and `f'` have their extremes at the box's ends, or `f'` in the cell's middle; a blend of intervals rises with both and is
+//! linear in `f`, so it has its extremes at the ends. The value follows from the one in the middle by the mean value theorem. Of a box in several cells this is asked of the parts, up to two along each axis; of
+//! larger ones the range is all that is known.
+//!
+//! **Small boxes**, with the middle `m` and the half sides `r`, need only one look at the corners:
+//!
+//! ```text
+//!   |n(p) - n(m)| <= sum |n_i(m)| r_i + 1/2 sum H_ij r_i r_j,   |n_i(p) - n_i(m)| <= sum H_ij r_j
+//! ```
+//!
+//! where `H` bounds the second derivatives, which jump between cells but are bounded in all of them: so this holds over any number of cells. [`SLOPE`], [`BEND`] and [`TWIST`] bound the first derivatives, and the second
+//! ones along one axis and along two, whatever the corners have: as sums of absolute values, whose extremes the tests find by interval arithmetic.
+//!
+//! **Rounding** is that of values and slopes; what is said of an edge errs by `115 u`, and each of the two blends adds `75 u`: in all less than [`SLOPE_ERROR`].
+
+use super::{APART, Along, SLOPE_ERROR, Sum, VALUE_ERROR, are_one_cell, number};
+use crate::{F8, I8, Isa, M8};
+
+/// Both count twice in bounds, so that these hold rounded values too; the rest is for the bounds' own rounding.
+const VALUE_MARGIN: f64 = 2.0 * VALUE_ERROR + 16.0 * crate::U;
+const SLOPE_MARGIN: f64 = 2.0 * SLOPE_ERROR + 16.0 * crate::U;
+/// Pays for the roundings of sums of numbers that are not negative: twelve at most one after the other.
+const UP: f64 = 1.0 + 16.0 * crate::U;
+/// The largest value of a corner.
+pub(super) const CORNER: f64 = 33.0 / 64.0;
+/// Bound on the values.
+const RANGE: f64 = CORNER + 1.5;
+/// Bound on the first derivatives.
+pub(super) const SLOPE: f64 = 5.06;
+/// Bound on the second ones along one axis.
+pub(super) const BEND: f64 = 24.3;
+/// Bound on the second ones along two.
+pub(super) const TWIST: f64 = 12.45;
+
+/// Bounds of noise on eight boxes.
+#[inline(never)]
+pub(crate) fn bounds(p: [&I8; 3]) -> I8 {
+    Isa::detect().run_in_lanes(
+        #[inline(always)]
+        || if are_small(p) { around(p).0 } else { cellwise(p).0 },
+    )
+}
+
+/// The same with bounds of its derivatives.
+#[inline(never)]
+pub(crate) fn slopes(p: [&I8; 3]) -> (I8, [I8; 3]) {
+    Isa::detect().run_in_lanes(
+        #[inline(always)]
+        || if are_small(p) { around(p) } else { cellwise(p) },
+    )
+}
+
+/// Whether bounds that know nothing of the corners will do.
+#[inline(always)]
+fn are_small(p: [&I8; 3]) -> bool {
+    const SMALL: f64 = 1.0 / 128.0;
+    let mut all = true;
+    for axis in p {
+        for i in 0..8 {
+            all &= axis.hi.0[i] - axis.lo.0[i] <= SMALL;
+        }
+    }
+    all
+}
+
+/// Bounds that hold over any number of cells.
+#[inline(always)]
+fn around(p: [&I8; 3]) -> (I8, [I8; 3]) {
+    let (mut m, mut r) = ([F8::ZERO; 3], [F8::ZERO; 3]);
+    for axis in 0..3 {
+        for i in 0..8 {
+            let (lo, hi) = (p[axis].lo.0[i], p[axis].hi.0[i]);
+            let middle = 0.5 * lo + 0.5 * hi;
+            let (before, after) = (middle - lo, hi - middle);
+            m[axis].0[i] = middle;
+            r[axis].0[i] = if before > after { before } else { after };
+        }
+    }
+    let near = Sum::at([&m[0], &m[1], &m[2]]);
+    let mut out = nothing(p);
+    for i in 0..8 {
+        let [a, b, c] = [r[0].0[i], r[1].0[i], r[2].0[i]];
+        let [da, db, dc] = [near.d[0].0[i].abs(), near.d[1].0[i].abs(), near.d[2].0[i].abs()];
+        let all = a + b + c;
+        let along = da * a + db * b + dc * c + SLOPE_ERROR * all;
+        let bent = (a * a + b * b + c * c) * ((BEND - TWIST) * 0.5) + all * all * (TWIST * 0.5);
+        let reach = (along + bent + VALUE_MARGIN) * UP;
+        narrow(&mut out.0, i, near.v.0[i] - reach, near.v.0[i] + reach);
+        for (axis, r) in r.iter().enumerate() {
+            let reach = (r.0[i] * (BEND - TWIST) + all * TWIST + SLOPE_MARGIN) * UP;
+            let slope = near.d[axis].0[i];
+            narrow(&mut out.1[axis], i, slope - reach, slope + reach);
+        }
+    }
+    out
+}
+
+/// What is known of noise anywhere.
+#[inline(always)]
+fn nothing(p: [&I8; 3]) -> (I8, [I8; 3]) {
+    let v = I8::new(F8::splat(-RANGE), F8::splat(RANGE)).said(p[0], p[1]).said(p[2], p[2]);
+    let d = I8::new(F8::splat(-SLOPE), F8::splat(SLOPE)).said(&v, &v);
+    (v, [d; 3])
+}
+
+/// Takes new bounds of a lane where they are narrower; what is no number is not.
+#[inline(always)]
+fn narrow(x: &mut I8, i: usize, lo: f64, hi: f64) {
+    x.lo.0[i] = if lo > x.lo.0[i] { lo } else { x.lo.0[i] };
+    x.hi.0[i] = if hi < x.hi.0[i] { hi } else { x.hi.0[i] };
+}
+
+/// The part of a box along an axis that is in one cell.
+#[derive(Clone, Copy)]
+struct Part {
+    /// What the cell's lower corner adds to the hash.
+    corner: [u32; 8],
+    /// From where to where, in the cell.
+    lo: F8,
+    hi: F8,
+}
+
+/// A box along an axis: the part in its first cell, in which lanes there is one in the next cell, and in which one in a third.
+struct Parts {
+    first: Part,
+    /// Where the part in the second cell ends.
+    rest: F8,
+    two: M8,
+    more: M8,
+}
+
+impl Parts {
+    #[inline(always)]
+    fn new(x: &I8, apart: u32) -> Self {
+        let mut first = Part { corner: [0; 8], lo: F8::ZERO, hi: F8::ZERO };
+        let mut rest = F8::ZERO;
+        for i in 0..8 {
+            let whole = x.lo.0[i].floor();
+            first.corner[i] = number(whole).wrapping_mul(apart);
+            first.lo.0[i] = x.lo.0[i] - whole;
+            let hi = x.hi.0[i] - whole;
+            first.hi.0[i] = if hi < 1.0 { hi } else { 1.0 };
+            rest.0[i] = hi - 1.0;
+        }
+        // Where an end is infinite there are more.
+        Self { first, rest, two: rest.gt(F8::ZERO), more: !rest.le(F8::ONE) }
+    }
+
+    /// The part of a lane in its first or second cell.
+    #[inline(always)]
+    fn part(&self, i: usize, second: bool, apart: u32) -> (u32, f64, f64) {
+        let corner = self.first.corner[i];
+        if second {
+            (corner.wrapping_add(apart), 0.0, self.rest.0[i])
+        } else {
+            (corner, self.first.lo.0[i], self.first.hi.0[i])
+        }
+    }
+}
+
+/// Bounds by those on the parts in single cells; of boxes of more than two cells along an axis nothing is known.
+#[inline(always)]
+fn cellwise(p: [&I8; 3]) -> (I8, [I8; 3]) {
+    let parts = [Parts::new(p[0], APART[0]), Parts::new(p[1], APART[1]), Parts::new(p[2], APART[2])];
+    let more = parts[0].more | parts[1].more | parts[2].more;
+    let two = [parts[0].two & !more, parts[1].two & !more, parts[2].two & !more];
+    let mut out = nothing(p);
+    let mut held = whole(&[parts[0].first, parts[1].first, parts[2].first]);
+    if (two[0] | two[1] | two[2]).any() {
+        beside(&parts, &two, &mut held);
+    }
+    let (v, d) = held;
+    for i in (!more).lanes() {
+        narrow(&mut out.0, i, v.lo.0[i], v.hi.0[i]);
+        for (out, d) in out.1.iter_mut().zip(&d) {
+            narrow(out, i, d.lo.0[i], d.hi.0[i]);
+        }
+    }
+    out
+}
+
+/// Widens bounds by those on the parts in other cells than the first, eight of them at a time.
+#[inline(always)]
+fn beside(parts: &[Parts; 3], two: &[M8; 3], held: &mut (Ends, [Ends; 3])) {
+    let [x, y, z] = [two[0].bits(), two[1].bits(), two[2].bits()];
+    let mut eight = [parts[0].first, parts[1].first, parts[2].first];
+    let (mut of, mut count) = ([0; 8], 0);
+    for which in 1..8_u8 {
+        let needs = |axis: u8, lanes: u8| if which >> axis & 1 == 1 { lanes } else { 0xff };
+        for i in crate::lanes::set_bits(needs(0, x) & needs(1, y) & needs(2, z)) {
+            for axis in 0..3 {
+                let (corner, lo, hi) = parts[axis].part(i, which >> axis & 1 == 1, APART[axis]);
+                let part = &mut eight[axis];
+                (part.corner[count], part.lo.0[count], part.hi.0[count]) = (corner, lo, hi);
+            }
+            of[count] = i;
+            count += 1;
+            if count == 8 {
+                widen(held, &of, &whole(&eight));
+                count = 0;
+            }
+        }
+    }
+    if count > 0 {
+        widen(held, &of[..count], &whole(&eight));
+    }
+}
+
+/// Bounds of some lanes as wide as others are.
+#[inline(always)]
+fn widen(held: &mut (Ends, [Ends; 3]), of: &[usize], by: &(Ends, [Ends; 3])) {
+    held.0.widen(of, &by.0);
+    for axis in 0..3 {
+        held.1[axis].widen(of, &by.1[axis]);
+    }
+}
+
+/// The least and the greatest numbers of eight.
+#[derive(Clone, Copy)]
+struct Ends {
+    lo: F8,
+    hi: F8,
+}
+
+impl Ends {
+    /// Some lanes as wide as others are.
+    #[inline(always)]
+    fn widen(&mut self, of: &[usize], by: &Self) {
+        for (k, &i) in of.iter().enumerate() {
+            self.lo.0[i] = self.lo.0[i].min(by.lo.0[k]);
+            self.hi.0[i] = self.hi.0[i].max(by.hi.0[k]);
+        }
+    }
+
+    /// Of `(1 - f) a + f b`: it rises with both, and is linear in `f`.
+    #[inline(always)]
+    fn blended(f: &Self, a: &Self, b: &Self) -> Self {
+        let (lo, hi) = (b.lo - a.lo, b.hi - a.hi);
+        Self {
+            lo: f.lo.mul_add(lo, a.lo).min(f.hi.mul_add(lo, a.lo)),
+            hi: f.lo.mul_add(hi, a.hi).max(f.hi.mul_add(hi, a.hi)),
+        }
+    }
+}
+
+/// A part along an axis, and what the blend and its derivative are on it.
+struct Within {
+    /// Half of its length.
+    half: F8,
+    f: Ends,
+    slope: Ends,
+}
+
+impl Within {
+    #[inline(always)]
+    fn new(part: &Part, apart: u32) -> (Along, Self) {
+        let middle = part.lo * 0.5 + part.hi * 0.5;
+        let half = part.hi * 0.5 - part.lo * 0.5;
+        let (a, b) = (Along::new(part.corner, &part.lo, apart), Along::new(part.corner, &part.hi, apart));
+        let mut slope = Ends { lo: a.slope.min(b.slope), hi: a.slope.max(b.slope) };
+        for i in 0..8 {
+            let steepest = (part.lo.0[i] < 0.5) & (part.hi.0[i] > 0.5);
+            slope.hi.0[i] = if steepest { 1.5 } else { slope.hi.0[i] };
+        }
+        (Along::new(part.corner, &middle, apart), Self { half, f: Ends { lo: a.f, hi: b.f }, slope })
+    }
+}
+
+/// Bounds on eight boxes, each of which is in one cell: of the derivatives by the blends' extremes, of the value by the one in the middle and the derivatives.
+#[inline(never)]
+fn whole(parts: &[Part; 3]) -> (Ends, [Ends; 3]) {
+    Isa::detect().run_in_lanes(
+        #[inline(always)]
+        || {
+            let (x, u) = Within::new(&parts[0], APART[0]);
+            let (y, v) = Within::new(&parts[1], APART[1]);
+            let (z, w) = Within::new(&parts[2], APART[2]);
+            let (along, within) = ([x, y, z], [u, v, w]);
+            if are_one_cell(&along) {
+                within_corners(&along, &within, &Sum::corners::<true>(&along))
+            } else {
+                within_corners(&along, &within, &Sum::corners::<false>(&along))
+            }
+        },
+    )
+}
+
+#[inline(always)]
+fn within_corners(along: &[Along; 3], within: &[Within; 3], corners: &[Sum; 8]) -> (Ends, [Ends; 3]) {
+    let d = [
+        slope(within, corners, [0, 1, 2]),
+        slope(within, corners, [1, 0, 2]),
+        slope(within, corners, [2, 0, 1]),
+    ];
+    let mut reach = F8::splat(VALUE_MARGIN);
+    for (d, within) in d.iter().zip(within) {
+        reach = d.hi.max(-d.lo).mul_add(within.half, reach);
+    }
+    let (v, reach) = (Sum::of(along, corners).v, reach * UP);
+    (Ends { lo: v - reach, hi: v + reach }, d)
+}
+
+/// Bounds of the derivative along the first of three axes.
+#[inline(always)]
+fn slope(within: &[Within; 3], corners: &[Sum; 8], [axis, second, third]: [usize; 3]) -> Ends {
+    let (upper, b, c) = (1 << axis, 1 << second, 1 << third);
+    let near = Ends::blended(
+        &within[second].f,
+        &pair(within, axis, &corners[0], &corners[upper]),
+        &pair(within, axis, &corners[b], &corners[b | upper]),
+    );
+    let far = Ends::blended(
+        &within[second].f,
+        &pair(within, axis, &corners[c], &corners[c | upper]),
+        &pair(within, axis, &corners[b | c], &corners[b | c | upper]),
+    );
+    let Ends { lo, hi } = Ends::blended(&within[third].f, &near, &far);
+    Ends { lo: lo - SLOPE_MARGIN, hi: hi + SLOPE_MARGIN }
+}
+
+/// The same of an edge's two corners: `f' (b - a)`, and the slopes there.
+#[inline(always)]
+fn pair(within: &[Within; 3], axis: usize, a: &Sum, b: &Sum) -> Ends {
+    // The difference is linear along all axes.
+    let mut reach = F8::ZERO;
+    for (k, within) in within.iter().enumerate() {
+        reach = (b.d[k] - a.d[k]).abs().mul_add(within.half, reach);
+    }
+    let middle = b.v - a.v;
+    let (lo, hi) = (middle - reach, middle + reach);
+    let Within { f, slope, .. } = &within[axis];
+    let change = b.d[axis] - a.d[axis];
+    let (from, to) = (f.lo.mul_add(change, a.d[axis]), f.hi.mul_add(change, a.d[axis]));
+    Ends {
+        lo: (slope.lo * lo).min(slope.hi * lo) + from.min(to),
+        hi: (slope.lo * hi).max(slope.hi * hi) + from.max(to),
+    }
+}

@@ -1,0 +1,257 @@
+//! Noise against exact arithmetic, its bounds, and what its corners are like.
+
+use super::bounds::{BEND, CORNER, SLOPE, TWIST};
+use super::*;
+use crate::{Dyadic, I8, Interval, Ring};
+
+/// Noise and its derivatives, exactly.
+fn exact(p: [f64; 3]) -> [Dyadic; 4] {
+    let number = |x: f64| Dyadic::exact(x);
+    let whole = p.map(f64::floor);
+    let zero = || number(0.0);
+    let mut sum = [zero(), zero(), zero(), zero()];
+    // The blend and its derivative towards the upper corner.
+    let t: [Dyadic; 3] = [0, 1, 2].map(|i| number(p[i]) - number(whole[i]));
+    let f = |t: &Dyadic| t.clone().square() * (number(3.0) - number(2.0) * t.clone());
+    let slope = |t: &Dyadic| number(6.0) * t.clone() * (number(1.0) - t.clone());
+    for corner in 0..8 {
+        let bit = |axis: usize| corner >> axis & 1;
+        let mut hash = 0_u32;
+        for axis in 0..3 {
+            let number = (whole[axis] + f64::from(bit(axis))).rem_euclid(4_294_967_296.0) as u32;
+            hash ^= number.wrapping_mul(APART[axis]);
+        }
+        let hash = mixed(hash);
+        let byte = |k: u32| f64::from(hash >> (8 * k) & 0xff);
+        let g = [1, 2, 3].map(|k| number((2.0 * byte(k) - 255.0) / 256.0));
+        let from: [Dyadic; 3] = [0, 1, 2].map(|i| t[i].clone() - number(f64::from(bit(i))));
+        let q = (0..3).fold(number((byte(0) - 132.0) / 256.0), |q, i| q + g[i].clone() * from[i].clone());
+        let weight = |i: usize| if bit(i) == 1 { f(&t[i]) } else { number(1.0) - f(&t[i]) };
+        let steep = |i: usize| if bit(i) == 1 { slope(&t[i]) } else { -slope(&t[i]) };
+        let all = weight(0) * weight(1) * weight(2);
+        sum[0] = sum[0].clone() + all.clone() * q.clone();
+        for axis in 0..3 {
+            let others = weight((axis + 1) % 3) * weight((axis + 2) % 3);
+            let part = steep(axis) * others * q.clone() + all.clone() * g[axis].clone();
+            sum[axis + 1] = sum[axis + 1].clone() + part;
+        }
+    }
+    sum
+}
+
+/// Numbers of all kinds: in cells, on their faces and next to these, small and large, of both signs.
+struct Dice(u64);
+
+impl Dice {
+    fn bits(&mut self) -> u64 {
+        // S. Vigna's SplitMix64.
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn number(&mut self) -> f64 {
+        let x = (self.unit() - 0.5) * [1.0, 20.0, 1e4, 1e10, 1e17][(self.bits() % 5) as usize];
+        match self.bits() % 8 {
+            0 => x.round(),
+            1 => x.round().next_up(),
+            2 => x.round().next_down(),
+            3 => x.round() + 0.5,
+            4 => x * 1e-12,
+            _ => x,
+        }
+    }
+}
+
+fn is_within(x: &Dyadic, lo: f64, hi: f64) -> bool {
+    *x >= Dyadic::exact(lo) && *x <= Dyadic::exact(hi)
+}
+
+#[test]
+fn rounded_values_and_slopes_are_as_near_as_is_said() {
+    let mut dice = Dice(1);
+    for _ in 0..20_000 {
+        let p = [dice.number(), dice.number(), dice.number()];
+        let (v, d) = slants(F8::splats(p).each_ref());
+        let told = [v, d[0], d[1], d[2]];
+        for (told, exact) in told.iter().zip(exact(p)) {
+            let e = if *told == v { VALUE_ERROR } else { SLOPE_ERROR };
+            // A quarter of what is claimed is what happens.
+            let (lo, hi) = (told.0[0] - e / 4.0, told.0[0] + e / 4.0);
+            assert!(is_within(&exact, lo, hi), "{p:?}: {told:?} {exact:?}");
+        }
+    }
+}
+
+#[test]
+fn pictures_of_noise_stay_what_they_are() {
+    let at = |p: [f64; 3]| values(F8::splats(p).each_ref()).0[0];
+    let known = [
+        ([0.3, 0.7, 0.2], -0.4793344928000001),
+        ([-5.25, 1e6 + 0.125, 77.5], 0.2862153649330139),
+        ([2.5 * 4_294_967_296.0, 0.5, -0.5], 0.0361328125),
+    ];
+    for (p, value) in known {
+        assert_eq!(at(p), value, "{p:?}");
+    }
+    // It begins anew after 2^32.
+    assert_eq!(at([0.5 + 4_294_967_296.0, 0.5, 0.5]), at([0.5, 0.5, 0.5]));
+    assert!(at([f64::INFINITY, 0.0, 0.0]).is_nan() && at([f64::MAX, f64::MIN, 1e300]).is_finite());
+}
+
+#[test]
+fn bounds_hold_exact_values_and_rounded_ones() {
+    let mut dice = Dice(2);
+    for _ in 0..3_000 {
+        let size = [0.0, 1e-12, 1e-3, 0.05, 0.3, 1.0, 3.0][(dice.bits() % 7) as usize];
+        let mut boxes = [I8::new(F8::ZERO, F8::ZERO); 3];
+        for i in 0..8 {
+            for x in &mut boxes {
+                let lo = dice.number();
+                x.set_lane(i, Interval { lo, hi: lo + size * dice.unit() });
+            }
+        }
+        let (v, d) = slopes(boxes.each_ref());
+        assert_eq!(v, bounds(boxes.each_ref()));
+        for i in 0..8 {
+            for _ in 0..2 {
+                let k = [0.0, 1.0, dice.unit(), dice.unit()];
+                let p = boxes.map(|x| {
+                    let Interval { lo, hi } = x.lane(i);
+                    (lo + (hi - lo) * k[(dice.bits() % 4) as usize]).clamp(lo, hi)
+                });
+                let (value, slope) = slants(F8::splats(p).each_ref());
+                let told = [(v, value), (d[0], slope[0]), (d[1], slope[1]), (d[2], slope[2])];
+                for ((bounds, rounded), exact) in told.into_iter().zip(exact(p)) {
+                    let Interval { lo, hi } = bounds.lane(i);
+                    assert!(is_within(&exact, lo, hi), "{p:?}: {lo} {hi} {exact:?}");
+                    assert!(lo <= rounded.0[0] && rounded.0[0] <= hi, "{p:?}: {lo} {hi} {rounded:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn constants_bound_the_derivatives_whatever_the_corners_have() {
+    let number = |x: f64| Interval { lo: x, hi: x };
+    let (one, two, six) = (number(1.0), number(2.0), number(6.0));
+    // Of the blend f(t), its first and its second derivative, and what a derivative takes of the slopes that two corners have along its axis.
+    let parts = |t: Interval| {
+        let f = t.square() * (number(3.0) - two * t);
+        let (d, dd) = (six * t * (one - t), six - number(12.0) * t);
+        (d, dd, (one - f - d * t).abs() + (f - d * (one - t)).abs())
+    };
+    let piece = |k: u32, n: u32| Interval::new(f64::from(k) / f64::from(n), f64::from(k + 1) / f64::from(n));
+    // Distances from two corners, weighted, are at most 1/2 together: so 1 of two pairs along each of the other axes.
+    let other = number(2.0 * CORNER + 2.0);
+    let (mut slope, mut bend, mut twist) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for i in 0..4096 {
+        let t = piece(i, 4096);
+        let (d, dd, own) = parts(t);
+        slope = slope.max((d * other + own).hi);
+        let own = (dd * t + two * d).abs() + (two * d - dd * (one - t)).abs();
+        bend = bend.max((dd.abs() * other + own).hi);
+    }
+    for i in 0..512 {
+        for j in 0..512 {
+            let ((du, _, u), (dv, _, v)) = (parts(piece(i, 512)), parts(piece(j, 512)));
+            let all = du * dv * number(4.0 * CORNER + 2.0) + two * (dv * u + du * v);
+            twist = twist.max(all.hi);
+        }
+    }
+    // Not more than a hundredth too large.
+    for (found, claimed) in [(slope, SLOPE), (bend, BEND), (twist, TWIST)] {
+        assert!(found <= claimed && claimed <= 1.01 * found, "{found} {claimed}");
+    }
+}
+
+#[test]
+fn values_and_slopes_go_on_from_cell_to_cell() {
+    let mut dice = Dice(3);
+    for _ in 0..5_000 {
+        let mut p = [dice.unit() * 40.0 - 20.0, dice.unit() * 40.0 - 20.0, dice.unit() * 40.0 - 20.0];
+        let axis = (dice.bits() % 3) as usize;
+        p[axis] = p[axis].round();
+        let at = |x: f64| {
+            let mut p = p;
+            p[axis] = x;
+            slants(F8::splats(p).each_ref())
+        };
+        let ((a, da), (b, db)) = (at(p[axis].next_down()), at(p[axis].next_up()));
+        let apart = p[axis].next_up() - p[axis].next_down();
+        assert!((a.0[0] - b.0[0]).abs() <= 2.0 * VALUE_ERROR + SLOPE * apart);
+        for (da, db) in da.iter().zip(&db) {
+            assert!((da.0[0] - db.0[0]).abs() <= 2.0 * SLOPE_ERROR + BEND * apart);
+        }
+    }
+}
+
+#[test]
+fn corners_are_alike_and_know_nothing_of_each_other() {
+    // What 64^3 points of the lattice have, and what the next ones along each direction have.
+    let corner = |p: [f64; 3]| {
+        let (v, [x, y, z]) = slants(F8::splats(p).each_ref());
+        [v.0[0] + 4.5 / 256.0, x.0[0], y.0[0], z.0[0]]
+    };
+    const NEXT: [[f64; 3]; 4] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0]];
+    let (mut count, mut sums, mut squares) = (0.0, [0.0; 4], [0.0; 4]);
+    let mut products = [[0.0; 4]; 4];
+    for k in 0..1 << 18 {
+        let p = [k & 63, k >> 6 & 63, k >> 12].map(|x: i32| f64::from(x - 32));
+        let own = corner(p);
+        count += 1.0;
+        for i in 0..4 {
+            sums[i] += own[i];
+            squares[i] += own[i] * own[i];
+        }
+        for (next, products) in NEXT.iter().zip(&mut products) {
+            let next = corner([0, 1, 2].map(|i| p[i] + next[i]));
+            for i in 0..4 {
+                products[i] += own[i] * next[i];
+            }
+        }
+    }
+    // Uniform between -1/2 and 1/2, and between -1 and 1. Of so many, means and correlations are within 5 standard errors.
+    let variance = [1.0 / 12.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0];
+    let error = 5.0 / f64::sqrt(count);
+    for i in 0..4 {
+        let spread = f64::sqrt(variance[i]);
+        assert!((sums[i] / count).abs() < error * spread, "mean {i}: {}", sums[i] / count);
+        assert!(
+            (squares[i] / count / variance[i] - 1.0).abs() < error,
+            "variance {i}: {}",
+            squares[i] / count
+        );
+        for (next, products) in NEXT.iter().zip(&products) {
+            let correlation = products[i] / count / variance[i];
+            assert!(correlation.abs() < error, "{i} along {next:?}: {correlation}");
+        }
+    }
+}
+
+#[test]
+fn bounds_of_small_boxes_are_hardly_wider_than_the_values() {
+    let mut dice = Dice(4);
+    for (size, most) in [(0.1, 3.0), (0.02, 2.0), (1e-4, 1.1)] {
+        let mut ratios: Vec<f64> = Vec::new();
+        for _ in 0..200 {
+            let lo = [dice.unit() * 40.0 - 20.0, dice.unit() * 40.0 - 20.0, dice.unit() * 40.0 - 20.0];
+            let v = bounds(lo.map(|lo| I8::splat(Interval { lo, hi: lo + size })).each_ref()).lane(0);
+            let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+            for k in 0..125_u32 {
+                let at = [k % 5, k / 5 % 5, k / 25].map(|k| f64::from(k) / 4.0 * size);
+                let value = values(F8::splats([0, 1, 2].map(|i| lo[i] + at[i])).each_ref()).0[0];
+                (least, greatest) = (least.min(value), greatest.max(value));
+            }
+            ratios.push((v.hi - v.lo) / (greatest - least));
+        }
+        ratios.sort_by(f64::total_cmp);
+        assert!(ratios[0] >= 1.0 && ratios[100] < most, "{size}: {}", ratios[100]);
+    }
+}
