@@ -15,6 +15,9 @@ pub(crate) struct Reach {
 }
 
 impl Reach {
+    /// Of a ray that looks at nothing.
+    pub(crate) const NOWHERE: Self = Self { t_far: f32::NEG_INFINITY, held: Held::NOTHING };
+
     #[inline(always)]
     pub(crate) fn of(way: &Way) -> Self {
         Self { t_far: way.t_far, held: Held::NOTHING }
@@ -89,7 +92,14 @@ pub(crate) trait Quest<const ORDERED: bool> {
         let block = &tree.blocks[number as usize];
         let filter = sieve.filter(kernel, tree, way);
         let verdict = kernel.judge(block, filter, reach.t_far);
-        verdict.alive != 0 && self.judged(kernel, way, (kind, number), block, &verdict, reach)
+        if verdict.alive == 0 {
+            return false;
+        }
+        // A copy: what only this function has a pointer to stays in registers.
+        let mut here = *reach;
+        let is_over = self.judged(kernel, way, (kind, number), block, &verdict, &mut here);
+        *reach = here;
+        is_over
     }
 
     /// Looks at a leaf that holds no triangles; says whether the search is over.
@@ -130,10 +140,9 @@ impl<T: Answers<f64>> Quest<true> for Closest<T> {
         verdict: &Verdict,
         reach: &mut Reach,
     ) -> bool {
-        let before = *reach;
-        *reach = kernel.apart(
+        kernel.apart(
             #[inline(always)]
-            || self.sort_out(way, of, block, verdict, before),
+            || self.sort_out(way, of, block, verdict, reach),
         );
         false
     }
@@ -153,15 +162,8 @@ impl<T: Answers<f64>> Quest<true> for Closest<T> {
 impl<T: Answers<f64>> Closest<T> {
     /// What triangles that may be met do to how far to look: one is held if it is certainly met before all others, else the caller is asked.
     #[inline(always)]
-    fn sort_out(
-        &mut self,
-        way: &Way,
-        of: (u32, u32),
-        block: &Block,
-        verdict: &Verdict,
-        before: Reach,
-    ) -> Reach {
-        let Reach { mut t_far, mut held } = before;
+    fn sort_out(&mut self, way: &Way, of: (u32, u32), block: &Block, verdict: &Verdict, reach: &mut Reach) {
+        let Reach { mut t_far, mut held } = *reach;
         let mut alive = verdict.alive;
         while alive != 0 {
             let lane = first(alive, &verdict.lo);
@@ -195,7 +197,7 @@ impl<T: Answers<f64>> Closest<T> {
                 held = Held::NOTHING;
             }
         }
-        Reach { t_far, held }
+        *reach = Reach { t_far, held };
     }
 }
 

@@ -5,7 +5,7 @@
 use crate::batch::{Aim, LARGE, One, Rays, each};
 use crate::kernels::{Kernel, Rows};
 use crate::node::ChildRef;
-use crate::quest::{Held, Known, Quest, Reach};
+use crate::quest::{Known, Quest, Reach};
 use crate::ray::PACKET;
 use crate::traverse::follow;
 use crate::tree::Bvh;
@@ -24,7 +24,8 @@ struct Group<'a, K: Kernel, B, M> {
     t_far: [f32; PACKET],
     /// The greatest there was at the last step that changed one.
     far: f32,
-    held: [Held; PACKET],
+    /// The same parameters, but for NaN, and what each holds.
+    reaches: &'a mut [Reach; PACKET],
     aim: PhantomData<M>,
 }
 
@@ -38,10 +39,22 @@ pub(crate) fn together<K: Kernel, B: Rays<M::Said>, M: Aim<ORDERED>, const ORDER
     packet: &K::Packet,
 ) {
     let t_far = kernel.ends(packet);
-    let held = [Held::NOTHING; PACKET];
-    let far = greatest(&t_far);
-    let mut group: Group<'_, K, B, M> =
-        Group { kernel, tree, rays, first, packet, t_far, far, held, aim: PhantomData };
+    // Apart from the rest, which moves: what is written in parts and then moved has to wait.
+    let mut reaches = [Reach::NOWHERE; PACKET];
+    for (reach, &t_far) in reaches.iter_mut().zip(&t_far) {
+        reach.t_far = t_far;
+    }
+    let mut group: Group<'_, K, B, M> = Group {
+        kernel,
+        tree,
+        rays,
+        first,
+        packet,
+        t_far,
+        far: greatest(&t_far),
+        reaches: &mut reaches,
+        aim: PhantomData,
+    };
     let mut for_triangles = None;
     let is_large = tree.held() > LARGE;
     let mut rows = Rows::new();
@@ -80,8 +93,8 @@ pub(crate) fn together<K: Kernel, B: Rays<M::Said>, M: Aim<ORDERED>, const ORDER
     }
     let mut leaves = [None; PACKET];
     let mut are_any = false;
-    for (leaf, held) in leaves.iter_mut().zip(&group.held) {
-        *leaf = held.leaf();
+    for (leaf, reach) in leaves.iter_mut().zip(group.reaches.iter()) {
+        *leaf = reach.held.leaf();
         are_any |= leaf.is_some();
     }
     if are_any {
@@ -89,13 +102,19 @@ pub(crate) fn together<K: Kernel, B: Rays<M::Said>, M: Aim<ORDERED>, const ORDER
     }
 }
 
+/// The greatest of those that are numbers.
 #[inline(always)]
 fn greatest(t_far: &[f32; PACKET]) -> f32 {
-    t_far.iter().fold(
-        f32::NEG_INFINITY,
-        #[inline(always)]
-        |a, &b| if b > a { b } else { a },
-    )
+    let pick = |a: f32, b: f32| if b > a { b } else { a };
+    let (mut four, mut two) = ([0.0; PACKET / 2], [0.0; PACKET / 4]);
+    for i in 0..PACKET / 2 {
+        // With the constant first NaN is not picked.
+        four[i] = pick(pick(f32::NEG_INFINITY, t_far[i]), t_far[i + PACKET / 2]);
+    }
+    for i in 0..PACKET / 4 {
+        two[i] = pick(four[i], four[i + PACKET / 4]);
+    }
+    pick(two[0], two[1])
 }
 
 impl<K: Kernel, B, M> Group<'_, K, B, M> {
@@ -112,25 +131,35 @@ impl<K: Kernel, B, M> Group<'_, K, B, M> {
     {
         let Self { kernel, tree, packet, .. } = *self;
         let number = self.first + ray;
-        let before = self.t_far[ray];
-        let mut reach = Reach { t_far: before, held: self.held[ray] };
+        let reach = &mut self.reaches[ray];
+        let before = reach.t_far;
         let mut quest = M::quest(One { rays: self.rays, ray: number });
         let found = if let Some((of, block, verdict)) = judged {
-            quest.judged(kernel, &kernel.way(tree, packet, ray), of, block, verdict, &mut reach)
+            quest.judged(kernel, &kernel.way(tree, packet, ray), of, block, verdict, reach)
         } else {
             let (ray, way) = kernel.one(tree, packet, ray);
             let lanes = kernel.spread(&ray);
             let mut sieve = Known { filter: None };
-            follow(kernel, tree, &lanes, &way, child, &mut sieve, &mut reach, &mut quest)
+            follow(kernel, tree, &lanes, &way, child, &mut sieve, reach, &mut quest)
         };
         drop(quest);
-        self.held[ray] = reach.held;
+        let after = reach.t_far;
         if found {
             self.rays.found(number);
-            self.t_far[ray] = f32::NAN;
-        } else if reach.t_far < before {
-            self.t_far[ray] = reach.t_far;
-            self.far = greatest(&self.t_far);
+            self.shorten(ray, f32::NAN);
+        } else if after < before {
+            self.shorten(ray, after);
         }
+    }
+
+    /// Who writes one number of eight and reads all at once has to wait; so all are written.
+    #[inline(always)]
+    fn shorten(&mut self, ray: usize, t_far: f32) {
+        let mut all = self.t_far;
+        for (i, one) in all.iter_mut().enumerate() {
+            *one = if i == ray { t_far } else { *one };
+        }
+        self.t_far = all;
+        self.far = greatest(&all);
     }
 }

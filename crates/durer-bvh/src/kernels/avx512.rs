@@ -188,6 +188,34 @@ impl Wide {
     }
 }
 
+/// A node's near planes, and its far ones.
+#[inline]
+#[target_feature(enable = "avx512f")]
+fn planes_of(node: &Node, planes: &Planes) -> (Three, Three) {
+    let row = |begins: usize| {
+        // SAFETY: one of six rows begins there, and a row holds sixteen f32, aligned to 64 bytes.
+        unsafe { _mm512_load_ps(node.planes.as_ptr().cast::<f32>().byte_add(begins)) }
+    };
+    let ([nx, ny, nz], [fx, fy, fz]) = (planes.near(), planes.far());
+    ([row(nx), row(ny), row(nz)], [row(fx), row(fy), row(fz)])
+}
+
+/// The parameter at which the last of three planes is met, but not before this.
+#[inline]
+#[target_feature(enable = "avx512f")]
+fn latest(planes: &Three, (r, c): (&Three, &Three), t_near: __m512) -> __m512 {
+    let plane = |axis: usize| _mm512_fmadd_ps(planes[axis], r[axis], c[axis]);
+    _mm512_max_ps(_mm512_max_ps(plane(0), plane(1)), _mm512_max_ps(plane(2), t_near))
+}
+
+/// The same of the first, but not after this.
+#[inline]
+#[target_feature(enable = "avx512f")]
+fn earliest(planes: &Three, (r, c): (&Three, &Three), t_far: __m512) -> __m512 {
+    let plane = |axis: usize| _mm512_fmadd_ps(planes[axis], r[axis], c[axis]);
+    _mm512_min_ps(_mm512_min_ps(plane(0), plane(1)), _mm512_min_ps(plane(2), t_far))
+}
+
 /// As with AVX2, all of a node at once.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx2,fma")]
@@ -198,16 +226,9 @@ fn slabs(
     t_near: __m512,
     t_far: f32,
 ) -> (__m512, __m512) {
-    let plane = |begins: usize, axis: usize, (r, c): (&Three, &Three)| {
-        // SAFETY: one of six rows begins there, and a row holds sixteen f32, aligned to 64 bytes.
-        let planes = unsafe { _mm512_load_ps(node.planes.as_ptr().cast::<f32>().byte_add(begins)) };
-        _mm512_fmadd_ps(planes, r[axis], c[axis])
-    };
-    let ([nx, ny, nz], [fx, fy, fz]) = (planes.near(), planes.far());
-    let (ex, ey, ez) = (plane(nx, 0, enter), plane(ny, 1, enter), plane(nz, 2, enter));
-    let (lx, ly, lz) = (plane(fx, 0, leave), plane(fy, 1, leave), plane(fz, 2, leave));
-    let near = _mm512_max_ps(_mm512_max_ps(ex, ey), _mm512_max_ps(ez, t_near));
-    let far = _mm512_min_ps(_mm512_min_ps(lx, ly), _mm512_min_ps(lz, _mm512_set1_ps(t_far)));
+    let (near, far) = planes_of(node, planes);
+    let near = latest(&near, enter, t_near);
+    let far = earliest(&far, leave, _mm512_set1_ps(t_far));
     (near, far)
 }
 
@@ -269,14 +290,6 @@ fn awake(row: &[f32; 8], t_far: &[f32; 8]) -> u32 {
     u32::from(_mm256_cmp_ps_mask::<_CMP_LE_OQ>(eight(row), eight(t_far)))
 }
 
-/// Two of eight numbers, each in half of the lanes.
-#[inline]
-#[target_feature(enable = "avx512f,avx512vl,avx2,fma")]
-fn pair<const N: usize>(numbers: &[f32; N], (a, b): (usize, usize)) -> __m512 {
-    let of = |at: usize| _mm_set_ss(numbers[at % N]);
-    _mm512_mask_broadcastss_ps(_mm512_broadcastss_ps(of(a)), 0xff00, of(b))
-}
-
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma")]
 fn halves(x: __m512) -> [__m256; 2] {
@@ -294,9 +307,10 @@ fn descend_together<const ORDERED: bool>(
     rows: &mut Rows,
 ) {
     let (planes, hull) = (Planes::of(packet.octant), &packet.hull);
-    let (near_plane, far_plane) = (planes.near(), planes.far());
+    let (near_planes, far_planes) = planes_of(node, &planes);
     let twice = |x: __m256| _mm512_broadcast_f32x8(x);
     let three = |x: &[__m256; 3]| [twice(x[0]), twice(x[1]), twice(x[2])];
+    let (r, c_near, c_far) = (three(&packet.r), three(&packet.near), three(&packet.far));
     let (enter, leave) =
         ((three(&hull.enter.0), three(&hull.enter.1)), (three(&hull.leave.0), three(&hull.leave.1)));
     let (mut near, mut far) =
@@ -324,22 +338,12 @@ fn descend_together<const ORDERED: bool>(
         let is_pair = left != 0;
         let b = if is_pair { slot(left.trailing_zeros()) } else { a };
         left &= left.wrapping_sub(1);
-        let plane = |begins: usize, axis: usize, c: &[__m256; 3]| {
-            let planes = pair(&node.planes[Planes::row(begins)], (a, b));
-            _mm512_fmadd_ps(planes, twice(packet.r[axis]), twice(c[axis]))
-        };
-        let (ex, ey, ez) = (
-            plane(near_plane[0], 0, &packet.near),
-            plane(near_plane[1], 1, &packet.near),
-            plane(near_plane[2], 2, &packet.near),
-        );
-        let (lx, ly, lz) = (
-            plane(far_plane[0], 0, &packet.far),
-            plane(far_plane[1], 1, &packet.far),
-            plane(far_plane[2], 2, &packet.far),
-        );
-        let near = _mm512_max_ps(_mm512_max_ps(ex, ey), _mm512_max_ps(ez, t_near));
-        let far = _mm512_min_ps(_mm512_min_ps(lx, ly), _mm512_min_ps(lz, t_far));
+        // The first child's planes in one half of the lanes, the other's in the other.
+        let both = _mm512_mask_set1_epi32(_mm512_set1_epi32(a as i32), 0xff00, b as i32);
+        let pick = |row: __m512| _mm512_permutexvar_ps(both, row);
+        let of_both = |rows: &Three| [pick(rows[0]), pick(rows[1]), pick(rows[2])];
+        let near = latest(&of_both(&near_planes), (&r, &c_near), t_near);
+        let far = earliest(&of_both(&far_planes), (&r, &c_far), t_far);
         let met = _mm512_mask_cmp_ps_mask::<_CMP_LE_OQ>(awake, near, far);
         let [first, second] = halves(_mm512_mask_blend_ps(met, nothing, near));
         rows.push_if(met & 0xff != 0, node.child[a], numbers(first));
@@ -392,24 +396,56 @@ fn edges(block: &Block) -> Edges {
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 fn judge(block: &Block, filter: &Filter, t_far: f32) -> Verdict {
+    let edges = edges(block);
+    let extent = edges.extent;
+    let slack = || extent.mul_add(filter.b.mul_add(extent, filter.a), filter.g);
+    let rest = |slack: f32| Rest {
+        q: filter.q,
+        nearby: NEAR.mul_add(extent, filter.p),
+        s: filter.s,
+        certain: 4.0_f32.mul_add(slack, filter.flat.mul_add(extent * extent, FLAT)),
+        t_near: filter.t_near,
+        t_far,
+        first: filter.first,
+        last: filter.last,
+    };
     let mut verdict = Verdict::NOTHING;
-    judge_edges(&edges(block), filter, t_far, &mut verdict);
+    let spread = |v: &[f32; 4]| [_mm512_set1_ps(v[0]), _mm512_set1_ps(v[1]), _mm512_set1_ps(v[2])];
+    judge_edges(&edges, &spread(&filter.o), &spread(&filter.d), slack, rest, &mut verdict);
     verdict
+}
+
+/// What a block's judge needs of a ray if the first test has not missed all triangles: members of [`Filter`], and what follows from these and the size of the block.
+struct Rest {
+    q: f32,
+    /// `p + NEAR E`.
+    nearby: f32,
+    s: f32,
+    /// What a `D` that says something exceeds.
+    certain: f32,
+    t_near: f32,
+    t_far: f32,
+    first: f32,
+    last: f32,
 }
 
 /// What `Scalar::judge` does, sixteen triangles at once; says which are alive, and the rest only if one is. Most blocks end at the first test.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-fn judge_edges(edges: &Edges, filter: &Filter, t_far: f32, verdict: &mut Verdict) -> u32 {
+fn judge_edges(
+    edges: &Edges,
+    start: &Three,
+    direction: &Three,
+    slack: impl FnOnce() -> f32,
+    rest: impl FnOnce(f32) -> Rest,
+    verdict: &mut Verdict,
+) -> u32 {
     let all = |x: f32| _mm512_set1_ps(x);
-    let spread = |v: &[f32; 4]| [all(v[0]), all(v[1]), all(v[2])];
-    let (start, direction) = (spread(&filter.o), spread(&filter.d));
-    let Edges { first, e1, e2, n, extent } = edges;
-    let (c, extent) = (difference(first, &start), *extent);
-    let slack = extent.mul_add(filter.b.mul_add(extent, filter.a), filter.g);
-    let r = cross(&c, &direction);
+    let Edges { first, e1, e2, n, .. } = edges;
+    let (c, slack) = (difference(first, start), slack());
+    let r = cross(&c, direction);
     let (u, v) = (dot(&r, e2), _mm512_xor_ps(all(-0.0), dot(&r, e1)));
-    let d = dot(&direction, n);
+    let d = dot(direction, n);
     let w = _mm512_sub_ps(_mm512_sub_ps(d, u), v);
     let least = _mm512_min_ps(_mm512_min_ps(u, v), w);
     let most = _mm512_max_ps(_mm512_max_ps(u, v), w);
@@ -419,27 +455,25 @@ fn judge_edges(edges: &Edges, filter: &Filter, t_far: f32, verdict: &mut Verdict
     if possible == 0 {
         return 0;
     }
+    let rest = rest(slack);
     let length = |e: &Three| {
         _mm512_add_ps(_mm512_add_ps(_mm512_abs_ps(e[0]), _mm512_abs_ps(e[1])), _mm512_abs_ps(e[2]))
     };
-    let square = extent * extent;
     let inverse = _mm512_div_ps(all(1.0), d);
     let t = _mm512_mul_ps(dot(&c, n), inverse);
     let size = _mm512_abs_ps(t);
     let spread = _mm512_mul_ps(_mm512_abs_ps(inverse), _mm512_mul_ps(length(e1), length(e2)));
-    let nearby = NEAR.mul_add(extent, filter.p);
-    let far = _mm512_mul_ps(_mm512_fmadd_ps(all(filter.q), size, all(nearby)), spread);
-    let tau = _mm512_add_ps(far, _mm512_fmadd_ps(all(FAR), size, all(filter.s)));
-    let certain = 4.0_f32.mul_add(slack, filter.flat.mul_add(square, FLAT));
-    let known = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(_mm512_abs_ps(d), all(certain));
+    let far = _mm512_mul_ps(_mm512_fmadd_ps(all(rest.q), size, all(rest.nearby)), spread);
+    let tau = _mm512_add_ps(far, _mm512_fmadd_ps(all(FAR), size, all(rest.s)));
+    let known = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(_mm512_abs_ps(d), all(rest.certain));
     let lo = _mm512_mask_sub_ps(all(f32::NEG_INFINITY), known, t, tau);
     let hi = _mm512_mask_add_ps(all(f32::INFINITY), known, t, tau);
-    let alive = _mm512_mask_cmp_ps_mask::<_CMP_GE_OQ>(possible, hi, all(filter.t_near));
-    let alive = _mm512_mask_cmp_ps_mask::<_CMP_LE_OQ>(alive, lo, all(t_far));
+    let alive = _mm512_mask_cmp_ps_mask::<_CMP_GE_OQ>(possible, hi, all(rest.t_near));
+    let alive = _mm512_mask_cmp_ps_mask::<_CMP_LE_OQ>(alive, lo, all(rest.t_far));
     let through =
         _mm512_cmp_ps_mask::<_CMP_GT_OQ>(least, above) | _mm512_cmp_ps_mask::<_CMP_LT_OQ>(most, below);
-    let sure = _mm512_mask_cmp_ps_mask::<_CMP_GE_OQ>(alive & known & through, lo, all(filter.first));
-    let sure = _mm512_mask_cmp_ps_mask::<_CMP_LE_OQ>(sure, hi, all(filter.last));
+    let sure = _mm512_mask_cmp_ps_mask::<_CMP_GE_OQ>(alive & known & through, lo, all(rest.first));
+    let sure = _mm512_mask_cmp_ps_mask::<_CMP_LE_OQ>(sure, hi, all(rest.last));
     verdict.alive = u32::from(alive);
     verdict.sure = u32::from(sure);
     // SAFETY: sixteen f32 each.
@@ -461,11 +495,37 @@ fn judge_together(
     verdicts: &mut [Verdict; 8],
 ) -> u32 {
     let edges = edges(block);
+    let all = |x: f32| _mm256_set1_ps(x);
+    let extent = all(edges.extent);
+    let (a, b, g, p) = (eight(&filters.a), eight(&filters.b), eight(&filters.g), eight(&filters.p));
+    let slack = _mm256_fmadd_ps(extent, _mm256_fmadd_ps(b, extent, a), g);
+    let flat = _mm256_mul_ps(all(2.0), b);
+    let certain = _mm256_fmadd_ps(flat, _mm256_mul_ps(extent, extent), all(FLAT));
+    // For all rays at once, then spread one by one.
+    let slacks = numbers(slack);
+    let certain = numbers(_mm256_fmadd_ps(all(4.0), slack, certain));
+    let nearby = numbers(_mm256_fmadd_ps(all(NEAR), extent, p));
+    let q = numbers(_mm256_mul_ps(all(4.0), b));
     let mut alive = 0;
     while awake != 0 {
         let ray = awake.trailing_zeros() as usize & 7;
         awake &= awake - 1;
-        let is_any = judge_edges(&edges, &filters.one(ray), t_far[ray], &mut verdicts[ray]) != 0;
+        let of = |v: &[[f32; 8]; 3]| {
+            [_mm512_set1_ps(v[0][ray]), _mm512_set1_ps(v[1][ray]), _mm512_set1_ps(v[2][ray])]
+        };
+        let slack = || slacks[ray];
+        let rest = |_| Rest {
+            q: q[ray],
+            nearby: nearby[ray],
+            s: Filter::S,
+            certain: certain[ray],
+            t_near: filters.t_near[ray],
+            t_far: t_far[ray],
+            first: filters.first[ray],
+            last: filters.last[ray],
+        };
+        let verdict = &mut verdicts[ray];
+        let is_any = judge_edges(&edges, &of(&filters.o), &of(&filters.d), slack, rest, verdict) != 0;
         alive |= u32::from(is_any) << ray;
     }
     alive
