@@ -6,10 +6,10 @@
 //! leads to a node or to a leaf nobody can foresee; so first all rays that are at nodes take their step, then all that are at leaves, and no branch
 //! depends on it. Each ray takes the very steps that it takes alone.
 
-use crate::kernels::{Kernel, Stack};
+use crate::kernels::{Abreast, Kernel, Stack, Together};
 use crate::node::{ChildRef, Leaf};
 use crate::quest::{Answers, Any, Closest, Kept, Quest, Reach};
-use crate::ray::{Glances, PACKET, Sight, Way};
+use crate::ray::{Glances, PACKET, Sight, TWICE, Way};
 use crate::together::together;
 use crate::traverse::Errand;
 use crate::tree::Bvh;
@@ -153,7 +153,7 @@ impl<B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool> Errand for Many<'_,
     type Answer = ();
 
     #[inline(always)]
-    fn run<K: Kernel>(self, kernel: K, tree: &Bvh) {
+    fn run<K: Abreast>(self, kernel: K, tree: &Bvh) {
         let rays = self.rays;
         let mut queue = Queue::of(self.count);
         let most = FLIGHTS.min(self.count);
@@ -240,6 +240,9 @@ struct Queue {
     alone_until: usize,
     /// For how many rays more that will be so if the next eight cannot go together either.
     patience: usize,
+    /// Eight rays that were asked for a glance, by the number of the first, and the eight after them: nobody is asked twice.
+    seen: (usize, Option<Glances>),
+    more: (usize, Option<Glances>),
 }
 
 /// Rays that go alone, at least and at most, before eight are asked again whether they could go together.
@@ -247,12 +250,13 @@ const PATIENCE: (usize, usize) = (PACKET, 32 * PACKET);
 
 impl Queue {
     fn of(count: usize) -> Self {
-        Self { next: 0, count, alone_until: 0, patience: PATIENCE.0 }
+        let nobody = (usize::MAX, None);
+        Self { next: 0, count, alone_until: 0, patience: PATIENCE.0, seen: nobody, more: nobody }
     }
 
     /// Gives a place to the next ray that goes alone and does not certainly miss everything, if there is one; before that, all go that go together.
     #[inline(always)]
-    fn upcoming<K: Kernel, B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool>(
+    fn upcoming<K: Abreast, B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool>(
         &mut self,
         kernel: K,
         tree: &Bvh,
@@ -262,30 +266,16 @@ impl Queue {
     ) -> bool {
         while self.next < self.count {
             if self.next >= self.alone_until && self.next + PACKET <= self.count && !tree.is_empty() {
-                let first = self.next;
-                let glances = kernel.apart(
+                let went = kernel.apart(
                     #[inline(always)]
-                    || rays.glances(first),
+                    || self.go_together::<K, B, M, ORDERED>(kernel, tree, rays),
                 );
-                let went = match &glances {
-                    Some(glances) => kernel.apart_in_lanes(
-                        #[inline(always)]
-                        || {
-                            let packet = kernel.gather(tree, glances);
-                            if let Some(packet) = &packet {
-                                together::<K, B, M, ORDERED>(kernel, tree, rays, first, packet);
-                            }
-                            packet.is_some()
-                        },
-                    ),
-                    None => false,
-                };
-                if went {
-                    self.next += PACKET;
+                if went > 0 {
+                    self.next += went;
                     self.patience = PATIENCE.0;
                     continue;
                 }
-                self.alone_until = first + self.patience;
+                self.alone_until = self.next + self.patience;
                 self.patience = (2 * self.patience).min(PATIENCE.1);
             }
             let number = self.next;
@@ -305,6 +295,58 @@ impl Queue {
             }
         }
         false
+    }
+
+    /// Shows the tree to the next rays together, if they are alike: sixteen or eight. Says how many.
+    #[inline(always)]
+    fn go_together<K: Abreast, B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool>(
+        &mut self,
+        kernel: K,
+        tree: &Bvh,
+        rays: &mut B,
+    ) -> usize {
+        let first = self.next;
+        let next = first + PACKET;
+        let may_be_more = <K as Together<TWICE>>::EXISTS && next + PACKET <= self.count;
+        if self.seen.0 != first {
+            self.seen.1 = rays.glances(first);
+        }
+        self.more.0 = usize::MAX;
+        if may_be_more && self.seen.1.is_some() {
+            self.more = (next, rays.glances(next));
+        }
+        let (eight, more) = (&self.seen.1, &self.more.1);
+        let went = match (eight, more) {
+            (Some(eight), Some(more)) if self.more.0 == next => kernel.apart_in_lanes(
+                #[inline(always)]
+                || {
+                    let packet = Together::<TWICE>::gather(kernel, tree, &[eight, more]);
+                    if let Some(packet) = &packet {
+                        together::<K, B, M, ORDERED, TWICE>(kernel, tree, rays, first, packet);
+                    }
+                    if packet.is_some() { TWICE } else { 0 }
+                },
+            ),
+            _ => 0,
+        };
+        if went > 0 {
+            return went;
+        }
+        let went = match eight {
+            Some(eight) => kernel.apart_in_lanes(
+                #[inline(always)]
+                || {
+                    let packet = Together::<PACKET>::gather(kernel, tree, &[eight]);
+                    if let Some(packet) = &packet {
+                        together::<K, B, M, ORDERED, PACKET>(kernel, tree, rays, first, packet);
+                    }
+                    if packet.is_some() { PACKET } else { 0 }
+                },
+            ),
+            None => 0,
+        };
+        core::mem::swap(&mut self.seen, &mut self.more);
+        went
     }
 }
 

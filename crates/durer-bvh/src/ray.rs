@@ -93,6 +93,9 @@ impl Glance {
 /// How many rays go together.
 pub const PACKET: usize = 8;
 
+/// How many go together where there are lanes for two times as many.
+pub(crate) const TWICE: usize = 2 * PACKET;
+
 /// The numbers of eight [`Line`]s that are all exactly known, each rounded to the nearest f32.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Glances {

@@ -1,9 +1,9 @@
-//! Rays of a batch that are much alike: eight of them go through the tree together, with one stack.
+//! Rays of a batch that are much alike: eight of them go through the tree together, with one stack, or sixteen where there are lanes for as many.
 //!
 //! Each is shown what it is shown alone, in the same order: who goes where is told ray by ray, with the arithmetic of a single ray. A ray that is left alone goes on alone.
 
 use crate::batch::{Aim, LARGE, One, Rays, each};
-use crate::kernels::{Kernel, Rows};
+use crate::kernels::{Rows, Together};
 use crate::node::ChildRef;
 use crate::quest::{Known, Quest, Reach};
 use crate::ray::PACKET;
@@ -12,8 +12,8 @@ use crate::tree::Bvh;
 use crate::triangles::{Block, Verdict};
 use core::marker::PhantomData;
 
-/// Eight rays, and what each has found.
-struct Group<'a, K: Kernel, B, M> {
+/// Some rays, and what each has found.
+struct Group<'a, K: Together<N>, B, M, const N: usize> {
     kernel: K,
     tree: &'a Bvh,
     rays: &'a mut B,
@@ -21,17 +21,23 @@ struct Group<'a, K: Kernel, B, M> {
     first: usize,
     packet: &'a K::Packet,
     /// NaN for a ray that has found what it looked for: nothing is before this.
-    t_far: [f32; PACKET],
+    t_far: [f32; N],
     /// The greatest there was at the last step that changed one.
     far: f32,
     /// The same parameters, but for NaN, and what each holds.
-    reaches: &'a mut [Reach; PACKET],
+    reaches: &'a mut [Reach; N],
     aim: PhantomData<M>,
 }
 
 /// Shows the tree to the rays `first` and those after it.
 #[inline(always)]
-pub(crate) fn together<K: Kernel, B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool>(
+pub(crate) fn together<
+    K: Together<N>,
+    B: Rays<M::Said>,
+    M: Aim<ORDERED>,
+    const ORDERED: bool,
+    const N: usize,
+>(
     kernel: K,
     tree: &Bvh,
     rays: &mut B,
@@ -40,11 +46,11 @@ pub(crate) fn together<K: Kernel, B: Rays<M::Said>, M: Aim<ORDERED>, const ORDER
 ) {
     let t_far = kernel.ends(packet);
     // Apart from the rest, which moves: what is written in parts and then moved has to wait.
-    let mut reaches = [Reach::NOWHERE; PACKET];
+    let mut reaches = [Reach::NOWHERE; N];
     for (reach, &t_far) in reaches.iter_mut().zip(&t_far) {
         reach.t_far = t_far;
     }
-    let mut group: Group<'_, K, B, M> = Group {
+    let mut group: Group<'_, K, B, M, N> = Group {
         kernel,
         tree,
         rays,
@@ -58,7 +64,7 @@ pub(crate) fn together<K: Kernel, B: Rays<M::Said>, M: Aim<ORDERED>, const ORDER
     let mut for_triangles = None;
     let is_large = tree.held() > LARGE;
     let mut rows = Rows::new();
-    rows.push_if(true, ChildRef::node(0), [f32::NEG_INFINITY; PACKET]);
+    rows.push_if(true, ChildRef::node(0), [f32::NEG_INFINITY; N]);
     while let Some((child, row)) = rows.pop() {
         let awake = kernel.awake(&row, &group.t_far);
         let is_alone = awake & awake.wrapping_sub(1) == 0;
@@ -84,40 +90,46 @@ pub(crate) fn together<K: Kernel, B: Rays<M::Said>, M: Aim<ORDERED>, const ORDER
         let block = &tree.blocks[of.1 as usize];
         let (filters, verdicts) = for_triangles.get_or_insert_with(
             #[inline(always)]
-            || (kernel.filters(tree, packet), [Verdict::NOTHING; PACKET]),
+            || (kernel.filters(tree, packet), [Verdict::NOTHING; N]),
         );
         let alive = kernel.judge_together(block, filters, awake, &group.t_far, verdicts);
         for ray in each(alive) {
             group.advance(ray, child, Some((of, block, &verdicts[ray])));
         }
     }
-    let mut leaves = [None; PACKET];
-    let mut are_any = false;
-    for (leaf, reach) in leaves.iter_mut().zip(group.reaches.iter()) {
-        *leaf = reach.held.leaf();
-        are_any |= leaf.is_some();
-    }
-    if are_any {
-        group.rays.last_tests(&[0, 1, 2, 3, 4, 5, 6, 7].map(|i| first + i), &leaves);
+    for (number, eight) in group.reaches.chunks_exact(PACKET).enumerate() {
+        let (mut leaves, mut are_any) = ([None; PACKET], false);
+        for (leaf, reach) in leaves.iter_mut().zip(eight) {
+            *leaf = reach.held.leaf();
+            are_any |= leaf.is_some();
+        }
+        if are_any {
+            let first = first + PACKET * number;
+            group.rays.last_tests(&[0, 1, 2, 3, 4, 5, 6, 7].map(|i| first + i), &leaves);
+        }
     }
 }
 
 /// The greatest of those that are numbers.
 #[inline(always)]
-fn greatest(t_far: &[f32; PACKET]) -> f32 {
+fn greatest<const N: usize>(t_far: &[f32; N]) -> f32 {
     let pick = |a: f32, b: f32| if b > a { b } else { a };
-    let (mut four, mut two) = ([0.0; PACKET / 2], [0.0; PACKET / 4]);
-    for i in 0..PACKET / 2 {
-        // With the constant first NaN is not picked.
-        four[i] = pick(pick(f32::NEG_INFINITY, t_far[i]), t_far[i + PACKET / 2]);
+    let mut most = [f32::NEG_INFINITY; N];
+    for (most, &t_far) in most.iter_mut().zip(t_far) {
+        // NaN is not picked.
+        *most = pick(*most, t_far);
     }
-    for i in 0..PACKET / 4 {
-        two[i] = pick(four[i], four[i + PACKET / 4]);
+    let mut half = N / 2;
+    while half > 0 {
+        for i in 0..half {
+            most[i] = pick(most[i], most[i + half]);
+        }
+        half /= 2;
     }
-    pick(two[0], two[1])
+    most[0]
 }
 
-impl<K: Kernel, B, M> Group<'_, K, B, M> {
+impl<K: Together<N>, B, M, const N: usize> Group<'_, K, B, M, N> {
     /// What one ray does with triangles that it may meet, or else with all that is in a child.
     #[inline(always)]
     fn advance<const ORDERED: bool>(
@@ -152,7 +164,7 @@ impl<K: Kernel, B, M> Group<'_, K, B, M> {
         }
     }
 
-    /// Who writes one number of eight and reads all at once has to wait; so all are written.
+    /// Who writes one number of many and reads all at once has to wait; so all are written.
     #[inline(always)]
     fn shorten(&mut self, ray: usize, t_far: f32) {
         let mut all = self.t_far;

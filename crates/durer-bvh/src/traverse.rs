@@ -1,6 +1,6 @@
 //! Which leaves might a ray meet?
 
-use crate::kernels::{Kernel, Scalar, Stack};
+use crate::kernels::{Abreast, Kernel, Scalar, Stack};
 use crate::node::{ChildRef, Leaf};
 use crate::quest::{Any, Closest, Each, Late, Pair, Quest, Reach, Sieve};
 use crate::ray::{Sight, Way};
@@ -11,7 +11,7 @@ use durer_math::{Isa, Point3, Vec3};
 /// What is done with a tree, for any kernel.
 pub(crate) trait Errand {
     type Answer;
-    fn run<K: Kernel>(self, kernel: K, tree: &Bvh) -> Self::Answer;
+    fn run<K: Abreast>(self, kernel: K, tree: &Bvh) -> Self::Answer;
 }
 
 impl Bvh {
@@ -119,7 +119,7 @@ impl<S: Sight, Q: Quest<ORDERED>, const ORDERED: bool> Errand for Single<'_, S, 
     type Answer = bool;
 
     #[inline(always)]
-    fn run<K: Kernel>(self, kernel: K, tree: &Bvh) -> bool {
+    fn run<K: Abreast>(self, kernel: K, tree: &Bvh) -> bool {
         if tree.is_empty() {
             return false;
         }
@@ -142,7 +142,7 @@ impl<S: Sight, F: FnMut(Leaf) -> bool> Errand for AllOnce<'_, S, F> {
     type Answer = bool;
 
     #[inline(always)]
-    fn run<K: Kernel>(self, kernel: K, tree: &Bvh) -> bool {
+    fn run<K: Abreast>(self, kernel: K, tree: &Bvh) -> bool {
         if tree.is_empty() {
             return false;
         }

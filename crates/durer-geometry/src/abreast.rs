@@ -76,8 +76,8 @@ struct All<'a> {
     rays: &'a [Ray],
     mask: u32,
     locals: &'a mut Vec<LocalRay<'static>>,
-    /// The last eight rays that were asked for together, from this one on, as the tree sees them.
-    together: (usize, [Option<Line>; PACKET]),
+    /// The last sixteen rays that were asked for together, as the tree sees them, each at its number's remainder: eight that are asked for may have to wait for eight more.
+    together: [Option<Line>; 2 * PACKET],
 }
 
 impl<'a> All<'a> {
@@ -89,7 +89,7 @@ impl<'a> All<'a> {
     ) -> Self {
         locals.clear();
         locals.reserve(rays.len());
-        Self { geometry, rays, mask, locals, together: (0, [None; PACKET]) }
+        Self { geometry, rays, mask, locals, together: [None; 2 * PACKET] }
     }
 
     /// Makes ready the next ray: they are asked for in their order.
@@ -114,7 +114,7 @@ impl<'a> All<'a> {
     /// The line of a ray that was made ready together with others.
     #[inline(always)]
     fn made_ready(&self, ray: usize) -> Option<Option<Line>> {
-        if ray < self.locals.len() { self.together.1.get(ray - self.together.0).copied() } else { None }
+        (ray < self.locals.len()).then(|| self.together[ray % (2 * PACKET)])
     }
 
     #[inline(always)]
@@ -178,14 +178,14 @@ impl Rays<f64> for Closest<'_> {
         if !self.all.are_alike(first) {
             return None;
         }
-        let (mut lines, mut glances) = ([None; PACKET], [Glance::NOTHING; PACKET]);
-        for (i, (line, glance)) in lines.iter_mut().zip(&mut glances).enumerate() {
-            *line = self.ready(first + i);
-            if let Some(line) = line {
+        let mut glances = [Glance::NOTHING; PACKET];
+        for (ray, glance) in (first..).zip(&mut glances) {
+            let line = self.ready(ray);
+            if let Some(line) = &line {
                 *glance = line.glance();
             }
+            self.all.together[ray % (2 * PACKET)] = line;
         }
-        self.all.together = (first, lines);
         Glances::of(&glances)
     }
 
@@ -241,14 +241,14 @@ impl Rays<bool> for Any<'_> {
         if !self.all.are_alike(first) {
             return None;
         }
-        let (mut lines, mut glances) = ([None; PACKET], [Glance::NOTHING; PACKET]);
-        for (i, (line, glance)) in lines.iter_mut().zip(&mut glances).enumerate() {
-            *line = self.ready(first + i);
-            if let Some(line) = line {
+        let mut glances = [Glance::NOTHING; PACKET];
+        for (ray, glance) in (first..).zip(&mut glances) {
+            let line = self.ready(ray);
+            if let Some(line) = &line {
                 *glance = line.glance();
             }
+            self.all.together[ray % (2 * PACKET)] = line;
         }
-        self.all.together = (first, lines);
         Glances::of(&glances)
     }
 

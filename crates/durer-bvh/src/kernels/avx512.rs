@@ -6,7 +6,7 @@
 use super::avx2::Numbers;
 use super::packet::{Filters, Packet, eight, numbers};
 use super::planes::Planes;
-use super::{Avx2, Kernel, Rows, Stack};
+use super::{Avx2, Kernel, Rows, Stack, Together};
 use crate::node::{ChildRef, Node, SLOT_BITS, WIDTH};
 use crate::ray::{Glances, PACKET, Sight, Way};
 use crate::tree::Bvh;
@@ -17,7 +17,7 @@ use durer_math::kernels::Path;
 
 /// Proof that this CPU has all that [`Path::Avx512`] asks for: AVX-512 F, VL, DQ and BW, and what [`Avx2`] proves.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Avx512(Avx2);
+pub(crate) struct Avx512(pub(super) Avx2);
 
 impl Avx512 {
     /// What an [`Isa`] proves.
@@ -30,8 +30,6 @@ impl Avx512 {
 impl Kernel for Avx512 {
     type Ray = Numbers;
     type Lanes = Wide;
-    type Packet = Packet;
-    type Filters = Filters;
 
     #[inline(always)]
     fn nearby(self, tree: &Bvh, sight: &impl Sight) -> Option<(Numbers, Way)> {
@@ -85,23 +83,33 @@ impl Kernel for Avx512 {
     }
 
     #[inline(always)]
-    fn gather(self, tree: &Bvh, rays: &Glances) -> Option<Packet> {
-        self.0.gather(tree, rays)
+    fn fetch(self, tree: &Bvh, child: ChildRef) {
+        self.0.fetch(tree, child);
+    }
+}
+
+impl Together<PACKET> for Avx512 {
+    type Packet = Packet;
+    type Filters = Filters;
+
+    #[inline(always)]
+    fn gather(self, tree: &Bvh, rays: &[&Glances]) -> Option<Packet> {
+        Together::<PACKET>::gather(self.0, tree, rays)
     }
 
     #[inline(always)]
     fn ends(self, packet: &Packet) -> [f32; PACKET] {
-        self.0.ends(packet)
+        Together::<PACKET>::ends(self.0, packet)
     }
 
     #[inline(always)]
     fn one(self, tree: &Bvh, packet: &Packet, ray: usize) -> (Numbers, Way) {
-        self.0.one(tree, packet, ray)
+        Together::<PACKET>::one(self.0, tree, packet, ray)
     }
 
     #[inline(always)]
     fn way(self, tree: &Bvh, packet: &Packet, ray: usize) -> Way {
-        self.0.way(tree, packet, ray)
+        Together::<PACKET>::way(self.0, tree, packet, ray)
     }
 
     #[inline(always)]
@@ -112,7 +120,7 @@ impl Kernel for Avx512 {
 
     #[inline(always)]
     fn filters(self, tree: &Bvh, packet: &Packet) -> Filters {
-        self.0.filters(tree, packet)
+        Together::<PACKET>::filters(self.0, tree, packet)
     }
 
     #[inline(always)]
@@ -135,15 +143,10 @@ impl Kernel for Avx512 {
         packet: &Packet,
         row: &[f32; PACKET],
         (t_far, far): (&[f32; PACKET], f32),
-        rows: &mut Rows,
+        rows: &mut Rows<PACKET>,
     ) {
         // SAFETY: as above.
         unsafe { descend_together::<ORDERED>(node, packet, row, (t_far, far), rows) }
-    }
-
-    #[inline(always)]
-    fn fetch(self, tree: &Bvh, child: ChildRef) {
-        self.0.fetch(tree, child);
     }
 }
 
@@ -153,7 +156,7 @@ fn apart<R>(f: impl FnOnce() -> R) -> R {
     f()
 }
 
-type Three = [__m512; 3];
+pub(super) type Three = [__m512; 3];
 
 /// The ray in all sixteen lanes.
 pub(crate) struct Wide {
@@ -191,7 +194,7 @@ impl Wide {
 /// A node's near planes, and its far ones.
 #[inline]
 #[target_feature(enable = "avx512f")]
-fn planes_of(node: &Node, planes: &Planes) -> (Three, Three) {
+pub(super) fn planes_of(node: &Node, planes: &Planes) -> (Three, Three) {
     let row = |begins: usize| {
         // SAFETY: one of six rows begins there, and a row holds sixteen f32, aligned to 64 bytes.
         unsafe { _mm512_load_ps(node.planes.as_ptr().cast::<f32>().byte_add(begins)) }
@@ -203,7 +206,7 @@ fn planes_of(node: &Node, planes: &Planes) -> (Three, Three) {
 /// The parameter at which the last of three planes is met, but not before this.
 #[inline]
 #[target_feature(enable = "avx512f")]
-fn latest(planes: &Three, (r, c): (&Three, &Three), t_near: __m512) -> __m512 {
+pub(super) fn latest(planes: &Three, (r, c): (&Three, &Three), t_near: __m512) -> __m512 {
     let plane = |axis: usize| _mm512_fmadd_ps(planes[axis], r[axis], c[axis]);
     _mm512_max_ps(_mm512_max_ps(plane(0), plane(1)), _mm512_max_ps(plane(2), t_near))
 }
@@ -211,7 +214,7 @@ fn latest(planes: &Three, (r, c): (&Three, &Three), t_near: __m512) -> __m512 {
 /// The same of the first, but not after this.
 #[inline]
 #[target_feature(enable = "avx512f")]
-fn earliest(planes: &Three, (r, c): (&Three, &Three), t_far: __m512) -> __m512 {
+pub(super) fn earliest(planes: &Three, (r, c): (&Three, &Three), t_far: __m512) -> __m512 {
     let plane = |axis: usize| _mm512_fmadd_ps(planes[axis], r[axis], c[axis]);
     _mm512_min_ps(_mm512_min_ps(plane(0), plane(1)), _mm512_min_ps(plane(2), t_far))
 }
@@ -219,7 +222,7 @@ fn earliest(planes: &Three, (r, c): (&Three, &Three), t_far: __m512) -> __m512 {
 /// As with AVX2, all of a node at once.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx2,fma")]
-fn slabs(
+pub(super) fn slabs(
     node: &Node,
     planes: &Planes,
     [enter, leave]: [(&Three, &Three); 2],
@@ -304,7 +307,7 @@ fn descend_together<const ORDERED: bool>(
     packet: &Packet,
     row: &[f32; 8],
     (t_far, far): (&[f32; 8], f32),
-    rows: &mut Rows,
+    rows: &mut Rows<PACKET>,
 ) {
     let (planes, hull) = (Planes::of(packet.octant), &packet.hull);
     let (near_planes, far_planes) = planes_of(node, &planes);
@@ -372,17 +375,17 @@ fn cross(a: &Three, b: &Three) -> Three {
 }
 
 /// Sixteen triangles without a ray: the first corner, the edges from there, their cross product, and the size of the block.
-struct Edges {
+pub(super) struct Edges {
     first: Three,
     e1: Three,
     e2: Three,
     n: Three,
-    extent: f32,
+    pub(super) extent: f32,
 }
 
 #[inline]
 #[target_feature(enable = "avx512f,avx2,fma")]
-fn edges(block: &Block) -> Edges {
+pub(super) fn edges(block: &Block) -> Edges {
     let row = |r: usize| {
         // SAFETY: a row holds sixteen f32, aligned to 64 bytes.
         let load = |r: usize| unsafe { _mm512_load_ps(block.rows[r].as_ptr()) };
@@ -416,23 +419,23 @@ fn judge(block: &Block, filter: &Filter, t_far: f32) -> Verdict {
 }
 
 /// What a block's judge needs of a ray if the first test has not missed all triangles: members of [`Filter`], and what follows from these and the size of the block.
-struct Rest {
-    q: f32,
+pub(super) struct Rest {
+    pub(super) q: f32,
     /// `p + NEAR E`.
-    nearby: f32,
-    s: f32,
+    pub(super) nearby: f32,
+    pub(super) s: f32,
     /// What a `D` that says something exceeds.
-    certain: f32,
-    t_near: f32,
-    t_far: f32,
-    first: f32,
-    last: f32,
+    pub(super) certain: f32,
+    pub(super) t_near: f32,
+    pub(super) t_far: f32,
+    pub(super) first: f32,
+    pub(super) last: f32,
 }
 
 /// What `Scalar::judge` does, sixteen triangles at once; says which are alive, and the rest only if one is. Most blocks end at the first test.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-fn judge_edges(
+pub(super) fn judge_edges(
     edges: &Edges,
     start: &Three,
     direction: &Three,

@@ -11,6 +11,8 @@ mod packet;
 #[cfg(target_arch = "x86_64")]
 mod planes;
 mod scalar;
+#[cfg(target_arch = "x86_64")]
+mod sixteen;
 mod stack;
 
 #[cfg(target_arch = "x86_64")]
@@ -22,7 +24,7 @@ pub(crate) use scalar::Scalar;
 pub(crate) use stack::{MAX_DEPTH, Rows, Stack};
 
 use crate::node::{ChildRef, Node};
-use crate::ray::{Glances, PACKET, Sight, Way};
+use crate::ray::{Glances, PACKET, Sight, TWICE, Way};
 use crate::tree::Bvh;
 use crate::triangles::{Block, Filter, Verdict};
 
@@ -35,12 +37,6 @@ pub(crate) trait Kernel: Copy {
 
     /// The same, spread over the lanes.
     type Lanes;
-
-    /// Eight rays that go through a tree together.
-    type Packet;
-
-    /// What triangles need to know of them.
-    type Filters;
 
     /// What the tests need of a ray, clipped to the tree's box or not; `None` if it certainly misses that.
     #[inline(always)]
@@ -81,11 +77,26 @@ pub(crate) trait Kernel: Copy {
     /// The same for what is made of this kernel's own steps, and compiled for its own instructions.
     fn apart_in_lanes<R>(self, f: impl FnOnce() -> R) -> R;
 
-    /// Eight rays as a packet, if they are exactly known, nearby and so much alike that it pays.
-    fn gather(self, tree: &Bvh, rays: &Glances) -> Option<Self::Packet>;
+    /// Asks for what a step into a child will read.
+    fn fetch(self, tree: &Bvh, child: ChildRef);
+}
+
+/// The same for `N` rays that go through a tree together.
+pub(crate) trait Together<const N: usize>: Kernel {
+    /// The rays.
+    type Packet;
+
+    /// What triangles need to know of them.
+    type Filters;
+
+    /// Whether there are such packets at all.
+    const EXISTS: bool = true;
+
+    /// Rays, eight in each element, as a packet, if they are exactly known, nearby and so much alike that it pays.
+    fn gather(self, tree: &Bvh, rays: &[&Glances]) -> Option<Self::Packet>;
 
     /// How far each ray of a packet looks at most.
-    fn ends(self, packet: &Self::Packet) -> [f32; PACKET];
+    fn ends(self, packet: &Self::Packet) -> [f32; N];
 
     /// One of a packet's rays: the very numbers that [`Kernel::ready`] gives.
     fn one(self, tree: &Bvh, packet: &Self::Packet, ray: usize) -> (Self::Ray, Way);
@@ -94,7 +105,7 @@ pub(crate) trait Kernel: Copy {
     fn way(self, tree: &Bvh, packet: &Self::Packet, ray: usize) -> Way;
 
     /// Which rays' parameters in a `row` are not beyond their `t_far`.
-    fn awake(self, row: &[f32; PACKET], t_far: &[f32; PACKET]) -> u32;
+    fn awake(self, row: &[f32; N], t_far: &[f32; N]) -> u32;
 
     /// What [`Filter::of_exact`] gives for each ray.
     fn filters(self, tree: &Bvh, packet: &Self::Packet) -> Self::Filters;
@@ -105,8 +116,8 @@ pub(crate) trait Kernel: Copy {
         block: &Block,
         filters: &Self::Filters,
         awake: u32,
-        t_far: &[f32; PACKET],
-        verdicts: &mut [Verdict; PACKET],
+        t_far: &[f32; N],
+        verdicts: &mut [Verdict; N],
     ) -> u32;
 
     /// Pushes the children that [`Kernel::descend`] pushes for any of the rays that are awake, and where each ray enters them, or NaN where it does not. Beyond
@@ -115,14 +126,16 @@ pub(crate) trait Kernel: Copy {
         self,
         node: &Node,
         packet: &Self::Packet,
-        row: &[f32; PACKET],
-        t_far: (&[f32; PACKET], f32),
-        rows: &mut Rows,
+        row: &[f32; N],
+        t_far: (&[f32; N], f32),
+        rows: &mut Rows<N>,
     );
-
-    /// Asks for what a step into a child will read.
-    fn fetch(self, tree: &Bvh, child: ChildRef);
 }
+
+/// A kernel for rays alone, and for as many together as there are lanes for.
+pub(crate) trait Abreast: Kernel + Together<PACKET> + Together<TWICE> {}
+
+impl<K: Kernel + Together<PACKET> + Together<TWICE>> Abreast for K {}
 
 #[cfg(all(test, target_arch = "x86_64"))]
 mod tests;

@@ -28,7 +28,7 @@ use crate::triangles::{Block, Filter, Verdict};
 use core::arch::x86_64::*;
 
 /// Rays that go together differ by this much in each component of their directions, and of their origins in tree units: more, and they part soon.
-const NEIGHBOURS: f32 = 1.0 / 16.0;
+pub(super) const NEIGHBOURS: f32 = 1.0 / 16.0;
 
 /// Eight rays.
 pub(crate) struct Packet {
@@ -72,7 +72,7 @@ pub(super) fn numbers(v: __m256) -> [f32; 8] {
 /// The least, or the greatest, of each of four vectors.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-fn least_of_each<const GREATEST: bool>(x: [__m256; 4]) -> __m128 {
+pub(super) fn least_of_each<const GREATEST: bool>(x: [__m256; 4]) -> __m128 {
     let pick = |a: __m256, b: __m256| if GREATEST { _mm256_max_ps(a, b) } else { _mm256_min_ps(a, b) };
     let fold = |a: __m256, b: __m256| pick(_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
     let (a, b) = (fold(x[0], x[1]), fold(x[2], x[3]));
@@ -187,7 +187,7 @@ pub(super) fn descend<const ORDERED: bool>(
     packet: &Packet,
     row: &[f32; 8],
     (t_far, far): (&[f32; 8], f32),
-    rows: &mut Rows,
+    rows: &mut Rows<8>,
 ) {
     let planes = Planes::of(packet.octant);
     let (near_plane, far_plane) = (planes.near(), planes.far());

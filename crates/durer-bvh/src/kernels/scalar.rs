@@ -1,8 +1,8 @@
 //! The definition.
 
-use super::{Kernel, Rows, Stack};
+use super::{Kernel, Stack};
 use crate::node::{ChildRef, Node, SLOT_BITS, WIDTH};
-use crate::ray::{CullRay, Glances, PACKET, Rounding, Sight, Way};
+use crate::ray::{CullRay, Glances, Rounding, Sight, Way};
 use crate::tree::Bvh;
 use crate::triangles::{Block, FAR, FLAT, Filter, LANES, NEAR, Verdict};
 
@@ -49,14 +49,82 @@ impl<const FUSED: bool> Scalar<FUSED> {
     }
 }
 
-/// One lane after the other nothing is gained together: there is no such packet.
+/// There is no such packet.
 pub(crate) enum NoPacket {}
+
+/// Packets of a kernel that has none of this size.
+macro_rules! no_packets {
+    ([$($of:tt)*] $kernel:ty, $n:tt) => {
+        impl<$($of)*> $crate::kernels::Together<$n> for $kernel {
+            type Packet = $crate::kernels::scalar::NoPacket;
+            type Filters = $crate::kernels::scalar::NoPacket;
+
+            const EXISTS: bool = false;
+
+            #[inline(always)]
+            fn gather(self, _: &Bvh, _: &[&Glances]) -> Option<Self::Packet> {
+                None
+            }
+
+            #[inline(always)]
+            fn ends(self, packet: &Self::Packet) -> [f32; $n] {
+                match *packet {}
+            }
+
+            #[inline(always)]
+            fn one(self, _: &Bvh, packet: &Self::Packet, _: usize) -> (Self::Ray, Way) {
+                match *packet {}
+            }
+
+            #[inline(always)]
+            fn way(self, _: &Bvh, packet: &Self::Packet, _: usize) -> Way {
+                match *packet {}
+            }
+
+            #[inline(always)]
+            fn awake(self, _: &[f32; $n], _: &[f32; $n]) -> u32 {
+                0
+            }
+
+            #[inline(always)]
+            fn filters(self, _: &Bvh, packet: &Self::Packet) -> Self::Filters {
+                match *packet {}
+            }
+
+            #[inline(always)]
+            fn judge_together(
+                self,
+                _: &Block,
+                filters: &Self::Filters,
+                _: u32,
+                _: &[f32; $n],
+                _: &mut [Verdict; $n],
+            ) -> u32 {
+                match *filters {}
+            }
+
+            #[inline(always)]
+            fn descend_together<const ORDERED: bool>(
+                self,
+                _: &Node,
+                packet: &Self::Packet,
+                _: &[f32; $n],
+                _: (&[f32; $n], f32),
+                _: &mut $crate::kernels::Rows<$n>,
+            ) {
+                match *packet {}
+            }
+        }
+    };
+}
+pub(super) use no_packets;
+
+// One lane after the other nothing is gained together.
+no_packets!([const FUSED: bool, const N: usize] Scalar<FUSED>, N);
 
 impl<const FUSED: bool> Kernel for Scalar<FUSED> {
     type Ray = CullRay;
     type Lanes = CullRay;
-    type Packet = NoPacket;
-    type Filters = NoPacket;
 
     #[inline(always)]
     fn nearby(self, _: &Bvh, _: &impl Sight) -> Option<(CullRay, Way)> {
@@ -151,60 +219,6 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
     #[inline(never)]
     fn apart_in_lanes<R>(self, f: impl FnOnce() -> R) -> R {
         f()
-    }
-
-    #[inline(always)]
-    fn gather(self, _: &Bvh, _: &Glances) -> Option<NoPacket> {
-        None
-    }
-
-    #[inline(always)]
-    fn ends(self, packet: &NoPacket) -> [f32; PACKET] {
-        match *packet {}
-    }
-
-    #[inline(always)]
-    fn one(self, _: &Bvh, packet: &NoPacket, _: usize) -> (CullRay, Way) {
-        match *packet {}
-    }
-
-    #[inline(always)]
-    fn way(self, _: &Bvh, packet: &NoPacket, _: usize) -> Way {
-        match *packet {}
-    }
-
-    #[inline(always)]
-    fn awake(self, row: &[f32; PACKET], t_far: &[f32; PACKET]) -> u32 {
-        (0..PACKET).filter(|&i| row[i] <= t_far[i]).map(|i| 1 << i).sum()
-    }
-
-    #[inline(always)]
-    fn filters(self, _: &Bvh, packet: &NoPacket) -> NoPacket {
-        match *packet {}
-    }
-
-    #[inline(always)]
-    fn judge_together(
-        self,
-        _: &Block,
-        filters: &NoPacket,
-        _: u32,
-        _: &[f32; PACKET],
-        _: &mut [Verdict; PACKET],
-    ) -> u32 {
-        match *filters {}
-    }
-
-    #[inline(always)]
-    fn descend_together<const ORDERED: bool>(
-        self,
-        _: &Node,
-        packet: &NoPacket,
-        _: &[f32; PACKET],
-        _: (&[f32; PACKET], f32),
-        _: &mut Rows,
-    ) {
-        match *packet {}
     }
 
     #[inline(always)]

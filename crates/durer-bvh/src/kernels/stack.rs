@@ -1,8 +1,7 @@
-//! The traversal's stacks, of one ray and of eight: two arrays each that are never cleared.
+//! The traversal's stacks, of one ray and of several: two arrays each that are never cleared.
 #![expect(unsafe_code, reason = "a stack that is written before it is read needs no clearing, 2 KB per ray")]
 
 use crate::node::{ChildRef, WIDTH};
-use crate::ray::PACKET;
 use core::mem::MaybeUninit;
 
 /// The deepest tree that is built.
@@ -118,14 +117,14 @@ impl Stack {
 }
 
 /// The same for rays that go together: children that wait, with the parameter at which each ray enters, NaN where one does not.
-pub(crate) struct Rows {
+pub(crate) struct Rows<const N: usize> {
     refs: [MaybeUninit<u32>; CAPACITY],
-    near: [MaybeUninit<[f32; PACKET]>; CAPACITY],
+    near: [MaybeUninit<[f32; N]>; CAPACITY],
     /// Everything below has been written. At most `CAPACITY`.
     len: usize,
 }
 
-impl Rows {
+impl<const N: usize> Rows<N> {
     #[inline(always)]
     pub(crate) fn new() -> Self {
         Self {
@@ -136,7 +135,7 @@ impl Rows {
     }
 
     #[inline(always)]
-    pub(crate) fn push_if(&mut self, wanted: bool, child: ChildRef, near: [f32; PACKET]) {
+    pub(crate) fn push_if(&mut self, wanted: bool, child: ChildRef, near: [f32; N]) {
         assert!(self.len < CAPACITY, "the builder bounds the depth");
         self.refs[self.len].write(child.0);
         self.near[self.len].write(near);
@@ -157,14 +156,14 @@ impl Rows {
     }
 
     #[inline(always)]
-    pub(crate) fn pop(&mut self) -> Option<(ChildRef, [f32; PACKET])> {
+    pub(crate) fn pop(&mut self) -> Option<(ChildRef, [f32; N])> {
         self.len = self.len.checked_sub(1)?;
         // SAFETY: the element was below the length, so it has been written; both are plain data.
         Some(unsafe { (ChildRef(self.refs[self.len].assume_init()), self.near[self.len].assume_init()) })
     }
 
     #[cfg(test)]
-    pub(crate) fn drain(&mut self) -> Vec<(u32, [f32; PACKET])> {
+    pub(crate) fn drain(&mut self) -> Vec<(u32, [f32; N])> {
         core::iter::from_fn(|| self.pop()).map(|(child, near)| (child.0, near)).collect()
     }
 }

@@ -1,9 +1,8 @@
 use super::avx2::Numbers;
-use super::packet::{Filters, Packet};
-use super::{Avx2, Avx512, Kernel, Rows, Scalar, Stack};
+use super::{Avx2, Avx512, Kernel, Rows, Scalar, Stack, Together};
 use crate::frame::Frame;
 use crate::node::{ChildRef, Node, WIDTH};
-use crate::ray::{CullRay, Glance, Glances, Line, PACKET, Rounding, Sight, Way};
+use crate::ray::{CullRay, Glance, Glances, Line, PACKET, Rounding, Sight, TWICE, Way};
 use crate::tree::Bvh;
 use crate::triangles::{Block, Filter, LANES, Verdict};
 use durer_math::eft::exponent;
@@ -61,10 +60,10 @@ fn line(origin: [f64; 3], direction: [f64; 3]) -> Line {
     }
 }
 
-/// Eight rays much like one.
+/// Sixteen rays much like one.
 fn neighbours(o: [f64; 3], d: [f64; 3], aside: &[Moved], bent: &[Moved], t_max: &[f64]) -> Vec<Line> {
     let moved = |by: &Moved, i: usize| if by.1 { by.0[i] } else { 0.0 };
-    (0..PACKET)
+    (0..TWICE)
         .map(|i| {
             let origin = [0, 1, 2].map(|k| o[k] + moved(&aside[i], k));
             let d = [0, 1, 2].map(|k| d[k] + moved(&bent[i], k).copysign(d[k]));
@@ -78,16 +77,22 @@ fn neighbours(o: [f64; 3], d: [f64; 3], aside: &[Moved], bent: &[Moved], t_max: 
 type Moved = ([f64; 3], bool);
 
 fn moved() -> impl Strategy<Value = Vec<Moved>> {
-    prop::collection::vec((prop::array::uniform3(0.0..0.06_f64), any::<bool>()), PACKET)
+    prop::collection::vec((prop::array::uniform3(0.0..0.06_f64), any::<bool>()), TWICE)
 }
 
 fn ends() -> impl Strategy<Value = Vec<f64>> {
-    prop::collection::vec(prop_oneof![Just(f64::INFINITY), 0.0..4.0_f64], PACKET)
+    prop::collection::vec(prop_oneof![Just(f64::INFINITY), 0.0..4.0_f64], TWICE)
 }
 
-fn as_packet(kernel: impl Kernel<Packet = Packet>, tree: &Bvh, lines: &[Line]) -> Option<Packet> {
-    let glances: [Glance; PACKET] = core::array::from_fn(|i| lines[i].glance());
-    Glances::of(&glances).and_then(|glances| kernel.gather(tree, &glances))
+/// The first of these rays as a packet, if they can go together.
+fn as_packet<K: Together<N>, const N: usize>(kernel: K, tree: &Bvh, lines: &[Line]) -> Option<K::Packet> {
+    let eight = |lines: &[Line]| {
+        let glances: [Glance; PACKET] = core::array::from_fn(|i| lines[i].glance());
+        Glances::of(&glances)
+    };
+    let glances: Option<Vec<Glances>> = lines[..N].chunks(PACKET).map(eight).collect();
+    let glances = glances?;
+    kernel.gather(tree, &glances.iter().collect::<Vec<_>>())
 }
 
 /// A kernel stacks what the scalar one does.
@@ -124,20 +129,20 @@ fn same_verdict(a: &Verdict, b: &Verdict) -> Result<(), TestCaseError> {
 }
 
 /// A packet pushes for each of its rays what the ray stacks alone.
-fn enters_alike(
-    kernel: impl Kernel<Ray = Numbers, Packet = Packet>,
+fn enters_alike<K: Together<N> + Kernel<Ray = Numbers>, const N: usize>(
+    kernel: K,
     node: Node,
     lines: &[Line],
 ) -> Result<(), TestCaseError> {
     let mut tree = Bvh::assembled(Frame::around(&Aabb::EMPTY), vec![0, 1]);
     tree.set_nodes(vec![node]);
-    let Some(packet) = as_packet(kernel, &tree, lines) else { return Ok(()) };
+    let Some(packet) = as_packet::<K, N>(kernel, &tree, lines) else { return Ok(()) };
     let ends = kernel.ends(&packet);
     let far = ends.iter().copied().fold(f32::NEG_INFINITY, f32::max);
     let mut rows = Rows::new();
-    kernel.descend_together::<true>(&node, &packet, &[f32::NEG_INFINITY; PACKET], (&ends, far), &mut rows);
+    kernel.descend_together::<true>(&node, &packet, &[f32::NEG_INFINITY; N], (&ends, far), &mut rows);
     let rows = rows.drain();
-    for (i, line) in lines.iter().enumerate() {
+    for (i, line) in lines[..N].iter().enumerate() {
         let Some((ray, way)) = kernel.ready(&tree, line) else {
             return Err(TestCaseError::fail("it is nearby"));
         };
@@ -169,8 +174,8 @@ fn enters_alike(
 }
 
 /// A packet says of a block for each of its rays that are awake what the scalar kernel says.
-fn judges_alike(
-    kernel: impl Kernel<Packet = Packet, Filters = Filters>,
+fn judges_alike<K: Together<N>, const N: usize>(
+    kernel: K,
     block: &Block,
     lines: &[Line],
     awake: u32,
@@ -182,12 +187,13 @@ fn judges_alike(
     node.set(0, [-1.0; 3], [1.0; 3], ChildRef::node(1));
     tree.set_nodes(vec![node]);
     tree.rounded = rounded;
-    let Some(packet) = as_packet(kernel, &tree, lines) else { return Ok(()) };
+    let Some(packet) = as_packet::<K, N>(kernel, &tree, lines) else { return Ok(()) };
     let t_far = kernel.ends(&packet).map(|end| end.min(far));
     let filters = kernel.filters(&tree, &packet);
-    let mut verdicts = [Verdict::NOTHING; PACKET];
+    let awake = awake & ((1 << N) - 1);
+    let mut verdicts = [Verdict::NOTHING; N];
     let alive = kernel.judge_together(block, &filters, awake, &t_far, &mut verdicts);
-    for ray in 0..PACKET {
+    for ray in 0..N {
         let filter = Filter::of_exact(&kernel.way(&tree, &packet, ray), rounded);
         let alone = Scalar::<true>.judge(block, &filter, t_far[ray]);
         let is_alive = awake >> ray & 1 != 0 && alone.alive != 0;
@@ -257,26 +263,28 @@ proptest! {
         let o = o.map(|x| f64::from(x) * [1.0, 2.0, 3.5][far as usize]);
         let lines = neighbours(o, d, &aside, &bent, &t_max);
         if let Some(avx2) = Isa::available().find_map(Avx2::of) {
-            enters_alike(avx2, node, &lines)?;
+            enters_alike::<_, PACKET>(avx2, node, &lines)?;
         }
         if let Some(avx512) = Isa::available().find_map(Avx512::of) {
-            enters_alike(avx512, node, &lines)?;
+            enters_alike::<_, PACKET>(avx512, node, &lines)?;
+            enters_alike::<_, TWICE>(avx512, node, &lines)?;
         }
     }
 
     #[test]
     fn rays_that_go_together_judge_triangles_as_each_does_alone(
         corners in corners(), o in prop::array::uniform3(coordinate()), far in 0..3_i32, d in direction(),
-        aside in moved(), bent in moved(), t_max in ends(), awake in 0..256_u32, limit in 0.0..4.0_f32, rounded in any::<bool>(),
+        aside in moved(), bent in moved(), t_max in ends(), awake in 0..65536_u32, limit in 0.0..4.0_f32, rounded in any::<bool>(),
     ) {
         let block = block(&corners);
         let o = o.map(|x| f64::from(x) * [1.0, 2.0, 3.5][far as usize]);
         let lines = neighbours(o, d, &aside, &bent, &t_max);
         if let Some(avx2) = Isa::available().find_map(Avx2::of) {
-            judges_alike(avx2, &block, &lines, awake, limit, rounded)?;
+            judges_alike::<_, PACKET>(avx2, &block, &lines, awake, limit, rounded)?;
         }
         if let Some(avx512) = Isa::available().find_map(Avx512::of) {
-            judges_alike(avx512, &block, &lines, awake, limit, rounded)?;
+            judges_alike::<_, PACKET>(avx512, &block, &lines, awake, limit, rounded)?;
+            judges_alike::<_, TWICE>(avx512, &block, &lines, awake, limit, rounded)?;
         }
     }
 }

@@ -10,9 +10,10 @@ pub(super) use node::{Numbers, slabs};
 pub(super) use ready::{OUTWARD, SLACK};
 
 use super::packet::{self, Filters, Packet};
-use super::{Kernel, Rows, Stack};
+use super::scalar::no_packets;
+use super::{Kernel, Rows, Stack, Together};
 use crate::node::{ChildRef, Node};
-use crate::ray::{CullRay, Glances, PACKET, Rounding, Sight, Way};
+use crate::ray::{CullRay, Glances, PACKET, Rounding, Sight, TWICE, Way};
 use crate::tree::Bvh;
 use crate::triangles::{Block, Filter, Verdict};
 use blocks::judge;
@@ -56,8 +57,6 @@ impl Avx2 {
 impl Kernel for Avx2 {
     type Ray = Numbers;
     type Lanes = Lanes;
-    type Packet = Packet;
-    type Filters = Filters;
 
     #[inline(always)]
     fn nearby(self, tree: &Bvh, sight: &impl Sight) -> Option<(Numbers, Way)> {
@@ -113,7 +112,22 @@ impl Kernel for Avx2 {
     }
 
     #[inline(always)]
-    fn gather(self, tree: &Bvh, rays: &Glances) -> Option<Packet> {
+    fn fetch(self, tree: &Bvh, child: ChildRef) {
+        let place = tree.place(child);
+        for line in 0..size_of::<Block>() / 64 {
+            // SAFETY: a prefetch reads nothing that the program could see, whatever the address.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(place.wrapping_add(64 * line).cast()) };
+        }
+    }
+}
+
+impl Together<PACKET> for Avx2 {
+    type Packet = Packet;
+    type Filters = Filters;
+
+    #[inline(always)]
+    fn gather(self, tree: &Bvh, rays: &[&Glances]) -> Option<Packet> {
+        let [rays] = rays else { return None };
         // SAFETY: as above.
         unsafe { packet::gather(tree, rays) }
     }
@@ -168,21 +182,15 @@ impl Kernel for Avx2 {
         packet: &Packet,
         row: &[f32; PACKET],
         (t_far, far): (&[f32; PACKET], f32),
-        rows: &mut Rows,
+        rows: &mut Rows<PACKET>,
     ) {
         // SAFETY: as above.
         unsafe { packet::descend::<ORDERED>(node, packet, row, (t_far, far), rows) }
     }
-
-    #[inline(always)]
-    fn fetch(self, tree: &Bvh, child: ChildRef) {
-        let place = tree.place(child);
-        for line in 0..size_of::<Block>() / 64 {
-            // SAFETY: a prefetch reads nothing that the program could see, whatever the address.
-            unsafe { _mm_prefetch::<_MM_HINT_T0>(place.wrapping_add(64 * line).cast()) };
-        }
-    }
 }
+
+// Two vectors of eight rays are no less work than two packets.
+no_packets!([] Avx2, TWICE);
 
 #[inline(never)]
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
