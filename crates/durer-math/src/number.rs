@@ -3,10 +3,10 @@
 //! A formula of a scene is written once and asked in several ways: for its value, for a bound of its values on boxes, for its slope along a
 //! ray. [`Number`] lists what such formulas are made of; a type that has these operations can be put through any of them.
 
-use crate::{Dual, F8, Interval, elementary, noise};
+use crate::{Dual, F8, Interval, Joined, elementary, noise};
 
 /// What formulas are made of. Operations take references: the types may be large.
-pub trait Number: Copy {
+pub trait Number: Copy + Joined {
     /// A number that is known within an interval.
     fn constant(c: Interval) -> Self;
     /// `a + b`.

@@ -122,8 +122,8 @@ impl Reader<'_> {
                 return self.text_value(text, place);
             }
             Item::Value(Value::Number(_)) | Item::Number(_) => return self.number_value(),
-            Item::Value(Value::Function(_)) => {
-                // A function's name alone is the function.
+            Item::Value(Value::Function(_) | Value::VectorFunction(_) | Value::Spline(_)) => {
+                // A function's name alone is the function, a spline's the spline.
                 let lexeme = self.next()?;
                 if let (Item::Value(value), true) =
                     (&lexeme.item, self.raw() != Some(Kind::Mark(Mark::ParenOpen)))
@@ -262,7 +262,8 @@ impl Reader<'_> {
                 self.next()?;
                 self.camera_value()
             }
-            Keyword::Function => Ok(Value::Function(Rc::new(self.function_block()?))),
+            Keyword::Function => self.function_block(),
+            Keyword::Spline => Ok(Value::Spline(Rc::new(self.spline_value()?))),
             _ => self.object_value(),
         }
     }

@@ -196,6 +196,10 @@ impl Reader<'_> {
             }
             Item::Mark(Mark::Less) => self.nested(Self::vector_literal),
             Item::Value(Value::Function(formula)) => self.nested(|r| r.called_formula(formula, lexeme.place)),
+            Item::Value(Value::VectorFunction(function)) => {
+                self.nested(|r| r.called_vector(function, lexeme.place))
+            }
+            Item::Value(Value::Spline(spline)) => self.nested(|r| r.called_spline(spline, lexeme.place)),
             Item::Word(keyword) => match self.nested(|r| r.function(*keyword, lexeme.place))? {
                 Some(value) => Ok(value),
                 None => Err(self.unexpected(&lexeme, "a number, vector or colour")),
@@ -276,7 +280,10 @@ impl Reader<'_> {
     /// Whether the next token can begin an expression.
     pub(crate) fn starts_number(&mut self) -> Result<bool> {
         let keyword = match self.peek()? {
-            Item::Number(_) | Item::Value(Value::Number(_) | Value::Function(_)) => return Ok(true),
+            Item::Number(_)
+            | Item::Value(
+                Value::Number(_) | Value::Function(_) | Value::VectorFunction(_) | Value::Spline(_),
+            ) => return Ok(true),
             Item::Mark(Mark::ParenOpen | Mark::Less | Mark::Minus | Mark::Plus | Mark::Not) => {
                 return Ok(true);
             }

@@ -18,6 +18,7 @@ use crate::names::Name;
 use crate::object::Shape;
 use crate::reader::{Item, Lexeme, Reader};
 use crate::value::{Terms, Value};
+use crate::vector_function::{self, VectorFunction};
 
 /// More parameters than this no function has.
 const MOST_PARAMETERS: usize = 56;
@@ -105,8 +106,17 @@ impl Draft {
 }
 
 impl Reader<'_> {
-    /// `function (a, b) { ... }`, the word included.
-    pub(crate) fn function_block(&mut self) -> Result<Called> {
+    /// `function (a, b) { ... }`, the word included, that gives a float.
+    pub(crate) fn float_function_block(&mut self) -> Result<Called> {
+        let place = self.here();
+        match self.function_block()? {
+            Value::Function(called) => Ok(Rc::unwrap_or_clone(called)),
+            _ => Err(vector_function::wants_part(place)),
+        }
+    }
+
+    /// `function (a, b) { ... }`, the word included: a function of floats or of vectors.
+    pub(crate) fn function_block(&mut self) -> Result<Value> {
         self.next()?;
         let place = self.here();
         let parameters = self.parameters()?;
@@ -161,7 +171,7 @@ impl Reader<'_> {
     }
 
     /// What stands between the braces, and the closing one.
-    fn function_body(&mut self, parameters: &Option<Vec<Parameter>>, place: Place) -> Result<Called> {
+    fn function_body(&mut self, parameters: &Option<Vec<Parameter>>, place: Place) -> Result<Value> {
         let mut draft = Draft { builder: Builder::new(), words: Vec::new(), inputs: 3 };
         self.scopes.enter();
         match parameters {
@@ -180,32 +190,33 @@ impl Reader<'_> {
             }
         }
         // The names go also where the body is wrong: a declaration may be skipped.
-        let read = self.named_body(draft);
+        let read = self.named_body(draft, parameters.is_some());
         self.scopes.leave();
-        let called = read?;
+        let function = read?;
         self.expect(Mark::BraceClose)?;
-        self.check_memory(called.formula.ops().len() * 24, place)?;
-        Ok(called)
+        self.check_memory(function.held(), place)?;
+        Ok(function)
     }
 
     /// The body, when its parameters have their names.
-    fn named_body(&mut self, mut draft: Draft) -> Result<Called> {
+    fn named_body(&mut self, mut draft: Draft, has_parameters: bool) -> Result<Value> {
+        if let Some(function) = self.vector_function(has_parameters)? {
+            return Ok(Value::VectorFunction(Rc::new(function)));
+        }
+        let function = |called: Called| Value::Function(Rc::new(called));
         let word = self.peek_word()?;
         match word {
-            Some(Keyword::Internal) => return self.internal_function(),
-            Some(Keyword::Pattern) => return Ok(self.pattern_function()?.into()),
-            Some(word @ (Keyword::Pigment | Keyword::Spline | Keyword::Transform | Keyword::Texture)) => {
-                let text = format!(
-                    "not supported yet: a {} as a function: no bound of its values over a box is known, which an exact root needs",
-                    word.text()
-                );
+            Some(Keyword::Internal) => return self.internal_function().map(function),
+            Some(Keyword::Pattern) => return Ok(function(self.pattern_function()?.into())),
+            Some(Keyword::Texture) => {
+                let text = "not supported yet: a texture as a function: no bound of its values over a box is known, which an exact root needs";
                 return Err(Fault::at(self.here(), FaultKind::Unsupported, text));
             }
             _ => {}
         }
         let inputs = draft.inputs;
         let root = self.logical_formula(&mut draft)?;
-        Ok(draft.builder.finish(root, inputs).into())
+        Ok(function(draft.builder.finish(root, inputs).into()))
     }
 
     /// `internal(n)`: one of the functions that functions.inc names.
@@ -322,6 +333,14 @@ impl Reader<'_> {
                 let called = called.clone();
                 self.call_formula(draft, &called, place)
             }
+            Item::Value(Value::VectorFunction(function)) => {
+                let function = function.clone();
+                self.call_part(draft, &function, place)
+            }
+            Item::Value(Value::Spline(spline)) => {
+                let function = VectorFunction::new(spline.formulas().map_err(too_long(place))?);
+                self.call_part(draft, &function, place)
+            }
             Item::Mark(Mark::ParenOpen) => {
                 let value = self.logical_formula(draft)?;
                 self.expect(Mark::ParenClose)?;
@@ -360,6 +379,35 @@ impl Reader<'_> {
         let numbers: Vec<Option<f64>> = arguments.iter().map(number).collect();
         called.check(&numbers, place)?;
         draft.builder.call(&called.formula, &arguments).map_err(too_long(place))
+    }
+
+    /// A part of what a function of vectors gives: `F(x, y, z).red`.
+    fn call_part(&mut self, draft: &mut Draft, function: &VectorFunction, place: Place) -> Result<NodeId> {
+        let arguments = self.formula_arguments(draft)?;
+        check_count(arguments.len(), function.inputs(), place)?;
+        if !self.take_mark(Mark::Dot)? {
+            return Err(vector_function::wants_part(place));
+        }
+        let lexeme = self.next()?;
+        let Item::Word(word) = lexeme.item else {
+            return Err(self.unexpected(&lexeme, "a part such as x, y, z or red after the dot"));
+        };
+        let Some(weights) = function.part(word) else {
+            return Err(Fault::invalid(lexeme.place, "this value has no such part"));
+        };
+        let mut sum = None;
+        for &(weight, formula) in &weights {
+            let mut value = draft.builder.call(formula, &arguments).map_err(too_long(place))?;
+            if weight != 1.0 {
+                let weight = draft.constant(weight, place)?;
+                value = draft.push(Op::Mul(weight, value), place)?;
+            }
+            sum = Some(match sum {
+                Some(sum) => draft.push(Op::Add(sum, value), place)?,
+                None => value,
+            });
+        }
+        sum.ok_or_else(|| Fault::invalid(lexeme.place, "this value has no such part"))
     }
 
     /// A word of the language inside a function.
@@ -500,6 +548,19 @@ impl Reader<'_> {
 
     /// The value of a function that is called where a float is wanted, after its name.
     pub(crate) fn called_formula(&mut self, called: &Rc<Called>, place: Place) -> Result<Terms> {
+        let arguments = self.float_arguments()?;
+        let numbers: Vec<Option<f64>> = arguments.iter().copied().map(Some).collect();
+        called.check(&numbers, place)?;
+        self.count_steps(called.formula.ops().len() as u64, place)?;
+        let value = called.formula.value(&arguments);
+        if value.is_nan() {
+            return Err(Fault::invalid(place, "this function is undefined here"));
+        }
+        Ok(value.into())
+    }
+
+    /// Floats in parentheses.
+    pub(crate) fn float_arguments(&mut self) -> Result<Vec<f64>> {
         self.expect(Mark::ParenOpen)?;
         let mut arguments = Vec::new();
         while !self.take_mark(Mark::ParenClose)? {
@@ -509,14 +570,7 @@ impl Reader<'_> {
                 break;
             }
         }
-        let numbers: Vec<Option<f64>> = arguments.iter().copied().map(Some).collect();
-        called.check(&numbers, place)?;
-        self.count_steps(called.formula.ops().len() as u64, place)?;
-        let value = called.formula.value(&arguments);
-        if value.is_nan() {
-            return Err(Fault::invalid(place, "this function is undefined here"));
-        }
-        Ok(value.into())
+        Ok(arguments)
     }
 
     /// The items of an isosurface, after its opening brace.
@@ -528,7 +582,7 @@ impl Reader<'_> {
             match self.peek_word()? {
                 Some(Keyword::Function) => {
                     let at = self.here();
-                    let formula = self.function_block()?.formula;
+                    let formula = self.float_function_block()?.formula;
                     if formula.inputs() != 3 {
                         let text = format!(
                             "the function of an isosurface has three parameters, this one has {}",
@@ -604,7 +658,7 @@ impl Reader<'_> {
     }
 }
 
-fn check_count(found: usize, wanted: usize, place: Place) -> Result<()> {
+pub(crate) fn check_count(found: usize, wanted: usize, place: Place) -> Result<()> {
     if found == wanted {
         return Ok(());
     }

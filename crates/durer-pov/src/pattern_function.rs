@@ -6,12 +6,13 @@
 //!
 //! Values are those of POV-Ray, to rounding.
 
-use durer_scene::tape::{Builder, Formula, NodeId, Op};
+use durer_scene::tape::{Builder, Formula, FormulaError, NodeId, Op};
 
-use crate::diagnostics::{Fault, FaultKind, Place, Result};
+use crate::diagnostics::{self, Fault, FaultKind, Place};
 use crate::formulas;
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
+use crate::noise_pattern;
 use crate::reader::Reader;
 use crate::texture::{Pattern, PatternKind, Wave};
 use crate::transform::{self, Matrix};
@@ -24,15 +25,14 @@ const BEGUN_ANEW: &str = "t = rem(x*P0 + P1, 1.00001); select(t, t + 1, t, t)";
 /// The same where the frequency is zero, which means none.
 const AS_IT_IS: &str = "select(x, x - floor(x), x, x)";
 
-/// The value of a pattern by its word, and the wave that it has by itself; `None` where no formula is known here.
-fn value(word: Keyword) -> Option<(&'static str, Wave)> {
-    let text = match word {
-        // Cells begin a little before a whole number. Each axis changes the sign from one to the next; what it chooses is exact.
-        Keyword::Checker => {
-            "a = x + 0.0000000001; b = y + 0.0000000001; c = z + 0.0000000001; \
-             u = select(a - 2*floor(a/2) - 1, 1, -1, -1); v = select(b - 2*floor(b/2) - 1, 1, -1, -1); \
-             w = select(c - 2*floor(c/2) - 1, 1, -1, -1); select(u*v*w, 1, 1, 0)"
-        }
+/// Cells begin a little before a whole number. Each axis changes the sign from one to the next; what it chooses is exact.
+const CHECKER: &str = "a = x + 0.0000000001; b = y + 0.0000000001; c = z + 0.0000000001; \
+                       u = select(a - 2*floor(a/2) - 1, 1, -1, -1); v = select(b - 2*floor(b/2) - 1, 1, -1, -1); \
+                       w = select(c - 2*floor(c/2) - 1, 1, -1, -1); select(u*v*w, 1, 1, 0)";
+
+/// The value of a pattern by its word; `None` where no formula is known here.
+fn value(word: Keyword) -> Option<&'static str> {
+    Some(match word {
         Keyword::Spherical => "max(1 - sqrt(x*x + y*y + z*z), 0)",
         Keyword::Cylindrical => "max(1 - sqrt(x*x + z*z), 0)",
         Keyword::Planar => "max(1 - abs(y), 0)",
@@ -40,10 +40,18 @@ fn value(word: Keyword) -> Option<(&'static str, Wave)> {
         Keyword::Onion => "r = sqrt(x*x + y*y + z*z); r - floor(r)",
         Keyword::Leopard => "sq((sin(x) + sin(y) + sin(z))/3)",
         Keyword::Radial => "0.25 + (atan2(x, z) + pi)/(2*pi)",
-        Keyword::Marble => return Some(("x", Wave::Triangle)),
         _ => return None,
-    };
-    Some((text, Wave::Ramp))
+    })
+}
+
+/// Whether the word is a pattern's that only functions know.
+pub(crate) fn is_written(word: Keyword) -> bool {
+    value(word).is_some() || noise_pattern::is_noise(word) || matches!(word, Keyword::Marble | Keyword::Wood)
+}
+
+/// The wave that a pattern has by itself.
+pub(crate) fn own_wave(word: Keyword) -> Wave {
+    if matches!(word, Keyword::Marble | Keyword::Wood) { Wave::Triangle } else { Wave::Ramp }
 }
 
 /// How a wave bends `x`.
@@ -60,7 +68,7 @@ fn bent(wave: Wave) -> (&'static str, Option<f64>) {
 
 impl Reader<'_> {
     /// `pattern { ... }`, the word included.
-    pub(crate) fn pattern_function(&mut self) -> Result<Formula> {
+    pub(crate) fn pattern_function(&mut self) -> diagnostics::Result<Formula> {
         let place = self.here();
         self.next()?;
         self.expect(Mark::BraceOpen)?;
@@ -69,28 +77,9 @@ impl Reader<'_> {
         Ok(formula)
     }
 
-    fn pattern_function_items(&mut self, place: Place) -> Result<Formula> {
-        let mut direction = Vec::new();
-        let known = match self.peek_word()? {
-            Some(Keyword::Gradient) => {
-                if let Some(PatternKind::Gradient(along)) = self.pattern_kind()? {
-                    let length = transform::length(along);
-                    direction = along.map(|part| part / length).to_vec();
-                }
-                Some((GRADIENT, Wave::Ramp))
-            }
-            Some(word) => {
-                let known = value(word);
-                if known.is_some() {
-                    self.next()?;
-                }
-                known
-            }
-            None => None,
-        };
-        let Some((text, wave)) = known else { return Err(lacking(place)) };
-        // Which kind it is says what its modifiers may be: those of a brick belong to no other.
-        let mut pattern = Pattern { wave, ..Pattern::new(PatternKind::Checker) };
+    fn pattern_function_items(&mut self, place: Place) -> diagnostics::Result<Formula> {
+        let Some(kind) = self.pattern_kind()? else { return Err(lacking(place)) };
+        let mut pattern = self.plain_pattern(kind);
         while !self.at_mark(Mark::BraceClose)? {
             if let Some(by) = self.transform_item()? {
                 pattern.transform(&by);
@@ -99,34 +88,66 @@ impl Reader<'_> {
                 return Err(self.unexpected(&lexeme, "a transform, or what changes the pattern's value"));
             }
         }
-        let Some(back) = pattern.place.inverse() else {
-            return Err(Fault::invalid(place, "the pattern's transforms cannot be undone"));
+        let formula = || {
+            let mut b = Builder::new();
+            let p = [b.input(0).ok()?, b.input(1).ok()?, b.input(2).ok()?];
+            let own = moved(&mut b, p, &pattern.place.inverse()?).ok()?;
+            let root = written(&mut b, &pattern, own)?;
+            Some(b.finish(root, 3))
         };
-        written(text, &direction, &pattern, &back).ok_or_else(|| lacking(place))
+        if pattern.place.inverse().is_none() {
+            return Err(Fault::invalid(place, CANNOT_BE_UNDONE));
+        }
+        if noise_pattern::lacks_generator(&pattern) {
+            return Err(third_generator(place));
+        }
+        let formula = formula().ok_or_else(|| lacking(place))?;
+        self.language.noise_is_used |= has_noise(&formula);
+        Ok(formula)
     }
 }
 
-fn lacking(place: Place) -> Box<Fault> {
+/// What is said of a pattern whose place is flat.
+pub(crate) const CANNOT_BE_UNDONE: &str = "the pattern's transforms cannot be undone";
+
+pub(crate) fn lacking(place: Place) -> Box<Fault> {
     let text = "not supported yet: this pattern as a function: no bound of its values over a box is known, which an exact root needs";
     Fault::at(place, FaultKind::Unsupported, text)
 }
 
-/// The whole formula.
-fn written(text: &'static str, direction: &[f64], pattern: &Pattern, back: &Matrix) -> Option<Formula> {
-    let mut b = Builder::new();
-    let p = [b.input(0).ok()?, b.input(1).ok()?, b.input(2).ok()?];
-    let own = moved(&mut b, p, back)?;
-    let value = called(&mut b, text, own, direction)?;
+/// Whether the formula depends on noise.
+pub(crate) fn has_noise(formula: &Formula) -> bool {
+    formula.ops().iter().any(|op| matches!(op, Op::Noise(_)))
+}
+
+pub(crate) fn third_generator(place: Place) -> Box<Fault> {
+    Fault::at(place, FaultKind::Unsupported, "not supported yet: noise generator 3; 1 and 2 are there")
+}
+
+/// The value of a pattern at a place in its own space; `None` where no formula is known here.
+pub(crate) fn written(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Option<NodeId> {
+    let own = noise_pattern::stirred(b, pattern, own)?;
+    let value = match pattern.kind {
+        PatternKind::Checker => called(b, CHECKER, own, &[])?,
+        PatternKind::Gradient(along) => {
+            let length = transform::length(along);
+            called(b, GRADIENT, own, &along.map(|part| part / length))?
+        }
+        PatternKind::Written(word, _) => match value(word) {
+            Some(text) => called(b, text, own, &[])?,
+            None => noise_pattern::value(b, pattern, own)?,
+        },
+        PatternKind::Hexagon | PatternKind::Brick { .. } => return None,
+    };
     // The language keeps these two in single precision.
     let [frequency, phase] = [pattern.frequency, pattern.phase].map(|v| f64::from(v as f32));
     let value = if frequency == 0.0 {
-        called(&mut b, AS_IT_IS, [value; 3], &[])?
+        called(b, AS_IT_IS, [value; 3], &[])?
     } else {
-        called(&mut b, BEGUN_ANEW, [value; 3], &[frequency, phase])?
+        called(b, BEGUN_ANEW, [value; 3], &[frequency, phase])?
     };
     let (wave, exponent) = bent(pattern.wave);
-    let root = called(&mut b, wave, [value; 3], exponent.as_slice())?;
-    Some(b.finish(root, 3))
+    called(b, wave, [value; 3], exponent.as_slice())
 }
 
 /// The value of a formula on paper at a place, with these parameters.
@@ -139,21 +160,21 @@ fn called(b: &mut Builder, text: &'static str, place: [NodeId; 3], parameters: &
 }
 
 /// The image of a point.
-fn moved(b: &mut Builder, p: [NodeId; 3], by: &Matrix) -> Option<[NodeId; 3]> {
+pub(crate) fn moved(b: &mut Builder, p: [NodeId; 3], by: &Matrix) -> Result<[NodeId; 3], FormulaError> {
     let offset = by.point([0.0; 3]);
     let columns =
         [by.direction([1.0, 0.0, 0.0]), by.direction([0.0, 1.0, 0.0]), by.direction([0.0, 0.0, 1.0])];
     let mut image = p;
     for axis in 0..3 {
-        let mut sum = b.constant(offset[axis]).ok()?;
+        let mut sum = b.constant(offset[axis])?;
         for (x, column) in p.into_iter().zip(columns).filter(|(_, column)| column[axis] != 0.0) {
-            let factor = b.constant(column[axis]).ok()?;
-            let term = b.push(Op::Mul(x, factor)).ok()?;
-            sum = b.push(Op::Add(sum, term)).ok()?;
+            let factor = b.constant(column[axis])?;
+            let term = b.push(Op::Mul(x, factor))?;
+            sum = b.push(Op::Add(sum, term))?;
         }
         image[axis] = sum;
     }
-    Some(image)
+    Ok(image)
 }
 
 #[cfg(test)]
@@ -162,17 +183,17 @@ mod tests {
 
     #[test]
     fn every_formula_can_be_read() {
-        use Keyword::{Boxed, Checker, Cylindrical, Leopard, Marble, Onion, Planar, Radial, Spherical};
-        let words = [Checker, Spherical, Cylindrical, Planar, Boxed, Onion, Leopard, Radial, Marble];
+        use Keyword::{Boxed, Cylindrical, Leopard, Onion, Planar, Radial, Spherical};
+        let words = [Spherical, Cylindrical, Planar, Boxed, Onion, Leopard, Radial];
         for word in words {
-            assert!(value(word).and_then(|(text, _)| formulas::on_paper(text, 0)).is_some(), "{word:?}");
+            assert!(value(word).and_then(|text| formulas::on_paper(text, 0)).is_some(), "{word:?}");
         }
         let waves = [Wave::Ramp, Wave::Triangle, Wave::Sine, Wave::Scallop, Wave::Cubic, Wave::Poly(2.0)];
         for wave in waves {
             let (text, exponent) = bent(wave);
             assert!(formulas::on_paper(text, exponent.iter().len() as u32).is_some(), "{wave:?}");
         }
-        for (text, parameters) in [(GRADIENT, 3), (BEGUN_ANEW, 2), (AS_IT_IS, 0)] {
+        for (text, parameters) in [(CHECKER, 0), (GRADIENT, 3), (BEGUN_ANEW, 2), (AS_IT_IS, 0)] {
             assert!(formulas::on_paper(text, parameters).is_some(), "{text}");
         }
     }

@@ -111,7 +111,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Metric
             | MinExtent
             | MinimumReuse
-            | NaturalSpline
             | NearestCount
             | NoBumpScale
             | Normal
@@ -171,7 +170,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Spherical
             | Spiral1
             | Spiral2
-            | Spline
             | Spotted
             | Square
             | Subsurface

@@ -172,6 +172,8 @@ pub(crate) enum Value {
     Object(Rc<crate::object::Object>),
     Macro(Rc<Macro>),
     Function(Rc<crate::formula::Called>),
+    VectorFunction(Rc<crate::vector_function::VectorFunction>),
+    Spline(Rc<crate::spline::Spline>),
     /// A parameter of the function that is being read.
     Parameter(u32),
     Unsupported(Rc<Unsupported>),
@@ -202,6 +204,8 @@ impl Value {
             Self::Object(_) => "an object",
             Self::Macro(_) => "a macro",
             Self::Function(_) => "a function",
+            Self::VectorFunction(_) => "a function of vectors",
+            Self::Spline(_) => "a spline",
             Self::Parameter(_) => "a function's parameter",
             Self::Unsupported(_) => "something not supported yet",
         }
@@ -217,6 +221,7 @@ impl Value {
                 material.texture.as_ref().map_or(0, crate::texture::Texture::size) * layer + layer
             }
             Self::Function(called) => called.formula.ops().len() * 24,
+            Self::VectorFunction(function) => function.steps() * 24,
             Self::Interior(_) | Self::Transform(_) | Self::Camera(_) => 256,
             _ => 0,
         }

@@ -205,6 +205,69 @@ fn functions_of_noise_are_their_formulas() {
     zero(ridge, "F(0.3, -1.2, 0.7, 2.1, 0.5, 0.5, 0.2, 0.4, 2)", &format!("({two} - 0.2)/0.8"));
 }
 
+/// The value of a pattern of noise less what its formula says, of the same noise: POV-Ray's values are related so.
+#[test]
+fn patterns_of_noise_are_their_formulas() {
+    let noise = "#declare G = function { internal(78) }; #declare N = function(f) { G(0.3*f, 0.4*f, 0.6*f, 2) }; \
+        #declare O = function(f) { G(0.3*f, 0.4*f, 0.6*f, 1) }; #declare S = function(f) { 2*N(f) - 0.5 }; #declare K = function(f) { min(max(S(f), 0), 1) };";
+    let zero = |pattern: &str, right: &str| {
+        let declared = format!("{noise} #declare F = function {{ pattern {{ {pattern} }} }};");
+        let said = value(&declared, &format!("abs(F(0.3, 0.4, 0.6) - ({right}))"));
+        assert_eq!(said, "0.000000000", "{pattern} is not {right}");
+    };
+    for word in ["bozo", "bumps", "spotted"] {
+        zero(word, "N(1)");
+        zero(&format!("{word} noise_generator 1"), "O(1)");
+        zero(&format!("{word} noise_generator 0"), "N(1)");
+    }
+    zero("dents", "pow(N(1), 3)");
+    zero("bozo scale 1/2", "N(2)");
+    let sum = |term: &str, octaves: u32| -> String {
+        let terms = (0..octaves).map(|k| term.replace("#", &format!("{}", 1 << k)));
+        terms.collect::<Vec<_>>().join(" + ")
+    };
+    zero("wrinkles", &sum("K(#)/(2*#)", 10));
+    zero("wrinkles noise_generator 1 octaves 3 lambda 3", &sum("O(#)/(2*#)", 10));
+    zero("granite", &sum("abs(0.5 - K(4*#))/#", 6));
+    zero("granite noise_generator 1", &sum("abs(0.5 - O(4*#))/#", 6));
+    // The first octave is kept between 0 and 1.
+    let stir = format!("(K(1) - S(1) + {})", sum("S(#)/#", 6));
+    let agate = |stir: &str| format!("pow((1 + sin(2*pi*(1.3*{stir} + 1.1*0.6)))/2, 0.77)");
+    zero("agate", &agate(&stir));
+    zero("agate agate_turb 0.5 noise_generator 1", &agate(&format!("0.5*({})", sum("O(#)/#", 6))));
+    zero("marble ramp_wave turbulence <0.1, 7, 9>", &format!("0.3 + 0.1*{stir}"));
+    zero("marble ramp_wave turbulence 0.1 octaves 2.7 omega 0.25 lambda 4", "0.3 + 0.1*(K(1) + 0.25*S(4))");
+    zero("wood ramp_wave", "0.5");
+    // Vectors of noise, as a gradient along each axis tells them.
+    let of = |axis: &str, more: &str, f: u32| {
+        format!("function {{ pattern {{ gradient {axis} turbulence 0.1*{axis} {more} scale 1/{f} }} }};")
+    };
+    let vectors = |more: &str| {
+        let declared = ["x", "y", "z"].map(|axis| format!("#declare D{axis} = {}", of(axis, more, 1)));
+        declared.concat()
+    };
+    let along = |axis: &str, rest: f64| format!("10*(D{axis}(0.3, 0.4, 0.6) - {rest})");
+    let (dx, dy, dz) = (along("x", 0.3), along("y", 0.4), along("z", 0.6));
+    let stirred = |pattern: &str, more: &str, right: &str| {
+        let declared =
+            format!("{} #declare F = function {{ pattern {{ {pattern} {more} }} }};", vectors(more));
+        let said = value(&declared, &format!("abs(F(0.3, 0.4, 0.6) - ({right}))"));
+        assert_eq!(said, "0.000000000", "{pattern} is not {right}");
+    };
+    for more in ["octaves 1", "octaves 0", "", "octaves 3 omega 0.25 lambda 1.5", "noise_generator 3"] {
+        let r = format!("sqrt(pow(0.3 + 0.1*{dx}, 2) + pow(0.4 + 0.02*{dy}, 2) + pow(0.6 - 0.2*{dz}, 2))");
+        stirred("onion turbulence <0.1, 0.02, -0.2>", more, &r);
+        let wood = format!(
+            "sqrt(pow(0.3 + sin(2*pi*0.1*(0.3 + {dx})), 2) + pow(0.4 + sin(2*pi*0.02*(0.4 + {dy})), 2))"
+        );
+        stirred("wood ramp_wave turbulence <0.1, 0.02, 5>", more, &wood);
+    }
+    // One octave is the noise itself, around zero; the others are elsewhere.
+    let first = format!("{} {noise}", vectors("octaves 1"));
+    assert_eq!(value(&first, &format!("abs({dx} + 0.5 - O(1))")), "0.000000000");
+    assert_ne!(value(&first, &format!("abs({dy} + 0.5 - O(1))")), "0.000000000");
+}
+
 /// A point, and POV-Ray's value there.
 type Sample = ([f64; 3], f64);
 
@@ -276,6 +339,133 @@ fn patterns_as_functions_have_povrays_values() {
     }
 }
 
+/// Values of POV-Ray, between the points and beyond them, of the first and the third component.
+#[test]
+fn splines_have_povrays_values() {
+    let rows: [(&str, [[f64; 2]; 7]); 4] = [
+        ("linear", [[1.0, -1.0], [1.6, -0.7], [-0.5, 0.7], [0.2, 2.1], [3.25, 2.25], [5.8, 0.8], [4.0, 2.0]]),
+        (
+            "quadratic",
+            [[1.0, -1.0], [2.335, -0.7], [0.235, 0.7], [-2.11, 2.1], [3.0625, 2.5], [6.24, 0.52], [4.0, 2.0]],
+        ),
+        (
+            "cubic",
+            [
+                [3.0, 0.0],
+                [3.0, 0.0],
+                [-0.794, 0.7],
+                [-0.988, 2.6445],
+                [3.296875, 2.3671875],
+                [7.0, 0.0],
+                [7.0, 0.0],
+            ],
+        ),
+        (
+            "natural",
+            [
+                [1.0, -1.0],
+                [2.164306122449, -0.669755102041],
+                [-0.388448979592, 0.572040816327],
+                [-2.738972303207, 3.418893586006],
+                [3.927159256560, 2.021638119534],
+                [6.175323615160, 0.535230320700],
+                [4.0, 2.0],
+            ],
+        ),
+    ];
+    // Points may stand in any order.
+    let points = "1,<3,2,0> 0,<1,0,-1> 2,<-2,1,1> 5.5,<4,3,2> 4,<2,-1,3>, 5,<7,0,0>";
+    for (kind, values) in rows {
+        let declared = format!(
+            "#declare S = spline {{ {kind}_spline {points} }}; #declare F = function {{ spline {{ S }} }};
+             #declare G = function(a) {{ F(a/2).z - S(a/2).x + F(a).gray - 0.297*F(a).x - 0.589*F(a).v - 0.114*F(a).blue }};"
+        );
+        for (t, [x, z]) in [-1.0, 0.3, 1.7, 3.1, 4.25, 5.2, 6.0].into_iter().zip(values) {
+            let near = |expression: &str, expected: f64| {
+                let found: f64 = value(&declared, expression).parse().unwrap();
+                assert!(
+                    (found - expected).abs() < 2e-9,
+                    "{kind} {expression}: {found}, POV-Ray has {expected}"
+                );
+            };
+            near(&format!("S({t}).x"), x);
+            near(&format!("F({t}).z"), z);
+            near(&format!("S({t}, natural_spline).z - S({t}, natural_spline).blue"), 0.0);
+            near(&format!("G(2*{t})"), z - x);
+        }
+    }
+    // What has too few points for its kind.
+    let few =
+        |kind: &str, points: &str| value(&format!("#declare S = spline {{ {kind} {points} }};"), "S(0.25).y");
+    assert_eq!(few("natural_spline", "3, <1, 2>"), "2.000000000");
+    assert_eq!(few("quadratic_spline", "0, <1, 2> 1, <1, 6>"), "3.000000000");
+    assert_eq!(few("cubic_spline", "0, <1, 2> 1, <1, 6>"), "4.000000000");
+    assert_eq!(few("cubic_spline", "0, <1, 2> 1, <1, 6> 2, <0, 0>"), "6.000000000");
+    // A spline can go on with another one's points.
+    let longer =
+        "#declare S = spline { 0, <0, 1> 1, <1, 3> }; #declare L = spline { S 2, <5, 4, 3> linear_spline };";
+    assert_eq!(value(longer, "L(1.5).x + 10*L(1.5).z"), "18.000000000");
+}
+
+#[test]
+fn transforms_as_functions_move_points() {
+    let moved = "#declare T = transform { translate <1, 2, 3> rotate 90*z scale <2, 3, 4> };
+                 #declare F = function { transform { T } }; #declare G = function { F(x, y, z).x + 100*F(x, y, z).blue };";
+    assert_eq!(value(moved, "G(5, 7, 11) + F(5, 7, 11).y"), "5600.000000000");
+    assert_eq!(
+        value("#declare F = function { transform { translate x inverse } };", "F(5, 7, 11).u"),
+        "4.000000000"
+    );
+}
+
+/// Values of POV-Ray, which keeps colours in single precision.
+#[test]
+fn pigments_as_functions_have_povrays_colours() {
+    let map = "spherical color_map { [0.2 rgb <1, 0.5, 0>] [0.6 rgbft <0, 1, 0.25, 0.5, 0.75>] }";
+    let blend = "onion frequency 2 phase 0.3 pigment_map { [0 rgb 1] [0.4 leopard scale 0.2] [0.4 rgb y] [1 cylindrical] } scale <1, 2, 1>";
+    let unsorted = "boxed color_map { [0.5 rgb 1] [0.2 rgb 2] [0.8 rgb 3] } scale 3";
+    let (p, q) = ([0.3, 0.2, -0.4], [-0.7, 0.55, 0.25]);
+    let rows: [(&str, [f64; 3], [f64; 5]); 12] = [
+        (map, p, [0.3462912, 0.8268543, 0.1634272, 0.3268544, 0.4902816]),
+        (map, q, [1.0, 0.5, 0.0, 0.0, 0.0]),
+        (blend, p, [0.2291364, 0.2291364, 0.2291364, 0.0, 0.0]),
+        (blend, q, [0.2075292, 0.3990680, 0.2075292, 0.0, 0.0]),
+        ("marble rotate 20*z", p, [0.9, 0.2395011, 0.2395011, 0.0, 0.0]),
+        ("marble rotate 20*z", q, [0.0, 0.0, 0.0, 0.0, 0.0]),
+        ("radial", p, [0.4431640, 1.0, 0.5568360, 0.0, 0.0]),
+        ("radial", q, [1.0, 0.3345527, 0.6654473, 0.0, 0.0]),
+        ("rgbt <0.1, 0.2, 0.3, 0.4>", p, [0.1, 0.2, 0.3, 0.0, 0.4]),
+        ("planar color_map { [0.3 rgb 1] }", q, [1.0, 1.0, 1.0, 0.0, 0.0]),
+        (unsorted, p, [3.0, 3.0, 3.0, 0.0, 0.0]),
+        (unsorted, q, [2.9444444, 2.9444444, 2.9444444, 0.0, 0.0]),
+    ];
+    for (pigment, [x, y, z], colour) in rows {
+        // The same through a name, and as a part inside of another function.
+        let declared = format!(
+            "#declare P = pigment {{ {pigment} }}; #declare F = function {{ pigment {{ P }} }};
+             #declare G = function(a, b) {{ F(a, b, {z}).filter + 2*F(a, b, {z}).t + F(a, b, {z}).gray }};"
+        );
+        let near = |expression: &str, expected: f64| {
+            let found: f64 = value(&declared, expression).parse().unwrap();
+            assert!(
+                (found - expected).abs() < 5e-7,
+                "{pigment} {expression}: {found}, POV-Ray has {expected}"
+            );
+        };
+        for (part, expected) in ["red", "green", "blue", "filter", "transmit"].into_iter().zip(colour) {
+            near(&format!("F({x}, {y}, {z}).{part}"), expected);
+        }
+        let [r, g, b, f, _] = colour;
+        near(&format!("G({x}, {y})"), 3.0 * f + 0.297 * r + 0.589 * g + 0.114 * b);
+    }
+    let checker =
+        "#declare F = function { pigment { checker pigment { gradient y } pigment { rgb x } scale 2 } };";
+    assert_eq!(
+        value(checker, "F(1, 0.5, 1).green + 10*F(3, 1, 1).red + 100*F(3, 1, 1).blue"),
+        "10.250000000"
+    );
+}
+
 #[test]
 fn what_is_wrong_with_a_function_is_said_once_and_where() {
     let says = |text: &str, column: usize, expected: &str| {
@@ -292,13 +482,15 @@ fn what_is_wrong_with_a_function_is_said_once_and_where() {
     says("#declare V = <1, 2, 3>; #declare F = function(a) { a*V };", 54, "made of floats");
     says("#declare F = function(a) { sqrt(a) }; #declare A = F(-1);", 52, "undefined here");
     says("#declare F = function { internal(99) };", 25, "no internal function 99");
-    says("#declare F = function { pattern { bozo } }; sphere { 0, F(1, 2, 3) }", 57, "no bound");
-    says("#declare F = function { pattern { marble colour_map } };", 42, "the pattern's value");
+    says("#declare F = function { pattern { crackle } }; sphere { 0, F(1, 2, 3) }", 60, "no bound");
     says(
-        "#declare F = function { pattern { marble turbulence 1 } }; sphere { 0, F(1, 2, 3) }",
-        72,
-        "turbulence",
+        "#declare F = function { pattern { bozo noise_generator 3 } }; sphere { 0, F(1, 2, 3) }",
+        75,
+        "noise generator 3",
     );
+    says("#declare F = function { pattern { marble colour_map } };", 42, "the pattern's value");
+    says("sphere { 0, 1 pigment { checker turbulence 1 } }", 33, "turbulence");
+    says("sphere { 0, 1 pigment { bozo } }", 25, "bozo");
     let ridged = "#declare F = function { internal(59) }";
     says(&format!("{ridged} sphere {{ 0, F(1, 2, 3, 1, 2, 21, 1, 1, 2) }}"), 52, "20 at most");
     says(&format!("{ridged} sphere {{ 0, F(1, 2, 3, 1, 2, 4, 1, 1, 3) }}"), 52, "noise generator 3");
@@ -306,6 +498,29 @@ fn what_is_wrong_with_a_function_is_said_once_and_where() {
     says(&format!("{ridged} {unknown}"), 64, "number of octaves that is not known");
     let third = "global_settings { noise_generator 3 } #declare F = function { internal(76) };";
     says(&format!("{third} sphere {{ 0, F(1, 2, 3) }}"), 91, "noise generator 3");
+    let spline = "#declare S = spline { 0, <1, 2> 1, <3, 4> };";
+    says("#declare S = spline { };", 14, "no points");
+    says("#declare S = spline { 0, <1, 2> 0, <3, 4> };", 14, "two points for t = 0");
+    says("#declare S = spline { 0, 7 1, 9 };", 26, "vector of two to five");
+    says("#declare S = spline { 0, <1e300, 0> 1e-300, <-1e300, 0> };", 14, "too near");
+    says(&format!("{spline} #declare A = S(1).z;"), 64, "no such part");
+    says(&format!("{spline} #declare A = S(1, cube);"), 64, "a kind of spline");
+    says("#declare F = function(a) { spline { 0, <1, 2> } };", 28, "no parameters");
+    says(
+        &format!(
+            "{spline} #declare F = function {{ spline {{ S }} }}; #declare G = function {{ F(x) - y }};"
+        ),
+        110,
+        "name the part",
+    );
+    says(&format!("{spline} #declare G = function {{ S(x, y).x }};"), 70, "takes 1 argument");
+    says(&format!("{spline} #declare G = function {{ S(x).z }};"), 75, "no such part");
+    says("isosurface { function { transform { scale 2 } } }", 14, "name the part");
+    says("#declare F = function { pigment { hexagon } }; sphere { 0, F(1, 2, 3).red }", 60, "no bound");
+    says("#declare F = function { texture { } }; sphere { 0, F(1, 2, 3).red }", 52, "no bound");
+    says("#declare F = function { pigment { spherical scale <1, 1, 1e-320> } };", 45, "singular");
+    says("#declare F = function(a) { pigment { spherical } };", 28, "no parameters");
+    says("sphere { 0, 1 pigment { spherical } }", 25, "not supported yet: spherical");
     says("isosurface { threshold 1 }", 1, "no function");
     says("isosurface { function(a, b) { a } }", 14, "three parameters, this one has 2");
     says("isosurface { function { x } contained_by { box { 0, <1, 0, 1> } } }", 44, "no thickness");

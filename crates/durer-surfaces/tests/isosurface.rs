@@ -3,8 +3,8 @@
 mod common;
 
 use common::Dice;
-use durer_math::{Comparison, Function, Point3, Ray, RaySide, Vec3};
-use durer_surfaces::tape::{Builder, Formula, NodeId, Op};
+use durer_math::{Comparison, Function, I8, Interval, Point3, Ray, RaySide, Vec3};
+use durer_surfaces::tape::{Builder, Formula, NodeId, Op, Tape};
 use durer_surfaces::{
     All, AxisBox, Container, Isosurface, Kind, LocalPoint, LocalRay, Need, Root, Side, Sphere, Surface,
 };
@@ -387,6 +387,41 @@ fn jumps_are_walls_and_undefined_is_nothing() {
     let slanted = iso(&p.done(f), 1.0);
     let roots = all(&slanted, &ray);
     assert!(roots.len() == 2 && (roots[1].t - 3.1).abs() < 1e-14, "{roots:?}");
+}
+
+/// Where two that have one value meet nothing jumps: rays that cross there, or go along it, cross simply.
+#[test]
+fn what_is_joined_is_no_wall() {
+    let (mut p, [x, y, _]) = Pen::new();
+    let (half, two, level) = (p.c(-0.5), p.c(2.0), p.c(0.25));
+    let (below, above) = (p.mul(half, x), p.mul(two, x));
+    let (below, above) = (p.add(level, below), p.add(level, above));
+    let bent = p.op(Op::Joined([x, below, above]));
+    let f = p.sub(bent, y);
+    let roof = iso(&p.done(f), 1.0).without_caps();
+    let told = [
+        // Through the bend, along it, beside it.
+        (Point3::new(-0.5, 0.75, 0.1), Vec3::new(1.0, -1.0, 0.0), 0.5),
+        (Point3::new(0.0, 3.0, 0.1), Vec3::new(0.0, -1.0, 0.0), 2.75),
+        (Point3::new(0.0, 3.0, 0.1), Vec3::new(0.0, -2.0, 0.1), 1.375),
+        (Point3::new(-0.125, 3.0, 0.1), Vec3::new(0.0, -1.0, 0.0), 2.6875),
+        (Point3::new(0.125, 3.0, 0.1), Vec3::new(0.0, -1.0, 0.0), 2.5),
+    ];
+    for (i, (origin, way, t)) in told.into_iter().enumerate() {
+        let roots = all(&roof, &Ray::new(origin, way));
+        let [root] = roots.as_slice() else { panic!("{origin:?}: {roots:?}") };
+        assert!(root.kind == Kind::Simple && root.lo <= t && t <= root.hi, "{origin:?}: {root:?}");
+        // Across the bend Newton's steps know the slope from 1/2 to 3.
+        assert!(root.hi - root.lo < if i == 0 { 1e-10 } else { 1e-14 }, "{root:?}");
+    }
+    // Cells on either side are shorter by the choice.
+    let tape = Tape::new(&p.done(f));
+    let across = [Interval::new(-1.0, 0.0), Interval::new(0.0, 1.0)];
+    for side in across {
+        let boxed = [I8::splat(side), I8::splat(Interval::new(0.0, 1.0)), I8::splat(Interval::new(0.0, 1.0))];
+        let (_, shorter) = tape.shortened(&boxed, |lane, _| lane == 0);
+        assert!(shorter[0].as_ref().is_some_and(|shorter| shorter.len() + 3 <= tape.len()), "{side:?}");
+    }
 }
 
 /// Sums of whole numbers are exact: of `mod(floor(x) + floor(y) + 10, 2) = 1/2`, a checker, the walls are met, and nothing between them.

@@ -6,6 +6,7 @@
 
 mod fractal;
 mod pen;
+pub(crate) mod pieces;
 
 use durer_scene::tape::{Formula, Op};
 use pen::Pen;

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::{Pattern, PatternKind, Texture};
+use super::{PatternKind, Texture};
 use crate::colour::Colour;
 use crate::diagnostics::{Fault, Result};
 use crate::keywords::Keyword;
@@ -178,7 +178,7 @@ impl Reader<'_> {
         }
         let depth = 1 + items.iter().map(Texture::depth).max().unwrap_or(0);
         let map = Rc::new(Map::list(items, self.check_map_depth(depth)?));
-        Ok(Texture::Patterned { pattern: Pattern::new(kind), map })
+        Ok(Texture::Patterned { pattern: self.plain_pattern(kind), map })
     }
 
     /// `texture_map {}` inside a patterned texture.

@@ -1,7 +1,9 @@
 //! Patterns: where in space which entry of a list or map stands.
 
-use crate::diagnostics::{Fault, Result};
+use crate::diagnostics::{Fault, Place, Result};
 use crate::keywords::Keyword;
+use crate::noise_pattern::Turbulence;
+use crate::pattern_function;
 use crate::reader::Reader;
 use crate::transform::{self, Matrix};
 
@@ -10,8 +12,13 @@ use crate::transform::{self, Matrix};
 pub(crate) enum PatternKind {
     Checker,
     Hexagon,
-    Brick { size: [f64; 3], mortar: f64 },
+    Brick {
+        size: [f64; 3],
+        mortar: f64,
+    },
     Gradient([f64; 3]),
+    /// One that is known as a function only, by its word, and where that stands.
+    Written(Keyword, Place),
 }
 
 impl PatternKind {
@@ -20,7 +27,7 @@ impl PatternKind {
         match self {
             Self::Checker | Self::Brick { .. } => Some(2),
             Self::Hexagon => Some(3),
-            Self::Gradient(_) => None,
+            Self::Gradient(_) | Self::Written(..) => None,
         }
     }
 }
@@ -44,13 +51,29 @@ pub(crate) struct Pattern {
     pub(crate) frequency: f64,
     pub(crate) phase: f64,
     pub(crate) wave: Wave,
+    pub(crate) turbulence: Turbulence,
+    /// Where the text says that there is turbulence.
+    pub(crate) stirred_at: Option<Place>,
     /// From the pattern's own space to the object's.
     pub(crate) place: Matrix,
 }
 
 impl Pattern {
     pub(crate) fn new(kind: PatternKind) -> Self {
-        Self { kind, frequency: 1.0, phase: 0.0, wave: Wave::Ramp, place: Matrix::IDENTITY }
+        let wave = if let PatternKind::Written(word, _) = kind {
+            pattern_function::own_wave(word)
+        } else {
+            Wave::Ramp
+        };
+        Self {
+            kind,
+            frequency: 1.0,
+            phase: 0.0,
+            wave,
+            turbulence: Turbulence::default(),
+            stirred_at: None,
+            place: Matrix::IDENTITY,
+        }
     }
 
     pub(crate) fn transform(&mut self, by: &Matrix) {
@@ -74,10 +97,18 @@ impl Reader<'_> {
                 }
                 return Ok(Some(PatternKind::Gradient(direction)));
             }
+            Some(word) if pattern_function::is_written(word) => PatternKind::Written(word, self.here()),
             _ => return Ok(None),
         };
         self.next()?;
         Ok(Some(kind))
+    }
+
+    /// The pattern of a word just read, with the scene's noise.
+    pub(crate) fn plain_pattern(&self, kind: PatternKind) -> Pattern {
+        let mut pattern = Pattern::new(kind);
+        pattern.turbulence.generator = self.language.noise_generator();
+        pattern
     }
 
     /// `frequency`, `phase`, a wave, a brick's sizes: what changes a pattern, transforms apart.
@@ -129,16 +160,33 @@ impl Reader<'_> {
                     _ => return Err(Fault::invalid(place, "mortar belongs to brick")),
                 }
             }
-            // Without turbulence these change nothing.
-            Keyword::Octaves | Keyword::Omega | Keyword::Lambda => {
+            Keyword::Octaves => {
                 self.next()?;
-                self.float()?;
+                pattern.turbulence.octaves = self.float()?;
+            }
+            Keyword::Omega => {
+                self.next()?;
+                pattern.turbulence.omega = self.float()?;
+            }
+            Keyword::Lambda => {
+                self.next()?;
+                pattern.turbulence.lambda = self.float()?;
+            }
+            Keyword::AgateTurb => {
+                self.next()?;
+                pattern.turbulence.agate = self.float()?;
+            }
+            Keyword::NoiseGenerator => {
+                self.next()?;
+                // 0 is that of the scene.
+                let said = self.float()?;
+                pattern.turbulence.generator =
+                    if said == 0.0 { self.language.noise_generator() } else { said };
             }
             Keyword::Turbulence => {
                 self.next()?;
-                if self.vector()? != [0.0; 3] {
-                    return Err(Fault::unsupported(place, "turbulence"));
-                }
+                pattern.turbulence.amount = self.vector()?;
+                pattern.stirred_at = (!pattern.turbulence.is_none()).then_some(place);
             }
             _ => return Ok(false),
         }

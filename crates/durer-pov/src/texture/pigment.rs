@@ -55,7 +55,50 @@ fn default_list(kind: PatternKind) -> Vec<Colour> {
         PatternKind::Checker => vec![opaque(0.0, 0.0, 1.0), opaque(0.0, 1.0, 0.0)],
         PatternKind::Hexagon => vec![opaque(0.0, 0.0, 1.0), opaque(0.0, 1.0, 0.0), opaque(1.0, 0.0, 0.0)],
         PatternKind::Brick { .. } => vec![opaque(0.5, 0.5, 0.5), opaque(0.6, 0.15, 0.15)],
-        PatternKind::Gradient(_) => Vec::new(),
+        PatternKind::Gradient(_) | PatternKind::Written(..) => Vec::new(),
+    }
+}
+
+/// The map that the text leaves out, as POV-Ray has it: from black to white, for most.
+fn default_map(kind: PatternKind) -> &'static [(f64, [f64; 3])] {
+    match kind {
+        PatternKind::Written(Keyword::Marble, _) => &[
+            (0.0, [0.9, 0.8, 0.8]),
+            (0.9, [0.9, 0.08, 0.08]),
+            (0.9, [0.0, 0.0, 0.0]),
+            (1.0, [0.0, 0.0, 0.0]),
+        ],
+        PatternKind::Written(Keyword::Bozo, _) => &[
+            (0.0, [1.0, 1.0, 1.0]),
+            (0.4, [1.0, 1.0, 1.0]),
+            (0.4, [0.0, 1.0, 0.0]),
+            (0.6, [0.0, 1.0, 0.0]),
+            (0.6, [0.0, 0.0, 1.0]),
+            (0.8, [0.0, 0.0, 1.0]),
+            (0.8, [1.0, 0.0, 0.0]),
+            (1.0, [1.0, 0.0, 0.0]),
+        ],
+        PatternKind::Written(Keyword::Agate, _) => &[
+            (0.0, [1.0, 1.0, 1.0]),
+            (0.5, [0.95, 0.75, 0.5]),
+            (0.5, [0.9, 0.7, 0.5]),
+            (0.6, [0.9, 0.7, 0.4]),
+            (0.6, [1.0, 0.7, 0.4]),
+            (1.0, [0.6, 0.3, 0.0]),
+        ],
+        PatternKind::Written(Keyword::Wood, _) => &[
+            (0.0, [0.666, 0.312, 0.2]),
+            (0.6, [0.666, 0.312, 0.2]),
+            (0.6, [0.4, 0.1333, 0.066]),
+            (1.0, [0.4, 0.1333, 0.066]),
+        ],
+        PatternKind::Written(Keyword::Radial, _) => &[
+            (0.0, [0.0, 1.0, 1.0]),
+            (0.333, [1.0, 1.0, 0.0]),
+            (0.666, [1.0, 0.0, 1.0]),
+            (1.0, [0.0, 1.0, 1.0]),
+        ],
+        _ => &[(0.0, [0.0; 3]), (1.0, [1.0; 3])],
     }
 }
 
@@ -89,8 +132,10 @@ impl Reader<'_> {
             }
             chosen |= pattern.is_some() || solid;
             if let Some(kind) = pattern {
-                pigment =
-                    Pigment::Patterned { pattern: Pattern::new(kind), paint: self.list_or_default(kind)? };
+                pigment = Pigment::Patterned {
+                    pattern: self.plain_pattern(kind),
+                    paint: self.list_or_default(kind)?,
+                };
                 continue;
             }
             if solid {
@@ -124,8 +169,9 @@ impl Reader<'_> {
     /// The colours or pigments after the word of a discrete pattern.
     fn list_or_default(&mut self, kind: PatternKind) -> Result<Paint> {
         let Some(length) = kind.list_length() else {
-            let grey = Map::new(vec![(0.0, [0.0, 0.0, 0.0, 0.0, 0.0]), (1.0, [1.0, 1.0, 1.0, 0.0, 0.0])], 1);
-            return Ok(Paint::Colors(Rc::new(grey)));
+            let opaque = |&(at, [r, g, b]): &(f64, [f64; 3])| (at, [r, g, b, 0.0, 0.0]);
+            let map = Map::new(default_map(kind).iter().map(opaque).collect(), 1);
+            return Ok(Paint::Colors(Rc::new(map)));
         };
         let mut colours = default_list(kind);
         if self.peek_word()? == Some(Keyword::Pigment) {

@@ -102,6 +102,11 @@ fn steps(bytes: &mut Bytes<'_>) -> Option<Steps> {
                 continue;
             }
             17 => Op::Noise([x, y, pick()]),
+            18 => {
+                // y + x a or y + x b, which are the same where x is zero.
+                let (below, above) = (b.push(Op::Mul(x, pick())).ok()?, b.push(Op::Mul(x, pick())).ok()?);
+                Op::Joined([x, b.push(Op::Add(y, below)).ok()?, b.push(Op::Add(y, above)).ok()?])
+            }
             _ => Op::Function(FUNCTIONS[usize::from(bytes.next()) % 18], x),
         };
         made.push(b.push(op).ok()?);
@@ -299,6 +304,7 @@ fn always_defined(formula: &Formula) -> bool {
                 | Op::Min(..)
                 | Op::Max(..)
                 | Op::Noise(_)
+                | Op::Joined(_)
                 | Op::Function(Function::Sin | Function::Cos | Function::Atan | Function::Tanh, _)
         )
     })

@@ -64,6 +64,11 @@ pub(super) fn simpler(op: Op, at: impl Fn(NodeId) -> Op) -> Simpler {
             Some(Interval { lo, hi }) if (lo, hi) == (0.0, 0.0) => Simpler::Same(at),
             _ => Simpler::Op(op),
         },
+        Op::Joined([c, below, above]) => match constant(c) {
+            Some(Interval { hi, .. }) if hi < 0.0 => Simpler::Same(below),
+            Some(Interval { lo, .. }) if lo >= 0.0 => Simpler::Same(above),
+            _ => Simpler::Op(op),
+        },
         Op::Powi(a, 1) => Simpler::Same(a),
         Op::Powi(a, 2) => simpler(Op::Sqr(a), at),
         Op::Pow(a, b) => match constant(b) {
@@ -81,7 +86,7 @@ pub(super) fn simpler(op: Op, at: impl Fn(NodeId) -> Op) -> Simpler {
 fn folded(op: &Op, constant: &impl Fn(NodeId) -> Option<Interval>) -> Option<Interval> {
     let sure = |(x, d): Range| (d == Defined::Continuous).then_some(x);
     let value = match *op {
-        Op::Input(_) | Op::Constant(_) | Op::Settled(_) | Op::Select(_) => return None,
+        Op::Input(_) | Op::Constant(_) | Op::Settled(_) | Op::Select(_) | Op::Joined(_) => return None,
         Op::Neg(a) => -constant(a)?,
         Op::Abs(a) => constant(a)?.abs(),
         Op::Sqr(a) => constant(a)?.square(),

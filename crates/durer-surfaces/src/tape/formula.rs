@@ -54,6 +54,8 @@ pub enum Op {
     Compare(Comparison, NodeId, NodeId),
     /// By the sign of the first: one of the three others, for below, at and above zero.
     Select([NodeId; 4]),
+    /// By the sign of the first: the second below zero, else the third, with the promise that both have the same value where it is zero.
+    Joined([NodeId; 3]),
     /// `a`, with the promise that the formula's value is at least `a`. Where that is more than 1, far from zero, nothing that follows need be known.
     Settled(NodeId),
 }
@@ -82,6 +84,7 @@ impl Op {
             Self::Noise(p) => Self::Noise(p.map(f)),
             Self::Compare(c, a, b) => Self::Compare(c, f(a), f(b)),
             Self::Select(all) => Self::Select(all.map(f)),
+            Self::Joined(all) => Self::Joined(all.map(f)),
             Self::Settled(a) => Self::Settled(f(a)),
         }
     }
@@ -110,7 +113,7 @@ impl Op {
                 f(a);
                 f(b);
             }
-            Self::Noise(p) => p.into_iter().for_each(f),
+            Self::Noise(p) | Self::Joined(p) => p.into_iter().for_each(f),
             Self::Select(all) => all.into_iter().for_each(f),
         }
     }
@@ -143,6 +146,7 @@ impl Op {
             }
             Self::Settled(a) => (19, u64::from(a.0), 0, 0),
             Self::Noise([a, b, c]) => (20, u64::from(a.0), u64::from(b.0), u64::from(c.0)),
+            Self::Joined([a, b, c]) => (21, u64::from(a.0), u64::from(b.0), u64::from(c.0)),
         }
     }
 }

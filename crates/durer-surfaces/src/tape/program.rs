@@ -87,6 +87,7 @@ pub(super) fn run_with<T: Number>(
             Op::Noise([a, b, c]) => T::noise([at(a), at(b), at(c)]),
             Op::Compare(c, a, b) => T::compare(c, at(a), at(b)),
             Op::Select([c, x, y, z]) => T::select(at(c), at(x), at(y), at(z)),
+            Op::Joined([c, x, y]) => T::joined(at(c), at(x), at(y)),
             Op::Settled(a) => match T::above(at(a)) {
                 Some(above) => return above,
                 None => *at(a),
@@ -314,7 +315,7 @@ enum Decided {
 fn is_decidable(op: &Op) -> bool {
     use durer_math::Function::{Ceil, Floor, Trunc};
     match op {
-        Op::Min(..) | Op::Max(..) | Op::Abs(_) | Op::Select(_) | Op::Compare(..) => true,
+        Op::Min(..) | Op::Max(..) | Op::Abs(_) | Op::Select(_) | Op::Joined(_) | Op::Compare(..) => true,
         Op::Function(f, _) => matches!(f, Floor | Ceil | Trunc),
         _ => false,
     }
@@ -358,6 +359,16 @@ fn decided(op: &Op, registers: &[I8], lane: usize) -> Option<Decided> {
                 Decided::Same(above)
             } else if c.lo == 0.0 && c.hi == 0.0 {
                 Decided::Same(zero)
+            } else {
+                return None;
+            }
+        }
+        Op::Joined([c, below, above]) => {
+            let c = at(c)?;
+            if c.hi <= 0.0 {
+                Decided::Same(below)
+            } else if c.lo >= 0.0 {
+                Decided::Same(above)
             } else {
                 return None;
             }

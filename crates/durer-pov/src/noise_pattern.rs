@@ -1,0 +1,253 @@
+//! Patterns of noise, and turbulence.
+//!
+//! ```text
+//!   bozo, bumps, spotted  N(p)                                       dents  N(p)^3
+//!   wrinkles              sum of m(2^k p)/2^(k+1),  k from 0 to 9
+//!   granite               sum of |1/2 - m(2^(k+2) p)|/2^k,  k from 0 to 5
+//!   agate                 ((1 + sin(2 pi (1.3 a T(p) + 1.1 z)))/2)^0.77
+//!   marble                x + t_x T(p)
+//!   wood                  |(x + sin(2 pi t_x (x + D_x(p))), y + sin(2 pi t_y (y + D_y(p))))|
+//!   all others            their value at p + t D(p)
+//!
+//!   T(p) = sum of omega^k m_k(lambda^k p),   D(p) = sum of omega^k (n, n', n'')(lambda^k p),   k below the number of octaves
+//! ```
+//!
+//! `N` is noise of the chosen generator, `n` what is under it, around zero, and `n'` and `n''` are the same elsewhere in space. `m` is `N` of the first generator, and of the second `2 N - 1/2` between 0 and 1 (in `T`
+//! only in the first octave, beyond that not kept between them). `t` is the turbulence and `a` agate's own. All that was found from POV-Ray's values with its own noise, and agrees with them to rounding.
+
+use durer_scene::tape::{Builder, Formula, FormulaError, NodeId, Op};
+
+use crate::formulas;
+use crate::keywords::Keyword;
+use crate::texture::{Pattern, PatternKind};
+
+/// Steps; `None` where no formula is known or there are too many of them.
+type Made<T> = Option<T>;
+
+/// Where the second and the third component of turbulence find their noise: any other cells of the lattice.
+const ELSEWHERE: [[f64; 3]; 2] = [[157.0, -311.0, 89.0], [-223.0, 71.0, 439.0]];
+
+/// Noise of the two generators.
+const OLD: &str = "max(min(noise(x, y, z) + 0.5, 1), 0)";
+const NEW: &str = "max(min((noise(x, y, z) + 1.05242)*0.48985582, 1), 0)";
+/// The second one's, spread.
+const SPREAD: &str = "2*max(min((noise(x, y, z) + 1.05242)*0.48985582, 1), 0) - 0.5";
+const KEPT: &str = "max(min(2*max(min((noise(x, y, z) + 1.05242)*0.48985582, 1), 0) - 0.5, 1), 0)";
+
+/// How space is stirred before a pattern is asked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Turbulence {
+    pub(crate) amount: [f64; 3],
+    pub(crate) octaves: f64,
+    pub(crate) lambda: f64,
+    pub(crate) omega: f64,
+    /// How much agate is stirred.
+    pub(crate) agate: f64,
+    /// Which noise.
+    pub(crate) generator: f64,
+}
+
+impl Default for Turbulence {
+    fn default() -> Self {
+        Self { amount: [0.0; 3], octaves: 6.0, lambda: 2.0, omega: 0.5, agate: 1.0, generator: 2.0 }
+    }
+}
+
+impl Turbulence {
+    pub(crate) fn is_none(&self) -> bool {
+        self.amount == [0.0; 3]
+    }
+
+    fn octaves(&self) -> u32 {
+        self.octaves.trunc().clamp(1.0, MOST_OCTAVES) as u32
+    }
+
+    /// Between 2 and 3 it is still the second generator.
+    fn is_new(&self) -> bool {
+        (2.0..3.0).contains(&self.generator)
+    }
+
+    /// What octave `k` counts, and what its points are multiplied by; the language keeps both in single precision.
+    fn octave(&self, k: u32) -> (f64, f64) {
+        let [omega, lambda] = [self.omega, self.lambda].map(|v| f64::from(v as f32));
+        (omega.powi(k as i32), lambda.powi(k as i32))
+    }
+}
+
+/// POV-Ray's bound on them.
+const MOST_OCTAVES: f64 = 10.0;
+
+/// Whether the word is that of a pattern here.
+pub(crate) fn is_noise(word: Keyword) -> bool {
+    use Keyword::{Agate, Bozo, Bumps, Dents, Granite, Spotted, Wrinkles};
+    matches!(word, Agate | Bozo | Bumps | Dents | Granite | Spotted | Wrinkles)
+}
+
+/// Whether the pattern needs noise of a generator that is not there; vectors of noise are the same with all of them.
+pub(crate) fn lacks_generator(pattern: &Pattern) -> bool {
+    let PatternKind::Written(word, _) = pattern.kind else { return false };
+    let asks = is_noise(word) || word == Keyword::Marble && !pattern.turbulence.is_none();
+    asks && pattern.turbulence.generator.trunc() == 3.0
+}
+
+/// Writes steps.
+struct Draft<'a> {
+    b: &'a mut Builder,
+    turbulence: Turbulence,
+}
+
+impl Draft<'_> {
+    fn number(&mut self, x: f64) -> Made<NodeId> {
+        self.b.constant(x).ok()
+    }
+
+    fn push(&mut self, op: Op) -> Made<NodeId> {
+        self.b.push(op).ok()
+    }
+
+    fn times(&mut self, factor: f64, x: NodeId) -> Made<NodeId> {
+        let factor = self.number(factor)?;
+        self.push(Op::Mul(factor, x))
+    }
+
+    fn scaled(&mut self, p: [NodeId; 3], factor: f64) -> Made<[NodeId; 3]> {
+        Some([self.times(factor, p[0])?, self.times(factor, p[1])?, self.times(factor, p[2])?])
+    }
+
+    fn text(&mut self, text: &'static str, p: [NodeId; 3], parameters: &[NodeId]) -> Made<NodeId> {
+        let formula: Formula = formulas::on_paper(text, parameters.len() as u32)?;
+        let made: Result<NodeId, FormulaError> = self.b.call(&formula, &[&p, parameters].concat());
+        made.ok()
+    }
+
+    /// `m`, or what it is beyond the first octave.
+    fn grain(&mut self, p: [NodeId; 3], is_kept: bool) -> Made<NodeId> {
+        let text = match (self.turbulence.is_new(), is_kept) {
+            (false, _) => OLD,
+            (true, true) => KEPT,
+            (true, false) => SPREAD,
+        };
+        self.text(text, p, &[])
+    }
+
+    /// A sum over octaves.
+    fn sum(
+        &mut self,
+        p: [NodeId; 3],
+        octaves: impl Iterator<Item = (f64, f64)>,
+        mut term: impl FnMut(&mut Self, [NodeId; 3]) -> Made<NodeId>,
+    ) -> Made<NodeId> {
+        let mut sum = self.number(0.0)?;
+        for (weight, factor) in octaves {
+            let p = self.scaled(p, factor)?;
+            let value = term(self, p)?;
+            let value = self.times(weight, value)?;
+            sum = self.push(Op::Add(sum, value))?;
+        }
+        Some(sum)
+    }
+
+    /// `T`.
+    fn scalar(&mut self, p: [NodeId; 3]) -> Made<NodeId> {
+        let turbulence = self.turbulence;
+        let mut is_first = true;
+        self.sum(p, (0..turbulence.octaves()).map(|k| turbulence.octave(k)), |draft, p| {
+            draft.grain(p, std::mem::take(&mut is_first))
+        })
+    }
+
+    /// A component of `D`.
+    fn component(&mut self, p: [NodeId; 3], axis: usize) -> Made<NodeId> {
+        let turbulence = self.turbulence;
+        self.sum(p, (0..turbulence.octaves()).map(|k| turbulence.octave(k)), |draft, mut p| {
+            if let Some(offset) = axis.checked_sub(1).map(|i| ELSEWHERE[i]) {
+                for (x, offset) in p.iter_mut().zip(offset) {
+                    let offset = draft.number(offset)?;
+                    *x = draft.push(Op::Add(*x, offset))?;
+                }
+            }
+            draft.push(Op::Noise(p))
+        })
+    }
+
+    /// `p + t D(p)`.
+    fn stirred(&mut self, p: [NodeId; 3]) -> Made<[NodeId; 3]> {
+        let mut out = p;
+        for axis in 0..3 {
+            let amount = self.turbulence.amount[axis];
+            if amount != 0.0 {
+                let way = self.component(p, axis)?;
+                let way = self.times(amount, way)?;
+                out[axis] = self.push(Op::Add(p[axis], way))?;
+            }
+        }
+        Some(out)
+    }
+
+    /// A coordinate of wood.
+    fn grown(&mut self, p: [NodeId; 3], axis: usize) -> Made<NodeId> {
+        let amount = self.turbulence.amount[axis];
+        if amount == 0.0 {
+            return Some(p[axis]);
+        }
+        let way = self.component(p, axis)?;
+        let amount = self.number(amount)?;
+        self.text("x + sin(2*pi*((x + y)*z))", [p[axis], way, amount], &[])
+    }
+}
+
+/// The value of a pattern that rests on noise, or is stirred by it in its own way.
+pub(crate) fn value(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Option<NodeId> {
+    let PatternKind::Written(word, _) = pattern.kind else { return None };
+    let turbulence = pattern.turbulence;
+    let mut draft = Draft { b, turbulence };
+    match word {
+        Keyword::Bozo | Keyword::Bumps | Keyword::Spotted => {
+            draft.text(if turbulence.is_new() { NEW } else { OLD }, own, &[])
+        }
+        Keyword::Dents => {
+            let noise = draft.text(if turbulence.is_new() { NEW } else { OLD }, own, &[])?;
+            draft.push(Op::Powi(noise, 3))
+        }
+        Keyword::Wrinkles => {
+            let octaves = (0..10).map(|k| (0.5_f64.powi(k + 1), 2_f64.powi(k)));
+            draft.sum(own, octaves, |draft, p| draft.grain(p, true))
+        }
+        Keyword::Granite => {
+            let octaves = (0..6).map(|k| (0.5_f64.powi(k), 2_f64.powi(k + 2)));
+            draft.sum(own, octaves, |draft, p| {
+                let grain = draft.grain(p, true)?;
+                let half = draft.number(0.5)?;
+                let away = draft.push(Op::Sub(half, grain))?;
+                draft.push(Op::Abs(away))
+            })
+        }
+        Keyword::Agate => {
+            let stir = draft.scalar(own)?;
+            let stir = draft.times(turbulence.agate, stir)?;
+            draft.text("pow(max((1 + sin(2*pi*(1.3*P0 + 1.1*z)))/2, 0), 0.77)", own, &[stir])
+        }
+        Keyword::Marble => {
+            if turbulence.amount[0] == 0.0 {
+                return Some(own[0]);
+            }
+            let stir = draft.scalar(own)?;
+            let stir = draft.times(turbulence.amount[0], stir)?;
+            draft.push(Op::Add(own[0], stir))
+        }
+        Keyword::Wood => {
+            let (x, y) = (draft.grown(own, 0)?, draft.grown(own, 1)?);
+            let squares = (draft.push(Op::Sqr(x))?, draft.push(Op::Sqr(y))?);
+            let square = draft.push(Op::Add(squares.0, squares.1))?;
+            draft.push(Op::Sqrt(square))
+        }
+        _ => None,
+    }
+}
+
+/// A point in a pattern's space, stirred as most patterns are.
+pub(crate) fn stirred(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Option<[NodeId; 3]> {
+    let its_own = matches!(pattern.kind, PatternKind::Written(Keyword::Marble | Keyword::Wood, _));
+    let turbulence = pattern.turbulence;
+    if its_own || turbulence.is_none() { Some(own) } else { Draft { b, turbulence }.stirred(own) }
+}

@@ -1,0 +1,240 @@
+//! `function { pigment { ... } }`: the colours of a pigment as functions of `x`, `y`, `z`.
+//!
+//! What a pigment shows at a point is one entry of a list, or a blend of two entries of a map that stand beside each other about the value `w` of a pattern:
+//!
+//! ```text
+//!   a + (b - a) (w - w_a)/(w_b - w_a),  where w_b is the first position in the map that is not below w
+//! ```
+//!
+//! Where maps are continuous, so are the functions; between two entries at one position they jump.
+
+use durer_scene::tape::{Builder, Formula, NodeId, Op};
+
+use crate::diagnostics::{Fault, Result};
+use crate::formulas::pieces::{Knot, chosen};
+use crate::noise_pattern::lacks_generator;
+use crate::pattern_function::{CANNOT_BE_UNDONE, has_noise, lacking, moved, third_generator, written};
+use crate::reader::Reader;
+use crate::texture::{Map, Paint, Pattern, PatternKind, Pigment};
+
+/// The parts of a colour, as steps.
+type Colour = [NodeId; 5];
+
+/// Why a pigment is no function.
+enum Lack {
+    /// No formula of its pattern is known, or it has too many steps.
+    Formula,
+    /// Its place is flat.
+    Place,
+    /// Its noise is not there.
+    Generator,
+}
+
+impl Reader<'_> {
+    /// `pigment { ... }`, the word included, as functions of a point: red, green, blue, filter, transmit.
+    pub(crate) fn pigment_function(&mut self) -> Result<Vec<Formula>> {
+        let place = self.here();
+        self.next()?;
+        let base = self.defaults.clone();
+        let pigment = self.nested(|r| r.pigment_block(&base.pigment))?;
+        let mut b = Builder::new();
+        match everywhere(&mut b, &pigment) {
+            Ok(colour) => {
+                let parts = colour.map(|part| b.finish(part, 3)).to_vec();
+                self.language.noise_is_used |= parts.iter().any(has_noise);
+                Ok(parts)
+            }
+            Err(Lack::Formula) => Err(lacking(place)),
+            Err(Lack::Generator) => Err(third_generator(place)),
+            Err(Lack::Place) => Err(Fault::invalid(place, CANNOT_BE_UNDONE)),
+        }
+    }
+}
+
+/// What a pigment shows at the point that a function is asked about.
+fn everywhere(b: &mut Builder, pigment: &Pigment) -> std::result::Result<Colour, Lack> {
+    let mut axis = |number| b.input(number).map_err(|_| Lack::Formula);
+    let p = [axis(0)?, axis(1)?, axis(2)?];
+    shown(b, p, pigment)
+}
+
+/// What a pigment shows at a point.
+fn shown(b: &mut Builder, p: [NodeId; 3], pigment: &Pigment) -> std::result::Result<Colour, Lack> {
+    match pigment {
+        Pigment::Solid(colour) => constant(b, colour),
+        Pigment::Patterned { pattern, paint: Paint::Colors(map) } => {
+            let (value, _) = place_and_value(b, p, pattern)?;
+            let mut entries = Vec::with_capacity(map.entries.len());
+            for (_, colour) in &map.entries {
+                entries.push(constant(b, colour)?);
+            }
+            mapped(b, pattern, value, map, &entries)
+        }
+        Pigment::Patterned { pattern, paint: Paint::Pigments(map) } => {
+            let (value, own) = place_and_value(b, p, pattern)?;
+            let mut entries = Vec::with_capacity(map.entries.len());
+            for (_, part) in &map.entries {
+                entries.push(shown(b, own, part)?);
+            }
+            mapped(b, pattern, value, map, &entries)
+        }
+    }
+}
+
+fn constant(b: &mut Builder, colour: &[f64; 5]) -> std::result::Result<Colour, Lack> {
+    let mut steps = Vec::with_capacity(5);
+    for &part in colour {
+        steps.push(b.constant(part).map_err(|_| Lack::Formula)?);
+    }
+    steps.try_into().map_err(|_| Lack::Formula)
+}
+
+/// The value of a pattern, and the point in its space.
+fn place_and_value(
+    b: &mut Builder,
+    p: [NodeId; 3],
+    pattern: &Pattern,
+) -> std::result::Result<(NodeId, [NodeId; 3]), Lack> {
+    if lacks_generator(pattern) {
+        return Err(Lack::Generator);
+    }
+    let back = pattern.place.inverse().ok_or(Lack::Place)?;
+    let own = moved(b, p, &back).map_err(|_| Lack::Formula)?;
+    Ok((written(b, pattern, own).ok_or(Lack::Formula)?, own))
+}
+
+/// The entries of a list or map at a value.
+fn mapped<T>(
+    b: &mut Builder,
+    pattern: &Pattern,
+    value: NodeId,
+    map: &Map<T>,
+    entries: &[Colour],
+) -> std::result::Result<Colour, Lack> {
+    let at: Vec<f64> = map.entries.iter().map(|(at, _)| *at).collect();
+    let (knots, pieces) = if pattern.kind == PatternKind::Checker {
+        (vec![Knot::Jumps(0.5)], vec![Piece::Plain(0), Piece::Plain(1)])
+    } else {
+        pieces_of(&at)
+    };
+    let mut part = |number: usize| {
+        let mut parts = Vec::with_capacity(pieces.len());
+        for piece in &pieces {
+            parts.push(match *piece {
+                Piece::Plain(i) => entries[i][number],
+                Piece::Blend(i) => {
+                    let (from, to) = (entries[i - 1][number], entries[i][number]);
+                    if from == to {
+                        from
+                    } else {
+                        let (start, width) = (b.constant(at[i - 1])?, b.constant(at[i])?);
+                        let width = b.push(Op::Sub(width, start))?;
+                        let way = b.push(Op::Sub(value, start))?;
+                        let way = b.push(Op::Div(way, width))?;
+                        let change = b.push(Op::Sub(to, from))?;
+                        let change = b.push(Op::Mul(change, way))?;
+                        b.push(Op::Add(from, change))?
+                    }
+                }
+            });
+        }
+        chosen(b, value, &knots, &parts)
+    };
+    let mut all = Vec::with_capacity(5);
+    for number in 0..5 {
+        all.push(part(number).map_err(|_| Lack::Formula)?);
+    }
+    all.try_into().map_err(|_| Lack::Formula)
+}
+
+/// What is shown between two knots.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Piece {
+    /// One entry.
+    Plain(usize),
+    /// From the entry before this one to this one.
+    Blend(usize),
+}
+
+/// The pieces of a map with entries at these positions, which need not ascend: from the last one's on that entry is shown, else the first that is not below the value ends the piece.
+fn pieces_of(at: &[f64]) -> (Vec<Knot>, Vec<Piece>) {
+    let last = at.len() - 1;
+    let (mut knots, mut pieces) = (Vec::new(), vec![Piece::Plain(0)]);
+    // Up to here the pieces go, and with this entry.
+    let (mut end, mut reached) = (at[0], 0);
+    for i in 1..at.len() {
+        if at[i] <= end || end >= at[last] {
+            continue;
+        }
+        knots.push(if reached == i - 1 { Knot::Meets(end) } else { Knot::Jumps(end) });
+        pieces.push(Piece::Blend(i));
+        (end, reached) = (at[i], i);
+    }
+    let met = reached == last && end == at[last];
+    knots.push(if met { Knot::Meets(end) } else { Knot::Begins(at[last]) });
+    pieces.push(Piece::Plain(last));
+    (knots, pieces)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a map shows, said one entry after the other: an entry, or the part of it that is shown and the one before it.
+    fn looked_up(at: &[f64], w: f64) -> (usize, f64) {
+        let last = at.len() - 1;
+        if w >= at[last] {
+            return (last, 1.0);
+        }
+        match at.iter().position(|&at| w <= at) {
+            Some(0) | None => (0, 1.0),
+            Some(i) => (i, (w - at[i - 1]) / (at[i] - at[i - 1])),
+        }
+    }
+
+    #[test]
+    fn pieces_are_what_is_looked_up() {
+        // All maps of one to five entries at quarters, sorted or not.
+        for code in 0..5_usize.pow(5) {
+            for length in 1..=5 {
+                let at: Vec<f64> = (0..length).map(|i| (code / 5_usize.pow(i) % 5) as f64 / 4.0).collect();
+                let (knots, pieces) = pieces_of(&at);
+                assert!(
+                    knots.windows(2).all(|pair| position(pair[0]) < position(pair[1])),
+                    "{at:?}: {knots:?}"
+                );
+                for w in (-1..=17).map(|k| f64::from(k) / 16.0) {
+                    let passed = |knot: &&Knot| match **knot {
+                        Knot::Meets(x) | Knot::Begins(x) => w >= x,
+                        Knot::Jumps(x) => w > x,
+                    };
+                    let shown = |piece: Piece| match piece {
+                        Piece::Plain(i) => (i, 1.0),
+                        Piece::Blend(i) => (i, (w - at[i - 1]) / (at[i] - at[i - 1])),
+                    };
+                    // Each entry has a colour of its own.
+                    let colour = |(i, k): (usize, f64)| {
+                        let own = |i: usize| ((i + 1) * (i + 1)) as f64;
+                        if i == 0 { own(0) } else { own(i - 1) + (own(i) - own(i - 1)) * k }
+                    };
+                    let i = knots.iter().filter(passed).count();
+                    assert_eq!(
+                        colour(shown(pieces[i])),
+                        colour(looked_up(&at, w)),
+                        "{at:?} at {w}: {knots:?} {pieces:?}"
+                    );
+                    // Both sides of a knot where they are said to meet.
+                    if let Some(k) = knots.iter().position(|knot| matches!(knot, Knot::Meets(x) if *x == w)) {
+                        assert_eq!(colour(shown(pieces[k])), colour(shown(pieces[k + 1])), "{at:?} at {w}");
+                    }
+                }
+            }
+        }
+    }
+
+    fn position(knot: Knot) -> f64 {
+        match knot {
+            Knot::Meets(x) | Knot::Jumps(x) | Knot::Begins(x) => x,
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! Functions that give vectors: `function { spline { } }`, `function { transform { } }`, `function { pigment { } }`.
+//!
+//! In other functions a part of what they give is named behind the call (`F(x, y, z).red`); in expressions they give all parts.
+
+use durer_scene::tape::{Builder, Formula, FormulaError};
+
+use crate::diagnostics::{Fault, FaultKind, Place, Result};
+use crate::formula::check_count;
+use crate::keywords::Keyword;
+use crate::pattern_function::moved;
+use crate::reader::Reader;
+use crate::value::Terms;
+
+/// What each of red, green and blue adds to grey.
+const GRAY: [f64; 3] = [0.297, 0.589, 0.114];
+
+/// A function of a vector of two to five parts.
+#[derive(Clone, Debug)]
+pub(crate) struct VectorFunction {
+    /// One formula for each part, all of the same inputs.
+    parts: Vec<Formula>,
+}
+
+impl VectorFunction {
+    pub(crate) fn new(parts: Vec<Formula>) -> Self {
+        Self { parts }
+    }
+
+    /// How many floats it takes.
+    pub(crate) fn inputs(&self) -> usize {
+        self.parts.first().map_or(0, |part| part.inputs() as usize)
+    }
+
+    /// The steps of all parts.
+    pub(crate) fn steps(&self) -> usize {
+        self.parts.iter().map(|part| part.ops().len()).sum()
+    }
+
+    /// What a word behind a dot stands for, as a sum of formulas with their weights.
+    pub(crate) fn part(&self, word: Keyword) -> Option<Vec<(f64, &Formula)>> {
+        if word == Keyword::Gray {
+            let colours = self.parts.get(..3)?;
+            return Some(GRAY.into_iter().zip(colours).collect());
+        }
+        Some(vec![(1.0, self.parts.get(index(word)?)?)])
+    }
+}
+
+/// The number of the part that is named so.
+fn index(word: Keyword) -> Option<usize> {
+    Some(match word {
+        Keyword::X | Keyword::U | Keyword::Red => 0,
+        Keyword::Y | Keyword::V | Keyword::Green => 1,
+        Keyword::Z | Keyword::Blue => 2,
+        Keyword::T | Keyword::Filter => 3,
+        Keyword::Transmit => 4,
+        _ => return None,
+    })
+}
+
+/// A vector where a float is wanted.
+pub(crate) fn wants_part(place: Place) -> Box<Fault> {
+    Fault::invalid(
+        place,
+        "this function gives a vector: name the part that is meant, as in F(x).y or F(x, y, z).red",
+    )
+}
+
+impl Reader<'_> {
+    /// The body of a function, if it is one that gives vectors.
+    pub(crate) fn vector_function(&mut self, has_parameters: bool) -> Result<Option<VectorFunction>> {
+        let Some(word @ (Keyword::Spline | Keyword::Transform | Keyword::Pigment)) = self.peek_word()? else {
+            return Ok(None);
+        };
+        let place = self.here();
+        if has_parameters {
+            let text = format!("a {} as a function has no parameters that one could name", word.text());
+            return Err(Fault::invalid(place, text));
+        }
+        let parts = match word {
+            Keyword::Spline => self.spline_function()?,
+            Keyword::Pigment => self.pigment_function()?,
+            _ => {
+                self.next()?;
+                let map = self.nested(Self::transform_block)?;
+                let formulas = || -> std::result::Result<Vec<Formula>, FormulaError> {
+                    let mut b = Builder::new();
+                    let p = [b.input(0)?, b.input(1)?, b.input(2)?];
+                    Ok(moved(&mut b, p, &map)?.map(|part| b.finish(part, 3)).to_vec())
+                };
+                formulas().map_err(|error| Fault::at(place, FaultKind::Limit, error.to_string()))?
+            }
+        };
+        Ok(Some(VectorFunction::new(parts)))
+    }
+
+    /// The value of a function that is called in an expression, after its name.
+    pub(crate) fn called_vector(&mut self, function: &VectorFunction, place: Place) -> Result<Terms> {
+        let arguments = self.float_arguments()?;
+        check_count(arguments.len(), function.inputs(), place)?;
+        self.count_steps(function.steps() as u64, place)?;
+        let values: Vec<f64> = function.parts.iter().map(|part| part.value(&arguments)).collect();
+        if values.iter().any(|value| value.is_nan()) {
+            return Err(Fault::invalid(place, "this function is undefined here"));
+        }
+        Ok(Terms::new(&values))
+    }
+}
