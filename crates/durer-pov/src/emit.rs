@@ -488,14 +488,12 @@ fn pattern_of<T, U>(
     map: &Map<T>,
     mut part: impl FnMut(&T) -> Result<U>,
 ) -> Result<scene::Pattern<U>> {
-    if let Some(place) = pattern.stirred_at {
-        return Err(Fault::unsupported(place, "turbulence"));
-    }
     let cells = match pattern.kind {
+        PatternKind::Written(word, place) => return Err(Fault::unsupported(place, word.text())),
+        _ if let Some(place) = pattern.turbulence.at => return Err(Fault::unsupported(place, "turbulence")),
         PatternKind::Checker => scene::Cells::Checker,
         PatternKind::Hexagon => scene::Cells::Hexagon,
         PatternKind::Brick { size, mortar } => scene::Cells::Brick { size: vector(size), mortar },
-        PatternKind::Written(word, place) => return Err(Fault::unsupported(place, word.text())),
         PatternKind::Gradient(direction) => {
             let entries = map.entries.iter().map(|(at, item)| Ok((*at, part(item)?)));
             return Ok(scene::Pattern::Map {

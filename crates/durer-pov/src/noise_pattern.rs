@@ -15,8 +15,11 @@
 //! `N` is noise of the chosen generator, `n` what is under it, around zero, and `n'` and `n''` are the same elsewhere in space. `m` is `N` of the first generator, and of the second `2 N - 1/2` between 0 and 1 (in `T`
 //! only in the first octave, beyond that not kept between them). `t` is the turbulence and `a` agate's own. All that was found from POV-Ray's values with its own noise, and agrees with them to rounding.
 
+use durer_math::elementary;
+use durer_math::scale::pow2;
 use durer_scene::tape::{Builder, Formula, FormulaError, NodeId, Op};
 
+use crate::diagnostics::Place;
 use crate::formulas;
 use crate::keywords::Keyword;
 use crate::texture::{Pattern, PatternKind};
@@ -45,11 +48,13 @@ pub(crate) struct Turbulence {
     pub(crate) agate: f64,
     /// Which noise.
     pub(crate) generator: f64,
+    /// Where the text says that there is any.
+    pub(crate) at: Option<Place>,
 }
 
 impl Default for Turbulence {
     fn default() -> Self {
-        Self { amount: [0.0; 3], octaves: 6.0, lambda: 2.0, omega: 0.5, agate: 1.0, generator: 2.0 }
+        Self { amount: [0.0; 3], octaves: 6.0, lambda: 2.0, omega: 0.5, agate: 1.0, generator: 2.0, at: None }
     }
 }
 
@@ -70,7 +75,7 @@ impl Turbulence {
     /// What octave `k` counts, and what its points are multiplied by; the language keeps both in single precision.
     fn octave(&self, k: u32) -> (f64, f64) {
         let [omega, lambda] = [self.omega, self.lambda].map(|v| f64::from(v as f32));
-        (omega.powi(k as i32), lambda.powi(k as i32))
+        (elementary::powi(omega, k as i32), elementary::powi(lambda, k as i32))
     }
 }
 
@@ -199,7 +204,7 @@ impl Draft<'_> {
 /// The value of a pattern that rests on noise, or is stirred by it in its own way.
 pub(crate) fn value(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Option<NodeId> {
     let PatternKind::Written(word, _) = pattern.kind else { return None };
-    let turbulence = pattern.turbulence;
+    let turbulence = *pattern.turbulence;
     let mut draft = Draft { b, turbulence };
     match word {
         Keyword::Bozo | Keyword::Bumps | Keyword::Spotted => {
@@ -210,11 +215,11 @@ pub(crate) fn value(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Opt
             draft.push(Op::Powi(noise, 3))
         }
         Keyword::Wrinkles => {
-            let octaves = (0..10).map(|k| (0.5_f64.powi(k + 1), 2_f64.powi(k)));
+            let octaves = (0..10).map(|k| (pow2(-k - 1), pow2(k)));
             draft.sum(own, octaves, |draft, p| draft.grain(p, true))
         }
         Keyword::Granite => {
-            let octaves = (0..6).map(|k| (0.5_f64.powi(k), 2_f64.powi(k + 2)));
+            let octaves = (0..6).map(|k| (pow2(-k), pow2(k + 2)));
             draft.sum(own, octaves, |draft, p| {
                 let grain = draft.grain(p, true)?;
                 let half = draft.number(0.5)?;
@@ -248,6 +253,6 @@ pub(crate) fn value(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Opt
 /// A point in a pattern's space, stirred as most patterns are.
 pub(crate) fn stirred(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Option<[NodeId; 3]> {
     let its_own = matches!(pattern.kind, PatternKind::Written(Keyword::Marble | Keyword::Wood, _));
-    let turbulence = pattern.turbulence;
+    let turbulence = *pattern.turbulence;
     if its_own || turbulence.is_none() { Some(own) } else { Draft { b, turbulence }.stirred(own) }
 }

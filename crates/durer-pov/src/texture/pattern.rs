@@ -1,5 +1,7 @@
 //! Patterns: where in space which entry of a list or map stands.
 
+use std::rc::Rc;
+
 use crate::diagnostics::{Fault, Place, Result};
 use crate::keywords::Keyword;
 use crate::noise_pattern::Turbulence;
@@ -45,15 +47,13 @@ pub(crate) enum Wave {
 }
 
 /// A pattern in its place.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Pattern {
     pub(crate) kind: PatternKind,
     pub(crate) frequency: f64,
     pub(crate) phase: f64,
     pub(crate) wave: Wave,
-    pub(crate) turbulence: Turbulence,
-    /// Where the text says that there is turbulence.
-    pub(crate) stirred_at: Option<Place>,
+    pub(crate) turbulence: Rc<Turbulence>,
     /// From the pattern's own space to the object's.
     pub(crate) place: Matrix,
 }
@@ -65,15 +65,7 @@ impl Pattern {
         } else {
             Wave::Ramp
         };
-        Self {
-            kind,
-            frequency: 1.0,
-            phase: 0.0,
-            wave,
-            turbulence: Turbulence::default(),
-            stirred_at: None,
-            place: Matrix::IDENTITY,
-        }
+        Self { kind, frequency: 1.0, phase: 0.0, wave, turbulence: Rc::default(), place: Matrix::IDENTITY }
     }
 
     pub(crate) fn transform(&mut self, by: &Matrix) {
@@ -107,7 +99,7 @@ impl Reader<'_> {
     /// The pattern of a word just read, with the scene's noise.
     pub(crate) fn plain_pattern(&self, kind: PatternKind) -> Pattern {
         let mut pattern = Pattern::new(kind);
-        pattern.turbulence.generator = self.language.noise_generator();
+        Rc::make_mut(&mut pattern.turbulence).generator = self.language.noise_generator();
         pattern
     }
 
@@ -162,31 +154,32 @@ impl Reader<'_> {
             }
             Keyword::Octaves => {
                 self.next()?;
-                pattern.turbulence.octaves = self.float()?;
+                Rc::make_mut(&mut pattern.turbulence).octaves = self.float()?;
             }
             Keyword::Omega => {
                 self.next()?;
-                pattern.turbulence.omega = self.float()?;
+                Rc::make_mut(&mut pattern.turbulence).omega = self.float()?;
             }
             Keyword::Lambda => {
                 self.next()?;
-                pattern.turbulence.lambda = self.float()?;
+                Rc::make_mut(&mut pattern.turbulence).lambda = self.float()?;
             }
             Keyword::AgateTurb => {
                 self.next()?;
-                pattern.turbulence.agate = self.float()?;
+                Rc::make_mut(&mut pattern.turbulence).agate = self.float()?;
             }
             Keyword::NoiseGenerator => {
                 self.next()?;
                 // 0 is that of the scene.
                 let said = self.float()?;
-                pattern.turbulence.generator =
-                    if said == 0.0 { self.language.noise_generator() } else { said };
+                let generator = if said == 0.0 { self.language.noise_generator() } else { said };
+                Rc::make_mut(&mut pattern.turbulence).generator = generator;
             }
             Keyword::Turbulence => {
                 self.next()?;
-                pattern.turbulence.amount = self.vector()?;
-                pattern.stirred_at = (!pattern.turbulence.is_none()).then_some(place);
+                let turbulence = Rc::make_mut(&mut pattern.turbulence);
+                turbulence.amount = self.vector()?;
+                turbulence.at = (!turbulence.is_none()).then_some(place);
             }
             _ => return Ok(false),
         }
