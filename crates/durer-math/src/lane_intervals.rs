@@ -122,16 +122,16 @@ fn above(x: f64) -> f64 {
     x + x.abs().mul_add(PHI, TINY)
 }
 
-/// A sum rounded down. What it lost is known, since infinite sums aside it is a number itself (O. Moeller, "Quasi double-precision in floating-point addition", *BIT* 5 (1965); D. E.
-/// Knuth, *The Art of Computer Programming* 2, section 4.2.2): where that is not negative the sum is a bound as it stands. So sums of whole numbers are exact.
+/// A sum rounded down. The sum `s` in f64 is a bound as it stands if the exact one is not below it: so sums of whole numbers are exact, and greater operands do not have
+/// lower bounds. Let `s = a + b - lost`. Then `s - a` is `b - lost`: in f64 at most `b` if `lost >= 0`, as rounding is monotone; and if `a` is the greater operand in magnitude
+/// it is a number (T. J. Dekker, "A floating-point technique for extending the available precision", *Numerische Mathematik* 18 (1971)), so above `b` if
+/// `lost < 0`. The same holds with `a` and `b` exchanged. Of infinite sums only `-inf` passes both comparisons.
 #[inline(always)]
 fn sum_below(a: f64, b: f64) -> f64 {
     let sum = a + b;
-    let other = sum - a;
-    let lost = (a - (sum - other)) + (b - other);
     let finite = if sum > f64::MAX { f64::MAX } else { sum };
-    // Of infinite sums it is not a number.
-    if lost >= 0.0 && lost != f64::INFINITY { sum } else { finite - finite.abs().mul_add(PHI, TINY) }
+    let is_below = (sum - a <= b) & (sum - b <= a);
+    if is_below { sum } else { finite - finite.abs().mul_add(PHI, TINY) }
 }
 
 /// A sum rounded up.
