@@ -352,8 +352,22 @@ impl Affine {
     /// polynomial in the exact data.
     #[inline(always)]
     pub fn adjugate<T: Ring>(&self) -> ([[T; 3]; 3], T) {
-        let (a, d) = adjugate(&self.linear.map(|r| r.map(T::exact)));
-        if self.mirrored { (a.map(|r| r.map(|x| -x)), -d) } else { (a, d) }
+        // Maps of arrays could be compiled by themselves, without fused sums.
+        #[inline(always)]
+        fn exact<T: Ring>(r: [f64; 3]) -> [T; 3] {
+            [T::exact(r[0]), T::exact(r[1]), T::exact(r[2])]
+        }
+        #[inline(always)]
+        fn negative<T: Ring>([a, b, c]: [T; 3]) -> [T; 3] {
+            [-a, -b, -c]
+        }
+        let [r, s, t] = self.linear;
+        let (a, d) = adjugate(&[exact(r), exact(s), exact(t)]);
+        if !self.mirrored {
+            return (a, d);
+        }
+        let [r, s, t] = a;
+        ([negative(r), negative(s), negative(t)], -d)
     }
 
     /// A box that holds the image of `b`, rounded outward: J. Arvo, "Transforming axis-aligned bounding boxes", Graphics Gems (1990).

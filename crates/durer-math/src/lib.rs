@@ -39,7 +39,7 @@
 //! conservative bound.
 //!
 //! **Numbers, by rising cost.** [`eft`] gives sums and products with their exact errors; [`Run`] a value with its running error;
-//! [`rounding`] and [`Interval`] directed rounding; [`Dd`] 106 bits; [`Expansion`] and [`Dyadic`] are exact. [`ladder`] climbs from one to the
+//! [`rounding`] and [`Interval`] directed rounding; [`Dd`] 106 bits; [`Dyadic`] is exact. [`ladder`] climbs from one to the
 //! next, and [`predicates`] holds the one decision that must be faster than that: on which side a ray passes an edge.
 //!
 //! **The same bits everywhere.** [`elementary`] replaces the C library's functions, and [`Isa::run`] is the only door to the CPU's vector and
@@ -53,11 +53,11 @@ mod aabb;
 pub mod affine;
 pub mod dd;
 mod directions;
+mod distil;
 pub mod dual;
 pub mod dyadic;
 pub mod eft;
 pub mod elementary;
-pub mod expansion;
 mod gamma;
 pub mod interval;
 mod joined;
@@ -88,7 +88,6 @@ pub use crate::dd::Dd;
 pub use crate::directions::CombinationError;
 pub use crate::dual::Dual;
 pub use crate::dyadic::Dyadic;
-pub use crate::expansion::Expansion;
 pub use crate::gamma::{U, gamma};
 pub use crate::interval::Interval;
 pub use crate::joined::Joined;

@@ -6,8 +6,8 @@
 //!     U = d . (b x a)
 //! ```
 //!
-//! tells the side. It comes in three stages: an f64 value with Shewchuk's bound (`orient3d`, stage A), then expansions on the
-//! exact differences, then, only where exponents are so wild that expansions could under- or overflow, [`Dyadic`].
+//! tells the side. It comes in three stages: an f64 value with Shewchuk's bound (`orient3d`, stage A), then a sum of all its
+//! terms, each exact ([`distil`](crate::distil)), then, only where exponents are so wild that these could under- or overflow, [`Dyadic`].
 //! J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", Discrete &
 //! Computational Geometry 18 (1997).
 //!
@@ -20,8 +20,10 @@
 //!
 //! Coordinates must be finite; for others the answers are meaningless, but nothing panics.
 
+use crate::distil::Terms;
+use crate::eft::two_diff;
 use crate::scale::exponent;
-use crate::{Dyadic, Expansion, Point3, U, Vec3};
+use crate::{Dyadic, Isa, Point3, U, Vec3};
 use core::cmp::Ordering;
 
 /// The side on which a ray passes an edge.
@@ -120,6 +122,14 @@ impl EdgeRay {
     #[cold]
     #[inline(never)]
     pub fn exact_edge(&self, v1: Point3, v2: Point3) -> Edge {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.exact_edge_here(v1, v2),
+        )
+    }
+
+    #[inline(always)]
+    fn exact_edge_here(&self, v1: Point3, v2: Point3) -> Edge {
         let (order, value, error) = self.exact_value(v1, v2);
         let sign = match order {
             Ordering::Greater => 1,
@@ -133,21 +143,19 @@ impl EdgeRay {
         Edge { sign, value, error }
     }
 
+    #[inline(always)]
     fn exact_value(&self, v1: Point3, v2: Point3) -> (Ordering, f64, f64) {
         let o = self.o;
         if tame(&[o.x, o.y, o.z, v1.x, v1.y, v1.z, v2.x, v2.y, v2.z, self.d.x, self.d.y, self.d.z]) {
-            let a = differences(v1, o);
-            let b = differences(v2, o);
-            let term = |i: usize, j: usize, k: usize| -> Expansion<32> {
-                let plus: Expansion<8> = b[i].product(&a[j]);
-                let minus: Expansion<8> = b[j].product(&a[i]);
-                let minor: Expansion<16> = plus.sum(&minus.negated());
-                minor.scale(self.d[k])
-            };
-            let xy: Expansion<64> = term(1, 2, 0).sum(&term(2, 0, 1));
-            let u: Expansion<96> = xy.sum(&term(0, 1, 2));
-            let (value, error) = u.estimate();
-            return (u.sign(), value, error);
+            let (a, b) = (differences(v1, o), differences(v2, o));
+            let mut u = Terms::new();
+            for (i, j, k) in [(1, 2, 0), (2, 0, 1), (0, 1, 2)] {
+                add_triples(&mut u, b[i], a[j], self.d[k]);
+                add_triples(&mut u, b[j], a[i], -self.d[k]);
+            }
+            if let Some(u) = u.sum() {
+                return (u.sign, u.value, u.error);
+            }
         }
         let a = exact_differences(v1, o);
         let b = exact_differences(v2, o);
@@ -160,14 +168,19 @@ impl EdgeRay {
     }
 
     /// The sign of `((v2 - v1) x d)_axis`.
+    #[inline(always)]
     fn minor_sign(&self, v1: Point3, v2: Point3, axis: usize) -> i8 {
         let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
         let (dj, dk) = (self.d[j], self.d[k]);
         if tame(&[v1[j], v1[k], v2[j], v2[k], dj, dk]) {
-            let plus: Expansion<4> = Expansion::<2>::difference(v2[j], v1[j]).scale(dk);
-            let minus: Expansion<4> = Expansion::<2>::difference(v2[k], v1[k]).scale(dj);
-            let minor: Expansion<8> = plus.sum(&minus.negated());
-            return minor.sign() as i8;
+            let (ej, ek) = (two_diff(v2[j], v1[j]), two_diff(v2[k], v1[k]));
+            let mut minor = Terms::new();
+            for (e, d) in [(ej.1, dk), (ek.1, -dj), (ej.0, dk), (ek.0, -dj)] {
+                minor.add_product(e, d);
+            }
+            if let Some(minor) = minor.sum() {
+                return minor.sign as i8;
+            }
         }
         let ej = Dyadic::from(v2[j]) - Dyadic::from(v1[j]);
         let ek = Dyadic::from(v2[k]) - Dyadic::from(v1[k]);
@@ -206,13 +219,27 @@ impl EdgeRay {
 }
 
 /// Whether products of three of these numbers, or of their differences, neither overflow nor have bits below `2^-1074`.
+#[inline(always)]
 fn tame(numbers: &[f64]) -> bool {
     // The least bit of a difference is at least 2^(-300 - 52); three such factors: 2^-1056.
     numbers.iter().all(|&x| x == 0.0 || (-300..=300).contains(&exponent(x)))
 }
 
-fn differences(v: Point3, o: Point3) -> [Expansion<2>; 3] {
-    [0, 1, 2].map(|i| Expansion::difference(v[i], o[i]))
+/// `v - o`, exactly: each axis as a number and what its rounding left.
+#[inline(always)]
+fn differences(v: Point3, o: Point3) -> [(f64, f64); 3] {
+    [two_diff(v.x, o.x), two_diff(v.y, o.y), two_diff(v.z, o.z)]
+}
+
+/// Adds `a b c`, where `a` and `b` are sums of two numbers.
+#[inline(always)]
+fn add_triples(terms: &mut Terms, a: (f64, f64), b: (f64, f64), c: f64) {
+    for (x, y) in [(a.1, b.1), (a.1, b.0), (a.0, b.1)] {
+        if x != 0.0 && y != 0.0 {
+            terms.add_triple(x, y, c);
+        }
+    }
+    terms.add_triple(a.0, b.0, c);
 }
 
 fn exact_differences(v: Point3, o: Point3) -> [Dyadic; 3] {

@@ -8,7 +8,7 @@ pub const fn pow2(k: i32) -> f64 {
 }
 
 /// `x * 2^k`, rounded once: exact unless the result overflows or is subnormal.
-#[inline]
+#[inline(always)]
 pub fn ldexp(x: f64, k: i32) -> f64 {
     if (-1022..=1023).contains(&k) {
         return x * pow2(k);

@@ -6,7 +6,7 @@
 //! ray, and what it leaves open is decided on the exact ray: the given one, or the exact preimage of one under a placement.
 
 use crate::RingRay;
-use crate::planar::{AlongRay, Line, TINY, cross, dot, seen_from};
+use crate::planar::{AlongRay, Line, TINY, cross, dot, towards};
 use durer_math::{EdgeRay, Isa, Point3, Ring, Run, U, Vec3};
 
 /// `U` for the edge from `a` to `b`.
@@ -20,12 +20,9 @@ struct EdgeForm {
 impl AlongRay for EdgeForm {
     #[inline(always)]
     fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
-        let from_ray = |v: Point3| {
-            let [x, y, z] = seen_from::<T>(v, self.centre, self.scale).map(|x| x * ray.w.clone());
-            let [a, b, c] = ray.o.clone();
-            [x - a, y - b, z - c]
-        };
-        Some(dot(&ray.d, &cross(&from_ray(self.b), &from_ray(self.a))))
+        let (a, b) =
+            (towards(ray, self.a, self.centre, self.scale), towards(ray, self.b, self.centre, self.scale));
+        Some(dot(&ray.d, &cross(&b, &a)))
     }
 }
 
@@ -40,8 +37,8 @@ impl AlongRay for MinorForm {
     #[inline(always)]
     fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
         let (j, k) = ((self.axis + 1) % 3, (self.axis + 2) % 3);
-        let e = |i: usize| T::exact(self.b[i]) - T::exact(self.a[i]);
-        Some(e(j) * ray.d[k].clone() - e(k) * ray.d[j].clone())
+        let (ej, ek) = (T::exact(self.b[j]) - T::exact(self.a[j]), T::exact(self.b[k]) - T::exact(self.a[k]));
+        Some(ej * ray.d[k].clone() - ek * ray.d[j].clone())
     }
 }
 
@@ -74,7 +71,8 @@ pub(crate) fn exact_side<L: Line>(line: &L, a: Point3, b: Point3) -> Option<i8> 
             if side.is_ne() {
                 return Some(side as i8);
             }
-            for axis in displacement(Vec3::from(line.running().d.map(|x| x.v))) {
+            let [x, y, z] = line.running().d;
+            for axis in displacement(Vec3::new(x.v, y.v, z.v)) {
                 let minor = line.sign(&MinorForm { a, b, axis })?;
                 if minor.is_ne() {
                     return Some(minor as i8);

@@ -6,7 +6,7 @@
 //! parameter comes from the plane of the three vertices, exact numbers all of them.
 
 use crate::edges::{self, EdgeFilter};
-use crate::planar::{self, Crossing, Line, Probe, Ratios, ThreePoints, cross, dot, seen_from};
+use crate::planar::{self, Crossing, Line, Probe, Ratios, ThreePoints, cross, dot, seen_from, towards};
 use crate::point::least_step;
 use crate::{Need, RingRay, SurfacePoint};
 use durer_math::eft::exponent;
@@ -65,7 +65,7 @@ pub(crate) struct Passed {
 /// Whether a line passes all edges on one side.
 #[inline(always)]
 pub(crate) fn passes<L: Line>(line: &L, filter: &EdgeFilter, v: &Facet) -> Option<Passed> {
-    let [a, b, c] = v.map(|v| filter.seen(v));
+    let (a, b, c) = (filter.seen(v[0]), filter.seen(v[1]), filter.seen(v[2]));
     let bound = filter.bound(a.max_abs().max(b.max_abs()).max(c.max_abs()));
     let values = [filter.side(b, c), filter.side(c, a), filter.side(a, b)];
     let least = values[0].min(values[1]).min(values[2]);
@@ -135,16 +135,19 @@ pub(crate) fn plane(probe: &Probe<'_>, v: &Facet) -> ThreePoints {
     ThreePoints { points: *v, centre: probe.ray.centre, scale: probe.ray.scale }
 }
 
+/// `d . (q x p)`.
+#[inline(always)]
+fn volume<T: Ring>(ray: &RingRay<T>, p: &[T; 3], q: &[T; 3]) -> T {
+    dot(&ray.d, &cross(q, p))
+}
+
 /// `(V, W, U + V + W)`: the second and third barycentric coordinates and what they are to be divided by.
 #[inline(always)]
 fn volumes<T: Ring>(v: &Facet, ray: &RingRay<T>, centre: Point3, scale: i32) -> [T; 3] {
-    let [a, b, c] = v.map(|v| {
-        let [x, y, z] = seen_from::<T>(v, centre, scale).map(|x| x * ray.w.clone());
-        let [o0, o1, o2] = ray.o.clone();
-        [x - o0, y - o1, z - o2]
-    });
-    let volume = |p: &[T; 3], q: &[T; 3]| dot(&ray.d, &cross(q, p));
-    let (u, v, w) = (volume(&b, &c), volume(&c, &a), volume(&a, &b));
+    let [a, b, c] = *v;
+    let (a, b, c) =
+        (towards(ray, a, centre, scale), towards(ray, b, centre, scale), towards(ray, c, centre, scale));
+    let (u, v, w) = (volume(ray, &b, &c), volume(ray, &c, &a), volume(ray, &a, &b));
     [v.clone(), w.clone(), u + v + w]
 }
 
@@ -152,7 +155,7 @@ fn volumes<T: Ring>(v: &Facet, ray: &RingRay<T>, centre: Point3, scale: i32) -> 
 #[inline(always)]
 fn barycentric(probe: &Probe<'_>, v: &Facet) -> [Run; 2] {
     let filter = EdgeFilter::new(probe);
-    let [a, b, c] = v.map(|v| filter.seen(v));
+    let (a, b, c) = (filter.seen(v[0]), filter.seen(v[1]), filter.seen(v[2]));
     let bound = filter.bound(a.max_abs().max(b.max_abs()).max(c.max_abs()));
     quotients([filter.side(b, c), filter.side(c, a), filter.side(a, b)], bound)
         .unwrap_or_else(|| exact_barycentric(probe, v))

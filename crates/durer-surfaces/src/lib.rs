@@ -62,7 +62,7 @@ pub use crate::implicit::level_set::LevelSet;
 pub use crate::implicit::{Container, Isosurface, IsosurfaceError, SuperellipsoidError, superellipsoid};
 pub use crate::julia::{Julia, JuliaAlgebra, JuliaError, JuliaPower, JuliaSet};
 pub use crate::lemon::LemonError;
-pub use crate::local::{CentredRay, End, LocalPoint, LocalRay, ROUGH, RingRay};
+pub use crate::local::{CentredRay, End, Kept, LocalPoint, LocalRay, ROUGH, RingRay};
 pub use crate::mesh::{FLAT, Mesh, MeshData, MeshError};
 pub use crate::ovus::OvusError;
 pub use crate::parallelogram::{Parallelogram, ParallelogramError};

@@ -10,7 +10,8 @@
 mod vectors;
 
 pub(crate) use vectors::{
-    cross, cross_and_error, dot, exact3, least_length, middle, origin_from, scaled_to_one, seen_from, unit,
+    cross, cross_and_error, dot, exact3, least_length, middle, minus, origin_from, scaled_to_one, seen_from,
+    times, towards, unit,
 };
 
 use crate::local::ROUGH;
@@ -163,8 +164,9 @@ impl Line for Probe<'_> {
         let ray = &self.ray;
         RingRay { o: run(ray.o, ray.o_err), d: run(ray.d, ray.d_err), w: Run::exact(1.0) }
     }
+    #[inline(always)]
     fn double(&self) -> Option<RingRay<Run<Dd>>> {
-        self.ray.in_ring()
+        self.ray.in_double()
     }
     fn exact(&self) -> Option<RingRay<Dyadic>> {
         self.ray.in_ring()
@@ -282,7 +284,7 @@ impl<'a> Probe<'a> {
                     return None;
                 }
                 let mut best = None;
-                if let Some(ray) = self.ray.in_ring::<Run<Dd>>() {
+                if let Some(ray) = self.ray.in_double() {
                     let slope = plane.slope(&ray);
                     if let (Some(sign), Some(height)) = (slope.sign(), plane.height(&ray)) {
                         if sign.is_eq() {
@@ -389,7 +391,7 @@ impl<'a> Probe<'a> {
     /// The sign of the height at an end of the range.
     #[inline(always)]
     fn height_at_end<F: PlaneForm>(&self, plane: &F, end: End) -> Option<Ordering> {
-        let dd = self.ray.in_ring::<Run<Dd>>().map(|ray| advanced(ray, &self.ray.end_in_ring(end)));
+        let dd = self.ray.in_double().map(|ray| advanced(ray, &self.ray.end_in_ring(end)));
         if let Some(sign) = dd.and_then(|ray| plane.height(&ray)?.sign()) {
             return Some(sign);
         }
@@ -504,11 +506,9 @@ impl<'a> PointLine<'a> {
 
 #[inline(always)]
 fn point_line<T: Ring>((p, w): ([T; 3], T), direction: Vec3, centre: Point3, scale: i32) -> RingRay<T> {
-    let c = centre.to_array().map(|c| T::exact(c) * w.clone());
-    let [x, y, z] = p;
-    let [cx, cy, cz] = c;
-    let o = [x - cx, y - cy, z - cz].map(|x| x.scale2(-scale));
-    RingRay { o, d: exact3(direction).map(|d: T| d * w.clone()), w }
+    let [x, y, z] = minus(p, times(exact3(centre.to_vec()), &w));
+    let o = [x.scale2(-scale), y.scale2(-scale), z.scale2(-scale)];
+    RingRay { o, d: times(exact3(direction), &w), w }
 }
 
 impl Line for PointLine<'_> {
@@ -516,6 +516,7 @@ impl Line for PointLine<'_> {
     fn running(&self) -> RingRay<Run<f64>> {
         self.run.clone()
     }
+    #[inline(always)]
     fn double(&self) -> Option<RingRay<Run<Dd>>> {
         Some(point_line(self.point.in_ring()?, self.direction, self.centre, self.scale))
     }
@@ -610,7 +611,10 @@ fn ratios_climb<R: Ratios>(probe: &Probe<'_>, r: &R) -> Option<[Run; 2]> {
         #[inline(always)]
         || {
             let [a, b, d] = r.eval(&probe.double()?);
-            let nearest = |x: Run<Dd>| Run::with_error(x.v.hi, (x.e + x.v.lo.abs()) * (1.0 + 8.0 * U));
+            #[inline(always)]
+            fn nearest(x: Run<Dd>) -> Run {
+                Run::with_error(x.v.hi, (x.e + x.v.lo.abs()) * (1.0 + 8.0 * U))
+            }
             let dd = [nearest(a / d), nearest(b / d)];
             if dd.iter().all(|x| x.e <= TIGHT) {
                 return Some(dd);

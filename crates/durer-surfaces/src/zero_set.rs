@@ -112,7 +112,7 @@ impl<const N: usize, Z: ZeroSet<N>> Along<N> for Line<'_, Z> {
 
     #[inline(always)]
     fn wide(&self) -> Option<[Run<Dd>; N]> {
-        let ray = moved(self.ray.in_ring::<Run<Dd>>()?, self.mid);
+        let ray = moved(self.ray.in_double()?, self.mid);
         // A common factor is free: one that makes w about one keeps high powers of it in range.
         let k = -exponent(ray.w.value());
         let sized = |x: Run<Dd>| x.scale2(k);

@@ -59,9 +59,22 @@ impl<'a> CentredRay<'a> {
 
     /// The exact ray in a ring, in this ray's parameter, centre and unit of length.
     pub fn in_ring<T: Ring>(&self) -> Option<RingRay<T>> {
-        let at = self.ray.in_ring::<T>()?.moved(self.centre, self.step);
+        Some(self.centred(self.ray.in_ring()?))
+    }
+
+    /// The same in double-double: what the ray is there may be [known](LocalRay::keeping).
+    #[inline(always)]
+    pub(crate) fn in_double(&self) -> Option<RingRay<Run<Dd>>> {
+        Some(self.centred(self.ray.in_double()?))
+    }
+
+    /// The local ray, as seen from the centre.
+    #[inline(always)]
+    fn centred<T: Ring>(&self, ray: RingRay<T>) -> RingRay<T> {
+        let RingRay { o: [x, y, z], d, w } = ray.moved(self.centre, self.step);
         // Lengths are divided by 2^scale; so is the direction, and the parameter's unit is 2^scale: d stays.
-        Some(RingRay { o: at.o.map(|x| x.scale2(-self.scale)), d: at.d, w: at.w })
+        let k = -self.scale;
+        RingRay { o: [x.scale2(k), y.scale2(k), z.scale2(k)], d, w }
     }
 
     /// The same ray with origin and direction rounded from double-double, if maps on its way make more than 32 roundings of one, in a frame in which the surface is
@@ -73,7 +86,7 @@ impl<'a> CentredRay<'a> {
         if off <= (MANY * U) * (self.o.max_abs() + 2.0 * size) {
             return self;
         }
-        self.in_ring().map_or(self, |exact| self.rounded_from(&exact))
+        self.in_double().map_or(self, |exact| self.rounded_from(&exact))
     }
 
     #[cold]

@@ -12,9 +12,10 @@ mod point;
 pub use self::centred::CentredRay;
 pub use self::point::LocalPoint;
 
+use core::cell::OnceCell;
 use durer_math::affine::Matrix3;
 use durer_math::eft::{exponent, scale2, two_diff, two_sum};
-use durer_math::{Aabb, Affine, Isa, Point3, Ray, RaySide, Ring, Vec3};
+use durer_math::{Aabb, Affine, Dd, Isa, Point3, Ray, RaySide, Ring, Run, Vec3};
 
 /// Half an ulp of 1.
 const U: f64 = 1.0 / (1u64 << 53) as f64;
@@ -52,6 +53,19 @@ pub struct LocalRay<'a> {
     inverse_d2: f64,
     clock: Clock,
     lineage: Lineage<'a>,
+    kept: Option<&'a Kept>,
+}
+
+/// Room for what a ray is in double-double, which is found once if anybody asks: see [`LocalRay::keeping`].
+#[derive(Debug, Default)]
+pub struct Kept(OnceCell<Option<RingRay<Run<Dd>>>>);
+
+impl Kept {
+    /// Room.
+    #[inline(always)]
+    pub fn new() -> Self {
+        Self(OnceCell::new())
+    }
 }
 
 /// How a local ray came to be.
@@ -214,6 +228,7 @@ impl LocalRay<'static> {
             inverse_d2: 1.0 / d.length_squared(),
             clock: Clock { terms: [0.0; 4], len: 0, k },
             lineage: Lineage::Given { k, direction: ray.direction, d_err: given },
+            kept: None,
         }
     }
 }
@@ -439,6 +454,23 @@ impl<'a> LocalRay<'a> {
             inverse_d2: 1.0 / d.length_squared(),
             clock: self.clock.then(step, k),
             lineage: Lineage::Placed { parent: self, affine, step, k },
+            kept: None,
+        }
+    }
+
+    /// The same ray, with room for what many surfaces may ask about it.
+    #[inline(always)]
+    #[must_use]
+    pub fn keeping(self, kept: &'a Kept) -> Self {
+        Self { kept: Some(kept), ..self }
+    }
+
+    /// The exact ray in double-double, as [`LocalRay::in_ring`] has it.
+    #[inline(always)]
+    pub(crate) fn in_double(&self) -> Option<RingRay<Run<Dd>>> {
+        match self.kept {
+            Some(kept) => kept.0.get_or_init(|| self.in_ring()).clone(),
+            None => self.in_ring(),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Vectors in rings, and vectors in f64 with bounds on their errors.
 
 use super::TINY;
-use crate::CentredRay;
+use crate::{CentredRay, RingRay};
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Normal3, Point3, Ring, Run, U, Vec3};
 
@@ -36,6 +36,24 @@ pub(crate) fn seen_from<T: Ring>(p: Point3, centre: Point3, scale: i32) -> [T; 3
         (T::exact(p) - T::exact(c)).scale2(-scale)
     }
     [axis(p.x, centre.x, scale), axis(p.y, centre.y, scale), axis(p.z, centre.z, scale)]
+}
+
+/// The vector `v` times `w` in a ring.
+#[inline(always)]
+pub(crate) fn times<T: Ring>([x, y, z]: [T; 3], w: &T) -> [T; 3] {
+    [x * w.clone(), y * w.clone(), z * w.clone()]
+}
+
+/// `a - b` in a ring.
+#[inline(always)]
+pub(crate) fn minus<T: Ring>([x, y, z]: [T; 3], [a, b, c]: [T; 3]) -> [T; 3] {
+    [x - a, y - b, z - c]
+}
+
+/// From a ray's point at `s = 0` to `v`, times the ray's `w`; the ray is seen from `centre` in units of `2^scale`.
+#[inline(always)]
+pub(crate) fn towards<T: Ring>(ray: &RingRay<T>, v: Point3, centre: Point3, scale: i32) -> [T; 3] {
+    minus(times(seen_from(v, centre, scale), &ray.w), ray.o.clone())
 }
 
 /// The cross product of two vectors of which each component was rounded at most once, and a bound on its error per component.

@@ -265,7 +265,7 @@ impl View<'_> {
     #[inline(never)]
     fn climb(&self, face: usize, ray: &CentredRay<'_>, limits: &Limits) -> (LineRoots, bool) {
         let none = LineRoots { roots: [None; 2], outside: false };
-        let Some(in_dd) = ray.in_ring::<Run<Dd>>() else { return (none, true) };
+        let Some(in_dd) = ray.in_double() else { return (none, true) };
         // Coefficients are homogeneous: the positive factor w² cancels in roots and signs.
         let form = self.shape.double(face);
         let (known, found) = Isa::detect().run(
