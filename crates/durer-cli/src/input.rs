@@ -124,11 +124,15 @@ impl Loaded {
     }
 }
 
+/// Stack of a thread: kernels that the compiler did not optimise have frames of hundreds of kilobytes. Only what is used is ever touched.
+const STACK: usize = 64 << 20;
+
 /// Runs `work` with so many threads, or with as many as there are cores.
 pub(crate) fn with_threads<R: Send>(
     threads: Option<u16>,
     work: impl FnOnce() -> Result<R, Failure> + Send,
 ) -> Result<R, Failure> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).build();
+    let threads = threads.map_or(0, usize::from);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build();
     pool.map_err(|e| Failure::Input(format!("error: cannot start threads: {e}")))?.install(work)
 }

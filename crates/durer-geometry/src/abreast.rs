@@ -50,16 +50,24 @@ impl Geometry {
         }
     }
 
-    /// [`Geometry::any`] of a few rays.
-    pub(crate) fn any_abreast(&self, rays: &[Ray], hits: &mut Vec<bool>) {
-        if self.tree.len() < LEAST {
-            hits.extend(rays.iter().map(|ray| self.any(ray)));
+    /// [`Geometry::any_masked`] of a few rays, told to `put` by their numbers.
+    pub(crate) fn any_abreast(
+        &self,
+        rays: &[Ray],
+        mask: u32,
+        memory: &mut Abreast,
+        mut put: impl FnMut(usize, bool),
+    ) {
+        if self.tree.len() < LEAST || rays.len() == 1 {
+            rays.iter().enumerate().for_each(|(i, ray)| put(i, self.any_masked(ray, mask)));
             return;
         }
-        let mut locals = Vec::with_capacity(rays.len());
-        let mut all = Any { all: All::of(self, rays, EVERYTHING, &mut locals), met: vec![false; rays.len()] };
+        let Abreast { locals, met, .. } = memory;
+        met.clear();
+        met.resize(rays.len(), false);
+        let mut all = Any { all: All::of(self, rays, mask, locals), met };
         self.tree.any_of_each(self.isa, rays.len(), &mut all);
-        hits.append(&mut all.met);
+        met.iter().enumerate().for_each(|(i, &is_met)| put(i, is_met));
     }
 }
 
@@ -68,6 +76,7 @@ impl Geometry {
 pub(crate) struct Abreast {
     locals: Vec<LocalRay<'static>>,
     best: Vec<Best>,
+    met: Vec<bool>,
 }
 
 /// Rays, and those under way in the geometry's frame.
@@ -136,7 +145,7 @@ impl<'a> Closest<'a> {
         rays: &'a [Ray],
         mask: u32,
         rough: bool,
-        Abreast { locals, best }: &'a mut Abreast,
+        Abreast { locals, best, .. }: &'a mut Abreast,
     ) -> Self {
         best.clear();
         best.resize_with(rays.len(), Best::least);
@@ -206,7 +215,7 @@ impl Rays<f64> for Closest<'_> {
 
 struct Any<'a> {
     all: All<'a>,
-    met: Vec<bool>,
+    met: &'a mut [bool],
 }
 
 impl Any<'_> {
@@ -337,6 +346,18 @@ mod tests {
                             let away = f64::from(hit.object % 5) - 2.0;
                             next.push(point.spawn(Vec3::new(away, f64::from(i as u32 % 7) - 3.0, 1.0)));
                         }
+                    });
+                    assert_eq!(told, some.len());
+                    told = 0;
+                    geometry.any_abreast(some, mask, &mut memory, |i, is_met| {
+                        assert_eq!(i, told);
+                        told += 1;
+                        assert_eq!(
+                            is_met,
+                            geometry.any_masked(&some[i], mask),
+                            "{generation}: {:?}",
+                            some[i]
+                        );
                     });
                     assert_eq!(told, some.len());
                     if rest.is_empty() {

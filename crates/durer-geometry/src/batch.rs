@@ -1,7 +1,8 @@
 //! Many rays at once, over all threads.
 
-use crate::abreast::ABREAST;
+use crate::abreast::{ABREAST, Abreast};
 use crate::geometry::Geometry;
+use crate::ids::EVERYTHING;
 use crate::{Hit, Span};
 use durer_math::Ray;
 use rayon::prelude::*;
@@ -48,7 +49,9 @@ impl Geometry {
 
     /// [`Geometry::any`] of each ray.
     pub fn any_batch(&self, rays: &[Ray]) -> Vec<bool> {
-        each(rays, |some, hits| self.any_abreast(some, hits))
+        each(rays, |some, hits| {
+            self.any_abreast(some, EVERYTHING, &mut Abreast::default(), |_, is_met| hits.push(is_met));
+        })
     }
 
     /// [`Geometry::all`] of each ray.

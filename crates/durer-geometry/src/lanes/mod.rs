@@ -300,15 +300,14 @@ impl Geometry {
                 },
             );
         }
+        let Some(beam) = beam else {
+            let alone: ArrayVec<Ray, LANES> = left.lanes().map(|i| rays.lane(i)).collect();
+            let lanes: ArrayVec<usize, LANES> = left.lanes().collect();
+            self.any_abreast(&alone, mask, &mut scratch.abreast, |i, is_met| met.set_lane(lanes[i], is_met));
+            return met;
+        };
         for i in left.lanes() {
-            let ray = rays.lane(i);
-            met.set_lane(
-                i,
-                match beam {
-                    Some(beam) => self.any_in(beam, &ray, mask),
-                    None => self.any_masked(&ray, mask),
-                },
-            );
+            met.set_lane(i, self.any_in(beam, &rays.lane(i), mask));
         }
         met
     }
