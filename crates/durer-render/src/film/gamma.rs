@@ -9,9 +9,9 @@
 //!
 //! The sRGB curve is that of IEC 61966-2-1 (1999).
 
-use durer_math::elementary;
 use durer_math::lanes::LANES;
-use durer_scene::AssumedGamma;
+use durer_math::{Isa, elementary};
+use durer_scene::{AssumedGamma, Rgb};
 
 /// How the numbers of a film relate to light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,13 +84,18 @@ impl Encoding {
         // Positive f64 are in the order of their bits. Rounding has moved the guess by a few of them.
         let guess = self.number(decode((f64::from(k) - 0.5) / 255.0)).clamp(0.0, 1.0).to_bits();
         let (mut below, mut above, mut step) = (guess, guess, 1);
-        while reaches(below) {
+        if reaches(guess) {
             below = below.saturating_sub(step);
-            step *= 2;
-        }
-        while !reaches(above) {
+            while reaches(below) {
+                (above, step) = (below, step * 2);
+                below = below.saturating_sub(step);
+            }
+        } else {
             above = (above + step).min(1.0_f64.to_bits());
-            step *= 2;
+            while !reaches(above) {
+                (below, step) = (above, step * 2);
+                above = (above + step).min(1.0_f64.to_bits());
+            }
         }
         while above - below > 1 {
             let middle = below + (above - below) / 2;
@@ -152,15 +157,66 @@ impl Bytes {
     pub(super) fn of_all(&self, numbers: &[f64], bytes: &mut [u8]) {
         let (eights, rest) = numbers.as_chunks::<LANES>();
         let (byte_eights, byte_rest) = bytes.as_chunks_mut::<LANES>();
-        for (numbers, bytes) in eights.iter().zip(byte_eights) {
-            let numbers = numbers.map(within);
-            let places = numbers.map(place);
-            for ((byte, v), place) in bytes.iter_mut().zip(numbers).zip(places) {
-                *byte = if self.is_fine { self.near(v, place) } else { self.from(v, place) };
-            }
-        }
+        Isa::detect().run_in_lanes(
+            #[inline(always)]
+            || {
+                for (numbers, bytes) in eights.iter().zip(byte_eights) {
+                    self.of_some(numbers, bytes);
+                }
+            },
+        );
         for (&v, byte) in rest.iter().zip(byte_rest) {
             *byte = self.of(v);
+        }
+    }
+
+    /// The bytes for some colours, three for each.
+    pub(super) fn of_colours(&self, colours: &[Rgb], bytes: &mut [[u8; 3]]) {
+        let (eights, rest) = colours.as_chunks::<LANES>();
+        let (byte_eights, byte_rest) = bytes.as_chunks_mut::<LANES>();
+        Isa::detect().run_in_lanes(
+            #[inline(always)]
+            || {
+                let mut numbers = [0.0; 3 * LANES];
+                let mut known = [0; 3 * LANES];
+                self.of_some(&numbers, &mut known);
+                for (colours, bytes) in eights.iter().zip(byte_eights) {
+                    // Often neighbours have one colour, the background's.
+                    let mut differ = 0;
+                    for (i, Rgb { r, g, b }) in colours.iter().enumerate() {
+                        for (k, v) in [*r, *g, *b].into_iter().enumerate() {
+                            differ |= v.to_bits() ^ numbers[3 * i + k].to_bits();
+                            numbers[3 * i + k] = v;
+                        }
+                    }
+                    if differ != 0 {
+                        self.of_some(&numbers, &mut known);
+                    }
+                    bytes.as_flattened_mut().copy_from_slice(&known);
+                }
+            },
+        );
+        for (&Rgb { r, g, b }, bytes) in rest.iter().zip(byte_rest) {
+            *bytes = [self.of(r), self.of(g), self.of(b)];
+        }
+    }
+
+    /// Cells are found in lanes, bytes one by one.
+    #[inline(always)]
+    fn of_some<const N: usize>(&self, numbers: &[f64; N], bytes: &mut [u8; N]) {
+        let (mut values, mut places) = ([0.0; N], [0; N]);
+        for i in 0..N {
+            values[i] = within(numbers[i]);
+            places[i] = place(values[i]);
+        }
+        if self.is_fine {
+            for i in 0..N {
+                bytes[i] = self.near(values[i], places[i]);
+            }
+        } else {
+            for i in 0..N {
+                bytes[i] = self.from(values[i], places[i]);
+            }
         }
     }
 

@@ -9,7 +9,6 @@ pub use self::save::{Bits, FileFormat, SaveError};
 use self::gamma::Bytes;
 use crate::settings::Region;
 use durer_math::kernels::in_large_pages;
-use durer_math::lanes::LANES;
 use durer_scene::Rgb;
 
 /// A picture, row 0 at the top.
@@ -107,7 +106,9 @@ impl Film {
 
     /// Whether every pixel was rendered.
     pub fn is_complete(&self) -> bool {
-        !self.rendered.contains(&false)
+        // All of a part are looked at, and many at once.
+        let all = |part: &[bool]| part.iter().fold(true, |all, &rendered| all & rendered);
+        self.rendered.chunks(256).all(all)
     }
 
     /// Puts the pixels of `region`, row by row, into their places; there may be fewer than it has.
@@ -122,15 +123,7 @@ impl Film {
                         *colour = [rgb.r, rgb.g, rgb.b];
                     }
                 }
-                Colours::Bytes(colours, table) => {
-                    let mut numbers = [[0.0; 3]; LANES];
-                    for (colours, from) in colours[places.clone()].chunks_mut(LANES).zip(from.chunks(LANES)) {
-                        for (numbers, rgb) in numbers.iter_mut().zip(from) {
-                            *numbers = [rgb.r, rgb.g, rgb.b];
-                        }
-                        table.of_all(numbers[..from.len()].as_flattened(), colours.as_flattened_mut());
-                    }
-                }
+                Colours::Bytes(colours, table) => table.of_colours(from, &mut colours[places.clone()]),
             }
             self.rendered[places].fill(true);
         }

@@ -95,13 +95,19 @@ impl<'w> Bundle<'w> {
     }
 
     /// Adds some of eight rays.
+    #[inline(always)]
     pub(super) fn add(&mut self, rays: &Rays8, paths: &Paths8, lanes: M8) {
-        let bits = lanes.bits();
-        if is_dense(bits) {
+        if is_dense(lanes.bits()) {
             self.rays.push(Rays8 { live: lanes, ..*rays });
             self.paths.push(*paths);
-            return;
+        } else {
+            self.add_loose(rays, paths, lanes);
         }
+    }
+
+    /// Adds some of eight rays, each by itself.
+    #[inline(never)]
+    fn add_loose(&mut self, rays: &Rays8, paths: &Paths8, lanes: M8) {
         for j in lanes.lanes() {
             if self.loose.filled == LANES {
                 self.loose = Loose { group: self.rays.len(), filled: 0 };

@@ -73,10 +73,15 @@ impl<'w> Coats<'w> {
         self.spots = spots.len();
         self.live.resize(spots.len(), M8::NONE);
         self.paint.resize(spots.len(), Colour8::splat(Colour::default()));
-        for (live, spot) in self.live.iter_mut().zip(&mut *spots) {
-            *live = spot.live;
-            (spot.sum, spot.passed) = (Rgb8::BLACK, Rgb8::WHITE);
-        }
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                for (live, spot) in self.live.iter_mut().zip(&mut *spots) {
+                    *live = spot.live;
+                    (spot.sum, spot.passed) = (Rgb8::BLACK, Rgb8::WHITE);
+                }
+            },
+        );
         for coat in layers.iter().rev() {
             // Small steps, each of which leaves its results in memory: the compiler mixes the lanes of large ones.
             let bailout = F8::splat(world.adc_bailout);

@@ -74,7 +74,7 @@ impl<'w> Shadows<'w> {
         }
         let chunks = self.rays.chunks_mut(TOGETHER).zip(self.light.chunks_mut(TOGETHER));
         for (chunk, (rays, light)) in chunks.enumerate() {
-            let count: usize = rays.iter().map(|r| r.live.count()).sum();
+            let count = count(isa, rays);
             if count == 0 {
                 continue;
             }
@@ -85,10 +85,15 @@ impl<'w> Shadows<'w> {
             }
             for (i, (rays, light)) in rays.iter_mut().zip(light).enumerate() {
                 let met = world.geometry().any_by_lanes(beam.as_ref(), rays, mask::SHADOW, &mut self.scratch);
-                if met.any() {
-                    *light = light.kept(!met);
-                    rays.live &= !met;
-                }
+                isa.run_in_lanes(
+                    #[inline(always)]
+                    || {
+                        if met.any() {
+                            *light = light.kept(!met);
+                            rays.live &= !met;
+                        }
+                    },
+                );
                 if clear {
                     let hits = &mut self.hits[chunk * TOGETHER + i];
                     world.geometry().seen_by_lanes(
@@ -147,7 +152,7 @@ impl<'w> Shadows<'w> {
         for part in self.pieces.chunk_by(Piece::is_like) {
             let look = part[0].look(world);
             let crossing = Crossing::new(media, look.medium, part[0].is_grazing());
-            let spots = self.spots.gather(part, rays, &self.hits);
+            let spots = self.spots.gather(isa, part, rays, &self.hits);
             let mut behind = self.spare.pop().unwrap_or_else(Bundle::new);
             behind.clear();
             crossing.behind(look.medium, media, &mut behind.standing.media);
@@ -193,6 +198,20 @@ fn pass(world: &World, look: &Look, crossing: Crossing, spot: &mut Spot) -> M8 {
     }
     spot.paths.factor = left;
     goes_on
+}
+
+/// How many rays there are.
+fn count(isa: Isa, rays: &[Rays8]) -> usize {
+    let mut count = 0;
+    isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            for rays in rays {
+                count += rays.live.count();
+            }
+        },
+    );
+    count
 }
 
 /// Where some rays end.

@@ -15,12 +15,17 @@ pub(super) struct Piece {
 }
 
 /// Adds the pieces of a group's hits.
-#[inline]
+#[inline(always)]
 pub(super) fn cut(world: &World, group: usize, rays: &Rays8, hits: &Hits8, pieces: &mut Vec<Piece>) {
     let mut left = hits.hit.bits();
+    if left == 0 {
+        return;
+    }
     let (object, primitive) = (hits.object[0], hits.primitive[0]);
-    let differ =
-        (0..LANES).fold(0, |all, i| all | (hits.object[i] ^ object) | (hits.primitive[i] ^ primitive));
+    let mut differ = 0;
+    for i in 0..LANES {
+        differ |= (hits.object[i] ^ object) | (hits.primitive[i] ^ primitive);
+    }
     // Most groups meet one surface.
     if left == u8::MAX && differ == 0 && !hits.touching.any() && !world.has_insides {
         pieces.push(Piece {
@@ -46,7 +51,10 @@ pub(super) fn cut(world: &World, group: usize, rays: &Rays8, hits: &Hits8, piece
     }
     while left != 0 {
         let key = keys[left.trailing_zeros() as usize];
-        let same = (0..LANES).fold(0, |bits, i| bits | u8::from(keys[i] == key) << i);
+        let mut same = 0;
+        for (i, &other) in keys.iter().enumerate() {
+            same |= u8::from(other == key) << i;
+        }
         pieces.push(Piece { key, group: group as u32, lanes: same & left });
         left &= !same;
     }

@@ -57,6 +57,7 @@ impl Spot {
     }
 
     /// Lane `i` becomes lane `j` of another eight, of which nothing was seen yet.
+    #[inline(always)]
     fn copy_lane(&mut self, i: usize, from: &Self, j: usize) {
         self.copy_met(i, (&from.hits, from.view.eye, &from.paths), j);
         self.view.normal.set_lane(i, from.view.normal.lane(j));
@@ -120,28 +121,53 @@ impl Spots {
     /// Gathers what some rays met. Their directions stand for the eye until [`face`] has looked at them.
     pub(super) fn gather(
         &mut self,
+        isa: Isa,
         pieces: &[Piece],
         (rays, paths): (&[Rays8], &[Paths8]),
         hits: &[Hits8],
     ) -> &mut [Spot] {
-        let met = |g: usize| (&hits[g], rays[g].direction, &paths[g]);
-        let whole = |to: &mut Spot, g: usize| {
-            to.hits = hits[g];
-            to.view.eye = rays[g].direction;
-            to.paths = paths[g];
-        };
-        let lists = pieces.iter().map(|p| (p.group as usize, p.lanes));
-        self.pack(lists, whole, |to, i, g, j| to.copy_met(i, met(g), j));
+        // For lanes, as these copy whole blocks in large steps.
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                self.pack(
+                    pieces.iter().map(
+                        #[inline(always)]
+                        |p| (p.group as usize, p.lanes),
+                    ),
+                    #[inline(always)]
+                    |to, g| {
+                        to.hits = hits[g];
+                        to.view.eye = rays[g].direction;
+                        to.paths = paths[g];
+                    },
+                    #[inline(always)]
+                    |to, i, g, j| to.copy_met(i, (&hits[g], rays[g].direction, &paths[g]), j),
+                );
+            },
+        );
         &mut self.spots[..self.used]
     }
 
     /// Gathers some lanes of some spots, of which nothing was seen yet.
     pub(super) fn gather_again(
         &mut self,
+        isa: Isa,
         lists: impl Iterator<Item = (usize, u8)>,
         from: &[Spot],
     ) -> &mut [Spot] {
-        self.pack(lists, |to, g| *to = from[g], |to, i, g, j| to.copy_lane(i, &from[g], j));
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                self.pack(
+                    lists,
+                    #[inline(always)]
+                    |to, g| *to = from[g],
+                    #[inline(always)]
+                    |to, i, g, j| to.copy_lane(i, &from[g], j),
+                );
+            },
+        );
         &mut self.spots[..self.used]
     }
 }

@@ -98,8 +98,14 @@ impl<'w> Whitted<'w> {
     ) -> Option<()> {
         colours.clear();
         for places in places.chunks(CAMERA_GROUPS * LANES) {
-            self.sums.clear();
-            self.sums.resize(places.len(), Rgb::BLACK);
+            let sums = &mut self.sums;
+            self.isa.run_in_lanes(
+                #[inline(always)]
+                || {
+                    sums.clear();
+                    sums.resize(places.len(), Rgb::BLACK);
+                },
+            );
             self.start(camera, picture, places);
             while let Some(task) = self.tasks.pop() {
                 if self.stop.is_cancelled() {
@@ -233,7 +239,7 @@ impl<'w> Whitted<'w> {
             if self.stop.is_cancelled() {
                 break;
             }
-            let spots = spots.gather(part, (&bundle.rays, &bundle.paths), &self.hits);
+            let spots = spots.gather(self.isa, part, (&bundle.rays, &bundle.paths), &self.hits);
             face(self.isa, spots);
             let (world, standing) = (self.world, &bundle.standing);
             let look = part[0].look(world);
@@ -252,14 +258,20 @@ impl<'w> Whitted<'w> {
         // What is there of another bundle is written over.
         self.hits.resize(bundle.rays.len(), Hits8::NONE);
         see(world.geometry(), &bundle.rays, bundle.standing.mask, &mut self.hits, &mut self.scratch);
-        let background = Rgb8::splat(world.background);
-        for (group, hits) in self.hits.iter().enumerate() {
-            let missed = bundle.rays[group].live & !hits.hit;
-            if missed.any() {
-                add(&mut self.sums, &bundle.paths[group], background, missed);
-            }
-            cut(world, group, &bundle.rays[group], hits, &mut self.pieces);
-        }
+        let (hits, sums, pieces) = (&self.hits, &mut self.sums, &mut self.pieces);
+        self.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let background = Rgb8::splat(world.background);
+                for (group, hits) in hits.iter().enumerate() {
+                    let missed = bundle.rays[group].live & !hits.hit;
+                    if missed.any() {
+                        add(sums, &bundle.paths[group], background, missed);
+                    }
+                    cut(world, group, &bundle.rays[group], hits, pieces);
+                }
+            },
+        );
         sort(&mut self.pieces);
     }
 
@@ -298,7 +310,7 @@ impl<'w> Whitted<'w> {
                 spot.paths.factor = spot.paths.factor * weight;
                 lists.push((group, lanes.bits()));
             }
-            let some = some.gather_again(lists.into_iter(), &weighed);
+            let some = some.gather_again(self.isa, lists.into_iter(), &weighed);
             if !some.is_empty() {
                 self.paint(part, blend.entry(entry), some, stack);
             }
@@ -331,7 +343,23 @@ impl<'w> Whitted<'w> {
 #[inline(always)]
 fn add(sums: &mut [Rgb], paths: &Paths8, colour: Rgb8, lanes: M8) {
     let colour = colour * paths.factor;
-    for i in lanes.lanes() {
-        sums[paths.slot[i] as usize] += colour.lane(i);
+    let (first, mut gaps) = (paths.slot[0], 0);
+    for i in 0..LANES {
+        gaps |= paths.slot[i] ^ first.wrapping_add(i as u32);
+    }
+    let at = first as usize;
+    match sums.get_mut(at..at + LANES) {
+        // Neighbours, as the camera's rays are. Zero changes no sum: none is -0, as each began with 0.
+        Some(sums) if gaps == 0 => {
+            let colour = colour.kept(lanes);
+            for (i, sum) in sums.iter_mut().enumerate() {
+                *sum += colour.lane(i);
+            }
+        }
+        _ => {
+            for i in lanes.lanes() {
+                sums[paths.slot[i] as usize] += colour.lane(i);
+            }
+        }
     }
 }

@@ -74,6 +74,21 @@ fn in_blocks(columns: usize, rows: usize) -> Vec<(usize, usize)> {
     places
 }
 
+/// A pixel of an area.
+#[derive(Clone, Copy)]
+struct Cell {
+    /// Its upper left corner, counted from that of the area.
+    corner: Place,
+    /// Its number, row by row.
+    number: usize,
+}
+
+/// The pixels of an area, square by square.
+fn cells(columns: usize, rows: usize) -> Vec<Cell> {
+    let cell = |(x, y)| Cell { corner: Place { x: x as f64, y: y as f64 }, number: y * columns + x };
+    in_blocks(columns, rows).into_iter().map(cell).collect()
+}
+
 /// Each pixel is the mean of `n x n` evenly spread rays.
 fn grid(n: u32, tile: Region, pixels: &mut Vec<Rgb>, look: &mut impl Look) -> Option<()> {
     let per = 1.0 / f64::from(n);
@@ -89,28 +104,28 @@ fn grid(n: u32, tile: Region, pixels: &mut Vec<Rgb>, look: &mut impl Look) -> Op
         let rows = if rays == 1 { BLOCK as u32 } else { 1 }.min(tile.y1 - y0) as usize;
         strip.resize(columns * rows, Rgb::BLACK);
         if order.len() != strip.len() {
-            order = in_blocks(columns, rows);
+            order = cells(columns, rows);
         }
         for some in order.chunks(ENOUGH.div_ceil(rays)) {
             places.clear();
             if rays == 1 {
-                let place =
-                    |&(column, row)| Place { x: middle(tile.x0 + column as u32), y: middle(y0 + row as u32) };
-                places.extend(some.iter().map(place));
+                // Sums of whole numbers and halves of this size are exact.
+                let (x, y) = (middle(tile.x0), middle(y0));
+                places.extend(some.iter().map(|c| Place { x: c.corner.x + x, y: c.corner.y + y }));
                 look(&places, &mut colours)?;
-                for (&(column, row), &colour) in some.iter().zip(&colours) {
-                    strip[row * columns + column] = colour;
+                for (cell, &colour) in some.iter().zip(&colours) {
+                    strip[cell.number] = colour;
                 }
                 continue;
             }
-            for &(column, row) in some {
-                let (x, y) = (f64::from(tile.x0 + column as u32), f64::from(y0 + row as u32));
+            for Cell { corner, .. } in some {
+                let (x, y) = (f64::from(tile.x0) + corner.x, f64::from(y0) + corner.y);
                 places.extend(shifts.iter().map(|shift| Place { x: x + shift.x, y: y + shift.y }));
             }
             look(&places, &mut colours)?;
-            for (&(column, row), colours) in some.iter().zip(colours.chunks_exact(rays)) {
+            for (cell, colours) in some.iter().zip(colours.chunks_exact(rays)) {
                 let sum = colours.iter().fold(Rgb::BLACK, |sum, &c| sum + c);
-                strip[row * columns + column] = sum * (per * per);
+                strip[cell.number] = sum * (per * per);
             }
         }
         pixels.append(&mut strip);
