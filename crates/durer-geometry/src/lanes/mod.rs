@@ -75,14 +75,13 @@ fn common_source(isa: Isa, rays: &[Rays8]) -> Option<Source> {
     let shared = isa.run_in_lanes(
         #[inline(always)]
         || {
-            rays.iter().all(|Rays8 { live, source: from, .. }| {
-                let same = M8::from_fn(
-                    #[inline(always)]
-                    |i| from.slot[i] == slot && from.instance[i] == 0,
-                );
+            for Rays8 { live, source: from, .. } in rays {
                 let side = from.back & back | !from.back & !back;
-                (!*live | same & side).all()
-            })
+                if (*live & !(from.leave(slot) & side)).any() {
+                    return false;
+                }
+            }
+            true
         },
     );
     (source.instance == 0 && shared).then_some(source)
@@ -112,26 +111,41 @@ fn all_meet(isa: Isa, rays: &Rays8, nearest: &Nearest) -> bool {
 impl Geometry {
     /// What the rays of some eights may meet; `None` if that is so much that each ray should look for itself.
     pub fn beam_of(&self, rays: &[Rays8]) -> Option<Beam> {
-        let (mut start, mut end, mut way) = (Bounds8::NONE, Bounds8::NONE, Bounds8::NONE);
-        let mut endless = false;
+        let (mut start, mut ahead) = (Bounds8::NONE, Bounds8::NONE);
+        let mut longer = M8::NONE;
+        // Bounds stay in memory between these steps: the compiler mixes the lanes of larger ones.
         self.isa.run_in_lanes(
             #[inline(always)]
             || {
-                for Rays8 { origin, direction, t_max, live, .. } in rays {
-                    let (o, d) = (origin.to_vec(), *direction);
-                    start.take(*live, o);
-                    way.take(*live, d);
-                    end.take(*live, Vec3::new(o.x + d.x, o.y + d.y, o.z + d.z));
-                    endless |= (*live & !t_max.le(F8::ONE)).any();
+                for Rays8 { origin, t_max, live, .. } in rays {
+                    start.take(*live, origin.to_vec());
+                    longer |= *live & !t_max.le(F8::ONE);
                 }
             },
         );
-        let (start, end, way) = (start.all(), end.all(), way.all());
-        // Shorter rays are held by the shaft of longer ones.
-        let shaft = if endless {
-            Shaft::new(start, way.min.to_vec(), way.max.to_vec())
+        // Shorter rays are held by the shaft of longer ones, of which only the directions matter.
+        let shaft = if longer.any() {
+            self.isa.run_in_lanes(
+                #[inline(always)]
+                || {
+                    for Rays8 { direction, live, .. } in rays {
+                        ahead.take(*live, *direction);
+                    }
+                },
+            );
+            let way = ahead.all();
+            Shaft::new(start.all(), way.min.to_vec(), way.max.to_vec())
         } else {
-            Shaft::between(start, end)
+            self.isa.run_in_lanes(
+                #[inline(always)]
+                || {
+                    for Rays8 { origin, direction, live, .. } in rays {
+                        let (o, d) = (origin.to_vec(), *direction);
+                        ahead.take(*live, Vec3::new(o.x + d.x, o.y + d.y, o.z + d.z));
+                    }
+                },
+            );
+            Shaft::between(start.all(), ahead.all())
         };
         self.beam(&shaft, common_source(self.isa, rays))
     }
@@ -158,7 +172,11 @@ impl Geometry {
         });
         let mut left = rays.live;
         if let Some(beam) = beam {
-            left = self.see(beam, rays, mask, hits, scratch);
+            // Whole blocks are filled and copied on the way, too.
+            left = self.isa.run_in_lanes(
+                #[inline(always)]
+                || self.see(beam, rays, mask, hits, scratch),
+            );
         }
         let Some(beam) = beam else {
             let alone: ArrayVec<Ray, LANES> = left.lanes().map(|i| rays.lane(i)).collect();
@@ -171,24 +189,18 @@ impl Geometry {
         }
     }
 
-    /// Puts down what is sure; answers with the rays of which something is not.
+    /// Puts down what is sure; answers with the rays of which something is not. For lanes, as [`Geometry::nearest`].
+    #[inline(always)]
     fn see(&self, beam: &Beam, rays: &Rays8, mask: u32, hits: &mut Hits8, scratch: &mut Scratch) -> M8 {
         let lanes = RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
         let mut nearest = Nearest::of(&lanes);
         self.nearest::<false>(beam, rays, &lanes, mask, &mut nearest, scratch);
-        let (mut clear, mut left) = (M8::NONE, M8::NONE);
-        let mut waiting = self.isa.run_in_lanes(
-            #[inline(always)]
-            || {
-                let Nearest { t, e, doubt, .. } = nearest;
-                let never = F8::splat(f64::INFINITY);
-                // Known well enough to be seen, and before all doubt.
-                clear = t.lt(never) & doubt.gt(t + e) & e.le(t * (0.5 * ROUGH));
-                left = rays.live & !(clear | t.ge(never) & doubt.ge(never));
-                clear.bits()
-            },
-        );
-        let Nearest { t, number, face, tag, .. } = &nearest;
+        let Nearest { t, e, doubt, number, face, tag } = &nearest;
+        let never = F8::splat(f64::INFINITY);
+        // Known well enough to be seen, and before all doubt.
+        let clear = t.lt(never) & doubt.gt(*t + *e) & e.le(*t * (0.5 * ROUGH));
+        let mut left = rays.live & !(clear | t.ge(never) & doubt.ge(never));
+        let mut waiting = clear.bits();
         hits.t = *t;
         let (mut is_first, mut these) = (true, M8::NONE);
         while waiting != 0 {
@@ -200,26 +212,21 @@ impl Geometry {
             let Hits8 { p, ng, ns, off, .. } = &mut *hits;
             let to = Points8 { p, ng, ns, off };
             let sure = met.outline.points(met.face as usize, &lanes, (t, tag), &these, to);
-            let lanes = self.isa.run_in_lanes(
-                #[inline(always)]
-                || {
-                    left |= these & !sure;
-                    hits.hit |= sure;
-                    if met.turned {
-                        (hits.ng, hits.ns) =
-                            (sure.select3(-hits.ng, hits.ng), sure.select3(-hits.ns, hits.ns));
-                    }
-                    sure.bits()
-                },
-            );
+            left |= these & !sure;
+            hits.hit |= sure;
+            if met.turned {
+                (hits.ng, hits.ns) = (sure.select3(-hits.ng, hits.ng), sure.select3(-hits.ns, hits.ns));
+            }
             let face = met.outline.face_of(met.face);
-            hits.name(if is_first { u8::MAX } else { lanes }, met.name, (met.slot, met.part, face));
+            let lanes = if is_first { u8::MAX } else { sure.bits() };
+            hits.name(lanes, met.name, (met.slot, met.part, face));
             is_first = false;
         }
         left
     }
 
     /// The face that lanes call by a number.
+    #[inline(always)]
     fn face(&self, candidate: &Candidate, face: f64) -> Option<Face<'_>> {
         let Candidate { arena, slot, name, .. } = *candidate;
         match self.seen_of(arena, slot) {
@@ -240,6 +247,7 @@ impl Geometry {
 
     /// The first sure hit of each ray among the candidates, and the first doubt. Where `ANY` hit is enough it may be another, and once each ray has one no more
     /// is asked.
+    #[inline(always)]
     fn nearest<const ANY: bool>(
         &self,
         beam: &Beam,
@@ -288,12 +296,13 @@ impl Geometry {
         });
         let (mut met, mut left) = (M8::NONE, rays.live);
         if let Some(beam) = beam {
-            let lanes = RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
-            let mut nearest = Nearest::of(&lanes);
-            self.nearest::<true>(beam, rays, &lanes, mask, &mut nearest, scratch);
             self.isa.run_in_lanes(
                 #[inline(always)]
                 || {
+                    let lanes =
+                        RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
+                    let mut nearest = Nearest::of(&lanes);
+                    self.nearest::<true>(beam, rays, &lanes, mask, &mut nearest, scratch);
                     let never = F8::splat(f64::INFINITY);
                     met = nearest.t.lt(never) & rays.live;
                     left = rays.live & !(met | nearest.doubt.ge(never));

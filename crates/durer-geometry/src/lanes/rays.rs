@@ -95,24 +95,46 @@ impl Sources8 {
     /// Puts down every slot that some ray leaves, once.
     #[inline]
     pub(super) fn all(&self, all: &mut ArrayVec<u64, LANES>) {
-        let mut last = NOWHERE;
+        // Mostly they leave the same one, or none.
+        let first = self.slot[0];
+        let (mut differ, mut instances) = (0, 0);
+        for i in 0..LANES {
+            differ |= self.slot[i] ^ first;
+            instances |= self.instance[i];
+        }
+        if differ == 0 && instances == 0 {
+            if first != NOWHERE {
+                all.push(first);
+            }
+            return;
+        }
         for (&slot, &instance) in self.slot.iter().zip(&self.instance) {
-            // Mostly they leave the same one.
-            if slot != last && slot != NOWHERE && instance == 0 && !all.contains(&slot) {
+            if slot != NOWHERE && instance == 0 && !all.contains(&slot) {
                 all.push(slot);
-                last = slot;
             }
         }
     }
 
     /// The rays that leave a slot.
+    #[inline(always)]
     pub(super) fn of(&self, arena: u32, slot: u32, outline: &Outline) -> From8 {
-        let number = slot_number(arena, slot);
-        From8 {
-            lanes: M8::from_fn(|i| self.slot[i] == number && self.instance[i] == 0),
-            face: if outline.own_face().is_some() { F8::ZERO } else { F8(self.face.map(f64::from)) },
-            back: self.back,
+        let lanes = self.leave(slot_number(arena, slot));
+        let mut face = F8::ZERO;
+        if outline.own_face().is_none() {
+            for i in 0..LANES {
+                face.0[i] = f64::from(self.face[i]);
+            }
         }
+        From8 { lanes, face, back: self.back }
+    }
+
+    /// Which rays leave a slot that no instance places.
+    #[inline(always)]
+    pub(super) fn leave(&self, slot: u64) -> M8 {
+        M8::from_fn(
+            #[inline(always)]
+            |i| self.slot[i] == slot && self.instance[i] == 0,
+        )
     }
 
     /// Gives lane `i` a source.
