@@ -375,10 +375,16 @@ impl Cells {
     #[inline(always)]
     fn seek(&self, p: [f64; 3]) -> (Told, [u32; 3], u32) {
         let most = (1 << DEEPEST) - 1;
-        // Saturates at zero; a point that is beyond the container by rounding is in the cell at the border.
-        let at = [0, 1, 2].map(|i| (((p[i] - self.extent.min[i]) * self.over[i]) as u32).min(most));
+        let mut at = [0; 3];
+        for (i, at) in at.iter_mut().enumerate() {
+            // Saturates at zero; a point that is beyond the container by rounding is in the cell at the border.
+            *at = (((p[i] - self.extent.min[i]) * self.over[i]) as u32).min(most);
+        }
         let (told, shift) = self.grid.at(at);
-        (told, at.map(|k| k >> shift << shift), 1 << shift)
+        for at in &mut at {
+            *at = *at >> shift << shift;
+        }
+        (told, at, 1 << shift)
     }
 
     /// What is known in the cell of a point, and where a line leaves it, by its origin and one over its direction. Cells at the border end nowhere.

@@ -7,27 +7,18 @@
 //!   |g(m)| > max(|l|, |h|) w / 2    g has the sign that it has in the middle m of a stretch of length w
 //! ```
 //!
-//! Else the formula is asked for bounds on the stretch, of the slope too. What it is asked for, a value or a stretch of each line, it is asked eight times at once, by the tape that is right for all of
-//! these lines.
+//! Else the formula is asked for bounds on the stretch, of the slope too (`pieces.rs`). What it is asked for, a value or a stretch of each line, it is asked eight times at once, by the tape that is right
+//! for all of these lines.
 //!
 //! Lines are divided where rounded numbers say that they change cells, as those of single rays are (`cells.rs`): a point is sought in the cell that is a sixteenth of the margin ahead, and
 //! lines whose points are known worse than half of that do without lanes.
 
 use super::Isosurface;
 use super::cells::{Cells, Told};
+use super::pieces::{Pieces, boxes};
 use crate::outline::{Ends, Level, Line8, Part, Skin, Slant, Told8, Value8};
 use crate::tape::Tape;
 use durer_math::{Dual, F8, I8, Isa, M8, U, Vec3};
-
-/// A point of each line within an error, or a stretch of it, as boxes.
-#[inline(always)]
-fn boxes(line: &Line8, (a, b): (&F8, &F8), e: F8) -> [I8; 3] {
-    let axis = |o: F8, d: F8| {
-        let (x, y) = (a.mul_add(d, o), b.mul_add(d, o));
-        I8::new(x.min(y) - e, x.max(y) + e)
-    };
-    [axis(line.o.x, line.d.x), axis(line.o.y, line.d.y), axis(line.o.z, line.d.z)]
-}
 
 impl Isosurface {
     /// The tape that is right at some of eight points, and near them.
@@ -86,6 +77,9 @@ struct Leaf {
     high: f64,
 }
 
+/// Stretches are not asked to be shorter than this part of what holds the solid.
+const SHORTEST: f64 = durer_math::scale::pow2(-24);
+
 /// A line that rounding takes out of so many cells as soon as it is in them runs along their faces: it does without lanes.
 const GRAZED: u32 = 8;
 
@@ -96,7 +90,8 @@ fn forward(line: &Line8, over: &Vec3<F8>, cells: &Cells, told: &Told8, i: usize)
     let ahead = cells.margin() * (1.0 / 16.0);
     let (mut s, mut grazed) = (told.a.0[i], 0);
     loop {
-        let p = core::array::from_fn(|i| (s + ahead) * d[i] + o[i]);
+        let at = s + ahead;
+        let p = [at * d[0] + o[0], at * d[1] + o[1], at * d[2] + o[2]];
         let (told, end) = cells.ahead(p, o, over);
         let next = if end > s { end } else { s + ahead };
         match told {
@@ -156,7 +151,7 @@ impl Level for Isosurface {
         );
         for i in told.lanes.lanes() {
             let step = forward(line, &over, cells, told, i);
-            let way = told.b.0[i] - told.a.0[i];
+            let way = (told.b.0[i] - told.a.0[i]).min(told.hint.0[i]);
             told.a.0[i] = step.a;
             told.b.0[i] = step.b.min(step.a + way).min(told.last.0[i]);
             told.seen.set_lane(i, true);
@@ -179,55 +174,7 @@ impl Level for Isosurface {
         }
         let Some(tape) = tape else { return };
         let tape = if mixed { &self.tape } else { cells.tape(tape) };
-        let (mut x, mut e) = ([I8::new(F8::ZERO, F8::ZERO); 3], F8::ZERO);
-        line.isa.run_in_lanes(
-            #[inline(always)]
-            || {
-                e = line.error(told.a.abs().max(told.b.abs()));
-                let mid = (told.a + told.b) * 0.5;
-                x = boxes(line, (&mid, &mid), e);
-            },
-        );
-        let v = tape.bounds(&x);
-        let open = line.isa.run_in_lanes(
-            #[inline(always)]
-            || {
-                let steepest = (-slope[0]).max(slope[1]);
-                // Half of it, and the middle's rounding.
-                let half =
-                    (told.b - told.a) * (0.5 * (1.0 + 8.0 * U)) + (told.a.abs() + told.b.abs()) * (2.0 * U);
-                let spread = steepest * half * (1.0 + 8.0 * U) + f64::MIN_POSITIVE;
-                let defined = asked & !M8::from_bits(v.partial | v.empty | v.jump);
-                told.out |= defined & v.lo.gt(spread);
-                told.within |= defined & v.hi.lt(-spread);
-                asked &= !(told.out | told.within);
-                asked.any()
-            },
-        );
-        if !open {
-            return;
-        }
-        let mut d = [I8::new(F8::ZERO, F8::ZERO); 3];
-        line.isa.run_in_lanes(
-            #[inline(always)]
-            || {
-                x = boxes(line, (&told.a, &told.b), e);
-                let axis = |d: F8| I8::new(d - line.e_d - d.abs() * U, d + line.e_d + d.abs() * U);
-                d = [axis(line.d.x), axis(line.d.y), axis(line.d.z)];
-            },
-        );
-        let g = tape.slopes(&[0, 1, 2].map(|i| Dual { v: x[i], d: d[i] }));
-        line.isa.run_in_lanes(
-            #[inline(always)]
-            || {
-                let defined = asked & !M8::from_bits(g.v.partial | g.v.empty);
-                told.out |= defined & g.v.lo.gt(F8::ZERO);
-                told.within |= defined & g.v.hi.lt(F8::ZERO);
-                let smooth = defined & !M8::from_bits(g.v.jump | g.d.partial);
-                told.rises |= smooth & g.d.lo.gt(F8::ZERO);
-                told.falls |= smooth & g.d.hi.lt(F8::ZERO);
-            },
-        );
+        Pieces::new(line, told, asked, &slope).tell(tape, SHORTEST * self.reach(), told);
     }
 
     fn values(&self, line: &Line8, s: &F8, lanes: M8, value: &mut Value8) {

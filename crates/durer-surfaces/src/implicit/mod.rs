@@ -22,6 +22,7 @@ mod isolate;
 mod lanes;
 pub mod level_set;
 mod line;
+mod pieces;
 mod point;
 mod roots;
 mod superellipsoid;

@@ -48,13 +48,13 @@ pub(super) fn sign_beside(ops: &[Op], x: &[I8; 3], registers: &mut [I8]) -> Opti
             let choice = Choice::of(op);
             let bit = known.iter().position(|&it| choice != Choice::Own && it == choice);
             if bit.is_none() && known.is_full() {
-                return value;
+                return;
             }
-            let Some(side) = halved(op, before, &value, bit.unwrap_or(known.len())) else { return value };
+            let Some(side) = halved(op, before, value, bit.unwrap_or(known.len())) else { return };
             if bit.is_none() {
                 known.push(choice);
             }
-            side
+            *value = side;
         },
     );
     if v.partial != 0 {

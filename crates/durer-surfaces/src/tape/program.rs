@@ -51,49 +51,50 @@ fn run<T: Number>(ops: &[Op], inputs: &[T], registers: &mut [T]) -> T {
         inputs,
         registers,
         #[inline(always)]
-        |_, _, value| value,
+        |_, _, _| {},
     )
 }
 
-/// The same, with what `amended` makes of each step, those before it, and its value.
+/// The same; `amend` sees each step, those before it, and its value, which it may change. A step's value is put down where it stays: on the way there it would be copied once more.
 #[inline(always)]
 pub(super) fn run_with<T: Number>(
     ops: &[Op],
     inputs: &[T],
     registers: &mut [T],
-    mut amended: impl FnMut(&Op, &[T], T) -> T,
+    mut amend: impl FnMut(&Op, &[T], &mut T),
 ) -> T {
     for (i, op) in ops.iter().enumerate() {
         let (before, rest) = registers.split_at_mut(i);
         let at = |id: NodeId| &before[id.0 as usize];
-        let value = match *op {
-            Op::Input(i) => inputs[i as usize],
-            Op::Constant(c) => T::constant(c),
-            Op::Neg(a) => T::neg(at(a)),
-            Op::Abs(a) => T::abs(at(a)),
-            Op::Sqr(a) => T::sqr(at(a)),
-            Op::Sqrt(a) => T::sqrt(at(a)),
-            Op::Powi(a, n) => T::powi(at(a), n),
-            Op::Function(f, a) => T::function(f, at(a)),
-            Op::Add(a, b) => T::add(at(a), at(b)),
-            Op::Sub(a, b) => T::sub(at(a), at(b)),
-            Op::Mul(a, b) => T::mul(at(a), at(b)),
-            Op::Div(a, b) => T::div(at(a), at(b)),
-            Op::Min(a, b) => T::min(at(a), at(b)),
-            Op::Max(a, b) => T::max(at(a), at(b)),
-            Op::Pow(a, b) => T::pow(at(a), at(b)),
-            Op::Atan2(a, b) => T::atan2(at(a), at(b)),
-            Op::Rem(a, b) => T::rem(at(a), at(b)),
-            Op::Noise([a, b, c]) => T::noise([at(a), at(b), at(c)]),
-            Op::Compare(c, a, b) => T::compare(c, at(a), at(b)),
-            Op::Select([c, x, y, z]) => T::select(at(c), at(x), at(y), at(z)),
-            Op::Joined([c, x, y]) => T::joined(at(c), at(x), at(y)),
+        let value = &mut rest[0];
+        match *op {
+            Op::Input(i) => *value = inputs[i as usize],
+            Op::Constant(c) => *value = T::constant(c),
+            Op::Neg(a) => *value = T::neg(at(a)),
+            Op::Abs(a) => *value = T::abs(at(a)),
+            Op::Sqr(a) => *value = T::sqr(at(a)),
+            Op::Sqrt(a) => *value = T::sqrt(at(a)),
+            Op::Powi(a, n) => *value = T::powi(at(a), n),
+            Op::Function(f, a) => *value = T::function(f, at(a)),
+            Op::Add(a, b) => *value = T::add(at(a), at(b)),
+            Op::Sub(a, b) => *value = T::sub(at(a), at(b)),
+            Op::Mul(a, b) => *value = T::mul(at(a), at(b)),
+            Op::Div(a, b) => *value = T::div(at(a), at(b)),
+            Op::Min(a, b) => *value = T::min(at(a), at(b)),
+            Op::Max(a, b) => *value = T::max(at(a), at(b)),
+            Op::Pow(a, b) => *value = T::pow(at(a), at(b)),
+            Op::Atan2(a, b) => *value = T::atan2(at(a), at(b)),
+            Op::Rem(a, b) => *value = T::rem(at(a), at(b)),
+            Op::Noise([a, b, c]) => *value = T::noise([at(a), at(b), at(c)]),
+            Op::Compare(c, a, b) => *value = T::compare(c, at(a), at(b)),
+            Op::Select([c, x, y, z]) => *value = T::select(at(c), at(x), at(y), at(z)),
+            Op::Joined([c, x, y]) => *value = T::joined(at(c), at(x), at(y)),
             Op::Settled(a) => match T::above(at(a)) {
                 Some(above) => return above,
-                None => *at(a),
+                None => *value = *at(a),
             },
-        };
-        rest[0] = amended(op, before, value);
+        }
+        amend(op, before, value);
     }
     registers[ops.len() - 1]
 }
