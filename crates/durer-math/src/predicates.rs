@@ -7,7 +7,7 @@
 //! ```
 //!
 //! tells the side. It comes in three stages: an f64 value with Shewchuk's bound (`orient3d`, stage A), then a sum of all its
-//! terms, each exact ([`distil`](crate::distil)), then, only where exponents are so wild that these could under- or overflow, [`Dyadic`].
+//! terms, each exact (`distil.rs`), then, only where exponents are so wild that these could under- or overflow, [`Dyadic`].
 //! J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", Discrete &
 //! Computational Geometry 18 (1997).
 //!
