@@ -315,6 +315,17 @@ mod tests {
             let mut bytes = vec![7; numbers.len()];
             table.of_all(&numbers, &mut bytes);
             assert_eq!(bytes, numbers.iter().map(|&v| byte(v)).collect::<Vec<_>>(), "{encoding:?}");
+            // The same as colours: eight that differ, eight alike, alike but for the last, black again, and some that are left over.
+            let mut colours: Vec<Rgb> =
+                numbers.as_chunks::<3>().0.iter().map(|&[r, g, b]| Rgb { r, g, b }).collect();
+            let grey = Rgb { r: 0.3, g: 0.4, b: 0.5 };
+            let end = colours.len() / 8 * 8;
+            colours.splice(end..end, [[grey; 8], [grey; 8], [grey; 8], [Rgb::BLACK; 8]].concat());
+            colours[end + 23].b = 0.7;
+            let mut bytes = vec![[7; 3]; colours.len()];
+            table.of_colours(&colours, &mut bytes);
+            let each = |c: &Rgb| [byte(c.r), byte(c.g), byte(c.b)];
+            assert_eq!(bytes, colours.iter().map(each).collect::<Vec<_>>(), "{encoding:?}");
         }
     }
 

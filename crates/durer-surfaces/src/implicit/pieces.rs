@@ -198,3 +198,113 @@ impl Pieces {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::Dice;
+    use crate::tape::{Builder, Op};
+    use durer_math::{Dyadic, Isa};
+
+    /// `x^3 - 2 x + y z + c`, as a tape and exactly.
+    fn cubic(c: f64) -> Tape {
+        let mut b = Builder::new();
+        let mut op = |op| b.push(op).unwrap();
+        let [x, y, z] = [0, 1, 2].map(|i| op(Op::Input(i)));
+        let cube = op(Op::Powi(x, 3));
+        let twice = op(Op::Add(x, x));
+        let product = op(Op::Mul(y, z));
+        let constant = op(Op::Constant(c.into()));
+        let (left, right) = (op(Op::Sub(cube, twice)), op(Op::Add(product, constant)));
+        let root = op(Op::Add(left, right));
+        Tape::new(&b.finish(root, 3))
+    }
+
+    fn exactly(c: f64, line: &Line8, i: usize, s: f64) -> Dyadic {
+        let at = |o: F8, d: F8| &Dyadic::from(o.0[i]) + &(&Dyadic::from(s) * &Dyadic::from(d.0[i]));
+        let (o, d) = (line.o, line.d);
+        let [x, y, z] = [at(o.x, d.x), at(o.y, d.y), at(o.z, d.z)];
+        let cube = &(&x * &x) * &x;
+        &(&cube - &(&x + &x)) + &(&(&y * &z) + &Dyadic::from(c))
+    }
+
+    /// For any number of lines that ask: where the sign is said to be kept it is, where `g` is said to go one way it does, nothing is told behind the stretch, and the sign at
+    /// its start stays that at the start.
+    #[test]
+    fn what_is_told_of_stretches_is_so() {
+        let (mut kept, mut shortened, mut ways, mut moved) = (0, 0, 0, 0);
+        for (seed, isa) in (0..3000).flat_map(|seed| Isa::available().map(move |isa| (seed, isa))) {
+            let mut dice = Dice::new(seed);
+            let c = 4.0 * dice.unit() - 2.0;
+            let tape = cubic(c);
+            let zero = Vec3::new(F8::ZERO, F8::ZERO, F8::ZERO);
+            let mut line = Line8 { isa, o: zero, d: zero, e_o: F8::ZERO, e_d: F8::ZERO };
+            let (mut a, mut b, mut sign, mut asking) = (F8::ZERO, F8::ZERO, F8::ONE, M8::NONE);
+            for i in 0..8 {
+                let (o, d) = (dice.vector(), dice.vector());
+                (line.o.x.0[i], line.o.y.0[i], line.o.z.0[i]) = (o.x, o.y, o.z);
+                (line.d.x.0[i], line.d.y.0[i], line.d.z.0[i]) = (d.x, d.y, d.z);
+                a.0[i] = dice.unit() - 1.0;
+                b.0[i] = a.0[i] + 1.5 * dice.unit() * dice.unit();
+                let start = exactly(c, &line, i, a.0[i]).exact_sign();
+                sign.0[i] = if start.is_gt() { 1.0 } else { -1.0 };
+                asking.set_lane(i, start.is_ne() && dice.below(3) == 0);
+            }
+            if !asking.any() {
+                continue;
+            }
+            let x = boxes(&line, (&a, &b), line.error(F8::splat(2.0)));
+            let d = [line.d.x, line.d.y, line.d.z].map(|d| I8::new(d, d));
+            let g = tape.slopes(&[0, 1, 2].map(|i| Dual { v: x[i], d: d[i] }));
+            // As if cells were larger, now and then by far.
+            let far = F8::splat(dice.power(0, 6));
+            let slope = [g.d.lo - far, g.d.hi + far];
+            let (none, never) = (M8::NONE, F8::splat(f64::INFINITY));
+            let before = Told8 {
+                lanes: asking,
+                seen: asking,
+                a,
+                b,
+                last: b,
+                out: none,
+                within: none,
+                rises: none,
+                falls: none,
+                sign,
+                hint: never,
+                next: never,
+            };
+            let mut told = before;
+            Pieces::new(&line, &told, asking, &slope).tell(&tape, 0.0, &mut told);
+            for i in asking.lanes() {
+                let (from, to) = (told.a.0[i], told.b.0[i]);
+                assert!(a.0[i] <= from && from <= to && to <= b.0[i], "{seed} {i}: {from} {to}");
+                let mut places: Vec<f64> =
+                    (0..=16).map(|k| ((to - from) * f64::from(k) / 16.0 + from).min(to)).collect();
+                places.dedup();
+                let values: Vec<Dyadic> = places.iter().map(|&s| exactly(c, &line, i, s)).collect();
+                let is = |mask: M8| mask.lane(i);
+                let at_start = values[0].exact_sign();
+                assert_eq!(if at_start.is_gt() { 1.0 } else { -1.0 }, told.sign.0[i], "{seed} {i}");
+                assert!(!(is(told.out) && is(told.within)), "{seed} {i}");
+                for v in &values {
+                    assert!(!is(told.out) || v.exact_sign().is_gt(), "{seed} {i}");
+                    assert!(!is(told.within) || v.exact_sign().is_lt(), "{seed} {i}");
+                }
+                for pair in values.windows(2) {
+                    let step = (&pair[1] - &pair[0]).exact_sign();
+                    assert!(!is(told.rises) || step.is_gt(), "{seed} {i}");
+                    assert!(!is(told.falls) || step.is_lt(), "{seed} {i}");
+                }
+                kept += u32::from(is(told.out) || is(told.within));
+                shortened += u32::from((is(told.out) || is(told.within)) && to < b.0[i]);
+                ways += u32::from(is(told.rises) || is(told.falls));
+                moved += u32::from((is(told.rises) || is(told.falls)) && from > a.0[i]);
+            }
+        }
+        assert!(
+            kept > 5000 && shortened > 500 && ways > 500 && moved > 200,
+            "{kept} {shortened} {ways} {moved}"
+        );
+    }
+}
