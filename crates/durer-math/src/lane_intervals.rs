@@ -17,6 +17,10 @@ const LANES: usize = crate::lanes::LANES;
 const PHI: f64 = crate::U * (1.0 + f64::EPSILON);
 /// Pays for results below the normal range, and is a normal number itself.
 const TINY: f64 = crate::scale::pow2(-1000);
+/// Of whole numbers below this, f64 has all: what rounds to less is exact.
+const ALL_WHOLE: f64 = crate::scale::pow2(53);
+/// Of dividends from here on no remainder is lost below the range.
+const LARGE_ENOUGH: f64 = crate::scale::pow2(-900);
 
 /// Eight intervals. No end is NaN, no lower end is `inf`, no upper end `-inf`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -140,6 +144,32 @@ fn sum_above(a: f64, b: f64) -> f64 {
     -sum_below(-a, -b)
 }
 
+/// Quotients by numbers, none of which is zero: exact where f64 is.
+#[inline(always)]
+fn divided_by_points(a: &I8, b: &I8) -> I8 {
+    let mut out = I8::new(F8::ZERO, F8::ZERO).said(a, b);
+    for i in 0..LANES {
+        // a / b = -a / -b
+        let (lo, hi, b) = (a.lo.0[i], a.hi.0[i], b.lo.0[i]);
+        let positive = b > 0.0;
+        let (lo, hi) = (if positive { lo } else { -hi }, if positive { hi } else { -lo });
+        out.lo.0[i] = quotient_below(lo, b.abs());
+        out.hi.0[i] = -quotient_below(-hi, b.abs());
+    }
+    out
+}
+
+/// A quotient by a positive number, rounded down. The quotient `q` in f64 is a bound as it stands if `q b - a`, rounded once, is not above zero: rounding keeps the sign unless
+/// the difference is lost below the range. It is a multiple of the last bit of `a` and of the last bits of `q` and `b` together, at least `2^-106 q b`; where `q` is below the normal numbers, `b` is above
+/// `2^1022 |a|`, and these are at least `2^-1074 2^-52 b`. So it is 0 or at least `2^-107 |a|`.
+#[inline(always)]
+fn quotient_below(a: f64, b: f64) -> f64 {
+    let q = a / b;
+    let certain = (a.abs() >= LARGE_ENOUGH) | (a == 0.0);
+    let is_below = certain & (q.mul_add(b, -a) <= 0.0);
+    if is_below { q } else { below(q) }
+}
+
 /// A product that takes `0 inf` as 0: an infinite end is never reached.
 #[inline(always)]
 fn times(a: f64, b: f64) -> f64 {
@@ -205,7 +235,25 @@ impl Number for I8 {
     }
 
     #[inline(always)]
+    fn mul_whole(a: &Self, b: &Self) -> Self {
+        let mut out = Self::new(F8::ZERO, F8::ZERO).said(a, b);
+        for i in 0..LANES {
+            let (al, ah, bl, bh) = (a.lo.0[i], a.hi.0[i], b.lo.0[i], b.hi.0[i]);
+            let (p, q, r, s) = (times(al, bl), times(al, bh), times(ah, bl), times(ah, bh));
+            let (lo, hi) = (least(least(p, q), least(r, s)), most(most(p, q), most(r, s)));
+            let exact = (lo > -ALL_WHOLE) & (hi < ALL_WHOLE);
+            out.lo.0[i] = if exact { lo } else { below(lo) };
+            out.hi.0[i] = if exact { hi } else { above(hi) };
+        }
+        out
+    }
+
+    #[inline(always)]
     fn div(a: &Self, b: &Self) -> Self {
+        // Mostly the divisor is a constant.
+        if (b.lo.equals(b.hi) & b.lo.abs().gt(F8::ZERO)).all() {
+            return divided_by_points(a, b);
+        }
         let mut inverse = Self::new(F8::ZERO, F8::ZERO);
         let mut holed = 0;
         for i in 0..LANES {
@@ -382,7 +430,10 @@ impl Number for I8 {
             out.jump |= may & x.jump;
             all_empty &= !(may & !x.empty);
         }
-        out.jump |= may_below & may_at | may_at & may_above | may_below & may_above;
+        let apart = |x: &Self, y: &Self| if core::ptr::eq(x, y) { 0 } else { 0xff };
+        out.jump |= may_below & may_at & apart(below, at);
+        out.jump |= may_at & may_above & apart(at, above);
+        out.jump |= may_below & may_above & apart(below, above);
         out.empty |= all_empty;
         out.partial |= all_empty;
         let none = crate::M8::from_bits(out.empty);

@@ -15,6 +15,11 @@ pub trait Number: Copy + Joined {
     fn sub(a: &Self, b: &Self) -> Self;
     /// `a b`.
     fn mul(a: &Self, b: &Self) -> Self;
+    /// `a b` of whole numbers: below 2^53 no f64 is rounded.
+    #[inline(always)]
+    fn mul_whole(a: &Self, b: &Self) -> Self {
+        Self::mul(a, b)
+    }
     /// `a / b`.
     fn div(a: &Self, b: &Self) -> Self;
     /// `-a`.
@@ -48,7 +53,7 @@ pub trait Number: Copy + Joined {
     fn noise(p: [&Self; 3]) -> Self;
     /// 1 or 0.
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self;
-    /// One of three by the sign of `c`: below, at and above zero.
+    /// One of three by the sign of `c`: below, at and above zero. Where two of them are one and the same (by address, as steps of a formula are), nothing jumps between them.
     fn select(c: &Self, below: &Self, at: &Self, above: &Self) -> Self;
     /// Whether it is defined and exactly zero.
     fn is_zero(&self) -> bool;
@@ -466,6 +471,11 @@ impl<T: Sloped, D: Slopes<T>> Number for Dual<T, D> {
     fn mul(a: &Self, b: &Self) -> Self {
         let (l, r) = (D::scaled(&a.v, &b.d), D::scaled(&b.v, &a.d));
         Self { v: T::mul(&a.v, &b.v), d: D::sum(&l, &r) }
+    }
+    #[inline(always)]
+    fn mul_whole(a: &Self, b: &Self) -> Self {
+        let (l, r) = (D::scaled(&a.v, &b.d), D::scaled(&b.v, &a.d));
+        Self { v: T::mul_whole(&a.v, &b.v), d: D::sum(&l, &r) }
     }
     #[inline(always)]
     fn div(a: &Self, b: &Self) -> Self {

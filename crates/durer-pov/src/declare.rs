@@ -26,7 +26,9 @@ impl Reader<'_> {
         let subscripts = self.raw() == Some(Kind::Mark(Mark::SquareOpen));
         let element = if subscripts { Some(self.element_reference(name)?) } else { None };
         self.expect(Mark::Equal)?;
+        let outer = self.declaring.replace(name);
         let value = self.declared_value()?;
+        self.declaring = outer;
         self.back_to_frame(serial, place)?;
         match element {
             Some(target) => {

@@ -9,10 +9,11 @@ use durer_scene as scene;
 
 use crate::camera::{Camera, Projection};
 use crate::colour::Colour;
-use crate::diagnostics::{Fault, Place, Result};
+use crate::diagnostics::{Fault, FaultKind, Place, Result};
 use crate::light::{Beam, Light};
 use crate::limits;
 use crate::object::{Object, Shape};
+use crate::pattern_function::changed_number;
 use crate::reader::Reader;
 use crate::settings::{Gamma, Globals};
 use crate::texture::{Finish, Interior, Layer, Map, Paint, Pattern, PatternKind, Pigment, Texture, Wave};
@@ -455,7 +456,12 @@ fn texture(own: &Texture, at: Place) -> Result<scene::Texture> {
             })
         }
         Texture::Patterned { pattern, map } => {
-            let made = pattern_of(pattern, map, |part| texture(part, at).map(Arc::new))?;
+            let made = pattern_of(
+                pattern,
+                map,
+                |part| texture(part, at).map(Arc::new),
+                |_, _, _| Err(blend_of_patterns(at)),
+            )?;
             Ok(scene::Texture {
                 body: scene::TextureBody::Pattern(Box::new(made)),
                 placement: placement(&pattern.place, at)?,
@@ -474,19 +480,42 @@ fn pigment(own: &Pigment, at: Place) -> Result<scene::Pigment> {
         return Ok(scene::Pigment::solid(scene::Colour::from_terms(*color)));
     };
     let mut made = match paint {
-        Paint::Colors(map) => {
-            scene::Pigment::colours(pattern_of(pattern, map, |color| Ok(scene::Colour::from_terms(*color)))?)
-        }
-        Paint::Pigments(map) => scene::Pigment::pigments(pattern_of(pattern, map, |part| pigment(part, at))?),
+        Paint::Colors(map) => scene::Pigment::colours(pattern_of(
+            pattern,
+            map,
+            |color| Ok(scene::Colour::from_terms(*color)),
+            |a, b, k| Ok(blended(*a, *b, k)),
+        )?),
+        Paint::Pigments(map) => scene::Pigment::pigments(pattern_of(
+            pattern,
+            map,
+            |part| pigment(part, at),
+            |a, b, k| match (a, b) {
+                (Pigment::Solid(a), Pigment::Solid(b)) => Ok(Pigment::Solid(blended(*a, *b, k))),
+                _ => Err(blend_of_patterns(at)),
+            },
+        )?),
     };
     made.placement = placement(&pattern.place, at)?;
     Ok(made)
 }
 
-fn pattern_of<T, U>(
+/// `k` of the way from one colour to another.
+fn blended(from: Colour, to: Colour, k: f64) -> Colour {
+    core::array::from_fn(|i| from[i] + (to[i] - from[i]) * k)
+}
+
+fn blend_of_patterns(at: Place) -> Box<Fault> {
+    let text = "not supported yet: a frequency or a wave that blends the patterns or textures of a list";
+    Fault::at(at, FaultKind::Unsupported, text)
+}
+
+/// A pattern for pictures: `part` makes an entry, `blend` one between two.
+fn pattern_of<T: Clone, U>(
     pattern: &Pattern,
     map: &Map<T>,
     mut part: impl FnMut(&T) -> Result<U>,
+    blend: impl Fn(&T, &T, f64) -> Result<T>,
 ) -> Result<scene::Pattern<U>> {
     let cells = match pattern.kind {
         PatternKind::Written(word, place) => return Err(Fault::unsupported(place, word.text())),
@@ -514,7 +543,18 @@ fn pattern_of<T, U>(
             });
         }
     };
-    let entries = map.entries.iter().map(|(_, item)| part(item)).collect::<Result<_>>()?;
+    let entry = |number: usize| {
+        let plain = |i: usize| Ok(map.entries[i].1.clone());
+        if pattern.is_plain_list() {
+            return plain(number);
+        }
+        let last = map.entries.len() - 1;
+        let shown = changed_number(pattern, number).unwrap_or(0.0).clamp(0.0, last as f64);
+        let below = shown as usize;
+        let k = shown - below as f64;
+        if k == 0.0 { plain(below) } else { blend(&map.entries[below].1, &map.entries[below + 1].1, k) }
+    };
+    let entries = (0..map.entries.len()).map(|number| part(&entry(number)?)).collect::<Result<_>>()?;
     Ok(scene::Pattern::Cells { cells, entries })
 }
 

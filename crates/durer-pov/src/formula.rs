@@ -352,6 +352,12 @@ impl Reader<'_> {
                 }
                 self.word_formula(draft, *word, &lexeme)
             }
+            Item::Unknown(name) if self.declaring == Some(*name) => {
+                let name = crate::diagnostics::shortened(self.names.text(*name));
+                let text =
+                    format!("`{name}` cannot call itself: a function is written out where it is called");
+                Err(Fault::invalid(place, text))
+            }
             _ => Err(self.unexpected(&lexeme, "a number, a parameter or a function")),
         }
     }

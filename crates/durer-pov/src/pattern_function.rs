@@ -4,7 +4,7 @@
 //!   wave(begun anew(frequency * value(M^-1 p) + phase)),  M: the transforms behind the pattern's word
 //! ```
 //!
-//! Values are those of POV-Ray, to rounding.
+//! Values are those of POV-Ray, to rounding. Patterns that have a list have whole numbers as values, from 0 on, and a frequency only where one is given.
 
 use durer_scene::tape::{Builder, Formula, FormulaError, NodeId, Op};
 
@@ -29,6 +29,19 @@ const AS_IT_IS: &str = "select(x, x - floor(x), x, x)";
 const CHECKER: &str = "a = x + 0.0000000001; b = y + 0.0000000001; c = z + 0.0000000001; \
                        u = select(a - 2*floor(a/2) - 1, 1, -1, -1); v = select(b - 2*floor(b/2) - 1, 1, -1, -1); \
                        w = select(c - 2*floor(c/2) - 1, 1, -1, -1); select(u*v*w, 1, 1, 0)";
+
+/// The centre next to a point, of hexagons with sides of length 1: centres are those of two rectangles' corners, `(3 m, 2 h n)` and `(3 i + 3/2, 2 h j + h)` for whole numbers. The three values alternate along `z`.
+const HEXAGON: &str = "h = 0.8660254037844386; m = floor(x/3 + 0.5); n = floor(z/(2*h) + 0.5); i = floor(x/3); j = floor(z/(2*h)); \
+                       nearer = sq(x - 3*m) + sq(z - 2*h*n) - sq(x - 3*i - 1.5) - sq(z - 2*h*j - h); \
+                       k = select(nearer, n, n, j + 2); max(min(k - 3*floor((k + 0.5)/3), 2), 0)";
+
+/// 0 in mortar, 1 in bricks of `P0` by `P1` by `P2`, of which `P3` is mortar. Every other course along `y` is half a brick further on along `x`, the others along `z`. Bricks begin a little before a whole number, as
+/// the checker's cells do.
+const BRICK: &str = "d = 0.0000000001; b = y/P1; course = floor(b + d); odd = course - 2*floor(course/2); \
+                     a = x/P0 + odd/2; c = z/P2 + (1 - odd)/2; \
+                     u = select(a - floor(a + d) - (P0 - P3)/P0, 1, 0, 0); \
+                     v = select(b - floor(b + d) - (P1 - P3)/P1, 1, 0, 0); \
+                     w = select(c - floor(c + d) - (P2 - P3)/P2, 1, 0, 0); u*v*w";
 
 /// The value of a pattern by its word; `None` where no formula is known here.
 fn value(word: Keyword) -> Option<&'static str> {
@@ -58,7 +71,8 @@ pub(crate) fn own_wave(word: Keyword) -> Wave {
 fn bent(wave: Wave) -> (&'static str, Option<f64>) {
     match wave {
         Wave::Ramp => ("x", None),
-        Wave::Triangle => ("1 - abs(2*x - 1)", None),
+        // Below zero only from the hexagons' 2.
+        Wave::Triangle => ("max(1 - abs(2*x - 1), 0)", None),
         Wave::Sine => ("(1 + sin(2*pi*x))/2", None),
         Wave::Scallop => ("abs(sin(pi*x))", None),
         Wave::Cubic => ("x*x*(3 - 2*x)", None),
@@ -137,8 +151,22 @@ pub(crate) fn written(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> O
             Some(text) => called(b, text, own, &[])?,
             None => noise_pattern::value(b, pattern, own)?,
         },
-        PatternKind::Hexagon | PatternKind::Brick { .. } => return None,
+        PatternKind::Hexagon => called(b, HEXAGON, own, &[])?,
+        PatternKind::Brick { size: [x, y, z], mortar } => called(b, BRICK, own, &[x, y, z, mortar])?,
     };
+    changed(b, pattern, value)
+}
+
+/// The number of a list's entry, as frequency, phase and wave change it: what is shown is the entry that has it, or a blend of the two beside it.
+pub(crate) fn changed_number(pattern: &Pattern, number: usize) -> Option<f64> {
+    let mut b = Builder::new();
+    let value = b.constant(number as f64).ok()?;
+    let root = changed(&mut b, pattern, value)?;
+    Some(b.finish(root, 0).value(&[]))
+}
+
+/// What frequency, phase and wave make of a pattern's value.
+fn changed(b: &mut Builder, pattern: &Pattern, value: NodeId) -> Option<NodeId> {
     // The language keeps these two in single precision.
     let [frequency, phase] = [pattern.frequency, pattern.phase].map(|v| f64::from(v as f32));
     let value = if frequency == 0.0 {
@@ -193,7 +221,8 @@ mod tests {
             let (text, exponent) = bent(wave);
             assert!(formulas::on_paper(text, exponent.iter().len() as u32).is_some(), "{wave:?}");
         }
-        for (text, parameters) in [(CHECKER, 0), (GRADIENT, 3), (BEGUN_ANEW, 2), (AS_IT_IS, 0)] {
+        let others = [(CHECKER, 0), (HEXAGON, 0), (BRICK, 4), (GRADIENT, 3), (BEGUN_ANEW, 2), (AS_IT_IS, 0)];
+        for (text, parameters) in others {
             assert!(formulas::on_paper(text, parameters).is_some(), "{text}");
         }
     }

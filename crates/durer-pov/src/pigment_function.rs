@@ -15,7 +15,7 @@ use crate::formulas::pieces::{Knot, chosen};
 use crate::noise_pattern::lacks_generator;
 use crate::pattern_function::{CANNOT_BE_UNDONE, has_noise, lacking, moved, third_generator, written};
 use crate::reader::Reader;
-use crate::texture::{Map, Paint, Pattern, PatternKind, Pigment};
+use crate::texture::{Map, Paint, Pattern, Pigment};
 
 /// The parts of a colour, as steps.
 type Colour = [NodeId; 5];
@@ -112,8 +112,10 @@ fn mapped<T>(
     entries: &[Colour],
 ) -> std::result::Result<Colour, Lack> {
     let at: Vec<f64> = map.entries.iter().map(|(at, _)| *at).collect();
-    let (knots, pieces) = if pattern.kind == PatternKind::Checker {
-        (vec![Knot::Jumps(0.5)], vec![Piece::Plain(0), Piece::Plain(1)])
+    let (knots, pieces) = if pattern.is_plain_list() {
+        // Between whole numbers there is nothing.
+        let knots = (1..at.len()).map(|i| Knot::Jumps(i as f64 - 0.5));
+        (knots.collect(), (0..at.len()).map(Piece::Plain).collect())
     } else {
         pieces_of(&at)
     };

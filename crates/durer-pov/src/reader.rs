@@ -74,6 +74,8 @@ pub(crate) struct Reader<'a> {
     pub(crate) library: Library,
     pub(crate) frames: Vec<Frame>,
     pub(crate) scopes: Scopes,
+    /// What a declaration that is being read will declare.
+    pub(crate) declaring: Option<Name>,
     pub(crate) messages: Messages<'a>,
     peeked: Option<Lexeme>,
     last: Place,
@@ -100,6 +102,7 @@ impl<'a> Reader<'a> {
             library,
             frames: Vec::new(),
             scopes: Scopes::default(),
+            declaring: None,
             messages,
             peeked: None,
             last: Place::default(),
@@ -446,8 +449,11 @@ impl<'a> Reader<'a> {
             }
             Item::Unknown(name) => {
                 let text = crate::diagnostics::shortened(self.names.text(*name));
-                let hint =
-                    self.similar(*name).map_or_else(String::new, |s| format!(" (did you mean `{s}`?)"));
+                let hint = if text.starts_with("f_") && !self.has_functions() {
+                    r#" (such functions are declared by #include "functions.inc")"#.to_owned()
+                } else {
+                    self.similar(*name).map_or_else(String::new, |s| format!(" (did you mean `{s}`?)"))
+                };
                 return Fault::invalid(
                     lexeme.place,
                     format!("expected {wanted}, found the undeclared `{text}`{hint}"),
@@ -464,6 +470,11 @@ impl<'a> Reader<'a> {
             Item::End => "the end of the scene".to_owned(),
         };
         Fault::invalid(lexeme.place, format!("expected {wanted}, found {found}"))
+    }
+
+    /// Whether functions.inc has been read.
+    fn has_functions(&self) -> bool {
+        self.loaded.keys().any(|path| path.ends_with("functions.inc"))
     }
 
     /// A declared name or reserved word that `name` may be a misspelling of.

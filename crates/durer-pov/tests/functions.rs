@@ -279,6 +279,36 @@ fn patterns_as_functions_have_povrays_values() {
             "checker triangle_wave frequency 0.4",
             [([-0.06, -1.02, 0.7], 0.800000011921), ([-1.16, -0.33, 0.05], 0.800000011921)],
         ),
+        // What has a list has a phase only with a frequency.
+        ("checker phase 0.6", [([4.897, 3.441, -6.0], 1.0), ([-2.5, 0.0, 5.0], 0.0)]),
+        (
+            "checker frequency 0.6 phase 0.7",
+            [([-5.027, 4.0, -4.7], 0.299990012), ([0.0, 2.9, 2.574], 0.699999988)],
+        ),
+        ("checker triangle_wave", [([1.0, 2.0, 4.837], 0.0), ([0.25, -1.22, -0.2], 0.0)]),
+        ("hexagon", [([1.475, -1.698, 5.309], 2.0), ([2.0, -4.6, 4.4], 1.0)]),
+        ("hexagon triangle_wave", [([1.475, -1.698, 5.309], 0.0), ([2.0, -4.6, 4.4], 0.0)]),
+        (
+            "hexagon frequency 0.3 phase 0.25",
+            [([3.9, 4.318, -5.801], 0.550000012), ([3.0, 5.0, 3.6], 0.850000024)],
+        ),
+        (
+            "hexagon frequency 2 sine_wave scale 0.3 rotate 20",
+            [([-2.1, 4.046, -3.071], 0.499905752), ([0.2, 1.2, -1.0], 0.499968584)],
+        ),
+        ("brick", [([-4.503, -5.133, 4.0], 1.0), ([-2.0, 2.766, -1.359], 0.0)]),
+        (
+            "brick brick_size <-2,1,1> mortar 0.1 scale <-1,1,1>",
+            [([4.119, -1.0, -2.4], 1.0), ([4.803, -1.823, -1.527], 0.0)],
+        ),
+        (
+            "brick scale 0.2 mortar 1 rotate <10,20,30>",
+            [([-5.61, -1.1, -5.0], 1.0), ([-4.6, -3.552, 2.034], 0.0)],
+        ),
+        (
+            "brick frequency 0.4 phase 0.3 triangle_wave",
+            [([0.8, -2.0, -3.782], 0.599999964), ([6.0, -3.2, -5.6], 0.600000024)],
+        ),
         ("spherical", [([-0.08, 0.1, 0.29], 0.682982650317), ([0.55, -0.26, 0.18], 0.365571122978)]),
         (
             "spherical sine_wave",
@@ -475,7 +505,8 @@ fn what_is_wrong_with_a_function_is_said_once_and_where() {
     says("#declare F = function(a, b) { a + b }; #declare A = F(1);", 53, "takes 2 arguments, found 1");
     says("#declare F = function(a) { a + q };", 32, "undeclared `q`");
     says("#declare F = function(a) { G(a) };", 28, "undeclared `G`");
-    says("#declare F = function(a) { F(a) };", 28, "undeclared `F`");
+    says("#declare F = function(a) { F(a) };", 28, "`F` cannot call itself");
+    says("#declare F = function(a) { f_sphere(a, 0, 0, 1) };", 28, "#include \"functions.inc\"");
     says("#declare F = function(a, a) { a };", 26, "two parameters of the same name");
     says("#declare F = function(a) { sin(a, 2) };", 28, "takes 1 argument, found 2");
     says("#declare F = function(a) { select(a, 2) };", 28, "three or four");
@@ -516,7 +547,7 @@ fn what_is_wrong_with_a_function_is_said_once_and_where() {
     says(&format!("{spline} #declare G = function {{ S(x, y).x }};"), 70, "takes 1 argument");
     says(&format!("{spline} #declare G = function {{ S(x).z }};"), 75, "no such part");
     says("isosurface { function { transform { scale 2 } } }", 14, "name the part");
-    says("#declare F = function { pigment { hexagon } }; sphere { 0, F(1, 2, 3).red }", 60, "no bound");
+    says("#declare F = function { pigment { crackle } }; sphere { 0, F(1, 2, 3).red }", 60, "crackle");
     says("#declare F = function { texture { } }; sphere { 0, F(1, 2, 3).red }", 52, "no bound");
     says("#declare F = function { pigment { spherical scale <1, 1, 1e-320> } };", 45, "singular");
     says("#declare F = function(a) { pigment { spherical } };", 28, "no parameters");

@@ -448,6 +448,78 @@ fn sums_of_whole_numbers_are_whole() {
     }
 }
 
+/// So are their products, and their quotients where they are: of `k mod 3 = 0` with `k = floor(x)`, written as `k - 3 floor(k/3)`, the walls are met, though what is chosen below zero, where it never is, would fill everything.
+#[test]
+fn products_and_quotients_of_whole_numbers_are_exact() {
+    let (mut p, [x, _, _]) = Pen::new();
+    let (three, inside, outside) = (p.c(3.0), p.c(-1.0), p.c(1.0));
+    let k = p.op(Op::Function(Function::Floor, x));
+    let thirds = p.op(Op::Div(k, three));
+    let whole = p.op(Op::Function(Function::Floor, thirds));
+    let threes = p.mul(three, whole);
+    let rest = p.sub(k, threes);
+    let f = p.op(Op::Select([rest, inside, inside, outside]));
+    let g = p.op(Op::Select([rest, inside, outside, outside]));
+    let (slabs, nothing) = (iso(&p.done(f), 3.25), iso(&p.done(g), 3.25));
+    for (y, slope) in [(0.25, 0.0), (-1.5, 1e-3), (0.125, 0.03)] {
+        let ray = Ray::new(Point3::new(-4.0, y, 0.1), Vec3::new(1.0, 0.0, slope));
+        let found = all(&slabs, &ray);
+        let walls: Vec<&Root> = found.iter().filter(|root| root.face == 0).collect();
+        assert_eq!(walls.len(), 5, "{y}: {walls:?}");
+        for (root, wall) in walls.iter().zip([-3.0, -2.0, 0.0, 1.0, 3.0]) {
+            let t = wall + 4.0;
+            assert!(root.lo <= t && t <= root.hi && root.hi - root.lo < 1e-14, "{y}: {root:?}");
+        }
+        assert_eq!(all(&nothing, &ray), [], "{y}");
+    }
+}
+
+/// A wall, where a formula jumps, has the normal of what decides about the side, outward as the ray goes.
+#[test]
+fn walls_have_the_normals_of_what_jumps() {
+    let (mut p, [x, y, z]) = Pen::new();
+    let (half, one, two, far) = (p.c(0.5), p.c(1.0), p.c(2.0), p.c(100.0));
+    let floor = p.op(Op::Function(Function::Floor, x));
+    let stairs = p.sub(y, floor);
+    let less = p.op(Op::Compare(Comparison::Less, x, y));
+    let less = p.sub(less, half);
+    let sum = p.add(x, z);
+    let minus = p.op(Op::Neg(one));
+    let chosen = p.op(Op::Select([sum, minus, one, one]));
+    let twice = p.mul(y, two);
+    let slanted = p.add(x, twice);
+    let slanted = p.add(slanted, far);
+    let rest = p.op(Op::Rem(slanted, one));
+    let rest = p.sub(rest, half);
+    let angle = p.op(Op::Atan2(y, x));
+    for (f, normal, d) in [
+        (stairs, [1.0, 0.0, 0.0], [1.0, 0.01, 0.2]),
+        (less, [1.0, -1.0, 0.0], [1.0, 0.25, 0.125]),
+        (chosen, [1.0, 0.0, 1.0], [0.75, 0.5, 1.0]),
+        (rest, [1.0, 2.0, 0.0], [1.0, 0.125, 0.5]),
+        (angle, [0.0, 1.0, 0.0], [-0.125, 1.0, 0.25]),
+    ] {
+        let surface = iso(&p.done(f), 3.0);
+        let normal = Vec3::from(normal) * (1.0 / Vec3::from(normal).length());
+        for way in [1.0, -1.0] {
+            let d = Vec3::from(d) * way;
+            let through = Point3::new(-0.625, 0.28125, 0.375);
+            let ray = Ray::new(through - d * 8.0, d);
+            let found = all(&surface, &ray);
+            let walls: Vec<&Root> = found.iter().filter(|root| root.face == 0).collect();
+            assert!(!walls.is_empty(), "{f:?}: {found:?}");
+            for root in walls {
+                let at = surface.resolve(&LocalRay::new(&ray), root, Need::ALL);
+                let n = at.ng.to_vec();
+                // Stairs have level steps, too, of which these rays meet none.
+                let off = n - normal * n.dot(normal).signum();
+                assert!(off.length() < 1e-12, "{f:?}: {at:?}, expected {normal:?}");
+                assert_eq!(n.dot(d).signum(), f64::from(root.sign), "{f:?}: {at:?} {root:?}");
+            }
+        }
+    }
+}
+
 /// `x` without its whole part, from 0 to 1, by each of the steps that can say it.
 fn parts(p: &mut Pen, x: NodeId) -> Vec<NodeId> {
     let one = p.c(1.0);

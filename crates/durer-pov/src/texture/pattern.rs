@@ -65,11 +65,18 @@ impl Pattern {
         } else {
             Wave::Ramp
         };
-        Self { kind, frequency: 1.0, phase: 0.0, wave, turbulence: Rc::default(), place: Matrix::IDENTITY }
+        // What has a list has no frequency unless one is given, and then neither has it a phase.
+        let frequency = if kind.list_length().is_some() { 0.0 } else { 1.0 };
+        Self { kind, frequency, phase: 0.0, wave, turbulence: Rc::default(), place: Matrix::IDENTITY }
     }
 
     pub(crate) fn transform(&mut self, by: &Matrix) {
         self.place = self.place.then(by);
+    }
+
+    /// Whether each cell shows an entry of a list, which neither a frequency nor a wave changes.
+    pub(crate) fn is_plain_list(&self) -> bool {
+        self.kind.list_length().is_some() && self.frequency == 0.0 && self.wave == Wave::Ramp
     }
 }
 

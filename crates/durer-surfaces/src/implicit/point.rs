@@ -3,9 +3,9 @@
 use super::Isosurface;
 use super::line::Line;
 use crate::point::least_step;
-use crate::tape::Tape;
+use crate::tape::{Tape, seed};
 use crate::{LocalRay, Need, Root, SurfacePoint};
-use durer_math::{Dual, F8, I8, Interval, Point3, U, Vec3};
+use durer_math::{Dual, I8, Interval, Point3, U, Vec3};
 
 /// A point next to the surface.
 pub(super) struct Foot {
@@ -64,13 +64,6 @@ impl Near {
     }
 }
 
-/// The unit vectors in the first lanes: what `axis` contributes to each.
-fn seed(axis: usize) -> I8 {
-    let mut d = I8::new(F8::ZERO, F8::ZERO);
-    d.set_lane(axis, Interval { lo: 1.0, hi: 1.0 });
-    d
-}
-
 impl Isosurface {
     /// Bounds of the formula and of its gradient within `r` of `p`, per axis; `None` where they are not finite or it may not be smooth.
     fn near(&self, p: Point3, r: f64) -> Option<Near> {
@@ -98,7 +91,8 @@ impl Isosurface {
         // The crossing is no farther than this, along any axis: so it may be on a plane that is not.
         let fold = (width * direction.max_abs() + Vec3::from(line.err).max_abs()) * (1.0 + 8.0 * U);
         let foot = self.gauge.as_ref().and_then(|gauge| gauge.foot(p0, (fold, reach)));
-        let Foot { p, n, off, bend } = foot.unwrap_or_else(|| self.foot(p0, direction, reach, width));
+        let Foot { p, n, off, bend } =
+            foot.unwrap_or_else(|| self.foot(p0, direction, (reach, width), root.sign));
         let moved = (p - p0).abs();
         let slack = least_step(p);
         let err = Vec3::from(line.err);
@@ -116,14 +110,21 @@ impl Isosurface {
     }
 
     /// The point next to `p0` for any formula: towards the surface along the gradient, until rounding stops it.
-    fn foot(&self, p0: Point3, direction: Vec3, reach: f64, width: f64) -> Foot {
+    fn foot(&self, p0: Point3, direction: Vec3, (reach, width): (f64, f64), sign: i8) -> Foot {
         if let Some(foot) = self.quick_foot(p0, reach) {
             return foot;
         }
-        let (p, ng) = self.nearer(p0, reach);
-        let ng = ng.unwrap_or(-direction);
+        let back = if sign > 0 { direction } else { -direction };
+        let (p, ng) = match self.tape_near(p0, reach).wall(p0, reach) {
+            // Which way is outward the ray knows.
+            Some(wall) => (p0, if wall.dot(back) < 0.0 { -wall } else { wall }),
+            None => {
+                let (p, slope) = self.nearer(p0, reach);
+                (p, slope.unwrap_or(back))
+            }
+        };
         let n = ng * (1.0 / ng.length());
-        let n = if n.is_finite() { n } else { direction * (-1.0 / direction.length()) };
+        let n = if n.is_finite() { n } else { back * (1.0 / back.length()) };
         let (off, bend) = self.off(p, n, p0.to_vec().max_abs() * U, width);
         Foot { p, n, off, bend }
     }

@@ -29,11 +29,11 @@ pub(super) fn simpler(op: Op, at: impl Fn(NodeId) -> Op) -> Simpler {
         Op::Add(a, b) if is(a, 0.0) => Simpler::Same(b),
         Op::Sub(a, b) if is(b, 0.0) => Simpler::Same(a),
         Op::Sub(a, b) if is(a, 0.0) => simpler(Op::Neg(b), at),
-        Op::Mul(a, b) if is(b, 1.0) => Simpler::Same(a),
-        Op::Mul(a, b) if is(a, 1.0) => Simpler::Same(b),
+        Op::Mul(a, b) | Op::MulWhole(a, b) if is(b, 1.0) => Simpler::Same(a),
+        Op::Mul(a, b) | Op::MulWhole(a, b) if is(a, 1.0) => Simpler::Same(b),
         Op::Div(a, b) if is(b, 1.0) => Simpler::Same(a),
-        Op::Mul(a, b) if is(b, -1.0) => simpler(Op::Neg(a), at),
-        Op::Mul(a, b) if is(a, -1.0) => simpler(Op::Neg(b), at),
+        Op::Mul(a, b) | Op::MulWhole(a, b) if is(b, -1.0) => simpler(Op::Neg(a), at),
+        Op::Mul(a, b) | Op::MulWhole(a, b) if is(a, -1.0) => simpler(Op::Neg(b), at),
         Op::Mul(a, b) if a == b => simpler(Op::Sqr(a), at),
         Op::Min(a, b) | Op::Max(a, b) if a == b => Simpler::Same(a),
         Op::Add(a, b) => {
@@ -43,6 +43,10 @@ pub(super) fn simpler(op: Op, at: impl Fn(NodeId) -> Op) -> Simpler {
         Op::Mul(a, b) => {
             let (a, b) = ordered(a, b);
             Simpler::Op(Op::Mul(a, b))
+        }
+        Op::MulWhole(a, b) => {
+            let (a, b) = ordered(a, b);
+            Simpler::Op(Op::MulWhole(a, b))
         }
         Op::Neg(a) => match at(a) {
             Op::Neg(b) => Simpler::Same(b),
@@ -101,7 +105,7 @@ fn folded(op: &Op, constant: &impl Fn(NodeId) -> Option<Interval>) -> Option<Int
         Op::Function(f, a) => function(f, constant(a)?)?,
         Op::Add(a, b) => constant(a)? + constant(b)?,
         Op::Sub(a, b) => constant(a)? - constant(b)?,
-        Op::Mul(a, b) => constant(a)? * constant(b)?,
+        Op::Mul(a, b) | Op::MulWhole(a, b) => constant(a)? * constant(b)?,
         Op::Div(a, b) => {
             let (a, b) = (constant(a)?, constant(b)?);
             if b.contains(0.0) {

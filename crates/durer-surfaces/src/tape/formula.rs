@@ -36,6 +36,8 @@ pub enum Op {
     Sub(NodeId, NodeId),
     /// `a b`.
     Mul(NodeId, NodeId),
+    /// `a b` of numbers that are whole, which [`Builder::push`] finds out: what is a product to it becomes this, and the other way round.
+    MulWhole(NodeId, NodeId),
     /// `a / b`; undefined at zero.
     Div(NodeId, NodeId),
     /// The lesser one.
@@ -75,6 +77,7 @@ impl Op {
             Self::Add(a, b) => Self::Add(f(a), f(b)),
             Self::Sub(a, b) => Self::Sub(f(a), f(b)),
             Self::Mul(a, b) => Self::Mul(f(a), f(b)),
+            Self::MulWhole(a, b) => Self::MulWhole(f(a), f(b)),
             Self::Div(a, b) => Self::Div(f(a), f(b)),
             Self::Min(a, b) => Self::Min(f(a), f(b)),
             Self::Max(a, b) => Self::Max(f(a), f(b)),
@@ -103,6 +106,7 @@ impl Op {
             Self::Add(a, b)
             | Self::Sub(a, b)
             | Self::Mul(a, b)
+            | Self::MulWhole(a, b)
             | Self::Div(a, b)
             | Self::Min(a, b)
             | Self::Max(a, b)
@@ -115,6 +119,21 @@ impl Op {
             }
             Self::Noise(p) | Self::Joined(p) => p.into_iter().for_each(f),
             Self::Select(all) => all.into_iter().for_each(f),
+        }
+    }
+
+    /// Whether it is a whole number wherever it is defined, and so are the ends of its bounds; `is_whole` tells that of its operands.
+    fn is_whole(&self, is_whole: impl Fn(NodeId) -> bool) -> bool {
+        match *self {
+            Self::Constant(c) => c.lo == c.hi && c.lo.fract() == 0.0,
+            Self::Function(Function::Floor | Function::Ceil | Function::Trunc, _) | Self::Compare(..) => true,
+            Self::Neg(a) | Self::Abs(a) => is_whole(a),
+            // Where bounds of sums and products are rounded they are beyond 2^53, where all numbers are whole.
+            Self::Add(a, b) | Self::Sub(a, b) | Self::MulWhole(a, b) | Self::Min(a, b) | Self::Max(a, b) => {
+                is_whole(a) && is_whole(b)
+            }
+            Self::Select([_, a, b, c]) => is_whole(a) && is_whole(b) && is_whole(c),
+            _ => false,
         }
     }
 
@@ -147,6 +166,7 @@ impl Op {
             Self::Settled(a) => (19, u64::from(a.0), 0, 0),
             Self::Noise([a, b, c]) => (20, u64::from(a.0), u64::from(b.0), u64::from(c.0)),
             Self::Joined([a, b, c]) => (21, u64::from(a.0), u64::from(b.0), u64::from(c.0)),
+            Self::MulWhole(a, b) => two(22, a, b),
         }
     }
 }
@@ -201,6 +221,8 @@ impl Formula {
 #[derive(Clone, Debug, Default)]
 pub struct Builder {
     ops: Vec<Op>,
+    /// Which of them are whole numbers.
+    whole: Vec<bool>,
     known: HashMap<(u8, u64, u64, u64), NodeId>,
 }
 
@@ -228,6 +250,12 @@ impl Builder {
 
     /// A step; the operands must be this builder's.
     pub fn push(&mut self, op: Op) -> Result<NodeId, FormulaError> {
+        let is_whole = |id: NodeId| self.whole[id.0 as usize];
+        let op = match op {
+            Op::Mul(a, b) if a != b && is_whole(a) && is_whole(b) => Op::MulWhole(a, b),
+            Op::MulWhole(a, b) if !(is_whole(a) && is_whole(b)) => Op::Mul(a, b),
+            other => other,
+        };
         let op = match fold::simpler(op, |id| self.ops[id.0 as usize]) {
             fold::Simpler::Same(id) => return Ok(id),
             fold::Simpler::Op(op) => op,
@@ -239,6 +267,7 @@ impl Builder {
             return Err(FormulaError::TooLong);
         }
         let id = NodeId(self.ops.len() as u32);
+        self.whole.push(op.is_whole(|id| self.whole[id.0 as usize]));
         self.ops.push(op);
         self.known.insert(op.key(), id);
         Ok(id)

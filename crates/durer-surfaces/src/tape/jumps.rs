@@ -11,8 +11,9 @@
 
 use super::formula::{NodeId, Op};
 use super::program::run_with;
+use super::seed;
 use arrayvec::ArrayVec;
-use durer_math::{Function, I8, Interval, Number};
+use durer_math::{Dual, Function, I8, Interval, Number, Point3, Vec3};
 
 /// Sides of so many choices are told apart: lanes are eight.
 const MOST_JUMPS: usize = 3;
@@ -151,6 +152,45 @@ fn halved(op: &Op, before: &[I8], value: &I8, bit: usize) -> Option<I8> {
         }
         _ => None,
     }
+}
+
+/// The gradient of what chooses a side in the last step that jumps by itself within `r` of `p`.
+#[inline(always)]
+pub(super) fn wall(ops: &[Op], p: Point3, r: f64, registers: &mut [Dual<I8>]) -> Option<Vec3> {
+    let p = p.to_array();
+    let x = [0, 1, 2].map(|axis| Dual { v: I8::splat(Interval::around(p[axis], r)), d: seed(axis) });
+    let mut found = None;
+    run_with(
+        ops,
+        &x,
+        registers,
+        #[inline(always)]
+        |op, before, value| {
+            let mut jumped = 0;
+            op.operands(|id| jumped |= before[id.0 as usize].v.jump);
+            if value.v.jump & !jumped & 1 == 1
+                && let Some(normal) = chooser(op, before, value)
+            {
+                found = Some(normal);
+            }
+        },
+    );
+    found
+}
+
+/// The gradient of what chooses between the sides of a step; `None` where it is zero or not known.
+#[inline(never)]
+fn chooser(op: &Op, before: &[Dual<I8>], value: &Dual<I8>) -> Option<Vec3> {
+    let at = |id: NodeId| &before[id.0 as usize].d;
+    let slopes = match *op {
+        Op::Function(_, a) | Op::Select([a, ..]) | Op::Atan2(a, _) => *at(a),
+        Op::Compare(_, a, b) => I8::sub(at(a), at(b)),
+        // a - b k, the gradient of which is b times that of a/b where a/b is the whole number k.
+        Op::Rem(..) => value.d,
+        _ => return None,
+    };
+    let normal = Vec3::from([0, 1, 2].map(|axis| slopes.lane(axis).mid()));
+    (normal.is_finite() && normal != Vec3::ZERO).then_some(normal)
 }
 
 /// The less or the greater of two whole numbers that follow each other, as `upper` says of each lane; `None` where no lane has two.

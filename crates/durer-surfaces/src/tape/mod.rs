@@ -13,3 +13,12 @@ mod program;
 
 pub use formula::{Builder, Formula, FormulaError, MOST_STEPS, NodeId, Op};
 pub use program::Tape;
+
+use durer_math::{F8, I8, Interval};
+
+/// The unit vectors in the first lanes: what `axis` contributes to each.
+pub(crate) fn seed(axis: usize) -> I8 {
+    let mut d = I8::new(F8::ZERO, F8::ZERO);
+    d.set_lane(axis, Interval { lo: 1.0, hi: 1.0 });
+    d
+}

@@ -3,7 +3,7 @@
 use super::fold;
 use super::formula::{Formula, NodeId, Op, live};
 use super::jumps;
-use durer_math::{Dual, F8, Gradient, I8, Interval, Isa, Number, Point3, Sloped};
+use durer_math::{Dual, F8, Gradient, I8, Interval, Isa, Number, Point3, Sloped, Vec3};
 use std::cell::Cell;
 use std::sync::Arc;
 use std::thread::LocalKey;
@@ -79,6 +79,7 @@ pub(super) fn run_with<T: Number>(
             Op::Add(a, b) => *value = T::add(at(a), at(b)),
             Op::Sub(a, b) => *value = T::sub(at(a), at(b)),
             Op::Mul(a, b) => *value = T::mul(at(a), at(b)),
+            Op::MulWhole(a, b) => *value = T::mul_whole(at(a), at(b)),
             Op::Div(a, b) => *value = T::div(at(a), at(b)),
             Op::Min(a, b) => *value = T::min(at(a), at(b)),
             Op::Max(a, b) => *value = T::max(at(a), at(b)),
@@ -184,6 +185,16 @@ impl Tape {
             Isa::detect().run_in_lanes(
                 #[inline(always)]
                 || jumps::sign_beside(&self.ops, x, registers),
+            )
+        })
+    }
+
+    /// The gradient of what decides between two sides where the formula jumps within `r` of `p`, per axis: a normal of the wall there, of either orientation. `None` where nothing jumps.
+    pub(crate) fn wall(&self, p: Point3, r: f64) -> Option<Vec3> {
+        with_memory(&DUALS, self.ops.len(), zero(), |registers| {
+            Isa::detect().run_in_lanes(
+                #[inline(always)]
+                || jumps::wall(&self.ops, p, r, registers),
             )
         })
     }
@@ -354,9 +365,9 @@ fn decided(op: &Op, registers: &[I8], lane: usize) -> Option<Decided> {
         }
         Op::Select([c, below, zero, above]) => {
             let c = at(c)?;
-            if c.hi < 0.0 {
+            if c.hi < 0.0 || c.hi <= 0.0 && zero == below {
                 Decided::Same(below)
-            } else if c.lo > 0.0 {
+            } else if c.lo > 0.0 || c.lo >= 0.0 && zero == above {
                 Decided::Same(above)
             } else if c.lo == 0.0 && c.hi == 0.0 {
                 Decided::Same(zero)
