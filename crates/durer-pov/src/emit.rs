@@ -549,7 +549,9 @@ fn pattern_of<T: Clone, U>(
             return plain(number);
         }
         let last = map.entries.len() - 1;
-        let shown = changed_number(pattern, number).unwrap_or(0.0).clamp(0.0, last as f64);
+        // Where a wave is undefined the first entry is shown.
+        let shown = changed_number(pattern, number).filter(|shown| !shown.is_nan()).unwrap_or(0.0);
+        let shown = shown.clamp(0.0, last as f64);
         let below = shown as usize;
         let k = shown - below as f64;
         if k == 0.0 { plain(below) } else { blend(&map.entries[below].1, &map.entries[below + 1].1, k) }

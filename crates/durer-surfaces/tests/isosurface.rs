@@ -600,6 +600,11 @@ fn angles_that_begin_anew_are_no_walls() {
         assert_eq!(signs, expected, "{o:?}: {found:?}");
         assert!(found.iter().all(|root| root.kind == Kind::Simple), "{o:?}: {found:?}");
     }
+    // On the seam itself the normal is the gear's.
+    let ray = Ray::new(Point3::new(-3.0, 0.0, 0.1), Vec3::new(1.0, 0.0, 0.0));
+    let found = all(&gear, &ray);
+    let at = gear.resolve(&LocalRay::new(&ray), &found[0], Need::ALL);
+    assert!((at.ng.to_vec() + Vec3::new(1.0, 0.0, 0.0)).length() < 1e-9, "{at:?} {found:?}");
 }
 
 /// What is chosen by a sign: `|x|` as `x < 0 ? -x : x` is nowhere a wall, and three jumps at one place are told apart.

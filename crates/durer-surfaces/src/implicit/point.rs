@@ -116,8 +116,17 @@ impl Isosurface {
         }
         let back = if sign > 0 { direction } else { -direction };
         let (p, ng) = match self.tape_near(p0, reach).wall(p0, reach) {
-            // Which way is outward the ray knows.
-            Some(wall) => (p0, if wall.dot(back) < 0.0 { -wall } else { wall }),
+            Some(wall) => {
+                // Beside what is no wall, as the formula jumps to and fro, or not across zero, the surface goes on.
+                let aside = wall * (4.0 * reach / wall.length());
+                if let Some(foot) =
+                    [aside, -aside].iter().find_map(|&aside| self.quick_foot(p0 + aside, 16.0 * reach))
+                {
+                    return foot;
+                }
+                // Which way is outward the ray knows.
+                (p0, if wall.dot(back) < 0.0 { -wall } else { wall })
+            }
             None => {
                 let (p, slope) = self.nearer(p0, reach);
                 (p, slope.unwrap_or(back))
