@@ -5,7 +5,7 @@
 //! - `gallery`: the pictures and pages of docs/gallery.md ([`gallery`]);
 //! - `examples`: the scenes that come with POV-Ray, beside its pictures ([`examples`]);
 //! - `bench`: the triangle kernels beside Embree's, on the same rays ([`mod@bench`]);
-//! - `soak`: the random tests, with many more cases ([`soak`]);
+//! - `soak`: the random tests, with ever new cases, added up ([`soak`]);
 //! - `fused`: which compiled code calls `fma` where it should be one instruction ([`fused`]).
 //!
 //! Everything here drives the programs a user has: cargo, the `durer` command built for release, and `povray`.
@@ -39,8 +39,8 @@ usage: cargo xtask NAME
   bench [--rounds N] HARNESS MESH.tri..
                                    traces the same rays with Embree and with durer, in turn, and prints both; HARNESS is
                                    a folder with embree_bench.cpp
-  soak [N]                         runs the random tests with N times as many cases; without N, 10^9 rays at closed
-                                   meshes and about an hour of the rest
+  soak [--minutes N]               runs the random tests with ever new cases for N minutes (60), and adds up in
+                                   docs/reliability.md
   fused [BINARY]                   lists compiled code that calls fma where it should be one instruction";
 
 /// What a chore comes to: nothing to say, or the reason why it failed.

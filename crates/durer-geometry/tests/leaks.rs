@@ -1,6 +1,6 @@
 //! Closed meshes leak nowhere: a ray from inside meets an odd number of faces, also one aimed at a vertex, at an edge, or along an axis.
 //!
-//! `DURER_SOAK=N` shoots N times as many rays.
+//! `DURER_SOAK=N` shoots N times as many rays, and `DURER_SOAK_FROM=K` others than K such runs have shot before (`cargo xtask soak`).
 
 mod common;
 
@@ -10,6 +10,7 @@ use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{Mesh, MeshData};
 use rayon::prelude::*;
 use std::collections::HashMap;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// A closed mesh around the origin.
@@ -136,11 +137,11 @@ fn ray(dice: &mut Dice, data: &MeshData, centre: Point3, room: f64) -> Ray {
     }
 }
 
-/// Shoots so many times a thousand rays from inside: none gets out, and each crosses an odd number of times.
+/// Shoots so many times a thousand rays from inside, the first of them of this number: none gets out, and each crosses an odd number of times.
 ///
 /// All crossings are counted of each; every fourth is asked for the first of them, and another whether there is any, which takes as long.
-fn shoot(world: &Geometry, data: &MeshData, centre: Point3, room: f64, thousands: u64, name: &str) {
-    (0..thousands).into_par_iter().for_each(|seed| {
+fn shoot(world: &Geometry, data: &MeshData, centre: Point3, room: f64, thousands: Range<u64>, name: &str) {
+    thousands.into_par_iter().for_each(|seed| {
         let mut dice = Dice(seed << 32);
         for i in 0..1000 {
             let ray = ray(&mut dice, data, centre, room);
@@ -177,8 +178,10 @@ fn closed_meshes_leak_nowhere_where_triangles_stand_in_several_leaves() {
 
 /// Says how many more references than triangles there were.
 fn leak_nowhere(bodies: &[(&str, Body)], settings: &Settings) -> u64 {
-    let soak: u64 = std::env::var("DURER_SOAK").ok().and_then(|n| n.parse().ok()).unwrap_or(1);
-    let mut shared = 0;
+    let variable = |name: &str| std::env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
+    let (soak, from) = (variable("DURER_SOAK"), variable("DURER_SOAK_FROM").unwrap_or(0));
+    let part = |thousands: u64| thousands * from..thousands * (from + soak.unwrap_or(1));
+    let (mut shared, mut rays) = (0, 0);
     for (name, body) in bodies {
         for (scale, by) in [(1.0, 0.0), (1.0, 1e5), (1.0, 1e6), (1e-6, 0.0), (1e-6, 1.0)] {
             let (data, centre) = moved(body, scale, by);
@@ -187,7 +190,8 @@ fn leak_nowhere(bodies: &[(&str, Body)], settings: &Settings) -> u64 {
             let world = Geometry::builder().settings(*settings).add(mesh).build().unwrap();
             let stats = world.stats();
             shared += stats.tree.entries as u64 - stats.primitives;
-            shoot(&world, &data, centre, room, 32 * soak, &format!("{name} times {scale} at {by}"));
+            shoot(&world, &data, centre, room, part(32), &format!("{name} times {scale} at {by}"));
+            rays += 1000 * soak.unwrap_or(1) * (32 + 8);
             // The same mesh, placed: now the rays are known within errors only, and take several times as long.
             let place = Affine::rotation(Vec3::new(1.0, 2.0, -0.5), 0.7).unwrap();
             let placed = Geometry::builder().instance(&Arc::new(world), place, EVERYTHING).build().unwrap();
@@ -198,10 +202,14 @@ fn leak_nowhere(bodies: &[(&str, Body)], settings: &Settings) -> u64 {
                 &data,
                 place.point(centre),
                 room,
-                8 * soak,
+                part(8),
                 &format!("placed {name} times {scale} at {by}"),
             );
         }
+    }
+    if soak.is_some() {
+        // What a soak adds up.
+        println!("soaked: {} {rays}", std::thread::current().name().unwrap_or("leaks"));
     }
     shared
 }

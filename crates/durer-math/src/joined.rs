@@ -27,11 +27,7 @@ impl Joined for I8 {
     /// It jumps where one of the sides does.
     #[inline(always)]
     fn joined(c: &Self, below: &Self, above: &Self) -> Self {
-        let (mut may_below, mut may_above) = (0_u8, 0_u8);
-        for i in 0..8 {
-            may_below |= u8::from(c.lo.0[i] < 0.0) << i;
-            may_above |= u8::from(c.hi.0[i] >= 0.0) << i;
-        }
+        let (may_below, may_above) = (c.lo.lt(F8::ZERO).bits(), c.hi.ge(F8::ZERO).bits());
         let mut out: Self = Number::select(c, below, above, above);
         out.jump = c.jump | may_below & below.jump | may_above & above.jump;
         out

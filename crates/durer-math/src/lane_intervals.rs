@@ -9,7 +9,7 @@
 use crate::interval::elementary::{Defined, Range};
 use crate::lane_waves::{wave, waves};
 use crate::number::{Comparison, Function, Number, Sloped};
-use crate::{F8, Interval, noise};
+use crate::{F8, Interval, M8, noise};
 
 /// How many there are.
 const LANES: usize = crate::lanes::LANES;
@@ -255,7 +255,7 @@ impl Number for I8 {
             return divided_by_points(a, b);
         }
         let mut inverse = Self::new(F8::ZERO, F8::ZERO);
-        let mut holed = 0;
+        let holed = (b.lo.le(F8::ZERO) & b.hi.ge(F8::ZERO)).bits();
         for i in 0..LANES {
             let (lo, hi) = (b.lo.0[i], b.hi.0[i]);
             let positive = lo > 0.0;
@@ -266,7 +266,6 @@ impl Number for I8 {
             let h = if !positive & (h > 0.0) { 0.0 } else { h };
             inverse.lo.0[i] = if apart { l } else { f64::NEG_INFINITY };
             inverse.hi.0[i] = if apart { h } else { f64::INFINITY };
-            holed |= u8::from(!apart) << i;
         }
         if holed != 0 {
             holes(&mut inverse, b, holed);
@@ -313,11 +312,9 @@ impl Number for I8 {
     #[inline(always)]
     fn sqrt(a: &Self) -> Self {
         let mut out = *a;
-        let (mut partial, mut empty) = (0, 0);
+        let (partial, empty) = (a.lo.lt(F8::ZERO).bits(), a.hi.lt(F8::ZERO).bits());
         for i in 0..LANES {
             let (l, h) = (a.lo.0[i], a.hi.0[i]);
-            partial |= u8::from(l < 0.0) << i;
-            empty |= u8::from(h < 0.0) << i;
             let (l, h) = (if l > 0.0 { l } else { 0.0 }, if h > 0.0 { h } else { 0.0 });
             // Roots are normal numbers; that of an infinite lower end there is none.
             let lo = below(l.sqrt());
@@ -387,43 +384,37 @@ impl Number for I8 {
 
     #[inline(always)]
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self {
-        let (mut yes, mut no) = ([false; LANES], [false; LANES]);
-        for i in 0..LANES {
-            let (al, ah, bl, bh) = (a.lo.0[i], a.hi.0[i], b.lo.0[i], b.hi.0[i]);
-            let (a_is, a_not) = ((al > 0.0) | (ah < 0.0), (al == 0.0) & (ah == 0.0));
-            let (b_is, b_not) = ((bl > 0.0) | (bh < 0.0), (bl == 0.0) & (bh == 0.0));
-            let (apart, equal) = ((ah < bl) | (bh < al), (al == ah) & (bl == bh) & (al == bl));
-            (yes[i], no[i]) = match c {
-                Comparison::Less => (ah < bl, al >= bh),
-                Comparison::LessEqual => (ah <= bl, al > bh),
-                Comparison::Equal => (equal, apart),
-                Comparison::NotEqual => (apart, equal),
-                Comparison::And => (a_is & b_is, a_not | b_not),
-                Comparison::Or => (a_is | b_is, a_not & b_not),
-            };
+        #[inline(always)]
+        fn truth(x: &I8) -> (M8, M8) {
+            let zero = F8::ZERO;
+            (x.lo.gt(zero) | x.hi.lt(zero), x.lo.equals(zero) & x.hi.equals(zero))
         }
+        let (apart, points) = (a.hi.lt(b.lo) | b.hi.lt(a.lo), a.lo.equals(a.hi) & b.lo.equals(b.hi));
+        let equal = points & a.lo.equals(b.lo);
+        let ((a_is, a_not), (b_is, b_not)) = (truth(a), truth(b));
+        let (yes, no) = match c {
+            Comparison::Less => (a.hi.lt(b.lo), a.lo.ge(b.hi)),
+            Comparison::LessEqual => (a.hi.le(b.lo), a.lo.gt(b.hi)),
+            Comparison::Equal => (equal, apart),
+            Comparison::NotEqual => (apart, equal),
+            Comparison::And => (a_is & b_is, a_not | b_not),
+            Comparison::Or => (a_is | b_is, a_not & b_not),
+        };
         let mut out = Self::new(F8::ZERO, F8::ZERO).said(a, b);
-        for i in 0..LANES {
-            out.lo.0[i] = if yes[i] { 1.0 } else { 0.0 };
-            out.hi.0[i] = if no[i] { 0.0 } else { 1.0 };
-            out.jump |= u8::from(!yes[i] & !no[i]) << i;
-        }
+        (out.lo, out.hi) = (yes.keep(F8::ONE), (!no).keep(F8::ONE));
+        out.jump |= (!yes & !no).bits();
         out
     }
 
     #[inline(always)]
     fn select(c: &Self, below: &Self, at: &Self, above: &Self) -> Self {
-        let (mut may_below, mut may_at, mut may_above) = (0_u8, 0_u8, 0_u8);
-        for i in 0..LANES {
-            let (lo, hi) = (c.lo.0[i], c.hi.0[i]);
-            may_below |= u8::from(lo < 0.0) << i;
-            may_at |= u8::from((lo <= 0.0) & (hi >= 0.0)) << i;
-            may_above |= u8::from(hi > 0.0) << i;
-        }
+        let may_below = c.lo.lt(F8::ZERO).bits();
+        let may_at = (c.lo.le(F8::ZERO) & c.hi.ge(F8::ZERO)).bits();
+        let may_above = c.hi.gt(F8::ZERO).bits();
         let mut out = Self::new(F8::splat(f64::INFINITY), F8::splat(f64::NEG_INFINITY)).said(c, c);
         let mut all_empty = 0xff;
         for (may, x) in [(may_below, below), (may_at, at), (may_above, above)] {
-            let use_it = crate::M8::from_bits(may & !x.empty);
+            let use_it = M8::from_bits(may & !x.empty);
             out.lo = use_it.select(out.lo.min(x.lo), out.lo);
             out.hi = use_it.select(out.hi.max(x.hi), out.hi);
             out.partial |= may & x.partial;
@@ -436,7 +427,7 @@ impl Number for I8 {
         out.jump |= may_below & may_above & apart(below, above);
         out.empty |= all_empty;
         out.partial |= all_empty;
-        let none = crate::M8::from_bits(out.empty);
+        let none = M8::from_bits(out.empty);
         out.lo = none.select(F8::ZERO, out.lo);
         out.hi = none.select(F8::ZERO, out.hi);
         out

@@ -212,7 +212,7 @@ impl Body {
                 && source.instance[i] == 0
                 && self.slots.contains(&slot(i))
         };
-        let lanes = (0..LANES).fold(0, |lanes, i| lanes | u8::from(is_own(i)) << i) & live;
+        let lanes = M8::from_fn(is_own).bits() & live;
         if lanes == 0 {
             return None;
         }
@@ -327,8 +327,11 @@ impl Body {
 impl Own {
     /// Those that leave a leaf.
     fn of(&self, leaf: usize) -> Option<From8> {
-        let lanes = (0..LANES).fold(0, |lanes, i| lanes | u8::from(self.leaf[i] as usize == leaf) << i);
-        let lanes = lanes & self.lanes;
+        let lanes = M8::from_fn(
+            #[inline(always)]
+            |i| self.leaf[i] as usize == leaf,
+        );
+        let lanes = lanes.bits() & self.lanes;
         (lanes != 0).then(|| From8 { lanes: M8::from_bits(lanes), face: self.face, back: self.back })
     }
 }

@@ -3,6 +3,7 @@
 use crate::vector::dot;
 use crate::world::{Look, World};
 use durer_geometry::{Hits8, Rays8};
+use durer_math::M8;
 use durer_math::lanes::{LANES, set_bits};
 
 /// Lanes of a group that belong together.
@@ -51,10 +52,11 @@ pub(super) fn cut(world: &World, group: usize, rays: &Rays8, hits: &Hits8, piece
     }
     while left != 0 {
         let key = keys[left.trailing_zeros() as usize];
-        let mut same = 0;
-        for (i, &other) in keys.iter().enumerate() {
-            same |= u8::from(other == key) << i;
-        }
+        let same = M8::from_fn(
+            #[inline(always)]
+            |i| keys[i] == key,
+        );
+        let same = same.bits();
         pieces.push(Piece { key, group: group as u32, lanes: same & left });
         left &= !same;
     }

@@ -177,7 +177,7 @@ struct Told {
 /// Bits of the lanes that are positive.
 #[inline(always)]
 fn positive(x: &F8) -> u8 {
-    (0..8).fold(0, |bits, k| bits | u8::from(x.0[k] > 0.0) << k)
+    x.gt(F8::ZERO).bits()
 }
 
 #[inline(always)]

@@ -68,6 +68,8 @@ pub fn check(surface: &dyn Subject, oracle: &dyn Oracle, ray: &Ray) -> Result<Ve
 
 /// Draws `count` rays at `features` and checks all laws for each.
 ///
+/// `DURER_SOAK=N` draws N times as many, and `DURER_SOAK_FROM=K` others than K such runs have drawn before (`cargo xtask soak`).
+///
 /// # Panics
 ///
 /// If a law is broken: with the law, the seed and the ray.
@@ -79,9 +81,9 @@ pub fn check_many(
     count: u64,
 ) -> Tally {
     let mut tally = Tally::default();
-    // A soak multiplies the number of rays.
-    let more = std::env::var("DURER_SOAK").ok().and_then(|x| x.parse::<u64>().ok()).unwrap_or(1);
-    for i in 0..count * more {
+    let variable = |name: &str| std::env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
+    let (soak, from) = (variable("DURER_SOAK"), variable("DURER_SOAK_FROM").unwrap_or(0));
+    for i in count * from..count * (from + soak.unwrap_or(1)) {
         let mut dice = Dice::new(seed.wrapping_mul(0x1_0000_0001).wrapping_add(i));
         let ray = aim(&mut dice, features, oracle.size());
         if !ray.is_valid() {
@@ -98,6 +100,10 @@ pub fn check_many(
             }
             Err(broken) => panic!("{broken}\n  ray {i} of seed {seed}: {ray:?}\n  surface: {surface:?}"),
         }
+    }
+    if soak.is_some() {
+        // What a soak adds up.
+        println!("soaked: {} {}", std::thread::current().name().unwrap_or("laws"), tally.rays);
     }
     tally
 }
