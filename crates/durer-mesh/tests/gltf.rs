@@ -432,7 +432,7 @@ fn materials_have_their_base_colours() -> Result<(), ErrorKind> {
             PigmentBody::Solid(colour) => colour,
             _ => panic!("{mesh:?}"),
         },
-        TextureBody::Pattern(_) => panic!("{mesh:?}"),
+        TextureBody::Pattern(_) | TextureBody::Fields(_) => panic!("{mesh:?}"),
     };
     assert_eq!(colour(0), Colour { transmit: 0.25, ..Colour::opaque(Rgb::new(0.0, 0.0, 1.0)) });
     assert_eq!(colour(1), Colour::opaque(Rgb::new(1.0, 0.5, 0.25)));

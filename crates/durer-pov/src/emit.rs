@@ -424,8 +424,12 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
         &Shape::Superellipsoid { e, n } => scene::Shape::Superellipsoid { e, n },
         Shape::Julia(set) => scene::Shape::Julia(set.clone()),
         Shape::Blob(blob) => {
-            limits::charge_for_good(blob.components.len() * size_of::<scene::BlobComponent>());
-            scene::Shape::Blob(Box::new((**blob).clone()))
+            limits::charge_for_good(blob.size());
+            scene::Shape::Blob(Box::new(scene::Blob {
+                threshold: blob.threshold,
+                components: blob.components.clone(),
+                textures: component_textures(&blob.textures, at)?,
+            }))
         }
         Shape::Deform(..) | Shape::Union(_) | Shape::Csg(..) | Shape::Light(_) => {
             return Err(Fault::invalid(at, "a single surface is needed here"));
@@ -444,6 +448,30 @@ fn filling(interior: &Interior) -> scene::Interior {
         fade_color: rgb(interior.fade_color),
         caustics: interior.caustics * CAUSTICS,
     }
+}
+
+/// The textures of a blob's components; none if no component has one. Components often share theirs.
+fn component_textures(all: &[Option<Rc<Texture>>], at: Place) -> Result<Vec<Option<Arc<scene::Texture>>>> {
+    if all.iter().all(Option::is_none) {
+        return Ok(Vec::new());
+    }
+    let mut made: Vec<Option<Arc<scene::Texture>>> = Vec::with_capacity(all.len());
+    // The last one that was made: runs of components have the same.
+    let mut last: Option<(&Rc<Texture>, Arc<scene::Texture>)> = None;
+    for own in all {
+        let Some(own) = own else {
+            made.push(None);
+            continue;
+        };
+        let known = last.take().filter(|(known, _)| *known == own);
+        let one = match known {
+            Some((_, one)) => one,
+            None => Arc::new(texture(own, at)?),
+        };
+        made.push(Some(Arc::clone(&one)));
+        last = Some((own, one));
+    }
+    Ok(made)
 }
 
 fn texture(own: &Texture, at: Place) -> Result<scene::Texture> {

@@ -233,10 +233,12 @@ fn blobs_and_superellipsoids_say_what_is_wrong_with_their_numbers() {
     assert!(fault("blob { component 1, 0, <0, 0, 0> }").2.contains("component is greater than 0, not 0"));
     assert!(fault("blob { cylinder { x, x, 1, 1 } }").2.contains("same point"));
     assert!(
-        fault("blob { sphere { 0, 1, 1 scale 2 box { 0, 1 } } }").2.contains("a transform of the component")
+        fault("blob { sphere { 0, 1, 1 scale 2 box { 0, 1 } } }").2.contains("a transform or the texture")
     );
-    let textured = fault("blob { sphere { 0, 1, 1 pigment { rgb 1 } } }").2;
-    assert_eq!(textured, "not supported yet: the texture of a blob's component");
+    let deformed =
+        fault("deform { blob { sphere { 0, 1, 2 pigment { rgb 1 } } } twist { y, 90, from 0 to 1 } }").2;
+    assert!(deformed.contains("a blob whose components have textures cannot be deformed"), "{deformed}");
+    assert!(fault("blob { sphere { 0, 1, 2 texture { checker } } }").2.contains("has no textures"));
 }
 
 #[test]

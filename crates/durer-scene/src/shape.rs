@@ -237,6 +237,8 @@ pub struct Blob {
     pub threshold: f64,
     /// The fields.
     pub components: Vec<BlobComponent>,
+    /// The texture of each of them, placed in the blob's space; what has none has the blob's. Empty if none has one.
+    pub textures: Vec<Option<Arc<Texture>>>,
 }
 
 /// What holds the surface of a function.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use durer_math::{Affine, AffineError};
 
-use crate::{Colour, Finish, Pattern, Placement, Rgb};
+use crate::{BlobComponent, Colour, Finish, Pattern, Placement, Rgb};
 
 /// The look of a surface: layers of paint, or a pattern of textures.
 ///
@@ -26,6 +26,20 @@ pub enum TextureBody {
     Layers(Vec<Layer>),
     /// Other textures by a pattern.
     Pattern(Box<Pattern<Arc<Texture>>>),
+    /// Other textures by the fields of a blob.
+    Fields(Box<Fields>),
+}
+
+/// Textures by the fields of a blob: at each point a mean of those whose fields reach it, each weighed by how strong its field is there, whether that is positive or
+/// negative. They are placed in the space of the texture that they are part of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fields {
+    /// From the blob's space to that of the texture.
+    pub placement: Placement,
+    /// The fields, each with the number of its texture.
+    pub components: Vec<(BlobComponent, u32)>,
+    /// The textures; at least one.
+    pub textures: Vec<Arc<Texture>>,
 }
 
 /// A layer of paint.
@@ -63,6 +77,7 @@ impl Texture {
         match &self.body {
             TextureBody::Layers(layers) => layers.iter().any(|l| l.pigment.is_opaque()),
             TextureBody::Pattern(pattern) => pattern.entries().all(|t| t.is_opaque()),
+            TextureBody::Fields(fields) => fields.textures.iter().all(|t| t.is_opaque()),
         }
     }
 
@@ -71,6 +86,7 @@ impl Texture {
         match &self.body {
             TextureBody::Layers(layers) => layers.iter().any(|l| l.pigment.has_empty_pattern()),
             TextureBody::Pattern(p) => p.lacks_entries() || p.entries().any(|t| t.has_empty_pattern()),
+            TextureBody::Fields(fields) => fields.textures.iter().any(|t| t.has_empty_pattern()),
         }
     }
 
@@ -80,7 +96,7 @@ impl Texture {
             TextureBody::Layers(layers) => {
                 layers.iter().all(|l| matches!(l.pigment.body, PigmentBody::Solid(_)))
             }
-            TextureBody::Pattern(_) => false,
+            TextureBody::Pattern(_) | TextureBody::Fields(_) => false,
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use durer_math::{Affine, Point3};
-use durer_scene::{Blob, BlobComponent, BlobShape};
+use durer_scene::{BlobComponent, BlobShape};
 
 use super::Shape;
 use crate::diagnostics::{Fault, Place, Result};
@@ -11,10 +11,36 @@ use crate::emit;
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::reader::Reader;
+use crate::texture::{Layer, Texture};
 use crate::transform::Matrix;
 
 /// The threshold of a blob that states none.
 const THRESHOLD: f64 = 1.0;
+
+/// What a component takes, but for what its texture holds.
+const EACH: usize = size_of::<BlobComponent>() + size_of::<Option<Rc<Texture>>>();
+
+/// The fields, and the textures that some of them have, moved with them.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Blob {
+    pub(crate) threshold: f64,
+    pub(crate) components: Vec<BlobComponent>,
+    /// As many as components.
+    pub(crate) textures: Vec<Option<Rc<Texture>>>,
+}
+
+impl Blob {
+    fn add(&mut self, (component, texture): (BlobComponent, Option<Rc<Texture>>)) {
+        self.components.push(component);
+        self.textures.push(texture);
+    }
+
+    /// What it holds in memory.
+    pub(crate) fn size(&self) -> usize {
+        let of_textures = |texture: &Rc<Texture>| texture.size() * size_of::<Layer>();
+        self.components.len() * EACH + self.textures.iter().flatten().map(of_textures).sum::<usize>()
+    }
+}
 
 fn point([x, y, z]: [f64; 3]) -> Point3 {
     Point3::new(x, y, z)
@@ -23,7 +49,8 @@ fn point([x, y, z]: [f64; 3]) -> Point3 {
 impl Reader<'_> {
     /// The items of a blob, after its opening brace.
     pub(crate) fn blob(&mut self, place: Place) -> Result<Shape> {
-        let mut blob = Blob { threshold: THRESHOLD, components: Vec::new() };
+        let mut blob = Blob { threshold: THRESHOLD, components: Vec::new(), textures: Vec::new() };
+        let (mut size, mut layers) = (0, 0);
         loop {
             self.skip_comma()?;
             match self.peek_word()? {
@@ -42,7 +69,7 @@ impl Reader<'_> {
                     self.next()?;
                     self.expect(Mark::BraceOpen)?;
                     let centre = self.corner()?;
-                    blob.components.push(self.field(BlobShape::Ball(point(centre)))?);
+                    blob.add(self.field(BlobShape::Ball(point(centre)))?);
                 }
                 Some(Keyword::Cylinder) => {
                     let at = self.here();
@@ -52,7 +79,7 @@ impl Reader<'_> {
                     if base == cap {
                         return Err(Fault::invalid(at, "this cylinder's ends are the same point"));
                     }
-                    blob.components.push(self.field(BlobShape::Segment(point(base), point(cap)))?);
+                    blob.add(self.field(BlobShape::Segment(point(base), point(cap)))?);
                 }
                 Some(Keyword::Component) => {
                     // The form of old scenes: strength, radius, centre.
@@ -62,7 +89,7 @@ impl Reader<'_> {
                     let radius = self.reach()?;
                     self.skip_comma()?;
                     let shape = BlobShape::Ball(point(self.vector()?));
-                    blob.components.push(BlobComponent { shape, radius, strength, place: Affine::IDENTITY });
+                    blob.add((BlobComponent { shape, radius, strength, place: Affine::IDENTITY }, None));
                 }
                 // Roots are certain and cells are made without them.
                 Some(Keyword::Sturm | Keyword::Hierarchy) => {
@@ -71,7 +98,11 @@ impl Reader<'_> {
                 }
                 _ => break,
             }
-            self.check_memory(blob.components.len() * size_of::<BlobComponent>(), place)?;
+            if let Some(Some(texture)) = blob.textures.get(size..).and_then(<[_]>::first) {
+                layers += texture.size();
+            }
+            size = blob.components.len();
+            self.check_memory(size * EACH + layers * size_of::<Layer>(), place)?;
         }
         if blob.components.is_empty() {
             return Err(Fault::invalid(place, "this blob has no components"));
@@ -79,32 +110,31 @@ impl Reader<'_> {
         Ok(Shape::Blob(Rc::new(blob)))
     }
 
-    /// The radius and the strength of a component, its transforms and its closing brace.
-    fn field(&mut self, shape: BlobShape) -> Result<BlobComponent> {
+    /// The radius and the strength of a component, its transforms, its texture and its closing brace.
+    fn field(&mut self, shape: BlobShape) -> Result<(BlobComponent, Option<Rc<Texture>>)> {
         let radius = self.reach()?;
         self.skip_comma()?;
         self.take_word(Keyword::Strength)?;
         let strength = self.float()?;
-        let mut matrix = Matrix::IDENTITY;
+        let (mut matrix, mut texture) = (Matrix::IDENTITY, None);
         loop {
             if let Some(by) = self.transform_item()? {
                 matrix = matrix.then(&by);
+                Self::move_texture(&mut texture, &by);
                 continue;
             }
-            if let Some(Keyword::Texture | Keyword::Pigment | Keyword::Finish | Keyword::Material) =
-                self.peek_word()?
-            {
-                return Err(Fault::unsupported(self.here(), "the texture of a blob's component"));
+            if self.texture_item(&mut texture)? {
+                continue;
             }
             if self.take_mark(Mark::BraceClose)? {
                 break;
             }
             let lexeme = self.next()?;
-            return Err(self.unexpected(&lexeme, "a transform of the component, or `}`"));
+            return Err(self.unexpected(&lexeme, "a transform or the texture of the component, or `}`"));
         }
         let at = self.here();
         let place = if matrix.is_identity() { Affine::IDENTITY } else { emit::affine(&matrix, at)? };
-        Ok(BlobComponent { shape, radius, strength, place })
+        Ok((BlobComponent { shape, radius, strength, place }, texture))
     }
 
     /// How far a field reaches.

@@ -207,8 +207,9 @@ fn check(object: &Rc<Object>) -> Result<()> {
         | Shape::Named(_)
         | Shape::Sector { .. }
         | Shape::Isosurface(..)
-        | Shape::Superellipsoid { .. }
-        | Shape::Blob(_) => return Ok(()),
+        | Shape::Superellipsoid { .. } => return Ok(()),
+        Shape::Blob(blob) if blob.textures.iter().all(Option::is_none) => return Ok(()),
+        Shape::Blob(_) => return refuse("a blob whose components have textures cannot be deformed"),
         Shape::Disc { .. } => "a disc",
         Shape::Parallelogram { .. } => "a parallelogram",
         Shape::Triangle(_) | Shape::SmoothTriangle(_) => "a triangle",

@@ -109,7 +109,7 @@ pub(crate) enum Shape {
         e: f64,
         n: f64,
     },
-    Blob(Rc<durer_scene::Blob>),
+    Blob(Rc<blob::Blob>),
     Julia(Box<durer_scene::Julia>),
     /// A solid and what is done to it.
     Deform(Rc<Object>, Rc<[durer_scene::Warp]>),

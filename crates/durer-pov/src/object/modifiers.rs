@@ -114,15 +114,10 @@ impl Reader<'_> {
 
     /// A texture or a part of one, an interior, a material.
     fn look(&mut self, object: &mut Object) -> Result<bool> {
+        if self.texture_item(&mut object.texture)? {
+            return Ok(true);
+        }
         match self.peek()? {
-            Item::Word(Keyword::Texture) => {
-                let next = self.texture_value()?;
-                let below = object.texture.take().map(Rc::unwrap_or_clone);
-                object.texture = Some(Rc::new(match below {
-                    None => next,
-                    Some(below) => self.laid_on(below, next)?,
-                }));
-            }
             Item::Word(Keyword::InteriorTexture) => {
                 self.next()?;
                 let next = self.nested(Self::texture_block)?;
@@ -131,12 +126,6 @@ impl Reader<'_> {
                     None => next,
                     Some(below) => self.laid_on(below, next)?,
                 }));
-            }
-            Item::Word(Keyword::Pigment | Keyword::Finish) => {
-                let base = || Rc::new(Texture::single((*self.defaults).clone()));
-                let mut texture = object.texture.take().unwrap_or_else(base);
-                self.layer_item(Rc::make_mut(&mut texture))?;
-                object.texture = Some(texture);
             }
             Item::Word(Keyword::Interior) => {
                 self.next()?;
@@ -155,6 +144,28 @@ impl Reader<'_> {
             Item::Value(Value::Interior(_)) => {
                 let lexeme = self.next()?;
                 return Err(self.unexpected(&lexeme, "a modifier such as interior { NAME }"));
+            }
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// What may be said of a texture where it is part of an object: itself, another one on it, or its pigment or finish.
+    pub(super) fn texture_item(&mut self, texture: &mut Option<Rc<Texture>>) -> Result<bool> {
+        match self.peek()? {
+            Item::Word(Keyword::Texture) => {
+                let next = self.texture_value()?;
+                let below = texture.take().map(Rc::unwrap_or_clone);
+                *texture = Some(Rc::new(match below {
+                    None => next,
+                    Some(below) => self.laid_on(below, next)?,
+                }));
+            }
+            Item::Word(Keyword::Pigment | Keyword::Finish) => {
+                let base = || Rc::new(Texture::single((*self.defaults).clone()));
+                let mut changed = texture.take().unwrap_or_else(base);
+                self.layer_item(Rc::make_mut(&mut changed))?;
+                *texture = Some(changed);
             }
             _ => return Ok(false),
         }

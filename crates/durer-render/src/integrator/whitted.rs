@@ -23,7 +23,7 @@ use crate::material::Mirror;
 use crate::progress::Progress;
 use crate::sampler::Place;
 use crate::stats::RayCounts;
-use crate::texture::{Blend, Coat, Paint};
+use crate::texture::{Blend, Coat, Paint, Weights};
 use crate::world::World;
 use durer_geometry::{Hits8, Rays8, Scratch};
 use durer_math::lanes::LANES;
@@ -288,6 +288,39 @@ impl<'w> Whitted<'w> {
                 }
                 self.blend(part, blend, spots, stack);
             }
+            Paint::Fields(weights) => self.weigh(part, weights, spots, stack),
+        }
+    }
+
+    /// Shades spots with each of the textures whose fields reach them.
+    fn weigh(&mut self, part: &Part<'_, 'w>, weights: &'w Weights, spots: &[Spot], stack: &mut u32) {
+        let (mut shown, mut shares) = (Vec::new(), Vec::new());
+        for (group, spot) in spots.iter().enumerate() {
+            let p = spot.inside.to_vec();
+            for i in spot.live.lanes() {
+                shown.clear();
+                weights.shown(p.lane(i).to_point(), &mut shown);
+                shares.extend(shown.iter().map(|&(texture, weight)| (texture, group, i, weight)));
+            }
+        }
+        shares.sort_unstable_by_key(|&(texture, group, i, _)| (texture, group, i));
+        let (mut weighed, mut some) = (Vec::new(), Spots::default());
+        for of_texture in shares.chunk_by(|a, b| a.0 == b.0) {
+            weighed.clear();
+            let mut lists = Vec::new();
+            for of_group in of_texture.chunk_by(|a, b| a.1 == b.1) {
+                let (mut weight, mut lanes) = (F8::ZERO, M8::NONE);
+                for &(_, _, i, share) in of_group {
+                    weight.0[i] = share;
+                    lanes.set_lane(i, true);
+                }
+                let mut spot = spots[of_group[0].1];
+                spot.paths.factor = spot.paths.factor * weight;
+                lists.push((weighed.len(), lanes.bits()));
+                weighed.push(spot);
+            }
+            let some = some.gather_again(self.isa, lists.into_iter(), &weighed);
+            self.paint(part, weights.texture(of_texture[0].0), some, stack);
         }
     }
 

@@ -3,11 +3,13 @@
 mod brick;
 mod cells;
 mod checker;
+mod fields;
 mod gradient;
 mod hexagon;
 mod place;
 mod wave;
 
+pub(crate) use self::fields::Weights;
 pub(crate) use self::place::Place;
 
 use durer_math::{Affine, AffineError, F8, Isa, M8, Point3};
@@ -25,6 +27,8 @@ pub(crate) enum Paint {
     Layers(Box<[Coat]>),
     /// Other textures by a pattern, in the space of the place.
     Pattern(Place, Box<Blend<Paint>>),
+    /// Other textures by the fields of a blob.
+    Fields(Box<Weights>),
 }
 
 /// A layer of paint.
@@ -271,6 +275,11 @@ impl Paint {
                 Place::new(&joined()?),
                 Box::new(Blend::new(pattern, |t| Self::new(t, &Affine::IDENTITY, ambient_light))?),
             ),
+            TextureBody::Fields(fields) => {
+                let around = joined()?;
+                let textures = |t: &Texture| Self::new(t, &around, ambient_light);
+                Self::Fields(Box::new(Weights::new(fields, &around, textures)?))
+            }
         })
     }
 
@@ -285,7 +294,7 @@ impl Paint {
                 }
                 left
             }
-            Self::Pattern(..) => {
+            Self::Pattern(..) | Self::Fields(_) => {
                 let mut left = Rgb8::BLACK;
                 for i in live.lanes() {
                     left.set_lane(i, self.passed_at(p.to_vec().lane(i).to_point()));
@@ -312,6 +321,12 @@ impl Paint {
                         .fold(Rgb::BLACK, |passed, i| passed + blend.entry(i).passed_at(p) * k),
                     None => Rgb::BLACK,
                 }
+            }
+            Self::Fields(weights) => {
+                let mut shown = Vec::new();
+                weights.shown(p, &mut shown);
+                let passed = |&(texture, part): &(u32, f64)| weights.texture(texture).passed_at(p) * part;
+                shown.iter().map(passed).fold(Rgb::BLACK, |sum, passed| sum + passed)
             }
         }
     }

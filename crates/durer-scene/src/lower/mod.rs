@@ -6,6 +6,7 @@
 mod build;
 mod csg;
 mod exact;
+mod fields;
 mod level_set;
 mod named;
 mod shapes;
@@ -420,6 +421,12 @@ impl Lowering {
         medium: u32,
         flags: Flags,
     ) -> Result<u32, LowerErrorKind> {
+        let texture = match &object.shape {
+            Shape::Blob(blob) if blob.textures.iter().any(Option::is_some) => {
+                (fields::texture(blob, place, &texture)?, Arc::clone(&self.world))
+            }
+            _ => texture,
+        };
         let look = match inside.clone() {
             None => self.look(texture, medium, flags, None),
             Some(inside) => {
@@ -475,8 +482,12 @@ fn join(first: &Placement, next: &Placement) -> Result<Placement, AffineError> {
 
 /// Whether some light may pass a shape of this texture.
 fn is_clear(object: &Object, texture: &Texture) -> bool {
-    let textures = if let Shape::Mesh(mesh) = &object.shape { mesh.textures.as_slice() } else { &[] };
-    !texture.is_opaque() || textures.iter().any(|t| !t.is_opaque())
+    let own = match &object.shape {
+        Shape::Mesh(mesh) => mesh.textures.iter().any(|t| !t.is_opaque()),
+        Shape::Blob(blob) => blob.textures.iter().flatten().any(|t| !t.is_opaque()),
+        _ => false,
+    };
+    own || !texture.is_opaque()
 }
 
 /// Whether some light may pass a texture.
@@ -516,6 +527,7 @@ fn is_plain(object: &Object) -> bool {
         && match &object.shape {
             Shape::Union(parts) | Shape::Csg(_, parts) => parts.iter().all(is_plain),
             Shape::Mesh(mesh) => mesh.textures.iter().all(opaque),
+            Shape::Blob(blob) => blob.textures.iter().flatten().all(opaque),
             _ => true,
         }
 }
