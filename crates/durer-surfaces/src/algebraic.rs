@@ -488,6 +488,32 @@ mod tests {
         }
     }
 
+    /// The same, sheared and stretched: a normal goes along as the gradient does, not as a direction.
+    #[test]
+    fn normals_far_out_are_placed_as_gradients_are() {
+        let list = list(3, &[([3, 0, 0], 1.0), ([0, 1, 2], 1.0), ([0, 0, 0], -3.0)]);
+        let rows = [[2.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.5, 4.0]];
+        let map = durer_math::Affine::new(rows, Point3::ORIGIN).unwrap();
+        let surface = crate::Placed::new(AlgebraicSurface::new(3, &list).unwrap(), map);
+        for k in [0, 100, 255, 256, 300, 500] {
+            let z = ldexp(1.0, k);
+            let ray = durer_math::Ray::new(
+                map.point(Point3::new(1.0, 8.0, z)),
+                map.vector(Vec3::new(0.0, -1.0, 0.0)),
+            );
+            let roots = crate::laws::all_roots(&surface, &ray);
+            assert_eq!(roots.len(), 1, "z = 2^{k}");
+            let normal = surface.resolve(&LocalRay::new(&ray), &roots[0], Need::POINT).ng.to_vec();
+            // The gradient of the local frame times the inverse.
+            let local = Vec3::new(3.0 / z / z, 1.0, 4.0 / z / z / z);
+            let inverse = map.inverse_linear();
+            let column = |j: usize| (0..3).map(|i| inverse[i][j] * local[i]).sum::<f64>();
+            let exact = Vec3::new(column(0), column(1), column(2));
+            let exact = exact * (1.0 / exact.length());
+            assert!((normal - exact).max_abs() <= 16.0 * f64::EPSILON, "z = 2^{k}: {normal:?} {exact:?}");
+        }
+    }
+
     /// A node, double lines, an order that is really lower, a quartic with singular points, a quintic, an octic.
     #[test]
     fn algebraic_surfaces_obey_the_laws() {

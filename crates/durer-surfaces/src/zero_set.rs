@@ -429,6 +429,10 @@ fn resolve_here<const N: usize, Z: ZeroSet<N>>(
     let y = Vec3::new(s.mul_add(at.d.x, at.o.x), s.mul_add(at.d.y, at.o.y), s.mul_add(at.d.z, at.o.z));
     let e_y = at.o_err + at.d_err * s.abs() + y.abs() * U;
     let (y1, f, g, bend) = project(shape, y);
+    // Far out the square of the gradient may be beyond the range of f64. A part of f has the same zeros.
+    let far = Some(exponent(g.max_abs())).filter(|k| *k > 500 && g.is_finite()).unwrap_or(0);
+    let part = |x: f64| scale2(x, -far);
+    let (f, g, bend) = (Run { v: part(f.v), e: part(f.e) + TINY }, g.map(part), part(bend));
 
     // The world's numbers; what their rounding loses is known exactly.
     let axis = |c: f64, y: f64| two_sum(c, scale2(y, scale));
@@ -474,7 +478,7 @@ fn resolve_here<const N: usize, Z: ZeroSet<N>>(
             // The normal is G / |G|, so it changes with v by (H v - n (n·H v)) / |G|.
             let length = length.max(TINY);
             let turn = |v: Vec3| {
-                let hv = shape.turn(y1, v);
+                let hv = shape.turn(y1, v).map(part);
                 let dn = (hv - normal * normal.dot(hv)) * (1.0 / length);
                 if dn.is_finite() { dn } else { Vec3::ZERO }
             };
