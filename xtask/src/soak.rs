@@ -152,7 +152,7 @@ fn grouped(n: u64) -> String {
     let digits = n.to_string();
     let mut text = String::new();
     for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i) % 3 == 0 {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
             text.push(' ');
         }
         text.push(digit);
@@ -166,9 +166,10 @@ mod tests {
 
     #[test]
     fn a_page_is_read_as_it_was_written() {
-        let mut sums = Sums::default();
-        sums.drawn = [("meshes".into(), 2500), ("surfaces".into(), 1)].into();
-        sums.rows = [("surfaces: torus".into(), (1_234_567, 0)), ("meshes: leaks".into(), (40, 2))].into();
+        let sums = Sums {
+            drawn: [("meshes".into(), 2500), ("surfaces".into(), 1)].into(),
+            rows: [("surfaces: torus".into(), (1_234_567, 0)), ("meshes: leaks".into(), (40, 2))].into(),
+        };
         let read = Sums::read(&sums.page());
         assert_eq!((&read.drawn, &read.rows), (&sums.drawn, &sums.rows));
         assert!(sums.table().contains("| surfaces: torus | 1 234 567 | 0 | 2.4e-6 |"), "{}", sums.table());

@@ -316,3 +316,50 @@ fn spans_of_formulas_are_bounded_and_clusters_are_no_more_than_tangents() {
     }
     assert!(faults.is_empty(), "{} faults\n{}", faults.len(), faults.join("\n"));
 }
+
+/// A range that ends just before a crossing or just behind it, also where the origin is so far away that one unit in the last place of `t` is much of the set.
+#[test]
+fn ranges_that_end_beside_a_crossing_are_told_by_narrow_brackets() {
+    let julia = Julia {
+        c: [-1.0, 0.25, 0.0, 0.0],
+        algebra: JuliaAlgebra::Quaternion,
+        power: JuliaPower::Cube,
+        iterations: 3,
+        radius: 2.5,
+        normal: [0.0, 0.0, 0.0, 1.0],
+        distance: -0.25,
+    };
+    let rows = [[8.0, 0.0, 0.0], [0.0, 64.0, 0.0], [0.0, 0.0, 1.0 / 512.0]];
+    let place = Affine::new(rows, Point3::new(1.0, 0.0, 125.0)).unwrap();
+    let parts =
+        [(-0.3, 1.0), (0.4, 0.7)].map(|(x, strength)| component(Point3::new(x, 0.0, 0.0), 1.0, strength));
+    let worlds = [
+        Geometry::builder().add(Placed::new(JuliaSet::new(&julia).unwrap(), place)).build().unwrap(),
+        Geometry::builder().add(Placed::new(Blob::new(0.3, &parts).unwrap(), place)).build().unwrap(),
+    ];
+    let mut beside = 0;
+    for world in &worlds {
+        for i in 0..400 {
+            let far = [1e3, 1e6, 805_306_367.0][i % 3];
+            let offset = |i: usize, n: usize| (i % n) as f64 / n as f64 - 0.5;
+            let origin = Point3::new(-far, 40.0 * offset(i, 29), 125.0 + offset(i, 31) / 512.0);
+            let mut ray = Ray::new(origin, Vec3::new(0.5, 0.0, 0.0));
+            for hit in world.all(&ray) {
+                for (t_min, t_max) in [
+                    (hit.t_hi.next_up(), f64::INFINITY),
+                    (hit.t_hi, f64::INFINITY),
+                    (0.0, hit.t_lo.next_down()),
+                    (0.0, hit.t_lo),
+                    (hit.t_hi.next_up(), hit.t_hi.next_up().next_up()),
+                ] {
+                    (ray.t_min, ray.t_max) = (t_min, t_max);
+                    let all = world.all(&ray);
+                    assert_eq!(world.any(&ray), !all.is_empty(), "{ray:?}");
+                    assert_eq!(world.closest(&ray).map(|hit| hit.t), all.first().map(|hit| hit.t), "{ray:?}");
+                    beside += 1;
+                }
+            }
+        }
+    }
+    assert!(beside > 2000, "{beside}");
+}

@@ -11,7 +11,7 @@ fn pigment(scene: &Scene, index: usize) -> Pigment {
     let texture = scene.objects[index].texture.as_ref().unwrap();
     match &texture.body {
         TextureBody::Layers(layers) => layers.last().unwrap().pigment.clone(),
-        TextureBody::Pattern(_) => panic!("a patterned texture"),
+        TextureBody::Pattern(_) | TextureBody::Fields(_) => panic!("a patterned texture"),
     }
 }
 
@@ -25,7 +25,7 @@ fn solid(scene: &Scene, index: usize) -> [f64; 3] {
 fn ambient(scene: &Scene, index: usize) -> f64 {
     match &scene.objects[index].texture.as_ref().unwrap().body {
         TextureBody::Layers(layers) => layers.last().unwrap().finish.ambient.r,
-        TextureBody::Pattern(_) => panic!("a patterned texture"),
+        TextureBody::Pattern(_) | TextureBody::Fields(_) => panic!("a patterned texture"),
     }
 }
 
@@ -131,7 +131,7 @@ fn parts_of_a_look_change_the_top_layer() {
     assert_eq!((solid(&scene, 1), ambient(&scene, 1)), ([0.0, 1.0, 0.0], 0.5));
     match &scene.objects[0].texture.as_ref().unwrap().body {
         TextureBody::Layers(layers) => assert_eq!(layers.len(), 2),
-        TextureBody::Pattern(_) => panic!("a patterned texture"),
+        TextureBody::Pattern(_) | TextureBody::Fields(_) => panic!("a patterned texture"),
     }
 }
 
@@ -493,4 +493,21 @@ fn what_is_cut_lends_its_texture_to_what_cuts() {
         let fault = support::scene(&refused).lower().unwrap_err();
         assert!(fault.to_string().contains("cutaway_textures") && fault.place.is_some(), "{fault}");
     }
+}
+
+#[test]
+fn components_of_blobs_may_have_textures_of_their_own() {
+    let scene = scene(
+        "blob { threshold 0.5 sphere { 0, 1, 1 pigment { checker rgb x } translate 2*y } cylinder { 0, x, 1, 1 } component 1, 1, <0, 0, 0> pigment { rgb y } } blob { sphere { 0, 1, 2 } }",
+    );
+    let blob = |index: usize| match &scene.objects[index].shape {
+        Shape::Blob(blob) => blob.clone(),
+        other => panic!("{other:?}"),
+    };
+    let [Some(own), None, None] = &blob(0).textures[..] else { panic!("{:?}", blob(0).textures) };
+    let TextureBody::Layers(layers) = &own.body else { panic!("{own:?}") };
+    // The component's transforms move what is written before them, the texture too.
+    assert_eq!(layers[0].pigment.placement.affine().centre(), Point3::new(0.0, 2.0, 0.0));
+    assert_eq!(solid(&scene, 0), [0.0, 1.0, 0.0]);
+    assert_eq!(blob(1).textures, []);
 }

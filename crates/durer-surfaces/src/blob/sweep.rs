@@ -84,7 +84,7 @@ struct Query<'a> {
     charge: f64,
     bent: f64,
     /// Of the ray's range.
-    ends: (f64, f64),
+    ends: [(f64, f64); 2],
     /// Crossings behind this are of no interest.
     last: f64,
     /// Nothing before this is looked at.
@@ -103,7 +103,7 @@ pub(super) fn roots(blob: &Blob, at: &CentredRay<'_>, sink: &mut dyn Sink) {
     let ray = at.local();
     let mut lists = LISTS.take();
     lists.clear();
-    let ends = at.window((ray.t_min, ray.t_max));
+    let ends = at.ends((ray.t_min, ray.t_max));
     let window = at.window((ray.t_min, ray.t_max.min(sink.limit())));
     let start = at.spawned().map(|(side, _, s)| (side == RaySide::Back, s));
     // A little before the range, where the sign is known more likely than at its very start.
@@ -321,7 +321,8 @@ impl Query<'_> {
         let rough = self.at.local().rough;
         // Pictures, too, must know on which side of an end of the range a crossing is.
         let widest = |s: f64| {
-            let rough = rough && (s - ends.0).abs().min((s - ends.1).abs()) > 4.0 * ROUGH * scale(s);
+            let away = |(lo, hi): (f64, f64)| (lo - s).max(s - hi);
+            let rough = rough && away(ends[0]).min(away(ends[1])) > 4.0 * ROUGH * scale(s);
             if rough { ROUGH * scale(s) } else { NARROW * scale(s) }
         };
         let flow = stretch.tell(

@@ -64,7 +64,7 @@ impl Isosurface {
     fn roots_between(&self, ray: &LocalRay<'_>, (lo, hi): (f64, f64), sink: &mut dyn Sink) {
         let at = self.centred(ray);
         let line = Line::new(&at, lo.abs().max(hi.abs()));
-        let ends = ray.rough.then(|| at.window((ray.t_min, ray.t_max)));
+        let ends = ray.rough.then(|| at.ends((ray.t_min, ray.t_max)));
         let mut tracker = Tracker::new(&line, &self.tape, Some(true), ends);
         let mut passes = 0;
         let mut show = |found: Option<Found>| found.is_none_or(|it| shown(&at, sink, &it) == Flow::Continue);
@@ -261,7 +261,7 @@ impl Query<'_> {
         [entry, exit]: [Option<&Root>; 2],
     ) -> Option<bool> {
         let surface = self.surface;
-        let ends = self.ray.rough.then(|| self.at.window((self.ray.t_min, self.ray.t_max)));
+        let ends = self.ray.rough.then(|| self.at.ends((self.ray.t_min, self.ray.t_max)));
         let mut walk = Walk {
             surface,
             line: self.line,

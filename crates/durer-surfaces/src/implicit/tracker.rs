@@ -83,7 +83,7 @@ pub(crate) struct Tracker<'a, C: Curve> {
     before: Option<bool>,
     run: Option<Run<C::Form<'a>>>,
     /// Brackets may be wide, except of roots that may be on either side of one of these two numbers.
-    rough: Option<(f64, f64)>,
+    rough: Option<[(f64, f64); 2]>,
 }
 
 impl<'a, C: Curve> Tracker<'a, C> {
@@ -92,7 +92,7 @@ impl<'a, C: Curve> Tracker<'a, C> {
         line: &'a C,
         whole: C::Form<'a>,
         before: Option<bool>,
-        rough: Option<(f64, f64)>,
+        rough: Option<[(f64, f64); 2]>,
     ) -> Self {
         Self { line, whole, before, run: None, rough }
     }
@@ -227,9 +227,7 @@ impl<'a, C: Curve> Tracker<'a, C> {
                 }
                 let polished = |rough| polished(self.line, run.form, run.lo, run.hi, rises, rough);
                 let (mut s, mut lo, mut hi) = polished(self.rough.is_some());
-                if let Some((from, to)) = self.rough
-                    && (lo <= from && from <= hi || lo <= to && to <= hi)
-                {
+                if self.rough.is_some_and(|ends| ends.iter().any(|end| lo <= end.1 && end.0 <= hi)) {
                     (s, lo, hi) = polished(false);
                 }
                 // Where one sign is not known the root may lie on an end, or just not be there: it cannot be disproved.

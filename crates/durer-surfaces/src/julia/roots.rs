@@ -44,7 +44,7 @@ impl<const M: usize, const C: usize> Solid<M, C> {
             Some(side) if ray.t_min == 0.0 && from > first => (from, Some(side == RaySide::Front)),
             _ => (first, Some(true)),
         };
-        let ends = ray.rough.then(|| at.window((ray.t_min, ray.t_max)));
+        let ends = ray.rough.then(|| at.ends((ray.t_min, ray.t_max)));
         let tracker = Tracker::new(&line, (), before, ends);
         let mut query = Query { line: &line, ray, at: &at, sink, last: to, tracker, passes: 0 };
         if a < last

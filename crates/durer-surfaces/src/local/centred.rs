@@ -165,6 +165,13 @@ impl<'a> CentredRay<'a> {
         (bound(back(lo) - TINY, f64::NEG_INFINITY), bound(back(hi) + TINY, f64::INFINITY))
     }
 
+    /// For each end of a range of `t`, numbers `(lo, hi)` such that brackets of `s` outside `[lo, hi]` have brackets of `t` that do not hold that end.
+    pub fn ends(&self, (t_lo, t_hi): (f64, f64)) -> [(f64, f64); 2] {
+        // The slack of a window is more than a bracket is rounded by: that is an error of the clock, and three units in the last place.
+        let end = |t: f64| if t.is_finite() { self.window((t, t)) } else { (t, t) };
+        [end(t_lo), end(t_hi)]
+    }
+
     /// The `s` of `t = 0`, rounded, with its sign turned: `t = 2^k (origin + s)`.
     #[inline(always)]
     pub fn shift(&self) -> f64 {
