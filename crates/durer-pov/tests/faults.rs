@@ -238,7 +238,7 @@ fn blobs_and_superellipsoids_say_what_is_wrong_with_their_numbers() {
     let deformed =
         fault("deform { blob { sphere { 0, 1, 2 pigment { rgb 1 } } } twist { y, 90, from 0 to 1 } }").2;
     assert!(deformed.contains("a blob whose components have textures cannot be deformed"), "{deformed}");
-    assert!(fault("blob { sphere { 0, 1, 2 texture { checker } } }").2.contains("has no textures"));
+    assert!(fault("blob { sphere { 0, 1, 2 texture { gradient x } } }").2.contains("has no textures"));
 }
 
 #[test]
