@@ -13,8 +13,6 @@ use super::{Paint, Place};
 
 /// Fields are looked at one by one where there are no more than so many.
 const FEW: usize = 4;
-/// A tree that halves 2^32 fields is no deeper.
-const DEEPEST: usize = 32;
 
 /// The fields of a blob, each with a texture.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,7 +63,7 @@ impl Weights {
             .map(|(component, texture)| (reach(component), Field::new(component, *texture)))
             .collect();
         let mut nodes = Vec::new();
-        divide(&mut made, 0, 0, &mut nodes);
+        divide(&mut made, 0, &mut nodes);
         Ok(Self {
             place: Place::new(&fields.placement.affine().then(around)?),
             fields: made.into_iter().map(|(_, field)| field).collect(),
@@ -150,12 +148,12 @@ fn reach(component: &BlobComponent) -> Aabb {
     component.bounds().unwrap_or(Aabb::UNBOUNDED)
 }
 
-/// Puts down the box around some fields, of which the first one has that number, and halves them at the middle of its longest side.
-fn divide(fields: &mut [(Aabb, Field)], first: u32, depth: usize, nodes: &mut Vec<Node>) {
+/// Puts down the box around some fields, of which the first one has that number, and halves them, by where they are along its longest side.
+fn divide(fields: &mut [(Aabb, Field)], first: u32, nodes: &mut Vec<Node>) {
     let bounds = fields.iter().fold(Aabb::EMPTY, |all, (bounds, _)| all.union(*bounds));
     let at = nodes.len();
     nodes.push(Node { bounds, first, count: fields.len() as u32, next: 0 });
-    if fields.len() > FEW && depth < DEEPEST {
+    if fields.len() > FEW {
         let size = bounds.max - bounds.min;
         let axis = if size.x >= size.y && size.x >= size.z {
             0
@@ -167,8 +165,8 @@ fn divide(fields: &mut [(Aabb, Field)], first: u32, depth: usize, nodes: &mut Ve
         let middle = fields.len() / 2;
         fields.select_nth_unstable_by(middle, |(a, _), (b, _)| a.centre()[axis].total_cmp(&b.centre()[axis]));
         let (low, high) = fields.split_at_mut(middle);
-        divide(low, first, depth + 1, nodes);
-        divide(high, first + middle as u32, depth + 1, nodes);
+        divide(low, first, nodes);
+        divide(high, first + middle as u32, nodes);
     }
     nodes[at].next = nodes.len() as u32;
 }

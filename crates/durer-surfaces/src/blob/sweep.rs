@@ -83,7 +83,7 @@ struct Query<'a> {
     /// What all known pieces could add where they are taken for none, and how fast that may change.
     charge: f64,
     bent: f64,
-    /// Of the ray's range.
+    /// Of the ray's range, each within rounding.
     ends: [(f64, f64); 2],
     /// Crossings behind this are of no interest.
     last: f64,

@@ -82,7 +82,7 @@ pub(crate) struct Tracker<'a, C: Curve> {
     /// The sign before the run, if it is known.
     before: Option<bool>,
     run: Option<Run<C::Form<'a>>>,
-    /// Brackets may be wide, except of roots that may be on either side of one of these two numbers.
+    /// Brackets may be wide, except of roots that may be in one of these two intervals: the ends of the ray's range, within rounding.
     rough: Option<[(f64, f64); 2]>,
 }
 
