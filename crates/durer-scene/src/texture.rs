@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use durer_math::{Affine, AffineError};
+use durer_surfaces::Blob;
 
-use crate::{BlobComponent, Colour, Finish, Pattern, Placement, Rgb};
+use crate::{Colour, Finish, Pattern, Placement, Rgb};
 
 /// The look of a surface: layers of paint, or a pattern of textures.
 ///
@@ -31,15 +32,24 @@ pub enum TextureBody {
 }
 
 /// Textures by the fields of a blob: at each point a mean of those whose fields reach it, each weighed by how strong its field is there, whether that is positive or
-/// negative. They are placed in the space of the texture that they are part of.
+/// negative.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fields {
     /// From the blob's space to that of the texture.
     pub placement: Placement,
-    /// The fields, each with the number of its texture.
-    pub components: Vec<(BlobComponent, u32)>,
-    /// The textures; at least one.
-    pub textures: Vec<Arc<Texture>>,
+    /// The fields.
+    pub blob: Blob,
+    /// The texture of each component, placed in the blob's space.
+    pub textures: Vec<Option<Arc<Texture>>>,
+    /// That of components that have none, placed in the space of the texture.
+    pub rest: Arc<Texture>,
+}
+
+impl Fields {
+    /// All textures.
+    fn all(&self) -> impl Iterator<Item = &Texture> {
+        self.textures.iter().flatten().chain([&self.rest]).map(|texture| &**texture)
+    }
 }
 
 /// A layer of paint.
@@ -77,7 +87,7 @@ impl Texture {
         match &self.body {
             TextureBody::Layers(layers) => layers.iter().any(|l| l.pigment.is_opaque()),
             TextureBody::Pattern(pattern) => pattern.entries().all(|t| t.is_opaque()),
-            TextureBody::Fields(fields) => fields.textures.iter().all(|t| t.is_opaque()),
+            TextureBody::Fields(fields) => fields.all().all(Self::is_opaque),
         }
     }
 
@@ -86,7 +96,7 @@ impl Texture {
         match &self.body {
             TextureBody::Layers(layers) => layers.iter().any(|l| l.pigment.has_empty_pattern()),
             TextureBody::Pattern(p) => p.lacks_entries() || p.entries().any(|t| t.has_empty_pattern()),
-            TextureBody::Fields(fields) => fields.textures.iter().any(|t| t.has_empty_pattern()),
+            TextureBody::Fields(fields) => fields.all().any(Self::has_empty_pattern),
         }
     }
 

@@ -298,7 +298,6 @@ impl<'w> Whitted<'w> {
         for (group, spot) in spots.iter().enumerate() {
             let p = spot.inside.to_vec();
             for i in spot.live.lanes() {
-                shown.clear();
                 weights.shown(p.lane(i).to_point(), &mut shown);
                 shares.extend(shown.iter().map(|&(texture, weight)| (texture, group, i, weight)));
             }

@@ -1,74 +1,61 @@
 //! Textures by the fields of a blob's components.
 //!
 //! ```text
-//!   the part of a component's texture at p:  |f_i(p)| / Σ |f_j(p)|,   f = strength (1 - (distance / radius)²)²  within the radius
+//!   the part of a component's texture at p:  |f_i(p)| / Σ |f_j(p)|
 //! ```
 //!
-//! A fact of the scene language: what takes away from the sum shows its texture, too. The fields that reach a point are found in a tree of their boxes.
+//! A fact of the scene language: what takes away from the sum shows its texture, too.
 
-use durer_math::{Aabb, Affine, AffineError, Point3, Vec3};
-use durer_scene::{BlobComponent, BlobShape, Fields};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use durer_math::{Affine, AffineError, Point3};
+use durer_scene::{Fields, Texture};
+use durer_surfaces::Blob;
 
 use super::{Paint, Place};
-
-/// Fields are looked at one by one where there are no more than so many.
-const FEW: usize = 4;
 
 /// The fields of a blob, each with a texture.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Weights {
     /// The space of the blob.
     place: Place,
-    /// In the order of the tree.
-    fields: Box<[Field]>,
-    /// Boxes around ranges of fields: the first one around all; behind each stands its first half, and where that one's own end the second.
-    nodes: Box<[Node]>,
+    blob: Blob,
+    /// The number of each component's texture; what has none has the first one.
+    of: Box<[u32]>,
     textures: Box<[Paint]>,
 }
 
-#[derive(Clone, Debug, PartialEq)]
-struct Field {
-    /// The component's own frame in that of the blob.
-    place: Place,
-    start: Point3,
-    /// To the other end of the axis, and one over the square of its length.
-    axis: Vec3,
-    shorter: f64,
-    /// One over the square of the radius.
-    closer: f64,
-    strength: f64,
-    texture: u32,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Node {
-    bounds: Aabb,
-    /// Of the fields.
-    first: u32,
-    count: u32,
-    /// The node to go on with where the box is missed.
-    next: u32,
-}
-
 impl Weights {
-    /// Makes fields ready, in whose space `around` is the placement.
+    /// Makes fields ready that are in a texture with this placement; `paint` makes a texture ready in such a one.
     pub(super) fn new(
         fields: &Fields,
         around: &Affine,
-        paint: impl Fn(&durer_scene::Texture) -> Result<Paint, AffineError>,
+        paint: impl Fn(&Texture, &Affine) -> Result<Paint, AffineError>,
     ) -> Result<Self, AffineError> {
-        let mut made: Vec<(Aabb, Field)> = fields
-            .components
-            .iter()
-            .map(|(component, texture)| (reach(component), Field::new(component, *texture)))
-            .collect();
-        let mut nodes = Vec::new();
-        divide(&mut made, 0, &mut nodes);
+        let place = fields.placement.affine().then(around)?;
+        let mut textures = vec![paint(&fields.rest, around)?];
+        let mut known = HashMap::new();
+        let mut of = Vec::with_capacity(fields.textures.len());
+        for texture in &fields.textures {
+            of.push(match texture {
+                None => 0,
+                Some(texture) => match known.get(&Arc::as_ptr(texture)) {
+                    Some(&number) => number,
+                    None => {
+                        let number = textures.len() as u32;
+                        textures.push(paint(texture, &place)?);
+                        known.insert(Arc::as_ptr(texture), number);
+                        number
+                    }
+                },
+            });
+        }
         Ok(Self {
-            place: Place::new(&fields.placement.affine().then(around)?),
-            fields: made.into_iter().map(|(_, field)| field).collect(),
-            nodes: nodes.into(),
-            textures: fields.textures.iter().map(|t| paint(t)).collect::<Result<_, _>>()?,
+            place: Place::new(&place),
+            blob: fields.blob.clone(),
+            of: of.into(),
+            textures: textures.into(),
         })
     }
 
@@ -77,174 +64,77 @@ impl Weights {
         &self.textures[number as usize]
     }
 
-    /// Appends the textures that are shown at a point, with their parts, which add up to 1: to each texture once, ascending.
+    /// The textures that are shown at a point, with their parts, which add up to 1: each texture once, ascending.
     pub(crate) fn shown(&self, p: Point3, shown: &mut Vec<(u32, f64)>) {
-        let p = self.place.inside(p);
-        let first = shown.len();
+        shown.clear();
         let mut sum = 0.0;
-        let mut at = 0;
-        while let Some(node) = self.nodes.get(at) {
-            if !node.bounds.contains(p) {
-                at = node.next as usize;
-                continue;
+        self.blob.fields_at(self.place.inside(p), |component, value| {
+            let (texture, part) = (self.of.get(component).copied().unwrap_or(0), value.abs());
+            sum += part;
+            match shown.iter_mut().find(|(known, _)| *known == texture) {
+                Some((_, all)) => *all += part,
+                None => shown.push((texture, part)),
             }
-            at += 1;
-            if node.next as usize > at {
-                continue;
-            }
-            for field in &self.fields[node.first as usize..(node.first + node.count) as usize] {
-                let part = field.at(p).abs();
-                if part > 0.0 {
-                    sum += part;
-                    match shown[first..].iter_mut().find(|(texture, _)| *texture == field.texture) {
-                        Some((_, all)) => *all += part,
-                        None => shown.push((field.texture, part)),
-                    }
-                }
-            }
-        }
-        if shown.len() == first {
-            // A point that rounding has put beyond all fields: the first texture is as good as any.
+        });
+        if shown.is_empty() {
+            // No field reaches what is no point of the surface.
             shown.push((0, 1.0));
             return;
         }
-        for (_, part) in &mut shown[first..] {
+        for (_, part) in &mut *shown {
             *part /= sum;
         }
-        shown[first..].sort_unstable_by_key(|&(texture, _)| texture);
+        shown.sort_unstable_by_key(|&(texture, _)| texture);
     }
-}
-
-impl Field {
-    fn new(component: &BlobComponent, texture: u32) -> Self {
-        let (start, axis) = match component.shape {
-            BlobShape::Ball(centre) => (centre, Vec3::ZERO),
-            BlobShape::Segment(a, b) => (a, b - a),
-        };
-        let length = axis.dot(axis);
-        Self {
-            place: Place::new(&component.place),
-            start,
-            axis,
-            shorter: if length > 0.0 { 1.0 / length } else { 0.0 },
-            closer: 1.0 / (component.radius * component.radius),
-            strength: component.strength,
-            texture,
-        }
-    }
-
-    /// The field at a point of the blob's space.
-    fn at(&self, p: Point3) -> f64 {
-        let v = self.place.inside(p) - self.start;
-        let along = (v.dot(self.axis) * self.shorter).clamp(0.0, 1.0);
-        let away = v - self.axis * along;
-        let left = (1.0 - away.dot(away) * self.closer).max(0.0);
-        self.strength * left * left
-    }
-}
-
-/// A box around all that a field reaches, of any size if that is not finite.
-fn reach(component: &BlobComponent) -> Aabb {
-    component.bounds().unwrap_or(Aabb::UNBOUNDED)
-}
-
-/// Puts down the box around some fields, of which the first one has that number, and halves them, by where they are along its longest side.
-fn divide(fields: &mut [(Aabb, Field)], first: u32, nodes: &mut Vec<Node>) {
-    let bounds = fields.iter().fold(Aabb::EMPTY, |all, (bounds, _)| all.union(*bounds));
-    let at = nodes.len();
-    nodes.push(Node { bounds, first, count: fields.len() as u32, next: 0 });
-    if fields.len() > FEW {
-        let size = bounds.max - bounds.min;
-        let axis = if size.x >= size.y && size.x >= size.z {
-            0
-        } else if size.y >= size.z {
-            1
-        } else {
-            2
-        };
-        let middle = fields.len() / 2;
-        fields.select_nth_unstable_by(middle, |(a, _), (b, _)| a.centre()[axis].total_cmp(&b.centre()[axis]));
-        let (low, high) = fields.split_at_mut(middle);
-        divide(low, first, nodes);
-        divide(high, first + middle as u32, nodes);
-    }
-    nodes[at].next = nodes.len() as u32;
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use durer_scene::{Colour, Pigment, Placement, Rgb, Texture};
-    use std::sync::Arc;
+    use durer_math::Vec3;
+    use durer_scene::{BlobComponent, BlobShape, Colour, Finish, Pigment, Placement, Rgb};
 
-    fn blob(n: usize) -> Fields {
-        let mut state = 7_u64;
-        let mut dice = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 53) as f64
-        };
-        let mut point = || Point3::new(10.0 * dice(), 10.0 * dice(), 10.0 * dice());
-        let components = (0..n).map(|i| {
-            let (a, b) = (point(), point());
-            let shape =
-                if i % 3 == 0 { BlobShape::Segment(a, a + (b - a) * 0.2) } else { BlobShape::Ball(a) };
-            let place = match i % 4 {
-                0 => Affine::scaling(1.0, 2.0, 0.5).unwrap(),
-                _ => Affine::IDENTITY,
-            };
-            let strength = if i % 5 == 0 { -0.5 } else { 1.0 };
-            (BlobComponent { shape, radius: 2.0, strength, place }, (i % 7) as u32)
-        });
-        let grey = |i: usize| {
-            Texture::plain(
-                Pigment::solid(Colour::opaque(Rgb::grey(i as f64))),
-                durer_scene::Finish::default(),
-            )
-        };
-        Fields {
-            placement: Placement::IDENTITY,
-            components: components.collect(),
-            textures: (0..7).map(|i| Arc::new(grey(i))).collect(),
-        }
+    fn grey(v: f64) -> Arc<Texture> {
+        Arc::new(Texture::plain(Pigment::solid(Colour::opaque(Rgb::grey(v))), Finish::default()))
     }
 
+    /// Fields of which each value at the points that are asked for is a dyadic number, so that all sums are exact.
     #[test]
-    fn the_tree_shows_what_all_fields_together_show() {
-        for n in [1, 3, 40, 500] {
-            let fields = blob(n);
-            let weights =
-                Weights::new(&fields, &Affine::IDENTITY, |t| Paint::new(t, &Affine::IDENTITY, Rgb::WHITE))
-                    .unwrap();
-            for i in 0..500 {
-                let p = Point3::new(
-                    f64::from(i % 10),
-                    f64::from(i / 10 % 10) + 0.3,
-                    f64::from(i / 100) * 2.0 + 0.1,
-                );
-                let mut parts = [0.0; 7];
-                for field in &weights.fields {
-                    parts[field.texture as usize] += field.at(p).abs();
-                }
-                let sum: f64 = parts.iter().sum();
-                let mut shown = Vec::new();
-                weights.shown(p, &mut shown);
-                if sum == 0.0 {
-                    assert_eq!(shown, [(0, 1.0)]);
-                    continue;
-                }
-                assert!(shown.windows(2).all(|w| w[0].0 < w[1].0));
-                for (texture, part) in parts.iter().enumerate() {
-                    let told =
-                        shown.iter().find(|(t, _)| *t as usize == texture).map_or(0.0, |(_, part)| *part);
-                    // The same terms, in the order of the tree or not: each sum passes as many roundings as there are fields.
-                    let rounding = 2.0 * (n as f64 + 2.0) * durer_math::U;
-                    assert!(
-                        (told - part / sum).abs() <= rounding,
-                        "{n} {p:?} {texture}: {told} {}",
-                        part / sum
-                    );
-                }
-            }
-        }
+    fn textures_are_shown_by_how_strong_their_fields_are() {
+        let ball = |x: f64, strength: f64, place: Affine| BlobComponent {
+            shape: BlobShape::Ball(Point3::new(x, 0.0, 0.0)),
+            radius: 2.0,
+            strength,
+            place,
+        };
+        // At the origin: (1 - 1/4)² = 9/16, half of that taken away, nothing, 9/16 of a ball that is moved there, and (1 - 0)² / 4 of a cylinder.
+        let cylinder = BlobShape::Segment(Point3::new(0.0, -1.0, 0.0), Point3::new(0.0, 1.0, 0.0));
+        let components = [
+            ball(1.0, 1.0, Affine::IDENTITY),
+            ball(-1.0, -0.5, Affine::IDENTITY),
+            ball(2.0, 8.0, Affine::IDENTITY),
+            ball(0.0, 1.0, Affine::translation(Vec3::new(0.0, 0.0, 1.0)).unwrap()),
+            BlobComponent { shape: cylinder, radius: 1.0, strength: 0.25, place: Affine::IDENTITY },
+        ];
+        let red = grey(0.5);
+        let textures = vec![Some(Arc::clone(&red)), Some(grey(1.0)), Some(grey(2.0)), Some(red)];
+        let fields = Fields {
+            placement: Placement::new(Affine::scaling(2.0, 2.0, 2.0).unwrap()),
+            blob: Blob::new(0.25, &components).unwrap(),
+            textures,
+            rest: grey(0.0),
+        };
+        let paint = |texture: &Texture, around: &Affine| Paint::new(texture, around, Rgb::WHITE);
+        let weights =
+            Weights::new(&fields, &Affine::translation(Vec3::new(0.0, 3.0, 0.0)).unwrap(), paint).unwrap();
+        let mut shown = Vec::new();
+        weights.shown(Point3::new(0.0, 3.0, 0.0), &mut shown);
+        // The cylinder has no texture, and two balls share theirs.
+        let (two, taken, rest) = (2.0 * 0.5625, 0.28125, 0.25);
+        let sum = two + taken + rest;
+        assert_eq!(shown, [(0, rest / sum), (1, two / sum), (2, taken / sum)]);
+        // Far away nothing is shown but the blob's own.
+        weights.shown(Point3::new(0.0, 300.0, 0.0), &mut shown);
+        assert_eq!(shown, [(0, 1.0)]);
     }
 }

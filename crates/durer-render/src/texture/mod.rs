@@ -277,8 +277,8 @@ impl Paint {
             ),
             TextureBody::Fields(fields) => {
                 let around = joined()?;
-                let textures = |t: &Texture| Self::new(t, &around, ambient_light);
-                Self::Fields(Box::new(Weights::new(fields, &around, textures)?))
+                let paint = |t: &Texture, around: &Affine| Self::new(t, around, ambient_light);
+                Self::Fields(Box::new(Weights::new(fields, &around, paint)?))
             }
         })
     }

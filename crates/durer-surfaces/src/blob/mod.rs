@@ -99,6 +99,8 @@ pub struct Blob {
     parts: Arc<[Part]>,
     /// The components that the parts were made of.
     components: Arc<[BlobComponent]>,
+    /// The numbers of these in the caller's list.
+    numbers: Arc<[u32]>,
     tree: Arc<Tree>,
 }
 
@@ -134,7 +136,7 @@ impl Blob {
         let meets = |b: &Aabb| b.intersection(bounds);
         let (mut parts, mut units) = (Vec::with_capacity(boxes.len()), Vec::with_capacity(boxes.len()));
         let mut sources = Vec::with_capacity(boxes.len());
-        for (component, reach) in components.iter().zip(&boxes) {
+        for (number, (component, reach)) in (0..).zip(components.iter().zip(&boxes)) {
             let held = meets(reach);
             if component.strength == 0.0 || held.is_empty() {
                 continue;
@@ -142,12 +144,13 @@ impl Blob {
             let unit = |p: Point3| (p - centre).map(|x| scale2(x, -scale)).to_point();
             units.push(Aabb::new(unit(held.min), unit(held.max)));
             parts.push(Part::new(component, centre, scale));
-            sources.push(component);
+            sources.push((number, component));
         }
         let (tree, order) = Tree::new(&units);
         let parts = order.iter().map(|&i| parts[i as usize].clone()).collect();
-        let components = order.iter().map(|&i| sources[i as usize].clone()).collect();
-        Ok(Self { threshold, bounds, centre, scale, reach, parts, components, tree: Arc::new(tree) })
+        let components = order.iter().map(|&i| sources[i as usize].1.clone()).collect();
+        let numbers = order.iter().map(|&i| sources[i as usize].0).collect();
+        Ok(Self { threshold, bounds, centre, scale, reach, parts, components, numbers, tree: Arc::new(tree) })
     }
 
     #[inline(never)]
@@ -159,6 +162,15 @@ impl Blob {
                 sweep::roots(self, &at, sink);
             },
         );
+    }
+}
+
+/// Those with the same threshold and the same list of components are equal.
+impl PartialEq for Blob {
+    fn eq(&self, other: &Self) -> bool {
+        self.threshold == other.threshold
+            && self.components == other.components
+            && self.numbers == other.numbers
     }
 }
 

@@ -88,7 +88,7 @@ pub(super) struct Added {
 
 impl BlobComponent {
     /// A box around all that its field reaches.
-    pub fn bounds(&self) -> Result<Aabb, SphereError> {
+    pub(super) fn bounds(&self) -> Result<Aabb, SphereError> {
         let ball = |centre| Ok(crate::Sphere::new(centre, self.radius)?.bounds_through(&self.place));
         match self.shape {
             BlobShape::Ball(centre) => ball(centre),

@@ -50,6 +50,28 @@ impl Blob {
         sum
     }
 
+    /// The fields that reach a point of the blob's own frame near its surface: the number of each component in the list that the blob was made of, and the value of its field
+    /// there, rounded.
+    pub fn fields_at(&self, p: Point3, mut take: impl FnMut(usize, f64)) {
+        let y = (p - self.centre).map(|x| scale2(x, -self.scale));
+        Isa::detect().run(
+            #[inline(always)]
+            || {
+                self.tree.near(
+                    y,
+                    ROOM,
+                    #[inline(always)]
+                    |i| {
+                        let value = self.parts[i].added(y, 0.0).value;
+                        if value != 0.0 {
+                            take(self.numbers[i] as usize, value);
+                        }
+                    },
+                );
+            },
+        );
+    }
+
     /// The sign of the threshold without the sum, if it is certain.
     #[inline(always)]
     fn is_out(&self, y: Vec3, e: f64) -> Option<bool> {
