@@ -27,18 +27,20 @@ pub(crate) struct Blob {
     pub(crate) components: Vec<BlobComponent>,
     /// As many as components.
     pub(crate) textures: Vec<Option<Rc<Texture>>>,
+    /// How many layers they have together.
+    layers: usize,
 }
 
 impl Blob {
     fn add(&mut self, (component, texture): (BlobComponent, Option<Rc<Texture>>)) {
         self.components.push(component);
+        self.layers += texture.as_ref().map_or(0, |texture| texture.size());
         self.textures.push(texture);
     }
 
     /// What it holds in memory.
     pub(crate) fn size(&self) -> usize {
-        let of_textures = |texture: &Rc<Texture>| texture.size() * size_of::<Layer>();
-        self.components.len() * EACH + self.textures.iter().flatten().map(of_textures).sum::<usize>()
+        self.components.len() * EACH + self.layers * size_of::<Layer>()
     }
 }
 
@@ -49,8 +51,7 @@ fn point([x, y, z]: [f64; 3]) -> Point3 {
 impl Reader<'_> {
     /// The items of a blob, after its opening brace.
     pub(crate) fn blob(&mut self, place: Place) -> Result<Shape> {
-        let mut blob = Blob { threshold: THRESHOLD, components: Vec::new(), textures: Vec::new() };
-        let (mut size, mut layers) = (0, 0);
+        let mut blob = Blob { threshold: THRESHOLD, components: Vec::new(), textures: Vec::new(), layers: 0 };
         loop {
             self.skip_comma()?;
             match self.peek_word()? {
@@ -98,11 +99,7 @@ impl Reader<'_> {
                 }
                 _ => break,
             }
-            if let Some(Some(texture)) = blob.textures.get(size..).and_then(<[_]>::first) {
-                layers += texture.size();
-            }
-            size = blob.components.len();
-            self.check_memory(size * EACH + layers * size_of::<Layer>(), place)?;
+            self.check_memory(blob.size(), place)?;
         }
         if blob.components.is_empty() {
             return Err(Fault::invalid(place, "this blob has no components"));
