@@ -24,7 +24,7 @@ import numpy as np
 
 import scenes
 from exact import to_float, union
-from shapes import IDENTITY, Loops, add, cross, dot, small, sub, times
+from shapes import IDENTITY, Event, Loops, add, cross, dot, small, sub, times
 from solids import Region
 from zero_sets import ZeroSet
 
@@ -246,6 +246,13 @@ def close_normal(event, leaf, n, ray, width, direction):
     return best <= allowed
 
 
+def sources_within(leaf, lo, hi):
+    """What has its normal at the places, of all that a rounded surface's boundary may be at, that a bracket holds."""
+    if getattr(leaf, "certain", True):
+        return []
+    return [s for r, s in leaf.met if s is not None and r.cmp(float(lo)) >= 0 and r.cmp(float(hi)) <= 0]
+
+
 def check_hit(report, scene, ray, event, leaf, hit, widths):
     t, lo, hi = hit["t"], hit["t_lo"], hit["t_hi"]
     bad = lambda what, expected: report.add(what, scene, ray, expected, describe(hit))
@@ -279,7 +286,10 @@ def check_hit(report, scene, ray, event, leaf, hit, widths):
             bad("bracket without an end", event)
         return
     elif event.normals and not close_normal(event, leaf, n, ray, hi - lo, d):
-        bad("wrong normal", event)
+        # Of a rounded surface that meets its container's face, or a seam, within the bracket, either is told.
+        beside = Event(event.t, event.sign, [(s, f) for s in sources_within(leaf, lo, hi) for f in (1, -1)], leaf)
+        if not close_normal(beside, leaf, n, ray, hi - lo, d):
+            bad("wrong normal", event)
     if not all(map(math.isfinite, hit["uv"])):
         bad("uv not finite", event)
     # The point: its error is not told, but it can hardly exceed the bracket's, and some ulps of the numbers on the way into the leaf's frame and back.
@@ -334,10 +344,10 @@ def rows_of(hits, mine):
     return [h for h in hits if any(h is m for m in mine)]
 
 
-def matched(report, scene, ray, expected, hits):
+def matched(report, scene, ray, expected, hits, on_the_line):
     """Hits and crossings where clusters stand for what rounding leaves open, and touches of edges may be told or not: the pairs, or None.
 
-    A simple crossing's bracket holds one crossing, and that of a cluster any number of them, which add up to its sign.
+    A simple crossing's bracket holds one crossing, and that of a cluster any number of them, which add up to its sign. `on_the_line` are the hits of the ray without its range.
     """
     everywhere = Expected(scene, (*ray[:6], -INF, INF))
     found, wrong = defaultdict(list), []
@@ -350,8 +360,12 @@ def matched(report, scene, ray, expected, hits):
         certain = leaf is None or getattr(leaf, "certain", True)
         left, loose = list(everywhere.events[key]), []
         inside = lambda e, h: e.t.cmp(float(h["t_lo"])) >= 0 and e.t.cmp(float(h["t_hi"])) <= 0
+        # Of several at a corner those whose normal is that of a crossing are that.
+        is_plain = lambda e, at, h: e.sign == h["sign"] and inside(e, h) and (not e.normals or close_normal(e, at, h["normal"], ray, h["t_hi"] - h["t_lo"], ray[3:6]))
+        crowded = [h for h in found[key] if any(g is not h and overlap(g, h) for g in found[key])]
+        unlike = lambda h: any(h is c for c in crowded) and not any(is_plain(e, at, h) for e, at in left)
         # Simple ones first; of rounded surfaces one whose bracket holds an end of the range may be on either side of it.
-        for h in sorted(found[key], key=lambda h: h["kind"] == 2):
+        for h in sorted(found[key], key=lambda h: (h["kind"] == 2, unlike(h))):
             held = [pair for pair in left if inside(pair[0], h)]
             if h["kind"] == 2:
                 report.clusters[scene.kind] += 1
@@ -388,7 +402,9 @@ def matched(report, scene, ray, expected, hits):
             left.remove(mine[0])
             pairs.append((*mine[0], h))
         left = [e for e, _ in left if e.t.cmp(max(ray[6], -LARGEST)) >= 0 and e.t.cmp(min(ray[7], LARGEST)) <= 0]
-        if not all(e.optional for e in left):
+        # What a rounded surface tells on the other side of an end of the range, within its bracket.
+        beyond = lambda e: not certain and any(inside(e, h) and any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:]) for h in on_the_line)
+        if not all(e.optional or beyond(e) for e in left):
             wrong.append("missing crossing")
         clear &= not left
     if expected.within:
@@ -400,11 +416,11 @@ def matched(report, scene, ray, expected, hits):
     return (None, []) if wrong else (clear and len(pairs) == expected.count(), pairs)
 
 
-def check_ray(report, scene, ray, hits, widths):
+def check_ray(report, scene, ray, hits, on_the_line, widths):
     expected = Expected(scene, ray)
     report.hits += len(hits)
     if any(isinstance(leaf, Region) for leaves in scene.objects for leaf in leaves):
-        clear, pairs = matched(report, scene, ray, expected, hits)
+        clear, pairs = matched(report, scene, ray, expected, hits, on_the_line)
         for event, leaf, hit in pairs:
             check_hit(report, scene, ray, event, leaf, hit, widths)
         return expected, pairs if clear else None
@@ -412,14 +428,15 @@ def check_ray(report, scene, ray, hits, widths):
     if any(a > b for a, b in zip(ts, ts[1:])):
         report.add("all: not ascending", scene, ray, "", ts)
     pairs = compare(expected, hits, ray)
-    if pairs is None and any(isinstance(leaf, Loops) for leaves in scene.objects for leaf in leaves):
+    fits = lambda pairs: pairs is not None and all(e.t.cmp(float(h["t_lo"])) >= 0 and e.t.cmp(float(h["t_hi"])) <= 0 for e, _, h in pairs)
+    if not fits(pairs) and any(isinstance(leaf, Loops) for leaves in scene.objects for leaf in leaves):
         placed = any(isinstance(leaf, Loops) and leaf.whole.rows != IDENTITY.rows for leaves in scene.objects for leaf in leaves)
         for way in ({"world_ties": True}, {"turn": 0}, {"turn": 1}) if placed else ():
             other = Expected(scene, ray, **way)
-            pairs = compare(other, hits, ray)
-            if pairs is not None:
+            others = compare(other, hits, ray)
+            if fits(others):
                 report.counted[f"ties of placed outlines taken otherwise: {way}"] += 1
-                expected = other
+                expected, pairs = other, others
                 break
     if pairs is None:
         more = len(hits) - expected.count()
@@ -526,11 +543,19 @@ def check_scene(report, durer, scene, rng, count, folder):
             report.add("offsets are not ascending from 0 to the number of rows", scene, None, "", "")
             return
     check_queries_agree(report, scene, rays, found, at, closest, anyhit["hit"])
+    lines, line_at = found, at
+    if ranges and not all(getattr(leaf, "certain", True) for leaf in leaves):
+        array[:, 6:] = -INF, INF
+        np.save(rays_file, array)
+        lines = trace(durer, file, rays_file, "all", out)
+        line_at = lines["offsets"].astype(int)
+    row = lambda arrays, j: {k: arrays[k][j] for k in (*COLUMNS, "sign")}
     widths = []
     for i, ray in enumerate(rays):
         report.rays += 1
-        rows = [{k: found[k][j] for k in (*COLUMNS, "sign")} for j in range(at[i], at[i + 1])]
-        expected, pairs = check_ray(report, scene, ray, rows, widths)
+        rows = [row(found, j) for j in range(at[i], at[i + 1])]
+        on_the_line = [row(lines, j) for j in range(line_at[i], line_at[i + 1])]
+        expected, pairs = check_ray(report, scene, ray, rows, on_the_line, widths)
         stretches = [tuple(spans[k][j] for k in SPANS) for j in range(span_at[i], span_at[i + 1])]
         check_spans(report, scene, ray, expected, pairs, stretches)
     report.widths[scene.kind] += widths

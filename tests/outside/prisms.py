@@ -186,7 +186,7 @@ class CurvedPrism(Region):
             out += [(r, (0, -1 if h == self.low else 1, 0) if h in (self.low, self.high) else None, False) for r in found]
         for cx, cz in self.pieces:
             for u, poly, num, den in self.meet(x, y, z, cx, cz):
-                n = self.normal(cx, cz, u.rational(120))
+                n = self.normal(cx, cz, u.rational(120)) if self.has_way(cx, cz, u.rational(120)) else None
                 out.append((OnCurve.at(u, poly, num, den), n, u.against(F(0)) > 0 > u.against(F(1))))
         return out
 
@@ -221,6 +221,15 @@ class CurvedPrism(Region):
         """The side on which a wall's normal is outside: a line that leaves goes there."""
         along = dot(n, d)
         return (sign(along) * turn,) if along and turn else (1, -1)
+
+    def has_way(self, cx, cz, u):
+        """Whether a curve keeps its direction within 1e-10 as far as 16 ulps of its size go: not at a cusp."""
+        slopes = [[k * e for k, e in enumerate(c)][1:] for c in (cx, cz)]
+        bends = [[k * e for k, e in enumerate(c)][1:] for c in slopes]
+        (dx, dz), (bx, bz) = ([at(c, u) for c in pair] for pair in (slopes, bends))
+        size = sum(abs(e) for c in (cx, cz) for e in c)
+        speed = max(abs(dx), abs(dz))
+        return speed > 0 and abs(dx * bz - dz * bx) * size * F(16, 1 << 53) <= F(1, 10**10) * speed**3
 
     def normal(self, cx, cz, u):
         slope = lambda c: at([k * e for k, e in enumerate(c)][1:], u)
@@ -277,7 +286,8 @@ class CurvedPrism(Region):
             normals = [(n, s) for _, n, _ in group if n is not None for s in self.outward(n, ray[1], turn)]
             # Next to the apex the point is taken for the apex, whose normal is a direction to leave in.
             apex = self.conic and abs(at(along[1], t.rational(80))) < self.size / (1 << 30)
-            event = Event(t, turn, [] if apex else normals, self, any_sign=self.open)
+            cusp = any(n is None and isinstance(root, OnCurve) for root, n, _ in group)
+            event = Event(t, turn, [] if apex or cusp else normals, self, any_sign=self.open)
             event.optional = (before == after and not smooth) or (self.open and ends)
             events.append(event)
             if before != after:

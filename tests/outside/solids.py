@@ -69,6 +69,8 @@ class Region(Leaf):
     """A solid; `certain` if every decision about it can be exact, else tangents may be told as clusters."""
 
     certain = True
+    # Where the last line may meet the boundary, and what has its normal there.
+    met = ()
 
     def solid(self):
         return not self.clip
@@ -93,6 +95,7 @@ class Region(Leaf):
         along = places(ray)
         point = lambda t: tuple(at(c, t) for c in along)
         groups = grouped(self.candidates(ray))
+        self.met = [(root, source) for group in groups for root, source, _ in group]
         states = [self.value(point(t)) < 0 for t in between([g[0][0] for g in groups])]
         flip = -1 if self.inverse else 1
         events, inside, start = [], [], None

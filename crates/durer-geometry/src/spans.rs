@@ -89,6 +89,11 @@ impl Tracks {
         self.events.iter().filter(|e| e.solid == key).map(|e| i32::from(e.sign)).sum::<i32>() != 0
     }
 
+    /// The same of a surface's crossings that were shown in a row, ascending, from this one on: those that overlap count by their sum.
+    pub(crate) fn tell_from(&self, first: usize) -> bool {
+        overlapping(&self.events[first..]).any(|group| net(group) != 0)
+    }
+
     /// The spans of the union.
     pub(crate) fn merge(mut self, t_min: f64, t_max: f64) -> Vec<Span> {
         // Where crossings of one solid fall together the order of its parts counts, not that in which a tree shows them.

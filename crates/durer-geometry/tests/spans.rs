@@ -6,8 +6,8 @@ use common::{Dice, fill, ground, rays};
 use durer_geometry::Geometry;
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{
-    Algebraic, AxisBox, Bezier, CurvedPrism, Disc, Erased, Frustum, Inverse, Placed, Quadric, Side, Sphere,
-    Turned,
+    Algebraic, AxisBox, Bezier, CurvedPrism, Disc, Erased, Frustum, Inverse, Placed, Prism, Quadric, Side,
+    Sphere, Turned,
 };
 use std::sync::Arc;
 
@@ -356,4 +356,30 @@ fn a_chord_within_rounding_does_not_tell_where_a_range_begins() {
         assert_eq!(spans.iter().map(|s| (s.t_in, s.t_out)).collect::<Vec<_>>(), [(from, to)]);
         assert_eq!(inside.spans(&ray), []);
     }
+}
+
+/// The ray begins exactly on a cap and leaves by a wall right behind it, nearer than rounding tells: the order of the two is exact all the same.
+#[test]
+fn a_corner_is_entered_before_it_is_left() {
+    let outline = [
+        [2.403960159251622, 1.4586917601515559],
+        [1.5088666215357396, -1.270402211590544],
+        [-0.4087132169759826, 0.2616196643211026],
+        [-0.5820618406018658, 1.2794396685511522],
+        [1.0723507483269703, -1.6286417768591765],
+        [-0.13053356180147002, 0.45807670117732036],
+        [-0.10487786801705745, 1.1548640086972588],
+    ];
+    let prism = Prism::linear(&[outline], -1_048_576.0, 0.0).unwrap();
+    let rows = [[0.00390625, 0.0, 0.0], [0.0, 256.0, 0.0], [0.0, 0.0, 256.0]];
+    let place = Affine::new(rows, Point3::new(-7.0, 0.0, 0.125)).unwrap();
+    let mut builder = Geometry::builder();
+    builder.add(Placed::new(prism, place));
+    let world = builder.build().unwrap();
+    let origin = Point3::new(-7.001596536003812, -268_435_456.0, 67.09963406620227);
+    let ray = Ray::new(origin, Vec3::new(0.005167173761796456, 1864.545349943433, -3947.5628113825423));
+    let all = world.all(&ray);
+    assert_eq!(all.iter().map(|h| h.sign).collect::<Vec<_>>(), [-1, 1]);
+    assert!(all.iter().all(|h| h.t_lo <= h.t && h.t <= h.t_hi && h.t < 1e-11), "{all:?}");
+    assert!(world.spans(&ray).iter().all(|span| span.t_out < 1e-11));
 }

@@ -278,10 +278,32 @@ impl Sorted {
     pub(crate) fn pour<S: Sink + ?Sized>(mut self, sink: &mut S) {
         let roots = if self.many.is_empty() { self.few.as_mut_slice() } else { &mut self.many };
         roots.sort_unstable_by(Root::order);
-        for root in roots {
-            if sink.push(*root) == Flow::Stop {
-                return;
-            }
+        show(roots, sink);
+    }
+
+    /// Roots that were pushed in the order of the line, which is exact: none of them is told to be before an earlier one.
+    pub(crate) fn pour_in_turn<S: Sink + ?Sized>(mut self, sink: &mut S) {
+        let roots = if self.many.is_empty() { self.few.as_mut_slice() } else { &mut self.many };
+        // A crossing is not behind the upper end of any later one, and not before an earlier one: both hold of the exact parameters, so that each `t` stays in its bracket.
+        let mut last = f64::INFINITY;
+        for root in roots.iter_mut().rev() {
+            last = last.min(root.hi);
+            root.t = root.t.min(last);
+        }
+        let mut first = f64::NEG_INFINITY;
+        for root in roots.iter_mut() {
+            first = first.max(root.t);
+            root.t = first;
+        }
+        show(roots, sink);
+    }
+}
+
+#[inline(always)]
+fn show<S: Sink + ?Sized>(roots: &[Root], sink: &mut S) {
+    for root in roots {
+        if sink.push(*root) == Flow::Stop {
+            return;
         }
     }
 }

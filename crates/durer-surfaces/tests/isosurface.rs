@@ -789,3 +789,24 @@ fn a_rim_within_rounding_is_one_touch() {
     }
     assert!(touches > 200, "{touches}");
 }
+
+/// Along a cone's line within rounding nothing can be told; a cluster of it holds where the ball is entered and left, where the formula's sign is certain by chance.
+#[test]
+fn a_cluster_holds_the_rims_at_its_ends() {
+    let (mut p, inputs) = Pen::new();
+    let [x, y, z] = inputs.map(|i| {
+        let square = p.sqr(i);
+        p.mul(square, i)
+    });
+    let sum = p.add(x, y);
+    let f = p.sub(sum, z);
+    let ball = Container::Ball(Sphere::new(Point3::ORIGIN, 3.0).unwrap());
+    let surface = Isosurface::new(&p.done(f), 0.0, ball).unwrap();
+    let o = Point3::new(2.0662256623722506 - 1.0, 125.0 - 123.03311283118613, 2.0662256623722506);
+    let d = Vec3::new(-0.00026030899960260013, -0.0004801970626986999, -0.0005044496246026003);
+    let roots = all(&surface, &Ray::new(o, d));
+    // Where the line is in the ball: |o + t d| = 3.
+    let (enters, leaves) = (61.12941187261574, 8130.8705881273745);
+    assert!(matches!(roots.as_slice(), [Root { sign: 0, kind: Kind::Cluster, .. }]), "{roots:?}");
+    assert!(roots[0].lo <= enters && leaves <= roots[0].hi, "{roots:?}");
+}

@@ -374,7 +374,7 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
                     Flow::Continue
                 };
                 slot.show(isa, ray, &mut Forward { slot: slot.slot, name, ray, visit, flow });
-                if slot.whole && tracks.len() == before {
+                if slot.whole && !tracks.tell_from(before) {
                     tracks.start(slot.index as u32, starts_inside(slot.surface, ray, start));
                 }
             }

@@ -118,19 +118,27 @@ const PASSES_OF_A_PART: u32 = 256;
 /// So many parts are asked about at each end.
 const MOST_PARTS: u32 = 128;
 
-/// A cluster without what certainly has one sign at its ends, where the work for a ray was too much to look at each stretch alike.
+/// A cluster without what certainly has the sign of before, or of behind, at its ends, where the work for a ray was too much to look at each stretch alike.
 #[cold]
 pub(super) fn trimmed(line: &Line, tape: &Tape, mut found: Found) -> Found {
-    let end = |from: f64, to: f64| {
+    // What begins with another sign, as where a container's face meets the surface, has a crossing there.
+    let (before, after) = match found.sign {
+        0 => (found.touches, found.touches),
+        sign => (Some(sign < 0), Some(sign > 0)),
+    };
+    let end = |from: f64, to: f64, beyond: Option<bool>| {
         let Some(sign) = line.sign(tape, from) else { return from };
+        if beyond.is_some_and(|it| it != sign) {
+            return from;
+        }
         let (mut known, mut part) = (from, 0.5 * (to - from));
         for _ in 0..MOST_PARTS {
             if part.abs() <= 4.0 * line.ulp {
                 break;
             }
             let next = known + part;
-            let beyond = (to - next) * part <= 0.0;
-            if !beyond && has_sign(line, tape, (known.min(next), known.max(next)), sign) {
+            let is_beyond = (to - next) * part <= 0.0;
+            if !is_beyond && has_sign(line, tape, (known.min(next), known.max(next)), sign) {
                 known = next;
             } else {
                 part *= 0.5;
@@ -138,7 +146,7 @@ pub(super) fn trimmed(line: &Line, tape: &Tape, mut found: Found) -> Found {
         }
         known
     };
-    let (lo, hi) = (end(found.lo, found.hi), end(found.hi, found.lo));
+    let (lo, hi) = (end(found.lo, found.hi, before), end(found.hi, found.lo, after));
     if lo <= hi {
         (found.lo, found.hi) = (lo, hi);
         found.s = (0.5 * lo + 0.5 * hi).max(lo).min(hi);

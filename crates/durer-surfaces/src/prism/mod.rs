@@ -411,14 +411,15 @@ impl Surface for Prism {
                     roots.push(root(&probe, crossing, *face, *wall, crossing.sign != sign));
                 }
             }
+            roots.pour_in_turn(sink);
         } else {
             self.each_crossing(&probe, |crossing, plane, face, wall, turned| {
                 if is_shown(face) && admitted(&crossing, &plane) {
                     roots.push(root(&probe, &crossing, face, wall, turned));
                 }
             });
+            roots.pour(sink);
         }
-        roots.pour(sink);
     }
 
     /// Texture coordinates: of the walls once round all outlines, edge by edge, and from the bottom to the top; of the caps lengths.

@@ -280,7 +280,7 @@ impl CurvedPrism {
                 }
             }
         }
-        roots.pour(sink);
+        roots.pour_in_turn(sink);
     }
 
     #[inline(never)]
