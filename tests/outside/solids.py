@@ -136,25 +136,37 @@ class Region(Leaf):
         return self.value(p)
 
     def passes_an_edge(self, ray, lo, hi):
-        """Whether two faces, or what parts them, are met between two places that are next to each other; or an edge is missed by less than 2^-100."""
+        """Whether two faces, or what parts them, are met between two places that are next to each other, or as far from there as these are apart; or an edge is missed by less than 2^-100."""
         along = places(ray)
         length = self.size / max(abs(c[1]) for c in along)
-        if (F(hi) - F(lo)) * (1 << 26) > length:
+        lo, hi = F(lo), F(hi)
+        if (hi - lo) * (1 << 26) > length:
             return False
-        held = [(r, source) for r, source, _ in self.candidates(ray) if r.cmp(lo) >= 0 and r.cmp(hi) <= 0]
+        lo, hi = lo - (hi - lo), hi + (hi - lo)
+        held = [(r, source) for r, source, _ in self.candidates(ray) if r.against(lo) >= 0 and r.against(hi) <= 0]
         if len(grouped([(r, s, True) for r, s in held])) > 1 and len({id(s) for _, s in held}) > 1:
             return True
         return any(abs(self.value(tuple(at(c, r.rational(300)) for c in along))) <= self.unit() / (1 << 100) for r, _ in held)
 
     def is_tangent(self, ray, lo, hi):
-        """Whether the value hardly changes along the ray about there: less than a millionth of what it could."""
+        """Whether the value hardly changes along the ray at an end or in the middle: less than a millionth of what it could."""
         along = places(ray)
-        middle, length = (F(lo) + F(hi)) / 2, self.size / max(abs(c[1]) for c in along)
-        if any(not any(f.gradient(tuple(at(c, middle) for c in along))) for f in self.forms if isinstance(f, Slope)):
+        lo, hi = F(lo), F(hi)
+        middle, length = (lo + hi) / 2, self.size / max(abs(c[1]) for c in along)
+        point = lambda t: tuple(at(c, t) for c in along)
+        if any(not any(f.gradient(point(middle))) for f in self.forms if isinstance(f, Slope)):
             return True
-        step = max(length / (1 << 26), (F(hi) - F(lo)) / 2)
-        values = [self.steepness(tuple(at(c, t) for c in along)) for t in (middle - step, middle + step)]
-        return abs(values[1] - values[0]) * length * (1 << 20) <= 2 * step * self.unit()
+        step = max(length / (1 << 26), (hi - lo) / 2)
+
+        def change(a, b):
+            return abs(self.steepness(a) - self.steepness(b))
+
+        def could(p):
+            way = self.size * step / length
+            moved = lambda i, d: tuple(x + d * (i == j) for j, x in enumerate(p))
+            return max(2 * step * self.unit() / length, *(change(moved(i, way), moved(i, -way)) for i in range(3)))
+
+        return any(change(point(t - step), point(t + step)) * (1 << 20) <= could(point(t)) for t in (lo, middle, hi))
 
 
 def grouped(found):

@@ -22,35 +22,64 @@ fn plain(keyword: &str) -> Option<&'static str> {
     }
 }
 
-/// The innermost block of a kind that can be replaced around a line and column, both counted from one.
-pub(crate) fn around(text: &str, line: usize, column: usize) -> Option<Block> {
+/// Where a line and column are, both counted from one.
+fn place(text: &str, line: usize, column: usize) -> Option<usize> {
     let start: usize = text.split_inclusive('\n').take(line.checked_sub(1)?).map(str::len).sum();
-    let place = start + text[start..].chars().take(column.checked_sub(1)?).map(char::len_utf8).sum::<usize>();
-    // Blocks that are open: where their keyword starts, and what may stand for them.
-    let mut open: Vec<(usize, Option<&'static str>)> = Vec::new();
-    let mut innermost = None;
-    let mut last_word = None;
-    for token in tokens(text) {
+    Some(start + text[start..].chars().take(column.checked_sub(1)?).map(char::len_utf8).sum::<usize>())
+}
+
+/// The block whose keyword is at a line and column.
+pub(crate) fn beginning_at(text: &str, line: usize, column: usize) -> Option<Range<usize>> {
+    let place = place(text, line, column)?;
+    let mut depth = 0_u32;
+    for token in tokens(text).skip_while(|token| token.start < place) {
         match &text[token.clone()] {
-            "{" => {
-                let word: Option<Range<usize>> = last_word.take();
-                let kind = word.as_ref().and_then(|w| plain(&text[w.clone()]));
-                open.push((word.map_or(token.start, |w| w.start), kind));
-            }
-            "}" => {
-                let Some((start, kind)) = open.pop() else { continue };
-                let range = start..token.end;
-                if let Some(plain) = kind
-                    && range.contains(&place)
-                    && innermost.is_none()
-                {
-                    innermost = Some(Block { range, plain });
-                }
-            }
-            _ => last_word = Some(token),
+            "{" => depth += 1,
+            "}" if depth == 1 => return Some(place..token.end),
+            "}" => depth = depth.checked_sub(1)?,
+            _ => {}
         }
     }
-    innermost
+    None
+}
+
+/// The innermost block of a kind that can be replaced around a line and column, both counted from one.
+pub(crate) fn around(text: &str, line: usize, column: usize) -> Option<Block> {
+    let place = place(text, line, column)?;
+    replaceable(text).find(|block| block.range.contains(&place))
+}
+
+/// The outermost one of those that end first in the block whose keyword is at a line and column.
+pub(crate) fn first_in(text: &str, line: usize, column: usize) -> Option<Block> {
+    let whole = beginning_at(text, line, column)?;
+    let is_in = |block: &Block| whole.start < block.range.start && block.range.end < whole.end;
+    let first = replaceable(text).find(is_in)?;
+    replaceable(text)
+        .filter(|b| is_in(b) && b.range.start <= first.range.start && first.range.end <= b.range.end)
+        .last()
+}
+
+/// The blocks that can be replaced, in the order of their closing braces.
+fn replaceable(text: &str) -> impl Iterator<Item = Block> + '_ {
+    // Blocks that are open: where their keyword starts, and what may stand for them.
+    let mut open: Vec<(usize, Option<&'static str>)> = Vec::new();
+    let mut last_word: Option<Range<usize>> = None;
+    tokens(text).filter_map(move |token| match &text[token.clone()] {
+        "{" => {
+            let word = last_word.take();
+            let kind = word.as_ref().and_then(|w| plain(&text[w.clone()]));
+            open.push((word.map_or(token.start, |w| w.start), kind));
+            None
+        }
+        "}" => {
+            let (start, kind) = open.pop()?;
+            Some(Block { range: start..token.end, plain: kind? })
+        }
+        _ => {
+            last_word = Some(token);
+            None
+        }
+    })
 }
 
 /// Words and braces, outside of comments and strings.
@@ -96,5 +125,21 @@ mod tests {
         let block = around(text, 2, 38).unwrap();
         assert_eq!(&text[block.range], "texture { pigment { granite \"}\" } finish { phong 1 } }");
         assert_eq!(around(text, 1, 3), None);
+    }
+
+    #[test]
+    fn an_objects_texture_is_found() {
+        let text = "box { 0, 1 texture { pigment { rgb 1 } } }\nsphere { 0, 1 texture { T } }";
+        assert_eq!(&text[first_in(text, 1, 1).unwrap().range], "texture { pigment { rgb 1 } }");
+        assert_eq!(&text[first_in(text, 2, 1).unwrap().range], "texture { T }");
+        assert_eq!(first_in("sphere { 0, 1 }", 1, 1), None);
+    }
+
+    #[test]
+    fn a_block_ends_where_its_own_brace_does() {
+        let text = "box { 0, 1 }\nheight_field {\n  png \"}\" texture { T } } plane { y, 0 }";
+        assert_eq!(&text[beginning_at(text, 2, 1).unwrap()], "height_field {\n  png \"}\" texture { T } }");
+        assert_eq!(beginning_at(text, 3, 21), None);
+        assert_eq!(beginning_at("box { 0", 1, 1), None);
     }
 }

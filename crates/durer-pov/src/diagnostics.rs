@@ -37,7 +37,7 @@ pub(crate) struct Fault {
     pub(crate) place: Option<Place>,
     pub(crate) kind: FaultKind,
     pub(crate) text: String,
-    /// The macro calls and includes through which the reader came here, innermost first.
+    /// The macro calls, includes and objects through which the reader came here, innermost first.
     pub(crate) route: Vec<(String, Place)>,
 }
 
@@ -52,6 +52,14 @@ impl Fault {
 
     pub(crate) fn unsupported(place: Place, keyword: &str) -> Box<Self> {
         Self::at(place, FaultKind::Unsupported, format!("not supported yet: {keyword}"))
+    }
+
+    /// The same, in the texture of an object: with the object's own place, if that is in another file.
+    pub(crate) fn of_object(mut self: Box<Self>, at: Place) -> Box<Self> {
+        if self.place.is_some_and(|place| place.file != at.file) {
+            self.route.push(("the texture of the object".to_owned(), at));
+        }
+        self
     }
 
     pub(crate) fn file(place: Option<Place>, text: impl Into<String>) -> Box<Self> {

@@ -259,7 +259,7 @@ impl Reader<'_> {
         limits::charge_for_good(
             own.size() * (size_of::<scene::Layer>() + size_of::<scene::Finish>() + TEXTURE_EXTRA),
         );
-        let made = Arc::new(texture(own, at)?);
+        let made = texture_of_object(own, at)?;
         if self.scene.textures.len() == TEXTURES_COMPARED {
             self.scene.textures.pop_front();
         }
@@ -376,7 +376,7 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
                 normals: face.normals,
                 texture: face.texture,
             });
-            let textures = mesh.textures.iter().map(|own| texture(own, at).map(Arc::new));
+            let textures = mesh.textures.iter().map(|own| texture_of_object(own, at));
             let made = scene::Mesh {
                 vertices: mesh.vertices.iter().copied().map(point).collect(),
                 normals: mesh.normals.iter().copied().map(unit).collect(),
@@ -466,12 +466,17 @@ fn component_textures(all: &[Option<Rc<Texture>>], at: Place) -> Result<Vec<Opti
         let known = last.take().filter(|(known, _)| *known == own);
         let one = match known {
             Some((_, one)) => one,
-            None => Arc::new(texture(own, at)?),
+            None => texture_of_object(own, at)?,
         };
         made.push(Some(Arc::clone(&one)));
         last = Some((own, one));
     }
     Ok(made)
+}
+
+/// A fault in what an object has from another file names the object, too.
+fn texture_of_object(own: &Texture, at: Place) -> Result<Arc<scene::Texture>> {
+    texture(own, at).map(Arc::new).map_err(|fault| fault.of_object(at))
 }
 
 fn texture(own: &Texture, at: Place) -> Result<scene::Texture> {

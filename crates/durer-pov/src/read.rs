@@ -133,7 +133,7 @@ fn on_this_thread<'a>(
             Ok(Read { scene, messages, sources })
         }
         Err(mut fault) => {
-            fault.route = reader.route();
+            fault.route.extend(reader.route());
             Err(PovError::new(&fault, path, &reader.sources))
         }
     }

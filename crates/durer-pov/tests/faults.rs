@@ -84,6 +84,17 @@ fn files_that_are_no_scenes_are_named() {
 }
 
 #[test]
+fn what_cannot_be_done_in_an_included_texture_names_the_object() {
+    let folder = Folder::new();
+    folder.write("stones.inc", "#declare T = texture { pigment {\n granite } }");
+    folder.write("scene.pov", "#include \"stones.inc\"\nplane { y, 0 }\nsphere { 0, 1 texture { T } }");
+    let said = folder.read("scene.pov").unwrap_err().to_string();
+    assert!(said.contains("stones.inc:2:2: not supported yet: granite"), "{said}");
+    let (_, object) = said.split_once("= in the texture of the object at ").unwrap();
+    assert!(object.ends_with("scene.pov:3:1"), "{said}");
+}
+
+#[test]
 fn cut_files_are_named_at_their_end() {
     assert!(fault("sphere { <0,0,0>, 1 pigment { rgb 1").2.contains("the end of the scene"));
     assert!(fault("sphere { <0,").2.contains("the end of the scene"));
