@@ -364,6 +364,8 @@ def matched(report, scene, ray, expected, hits, on_the_line):
         is_plain = lambda e, at, h: e.sign == h["sign"] and inside(e, h) and (not e.normals or close_normal(e, at, h["normal"], ray, h["t_hi"] - h["t_lo"], ray[3:6]))
         crowded = [h for h in found[key] if any(g is not h and overlap(g, h) for g in found[key])]
         unlike = lambda h: any(h is c for c in crowded) and not any(is_plain(e, at, h) for e, at in left)
+        # Where a rounded surface meets its container's face within the bracket.
+        is_rim = lambda h: not certain and leaf.passes_an_edge(leaf.whole.ray(ray[:3], ray[3:6]), float(h["t_lo"]), float(h["t_hi"]))
         # Simple ones first; of rounded surfaces one whose bracket holds an end of the range may be on either side of it.
         for h in sorted(found[key], key=lambda h: (h["kind"] == 2, unlike(h))):
             held = [pair for pair in left if inside(pair[0], h)]
@@ -374,7 +376,12 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                 told = [e for e, _ in held if e.t.cmp(max(ray[6], -LARGEST)) >= 0 and e.t.cmp(min(ray[7], LARGEST)) <= 0]
                 straddles = any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:])
                 sums = {sum(e.sign for e, _ in held)} | ({sum(e.sign for e in told)} if straddles else set())
-                if h["sign"] + sum(g["sign"] for g in loose if overlap(g, h)) not in sums and not (leaf and leaf.clip):
+                # Those that are told next to it, from one to the next.
+                reach = [h]
+                for g in reach:
+                    reach += [other for other in found[key] if overlap(other, g) and not any(other is r for r in reach)]
+                beside = [g for g in loose if any(g is r for r in reach)]
+                if h["sign"] + sum(g["sign"] for g in beside) not in sums and not (leaf and leaf.clip):
                     wrong.append("cluster with another sign")
                 if certain:
                     wrong.append("cluster where exact arithmetic decides")
@@ -387,7 +394,7 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                 mine = [pair for pair in mine if any(pair[0].t.cmp(e.t) == 0 for e, _ in expected.events[key])]
             if not mine:
                 # Into a corner and out of it again, or not at all, where the corner is only touched.
-                corner = any((e.optional or len(e.normals) > 1) and inside(e, h) for e, _ in everywhere.events[key])
+                corner = any((e.optional or len(e.normals) > 1) and inside(e, h) for e, _ in everywhere.events[key]) or is_rim(h)
                 twin = any(g is not h and g["sign"] == -h["sign"] and overlap(g, h) for g in found[key])
                 clear = False
                 loose.append(h)
@@ -401,6 +408,12 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                 continue
             left.remove(mine[0])
             pairs.append((*mine[0], h))
+            more = [pair for pair in left if inside(pair[0], h)]
+            alone = not any(g is not h and overlap(g, h) for g in found[key])
+            if more and alone and sum(e.sign for e, _ in more) == 0 and is_rim(h):
+                # There it is one, told as the container's is.
+                clear = False
+                left = [pair for pair in left if pair not in more]
         left = [e for e, _ in left if e.t.cmp(max(ray[6], -LARGEST)) >= 0 and e.t.cmp(min(ray[7], LARGEST)) <= 0]
         # What a rounded surface tells on the other side of an end of the range, within its bracket.
         beyond = lambda e: not certain and any(inside(e, h) and any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:]) for h in on_the_line)

@@ -162,11 +162,14 @@ class Region(Leaf):
             return abs(self.steepness(a) - self.steepness(b))
 
         def could(p):
+            """By as long a way along the axes; much less than a change by the unit over the size where the surface has a point of its own."""
             way = self.size * step / length
             moved = lambda i, d: tuple(x + d * (i == j) for j, x in enumerate(p))
-            return max(2 * step * self.unit() / length, *(change(moved(i, way), moved(i, -way)) for i in range(3)))
+            return max(change(moved(i, way), moved(i, -way)) for i in range(3))
 
-        return any(change(point(t - step), point(t + step)) * (1 << 20) <= could(point(t)) for t in (lo, middle, hi))
+        usual = 2 * step * self.unit() / length
+        hardly = lambda t: change(point(t - step), point(t + step)) * (1 << 20) <= max(usual, could(point(t)))
+        return any(hardly(t) or could(point(t)) * (1 << 20) <= usual for t in (lo, middle, hi))
 
 
 def grouped(found):

@@ -810,3 +810,28 @@ fn a_cluster_holds_the_rims_at_its_ends() {
     assert!(matches!(roots.as_slice(), [Root { sign: 0, kind: Kind::Cluster, .. }]), "{roots:?}");
     assert!(roots[0].lo <= enters && leaves <= roots[0].hi, "{roots:?}");
 }
+
+/// Next to a wall that is a plane within rounding, where the formula cannot be told from zero in the container's own face: the root before that is one by itself.
+#[test]
+fn a_root_before_a_rim_is_told() {
+    let (mut p, [x, y, z]) = Pen::new();
+    let one = p.c(1.0);
+    let [xx, yy, zz] = [x, y, z].map(|i| p.sqr(i));
+    let (a, b) = (p.mul(xx, z), p.mul(yy, z));
+    let sum = p.add(xx, yy);
+    let sum = p.sub(sum, a);
+    let sum = p.add(sum, b);
+    let sum = p.add(sum, zz);
+    let f = p.sub(sum, one);
+    let held = AxisBox::new(Point3::new(-1.0, -2.0, -2.0), Point3::new(3.0, 2.0, 2.0)).unwrap();
+    let surface = Isosurface::new(&p.done(f), 0.0, Container::Box(held)).unwrap();
+    // All but in the plane z = -1, where it is x² = 0: (1 + z) (y² + z - 1) + x² (1 - z).
+    let o = Point3::new(124.99999999999999 - 125.0, -35.00000000000001, 998.9999999999999 - 1000.0);
+    let roots = all(&surface, &Ray::new(o, Vec3::new(0.0, 0.0009765625, 0.0)));
+    let signs: Vec<_> = roots.iter().map(|r| r.sign).collect();
+    assert_eq!(signs, [-1, 1, -1, 1], "{roots:?}");
+    // y² = 1 - z there, less 2e-13 / 1e-13 x².
+    for (root, t) in roots.iter().zip([33792.0, 34391.84531, 37288.15469, 37888.0]) {
+        assert!(root.lo - 1e-5 <= t && t <= root.hi + 1e-5, "{root:?}");
+    }
+}

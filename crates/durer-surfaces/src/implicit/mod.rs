@@ -24,6 +24,7 @@ pub mod level_set;
 mod line;
 mod pieces;
 mod point;
+mod polynomial;
 mod roots;
 mod superellipsoid;
 mod tracker;
@@ -35,7 +36,7 @@ pub(crate) use tracker::{Curve, Found, Tracker, Verdict};
 use crate::compose::clip::Algebraic;
 use crate::outline::Sketch;
 use crate::roots::quadratic::Quadratic;
-use crate::tape::{Builder, Formula, FormulaError, Op, Tape};
+use crate::tape::{Builder, Formula, FormulaError, Op, Powers, Tape};
 use crate::{Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use cells::{Cells, Place};
 use convex::Gauge;
@@ -57,6 +58,8 @@ pub struct Isosurface {
     regular: bool,
     /// Divided when they are asked for: a convex superellipsoid hardly ever asks.
     cells: Arc<OnceLock<Cells>>,
+    /// Of what degree it is along lines at most, if it is a polynomial.
+    degree: Option<usize>,
     /// Of a convex superellipsoid: most rays do without the tape.
     gauge: Option<Gauge>,
 }
@@ -100,7 +103,10 @@ impl Isosurface {
         let threshold = builder.constant(threshold)?;
         let level = builder.push(Op::Sub(value, threshold))?;
         let tape = Tape::new(&builder.finish(level, 3));
-        Ok(Self { tape, container, open: false, regular: false, cells: Arc::default(), gauge: None })
+        let line = Powers::line([0.0, 1.0], [0.0; 2]);
+        let degree = tape.along(&[line; 3]).degree();
+        let cells = Arc::default();
+        Ok(Self { tape, container, open: false, regular: false, degree, cells, gauge: None })
     }
 
     /// The container's cells.

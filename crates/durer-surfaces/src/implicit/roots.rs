@@ -6,6 +6,7 @@ use super::cells::Place;
 use super::convex::Answer;
 use super::isolate::{MOST_PASSES, isolate, trimmed};
 use super::line::Line;
+use super::polynomial::isolate_powers;
 use super::tracker::{Curve, Found, Tracker, Verdict};
 use crate::{CentredRay, Flow, Kind, LocalRay, Root, Sink};
 use arrayvec::ArrayVec;
@@ -276,6 +277,9 @@ impl Query<'_> {
         if let Some(rim) = start.rim {
             let _ = walk.tracker.take(rim, a, Verdict::Murky, &surface.tape);
         }
+        if let Some(degree) = surface.degree {
+            return if walk.all(degree, (a, end.1)) { walk.end(end, exit) } else { None };
+        }
         // Cells before the range that may hold surface, since the last of which it is plain that it does not.
         let mut ahead = Vec::new();
         let mut go_on = true;
@@ -293,19 +297,7 @@ impl Query<'_> {
         if !(go_on && ahead.drain(..).all(|(a, b, place)| walk.take(a, b, place))) {
             return None;
         }
-        // What the walk has told up to there counts before a rounded value.
-        let told = walk.tracker.settled();
-        let after = surface.sign_on(walk.line, end).or(told);
-        if after.is_none() && surface.is_rim(walk.line, end) {
-            let _ = walk.tracker.take(end.0, end.1, Verdict::Murky, &surface.tape);
-            let found = walk.tracker.finish(Some(true));
-            walk.rim = Some(exit);
-            walk.show(found);
-            return None;
-        }
-        let after = after.unwrap_or_else(|| surface.rounded(walk.line, end));
-        let found = walk.tracker.finish(Some(after));
-        if walk.show(found) { Some(after) } else { None }
+        walk.end(end, exit)
     }
 }
 
@@ -332,9 +324,50 @@ struct Walk<'a, 's> {
 }
 
 impl<'a> Walk<'a, '_> {
+    /// Takes all of a stretch of a formula that is a polynomial; says whether to go on.
+    fn all(&mut self, degree: usize, ends: (f64, f64)) -> bool {
+        let (line, tape, mut passes) = (self.line, &self.surface.tape, self.passes);
+        let go_on = isolate_powers((line, tape, degree), ends, &mut passes, &mut |a, b, verdict| {
+            if self.is_beyond(a) {
+                return false;
+            }
+            let found = self.tracker.take(a, b, verdict, tape);
+            self.show(found)
+        });
+        self.passes = passes;
+        go_on
+    }
+
+    /// Whether nothing that begins here is of any interest.
+    fn is_beyond(&self, a: f64) -> bool {
+        self.tracker.is_idle() && (a > self.last || self.at.bracket(a, a).0 > self.sink.limit())
+    }
+
+    /// The sign where the container ends; `None` if it is that of a rim, which was shown, or if no more is asked for.
+    fn end(&mut self, end: (f64, f64), exit: Option<&'a Root>) -> Option<bool> {
+        let surface = self.surface;
+        // What the walk has told up to there counts before a rounded value.
+        let told = self.tracker.settled();
+        let after = surface.sign_on(self.line, end).or(told);
+        if after.is_none() && surface.is_rim(self.line, end) {
+            // What is told before that is a root by itself.
+            let found = self.tracker.take(end.0, end.1, Verdict::Murky, &surface.tape);
+            if !self.show(found) {
+                return None;
+            }
+            let found = self.tracker.finish(Some(true));
+            self.rim = Some(exit);
+            self.show(found);
+            return None;
+        }
+        let after = after.unwrap_or_else(|| surface.rounded(self.line, end));
+        let found = self.tracker.finish(Some(after));
+        if self.show(found) { Some(after) } else { None }
+    }
+
     /// Takes the next cell's stretch; says whether to go on.
     fn take(&mut self, a: f64, b: f64, place: Place<'a>) -> bool {
-        if self.tracker.is_idle() && (a > self.last || self.at.bracket(a, a).0 > self.sink.limit()) {
+        if self.is_beyond(a) {
             return false;
         }
         let whole = &self.surface.tape;

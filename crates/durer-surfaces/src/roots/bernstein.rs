@@ -149,6 +149,12 @@ impl<T: Word, const N: usize> Bernstein<T, N> {
         }
     }
 
+    /// The one sign that the polynomial certainly has, ends included: plus is `true`.
+    #[inline(always)]
+    pub(crate) fn one_sign(&self) -> Option<bool> {
+        (self.count() == Count::None).then(|| self.b[0].to_f64() > 0.0)
+    }
+
     /// Whether any coefficient's sign is certain.
     #[inline(always)]
     pub(crate) fn tells(&self) -> bool {

@@ -9,9 +9,11 @@
 mod fold;
 mod formula;
 mod jumps;
+mod powers;
 mod program;
 
 pub use formula::{Builder, Formula, FormulaError, MOST_STEPS, NodeId, Op};
+pub(crate) use powers::Powers;
 pub use program::Tape;
 
 use durer_math::{F8, I8, Interval};

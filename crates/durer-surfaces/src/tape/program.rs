@@ -3,6 +3,7 @@
 use super::fold;
 use super::formula::{Formula, NodeId, Op, live};
 use super::jumps;
+use super::powers::Powers;
 use durer_math::{Dual, F8, Gradient, I8, Interval, Isa, Number, Point3, Sloped, Vec3};
 use std::cell::Cell;
 use std::sync::Arc;
@@ -23,6 +24,7 @@ thread_local! {
     static SLANTS: Cell<Vec<Dual<F8, Gradient<F8>>>> = const { Cell::new(Vec::new()) };
     static BOXES: Cell<Vec<I8>> = const { Cell::new(Vec::new()) };
     static LANES: Cell<Vec<F8>> = const { Cell::new(Vec::new()) };
+    static POWERS: Cell<Vec<Powers>> = const { Cell::new(Vec::new()) };
     static NUMBERS: Cell<Vec<f64>> = const { Cell::new(Vec::new()) };
 }
 
@@ -233,6 +235,16 @@ impl Tape {
                     let inputs = [(x, 0), (y, 1), (z, 2)];
                     run(&self.ops, &inputs.map(|(v, i)| Dual { v, d: Gradient::of_axis(i) }), registers)
                 },
+            )
+        })
+    }
+
+    /// The polynomial that it is where the coordinates are these.
+    pub(crate) fn along(&self, x: &[Powers; 3]) -> Powers {
+        with_memory(&POWERS, self.ops.len(), zero(), |registers| {
+            Isa::detect().run(
+                #[inline(always)]
+                || run(&self.ops, x, registers),
             )
         })
     }
