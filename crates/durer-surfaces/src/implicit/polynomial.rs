@@ -16,8 +16,8 @@ use crate::roots::bernstein::{Bernstein, FLOOR};
 use crate::tape::{Powers, Tape};
 use durer_math::{Isa, U};
 
-/// Below this share of a stretch nothing is halved any more.
-const FINEST: u32 = 40;
+/// Places are rounded by less than this part of a stretch, or the polynomial is not asked: `(1 + 1/64)^15 < 4/3`, which is by how much a slope may grow on the way.
+const NEAR: f64 = 1.0 / 64.0;
 
 /// Tells `[lo, hi]` apart, as [`isolate`] does, if the formula is a polynomial of this degree at most.
 pub(super) fn isolate_powers(
@@ -57,7 +57,6 @@ struct Node<const N: usize> {
     slope: Bernstein<f64, N>,
     l: f64,
     r: f64,
-    depth: u32,
 }
 
 impl<const N: usize> Halves<'_, N> {
@@ -69,11 +68,17 @@ impl<const N: usize> Halves<'_, N> {
     ) -> bool {
         let mid = 0.5 * lo + 0.5 * hi;
         let half = (hi - mid).max(mid - lo) * (1.0 + 2.0 * U);
+        // By what places are rounded, in parts of `half`, which may be zero.
+        let moved = (mid.abs() + half) * (4.0 * U) / half;
+        let is_near = moved < NEAR;
+        if !is_near {
+            return isolate(line, tape, (lo, hi), passes, take);
+        }
         let p = line.powers(tape, mid);
         *passes += 1;
         let whole = Isa::detect().run(
             #[inline(always)]
-            || Node::new(&p, mid, half),
+            || Node::new(&p, half, moved),
         );
         Halves::<N> { line, tape, lo, hi, mid, half }.tell(&whole, passes, take)
     }
@@ -98,12 +103,13 @@ impl<const N: usize> Halves<'_, N> {
         if let Some(rises) = node.slope.one_sign() {
             return take(a, b, Verdict::Monotone(rises));
         }
-        let told = node.value.tells();
-        if node.depth > 0 && !told && b - a > self.line.ulp {
-            return Self::of((self.line, self.tape), (a, b), passes, take);
-        }
-        if node.depth >= FINEST || !told {
-            return isolate(self.line, self.tape, (a, b), passes, take);
+        let is_whole = node.r - node.l == 2.0;
+        match (node.value.tells(), b - a > self.line.ulp) {
+            (true, true) => {}
+            (false, true) if !is_whole => {
+                return Self::of((self.line, self.tape), (a, b), passes, take);
+            }
+            _ => return isolate(self.line, self.tape, (a, b), passes, take),
         }
         let [left, right] = Isa::detect().run(
             #[inline(always)]
@@ -114,9 +120,9 @@ impl<const N: usize> Halves<'_, N> {
 }
 
 impl<const N: usize> Node<N> {
-    /// All of `half x`.
+    /// All of `half x`, where places are rounded by `moved` at most.
     #[inline(always)]
-    fn new(p: &Powers, mid: f64, half: f64) -> Self {
+    fn new(p: &Powers, half: f64, moved: f64) -> Self {
         let (mut c, mut e) = ([0.0_f64; N], [0.0_f64; N]);
         let mut power = 1.0;
         for k in 0..N {
@@ -125,8 +131,6 @@ impl<const N: usize> Node<N> {
             e[k] = (p.e[k] * power + c[k].abs() * ((k + 1) as f64 * U)) * (1.0 + 64.0 * U) + FLOOR;
             power *= half;
         }
-        // Places are rounded by this much, in parts of `half`.
-        let moved = (mid.abs() + half) * (4.0 * U) / half;
         let (mut d, mut e_d) = ([0.0_f64; N], 0.0);
         let (mut first, mut second) = (0.0, 0.0);
         for k in 1..N {
@@ -136,19 +140,20 @@ impl<const N: usize> Node<N> {
             first += n * c[k].abs();
             second += n * (n - 1.0) * c[k].abs();
         }
-        let slack = |errors: f64, steep: f64| (errors + moved * steep) * (1.0 + 64.0 * U) + FLOOR;
+        let slack =
+            |errors: f64, steep: f64| (errors + moved * steep * (4.0 / 3.0)) * (1.0 + 64.0 * U) + FLOOR;
         let value = Bernstein::quick(&c, slack(e.iter().sum(), first));
         let slope = Bernstein::quick(&d, slack(e_d, second));
-        Self { value, slope, l: -1.0, r: 1.0, depth: 0 }
+        Self { value, slope, l: -1.0, r: 1.0 }
     }
 
     #[inline(always)]
     fn halves(&self) -> [Self; 2] {
         let (value, slope) = (self.value.split(0.5), self.slope.split(0.5));
-        let (m, depth) = (0.5 * self.l + 0.5 * self.r, self.depth + 1);
+        let m = 0.5 * self.l + 0.5 * self.r;
         [
-            Self { value: value.0, slope: slope.0, l: self.l, r: m, depth },
-            Self { value: value.1, slope: slope.1, l: m, r: self.r, depth },
+            Self { value: value.0, slope: slope.0, l: self.l, r: m },
+            Self { value: value.1, slope: slope.1, l: m, r: self.r },
         ]
     }
 }
