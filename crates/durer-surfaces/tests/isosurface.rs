@@ -830,7 +830,7 @@ fn a_root_before_a_rim_is_told() {
     let roots = all(&surface, &Ray::new(o, Vec3::new(0.0, 0.0009765625, 0.0)));
     let signs: Vec<_> = roots.iter().map(|r| r.sign).collect();
     assert_eq!(signs, [-1, 1, -1, 1], "{roots:?}");
-    // y² = 1 - z there, less 2e-13 / 1e-13 x².
+    // Where |y| = 2 at the walls, and y² = 1 - z = 2 between, to five decimals.
     for (root, t) in roots.iter().zip([33792.0, 34391.84531, 37288.15469, 37888.0]) {
         assert!(root.lo - 1e-5 <= t && t <= root.hi + 1e-5, "{root:?}");
     }

@@ -164,6 +164,7 @@ mod tests {
     use crate::LocalRay;
     use crate::laws::Dice;
     use crate::tape::{Builder, NodeId, Op};
+    use durer_math::scale::pow2;
     use durer_math::{Dyadic, Point3, Ray, Vec3};
 
     /// J. Steiner's Roman surface, `x²y² + y²z² + z²x² - 2xyz`, which crosses itself along the axes.
@@ -209,7 +210,7 @@ mod tests {
             let line = Line::new(&at, 4.0);
             let (lo, hi) = (-2.0 * dice.unit().abs() - 0.5, 2.0 * dice.unit().abs() + 0.5);
             let mut here = lo;
-            let before = passes;
+            let mut open = 0.0;
             let all = isolate_powers((&line, &tape, 4), (lo, hi), &mut passes, &mut |a, b, verdict| {
                 assert!(a == here && b >= a, "{seed}: {a} {b} {here}");
                 here = b;
@@ -224,19 +225,20 @@ mod tests {
                     }
                     Verdict::Monotone(rises) => {
                         ways += 1;
-                        let wide = values.windows(2).filter(|_| b - a > 1e-9);
-                        for pair in wide {
+                        // Places that the ray's own parameter cannot tell apart say nothing.
+                        for pair in values.windows(2).filter(|_| b - a > pow2(-30)) {
                             let step = (&pair[1] - &pair[0]).exact_sign();
                             assert!(if rises { step.is_gt() } else { step.is_lt() }, "{seed}: {a} {b}");
                         }
                     }
                     Verdict::Gap => panic!("{seed}: a polynomial is defined everywhere"),
-                    Verdict::Murky => {}
+                    Verdict::Murky => open += b - a,
                 }
                 true
             });
             assert!(all && here == hi);
-            assert!(passes - before <= 40_010, "{seed}: {}", passes - before);
+            // Where a triple root is below the roundings of the terms, which are few and below 8: |s|³ <= 2^-45.
+            assert!(open < pow2(-14), "{seed}: {open}");
         }
         assert!(signs > 5000 && ways > 1000, "{signs} {ways} {passes}");
     }

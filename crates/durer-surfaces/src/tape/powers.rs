@@ -6,11 +6,8 @@
 //!
 //! Every operation bounds its own roundings. What is no polynomial, or of too high a degree, is [`Powers::UNKNOWN`], and so is all that is made of it.
 
-use durer_math::scale::pow2;
+use crate::roots::bernstein::FLOOR;
 use durer_math::{Comparison, Function, Interval, Joined, Number, U};
-
-/// Pays for results below the normal range.
-const FLOOR: f64 = pow2(-1000);
 
 /// A polynomial of degree up to 16.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,8 +135,9 @@ impl Number for Powers {
 
     fn powi(a: &Self, n: i32) -> Self {
         match u32::try_from(n) {
-            Ok(0) => Self::constant(Interval { lo: 1.0, hi: 1.0 }),
-            Ok(n) if n < Self::LEN as u32 => (1..n).fold(*a, |power, _| Self::mul(&power, a)),
+            // What is not defined everywhere is not 1.
+            Ok(0) if a.degree < Self::LEN => Self::constant(Interval { lo: 1.0, hi: 1.0 }),
+            Ok(n @ 1..) if n < Self::LEN as u32 => (1..n).fold(*a, |power, _| Self::mul(&power, a)),
             _ => Self::UNKNOWN,
         }
     }
@@ -268,6 +266,7 @@ mod tests {
         assert_eq!(degree(&|b, [x, ..]| b.push(Op::Powi(x, 17)).unwrap()), None);
         assert_eq!(degree(&|b, [x, ..]| b.push(Op::Sqrt(x)).unwrap()), None);
         assert_eq!(degree(&|b, [x, y, _]| b.push(Op::Div(x, y)).unwrap()), None);
+        assert_eq!(Powers::powi(&Powers::UNKNOWN, 0), Powers::UNKNOWN);
         let hidden = |b: &mut Builder, [x, y, _]: [crate::tape::NodeId; 3]| {
             let least = b.push(Op::Min(x, y)).unwrap();
             let square = b.push(Op::Sqr(least)).unwrap();
