@@ -484,7 +484,10 @@ def check_spans(report, scene, ray, expected, pairs, rows):
         return
     lo, hi = ray[6:]
     bad = lambda what: report.add(what, scene, ray, expected.spans, [tuple(map(float, r)) for r in rows])
-    by_end = {(h["sign"], float(h["t"])): h for e, _, h in pairs}
+    by_end = {}
+    for _, _, h in pairs:
+        by_end.setdefault((h["sign"], float(h["t"])), []).append(h)
+    holds = lambda hits, inside: any(inside(h["t_lo"], h["t_hi"]) for h in hits)
     wanted = expected.spans
     if lo == hi:
         return  # A range without length: whether it makes a span is nobody's business.
@@ -501,7 +504,7 @@ def check_spans(report, scene, ray, expected, pairs, rows):
                 if t == bound and number == -1:
                     continue
                 # A range that ends exactly on the surface may name it.
-                if (side, float(t)) in by_end and by_end[side, float(t)]["t_lo"] <= bound <= by_end[side, float(t)]["t_hi"]:
+                if holds(by_end.get((side, float(t)), []), lambda low, high: low <= bound <= high):
                     continue
                 bad(f"spans: {word} should be the range's end with object -1")
             elif number == -1 and t == bound and len({h["sign"] for _, _, h in pairs if h["t_lo"] <= bound <= h["t_hi"]} & {-1, 1}) == 2:
@@ -510,8 +513,7 @@ def check_spans(report, scene, ray, expected, pairs, rows):
             elif (side, float(t)) not in by_end:
                 bad(f"spans: {word} is no crossing of `all`")
             else:
-                h = by_end[side, float(t)]
-                if end.cmp(float(h["t_lo"])) < 0 or end.cmp(float(h["t_hi"])) > 0:
+                if not holds(by_end[side, float(t)], lambda low, high: end.cmp(float(low)) >= 0 >= end.cmp(float(high))):
                     bad(f"spans: {word} is the wrong crossing")
                 if number < 0 or number >= len(scene.objects):
                     bad(f"spans: object of {word}")

@@ -158,6 +158,25 @@ def curve(points):
     return [a, 3 * (b - a), 3 * (a - 2 * b + c), d - 3 * c + 3 * b - a]
 
 
+class Wall:
+    """A curved wall at the place `u` of its outline: which way its normal goes, and by how much that changes with the point."""
+
+    def __init__(self, cx, cz, u, conic):
+        bent = lambda c: [k * e for k, e in enumerate(c)][1:]
+        (x, z), (dx, dz), (bx, bz) = ([at(c, u) for c in pair] for pair in ((cx, cz), (bent(cx), bent(cz)), (bent(bent(cx)), bent(bent(cz)))))
+        self.normal = cross((x, F(1), z), (dx, F(0), dz)) if conic else (dz, F(0), -dx)
+        self.speed, self.across = max(abs(dx), abs(dz)), abs(dx * bz - dz * bx)
+        self.conic, self.reach = conic, 1 + abs(x) + abs(z)
+
+    def gradient(self, _):
+        return self.normal
+
+    def bend(self, p):
+        """The outline's curvature; a cone's plane at the height y is the outline's, y times as large."""
+        turn = self.across / self.speed**3 * max(map(abs, self.normal))
+        return turn * self.reach / abs(p[1]) if self.conic else turn
+
+
 class CurvedPrism(Region):
     # No vertex lies on a line of this direction through a point that matters.
     AWAY = (F(1000003), F(7919))
@@ -186,8 +205,8 @@ class CurvedPrism(Region):
             out += [(r, (0, -1 if h == self.low else 1, 0) if h in (self.low, self.high) else None, False) for r in found]
         for cx, cz in self.pieces:
             for u, poly, num, den in self.meet(x, y, z, cx, cz):
-                n = self.normal(cx, cz, u.rational(120)) if self.has_way(cx, cz, u.rational(120)) else None
-                out.append((OnCurve.at(u, poly, num, den), n, u.against(F(0)) > 0 > u.against(F(1))))
+                wall = Wall(cx, cz, u.rational(120), self.conic) if self.has_way(cx, cz, u.rational(120)) else None
+                out.append((OnCurve.at(u, poly, num, den), wall, u.against(F(0)) > 0 > u.against(F(1))))
         return out
 
     def meet(self, x, y, z, cx, cz):
@@ -219,7 +238,7 @@ class CurvedPrism(Region):
 
     def outward(self, n, d, turn):
         """The side on which a wall's normal is outside: a line that leaves goes there."""
-        along = dot(n, d)
+        along = dot(n.normal if isinstance(n, Wall) else n, d)
         return (sign(along) * turn,) if along and turn else (1, -1)
 
     def has_way(self, cx, cz, u):
@@ -230,12 +249,6 @@ class CurvedPrism(Region):
         size = sum(abs(e) for c in (cx, cz) for e in c)
         speed = max(abs(dx), abs(dz))
         return speed > 0 and abs(dx * bz - dz * bx) * size * F(16, 1 << 53) <= F(1, 10**10) * speed**3
-
-    def normal(self, cx, cz, u):
-        slope = lambda c: at([k * e for k, e in enumerate(c)][1:], u)
-        if not self.conic:
-            return (slope(cz), F(0), -slope(cx))
-        return cross((at(cx, u), F(1), at(cz, u)), (slope(cx), F(0), slope(cz)))
 
     def is_within(self, p):
         """Whether a point of the plane is within the outlines."""
@@ -355,7 +368,7 @@ def curved_prism(rng):
             cx, cz = rng.choice(leaf.pieces)
             s = F(rng.randint(0, 8), 8)
             p = near(swept((at(cx, s), at(cz, s)), y))
-            leaf.known[p] = leaf.normal(cx, cz, s)
+            leaf.known[p] = Wall(cx, cz, s, leaf.conic).normal
             yield p
         cx, cz = leaf.pieces[0]
         yield near(swept((cx[0], cz[0]), low + (high - low) * F(rng.randint(1, 7), 8)))
