@@ -326,7 +326,8 @@ impl<'a> Probe<'a> {
     pub(crate) fn is_narrow(&self, c: &Crossing) -> bool {
         let (width, t) = (c.s_hi - c.s_lo, c.lo.abs().min(c.hi.abs()));
         if self.ray.local().rough {
-            return width <= ROUGH * self.size || c.hi - c.lo <= ROUGH * t;
+            // Of a bracket that says nothing both sides are infinite.
+            return width <= ROUGH * self.size || (t < f64::INFINITY && c.hi - c.lo <= ROUGH * t);
         }
         // |d| < 4; the exact length is asked for only where it matters.
         width <= NARROW * 0.25 * self.size

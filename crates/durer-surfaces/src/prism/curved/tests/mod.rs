@@ -3,11 +3,11 @@
 mod swept;
 
 use super::*;
-use crate::Kind;
 use crate::laws::{self, Dice, Feature, Oracle, aim, all_roots, exact3};
 use crate::prism::outline::Point;
 use crate::prism::tests::Obeyed;
-use durer_math::Ray;
+use crate::{All, Kind};
+use durer_math::{Affine, Ray};
 use swept::Swept;
 
 /// A round outline of four pieces.
@@ -310,4 +310,35 @@ fn bad_curved_prisms_are_named() {
     let mut far = ring.clone();
     far[1][1] = [f64::NAN, 0.0];
     assert!(matches!(CurvedPrism::linear(&[far], 0.0, 1.0), Err(PrismError::Point { .. })));
+}
+
+/// Under a placement of which the inverse is rounded, a ray that goes along the sweep crosses the walls where f64 knows nothing: no bracket but all numbers.
+#[test]
+fn along_the_sweep_who_looks_finds_what_who_measures_finds() {
+    let affine =
+        Affine::new([[2.0, -3.0, -3.0], [2.0, 0.0, 2.0], [-3.0, 2.0, 0.0]], Point3::new(-7.0, 1.0, 1.0));
+    let affine = affine.expect("a placement");
+    let prism = CurvedPrism::linear(&[round([0.0; 2], 1.0, 0.5)], -1.0, 8.0).expect("a prism");
+    // From a point of a wall, along the third column of the inverse times 24, as it is rounded.
+    let mut dice = Dice::new(23);
+    let mut met = 0;
+    for _ in 0..2000 {
+        let at = dice.below(4) as f64 * 0.25;
+        let (u, v) = (at, 1.0 - at);
+        let k = [v * v * v, 3.0 * u * v * v, 3.0 * u * u * v, u * u * u];
+        let piece = round([0.0; 2], 1.0, 0.5)[dice.below(4) as usize];
+        let [x, z] = [0, 1].map(|i| (0..4).map(|j| k[j] * piece[j][i]).sum::<f64>());
+        let start = affine.point(Point3::new(x, dice.below(8) as f64 * 0.5, z));
+        let along = affine.vector(Vec3::Y);
+        let size = dice.between(1.0, 1e6) * if dice.once_in(2) { -1.0 } else { 1.0 };
+        let ray = Ray::new(start, along.map(|e| e * size)).with_range(0.0, f64::INFINITY);
+        let [fine, rough] = [LocalRay::new(&ray), LocalRay::new(&ray).roughly()].map(|ray| {
+            let mut all = All::default();
+            prism.all_roots(&ray.through(&affine), &mut all);
+            all.roots.iter().map(|root| (root.sign, root.face)).collect::<Vec<_>>()
+        });
+        assert_eq!(fine, rough, "{ray:?}");
+        met += usize::from(fine.iter().any(|&(_, face)| face == 0));
+    }
+    assert!(met > 100, "{met} of these met a wall");
 }
