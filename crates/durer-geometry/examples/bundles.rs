@@ -109,13 +109,13 @@ fn trace(world: &Geometry, way: usize, (bx, by): (usize, usize), scratch: &mut S
         eight.live = M8::ALL;
     }
     let beam = if way > 0 { world.beam_of(&rays) } else { None };
-    let mut hits = Hits8::NONE;
-    for (y, eight) in rays.iter().enumerate() {
-        if way == 2 {
-            world.seen_by_lanes(beam.as_ref(), eight, EVERYTHING, &mut hits, scratch);
-            black_box(&hits);
-            continue;
-        }
+    if way == 2 {
+        let mut hits = [Hits8::NONE; BLOCK];
+        world.seen_by_lanes(beam.as_ref(), &rays, EVERYTHING, &mut hits, scratch);
+        black_box(&hits);
+        return;
+    }
+    for y in 0..rays.len() {
         for x in 0..8 {
             let ray = ray(bx + x, by + y);
             black_box(match &beam {

@@ -14,9 +14,10 @@ use crate::ids::Id;
 use crate::outlines::Seen;
 use crate::{Beam, Geometry};
 use arrayvec::ArrayVec;
+use core::slice;
 use durer_math::lanes::LANES;
 use durer_math::{Aabb, F8, Isa, M8, Point3, Ray, RaySide, Shaft, Source, Vec3};
-use durer_surfaces::outline::{self, Nearest, Outline, Points8, Question, RayLanes};
+use durer_surfaces::outline::{self, From8, Nearest, Outline, Points8, Question, RayLanes};
 use durer_surfaces::{Need, ROUGH};
 
 /// Memory for what is known of eight rays on the way: kept, so that it need not be cleared for each.
@@ -36,6 +37,12 @@ struct Face<'g> {
     slot: u64,
     part: u32,
 }
+
+/// So many eights go together.
+const MANY: usize = 16;
+
+/// The slots that eight rays leave.
+type Slots = ArrayVec<u64, LANES>;
 
 /// Boxes around points, lane by lane.
 struct Bounds8 {
@@ -150,9 +157,30 @@ impl Geometry {
         self.beam(&shaft, common_source(self.isa, rays))
     }
 
-    /// Puts down what each ray sees first, as [`Geometry::seen`] answers. `beam` holds what these rays may meet, if that is known; `scratch`
+    /// Puts down what each ray of some eights sees first, as [`Geometry::seen`] answers. `beam` holds what these rays may meet, if that is known; `scratch`
     /// may hold anything.
     pub fn seen_by_lanes(
+        &self,
+        beam: Option<&Beam>,
+        rays: &[Rays8],
+        mask: u32,
+        hits: &mut [Hits8],
+        scratch: &mut Scratch,
+    ) {
+        if let Some(beam) = beam
+            && self.is_asked_together(beam, mask)
+        {
+            for (rays, hits) in rays.chunks(MANY).zip(hits.chunks_mut(MANY)) {
+                self.see_together(beam, rays, mask, hits, scratch);
+            }
+            return;
+        }
+        for (rays, hits) in rays.iter().zip(hits) {
+            self.see_eight(beam, rays, mask, hits, scratch);
+        }
+    }
+
+    fn see_eight(
         &self,
         beam: Option<&Beam>,
         rays: &Rays8,
@@ -160,30 +188,31 @@ impl Geometry {
         hits: &mut Hits8,
         scratch: &mut Scratch,
     ) {
-        hits.hit = M8::NONE;
-        hits.touching = M8::NONE;
+        hits.forget();
         if !rays.live.any() || beam.is_some_and(Beam::is_empty) {
             return;
         }
         let mut own = None;
         let beam = beam.or_else(|| {
-            own = self.beam_of(core::slice::from_ref(rays));
+            own = self.beam_of(slice::from_ref(rays));
             own.as_ref()
         });
-        let mut left = rays.live;
-        if let Some(beam) = beam {
-            // Whole blocks are filled and copied on the way, too.
-            left = self.isa.run_in_lanes(
-                #[inline(always)]
-                || self.see(beam, rays, mask, hits, scratch),
-            );
-        }
         let Some(beam) = beam else {
-            let alone: ArrayVec<Ray, LANES> = left.lanes().map(|i| rays.lane(i)).collect();
-            let lanes: ArrayVec<usize, LANES> = left.lanes().collect();
+            let alone: ArrayVec<Ray, LANES> = rays.live.lanes().map(|i| rays.lane(i)).collect();
+            let lanes: ArrayVec<usize, LANES> = rays.live.lanes().collect();
             let put = |i: usize, seen| hits.set_lane(lanes[i], seen);
             return self.seen_abreast(&alone, mask, Need::SHADING_NORMAL, &mut scratch.abreast, put);
         };
+        // Whole blocks are filled and copied on the way, too.
+        let left = self.isa.run_in_lanes(
+            #[inline(always)]
+            || self.see(beam, rays, mask, hits, scratch),
+        );
+        self.see_alone(beam, (rays, left), mask, hits);
+    }
+
+    /// What rays of which lanes leave something open see by themselves.
+    fn see_alone(&self, beam: &Beam, (rays, left): (&Rays8, M8), mask: u32, hits: &mut Hits8) {
         for i in left.lanes() {
             hits.set_lane(i, self.seen_in(beam, &rays.lane(i), mask, Need::SHADING_NORMAL));
         }
@@ -195,7 +224,69 @@ impl Geometry {
         let lanes = RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
         let mut nearest = Nearest::of(&lanes);
         self.nearest::<false>(beam, rays, &lanes, mask, &mut nearest, scratch);
-        let Nearest { t, e, doubt, number, face, tag } = &nearest;
+        self.take_down(beam, rays, &lanes, &nearest, hits)
+    }
+
+    /// The same of at most [`MANY`] eights that ask something together.
+    fn see_together(
+        &self,
+        beam: &Beam,
+        rays: &[Rays8],
+        mask: u32,
+        hits: &mut [Hits8],
+        scratch: &mut Scratch,
+    ) {
+        hits.iter_mut().for_each(Hits8::forget);
+        let mut left = ArrayVec::new();
+        self.isa.run_in_lanes(
+            #[inline(always)]
+            || self.see_many(beam, rays, mask, hits, &mut left, scratch),
+        );
+        for ((left, rays), hits) in left.into_iter().zip(rays).zip(hits) {
+            self.see_alone(beam, (rays, left), mask, hits);
+        }
+    }
+
+    /// As [`Geometry::see`], of at most [`MANY`] eights.
+    #[inline(always)]
+    fn see_many(
+        &self,
+        beam: &Beam,
+        rays: &[Rays8],
+        mask: u32,
+        hits: &mut [Hits8],
+        left: &mut ArrayVec<M8, MANY>,
+        scratch: &mut Scratch,
+    ) {
+        let lanes = self.lanes_of(rays);
+        let mut nearest = ArrayVec::new();
+        self.nearest_together::<false>(beam, rays, &lanes, mask, &mut nearest, scratch);
+        for (((rays, lanes), nearest), hits) in rays.iter().zip(&lanes).zip(&nearest).zip(hits) {
+            let live = rays.live.any();
+            left.push(if live { self.take_down(beam, rays, lanes, nearest, hits) } else { M8::NONE });
+        }
+    }
+
+    /// Whether a beam holds a surface that many eights of rays are better told of together.
+    fn is_asked_together(&self, beam: &Beam, mask: u32) -> bool {
+        let is_one = |candidate: &Candidate| {
+            let seen = self.seen_of(candidate.arena, candidate.slot);
+            matches!(seen, Seen::Outline(outline) if outline.is_asked_together())
+        };
+        beam.candidates.iter().any(|candidate| candidate.mask & mask != 0 && is_one(candidate))
+    }
+
+    /// Puts down what of the nearest hits is sure.
+    #[inline(always)]
+    fn take_down(
+        &self,
+        beam: &Beam,
+        rays: &Rays8,
+        lanes: &RayLanes<'_>,
+        nearest: &Nearest,
+        hits: &mut Hits8,
+    ) -> M8 {
+        let Nearest { t, e, doubt, number, face, tag } = nearest;
         let never = F8::splat(f64::INFINITY);
         // Known well enough to be seen, and before all doubt.
         let clear = t.lt(never) & doubt.gt(*t + *e) & e.le(*t * (0.5 * ROUGH));
@@ -211,7 +302,7 @@ impl Geometry {
             let Some(met) = self.face(candidate, f) else { continue };
             let Hits8 { p, ng, ns, off, .. } = &mut *hits;
             let to = Points8 { p, ng, ns, off };
-            let sure = met.outline.points(met.face as usize, &lanes, (t, tag), &these, to);
+            let sure = met.outline.points(met.face as usize, lanes, (t, tag), &these, to);
             left |= these & !sure;
             hits.hit |= sure;
             if met.turned {
@@ -245,6 +336,15 @@ impl Geometry {
         }
     }
 
+    #[inline(always)]
+    fn lanes_of<'r>(&self, rays: &'r [Rays8]) -> ArrayVec<RayLanes<'r>, MANY> {
+        let mut lanes = ArrayVec::new();
+        for Rays8 { origin, direction, t_max, live, .. } in rays {
+            lanes.push(RayLanes::new(self.isa, origin, direction, t_max, live));
+        }
+        lanes
+    }
+
     /// The first sure hit of each ray among the candidates, and the first doubt. Where `ANY` hit is enough it may be another, and once each ray has one no more
     /// is asked.
     #[inline(always)]
@@ -260,66 +360,188 @@ impl Geometry {
         let mut sources = ArrayVec::new();
         rays.source.all(&mut sources);
         for (number, candidate) in beam.candidates.iter().enumerate() {
-            let Candidate { arena, slot, .. } = *candidate;
             if candidate.mask & mask == 0 {
                 continue;
             }
-            let number = number as f64;
-            match self.seen_of(arena, slot) {
-                Seen::Outline(outline) => {
-                    let leaves = sources.contains(&slot_number(arena, slot));
-                    let from = leaves.then(|| rays.source.of(arena, slot, outline));
-                    let asked = Question { rays: lanes, from: from.as_ref(), number };
-                    outline.meet(&asked, nearest, &mut scratch.outline);
-                }
-                Seen::Body(body) => {
-                    let memory = (&mut scratch.outline, &mut scratch.body);
-                    body.meet(self.isa, (arena, number), (rays, lanes), nearest, memory);
-                }
-                Seen::Nothing => nearest.doubt = F8::ZERO,
-            }
+            self.ask((candidate, number), (rays, &sources), lanes, nearest, scratch);
             if ANY && all_meet(self.isa, rays, nearest) {
                 return;
             }
         }
     }
 
-    /// Which rays meet anything, as [`Geometry::any_masked`] answers.
-    pub fn any_by_lanes(&self, beam: Option<&Beam>, rays: &Rays8, mask: u32, scratch: &mut Scratch) -> M8 {
+    /// Asks one of the candidates.
+    #[inline(always)]
+    fn ask(
+        &self,
+        (candidate, number): (&Candidate, usize),
+        (rays, sources): (&Rays8, &Slots),
+        lanes: &RayLanes<'_>,
+        nearest: &mut Nearest,
+        scratch: &mut Scratch,
+    ) {
+        let Candidate { arena, slot, .. } = *candidate;
+        let number = number as f64;
+        match self.seen_of(arena, slot) {
+            Seen::Outline(outline) => {
+                let leaves = sources.contains(&slot_number(arena, slot));
+                let from = leaves.then(|| rays.source.of(arena, slot, outline));
+                let asked = Question { rays: lanes, from: from.as_ref(), number };
+                outline.meet(&asked, nearest, &mut scratch.outline);
+            }
+            Seen::Body(body) => {
+                let memory = (&mut scratch.outline, &mut scratch.body);
+                body.meet(self.isa, (arena, number), (rays, lanes), nearest, memory);
+            }
+            Seen::Nothing => nearest.doubt = F8::ZERO,
+        }
+    }
+
+    /// [`Geometry::nearest`] of some eights, one candidate after the other.
+    #[inline(always)]
+    fn nearest_together<const ANY: bool>(
+        &self,
+        beam: &Beam,
+        rays: &[Rays8],
+        lanes: &[RayLanes<'_>],
+        mask: u32,
+        nearest: &mut ArrayVec<Nearest, MANY>,
+        scratch: &mut Scratch,
+    ) {
+        let mut sources: ArrayVec<Slots, MANY> = ArrayVec::new();
+        let mut open: ArrayVec<bool, MANY> = ArrayVec::new();
+        for (rays, lanes) in rays.iter().zip(lanes) {
+            nearest.push(Nearest::of(lanes));
+            open.push(rays.live.any());
+            let mut own = Slots::new();
+            rays.source.all(&mut own);
+            sources.push(own);
+        }
+        for (number, candidate) in beam.candidates.iter().enumerate() {
+            let Candidate { arena, slot, mask: seen_by, .. } = *candidate;
+            if seen_by & mask == 0 {
+                continue;
+            }
+            match self.seen_of(arena, slot) {
+                Seen::Outline(outline) if outline.is_asked_together() => {
+                    let mut from: ArrayVec<Option<From8>, MANY> = ArrayVec::new();
+                    for (rays, sources) in rays.iter().zip(&sources) {
+                        let leaves = sources.contains(&slot_number(arena, slot));
+                        from.push(leaves.then(|| rays.source.of(arena, slot, outline)));
+                    }
+                    let mut asked: ArrayVec<Question<'_>, MANY> = ArrayVec::new();
+                    for (rays, from) in lanes.iter().zip(&from) {
+                        asked.push(Question { rays, from: from.as_ref(), number: number as f64 });
+                    }
+                    outline.meet_together(&asked, &open, nearest, &mut scratch.outline);
+                }
+                _ => {
+                    for (i, rays) in rays.iter().enumerate().filter(|(i, _)| open[*i]) {
+                        self.ask(
+                            (candidate, number),
+                            (rays, &sources[i]),
+                            &lanes[i],
+                            &mut nearest[i],
+                            scratch,
+                        );
+                    }
+                }
+            }
+            if ANY {
+                for ((open, rays), nearest) in open.iter_mut().zip(rays).zip(&*nearest) {
+                    *open &= !all_meet(self.isa, rays, nearest);
+                }
+            }
+        }
+    }
+
+    /// Puts down which rays of some eights meet anything, as [`Geometry::any_masked`] answers.
+    pub fn any_by_lanes(
+        &self,
+        beam: Option<&Beam>,
+        rays: &[Rays8],
+        mask: u32,
+        met: &mut [M8],
+        scratch: &mut Scratch,
+    ) {
+        if let Some(beam) = beam
+            && self.is_asked_together(beam, mask)
+        {
+            for (rays, met) in rays.chunks(MANY).zip(met.chunks_mut(MANY)) {
+                self.any_together(beam, rays, mask, met, scratch);
+            }
+            return;
+        }
+        for (rays, met) in rays.iter().zip(met) {
+            *met = self.any_of_eight(beam, rays, mask, scratch);
+        }
+    }
+
+    fn any_of_eight(&self, beam: Option<&Beam>, rays: &Rays8, mask: u32, scratch: &mut Scratch) -> M8 {
         if !rays.live.any() || beam.is_some_and(Beam::is_empty) {
             return M8::NONE;
         }
         let mut own = None;
         let beam = beam.or_else(|| {
-            own = self.beam_of(core::slice::from_ref(rays));
+            own = self.beam_of(slice::from_ref(rays));
             own.as_ref()
         });
-        let (mut met, mut left) = (M8::NONE, rays.live);
-        if let Some(beam) = beam {
-            self.isa.run_in_lanes(
-                #[inline(always)]
-                || {
-                    let lanes =
-                        RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
-                    let mut nearest = Nearest::of(&lanes);
-                    self.nearest::<true>(beam, rays, &lanes, mask, &mut nearest, scratch);
-                    let never = F8::splat(f64::INFINITY);
-                    met = nearest.t.lt(never) & rays.live;
-                    left = rays.live & !(met | nearest.doubt.ge(never));
-                },
-            );
-        }
+        let mut met = M8::NONE;
         let Some(beam) = beam else {
-            let alone: ArrayVec<Ray, LANES> = left.lanes().map(|i| rays.lane(i)).collect();
-            let lanes: ArrayVec<usize, LANES> = left.lanes().collect();
+            let alone: ArrayVec<Ray, LANES> = rays.live.lanes().map(|i| rays.lane(i)).collect();
+            let lanes: ArrayVec<usize, LANES> = rays.live.lanes().collect();
             self.any_abreast(&alone, mask, &mut scratch.abreast, |i, is_met| met.set_lane(lanes[i], is_met));
             return met;
         };
+        let mut left = M8::NONE;
+        self.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let lanes = RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
+                let mut nearest = Nearest::of(&lanes);
+                self.nearest::<true>(beam, rays, &lanes, mask, &mut nearest, scratch);
+                (met, left) = sure(rays, &nearest);
+            },
+        );
+        self.meet_alone(beam, (rays, left), mask, &mut met);
+        met
+    }
+
+    /// Whether rays of which lanes leave something open meet anything.
+    fn meet_alone(&self, beam: &Beam, (rays, left): (&Rays8, M8), mask: u32, met: &mut M8) {
         for i in left.lanes() {
             met.set_lane(i, self.any_in(beam, &rays.lane(i), mask));
         }
-        met
     }
+
+    /// The same of at most [`MANY`] eights that ask something together.
+    fn any_together(&self, beam: &Beam, rays: &[Rays8], mask: u32, met: &mut [M8], scratch: &mut Scratch) {
+        let mut left: ArrayVec<M8, MANY> = ArrayVec::new();
+        self.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let lanes = self.lanes_of(rays);
+                let mut nearest = ArrayVec::new();
+                self.nearest_together::<true>(beam, rays, &lanes, mask, &mut nearest, scratch);
+                for ((rays, nearest), met) in rays.iter().zip(&nearest).zip(&mut *met) {
+                    let (those, open) = sure(rays, nearest);
+                    *met = those;
+                    left.push(open);
+                }
+            },
+        );
+        for ((left, rays), met) in left.into_iter().zip(rays).zip(met) {
+            self.meet_alone(beam, (rays, left), mask, met);
+        }
+    }
+}
+
+/// Which rays surely meet something, and of which that is open.
+#[inline(always)]
+fn sure(rays: &Rays8, nearest: &Nearest) -> (M8, M8) {
+    let never = F8::splat(f64::INFINITY);
+    let met = nearest.t.lt(never) & rays.live;
+    (met, rays.live & !(met | nearest.doubt.ge(never)))
 }
 
 #[cfg(test)]

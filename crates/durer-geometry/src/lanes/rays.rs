@@ -194,6 +194,12 @@ impl Hits8 {
         source: Sources8::NONE,
     };
 
+    /// Nothing is met; all else may stay.
+    #[inline(always)]
+    pub(super) fn forget(&mut self) {
+        (self.hit, self.touching) = (M8::NONE, M8::NONE);
+    }
+
     /// Says what these lanes meet, an instance of nothing.
     #[inline(always)]
     pub(super) fn name(&mut self, lanes: u8, name: Id, (slot, part, face): (u64, u32, u32)) {

@@ -126,9 +126,7 @@ impl<'w> Bundle<'w> {
 pub(super) fn see(geometry: &Geometry, rays: &[Rays8], mask: u32, hits: &mut [Hits8], scratch: &mut Scratch) {
     for (rays, hits) in rays.chunks(TOGETHER).zip(hits.chunks_mut(TOGETHER)) {
         let beam = geometry.beam_of(rays);
-        for (rays, hits) in rays.iter().zip(hits) {
-            geometry.seen_by_lanes(beam.as_ref(), rays, mask, hits, scratch);
-        }
+        geometry.seen_by_lanes(beam.as_ref(), rays, mask, hits, scratch);
     }
 }
 

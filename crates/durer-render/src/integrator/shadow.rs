@@ -83,27 +83,23 @@ impl<'w> Shadows<'w> {
             if beam.as_ref().is_some_and(Beam::is_empty) {
                 continue;
             }
-            for (i, (rays, light)) in rays.iter_mut().zip(light).enumerate() {
-                let met = world.geometry().any_by_lanes(beam.as_ref(), rays, mask::SHADOW, &mut self.scratch);
-                isa.run_in_lanes(
-                    #[inline(always)]
-                    || {
+            let (beam, scratch) = (beam.as_ref(), &mut self.scratch);
+            let met = &mut [M8::NONE; TOGETHER][..rays.len()];
+            world.geometry().any_by_lanes(beam, rays, mask::SHADOW, met, scratch);
+            isa.run_in_lanes(
+                #[inline(always)]
+                || {
+                    for ((rays, light), met) in rays.iter_mut().zip(light).zip(&*met) {
                         if met.any() {
-                            *light = light.kept(!met);
-                            rays.live &= !met;
+                            *light = light.kept(!*met);
+                            rays.live &= !*met;
                         }
-                    },
-                );
-                if clear {
-                    let hits = &mut self.hits[chunk * TOGETHER + i];
-                    world.geometry().seen_by_lanes(
-                        beam.as_ref(),
-                        rays,
-                        mask::CLEAR_SHADOW,
-                        hits,
-                        &mut self.scratch,
-                    );
-                }
+                    }
+                },
+            );
+            if clear {
+                let hits = &mut self.hits[chunk * TOGETHER..][..rays.len()];
+                world.geometry().seen_by_lanes(beam, rays, mask::CLEAR_SHADOW, hits, scratch);
             }
         }
         if self.hits.iter().any(|h| h.hit.any()) {

@@ -27,8 +27,8 @@ const MARGIN: f64 = 1.0 / (1u64 << 28) as f64;
 enum Cell {
     /// The formula has this sign.
     Sign(bool),
-    /// There is no surface, but the formula is not everywhere defined.
-    Gap,
+    /// There is no surface, but the formula is not everywhere defined; whether it is positive where it is.
+    Gap(bool),
     /// There may be surface; the number of the leaf.
     Leaf(u32),
     /// Divided; the number of the first of eight.
@@ -143,9 +143,9 @@ impl Grid {
                 }
                 return;
             }
-            Cell::Gap => shift,
-            Cell::Sign(above) => (1 + u32::from(above)) << 3 | shift,
-            Cell::Leaf(leaf) => (3 + leaf) << 3 | shift,
+            Cell::Gap(above) => u32::from(above) << 3 | shift,
+            Cell::Sign(above) => (2 + u32::from(above)) << 3 | shift,
+            Cell::Leaf(leaf) => (4 + leaf) << 3 | shift,
         };
         let wide = shift.saturating_sub(BRICK);
         let all = 0..1_u32 << (3 * if shift < BRICK { shift } else { wide });
@@ -172,10 +172,11 @@ impl Grid {
             cell = self.bricks[(cell >> 3) as usize][number([x & within, y & within, z & within], BRICK)];
         }
         let told = match cell >> 3 {
-            0 => Told::Gap,
-            1 => Told::Sign(false),
-            2 => Told::Sign(true),
-            leaf => Told::Leaf(leaf - 3),
+            0 => Told::Gap(false),
+            1 => Told::Gap(true),
+            2 => Told::Sign(false),
+            3 => Told::Sign(true),
+            leaf => Told::Leaf(leaf - 4),
         };
         (told, cell & 0b111)
     }
@@ -195,8 +196,8 @@ struct Known {
 pub(super) enum Told {
     /// The formula has this sign.
     Sign(bool),
-    /// Nothing that counts.
-    Gap,
+    /// Nothing that counts: the formula is undefined, or has one sign (`true`: positive).
+    Gap(bool),
     /// There may be surface; the number of the leaf.
     Leaf(u32),
 }
@@ -226,7 +227,7 @@ impl Cells {
             over: size.map(|x| 1.0 / x),
             margin,
             reach: extent.reach_from(Point3::ORIGIN),
-            root: Cell::Gap,
+            root: Cell::Gap(false),
             cells: Vec::new(),
             grid: Grid::new(),
             leaves: Vec::new(),
@@ -263,7 +264,7 @@ impl Cells {
                 whole.sign_beside_jumps(&boxes.each_ref().map(|x| I8::splat(x.lane(i)))).map(Cell::Sign)
             }
             () if is_open(i, &v) => None,
-            () if v.partial >> i & 1 == 1 => Some(Cell::Gap),
+            () if v.partial >> i & 1 == 1 => Some(Cell::Gap(v.empty >> i & 1 == 1 || v.lo.0[i] > 0.0)),
             () => Some(Cell::Sign(v.lo.0[i] > 0.0)),
         });
         if let Some(first) = told[0]
@@ -272,7 +273,7 @@ impl Cells {
             return first;
         }
         let first = self.cells.len();
-        self.cells.extend([Cell::Gap; 8]);
+        self.cells.extend([Cell::Gap(false); 8]);
         for i in 0..8 {
             let at = [0, 1, 2].map(|axis| at[axis] << 1 | (i >> axis & 1) as u8);
             self.cells[first + i] = match told[i] {
@@ -355,7 +356,7 @@ impl Cells {
         }
         Some(match self.seek(p.to_array()).0 {
             Told::Sign(sign) => Place::Sign(sign),
-            Told::Gap => Place::Gap,
+            Told::Gap(_) => Place::Gap,
             Told::Leaf(leaf) => Place::Open(self.tape_of(leaf)),
         })
     }
@@ -414,7 +415,7 @@ impl Cells {
     pub(super) fn tape_at(&self, p: [f64; 3]) -> u32 {
         match self.told(p) {
             Told::Leaf(leaf) => self.leaves[leaf as usize].tape,
-            Told::Sign(_) | Told::Gap => 0,
+            Told::Sign(_) | Told::Gap(_) => 0,
         }
     }
 
@@ -455,7 +456,7 @@ impl Cells {
     ) -> bool {
         let first = match cell {
             Cell::Sign(sign) => return take(a, b, Place::Sign(sign)),
-            Cell::Gap => return take(a, b, Place::Gap),
+            Cell::Gap(_) => return take(a, b, Place::Gap),
             Cell::Leaf(leaf) => {
                 let tape = self.tape_of(leaf);
                 let place = match self.gradient(leaf).rises(line) {

@@ -96,6 +96,8 @@ fn forward(line: &Line8, over: &Vec3<F8>, cells: &Cells, told: &Told8, i: usize)
         let next = if end > s { end } else { s + ahead };
         match told {
             Told::Sign(above) if above == positive => {}
+            // Where the formula is undefined is outside.
+            Told::Gap(above) if above && positive => {}
             Told::Leaf(leaf) => {
                 let (tape, low, high) = cells.slope(leaf, d, e);
                 let away = if positive { low > 0.0 } else { high < 0.0 };

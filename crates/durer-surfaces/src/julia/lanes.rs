@@ -13,7 +13,7 @@
 //! `(ρ - e) / 3 |z_n|²`, and for the larger one of 1 and `ρ - e`.
 //!
 //! **Near it** balls around the orbits of eight stretches say what they say of the eight stretches of one ray. How near, and how long these are at first, goes with the orbit's derivative; behind one that
-//! was passed the next one is as long and half as long again, and nobody asks how far away the solid is until they are long, or lead away from it. The factors were found by trying.
+//! was passed the next one is longer by three tenths, and nobody asks how far away the solid is until they are long, or lead away from it. The factors were found by trying.
 
 use super::lift::Lift;
 use super::orbit::{Ball, Rule, TINY};
@@ -26,11 +26,11 @@ use std::sync::Arc;
 /// In parts of what the orbit's stretch makes of a length of one: nearer than this the solid is looked at along stretches...
 const NEAR: f64 = 4.0;
 /// ...which start as long as this.
-const STRETCH: f64 = 8.0;
+const STRETCH: f64 = 6.0;
 /// The next one is so much longer.
-const LONGER: f64 = 1.5;
+const LONGER: f64 = 1.3;
 /// They are never longer, and after one of half that a point tells how far away the solid is.
-const LONGEST: f64 = 1.0 / 2.0;
+const LONGEST: f64 = 2.0;
 /// An orbit beyond this has left for good, by far.
 const GONE: f64 = pow2(40);
 /// How many iterations' points are kept.

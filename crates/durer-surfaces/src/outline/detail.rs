@@ -14,6 +14,7 @@ use super::own::{Own, OwnSketch};
 use super::rays::{From8, Nearest, RayLanes};
 use super::swept::{self, Swept};
 use crate::quadric::form::Form;
+use core::slice;
 use durer_math::{Dd, F8, Isa, Point3, Run, Vec3};
 use std::sync::Arc;
 
@@ -56,7 +57,7 @@ pub(super) struct Memory {
     quartic: algebraic::Memory<5>,
     octic: algebraic::Memory<9>,
     fields: fields::Memory,
-    level: level::Memory,
+    pub(super) level: level::Stream,
 }
 
 impl DetailSketch {
@@ -124,13 +125,26 @@ impl Detail {
             swept.meet(&self.own, asked, start, nearest, &mut memory.swept);
             return;
         }
-        if let Kind8::Level(level) = &self.shape {
-            level::meet(&**level, &self.own, (asked, turned), (start, cell), nearest, &mut memory.level);
+        if let Some(level) = self.level() {
+            memory.level.clear();
+            memory.level.add(0, (level, &self.own, turned), asked, (start, cell), nearest);
+            memory.level.meet(level, slice::from_ref(asked), slice::from_mut(nearest));
             return;
         }
         let mut to = First { nearest, number: asked.number };
         let leaving = asked.from.map(|from| (from, turned));
         self.show((asked.rays, leaving), (start, cell), &mut to, memory);
+    }
+
+    /// The solid that is told a stretch at a time, and its coordinates, if it is one.
+    #[inline]
+    pub(super) fn level(&self) -> Option<&dyn Level> {
+        if let Kind8::Level(level) = &self.shape { Some(&**level) } else { None }
+    }
+
+    /// Its coordinates.
+    pub(super) fn own(&self) -> &Own {
+        &self.own
     }
 
     /// Whether it can tell all crossings, and on which side points are.

@@ -4,7 +4,7 @@
 //! looked at: it counts where no other face is positive.
 
 use super::Outline;
-use super::detail;
+use super::detail::{self, Detail};
 use super::face::{Face, FaceKind, Seen, Start, taxicab};
 use super::hull::Hull;
 use super::rays::{FAR, From8, NEVER, Nearest, RayLanes, SLACK};
@@ -56,15 +56,8 @@ impl Outline {
             return;
         }
         if let Some(detail) = &self.detail {
-            let Scratch { start, steps } = scratch;
-            let is_contained = detail.is_contained();
-            let is_cut = is_contained || detail.is_endless() && !self.faces.is_empty();
-            if is_cut {
-                let seen = &Seen { d: asked.rays.direction, d1: &asked.rays.d1, start };
-                // The faces that clip a surface are not those that rays leave.
-                self.hull(asked.rays, asked.from.filter(|_| is_contained), seen, steps);
-            }
-            let Steps { hull, detail: memory, .. } = steps;
+            let is_cut = self.cell(detail, asked, scratch);
+            let Scratch { start, steps: Steps { hull, detail: memory, .. } } = scratch;
             detail.meet((asked, self.turned), nearest, (start, is_cut.then_some(hull)), memory);
             return;
         }
@@ -76,6 +69,53 @@ impl Outline {
         } else {
             self.meet_walls(asked, nearest, scratch);
         }
+    }
+
+    /// Whether many eights of rays are better told together ([`Outline::meet_together`]) than one after the other.
+    #[inline]
+    pub fn is_asked_together(&self) -> bool {
+        self.detail.as_ref().is_some_and(|detail| detail.level().is_some())
+    }
+
+    /// As [`Outline::meet`], of those of many eights of rays that are `open`.
+    pub fn meet_together(
+        &self,
+        asked: &[Question<'_>],
+        open: &[bool],
+        nearest: &mut [Nearest],
+        scratch: &mut Scratch,
+    ) {
+        let Some((detail, level)) = self.detail.as_ref().and_then(|detail| Some((detail, detail.level()?)))
+        else {
+            for ((asked, nearest), _) in asked.iter().zip(nearest).zip(open).filter(|(_, open)| **open) {
+                self.meet(asked, nearest, scratch);
+            }
+            return;
+        };
+        scratch.steps.detail.level.clear();
+        for (i, ((asked, nearest), &open)) in asked.iter().zip(&mut *nearest).zip(open).enumerate() {
+            if !open || self.is_passed_by(asked.rays, &mut scratch.start) {
+                continue;
+            }
+            let is_cut = self.cell(detail, asked, scratch);
+            let Scratch { start, steps: Steps { hull, detail: memory, .. } } = scratch;
+            let held = (&*start, is_cut.then_some(&*hull));
+            memory.level.add(i, (level, detail.own(), self.turned), asked, held, nearest);
+        }
+        scratch.steps.detail.level.meet(level, asked, nearest);
+    }
+
+    /// Where rays are in the convex cell that cuts a surface off or contains it, if one does.
+    fn cell(&self, detail: &Detail, asked: &Question<'_>, scratch: &mut Scratch) -> bool {
+        let is_contained = detail.is_contained();
+        let is_cut = is_contained || detail.is_endless() && !self.faces.is_empty();
+        if is_cut {
+            let Scratch { start, steps } = scratch;
+            let seen = &Seen { d: asked.rays.direction, d1: &asked.rays.d1, start };
+            // The faces that clip a surface are not those that rays leave.
+            self.hull(asked.rays, asked.from.filter(|_| is_contained), seen, steps);
+        }
+        is_cut
     }
 
     /// Sees the rays from the centre; says whether every one surely passes the ball that holds the surface, or has left it behind.

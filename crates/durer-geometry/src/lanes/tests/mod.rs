@@ -121,13 +121,25 @@ fn compare(world: &World, aim: Aim, rays: &Rays8, dice: &mut Dice, depth: u32, t
     let geometry = &world.geometry;
     let mut hits = Hits8::NONE;
     let scratch = &mut Scratch::default();
-    geometry.seen_by_lanes(None, rays, u32::MAX, &mut hits, scratch);
-    let met = geometry.any_by_lanes(None, rays, u32::MAX, scratch);
-    let beam = geometry.beam_of(core::slice::from_ref(rays)).unwrap();
+    let (only, mut met) = (slice::from_ref(rays), M8::NONE);
+    geometry.seen_by_lanes(None, only, u32::MAX, slice::from_mut(&mut hits), scratch);
+    geometry.any_by_lanes(None, only, u32::MAX, slice::from_mut(&mut met), scratch);
+    let beam = geometry.beam_of(only).unwrap();
     let asked = geometry.see(&beam, rays, u32::MAX, &mut Hits8::NONE.clone(), scratch);
+    let starts = check(world, rays, (&hits, met, asked), tally);
+    check_starts(world, aim, &hits, starts);
+    if depth > 0 && hits.hit.any() {
+        let onward = onward(aim, rays, &hits, dice);
+        compare(world, aim, &onward, dice, depth - 1, tally);
+    }
+}
+
+/// Compares what lanes have `met`, of which some had to be `asked` by themselves, with single rays; answers with those that others may start from.
+fn check(world: &World, rays: &Rays8, (hits, met, asked): (&Hits8, M8, M8), tally: &mut Tally) -> M8 {
+    let geometry = &world.geometry;
     tally.asked += asked.count();
     let mut starts = hits.hit;
-    for i in 0..LANES {
+    for i in rays.live.lanes() {
         let ray = rays.lane(i);
         let exact = geometry.closest(&ray);
         tally.rays += 1;
@@ -164,7 +176,7 @@ fn compare(world: &World, aim: Aim, rays: &Rays8, dice: &mut Dice, depth: u32, t
             let seen = geometry.seen(&ray, u32::MAX, Need::SHADING_NORMAL);
             single.set_lane(i, seen);
             assert_eq!(
-                format!("{:?}", one(&hits, i)),
+                format!("{:?}", one(hits, i)),
                 format!("{:?}", one(&single, i)),
                 "{}: {ray:?}",
                 world.name
@@ -172,14 +184,10 @@ fn compare(world: &World, aim: Aim, rays: &Rays8, dice: &mut Dice, depth: u32, t
             // At a tip, or nearer than its own bounds tell, there is no tangent plane.
             starts.set_lane(i, seen.is_some_and(|(_, p)| p.bend * p.off < 0.5));
         } else {
-            check_hit(world, &ray, &hit, &hits, i);
+            check_hit(world, &ray, &hit, hits, i);
         }
     }
-    check_starts(world, aim, &hits, starts);
-    if depth > 0 && hits.hit.any() {
-        let onward = onward(aim, rays, &hits, dice);
-        compare(world, aim, &onward, dice, depth - 1, tally);
-    }
+    starts
 }
 
 /// All that is put down of one hit.
@@ -297,6 +305,51 @@ fn onward(aim: Aim, rays: &Rays8, hits: &Hits8, dice: &mut Dice) -> Rays8 {
     onward
 }
 
+/// Of what is told a stretch at a time many eights are told together, and rays change their lanes on the way.
+#[test]
+fn many_eights_together_see_what_single_rays_see() {
+    let mut dice = Dice(11);
+    let scratch = &mut Scratch::default();
+    let (mut worlds, mut all) = (0, Tally::default());
+    for world in &all_worlds(Isa::detect()) {
+        let geometry = &world.geometry;
+        let mut tally = Tally::default();
+        for round in 0..12 {
+            let far = [4.0, 1.0, 100.0][round % 3];
+            let mut ray = |_| {
+                let from = world.place(dice.vector(far).to_point());
+                Ray::new(from, world.place(dice.vector(1.0).to_point()) - from)
+            };
+            // Full and half empty eights, one with no ray, and fewer than go together.
+            let mut rays: Vec<Rays8> = (0..=round + 1).map(|_| eight(&mut ray)).collect();
+            rays[0].live = M8::from_bits(0b1001_0100);
+            rays[round / 2].live = M8::NONE;
+            for _ in 0..3 {
+                let Some(beam) = geometry.beam_of(&rays) else { break };
+                if !geometry.is_asked_together(&beam, u32::MAX) {
+                    break;
+                }
+                let (mut hits, mut met) = (vec![Hits8::NONE; rays.len()], vec![M8::NONE; rays.len()]);
+                let mut asked = ArrayVec::new();
+                geometry.see_many(&beam, &rays, u32::MAX, &mut hits, &mut asked, scratch);
+                geometry.seen_by_lanes(Some(&beam), &rays, u32::MAX, &mut hits, scratch);
+                geometry.any_by_lanes(Some(&beam), &rays, u32::MAX, &mut met, scratch);
+                for (i, rays) in rays.iter_mut().enumerate() {
+                    assert_eq!((hits[i].hit | met[i]) & !rays.live, M8::NONE, "{}", world.name);
+                    let starts = check(world, rays, (&hits[i], met[i], asked[i]), &mut tally);
+                    check_starts(world, Aim::Random, &hits[i], starts);
+                    *rays = onward(Aim::Random, rays, &hits[i], &mut dice);
+                    rays.live = hits[i].hit;
+                }
+            }
+        }
+        worlds += usize::from(tally.met > 100);
+        all.add(&tally);
+    }
+    let Tally { rays, asked, .. } = all;
+    assert!(worlds >= 8 && asked * 3 < rays, "{worlds} worlds, {rays} rays, {asked} asked");
+}
+
 #[test]
 fn lanes_see_what_single_rays_see() {
     let mut dice = Dice(1);
@@ -388,7 +441,8 @@ fn all_paths_see_the_same_bits() {
             });
             let seen = paths.iter().map(|worlds| {
                 let mut hits = Hits8::NONE;
-                worlds[i].geometry.seen_by_lanes(None, &rays, 1, &mut hits, &mut Scratch::default());
+                let (rays, to) = (slice::from_ref(&rays), slice::from_mut(&mut hits));
+                worlds[i].geometry.seen_by_lanes(None, rays, 1, to, &mut Scratch::default());
                 format!("{hits:?}")
             });
             let seen: Vec<_> = seen.collect();

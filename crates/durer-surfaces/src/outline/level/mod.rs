@@ -8,12 +8,15 @@
 //! one sign there, or goes away from zero, or goes towards zero and has kept its sign at the end. Where it has changed by the end of a stretch on which `g` only goes one
 //! way there is exactly one crossing, a simple one, and it is the first. It is closed in by rounded values, and proven by two certain signs around it (`rays.rs`).
 //!
+//! Rays of many eights change their lanes on the way, so that none is empty as long as there are any (`stream.rs`).
+//!
 //! A stretch of which nothing is certain is tried again shorter. What is left after so many stretches, or where rounding leaves a sign open, is a doubt.
 
 mod held;
 mod rays;
+mod stream;
 
-pub(super) use self::rays::{Memory, meet};
+pub(super) use self::stream::Stream;
 
 use super::lathe::{Skin, Slant};
 use super::own::{Own, largest};

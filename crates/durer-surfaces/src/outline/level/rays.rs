@@ -16,13 +16,13 @@ use crate::outline::rays::{Nearest, RayLanes, SLACK};
 use durer_math::scale::pow2;
 use durer_math::{F8, Isa, M8, U, Vec3};
 
-/// So many stretches are looked at.
-const MOST: u32 = 160;
+/// So many stretches of a ray are looked at.
+pub(super) const MOST: u32 = 160;
 /// Values that a crossing is closed in by; each second one at least halves what is left.
 const MOST_VALUES: u32 = 24;
 /// How much longer the next stretch is than one that was passed, and how much shorter after one of which nothing was certain.
 const LONGER: f64 = 2.0;
-const SHORTER: f64 = 0.25;
+const SHORTER: f64 = 0.3;
 /// The first stretch, and the shortest one, in parts of what holds the solid.
 const FIRST: f64 = 0.25;
 const LEAST: f64 = pow2(-24);
@@ -30,9 +30,9 @@ const LEAST: f64 = pow2(-24);
 const CLOSE: f64 = crate::ROUGH / 8.0;
 const NEVER: F8 = F8::splat(f64::INFINITY);
 
-/// Memory for one solid on the way.
+/// Memory for eight rays and a solid on the way.
 #[derive(Debug)]
-pub(in crate::outline) struct Memory {
+pub(super) struct Memory {
     line: Line8,
     part: Part,
     held: Held,
@@ -46,8 +46,10 @@ pub(in crate::outline) struct Memory {
     step: F8,
     /// The sign at `here`: 1, -1, or 0 if it is not known.
     sign: F8,
-    /// Lanes that go on, and those of which a value is asked for.
+    /// Lanes that go on, those that came to the end, those that got nowhere, and those of which a value is asked for.
     open: M8,
+    ended: M8,
+    stuck: M8,
     asked: M8,
     /// Lanes with one crossing between two places with opposite signs, and the values there with the sign of the first one.
     found: M8,
@@ -88,6 +90,8 @@ impl Default for Memory {
             step: z,
             sign: z,
             open: none,
+            ended: none,
+            stuck: none,
             asked: none,
             found: none,
             a: z,
@@ -100,8 +104,8 @@ impl Default for Memory {
     }
 }
 
-/// Offers the first crossing of each ray to `nearest`; of a solid in a container that is `cell`. It is said whether the surface is turned round.
-pub(in crate::outline) fn meet(
+/// Makes ready what of each ray is looked at; of a solid in a container that is `cell`. It is said whether the surface is turned round.
+pub(super) fn prepare(
     level: &dyn Level,
     own: &Own,
     (asked, turned): (&Question<'_>, bool),
@@ -125,17 +129,22 @@ pub(in crate::outline) fn meet(
         level.values(&line, &memory.here, memory.asked, &mut memory.value);
         know(asked, nearest, memory);
     }
-    for _ in 0..MOST {
-        if !memory.open.any() {
-            break;
-        }
-        level.tell(&memory.line, &mut memory.told);
-        if against(rays.isa, memory) {
-            level.values(&memory.line, &memory.told.b, memory.asked, &mut memory.value);
-        }
-        go_on(asked, level.reach(), nearest, memory);
+}
+
+/// Looks at one stretch of each ray that goes on.
+#[inline(always)]
+pub(super) fn look(level: &dyn Level, memory: &mut Memory) {
+    let isa = memory.line.isa;
+    level.tell(&memory.line, &mut memory.told);
+    if against(isa, memory) {
+        level.values(&memory.line, &memory.told.b, memory.asked, &mut memory.value);
     }
-    nearest.doubt_from(memory.open, memory.here.mul_add(memory.unit, memory.t_c) - memory.e_t);
+    go_on(isa, level.reach(), memory);
+}
+
+/// Offers the first crossing of each ray to `nearest`.
+pub(super) fn conclude(level: &dyn Level, asked: &Question<'_>, nearest: &mut Nearest, memory: &mut Memory) {
+    end(asked, nearest, memory);
     if memory.found.any() {
         close_in(level, asked, nearest, memory);
     }
@@ -173,8 +182,23 @@ fn begin((asked, turned): (&Question<'_>, bool), reach: f64, nearest: &mut Neare
     rays.isa.run_in_lanes(
         #[inline(always)]
         || {
-            let Memory { part, held, t_c, unit, e_t, here, last, step, sign, open, found, told, .. } =
-                &mut *memory;
+            let Memory {
+                part,
+                held,
+                t_c,
+                unit,
+                e_t,
+                here,
+                last,
+                step,
+                sign,
+                open,
+                ended,
+                stuck,
+                found,
+                told,
+                ..
+            } = &mut *memory;
             let out = (t_c.abs() / *unit + reach) * (8.0 * U);
             let start = -*t_c / *unit - out;
             let within = start.gt(part.from);
@@ -205,7 +229,7 @@ fn begin((asked, turned): (&Question<'_>, bool), reach: f64, nearest: &mut Neare
                 nearest.doubt_from(unsure, here.mul_add(*unit, *t_c) - *e_t);
                 *open &= !unsure;
             }
-            *found = M8::NONE;
+            (*found, *ended, *stuck) = (M8::NONE, M8::NONE, M8::NONE);
             *step = F8::splat(FIRST * reach);
             told.hint = NEVER;
             ask(*open, (*here, *last), *step, *sign, told);
@@ -254,6 +278,66 @@ fn know(asked: &Question<'_>, nearest: &mut Nearest, memory: &mut Memory) {
     );
 }
 
+impl Memory {
+    pub(super) fn isa(&self) -> Isa {
+        self.line.isa
+    }
+
+    /// Lanes that go on.
+    pub(super) fn open(&self) -> M8 {
+        self.open
+    }
+
+    /// Looks no more at a ray: where it is there is a doubt.
+    pub(super) fn give_up(&mut self, lane: usize) {
+        self.open.set_lane(lane, false);
+        self.stuck.set_lane(lane, true);
+    }
+
+    /// Nothing is under way.
+    pub(super) fn clear(&mut self, isa: Isa) {
+        self.line.isa = isa;
+        (self.open, self.ended, self.stuck, self.found) = (M8::NONE, M8::NONE, M8::NONE, M8::NONE);
+    }
+
+    /// Ray `i` goes on as ray `j` of others does.
+    pub(super) fn take_over(&mut self, i: usize, from: &Self, j: usize) {
+        let (to, line) = (&mut self.line, &from.line);
+        to.o.set_lane(i, line.o.lane(j));
+        to.d.set_lane(i, line.d.lane(j));
+        (to.e_o.0[i], to.e_d.0[i]) = (line.e_o.0[j], line.e_d.0[j]);
+        (self.here.0[i], self.last.0[i], self.step.0[i]) = (from.here.0[j], from.last.0[j], from.step.0[j]);
+        (self.sign.0[i], self.told.hint.0[i]) = (from.sign.0[j], from.told.hint.0[j]);
+        self.open.set_lane(i, true);
+    }
+
+    /// Puts down what ray `i`, which goes on no more, has come to: ray `j` of others.
+    pub(super) fn give_back(&mut self, i: usize, to: &mut Self, j: usize) {
+        (to.here.0[j], to.a.0[j], to.b.0[j], to.g_b.0[j]) =
+            (self.here.0[i], self.a.0[i], self.b.0[i], self.g_b.0[i]);
+        to.open.set_lane(j, false);
+        let bits = [
+            (&mut self.found, &mut to.found),
+            (&mut self.ended, &mut to.ended),
+            (&mut self.stuck, &mut to.stuck),
+        ];
+        for (own, theirs) in bits {
+            theirs.set_lane(j, own.lane(i));
+            own.set_lane(i, false);
+        }
+    }
+
+    /// Asks for the next stretches, of rays that were taken over, too.
+    #[inline(never)]
+    pub(super) fn ask_all(&mut self) {
+        let Self { line, here, last, step, sign, open, told, .. } = self;
+        line.isa.run_in_lanes(
+            #[inline(always)]
+            || ask(*open, (*here, *last), *step, *sign, told),
+        );
+    }
+}
+
 /// Asks for the next stretches.
 #[inline(always)]
 fn ask(open: M8, (here, last): (F8, F8), step: F8, sign: F8, told: &mut Told8) {
@@ -279,29 +363,12 @@ fn against(isa: Isa, memory: &mut Memory) -> bool {
 
 /// Takes what was told.
 #[inline(never)]
-fn go_on(asked: &Question<'_>, reach: f64, nearest: &mut Nearest, memory: &mut Memory) {
-    asked.rays.isa.run_in_lanes(
+fn go_on(isa: Isa, reach: f64, memory: &mut Memory) {
+    isa.run_in_lanes(
         #[inline(always)]
         || {
-            let Memory {
-                part,
-                held,
-                here,
-                last,
-                step,
-                sign,
-                open,
-                found,
-                a,
-                b,
-                g_b,
-                t_c,
-                unit,
-                e_t,
-                told,
-                value,
-                ..
-            } = &mut *memory;
+            let Memory { here, last, step, sign, open, ended, stuck, found, a, b, g_b, told, value, .. } =
+                &mut *memory;
             let positive = sign.gt(F8::ZERO);
             let seen = told.seen & *open;
             let kept = positive & (told.out | told.rises) | !positive & (told.within | told.falls);
@@ -317,12 +384,29 @@ fn go_on(asked: &Question<'_>, reach: f64, nearest: &mut Nearest, memory: &mut M
             *step = passed.select(step.max(way * LONGER), (seen & !passed).select(way * SHORTER, *step));
             *here = passed.select(told.b, seen.select(told.a, *here));
             told.hint = passed.select(told.next, told.hint);
-            let stuck = *open & !crossed & here.lt(*last) & !step.ge(F8::splat(LEAST * reach));
-            if stuck.any() {
-                nearest.doubt_from(stuck, here.mul_add(*unit, *t_c) - *e_t);
+            let short = *open & !crossed & here.lt(*last) & !step.ge(F8::splat(LEAST * reach));
+            *stuck |= short;
+            *ended |= *open & !(crossed | short) & !here.lt(*last);
+            *open &= !(crossed | short) & here.lt(*last);
+            ask(*open, (*here, *last), *step, *sign, told);
+        },
+    );
+}
+
+/// What is where rays came to the end of their part, or did not.
+#[inline(never)]
+fn end(asked: &Question<'_>, nearest: &mut Nearest, memory: &mut Memory) {
+    asked.rays.isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            let Memory { part, held, here, sign, open, ended, stuck, t_c, unit, e_t, .. } = &*memory;
+            // Not a number is not the end.
+            let unsure = *stuck | *open | *ended & !here.ge(memory.last);
+            if unsure.any() {
+                nearest.doubt_from(unsure, here.mul_add(*unit, *t_c) - *e_t);
             }
             // Inside all the way: a container's face is met where it is left.
-            let left = *open & !(crossed | stuck | positive) & here.ge(*last);
+            let left = *ended & !sign.gt(F8::ZERO) & here.ge(memory.last);
             let left = left & !held.before.gt(nearest.limit(asked.rays));
             if held.ends == Ends::Capped && left.any() {
                 let (t, e) = (held.t_out, held.e_out);
@@ -331,8 +415,6 @@ fn go_on(asked: &Question<'_>, reach: f64, nearest: &mut Nearest, memory: &mut M
                 nearest.take(sure, t, e, asked.number, held.face_out + F8::ONE);
                 nearest.doubt_from(left & !sure, t - e);
             }
-            *open &= !(crossed | stuck) & here.lt(*last);
-            ask(*open, (*here, *last), *step, *sign, told);
         },
     );
 }
