@@ -363,7 +363,7 @@ impl Geometry {
             if candidate.mask & mask == 0 {
                 continue;
             }
-            self.ask((candidate, number), (rays, &sources), lanes, nearest, scratch);
+            self.ask::<ANY>((candidate, number), (rays, &sources), lanes, nearest, scratch);
             if ANY && all_meet(self.isa, rays, nearest) {
                 return;
             }
@@ -372,7 +372,7 @@ impl Geometry {
 
     /// Asks one of the candidates.
     #[inline(always)]
-    fn ask(
+    fn ask<const ANY: bool>(
         &self,
         (candidate, number): (&Candidate, usize),
         (rays, sources): (&Rays8, &Slots),
@@ -386,7 +386,7 @@ impl Geometry {
             Seen::Outline(outline) => {
                 let leaves = sources.contains(&slot_number(arena, slot));
                 let from = leaves.then(|| rays.source.of(arena, slot, outline));
-                let asked = Question { rays: lanes, from: from.as_ref(), number };
+                let asked = Question { rays: lanes, from: from.as_ref(), number, any: ANY };
                 outline.meet(&asked, nearest, &mut scratch.outline);
             }
             Seen::Body(body) => {
@@ -431,13 +431,13 @@ impl Geometry {
                     }
                     let mut asked: ArrayVec<Question<'_>, MANY> = ArrayVec::new();
                     for (rays, from) in lanes.iter().zip(&from) {
-                        asked.push(Question { rays, from: from.as_ref(), number: number as f64 });
+                        asked.push(Question { rays, from: from.as_ref(), number: number as f64, any: ANY });
                     }
                     outline.meet_together(&asked, &open, nearest, &mut scratch.outline);
                 }
                 _ => {
                     for (i, rays) in rays.iter().enumerate().filter(|(i, _)| open[*i]) {
-                        self.ask(
+                        self.ask::<ANY>(
                             (candidate, number),
                             (rays, &sources[i]),
                             &lanes[i],

@@ -47,6 +47,8 @@ pub struct Question<'a> {
     pub from: Option<&'a From8>,
     /// The outline's number.
     pub number: f64,
+    /// Whether all that matters is that there is a crossing, not where.
+    pub any: bool,
 }
 
 impl Outline {

@@ -145,6 +145,9 @@ pub(super) fn look(level: &dyn Level, memory: &mut Memory) {
 /// Offers the first crossing of each ray to `nearest`.
 pub(super) fn conclude(level: &dyn Level, asked: &Question<'_>, nearest: &mut Nearest, memory: &mut Memory) {
     end(asked, nearest, memory);
+    if asked.any {
+        take_roughly(asked, nearest, memory);
+    }
     if memory.found.any() {
         close_in(level, asked, nearest, memory);
     }
@@ -415,6 +418,24 @@ fn end(asked: &Question<'_>, nearest: &mut Nearest, memory: &mut Memory) {
                 nearest.take(sure, t, e, asked.number, held.face_out + F8::ONE);
                 nearest.doubt_from(left & !sure, t - e);
             }
+        },
+    );
+}
+
+/// Offers crossings where they were found, for those who do not ask where they are: there are certain signs on either side.
+#[inline(never)]
+fn take_roughly(asked: &Question<'_>, nearest: &mut Nearest, memory: &mut Memory) {
+    asked.rays.isa.run_in_lanes(
+        #[inline(always)]
+        || {
+            let Memory { held, found, a, b, t_c, unit, e_t, .. } = &mut *memory;
+            let t = ((*a + *b) * 0.5).mul_add(*unit, *t_c);
+            let e = ((*b - *a) * 0.5 * *unit + *e_t) * SLACK;
+            let (first, last) = (t - e, t + e);
+            let ahead = first.gt(F8::ZERO) & last.le(*asked.rays.t_max);
+            let met = *found & ahead & first.gt(held.after) & last.lt(held.before);
+            nearest.take(met, t, e, asked.number, F8::ZERO);
+            *found &= !met;
         },
     );
 }
