@@ -296,7 +296,9 @@ class CurvedPrism(Region):
                     start = t
                     continue
             turn = 0 if before == after else flip * (1 if before else -1)
-            normals = [(n, s) for _, n, _ in group if n is not None for s in self.outward(n, ray[1], turn)]
+            # At a corner a line may leave against one of the walls' normals.
+            sides = lambda n: self.outward(n, ray[1], turn) if len(group) == 1 else (1, -1)
+            normals = [(n, s) for _, n, _ in group if n is not None for s in sides(n)]
             # Next to the apex the point is taken for the apex, whose normal is a direction to leave in.
             apex = self.conic and abs(at(along[1], t.rational(80))) < self.size / (1 << 30)
             cusp = any(n is None and isinstance(root, OnCurve) for root, n, _ in group)
