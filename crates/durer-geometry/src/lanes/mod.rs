@@ -3,10 +3,12 @@
 //! Lanes ask the outlines of a beam's surfaces; rays of which an outline leaves a doubt ask the surfaces themselves, one by one.
 
 mod rays;
+mod together;
 
 pub use self::rays::{Hits8, Rays8, Sources8};
 
 use self::rays::slot_number;
+use self::together::MANY;
 use crate::abreast::Abreast;
 use crate::beam::Candidate;
 use crate::csg::{Body, Memory};
@@ -17,7 +19,7 @@ use arrayvec::ArrayVec;
 use core::slice;
 use durer_math::lanes::LANES;
 use durer_math::{Aabb, F8, Isa, M8, Point3, Ray, RaySide, Shaft, Source, Vec3};
-use durer_surfaces::outline::{self, From8, Nearest, Outline, Points8, Question, RayLanes};
+use durer_surfaces::outline::{self, Nearest, Outline, Points8, Question, RayLanes};
 use durer_surfaces::{Need, ROUGH};
 
 /// Memory for what is known of eight rays on the way: kept, so that it need not be cleared for each.
@@ -37,9 +39,6 @@ struct Face<'g> {
     slot: u64,
     part: u32,
 }
-
-/// So many eights go together.
-const MANY: usize = 16;
 
 /// The slots that eight rays leave.
 type Slots = ArrayVec<u64, LANES>;
@@ -227,55 +226,6 @@ impl Geometry {
         self.take_down(beam, rays, &lanes, &nearest, hits)
     }
 
-    /// The same of at most [`MANY`] eights that ask something together.
-    fn see_together(
-        &self,
-        beam: &Beam,
-        rays: &[Rays8],
-        mask: u32,
-        hits: &mut [Hits8],
-        scratch: &mut Scratch,
-    ) {
-        hits.iter_mut().for_each(Hits8::forget);
-        let mut left = ArrayVec::new();
-        self.isa.run_in_lanes(
-            #[inline(always)]
-            || self.see_many(beam, rays, mask, hits, &mut left, scratch),
-        );
-        for ((left, rays), hits) in left.into_iter().zip(rays).zip(hits) {
-            self.see_alone(beam, (rays, left), mask, hits);
-        }
-    }
-
-    /// As [`Geometry::see`], of at most [`MANY`] eights.
-    #[inline(always)]
-    fn see_many(
-        &self,
-        beam: &Beam,
-        rays: &[Rays8],
-        mask: u32,
-        hits: &mut [Hits8],
-        left: &mut ArrayVec<M8, MANY>,
-        scratch: &mut Scratch,
-    ) {
-        let lanes = self.lanes_of(rays);
-        let mut nearest = ArrayVec::new();
-        self.nearest_together::<false>(beam, rays, &lanes, mask, &mut nearest, scratch);
-        for (((rays, lanes), nearest), hits) in rays.iter().zip(&lanes).zip(&nearest).zip(hits) {
-            let live = rays.live.any();
-            left.push(if live { self.take_down(beam, rays, lanes, nearest, hits) } else { M8::NONE });
-        }
-    }
-
-    /// Whether a beam holds a surface that many eights of rays are better told of together.
-    fn is_asked_together(&self, beam: &Beam, mask: u32) -> bool {
-        let is_one = |candidate: &Candidate| {
-            let seen = self.seen_of(candidate.arena, candidate.slot);
-            matches!(seen, Seen::Outline(outline) if outline.is_asked_together())
-        };
-        beam.candidates.iter().any(|candidate| candidate.mask & mask != 0 && is_one(candidate))
-    }
-
     /// Puts down what of the nearest hits is sure.
     #[inline(always)]
     fn take_down(
@@ -336,15 +286,6 @@ impl Geometry {
         }
     }
 
-    #[inline(always)]
-    fn lanes_of<'r>(&self, rays: &'r [Rays8]) -> ArrayVec<RayLanes<'r>, MANY> {
-        let mut lanes = ArrayVec::new();
-        for Rays8 { origin, direction, t_max, live, .. } in rays {
-            lanes.push(RayLanes::new(self.isa, origin, direction, t_max, live));
-        }
-        lanes
-    }
-
     /// The first sure hit of each ray among the candidates, and the first doubt. Where `ANY` hit is enough it may be another, and once each ray has one no more
     /// is asked.
     #[inline(always)]
@@ -394,64 +335,6 @@ impl Geometry {
                 body.meet(self.isa, (arena, number), (rays, lanes), nearest, memory);
             }
             Seen::Nothing => nearest.doubt = F8::ZERO,
-        }
-    }
-
-    /// [`Geometry::nearest`] of some eights, one candidate after the other.
-    #[inline(always)]
-    fn nearest_together<const ANY: bool>(
-        &self,
-        beam: &Beam,
-        rays: &[Rays8],
-        lanes: &[RayLanes<'_>],
-        mask: u32,
-        nearest: &mut ArrayVec<Nearest, MANY>,
-        scratch: &mut Scratch,
-    ) {
-        let mut sources: ArrayVec<Slots, MANY> = ArrayVec::new();
-        let mut open: ArrayVec<bool, MANY> = ArrayVec::new();
-        for (rays, lanes) in rays.iter().zip(lanes) {
-            nearest.push(Nearest::of(lanes));
-            open.push(rays.live.any());
-            let mut own = Slots::new();
-            rays.source.all(&mut own);
-            sources.push(own);
-        }
-        for (number, candidate) in beam.candidates.iter().enumerate() {
-            let Candidate { arena, slot, mask: seen_by, .. } = *candidate;
-            if seen_by & mask == 0 {
-                continue;
-            }
-            match self.seen_of(arena, slot) {
-                Seen::Outline(outline) if outline.is_asked_together() => {
-                    let mut from: ArrayVec<Option<From8>, MANY> = ArrayVec::new();
-                    for (rays, sources) in rays.iter().zip(&sources) {
-                        let leaves = sources.contains(&slot_number(arena, slot));
-                        from.push(leaves.then(|| rays.source.of(arena, slot, outline)));
-                    }
-                    let mut asked: ArrayVec<Question<'_>, MANY> = ArrayVec::new();
-                    for (rays, from) in lanes.iter().zip(&from) {
-                        asked.push(Question { rays, from: from.as_ref(), number: number as f64, any: ANY });
-                    }
-                    outline.meet_together(&asked, &open, nearest, &mut scratch.outline);
-                }
-                _ => {
-                    for (i, rays) in rays.iter().enumerate().filter(|(i, _)| open[*i]) {
-                        self.ask::<ANY>(
-                            (candidate, number),
-                            (rays, &sources[i]),
-                            &lanes[i],
-                            &mut nearest[i],
-                            scratch,
-                        );
-                    }
-                }
-            }
-            if ANY {
-                for ((open, rays), nearest) in open.iter_mut().zip(rays).zip(&*nearest) {
-                    *open &= !all_meet(self.isa, rays, nearest);
-                }
-            }
         }
     }
 
@@ -511,27 +394,6 @@ impl Geometry {
     fn meet_alone(&self, beam: &Beam, (rays, left): (&Rays8, M8), mask: u32, met: &mut M8) {
         for i in left.lanes() {
             met.set_lane(i, self.any_in(beam, &rays.lane(i), mask));
-        }
-    }
-
-    /// The same of at most [`MANY`] eights that ask something together.
-    fn any_together(&self, beam: &Beam, rays: &[Rays8], mask: u32, met: &mut [M8], scratch: &mut Scratch) {
-        let mut left: ArrayVec<M8, MANY> = ArrayVec::new();
-        self.isa.run_in_lanes(
-            #[inline(always)]
-            || {
-                let lanes = self.lanes_of(rays);
-                let mut nearest = ArrayVec::new();
-                self.nearest_together::<true>(beam, rays, &lanes, mask, &mut nearest, scratch);
-                for ((rays, nearest), met) in rays.iter().zip(&nearest).zip(&mut *met) {
-                    let (those, open) = sure(rays, nearest);
-                    *met = those;
-                    left.push(open);
-                }
-            },
-        );
-        for ((left, rays), met) in left.into_iter().zip(rays).zip(met) {
-            self.meet_alone(beam, (rays, left), mask, met);
         }
     }
 }

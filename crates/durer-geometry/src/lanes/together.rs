@@ -1,0 +1,162 @@
+//! Many eights of rays that ask a surface together, one candidate of their beam after the other.
+//!
+//! Most surfaces are asked by one eight at a time, which is faster: all that is known of eight rays stays at hand. Those that are told a stretch at a time gain more by the company
+//! ([`Outline::meet_together`](durer_surfaces::outline::Outline::meet_together)).
+
+use super::rays::slot_number;
+use super::{Hits8, Rays8, Scratch, Slots, all_meet, sure};
+use crate::beam::Candidate;
+use crate::outlines::Seen;
+use crate::{Beam, Geometry};
+use arrayvec::ArrayVec;
+use durer_math::M8;
+use durer_surfaces::outline::{From8, Nearest, Question, RayLanes};
+
+/// So many eights go together.
+pub(super) const MANY: usize = 16;
+
+impl Geometry {
+    /// Whether a beam holds a surface that many eights of rays are better told of together.
+    pub(super) fn is_asked_together(&self, beam: &Beam, mask: u32) -> bool {
+        let is_one = |candidate: &Candidate| {
+            let seen = self.seen_of(candidate.arena, candidate.slot);
+            matches!(seen, Seen::Outline(outline) if outline.is_asked_together())
+        };
+        beam.candidates.iter().any(|candidate| candidate.mask & mask != 0 && is_one(candidate))
+    }
+
+    /// [`Geometry::seen_by_lanes`] of at most [`MANY`] eights.
+    pub(super) fn see_together(
+        &self,
+        beam: &Beam,
+        rays: &[Rays8],
+        mask: u32,
+        hits: &mut [Hits8],
+        scratch: &mut Scratch,
+    ) {
+        hits.iter_mut().for_each(Hits8::forget);
+        let mut left = ArrayVec::new();
+        self.isa.run_in_lanes(
+            #[inline(always)]
+            || self.see_many(beam, rays, mask, hits, &mut left, scratch),
+        );
+        for ((left, rays), hits) in left.into_iter().zip(rays).zip(hits) {
+            self.see_alone(beam, (rays, left), mask, hits);
+        }
+    }
+
+    /// As [`Geometry::see`], of at most [`MANY`] eights.
+    #[inline(always)]
+    pub(super) fn see_many(
+        &self,
+        beam: &Beam,
+        rays: &[Rays8],
+        mask: u32,
+        hits: &mut [Hits8],
+        left: &mut ArrayVec<M8, MANY>,
+        scratch: &mut Scratch,
+    ) {
+        let lanes = self.lanes_of(rays);
+        let mut nearest = ArrayVec::new();
+        self.nearest_together::<false>(beam, rays, &lanes, mask, &mut nearest, scratch);
+        for (((rays, lanes), nearest), hits) in rays.iter().zip(&lanes).zip(&nearest).zip(hits) {
+            let live = rays.live.any();
+            left.push(if live { self.take_down(beam, rays, lanes, nearest, hits) } else { M8::NONE });
+        }
+    }
+
+    /// [`Geometry::any_by_lanes`] of at most [`MANY`] eights.
+    pub(super) fn any_together(
+        &self,
+        beam: &Beam,
+        rays: &[Rays8],
+        mask: u32,
+        met: &mut [M8],
+        scratch: &mut Scratch,
+    ) {
+        let mut left: ArrayVec<M8, MANY> = ArrayVec::new();
+        self.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let lanes = self.lanes_of(rays);
+                let mut nearest = ArrayVec::new();
+                self.nearest_together::<true>(beam, rays, &lanes, mask, &mut nearest, scratch);
+                for ((rays, nearest), met) in rays.iter().zip(&nearest).zip(&mut *met) {
+                    let (those, open) = sure(rays, nearest);
+                    *met = those;
+                    left.push(open);
+                }
+            },
+        );
+        for ((left, rays), met) in left.into_iter().zip(rays).zip(met) {
+            self.meet_alone(beam, (rays, left), mask, met);
+        }
+    }
+
+    #[inline(always)]
+    fn lanes_of<'r>(&self, rays: &'r [Rays8]) -> ArrayVec<RayLanes<'r>, MANY> {
+        let mut lanes = ArrayVec::new();
+        for Rays8 { origin, direction, t_max, live, .. } in rays {
+            lanes.push(RayLanes::new(self.isa, origin, direction, t_max, live));
+        }
+        lanes
+    }
+
+    /// [`Geometry::nearest`] of some eights, one candidate after the other.
+    #[inline(always)]
+    fn nearest_together<const ANY: bool>(
+        &self,
+        beam: &Beam,
+        rays: &[Rays8],
+        lanes: &[RayLanes<'_>],
+        mask: u32,
+        nearest: &mut ArrayVec<Nearest, MANY>,
+        scratch: &mut Scratch,
+    ) {
+        let mut sources: ArrayVec<Slots, MANY> = ArrayVec::new();
+        let mut open: ArrayVec<bool, MANY> = ArrayVec::new();
+        for (rays, lanes) in rays.iter().zip(lanes) {
+            nearest.push(Nearest::of(lanes));
+            open.push(rays.live.any());
+            let mut own = Slots::new();
+            rays.source.all(&mut own);
+            sources.push(own);
+        }
+        for (number, candidate) in beam.candidates.iter().enumerate() {
+            let Candidate { arena, slot, mask: seen_by, .. } = *candidate;
+            if seen_by & mask == 0 {
+                continue;
+            }
+            match self.seen_of(arena, slot) {
+                Seen::Outline(outline) if outline.is_asked_together() => {
+                    let mut from: ArrayVec<Option<From8>, MANY> = ArrayVec::new();
+                    for (rays, sources) in rays.iter().zip(&sources) {
+                        let leaves = sources.contains(&slot_number(arena, slot));
+                        from.push(leaves.then(|| rays.source.of(arena, slot, outline)));
+                    }
+                    let mut asked: ArrayVec<Question<'_>, MANY> = ArrayVec::new();
+                    for (rays, from) in lanes.iter().zip(&from) {
+                        asked.push(Question { rays, from: from.as_ref(), number: number as f64, any: ANY });
+                    }
+                    outline.meet_together(&asked, &open, nearest, &mut scratch.outline);
+                }
+                _ => {
+                    for (i, rays) in rays.iter().enumerate().filter(|(i, _)| open[*i]) {
+                        self.ask::<ANY>(
+                            (candidate, number),
+                            (rays, &sources[i]),
+                            &lanes[i],
+                            &mut nearest[i],
+                            scratch,
+                        );
+                    }
+                }
+            }
+            if ANY {
+                for ((open, rays), nearest) in open.iter_mut().zip(rays).zip(&*nearest) {
+                    *open &= !all_meet(self.isa, rays, nearest);
+                }
+            }
+        }
+    }
+}
