@@ -197,8 +197,7 @@ impl Geometry {
             own.as_ref()
         });
         let Some(beam) = beam else {
-            let alone: ArrayVec<Ray, LANES> = rays.live.lanes().map(|i| rays.lane(i)).collect();
-            let lanes: ArrayVec<usize, LANES> = rays.live.lanes().collect();
+            let (alone, lanes) = one_by_one(rays);
             let put = |i: usize, seen| hits.set_lane(lanes[i], seen);
             return self.seen_abreast(&alone, mask, Need::SHADING_NORMAL, &mut scratch.abreast, put);
         };
@@ -226,7 +225,7 @@ impl Geometry {
         self.take_down(beam, rays, &lanes, &nearest, hits)
     }
 
-    /// Puts down what of the nearest hits is sure.
+    /// Puts down what of the nearest hits is sure; answers with the rays of which something is not.
     #[inline(always)]
     fn take_down(
         &self,
@@ -371,8 +370,7 @@ impl Geometry {
         });
         let mut met = M8::NONE;
         let Some(beam) = beam else {
-            let alone: ArrayVec<Ray, LANES> = rays.live.lanes().map(|i| rays.lane(i)).collect();
-            let lanes: ArrayVec<usize, LANES> = rays.live.lanes().collect();
+            let (alone, lanes) = one_by_one(rays);
             self.any_abreast(&alone, mask, &mut scratch.abreast, |i, is_met| met.set_lane(lanes[i], is_met));
             return met;
         };
@@ -396,6 +394,11 @@ impl Geometry {
             met.set_lane(i, self.any_in(beam, &rays.lane(i), mask));
         }
     }
+}
+
+/// The rays of an eight, and their lanes.
+fn one_by_one(rays: &Rays8) -> (ArrayVec<Ray, LANES>, ArrayVec<usize, LANES>) {
+    rays.live.lanes().map(|i| (rays.lane(i), i)).unzip()
 }
 
 /// Which rays surely meet something, and of which that is open.

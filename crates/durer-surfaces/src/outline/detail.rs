@@ -136,7 +136,7 @@ impl Detail {
         self.show((asked.rays, leaving), (start, cell), &mut to, memory);
     }
 
-    /// The solid that is told a stretch at a time, and its coordinates, if it is one.
+    /// The solid that is told a stretch at a time, if it is one.
     #[inline]
     pub(super) fn level(&self) -> Option<&dyn Level> {
         if let Kind8::Level(level) = &self.shape { Some(&**level) } else { None }

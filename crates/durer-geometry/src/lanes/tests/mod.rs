@@ -398,6 +398,9 @@ fn lanes_see_what_single_rays_see() {
             // Where a place is known badly, far away, little is known of the gradient around it.
             "cushion" => 3,
             "julia" | "cubic julia" => 8,
+            // Next to where a formula is undefined nothing is sure.
+            "thorn" => 1,
+            "wavy ring" => 6,
             "egg" | "waves" | "open waves" | "boxed waves" => 3,
             // Rays along a plane across the axis, and those that touch.
             _ if OF_HIGHER_DEGREE.contains(&name) => 12,

@@ -390,6 +390,7 @@ fn contained_worlds(all: &mut Worlds) {
     let held = AxisBox::new(point(-1.25, -1.25, -1.25), point(1.25, 1.25, 1.25)).unwrap();
     let egg = Isosurface::new(&b.finish(root, 3), 0.0, Container::Box(held)).unwrap();
     worlds("egg", Sides::Bracketed, egg, all);
+    partly_defined_worlds(held, all);
     // sin 4x + y² - z, which a ball or a box cuts.
     let mut b = Builder::new();
     let [x, y, z] = [0, 1, 2].map(|i| b.input(i).unwrap());
@@ -411,6 +412,40 @@ fn contained_worlds(all: &mut Worlds) {
     let block = AxisBox::new(point(-1.0, -0.75, -0.5), point(0.75, 1.0, 0.875)).unwrap();
     let boxed = Isosurface::new(&formula, 0.25, Container::Box(block)).unwrap();
     edged("boxed waves", closed, boxed, [Erased::new(block), whole()], all);
+}
+
+/// Formulas that are undefined on a line far outside of their solids, and in half of space beside them.
+fn partly_defined_worlds(held: AxisBox, all: &mut Worlds) {
+    // (sqrt(x² + z²) - 3/4)² + y² + sin(3 atan2(z, x)) / 32 - 1/8: a ring with an angle about its axis.
+    let mut b = Builder::new();
+    let [x, y, z] = [0, 1, 2].map(|i| b.input(i).unwrap());
+    let numbers = [0.75, 3.0, 1.0 / 32.0, 0.125].map(|c| b.constant(c).unwrap());
+    let [middle, three, little, rest] = numbers;
+    let (xx, yy, zz) =
+        (b.push(Op::Sqr(x)).unwrap(), b.push(Op::Sqr(y)).unwrap(), b.push(Op::Sqr(z)).unwrap());
+    let across = b.push(Op::Add(xx, zz)).unwrap();
+    let across = b.push(Op::Sqrt(across)).unwrap();
+    let off = b.push(Op::Sub(across, middle)).unwrap();
+    let off = b.push(Op::Sqr(off)).unwrap();
+    let angle = b.push(Op::Atan2(z, x)).unwrap();
+    let angle = b.push(Op::Mul(three, angle)).unwrap();
+    let wave = b.push(Op::Function(Function::Sin, angle)).unwrap();
+    let wave = b.push(Op::Mul(little, wave)).unwrap();
+    let sum = b.push(Op::Add(off, yy)).unwrap();
+    let sum = b.push(Op::Add(sum, wave)).unwrap();
+    let root = b.push(Op::Sub(sum, rest)).unwrap();
+    let ring = Isosurface::new(&b.finish(root, 3), 0.0, Container::Box(held)).unwrap();
+    worlds("wavy ring", Sides::Bracketed, ring, all);
+    // sqrt x + y² + z² - 1/2, which has no wall where it ends.
+    let mut b = Builder::new();
+    let [x, y, z] = [0, 1, 2].map(|i| b.input(i).unwrap());
+    let rest = b.constant(0.5).unwrap();
+    let (x, y, z) = (b.push(Op::Sqrt(x)).unwrap(), b.push(Op::Sqr(y)).unwrap(), b.push(Op::Sqr(z)).unwrap());
+    let sum = b.push(Op::Add(x, y)).unwrap();
+    let sum = b.push(Op::Add(sum, z)).unwrap();
+    let root = b.push(Op::Sub(sum, rest)).unwrap();
+    let thorn = Isosurface::new(&b.finish(root, 3), 0.0, Container::Box(held)).unwrap();
+    worlds("thorn", Sides::Rimmed { closed: false }, thorn, all);
 }
 
 /// What is clipped within the box that holds it, so that rays enter and leave that where nothing is left: lanes know no more than where it may be.

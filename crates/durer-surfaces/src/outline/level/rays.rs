@@ -46,6 +46,8 @@ pub(super) struct Memory {
     step: F8,
     /// The sign at `here`: 1, -1, or 0 if it is not known.
     sign: F8,
+    /// How many stretches were looked at.
+    looks: u32,
     /// Lanes that go on, those that came to the end, those that got nowhere, and those of which a value is asked for.
     open: M8,
     ended: M8,
@@ -89,6 +91,7 @@ impl Default for Memory {
             last: z,
             step: z,
             sign: z,
+            looks: 0,
             open: none,
             ended: none,
             stuck: none,
@@ -114,6 +117,7 @@ pub(super) fn prepare(
     memory: &mut Memory,
 ) {
     let rays = asked.rays;
+    memory.looks = 0;
     see(level.reach(), own, rays, start, memory);
     level.part(&memory.line, &mut memory.part);
     match cell {
@@ -140,6 +144,7 @@ pub(super) fn look(level: &dyn Level, memory: &mut Memory) {
         level.values(&memory.line, &memory.told.b, memory.asked, &mut memory.value);
     }
     go_on(isa, level.reach(), memory);
+    memory.looks += 1;
 }
 
 /// Offers the first crossing of each ray to `nearest`.
@@ -284,6 +289,11 @@ fn know(asked: &Question<'_>, nearest: &mut Nearest, memory: &mut Memory) {
 impl Memory {
     pub(super) fn isa(&self) -> Isa {
         self.line.isa
+    }
+
+    /// How many stretches were looked at.
+    pub(super) fn looks(&self) -> u32 {
+        self.looks
     }
 
     /// Lanes that go on.

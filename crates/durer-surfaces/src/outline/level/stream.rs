@@ -77,10 +77,12 @@ fn search(eights: &mut [Memory], beside: &mut Memory, level: &dyn Level) {
     let dense = if eights.len() > 1 { DENSE } else { 1 };
     let mut left = 0;
     for eight in &mut *eights {
-        let mut looks = 0;
-        while looks < MOST && (eight.open().count() >= dense || looks == 0 && eight.open().any()) {
+        let goes_on = |eight: &Memory| match eight.looks() {
+            0 => eight.open().any(),
+            looks => looks < MOST && eight.open().count() >= dense,
+        };
+        while goes_on(eight) {
             look(level, eight);
-            looks += 1;
         }
         left += eight.open().count();
     }
@@ -108,7 +110,7 @@ fn go_on_beside_others(eights: &mut [Memory], beside: &mut Memory, level: &dyn L
                 let lane = open.trailing_zeros() as usize;
                 open &= open - 1;
                 beside.take_over(i, &eights[eight], lane);
-                places[i] = Some(Place { eight, lane, looks: 0 });
+                places[i] = Some(Place { eight, lane, looks: eights[eight].looks() });
                 is_new = true;
             }
         }

@@ -319,7 +319,7 @@ fn along_the_sweep_who_looks_finds_what_who_measures_finds() {
         Affine::new([[2.0, -3.0, -3.0], [2.0, 0.0, 2.0], [-3.0, 2.0, 0.0]], Point3::new(-7.0, 1.0, 1.0));
     let affine = affine.expect("a placement");
     let prism = CurvedPrism::linear(&[round([0.0; 2], 1.0, 0.5)], -1.0, 8.0).expect("a prism");
-    // From a point of a wall, along the third column of the inverse times 24, as it is rounded.
+    // From a point of a wall along the sweep, as it is rounded.
     let mut dice = Dice::new(23);
     let mut met = 0;
     for _ in 0..2000 {
