@@ -117,14 +117,15 @@ impl AlgebraicSurface {
         if coefficients[..wanted - 1].iter().all(|&x| x == 0.0) {
             return Err(AlgebraicError::Constant);
         }
+        let (order, coefficients) = trimmed(order, coefficients);
         Ok(Self(match order {
-            0..=4 => Fitting::Four(Dense::new(order, coefficients)),
-            5..=8 => Fitting::Eight(Dense::new(order, coefficients)),
-            _ => Fitting::Sixteen(Dense::new(order, coefficients)),
+            0..=4 => Fitting::Four(Dense::new(order, &coefficients)),
+            5..=8 => Fitting::Eight(Dense::new(order, &coefficients)),
+            _ => Fitting::Sixteen(Dense::new(order, &coefficients)),
         }))
     }
 
-    /// The order.
+    /// The order, which is that of the highest terms that are not zero.
     pub fn order(&self) -> u32 {
         match &self.0 {
             Fitting::Four(p) => p.order,
@@ -160,6 +161,14 @@ impl<const N: usize> Dense<N> {
     }
 }
 
+/// The order of the highest terms that are not zero, and all coefficients up to there. Higher ones would leave the sign at infinity open.
+fn trimmed(order: u32, coefficients: &[f64]) -> (u32, Vec<f64>) {
+    let degree = |n: [u32; 3]| n.iter().sum::<u32>();
+    let terms = || coefficients.iter().copied().zip(powers(order).map(degree));
+    let top = terms().filter(|(c, _)| *c != 0.0).map(|(_, n)| n).max().unwrap_or(order);
+    (top, terms().filter(|(_, n)| *n <= top).map(|(c, _)| c).collect())
+}
+
 /// A unit of length in which the surface is about one large, and the coefficients in it; the given ones if others would not be exact.
 fn measured(order: u32, coefficients: &[f64]) -> (i32, Arc<[f64]>) {
     let mut largest = [0.0_f64; MAX_ORDER as usize + 1];
@@ -167,7 +176,7 @@ fn measured(order: u32, coefficients: &[f64]) -> (i32, Arc<[f64]>) {
         let size = &mut largest[n.iter().sum::<u32>() as usize];
         *size = size.max(c.abs());
     }
-    let top = (1..=order as usize).rev().find(|&d| largest[d] > 0.0).unwrap_or(1);
+    let top = order as usize;
     // Where the leading terms begin to outweigh the others.
     let balance = |d: usize| f64::from(exponent(largest[d]) - exponent(largest[top])) / (top - d) as f64;
     let scale = (0..top).filter(|&d| largest[d] > 0.0).map(balance).fold(f64::NEG_INFINITY, f64::max);
