@@ -23,6 +23,8 @@ use durer_surfaces::outline::{self, Crossing8, Crossings, From8, Nearest, Outlin
 pub(crate) struct Body {
     leaves: Vec<Operand>,
     places: Vec<Place>,
+    /// For each leaf a convex one outside of which it does not matter, if there is such.
+    around: Vec<Option<u32>>,
     nodes: Vec<Node>,
     children: Vec<Child>,
     /// The slots of the body's leaves, counted over all bodies.
@@ -60,8 +62,8 @@ struct Node {
 #[derive(Debug, Default)]
 pub(crate) struct Memory {
     sights: Vec<Sight>,
-    /// Leaves that no ray meets.
-    passed: Vec<bool>,
+    /// Which rays do not meet each leaf, surely.
+    passed: Vec<u8>,
     crossings: Crossings,
 }
 
@@ -83,8 +85,8 @@ pub(crate) struct Skin<'b> {
 struct Look<'a> {
     isa: Isa,
     rays: &'a RayLanes<'a>,
-    sights: &'a [Sight],
-    passed: &'a [bool],
+    sights: &'a mut [Sight],
+    passed: &'a mut [u8],
     steps: &'a mut outline::Scratch,
 }
 
@@ -103,9 +105,14 @@ struct Sure {
     no: u8,
 }
 
-impl Sure {
-    const UNKNOWN: Self = Self { yes: 0, no: 0 };
+impl Look<'_> {
+    /// Whether no ray meets a leaf.
+    fn is_passed(&self, leaf: usize) -> bool {
+        self.passed[leaf] == u8::MAX
+    }
+}
 
+impl Sure {
     fn inverted(self, inverted: bool) -> Self {
         if inverted { Self { yes: self.no, no: self.yes } } else { self }
     }
@@ -141,7 +148,33 @@ impl Body {
                 }
             }
         }
-        Some(Self { leaves, places, nodes, children, slots, owners: owners.into() })
+        let mut body =
+            Self { leaves, places, around: Vec::new(), nodes, children, slots, owners: owners.into() };
+        body.around = (0..body.leaves.len()).map(|i| body.around(i)).collect();
+        Some(body)
+    }
+
+    /// A convex leaf that has all in common with this one that matters of it: next to it, or to what it is part of, in an intersection.
+    fn around(&self, leaf: usize) -> Option<u32> {
+        let is_cell = |i: u32| {
+            let Operand { outline, .. } = &self.leaves[i as usize];
+            i as usize != leaf
+                && outline.is_convex()
+                && outline.is_turned() == self.places[i as usize].inverted
+        };
+        let mut above = Some(self.places[leaf].node);
+        while let Some(node) = above {
+            let Node { parent, all, children } = &self.nodes[node as usize];
+            let mut leaves = self.children[children.clone()].iter().filter_map(|child| match child {
+                Child::Leaf(leaf) => Some(*leaf),
+                Child::Node(_) => None,
+            });
+            if *all && let Some(cell) = leaves.find(|&i| is_cell(i)) {
+                return Some(cell);
+            }
+            above = *parent;
+        }
+        None
     }
 
     /// The face with this number.
@@ -178,7 +211,7 @@ impl Body {
         sights.resize_with(self.leaves.len().max(sights.len()), Sight::default);
         passed.clear();
         for (leaf, sight) in self.leaves.iter().zip(&mut *sights) {
-            passed.push(leaf.outline.sight(lanes, sight));
+            passed.push(if leaf.outline.sight(lanes, sight) { u8::MAX } else { 0 });
         }
         let look = &mut Look { isa, rays: lanes, sights, passed, steps };
         let live = rays.live.bits();
@@ -188,11 +221,28 @@ impl Body {
         }
         let own = self.own_rays(arena, rays, live, nearest);
         for (i, leaf) in self.leaves.iter().enumerate() {
-            if look.passed[i] || leaf.shown == Shown::None {
+            if !look.is_passed(i) && leaf.outline.is_convex() {
+                let from = own.as_ref().and_then(|own| own.of(i));
+                let missed = leaf.outline.stay(lanes, from.as_ref(), &mut look.sights[i], look.steps);
+                look.passed[i] = missed | !live;
+            }
+        }
+        let Sure { yes, no } = self.node(0, look, None);
+        if yes | no | !live == u8::MAX {
+            return;
+        }
+        for (i, leaf) in self.leaves.iter().enumerate() {
+            let around = self.around[i].map(|cell| cell as usize);
+            if look.is_passed(i)
+                || leaf.shown == Shown::None
+                || around.is_some_and(|cell| look.is_passed(cell))
+            {
                 continue;
             }
             let from = own.as_ref().and_then(|own| own.of(i));
-            leaf.outline.crossings(lanes, from.as_ref(), &look.sights[i], look.steps, crossings);
+            let within = around.filter(|_| leaf.outline.is_endless()).map(|cell| &look.sights[cell]);
+            let sight = (&look.sights[i], within);
+            leaf.outline.crossings(lanes, from.as_ref(), sight, look.steps, crossings);
             isa.run_in_lanes(
                 #[inline(always)]
                 || nearest.doubt_from(rays.live, crossings.doubt),
@@ -294,12 +344,11 @@ impl Body {
                 let i = leaf as usize;
                 let outline = &self.leaves[i].outline;
                 let sure = match at {
-                    _ if look.passed[i] => Sure { yes: 0, no: u8::MAX }.inverted(outline.is_turned()),
-                    Some(at) => {
+                    Some(at) if !look.is_passed(i) => {
                         let (yes, no) = outline.holds(look.rays, &look.sights[i], at, look.steps);
                         Sure { yes, no }
                     }
-                    None => Sure::UNKNOWN,
+                    _ => Sure { yes: 0, no: look.passed[i] }.inverted(outline.is_turned()),
                 };
                 sure.inverted(self.places[i].inverted)
             }

@@ -157,11 +157,11 @@ impl Detail {
         }
     }
 
-    /// Puts down all crossings of a solid.
+    /// Puts down all crossings of a solid; of an endless one, what is within a convex cell.
     pub(super) fn crossings(
         &self,
         rays: (&RayLanes<'_>, Option<(&From8, bool)>),
-        start: &Start,
+        (start, cell): (&Start, Option<&Hull>),
         to: &mut Crossings,
         memory: &mut Memory,
     ) {
@@ -169,7 +169,7 @@ impl Detail {
             swept.crossings(&self.own, rays, start, to, &mut memory.swept);
             return;
         }
-        self.show(rays, (start, None), to, memory);
+        self.show(rays, (start, cell), to, memory);
     }
 
     fn show<K: Offer>(

@@ -30,12 +30,18 @@ pub struct Scratch {
 /// What each step leaves to the next.
 #[derive(Debug, Default)]
 pub(super) struct Steps {
-    pub(super) plane: PlaneRoot,
-    pub(super) slab: SlabRoots,
-    pub(super) roots: Roots,
+    pub(super) faces: FaceSteps,
     pub(super) hull: Hull,
     pub(super) spot: Spot,
     pub(super) detail: detail::Memory,
+}
+
+/// What is known of one face, by its kind.
+#[derive(Debug, Default)]
+pub(super) struct FaceSteps {
+    pub(super) plane: PlaneRoot,
+    slab: SlabRoots,
+    pub(super) roots: Roots,
 }
 
 /// Eight rays that ask an outline.
@@ -115,7 +121,8 @@ impl Outline {
             let Scratch { start, steps } = scratch;
             let seen = &Seen { d: asked.rays.direction, d1: &asked.rays.d1, start };
             // The faces that clip a surface are not those that rays leave.
-            self.hull(asked.rays, asked.from.filter(|_| is_contained), seen, steps);
+            let Steps { hull, faces, .. } = steps;
+            self.hull(asked.rays, asked.from.filter(|_| is_contained), seen, (faces, hull));
         }
         is_cut
     }
@@ -162,13 +169,20 @@ impl Outline {
     fn meet_convex(&self, asked: &Question<'_>, nearest: &mut Nearest, scratch: &mut Scratch) {
         let &Question { rays, from, .. } = asked;
         let Scratch { start, steps } = scratch;
-        self.hull(rays, from, &Seen { d: rays.direction, d1: &rays.d1, start }, steps);
-        self.conclude(asked, &steps.hull, nearest);
+        let Steps { hull, faces, .. } = steps;
+        self.hull(rays, from, &Seen { d: rays.direction, d1: &rays.d1, start }, (faces, hull));
+        self.conclude(asked, hull, nearest);
     }
 
     /// Where the faces of a convex solid are entered and left.
-    pub(super) fn hull(&self, rays: &RayLanes<'_>, from: Option<&From8>, seen: &Seen<'_>, steps: &mut Steps) {
-        let Steps { plane, slab, roots, hull, .. } = steps;
+    pub(super) fn hull(
+        &self,
+        rays: &RayLanes<'_>,
+        from: Option<&From8>,
+        seen: &Seen<'_>,
+        (faces, hull): (&mut FaceSteps, &mut Hull),
+    ) {
+        let FaceSteps { plane, slab, roots } = faces;
         let mut i = 0;
         while let Some(face) = self.faces.get(i) {
             let leaving = self.leaving(from, i);
@@ -249,7 +263,7 @@ impl Outline {
 
     fn meet_walls(&self, asked: &Question<'_>, nearest: &mut Nearest, scratch: &mut Scratch) {
         let &Question { rays, from, .. } = asked;
-        let Scratch { start, steps: Steps { plane, roots, spot, .. } } = scratch;
+        let Scratch { start, steps: Steps { faces: FaceSteps { plane, roots, .. }, spot, .. } } = scratch;
         let seen = &Seen { d: rays.direction, d1: &rays.d1, start };
         for (i, face) in self.faces[..self.walls].iter().enumerate() {
             if self.cutters.get(i).is_some_and(Option::is_none) {

@@ -7,14 +7,34 @@ use super::Outline;
 use super::detail::Detail;
 use super::face::{FaceKind, Seen, Start};
 use super::hull::Hull;
-use super::meet::{Scratch, Spot, Steps};
+use super::meet::{FaceSteps, Scratch, Spot, Steps};
 use super::rays::{FAR, From8, NEVER, RayLanes};
 use arrayvec::ArrayVec;
-use durer_math::{F8, M8};
+use durer_math::{F8, Isa, M8};
 
 /// Eight rays as one outline sees them.
 #[derive(Debug, Default)]
-pub struct Sight(Start);
+pub struct Sight {
+    start: Start,
+    /// Of convex solids: where the rays are in them.
+    hull: Hull,
+    stay: Stay,
+}
+
+/// The part of each of eight rays that is in a convex solid.
+#[derive(Debug, Default)]
+struct Stay {
+    /// It begins between these two, if there is one, ...
+    earliest: F8,
+    entered: F8,
+    /// ... and ends between these.
+    left: F8,
+    latest: F8,
+    /// There is none, or none is ahead.
+    missed: M8,
+    /// What cuts it off is not known of all faces.
+    unsure: M8,
+}
 
 /// Crossings of eight rays.
 #[derive(Clone, Copy, Debug)]
@@ -91,7 +111,31 @@ impl Crossings {
 impl Sight {
     #[inline(always)]
     fn seen<'a>(&'a self, rays: &'a RayLanes<'_>) -> Seen<'a> {
-        Seen { d: rays.direction, d1: &rays.d1, start: &self.0 }
+        Seen { d: rays.direction, d1: &rays.d1, start: &self.start }
+    }
+}
+
+impl Stay {
+    #[inline(always)]
+    fn of(rays: &RayLanes<'_>, hull: &Hull) -> Self {
+        let Hull { enter, leave, missed, unsure } = hull;
+        let (earliest, latest) = (enter.t - enter.e, leave.e - leave.t);
+        Self {
+            earliest,
+            entered: (enter.t + enter.e).max(enter.others),
+            left: -((leave.t + leave.e).max(leave.others)),
+            latest,
+            missed: *missed | !*rays.live | earliest.gt(latest) | latest.lt(F8::ZERO),
+            unsure: *unsure,
+        }
+    }
+
+    /// Which points at `t` within `e`, not behind the start, are surely within the faces, and which surely not.
+    #[inline(always)]
+    fn holds(&self, t: F8, e: F8) -> (M8, M8) {
+        let (first, last) = (t - e, t + e);
+        let within = !(self.missed | self.unsure) & first.gt(self.entered) & last.lt(self.left);
+        (within, self.missed | last.lt(self.earliest) | first.gt(self.latest))
     }
 }
 
@@ -115,17 +159,55 @@ impl Outline {
         self.turned
     }
 
-    /// Sees the rays from the outline's centre; whether every one surely passes the solid by, or has left it behind.
-    pub fn sight(&self, rays: &RayLanes<'_>, sight: &mut Sight) -> bool {
-        self.is_passed_by(rays, &mut sight.0)
+    /// Whether it is all that is within some faces, or all that is not, so that a ray is in there all the way between two places.
+    #[inline]
+    pub fn is_convex(&self) -> bool {
+        self.convex && self.as_detail().is_none()
     }
 
-    /// Puts down all crossings of the solid. `from` names the rays that leave its own surface.
+    /// Whether nothing holds the surface, so that it is worth to know which part of a ray matters.
+    pub fn is_endless(&self) -> bool {
+        self.as_detail().is_some_and(Detail::is_endless)
+    }
+
+    /// Sees the rays from the outline's centre; whether every one surely passes the solid by, or has left it behind.
+    pub fn sight(&self, rays: &RayLanes<'_>, sight: &mut Sight) -> bool {
+        self.is_passed_by(rays, &mut sight.start)
+    }
+
+    /// Puts down where the rays are in a convex solid, and tells which surely are nowhere in it. `from` names those that leave its own surface.
+    pub fn stay(
+        &self,
+        rays: &RayLanes<'_>,
+        from: Option<&From8>,
+        sight: &mut Sight,
+        scratch: &mut Scratch,
+    ) -> u8 {
+        // The faces of a box are not those that rays leave.
+        let from = from.filter(|_| !self.vague);
+        let Sight { start, hull, stay } = sight;
+        self.hull(
+            rays,
+            from,
+            &Seen { d: rays.direction, d1: &rays.d1, start },
+            (&mut scratch.steps.faces, hull),
+        );
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                *stay = Stay::of(rays, hull);
+                stay.missed.bits()
+            },
+        )
+    }
+
+    /// Puts down all crossings of the solid; of an endless one those `within` a convex solid that the rays have been seen in. `from` names the rays that
+    /// leave its own surface. Of a convex solid it is known where rays are in it.
     pub fn crossings(
         &self,
         rays: &RayLanes<'_>,
         from: Option<&From8>,
-        sight: &Sight,
+        (sight, within): (&Sight, Option<&Sight>),
         scratch: &mut Scratch,
         to: &mut Crossings,
     ) {
@@ -133,14 +215,10 @@ impl Outline {
         to.doubt = NEVER;
         if let Some(detail) = self.as_detail() {
             let rays = (rays, from.map(|from| (from, self.turned)));
-            detail.crossings(rays, &sight.0, to, &mut scratch.steps.detail);
-            return;
-        }
-        if self.convex {
-            // The faces of a box are not those that rays leave.
-            let from = from.filter(|_| !self.vague);
-            self.hull(rays, from, &sight.seen(rays), &mut scratch.steps);
-            self.both_ends(rays, &scratch.steps.hull, to);
+            let within = within.map(|sight| &sight.hull);
+            detail.crossings(rays, (&sight.start, within), to, &mut scratch.steps.detail);
+        } else if self.convex {
+            self.both_ends(rays, sight, to);
         } else {
             self.each_wall(rays, from, &sight.seen(rays), &mut scratch.steps, to);
         }
@@ -148,22 +226,18 @@ impl Outline {
 
     /// Where a convex solid is entered and where it is left.
     #[inline(never)]
-    fn both_ends(&self, rays: &RayLanes<'_>, hull: &Hull, to: &mut Crossings) {
+    fn both_ends(&self, rays: &RayLanes<'_>, sight: &Sight, to: &mut Crossings) {
         rays.isa.run_in_lanes(
             #[inline(always)]
-            || self.both_ends_here(rays, hull, to),
+            || self.both_ends_here(sight, to),
         );
     }
 
     #[inline(always)]
-    fn both_ends_here(&self, rays: &RayLanes<'_>, hull: &Hull, to: &mut Crossings) {
-        let Hull { enter, leave, missed, unsure } = hull;
-        let earliest = enter.t - enter.e;
-        let latest = leave.e - leave.t;
-        let missed = *missed | !*rays.live | earliest.gt(latest) | latest.lt(F8::ZERO);
-        let entered = (enter.t + enter.e).max(enter.others);
-        let left = -((leave.t + leave.e).max(leave.others));
-        let through = !(missed | *unsure) & entered.lt(left);
+    fn both_ends_here(&self, sight: &Sight, to: &mut Crossings) {
+        let Sight { hull: Hull { enter, leave, .. }, stay, .. } = sight;
+        let Stay { earliest, entered, left, missed, unsure, .. } = *stay;
+        let through = !(missed | unsure) & entered.lt(left);
         if self.vague {
             to.doubt_from(!missed, earliest);
             return;
@@ -190,7 +264,7 @@ impl Outline {
         steps: &mut Steps,
         to: &mut Crossings,
     ) {
-        let Steps { plane, roots, spot, .. } = steps;
+        let Steps { faces: FaceSteps { plane, roots, .. }, spot, .. } = steps;
         for (i, face) in self.faces[..self.walls].iter().enumerate() {
             let from = self.leaving(from, i);
             if face.kind == FaceKind::Plane {
@@ -252,14 +326,38 @@ impl Outline {
         let (inside, outside) = match self.as_detail() {
             Some(detail) => {
                 let memory = &mut scratch.steps.detail;
-                let (inside, outside) = detail.holds(rays, &sight.0, ((*t, *e), asked), memory);
+                let (inside, outside) = detail.holds(rays, &sight.start, ((*t, *e), asked), memory);
                 (inside & asked, outside & asked)
+            }
+            None if self.convex => {
+                let (inside, outside) = self.holds_by_stay(rays.isa, &sight.stay, (t, e, asked));
+                let open = asked & !(inside | outside);
+                if open == 0 {
+                    (inside, outside)
+                } else {
+                    let left = (t, e, open);
+                    let (also, beside) = self.holds_by_faces(rays, sight, left, &mut scratch.steps.spot);
+                    (inside | also, outside | beside)
+                }
             }
             None => self.holds_by_faces(rays, sight, (t, e, asked), &mut scratch.steps.spot),
         };
         if self.turned { (outside, inside) } else { (inside, outside) }
     }
 
+    /// By where the rays are in a convex solid.
+    #[inline(never)]
+    fn holds_by_stay(&self, isa: Isa, stay: &Stay, (t, e, asked): (&F8, &F8, u8)) -> (u8, u8) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let (within, beside) = stay.holds(*t, *e);
+                (if self.vague { 0 } else { within.bits() & asked }, beside.bits() & asked)
+            },
+        )
+    }
+
+    /// By the signs of the faces there.
     #[inline(always)]
     fn holds_by_faces(
         &self,
