@@ -191,7 +191,10 @@ impl Surface for Blob {
     }
 
     fn sketch(&self, _part: PartId) -> Sketch {
-        match Fields::new(self.parts.iter().map(Part::for_lanes).collect(), self.threshold) {
+        let unit = |p: Point3| (p - self.centre).map(|x| scale2(x, -self.scale)).to_point();
+        let boxes = self.components.iter().filter_map(|it| it.bounds().ok());
+        let boxes: Vec<_> = boxes.map(|b| Aabb::new(unit(b.min), unit(b.max))).collect();
+        match Fields::new(self.parts.iter().map(Part::for_lanes).collect(), &boxes, self.threshold) {
             Some(fields) => Sketch::fields(self.bounds, fields, self.centre, self.scale),
             None => Sketch::vague(self.bounds),
         }

@@ -71,6 +71,27 @@ fn bodies() -> Vec<World> {
         let hole = csg.leaf(ball(0.25, 0.625)).unwrap();
         csg.difference(cushion, [hole])
     });
+    // x³ - 3 x z² = y, which goes on for ever, where a convex solid holds what matters of it, alone and as part of a part; and where none does.
+    let saddle = || {
+        let mut c = vec![0.0; 20];
+        (c[0], c[5], c[15]) = (1.0, -3.0, -1.0);
+        Placed::new(AlgebraicSurface::new(3, &c).unwrap(), map())
+    };
+    world("saddle in a block", &|csg| {
+        let parts = [csg.leaf(saddle()).unwrap(), csg.leaf(block(-1.0, 1.0)).unwrap()];
+        csg.intersection(parts)
+    });
+    world("block in a saddle", &|csg| {
+        let (outer, inner) = (csg.leaf(ball(0.0, 1.25)).unwrap(), csg.leaf(ball(0.5, 0.5)).unwrap());
+        let saddle = csg.leaf(saddle()).unwrap();
+        let both = csg.union([saddle, inner]);
+        csg.difference(outer, [both])
+    });
+    world("half of a saddle", &|csg| {
+        let saddle = csg.leaf(saddle()).unwrap();
+        let hole = csg.leaf(Inverse(Sphere::new(point(0.0, 0.0, 0.0), 0.5).unwrap())).unwrap();
+        csg.intersection([saddle, hole])
+    });
     world("blob with a hole", &|csg| {
         let ball = |x: f64| BlobComponent {
             shape: BlobShape::Ball(point(x, 0.0, 0.0)),

@@ -74,7 +74,11 @@ enum Aim {
 }
 
 /// Surfaces that lanes see in coordinates of their own.
-const OF_HIGHER_DEGREE: [&str; 39] = [
+const OF_HIGHER_DEGREE: [&str; 43] = [
+    "cloud",
+    "saddle in a block",
+    "block in a saddle",
+    "half of a saddle",
     "egg",
     "waves",
     "open waves",

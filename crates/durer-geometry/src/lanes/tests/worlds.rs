@@ -308,8 +308,10 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     let lower = [([2, 0, 0], -0.5), ([0, 2, 0], -0.25), ([0, 1, 1], 0.25), ([0, 0, 0], -0.375)];
     let cushion = of(4, &[dimples.as_slice(), lower.as_slice()].concat());
     worlds("quartic", Sides::Smooth, cushion, all);
-    let cubic =
-        of(3, &[([3, 0, 0], 1.0), ([1, 2, 0], -3.0), ([0, 0, 2], 1.0), ([0, 0, 1], 0.5), ([0, 0, 0], -0.25)]);
+    let cubic = [([3, 0, 0], 1.0), ([1, 2, 0], -3.0), ([0, 0, 2], 1.0), ([0, 0, 1], 0.5), ([0, 0, 0], -0.25)];
+    // In a list for quartics leading terms of zero say nothing.
+    let padded = of(4, &cubic);
+    let cubic = of(3, &cubic);
     worlds("cubic", Sides::Smooth, cubic.clone(), all);
     let ball = Region::solid(Sphere::new(point(0.25, 0.0, 0.0), 1.25).unwrap());
     worlds("clipped cubic", Sides::Sheet, Clip::new(cubic, vec![cut, ball]), all);
@@ -349,6 +351,8 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     let eight = [crossed_eight()];
     worlds("crossed curved prism", Sides::Solid, CurvedPrism::linear(&eight, -0.5, 0.75).unwrap(), all);
     level_worlds(all);
+    worlds("cubic", Sides::Smooth, padded, all);
+    worlds("cloud", Sides::Rounded, cloud(), all);
     core::mem::take(&mut all.1)
 }
 
@@ -463,6 +467,22 @@ pub(super) fn clipped_worlds(isa: Isa) -> Vec<World> {
     worlds("clipped blob", Sides::Sheet, Clip::new(blob.clone(), vec![middle]), all);
     worlds("blob with a bite", Sides::Sheet, Clip::new(blob, vec![hole]), all);
     core::mem::take(&mut all.1)
+}
+
+/// Forty balls and sausages round a spiral, large and small, some of which are placed, and some take away.
+fn cloud() -> Blob {
+    let components = (0..40).map(f64::from).map(|i| {
+        let (sin, cos) = durer_math::elementary::sin_cos(i * 0.7);
+        let centre = point(cos * i / 50.0, sin * i / 50.0, i / 25.0 - 0.75);
+        let shape = match i as u32 % 3 {
+            0 => BlobShape::Segment(centre, point(0.0, 0.0, centre.z)),
+            _ => BlobShape::Ball(centre),
+        };
+        let strength = if i as u32 % 7 == 3 { -0.75 } else { 1.0 };
+        let place = if i as u32 % 5 == 1 { map() } else { Affine::IDENTITY };
+        BlobComponent { shape, radius: 0.125 + i / 100.0, strength, place }
+    });
+    Blob::new(0.375, &components.collect::<Vec<_>>()).unwrap()
 }
 
 /// A surface in all its placements that has edges where two others are met.

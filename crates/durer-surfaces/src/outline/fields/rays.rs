@@ -10,6 +10,7 @@
 //! **Where a ray starts** is rounded outward by `8 U (|t_c| |d| + 2)`, which is less than `128 U (1 + |y|)` at the start `y`: within that a start has the sign that it is known to have,
 //! if it was put off the surface (`Fields::skin`).
 
+use super::groups::Group;
 use super::{Field, Fields, TINY};
 use crate::outline::face::Start;
 use crate::outline::lathe::Skin;
@@ -20,8 +21,8 @@ use crate::outline::rays::{From8, RayLanes, SLACK};
 use arrayvec::ArrayVec;
 use durer_math::{F8, Isa, M8, U, Vec3};
 
-/// A ray meets no more pieces.
-pub(super) const MOST: usize = 24;
+/// So many pieces that eight rays meet are put down; where there are more, nothing is told.
+const MOST: usize = 64;
 /// The blob is within `√3` of its centre, in units.
 const REACH: f64 = 2.0;
 const NEVER: F8 = F8::splat(f64::INFINITY);
@@ -136,8 +137,9 @@ impl Fields {
         );
         memory.pieces.clear();
         memory.charge = F8::ZERO;
-        for field in &self.fields {
-            field.pieces(isa, memory);
+        if !self.pieces(isa, memory) {
+            to.doubt(memory.open, F8::ZERO);
+            return;
         }
         // A piece begins and ends.
         for _ in 0..=2 * memory.pieces.len() {
@@ -169,6 +171,23 @@ impl Fields {
             );
         }
         to.doubt(memory.open, F8::ZERO);
+    }
+
+    /// Puts down the pieces of all fields that the rays may meet, and what others could add; false if there is no room.
+    fn pieces(&self, isa: Isa, memory: &mut Memory) -> bool {
+        let Memory { sight, here, last, open, pieces, charge, .. } = memory;
+        let mut i = 0;
+        while let Some(Group { centre, radius, fields, next }) = self.groups.get(i) {
+            if sight.passes_by(isa, (*centre, *radius), (here, last), open) {
+                i = *next;
+                continue;
+            }
+            i += 1;
+            if !self.fields[fields.clone()].iter().all(|field| field.pieces(isa, sight, charge, pieces)) {
+                return false;
+            }
+        }
+        true
     }
 
     /// Which points at `t` within `e` are surely inside, and which surely outside, as bits; for rays seen from the outline's centre.
@@ -226,7 +245,7 @@ impl Fields {
                     let on = piece.from.le(*here) & piece.to.gt(*here);
                     piece.add(on, *here, width, &mut c);
                 }
-                let size = self.threshold + self.fields.iter().map(|f| f.strength.abs()).sum::<f64>();
+                let size = self.threshold + self.strength;
                 let e = (e + count * U * size + TINY) * SLACK;
                 *poly = Poly8 { c, e, e_first: e, e_last: e };
                 poly.begin_with(live, *sign, part);
@@ -274,6 +293,32 @@ impl Sight {
     fn t(&self, s: F8) -> (F8, F8) {
         (s.mul_add(self.unit, self.t_c), self.e_t)
     }
+
+    /// Whether all rays surely pass a ball, or meet it only before `here` or behind `last`.
+    #[inline(never)]
+    fn passes_by(
+        &self,
+        isa: Isa,
+        (centre, radius): (Vec3, f64),
+        (here, last): (&F8, &F8),
+        open: &M8,
+    ) -> bool {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let m = Vec3::splat(centre);
+                let r = Vec3::new(self.o.x - m.x, self.o.y - m.y, self.o.z - m.z);
+                let (square, along) = (dot(r, r), dot(r, self.d));
+                // How far off a point of a ray may be, and by the roundings of these numbers: of the square of the distance fewer than 16, where |d| is one but for 4.
+                let e =
+                    (self.e_o + self.e_d * REACH) * 2.0 + (self.o_size + centre.max_abs() + 4.0) * (32.0 * U);
+                let reach = (e + radius) * SLACK;
+                let beside = (square * (1.0 - 32.0 * U) - along * along).gt(reach * reach * SLACK);
+                let (first, end) = (-along - reach, reach - along);
+                (beside | end.lt(*here) | first.gt(*last) | !*open).all()
+            },
+        )
+    }
 }
 
 /// Offers what was found of a stretch, and goes on behind it.
@@ -306,10 +351,9 @@ fn offer<K: Offer>(rays: &RayLanes<'_>, to: &mut K, memory: &mut Memory) {
 }
 
 impl Field {
-    /// Adds its pieces along the rays, and what it could add where it all but misses them.
+    /// Adds its pieces along the rays, and what it could add where it all but misses them; false if there is no room.
     #[inline(never)]
-    fn pieces(&self, isa: Isa, memory: &mut Memory) {
-        let Memory { sight, pieces, charge, .. } = memory;
+    fn pieces(&self, isa: Isa, sight: &Sight, charge: &mut F8, pieces: &mut ArrayVec<Piece8, MOST>) -> bool {
         let zero = Vec3::splat(Vec3::ZERO);
         let (mut r, mut a) = (zero, zero);
         let reach = F8::splat(REACH);
@@ -323,8 +367,7 @@ impl Field {
         );
         if self.length == 0.0 {
             let ball = Segment { lift: Some(F8::ZERO), low: -reach, high: reach, doubt: F8::ZERO };
-            self.piece(isa, (sight, &r, &a), &ball, charge, pieces);
-            return;
+            return self.piece(isa, (sight, &r, &a), &ball, charge, pieces);
         }
         let mut segments = [Segment { lift: None, low: -reach, high: reach, doubt: F8::ZERO }; 3];
         isa.run_in_lanes(
@@ -353,9 +396,7 @@ impl Field {
                 *behind = Segment { lift: Some(last), low: leave, high: reach, doubt };
             },
         );
-        for segment in &segments {
-            self.piece(isa, (sight, &r, &a), segment, charge, pieces);
-        }
+        segments.iter().all(|segment| self.piece(isa, (sight, &r, &a), segment, charge, pieces))
     }
 
     /// The error of each coordinate of `w` at `s`, where `y - m` is `size` long along an axis.
@@ -383,11 +424,11 @@ impl Field {
         segment: &Segment,
         charge: &mut F8,
         pieces: &mut ArrayVec<Piece8, MOST>,
-    ) {
+    ) -> bool {
         isa.run_in_lanes(
             #[inline(always)]
             || self.piece_here(sight, (*r, *a), segment, charge, pieces),
-        );
+        )
     }
 
     #[inline(always)]
@@ -398,7 +439,7 @@ impl Field {
         segment: &Segment,
         charge: &mut F8,
         pieces: &mut ArrayVec<Piece8, MOST>,
-    ) {
+    ) -> bool {
         let &Segment { lift, low, high, doubt } = segment;
         let a = Vec3::new(a.x, a.y, if lift.is_some() { a.z } else { F8::ZERO });
         let n = dot(a, a);
@@ -414,7 +455,7 @@ impl Field {
         let passed = most.lt(F8::splat(-0.125)) & (e_w + e_a * (2.0 * REACH)).lt(F8::splat(1.0 / 1024.0));
         let some = high.gt(low);
         if (passed | !some).all() {
-            return;
+            return true;
         }
         // q = 1 at v = (-b ± √(b² + n (1 - m))) / n, without a difference of equals.
         let root = b.mul_add(b, n * (F8::ONE - m)).max(F8::ZERO).sqrt();
@@ -440,7 +481,7 @@ impl Field {
         let left = missed.select(over, seam);
         *charge += (some & !passed).keep(left * left * strength);
         if missed.all() {
-            return;
+            return true;
         }
         let slack = (((whole * 18.0 + 2.0 + e_q) * e_q)
             + (whole * 9.0 + 1.0) * (whole * 9.0 + 1.0) * (96.0 * U))
@@ -457,8 +498,7 @@ impl Field {
             peak,
             slack,
         };
-        // There is room for all: see `Fields::new`.
-        pieces.push(piece);
+        pieces.try_push(piece).is_ok()
     }
 }
 
