@@ -1,4 +1,4 @@
-//! Quaternion Julia sets as lanes see them, if an orbit that leaves the ball never comes back: `g = |z_N|² - R²`.
+//! Julia sets as lanes see them, if an orbit that leaves the ball never comes back: `g = |z_N|² - R²`.
 //!
 //! **Far from it** no stretch has to be tried: a point tells how far away the solid is at least (J. C. Hart, D. J. Sandin, L. H. Kauffman, "Ray tracing deterministic 3-D
 //! fractals", SIGGRAPH 1989, call it an unbounding sphere; theirs is an estimate). If no point within `ρ` of `z_(n+1)` is inside, then none within
@@ -10,7 +10,8 @@
 //! of `z_n` is, and as `√x <= (x + m²) / 2m` for any `m > 0`, none within `2 m (ρ - e) / (2 m |z_n| + |z_n|² + m² + ρ - e)`, which needs no root once the next point's `ρ` is known; `m` is
 //! `|z_n|` or 1/2. This, with what rounding does to the next point, `e = 10 U (|z_n|² + |c|)`, as for balls (`orbit.rs`). And none within `|z_n| - R`. Steps forward and back cost half of
 //! what balls along a stretch do, and no length has to be guessed. Cubes have `3 |z_n|² ρ' + 3 |z_n| ρ'² + ρ'³`, of which `ρ' = (ρ - e) / (3 (|z_n| + m)²)` is no more than the root for any `m` that is no less than this `ρ'`: for
-//! `(ρ - e) / 3 |z_n|²`, and for the larger one of 1 and `ρ - e`.
+//! `(ρ - e) / 3 |z_n|²`, and for the larger one of 1 and `ρ - e`. Of the two numbers of a hypercomplex one each may move by `ρ`, which moves the root of their mean square by no more; the
+//! longer one counts on the way back.
 //!
 //! **Near it** balls around the orbits of eight stretches say what they say of the eight stretches of one ray. How near, and how long these are at first, goes with the orbit's derivative; behind one that
 //! was passed the next one is longer by three tenths, and nobody asks how far away the solid is until they are long, or lead away from it. The factors were found by trying.
@@ -38,10 +39,11 @@ const MOST: usize = 32;
 /// Second derivatives hold so far around a point.
 const AROUND: f64 = pow2(-30);
 
-impl Solid<1, 4> {
+impl<const M: usize, const C: usize> Solid<M, C> {
     /// As lanes see it, if they can.
     pub(super) fn sketch(&self, bounds: Aabb) -> Sketch {
-        let seen = self.rule.escapes && (self.rule.iterations as usize) < MOST && self.rule.radius > 1.0;
+        let Rule { escapes, iterations, radius, .. } = self.rule;
+        let seen = escapes && (iterations as usize) < MOST && radius > 1.0 && 4.0 * radius * radius < GONE;
         if seen {
             Sketch::level(bounds, Arc::new(self.clone()), Point3::ORIGIN)
         } else {
@@ -51,7 +53,7 @@ impl Solid<1, 4> {
 
     /// Balls around points of lines.
     #[inline(always)]
-    fn balls(&self, line: &Line8, s: F8, half: F8) -> [Ball<4>; 1] {
+    fn balls(&self, line: &Line8, s: F8, half: F8) -> [Ball<C>; M] {
         let p = line.point(s);
         let far = s.abs() + half;
         let q = self.lift.at8(p);
@@ -60,7 +62,11 @@ impl Solid<1, 4> {
         let e = far.mul_add(line.e_d, line.e_o) + size * (4.0 * U);
         let r = self.lift.errors(size, e) + TINY;
         let d = half * self.lift.errors_of_way(2.0, line.e_d) + TINY;
-        [Ball { q, v, r, d }]
+        let mut balls = [Ball { q: q[0], v: v[0], r, d }; M];
+        for ((ball, q), v) in balls.iter_mut().zip(q).zip(v).skip(1) {
+            (ball.q, ball.v) = (q, v);
+        }
+        balls
     }
 
     /// How far from points of lines the solid is at least, along the lines; and by how much less a way is than what the orbit makes of it.
@@ -70,99 +76,170 @@ impl Solid<1, 4> {
             #[inline(always)]
             || {
                 let count = self.rule.iterations as usize;
-                let [Ball { mut q, r, .. }] = self.balls(line, *s, F8::ZERO);
-                let mut squares = [F8::ZERO; MOST];
-                for square in &mut squares[..count] {
-                    *square = self.forward(&mut q);
+                let balls = self.balls(line, *s, F8::ZERO);
+                let r = balls[0].r;
+                let mut z = points(&balls);
+                let mut squares = [[F8::ZERO; M]; MOST];
+                for squares in &mut squares[..count] {
+                    *squares = self.forward(&mut z);
                 }
-                let [a, b, c, d] = q;
                 let over = self.rule.radius * (1.0 + 16.0 * U);
-                let size = a.mul_add(a, b.mul_add(b, c.mul_add(c, d * d))).sqrt() * (1.0 - 16.0 * U);
+                let size = mean(&squared(&z)).sqrt() * (1.0 - 16.0 * U);
                 let mut free = (size - over).max(F8::ZERO);
-                let mut slope = F8::ONE;
-                for square in squares[..count].iter().rev() {
-                    self.back(*square, over, &mut free, &mut slope);
+                let mut slope = [F8::ONE; M];
+                for squares in squares[..count].iter().rev() {
+                    self.back(squares, over, &mut free, &mut slope);
                 }
-                let v = self.lift.turned8(line.d);
-                let v2 = v[0].mul_add(v[0], v[1].mul_add(v[1], v[2].mul_add(v[2], v[3] * v[3])));
-                let speed = v2.sqrt() * (1.0 + 16.0 * U) + self.lift.errors_of_way(2.0, line.e_d);
+                let speed = most(&squared(&self.lift.turned8(line.d))).sqrt() * (1.0 + 16.0 * U)
+                    + self.lift.errors_of_way(2.0, line.e_d);
                 *room = ((free - r) / speed * (1.0 - 16.0 * U)).max(F8::ZERO);
-                *stretch = F8::ONE / slope;
+                *stretch = F8::ONE / most(&slope);
             },
         );
     }
 
-    /// The next point of orbits, and `|z|²` of this one. What has left stays where it is, so that nothing overflows.
+    /// The next points of orbits, and `|z|²` of these. What has left stays where it is, so that nothing overflows.
     #[inline(always)]
-    fn forward(&self, q: &mut [F8; 4]) -> F8 {
-        let [x, y, z, w] = *q;
-        let [c0, c1, c2, c3] = F8::splats(self.rule.c[0]);
-        let rest = y.mul_add(y, z.mul_add(z, w * w));
-        let all = x.mul_add(x, rest);
-        let stays = all.gt(F8::splat(GONE));
-        let (real, factor) = match self.rule.power {
-            JuliaPower::Square => (x * x - rest, x * 2.0),
-            JuliaPower::Cube => (x * (x * x - rest * 3.0), x * x * 3.0 - rest),
-        };
-        q[0] = stays.select(x, real + c0);
-        q[1] = stays.select(y, factor.mul_add(y, c1));
-        q[2] = stays.select(z, factor.mul_add(z, c2));
-        q[3] = stays.select(w, factor.mul_add(w, c3));
-        all
+    fn forward(&self, z: &mut [[F8; C]; M]) -> [F8; M] {
+        let (mut rests, mut squares) = ([F8::ZERO; M], [F8::ZERO; M]);
+        for ((rest, square), q) in rests.iter_mut().zip(&mut squares).zip(&*z) {
+            *rest = beside(q);
+            *square = q[0].mul_add(q[0], *rest);
+        }
+        let stays = mean(&squares).gt(F8::splat(GONE));
+        for ((q, c), rest) in z.iter_mut().zip(&self.rule.c).zip(rests) {
+            let x = q[0];
+            let (real, factor) = match self.rule.power {
+                JuliaPower::Square => (x * x - rest, x * 2.0),
+                JuliaPower::Cube => (x * (x * x - rest * 3.0), x * x * 3.0 - rest),
+            };
+            q[0] = stays.select(x, real + c[0]);
+            for (q, c) in q.iter_mut().zip(c).skip(1) {
+                *q = stays.select(*q, factor.mul_add(*q, F8::splat(*c)));
+            }
+        }
+        squares
     }
 
     /// From what is free around the next point to what is free around this one; and by how much the orbit is stretched from here, as long as it is near.
     #[inline(always)]
-    fn back(&self, square: F8, over: f64, free: &mut F8, slope: &mut F8) {
+    fn back(&self, squares: &[F8; M], over: f64, free: &mut F8, slope: &mut [F8; M]) {
         let rule = &self.rule;
+        let mean = mean(squares);
+        let own = mean.sqrt() * (1.0 - 16.0 * U) - over;
+        let square = most(squares);
         let size = square.sqrt();
-        let own = size * (1.0 - 16.0 * U) - over;
-        let (back, by) = match rule.power {
+        let back = match rule.power {
             JuliaPower::Square => {
                 let e = (square + rule.c_size) * (16.0 * U) + rule.c_err;
                 let left = (*free - e).max(F8::ZERO);
                 // √x <= (x + m²) / 2m for any m; what does not hang on `left` is there before it.
                 let twice = size.max(F8::splat(0.5)) * 2.0;
                 let rest = twice.mul_add(size, twice.mul_add(twice * 0.25, square));
-                (twice * left / (rest + left), size * 2.0)
+                twice * left / (rest + left)
             }
             JuliaPower::Cube => {
                 let e = (square * size + rule.c_size) * (64.0 * U) + rule.c_err;
                 let left = (*free - e).max(F8::ZERO);
                 let far = size + left.max(F8::ONE).min(left / (square * 3.0));
-                (left / (far * far * 3.0 + TINY), square * 3.0)
+                left / (far * far * 3.0 + TINY)
             }
         };
         *free = own.max(back * (1.0 - 16.0 * U));
-        let near = square.lt(F8::splat(2.0 * rule.radius * rule.radius));
-        *slope = near.select(*slope * by, F8::ONE);
+        let near = mean.lt(F8::splat(2.0 * rule.radius * rule.radius));
+        for (slope, square) in slope.iter_mut().zip(squares) {
+            let by = match rule.power {
+                JuliaPower::Square => square.sqrt() * 2.0,
+                JuliaPower::Cube => *square * 3.0,
+            };
+            *slope = near.select(*slope * by, F8::ONE);
+        }
     }
 
-    /// `|z_N|²`, the last point and the ball around it; what has left is somewhere far out.
+    /// `|z_N|²`, the last points and the balls around them; what has left is somewhere far out.
     #[inline(always)]
-    fn last(&self, ball: &mut Ball<4>) -> F8 {
+    fn last(&self, balls: &mut [Ball<C>; M]) -> F8 {
         let Rule { power, c_err, c_size, .. } = self.rule;
         let mut gone = M8::NONE;
         let mut square = F8::ZERO;
         for n in 0..=self.rule.iterations {
-            let [a, b, c, d] = ball.q;
-            let now = a.mul_add(a, b.mul_add(b, c.mul_add(c, d * d)));
+            let now = mean(&squared(&points(balls)));
+            let r = widest(balls);
             square = gone.select(square, now);
-            gone |= now.gt(F8::splat(GONE)) & (ball.r * ball.r * 4.0).lt(now);
+            gone |= now.gt(F8::splat(GONE)) & (r * r * 4.0).lt(now);
             if n == self.rule.iterations {
                 break;
             }
-            ball.step(&self.rule.c[0], power, c_err, c_size);
-            if gone.any() {
-                // Its place no longer matters, and must not overflow.
-                for q in &mut ball.q {
-                    *q = gone.select(F8::ZERO, *q);
+            for (ball, c) in balls.iter_mut().zip(&self.rule.c) {
+                ball.step(c, power, c_err, c_size);
+                if gone.any() {
+                    // Its place no longer matters, and must not overflow.
+                    for q in &mut ball.q {
+                        *q = gone.select(F8::ZERO, *q);
+                    }
+                    ball.r = gone.select(F8::ZERO, ball.r);
                 }
-                ball.r = gone.select(F8::ZERO, ball.r);
             }
         }
         square
     }
+}
+
+/// `|z|²` of each number.
+#[inline(always)]
+fn squared<const M: usize, const C: usize>(z: &[[F8; C]; M]) -> [F8; M] {
+    let mut squares = [F8::ZERO; M];
+    for (square, q) in squares.iter_mut().zip(z) {
+        *square = q[0].mul_add(q[0], beside(q));
+    }
+    squares
+}
+
+/// `|z|²` without the real part.
+#[inline(always)]
+fn beside<const C: usize>(q: &[F8; C]) -> F8 {
+    let mut square = q[C - 1] * q[C - 1];
+    for q in q[1..C - 1].iter().rev() {
+        square = q.mul_add(*q, square);
+    }
+    square
+}
+
+#[inline(always)]
+fn points<const M: usize, const C: usize>(balls: &[Ball<C>; M]) -> [[F8; C]; M] {
+    let mut z = [[F8::ZERO; C]; M];
+    for (z, ball) in z.iter_mut().zip(balls) {
+        *z = ball.q;
+    }
+    z
+}
+
+/// The mean of `M` numbers, which is one of them or half the sum of two.
+#[inline(always)]
+fn mean<const M: usize>(x: &[F8; M]) -> F8 {
+    let mut sum = x[0];
+    for x in &x[1..] {
+        sum += *x;
+    }
+    if M == 1 { sum } else { sum * (1.0 / M as f64) }
+}
+
+#[inline(always)]
+fn most<const M: usize>(x: &[F8; M]) -> F8 {
+    let mut most = x[0];
+    for x in &x[1..] {
+        most = most.max(*x);
+    }
+    most
+}
+
+#[inline(always)]
+fn widest<const M: usize, const C: usize>(balls: &[Ball<C>; M]) -> F8 {
+    let mut r = balls[0].r;
+    for ball in &balls[1..] {
+        r = r.max(ball.r);
+    }
+    r
 }
 
 #[inline(always)]
@@ -170,7 +247,7 @@ fn sum(v: Vec3<F8>) -> F8 {
     v.x.abs() + v.y.abs() + v.z.abs()
 }
 
-impl Level for Solid<1, 4> {
+impl<const M: usize, const C: usize> Level for Solid<M, C> {
     fn reach(&self) -> f64 {
         self.radius
     }
@@ -226,7 +303,9 @@ impl Level for Solid<1, 4> {
                 let half = (told.b - told.a) * (0.5 * (1.0 + 4.0 * U)) + mid.abs() * (2.0 * U);
                 let mut balls = self.balls(line, mid, half);
                 // What is not asked must not keep the others from an early end.
-                balls[0].q[0] = told.lanes.select(balls[0].q[0], F8::splat(4.0 * self.rule.radius));
+                for ball in &mut balls {
+                    ball.q[0] = told.lanes.select(ball.q[0], F8::splat(4.0 * self.rule.radius));
+                }
                 self.rule.known(balls)
             },
         );
@@ -246,11 +325,12 @@ impl Level for Solid<1, 4> {
         line.isa.run_in_lanes(
             #[inline(always)]
             || {
-                let [mut ball] = self.balls(line, *s, F8::ZERO);
-                let square = self.last(&mut ball);
+                let mut balls = self.balls(line, *s, F8::ZERO);
+                let square = self.last(&mut balls);
+                let r = widest(&balls);
                 let level = self.rule.radius * self.rule.radius;
                 let size = square.sqrt();
-                let e = (size * 2.0 + ball.r) * ball.r + (square + level) * (32.0 * U);
+                let e = (size * 2.0 + r) * r + (square + level) * (32.0 * U);
                 let g = square - level;
                 // Of the same sign, and less steep far out.
                 value.g = g / (square + level);
@@ -263,12 +343,11 @@ impl Level for Solid<1, 4> {
         line.isa.run_in_lanes(
             #[inline(always)]
             || {
-                let mut q = self.lift.at8(line.point(*s));
+                let mut z = self.lift.at8(line.point(*s));
                 for _ in 0..self.rule.iterations {
-                    self.forward(&mut q);
+                    self.forward(&mut z);
                 }
-                let [a, b, c, d] = q;
-                let square = a.mul_add(a, b.mul_add(b, c.mul_add(c, d * d)));
+                let square = mean(&squared(&z));
                 let level = self.rule.radius * self.rule.radius;
                 *g = (square - level) / (square + level);
             },
@@ -280,10 +359,10 @@ impl Level for Solid<1, 4> {
             #[inline(always)]
             || {
                 let gradient = gradient8(&self.rule, &self.lift, self.rule.iterations, y, e);
-                let Gradient { square, r, half, e_half, bend } = gradient;
+                let Gradient { square, e_square, half, e_half, bend } = gradient;
                 let level = self.rule.radius * self.rule.radius;
                 skin.f = square - level;
-                skin.e_f = (square.sqrt() * 2.0 + r) * r + (square + level) * (32.0 * U);
+                skin.e_f = e_square + (square + level) * (32.0 * U);
                 (skin.half, skin.e_half, skin.bend) = (half, e_half, bend);
                 skin.room = F8::splat(AROUND);
             },
@@ -315,27 +394,63 @@ impl Level for Solid<1, 4> {
 /// `|z_N|²`, half its gradient by the point, and what is not known of them.
 struct Gradient {
     square: F8,
-    /// How far the last point may be off.
-    r: F8,
+    /// What the balls around the last points leave open of it.
+    e_square: F8,
     half: Vec3<F8>,
     e_half: F8,
     bend: F8,
 }
 
-/// At points known within `e` along each axis. `|t|` is the size of the largest tangent, `d` a bound on the error of each, as `v` and `d` are for stretches (`orbit.rs`); `slope` and `curve`
-/// are bounds of the first and second derivatives of the last point, as far as `AROUND` from the point.
+/// At points known within `e` along each axis: means over the numbers.
 #[inline(always)]
-fn gradient8(rule: &Rule<1, 4>, lift: &Lift<1, 4>, iterations: u32, y: &Vec3<F8>, e: &F8) -> Gradient {
+fn gradient8<const M: usize, const C: usize>(
+    rule: &Rule<M, C>,
+    lift: &Lift<M, C>,
+    iterations: u32,
+    y: &Vec3<F8>,
+    e: &F8,
+) -> Gradient {
+    let r = lift.errors(sum(*y), *e) + TINY;
+    let (q, axes) = (lift.at8(*y), lift.axes8());
+    let mut all = gradient_of(rule, lift, iterations, (&q[0], &axes[0], r), &rule.c[0]);
+    for ((q, axes), c) in q.iter().zip(&axes).zip(&rule.c).skip(1) {
+        let one = gradient_of(rule, lift, iterations, (q, axes, r), c);
+        all.square += one.square;
+        all.e_square += one.e_square;
+        all.half = Vec3::new(all.half.x + one.half.x, all.half.y + one.half.y, all.half.z + one.half.z);
+        (all.e_half, all.bend) = (all.e_half + one.e_half, all.bend + one.bend);
+    }
+    if M > 1 {
+        let share = 1.0 / M as f64;
+        let slack = share * (1.0 + 4.0 * U);
+        all.square = all.square * share;
+        all.half = Vec3::new(all.half.x * share, all.half.y * share, all.half.z * share);
+        let size = sum(all.half) * (4.0 * U);
+        (all.e_square, all.e_half) = (all.e_square * slack, all.e_half * slack + size);
+        all.bend = all.bend * slack;
+    }
+    all
+}
+
+/// The same of one number, whose start is known within `r`. `|t|` is the size of the largest tangent, `d` a bound on the error of each, as `v` and `d` are for stretches (`orbit.rs`);
+/// `slope` and `curve` are bounds of the first and second derivatives of the last point, as far as `AROUND` from the point.
+#[inline(always)]
+fn gradient_of<const M: usize, const C: usize>(
+    rule: &Rule<M, C>,
+    lift: &Lift<M, C>,
+    iterations: u32,
+    (q, axes, r): (&[F8; C], &[[F8; C]; 3], F8),
+    c: &[f64; C],
+) -> Gradient {
     let zero = F8::ZERO;
-    let mut ball = Ball { q: lift.at8(*y), v: [zero; 4], r: zero, d: zero };
-    ball.r = lift.errors(sum(*y), *e) + TINY;
-    let [[mut tx, mut ty, mut tz]] = lift.axes8();
+    let mut ball = Ball { q: *q, v: [zero; C], r, d: zero };
+    let mut tangents = *axes;
     let mut d = F8::splat(lift.error_of_way(1.0, 0.0));
     let mut slope = F8::splat(lift.stretch());
     let (mut curve, mut reach) = (zero, ball.r + lift.stretch() * (2.0 * AROUND));
     for _ in 0..iterations {
-        let [a, b, c, w] = ball.q;
-        let square = a.mul_add(a, b.mul_add(b, c.mul_add(c, w * w)));
+        let q = ball.q;
+        let [square] = squared(&[q]);
         let size = square.sqrt();
         let far = (size + reach) * (1.0 + 64.0 * U);
         let (l, h) = match rule.power {
@@ -347,9 +462,12 @@ fn gradient8(rule: &Rule<1, 4>, lift: &Lift<1, 4>, iterations: u32, y: &Vec3<F8>
         curve = (l * curve + h * slope * slope) * (1.0 + 16.0 * U);
         slope = l * slope * (1.0 + 16.0 * U);
         reach = l * reach + rule.c_err + (square * size.max(F8::ONE) + rule.c_size) * (64.0 * U);
-        for t in [&mut tx, &mut ty, &mut tz] {
-            let [t0, t1, t2, t3] = *t;
-            let turned = b.mul_add(t1, c.mul_add(t2, w * t3));
+        for t in &mut tangents {
+            let mut turned = q[C - 1] * t[C - 1];
+            for i in (1..C - 1).rev() {
+                turned = q[i].mul_add(t[i], turned);
+            }
+            let (a, t0) = (q[0], t[0]);
             let (real, factor, change) = match rule.power {
                 JuliaPower::Square => ((a * t0 - turned) * 2.0, a * 2.0, t0 * 2.0),
                 JuliaPower::Cube => {
@@ -358,22 +476,25 @@ fn gradient8(rule: &Rule<1, 4>, lift: &Lift<1, 4>, iterations: u32, y: &Vec3<F8>
                     ((a * a - rest) * 3.0 * t0 - a * turned * 6.0, factor, a * t0 * 6.0 - turned * 2.0)
                 }
             };
-            *t = [
-                real,
-                factor.mul_add(t1, change * b),
-                factor.mul_add(t2, change * c),
-                factor.mul_add(t3, change * w),
-            ];
+            t[0] = real;
+            for (t, q) in t.iter_mut().zip(q).skip(1) {
+                *t = factor.mul_add(*t, change * q);
+            }
         }
-        ball.step(&rule.c[0], rule.power, rule.c_err, rule.c_size);
+        ball.step(c, rule.power, rule.c_err, rule.c_size);
     }
-    let [a, b, c, w] = ball.q;
-    let square = a.mul_add(a, b.mul_add(b, c.mul_add(c, w * w)));
+    let [square] = squared(&[ball.q]);
     let size = square.sqrt();
-    let along = |t: [F8; 4]| a.mul_add(t[0], b.mul_add(t[1], c.mul_add(t[2], w * t[3])));
-    let half = Vec3::new(along(tx), along(ty), along(tz));
+    let mut half = [zero; 3];
+    for (half, t) in half.iter_mut().zip(&tangents) {
+        *half = ball.q[C - 1] * t[C - 1];
+        for i in (0..C - 1).rev() {
+            *half = ball.q[i].mul_add(t[i], *half);
+        }
+    }
     let e_half = (size * d + ball.r * (slope + d) + size * slope * (16.0 * U)) * (1.0 + 16.0 * U) + TINY;
     let far = size + reach;
     let bend = (slope * slope + far * curve) * (2.0 * (1.0 + 1.0 / 1024.0));
-    Gradient { square, r: ball.r, half, e_half, bend }
+    let e_square = (size * 2.0 + ball.r) * ball.r;
+    Gradient { square, e_square, half: Vec3::from(half), e_half, bend }
 }

@@ -122,42 +122,57 @@ impl<const M: usize, const C: usize> Lift<M, C> {
     }
 }
 
-impl Lift<1, 4> {
+impl<const M: usize, const C: usize> Lift<M, C> {
     /// `A v`, eight times.
     #[inline(always)]
-    pub(super) fn turned8(&self, v: Vec3<F8>) -> [F8; 4] {
-        let [[a, b, c, d]] = self.a;
-        [dot8(a, v), dot8(b, v), dot8(c, v), dot8(d, v)]
+    pub(super) fn turned8(&self, v: Vec3<F8>) -> [[F8; C]; M] {
+        let mut z = [[F8::ZERO; C]; M];
+        for (z, a) in z.iter_mut().zip(&self.a) {
+            for (z, a) in z.iter_mut().zip(a) {
+                *z = dot8(*a, v);
+            }
+        }
+        z
     }
 
     /// The images of eight points, rounded.
     #[inline(always)]
-    pub(super) fn at8(&self, p: Vec3<F8>) -> [F8; 4] {
-        let [a, b, c, d] = self.turned8(p);
-        let [[e, f, g, h]] = self.b;
-        [a + e, b + f, c + g, d + h]
+    pub(super) fn at8(&self, p: Vec3<F8>) -> [[F8; C]; M] {
+        let mut z = self.turned8(p);
+        for (z, b) in z.iter_mut().zip(&self.b) {
+            for (z, b) in z.iter_mut().zip(b) {
+                *z += F8::splat(*b);
+            }
+        }
+        z
     }
 
     /// [`Lift::error_of_way`], eight times.
     #[inline(always)]
     pub(super) fn errors_of_way(&self, reach: f64, e: F8) -> F8 {
-        (e * self.size + (e + reach) * (self.a_err + self.size * (6.0 * U))) * (2.0 * (1.0 + 16.0 * U)) + TINY
+        let row = e * self.size + (e + reach) * (self.a_err + self.size * (6.0 * U));
+        row * (root_of(C as f64) * (1.0 + 16.0 * U)) + TINY
     }
 
     /// [`Lift::error`], eight times.
     #[inline(always)]
     pub(super) fn errors(&self, reach: F8, e: F8) -> F8 {
-        (e * self.size + (reach + e) * (self.a_err + self.size * (6.0 * U)) + self.b_err)
-            * (2.0 * (1.0 + 16.0 * U))
+        let row = e * self.size + (reach + e) * (self.a_err + self.size * (6.0 * U)) + self.b_err;
+        row * (root_of(C as f64) * (1.0 + 16.0 * U))
     }
 
-    /// The images of the axes, in each lane.
+    /// The images of the axes in each lane, by numbers.
     #[inline(always)]
-    pub(super) fn axes8(&self) -> [[[F8; 4]; 3]; 1] {
-        let [rows] = self.a;
-        let [a, b, c, d] = rows;
-        let column = |i: usize| [F8::splat(a[i]), F8::splat(b[i]), F8::splat(c[i]), F8::splat(d[i])];
-        [[column(0), column(1), column(2)]]
+    pub(super) fn axes8(&self) -> [[[F8; C]; 3]; M] {
+        let mut axes = [[[F8::ZERO; C]; 3]; M];
+        for (axes, rows) in axes.iter_mut().zip(&self.a) {
+            for (i, row) in rows.iter().enumerate() {
+                for (axis, x) in axes.iter_mut().zip([row.x, row.y, row.z]) {
+                    axis[i] = F8::splat(x);
+                }
+            }
+        }
+        axes
     }
 }
 

@@ -12,7 +12,8 @@
 //! (`orbit.rs`).
 //!
 //! **Escape.** For quaternions, where `|z^k| = |z|^k`, an orbit that leaves the ball of radius `R >= 1` never returns if `R² - R >= |c|`: then
-//! `|z| > R` makes `|z^k + c| >= |z|² - |c| > R² - |c| >= R`. The surface is then `|z_N| = R`; in general it is not.
+//! `|z| > R` makes `|z^k + c| >= |z|² - |c| > R² - |c| >= R`. The surface is then `|z_N| = R`; in general it is not. Of the two complex numbers of a hypercomplex one outside of the ball
+//! the longer one is longer than `R`, and the next one longer than `√2 R`, so that their mean square is beyond `R²` again, if `R² - √2 R >= |c|` for the `c` of each.
 //!
 //! **The extent.** A point is no longer than it is in its slice. Of quaternions `|z_(n+1)| <= ρ` needs `|z_n|^k <= ρ + |c|`, so that `N` roots leave a
 //! smaller ball than `n = 0` does; and so it is for the two complex numbers of a hypercomplex one, which are `√2` times as long at most.
@@ -143,8 +144,17 @@ impl JuliaSet {
                 })
             }
             JuliaAlgebra::Hypercomplex => {
-                let c_size = 2.0 * size;
+                // Of a + b i + c j + d k: (a - d)² + (b + c)², and (a + d)² + (b - c)².
+                let square = |x: f64, y: f64| {
+                    let sums = Interval::from(x).square() + Interval::from(y).square();
+                    sums.sqrt().hi * (1.0 + 8.0 * durer_math::U)
+                };
+                let c_size = square(a - d, b + c).max(square(a + d, b - c)) + TINY;
+                // Each sum is rounded once.
                 let c_err = c_size * (4.0 * durer_math::U) + TINY;
+                // More than √2.
+                let escapes = radius >= 1.0
+                    && (radius * radius - 1.4375 * radius) * (1.0 - 8.0 * durer_math::U) >= c_size;
                 let rule = Rule {
                     c: [[a - d, b + c], [a + d, b - c]],
                     c_err,
@@ -152,7 +162,7 @@ impl JuliaSet {
                     power,
                     iterations,
                     radius,
-                    escapes: false,
+                    escapes,
                 };
                 Algebra::Hypercomplex(Solid {
                     rule,
@@ -228,7 +238,7 @@ impl Surface for JuliaSet {
     fn sketch(&self, _part: PartId) -> Sketch {
         match &*self.0 {
             Algebra::Quaternion(set) => set.sketch(self.bounds()),
-            Algebra::Hypercomplex(_) => Sketch::vague(self.bounds()),
+            Algebra::Hypercomplex(set) => set.sketch(self.bounds()),
         }
     }
 

@@ -74,7 +74,9 @@ enum Aim {
 }
 
 /// Surfaces that lanes see in coordinates of their own.
-const OF_HIGHER_DEGREE: [&str; 43] = [
+const OF_HIGHER_DEGREE: [&str; 45] = [
+    "hypercomplex julia",
+    "hypercomplex cubic julia",
     "cloud",
     "saddle in a block",
     "block in a saddle",
@@ -401,7 +403,7 @@ fn lanes_see_what_single_rays_see() {
             "sextic" => 15,
             // Where a place is known badly, far away, little is known of the gradient around it.
             "cushion" => 3,
-            "julia" | "cubic julia" => 8,
+            "julia" | "cubic julia" | "hypercomplex julia" | "hypercomplex cubic julia" => 8,
             // Next to where a formula is undefined nothing is sure.
             "thorn" => 1,
             "wavy ring" => 6,

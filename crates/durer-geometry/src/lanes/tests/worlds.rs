@@ -353,6 +353,7 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     level_worlds(all);
     worlds("cubic", Sides::Smooth, padded, all);
     worlds("cloud", Sides::Rounded, cloud(), all);
+    hypercomplex_worlds(all);
     core::mem::take(&mut all.1)
 }
 
@@ -374,6 +375,22 @@ fn level_worlds(all: &mut Worlds) {
     let cushion = Placed::new(superellipsoid(0.5, 1.25).unwrap(), scaled(0.9));
     worlds("cushion", Sides::Bracketed, cushion, all);
     contained_worlds(all);
+}
+
+/// Sets of two complex numbers.
+fn hypercomplex_worlds(all: &mut Worlds) {
+    let set = Julia {
+        c: [-0.5, 0.125, 0.25, 0.0625],
+        algebra: JuliaAlgebra::Hypercomplex,
+        power: JuliaPower::Square,
+        iterations: 5,
+        radius: 4.0,
+        normal: [0.0, 0.25, 0.0, 1.0],
+        distance: 0.125,
+    };
+    worlds("hypercomplex julia", Sides::Bracketed, JuliaSet::new(&set).unwrap(), all);
+    let cube = Julia { power: JuliaPower::Cube, iterations: 3, ..set };
+    worlds("hypercomplex cubic julia", Sides::Bracketed, JuliaSet::new(&cube).unwrap(), all);
 }
 
 /// Formulas in containers.
