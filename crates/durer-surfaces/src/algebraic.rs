@@ -412,7 +412,7 @@ impl Surface for AlgebraicSurface {
         match &self.0 {
             Fitting::Four(p) => Sketch::algebraic(Kind8::Quartic(Arc::new(p.terms())), p.scale),
             Fitting::Eight(p) => Sketch::algebraic(Kind8::Octic(Arc::new(p.terms())), p.scale),
-            Fitting::Sixteen(_) => Sketch::vague(self.bounds()),
+            Fitting::Sixteen(p) => Sketch::algebraic(Kind8::High(Arc::new(p.terms())), p.scale),
         }
     }
 

@@ -29,6 +29,8 @@ pub(crate) enum Kind8 {
     Quartic(Arc<Terms<5>>),
     /// Of degree up to eight.
     Octic(Arc<Terms<9>>),
+    /// Of degree up to sixteen.
+    High(Arc<Terms<17>>),
     /// A blob.
     Fields(Arc<Fields>),
     /// A solid that is told a stretch at a time.
@@ -56,6 +58,7 @@ pub(super) struct Memory {
     swept: swept::Memory,
     quartic: algebraic::Memory<5>,
     octic: algebraic::Memory<9>,
+    high: algebraic::Memory<17>,
     fields: fields::Memory,
     pub(super) level: level::Stream,
 }
@@ -87,7 +90,7 @@ impl Kind8 {
     }
 
     fn is_endless(&self) -> bool {
-        matches!(self, Self::Quartic(_) | Self::Octic(_))
+        matches!(self, Self::Quartic(_) | Self::Octic(_) | Self::High(_))
     }
 }
 
@@ -108,7 +111,7 @@ impl Detail {
         match &self.shape {
             Kind8::Lathe(lathe) => lathe.name(face),
             Kind8::Swept(swept) => swept.face(face),
-            Kind8::Quartic(_) | Kind8::Octic(_) | Kind8::Fields(_) => 0,
+            Kind8::Quartic(_) | Kind8::Octic(_) | Kind8::High(_) | Kind8::Fields(_) => 0,
             Kind8::Level(_) => face,
         }
     }
@@ -152,7 +155,7 @@ impl Detail {
         match &self.shape {
             Kind8::Lathe(lathe) => lathe.faces() <= Outline::FACES,
             Kind8::Swept(swept) => swept.is_operand(),
-            Kind8::Quartic(_) | Kind8::Octic(_) | Kind8::Fields(_) => true,
+            Kind8::Quartic(_) | Kind8::Octic(_) | Kind8::High(_) | Kind8::Fields(_) => true,
             Kind8::Level(_) => false,
         }
     }
@@ -184,6 +187,7 @@ impl Detail {
             Kind8::Swept(_) | Kind8::Level(_) => {}
             Kind8::Quartic(f) => f.meet(&self.own, rays, (start, cell), to, &mut memory.quartic),
             Kind8::Octic(f) => f.meet(&self.own, rays, (start, cell), to, &mut memory.octic),
+            Kind8::High(f) => f.meet(&self.own, rays, (start, cell), to, &mut memory.high),
             Kind8::Fields(fields) => fields.meet(&self.own, rays, start, to, &mut memory.fields),
         }
     }
@@ -201,6 +205,7 @@ impl Detail {
             Kind8::Swept(swept) => swept.holds(&self.own, rays, start, (at, asked), &mut memory.swept),
             Kind8::Quartic(f) => f.holds(&self.own, rays, start, at),
             Kind8::Octic(f) => f.holds(&self.own, rays, start, at),
+            Kind8::High(f) => f.holds(&self.own, rays, start, at),
             Kind8::Fields(fields) => fields.holds(&self.own, rays, start, at),
             Kind8::Level(_) => (0, 0),
         }
@@ -226,6 +231,7 @@ impl Detail {
             Kind8::Swept(swept) => swept.spot(&self.own, (face, tag), h, h1),
             Kind8::Quartic(f) => f.skin(&self.own, h, h1),
             Kind8::Octic(f) => f.skin(&self.own, h, h1),
+            Kind8::High(f) => f.skin(&self.own, h, h1),
             Kind8::Fields(fields) => fields.skin(&self.own, h, h1),
             Kind8::Level(level) => level::skin(&**level, isa, &self.own, h, h1),
         }

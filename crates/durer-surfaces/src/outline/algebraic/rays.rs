@@ -8,15 +8,17 @@
 //!   far behind   t = t_c + T / (1 - x)     0 <= x < 1      (1 - x)^n f(y_c + v / (1 - x))
 //! ```
 //!
-//! whose coefficients all follow from those of `f(y_c + s v)`, and which are wrong, in sum, by no more than
+//! whose coefficients all follow from those `c_k` of `f(y_c + s v)`. The magnitudes of their coefficients are, in sum, at most `Σ |c_k|`, `Σ |c_k| 3^k` (in powers of `2 x - 1`, then of `x`) and
+//! `Σ |c_k| 2^(n-k)` (in powers of `1 - x`, then of `x`), which `F` bounds, and `F₁` the errors. So they are wrong by no more than
 //!
 //! ```text
-//!   e = F₁(M) e_y + 16 N U F(M),   M = |y_c| + 3 |v| + e_y
+//!   e = r (F₁(M) e_y + 16 N U F(M)),   M = |y_c| + s |v| + e_y,      s = 1, r = 1;   s = 3, r = 1;   s = 1/2, r = 2^n
 //! ```
 //!
-//! and `2^n` times that far behind: the roundings of `f` along a ray (`mod.rs`), of the change of variable, and of all that `poly.rs` does are fewer than `12 N`. Where the part that
+//! as the roundings of `f` along a ray (`mod.rs`), of the change of variable, and of all that `poly.rs` does are fewer than `12 N`. Where the part that
 //! matters is short it is the piece about its middle; else `t_c` is where the ray is closest to the origin, or starts if that is behind, and `|v| = 4 + 2 |y_c|` with largest
-//! coordinates for sizes: beyond, the leading terms decide mostly. (`n` is the order of `f`, not `N - 1`: a leading coefficient of zero would leave the sign at infinity open.)
+//! coordinates for sizes, half of that for high orders: beyond, the leading terms decide mostly. (`n` is the order of `f`, not `N - 1`: a leading coefficient of zero would leave the sign at
+//! infinity open.)
 //!
 //! **Which root** is proven so; where it is, within that error only. One step of Newton's method with `f` at the point itself, whose error goes with `|y|` alone, and two certain signs
 //! beside it close it in further, where they lie within.
@@ -34,10 +36,13 @@ use crate::outline::rays::{From8, RayLanes, SLACK};
 use durer_math::scale::pow2;
 use durer_math::{F8, M8, U, Vec3};
 
-/// Coordinates beyond this are doubts.
-const FAR: f64 = pow2(100);
-/// Pays for what products may lose below the normal numbers: fewer than `2^14` of `2^-1075`, each times powers of numbers below `2 FAR`, eight in all.
+/// Pays for what products may lose below the normal numbers: fewer than `2^17` of `2^-1075`, each times `N - 1` powers of numbers below `2 far`.
 const TINY: f64 = pow2(-240);
+
+/// Coordinates beyond this are doubts.
+const fn far<const N: usize>() -> f64 {
+    if N <= 9 { pow2(100) } else { pow2(50) }
+}
 
 /// Which piece of a ray.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -55,9 +60,9 @@ pub(in crate::outline) struct Memory<const N: usize> {
     d: Vec3<F8>,
     e_o: F8,
     e_d: F8,
-    /// Coefficients of the powers of `s`, and the bound on the error of each piece but the last.
+    /// Coefficients of the powers of `s`, and bounds on the errors of the pieces.
     c: [F8; N],
-    e: F8,
+    e: [F8; 3],
     t_c: F8,
     reach: F8,
     /// The part of the ray that is looked at, and where within it crossings are surely of what is kept.
@@ -86,7 +91,7 @@ impl<const N: usize> Default for Memory<N> {
             e_o: z,
             e_d: z,
             c: [z; N],
-            e: z,
+            e: [z; 3],
             t_c: z,
             reach: z,
             from: z,
@@ -182,7 +187,7 @@ impl<const N: usize> Terms<N> {
         let m = m + e;
         let Sizes { f, slope, .. } = self.sizes(m);
         let error = (slope * e + f * (16.0 * N as f64 * U) + TINY) * SLACK;
-        m.lt(F8::splat(FAR)).select(error, F8::splat(f64::INFINITY))
+        m.lt(F8::splat(far::<N>())).select(error, F8::splat(f64::INFINITY))
     }
 
     /// Puts down where on the rays the roots are.
@@ -226,17 +231,21 @@ impl<const N: usize> Terms<N> {
                 let (e_o, e_d) = (own.point_error(start.h1), own.vector_error(rays.d1));
                 let size = largest(d);
                 let closest = (-dot(o, d) / dot(d, d)).max(memory.from);
-                let reach = largest(on(o, closest, d)).mul_add(F8::splat(2.0), F8::splat(4.0)) / size;
+                let share = if N <= 9 { 2.0 } else { 1.0 };
+                let reach = (largest(on(o, closest, d)) * share + 2.0 * share) / size;
                 let half = (memory.to - memory.from) * 0.5;
                 let short = half.le(reach);
                 let t_c = short.select(memory.from + half, closest);
                 let reach = short.select(half, reach);
                 let y = on(o, t_c, d);
                 let v = Vec3::new(d.x * reach, d.y * reach, d.z * reach);
-                let length = reach * size * 3.0;
+                let length = reach * size;
                 let way = t_c.abs() + reach * 3.0;
                 let e_y = e_o + way * e_d + (largest(o) + way * size) * (4.0 * U);
-                memory.e = self.error(largest(y) + length, e_y);
+                let far_behind = pow2(self.order as i32);
+                for (e, (s, r)) in memory.e.iter_mut().zip([(1.0, 1.0), (3.0, 1.0), (0.5, far_behind)]) {
+                    *e = self.error(largest(y) + length * s, e_y) * r;
+                }
                 (memory.t_c, memory.reach) = (t_c, reach);
                 (memory.o, memory.d, memory.e_o, memory.e_d) = (o, d, e_o, e_d);
                 memory.c = self.along(y, v);
@@ -306,14 +315,14 @@ fn begin_here<K: Offer, const N: usize>(
     }
     let n = order.min(N - 1);
     let mut p = [F8::ZERO; N];
-    let (l, end, e) = match piece {
+    let (l, end) = match piece {
         Piece::Before => {
             for k in 0..=n {
                 p[k] = if (n - k) % 2 == 0 { c[n - k] } else { -c[n - k] };
             }
             let l = reach / (t_c - from) * (1.0 - 8.0 * U);
             let end = until.lt(first).select(reach / (t_c - until) * (1.0 + 8.0 * U), F8::ONE);
-            (l, end.min(F8::ONE), e)
+            (l, end.min(F8::ONE))
         }
         Piece::About => {
             // In powers of `2 x - 1`, shifted.
@@ -328,7 +337,7 @@ fn begin_here<K: Offer, const N: usize>(
             let out = (t_c.abs() + reach) * (8.0 * U);
             let l = ((from - first - out) / width).max(F8::ZERO);
             let end = ((until - first + out) / width).min(F8::ONE);
-            (l, end, e)
+            (l, end)
         }
         Piece::Behind => {
             for k in 0..=n {
@@ -342,9 +351,10 @@ fn begin_here<K: Offer, const N: usize>(
                 }
             }
             let end = F8::ONE - reach / (until - t_c) * (1.0 - 8.0 * U) + 2.0 * U;
-            (F8::ZERO, end.min(F8::ONE), e * pow2(n as i32))
+            (F8::ZERO, end.min(F8::ONE))
         }
     };
+    let e = e[piece as usize];
     memory.poly = Poly8 { c: p, e, e_first: e, e_last: e };
     let Memory { poly, part, sign, open, .. } = &mut *memory;
     poly.begin_within(live, (l, end), *sign, part);
