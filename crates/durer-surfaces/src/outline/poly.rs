@@ -52,8 +52,10 @@ pub(super) struct Root8 {
     pub(super) e: F8,
 }
 
-/// A part that is halved more often is a doubt.
-const MOST_PARTS: usize = 16;
+/// After so many parts without a root, or halved, what is left is a doubt: a ray by itself takes as long as hundreds.
+const MOST_PARTS: usize = 64;
+/// Behind a part without a root the next one is so many times as long.
+const LONGER: f64 = 2.0;
 /// Newton's steps at least before the first look whether all lanes are done, and at most.
 const STEPS: (usize, usize) = (1, 24);
 /// After a step as short as this the next one, which squares it, is at the end of f64. Only time depends on it: signs prove the root.
@@ -212,7 +214,8 @@ impl<const N: usize> Poly8<N> {
         let half = (l + r) * 0.5;
         let next = part.open & none;
         part.l = next.select(r, l);
-        part.r = next.select(part.end, part.open.select(half, r));
+        let longer = (r - l).mul_add(F8::splat(LONGER), r).min(part.end);
+        part.r = next.select(longer, part.open.select(half, r));
     }
 
     /// All Bernstein coefficients on a part; the first, the value at its start, is not to be used.
