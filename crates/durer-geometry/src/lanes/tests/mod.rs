@@ -74,7 +74,8 @@ enum Aim {
 }
 
 /// Surfaces that lanes see in coordinates of their own.
-const OF_HIGHER_DEGREE: [&str; 45] = [
+const OF_HIGHER_DEGREE: [&str; 46] = [
+    "decic",
     "hypercomplex julia",
     "hypercomplex cubic julia",
     "cloud",
@@ -434,6 +435,27 @@ fn what_is_clipped_within_its_box_is_seen() {
             compare(&world, Aim::Random, &rays, &mut dice, 0, &mut tally);
         }
         assert!(tally.met > 30, "{}: {} met", world.name, tally.met);
+    }
+}
+
+/// How far a ray has gone where it starts says nothing about how near to a place counts as close.
+#[test]
+fn rays_from_within_level_sets_are_seen() {
+    let mut dice = Dice(7);
+    // Far from the origin places are known worse than that.
+    let far = |name: &str| name.contains("far") || name.contains("returned");
+    let within = |w: &&World| ["cushion", "egg"].contains(&w.surface) && !far(&w.name);
+    for world in all_worlds(Isa::detect()).iter().filter(within) {
+        let mut tally = Tally::default();
+        for _ in 0..64 {
+            let rays = eight(|_| {
+                let from = world.place(dice.vector(0.125).to_point());
+                Ray::new(from, world.place(dice.vector(1.0).to_point()) - from)
+            });
+            compare(world, Aim::Random, &rays, &mut dice, 0, &mut tally);
+        }
+        println!("{}: {} rays, {} met, {} asked", world.name, tally.rays, tally.met, tally.asked);
+        assert!(tally.met == tally.rays && tally.asked * 32 <= tally.rays, "{}: {}", world.name, tally.asked);
     }
 }
 

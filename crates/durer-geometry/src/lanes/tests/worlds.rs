@@ -354,6 +354,16 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     worlds("cubic", Sides::Smooth, padded, all);
     worlds("cloud", Sides::Rounded, cloud(), all);
     hypercomplex_worlds(all);
+    // A cushion with sharper corners.
+    let decic = [
+        ([10, 0, 0], 1.0),
+        ([0, 10, 0], 0.5),
+        ([0, 0, 10], 1.0),
+        ([4, 2, 4], 0.25),
+        ([1, 0, 2], 0.125),
+        ([0, 0, 0], -0.875),
+    ];
+    worlds("decic", Sides::Smooth, of(10, &decic), all);
     core::mem::take(&mut all.1)
 }
 

@@ -456,23 +456,19 @@ fn close_in(level: &dyn Level, asked: &Question<'_>, nearest: &mut Nearest, memo
     let rays = asked.rays;
     let isa = rays.isa;
     level.about(&memory.line, &memory.a, memory.found, &mut memory.value.g);
-    let (mut x, mut close, mut done, mut stayed) = (F8::ZERO, F8::ZERO, M8::NONE, F8::ZERO);
+    let (mut x, mut done, mut stayed) = (F8::ZERO, M8::NONE, F8::ZERO);
     isa.run_in_lanes(
         #[inline(always)]
         || {
             memory.g_a = memory.value.g * memory.sign;
-            let (t_a, t_b) =
-                (memory.a.mul_add(memory.unit, memory.t_c), memory.b.mul_add(memory.unit, memory.t_c));
-            // Of the ray's parameter; along the line it is as much over the unit.
-            close = (t_a.abs().min(t_b.abs()) / memory.unit) * CLOSE;
             x = next(memory, 0);
             done = !memory.found;
             memory.asked = memory.found;
         },
     );
     for near in [64.0, 0.25] {
-        converge(level, (&close, near), (&mut x, &mut done, &mut stayed), memory);
-        prove(level, asked, (&x, &close), nearest, memory);
+        converge(level, near, (&mut x, &mut done, &mut stayed), memory);
+        prove(level, asked, &x, nearest, memory);
         isa.run_in_lanes(
             #[inline(always)]
             || {
@@ -488,7 +484,7 @@ fn close_in(level: &dyn Level, asked: &Question<'_>, nearest: &mut Nearest, memo
 #[inline(never)]
 fn converge(
     level: &dyn Level,
-    (close, near): (&F8, f64),
+    near: f64,
     (x, done, stayed): (&mut F8, &mut M8, &mut F8),
     memory: &mut Memory,
 ) {
@@ -517,12 +513,19 @@ fn converge(
                 (*b, *g_b) = (second.select(*x, *b), second.select(g, *g_b));
                 let to = next(memory, i);
                 let moved = (to - *x).abs();
-                *done |= moved.le(*close * near) | !known;
+                let moved = moved * memory.unit;
+                *done |= moved.le(close(memory, to) * near) | !known;
                 *x = moving.select(to, *x);
                 memory.asked = !*done;
             },
         );
     }
+}
+
+/// How near to a place counts as close: a part of the ray's parameter there.
+#[inline(always)]
+fn close(memory: &Memory, x: F8) -> F8 {
+    x.mul_add(memory.unit, memory.t_c).abs() * CLOSE
 }
 
 /// Where to look next: where the chord is zero, each eighth time in the middle.
@@ -537,22 +540,20 @@ fn next(memory: &Memory, turn: u32) -> F8 {
 
 /// Offers what has certain signs on either side.
 #[inline(never)]
-fn prove(
-    level: &dyn Level,
-    asked: &Question<'_>,
-    (x, close): (&F8, &F8),
-    nearest: &mut Nearest,
-    memory: &mut Memory,
-) {
+fn prove(level: &dyn Level, asked: &Question<'_>, x: &F8, nearest: &mut Nearest, memory: &mut Memory) {
     if !memory.found.any() {
         return;
     }
     let rays = asked.rays;
     let isa = rays.isa;
-    let (mut low, mut high, mut sure) = (F8::ZERO, F8::ZERO, M8::NONE);
+    let (mut low, mut high, mut width, mut sure) = (F8::ZERO, F8::ZERO, F8::ZERO, M8::NONE);
     isa.run_in_lanes(
         #[inline(always)]
-        || (low, high) = (*x - *close, *x + *close),
+        || {
+            width = close(memory, *x);
+            let way = width / memory.unit;
+            (low, high) = (*x - way, *x + way);
+        },
     );
     level.values(&memory.line, &low, memory.found, &mut memory.value);
     isa.run_in_lanes(
@@ -569,7 +570,7 @@ fn prove(
             let Memory { held, sign, found, value, unit, t_c, e_t, .. } = &mut *memory;
             let positive = sign.gt(F8::ZERO);
             let t = x.mul_add(*unit, *t_c);
-            let e = (*close * *unit + *e_t) * SLACK;
+            let e = (width + *e_t) * SLACK;
             let within = (t - e).gt(held.after) & (t + e).lt(held.before);
             let sure = *found & sure & within & (positive & value.below | !positive & value.above);
             let open = *found & !(t - e).gt(nearest.limit(rays));
