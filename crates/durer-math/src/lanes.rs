@@ -211,11 +211,7 @@ impl M8 {
     /// Lane `i` as bit `i`.
     #[inline(always)]
     pub fn bits(self) -> u8 {
-        let mut bits = 0;
-        for i in 0..LANES {
-            bits |= u8::from(self.0[i] != 0) << i;
-        }
-        bits
+        crate::kernels::bits_of_masks(&self.0)
     }
 
     /// Bit `i` as lane `i`.

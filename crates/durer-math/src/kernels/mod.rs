@@ -1,8 +1,10 @@
 //! The one door through which code gets the CPU's vector and fused instructions.
-#![expect(unsafe_code, reason = "calling a function compiled for CPU features is unsafe; an Isa proves them")]
+#![expect(unsafe_code, reason = "calling a function compiled for CPU features is unsafe; an Isa, or the architecture, proves them")]
 
+mod masks;
 mod pages;
 
+pub(crate) use masks::bits_of_masks;
 pub use pages::in_large_pages;
 
 use std::sync::OnceLock;

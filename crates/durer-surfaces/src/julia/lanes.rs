@@ -309,8 +309,8 @@ impl<const M: usize, const C: usize> Level for Solid<M, C> {
                 self.rule.known(balls)
             },
         );
-        (told.out, told.within) = (M8::from_bits(known.out), M8::from_bits(known.within));
-        (told.rises, told.falls) = (M8::from_bits(known.rises), M8::from_bits(known.falls));
+        (told.out, told.within) = (known.out, known.within);
+        (told.rises, told.falls) = (known.rises, known.falls);
         line.isa.run_in_lanes(
             #[inline(always)]
             || {

@@ -305,8 +305,8 @@ impl<const M: usize, const C: usize> Curve for Line<'_, M, C> {
     fn signs(&self, (): (), a: &[f64; 8], b: &[f64; 8]) -> [Option<bool>; 8] {
         let known = if a == b { self.at(a) } else { self.between(a, b) };
         core::array::from_fn(|k| match () {
-            () if known.out >> k & 1 == 1 => Some(true),
-            () if known.within >> k & 1 == 1 => Some(false),
+            () if known.out.lane(k) => Some(true),
+            () if known.within.lane(k) => Some(false),
             () => None,
         })
     }

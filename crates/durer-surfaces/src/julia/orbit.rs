@@ -17,7 +17,7 @@
 //! each with an orbit of its own.
 
 use super::JuliaPower;
-use durer_math::{F8, U};
+use durer_math::{F8, M8, U};
 
 /// Pays for results below the normal range.
 pub(super) const TINY: f64 = durer_math::scale::pow2(-900);
@@ -31,16 +31,16 @@ pub(super) struct Ball<const C: usize> {
     pub(super) d: F8,
 }
 
-/// What is known of eight stretches, one bit each.
+/// What is known of eight stretches.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Known {
     /// Certainly outside.
-    pub(super) out: u8,
+    pub(super) out: M8,
     /// Certainly inside.
-    pub(super) within: u8,
+    pub(super) within: M8,
     /// What decides is one `|z_n|`, and it grows; or it shrinks.
-    pub(super) rises: u8,
-    pub(super) falls: u8,
+    pub(super) rises: M8,
+    pub(super) falls: M8,
     /// How much `|z_n|` may change for the stretch's length, and by what is not known, for the last `n` that was not certain.
     pub(super) spread: F8,
     pub(super) blur: F8,
@@ -174,10 +174,10 @@ struct Told {
     blur: F8,
 }
 
-/// Bits of the lanes that are positive.
+/// The lanes that are positive.
 #[inline(always)]
-fn positive(x: &F8) -> u8 {
-    x.gt(F8::ZERO).bits()
+fn positive(x: &F8) -> M8 {
+    x.gt(F8::ZERO)
 }
 
 #[inline(always)]
@@ -231,19 +231,21 @@ impl<const M: usize, const C: usize> Rule<M, C> {
     #[inline(always)]
     pub(super) fn known(&self, mut balls: [Ball<C>; M]) -> Known {
         let mut known = Known::default();
-        let (mut one, mut many, mut rises, mut falls) = (0_u8, 0_u8, 0_u8, 0_u8);
+        let (mut one, mut many, mut rises, mut falls) = (M8::NONE, M8::NONE, M8::NONE, M8::NONE);
         for n in 0..=self.iterations {
             if self.escapes && n < self.iterations {
-                if self.beyond(&balls) & !known.out != 0 {
+                // Every second time: what is outside stays there, and what is not yet out is far from the end of its range two steps on.
+                let asked = (self.iterations - n).is_multiple_of(2);
+                if asked && (self.beyond(&balls) & !known.out).any() {
                     known.out |= positive(&outside(&balls, self.radius));
-                    if known.out == u8::MAX {
+                    if known.out.all() {
                         return known;
                     }
                 }
             } else {
                 let told = tell(&balls, self.radius);
                 known.out |= positive(&told.out);
-                if known.out == u8::MAX {
+                if known.out.all() {
                     return known;
                 }
                 let open = !(positive(&told.within) | known.out);
@@ -251,11 +253,8 @@ impl<const M: usize, const C: usize> Rule<M, C> {
                 one |= open;
                 rises |= open & positive(&told.rises);
                 falls |= open & positive(&told.falls);
-                for k in 0..8 {
-                    if open >> k & 1 == 1 {
-                        (known.spread.0[k], known.blur.0[k]) = (told.spread.0[k], told.blur.0[k]);
-                    }
-                }
+                known.spread = open.select(told.spread, known.spread);
+                known.blur = open.select(told.blur, known.blur);
             }
             if n < self.iterations {
                 for (ball, c) in balls.iter_mut().zip(&self.c) {
@@ -271,7 +270,7 @@ impl<const M: usize, const C: usize> Rule<M, C> {
 
     /// Where the middles of the stretches are beyond the radius: where they are not, nothing is certainly [`outside`], which takes three times as long to tell.
     #[inline(always)]
-    fn beyond(&self, balls: &[Ball<C>; M]) -> u8 {
+    fn beyond(&self, balls: &[Ball<C>; M]) -> M8 {
         let mut over = F8::ZERO;
         let level = self.radius * self.radius;
         for k in 0..8 {

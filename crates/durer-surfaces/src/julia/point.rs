@@ -27,8 +27,8 @@ impl<const M: usize, const C: usize> Solid<M, C> {
                 }
                 let known = self.rule.known(balls);
                 core::array::from_fn(|k| match () {
-                    () if known.out >> k & 1 == 1 => Some(true),
-                    () if known.within >> k & 1 == 1 => Some(false),
+                    () if known.out.lane(k) => Some(true),
+                    () if known.within.lane(k) => Some(false),
                     () => None,
                 })
             },

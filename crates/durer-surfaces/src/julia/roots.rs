@@ -78,7 +78,7 @@ impl<const M: usize, const C: usize> Query<'_, M, C> {
         let b: [f64; 8] = core::array::from_fn(|i| node[i + 1]);
         let known = self.line.between(&a, &b);
         self.passes += 1;
-        let told = known.out | known.within | known.rises | known.falls;
+        let told = (known.out | known.within | known.rises | known.falls).bits();
         let width = (hi - lo) * 0.0625;
         let mut murky = 0_u8;
         if told != u8::MAX {
@@ -89,21 +89,21 @@ impl<const M: usize, const C: usize> Query<'_, M, C> {
                 let middle: [f64; 8] = core::array::from_fn(|i| 0.5 * (a[i] + b[i]));
                 let points = self.line.at(&middle);
                 self.passes += 1;
+                let told = told | (points.out | points.within).bits();
                 for i in 0..8 {
-                    let open = (told | points.out | points.within) >> i & 1 == 0;
+                    let open = told >> i & 1 == 0;
                     let lost = known.spread.0[i] <= 4.0 * points.blur.0[i];
                     murky |= u8::from(open && lost) << i;
                 }
             }
         }
         for i in 0..8 {
-            let is = |bits: u8| bits >> i & 1 == 1;
             let verdict = match () {
-                () if is(known.out) => Verdict::Sign(true),
-                () if is(known.within) => Verdict::Sign(false),
-                () if is(known.rises) => Verdict::Monotone(true),
-                () if is(known.falls) => Verdict::Monotone(false),
-                () if is(murky) => Verdict::Murky,
+                () if known.out.lane(i) => Verdict::Sign(true),
+                () if known.within.lane(i) => Verdict::Sign(false),
+                () if known.rises.lane(i) => Verdict::Monotone(true),
+                () if known.falls.lane(i) => Verdict::Monotone(false),
+                () if murky >> i & 1 == 1 => Verdict::Murky,
                 () => {
                     if self.isolate(a[i], b[i]) == Flow::Stop {
                         return Flow::Stop;

@@ -11,7 +11,7 @@
 //!   outline    the same in f64, with their errors               (`face.rs`)
 //!   roots      where eight rays cross a face                    (`roots.rs`)
 //!   lathe      surfaces of revolution of higher degree, in coordinates of their own    (`lathe/`, `poly.rs`, `own.rs`, `detail.rs`)
-//!   algebraic  zero sets of polynomials up to degree eight, the same way               (`algebraic/`)
+//!   algebraic  zero sets of polynomials, the same way                                   (`algebraic/`)
 //!   fields     blobs, the same way                            (`fields/`)
 //!   level      solids of no polynomial, a stretch at a time   (`level/`)
 //!   swept      walls and caps of curved prisms, the same way        (`swept/`, `whole.rs`)
