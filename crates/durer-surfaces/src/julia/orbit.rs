@@ -234,9 +234,7 @@ impl<const M: usize, const C: usize> Rule<M, C> {
         let (mut one, mut many, mut rises, mut falls) = (M8::NONE, M8::NONE, M8::NONE, M8::NONE);
         for n in 0..=self.iterations {
             if self.escapes && n < self.iterations {
-                // Every second time: what is outside stays there, and what is not yet out is far from the end of its range two steps on.
-                let asked = (self.iterations - n).is_multiple_of(2);
-                if asked && (self.beyond(&balls) & !known.out).any() {
+                if (self.beyond(&balls) & !known.out).any() {
                     known.out |= positive(&outside(&balls, self.radius));
                     if known.out.all() {
                         return known;
