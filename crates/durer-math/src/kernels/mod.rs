@@ -1,5 +1,8 @@
 //! The one door through which code gets the CPU's vector and fused instructions.
-#![expect(unsafe_code, reason = "calling a function compiled for CPU features is unsafe; an Isa, or the architecture, proves them")]
+#![expect(
+    unsafe_code,
+    reason = "calling a function compiled for CPU features is unsafe; an Isa, or the architecture, proves them"
+)]
 
 mod masks;
 mod pages;
