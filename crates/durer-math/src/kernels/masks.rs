@@ -1,7 +1,7 @@
 //! Eight masks as eight bits.
 //!
-//! The compiler sees through a comparison that becomes a mask that becomes a bit, and puts the bits together one by one, with shifts and through memory: fifty instructions and more, for what the
-//! CPU has an instruction for.
+//! The compiler sees through a comparison that becomes a mask that becomes a bit, and puts the bits together in pieces, with shifts and through memory: thirty instructions and more, where
+//! seven do (docs/performance.md, "Bits of masks").
 
 use crate::lanes::LANES;
 
