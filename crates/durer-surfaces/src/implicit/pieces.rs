@@ -296,14 +296,14 @@ mod tests {
                     assert!(!is(told.rises) || step.is_gt(), "{seed} {i}");
                     assert!(!is(told.falls) || step.is_lt(), "{seed} {i}");
                 }
-                kept += u32::from(is(told.out) || is(told.within));
-                shortened += u32::from((is(told.out) || is(told.within)) && to < b.0[i]);
-                ways += u32::from(is(told.rises) || is(told.falls));
-                moved += u32::from((is(told.rises) || is(told.falls)) && from > a.0[i]);
+                kept += usize::from(is(told.out) || is(told.within));
+                shortened += usize::from((is(told.out) || is(told.within)) && to < b.0[i]);
+                ways += usize::from(is(told.rises) || is(told.falls));
+                moved += usize::from((is(told.rises) || is(told.falls)) && from > a.0[i]);
             }
         }
-        // All of it on each path.
-        let paths = Isa::available().map(|_| 1).sum::<u32>();
+        // Counted on each path.
+        let paths = Isa::available().count();
         assert!(
             kept > 1250 * paths && shortened > 125 * paths && ways > 125 * paths && moved > 50 * paths,
             "{paths}: {kept} {shortened} {ways} {moved}"

@@ -174,12 +174,6 @@ struct Told {
     blur: F8,
 }
 
-/// The lanes that are positive.
-#[inline(always)]
-fn positive(x: &F8) -> M8 {
-    x.gt(F8::ZERO)
-}
-
 #[inline(always)]
 fn tell<const M: usize, const C: usize>(balls: &[Ball<C>; M], radius: f64) -> Told {
     let mut told = Told {
@@ -235,22 +229,22 @@ impl<const M: usize, const C: usize> Rule<M, C> {
         for n in 0..=self.iterations {
             if self.escapes && n < self.iterations {
                 if (self.beyond(&balls) & !known.out).any() {
-                    known.out |= positive(&outside(&balls, self.radius));
+                    known.out |= outside(&balls, self.radius).gt(F8::ZERO);
                     if known.out.all() {
                         return known;
                     }
                 }
             } else {
                 let told = tell(&balls, self.radius);
-                known.out |= positive(&told.out);
+                known.out |= told.out.gt(F8::ZERO);
                 if known.out.all() {
                     return known;
                 }
-                let open = !(positive(&told.within) | known.out);
+                let open = !(told.within.gt(F8::ZERO) | known.out);
                 many |= one & open;
                 one |= open;
-                rises |= open & positive(&told.rises);
-                falls |= open & positive(&told.falls);
+                rises |= open & told.rises.gt(F8::ZERO);
+                falls |= open & told.falls.gt(F8::ZERO);
                 known.spread = open.select(told.spread, known.spread);
                 known.blur = open.select(told.blur, known.blur);
             }
@@ -280,7 +274,7 @@ impl<const M: usize, const C: usize> Rule<M, C> {
             }
             over.0[k] = a * (1.0 / M as f64) - level;
         }
-        positive(&over)
+        over.gt(F8::ZERO)
     }
 
     /// The largest `|z_n|² - R²`, rounded; large as soon as it is certain to be positive by far.
