@@ -30,8 +30,10 @@ use durer_math::lanes::LANES;
 use durer_math::{Aabb, F8, Isa, M8};
 use durer_scene::{Rgb, mask};
 
-/// The camera's rays are followed in bundles of so many groups.
-const CAMERA_GROUPS: usize = 32;
+/// So many of the camera's rays are followed until nothing is left of them: what they send on is still many after some reflections.
+const CAMERA_RAYS: usize = 128 * LANES;
+/// So many groups are seen and shaded at a time: what is known of them on the way is to stay in the cache.
+const AT_A_TIME: usize = 16;
 /// Black is seen after so many rays in a row: each keeps a list of the media it is in.
 const DEEPEST: u32 = 4096;
 
@@ -97,7 +99,7 @@ impl<'w> Whitted<'w> {
         colours: &mut Vec<Rgb>,
     ) -> Option<()> {
         colours.clear();
-        for places in places.chunks(CAMERA_GROUPS * LANES) {
+        for places in places.chunks(CAMERA_RAYS) {
             let sums = &mut self.sums;
             self.isa.run_in_lanes(
                 #[inline(always)]
@@ -106,7 +108,10 @@ impl<'w> Whitted<'w> {
                     sums.resize(places.len(), Rgb::BLACK);
                 },
             );
-            self.start(camera, picture, places);
+            for (i, places) in places.chunks(AT_A_TIME * LANES).enumerate() {
+                self.start(camera, picture, i * AT_A_TIME * LANES, places);
+            }
+            self.tasks.extend(self.onward.take().map(Task::Follow));
             while let Some(task) = self.tasks.pop() {
                 if self.stop.is_cancelled() {
                     self.tasks.clear();
@@ -132,8 +137,8 @@ impl<'w> Whitted<'w> {
         Some(())
     }
 
-    /// Makes bundles of the camera's rays: one, if all start in the same media.
-    fn start(&mut self, camera: &Camera, picture: (u32, u32), places: &[Place]) {
+    /// Follows the camera's rays at some places, whose sums begin with `slot`: in one bundle, if all start in the same media.
+    fn start(&mut self, camera: &Camera, picture: (u32, u32), slot: usize, places: &[Place]) {
         self.counts.camera += places.len() as u64;
         let mut all = self.onward.empty();
         self.isa.run_in_lanes(
@@ -146,7 +151,7 @@ impl<'w> Whitted<'w> {
                         (x.0[i], y.0[i]) = (place.x, place.y);
                         // The place in the picture, to the last bit, names the ray.
                         paths.seed[i] = place.x.to_bits().rotate_left(32) ^ place.y.to_bits();
-                        paths.slot[i] = (group * LANES + i) as u32;
+                        paths.slot[i] = (slot + group * LANES + i) as u32;
                     }
                     let (origin, direction) = camera.rays(x, y, picture);
                     let (t_max, source) = (F8::splat(f64::INFINITY), Rays8::NONE.source);
@@ -161,13 +166,11 @@ impl<'w> Whitted<'w> {
         match self.standing(&all.rays) {
             Some(media) => {
                 all.standing = Standing { media, ..first };
-                self.tasks.push(Task::Follow(all));
+                self.follow(&all);
             }
-            None => {
-                self.start_apart(&all, &first);
-                self.onward.give_back(all);
-            }
+            None => self.start_apart(&all, &first),
         }
+        self.onward.give_back(all);
     }
 
     /// The media in which rays of the camera start, if they are surely the same for all.
@@ -176,7 +179,7 @@ impl<'w> Whitted<'w> {
         self.world.standing(|| Aabb::from_points(origins()))
     }
 
-    /// Makes bundles of rays that may start in different media.
+    /// The same of rays that may start in different media.
     #[cold]
     fn start_apart(&mut self, all: &Bundle<'w>, first: &Standing<'w>) {
         let mut apart: Vec<Bundle<'w>> = Vec::new();
@@ -202,7 +205,10 @@ impl<'w> Whitted<'w> {
                 left &= !same;
             }
         }
-        self.tasks.extend(apart.into_iter().map(Task::Follow));
+        for bundle in apart {
+            self.follow(&bundle);
+            self.onward.give_back(bundle);
+        }
     }
 
     /// Follows the rays of a bundle, if they are not too many in a row already.
@@ -232,16 +238,23 @@ impl<'w> Whitted<'w> {
 
     /// Adds what the rays of a bundle see, and puts those that go on into `onward`.
     fn follow(&mut self, bundle: &Bundle<'w>) {
-        self.see(bundle);
+        for (rays, paths) in bundle.rays.chunks(AT_A_TIME).zip(bundle.paths.chunks(AT_A_TIME)) {
+            self.follow_some((rays, paths), &bundle.standing);
+        }
+    }
+
+    /// The same of some of its groups.
+    fn follow_some(&mut self, (rays, paths): (&[Rays8], &[Paths8]), standing: &Standing<'w>) {
+        self.see((rays, paths), standing.mask);
         let pieces = core::mem::take(&mut self.pieces);
         let mut spots = core::mem::take(&mut self.spots);
         for part in pieces.chunk_by(Piece::is_like) {
             if self.stop.is_cancelled() {
                 break;
             }
-            let spots = spots.gather(self.isa, part, (&bundle.rays, &bundle.paths), &self.hits);
+            let spots = spots.gather(self.isa, part, (rays, paths), &self.hits);
             face(self.isa, spots);
-            let (world, standing) = (self.world, &bundle.standing);
+            let world = self.world;
             let look = part[0].look(world);
             let border = Border::new(world, &standing.media, look.medium, part[0].is_grazing());
             let part = Part { look, border, standing };
@@ -250,25 +263,24 @@ impl<'w> Whitted<'w> {
         (self.pieces, self.spots) = (pieces, spots);
     }
 
-    /// What the rays of a bundle meet first: in `hits`, and in `pieces` what is to be shaded together. Where they meet nothing the
-    /// background is seen.
-    fn see(&mut self, bundle: &Bundle<'w>) {
+    /// What rays meet first: in `hits`, and in `pieces` what is to be shaded together. Where they meet nothing the background is seen.
+    fn see(&mut self, (rays, paths): (&[Rays8], &[Paths8]), mask: u32) {
         let world = self.world;
         self.pieces.clear();
-        // What is there of another bundle is written over.
-        self.hits.resize(bundle.rays.len(), Hits8::NONE);
-        see(world.geometry(), &bundle.rays, bundle.standing.mask, &mut self.hits, &mut self.scratch);
+        // What is there of other rays is written over.
+        self.hits.resize(rays.len(), Hits8::NONE);
+        see(world.geometry(), rays, mask, &mut self.hits, &mut self.scratch);
         let (hits, sums, pieces) = (&self.hits, &mut self.sums, &mut self.pieces);
         self.isa.run_in_lanes(
             #[inline(always)]
             || {
                 let background = Rgb8::splat(world.background);
                 for (group, hits) in hits.iter().enumerate() {
-                    let missed = bundle.rays[group].live & !hits.hit;
+                    let missed = rays[group].live & !hits.hit;
                     if missed.any() {
-                        add(sums, &bundle.paths[group], background, missed);
+                        add(sums, &paths[group], background, missed);
                     }
-                    cut(world, group, &bundle.rays[group], hits, pieces);
+                    cut(world, group, &rays[group], hits, pieces);
                 }
             },
         );

@@ -101,7 +101,7 @@ fn grid(n: u32, tile: Region, pixels: &mut Vec<Rgb>, look: &mut impl Look) -> Op
     let mut y0 = tile.y0;
     while y0 < tile.y1 {
         // With many rays a row is enough.
-        let rows = if rays == 1 { BLOCK as u32 } else { 1 }.min(tile.y1 - y0) as usize;
+        let rows = if rays == 1 { tile.y1 - y0 } else { 1 } as usize;
         strip.resize(columns * rows, Rgb::BLACK);
         if order.len() != strip.len() {
             order = cells(columns, rows);
