@@ -8,6 +8,7 @@
 
 use crate::{Scalar, Vec3};
 use core::ops::{Add, AddAssign, BitAnd, BitAndAssign, BitOr, BitOrAssign, Div, Mul, Neg, Not, Sub};
+use core::sync::atomic::{Ordering, compiler_fence};
 
 /// How many lanes there are.
 pub const LANES: usize = 8;
@@ -72,6 +73,16 @@ impl F8 {
             k += 1;
         }
         all
+    }
+
+    /// Becomes `x` in some lanes.
+    ///
+    /// The compiler is kept from making a masked store of this. Such a store is made of dozens of instructions on some machines, and what is loaded from there soon after has to wait for it.
+    #[inline(always)]
+    pub fn set_where(&mut self, lanes: M8, x: Self) {
+        let old = *self;
+        compiler_fence(Ordering::AcqRel);
+        *self = lanes.select(x, old);
     }
 
     /// A function of each lane.
@@ -283,6 +294,14 @@ impl Vec3<F8> {
     #[inline(always)]
     pub fn lane(&self, i: usize) -> Vec3 {
         Vec3::new(self.x.0[i], self.y.0[i], self.z.0[i])
+    }
+
+    /// [`F8::set_where`], for vectors.
+    #[inline(always)]
+    pub fn set_where(&mut self, lanes: M8, v: Self) {
+        self.x.set_where(lanes, v.x);
+        self.y.set_where(lanes, v.y);
+        self.z.set_where(lanes, v.z);
     }
 
     /// Puts a vector into lane `i`.

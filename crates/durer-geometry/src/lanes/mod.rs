@@ -58,8 +58,8 @@ impl Bounds8 {
     #[inline(always)]
     fn take(&mut self, live: M8, p: Vec3<F8>) {
         let (a, b) = (self.min, self.max);
-        self.min = live.select3(Vec3::new(p.x.min(a.x), p.y.min(a.y), p.z.min(a.z)), a);
-        self.max = live.select3(Vec3::new(p.x.max(b.x), p.y.max(b.y), p.z.max(b.z)), b);
+        self.min.set_where(live, Vec3::new(p.x.min(a.x), p.y.min(a.y), p.z.min(a.z)));
+        self.max.set_where(live, Vec3::new(p.x.max(b.x), p.y.max(b.y), p.z.max(b.z)));
     }
 
     /// The box around all lanes.
@@ -255,7 +255,8 @@ impl Geometry {
             left |= these & !sure;
             hits.hit |= sure;
             if met.turned {
-                (hits.ng, hits.ns) = (sure.select3(-hits.ng, hits.ng), sure.select3(-hits.ns, hits.ns));
+                hits.ng.set_where(sure, -hits.ng);
+                hits.ns.set_where(sure, -hits.ns);
             }
             let face = met.outline.face_of(met.face);
             let lanes = if is_first { u8::MAX } else { sure.bits() };

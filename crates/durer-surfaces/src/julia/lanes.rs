@@ -32,6 +32,8 @@ const STRETCH: f64 = 6.0;
 const LONGER: f64 = 1.3;
 /// They are never longer, and after one of half that a point tells how far away the solid is.
 const LONGEST: f64 = 2.0;
+/// Stretches that are no shorter than this are looked at in f32, whose roundings are few beside what is left open along so long a stretch.
+const COARSE: f64 = pow2(-13);
 /// An orbit beyond this has left for good, by far.
 const GONE: f64 = pow2(40);
 /// How many iterations' points are kept.
@@ -53,7 +55,7 @@ impl<const M: usize, const C: usize> Solid<M, C> {
 
     /// Balls around points of lines.
     #[inline(always)]
-    fn balls(&self, line: &Line8, s: F8, half: F8) -> [Ball<C>; M] {
+    fn balls(&self, line: &Line8, s: F8, half: F8) -> [Ball<f64, C>; M] {
         let p = line.point(s);
         let far = s.abs() + half;
         let q = self.lift.at8(p);
@@ -62,9 +64,9 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         let e = far.mul_add(line.e_d, line.e_o) + size * (4.0 * U);
         let r = self.lift.errors(size, e) + TINY;
         let d = half * self.lift.errors_of_way(2.0, line.e_d) + TINY;
-        let mut balls = [Ball { q: q[0], v: v[0], r, d }; M];
+        let mut balls = [Ball::new(&q[0], &v[0], r, d); M];
         for ((ball, q), v) in balls.iter_mut().zip(q).zip(v).skip(1) {
-            (ball.q, ball.v) = (q, v);
+            *ball = Ball::new(&q, &v, r, d);
         }
         balls
     }
@@ -77,7 +79,7 @@ impl<const M: usize, const C: usize> Solid<M, C> {
             || {
                 let count = self.rule.iterations as usize;
                 let balls = self.balls(line, *s, F8::ZERO);
-                let r = balls[0].r;
+                let r = F8(balls[0].r.0);
                 let mut z = points(&balls);
                 let mut squares = [[F8::ZERO; M]; MOST];
                 for squares in &mut squares[..count] {
@@ -106,16 +108,16 @@ impl<const M: usize, const C: usize> Solid<M, C> {
             *rest = beside(q);
             *square = q[0].mul_add(q[0], *rest);
         }
-        let stays = mean(&squares).gt(F8::splat(GONE));
+        let goes_on = mean(&squares).le(F8::splat(GONE));
         for ((q, c), rest) in z.iter_mut().zip(&self.rule.c).zip(rests) {
             let x = q[0];
             let (real, factor) = match self.rule.power {
                 JuliaPower::Square => (x * x - rest, x * 2.0),
                 JuliaPower::Cube => (x * (x * x - rest * 3.0), x * x * 3.0 - rest),
             };
-            q[0] = stays.select(x, real + c[0]);
+            q[0].set_where(goes_on, real + c[0]);
             for (q, c) in q.iter_mut().zip(c).skip(1) {
-                *q = stays.select(*q, factor.mul_add(*q, F8::splat(*c)));
+                q.set_where(goes_on, factor.mul_add(*q, F8::splat(*c)));
             }
         }
         squares
@@ -158,7 +160,7 @@ impl<const M: usize, const C: usize> Solid<M, C> {
 
     /// `|z_N|²`, the last points and the balls around them; what has left is somewhere far out.
     #[inline(always)]
-    fn last(&self, balls: &mut [Ball<C>; M]) -> F8 {
+    fn last(&self, balls: &mut [Ball<f64, C>; M]) -> F8 {
         let Rule { power, c_err, c_size, .. } = self.rule;
         let mut gone = M8::NONE;
         let mut square = F8::ZERO;
@@ -175,9 +177,9 @@ impl<const M: usize, const C: usize> Solid<M, C> {
                 if gone.any() {
                     // Its place no longer matters, and must not overflow.
                     for q in &mut ball.q {
-                        *q = gone.select(F8::ZERO, *q);
+                        q.0 = gone.select(F8::ZERO, F8(q.0)).0;
                     }
-                    ball.r = gone.select(F8::ZERO, ball.r);
+                    ball.r.0 = gone.select(F8::ZERO, F8(ball.r.0)).0;
                 }
             }
         }
@@ -206,10 +208,19 @@ fn beside<const C: usize>(q: &[F8; C]) -> F8 {
 }
 
 #[inline(always)]
-fn points<const M: usize, const C: usize>(balls: &[Ball<C>; M]) -> [[F8; C]; M] {
+fn rounded<const M: usize, const C: usize>(balls: &[Ball<f64, C>; M]) -> [Ball<f32, C>; M] {
+    let mut less = [balls[0].rounded(); M];
+    for (less, ball) in less.iter_mut().zip(balls).skip(1) {
+        *less = ball.rounded();
+    }
+    less
+}
+
+#[inline(always)]
+fn points<const M: usize, const C: usize>(balls: &[Ball<f64, C>; M]) -> [[F8; C]; M] {
     let mut z = [[F8::ZERO; C]; M];
     for (z, ball) in z.iter_mut().zip(balls) {
-        *z = ball.q;
+        *z = ball.points();
     }
     z
 }
@@ -234,10 +245,10 @@ fn most<const M: usize>(x: &[F8; M]) -> F8 {
 }
 
 #[inline(always)]
-fn widest<const M: usize, const C: usize>(balls: &[Ball<C>; M]) -> F8 {
-    let mut r = balls[0].r;
+fn widest<const M: usize, const C: usize>(balls: &[Ball<f64, C>; M]) -> F8 {
+    let mut r = F8(balls[0].r.0);
     for ball in &balls[1..] {
-        r = r.max(ball.r);
+        r = r.max(F8(ball.r.0));
     }
     r
 }
@@ -288,8 +299,8 @@ impl<const M: usize, const C: usize> Level for Solid<M, C> {
                 || {
                     told.seen = far & room.gt(stretch.min(F8::ONE) * NEAR);
                     told.out = told.seen;
-                    told.b = told.seen.select(told.a + room, told.b);
-                    told.hint = far.select(stretch * STRETCH, told.hint);
+                    told.b.set_where(told.seen, told.a + room);
+                    told.hint.set_where(far, stretch * STRETCH);
                 },
             );
             return;
@@ -298,15 +309,18 @@ impl<const M: usize, const C: usize> Level for Solid<M, C> {
         let known = line.isa.run_in_lanes(
             #[inline(always)]
             || {
-                told.b = told.b.min(told.a + told.hint.min(F8::splat(LONGEST)));
+                let reach = told.a + told.hint.min(F8::splat(LONGEST));
+                told.b.set_where(reach.lt(told.b), reach);
                 let mid = (told.a + told.b) * 0.5;
                 let half = (told.b - told.a) * (0.5 * (1.0 + 4.0 * U)) + mid.abs() * (2.0 * U);
                 let mut balls = self.balls(line, mid, half);
                 // What is not asked must not keep the others from an early end.
                 for ball in &mut balls {
-                    ball.q[0] = told.lanes.select(ball.q[0], F8::splat(4.0 * self.rule.radius));
+                    ball.q[0].0 = told.lanes.select(F8(ball.q[0].0), F8::splat(4.0 * self.rule.radius)).0;
                 }
-                self.rule.known(balls)
+                // Of points far apart f32 knows enough.
+                let is_fine = (told.lanes & (told.b - told.a).lt(F8::splat(COARSE))).any();
+                if is_fine { self.rule.known(balls) } else { self.coarse.known(rounded(&balls)) }
             },
         );
         (told.out, told.within) = (known.out, known.within);
@@ -316,7 +330,7 @@ impl<const M: usize, const C: usize> Level for Solid<M, C> {
             || {
                 let way = told.b - told.a;
                 let goes_on = !told.rises & way.lt(F8::splat(0.5 * LONGEST));
-                told.next = goes_on.select(way * LONGER, told.next);
+                told.next.set_where(goes_on, way * LONGER);
             },
         );
     }
@@ -404,7 +418,7 @@ struct Gradient {
 /// At points known within `e` along each axis: means over the numbers.
 #[inline(always)]
 fn gradient8<const M: usize, const C: usize>(
-    rule: &Rule<M, C>,
+    rule: &Rule<f64, M, C>,
     lift: &Lift<M, C>,
     iterations: u32,
     y: &Vec3<F8>,
@@ -436,20 +450,20 @@ fn gradient8<const M: usize, const C: usize>(
 /// `slope` and `curve` are bounds of the first and second derivatives of the last point, as far as `AROUND` from the point.
 #[inline(always)]
 fn gradient_of<const M: usize, const C: usize>(
-    rule: &Rule<M, C>,
+    rule: &Rule<f64, M, C>,
     lift: &Lift<M, C>,
     iterations: u32,
     (q, axes, r): (&[F8; C], &[[F8; C]; 3], F8),
     c: &[f64; C],
 ) -> Gradient {
     let zero = F8::ZERO;
-    let mut ball = Ball { q: *q, v: [zero; C], r, d: zero };
+    let mut ball = Ball::new(q, &[zero; C], r, zero);
     let mut tangents = *axes;
     let mut d = F8::splat(lift.error_of_way(1.0, 0.0));
     let mut slope = F8::splat(lift.stretch());
-    let (mut curve, mut reach) = (zero, ball.r + lift.stretch() * (2.0 * AROUND));
+    let (mut curve, mut reach) = (zero, r + lift.stretch() * (2.0 * AROUND));
     for _ in 0..iterations {
-        let q = ball.q;
+        let q = ball.points();
         let [square] = squared(&[q]);
         let size = square.sqrt();
         let far = (size + reach) * (1.0 + 64.0 * U);
@@ -458,7 +472,7 @@ fn gradient_of<const M: usize, const C: usize>(
             JuliaPower::Cube => (far * far * 3.0, far * 6.0),
         };
         // What a tangent is turned by, wrongly: the change of the differential within r, and its rounding.
-        d = (l * d + h * ball.r * (slope + d) + l * slope * (32.0 * U)) * (1.0 + 16.0 * U);
+        d = (l * d + h * F8(ball.r.0) * (slope + d) + l * slope * (32.0 * U)) * (1.0 + 16.0 * U);
         curve = (l * curve + h * slope * slope) * (1.0 + 16.0 * U);
         slope = l * slope * (1.0 + 16.0 * U);
         reach = l * reach + rule.c_err + (square * size.max(F8::ONE) + rule.c_size) * (64.0 * U);
@@ -483,18 +497,19 @@ fn gradient_of<const M: usize, const C: usize>(
         }
         ball.step(c, rule.power, rule.c_err, rule.c_size);
     }
-    let [square] = squared(&[ball.q]);
+    let (q, r) = (ball.points(), F8(ball.r.0));
+    let [square] = squared(&[q]);
     let size = square.sqrt();
     let mut half = [zero; 3];
     for (half, t) in half.iter_mut().zip(&tangents) {
-        *half = ball.q[C - 1] * t[C - 1];
+        *half = q[C - 1] * t[C - 1];
         for i in (0..C - 1).rev() {
-            *half = ball.q[i].mul_add(t[i], *half);
+            *half = q[i].mul_add(t[i], *half);
         }
     }
-    let e_half = (size * d + ball.r * (slope + d) + size * slope * (16.0 * U)) * (1.0 + 16.0 * U) + TINY;
+    let e_half = (size * d + r * (slope + d) + size * slope * (16.0 * U)) * (1.0 + 16.0 * U) + TINY;
     let far = size + reach;
     let bend = (slope * slope + far * curve) * (2.0 * (1.0 + 1.0 / 1024.0));
-    let e_square = (size * 2.0 + ball.r) * ball.r;
+    let e_square = (size * 2.0 + r) * r;
     Gradient { square, e_square, half: Vec3::from(half), e_half, bend }
 }

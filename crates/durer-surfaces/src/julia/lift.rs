@@ -190,7 +190,7 @@ fn root_of(count: f64) -> f64 {
 /// A ray's line among the starts of orbits.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line<'a, const M: usize, const C: usize> {
-    rule: &'a Rule<M, C>,
+    rule: &'a Rule<f64, M, C>,
     o: [[f64; C]; M],
     d: [[f64; C]; M],
     /// Bounds on the lengths of their errors, and on those of `o`, and of `d`, themselves.
@@ -204,7 +204,7 @@ pub(super) struct Line<'a, const M: usize, const C: usize> {
 impl<'a, const M: usize, const C: usize> Line<'a, M, C> {
     /// Of a ray, as far as `reach`.
     #[inline(always)]
-    pub(super) fn new(rule: &'a Rule<M, C>, lift: &Lift<M, C>, at: &CentredRay<'_>, reach: f64) -> Self {
+    pub(super) fn new(rule: &'a Rule<f64, M, C>, lift: &Lift<M, C>, at: &CentredRay<'_>, reach: f64) -> Self {
         let (o, d) = (lift.at(at.o), lift.turned(at.d));
         let length = |z: &[f64; C]| z.iter().map(|x| x.abs()).sum::<f64>();
         let longest = |z: &[[f64; C]; M]| z.iter().fold(0.0, |most: f64, z| most.max(length(z)));
@@ -226,7 +226,7 @@ impl<'a, const M: usize, const C: usize> Line<'a, M, C> {
         Isa::detect().run(
             #[inline(always)]
             || {
-                let mut balls = [Ball { q: [F8::ZERO; C], v: [F8::ZERO; C], r: F8::ZERO, d: F8::ZERO }; M];
+                let mut balls = [Ball::new(&[F8::ZERO; C], &[F8::ZERO; C], F8::ZERO, F8::ZERO); M];
                 for (m, ball) in balls.iter_mut().enumerate() {
                     for i in 0..C {
                         let (o, d) = (self.o[m][i], self.d[m][i]);

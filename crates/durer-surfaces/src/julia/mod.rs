@@ -20,6 +20,7 @@
 
 mod lanes;
 mod lift;
+mod number;
 mod orbit;
 mod point;
 mod roots;
@@ -107,7 +108,9 @@ enum Algebra {
 /// A set of `M` numbers of `C` coordinates.
 #[derive(Clone, Debug)]
 struct Solid<const M: usize, const C: usize> {
-    rule: Rule<M, C>,
+    rule: Rule<f64, M, C>,
+    /// The same in f32, for lanes.
+    coarse: Rule<f32, M, C>,
     lift: Lift<M, C>,
     /// A ball about the origin holds it strictly.
     radius: f64,
@@ -136,9 +139,19 @@ impl JuliaSet {
             JuliaAlgebra::Quaternion => {
                 let escapes =
                     radius >= 1.0 && (radius * radius - radius) * (1.0 - 8.0 * durer_math::U) >= size;
-                let rule = Rule { c: [set.c], c_err: 0.0, c_size: size, power, iterations, radius, escapes };
+                let rule = Rule {
+                    c: [set.c],
+                    c_err: 0.0,
+                    c_size: size,
+                    power,
+                    iterations,
+                    radius,
+                    radius_err: 0.0,
+                    escapes,
+                };
                 Algebra::Quaternion(Solid {
                     rule,
+                    coarse: rule.rounded(),
                     lift: Lift::quaternion(set),
                     radius: least_ball(set, radius, size),
                 })
@@ -162,10 +175,12 @@ impl JuliaSet {
                     power,
                     iterations,
                     radius,
+                    radius_err: 0.0,
                     escapes,
                 };
                 Algebra::Hypercomplex(Solid {
                     rule,
+                    coarse: rule.rounded(),
                     lift: Lift::hypercomplex(set),
                     radius: least_ball(set, 1.5 * radius, c_size).min(radius + ROOM),
                 })

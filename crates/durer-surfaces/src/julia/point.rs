@@ -15,7 +15,7 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         Isa::detect().run(
             #[inline(always)]
             || {
-                let mut balls = [Ball { q: [F8::ZERO; C], v: [F8::ZERO; C], r: F8::ZERO, d: F8::ZERO }; M];
+                let mut balls = [Ball::new(&[F8::ZERO; C], &[F8::ZERO; C], F8::ZERO, F8::ZERO); M];
                 for k in 0..8 {
                     let z = self.lift.at(points[k]);
                     for (ball, z) in balls.iter_mut().zip(&z) {

@@ -28,10 +28,10 @@ impl Extreme {
         }
         let better = lanes & t.gt(self.t);
         let loser = better.select(self.t + self.e, t + e);
-        self.others = lanes.select(loser.max(self.others), self.others);
-        self.t = better.select(t, self.t);
-        self.e = better.select(e, self.e);
-        self.face = better.select(face, self.face);
+        self.others.set_where(lanes, loser.max(self.others));
+        self.t.set_where(better, t);
+        self.e.set_where(better, e);
+        self.face.set_where(better, face);
     }
 }
 

@@ -104,7 +104,7 @@ impl Crossings {
     #[inline(always)]
     pub(super) fn doubt_from(&mut self, lanes: M8, t: F8) {
         // `max` answers zero for what is not a number.
-        self.doubt = lanes.select(t.max(F8::ZERO).min(self.doubt), self.doubt);
+        self.doubt.set_where(lanes, t.max(F8::ZERO).min(self.doubt));
     }
 }
 

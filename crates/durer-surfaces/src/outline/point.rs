@@ -152,10 +152,12 @@ impl Outline {
         let steady = (e_half * (2.0 / SMALL)).le(length);
         let near = (off + tau).le(room);
         let sure = lanes & x.le(F8::splat(SMALL)) & steady & ordinary & near;
-        *to.p = sure.select3(p.to_vec(), to.p.to_vec()).to_point();
-        *to.ng = sure.select3(ng, *to.ng);
-        *to.ns = sure.select3(ns, *to.ns);
-        *to.off = sure.select(off, *to.off);
+        to.p.x.set_where(sure, p.x);
+        to.p.y.set_where(sure, p.y);
+        to.p.z.set_where(sure, p.z);
+        to.ng.set_where(sure, ng);
+        to.ns.set_where(sure, ns);
+        to.off.set_where(sure, off);
         sure
     }
 }

@@ -165,10 +165,10 @@ impl<const N: usize> Poly8<N> {
     /// Goes on behind the root in the part.
     #[inline(always)]
     pub(super) fn go_on(&self, part: &mut Part8) {
-        part.sign = part.one.select(-part.sign, part.sign);
+        part.sign.set_where(part.one, -part.sign);
         part.open = part.one & part.r.lt(part.end);
-        part.l = part.open.select(part.r, part.l);
-        part.r = part.open.select(part.end, part.r);
+        part.l.set_where(part.open, part.r);
+        part.r.set_where(part.open, part.end);
         part.one = M8::NONE;
     }
 
@@ -213,9 +213,9 @@ impl<const N: usize> Poly8<N> {
         let (l, r) = (part.l, part.r);
         let half = (l + r) * 0.5;
         let next = part.open & none;
-        part.l = next.select(r, l);
+        part.l.set_where(next, r);
         let longer = (r - l).mul_add(F8::splat(LONGER), r).min(part.end);
-        part.r = next.select(longer, part.open.select(half, r));
+        part.r.set_where(part.open, next.select(longer, half));
     }
 
     /// All Bernstein coefficients on a part; the first, the value at its start, is not to be used.

@@ -96,17 +96,17 @@ impl Nearest {
     #[inline(always)]
     pub fn take(&mut self, sure: M8, t: F8, e: F8, number: f64, face: F8) {
         let better = sure & t.lt(self.t);
-        self.t = better.select(t, self.t);
-        self.e = better.select(e, self.e);
-        self.number = better.select(F8::splat(number), self.number);
-        self.face = better.select(face, self.face);
+        self.t.set_where(better, t);
+        self.e.set_where(better, e);
+        self.number.set_where(better, F8::splat(number));
+        self.face.set_where(better, face);
     }
 
     /// The same of faces that want to know more of a point.
     #[inline(always)]
     pub fn take_at(&mut self, sure: M8, (t, e): (F8, F8), number: f64, face: F8, tag: F8) {
         let better = sure & t.lt(self.t);
-        self.tag = better.select(tag, self.tag);
+        self.tag.set_where(better, tag);
         self.take(sure, t, e, number, face);
     }
 
@@ -124,7 +124,7 @@ impl Nearest {
     pub fn doubt_from(&mut self, where_: M8, t: F8) {
         // `max` answers zero for what is not a number.
         let from = t.max(F8::ZERO);
-        self.doubt = where_.select(from.min(self.doubt), self.doubt);
+        self.doubt.set_where(where_ & from.lt(self.doubt), from);
     }
 }
 

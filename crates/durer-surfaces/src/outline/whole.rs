@@ -280,10 +280,10 @@ impl Line8 for Tallied<'_> {
         let tied = ahead & (t - tally.t).abs().le((e + tally.e) * SLACK);
         let tied_from = (t - e).min(tally.t - tally.e);
         let better = ahead & t.lt(tally.t);
-        tally.t = better.select(t, tally.t);
-        tally.e = better.select(e, tally.e);
-        tally.face = better.select(F8::splat(face as f64), tally.face);
-        tally.tag = better.select(tag, tally.tag);
+        tally.t.set_where(better, t);
+        tally.e.set_where(better, e);
+        tally.face.set_where(better, F8::splat(face as f64));
+        tally.tag.set_where(better, tag);
         tally.falls = better & falls | !better & tally.falls;
         let here = on & !(behind | ahead);
         if here.any() {

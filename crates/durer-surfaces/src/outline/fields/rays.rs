@@ -222,8 +222,8 @@ impl Fields {
                     &mut *memory;
                 *next = *last;
                 for piece in &*pieces {
-                    *next = piece.from.gt(*here).select(piece.from.min(*next), *next);
-                    *next = piece.to.gt(*here).select(piece.to.min(*next), *next);
+                    next.set_where(piece.from.gt(*here) & piece.from.lt(*next), piece.from);
+                    next.set_where(piece.to.gt(*here) & piece.to.lt(*next), piece.to);
                 }
                 let count = self.fields.len() as f64 + 40.0;
                 let (mut e, mut most) = (*charge, *charge);

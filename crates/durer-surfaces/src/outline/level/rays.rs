@@ -266,7 +266,7 @@ fn know(asked: &Question<'_>, nearest: &mut Nearest, memory: &mut Memory) {
             let Memory { held, here, sign, open, t_c, unit, e_t, told, value, .. } = &mut *memory;
             let unknown = *open & sign.equals(F8::ZERO);
             let told_sign = value.above.keep(F8::ONE) - value.below.keep(F8::ONE);
-            *sign = unknown.select(told_sign, *sign);
+            sign.set_where(unknown, told_sign);
             let unsure = unknown & sign.equals(F8::ZERO);
             if unsure.any() {
                 nearest.doubt_from(unsure, here.mul_add(*unit, *t_c) - *e_t);
@@ -388,15 +388,16 @@ fn go_on(isa: Isa, reach: f64, memory: &mut Memory) {
             let against = !kept & (positive & told.falls | !positive & told.rises);
             let same = against & (positive & value.above | !positive & value.below);
             let crossed = seen & against & (positive & value.below | !positive & value.above);
-            *a = crossed.select(told.a, *a);
-            *b = crossed.select(told.b, *b);
-            *g_b = crossed.select(value.g * *sign, *g_b);
+            a.set_where(crossed, told.a);
+            b.set_where(crossed, told.b);
+            g_b.set_where(crossed, value.g * *sign);
             *found |= crossed;
             let passed = seen & (kept | same);
             let way = told.b - told.a;
-            *step = passed.select(step.max(way * LONGER), (seen & !passed).select(way * SHORTER, *step));
-            *here = passed.select(told.b, seen.select(told.a, *here));
-            told.hint = passed.select(told.next, told.hint);
+            let next = passed.select(step.max(way * LONGER), way * SHORTER);
+            step.set_where(seen, next);
+            here.set_where(seen, passed.select(told.b, told.a));
+            told.hint.set_where(passed, told.next);
             let short = *open & !crossed & here.lt(*last) & !step.ge(F8::splat(LEAST * reach));
             *stuck |= short;
             *ended |= *open & !(crossed | short) & !here.lt(*last);
@@ -506,16 +507,18 @@ fn converge(
                 // What stays once more weighs less (N. Anderson, A. Bjorck, 1973).
                 let share = F8::ONE - g / before.select(*g_a, *g_b);
                 let share = share.gt(F8::ZERO).select(share, F8::splat(0.5));
-                *g_b = (first & stayed.gt(F8::ZERO)).select(*g_b * share, *g_b);
-                *g_a = (second & stayed.lt(F8::ZERO)).select(*g_a * share, *g_a);
+                g_b.set_where(first & stayed.gt(F8::ZERO), *g_b * share);
+                g_a.set_where(second & stayed.lt(F8::ZERO), *g_a * share);
                 *stayed = before.select(F8::ONE, -F8::ONE);
-                (*a, *g_a) = (first.select(*x, *a), first.select(g, *g_a));
-                (*b, *g_b) = (second.select(*x, *b), second.select(g, *g_b));
+                a.set_where(first, *x);
+                g_a.set_where(first, g);
+                b.set_where(second, *x);
+                g_b.set_where(second, g);
                 let to = next(memory, i);
                 let moved = (to - *x).abs();
                 let moved = moved * memory.unit;
                 *done |= moved.le(close(memory, to) * near) | !known;
-                *x = moving.select(to, *x);
+                x.set_where(moving, to);
                 memory.asked = !*done;
             },
         );
