@@ -161,8 +161,8 @@ impl<const C: usize> Ball<f64, C> {
     #[inline(always)]
     pub(super) fn points(&self) -> [F8; C] {
         let mut points = [F8::ZERO; C];
-        for i in 0..C {
-            points[i] = F8(self.q[i].0);
+        for (point, q) in points.iter_mut().zip(&self.q) {
+            *point = F8(q.0);
         }
         points
     }

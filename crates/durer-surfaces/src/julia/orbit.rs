@@ -465,10 +465,10 @@ mod tests {
             // Eight stretches as long, one after the other, up to that end.
             let mut mids = [[0.0; 4]; 8];
             let (mut middles, mut slopes) = ([F8::ZERO; 4], [F8::ZERO; 4]);
-            for k in 0..8 {
+            for (k, mid) in mids.iter_mut().enumerate() {
                 for i in 0..4 {
-                    mids[k][i] = q[i] - v[i] * (2.0 * k as f64);
-                    (middles[i].0[k], slopes[i].0[k]) = (mids[k][i], v[i]);
+                    mid[i] = q[i] - v[i] * (2.0 * k as f64);
+                    (middles[i].0[k], slopes[i].0[k]) = (mid[i], v[i]);
                 }
             }
             let ball = Ball::new(&middles, &slopes, F8::splat(TINY), F8::splat(TINY));
