@@ -77,7 +77,7 @@ impl F8 {
 
     /// Becomes `x` in some lanes.
     ///
-    /// The compiler is kept from making a masked store of this. Such a store is made of dozens of instructions on some machines, and what is loaded from there soon after has to wait for it.
+    /// The compiler is kept from making a masked store of this, which takes long on some machines (docs/performance.md, "Masked stores").
     #[inline(always)]
     pub fn set_where(&mut self, lanes: M8, x: Self) {
         let old = *self;
