@@ -432,6 +432,31 @@ mod tests {
     }
 
     #[test]
+    fn some_lanes_are_set_and_the_others_stay() {
+        let before = F8([1.0, f64::NAN, -0.0, 4.0, 5.0, f64::INFINITY, 7.0, 8.0]);
+        let x = F8([-1.0, 2.0, 0.0, f64::NAN, 1e-310, 6.0, -7.0, f64::NEG_INFINITY]);
+        for isa in Isa::available() {
+            for bits in 0..=u8::MAX {
+                let mut after = Vec3::new(before, x, before);
+                isa.run_in_lanes(
+                    #[inline(always)]
+                    || after.set_where(M8::from_bits(bits), Vec3::new(x, before, x)),
+                );
+                for i in 0..LANES {
+                    let (kept, set) = (before.0[i].to_bits(), x.0[i].to_bits());
+                    let want = if bits >> i & 1 == 1 { (set, kept, set) } else { (kept, set, kept) };
+                    let got = after.lane(i);
+                    assert_eq!(
+                        (got.x.to_bits(), got.y.to_bits(), got.z.to_bits()),
+                        want,
+                        "{isa:?} {bits} {i}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
     fn comparisons_are_those_of_numbers() {
         let a = F8([1.0, 2.0, 3.0, f64::NAN, 0.0, -0.0, f64::INFINITY, -1.0]);
         let b = F8([2.0, 2.0, 2.0, 2.0, -0.0, 0.0, f64::INFINITY, f64::NAN]);

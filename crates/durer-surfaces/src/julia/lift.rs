@@ -226,7 +226,7 @@ impl<'a, const M: usize, const C: usize> Line<'a, M, C> {
         Isa::detect().run(
             #[inline(always)]
             || {
-                let mut balls = [Ball::new(&[F8::ZERO; C], &[F8::ZERO; C], F8::ZERO, F8::ZERO); M];
+                let mut balls = [Ball::ZERO; M];
                 for (m, ball) in balls.iter_mut().enumerate() {
                     for i in 0..C {
                         let (o, d) = (self.o[m][i], self.d[m][i]);

@@ -24,6 +24,8 @@ mod number;
 mod orbit;
 mod point;
 mod roots;
+#[cfg(test)]
+mod tests;
 
 use crate::compose::clip::Algebraic;
 use crate::outline::Sketch;

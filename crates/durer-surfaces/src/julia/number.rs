@@ -64,7 +64,7 @@ pub(super) fn less<T: Real>(count: f32) -> T {
     T::from(1.0) - roundings(count)
 }
 
-macro_rules! real {
+macro_rules! impl_real {
     ($number:ty, $tiny:expr) => {
         impl Real for $number {
             const ZERO: Self = 0.0;
@@ -86,8 +86,8 @@ macro_rules! real {
     };
 }
 
-real!(f64, pow2(-900));
-real!(f32, pow2(-110) as f32);
+impl_real!(f64, pow2(-900));
+impl_real!(f32, pow2(-110) as f32);
 
 /// Eight of them.
 #[derive(Clone, Copy, Debug)]
@@ -148,9 +148,10 @@ fn no_less(x: f64) -> f32 {
 }
 
 impl<const C: usize> Ball<f64, C> {
+    /// Middles, slopes, and what is not known of both.
     #[inline(always)]
     pub(super) fn new(q: &[F8; C], v: &[F8; C], r: F8, d: F8) -> Self {
-        let mut ball = Self { q: [Eight::ZERO; C], v: [Eight::ZERO; C], r: Eight(r.0), d: Eight(d.0) };
+        let mut ball = Self { r: Eight(r.0), d: Eight(d.0), ..Self::ZERO };
         for i in 0..C {
             (ball.q[i], ball.v[i]) = (Eight(q[i].0), Eight(v[i].0));
         }
@@ -172,7 +173,7 @@ impl<const C: usize> Ball<f64, C> {
     pub(super) fn rounded(&self) -> Ball<f32, C> {
         // Each sum of magnitudes is rounded by less than a millionth of it, and no root of a sum of squares is longer.
         let u = f64::from(f32::U) * (1.0 + pow2(-20));
-        let mut less = Ball { q: [Eight::ZERO; C], v: [Eight::ZERO; C], r: Eight::ZERO, d: Eight::ZERO };
+        let mut less = Ball::ZERO;
         for i in 0..C {
             (less.q[i], less.v[i]) = (nearest(&self.q[i]), nearest(&self.v[i]));
         }

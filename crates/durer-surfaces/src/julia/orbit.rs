@@ -65,6 +65,10 @@ pub(super) struct Rule<T: Real, const M: usize, const C: usize> {
 }
 
 impl<T: Real, const C: usize> Ball<T, C> {
+    /// Zero itself, all along.
+    pub(super) const ZERO: Self =
+        Self { q: [Eight::ZERO; C], v: [Eight::ZERO; C], r: Eight::ZERO, d: Eight::ZERO };
+
     /// The next point.
     #[inline(always)]
     pub(super) fn step(&mut self, c: &[T; C], power: JuliaPower, c_err: T, c_size: T) {
@@ -387,122 +391,5 @@ impl<const M: usize, const C: usize> Rule<f64, M, C> {
             }
         }
         found
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::JuliaPower;
-    use super::*;
-    use core::cmp::Ordering::{Greater, Less};
-    use durer_math::scale::pow2;
-    use durer_math::{Dyadic, Ring};
-
-    struct Dice(u64);
-
-    impl Dice {
-        /// In `[-1, 1)`.
-        fn unit(&mut self) -> f64 {
-            self.0 = self.0.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
-            (self.0 >> 11) as f64 * f64::EPSILON - 1.0
-        }
-    }
-
-    /// `|z_N|²` of the orbit that starts at `q + v x`, exactly.
-    fn exact(rule: &Rule<f64, 1, 4>, q: &[f64; 4], v: &[f64; 4], x: f64) -> Dyadic {
-        let of = Dyadic::exact;
-        let mut z: [Dyadic; 4] = core::array::from_fn(|i| of(q[i]) + of(v[i]) * of(x));
-        for _ in 0..rule.iterations {
-            let a = z[0].clone();
-            let rest = z[1..].iter().fold(of(0.0), |sum, z| sum + z.clone().square());
-            let (real, factor) = match rule.power {
-                JuliaPower::Square => (a.clone().square() - rest, of(2.0) * a),
-                JuliaPower::Cube => {
-                    let square = a.clone().square();
-                    (a * (square.clone() - of(3.0) * rest.clone()), of(3.0) * square - rest)
-                }
-            };
-            z = core::array::from_fn(|i| {
-                of(rule.c[0][i]) + if i == 0 { real.clone() } else { factor.clone() * z[i].clone() }
-            });
-        }
-        z.iter().fold(of(0.0), |sum, z| sum + z.clone().square())
-    }
-
-    /// Radii that are as near to the ends of stretches as f32 can tell, or nearer, and stretches that are long and short beside its roundings: what it says is certain all the same, and of long
-    /// ones it says nearly as much.
-    #[test]
-    fn what_f32_says_of_stretches_is_so() {
-        let mut dice = Dice(31);
-        let (mut told, mut told_fine) = ([0_u32; 4], [0_u32; 4]);
-        let mut tried = 0;
-        while tried < 1200 {
-            let power = if tried % 4 == 3 { JuliaPower::Cube } else { JuliaPower::Square };
-            let iterations = if power == JuliaPower::Cube { 1 + tried % 3 } else { 1 + tried % 6 };
-            let c: [f64; 4] = core::array::from_fn(|_| 0.5 * dice.unit());
-            let length = c.iter().map(|c| c * c).sum::<f64>().sqrt();
-            let mut rule = Rule {
-                c: [c],
-                c_err: 0.0,
-                c_size: length * (1.0 + 8.0 * U),
-                power,
-                iterations,
-                radius: 2.0,
-                radius_err: 0.0,
-                escapes: true,
-            };
-            let q: [f64; 4] = core::array::from_fn(|_| 1.2 * dice.unit());
-            let shorter = tried % 24;
-            let long = pow2(-1 - shorter as i32);
-            let v: [f64; 4] = core::array::from_fn(|_| long * dice.unit());
-            let end = exact(&rule, &q, &v, 1.0).to_f64().sqrt();
-            // An orbit that leaves this radius never comes back.
-            if !(1.75..4.0).contains(&end) {
-                continue;
-            }
-            tried += 1;
-            rule.radius = end * (1.0 + dice.unit() * pow2(-18 - (tried % 14) as i32));
-            // Eight stretches as long, one after the other, up to that end.
-            let mut mids = [[0.0; 4]; 8];
-            let (mut middles, mut slopes) = ([F8::ZERO; 4], [F8::ZERO; 4]);
-            for (k, mid) in mids.iter_mut().enumerate() {
-                for i in 0..4 {
-                    mid[i] = q[i] - v[i] * (2.0 * k as f64);
-                    (middles[i].0[k], slopes[i].0[k]) = (mid[i], v[i]);
-                }
-            }
-            let ball = Ball::new(&middles, &slopes, F8::splat(TINY), F8::splat(TINY));
-            let known = rule.rounded().known([ball.rounded()]);
-            let fine = rule.known([ball]);
-            let level = Dyadic::exact(rule.radius).square();
-            for (k, q) in mids.iter().enumerate() {
-                let values = [-1.0, -0.75, -0.25, 0.0, 0.5, 0.875, 1.0].map(|x| exact(&rule, q, &v, x));
-                for known in [&known, &fine] {
-                    if known.out.lane(k) {
-                        assert!(values.iter().all(|g| g.cmp(&level) == Greater), "{rule:?} {q:?} {v:?}");
-                    }
-                    if known.within.lane(k) {
-                        assert!(values.iter().all(|g| g.cmp(&level) == Less), "{rule:?} {q:?} {v:?}");
-                    }
-                    if known.rises.lane(k) {
-                        assert!(values.is_sorted(), "{rule:?} {q:?} {v:?}");
-                    }
-                    if known.falls.lane(k) {
-                        assert!(values.iter().rev().is_sorted(), "{rule:?} {q:?} {v:?}");
-                    }
-                }
-            }
-            let counted =
-                if shorter < 12 { [(&mut told, &known), (&mut told_fine, &fine)].into() } else { Vec::new() };
-            for (told, known) in counted {
-                let all = [known.out, known.within, known.rises, known.falls];
-                for (told, known) in told.iter_mut().zip(all) {
-                    *told += known.count() as u32;
-                }
-            }
-        }
-        for (told, fine) in told.into_iter().zip(told_fine) {
-            assert!(fine > 100 && told * 20 > fine * 19, "{told} of {fine}");
-        }
     }
 }

@@ -6,7 +6,7 @@ use crate::point::least_step;
 use crate::quadric::body::tangents;
 use crate::{LocalPoint, LocalRay, Need, Root, Side, SurfacePoint};
 use core::cmp::Ordering::Less;
-use durer_math::{F8, Isa, Point3, U, Vec3};
+use durer_math::{Isa, Point3, U, Vec3};
 
 impl<const M: usize, const C: usize> Solid<M, C> {
     /// Whether points are outside, where that is certain of all that are within `e` of each along any axis.
@@ -15,7 +15,7 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         Isa::detect().run(
             #[inline(always)]
             || {
-                let mut balls = [Ball::new(&[F8::ZERO; C], &[F8::ZERO; C], F8::ZERO, F8::ZERO); M];
+                let mut balls = [Ball::ZERO; M];
                 for k in 0..8 {
                     let z = self.lift.at(points[k]);
                     for (ball, z) in balls.iter_mut().zip(&z) {
