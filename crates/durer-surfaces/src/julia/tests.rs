@@ -44,12 +44,14 @@ fn what_f32_says_is_so<const M: usize, const C: usize>(seed: u64) {
     let mut tried = 0;
     while tried < 1200 {
         let power = if tried % 4 == 3 { JuliaPower::Cube } else { JuliaPower::Square };
-        let iterations = if power == JuliaPower::Cube { 1 + tried % 3 } else { 1 + tried % 6 };
+        let iterations = tried % if power == JuliaPower::Cube { 4 } else { 7 };
         let mut numbers = |size: f64| -> [[f64; C]; M] {
             core::array::from_fn(|_| core::array::from_fn(|_| dice.between(-size, size)))
         };
         let shorter = tried % 24;
-        let (c, q, v) = (numbers(0.5), numbers(1.2), numbers(pow2(-1 - shorter as i32)));
+        // Without iterations the start has to reach the radius by itself.
+        let reach = if iterations == 0 { 2.5 } else { 1.2 };
+        let (c, q, v) = (numbers(0.5), numbers(reach), numbers(pow2(-1 - shorter as i32)));
         let length = |c: &[f64; C]| c.iter().map(|c| c * c).sum::<f64>().sqrt() * (1.0 + 8.0 * U);
         let c_size = c.iter().map(length).fold(0.0, f64::max);
         let (radius, escapes) = (4.0, true);
