@@ -9,6 +9,7 @@
 //! Bounds are taken of cells grown by a margin. A ray is divided where *rounded* numbers say that it changes cells; as long as its points are
 //! known to less than the margin, what is said of a cell holds on its stretch.
 
+use super::grid::{Grid, Told};
 use super::line::Line;
 use crate::tape::Tape;
 use durer_math::{Aabb, Dual, F8, I8, Interval, Point3, U};
@@ -16,15 +17,13 @@ use std::collections::HashMap;
 use std::sync::OnceLock;
 
 /// No cell is smaller than the container divided by two to this power.
-const DEEPEST: u32 = 6;
-/// A brick of the [`Grid`] has two to this power places along each axis.
-const BRICK: u32 = 2;
+pub(super) const DEEPEST: u32 = 6;
 /// So many times larger than the margin is the container.
 const MARGIN: f64 = 1.0 / (1u64 << 28) as f64;
 
 /// What is known of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Cell {
+pub(super) enum Cell {
     /// The formula has this sign.
     Sign(bool),
     /// There is no surface, but the formula is not everywhere defined; whether it is positive where it is.
@@ -87,9 +86,6 @@ impl Gradient {
 #[derive(Clone, Debug)]
 pub(super) struct Cells {
     extent: Aabb,
-    /// The size of the smallest cells, and one over it.
-    size: [f64; 3],
-    over: [f64; 3],
     margin: f64,
     /// How far from the origin the container is, at most.
     reach: f64,
@@ -105,83 +101,6 @@ pub(super) struct Cells {
     open: (usize, f64),
 }
 
-/// The same cells by the numbers of places, so that two looks tell what is at a point, however deep it lies: for each place of a coarse grid a cell, or a brick of places. A cell is a
-/// number with its width: a power of two in the lowest three bits, or all of them set for a brick.
-#[derive(Clone, Debug)]
-struct Grid {
-    coarse: Box<[u32]>,
-    bricks: Vec<[u32; 1 << (3 * BRICK)]>,
-}
-
-/// The number of a place along three axes, of which there are two to this power along each.
-#[inline(always)]
-fn number(at: [u32; 3], power: u32) -> usize {
-    (at[0] | at[1] << power | at[2] << (2 * power)) as usize
-}
-
-impl Grid {
-    const IS_BRICK: u32 = 0b111;
-
-    /// Nothing anywhere.
-    fn new() -> Self {
-        Self { coarse: vec![0; 1 << (3 * (DEEPEST - BRICK))].into(), bricks: Vec::new() }
-    }
-
-    /// Puts down a cell that begins at a place, two to the power of `shift` places wide, and those below it.
-    fn put(&mut self, cells: &[Cell], cell: Cell, at: [u32; 3], shift: u32) {
-        let told = match cell {
-            Cell::Inner(first) => {
-                if shift == BRICK {
-                    let brick = self.bricks.len() as u32;
-                    self.coarse[number(at.map(|x| x >> BRICK), DEEPEST - BRICK)] =
-                        brick << 3 | Self::IS_BRICK;
-                    self.bricks.push([0; 1 << (3 * BRICK)]);
-                }
-                for (half, &cell) in (0_u32..).zip(&cells[first as usize..][..8]) {
-                    let bit = |axis: usize| (half >> axis & 1) << (shift - 1);
-                    self.put(cells, cell, [at[0] + bit(0), at[1] + bit(1), at[2] + bit(2)], shift - 1);
-                }
-                return;
-            }
-            Cell::Gap(above) => u32::from(above) << 3 | shift,
-            Cell::Sign(above) => (2 + u32::from(above)) << 3 | shift,
-            Cell::Leaf(leaf) => (4 + leaf) << 3 | shift,
-        };
-        let wide = shift.saturating_sub(BRICK);
-        let all = 0..1_u32 << (3 * if shift < BRICK { shift } else { wide });
-        for k in all {
-            if shift < BRICK {
-                let axis = |i: usize| at[i] % (1 << BRICK) + (k >> (i as u32 * shift)) % (1 << shift);
-                if let Some(brick) = self.bricks.last_mut() {
-                    brick[number([axis(0), axis(1), axis(2)], BRICK)] = told;
-                }
-            } else {
-                let axis = |i: usize| (at[i] >> BRICK) + (k >> (i as u32 * wide)) % (1 << wide);
-                self.coarse[number([axis(0), axis(1), axis(2)], DEEPEST - BRICK)] = told;
-            }
-        }
-    }
-
-    /// What is at a place, and how wide its cell is, as a power of two.
-    #[inline(always)]
-    fn at(&self, at: [u32; 3]) -> (Told, u32) {
-        let [x, y, z] = at;
-        let mut cell = self.coarse[number([x >> BRICK, y >> BRICK, z >> BRICK], DEEPEST - BRICK)];
-        if cell & Self::IS_BRICK == Self::IS_BRICK {
-            let within = (1 << BRICK) - 1;
-            cell = self.bricks[(cell >> 3) as usize][number([x & within, y & within, z & within], BRICK)];
-        }
-        let told = match cell >> 3 {
-            0 => Told::Gap(false),
-            1 => Told::Gap(true),
-            2 => Told::Sign(false),
-            3 => Told::Sign(true),
-            leaf => Told::Leaf(leaf - 4),
-        };
-        (told, cell & 0b111)
-    }
-}
-
 /// What is only needed while cells are divided.
 #[derive(Default)]
 struct Known {
@@ -189,17 +108,6 @@ struct Known {
     tapes: HashMap<u64, Vec<u32>>,
     /// What becomes of a tape by what is decided about its steps, so that each is made once.
     shorter: HashMap<u32, HashMap<Box<[u64]>, u32>>,
-}
-
-/// What is known in the cell of a point.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Told {
-    /// The formula has this sign.
-    Sign(bool),
-    /// Nothing that counts: the formula is undefined, or has one sign (`true`: positive).
-    Gap(bool),
-    /// There may be surface; the number of the leaf.
-    Leaf(u32),
 }
 
 /// What a stretch of a ray is in.
@@ -220,16 +128,13 @@ impl Cells {
     pub(super) fn new(tape: &Tape, extent: Aabb) -> Self {
         let reach = extent.max.to_vec().max_abs().max(extent.min.to_vec().max_abs());
         let margin = reach * MARGIN;
-        let size = (extent.max - extent.min).to_array().map(|x| x / f64::from(1_u32 << DEEPEST));
         let mut made = Self {
             extent,
-            size,
-            over: size.map(|x| 1.0 / x),
             margin,
             reach: extent.reach_from(Point3::ORIGIN),
             root: Cell::Gap(false),
             cells: Vec::new(),
-            grid: Grid::new(),
+            grid: Grid::new(&extent, Cell::Gap(false), &[]),
             leaves: Vec::new(),
             gradients: Box::default(),
             tapes: vec![tape.clone()],
@@ -239,7 +144,7 @@ impl Cells {
         let steps: usize = made.leaves.iter().map(|leaf| made.tapes[leaf.tape as usize].len()).sum();
         made.open = (made.leaves.len(), steps as f64 / made.leaves.len().max(1) as f64);
         made.bring_together();
-        made.grid.put(&made.cells, made.root, [0; 3], DEEPEST);
+        made.grid = Grid::new(&extent, made.root, &made.cells);
         made
     }
 
@@ -354,7 +259,7 @@ impl Cells {
         if !(held && reach < spare) {
             return None;
         }
-        Some(match self.seek(p.to_array()).0 {
+        Some(match self.grid.told(p.to_array()) {
             Told::Sign(sign) => Place::Sign(sign),
             Told::Gap(_) => Place::Gap,
             Told::Leaf(leaf) => Place::Open(self.tape_of(leaf)),
@@ -371,49 +276,9 @@ impl Cells {
         self.margin
     }
 
-    /// The cell of a point: what is known in it, the number of its place along each axis in parts of the smallest cells' size, and how many of these
-    /// it is wide.
-    #[inline(always)]
-    fn seek(&self, p: [f64; 3]) -> (Told, [u32; 3], u32) {
-        let most = (1 << DEEPEST) - 1;
-        let mut at = [0; 3];
-        for (i, at) in at.iter_mut().enumerate() {
-            // Saturates at zero; a point that is beyond the container by rounding is in the cell at the border.
-            *at = (((p[i] - self.extent.min[i]) * self.over[i]) as u32).min(most);
-        }
-        let (told, shift) = self.grid.at(at);
-        for at in &mut at {
-            *at = *at >> shift << shift;
-        }
-        (told, at, 1 << shift)
-    }
-
-    /// What is known in the cell of a point, and where a line leaves it, by its origin and one over its direction. Cells at the border end nowhere.
-    #[inline(always)]
-    pub(super) fn ahead(&self, p: [f64; 3], o: [f64; 3], over: [f64; 3]) -> (Told, f64) {
-        let (told, at, wide) = self.seek(p);
-        let mut end = f64::INFINITY;
-        for axis in 0..3 {
-            let rises = over[axis] > 0.0;
-            let (number, edge) = if rises { (at[axis] + wide, 1 << DEEPEST) } else { (at[axis], 0) };
-            let to = f64::from(number) * self.size[axis] + self.extent.min[axis];
-            let s = (to - o[axis]) * over[axis];
-            // What is not a number ends nowhere, too.
-            if number != edge && s < end {
-                end = s;
-            }
-        }
-        (told, end)
-    }
-
-    /// What is known in the cell of a point.
-    pub(super) fn told(&self, p: [f64; 3]) -> Told {
-        self.seek(p).0
-    }
-
     /// The number of the tape that is right in the cell of a point, and near it; the whole one where there is no surface.
     pub(super) fn tape_at(&self, p: [f64; 3]) -> u32 {
-        match self.told(p) {
+        match self.grid.told(p) {
             Told::Leaf(leaf) => self.leaves[leaf as usize].tape,
             Told::Sign(_) | Told::Gap(_) => 0,
         }
@@ -424,10 +289,16 @@ impl Cells {
         &self.tapes[number as usize]
     }
 
-    /// The tape of a leaf, and bounds of the slope along a direction that is known within `e` along each axis.
-    pub(super) fn slope(&self, leaf: u32, d: [f64; 3], e: f64) -> (u32, f64, f64) {
-        let (lo, hi) = self.gradient(leaf).along(d, [e; 3]);
+    /// The number of a leaf's tape, and bounds of the gradient in it, along each axis.
+    #[inline(always)]
+    pub(super) fn leaf(&self, leaf: u32) -> (u32, &[f32; 3], &[f32; 3]) {
+        let Gradient { lo, hi } = self.gradient(leaf);
         (self.leaves[leaf as usize].tape, lo, hi)
+    }
+
+    /// See the field.
+    pub(super) fn grid(&self) -> &Grid {
+        &self.grid
     }
 
     /// Divides the stretch from `a` to `b` of a line by the cells, in ascending order, without holes, as long as `take` says so.

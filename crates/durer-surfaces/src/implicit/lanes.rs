@@ -1,6 +1,6 @@
 //! Formulas' surfaces as lanes see them.
 //!
-//! Each line goes from cell to cell by itself, past those in which the formula has one sign. In a cell with surface the bounds of its gradient bound the slope `[l, h]` along the line:
+//! Each line goes from cell to cell, past those in which the formula has one sign (`ahead.rs`). In a cell with surface the bounds of its gradient bound the slope `[l, h]` along the line:
 //!
 //! ```text
 //!   0 not in [l, h]                 g goes one way: the sign at the end tells
@@ -10,11 +10,12 @@
 //! Else the formula is asked for bounds on the stretch, of the slope too (`pieces.rs`). What it is asked for, a value or a stretch of each line, it is asked eight times at once, by the tape that is right
 //! for all of these lines.
 //!
-//! Lines are divided where rounded numbers say that they change cells, as those of single rays are (`cells.rs`): a point is sought in the cell that is a sixteenth of the margin ahead, and
+//! Lines are divided where rounded numbers say that they change cells, as those of single rays are (`cells.rs`, `grid.rs`): a point is sought in the cell that is a sixteenth of the margin ahead, and
 //! lines whose points are known worse than half of that do without lanes.
 
 use super::Isosurface;
-use super::cells::{Cells, Told};
+use super::ahead::Stop;
+use super::grid::Told;
 use super::pieces::{Pieces, boxes};
 use crate::outline::{Ends, Level, Line8, Part, Skin, Slant, Told8, Value8};
 use crate::tape::Tape;
@@ -45,7 +46,7 @@ impl Isosurface {
     fn in_signs(&self, line: &Line8, s: &F8, lanes: M8, value: &mut Value8) -> bool {
         (value.above, value.below) = (M8::NONE, M8::NONE);
         for i in lanes.lanes() {
-            let Told::Sign(above) = self.divided().told(at(line, s.0[i], i)) else { return false };
+            let Told::Sign(above) = self.divided().grid().told(at(line, s.0[i], i)) else { return false };
             value.g.0[i] = if above { 1.0 } else { -1.0 };
             if above { value.above.set_lane(i, true) } else { value.below.set_lane(i, true) }
         }
@@ -60,64 +61,8 @@ fn at(line: &Line8, s: f64, i: usize) -> [f64; 3] {
     [s * d.x.0[i] + o.x.0[i], s * d.y.0[i] + o.y.0[i], s * d.z.0[i] + o.z.0[i]]
 }
 
-/// Where a line is in the cells, and what is known there.
-struct Step {
-    /// The formula keeps its sign until here.
-    a: f64,
-    /// Here the leaf ends.
-    b: f64,
-    /// There is none if it is not known.
-    leaf: Option<Leaf>,
-}
-
-/// The number of a leaf's tape, and bounds of the slope along the line.
-struct Leaf {
-    tape: u32,
-    low: f64,
-    high: f64,
-}
-
 /// Stretches are not asked to be shorter than this part of what holds the solid.
 const SHORTEST: f64 = durer_math::scale::pow2(-24);
-
-/// A line that rounding takes out of so many cells as soon as it is in them runs along their faces: it does without lanes.
-const GRAZED: u32 = 8;
-
-/// Passes cells in which the formula has the sign that it has, or goes away from zero.
-fn forward(line: &Line8, over: &Vec3<F8>, cells: &Cells, told: &Told8, i: usize) -> Step {
-    let (o, d, over) = (line.o.lane(i).to_array(), line.d.lane(i).to_array(), over.lane(i).to_array());
-    let (last, positive, e) = (told.last.0[i], told.sign.0[i] > 0.0, line.e_d.0[i]);
-    let ahead = cells.margin() * (1.0 / 16.0);
-    let (mut s, mut grazed) = (told.a.0[i], 0);
-    loop {
-        let at = s + ahead;
-        let p = [at * d[0] + o[0], at * d[1] + o[1], at * d[2] + o[2]];
-        let (told, end) = cells.ahead(p, o, over);
-        let next = if end > s { end } else { s + ahead };
-        match told {
-            Told::Sign(above) if above == positive => {}
-            // Where the formula is undefined is outside.
-            Told::Gap(above) if above && positive => {}
-            Told::Leaf(leaf) => {
-                let (tape, low, high) = cells.slope(leaf, d, e);
-                let away = if positive { low > 0.0 } else { high < 0.0 };
-                if !away {
-                    return Step { a: s, b: next, leaf: Some(Leaf { tape, low, high }) };
-                }
-            }
-            _ => return Step { a: s, b: end.max(s), leaf: None },
-        }
-        if next >= last {
-            return Step { a: last, b: last, leaf: None };
-        }
-        // A cell that is grazed at a corner, so that rounding says that it is left at once.
-        grazed += u32::from(end <= s);
-        if grazed > GRAZED {
-            return Step { a: s, b: s, leaf: None };
-        }
-        s = next;
-    }
-}
 
 impl Level for Isosurface {
     fn reach(&self) -> f64 {
@@ -140,43 +85,34 @@ impl Level for Isosurface {
 
     fn tell(&self, line: &Line8, told: &mut Told8) {
         let cells = self.divided();
-        let mut slope = [F8::ZERO; 2];
+        let stop = Stop::of(cells, line, told);
         let mut asked = M8::NONE;
-        let mut tape = None;
-        let mut mixed = false;
-        let mut over = Vec3::splat(Vec3::ZERO);
         line.isa.run_in_lanes(
             #[inline(always)]
             || {
-                over = Vec3::new(F8::ONE / line.d.x, F8::ONE / line.d.y, F8::ONE / line.d.z);
+                let way = (told.b - told.a).min(told.hint);
+                told.a.set_where(told.lanes, stop.a);
+                told.b.set_where(told.lanes, stop.b.min(stop.a + way).min(told.last));
+                told.seen |= told.lanes;
+                let through = told.lanes & stop.a.ge(told.last);
+                let positive = told.sign.gt(F8::ZERO);
+                told.out |= through & positive;
+                told.within |= through & !positive;
+                let leaf = stop.leaf & !through;
+                let (rises, falls) = (stop.low.gt(F8::ZERO), stop.high.lt(F8::ZERO));
+                told.rises |= leaf & rises;
+                told.falls |= leaf & !rises & falls;
+                asked = leaf & !(rises | falls);
             },
         );
-        for i in told.lanes.lanes() {
-            let step = forward(line, &over, cells, told, i);
-            let way = (told.b.0[i] - told.a.0[i]).min(told.hint.0[i]);
-            told.a.0[i] = step.a;
-            told.b.0[i] = step.b.min(step.a + way).min(told.last.0[i]);
-            told.seen.set_lane(i, true);
-            if step.a >= told.last.0[i] {
-                let all = if told.sign.0[i] > 0.0 { &mut told.out } else { &mut told.within };
-                all.set_lane(i, true);
-                continue;
-            }
-            let Some(Leaf { tape: number, low, high }) = step.leaf else { continue };
-            if low > 0.0 {
-                told.rises.set_lane(i, true);
-            } else if high < 0.0 {
-                told.falls.set_lane(i, true);
-            } else {
-                asked.set_lane(i, true);
-                (slope[0].0[i], slope[1].0[i]) = (low, high);
-                mixed |= tape.is_some_and(|tape| tape != number);
-                tape = Some(number);
-            }
+        let (mut tape, mut mixed) = (None, false);
+        for i in asked.lanes() {
+            mixed |= tape.is_some_and(|tape| tape != stop.tape[i]);
+            tape = Some(stop.tape[i]);
         }
         let Some(tape) = tape else { return };
         let tape = if mixed { &self.tape } else { cells.tape(tape) };
-        Pieces::new(line, told, asked, &slope).tell(tape, SHORTEST * self.reach(), told);
+        Pieces::new(line, told, asked, &[stop.low, stop.high]).tell(tape, SHORTEST * self.reach(), told);
     }
 
     fn values(&self, line: &Line8, s: &F8, lanes: M8, value: &mut Value8) {

@@ -13,11 +13,13 @@
 //! crossings of that stretch are one [`Kind::Cluster`](crate::Kind). Where the formula jumps from one sign to the other, also over a pole, the solid
 //! has a wall, which is a cluster too: no derivative says that there is just one. Where it is undefined there is no surface.
 
+mod ahead;
 mod along_face;
 mod cells;
 mod container;
 mod convex;
 pub mod deform;
+mod grid;
 mod isolate;
 mod lanes;
 pub mod level_set;
