@@ -249,6 +249,20 @@ impl Number for I8 {
     }
 
     #[inline(always)]
+    fn times(k: f64, a: &Self) -> Self {
+        let mut out = *a;
+        for i in 0..LANES {
+            let (l, h) = (a.lo.0[i], a.hi.0[i]);
+            let (l, h) = if k > 0.0 { (l, h) } else { (-h, -l) };
+            let (lo, hi) = (below(k.abs() * l), above(k.abs() * h));
+            // Underflow must not lose a sign.
+            out.lo.0[i] = if (l >= 0.0) & (lo < 0.0) { 0.0 } else { lo };
+            out.hi.0[i] = if (h <= 0.0) & (hi > 0.0) { 0.0 } else { hi };
+        }
+        out
+    }
+
+    #[inline(always)]
     fn div(a: &Self, b: &Self) -> Self {
         // Mostly the divisor is a constant.
         if (b.lo.equals(b.hi) & b.lo.abs().gt(F8::ZERO)).all() {
@@ -411,6 +425,12 @@ impl Number for I8 {
         let may_below = c.lo.lt(F8::ZERO).bits();
         let may_at = (c.lo.le(F8::ZERO) & c.hi.ge(F8::ZERO)).bits();
         let may_above = c.hi.gt(F8::ZERO).bits();
+        // Mostly it is the same one in all lanes.
+        match (may_below, may_at, may_above) {
+            (_, 0, 0) => return below.said(c, c),
+            (0, 0, _) => return above.said(c, c),
+            _ => {}
+        }
         let mut out = Self::new(F8::splat(f64::INFINITY), F8::splat(f64::NEG_INFINITY)).said(c, c);
         let mut all_empty = 0xff;
         for (may, x) in [(may_below, below), (may_at, at), (may_above, above)] {

@@ -74,6 +74,7 @@ mod noise;
 pub mod number;
 pub mod predicates;
 mod ray;
+pub mod real;
 mod ring;
 pub mod rounding;
 pub mod run;

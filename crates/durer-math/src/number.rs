@@ -20,6 +20,11 @@ pub trait Number: Copy + Joined {
     fn mul_whole(a: &Self, b: &Self) -> Self {
         Self::mul(a, b)
     }
+    /// `k a`, where `k` is finite and not zero: most products of a formula have a constant factor.
+    #[inline(always)]
+    fn times(k: f64, a: &Self) -> Self {
+        Self::mul(&number(k), a)
+    }
     /// `a / b`.
     fn div(a: &Self, b: &Self) -> Self;
     /// `-a`.
@@ -276,6 +281,8 @@ pub trait Slopes<T>: Copy {
     fn negated(a: &Self) -> Self;
     /// `k a`.
     fn scaled(k: &T, a: &Self) -> Self;
+    /// The same with a number that is finite and not zero.
+    fn times(k: f64, a: &Self) -> Self;
     /// `a / k`.
     fn divided(a: &Self, k: &T) -> Self;
     /// One of three by the sign of `c`: below, at and above zero.
@@ -310,6 +317,10 @@ impl<T: Number> Slopes<T> for T {
     #[inline(always)]
     fn scaled(k: &T, a: &Self) -> Self {
         Number::mul(k, a)
+    }
+    #[inline(always)]
+    fn times(k: f64, a: &Self) -> Self {
+        Number::times(k, a)
     }
     #[inline(always)]
     fn divided(a: &Self, k: &T) -> Self {
@@ -411,6 +422,13 @@ impl<T: Number> Slopes<T> for Gradient<T> {
         )
     }
     #[inline(always)]
+    fn times(k: f64, a: &Self) -> Self {
+        a.each(
+            #[inline(always)]
+            |d| T::times(k, d),
+        )
+    }
+    #[inline(always)]
     fn divided(a: &Self, k: &T) -> Self {
         a.each(
             #[inline(always)]
@@ -476,6 +494,10 @@ impl<T: Sloped, D: Slopes<T>> Number for Dual<T, D> {
     fn mul_whole(a: &Self, b: &Self) -> Self {
         let (l, r) = (D::scaled(&a.v, &b.d), D::scaled(&b.v, &a.d));
         Self { v: T::mul_whole(&a.v, &b.v), d: D::sum(&l, &r) }
+    }
+    #[inline(always)]
+    fn times(k: f64, a: &Self) -> Self {
+        Self { v: T::times(k, &a.v), d: D::times(k, &a.d) }
     }
     #[inline(always)]
     fn div(a: &Self, b: &Self) -> Self {

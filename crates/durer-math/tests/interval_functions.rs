@@ -3,9 +3,10 @@
 mod common;
 
 use astro_float::{BigFloat, Consts, RoundingMode};
-use common::{Dice, rat};
+use common::{Dice, above, below, number, rat, wild};
 use durer_math::interval::elementary::{Defined, Range, ULPS};
-use durer_math::{F8, Function, I8, Interval, Number, elementary};
+use durer_math::{Dual, F8, Function, I8, Interval, Number, elementary};
+use proptest::prelude::*;
 
 /// Bits of the witness.
 const P: usize = 256;
@@ -307,4 +308,27 @@ fn remainders_are_those_of_the_ends() {
         }
     }
     assert!(exact > 50_000, "{exact}");
+}
+
+proptest! {
+    #![proptest_config(common::cases(4000))]
+
+    /// They keep a sign that underflow loses, and are as narrow as those of two intervals; so are their derivatives.
+    #[test]
+    fn products_with_a_constant_hold_the_exact_ones(k in prop_oneof![number(), wild()], x in prop_oneof![number(), wild()], y in prop_oneof![number(), wild()]) {
+        prop_assume!(k != 0.0);
+        let a = Interval { lo: x.min(y), hi: x.max(y) };
+        let told = I8::times(k, &I8::splat(a)).lane(3);
+        for x in [a.lo, a.hi] {
+            let exact = rat(k) * rat(x);
+            prop_assert!(below(told.lo, &exact) && above(told.hi, &exact), "{k} {a:?}: {told:?}");
+        }
+        let ends = [told.lo, told.hi];
+        prop_assert!(!(a.lo >= 0.0 || a.hi <= 0.0) || ends[0] >= 0.0 || ends[1] <= 0.0, "{k} {a:?}: {told:?}");
+        let general = I8::mul(&I8::splat(k.into()), &I8::splat(a)).lane(3);
+        prop_assert_eq!(ends, [general.lo, general.hi]);
+        let dual = Dual::<I8>::times(k, &Dual { v: I8::splat(k.into()), d: I8::splat(a) });
+        prop_assert_eq!(dual.d.lane(3), told);
+        prop_assert_eq!(dual.v, I8::times(k, &I8::splat(k.into())));
+    }
 }

@@ -19,16 +19,20 @@
 //! where `H` bounds the second derivatives, which jump between cells but are bounded in all of them: so this holds over any number of cells. [`SLOPE`], [`BEND`] and [`TWIST`] bound the first derivatives, and the second
 //! ones along one axis and along two, whatever the corners have: as sums of absolute values, whose extremes the tests find by interval arithmetic.
 //!
-//! **Rounding** is that of values and slopes; what is said of an edge errs by `115 u`, and each of the two blends adds `75 u`: in all less than [`SLOPE_ERROR`].
+//! **Rounding** is that of values and slopes; what is said of an edge errs by `115 u`, and each of the two blends adds `75 u`: in all less than [`SLOPE_ROUNDINGS`].
+//!
+//! In a cell all is done in f32, whose roundings are less than 2^-16 of what a derivative may be: a box's ends are rounded outward first, and whatever holds on the larger box holds on it. Boxes so small that such a rounding counts
+//! beside what they add to the value in the middle are looked at as small ones, too.
 
-use super::{APART, Along, SLOPE_ERROR, Sum, VALUE_ERROR, are_one_cell, number};
+use super::{APART, Along, SLOPE_ROUNDINGS, Sum, VALUE_ROUNDINGS, are_one_cell, number};
+use crate::real::{Eight, Real, less, more, roundings};
 use crate::{F8, I8, Isa, M8};
 
-/// Both count twice in bounds, so that these hold rounded values too; the rest is for the bounds' own rounding.
-const VALUE_MARGIN: f64 = 2.0 * VALUE_ERROR + 16.0 * crate::U;
-const SLOPE_MARGIN: f64 = 2.0 * SLOPE_ERROR + 16.0 * crate::U;
+/// Errors count twice in bounds, so that these hold rounded values too; the rest is for the bounds' own rounding.
+const VALUE_MARGIN: f32 = 2.0 * VALUE_ROUNDINGS + 16.0;
+const SLOPE_MARGIN: f32 = 2.0 * SLOPE_ROUNDINGS + 16.0;
 /// Pays for the roundings of sums of numbers that are not negative: twelve at most one after the other.
-const UP: f64 = 1.0 + 16.0 * crate::U;
+const UP: f32 = 16.0;
 /// The largest value of a corner.
 pub(super) const CORNER: f64 = 33.0 / 64.0;
 /// Bound on the values.
@@ -45,7 +49,7 @@ pub(super) const TWIST: f64 = 12.45;
 pub(crate) fn bounds(p: [&I8; 3]) -> I8 {
     Isa::detect().run_in_lanes(
         #[inline(always)]
-        || if are_small(p) { around(p).0 } else { cellwise(p).0 },
+        || told(p).0,
     )
 }
 
@@ -54,26 +58,35 @@ pub(crate) fn bounds(p: [&I8; 3]) -> I8 {
 pub(crate) fn slopes(p: [&I8; 3]) -> (I8, [I8; 3]) {
     Isa::detect().run_in_lanes(
         #[inline(always)]
-        || if are_small(p) { around(p) } else { cellwise(p) },
+        || told(p),
     )
 }
 
-/// Whether bounds that know nothing of the corners will do.
 #[inline(always)]
-fn are_small(p: [&I8; 3]) -> bool {
+fn told(p: [&I8; 3]) -> (I8, [I8; 3]) {
+    /// Bounds that know nothing of the corners will do if all sides are as short as this.
     const SMALL: f64 = 1.0 / 128.0;
-    let mut all = true;
+    /// A derivative of 1 makes nearly six times [`VALUE_MARGIN`] of half of this, in f32.
+    const FINE: f64 = 1.0 / 8192.0;
+    let mut side = F8::ZERO;
     for axis in p {
-        for i in 0..8 {
-            all &= axis.hi.0[i] - axis.lo.0[i] <= SMALL;
-        }
+        side = side.max(axis.hi - axis.lo);
     }
-    all
+    let mut out = nothing(p);
+    let mut around_middle = side.le(F8::splat(SMALL));
+    if !around_middle.all() {
+        cellwise(p, &mut out);
+        around_middle = side.le(F8::splat(FINE));
+    }
+    if around_middle.any() {
+        around(p, around_middle, &mut out);
+    }
+    out
 }
 
-/// Bounds that hold over any number of cells.
+/// Bounds of some lanes that hold over any number of cells.
 #[inline(always)]
-fn around(p: [&I8; 3]) -> (I8, [I8; 3]) {
+fn around(p: [&I8; 3], lanes: M8, out: &mut (I8, [I8; 3])) {
     let (mut m, mut r) = ([F8::ZERO; 3], [F8::ZERO; 3]);
     for axis in 0..3 {
         for i in 0..8 {
@@ -85,22 +98,23 @@ fn around(p: [&I8; 3]) -> (I8, [I8; 3]) {
         }
     }
     let near = Sum::at([&m[0], &m[1], &m[2]]);
-    let mut out = nothing(p);
+    let (slope_error, up) = (roundings::<f64>(SLOPE_ROUNDINGS), more::<f64>(UP));
+    let others = lanes.select(F8::ZERO, F8::splat(f64::INFINITY));
     for i in 0..8 {
         let [a, b, c] = [r[0].0[i], r[1].0[i], r[2].0[i]];
         let [da, db, dc] = [near.d[0].0[i].abs(), near.d[1].0[i].abs(), near.d[2].0[i].abs()];
         let all = a + b + c;
-        let along = da * a + db * b + dc * c + SLOPE_ERROR * all;
+        let along = da * a + db * b + dc * c + slope_error * all;
         let bent = (a * a + b * b + c * c) * ((BEND - TWIST) * 0.5) + all * all * (TWIST * 0.5);
-        let reach = (along + bent + VALUE_MARGIN) * UP;
+        let reach = (along + bent + roundings::<f64>(VALUE_MARGIN)) * up + others.0[i];
         narrow(&mut out.0, i, near.v.0[i] - reach, near.v.0[i] + reach);
         for (axis, r) in r.iter().enumerate() {
-            let reach = (r.0[i] * (BEND - TWIST) + all * TWIST + SLOPE_MARGIN) * UP;
+            let bent = r.0[i] * (BEND - TWIST) + all * TWIST;
+            let reach = (bent + roundings::<f64>(SLOPE_MARGIN)) * up + others.0[i];
             let slope = near.d[axis].0[i];
             narrow(&mut out.1[axis], i, slope - reach, slope + reach);
         }
     }
-    out
 }
 
 /// What is known of noise anywhere.
@@ -168,23 +182,24 @@ impl Parts {
 
 /// Bounds by those on the parts in single cells; of boxes of more than two cells along an axis nothing is known.
 #[inline(always)]
-fn cellwise(p: [&I8; 3]) -> (I8, [I8; 3]) {
+fn cellwise(p: [&I8; 3], out: &mut (I8, [I8; 3])) {
     let parts = [Parts::new(p[0], APART[0]), Parts::new(p[1], APART[1]), Parts::new(p[2], APART[2])];
     let more = parts[0].more | parts[1].more | parts[2].more;
+    if more.all() {
+        return;
+    }
     let two = [parts[0].two & !more, parts[1].two & !more, parts[2].two & !more];
-    let mut out = nothing(p);
     let mut held = whole(&[parts[0].first, parts[1].first, parts[2].first]);
     if (two[0] | two[1] | two[2]).any() {
         beside(&parts, &two, &mut held);
     }
     let (v, d) = held;
     for i in (!more).lanes() {
-        narrow(&mut out.0, i, v.lo.0[i], v.hi.0[i]);
+        narrow(&mut out.0, i, v.lo.0[i].into(), v.hi.0[i].into());
         for (out, d) in out.1.iter_mut().zip(&d) {
-            narrow(out, i, d.lo.0[i], d.hi.0[i]);
+            narrow(out, i, d.lo.0[i].into(), d.hi.0[i].into());
         }
     }
-    out
 }
 
 /// Widens bounds by those on the parts in other cells than the first, eight of them at a time.
@@ -226,8 +241,8 @@ fn widen(held: &mut (Ends, [Ends; 3]), of: &[usize], by: &(Ends, [Ends; 3])) {
 /// The least and the greatest numbers of eight.
 #[derive(Clone, Copy)]
 struct Ends {
-    lo: F8,
-    hi: F8,
+    lo: Eight<f32>,
+    hi: Eight<f32>,
 }
 
 impl Ends {
@@ -235,8 +250,8 @@ impl Ends {
     #[inline(always)]
     fn widen(&mut self, of: &[usize], by: &Self) {
         for (k, &i) in of.iter().enumerate() {
-            self.lo.0[i] = self.lo.0[i].min(by.lo.0[k]);
-            self.hi.0[i] = self.hi.0[i].max(by.hi.0[k]);
+            self.lo.0[i] = Real::min(self.lo.0[i], by.lo.0[k]);
+            self.hi.0[i] = Real::max(self.hi.0[i], by.hi.0[k]);
         }
     }
 
@@ -254,20 +269,28 @@ impl Ends {
 /// A part along an axis, and what the blend and its derivative are on it.
 struct Within {
     /// Half of its length.
-    half: F8,
+    half: Eight<f32>,
     f: Ends,
     slope: Ends,
 }
 
 impl Within {
     #[inline(always)]
-    fn new(part: &Part, apart: u32) -> (Along, Self) {
-        let middle = part.lo * 0.5 + part.hi * 0.5;
-        let half = part.hi * 0.5 - part.lo * 0.5;
-        let (a, b) = (Along::new(part.corner, &part.lo, apart), Along::new(part.corner, &part.hi, apart));
+    fn new(part: &Part, apart: u32) -> (Along<f32>, Self) {
+        let (mut lo, mut hi) = (Eight::ZERO, Eight::ZERO);
+        for i in 0..8 {
+            // In f32 a bit outside, in the cell.
+            let down = (part.lo.0[i] as f32) * less::<f32>(4.0) - f32::TINY;
+            let up = (part.hi.0[i] as f32) * more::<f32>(4.0) + f32::TINY;
+            lo.0[i] = Real::max(down, 0.0);
+            hi.0[i] = Real::min(up, 1.0);
+        }
+        let middle = lo * 0.5 + hi * 0.5;
+        let half = hi * 0.5 - lo * 0.5;
+        let (a, b) = (Along::new(part.corner, &lo, apart), Along::new(part.corner, &hi, apart));
         let mut slope = Ends { lo: a.slope.min(b.slope), hi: a.slope.max(b.slope) };
         for i in 0..8 {
-            let steepest = (part.lo.0[i] < 0.5) & (part.hi.0[i] > 0.5);
+            let steepest = (lo.0[i] < 0.5) & (hi.0[i] > 0.5);
             slope.hi.0[i] = if steepest { 1.5 } else { slope.hi.0[i] };
         }
         (Along::new(part.corner, &middle, apart), Self { half, f: Ends { lo: a.f, hi: b.f }, slope })
@@ -294,23 +317,27 @@ fn whole(parts: &[Part; 3]) -> (Ends, [Ends; 3]) {
 }
 
 #[inline(always)]
-fn within_corners(along: &[Along; 3], within: &[Within; 3], corners: &[Sum; 8]) -> (Ends, [Ends; 3]) {
+fn within_corners(
+    along: &[Along<f32>; 3],
+    within: &[Within; 3],
+    corners: &[Sum<f32>; 8],
+) -> (Ends, [Ends; 3]) {
     let d = [
         slope(within, corners, [0, 1, 2]),
         slope(within, corners, [1, 0, 2]),
         slope(within, corners, [2, 0, 1]),
     ];
-    let mut reach = F8::splat(VALUE_MARGIN);
+    let mut reach = Eight::splat(roundings(VALUE_MARGIN));
     for (d, within) in d.iter().zip(within) {
         reach = d.hi.max(-d.lo).mul_add(within.half, reach);
     }
-    let (v, reach) = (Sum::of(along, corners).v, reach * UP);
+    let (v, reach) = (Sum::of(along, corners).v, reach * more::<f32>(UP));
     (Ends { lo: v - reach, hi: v + reach }, d)
 }
 
 /// Bounds of the derivative along the first of three axes.
 #[inline(always)]
-fn slope(within: &[Within; 3], corners: &[Sum; 8], [axis, second, third]: [usize; 3]) -> Ends {
+fn slope(within: &[Within; 3], corners: &[Sum<f32>; 8], [axis, second, third]: [usize; 3]) -> Ends {
     let (upper, b, c) = (1 << axis, 1 << second, 1 << third);
     let near = Ends::blended(
         &within[second].f,
@@ -323,14 +350,15 @@ fn slope(within: &[Within; 3], corners: &[Sum; 8], [axis, second, third]: [usize
         &pair(within, axis, &corners[b | c], &corners[b | c | upper]),
     );
     let Ends { lo, hi } = Ends::blended(&within[third].f, &near, &far);
-    Ends { lo: lo - SLOPE_MARGIN, hi: hi + SLOPE_MARGIN }
+    let margin: f32 = roundings(SLOPE_MARGIN);
+    Ends { lo: lo - margin, hi: hi + margin }
 }
 
 /// The same of an edge's two corners: `f' (b - a)`, and the slopes there.
 #[inline(always)]
-fn pair(within: &[Within; 3], axis: usize, a: &Sum, b: &Sum) -> Ends {
+fn pair(within: &[Within; 3], axis: usize, a: &Sum<f32>, b: &Sum<f32>) -> Ends {
     // The difference is linear along all axes.
-    let mut reach = F8::ZERO;
+    let mut reach = Eight::ZERO;
     for (k, within) in within.iter().enumerate() {
         reach = (b.d[k] - a.d[k]).abs().mul_add(within.half, reach);
     }

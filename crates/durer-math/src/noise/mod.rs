@@ -9,9 +9,9 @@
 //! parts of `g` are odd multiples of 1/256 between -1 and 1. So noise is a polynomial in each cell, with numbers that f64 holds exactly, and its derivatives are continuous everywhere: what is bounded here is that
 //! function of real numbers.
 //!
-//! **Rounding.** With `u = 2^-53`: a coordinate in its cell is exact, but for one between -1 and 0, where it errs by `u/2`; all roundings of `f` are `2 u`, of `f'` `4 u`,
+//! **Rounding.** With `u` for one rounding of 1, in f64 or in f32, which holds the same numbers exactly: a coordinate in its cell is exact, but for one between -1 and 0, where it errs by `u/2`; all roundings of `f` are `2 u`, of `f'` `4 u`,
 //! of a corner's sum `7 u`. A step of the interpolation, of which there are three, adds `21 u` to a value (`2 u` times a difference of at most 7.04, its rounding of `4 u` and the sum's of `2 u`), and to a derivative at most `75 u`, or
-//! `180 u` along its own axis. With what the coordinates' errors make of it these are below [`VALUE_ERROR`] and [`SLOPE_ERROR`].
+//! `180 u` along its own axis. With what the coordinates' errors make of it these are below [`VALUE_ROUNDINGS`] and [`SLOPE_ROUNDINGS`].
 
 mod bounds;
 #[cfg(test)]
@@ -19,46 +19,70 @@ mod tests;
 
 pub(crate) use bounds::{bounds, slopes};
 
+use crate::real::{Eight, Real, real};
 use crate::{F8, Isa};
 
-/// Bound on the rounding errors of a value.
-const VALUE_ERROR: f64 = 80.0 * crate::U;
+/// Bound on the rounding errors of a value, in roundings of 1.
+const VALUE_ROUNDINGS: f32 = 80.0;
 /// The same of a derivative.
-const SLOPE_ERROR: f64 = 320.0 * crate::U;
+const SLOPE_ROUNDINGS: f32 = 320.0;
 
 /// Primes that take the three whole numbers apart: those of Y. Collet's xxHash.
 const APART: [u32; 3] = [0x9e37_79b1, 0x85eb_ca77, 0xc2b2_ae3d];
 
+/// A number that a lattice's point can be said in.
+trait Grain: Real {
+    /// The lowest eight bits as what is behind the point of a number: from 1 to 2 by 1/256, or from 2 to 4 by 1/128.
+    fn eight(bits: u32, first: Self) -> Self;
+}
+
+impl Grain for f64 {
+    #[inline(always)]
+    fn eight(bits: u32, first: Self) -> Self {
+        Self::from_bits(first.to_bits() | u64::from(bits & 0xff) << 44)
+    }
+}
+
+impl Grain for f32 {
+    #[inline(always)]
+    fn eight(bits: u32, first: Self) -> Self {
+        Self::from_bits(first.to_bits() | (bits & 0xff) << 15)
+    }
+}
+
 /// A coordinate: its cell, and where in it.
-struct Along {
+struct Along<T> {
     /// What the two corners of the cell add to the hash.
     corner: [[u32; 8]; 2],
     /// How far from these.
-    from: [F8; 2],
+    from: [Eight<T>; 2],
     /// The blend and its derivative.
-    f: F8,
-    slope: F8,
+    f: Eight<T>,
+    slope: Eight<T>,
 }
 
-impl Along {
+impl<T: Grain> Along<T> {
     /// Of numbers from 0 to 1 in cells whose lower corners add this.
     #[inline(always)]
-    fn new(corner: [u32; 8], t: &F8, apart: u32) -> Self {
-        let mut out = Self { corner: [corner; 2], from: [*t, *t - 1.0], f: F8::ZERO, slope: F8::ZERO };
+    fn new(corner: [u32; 8], t: &Eight<T>, apart: u32) -> Self {
+        let mut out =
+            Self { corner: [corner; 2], from: [*t, *t - real::<T>(1.0)], f: Eight::ZERO, slope: Eight::ZERO };
         for (i, &corner) in corner.iter().enumerate() {
             out.corner[1][i] = corner.wrapping_add(apart);
             // Around the cell's middle: 1/2 + s (3/2 - 2 s^2), and 6 (1/4 - s^2).
-            let s = t.0[i] - 0.5;
-            out.f.0[i] = (s * s).mul_add(-2.0, 1.5).mul_add(s, 0.5);
-            out.slope.0[i] = 6.0 * (-s).mul_add(s, 0.25);
+            let s = t.0[i] - real(0.5);
+            out.f.0[i] = (s * s).mul_add(real(-2.0), real(1.5)).mul_add(s, real(0.5));
+            out.slope.0[i] = real::<T>(6.0) * (-s).mul_add(s, real(0.25));
         }
         out
     }
+}
 
+impl Along<f64> {
     /// Of any numbers.
     #[inline(always)]
     fn of(x: &F8, apart: u32) -> Self {
-        let (mut corner, mut t) = ([0; 8], F8::ZERO);
+        let (mut corner, mut t) = ([0; 8], Eight::ZERO);
         for (i, corner) in corner.iter_mut().enumerate() {
             let whole = x.0[i].floor();
             *corner = number(whole).wrapping_mul(apart);
@@ -70,7 +94,7 @@ impl Along {
 
 /// Whether all lanes are in the same cell.
 #[inline(always)]
-fn are_one_cell(along: &[Along; 3]) -> bool {
+fn are_one_cell<T>(along: &[Along<T>; 3]) -> bool {
     let mut different = 0;
     for axis in along {
         for &corner in &axis.corner[0] {
@@ -100,7 +124,7 @@ fn mixed(x: u32) -> u32 {
 
 /// What the numbers of a corner of each lane's cell come to.
 #[inline(always)]
-fn hashes(along: &[Along; 3], corner: usize) -> [u32; 8] {
+fn hashes<T>(along: &[Along<T>; 3], corner: usize) -> [u32; 8] {
     let mut hash = [0; 8];
     for (lane, hash) in hash.iter_mut().enumerate() {
         let [x, y, z] = along;
@@ -129,40 +153,35 @@ macro_rules! each_corner {
     }};
 }
 
-/// The lowest eight bits as what is behind the point of a number: from 1 to 2 by 1/256, or from 2 to 4 by 1/128.
-#[inline(always)]
-fn eight(bits: u64, first: f64) -> f64 {
-    f64::from_bits(first.to_bits() | (bits & 0xff) << 44)
-}
-
 /// A sum over some of the corners: its value and its derivatives.
 #[derive(Clone, Copy)]
-struct Sum {
-    v: F8,
-    d: [F8; 3],
+struct Sum<T> {
+    v: Eight<T>,
+    d: [Eight<T>; 3],
 }
 
-impl Sum {
+impl<T: Grain> Sum<T> {
     /// Values and slopes of eight points of the lattice.
     #[inline(always)]
     fn said(hash: &[u32; 8]) -> Self {
-        let mut out = Self { v: F8::ZERO, d: [F8::ZERO; 3] };
+        let (value, slope) = (real::<T>(1.0 + 132.0 / 256.0), real::<T>(3.0 - 1.0 / 256.0));
+        let mut out = Self { v: Eight::ZERO, d: [Eight::ZERO; 3] };
         for (i, &hash) in hash.iter().enumerate() {
-            let bits = u64::from(mixed(hash));
-            out.v.0[i] = eight(bits, 1.0) - (1.0 + 132.0 / 256.0);
-            out.d[0].0[i] = eight(bits >> 8, 2.0) - (3.0 - 1.0 / 256.0);
-            out.d[1].0[i] = eight(bits >> 16, 2.0) - (3.0 - 1.0 / 256.0);
-            out.d[2].0[i] = eight(bits >> 24, 2.0) - (3.0 - 1.0 / 256.0);
+            let bits = mixed(hash);
+            out.v.0[i] = T::eight(bits, real(1.0)) - value;
+            out.d[0].0[i] = T::eight(bits >> 8, real(2.0)) - slope;
+            out.d[1].0[i] = T::eight(bits >> 16, real(2.0)) - slope;
+            out.d[2].0[i] = T::eight(bits >> 24, real(2.0)) - slope;
         }
         out
     }
 
     /// From one to another along an axis.
     #[inline(always)]
-    fn blended(along: &[Along; 3], axis: usize, a: &Self, b: &Self) -> Self {
+    fn blended(along: &[Along<T>; 3], axis: usize, a: &Self, b: &Self) -> Self {
         let Along { f, slope, .. } = &along[axis];
         let change = b.v - a.v;
-        let mut out = Self { v: f.mul_add(change, a.v), d: [F8::ZERO; 3] };
+        let mut out = Self { v: f.mul_add(change, a.v), d: [Eight::ZERO; 3] };
         for i in 0..3 {
             out.d[i] = f.mul_add(b.d[i] - a.d[i], a.d[i]);
         }
@@ -172,7 +191,7 @@ impl Sum {
 
     /// All corners, as seen from there; if all lanes are in one cell, eight corners are asked once.
     #[inline(always)]
-    fn corners<const ONE_CELL: bool>(along: &[Along; 3]) -> [Self; 8] {
+    fn corners<const ONE_CELL: bool>(along: &[Along<T>; 3]) -> [Self; 8] {
         if !ONE_CELL {
             return each_corner!(c => Self::said(&hashes(along, c)).seen(along, c));
         }
@@ -197,14 +216,14 @@ impl Sum {
     fn splat(&self, lane: usize) -> Self {
         let [x, y, z] = &self.d;
         Self {
-            v: F8::splat(self.v.0[lane]),
-            d: [F8::splat(x.0[lane]), F8::splat(y.0[lane]), F8::splat(z.0[lane])],
+            v: Eight::splat(self.v.0[lane]),
+            d: [Eight::splat(x.0[lane]), Eight::splat(y.0[lane]), Eight::splat(z.0[lane])],
         }
     }
 
     /// What a corner's value and slope come to at the points.
     #[inline(always)]
-    fn seen(mut self, along: &[Along; 3], corner: usize) -> Self {
+    fn seen(mut self, along: &[Along<T>; 3], corner: usize) -> Self {
         let [gx, gy, gz] = self.d;
         let [x, y, z] =
             [along[0].from[corner & 1], along[1].from[corner >> 1 & 1], along[2].from[corner >> 2]];
@@ -214,7 +233,7 @@ impl Sum {
 
     /// Of all corners.
     #[inline(always)]
-    fn of(along: &[Along; 3], c: &[Self; 8]) -> Self {
+    fn of(along: &[Along<T>; 3], c: &[Self; 8]) -> Self {
         let near = Self::blended(
             along,
             1,
@@ -229,7 +248,9 @@ impl Sum {
         );
         Self::blended(along, 2, &near, &far)
     }
+}
 
+impl Sum<f64> {
     /// At eight points.
     #[inline(always)]
     fn at([x, y, z]: [&F8; 3]) -> Self {
@@ -247,7 +268,7 @@ impl Sum {
 pub(crate) fn values(p: [&F8; 3]) -> F8 {
     Isa::detect().run_in_lanes(
         #[inline(always)]
-        || Sum::at(p).v,
+        || F8(Sum::at(p).v.0),
     )
 }
 
@@ -258,7 +279,7 @@ pub(crate) fn slants(p: [&F8; 3]) -> (F8, [F8; 3]) {
         #[inline(always)]
         || {
             let Sum { v, d } = Sum::at(p);
-            (v, d)
+            (F8(v.0), [F8(d[0].0), F8(d[1].0), F8(d[2].0)])
         },
     )
 }

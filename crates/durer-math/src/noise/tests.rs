@@ -80,12 +80,41 @@ fn rounded_values_and_slopes_are_as_near_as_is_said() {
         let (v, d) = slants(F8::splats(p).each_ref());
         let told = [v, d[0], d[1], d[2]];
         for (told, exact) in told.iter().zip(exact(p)) {
-            let e = if *told == v { VALUE_ERROR } else { SLOPE_ERROR };
+            let e = crate::U * f64::from(if *told == v { VALUE_ROUNDINGS } else { SLOPE_ROUNDINGS });
             // A quarter of what is claimed is what happens.
             let (lo, hi) = (told.0[0] - e / 4.0, told.0[0] + e / 4.0);
             assert!(is_within(&exact, lo, hi), "{p:?}: {told:?} {exact:?}");
         }
     }
+}
+
+/// In single precision, too, of points that it knows: in the cells around the lattice's point 0.
+#[test]
+fn single_precision_is_as_near_as_is_said() {
+    let mut dice = Dice(5);
+    let mut worst = [0.0_f64; 2];
+    for _ in 0..20_000 {
+        let whole = [0, 1, 2].map(|_| (dice.bits() % 2) as f64 - 1.0);
+        let t = [0, 1, 2].map(|_| (dice.unit() * [1.0, 1.0, 1e-9][(dice.bits() % 3) as usize]) as f32);
+        let axis = |i: usize| {
+            Along::new([number(whole[i]).wrapping_mul(APART[i]); 8], &Eight::splat(t[i]), APART[i])
+        };
+        let along = [axis(0), axis(1), axis(2)];
+        let Sum { v, d } = Sum::of(&along, &Sum::corners::<false>(&along));
+        // Sums with a whole number are exact in f64 but for some small ones below zero, which then do not count in f32.
+        let exact = exact([0, 1, 2].map(|i| whole[i] + f64::from(t[i])));
+        for (k, (told, exact)) in [v, d[0], d[1], d[2]].iter().zip(&exact).enumerate() {
+            let off = exact.clone() - Dyadic::exact(f64::from(told.0[0]));
+            let off = off.abs().to_f64() / f64::from(<f32 as Real>::U);
+            worst[usize::from(k > 0)] = worst[usize::from(k > 0)].max(off);
+        }
+    }
+    // A quarter of what is claimed is what happens.
+    assert!(
+        worst[0] <= f64::from(VALUE_ROUNDINGS) / 4.0 && worst[1] <= f64::from(SLOPE_ROUNDINGS) / 4.0,
+        "{worst:?}"
+    );
+    assert!(worst[0] >= 1.0 && worst[1] >= 1.0, "{worst:?}");
 }
 
 #[test]
@@ -108,9 +137,14 @@ fn pictures_of_noise_stay_what_they_are() {
 fn bounds_hold_exact_values_and_rounded_ones() {
     let mut dice = Dice(2);
     for _ in 0..3_000 {
-        let size = [0.0, 1e-12, 1e-3, 0.05, 0.3, 1.0, 3.0][(dice.bits() % 7) as usize];
+        let any_size =
+            |dice: &mut Dice| [0.0, 1e-12, 1e-4, 1e-3, 0.05, 0.3, 1.0, 3.0][(dice.bits() % 8) as usize];
+        let (is_mixed, mut size) = (dice.bits().is_multiple_of(2), any_size(&mut dice));
         let mut boxes = [I8::new(F8::ZERO, F8::ZERO); 3];
         for i in 0..8 {
+            if is_mixed {
+                size = any_size(&mut dice);
+            }
             for x in &mut boxes {
                 let lo = dice.number();
                 x.set_lane(i, Interval { lo, hi: lo + size * dice.unit() });
@@ -185,9 +219,10 @@ fn values_and_slopes_go_on_from_cell_to_cell() {
         };
         let ((a, da), (b, db)) = (at(p[axis].next_down()), at(p[axis].next_up()));
         let apart = p[axis].next_up() - p[axis].next_down();
-        assert!((a.0[0] - b.0[0]).abs() <= 2.0 * VALUE_ERROR + SLOPE * apart);
+        let error = |roundings| 2.0 * crate::U * f64::from(roundings);
+        assert!((a.0[0] - b.0[0]).abs() <= error(VALUE_ROUNDINGS) + SLOPE * apart);
         for (da, db) in da.iter().zip(&db) {
-            assert!((da.0[0] - db.0[0]).abs() <= 2.0 * SLOPE_ERROR + BEND * apart);
+            assert!((da.0[0] - db.0[0]).abs() <= error(SLOPE_ROUNDINGS) + BEND * apart);
         }
     }
 }
@@ -238,11 +273,22 @@ fn corners_are_alike_and_know_nothing_of_each_other() {
 #[test]
 fn bounds_of_small_boxes_are_hardly_wider_than_the_values() {
     let mut dice = Dice(4);
-    for (size, most) in [(0.1, 3.0), (0.02, 2.0), (1e-4, 1.1)] {
+    for (size, most, beside_large) in [
+        (0.1, 3.0, false),
+        (0.02, 2.0, false),
+        (0.02, 2.0, true),
+        (1e-4, 1.1, false),
+        (1e-4, 1.1, true),
+        (1e-6, 1.1, true),
+    ] {
         let mut ratios: Vec<f64> = Vec::new();
         for _ in 0..200 {
             let lo = [dice.unit() * 40.0 - 20.0, dice.unit() * 40.0 - 20.0, dice.unit() * 40.0 - 20.0];
-            let v = bounds(lo.map(|lo| I8::splat(Interval { lo, hi: lo + size })).each_ref()).lane(0);
+            let mut boxes = lo.map(|lo| I8::splat(Interval { lo, hi: lo + size }));
+            if beside_large {
+                boxes[0].set_lane(7, Interval { lo: lo[0], hi: lo[0] + 0.5 });
+            }
+            let v = bounds(boxes.each_ref()).lane(0);
             let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
             for k in 0..125_u32 {
                 let at = [k % 5, k / 5 % 5, k / 25].map(|k| f64::from(k) / 4.0 * size);
@@ -252,6 +298,10 @@ fn bounds_of_small_boxes_are_hardly_wider_than_the_values() {
             ratios.push((v.hi - v.lo) / (greatest - least));
         }
         ratios.sort_by(f64::total_cmp);
-        assert!(ratios[0] >= 1.0 && ratios[100] < most, "{size}: {}", ratios[100]);
+        assert!(
+            ratios[0] >= 1.0 && ratios[100] < most,
+            "{size}, beside a large one {beside_large}: {}",
+            ratios[100]
+        );
     }
 }

@@ -303,6 +303,7 @@ fn always_defined(formula: &Formula) -> bool {
                 | Op::Add(..)
                 | Op::Sub(..)
                 | Op::Mul(..)
+                | Op::Times(..)
                 | Op::Min(..)
                 | Op::Max(..)
                 | Op::Noise(_)

@@ -17,7 +17,7 @@
 //! each with an orbit of its own.
 
 use super::JuliaPower;
-use super::number::{Eight, Real, less, more, real, roundings};
+use durer_math::real::{Eight, Real, less, more, real, roundings};
 use durer_math::{F8, M8, U};
 
 /// Pays for results below the normal range.

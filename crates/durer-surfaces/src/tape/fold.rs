@@ -40,10 +40,14 @@ pub(super) fn simpler(op: Op, at: impl Fn(NodeId) -> Op) -> Simpler {
             let (a, b) = ordered(a, b);
             Simpler::Op(Op::Add(a, b))
         }
-        Op::Mul(a, b) => {
-            let (a, b) = ordered(a, b);
-            Simpler::Op(Op::Mul(a, b))
-        }
+        Op::Mul(a, b) => match (factor(constant(a)), factor(constant(b))) {
+            (Some(k), _) => Simpler::Op(Op::Times(k, b)),
+            (_, Some(k)) => Simpler::Op(Op::Times(k, a)),
+            _ => {
+                let (a, b) = ordered(a, b);
+                Simpler::Op(Op::Mul(a, b))
+            }
+        },
         Op::MulWhole(a, b) => {
             let (a, b) = ordered(a, b);
             Simpler::Op(Op::MulWhole(a, b))
@@ -86,6 +90,11 @@ pub(super) fn simpler(op: Op, at: impl Fn(NodeId) -> Op) -> Simpler {
     }
 }
 
+/// A constant that is exactly a number other than zero.
+fn factor(constant: Option<Interval>) -> Option<f64> {
+    constant.and_then(|Interval { lo, hi }| (lo == hi && lo.is_finite() && lo != 0.0).then_some(lo))
+}
+
 /// The value of a step whose operands are constants, where it is defined and finite.
 fn folded(op: &Op, constant: &impl Fn(NodeId) -> Option<Interval>) -> Option<Interval> {
     let sure = |(x, d): Range| (d == Defined::Continuous).then_some(x);
@@ -106,6 +115,7 @@ fn folded(op: &Op, constant: &impl Fn(NodeId) -> Option<Interval>) -> Option<Int
         Op::Add(a, b) => constant(a)? + constant(b)?,
         Op::Sub(a, b) => constant(a)? - constant(b)?,
         Op::Mul(a, b) | Op::MulWhole(a, b) => constant(a)? * constant(b)?,
+        Op::Times(k, a) => exactly(k) * constant(a)?,
         Op::Div(a, b) => {
             let (a, b) = (constant(a)?, constant(b)?);
             if b.contains(0.0) {

@@ -38,6 +38,8 @@ pub enum Op {
     Mul(NodeId, NodeId),
     /// `a b` of numbers that are whole, which [`Builder::push`] finds out: what is a product to it becomes this, and the other way round.
     MulWhole(NodeId, NodeId),
+    /// `k a` with a number `k` that is finite and not zero: what is a product with a constant to [`Builder::push`] becomes this.
+    Times(f64, NodeId),
     /// `a / b`; undefined at zero.
     Div(NodeId, NodeId),
     /// The lesser one.
@@ -78,6 +80,7 @@ impl Op {
             Self::Sub(a, b) => Self::Sub(f(a), f(b)),
             Self::Mul(a, b) => Self::Mul(f(a), f(b)),
             Self::MulWhole(a, b) => Self::MulWhole(f(a), f(b)),
+            Self::Times(k, a) => Self::Times(k, f(a)),
             Self::Div(a, b) => Self::Div(f(a), f(b)),
             Self::Min(a, b) => Self::Min(f(a), f(b)),
             Self::Max(a, b) => Self::Max(f(a), f(b)),
@@ -101,6 +104,7 @@ impl Op {
             | Self::Sqr(a)
             | Self::Sqrt(a)
             | Self::Powi(a, _)
+            | Self::Times(_, a)
             | Self::Settled(a)
             | Self::Function(_, a) => f(a),
             Self::Add(a, b)
@@ -167,6 +171,7 @@ impl Op {
             Self::Noise([a, b, c]) => (20, u64::from(a.0), u64::from(b.0), u64::from(c.0)),
             Self::Joined([a, b, c]) => (21, u64::from(a.0), u64::from(b.0), u64::from(c.0)),
             Self::MulWhole(a, b) => two(22, a, b),
+            Self::Times(k, a) => (23, k.to_bits(), u64::from(a.0), 0),
         }
     }
 }

@@ -81,6 +81,7 @@ pub(super) fn run_with<T: Number>(
             Op::Add(a, b) => *value = T::add(at(a), at(b)),
             Op::Sub(a, b) => *value = T::sub(at(a), at(b)),
             Op::Mul(a, b) => *value = T::mul(at(a), at(b)),
+            Op::Times(k, a) => *value = T::times(k, at(a)),
             Op::MulWhole(a, b) => *value = T::mul_whole(at(a), at(b)),
             Op::Div(a, b) => *value = T::div(at(a), at(b)),
             Op::Min(a, b) => *value = T::min(at(a), at(b)),
