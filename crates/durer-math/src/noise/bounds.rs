@@ -20,6 +20,7 @@
 //! ones along one axis and along two, whatever the corners have: as sums of absolute values, whose extremes the tests find by interval arithmetic.
 //!
 //! **Rounding** is that of values and slopes; what is said of an edge errs by `115 u`, and each of the two blends adds `75 u`: in all less than [`SLOPE_ROUNDINGS`].
+//! A box's middle is rounded by half of `u` along each axis, which moves a value by less than `8 u`.
 //!
 //! In a cell all is done in f32, whose roundings are less than 2^-16 of what a derivative may be: a box's ends are rounded outward first, and whatever holds on the larger box holds on it. Boxes so small that such a rounding counts
 //! beside what they add to the value in the middle are looked at as small ones, too.
