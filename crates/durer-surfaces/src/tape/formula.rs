@@ -255,6 +255,11 @@ impl Builder {
 
     /// A step; the operands must be this builder's.
     pub fn push(&mut self, op: Op) -> Result<NodeId, FormulaError> {
+        if let Op::Times(k, a) = op {
+            // A product once more, which may have become one of whole numbers.
+            let k = self.constant(k)?;
+            return self.push(Op::Mul(k, a));
+        }
         let is_whole = |id: NodeId| self.whole[id.0 as usize];
         let op = match op {
             Op::Mul(a, b) if a != b && is_whole(a) && is_whole(b) => Op::MulWhole(a, b),
@@ -315,4 +320,33 @@ pub(super) fn live(ops: &[Op], root: NodeId) -> (Vec<Op>, NodeId) {
         }
     }
     (kept, names[root.0 as usize])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A function that is called with something says what its text says of that: of whole numbers that products are whole.
+    #[test]
+    fn calls_are_what_their_text_is() {
+        let mut b = Builder::new();
+        let (p, three) = (b.input(0).unwrap(), b.constant(3.0).unwrap());
+        let product = b.push(Op::Mul(three, p)).unwrap();
+        let triple = b.finish(product, 1);
+        assert!(matches!(triple.ops(), [Op::Input(0), Op::Times(3.0, _)]), "{triple:?}");
+        let arguments: [fn(NodeId) -> Op; 3] =
+            [|x| Op::Function(Function::Floor, x), Op::Sqr, |_| Op::Constant(0.5.into())];
+        for (argument, is_whole) in arguments.into_iter().zip([true, false, false]) {
+            let both = [true, false].map(|is_called| {
+                let mut b = Builder::new();
+                let (x, three) = (b.input(0).unwrap(), b.constant(3.0).unwrap());
+                let a = b.push(argument(x)).unwrap();
+                let root = if is_called { b.call(&triple, &[a]) } else { b.push(Op::Mul(three, a)) };
+                b.finish(root.unwrap(), 1)
+            });
+            assert_eq!(both[0], both[1]);
+            let last = both[0].ops().last();
+            assert_eq!(matches!(last, Some(Op::MulWhole(..))), is_whole, "{last:?}");
+        }
+    }
 }
