@@ -3,11 +3,11 @@
 //! A line passes a cell where the formula has its sign, or is undefined outside, or where the bounds of the gradient say that it goes away from zero. It stops before the first cell of which none
 //! of that is known. Lines go from cell to cell together, each by cells of its own; what a cell's number leads to is looked up line by line, all else is done in lanes.
 
-use super::cells::Cells;
+use super::cells::{Cells, slope_along};
 use super::grid::Found;
 use crate::outline::{Line8, Told8};
 use durer_math::lanes::LANES;
-use durer_math::{F8, M8, U, Vec3};
+use durer_math::{F8, M8, Vec3};
 
 /// A line that rounding takes out of so many cells as soon as it is in them runs along their faces: it does without lanes.
 const GRAZED: f64 = 8.0;
@@ -98,52 +98,21 @@ fn slopes(
             (least[axis].0[i], most[axis].0[i]) = (f64::from(lo[axis]), f64::from(hi[axis]));
         }
     }
-    // As `Gradient::along` says it of one line.
-    let (mut low, mut high, mut unsure) = (F8::ZERO, F8::ZERO, F8::splat(durer_math::scale::pow2(-1000)));
-    for (axis, d) in [d.x, d.y, d.z].into_iter().enumerate() {
-        let (a, b) = (least[axis] * d, most[axis] * d);
-        low += a.min(b);
-        high += a.max(b);
-        unsure += least[axis].abs().max(most[axis].abs()) * (d.abs() * (8.0 * U) + *e * (1.0 + 8.0 * U));
-    }
-    let unsure = unsure + (low.abs() + high.abs()) * (2.0 * U);
-    (low - unsure, high + unsure)
+    slope_along(least, most, [d.x, d.y, d.z], [*e; 3])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::implicit::pieces::tests::{cubic, exactly};
     use crate::laws::Dice;
-    use crate::tape::{Builder, Op, Tape};
-    use durer_math::{Aabb, Dyadic, Isa, Point3};
-
-    /// `x y + z^2 + c`, as a tape and exactly.
-    fn saddle(c: f64) -> Tape {
-        let mut b = Builder::new();
-        let mut op = |op| b.push(op).unwrap();
-        let [x, y, z] = [0, 1, 2].map(|i| op(Op::Input(i)));
-        let (product, square) = (op(Op::Mul(x, y)), op(Op::Sqr(z)));
-        let constant = op(Op::Constant(c.into()));
-        let sum = op(Op::Add(product, square));
-        let root = op(Op::Add(sum, constant));
-        Tape::new(&b.finish(root, 3))
-    }
-
-    fn exactly(c: f64, line: &Line8, i: usize, s: f64) -> Dyadic {
-        let at = |o: F8, d: F8| &Dyadic::from(o.0[i]) + &(&Dyadic::from(s) * &Dyadic::from(d.0[i]));
-        let [x, y, z] = [at(line.o.x, line.d.x), at(line.o.y, line.d.y), at(line.o.z, line.d.z)];
-        &(&(&x * &y) + &(&z * &z)) + &Dyadic::from(c)
-    }
+    use durer_math::{Aabb, Dyadic, Isa, Point3, U};
 
     /// Two points of the container beside a tangent of the surface, if the dice find one.
     fn beside_a_tangent(dice: &mut Dice, c: f64) -> Option<(Vec3, Vec3)> {
-        let Vec3 { x, y, .. } = dice.vector() * 0.5;
-        let square = -c - x * y;
-        if square < 0.0 {
-            return None;
-        }
-        let p = Vec3::new(x, y, square.sqrt());
-        let gradient = Vec3::new(y, x, 2.0 * p.z);
+        let Vec3 { x, y, .. } = dice.vector() * 0.75;
+        let p = Vec3::new(x, y, (2.0 * x - x * x * x - c) / y);
+        let gradient = Vec3::new(3.0 * x * x - 2.0, p.z, y);
         let d = gradient.cross(dice.vector());
         let (p, d) = (p + gradient * dice.between(-1e-2, 1e-2), d * (0.25 / d.length()));
         let (from, to) = (p - d, p + d);
@@ -176,7 +145,7 @@ mod tests {
             let mut dice = Dice::new(seed);
             let c = [0.0, dice.unit() - 0.5][dice.below(2) as usize];
             let cube = Aabb { min: Point3::new(-1.0, -1.0, -1.0), max: Point3::new(1.0, 1.0, 1.0) };
-            let cells = Cells::new(&saddle(c), cube);
+            let cells = Cells::new(&cubic(c), cube);
             for _ in 0..40 {
                 let (zero, none) = (Vec3::splat(Vec3::ZERO), M8::NONE);
                 let (small, never) = (F8::splat(4.0 * U), F8::splat(f64::INFINITY));

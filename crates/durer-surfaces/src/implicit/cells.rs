@@ -12,7 +12,7 @@
 use super::grid::{Grid, Told};
 use super::line::Line;
 use crate::tape::Tape;
-use durer_math::{Aabb, Dual, F8, I8, Interval, Point3, U};
+use durer_math::{Aabb, Dual, F8, I8, Interval, Number, Point3, Scalar, U};
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
@@ -59,27 +59,29 @@ impl Gradient {
 
     /// The way the formula goes along a line, if that is certain: up is `true`.
     fn rises(&self, line: &Line) -> Option<bool> {
-        let (lo, hi) = self.along(line.d, line.d_err);
+        let (lo, hi) = slope_along(self.lo.map(f64::from), self.hi.map(f64::from), line.d, line.d_err);
         if lo > 0.0 { Some(true) } else { (hi < 0.0).then_some(false) }
     }
+}
 
-    /// Bounds of the slope along a direction.
-    #[inline(always)]
-    fn along(&self, d: [f64; 3], d_err: [f64; 3]) -> (f64, f64) {
-        // Pays for what may be lost below the normal range.
-        let (mut lo, mut hi, mut unsure) = (0.0, 0.0, durer_math::scale::pow2(-1000));
-        for ((&least, &most), (&d, &e)) in self.lo.iter().zip(&self.hi).zip(d.iter().zip(&d_err)) {
-            let (least, most) = (f64::from(least), f64::from(most));
-            let (a, b) = (least * d, most * d);
-            lo += a.min(b);
-            hi += a.max(b);
-            // The product's rounding, those of the sums, and what is not known of the direction. NaN where there are no bounds.
-            unsure += least.abs().max(most.abs()) * (d.abs() * (8.0 * U) + e * (1.0 + 8.0 * U));
-        }
-        // One rounding more.
-        let unsure = unsure + (lo.abs() + hi.abs()) * (2.0 * U);
-        (lo - unsure, hi + unsure)
+/// Bounds of the slope along a direction `d` that is known within `e`, where the gradient is between `least` and `most`; of one line, or of eight. Nothing is known if that is infinite.
+#[inline(always)]
+pub(super) fn slope_along<T: Scalar + Number>(least: [T; 3], most: [T; 3], d: [T; 3], e: [T; 3]) -> (T, T) {
+    let zero = T::from(0.0);
+    // Pays for what may be lost below the normal range.
+    let (mut lo, mut hi, mut unsure) = (zero, zero, T::from(durer_math::scale::pow2(-1000)));
+    for axis in 0..3 {
+        let (a, b) = (least[axis] * d[axis], most[axis] * d[axis]);
+        lo = lo + T::min(&a, &b);
+        hi = hi + T::max(&a, &b);
+        let steepest = T::max(&Scalar::abs(least[axis]), &Scalar::abs(most[axis]));
+        // The product's rounding, those of the sums, and what is not known of the direction.
+        let off = Scalar::abs(d[axis]) * T::from(8.0 * U) + e[axis] * T::from(1.0 + 8.0 * U);
+        unsure = unsure + steepest * off;
     }
+    // One rounding more.
+    let unsure = unsure + (Scalar::abs(lo) + Scalar::abs(hi)) * T::from(2.0 * U);
+    (lo - unsure, hi + unsure)
 }
 
 /// The octree.
@@ -134,7 +136,7 @@ impl Cells {
             reach: extent.reach_from(Point3::ORIGIN),
             root: Cell::Gap(false),
             cells: Vec::new(),
-            grid: Grid::new(&extent, Cell::Gap(false), &[]),
+            grid: Grid::new(&extent),
             leaves: Vec::new(),
             gradients: Box::default(),
             tapes: vec![tape.clone()],
@@ -144,7 +146,7 @@ impl Cells {
         let steps: usize = made.leaves.iter().map(|leaf| made.tapes[leaf.tape as usize].len()).sum();
         made.open = (made.leaves.len(), steps as f64 / made.leaves.len().max(1) as f64);
         made.bring_together();
-        made.grid = Grid::new(&extent, made.root, &made.cells);
+        made.grid.fill(made.root, &made.cells);
         made
     }
 

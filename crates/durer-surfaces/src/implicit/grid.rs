@@ -11,8 +11,6 @@ use durer_math::{Aabb, F8, M8, Vec3};
 const BRICK: u32 = 2;
 /// Along each axis there are so many places.
 const PLACES: f64 = (1_u32 << DEEPEST) as f64;
-/// Added to a whole number that is not negative and below 2^32, it leaves that in the lowest bits.
-const WHOLE: f64 = (1_u64 << 52) as f64;
 
 /// What is known in the cell of a point.
 #[derive(Clone, Copy, Debug)]
@@ -71,19 +69,22 @@ fn number(at: [u32; 3], power: u32) -> usize {
 impl Grid {
     const IS_BRICK: u32 = 0b111;
 
-    /// The cells of an octree with this root, whose inner ones name the first of eight in a list.
-    pub(super) fn new(extent: &Aabb, root: Cell, cells: &[Cell]) -> Self {
+    /// Nothing anywhere.
+    pub(super) fn new(extent: &Aabb) -> Self {
         let size = (extent.max - extent.min).to_array().map(|x| x / PLACES);
-        let mut made = Self {
+        Self {
             min: extent.min.to_array(),
             size,
             over: size.map(|x| 1.0 / x),
             coarse: vec![0; 1 << (3 * (DEEPEST - BRICK))].into(),
             // Whoever asks for no brick may read the first one, which is nobody's.
             bricks: vec![[0; 1 << (3 * BRICK)]],
-        };
-        made.put(cells, root, [0; 3], DEEPEST);
-        made
+        }
+    }
+
+    /// Puts down the cells of an octree with this root, whose inner ones name the first of eight in a list.
+    pub(super) fn fill(&mut self, root: Cell, cells: &[Cell]) {
+        self.put(cells, root, [0; 3], DEEPEST);
     }
 
     /// Puts down a cell that begins at a place, two to the power of `shift` places wide, and those below it.
@@ -133,39 +134,32 @@ impl Grid {
         if is_brick { inner } else { cell }
     }
 
+    /// The number of the place of a coordinate: one at the border for what is beyond it by rounding, or not a number.
+    #[inline(always)]
+    fn place(&self, x: f64, axis: usize) -> u32 {
+        (((x - self.min[axis]) * self.over[axis]) as i32).clamp(0, (1 << DEEPEST) - 1) as u32
+    }
+
     /// What is known in the cell of a point.
-    pub(super) fn told(&self, p: [f64; 3]) -> Told {
-        let mut at = [0; 3];
-        for (i, at) in at.iter_mut().enumerate() {
-            // Saturates at zero; a point that is beyond the container by rounding is in the cell at the border.
-            *at = (((p[i] - self.min[i]) * self.over[i]) as u32).min((1 << DEEPEST) - 1);
-        }
-        Told::of(self.cell(at) >> 3)
+    pub(super) fn told(&self, [x, y, z]: [f64; 3]) -> Told {
+        Told::of(self.cell([self.place(x, 0), self.place(y, 1), self.place(z, 2)]) >> 3)
     }
 
     /// The cells of points.
     #[inline(always)]
     pub(super) fn find(&self, p: &Vec3<F8>) -> Found {
-        let at = [self.places(&p.x, 0), self.places(&p.y, 1), self.places(&p.z, 2)];
+        let mut at = [[0; LANES]; 3];
+        for (axis, (at, x)) in at.iter_mut().zip([&p.x, &p.y, &p.z]).enumerate() {
+            for (at, &x) in at.iter_mut().zip(&x.0) {
+                *at = self.place(x, axis);
+            }
+        }
         let mut found = Found { code: [0; LANES], wide: [1; LANES], at };
         for (i, (code, wide)) in found.code.iter_mut().zip(&mut found.wide).enumerate() {
             let cell = self.cell([at[0][i], at[1][i], at[2][i]]);
             (*code, *wide) = (cell >> 3, 1 << (cell & 0b111));
         }
         found
-    }
-
-    /// The numbers of points' places along an axis: those at the border for what is beyond it.
-    #[inline(always)]
-    fn places(&self, p: &F8, axis: usize) -> [u32; LANES] {
-        let mut out = [0; LANES];
-        for (i, out) in out.iter_mut().enumerate() {
-            let x = (p.0[i] - self.min[axis]) * self.over[axis];
-            let x = if x > 0.0 { x } else { 0.0 };
-            let x = if x < PLACES - 1.0 { x } else { PLACES - 1.0 };
-            *out = (x.floor() + WHOLE).to_bits() as u32;
-        }
-        out
     }
 
     /// Where lines leave the cells that were found, by their origins and one over their directions. Cells at the border end nowhere.

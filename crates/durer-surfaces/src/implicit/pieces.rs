@@ -200,14 +200,14 @@ impl Pieces {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::laws::Dice;
     use crate::tape::{Builder, Op};
     use durer_math::{Dyadic, Isa};
 
     /// `x^3 - 2 x + y z + c`, as a tape and exactly.
-    fn cubic(c: f64) -> Tape {
+    pub(in crate::implicit) fn cubic(c: f64) -> Tape {
         let mut b = Builder::new();
         let mut op = |op| b.push(op).unwrap();
         let [x, y, z] = [0, 1, 2].map(|i| op(Op::Input(i)));
@@ -220,7 +220,7 @@ mod tests {
         Tape::new(&b.finish(root, 3))
     }
 
-    fn exactly(c: f64, line: &Line8, i: usize, s: f64) -> Dyadic {
+    pub(in crate::implicit) fn exactly(c: f64, line: &Line8, i: usize, s: f64) -> Dyadic {
         let at = |o: F8, d: F8| &Dyadic::from(o.0[i]) + &(&Dyadic::from(s) * &Dyadic::from(d.0[i]));
         let (o, d) = (line.o, line.d);
         let [x, y, z] = [at(o.x, d.x), at(o.y, d.y), at(o.z, d.z)];

@@ -20,10 +20,10 @@
 
 mod lanes;
 mod lift;
-mod number;
 mod orbit;
 mod point;
 mod roots;
+mod rounded;
 #[cfg(test)]
 mod tests;
 
