@@ -152,10 +152,6 @@ pub(crate) fn check(data: &[u8]) {
     let code = bytes.next();
     let power = i32::from(bytes.next() % 12) - 4;
     let (op, exact) = operation(code);
-    let mut builder = Builder::new();
-    let (Ok(x), Ok(y)) = (builder.input(0), builder.input(1)) else { return };
-    let Ok(step) = builder.push(op([x, y], power)) else { return };
-    let tape = Tape::new(&builder.finish(step, 3));
     let mut side = || {
         let (a, b) = (bytes.number(), bytes.number());
         let b = if bytes.next() % 2 == 0 { b } else { a + b * 1e-6 };
@@ -163,6 +159,13 @@ pub(crate) fn check(data: &[u8]) {
         Interval { lo: a.min(b), hi: a.max(b) }
     };
     let (x, y) = (side(), side());
+    let mut builder = Builder::new();
+    let Ok(first) = builder.input(0) else { return };
+    // A single number is a constant, which is folded, or becomes part of a step.
+    let second = if y.lo == y.hi { builder.push(Op::Constant(y.lo.into())) } else { builder.input(1) };
+    let Ok(second) = second else { return };
+    let Ok(step) = builder.push(op([first, second], power)) else { return };
+    let tape = Tape::new(&builder.finish(step, 3));
     let range = tape.bounds(&[I8::splat(x), I8::splat(y), I8::splat(Interval { lo: 0.0, hi: 0.0 })]);
     for i in 0..4 {
         let k = f64::from(bytes.next()) / 255.0;
