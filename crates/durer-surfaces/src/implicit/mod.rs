@@ -28,6 +28,7 @@ mod pieces;
 mod point;
 mod polynomial;
 mod roots;
+mod star;
 mod superellipsoid;
 mod tracker;
 
@@ -36,13 +37,14 @@ pub use superellipsoid::{SuperellipsoidError, superellipsoid};
 pub(crate) use tracker::{Curve, Found, Tracker, Verdict};
 
 use crate::compose::clip::Algebraic;
-use crate::outline::Sketch;
+use crate::outline::{Level, Sketch};
 use crate::roots::quadratic::Quadratic;
 use crate::tape::{Builder, Formula, FormulaError, Op, Powers, Tape};
 use crate::{Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use cells::{Cells, Place};
 use convex::Gauge;
 use durer_math::{Aabb, Dyadic, F8, I8, Point3};
+use star::Star;
 use std::sync::{Arc, OnceLock};
 
 /// A formula's surface in a container. Face 0 is the formula's, the container's faces follow.
@@ -64,6 +66,8 @@ pub struct Isosurface {
     degree: Option<usize>,
     /// Of a convex superellipsoid: most rays do without the tape.
     gauge: Option<Gauge>,
+    /// Of a superellipsoid with dents between all axes: what lanes see.
+    dented: Option<Gauge>,
 }
 
 /// Why an [`Isosurface`] cannot exist.
@@ -108,7 +112,7 @@ impl Isosurface {
         let line = Powers::line([0.0, 1.0], [0.0; 2]);
         let degree = tape.along(&[line; 3]).degree();
         let cells = Arc::default();
-        Ok(Self { tape, container, open: false, regular: false, degree, cells, gauge: None })
+        Ok(Self { tape, container, open: false, regular: false, degree, cells, gauge: None, dented: None })
     }
 
     /// The container's cells.
@@ -167,10 +171,14 @@ impl Surface for Isosurface {
     }
 
     fn sketch(&self, _part: PartId) -> Sketch {
-        match &self.gauge {
-            None => Sketch::contained(self.container.sketch(), Arc::new(self.clone()), Point3::ORIGIN),
-            Some(gauge) => Sketch::level(self.bounds(), Arc::new(gauge.clone()), Point3::ORIGIN),
-        }
+        let level: Arc<dyn Level> = match (&self.gauge, &self.dented) {
+            (Some(gauge), _) => Arc::new(gauge.clone()),
+            (None, Some(gauge)) => Arc::new(Star::new(gauge, self)),
+            (None, None) => {
+                return Sketch::contained(self.container.sketch(), Arc::new(self.clone()), Point3::ORIGIN);
+            }
+        };
+        Sketch::level(self.bounds(), level, Point3::ORIGIN)
     }
 
     fn solidity(&self) -> Solidity {

@@ -6,7 +6,8 @@
 //!   e shapes the sections across z (1: circles, towards 0: squares, 2: diamonds, beyond: stars), n those along z
 //! ```
 //!
-//! With `e <= 2` and `n <= 2` it is convex, and most rays do without what follows (`convex/`).
+//! With `e <= 2` and `n <= 2` it is convex, and most rays do without what follows (`convex/`). With `2 <= e, n <= 8` what is outside is convex between the planes of two axes, and lanes do
+//! without it outside (`star.rs`).
 //!
 //! A. H. Barr, "Superquadrics and angle-preserving transformations", *IEEE Computer Graphics and Applications* 1(1), 1981.
 //!
@@ -46,7 +47,10 @@ pub fn superellipsoid(e: f64, n: f64) -> Result<Isosurface, SuperellipsoidError>
     let held = AxisBox::new(Point3::new(-HALF, -HALF, -HALF), Point3::new(HALF, HALF, HALF))?;
     let container = Container::Box(held);
     match Gauge::new(e, n) {
-        None => Ok(Isosurface::new(&formula, 1.0, container)?),
+        None => {
+            let dented = Gauge::of_dents(e, n);
+            Ok(Isosurface { dented, ..Isosurface::new(&formula, 1.0, container)? })
+        }
         gauge => Ok(Isosurface { gauge, ..Isosurface::undivided(&formula, 1.0, container)? }),
     }
 }

@@ -274,10 +274,11 @@ impl<const M: usize, const C: usize> Level for Solid<M, C> {
                 let room = F8::splat(radius * radius) - away;
                 // The direction is as long as 1, but for the rounding of it.
                 let half = room.max(F8::ZERO).sqrt();
-                (part.from, part.to) = (-half, half);
-                let known = line.error(F8::splat(2.0 * self.radius)).lt(F8::splat(super::ROOM / 64.0));
-                part.unsure = !known;
-                part.to = (part.unsure | room.gt(F8::ZERO)).select(part.to, -F8::ONE);
+                let far = F8::splat(2.0 * self.radius);
+                part.unsure = !line.error(far).lt(F8::splat(super::ROOM / 64.0));
+                // Of a line that is known badly the doubt begins before all of the solid.
+                part.from = part.unsure.select(-far, -half);
+                part.to = part.unsure.select(far, room.gt(F8::ZERO).select(half, -half - F8::ONE));
             },
         );
     }

@@ -6,7 +6,7 @@ mod aimed;
 mod bodies;
 mod worlds;
 
-use self::worlds::{Sides, World, all_worlds, clipped_worlds};
+use self::worlds::{Sides, World, all_worlds, clipped_worlds, star_worlds};
 use super::*;
 use crate::Hit;
 use durer_math::lanes::LANES;
@@ -362,7 +362,8 @@ fn lanes_see_what_single_rays_see() {
     let mut dice = Dice(1);
     let mut surfaces: Vec<(&str, Tally)> = Vec::new();
     let mut many = Vec::new();
-    let worlds = all_worlds(Isa::detect());
+    let mut worlds = all_worlds(Isa::detect());
+    worlds.append(&mut star_worlds(Isa::detect()));
     for world in &worlds {
         let mut tally = Tally::default();
         for round in 0..64 {
@@ -404,6 +405,8 @@ fn lanes_see_what_single_rays_see() {
             "sextic" => 15,
             // Where a place is known badly, far away, little is known of the gradient around it.
             "cushion" => 3,
+            // Rays that start inside are told by the formula, and its ridges are as steep as one likes.
+            "star" => 12,
             "julia" | "cubic julia" | "hypercomplex julia" | "hypercomplex cubic julia" => 8,
             // Next to where a formula is undefined nothing is sure.
             "thorn" => 1,

@@ -479,6 +479,14 @@ fn partly_defined_worlds(held: AxisBox, all: &mut Worlds) {
     worlds("thorn", Sides::Rimmed { closed: false }, thorn, all);
 }
 
+/// A star, for rays at random. Its ridges are edges that `edges` does not know, and a start beside one may be on either side.
+pub(super) fn star_worlds(isa: Isa) -> Vec<World> {
+    let mut all = (isa, Vec::new());
+    let star = Placed::new(superellipsoid(3.0, 2.5).unwrap(), scaled(0.9));
+    worlds("star", Sides::Rimmed { closed: true }, star, &mut all);
+    all.1
+}
+
 /// What is clipped within the box that holds it, so that rays enter and leave that where nothing is left: lanes know no more than where it may be.
 pub(super) fn clipped_worlds(isa: Isa) -> Vec<World> {
     let all = &mut (isa, Vec::new());

@@ -28,6 +28,8 @@ const LEAST: f64 = pow2(-64);
 pub(super) const REST: f64 = 8.0 * U;
 /// Lower exponents, whose powers count for nothing, are taken for this.
 const LOWEST: f64 = -1000.0;
+/// Thinner rays of stars than those of this exponent are left to the tape.
+const MOST_DENTED: f64 = 8.0;
 /// Sharper exponents than this make a box, and are left to the tape.
 const SHARPEST: f64 = 1.0 / 128.0;
 
@@ -43,13 +45,15 @@ pub(in crate::implicit) struct Gauge {
     pub(super) turn: f64,
     /// A ball of this radius holds the solid.
     pub(super) reach: f64,
+    /// A coordinate's least size.
+    least: f64,
 }
 
 /// The gauge and its gradient at eight points.
 #[derive(Debug)]
-pub(super) struct Sample {
-    pub(super) value: F8,
-    pub(super) gradient: Vec3<F8>,
+pub(in crate::implicit) struct Sample {
+    pub(in crate::implicit) value: F8,
+    pub(in crate::implicit) gradient: Vec3<F8>,
 }
 
 /// The gradient's parts as products: `∂N/∂x ∂G/∂N`, `∂N/∂y ∂G/∂N` and `∂G/∂z`.
@@ -84,7 +88,33 @@ impl Gauge {
         let excess = |over: f64| (0.5 - over).max(0.0);
         let reach = elementary::exp2(excess(0.5 * e) + excess(0.5 * n)) * (1.0 + pow2(-40));
         let turn = (1024.0 * p + 1536.0 * q + 2048.0) * U;
-        Some(Self { p, q, over_p: 0.5 * e, over_q: 0.5 * n, turn, reach })
+        Some(Self { p, q, over_p: 0.5 * e, over_q: 0.5 * n, turn, reach, least: LEAST })
+    }
+
+    /// The same function for exponents that make dents between all axes, if these are such: no norm, and without a bound for gradients (`star.rs`).
+    pub(in crate::implicit) fn of_dents(e: f64, n: f64) -> Option<Self> {
+        let with_dents = 2.0..=MOST_DENTED;
+        let gauge = Self {
+            p: 2.0 / e,
+            q: 2.0 / n,
+            over_p: 0.5 * e,
+            over_q: 0.5 * n,
+            turn: 0.0,
+            reach: 1.0,
+            least: pow2(-1000),
+        };
+        (with_dents.contains(&e) && with_dents.contains(&n)).then_some(gauge)
+    }
+
+    /// `1/p` and `1/q`.
+    pub(in crate::implicit) fn over_exponents(&self) -> (f64, f64) {
+        (self.over_p, self.over_q)
+    }
+
+    #[inline(always)]
+    fn sizes(&self, x: &Vec3<F8>) -> Vec3<F8> {
+        let least = F8::splat(self.least);
+        Vec3::new(x.x.abs().max(least), x.y.abs().max(least), x.z.abs().max(least))
     }
 
     #[inline(always)]
@@ -115,13 +145,22 @@ impl Gauge {
         }
     }
 
+    /// The gauge at eight points.
+    #[inline(never)]
+    pub(in crate::implicit) fn values(&self, isa: Isa, x: &Vec3<F8>, out: &mut F8) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || *out = exp2(self.shares(self.sizes(x)).whole),
+        );
+    }
+
     /// The gauge and its gradient at eight points.
     #[inline(never)]
-    pub(super) fn sample(&self, isa: Isa, x: &Vec3<F8>, out: &mut Sample) {
+    pub(in crate::implicit) fn sample(&self, isa: Isa, x: &Vec3<F8>, out: &mut Sample) {
         isa.run_in_lanes(
             #[inline(always)]
             || {
-                let size = sizes(x);
+                let size = self.sizes(x);
                 let shares = self.shares(size);
                 let value = exp2(shares.whole);
                 let outer = value * shares.outer;
@@ -141,7 +180,7 @@ impl Gauge {
         isa.run_in_lanes(
             #[inline(always)]
             || {
-                let size = sizes(x);
+                let size = self.sizes(x);
                 let shares = self.shares(size);
                 let (across, value) = (exp2(shares.across), exp2(shares.whole));
                 out.x = across * shares.x / size.x;
@@ -153,14 +192,8 @@ impl Gauge {
     }
 }
 
-#[inline(always)]
-fn sizes(x: &Vec3<F8>) -> Vec3<F8> {
-    let least = F8::splat(LEAST);
-    Vec3::new(x.x.abs().max(least), x.y.abs().max(least), x.z.abs().max(least))
-}
-
 impl Sample {
-    pub(super) fn new() -> Self {
+    pub(in crate::implicit) fn new() -> Self {
         Self { value: F8::ZERO, gradient: Vec3::splat(Vec3::ZERO) }
     }
 }

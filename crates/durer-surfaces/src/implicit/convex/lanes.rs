@@ -68,9 +68,11 @@ impl Level for Gauge {
                 let radius = self.reach * (1.0 + 0.5 * ROOM);
                 let room = F8::splat(radius * radius) - o.x.mul_add(o.x, o.y.mul_add(o.y, o.z * o.z));
                 let half = room.max(F8::ZERO).sqrt();
-                (part.from, part.to) = (-half, half);
-                part.unsure = !off(line, F8::splat(2.0 * self.reach)).lt(F8::splat(KNOWN));
-                part.to = (part.unsure | room.gt(F8::ZERO)).select(part.to, -half - F8::ONE);
+                let far = F8::splat(2.0 * self.reach);
+                part.unsure = !off(line, far).lt(F8::splat(KNOWN));
+                // Of a line that is known badly the doubt begins before all of the solid.
+                part.from = part.unsure.select(-far, -half);
+                part.to = part.unsure.select(far, room.gt(F8::ZERO).select(half, -half - F8::ONE));
             },
         );
     }

@@ -21,7 +21,7 @@ mod foot;
 mod gauge;
 mod lanes;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 
 pub(super) use crossings::Answer;
-pub(super) use gauge::Gauge;
+pub(super) use gauge::{Gauge, Sample};

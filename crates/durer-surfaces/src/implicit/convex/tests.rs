@@ -8,8 +8,8 @@ use crate::{All, Any, Closest, Kind, LocalPoint, LocalRay, Need, Root, Side, Sur
 use astro_float::{BigFloat, Consts, RoundingMode};
 use durer_math::{Isa, Point3, Ray, RaySide, U, Vec3};
 
-const P: usize = 320;
-const RM: RoundingMode = RoundingMode::ToEven;
+pub(in crate::implicit) const P: usize = 320;
+pub(in crate::implicit) const RM: RoundingMode = RoundingMode::ToEven;
 
 /// Exponents: ordinary ones, those of the tests' polynomials, those at both ends.
 const SHAPES: [(f64, f64); 14] = [
@@ -29,20 +29,20 @@ const SHAPES: [(f64, f64); 14] = [
     (0.7, 0.9),
 ];
 
-fn big(x: f64) -> BigFloat {
+pub(in crate::implicit) fn big(x: f64) -> BigFloat {
     BigFloat::from_f64(x, P)
 }
 
 /// `sign * x`, as f64.
-fn number(x: &BigFloat) -> f64 {
+pub(in crate::implicit) fn number(x: &BigFloat) -> f64 {
     x.to_string().parse().unwrap_or(f64::NAN)
 }
 
 /// Multi-precision arithmetic with its constants.
-struct Exact(Consts);
+pub(in crate::implicit) struct Exact(Consts);
 
 impl Exact {
-    fn new() -> Self {
+    pub(in crate::implicit) fn new() -> Self {
         Self(Consts::new().unwrap())
     }
 
@@ -54,7 +54,11 @@ impl Exact {
     }
 
     /// The gauge at a point, and the sizes of the gradient's parts.
-    fn gauge(&mut self, (e, n): (f64, f64), x: &[BigFloat; 3]) -> (BigFloat, [BigFloat; 3]) {
+    pub(in crate::implicit) fn gauge(
+        &mut self,
+        (e, n): (f64, f64),
+        x: &[BigFloat; 3],
+    ) -> (BigFloat, [BigFloat; 3]) {
         let one = big(1.0);
         let (p, q) = (big(2.0).div(&big(e), P, RM), big(2.0).div(&big(n), P, RM));
         let [x, y, z] = [0, 1, 2].map(|i| x[i].abs());
@@ -88,7 +92,7 @@ impl Exact {
 }
 
 /// A number within 1, often 0, 1, tiny, or next to another of the two.
-fn coordinate(dice: &mut Dice) -> f64 {
+pub(in crate::implicit) fn coordinate(dice: &mut Dice) -> f64 {
     let x = match dice.below(8) {
         0 => 0.0,
         1 => 1.0,
