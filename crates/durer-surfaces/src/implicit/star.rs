@@ -31,6 +31,8 @@ use durer_math::{F8, Isa, M8, U, Vec3};
 const ROOM: f64 = 1.0 / 64.0;
 /// So many times as far as a point may be off it counts as a point of a plane between octants. Two would be enough of where lines go through these by rounded numbers.
 const NEAR: f64 = 8.0;
+/// What has a coordinate of this size is outside.
+const FAR_OUT: f64 = 4.0;
 const NEVER: F8 = F8::splat(f64::INFINITY);
 
 /// The solid.
@@ -69,10 +71,12 @@ impl Star {
         let slip = slip(p.x, d.x).max(slip(p.y, d.y)).max(slip(p.z, d.z));
         let off = |p: F8, d: F8| slip * (d + line.e_d) * (1.0 + 16.0 * U) + e + p * (4.0 * U);
         let off = Vec3::new(off(p.x, d.x), off(p.y, d.y), off(p.z, d.z));
+        // What is not a number, or endless, holds all that counts.
         let least = |p: F8, off: F8| (p - off).max(F8::ZERO);
+        let most = |p: F8, off: F8| (p + off).min(F8::splat(FAR_OUT));
         Sizes {
             least: Vec3::new(least(p.x, off.x), least(p.y, off.y), least(p.z, off.z)),
-            most: Vec3::new(p.x + off.x, p.y + off.y, p.z + off.z),
+            most: Vec3::new(most(p.x, off.x), most(p.y, off.y), most(p.z, off.z)),
         }
     }
 }
@@ -150,11 +154,11 @@ impl Level for Star {
         );
         let mut g = F8::ZERO;
         self.gauge.values(line.isa, &sizes.least, &mut g);
-        let (out, noise) = (F8::ONE, self.error * 2.0);
+        let (one, noise) = (F8::ONE, self.error * 2.0);
         let rest = line.isa.run_in_lanes(
             #[inline(always)]
             || {
-                value.g = g - out;
+                value.g = g - one;
                 value.above = value.g.gt(g * noise);
                 value.below = M8::NONE;
                 lanes & !value.above
@@ -167,8 +171,8 @@ impl Level for Star {
         line.isa.run_in_lanes(
             #[inline(always)]
             || {
-                value.below = rest & (out - g).gt(F8::splat(noise));
-                value.g.set_where(value.below, g - out);
+                value.below = rest & (one - g).gt(F8::splat(noise));
+                value.g.set_where(value.below, g - one);
             },
         );
     }
@@ -367,6 +371,27 @@ mod tests {
             }
         }
         assert!(passed > 50 && met > 100 && open < passed + met, "{passed} {met} {open}");
+    }
+
+    /// Along a plane between octants, or with numbers that are none, neither side is certain.
+    #[test]
+    fn nothing_is_said_where_nothing_is_known() {
+        let star = star((3.0, 3.0));
+        let (zero, lanes) = (Vec3::splat(Vec3::ZERO), M8::ALL);
+        for (o, d, e_d) in [
+            (Vec3::ZERO, Vec3::X, 4.0 * U),
+            (Vec3::ZERO, Vec3::X, 0.0),
+            (Vec3::new(0.25, 0.25, 0.0), Vec3::X, 4.0 * U),
+            (Vec3::new(f64::NAN, 0.0, 0.0), Vec3::Y, 4.0 * U),
+            (Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY), Vec3::Y, 4.0 * U),
+        ] {
+            let mut line =
+                Line8 { isa: Isa::detect(), o: zero, d: zero, e_o: F8::splat(U), e_d: F8::splat(e_d) };
+            (line.o, line.d) = (Vec3::splat(o), Vec3::splat(d));
+            let mut value = Value8 { g: F8::ZERO, above: lanes, below: lanes };
+            star.values(&line, &F8::splat(0.125), lanes, &mut value);
+            assert!(!value.above.any() && !value.below.any(), "{o:?} {d:?}");
+        }
     }
 
     /// Of a line that is known so badly that it may meet the solid where its rounded numbers pass by, there is a part to doubt.
