@@ -28,7 +28,7 @@ const LEAST: f64 = pow2(-64);
 pub(super) const REST: f64 = 8.0 * U;
 /// Lower exponents, whose powers count for nothing, are taken for this.
 const LOWEST: f64 = -1000.0;
-/// Thinner spikes than those of this exponent are left to the tape.
+/// Thinner spikes than those of this exponent are left to the tape: the bound of the value grows with it (`star.rs`).
 const MOST_DENTED: f64 = 8.0;
 /// Sharper exponents than this make a box, and are left to the tape.
 const SHARPEST: f64 = 1.0 / 128.0;
