@@ -77,7 +77,7 @@ impl F8 {
 
     /// Becomes `x` in some lanes.
     ///
-    /// The compiler is kept from making a masked store of this, which takes long on some machines (docs/performance.md, "Masked stores").
+    /// The compiler is kept from making a masked store of this, which takes long on some machines (docs/performance.md, "What helped", 6).
     #[inline(always)]
     pub fn set_where(&mut self, lanes: M8, x: Self) {
         let old = *self;
