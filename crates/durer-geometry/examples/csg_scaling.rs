@@ -4,7 +4,7 @@
 
 use durer_geometry::{Compound, CompoundBuilder, Geometry, Part};
 use durer_math::{Point3, Ray};
-use durer_surfaces::{AxisBox, CappedCylinder, Sphere, laws::Dice};
+use durer_surfaces::{AxisBox, CappedCylinder, Sphere, laws::TestRng};
 use std::time::Instant;
 
 const RAYS: usize = 20_000;
@@ -30,8 +30,8 @@ fn main() {
 
 /// From all around at points of a cube.
 fn rays() -> Vec<Ray> {
-    let mut dice = Dice::new(1);
-    let point = |dice: &mut Dice| {
+    let mut dice = TestRng::new(1);
+    let point = |dice: &mut TestRng| {
         loop {
             let v = dice.vector();
             if v.length() <= 1.0 && v.length() > 0.1 {
@@ -79,7 +79,7 @@ fn bodies() -> [(&'static str, Body); 4] {
             csg.difference(cube, balls)
         }),
         ("balls less balls", |csg, count| {
-            let mut dice = Dice::new(5);
+            let mut dice = TestRng::new(5);
             let r = 1.2 / durer_math::elementary::cbrt(f64::from(count));
             let balls = (0..count).map(|_| ball(csg, dice.vector().to_point(), r));
             let mut balls: Vec<Part> = balls.collect();
@@ -88,7 +88,7 @@ fn bodies() -> [(&'static str, Body); 4] {
             csg.difference(union, less)
         }),
         ("sheets with craters", |csg, count| {
-            let mut dice = Dice::new(6);
+            let mut dice = TestRng::new(6);
             let sheets = (0..count / 2).map(|i| {
                 let x = 4.0 * f64::from(i) / f64::from(count) - 1.0;
                 block(csg, Point3::new(x, -1.0, -1.0), Point3::new(x + 2.0 / f64::from(count), 1.0, 1.0))

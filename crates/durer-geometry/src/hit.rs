@@ -1,6 +1,6 @@
 //! What queries answer with.
 
-use durer_surfaces::{Kind, Root};
+use durer_surfaces::{Root, RootKind};
 
 /// The number of an object, as the caller gave it: in a scene, the top-level objects count from 0 in the order of the text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -31,7 +31,7 @@ pub struct Hit {
     /// The sign of (outward or stored normal) . direction: -1 entering, +1 leaving, 0 grazing.
     pub sign: i8,
     /// How sure the count is.
-    pub kind: Kind,
+    pub kind: RootKind,
     /// The crossing in the kernel's own parameter: what `resolve` starts from, without the digits that `t` lost.
     pub(crate) s: f64,
     /// Where the primitive is kept.

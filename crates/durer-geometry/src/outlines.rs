@@ -3,7 +3,7 @@
 use crate::Geometry;
 use crate::csg::Body;
 use durer_math::{Aabb, Shaft};
-use durer_surfaces::outline::{Outline, Sketch};
+use durer_surfaces::packet::{FilterSource, PacketFilter};
 use std::sync::OnceLock;
 
 /// Outlines by arena and slot.
@@ -22,7 +22,7 @@ pub(crate) struct Drawn {
 #[derive(Debug)]
 pub(crate) enum Seen {
     /// A surface.
-    Outline(Outline),
+    Outline(PacketFilter),
     /// A body made of several solids.
     Body(Box<Body>),
     /// Its numbers are too large or too small.
@@ -30,8 +30,8 @@ pub(crate) enum Seen {
 }
 
 impl Seen {
-    pub(crate) fn of(sketch: &Sketch) -> Self {
-        sketch.outline().map_or(Self::Nothing, Self::Outline)
+    pub(crate) fn of(sketch: &FilterSource) -> Self {
+        sketch.build().map_or(Self::Nothing, Self::Outline)
     }
 }
 

@@ -24,7 +24,7 @@ impl Geometry {
         })?
     }
 
-    /// The first hit and its point, for pictures: brackets may be as wide as [`durer_surfaces::ROUGH`] allows, so of two surfaces that are
+    /// The first hit and its point, for pictures: brackets may be as wide as [`durer_surfaces::PREVIEW_WIDTH`] allows, so of two surfaces that are
     /// nearer to each other either may be seen. What is hit at all is exact.
     #[inline]
     pub fn seen(&self, ray: &Ray, mask: u32, need: Need) -> Option<(Hit, SurfacePoint)> {

@@ -221,7 +221,7 @@ mod tests {
     use super::*;
 
     fn event(surface: u32, t: f64, width: f64, sign: i8) -> (u32, Root) {
-        let kind = durer_surfaces::Kind::Simple;
+        let kind = durer_surfaces::RootKind::Simple;
         (surface, Root { t, lo: t - width, hi: t + width, s: t, tag: [0.0; 2], face: 0, sign, kind })
     }
 

@@ -6,7 +6,7 @@ use crate::geometry::{Geometry, Instance};
 use durer_bvh::{Leaf, Line};
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Ray, Source, U};
-use durer_surfaces::{Kept, LocalRay};
+use durer_surfaces::{LocalRay, WideCache};
 
 /// `t = shift + 2^k s`, within `err`: what culling needs to know of a local ray's parameter `s`.
 #[derive(Clone, Copy, Debug)]
@@ -130,7 +130,7 @@ impl<'a> Walk<'a> {
         Some(self.geometry.isa.run(
             #[inline(always)]
             || {
-                let kept = Kept::new();
+                let kept = WideCache::new();
                 let ray = self.ray.through(&instance.affine).keeping(&kept);
                 f(&Walk {
                     geometry: &instance.geometry,

@@ -7,8 +7,8 @@ use durer_geometry::{Builder, Compound, CompoundBuilder, Geometry, Hit, Part, Se
 use durer_math::kernels::Path;
 use durer_math::{Aabb, Isa, Point3, Ray, Shaft, Vec3, elementary};
 use durer_surfaces::{
-    AxisBox, CappedCylinder, Erased, LocalPoint, LocalRay, Mesh, MeshData, Need, Root, Side, Sink, Solidity,
-    Sphere, Surface, SurfacePoint, Triangle,
+    AxisBox, CappedCylinder, DynSurface, LocalPoint, LocalRay, Mesh, MeshData, Need, Root, Side, Sink,
+    Solidity, Sphere, Surface, SurfacePoint, Triangle,
 };
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -329,7 +329,7 @@ fn bundles_that_leave_a_plane() {
 }
 
 /// A solid that counts how often a ray asks it.
-struct Counted(Erased, Arc<AtomicU64>);
+struct Counted(DynSurface, Arc<AtomicU64>);
 
 impl Surface for Counted {
     fn bounds(&self) -> Aabb {
@@ -355,7 +355,10 @@ impl Surface for Counted {
 }
 
 /// How many leaves of a body the rays ask for their first crossings; these are the first of all.
-fn asked(rays: &[Ray], body: impl FnOnce(&mut CompoundBuilder, &dyn Fn(Erased) -> Counted) -> Part) -> u64 {
+fn asked(
+    rays: &[Ray],
+    body: impl FnOnce(&mut CompoundBuilder, &dyn Fn(DynSurface) -> Counted) -> Part,
+) -> u64 {
     let count = Arc::new(AtomicU64::new(0));
     let mut csg = Compound::builder();
     let whole = body(&mut csg, &|solid| Counted(solid, Arc::clone(&count)));
@@ -387,11 +390,11 @@ fn ten_thousand_leaves_are_asked_at_most_ten_times_as_often_as_a_hundred() {
         asked(&rays, |csg, counted| {
             let at = |i: u32| 2.0 * (f64::from(i) + 0.5) / f64::from(side) - 1.0;
             let plate = AxisBox::new(p(-1.0, -0.05, -1.0), p(1.0, 0.05, 1.0)).unwrap();
-            let plate = csg.leaf(counted(Erased::new(plate))).unwrap();
+            let plate = csg.leaf(counted(DynSurface::new(plate))).unwrap();
             let holes = (0..side * side).map(|i| {
                 let (x, z) = (at(i % side), at(i / side));
                 let hole = CappedCylinder::new(p(x, -1.0, z), p(x, 1.0, z), 0.7 / f64::from(side)).unwrap();
-                csg.leaf(counted(Erased::new(hole))).unwrap()
+                csg.leaf(counted(DynSurface::new(hole))).unwrap()
             });
             let holes: Vec<Part> = holes.collect();
             csg.difference(plate, holes)
@@ -405,13 +408,13 @@ fn ten_thousand_leaves_are_asked_at_most_ten_times_as_often_as_a_hundred() {
             let sheets = (0..count / 2).map(|i| {
                 let x = 4.0 * f64::from(i) / f64::from(count) - 1.0;
                 let sheet = AxisBox::new(p(x, -1.0, -1.0), p(x + 2.0 / f64::from(count), 1.0, 1.0)).unwrap();
-                csg.leaf(counted(Erased::new(sheet))).unwrap()
+                csg.leaf(counted(DynSurface::new(sheet))).unwrap()
             });
             let sheets: Vec<Part> = sheets.collect();
             let mut dice = Dice(9);
             let craters = (0..count / 2).map(|_| {
                 let crater = Sphere::new(dice.point(1.0), 1.2 / elementary::cbrt(f64::from(count))).unwrap();
-                csg.leaf(counted(Erased::new(crater))).unwrap()
+                csg.leaf(counted(DynSurface::new(crater))).unwrap()
             });
             let craters: Vec<Part> = craters.collect();
             let whole = csg.union(sheets);

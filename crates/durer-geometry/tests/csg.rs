@@ -6,10 +6,10 @@ use common::Dice;
 use core::cmp::Ordering;
 use durer_geometry::{Compound, CompoundBuilder, Geometry, Part};
 use durer_math::{Affine, Point3, Ray, Vec3};
-use durer_surfaces::laws::exact::{Crossing, Exact, ExactBody, ExactForm, Line, Oracle, Surd, exact3};
+use durer_surfaces::laws::exact::{Crossing, Exact, ExactBody, ExactForm, ExactLine, Oracle, Surd, exact3};
 use durer_surfaces::{
-    AxisBox, CappedCylinder, Ellipsoid, Erased, Inverse, Kind, LocalPoint, Placed, Plane, Quadric, Side,
-    Sphere,
+    AxisBox, CappedCylinder, Complement, DynSurface, Ellipsoid, LocalPoint, Placed, Plane, Quadric, RootKind,
+    Side, Sphere,
 };
 
 /// A solid with its witness.
@@ -92,19 +92,19 @@ impl Leaf {
         .unwrap()
     }
 
-    fn solid(&self) -> Erased {
+    fn solid(&self) -> DynSurface {
         match self {
-            Leaf::Ball(c, r) => Erased::new(Sphere::new(*c, *r).unwrap()),
-            Leaf::Block(a, b) => Erased::new(AxisBox::new(*a, *b).unwrap()),
-            Leaf::Half(n, d) => Erased::new(Plane::new(*n, *d).unwrap()),
+            Leaf::Ball(c, r) => DynSurface::new(Sphere::new(*c, *r).unwrap()),
+            Leaf::Block(a, b) => DynSurface::new(AxisBox::new(*a, *b).unwrap()),
+            Leaf::Half(n, d) => DynSurface::new(Plane::new(*n, *d).unwrap()),
             Leaf::Rod(c, axis, length, r) => {
                 let mut end = *c;
                 end[*axis] += length;
-                Erased::new(CappedCylinder::new(*c, end, *r).unwrap())
+                DynSurface::new(CappedCylinder::new(*c, end, *r).unwrap())
             }
-            Leaf::General(k) => Erased::new(Quadric::new(*k).unwrap()),
-            Leaf::Moved(leaf, map) => Erased::new(Placed::new(leaf.solid(), *map)),
-            Leaf::Turned(leaf) => Erased::new(Inverse(leaf.solid())),
+            Leaf::General(k) => DynSurface::new(Quadric::new(*k).unwrap()),
+            Leaf::Moved(leaf, map) => DynSurface::new(Placed::new(leaf.solid(), *map)),
+            Leaf::Turned(leaf) => DynSurface::new(Complement(leaf.solid())),
         }
     }
 }
@@ -215,7 +215,7 @@ const CLOSE: i64 = 36;
 impl Body {
     /// All crossings of the line `t >= 0`; `None` where distinct ones are so close that a tie may take them together.
     fn truth(&self, ray: &Ray) -> Option<Vec<Truth>> {
-        let line = Line::new(ray);
+        let line = ExactLine::new(ray);
         let zero = Exact::zero();
         let mut events: Vec<(usize, Crossing)> = Vec::new();
         let mut bits = Vec::new();
@@ -278,7 +278,7 @@ impl Body {
         assert_eq!(hits.len(), truth.len(), "{}", told());
         for (hit, exact) in hits.iter().zip(&truth) {
             assert_eq!(hit.sign, exact.sign, "{}", told());
-            assert_eq!(hit.kind, Kind::Simple, "{}", told());
+            assert_eq!(hit.kind, RootKind::Simple, "{}", told());
             assert!(exact.t.cmp_exact(&hit.t_lo.into()).is_ge(), "{}", told());
             assert!(exact.t.cmp_exact(&hit.t_hi.into()).is_le(), "{}", told());
             assert!(hit.t_lo <= hit.t && hit.t <= hit.t_hi, "{}", told());
@@ -461,7 +461,7 @@ fn nothing_is_left_of_a_solid_without_itself() {
 }
 
 /// What hits of a geometry say without naming leaves.
-fn told(scene: &Geometry, ray: &Ray) -> Vec<(u64, u64, u64, i8, Kind)> {
+fn told(scene: &Geometry, ray: &Ray) -> Vec<(u64, u64, u64, i8, RootKind)> {
     let bits = |x: f64| x.to_bits();
     scene.all(ray).iter().map(|h| (bits(h.t), bits(h.t_lo), bits(h.t_hi), h.sign, h.kind)).collect()
 }
@@ -597,7 +597,7 @@ fn rays_leave_a_body_on_the_side_they_are_asked_for() {
                     .is_none_or(|c| (c.t.about(100).to_f64() - hit.t) * ray.direction.length() > 1e-6);
                 let slant = point.ng.to_vec().dot(ray.direction).abs() / ray.direction.length();
                 // On an edge of a leaf its own faces disagree about the side.
-                let line = Line::new(&ray);
+                let line = ExactLine::new(&ray);
                 let on = |w: &ExactBody| {
                     w.faces.iter().filter(|f| truth[i].t.sign_of(&f.along(&line)).is_eq()).count()
                 };

@@ -7,12 +7,12 @@ mod common;
 use common::Dice;
 use durer_geometry::Geometry;
 use durer_math::{Aabb, Affine, Point3, Ray, Vec3};
-use durer_surfaces::implicit::level_set::leaves;
+use durer_surfaces::implicit::level_set::primitives;
 use durer_surfaces::tape::{Builder, Formula, NodeId, Op};
 use durer_surfaces::{
-    Algebraic, Axis, AxisBox, Blob, BlobComponent, BlobShape, CappedCylinder, Container, Erased, Isosurface,
-    Julia, JuliaAlgebra, JuliaPower, JuliaSet, Kind, LevelSet, Placed, Side, Sphere, Surface, Torus, Warp,
-    superellipsoid,
+    Algebraic, Axis, AxisBox, Blob, BlobComponent, BlobShape, CappedCylinder, Container, DynSurface,
+    Isosurface, Julia, JuliaAlgebra, JuliaPower, JuliaSet, LevelSet, Placed, RootKind, Side, Sphere, Surface,
+    Torus, Warp, superellipsoid,
 };
 
 /// The radius of balls; `BALL` has points of whole numbers on them.
@@ -88,8 +88,8 @@ fn as_quartic(b: &mut Builder, [x, y, z]: [NodeId; 3]) -> NodeId {
     op(b, Op::Sub(left, right))
 }
 
-fn enlarged(surface: impl Algebraic + 'static, by: f64) -> Erased {
-    Erased::new(Placed::new(surface, Affine::scaling(by, by, by).unwrap()))
+fn enlarged(surface: impl Algebraic + 'static, by: f64) -> DynSurface {
+    DynSurface::new(Placed::new(surface, Affine::scaling(by, by, by).unwrap()))
 }
 
 fn component(centre: Point3, radius: f64, strength: f64) -> BlobComponent {
@@ -123,22 +123,22 @@ fn world<S: Surface + 'static>(surface: S) -> Geometry {
 
 fn pairs() -> Vec<Pair> {
     let mut all = vec![];
-    let mut pair = |name, formula: Erased, exact: Erased, on, touches| {
+    let mut pair = |name, formula: DynSurface, exact: DynSurface, on, touches| {
         all.push(Pair { name, formula: world(formula), exact: world(exact), on, touches });
     };
-    let ball = || Erased::new(Sphere::new(Point3::ORIGIN, R).unwrap());
+    let ball = || DynSurface::new(Sphere::new(Point3::ORIGIN, R).unwrap());
     let plain = formula(|b, p| squares(b, &p, R));
     let far = formula(|b, p| distance(b, &p, R));
-    pair("ball in its own box", Erased::new(around(&plain, cuboid(R, R, R))), ball(), &BALL, 1);
-    pair("ball in a larger box", Erased::new(around(&plain, cuboid(10.0, 11.0, 12.0))), ball(), &BALL, 1);
+    pair("ball in its own box", DynSurface::new(around(&plain, cuboid(R, R, R))), ball(), &BALL, 1);
+    pair("ball in a larger box", DynSurface::new(around(&plain, cuboid(10.0, 11.0, 12.0))), ball(), &BALL, 1);
     let held = Container::Ball(Sphere::new(Point3::ORIGIN, R).unwrap());
-    pair("ball in itself", Erased::new(around(&plain, held)), ball(), &BALL, 1);
-    pair("ball by distance", Erased::new(around(&far, cuboid(10.0, 11.0, 12.0))), ball(), &BALL, 1);
+    pair("ball in itself", DynSurface::new(around(&plain, held)), ball(), &BALL, 1);
+    pair("ball by distance", DynSurface::new(around(&far, cuboid(10.0, 11.0, 12.0))), ball(), &BALL, 1);
     pair("superellipsoid 1 1", enlarged(superellipsoid(1.0, 1.0).unwrap(), R), ball(), &BALL, 1);
     let field = Blob::new(9.0, &[component(Point3::ORIGIN, 2.0 * R, 16.0)]).unwrap();
-    pair("blob", Erased::new(field), ball(), &BALL, 1);
+    pair("blob", DynSurface::new(field), ball(), &BALL, 1);
     let three = [3.0, 4.0, 9.0].map(|strength| component(Point3::ORIGIN, 2.0 * R, strength));
-    pair("blob of three", Erased::new(Blob::new(9.0, &three).unwrap()), ball(), &BALL, 1);
+    pair("blob of three", DynSurface::new(Blob::new(9.0, &three).unwrap()), ball(), &BALL, 1);
     let set = julia(3, JuliaAlgebra::Quaternion, JuliaPower::Square);
     pair("julia", enlarged(set, R), ball(), &BALL, 1);
     let set = julia(2, JuliaAlgebra::Quaternion, JuliaPower::Cube);
@@ -146,35 +146,42 @@ fn pairs() -> Vec<Pair> {
     let twist = Warp::Twist { axis: Vec3::Y, degrees: 90.0, from: -4.0, to: 4.0 };
     let level = || {
         let bounds = Aabb::centred(Point3::ORIGIN, Vec3::new(R, R, R));
-        LevelSet::new(leaves::ball(Point3::ORIGIN, R).unwrap(), bounds)
+        LevelSet::new(primitives::ball(Point3::ORIGIN, R).unwrap(), bounds)
     };
-    pair("twisted ball", Erased::new(deformed(level(), &twist)), ball(), &BALL, 1);
+    pair("twisted ball", DynSurface::new(deformed(level(), &twist)), ball(), &BALL, 1);
     let halves = [-1.0, 1.0].map(|side| {
         let bounds = Aabb::centred(Point3::ORIGIN, Vec3::new(R, R, R));
-        let half = LevelSet::new(leaves::half_space(Vec3::X * side, 0.5 * side).unwrap(), Aabb::UNBOUNDED);
+        let half =
+            LevelSet::new(primitives::half_space(Vec3::X * side, 0.5 * side).unwrap(), Aabb::UNBOUNDED);
         let half = LevelSet::intersection(&[level(), half]).unwrap();
         assert!(half.bounds().is_bounded() && bounds.is_bounded());
         half
     });
     let both = LevelSet::union(&halves).unwrap().surface().unwrap().unwrap();
-    pair("ball of two halves", Erased::new(both), ball(), &BALL, 1);
+    pair("ball of two halves", DynSurface::new(both), ball(), &BALL, 1);
 
     let cylinder = || {
         let (base, cap) = (Point3::new(0.0, -6.0, 0.0), Point3::new(0.0, 6.0, 0.0));
-        Erased::new(CappedCylinder::new(base, cap, TUBE).unwrap())
+        DynSurface::new(CappedCylinder::new(base, cap, TUBE).unwrap())
     };
     let wall = formula(|b, [x, _, z]| squares(b, &[x, z], TUBE));
-    pair("cylinder", Erased::new(around(&wall, cuboid(7.0, 6.0, 8.0))), cylinder(), &WALL, 1);
-    pair("cylinder in its own box", Erased::new(around(&wall, cuboid(5.0, 6.0, 5.0))), cylinder(), &WALL, 1);
+    pair("cylinder", DynSurface::new(around(&wall, cuboid(7.0, 6.0, 8.0))), cylinder(), &WALL, 1);
+    pair(
+        "cylinder in its own box",
+        DynSurface::new(around(&wall, cuboid(5.0, 6.0, 5.0))),
+        cylinder(),
+        &WALL,
+        1,
+    );
     let far = formula(|b, [x, _, z]| distance(b, &[x, z], TUBE));
-    pair("cylinder by distance", Erased::new(around(&far, cuboid(7.0, 6.0, 8.0))), cylinder(), &WALL, 1);
+    pair("cylinder by distance", DynSurface::new(around(&far, cuboid(7.0, 6.0, 8.0))), cylinder(), &WALL, 1);
 
-    let torus = || Erased::new(Torus::new(Point3::ORIGIN, Axis::Y, 10.0, TUBE).unwrap());
+    let torus = || DynSurface::new(Torus::new(Point3::ORIGIN, Axis::Y, 10.0, TUBE).unwrap());
     let ring = formula(as_torus);
-    pair("torus", Erased::new(around(&ring, cuboid(16.0, 6.0, 17.0))), torus(), &RING, 3);
-    pair("torus in its own box", Erased::new(around(&ring, cuboid(15.0, 5.0, 15.0))), torus(), &RING, 3);
+    pair("torus", DynSurface::new(around(&ring, cuboid(16.0, 6.0, 17.0))), torus(), &RING, 3);
+    pair("torus in its own box", DynSurface::new(around(&ring, cuboid(15.0, 5.0, 15.0))), torus(), &RING, 3);
     let ring = formula(as_quartic);
-    pair("torus as a quartic", Erased::new(around(&ring, cuboid(16.0, 6.0, 17.0))), torus(), &RING, 3);
+    pair("torus as a quartic", DynSurface::new(around(&ring, cuboid(16.0, 6.0, 17.0))), torus(), &RING, 3);
     all
 }
 
@@ -271,10 +278,10 @@ fn check(pair: &Pair, ray: &Ray) -> Result<(usize, usize), String> {
         return Err(format!("behind {at} it is inside"));
     }
     let hits = pair.formula.all(ray);
-    let clusters = hits.iter().filter(|h| h.kind == Kind::Cluster).count();
+    let clusters = hits.iter().filter(|h| h.kind == RootKind::Cluster).count();
     // Where the line certainly passes through, an end of a very short chord may be one, too.
     let whole = ray.with_range(f64::NEG_INFINITY, f64::INFINITY);
-    let crossings = pair.exact.all(&whole).iter().filter(|h| h.kind == Kind::Simple).count();
+    let crossings = pair.exact.all(&whole).iter().filter(|h| h.kind == RootKind::Simple).count();
     if clusters > pair.touches.max(crossings) {
         return Err(format!("{clusters} clusters"));
     }

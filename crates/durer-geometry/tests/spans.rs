@@ -6,8 +6,8 @@ use common::{Dice, fill, ground, rays};
 use durer_geometry::Geometry;
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{
-    Algebraic, AxisBox, Bezier, CurvedPrism, Disc, Erased, Frustum, Inverse, Placed, Prism, Quadric, Side,
-    Sphere, Turned,
+    Algebraic, AxisBox, Bezier, Complement, CurvedPrism, Disc, DynSurface, Frustum, Placed, Prism, Quadric,
+    Side, Sphere, SurfaceOfRevolution,
 };
 use std::sync::Arc;
 
@@ -146,22 +146,22 @@ fn ranges_that_begin_at_a_touch() {
         assert_eq!(ends(outer, &placed), expected, "placed {ray:?}");
     };
     // x² + y² - z² <= 1 along (1, t, 2t): -3t².
-    let world = one(&|b| _ = b.add(Erased::new(hyperboloid.clone())));
+    let world = one(&|b| _ = b.add(DynSurface::new(hyperboloid.clone())));
     check(&world, along([1.0, 0.0, 0.0], [0.0, 1.0, 2.0], -1.0), whole(-1.0));
     check(&world, along([1.0, 0.0, 0.0], [0.0, 1.0, 2.0], 0.0), whole(0.0));
     check(&world, along([1.0, -1.0, -2.0], [0.0, 1.0, 2.0], 1.0), whole(1.0));
     // Along a generator: in the boundary all the way, and so in the closed set.
     check(&world, along([1.0, 0.0, 0.0], [0.0, 1.0, 1.0], 0.0), whole(0.0));
     // The other side of the same.
-    let world = one(&|b| _ = b.add(Inverse(Erased::new(hyperboloid.clone()))));
+    let world = one(&|b| _ = b.add(Complement(DynSurface::new(hyperboloid.clone()))));
     check(&world, along([1.0, 0.0, 0.0], [0.0, 1.0, 2.0], -1.0), vec![]);
     // From the tip of a cone, within it and without.
-    let world = one(&|b| _ = b.add(Erased::new(cone.clone())));
+    let world = one(&|b| _ = b.add(DynSurface::new(cone.clone())));
     check(&world, along([0.0, 0.0, 0.0], [0.0, 0.0, -0.348], 0.0), whole(0.0));
     check(&world, along([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], 0.0), vec![]);
-    let world = one(&|b| _ = b.add(Erased::new(ball)));
+    let world = one(&|b| _ = b.add(DynSurface::new(ball)));
     check(&world, along([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], 0.0), vec![]);
-    let world = one(&|b| _ = b.add(Inverse(Erased::new(ball))));
+    let world = one(&|b| _ = b.add(Complement(DynSurface::new(ball))));
     check(&world, along([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], 0.0), whole(0.0));
     check(&world, along([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], -3.0), whole(-3.0));
 }
@@ -171,8 +171,8 @@ fn ranges_that_begin_at_a_touch() {
 #[test]
 fn spans_do_not_depend_on_the_origin() {
     fn try_solid<S: Algebraic + Clone + 'static>(solid: &S, dice: &mut Dice, touches: &mut usize) {
-        let solid = Erased::new(solid.clone());
-        let turned = Geometry::builder().add(Inverse(solid.clone())).build().unwrap();
+        let solid = DynSurface::new(solid.clone());
+        let turned = Geometry::builder().add(Complement(solid.clone())).build().unwrap();
         let world = Geometry::builder().add(solid).build().unwrap();
         for _ in 0..1500 {
             let (a, b) = (dice.grid(), dice.grid());
@@ -321,7 +321,7 @@ fn crossings_at_the_ends_of_a_range_are_its_own() {
 /// elsewhere.
 #[test]
 fn a_chord_within_rounding_does_not_tell_where_a_range_begins() {
-    let lemon = Turned::lemon(10_485_760.0, 0.0, 0.0, 13_631_488.0).unwrap();
+    let lemon = SurfaceOfRevolution::lemon(10_485_760.0, 0.0, 0.0, 13_631_488.0).unwrap();
     // The text's matrices have their vectors in rows.
     let rows = [[-2.0, 6.0, -3.0], [6.0, 3.0, 2.0], [-3.0, 2.0, 6.0]];
     let place = Affine::new(rows, Point3::new(0.125, 0.0, -7.0)).unwrap();
@@ -334,7 +334,7 @@ fn a_chord_within_rounding_does_not_tell_where_a_range_begins() {
         let placed = Placed::new(lemon.clone(), place);
         let mut builder = Geometry::builder();
         if inverse {
-            builder.add(Inverse(placed))
+            builder.add(Complement(placed))
         } else {
             builder.add(placed)
         };

@@ -6,8 +6,8 @@ use common::{Dice, fill, ground, object, rays};
 use durer_geometry::{BuildError, EVERYTHING, Geometry};
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{
-    AxisBox, Clip, EllipticCylinder, Erased, Frustum, Mesh, MeshData, Need, Placed, Plane, Quadric, Region,
-    Side, Sphere,
+    AxisBox, Clip, DynSurface, EllipticCylinder, Frustum, Mesh, MeshData, Need, Placed, Plane, Quadric,
+    Region, Side, Sphere,
 };
 use std::sync::Arc;
 
@@ -168,7 +168,7 @@ fn a_cone_clipped_at_its_rim_is_entered_first() {
     );
     let base = Point3::new(2048.0, 5120.0, 7168.0);
     let cone = Frustum::new(base, 39936.0, Point3::new(12288.0, 10240.0, -3072.0), 39936.0).unwrap();
-    let world = Geometry::builder().add(Erased::new(Placed::new(cone, map.unwrap()))).build().unwrap();
+    let world = Geometry::builder().add(DynSurface::new(Placed::new(cone, map.unwrap()))).build().unwrap();
     let origin = Point3::new(316870.8445767619, -19390.6469906667, -125622.15542323812);
     let ray = Ray::new(origin, Vec3::new(-0.5, -0.875, -0.5));
     let all = world.all(&ray);
@@ -190,13 +190,13 @@ fn what_is_met_beyond_all_numbers_is_not_met() {
         [[0.00390625, 0.0, 0.0], [0.0, 0.001953125, 0.0], [0.0, 0.0, 128.0]],
         Point3::new(0.0, 1000.0, 1000.0),
     );
-    let first = Geometry::builder().add(Erased::new(Placed::new(clipped, map.unwrap()))).build().unwrap();
+    let first = Geometry::builder().add(DynSurface::new(Placed::new(clipped, map.unwrap()))).build().unwrap();
     let origin = Point3::new(0.0015024038461538462, 1000.0090144230769, 1000.0);
     let first_ray = Ray::new(origin, Vec3::new(5e-324, 0.0, 0.6141631519109444));
     // x² + y² <= 1, and the same as a plane.
     let pipe = Quadric::new([1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0]).unwrap();
-    let second = Geometry::builder().add(Erased::new(pipe.clone())).build().unwrap();
-    let third = Geometry::builder().add(Erased::new(Plane::new(Vec3::X, 1.0).unwrap())).build().unwrap();
+    let second = Geometry::builder().add(DynSurface::new(pipe.clone())).build().unwrap();
+    let third = Geometry::builder().add(DynSurface::new(Plane::new(Vec3::X, 1.0).unwrap())).build().unwrap();
     let whole = (f64::NEG_INFINITY, f64::INFINITY);
     let along = |x: f64| Ray::new(Point3::ORIGIN, Vec3::new(x, 0.0, 1.0)).with_range(whole.0, whole.1);
     for (world, ray) in

@@ -4,7 +4,7 @@
 //! feature door and outside it; "sum" keeps the compiler from dropping the work, and is equal for equal bits.
 
 use durer_math::ladder::{self, Predicate};
-use durer_math::{Dd, Dyadic, EdgeRay, Isa, Point3, Ring, Run, Vec3};
+use durer_math::{Dd, Dyadic, EFloat, EdgeRay, Isa, Point3, Ring, Vec3};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -71,14 +71,14 @@ fn main() {
             isa,
             &rays,
             #[inline(always)]
-            |p| p.eval::<Run>().map_or(0.0, |x| x.v + x.e),
+            |p| p.eval::<EFloat>().map_or(0.0, |x| x.v + x.e),
         );
         time(
             "discriminant, Run<Dd>",
             isa,
             &rays,
             #[inline(always)]
-            |p| p.eval::<Run<Dd>>().map_or(0.0, |x| x.v.hi + x.e),
+            |p| p.eval::<EFloat<Dd>>().map_or(0.0, |x| x.v.hi + x.e),
         );
         time(
             "discriminant, Dyadic",

@@ -5,7 +5,7 @@
 //! inverse, `x = L^-1 (p - c)`, because `L^-1 p - L^-1 c` cancels.
 
 use crate::rounding::{add_up, mul_up, sqrt_up};
-use crate::{Aabb, Dd, Dyadic, Interval, Isa, Normal3, Point3, Ring, Run, U, Vec3, elementary};
+use crate::{Aabb, Dd, Dyadic, EFloat, Interval, Isa, Normal3, Point3, Ring, U, Vec3, elementary};
 
 /// A 3x3 matrix by rows.
 pub type Matrix3 = [[f64; 3]; 3];
@@ -410,7 +410,7 @@ impl Inverse {
         if !rows.as_flattened().iter().all(in_range) {
             return None;
         }
-        let (adjugate, determinant) = adjugate(&rows.map(|r| r.map(Run::<Dd>::exact)));
+        let (adjugate, determinant) = adjugate(&rows.map(|r| r.map(EFloat::<Dd>::exact)));
         let mirrored = determinant.sign()?.is_lt();
         let (mut entries, mut rounded) = ([[0.0; 3]; 3], 0);
         for i in 0..3 {
@@ -520,11 +520,11 @@ fn adjugate<T: Ring>(m: &[[T; 3]; 3]) -> ([[T; 3]; 3], T) {
 }
 
 /// The quotient of two exact numbers, with a bound on its error.
-fn quotient(n: &Dyadic, d: &Dyadic) -> Run<Dd> {
+fn quotient(n: &Dyadic, d: &Dyadic) -> EFloat<Dd> {
     let ((n, kn), (d, kd)) = (n.to_scaled_dd(), d.to_scaled_dd());
     // `to_scaled_dd` is within 2^-106 of numbers below 2.
     let error = 2.0 * U * U;
-    let with_error = |x: Dd| Run::with_error(x, if x.hi == 0.0 { 0.0 } else { error });
+    let with_error = |x: Dd| EFloat::with_error(x, if x.hi == 0.0 { 0.0 } else { error });
     let k = (kn - kd).clamp(-3000, 3000) as i32;
     (with_error(n) / with_error(d)).scale2(k)
 }

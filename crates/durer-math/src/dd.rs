@@ -3,7 +3,7 @@
 //! Algorithms and bounds: M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for basic building blocks of
 //! double-word arithmetic", ACM Transactions on Mathematical Software 44(2), 2017 (JMP below); the square root is from V. Lefèvre, N. Louvet,
 //! J.-M. Muller, J. Picot, L. Rideau, "Accurate calculation of Euclidean norms using double-word arithmetic", ACM TOMS
-//! 49(1), 2023. `u = 2^-53`; all bounds are relative, and hold barring overflow and underflow ([`Run`](crate::Run) charges for underflow).
+//! 49(1), 2023. `u = 2^-53`; all bounds are relative, and hold barring overflow and underflow ([`EFloat`](crate::EFloat) charges for underflow).
 
 use crate::eft::{fast_two_sum, two_diff, two_prod, two_sum};
 use core::cmp::Ordering;

@@ -17,7 +17,7 @@
 //! assert_eq!(ladder::sign(&tangent), Some(Ordering::Less)); // 3e100 is not a square root of 9e200: rounding
 //! ```
 
-use crate::{Dd, Dyadic, Ring, Run};
+use crate::{Dd, Dyadic, EFloat, Ring};
 use core::cmp::Ordering;
 
 /// A polynomial whose sign is asked for.
@@ -29,9 +29,9 @@ pub trait Predicate {
 /// Which step of the ladder decided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Step {
-    /// `Run<f64>`.
+    /// `EFloat<f64>`.
     Double,
-    /// `Run<Dd>`.
+    /// `EFloat<Dd>`.
     DoubleDouble,
     /// [`Dyadic`].
     Exact,
@@ -43,7 +43,7 @@ pub enum Step {
 /// open. Inputs must be finite; intermediate overflow and underflow are no trouble.
 #[inline(always)]
 pub fn sign<P: Predicate + ?Sized>(p: &P) -> Option<Ordering> {
-    match p.eval::<Run<f64>>().and_then(|x| x.sign()) {
+    match p.eval::<EFloat<f64>>().and_then(|x| x.sign()) {
         None => climb(p).map(|(sign, _)| sign),
         sign => sign,
     }
@@ -51,7 +51,7 @@ pub fn sign<P: Predicate + ?Sized>(p: &P) -> Option<Ordering> {
 
 /// As [`sign()`], and which step knew it: for measuring how often the ladder is climbed.
 pub fn sign_and_step<P: Predicate + ?Sized>(p: &P) -> Option<(Ordering, Step)> {
-    match p.eval::<Run<f64>>().and_then(|x| x.sign()) {
+    match p.eval::<EFloat<f64>>().and_then(|x| x.sign()) {
         Some(sign) => Some((sign, Step::Double)),
         None => climb(p),
     }
@@ -60,7 +60,7 @@ pub fn sign_and_step<P: Predicate + ?Sized>(p: &P) -> Option<(Ordering, Step)> {
 #[cold]
 #[inline(never)]
 fn climb<P: Predicate + ?Sized>(p: &P) -> Option<(Ordering, Step)> {
-    if let Some(sign) = p.eval::<Run<Dd>>().and_then(|x| x.sign()) {
+    if let Some(sign) = p.eval::<EFloat<Dd>>().and_then(|x| x.sign()) {
         return Some((sign, Step::DoubleDouble));
     }
     p.eval::<Dyadic>().map(|x| (x.exact_sign(), Step::Exact))

@@ -38,7 +38,7 @@
 //! `o + t d` with a direction of any length; [`Affine`] is `c + L x` with a proven bound on its rounded inverse; [`Aabb`] a box, and a
 //! conservative bound.
 //!
-//! **Numbers, by rising cost.** [`eft`] gives sums and products with their exact errors; [`Run`] a value with its running error;
+//! **Numbers, by rising cost.** [`eft`] gives sums and products with their exact errors; [`EFloat`] a value with its running error;
 //! [`rounding`] and [`Interval`] directed rounding; [`Dd`] 106 bits; [`Dyadic`] is exact. [`ladder`] climbs from one to the
 //! next, and [`predicates`] holds the one decision that must be faster than that: on which side a ray passes an edge.
 //!
@@ -53,11 +53,12 @@ mod aabb;
 pub mod affine;
 pub mod dd;
 mod directions;
-mod distil;
 pub mod dual;
 pub mod dyadic;
+pub mod efloat;
 pub mod eft;
 pub mod elementary;
+mod exact_sum;
 mod gamma;
 pub mod interval;
 mod joined;
@@ -77,7 +78,6 @@ mod ray;
 pub mod real;
 mod ring;
 pub mod rounding;
-pub mod run;
 mod scalar;
 pub mod scale;
 mod shaft;
@@ -89,6 +89,7 @@ pub use crate::dd::Dd;
 pub use crate::directions::CombinationError;
 pub use crate::dual::Dual;
 pub use crate::dyadic::Dyadic;
+pub use crate::efloat::EFloat;
 pub use crate::gamma::{U, gamma};
 pub use crate::interval::Interval;
 pub use crate::joined::Joined;
@@ -99,7 +100,6 @@ pub use crate::number::{Comparison, Function, Gradient, Number, Sloped, Slopes};
 pub use crate::predicates::{Edge, EdgeRay};
 pub use crate::ray::{Ray, RaySide, Source};
 pub use crate::ring::Ring;
-pub use crate::run::Run;
 pub use crate::scalar::Scalar;
 pub use crate::shaft::{Shaft, Shaft8};
 pub use crate::vector::{Normal3, Point3, Vec3};

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! tells the side. It comes in three stages: an f64 value with Shewchuk's bound (`orient3d`, stage A), then a sum of all its
-//! terms, each exact (`distil.rs`), then, only where exponents are so wild that these could under- or overflow, [`Dyadic`].
+//! terms, each exact (`exact_sum.rs`), then, only where exponents are so wild that these could under- or overflow, [`Dyadic`].
 //! J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", Discrete &
 //! Computational Geometry 18 (1997).
 //!
@@ -20,8 +20,8 @@
 //!
 //! Coordinates must be finite; for others the answers are meaningless, but nothing panics.
 
-use crate::distil::Terms;
 use crate::eft::two_diff;
+use crate::exact_sum::Terms;
 use crate::scale::exponent;
 use crate::{Dyadic, Isa, Point3, U, Vec3};
 use core::cmp::Ordering;

@@ -1,8 +1,8 @@
 //! One formula, several precisions: the ladder of a decision.
 //!
 //! Whether a line meets a quadric is the sign of a polynomial in the numbers of the ray and of the surface. The polynomial
-//! is written once, generic over [`Ring`], and evaluated in `Run<f64>` (a value with its running error), then in
-//! `Run<Dd>`, then in [`Dyadic`](crate::Dyadic), which is exact. Each step answers [`Ring::sign`] with `Some` only
+//! is written once, generic over [`Ring`], and evaluated in `EFloat<f64>` (a value with its running error), then in
+//! `EFloat<Dd>`, then in [`Dyadic`](crate::Dyadic), which is exact. Each step answers [`Ring::sign`] with `Some` only
 //! where the answer is certain; the last always does.
 
 use core::cmp::Ordering;

@@ -4,9 +4,9 @@
 mod common;
 use common::*;
 use dashu::rational::RBig;
+use durer_math::efloat::Word;
 use durer_math::ladder::{self, Predicate, Step};
-use durer_math::run::Word;
-use durer_math::{Dd, Dyadic, Ring, Run, U};
+use durer_math::{Dd, Dyadic, EFloat, Ring, U};
 use proptest::prelude::*;
 
 fn exact(x: Dd) -> RBig {
@@ -51,7 +51,7 @@ impl Exact for Dd {
     }
 }
 
-fn bounds<T: Exact>(x: Run<T>, truth: &RBig) -> bool {
+fn bounds<T: Exact>(x: EFloat<T>, truth: &RBig) -> bool {
     // A negative or NaN bound with a finite value would be a lie of its own.
     let known = x.v.finite() && x.e.is_finite();
     (!known || (x.e >= 0.0 && within(&x.v.exact(), truth, x.e)))
@@ -102,9 +102,9 @@ fn pow2(k: i32) -> RBig {
 
 /// Runs a little stack machine in `T` and in rationals; every intermediate result must keep its promise.
 fn programme<T: Exact>(inputs: &[(f64, f64, RBig)], ops: &[(Op, usize, usize)]) -> Result<(), TestCaseError> {
-    let mut stack: Vec<(Run<T>, RBig)> = inputs
+    let mut stack: Vec<(EFloat<T>, RBig)> = inputs
         .iter()
-        .map(|(x, e, truth)| (Run::within(*x, *e).expect("runs hold errors"), truth.clone()))
+        .map(|(x, e, truth)| (EFloat::within(*x, *e).expect("runs hold errors"), truth.clone()))
         .collect();
     for &(op, i, j) in ops {
         let (a, x) = stack[i % stack.len()].clone();
@@ -143,11 +143,11 @@ proptest! {
         prop_assert_eq!(exact(a.scale2(7)), x * RBig::from(128));
     }
 
-    /// As above, with the constants that [`Run`] charges, which must not be smaller.
+    /// As above, with the constants that [`EFloat`] charges, which must not be smaller.
     #[test]
     fn running_errors_of_full_double_doubles_hold(a in double_double(), b in double_double()) {
         let (x, y) = (exact(a), exact(b));
-        let (p, q) = (Run::with_error(a, 0.0), Run::with_error(b, 0.0));
+        let (p, q) = (EFloat::with_error(a, 0.0), EFloat::with_error(b, 0.0));
         for (result, truth) in [(p + q, &x + &y), (p - q, &x - &y), (p * q, &x * &y), (p / q, &x / &y), (p.square(), &x * &x)] {
             prop_assert!(bounds(result, &truth), "{a:?} {b:?} {result:?}");
         }
@@ -171,7 +171,7 @@ proptest! {
     #[test]
     fn running_roots_hold((x, e, truth) in uncertain()) {
         fn check<T: Exact>(x: f64, e: f64, truth: &RBig) -> bool {
-            let r = Run::<T>::within(x, e).expect("runs hold errors").sqrt();
+            let r = EFloat::<T>::within(x, e).expect("runs hold errors").sqrt();
             if *truth < RBig::ZERO {
                 return true;
             }
@@ -188,7 +188,7 @@ proptest! {
     fn running_errors_are_tight(a in scaled(40), b in scaled(40), ka in 10..60_i32, kb in 10..60_i32) {
         let error = |x: f64, k: i32| x.abs() * durer_math::scale::ldexp(1.0, -k);
         let (ea, eb) = (error(a, ka), error(b, kb));
-        let (x, y) = (Run::with_error(a, ea), Run::with_error(b, eb));
+        let (x, y) = (EFloat::with_error(a, ea), EFloat::with_error(b, eb));
         let tight = |e: f64, ideal: f64| e <= ideal * (1.0 + 1e-12);
         prop_assert!(tight((x + y).e, ea + eb + U * (a + b).abs()));
         prop_assert!(tight((x - y).e, ea + eb + U * (a - b).abs()));
@@ -199,7 +199,7 @@ proptest! {
         let (s, r) = (x.abs().sqrt(), a.abs().sqrt());
         prop_assert!(tight(s.e, ea / (r + (a.abs() - ea).sqrt()) + U * r));
         // In double-double exact inputs leave errors of a few u^2.
-        let (x, y) = (Run::<Dd>::exact(a), Run::<Dd>::exact(b));
+        let (x, y) = (EFloat::<Dd>::exact(a), EFloat::<Dd>::exact(b));
         prop_assert!((x * y).e <= 4.01 * U * U * (a * b).abs());
         prop_assert!((x + y).e <= 3.01 * U * U * (a + b).abs());
         prop_assert!((x / y).e <= 15.01 * U * U * q);
@@ -251,24 +251,24 @@ fn each_step_of_the_ladder_is_needed() {
 
 #[test]
 fn a_zero_factor_gives_an_exact_zero() {
-    let zero = Run::<f64>::exact(0.0);
-    let x = Run::with_error(0.3, 0.1);
+    let zero = EFloat::<f64>::exact(0.0);
+    let x = EFloat::with_error(0.3, 0.1);
     assert_eq!((zero * x).sign(), Some(core::cmp::Ordering::Equal));
     assert_eq!((zero / x).sign(), Some(core::cmp::Ordering::Equal));
     // An underflow to zero is not one.
-    let tiny = Run::<f64>::exact(1e-200);
+    let tiny = EFloat::<f64>::exact(1e-200);
     assert_eq!((tiny * tiny).sign(), None);
     assert!((tiny * tiny).hi() > 0.0);
 }
 
 #[test]
 fn unknown_numbers_know_nothing() {
-    let one = Run::<f64>::exact(1.0);
-    let unknown = one / Run::with_error(0.5, 0.5);
+    let one = EFloat::<f64>::exact(1.0);
+    let unknown = one / EFloat::with_error(0.5, 0.5);
     assert_eq!((unknown.lo(), unknown.hi(), unknown.sign()), (f64::NEG_INFINITY, f64::INFINITY, None));
-    let over = Run::<Dd>::exact(1e300).square();
+    let over = EFloat::<Dd>::exact(1e300).square();
     assert_eq!((over.lo(), over.hi(), over.sign()), (f64::NEG_INFINITY, f64::INFINITY, None));
-    let negative = Run::<f64>::exact(-1.0).sqrt();
+    let negative = EFloat::<f64>::exact(-1.0).sqrt();
     assert_eq!((negative.lo(), negative.hi(), negative.sign()), (f64::NEG_INFINITY, f64::INFINITY, None));
 }
 
@@ -283,10 +283,10 @@ fn the_median_bound_is_close_to_the_error() {
     let mut ratios: Vec<f64> = (0..2000)
         .filter_map(|_| {
             let pairs: Vec<(f64, f64)> = (0..8).map(|_| (random(), random())).collect();
-            let zero = (Run::<f64>::exact(0.0), RBig::ZERO);
+            let zero = (EFloat::<f64>::exact(0.0), RBig::ZERO);
             let (sum, truth) = pairs
                 .iter()
-                .fold(zero, |(s, t), &(a, b)| (s + Run::exact(a) * Run::exact(b), t + rat(a) * rat(b)));
+                .fold(zero, |(s, t), &(a, b)| (s + EFloat::exact(a) * EFloat::exact(b), t + rat(a) * rat(b)));
             let actual = abs(rat(sum.v) - truth).to_f64_fast();
             (actual > 0.0).then(|| sum.e / actual)
         })
@@ -358,7 +358,7 @@ proptest! {
 #[test]
 fn scaling_into_the_subnormals_widens_a_large_bound() {
     let (v, e) = (1.828_245_992_610_490_4, 2_179_652_282_933.859_9);
-    let scaled = Run::<f64>::with_error(v, e).scale2(-1023);
+    let scaled = EFloat::<f64>::with_error(v, e).scale2(-1023);
     let edge = (rat(v) - rat(e)) * pow2(-1023);
     assert!(within(&rat(scaled.v), &edge, scaled.e));
 }
@@ -366,9 +366,9 @@ fn scaling_into_the_subnormals_widens_a_large_bound() {
 /// Underflow inside a bound, just before a division by a tiny number; and a scaling that overflows.
 #[test]
 fn bounds_survive_the_ends_of_the_exponent_range() {
-    let q = Run::<f64>::exact(-5e-324) / Run::with_error(2.5e-323, 1e-323);
+    let q = EFloat::<f64>::exact(-5e-324) / EFloat::with_error(2.5e-323, 1e-323);
     assert!(within(&rat(q.v), &(rat(-5e-324) / rat(1.5e-323)), q.e));
-    let over = Run::<f64>::exact(3.0).scale2(1023);
+    let over = EFloat::<f64>::exact(3.0).scale2(1023);
     assert_eq!((over.sign(), over.hi()), (None, f64::INFINITY));
-    assert_eq!((Run::exact(0.5) / over).hi(), f64::INFINITY);
+    assert_eq!((EFloat::exact(0.5) / over).hi(), f64::INFINITY);
 }

@@ -7,7 +7,7 @@ use common::*;
 use dashu::rational::RBig;
 use durer_math::scale::ldexp;
 use durer_math::{
-    Aabb, Affine, AffineError, CombinationError, Dual, Dyadic, Interval, Normal3, Point3, Run, Scalar, U,
+    Aabb, Affine, AffineError, CombinationError, Dual, Dyadic, EFloat, Interval, Normal3, Point3, Scalar, U,
     Vec3,
 };
 use proptest::prelude::*;
@@ -103,7 +103,7 @@ proptest! {
                 prop_assert_eq!(&entry, if i == j { &det } else { &Dyadic::ZERO });
             }
         }
-        let (_, run) = map.adjugate::<Run>();
+        let (_, run) = map.adjugate::<EFloat>();
         let (lo, hi) = det.to_bounds();
         prop_assert!(run.lo() <= hi && lo <= run.hi());
     }

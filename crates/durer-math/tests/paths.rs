@@ -2,7 +2,7 @@
 #![allow(missing_docs, reason = "a test program")]
 
 use durer_math::kernels::Path;
-use durer_math::{Affine, Dd, EdgeRay, Interval, Isa, IsaError, Point3, Ring, Run, U, Vec3};
+use durer_math::{Affine, Dd, EFloat, EdgeRay, Interval, Isa, IsaError, Point3, Ring, U, Vec3};
 use std::process::Command;
 
 fn generator(mut state: u64) -> impl FnMut() -> f64 {
@@ -19,9 +19,9 @@ fn work() -> Vec<u64> {
     let mut out = Vec::new();
     for _ in 0..500 {
         let x: [f64; 6] = core::array::from_fn(|_| random());
-        let [a, b, c] = [x[0], x[1], x[2]].map(Run::<f64>::exact);
+        let [a, b, c] = [x[0], x[1], x[2]].map(EFloat::<f64>::exact);
         let r = (a * b - c.square()) / (a + b + c) + a.abs().sqrt();
-        let [a, b, c] = [x[0], x[1], x[2]].map(Run::<Dd>::exact);
+        let [a, b, c] = [x[0], x[1], x[2]].map(EFloat::<Dd>::exact);
         let s = (a * b - c.square()) / (a + b + c) + a.abs().sqrt();
         let i = Interval::from(x[0]) / Interval::from(x[1]) - Interval::from(x[2]).square();
         let (p, d) = (Point3::new(x[0], x[1], x[2]), Vec3::new(x[3], x[4], x[5]));

@@ -8,12 +8,12 @@
 //! 1983. Coefficients are listed by falling powers of x, then of y, then of z, so that one pass over the list with nested Horner schemes puts
 //! a ray into `f`.
 
-use crate::outline::{Kind8, Sketch, Terms};
-use crate::quadric::body::{Chart, Frame, sheared, tangents};
+use crate::packet::{FilterSource, PacketKernel, Terms};
+use crate::polynomial_surface::{self, PolynomialSurface};
+use crate::quadric::boolean_faces::{Chart, Frame, sheared, tangents};
 use crate::quadric::form::FLOOR;
 use crate::roots::quadratic::Quadratic;
 use crate::sphere::sphere_chart;
-use crate::zero_set::{self, ZeroSet};
 use crate::{
     Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side, Sink, Solidity,
     Surface, SurfacePoint,
@@ -21,7 +21,7 @@ use crate::{
 use core::cmp::Ordering;
 use durer_math::eft::exponent;
 use durer_math::scale::ldexp;
-use durer_math::{Aabb, Dyadic, Isa, Point3, Ring, Run, Vec3};
+use durer_math::{Aabb, Dyadic, EFloat, Isa, Point3, Ring, Vec3};
 use std::sync::Arc;
 
 /// The greatest order.
@@ -137,9 +137,9 @@ impl AlgebraicSurface {
     #[inline(never)]
     fn all_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         match &self.0 {
-            Fitting::Four(p) => zero_set::roots(p, ray, sink),
-            Fitting::Eight(p) => zero_set::roots(p, ray, sink),
-            Fitting::Sixteen(p) => zero_set::roots(p, ray, sink),
+            Fitting::Four(p) => polynomial_surface::roots(p, ray, sink),
+            Fitting::Eight(p) => polynomial_surface::roots(p, ray, sink),
+            Fitting::Sixteen(p) => polynomial_surface::roots(p, ray, sink),
         }
     }
 }
@@ -251,17 +251,17 @@ impl<const N: usize> Dense<N> {
 
     #[inline(always)]
     fn gradient_here(&self, y: Vec3, w: f64) -> Vec3 {
-        let o = y.to_array().map(Run::exact);
+        let o = y.to_array().map(EFloat::exact);
         let mut g = [0.0; 3];
         for (slope, d) in g.iter_mut().zip([Vec3::X, Vec3::Y, Vec3::Z]) {
-            let ray = RingRay { o, d: d.to_array().map(Run::<f64>::exact), w: Run::exact(w) };
+            let ray = RingRay { o, d: d.to_array().map(EFloat::<f64>::exact), w: EFloat::exact(w) };
             *slope = self.along(&ray)[1].value();
         }
         g.into()
     }
 }
 
-impl<const N: usize> ZeroSet<N> for Dense<N> {
+impl<const N: usize> PolynomialSurface<N> for Dense<N> {
     #[inline(always)]
     fn frame(&self) -> Frame {
         Frame { centre: Point3::ORIGIN, scale: self.scale, reach: f64::INFINITY }
@@ -379,7 +379,7 @@ impl<const N: usize> Dense<N> {
             let v = Vec3::new(axis(9), axis(3), axis(1));
             let v = v * (1.0 / v.length());
             let value =
-                |y: Vec3| self.at(&y.to_array().map(Run::<f64>::exact), &Run::exact(1.0)).value().abs();
+                |y: Vec3| self.at(&y.to_array().map(EFloat::<f64>::exact), &EFloat::exact(1.0)).value().abs();
             let least = value(y + v * (1.0 / 1024.0)).min(value(y - v * (1.0 / 1024.0)));
             if least > best.1 {
                 best = (v, least);
@@ -402,17 +402,17 @@ impl Surface for AlgebraicSurface {
     #[inline(never)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         match &self.0 {
-            Fitting::Four(p) => zero_set::resolve(p, ray, root, need),
-            Fitting::Eight(p) => zero_set::resolve(p, ray, root, need),
-            Fitting::Sixteen(p) => zero_set::resolve(p, ray, root, need),
+            Fitting::Four(p) => polynomial_surface::resolve(p, ray, root, need),
+            Fitting::Eight(p) => polynomial_surface::resolve(p, ray, root, need),
+            Fitting::Sixteen(p) => polynomial_surface::resolve(p, ray, root, need),
         }
     }
 
-    fn sketch(&self, _part: PartId) -> Sketch {
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
         match &self.0 {
-            Fitting::Four(p) => Sketch::algebraic(Kind8::Quartic(Arc::new(p.terms())), p.scale),
-            Fitting::Eight(p) => Sketch::algebraic(Kind8::Octic(Arc::new(p.terms())), p.scale),
-            Fitting::Sixteen(p) => Sketch::algebraic(Kind8::High(Arc::new(p.terms())), p.scale),
+            Fitting::Four(p) => FilterSource::algebraic(PacketKernel::Quartic(Arc::new(p.terms())), p.scale),
+            Fitting::Eight(p) => FilterSource::algebraic(PacketKernel::Octic(Arc::new(p.terms())), p.scale),
+            Fitting::Sixteen(p) => FilterSource::algebraic(PacketKernel::High(Arc::new(p.terms())), p.scale),
         }
     }
 
@@ -422,9 +422,9 @@ impl Surface for AlgebraicSurface {
 
     fn side(&self, point: &LocalPoint<'_>) -> Side {
         match &self.0 {
-            Fitting::Four(p) => zero_set::side(p, point),
-            Fitting::Eight(p) => zero_set::side(p, point),
-            Fitting::Sixteen(p) => zero_set::side(p, point),
+            Fitting::Four(p) => polynomial_surface::side(p, point),
+            Fitting::Eight(p) => polynomial_surface::side(p, point),
+            Fitting::Sixteen(p) => polynomial_surface::side(p, point),
         }
     }
 }
@@ -432,9 +432,9 @@ impl Surface for AlgebraicSurface {
 impl Algebraic for AlgebraicSurface {
     fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {
         match &self.0 {
-            Fitting::Four(p) => zero_set::sign_at_root(p, ray, root, q),
-            Fitting::Eight(p) => zero_set::sign_at_root(p, ray, root, q),
-            Fitting::Sixteen(p) => zero_set::sign_at_root(p, ray, root, q),
+            Fitting::Four(p) => polynomial_surface::sign_at_root(p, ray, root, q),
+            Fitting::Eight(p) => polynomial_surface::sign_at_root(p, ray, root, q),
+            Fitting::Sixteen(p) => polynomial_surface::sign_at_root(p, ray, root, q),
         }
     }
 }
@@ -442,7 +442,7 @@ impl Algebraic for AlgebraicSurface {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::{Dice, Exact, Feature, ZeroOracle, check_many, exact3};
+    use crate::laws::{Exact, Feature, TestRng, ZeroOracle, check_many, exact3};
 
     fn oracle(order: u32, coefficients: &[f64], size: f64) -> ZeroOracle {
         let terms = coefficients.iter().zip(powers(order)).filter(|(c, _)| **c != 0.0);
@@ -604,7 +604,7 @@ mod tests {
     #[test]
     fn random_cubics_obey_the_laws() {
         for seed in 0..12 {
-            let mut dice = Dice::new(seed);
+            let mut dice = TestRng::new(seed);
             let few = seed % 2 == 0;
             let k: Vec<f64> = (0..20)
                 .map(|_| if few { dice.integer(-4, 4) } else { dice.between(-1.0, 1.0) * dice.scale(-8, 8) })
@@ -615,7 +615,7 @@ mod tests {
         }
     }
 
-    fn here_is_anything(dice: &mut Dice) -> Feature {
+    fn here_is_anything(dice: &mut TestRng) -> Feature {
         Feature::new((dice.lattice(4) * 0.25).to_array(), [0.0; 3])
     }
 

@@ -10,7 +10,7 @@
 //! Decided as the [disc](crate::Disc) is, against two circles; both rims belong to the annulus.
 
 use crate::disc::RoundSheet;
-use crate::outline::Sketch;
+use crate::packet::FilterSource;
 use crate::planar::scaled_to_one;
 use crate::{Flow, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
@@ -105,8 +105,8 @@ impl Surface for Annulus {
         }
     }
 
-    fn sketch(&self, _part: PartId) -> Sketch {
-        Sketch::ring(self.centre(), self.normal(), self.hole, self.radius())
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::ring(self.centre(), self.normal(), self.hole, self.radius())
     }
 
     #[inline(always)]
@@ -119,13 +119,13 @@ impl Surface for Annulus {
 mod tests {
     use super::*;
     use crate::disc::tests::{FRAMES, ball, features};
-    use crate::laws::{Dice, ExactBody, ExactForm, check_many, exact3};
+    use crate::laws::{ExactBody, ExactForm, TestRng, check_many, exact3};
 
     #[test]
     fn annuli_obey_the_laws() {
         let mut roots = 0;
         for seed in 0..40 {
-            let mut dice = Dice::new(seed);
+            let mut dice = TestRng::new(seed);
             let frame = dice.pick(&FRAMES).map(Vec3::from);
             let unit = dice.power(-30, 30);
             let centre = if seed % 2 == 0 { Point3::ORIGIN } else { (dice.lattice(100) * unit).to_point() };

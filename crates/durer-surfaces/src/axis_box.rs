@@ -11,12 +11,12 @@
 //! to the first axis; a line that only touches an edge or a corner meets the box in one grazing root; a line within a face enters and
 //! leaves through the other slabs, since the box is closed.
 
-use crate::outline::Sketch;
+use crate::packet::FilterSource;
 use crate::planar::{self, AlongRay, Crossing, Line, PlaneForm, PointLine, Probe};
 use crate::point::least_step;
 use crate::{
-    CentredRay, Flow, Kind, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side, Sink, Solidity, Surface,
-    SurfacePoint,
+    CentredRay, Flow, LocalPoint, LocalRay, Need, PartId, RingRay, Root, RootKind, Side, Sink, Solidity,
+    Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
@@ -51,14 +51,14 @@ pub enum AxisBoxError {
 
 /// One face's plane. Its normal is `+axis` for both faces of a slab; the sign is set by [`AxisBox`].
 #[derive(Clone, Copy)]
-struct Face {
+struct SlabPlane {
     axis: usize,
     at: f64,
     centre: f64,
     scale: i32,
 }
 
-impl PlaneForm for Face {
+impl PlaneForm for SlabPlane {
     #[inline(always)]
     fn quick(&self, ray: &CentredRay<'_>) -> Option<planar::Quick> {
         let n = Vec3::from(core::array::from_fn(|i| if i == self.axis { 1.0 } else { 0.0 }));
@@ -79,7 +79,7 @@ impl PlaneForm for Face {
 }
 
 /// `s_a - s_b` times the two slopes: which of two crossings comes first.
-struct Later(Face, Face);
+struct Later(SlabPlane, SlabPlane);
 
 impl AlongRay for Later {
     #[inline(always)]
@@ -90,7 +90,7 @@ impl AlongRay for Later {
 }
 
 /// The height above a face, for lines along it.
-struct Height(Face);
+struct Height(SlabPlane);
 
 impl AlongRay for Height {
     #[inline(always)]
@@ -124,7 +124,7 @@ enum Quick {
 /// A ray's entry into a slab, or its exit.
 #[derive(Clone, Copy)]
 struct Event {
-    face: Face,
+    face: SlabPlane,
     /// The number of the face in the box.
     number: u32,
     crossing: Crossing,
@@ -176,10 +176,10 @@ impl AxisBox {
     }
 
     #[inline(always)]
-    fn face(&self, number: u32) -> Face {
+    fn face(&self, number: u32) -> SlabPlane {
         let axis = (number / 2) as usize;
         let at = if number & 1 == 0 { self.min[axis] } else { self.max[axis] };
-        Face { axis, at, centre: self.centre()[axis], scale: self.scale() }
+        SlabPlane { axis, at, centre: self.centre()[axis], scale: self.scale() }
     }
 
     /// The slabs in f64, each quotient with its error.
@@ -384,7 +384,7 @@ impl Surface for AxisBox {
             {
                 let root = probe.root(crossing, event.number, [0.0; 2]);
                 let root = if touches {
-                    Root { sign: 0, kind: Kind::Grazing, ..root }
+                    Root { sign: 0, kind: RootKind::Grazing, ..root }
                 } else {
                     Root { sign, ..root }
                 };
@@ -428,8 +428,8 @@ impl Surface for AxisBox {
         point
     }
 
-    fn sketch(&self, _part: PartId) -> Sketch {
-        Sketch::axis_box(self.min, self.max)
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::axis_box(self.min, self.max)
     }
 
     fn solidity(&self) -> Solidity {
@@ -454,7 +454,7 @@ impl Surface for AxisBox {
 
 /// The face's place relative to the centre, rounded.
 #[inline(always)]
-fn level(face: &Face) -> f64 {
+fn level(face: &SlabPlane) -> f64 {
     scale2(face.at - face.centre, -face.scale)
 }
 
@@ -477,7 +477,7 @@ impl AxisBox {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::{Dice, ExactBody, ExactForm, Feature, all_roots, check_many, exact3};
+    use crate::laws::{ExactBody, ExactForm, Feature, TestRng, all_roots, check_many, exact3};
     use durer_math::Ray;
 
     fn exact(b: &AxisBox) -> ExactBody {
@@ -512,7 +512,7 @@ mod tests {
     fn boxes_obey_the_laws() {
         let (mut roots, mut grazing) = (0, 0);
         for seed in 0..60 {
-            let mut dice = Dice::new(seed);
+            let mut dice = TestRng::new(seed);
             let (a, w) = match seed % 3 {
                 0 => (dice.lattice(4), Vec3::new(1.0, 2.0, 4.0) * dice.power(-2, 2)),
                 1 => (dice.vector(), dice.vector()),
@@ -543,7 +543,7 @@ mod tests {
         let edge = Ray::new(Point3::new(-1.0, 0.0, 0.5), Vec3::new(1.0, 1.0, 0.0));
         assert_eq!(
             all_roots(&b, &edge).iter().map(|r| (r.t, r.sign, r.kind)).collect::<Vec<_>>(),
-            [(1.0, 0, Kind::Grazing)]
+            [(1.0, 0, RootKind::Grazing)]
         );
         // Through two opposite corners: the first axis names the faces.
         let diagonal = Ray::new(Point3::new(-1.0, -1.0, -1.0), Vec3::new(1.0, 1.0, 1.0));

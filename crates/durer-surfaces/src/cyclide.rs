@@ -14,10 +14,10 @@
 //! Mathematics* 9, 1868, derives it from focal conics. The plane y = 0 cuts it in circles of radii a + d about (-c, 0) and |a - d| about (c, 0),
 //! the plane z = 0 in circles of radii d - c about (a, 0) and d + c about (-a, 0).
 
-use crate::outline::Sketch;
-use crate::quadric::body::{Chart, Frame, tangents};
+use crate::packet::FilterSource;
+use crate::polynomial_surface::{self, PolynomialSurface};
+use crate::quadric::boolean_faces::{Chart, Frame, tangents};
 use crate::roots::quadratic::Quadratic;
-use crate::zero_set::{self, ZeroSet};
 use crate::{
     Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side, Sink, Solidity,
     Surface, SurfacePoint,
@@ -108,7 +108,7 @@ impl Cyclide {
 
     #[inline(never)]
     fn all_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
-        zero_set::roots(self, ray, sink);
+        polynomial_surface::roots(self, ray, sink);
     }
 
     /// How far it reaches along a row of a map: of the sphere at t that is row . centre + |row| radius, with either sign of the radius, whose
@@ -123,7 +123,7 @@ impl Cyclide {
     }
 }
 
-impl ZeroSet<5> for Cyclide {
+impl PolynomialSurface<5> for Cyclide {
     #[inline(always)]
     fn frame(&self) -> Frame {
         let (a, c, d) = self.numbers();
@@ -162,7 +162,13 @@ impl ZeroSet<5> for Cyclide {
         let (_, c, d) = self.numbers();
         let thick = (d + c) * (1.0 + MARGIN) + MARGIN;
         let along = (ray.o.y, ray.d.y);
-        zero_set::ball_and_slab(ray, self.frame().reach * (1.0 + MARGIN), along, (-thick, thick), MARGIN)
+        polynomial_surface::ball_and_slab(
+            ray,
+            self.frame().reach * (1.0 + MARGIN),
+            along,
+            (-thick, thick),
+            MARGIN,
+        )
     }
 
     #[inline(always)]
@@ -268,11 +274,11 @@ impl Surface for Cyclide {
 
     #[inline(never)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
-        zero_set::resolve(self, ray, root, need)
+        polynomial_surface::resolve(self, ray, root, need)
     }
 
-    fn sketch(&self, _part: PartId) -> Sketch {
-        Sketch::vague(self.bounds())
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::vague(self.bounds())
     }
 
     fn solidity(&self) -> Solidity {
@@ -280,13 +286,13 @@ impl Surface for Cyclide {
     }
 
     fn side(&self, point: &LocalPoint<'_>) -> Side {
-        zero_set::side(self, point)
+        polynomial_surface::side(self, point)
     }
 }
 
 impl Algebraic for Cyclide {
     fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {
-        zero_set::sign_at_root(self, ray, root, q)
+        polynomial_surface::sign_at_root(self, ray, root, q)
     }
 }
 

@@ -10,7 +10,7 @@
 //! The line `o + s d` (relative to `c`) meets the plane at `p = (n x (o x d)) / (n . d)`, so whether it meets the disc is the sign of
 //! `|n x (o x d)|^2 - r^2 (n . d)^2`: a polynomial, decided exactly; the rim belongs to the disc.
 
-use crate::outline::Sketch;
+use crate::packet::FilterSource;
 use crate::planar::{
     self, AlongRay, Crossing, Line, PlaneForm, Probe, Quick, cross, dot, exact3, scaled_to_one, unit,
 };
@@ -91,8 +91,8 @@ impl Surface for Disc {
         }
     }
 
-    fn sketch(&self, _part: PartId) -> Sketch {
-        Sketch::ring(self.centre(), self.normal(), 0.0, self.radius())
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::ring(self.centre(), self.normal(), 0.0, self.radius())
     }
 
     #[inline(always)]
@@ -221,7 +221,7 @@ impl RoundSheet {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::laws::{Dice, Exact, ExactBody, ExactForm, Feature, check_many, exact3};
+    use crate::laws::{Exact, ExactBody, ExactForm, Feature, TestRng, check_many, exact3};
 
     /// The ball `|p - c|^2 <= r^2`.
     pub(crate) fn ball(centre: Point3, radius: f64) -> ExactForm {
@@ -261,7 +261,7 @@ pub(crate) mod tests {
     fn discs_obey_the_laws() {
         let (mut roots, mut widths) = (0, vec![]);
         for seed in 0..60 {
-            let mut dice = Dice::new(seed);
+            let mut dice = TestRng::new(seed);
             let frame = dice.pick(&FRAMES).map(Vec3::from);
             let unit = if seed % 3 == 0 { dice.power(-300, 300) } else { dice.power(-3, 3) };
             let centre = if seed % 2 == 0 { Point3::ORIGIN } else { (dice.lattice(100) * unit).to_point() };

@@ -7,7 +7,7 @@
 
 use crate::RingRay;
 use crate::planar::{AlongRay, Line, TINY, cross, dot, towards};
-use durer_math::{EdgeRay, Isa, Point3, Ring, Run, U, Vec3};
+use durer_math::{EFloat, EdgeRay, Isa, Point3, Ring, U, Vec3};
 
 /// `U` for the edge from `a` to `b`.
 struct EdgeForm {
@@ -99,7 +99,7 @@ impl EdgeFilter {
     pub(crate) fn new<L: Line>(line: &L) -> Self {
         let ray = line.running();
         let (centre, scale) = line.view();
-        let most = |x: &[Run; 3]| x[0].e.max(x[1].e).max(x[2].e);
+        let most = |x: &[EFloat; 3]| x[0].e.max(x[1].e).max(x[2].e);
         let (o, d) = (Vec3::from(ray.o.map(|x| x.v)), Vec3::from(ray.d.map(|x| x.v)));
         Self { o, d, centre, scale, o_err: most(&ray.o), d_max: d.max_abs(), d_err: most(&ray.d) }
     }

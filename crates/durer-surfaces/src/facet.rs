@@ -10,7 +10,7 @@ use crate::planar::{self, Crossing, Line, Probe, Ratios, ThreePoints, cross, dot
 use crate::point::least_step;
 use crate::{Need, RingRay, SurfacePoint};
 use durer_math::eft::exponent;
-use durer_math::{Dyadic, Isa, Normal3, Point3, Ring, Run, U, Vec3};
+use durer_math::{Dyadic, EFloat, Isa, Normal3, Point3, Ring, U, Vec3};
 
 /// A triangle by its vertices; the normal is `(v1 - v0) x (v2 - v0)`.
 pub(crate) type Facet = [Point3; 3];
@@ -44,7 +44,7 @@ pub(crate) fn hit(probe: &Probe<'_>, filter: &EdgeFilter, v: &Facet) -> Option<(
     let tag = if bound < sum.abs() * TAG {
         [values[1] / sum, values[2] / sum]
     } else {
-        barycentric(probe, v).map(Run::value)
+        barycentric(probe, v).map(EFloat::value)
     };
     Some((crossing, tag.map(|b| b.clamp(0.0, 1.0))))
 }
@@ -153,7 +153,7 @@ fn volumes<T: Ring>(v: &Facet, ray: &RingRay<T>, centre: Point3, scale: i32) -> 
 
 /// `(b1, b2)` of the point where the ray meets the triangle's plane, with bounds.
 #[inline(always)]
-fn barycentric(probe: &Probe<'_>, v: &Facet) -> [Run; 2] {
+fn barycentric(probe: &Probe<'_>, v: &Facet) -> [EFloat; 2] {
     let filter = EdgeFilter::new(probe);
     let (a, b, c) = (filter.seen(v[0]), filter.seen(v[1]), filter.seen(v[2]));
     let bound = filter.bound(a.max_abs().max(b.max_abs()).max(c.max_abs()));
@@ -163,14 +163,14 @@ fn barycentric(probe: &Probe<'_>, v: &Facet) -> [Run; 2] {
 
 /// `V` and `W` over `U + V + W`, where that is tight; each volume errs by at most `bound`.
 #[inline(always)]
-pub(crate) fn quotients([u, v, w]: [f64; 3], bound: f64) -> Option<[Run; 2]> {
+pub(crate) fn quotients([u, v, w]: [f64; 3], bound: f64) -> Option<[EFloat; 2]> {
     let sum = u + v + w;
     // Two roundings in the sum.
     let rounding = 3.0 * U * (u.abs() + v.abs() + w.abs());
     let least = sum.abs() - 4.0 * bound - rounding;
     let quotient = |x: f64| {
         let b = x / sum;
-        Run::with_error(
+        EFloat::with_error(
             b,
             ((bound + rounding) * (1.0 + 3.0 * b.abs()) / least + U * b.abs()) * (1.0 + 16.0 * U),
         )
@@ -181,7 +181,7 @@ pub(crate) fn quotients([u, v, w]: [f64; 3], bound: f64) -> Option<[Run; 2]> {
 
 #[cold]
 #[inline(never)]
-fn exact_barycentric(probe: &Probe<'_>, v: &Facet) -> [Run; 2] {
+fn exact_barycentric(probe: &Probe<'_>, v: &Facet) -> [EFloat; 2] {
     Isa::detect().run(
         #[inline(always)]
         || {
@@ -247,7 +247,7 @@ pub(crate) fn resolve(probe: &Probe<'_>, v: &Facet, varying: &Varying, need: Nee
 /// The point `base + b1 e1 + b2 e2` of a plane, `b1` and `b2` in `[0, 1]` known within bounds; the edges are rounded at most once, and `ng` is as
 /// [`unit_normal`] makes it.
 #[inline(always)]
-pub(crate) fn settle(base: Point3, [e1, e2]: [Vec3; 2], [b1, b2]: [Run; 2], ng: Normal3) -> SurfacePoint {
+pub(crate) fn settle(base: Point3, [e1, e2]: [Vec3; 2], [b1, b2]: [EFloat; 2], ng: Normal3) -> SurfacePoint {
     // Within the sheet, as the exact point is.
     let (x1, x2) = (b1.v.clamp(0.0, 1.0), b2.v.clamp(0.0, 1.0));
     let least = least_step(base);

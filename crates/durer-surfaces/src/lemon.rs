@@ -10,7 +10,7 @@
 //! It is the inner sheet of the torus that meets itself (see [`Torus`](crate::Torus)), closed by discs where `a` and `b` are not zero. The exact solid has R and c as
 //! f64 holds them; an end that is a point is moved inward by the few ulps that it takes for the sheet to reach there.
 
-use crate::turned::{Profile, Turned};
+use crate::revolution::{Profile, SurfaceOfRevolution};
 use durer_math::{Dyadic, Ring, U, elementary};
 
 /// Why a lemon cannot exist.
@@ -35,7 +35,7 @@ pub enum LemonError {
     Range,
 }
 
-impl Turned {
+impl SurfaceOfRevolution {
     /// The lemon from the height 0 with the radius `base` to the height `height` with the radius `apex`, its profile an arc of radius `inner`.
     pub fn lemon(height: f64, base: f64, apex: f64, inner: f64) -> Result<Self, LemonError> {
         if !(height > 0.0 && height.is_finite()) {
@@ -81,11 +81,14 @@ mod tests {
 
     #[test]
     fn bad_numbers_are_named() {
-        assert_eq!(Turned::lemon(0.0, 1.0, 1.0, 9.0), Err(LemonError::Height(0.0)));
-        assert_eq!(Turned::lemon(1.0, -1.0, 1.0, 9.0), Err(LemonError::Radius(-1.0)));
+        assert_eq!(SurfaceOfRevolution::lemon(0.0, 1.0, 1.0, 9.0), Err(LemonError::Height(0.0)));
+        assert_eq!(SurfaceOfRevolution::lemon(1.0, -1.0, 1.0, 9.0), Err(LemonError::Radius(-1.0)));
         // A half circle about the axis.
-        assert_eq!(Turned::lemon(2.0, 0.0, 0.0, 1.0), Err(LemonError::Inner { inner: 1.0, least: 1.0 }));
-        assert!(Turned::lemon(2.0, 0.0, 0.0, 1.0_f64.next_up().next_up()).is_ok());
-        assert!(matches!(Turned::lemon(2.0, 3.0, 3.0, 3.0), Err(LemonError::Inner { .. })));
+        assert_eq!(
+            SurfaceOfRevolution::lemon(2.0, 0.0, 0.0, 1.0),
+            Err(LemonError::Inner { inner: 1.0, least: 1.0 })
+        );
+        assert!(SurfaceOfRevolution::lemon(2.0, 0.0, 0.0, 1.0_f64.next_up().next_up()).is_ok());
+        assert!(matches!(SurfaceOfRevolution::lemon(2.0, 3.0, 3.0, 3.0), Err(LemonError::Inner { .. })));
     }
 }

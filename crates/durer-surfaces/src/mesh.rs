@@ -7,7 +7,7 @@
 
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
-use crate::outline::Sketch;
+use crate::packet::FilterSource;
 use crate::planar::{self, PointLine, Probe, ThreePoints};
 use crate::swift::{self, Swift};
 use crate::{Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
@@ -337,9 +337,9 @@ impl Surface for Mesh {
         facet::resolve(&Self::probe(ray, &facet), &facet, &varying, need)
     }
 
-    fn sketch(&self, part: PartId) -> Sketch {
+    fn packet_filter(&self, part: PartId) -> FilterSource {
         let vertices = self.facet(part.0);
-        let flat = Sketch::flat(vertices).on_face(part.0);
+        let flat = FilterSource::flat(vertices).on_face(part.0);
         match self.corner_normals(part.0) {
             Some(normals) => flat.with_normals(vertices, normals.map(Normal3::to_vec)),
             None => flat,
@@ -408,7 +408,7 @@ impl Surface for Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::{Dice, all_roots};
+    use crate::laws::{TestRng, all_roots};
     use durer_math::Ray;
 
     /// The octahedron, its faces divided into `k * k` triangles with whole coordinates: flat faces, and vertices and edges galore.
@@ -446,7 +446,7 @@ mod tests {
     fn a_closed_mesh_is_crossed_an_even_number_of_times() {
         let mesh = octahedron(4);
         assert!(mesh.is_closed());
-        let mut dice = Dice::new(1);
+        let mut dice = TestRng::new(1);
         let (mut crossed, mut through_vertices) = (0, 0);
         for _ in 0..6000 {
             // Whole numbers: through vertices, along edges, within faces.
@@ -477,7 +477,7 @@ mod tests {
     #[test]
     fn no_ray_from_inside_escapes() {
         let mesh = octahedron(3);
-        let mut dice = Dice::new(2);
+        let mut dice = TestRng::new(2);
         for _ in 0..4000 {
             let from = Point3::from((dice.lattice(2) * 0.5 * dice.pick(&[0.5, 1.0])).to_array());
             if from.x.abs() + from.y.abs() + from.z.abs() >= 3.0 {
@@ -496,7 +496,7 @@ mod tests {
         assert_eq!(sheet.solidity(), Solidity::Open);
         let solids = [Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::new(0.3, -0.2, 0.9)]
             .map(|d| sheet.clone().solid(d).unwrap());
-        let mut dice = Dice::new(3);
+        let mut dice = TestRng::new(3);
         let mut told = [0; 3];
         for _ in 0..2000 {
             let p = dice.lattice(4) * 0.5;
@@ -519,7 +519,7 @@ mod tests {
     #[test]
     fn parts_together_are_the_whole() {
         let mesh = octahedron(2);
-        let mut dice = Dice::new(4);
+        let mut dice = TestRng::new(4);
         for _ in 0..500 {
             let ray = Ray::new(dice.lattice(5).to_point(), dice.lattice(3));
             let mut sink = crate::All::default();

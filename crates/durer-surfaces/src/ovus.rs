@@ -10,7 +10,7 @@
 //! The three pieces have common tangents where they meet, at the heights `-c a / (r - a)` and `a + (a - c) b / (r - b)`. With `b >= 2a` the upper sphere holds the
 //! lower one and is all. The definition is that of POV-Ray's documentation ("Ovus"). The exact solid has R, c and the heights as f64 holds them.
 
-use crate::turned::{Profile, Turned};
+use crate::revolution::{Profile, SurfaceOfRevolution};
 use durer_math::U;
 
 /// Why an ovus cannot exist.
@@ -24,7 +24,7 @@ pub enum OvusError {
     Range(f64, f64),
 }
 
-impl Turned {
+impl SurfaceOfRevolution {
     /// The ovus about the y axis with the radius `bottom` about the origin and `top` about the point `bottom` above it.
     pub fn ovus(bottom: f64, top: f64) -> Result<Self, OvusError> {
         for (name, radius) in [("bottom", bottom), ("top", top)] {
@@ -60,8 +60,11 @@ mod tests {
 
     #[test]
     fn bad_radii_are_named() {
-        assert_eq!(Turned::ovus(0.0, 1.0), Err(OvusError::Radius("bottom", 0.0)));
-        assert_eq!(Turned::ovus(1.0, f64::INFINITY), Err(OvusError::Radius("top", f64::INFINITY)));
-        assert_eq!(Turned::ovus(1.0, 1e-300), Err(OvusError::Range(1.0, 1e-300)));
+        assert_eq!(SurfaceOfRevolution::ovus(0.0, 1.0), Err(OvusError::Radius("bottom", 0.0)));
+        assert_eq!(
+            SurfaceOfRevolution::ovus(1.0, f64::INFINITY),
+            Err(OvusError::Radius("top", f64::INFINITY))
+        );
+        assert_eq!(SurfaceOfRevolution::ovus(1.0, 1e-300), Err(OvusError::Range(1.0, 1e-300)));
     }
 }

@@ -12,12 +12,12 @@
 
 use crate::edges::EdgeFilter;
 use crate::facet;
-use crate::outline::Sketch;
+use crate::packet::FilterSource;
 use crate::planar::{self, AlongRay, Line, PlaneForm, Probe, Ratios, cross, dot, seen_from};
 use crate::{CentredRay, Flow, LocalRay, Need, PartId, RingRay, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::eft::scale2;
-use durer_math::{Aabb, Point3, Ring, Run, U, Vec3};
+use durer_math::{Aabb, EFloat, Point3, Ring, U, Vec3};
 
 /// The sheet `corner + a u + b v` with `a` and `b` in `[0, 1]`. A root's tag is `(a, b)`, and so are the texture coordinates.
 ///
@@ -115,7 +115,7 @@ enum Quick {
     /// The ray misses the sheet.
     Miss,
     /// The line meets it, at these coordinates if they are known well.
-    Through(Option<[Run; 2]>),
+    Through(Option<[EFloat; 2]>),
     /// Too close to an edge, or edge-on: to be decided exactly.
     Unsure,
 }
@@ -228,8 +228,8 @@ impl Surface for Parallelogram {
         }
     }
 
-    fn sketch(&self, _part: PartId) -> Sketch {
-        Sketch::parallelogram(self.corner, self.u, self.v)
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::parallelogram(self.corner, self.u, self.v)
     }
 
     #[inline(always)]
@@ -255,7 +255,7 @@ impl Surface for Parallelogram {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::{Dice, ExactBody, ExactForm, Feature, check_many, exact3};
+    use crate::laws::{ExactBody, ExactForm, Feature, TestRng, check_many, exact3};
 
     /// `a x b`, exact for few-bit numbers.
     fn across(a: Vec3, b: Vec3) -> Vec3 {
@@ -282,7 +282,7 @@ mod tests {
     fn parallelograms_obey_the_laws() {
         let mut roots = 0;
         for seed in 0..40 {
-            let mut dice = Dice::new(seed);
+            let mut dice = TestRng::new(seed);
             let unit = dice.power(-60, 60);
             let (corner, u, v) = (dice.lattice(20), dice.lattice(4), dice.lattice(4));
             let Ok(p) = Parallelogram::new((corner * unit).to_point(), u * unit, v * unit) else { continue };

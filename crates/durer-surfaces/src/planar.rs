@@ -14,13 +14,13 @@ pub(crate) use vectors::{
     times, towards, unit,
 };
 
-use crate::local::ROUGH;
 use crate::point::least_step;
-use crate::{CentredRay, End, Kind, LocalPoint, LocalRay, RingRay, Root, Side};
+use crate::ray::PREVIEW_WIDTH;
+use crate::{CentredRay, End, LocalPoint, LocalRay, RingRay, Root, RootKind, Side};
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
 use durer_math::rounding::{add_up, div_down, div_up, sub_down};
-use durer_math::{Dd, Dyadic, Isa, Point3, RaySide, Ring, Run, U, Vec3};
+use durer_math::{Dd, Dyadic, EFloat, Isa, Point3, RaySide, Ring, U, Vec3};
 
 /// A bracket that is wider than 32 ulp of `max(|t|, size / |d|)` is found again in double-double; here relative to `size / |d|`, taking the ulp
 /// at its smallest.
@@ -122,9 +122,9 @@ pub(crate) struct Probe<'a> {
 /// An oriented line on each step of the ladder, seen from a centre, in units of `2^scale`.
 pub(crate) trait Line {
     /// The line in f64, with its error.
-    fn running(&self) -> RingRay<Run<f64>>;
+    fn running(&self) -> RingRay<EFloat<f64>>;
     /// The line in double-double.
-    fn double(&self) -> Option<RingRay<Run<Dd>>>;
+    fn double(&self) -> Option<RingRay<EFloat<Dd>>>;
     /// The exact line; `None` if it is not exactly known.
     fn exact(&self) -> Option<RingRay<Dyadic>>;
     /// A point of the exact line and its direction, in the surface's own frame, if f64 holds them.
@@ -156,16 +156,16 @@ pub(crate) trait Line {
 
 impl Line for Probe<'_> {
     #[inline(always)]
-    fn running(&self) -> RingRay<Run<f64>> {
+    fn running(&self) -> RingRay<EFloat<f64>> {
         #[inline(always)]
-        fn run(v: Vec3, e: Vec3) -> [Run; 3] {
-            [Run::with_error(v.x, e.x), Run::with_error(v.y, e.y), Run::with_error(v.z, e.z)]
+        fn run(v: Vec3, e: Vec3) -> [EFloat; 3] {
+            [EFloat::with_error(v.x, e.x), EFloat::with_error(v.y, e.y), EFloat::with_error(v.z, e.z)]
         }
         let ray = &self.ray;
-        RingRay { o: run(ray.o, ray.o_err), d: run(ray.d, ray.d_err), w: Run::exact(1.0) }
+        RingRay { o: run(ray.o, ray.o_err), d: run(ray.d, ray.d_err), w: EFloat::exact(1.0) }
     }
     #[inline(always)]
-    fn double(&self) -> Option<RingRay<Run<Dd>>> {
+    fn double(&self) -> Option<RingRay<EFloat<Dd>>> {
         self.ray.in_double()
     }
     fn exact(&self) -> Option<RingRay<Dyadic>> {
@@ -327,7 +327,8 @@ impl<'a> Probe<'a> {
         let (width, t) = (c.s_hi - c.s_lo, c.lo.abs().min(c.hi.abs()));
         if self.ray.local().rough {
             // Of a bracket that says nothing both sides are infinite.
-            return width <= ROUGH * self.size || (t < f64::INFINITY && c.hi - c.lo <= ROUGH * t);
+            return width <= PREVIEW_WIDTH * self.size
+                || (t < f64::INFINITY && c.hi - c.lo <= PREVIEW_WIDTH * t);
         }
         // |d| < 4; the exact length is asked for only where it matters.
         width <= NARROW * 0.25 * self.size
@@ -439,7 +440,7 @@ impl<'a> Probe<'a> {
         let lo = crossing.lo.max(self.ray.end(End::Min));
         let hi = crossing.hi.min(self.ray.end(End::Max));
         let t = self.ray.t(crossing.s).max(lo).min(hi).clamp(f64::MIN, f64::MAX);
-        Root { t, lo, hi, s: crossing.s, tag, face, sign: crossing.sign, kind: Kind::Simple }
+        Root { t, lo, hi, s: crossing.s, tag, face, sign: crossing.sign, kind: RootKind::Simple }
     }
 }
 
@@ -482,15 +483,15 @@ pub(crate) struct PointLine<'a> {
     direction: Vec3,
     centre: Point3,
     scale: i32,
-    run: RingRay<Run<f64>>,
+    run: RingRay<EFloat<f64>>,
 }
 
 impl<'a> PointLine<'a> {
     /// The line from `point` along `direction`, which may be zero.
     pub(crate) fn new(point: &'a LocalPoint<'a>, direction: Vec3, centre: Point3, scale: i32) -> Self {
         let (p, e) = (point.p, point.p_err);
-        let p = core::array::from_fn(|i| Run::with_error(p[i], e[i]));
-        let run = point_line((p, Run::exact(1.0)), direction, centre, scale);
+        let p = core::array::from_fn(|i| EFloat::with_error(p[i], e[i]));
+        let run = point_line((p, EFloat::exact(1.0)), direction, centre, scale);
         Self { point, direction, centre, scale, run }
     }
 
@@ -514,11 +515,11 @@ fn point_line<T: Ring>((p, w): ([T; 3], T), direction: Vec3, centre: Point3, sca
 
 impl Line for PointLine<'_> {
     #[inline(always)]
-    fn running(&self) -> RingRay<Run<f64>> {
+    fn running(&self) -> RingRay<EFloat<f64>> {
         self.run.clone()
     }
     #[inline(always)]
-    fn double(&self) -> Option<RingRay<Run<Dd>>> {
+    fn double(&self) -> Option<RingRay<EFloat<Dd>>> {
         Some(point_line(self.point.in_ring()?, self.direction, self.centre, self.scale))
     }
     fn exact(&self) -> Option<RingRay<Dyadic>> {
@@ -582,10 +583,10 @@ pub(crate) fn foot_point<F: PlaneForm>(
 pub(crate) fn clearance<F: PlaneForm>(plane: &F, p: Point3, centre: Point3, scale: i32, length: f64) -> f64 {
     let c = centre.to_array();
     let q = p.to_array();
-    let o = core::array::from_fn(|i| (Run::<f64>::exact(q[i]) - Run::exact(c[i])).scale2(-scale));
-    let zero = || Run::exact(0.0);
-    let at = RingRay { o, d: [zero(), zero(), zero()], w: Run::exact(1.0) };
-    let height = plane.height(&at).map_or(f64::INFINITY, Run::magnitude);
+    let o = core::array::from_fn(|i| (EFloat::<f64>::exact(q[i]) - EFloat::exact(c[i])).scale2(-scale));
+    let zero = || EFloat::exact(0.0);
+    let at = RingRay { o, d: [zero(), zero(), zero()], w: EFloat::exact(1.0) };
+    let height = plane.height(&at).map_or(f64::INFINITY, EFloat::magnitude);
     // A step `off` along the rounded unit normal moves by `off (1 - 8u)` along the exact one, at least.
     scale2(height / length, scale).mul_add(1.0 + 32.0 * U, least_step(p))
 }
@@ -598,23 +599,23 @@ pub(crate) trait Ratios {
 
 /// Both quotients with bounds: in f64 where that is tight, else higher up the ladder.
 #[inline(always)]
-pub(crate) fn ratios<R: Ratios>(probe: &Probe<'_>, r: &R) -> [Run; 2] {
+pub(crate) fn ratios<R: Ratios>(probe: &Probe<'_>, r: &R) -> [EFloat; 2] {
     let [a, b, d] = r.eval(&probe.running());
     let first = [a / d, b / d];
-    let tight = |x: &[Run; 2]| x.iter().all(|x| x.e <= TIGHT);
+    let tight = |x: &[EFloat; 2]| x.iter().all(|x| x.e <= TIGHT);
     if tight(&first) { first } else { ratios_climb(probe, r).unwrap_or(first) }
 }
 
 #[cold]
 #[inline(never)]
-fn ratios_climb<R: Ratios>(probe: &Probe<'_>, r: &R) -> Option<[Run; 2]> {
+fn ratios_climb<R: Ratios>(probe: &Probe<'_>, r: &R) -> Option<[EFloat; 2]> {
     Isa::detect().run(
         #[inline(always)]
         || {
             let [a, b, d] = r.eval(&probe.double()?);
             #[inline(always)]
-            fn nearest(x: Run<Dd>) -> Run {
-                Run::with_error(x.v.hi, (x.e + x.v.lo.abs()) * (1.0 + 8.0 * U))
+            fn nearest(x: EFloat<Dd>) -> EFloat {
+                EFloat::with_error(x.v.hi, (x.e + x.v.lo.abs()) * (1.0 + 8.0 * U))
             }
             let dd = [nearest(a / d), nearest(b / d)];
             if dd.iter().all(|x| x.e <= TIGHT) {
@@ -627,7 +628,7 @@ fn ratios_climb<R: Ratios>(probe: &Probe<'_>, r: &R) -> Option<[Run; 2]> {
             }
             Some([a, b].map(|n| {
                 let (lo, hi) = quotient_bounds(&n, &n, &d);
-                Run::with_error(0.5 * lo + 0.5 * hi, (hi - lo) * (1.0 + 8.0 * U))
+                EFloat::with_error(0.5 * lo + 0.5 * hi, (hi - lo) * (1.0 + 8.0 * U))
             }))
         },
     )

@@ -10,7 +10,7 @@
 //! The surface is *exactly* this set for the stored normal `n` (of any length) and distance `h`. Where `|n|` is irrational the
 //! plane has no rational point, yet every decision is rational: `n . p < h |n|` is a matter of signs and of `(n . p)^2 < h^2 n . n`.
 
-use crate::outline::Sketch;
+use crate::packet::FilterSource;
 use crate::planar::{self, PlaneForm, PointLine, Probe, Quick, dot, exact3, scaled_to_one, unit};
 use crate::point::least_step;
 use crate::{
@@ -18,7 +18,7 @@ use crate::{
     SurfacePoint,
 };
 use core::cmp::Ordering;
-use durer_math::{Aabb, Dd, Dyadic, Normal3, Point3, RaySide, Ring, Run, Shaft, U, Vec3};
+use durer_math::{Aabb, Dd, Dyadic, EFloat, Normal3, Point3, RaySide, Ring, Shaft, U, Vec3};
 
 /// A plane, which is also the boundary of the half-space behind it.
 ///
@@ -32,7 +32,7 @@ pub struct Plane {
     /// Signed distance from the origin, along the normal.
     distance: f64,
     /// `h |n|`, by its value and error.
-    offset: Run<Dd>,
+    offset: EFloat<Dd>,
 }
 
 /// The plane seen from a centre, in the frame's own unit of length.
@@ -62,7 +62,7 @@ impl Plane {
         let offset = match rational_length(n) {
             // Only what two f64 cannot hold is rounded.
             Some(length) => rounded(&(Dyadic::exact(distance) * Dyadic::exact(length))),
-            None => Run::exact(distance) * dot(&exact3::<Run<Dd>>(n), &exact3(n)).sqrt(),
+            None => EFloat::exact(distance) * dot(&exact3::<EFloat<Dd>>(n), &exact3(n)).sqrt(),
         };
         Ok(Self { normal: n, distance, offset })
     }
@@ -141,12 +141,12 @@ fn rational_length(n: Vec3) -> Option<f64> {
 }
 
 /// A number as a double-double, with a bound on what was lost.
-fn rounded(x: &Dyadic) -> Run<Dd> {
+fn rounded(x: &Dyadic) -> EFloat<Dd> {
     let hi = x.to_f64();
     let rest = x - &Dyadic::exact(hi);
     let lo = rest.to_f64();
     let lost = (&rest - &Dyadic::exact(lo)).to_f64().abs();
-    Run::with_error(Dd { hi, lo }, if lost > 0.0 { lost.next_up() } else { 0.0 })
+    EFloat::with_error(Dd { hi, lo }, if lost > 0.0 { lost.next_up() } else { 0.0 })
 }
 
 impl PlaneForm for Seen<'_> {
@@ -276,8 +276,8 @@ impl Surface for Plane {
         point
     }
 
-    fn sketch(&self, _part: PartId) -> Sketch {
-        Sketch::half_space(Point3::ORIGIN, self.normal, self.offset)
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::half_space(Point3::ORIGIN, self.normal, self.offset)
     }
 
     fn solidity(&self) -> Solidity {
@@ -301,7 +301,7 @@ impl From<Plane> for Normal3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::{Crossing, Dice, Exact, Feature, Line, Oracle, Surd, check_many, exact3};
+    use crate::laws::{Crossing, Exact, ExactLine, Feature, Oracle, Surd, TestRng, check_many, exact3};
 
     /// `n . p = h sqrt(n . n)` by big integers.
     struct ExactPlane {
@@ -327,7 +327,7 @@ mod tests {
     }
 
     impl Oracle for ExactPlane {
-        fn crossings(&self, line: &Line) -> Vec<Crossing> {
+        fn crossings(&self, line: &ExactLine) -> Vec<Crossing> {
             let slope = self.dot(&line.d);
             if slope.sign().is_eq() {
                 return vec![];
@@ -366,7 +366,7 @@ mod tests {
     fn planes_obey_the_laws() {
         let mut roots = 0;
         for seed in 0..60 {
-            let mut dice = Dice::new(seed);
+            let mut dice = TestRng::new(seed);
             // Lengths that are whole, halves of whole numbers, and irrational ones.
             let n = match seed % 4 {
                 0 => {

@@ -20,7 +20,7 @@
 
 use crate::edges::{self, EdgeFilter};
 use crate::facet::{self, Facet};
-use crate::outline::Sketch;
+use crate::packet::FilterSource;
 use crate::planar::{self, AlongRay, Line, PlaneForm, Probe, ThreePoints};
 use crate::{Flow, LocalRay, Need, PartId, RingRay, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
@@ -345,8 +345,8 @@ impl Surface for Polygon {
         }
     }
 
-    fn sketch(&self, _part: PartId) -> Sketch {
-        Sketch::polygon(self.plane, self.bounds, self.outlines(), self.rule, self.margin)
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::polygon(self.plane, self.bounds, self.outlines(), self.rule, self.margin)
     }
 
     /// Texture coordinates are lengths along two axes across the normal, from the first vertex.
@@ -356,7 +356,7 @@ impl Surface for Polygon {
         let plane = self.plane(&probe);
         let ng = facet::unit_normal(&self.plane);
         let (first, n) = plane.normal();
-        let lift = -ng.dot(Vec3::from(first.map(|x: durer_math::Run| x.v)));
+        let lift = -ng.dot(Vec3::from(first.map(|x: durer_math::EFloat| x.v)));
         let (p, dp) = planar::foot_point(&probe, &plane, ng.to_vec(), 1.0, lift);
         let off = planar::clearance(&plane, p, plane.centre, plane.scale, planar::least_length(n));
         let off = facet::along_rounded_normal(off);
@@ -374,7 +374,9 @@ impl Surface for Polygon {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::{Crossing, Dice, Exact, Feature, Line, Oracle, Surd, all_roots, check_many, exact3};
+    use crate::laws::{
+        Crossing, Exact, ExactLine, Feature, Oracle, Surd, TestRng, all_roots, check_many, exact3,
+    };
     use crate::{Mesh, MeshData};
     use durer_math::Ray;
 
@@ -437,7 +439,7 @@ mod tests {
         }
 
         /// Whether the line meets the polygon; `None` if it meets an outline.
-        fn holds(&self, line: &Line) -> Option<bool> {
+        fn holds(&self, line: &ExactLine) -> Option<bool> {
             let slope = Self::by(&self.normal(), &line.d);
             let height = self.above(&line.o);
             // slope * (o - at) - height * d, then by Cramer's rule along the axes, which are at right angles here.
@@ -457,7 +459,7 @@ mod tests {
     }
 
     impl Oracle for ExactPolygon {
-        fn crossings(&self, line: &Line) -> Vec<Crossing> {
+        fn crossings(&self, line: &ExactLine) -> Vec<Crossing> {
             let slope = Self::by(&self.normal(), &line.d);
             if slope.sign().is_eq() || self.holds(line) != Some(true) {
                 return vec![];
@@ -527,11 +529,11 @@ mod tests {
                     features.push(Feature { point: p, direction: Vec3::new(1.0, 2.0, -3.0) });
                 }
             }
-            let mut dice = Dice::new(seed as u64);
+            let mut dice = TestRng::new(seed as u64);
             for _ in 0..150 {
                 let ray = crate::laws::aim(&mut dice, &features, oracle.size());
                 // Rays that meet an outline exactly are the business of the next test.
-                if ray.is_valid() && oracle.holds(&Line::new(&ray)).is_some() {
+                if ray.is_valid() && oracle.holds(&ExactLine::new(&ray)).is_some() {
                     let met = crate::laws::check(polygon, oracle, &ray);
                     roots += met.unwrap_or_else(|e| panic!("{e}\n{ray:?}\n{polygon:?}")).len();
                 }
@@ -562,7 +564,7 @@ mod tests {
             let around =
                 Polygon::new(&[tilted(&outer, axes, at), tilted(&SQUARE, axes, at)], FillRule::EvenOdd)
                     .unwrap();
-            let mut dice = Dice::new(9);
+            let mut dice = TestRng::new(9);
             let mut on_edges = 0;
             for _ in 0..4000 {
                 let (x, y) = (dice.integer(-1, 5), dice.integer(-1, 5));

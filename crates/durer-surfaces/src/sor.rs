@@ -8,10 +8,10 @@
 //! ```
 //!
 //! The first and the last point only tell the slopes at their neighbours, so the curve is smooth and, along a ray, `x² + z² = r²(y)` a cubic. Which cubic this is
-//! follows from POV-Ray's documentation ("Surface of Revolution"); see `turned/` for how rays meet it. The exact surface has the coefficients as f64 holds them:
+//! follows from POV-Ray's documentation ("Surface of Revolution"); see `revolution/` for how rays meet it. The exact surface has the coefficients as f64 holds them:
 //! at a height between two of them the radii may differ in the last bits, and what one has and the other has not is a ring that narrow.
 
-use crate::turned::{Profile, Turned};
+use crate::revolution::{Profile, SurfaceOfRevolution};
 
 /// Why a surface of revolution cannot exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -37,7 +37,7 @@ pub enum SorError {
     Range,
 }
 
-impl Turned {
+impl SurfaceOfRevolution {
     /// The surface of revolution through `points`, each a radius and a height; the first and the last one are not on it. Closed by flat ends.
     pub fn sor(points: &[[f64; 2]]) -> Result<Self, SorError> {
         if points.len() < 4 {
@@ -83,14 +83,14 @@ mod tests {
 
     #[test]
     fn bad_curves_are_named() {
-        assert_eq!(Turned::sor(&[[1.0, 0.0], [1.0, 1.0], [1.0, 2.0]]), Err(SorError::TooFew(3)));
-        let low = Turned::sor(&[[1.0, 0.0], [1.0, 2.0], [1.0, 1.0], [1.0, 3.0]]);
+        assert_eq!(SurfaceOfRevolution::sor(&[[1.0, 0.0], [1.0, 1.0], [1.0, 2.0]]), Err(SorError::TooFew(3)));
+        let low = SurfaceOfRevolution::sor(&[[1.0, 0.0], [1.0, 2.0], [1.0, 1.0], [1.0, 3.0]]);
         assert_eq!(low, Err(SorError::Heights(2.0, 1.0)));
-        let back = Turned::sor(&[[1.0, 5.0], [1.0, 1.0], [1.0, 2.0], [1.0, 3.0]]);
+        let back = SurfaceOfRevolution::sor(&[[1.0, 5.0], [1.0, 1.0], [1.0, 2.0], [1.0, 3.0]]);
         assert_eq!(back, Err(SorError::Heights(5.0, 2.0)));
-        let inward = Turned::sor(&[[1.0, 0.0], [-1.0, 1.0], [1.0, 2.0], [1.0, 3.0]]);
+        let inward = SurfaceOfRevolution::sor(&[[1.0, 0.0], [-1.0, 1.0], [1.0, 2.0], [1.0, 3.0]]);
         assert_eq!(inward, Err(SorError::Point { radius: -1.0, height: 1.0 }));
-        let wild = Turned::sor(&[[1.0, 0.0], [1e200, 1.0], [1.0, 2.0], [1.0, 3.0]]);
+        let wild = SurfaceOfRevolution::sor(&[[1.0, 0.0], [1e200, 1.0], [1.0, 2.0], [1.0, 3.0]]);
         assert_eq!(wild, Err(SorError::Range));
     }
 }

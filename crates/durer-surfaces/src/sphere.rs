@@ -8,16 +8,16 @@
 //! `r² - |o|²` times `|d|²`: the form of E. Haines, J. Günther, T. Akenine-Möller, "Precision improvements for ray/sphere intersection",
 //! *Ray Tracing Gems* (2019), chapter 7, here without a unit direction.
 
-use crate::local::ROUGH;
-use crate::outline::Sketch;
-use crate::quadric::body::{Chart, Frame, Shape, View};
+use crate::packet::FilterSource;
+use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, View};
 use crate::quadric::form::{Form, Rounded};
+use crate::ray::PREVIEW_WIDTH;
 use crate::roots::quadratic::Quadratic;
 use crate::{
-    Flow, Kind, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+    Flow, LocalPoint, LocalRay, Need, PartId, Root, RootKind, Side, Sink, Solidity, Surface, SurfacePoint,
 };
 use durer_math::eft::{exponent, scale2, two_sum};
-use durer_math::{Aabb, Affine, Point3, RaySide, Ring, Run, U, Vec3, elementary};
+use durer_math::{Aabb, Affine, EFloat, Point3, RaySide, Ring, U, Vec3, elementary};
 
 /// A sphere with its inside.
 ///
@@ -102,8 +102,11 @@ impl Sphere {
         let oo = o.dot(o);
         let c = (-r).mul_add(r, oo);
         let e_c = (k * oo + U * c.abs() + eo.dot(od + od + eo)) * up + FLOOR;
-        let line =
-            Quadratic { a: Run::with_error(a, e_a), b: Run::with_error(b, e_b), c: Run::with_error(c, e_c) };
+        let line = Quadratic {
+            a: EFloat::with_error(a, e_a),
+            b: EFloat::with_error(b, e_b),
+            c: EFloat::with_error(c, e_c),
+        };
         let disc = line.kahan_discriminant();
         // B is all but zero, so neither root (-B ∓ √disc) / A suffers cancellation, and A is known to a few ulp.
         let (ratio, e_rel) = (disc.e / disc.v, e_a * inverse);
@@ -123,7 +126,7 @@ impl Sphere {
             let e = (e_top + s.abs() * (e_rel + 3.0 * U)) * (1.0 + 2.0 * e_rel) * (1.0 + 32.0 * U) + FLOOR;
             (s, s - e, s + e)
         };
-        let widest = if ray.rough { ROUGH } else { 46.0 * U };
+        let widest = if ray.rough { PREVIEW_WIDTH } else { 46.0 * U };
         for (sign, top) in [(-1, -b - root), (1, root - b)] {
             if within && sign < 0 {
                 continue;
@@ -142,7 +145,8 @@ impl Sphere {
                 return undecided;
             }
             let t = at.t(s).max(t_lo).min(t_hi);
-            let root = Root { t, lo: t_lo, hi: t_hi, s, tag: [0.0; 2], face: 0, sign, kind: Kind::Simple };
+            let root =
+                Root { t, lo: t_lo, hi: t_hi, s, tag: [0.0; 2], face: 0, sign, kind: RootKind::Simple };
             if sink.push(root) == Flow::Stop {
                 break;
             }
@@ -214,7 +218,7 @@ impl Sphere {
     }
 }
 
-impl Shape for Sphere {
+impl QuadricFaces for Sphere {
     fn frame(&self) -> Frame {
         let scale = self.scale();
         Frame { centre: self.centre, scale, reach: scale2(self.radius, -scale) * (1.0 + 2.0 * U) }
@@ -291,7 +295,7 @@ pub(crate) fn length(v: [f64; 3]) -> f64 {
 
 impl Surface for Sphere {
     fn bounds(&self) -> Aabb {
-        Shape::bounds(self)
+        QuadricFaces::bounds(self)
     }
 
     #[inline(always)]
@@ -318,8 +322,8 @@ impl Surface for Sphere {
         self.quick_point(ray, root, need).unwrap_or_else(|| self.with_view(|v| v.resolve(ray, root, need)))
     }
 
-    fn sketch(&self, _part: PartId) -> Sketch {
-        Sketch::of_shape(self)
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::of_shape(self)
     }
 
     fn solidity(&self) -> Solidity {
@@ -334,7 +338,7 @@ impl Surface for Sphere {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::{Dice, ExactBody, ExactForm, Feature, check_many, exact3};
+    use crate::laws::{ExactBody, ExactForm, Feature, TestRng, check_many, exact3};
 
     fn exact(sphere: &Sphere) -> ExactBody {
         let r = sphere.radius;
@@ -363,7 +367,7 @@ mod tests {
     fn spheres_obey_the_laws() {
         let mut grazing = 0;
         for seed in 0..40 {
-            let mut dice = Dice::new(seed);
+            let mut dice = TestRng::new(seed);
             let (r, c) = match seed % 4 {
                 0 => (9.0, Point3::ORIGIN),
                 1 => (9.0 * dice.power(-300, 300), Point3::ORIGIN),

@@ -1,6 +1,6 @@
 //! What a surface is: the one query an author writes, and what it answers with.
 
-use crate::outline::Sketch;
+use crate::packet::FilterSource;
 use crate::{LocalPoint, LocalRay, Sink, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::{Aabb, Affine, Point3, RaySide, Shaft};
@@ -74,14 +74,17 @@ pub trait Surface: Send + Sync {
     }
 
     /// One part as lanes see it. Without more than its box, every ray that may meet that asks the surface itself.
-    fn sketch(&self, _part: PartId) -> Sketch {
-        Sketch::vague(self.bounds())
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::vague(self.bounds())
     }
 
     /// All of a solid as lanes see it, for bodies made of several, and the part on which each of its faces is, by the numbers that lanes have for them.
-    fn solid_sketch(&self) -> (Sketch, Vec<PartId>) {
+    fn solid_packet_filter(&self) -> (FilterSource, Vec<PartId>) {
         let part = PartId(0);
-        (if self.is_in_parts() { Sketch::vague(self.bounds()) } else { self.sketch(part) }, vec![part])
+        (
+            if self.is_in_parts() { FilterSource::vague(self.bounds()) } else { self.packet_filter(part) },
+            vec![part],
+        )
     }
 
     /// The crossings of one part; the union over all parts is what [`roots`](Surface::roots) pushes.
@@ -116,7 +119,7 @@ pub struct Root {
     /// The sign of (outward or stored normal) . direction: -1 entering, +1 leaving, 0 grazing.
     pub sign: i8,
     /// How sure the count is.
-    pub kind: Kind,
+    pub kind: RootKind,
 }
 
 impl Root {
@@ -129,7 +132,7 @@ impl Root {
 /// What kind of crossing a root is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
-pub enum Kind {
+pub enum RootKind {
     /// The ray passes from one side to the other.
     Simple = 0,
     /// The ray touches the surface and stays on its side (an exact tangent).

@@ -33,7 +33,7 @@
 
 use crate::facet::Facet;
 use crate::planar::TINY;
-use crate::{Kind, LocalRay, Root};
+use crate::{LocalRay, Root, RootKind};
 use durer_math::lanes::{F8, M8};
 use durer_math::rounding::{add_up, sub_down};
 use durer_math::{Dd, Isa, Point3, U, Vec3};
@@ -162,7 +162,7 @@ pub(crate) fn meet(ray: &LocalRay<'_>, facet: &Facet, face: u32, range: (f64, f6
     }
     let tag = [(u * inverse).clamp(0.0, 1.0), (v * inverse).clamp(0.0, 1.0)];
     let sign = if along > 0.0 { 1 } else { -1 };
-    Swift::Met(Root { t, lo, hi, s, tag, face, sign, kind: Kind::Simple })
+    Swift::Met(Root { t, lo, hi, s, tag, face, sign, kind: RootKind::Simple })
 }
 
 #[inline(always)]
@@ -233,7 +233,7 @@ pub fn meet_eight(o: Vec3<F8>, d: Vec3<F8>, range: (F8, F8), corners: [Vec3<F8>;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::Dice;
+    use crate::laws::TestRng;
     use durer_math::Ray;
 
     fn eight(v: impl Fn(usize) -> Vec3) -> Vec3<F8> {
@@ -245,7 +245,7 @@ mod tests {
     fn eight_rays_meet_what_each_meets_alone() {
         let (mut met, mut missed, mut open) = (0, 0, 0);
         for seed in 0..2000 {
-            let mut dice = Dice::new(seed);
+            let mut dice = TestRng::new(seed);
             let cases: Vec<(Ray, Facet)> = (0..8)
                 .map(|_| {
                     let facet = [dice.vector(), dice.vector(), dice.vector()].map(Vec3::to_point);

@@ -11,19 +11,19 @@
 //! and Image Processing* 18 (1982). With `r > R` the tube meets itself on the axis (a *spindle*); what is inside twice is then outside, as the
 //! sign of `f` has it. `r = R` is a *horn*.
 
-use crate::outline::{Lathe, LatheWall, Sketch};
-use crate::quadric::body::{Chart, Frame};
+use crate::packet::{FilterSource, Lathe, LatheWall};
+use crate::polynomial_surface::{self, PolynomialSurface};
+use crate::quadric::boolean_faces::{Chart, Frame};
 use crate::quadric::form::FLOOR;
 use crate::roots::quadratic::Quadratic;
 use crate::sphere::length;
-use crate::zero_set::{self, ZeroSet};
 use crate::{
     Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side, Sink, Solidity,
     Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
-use durer_math::{Aabb, Affine, Dyadic, Point3, Ring, Run, U, Vec3, elementary};
+use durer_math::{Aabb, Affine, Dyadic, EFloat, Point3, Ring, U, Vec3, elementary};
 
 /// A torus with its inside.
 ///
@@ -125,7 +125,7 @@ impl Torus {
 
     #[inline(never)]
     fn all_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
-        zero_set::roots(self, ray, sink);
+        polynomial_surface::roots(self, ray, sink);
     }
 
     fn axis_vector(&self) -> Vec3 {
@@ -139,7 +139,7 @@ impl Torus {
     }
 }
 
-impl ZeroSet<5> for Torus {
+impl PolynomialSurface<5> for Torus {
     #[inline(always)]
     fn frame(&self) -> Frame {
         let (major, minor) = self.radii();
@@ -171,7 +171,7 @@ impl ZeroSet<5> for Torus {
     }
 
     #[inline(always)]
-    fn along_in_f64(&self, o: Vec3, d: Vec3, eo: Vec3, ed: Vec3) -> [Run; 5] {
+    fn along_in_f64(&self, o: Vec3, d: Vec3, eo: Vec3, ed: Vec3) -> [EFloat; 5] {
         let (major, minor) = self.radii();
         let (big, small) = (major * major, minor * minor);
         let (od, dd) = (o.abs() + eo, d.abs() + ed);
@@ -208,9 +208,9 @@ impl ZeroSet<5> for Torus {
             4.0 * (m2 * e1 + m1 * e2) + (5.0 * U) * (4.0 * m2 * m1),
             2.0 * m2 * e2 + (5.0 * U) * (m2 * m2),
         ];
-        let mut out = [Run::exact(0.0); 5];
+        let mut out = [EFloat::exact(0.0); 5];
         for (out, (c, e)) in out.iter_mut().zip(c.into_iter().zip(e)) {
-            *out = Run::with_error(c, f64::mul_add(e, 1.0 + 64.0 * U, FLOOR));
+            *out = EFloat::with_error(c, f64::mul_add(e, 1.0 + 64.0 * U, FLOOR));
         }
         out
     }
@@ -220,7 +220,13 @@ impl ZeroSet<5> for Torus {
         let (_, minor) = self.radii();
         let thick = minor * (1.0 + MARGIN) + MARGIN;
         let along = (self.along_axis(ray.o), self.along_axis(ray.d));
-        zero_set::ball_and_slab(ray, self.frame().reach * (1.0 + MARGIN), along, (-thick, thick), MARGIN)
+        polynomial_surface::ball_and_slab(
+            ray,
+            self.frame().reach * (1.0 + MARGIN),
+            along,
+            (-thick, thick),
+            MARGIN,
+        )
     }
 
     #[inline(always)]
@@ -305,10 +311,10 @@ impl Surface for Torus {
 
     #[inline(never)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
-        zero_set::resolve(self, ray, root, need)
+        polynomial_surface::resolve(self, ray, root, need)
     }
 
-    fn sketch(&self, _part: PartId) -> Sketch {
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
         let (major, minor) = self.radii();
         let (big, small) = (major * major, minor * minor);
         // (n + v² - R² - r²)² - 4R² (r² - v²), between planes that it does not touch.
@@ -323,7 +329,7 @@ impl Surface for Torus {
             kappa_size: big + small,
         };
         let (i, lathe) = (self.index(), Lathe::new(&[wall], false));
-        Sketch::lathe(self.bounds(), lathe, self.centre, self.scale(), [(i + 1) % 3, i, (i + 2) % 3])
+        FilterSource::lathe(self.bounds(), lathe, self.centre, self.scale(), [(i + 1) % 3, i, (i + 2) % 3])
     }
 
     fn solidity(&self) -> Solidity {
@@ -331,20 +337,20 @@ impl Surface for Torus {
     }
 
     fn side(&self, point: &LocalPoint<'_>) -> Side {
-        zero_set::side(self, point)
+        polynomial_surface::side(self, point)
     }
 }
 
 impl Algebraic for Torus {
     fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {
-        zero_set::sign_at_root(self, ray, root, q)
+        polynomial_surface::sign_at_root(self, ray, root, q)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::{Dice, Exact, Feature, ZeroOracle, check_many};
+    use crate::laws::{Exact, Feature, TestRng, ZeroOracle, check_many};
 
     /// `(x² + y² + z² - R² - r²)² + 4R² (a² - r²)`, moved to the centre, expanded.
     fn oracle(torus: &Torus) -> ZeroOracle {
@@ -409,7 +415,7 @@ mod tests {
     fn tori_obey_the_laws() {
         let (mut grazing, mut widths) = (0, vec![]);
         for seed in 0..24 {
-            let mut dice = Dice::new(seed);
+            let mut dice = TestRng::new(seed);
             let axis = dice.pick(&[Axis::X, Axis::Y, Axis::Z]);
             let (k, c) = match seed % 4 {
                 0 => (1.0, Point3::ORIGIN),
@@ -431,12 +437,12 @@ mod tests {
     fn coefficients_are_within_their_bounds() {
         let mut tight = 0;
         for seed in 0..3000 {
-            let mut dice = Dice::new(seed);
+            let mut dice = TestRng::new(seed);
             let axis = dice.pick(&[Axis::X, Axis::Y, Axis::Z]);
             let torus = Torus::new(Point3::ORIGIN, axis, dice.scale(-4, 4), dice.scale(-4, 4)).unwrap();
             let size = if seed % 3 == 0 { 0.0 } else { dice.scale(-60, -20) };
             let (o, d) = (dice.vector() * dice.scale(-8, 2), dice.vector());
-            let spread = |dice: &mut Dice| Vec3::new(dice.unit(), dice.unit(), dice.unit()) * size;
+            let spread = |dice: &mut TestRng| Vec3::new(dice.unit(), dice.unit(), dice.unit()) * size;
             let (eo, ed) = (spread(&mut dice), spread(&mut dice));
             // A ray within the errors; its sums are exact.
             let at = |x: f64, e: f64, part: f64| Dyadic::from(x) + Dyadic::from(e) * Dyadic::from(part);

@@ -10,7 +10,7 @@
 
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
-use crate::outline::Sketch;
+use crate::packet::FilterSource;
 use crate::planar::{self, Probe};
 use crate::swift::{self, Swift};
 use crate::{Flow, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
@@ -107,8 +107,8 @@ impl Surface for Triangle {
         Some(self.vertices)
     }
 
-    fn sketch(&self, _part: PartId) -> Sketch {
-        let flat = Sketch::flat(self.vertices);
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        let flat = FilterSource::flat(self.vertices);
         match &self.normals {
             Some(normals) => flat.with_normals(self.vertices, normals.map(Normal3::to_vec)),
             None => flat,
@@ -146,7 +146,7 @@ impl Surface for Triangle {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::{Crossing, Dice, Exact, Feature, Line, Oracle, Surd, check_many, exact3};
+    use crate::laws::{Crossing, Exact, ExactLine, Feature, Oracle, Surd, TestRng, check_many, exact3};
     use core::cmp::Ordering;
     use durer_math::Vec3;
 
@@ -177,7 +177,7 @@ mod tests {
         }
 
         /// Moves the line's origin by `2^-3000` and `2^-6000`, far less than any two different numbers here differ, instead of by symbols.
-        fn moved(line: &Line) -> Line {
+        fn moved(line: &ExactLine) -> ExactLine {
             let size: Vec<Exact> = line.d.iter().map(|d| d.clone().abs()).collect();
             let greater = |i: usize, j: usize| (&size[i] - &size[j]).sign().is_ge();
             let (a, b) = if greater(0, 1) && greater(0, 2) {
@@ -190,12 +190,12 @@ mod tests {
             let mut o = line.o.clone();
             o[a] = &o[a] + &Exact::from(1.0).shifted(-6000);
             o[b] = &o[b] + &Exact::from(1.0).shifted(-16000);
-            Line { o, d: line.d.clone() }
+            ExactLine { o, d: line.d.clone() }
         }
     }
 
     impl Oracle for ExactTriangle {
-        fn crossings(&self, line: &Line) -> Vec<Crossing> {
+        fn crossings(&self, line: &ExactLine) -> Vec<Crossing> {
             let slope = by(&self.n, &line.d);
             let moved = Self::moved(line);
             let seen = self.v.each_ref().map(|v| minus(v, &moved.o));
@@ -238,7 +238,7 @@ mod tests {
     fn triangles_obey_the_laws() {
         let mut roots = 0;
         for seed in 0..80 {
-            let mut dice = Dice::new(seed);
+            let mut dice = TestRng::new(seed);
             let unit = dice.power(-40, 40);
             let v = match seed % 4 {
                 0 | 1 => core::array::from_fn(|_| (dice.lattice(6) * unit).to_point()),

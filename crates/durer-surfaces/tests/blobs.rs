@@ -11,7 +11,7 @@ mod solids;
 use common::Dice;
 use durer_math::{Affine, Dyadic, Point3, Ray, Vec3};
 use durer_surfaces::{
-    All, Blob, BlobComponent, BlobError, BlobShape, Kind, LocalRay, Need, Placed, Root, Sphere, Surface,
+    All, Blob, BlobComponent, BlobError, BlobShape, LocalRay, Need, Placed, Root, RootKind, Sphere, Surface,
 };
 use laws::{holds_together, polynomial, same};
 use solids::{Met, all};
@@ -54,7 +54,7 @@ fn a_shear_widens_no_bracket() {
         let ray = Ray::new(place.point((at - d * 4.0).to_point()), place.vector(d));
         let (a, b) = (all(&one, &ray), all(&exact, &ray));
         assert!(same(&a, &b), "{ray:?}\n blob {a:?}\n ball {b:?}");
-        clusters += a.iter().filter(|r| r.kind != Kind::Simple).count();
+        clusters += a.iter().filter(|r| r.kind != RootKind::Simple).count();
         if i % 2 == 1 {
             widths.extend(a.iter().map(|r| (r.hi - r.lo) / (r.t * f64::EPSILON)));
         }
@@ -84,7 +84,7 @@ fn next_to_a_tangent_there_are_two_crossings_or_none() {
         let p = |v: Vec3| place.point((v - Vec3::Z * 200.0).to_point());
         let ray = Ray::new(p(at - d * 4.0), place.vector(d));
         let roots = all(&blob, &ray);
-        assert!(roots.iter().all(|r| r.kind == Kind::Simple), "{ray:?} {beside}: {roots:?}");
+        assert!(roots.iter().all(|r| r.kind == RootKind::Simple), "{ray:?} {beside}: {roots:?}");
         match roots.len() {
             0 => none += 1,
             2 => two += 1,
@@ -166,7 +166,7 @@ fn a_blob_of_one_sausage_is_a_cylinder_with_round_ends() {
         // What meets an end's ball meets the sausage.
         if ends
             .iter()
-            .any(|end| all(end, &ray).iter().all(|r| r.kind == Kind::Simple) && all(end, &ray).len() == 2)
+            .any(|end| all(end, &ray).iter().all(|r| r.kind == RootKind::Simple) && all(end, &ray).len() == 2)
         {
             assert_eq!(roots.len(), 2, "{ray:?}");
         }
@@ -223,7 +223,7 @@ fn brackets_of_blobs_have_the_signs_of_exact_arithmetic_at_their_ends() {
             let ray = dice.ray();
             let roots = all(&surface, &ray);
             holds_together(&surface, &ray, &roots, value);
-            for root in roots.iter().filter(|r| r.kind == Kind::Simple) {
+            for root in roots.iter().filter(|r| r.kind == RootKind::Simple) {
                 let (lo, hi) =
                     (exact_sign(&parts, 0.375, &ray, root.lo), exact_sign(&parts, 0.375, &ray, root.hi));
                 // Inside there is more than the threshold.
@@ -250,7 +250,7 @@ fn a_component_is_placed_like_an_object() {
         let ray = dice.ray();
         let (a, b) = (all(&moved, &ray), all(&exact, &ray));
         // The radius of the sphere is rounded, that of the blob is not.
-        if a.iter().chain(&b).all(|r| r.kind == Kind::Simple) && a.len() == b.len() {
+        if a.iter().chain(&b).all(|r| r.kind == RootKind::Simple) && a.len() == b.len() {
             for (a, b) in a.iter().zip(&b) {
                 let slack = 1e-7 * (a.hi - a.lo + b.hi - b.lo).max(1e-8);
                 assert!(
@@ -279,7 +279,7 @@ fn normals_point_out_of_blobs() {
     let mut dice = Dice(18);
     for _ in 0..500 {
         let ray = dice.ray();
-        for root in all(&surface, &ray).iter().filter(|r| r.kind == Kind::Simple) {
+        for root in all(&surface, &ray).iter().filter(|r| r.kind == RootKind::Simple) {
             let point = surface.resolve(&LocalRay::new(&ray), root, Need::ALL);
             let along = point.ng.to_vec().dot(ray.direction) / ray.direction.length();
             assert!(along * f64::from(root.sign) > -1e-6, "{ray:?} {point:?}");
@@ -379,7 +379,7 @@ fn a_crossing_where_another_field_begins_is_one_simple_crossing() {
                 continue;
             }
             assert_eq!(roots.len(), count, "{d:?} {back}: {roots:?}");
-            assert!(roots.iter().all(|r| r.kind == Kind::Simple), "{d:?} {back}: {roots:?}");
+            assert!(roots.iter().all(|r| r.kind == RootKind::Simple), "{d:?} {back}: {roots:?}");
             for root in &roots {
                 let (lo, hi) =
                     (exact_sign(&parts, 0.5625, &ray, root.lo), exact_sign(&parts, 0.5625, &ray, root.hi));
@@ -434,7 +434,7 @@ fn rays_that_leave_the_surface_do_not_meet_it_again_at_once() {
     let (mut dice, mut left) = (Dice(22), 0);
     for _ in 0..2_000 {
         let ray = dice.ray();
-        for root in all(&blob, &ray).iter().filter(|r| r.kind == Kind::Simple) {
+        for root in all(&blob, &ray).iter().filter(|r| r.kind == RootKind::Simple) {
             let point = blob.resolve(&LocalRay::new(&ray), root, Need::POINT);
             let outward = dice.vector();
             let outward = if outward.dot(point.ng.to_vec()) < 0.0 { -outward } else { outward };
@@ -446,7 +446,7 @@ fn rays_that_leave_the_surface_do_not_meet_it_again_at_once() {
             blob.roots(&local, &mut again);
             let first: Option<&Root> = again.roots.first();
             if let Some(first) = first {
-                assert!(first.sign < 0 || first.kind == Kind::Cluster, "{next:?} {:?}", again.roots);
+                assert!(first.sign < 0 || first.kind == RootKind::Cluster, "{next:?} {:?}", again.roots);
             }
             left += 1;
         }

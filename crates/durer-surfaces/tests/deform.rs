@@ -7,10 +7,10 @@ mod witness;
 use astro_float::BigFloat;
 use common::Dice;
 use durer_math::{Aabb, Affine, Point3, Ray, RaySide, Vec3};
-use durer_surfaces::implicit::level_set::leaves;
+use durer_surfaces::implicit::level_set::primitives;
 use durer_surfaces::tape::{Builder, Formula, NodeId, Op};
 use durer_surfaces::{
-    All, Axis, DeformError, Isosurface, Kind, LevelSet, LocalPoint, LocalRay, Need, Root, Side, Sphere,
+    All, Axis, DeformError, Isosurface, LevelSet, LocalPoint, LocalRay, Need, Root, RootKind, Side, Sphere,
     Surface, Torus, Warp,
 };
 use std::sync::Arc;
@@ -118,14 +118,14 @@ fn brackets_hold_changes_of_sign_in_256_bits_and_none_is_missing() {
                 assert!(roots.windows(2).all(|w| w[0].t <= w[1].t && w[0].sign == -w[1].sign), "{}", story());
                 for root in &roots {
                     assert!(root.face == 0 && root.lo <= root.t && root.t <= root.hi, "{}", story());
-                    if root.kind == Kind::Cluster && root.sign == 0 {
+                    if root.kind == RootKind::Cluster && root.sign == 0 {
                         clusters += 1;
                         continue;
                     }
                     let before = Real::is_negative(&value(at(root.lo)));
                     let after = Real::is_negative(&value(at(root.hi)));
                     assert_eq!((before, after), (root.sign > 0, root.sign < 0), "{}", story());
-                    clusters += usize::from(root.kind == Kind::Cluster);
+                    clusters += usize::from(root.kind == RootKind::Cluster);
                     met += 1;
                     widths.push((root.hi - root.lo) / (root.t.abs() * f64::EPSILON));
                 }
@@ -166,7 +166,7 @@ fn a_tapered_block_is_a_piece_of_a_pyramid() {
     // |x|, |y| <= 1 - z / 2 for z from 0 to 1.
     let block = {
         let (a, b) = (Point3::new(-1.0, -1.0, 0.0), Point3::new(1.0, 1.0, 1.0));
-        LevelSet::new(leaves::cuboid(a, b).unwrap(), Aabb::new(a, b))
+        LevelSet::new(primitives::cuboid(a, b).unwrap(), Aabb::new(a, b))
     };
     let pyramid =
         surface(&deformed(&block, &[Warp::Taper { axis: Vec3::Z, factor: 0.5, from: 0.0, to: 1.0 }]));
@@ -234,7 +234,7 @@ fn a_tapered_block_is_a_piece_of_a_pyramid() {
 
 /// Each root of one has a root of the other in an overlapping bracket; where one cannot tell, only the sums of signs count.
 fn same(a: &[Root], b: &[Root]) -> bool {
-    let sure = |roots: &[Root]| roots.iter().all(|r| r.kind == Kind::Simple);
+    let sure = |roots: &[Root]| roots.iter().all(|r| r.kind == RootKind::Simple);
     if sure(a) && sure(b) {
         let overlap = |(a, b): (&Root, &Root)| a.lo <= b.hi && b.lo <= a.hi && a.sign == b.sign;
         return a.len() == b.len() && a.iter().zip(b).all(overlap);
@@ -323,7 +323,7 @@ fn a_bent_cylinder_is_a_piece_of_a_torus() {
     let pipe = {
         let (a, b) = (Point3::new(0.0, 0.0, 0.0), Point3::new(0.0, 0.0, 2.0));
         let bounds = Aabb::new(Point3::new(-0.25, -0.25, 0.0), Point3::new(0.25, 0.25, 2.0));
-        LevelSet::new(leaves::frustum(a, 0.25, b, 0.25).unwrap(), bounds)
+        LevelSet::new(primitives::frustum(a, 0.25, b, 0.25).unwrap(), bounds)
     };
     let arc = surface(&deformed(
         &pipe,
@@ -361,7 +361,7 @@ fn rays_leave_deformed_solids() {
             let deformed = surface(&deformed(&solid.level_set(), &rope));
             for _ in 0..60 {
                 let ray = ray_at(&mut dice, &Surface::bounds(&deformed));
-                for root in all(&deformed, &ray).iter().filter(|r| r.kind == Kind::Simple) {
+                for root in all(&deformed, &ray).iter().filter(|r| r.kind == RootKind::Simple) {
                     let point = deformed.resolve(&LocalRay::new(&ray), root, Need::ALL);
                     assert!(
                         (point.ng.to_vec().length() - 1.0).abs() < 1e-12 && point.off < 1e-9,
@@ -441,7 +441,7 @@ fn what_is_not_one_to_one_is_refused() {
     }
     let warp = Warp::Twist { axis: Vec3::ZERO, degrees: 10.0, from: 0.0, to: 1.0 };
     assert!(matches!(refused(warp), DeformError::Axis { warp: "twist", .. }));
-    let space = LevelSet::new(leaves::half_space(Vec3::X, 0.0).unwrap(), Aabb::UNBOUNDED);
+    let space = LevelSet::new(primitives::half_space(Vec3::X, 0.0).unwrap(), Aabb::UNBOUNDED);
     let twist = Warp::Twist { axis: Vec3::X, degrees: 10.0, from: 0.0, to: 1.0 };
     assert_eq!(space.deformed(&twist).unwrap_err(), DeformError::Unbounded);
 }
@@ -504,7 +504,7 @@ fn nothing_stays_nothing() {
     // Two balls that do not meet.
     let ball = |x: f64| {
         let it = Sphere::new(Point3::new(x, 0.0, 0.0), 0.5).unwrap();
-        LevelSet::new(leaves::ball(it.centre(), it.radius()).unwrap(), Surface::bounds(&it))
+        LevelSet::new(primitives::ball(it.centre(), it.radius()).unwrap(), Surface::bounds(&it))
     };
     let both = LevelSet::intersection(&[ball(0.0), ball(0.9)]).unwrap();
     let none = LevelSet::intersection(&[ball(0.0), ball(2.0)]).unwrap();
@@ -517,7 +517,7 @@ fn nothing_stays_nothing() {
 fn coincident_faces_leave_no_skin() {
     let block = |low: [f64; 3], high: [f64; 3]| {
         let (a, b) = (Point3::from(low), Point3::from(high));
-        LevelSet::new(leaves::cuboid(a, b).unwrap(), Aabb::new(a, b))
+        LevelSet::new(primitives::cuboid(a, b).unwrap(), Aabb::new(a, b))
     };
     let twist = Warp::Twist { axis: Vec3::Y, degrees: 50.0, from: 0.0, to: 1.0 };
     let whole = block([-0.5, 0.0, -0.5], [0.5, 1.0, 0.5]);
@@ -545,7 +545,7 @@ fn coincident_faces_leave_no_skin() {
 
 #[test]
 fn a_formulas_box_gives_an_end() {
-    let ground = LevelSet::new(leaves::half_space(Vec3::Y, 0.0).unwrap(), Aabb::UNBOUNDED);
+    let ground = LevelSet::new(primitives::half_space(Vec3::Y, 0.0).unwrap(), Aabb::UNBOUNDED);
     let waves = surface(&ground.deformed(&wave()).unwrap());
     let down = Ray::new(Point3::new(0.25, 5.0, 0.5), -Vec3::Y);
     let roots = all(&waves, &down);
@@ -557,7 +557,7 @@ fn a_formulas_box_gives_an_end() {
 fn a_ray_in_a_face_that_two_parts_share_is_inside() {
     let block = |low: [f64; 3], high: [f64; 3]| {
         let (a, b) = (Point3::from(low), Point3::from(high));
-        LevelSet::new(leaves::cuboid(a, b).unwrap(), Aabb::new(a, b))
+        LevelSet::new(primitives::cuboid(a, b).unwrap(), Aabb::new(a, b))
     };
     let twist = Warp::Twist { axis: Vec3::Y, degrees: 50.0, from: 0.0, to: 1.0 };
     let low = block([-0.5, 0.0, -0.5], [0.5, 0.5, 0.5]);

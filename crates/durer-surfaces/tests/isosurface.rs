@@ -8,7 +8,7 @@ use common::Dice;
 use durer_math::{Function, Point3, Ray, RaySide, Vec3};
 use durer_surfaces::tape::{Formula, Op};
 use durer_surfaces::{
-    All, AxisBox, Container, Isosurface, Kind, LocalPoint, LocalRay, Need, Root, Side, Sphere, Surface,
+    All, AxisBox, Container, Isosurface, LocalPoint, LocalRay, Need, Root, RootKind, Side, Sphere, Surface,
 };
 use formulas::{Pen, all, iso};
 
@@ -82,14 +82,14 @@ fn ray_at_a_ball(dice: &mut Dice, radius: f64) -> Ray {
 
 /// Each root of one has a root of the other in an overlapping bracket; where one could not tell roots apart only the parity counts.
 fn same(a: &[Root], b: &[Root]) -> bool {
-    let sure = |roots: &[Root]| roots.iter().all(|r| r.kind == Kind::Simple);
+    let sure = |roots: &[Root]| roots.iter().all(|r| r.kind == RootKind::Simple);
     if sure(a) && sure(b) {
         return a.len() == b.len()
             && a.iter().zip(b).all(|(a, b)| a.lo <= b.hi && b.lo <= a.hi && a.sign == b.sign);
     }
     // A touch may lie at an end of the range, or may not.
     let net = |roots: &[Root]| roots.iter().map(|r| i32::from(r.sign)).sum::<i32>();
-    net(a) == net(b) || a.iter().any(|r| r.kind == Kind::Cluster && r.sign == 0)
+    net(a) == net(b) || a.iter().any(|r| r.kind == RootKind::Cluster && r.sign == 0)
 }
 
 #[test]
@@ -105,7 +105,7 @@ fn a_sphere_as_a_formula_is_the_sphere() {
             assert!(same(&a, &b), "{ray:?}\n formula {a:?}\n sphere {b:?}");
             assert!(a.windows(2).all(|w| w[0].t <= w[1].t));
             met += a.len();
-            unsure += a.iter().filter(|r| r.kind == Kind::Cluster).count();
+            unsure += a.iter().filter(|r| r.kind == RootKind::Cluster).count();
             let unit = ray.direction.length();
             // Brackets are as wide as the crossing is ill-conditioned: those of rays that do not graze are looked at.
             let o = ray.origin.to_vec();
@@ -156,9 +156,9 @@ fn who_looks_roughly_sees_the_same_roots() {
             surface.roots(&LocalRay::new(&ray).roughly(), &mut sink);
             let rough = sink.roots;
             assert!(same(&narrow, &rough), "{ray:?}\n narrow {narrow:?}\n rough {rough:?}");
-            for root in rough.iter().filter(|r| r.kind == Kind::Simple) {
+            for root in rough.iter().filter(|r| r.kind == RootKind::Simple) {
                 met += 1;
-                let most = durer_surfaces::ROUGH * root.t.abs().max(3.0 / ray.direction.length());
+                let most = durer_surfaces::PREVIEW_WIDTH * root.t.abs().max(3.0 / ray.direction.length());
                 // Where the ray is not known better, or is all but tangent, no bracket can be that narrow.
                 let clear = |r: &Root| r.hi - r.lo < most / 1024.0 && r.lo <= root.hi && root.lo <= r.hi;
                 wide += usize::from(narrow.iter().any(clear) && root.hi - root.lo > 2.0 * most);
@@ -216,7 +216,7 @@ fn two_formulas_of_a_torus_agree() {
         let (x, y) = (all(&a, &ray), all(&b, &ray));
         assert!(same(&x, &y), "{ray:?}\n one {x:?}\n other {y:?}");
         met += x.len();
-        unsure += x.iter().filter(|r| r.kind != Kind::Simple).count();
+        unsure += x.iter().filter(|r| r.kind != RootKind::Simple).count();
     }
     println!("{met} roots, {unsure} clusters");
     assert!(met > 10_000 && unsure * 100 < met, "{met} roots, {unsure} unsure");
@@ -274,7 +274,7 @@ fn rays_leave_what_they_were_spawned_on() {
         let mut spawned = 0;
         for _ in 0..5_000 {
             let ray = ray_at_a_ball(&mut dice, 0.9);
-            for root in all(&surface, &ray).iter().filter(|r| r.kind == Kind::Simple) {
+            for root in all(&surface, &ray).iter().filter(|r| r.kind == RootKind::Simple) {
                 let point = surface.resolve(&LocalRay::new(&ray), root, Need::ALL);
                 let truth = point.p.to_vec() * (1.0 / point.p.to_vec().length());
                 assert!(
@@ -386,7 +386,7 @@ fn touches_of_the_container_are_told() {
             surface.roots(&LocalRay::new(ray), &mut all);
             all.roots.iter().map(|r| (r.t, r.sign, r.kind, r.face > 0)).collect::<Vec<_>>()
         };
-        assert_eq!(met(&of(5.0), &line), [(1.0, 0, Kind::Grazing, true)]);
+        assert_eq!(met(&of(5.0), &line), [(1.0, 0, RootKind::Grazing, true)]);
         assert_eq!(met(&of(5.0), &line.with_range(0.0, 0.5)), []);
         assert_eq!(met(&of(5.0), &line.with_range(1.0, 1.0)).len(), 1);
         // Outside of the formula, without caps, of a regular solid: nothing.
@@ -435,7 +435,7 @@ fn a_rim_within_rounding_is_one_touch() {
         let d = if d.x + d.y > 0.1 && d.y > 0.1 { d } else { Vec3::new(0.3, 0.7, 0.1) };
         let roots = all(&surface, &Ray::new((rim - d * (1.0 + 3.0 * dice.unit())).to_point(), d));
         let signs: Vec<_> = roots.iter().map(|r| (r.sign, r.kind)).collect();
-        assert!(matches!(signs.as_slice(), [] | [(0, Kind::Cluster)]), "{d:?} {roots:?}");
+        assert!(matches!(signs.as_slice(), [] | [(0, RootKind::Cluster)]), "{d:?} {roots:?}");
         assert!(roots.iter().all(|r| r.hi - r.lo < 1e-12), "{d:?} {roots:?}");
         touches += roots.len();
     }
@@ -459,7 +459,7 @@ fn a_cluster_holds_the_rims_at_its_ends() {
     let roots = all(&surface, &Ray::new(o, d));
     // Where the line is in the ball: |o + t d| = 3.
     let (enters, leaves) = (61.12941187261574, 8130.8705881273745);
-    assert!(matches!(roots.as_slice(), [Root { sign: 0, kind: Kind::Cluster, .. }]), "{roots:?}");
+    assert!(matches!(roots.as_slice(), [Root { sign: 0, kind: RootKind::Cluster, .. }]), "{roots:?}");
     assert!(roots[0].lo <= enters && leaves <= roots[0].hi, "{roots:?}");
 }
 

@@ -5,7 +5,7 @@ mod formulas;
 
 use durer_math::{Comparison, Function, I8, Interval, Point3, Ray, Vec3};
 use durer_surfaces::tape::{NodeId, Op, Tape};
-use durer_surfaces::{Kind, LocalRay, Need, Root, Surface};
+use durer_surfaces::{LocalRay, Need, Root, RootKind, Surface};
 use formulas::{Pen, all, iso};
 
 #[test]
@@ -26,7 +26,7 @@ fn jumps_are_walls_and_undefined_is_nothing() {
     let sheet = iso(&p.done(f), 1.0).without_caps();
     let roots = all(&sheet, &ray);
     assert_eq!(roots.len(), 1, "{roots:?}");
-    assert!(roots[0].lo <= 3.25 && 3.25 <= roots[0].hi && roots[0].kind == Kind::Simple);
+    assert!(roots[0].lo <= 3.25 && 3.25 <= roots[0].hi && roots[0].kind == RootKind::Simple);
     // A comparison is a formula too: x < z.
     let less = p.op(Op::Compare(Comparison::Less, x, z));
     let c = p.c(0.5);
@@ -57,7 +57,7 @@ fn what_is_joined_is_no_wall() {
     for (i, (origin, way, t)) in told.into_iter().enumerate() {
         let roots = all(&roof, &Ray::new(origin, way));
         let [root] = roots.as_slice() else { panic!("{origin:?}: {roots:?}") };
-        assert!(root.kind == Kind::Simple && root.lo <= t && t <= root.hi, "{origin:?}: {root:?}");
+        assert!(root.kind == RootKind::Simple && root.lo <= t && t <= root.hi, "{origin:?}: {root:?}");
         // Across the bend Newton's steps know the slope from 1/2 to 3.
         assert!(root.hi - root.lo < if i == 0 { 1e-10 } else { 1e-14 }, "{root:?}");
     }
@@ -205,7 +205,10 @@ fn what_jumps_to_and_fro_is_no_wall() {
                 assert_eq!(teeth.len(), 12, "{which} {y} {slope}: {teeth:?}");
                 for (root, t) in teeth.iter().zip(expected) {
                     let held = root.lo <= t && t <= root.hi;
-                    assert!(held && root.kind == Kind::Simple, "{which} {y} {slope}: {root:?}, expected {t}");
+                    assert!(
+                        held && root.kind == RootKind::Simple,
+                        "{which} {y} {slope}: {root:?}, expected {t}"
+                    );
                 }
             }
         }
@@ -245,7 +248,7 @@ fn angles_that_begin_anew_are_no_walls() {
         let signs: Vec<i8> = found.iter().map(|root| root.sign).collect();
         let expected: &[i8] = if o[0] == -1.3 { &[] } else { &[-1, 1] };
         assert_eq!(signs, expected, "{o:?}: {found:?}");
-        assert!(found.iter().all(|root| root.kind == Kind::Simple), "{o:?}: {found:?}");
+        assert!(found.iter().all(|root| root.kind == RootKind::Simple), "{o:?}: {found:?}");
     }
     // On the seam itself the normal is the gear's.
     let ray = Ray::new(Point3::new(-3.0, 0.0, 0.1), Vec3::new(1.0, 0.0, 0.0));
@@ -298,7 +301,7 @@ fn choices_by_one_sign_go_together() {
         let surface = iso(&p.done(f), 1.0);
         let found = all(&surface, &Ray::new(Point3::new(-3.0, 0.25, 0.1), Vec3::X));
         if apart {
-            assert!(matches!(found[..], [Root { kind: Kind::Cluster, sign: 0, .. }]), "{found:?}");
+            assert!(matches!(found[..], [Root { kind: RootKind::Cluster, sign: 0, .. }]), "{found:?}");
             assert!(found[0].lo <= 3.0 && 3.0 <= found[0].hi, "{found:?}");
         } else {
             assert!(found.is_empty(), "{found:?}");

@@ -7,8 +7,8 @@ mod solids;
 use common::Dice;
 use durer_math::{Affine, Dyadic, Point3, Ray, Ring, Vec3};
 use durer_surfaces::{
-    Julia, JuliaAlgebra, JuliaError, JuliaPower, JuliaSet, Kind, LocalPoint, LocalRay, Need, Placed, Root,
-    Side, Surface, superellipsoid,
+    Julia, JuliaAlgebra, JuliaError, JuliaPower, JuliaSet, LocalPoint, LocalRay, Need, Placed, Root,
+    RootKind, Side, Surface, superellipsoid,
 };
 use solids::{Met, all};
 
@@ -64,7 +64,7 @@ fn a_touch_is_as_short_as_rounding_allows() {
         for root in all(&placed, &ray) {
             let length = (root.hi - root.lo) * d.length();
             assert!(length < 1e-5, "{ray:?}: {root:?}");
-            touches += usize::from(root.kind != Kind::Simple);
+            touches += usize::from(root.kind != RootKind::Simple);
         }
     }
     assert!(touches > 100, "{touches}");
@@ -174,7 +174,7 @@ fn brackets_of_julia_sets_have_the_signs_of_exact_arithmetic_at_their_ends() {
                 signs.iter().enumerate().all(|(i, &s)| s == if i % 2 == 0 { -1 } else { 1 }),
                 "{ray:?}: {roots:?}"
             );
-            for root in roots.iter().filter(|r| r.kind == Kind::Simple) {
+            for root in roots.iter().filter(|r| r.kind == RootKind::Simple) {
                 let (lo, hi) = (exactly_in(&data, &ray, root.lo), exactly_in(&data, &ray, root.hi));
                 assert_eq!((lo, hi), (root.sign > 0, root.sign < 0), "{data:?} {ray:?} {root:?}");
             }
@@ -220,7 +220,7 @@ fn normals_and_starts_are_on_their_sides() {
         for _ in 0..400 {
             let (to, d) = ((dice.vector() * 0.5).to_point(), dice.vector());
             let ray = Ray::new(to - d * ([3.0, 1e4][dice.below(2) as usize] / d.length()), d);
-            for root in all(&surface, &ray).iter().filter(|r| r.kind == Kind::Simple) {
+            for root in all(&surface, &ray).iter().filter(|r| r.kind == RootKind::Simple) {
                 let point = surface.resolve(&LocalRay::new(&ray), root, Need::POINT);
                 let along = point.ng.to_vec().dot(d) / d.length();
                 assert!(along * f64::from(root.sign) > -1e-4, "{ray:?} {point:?}");
@@ -236,7 +236,7 @@ fn normals_and_starts_are_on_their_sides() {
                 let mut again = durer_surfaces::All::default();
                 surface.roots(&local, &mut again);
                 let first: Option<&Root> = again.roots.first();
-                blocked += usize::from(first.is_some_and(|r| r.kind != Kind::Simple || r.sign > 0));
+                blocked += usize::from(first.is_some_and(|r| r.kind != RootKind::Simple || r.sign > 0));
                 left += 1;
             }
         }

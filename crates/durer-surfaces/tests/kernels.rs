@@ -6,11 +6,11 @@ mod common;
 use common::Dice;
 use durer_math::{Aabb, Affine, Point3, Ray, Vec3};
 use durer_surfaces::algebraic::{coefficient_count, place_of};
-use durer_surfaces::implicit::level_set::leaves;
+use durer_surfaces::implicit::level_set::primitives;
 use durer_surfaces::{
     AlgebraicSurface, All, Axis, AxisBox, Blob, BlobComponent, BlobShape, CappedCylinder, Cyclide, Ellipsoid,
-    EllipticCylinder, Kind, LevelSet, LocalRay, Prism, Quadric, Root, Sphere, Surface, Torus, Turned, Warp,
-    superellipsoid,
+    EllipticCylinder, LevelSet, LocalRay, Prism, Quadric, Root, RootKind, Sphere, Surface,
+    SurfaceOfRevolution, Torus, Warp, superellipsoid,
 };
 
 /// A surface and what it is called.
@@ -52,7 +52,7 @@ fn agree(kernels: &[Named], seed: u64, count: usize) {
         let all: Vec<_> = kernels.iter().map(|(name, roots)| (name, roots(&ray))).collect();
         // What t cannot put in order counts as unsure, too.
         let close = |roots: &[Root]| roots.windows(2).any(|w| w[1].lo <= w[0].hi);
-        if all.iter().any(|(_, roots)| close(roots) || roots.iter().any(|r| r.kind != Kind::Simple)) {
+        if all.iter().any(|(_, roots)| close(roots) || roots.iter().any(|r| r.kind != RootKind::Simple)) {
             unsure += 1;
             continue;
         }
@@ -86,7 +86,8 @@ fn spheres() {
         place: Affine::IDENTITY,
     };
     let one = Vec3::new(1.0, 1.0, 1.0);
-    let level = LevelSet::new(leaves::ball(Point3::ORIGIN, 1.0).unwrap(), Aabb::centred(Point3::ORIGIN, one));
+    let level =
+        LevelSet::new(primitives::ball(Point3::ORIGIN, 1.0).unwrap(), Aabb::centred(Point3::ORIGIN, one));
     let twist = Warp::Twist { axis: Vec3::Y, degrees: 90.0, from: -0.5, to: 0.25 };
     let squares = [([2, 0, 0], 1.0), ([0, 2, 0], 1.0), ([0, 0, 2], 1.0), ([0, 0, 0], -1.0)];
     // (q - 1) (q + 1) = q^2 - 1 with q = |p|^2: a sphere, and a sphere without real points.
@@ -134,8 +135,8 @@ fn tori() {
         ([0, 0, 0], k * k),
     ];
     let torus = Torus::new(Point3::ORIGIN, Axis::Y, major, minor).unwrap();
-    let level = LevelSet::new(leaves::torus(major, minor).unwrap(), torus.bounds());
-    let other = LevelSet::new(leaves::cyclide(major, 0.0, minor).unwrap(), torus.bounds());
+    let level = LevelSet::new(primitives::torus(major, minor).unwrap(), torus.bounds());
+    let other = LevelSet::new(primitives::cyclide(major, 0.0, minor).unwrap(), torus.bounds());
     agree(
         &[
             named("torus", torus),
@@ -169,7 +170,7 @@ fn cyclides() {
         ([1, 0, 0], 8.0 * a * c * d),
         ([0, 0, 0], k * k - 4.0 * c * c * d * d),
     ];
-    let level = LevelSet::new(leaves::cyclide(a, c, d).unwrap(), cyclide.bounds());
+    let level = LevelSet::new(primitives::cyclide(a, c, d).unwrap(), cyclide.bounds());
     agree(
         &[
             named("cyclide", cyclide),
@@ -185,7 +186,7 @@ fn cyclides() {
 fn cylinders() {
     let (base, cap) = (Point3::new(0.0, 0.0, -0.5), Point3::new(0.0, 0.0, 0.75));
     let bounds = Aabb::new(Point3::new(-0.5, -0.5, -0.5), Point3::new(0.5, 0.5, 0.75));
-    let level = LevelSet::new(leaves::frustum(base, 0.5, cap, 0.5).unwrap(), bounds);
+    let level = LevelSet::new(primitives::frustum(base, 0.5, cap, 0.5).unwrap(), bounds);
     agree(
         &[
             named("cylinder", CappedCylinder::new(base, cap, 0.5).unwrap()),
@@ -200,7 +201,7 @@ fn cylinders() {
 #[test]
 fn upright_cylinders() {
     let (base, cap) = (Point3::new(0.0, -0.5, 0.0), Point3::new(0.0, 0.75, 0.0));
-    let turned = Turned::sor(&[[0.5, -1.0], [0.5, -0.5], [0.5, 0.75], [0.5, 1.0]]).unwrap();
+    let turned = SurfaceOfRevolution::sor(&[[0.5, -1.0], [0.5, -0.5], [0.5, 0.75], [0.5, 1.0]]).unwrap();
     agree(&[named("cylinder", CappedCylinder::new(base, cap, 0.5).unwrap()), named("sor", turned)], 5, 6000);
 }
 
@@ -208,7 +209,7 @@ fn upright_cylinders() {
 fn boxes() {
     let (a, b) = (Point3::new(-0.5, -0.25, -0.75), Point3::new(0.5, 0.5, 0.25));
     let outline = vec![[-0.5, -0.75], [0.5, -0.75], [0.5, 0.25], [-0.5, 0.25]];
-    let level = LevelSet::new(leaves::cuboid(a, b).unwrap(), Aabb::new(a, b));
+    let level = LevelSet::new(primitives::cuboid(a, b).unwrap(), Aabb::new(a, b));
     agree(
         &[
             named("box", AxisBox::new(a, b).unwrap()),

@@ -5,7 +5,7 @@ mod common;
 use common::Dice;
 use durer_math::{Dyadic, Point3, Ray, Ring, Vec3};
 use durer_surfaces::tape::{Builder, Formula, Op};
-use durer_surfaces::{All, AxisBox, Container, Isosurface, Kind, LocalRay, Surface};
+use durer_surfaces::{All, AxisBox, Container, Isosurface, LocalRay, RootKind, Surface};
 use std::cmp::Ordering;
 
 fn number(x: f64) -> Dyadic {
@@ -92,7 +92,7 @@ fn brackets_hold_a_change_of_the_exact_sign_and_none_is_left_out() {
             let mut side = Ordering::Greater;
             for root in &all.roots {
                 let expected = if root.sign < 0 { Ordering::Less } else { Ordering::Greater };
-                if root.kind == Kind::Cluster {
+                if root.kind == RootKind::Cluster {
                     clusters += 1;
                 } else {
                     simple += 1;

@@ -71,7 +71,7 @@ pub(crate) trait Kernel: Copy {
     fn judge(self, block: &Block, filter: &Filter, t_far: f32) -> Verdict;
 
     /// Runs what few steps need, and what is the caller's, compiled apart from the code around it: else compilers do parts of it ahead, for every
-    /// ray. For the instructions of [`Isa::run`](durer_math::Isa::run).
+    /// ray. For the instructions of [`Isa::run`](durer_math::Isa::efloat).
     fn apart<R>(self, f: impl FnOnce() -> R) -> R;
 
     /// The same for what is made of this kernel's own steps, and compiled for its own instructions.

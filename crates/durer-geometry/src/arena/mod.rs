@@ -415,14 +415,14 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
 
     fn drawn(&self, slot: u32) -> Drawn {
         let Slot { surface, part, whole, .. } = self.slot(slot);
-        let sketch = surface.sketch(part);
+        let sketch = surface.packet_filter(part);
         // The surface's own box is the tighter one, unless this is a small part of it.
         let bounds = if whole { surface.bounds() } else { sketch.bounds() };
         Drawn { seen: Seen::of(&sketch), bounds }
     }
 
     fn solid(&self, surface: u32) -> (Seen, Vec<u32>) {
-        let (sketch, parts) = self.surfaces[surface as usize].solid_sketch();
+        let (sketch, parts) = self.surfaces[surface as usize].solid_packet_filter();
         let slot_of = |part: PartId| {
             let slot = self.placed.iter().position(|p| p.surface == surface && p.part == part.0);
             slot.map_or(surface, |slot| slot as u32)

@@ -14,7 +14,7 @@ use crate::spans::Tracks;
 use core::ops::Range;
 use durer_bvh::{Entry, Frame};
 use durer_math::{Aabb, Isa, Point3, RaySide, Shaft};
-use durer_surfaces::outline::Sketch;
+use durer_surfaces::packet::FilterSource;
 use durer_surfaces::{Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Solidity, SurfacePoint};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -197,7 +197,7 @@ impl AnyArena for Compounds {
         let first = self.first[slot as usize];
         let seen = match Body::new(body, first..first + body.slots()) {
             Some(body) => Seen::Body(Box::new(body)),
-            None => Seen::of(&Sketch::vague(bounds)),
+            None => Seen::of(&FilterSource::vague(bounds)),
         };
         Drawn { seen, bounds }
     }

@@ -16,7 +16,9 @@ use crate::ids::Id;
 use crate::lanes::Rays8;
 use durer_math::lanes::{LANES, set_bits};
 use durer_math::{F8, Isa, M8};
-use durer_surfaces::outline::{self, Crossing8, Crossings, From8, Nearest, Outline, RayLanes, Sight};
+use durer_surfaces::packet::{
+    self, Crossing8, Crossings, From8, Nearest, PacketFilter, RayLanes, SolidState8,
+};
 
 /// A body with the outlines of its leaves.
 #[derive(Debug)]
@@ -36,7 +38,7 @@ pub(crate) struct Body {
 /// A leaf.
 #[derive(Debug)]
 pub(super) struct Operand {
-    pub(super) outline: Outline,
+    pub(super) outline: PacketFilter,
     /// The slots of its faces, counted over all leaves of the body; one if all have the same.
     pub(super) slots: Box<[u32]>,
     pub(super) primitive: u32,
@@ -61,18 +63,18 @@ struct Node {
 /// Memory for what is known of eight rays and the leaves of one body.
 #[derive(Debug, Default)]
 pub(crate) struct Memory {
-    sights: Vec<Sight>,
+    sights: Vec<SolidState8>,
     /// Which rays do not meet each leaf, surely.
     passed: Vec<u8>,
     crossings: Crossings,
 }
 
 /// A face of a body, in one number.
-const FACES: f64 = Outline::FACES as f64;
+const FACES: f64 = PacketFilter::FACES as f64;
 
 /// A face of a leaf, as hits name it.
 pub(crate) struct Skin<'b> {
-    pub(crate) outline: &'b Outline,
+    pub(crate) outline: &'b PacketFilter,
     pub(crate) face: u32,
     /// The body's normal is the leaf's turned round.
     pub(crate) turned: bool,
@@ -85,9 +87,9 @@ pub(crate) struct Skin<'b> {
 struct Look<'a> {
     isa: Isa,
     rays: &'a RayLanes<'a>,
-    sights: &'a mut [Sight],
+    sights: &'a mut [SolidState8],
     passed: &'a mut [u8],
-    steps: &'a mut outline::Scratch,
+    steps: &'a mut packet::Scratch,
 }
 
 /// Rays that leave the body: which, and of each the leaf, the face there, and whether it starts behind it.
@@ -205,10 +207,10 @@ impl Body {
         (arena, number): (u32, f64),
         (rays, lanes): (&Rays8, &RayLanes<'_>),
         nearest: &mut Nearest,
-        (steps, memory): (&mut outline::Scratch, &mut Memory),
+        (steps, memory): (&mut packet::Scratch, &mut Memory),
     ) {
         let Memory { sights, passed, crossings } = memory;
-        sights.resize_with(self.leaves.len().max(sights.len()), Sight::default);
+        sights.resize_with(self.leaves.len().max(sights.len()), SolidState8::default);
         passed.clear();
         for (leaf, sight) in self.leaves.iter().zip(&mut *sights) {
             passed.push(if leaf.outline.sight(lanes, sight) { u8::MAX } else { 0 });

@@ -19,20 +19,20 @@ use arrayvec::ArrayVec;
 use core::slice;
 use durer_math::lanes::LANES;
 use durer_math::{Aabb, F8, Isa, M8, Point3, Ray, RaySide, Shaft, Source, Vec3};
-use durer_surfaces::outline::{self, Nearest, Outline, Points8, Question, RayLanes};
-use durer_surfaces::{Need, ROUGH};
+use durer_surfaces::packet::{self, Nearest, PacketFilter, PacketQuery, Points8, RayLanes};
+use durer_surfaces::{Need, PREVIEW_WIDTH};
 
 /// Memory for what is known of eight rays on the way: kept, so that it need not be cleared for each.
 #[derive(Debug, Default)]
 pub struct Scratch {
-    outline: outline::Scratch,
+    outline: packet::Scratch,
     body: Memory,
     abreast: Abreast,
 }
 
 /// What lanes meet: a face of an outline, with the names of hits on it.
 struct Face<'g> {
-    outline: &'g Outline,
+    outline: &'g PacketFilter,
     face: u32,
     turned: bool,
     name: Id,
@@ -238,7 +238,7 @@ impl Geometry {
         let Nearest { t, e, doubt, number, face, tag } = nearest;
         let never = F8::splat(f64::INFINITY);
         // Known well enough to be seen, and before all doubt.
-        let clear = t.lt(never) & doubt.gt(*t + *e) & e.le(*t * (0.5 * ROUGH));
+        let clear = t.lt(never) & doubt.gt(*t + *e) & e.le(*t * (0.5 * PREVIEW_WIDTH));
         let mut left = rays.live & !(clear | t.ge(never) & doubt.ge(never));
         let mut waiting = clear.bits();
         hits.t = *t;
@@ -327,7 +327,7 @@ impl Geometry {
             Seen::Outline(outline) => {
                 let leaves = sources.contains(&slot_number(arena, slot));
                 let from = leaves.then(|| rays.source.of(arena, slot, outline));
-                let asked = Question { rays: lanes, from: from.as_ref(), number, any: ANY };
+                let asked = PacketQuery { rays: lanes, from: from.as_ref(), number, any: ANY };
                 outline.meet(&asked, nearest, &mut scratch.outline);
             }
             Seen::Body(body) => {

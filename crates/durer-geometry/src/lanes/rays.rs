@@ -6,7 +6,7 @@ use arrayvec::ArrayVec;
 use durer_math::lanes::{LANES, set_bits};
 use durer_math::{F8, M8, Point3, Ray, RaySide, Source, U, Vec3};
 use durer_surfaces::SurfacePoint;
-use durer_surfaces::outline::{From8, Outline};
+use durer_surfaces::packet::{From8, PacketFilter};
 
 /// Eight rays `o + t d` with `t` in `[0, t_max]`.
 #[derive(Clone, Copy, Debug)]
@@ -117,7 +117,7 @@ impl Sources8 {
 
     /// The rays that leave a slot.
     #[inline(always)]
-    pub(super) fn of(&self, arena: u32, slot: u32, outline: &Outline) -> From8 {
+    pub(super) fn of(&self, arena: u32, slot: u32, outline: &PacketFilter) -> From8 {
         let lanes = self.leave(slot_number(arena, slot));
         let mut face = F8::ZERO;
         if outline.own_face().is_none() {

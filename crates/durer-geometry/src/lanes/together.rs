@@ -1,7 +1,7 @@
 //! Many eights of rays that ask a surface together, one candidate of their beam after the other.
 //!
 //! Most surfaces are asked by one eight at a time, which is faster: all that is known of eight rays stays at hand. Those that are told a stretch at a time gain more by the company
-//! ([`Outline::meet_together`](durer_surfaces::outline::Outline::meet_together)).
+//! ([`PacketFilter::meet_together`](durer_surfaces::packet::PacketFilter::meet_together)).
 
 use super::rays::slot_number;
 use super::{Hits8, Rays8, Scratch, Slots, all_meet, sure};
@@ -10,7 +10,7 @@ use crate::outlines::Seen;
 use crate::{Beam, Geometry};
 use arrayvec::ArrayVec;
 use durer_math::M8;
-use durer_surfaces::outline::{From8, Nearest, Question, RayLanes};
+use durer_surfaces::packet::{From8, Nearest, PacketQuery, RayLanes};
 
 /// So many eights go together.
 pub(super) const MANY: usize = 16;
@@ -134,9 +134,14 @@ impl Geometry {
                         let leaves = sources.contains(&slot_number(arena, slot));
                         from.push(leaves.then(|| rays.source.of(arena, slot, outline)));
                     }
-                    let mut asked: ArrayVec<Question<'_>, MANY> = ArrayVec::new();
+                    let mut asked: ArrayVec<PacketQuery<'_>, MANY> = ArrayVec::new();
                     for (rays, from) in lanes.iter().zip(&from) {
-                        asked.push(Question { rays, from: from.as_ref(), number: number as f64, any: ANY });
+                        asked.push(PacketQuery {
+                            rays,
+                            from: from.as_ref(),
+                            number: number as f64,
+                            any: ANY,
+                        });
                     }
                     outline.meet_together(&asked, &open, nearest, &mut scratch.outline);
                 }

@@ -50,7 +50,7 @@ pub(super) const TWIST: f64 = 12.45;
 pub(crate) fn bounds(p: [&I8; 3]) -> I8 {
     Isa::detect().run_in_lanes(
         #[inline(always)]
-        || told(p).0,
+        || bounds_in_cell(p).0,
     )
 }
 
@@ -59,12 +59,12 @@ pub(crate) fn bounds(p: [&I8; 3]) -> I8 {
 pub(crate) fn slopes(p: [&I8; 3]) -> (I8, [I8; 3]) {
     Isa::detect().run_in_lanes(
         #[inline(always)]
-        || told(p),
+        || bounds_in_cell(p),
     )
 }
 
 #[inline(always)]
-fn told(p: [&I8; 3]) -> (I8, [I8; 3]) {
+fn bounds_in_cell(p: [&I8; 3]) -> (I8, [I8; 3]) {
     /// Bounds that know nothing of the corners will do if all sides are as short as this.
     const SMALL: f64 = 1.0 / 128.0;
     /// A derivative of 1 makes nearly six times [`VALUE_MARGIN`] of half of this, in f32.

@@ -2,7 +2,7 @@
 
 use durer_geometry::{Builder, CompoundBuilder, ObjectId, Part, Shown};
 use durer_math::{Aabb, Affine};
-use durer_surfaces::{Algebraic, Clip, Erased, Inverse, Placed, Region, Solidity, Surface};
+use durer_surfaces::{Algebraic, Clip, Complement, DynSurface, Placed, Region, Solidity, Surface};
 
 use super::standing::{Around, Held};
 
@@ -52,12 +52,12 @@ impl Target<'_> {
             return;
         }
         let clips = core::mem::take(&mut self.clips);
-        self.push(Erased::new(Clip::new(erased(surface, map), clips)));
+        self.push(DynSurface::new(Clip::new(erased(surface, map), clips)));
     }
 
     fn add_whole<S: Algebraic + 'static>(&mut self, surface: S, map: Option<&Affine>) {
         let whole = erased(surface, map);
-        if self.inverse { self.push(Inverse(whole)) } else { self.push(whole) }
+        if self.inverse { self.push(Complement(whole)) } else { self.push(whole) }
     }
 
     fn is_changed(&self) -> bool {
@@ -93,10 +93,10 @@ impl Target<'_> {
 }
 
 /// A surface, placed by `map`, behind pointers. What is done to it is done outside of its own, so that each kind is compiled once.
-fn erased<S: Algebraic + 'static>(surface: S, map: Option<&Affine>) -> Erased {
-    let surface = Erased::new(surface);
+fn erased<S: Algebraic + 'static>(surface: S, map: Option<&Affine>) -> DynSurface {
+    let surface = DynSurface::new(surface);
     match map {
         None => surface,
-        Some(map) => Erased::new(Placed::new(surface, *map)),
+        Some(map) => DynSurface::new(Placed::new(surface, *map)),
     }
 }

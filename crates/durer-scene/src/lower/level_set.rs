@@ -1,7 +1,7 @@
 //! Solids as formulas, for what is deformed.
 
 use durer_math::{Aabb, Affine, elementary};
-use durer_surfaces::implicit::level_set::leaves::{self, Principal};
+use durer_surfaces::implicit::level_set::primitives::{self, Principal};
 use durer_surfaces::tape::Formula;
 use durer_surfaces::{
     AxisBox, Blob, CappedCylinder, Cyclide, Frustum, Isosurface, LevelSet, Plane, Quadric, Sphere,
@@ -67,47 +67,51 @@ fn leaf(shape: &Shape, place: &Affine, inverse: bool) -> Result<LevelSet> {
     let made = match shape {
         &Shape::Sphere { centre, radius } => {
             let surface = Sphere::new(centre, radius.abs()).map_err(shape_error)?;
-            placed(leaves::ball(centre, radius).map_err(shape_error)?, &surface, place)
+            placed(primitives::ball(centre, radius).map_err(shape_error)?, &surface, place)
         }
         &Shape::Box { a, b } => {
             let surface = AxisBox::new(a, b).map_err(shape_error)?;
-            placed(leaves::cuboid(a, b).map_err(shape_error)?, &surface, place)
+            placed(primitives::cuboid(a, b).map_err(shape_error)?, &surface, place)
         }
         &Shape::Cylinder { base, cap, radius } => {
             let surface = CappedCylinder::new(base, cap, radius.abs()).map_err(shape_error)?;
             placed(
-                leaves::frustum(base, radius.abs(), cap, radius.abs()).map_err(shape_error)?,
+                primitives::frustum(base, radius.abs(), cap, radius.abs()).map_err(shape_error)?,
                 &surface,
                 place,
             )
         }
         &Shape::Cone { base, base_radius, cap, cap_radius } => {
             let surface = Frustum::new(base, base_radius, cap, cap_radius).map_err(shape_error)?;
-            placed(leaves::frustum(base, base_radius, cap, cap_radius).map_err(shape_error)?, &surface, place)
+            placed(
+                primitives::frustum(base, base_radius, cap, cap_radius).map_err(shape_error)?,
+                &surface,
+                place,
+            )
         }
         &Shape::Plane { normal, distance } => {
             let surface = Plane::new(normal, distance).map_err(shape_error)?;
-            placed(leaves::half_space(normal, distance).map_err(shape_error)?, &surface, place)
+            placed(primitives::half_space(normal, distance).map_err(shape_error)?, &surface, place)
         }
         Shape::Quadric(coefficients) => {
             let surface = Quadric::new(**coefficients).map_err(shape_error)?;
-            placed(leaves::quadric(**coefficients).map_err(shape_error)?, &surface, place)
+            placed(primitives::quadric(**coefficients).map_err(shape_error)?, &surface, place)
         }
         Shape::Polynomial { order, coefficients } => {
             let surface = durer_surfaces::AlgebraicSurface::new(*order, coefficients).map_err(shape_error)?;
-            placed(leaves::polynomial(*order, coefficients).map_err(shape_error)?, &surface, place)
+            placed(primitives::polynomial(*order, coefficients).map_err(shape_error)?, &surface, place)
         }
         &Shape::Torus { major, minor } => {
             let axis = durer_surfaces::Axis::Y;
             let surface = Torus::new(durer_math::Point3::ORIGIN, axis, major, minor).map_err(shape_error)?;
-            placed(leaves::torus(major, minor).map_err(shape_error)?, &surface, place)
+            placed(primitives::torus(major, minor).map_err(shape_error)?, &surface, place)
         }
         &Shape::Cyclide { a, c, d } => {
             let surface = Cyclide::new(a, c, d).map_err(shape_error)?;
-            placed(leaves::cyclide(a, c, d).map_err(shape_error)?, &surface, place)
+            placed(primitives::cyclide(a, c, d).map_err(shape_error)?, &surface, place)
         }
         Shape::Named(quadric) => {
-            let formula = leaves::principal(&principal(quadric)).map_err(shape_error)?;
+            let formula = primitives::principal(&principal(quadric)).map_err(shape_error)?;
             let bounds = named::bounds(quadric, &Affine::IDENTITY)?;
             let placed_bounds = named::bounds(quadric, place)?;
             LevelSet::new(formula, bounds).placed_within(place, placed_bounds).map_err(shape_error)
@@ -118,19 +122,21 @@ fn leaf(shape: &Shape, place: &Affine, inverse: bool) -> Result<LevelSet> {
             // As the surface has it: the cosine of the number nearest to a right angle is not 0.
             let right = half_angle == core::f64::consts::FRAC_PI_2;
             let cosine = if right { 0.0 } else { elementary::cos(half_angle) };
-            placed(leaves::sector(centre, radius, axis, cosine).map_err(shape_error)?, &surface, place)
+            placed(primitives::sector(centre, radius, axis, cosine).map_err(shape_error)?, &surface, place)
         }
         Shape::Isosurface(iso) => {
             let container = shapes::container(iso.container)?;
-            let own = leaves::isosurface(&iso.function, iso.threshold, &container).map_err(shape_error)?;
+            let own =
+                primitives::isosurface(&iso.function, iso.threshold, &container).map_err(shape_error)?;
             own.placed(place).map_err(shape_error)
         }
         &Shape::Superellipsoid { e, n } => {
-            leaves::superellipsoid(e, n).map_err(shape_error)?.placed(place).map_err(shape_error)
+            primitives::superellipsoid(e, n).map_err(shape_error)?.placed(place).map_err(shape_error)
         }
         Shape::Blob(it) => {
             let surface = Blob::new(it.threshold, &it.components).map_err(shape_error)?;
-            let own = leaves::blob(it.threshold, &it.components, surface.bounds()).map_err(shape_error)?;
+            let own =
+                primitives::blob(it.threshold, &it.components, surface.bounds()).map_err(shape_error)?;
             own.placed(place).map_err(shape_error)
         }
         Shape::Deform(deform) => {

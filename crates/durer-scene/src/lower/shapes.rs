@@ -6,7 +6,7 @@ use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Blob, BlobError, CappedCylinder, CurvedPrism,
     Cyclide, Disc, FLAT, Frustum, Isosurface, JuliaSet, Parallelogram, Plane, Polygon, Prism, Quadric,
-    Region, Sphere, SphericalSector, Torus, Triangle, TriangleError, Turned, superellipsoid,
+    Region, Sphere, SphericalSector, SurfaceOfRevolution, Torus, Triangle, TriangleError, superellipsoid,
 };
 
 use super::build::Target;
@@ -118,15 +118,18 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
                 }
             }
         }
-        Shape::Sor(points) => turned(Turned::sor(points).map_err(shape_error)?, open, map, &mut target),
+        Shape::Sor(points) => {
+            turned(SurfaceOfRevolution::sor(points).map_err(shape_error)?, open, map, &mut target)
+        }
         &Shape::Ovus { bottom, top } => {
-            turned(Turned::ovus(bottom, top).map_err(shape_error)?, open, map, &mut target);
+            turned(SurfaceOfRevolution::ovus(bottom, top).map_err(shape_error)?, open, map, &mut target);
         }
         &Shape::Lemon { base, base_radius, apex, apex_radius, inner_radius } => {
             let axis = apex - base;
             // A length beyond the range of f64 is refused as such.
             let height = axis.length();
-            let solid = Turned::lemon(height, base_radius, apex_radius, inner_radius).map_err(shape_error)?;
+            let solid = SurfaceOfRevolution::lemon(height, base_radius, apex_radius, inner_radius)
+                .map_err(shape_error)?;
             let up = axis / height;
             let (u, v) = up.orthonormal_basis();
             let rows = [0, 1, 2].map(|i| [v[i], up[i], u[i]]);
@@ -176,7 +179,7 @@ pub(super) fn container(it: Container) -> Result<durer_surfaces::Container> {
 }
 
 /// Adds a solid of revolution.
-fn turned(solid: Turned, open: bool, map: Option<&Affine>, target: &mut Target<'_>) {
+fn turned(solid: SurfaceOfRevolution, open: bool, map: Option<&Affine>, target: &mut Target<'_>) {
     target.contain(&solid, map);
     target.add_rare(if open { solid.without_ends() } else { solid }, map);
 }

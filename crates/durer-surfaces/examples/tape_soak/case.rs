@@ -7,7 +7,7 @@ mod bytes;
 use bytes::Bytes;
 use durer_math::{Comparison, Dual, F8, Function, I8, Interval, Number, Point3, Ray, Vec3};
 use durer_surfaces::tape::{Builder, Formula, NodeId, Op, Tape};
-use durer_surfaces::{All, AxisBox, Container, Isosurface, Kind, LocalRay, Need, Surface};
+use durer_surfaces::{All, AxisBox, Container, Isosurface, LocalRay, Need, RootKind, Surface};
 
 impl Bytes<'_> {
     /// Mostly small round numbers, sometimes any.
@@ -279,7 +279,7 @@ fn roots_are_in_order(formula: &Formula, bytes: &mut Bytes<'_>) {
         let roots = all.roots;
         assert!(roots.windows(2).all(|w| w[0].t <= w[1].t), "{formula:?}, {ray:?}: {roots:?}");
         assert!(roots.iter().all(|r| r.lo <= r.t && r.t <= r.hi), "{formula:?}, {ray:?}: {roots:?}");
-        if roots.iter().all(|r| r.kind == Kind::Simple) && always_defined(formula) {
+        if roots.iter().all(|r| r.kind == RootKind::Simple) && always_defined(formula) {
             let alternate = roots.iter().enumerate().all(|(i, r)| r.sign == if i % 2 == 0 { -1 } else { 1 });
             assert!(alternate && roots.len() % 2 == 0, "{formula:?}, {ray:?}: {roots:?}");
         }

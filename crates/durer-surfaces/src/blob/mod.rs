@@ -9,32 +9,32 @@
 //! J. F. Blinn, "A generalization of algebraic surface drawing", *ACM Transactions on Graphics* 1(3), 1982, with fields of finite reach: G. Wyvill,
 //! C. McPheeters, B. Wyvill, "Data structure for soft objects", *The Visual Computer* 2, 1986. Strengths may be negative: such components dent.
 //!
-//! Along a ray each field begins and ends, and in between it is a polynomial of degree four (`part.rs`), and so is their sum between two such points
-//! (`sweep.rs`): T. Nishita, E. Nakamae, "A method for displaying metaballs by using Bézier clipping", *Computer Graphics Forum* 13(3), 1994. It is
-//! summed anew for each stretch, so that no rounding is carried along, and its sign is told in Bernstein form (`stretch.rs`). Which fields a
+//! Along a ray each field begins and ends, and in between it is a polynomial of degree four (`component.rs`), and so is their sum between two such points
+//! (`march.rs`): T. Nishita, E. Nakamae, "A method for displaying metaballs by using Bézier clipping", *Computer Graphics Forum* 13(3), 1994. It is
+//! summed anew for each stretch, so that no rounding is carried along, and its sign is told in Bernstein form (`segment.rs`). Which fields a
 //! ray meets, a tree of boxes says in the order of the ray (`tree.rs`; O. Gourmel et al., "Fitted BVH for fast raytracing of metaballs", *Computer
 //! Graphics Forum* 29(2), 2010).
 //!
 //! What is proven: a root of kind simple is the only crossing in its bracket, at whose ends the sum is certainly on opposite sides of the threshold.
-//! Where f64 cannot tell the sign over a stretch (at tangents, mostly) the crossings there are one [`Kind::Cluster`](crate::Kind).
+//! Where f64 cannot tell the sign over a stretch (at tangents, mostly) the crossings there are one [`RootKind::Cluster`](crate::RootKind).
 
-mod closely;
-mod part;
+mod component;
+mod march;
 mod point;
-mod stretch;
-mod sweep;
+mod refine;
+mod segment;
 mod tree;
 
 use crate::compose::clip::Algebraic;
-use crate::outline::{Fields, Sketch};
+use crate::packet::{Fields, FilterSource};
 use crate::roots::quadratic::Quadratic;
 use crate::{
     AxisBox, AxisBoxError, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity,
     SphereError, Surface, SurfacePoint,
 };
+use component::Component;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Affine, Dyadic, Isa, Point3};
-use part::Part;
 use std::sync::Arc;
 use tree::Tree;
 
@@ -96,7 +96,7 @@ pub struct Blob {
     scale: i32,
     /// A ball about the centre with this radius holds it.
     reach: f64,
-    parts: Arc<[Part]>,
+    parts: Arc<[Component]>,
     /// The components that the parts were made of.
     components: Arc<[BlobComponent]>,
     /// The numbers of these in the caller's list.
@@ -143,7 +143,7 @@ impl Blob {
             }
             let unit = |p: Point3| (p - centre).map(|x| scale2(x, -scale)).to_point();
             units.push(Aabb::new(unit(held.min), unit(held.max)));
-            parts.push(Part::new(component, centre, scale));
+            parts.push(Component::new(component, centre, scale));
             sources.push((number, component));
         }
         let (tree, order) = Tree::new(&units);
@@ -159,7 +159,7 @@ impl Blob {
             #[inline(always)]
             || {
                 let at = ray.recentre(self.centre, self.scale).sharp(1.0);
-                sweep::roots(self, &at, sink);
+                march::roots(self, &at, sink);
             },
         );
     }
@@ -190,13 +190,13 @@ impl Surface for Blob {
         self.point(ray, root, need)
     }
 
-    fn sketch(&self, _part: PartId) -> Sketch {
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
         let unit = |p: Point3| (p - self.centre).map(|x| scale2(x, -self.scale)).to_point();
         let boxes = self.components.iter().filter_map(|it| it.bounds().ok());
         let boxes: Vec<_> = boxes.map(|b| Aabb::new(unit(b.min), unit(b.max))).collect();
-        match Fields::new(self.parts.iter().map(Part::for_lanes).collect(), &boxes, self.threshold) {
-            Some(fields) => Sketch::fields(self.bounds, fields, self.centre, self.scale),
-            None => Sketch::vague(self.bounds),
+        match Fields::new(self.parts.iter().map(Component::for_lanes).collect(), &boxes, self.threshold) {
+            Some(fields) => FilterSource::fields(self.bounds, fields, self.centre, self.scale),
+            None => FilterSource::vague(self.bounds),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::Blob;
 use crate::point::least_step;
-use crate::quadric::body::tangents;
+use crate::quadric::boolean_faces::tangents;
 use crate::{LocalPoint, LocalRay, Need, Root, Side, SurfacePoint};
 use durer_math::eft::{scale2, two_sum};
 use durer_math::{Isa, Point3, U, Vec3};

@@ -2,7 +2,7 @@
 //!
 //! Boxes are enlarged by far more than the rounding of a ray, so that what is passed over adds exactly nothing.
 
-use super::sweep::Along;
+use super::march::Along;
 use arrayvec::ArrayVec;
 use durer_math::{Aabb, Vec3};
 
@@ -13,7 +13,7 @@ const MARGIN: f64 = durer_math::scale::pow2(-20);
 
 /// A box and what is in it.
 #[derive(Clone, Debug)]
-struct Node {
+struct BoxNode {
     low: Vec3,
     high: Vec3,
     /// Of the components, if there is a count; else the first of two nodes.
@@ -24,7 +24,7 @@ struct Node {
 /// The tree; component numbers are those of the order that building has made.
 #[derive(Clone, Debug)]
 pub(super) struct Tree {
-    nodes: Vec<Node>,
+    nodes: Vec<BoxNode>,
 }
 
 /// What a node says.
@@ -74,10 +74,10 @@ impl Tree {
         (Self { nodes }, order)
     }
 
-    fn around(boxes: &[Aabb], which: &[u32], first: u32) -> Node {
+    fn around(boxes: &[Aabb], which: &[u32], first: u32) -> BoxNode {
         let all = which.iter().fold(Aabb::EMPTY, |all, &i| all.union(boxes[i as usize]));
         let room = Vec3::new(MARGIN, MARGIN, MARGIN);
-        Node { low: all.min.to_vec() - room, high: all.max.to_vec() + room, first, count: 0 }
+        BoxNode { low: all.min.to_vec() - room, high: all.max.to_vec() + room, first, count: 0 }
     }
 
     /// Where a ray enters a node and leaves it, in its parameter; `None` if it does not meet it.

@@ -3,9 +3,9 @@
 //! The exact surface is `{ c + L x : x in S }`, with the surface's own numbers and the map's stored ones. Rays go through the inverse, whose
 //! rounding is charged to every bracket; points come back through `L` itself.
 
-use crate::local::through_inverse;
-use crate::outline::Sketch;
+use crate::packet::FilterSource;
 use crate::point::least_step;
+use crate::ray::through_inverse;
 use crate::{LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use durer_math::{Aabb, Affine, Isa, U, Vec3};
 
@@ -51,12 +51,12 @@ impl<S: Surface> Surface for Placed<S> {
         place(&self.map, &self.surface.resolve(&ray.through(&self.map), root, need))
     }
 
-    fn sketch(&self, part: PartId) -> Sketch {
-        self.surface.sketch(part).placed(&self.map)
+    fn packet_filter(&self, part: PartId) -> FilterSource {
+        self.surface.packet_filter(part).placed(&self.map)
     }
 
-    fn solid_sketch(&self) -> (Sketch, Vec<PartId>) {
-        let (sketch, parts) = self.surface.solid_sketch();
+    fn solid_packet_filter(&self) -> (FilterSource, Vec<PartId>) {
+        let (sketch, parts) = self.surface.solid_packet_filter();
         (sketch.placed(&self.map), parts)
     }
 

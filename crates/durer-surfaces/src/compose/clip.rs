@@ -6,14 +6,14 @@
 //! The result is a sheet: clipping removes surface and does not cap what it opens. It has no inside, also where the surface had one.
 
 use super::region::{FaceSet, Region};
-use crate::outline::Sketch;
-use crate::quadric::body::{Frame, Shape};
-use crate::quadric::solid::Body;
+use crate::packet::FilterSource;
+use crate::quadric::boolean_faces::{Frame, QuadricFaces};
+use crate::quadric::solid::QuadricSolid;
 use crate::roots::quadratic::{Crossing, Quadratic, exact_sign, sign_at_root};
 use crate::sphere::Sphere;
 use crate::{Flow, LocalRay, Need, PartId, Placed, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
-use durer_math::{Aabb, Affine, Dd, Dyadic, Isa, Ring, Run};
+use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Isa, Ring};
 use std::sync::OnceLock;
 
 /// A surface each of whose faces is the zero set of a polynomial.
@@ -25,7 +25,7 @@ pub trait Algebraic: Surface {
     }
 
     /// The same in double-doubles with their errors, which tell the sign of most of what f64 cannot tell, for a small part of the steps. Not all surfaces know it.
-    fn wide_polynomial(&self, _face: u32, _ray: &LocalRay<'_>) -> Option<Quadratic<Run<Dd>>> {
+    fn wide_polynomial(&self, _face: u32, _ray: &LocalRay<'_>) -> Option<Quadratic<EFloat<Dd>>> {
         None
     }
 
@@ -43,25 +43,25 @@ pub trait Algebraic: Surface {
 
 /// The polynomial of a face along a ray in any ring that can hold the ray.
 #[inline(always)]
-fn along<S: Shape, T: Ring>(shape: &S, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<T>> {
+fn along<S: QuadricFaces, T: Ring>(shape: &S, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<T>> {
     let Frame { centre, scale, .. } = shape.frame();
     Some(shape.form::<T>(face as usize).along(&ray.in_ring_from(centre, scale)?))
 }
 
 /// The same in double-doubles.
-fn wide_along<S: Shape>(shape: &S, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Run<Dd>>> {
+fn wide_along<S: QuadricFaces>(shape: &S, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<EFloat<Dd>>> {
     Isa::detect().run(
         #[inline(always)]
         || along(shape, face, ray),
     )
 }
 
-impl<S: Shape> Algebraic for Body<S> {
+impl<S: QuadricFaces> Algebraic for QuadricSolid<S> {
     fn polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
         along(self.shape(), face, ray)
     }
 
-    fn wide_polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Run<Dd>>> {
+    fn wide_polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<EFloat<Dd>>> {
         wide_along(self.shape(), face, ray)
     }
 
@@ -81,7 +81,7 @@ impl Algebraic for Sphere {
         along(self, face, ray)
     }
 
-    fn wide_polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Run<Dd>>> {
+    fn wide_polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<EFloat<Dd>>> {
         wide_along(self, face, ray)
     }
 }
@@ -94,7 +94,7 @@ impl<S: Algebraic> Algebraic for Placed<S> {
         Some(in_parents_parameter(p, step, k))
     }
 
-    fn wide_polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Run<Dd>>> {
+    fn wide_polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<EFloat<Dd>>> {
         Isa::detect().run(
             #[inline(always)]
             || {
@@ -278,8 +278,8 @@ impl<S: Algebraic> Surface for Clip<S> {
         self.surface.resolve(ray, root, need)
     }
 
-    fn sketch(&self, part: PartId) -> Sketch {
-        self.regions.iter().fold(self.surface.sketch(part), |sketch, region| region.cut(sketch))
+    fn packet_filter(&self, part: PartId) -> FilterSource {
+        self.regions.iter().fold(self.surface.packet_filter(part), |sketch, region| region.cut(sketch))
     }
 
     #[inline(always)]
@@ -312,7 +312,7 @@ impl<S: Algebraic> Algebraic for Clip<S> {
         self.surface.polynomial(face, ray)
     }
 
-    fn wide_polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Run<Dd>>> {
+    fn wide_polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<EFloat<Dd>>> {
         self.surface.wide_polynomial(face, ray)
     }
 
@@ -324,7 +324,7 @@ impl<S: Algebraic> Algebraic for Clip<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::Dice;
+    use crate::laws::TestRng;
     use crate::{CappedCylinder, Flow, Quadric};
     use durer_math::{Normal3, Point3, Ray, Vec3};
 
@@ -345,7 +345,7 @@ mod tests {
     #[test]
     fn double_doubles_cut_as_exact_numbers_do() {
         // A lid in the plane that cuts it but for a few units in the last place, or exactly: decimal numbers, as in texts.
-        let mut dice = Dice::new(5);
+        let mut dice = TestRng::new(5);
         let (mut told, mut kept) = (0, 0);
         for round in 0..400 {
             let shift = dice.integer(1, 40) * 0.1;
@@ -415,7 +415,7 @@ mod tests {
                 [[-5.0, 0.0, -5.0], [5.0, 3.0, 5.0]],
             ),
         ];
-        let mut dice = Dice::new(7);
+        let mut dice = TestRng::new(7);
         for (coefficients, regions, [min, max]) in cases {
             let quadric = Quadric::new(coefficients).unwrap();
             let still = Clip::new(quadric.clone(), regions.clone());

@@ -95,8 +95,8 @@ impl Algebraic for Prism {
 mod tests {
     use super::*;
     use crate::laws::{
-        Clipped, Crossing, Dice, Exact, ExactBody, ExactForm, Feature, Line, Oracle, Surd, Tally, aim,
-        all_roots, check_many, exact3,
+        Clipped, Crossing, Exact, ExactBody, ExactForm, ExactLine, Feature, Oracle, Surd, Tally, TestRng,
+        aim, all_roots, check_many, exact3,
     };
     use crate::{
         Clip, Cone, Ellipsoid, EllipticParaboloid, FillRule, HyperboloidOfOneSheet, MeshData, Placed, Region,
@@ -106,7 +106,7 @@ mod tests {
     use durer_math::{Aabb, Affine, Normal3, Ray, Vec3};
 
     /// Regions, each with its faces' exact polynomials, chosen so that borders go through whole points.
-    fn regions(dice: &mut Dice) -> (Vec<Region>, Vec<ExactForm>) {
+    fn regions(dice: &mut TestRng) -> (Vec<Region>, Vec<ExactForm>) {
         let half = |n: [f64; 3], p: [f64; 3]| ExactForm::half_space(exact3(n), exact3(p));
         let (mut all, mut cuts) = (vec![], vec![]);
         for _ in 0..1 + dice.below(2) {
@@ -152,7 +152,7 @@ mod tests {
     }
 
     /// Whole points with whole directions: corners, borders of regions, and places beside them.
-    fn features(dice: &mut Dice, own: &[Point3]) -> Vec<Feature> {
+    fn features(dice: &mut TestRng, own: &[Point3]) -> Vec<Feature> {
         let mut at = vec![];
         for _ in 0..40 {
             let point =
@@ -170,7 +170,7 @@ mod tests {
         own: &[Point3],
         seed: u64,
     ) -> Tally {
-        let mut dice = Dice::new(seed);
+        let mut dice = TestRng::new(seed);
         let (regions, cuts) = regions(&mut dice);
         let at = features(&mut dice, own);
         let clip = Clip::new(surface.clone(), regions.clone());
@@ -248,7 +248,7 @@ mod tests {
     }
 
     impl Oracle for OneOfTwo {
-        fn crossings(&self, line: &Line) -> Vec<Crossing> {
+        fn crossings(&self, line: &ExactLine) -> Vec<Crossing> {
             self.body.crossings(line)
         }
 
@@ -278,7 +278,7 @@ mod tests {
     fn clipped_planes_obey_the_laws() {
         let mut roots = 0;
         for seed in 0..40 {
-            let mut dice = Dice::new(seed);
+            let mut dice = TestRng::new(seed);
             // Few of these lengths are rational.
             let (n, h) = (dice.lattice(3), dice.pick(&[1.0, 0.5, -1.0, -0.25, 0.0]));
             let plane = Plane::new(n, h).unwrap();
@@ -319,7 +319,7 @@ mod tests {
         let triangles = [Triangle::new([a, b, c]).unwrap(), Triangle::new([a, c, d]).unwrap()];
         let (mut kept, mut lost) = (0, 0);
         for seed in 0..40 {
-            let mut dice = Dice::new(seed);
+            let mut dice = TestRng::new(seed);
             let (regions, cuts) = regions(&mut dice);
             let clips = triangles.each_ref().map(|t| Clip::new(t.clone(), regions.clone()));
             let clipped_mesh = Clip::new(mesh.clone(), regions.clone());
@@ -330,7 +330,7 @@ mod tests {
                 if !ray.is_valid() {
                     continue;
                 }
-                let line = Line::new(&ray);
+                let line = ExactLine::new(&ray);
                 let n = (b - a).cross(d - a);
                 let plane = half(n, a).along(&line);
                 let root = Surd::ratio(-plane.c.clone(), plane.b.shifted(1));

@@ -2,7 +2,7 @@
 
 pub mod affine;
 pub mod clip;
-pub mod erased;
+pub mod complement;
+pub mod dynamic;
 mod flat;
-pub mod inverse;
 pub mod region;

@@ -1,16 +1,16 @@
 //! Closed sets that surfaces are clipped by: solids with plane and quadric faces, half-spaces, boxes, and the closures of their complements.
 
 use super::clip::in_parents_parameter;
-use crate::outline::Sketch;
-use crate::quadric::body::{Chart, Frame, Shape, tangents};
+use crate::packet::FilterSource;
+use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, tangents};
 use crate::quadric::form::{Form, Rounded};
-use crate::quadric::solid::Body;
+use crate::quadric::solid::QuadricSolid;
 use crate::roots::quadratic::Quadratic;
 use crate::{LocalRay, Root};
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
 use durer_math::eft::exponent;
-use durer_math::{Aabb, Affine, Dd, Dyadic, Interval, Isa, Normal3, Point3, Ray, Ring, Run, Vec3};
+use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Interval, Isa, Normal3, Point3, Ray, Ring, Vec3};
 use std::sync::Arc;
 
 /// The box `min <= x <= max` as a region.
@@ -49,16 +49,16 @@ impl core::fmt::Debug for Region {
     }
 }
 
-/// The faces of a region: [`Shape`] without the generic methods.
+/// The faces of a region: [`QuadricFaces`] without the generic methods.
 trait Faces: Send + Sync {
     fn frame(&self) -> Frame;
     fn forms(&self) -> &[Rounded];
     fn exact(&self, face: usize) -> Form<Dyadic>;
-    fn wide(&self, face: usize) -> Form<Run<Dd>>;
-    fn sketch(&self) -> Sketch;
+    fn wide(&self, face: usize) -> Form<EFloat<Dd>>;
+    fn sketch(&self) -> FilterSource;
 }
 
-impl<S: Shape> Faces for Body<S> {
+impl<S: QuadricFaces> Faces for QuadricSolid<S> {
     fn frame(&self) -> Frame {
         self.shape().frame()
     }
@@ -71,12 +71,12 @@ impl<S: Shape> Faces for Body<S> {
         self.shape().form(face)
     }
 
-    fn wide(&self, face: usize) -> Form<Run<Dd>> {
+    fn wide(&self, face: usize) -> Form<EFloat<Dd>> {
         self.shape().form(face)
     }
 
-    fn sketch(&self) -> Sketch {
-        Sketch::of_shape(self.shape())
+    fn sketch(&self) -> FilterSource {
+        FilterSource::of_shape(self.shape())
     }
 }
 
@@ -94,7 +94,7 @@ fn plane_chart(y: Vec3, n: Vec3) -> Chart {
 
 const ORIGIN: Frame = Frame { centre: Point3::ORIGIN, scale: 0, reach: f64::INFINITY };
 
-impl Shape for Block {
+impl QuadricFaces for Block {
     fn frame(&self) -> Frame {
         ORIGIN
     }
@@ -120,7 +120,7 @@ impl Shape for Block {
     }
 }
 
-impl Shape for HalfSpace {
+impl QuadricFaces for HalfSpace {
     fn frame(&self) -> Frame {
         ORIGIN
     }
@@ -172,10 +172,10 @@ pub enum RegionError {
 
 impl Region {
     /// The inside of a solid with quadric faces, its boundary included; of a sheet, what its walls and its cut-offs enclose.
-    pub fn solid<S: Shape + 'static>(shape: S) -> Self {
+    pub fn solid<S: QuadricFaces + 'static>(shape: S) -> Self {
         let bounds = shape.bounds();
         let slabs = [bounds, Aabb::UNBOUNDED];
-        Self { faces: Arc::new(Body::of(shape)), map: None, inverse: false, bounds, slabs }
+        Self { faces: Arc::new(QuadricSolid::of(shape)), map: None, inverse: false, bounds, slabs }
     }
 
     /// The box from `min` to `max`, its boundary included.
@@ -231,7 +231,7 @@ impl Region {
     }
 
     /// What the region leaves of a surface.
-    pub(super) fn cut(&self, surface: Sketch) -> Sketch {
+    pub(super) fn cut(&self, surface: FilterSource) -> FilterSource {
         let region = self.faces.sketch();
         let region = match &self.map {
             Some(map) => region.placed(map),
@@ -262,7 +262,7 @@ impl Region {
         let at = local.recentre(frame.centre, frame.scale);
         let (lo, hi) = at.window((root.lo, root.hi));
         let s = 0.5 * (lo + hi);
-        let s = Run::with_error(s, (hi - s).max(s - lo));
+        let s = EFloat::with_error(s, (hi - s).max(s - lo));
         let mut doubtful = FaceSet::NONE;
         for (i, form) in self.faces.forms().iter().enumerate() {
             match form.along(at.o, at.d, at.o_err, at.d_err).at(s).sign() {
@@ -296,7 +296,7 @@ impl Region {
         &self,
         ray: &LocalRay<'_>,
         (doubtful, on): (FaceSet, FaceSet),
-        sign: impl Fn(&Quadratic<Run<Dd>>) -> Option<Ordering>,
+        sign: impl Fn(&Quadratic<EFloat<Dd>>) -> Option<Ordering>,
     ) -> Option<bool> {
         let mut worst = if on.is_empty() { Ordering::Less } else { Ordering::Equal };
         if !doubtful.is_empty() {

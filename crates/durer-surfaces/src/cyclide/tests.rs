@@ -1,6 +1,6 @@
 use super::*;
-use crate::laws::{Dice, Exact, Feature, ZeroOracle, check_many};
-use crate::{All, Axis, Kind, Placed, Torus};
+use crate::laws::{Exact, Feature, TestRng, ZeroOracle, check_many};
+use crate::{All, Axis, Placed, RootKind, Torus};
 use durer_math::Ray;
 
 /// `(x² + y² + z² - d² + b²)² - 4 (a x - c d)² - 4 b² y'²`: the other form of the equation, in which the roles of two axes are exchanged; expanded.
@@ -75,7 +75,7 @@ const KINDS: [[f64; 3]; 3] = [[10.0, 6.0, 7.5], [65.0, 25.0, 15.0], [25.0, 15.0,
 fn cyclides_obey_the_laws() {
     let (mut grazing, mut widths) = (0, vec![]);
     for seed in 0..24 {
-        let mut dice = Dice::new(seed);
+        let mut dice = TestRng::new(seed);
         let [a, c, d] = KINDS[seed as usize % 3];
         let k = match seed % 4 {
             0 => 1.0,
@@ -102,7 +102,7 @@ fn all<S: Surface>(surface: &S, ray: &Ray) -> Vec<Root> {
 fn without_focal_distance_it_is_the_torus() {
     let mut met = 0;
     for seed in 0..4000 {
-        let mut dice = Dice::new(seed);
+        let mut dice = TestRng::new(seed);
         let (major, minor) = (dice.scale(-4, 4), dice.scale(-4, 4));
         let map = dice.map();
         let torus = Torus::new(Point3::ORIGIN, Axis::Y, major, minor).unwrap();
@@ -131,7 +131,7 @@ fn boxes_hold_it_and_touch_it() {
     for (n, [a, c, d]) in KINDS.into_iter().enumerate() {
         let it = Cyclide::new(a, c, d).unwrap();
         let b = ((a - c) * (a + c)).sqrt();
-        let mut dice = Dice::new(n as u64);
+        let mut dice = TestRng::new(n as u64);
         for map in [Affine::IDENTITY, dice.map(), dice.map(), dice.map()] {
             let bounds = it.bounds_through(&map);
             let mut seen = Aabb::EMPTY;
@@ -155,12 +155,12 @@ fn boxes_hold_it_and_touch_it() {
 fn charts_follow_the_surface() {
     for (n, [a, c, d]) in KINDS.into_iter().enumerate() {
         let it = Cyclide::new(a, c, d).unwrap();
-        let mut dice = Dice::new(100 + n as u64);
+        let mut dice = TestRng::new(100 + n as u64);
         let mut met = 0;
         for _ in 0..2000 {
             let from = dice.vector() * (3.0 * (a + d));
             let ray = Ray::new(from.to_point(), dice.vector() * (a + d) - from);
-            for root in all(&it, &ray).iter().filter(|r| r.kind == Kind::Simple) {
+            for root in all(&it, &ray).iter().filter(|r| r.kind == RootKind::Simple) {
                 let p = it.resolve(&LocalRay::new(&ray), root, Need::ALL);
                 assert!(p.uv.iter().all(|x| (0.0..=1.0).contains(x)), "{p:?}");
                 // A small step along each line of the chart changes its coordinate by that much and not the other.

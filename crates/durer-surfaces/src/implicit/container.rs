@@ -1,6 +1,6 @@
 //! What a formula's surface is contained in.
 
-use crate::outline::Sketch;
+use crate::packet::FilterSource;
 use crate::{AxisBox, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Sphere, Surface, SurfacePoint};
 use durer_math::{Aabb, Affine};
 
@@ -43,10 +43,10 @@ impl Container {
         }
     }
 
-    pub(super) fn sketch(&self) -> Sketch {
+    pub(super) fn packet_filter(&self) -> FilterSource {
         match self {
-            Self::Box(it) => it.sketch(PartId(0)),
-            Self::Ball(it) => it.sketch(PartId(0)),
+            Self::Box(it) => it.packet_filter(PartId(0)),
+            Self::Ball(it) => it.packet_filter(PartId(0)),
         }
     }
 

@@ -3,8 +3,8 @@
 //! R. E. Moore, *Interval Analysis*, Prentice-Hall 1966; D. P. Mitchell, "Robust ray intersection with interval arithmetic", Graphics Interface 1990,
 //! here with eight stretches of one ray in each pass over the tape.
 
-use super::line::{Line, signs};
-use super::tracker::{Curve, Found, Verdict};
+use super::line::{BoundedLine, signs};
+use super::root_isolator::{CertifiedFunction, Found, SignInfo};
 use crate::tape::Tape;
 use durer_math::I8;
 
@@ -13,11 +13,11 @@ pub(super) const MOST_PASSES: u32 = 40_000;
 
 /// Tells `[lo, hi]` apart. `take` gets the stretches in ascending order, without holes, and says whether to go on.
 pub(super) fn isolate(
-    line: &Line,
+    line: &BoundedLine,
     tape: &Tape,
     (lo, hi): (f64, f64),
     passes: &mut u32,
-    take: &mut dyn FnMut(f64, f64, Verdict) -> bool,
+    take: &mut dyn FnMut(f64, f64, SignInfo) -> bool,
 ) -> bool {
     let node: [f64; 9] = core::array::from_fn(|i| match i {
         0 => lo,
@@ -29,26 +29,26 @@ pub(super) fn isolate(
     // Most stretches of a cell that the surface passes have no root: their bounds alone say so, at a third of the price.
     let v = line.bounds(tape, &a, &b);
     *passes += 1;
-    let plain = told(&v);
+    let plain = sign_infos(&v);
     if plain.iter().all(Option::is_some) {
         return (0..8).all(|i| plain[i].is_none_or(|verdict| take(a[i], b[i], verdict)));
     }
     let g = line.slopes(tape, &a, &b);
     *passes += 1;
-    let mut verdict = told(&g.v);
+    let mut verdict = sign_infos(&g.v);
     let smooth = !(g.v.partial | g.v.jump | g.d.partial);
     for (i, verdict) in
         verdict.iter_mut().enumerate().filter(|(i, verdict)| verdict.is_none() && smooth >> i & 1 == 1)
     {
         if g.d.lo.0[i] > 0.0 {
-            *verdict = Some(Verdict::Monotone(true));
+            *verdict = Some(SignInfo::Monotone(true));
         } else if g.d.hi.0[i] < 0.0 {
-            *verdict = Some(Verdict::Monotone(false));
+            *verdict = Some(SignInfo::Monotone(false));
         }
     }
     for (i, verdict) in verdict.iter_mut().enumerate() {
         if verdict.is_none() && g.v.jump >> i & 1 == 1 {
-            *verdict = line.sign_beside_jumps(tape, a[i], b[i]).map(Verdict::Sign);
+            *verdict = line.sign_beside_jumps(tape, a[i], b[i]).map(SignInfo::Sign);
             *passes += 1;
         }
     }
@@ -78,39 +78,39 @@ pub(super) fn isolate(
 }
 
 /// What bounds of the values alone say.
-fn told(v: &I8) -> [Option<Verdict>; 8] {
+fn sign_infos(v: &I8) -> [Option<SignInfo>; 8] {
     let sign = signs(v);
     core::array::from_fn(|i| match sign[i] {
-        Some(sign) => Some(Verdict::Sign(sign)),
-        None if v.empty >> i & 1 == 1 || v.lo.0[i] > 0.0 || v.hi.0[i] < 0.0 => Some(Verdict::Gap),
+        Some(sign) => Some(SignInfo::Sign(sign)),
+        None if v.empty >> i & 1 == 1 || v.lo.0[i] > 0.0 || v.hi.0[i] < 0.0 => Some(SignInfo::Gap),
         None => None,
     })
 }
 
 /// What the value in the middle and the steepest slope say of a stretch that reaches so far from there; `None`: it must be divided.
 fn by_mean_value(
-    line: &Line,
+    line: &BoundedLine,
     middle: &I8,
     i: usize,
     slope: Option<f64>,
     reach: f64,
     passes: u32,
-) -> Option<Verdict> {
+) -> Option<SignInfo> {
     if let Some(slope) = slope {
         let spread = slope * reach * (1.0 + 8.0 * f64::EPSILON) + f64::MIN_POSITIVE;
         let (lo, hi) = (middle.lo.0[i], middle.hi.0[i]);
         if lo > spread {
-            return Some(Verdict::Sign(true));
+            return Some(SignInfo::Sign(true));
         }
         if hi < -spread {
-            return Some(Verdict::Sign(false));
+            return Some(SignInfo::Sign(false));
         }
         // The value cannot be told from zero at the middle, and the stretch adds no more than the rounding.
         if lo <= 0.0 && hi >= 0.0 && spread <= hi - lo {
-            return Some(Verdict::Murky);
+            return Some(SignInfo::Unresolved);
         }
     }
-    (reach <= line.ulp || passes >= MOST_PASSES).then_some(Verdict::Murky)
+    (reach <= line.ulp || passes >= MOST_PASSES).then_some(SignInfo::Unresolved)
 }
 
 /// So many passes are spent on each part of a cluster of which it is asked whether it has one sign.
@@ -120,7 +120,7 @@ const MOST_PARTS: u32 = 128;
 
 /// A cluster without what certainly has the sign of before, or of behind, at its ends, where the work for a ray was too much to look at each stretch alike.
 #[cold]
-pub(super) fn trimmed(line: &Line, tape: &Tape, mut found: Found) -> Found {
+pub(super) fn trimmed(line: &BoundedLine, tape: &Tape, mut found: Found) -> Found {
     // What begins with another sign, as where a container's face meets the surface, has a crossing there.
     let (before, after) = match found.sign {
         0 => (found.touches, found.touches),
@@ -155,12 +155,12 @@ pub(super) fn trimmed(line: &Line, tape: &Tape, mut found: Found) -> Found {
 }
 
 /// Whether a stretch has this sign, as far as that can be told soon.
-fn has_sign(line: &Line, tape: &Tape, (lo, hi): (f64, f64), sign: bool) -> bool {
+fn has_sign(line: &BoundedLine, tape: &Tape, (lo, hi): (f64, f64), sign: bool) -> bool {
     let mut passes = MOST_PASSES - PASSES_OF_A_PART;
     isolate(line, tape, (lo, hi), &mut passes, &mut |a, b, verdict| match verdict {
-        Verdict::Sign(it) => it == sign,
+        SignInfo::Sign(it) => it == sign,
         // What rises is least where it begins.
-        Verdict::Monotone(rises) => line.sign(tape, if rises == sign { a } else { b }) == Some(sign),
-        Verdict::Gap | Verdict::Murky => false,
+        SignInfo::Monotone(rises) => line.sign(tape, if rises == sign { a } else { b }) == Some(sign),
+        SignInfo::Gap | SignInfo::Unresolved => false,
     })
 }

@@ -1,23 +1,23 @@
 //! Formulas' surfaces as lanes see them.
 //!
-//! Each line goes from cell to cell, past those in which the formula has one sign (`ahead.rs`). In a cell with surface the bounds of its gradient bound the slope `[l, h]` along the line:
+//! Each line goes from cell to cell, past those in which the formula has one sign (`march.rs`). In a cell with surface the bounds of its gradient bound the slope `[l, h]` along the line:
 //!
 //! ```text
 //!   0 not in [l, h]                 g goes one way: the sign at the end tells
 //!   |g(m)| > max(|l|, |h|) w / 2    g has the sign that it has in the middle m of a stretch of length w
 //! ```
 //!
-//! Else the formula is asked for bounds on the stretch, of the slope too (`pieces.rs`). What it is asked for, a value or a stretch of each line, it is asked eight times at once, by the tape that is right
+//! Else the formula is asked for bounds on the stretch, of the slope too (`subdivide.rs`). What it is asked for, a value or a stretch of each line, it is asked eight times at once, by the tape that is right
 //! for all of these lines.
 //!
-//! Lines are divided where rounded numbers say that they change cells, as those of single rays are (`cells.rs`, `grid.rs`): a point is sought in the cell that is a sixteenth of the margin ahead, and
+//! Lines are divided where rounded numbers say that they change cells, as those of single rays are (`octree.rs`, `octree_lookup.rs`): a point is sought in the cell that is a sixteenth of the margin ahead, and
 //! lines whose points are known worse than half of that do without lanes.
 
 use super::Isosurface;
-use super::ahead::Stop;
-use super::grid::Told;
-use super::pieces::{Pieces, boxes};
-use crate::outline::{Ends, Level, Line8, Part, Skin, Slant, Told8, Value8};
+use super::march::Stop;
+use super::octree_lookup::Lookup;
+use super::subdivide::{Pieces, boxes};
+use crate::packet::{Ends, ImplicitKernel, Line8, LineExtent8, Segment8, Skin, Slant, Value8};
 use crate::tape::Tape;
 use durer_math::{Dual, F8, I8, Isa, M8, U, Vec3};
 
@@ -46,7 +46,9 @@ impl Isosurface {
     fn in_signs(&self, line: &Line8, s: &F8, lanes: M8, value: &mut Value8) -> bool {
         (value.above, value.below) = (M8::NONE, M8::NONE);
         for i in lanes.lanes() {
-            let Told::Sign(above) = self.divided().grid().told(at(line, s.0[i], i)) else { return false };
+            let Lookup::Sign(above) = self.divided().grid().look_up(at(line, s.0[i], i)) else {
+                return false;
+            };
             value.g.0[i] = if above { 1.0 } else { -1.0 };
             if above { value.above.set_lane(i, true) } else { value.below.set_lane(i, true) }
         }
@@ -64,7 +66,7 @@ fn at(line: &Line8, s: f64, i: usize) -> [f64; 3] {
 /// Stretches are not asked to be shorter than this part of what holds the solid.
 const SHORTEST: f64 = durer_math::scale::pow2(-24);
 
-impl Level for Isosurface {
+impl ImplicitKernel for Isosurface {
     fn reach(&self) -> f64 {
         self.divided().reach()
     }
@@ -74,7 +76,7 @@ impl Level for Isosurface {
         (ends, self.divided().margin() * (1.0 / 32.0))
     }
 
-    fn part(&self, line: &Line8, part: &mut Part) {
+    fn part(&self, line: &Line8, part: &mut LineExtent8) {
         let margin = self.divided().margin();
         let far = F8::splat(2.0 * self.reach());
         line.isa.run_in_lanes(
@@ -83,7 +85,7 @@ impl Level for Isosurface {
         );
     }
 
-    fn tell(&self, line: &Line8, told: &mut Told8) {
+    fn classify(&self, line: &Line8, told: &mut Segment8) {
         let cells = self.divided();
         let stop = Stop::of(cells, line, told);
         let mut asked = M8::NONE;
@@ -112,7 +114,7 @@ impl Level for Isosurface {
         }
         let Some(tape) = tape else { return };
         let tape = if mixed { &self.tape } else { cells.tape(tape) };
-        Pieces::new(line, told, asked, &[stop.low, stop.high]).tell(tape, SHORTEST * self.reach(), told);
+        Pieces::new(line, told, asked, &[stop.low, stop.high]).classify(tape, SHORTEST * self.reach(), told);
     }
 
     fn values(&self, line: &Line8, s: &F8, lanes: M8, value: &mut Value8) {
@@ -168,7 +170,7 @@ impl Level for Isosurface {
         isa.run_in_lanes(
             #[inline(always)]
             || {
-                // So far around bounds of the gradient are asked for. Whether `off` stays within is looked at afterwards (`Outline::points`); the nearer, the tighter.
+                // So far around bounds of the gradient are asked for. Whether `off` stays within is looked at afterwards (`PacketFilter::points`); the nearer, the tighter.
                 let room = *e * 16.0 + reach * (1024.0 * U);
                 let axis = |y: F8, e: F8| I8::new(y - e - y.abs() * U, y + e + y.abs() * U);
                 x = [axis(y.x, *e), axis(y.y, *e), axis(y.z, *e)];

@@ -1,6 +1,6 @@
 //! A tape along a line: what `g(s) = f(q + s d)` is on stretches of `s`, with every rounding of the ray charged.
 
-use super::tracker::{Curve, interpolated};
+use super::root_isolator::{CertifiedFunction, interpolated};
 use crate::CentredRay;
 use crate::tape::Tape;
 use durer_math::eft::two_sum;
@@ -11,7 +11,7 @@ const TINY: f64 = durer_math::scale::pow2(-1000);
 
 /// The line `q + s d`, each coordinate known within an error, for `|s| <= reach`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line {
+pub(super) struct BoundedLine {
     q: [f64; 3],
     pub(super) d: [f64; 3],
     /// Per-axis bound on the error of the direction.
@@ -22,7 +22,7 @@ pub(super) struct Line {
     pub(super) ulp: f64,
 }
 
-impl Line {
+impl BoundedLine {
     /// The line of a ray that was re-centred with scale 0, as far as `reach`.
     pub(super) fn new(at: &CentredRay<'_>, reach: f64) -> Self {
         let (c, o, d) = (at.centre.to_array(), at.o.to_array(), at.d.to_array());
@@ -116,11 +116,11 @@ impl Line {
 
     /// The one sign of `g` from `a` to `b`, if it is certain.
     pub(super) fn sign_on(&self, tape: &Tape, a: f64, b: f64) -> Option<bool> {
-        Curve::signs(self, tape, &[a; 8], &[b; 8])[0]
+        CertifiedFunction::signs(self, tape, &[a; 8], &[b; 8])[0]
     }
 }
 
-impl Curve for Line {
+impl CertifiedFunction for BoundedLine {
     type Form<'a> = &'a Tape;
 
     fn same(a: &Tape, b: &Tape) -> bool {
@@ -167,7 +167,7 @@ impl Curve for Line {
 /// The root of a monotone `g` in `[lo, hi]`, and places with certain signs around it, 128 times `first` apart at most; by eight values at a time. `None` where that does
 /// not close in at once.
 fn closed_in(
-    line: &Line,
+    line: &BoundedLine,
     tape: &Tape,
     (lo, hi): (f64, f64),
     rises: bool,

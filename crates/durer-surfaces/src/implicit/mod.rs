@@ -10,42 +10,42 @@
 //! the formula is strictly monotone between two certain and opposite signs.
 //!
 //! What is exact here is the formula with its numbers. Where rounding leaves the sign open over a whole stretch (at tangents, mostly) the
-//! crossings of that stretch are one [`Kind::Cluster`](crate::Kind). Where the formula jumps from one sign to the other, also over a pole, the solid
+//! crossings of that stretch are one [`RootKind::Cluster`](crate::RootKind). Where the formula jumps from one sign to the other, also over a pole, the solid
 //! has a wall, which is a cluster too: no derivative says that there is just one. Where it is undefined there is no surface.
 
-mod ahead;
-mod along_face;
-mod cells;
+mod coincident_face;
 mod container;
-mod convex;
 pub mod deform;
-mod grid;
 mod isolate;
 mod lanes;
 pub mod level_set;
 mod line;
-mod pieces;
+mod march;
+mod octree;
+mod octree_lookup;
 mod point;
 mod polynomial;
+mod root_isolator;
 mod roots;
-mod star;
+mod subdivide;
 mod superellipsoid;
-mod tracker;
+mod superellipsoid_concave;
+mod superellipsoid_convex;
 
 pub use container::Container;
+pub(crate) use root_isolator::{CertifiedFunction, Found, RootIsolator, SignInfo};
 pub use superellipsoid::{SuperellipsoidError, superellipsoid};
-pub(crate) use tracker::{Curve, Found, Tracker, Verdict};
 
 use crate::compose::clip::Algebraic;
-use crate::outline::{Level, Sketch};
+use crate::packet::{FilterSource, ImplicitKernel};
 use crate::roots::quadratic::Quadratic;
 use crate::tape::{Builder, Formula, FormulaError, Op, Powers, Tape};
 use crate::{Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
-use cells::{Cells, Place};
-use convex::Gauge;
 use durer_math::{Aabb, Dyadic, F8, I8, Point3};
-use star::Star;
+use octree::{CellLookup, Cells};
 use std::sync::{Arc, OnceLock};
+use superellipsoid_concave::Star;
+use superellipsoid_convex::Gauge;
 
 /// A formula's surface in a container. Face 0 is the formula's, the container's faces follow.
 ///
@@ -123,7 +123,7 @@ impl Isosurface {
     /// A tape that is right within `reach` of `p` along each axis: a cell's own, if it can be.
     fn tape_near(&self, p: Point3, reach: f64) -> &Tape {
         match self.divided().place(p, reach) {
-            Some(Place::Open(tape) | Place::Slope(tape, _)) => tape,
+            Some(CellLookup::Open(tape) | CellLookup::Slope(tape, _)) => tape,
             _ => &self.tape,
         }
     }
@@ -170,15 +170,19 @@ impl Surface for Isosurface {
         self.point(ray, root, need)
     }
 
-    fn sketch(&self, _part: PartId) -> Sketch {
-        let level: Arc<dyn Level> = match (&self.gauge, &self.dented) {
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        let level: Arc<dyn ImplicitKernel> = match (&self.gauge, &self.dented) {
             (Some(gauge), _) => Arc::new(gauge.clone()),
             (None, Some(gauge)) => Arc::new(Star::new(gauge, self)),
             (None, None) => {
-                return Sketch::contained(self.container.sketch(), Arc::new(self.clone()), Point3::ORIGIN);
+                return FilterSource::contained(
+                    self.container.packet_filter(),
+                    Arc::new(self.clone()),
+                    Point3::ORIGIN,
+                );
             }
         };
-        Sketch::level(self.bounds(), level, Point3::ORIGIN)
+        FilterSource::level(self.bounds(), level, Point3::ORIGIN)
     }
 
     fn solidity(&self) -> Solidity {
@@ -197,9 +201,9 @@ impl Surface for Isosurface {
             return Side::Out;
         }
         let tape = match self.divided().place(point.p, point.p_err.max_abs()) {
-            Some(Place::Sign(above)) => return if above { Side::Out } else { held },
-            Some(Place::Open(tape) | Place::Slope(tape, _)) => tape,
-            Some(Place::Gap) | None => &self.tape,
+            Some(CellLookup::Sign(above)) => return if above { Side::Out } else { held },
+            Some(CellLookup::Open(tape) | CellLookup::Slope(tape, _)) => tape,
+            Some(CellLookup::Gap) | None => &self.tape,
         };
         let (p, e) = (point.p.to_array(), point.p_err.to_array());
         let around = |i: usize| {

@@ -1,7 +1,7 @@
 //! The point of a root: near it, how far from the surface, and how the surface bends there.
 
 use super::Isosurface;
-use super::line::Line;
+use super::line::BoundedLine;
 use crate::point::least_step;
 use crate::tape::{Tape, seed};
 use crate::{LocalRay, Need, Root, SurfacePoint};
@@ -82,7 +82,7 @@ impl Isosurface {
             return self.container.resolve(&own, &Root { face: root.face - 1, ..*root }, need);
         }
         let at = self.centred(ray);
-        let line = Line::new(&at, root.s.abs());
+        let line = BoundedLine::new(&at, root.s.abs());
         let p0 = line.point(root.s);
         let size = p0.to_vec().max_abs();
         let width = at.width(root.lo, root.hi);
@@ -102,7 +102,7 @@ impl Isosurface {
         let mut point = SurfacePoint::new(p, dp, off + slack, n.to_normal());
         point.bend = bend;
         if need.contains(Need::UV) || need.contains(Need::DERIVATIVES) {
-            let (u, v) = crate::quadric::body::tangents(n);
+            let (u, v) = crate::quadric::boolean_faces::tangents(n);
             point.uv = [u.dot(p.to_vec()), v.dot(p.to_vec())];
             (point.dpdu, point.dpdv) = (u, v);
         }

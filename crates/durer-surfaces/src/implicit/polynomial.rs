@@ -10,8 +10,8 @@
 //! either, the formula's own steps are asked.
 
 use super::isolate::isolate;
-use super::line::Line;
-use super::tracker::Verdict;
+use super::line::BoundedLine;
+use super::root_isolator::SignInfo;
 use crate::roots::bernstein::{Bernstein, FLOOR};
 use crate::tape::{Powers, Tape};
 use durer_math::{Isa, U};
@@ -21,10 +21,10 @@ const NEAR: f64 = 1.0 / 64.0;
 
 /// Tells `[lo, hi]` apart, as [`isolate`] does, if the formula is a polynomial of this degree at most.
 pub(super) fn isolate_powers(
-    (line, tape, degree): (&Line, &Tape, usize),
+    (line, tape, degree): (&BoundedLine, &Tape, usize),
     ends: (f64, f64),
     passes: &mut u32,
-    take: &mut dyn FnMut(f64, f64, Verdict) -> bool,
+    take: &mut dyn FnMut(f64, f64, SignInfo) -> bool,
 ) -> bool {
     match degree {
         0..=4 => Halves::<5>::of((line, tape), ends, passes, take),
@@ -33,7 +33,7 @@ pub(super) fn isolate_powers(
     }
 }
 
-impl Line {
+impl BoundedLine {
     /// The formula along the line from `mid` on, if it is a polynomial.
     fn powers(&self, tape: &Tape, mid: f64) -> Powers {
         let at = self.point(mid);
@@ -43,7 +43,7 @@ impl Line {
 
 /// A stretch with its middle and its half, and the parts of it that are told.
 struct Halves<'a, const N: usize> {
-    line: &'a Line,
+    line: &'a BoundedLine,
     tape: &'a Tape,
     lo: f64,
     hi: f64,
@@ -52,7 +52,7 @@ struct Halves<'a, const N: usize> {
 }
 
 /// The polynomial and its slope on a part, from `l` to `r` of `[-1, 1]`.
-struct Node<const N: usize> {
+struct PolynomialPart<const N: usize> {
     value: Bernstein<f64, N>,
     slope: Bernstein<f64, N>,
     l: f64,
@@ -61,10 +61,10 @@ struct Node<const N: usize> {
 
 impl<const N: usize> Halves<'_, N> {
     fn of(
-        (line, tape): (&Line, &Tape),
+        (line, tape): (&BoundedLine, &Tape),
         (lo, hi): (f64, f64),
         passes: &mut u32,
-        take: &mut dyn FnMut(f64, f64, Verdict) -> bool,
+        take: &mut dyn FnMut(f64, f64, SignInfo) -> bool,
     ) -> bool {
         let mid = 0.5 * lo + 0.5 * hi;
         let half = (hi - mid).max(mid - lo) * (1.0 + 2.0 * U);
@@ -78,9 +78,9 @@ impl<const N: usize> Halves<'_, N> {
         *passes += 1;
         let whole = Isa::detect().run(
             #[inline(always)]
-            || Node::new(&p, half, moved),
+            || PolynomialPart::new(&p, half, moved),
         );
-        Halves::<N> { line, tape, lo, hi, mid, half }.tell(&whole, passes, take)
+        Halves::<N> { line, tape, lo, hi, mid, half }.classify(&whole, passes, take)
     }
 
     /// The place on the line, rounded; what that is off by is charged to the coefficients.
@@ -88,20 +88,20 @@ impl<const N: usize> Halves<'_, N> {
         (self.half * x + self.mid).max(self.lo).min(self.hi)
     }
 
-    fn tell(
+    fn classify(
         &self,
-        node: &Node<N>,
+        node: &PolynomialPart<N>,
         passes: &mut u32,
-        take: &mut dyn FnMut(f64, f64, Verdict) -> bool,
+        take: &mut dyn FnMut(f64, f64, SignInfo) -> bool,
     ) -> bool {
         // The ends are those that are asked about.
         let a = if node.l == -1.0 { self.lo } else { self.place(node.l) };
         let b = if node.r == 1.0 { self.hi } else { self.place(node.r) };
         if let Some(sign) = node.value.one_sign() {
-            return take(a, b, Verdict::Sign(sign));
+            return take(a, b, SignInfo::Sign(sign));
         }
         if let Some(rises) = node.slope.one_sign() {
-            return take(a, b, Verdict::Monotone(rises));
+            return take(a, b, SignInfo::Monotone(rises));
         }
         let is_whole = node.r - node.l == 2.0;
         match (node.value.tells(), b - a > self.line.ulp) {
@@ -115,11 +115,11 @@ impl<const N: usize> Halves<'_, N> {
             #[inline(always)]
             || node.halves(),
         );
-        self.tell(&left, passes, take) && self.tell(&right, passes, take)
+        self.classify(&left, passes, take) && self.classify(&right, passes, take)
     }
 }
 
-impl<const N: usize> Node<N> {
+impl<const N: usize> PolynomialPart<N> {
     /// All of `half x`, where places are rounded by `moved` at most.
     #[inline(always)]
     fn new(p: &Powers, half: f64, moved: f64) -> Self {
@@ -162,7 +162,7 @@ impl<const N: usize> Node<N> {
 mod tests {
     use super::*;
     use crate::LocalRay;
-    use crate::laws::Dice;
+    use crate::laws::TestRng;
     use crate::tape::{Builder, NodeId, Op};
     use durer_math::scale::pow2;
     use durer_math::{Dyadic, Point3, Ray, Vec3};
@@ -198,7 +198,7 @@ mod tests {
         let tape = roman();
         let (mut signs, mut ways, mut passes) = (0, 0, 0);
         for seed in 0..2000 {
-            let mut dice = Dice::new(seed);
+            let mut dice = TestRng::new(seed);
             let on = [[1.0, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0; 3], [0.5, 0.5, 0.75]][dice.below(4) as usize];
             let ways_along = [[1.0, 1.0, 1.0], [0.5, -0.25, 0.25], [1.0, 0.0, 0.5], [-0.25, 1.0, 0.75]];
             let d = Vec3::from(ways_along[dice.below(4) as usize]);
@@ -207,7 +207,7 @@ mod tests {
             let ray = Ray::new(Point3::from(on) - d * back, d);
             let local = LocalRay::new(&ray);
             let at = local.recentre(Point3::ORIGIN, 0);
-            let line = Line::new(&at, 4.0);
+            let line = BoundedLine::new(&at, 4.0);
             let (lo, hi) = (-2.0 * dice.unit().abs() - 0.5, 2.0 * dice.unit().abs() + 0.5);
             let mut here = lo;
             let mut open = 0.0;
@@ -219,11 +219,11 @@ mod tests {
                 let places: Vec<f64> = (0..=8).map(|k| ((b - a) * f64::from(k) / 8.0 + a).min(b)).collect();
                 let values: Vec<Dyadic> = places.iter().map(|&s| exactly(&ray, of_ray(s))).collect();
                 match verdict {
-                    Verdict::Sign(sign) => {
+                    SignInfo::Sign(sign) => {
                         signs += 1;
                         assert!(values.iter().all(|v| v.exact_sign().is_gt() == sign), "{seed}: {a} {b}");
                     }
-                    Verdict::Monotone(rises) => {
+                    SignInfo::Monotone(rises) => {
                         ways += 1;
                         // Places that the ray's own parameter cannot tell apart say nothing.
                         for pair in values.windows(2).filter(|_| b - a > pow2(-30)) {
@@ -231,8 +231,8 @@ mod tests {
                             assert!(if rises { step.is_gt() } else { step.is_lt() }, "{seed}: {a} {b}");
                         }
                     }
-                    Verdict::Gap => panic!("{seed}: a polynomial is defined everywhere"),
-                    Verdict::Murky => open += b - a,
+                    SignInfo::Gap => panic!("{seed}: a polynomial is defined everywhere"),
+                    SignInfo::Unresolved => open += b - a,
                 }
                 true
             });

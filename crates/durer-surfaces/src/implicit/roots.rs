@@ -1,14 +1,14 @@
 //! The roots of a ray: the container's stretch of it, divided by cells, told apart, in one row with the caps.
 
 use super::Isosurface;
-use super::along_face;
-use super::cells::Place;
-use super::convex::Answer;
+use super::coincident_face;
 use super::isolate::{MOST_PASSES, isolate, trimmed};
-use super::line::Line;
+use super::line::BoundedLine;
+use super::octree::CellLookup;
 use super::polynomial::isolate_powers;
-use super::tracker::{Curve, Found, Tracker, Verdict};
-use crate::{CentredRay, Flow, Kind, LocalRay, Root, Sink};
+use super::root_isolator::{CertifiedFunction, Found, RootIsolator, SignInfo};
+use super::superellipsoid_convex::Answer;
+use crate::{CentredRay, Flow, LocalRay, Root, RootKind, Sink};
 use arrayvec::ArrayVec;
 use durer_math::RaySide;
 
@@ -64,9 +64,9 @@ impl Isosurface {
     #[inline(never)]
     fn roots_between(&self, ray: &LocalRay<'_>, (lo, hi): (f64, f64), sink: &mut dyn Sink) {
         let at = self.centred(ray);
-        let line = Line::new(&at, lo.abs().max(hi.abs()));
+        let line = BoundedLine::new(&at, lo.abs().max(hi.abs()));
         let ends = ray.rough.then(|| at.ends((ray.t_min, ray.t_max)));
-        let mut tracker = Tracker::new(&line, &self.tape, Some(true), ends);
+        let mut tracker = RootIsolator::new(&line, &self.tape, Some(true), ends);
         let mut passes = 0;
         let mut show = |found: Option<Found>| found.is_none_or(|it| shown(&at, sink, &it) == Flow::Continue);
         let told = isolate(&line, &self.tape, (lo, hi), &mut passes, &mut |a, b, verdict| {
@@ -115,7 +115,7 @@ impl Isosurface {
         let at = self.centred(ray);
         let (in_lo, in_hi) = at.window((entry.lo, entry.hi));
         let (out_lo, out_hi) = at.window((exit.lo, exit.hi));
-        let line = Line::new(&at, in_lo.abs().max(out_hi.abs()));
+        let line = BoundedLine::new(&at, in_lo.abs().max(out_hi.abs()));
         let mut held = Held { sink, from: entry.t, to: exit.t };
         let mut query = Query { surface: self, ray, at: &at, line: &line, sink: &mut held };
         query.run(&[(*entry, in_lo, in_hi), (*exit, out_lo, out_hi)]);
@@ -132,10 +132,10 @@ impl Isosurface {
         }
         let at = self.centred(ray);
         let stretch = at.window((touch.lo, touch.hi));
-        let line = Line::new(&at, stretch.0.abs().max(stretch.1.abs()));
+        let line = BoundedLine::new(&at, stretch.0.abs().max(stretch.1.abs()));
         let told = self.sign_on(&line, stretch);
         if !told.unwrap_or_else(|| self.rounded(&line, stretch)) {
-            let kind = if told.is_some() { touch.kind } else { Kind::Cluster };
+            let kind = if told.is_some() { touch.kind } else { RootKind::Cluster };
             let _ = self.cap(ray, &Root { kind, ..*touch }, sink);
         }
     }
@@ -168,24 +168,24 @@ impl Isosurface {
     }
 
     /// The one sign of the formula on a short stretch of a line, if it is certain: the cell knows, or its tape.
-    fn sign_on(&self, line: &Line, (lo, hi): (f64, f64)) -> Option<bool> {
+    fn sign_on(&self, line: &BoundedLine, (lo, hi): (f64, f64)) -> Option<bool> {
         let (middle, reach) = line.around(lo, hi);
         match self.divided().place(middle, reach) {
-            Some(Place::Sign(sign)) => Some(sign),
-            Some(Place::Open(tape) | Place::Slope(tape, _)) => line.sign_on(tape, lo, hi),
-            Some(Place::Gap) | None => line.sign_on(&self.tape, lo, hi),
+            Some(CellLookup::Sign(sign)) => Some(sign),
+            Some(CellLookup::Open(tape) | CellLookup::Slope(tape, _)) => line.sign_on(tape, lo, hi),
+            Some(CellLookup::Gap) | None => line.sign_on(&self.tape, lo, hi),
         }
     }
 
     /// Whether a solid's formula may be zero where the line crosses the container; it is defined there.
-    fn is_rim(&self, line: &Line, (lo, hi): (f64, f64)) -> bool {
+    fn is_rim(&self, line: &BoundedLine, (lo, hi): (f64, f64)) -> bool {
         let v = line.bounds(&self.tape, &[lo; 8], &[hi; 8]);
         let defined = (v.partial | v.empty) & 1 == 0;
         !self.open && defined && v.lo.0[0] <= 0.0 && v.hi.0[0] >= 0.0
     }
 
     /// The sign of the rounded value there. Undefined is outside.
-    fn rounded(&self, line: &Line, (lo, hi): (f64, f64)) -> bool {
+    fn rounded(&self, line: &BoundedLine, (lo, hi): (f64, f64)) -> bool {
         let within = line.value(&self.tape, 0.5 * lo + 0.5 * hi) < 0.0;
         !within
     }
@@ -196,7 +196,7 @@ struct Query<'a> {
     surface: &'a Isosurface,
     ray: &'a LocalRay<'a>,
     at: &'a CentredRay<'a>,
-    line: &'a Line,
+    line: &'a BoundedLine,
     sink: &'a mut dyn Sink,
 }
 
@@ -225,7 +225,7 @@ impl Query<'_> {
             }
             // The container's edge is all there is.
             Some(lo) => {
-                let (hi, kind) = (end.1, Kind::Cluster);
+                let (hi, kind) = (end.1, RootKind::Cluster);
                 let s = (0.5 * lo + 0.5 * hi).max(lo).min(hi);
                 let _ = shown(self.at, self.sink, &Found { s, lo, hi, sign: 0, kind, touches: None });
                 None
@@ -268,14 +268,14 @@ impl Query<'_> {
             line: self.line,
             at: self.at,
             sink: self.sink,
-            tracker: Tracker::new(self.line, &surface.tape, Some(start.before), ends),
+            tracker: RootIsolator::new(self.line, &surface.tape, Some(start.before), ends),
             last: range.1,
             passes: 0,
             rim: start.rim.map(|_| entry),
         };
         let a = start.at;
         if let Some(rim) = start.rim {
-            let _ = walk.tracker.take(rim, a, Verdict::Murky, &surface.tape);
+            let _ = walk.tracker.take(rim, a, SignInfo::Unresolved, &surface.tape);
         }
         if let Some(degree) = surface.degree {
             return if walk.all(degree, (a, end.1)) { walk.end(end, exit) } else { None };
@@ -286,7 +286,7 @@ impl Query<'_> {
         surface.divided().walk(self.line, (a, end.1), &mut |a, b, place| {
             if b >= range.0 {
                 go_on = ahead.drain(..).all(|(a, b, place)| walk.take(a, b, place)) && walk.take(a, b, place);
-            } else if let Place::Open(_) | Place::Slope(..) = place {
+            } else if let CellLookup::Open(_) | CellLookup::Slope(..) = place {
                 ahead.push((a, b, place));
             } else {
                 ahead.clear();
@@ -312,10 +312,10 @@ struct Start {
 /// A walk along the cells of a ray.
 struct Walk<'a, 's> {
     surface: &'a Isosurface,
-    line: &'a Line,
+    line: &'a BoundedLine,
     at: &'a CentredRay<'a>,
     sink: &'s mut dyn Sink,
-    tracker: Tracker<'a, Line>,
+    tracker: RootIsolator<'a, BoundedLine>,
     /// Roots behind this are of no interest.
     last: f64,
     passes: u32,
@@ -351,7 +351,7 @@ impl<'a> Walk<'a, '_> {
         let after = surface.sign_on(self.line, end).or(told);
         if after.is_none() && surface.is_rim(self.line, end) {
             // What is told before that is a root by itself.
-            let found = self.tracker.take(end.0, end.1, Verdict::Murky, &surface.tape);
+            let found = self.tracker.take(end.0, end.1, SignInfo::Unresolved, &surface.tape);
             if !self.show(found) {
                 return None;
             }
@@ -366,16 +366,16 @@ impl<'a> Walk<'a, '_> {
     }
 
     /// Takes the next cell's stretch; says whether to go on.
-    fn take(&mut self, a: f64, b: f64, place: Place<'a>) -> bool {
+    fn take(&mut self, a: f64, b: f64, place: CellLookup<'a>) -> bool {
         if self.is_beyond(a) {
             return false;
         }
         let whole = &self.surface.tape;
         let found = match place {
-            Place::Sign(sign) => self.tracker.settle(sign),
-            Place::Gap => self.tracker.take(a, b, Verdict::Gap, whole),
-            Place::Slope(tape, rises) => self.tracker.take(a, b, Verdict::Monotone(rises), tape),
-            Place::Open(tape) => {
+            CellLookup::Sign(sign) => self.tracker.settle(sign),
+            CellLookup::Gap => self.tracker.take(a, b, SignInfo::Gap, whole),
+            CellLookup::Slope(tape, rises) => self.tracker.take(a, b, SignInfo::Monotone(rises), tape),
+            CellLookup::Open(tape) => {
                 let (line, mut passes) = (self.line, self.passes);
                 let go_on = isolate(line, tape, (a, b), &mut passes, &mut |a, b, verdict| {
                     let found = self.tracker.take(a, b, verdict, tape);
@@ -405,7 +405,7 @@ impl<'a> Walk<'a, '_> {
                 }
             }
             // What was left when the passes had been used up may be much longer than what is open.
-            Some(found) if found.kind == Kind::Cluster && self.passes >= MOST_PASSES => {
+            Some(found) if found.kind == RootKind::Cluster && self.passes >= MOST_PASSES => {
                 shown(self.at, self.sink, &trimmed(self.line, &self.surface.tape, found))
             }
             Some(found) => shown(self.at, self.sink, &found),
@@ -427,10 +427,13 @@ impl<'a> Walk<'a, '_> {
     #[inline(never)]
     fn along_a_face(&mut self, lo: f64, hi: f64) -> Flow {
         let (at, sink) = (self.at, &mut *self.sink);
-        let told =
-            along_face::crossings(self.line, &self.surface.tape, (lo, hi), (false, false), &mut |found| {
-                shown(at, sink, found)
-            });
+        let told = coincident_face::crossings(
+            self.line,
+            &self.surface.tape,
+            (lo, hi),
+            (false, false),
+            &mut |found| shown(at, sink, found),
+        );
         told.unwrap_or(Flow::Continue)
     }
 }

@@ -6,8 +6,8 @@
 //!   e shapes the sections across z (1: circles, towards 0: squares, 2: diamonds, beyond: stars), n those along z
 //! ```
 //!
-//! With `e <= 2` and `n <= 2` it is convex, and most rays do without what follows (`convex/`). With `2 <= e, n <= 8` what is outside is convex between the planes of two axes, and lanes do
-//! without it outside (`star.rs`).
+//! With `e <= 2` and `n <= 2` it is convex, and most rays do without what follows (`superellipsoid_convex/`). With `2 <= e, n <= 8` what is outside is convex between the planes of two axes, and lanes do
+//! without it outside (`superellipsoid_concave.rs`).
 //!
 //! A. H. Barr, "Superquadrics and angle-preserving transformations", *IEEE Computer Graphics and Applications* 1(1), 1981.
 //!
@@ -16,7 +16,7 @@
 //! told apart by the bounds alone, down to the rounding of the formula if need be: no crossing is lost, but one on an edge or at a tip of the
 //! surface itself may be reported as a cluster.
 
-use super::convex::Gauge;
+use super::superellipsoid_convex::Gauge;
 use super::{Container, Isosurface, IsosurfaceError};
 use crate::tape::{Builder, Formula, FormulaError, NodeId, Op};
 use crate::{AxisBox, AxisBoxError};

@@ -16,10 +16,10 @@
 //! **Near it** balls around the orbits of eight stretches say what they say of the eight stretches of one ray. How near, and how long these are at first, goes with the orbit's derivative; behind one that
 //! was passed the next one is longer by three tenths, and nobody asks how far away the solid is until they are long, or lead away from it. The factors were found by trying.
 
-use super::lift::Lift;
+use super::embed::Lift;
 use super::orbit::{Ball, Rule, TINY};
 use super::{JuliaPower, Solid};
-use crate::outline::{Level, Line8, Part, Sketch, Skin, Slant, Told8, Value8};
+use crate::packet::{FilterSource, ImplicitKernel, Line8, LineExtent8, Segment8, Skin, Slant, Value8};
 use durer_math::scale::pow2;
 use durer_math::{Aabb, F8, Isa, M8, Point3, U, Vec3};
 use std::sync::Arc;
@@ -43,13 +43,13 @@ const AROUND: f64 = pow2(-30);
 
 impl<const M: usize, const C: usize> Solid<M, C> {
     /// As lanes see it, if they can.
-    pub(super) fn sketch(&self, bounds: Aabb) -> Sketch {
+    pub(super) fn packet_filter(&self, bounds: Aabb) -> FilterSource {
         let Rule { escapes, iterations, radius, .. } = self.rule;
         let seen = escapes && (iterations as usize) < MOST && radius > 1.0 && 4.0 * radius * radius < GONE;
         if seen {
-            Sketch::level(bounds, Arc::new(self.clone()), Point3::ORIGIN)
+            FilterSource::level(bounds, Arc::new(self.clone()), Point3::ORIGIN)
         } else {
-            Sketch::vague(bounds)
+            FilterSource::vague(bounds)
         }
     }
 
@@ -258,12 +258,12 @@ fn sum(v: Vec3<F8>) -> F8 {
     v.x.abs() + v.y.abs() + v.z.abs()
 }
 
-impl<const M: usize, const C: usize> Level for Solid<M, C> {
+impl<const M: usize, const C: usize> ImplicitKernel for Solid<M, C> {
     fn reach(&self) -> f64 {
         self.radius
     }
 
-    fn part(&self, line: &Line8, part: &mut Part) {
+    fn part(&self, line: &Line8, part: &mut LineExtent8) {
         line.isa.run_in_lanes(
             #[inline(always)]
             || {
@@ -283,7 +283,7 @@ impl<const M: usize, const C: usize> Level for Solid<M, C> {
         );
     }
 
-    fn tell(&self, line: &Line8, told: &mut Told8) {
+    fn classify(&self, line: &Line8, told: &mut Segment8) {
         let mut far = M8::NONE;
         let is_far = line.isa.run_in_lanes(
             #[inline(always)]

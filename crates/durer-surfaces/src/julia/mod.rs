@@ -18,21 +18,21 @@
 //! **The extent.** A point is no longer than it is in its slice. Of quaternions `|z_(n+1)| <= ρ` needs `|z_n|^k <= ρ + |c|`, so that `N` roots leave a
 //! smaller ball than `n = 0` does; and so it is for the two complex numbers of a hypercomplex one, which are `√2` times as long at most.
 
+mod embed;
 mod lanes;
-mod lift;
 mod orbit;
 mod point;
 mod roots;
-mod rounded;
+mod single_precision;
 #[cfg(test)]
 mod tests;
 
 use crate::compose::clip::Algebraic;
-use crate::outline::Sketch;
+use crate::packet::FilterSource;
 use crate::roots::quadratic::Quadratic;
 use crate::{Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use durer_math::{Aabb, Affine, Dyadic, Interval, Point3, Vec3, elementary};
-use lift::Lift;
+use embed::Lift;
 use orbit::{Rule, TINY};
 use std::sync::Arc;
 
@@ -252,10 +252,10 @@ impl Surface for JuliaSet {
         }
     }
 
-    fn sketch(&self, _part: PartId) -> Sketch {
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
         match &*self.0 {
-            Algebra::Quaternion(set) => set.sketch(self.bounds()),
-            Algebra::Hypercomplex(set) => set.sketch(self.bounds()),
+            Algebra::Quaternion(set) => set.packet_filter(self.bounds()),
+            Algebra::Hypercomplex(set) => set.packet_filter(self.bounds()),
         }
     }
 

@@ -34,7 +34,7 @@ pub(super) struct Ball<T, const C: usize> {
 
 /// What is known of eight stretches.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Known {
+pub(super) struct StretchSigns8 {
     /// Certainly outside.
     pub(super) out: M8,
     /// Certainly inside.
@@ -176,7 +176,7 @@ fn outside<T: Real, const M: usize, const C: usize>(
 }
 
 /// What the `n`-th points say of `|z_n|`, as numbers that are positive where something is certain.
-struct Told<T> {
+struct OrbitSigns<T> {
     out: Eight<T>,
     within: Eight<T>,
     rises: Eight<T>,
@@ -186,11 +186,11 @@ struct Told<T> {
 }
 
 #[inline(always)]
-fn tell<T: Real, const M: usize, const C: usize>(
+fn classify<T: Real, const M: usize, const C: usize>(
     balls: &[Ball<T, C>; M],
     (radius, radius_err): (T, T),
-) -> Told<T> {
-    let mut told = Told {
+) -> OrbitSigns<T> {
+    let mut told = OrbitSigns {
         out: Eight::ZERO,
         within: Eight::ZERO,
         rises: Eight::ZERO,
@@ -238,9 +238,9 @@ fn tell<T: Real, const M: usize, const C: usize>(
 impl<T: Real, const M: usize, const C: usize> Rule<T, M, C> {
     /// What is certain of eight stretches that begin as `balls`. Where a lane is outside it may be anything else, too.
     #[inline(always)]
-    pub(super) fn known(&self, mut balls: [Ball<T, C>; M]) -> Known {
+    pub(super) fn known(&self, mut balls: [Ball<T, C>; M]) -> StretchSigns8 {
         let radius = (self.radius, self.radius_err);
-        let mut known = Known::default();
+        let mut known = StretchSigns8::default();
         let (mut one, mut many, mut rises, mut falls) = (M8::NONE, M8::NONE, M8::NONE, M8::NONE);
         // Positive where a lane is outside.
         let mut out = Eight::ZERO;
@@ -249,11 +249,11 @@ impl<T: Real, const M: usize, const C: usize> Rule<T, M, C> {
                 if self.may_leave(&balls, &out) {
                     out.raise(&outside(&balls, radius));
                     if out.are_all_positive() {
-                        return Known { out: M8::ALL, ..known };
+                        return StretchSigns8 { out: M8::ALL, ..known };
                     }
                 }
             } else {
-                let told = tell(&balls, radius);
+                let told = classify(&balls, radius);
                 out.raise(&told.out);
                 known.out = out.are_positive();
                 if known.out.all() {

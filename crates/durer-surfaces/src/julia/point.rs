@@ -3,7 +3,7 @@
 use super::Solid;
 use super::orbit::{Ball, Rule, TINY};
 use crate::point::least_step;
-use crate::quadric::body::tangents;
+use crate::quadric::boolean_faces::tangents;
 use crate::{LocalPoint, LocalRay, Need, Root, Side, SurfacePoint};
 use core::cmp::Ordering::Less;
 use durer_math::{Isa, Point3, U, Vec3};

@@ -1,8 +1,8 @@
 //! The roots of a ray: stretches told apart by the balls around their orbits, and put in one row.
 
 use super::Solid;
-use super::lift::Line;
-use crate::implicit::{Curve, Found, Tracker, Verdict};
+use super::embed::EmbeddedLine;
+use crate::implicit::{CertifiedFunction, Found, RootIsolator, SignInfo};
 use crate::{CentredRay, Flow, LocalRay, Root, Sink};
 use durer_math::{Isa, Point3, RaySide};
 
@@ -10,13 +10,13 @@ use durer_math::{Isa, Point3, RaySide};
 const MOST_PASSES: u32 = 20_000;
 
 struct Query<'a, const M: usize, const C: usize> {
-    line: &'a Line<'a, M, C>,
+    line: &'a EmbeddedLine<'a, M, C>,
     ray: &'a LocalRay<'a>,
     at: &'a CentredRay<'a>,
     sink: &'a mut dyn Sink,
     /// Roots behind this are of no interest.
     last: f64,
-    tracker: Tracker<'a, Line<'a, M, C>>,
+    tracker: RootIsolator<'a, EmbeddedLine<'a, M, C>>,
     passes: u32,
 }
 
@@ -37,7 +37,7 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         if from > last || to < first {
             return;
         }
-        let line = Line::new(&self.rule, &self.lift, &at, first.abs().max(last.abs()));
+        let line = EmbeddedLine::new(&self.rule, &self.lift, &at, first.abs().max(last.abs()));
         // Outside of the ball all is outside. A ray that was spawned on the surface starts on a side that is known. Any other one is looked at all along, so that it
         // has the same roots whatever its range is.
         let (a, before) = match ray.source {
@@ -45,7 +45,7 @@ impl<const M: usize, const C: usize> Solid<M, C> {
             _ => (first, Some(true)),
         };
         let ends = ray.rough.then(|| at.ends((ray.t_min, ray.t_max)));
-        let tracker = Tracker::new(&line, (), before, ends);
+        let tracker = RootIsolator::new(&line, (), before, ends);
         let mut query = Query { line: &line, ray, at: &at, sink, last: to, tracker, passes: 0 };
         if a < last
             && query.isolate(a, last) == Flow::Continue
@@ -58,8 +58,13 @@ impl<const M: usize, const C: usize> Solid<M, C> {
     /// The part of a ray within the ball that holds the solid; all of it that can be if the ray is not well known.
     #[inline(always)]
     fn stretch(&self, at: &CentredRay<'_>) -> Option<(f64, f64)> {
-        let (mid, half) =
-            crate::zero_set::ball_and_slab(at, self.radius, (0.0, 0.0), (-1.0, 1.0), super::ROOM / 2.0)?;
+        let (mid, half) = crate::polynomial_surface::ball_and_slab(
+            at,
+            self.radius,
+            (0.0, 0.0),
+            (-1.0, 1.0),
+            super::ROOM / 2.0,
+        )?;
         // The direction is no shorter than one.
         let far = 2.0 * self.radius;
         Some(if half < f64::INFINITY { (mid - half, mid + half) } else { (-far, far) })
@@ -99,11 +104,11 @@ impl<const M: usize, const C: usize> Query<'_, M, C> {
         }
         for i in 0..8 {
             let verdict = match () {
-                () if known.out.lane(i) => Verdict::Sign(true),
-                () if known.within.lane(i) => Verdict::Sign(false),
-                () if known.rises.lane(i) => Verdict::Monotone(true),
-                () if known.falls.lane(i) => Verdict::Monotone(false),
-                () if murky >> i & 1 == 1 => Verdict::Murky,
+                () if known.out.lane(i) => SignInfo::Sign(true),
+                () if known.within.lane(i) => SignInfo::Sign(false),
+                () if known.rises.lane(i) => SignInfo::Monotone(true),
+                () if known.falls.lane(i) => SignInfo::Monotone(false),
+                () if murky >> i & 1 == 1 => SignInfo::Unresolved,
                 () => {
                     if self.isolate(a[i], b[i]) == Flow::Stop {
                         return Flow::Stop;

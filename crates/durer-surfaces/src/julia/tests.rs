@@ -2,7 +2,7 @@
 
 use super::JuliaPower;
 use super::orbit::{Ball, Rule, TINY};
-use crate::laws::Dice;
+use crate::laws::TestRng;
 use core::cmp::Ordering::{Greater, Less};
 use durer_math::scale::pow2;
 use durer_math::{Dyadic, F8, Ring, U};
@@ -39,7 +39,7 @@ fn exact<const M: usize, const C: usize>(
 /// Radii that are as near to the ends of stretches as f32 can tell, or nearer, and stretches that are long and short beside its roundings: what it says is certain all the same, and of long
 /// ones it says nearly as much as f64 does, or lanes would look in vain.
 fn what_f32_says_is_so<const M: usize, const C: usize>(seed: u64) {
-    let mut dice = Dice::new(seed);
+    let mut dice = TestRng::new(seed);
     let (mut told, mut told_fine) = ([0; 4], [0; 4]);
     let mut tried = 0;
     while tried < 1200 {

@@ -366,7 +366,7 @@ impl ExactForm {
     }
 
     /// Along a line.
-    pub fn along(&self, line: &Line) -> Poly {
+    pub fn along(&self, line: &ExactLine) -> Poly {
         let qd = self.times(&line.d);
         Poly { a: dot(&qd, &line.d), b: &dot(&qd, &line.o) + &dot(&self.b, &line.d), c: self.value(&line.o) }
     }
@@ -374,14 +374,14 @@ impl ExactForm {
 
 /// A ray's line, exactly.
 #[derive(Clone, Debug)]
-pub struct Line {
+pub struct ExactLine {
     /// The point at `t = 0`.
     pub o: [Exact; 3],
     /// The direction.
     pub d: [Exact; 3],
 }
 
-impl Line {
+impl ExactLine {
     /// The line of a ray.
     pub fn new(ray: &Ray) -> Self {
         Self { o: exact3(ray.origin.to_array()), d: exact3(ray.direction.to_array()) }
@@ -407,7 +407,7 @@ pub struct Crossing {
 /// Who knows the truth about a surface.
 pub trait Oracle {
     /// All crossings with a line, ascending, each once.
-    fn crossings(&self, line: &Line) -> Vec<Crossing>;
+    fn crossings(&self, line: &ExactLine) -> Vec<Crossing>;
 
     /// On which side of a face (numbered as in `Root::face`) a point lies: `Greater` where its normal points.
     fn face_side(&self, face: u32, point: &[Exact; 3]) -> Ordering;
@@ -454,7 +454,7 @@ impl ExactBody {
 
 impl Oracle for ExactBody {
     /// All roots of all faces cut the line into pieces; each piece is inside or outside as its middle is.
-    fn crossings(&self, line: &Line) -> Vec<Crossing> {
+    fn crossings(&self, line: &ExactLine) -> Vec<Crossing> {
         let polys: Vec<Poly> = self.faces.iter().map(|f| f.along(line)).collect();
         let all = |t: &Surd| polys.iter().all(|p| t.sign_of(p).is_le());
         let considered = &polys[..self.walls];
@@ -548,7 +548,7 @@ pub struct Clipped<O> {
 }
 
 impl<O: Oracle> Oracle for Clipped<O> {
-    fn crossings(&self, line: &Line) -> Vec<Crossing> {
+    fn crossings(&self, line: &ExactLine) -> Vec<Crossing> {
         let cuts: Vec<Poly> = self.cuts.iter().map(|f| f.along(line)).collect();
         let mut all = self.whole.crossings(line);
         all.retain(|c| cuts.iter().all(|q| c.t.sign_of(q).is_le()));
@@ -577,6 +577,6 @@ impl<O: Oracle> Oracle for Clipped<O> {
 }
 
 /// The point of a line nearest to `t`, in f64: for messages.
-pub fn near(line: &Line, t: &Surd) -> Point3 {
+pub fn near(line: &ExactLine, t: &Surd) -> Point3 {
     Point3::from(line.at(&t.about(200)).map(|x| x.to_f64()))
 }

@@ -3,16 +3,17 @@
 //! A surface joins with an [`Oracle`] (its exact description, usually an [`ExactBody`]), a few [`Feature`]s at which rays are aimed, and
 //! one call of [`check_many`]. Witnesses are exact: big integers that share no code with the kernels.
 
-pub mod dice;
 pub mod exact;
 pub mod real_root;
+pub mod test_rng;
 
-pub use dice::{Dice, Feature, aim};
-pub use exact::{Clipped, Crossing, Exact, ExactBody, ExactForm, Line, Oracle, Surd, exact3, near};
+pub use exact::{Clipped, Crossing, Exact, ExactBody, ExactForm, ExactLine, Oracle, Surd, exact3, near};
 pub use real_root::{RealRoot, ZeroOracle, real_roots};
+pub use test_rng::{Feature, TestRng, aim};
 
 use crate::{
-    All, Any, Closest, Kind, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+    All, Any, Closest, LocalPoint, LocalRay, Need, Root, RootKind, Side, Sink, Solidity, Surface,
+    SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::{Ray, RaySide, U, Vec3};
@@ -31,26 +32,26 @@ macro_rules! ensure {
 }
 
 /// A surface under test, behind a pointer, so that the laws and each surface's kernel are compiled once.
-pub trait Subject: Surface + core::fmt::Debug {
+pub trait TestSurface: Surface + core::fmt::Debug {
     /// Shows the roots to any sink.
     fn send(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink);
 }
 
-impl<S: Surface + core::fmt::Debug> Subject for S {
+impl<S: Surface + core::fmt::Debug> TestSurface for S {
     fn send(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         self.roots(ray, sink);
     }
 }
 
 /// All roots of a surface.
-pub fn all_roots(surface: &dyn Subject, ray: &Ray) -> Vec<Root> {
+pub fn all_roots(surface: &dyn TestSurface, ray: &Ray) -> Vec<Root> {
     let mut sink = All::default();
     surface.send(&LocalRay::new(ray), &mut sink);
     sink.roots
 }
 
 /// Every law that one ray can test. Returns the roots.
-pub fn check(surface: &dyn Subject, oracle: &dyn Oracle, ray: &Ray) -> Result<Vec<Root>, Broken> {
+pub fn check(surface: &dyn TestSurface, oracle: &dyn Oracle, ray: &Ray) -> Result<Vec<Root>, Broken> {
     let roots = roots_are_the_exact_crossings(surface, oracle, ray, None)?;
     closest_is_the_first_of_all(surface, ray, &roots)?;
     brackets_are_narrow(surface, oracle, ray, &roots)?;
@@ -59,7 +60,7 @@ pub fn check(surface: &dyn Subject, oracle: &dyn Oracle, ray: &Ray) -> Result<Ve
     for root in &roots {
         // Beyond 2^450 sizes squares leave the range of f64.
         let far = ray.at(root.t).to_vec().max_abs() > oracle.size() * durer_math::scale::ldexp(1.0, 450);
-        if root.kind != Kind::Cluster && !far {
+        if root.kind != RootKind::Cluster && !far {
             points_are_within_their_bounds(surface, oracle, ray, root)?;
         }
     }
@@ -74,7 +75,7 @@ pub fn check(surface: &dyn Subject, oracle: &dyn Oracle, ray: &Ray) -> Result<Ve
 ///
 /// If a law is broken: with the law, the seed and the ray.
 pub fn check_many(
-    surface: &dyn Subject,
+    surface: &dyn TestSurface,
     oracle: &dyn Oracle,
     features: &[Feature],
     seed: u64,
@@ -84,7 +85,7 @@ pub fn check_many(
     let variable = |name: &str| std::env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
     let (soak, from) = (variable("DURER_SOAK"), variable("DURER_SOAK_FROM").unwrap_or(0));
     for i in count * from..count * (from + soak.unwrap_or(1)) {
-        let mut dice = Dice::new(seed.wrapping_mul(0x1_0000_0001).wrapping_add(i));
+        let mut dice = TestRng::new(seed.wrapping_mul(0x1_0000_0001).wrapping_add(i));
         let ray = aim(&mut dice, features, oracle.size());
         if !ray.is_valid() {
             continue;
@@ -93,7 +94,7 @@ pub fn check_many(
             Ok(roots) => {
                 tally.rays += 1;
                 tally.roots += roots.len() as u64;
-                tally.grazing += roots.iter().filter(|r| r.kind == Kind::Grazing).count() as u64;
+                tally.grazing += roots.iter().filter(|r| r.kind == RootKind::Grazing).count() as u64;
                 for root in &roots {
                     tally.widths.push(width(surface, oracle, &ray, root));
                 }
@@ -132,7 +133,7 @@ impl Tally {
 }
 
 /// The width of a bracket, in ulp of `max(|t|, size / |d|)`. An unbounded surface is as large as the part of it that is looked at.
-pub fn width(surface: &dyn Subject, oracle: &dyn Oracle, ray: &Ray, root: &Root) -> f64 {
+pub fn width(surface: &dyn TestSurface, oracle: &dyn Oracle, ray: &Ray, root: &Root) -> f64 {
     let k = durer_math::eft::exponent(ray.direction.max_abs());
     let length = ray.direction.map(|x| durer_math::scale::ldexp(x, -k)).length();
     let place = ray.at(root.t).to_vec().max_abs();
@@ -144,7 +145,7 @@ pub fn width(surface: &dyn Subject, oracle: &dyn Oracle, ray: &Ray, root: &Root)
 
 /// P1, P2, P3, P6: no crossing is missing, extra or doubled; each lies in its bracket, in order, with its sign and kind.
 pub fn roots_are_the_exact_crossings(
-    surface: &dyn Subject,
+    surface: &dyn TestSurface,
     oracle: &dyn Oracle,
     ray: &Ray,
     source: Option<(RaySide, u32)>,
@@ -154,7 +155,7 @@ pub fn roots_are_the_exact_crossings(
     local.source_face = source.map_or(0, |(_, face)| face);
     surface.send(&local, &mut sink);
     let roots = sink.roots;
-    let line = Line::new(ray);
+    let line = ExactLine::new(ray);
     let inside = |t: &Surd| {
         (!ray.t_min.is_finite() || t.cmp_exact(&ray.t_min.into()).is_ge())
             && (!ray.t_max.is_finite() || t.cmp_exact(&ray.t_max.into()).is_le())
@@ -183,7 +184,7 @@ pub fn roots_are_the_exact_crossings(
         let below = !root.hi.is_finite() || crossing.t.cmp_exact(&root.hi.into()).is_le();
         ensure!(above && below, "the crossing is not in the bracket{}", told());
         ensure!(
-            root.kind == if crossing.grazing { Kind::Grazing } else { Kind::Simple },
+            root.kind == if crossing.grazing { RootKind::Grazing } else { RootKind::Simple },
             "the kind is wrong{}",
             told()
         );
@@ -194,7 +195,7 @@ pub fn roots_are_the_exact_crossings(
 }
 
 /// The parts of a surface have the whole's roots, each within the part's box: says how many parts were asked and how many roots they have.
-pub fn parts_are_the_whole<S: Subject>(surface: &S, ray: &Ray) -> Result<(usize, usize), Broken> {
+pub fn parts_are_the_whole<S: TestSurface>(surface: &S, ray: &Ray) -> Result<(usize, usize), Broken> {
     let local = LocalRay::new(ray);
     let (mut sink, mut parts, mut astray) = (All::default(), 0, None);
     surface.parts(&mut |bounds, part| {
@@ -219,7 +220,11 @@ pub fn parts_are_the_whole<S: Subject>(surface: &S, ray: &Ray) -> Result<(usize,
 }
 
 /// P3: closest is the least of all, and any says whether there is one.
-pub fn closest_is_the_first_of_all(surface: &dyn Subject, ray: &Ray, roots: &[Root]) -> Result<(), Broken> {
+pub fn closest_is_the_first_of_all(
+    surface: &dyn TestSurface,
+    ray: &Ray,
+    roots: &[Root],
+) -> Result<(), Broken> {
     let (mut closest, mut any) = (Closest::default(), Any::default());
     surface.send(&LocalRay::new(ray), &mut closest);
     surface.send(&LocalRay::new(ray), &mut any);
@@ -233,7 +238,7 @@ pub fn closest_is_the_first_of_all(surface: &dyn Subject, ray: &Ray, roots: &[Ro
 /// P8: a bracket is at most 96 ulp of `max(|t|, size / |d|)` wide: 48, where size over length is taken as a half though it may be 0.29, and
 /// what rounding `t` adds.
 pub fn brackets_are_narrow(
-    surface: &dyn Subject,
+    surface: &dyn TestSurface,
     oracle: &dyn Oracle,
     ray: &Ray,
     roots: &[Root],
@@ -249,7 +254,11 @@ pub fn brackets_are_narrow(
 }
 
 /// P7: a ray read backwards meets the same crossings, in the opposite order.
-pub fn a_reversed_ray_meets_the_same(surface: &dyn Subject, ray: &Ray, roots: &[Root]) -> Result<(), Broken> {
+pub fn a_reversed_ray_meets_the_same(
+    surface: &dyn TestSurface,
+    ray: &Ray,
+    roots: &[Root],
+) -> Result<(), Broken> {
     let back = Ray::new(ray.origin, -ray.direction).with_range(-ray.t_max, -ray.t_min);
     let reversed = all_roots(surface, &back);
     ensure!(reversed.len() == roots.len(), "backwards {} roots, forwards {}", reversed.len(), roots.len());
@@ -263,7 +272,11 @@ pub fn a_reversed_ray_meets_the_same(surface: &dyn Subject, ray: &Ray, roots: &[
 }
 
 /// P7: a direction times a power of two divides every `t` by it, bit for bit.
-pub fn powers_of_two_change_nothing(surface: &dyn Subject, ray: &Ray, roots: &[Root]) -> Result<(), Broken> {
+pub fn powers_of_two_change_nothing(
+    surface: &dyn TestSurface,
+    ray: &Ray,
+    roots: &[Root],
+) -> Result<(), Broken> {
     let scaled = Ray::new(ray.origin, ray.direction * 8.0).with_range(ray.t_min * 0.125, ray.t_max * 0.125);
     // Subnormal numbers are rounded outward once more.
     let exact = |x: f64| x == 0.0 || (x * 0.125 * 8.0 == x && (x * 0.125).abs() >= f64::MIN_POSITIVE);
@@ -283,12 +296,12 @@ pub fn powers_of_two_change_nothing(surface: &dyn Subject, ray: &Ray, roots: &[R
 /// P4, P5, P11, P12: the point is within `dp` of the exact one and in the bounds; its normal is the surface's; rays start on the asked side, and
 /// what they meet is what the exact ray meets.
 pub fn points_are_within_their_bounds(
-    surface: &dyn Subject,
+    surface: &dyn TestSurface,
     oracle: &dyn Oracle,
     ray: &Ray,
     root: &Root,
 ) -> Result<(), Broken> {
-    let line = Line::new(ray);
+    let line = ExactLine::new(ray);
     let Some(exact) = oracle.crossings(&line).into_iter().find(|c| {
         // Of two crossings closer than t can tell, the one that goes the root's way.
         c.sign == root.sign

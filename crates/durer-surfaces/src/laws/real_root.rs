@@ -1,7 +1,7 @@
 //! The witness for polynomials of any degree: exact real roots by Sturm's theorem on whole numbers, and surfaces that are the zero set of one
 //! polynomial.
 
-use super::exact::{Crossing, Exact, Line, Oracle};
+use super::exact::{Crossing, Exact, ExactLine, Oracle};
 use core::cmp::Ordering;
 use dashu::base::{Gcd, Signed};
 use dashu::integer::IBig;
@@ -302,7 +302,7 @@ impl ZeroOracle {
     }
 
     /// The polynomial along a line, the constant first.
-    pub fn along(&self, line: &Line) -> Vec<Exact> {
+    pub fn along(&self, line: &ExactLine) -> Vec<Exact> {
         let degree = self.terms.iter().map(|(_, n)| n.iter().sum::<usize>()).max().unwrap_or(0);
         let powers: Vec<Vec<Vec<Exact>>> = (0..3)
             .map(|a| {
@@ -326,7 +326,7 @@ impl ZeroOracle {
 }
 
 impl Oracle for ZeroOracle {
-    fn crossings(&self, line: &Line) -> Vec<Crossing> {
+    fn crossings(&self, line: &ExactLine) -> Vec<Crossing> {
         let found = real_roots(&self.along(line));
         let named = found.into_iter().map(|root| {
             let sign = match (root.before, root.after) {

@@ -3,7 +3,7 @@
 use super::TINY;
 use crate::{CentredRay, RingRay};
 use durer_math::eft::{exponent, scale2};
-use durer_math::{Aabb, Normal3, Point3, Ring, Run, U, Vec3};
+use durer_math::{Aabb, EFloat, Normal3, Point3, Ring, U, Vec3};
 
 /// The exact vector `v` in a ring, as three numbers.
 #[inline(always)]
@@ -77,7 +77,7 @@ pub(crate) fn origin_from(ray: &CentredRay<'_>, p: Point3) -> (Vec3, Vec3) {
 
 /// A lower bound of a vector's length; zero if nothing better is known.
 #[inline(always)]
-pub(crate) fn least_length(n: [Run; 3]) -> f64 {
+pub(crate) fn least_length(n: [EFloat; 3]) -> f64 {
     let least = n.map(|x| (x.v.abs() - x.e).max(0.0));
     Vec3::from(least).length() * (1.0 - 8.0 * U)
 }

@@ -23,7 +23,7 @@ mod outline;
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
 use crate::mesh::{Sorted, may_hold};
-use crate::outline::{Curve, Sketch, Sweep8, Swept};
+use crate::packet::{FilterSource, ProfileCurve8, Sweep8, Swept};
 use crate::planar::{self, AlongRay, Crossing, Line, PlaneForm, PointLine, Probe, ThreePoints};
 use crate::{
     FillRule, LocalPoint, LocalRay, Need, PartId, Polygon, PolygonError, RingRay, Root, Side, Sink, Solidity,
@@ -256,7 +256,7 @@ impl Prism {
     }
 
     /// All of it, its edges taken for curves; `None` if triangles that are parts by themselves would have to be told from each other, or rounded corners count too much.
-    fn whole_for_lanes(&self) -> Option<Sketch> {
+    fn whole_for_lanes(&self) -> Option<FilterSource> {
         let [low, high] = [self.bounds.min.y, self.bounds.max.y];
         let conic = self.sweep == Sweep::Conic;
         // With an apex each wall is one triangle; the others of a conic sweep are two.
@@ -287,14 +287,14 @@ impl Prism {
                 [a[k], a[k] + step, b[k] - step, b[k]]
             };
             // A corner is rounded by U of its size at each height, and triangles lie between them; here it is divided, and a third of the way rounds by 4 U.
-            Curve::new([along(0), along(1)], reach(&e) * (8.0 * U), reach(&e) * (1.0 + 8.0 * U))
+            ProfileCurve8::new([along(0), along(1)], reach(&e) * (8.0 * U), reach(&e) * (1.0 + 8.0 * U))
         };
-        let curves: Box<[Curve]> = edges.map(curve).collect();
+        let curves: Box<[ProfileCurve8]> = edges.map(curve).collect();
         // Walls are turned so that the inside is to their left.
         let left = (!self.tangled).then(|| vec![true; curves.len()].into());
         let [low, high] = [low, high].map(|y| scale2(y - centre.y, -scale));
         let sweep = Sweep8 { conic, low, high };
-        Some(Sketch::swept(self.bounds, Swept::Whole { curves, sweep, left }, centre, scale))
+        Some(FilterSource::swept(self.bounds, Swept::Whole { curves, sweep, left }, centre, scale))
     }
 
     /// Every crossing of the line with a face, in no order: the crossing, its plane, its face and tag, and whether the sign is to be turned.
@@ -464,24 +464,24 @@ impl Surface for Prism {
         }
     }
 
-    fn sketch(&self, part: PartId) -> Sketch {
+    fn packet_filter(&self, part: PartId) -> FilterSource {
         match self.part(part) {
-            _ if self.tangled => self.solid_sketch().0,
+            _ if self.tangled => self.solid_packet_filter().0,
             Some(PrismPart::Walls(&[Wall { ribs: [[a0, a1], [b0, b1]], .. }, _], _)) => {
-                Sketch::flat([a0, a1, b1, b0]).on_face(0)
+                FilterSource::flat([a0, a1, b1, b0]).on_face(0)
             }
-            Some(PrismPart::Walls(&[Wall { facet, .. }], _)) => Sketch::flat(facet).on_face(0),
+            Some(PrismPart::Walls(&[Wall { facet, .. }], _)) => FilterSource::flat(facet).on_face(0),
             Some(PrismPart::Cap(cap)) => {
-                let sketch = cap.polygon.sketch(PartId(0)).on_face(cap.face);
+                let sketch = cap.polygon.packet_filter(PartId(0)).on_face(cap.face);
                 if cap.turned { sketch.turned() } else { sketch }
             }
-            _ => Sketch::vague(self.bounds),
+            _ => FilterSource::vague(self.bounds),
         }
     }
 
-    fn solid_sketch(&self) -> (Sketch, Vec<PartId>) {
+    fn solid_packet_filter(&self) -> (FilterSource, Vec<PartId>) {
         let Some(sketch) = self.whole_for_lanes() else {
-            return (Sketch::vague(self.bounds), vec![PartId(0)]);
+            return (FilterSource::vague(self.bounds), vec![PartId(0)]);
         };
         if self.tangled {
             return (sketch, vec![PartId(0)]);

@@ -3,8 +3,8 @@
 use super::*;
 use crate::AxisBox;
 use crate::laws::{
-    self, Broken, Crossing, Dice, Exact, Feature, Line, Oracle, Subject, Surd, aim, all_roots, check, exact3,
-    roots_are_the_exact_crossings,
+    self, Broken, Crossing, Exact, ExactLine, Feature, Oracle, Surd, TestRng, TestSurface, aim, all_roots,
+    check, exact3, roots_are_the_exact_crossings,
 };
 use durer_math::{Ray, RaySide};
 
@@ -41,7 +41,7 @@ impl Swept {
         }
     }
 
-    fn at(&self, line: &Line, n: &Exact, d: &Exact) -> Weighted {
+    fn at(&self, line: &ExactLine, n: &Exact, d: &Exact) -> Weighted {
         let flip = d.sign().is_lt();
         let p = |i: usize| {
             let x = &(&line.o[i] * d) + &(&line.d[i] * n);
@@ -95,7 +95,7 @@ impl Swept {
     }
 
     /// All crossings, ascending, with their faces; `None` if the line meets an edge or a corner, or runs within a face.
-    fn met(&self, line: &Line) -> Option<Vec<(Crossing, u32)>> {
+    fn met(&self, line: &ExactLine) -> Option<Vec<(Crossing, u32)>> {
         // Numerators, denominators above zero, faces.
         let mut found: Vec<(Exact, Exact, u32)> = vec![];
         let ratio = |n: Exact, d: Exact| if d.sign().is_lt() { (-n, -d) } else { (n, d) };
@@ -208,7 +208,7 @@ impl Swept {
 }
 
 impl Oracle for Swept {
-    fn crossings(&self, line: &Line) -> Vec<Crossing> {
+    fn crossings(&self, line: &ExactLine) -> Vec<Crossing> {
         self.met(line).unwrap_or_default().into_iter().map(|(c, _)| c).collect()
     }
 
@@ -282,24 +282,24 @@ fn cases() -> Vec<(Prism, Swept)> {
 /// What is known of a prism besides its crossings.
 pub(super) trait Known: Oracle {
     /// Whether a line passes by all edges, so that each crossing is one face's.
-    fn is_plain(&self, line: &Line) -> bool;
+    fn is_plain(&self, line: &ExactLine) -> bool;
     /// Whether the faces met are so far from the others that a point tells them apart.
-    fn is_clear(&self, line: &Line) -> bool;
+    fn is_clear(&self, line: &ExactLine) -> bool;
     /// Whether the crossings are so far apart that `t` tells their order.
-    fn is_spread(&self, line: &Line) -> bool;
+    fn is_spread(&self, line: &ExactLine) -> bool;
 }
 
 impl Known for Swept {
-    fn is_plain(&self, line: &Line) -> bool {
+    fn is_plain(&self, line: &ExactLine) -> bool {
         self.met(line).is_some()
     }
 
-    fn is_spread(&self, line: &Line) -> bool {
+    fn is_spread(&self, line: &ExactLine) -> bool {
         let t: Vec<f64> = self.crossings(line).iter().map(|c| c.t.about(2400).to_f64()).collect();
         t.windows(2).all(|t| t[1] - t[0] > 1e-12 * t[0].abs().max(t[1].abs()))
     }
 
-    fn is_clear(&self, line: &Line) -> bool {
+    fn is_clear(&self, line: &ExactLine) -> bool {
         self.crossings(line).iter().all(|c| {
             let p = line.at(&c.t.about(2400));
             let caps = [self.low, self.high].iter().filter(|y| (p[1].to_f64() - **y).abs() < NEAR).count();
@@ -309,12 +309,12 @@ impl Known for Swept {
 }
 
 /// Whether the rays that start along the normals, from where a ray meets the prism, meet no edge.
-fn leaves_clearly(prism: &dyn Subject, oracle: &impl Known, ray: &Ray) -> bool {
+fn leaves_clearly(prism: &dyn TestSurface, oracle: &impl Known, ray: &Ray) -> bool {
     all_roots(prism, ray).iter().all(|root| {
         let point = prism.resolve(&LocalRay::new(ray), root, Need::POINT);
         let n = point.ng.to_vec();
         [(RaySide::Front, n), (RaySide::Back, -n)].iter().all(|&(side, d)| {
-            let line = Line::new(&point.spawn_from(side, d));
+            let line = ExactLine::new(&point.spawn_from(side, d));
             oracle.is_plain(&line) && oracle.is_spread(&line)
         })
     })
@@ -332,11 +332,11 @@ impl Obeyed {
     /// Counts a ray that is plain, if it obeys as many of the laws as are claimed for it.
     pub(super) fn count(
         &mut self,
-        prism: &dyn Subject,
+        prism: &dyn TestSurface,
         oracle: &impl Known,
         ray: &Ray,
     ) -> Result<(), Broken> {
-        let line = Line::new(ray);
+        let line = ExactLine::new(ray);
         if !ray.is_valid() || !oracle.is_plain(&line) {
             return Ok(());
         }
@@ -379,7 +379,7 @@ fn prisms_obey_the_laws_off_their_edges() {
                 features.push(Feature { point, direction: v.to_vec() - prism.bounds.centre().to_vec() });
             }
         }
-        let mut dice = Dice::new(seed as u64);
+        let mut dice = TestRng::new(seed as u64);
         for i in 0..150 {
             let ray = aim(&mut dice, &features, oracle.size());
             // Rays that meet an edge exactly are the business of the next test.
@@ -396,7 +396,7 @@ fn rays_through_edges_and_corners_go_in_as_often_as_out() {
     let mut through = 0;
     for (seed, (prism, oracle)) in cases().iter().enumerate() {
         let all = corners(prism);
-        let mut dice = Dice::new(100 + seed as u64);
+        let mut dice = TestRng::new(100 + seed as u64);
         for _ in 0..400 {
             let target = if dice.once_in(3) { dice.lattice(6).to_point() } else { dice.pick(&all) };
             let direction = if dice.once_in(3) { dice.pick(&all) - dice.pick(&all) } else { dice.lattice(4) };
@@ -440,7 +440,7 @@ fn beside_a_crossing_of_the_outline_walls_are_met_in_their_order() {
     let bow = [[-2.0, -2.0], [2.0, 2.0], [2.0, -2.0], [-2.0, 2.0]];
     let prism = Prism::linear(&[bow], -1.0, 1.0).unwrap();
     assert!(prism.tangled);
-    let (mut dice, mut close) = (Dice::new(11), 0);
+    let (mut dice, mut close) = (TestRng::new(11), 0);
     for _ in 0..4000 {
         let d = Vec3::new(1.0, dice.between(-0.25, 0.25), dice.between(-0.875, 0.875));
         let o = (d * -dice.between(0.5, 3.0)).to_point();
@@ -470,7 +470,7 @@ fn beside_a_crossing_of_the_outline_walls_are_met_in_their_order() {
 fn sides_are_exact() {
     let mut told = [0; 3];
     for (seed, (prism, oracle)) in cases().iter().enumerate() {
-        let mut dice = Dice::new(200 + seed as u64);
+        let mut dice = TestRng::new(200 + seed as u64);
         let all = corners(prism);
         for _ in 0..200 {
             let p = match dice.below(3) {
@@ -494,7 +494,7 @@ fn a_rectangular_prism_is_a_box() {
     let (min, max) = (Point3::new(-3.0, -1.0, -3.0), Point3::new(3.0, 2.0, 3.0));
     let (solid, prism) = (AxisBox::new(min, max).unwrap(), Prism::linear(&[SQUARE], -1.0, 2.0).unwrap());
     assert_eq!(solid.bounds(), prism.bounds());
-    let mut dice = Dice::new(7);
+    let mut dice = TestRng::new(7);
     let mut met = 0;
     for _ in 0..2000 {
         let from = (dice.vector() * 9.0).to_point();
@@ -514,7 +514,7 @@ fn without_caps_the_walls_stay() {
     let prism = Prism::linear(&[SQUARE, HOLE], 0.0, 1.0).unwrap();
     let open = prism.clone().without_caps();
     assert_eq!(open.solidity(), Solidity::Open);
-    let mut dice = Dice::new(8);
+    let mut dice = TestRng::new(8);
     for _ in 0..500 {
         let ray = Ray::new((dice.vector() * 9.0).to_point(), dice.vector());
         let mut closed = all_roots(&prism, &ray);
@@ -527,7 +527,7 @@ fn without_caps_the_walls_stay() {
 fn parts_together_are_the_whole() {
     let (mut parts, mut met) = (0, 0);
     for (seed, (prism, _)) in cases().into_iter().enumerate() {
-        let mut dice = Dice::new(300 + seed as u64);
+        let mut dice = TestRng::new(300 + seed as u64);
         let prism = if dice.once_in(3) { prism.without_caps() } else { prism };
         let all = corners(&prism);
         for _ in 0..100 {

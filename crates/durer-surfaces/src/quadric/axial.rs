@@ -2,18 +2,18 @@
 //!
 //! A piece is a solid with flat ends or, if it is open, the wall alone. Each surface gives its polynomial ([`Wall`]); its own file says which.
 
-use crate::quadric::body::{Chart, Frame, Shape, sheared};
+use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, sheared};
 use crate::quadric::form::Form;
-use crate::quadric::solid::Body;
+use crate::quadric::solid::QuadricSolid;
 use crate::sphere::length;
 use durer_math::eft::{exponent, scale2};
-use durer_math::{Aabb, Affine, Point3, Ring, Run, U, Vec3, elementary};
+use durer_math::{Aabb, Affine, EFloat, Point3, Ring, U, Vec3, elementary};
 
 /// Pays for results below the normal range.
 const TINY: f64 = f64::from_bits(16);
 
 /// A canonical quadric, as a surface.
-pub type Axial<W> = Body<AxialShape<W>>;
+pub type Axial<W> = QuadricSolid<AxialShape<W>>;
 
 /// The wall of a canonical quadric.
 pub trait Wall: Clone + Copy + core::fmt::Debug + PartialEq + Send + Sync {
@@ -128,7 +128,7 @@ impl<W: Wall> AxialShape<W> {
     }
 }
 
-impl<W: Wall> Shape for AxialShape<W> {
+impl<W: Wall> QuadricFaces for AxialShape<W> {
     fn frame(&self) -> Frame {
         self.frame
     }
@@ -191,14 +191,14 @@ impl<W: Wall> Shape for AxialShape<W> {
 }
 
 /// An upper bound of `a √f(z²/c²)` for increasing `f`, where `z` is in a range: `f` is given the larger `z²/c²`.
-pub(crate) fn widest(axes: [f64; 2], z: [f64; 2], c: f64, f: impl Fn(Run) -> Run) -> [f64; 2] {
+pub(crate) fn widest(axes: [f64; 2], z: [f64; 2], c: f64, f: impl Fn(EFloat) -> EFloat) -> [f64; 2] {
     let z = z[0].abs().max(z[1].abs());
     if z == f64::INFINITY {
         return [f64::INFINITY; 2];
     }
-    let ratio = Run::exact(z) / Run::exact(c);
+    let ratio = EFloat::exact(z) / EFloat::exact(c);
     let root = f(ratio * ratio).sqrt();
-    axes.map(|a| (Run::exact(a) * root).hi())
+    axes.map(|a| (EFloat::exact(a) * root).hi())
 }
 
 /// `u` around the axis in the angle of the ellipse with semi-axes `a`, `b`, from x; `v` along z, from 0 to 1 over a piece.

@@ -7,7 +7,7 @@
 //! The cone between two discs, as most scenes have it, is [`Frustum`](crate::Frustum).
 
 use crate::quadric::axial::{Axial, AxialError, Wall, around, positive, widest};
-use crate::quadric::body::Chart;
+use crate::quadric::boolean_faces::Chart;
 use crate::quadric::ellipsoid::products;
 use crate::quadric::form::Form;
 use durer_math::{Ring, Vec3};

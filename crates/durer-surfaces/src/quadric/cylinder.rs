@@ -9,7 +9,7 @@
 //! The cylinder between two arbitrary points is [`CappedCylinder`](crate::CappedCylinder).
 
 use crate::quadric::axial::{Axial, AxialError, Wall, around, positive};
-use crate::quadric::body::{Chart, sheared};
+use crate::quadric::boolean_faces::{Chart, sheared};
 use crate::quadric::form::Form;
 use durer_math::eft::exponent;
 use durer_math::{Ring, Vec3};

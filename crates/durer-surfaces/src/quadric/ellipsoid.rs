@@ -5,7 +5,7 @@
 //! ```
 
 use crate::quadric::axial::{Axial, AxialError, Wall, positive};
-use crate::quadric::body::Chart;
+use crate::quadric::boolean_faces::Chart;
 use crate::quadric::form::Form;
 use crate::sphere::sphere_chart;
 use durer_math::{Ring, Vec3};

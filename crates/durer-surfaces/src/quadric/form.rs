@@ -2,7 +2,7 @@
 
 use crate::RingRay;
 use crate::roots::quadratic::Quadratic;
-use durer_math::{Dd, Dyadic, Ring, Run, U, Vec3};
+use durer_math::{Dd, Dyadic, EFloat, Ring, U, Vec3};
 
 /// Pays for underflow in sums of products of numbers of size one.
 pub(crate) const FLOOR: f64 = 1e-290;
@@ -105,8 +105,8 @@ pub struct Rounded {
 
 impl Rounded {
     /// Rounds a form that is given in `Run<Dd>`, and exactly where that leaves a coefficient doubtful.
-    pub(crate) fn new(rough: &Form<Run<Dd>>, exact: impl Fn() -> Form<Dyadic>) -> Self {
-        let coefficients = |f: &Form<Run<Dd>>| -> Option<[f64; 11]> {
+    pub(crate) fn new(rough: &Form<EFloat<Dd>>, exact: impl Fn() -> Form<Dyadic>) -> Self {
+        let coefficients = |f: &Form<EFloat<Dd>>| -> Option<[f64; 11]> {
             let mut out = [0.0; 11];
             for (i, x) in f.q.iter().chain(&f.b).chain([&f.c]).enumerate() {
                 x.sign()?;
@@ -170,7 +170,7 @@ impl Rounded {
     /// `gamma(9) + rel` of the sums of absolute values covers rounding. Errors of the inputs enter through the exact differences,
     /// `|δ(d·Qd)| <= |δd|·|Q|(2|d| + |δd|)`, `|δ(d·(Qo+b))| <= |δd|·|Qo+b| + |δo|·|Q|(|d| + |δd|)`, `|δf| <= 2|δo|·|Qo+b| + |δo|·|Q||δo|`.
     #[inline(always)]
-    pub(crate) fn along(&self, o: Vec3, d: Vec3, eo: Vec3, ed: Vec3) -> Quadratic<Run> {
+    pub(crate) fn along(&self, o: Vec3, d: Vec3, eo: Vec3, ed: Vec3) -> Quadratic<EFloat> {
         let k = (9.0 * U + self.rel) * (1.0 + 64.0 * U);
         let linear = Vec3::from(self.b);
         let (od, dd) = (o.abs(), d.abs());
@@ -189,7 +189,11 @@ impl Rounded {
             e_a = if e_a == 0.0 && self.vanishes_along(d) { 0.0 } else { e_a + FLOOR };
         }
         let (b, e_b, c, e_c) = self.rest(o, d, eo, ed, (linear, od, dd), (k, reach));
-        Quadratic { a: Run::with_error(a, e_a), b: Run::with_error(b, e_b), c: Run::with_error(c, e_c) }
+        Quadratic {
+            a: EFloat::with_error(a, e_a),
+            b: EFloat::with_error(b, e_b),
+            c: EFloat::with_error(c, e_c),
+        }
     }
 
     /// `B`, its error, `C`, its error.
@@ -236,11 +240,11 @@ impl Rounded {
 
     /// `f(p)` and `grad f(p) / 2` with `p` within `ep`.
     #[inline(always)]
-    pub(crate) fn at(&self, p: Vec3, ep: Vec3) -> (Run, Vec3) {
+    pub(crate) fn at(&self, p: Vec3, ep: Vec3) -> (EFloat, Vec3) {
         let k = (9.0 * U + self.rel) * (1.0 + 64.0 * U);
         let linear = Vec3::from(self.b);
         let (_, _, c, e_c) =
             self.rest(p, Vec3::ZERO, ep, Vec3::ZERO, (linear, p.abs(), Vec3::ZERO), (k, Vec3::ZERO));
-        (Run::with_error(c, e_c), self.times(p) + linear)
+        (EFloat::with_error(c, e_c), self.times(p) + linear)
     }
 }

@@ -8,17 +8,17 @@
 //! homogeneous form. Both matrices are symmetric, so all their eigenvalues are real, and Descartes' rule of signs on the
 //! characteristic polynomials counts them exactly; the signs of those polynomials' coefficients are computed in exact arithmetic.
 
-use crate::quadric::body::{Chart, Frame, Shape, sheared};
+use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, sheared};
 use crate::quadric::form::Form;
-use crate::quadric::solid::Body;
+use crate::quadric::solid::QuadricSolid;
 use crate::roots::quadratic::exact_sign;
 use crate::sphere::sphere_chart;
 use core::cmp::Ordering;
 use durer_math::eft::exponent;
-use durer_math::{Aabb, Dd, Dyadic, Interval, Point3, Ring, Run, Vec3};
+use durer_math::{Aabb, Dd, Dyadic, EFloat, Interval, Point3, Ring, Vec3};
 
 /// The general quadric, as a solid where its polynomial is negative.
-pub type Quadric = Body<GeneralQuadric>;
+pub type Quadric = QuadricSolid<GeneralQuadric>;
 
 /// The coefficients of `x² y² z² xy xz yz x y z 1`.
 ///
@@ -274,7 +274,7 @@ fn frame(k: &[f64; 10]) -> (Frame, i32, Vec3) {
     (Frame { centre, scale, reach: f64::INFINITY }, gain, tip * (1.0 / tip.length()))
 }
 
-impl Shape for GeneralQuadric {
+impl QuadricFaces for GeneralQuadric {
     fn frame(&self) -> Frame {
         self.frame
     }
@@ -370,7 +370,7 @@ impl GeneralQuadric {
         if self.kind != QuadricKind::Ellipsoid || self.coefficients[0] < 0.0 {
             return None;
         }
-        type N = Run<Dd>;
+        type N = EFloat<Dd>;
         let form = self.form::<N>(0);
         let [xx, yy, zz, xy, xz, yz] = form.q;
         let adjugate = [
@@ -398,7 +398,7 @@ impl GeneralQuadric {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::{Dice, ExactBody, ExactForm, Feature, check_many};
+    use crate::laws::{ExactBody, ExactForm, Feature, TestRng, check_many};
     use crate::{Placed, Surface};
     use QuadricKind as K;
 
@@ -484,7 +484,7 @@ mod tests {
         let mut grazing = 0;
         for (n, (k, kind)) in NAMED.into_iter().enumerate() {
             for seed in 0..4 {
-                let mut dice = Dice::new(seed + 100 * n as u64);
+                let mut dice = TestRng::new(seed + 100 * n as u64);
                 let k = match seed {
                     0 => k,
                     1 => k.map(|x| -x),
@@ -506,7 +506,7 @@ mod tests {
     fn placed_quadrics_obey_the_laws() {
         for (n, (k, _)) in NAMED.into_iter().enumerate() {
             for seed in 0..4 {
-                let map = Dice::new(seed + 10 * n as u64).map();
+                let map = TestRng::new(seed + 10 * n as u64).map();
                 let quadric = Placed::new(Quadric::new(k).unwrap(), map);
                 let oracle = ExactBody::solid(vec![ExactForm::from_f64(k)], 1.0, false).placed(&map);
                 let features: Vec<_> = features().into_iter().map(|f| f.placed(&map)).collect();
@@ -539,7 +539,7 @@ mod tests {
         ];
         let quadric = Quadric::new(k).unwrap();
         let oracle = ExactBody::solid(vec![ExactForm::from_f64(k)], 1.0, false);
-        let mut dice = Dice::new(7);
+        let mut dice = TestRng::new(7);
         let mut widths = vec![];
         for _ in 0..600 {
             let (o, p) = (dice.vector() * 5.0, dice.vector() * 5.0);

@@ -6,10 +6,10 @@
 //! ```
 
 use crate::quadric::axial::{Axial, AxialError, Wall, around, positive, widest};
-use crate::quadric::body::Chart;
+use crate::quadric::boolean_faces::Chart;
 use crate::quadric::ellipsoid::products;
 use crate::quadric::form::Form;
-use durer_math::{Ring, Run, Vec3};
+use durer_math::{EFloat, Ring, Vec3};
 
 /// A hyperboloid of one sheet about the z axis.
 pub type HyperboloidOfOneSheet = Axial<OneSheet>;
@@ -60,7 +60,7 @@ impl Wall for OneSheet {
 
     fn half_widths(&self, z: [f64; 2]) -> [f64; 2] {
         let [a, b, c] = self.axes;
-        widest([a, b], z, c, |r| r + Run::exact(1.0))
+        widest([a, b], z, c, |r| r + EFloat::exact(1.0))
     }
 
     fn chart(&self, x: Vec3, n: Vec3, ends: Option<[f64; 2]>) -> Chart {
@@ -81,8 +81,8 @@ impl Wall for TwoSheets {
     fn half_widths(&self, z: [f64; 2]) -> [f64; 2] {
         let [a, b, c] = self.axes;
         widest([a, b], z, c, |r| {
-            let inside = r - Run::exact(1.0);
-            if inside.hi() < 0.0 { Run::zero() } else { inside }
+            let inside = r - EFloat::exact(1.0);
+            if inside.hi() < 0.0 { EFloat::zero() } else { inside }
         })
     }
 

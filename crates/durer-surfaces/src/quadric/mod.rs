@@ -1,9 +1,9 @@
 //! Quadrics, and solids cut from space by them.
 //!
-//! [`body`] holds the method, one for all; [`form`] the arithmetic of one quadric along one ray; each other file one surface.
+//! [`boolean_faces`] holds the method that all share; [`form`] the arithmetic of one quadric along one ray; each other file one surface.
 
 pub mod axial;
-pub mod body;
+pub mod boolean_faces;
 pub mod cone;
 pub mod cylinder;
 pub mod ellipsoid;

@@ -6,10 +6,10 @@
 //! ```
 
 use crate::quadric::axial::{Axial, AxialError, Wall, around, positive};
-use crate::quadric::body::{Chart, sheared};
+use crate::quadric::boolean_faces::{Chart, sheared};
 use crate::quadric::form::Form;
 use durer_math::eft::exponent;
-use durer_math::{Ring, Run, Vec3};
+use durer_math::{EFloat, Ring, Vec3};
 
 /// An elliptic paraboloid.
 pub type EllipticParaboloid = Axial<Bowl>;
@@ -81,8 +81,8 @@ impl Wall for Bowl {
             return [f64::INFINITY; 2];
         }
         let [a, b, c] = self.axes;
-        let root = (Run::<f64>::exact(z[1].max(0.0)) / Run::exact(c)).sqrt();
-        [a, b].map(|a| (Run::exact(a) * root).hi())
+        let root = (EFloat::<f64>::exact(z[1].max(0.0)) / EFloat::exact(c)).sqrt();
+        [a, b].map(|a| (EFloat::exact(a) * root).hi())
     }
 
     fn heights(&self) -> [f64; 2] {

@@ -10,16 +10,16 @@
 //! from one end to the other. J. M. Cychosz, W. N. Waggenspack, "Intersecting a ray with a cylinder", *Graphics Gems IV* (1994), treat the
 //! cylinder by vectors in the same way.
 
-use crate::quadric::body::{Chart, Frame, Shape, sheared, tangents};
+use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, sheared, tangents};
 use crate::quadric::form::Form;
-use crate::quadric::solid::Body;
+use crate::quadric::solid::QuadricSolid;
 use durer_math::eft::exponent;
-use durer_math::{Aabb, Dd, Point3, Ring, Run, U, Vec3, elementary};
+use durer_math::{Aabb, Dd, EFloat, Point3, Ring, U, Vec3, elementary};
 
 /// A cylinder between two points, capped or open.
-pub type CappedCylinder = Body<CylinderShape>;
+pub type CappedCylinder = QuadricSolid<CylinderShape>;
 /// A cone between two points with a radius at each, capped or open; a full cone if one radius is zero.
-pub type Frustum = Body<FrustumShape>;
+pub type Frustum = QuadricSolid<FrustumShape>;
 
 /// Face numbers of [`CappedCylinder`] and [`Frustum`].
 pub const WALL: u32 = 0;
@@ -103,16 +103,16 @@ impl Axis {
     }
 
     fn frame(&self, radius: f64) -> Frame {
-        let a = self.unit::<Run<Dd>>();
+        let a = self.unit::<EFloat<Dd>>();
         let length = square(&a).sqrt().scale2(self.thin);
-        let r = Run::<Dd>::exact(radius).scale2(-self.scale);
+        let r = EFloat::<Dd>::exact(radius).scale2(-self.scale);
         let reach = (length.square() + r.square()).sqrt().hi();
         Frame { centre: self.base, scale: self.scale, reach }
     }
 
     /// The box of the discs of radius `r0` and `r1`: half-widths `r √(1 - aᵢ²/|a|²)`.
     fn bounds(&self, r0: f64, r1: f64) -> Aabb {
-        let a = self.unit::<Run<Dd>>();
+        let a = self.unit::<EFloat<Dd>>();
         let aa = square(&a);
         let share = |i: usize| {
             let (b, c) = (a[(i + 1) % 3], a[(i + 2) % 3]);
@@ -124,7 +124,7 @@ impl Axis {
 
     /// The unit axis and `a`, in units.
     fn direction(&self) -> (Vec3, Vec3) {
-        let a = Vec3::from(self.unit::<Run<Dd>>().map(|x| x.v.hi));
+        let a = Vec3::from(self.unit::<EFloat<Dd>>().map(|x| x.v.hi));
         (a * (1.0 / a.length()), a * durer_math::scale::ldexp(1.0, self.thin))
     }
 
@@ -188,7 +188,7 @@ impl CappedCylinder {
     }
 }
 
-impl Shape for CylinderShape {
+impl QuadricFaces for CylinderShape {
     fn frame(&self) -> Frame {
         self.axis.frame(self.radius)
     }
@@ -256,7 +256,7 @@ impl Frustum {
     }
 }
 
-impl Shape for FrustumShape {
+impl QuadricFaces for FrustumShape {
     fn frame(&self) -> Frame {
         self.axis.frame(self.radii[0].max(self.radii[1]))
     }
@@ -316,7 +316,7 @@ impl Shape for FrustumShape {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::{Dice, Exact, ExactBody, ExactForm, Feature, check_many, exact3};
+    use crate::laws::{Exact, ExactBody, ExactForm, Feature, TestRng, check_many, exact3};
     use crate::{Placed, Surface};
 
     /// `|y|²|a|^2n - ...`, written out from the definition.
@@ -377,7 +377,7 @@ mod tests {
     ];
 
     fn round(seed: u64, wild: bool) -> (Point3, Point3, [f64; 2], [Vec3; 2]) {
-        let mut dice = Dice::new(seed);
+        let mut dice = TestRng::new(seed);
         let [a, e, f] = dice.pick(&AXES).map(Vec3::from);
         let k = if wild && dice.once_in(4) { dice.power(-250, 250) } else { dice.power(-4, 4) };
         let mut base = (dice.lattice(6) * k).to_point();
@@ -433,7 +433,7 @@ mod tests {
     #[test]
     fn placed_cones_obey_the_laws() {
         for seed in 0..40 {
-            let map = Dice::new(seed + 1000).map();
+            let map = TestRng::new(seed + 1000).map();
             let (base, cap, r, e) = round(seed, false);
             let cone = Placed::new(Frustum::new(base, r[0], cap, r[1]).unwrap(), map);
             let oracle = exact(base, r[0], cap, r[1], false).placed(&map);

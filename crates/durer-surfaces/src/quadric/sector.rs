@@ -9,15 +9,15 @@
 //! The exact surface has the number `k`: an angle is turned into its cosine once, when the sector is made. A half-angle of 90
 //! degrees gives half a ball; larger ones are not convex and are not built here.
 
-use crate::quadric::body::{Chart, Frame, Shape, sheared, tangents};
+use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, sheared, tangents};
 use crate::quadric::form::Form;
-use crate::quadric::solid::Body;
+use crate::quadric::solid::QuadricSolid;
 use crate::sphere::sphere_chart;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Point3, Ring, U, Vec3, elementary};
 
 /// A spherical sector, a solid. Face 0 is the sphere's part, face 1 the cone, face 2 the plane that takes the cone's other half away.
-pub type SphericalSector = Body<SectorShape>;
+pub type SphericalSector = QuadricSolid<SectorShape>;
 
 /// The numbers of a [`SphericalSector`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,7 +97,7 @@ impl SectorShape {
     }
 }
 
-impl Shape for SectorShape {
+impl QuadricFaces for SectorShape {
     fn frame(&self) -> Frame {
         let scale = self.scale();
         Frame { centre: self.centre, scale, reach: scale2(self.radius, -scale) * (1.0 + 2.0 * U) }

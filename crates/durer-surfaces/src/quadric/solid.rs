@@ -1,11 +1,11 @@
-//! A [`Shape`] as a [`Surface`].
+//! A [`QuadricFaces`] as a [`Surface`].
 
-use crate::outline::Sketch;
-use crate::quadric::body::{Frame, Shape, View, rounded};
+use crate::packet::FilterSource;
+use crate::quadric::boolean_faces::{Frame, QuadricFaces, View, rounded};
 use crate::quadric::form::Rounded;
 use crate::{LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use durer_math::eft::{scale2, two_sum};
-use durer_math::{Aabb, Affine, Dd, Isa, Point3, Ring, Run, U, Vec3};
+use durer_math::{Aabb, Affine, Dd, EFloat, Isa, Point3, Ring, U, Vec3};
 
 /// Pays for results below the normal range, in units of the shape's size. Far more than needed, so that it and its square are normal numbers: a
 /// subnormal operand costs many CPUs a hundred times the operation itself.
@@ -13,13 +13,13 @@ const TINY: f64 = durer_math::scale::pow2(-500);
 
 /// A shape with its rounded polynomials: a surface.
 #[derive(Clone, Debug)]
-pub struct Body<S> {
+pub struct QuadricSolid<S> {
     shape: S,
     forms: Box<[Rounded]>,
     frame: Frame,
 }
 
-impl<S: Shape> Body<S> {
+impl<S: QuadricFaces> QuadricSolid<S> {
     /// Rounds the polynomials of the shape once.
     pub(crate) fn of(shape: S) -> Self {
         Self { forms: rounded(&shape), frame: shape.frame(), shape }
@@ -36,7 +36,7 @@ impl<S: Shape> Body<S> {
     }
 }
 
-impl<S: Shape> Surface for Body<S> {
+impl<S: QuadricFaces> Surface for QuadricSolid<S> {
     fn bounds(&self) -> Aabb {
         self.shape.bounds()
     }
@@ -58,8 +58,8 @@ impl<S: Shape> Surface for Body<S> {
         self.view().resolve(ray, root, need)
     }
 
-    fn sketch(&self, _part: PartId) -> Sketch {
-        Sketch::of_shape(&self.shape)
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::of_shape(&self.shape)
     }
 
     fn solidity(&self) -> Solidity {
@@ -165,7 +165,7 @@ impl View<'_> {
     /// `err` bounds the distance from `y` to the crossing. Where there is a tip within that and a few roundings of the coordinates, the point
     /// counts as the tip: no point beside it could be told from it.
     #[inline(always)]
-    fn off(&self, face: usize, p: Point3, (f, half): (Run, Vec3), lost: Vec3, err: f64) -> Off {
+    fn off(&self, face: usize, p: Point3, (f, half): (EFloat, Vec3), lost: Vec3, err: f64) -> Off {
         let form = &self.forms[face];
         let g = half * 2.0;
         let gradient = g.length();
@@ -207,7 +207,7 @@ impl View<'_> {
     /// An upper bound of `|f|` at a point of the world.
     #[cold]
     fn value_at(&self, face: usize, p: Point3) -> f64 {
-        type N = Run<Dd>;
+        type N = EFloat<Dd>;
         let Frame { centre, scale, .. } = self.frame;
         let y = [0, 1, 2].map(|i| (N::exact(p[i]) - N::exact(centre[i])).scale2(-scale));
         self.shape.double(face).at(&y, &N::exact(1.0)).magnitude()
@@ -217,7 +217,7 @@ impl View<'_> {
 /// `y` moved onto the face by Newton's method along the gradient: one step, as a rule; more where the ray came from so far that `y` is off by
 /// more than the face's size. With `f` and half its gradient there.
 #[inline(always)]
-fn project(form: &Rounded, mut y: Vec3) -> (Vec3, Run, Vec3) {
+fn project(form: &Rounded, mut y: Vec3) -> (Vec3, EFloat, Vec3) {
     let (first, mut half) = form.at(y, y.abs() * U);
     // On the face as far as f64 can see: a step would follow rounding, far where the gradient is small.
     if first.v.abs() <= first.e {

@@ -9,7 +9,7 @@
 //! best conditioned one on an interval (R. T. Farouki, V. T. Rajan, "On the numerical condition of polynomials in Bernstein form",
 //! *Computer Aided Geometric Design* 4, 1987).
 
-use durer_math::run::Word;
+use durer_math::efloat::Word;
 
 /// Pays for results below the normal range.
 pub(crate) const FLOOR: f64 = durer_math::scale::pow2(-1000);
@@ -225,7 +225,7 @@ impl<const N: usize> Bernstein<f64, N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::Dice;
+    use crate::laws::TestRng;
     use durer_math::{Dd, Dyadic};
 
     /// The Bernstein coefficients of the part between `l` and `r`, times `C(n,j)`, exactly: by substituting and expanding.
@@ -266,7 +266,7 @@ mod tests {
     }
 
     fn bounds_hold<const N: usize>(seed: u64) {
-        let mut dice = Dice::new(seed);
+        let mut dice = TestRng::new(seed);
         let c: [f64; N] = core::array::from_fn(|_| dice.between(-1.0, 1.0) * dice.scale(-30, 4));
         let whole = exact(&c, -1.0, 1.0);
         let (quick, plain) = (Bernstein::quick(&c, 0.0), Bernstein::<f64, N>::new(&c, 0.0));

@@ -48,7 +48,7 @@ impl Isolated {
 }
 
 /// An interval to be looked at.
-struct Part {
+struct DyadicInterval {
     l: Dyadic,
     r: Dyadic,
     /// The changes of sign of the one that it was made from.
@@ -164,8 +164,9 @@ impl ExactRoots {
             part(-near.clone(), near.clone());
         }
         part(-far, -near);
-        let mut open: Vec<_> = open.into_iter().map(|(l, r)| Part { l, r, before: 0, bits: 2 }).collect();
-        while let Some(Part { l, r, before, bits }) = open.pop() {
+        let mut open: Vec<_> =
+            open.into_iter().map(|(l, r)| DyadicInterval { l, r, before: 0, bits: 2 }).collect();
+        while let Some(DyadicInterval { l, r, before, bits }) = open.pop() {
             let n = changes(&self.simple, &l, &r);
             if n < 2 {
                 if n == 1 {
@@ -176,12 +177,12 @@ impl ExactRoots {
             let mut shorter = bits;
             if n == before {
                 if let Some((l, r)) = self.proposed(&l, &r, n, bits) {
-                    open.push(Part { l, r, before: n, bits: (2 * bits).min(40) });
+                    open.push(DyadicInterval { l, r, before: n, bits: (2 * bits).min(40) });
                     continue;
                 }
                 shorter = (bits / 2).max(2);
             }
-            let part = |l, r| Part { l, r, before: n, bits: shorter };
+            let part = |l, r| DyadicInterval { l, r, before: n, bits: shorter };
             let m = middle(&l, &r);
             if sign_at(&self.simple, &m).is_eq() {
                 // A root itself: alone within some distance.
@@ -425,10 +426,10 @@ mod tests {
 
     #[test]
     fn roots_are_those_of_sturms_theorem() {
-        use crate::laws::{Dice, Exact, real_roots};
+        use crate::laws::{Exact, TestRng, real_roots};
         let mut met = 0;
         for seed in 0..300 {
-            let mut dice = Dice::new(seed);
+            let mut dice = TestRng::new(seed);
             let mut factors = vec![];
             for _ in 0..seed % 6 {
                 let at = dice.between(-2.0, 2.0);
@@ -444,7 +445,7 @@ mod tests {
             }
             let mut sparse = vec![(0, 1.0)];
             if seed % 2 == 0 {
-                let c = |dice: &mut Dice| dice.between(-1.0, 1.0) * dice.scale(-200, 40);
+                let c = |dice: &mut TestRng| dice.between(-1.0, 1.0) * dice.scale(-200, 40);
                 sparse = vec![(0, c(&mut dice)), (2, c(&mut dice)), (4 + (seed % 3) as usize, c(&mut dice))];
             }
             let witness = real_roots(&product::<Exact>(&factors, &sparse));

@@ -20,15 +20,15 @@ use crate::roots::quadratic::Limits;
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Greater, Less};
-use durer_math::run::Word;
-use durer_math::{Dd, Dyadic, Isa, Ring, Run, U};
+use durer_math::efloat::Word;
+use durer_math::{Dd, Dyadic, EFloat, Isa, Ring, U};
 
 /// A polynomial along a line, in `y = s - mid`, at every step of the ladder; its first coefficient is the constant.
 pub(crate) trait Along<const N: usize> {
     /// In f64.
-    fn double(&self) -> [Run; N];
+    fn double(&self) -> [EFloat; N];
     /// In double-double, times any positive number.
-    fn wide(&self) -> Option<[Run<Dd>; N]>;
+    fn wide(&self) -> Option<[EFloat<Dd>; N]>;
     /// Exactly, times any positive number; and whether that is the line itself and not only one near it.
     fn exact(&self) -> (Vec<Dyadic>, bool);
 }
@@ -60,14 +60,14 @@ pub(crate) struct Found<'a> {
 
 /// From `x` in `[-1, 1]` to the line.
 #[derive(Clone, Copy)]
-enum Place {
+enum PartToLine {
     /// `s = mid + half x`.
     Linear { mid: f64, half: f64 },
     /// `s = 1 / x`.
     Inverse,
 }
 
-impl Place {
+impl PartToLine {
     #[inline(always)]
     fn s(self, x: f64) -> f64 {
         match self {
@@ -113,7 +113,7 @@ struct Scaled<T, const N: usize> {
 }
 
 /// A part `l..r` of the stretch and the polynomial on it. The sign at `l` is certain, unless it is the stretch's own end.
-struct Node<T, const N: usize> {
+struct BernsteinPart<T, const N: usize> {
     form: Bernstein<T, N>,
     l: f64,
     r: f64,
@@ -127,7 +127,7 @@ struct Doubt(f64);
 impl<T: Word, const N: usize> Scaled<T, N> {
     /// `a(half x)`.
     #[inline(always)]
-    fn new(a: &[Run<T>; N], half: f64) -> Self {
+    fn new(a: &[EFloat<T>; N], half: f64) -> Self {
         let (h, size) = (T::from(half), half.abs());
         let (mut power, mut big) = (T::from(1.0), 1.0);
         let (mut c, mut e) = ([T::from(0.0); N], [0.0; N]);
@@ -174,9 +174,10 @@ impl<T: Word, const N: usize> Scaled<T, N> {
         }
         // Two roundings a step, at most N steps a coefficient.
         let unit = 2.0 * N as f64 * (T::ADD + T::MUL);
-        let mut a = [Run::exact(0.0); N];
+        let mut a = [EFloat::exact(0.0); N];
         for k in 0..N {
-            a[k] = Run::with_error(c[k], big[k].mul_add(unit, e[k]) * (1.0 + 128.0 * f64::EPSILON) + FLOOR);
+            a[k] =
+                EFloat::with_error(c[k], big[k].mul_add(unit, e[k]) * (1.0 + 128.0 * f64::EPSILON) + FLOOR);
         }
         Self::new(&a, half)
     }
@@ -189,7 +190,7 @@ impl<T: Word, const N: usize> Scaled<T, N> {
 
     /// The value at `x` and a bound on its error: Horner's scheme takes `2 N` roundings.
     #[inline(always)]
-    fn at(&self, x: f64) -> Run<T> {
+    fn at(&self, x: f64) -> EFloat<T> {
         let (t, size) = (T::from(x), x.abs());
         let unit = 2.0 * N as f64 * (T::ADD + T::MUL);
         let (mut v, mut e) = (T::from(0.0), 0.0);
@@ -197,7 +198,7 @@ impl<T: Word, const N: usize> Scaled<T, N> {
             v = v * t + self.c[k];
             e = f64::mul_add(e, size, self.c[k].to_f64().abs().mul_add(unit, self.e[k]));
         }
-        Run::with_error(v, e * (1.0 + 64.0 * f64::EPSILON) + FLOOR)
+        EFloat::with_error(v, e * (1.0 + 64.0 * f64::EPSILON) + FLOOR)
     }
 
     /// The slope at `x`, roughly.
@@ -280,11 +281,11 @@ impl<T: Word, const N: usize> Scaled<T, N> {
         from: f64,
         cut: bool,
         skips: impl Fn(f64, f64) -> bool,
-        mut visit: impl FnMut(&Node<T, N>, bool) -> Result<Flow, Doubt>,
+        mut visit: impl FnMut(&BernsteinPart<T, N>, bool) -> Result<Flow, Doubt>,
     ) -> Result<Flow, Doubt> {
         let slack = self.slack();
-        let whole = Node { form: Bernstein::new(&self.c, slack), l: from, r: 1.0, bits: 0 };
-        let mut open = ArrayVec::<Node<T, N>, 64>::new();
+        let whole = BernsteinPart { form: Bernstein::new(&self.c, slack), l: from, r: 1.0, bits: 0 };
+        let mut open = ArrayVec::<BernsteinPart<T, N>, 64>::new();
         open.push(whole);
         while let Some(node) = open.pop() {
             let across_cut = cut && node.l < 0.0 && node.r > 0.0;
@@ -311,8 +312,8 @@ impl<T: Word, const N: usize> Scaled<T, N> {
             });
             let Some((part, bits, left, right)) = split else { return Err(Doubt(node.l)) };
             let (m, bits) = (part.mul_add(node.r - node.l, node.l), node.bits + bits);
-            open.push(Node { form: right, l: m, r: node.r, bits });
-            open.push(Node { form: left, l: node.l, r: m, bits });
+            open.push(BernsteinPart { form: right, l: m, r: node.r, bits });
+            open.push(BernsteinPart { form: left, l: node.l, r: m, bits });
         }
         Ok(Flow::Continue)
     }
@@ -362,7 +363,7 @@ impl<const N: usize> Scaled<f64, N> {
 
 /// Whether a polynomial in `y` has no root on `[-half, half]`, where its sign at `-half` is known.
 #[inline(always)]
-pub(crate) fn stays<const N: usize>(a: &[Run; N], half: f64, positive: bool) -> bool {
+pub(crate) fn stays<const N: usize>(a: &[EFloat; N], half: f64, positive: bool) -> bool {
     let scaled = Scaled::<f64, N>::new(a, half);
     Bernstein::quick(&scaled.c, scaled.slack()).stays(positive)
 }
@@ -403,7 +404,7 @@ pub(crate) fn solve<const N: usize, L: Along<N>>(
 impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N> {
     #[inline(always)]
     fn within(&mut self, scaled: &Scaled<f64, N>, mid: f64, half: f64) {
-        let place = Place::Linear { mid, half };
+        let place = PartToLine::Linear { mid, half };
         if let Err(Doubt(x)) = self.settle_double(scaled, place) {
             self.climb(place, x);
         }
@@ -412,8 +413,8 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
     /// The step after f64, from `x` on.
     #[cold]
     #[inline(never)]
-    fn climb(&mut self, place: Place, x: f64) {
-        let Place::Linear { mid, half } = place else { return };
+    fn climb(&mut self, place: PartToLine, x: f64) {
+        let PartToLine::Linear { mid, half } = place else { return };
         let doubt = Isa::detect().run(
             #[inline(always)]
             || match self.line.wide() {
@@ -428,7 +429,7 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
 
     /// In f64, on a stretch from its start.
     #[inline(always)]
-    fn settle_double(&mut self, scaled: &Scaled<f64, N>, place: Place) -> Result<Flow, Doubt> {
+    fn settle_double(&mut self, scaled: &Scaled<f64, N>, place: PartToLine) -> Result<Flow, Doubt> {
         let (limits, emit) = (self.limits, &mut self.emit);
         scaled.walk(
             -1.0,
@@ -464,7 +465,12 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
 
     /// On a stretch from `x` on.
     #[inline(always)]
-    fn settle<T: Word>(&mut self, scaled: &Scaled<T, N>, from: f64, place: Place) -> Result<Flow, Doubt> {
+    fn settle<T: Word>(
+        &mut self,
+        scaled: &Scaled<T, N>,
+        from: f64,
+        place: PartToLine,
+    ) -> Result<Flow, Doubt> {
         let (limits, emit) = (self.limits, &mut self.emit);
         let part = if from > -1.0 { scaled.from(from) } else { *scaled };
         let walked = part.walk(
@@ -502,11 +508,11 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
             return;
         };
         for &(ends, found, rising) in tails.iter().rev().filter(|t| t.0.1 <= 0.0) {
-            if (self.emit)(&named(Place::Inverse, ends, found, rising)) == Flow::Stop {
+            if (self.emit)(&named(PartToLine::Inverse, ends, found, rising)) == Flow::Stop {
                 return;
             }
         }
-        let place = Place::Linear { mid: 0.0, half: 1.0 };
+        let place = PartToLine::Linear { mid: 0.0, half: 1.0 };
         match self.settle_double(scaled, place) {
             Ok(Flow::Stop) => return,
             Ok(Flow::Continue) => {}
@@ -523,7 +529,7 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
             }
         }
         for &(ends, found, rising) in tails.iter().rev().filter(|t| t.0.0 >= 0.0) {
-            if (self.emit)(&named(Place::Inverse, ends, found, rising)) == Flow::Stop {
+            if (self.emit)(&named(PartToLine::Inverse, ends, found, rising)) == Flow::Stop {
                 return;
             }
         }
@@ -537,7 +543,7 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
         let limits = self.limits;
         let skips = |l: f64, r: f64| {
             !(l < 0.0 && r > 0.0) && {
-                let (lo, hi) = Place::Inverse.ends(l, r);
+                let (lo, hi) = PartToLine::Inverse.ends(l, r);
                 hi.next_up() < limits.lo || lo.next_down() > limits.hi
             }
         };
@@ -548,7 +554,7 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
             #[inline(always)]
             |node, rising| {
                 let ends = (node.l, node.r);
-                let widest = |x: f64| Place::Inverse.widest(x, limits);
+                let widest = |x: f64| PartToLine::Inverse.widest(x, limits);
                 let found =
                     reversed.refine(ends, rising, 0.5 * (node.l + node.r), widest).ok_or(Doubt(node.l))?;
                 // p(s) = s^n q(1 / s): on the negative side an odd degree turns the sign; and σ falls as s rises.
@@ -592,7 +598,7 @@ type Tail = ((f64, f64), (f64, f64, f64), bool);
 
 /// Whether a part of a stretch is outside the limits.
 #[inline(always)]
-fn is_skipped(place: Place, limits: &Limits, l: f64, r: f64) -> bool {
+fn is_skipped(place: PartToLine, limits: &Limits, l: f64, r: f64) -> bool {
     let (lo, hi) = place.ends(l, r);
     hi.next_up() < limits.lo || lo.next_down() > limits.hi
 }
@@ -605,7 +611,7 @@ fn back(from: f64, x: f64) -> f64 {
 
 /// A root in the terms of the line.
 #[inline(always)]
-fn named<'a>(place: Place, ends: (f64, f64), (x, a, b): (f64, f64, f64), rising: bool) -> Found<'a> {
+fn named<'a>(place: PartToLine, ends: (f64, f64), (x, a, b): (f64, f64, f64), rising: bool) -> Found<'a> {
     let (lo, hi) = place.ends(a, b);
     let (l, r) = place.ends(ends.0, ends.1);
     let (lo, hi) = (lo.next_down(), hi.next_up());

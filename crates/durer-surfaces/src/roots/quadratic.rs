@@ -9,7 +9,7 @@
 
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Equal, Greater, Less};
-use durer_math::{Dd, Dyadic, Ring, Run, U, eft::difference_of_products};
+use durer_math::{Dd, Dyadic, EFloat, Ring, U, eft::difference_of_products};
 
 /// `A s² + 2 B s + C`.
 #[derive(Clone, Debug)]
@@ -78,34 +78,34 @@ impl Limits {
 
 /// The number `value 2^k` in its enclosure, and its sign if that is certain.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Known {
-    pub(crate) value: Run,
+pub(crate) struct SignedEnclosure {
+    pub(crate) value: EFloat,
     pub(crate) k: i32,
     pub(crate) sign: Option<Ordering>,
 }
 
-impl From<Run> for Known {
+impl From<EFloat> for SignedEnclosure {
     #[inline(always)]
-    fn from(value: Run) -> Self {
+    fn from(value: EFloat) -> Self {
         Self { value, k: 0, sign: value.sign() }
     }
 }
 
-impl From<&Run<Dd>> for Known {
-    fn from(x: &Run<Dd>) -> Self {
+impl From<&EFloat<Dd>> for SignedEnclosure {
+    fn from(x: &EFloat<Dd>) -> Self {
         let e = (x.v.lo.abs() + x.e) * (1.0 + 4.0 * U);
-        Self { value: Run::with_error(x.v.hi, e), k: 0, sign: x.sign() }
+        Self { value: EFloat::with_error(x.v.hi, e), k: 0, sign: x.sign() }
     }
 }
 
-impl From<&Dyadic> for Known {
+impl From<&Dyadic> for SignedEnclosure {
     fn from(x: &Dyadic) -> Self {
         let (lo, hi) = x.to_bounds();
-        Self { value: Run::with_error(x.to_f64(), hi - lo), k: 0, sign: x.sign() }
+        Self { value: EFloat::with_error(x.to_f64(), hi - lo), k: 0, sign: x.sign() }
     }
 }
 
-impl Known {
+impl SignedEnclosure {
     /// The number with an exponent of its own, so that no size is too large or too small.
     pub(crate) fn of_any_size(x: &Dyadic) -> Self {
         let k = x.exponent().and_then(|e| i32::try_from(e).ok()).unwrap_or(0);
@@ -157,35 +157,35 @@ impl Quadratic<Dyadic> {
     }
 }
 
-impl Quadratic<Run> {
+impl Quadratic<EFloat> {
     /// The value at `s`.
     #[inline(always)]
-    pub(crate) fn at(&self, s: Run) -> Run {
+    pub(crate) fn at(&self, s: EFloat) -> EFloat {
         // Doubling is exact.
-        let b = Run::with_error(2.0 * self.b.v, 2.0 * self.b.e);
+        let b = EFloat::with_error(2.0 * self.b.v, 2.0 * self.b.e);
         (self.a * s + b) * s + self.c
     }
 
     /// `B² - AC` with Kahan's difference.
     #[inline(always)]
-    pub(crate) fn kahan_discriminant(&self) -> Run {
+    pub(crate) fn kahan_discriminant(&self) -> EFloat {
         let (a, b, c) = (self.a, self.b, self.c);
         let v = difference_of_products(b.v, b.v, a.v, c.v);
         let inherited = b.e * (2.0 * b.v.abs() + b.e) + (a.v.abs() * c.e + a.e * (c.v.abs() + c.e));
         // 1.5 ulp of the difference itself; the last term pays for underflow of the residuals.
         let zero = (b.v == 0.0 || b.v.abs() > 1e-140) && (a.v == 0.0 || c.v == 0.0);
         let floor = if zero { 0.0 } else { 1e-290 };
-        Run::with_error(v, (inherited + 3.0 * U * v.abs()) * (1.0 + 16.0 * U) + floor)
+        EFloat::with_error(v, (inherited + 3.0 * U * v.abs()) * (1.0 + 16.0 * U) + floor)
     }
 }
 
 /// The square root of a number that is certainly positive: `|√x - √v| = |x - v| / (√x + √v)`, and `√x >= √v (1 - e/v)`.
 #[inline(always)]
-fn root_of(x: Run) -> Run {
+fn root_of(x: EFloat) -> EFloat {
     let (root, ratio) = (x.v.sqrt(), x.e / x.v);
     // Certain in an exact ring, but not in this enclosure.
     if ratio < 0.9 {
-        Run::with_error(root, root * (ratio / (2.0 - ratio) + U) * (1.0 + 16.0 * U))
+        EFloat::with_error(root, root * (ratio / (2.0 - ratio) + U) * (1.0 + 16.0 * U))
     } else {
         x.sqrt()
     }
@@ -193,7 +193,7 @@ fn root_of(x: Run) -> Run {
 
 /// `x 2^k`, where `k` is nearly always a known 0.
 #[inline(always)]
-fn scaled(x: Run, k: i32) -> Run {
+fn scaled(x: EFloat, k: i32) -> EFloat {
     if k == 0 { x } else { x.scale2(k) }
 }
 
@@ -202,10 +202,10 @@ fn scaled(x: Run, k: i32) -> Run {
 /// `offset` is added to each root. `disc` may be known better than the coefficients would tell; it and `b` have the exponent 0.
 #[inline(always)]
 pub(crate) fn solve(
-    a: Known,
-    b: Known,
-    c: Known,
-    disc: Known,
+    a: SignedEnclosure,
+    b: SignedEnclosure,
+    c: SignedEnclosure,
+    disc: SignedEnclosure,
     offset: f64,
     limits: &Limits,
 ) -> Option<LineRoots> {
@@ -257,8 +257,13 @@ pub(crate) fn solve(
 
 /// A root, if it is within the limits; `None` if its bracket is too wide.
 #[inline(always)]
-pub(crate) fn admit(root: Run, offset: f64, crossing: Crossing, limits: &Limits) -> Option<Option<LineRoot>> {
-    let root = if offset == 0.0 { root } else { root + Run::exact(offset) };
+pub(crate) fn admit(
+    root: EFloat,
+    offset: f64,
+    crossing: Crossing,
+    limits: &Limits,
+) -> Option<Option<LineRoot>> {
+    let root = if offset == 0.0 { root } else { root + EFloat::exact(offset) };
     let (lo, hi) = (root.lo(), root.hi());
     if hi < limits.lo || lo > limits.hi {
         return Some(None);
@@ -404,7 +409,8 @@ mod tests {
     fn a_vanishing_leading_coefficient_keeps_the_finite_root() {
         let limits = Limits { lo: -10.0, hi: 10.0, origin: 0.0, width: NARROW };
         for a in [0.0, 1e-300, -1e-300, 1e-17] {
-            let p = Quadratic::<Run> { a: Run::exact(a), b: Run::exact(0.5), c: Run::exact(-2.0) };
+            let p =
+                Quadratic::<EFloat> { a: EFloat::exact(a), b: EFloat::exact(0.5), c: EFloat::exact(-2.0) };
             let disc = p.kahan_discriminant();
             let roots = solve(p.a.into(), p.b.into(), p.c.into(), disc.into(), 0.0, &limits).unwrap();
             let found: Vec<_> = roots.roots.iter().flatten().collect();

@@ -178,7 +178,7 @@ pub(super) fn common_factor(a: &[Dyadic], b: &[Dyadic]) -> Option<(Poly, Poly)> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::Dice;
+    use crate::laws::TestRng;
 
     fn times(p: &[Dyadic], q: &[Dyadic]) -> Poly {
         let mut out = vec![Dyadic::ZERO; p.len() + q.len() - 1];
@@ -190,14 +190,14 @@ mod tests {
         out
     }
 
-    fn random(dice: &mut Dice, degree: usize) -> Poly {
+    fn random(dice: &mut TestRng, degree: usize) -> Poly {
         (0..=degree).map(|_| Dyadic::from(dice.between(-1.0, 1.0) * dice.scale(-60, 60))).collect()
     }
 
     #[test]
     fn the_greatest_common_divisor_is_what_was_put_in() {
         for seed in 0..60 {
-            let mut dice = Dice::new(seed);
+            let mut dice = TestRng::new(seed);
             let (a, b) = (random(&mut dice, 5), random(&mut dice, 4));
             assert!(common_factor(&a, &b).is_none());
             let mut common = vec![Dyadic::from(1.0)];

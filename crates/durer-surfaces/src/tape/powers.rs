@@ -191,7 +191,7 @@ impl Number for Powers {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::Dice;
+    use crate::laws::TestRng;
     use crate::tape::{Builder, Op, Tape};
     use durer_math::Dyadic;
 
@@ -219,7 +219,7 @@ mod tests {
             let left = &(&(&cube * &(&y * &y)) * &three) + &z;
             &(&left + &(&tenth * &three)) * &y
         };
-        let mut dice = Dice::new(5);
+        let mut dice = TestRng::new(5);
         for _ in 0..2000 {
             let size = dice.power(-40, 40);
             let mut line = || [dice.unit() * size, dice.unit()];

@@ -2,11 +2,11 @@
 
 use durer_math::{Point3, Ray};
 use durer_surfaces::algebraic::{coefficient_count, place_of};
-use durer_surfaces::{AlgebraicSurface, Kind, LocalPoint, Root, Side, Surface};
+use durer_surfaces::{AlgebraicSurface, LocalPoint, Root, RootKind, Side, Surface};
 
 /// Brackets overlap one by one where all roots are certain; else the signs add up to the same.
 pub(crate) fn same(a: &[Root], b: &[Root]) -> bool {
-    let sure = |roots: &[Root]| roots.iter().all(|r| r.kind == Kind::Simple);
+    let sure = |roots: &[Root]| roots.iter().all(|r| r.kind == RootKind::Simple);
     if sure(a) && sure(b) {
         return a.len() == b.len()
             && a.iter().zip(b).all(|(a, b)| a.lo <= b.hi && b.lo <= a.hi && a.sign == b.sign);

@@ -2,7 +2,7 @@
 
 use crate::common::Dice;
 use durer_math::{Ray, Vec3};
-use durer_surfaces::{All, Kind, LocalRay, Root, Surface};
+use durer_surfaces::{All, LocalRay, Root, RootKind, Surface};
 
 impl Dice {
     /// Through the cube around the origin, from near and far; often along an axis, in a plane between octants, or through the origin.
@@ -41,8 +41,8 @@ pub(crate) struct Met {
 impl Met {
     pub(crate) fn add(&mut self, roots: &[Root]) {
         for root in roots {
-            self.simple += usize::from(root.kind == Kind::Simple);
-            self.clusters += usize::from(root.kind != Kind::Simple);
+            self.simple += usize::from(root.kind == RootKind::Simple);
+            self.clusters += usize::from(root.kind != RootKind::Simple);
             self.widths.push((root.hi - root.lo) / (root.t.abs() * f64::EPSILON));
         }
     }

@@ -2,7 +2,7 @@
 
 use astro_float::{BigFloat, Consts, RoundingMode};
 use durer_math::{Aabb, Point3, Vec3};
-use durer_surfaces::implicit::level_set::leaves;
+use durer_surfaces::implicit::level_set::primitives;
 use durer_surfaces::{Axis, LevelSet, Sphere, Surface, Torus, Warp};
 use std::cell::RefCell;
 
@@ -139,15 +139,15 @@ impl Solid {
         match self {
             Self::Block => {
                 let (a, b) = (Point3::from(LOW), Point3::from(HIGH));
-                LevelSet::new(leaves::cuboid(a, b).unwrap(), Aabb::new(a, b))
+                LevelSet::new(primitives::cuboid(a, b).unwrap(), Aabb::new(a, b))
             }
             Self::Ball => {
                 let ball = Sphere::new(Point3::new(0.2, -0.1, 0.3), 0.6).unwrap();
-                LevelSet::new(leaves::ball(ball.centre(), ball.radius()).unwrap(), Surface::bounds(&ball))
+                LevelSet::new(primitives::ball(ball.centre(), ball.radius()).unwrap(), Surface::bounds(&ball))
             }
             Self::Ring => {
                 let ring = Torus::new(Point3::ORIGIN, Axis::Y, 0.5, 0.2).unwrap();
-                LevelSet::new(leaves::torus(0.5, 0.2).unwrap(), ring.bounds())
+                LevelSet::new(primitives::torus(0.5, 0.2).unwrap(), ring.bounds())
             }
             Self::Shell => {
                 let without = Self::Ball.level_set().complement().unwrap();

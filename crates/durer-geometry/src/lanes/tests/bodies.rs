@@ -5,8 +5,9 @@ use super::{Aim, Dice, OF_HIGHER_DEGREE, Tally, compare, eight, point};
 use crate::{Geometry, Shown};
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{
-    AlgebraicSurface, Axis, AxisBox, Blob, BlobComponent, BlobShape, CappedCylinder, Cone, CurvedPrism,
-    Erased, Frustum, Inverse, Mesh, Placed, Plane, Prism, Quadric, Sphere, Torus, Turned,
+    AlgebraicSurface, Axis, AxisBox, Blob, BlobComponent, BlobShape, CappedCylinder, Complement, Cone,
+    CurvedPrism, DynSurface, Frustum, Mesh, Placed, Plane, Prism, Quadric, Sphere, SurfaceOfRevolution,
+    Torus,
 };
 
 /// Solids of solids: convex and not, with faces in common, and several in one world.
@@ -46,7 +47,7 @@ fn bodies() -> Vec<World> {
     });
     let vase = || {
         let profile = [[0.25, -1.25], [0.5, -1.0], [0.75, -0.25], [0.25, 0.5], [0.5, 1.0], [1.0, 1.25]];
-        Turned::sor(&profile).unwrap()
+        SurfaceOfRevolution::sor(&profile).unwrap()
     };
     world("bowl", &|csg| {
         let outer = csg.leaf(vase()).unwrap();
@@ -54,7 +55,7 @@ fn bodies() -> Vec<World> {
         csg.difference(outer, [inner])
     });
     world("egg shell and ring", &|csg| {
-        let egg = |a, b| Placed::new(Turned::ovus(a, b).unwrap(), map());
+        let egg = |a, b| Placed::new(SurfaceOfRevolution::ovus(a, b).unwrap(), map());
         let outer = csg.leaf(egg(0.75, 0.5)).unwrap();
         let inner = csg.leaf(egg(0.65, 0.45)).unwrap();
         let lid = csg.leaf(Plane::new(Vec3::new(0.25, 1.0, 0.0), 0.5).unwrap()).unwrap();
@@ -89,7 +90,7 @@ fn bodies() -> Vec<World> {
     });
     world("half of a saddle", &|csg| {
         let saddle = csg.leaf(saddle()).unwrap();
-        let hole = csg.leaf(Inverse(Sphere::new(point(0.0, 0.0, 0.0), 0.5).unwrap())).unwrap();
+        let hole = csg.leaf(Complement(Sphere::new(point(0.0, 0.0, 0.0), 0.5).unwrap())).unwrap();
         csg.intersection([saddle, hole])
     });
     world("blob with a hole", &|csg| {
@@ -148,7 +149,7 @@ fn bodies() -> Vec<World> {
     });
     world("two cones and a saddle", &|csg| {
         let cone = Frustum::new(point(0.0, -1.0, 0.0), 0.9, point(0.0, 1.0, 0.0), 0.1).unwrap();
-        let cone = csg.leaf(Inverse(Placed::new(cone, map()))).unwrap();
+        let cone = csg.leaf(Complement(Placed::new(cone, map()))).unwrap();
         let nappes = csg.leaf(Cone::new(0.7, 0.8, 1.0).unwrap()).unwrap();
         let block = csg.leaf(block(-1.3, 1.2)).unwrap();
         let saddle = Quadric::new([1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.1]).unwrap();
@@ -188,7 +189,7 @@ fn bodies() -> Vec<World> {
     });
     world("crossed curve with a lid", &|csg| {
         let curve = CurvedPrism::linear(&[crossed_eight()], -0.5, 0.75).unwrap();
-        let curve = csg.leaf(Inverse(curve)).unwrap();
+        let curve = csg.leaf(Complement(curve)).unwrap();
         let lid = csg.leaf(Plane::new(Vec3::new(0.25, 1.0, 0.0), 0.5).unwrap()).unwrap();
         let curve = csg.inverse(curve);
         csg.intersection([curve, lid])
@@ -222,11 +223,11 @@ fn placed() -> Vec<World> {
     let (outline, hole) = heart();
     let curves = [outline.as_slice(), hole.as_slice()];
     let square = [[[-0.75, -0.75], [0.75, -0.75], [0.75, 0.75], [-0.75, 0.75]]];
-    let upright = Erased::new(CurvedPrism::linear(&curves, -0.5, 0.75).unwrap());
-    let cone = Erased::new(CurvedPrism::conic(&curves, 0.25, 1.0).unwrap());
-    let pyramid = Erased::new(Prism::conic(&square, 0.0, 1.25).unwrap());
-    let star = Erased::new(Prism::linear(&[crossed_star()], -0.5, 0.625).unwrap());
-    let ball = Erased::new(Sphere::new(point(0.25, 0.25, 0.0), 0.75).unwrap());
+    let upright = DynSurface::new(CurvedPrism::linear(&curves, -0.5, 0.75).unwrap());
+    let cone = DynSurface::new(CurvedPrism::conic(&curves, 0.25, 1.0).unwrap());
+    let pyramid = DynSurface::new(Prism::conic(&square, 0.0, 1.25).unwrap());
+    let star = DynSurface::new(Prism::linear(&[crossed_star()], -0.5, 0.625).unwrap());
+    let ball = DynSurface::new(Sphere::new(point(0.25, 0.25, 0.0), 0.75).unwrap());
     let mut all = Vec::new();
     for (name, one, two) in [
         ("heart and ball", &upright, &ball),
@@ -234,7 +235,8 @@ fn placed() -> Vec<World> {
         ("pyramid and heart", &pyramid, &upright),
     ] {
         for (how, maps) in placements() {
-            let put = |s: &Erased| maps.iter().fold(s.clone(), |s, map| Erased::new(Placed::new(s, *map)));
+            let put =
+                |s: &DynSurface| maps.iter().fold(s.clone(), |s, map| DynSurface::new(Placed::new(s, *map)));
             let csg = &mut crate::Compound::builder();
             let (one, two) = (csg.leaf(put(one)).unwrap(), csg.leaf(put(two)).unwrap());
             let rest = csg.difference(one, [two]);

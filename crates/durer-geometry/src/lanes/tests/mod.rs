@@ -11,7 +11,7 @@ use super::*;
 use crate::Hit;
 use durer_math::lanes::LANES;
 use durer_math::{Ray, U};
-use durer_surfaces::{Kind, Side, SurfacePoint};
+use durer_surfaces::{RootKind, Side, SurfacePoint};
 
 /// Numbers at random in `[-1, 1)`.
 struct Dice(u64);
@@ -151,7 +151,7 @@ fn check(world: &World, rays: &Rays8, (hits, met, asked): (&Hits8, M8, M8), tall
         let exact = geometry.closest(&ray);
         tally.rays += 1;
         // Where an edge is met within rounding of a formula single rays, too, may say one thing or another. Lanes are as near as `see` asks for.
-        let seen = (hits.t.0[i], 0.5 * ROUGH * hits.t.0[i]);
+        let seen = (hits.t.0[i], 0.5 * PREVIEW_WIDTH * hits.t.0[i]);
         let told = exact.map_or(seen, |hit| (hit.t, hit.t_hi - hit.t_lo));
         if [seen, told].into_iter().any(|near| world.has_edge_on(&ray, near)) {
             tally.edges += 1;
@@ -162,7 +162,7 @@ fn check(world: &World, rays: &Rays8, (hits, met, asked): (&Hits8, M8, M8), tall
         let in_brackets = matches!(world.sides, Sides::Bracketed | Sides::Rimmed { .. });
         let untold = exact.is_some_and(|hit| {
             let at_an_end = hit.t_lo <= 0.0 || hit.t_hi >= ray.t_max;
-            hit.kind == Kind::Cluster && hit.sign == 0 || at_an_end && in_brackets
+            hit.kind == RootKind::Cluster && hit.sign == 0 || at_an_end && in_brackets
         });
         if untold && !asked.lane(i) && (in_brackets || matches!(world.sides, Sides::Rounded)) {
             assert_eq!(hits.hit.lane(i), met.lane(i), "{}: {ray:?} {exact:?}", world.name);
@@ -208,7 +208,7 @@ fn one(hits: &Hits8, i: usize) -> impl core::fmt::Debug {
 fn check_hit(world: &World, ray: &Ray, first: &Hit, hits: &Hits8, i: usize) {
     let name = &world.name;
     // The bound that `see` asks for; the exact crossing is in a bracket, too.
-    let apart = 0.5 * ROUGH * first.t + (first.t_hi - first.t_lo);
+    let apart = 0.5 * PREVIEW_WIDTH * first.t + (first.t_hi - first.t_lo);
     assert!((hits.t.0[i] - first.t).abs() <= apart, "{name}: {ray:?} {first:?} {}", hits.t.0[i]);
     assert_eq!(
         (hits.object[i], hits.primitive[i], hits.touching.lane(i)),

@@ -3,15 +3,15 @@
 use super::point;
 use crate::{Geometry, Hit};
 use durer_math::{Affine, Dyadic, Function, Isa, Normal3, Point3, Ray, Vec3};
-use durer_surfaces::ROUGH;
+use durer_surfaces::PREVIEW_WIDTH;
 use durer_surfaces::tape::{Builder, Op};
 use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Bezier, Blob, BlobComponent, BlobShape,
-    CappedCylinder, Clip, Cone, Container, CurvedPrism, Disc, Ellipsoid, EllipticCylinder,
-    EllipticParaboloid, Erased, FillRule, Frustum, HyperbolicCylinder, HyperbolicParaboloid,
-    HyperboloidOfOneSheet, HyperboloidOfTwoSheets, Inverse, Isosurface, Julia, JuliaAlgebra, JuliaPower,
-    JuliaSet, Mesh, MeshData, ParabolicCylinder, Parallelogram, Placed, Plane, Polygon, Prism, Quadric,
-    Region, Sphere, SphericalSector, Torus, Triangle, Turned, superellipsoid,
+    CappedCylinder, Clip, Complement, Cone, Container, CurvedPrism, Disc, DynSurface, Ellipsoid,
+    EllipticCylinder, EllipticParaboloid, FillRule, Frustum, HyperbolicCylinder, HyperbolicParaboloid,
+    HyperboloidOfOneSheet, HyperboloidOfTwoSheets, Isosurface, Julia, JuliaAlgebra, JuliaPower, JuliaSet,
+    Mesh, MeshData, ParabolicCylinder, Parallelogram, Placed, Plane, Polygon, Prism, Quadric, Region, Sphere,
+    SphericalSector, SurfaceOfRevolution, Torus, Triangle, superellipsoid,
 };
 
 /// What is known exactly of points beside the surface.
@@ -82,7 +82,7 @@ impl World {
         self.edges.as_ref().is_some_and(|[one, other]| {
             let others = other.all(&line);
             let meets = |a: &Hit, b: &Hit| {
-                let rough = ROUGH * a.t;
+                let rough = PREVIEW_WIDTH * a.t;
                 a.t_lo <= b.t_hi + rough && a.t_hi + rough >= b.t_lo && (near(a) || near(b))
             };
             one.all(&line).iter().any(|a| others.iter().any(|b| meets(a, b)))
@@ -151,16 +151,16 @@ type Worlds = (Isa, Vec<World>);
 
 /// A surface in all its placements.
 fn worlds<S: Algebraic + 'static>(name: &'static str, sides: Sides, surface: S, (isa, out): &mut Worlds) {
-    let surface = Erased::new(surface);
-    let mut world = |how: &str, turned: bool, maps: Vec<Affine>, surface: Erased| {
+    let surface = DynSurface::new(surface);
+    let mut world = |how: &str, turned: bool, maps: Vec<Affine>, surface: DynSurface| {
         let geometry = Geometry::builder().isa(*isa).add(surface).build().unwrap();
         let full = format!("{name}, {how}");
         out.push(World { surface: name, name: full, geometry, sides, turned, edges: None, maps });
     };
     world("as it is", false, Vec::new(), surface.clone());
-    world("inside out", true, Vec::new(), Erased::new(Inverse(surface.clone())));
+    world("inside out", true, Vec::new(), DynSurface::new(Complement(surface.clone())));
     for (how, maps) in placements() {
-        let placed = maps.iter().fold(surface.clone(), |s, map| Erased::new(Placed::new(s, *map)));
+        let placed = maps.iter().fold(surface.clone(), |s, map| DynSurface::new(Placed::new(s, *map)));
         world(how, false, maps, placed);
     }
 }
@@ -291,11 +291,11 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     worlds("torus", Sides::Smooth, ring, all);
     worlds("horn torus", Sides::Solid, Torus::new(o, Axis::X, 0.5, 0.5).unwrap(), all);
     let profile = [[0.25, -1.25], [0.5, -1.0], [0.75, -0.25], [0.25, 0.5], [0.5, 1.0], [1.0, 1.25]];
-    let vase = Turned::sor(&profile).unwrap();
+    let vase = SurfaceOfRevolution::sor(&profile).unwrap();
     worlds("sor", Sides::Solid, vase.clone(), all);
     worlds("open sor", Sides::Sheet, vase.without_ends(), all);
-    worlds("ovus", Sides::Smooth, Turned::ovus(0.75, 0.5).unwrap(), all);
-    worlds("lemon", Sides::Convex, Turned::lemon(1.5, 0.5, 0.25, 1.25).unwrap(), all);
+    worlds("ovus", Sides::Smooth, SurfaceOfRevolution::ovus(0.75, 0.5).unwrap(), all);
+    worlds("lemon", Sides::Convex, SurfaceOfRevolution::lemon(1.5, 0.5, 0.25, 1.25).unwrap(), all);
     // A cushion with dimples, a cubic that goes on for ever, one that a ball and a half-space cut, and a bowl of degree six.
     let of = |order: u32, terms: &[([u32; 3], f64)]| {
         let mut c = vec![0.0; durer_surfaces::algebraic::coefficient_count(order)];
@@ -436,13 +436,13 @@ fn contained_worlds(all: &mut Worlds) {
     let waves = Isosurface::new(&formula, 0.25, Container::Ball(ball)).unwrap();
     let around = Container::Ball(Sphere::new(o, 4.0).unwrap());
     let endless = Isosurface::new(&formula, 0.25, around).unwrap().without_caps();
-    let whole = || Erased::new(endless.clone());
+    let whole = || DynSurface::new(endless.clone());
     let [closed, open] = [true, false].map(|closed| Sides::Rimmed { closed });
-    edged("waves", closed, waves.clone(), [Erased::new(ball), whole()], all);
-    edged("open waves", open, waves.clone().without_caps(), [Erased::new(ball), whole()], all);
+    edged("waves", closed, waves.clone(), [DynSurface::new(ball), whole()], all);
+    edged("open waves", open, waves.clone().without_caps(), [DynSurface::new(ball), whole()], all);
     let block = AxisBox::new(point(-1.0, -0.75, -0.5), point(0.75, 1.0, 0.875)).unwrap();
     let boxed = Isosurface::new(&formula, 0.25, Container::Box(block)).unwrap();
-    edged("boxed waves", closed, boxed, [Erased::new(block), whole()], all);
+    edged("boxed waves", closed, boxed, [DynSurface::new(block), whole()], all);
 }
 
 /// Formulas that are undefined on a line far outside of their solids, and in half of space beside them.
@@ -525,7 +525,7 @@ fn edged<S: Algebraic + 'static>(
     name: &'static str,
     sides: Sides,
     surface: S,
-    others: [Erased; 2],
+    others: [DynSurface; 2],
     all: &mut Worlds,
 ) {
     let first = all.1.len();

@@ -15,7 +15,7 @@
 //! would be those of everything: in a wedge about that half-plane the formula is replaced by a positive number.
 
 use super::{DeformError, Map, Stretch, columns, direction};
-use crate::implicit::level_set::pen::{Pen, Step};
+use crate::implicit::level_set::expr::{ExprBuilder, Step};
 use crate::tape::{FormulaError, NodeId};
 use durer_math::{Aabb, Affine, Interval, Vec3, elementary};
 
@@ -108,7 +108,7 @@ impl Map for Bend {
         [self.radius - u * c + beyond * s, y, from + u * s + beyond * c]
     }
 
-    fn undone(&self, pen: &mut Pen, [x, y, z]: [NodeId; 3]) -> Result<[NodeId; 3], FormulaError> {
+    fn undone(&self, pen: &mut ExprBuilder, [x, y, z]: [NodeId; 3]) -> Result<[NodeId; 3], FormulaError> {
         let (from, to) = (pen.number(self.stretch.from)?, pen.number(self.stretch.to)?);
         let (radius, turn) = (pen.enclosed(self.radius)?, pen.enclosed(self.turn)?);
         let (u, v) = (pen.sub(radius, x)?, pen.sub(z, from)?);
@@ -142,7 +142,7 @@ impl Map for Bend {
         Ok([was.0, y, was.1])
     }
 
-    fn nothing(&self, pen: &mut Pen, [x, _, z]: [NodeId; 3]) -> Result<Option<NodeId>, FormulaError> {
+    fn nothing(&self, pen: &mut ExprBuilder, [x, _, z]: [NodeId; 3]) -> Result<Option<NodeId>, FormulaError> {
         let (from, radius) = (pen.number(self.stretch.from)?, pen.enclosed(self.radius)?);
         let (u, v) = (pen.sub(radius, x)?, pen.sub(z, from)?);
         let (far, edge) = (far(pen, u, v)?, pen.number(self.edge)?);
@@ -154,7 +154,7 @@ impl Map for Bend {
 
 impl Bend {
     /// (u, v), turned so that the middle angle is zero.
-    fn turned(&self, pen: &mut Pen, u: NodeId, v: NodeId) -> Result<[NodeId; 2], FormulaError> {
+    fn turned(&self, pen: &mut ExprBuilder, u: NodeId, v: NodeId) -> Result<[NodeId; 2], FormulaError> {
         let middle = Interval::from(self.middle);
         let (s, c) = (pen.enclosed(middle.sin())?, pen.enclosed(middle.cos())?);
         let (uc, vs, us, vc) = (pen.mul(u, c)?, pen.mul(v, s)?, pen.mul(u, s)?, pen.mul(v, c)?);
@@ -163,7 +163,7 @@ impl Bend {
 }
 
 /// The distance from the centre.
-fn far(pen: &mut Pen, u: NodeId, v: NodeId) -> Step {
+fn far(pen: &mut ExprBuilder, u: NodeId, v: NodeId) -> Step {
     let (u2, v2) = (pen.sqr(u)?, pen.sqr(v)?);
     let square = pen.add(u2, v2)?;
     pen.sqrt(square)

@@ -8,7 +8,7 @@
 //! do: a map may go round.
 
 use super::DeformError;
-use crate::implicit::level_set::{LevelSet, boxes, leaves};
+use crate::implicit::level_set::{LevelSet, boxes, primitives};
 use crate::tape::{Formula, Tape};
 use durer_math::{Aabb, Dual, Interval, Point3};
 
@@ -37,7 +37,7 @@ pub(super) fn deformed(
     let image = solid.pulled_back(within, |pen, p| {
         Ok([pen.call(&functions[0], p)?, pen.call(&functions[1], p)?, pen.call(&functions[2], p)?])
     })?;
-    let held = LevelSet::new(leaves::cuboid(within.min, within.max)?, within);
+    let held = LevelSet::new(primitives::cuboid(within.min, within.max)?, within);
     Ok(LevelSet::intersection(&[image, held])?)
 }
 

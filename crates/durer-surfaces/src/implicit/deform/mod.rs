@@ -17,7 +17,7 @@ mod inverse;
 mod turn;
 
 use super::level_set::LevelSet;
-use super::level_set::pen::Pen;
+use super::level_set::expr::ExprBuilder;
 use crate::IsosurfaceError;
 use crate::tape::{Formula, FormulaError, NodeId};
 use bend::Bend;
@@ -216,7 +216,7 @@ impl LevelSet {
             let image = Aabb::new(Point3::new(x.lo, y.lo, z.lo), Point3::new(x.hi, y.hi, z.hi));
             bounds = bounds.union(frame.bounds(&image));
         }
-        let (mut pen, p) = Pen::new()?;
+        let (mut pen, p) = ExprBuilder::new()?;
         let own = pen.undone(p, frame)?;
         let was = map.undone(&mut pen, own)?;
         let was = pen.placed(was, frame)?;
@@ -235,10 +235,10 @@ trait Map {
     fn image(&self, p: [Interval; 3]) -> [Interval; 3];
 
     /// Writes down the inverse.
-    fn undone(&self, pen: &mut Pen, p: [NodeId; 3]) -> Result<[NodeId; 3], FormulaError>;
+    fn undone(&self, pen: &mut ExprBuilder, p: [NodeId; 3]) -> Result<[NodeId; 3], FormulaError>;
 
     /// Writes down a number that is negative only where nothing of the solid is.
-    fn nothing(&self, _: &mut Pen, _: [NodeId; 3]) -> Result<Option<NodeId>, FormulaError> {
+    fn nothing(&self, _: &mut ExprBuilder, _: [NodeId; 3]) -> Result<Option<NodeId>, FormulaError> {
         Ok(None)
     }
 }

@@ -9,7 +9,7 @@
 //! height alone, which they keep, and has an inverse there, since s > 0.
 
 use super::{Map, Stretch};
-use crate::implicit::level_set::pen::{Pen, Step};
+use crate::implicit::level_set::expr::{ExprBuilder, Step};
 use crate::tape::{FormulaError, NodeId};
 use durer_math::{Function, Interval};
 
@@ -23,7 +23,7 @@ impl Stretch {
         t.max(Interval::from(0.0)).min(Interval::from(1.0))
     }
 
-    fn ratio_of(self, pen: &mut Pen, z: NodeId) -> Step {
+    fn ratio_of(self, pen: &mut ExprBuilder, z: NodeId) -> Step {
         let (from, length) = (pen.number(self.from)?, pen.enclosed(self.length())?);
         let above = pen.sub(z, from)?;
         let t = pen.div(above, length)?;
@@ -46,7 +46,7 @@ impl Map for Twist {
         [x * c - y * s, x * s + y * c, z]
     }
 
-    fn undone(&self, pen: &mut Pen, [x, y, z]: [NodeId; 3]) -> Result<[NodeId; 3], FormulaError> {
+    fn undone(&self, pen: &mut ExprBuilder, [x, y, z]: [NodeId; 3]) -> Result<[NodeId; 3], FormulaError> {
         let (t, turn) = (self.stretch.ratio_of(pen, z)?, pen.enclosed(self.turn)?);
         let a = pen.mul(turn, t)?;
         let (s, c) = (pen.of(Function::Sin, a)?, pen.of(Function::Cos, a)?);
@@ -73,7 +73,7 @@ impl Map for Taper {
         [x * s, y * s, z]
     }
 
-    fn undone(&self, pen: &mut Pen, [x, y, z]: [NodeId; 3]) -> Result<[NodeId; 3], FormulaError> {
+    fn undone(&self, pen: &mut ExprBuilder, [x, y, z]: [NodeId; 3]) -> Result<[NodeId; 3], FormulaError> {
         let t = self.stretch.ratio_of(pen, z)?;
         // 1 + (factor - 1) t: the lesser of its ends is positive, and bounds never reach zero.
         let (one, grows) = (pen.number(1.0)?, pen.enclosed(self.grows())?);

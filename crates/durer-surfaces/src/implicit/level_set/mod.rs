@@ -8,14 +8,14 @@
 //! a box where it is known which of two operands counts, the other is gone from the tape.
 
 mod blob;
-pub mod leaves;
-pub(crate) mod pen;
+pub(crate) mod expr;
+pub mod primitives;
 
 use super::{Container, Isosurface, IsosurfaceError};
 use crate::AxisBox;
 use crate::tape::{Formula, FormulaError, NodeId, Tape};
 use durer_math::{Aabb, Affine, F8, I8, Vec3};
-use pen::Pen;
+use expr::ExprBuilder;
 
 /// By so much of its size the container of a level set is larger than what it holds on each side: the formula's sign is plain there.
 const ROOM: f64 = 1.0 / 64.0;
@@ -56,9 +56,9 @@ impl LevelSet {
     pub(crate) fn pulled_back(
         &self,
         bounds: Aabb,
-        inverse: impl FnOnce(&mut Pen, [NodeId; 3]) -> Result<[NodeId; 3], FormulaError>,
+        inverse: impl FnOnce(&mut ExprBuilder, [NodeId; 3]) -> Result<[NodeId; 3], FormulaError>,
     ) -> Result<Self, FormulaError> {
-        let (mut pen, p) = Pen::new()?;
+        let (mut pen, p) = ExprBuilder::new()?;
         let q = inverse(&mut pen, p)?;
         let f = pen.call(&self.formula, q)?;
         Ok(Self { formula: pen.done(f), bounds, combined: self.combined })
@@ -85,18 +85,18 @@ impl LevelSet {
     /// What is in any of them; nothing of none.
     pub fn union(parts: &[Self]) -> Result<Self, FormulaError> {
         let bounds = parts.iter().fold(Aabb::EMPTY, |all, part| all.union(part.bounds));
-        Self::joined(parts, bounds, 1.0, Pen::min)
+        Self::joined(parts, bounds, 1.0, ExprBuilder::min)
     }
 
     /// What is in all of them; everything of none.
     pub fn intersection(parts: &[Self]) -> Result<Self, FormulaError> {
         let bounds = parts.iter().fold(Aabb::UNBOUNDED, |all, part| all.intersection(part.bounds));
-        Self::joined(parts, bounds, -1.0, Pen::max)
+        Self::joined(parts, bounds, -1.0, ExprBuilder::max)
     }
 
     /// What is not in it.
     pub fn complement(&self) -> Result<Self, FormulaError> {
-        let (mut pen, p) = Pen::new()?;
+        let (mut pen, p) = ExprBuilder::new()?;
         let f = pen.call(&self.formula, p)?;
         let f = pen.neg(f)?;
         Ok(Self { formula: pen.done(f), bounds: Aabb::UNBOUNDED, combined: self.combined })
@@ -106,9 +106,9 @@ impl LevelSet {
         parts: &[Self],
         bounds: Aabb,
         of_none: f64,
-        join: impl Fn(&mut Pen, NodeId, NodeId) -> pen::Step,
+        join: impl Fn(&mut ExprBuilder, NodeId, NodeId) -> expr::Step,
     ) -> Result<Self, FormulaError> {
-        let (mut pen, p) = Pen::new()?;
+        let (mut pen, p) = ExprBuilder::new()?;
         let mut whole = None;
         for part in parts {
             let f = pen.call(&part.formula, p)?;
@@ -132,7 +132,7 @@ impl LevelSet {
         for _ in 0..DEPTH {
             let mut next = Vec::with_capacity(2 * cells.len());
             for cell in cells {
-                let parts: [Aabb; 8] = core::array::from_fn(|i| super::cells::octant(&cell, i));
+                let parts: [Aabb; 8] = core::array::from_fn(|i| super::octree::octant(&cell, i));
                 let v = tape.bounds(&boxes(&parts));
                 next.extend((0..8).filter(|i| v.empty >> i & 1 == 0 && v.lo.0[*i] <= 0.0).map(|i| parts[i]));
             }

@@ -1,20 +1,20 @@
 //! All crossings of a ray with a curved prism, by its walls and caps.
 
-use super::cut::{Meet, Scan};
 use super::forms::Cut;
-use super::piece::{Piece, View};
-use super::place::Places;
+use super::parameter::Places;
+use super::profile_curve::{ProfileCurve, View};
+use super::profile_hits::{Meet, Scan};
 use super::{CurvedPrism, Sweep};
 use crate::mesh::Sorted;
 use crate::planar::{Crossing, Line, Probe};
-use crate::turned::level::Level;
-use crate::{Kind, LocalRay, PartId, Root, Sink};
+use crate::revolution::level::HeightPlane;
+use crate::{LocalRay, PartId, Root, RootKind, Sink};
 use core::cmp::Ordering;
 use durer_math::eft::scale2;
-use durer_math::{Aabb, Isa, Ring, Run, Vec3};
+use durer_math::{Aabb, EFloat, Isa, Ring, Vec3};
 
 /// What a ray crosses.
-enum Face {
+enum CrossedFace {
     /// A wall, there, by its number.
     Wall(Meet, usize),
     /// A cap, the top one or not.
@@ -24,7 +24,7 @@ enum Face {
 impl CurvedPrism {
     /// The cut of a ray at a height that it passes: by `rise`, the sign of the ray's way up.
     #[inline(always)]
-    fn at_height<'a>(&self, probe: &Probe<'_>, level: &'a Level, rise: i8) -> Cut<'a> {
+    fn at_height<'a>(&self, probe: &Probe<'_>, level: &'a HeightPlane, rise: i8) -> Cut<'a> {
         let positive = match self.view.sweep {
             Sweep::Linear => rise > 0,
             Sweep::Conic => (rise > 0) == (level.height > 0.0),
@@ -67,12 +67,12 @@ impl CurvedPrism {
 
     /// Whether a crossing is between the heights.
     #[inline(always)]
-    fn is_between(&self, probe: &Probe<'_>, piece: &Piece, meet: &Meet, crossing: &Crossing) -> bool {
+    fn is_between(&self, probe: &Probe<'_>, piece: &ProfileCurve, meet: &Meet, crossing: &Crossing) -> bool {
         let (at, err) = probe.place(crossing);
-        let y = Run::with_error(at.y, err.y);
+        let y = EFloat::with_error(at.y, err.y);
         #[inline(always)]
-        fn above(y: Run, height: f64, view: &View) -> Option<Ordering> {
-            (y - (Run::exact(height) - Run::exact(view.centre.y)).scale2(-view.scale)).sign()
+        fn above(y: EFloat, height: f64, view: &View) -> Option<Ordering> {
+            (y - (EFloat::exact(height) - EFloat::exact(view.centre.y)).scale2(-view.scale)).sign()
         }
         match [above(y, self.heights[0], &self.view), above(y, self.heights[1], &self.view)] {
             [Some(Ordering::Greater), Some(Ordering::Less)] => true,
@@ -84,14 +84,14 @@ impl CurvedPrism {
     /// The same by the order along the line of the crossing and the points at which the ray passes the heights.
     #[cold]
     #[inline(never)]
-    fn is_exactly_between(&self, probe: &Probe<'_>, piece: &Piece, meet: &Meet) -> bool {
+    fn is_exactly_between(&self, probe: &Probe<'_>, piece: &ProfileCurve, meet: &Meet) -> bool {
         let levels = [self.level(false), self.level(true)];
         let Some(rise) = probe.crossing(&levels[0]).map(|c| c.sign) else {
             // All of the ray at one height. At the bottom is above it, at the top too.
-            let above = |level: &Level| probe.sign(level).is_none_or(Ordering::is_ge);
+            let above = |level: &HeightPlane| probe.sign(level).is_none_or(Ordering::is_ge);
             return above(&levels[0]) && !above(&levels[1]);
         };
-        let is_behind = |level: &Level| {
+        let is_behind = |level: &HeightPlane| {
             let positive = match self.view.sweep {
                 Sweep::Linear => rise > 0,
                 Sweep::Conic => (rise > 0) == (level.height > 0.0),
@@ -101,7 +101,7 @@ impl CurvedPrism {
         let order = if rise > 0 { [0, 1] } else { [1, 0] };
         let [entry, exit] = order.map(|i| &levels[i]);
         // A ray passes the apex's height far beyond all outlines, and comes back from the other side.
-        let at_apex = |level: &Level| self.view.sweep == Sweep::Conic && level.height == 0.0;
+        let at_apex = |level: &HeightPlane| self.view.sweep == Sweep::Conic && level.height == 0.0;
         let (entered, left) = (at_apex(entry) || !is_behind(entry), !at_apex(exit) && !is_behind(exit));
         let through_apex = self.view.sweep == Sweep::Conic && self.heights[0] < 0.0 && self.heights[1] > 0.0;
         if through_apex { entered || !left } else { entered && !left }
@@ -149,9 +149,9 @@ impl CurvedPrism {
         let sign = if left { -meet.turn } else { meet.turn };
         let tag = [(2 * i + usize::from(left)) as f64, meet.y];
         let kind = match meet {
-            Meet { certain: false, .. } => Kind::Cluster,
-            Meet { turn: 0, .. } => Kind::Grazing,
-            _ => Kind::Simple,
+            Meet { certain: false, .. } => RootKind::Cluster,
+            Meet { turn: 0, .. } => RootKind::Grazing,
+            _ => RootKind::Simple,
         };
         Root { sign, kind, ..probe.root(crossing, 0, tag) }
     }
@@ -226,31 +226,32 @@ impl CurvedPrism {
         let probe = self.probe(ray);
         let scan = Scan::new(&probe, &self.view, Cut::Ray);
         let places = Places::new(&probe, &scan);
-        let mut all: Vec<(Crossing, Face)> = Vec::new();
+        let mut all: Vec<(Crossing, CrossedFace)> = Vec::new();
         for i in 0..self.pieces.len() {
             self.wall_crossings(&probe, &places, i, |crossing, meet, i| {
-                all.push((crossing, Face::Wall(meet, i)));
+                all.push((crossing, CrossedFace::Wall(meet, i)));
             });
         }
         for top in [false, true] {
             if let Some(crossing) = self.cap_crossing(&probe, top, None) {
-                all.push((crossing, Face::Cap(top)));
+                all.push((crossing, CrossedFace::Cap(top)));
             }
         }
         // What is between the caps is, by the exact order along the line, after the one by which the ray enters and before the other.
-        let rank = |(crossing, face): &(Crossing, Face)| match face {
-            Face::Wall(..) => 1,
-            Face::Cap(top) if (crossing.sign > 0) != *top => 0,
-            Face::Cap(_) => 2,
+        let rank = |(crossing, face): &(Crossing, CrossedFace)| match face {
+            CrossedFace::Wall(..) => 1,
+            CrossedFace::Cap(top) if (crossing.sign > 0) != *top => 0,
+            CrossedFace::Cap(_) => 2,
         };
         all.sort_by(|a, b| rank(a).cmp(&rank(b)).then(a.0.s.total_cmp(&b.0.s)));
         // Where an outline crosses another, what f64 cannot put in order is in the exact one.
-        let overlap = |(a, x): &(Crossing, Face), (b, y): &(Crossing, Face)| {
-            matches!((x, y), (Face::Wall(..), Face::Wall(..))) && a.s_lo.max(b.s_lo) <= a.s_hi.min(b.s_hi)
+        let overlap = |(a, x): &(Crossing, CrossedFace), (b, y): &(Crossing, CrossedFace)| {
+            matches!((x, y), (CrossedFace::Wall(..), CrossedFace::Wall(..)))
+                && a.s_lo.max(b.s_lo) <= a.s_hi.min(b.s_hi)
         };
         for group in all.chunk_by_mut(overlap).filter(|group| group.len() > 1) {
             group.sort_by(|(_, a), (_, b)| match (a, b) {
-                (Face::Wall(a, i), Face::Wall(b, j)) => {
+                (CrossedFace::Wall(a, i), CrossedFace::Wall(b, j)) => {
                     places.order((&self.pieces[*i], a), (&self.pieces[*j], b))
                 }
                 _ => Ordering::Equal,
@@ -260,7 +261,7 @@ impl CurvedPrism {
         let mut inside = false;
         for (crossing, face) in &all {
             match face {
-                Face::Wall(meet, i) => {
+                CrossedFace::Wall(meet, i) => {
                     inside ^= meet.turn != 0;
                     // Rising it enters what is to the left.
                     let left = (meet.turn > 0) == inside;
@@ -268,7 +269,7 @@ impl CurvedPrism {
                         roots.push(self.wall_root(&probe, crossing, meet, *i, left));
                     }
                 }
-                Face::Cap(top) => {
+                CrossedFace::Cap(top) => {
                     inside = !inside;
                     if !self.open
                         && !crossing.is_outside(sink.range())

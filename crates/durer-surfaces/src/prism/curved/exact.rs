@@ -1,6 +1,6 @@
 //! Roots of a cubic on `[-1/2, 1/2]` in exact numbers, those at the ends included.
 
-use super::cut::Meet;
+use super::profile_hits::Meet;
 use crate::roots::exact::{ExactRoots, Isolated};
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Greater, Less};

@@ -3,9 +3,9 @@
 use super::Sweep;
 use crate::RingRay;
 use crate::planar::{AlongRay, Line, PlaneForm};
-use crate::turned::level::Level;
+use crate::revolution::level::HeightPlane;
 use durer_math::eft::exponent;
-use durer_math::{Dd, Dyadic, Ring, Run};
+use durer_math::{Dd, Dyadic, EFloat, Ring};
 
 /// A linear form `f·(x, 1, z)` in the plane of the outlines.
 pub(super) type Form<T> = [T; 3];
@@ -16,9 +16,9 @@ pub(super) enum Cut<'a> {
     /// A ray.
     Ray,
     /// A ray, and on it the point at a height; `positive` is the sign of what that point is divided by.
-    Height { level: &'a Level, positive: bool },
+    Height { level: &'a HeightPlane, positive: bool },
     /// The same for a ray that the plane of the outlines sees as a point: a line through it along x.
-    Point { level: &'a Level, positive: bool },
+    Point { level: &'a HeightPlane, positive: bool },
     /// A point by itself, the start of the line, and a line through it along x.
     Start { positive: bool },
 }
@@ -52,7 +52,7 @@ impl<T: Ring> Spot<T> {
 
     /// Where a ray is at a height.
     #[inline(always)]
-    fn at_height(sweep: Sweep, ray: &RingRay<T>, level: &Level, positive: bool) -> Option<Self> {
+    fn at_height(sweep: Sweep, ray: &RingRay<T>, level: &HeightPlane, positive: bool) -> Option<Self> {
         let above = level.height(ray)?;
         let ([ox, oy, oz], [dx, dy, dz]) = (ray.o.clone(), ray.d.clone());
         let w = match sweep {
@@ -121,7 +121,7 @@ pub(super) fn along<T: Ring>(f: &Form<T>, powers: &[[T; 2]; 4]) -> [T; 4] {
 
 /// The line with its denominator near one, for which high powers stay in range.
 #[inline(always)]
-pub(super) fn sized(ray: RingRay<Run<Dd>>) -> RingRay<Run<Dd>> {
+pub(super) fn sized(ray: RingRay<EFloat<Dd>>) -> RingRay<EFloat<Dd>> {
     let k = -exponent(ray.w.value());
     RingRay { o: ray.o.map(|x| x.scale2(k)), d: ray.d.map(|x| x.scale2(k)), w: ray.w.scale2(k) }
 }
@@ -132,7 +132,7 @@ pub(super) fn exact_line<L: Line>(line: &L) -> (RingRay<Dyadic>, bool) {
         Some(exact) => (exact, true),
         None => {
             let RingRay { o, d, w } = line.running();
-            let exact = |x: Run| Dyadic::new(x.v).unwrap_or(Dyadic::ZERO);
+            let exact = |x: EFloat| Dyadic::new(x.v).unwrap_or(Dyadic::ZERO);
             (RingRay { o: o.map(exact), d: d.map(exact), w: exact(w) }, false)
         }
     }

@@ -10,40 +10,40 @@
 //! ```
 //!
 //! A ray and the direction of the sweep, or its apex, span a plane, which cuts the plane of the outlines in a line; where that meets an outline, a
-//! cubic in `u` vanishes (`cut.rs`), and where on the ray that is, a quotient of two cubics says (`place.rs`). A point is inside where the outlines
+//! cubic in `u` vanishes (`profile_hits.rs`), and where on the ray that is, a quotient of two cubics says (`parameter.rs`). A point is inside where the outlines
 //! go round an odd number of times: a cap is met where the line has met the outlines an odd number of times before it, by the very signs that decide
 //! about the walls. So the solid is closed, exactly: a line crosses it inward and outward in turn.
 //!
 //! J. T. Kajiya, "New techniques for ray tracing procedurally defined objects", SIGGRAPH 1983; J. J. van Wijk, "Ray tracing objects defined by
 //! sweeping planar cubic splines", *ACM Transactions on Graphics* 3, 1984.
 
+mod compare;
 mod crossings;
-mod cut;
 mod exact;
 mod forms;
-mod order;
-mod piece;
-mod place;
+mod parameter;
 mod point;
+mod profile_curve;
+mod profile_hits;
+mod self_intersection;
 mod spline;
-mod tangle;
 
 use super::{PrismError, Sweep};
-use crate::outline::{Curve, Sketch, Sweep8, Swept};
+use crate::packet::{FilterSource, ProfileCurve8, Sweep8, Swept};
 use crate::planar::{self, Line, PointLine, Probe};
+use crate::revolution::level::HeightPlane;
 use crate::roots::quadratic::Quadratic;
-use crate::turned::level::Level;
 use crate::{
     Algebraic, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
-use cut::{Meet, Scan};
 use durer_math::eft::{exponent, scale2};
 use durer_math::rounding::{mul_down, mul_up};
 use durer_math::{Aabb, Dyadic, Point3, Vec3};
 use forms::{Coordinate, Cut};
-use piece::{Piece, View};
 use point::Wall;
+use profile_curve::{ProfileCurve, View};
+use profile_hits::{Meet, Scan};
 pub use spline::{Bezier, Spline};
 
 /// A solid between two planes across y, within curved outlines that are swept from one to the other; without its caps a sheet.
@@ -56,7 +56,7 @@ pub use spline::{Bezier, Spline};
 /// Each outline is closed: a piece begins where the one before it ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurvedPrism {
-    pieces: Vec<Piece>,
+    pieces: Vec<ProfileCurve>,
     /// For each piece, whether the inside is to its left, x to the right and z up; `None` if the outlines may meet themselves or each other, so
     /// that it may be on either side.
     inside_is_left: Option<Vec<bool>>,
@@ -99,7 +99,7 @@ impl CurvedPrism {
         let outlines = closed(outlines)?;
         // What a piece sweeps between two heights; roundings outward.
         let swept = |b: &Bezier, [low, high]: [f64; 2]| {
-            let [x, z] = piece::extent(b).map(|[min, max]| match sweep {
+            let [x, z] = profile_curve::extent(b).map(|[min, max]| match sweep {
                 Sweep::Linear => [min, max],
                 Sweep::Conic => {
                     let pairs = [(min, low), (min, high), (max, low), (max, high)];
@@ -125,7 +125,8 @@ impl CurvedPrism {
             Sweep::Conic => (Point3::ORIGIN, bounds.magnitude()),
         };
         let view = View { sweep, centre, scale: exponent(size) + 1 };
-        let pieces: Vec<Piece> = outlines.iter().flatten().map(|&b| Piece::new(b, &view)).collect();
+        let pieces: Vec<ProfileCurve> =
+            outlines.iter().flatten().map(|&b| ProfileCurve::new(b, &view)).collect();
         let size = scale2(planar::middle(&bounds).1, -view.scale);
         let mut prism = Self {
             pieces,
@@ -144,14 +145,14 @@ impl CurvedPrism {
 
     /// For each piece, whether the inside is to its left.
     fn sides(&self, outlines: &[Vec<Bezier>]) -> Option<Vec<bool>> {
-        if !tangle::are_simple(outlines) {
+        if !self_intersection::are_simple(outlines) {
             return None;
         }
         let mut left = Vec::with_capacity(self.pieces.len());
         for outline in outlines {
             let own = left.len()..left.len() + outline.len();
             let powers = self.pieces[own.clone()].iter().map(|piece| piece.in_powers(&self.view));
-            let turns_left = tangle::is_counter_clockwise(powers)?;
+            let turns_left = self_intersection::is_counter_clockwise(powers)?;
             // Within how many of the others is it?
             let [x, z] = outline[0][0];
             let start = LocalPoint::new(Point3::new(x, 1.0, z));
@@ -177,8 +178,12 @@ impl CurvedPrism {
     }
 
     #[inline(always)]
-    fn level(&self, top: bool) -> Level {
-        Level { height: self.heights[usize::from(top)], centre: self.view.centre.y, scale: self.view.scale }
+    fn level(&self, top: bool) -> HeightPlane {
+        HeightPlane {
+            height: self.heights[usize::from(top)],
+            centre: self.view.centre.y,
+            scale: self.view.scale,
+        }
     }
 
     /// Whether the sweep ends in its apex there, and not in a cap.
@@ -272,32 +277,32 @@ impl Surface for CurvedPrism {
         }
     }
 
-    fn sketch(&self, PartId(part): PartId) -> Sketch {
+    fn packet_filter(&self, PartId(part): PartId) -> FilterSource {
         let View { centre, scale, .. } = self.view;
         let sweep = self.sweep_for_lanes();
         let number = part as usize;
-        let Some(left) = &self.inside_is_left else { return self.solid_sketch().0 };
+        let Some(left) = &self.inside_is_left else { return self.solid_packet_filter().0 };
         let mut boxes = self.boxes.iter().chain(&self.cap_boxes);
-        let Some(&bounds) = boxes.nth(number) else { return Sketch::vague(self.bounds) };
+        let Some(&bounds) = boxes.nth(number) else { return FilterSource::vague(self.bounds) };
         let part = match number.checked_sub(self.pieces.len()) {
             None => Swept::Wall { curve: self.pieces[number].for_lanes(), sweep, left: left[number] },
             // A tip is a point.
-            Some(cap) if self.has_tip(cap > 0) => return Sketch::vague(bounds),
+            Some(cap) if self.has_tip(cap > 0) => return FilterSource::vague(bounds),
             Some(cap) => Swept::Cap { curves: self.curves_for_lanes(), sweep, top: cap > 0 },
         };
-        Sketch::swept(bounds, part, centre, scale)
+        FilterSource::swept(bounds, part, centre, scale)
     }
 
-    fn solid_sketch(&self) -> (Sketch, Vec<PartId>) {
+    fn solid_packet_filter(&self) -> (FilterSource, Vec<PartId>) {
         // Caps that are not there would have to be counted, too.
         if self.open {
-            return (Sketch::vague(self.bounds), vec![PartId(0)]);
+            return (FilterSource::vague(self.bounds), vec![PartId(0)]);
         }
         let left = self.inside_is_left.as_deref().map(Box::from);
         let faces = if left.is_some() { self.pieces.len() as u32 + 2 } else { 1 };
         let whole = Swept::Whole { curves: self.curves_for_lanes(), sweep: self.sweep_for_lanes(), left };
         let View { centre, scale, .. } = self.view;
-        (Sketch::swept(self.bounds, whole, centre, scale), (0..faces).map(PartId).collect())
+        (FilterSource::swept(self.bounds, whole, centre, scale), (0..faces).map(PartId).collect())
     }
 
     #[inline(always)]
@@ -345,8 +350,8 @@ impl Surface for CurvedPrism {
 }
 
 impl CurvedPrism {
-    fn curves_for_lanes(&self) -> Box<[Curve]> {
-        self.pieces.iter().map(Piece::for_lanes).collect()
+    fn curves_for_lanes(&self) -> Box<[ProfileCurve8]> {
+        self.pieces.iter().map(ProfileCurve::for_lanes).collect()
     }
 
     fn sweep_for_lanes(&self) -> Sweep8 {
@@ -355,8 +360,8 @@ impl CurvedPrism {
         Sweep8 { conic: sweep == Sweep::Conic, low, high }
     }
 
-    fn level_at_apex(&self) -> Level {
-        Level { height: 0.0, centre: self.view.centre.y, scale: self.view.scale }
+    fn level_at_apex(&self) -> HeightPlane {
+        HeightPlane { height: 0.0, centre: self.view.centre.y, scale: self.view.scale }
     }
 }
 
@@ -376,7 +381,7 @@ impl Algebraic for CurvedPrism {
                 }
             });
             // The centre and its unit are the same, the parameter is the ray's own, and the curve's parameter does not depend on it.
-            return place::sign_at(&scan, &exact, piece, &found?, [&q.a, &q.b, &q.c]);
+            return parameter::sign_at(&scan, &exact, piece, &found?, [&q.a, &q.b, &q.c]);
         }
         self.level(root.face == 2).sign_at_root(&exact, q)
     }

@@ -1,11 +1,11 @@
 //! The point of a root on a curved wall: its bounds, normal and derivatives.
 
 use super::Sweep;
-use super::piece::{Piece, View};
+use super::profile_curve::{ProfileCurve, View};
 use crate::point::least_step;
 use crate::{LocalRay, Need, Root, SurfacePoint};
 use durer_math::eft::{scale2, two_sum};
-use durer_math::{Isa, Point3, Ring, Run, U, Vec3};
+use durer_math::{EFloat, Isa, Point3, Ring, U, Vec3};
 
 /// Pays for results below the normal range, in units of the prism's size.
 const TINY: f64 = durer_math::scale::pow2(-500);
@@ -16,7 +16,7 @@ const CLEAR: f64 = 256.0 * U;
 /// The piece of a root, the part of the outlines round which it is, and of the heights.
 pub(super) struct Wall<'a> {
     pub(super) view: &'a View,
-    pub(super) piece: &'a Piece,
+    pub(super) piece: &'a ProfileCurve,
     /// The inside is to the left of the piece as it is seen from above.
     pub(super) inside_is_left: bool,
     /// The number of the piece, and of pieces.
@@ -36,7 +36,7 @@ impl Wall<'_> {
     /// The parameter near `y` where the curve is nearest to a point: one step of Newton's, if it is a small one.
     #[inline(always)]
     fn nearest(&self, [x, z]: [f64; 2], y: f64) -> f64 {
-        let [cx, cz] = Piece::at(&self.piece.powers, &Run::exact(y)).map(|c| c.v);
+        let [cx, cz] = ProfileCurve::at(&self.piece.powers, &EFloat::exact(y)).map(|c| c.v);
         let ([x1, z1], _) = self.piece.slopes(self.view, y);
         let step = ((x - cx) * x1 + (z - cz) * z1) / (x1 * x1 + z1 * z1);
         let moved = (y + step).clamp(-0.5, 0.5);
@@ -54,7 +54,8 @@ impl Wall<'_> {
         // On the curve as f64 knows it, at the ray's height; where that is nearest to the ray's own place there, as the root's bracket knows it better than `u`.
         let height = if sweep == Sweep::Conic { q.y } else { 1.0 };
         let y = self.nearest([q.x / height, q.z / height], y);
-        let [x, z] = Piece::at(&self.piece.powers, &Run::exact(y)).map(|c| c * Run::exact(height));
+        let [x, z] =
+            ProfileCurve::at(&self.piece.powers, &EFloat::exact(y)).map(|c| c * EFloat::exact(height));
         let p = Vec3::new(x.v, q.y, z.v);
 
         // In the surface's own frame; what that rounding loses is known exactly.

@@ -3,10 +3,10 @@
 mod swept;
 
 use super::*;
-use crate::laws::{self, Dice, Feature, Oracle, aim, all_roots, exact3};
+use crate::laws::{self, Feature, Oracle, TestRng, aim, all_roots, exact3};
 use crate::prism::outline::Point;
 use crate::prism::tests::Obeyed;
-use crate::{All, Kind};
+use crate::{All, RootKind};
 use durer_math::{Affine, Ray};
 use swept::Swept;
 
@@ -108,7 +108,7 @@ fn curved_prisms_obey_the_laws_off_their_joints() {
     let mut obeyed = Obeyed::default();
     for (seed, (prism, oracle)) in cases().iter().enumerate() {
         let features = features(oracle);
-        let mut dice = Dice::new(seed as u64);
+        let mut dice = TestRng::new(seed as u64);
         for i in 0..4 {
             let ray = aim(&mut dice, &features, oracle.size());
             // Rays that meet a joint exactly are the business of the next test.
@@ -125,7 +125,7 @@ fn rays_through_joints_and_rims_go_in_as_often_as_out() {
     let mut through = 0;
     for (seed, (prism, oracle)) in cases().iter().enumerate() {
         let features = features(oracle);
-        let mut dice = Dice::new(100 + seed as u64);
+        let mut dice = TestRng::new(100 + seed as u64);
         for _ in 0..300 {
             let f = dice.pick(&features);
             let target = if dice.once_in(4) { dice.lattice(6).to_point() } else { f.point };
@@ -144,7 +144,7 @@ fn rays_through_joints_and_rims_go_in_as_often_as_out() {
             let (ins, outs) =
                 (roots.iter().filter(|r| r.sign < 0).count(), roots.iter().filter(|r| r.sign > 0).count());
             assert!(
-                ins == outs && roots.iter().all(|r| (r.sign == 0) == (r.kind == Kind::Grazing)),
+                ins == outs && roots.iter().all(|r| (r.sign == 0) == (r.kind == RootKind::Grazing)),
                 "{roots:?} for {ray:?} and {prism:?}"
             );
             through += usize::from(ins > 0);
@@ -179,13 +179,13 @@ fn beside_a_crossing_of_outlines_walls_are_met_in_their_order() {
         [-0.245_676_154_133_823_1, 1.995_083_175_442_483_8],
         [1.745_324_803_520_545_8, -1.322_975_631_290_527_4],
     ];
-    let (mut dice, mut close) = (Dice::new(12), 0);
+    let (mut dice, mut close) = (TestRng::new(12), 0);
     for _ in 0..400 {
         let [x, z] = dice.pick(&crossings);
         let d = Vec3::new(dice.between(-1.0, 1.0), dice.between(-0.02, 0.02), dice.between(-1.0, 1.0));
         let ray = Ray::new(Point3::new(x, 0.0, z) - d * dice.between(0.5, 30.0), d)
             .with_range(f64::NEG_INFINITY, f64::INFINITY);
-        let exact = oracle.crossings(&laws::Line::new(&ray));
+        let exact = oracle.crossings(&laws::ExactLine::new(&ray));
         for root in all_roots(&prism, &ray) {
             let held = |c: &&laws::Crossing| {
                 c.t.cmp_exact(&root.lo.into()).is_ge() && c.t.cmp_exact(&root.hi.into()).is_le()
@@ -202,7 +202,7 @@ fn beside_a_crossing_of_outlines_walls_are_met_in_their_order() {
 fn sides_are_exact() {
     let mut told = [0; 3];
     for (seed, (prism, oracle)) in cases().iter().enumerate() {
-        let mut dice = Dice::new(200 + seed as u64);
+        let mut dice = TestRng::new(200 + seed as u64);
         let features = features(oracle);
         for _ in 0..150 {
             let p = match dice.below(3) {
@@ -229,7 +229,7 @@ fn sides_are_exact() {
 fn parts_together_are_the_whole() {
     let (mut parts, mut met) = (0, 0);
     for (seed, (prism, oracle)) in cases().into_iter().enumerate() {
-        let mut dice = Dice::new(300 + seed as u64);
+        let mut dice = TestRng::new(300 + seed as u64);
         let prism = if dice.once_in(3) { prism.without_caps() } else { prism };
         let features = features(&oracle);
         for _ in 0..100 {
@@ -254,7 +254,7 @@ fn straight_pieces_make_the_straight_prism() {
         [a, a, b, b]
     };
     let pieces = vec![(0..4).map(edge).collect::<Vec<Bezier>>()];
-    let mut dice = Dice::new(7);
+    let mut dice = TestRng::new(7);
     let mut met = 0;
     for (curved, straight) in [
         (CurvedPrism::linear(&pieces, -1.0, 2.0), crate::Prism::linear(&[corners], -1.0, 2.0)),
@@ -283,7 +283,7 @@ fn without_caps_the_walls_stay() {
         let prism = CurvedPrism::linear(&outlines, 0.0, 1.0).unwrap();
         let open = prism.clone().without_caps();
         assert_eq!(open.solidity(), Solidity::Open);
-        let mut dice = Dice::new(8);
+        let mut dice = TestRng::new(8);
         for _ in 0..100 {
             let ray = Ray::new((dice.vector() * 9.0).to_point(), dice.vector());
             let mut closed = all_roots(&prism, &ray);
@@ -320,7 +320,7 @@ fn along_the_sweep_who_looks_finds_what_who_measures_finds() {
     let affine = affine.expect("a placement");
     let prism = CurvedPrism::linear(&[round([0.0; 2], 1.0, 0.5)], -1.0, 8.0).expect("a prism");
     // From a point of a wall along the sweep, as it is rounded.
-    let mut dice = Dice::new(23);
+    let mut dice = TestRng::new(23);
     let mut met = 0;
     for _ in 0..2000 {
         let at = dice.below(4) as f64 * 0.25;

@@ -1,7 +1,7 @@
 //! The witness: crossings of a curved prism in exact numbers, by polynomials of its own.
 
 use super::super::*;
-use crate::laws::{self, Exact, Line as ExactLine, Oracle, RealRoot, Surd, exact3, real_roots};
+use crate::laws::{self, Exact, ExactLine, Oracle, RealRoot, Surd, exact3, real_roots};
 use crate::prism::tests::Known;
 
 type Poly = Vec<Exact>;

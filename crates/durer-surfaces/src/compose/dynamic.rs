@@ -1,0 +1,154 @@
+//! A surface behind a pointer: for the rarer kinds and combinations, which are not worth an array (and its code) of their own.
+
+use crate::compose::clip::Algebraic;
+use crate::compose::region::Region;
+use crate::packet::FilterSource;
+use crate::roots::quadratic::Quadratic;
+use crate::{Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use core::cmp::Ordering;
+use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Isa, RaySide, Shaft};
+use std::sync::Arc;
+
+/// Any surface. What it answers is what the surface within answers.
+///
+/// ```
+/// use durer_math::{Affine, Point3, Vec3};
+/// use durer_surfaces::{AxisBox, Erased, Placed, Sphere, Surface};
+///
+/// // Two kinds in one array, and one type for both where they are placed.
+/// let unit = AxisBox::new(Point3::ORIGIN, Point3::new(1.0, 1.0, 1.0))?;
+/// let both = [Erased::new(Sphere::new(Point3::ORIGIN, 1.0)?), Erased::new(unit)];
+/// let map = Affine::translation(Vec3::X)?;
+/// let moved = both.map(|s| Placed::new(s, map));
+/// assert_eq!(moved[1].bounds().max, Point3::new(2.0, 1.0, 1.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone)]
+pub struct DynSurface {
+    surface: Arc<dyn Dynamic>,
+    /// The code within is entered through the feature door too.
+    isa: Isa,
+}
+
+/// [`Algebraic`] without its generic methods.
+trait Dynamic: Algebraic {
+    fn roots_dyn(&self, isa: Isa, ray: &LocalRay<'_>, sink: &mut dyn Sink);
+    fn part_roots_dyn(&self, isa: Isa, part: PartId, ray: &LocalRay<'_>, sink: &mut dyn Sink);
+    fn resolve_dyn(&self, isa: Isa, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint;
+}
+
+impl<S: Algebraic> Dynamic for S {
+    fn roots_dyn(&self, isa: Isa, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+        isa.run(
+            #[inline(always)]
+            || self.roots(ray, sink),
+        );
+    }
+
+    fn part_roots_dyn(&self, isa: Isa, part: PartId, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+        // One copy of the code is enough where all is one part.
+        if !self.is_in_parts() {
+            return self.roots_dyn(isa, ray, sink);
+        }
+        isa.run(
+            #[inline(always)]
+            || self.part_roots(part, ray, sink),
+        );
+    }
+
+    fn resolve_dyn(&self, isa: Isa, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
+        isa.run(
+            #[inline(always)]
+            || self.resolve(ray, root, need),
+        )
+    }
+}
+
+impl DynSurface {
+    /// `surface` behind a pointer.
+    pub fn new<S: Algebraic + 'static>(surface: S) -> Self {
+        Self { surface: Arc::new(surface), isa: Isa::detect() }
+    }
+}
+
+impl Surface for DynSurface {
+    fn bounds(&self) -> Aabb {
+        self.surface.bounds()
+    }
+
+    fn bounds_through(&self, map: &Affine) -> Aabb {
+        self.surface.bounds_through(map)
+    }
+
+    fn misses(&self, shaft: &Shaft) -> bool {
+        self.surface.misses(shaft)
+    }
+
+    fn is_left(&self, side: RaySide, shaft: &Shaft) -> bool {
+        self.surface.is_left(side, shaft)
+    }
+
+    fn roots<K: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut K) {
+        self.surface.roots_dyn(self.isa, ray, &mut Forward(sink));
+    }
+
+    fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
+        self.surface.resolve_dyn(self.isa, ray, root, need)
+    }
+
+    fn solidity(&self) -> Solidity {
+        self.surface.solidity()
+    }
+
+    fn side(&self, point: &LocalPoint<'_>) -> Side {
+        self.surface.side(point)
+    }
+
+    fn parts(&self, f: &mut dyn FnMut(Aabb, PartId)) {
+        self.surface.parts(f);
+    }
+
+    fn packet_filter(&self, part: PartId) -> FilterSource {
+        self.surface.packet_filter(part)
+    }
+
+    fn solid_packet_filter(&self) -> (FilterSource, Vec<PartId>) {
+        self.surface.solid_packet_filter()
+    }
+
+    fn is_in_parts(&self) -> bool {
+        self.surface.is_in_parts()
+    }
+
+    fn primitive_of(&self, part: PartId) -> u32 {
+        self.surface.primitive_of(part)
+    }
+
+    fn part_roots<K: Sink + ?Sized>(&self, part: PartId, ray: &LocalRay<'_>, sink: &mut K) {
+        self.surface.part_roots_dyn(self.isa, part, ray, &mut Forward(sink));
+    }
+}
+
+impl Algebraic for DynSurface {
+    fn polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+        self.surface.polynomial(face, ray)
+    }
+
+    fn wide_polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<EFloat<Dd>>> {
+        self.surface.wide_polynomial(face, ray)
+    }
+
+    fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {
+        self.surface.sign_at_root(ray, root, q)
+    }
+
+    fn bounds_among(&self, regions: &[Region], map: Option<&Affine>) -> Aabb {
+        self.surface.bounds_among(regions, map)
+    }
+}
+
+impl core::fmt::Debug for DynSurface {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Erased").field("bounds", &self.bounds()).finish_non_exhaustive()
+    }
+}

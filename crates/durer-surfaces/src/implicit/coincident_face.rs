@@ -1,0 +1,139 @@
+//! Rays along a face that two parts of a solid share.
+//!
+//! ```text
+//!      A  |  B          min(f, g) = 0 on all of the face that A and B share, and no sign tells
+//!    -----+----->       that a ray in it is inside. A little to either side of it both are plain.
+//! ```
+//!
+//! A regularised solid (A. A. G. Requicha, "Representations for rigid solids: theory, methods, and systems", *ACM Computing Surveys* 12(4), 1980) has the
+//! points next to which all is inside, so it holds such a face. The ray is in it where two lines beside the ray, across the face, are both inside for certain,
+//! and out of it where one of them is outside. They are as far away as it takes for rounding to leave the sign alone: the distance begins with the error of a point and grows
+//! until something is told, at most to the length of what is asked about. It is what the brackets of the crossings are wider by. These are clusters, as all is that no sign of the ray's own proves.
+
+use super::line::BoundedLine;
+use super::root_isolator::{CertifiedFunction, Found};
+use crate::quadric::boolean_faces::tangents;
+use crate::tape::Tape;
+use crate::{Flow, RootKind};
+use durer_math::Vec3;
+
+/// Directions across the ray that are tried, in half a turn.
+const TURNS: usize = 8;
+/// Cosines of multiples of a sixteenth of a turn.
+const COSINES: [f64; 5] =
+    [1.0, 0.923_879_532_511_286_7, core::f64::consts::FRAC_1_SQRT_2, 0.382_683_432_365_089_8, 0.0];
+/// So many looks at eight stretches are spent on a run at most.
+const MOST_LOOKS: u32 = 2_000;
+
+/// Two lines beside a ray.
+struct Beside<'a> {
+    tape: &'a Tape,
+    lines: [BoundedLine; 2],
+}
+
+impl<'a> Beside<'a> {
+    /// The lines on either side of the face, where there is one: of both it is certain at most of eight places of the run whether they are inside, and one of them is.
+    fn new(line: &BoundedLine, tape: &'a Tape, (lo, hi): (f64, f64)) -> Option<Self> {
+        let (u, v) = tangents(line.direction() * (1.0 / line.direction().length()));
+        let at: [f64; 8] = core::array::from_fn(|i| lo + (hi - lo) * ((i as f64 + 0.5) / 8.0));
+        let length = (hi - lo) * line.direction().length();
+        let nearest = Vec3::from(line.err).max_abs();
+        let farther = |away: &f64| (4.0 * away <= length).then_some(4.0 * away);
+        core::iter::successors(Some(nearest), farther).find_map(|away| {
+            let pairs = (0..TURNS).map(|k| {
+                let (cos, sin) =
+                    if k <= 4 { (COSINES[k], COSINES[4 - k]) } else { (-COSINES[8 - k], COSINES[k - 4]) };
+                let n = (u * cos + v * sin) * away;
+                let pair = Self { tape, lines: [line.beside(n), line.beside(-n)] };
+                let [x, y] = pair.signs(&at, &at);
+                let told = (0..8).filter(|&i| {
+                    x[i].is_some() && y[i].is_some() && (x[i] == Some(false) || y[i] == Some(false))
+                });
+                (told.count(), pair)
+            });
+            pairs.max_by_key(|(told, _)| *told).filter(|(told, _)| *told > 0).map(|(_, pair)| pair)
+        })
+    }
+
+    /// The signs of the formula on eight stretches of both lines.
+    fn signs(&self, a: &[f64; 8], b: &[f64; 8]) -> [[Option<bool>; 8]; 2] {
+        [0, 1].map(|i| self.lines[i].signs(self.tape, a, b))
+    }
+
+    /// Whether eight stretches are inside, where that is certain.
+    fn states(&self, a: &[f64; 8], b: &[f64; 8]) -> [Option<bool>; 8] {
+        let [x, y] = self.signs(a, b);
+        core::array::from_fn(|i| match (x[i], y[i]) {
+            (Some(true), _) | (_, Some(true)) => Some(false),
+            (Some(false), Some(false)) => Some(true),
+            _ => None,
+        })
+    }
+}
+
+/// Shows the crossings in a run of which no sign is known, and of which `ends` says whether the ray is inside before and behind it; what it says. `None` if it has
+/// nothing to say.
+pub(super) fn crossings(
+    line: &BoundedLine,
+    tape: &Tape,
+    run: (f64, f64),
+    ends: (bool, bool),
+    show: &mut dyn FnMut(&Found) -> Flow,
+) -> Option<Flow> {
+    let beside = Beside::new(line, tape, run)?;
+    let mut known = FaceStretches { at: run.0, inside: ends.0, show };
+    let mut looks = 0;
+    if beside.walk(run, line.ulp(), &mut looks, &mut known) == Flow::Stop {
+        return Some(Flow::Stop);
+    }
+    Some(known.take(run.1, run.1, ends.1))
+}
+
+impl Beside<'_> {
+    /// Takes the stretches of a run of which the state is certain, in ascending order.
+    fn walk(&self, (lo, hi): (f64, f64), ulp: f64, looks: &mut u32, known: &mut FaceStretches<'_>) -> Flow {
+        let node: [f64; 9] = core::array::from_fn(|i| match i {
+            0 => lo,
+            8 => hi,
+            _ => (lo + (hi - lo) * (i as f64 / 8.0)).max(lo).min(hi),
+        });
+        let a: [f64; 8] = core::array::from_fn(|i| node[i]);
+        let b: [f64; 8] = core::array::from_fn(|i| node[i + 1]);
+        *looks += 1;
+        for (i, state) in self.states(&a, &b).into_iter().enumerate() {
+            let flow = match state {
+                Some(inside) => known.take(a[i], b[i], inside),
+                None if b[i] - a[i] > 4.0 * ulp && *looks < MOST_LOOKS => {
+                    self.walk((a[i], b[i]), ulp, looks, known)
+                }
+                None => Flow::Continue,
+            };
+            if flow == Flow::Stop {
+                return Flow::Stop;
+            }
+        }
+        Flow::Continue
+    }
+}
+
+/// What is known so far.
+struct FaceStretches<'a> {
+    /// Where what is known ends, and whether that is inside.
+    at: f64,
+    inside: bool,
+    show: &'a mut dyn FnMut(&Found) -> Flow,
+}
+
+impl FaceStretches<'_> {
+    /// The next stretch that is known.
+    fn take(&mut self, a: f64, b: f64, inside: bool) -> Flow {
+        let (from, was) = (self.at, self.inside);
+        (self.at, self.inside) = (b, inside);
+        if inside == was {
+            return Flow::Continue;
+        }
+        let (lo, hi) = (from.min(a), a);
+        let sign = if inside { -1 } else { 1 };
+        (self.show)(&Found { s: 0.5 * lo + 0.5 * hi, lo, hi, sign, kind: RootKind::Cluster, touches: None })
+    }
+}

@@ -1,0 +1,386 @@
+//! Outlines of solids as operands: every crossing of eight rays, and on which side points of the rays are.
+//!
+//! What a body made of several solids needs to know of each (S. D. Roth, "Ray casting for modeling solids", Computer Graphics and Image
+//! Processing 18, 1982). A solid is the set where all its faces are negative, or the rest where it is turned round.
+
+use super::PacketFilter;
+use super::closest::{FaceSteps, Scratch, Spot, Steps};
+use super::convex::Hull;
+use super::kernel::Detail;
+use super::quadric::{FaceKind, Seen, Start};
+use super::rays::{FAR, From8, NEVER, RayLanes};
+use arrayvec::ArrayVec;
+use durer_math::{F8, Isa, M8};
+
+/// Eight rays as one outline sees them.
+#[derive(Debug, Default)]
+pub struct SolidState8 {
+    start: Start,
+    /// Of convex solids: where the rays are in them.
+    hull: Hull,
+    stay: Stay,
+}
+
+/// The part of each of eight rays that is in a convex solid.
+#[derive(Debug, Default)]
+struct Stay {
+    /// It begins between these two, if there is one, ...
+    earliest: F8,
+    entered: F8,
+    /// ... and ends between these.
+    left: F8,
+    latest: F8,
+    /// There is none, or none is ahead.
+    missed: M8,
+    /// What cuts it off is not known of all faces.
+    unsure: M8,
+}
+
+/// Crossings of eight rays.
+#[derive(Clone, Copy, Debug)]
+pub struct Crossing8 {
+    /// Which rays surely cross here, and from one side to the other.
+    pub sure: M8,
+    /// Where, within `e`: it may lie behind a ray's start, or beyond its end.
+    pub t: F8,
+    /// See `t`.
+    pub e: F8,
+    /// The face.
+    pub face: F8,
+    /// What the face wants to know of the point when that is asked for.
+    pub tag: F8,
+}
+
+/// All crossings of eight rays with a solid, in no order.
+#[derive(Debug)]
+pub struct Crossings {
+    list: ArrayVec<Crossing8, { Crossings::MOST }>,
+    /// From here on there may be others; infinite without a doubt.
+    pub doubt: F8,
+}
+
+impl Default for Crossings {
+    fn default() -> Self {
+        Self { list: ArrayVec::new(), doubt: NEVER }
+    }
+}
+
+impl Crossings {
+    /// As many are told: two of each of six faces, or those of a solid that has eight walls one above the other.
+    const MOST: usize = 24;
+    /// Of so many faces two each.
+    const FACES: usize = 6;
+
+    /// What is told.
+    pub fn iter(&self) -> core::slice::Iter<'_, Crossing8> {
+        self.list.iter()
+    }
+
+    /// The same, to be changed.
+    pub(super) fn all(&mut self) -> &mut [Crossing8] {
+        &mut self.list
+    }
+
+    /// Adds a crossing, beside others of other rays if there are such; what finds no room is a doubt.
+    #[inline(always)]
+    pub(super) fn push(&mut self, sure: M8, t: F8, e: F8, (face, tag): (F8, F8)) {
+        if !sure.any() {
+            return;
+        }
+        for c in &mut self.list {
+            if !(c.sure & sure).any() {
+                (c.t, c.e) = (sure.select(t, c.t), sure.select(e, c.e));
+                (c.face, c.tag) = (sure.select(face, c.face), sure.select(tag, c.tag));
+                c.sure |= sure;
+                return;
+            }
+        }
+        if self.list.try_push(Crossing8 { sure, t, e, face, tag }).is_err() {
+            self.doubt_from(sure, t - e);
+        }
+    }
+
+    /// Of these lanes nothing is sure from `t` on.
+    #[inline(always)]
+    pub(super) fn doubt_from(&mut self, lanes: M8, t: F8) {
+        // `max` answers zero for what is not a number.
+        self.doubt.set_where(lanes, t.max(F8::ZERO).min(self.doubt));
+    }
+}
+
+impl SolidState8 {
+    #[inline(always)]
+    fn seen<'a>(&'a self, rays: &'a RayLanes<'_>) -> Seen<'a> {
+        Seen { d: rays.direction, d1: &rays.d1, start: &self.start }
+    }
+}
+
+impl Stay {
+    #[inline(always)]
+    fn of(rays: &RayLanes<'_>, hull: &Hull) -> Self {
+        let Hull { enter, leave, missed, unsure } = hull;
+        let (earliest, latest) = (enter.t - enter.e, leave.e - leave.t);
+        Self {
+            earliest,
+            entered: (enter.t + enter.e).max(enter.others),
+            left: -((leave.t + leave.e).max(leave.others)),
+            latest,
+            missed: *missed | !*rays.live | earliest.gt(latest) | latest.lt(F8::ZERO),
+            unsure: *unsure,
+        }
+    }
+
+    /// Which points at `t` within `e`, not behind the start, are surely within the faces, and which surely not.
+    #[inline(always)]
+    fn holds(&self, t: F8, e: F8) -> (M8, M8) {
+        let (first, last) = (t - e, t + e);
+        let within = !(self.missed | self.unsure) & first.gt(self.entered) & last.lt(self.left);
+        (within, self.missed | last.lt(self.earliest) | first.gt(self.latest))
+    }
+}
+
+impl PacketFilter {
+    /// So many faces of an operand have numbers.
+    pub const FACES: usize = 128;
+
+    /// Whether the outline tells all about a solid: what else cuts off a surface is no face of its inside.
+    pub fn is_operand(&self) -> bool {
+        let told = self.faces.len() <= Crossings::FACES;
+        told && self.loops.is_none() && self.holes.is_empty() && self.own_face.is_none()
+    }
+
+    /// What is known of it as an operand beside its faces.
+    fn as_detail(&self) -> Option<&Detail> {
+        self.detail.as_deref().filter(|detail| detail.is_operand())
+    }
+
+    /// Whether the solid is the outside of the faces.
+    pub fn is_turned(&self) -> bool {
+        self.turned
+    }
+
+    /// Whether it is all that is within some faces, or all that is not, so that a ray is in there all the way between two places.
+    #[inline]
+    pub fn is_convex(&self) -> bool {
+        self.convex && self.as_detail().is_none()
+    }
+
+    /// Whether nothing holds the surface, so that it is worth to know which part of a ray matters.
+    pub fn is_endless(&self) -> bool {
+        self.as_detail().is_some_and(Detail::is_endless)
+    }
+
+    /// Sees the rays from the outline's centre; whether every one surely passes the solid by, or has left it behind.
+    pub fn sight(&self, rays: &RayLanes<'_>, sight: &mut SolidState8) -> bool {
+        self.is_passed_by(rays, &mut sight.start)
+    }
+
+    /// Puts down where the rays are in a convex solid, and tells which surely are nowhere in it. `from` names those that leave its own surface.
+    pub fn stay(
+        &self,
+        rays: &RayLanes<'_>,
+        from: Option<&From8>,
+        sight: &mut SolidState8,
+        scratch: &mut Scratch,
+    ) -> u8 {
+        // The faces of a box are not those that rays leave.
+        let from = from.filter(|_| !self.vague);
+        let SolidState8 { start, hull, stay } = sight;
+        self.hull(
+            rays,
+            from,
+            &Seen { d: rays.direction, d1: &rays.d1, start },
+            (&mut scratch.steps.faces, hull),
+        );
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                *stay = Stay::of(rays, hull);
+                stay.missed.bits()
+            },
+        )
+    }
+
+    /// Puts down all crossings of the solid; of an endless one those `within` a convex solid that the rays have been seen in. `from` names the rays that
+    /// leave its own surface. Of a convex solid it is known where rays are in it.
+    pub fn crossings(
+        &self,
+        rays: &RayLanes<'_>,
+        from: Option<&From8>,
+        (sight, within): (&SolidState8, Option<&SolidState8>),
+        scratch: &mut Scratch,
+        to: &mut Crossings,
+    ) {
+        to.list.clear();
+        to.doubt = NEVER;
+        if let Some(detail) = self.as_detail() {
+            let rays = (rays, from.map(|from| (from, self.turned)));
+            let within = within.map(|sight| &sight.hull);
+            detail.crossings(rays, (&sight.start, within), to, &mut scratch.steps.detail);
+        } else if self.convex {
+            self.both_ends(rays, sight, to);
+        } else {
+            self.each_wall(rays, from, &sight.seen(rays), &mut scratch.steps, to);
+        }
+    }
+
+    /// Where a convex solid is entered and where it is left.
+    #[inline(never)]
+    fn both_ends(&self, rays: &RayLanes<'_>, sight: &SolidState8, to: &mut Crossings) {
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || self.both_ends_here(sight, to),
+        );
+    }
+
+    #[inline(always)]
+    fn both_ends_here(&self, sight: &SolidState8, to: &mut Crossings) {
+        let SolidState8 { hull: Hull { enter, leave, .. }, stay, .. } = sight;
+        let Stay { earliest, entered, left, missed, unsure, .. } = *stay;
+        let through = !(missed | unsure) & entered.lt(left);
+        if self.vague {
+            to.doubt_from(!missed, earliest);
+            return;
+        }
+        // What is behind the start matters no more; half-spaces have one end.
+        let ahead = !entered.lt(F8::ZERO);
+        let ends = !left.ge(NEVER);
+        let enters = through & ahead & earliest.gt(enter.others);
+        let leaves = through & ends & (leave.t - leave.e).gt(leave.others);
+        to.doubt_from(!(missed | through), earliest);
+        to.doubt_from(through & ahead & !enters, earliest);
+        to.doubt_from(through & ends & !leaves, left);
+        let tag = F8::ZERO;
+        to.list.push(Crossing8 { sure: enters, t: enter.t, e: enter.e, face: enter.face, tag });
+        to.list.push(Crossing8 { sure: leaves, t: -leave.t, e: leave.e, face: leave.face, tag });
+    }
+
+    /// The roots of each wall, where the other faces are negative.
+    fn each_wall(
+        &self,
+        rays: &RayLanes<'_>,
+        from: Option<&From8>,
+        seen: &Seen<'_>,
+        steps: &mut Steps,
+        to: &mut Crossings,
+    ) {
+        let Steps { faces: FaceSteps { plane, roots, .. }, spot, .. } = steps;
+        for (i, face) in self.faces[..self.walls].iter().enumerate() {
+            let from = self.leaving(from, i);
+            if face.kind == FaceKind::Plane {
+                face.crossing(rays.isa, seen, from.as_ref(), plane);
+                to.doubt_from(*rays.live & !(plane.crosses | plane.above | plane.below), F8::ZERO);
+                self.wall(rays, (seen, spot), i, plane.crosses, (plane.t, plane.e), to);
+            } else {
+                face.roots(rays.isa, seen, from.as_ref(), roots);
+                to.doubt_from(*rays.live & !(roots.known | roots.none), F8::ZERO);
+                self.wall(rays, (seen, spot), i, roots.known, (roots.enter, roots.e_enter), to);
+                self.wall(rays, (seen, spot), i, roots.known, (roots.leave, roots.e_leave), to);
+            }
+        }
+    }
+
+    /// One root of a wall.
+    fn wall(
+        &self,
+        rays: &RayLanes<'_>,
+        (seen, spot): (&Seen<'_>, &mut Spot),
+        wall: usize,
+        known: M8,
+        (t, e): (F8, F8),
+        to: &mut Crossings,
+    ) {
+        let (mut open, mut inside, mut outside) = (M8::NONE, M8::ALL, M8::NONE);
+        let is_reached = rays.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                open = *rays.live & known & !(t + e).lt(F8::ZERO);
+                spot.put(seen, t, e);
+                open.any()
+            },
+        );
+        if !is_reached {
+            return;
+        }
+        if !self.cut_by_others(rays, wall, (spot, &open), &mut inside, &mut outside) {
+            return;
+        }
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let sure = open & inside & t.lt(F8::splat(FAR));
+                to.doubt_from(open & !(sure | outside), t - e);
+                to.list.push(Crossing8 { sure, t, e, face: F8::splat(wall as f64), tag: F8::ZERO });
+            },
+        );
+    }
+
+    /// Which points at `t` within `e` are surely in the solid, and which surely not, of the rays that are `asked` about: as bits.
+    pub fn holds(
+        &self,
+        rays: &RayLanes<'_>,
+        sight: &SolidState8,
+        (t, e, asked): (&F8, &F8, u8),
+        scratch: &mut Scratch,
+    ) -> (u8, u8) {
+        let (inside, outside) = match self.as_detail() {
+            Some(detail) => {
+                let memory = &mut scratch.steps.detail;
+                let (inside, outside) = detail.holds(rays, &sight.start, ((*t, *e), asked), memory);
+                (inside & asked, outside & asked)
+            }
+            None if self.convex => {
+                let (inside, outside) = self.holds_by_stay(rays.isa, &sight.stay, (t, e, asked));
+                let open = asked & !(inside | outside);
+                if open == 0 {
+                    (inside, outside)
+                } else {
+                    let left = (t, e, open);
+                    let (also, beside) = self.holds_by_faces(rays, sight, left, &mut scratch.steps.spot);
+                    (inside | also, outside | beside)
+                }
+            }
+            None => self.holds_by_faces(rays, sight, (t, e, asked), &mut scratch.steps.spot),
+        };
+        if self.turned { (outside, inside) } else { (inside, outside) }
+    }
+
+    /// By where the rays are in a convex solid.
+    #[inline(never)]
+    fn holds_by_stay(&self, isa: Isa, stay: &Stay, (t, e, asked): (&F8, &F8, u8)) -> (u8, u8) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let (within, beside) = stay.holds(*t, *e);
+                (if self.vague { 0 } else { within.bits() & asked }, beside.bits() & asked)
+            },
+        )
+    }
+
+    /// By the signs of the faces there.
+    #[inline(always)]
+    fn holds_by_faces(
+        &self,
+        rays: &RayLanes<'_>,
+        sight: &SolidState8,
+        (t, e, asked): (&F8, &F8, u8),
+        spot: &mut Spot,
+    ) -> (u8, u8) {
+        let seen = sight.seen(rays);
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || spot.put(&seen, *t, *e),
+        );
+        let (mut inside, mut outside) = (if self.vague { 0 } else { asked }, 0);
+        // Beside one face the others no longer matter.
+        for face in &self.faces {
+            let (below, above) = face.sides(rays.isa, spot);
+            inside &= below;
+            outside |= above & asked;
+            if outside == asked {
+                break;
+            }
+        }
+        (inside, outside)
+    }
+}

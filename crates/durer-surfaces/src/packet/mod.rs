@@ -1,0 +1,118 @@
+//! Packet filters: eight rays at a time against one surface.
+//!
+//! Most surfaces are made of *faces* `f_i(x) = 0` of degree at most two, each cut off where another
+//! `f_j` is positive, so one short formula serves them all. A [`PacketFilter`] holds those polynomials
+//! in the world's frame, rounded to f64 with a bound on the rounding. For each ray it gives one of
+//! three answers: a certain miss, a certain first face, or *doubt*. In doubt the ray asks the surface
+//! itself. So a filter saves work and never decides anything that the exact kernels would decide
+//! otherwise.
+//!
+//! ```text
+//!   source.rs           polynomials in double-double, moved by maps (built once)
+//!   quadric.rs          the same in f64, with their errors
+//!   quadratic_roots.rs  where eight rays cross a face of degree two
+//!   kernel.rs           the kernels for surfaces that are not faces of degree two:
+//!     revolution/         surfaces of revolution of higher degree
+//!     polynomial/         zero sets of polynomials
+//!     blob/               blobs
+//!     implicit/           solids known segment by segment (formulas, Julia sets, superellipsoids)
+//!     prism/              walls and caps of curved prisms; prism_solid.rs, whole prisms
+//!     local_frame.rs      rays in the surface's own coordinates
+//!     polynomial_roots.rs roots of one polynomial for each of eight rays
+//!   closest.rs          which face each ray meets first (convex.rs for convex solids)
+//!   crossings.rs        all crossings with a solid, for CSG
+//!   resolve.rs          hit points, and how far spawned rays start from them
+//! ```
+
+mod blob;
+mod closest;
+mod convex;
+mod crossings;
+mod implicit;
+mod kernel;
+mod local_frame;
+mod loops;
+mod polynomial;
+mod polynomial_roots;
+mod prism;
+mod prism_solid;
+mod quadratic_roots;
+mod quadric;
+mod rays;
+mod resolve;
+mod revolution;
+mod sink;
+mod source;
+
+pub use self::closest::{PacketQuery, Scratch};
+pub use self::crossings::{Crossing8, Crossings, SolidState8};
+pub use self::rays::{From8, Nearest, RayLanes};
+pub use self::resolve::Points8;
+pub use self::source::FilterSource;
+
+pub(crate) use self::blob::{Field, Fields};
+pub(crate) use self::implicit::{Ends, ImplicitKernel, Line8, LineExtent8, Segment8, Value8};
+use self::kernel::Detail;
+pub(crate) use self::kernel::PacketKernel;
+pub(crate) use self::local_frame::largest;
+use self::loops::Loops;
+pub(crate) use self::polynomial::Terms;
+pub(crate) use self::prism::{ProfileCurve8, Sweep8, Swept};
+use self::quadric::QuadricFace8;
+pub(crate) use self::revolution::{Lathe, LatheWall, Skin, Slant};
+use durer_math::{Point3, Vec3};
+
+/// The packet filter of one surface, for eight rays at a time. [`FilterSource::build`] makes it.
+#[derive(Clone, Debug)]
+pub struct PacketFilter {
+    /// Coordinates are counted from here.
+    centre: Point3,
+    faces: Box<[QuadricFace8]>,
+    /// How many of them are part of the surface; the others cut it off.
+    walls: usize,
+    /// A ball of this radius about the centre holds the surface; infinite if there is none.
+    reach: f64,
+    /// The surface bounds the convex set where all faces are negative.
+    convex: bool,
+    /// Which faces are planes that, with the next one, bound a slab.
+    slabs: Box<[bool]>,
+    /// For each wall the faces that may cut off some of it, `None` if it is cut off as a whole; empty if all faces may cut all others.
+    cutters: Box<[Option<Box<[u32]>>]>,
+    /// Normals point to where the faces are negative.
+    turned: bool,
+    /// The outline only holds the surface: what meets it may still miss.
+    vague: bool,
+    /// See [`PacketFilter::own_face`].
+    own_face: Option<u32>,
+    /// Shading normals: a value and its change along x, y and z.
+    normals: Option<Box<[Vec3; 4]>>,
+    /// What cuts off the first wall beside the other faces.
+    loops: Option<Box<Loops<QuadricFace8>>>,
+    /// What lies where all of some faces are negative is cut away.
+    holes: Box<[Box<[QuadricFace8]>]>,
+    /// What is known of a surface whose faces only hold it.
+    detail: Option<Box<Detail>>,
+}
+
+impl PacketFilter {
+    /// The face of a surface's roots on the face that lanes call by a number.
+    #[inline(always)]
+    pub fn face_of(&self, face: u32) -> u32 {
+        match &self.detail {
+            Some(detail) => detail.face_of(face),
+            None => self.own_face.unwrap_or(face),
+        }
+    }
+
+    /// The number of the first of the faces: a container's come after that of what it holds.
+    #[inline(always)]
+    fn first_face(&self) -> usize {
+        usize::from(self.detail.as_ref().is_some_and(|detail| detail.is_contained()))
+    }
+
+    /// If this is one part of a surface: the face that its roots have there.
+    #[inline(always)]
+    pub fn own_face(&self) -> Option<u32> {
+        self.own_face
+    }
+}

@@ -1,0 +1,179 @@
+//! Surfaces of revolution as lanes see them: walls, each between two planes across the axis, and the flat ends.
+//!
+//! ```text
+//!   f(x, v, z) = α (n + v² + κ)² + β n - p(v),   n = x² + z²,   p a cubic         negative inside
+//!
+//!   α = 0, β = 1      x² + z² = p(v), a piece of a `sor` or a ball
+//!   α = 1             (n + v² - R² - r²)² = 4R² (r² - v²), a torus
+//!   α = -1, β = 4R²   4R² n = (n + v² + R² - r²)², the inner sheet of a spindle
+//! ```
+//!
+//! A ray is cut to where it is between the planes, within a cylinder that is a little wider than the wall, and in its range: there `f` is a quartic
+//! (`polynomial_roots.rs`). Outside the cylinder it is outside. Where it passes from one wall to the next both have to agree, for certain, on which side it is; else
+//! there is a doubt. So the walls may be asked in any order.
+//!
+//! **Errors.** With coordinates up to `M`, `F`, `F₁` and `F₂` bound `f`, the sum of its first derivatives and the norm of its second, all with
+//! absolute values throughout. A point that is wrong by `e` per axis puts `F₁ e` into `f` and so it does, in sum, into the coefficients along a
+//! ray; the formulas round fewer than 16 times at a point, and 64 times along a ray with all that `polynomial_roots.rs` does.
+
+mod rays;
+
+pub(super) use self::rays::RevolutionScratch;
+
+use super::local_frame::Own;
+use super::rays::NEVER;
+use durer_math::{F8, U, Vec3};
+
+/// A wall between two heights.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LatheWall {
+    pub(crate) alpha: f64,
+    pub(crate) kappa: f64,
+    pub(crate) beta: f64,
+    pub(crate) p: [f64; 4],
+    /// The height from which `v` is counted.
+    pub(crate) at: f64,
+    /// The planes between which the wall is.
+    pub(crate) slab: [f64; 2],
+    /// Between them it is no wider than this, and `f` is positive beyond.
+    pub(crate) radius: f64,
+    /// No less than `|κ|` and the terms of which it is the sum.
+    pub(crate) kappa_size: f64,
+}
+
+/// Walls, the lowest first, in coordinates of which the second is the height.
+#[derive(Clone, Debug)]
+pub(crate) struct Lathe {
+    walls: Box<[Bounded]>,
+    /// The flat ends belong to the surface.
+    closed: bool,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Bounded {
+    wall: LatheWall,
+    /// `F`, `F₁` at points of the wall, and for all that a ray's coefficients are made of.
+    near: Sizes,
+    wide: Sizes,
+    /// `F₂` near points of the wall.
+    bend: f64,
+    /// What rounding the heights lost.
+    slack: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Sizes {
+    f: f64,
+    slope: f64,
+    bend: f64,
+}
+
+impl LatheWall {
+    /// For `|x|, |z| <= m` and `|v| <= v`.
+    fn sizes(&self, m: f64, v: f64) -> Sizes {
+        let (alpha, beta) = (self.alpha.abs(), self.beta.abs());
+        let [a, b, c, d] = self.p.map(f64::abs);
+        let square = 2.0 * m * m + v * v;
+        let q = square + self.kappa_size;
+        let pay = 1.0 + 1.0 / 1024.0;
+        let p1 = (3.0 * d * v + 2.0 * c) * v + b;
+        Sizes {
+            f: (alpha * q * q + 2.0 * beta * m * m + ((d * v + c) * v + b) * v + a) * pay,
+            slope: (2.0 * m * (4.0 * alpha * q + 2.0 * beta) + 4.0 * alpha * q * v + p1) * pay,
+            bend: (alpha * (4.0 * q + 8.0 * square) + 2.0 * beta + 6.0 * d * v + 2.0 * c) * pay,
+        }
+    }
+}
+
+/// Next to a wall or an end: `f` and half its gradient, rounded.
+pub(crate) struct Slant {
+    pub(crate) f: F8,
+    pub(crate) half: Vec3<F8>,
+}
+
+/// A point of a wall or an end: `f`, half its gradient, and bounds on what they lost.
+pub(crate) struct Skin {
+    pub(crate) f: F8,
+    pub(crate) half: Vec3<F8>,
+    pub(crate) e_f: F8,
+    pub(crate) e_half: F8,
+    /// An upper bound of the Hessian's norm near the point.
+    pub(crate) bend: F8,
+    /// How near that is.
+    pub(crate) room: F8,
+}
+
+impl Lathe {
+    /// `closed` with flat ends.
+    pub(crate) fn new(walls: &[LatheWall], closed: bool) -> Self {
+        let walls = walls.iter().map(|&wall| {
+            let [low, high] = wall.slab.map(|y| y - wall.at);
+            let far = low.abs().max(high.abs()) * (1.0 + 1.0 / 64.0);
+            let m = wall.radius * (1.0 + 1.0 / 64.0);
+            // A ray's coefficients are made of a point within and of what leads from there to another one, twice as long at most.
+            let (near, wide) = (wall.sizes(m, far), wall.sizes(3.0 * m, far + (high - low)));
+            let slack = (wall.slab[0].abs() + wall.slab[1].abs() + wall.at.abs()) * (4.0 * U);
+            Bounded { wall, near, wide, bend: wall.sizes(m * 1.25, far + 0.25 * m).bend, slack }
+        });
+        Self { walls: walls.collect(), closed }
+    }
+
+    /// The face of roots on the face that lanes call by a number.
+    pub(super) fn name(&self, face: u32) -> u32 {
+        face.saturating_sub(self.walls.len() as u32 - 1).min(2)
+    }
+
+    /// How many numbers it takes to name the faces.
+    pub(super) fn faces(&self) -> usize {
+        self.walls.len() + 2
+    }
+
+    /// What is at points `h` of a face, with `|h|₁`.
+    #[inline(always)]
+    pub(super) fn skin(&self, own: &Own, face: usize, h: Vec3<F8>, h1: F8) -> Skin {
+        let (y, e) = (own.point(h), own.point_error(h1));
+        let count = self.walls.len();
+        if face >= count {
+            let top = face > count;
+            let Bounded { wall, slack, .. } = &self.walls[if top { count - 1 } else { 0 }];
+            let up = if top { 1.0 } else { -1.0 };
+            let f = (y.y - wall.slab[usize::from(top)]) * up;
+            let half = own.covector(Vec3::new(F8::ZERO, F8::splat(0.5 * up), F8::ZERO));
+            return Skin {
+                f,
+                half,
+                e_f: (e + *slack) * 2.0,
+                e_half: F8::splat(own.norm * (4.0 * U)),
+                bend: F8::ZERO,
+                room: NEVER,
+            };
+        }
+        let Bounded { wall, near, bend, slack, .. } = &self.walls[face];
+        let v = y.y - wall.at;
+        let n = y.x.mul_add(y.x, y.z * y.z);
+        let [p0, p1, p2, p3] = F8::splats(wall.p);
+        let value = p3.mul_add(v, p2).mul_add(v, p1).mul_add(v, p0);
+        let slope = (p3 * 3.0).mul_add(v, p2 * 2.0).mul_add(v, p1);
+        let q = v.mul_add(v, n) + wall.kappa;
+        let alpha = q * wall.alpha;
+        let f = alpha.mul_add(q, F8::splat(wall.beta).mul_add(n, -value));
+        // Half of (4αq + 2β) (x, 0, z) + (4αq v - p') (0, 1, 0).
+        let across = alpha * 2.0 + wall.beta;
+        let half = Vec3::new(across * y.x, (alpha * 2.0).mul_add(v, slope * -0.5), across * y.z);
+        let e = e + (*slack + wall.radius * (4.0 * U));
+        let e_half = (e * near.bend + near.slope * (16.0 * U)) * (2.0 * own.norm);
+        // Twice, so that rays from there are certain of their side by the bound of a polynomial's first value.
+        let e_f = e * (4.0 * near.slope) + 32.0 * U * near.f;
+        let bend = F8::splat(*bend * own.norm * own.norm * (1.0 + 16.0 * U));
+        Skin { f, half: own.covector(half), e_f, e_half, bend, room: NEVER }
+    }
+}
+
+/// `f` at a height `v` and the square of a distance from the axis.
+#[inline(always)]
+fn value(wall: &LatheWall, n: F8, v: F8) -> F8 {
+    let [p0, p1, p2, p3] = F8::splats(wall.p);
+    let p = p3.mul_add(v, p2).mul_add(v, p1).mul_add(v, p0);
+    let q = v.mul_add(v, n) + wall.kappa;
+    (q * wall.alpha).mul_add(q, F8::splat(wall.beta).mul_add(n, -p))
+}
