@@ -8,10 +8,10 @@
 
 use crate::kernels::{Abreast, Kernel, Stack, Together};
 use crate::node::{ChildRef, Leaf};
-use crate::quest::{Answers, Any, Closest, Kept, Quest, Reach};
-use crate::ray::{Glances, PACKET, Sight, TWICE, Way};
-use crate::together::together;
-use crate::traverse::Errand;
+use crate::packet::traverse_packet;
+use crate::query::{Any, Closest, LeafTest, QueuedFilter, SearchLimit, TreeQuery};
+use crate::ray::{ClippedRay, PACKET, Packet32, TWICE, TreeRay};
+use crate::traverse::Traversal;
 use crate::tree::Bvh;
 use crate::triangles::Filter;
 use core::marker::PhantomData;
@@ -28,13 +28,13 @@ pub(crate) const LARGE: usize = 1 << 24;
 /// `R` is what a test says: for the closest hit the parameter beyond which nothing matters any more; for any hit, whether it was one.
 pub trait Rays<R> {
     /// A ray as it is asked about.
-    type Sight: Sight;
+    type TreeRay: TreeRay;
 
     /// A ray, asked for once, before its first test; `None` if it is to meet nothing.
-    fn sight(&mut self, ray: usize) -> Option<Self::Sight>;
+    fn sight(&mut self, ray: usize) -> Option<Self::TreeRay>;
 
     /// Eight rays from this one on as f32 sees them, if they are exactly known and may go through a tree together: such rays are not asked for their lines.
-    fn glances(&mut self, _first: usize) -> Option<Glances> {
+    fn glances(&mut self, _first: usize) -> Option<Packet32> {
         None
     }
 
@@ -72,30 +72,30 @@ impl Bvh {
 }
 
 /// What all rays look for.
-pub(crate) trait Aim<const ORDERED: bool> {
+pub(crate) trait QueryKind<const ORDERED: bool> {
     /// What a test says.
-    type Said;
+    type Answer;
 
-    fn quest(one: impl Answers<Self::Said>) -> impl Quest<ORDERED>;
+    fn query(one: impl LeafTest<Self::Answer>) -> impl TreeQuery<ORDERED>;
 }
 
 struct ForClosest;
 struct ForAny;
 
-impl Aim<true> for ForClosest {
-    type Said = f64;
+impl QueryKind<true> for ForClosest {
+    type Answer = f64;
 
     #[inline(always)]
-    fn quest(one: impl Answers<f64>) -> impl Quest<true> {
+    fn query(one: impl LeafTest<f64>) -> impl TreeQuery<true> {
         Closest(one)
     }
 }
 
-impl Aim<false> for ForAny {
-    type Said = bool;
+impl QueryKind<false> for ForAny {
+    type Answer = bool;
 
     #[inline(always)]
-    fn quest(one: impl Answers<bool>) -> impl Quest<false> {
+    fn query(one: impl LeafTest<bool>) -> impl TreeQuery<false> {
         Any(one)
     }
 }
@@ -106,7 +106,7 @@ pub(crate) struct One<'a, B> {
     pub(crate) ray: usize,
 }
 
-impl<R, B: Rays<R>> Answers<R> for One<'_, B> {
+impl<R, B: Rays<R>> LeafTest<R> for One<'_, B> {
     #[inline(always)]
     fn admits(&self, triangle: Leaf) -> bool {
         self.rays.admits(self.ray, triangle)
@@ -121,10 +121,10 @@ impl<R, B: Rays<R>> Answers<R> for One<'_, B> {
 /// A ray under way.
 struct Flight<K: Kernel, S> {
     ray: K::Ray,
-    reach: Reach,
+    reach: SearchLimit,
     child: ChildRef,
     number: usize,
-    way: Way,
+    way: ClippedRay,
     sight: S,
     filter: Option<Filter>,
     stack: Stack,
@@ -149,7 +149,7 @@ pub(crate) fn each(mut bits: u32) -> impl Iterator<Item = usize> {
     )
 }
 
-impl<B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool> Errand for Many<'_, B, M, ORDERED> {
+impl<B: Rays<M::Answer>, M: QueryKind<ORDERED>, const ORDERED: bool> Traversal for Many<'_, B, M, ORDERED> {
     type Answer = ();
 
     #[inline(always)]
@@ -157,7 +157,7 @@ impl<B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool> Errand for Many<'_,
         let rays = self.rays;
         let mut queue = Queue::of(self.count);
         let most = FLIGHTS.min(self.count);
-        let mut flights: Vec<Flight<K, B::Sight>> = Vec::new();
+        let mut flights: Vec<Flight<K, B::TreeRay>> = Vec::new();
         let mut last = Last { rays: [0; PACKET], leaves: [None; PACKET], count: 0 };
         // Who comes to a node next, to a leaf, and who is over: at first all places.
         let (mut at_nodes, mut at_leaves, mut over) = (0_u32, 0_u32, ((1_u64 << most) - 1) as u32);
@@ -241,8 +241,8 @@ struct Queue {
     /// For how many rays more that will be so if the next eight cannot go together either.
     patience: usize,
     /// Eight rays that were asked for a glance, by the number of the first, and the eight after them: nobody is asked twice.
-    seen: (usize, Option<Glances>),
-    more: (usize, Option<Glances>),
+    seen: (usize, Option<Packet32>),
+    more: (usize, Option<Packet32>),
 }
 
 /// Rays that go alone, at least and at most, before eight are asked again whether they could go together.
@@ -256,12 +256,12 @@ impl Queue {
 
     /// Gives a place to the next ray that goes alone and does not certainly miss everything, if there is one; before that, all go that go together.
     #[inline(always)]
-    fn upcoming<K: Abreast, B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool>(
+    fn upcoming<K: Abreast, B: Rays<M::Answer>, M: QueryKind<ORDERED>, const ORDERED: bool>(
         &mut self,
         kernel: K,
         tree: &Bvh,
         rays: &mut B,
-        flights: &mut Vec<Flight<K, B::Sight>>,
+        flights: &mut Vec<Flight<K, B::TreeRay>>,
         place: usize,
     ) -> bool {
         while self.next < self.count {
@@ -299,7 +299,7 @@ impl Queue {
 
     /// Shows the tree to the next rays together, if they are alike: sixteen or eight. Says how many.
     #[inline(always)]
-    fn go_together<K: Abreast, B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool>(
+    fn go_together<K: Abreast, B: Rays<M::Answer>, M: QueryKind<ORDERED>, const ORDERED: bool>(
         &mut self,
         kernel: K,
         tree: &Bvh,
@@ -322,7 +322,7 @@ impl Queue {
                 || {
                     let packet = Together::<TWICE>::gather(kernel, tree, &[eight, more]);
                     if let Some(packet) = &packet {
-                        together::<K, B, M, ORDERED, TWICE>(kernel, tree, rays, first, packet);
+                        traverse_packet::<K, B, M, ORDERED, TWICE>(kernel, tree, rays, first, packet);
                     }
                     if packet.is_some() { TWICE } else { 0 }
                 },
@@ -338,7 +338,7 @@ impl Queue {
                 || {
                     let packet = Together::<PACKET>::gather(kernel, tree, &[eight]);
                     if let Some(packet) = &packet {
-                        together::<K, B, M, ORDERED, PACKET>(kernel, tree, rays, first, packet);
+                        traverse_packet::<K, B, M, ORDERED, PACKET>(kernel, tree, rays, first, packet);
                     }
                     if packet.is_some() { PACKET } else { 0 }
                 },
@@ -357,9 +357,9 @@ fn seat<K: Kernel, S>(
     place: usize,
     number: usize,
     sight: S,
-    (ray, way): (K::Ray, Way),
+    (ray, way): (K::Ray, ClippedRay),
 ) {
-    let (reach, child) = (Reach::of(&way), ChildRef::node(0));
+    let (reach, child) = (SearchLimit::of(&way), ChildRef::node(0));
     if let Some(flight) = flights.get_mut(place) {
         flight.ray = ray;
         flight.way = way;
@@ -378,18 +378,18 @@ fn seat<K: Kernel, S>(
     }
 }
 
-impl<K: Kernel, S: Sight> Flight<K, S> {
+impl<K: Kernel, S: TreeRay> Flight<K, S> {
     /// Looks at a leaf; says to which child to turn.
     #[inline(always)]
-    fn look<B: Rays<M::Said>, M: Aim<ORDERED>, const ORDERED: bool>(
+    fn look<B: Rays<M::Answer>, M: QueryKind<ORDERED>, const ORDERED: bool>(
         &mut self,
         kernel: K,
         tree: &Bvh,
         rays: &mut B,
     ) -> ChildRef {
         let before = self.reach.t_far;
-        let mut quest = M::quest(One { rays, ray: self.number });
-        let mut sieve = Kept { sight: &self.sight, filter: &mut self.filter };
+        let mut quest = M::query(One { rays, ray: self.number });
+        let mut sieve = QueuedFilter { sight: &self.sight, filter: &mut self.filter };
         let found = quest.leaf(kernel, tree, &self.way, self.child, &mut sieve, &mut self.reach);
         drop(quest);
         if found {

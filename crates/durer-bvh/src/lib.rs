@@ -32,7 +32,7 @@
 //! ```
 //!
 //! The way through: [`Frame`] chooses the units and makes an [`Entry`] of each box; [`Bvh::build`] sorts them into nodes of sixteen;
-//! [`Bvh::closest`] and [`Bvh::any`], which are asked about a ray ([`Sight`]), [`Bvh::in_shaft`] and [`Bvh::containing`] show the [`Leaf`]s that matter; [`Bvh::story`] tells how; [`Bvh::refit`] follows what moves; [`Bvh::validate`] and
+//! [`Bvh::closest`] and [`Bvh::any`], which are asked about a ray ([`TreeRay`]), [`Bvh::in_shaft`] and [`Bvh::containing`] show the [`Leaf`]s that matter; [`Bvh::trace`] tells how; [`Bvh::refit`] follows what moves; [`Bvh::validate`] and
 //! [`Bvh::stats`] look at the result. A tree knows boxes and numbers, and of triangles their corners in f32: what else the things are is its caller's business.
 #![deny(unsafe_code)]
 
@@ -41,13 +41,13 @@ mod build;
 mod frame;
 mod kernels;
 mod node;
-mod quest;
+mod packet;
+mod query;
 mod ray;
 mod refit;
 mod shaft;
 mod stats;
-mod story;
-mod together;
+mod trace;
 mod traverse;
 mod tree;
 mod triangles;
@@ -57,10 +57,10 @@ pub use crate::batch::Rays;
 pub use crate::build::{CornersOf, Quality, Settings};
 pub use crate::frame::{Entry, Frame};
 pub use crate::node::{Leaf, MAX_ENTRIES};
-pub use crate::ray::{Glance, Glances, Line, PACKET, Sight};
+pub use crate::ray::{PACKET, Packet32, Ray32, Ray64, TreeRay};
 pub use crate::refit::RefitError;
 pub use crate::stats::Stats;
-pub use crate::story::Step;
+pub use crate::trace::Step;
 pub use crate::tree::Bvh;
 pub use crate::triangles::Corners;
 pub use crate::validate::Violation;

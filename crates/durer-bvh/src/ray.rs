@@ -20,7 +20,7 @@ pub(crate) const TO_NEAREST: f64 = U32 * (1.0 + 1.0 / (1 << 20) as f64);
 ///
 /// The largest component of the direction is in `[1, 2)` in magnitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Line {
+pub struct Ray64 {
     /// The point at `t = 0`.
     pub origin: Point3,
     /// The direction.
@@ -37,7 +37,7 @@ pub struct Line {
     pub inner: (f64, f64),
 }
 
-impl Line {
+impl Ray64 {
     /// Whether the ray may meet a box, which may be unbounded: `false` is certain.
     pub fn may_meet(&self, bounds: &Aabb) -> bool {
         if bounds.is_empty() {
@@ -56,17 +56,17 @@ impl Line {
 }
 
 /// A ray that a tree is asked about.
-pub trait Sight {
+pub trait TreeRay {
     /// The ray.
-    fn line(&self) -> Line;
+    fn line(&self) -> Ray64;
 
     /// The same at a glance, which is all that many rays need.
-    fn glance(&self) -> Glance;
+    fn glance(&self) -> Ray32;
 }
 
-/// The numbers of a [`Line`], each rounded to the nearest f32, and so perhaps to zero or infinity.
+/// The numbers of a [`Ray64`], each rounded to the nearest f32, and so perhaps to zero or infinity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Glance {
+pub struct Ray32 {
     /// The origin, then `t_min`.
     pub origin: [f32; 4],
     /// The direction, then `t_max`.
@@ -79,7 +79,7 @@ pub struct Glance {
     pub is_exact: bool,
 }
 
-impl Glance {
+impl Ray32 {
     /// Of no ray.
     pub const NOTHING: Self = Self {
         origin: [f32::NAN; 4],
@@ -96,9 +96,9 @@ pub const PACKET: usize = 8;
 /// How many go together where there are lanes for two times as many.
 pub(crate) const TWICE: usize = 2 * PACKET;
 
-/// The numbers of eight [`Line`]s that are all exactly known, each rounded to the nearest f32.
+/// The numbers of eight [`Ray64`]s that are all exactly known, each rounded to the nearest f32.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Glances {
+pub struct Packet32 {
     /// The origins, axis by axis.
     pub origin: [[f32; PACKET]; 3],
     /// The directions.
@@ -109,10 +109,10 @@ pub struct Glances {
     pub t_max: [f32; PACKET],
 }
 
-impl Glances {
+impl Packet32 {
     /// Of eight rays, if all are exact.
     #[inline(always)]
-    pub fn of(rays: &[Glance; PACKET]) -> Option<Self> {
+    pub fn of(rays: &[Ray32; PACKET]) -> Option<Self> {
         let mut all = Self {
             origin: [[0.0; PACKET]; 3],
             direction: [[0.0; PACKET]; 3],
@@ -132,19 +132,19 @@ impl Glances {
     }
 }
 
-impl Sight for Line {
+impl TreeRay for Ray64 {
     #[inline(always)]
-    fn line(&self) -> Line {
+    fn line(&self) -> Ray64 {
         *self
     }
 
     #[inline(always)]
-    fn glance(&self) -> Glance {
+    fn glance(&self) -> Ray32 {
         #[inline(always)]
         fn four(v: [f64; 3], w: f64) -> [f32; 4] {
             [v[0] as f32, v[1] as f32, v[2] as f32, w as f32]
         }
-        Glance {
+        Ray32 {
             origin: four(self.origin.to_array(), self.t_min),
             direction: four(self.direction.to_array(), self.t_max),
             origin_error: four(self.origin_error.to_array(), 0.0),
@@ -173,12 +173,12 @@ pub(crate) struct CullRay {
     pub(crate) far: [f32; 4],
     /// Bit `i` is set if `d_i` is negative (or -0).
     pub(crate) octant: u32,
-    pub(crate) way: Way,
+    pub(crate) way: ClippedRay,
 }
 
 /// A ray's way through a tree.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Way {
+pub(crate) struct ClippedRay {
     /// The entry's point in tree units, rounded to f64 and to f32, and the direction, rounded to f32.
     pub(crate) start: [f32; 4],
     pub(crate) direction: [f32; 4],
@@ -227,7 +227,7 @@ pub(crate) struct Clip {
     pub(crate) grow: f64,
     /// The greatest magnitude of a coordinate, for rays that start [nearby](NEARBY).
     pub(crate) most32: [f32; 4],
-    /// What the lengths of a [`Glance`] are to be multiplied by; infinite if the tree's size is [far](GLANCED) from 1.
+    /// What the lengths of a [`Ray32`] are to be multiplied by; infinite if the tree's size is [far](GLANCED) from 1.
     pub(crate) shrink32: f32,
 }
 
@@ -264,7 +264,7 @@ impl CullRay {
     /// Clips a line to the box `[lo, hi]` of a tree; `None` if it certainly misses it.
     #[inline(always)]
     pub(crate) fn new(
-        line: &Line,
+        line: &Ray64,
         frame: Frame,
         lo: &[f32; 3],
         hi: &[f32; 3],
@@ -328,7 +328,7 @@ impl CullRay {
             near,
             far,
             octant: octant(&d),
-            way: Way {
+            way: ClippedRay {
                 start: starts,
                 direction: single(&d),
                 t_near: 0.0,
@@ -351,7 +351,7 @@ impl CullRay {
             near: [-big; 4],
             far: [big; 4],
             octant: octant(d),
-            way: Way {
+            way: ClippedRay {
                 start: [0.0; 4],
                 direction,
                 t_near: 0.0,
@@ -368,7 +368,7 @@ impl CullRay {
 /// What the ends of an exactly known ray's range are moved inward by: relative, and absolute.
 pub(crate) const INSIDE: (f32, f32) = (1.0 / (1 << 20) as f32, 1.0 / (1_u128 << 100) as f32);
 
-impl Way {
+impl ClippedRay {
     /// How far to look if nothing beyond the caller's `t` matters.
     #[inline(always)]
     pub(crate) fn shortened(&self, t: f64) -> f32 {
@@ -395,7 +395,7 @@ impl Way {
         (from + step(from), to - step(to))
     }
 
-    /// The same for the whole range of a ray that is [exact](Way::is_exact): its ends are within ten units of the first and the last parameter.
+    /// The same for the whole range of a ray that is [exact](ClippedRay::is_exact): its ends are within ten units of the first and the last parameter.
     #[inline(always)]
     pub(crate) fn inside(&self) -> (f32, f32) {
         let step = |x: f32| x.abs().mul_add(INSIDE.0, INSIDE.1);

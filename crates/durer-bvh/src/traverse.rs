@@ -2,14 +2,14 @@
 
 use crate::kernels::{Abreast, Kernel, Scalar, Stack};
 use crate::node::{ChildRef, Leaf};
-use crate::quest::{Any, Closest, Each, Late, Pair, Quest, Reach, Sieve};
-use crate::ray::{Sight, Way};
+use crate::query::{Any, BlockFilterSource, Callbacks, Closest, Each, LazyFilter, SearchLimit, TreeQuery};
+use crate::ray::{ClippedRay, TreeRay};
 use crate::tree::Bvh;
 use durer_math::kernels::Path;
 use durer_math::{Isa, Point3, Vec3};
 
 /// What is done with a tree, for any kernel.
-pub(crate) trait Errand {
+pub(crate) trait Traversal {
     type Answer;
     fn run<K: Abreast>(self, kernel: K, tree: &Bvh) -> Self::Answer;
 }
@@ -25,11 +25,11 @@ impl Bvh {
     pub fn closest(
         &self,
         isa: Isa,
-        sight: &impl Sight,
+        sight: &impl TreeRay,
         admits: impl Fn(Leaf) -> bool,
         test: impl FnMut(Leaf) -> f64,
     ) {
-        self.with_kernel(isa, Single::<_, _, true> { sight, quest: Closest(Pair { admits, test }) });
+        self.with_kernel(isa, Single::<_, _, true> { sight, quest: Closest(Callbacks { admits, test }) });
     }
 
     /// Shows what the ray might meet to `test`, until it says that it has found what it looked for; says whether it did, or
@@ -41,16 +41,16 @@ impl Bvh {
     pub fn any(
         &self,
         isa: Isa,
-        sight: &impl Sight,
+        sight: &impl TreeRay,
         trusts: impl Fn(Leaf) -> bool,
         test: impl FnMut(Leaf) -> bool,
     ) -> bool {
-        self.with_kernel(isa, Single::<_, _, false> { sight, quest: Any(Pair { admits: trusts, test }) })
+        self.with_kernel(isa, Single::<_, _, false> { sight, quest: Any(Callbacks { admits: trusts, test }) })
     }
 
     /// [`Bvh::any`] that trusts in nothing and shows each triangle once.
     #[inline(always)]
-    pub fn each(&self, isa: Isa, sight: &impl Sight, test: impl FnMut(Leaf) -> bool) -> bool {
+    pub fn each(&self, isa: Isa, sight: &impl TreeRay, test: impl FnMut(Leaf) -> bool) -> bool {
         self.with_kernel(isa, AllOnce { sight, test })
     }
 
@@ -87,7 +87,7 @@ impl Bvh {
 
     /// Picks the kernel once and enters it through the one door.
     #[inline(always)]
-    pub(crate) fn with_kernel<E: Errand>(&self, isa: Isa, errand: E) -> E::Answer {
+    pub(crate) fn with_kernel<E: Traversal>(&self, isa: Isa, errand: E) -> E::Answer {
         #[cfg(target_arch = "x86_64")]
         if let Some(kernel) = crate::kernels::Avx512::of(isa) {
             return isa.run_in_lanes(
@@ -115,7 +115,7 @@ struct Single<'a, S, Q, const ORDERED: bool> {
     quest: Q,
 }
 
-impl<S: Sight, Q: Quest<ORDERED>, const ORDERED: bool> Errand for Single<'_, S, Q, ORDERED> {
+impl<S: TreeRay, Q: TreeQuery<ORDERED>, const ORDERED: bool> Traversal for Single<'_, S, Q, ORDERED> {
     type Answer = bool;
 
     #[inline(always)]
@@ -123,10 +123,10 @@ impl<S: Sight, Q: Quest<ORDERED>, const ORDERED: bool> Errand for Single<'_, S, 
         if tree.is_empty() {
             return false;
         }
-        let Some((ray, way)) = kernel.ready(tree, self.sight) else { return false };
+        let Some((ray, way)) = kernel.set_up(tree, self.sight) else { return false };
         let lanes = kernel.spread(&ray);
-        let (mut filter, mut reach, mut quest) = (None, Reach::of(&way), self.quest);
-        let mut sieve = Late { sight: self.sight, filter: &mut filter };
+        let (mut filter, mut reach, mut quest) = (None, SearchLimit::of(&way), self.quest);
+        let mut sieve = LazyFilter { sight: self.sight, filter: &mut filter };
         follow(kernel, tree, &lanes, &way, ChildRef::node(0), &mut sieve, &mut reach, &mut quest)
             || quest.end(kernel, &reach)
     }
@@ -138,7 +138,7 @@ struct AllOnce<'a, S, F> {
     test: F,
 }
 
-impl<S: Sight, F: FnMut(Leaf) -> bool> Errand for AllOnce<'_, S, F> {
+impl<S: TreeRay, F: FnMut(Leaf) -> bool> Traversal for AllOnce<'_, S, F> {
     type Answer = bool;
 
     #[inline(always)]
@@ -146,10 +146,10 @@ impl<S: Sight, F: FnMut(Leaf) -> bool> Errand for AllOnce<'_, S, F> {
         if tree.is_empty() {
             return false;
         }
-        let Some((ray, way)) = kernel.ready(tree, self.sight) else { return false };
+        let Some((ray, way)) = kernel.set_up(tree, self.sight) else { return false };
         let lanes = kernel.spread(&ray);
-        let (mut filter, mut reach) = (None, Reach::of(&way));
-        let mut sieve = Late { sight: self.sight, filter: &mut filter };
+        let (mut filter, mut reach) = (None, SearchLimit::of(&way));
+        let mut sieve = LazyFilter { sight: self.sight, filter: &mut filter };
         let mut quest = Each { kernel, tree, lanes: &lanes, test: self.test };
         follow(kernel, tree, &lanes, &way, ChildRef::node(0), &mut sieve, &mut reach, &mut quest)
     }
@@ -161,14 +161,14 @@ impl<S: Sight, F: FnMut(Leaf) -> bool> Errand for AllOnce<'_, S, F> {
     clippy::too_many_arguments,
     reason = "what a ray is, in the parts that a search changes and does not change"
 )]
-pub(crate) fn follow<K: Kernel, Q: Quest<ORDERED>, const ORDERED: bool>(
+pub(crate) fn follow<K: Kernel, Q: TreeQuery<ORDERED>, const ORDERED: bool>(
     kernel: K,
     tree: &Bvh,
     lanes: &K::Lanes,
-    way: &Way,
+    way: &ClippedRay,
     mut child: ChildRef,
-    sieve: &mut impl Sieve,
-    reach: &mut Reach,
+    sieve: &mut impl BlockFilterSource,
+    reach: &mut SearchLimit,
     quest: &mut Q,
 ) -> bool {
     let mut stack = Stack::new();

@@ -2,7 +2,7 @@
 
 use crate::frame::Frame;
 use crate::node::{ChildRef, Leaf, Node, WIDTH};
-use crate::ray::{Clip, CullRay, Line, PACKET, Rounding};
+use crate::ray::{Clip, CullRay, PACKET, Ray64, Rounding};
 use crate::triangles::{Block, Corners, LANES};
 use durer_math::Aabb;
 
@@ -284,7 +284,7 @@ impl Bvh {
     }
 
     #[inline(always)]
-    pub(crate) fn cull(&self, line: &Line, rounding: Rounding) -> Option<CullRay> {
+    pub(crate) fn cull(&self, line: &Ray64, rounding: Rounding) -> Option<CullRay> {
         if self.is_empty() {
             return None;
         }

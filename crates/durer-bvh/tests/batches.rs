@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Dice, QUALITIES};
-use durer_bvh::{Bvh, Corners, Frame, Glance, Glances, Leaf, Line, PACKET, Rays, Settings, Sight};
+use durer_bvh::{Bvh, Corners, Frame, Leaf, PACKET, Packet32, Ray32, Ray64, Rays, Settings, TreeRay};
 use durer_math::eft::exponent;
 use durer_math::kernels::Path;
 use durer_math::{Aabb, Isa, Point3, Vec3};
@@ -11,7 +11,7 @@ use durer_math::{Aabb, Isa, Point3, Vec3};
 /// Boxes and triangles, and the rays to send through them.
 struct World {
     tree: Bvh,
-    lines: Vec<Option<Line>>,
+    lines: Vec<Option<Ray64>>,
 }
 
 fn point(dice: &mut Dice, size: f64) -> Point3 {
@@ -50,7 +50,7 @@ impl World {
             let d = d.scale2(-exponent(d.max_abs()));
             let error = [0.0, 1e-12][dice.below(2) as usize];
             let t_max = [f64::INFINITY, 1.2][dice.below(2) as usize];
-            (dice.below(9) > 0).then_some(Line {
+            (dice.below(9) > 0).then_some(Ray64 {
                 origin,
                 direction: d,
                 origin_error: Vec3::new(error, 0.0, error),
@@ -60,7 +60,7 @@ impl World {
                 inner: (0.0, t_max),
             })
         };
-        let mut lines: Vec<Option<Line>> = (0..600).map(|_| line(&mut dice)).collect();
+        let mut lines: Vec<Option<Ray64>> = (0..600).map(|_| line(&mut dice)).collect();
         // Some that are much alike: side by side, or from one point, which may be a corner of a box, and along axes, or nearly so.
         // As many as go by sixteen and by eight, and some that are left.
         for some in lines.chunks_mut(4 * PACKET) {
@@ -79,7 +79,7 @@ impl World {
                 let t_min = [0.0, 0.2][dice.below(2) as usize];
                 let bend = (point(&mut dice, spread) - Point3::ORIGIN).abs();
                 let bent = d + Vec3::new(bend.x.copysign(d.x), bend.y.copysign(d.y), 0.0) * d.z.abs();
-                *line = Some(Line {
+                *line = Some(Ray64 {
                     origin: origin + (point(&mut dice, aside) - Point3::ORIGIN),
                     direction: bent.scale2(-exponent(bent.max_abs())),
                     origin_error: Vec3::ZERO,
@@ -132,26 +132,26 @@ struct Logging<'a> {
 }
 
 impl Logging<'_> {
-    fn glances(&mut self, first: usize) -> Option<Glances> {
+    fn glances(&mut self, first: usize) -> Option<Packet32> {
         assert!(first >= self.glanced, "asked once");
         self.glanced = first + PACKET;
         let lines = self.world.lines[first..].first_chunk::<PACKET>()?;
         if lines.iter().any(Option::is_none) {
             return None;
         }
-        Glances::of(&lines.map(|line| line.map_or(Glance::NOTHING, |line| line.glance())))
+        Packet32::of(&lines.map(|line| line.map_or(Ray32::NOTHING, |line| line.glance())))
     }
 }
 
 impl Rays<f64> for Logging<'_> {
-    type Sight = Line;
+    type TreeRay = Ray64;
 
-    fn sight(&mut self, ray: usize) -> Option<Line> {
+    fn sight(&mut self, ray: usize) -> Option<Ray64> {
         self.asked += 1;
         self.world.lines[ray]
     }
 
-    fn glances(&mut self, first: usize) -> Option<Glances> {
+    fn glances(&mut self, first: usize) -> Option<Packet32> {
         Logging::glances(self, first)
     }
 
@@ -170,14 +170,14 @@ impl Rays<f64> for Logging<'_> {
 }
 
 impl Rays<bool> for Logging<'_> {
-    type Sight = Line;
+    type TreeRay = Ray64;
 
-    fn sight(&mut self, ray: usize) -> Option<Line> {
+    fn sight(&mut self, ray: usize) -> Option<Ray64> {
         self.asked += 1;
         self.world.lines[ray]
     }
 
-    fn glances(&mut self, first: usize) -> Option<Glances> {
+    fn glances(&mut self, first: usize) -> Option<Packet32> {
         Logging::glances(self, first)
     }
 

@@ -218,7 +218,7 @@ fn the_story_is_the_traversal() {
     let boxes: Vec<_> = (0..3000).map(|_| cube(dice.unit(), dice.unit(), dice.unit(), 0.03)).collect();
     let (tree, _) = tree(&boxes);
     for _ in 0..200 {
-        let line = durer_bvh::Line {
+        let line = durer_bvh::Ray64 {
             origin: Point3::new(dice.unit(), dice.unit(), -1.0),
             direction: Vec3::new(dice.unit() - 0.5, dice.unit() - 0.5, 1.0),
             origin_error: Vec3::ZERO,
@@ -240,7 +240,7 @@ fn the_story_is_the_traversal() {
                 },
             );
             let mut told = Vec::new();
-            tree.story(&line, |step| {
+            tree.trace(&line, |step| {
                 if let durer_bvh::Step::Leaf { leaf, .. } = step {
                     told.push(*leaf);
                 }

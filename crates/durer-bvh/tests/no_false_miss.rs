@@ -7,7 +7,7 @@
 mod common;
 
 use common::{Dice, tree};
-use durer_bvh::{Bvh, Line};
+use durer_bvh::{Bvh, Ray64};
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Isa, Point3, Vec3};
 
@@ -62,10 +62,10 @@ fn approach(dice: &mut Dice, target: Place) -> Option<(Place, i64)> {
 }
 
 /// The line, and its `t` at the target.
-fn line(target: Place, (d, steps): (Place, i64), k: i32) -> (Line, f64) {
+fn line(target: Place, (d, steps): (Place, i64), k: i32) -> (Ray64, f64) {
     let direction = Vec3::from(d.map(|x| x as f64));
     let e = exponent(direction.max_abs());
-    let line = Line {
+    let line = Ray64 {
         origin: point([0, 1, 2].map(|i| target[i] - d[i] * steps), k),
         direction: direction.map(|x| scale2(x, -e)),
         origin_error: Vec3::ZERO,
@@ -78,7 +78,7 @@ fn line(target: Place, (d, steps): (Place, i64), k: i32) -> (Line, f64) {
 }
 
 /// All queries, on all paths, show the leaf that holds box `wanted`.
-fn assert_shown(tree: &Bvh, order: &[u32], line: &Line, t_hit: f64, wanted: u32) {
+fn assert_shown(tree: &Bvh, order: &[u32], line: &Ray64, t_hit: f64, wanted: u32) {
     let slot = order.iter().position(|&i| i == wanted).expect("each box is in a leaf") as u32;
     for isa in Isa::available() {
         let ranges = [
@@ -89,7 +89,7 @@ fn assert_shown(tree: &Bvh, order: &[u32], line: &Line, t_hit: f64, wanted: u32)
             (f64::NEG_INFINITY, t_hit),
         ];
         for (t_min, t_max) in ranges {
-            let line = Line { t_min, t_max, ..*line };
+            let line = Ray64 { t_min, t_max, ..*line };
             let found =
                 tree.any(isa, &line, |_| false, |leaf| (leaf.first..leaf.first + leaf.count).contains(&slot));
             assert!(found, "{isa:?}: box {wanted} is missed by {line:?}, which is in it at {t_hit}");
@@ -151,7 +151,7 @@ fn rays_along_edges_and_in_faces_meet_them() {
         // Zeros of both signs.
         for minus in [1.0, -1.0] {
             let direction = line.direction.map(|x| if x == 0.0 { 0.0 * minus } else { x });
-            assert_shown(&tree, &order, &Line { direction, ..line }, t_hit, wanted as u32);
+            assert_shown(&tree, &order, &Ray64 { direction, ..line }, t_hit, wanted as u32);
         }
     }
 }
@@ -175,7 +175,7 @@ fn rays_that_are_known_within_errors_meet_what_the_exact_ones_meet() {
         let e = exponent(direction.max_abs());
         let (direction, dd) = (direction.map(|x| scale2(x, -e)), dd.map(|x| scale2(x, -e)));
         let room = Vec3::new(1e-13, 1e-13, 1e-13);
-        let known = Line {
+        let known = Ray64 {
             origin: line.origin + do_,
             direction,
             // The sums were rounded, too.
@@ -217,7 +217,7 @@ fn boxes_far_off_the_ray_are_not_tested() {
     let (tree, _) = tree(&boxes);
     for far in [1.0, 1e6, 1e12] {
         let origin = Point3::new(1234.0, 0.1, far);
-        let line = Line {
+        let line = Ray64 {
             origin,
             direction: -Vec3::Z,
             origin_error: Vec3::ZERO,

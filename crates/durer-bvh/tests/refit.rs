@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Dice, tree};
-use durer_bvh::{Bvh, Corners, CornersOf, Frame, Leaf, Line, RefitError, Settings};
+use durer_bvh::{Bvh, Corners, CornersOf, Frame, Leaf, Ray64, RefitError, Settings};
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Isa, Point3, Ray, Vec3};
 use durer_surfaces::{Closest, LocalRay, Surface, Triangle};
@@ -35,7 +35,7 @@ fn boxes_that_moved_are_found_where_they_are() {
             }
             // What rounding takes from the way to the target is far below the errors.
             let direction = direction.scale2(-exponent(direction.max_abs()));
-            let line = Line {
+            let line = Ray64 {
                 origin,
                 direction,
                 origin_error: Vec3::from([1e-12 * size; 3]),
@@ -76,7 +76,7 @@ fn meet(shape: &[Corners], numbers: impl Iterator<Item = u32>, ray: &LocalRay<'_
 
 fn closest(tree: &Bvh, order: &[u32], shape: &[Corners], ray: &Ray) -> Option<(f64, u32)> {
     let local = LocalRay::new(ray);
-    let line = Line {
+    let line = Ray64 {
         origin: ray.origin,
         direction: ray.direction.scale2(-exponent(ray.direction.max_abs())),
         origin_error: Vec3::ZERO,

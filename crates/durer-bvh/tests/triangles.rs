@@ -7,7 +7,7 @@ mod common;
 
 use common::Dice;
 use core::cmp::Ordering;
-use durer_bvh::{Bvh, Frame, Leaf, Line, Settings};
+use durer_bvh::{Bvh, Frame, Leaf, Ray64, Settings};
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Isa, Point3, Vec3};
 
@@ -172,7 +172,7 @@ fn the_filter_is_right(seeds: u64, settings: &Settings) -> usize {
             let e = exponent(direction.max_abs());
             // The line's parameter of t: the origin was scaled by 2^k, the direction by 2^-e.
             let clock = |t: f64| scale2(t, k + e);
-            let line = Line {
+            let line = Ray64 {
                 origin: point(o, k),
                 direction: direction.scale2(-e),
                 origin_error: Vec3::ZERO,

@@ -108,10 +108,10 @@ fn trace(world: &Geometry, way: usize, (bx, by): (usize, usize), scratch: &mut S
         }
         eight.live = M8::ALL;
     }
-    let beam = if way > 0 { world.beam_of(&rays) } else { None };
+    let beam = if way > 0 { world.bundle_candidates(&rays) } else { None };
     if way == 2 {
         let mut hits = [Hits8::NONE; BLOCK];
-        world.seen_by_lanes(beam.as_ref(), &rays, EVERYTHING, &mut hits, scratch);
+        world.first_visible8(beam.as_ref(), &rays, EVERYTHING, &mut hits, scratch);
         black_box(&hits);
         return;
     }
@@ -120,7 +120,7 @@ fn trace(world: &Geometry, way: usize, (bx, by): (usize, usize), scratch: &mut S
             let ray = ray(bx + x, by + y);
             black_box(match &beam {
                 Some(beam) => world.seen_in(beam, &ray, EVERYTHING, Need::SHADING_NORMAL),
-                None => world.seen(&ray, EVERYTHING, Need::SHADING_NORMAL),
+                None => world.first_visible(&ray, EVERYTHING, Need::SHADING_NORMAL),
             });
         }
     }

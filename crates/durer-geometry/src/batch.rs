@@ -1,8 +1,8 @@
 //! Many rays at once, over all threads.
 
-use crate::abreast::{ABREAST, Abreast};
 use crate::geometry::Geometry;
 use crate::ids::EVERYTHING;
+use crate::interleave::{ABREAST, Abreast};
 use crate::{Hit, Span};
 use durer_math::Ray;
 use rayon::prelude::*;

@@ -1,9 +1,9 @@
 //! What happened to this ray, in words.
 
-use crate::best::Placement;
+use crate::closest::Placement;
+use crate::context::RayContext;
 use crate::geometry::{Geometry, slots};
 use crate::ids::EVERYTHING;
-use crate::walk::Walk;
 use crate::{Hit, ObjectId};
 use core::fmt;
 use durer_bvh::{Leaf, Step};
@@ -125,7 +125,7 @@ impl Geometry {
         let valid = ray.is_valid();
         if valid {
             let local = LocalRay::new(ray);
-            story.geometry(&Walk::new(self, ray, &local, EVERYTHING), 0);
+            story.geometry(&RayContext::new(self, ray, &local, EVERYTHING), 0);
         }
         Explanation { ray: *ray, valid, events: story.events, closest: story.best }
     }
@@ -137,7 +137,7 @@ struct Story {
 }
 
 impl Story {
-    fn geometry(&mut self, walk: &Walk<'_>, depth: u32) {
+    fn geometry(&mut self, walk: &RayContext<'_>, depth: u32) {
         let geometry = walk.geometry;
         for beside in &geometry.beside {
             let (surface, count) = (self.type_name(geometry, &beside.leaf()), beside.count);
@@ -148,7 +148,7 @@ impl Story {
         if let Some(best) = &self.best {
             line.t_max = line.t_max.min(walk.limit(best.t_hi));
         }
-        let entered = geometry.tree.story(&line, |step| match *step {
+        let entered = geometry.tree.trace(&line, |step| match *step {
             Step::Node { level, bounds, t, children, met, .. } => {
                 self.events.push(Event::Node { depth, level, bounds, t, children, met });
                 f64::INFINITY
@@ -173,7 +173,7 @@ impl Story {
         geometry.arenas.get(leaf.kind as usize).map_or("instance", |a| short(a.type_name()))
     }
 
-    fn leaf(&mut self, walk: &Walk<'_>, leaf: &Leaf, depth: u32) {
+    fn leaf(&mut self, walk: &RayContext<'_>, leaf: &Leaf, depth: u32) {
         let geometry = walk.geometry;
         if geometry.is_instances(leaf) {
             for i in slots(leaf) {

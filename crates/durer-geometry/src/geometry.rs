@@ -1,8 +1,8 @@
 //! The built world.
 
 use crate::arena::AnyArena;
-use crate::best::Placement;
-use crate::outlines::Outlines;
+use crate::closest::Placement;
+use crate::filter_cache::Outlines;
 use crate::{Builder, stats};
 use core::ops::Range;
 use core::sync::atomic::{AtomicU64, Ordering};

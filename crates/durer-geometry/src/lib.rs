@@ -31,39 +31,39 @@
 //! array per type, in the order of the leaves of a [`durer_bvh`] tree; what is unbounded is tested beside it. Answers do not depend on
 //! the tree, the instruction set or the number of threads.
 //!
-//! Closest, any and all are in `query`, bundles of rays that share one search in `beam`, eight rays side by side in `lanes`, stretches inside solids in `spans`, solids made of solids in `csg`, points in `resolve`, many rays in `batch`, surfaces that move in `refit`, and the story of
+//! Closest, any and all are in `query`, bundles of rays that share one search in `candidates`, eight rays side by side in `lanes`, stretches inside solids in `spans`, solids made of solids in `csg`, points in `resolve`, many rays in `batch`, surfaces that move in `refit`, and the story of
 //! one ray in `explain`.
 #![forbid(unsafe_code)]
 
-mod abreast;
 mod arena;
 mod batch;
-mod beam;
-mod best;
 mod builder;
+mod bundle;
+mod closest;
+mod context;
 mod csg;
 mod explain;
+mod filter_cache;
 mod geometry;
 mod hit;
 mod ids;
-mod lanes;
-mod outlines;
+mod interleave;
+mod packet;
 mod query;
 mod refit;
 mod resolve;
 mod spans;
 mod stats;
-mod walk;
 
 pub use crate::batch::Ragged;
-pub use crate::beam::Beam;
 pub use crate::builder::{BuildError, Builder};
+pub use crate::bundle::CandidateList;
 pub use crate::csg::{Compound, CompoundBuilder, CsgError, Part, Shown};
 pub use crate::explain::{Event, Explanation, Verdict};
 pub use crate::geometry::Geometry;
 pub use crate::hit::{Hit, ObjectId, Span};
 pub use crate::ids::EVERYTHING;
-pub use crate::lanes::{Hits8, Rays8, Scratch, Sources8};
+pub use crate::packet::{Hits8, Rays8, Scratch, Sources8};
 pub use crate::refit::RefitError;
 pub use crate::stats::{Inventory, Stats};
 pub use durer_bvh::{Quality, Settings};

@@ -1,9 +1,9 @@
 //! Closest, any and all.
 
-use crate::best::Best;
+use crate::closest::ClosestHit;
+use crate::context::RayContext;
 use crate::geometry::{Geometry, slots};
 use crate::ids::EVERYTHING;
-use crate::walk::Walk;
 use crate::{Hit, Span, spans::Tracks};
 use durer_bvh::Leaf;
 use durer_math::{Point3, Ray};
@@ -18,7 +18,7 @@ impl Geometry {
     /// The first hit of what has a bit in common with `mask`.
     pub fn closest_masked(&self, ray: &Ray, mask: u32) -> Option<Hit> {
         self.walk(ray, mask, |walk| {
-            let mut best = Best::least();
+            let mut best = ClosestHit::least();
             closest(walk, &mut best);
             best.hit
         })?
@@ -27,13 +27,13 @@ impl Geometry {
     /// The first hit and its point, for pictures: brackets may be as wide as [`durer_surfaces::PREVIEW_WIDTH`] allows, so of two surfaces that are
     /// nearer to each other either may be seen. What is hit at all is exact.
     #[inline]
-    pub fn seen(&self, ray: &Ray, mask: u32, need: Need) -> Option<(Hit, SurfacePoint)> {
+    pub fn first_visible(&self, ray: &Ray, mask: u32, need: Need) -> Option<(Hit, SurfacePoint)> {
         self.walk_roughly(
             ray,
             mask,
             #[inline(always)]
             |walk| {
-                let mut best = Best::least();
+                let mut best = ClosestHit::least();
                 closest(walk, &mut best);
                 let hit = best.hit?;
                 Some((hit, self.point_of(walk.ray, ray.source(), &hit, need)))
@@ -107,13 +107,18 @@ impl Geometry {
     }
 
     #[inline(always)]
-    pub(crate) fn walk<R>(&self, ray: &Ray, mask: u32, f: impl FnOnce(&Walk<'_>) -> R) -> Option<R> {
+    pub(crate) fn walk<R>(&self, ray: &Ray, mask: u32, f: impl FnOnce(&RayContext<'_>) -> R) -> Option<R> {
         self.walk_along(ray, LocalRay::new, mask, f)
     }
 
     /// As `walk`, where nobody will see how wide a bracket is.
     #[inline(always)]
-    pub(crate) fn walk_roughly<R>(&self, ray: &Ray, mask: u32, f: impl FnOnce(&Walk<'_>) -> R) -> Option<R> {
+    pub(crate) fn walk_roughly<R>(
+        &self,
+        ray: &Ray,
+        mask: u32,
+        f: impl FnOnce(&RayContext<'_>) -> R,
+    ) -> Option<R> {
         self.walk_along(
             ray,
             #[inline(always)]
@@ -129,7 +134,7 @@ impl Geometry {
         ray: &Ray,
         local: impl FnOnce(&Ray) -> LocalRay<'static>,
         mask: u32,
-        f: impl FnOnce(&Walk<'_>) -> R,
+        f: impl FnOnce(&RayContext<'_>) -> R,
     ) -> Option<R> {
         if !ray.is_valid() {
             self.count_invalid();
@@ -139,14 +144,14 @@ impl Geometry {
             #[inline(always)]
             || {
                 let local = local(ray);
-                f(&Walk::new(self, ray, &local, mask))
+                f(&RayContext::new(self, ray, &local, mask))
             },
         ))
     }
 }
 
 /// Improves `best` by what the ray meets in one geometry.
-pub(crate) fn closest(walk: &Walk<'_>, best: &mut Best) {
+pub(crate) fn closest(walk: &RayContext<'_>, best: &mut ClosestHit) {
     walk.geometry.isa.run(
         #[inline(always)]
         || closest_here(walk, best),
@@ -154,7 +159,7 @@ pub(crate) fn closest(walk: &Walk<'_>, best: &mut Best) {
 }
 
 #[inline(always)]
-fn closest_here(walk: &Walk<'_>, best: &mut Best) {
+fn closest_here(walk: &RayContext<'_>, best: &mut ClosestHit) {
     let geometry = walk.geometry;
     for beside in &geometry.beside {
         closest_in(walk, beside.leaf(), best);
@@ -177,7 +182,7 @@ fn closest_here(walk: &Walk<'_>, best: &mut Best) {
 }
 
 #[inline(always)]
-pub(crate) fn closest_in(walk: &Walk<'_>, leaf: Leaf, best: &mut Best) {
+pub(crate) fn closest_in(walk: &RayContext<'_>, leaf: Leaf, best: &mut ClosestHit) {
     let geometry = walk.geometry;
     match geometry.arenas.get(leaf.kind as usize) {
         Some(arena) => {
@@ -192,7 +197,7 @@ pub(crate) fn closest_in(walk: &Walk<'_>, leaf: Leaf, best: &mut Best) {
     }
 }
 
-fn any(walk: &Walk<'_>) -> bool {
+fn any(walk: &RayContext<'_>) -> bool {
     walk.geometry.isa.run(
         #[inline(always)]
         || any_here(walk),
@@ -200,7 +205,7 @@ fn any(walk: &Walk<'_>) -> bool {
 }
 
 #[inline(always)]
-fn any_here(walk: &Walk<'_>) -> bool {
+fn any_here(walk: &RayContext<'_>) -> bool {
     let geometry = walk.geometry;
     geometry.beside.iter().any(|b| any_in(walk, b.leaf()))
         || geometry.tree.any(
@@ -214,11 +219,11 @@ fn any_here(walk: &Walk<'_>) -> bool {
 }
 
 #[inline(always)]
-pub(crate) fn any_in(walk: &Walk<'_>, leaf: Leaf) -> bool {
+pub(crate) fn any_in(walk: &RayContext<'_>, leaf: Leaf) -> bool {
     let geometry = walk.geometry;
     match geometry.arenas.get(leaf.kind as usize) {
         Some(arena) => {
-            let mut best = Best::any();
+            let mut best = ClosestHit::any();
             arena.improve(geometry.isa, slots(&leaf), walk.ray, &walk.filter(leaf.kind), &mut best);
             best.is_satisfied()
         }
@@ -227,7 +232,7 @@ pub(crate) fn any_in(walk: &Walk<'_>, leaf: Leaf) -> bool {
 }
 
 /// Shows every hit to `visit`.
-pub(crate) fn each(walk: &Walk<'_>, visit: &mut dyn FnMut(&Hit) -> Flow) -> Flow {
+pub(crate) fn each(walk: &RayContext<'_>, visit: &mut dyn FnMut(&Hit) -> Flow) -> Flow {
     let geometry = walk.geometry;
     let mut test = |leaf: Leaf| {
         if geometry.is_instances(&leaf) {
@@ -247,7 +252,7 @@ pub(crate) fn each(walk: &Walk<'_>, visit: &mut dyn FnMut(&Hit) -> Flow) -> Flow
     if stopped { Flow::Stop } else { Flow::Continue }
 }
 
-fn spans(walk: &Walk<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks) {
+fn spans(walk: &RayContext<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks) {
     let geometry = walk.geometry;
     let gather = |leaf: Leaf, tracks: &mut Tracks| {
         if geometry.is_instances(&leaf) {

@@ -1,9 +1,9 @@
 //! Surfaces that move, in the geometry that they are in.
 
 use crate::arena::Arena;
+use crate::filter_cache::Outlines;
 use crate::geometry::{Geometry, solids_in_parts};
 use crate::ids::Id;
-use crate::outlines::Outlines;
 use crate::{BuildError, ObjectId};
 use durer_bvh::CornersOf;
 use durer_math::Aabb;

@@ -8,7 +8,7 @@
 //! Transactions on Computers C-29, 1980).
 
 use crate::arena::Filter;
-use crate::best::Placement;
+use crate::closest::Placement;
 use crate::ids::Id;
 use crate::{ObjectId, Span};
 use durer_surfaces::{PartId, Root};

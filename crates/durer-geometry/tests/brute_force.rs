@@ -276,7 +276,7 @@ fn bundles_of_rays() {
             if !ray.is_valid() || ray.t_min != 0.0 {
                 continue;
             }
-            let seen = tree.seen(&ray, u32::MAX, Need::POINT);
+            let seen = tree.first_visible(&ray, u32::MAX, Need::POINT);
             assert_eq!(seen.is_some(), tree.any(&ray), "{ray:?}");
             // Brackets may be wider, but they hold the same crossing.
             if let (Some((seen, _)), Some(closest)) = (&seen, tree.closest(&ray)) {
@@ -290,7 +290,7 @@ fn bundles_of_rays() {
             } else {
                 Shaft::new(start, ray.direction - width, ray.direction + width)
             };
-            if let Some(beam) = tree.beam(&shaft, None) {
+            if let Some(beam) = tree.candidates(&shaft, None) {
                 shared += 1;
                 let in_beam = tree.seen_in(&beam, &ray, u32::MAX, Need::POINT);
                 assert_eq!(
@@ -312,7 +312,7 @@ fn bundles_that_leave_a_plane() {
     builder.add(ground());
     let world = builder.build().unwrap();
     let down = Ray::new(Point3::new(0.3, 5.0, 0.2), -Vec3::Y);
-    let (_, point) = world.seen(&down, u32::MAX, Need::POINT).unwrap();
+    let (_, point) = world.first_visible(&down, u32::MAX, Need::POINT).unwrap();
     for (height, beam_is_empty) in [(9.0, true), (-9.0, true), (0.0, false)] {
         let target = point.p + Vec3::new(1.0, height, 2.0);
         let ray = point.spawn_to(target);
@@ -320,10 +320,10 @@ fn bundles_that_leave_a_plane() {
         let shaft = Shaft::between(Aabb::centred(ray.origin, wide), Aabb::centred(target, wide));
         let source = ray.source();
         assert!(source.is_some());
-        let beam = world.beam(&shaft, source).unwrap();
+        let beam = world.candidates(&shaft, source).unwrap();
         assert_eq!(beam.is_empty(), beam_is_empty, "{height}");
         // Without the source nothing is known.
-        assert!(!world.beam(&shaft, None).unwrap().is_empty());
+        assert!(!world.candidates(&shaft, None).unwrap().is_empty());
         assert!(!world.any_in(&beam, &ray, u32::MAX) || height == 0.0);
     }
 }

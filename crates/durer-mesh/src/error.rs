@@ -15,7 +15,7 @@ pub struct MeshError {
 
 /// A place in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Spot {
+pub enum Location {
     /// A line of text, from 1.
     Line(usize),
     /// A byte, from 0.
@@ -26,7 +26,7 @@ pub enum Spot {
     Primitive(usize, usize),
 }
 
-impl fmt::Display for Spot {
+impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Line(n) => write!(f, "line {n}"),
@@ -53,7 +53,7 @@ pub enum ErrorKind {
     #[error("{spot}: expected {expected}, found '{found}'")]
     Expected {
         /// Where.
-        spot: Spot,
+        spot: Location,
         /// What should be there.
         expected: &'static str,
         /// What is there.
@@ -63,7 +63,7 @@ pub enum ErrorKind {
     #[error("{spot}: the file ends where {expected} should follow")]
     End {
         /// Where.
-        spot: Spot,
+        spot: Location,
         /// What should follow.
         expected: &'static str,
     },
@@ -71,7 +71,7 @@ pub enum ErrorKind {
     #[error("{spot}: there is no {what} {index}, there are {count} so far")]
     Index {
         /// Where.
-        spot: Spot,
+        spot: Location,
         /// What the index should name.
         what: &'static str,
         /// The index as it is written.
@@ -93,7 +93,7 @@ pub enum ErrorKind {
     #[error("{spot}: it promises {promised} {what}, but there is room for {room}")]
     Room {
         /// Where.
-        spot: Spot,
+        spot: Location,
         /// Of what.
         what: String,
         /// How many.
@@ -125,7 +125,7 @@ pub enum ErrorKind {
     #[error("{spot}: not supported yet: {what}")]
     Unsupported {
         /// Where.
-        spot: Spot,
+        spot: Location,
         /// What.
         what: String,
     },
@@ -133,7 +133,7 @@ pub enum ErrorKind {
     #[error("{spot}: a face that is not convex has {count} corners, more than {most}")]
     Corners {
         /// Where.
-        spot: Spot,
+        spot: Location,
         /// Its corners.
         count: usize,
         /// How many can be dealt with.
@@ -149,7 +149,7 @@ pub enum ErrorKind {
     #[error("{spot}: {said}")]
     Element {
         /// Where.
-        spot: Spot,
+        spot: Location,
         /// What is wrong.
         said: String,
     },

@@ -1,7 +1,7 @@
 //! Groups while they are read.
 
 use crate::Group;
-use crate::error::{ErrorKind, Spot};
+use crate::error::{ErrorKind, Location};
 use crate::polygon;
 use durer_math::{Point3, Vec3};
 use durer_scene::Face;
@@ -73,7 +73,7 @@ impl Groups {
     }
 
     /// Adds a face whose indices are in range. Points and lines are left out.
-    pub(crate) fn face(&mut self, face: &[Corner], spot: Spot) -> Result<(), ErrorKind> {
+    pub(crate) fn face(&mut self, face: &[Corner], spot: Location) -> Result<(), ErrorKind> {
         if face.len() < 3 {
             return Ok(());
         }

@@ -14,18 +14,18 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod default_view;
 mod error;
 mod gltf;
 mod group;
 mod obj;
 mod ply;
 mod polygon;
-mod stage;
 mod stl;
 mod text;
 mod topology;
 
-pub use crate::error::{ErrorKind, MeshError, Spot};
+pub use crate::error::{ErrorKind, Location, MeshError};
 pub use crate::topology::Topology;
 
 use durer_math::Affine;

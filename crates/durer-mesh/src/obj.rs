@@ -5,7 +5,7 @@
 //! and surfaces are refused. (Alias/Wavefront, *Advanced Visualizer*, appendix B1, 1991.)
 
 use crate::Group;
-use crate::error::{ErrorKind, Spot};
+use crate::error::{ErrorKind, Location};
 use crate::group::{Corner, Groups};
 use crate::text::{lines, number, shortened, three};
 use durer_math::{Point3, Vec3};
@@ -63,21 +63,21 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
                 let counts = [groups.vertices.len(), groups.uv.len(), groups.normals.len()];
                 face.clear();
                 for word in words {
-                    face.push(corner(word, counts, Spot::Line(at))?);
+                    face.push(corner(word, counts, Location::Line(at))?);
                 }
                 if face.is_empty() {
-                    return Err(ErrorKind::End { spot: Spot::Line(at), expected: "a face's corners" });
+                    return Err(ErrorKind::End { spot: Location::Line(at), expected: "a face's corners" });
                 }
-                groups.face(&face, Spot::Line(at))?;
+                groups.face(&face, Location::Line(at))?;
             }
             "o" | "g" => groups.begin(line.trim_start()[word.len()..].trim()),
             _ if PASSED_OVER.contains(&word) => {}
             _ if FREE_FORM.contains(&word) => {
-                return Err(ErrorKind::Unsupported { spot: Spot::Line(at), what: word.to_string() });
+                return Err(ErrorKind::Unsupported { spot: Location::Line(at), what: word.to_string() });
             }
             _ => {
                 let found = shortened(word);
-                return Err(ErrorKind::Expected { spot: Spot::Line(at), expected: "a statement", found });
+                return Err(ErrorKind::Expected { spot: Location::Line(at), expected: "a statement", found });
             }
         }
     }
@@ -96,7 +96,7 @@ fn texture_coordinates<'a>(
 }
 
 /// A corner as `v`, `v/vt`, `v//vn` or `v/vt/vn`.
-fn corner(word: &str, counts: [usize; 3], spot: Spot) -> Result<Corner, ErrorKind> {
+fn corner(word: &str, counts: [usize; 3], spot: Location) -> Result<Corner, ErrorKind> {
     const WHAT: [&str; 3] = ["vertex", "texture coordinate", "normal"];
     let mut numbers = [None; 3];
     for (i, part) in word.split('/').enumerate() {

@@ -4,7 +4,7 @@
 //! Read are `x y z`, `nx ny nz` and `u v` (or `s t`, `texture_u texture_v`) of `vertex`, and the lists `vertex_indices` or `vertex_index` of `face`. Everything else is passed over; elements `tristrips` are refused.
 
 use crate::Group;
-use crate::error::{ErrorKind, Spot};
+use crate::error::{ErrorKind, Location};
 use crate::group::{Corner, Groups};
 use crate::text::{one_line, shortened};
 use durer_math::{Point3, Vec3};
@@ -129,18 +129,18 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
         let is_vertices = element.name == "vertex";
         if is_vertices && !has(&["x", "y", "z"]) {
             return Err(ErrorKind::End {
-                spot: Spot::Element("vertex", 0),
+                spot: Location::Element("vertex", 0),
                 expected: "the properties x, y and z",
             });
         }
         if element.name == "tristrips" {
-            let spot = Spot::Element("tristrips", 0);
+            let spot = Location::Element("tristrips", 0);
             return Err(ErrorKind::Unsupported { spot, what: "triangle strips".into() });
         }
         has_normals |= is_vertices && has(&["nx", "ny", "nz"]);
         has_uv |= is_vertices && UV.iter().any(|names| has(names));
         for number in 0..element.count {
-            let spot = Spot::Element(kind(&element.name), number);
+            let spot = Location::Element(kind(&element.name), number);
             let item = next(&parser, &mut reader, element, header.encoding, spot)?;
             match element.name.as_str() {
                 "vertex" => {
@@ -159,7 +159,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
     }
     let mut face = Vec::new();
     for (corners, number) in faces {
-        let spot = Spot::Element("face", number);
+        let spot = Location::Element("face", number);
         face.clear();
         for index in corners {
             let count = groups.vertices.len();
@@ -177,7 +177,7 @@ fn next(
     reader: &mut Reader<&[u8]>,
     element: &ElementDef,
     encoding: Encoding,
-    spot: Spot,
+    spot: Location,
 ) -> Result<Item, ErrorKind> {
     let item = match encoding {
         Encoding::Ascii => {

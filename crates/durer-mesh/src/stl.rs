@@ -4,7 +4,7 @@
 //! become one vertex. The normals in the file are passed over: the order of the corners tells the side. (3D Systems, *StereoLithography Interface Specification*, 1988.)
 
 use crate::Group;
-use crate::error::{ErrorKind, Spot};
+use crate::error::{ErrorKind, Location};
 use crate::text::{lines, shortened, three};
 use durer_math::Point3;
 use durer_scene::Face;
@@ -26,7 +26,11 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
         }
         None => {
             let found = shortened(&String::from_utf8_lossy(bytes.get(..16).unwrap_or(bytes)));
-            Err(ErrorKind::Expected { spot: Spot::Byte(0), expected: "'solid' or a binary header", found })
+            Err(ErrorKind::Expected {
+                spot: Location::Byte(0),
+                expected: "'solid' or a binary header",
+                found,
+            })
         }
     }
 }
@@ -90,7 +94,7 @@ fn text(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
         let mut words = line.split_whitespace();
         let Some(word) = words.next() else { continue };
         last = number;
-        let spot = Spot::Line(number);
+        let spot = Location::Line(number);
         let wrong = |expected| Err(ErrorKind::Expected { spot, expected, found: shortened(line.trim()) });
         let lower = word.to_ascii_lowercase();
         inside = match (inside, lower.as_str()) {
@@ -130,6 +134,6 @@ fn text(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
     }
     match inside {
         Inside::File => Ok(groups),
-        _ => Err(ErrorKind::End { spot: Spot::Line(last), expected: "'endsolid'" }),
+        _ => Err(ErrorKind::End { spot: Location::Line(last), expected: "'endsolid'" }),
     }
 }

@@ -1,6 +1,6 @@
 //! Lines and words of text formats.
 
-use crate::error::{ErrorKind, Spot};
+use crate::error::{ErrorKind, Location};
 use std::borrow::Cow;
 
 /// The lines of a file, numbered from 1; what is not UTF-8 is replaced.
@@ -35,7 +35,7 @@ pub(crate) fn number<'a>(
     line: usize,
     expected: &'static str,
 ) -> Result<f64, ErrorKind> {
-    let spot = Spot::Line(line);
+    let spot = Location::Line(line);
     let word = words.next().ok_or(ErrorKind::End { spot, expected })?;
     word.parse().map_err(|_| ErrorKind::Expected { spot, expected, found: shortened(word) })
 }

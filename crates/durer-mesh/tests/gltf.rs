@@ -3,7 +3,7 @@
 mod made;
 
 use durer_math::{Affine, Point3};
-use durer_mesh::{ErrorKind, Format, Model, Spot, Topology, read, read_bytes};
+use durer_mesh::{ErrorKind, Format, Location, Model, Topology, read, read_bytes};
 use durer_scene::{Colour, PigmentBody, Rgb, Shape, TextureBody};
 use made::{File, floats, shorts};
 
@@ -188,7 +188,7 @@ fn components_of_all_types_strides_and_sparse_lists() -> Result<(), ErrorKind> {
     assert_eq!(
         read(r#""componentType": 5123"#, &wide[..21], 8, 0),
         Err(ErrorKind::Room {
-            spot: Spot::Element("accessor", 0),
+            spot: Location::Element("accessor", 0),
             what: "elements from byte 0 of bufferView 0".into(),
             promised: 3,
             room: 2

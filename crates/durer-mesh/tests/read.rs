@@ -1,7 +1,7 @@
 //! Mesh files: what is read is what was written, and what is damaged is told with its place.
 
 use durer_math::{Point3, Ray, Vec3};
-use durer_mesh::{ErrorKind, Format, Model, Spot, Topology, read_bytes};
+use durer_mesh::{ErrorKind, Format, Location, Model, Topology, read_bytes};
 
 type Read = Result<Model, ErrorKind>;
 
@@ -324,6 +324,6 @@ fn a_scene_is_framed_and_right_handed() -> Result<(), ErrorKind> {
 
 #[test]
 fn the_place_of_an_error_prints() {
-    assert_eq!(Spot::Byte(3).to_string(), "byte 3");
-    assert_eq!(Spot::Element("face", 7).to_string(), "face 7");
+    assert_eq!(Location::Byte(3).to_string(), "byte 3");
+    assert_eq!(Location::Element("face", 7).to_string(), "face 7");
 }

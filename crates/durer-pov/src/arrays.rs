@@ -2,20 +2,20 @@
 
 use std::rc::Rc;
 
-use crate::diagnostics::{Fault, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
+use crate::interner::Name;
 use crate::lexer::{Kind, Mark};
-use crate::names::Name;
-use crate::reader::Reader;
+use crate::parser::Parser;
 use crate::scope::Reference;
 use crate::value::{Array, Value};
 
 /// POV-Ray's bound on the number of subscripts.
 const MOST_DIMENSIONS: usize = 5;
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// The array called `name`, or its element if subscripts follow.
     pub(crate) fn array_or_element(&mut self, name: Name, place: Place) -> Result<Value> {
-        let gone = |r: &Self| Fault::invalid(place, format!("`{}` is not declared", r.names.text(name)));
+        let gone = |r: &Self| Error::invalid(place, format!("`{}` is not declared", r.names.text(name)));
         if self.raw() != Some(Kind::Mark(Mark::SquareOpen)) {
             return self.scopes.get(name).cloned().ok_or_else(|| gone(self));
         }
@@ -23,7 +23,7 @@ impl Reader<'_> {
         match self.scopes.at(&target) {
             Some(Value::Empty) => {
                 let text = format!("this element of `{}` has no value", self.names.text(name));
-                Err(Fault::invalid(place, text))
+                Err(Error::invalid(place, text))
             }
             Some(value) => Ok(value.clone()),
             None => Err(gone(self)),
@@ -33,14 +33,14 @@ impl Reader<'_> {
     /// The element meant by `name` and the subscripts that follow it.
     pub(crate) fn element_reference(&mut self, name: Name) -> Result<Reference> {
         let place = self.here();
-        let gone = |r: &Self| Fault::invalid(place, format!("`{}` is not declared", r.names.text(name)));
+        let gone = |r: &Self| Error::invalid(place, format!("`{}` is not declared", r.names.text(name)));
         let mut target = self.scopes.reference(name).ok_or_else(|| gone(self))?;
         while self.raw() == Some(Kind::Mark(Mark::SquareOpen)) {
             let sizes = match self.scopes.at(&target) {
                 Some(Value::Array(array)) => array.sizes.clone(),
                 Some(other) => {
                     let text = format!("only an array has elements, this is {}", other.kind());
-                    return Err(Fault::invalid(place, text));
+                    return Err(Error::invalid(place, text));
                 }
                 None => return Err(gone(self)),
             };
@@ -48,7 +48,7 @@ impl Reader<'_> {
             for &size in &sizes {
                 if !self.take_raw_mark(Mark::SquareOpen) {
                     let text = format!("this array takes {} subscripts", sizes.len());
-                    return Err(Fault::invalid(place, text));
+                    return Err(Error::invalid(place, text));
                 }
                 let at = self.subscript(size)?;
                 index = index * size + at;
@@ -69,7 +69,7 @@ impl Reader<'_> {
             return Ok(index as usize);
         }
         let text = format!("subscript {value} is outside of the array's 0 to {}", size - 1);
-        Err(Fault::invalid(place, text))
+        Err(Error::invalid(place, text))
     }
 
     /// What follows the word `array`: sizes, and values in braces if they come next.
@@ -83,14 +83,14 @@ impl Reader<'_> {
             self.expect(Mark::SquareClose)?;
             let whole = (size + crate::expression::TOLERANCE).trunc();
             if !(whole >= 1.0 && whole < f64::from(u32::MAX)) {
-                return Err(Fault::invalid(at, format!("an array cannot have the size {size}")));
+                return Err(Error::invalid(at, format!("an array cannot have the size {size}")));
             }
             count = count.saturating_mul(whole as usize);
             self.check_memory(Array::bytes(count), at)?;
             sizes.push(whole as usize);
         }
         if sizes.is_empty() || sizes.len() > MOST_DIMENSIONS {
-            return Err(Fault::invalid(
+            return Err(Error::invalid(
                 place,
                 format!("an array has 1 to {MOST_DIMENSIONS} sizes in brackets"),
             ));
@@ -184,7 +184,7 @@ impl Reader<'_> {
     pub(crate) fn array_argument(&mut self) -> Result<Rc<Array>> {
         let lexeme = self.next()?;
         match lexeme.item {
-            crate::reader::Item::Value(Value::Array(array)) => Ok(array),
+            crate::parser::Item::Value(Value::Array(array)) => Ok(array),
             _ => Err(self.unexpected(&lexeme, "an array")),
         }
     }

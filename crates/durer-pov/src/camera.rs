@@ -4,10 +4,10 @@ use std::rc::Rc;
 
 use durer_math::elementary;
 
-use crate::diagnostics::{Fault, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 use crate::transform::{Matrix, cross, dot, length};
 use crate::value::Value;
 
@@ -120,7 +120,7 @@ impl Camera {
     }
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// What stands in braces after `camera`.
     pub(crate) fn camera_block(&mut self) -> Result<Camera> {
         let begin = self.here();
@@ -159,10 +159,10 @@ impl Reader<'_> {
                     let angle = self.float()?;
                     if !(angle > 0.0 && angle < 180.0) {
                         let text = format!("a camera's angle is between 0 and 180 degrees, not {angle}");
-                        return Err(Fault::invalid(place, text));
+                        return Err(Error::invalid(place, text));
                     }
                     if self.take_mark(Mark::Comma)? {
-                        return Err(Fault::unsupported(place, "angle with two values"));
+                        return Err(Error::unsupported(place, "angle with two values"));
                     }
                     Setting::Angle(angle)
                 }
@@ -180,7 +180,7 @@ impl Reader<'_> {
         let volume = dot(cross(camera.direction, camera.up), camera.right);
         if volume == 0.0 || !volume.is_finite() {
             let text = "the camera's direction, up and right do not span space";
-            return Err(Fault::invalid(begin, text));
+            return Err(Error::invalid(begin, text));
         }
         Ok(camera)
     }
@@ -189,7 +189,7 @@ impl Reader<'_> {
         let place = self.here();
         let v = self.vector()?;
         if length(v) == 0.0 {
-            return Err(Fault::invalid(place, format!("the camera's {name} has no length")));
+            return Err(Error::invalid(place, format!("the camera's {name} has no length")));
         }
         Ok(v)
     }
@@ -211,7 +211,7 @@ impl Reader<'_> {
                 Setting::LookAt(target, place) => {
                     let away: [f64; 3] = std::array::from_fn(|i| target[i] - camera.location[i]);
                     distance = Some(length(away));
-                    camera.look_at(target).map_err(|text| Fault::invalid(place, text))?;
+                    camera.look_at(target).map_err(|text| Error::invalid(place, text))?;
                 }
             }
         }

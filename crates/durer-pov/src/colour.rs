@@ -4,7 +4,7 @@ use durer_math::elementary;
 
 use crate::diagnostics::Result;
 use crate::keywords::Keyword;
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 use crate::value::{Terms, Value};
 
 /// Red, green, blue, filter, transmit.
@@ -32,7 +32,7 @@ pub(crate) fn begins_colour(keyword: Keyword) -> bool {
     )
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// Whether a colour can begin here: one of its words, or a value that can be one.
     pub(crate) fn starts_colour(&mut self) -> Result<bool> {
         Ok(match self.peek()? {

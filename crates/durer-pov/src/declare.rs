@@ -3,14 +3,14 @@
 use std::rc::Rc;
 
 use crate::colour::begins_colour;
-use crate::diagnostics::{Fault, FaultKind, Place, Result};
+use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::{Kind, Mark};
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 use crate::strings::makes_string;
 use crate::value::{Unsupported, Value};
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// `#declare NAME = value` or `#local`.
     pub(crate) fn declare(&mut self, local: bool, place: Place) -> Result<()> {
         let serial = self.frames.last().map_or(0, |frame| frame.serial);
@@ -19,9 +19,9 @@ impl Reader<'_> {
             Some((Kind::Name(name), _)) => name,
             Some((Kind::Word(keyword), at)) => {
                 let text = format!("`{}` is a word of the language and cannot be declared", keyword.text());
-                return Err(Fault::invalid(at, text));
+                return Err(Error::invalid(at, text));
             }
-            _ => return Err(Fault::invalid(self.here(), "expected the name of what is declared")),
+            _ => return Err(Error::invalid(self.here(), "expected the name of what is declared")),
         };
         let subscripts = self.raw() == Some(Kind::Mark(Mark::SquareOpen));
         let element = if subscripts { Some(self.element_reference(name)?) } else { None };
@@ -36,7 +36,7 @@ impl Reader<'_> {
                 let depth = value.array_depth() + target.path.len() as u32;
                 self.check_array_depth(depth, place)?;
                 self.count_array_copy(name, place)?;
-                let gone = || Fault::invalid(place, "this array is gone");
+                let gone = || Error::invalid(place, "this array is gone");
                 let after = value.held();
                 let held = self.scopes.get_mut(&target).ok_or_else(gone)?;
                 let before = std::mem::replace(held, value).held();
@@ -65,7 +65,7 @@ impl Reader<'_> {
     }
 
     /// Copying a shared array is work, and memory.
-    fn count_array_copy(&mut self, name: crate::names::Name, place: Place) -> Result<()> {
+    fn count_array_copy(&mut self, name: crate::interner::Name, place: Place) -> Result<()> {
         let shared = match self.scopes.get(name) {
             Some(Value::Array(array)) if Rc::strong_count(array) > 1 => array.items.len(),
             _ => return Ok(()),
@@ -80,7 +80,7 @@ impl Reader<'_> {
         let value = match self.value("a value to declare") {
             Ok(value) => value,
             // Names made of what cannot be computed yet are refused when they are used.
-            Err(fault) if fault.kind == FaultKind::Unsupported => {
+            Err(fault) if fault.kind == ErrorKind::Unsupported => {
                 self.skip_to_semicolon(braces, &fault)?;
                 return Ok(Value::Unsupported(Rc::new(Unsupported { text: fault.text, number: true })));
             }
@@ -89,7 +89,7 @@ impl Reader<'_> {
         if matches!(value, Value::Number(_)) {
             if !self.take_mark(Mark::Semicolon)? {
                 let text = "a declaration of a float, vector or colour ends with `;`";
-                return Err(Fault::invalid(self.here(), text));
+                return Err(Error::invalid(self.here(), text));
             }
         } else if self.has_peeked() {
             self.take_mark(Mark::Semicolon)?;
@@ -99,7 +99,7 @@ impl Reader<'_> {
         Ok(value)
     }
 
-    fn skip_to_semicolon(&mut self, braces: u64, fault: &Fault) -> Result<()> {
+    fn skip_to_semicolon(&mut self, braces: u64, fault: &Error) -> Result<()> {
         loop {
             let lexeme = self.next()?;
             match lexeme.item {
@@ -206,7 +206,7 @@ impl Reader<'_> {
         let braces = self.braces;
         let called = matches!(self.peek_word()?, Some(Keyword::Function | Keyword::Spline));
         match self.understood_block() {
-            Err(fault) if fault.kind == FaultKind::Unsupported => {
+            Err(fault) if fault.kind == ErrorKind::Unsupported => {
                 self.skip_block(braces, &fault)?;
                 Ok(Value::Unsupported(Rc::new(Unsupported { text: fault.text, number: called })))
             }
@@ -228,7 +228,7 @@ impl Reader<'_> {
             Keyword::Translate | Keyword::Rotate | Keyword::Scale | Keyword::Matrix => {
                 match self.transform_item()? {
                     Some(matrix) => Ok(Value::Transform(Rc::new(matrix))),
-                    None => Err(Fault::invalid(place, "expected a transform")),
+                    None => Err(Error::invalid(place, "expected a transform")),
                 }
             }
             Keyword::Texture => Ok(Value::Texture(Rc::new(self.texture_value()?))),
@@ -271,7 +271,7 @@ impl Reader<'_> {
     }
 
     /// Goes on behind a block in which something was found that cannot be done yet.
-    fn skip_block(&mut self, braces: u64, fault: &Fault) -> Result<()> {
+    fn skip_block(&mut self, braces: u64, fault: &Error) -> Result<()> {
         // Up to the block's opening brace, if the fault came before it: function (x, y) { }
         while self.braces <= braces {
             let lexeme = self.next()?;

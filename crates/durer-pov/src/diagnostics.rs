@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::source::Source;
 
 /// The reader's own result: faults are boxed, because the way without them is the common one.
-pub(crate) type Result<T> = std::result::Result<T, Box<Fault>>;
+pub(crate) type Result<T> = std::result::Result<T, Box<Error>>;
 
 /// Where a token begins: file (an index into the reader's sources) and byte.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub(crate) struct Place {
 /// What kind of thing went wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum FaultKind {
+pub enum ErrorKind {
     /// The text breaks the language's rules, or a value does not fit its place.
     Invalid,
     /// The text is POV-Ray's language, but durer cannot do that yet.
@@ -33,25 +33,25 @@ pub enum FaultKind {
 
 /// A fault while it travels up: place and text, the file's words are looked up at the end.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Fault {
+pub(crate) struct Error {
     pub(crate) place: Option<Place>,
-    pub(crate) kind: FaultKind,
+    pub(crate) kind: ErrorKind,
     pub(crate) text: String,
     /// The macro calls, includes and objects through which the reader came here, innermost first.
     pub(crate) route: Vec<(String, Place)>,
 }
 
-impl Fault {
-    pub(crate) fn at(place: Place, kind: FaultKind, text: impl Into<String>) -> Box<Self> {
+impl Error {
+    pub(crate) fn at(place: Place, kind: ErrorKind, text: impl Into<String>) -> Box<Self> {
         Box::new(Self { place: Some(place), kind, text: text.into(), route: Vec::new() })
     }
 
     pub(crate) fn invalid(place: Place, text: impl Into<String>) -> Box<Self> {
-        Self::at(place, FaultKind::Invalid, text)
+        Self::at(place, ErrorKind::Invalid, text)
     }
 
     pub(crate) fn unsupported(place: Place, keyword: &str) -> Box<Self> {
-        Self::at(place, FaultKind::Unsupported, format!("not supported yet: {keyword}"))
+        Self::at(place, ErrorKind::Unsupported, format!("not supported yet: {keyword}"))
     }
 
     /// The same, in the texture of an object: with the object's own place, if that is in another file.
@@ -63,7 +63,7 @@ impl Fault {
     }
 
     pub(crate) fn file(place: Option<Place>, text: impl Into<String>) -> Box<Self> {
-        Box::new(Self { place, kind: FaultKind::File, text: text.into(), route: Vec::new() })
+        Box::new(Self { place, kind: ErrorKind::File, text: text.into(), route: Vec::new() })
     }
 }
 
@@ -77,7 +77,7 @@ pub struct PovError {
     /// Line and column, both counted from 1 (columns in characters); `None` if the file itself is the matter.
     pub at: Option<(usize, usize)>,
     /// What kind of thing went wrong.
-    pub kind: FaultKind,
+    pub kind: ErrorKind,
     /// The message without its place.
     pub text: String,
     excerpt: String,
@@ -113,7 +113,7 @@ pub(crate) fn shortened(word: &str) -> std::borrow::Cow<'_, str> {
 const ROUTE_SHOWN: usize = 4;
 
 impl PovError {
-    pub(crate) fn new(fault: &Fault, main: &Path, sources: &[impl AsRef<Source>]) -> Self {
+    pub(crate) fn new(fault: &Error, main: &Path, sources: &[impl AsRef<Source>]) -> Self {
         let source = |place: Place| sources.get(place.file as usize).map(AsRef::as_ref);
         let Some((place, home)) = fault.place.and_then(|p| Some((p, source(p)?))) else {
             return Self {

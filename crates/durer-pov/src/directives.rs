@@ -1,17 +1,17 @@
 //! Directives: conditions, loops, includes, messages. They run while tokens are fetched.
 
-use crate::diagnostics::{Fault, FaultKind, Place, Result};
+use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::expression::same;
+use crate::interner::Name;
 use crate::lexer::{Directive, Kind, Mark};
 use crate::messages::{Message, MessageKind};
-use crate::names::Name;
-use crate::reader::{Control, Reader};
+use crate::parser::{Control, Parser};
 use crate::value::Value;
 
 /// Steps that a message counts for, its letters apart.
 const MESSAGE_STEPS: u64 = 100;
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// Runs the directive that was just taken; `block` is its entry in the table of jumps.
     pub(crate) fn run_directive(&mut self, directive: Directive, block: u32, place: Place) -> Result<()> {
         match directive {
@@ -35,12 +35,12 @@ impl Reader<'_> {
             // POV-Ray's own no-operations since 3.0: the text is read and thrown away.
             Directive::Statistics | Directive::Render => self.string("the message").map(drop),
             Directive::Fopen | Directive::Fclose | Directive::Read | Directive::Write => {
-                Err(Fault::unsupported(place, &format!("#{}", directive.text())))
+                Err(Error::unsupported(place, &format!("#{}", directive.text())))
             }
         }
     }
 
-    fn jump(&self, block: u32) -> crate::blocks::Block {
+    fn jump(&self, block: u32) -> crate::branches::Block {
         let blocks = self.frames.last().map(|frame| &frame.source.blocks);
         // Matching gave every block directive its entry.
         blocks.and_then(|b| b.get(block as usize)).copied().unwrap_or_default()
@@ -75,7 +75,7 @@ impl Reader<'_> {
         self.back_to_frame(serial, place)?;
         value
             .float()
-            .ok_or_else(|| Fault::invalid(place, "a condition is a float, this is a vector or colour"))
+            .ok_or_else(|| Error::invalid(place, "a condition is a float, this is a vector or colour"))
     }
 
     /// `(NAME)` or `(NAME[i])`: whether that has a value.
@@ -170,7 +170,7 @@ impl Reader<'_> {
         let serial = self.serial();
         self.expect(Mark::ParenOpen)?;
         let Some((Kind::Name(variable), _)) = self.take_raw() else {
-            return Err(Fault::invalid(self.here(), "expected the name of the loop's variable"));
+            return Err(Error::invalid(self.here(), "expected the name of the loop's variable"));
         };
         self.skip_comma()?;
         let first = self.float()?;
@@ -180,7 +180,7 @@ impl Reader<'_> {
         self.expect(Mark::ParenClose)?;
         self.back_to_frame(serial, place)?;
         if step == 0.0 {
-            return Err(Fault::invalid(place, "the step of a #for is zero: it would never end"));
+            return Err(Error::invalid(place, "the step of a #for is zero: it would never end"));
         }
         self.scopes.local(variable, Value::Number(first.into()));
         if goes_on(first, last, step) {
@@ -196,7 +196,7 @@ impl Reader<'_> {
     fn end(&mut self, block: u32, place: Place) -> Result<()> {
         let control = self.frames.last_mut().and_then(|frame| frame.controls.pop());
         match control {
-            None => Err(Fault::invalid(place, "this #end ends nothing that was begun")),
+            None => Err(Error::invalid(place, "this #end ends nothing that was begun")),
             Some(Control::Branch) => Ok(()),
             Some(Control::While(head)) => {
                 let Some(Kind::Directive(_, opener)) = self.token_kind(self.jump(block).next as usize) else {
@@ -212,11 +212,11 @@ impl Reader<'_> {
                     _ => None,
                 };
                 let Some(now) = now else {
-                    return Err(Fault::invalid(place, "the loop's variable is no float any more"));
+                    return Err(Error::invalid(place, "the loop's variable is no float any more"));
                 };
                 let value = now + step;
                 if value == now {
-                    return Err(Fault::invalid(
+                    return Err(Error::invalid(
                         place,
                         "the step of this #for is too small to change its variable",
                     ));
@@ -257,7 +257,7 @@ impl Reader<'_> {
                 return Ok(());
             }
         }
-        Err(Fault::invalid(place, "these parentheses are never closed"))
+        Err(Error::invalid(place, "these parentheses are never closed"))
     }
 
     fn undefine(&mut self) -> Result<()> {
@@ -279,7 +279,7 @@ impl Reader<'_> {
             }
             _ => {
                 self.take_raw();
-                return Err(Fault::invalid(self.here(), "expected the name of a variable"));
+                return Err(Error::invalid(self.here(), "expected the name of a variable"));
             }
         }
         self.take_raw_mark(Mark::Semicolon);
@@ -292,7 +292,7 @@ impl Reader<'_> {
         let at = self.here();
         self.back_to_frame(serial, place)?;
         let Some(path) = self.library.find(&name) else {
-            return Err(Fault::file(Some(at), format!("there is no include file \"{name}\"")));
+            return Err(Error::file(Some(at), format!("there is no include file \"{name}\"")));
         };
         let file = self.load(path, Some(at))?;
         self.enter_file(file, Some(place))
@@ -303,7 +303,7 @@ impl Reader<'_> {
         let kind = match directive {
             Directive::Debug => MessageKind::Debug,
             Directive::Warning => MessageKind::Warning,
-            _ => return Err(Fault::at(place, FaultKind::Raised, format!("#error: {}", text.trim_end()))),
+            _ => return Err(Error::at(place, ErrorKind::Raised, format!("#error: {}", text.trim_end()))),
         };
         // Showing it is work for others.
         self.count_steps(MESSAGE_STEPS + text.len() as u64, place)?;
@@ -329,7 +329,7 @@ impl Reader<'_> {
             self.take_raw();
         }
         let version = self.operand()?;
-        let version = version.float().ok_or_else(|| Fault::invalid(place, "a version is a float"))?;
+        let version = version.float().ok_or_else(|| Error::invalid(place, "a version is a float"))?;
         self.take_raw_mark(Mark::Semicolon);
         self.set_version(version, place)
     }
@@ -346,7 +346,7 @@ impl Reader<'_> {
             }
             // A reserved word is no variable; the standard files ask this of words of newer versions.
             Some((Kind::Word(_), _)) => Ok(true),
-            _ => Err(Fault::invalid(self.here(), "expected a name")),
+            _ => Err(Error::invalid(self.here(), "expected a name")),
         }
     }
 

@@ -1,9 +1,9 @@
 //! Expressions: lists of one to five floats, their operators, and their parts.
 
-use crate::diagnostics::{Fault, Result};
+use crate::diagnostics::{Error, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 use crate::value::{Terms, Value};
 
 /// Numbers nearer than this are equal to the language: a fact of POV-Ray, seen with `(1 = 1 + 1e-11)`.
@@ -18,7 +18,7 @@ fn flag(value: bool) -> Terms {
     Terms::from(f64::from(u8::from(value)))
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// What may stand in parentheses: sums, comparisons, `&`, `|` and `?:`.
     pub(crate) fn relation(&mut self) -> Result<Terms> {
         self.nested(|r| {
@@ -28,7 +28,7 @@ impl Reader<'_> {
             }
             let place = r.here();
             let chosen =
-                condition.float().ok_or_else(|| Fault::invalid(place, "the condition of `?` is no float"))?;
+                condition.float().ok_or_else(|| Error::invalid(place, "the condition of `?` is no float"))?;
             let yes = r.relation()?;
             r.expect(Mark::Colon)?;
             let no = r.relation()?;
@@ -73,7 +73,7 @@ impl Reader<'_> {
             let place = self.here();
             let right = self.expression()?;
             let (Some(a), Some(b)) = (left.float(), right.float()) else {
-                return Err(Fault::invalid(place, "only floats can be compared"));
+                return Err(Error::invalid(place, "only floats can be compared"));
             };
             left = flag(match mark {
                 Mark::Less => a < b && !same(a, b),
@@ -117,7 +117,7 @@ impl Reader<'_> {
                     let right = self.operand()?;
                     let divides = |b: &f64| *b != 0.0;
                     if !right.as_slice().iter().all(divides) {
-                        return Err(Fault::invalid(place, "division by zero"));
+                        return Err(Error::invalid(place, "division by zero"));
                     }
                     // Filled-up places of a short divisor divide nothing.
                     left = left.zip(right, |a, b| if b == 0.0 { 0.0 } else { a / b });
@@ -180,7 +180,7 @@ impl Reader<'_> {
         };
         match value.as_slice().get(index) {
             Some(&part) if value.len() > 1 => Ok(part.into()),
-            _ => Err(Fault::invalid(lexeme.place, "this value has no such part")),
+            _ => Err(Error::invalid(lexeme.place, "this value has no such part")),
         }
     }
 
@@ -214,7 +214,7 @@ impl Reader<'_> {
         let mut values = Vec::with_capacity(5);
         loop {
             if values.len() == 5 {
-                return Err(Fault::invalid(
+                return Err(Error::invalid(
                     self.here(),
                     "a vector has at most five components: `>` should stand here",
                 ));
@@ -226,7 +226,7 @@ impl Reader<'_> {
             }
         }
         if values.len() == 1 {
-            return Err(Fault::invalid(place, "a vector has at least two components"));
+            return Err(Error::invalid(place, "a vector has at least two components"));
         }
         Ok(Terms::new(&values))
     }
@@ -238,7 +238,7 @@ impl Reader<'_> {
         let value = self.expression()?;
         let found = value.float().ok_or_else(|| {
             let text = format!("expected a float, found {}", Value::Number(value).kind());
-            Fault::invalid(place, text)
+            Error::invalid(place, text)
         })?;
         finite(found, place)
     }
@@ -250,7 +250,7 @@ impl Reader<'_> {
         let value = self.expression()?;
         if value.len() > 3 {
             let text = format!("expected a vector of three, found {} components", value.len());
-            return Err(Fault::invalid(place, text));
+            return Err(Error::invalid(place, text));
         }
         let v = value.xyz();
         for part in v {
@@ -265,7 +265,7 @@ impl Reader<'_> {
         let place = self.here();
         let value = self.expression()?;
         if value.len() > 3 {
-            return Err(Fault::invalid(place, "expected a vector of two"));
+            return Err(Error::invalid(place, "expected a vector of two"));
         }
         let v = value.promoted(2);
         let (a, b) = (v.as_slice()[0], v.as_slice()[1]);
@@ -304,5 +304,5 @@ pub(crate) fn finite(value: f64, place: crate::diagnostics::Place) -> Result<f64
     if value.is_finite() {
         return Ok(value);
     }
-    Err(Fault::invalid(place, format!("this expression is not a finite number ({value})")))
+    Err(Error::invalid(place, format!("this expression is not a finite number ({value})")))
 }

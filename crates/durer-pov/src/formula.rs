@@ -10,13 +10,13 @@ use durer_math::{Comparison, Function, Interval, Point3};
 use durer_scene::tape::{Builder, Formula, FormulaError, NodeId, Op};
 use durer_scene::{Container, Isosurface};
 
-use crate::diagnostics::{Fault, FaultKind, Place, Result};
+use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::formulas::{self, Lacking, Noisy};
+use crate::interner::Name;
 use crate::keywords::Keyword;
 use crate::lexer::{Kind, Mark};
-use crate::names::Name;
 use crate::object::Shape;
-use crate::reader::{Item, Lexeme, Reader};
+use crate::parser::{Item, Lexeme, Parser};
 use crate::value::{Terms, Value};
 use crate::vector_function::{self, VectorFunction};
 
@@ -52,7 +52,7 @@ impl Called {
         check_count(arguments.len(), self.formula.inputs() as usize, place)?;
         self.noisy.map_or(Ok(()), |function| {
             formulas::check(function, arguments)
-                .map_err(|text| Fault::at(place, FaultKind::Unsupported, text))
+                .map_err(|text| Error::at(place, ErrorKind::Unsupported, text))
         })
     }
 }
@@ -66,8 +66,8 @@ struct Draft {
     inputs: u32,
 }
 
-fn too_long(place: Place) -> impl FnOnce(FormulaError) -> Box<Fault> {
-    move |error| Fault::at(place, FaultKind::Limit, error.to_string())
+fn too_long(place: Place) -> impl FnOnce(FormulaError) -> Box<Error> {
+    move |error| Error::at(place, ErrorKind::Limit, error.to_string())
 }
 
 /// The functions of one number.
@@ -105,7 +105,7 @@ impl Draft {
     }
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// `function (a, b) { ... }`, the word included, that gives a float.
     pub(crate) fn float_function_block(&mut self) -> Result<Called> {
         let place = self.here();
@@ -150,22 +150,22 @@ impl Reader<'_> {
                                 "`{}` is a word of the language and cannot be a parameter",
                                 word.text()
                             );
-                            return Err(Fault::invalid(at, text));
+                            return Err(Error::invalid(at, text));
                         }
-                        _ => return Err(Fault::invalid(at, "expected the name of a parameter")),
+                        _ => return Err(Error::invalid(at, "expected the name of a parameter")),
                     };
                     if names.contains(&parameter) {
-                        return Err(Fault::invalid(at, "this function has two parameters of the same name"));
+                        return Err(Error::invalid(at, "this function has two parameters of the same name"));
                     }
                     if names.len() == MOST_PARAMETERS {
-                        return Err(Fault::invalid(
+                        return Err(Error::invalid(
                             at,
                             format!("a function has at most {MOST_PARAMETERS} parameters"),
                         ));
                     }
                     names.push(parameter);
                 }
-                _ => return Err(Fault::invalid(self.here(), "expected the name of a parameter, or `)`")),
+                _ => return Err(Error::invalid(self.here(), "expected the name of a parameter, or `)`")),
             }
         }
     }
@@ -210,7 +210,7 @@ impl Reader<'_> {
             Some(Keyword::Pattern) => return Ok(function(self.pattern_function()?.into())),
             Some(Keyword::Texture) => {
                 let text = "not supported yet: a texture as a function: no bound of its values over a box is known, which an exact root needs";
-                return Err(Fault::at(self.here(), FaultKind::Unsupported, text));
+                return Err(Error::at(self.here(), ErrorKind::Unsupported, text));
             }
             _ => {}
         }
@@ -230,11 +230,11 @@ impl Reader<'_> {
         match formulas::internal(number, self.language.noise_generator()) {
             Ok((formula, noisy)) => Ok(Called { formula, noisy }),
             Err(Lacking::Unknown) => {
-                Err(Fault::invalid(place, format!("there is no internal function {number}")))
+                Err(Error::invalid(place, format!("there is no internal function {number}")))
             }
-            Err(Lacking::NotYet(why)) => Err(Fault::at(
+            Err(Lacking::NotYet(why)) => Err(Error::at(
                 place,
-                FaultKind::Unsupported,
+                ErrorKind::Unsupported,
                 format!("not supported yet: internal({number}): {why}"),
             )),
         }
@@ -323,7 +323,7 @@ impl Reader<'_> {
             Item::Number(value) => draft.constant(*value, place),
             Item::Value(Value::Number(terms)) => match terms.float() {
                 Some(value) => draft.constant(value, place),
-                None => Err(Fault::invalid(
+                None => Err(Error::invalid(
                     place,
                     "a function is made of floats: put the part of this vector that is meant into a float first",
                 )),
@@ -356,7 +356,7 @@ impl Reader<'_> {
                 let name = crate::diagnostics::shortened(self.names.text(*name));
                 let text =
                     format!("`{name}` cannot call itself: a function is written out where it is called");
-                Err(Fault::invalid(place, text))
+                Err(Error::invalid(place, text))
             }
             _ => Err(self.unexpected(&lexeme, "a number, a parameter or a function")),
         }
@@ -373,7 +373,7 @@ impl Reader<'_> {
                 break;
             }
             if arguments.len() > 4 * MOST_PARAMETERS {
-                return Err(Fault::invalid(self.here(), "too many arguments"));
+                return Err(Error::invalid(self.here(), "too many arguments"));
             }
         }
         Ok(arguments)
@@ -399,7 +399,7 @@ impl Reader<'_> {
             return Err(self.unexpected(&lexeme, "a part such as x, y, z or red after the dot"));
         };
         let Some(weights) = function.part(word) else {
-            return Err(Fault::invalid(lexeme.place, "this value has no such part"));
+            return Err(Error::invalid(lexeme.place, "this value has no such part"));
         };
         let mut sum = None;
         for &(weight, formula) in &weights {
@@ -413,7 +413,7 @@ impl Reader<'_> {
                 None => value,
             });
         }
-        sum.ok_or_else(|| Fault::invalid(lexeme.place, "this value has no such part"))
+        sum.ok_or_else(|| Error::invalid(lexeme.place, "this value has no such part"))
     }
 
     /// A word of the language inside a function.
@@ -441,7 +441,7 @@ impl Reader<'_> {
             _ => {
                 if crate::functions::begins_expression(word) {
                     let text = format!("`{}` cannot be used in a function", word.text());
-                    return Err(Fault::invalid(place, text));
+                    return Err(Error::invalid(place, text));
                 }
                 return Err(self.unexpected(lexeme, "a number, a parameter or a function"));
             }
@@ -477,10 +477,10 @@ impl Reader<'_> {
             (Keyword::Select, &[c, below, other]) => Op::Select([c, below, other, other]),
             (Keyword::Select, &[c, below, at, above]) => Op::Select([c, below, at, above]),
             (Keyword::Select, _) => {
-                return Err(Fault::invalid(place, "select needs three or four arguments"));
+                return Err(Error::invalid(place, "select needs three or four arguments"));
             }
             (_, &[a]) if let Some(function) = function_of_one(word) => Op::Function(function, a),
-            _ => return Err(Fault::invalid(place, format!("{} needs an argument", word.text()))),
+            _ => return Err(Error::invalid(place, format!("{} needs an argument", word.text()))),
         };
         draft.push(step, place)
     }
@@ -496,14 +496,14 @@ impl Reader<'_> {
                 ),
                 _,
             )) => Parameter::Word(word),
-            _ => return Err(Fault::invalid(self.here(), "expected the name of the variable that counts")),
+            _ => return Err(Error::invalid(self.here(), "expected the name of the variable that counts")),
         };
         self.expect(Mark::Comma)?;
         let first = self.whole_bound(draft)?;
         let last = self.whole_bound(draft)?;
         if last - first > MOST_ROUNDS {
             let text = format!("{} over more than {MOST_ROUNDS} numbers", word.text());
-            return Err(Fault::at(place, FaultKind::Limit, text));
+            return Err(Error::at(place, ErrorKind::Limit, text));
         }
         // The expression as a function of what is known outside, and of the variable.
         let number = draft.inputs;
@@ -544,9 +544,9 @@ impl Reader<'_> {
         let constant = draft.builder.finish(bound, draft.inputs).as_constant();
         match constant {
             Some(value) if value.lo == value.hi => Ok(value.lo),
-            _ => Err(Fault::at(
+            _ => Err(Error::at(
                 place,
-                FaultKind::Unsupported,
+                ErrorKind::Unsupported,
                 "not supported yet: a loop in a function whose bounds depend on its parameters",
             )),
         }
@@ -560,7 +560,7 @@ impl Reader<'_> {
         self.count_steps(called.formula.ops().len() as u64, place)?;
         let value = called.formula.value(&arguments);
         if value.is_nan() {
-            return Err(Fault::invalid(place, "this function is undefined here"));
+            return Err(Error::invalid(place, "this function is undefined here"));
         }
         Ok(value.into())
     }
@@ -594,7 +594,7 @@ impl Reader<'_> {
                             "the function of an isosurface has three parameters, this one has {}",
                             formula.inputs()
                         );
-                        return Err(Fault::invalid(at, text));
+                        return Err(Error::invalid(at, text));
                     }
                     function = Some(Arc::new(formula));
                 }
@@ -629,7 +629,7 @@ impl Reader<'_> {
             }
         }
         let Some(function) = function else {
-            return Err(Fault::invalid(place, "this isosurface has no function"));
+            return Err(Error::invalid(place, "this isosurface has no function"));
         };
         Ok(Shape::Isosurface(Rc::new(Isosurface { function, threshold, container }), open))
     }
@@ -644,7 +644,7 @@ impl Reader<'_> {
                 self.expect(Mark::BraceOpen)?;
                 let (a, b) = (self.corner()?, self.vector()?);
                 if (0..3).any(|i| a[i] == b[i]) {
-                    return Err(Fault::invalid(
+                    return Err(Error::invalid(
                         lexeme.place,
                         "this container has no thickness: nothing is in it",
                     ));
@@ -669,5 +669,5 @@ pub(crate) fn check_count(found: usize, wanted: usize, place: Place) -> Result<(
         return Ok(());
     }
     let s = |n: usize| if n == 1 { "" } else { "s" };
-    Err(Fault::invalid(place, format!("this function takes {wanted} argument{}, found {found}", s(wanted))))
+    Err(Error::invalid(place, format!("this function takes {wanted} argument{}, found {found}", s(wanted))))
 }

@@ -2,11 +2,11 @@
 
 use durer_math::elementary;
 
-use crate::diagnostics::{Fault, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
 use crate::expression::{finite, same};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
-use crate::reader::Reader;
+use crate::parser::Parser;
 use crate::transform::{self, Matrix};
 use crate::value::Terms;
 
@@ -120,7 +120,7 @@ fn flag(value: bool) -> Terms {
     f64::from(u8::from(value)).into()
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// The value of the constant or function `keyword`, which was just taken; `None` if it is neither.
     pub(crate) fn function(&mut self, keyword: Keyword, place: Place) -> Result<Option<Terms>> {
         if let Some(value) = constant(keyword) {
@@ -135,7 +135,7 @@ impl Reader<'_> {
                 let seconds = since.map_or(0.0, |d| d.as_secs_f64());
                 return Ok(Some((seconds / SECONDS_PER_DAY - DAYS_TO_2000).into()));
             }
-            _ if needs_more(keyword) => return Err(Fault::unsupported(place, keyword.text())),
+            _ if needs_more(keyword) => return Err(Error::unsupported(place, keyword.text())),
             _ if !begins_expression(keyword) => return Ok(None),
             _ => {}
         }
@@ -144,7 +144,7 @@ impl Reader<'_> {
             Some(f) => {
                 let v = self.float()?;
                 if let Some(what) = domain(keyword, v) {
-                    return Err(Fault::invalid(place, format!("{what} ({v})")));
+                    return Err(Error::invalid(place, format!("{what} ({v})")));
                 }
                 if matches!(keyword, Keyword::Asin | Keyword::Acos) && v.abs() > 1.0 {
                     self.notice(place, format!("{} of {v}: taken as of {}", keyword.text(), v.signum()));
@@ -188,7 +188,7 @@ impl Reader<'_> {
             Keyword::Div | Keyword::Mod => {
                 let (a, b) = (self.argument()?, self.argument()?);
                 if b == 0.0 {
-                    return Err(Fault::invalid(place, "division by zero"));
+                    return Err(Error::invalid(place, "division by zero"));
                 }
                 if keyword == Keyword::Div { (a / b).trunc().into() } else { (a % b).into() }
             }
@@ -212,7 +212,7 @@ impl Reader<'_> {
                     self.skip_comma()?;
                 }
                 if choices.len() < 2 {
-                    return Err(Fault::invalid(place, "select needs three or four arguments"));
+                    return Err(Error::invalid(place, "select needs three or four arguments"));
                 }
                 let last = choices.len() - 1;
                 if chosen < 0.0 {
@@ -252,7 +252,7 @@ impl Reader<'_> {
                 let which = self.float()?;
                 let index = if which >= 1.0 { which as usize - 1 } else { usize::MAX };
                 let size = array.sizes.get(index);
-                (*size.ok_or_else(|| Fault::invalid(place, "the array has no such dimension"))? as f64).into()
+                (*size.ok_or_else(|| Error::invalid(place, "the array has no such dimension"))? as f64).into()
             }
             Keyword::Vdot => transform::dot(self.vector_argument()?, self.vector_argument()?).into(),
             Keyword::Vlength => transform::length(self.vector_argument()?).into(),
@@ -276,7 +276,7 @@ impl Reader<'_> {
                 Matrix::turn(axis, self.argument()?).direction(v).into()
             }
             // `begins_expression` lists no other function.
-            _ => return Err(Fault::unsupported(place, keyword.text())),
+            _ => return Err(Error::unsupported(place, keyword.text())),
         })
     }
 
@@ -300,7 +300,7 @@ impl Reader<'_> {
         let known = stream >= 0.0 && same(stream, stream.round());
         let state = self.streams.get_mut(stream.round() as usize).filter(|_| known);
         let Some(state) = state else {
-            return Err(Fault::invalid(place, format!("no seed() gave a random stream {stream}")));
+            return Err(Error::invalid(place, format!("no seed() gave a random stream {stream}")));
         };
         *state = state.wrapping_mul(1_812_433_253).wrapping_add(12_345);
         Ok(f64::from(*state) / f64::from(u32::MAX))

@@ -1,6 +1,6 @@
 //! POV-Ray 3.7's reserved words. All are known, so that what durer cannot do yet is called by its name.
 
-use crate::names::Name;
+use crate::interner::Name;
 
 macro_rules! keywords {
     ($($variant:ident = $text:literal,)*) => {
@@ -163,12 +163,12 @@ keywords! {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::names::Names;
+    use crate::interner::Interner;
 
     #[test]
     fn both_spellings_are_one_word() {
-        let mut names = Names::new();
-        let found = |names: &mut Names, text: &str| Keyword::from_name(names.name(text));
+        let mut names = Interner::new();
+        let found = |names: &mut Interner, text: &str| Keyword::from_name(names.name(text));
         assert_eq!(found(&mut names, "colour"), Some(Keyword::Color));
         assert_eq!(found(&mut names, "color"), Some(Keyword::Color));
         assert_eq!(found(&mut names, "z"), Some(Keyword::Z));

@@ -1,9 +1,9 @@
 //! Text to tokens: comments go, words are looked up once, numbers become numbers.
 
-use crate::diagnostics::{Fault, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
+use crate::interner::{Interner, Name};
 use crate::keywords::Keyword;
 use crate::limits::{self, Limits};
-use crate::names::{Name, Names};
 use crate::source::Source;
 
 /// A token and the byte where it begins. Twelve bytes, because a mesh is millions of them.
@@ -69,7 +69,7 @@ spelled! {
 }
 
 /// Fills in the tokens of `source`, which will be file number `file`.
-pub(crate) fn lex(source: &mut Source, file: u32, names: &mut Names, limits: &Limits) -> Result<()> {
+pub(crate) fn lex(source: &mut Source, file: u32, names: &mut Interner, limits: &Limits) -> Result<()> {
     let text = std::mem::take(&mut source.text);
     let result = Lexer { text: &text, bytes: text.as_bytes(), at: 0, file, names }.run(source, limits);
     source.text = text;
@@ -81,7 +81,7 @@ struct Lexer<'a> {
     bytes: &'a [u8],
     at: usize,
     file: u32,
-    names: &'a mut Names,
+    names: &'a mut Interner,
 }
 
 /// Old DOS editors end a text with this.
@@ -101,7 +101,7 @@ impl<'a> Lexer<'a> {
         let text_end = self.bytes.iter().position(|&b| b == END_OF_TEXT).unwrap_or(self.bytes.len());
         if let Some(at) = self.bytes[..text_end].iter().position(|b| !shown(b) || *b == 0x7f) {
             let byte = self.bytes[at];
-            return Err(Fault::invalid(
+            return Err(Error::invalid(
                 self.place(at),
                 format!("control character 0x{byte:02x}: this does not look like a scene file"),
             ));
@@ -148,7 +148,7 @@ impl<'a> Lexer<'a> {
                 return Ok(());
             }
         }
-        Err(Fault::invalid(self.place(start), "this comment is never closed"))
+        Err(Error::invalid(self.place(start), "this comment is never closed"))
     }
 
     fn token(&mut self, source: &mut Source) -> Result<Kind> {
@@ -199,7 +199,7 @@ impl<'a> Lexer<'a> {
                 source.numbers.push(value);
                 Ok(Kind::Number((source.numbers.len() - 1) as u32))
             }
-            _ => Err(Fault::invalid(self.place(start), "this number is too large")),
+            _ => Err(Error::invalid(self.place(start), "this number is too large")),
         }
     }
 
@@ -218,7 +218,7 @@ impl<'a> Lexer<'a> {
                 _ => self.at += 1,
             }
         }
-        Err(Fault::invalid(self.place(start), "this string is never closed"))
+        Err(Error::invalid(self.place(start), "this string is never closed"))
     }
 
     fn directive(&mut self) -> Result<Kind> {
@@ -236,7 +236,7 @@ impl<'a> Lexer<'a> {
         } else {
             format!("there is no directive #{word}")
         };
-        Err(Fault::invalid(self.place(start), text))
+        Err(Error::invalid(self.place(start), text))
     }
 
     fn mark(&mut self) -> Result<Kind> {
@@ -250,7 +250,7 @@ impl<'a> Lexer<'a> {
         // `at` is on a character's first byte, since every token before was made of whole characters.
         let found = self.text[start..].chars().next().unwrap_or(' ');
         let hint = if found == '^' { "; powers are written pow(a, b)" } else { "" };
-        Err(Fault::invalid(self.place(start), format!("unexpected character '{found}'{hint}")))
+        Err(Error::invalid(self.place(start), format!("unexpected character '{found}'{hint}")))
     }
 }
 
@@ -261,7 +261,7 @@ mod tests {
 
     fn kinds(text: &str) -> std::result::Result<Vec<Kind>, String> {
         let mut source = Source::new(PathBuf::new(), text.into());
-        let mut names = Names::new();
+        let mut names = Interner::new();
         lex(&mut source, 0, &mut names, &Limits::default()).map_err(|fault| fault.text)?;
         Ok(source.tokens.iter().map(|token| token.kind).collect())
     }
@@ -269,7 +269,7 @@ mod tests {
     #[test]
     fn numbers_have_all_their_forms() {
         let mut source = Source::new(PathBuf::new(), ".5 5. 1e-3 1.5E+2 007 3.x".into());
-        lex(&mut source, 0, &mut Names::new(), &Limits::default()).unwrap();
+        lex(&mut source, 0, &mut Interner::new(), &Limits::default()).unwrap();
         assert_eq!(source.numbers, [0.5, 5.0, 1e-3, 150.0, 7.0, 3.0]);
         assert_eq!(source.tokens.len(), 7);
     }

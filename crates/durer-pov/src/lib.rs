@@ -18,30 +18,30 @@
 #![forbid(unsafe_code)]
 
 mod arrays;
-mod blocks;
+mod branches;
 mod camera;
 mod colour;
 mod declare;
 mod diagnostics;
 mod directives;
-mod emit;
 mod expression;
 mod formula;
 mod formulas;
 mod functions;
+mod interner;
 mod keywords;
 mod lexer;
 mod light;
 mod limits;
 mod macros;
 mod messages;
-mod names;
 mod noise_pattern;
 mod object;
+mod parser;
 mod pattern_function;
 mod pigment_function;
 mod read;
-mod reader;
+mod scene_builder;
 mod scope;
 mod settings;
 mod source;
@@ -53,7 +53,7 @@ mod unsupported;
 mod value;
 mod vector_function;
 
-pub use crate::diagnostics::{FaultKind, PovError};
+pub use crate::diagnostics::{ErrorKind, PovError};
 pub use crate::limits::Limits;
 pub use crate::messages::{Message, MessageKind};
 pub use crate::read::{Read, ReadOptions, Sources, read, read_with};

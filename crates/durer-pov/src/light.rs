@@ -2,11 +2,11 @@
 
 use std::rc::Rc;
 
-use crate::diagnostics::{Fault, Result};
+use crate::diagnostics::{Error, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::object::{Object, Shape};
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 use crate::transform::{Matrix, length};
 use crate::value::Value;
 
@@ -68,7 +68,7 @@ impl Light {
     }
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// What stands in braces after `light_source`, as an object without a surface.
     pub(crate) fn light_block(&mut self) -> Result<Object> {
         let begin = self.here();
@@ -95,7 +95,7 @@ impl Reader<'_> {
         if (matches!(light.beam, Beam::Spot | Beam::Cylinder) || light.parallel)
             && length(std::array::from_fn(|i| light.point_at[i] - light.location[i])) == 0.0
         {
-            return Err(Fault::invalid(begin, "this light points at its own location"));
+            return Err(Error::invalid(begin, "this light points at its own location"));
         }
         Ok(Object::new(Shape::Light(Rc::new(light)), begin))
     }

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use crate::diagnostics::{Fault, FaultKind, Place, Result};
+use crate::diagnostics::{Error, ErrorKind, Place, Result};
 
 /// How much a scene may ask of the reader before it is stopped with a message.
 ///
@@ -58,10 +58,10 @@ impl Limits {
 }
 
 /// The fault of running into the limit `name`.
-pub(crate) fn exceeded(place: Place, name: &str, limit: u64, what: &str) -> Box<Fault> {
-    Fault::at(
+pub(crate) fn exceeded(place: Place, name: &str, limit: u64, what: &str) -> Box<Error> {
+    Error::at(
         place,
-        FaultKind::Limit,
+        ErrorKind::Limit,
         format!("{what}: the limit `{name}` is {limit} (a larger one can be given with --limit {name}=N)"),
     )
 }

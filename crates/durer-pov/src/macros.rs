@@ -2,10 +2,10 @@
 
 use std::rc::Rc;
 
-use crate::diagnostics::{Fault, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
+use crate::interner::Name;
 use crate::lexer::{Kind, Mark};
-use crate::names::Name;
-use crate::reader::Reader;
+use crate::parser::Parser;
 use crate::scope::Reference;
 use crate::value::Value;
 
@@ -25,14 +25,14 @@ enum Argument {
     Value(Value),
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// `#macro NAME(A, B)`: remembers the body, which ends at token `end`, and goes on behind it.
     pub(crate) fn define_macro(&mut self, end: usize, place: Place) -> Result<()> {
         let Some((Kind::Name(name), _)) = self.take_raw() else {
-            return Err(Fault::invalid(self.here(), "a macro needs a name that is not a reserved word"));
+            return Err(Error::invalid(self.here(), "a macro needs a name that is not a reserved word"));
         };
         let mut parameters = Vec::new();
-        let wrong = |r: &Self| Fault::invalid(r.here(), "a macro's parameters are names in parentheses");
+        let wrong = |r: &Self| Error::invalid(r.here(), "a macro's parameters are names in parentheses");
         if !self.take_raw_mark(Mark::ParenOpen) {
             self.take_raw();
             return Err(wrong(self));
@@ -47,7 +47,7 @@ impl Reader<'_> {
         }
         let Some(frame) = self.frames.last_mut() else { return Ok(()) };
         if frame.at > end {
-            return Err(Fault::invalid(place, "this macro's parameters are never closed"));
+            return Err(Error::invalid(place, "this macro's parameters are never closed"));
         }
         let body = Macro { name, file: frame.file, start: frame.at, end, parameters };
         frame.at = end + 1;
@@ -59,7 +59,7 @@ impl Reader<'_> {
     pub(crate) fn call_macro(&mut self, body: &Macro, place: Place) -> Result<()> {
         let name = self.names.text(body.name).to_owned();
         if !self.at_mark(Mark::ParenOpen)? {
-            return Err(Fault::invalid(
+            return Err(Error::invalid(
                 place,
                 format!("{name} is a macro: its arguments in parentheses are missing"),
             ));
@@ -86,14 +86,14 @@ impl Reader<'_> {
         let plural = if wanted == 1 { "" } else { "s" };
         if arguments.len() < wanted {
             let found = arguments.len();
-            return Err(Fault::invalid(
+            return Err(Error::invalid(
                 place,
                 format!("{name} has {wanted} parameter{plural}, but {found} are given"),
             ));
         }
         if !self.take_mark(Mark::ParenClose)? {
             let text = format!("{name} has {wanted} parameter{plural}: `)` should stand here");
-            return Err(Fault::invalid(self.here(), text));
+            return Err(Error::invalid(self.here(), text));
         }
         self.scopes.enter();
         for (&parameter, argument) in body.parameters.iter().zip(arguments) {

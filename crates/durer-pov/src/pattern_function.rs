@@ -8,12 +8,12 @@
 
 use durer_scene::tape::{Builder, Formula, FormulaError, NodeId, Op};
 
-use crate::diagnostics::{self, Fault, FaultKind, Place};
+use crate::diagnostics::{self, Error, ErrorKind, Place};
 use crate::formulas;
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::noise_pattern;
-use crate::reader::Reader;
+use crate::parser::Parser;
 use crate::texture::{Pattern, PatternKind, Wave};
 use crate::transform::{self, Matrix};
 
@@ -80,7 +80,7 @@ fn bent(wave: Wave) -> (&'static str, Option<f64>) {
     }
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// `pattern { ... }`, the word included.
     pub(crate) fn pattern_function(&mut self) -> diagnostics::Result<Formula> {
         let place = self.here();
@@ -110,7 +110,7 @@ impl Reader<'_> {
             Some(b.finish(root, 3))
         };
         if pattern.place.inverse().is_none() {
-            return Err(Fault::invalid(place, CANNOT_BE_UNDONE));
+            return Err(Error::invalid(place, CANNOT_BE_UNDONE));
         }
         if noise_pattern::lacks_generator(&pattern) {
             return Err(third_generator(place));
@@ -124,9 +124,9 @@ impl Reader<'_> {
 /// What is said of a pattern whose place is flat.
 pub(crate) const CANNOT_BE_UNDONE: &str = "the pattern's transforms cannot be undone";
 
-pub(crate) fn lacking(place: Place) -> Box<Fault> {
+pub(crate) fn lacking(place: Place) -> Box<Error> {
     let text = "not supported yet: this pattern as a function: no bound of its values over a box is known, which an exact root needs";
-    Fault::at(place, FaultKind::Unsupported, text)
+    Error::at(place, ErrorKind::Unsupported, text)
 }
 
 /// Whether the formula depends on noise.
@@ -134,8 +134,8 @@ pub(crate) fn has_noise(formula: &Formula) -> bool {
     formula.ops().iter().any(|op| matches!(op, Op::Noise(_)))
 }
 
-pub(crate) fn third_generator(place: Place) -> Box<Fault> {
-    Fault::at(place, FaultKind::Unsupported, "not supported yet: noise generator 3; 1 and 2 are there")
+pub(crate) fn third_generator(place: Place) -> Box<Error> {
+    Error::at(place, ErrorKind::Unsupported, "not supported yet: noise generator 3; 1 and 2 are there")
 }
 
 /// The value of a pattern at a place in its own space; `None` where no formula is known here.

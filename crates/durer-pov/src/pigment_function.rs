@@ -10,11 +10,11 @@
 
 use durer_scene::tape::{Builder, Formula, NodeId, Op};
 
-use crate::diagnostics::{Fault, Result};
+use crate::diagnostics::{Error, Result};
 use crate::formulas::pieces::{Knot, chosen};
 use crate::noise_pattern::lacks_generator;
+use crate::parser::Parser;
 use crate::pattern_function::{CANNOT_BE_UNDONE, has_noise, lacking, moved, third_generator, written};
-use crate::reader::Reader;
 use crate::texture::{Map, Paint, Pattern, Pigment};
 
 /// The parts of a colour, as steps.
@@ -30,7 +30,7 @@ enum Lack {
     Generator,
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// `pigment { ... }`, the word included, as functions of a point: red, green, blue, filter, transmit.
     pub(crate) fn pigment_function(&mut self) -> Result<Vec<Formula>> {
         let place = self.here();
@@ -46,7 +46,7 @@ impl Reader<'_> {
             }
             Err(Lack::Formula) => Err(lacking(place)),
             Err(Lack::Generator) => Err(third_generator(place)),
-            Err(Lack::Place) => Err(Fault::invalid(place, CANNOT_BE_UNDONE)),
+            Err(Lack::Place) => Err(Error::invalid(place, CANNOT_BE_UNDONE)),
         }
     }
 }

@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use crate::diagnostics::{Fault, FaultKind, Place, PovError, Result};
+use crate::diagnostics::{Error, ErrorKind, Place, PovError, Result};
 use crate::keywords::Keyword;
 use crate::limits::{self, Limits};
 use crate::messages::{Message, Messages};
 use crate::object::begins_object;
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 use crate::source::{Library, Source};
 use crate::value::Value;
 
@@ -65,7 +65,7 @@ impl Sources {
     /// A message about what stands at `place`, in the form of all others.
     pub fn error(&self, place: Option<durer_scene::Place>, text: impl Into<String>) -> PovError {
         let place = place.map(|p| Place { file: p.file, start: p.start });
-        let fault = Fault { place, kind: FaultKind::Invalid, text: text.into(), route: Vec::new() };
+        let fault = Error { place, kind: ErrorKind::Invalid, text: text.into(), route: Vec::new() };
         PovError::new(&fault, &self.main, &self.files)
     }
 }
@@ -95,7 +95,7 @@ pub fn read_with(
 ) -> std::result::Result<Read, PovError> {
     let failed = |text: String| {
         PovError::new(
-            &Fault { place: None, kind: FaultKind::File, text, route: Vec::new() },
+            &Error { place: None, kind: ErrorKind::File, text, route: Vec::new() },
             path,
             &[] as &[Rc<Source>],
         )
@@ -116,7 +116,7 @@ fn on_this_thread<'a>(
 ) -> std::result::Result<Read, PovError> {
     limits::reset_memory();
     let library = Library::new(path, &options.library_paths);
-    let mut reader = Reader::new(options, library, Messages::new(listener));
+    let mut reader = Parser::new(options, library, Messages::new(listener));
     let scene = reader.scene(path);
     reader.messages.finish();
     match scene {
@@ -139,7 +139,7 @@ fn on_this_thread<'a>(
     }
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// The whole scene.
     fn scene(&mut self, path: &Path) -> Result<durer_scene::Scene> {
         let options = self.options;
@@ -156,7 +156,7 @@ impl Reader<'_> {
         let given = options.declares.iter().map(|(name, value)| (name.as_str(), *value));
         for (name, value) in named.into_iter().chain(given) {
             if !is_name(name) || self.predeclare(name, value).is_none() {
-                return Err(Fault::file(
+                return Err(Error::file(
                     None,
                     format!("`{name}` cannot be declared: it is no name, or a word of the language"),
                 ));
@@ -184,7 +184,7 @@ impl Reader<'_> {
         Ok(self.finished())
     }
 
-    fn object_statement(&mut self, first: crate::reader::Lexeme) -> Result<()> {
+    fn object_statement(&mut self, first: crate::parser::Lexeme) -> Result<()> {
         self.put_back(first);
         let object = self.object()?;
         self.emit(&object)

@@ -1,6 +1,6 @@
 //! Names and what they stand for: globals, names of an include file, names of a macro call.
 
-use crate::names::Name;
+use crate::interner::Name;
 use crate::value::Value;
 
 /// Who a name is: a binding's index in the name's own stack, and an element if it is an array.

@@ -3,10 +3,10 @@
 use durer_math::elementary;
 
 use crate::colour::srgb_decoded;
-use crate::diagnostics::{Fault, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 
 /// How the scene's numbers relate to light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,7 +86,7 @@ const NEWEST: f64 = 3.7;
 /// POV-Ray's bound.
 const DEEPEST_TRACE: f64 = 256.0;
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// `#version`.
     pub(crate) fn set_version(&mut self, version: f64, place: Place) -> Result<()> {
         // Old files write 1 or 2, and 3.62 or 3.701 are patch levels.
@@ -94,7 +94,7 @@ impl Reader<'_> {
             let text = format!(
                 "this scene is written for version {version}; durer reads the language up to {NEWEST}"
             );
-            return Err(Fault::at(place, crate::FaultKind::Unsupported, text));
+            return Err(Error::at(place, crate::ErrorKind::Unsupported, text));
         }
         self.language.version = version;
         self.language.version_given = true;
@@ -118,14 +118,14 @@ impl Reader<'_> {
                     let level = self.float()?;
                     if !(1.0..=DEEPEST_TRACE).contains(&level) {
                         let text = format!("max_trace_level is 1 to {DEEPEST_TRACE}");
-                        return Err(Fault::invalid(place, text));
+                        return Err(Error::invalid(place, text));
                     }
                     self.scene.globals.max_trace_level = level as u32;
                 }
                 Keyword::AdcBailout => {
                     let bailout = self.float()?;
                     if bailout < 0.0 {
-                        return Err(Fault::invalid(place, "adc_bailout cannot be negative"));
+                        return Err(Error::invalid(place, "adc_bailout cannot be negative"));
                     }
                     self.scene.globals.adc_bailout = bailout;
                 }
@@ -146,7 +146,7 @@ impl Reader<'_> {
                     self.float()?;
                 }
                 Keyword::IridWavelength => drop(self.colour()?),
-                Keyword::Photons => return Err(Fault::unsupported(place, "photons")),
+                Keyword::Photons => return Err(Error::unsupported(place, "photons")),
                 Keyword::HfGray16 => drop(self.switch_value()?),
                 _ => return Err(self.unexpected(&lexeme, "a global setting")),
             }
@@ -170,7 +170,7 @@ impl Reader<'_> {
         } else {
             let value = self.float()?;
             if value <= 0.0 {
-                return Err(Fault::invalid(place, "assumed_gamma must be positive"));
+                return Err(Error::invalid(place, "assumed_gamma must be positive"));
             }
             Gamma::Power(value)
         };

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use crate::blocks::Block;
+use crate::branches::Block;
 use crate::lexer::Token;
 use crate::limits::Limits;
 

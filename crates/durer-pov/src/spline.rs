@@ -17,12 +17,12 @@ use std::rc::Rc;
 use durer_math::Interval;
 use durer_scene::tape::{Builder, Formula, FormulaError, NodeId};
 
-use crate::diagnostics::{Fault, FaultKind, Place, Result};
+use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::formulas::pieces;
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::limits::Charge;
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 use crate::value::{Terms, Value};
 
 /// Steps, or too many of them.
@@ -178,7 +178,7 @@ impl Spline {
     }
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// `spline { ... }`, the word included.
     pub(crate) fn spline_value(&mut self) -> Result<Spline> {
         self.next()?;
@@ -209,7 +209,7 @@ impl Reader<'_> {
             let at = self.here();
             let value = self.expression()?;
             if value.len() < 2 {
-                return Err(Fault::invalid(at, "a spline's point is a vector of two to five components"));
+                return Err(Error::invalid(at, "a spline's point is a vector of two to five components"));
             }
             for &part in value.as_slice() {
                 crate::expression::finite(part, at)?;
@@ -220,17 +220,17 @@ impl Reader<'_> {
             self.check_memory(points.len() * size_of::<(f64, [f64; 5])>(), at)?;
         }
         if points.is_empty() {
-            return Err(Fault::invalid(place, "this spline has no points"));
+            return Err(Error::invalid(place, "this spline has no points"));
         }
         points.sort_by(|(s, _), (t, _)| s.total_cmp(t));
         if let Some(pair) = points.windows(2).find(|pair| pair[0].0 == pair[1].0) {
-            return Err(Fault::invalid(place, format!("this spline has two points for t = {}", pair[0].0)));
+            return Err(Error::invalid(place, format!("this spline has two points for t = {}", pair[0].0)));
         }
         let _charge = Charge::new(points.len() * size_of::<(f64, [f64; 5])>() + 64);
         let spline = Spline { kind, points, terms, _charge };
         self.count_steps(spline.points.len() as u64, place)?;
         if !(0..terms).all(|component| spline.curve(kind, component).is_finite()) {
-            return Err(Fault::invalid(
+            return Err(Error::invalid(
                 place,
                 "the points of this spline are too far apart, or too near to each other",
             ));
@@ -264,6 +264,6 @@ impl Reader<'_> {
     pub(crate) fn spline_function(&mut self) -> Result<Vec<Formula>> {
         let place = self.here();
         let spline = self.nested(Self::spline_value)?;
-        spline.formulas().map_err(|error| Fault::at(place, FaultKind::Limit, error.to_string()))
+        spline.formulas().map_err(|error| Error::at(place, ErrorKind::Limit, error.to_string()))
     }
 }

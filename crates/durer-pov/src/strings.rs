@@ -1,9 +1,9 @@
 //! Strings: literals, their escapes, and the functions that make them.
 
-use crate::diagnostics::{Fault, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 use crate::value::Value;
 
 /// Widths and digits beyond this are a mistake.
@@ -15,7 +15,7 @@ pub(crate) fn makes_string(keyword: Keyword) -> bool {
     matches!(keyword, Str | Concat | Chr | Substr | Strupr | Strlwr | Vstr | Datetime)
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// A string; `wanted` says what for.
     pub(crate) fn string(&mut self, wanted: &str) -> Result<String> {
         let lexeme = self.next()?;
@@ -52,7 +52,7 @@ impl Reader<'_> {
                 let count = self.float()?;
                 self.skip_comma()?;
                 if !(2.0..=5.0).contains(&count) {
-                    return Err(Fault::invalid(place, "vstr shows 2 to 5 components"));
+                    return Err(Error::invalid(place, "vstr shows 2 to 5 components"));
                 }
                 let count = count as usize;
                 let values = self.expression()?.promoted(count);
@@ -76,7 +76,7 @@ impl Reader<'_> {
                 let code = self.float()?;
                 let found = char::from_u32(code as u32).filter(|_| (0.0..=65535.0).contains(&code));
                 found
-                    .ok_or_else(|| Fault::invalid(place, format!("there is no character {code}")))?
+                    .ok_or_else(|| Error::invalid(place, format!("there is no character {code}")))?
                     .to_string()
             }
             Keyword::Substr => {
@@ -89,7 +89,7 @@ impl Reader<'_> {
                 if first < 1.0 || count < 0.0 || first - 1.0 + count > length {
                     let text =
                         format!("substr: {count} characters from {first} on are not in a string of {length}");
-                    return Err(Fault::invalid(place, text));
+                    return Err(Error::invalid(place, text));
                 }
                 text.chars().skip(first as usize - 1).take(count as usize).collect()
             }
@@ -117,7 +117,7 @@ impl Reader<'_> {
         self.skip_comma()?;
         let digits = self.float()?;
         if width.abs() > WIDEST || digits > WIDEST {
-            return Err(Fault::invalid(self.here(), format!("no number is wider than {WIDEST}")));
+            return Err(Error::invalid(self.here(), format!("no number is wider than {WIDEST}")));
         }
         Ok((width, digits))
     }
@@ -161,12 +161,12 @@ fn unescape(raw: &str, place: Place) -> Result<String> {
                 let digits: String = chars.by_ref().take(4).collect();
                 let code = u32::from_str_radix(&digits, 16).ok().filter(|_| digits.len() == 4);
                 let wrong =
-                    || Fault::invalid(place, "\\u in a string takes four hexadecimal digits of a character");
+                    || Error::invalid(place, "\\u in a string takes four hexadecimal digits of a character");
                 code.and_then(char::from_u32).ok_or_else(wrong)?
             }
             Some(same @ ('\\' | '"' | '\'')) => same,
             Some(other) => {
-                return Err(Fault::invalid(place, format!("a string knows no escape \\{other}")));
+                return Err(Error::invalid(place, format!("a string knows no escape \\{other}")));
             }
             None => '\\',
         });
@@ -178,7 +178,7 @@ fn unescape(raw: &str, place: Place) -> Result<String> {
 fn date(days: f64, format: &str, place: Place) -> Result<String> {
     // A million days either way keeps the calendar within four-digit years.
     if days.abs() > 1e6 {
-        return Err(Fault::invalid(place, "this date is too far away"));
+        return Err(Error::invalid(place, "this date is too far away"));
     }
     let seconds = (days * 86_400.0).floor() as i64;
     let (day, second) = (seconds.div_euclid(86_400), seconds.rem_euclid(86_400));
@@ -202,7 +202,7 @@ fn date(days: f64, format: &str, place: Place) -> Result<String> {
             Some('%') => "%".to_owned(),
             other => {
                 let letter = other.map_or_else(String::new, String::from);
-                return Err(Fault::unsupported(place, &format!("%{letter} in datetime")));
+                return Err(Error::unsupported(place, &format!("%{letter} in datetime")));
             }
         };
     }

@@ -4,10 +4,10 @@ use std::rc::Rc;
 
 use durer_math::elementary;
 
-use crate::diagnostics::{Fault, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 use crate::value::Value;
 
 /// Rows are the images of x, y and z, then comes the translation: points are rows and stand on the left.
@@ -144,7 +144,7 @@ impl Matrix {
     }
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// One transform, if one comes next.
     pub(crate) fn transform_item(&mut self) -> Result<Option<Matrix>> {
         let Some(keyword) = self.peek_word()? else { return Ok(None) };
@@ -178,7 +178,7 @@ impl Reader<'_> {
             _ => return Ok(None),
         };
         if !matrix.is_sound() {
-            return Err(Fault::invalid(
+            return Err(Error::invalid(
                 place,
                 "this transform is singular: it flattens space or leaves the numbers",
             ));
@@ -227,14 +227,14 @@ impl Reader<'_> {
     }
 
     fn inverted(&self, matrix: &Matrix) -> Result<Matrix> {
-        matrix.inverse().ok_or_else(|| Fault::invalid(self.here(), "this transform has no inverse"))
+        matrix.inverse().ok_or_else(|| Error::invalid(self.here(), "this transform has no inverse"))
     }
 
     /// `transform` as a value.
     pub(crate) fn transform_value(&mut self, place: Place) -> Result<Value> {
         let matrix = self.nested(Self::transform_block)?;
         if !matrix.is_sound() {
-            return Err(Fault::invalid(place, "this transform is singular"));
+            return Err(Error::invalid(place, "this transform is singular"));
         }
         Ok(Value::Transform(Rc::new(matrix)))
     }

@@ -4,11 +4,11 @@
 
 use durer_scene::tape::{Builder, Formula, FormulaError};
 
-use crate::diagnostics::{Fault, FaultKind, Place, Result};
+use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::formula::check_count;
 use crate::keywords::Keyword;
+use crate::parser::Parser;
 use crate::pattern_function::moved;
-use crate::reader::Reader;
 use crate::value::Terms;
 
 /// What each of red, green and blue adds to grey.
@@ -59,14 +59,14 @@ fn index(word: Keyword) -> Option<usize> {
 }
 
 /// A vector where a float is wanted.
-pub(crate) fn wants_part(place: Place) -> Box<Fault> {
-    Fault::invalid(
+pub(crate) fn wants_part(place: Place) -> Box<Error> {
+    Error::invalid(
         place,
         "this function gives a vector: name the part that is meant, as in F(x).y or F(x, y, z).red",
     )
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// The body of a function, if it is one that gives vectors.
     pub(crate) fn vector_function(&mut self, has_parameters: bool) -> Result<Option<VectorFunction>> {
         let Some(word @ (Keyword::Spline | Keyword::Transform | Keyword::Pigment)) = self.peek_word()? else {
@@ -75,7 +75,7 @@ impl Reader<'_> {
         let place = self.here();
         if has_parameters {
             let text = format!("a {} as a function has no parameters that one could name", word.text());
-            return Err(Fault::invalid(place, text));
+            return Err(Error::invalid(place, text));
         }
         let parts = match word {
             Keyword::Spline => self.spline_function()?,
@@ -88,7 +88,7 @@ impl Reader<'_> {
                     let p = [b.input(0)?, b.input(1)?, b.input(2)?];
                     Ok(moved(&mut b, p, &map)?.map(|part| b.finish(part, 3)).to_vec())
                 };
-                formulas().map_err(|error| Fault::at(place, FaultKind::Limit, error.to_string()))?
+                formulas().map_err(|error| Error::at(place, ErrorKind::Limit, error.to_string()))?
             }
         };
         Ok(Some(VectorFunction::new(parts)))
@@ -101,7 +101,7 @@ impl Reader<'_> {
         self.count_steps(function.steps() as u64, place)?;
         let values: Vec<f64> = function.parts.iter().map(|part| part.value(&arguments)).collect();
         if values.iter().any(|value| value.is_nan()) {
-            return Err(Fault::invalid(place, "this function is undefined here"));
+            return Err(Error::invalid(place, "this function is undefined here"));
         }
         Ok(Terms::new(&values))
     }

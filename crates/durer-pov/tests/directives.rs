@@ -2,7 +2,7 @@
 
 mod support;
 
-use durer_pov::{FaultKind, MessageKind, ReadOptions};
+use durer_pov::{ErrorKind, MessageKind, ReadOptions};
 use support::{Folder, debug, fault, notices, read};
 
 #[test]
@@ -151,7 +151,7 @@ fn version_is_in_force_from_where_it_stands() {
     assert_eq!(debug("#version unofficial 3.6; #debug str(version,0,1)"), "3.6");
     assert_eq!(debug("#if (1) #version 3.6 #end #debug str(version,0,1)"), "3.6");
     let error = read("#version 3.8;").unwrap_err();
-    assert_eq!(error.kind, FaultKind::Unsupported);
+    assert_eq!(error.kind, ErrorKind::Unsupported);
 }
 
 #[test]
@@ -161,7 +161,7 @@ fn messages_are_kept_in_their_order() {
     let expected = [(MessageKind::Debug, "a"), (MessageKind::Warning, "b"), (MessageKind::Debug, "c")];
     assert_eq!(said, expected);
     let error = support::read("#error concat(\"by\", \"e\")").unwrap_err();
-    assert_eq!((error.kind, error.text.as_str()), (FaultKind::Raised, "#error: bye"));
+    assert_eq!((error.kind, error.text.as_str()), (ErrorKind::Raised, "#error: bye"));
 }
 
 #[test]
@@ -213,6 +213,6 @@ fn what_cannot_be_done_yet_may_be_defined_but_not_used() {
     ] {
         let error = read(&format!("{defined}\n{use_it}")).unwrap_err();
         assert_eq!(error.text, format!("not supported yet: {word}"), "{use_it}");
-        assert_eq!(error.kind, FaultKind::Unsupported);
+        assert_eq!(error.kind, ErrorKind::Unsupported);
     }
 }

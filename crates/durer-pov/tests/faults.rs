@@ -4,7 +4,7 @@ mod support;
 
 use std::time::{Duration, Instant};
 
-use durer_pov::{FaultKind, Limits, ReadOptions};
+use durer_pov::{ErrorKind, Limits, ReadOptions};
 use support::{Folder, fault, read};
 
 /// The limits of these tests: a tenth of the real ones, so that they are reached quickly.
@@ -18,7 +18,7 @@ fn limit(text: &str, name: &str) {
     let path = folder.write("scene.pov", text);
     let begin = Instant::now();
     let error = durer_pov::read(&path, &small()).unwrap_err();
-    assert_eq!(error.kind, FaultKind::Limit, "{error}");
+    assert_eq!(error.kind, ErrorKind::Limit, "{error}");
     assert!(error.text.contains(&format!("`{name}`")), "{error}");
     assert!(error.at.is_some() && error.to_string().lines().count() >= 4, "{error}");
     assert!(begin.elapsed() < Duration::from_secs(20), "{text}");

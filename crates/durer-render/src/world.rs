@@ -8,17 +8,17 @@ use durer_scene::{LowerError, Lowered, Place, Placement, Rgb, Scene, Texture};
 
 use crate::camera::{Camera, CameraError};
 use crate::film::Encoding;
-use crate::light::Lamp;
+use crate::light::RenderLight;
 use crate::medium::Medium;
-use crate::texture::Paint;
+use crate::texture::RenderTexture;
 
 /// A scene made ready to be rendered: built once, then shared by all threads.
 pub struct World {
     pub(crate) lowered: Lowered,
     pub(crate) looks: Vec<Look>,
-    pub(crate) paints: Vec<Paint>,
+    pub(crate) paints: Vec<RenderTexture>,
     pub(crate) media: Vec<Medium>,
-    pub(crate) lamps: Vec<Lamp>,
+    pub(crate) lamps: Vec<RenderLight>,
     camera: Option<Camera>,
     /// The media in which all rays of the camera start, if it has one standpoint, or those are the same for all.
     standing: Option<Vec<u32>>,
@@ -76,7 +76,11 @@ impl World {
             let paint = match known.get(&key) {
                 Some(&paint) => paint,
                 None => {
-                    paints.push(Paint::new(&look.texture, look.frame.affine(), settings.ambient_light)?);
+                    paints.push(RenderTexture::new(
+                        &look.texture,
+                        look.frame.affine(),
+                        settings.ambient_light,
+                    )?);
                     let number = (paints.len() - 1) as u32;
                     known.insert(key, number);
                     number
@@ -100,7 +104,7 @@ impl World {
             has_insides: lowered.looks.iter().any(|l| l.inside.is_some()),
             has_clear_shadows: lowered.looks.iter().any(|l| l.is_clear),
             media: lowered.media.iter().map(|i| Medium::new(i)).collect(),
-            lamps: scene.lights.iter().filter_map(Lamp::new).collect(),
+            lamps: scene.lights.iter().filter_map(RenderLight::new).collect(),
             looks,
             paints,
             camera,

@@ -1,7 +1,7 @@
 //! The mesh and its tree.
 
 use crate::files::{MISS, Mesh, PeerRay};
-use durer_bvh::{Bvh, Frame, Glance, Glances, Leaf, Line, Rays, Settings, Sight};
+use durer_bvh::{Bvh, Frame, Leaf, Packet32, Ray32, Ray64, Rays, Settings, TreeRay};
 use durer_math::eft::{exponent, scale2};
 use durer_math::lanes::F8;
 use durer_math::{Aabb, Isa, Point3, Ray, Vec3};
@@ -201,12 +201,12 @@ impl<'a> Seen<'a> {
     }
 }
 
-impl Sight for Seen<'_> {
+impl TreeRay for Seen<'_> {
     #[inline(always)]
-    fn line(&self) -> Line {
+    fn line(&self) -> Ray64 {
         let (t_min, t_max) =
             (scale2(f64::from(self.r.t_near), self.k), scale2(f64::from(self.r.t_far), self.k));
-        Line {
+        Ray64 {
             origin: point(self.r.origin),
             direction: Vec3::from(self.r.direction.map(f64::from)).scale2(-self.k),
             origin_error: Vec3::ZERO,
@@ -218,15 +218,15 @@ impl Sight for Seen<'_> {
     }
 
     #[inline(always)]
-    fn glance(&self) -> Glance {
+    fn glance(&self) -> Ray32 {
         // Out of the range of f32 nothing is seen of the ray, and the line is asked for.
         if !(-126..=126).contains(&self.k) {
-            return Glance::NOTHING;
+            return Ray32::NOTHING;
         }
         let power = |k: i32| f32::from_bits(((127 + k) as u32) << 23);
         let (along, across) = (power(self.k), power(-self.k));
         let ([x, y, z], [dx, dy, dz]) = (self.r.origin, self.r.direction);
-        Glance {
+        Ray32 {
             origin: [x, y, z, self.r.t_near * along],
             direction: [dx * across, dy * across, dz * across, self.r.t_far * along],
             origin_error: [0.0; 4],
@@ -257,9 +257,9 @@ fn three_of(v: [[f64; 8]; 3]) -> Vec3<F8> {
 
 /// Eight rays as they are given, and two to the power `k` of each (see [`Seen`]); `None` if one of these is extreme.
 #[inline(always)]
-fn side_by_side(rays: [&PeerRay; 8]) -> Option<(Glances, [f32; 8])> {
+fn side_by_side(rays: [&PeerRay; 8]) -> Option<(Packet32, [f32; 8])> {
     let mut seen =
-        Glances { origin: [[0.0; 8]; 3], direction: [[0.0; 8]; 3], t_min: [0.0; 8], t_max: [0.0; 8] };
+        Packet32 { origin: [[0.0; 8]; 3], direction: [[0.0; 8]; 3], t_min: [0.0; 8], t_max: [0.0; 8] };
     for (i, ray) in rays.iter().enumerate() {
         for axis in 0..3 {
             seen.origin[axis][i] = ray.origin[axis];
@@ -280,7 +280,7 @@ fn side_by_side(rays: [&PeerRay; 8]) -> Option<(Glances, [f32; 8])> {
 
 /// [`Seen::glance`] of eight rays.
 #[inline(always)]
-fn seen_together(rays: &[PeerRay]) -> Option<Glances> {
+fn seen_together(rays: &[PeerRay]) -> Option<Packet32> {
     let [a, b, c, d, e, f, g, h] = rays.first_chunk()?;
     let (mut seen, along) = side_by_side([a, b, c, d, e, f, g, h])?;
     for (i, along) in along.into_iter().enumerate() {
@@ -323,7 +323,7 @@ struct ClosestOfEach<'a> {
 }
 
 impl<'a> Rays<f64> for ClosestOfEach<'a> {
-    type Sight = Seen<'a>;
+    type TreeRay = Seen<'a>;
 
     #[inline(always)]
     fn sight(&mut self, ray: usize) -> Option<Seen<'a>> {
@@ -331,7 +331,7 @@ impl<'a> Rays<f64> for ClosestOfEach<'a> {
     }
 
     #[inline(always)]
-    fn glances(&mut self, first: usize) -> Option<Glances> {
+    fn glances(&mut self, first: usize) -> Option<Packet32> {
         seen_together(&self.rays[first..])
     }
 
@@ -388,7 +388,7 @@ struct AnyOfEach<'a> {
 }
 
 impl<'a> Rays<bool> for AnyOfEach<'a> {
-    type Sight = Seen<'a>;
+    type TreeRay = Seen<'a>;
 
     #[inline(always)]
     fn sight(&mut self, ray: usize) -> Option<Seen<'a>> {
@@ -396,7 +396,7 @@ impl<'a> Rays<bool> for AnyOfEach<'a> {
     }
 
     #[inline(always)]
-    fn glances(&mut self, first: usize) -> Option<Glances> {
+    fn glances(&mut self, first: usize) -> Option<Packet32> {
         seen_together(&self.rays[first..])
     }
 

@@ -4,11 +4,11 @@
 #![expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")]
 
 use super::avx2::Numbers;
-use super::packet::{Filters, Packet, eight, numbers};
+use super::packet8::{Filters, Packet, eight, numbers};
 use super::planes::Planes;
 use super::{Avx2, Kernel, Rows, Stack, Together};
 use crate::node::{ChildRef, Node, SLOT_BITS, WIDTH};
-use crate::ray::{Glances, PACKET, Sight, Way};
+use crate::ray::{ClippedRay, PACKET, Packet32, TreeRay};
 use crate::tree::Bvh;
 use crate::triangles::{Block, FAR, FLAT, Filter, NEAR, Verdict};
 use core::arch::x86_64::*;
@@ -32,12 +32,12 @@ impl Kernel for Avx512 {
     type Lanes = Wide;
 
     #[inline(always)]
-    fn nearby(self, tree: &Bvh, sight: &impl Sight) -> Option<(Numbers, Way)> {
+    fn nearby(self, tree: &Bvh, sight: &impl TreeRay) -> Option<(Numbers, ClippedRay)> {
         self.0.nearby(tree, sight)
     }
 
     #[inline(always)]
-    fn afar(self, tree: &Bvh, sight: &impl Sight) -> Option<(Numbers, Way)> {
+    fn afar(self, tree: &Bvh, sight: &impl TreeRay) -> Option<(Numbers, ClippedRay)> {
         self.0.afar(tree, sight)
     }
 
@@ -93,7 +93,7 @@ impl Together<PACKET> for Avx512 {
     type Filters = Filters;
 
     #[inline(always)]
-    fn gather(self, tree: &Bvh, rays: &[&Glances]) -> Option<Packet> {
+    fn gather(self, tree: &Bvh, rays: &[&Packet32]) -> Option<Packet> {
         Together::<PACKET>::gather(self.0, tree, rays)
     }
 
@@ -103,12 +103,12 @@ impl Together<PACKET> for Avx512 {
     }
 
     #[inline(always)]
-    fn one(self, tree: &Bvh, packet: &Packet, ray: usize) -> (Numbers, Way) {
+    fn one(self, tree: &Bvh, packet: &Packet, ray: usize) -> (Numbers, ClippedRay) {
         Together::<PACKET>::one(self.0, tree, packet, ray)
     }
 
     #[inline(always)]
-    fn way(self, tree: &Bvh, packet: &Packet, ray: usize) -> Way {
+    fn way(self, tree: &Bvh, packet: &Packet, ray: usize) -> ClippedRay {
         Together::<PACKET>::way(self.0, tree, packet, ray)
     }
 

@@ -7,12 +7,12 @@ mod avx2;
 mod avx512;
 mod bins;
 #[cfg(target_arch = "x86_64")]
-mod packet;
+mod packet16;
+#[cfg(target_arch = "x86_64")]
+mod packet8;
 #[cfg(target_arch = "x86_64")]
 mod planes;
 mod scalar;
-#[cfg(target_arch = "x86_64")]
-mod sixteen;
 mod stack;
 
 #[cfg(target_arch = "x86_64")]
@@ -24,7 +24,7 @@ pub(crate) use scalar::Scalar;
 pub(crate) use stack::{MAX_DEPTH, Rows, Stack};
 
 use crate::node::{ChildRef, Node};
-use crate::ray::{Glances, PACKET, Sight, TWICE, Way};
+use crate::ray::{ClippedRay, PACKET, Packet32, TWICE, TreeRay};
 use crate::tree::Bvh;
 use crate::triangles::{Block, Filter, Verdict};
 
@@ -40,16 +40,16 @@ pub(crate) trait Kernel: Copy {
 
     /// What the tests need of a ray, clipped to the tree's box or not; `None` if it certainly misses that.
     #[inline(always)]
-    fn ready(self, tree: &Bvh, sight: &impl Sight) -> Option<(Self::Ray, Way)> {
+    fn set_up(self, tree: &Bvh, sight: &impl TreeRay) -> Option<(Self::Ray, ClippedRay)> {
         let nearby = self.nearby(tree, sight);
         if nearby.is_some() { nearby } else { self.afar(tree, sight) }
     }
 
     /// The same at a glance; `None` if that is not enough.
-    fn nearby(self, tree: &Bvh, sight: &impl Sight) -> Option<(Self::Ray, Way)>;
+    fn nearby(self, tree: &Bvh, sight: &impl TreeRay) -> Option<(Self::Ray, ClippedRay)>;
 
     /// The same of a ray of which a glance did not say it.
-    fn afar(self, tree: &Bvh, sight: &impl Sight) -> Option<(Self::Ray, Way)>;
+    fn afar(self, tree: &Bvh, sight: &impl TreeRay) -> Option<(Self::Ray, ClippedRay)>;
 
     /// Brings a ray into the lanes.
     fn spread(self, ray: &Self::Ray) -> Self::Lanes;
@@ -93,16 +93,16 @@ pub(crate) trait Together<const N: usize>: Kernel {
     const EXISTS: bool = true;
 
     /// Rays, eight in each element, as a packet, if they are exactly known, nearby and so much alike that it pays.
-    fn gather(self, tree: &Bvh, rays: &[&Glances]) -> Option<Self::Packet>;
+    fn gather(self, tree: &Bvh, rays: &[&Packet32]) -> Option<Self::Packet>;
 
     /// How far each ray of a packet looks at most.
     fn ends(self, packet: &Self::Packet) -> [f32; N];
 
-    /// One of a packet's rays: the very numbers that [`Kernel::ready`] gives.
-    fn one(self, tree: &Bvh, packet: &Self::Packet, ray: usize) -> (Self::Ray, Way);
+    /// One of a packet's rays: the very numbers that [`Kernel::set_up`] gives.
+    fn one(self, tree: &Bvh, packet: &Self::Packet, ray: usize) -> (Self::Ray, ClippedRay);
 
     /// The second half of that.
-    fn way(self, tree: &Bvh, packet: &Self::Packet, ray: usize) -> Way;
+    fn way(self, tree: &Bvh, packet: &Self::Packet, ray: usize) -> ClippedRay;
 
     /// Which rays' parameters in a `row` are not beyond their `t_far`.
     fn awake(self, row: &[f32; N], t_far: &[f32; N]) -> u32;

@@ -2,7 +2,7 @@
 
 use super::{Kernel, Stack};
 use crate::node::{ChildRef, Node, SLOT_BITS, WIDTH};
-use crate::ray::{CullRay, Glances, Rounding, Sight, Way};
+use crate::ray::{ClippedRay, CullRay, Packet32, Rounding, TreeRay};
 use crate::tree::Bvh;
 use crate::triangles::{Block, FAR, FLAT, Filter, LANES, NEAR, Verdict};
 
@@ -62,7 +62,7 @@ macro_rules! no_packets {
             const EXISTS: bool = false;
 
             #[inline(always)]
-            fn gather(self, _: &Bvh, _: &[&Glances]) -> Option<Self::Packet> {
+            fn gather(self, _: &Bvh, _: &[&Packet32]) -> Option<Self::Packet> {
                 None
             }
 
@@ -72,12 +72,12 @@ macro_rules! no_packets {
             }
 
             #[inline(always)]
-            fn one(self, _: &Bvh, packet: &Self::Packet, _: usize) -> (Self::Ray, Way) {
+            fn one(self, _: &Bvh, packet: &Self::Packet, _: usize) -> (Self::Ray, ClippedRay) {
                 match *packet {}
             }
 
             #[inline(always)]
-            fn way(self, _: &Bvh, packet: &Self::Packet, _: usize) -> Way {
+            fn way(self, _: &Bvh, packet: &Self::Packet, _: usize) -> ClippedRay {
                 match *packet {}
             }
 
@@ -127,12 +127,12 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
     type Lanes = CullRay;
 
     #[inline(always)]
-    fn nearby(self, _: &Bvh, _: &impl Sight) -> Option<(CullRay, Way)> {
+    fn nearby(self, _: &Bvh, _: &impl TreeRay) -> Option<(CullRay, ClippedRay)> {
         None
     }
 
     #[inline(always)]
-    fn afar(self, tree: &Bvh, sight: &impl Sight) -> Option<(CullRay, Way)> {
+    fn afar(self, tree: &Bvh, sight: &impl TreeRay) -> Option<(CullRay, ClippedRay)> {
         let ray = tree.cull(&sight.line(), if FUSED { Rounding::Fused } else { Rounding::Unfused })?;
         Some((ray, ray.way))
     }

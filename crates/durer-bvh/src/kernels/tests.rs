@@ -2,7 +2,7 @@ use super::avx2::Numbers;
 use super::{Avx2, Avx512, Kernel, Rows, Scalar, Stack, Together};
 use crate::frame::Frame;
 use crate::node::{ChildRef, Node, WIDTH};
-use crate::ray::{CullRay, Glance, Glances, Line, PACKET, Rounding, Sight, TWICE, Way};
+use crate::ray::{ClippedRay, CullRay, PACKET, Packet32, Ray32, Ray64, Rounding, TWICE, TreeRay};
 use crate::tree::Bvh;
 use crate::triangles::{Block, Filter, LANES, Verdict};
 use durer_math::eft::exponent;
@@ -48,8 +48,8 @@ fn direction() -> impl Strategy<Value = [f64; 3]> {
 }
 
 /// A ray from `origin`, all of it.
-fn line(origin: [f64; 3], direction: [f64; 3]) -> Line {
-    Line {
+fn line(origin: [f64; 3], direction: [f64; 3]) -> Ray64 {
+    Ray64 {
         origin: Point3::from(origin),
         direction: Vec3::from(direction),
         origin_error: Vec3::ZERO,
@@ -61,7 +61,7 @@ fn line(origin: [f64; 3], direction: [f64; 3]) -> Line {
 }
 
 /// Sixteen rays much like one.
-fn neighbours(o: [f64; 3], d: [f64; 3], aside: &[Moved], bent: &[Moved], t_max: &[f64]) -> Vec<Line> {
+fn neighbours(o: [f64; 3], d: [f64; 3], aside: &[Moved], bent: &[Moved], t_max: &[f64]) -> Vec<Ray64> {
     let moved = |by: &Moved, i: usize| if by.1 { by.0[i] } else { 0.0 };
     (0..TWICE)
         .map(|i| {
@@ -69,7 +69,7 @@ fn neighbours(o: [f64; 3], d: [f64; 3], aside: &[Moved], bent: &[Moved], t_max: 
             let d = [0, 1, 2].map(|k| d[k] + moved(&bent[i], k).copysign(d[k]));
             let d = Vec3::from(d);
             let d = d.scale2(-exponent(d.max_abs()));
-            Line { t_max: t_max[i], inner: (0.0, t_max[i]), ..line(origin, d.to_array()) }
+            Ray64 { t_max: t_max[i], inner: (0.0, t_max[i]), ..line(origin, d.to_array()) }
         })
         .collect()
 }
@@ -85,12 +85,12 @@ fn ends() -> impl Strategy<Value = Vec<f64>> {
 }
 
 /// The first of these rays as a packet, if they can go together.
-fn as_packet<K: Together<N>, const N: usize>(kernel: K, tree: &Bvh, lines: &[Line]) -> Option<K::Packet> {
-    let eight = |lines: &[Line]| {
-        let glances: [Glance; PACKET] = core::array::from_fn(|i| lines[i].glance());
-        Glances::of(&glances)
+fn as_packet<K: Together<N>, const N: usize>(kernel: K, tree: &Bvh, lines: &[Ray64]) -> Option<K::Packet> {
+    let eight = |lines: &[Ray64]| {
+        let glances: [Ray32; PACKET] = core::array::from_fn(|i| lines[i].glance());
+        Packet32::of(&glances)
     };
-    let glances: Option<Vec<Glances>> = lines[..N].chunks(PACKET).map(eight).collect();
+    let glances: Option<Vec<Packet32>> = lines[..N].chunks(PACKET).map(eight).collect();
     let glances = glances?;
     kernel.gather(tree, &glances.iter().collect::<Vec<_>>())
 }
@@ -132,7 +132,7 @@ fn same_verdict(a: &Verdict, b: &Verdict) -> Result<(), TestCaseError> {
 fn enters_alike<K: Together<N> + Kernel<Ray = Numbers>, const N: usize>(
     kernel: K,
     node: Node,
-    lines: &[Line],
+    lines: &[Ray64],
 ) -> Result<(), TestCaseError> {
     let mut tree = Bvh::assembled(Frame::around(&Aabb::EMPTY), vec![0, 1]);
     tree.set_nodes(vec![node]);
@@ -143,7 +143,7 @@ fn enters_alike<K: Together<N> + Kernel<Ray = Numbers>, const N: usize>(
     kernel.descend_together::<true>(&node, &packet, &[f32::NEG_INFINITY; N], (&ends, far), &mut rows);
     let rows = rows.drain();
     for (i, line) in lines[..N].iter().enumerate() {
-        let Some((ray, way)) = kernel.ready(&tree, line) else {
+        let Some((ray, way)) = kernel.set_up(&tree, line) else {
             return Err(TestCaseError::fail("it is nearby"));
         };
         let lanes = kernel.spread(&ray);
@@ -177,7 +177,7 @@ fn enters_alike<K: Together<N> + Kernel<Ray = Numbers>, const N: usize>(
 fn judges_alike<K: Together<N>, const N: usize>(
     kernel: K,
     block: &Block,
-    lines: &[Line],
+    lines: &[Ray64],
     awake: u32,
     far: f32,
     rounded: bool,
@@ -228,7 +228,7 @@ proptest! {
         let line = line(o, d);
         let frame = Frame::around(&Aabb::EMPTY);
         let Some(ray) = CullRay::new(&line, frame, &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
-        let ray = CullRay { way: Way { t_near, ..ray.way }, ..ray };
+        let ray = CullRay { way: ClippedRay { t_near, ..ray.way }, ..ray };
         let t_far = t_far.min(ray.way.t_far);
         stacks_alike(avx2, &node, &ray, t_far)?;
         if let Some(avx512) = Isa::available().find_map(Avx512::of) {
@@ -246,7 +246,7 @@ proptest! {
         let line = line(o.map(f64::from), d);
         let frame = Frame::around(&Aabb::EMPTY);
         let Some(ray) = CullRay::new(&line, frame, &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
-        let way = Way { t_near, is_exact, ..ray.way };
+        let way = ClippedRay { t_near, is_exact, ..ray.way };
         let filter = Filter::new(&line, &way, rounded);
         let one = Scalar::<true>.judge(&block, &filter, far);
         same_verdict(&one, &avx2.judge(&block, &filter, far))?;

@@ -54,7 +54,7 @@
 //! where `s` keeps hits apart whose rounded f64 parameters may stand in another order than the exact ones.
 
 use super::block::LANES;
-use crate::ray::{Line, Sight, Way};
+use crate::ray::{ClippedRay, Ray64, TreeRay};
 
 /// Half an ulp of 1 in f32.
 const U: f32 = 1.0 / (1 << 24) as f32;
@@ -94,7 +94,7 @@ pub(crate) struct Filter {
 impl Filter {
     /// The ray from its entry on; `rounded` says that f32 does not hold the corners.
     #[inline(always)]
-    pub(crate) fn new(sight: &impl Sight, way: &Way, rounded: bool) -> Self {
+    pub(crate) fn new(sight: &impl TreeRay, way: &ClippedRay, rounded: bool) -> Self {
         if way.is_exact {
             Self::of_exact(way, rounded)
         } else {
@@ -102,9 +102,9 @@ impl Filter {
         }
     }
 
-    /// The same for a ray that is [exactly known](Way::is_exact).
+    /// The same for a ray that is [exactly known](ClippedRay::is_exact).
     #[inline(always)]
-    pub(crate) fn of_exact(way: &Way, rounded: bool) -> Self {
+    pub(crate) fn of_exact(way: &ClippedRay, rounded: bool) -> Self {
         Self::exact(way, Self::of_corners(rounded))
     }
 
@@ -124,7 +124,7 @@ impl Filter {
 
     /// The formulas above with `e = g = 0`.
     #[inline(always)]
-    fn exact(way: &Way, w: f32) -> Self {
+    fn exact(way: &ClippedRay, w: f32) -> Self {
         let (size, m) = (most(&way.start), most(&way.direction));
         let c = 1.0 + size;
         let b = Self::B * m;
@@ -146,7 +146,7 @@ impl Filter {
     }
 
     #[inline(always)]
-    fn known_within(line: &Line, way: &Way, w: f32) -> Self {
+    fn known_within(line: &Ray64, way: &ClippedRay, w: f32) -> Self {
         let (o, d) = (way.start, way.direction);
         let (size, m) = (most(&o), most(&d));
         let g = line.direction_error.max_abs() as f32;

@@ -10,9 +10,9 @@ mod inside;
 pub(crate) use self::arrange::{Arrange, Unsorted};
 
 use self::inside::starts_inside;
-use crate::best::Best;
+use crate::closest::ClosestHit;
+use crate::filter_cache::{FilterKind, SlotFilter};
 use crate::ids::{Id, Ids};
-use crate::outlines::{Drawn, Seen};
 use crate::spans::Tracks;
 use core::ops::Range;
 use durer_math::{Aabb, Isa, Point3, RaySide, Shaft};
@@ -37,7 +37,7 @@ pub(crate) type Visit<'a> = dyn FnMut(u32, Id, Root) -> Flow + 'a;
 /// The object-safe face of an [`Arena`], for ranges of slots.
 pub(crate) trait AnyArena: Send + Sync {
     /// Improves `best` by the slots of a leaf, until it is satisfied.
-    fn improve(&self, isa: Isa, leaf: Range<u32>, ray: &LocalRay<'_>, filter: &Filter, best: &mut Best);
+    fn improve(&self, isa: Isa, leaf: Range<u32>, ray: &LocalRay<'_>, filter: &Filter, best: &mut ClosestHit);
     /// Shows every hit of the leaf to `visit`, until it says stop.
     fn each(
         &self,
@@ -69,9 +69,9 @@ pub(crate) trait AnyArena: Send + Sync {
     /// The point of a hit.
     fn resolve(&self, isa: Isa, slot: u32, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint;
     /// A slot as lanes see it.
-    fn drawn(&self, slot: u32) -> Drawn;
+    fn drawn(&self, slot: u32) -> SlotFilter;
     /// A solid of several parts as lanes see it, and the slots of its faces.
-    fn solid(&self, surface: u32) -> (Seen, Vec<u32>);
+    fn solid(&self, surface: u32) -> (FilterKind, Vec<u32>);
     /// Which rays meet a slot.
     fn mask(&self, slot: u32) -> u32;
     /// Which part of its surface a slot is.
@@ -272,7 +272,7 @@ struct Challenger<'a> {
     slot: u32,
     name: Id,
     ray: &'a LocalRay<'a>,
-    best: &'a mut Best,
+    best: &'a mut ClosestHit,
 }
 
 impl Sink for Challenger<'_> {
@@ -321,7 +321,14 @@ impl Sink for Forward<'_, '_> {
 }
 
 impl<S: Surface + 'static> AnyArena for Arena<S> {
-    fn improve(&self, isa: Isa, leaf: Range<u32>, ray: &LocalRay<'_>, filter: &Filter, best: &mut Best) {
+    fn improve(
+        &self,
+        isa: Isa,
+        leaf: Range<u32>,
+        ray: &LocalRay<'_>,
+        filter: &Filter,
+        best: &mut ClosestHit,
+    ) {
         isa.run(
             #[inline(always)]
             || {
@@ -413,21 +420,21 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
         )
     }
 
-    fn drawn(&self, slot: u32) -> Drawn {
+    fn drawn(&self, slot: u32) -> SlotFilter {
         let Slot { surface, part, whole, .. } = self.slot(slot);
         let sketch = surface.packet_filter(part);
         // The surface's own box is the tighter one, unless this is a small part of it.
         let bounds = if whole { surface.bounds() } else { sketch.bounds() };
-        Drawn { seen: Seen::of(&sketch), bounds }
+        SlotFilter { seen: FilterKind::of(&sketch), bounds }
     }
 
-    fn solid(&self, surface: u32) -> (Seen, Vec<u32>) {
+    fn solid(&self, surface: u32) -> (FilterKind, Vec<u32>) {
         let (sketch, parts) = self.surfaces[surface as usize].solid_packet_filter();
         let slot_of = |part: PartId| {
             let slot = self.placed.iter().position(|p| p.surface == surface && p.part == part.0);
             slot.map_or(surface, |slot| slot as u32)
         };
-        (Seen::of(&sketch), parts.into_iter().map(slot_of).collect())
+        (FilterKind::of(&sketch), parts.into_iter().map(slot_of).collect())
     }
 
     fn mask(&self, slot: u32) -> u32 {

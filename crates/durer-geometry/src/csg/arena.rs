@@ -4,12 +4,12 @@
 //! two flags above the number.
 
 use super::compound::Compound;
-use super::lanes::Body;
+use super::packet::PacketCsg;
 use super::trace::{Found, Start};
 use crate::arena::{AnyArena, Arrange, Filter, Unsorted, Visit};
-use crate::best::Best;
+use crate::closest::ClosestHit;
+use crate::filter_cache::{FilterKind, SlotFilter};
 use crate::ids::{Id, Ids};
-use crate::outlines::{Drawn, Seen};
 use crate::spans::Tracks;
 use core::ops::Range;
 use durer_bvh::{Entry, Frame};
@@ -108,7 +108,14 @@ impl Compounds {
 }
 
 impl AnyArena for Compounds {
-    fn improve(&self, isa: Isa, leaf: Range<u32>, ray: &LocalRay<'_>, filter: &Filter, best: &mut Best) {
+    fn improve(
+        &self,
+        isa: Isa,
+        leaf: Range<u32>,
+        ray: &LocalRay<'_>,
+        filter: &Filter,
+        best: &mut ClosestHit,
+    ) {
         for body in leaf.map(|i| i as usize) {
             if best.is_satisfied() {
                 return;
@@ -191,18 +198,18 @@ impl AnyArena for Compounds {
         )
     }
 
-    fn drawn(&self, slot: u32) -> Drawn {
+    fn drawn(&self, slot: u32) -> SlotFilter {
         let body = &self.bodies[slot as usize];
         let bounds = body.bounds();
         let first = self.first[slot as usize];
-        let seen = match Body::new(body, first..first + body.slots()) {
-            Some(body) => Seen::Body(Box::new(body)),
-            None => Seen::of(&FilterSource::vague(bounds)),
+        let seen = match PacketCsg::new(body, first..first + body.slots()) {
+            Some(body) => FilterKind::Body(Box::new(body)),
+            None => FilterKind::of(&FilterSource::vague(bounds)),
         };
-        Drawn { seen, bounds }
+        SlotFilter { seen, bounds }
     }
 
-    fn solid(&self, surface: u32) -> (Seen, Vec<u32>) {
+    fn solid(&self, surface: u32) -> (FilterKind, Vec<u32>) {
         (self.drawn(surface).seen, vec![surface])
     }
 

@@ -1,12 +1,12 @@
 //! A body with its leaves.
 
-use super::lanes::Operand;
+use super::packet::Operand;
 use super::sweep::Sense;
 use super::tree::{Expr, Tree, Values};
 use crate::arena::AnyArena;
+use crate::filter_cache::FilterKind;
 use crate::geometry::slots;
 use crate::ids::EVERYTHING;
-use crate::outlines::Seen;
 use crate::{BuildError, Builder, Geometry, ObjectId};
 use durer_bvh::Leaf;
 use durer_math::Aabb;
@@ -274,7 +274,7 @@ impl Compound {
                 let (seen, slots) = arena.solid(surface);
                 // Crossings of leaves in parts count, whichever way these are turned.
                 let seen = match seen {
-                    Seen::Outline(outline) if outline.is_turned() => Seen::Nothing,
+                    FilterKind::Outline(outline) if outline.is_turned() => FilterKind::Nothing,
                     seen => seen,
                 };
                 (arena.object_of(surface), seen, slots)
@@ -282,7 +282,7 @@ impl Compound {
             let whole = (0..arena.len()).filter(|&slot| arena.whole(slot).is_some());
             let whole = whole.map(|slot| (arena.name(slot).object, arena.drawn(slot).seen, vec![slot]));
             for (leaf, seen, slots) in in_parts.chain(whole) {
-                let (Seen::Outline(outline), Some(&any)) = (seen, slots.first()) else { return None };
+                let (FilterKind::Outline(outline), Some(&any)) = (seen, slots.first()) else { return None };
                 let (primitive, shown) = (arena.name(any).primitive, self.traits[leaf as usize].shown);
                 let slots = slots.into_iter().map(|slot| first + slot).collect();
                 operands[leaf as usize] = Some(Operand { outline, slots, primitive, shown });

@@ -15,11 +15,11 @@
 
 mod arena;
 mod compound;
-mod lanes;
+mod packet;
 mod sweep;
 mod trace;
 mod tree;
 
 pub(crate) use self::arena::{Compounds, same_surface};
 pub use self::compound::{Compound, CompoundBuilder, CsgError, Part, Shown};
-pub(crate) use self::lanes::{Body, Memory};
+pub(crate) use self::packet::{Memory, PacketCsg};

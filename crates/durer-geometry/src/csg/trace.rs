@@ -14,7 +14,7 @@ use crate::geometry::slots;
 use crate::ids::{EVERYTHING, Id};
 use core::cell::RefCell;
 use core::ops::Range;
-use durer_bvh::{Leaf, Line};
+use durer_bvh::{Leaf, Ray64};
 use durer_math::{Isa, RaySide};
 use durer_surfaces::{Flow, LocalRay, Need, Root, SurfacePoint};
 
@@ -132,7 +132,7 @@ impl Compound {
         let limit = ray.t_max.min(until);
         loop {
             let end = pieces.as_mut().and_then(Pieces::next_end).filter(|&end| end < whole.t_max);
-            let piece = Line { t_min: begin, t_max: end.unwrap_or(whole.t_max), ..whole };
+            let piece = Ray64 { t_min: begin, t_max: end.unwrap_or(whole.t_max), ..whole };
             self.gather(&asked, &piece, scratch);
             if known == f64::NEG_INFINITY {
                 inside = scratch.starts_inside(&self.tree);
@@ -174,7 +174,7 @@ impl Compound {
     }
 
     /// The ray as the tree of the leaves sees it.
-    fn line(&self, ray: &LocalRay<'_>, until: f64) -> Line {
+    fn line(&self, ray: &LocalRay<'_>, until: f64) -> Ray64 {
         // All that a ray crosses of a leaf in parts tells where it starts.
         let end = if self.in_parts { f64::INFINITY } else { ray.t_max.min(until) };
         let (near, mut far) = ray.unmoved().window((ray.t_min, end));
@@ -182,7 +182,7 @@ impl Compound {
             // The neighbours of what reaches over the end.
             far = (far.abs() + self.size).mul_add(MARGIN, far);
         }
-        Line {
+        Ray64 {
             origin: ray.o,
             direction: ray.d,
             origin_error: ray.o_err,
@@ -225,7 +225,7 @@ impl Compound {
     }
 
     /// Gathers the crossings of the leaves in whose boxes a line is, those of each leaf once and all of them.
-    fn gather(&self, asked: &Asked<'_>, line: &Line, scratch: &mut Scratch) {
+    fn gather(&self, asked: &Asked<'_>, line: &Ray64, scratch: &mut Scratch) {
         let visit = |leaf| {
             self.visit(asked, leaf, scratch);
             false
@@ -359,7 +359,8 @@ impl Compound {
         // All of them are near.
         let (near, far) = ray.unmoved().window((root.lo, root.hi));
         let more = |t: f64| (t.abs() + self.size) * MARGIN;
-        let line = Line { t_min: near - more(near), t_max: far + more(far), ..self.line(ray, f64::INFINITY) };
+        let line =
+            Ray64 { t_min: near - more(near), t_max: far + more(far), ..self.line(ray, f64::INFINITY) };
         SCRATCH.with_borrow_mut(|scratch| {
             let asked = self.begin(isa, ray, None, scratch);
             self.gather(&asked, &line, scratch);

@@ -35,7 +35,7 @@ impl Node {
 
 /// Where a leaf stands in the tree.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct TreePosition {
     node: u32,
     inverted: bool,
 }
@@ -45,7 +45,7 @@ struct Place {
 pub(crate) struct Tree {
     nodes: Vec<Node>,
     /// By leaf.
-    places: Vec<Place>,
+    places: Vec<TreePosition>,
 }
 
 /// What a node is made of.
@@ -62,13 +62,13 @@ impl Tree {
     pub(crate) fn new(exprs: &[Expr], root: u32, leaves: usize) -> Self {
         let first = Node { parent: NONE, all: false, children: 0, outside: 0 };
         let mut tree =
-            Self { nodes: vec![first], places: vec![Place { node: NONE, inverted: false }; leaves] };
+            Self { nodes: vec![first], places: vec![TreePosition { node: NONE, inverted: false }; leaves] };
         let mut is_first = true;
         let mut waiting = vec![(root, false, 0_u32)];
         while let Some((expr, inverted, parent)) = waiting.pop() {
             let (all, parts) = match &exprs[expr as usize] {
                 Expr::Leaf(leaf) => {
-                    tree.places[*leaf as usize] = Place { node: parent, inverted };
+                    tree.places[*leaf as usize] = TreePosition { node: parent, inverted };
                     tree.nodes[parent as usize].children += 1;
                     continue;
                 }
@@ -143,7 +143,7 @@ impl Tree {
         for i in 1..within.len() {
             within[i] = cut(within[i], within[self.nodes[i].parent as usize]);
         }
-        let matters = |(place, bounds): (&Place, &Aabb)| match within.get(place.node as usize) {
+        let matters = |(place, bounds): (&TreePosition, &Aabb)| match within.get(place.node as usize) {
             Some(node) => cut(*bounds, *node),
             None => Aabb::EMPTY,
         };
@@ -256,7 +256,7 @@ impl Values {
             return;
         }
         self.bits[leaf as usize] = Bit { epoch: self.epoch, holds };
-        let Place { mut node, inverted } = tree.places[leaf as usize];
+        let TreePosition { mut node, inverted } = tree.places[leaf as usize];
         let mut more = holds != inverted;
         let step = self.step;
         while node != NONE {
@@ -277,7 +277,7 @@ impl Values {
 
     /// Whether the root would change if a leaf did: no node above the leaf is decided by its other children.
     pub(crate) fn matters(&self, tree: &Tree, leaf: u32) -> bool {
-        let Place { mut node, inverted } = tree.places[leaf as usize];
+        let TreePosition { mut node, inverted } = tree.places[leaf as usize];
         let mut holds = self.leaf(leaf) != inverted;
         while node != NONE {
             let (state, its) = (&self.counts[node as usize], &tree.nodes[node as usize]);

@@ -2,7 +2,7 @@
 
 use super::buffers::Buffers;
 use super::{item, wrong};
-use crate::error::{ErrorKind, Spot};
+use crate::error::{ErrorKind, Location};
 use gltf::json::accessor::{Accessor, ComponentType, Type};
 use gltf::json::buffer::View;
 use gltf::json::validation::Checked;
@@ -14,7 +14,7 @@ struct Layout {
     kind: ComponentType,
     components: usize,
     count: u64,
-    spot: Spot,
+    spot: Location,
 }
 
 /// All accessors of a file.
@@ -26,7 +26,7 @@ pub(super) struct Accessors<'a> {
 
 impl Accessors<'_> {
     /// How many elements an accessor says it has.
-    pub(super) fn count(&self, number: usize, asked: Spot) -> Result<u64, ErrorKind> {
+    pub(super) fn count(&self, number: usize, asked: Location) -> Result<u64, ErrorKind> {
         Ok(item(self.list, number, "accessor", asked)?.count.0)
     }
 
@@ -34,7 +34,7 @@ impl Accessors<'_> {
     pub(super) fn vectors<const N: usize>(
         &mut self,
         number: usize,
-        asked: Spot,
+        asked: Location,
     ) -> Result<Vec<[f64; N]>, ErrorKind> {
         let is_normalized = item(self.list, number, "accessor", asked)?.normalized;
         self.elements(number, asked, |kind, bytes| {
@@ -44,12 +44,15 @@ impl Accessors<'_> {
     }
 
     /// The elements of an accessor of whole numbers.
-    pub(super) fn indices(&mut self, number: usize, asked: Spot) -> Result<Vec<u32>, ErrorKind> {
+    pub(super) fn indices(&mut self, number: usize, asked: Location) -> Result<Vec<u32>, ErrorKind> {
         let Checked::Valid(kind) = item(self.list, number, "accessor", asked)?.component_type else {
-            return wrong(Spot::Element("accessor", number), "its componentType is unknown");
+            return wrong(Location::Element("accessor", number), "its componentType is unknown");
         };
         if !matches!(kind.0, ComponentType::U8 | ComponentType::U16 | ComponentType::U32) {
-            return wrong(Spot::Element("accessor", number), "indices must be whole numbers without a sign");
+            return wrong(
+                Location::Element("accessor", number),
+                "indices must be whole numbers without a sign",
+            );
         }
         Ok(self.elements(number, asked, |_, bytes| [whole(bytes)])?.into_iter().map(|[i]| i).collect())
     }
@@ -57,11 +60,11 @@ impl Accessors<'_> {
     fn elements<T: Copy + Default, const N: usize>(
         &mut self,
         number: usize,
-        asked: Spot,
+        asked: Location,
         read: impl Fn(ComponentType, &[u8]) -> [T; N],
     ) -> Result<Vec<[T; N]>, ErrorKind> {
         let accessor = item(self.list, number, "accessor", asked)?;
-        let spot = Spot::Element("accessor", number);
+        let spot = Location::Element("accessor", number);
         let Checked::Valid(kind) = accessor.component_type else {
             return wrong(spot, "its componentType is unknown");
         };
@@ -138,7 +141,7 @@ impl Accessors<'_> {
         let stride = self.views[view].byte_stride.map_or(element, |s| s.0);
         if stride < element {
             return wrong(
-                Spot::Element("bufferView", view),
+                Location::Element("bufferView", view),
                 format!("its byteStride of {stride} is less than an element's {element} bytes"),
             );
         }

@@ -1,7 +1,7 @@
 //! Buffers: the chunk behind the text, files beside it, or bytes written into it as base 64.
 
 use super::item;
-use crate::error::{ErrorKind, Spot};
+use crate::error::{ErrorKind, Location};
 use crate::text::shortened;
 use gltf::json::Buffer;
 use gltf::json::buffer::View;
@@ -31,9 +31,14 @@ impl<'a> Buffers<'a> {
     }
 
     /// The bytes of a view.
-    pub(super) fn view(&mut self, views: &[View], number: usize, asked: Spot) -> Result<&[u8], ErrorKind> {
+    pub(super) fn view(
+        &mut self,
+        views: &[View],
+        number: usize,
+        asked: Location,
+    ) -> Result<&[u8], ErrorKind> {
         let view = item(views, number, "bufferView", asked)?;
-        let spot = Spot::Element("bufferView", number);
+        let spot = Location::Element("bufferView", number);
         let buffer = view.buffer.value();
         item(self.list, buffer, "buffer", spot)?;
         let bytes = self.bytes(buffer)?;
@@ -59,7 +64,7 @@ impl<'a> Buffers<'a> {
     }
 
     fn load(&self, number: usize) -> Result<Cow<'a, [u8]>, ErrorKind> {
-        let (buffer, spot) = (&self.list[number], Spot::Element("buffer", number));
+        let (buffer, spot) = (&self.list[number], Location::Element("buffer", number));
         let promised = buffer.byte_length.0;
         let bytes = match buffer.uri.as_deref() {
             None => Cow::Borrowed(match self.chunk {
@@ -83,7 +88,7 @@ impl<'a> Buffers<'a> {
     }
 
     /// The bytes of a file beside this one, not more of them than are promised.
-    fn beside(&self, uri: &str, promised: u64, spot: Spot) -> Result<Vec<u8>, ErrorKind> {
+    fn beside(&self, uri: &str, promised: u64, spot: Location) -> Result<Vec<u8>, ErrorKind> {
         let path = unescaped(uri);
         let Some(folder) = self.folder else {
             return super::wrong(
@@ -134,7 +139,7 @@ fn unescaped(uri: &str) -> PathBuf {
 }
 
 /// The bytes that are spelt in base 64 (S. Josefsson, RFC 4648, 2006).
-fn base64(text: &[u8], spot: Spot) -> Result<Vec<u8>, ErrorKind> {
+fn base64(text: &[u8], spot: Location) -> Result<Vec<u8>, ErrorKind> {
     let text = text.strip_suffix(b"==").or_else(|| text.strip_suffix(b"=")).unwrap_or(text);
     let mut bytes = Vec::with_capacity(text.len() / 4 * 3 + 2);
     for four in text.chunks(4) {

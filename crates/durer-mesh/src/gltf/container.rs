@@ -3,7 +3,7 @@
 //! A `.glb` file is 12 bytes (`glTF`, a version, the length of all) and chunks: a length, a kind, as many bytes. The first is the text, the second, if its kind
 //! is `BIN`, the buffer without a name. Chunks of other kinds are passed over.
 
-use crate::error::{ErrorKind, Spot};
+use crate::error::{ErrorKind, Location};
 use crate::text::{one_line, shortened};
 use gltf::json::{Error, Root, Value, deserialize};
 
@@ -14,11 +14,11 @@ const BUFFER: &[u8] = b"BIN\0";
 /// The text and the chunk behind it.
 pub(super) fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ErrorKind> {
     let Some(rest) = bytes.strip_prefix(b"glTF") else { return Ok((bytes, None)) };
-    let end = |expected| ErrorKind::End { spot: Spot::Byte(bytes.len()), expected };
+    let end = |expected| ErrorKind::End { spot: Location::Byte(bytes.len()), expected };
     let (version, rest) = number(rest).ok_or_else(|| end("a version and a length"))?;
     if version != 2 {
         return Err(ErrorKind::Unsupported {
-            spot: Spot::Byte(4),
+            spot: Location::Byte(4),
             what: format!("version {version} of glTF"),
         });
     }
@@ -36,13 +36,17 @@ pub(super) fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ErrorKind> {
                 promise(format!("bytes in its chunk {kind}"), length, body.len())
                     .map(|()| (word, &body[..length]))
             }
-            _ => Err(ErrorKind::End { spot: Spot::Byte(whole.len()), expected: "the head of a chunk" }),
+            _ => Err(ErrorKind::End { spot: Location::Byte(whole.len()), expected: "the head of a chunk" }),
         })
     };
     let (word, text) = chunk("JSON").ok_or_else(|| end("the chunk JSON"))??;
     if word != TEXT {
         let found = shortened(&String::from_utf8_lossy(word));
-        return Err(ErrorKind::Expected { spot: Spot::Byte(HEADER + 4), expected: "the chunk JSON", found });
+        return Err(ErrorKind::Expected {
+            spot: Location::Byte(HEADER + 4),
+            expected: "the chunk JSON",
+            found,
+        });
     }
     match chunk("BIN").transpose()? {
         Some((BUFFER, buffer)) => Ok((text, Some(buffer))),
@@ -106,12 +110,12 @@ fn check_indices(whole: &Value) -> Result<(), ErrorKind> {
     for (kind, list) in lists {
         for (number, item) in whole[list].as_array().into_iter().flatten().enumerate() {
             if let Some(index) = too_large(item, false) {
-                return super::wrong(Spot::Element(kind, number), format!("{index} is no index"));
+                return super::wrong(Location::Element(kind, number), format!("{index} is no index"));
             }
         }
     }
     match too_large(&whole["scene"], true) {
-        Some(index) => super::wrong(Spot::Element("scene", 0), format!("{index} is no index")),
+        Some(index) => super::wrong(Location::Element("scene", 0), format!("{index} is no index")),
         None => Ok(()),
     }
 }

@@ -1,7 +1,7 @@
 //! Materials: their base colours. Numbers in these files are light, as those of scenes are.
 
-use crate::error::{ErrorKind, Spot};
-use crate::stage;
+use crate::default_view;
+use crate::error::{ErrorKind, Location};
 use durer_scene::{Colour, Rgb, Texture};
 use gltf::json::Material;
 use gltf::json::material::AlphaMode;
@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 /// What a material looks like as far as it can be told without its images.
 pub(super) fn texture(material: &Material, number: usize) -> Result<Arc<Texture>, ErrorKind> {
-    let spot = Spot::Element("material", number);
+    let spot = Location::Element("material", number);
     let factor = material.pbr_metallic_roughness.base_color_factor.0.map(f64::from);
     if let Some(x) = factor.into_iter().find(|x| !(0.0..=1.0).contains(x)) {
         return super::wrong(spot, format!("its baseColorFactor must be from 0 to 1, got {x}"));
@@ -26,5 +26,5 @@ pub(super) fn texture(material: &Material, number: usize) -> Result<Arc<Texture>
         Checked::Invalid => return super::wrong(spot, "its alphaMode is unknown"),
     };
     let colour = Colour { transmit: 1.0 - cover, ..Colour::opaque(Rgb::new(r, g, b)) };
-    Ok(Arc::new(stage::paint(colour)))
+    Ok(Arc::new(default_view::paint(colour)))
 }

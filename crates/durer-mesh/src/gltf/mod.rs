@@ -14,7 +14,7 @@ mod material;
 mod nodes;
 mod primitive;
 
-use crate::error::{ErrorKind, Spot};
+use crate::error::{ErrorKind, Location};
 use crate::text::shortened;
 use crate::{Group, Instance};
 use buffers::Buffers;
@@ -34,11 +34,11 @@ pub(crate) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Vec<Group>, V
     let major = root.asset.version.split('.').next();
     if major != Some("2") {
         let what = format!("version {} of glTF", shortened(&root.asset.version));
-        return Err(ErrorKind::Unsupported { spot: Spot::Element("asset", 0), what });
+        return Err(ErrorKind::Unsupported { spot: Location::Element("asset", 0), what });
     }
     for (number, name) in root.extensions_required.iter().enumerate() {
         if !UNDERSTOOD.contains(&name.as_str()) && !name.starts_with("KHR_materials_") {
-            let spot = Spot::Element("extensionsRequired", number);
+            let spot = Location::Element("extensionsRequired", number);
             return Err(ErrorKind::Unsupported { spot, what: shortened(name) });
         }
     }
@@ -66,7 +66,7 @@ pub(crate) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Vec<Group>, V
         clear += group.map_or(0, |group| clear_faces(&groups[group]));
         if clear > MOST_CLEAR {
             let what = format!("{clear} clear faces, counted as often as they are shown");
-            return Err(ErrorKind::Unsupported { spot: Spot::Element("mesh", mesh), what });
+            return Err(ErrorKind::Unsupported { spot: Location::Element("mesh", mesh), what });
         }
     }
     Ok((groups, instances))
@@ -78,12 +78,12 @@ fn clear_faces(group: &Group) -> usize {
 }
 
 /// What an index of a list names.
-fn item<'a, T>(list: &'a [T], index: usize, what: &'static str, spot: Spot) -> Result<&'a T, ErrorKind> {
+fn item<'a, T>(list: &'a [T], index: usize, what: &'static str, spot: Location) -> Result<&'a T, ErrorKind> {
     let missing = ErrorKind::Index { spot, what, index: index as i64, count: list.len() };
     list.get(index).ok_or(missing)
 }
 
 /// Something that the format does not allow.
-fn wrong<T>(spot: Spot, said: impl Into<String>) -> Result<T, ErrorKind> {
+fn wrong<T>(spot: Location, said: impl Into<String>) -> Result<T, ErrorKind> {
     Err(ErrorKind::Element { spot, said: said.into() })
 }

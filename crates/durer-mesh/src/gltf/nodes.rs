@@ -1,7 +1,7 @@
 //! The tree of nodes: which meshes are shown, and where.
 
 use super::{item, wrong};
-use crate::error::{ErrorKind, Spot};
+use crate::error::{ErrorKind, Location};
 use durer_math::{Affine, Point3};
 use gltf::json::{Node, Root};
 
@@ -17,8 +17,8 @@ pub(super) fn shown(root: &Root) -> Result<Vec<(usize, Affine)>, ErrorKind> {
     let mut open: Vec<(usize, Option<usize>, Affine)> =
         tops.into_iter().rev().map(|node| (node, None, Affine::IDENTITY)).collect();
     while let Some((number, parent, around)) = open.pop() {
-        let spot = Spot::Element("node", number);
-        let node = item(&root.nodes, number, "node", parent.map_or(asked, |p| Spot::Element("node", p)))?;
+        let spot = Location::Element("node", number);
+        let node = item(&root.nodes, number, "node", parent.map_or(asked, |p| Location::Element("node", p)))?;
         if std::mem::replace(&mut seen[number], true) {
             let above = std::iter::successors(parent, |&p: &usize| parents[p]).any(|p| p == number);
             return wrong(
@@ -39,13 +39,13 @@ pub(super) fn shown(root: &Root) -> Result<Vec<(usize, Affine)>, ErrorKind> {
 }
 
 /// The nodes at the top, and what names them.
-fn tops(root: &Root) -> Result<(Vec<usize>, Spot), ErrorKind> {
+fn tops(root: &Root) -> Result<(Vec<usize>, Location), ErrorKind> {
     let number = root.scene.map_or(0, |s| s.value());
     if root.scene.is_some() || !root.scenes.is_empty() {
-        let scene = item(&root.scenes, number, "scene", Spot::Element("scene", number))?;
+        let scene = item(&root.scenes, number, "scene", Location::Element("scene", number))?;
         return Ok((
             scene.nodes.iter().map(gltf::json::Index::value).collect(),
-            Spot::Element("scene", number),
+            Location::Element("scene", number),
         ));
     }
     let mut is_child = vec![false; root.nodes.len()];
@@ -56,13 +56,13 @@ fn tops(root: &Root) -> Result<(Vec<usize>, Spot), ErrorKind> {
     }
     let tops: Vec<usize> = (0..root.nodes.len()).filter(|&n| !is_child[n]).collect();
     match (tops.is_empty(), root.nodes.is_empty()) {
-        (true, false) => wrong(Spot::Element("node", 0), "all nodes are children of others"),
-        _ => Ok((tops, Spot::Element("scene", 0))),
+        (true, false) => wrong(Location::Element("node", 0), "all nodes are children of others"),
+        _ => Ok((tops, Location::Element("scene", 0))),
     }
 }
 
 /// From a node's frame to its parent's: a matrix, column by column, or a scale, then a rotation, then a translation.
-fn local(node: &Node, spot: Spot) -> Result<Affine, ErrorKind> {
+fn local(node: &Node, spot: Location) -> Result<Affine, ErrorKind> {
     let wide = |x: f32| f64::from(x);
     let (rows, centre) = match node.matrix {
         Some(m) => {
@@ -86,7 +86,7 @@ fn local(node: &Node, spot: Spot) -> Result<Affine, ErrorKind> {
 }
 
 /// The rotation of a quaternion `x y z w` of any length but zero; that of one of length 1 that was rounded is still a rotation.
-fn rotation(q: [f64; 4], spot: Spot) -> Result<[[f64; 3]; 3], ErrorKind> {
+fn rotation(q: [f64; 4], spot: Location) -> Result<[[f64; 3]; 3], ErrorKind> {
     let [x, y, z, w] = q;
     let square: f64 = q.iter().map(|c| c * c).sum();
     // f32 numbers have squares that are normal numbers.

@@ -4,7 +4,7 @@ use super::accessor::Accessors;
 use super::buffers::Buffers;
 use super::{item, material, wrong};
 use crate::Group;
-use crate::error::{ErrorKind, Spot};
+use crate::error::{ErrorKind, Location};
 use durer_math::{Point3, Vec3};
 use durer_scene::{Face, Mesh};
 use gltf::json::Root;
@@ -45,14 +45,19 @@ impl<'a> Assembly<'a> {
         let mesh = &self.root.meshes[number];
         let mut lists = Lists::default();
         for (part, primitive) in mesh.primitives.iter().enumerate() {
-            self.primitive(primitive, &mut lists, Spot::Primitive(number, part))?;
+            self.primitive(primitive, &mut lists, Location::Primitive(number, part))?;
         }
         let mut group = Group { name: mesh.name.clone().unwrap_or_default(), mesh: lists.mesh };
         group.end();
         Ok(group)
     }
 
-    fn primitive(&mut self, primitive: &Primitive, lists: &mut Lists, spot: Spot) -> Result<(), ErrorKind> {
+    fn primitive(
+        &mut self,
+        primitive: &Primitive,
+        lists: &mut Lists,
+        spot: Location,
+    ) -> Result<(), ErrorKind> {
         let Checked::Valid(mode) = primitive.mode else { return wrong(spot, "its mode is unknown") };
         if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
             return Ok(());
@@ -74,7 +79,7 @@ impl<'a> Assembly<'a> {
         let mesh = &mut lists.mesh;
         let corners = match primitive.indices {
             Some(indices) => {
-                let (indices, place) = (indices.value(), Spot::Element("accessor", indices.value()));
+                let (indices, place) = (indices.value(), Location::Element("accessor", indices.value()));
                 let corners = self.accessors.indices(indices, spot)?;
                 if let Some(&index) = corners.iter().find(|&&i| u64::from(i) >= count) {
                     let (index, count) = (i64::from(index), count as usize);
@@ -120,12 +125,12 @@ impl<'a> Assembly<'a> {
         all: &mut Vec<T>,
         known: &mut HashMap<usize, u32>,
         make: impl Fn([f64; N]) -> T,
-        spot: Spot,
+        spot: Location,
     ) -> Result<u32, ErrorKind> {
         let there = self.accessors.count(number, spot)?;
         if there != count {
             let said = format!("the primitive has {count} positions, but {there} of these");
-            return wrong(Spot::Element("accessor", number), said);
+            return wrong(Location::Element("accessor", number), said);
         }
         if let Some(&first) = known.get(&number) {
             return Ok(first);
@@ -143,7 +148,7 @@ impl<'a> Assembly<'a> {
         &self,
         primitive: &Primitive,
         lists: &mut Lists,
-        spot: Spot,
+        spot: Location,
     ) -> Result<Option<u32>, ErrorKind> {
         let Some(number) = primitive.material.map(|m| m.value()) else { return Ok(None) };
         if let Some(&known) = lists.textures.get(&number) {

@@ -6,11 +6,11 @@ use durer_math::{Affine, Point3};
 use durer_scene::{BlobComponent, BlobShape};
 
 use super::Shape;
-use crate::diagnostics::{Fault, Place, Result};
-use crate::emit;
+use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
-use crate::reader::Reader;
+use crate::parser::Parser;
+use crate::scene_builder;
 use crate::texture::{Layer, Texture};
 use crate::transform::Matrix;
 
@@ -48,7 +48,7 @@ fn point([x, y, z]: [f64; 3]) -> Point3 {
     Point3::new(x, y, z)
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// The items of a blob, after its opening brace.
     pub(crate) fn blob(&mut self, place: Place) -> Result<Shape> {
         let mut blob = Blob { threshold: THRESHOLD, components: Vec::new(), textures: Vec::new(), layers: 0 };
@@ -60,7 +60,7 @@ impl Reader<'_> {
                     self.next()?;
                     blob.threshold = self.float()?;
                     if blob.threshold <= 0.0 {
-                        return Err(Fault::invalid(
+                        return Err(Error::invalid(
                             at,
                             format!("the threshold of a blob is greater than 0, not {}", blob.threshold),
                         ));
@@ -78,7 +78,7 @@ impl Reader<'_> {
                     self.expect(Mark::BraceOpen)?;
                     let (base, cap) = (self.corner()?, self.corner()?);
                     if base == cap {
-                        return Err(Fault::invalid(at, "this cylinder's ends are the same point"));
+                        return Err(Error::invalid(at, "this cylinder's ends are the same point"));
                     }
                     blob.add(self.field(BlobShape::Segment(point(base), point(cap)))?);
                 }
@@ -102,7 +102,7 @@ impl Reader<'_> {
             self.check_memory(blob.size(), place)?;
         }
         if blob.components.is_empty() {
-            return Err(Fault::invalid(place, "this blob has no components"));
+            return Err(Error::invalid(place, "this blob has no components"));
         }
         Ok(Shape::Blob(Rc::new(blob)))
     }
@@ -130,7 +130,7 @@ impl Reader<'_> {
             return Err(self.unexpected(&lexeme, "a transform or the texture of the component, or `}`"));
         }
         let at = self.here();
-        let place = if matrix.is_identity() { Affine::IDENTITY } else { emit::affine(&matrix, at)? };
+        let place = if matrix.is_identity() { Affine::IDENTITY } else { scene_builder::affine(&matrix, at)? };
         Ok((BlobComponent { shape, radius, strength, place }, texture))
     }
 
@@ -140,7 +140,7 @@ impl Reader<'_> {
         let at = self.here();
         let radius = self.float()?;
         if radius <= 0.0 {
-            return Err(Fault::invalid(
+            return Err(Error::invalid(
                 at,
                 format!("the radius of a blob's component is greater than 0, not {radius}"),
             ));

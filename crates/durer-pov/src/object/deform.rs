@@ -9,15 +9,15 @@ use durer_math::{Aabb, Vec3};
 use durer_scene::{Container, Warp};
 
 use super::{Object, Shape};
-use crate::diagnostics::{Fault, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
-use crate::reader::Reader;
+use crate::parser::Parser;
 
 /// More than this no solid is deformed in one block.
 const MOST_WARPS: usize = 64;
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// The solid and what is done to it, from the opening brace on.
     pub(crate) fn deform(&mut self, place: Place) -> Result<Shape> {
         self.expect(Mark::BraceOpen)?;
@@ -47,7 +47,7 @@ impl Reader<'_> {
                         let text = format!(
                             "the factor of a taper is greater than 0, not {factor}: at 0 it would shrink to a line"
                         );
-                        return Err(Fault::invalid(at, text));
+                        return Err(Error::invalid(at, text));
                     }
                     let [from, to] = r.stretch("taper")?;
                     Ok(Warp::Taper { axis, factor, from, to })
@@ -62,7 +62,7 @@ impl Reader<'_> {
                     if crate::transform::cross(a, b) == [0.0; 3] {
                         let text =
                             "a bend goes to the side of its axis, and this is the direction of the axis";
-                        return Err(Fault::invalid(at, text));
+                        return Err(Error::invalid(at, text));
                     }
                     let degrees = r.number("the angle of the bend, in degrees")?;
                     let [from, to] = r.stretch("bend")?;
@@ -75,7 +75,7 @@ impl Reader<'_> {
             };
             warps.push(warp);
             if warps.len() > MOST_WARPS {
-                return Err(Fault::invalid(
+                return Err(Error::invalid(
                     place,
                     format!("a solid is deformed at most {MOST_WARPS} times in one block"),
                 ));
@@ -101,7 +101,7 @@ impl Reader<'_> {
     fn side(&mut self, example: &str) -> Result<Vec3> {
         self.peek()?;
         let at = self.here();
-        let missing = || Fault::invalid(at, format!("expected a direction, as in `{example}`"));
+        let missing = || Error::invalid(at, format!("expected a direction, as in `{example}`"));
         if !self.starts_number()? {
             return Err(missing());
         }
@@ -112,7 +112,7 @@ impl Reader<'_> {
             _ => return Err(missing()),
         };
         if v == [0.0; 3] {
-            return Err(Fault::invalid(
+            return Err(Error::invalid(
                 at,
                 format!("this direction has no length: expected one, as in `{example}`"),
             ));
@@ -160,7 +160,7 @@ impl Reader<'_> {
             if formula.inputs() != 3 {
                 let text =
                     format!("a function of a point has three parameters, this one has {}", formula.inputs());
-                return Err(Fault::invalid(at, text));
+                return Err(Error::invalid(at, text));
             }
             functions.push(formula);
             self.skip_comma()?;
@@ -173,19 +173,19 @@ impl Reader<'_> {
             );
         }
         let Container::Box(a, b) = self.container()? else {
-            return Err(Fault::invalid(at, "a deformed solid is contained by a box"));
+            return Err(Error::invalid(at, "a deformed solid is contained by a box"));
         };
         let functions: Box<[_; 3]> = functions
             .into_boxed_slice()
             .try_into()
-            .map_err(|_| Fault::invalid(at, "expected three functions"))?;
+            .map_err(|_| Error::invalid(at, "expected three functions"))?;
         Ok(Warp::Inverse { functions: Arc::from(functions), within: Aabb::from_points([a, b]) })
     }
 }
 
 /// Refuses what has no formula.
 fn check(object: &Rc<Object>) -> Result<()> {
-    let refuse = |why: &str| Err(Fault::invalid(object.at, why));
+    let refuse = |why: &str| Err(Error::invalid(object.at, why));
     if !object.clips.is_empty() {
         return refuse("what is clipped cannot be deformed: an intersection can");
     }

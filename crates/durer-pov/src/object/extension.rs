@@ -4,10 +4,10 @@
 //! settings of the kind `word value`, then the modifiers of any object.
 
 use super::Shape;
-use crate::diagnostics::{Fault, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
+use crate::interner::Name;
 use crate::keywords::Keyword;
-use crate::names::Name;
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 use crate::value::Terms;
 use durer_scene::FillRule;
 
@@ -75,7 +75,7 @@ impl Word {
     }
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// The surface that `name` stands for, if it is one of durer's words.
     pub(crate) fn extension(&self, name: Name) -> Option<Word> {
         Word::from_text(self.names.text(name))
@@ -112,7 +112,7 @@ impl Reader<'_> {
                 let at = self.here();
                 let degrees = self.float()?;
                 if !(degrees > 0.0 && degrees < 180.0) {
-                    return Err(Fault::invalid(
+                    return Err(Error::invalid(
                         at,
                         "the half angle of a sector is between 0 and 180 degrees",
                     ));
@@ -127,7 +127,7 @@ impl Reader<'_> {
                 let corner = self.corner()?;
                 let (u, v) = (self.normal("the first edge")?, self.normal("the second edge")?);
                 if crate::transform::cross(u, v) == [0.0; 3] {
-                    return Err(Fault::invalid(place, "the edges of this parallelogram are parallel"));
+                    return Err(Error::invalid(place, "the edges of this parallelogram are parallel"));
                 }
                 return Ok(Shape::Parallelogram { corner, u, v });
             }
@@ -150,7 +150,7 @@ impl Reader<'_> {
                 named.kind = match given {
                     1.0 => QuadricKind::HyperboloidOneSheet,
                     2.0 => QuadricKind::HyperboloidTwoSheets,
-                    _ => return Err(Fault::invalid(at, "a hyperboloid has 1 or 2 sheets")),
+                    _ => return Err(Error::invalid(at, "a hyperboloid has 1 or 2 sheets")),
                 };
                 sheets = Some(given);
             } else if self.small_word("from")? {
@@ -160,7 +160,7 @@ impl Reader<'_> {
             }
         }
         if word == Word::Hyperboloid && sheets.is_none() {
-            return Err(Fault::invalid(
+            return Err(Error::invalid(
                 place,
                 "say how many sheets this hyperboloid has: `sheets 1` or `sheets 2`",
             ));
@@ -179,7 +179,7 @@ impl Reader<'_> {
             let text = format!(
                 "the focal distance of a cyclide's ellipse is at least 0 and less than its semi-axis {a}, not {c}"
             );
-            return Err(Fault::invalid(at, text));
+            return Err(Error::invalid(at, text));
         }
         self.skip_comma()?;
         Ok(Shape::Cyclide { a, c, d: self.radius("the mean radius of the cyclide's spheres")? })
@@ -195,7 +195,7 @@ impl Reader<'_> {
         }
         let to = self.float()?;
         if from >= to {
-            return Err(Fault::invalid(at, "`from a to b` needs a below b"));
+            return Err(Error::invalid(at, "`from a to b` needs a below b"));
         }
         Ok([from, to])
     }
@@ -216,10 +216,10 @@ impl Reader<'_> {
         };
         let round = matches!(word, Word::Spheroid | Word::CircularCone | Word::CircularCylinder);
         if round && axes[0] != axes[1] {
-            return Err(Fault::invalid(place, "the first two semi-axes of a round surface are equal"));
+            return Err(Error::invalid(place, "the first two semi-axes of a round surface are equal"));
         }
         if axes.iter().any(|v| *v <= 0.0 || !v.is_finite()) {
-            return Err(Fault::invalid(place, "semi-axes are positive"));
+            return Err(Error::invalid(place, "semi-axes are positive"));
         }
         Ok(axes)
     }
@@ -230,7 +230,7 @@ impl Reader<'_> {
             [a, b, c] if wanted == 3 => Ok([a, b, c]),
             // x*2 + y*3 has three components, too.
             [a, b, 0.0] if wanted == 2 => Ok([a, b, 1.0]),
-            _ => Err(Fault::invalid(place, format!("expected {wanted} semi-axes"))),
+            _ => Err(Error::invalid(place, format!("expected {wanted} semi-axes"))),
         }
     }
 
@@ -243,6 +243,6 @@ impl Reader<'_> {
             return Ok(FillRule::NonZero);
         }
         self.next()?;
-        Err(Fault::invalid(self.here(), "a fill rule is even_odd or non_zero"))
+        Err(Error::invalid(self.here(), "a fill rule is even_odd or non_zero"))
     }
 }

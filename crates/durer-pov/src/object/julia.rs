@@ -3,11 +3,11 @@
 use durer_scene::{Julia, JuliaAlgebra, JuliaPower, MOST_ITERATIONS};
 
 use super::Shape;
-use crate::diagnostics::{Fault, Result};
+use crate::diagnostics::{Error, Result};
 use crate::keywords::Keyword;
-use crate::reader::Reader;
+use crate::parser::Parser;
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// The items of a Julia set, after its opening brace.
     pub(crate) fn julia_fractal(&mut self) -> Result<Shape> {
         let mut set = Julia {
@@ -32,7 +32,7 @@ impl Reader<'_> {
                     if !(0.0..=f64::from(MOST_ITERATIONS)).contains(&count) {
                         let text =
                             format!("the iterations of a Julia set are 0 to {MOST_ITERATIONS}, not {count}");
-                        return Err(Fault::invalid(at, text));
+                        return Err(Error::invalid(at, text));
                     }
                     set.iterations = count as u32;
                     continue;
@@ -49,7 +49,7 @@ impl Reader<'_> {
                     self.skip_comma()?;
                     set.distance = self.float()?;
                     if set.normal[3] == 0.0 {
-                        return Err(Fault::invalid(
+                        return Err(Error::invalid(
                             at,
                             "the fourth component of the slice's normal is zero: the fourth coordinate does not follow from the others",
                         ));
@@ -71,7 +71,7 @@ impl Reader<'_> {
                 | Keyword::Atan
                 | Keyword::Tanh
                 | Keyword::Atanh => {
-                    return Err(Fault::unsupported(at, &format!("{} in julia_fractal", keyword.text())));
+                    return Err(Error::unsupported(at, &format!("{} in julia_fractal", keyword.text())));
                 }
                 _ => break,
             }
@@ -93,7 +93,7 @@ impl Reader<'_> {
         let place = self.here();
         let value = self.expression()?;
         if value.len() > 4 {
-            return Err(Fault::invalid(place, "expected a vector of four"));
+            return Err(Error::invalid(place, "expected a vector of four"));
         }
         let v = value.promoted(4);
         let mut out = [0.0; 4];

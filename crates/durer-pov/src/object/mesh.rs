@@ -4,11 +4,11 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use super::Shape;
-use crate::diagnostics::{Fault, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::limits::Charge;
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 use crate::texture::Texture;
 use crate::transform::length;
 use crate::value::Value;
@@ -69,7 +69,7 @@ const SHARED_ENTRY: usize = 64;
 /// Faces between looks at the memory limit.
 const OFTEN: usize = 1 << 12;
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// `mesh { triangle { } smooth_triangle { } ... }` up to its modifiers.
     pub(super) fn mesh(&mut self) -> Result<Shape> {
         let mut mesh = Mesh::new();
@@ -101,7 +101,7 @@ impl Reader<'_> {
                 let texture = self.nested(Self::texture_block)?;
                 face.texture = Some(texture_index(&mut mesh.textures, texture));
                 if self.take_mark(Mark::Comma)? {
-                    return Err(Fault::unsupported(place, "three textures on one triangle"));
+                    return Err(Error::unsupported(place, "three textures on one triangle"));
                 }
             }
             self.expect(Mark::BraceClose)?;
@@ -163,7 +163,7 @@ impl Reader<'_> {
                     let count = mesh.normals.len();
                     let lists = self.counted(12, |r| r.indices(count, "normal"))?;
                     if lists.len() > mesh.faces.len() {
-                        return Err(Fault::invalid(here, "more normal indices than faces"));
+                        return Err(Error::invalid(here, "more normal indices than faces"));
                     }
                     for (face, list) in mesh.faces.iter_mut().zip(lists) {
                         face.normals = Some(list);
@@ -177,7 +177,7 @@ impl Reader<'_> {
             }
         }
         if !found {
-            return Err(Fault::invalid(self.here(), "this mesh2 has no face_indices"));
+            return Err(Error::invalid(self.here(), "this mesh2 has no face_indices"));
         }
         // A list as long as that of the corners goes with them.
         if mesh.normals.len() == mesh.vertices.len() {
@@ -200,7 +200,7 @@ impl Reader<'_> {
         let count = self.float()?;
         self.skip_comma()?;
         if !(0.0..f64::from(u32::MAX)).contains(&count) {
-            return Err(Fault::invalid(place, format!("a list cannot have {count} entries")));
+            return Err(Error::invalid(place, format!("a list cannot have {count} entries")));
         }
         let count = count as usize;
         self.check_memory(count.saturating_mul(bytes), place)?;
@@ -219,7 +219,7 @@ impl Reader<'_> {
         let list = self.corner()?;
         let known = |&v: &f64| v >= 0.0 && v < count as f64 && v < f64::from(u32::MAX);
         if let Some(wrong) = list.iter().find(|v| !known(v)) {
-            return Err(Fault::invalid(place, format!("there is no {what} number {wrong}")));
+            return Err(Error::invalid(place, format!("there is no {what} number {wrong}")));
         }
         Ok(list.map(|v| v as u32))
     }
@@ -237,13 +237,13 @@ impl Reader<'_> {
                 let index = r.float()?;
                 r.skip_comma()?;
                 if !(index >= 0.0 && index < textures as f64) {
-                    return Err(Fault::invalid(place, format!("there is no texture number {index}")));
+                    return Err(Error::invalid(place, format!("there is no texture number {index}")));
                 }
                 more.push(index as u32);
             }
             if let Some(&first) = more.first() {
                 if more.iter().any(|&index| index != first) {
-                    return Err(Fault::unsupported(place, "three textures on one triangle"));
+                    return Err(Error::unsupported(place, "three textures on one triangle"));
                 }
                 texture = Some(first);
             }
@@ -255,7 +255,7 @@ impl Reader<'_> {
     fn finish_mesh(&mut self, mut mesh: Mesh) -> Result<Shape> {
         let place: Place = self.here();
         if mesh.faces.is_empty() {
-            return Err(Fault::invalid(place, "this mesh has no triangles"));
+            return Err(Error::invalid(place, "this mesh has no triangles"));
         }
         if self.take_word(Keyword::InsideVector)? {
             mesh.inside_vector = Some(self.normal("the inside vector")?);

@@ -11,12 +11,12 @@ mod swept;
 
 use std::rc::Rc;
 
-use crate::diagnostics::{Fault, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::light::Light;
 use crate::limits::{self, Charge};
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 use crate::texture::{Interior, Layer, Texture};
 use crate::transform::Matrix;
 use crate::value::Value;
@@ -189,8 +189,8 @@ impl Object {
     /// Moves the object with all it has so far.
     pub(crate) fn transform(&mut self, by: &Matrix) {
         self.place = self.place.then(by);
-        Reader::move_texture(&mut self.texture, by);
-        Reader::move_texture(&mut self.interior_texture, by);
+        Parser::move_texture(&mut self.texture, by);
+        Parser::move_texture(&mut self.interior_texture, by);
         for part in self.clips.iter_mut().chain(&mut self.bounds) {
             Rc::make_mut(part).transform(by);
         }
@@ -259,7 +259,7 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
     )
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// Whether an object comes next.
     pub(crate) fn starts_object(&mut self) -> Result<bool> {
         Ok(match self.peek()? {
@@ -342,7 +342,7 @@ impl Reader<'_> {
         };
         let parts = self.parts(what, place)?;
         if let Some(light) = parts.iter().find(|part| part.holds_light()) {
-            return Err(Fault::invalid(
+            return Err(Error::invalid(
                 light.at,
                 format!("a light has no place in a {what}: a union holds lights"),
             ));
@@ -388,7 +388,7 @@ impl Reader<'_> {
         let place = self.here();
         let radius = self.float()?;
         if radius == 0.0 {
-            return Err(Fault::invalid(place, format!("{what} is zero")));
+            return Err(Error::invalid(place, format!("{what} is zero")));
         }
         Ok(radius.abs())
     }

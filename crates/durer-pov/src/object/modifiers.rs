@@ -5,14 +5,14 @@ use std::rc::Rc;
 use durer_scene::Operation;
 
 use super::{Object, Shape};
-use crate::diagnostics::{Fault, Result};
+use crate::diagnostics::{Error, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 use crate::texture::Texture;
 use crate::value::Value;
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// Modifiers up to the closing brace.
     pub(crate) fn modifiers(&mut self, object: &mut Object) -> Result<()> {
         loop {
@@ -29,7 +29,7 @@ impl Reader<'_> {
                     if object.interior_texture.is_some() && object.texture.is_none() =>
                 {
                     let text = "an object with an interior_texture needs a texture";
-                    return Err(Fault::invalid(lexeme.place, text));
+                    return Err(Error::invalid(lexeme.place, text));
                 }
                 Item::Mark(Mark::BraceClose) => return Ok(()),
                 Item::Word(keyword) => *keyword,
@@ -43,7 +43,7 @@ impl Reader<'_> {
                 Keyword::CutawayTextures => {
                     let Shape::Csg(Operation::Intersection | Operation::Difference, _) = object.shape else {
                         let text = "cutaway_textures is for an intersection or a difference";
-                        return Err(Fault::invalid(lexeme.place, text));
+                        return Err(Error::invalid(lexeme.place, text));
                     };
                     object.cutaway_textures = self.switch_value()?;
                 }
@@ -100,7 +100,7 @@ impl Reader<'_> {
         while self.starts_object()? {
             let part = self.object()?;
             if matches!(part.shape, Shape::Light(_)) {
-                return Err(Fault::invalid(part.at, "a light cuts nothing off"));
+                return Err(Error::invalid(part.at, "a light cuts nothing off"));
             }
             parts.push(part);
         }

@@ -3,14 +3,14 @@
 use std::rc::Rc;
 
 use super::Shape;
-use crate::diagnostics::{Fault, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
-use crate::reader::Reader;
+use crate::parser::Parser;
 use crate::transform::{cross, dot, length};
 use durer_scene::{MAX_ORDER, coefficient_count, place_of};
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// The numbers of the shape `keyword`, after its opening brace.
     pub(crate) fn shape(&mut self, keyword: Keyword, place: Place) -> Result<Shape> {
         Ok(match keyword {
@@ -21,14 +21,14 @@ impl Reader<'_> {
             Keyword::Box => {
                 let (a, b) = (self.corner()?, self.vector()?);
                 if (0..3).any(|i| a[i] == b[i]) {
-                    return Err(Fault::invalid(place, "this box has no thickness"));
+                    return Err(Error::invalid(place, "this box has no thickness"));
                 }
                 Shape::Box { a, b }
             }
             Keyword::Cylinder => {
                 let (base, cap) = (self.corner()?, self.corner()?);
                 if base == cap {
-                    return Err(Fault::invalid(place, "this cylinder's ends are the same point"));
+                    return Err(Error::invalid(place, "this cylinder's ends are the same point"));
                 }
                 Shape::Cylinder { base, cap, radius: self.radius("the cylinder's radius")? }
             }
@@ -39,15 +39,15 @@ impl Reader<'_> {
                 let cap = self.corner()?;
                 let cap_radius = self.float()?;
                 if base == cap {
-                    return Err(Fault::invalid(place, "this cone's ends are the same point"));
+                    return Err(Error::invalid(place, "this cone's ends are the same point"));
                 }
                 let (base_radius, cap_radius) = match (base_radius, cap_radius) {
                     (a, b) if a == 0.0 && b == 0.0 => {
-                        return Err(Fault::invalid(place, "both of this cone's radii are zero"));
+                        return Err(Error::invalid(place, "both of this cone's radii are zero"));
                     }
                     (a, b) if a >= 0.0 && b >= 0.0 => (a, b),
                     (a, b) if a <= 0.0 && b <= 0.0 => (-a, -b),
-                    _ => return Err(Fault::invalid(place, "this cone's radii have different signs")),
+                    _ => return Err(Error::invalid(place, "this cone's radii have different signs")),
                 };
                 Shape::Cone { base, base_radius, cap, cap_radius }
             }
@@ -61,7 +61,7 @@ impl Reader<'_> {
                 let radius = self.radius("the disc's radius")?;
                 let hole = if self.take_mark(Mark::Comma)? { self.float()?.abs() } else { 0.0 };
                 if hole >= radius {
-                    return Err(Fault::invalid(place, "the disc's hole is as large as the disc"));
+                    return Err(Error::invalid(place, "the disc's hole is as large as the disc"));
                 }
                 Shape::Disc { center, normal, radius, hole }
             }
@@ -89,7 +89,7 @@ impl Reader<'_> {
                 let [d, e, f] = mixed;
                 let [g, h, i] = linear;
                 if [squares, mixed, linear].iter().flatten().all(|v| *v == 0.0) {
-                    return Err(Fault::invalid(place, "this quadric's equation has no variable in it"));
+                    return Err(Error::invalid(place, "this quadric's equation has no variable in it"));
                 }
                 Shape::Quadric(Box::new([a, b, c, d, e, f, g, h, i, constant]))
             }
@@ -116,7 +116,7 @@ impl Reader<'_> {
                 Shape::Polynomial(order, self.terms(order, place)?)
             }
             // `begins_object` lists no other shape.
-            _ => return Err(Fault::unsupported(place, keyword.text())),
+            _ => return Err(Error::unsupported(place, keyword.text())),
         })
     }
 
@@ -127,7 +127,7 @@ impl Reader<'_> {
         let terms = self.vector2()?;
         for exponent in terms {
             if !(1e-9..=1e9).contains(&exponent) {
-                return Err(Fault::invalid(
+                return Err(Error::invalid(
                     at,
                     format!("the exponents of a superellipsoid are between 1e-9 and 1e9, not {exponent}"),
                 ));
@@ -150,7 +150,7 @@ impl Reader<'_> {
         let order = self.float()?;
         self.skip_comma()?;
         if order.fract() != 0.0 || !(2.0..=f64::from(MAX_ORDER)).contains(&order) {
-            return Err(Fault::invalid(
+            return Err(Error::invalid(
                 at,
                 format!("the order of a polynomial is a whole number from 2 to {MAX_ORDER}, not {order}"),
             ));
@@ -167,7 +167,7 @@ impl Reader<'_> {
             self.peek()?;
             let at = self.here();
             if list.len() == wanted {
-                return Err(Fault::invalid(
+                return Err(Error::invalid(
                     at,
                     format!("a polynomial of order {order} has {wanted} coefficients, and this is one more"),
                 ));
@@ -177,7 +177,7 @@ impl Reader<'_> {
         }
         if list.len() < wanted {
             let found = list.len();
-            return Err(Fault::invalid(
+            return Err(Error::invalid(
                 place,
                 format!("a polynomial of order {order} has {wanted} coefficients, and here are {found}"),
             ));
@@ -202,7 +202,7 @@ impl Reader<'_> {
             self.expect(Mark::ParenClose)?;
             let whole = powers.iter().all(|p| p.fract() == 0.0 && *p >= 0.0);
             if !whole || powers.iter().sum::<f64>() > f64::from(order) {
-                return Err(Fault::invalid(
+                return Err(Error::invalid(
                     at,
                     format!("the powers of a term are whole numbers that add up to {order} at most"),
                 ));
@@ -218,7 +218,7 @@ impl Reader<'_> {
     /// Refuses what has no variable in it.
     fn varies(&self, list: &[f64], place: Place) -> Result<()> {
         if list.iter().rev().skip(1).all(|c| *c == 0.0) {
-            return Err(Fault::invalid(place, "this polynomial has no variable in it"));
+            return Err(Error::invalid(place, "this polynomial has no variable in it"));
         }
         Ok(())
     }
@@ -229,7 +229,7 @@ impl Reader<'_> {
         let place = self.here();
         let v = self.corner()?;
         if length(v) == 0.0 {
-            return Err(Fault::invalid(place, format!("{what} has no length")));
+            return Err(Error::invalid(place, format!("{what} has no length")));
         }
         Ok(v)
     }
@@ -239,7 +239,7 @@ impl Reader<'_> {
         let count = self.float()?;
         self.skip_comma()?;
         if !(3.0..1e9).contains(&count) {
-            return Err(Fault::invalid(place, "a polygon has at least three points"));
+            return Err(Error::invalid(place, "a polygon has at least three points"));
         }
         let (mut loops, mut current) = (Vec::new(), Vec::<[f64; 3]>::new());
         for n in 0..count as usize {
@@ -256,7 +256,7 @@ impl Reader<'_> {
             loops.push(current);
         }
         if loops.iter().any(|points| points.len() < 3) {
-            return Err(Fault::invalid(place, "a loop of this polygon has fewer than three corners"));
+            return Err(Error::invalid(place, "a loop of this polygon has fewer than three corners"));
         }
         if loops.first().is_some_and(|outline| starts_inward(outline)) {
             // The first corners stay the first.

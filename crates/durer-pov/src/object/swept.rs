@@ -3,12 +3,12 @@
 use std::rc::Rc;
 
 use super::Shape;
-use crate::diagnostics::{Fault, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
-use crate::reader::Reader;
+use crate::parser::Parser;
 use durer_scene::{Curve, Prism, Spline, Sweep};
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// `[linear_spline | quadratic_spline | cubic_spline | bezier_spline] [linear_sweep | conic_sweep] height, height, number of points, points`.
     pub(super) fn prism(&mut self, place: Place) -> Result<Shape> {
         let (mut sweep, mut spline) = (Sweep::Linear, Spline::Linear);
@@ -34,7 +34,7 @@ impl Reader<'_> {
         let to = self.float()?;
         self.skip_comma()?;
         if from == to {
-            return Err(Fault::invalid(
+            return Err(Error::invalid(
                 place,
                 format!("this prism has no height: it goes from {from} to {to}"),
             ));
@@ -62,7 +62,7 @@ impl Reader<'_> {
         let count = self.point_count(name, least)?;
         if curve == Curve::Bezier && count % 4 != 0 {
             let text = format!("{name} has four points for each piece, {count} is not a multiple of 4");
-            return Err(Fault::invalid(at, text));
+            return Err(Error::invalid(at, text));
         }
         let (mut outlines, mut current, mut start) = (Vec::new(), Vec::<[f64; 2]>::new(), at);
         for n in 0..count {
@@ -81,7 +81,7 @@ impl Reader<'_> {
                 let [[a, b], [x, z]] = [current[current.len() - 1], point];
                 let text =
                     format!("a piece of this outline ends at <{a}, {b}>, the next begins at <{x}, {z}>");
-                return Err(Fault::invalid(here, text));
+                return Err(Error::invalid(here, text));
             }
             current.push(point);
             let last = current.len() - 1;
@@ -95,7 +95,7 @@ impl Reader<'_> {
                     let (n, len) = (outlines.len() + 1, current.len());
                     let text =
                         format!("outline {n} of this prism has {len} points, it needs {least} at least");
-                    return Err(Fault::invalid(start, text));
+                    return Err(Error::invalid(start, text));
                 }
                 outlines.push(std::mem::take(&mut current));
             }
@@ -110,7 +110,7 @@ impl Reader<'_> {
                 }
                 _ => format!("outline {n} of this prism does not come back to <{x}, {z}>, where it begins"),
             };
-            return Err(Fault::invalid(start, text));
+            return Err(Error::invalid(start, text));
         }
         Ok(outlines)
     }
@@ -127,7 +127,7 @@ impl Reader<'_> {
             self.check_memory(n * 32, at)?;
             if radius < 0.0 {
                 let text = format!("the radius of a sor's point must not be negative: {radius}");
-                return Err(Fault::invalid(at, text));
+                return Err(Error::invalid(at, text));
             }
             // The first and the last point are not on the curve.
             if let [_, .., [_, below]] = points[..]
@@ -135,7 +135,7 @@ impl Reader<'_> {
                 && height <= below
             {
                 let text = format!("the heights of a sor ascend, but {height} comes after {below}");
-                return Err(Fault::invalid(at, text));
+                return Err(Error::invalid(at, text));
             }
             points.push([radius, height]);
         }
@@ -157,7 +157,7 @@ impl Reader<'_> {
         let apex_radius = self.end_radius()?;
         let inner_radius = self.radius("the lemon's inner radius")?;
         if base == apex {
-            return Err(Fault::invalid(place, "this lemon's ends are the same point"));
+            return Err(Error::invalid(place, "this lemon's ends are the same point"));
         }
         Ok(Shape::Lemon { ends: [base, apex], radii: [base_radius, apex_radius], inner_radius })
     }
@@ -169,7 +169,7 @@ impl Reader<'_> {
         let radius = self.float()?;
         self.skip_comma()?;
         if radius < 0.0 {
-            return Err(Fault::invalid(
+            return Err(Error::invalid(
                 at,
                 format!("the radius of a lemon's end must not be negative: {radius}"),
             ));
@@ -184,7 +184,7 @@ impl Reader<'_> {
         let count = self.float()?;
         self.skip_comma()?;
         if !(f64::from(least)..1e9).contains(&count) {
-            return Err(Fault::invalid(at, format!("{what} has at least {least} points, not {count}")));
+            return Err(Error::invalid(at, format!("{what} has at least {least} points, not {count}")));
         }
         Ok(count as usize)
     }
@@ -209,7 +209,7 @@ impl Reader<'_> {
         for (i, outline) in outlines.iter().enumerate() {
             if outline.len() < 3 {
                 let (n, len) = (i + 1, outline.len());
-                return Err(Fault::invalid(
+                return Err(Error::invalid(
                     place,
                     format!("outline {n} of this prism has {len} different points, it needs 3 at least"),
                 ));

@@ -1,10 +1,10 @@
 //! Finishes: how a surface takes the light.
 
 use crate::colour::Colour;
-use crate::diagnostics::{Fault, Result};
+use crate::diagnostics::{Error, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 use crate::value::Value;
 
 /// What is mirrored, and how that depends on the angle.
@@ -75,7 +75,7 @@ fn rgb(colour: Colour) -> [f64; 3] {
     [colour[0], colour[1], colour[2]]
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// What stands in braces after `finish`; `base` is what it changes.
     pub(crate) fn finish_block(&mut self, base: &Finish) -> Result<Finish> {
         self.expect(Mark::BraceOpen)?;
@@ -110,7 +110,7 @@ impl Reader<'_> {
                 Keyword::PhongSize => {
                     finish.phong_size = self.float()?;
                     if finish.phong_size < 0.0 {
-                        return Err(Fault::invalid(place, "phong_size cannot be negative"));
+                        return Err(Error::invalid(place, "phong_size cannot be negative"));
                     }
                 }
                 Keyword::Specular => {
@@ -120,7 +120,7 @@ impl Reader<'_> {
                 Keyword::Roughness => {
                     finish.roughness = self.float()?;
                     if finish.roughness <= 0.0 {
-                        return Err(Fault::invalid(place, "roughness must be positive"));
+                        return Err(Error::invalid(place, "roughness must be positive"));
                     }
                 }
                 Keyword::Metallic => finish.metallic = self.float_or(1.0)?,
@@ -137,7 +137,7 @@ impl Reader<'_> {
     fn exponent(&mut self) -> Result<f64> {
         let exponent = self.float()?;
         if exponent <= 0.0 {
-            return Err(Fault::invalid(self.here(), "an exponent of reflection must be positive"));
+            return Err(Error::invalid(self.here(), "an exponent of reflection must be positive"));
         }
         Ok(exponent)
     }

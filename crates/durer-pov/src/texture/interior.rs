@@ -3,10 +3,10 @@
 use std::rc::Rc;
 
 use super::Texture;
-use crate::diagnostics::{Fault, Result};
+use crate::diagnostics::{Error, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 use crate::transform::Matrix;
 use crate::value::Value;
 
@@ -33,7 +33,7 @@ pub(crate) struct Material {
     pub(crate) interior: Option<Rc<Interior>>,
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// What stands in braces after `interior`.
     pub(crate) fn interior_block(&mut self) -> Result<Rc<Interior>> {
         self.expect(Mark::BraceOpen)?;
@@ -50,7 +50,7 @@ impl Reader<'_> {
                 Item::Word(Keyword::Ior) => {
                     interior.ior = self.float()?;
                     if interior.ior <= 0.0 {
-                        return Err(Fault::invalid(lexeme.place, "an index of refraction must be positive"));
+                        return Err(Error::invalid(lexeme.place, "an index of refraction must be positive"));
                     }
                 }
                 Item::Word(Keyword::FadeDistance) => interior.fade_distance = self.float()?,
@@ -64,7 +64,7 @@ impl Reader<'_> {
                 Item::Word(Keyword::DispersionSamples) => drop(self.float()?),
                 Item::Word(Keyword::Dispersion) => {
                     if self.float()? != 1.0 {
-                        return Err(Fault::unsupported(lexeme.place, "dispersion"));
+                        return Err(Error::unsupported(lexeme.place, "dispersion"));
                     }
                 }
                 _ => return Err(self.unexpected(&lexeme, "a part of an interior")),

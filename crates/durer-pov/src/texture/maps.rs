@@ -4,11 +4,11 @@ use std::rc::Rc;
 
 use super::{PatternKind, Texture};
 use crate::colour::Colour;
-use crate::diagnostics::{Fault, Result};
+use crate::diagnostics::{Error, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::limits::Charge;
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 use crate::value::Value;
 
 /// POV-Ray's bound on the entries of a map.
@@ -42,7 +42,7 @@ impl<T> Map<T> {
 /// How deeply maps may stand in each other; scenes use two or three.
 const DEEPEST: u32 = 32;
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// Entries `[value item]` in braces.
     fn map_entries<T>(&mut self, mut item: impl FnMut(&mut Self) -> Result<T>) -> Result<Vec<(f64, T)>> {
         let mut entries = Vec::new();
@@ -59,14 +59,14 @@ impl Reader<'_> {
 
     fn check_entries(&self, count: usize) -> Result<()> {
         if count > MOST_ENTRIES {
-            return Err(Fault::invalid(self.here(), format!("a map has at most {MOST_ENTRIES} entries")));
+            return Err(Error::invalid(self.here(), format!("a map has at most {MOST_ENTRIES} entries")));
         }
         Ok(())
     }
 
     pub(crate) fn check_map_depth(&self, depth: u32) -> Result<u32> {
         if depth > DEEPEST {
-            return Err(Fault::invalid(
+            return Err(Error::invalid(
                 self.here(),
                 format!("maps stand in each other more than {DEEPEST} deep"),
             ));
@@ -77,7 +77,7 @@ impl Reader<'_> {
     fn end_of_map(&mut self, empty: bool) -> Result<()> {
         let place = self.here();
         self.expect(Mark::BraceClose)?;
-        if empty { Err(Fault::invalid(place, "this map has no entries")) } else { Ok(()) }
+        if empty { Err(Error::invalid(place, "this map has no entries")) } else { Ok(()) }
     }
 
     /// What follows `color_map`.
@@ -174,7 +174,7 @@ impl Reader<'_> {
             self.skip_comma()?;
         }
         if items.len() < length {
-            return Err(Fault::invalid(self.here(), format!("this pattern needs {length} texture blocks")));
+            return Err(Error::invalid(self.here(), format!("this pattern needs {length} texture blocks")));
         }
         let depth = 1 + items.iter().map(Texture::depth).max().unwrap_or(0);
         let map = Rc::new(Map::list(items, self.check_map_depth(depth)?));

@@ -8,10 +8,10 @@ mod pigment;
 
 use std::rc::Rc;
 
-use crate::diagnostics::{Fault, Result};
+use crate::diagnostics::{Error, Result};
 use crate::keywords::Keyword;
 use crate::lexer::{Kind, Mark};
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 use crate::transform::Matrix;
 use crate::value::Value;
 
@@ -63,7 +63,7 @@ impl Texture {
     }
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// One or more `texture { }` blocks, the word `texture` being next: layers upon each other.
     pub(crate) fn texture_value(&mut self) -> Result<Texture> {
         let mut texture = None;
@@ -94,11 +94,11 @@ impl Reader<'_> {
                 layers.extend(more);
                 if layers.len() > MOST_LAYERS {
                     let text = format!("a texture has at most {MOST_LAYERS} layers");
-                    return Err(Fault::invalid(self.here(), text));
+                    return Err(Error::invalid(self.here(), text));
                 }
                 Ok(Texture::Layers(layers))
             }
-            _ => Err(Fault::invalid(self.here(), "a patterned texture cannot be layered")),
+            _ => Err(Error::invalid(self.here(), "a patterned texture cannot be layered")),
         }
     }
 
@@ -136,7 +136,7 @@ impl Reader<'_> {
         if let Texture::Patterned { map, .. } = &texture
             && map.entries.is_empty()
         {
-            return Err(Fault::invalid(self.here(), "this patterned texture has no textures"));
+            return Err(Error::invalid(self.here(), "this patterned texture has no textures"));
         }
         Ok(texture)
     }
@@ -156,7 +156,7 @@ impl Reader<'_> {
         };
         let place = self.here();
         let Texture::Layers(layers) = texture else {
-            return Err(Fault::invalid(place, "a patterned texture has no pigment or finish of its own"));
+            return Err(Error::invalid(place, "a patterned texture has no pigment or finish of its own"));
         };
         let Some(top) = layers.last_mut() else { return Ok(false) };
         match part {
@@ -193,14 +193,14 @@ impl Reader<'_> {
                 match &lexeme.item {
                     Item::Mark(Mark::BraceClose) => break,
                     Item::Word(Keyword::Camera) => {
-                        return Err(Fault::unsupported(place, "camera in #default"));
+                        return Err(Error::unsupported(place, "camera in #default"));
                     }
                     _ => return Err(self.unexpected(&lexeme, "texture, pigment or finish")),
                 }
             }
             match &texture {
                 Texture::Layers(layers) if layers.len() == 1 => self.defaults = Rc::new(layers[0].clone()),
-                _ => return Err(Fault::invalid(place, "the default texture has one plain layer")),
+                _ => return Err(Error::invalid(place, "the default texture has one plain layer")),
             }
         }
         Ok(())

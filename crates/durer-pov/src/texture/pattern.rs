@@ -2,11 +2,11 @@
 
 use std::rc::Rc;
 
-use crate::diagnostics::{Fault, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::noise_pattern::Turbulence;
+use crate::parser::Parser;
 use crate::pattern_function;
-use crate::reader::Reader;
 use crate::transform::{self, Matrix};
 
 /// Which pattern, with its own numbers.
@@ -80,7 +80,7 @@ impl Pattern {
     }
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// The word of a pattern, if one comes next.
     pub(crate) fn pattern_kind(&mut self) -> Result<Option<PatternKind>> {
         let kind = match self.peek_word()? {
@@ -92,7 +92,7 @@ impl Reader<'_> {
                 let place = self.here();
                 let direction = self.vector()?;
                 if transform::length(direction) == 0.0 {
-                    return Err(Fault::invalid(place, "a gradient needs a direction that is not zero"));
+                    return Err(Error::invalid(place, "a gradient needs a direction that is not zero"));
                 }
                 return Ok(Some(PatternKind::Gradient(direction)));
             }
@@ -146,9 +146,9 @@ impl Reader<'_> {
                 match &mut pattern.kind {
                     PatternKind::Brick { size, .. } if given.iter().all(|v| *v != 0.0) => *size = given,
                     PatternKind::Brick { .. } => {
-                        return Err(Fault::invalid(place, "a brick has no zero sizes"));
+                        return Err(Error::invalid(place, "a brick has no zero sizes"));
                     }
-                    _ => return Err(Fault::invalid(place, "brick_size belongs to brick")),
+                    _ => return Err(Error::invalid(place, "brick_size belongs to brick")),
                 }
             }
             Keyword::Mortar => {
@@ -156,7 +156,7 @@ impl Reader<'_> {
                 let given = self.float()?;
                 match &mut pattern.kind {
                     PatternKind::Brick { mortar, .. } => *mortar = given,
-                    _ => return Err(Fault::invalid(place, "mortar belongs to brick")),
+                    _ => return Err(Error::invalid(place, "mortar belongs to brick")),
                 }
             }
             Keyword::Octaves => {

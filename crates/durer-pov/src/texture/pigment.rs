@@ -4,10 +4,10 @@ use std::rc::Rc;
 
 use super::{ColorMap, Map, Pattern, PatternKind};
 use crate::colour::Colour;
-use crate::diagnostics::{Fault, Result};
+use crate::diagnostics::{Error, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
-use crate::reader::{Item, Reader};
+use crate::parser::{Item, Parser};
 use crate::transform::Matrix;
 use crate::value::Value;
 
@@ -102,7 +102,7 @@ fn default_map(kind: PatternKind) -> &'static [(f64, [f64; 3])] {
     }
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// What stands in braces after `pigment`; `base` is what it changes.
     pub(crate) fn pigment_block(&mut self, base: &Pigment) -> Result<Pigment> {
         self.expect(Mark::BraceOpen)?;
@@ -128,7 +128,7 @@ impl Reader<'_> {
             let pattern = self.pattern_kind()?;
             let solid = pattern.is_none() && self.starts_colour()?;
             if chosen && (pattern.is_some() || solid) {
-                return Err(Fault::invalid(place, "this pigment has its colour or pattern already"));
+                return Err(Error::invalid(place, "this pigment has its colour or pattern already"));
             }
             chosen |= pattern.is_some() || solid;
             if let Some(kind) = pattern {
@@ -159,7 +159,7 @@ impl Reader<'_> {
                     pigment = self.nested(|r| r.pigment_block(&pigment))?;
                 }
                 Item::Word(Keyword::ColorMap | Keyword::PigmentMap) => {
-                    return Err(Fault::invalid(lexeme.place, "a map needs a pattern before it"));
+                    return Err(Error::invalid(lexeme.place, "a map needs a pattern before it"));
                 }
                 _ => return Err(self.unexpected(&lexeme, "a colour or pattern")),
             }
@@ -205,7 +205,7 @@ impl Reader<'_> {
         };
         if kind.list_length().is_some() {
             let text = format!("{} does not go with this pattern, which has a list", keyword.text());
-            return Err(Fault::invalid(self.here(), text));
+            return Err(Error::invalid(self.here(), text));
         }
         self.next()?;
         *paint = if keyword == Keyword::ColorMap {

@@ -27,7 +27,7 @@ pub(super) struct Paths8 {
 
 /// What is the same for all rays of a bundle.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Standing<'w> {
+pub(super) struct BundleState<'w> {
     /// The camera's rays have level 1.
     pub(super) level: u32,
     /// How many rays lead to these; those that pass unbent do not raise the level.
@@ -47,7 +47,7 @@ pub(super) struct Standing<'w> {
 pub(super) struct Bundle<'w> {
     pub(super) rays: Vec<Rays8>,
     pub(super) paths: Vec<Paths8>,
-    pub(super) standing: Standing<'w>,
+    pub(super) standing: BundleState<'w>,
     loose: Loose,
 }
 
@@ -82,7 +82,7 @@ impl Paths8 {
 impl<'w> Bundle<'w> {
     /// No rays yet. The camera's rays are outside of everything.
     pub(super) fn new() -> Self {
-        let standing = Standing { level: 1, depth: 0, mask: 0, draws: 0, mirror: None, media: Vec::new() };
+        let standing = BundleState { level: 1, depth: 0, mask: 0, draws: 0, mirror: None, media: Vec::new() };
         let loose = Loose { group: 0, filled: LANES };
         Self { rays: Vec::new(), paths: Vec::new(), standing, loose }
     }
@@ -125,8 +125,8 @@ impl<'w> Bundle<'w> {
 /// Puts down what rays see first.
 pub(super) fn see(geometry: &Geometry, rays: &[Rays8], mask: u32, hits: &mut [Hits8], scratch: &mut Scratch) {
     for (rays, hits) in rays.chunks(TOGETHER).zip(hits.chunks_mut(TOGETHER)) {
-        let beam = geometry.beam_of(rays);
-        geometry.seen_by_lanes(beam.as_ref(), rays, mask, hits, scratch);
+        let beam = geometry.bundle_candidates(rays);
+        geometry.first_visible8(beam.as_ref(), rays, mask, hits, scratch);
     }
 }
 

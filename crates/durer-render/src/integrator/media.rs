@@ -43,7 +43,7 @@ impl Crossing {
 
 /// The border between two media.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Border {
+pub(super) struct Interface {
     pub(super) crossing: Crossing,
     /// The index of refraction before the surface over that behind it.
     pub(super) ratio: f64,
@@ -52,7 +52,7 @@ pub(super) struct Border {
     fresnel_ratio: f64,
 }
 
-impl Border {
+impl Interface {
     /// The border of `medium`, for rays in the media of a list.
     pub(super) fn new(world: &World, list: &[u32], medium: u32, grazing: bool) -> Self {
         let index = |medium: Option<&u32>| medium.map_or(1.0, |&m| world.media[m as usize].ior);

@@ -1,13 +1,13 @@
 //! Integrators: how much light comes along rays.
 
 mod bundle;
-mod coats;
-mod lamps;
+mod direct_light;
+mod group;
+mod layers;
 mod media;
-mod onward;
+mod secondary;
+mod shading_point;
 mod shadow;
-mod split;
-mod spot;
 mod whitted;
 
 pub(crate) use self::whitted::Whitted;

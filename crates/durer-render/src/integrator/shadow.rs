@@ -1,15 +1,15 @@
 //! Shadow rays: what is left of a light on its way to points.
 
 use super::bundle::{Bundle, Paths8, TOGETHER, see};
+use super::group::{Piece, cut, sort};
 use super::media::Crossing;
-use super::split::{Piece, cut, sort};
-use super::spot::{Spot, Spots};
+use super::shading_point::{Spot, Spots};
 use crate::lanes::Rgb8;
 use crate::progress::Progress;
 use crate::stats::RayCounts;
 use crate::vector::{dot, length};
 use crate::world::{Look, World};
-use durer_geometry::{Beam, Hits8, Rays8, Scratch};
+use durer_geometry::{CandidateList, Hits8, Rays8, Scratch};
 use durer_math::lanes::LANES;
 use durer_math::{F8, Isa, M8, Point3};
 use durer_scene::mask;
@@ -79,13 +79,13 @@ impl<'w> Shadows<'w> {
                 continue;
             }
             counts.shadow += count as u64;
-            let beam = world.geometry().beam_of(rays);
-            if beam.as_ref().is_some_and(Beam::is_empty) {
+            let beam = world.geometry().bundle_candidates(rays);
+            if beam.as_ref().is_some_and(CandidateList::is_empty) {
                 continue;
             }
             let (beam, scratch) = (beam.as_ref(), &mut self.scratch);
             let met = &mut [M8::NONE; TOGETHER][..rays.len()];
-            world.geometry().any_by_lanes(beam, rays, mask::SHADOW, met, scratch);
+            world.geometry().any8(beam, rays, mask::SHADOW, met, scratch);
             isa.run_in_lanes(
                 #[inline(always)]
                 || {
@@ -99,7 +99,7 @@ impl<'w> Shadows<'w> {
             );
             if clear {
                 let hits = &mut self.hits[chunk * TOGETHER..][..rays.len()];
-                world.geometry().seen_by_lanes(beam, rays, mask::CLEAR_SHADOW, hits, scratch);
+                world.geometry().first_visible8(beam, rays, mask::CLEAR_SHADOW, hits, scratch);
             }
         }
         if self.hits.iter().any(|h| h.hit.any()) {

@@ -10,20 +10,20 @@
 //! counts in the picture and to which sum its colour is added, so nothing waits for it: bundles lie on a stack, the last one is followed
 //! first, and there is no recursion. In which bundle a ray comes along, and beside which others, changes nothing about its colour.
 
-use super::bundle::{Bundle, Paths8, Standing, see};
-use super::coats::{Coats, draws};
-use super::lamps::Lamps;
-use super::media::Border;
-use super::onward::{Onward, Part};
-use super::split::{Piece, cut, sort};
-use super::spot::{Spot, Spots, face};
+use super::bundle::{Bundle, BundleState, Paths8, see};
+use super::direct_light::Lamps;
+use super::group::{Piece, cut, sort};
+use super::layers::{Coats, draws};
+use super::media::Interface;
+use super::secondary::{Onward, Part};
+use super::shading_point::{Spot, Spots, face};
 use crate::camera::Camera;
 use crate::lanes::Rgb8;
 use crate::material::Mirror;
 use crate::progress::Progress;
 use crate::sampler::Place;
 use crate::stats::RayCounts;
-use crate::texture::{Blend, Coat, Paint, Weights};
+use crate::texture::{Blend, RenderLayer, RenderTexture, Weights};
 use crate::world::World;
 use durer_geometry::{Hits8, Rays8, Scratch};
 use durer_math::lanes::LANES;
@@ -162,10 +162,10 @@ impl<'w> Whitted<'w> {
             },
         );
         let first =
-            Standing { level: 1, depth: 0, mask: mask::CAMERA, draws: 0, mirror: None, media: Vec::new() };
+            BundleState { level: 1, depth: 0, mask: mask::CAMERA, draws: 0, mirror: None, media: Vec::new() };
         match self.standing(&all.rays) {
             Some(media) => {
-                all.standing = Standing { media, ..first };
+                all.standing = BundleState { media, ..first };
                 self.follow(&all);
             }
             None => self.start_apart(&all, &first),
@@ -181,7 +181,7 @@ impl<'w> Whitted<'w> {
 
     /// The same of rays that may start in different media.
     #[cold]
-    fn start_apart(&mut self, all: &Bundle<'w>, first: &Standing<'w>) {
+    fn start_apart(&mut self, all: &Bundle<'w>, first: &BundleState<'w>) {
         let mut apart: Vec<Bundle<'w>> = Vec::new();
         // Compared number by number: the library's comparison of blocks is slow where both lists are empty.
         let mut media = Vec::new();
@@ -193,7 +193,7 @@ impl<'w> Whitted<'w> {
                 let known = apart.iter().position(|b| b.standing.media.iter().eq(&media));
                 of[i] = known.unwrap_or_else(|| {
                     let mut bundle = self.onward.empty();
-                    bundle.standing = Standing { media: media.clone(), ..first.clone() };
+                    bundle.standing = BundleState { media: media.clone(), ..first.clone() };
                     apart.push(bundle);
                     apart.len() - 1
                 });
@@ -244,7 +244,7 @@ impl<'w> Whitted<'w> {
     }
 
     /// The same of some of its groups.
-    fn follow_some(&mut self, (rays, paths): (&[Rays8], &[Paths8]), standing: &Standing<'w>) {
+    fn follow_some(&mut self, (rays, paths): (&[Rays8], &[Paths8]), standing: &BundleState<'w>) {
         self.see((rays, paths), standing.mask);
         let pieces = core::mem::take(&mut self.pieces);
         let mut spots = core::mem::take(&mut self.spots);
@@ -256,7 +256,7 @@ impl<'w> Whitted<'w> {
             face(self.isa, spots);
             let world = self.world;
             let look = part[0].look(world);
-            let border = Border::new(world, &standing.media, look.medium, part[0].is_grazing());
+            let border = Interface::new(world, &standing.media, look.medium, part[0].is_grazing());
             let part = Part { look, border, standing };
             self.paint(&part, &world.paints[look.paint as usize], spots, &mut 0);
         }
@@ -288,19 +288,19 @@ impl<'w> Whitted<'w> {
     }
 
     /// Shades spots with a paint, in whose space `inside` is; `stack` counts the stacks of layers of the surface.
-    fn paint(&mut self, part: &Part<'_, 'w>, paint: &'w Paint, spots: &mut [Spot], stack: &mut u32) {
+    fn paint(&mut self, part: &Part<'_, 'w>, paint: &'w RenderTexture, spots: &mut [Spot], stack: &mut u32) {
         match paint {
-            Paint::Layers(layers) => {
+            RenderTexture::Layers(layers) => {
                 self.shade(part, layers, spots, *stack);
                 *stack += 1;
             }
-            Paint::Pattern(place, blend) => {
+            RenderTexture::Pattern(place, blend) => {
                 for spot in &mut *spots {
                     spot.inside = place.inside_lanes(spot.inside);
                 }
                 self.blend(part, blend, spots, stack);
             }
-            Paint::Fields(weights) => self.weigh(part, weights, spots, stack),
+            RenderTexture::Fields(weights) => self.weigh(part, weights, spots, stack),
         }
     }
 
@@ -336,7 +336,13 @@ impl<'w> Whitted<'w> {
     }
 
     /// Shades spots with each of the textures that a pattern shows there.
-    fn blend(&mut self, part: &Part<'_, 'w>, blend: &'w Blend<Paint>, spots: &[Spot], stack: &mut u32) {
+    fn blend(
+        &mut self,
+        part: &Part<'_, 'w>,
+        blend: &'w Blend<RenderTexture>,
+        spots: &[Spot],
+        stack: &mut u32,
+    ) {
         let mut shown = Vec::new();
         for spot in spots {
             let p = spot.inside.to_vec();
@@ -362,7 +368,7 @@ impl<'w> Whitted<'w> {
     }
 
     /// Shades spots with a stack of layers.
-    fn shade(&mut self, part: &Part<'_, 'w>, layers: &'w [Coat], spots: &mut [Spot], stack: u32) {
+    fn shade(&mut self, part: &Part<'_, 'w>, layers: &'w [RenderLayer], spots: &mut [Spot], stack: u32) {
         let (world, isa, standing) = (self.world, self.isa, part.standing);
         self.coats.lay((world, isa), layers, &part.border, standing.draws, spots);
         if !self.coats.finishes.is_empty() {

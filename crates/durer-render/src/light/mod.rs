@@ -7,7 +7,7 @@ use durer_scene::{Light, LightKind, Rgb};
 
 /// A light.
 #[derive(Clone, Debug)]
-pub(crate) struct Lamp {
+pub(crate) struct RenderLight {
     location: Point3,
     pub(crate) colour: Rgb,
     /// From the location to where it points, of length 1.
@@ -59,7 +59,7 @@ fn smooth_step(a: f64, b: f64, x: F8) -> F8 {
     x.le(F8::splat(a)).select(F8::ZERO, ended)
 }
 
-impl Lamp {
+impl RenderLight {
     /// `None` for a light that is black.
     pub(crate) fn new(light: &Light) -> Option<Self> {
         if light.colour.is_black() {
@@ -149,7 +149,7 @@ mod tests {
     }
 
     fn strength(light: &Light, p: [f64; 3]) -> f64 {
-        let beamed = Lamp::new(light).unwrap().at(point(p), M8::ALL);
+        let beamed = RenderLight::new(light).unwrap().at(point(p), M8::ALL);
         beamed.lit.keep(beamed.strength).0[3]
     }
 
@@ -199,7 +199,7 @@ mod tests {
     #[test]
     fn parallel_light_is_blocked_only_up_to_its_plane() {
         let light = Light { parallel: true, ..down(LightKind::Point) };
-        let lamp = Lamp::new(&light).unwrap();
+        let lamp = RenderLight::new(&light).unwrap();
         let below = lamp.at(point([3.0, 0.0, 4.0]), M8::ALL);
         assert_eq!(below.to_light.lane(0), Vec3::Y);
         assert_eq!(below.target.to_vec().lane(0), Vec3::new(3.0, 10.0, 4.0));
@@ -212,6 +212,6 @@ mod tests {
     fn a_light_at_the_point_itself_does_not_shine() {
         let mut p = point([0.0, 10.0, 0.0]);
         p.x.0[2] = 1.0;
-        assert_eq!(Lamp::new(&down(LightKind::Point)).unwrap().at(p, M8::ALL).lit.bits(), 0b100);
+        assert_eq!(RenderLight::new(&down(LightKind::Point)).unwrap().at(p, M8::ALL).lit.bits(), 0b100);
     }
 }

@@ -13,7 +13,7 @@ use durer_math::{Affine, AffineError, Point3};
 use durer_scene::{Fields, Texture};
 use durer_surfaces::Blob;
 
-use super::{Paint, Place};
+use super::{Place, RenderTexture};
 
 /// The fields of a blob, each with a texture.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,7 +23,7 @@ pub(crate) struct Weights {
     blob: Blob,
     /// The number of each component's texture; what has none has the first one.
     of: Box<[u32]>,
-    textures: Box<[Paint]>,
+    textures: Box<[RenderTexture]>,
 }
 
 impl Weights {
@@ -31,7 +31,7 @@ impl Weights {
     pub(super) fn new(
         fields: &Fields,
         around: &Affine,
-        paint: impl Fn(&Texture, &Affine) -> Result<Paint, AffineError>,
+        paint: impl Fn(&Texture, &Affine) -> Result<RenderTexture, AffineError>,
     ) -> Result<Self, AffineError> {
         let place = fields.placement.affine().then(around)?;
         let mut textures = vec![paint(&fields.rest, around)?];
@@ -60,7 +60,7 @@ impl Weights {
     }
 
     /// The texture with a number.
-    pub(crate) fn texture(&self, number: u32) -> &Paint {
+    pub(crate) fn texture(&self, number: u32) -> &RenderTexture {
         &self.textures[number as usize]
     }
 
@@ -124,7 +124,7 @@ mod tests {
             textures,
             rest: grey(0.0),
         };
-        let paint = |texture: &Texture, around: &Affine| Paint::new(texture, around, Rgb::WHITE);
+        let paint = |texture: &Texture, around: &Affine| RenderTexture::new(texture, around, Rgb::WHITE);
         let weights =
             Weights::new(&fields, &Affine::translation(Vec3::new(0.0, 3.0, 0.0)).unwrap(), paint).unwrap();
         let mut shown = Vec::new();

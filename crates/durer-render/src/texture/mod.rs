@@ -22,28 +22,28 @@ use gradient::Lookup;
 
 /// A texture of a surface.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Paint {
+pub(crate) enum RenderTexture {
     /// Layers, the innermost first.
-    Layers(Box<[Coat]>),
+    Layers(Box<[RenderLayer]>),
     /// Other textures by a pattern, in the space of the place.
-    Pattern(Place, Box<Blend<Paint>>),
+    Pattern(Place, Box<Blend<RenderTexture>>),
     /// Other textures by the fields of a blob.
     Fields(Box<Weights>),
 }
 
 /// A layer of paint.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Coat {
-    pub(crate) pigment: Shade,
+pub(crate) struct RenderLayer {
+    pub(crate) pigment: RenderPigment,
     pub(crate) finish: Finish,
 }
 
 /// A pigment.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Shade {
+pub(crate) enum RenderPigment {
     Solid(Colour),
     Colours(Place, Box<Blend<Colour>>),
-    Shades(Place, Box<Blend<Shade>>),
+    Shades(Place, Box<Blend<RenderPigment>>),
 }
 
 /// A choice or a blend of entries by the place.
@@ -184,7 +184,7 @@ impl Blend<Colour> {
     }
 }
 
-impl Shade {
+impl RenderPigment {
     fn new(pigment: &Pigment, around: &Affine) -> Result<Self, AffineError> {
         let joined = || pigment.placement.affine().then(around);
         Ok(match &pigment.body {
@@ -253,7 +253,7 @@ impl Shade {
     }
 }
 
-impl Paint {
+impl RenderTexture {
     /// Makes a texture ready. Its own placement is joined with that of `around`, the space in which it is used.
     pub(crate) fn new(texture: &Texture, around: &Affine, ambient_light: Rgb) -> Result<Self, AffineError> {
         let joined = || match texture.placement.is_identity() {
@@ -264,8 +264,8 @@ impl Paint {
             TextureBody::Layers(layers) => {
                 let place = if texture.is_uniform() { Affine::IDENTITY } else { joined()? };
                 let coat = |layer: &durer_scene::Layer| {
-                    Ok(Coat {
-                        pigment: Shade::new(&layer.pigment, &place)?,
+                    Ok(RenderLayer {
+                        pigment: RenderPigment::new(&layer.pigment, &place)?,
                         finish: Finish::new(&layer.finish, ambient_light),
                     })
                 };
@@ -342,13 +342,13 @@ mod tests {
         Colour::opaque(Rgb::grey(v))
     }
 
-    fn ramp(entries: &[(f64, f64)]) -> Shade {
+    fn ramp(entries: &[(f64, f64)]) -> RenderPigment {
         let entries = entries.iter().map(|&(at, v)| (at, grey(v))).collect();
         let value = Value::new(Ramp::Gradient(Vec3::X));
-        Shade::new(&Pigment::colours(Pattern::Map { value, entries }), &Affine::IDENTITY).unwrap()
+        RenderPigment::new(&Pigment::colours(Pattern::Map { value, entries }), &Affine::IDENTITY).unwrap()
     }
 
-    fn at(shade: &Shade, x: f64) -> f64 {
+    fn at(shade: &RenderPigment, x: f64) -> f64 {
         shade.at(Point3::new(x, 0.0, 0.0)).rgb.r
     }
 
@@ -372,8 +372,8 @@ mod tests {
         pigment.transform(&Affine::scaling(2.0, 2.0, 2.0).unwrap()).unwrap();
         let mut texture = Texture::plain(pigment, durer_scene::Finish::default());
         texture.transform(&Affine::translation(Vec3::new(10.0, 0.0, 0.0)).unwrap()).unwrap();
-        let paint = Paint::new(&texture, &Affine::IDENTITY, Rgb::WHITE).unwrap();
-        let Paint::Layers(coats) = &paint else { unreachable!() };
+        let paint = RenderTexture::new(&texture, &Affine::IDENTITY, Rgb::WHITE).unwrap();
+        let RenderTexture::Layers(coats) = &paint else { unreachable!() };
         let seen = [10.5, 11.5, 12.5, 13.5, 14.5].map(|x| {
             let p = Point3::new(x, 0.5, 0.5);
             let lanes = coats[0].pigment.colours(Vec3::<F8>::splat(p.to_vec()).to_point(), M8::ALL);
@@ -395,7 +395,7 @@ mod tests {
         for pigment in
             [map, hexagon, Pigment { body: PigmentBody::Pigments(Box::new(both)), ..Pigment::default() }]
         {
-            let shade = Shade::new(&pigment, &Affine::rotation_y(0.4).unwrap()).unwrap();
+            let shade = RenderPigment::new(&pigment, &Affine::rotation_y(0.4).unwrap()).unwrap();
             for k in -50..50 {
                 let x = |a: f64| F8(core::array::from_fn(|i| (f64::from(k) + 0.125 * i as f64) * a));
                 let p = Point3::new(x(0.31), x(0.2), x(-0.17));
@@ -418,8 +418,8 @@ mod tests {
         let value = Value::new(Ramp::Gradient(Vec3::X));
         let texture =
             Texture::pattern(Pattern::Map { value, entries: vec![(0.0, one(1.0)), (1.0, one(2.0))] });
-        let paint = Paint::new(&texture, &Affine::IDENTITY, Rgb::WHITE).unwrap();
-        let Paint::Pattern(place, blend) = &paint else { unreachable!() };
+        let paint = RenderTexture::new(&texture, &Affine::IDENTITY, Rgb::WHITE).unwrap();
+        let RenderTexture::Pattern(place, blend) = &paint else { unreachable!() };
         let p = Point3::new(0.25, 0.0, 0.0);
         let shown = blend.at(place.inside(p)).unwrap();
         assert_eq!([0, 1, 2].map(|i| shown.part(i)), [0.75, 0.25, 0.0]);

@@ -4,7 +4,7 @@ use durer_geometry::{Builder, CompoundBuilder, ObjectId, Part, Shown};
 use durer_math::{Aabb, Affine};
 use durer_surfaces::{Algebraic, Clip, Complement, DynSurface, Placed, Region, Solidity, Surface};
 
-use super::standing::{Around, Held};
+use super::camera_media::{Enclosure, Held};
 
 /// Where a surface goes.
 pub(super) enum To<'b> {
@@ -21,7 +21,7 @@ pub(super) struct Target<'b> {
     pub(super) clips: Vec<Region>,
     pub(super) inverse: bool,
     /// The solid, if rays of the camera may start in it.
-    pub(super) inside: Option<Box<dyn Around>>,
+    pub(super) inside: Option<Box<dyn Enclosure>>,
     /// Where rays of the camera start.
     pub(super) camera: Aabb,
 }
@@ -74,7 +74,7 @@ impl Target<'_> {
             return;
         }
         let (solid, inverse) = (solid.clone(), self.inverse);
-        let inside: Box<dyn Around> = match map {
+        let inside: Box<dyn Enclosure> = match map {
             None => Box::new(Held { solid, inverse }),
             Some(map) => Box::new(Held { solid: Placed::new(solid, *map), inverse }),
         };

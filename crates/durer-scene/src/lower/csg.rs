@@ -6,7 +6,7 @@ use durer_geometry::{Compound, CompoundBuilder, CsgError, Part, Shown};
 use durer_math::Aabb;
 
 use super::build::{Target, To};
-use super::standing::Around;
+use super::camera_media::Enclosure;
 use super::{
     Context, Cutter, Flags, LowerError, LowerErrorKind, Lowering, is_clear, join, mask_of, shapes,
     shows_through,

@@ -9,7 +9,7 @@ use durer_surfaces::{
 };
 
 use super::shapes::{self, Result, shape_error};
-use super::{LowerErrorKind, named};
+use super::{LowerErrorKind, named_quadric};
 use crate::{Deform, NamedQuadric, Object, Operation, QuadricKind, Shape};
 
 /// A deformed solid's surface; `None` if it is empty.
@@ -112,8 +112,8 @@ fn leaf(shape: &Shape, place: &Affine, inverse: bool) -> Result<LevelSet> {
         }
         Shape::Named(quadric) => {
             let formula = primitives::principal(&principal(quadric)).map_err(shape_error)?;
-            let bounds = named::bounds(quadric, &Affine::IDENTITY)?;
-            let placed_bounds = named::bounds(quadric, place)?;
+            let bounds = named_quadric::bounds(quadric, &Affine::IDENTITY)?;
+            let placed_bounds = named_quadric::bounds(quadric, place)?;
             LevelSet::new(formula, bounds).placed_within(place, placed_bounds).map_err(shape_error)
         }
         &Shape::SphericalSector { centre, radius, axis, half_angle } => {

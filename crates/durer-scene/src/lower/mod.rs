@@ -3,15 +3,15 @@
 //! Unions are taken apart, what they say about looks is handed down, and every surface gets its two numbers: `object` counts the
 //! scene's objects in the order of the text, `primitive` the surfaces within the object, each face of a mesh by itself.
 
+mod blob_texture;
 mod build;
+mod camera_media;
 mod csg;
-mod exact;
-mod fields;
+mod fold_transform;
 mod level_set;
-mod named;
+mod named_quadric;
 mod shapes;
 mod shared;
-mod standing;
 
 use core::ops::Range;
 use std::collections::HashMap;
@@ -21,7 +21,7 @@ use durer_geometry::{BuildError, Builder, EVERYTHING, Geometry, ObjectId};
 use durer_math::{Aabb, Affine, AffineError, Point3, Vec3};
 
 use crate::{Camera, Face, Flags, Interior, Mesh, Object, Place, Placement, Scene, Shape, Texture, mask};
-use standing::Around;
+use camera_media::Enclosure;
 
 /// A scene made ready for rays.
 pub struct Lowered {
@@ -36,7 +36,7 @@ pub struct Lowered {
     /// For each object, where its primitives' looks are.
     looks_at: Vec<Range<u32>>,
     of_primitive: Vec<LookId>,
-    around_camera: Vec<(u32, Box<dyn Around>)>,
+    around_camera: Vec<(u32, Box<dyn Enclosure>)>,
 }
 
 /// The number of a [`Look`] among [`Lowered::looks`].
@@ -236,7 +236,7 @@ struct Lowering {
     warnings: Vec<(Option<Place>, String)>,
     looks_at: Vec<Range<u32>>,
     of_primitive: Vec<LookId>,
-    around_camera: Vec<(u32, Box<dyn Around>)>,
+    around_camera: Vec<(u32, Box<dyn Enclosure>)>,
     /// Meshes of several objects.
     shared: shared::Meshes,
     object: ObjectId,
@@ -423,7 +423,7 @@ impl Lowering {
     ) -> Result<u32, LowerErrorKind> {
         let texture = match &object.shape {
             Shape::Blob(blob) if blob.textures.iter().any(Option::is_some) => {
-                (fields::texture(blob, place, &texture)?, Arc::clone(&self.world))
+                (blob_texture::texture(blob, place, &texture)?, Arc::clone(&self.world))
             }
             _ => texture,
         };

@@ -10,14 +10,14 @@ use durer_surfaces::{
 };
 
 use super::build::Target;
-use super::standing::Around;
-use super::{LowerErrorKind, exact, level_set, named};
+use super::camera_media::Enclosure;
+use super::{LowerErrorKind, fold_transform, level_set, named_quadric};
 use crate::{Container, Mesh, Object, Operation, Shape, Spline, Sweep};
 
 /// What became of a shape.
 pub(super) enum Built {
     /// It is in the geometry; where it is solid and asked for, with the test for its inside.
-    Done(Option<Box<dyn Around>>),
+    Done(Option<Box<dyn Enclosure>>),
     /// It has no points, for this reason.
     Nothing(String),
 }
@@ -35,7 +35,9 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
         &Shape::Sphere { centre, radius } => {
             // A negative radius is drawn as its size.
             let radius = radius.abs();
-            match folded(map, |m| Some((exact::point(m, centre)?, exact::length(m, radius)?))) {
+            match folded(map, |m| {
+                Some((fold_transform::point(m, centre)?, fold_transform::length(m, radius)?))
+            }) {
                 Some((c, r)) => add(&mut target, Sphere::new(c, r).map_err(shape_error)?, None),
                 None => add(&mut target, Sphere::new(centre, radius).map_err(shape_error)?, map),
             }
@@ -47,8 +49,13 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
                 let made = if open { CappedCylinder::open(b, c, r) } else { CappedCylinder::new(b, c, r) };
                 made.map_err(shape_error)
             };
-            let all =
-                |m: &Affine| Some((exact::point(m, base)?, exact::point(m, cap)?, exact::length(m, radius)?));
+            let all = |m: &Affine| {
+                Some((
+                    fold_transform::point(m, base)?,
+                    fold_transform::point(m, cap)?,
+                    fold_transform::length(m, radius)?,
+                ))
+            };
             match folded(map, all) {
                 Some((b, c, r)) => target.add(make(b, c, r)?, None),
                 None => target.add(make(base, cap, radius)?, map),
@@ -61,8 +68,8 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
                 made.map_err(shape_error)
             };
             let all = |m: &Affine| {
-                let ends = (exact::point(m, base)?, exact::point(m, cap)?);
-                Some((ends, exact::length(m, base_radius)?, exact::length(m, cap_radius)?))
+                let ends = (fold_transform::point(m, base)?, fold_transform::point(m, cap)?);
+                Some((ends, fold_transform::length(m, base_radius)?, fold_transform::length(m, cap_radius)?))
             };
             match folded(map, all) {
                 Some(((b, c), r0, r1)) => target.add(make(b, r0, c, r1)?, None),
@@ -80,8 +87,13 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
         &Shape::Torus { major, minor } => {
             let made = |c, axis, major, minor| Torus::new(c, axis, major, minor).map_err(shape_error);
             let all = |m: &Affine| {
-                let (axis, size) = exact::axis(m, 1)?;
-                Some((m.centre(), AXES[axis], exact::product(size, major)?, exact::product(size, minor)?))
+                let (axis, size) = fold_transform::axis(m, 1)?;
+                Some((
+                    m.centre(),
+                    AXES[axis],
+                    fold_transform::product(size, major)?,
+                    fold_transform::product(size, minor)?,
+                ))
             };
             match folded(map, all) {
                 Some((c, axis, major, minor)) => add(&mut target, made(c, axis, major, minor)?, None),
@@ -136,7 +148,7 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             let all = Affine::new(rows, base)?.then(place)?;
             turned(solid, open, Some(&all), &mut target);
         }
-        Shape::Named(quadric) => named::build(quadric, open, map, &mut target)?,
+        Shape::Named(quadric) => named_quadric::build(quadric, open, map, &mut target)?,
         &Shape::SphericalSector { centre, radius, axis, half_angle } => {
             let sector =
                 SphericalSector::with_half_angle(centre, radius, axis, half_angle).map_err(shape_error)?;
@@ -203,8 +215,8 @@ fn flat(shape: &Shape, map: Option<&Affine>, mut target: Target<'_>) -> Result<B
     match shape {
         &Shape::Box { a, b } => {
             let corners = |m: &Affine| {
-                exact::is_diagonal(m).then_some(())?;
-                Some((exact::point(m, a)?, exact::point(m, b)?))
+                fold_transform::is_diagonal(m).then_some(())?;
+                Some((fold_transform::point(m, a)?, fold_transform::point(m, b)?))
             };
             match folded(map, corners) {
                 Some((a, b)) => add_flat(&mut target, AxisBox::new(a, b).map_err(shape_error)?, None),
@@ -216,7 +228,11 @@ fn flat(shape: &Shape, map: Option<&Affine>, mut target: Target<'_>) -> Result<B
         }
         &Shape::Disc { centre, normal, radius, hole } => {
             let lengths = |m: &Affine| {
-                Some((exact::point(m, centre)?, exact::length(m, radius)?, exact::length(m, hole)?))
+                Some((
+                    fold_transform::point(m, centre)?,
+                    fold_transform::length(m, radius)?,
+                    fold_transform::length(m, hole)?,
+                ))
             };
             let (map, (centre, radius, hole)) = match folded(map, lengths) {
                 Some(folded) => (None, folded),
@@ -232,8 +248,13 @@ fn flat(shape: &Shape, map: Option<&Affine>, mut target: Target<'_>) -> Result<B
             }
         }
         &Shape::Parallelogram { corner, u, v } => {
-            let all =
-                |m: &Affine| Some((exact::point(m, corner)?, exact::vector(m, u)?, exact::vector(m, v)?));
+            let all = |m: &Affine| {
+                Some((
+                    fold_transform::point(m, corner)?,
+                    fold_transform::vector(m, u)?,
+                    fold_transform::vector(m, v)?,
+                ))
+            };
             let (map, (corner, u, v)) = match kept_side(map, all) {
                 Some(folded) => (None, folded),
                 None => (map, (corner, u, v)),
@@ -329,7 +350,7 @@ fn kept_side<T>(map: Option<&Affine>, numbers: impl Fn(&Affine) -> Option<T>) ->
 
 fn points(map: &Affine, points: &[Point3; 3]) -> Option<[Point3; 3]> {
     let [a, b, c] = points;
-    Some([exact::point(map, *a)?, exact::point(map, *b)?, exact::point(map, *c)?])
+    Some([fold_transform::point(map, *a)?, fold_transform::point(map, *b)?, fold_transform::point(map, *c)?])
 }
 
 /// The surface of a mesh.
@@ -418,7 +439,7 @@ pub(super) fn region(clip: &Object, around: &Affine) -> Result<Region> {
         Shape::Quadric(coefficients) => {
             Region::solid(*Quadric::new(**coefficients).map_err(shape_error)?.shape())
         }
-        Shape::Named(quadric) => named::region(quadric)?,
+        Shape::Named(quadric) => named_quadric::region(quadric)?,
         &Shape::SphericalSector { centre, radius, axis, half_angle } => {
             let sector = SphericalSector::with_half_angle(centre, radius, axis, half_angle);
             Region::solid(*sector.map_err(shape_error)?.shape())

@@ -3,17 +3,17 @@
 
 mod blocks;
 mod node;
-mod ready;
+mod setup;
 
 pub(super) use blocks::{edges, judge_halves};
 pub(super) use node::{Numbers, slabs};
-pub(super) use ready::{OUTWARD, SLACK};
+pub(super) use setup::{OUTWARD, SLACK};
 
-use super::packet::{self, Filters, Packet};
+use super::packet8::{self, Filters, Packet};
 use super::scalar::no_packets;
 use super::{Kernel, Rows, Stack, Together};
 use crate::node::{ChildRef, Node};
-use crate::ray::{CullRay, Glances, PACKET, Rounding, Sight, TWICE, Way};
+use crate::ray::{ClippedRay, CullRay, PACKET, Packet32, Rounding, TWICE, TreeRay};
 use crate::tree::Bvh;
 use crate::triangles::{Block, Filter, Verdict};
 use blocks::judge;
@@ -21,7 +21,7 @@ use core::arch::x86_64::*;
 use durer_math::kernels::Path;
 use durer_math::{Isa, Vec3};
 use node::{Lanes, descend, meets};
-use ready::{Clipped, clip, nearby};
+use setup::{Clipped, clip, nearby};
 
 /// Proof that this CPU has all that [`Path::Avx2`] asks for: AVX2, FMA, BMI1 and 2, LZCNT and POPCNT.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +35,7 @@ impl Avx2 {
     }
 
     #[inline(always)]
-    fn clipped(self, tree: &Bvh, sight: &impl Sight) -> Option<CullRay> {
+    fn clipped(self, tree: &Bvh, sight: &impl TreeRay) -> Option<CullRay> {
         self.apart(
             #[inline(always)]
             || {
@@ -59,13 +59,13 @@ impl Kernel for Avx2 {
     type Lanes = Lanes;
 
     #[inline(always)]
-    fn nearby(self, tree: &Bvh, sight: &impl Sight) -> Option<(Numbers, Way)> {
+    fn nearby(self, tree: &Bvh, sight: &impl TreeRay) -> Option<(Numbers, ClippedRay)> {
         // SAFETY: as below.
         unsafe { nearby(tree, &sight.glance()) }
     }
 
     #[inline(always)]
-    fn afar(self, tree: &Bvh, sight: &impl Sight) -> Option<(Numbers, Way)> {
+    fn afar(self, tree: &Bvh, sight: &impl TreeRay) -> Option<(Numbers, ClippedRay)> {
         let ray = self.clipped(tree, sight)?;
         Some((Numbers::of(&ray), ray.way))
     }
@@ -126,10 +126,10 @@ impl Together<PACKET> for Avx2 {
     type Filters = Filters;
 
     #[inline(always)]
-    fn gather(self, tree: &Bvh, rays: &[&Glances]) -> Option<Packet> {
+    fn gather(self, tree: &Bvh, rays: &[&Packet32]) -> Option<Packet> {
         let [rays] = rays else { return None };
         // SAFETY: as above.
-        unsafe { packet::gather(tree, rays) }
+        unsafe { packet8::gather(tree, rays) }
     }
 
     #[inline(always)]
@@ -139,13 +139,13 @@ impl Together<PACKET> for Avx2 {
     }
 
     #[inline(always)]
-    fn one(self, tree: &Bvh, packet: &Packet, ray: usize) -> (Numbers, Way) {
+    fn one(self, tree: &Bvh, packet: &Packet, ray: usize) -> (Numbers, ClippedRay) {
         // SAFETY: as above.
         unsafe { (packet.numbers(ray), packet.way(tree, ray)) }
     }
 
     #[inline(always)]
-    fn way(self, tree: &Bvh, packet: &Packet, ray: usize) -> Way {
+    fn way(self, tree: &Bvh, packet: &Packet, ray: usize) -> ClippedRay {
         // SAFETY: as above.
         unsafe { packet.way(tree, ray) }
     }
@@ -153,7 +153,7 @@ impl Together<PACKET> for Avx2 {
     #[inline(always)]
     fn awake(self, row: &[f32; PACKET], t_far: &[f32; PACKET]) -> u32 {
         // SAFETY: as above.
-        unsafe { packet::awake(row, t_far) }
+        unsafe { packet8::awake(row, t_far) }
     }
 
     #[inline(always)]
@@ -172,7 +172,7 @@ impl Together<PACKET> for Avx2 {
         verdicts: &mut [Verdict; PACKET],
     ) -> u32 {
         // SAFETY: as above.
-        unsafe { packet::judge(block, filters, awake, t_far, verdicts) }
+        unsafe { packet8::judge(block, filters, awake, t_far, verdicts) }
     }
 
     #[inline(always)]
@@ -185,7 +185,7 @@ impl Together<PACKET> for Avx2 {
         rows: &mut Rows<PACKET>,
     ) {
         // SAFETY: as above.
-        unsafe { packet::descend::<ORDERED>(node, packet, row, (t_far, far), rows) }
+        unsafe { packet8::descend::<ORDERED>(node, packet, row, (t_far, far), rows) }
     }
 }
 

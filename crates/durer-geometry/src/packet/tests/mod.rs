@@ -129,9 +129,9 @@ fn compare(world: &World, aim: Aim, rays: &Rays8, dice: &mut Dice, depth: u32, t
     let mut hits = Hits8::NONE;
     let scratch = &mut Scratch::default();
     let (only, mut met) = (slice::from_ref(rays), M8::NONE);
-    geometry.seen_by_lanes(None, only, u32::MAX, slice::from_mut(&mut hits), scratch);
-    geometry.any_by_lanes(None, only, u32::MAX, slice::from_mut(&mut met), scratch);
-    let beam = geometry.beam_of(only).unwrap();
+    geometry.first_visible8(None, only, u32::MAX, slice::from_mut(&mut hits), scratch);
+    geometry.any8(None, only, u32::MAX, slice::from_mut(&mut met), scratch);
+    let beam = geometry.bundle_candidates(only).unwrap();
     let asked = geometry.see(&beam, rays, u32::MAX, &mut Hits8::NONE.clone(), scratch);
     let starts = check(world, rays, (&hits, met, asked), tally);
     check_starts(world, aim, &hits, starts);
@@ -180,7 +180,7 @@ fn check(world: &World, rays: &Rays8, (hits, met, asked): (&Hits8, M8, M8), tall
         tally.met += 1;
         if asked.lane(i) {
             let mut single = Hits8::NONE;
-            let seen = geometry.seen(&ray, u32::MAX, Need::SHADING_NORMAL);
+            let seen = geometry.first_visible(&ray, u32::MAX, Need::SHADING_NORMAL);
             single.set_lane(i, seen);
             assert_eq!(
                 format!("{:?}", one(hits, i)),
@@ -332,15 +332,15 @@ fn many_eights_together_see_what_single_rays_see() {
             rays[0].live = M8::from_bits(0b1001_0100);
             rays[round / 2].live = M8::NONE;
             for _ in 0..3 {
-                let Some(beam) = geometry.beam_of(&rays) else { break };
+                let Some(beam) = geometry.bundle_candidates(&rays) else { break };
                 if !geometry.is_asked_together(&beam, u32::MAX) {
                     break;
                 }
                 let (mut hits, mut met) = (vec![Hits8::NONE; rays.len()], vec![M8::NONE; rays.len()]);
                 let mut asked = ArrayVec::new();
                 geometry.see_many(&beam, &rays, u32::MAX, &mut hits, &mut asked, scratch);
-                geometry.seen_by_lanes(Some(&beam), &rays, u32::MAX, &mut hits, scratch);
-                geometry.any_by_lanes(Some(&beam), &rays, u32::MAX, &mut met, scratch);
+                geometry.first_visible8(Some(&beam), &rays, u32::MAX, &mut hits, scratch);
+                geometry.any8(Some(&beam), &rays, u32::MAX, &mut met, scratch);
                 for (i, rays) in rays.iter_mut().enumerate() {
                     assert_eq!((hits[i].hit | met[i]) & !rays.live, M8::NONE, "{}", world.name);
                     let starts = check(world, rays, (&hits[i], met[i], asked[i]), &mut tally);
@@ -476,7 +476,7 @@ fn all_paths_see_the_same_bits() {
             let seen = paths.iter().map(|worlds| {
                 let mut hits = Hits8::NONE;
                 let (rays, to) = (slice::from_ref(&rays), slice::from_mut(&mut hits));
-                worlds[i].geometry.seen_by_lanes(None, rays, 1, to, &mut Scratch::default());
+                worlds[i].geometry.first_visible8(None, rays, 1, to, &mut Scratch::default());
                 format!("{hits:?}")
             });
             let seen: Vec<_> = seen.collect();

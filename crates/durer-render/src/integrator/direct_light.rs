@@ -1,10 +1,10 @@
 //! The light of lamps on surfaces.
 
-use super::coats::{Coats, Lit};
+use super::layers::{Coats, Lit};
+use super::shading_point::Spot;
 use super::shadow::Shadows;
-use super::spot::Spot;
 use crate::lanes::Rgb8;
-use crate::light::{Beamed, Lamp};
+use crate::light::{Beamed, RenderLight};
 use crate::material::{Finish, Incidence};
 use crate::progress::Progress;
 use crate::stats::RayCounts;
@@ -69,7 +69,7 @@ impl<'w> Lamps<'w> {
     }
 
     /// Lets light fall on spots; none of it is seen yet.
-    fn fall(&mut self, isa: Isa, lamp: &Lamp, (double, behind): (bool, bool), spots: &[Spot]) {
+    fn fall(&mut self, isa: Isa, lamp: &RenderLight, (double, behind): (bool, bool), spots: &[Spot]) {
         let falling = &mut self.falling;
         falling.clear();
         let places = self.shadows.places(spots.len());
@@ -120,7 +120,7 @@ impl<'w> Lamps<'w> {
     }
 
     /// Colours what is seen of the light, and aims rays at the lamp from where anything is.
-    fn aim(&mut self, isa: Isa, lamp: &Lamp, spots: &[Spot]) {
+    fn aim(&mut self, isa: Isa, lamp: &RenderLight, spots: &[Spot]) {
         let (falling, places) = (&self.falling, self.shadows.places(spots.len()));
         isa.run_in_lanes(
             #[inline(always)]

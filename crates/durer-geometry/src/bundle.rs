@@ -1,10 +1,10 @@
 //! Rays that belong together share one walk through the tree.
 
-use crate::best::Best;
+use crate::closest::ClosestHit;
 use crate::geometry::{Geometry, slots};
 use crate::ids::{EVERYTHING, Id};
 use crate::query::{any_in, closest_in};
-use crate::{Hit, walk::Walk};
+use crate::{Hit, context::RayContext};
 use arrayvec::ArrayVec;
 use durer_bvh::Leaf;
 use durer_math::{Ray, Shaft, Source};
@@ -12,8 +12,8 @@ use durer_surfaces::{Need, SurfacePoint};
 
 /// What the rays of a bundle may meet, by object and primitive.
 #[derive(Clone, Debug, Default)]
-pub struct Beam {
-    pub(crate) candidates: ArrayVec<Candidate, { Beam::MOST }>,
+pub struct CandidateList {
+    pub(crate) candidates: ArrayVec<Candidate, { CandidateList::MOST }>,
 }
 
 /// A slot that rays may meet.
@@ -31,7 +31,7 @@ impl Candidate {
     }
 }
 
-impl Beam {
+impl CandidateList {
     /// With more slots than this the tree is the faster way.
     const MOST: usize = 64;
     /// The same for one ray.
@@ -51,8 +51,8 @@ impl Beam {
 impl Geometry {
     /// What the rays of a bundle may meet; `None` if that is so much that each ray should walk through the tree by itself. They all come from
     /// the same side of `source`, if there is one.
-    pub fn beam(&self, shaft: &Shaft, source: Option<Source>) -> Option<Beam> {
-        let mut beam = Beam::default();
+    pub fn candidates(&self, shaft: &Shaft, source: Option<Source>) -> Option<CandidateList> {
+        let mut beam = CandidateList::default();
         let candidates = &mut beam.candidates;
         for beside in &self.beside {
             for slot in slots(&beside.leaf()) {
@@ -66,12 +66,12 @@ impl Geometry {
                 }
             }
         }
-        let dense = self.tree.blocks() > Beam::DENSE;
+        let dense = self.tree.blocks() > CandidateList::DENSE;
         let mut triangles = 0;
         let full = self.tree.in_shaft(self.isa, shaft, |leaf| {
             if dense && self.tree.is_of_triangles(leaf.kind) {
                 triangles += leaf.count;
-                if triangles > Beam::TRIANGLES {
+                if triangles > CandidateList::TRIANGLES {
                     return true;
                 }
             }
@@ -98,21 +98,27 @@ impl Geometry {
         Candidate { arena, slot, name, mask }
     }
 
-    /// As [`Geometry::seen`], of a ray of the bundle that `beam` was made for: the same answer.
+    /// As [`Geometry::first_visible`], of a ray of the bundle that `candidates` was made for: the same answer.
     #[inline]
-    pub fn seen_in(&self, beam: &Beam, ray: &Ray, mask: u32, need: Need) -> Option<(Hit, SurfacePoint)> {
+    pub fn seen_in(
+        &self,
+        beam: &CandidateList,
+        ray: &Ray,
+        mask: u32,
+        need: Need,
+    ) -> Option<(Hit, SurfacePoint)> {
         if beam.is_empty() {
             return None;
         }
-        if beam.candidates.len() > Beam::FEW {
-            return self.seen(ray, mask, need);
+        if beam.candidates.len() > CandidateList::FEW {
+            return self.first_visible(ray, mask, need);
         }
         self.walk_roughly(
             ray,
             mask,
             #[inline(always)]
-            |walk: &Walk<'_>| {
-                let mut best = Best::least();
+            |walk: &RayContext<'_>| {
+                let mut best = ClosestHit::least();
                 for candidate in &beam.candidates {
                     closest_in(walk, candidate.leaf(), &mut best);
                 }
@@ -122,10 +128,10 @@ impl Geometry {
         )?
     }
 
-    /// As [`Geometry::any_masked`], of a ray of the bundle that `beam` was made for: the same answer.
+    /// As [`Geometry::any_masked`], of a ray of the bundle that `candidates` was made for: the same answer.
     #[inline]
-    pub fn any_in(&self, beam: &Beam, ray: &Ray, mask: u32) -> bool {
-        if beam.candidates.len() > Beam::FEW {
+    pub fn any_in(&self, beam: &CandidateList, ray: &Ray, mask: u32) -> bool {
+        if beam.candidates.len() > CandidateList::FEW {
             return self.any_masked(ray, mask);
         }
         !beam.is_empty()
@@ -133,7 +139,7 @@ impl Geometry {
                 ray,
                 mask,
                 #[inline(always)]
-                |walk: &Walk<'_>| {
+                |walk: &RayContext<'_>| {
                     for candidate in &beam.candidates {
                         if any_in(walk, candidate.leaf()) {
                             return true;

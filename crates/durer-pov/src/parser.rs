@@ -1,6 +1,6 @@
 //! The reader: all its state, and the stream of tokens as the grammar sees it.
 //!
-//! Directives run and macros unfold inside [`Reader::next`], because they may stand anywhere a token may;
+//! Directives run and macros unfold inside [`Parser::next`], because they may stand anywhere a token may;
 //! identifiers come out of it as their values.
 
 use std::collections::HashMap;
@@ -8,13 +8,13 @@ use std::path::PathBuf;
 use std::rc::Rc;
 
 use crate::ReadOptions;
-use crate::diagnostics::{Fault, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
+use crate::interner::{Interner, Name};
 use crate::keywords::Keyword;
 use crate::lexer::{Kind, Mark, Token};
 use crate::limits;
 use crate::macros::Macro;
 use crate::messages::Messages;
-use crate::names::{Name, Names};
 use crate::scope::Scopes;
 use crate::source::{self, Library, Source};
 use crate::value::{Text, Value};
@@ -66,9 +66,9 @@ pub(crate) struct Frame {
 }
 
 /// Reads one scene.
-pub(crate) struct Reader<'a> {
+pub(crate) struct Parser<'a> {
     pub(crate) options: &'a ReadOptions,
-    pub(crate) names: Names,
+    pub(crate) names: Interner,
     pub(crate) sources: Vec<Rc<Source>>,
     loaded: HashMap<PathBuf, u32>,
     pub(crate) library: Library,
@@ -89,14 +89,14 @@ pub(crate) struct Reader<'a> {
     pub(crate) streams: Vec<u32>,
     pub(crate) language: crate::settings::Language,
     pub(crate) defaults: Rc<crate::texture::Layer>,
-    pub(crate) scene: crate::emit::Output,
+    pub(crate) scene: crate::scene_builder::Output,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> Parser<'a> {
     pub(crate) fn new(options: &'a ReadOptions, library: Library, messages: Messages<'a>) -> Self {
         Self {
             options,
-            names: Names::new(),
+            names: Interner::new(),
             sources: Vec::new(),
             loaded: HashMap::new(),
             library,
@@ -115,7 +115,7 @@ impl<'a> Reader<'a> {
             streams: Vec::new(),
             language: crate::settings::Language::default(),
             defaults: Rc::default(),
-            scene: crate::emit::Output::default(),
+            scene: crate::scene_builder::Output::default(),
         }
     }
 
@@ -125,14 +125,14 @@ impl<'a> Reader<'a> {
             return Ok(file);
         }
         let text = source::read_text(&path, &self.options.limits).map_err(|why| {
-            Fault::file(from, if from.is_some() { format!("{}: {why}", path.display()) } else { why })
+            Error::file(from, if from.is_some() { format!("{}: {why}", path.display()) } else { why })
         })?;
         let file = self.sources.len() as u32;
         let mut source = Source::new(path.clone(), text);
         limits::charge_for_good(source.text.len());
         let mut result = crate::lexer::lex(&mut source, file, &mut self.names, &self.options.limits);
         if result.is_ok() {
-            result = crate::blocks::match_blocks(&mut source, file);
+            result = crate::branches::match_blocks(&mut source, file);
         }
         source.tokens.shrink_to_fit();
         source.numbers.shrink_to_fit();
@@ -212,7 +212,7 @@ impl<'a> Reader<'a> {
 
     /// Makes the frame numbered `serial` the innermost again, by leaving those that are read to their ends.
     pub(crate) fn back_to_frame(&mut self, serial: u64, place: Place) -> Result<()> {
-        let strayed = || Fault::invalid(place, "this directive does not end where it began");
+        let strayed = || Error::invalid(place, "this directive does not end where it began");
         loop {
             let frame = self.frames.last().ok_or_else(strayed)?;
             if frame.serial == serial {
@@ -278,7 +278,7 @@ impl<'a> Reader<'a> {
         self.raw_ahead(0)
     }
 
-    /// As [`Reader::raw`], `ahead` tokens further.
+    /// As [`Parser::raw`], `ahead` tokens further.
     pub(crate) fn raw_ahead(&self, ahead: usize) -> Option<Kind> {
         debug_assert!(self.peeked.is_none(), "a token was looked at already");
         let frame = self.frames.last()?;
@@ -442,10 +442,10 @@ impl<'a> Reader<'a> {
     }
 
     /// The fault of finding `lexeme` where `wanted` should be.
-    pub(crate) fn unexpected(&self, lexeme: &Lexeme, wanted: &str) -> Box<Fault> {
+    pub(crate) fn unexpected(&self, lexeme: &Lexeme, wanted: &str) -> Box<Error> {
         let found = match &lexeme.item {
             Item::Value(Value::Unsupported(what)) => {
-                return Fault::at(lexeme.place, crate::FaultKind::Unsupported, what.text.clone());
+                return Error::at(lexeme.place, crate::ErrorKind::Unsupported, what.text.clone());
             }
             Item::Unknown(name) => {
                 let text = crate::diagnostics::shortened(self.names.text(*name));
@@ -454,7 +454,7 @@ impl<'a> Reader<'a> {
                 } else {
                     self.similar(*name).map_or_else(String::new, |s| format!(" (did you mean `{s}`?)"))
                 };
-                return Fault::invalid(
+                return Error::invalid(
                     lexeme.place,
                     format!("expected {wanted}, found the undeclared `{text}`{hint}"),
                 );
@@ -462,14 +462,14 @@ impl<'a> Reader<'a> {
             Item::Number(_) => "a number".to_owned(),
             Item::Text(..) => "a string".to_owned(),
             Item::Word(keyword) if crate::unsupported::is_unsupported(*keyword) => {
-                return Fault::unsupported(lexeme.place, keyword.text());
+                return Error::unsupported(lexeme.place, keyword.text());
             }
             Item::Word(keyword) => format!("`{}`", keyword.text()),
             Item::Mark(mark) => format!("`{}`", mark.text()),
             Item::Value(value) => value.kind().to_owned(),
             Item::End => "the end of the scene".to_owned(),
         };
-        Fault::invalid(lexeme.place, format!("expected {wanted}, found {found}"))
+        Error::invalid(lexeme.place, format!("expected {wanted}, found {found}"))
     }
 
     /// Whether functions.inc has been read.
@@ -491,7 +491,7 @@ impl<'a> Reader<'a> {
     pub(crate) fn skip_to_brace_level(&mut self, braces: u64) -> Result<()> {
         while self.braces > braces {
             if let Lexeme { item: Item::End, place } = self.next()? {
-                return Err(Fault::invalid(place, "the scene ends inside a block: a `}` is missing"));
+                return Err(Error::invalid(place, "the scene ends inside a block: a `}` is missing"));
             }
         }
         Ok(())

@@ -9,12 +9,12 @@ pub use self::rays::{Hits8, Rays8, Sources8};
 
 use self::rays::slot_number;
 use self::together::MANY;
-use crate::abreast::Abreast;
-use crate::beam::Candidate;
-use crate::csg::{Body, Memory};
+use crate::bundle::Candidate;
+use crate::csg::{Memory, PacketCsg};
+use crate::filter_cache::FilterKind;
 use crate::ids::Id;
-use crate::outlines::Seen;
-use crate::{Beam, Geometry};
+use crate::interleave::Abreast;
+use crate::{CandidateList, Geometry};
 use arrayvec::ArrayVec;
 use core::slice;
 use durer_math::lanes::LANES;
@@ -116,7 +116,7 @@ fn all_meet(isa: Isa, rays: &Rays8, nearest: &Nearest) -> bool {
 
 impl Geometry {
     /// What the rays of some eights may meet; `None` if that is so much that each ray should look for itself.
-    pub fn beam_of(&self, rays: &[Rays8]) -> Option<Beam> {
+    pub fn bundle_candidates(&self, rays: &[Rays8]) -> Option<CandidateList> {
         let (mut start, mut ahead) = (Bounds8::NONE, Bounds8::NONE);
         let mut longer = M8::NONE;
         // Bounds stay in memory between these steps: the compiler mixes the lanes of larger ones.
@@ -153,14 +153,14 @@ impl Geometry {
             );
             Shaft::between(start.all(), ahead.all())
         };
-        self.beam(&shaft, common_source(self.isa, rays))
+        self.candidates(&shaft, common_source(self.isa, rays))
     }
 
-    /// Puts down what each ray of some eights sees first, as [`Geometry::seen`] answers. `beam` holds what these rays may meet, if that is known; `scratch`
+    /// Puts down what each ray of some eights sees first, as [`Geometry::first_visible`] answers. `candidates` holds what these rays may meet, if that is known; `scratch`
     /// may hold anything.
-    pub fn seen_by_lanes(
+    pub fn first_visible8(
         &self,
-        beam: Option<&Beam>,
+        beam: Option<&CandidateList>,
         rays: &[Rays8],
         mask: u32,
         hits: &mut [Hits8],
@@ -181,19 +181,19 @@ impl Geometry {
 
     fn see_eight(
         &self,
-        beam: Option<&Beam>,
+        beam: Option<&CandidateList>,
         rays: &Rays8,
         mask: u32,
         hits: &mut Hits8,
         scratch: &mut Scratch,
     ) {
         hits.forget();
-        if !rays.live.any() || beam.is_some_and(Beam::is_empty) {
+        if !rays.live.any() || beam.is_some_and(CandidateList::is_empty) {
             return;
         }
         let mut own = None;
         let beam = beam.or_else(|| {
-            own = self.beam_of(slice::from_ref(rays));
+            own = self.bundle_candidates(slice::from_ref(rays));
             own.as_ref()
         });
         let Some(beam) = beam else {
@@ -210,7 +210,7 @@ impl Geometry {
     }
 
     /// What rays of which lanes leave something open see by themselves.
-    fn see_alone(&self, beam: &Beam, (rays, left): (&Rays8, M8), mask: u32, hits: &mut Hits8) {
+    fn see_alone(&self, beam: &CandidateList, (rays, left): (&Rays8, M8), mask: u32, hits: &mut Hits8) {
         for i in left.lanes() {
             hits.set_lane(i, self.seen_in(beam, &rays.lane(i), mask, Need::SHADING_NORMAL));
         }
@@ -218,7 +218,14 @@ impl Geometry {
 
     /// Puts down what is sure; answers with the rays of which something is not. For lanes, as [`Geometry::nearest`].
     #[inline(always)]
-    fn see(&self, beam: &Beam, rays: &Rays8, mask: u32, hits: &mut Hits8, scratch: &mut Scratch) -> M8 {
+    fn see(
+        &self,
+        beam: &CandidateList,
+        rays: &Rays8,
+        mask: u32,
+        hits: &mut Hits8,
+        scratch: &mut Scratch,
+    ) -> M8 {
         let lanes = RayLanes::new(self.isa, &rays.origin, &rays.direction, &rays.t_max, &rays.live);
         let mut nearest = Nearest::of(&lanes);
         self.nearest::<false>(beam, rays, &lanes, mask, &mut nearest, scratch);
@@ -229,7 +236,7 @@ impl Geometry {
     #[inline(always)]
     fn take_down(
         &self,
-        beam: &Beam,
+        beam: &CandidateList,
         rays: &Rays8,
         lanes: &RayLanes<'_>,
         nearest: &Nearest,
@@ -271,18 +278,18 @@ impl Geometry {
     fn face(&self, candidate: &Candidate, face: f64) -> Option<Face<'_>> {
         let Candidate { arena, slot, name, .. } = *candidate;
         match self.seen_of(arena, slot) {
-            Seen::Outline(outline) => {
+            FilterKind::Outline(outline) => {
                 let part = self.arenas[arena as usize].part(slot).0;
                 let (face, slot) = (face as u32, slot_number(arena, slot));
                 Some(Face { outline, face, turned: false, name, slot, part })
             }
-            Seen::Body(body) => {
+            FilterKind::Body(body) => {
                 let skin = body.skin(face);
-                let (name, slot) = (Body::name(name, &skin), slot_number(arena, skin.slot));
+                let (name, slot) = (PacketCsg::name(name, &skin), slot_number(arena, skin.slot));
                 let (outline, face, turned) = (skin.outline, skin.face, skin.turned);
                 Some(Face { outline, face, turned, name, slot, part: 0 })
             }
-            Seen::Nothing => None,
+            FilterKind::Nothing => None,
         }
     }
 
@@ -291,7 +298,7 @@ impl Geometry {
     #[inline(always)]
     fn nearest<const ANY: bool>(
         &self,
-        beam: &Beam,
+        beam: &CandidateList,
         rays: &Rays8,
         lanes: &RayLanes<'_>,
         mask: u32,
@@ -324,24 +331,24 @@ impl Geometry {
         let Candidate { arena, slot, .. } = *candidate;
         let number = number as f64;
         match self.seen_of(arena, slot) {
-            Seen::Outline(outline) => {
+            FilterKind::Outline(outline) => {
                 let leaves = sources.contains(&slot_number(arena, slot));
                 let from = leaves.then(|| rays.source.of(arena, slot, outline));
                 let asked = PacketQuery { rays: lanes, from: from.as_ref(), number, any: ANY };
                 outline.meet(&asked, nearest, &mut scratch.outline);
             }
-            Seen::Body(body) => {
+            FilterKind::Body(body) => {
                 let memory = (&mut scratch.outline, &mut scratch.body);
                 body.meet(self.isa, (arena, number), (rays, lanes), nearest, memory);
             }
-            Seen::Nothing => nearest.doubt = F8::ZERO,
+            FilterKind::Nothing => nearest.doubt = F8::ZERO,
         }
     }
 
     /// Puts down which rays of some eights meet anything, as [`Geometry::any_masked`] answers.
-    pub fn any_by_lanes(
+    pub fn any8(
         &self,
-        beam: Option<&Beam>,
+        beam: Option<&CandidateList>,
         rays: &[Rays8],
         mask: u32,
         met: &mut [M8],
@@ -360,13 +367,19 @@ impl Geometry {
         }
     }
 
-    fn any_of_eight(&self, beam: Option<&Beam>, rays: &Rays8, mask: u32, scratch: &mut Scratch) -> M8 {
-        if !rays.live.any() || beam.is_some_and(Beam::is_empty) {
+    fn any_of_eight(
+        &self,
+        beam: Option<&CandidateList>,
+        rays: &Rays8,
+        mask: u32,
+        scratch: &mut Scratch,
+    ) -> M8 {
+        if !rays.live.any() || beam.is_some_and(CandidateList::is_empty) {
             return M8::NONE;
         }
         let mut own = None;
         let beam = beam.or_else(|| {
-            own = self.beam_of(slice::from_ref(rays));
+            own = self.bundle_candidates(slice::from_ref(rays));
             own.as_ref()
         });
         let mut met = M8::NONE;
@@ -390,7 +403,7 @@ impl Geometry {
     }
 
     /// Whether rays of which lanes leave something open meet anything.
-    fn meet_alone(&self, beam: &Beam, (rays, left): (&Rays8, M8), mask: u32, met: &mut M8) {
+    fn meet_alone(&self, beam: &CandidateList, (rays, left): (&Rays8, M8), mask: u32, met: &mut M8) {
         for i in left.lanes() {
             met.set_lane(i, self.any_in(beam, &rays.lane(i), mask));
         }

@@ -9,12 +9,12 @@ use durer_scene as scene;
 
 use crate::camera::{Camera, Projection};
 use crate::colour::Colour;
-use crate::diagnostics::{Fault, FaultKind, Place, Result};
+use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::light::{Beam, Light};
 use crate::limits;
 use crate::object::{Object, Shape};
+use crate::parser::Parser;
 use crate::pattern_function::changed_number;
-use crate::reader::Reader;
 use crate::settings::{Gamma, Globals};
 use crate::texture::{Finish, Interior, Layer, Map, Paint, Pattern, PatternKind, Pigment, Texture, Wave};
 use crate::transform::{Matrix, length};
@@ -61,7 +61,7 @@ pub(crate) fn affine(matrix: &Matrix, at: Place) -> Result<Affine> {
     let [x, y, z, t] = matrix.rows;
     let rows = std::array::from_fn(|i| [x[i], y[i], z[i]]);
     Affine::new(rows, point(t)).map_err(|why| {
-        Fault::invalid(at, format!("this object is placed by a transform that cannot be undone: {why}"))
+        Error::invalid(at, format!("this object is placed by a transform that cannot be undone: {why}"))
     })
 }
 
@@ -72,7 +72,7 @@ fn placement(matrix: &Matrix, at: Place) -> Result<scene::Placement> {
     affine(matrix, at).map(scene::Placement::new)
 }
 
-impl Reader<'_> {
+impl Parser<'_> {
     /// Adds a finished object of the scene's own level.
     pub(crate) fn emit(&mut self, object: &Rc<Object>) -> Result<()> {
         let at = object.at;
@@ -112,7 +112,7 @@ impl Reader<'_> {
         default: &Arc<scene::Texture>,
     ) -> Result<()> {
         if light.fade_distance < 0.0 || light.fade_power < 0.0 {
-            return Err(Fault::invalid(at, "a light's fade_distance and fade_power cannot be negative"));
+            return Err(Error::invalid(at, "a light's fade_distance and fade_power cannot be negative"));
         }
         let kind = match light.beam {
             Beam::Point | Beam::Shadowless => scene::LightKind::Point,
@@ -222,10 +222,10 @@ impl Reader<'_> {
     ) -> Result<scene::Object> {
         let at = object.at;
         let Some(solid) = self.emitted(solid, &mut Vec::new())? else {
-            return Err(Fault::invalid(at, "there is no solid here to deform"));
+            return Err(Error::invalid(at, "there is no solid here to deform"));
         };
         let singular = |why| {
-            Fault::invalid(at, format!("this object is placed by a transform that cannot be undone: {why}"))
+            Error::invalid(at, format!("this object is placed by a transform that cannot be undone: {why}"))
         };
         let mut made = scene::Object::deformed(solid, warps).map_err(singular)?;
         let own = placement(&object.place, at)?;
@@ -432,7 +432,7 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             }))
         }
         Shape::Deform(..) | Shape::Union(_) | Shape::Csg(..) | Shape::Light(_) => {
-            return Err(Fault::invalid(at, "a single surface is needed here"));
+            return Err(Error::invalid(at, "a single surface is needed here"));
         }
     })
 }
@@ -538,9 +538,9 @@ fn blended(from: Colour, to: Colour, k: f64) -> Colour {
     core::array::from_fn(|i| from[i] + (to[i] - from[i]) * k)
 }
 
-fn blend_of_patterns(at: Place) -> Box<Fault> {
+fn blend_of_patterns(at: Place) -> Box<Error> {
     let text = "not supported yet: a frequency or a wave that blends the patterns or textures of a list";
-    Fault::at(at, FaultKind::Unsupported, text)
+    Error::at(at, ErrorKind::Unsupported, text)
 }
 
 /// A pattern for pictures: `part` makes an entry, `blend` one between two.
@@ -551,8 +551,8 @@ fn pattern_of<T: Clone, U>(
     blend: impl Fn(&T, &T, f64) -> Result<T>,
 ) -> Result<scene::Pattern<U>> {
     let cells = match pattern.kind {
-        PatternKind::Written(word, place) => return Err(Fault::unsupported(place, word.text())),
-        _ if let Some(place) = pattern.turbulence.at => return Err(Fault::unsupported(place, "turbulence")),
+        PatternKind::Written(word, place) => return Err(Error::unsupported(place, word.text())),
+        _ if let Some(place) = pattern.turbulence.at => return Err(Error::unsupported(place, "turbulence")),
         PatternKind::Checker => scene::Cells::Checker,
         PatternKind::Hexagon => scene::Cells::Hexagon,
         PatternKind::Brick { size, mortar } => scene::Cells::Brick { size: vector(size), mortar },

@@ -1,7 +1,7 @@
 //! Eight points of surfaces that look alike, gathered to be shaded together.
 
 use super::bundle::{Paths8, is_dense};
-use super::split::Piece;
+use super::group::Piece;
 use crate::lanes::Rgb8;
 use crate::material::View;
 use crate::vector::{dot, length};

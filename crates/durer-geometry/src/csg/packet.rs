@@ -13,7 +13,7 @@ use super::arena::{SLOT, TIED, TURNED};
 use super::compound::{Compound, Shown};
 use super::tree::Child;
 use crate::ids::Id;
-use crate::lanes::Rays8;
+use crate::packet::Rays8;
 use durer_math::lanes::{LANES, set_bits};
 use durer_math::{F8, Isa, M8};
 use durer_surfaces::packet::{
@@ -22,9 +22,9 @@ use durer_surfaces::packet::{
 
 /// A body with the outlines of its leaves.
 #[derive(Debug)]
-pub(crate) struct Body {
+pub(crate) struct PacketCsg {
     leaves: Vec<Operand>,
-    places: Vec<Place>,
+    places: Vec<LeafPosition>,
     /// For each leaf a convex one outside of which it does not matter, if there is such.
     around: Vec<Option<u32>>,
     nodes: Vec<Node>,
@@ -47,7 +47,7 @@ pub(super) struct Operand {
 
 /// Where a leaf stands in the tree.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct LeafPosition {
     node: u32,
     inverted: bool,
 }
@@ -73,7 +73,7 @@ pub(crate) struct Memory {
 const FACES: f64 = PacketFilter::FACES as f64;
 
 /// A face of a leaf, as hits name it.
-pub(crate) struct Skin<'b> {
+pub(crate) struct LeafFace<'b> {
     pub(crate) outline: &'b PacketFilter,
     pub(crate) face: u32,
     /// The body's normal is the leaf's turned round.
@@ -84,7 +84,7 @@ pub(crate) struct Skin<'b> {
 }
 
 /// Eight rays and all that is known of them here.
-struct Look<'a> {
+struct PacketState<'a> {
     isa: Isa,
     rays: &'a RayLanes<'a>,
     sights: &'a mut [SolidState8],
@@ -93,7 +93,7 @@ struct Look<'a> {
 }
 
 /// Rays that leave the body: which, and of each the leaf, the face there, and whether it starts behind it.
-struct Own {
+struct SpawnFaces {
     lanes: u8,
     leaf: [u32; LANES],
     face: F8,
@@ -107,7 +107,7 @@ struct Sure {
     no: u8,
 }
 
-impl Look<'_> {
+impl PacketState<'_> {
     /// Whether no ray meets a leaf.
     fn is_passed(&self, leaf: usize) -> bool {
         self.passed[leaf] == u8::MAX
@@ -120,7 +120,7 @@ impl Sure {
     }
 }
 
-impl Body {
+impl PacketCsg {
     /// More leaves than this are walked through in order.
     const MOST: usize = 32;
 
@@ -130,7 +130,7 @@ impl Body {
             return None;
         }
         let leaves = body.operands()?;
-        let places = body.tree().places().map(|p| p.map(|(node, inverted)| Place { node, inverted }));
+        let places = body.tree().places().map(|p| p.map(|(node, inverted)| LeafPosition { node, inverted }));
         let places = places.collect::<Option<Vec<_>>>()?;
         if leaves.is_empty() || !leaves.iter().all(|leaf| leaf.outline.is_operand()) {
             return None;
@@ -180,13 +180,13 @@ impl Body {
     }
 
     /// The face with this number.
-    pub(crate) fn skin(&self, number: f64) -> Skin<'_> {
+    pub(crate) fn skin(&self, number: f64) -> LeafFace<'_> {
         let leaf = ((number / FACES) as usize).min(self.leaves.len() - 1);
         let (Operand { outline, slots, primitive, .. }, turned) =
             (&self.leaves[leaf], self.places[leaf].inverted);
         let face = (number - leaf as f64 * FACES) as u32;
         let slot = slots[(face as usize).min(slots.len() - 1)];
-        Skin {
+        LeafFace {
             outline,
             face,
             turned,
@@ -196,7 +196,7 @@ impl Body {
     }
 
     /// The name of a leaf's hits.
-    pub(crate) fn name(body: Id, skin: &Skin<'_>) -> Id {
+    pub(crate) fn name(body: Id, skin: &LeafFace<'_>) -> Id {
         Id { primitive: body.primitive.wrapping_add(skin.primitive), ..body }
     }
 
@@ -215,7 +215,7 @@ impl Body {
         for (leaf, sight) in self.leaves.iter().zip(&mut *sights) {
             passed.push(if leaf.outline.sight(lanes, sight) { u8::MAX } else { 0 });
         }
-        let look = &mut Look { isa, rays: lanes, sights, passed, steps };
+        let look = &mut PacketState { isa, rays: lanes, sights, passed, steps };
         let live = rays.live.bits();
         let Sure { yes, no } = self.node(0, look, None);
         if yes | no | !live == u8::MAX {
@@ -256,7 +256,7 @@ impl Body {
     }
 
     /// The rays that leave this body.
-    fn own_rays(&self, arena: u32, rays: &Rays8, live: u8, nearest: &mut Nearest) -> Option<Own> {
+    fn own_rays(&self, arena: u32, rays: &Rays8, live: u8, nearest: &mut Nearest) -> Option<SpawnFaces> {
         let source = &rays.source;
         let slot = |i: usize| source.slot[i] as u32 & SLOT;
         let is_own = |i: usize| {
@@ -284,7 +284,7 @@ impl Body {
             // What was decided for several leaves together is not told by one of them.
             nearest.doubt_from(M8::from_bits(tied), F8::ZERO);
         }
-        Some(Own { lanes, leaf, face, back })
+        Some(SpawnFaces { lanes, leaf, face, back })
     }
 
     /// Offers a crossing of a leaf where it is one of the body.
@@ -292,11 +292,12 @@ impl Body {
         &self,
         leaf: usize,
         crossing: &Crossing8,
-        (rays, look): (&Rays8, &mut Look<'_>),
+        (rays, look): (&Rays8, &mut PacketState<'_>),
         number: f64,
         nearest: &mut Nearest,
     ) {
-        let (Operand { shown, outline, .. }, Place { node, .. }) = (&self.leaves[leaf], self.places[leaf]);
+        let (Operand { shown, outline, .. }, LeafPosition { node, .. }) =
+            (&self.leaves[leaf], self.places[leaf]);
         let Crossing8 { sure, t, e, face, tag } = crossing;
         let mut open = look.isa.run_in_lanes(
             #[inline(always)]
@@ -339,7 +340,7 @@ impl Body {
     }
 
     /// Whether a child of a node holds at some points of some rays, or on all of them.
-    fn child(&self, child: Child, look: &mut Look<'_>, at: Option<(&F8, &F8, u8)>) -> Sure {
+    fn child(&self, child: Child, look: &mut PacketState<'_>, at: Option<(&F8, &F8, u8)>) -> Sure {
         match child {
             Child::Node(node) => self.node(node, look, at),
             Child::Leaf(leaf) => {
@@ -358,7 +359,7 @@ impl Body {
     }
 
     /// The same for a node.
-    fn node(&self, node: u32, look: &mut Look<'_>, at: Option<(&F8, &F8, u8)>) -> Sure {
+    fn node(&self, node: u32, look: &mut PacketState<'_>, at: Option<(&F8, &F8, u8)>) -> Sure {
         let Node { all, children, .. } = &self.nodes[node as usize];
         // A union is the complement of the complements' intersection.
         let mut sum = Sure { yes: u8::MAX, no: 0 };
@@ -375,7 +376,7 @@ impl Body {
     }
 }
 
-impl Own {
+impl SpawnFaces {
     /// Those that leave a leaf.
     fn of(&self, leaf: usize) -> Option<From8> {
         let lanes = M8::from_fn(

@@ -2,36 +2,36 @@
 
 use crate::kernels::Kernel;
 use crate::node::{ChildRef, Leaf};
-use crate::ray::{Sight, Way};
+use crate::ray::{ClippedRay, TreeRay};
 use crate::tree::{Bvh, Splits};
 use crate::triangles::{Block, Filter, LANES, Verdict};
 
 /// How far to look, and a triangle that is certainly met no farther away.
 #[derive(Clone, Copy)]
-pub(crate) struct Reach {
+pub(crate) struct SearchLimit {
     /// Nothing beyond matters; a triangle held is not beyond it.
     pub(crate) t_far: f32,
-    pub(crate) held: Held,
+    pub(crate) held: Candidate,
 }
 
-impl Reach {
+impl SearchLimit {
     /// Of a ray that looks at nothing.
-    pub(crate) const NOWHERE: Self = Self { t_far: f32::NEG_INFINITY, held: Held::NOTHING };
+    pub(crate) const NOWHERE: Self = Self { t_far: f32::NEG_INFINITY, held: Candidate::NOTHING };
 
     #[inline(always)]
-    pub(crate) fn of(way: &Way) -> Self {
-        Self { t_far: way.t_far, held: Held::NOTHING }
+    pub(crate) fn of(way: &ClippedRay) -> Self {
+        Self { t_far: way.t_far, held: Candidate::NOTHING }
     }
 }
 
 /// A triangle that the ray certainly meets, before any other that has been shown.
 #[derive(Clone, Copy)]
-pub(crate) struct Held {
+pub(crate) struct Candidate {
     leaf: Leaf,
     lo: f32,
 }
 
-impl Held {
+impl Candidate {
     pub(crate) const NOTHING: Self =
         Self { leaf: Leaf { kind: 0, first: 0, count: 0, place: Leaf::NO_BLOCK }, lo: f32::INFINITY };
 
@@ -49,7 +49,7 @@ impl Held {
 }
 
 /// What the caller knows of leaves.
-pub(crate) trait Answers<R> {
+pub(crate) trait LeafTest<R> {
     /// Whether a triangle that is certainly met counts.
     fn admits(&self, triangle: Leaf) -> bool;
 
@@ -58,12 +58,12 @@ pub(crate) trait Answers<R> {
 }
 
 /// Two functions.
-pub(crate) struct Pair<A, F> {
+pub(crate) struct Callbacks<A, F> {
     pub(crate) admits: A,
     pub(crate) test: F,
 }
 
-impl<R, A: Fn(Leaf) -> bool, F: FnMut(Leaf) -> R> Answers<R> for Pair<A, F> {
+impl<R, A: Fn(Leaf) -> bool, F: FnMut(Leaf) -> R> LeafTest<R> for Callbacks<A, F> {
     #[inline(always)]
     fn admits(&self, triangle: Leaf) -> bool {
         (self.admits)(triangle)
@@ -76,17 +76,17 @@ impl<R, A: Fn(Leaf) -> bool, F: FnMut(Leaf) -> R> Answers<R> for Pair<A, F> {
 }
 
 /// The aim of a search; `ORDERED` says whether near leaves should come first.
-pub(crate) trait Quest<const ORDERED: bool> {
+pub(crate) trait TreeQuery<const ORDERED: bool> {
     /// Looks at a leaf; says whether the search is over.
     #[inline(always)]
     fn leaf<K: Kernel>(
         &mut self,
         kernel: K,
         tree: &Bvh,
-        way: &Way,
+        way: &ClippedRay,
         child: ChildRef,
-        sieve: &mut impl Sieve,
-        reach: &mut Reach,
+        sieve: &mut impl BlockFilterSource,
+        reach: &mut SearchLimit,
     ) -> bool {
         let Some((kind, number)) = tree.block(child) else { return self.shown(way, tree.leaf(child), reach) };
         let block = &tree.blocks[number as usize];
@@ -103,29 +103,29 @@ pub(crate) trait Quest<const ORDERED: bool> {
     }
 
     /// Looks at a leaf that holds no triangles; says whether the search is over.
-    fn shown(&mut self, way: &Way, leaf: Leaf, reach: &mut Reach) -> bool;
+    fn shown(&mut self, way: &ClippedRay, leaf: Leaf, reach: &mut SearchLimit) -> bool;
 
     /// What a block's triangles do that may be met; says whether the search is over.
     fn judged<K: Kernel>(
         &mut self,
         kernel: K,
-        way: &Way,
+        way: &ClippedRay,
         of: (u32, u32),
         block: &Block,
         verdict: &Verdict,
-        reach: &mut Reach,
+        reach: &mut SearchLimit,
     ) -> bool;
 
     /// There are no more leaves; says whether there was what it looked for.
-    fn end<K: Kernel>(&mut self, kernel: K, reach: &Reach) -> bool;
+    fn end<K: Kernel>(&mut self, kernel: K, reach: &SearchLimit) -> bool;
 }
 
 /// The closest hit.
 pub(crate) struct Closest<T>(pub(crate) T);
 
-impl<T: Answers<f64>> Quest<true> for Closest<T> {
+impl<T: LeafTest<f64>> TreeQuery<true> for Closest<T> {
     #[inline(always)]
-    fn shown(&mut self, way: &Way, leaf: Leaf, reach: &mut Reach) -> bool {
+    fn shown(&mut self, way: &ClippedRay, leaf: Leaf, reach: &mut SearchLimit) -> bool {
         reach.t_far = reach.t_far.min(way.shortened(self.0.test(leaf)));
         false
     }
@@ -134,11 +134,11 @@ impl<T: Answers<f64>> Quest<true> for Closest<T> {
     fn judged<K: Kernel>(
         &mut self,
         kernel: K,
-        way: &Way,
+        way: &ClippedRay,
         of: (u32, u32),
         block: &Block,
         verdict: &Verdict,
-        reach: &mut Reach,
+        reach: &mut SearchLimit,
     ) -> bool {
         kernel.apart(
             #[inline(always)]
@@ -148,7 +148,7 @@ impl<T: Answers<f64>> Quest<true> for Closest<T> {
     }
 
     #[inline(always)]
-    fn end<K: Kernel>(&mut self, kernel: K, reach: &Reach) -> bool {
+    fn end<K: Kernel>(&mut self, kernel: K, reach: &SearchLimit) -> bool {
         if let Some(leaf) = reach.held.leaf() {
             kernel.apart(
                 #[inline(always)]
@@ -159,11 +159,18 @@ impl<T: Answers<f64>> Quest<true> for Closest<T> {
     }
 }
 
-impl<T: Answers<f64>> Closest<T> {
+impl<T: LeafTest<f64>> Closest<T> {
     /// What triangles that may be met do to how far to look: one is held if it is certainly met before all others, else the caller is asked.
     #[inline(always)]
-    fn sort_out(&mut self, way: &Way, of: (u32, u32), block: &Block, verdict: &Verdict, reach: &mut Reach) {
-        let Reach { mut t_far, mut held } = *reach;
+    fn sort_out(
+        &mut self,
+        way: &ClippedRay,
+        of: (u32, u32),
+        block: &Block,
+        verdict: &Verdict,
+        reach: &mut SearchLimit,
+    ) {
+        let SearchLimit { mut t_far, mut held } = *reach;
         let mut alive = verdict.alive;
         while alive != 0 {
             let lane = first(alive, &verdict.lo);
@@ -176,7 +183,7 @@ impl<T: Answers<f64>> Closest<T> {
             let leaf = triangle(of, block, lane);
             let is_sure = verdict.sure >> lane & 1 != 0 && self.0.admits(leaf);
             if is_sure && hi < held.lo {
-                held = Held { leaf, lo };
+                held = Candidate { leaf, lo };
                 t_far = t_far.min(hi);
                 continue;
             }
@@ -187,17 +194,17 @@ impl<T: Answers<f64>> Closest<T> {
             // In doubt, or too near to the one held.
             if is_sure {
                 t_far = t_far.min(way.shortened(self.0.test(held.leaf)));
-                held = Held::NOTHING;
+                held = Candidate::NOTHING;
                 if lo > t_far {
                     continue;
                 }
             }
             t_far = t_far.min(way.shortened(self.0.test(leaf)));
             if held.lo > t_far {
-                held = Held::NOTHING;
+                held = Candidate::NOTHING;
             }
         }
-        *reach = Reach { t_far, held };
+        *reach = SearchLimit { t_far, held };
     }
 }
 
@@ -217,9 +224,9 @@ fn first(lanes: u32, lo: &[f32; LANES]) -> usize {
 /// Any hit.
 pub(crate) struct Any<T>(pub(crate) T);
 
-impl<T: Answers<bool>> Quest<false> for Any<T> {
+impl<T: LeafTest<bool>> TreeQuery<false> for Any<T> {
     #[inline(always)]
-    fn shown(&mut self, _: &Way, leaf: Leaf, _: &mut Reach) -> bool {
+    fn shown(&mut self, _: &ClippedRay, leaf: Leaf, _: &mut SearchLimit) -> bool {
         self.0.test(leaf)
     }
 
@@ -227,11 +234,11 @@ impl<T: Answers<bool>> Quest<false> for Any<T> {
     fn judged<K: Kernel>(
         &mut self,
         kernel: K,
-        _: &Way,
+        _: &ClippedRay,
         of: (u32, u32),
         block: &Block,
         verdict: &Verdict,
-        _: &mut Reach,
+        _: &mut SearchLimit,
     ) -> bool {
         kernel.apart(
             #[inline(always)]
@@ -240,12 +247,12 @@ impl<T: Answers<bool>> Quest<false> for Any<T> {
     }
 
     #[inline(always)]
-    fn end<K: Kernel>(&mut self, _: K, _: &Reach) -> bool {
+    fn end<K: Kernel>(&mut self, _: K, _: &SearchLimit) -> bool {
         false
     }
 }
 
-impl<T: Answers<bool>> Any<T> {
+impl<T: LeafTest<bool>> Any<T> {
     #[inline(always)]
     fn is_met(&mut self, of: (u32, u32), block: &Block, verdict: &Verdict) -> bool {
         let mut alive = verdict.alive;
@@ -270,9 +277,9 @@ pub(crate) struct Each<'a, K: Kernel, F> {
     pub(crate) test: F,
 }
 
-impl<L: Kernel, F: FnMut(Leaf) -> bool> Quest<false> for Each<'_, L, F> {
+impl<L: Kernel, F: FnMut(Leaf) -> bool> TreeQuery<false> for Each<'_, L, F> {
     #[inline(always)]
-    fn shown(&mut self, _: &Way, leaf: Leaf, _: &mut Reach) -> bool {
+    fn shown(&mut self, _: &ClippedRay, leaf: Leaf, _: &mut SearchLimit) -> bool {
         (self.test)(leaf)
     }
 
@@ -280,11 +287,11 @@ impl<L: Kernel, F: FnMut(Leaf) -> bool> Quest<false> for Each<'_, L, F> {
     fn judged<K: Kernel>(
         &mut self,
         kernel: K,
-        _: &Way,
+        _: &ClippedRay,
         of: (u32, u32),
         block: &Block,
         verdict: &Verdict,
-        reach: &mut Reach,
+        reach: &mut SearchLimit,
     ) -> bool {
         let t_far = reach.t_far;
         kernel.apart(
@@ -305,7 +312,7 @@ impl<L: Kernel, F: FnMut(Leaf) -> bool> Quest<false> for Each<'_, L, F> {
     }
 
     #[inline(always)]
-    fn end<K: Kernel>(&mut self, _: K, _: &Reach) -> bool {
+    fn end<K: Kernel>(&mut self, _: K, _: &SearchLimit) -> bool {
         false
     }
 }
@@ -331,19 +338,19 @@ impl<K: Kernel, F> Each<'_, K, F> {
 }
 
 /// What triangles need to know of a ray.
-pub(crate) trait Sieve {
-    fn filter<K: Kernel>(&mut self, kernel: K, tree: &Bvh, way: &Way) -> &Filter;
+pub(crate) trait BlockFilterSource {
+    fn filter<K: Kernel>(&mut self, kernel: K, tree: &Bvh, way: &ClippedRay) -> &Filter;
 }
 
 /// Found when a ray comes to its first triangle: many rays come to none.
-pub(crate) struct Late<'a, S> {
+pub(crate) struct LazyFilter<'a, S> {
     pub(crate) sight: &'a S,
     pub(crate) filter: &'a mut Option<Filter>,
 }
 
-impl<S: Sight> Sieve for Late<'_, S> {
+impl<S: TreeRay> BlockFilterSource for LazyFilter<'_, S> {
     #[inline(always)]
-    fn filter<K: Kernel>(&mut self, kernel: K, tree: &Bvh, way: &Way) -> &Filter {
+    fn filter<K: Kernel>(&mut self, kernel: K, tree: &Bvh, way: &ClippedRay) -> &Filter {
         let (sight, filter) = (self.sight, &mut *self.filter);
         if filter.is_none() {
             // Written where it stays: what is written number by number and then copied has to wait for that.
@@ -357,14 +364,14 @@ impl<S: Sight> Sieve for Late<'_, S> {
 }
 
 /// The same for a ray that waits in memory for its turns: nothing is done ahead of the leaf.
-pub(crate) struct Kept<'a, S> {
+pub(crate) struct QueuedFilter<'a, S> {
     pub(crate) sight: &'a S,
     pub(crate) filter: &'a mut Option<Filter>,
 }
 
-impl<S: Sight> Sieve for Kept<'_, S> {
+impl<S: TreeRay> BlockFilterSource for QueuedFilter<'_, S> {
     #[inline(always)]
-    fn filter<K: Kernel>(&mut self, kernel: K, tree: &Bvh, way: &Way) -> &Filter {
+    fn filter<K: Kernel>(&mut self, kernel: K, tree: &Bvh, way: &ClippedRay) -> &Filter {
         let sight = self.sight;
         self.filter.get_or_insert_with(
             #[inline(always)]
@@ -382,13 +389,13 @@ impl<S: Sight> Sieve for Kept<'_, S> {
 }
 
 /// The same for a ray that is exactly known.
-pub(crate) struct Known {
+pub(crate) struct ExactRayData {
     pub(crate) filter: Option<Filter>,
 }
 
-impl Sieve for Known {
+impl BlockFilterSource for ExactRayData {
     #[inline(always)]
-    fn filter<K: Kernel>(&mut self, _: K, tree: &Bvh, way: &Way) -> &Filter {
+    fn filter<K: Kernel>(&mut self, _: K, tree: &Bvh, way: &ClippedRay) -> &Filter {
         self.filter.get_or_insert_with(
             #[inline(always)]
             || Filter::of_exact(way, tree.rounded),

@@ -1,12 +1,12 @@
 //! Rays that go through a tree side by side: see [`durer_bvh::Rays`].
 
 use crate::Hit;
-use crate::best::Best;
+use crate::closest::ClosestHit;
+use crate::context::RayContext;
 use crate::geometry::Geometry;
 use crate::ids::EVERYTHING;
 use crate::query::{any_in, closest_in};
-use crate::walk::Walk;
-use durer_bvh::{Glance, Glances, Leaf, Line, PACKET, Rays, Sight};
+use durer_bvh::{Leaf, PACKET, Packet32, Ray32, Ray64, Rays, TreeRay};
 use durer_math::Ray;
 use durer_surfaces::{LocalRay, Need, SurfacePoint};
 
@@ -29,7 +29,7 @@ impl Geometry {
         hits.extend(memory.best.into_iter().map(|best| best.hit));
     }
 
-    /// [`Geometry::seen`] of a few rays, told to `put` by their numbers.
+    /// [`Geometry::first_visible`] of a few rays, told to `put` by their numbers.
     pub(crate) fn seen_abreast(
         &self,
         rays: &[Ray],
@@ -39,7 +39,7 @@ impl Geometry {
         mut put: impl FnMut(usize, Option<(Hit, SurfacePoint)>),
     ) {
         if self.tree.len() < LEAST || rays.len() == 1 {
-            rays.iter().enumerate().for_each(|(i, ray)| put(i, self.seen(ray, mask, need)));
+            rays.iter().enumerate().for_each(|(i, ray)| put(i, self.first_visible(ray, mask, need)));
             return;
         }
         let mut all = Closest::of(self, rays, mask, true, memory);
@@ -75,7 +75,7 @@ impl Geometry {
 #[derive(Debug, Default)]
 pub(crate) struct Abreast {
     locals: Vec<LocalRay<'static>>,
-    best: Vec<Best>,
+    best: Vec<ClosestHit>,
     met: Vec<bool>,
 }
 
@@ -86,7 +86,7 @@ struct All<'a> {
     mask: u32,
     locals: &'a mut Vec<LocalRay<'static>>,
     /// The last sixteen rays that were asked for together, as the tree sees them, each at its number's remainder: eight that are asked for may have to wait for eight more.
-    together: [Option<Line>; 2 * PACKET],
+    together: [Option<Ray64>; 2 * PACKET],
 }
 
 impl<'a> All<'a> {
@@ -122,19 +122,19 @@ impl<'a> All<'a> {
 
     /// The line of a ray that was made ready together with others.
     #[inline(always)]
-    fn made_ready(&self, ray: usize) -> Option<Option<Line>> {
+    fn made_ready(&self, ray: usize) -> Option<Option<Ray64>> {
         (ray < self.locals.len()).then(|| self.together[ray % (2 * PACKET)])
     }
 
     #[inline(always)]
-    fn walk(&self, ray: usize) -> Walk<'_> {
-        Walk::new(self.geometry, &self.rays[ray], &self.locals[ray], self.mask)
+    fn walk(&self, ray: usize) -> RayContext<'_> {
+        RayContext::new(self.geometry, &self.rays[ray], &self.locals[ray], self.mask)
     }
 }
 
 struct Closest<'a> {
     all: All<'a>,
-    best: &'a mut Vec<Best>,
+    best: &'a mut Vec<ClosestHit>,
     /// Whether nobody will see how wide a bracket is.
     rough: bool,
 }
@@ -148,13 +148,13 @@ impl<'a> Closest<'a> {
         Abreast { locals, best, .. }: &'a mut Abreast,
     ) -> Self {
         best.clear();
-        best.resize_with(rays.len(), Best::least);
+        best.resize_with(rays.len(), ClosestHit::least);
         Self { all: All::of(geometry, rays, mask, locals), best, rough }
     }
 
     /// Makes a ray ready; `None` if it is to meet nothing more.
     #[inline(always)]
-    fn ready(&mut self, ray: usize) -> Option<Line> {
+    fn ready(&mut self, ray: usize) -> Option<Ray64> {
         let local = LocalRay::new(&self.all.rays[ray]);
         if !self.all.start(ray, if self.rough { local.roughly() } else { local }) {
             return None;
@@ -172,10 +172,10 @@ impl<'a> Closest<'a> {
 }
 
 impl Rays<f64> for Closest<'_> {
-    type Sight = Line;
+    type TreeRay = Ray64;
 
     #[inline(always)]
-    fn sight(&mut self, ray: usize) -> Option<Line> {
+    fn sight(&mut self, ray: usize) -> Option<Ray64> {
         match self.all.made_ready(ray) {
             Some(line) => line,
             None => self.ready(ray),
@@ -183,11 +183,11 @@ impl Rays<f64> for Closest<'_> {
     }
 
     #[inline(always)]
-    fn glances(&mut self, first: usize) -> Option<Glances> {
+    fn glances(&mut self, first: usize) -> Option<Packet32> {
         if !self.all.are_alike(first) {
             return None;
         }
-        let mut glances = [Glance::NOTHING; PACKET];
+        let mut glances = [Ray32::NOTHING; PACKET];
         for (ray, glance) in (first..).zip(&mut glances) {
             let line = self.ready(ray);
             if let Some(line) = &line {
@@ -195,7 +195,7 @@ impl Rays<f64> for Closest<'_> {
             }
             self.all.together[ray % (2 * PACKET)] = line;
         }
-        Glances::of(&glances)
+        Packet32::of(&glances)
     }
 
     #[inline(always)]
@@ -221,7 +221,7 @@ struct Any<'a> {
 impl Any<'_> {
     /// Makes a ray ready; `None` if it is to meet nothing more.
     #[inline(always)]
-    fn ready(&mut self, ray: usize) -> Option<Line> {
+    fn ready(&mut self, ray: usize) -> Option<Ray64> {
         if !self.all.start(ray, LocalRay::new(&self.all.rays[ray]).roughly()) {
             return None;
         }
@@ -235,10 +235,10 @@ impl Any<'_> {
 }
 
 impl Rays<bool> for Any<'_> {
-    type Sight = Line;
+    type TreeRay = Ray64;
 
     #[inline(always)]
-    fn sight(&mut self, ray: usize) -> Option<Line> {
+    fn sight(&mut self, ray: usize) -> Option<Ray64> {
         match self.all.made_ready(ray) {
             Some(line) => line,
             None => self.ready(ray),
@@ -246,11 +246,11 @@ impl Rays<bool> for Any<'_> {
     }
 
     #[inline(always)]
-    fn glances(&mut self, first: usize) -> Option<Glances> {
+    fn glances(&mut self, first: usize) -> Option<Packet32> {
         if !self.all.are_alike(first) {
             return None;
         }
-        let mut glances = [Glance::NOTHING; PACKET];
+        let mut glances = [Ray32::NOTHING; PACKET];
         for (ray, glance) in (first..).zip(&mut glances) {
             let line = self.ready(ray);
             if let Some(line) = &line {
@@ -258,7 +258,7 @@ impl Rays<bool> for Any<'_> {
             }
             self.all.together[ray % (2 * PACKET)] = line;
         }
-        Glances::of(&glances)
+        Packet32::of(&glances)
     }
 
     #[inline(always)]
@@ -337,7 +337,7 @@ mod tests {
                         told += 1;
                         assert_eq!(
                             seen,
-                            geometry.seen(&some[i], mask, Need::SHADING_NORMAL),
+                            geometry.first_visible(&some[i], mask, Need::SHADING_NORMAL),
                             "{generation}: {:?}",
                             some[i]
                         );

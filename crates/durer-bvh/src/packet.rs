@@ -2,10 +2,10 @@
 //!
 //! Each is shown what it is shown alone, in the same order: who goes where is told ray by ray, with the arithmetic of a single ray. A ray that is left alone goes on alone.
 
-use crate::batch::{Aim, LARGE, One, Rays, each};
+use crate::batch::{LARGE, One, QueryKind, Rays, each};
 use crate::kernels::{Rows, Together};
 use crate::node::ChildRef;
-use crate::quest::{Known, Quest, Reach};
+use crate::query::{ExactRayData, SearchLimit, TreeQuery};
 use crate::ray::PACKET;
 use crate::traverse::follow;
 use crate::tree::Bvh;
@@ -25,16 +25,16 @@ struct Group<'a, K: Together<N>, B, M, const N: usize> {
     /// The greatest there was at the last step that changed one.
     far: f32,
     /// The same parameters, but for NaN, and what each holds.
-    reaches: &'a mut [Reach; N],
+    reaches: &'a mut [SearchLimit; N],
     aim: PhantomData<M>,
 }
 
 /// Shows the tree to the rays `first` and those after it.
 #[inline(always)]
-pub(crate) fn together<
+pub(crate) fn traverse_packet<
     K: Together<N>,
-    B: Rays<M::Said>,
-    M: Aim<ORDERED>,
+    B: Rays<M::Answer>,
+    M: QueryKind<ORDERED>,
     const ORDERED: bool,
     const N: usize,
 >(
@@ -46,7 +46,7 @@ pub(crate) fn together<
 ) {
     let t_far = kernel.ends(packet);
     // Apart from the rest, which moves: what is written in parts and then moved has to wait.
-    let mut reaches = [Reach::NOWHERE; N];
+    let mut reaches = [SearchLimit::NOWHERE; N];
     for (reach, &t_far) in reaches.iter_mut().zip(&t_far) {
         reach.t_far = t_far;
     }
@@ -138,20 +138,20 @@ impl<K: Together<N>, B, M, const N: usize> Group<'_, K, B, M, N> {
         child: ChildRef,
         judged: Option<((u32, u32), &Block, &Verdict)>,
     ) where
-        M: Aim<ORDERED>,
-        B: Rays<M::Said>,
+        M: QueryKind<ORDERED>,
+        B: Rays<M::Answer>,
     {
         let Self { kernel, tree, packet, .. } = *self;
         let number = self.first + ray;
         let reach = &mut self.reaches[ray];
         let before = reach.t_far;
-        let mut quest = M::quest(One { rays: self.rays, ray: number });
+        let mut quest = M::query(One { rays: self.rays, ray: number });
         let found = if let Some((of, block, verdict)) = judged {
             quest.judged(kernel, &kernel.way(tree, packet, ray), of, block, verdict, reach)
         } else {
             let (ray, way) = kernel.one(tree, packet, ray);
             let lanes = kernel.spread(&ray);
-            let mut sieve = Known { filter: None };
+            let mut sieve = ExactRayData { filter: None };
             follow(kernel, tree, &lanes, &way, child, &mut sieve, reach, &mut quest)
         };
         drop(quest);

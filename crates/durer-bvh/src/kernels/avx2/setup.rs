@@ -4,7 +4,7 @@
 use super::node::{Numbers, stored};
 use crate::frame::up32;
 use crate::ray::{
-    CullRay, Glance, LEAST, LONGEST, Line, NEARBY, Rounding, SLOWEST, TO_NEAREST, U32, WIDEN, Way,
+    ClippedRay, CullRay, LEAST, LONGEST, NEARBY, Ray32, Ray64, Rounding, SLOWEST, TO_NEAREST, U32, WIDEN,
 };
 use crate::tree::Bvh;
 use crate::triangles::ROUGH;
@@ -31,7 +31,7 @@ pub(in crate::kernels) const OUTWARD: f32 = 8.0 * U32 as f32;
 /// them is far below either.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-pub(super) fn nearby(tree: &Bvh, glance: &Glance) -> Option<(Numbers, Way)> {
+pub(super) fn nearby(tree: &Bvh, glance: &Ray32) -> Option<(Numbers, ClippedRay)> {
     let minus = _mm_set1_ps(-0.0);
     let all = |x: f32| _mm_set1_ps(x);
     let size = |x: __m128| _mm_andnot_ps(minus, x);
@@ -74,7 +74,7 @@ pub(super) fn nearby(tree: &Bvh, glance: &Glance) -> Option<(Numbers, Way)> {
         f64::from(_mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps::<1>(error, error))))
     };
     let fourth = |x: __m128| _mm_cvtss_f32(_mm_shuffle_ps::<3>(x, x));
-    let way = Way {
+    let way = ClippedRay {
         start: stored(o),
         direction: stored(d),
         t_near: fourth(first),
@@ -101,7 +101,7 @@ pub(super) enum Clipped {
 /// little larger; and what is rounded to f32 is moved outward before, by what rounding to nearest may move it inward, instead of after.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-pub(super) fn clip(tree: &Bvh, line: &Line) -> Clipped {
+pub(super) fn clip(tree: &Bvh, line: &Ray64) -> Clipped {
     let minus = _mm256_set1_pd(-0.0);
     let all = |x: f64| _mm256_set1_pd(x);
     let size = |x: __m256d| _mm256_andnot_pd(minus, x);
@@ -161,7 +161,7 @@ pub(super) fn clip(tree: &Bvh, line: &Line) -> Clipped {
         near: four(low),
         far: four(high),
         octant: _mm256_movemask_pd(sign) as u32 & 7,
-        way: Way {
+        way: ClippedRay {
             start: four(start),
             direction: four(d),
             t_near: 0.0,

@@ -22,7 +22,7 @@ use super::Rows;
 use super::avx2::{Numbers, OUTWARD, SLACK, edges, judge_halves, slabs};
 use super::planes::Planes;
 use crate::node::{Node, SLOT_BITS, WIDTH};
-use crate::ray::{Glances, INSIDE, LONGEST, NEARBY, U32, Way};
+use crate::ray::{ClippedRay, INSIDE, LONGEST, NEARBY, Packet32, U32};
 use crate::tree::Bvh;
 use crate::triangles::{Block, Filter, Verdict};
 use core::arch::x86_64::*;
@@ -84,7 +84,7 @@ pub(super) fn least_of_each<const GREATEST: bool>(x: [__m256; 4]) -> __m128 {
 /// `super::avx2::nearby` for eight rays that are exactly known; `None` if one of them is not nearby, or they are no neighbours.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-pub(super) fn gather(tree: &Bvh, rays: &Glances) -> Option<Packet> {
+pub(super) fn gather(tree: &Bvh, rays: &Packet32) -> Option<Packet> {
     let minus = _mm256_set1_ps(-0.0);
     let all = |x: f32| _mm256_set1_ps(x);
     let size = |x: __m256| _mm256_andnot_ps(minus, x);
@@ -273,10 +273,10 @@ impl Packet {
 
     #[inline]
     #[target_feature(enable = "avx2,fma")]
-    pub(super) fn way(&self, tree: &Bvh, ray: usize) -> Way {
+    pub(super) fn way(&self, tree: &Bvh, ray: usize) -> ClippedRay {
         let one = |x: &__m256| numbers(*x)[ray & 7];
         let three = |x: &[__m256; 3]| [one(&x[0]), one(&x[1]), one(&x[2]), 0.0];
-        Way {
+        ClippedRay {
             start: three(&self.start),
             direction: three(&self.direction),
             t_near: one(&self.t_near),

@@ -6,7 +6,7 @@ use durer_surfaces::{LocalPoint, Side, Surface};
 use std::sync::Arc;
 
 /// A solid around the camera, or near it.
-pub(super) trait Around: Send + Sync {
+pub(super) trait Enclosure: Send + Sync {
     /// Whether a point lies in it; what is on its surface does not.
     fn holds(&self, p: Point3) -> bool;
 
@@ -20,7 +20,7 @@ pub(super) struct Held<S> {
     pub(super) inverse: bool,
 }
 
-impl<S: Surface> Around for Held<S> {
+impl<S: Surface> Enclosure for Held<S> {
     fn holds(&self, p: Point3) -> bool {
         match self.solid.side(&LocalPoint::new(p)) {
             Side::In => !self.inverse,
@@ -35,7 +35,7 @@ impl<S: Surface> Around for Held<S> {
     }
 }
 
-impl Around for Arc<Compound> {
+impl Enclosure for Arc<Compound> {
     fn holds(&self, p: Point3) -> bool {
         self.side(&LocalPoint::new(p)) == Side::In
     }

@@ -1,9 +1,9 @@
 //! A ray on its way through trees and instances.
 
 use crate::arena::Filter;
-use crate::best::Placement;
+use crate::closest::Placement;
 use crate::geometry::{Geometry, Instance};
-use durer_bvh::{Leaf, Line};
+use durer_bvh::{Leaf, Ray64};
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Ray, Source, U};
 use durer_surfaces::{LocalRay, WideCache};
@@ -60,7 +60,7 @@ impl Clock {
 }
 
 /// A ray in one geometry's frame, and what it may meet there.
-pub(crate) struct Walk<'a> {
+pub(crate) struct RayContext<'a> {
     pub(crate) geometry: &'a Geometry,
     pub(crate) ray: &'a LocalRay<'a>,
     pub(crate) clock: Clock,
@@ -69,7 +69,7 @@ pub(crate) struct Walk<'a> {
     pub(crate) source: Option<Source>,
 }
 
-impl<'a> Walk<'a> {
+impl<'a> RayContext<'a> {
     #[inline(always)]
     pub(crate) fn new(geometry: &'a Geometry, ray: &Ray, local: &'a LocalRay<'a>, mask: u32) -> Self {
         Self {
@@ -97,9 +97,9 @@ impl<'a> Walk<'a> {
 
     /// The ray as the tree sees it.
     #[inline(always)]
-    pub(crate) fn line(&self) -> Line {
+    pub(crate) fn line(&self) -> Ray64 {
         let r = self.ray;
-        Line {
+        Ray64 {
             origin: r.o,
             direction: r.d,
             origin_error: r.o_err,
@@ -123,7 +123,7 @@ impl<'a> Walk<'a> {
 
     /// Enters an instance, if the ray is to meet it at all.
     #[inline(always)]
-    pub(crate) fn enter<R>(&self, instance: &Instance, f: impl FnOnce(&Walk<'_>) -> R) -> Option<R> {
+    pub(crate) fn enter<R>(&self, instance: &Instance, f: impl FnOnce(&RayContext<'_>) -> R) -> Option<R> {
         if instance.mask & self.mask == 0 {
             return None;
         }
@@ -132,7 +132,7 @@ impl<'a> Walk<'a> {
             || {
                 let kept = WideCache::new();
                 let ray = self.ray.through(&instance.affine).keeping(&kept);
-                f(&Walk {
+                f(&RayContext {
                     geometry: &instance.geometry,
                     ray: &ray,
                     clock: self.clock.then(&ray),

@@ -39,7 +39,7 @@ impl Placement {
 
 /// The least hit so far, by [`Hit::order`]; of equal ones the first, which is the first in the exact order.
 #[derive(Debug)]
-pub(crate) struct Best {
+pub(crate) struct ClosestHit {
     pub(crate) hit: Option<Hit>,
     /// The least upper end of a bracket: what begins behind it cannot win.
     limit: f64,
@@ -50,7 +50,7 @@ pub(crate) struct Best {
     satisfied: bool,
 }
 
-impl Best {
+impl ClosestHit {
     /// Looks for the least hit.
     pub(crate) fn least() -> Self {
         let (placement, limit) = (Placement::default(), f64::INFINITY);

@@ -1,13 +1,13 @@
 //! Many eights of rays that ask a surface together, one candidate of their beam after the other.
 //!
 //! Most surfaces are asked by one eight at a time, which is faster: all that is known of eight rays stays at hand. Those that are told a stretch at a time gain more by the company
-//! ([`PacketFilter::meet_together`](durer_surfaces::packet::PacketFilter::meet_together)).
+//! ([`PacketFilter::meet_together`](durer_surfaces::packet8::PacketFilter::meet_together)).
 
 use super::rays::slot_number;
 use super::{Hits8, Rays8, Scratch, Slots, all_meet, sure};
-use crate::beam::Candidate;
-use crate::outlines::Seen;
-use crate::{Beam, Geometry};
+use crate::bundle::Candidate;
+use crate::filter_cache::FilterKind;
+use crate::{CandidateList, Geometry};
 use arrayvec::ArrayVec;
 use durer_math::M8;
 use durer_surfaces::packet::{From8, Nearest, PacketQuery, RayLanes};
@@ -17,18 +17,18 @@ pub(super) const MANY: usize = 16;
 
 impl Geometry {
     /// Whether a beam holds a surface that many eights of rays are better told of together.
-    pub(super) fn is_asked_together(&self, beam: &Beam, mask: u32) -> bool {
+    pub(super) fn is_asked_together(&self, beam: &CandidateList, mask: u32) -> bool {
         let is_one = |candidate: &Candidate| {
             let seen = self.seen_of(candidate.arena, candidate.slot);
-            matches!(seen, Seen::Outline(outline) if outline.is_asked_together())
+            matches!(seen, FilterKind::Outline(outline) if outline.is_asked_together())
         };
         beam.candidates.iter().any(|candidate| candidate.mask & mask != 0 && is_one(candidate))
     }
 
-    /// [`Geometry::seen_by_lanes`] of at most [`MANY`] eights.
+    /// [`Geometry::first_visible8`] of at most [`MANY`] eights.
     pub(super) fn see_together(
         &self,
-        beam: &Beam,
+        beam: &CandidateList,
         rays: &[Rays8],
         mask: u32,
         hits: &mut [Hits8],
@@ -49,7 +49,7 @@ impl Geometry {
     #[inline(always)]
     pub(super) fn see_many(
         &self,
-        beam: &Beam,
+        beam: &CandidateList,
         rays: &[Rays8],
         mask: u32,
         hits: &mut [Hits8],
@@ -65,10 +65,10 @@ impl Geometry {
         }
     }
 
-    /// [`Geometry::any_by_lanes`] of at most [`MANY`] eights.
+    /// [`Geometry::any8`] of at most [`MANY`] eights.
     pub(super) fn any_together(
         &self,
-        beam: &Beam,
+        beam: &CandidateList,
         rays: &[Rays8],
         mask: u32,
         met: &mut [M8],
@@ -106,7 +106,7 @@ impl Geometry {
     #[inline(always)]
     fn nearest_together<const ANY: bool>(
         &self,
-        beam: &Beam,
+        beam: &CandidateList,
         rays: &[Rays8],
         lanes: &[RayLanes<'_>],
         mask: u32,
@@ -128,7 +128,7 @@ impl Geometry {
                 continue;
             }
             match self.seen_of(arena, slot) {
-                Seen::Outline(outline) if outline.is_asked_together() => {
+                FilterKind::Outline(outline) if outline.is_asked_together() => {
                     let mut from: ArrayVec<Option<From8>, MANY> = ArrayVec::new();
                     for (rays, sources) in rays.iter().zip(&sources) {
                         let leaves = sources.contains(&slot_number(arena, slot));

@@ -1,6 +1,6 @@
 //! Where directives lead, found once per file: the reader then jumps without searching.
 
-use crate::diagnostics::{Fault, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
 use crate::lexer::{Directive, Kind};
 use crate::source::Source;
 
@@ -35,7 +35,7 @@ pub(crate) fn match_blocks(source: &mut Source, file: u32) -> Result<()> {
         let Kind::Directive(directive, _) = source.tokens[i].kind else { continue };
         let place = Place { file, start: source.tokens[i].start };
         let stray =
-            || Fault::invalid(place, format!("#{} stands in no block it belongs to", directive.text()));
+            || Error::invalid(place, format!("#{} stands in no block it belongs to", directive.text()));
         match directive {
             If | Ifdef | Ifndef | Switch | While | For | Macro => {
                 open.push(Open { opener: directive, branches: vec![i], breaks: Vec::new(), closed: false });
@@ -83,7 +83,7 @@ pub(crate) fn match_blocks(source: &mut Source, file: u32) -> Result<()> {
     source.blocks = blocks;
     if let Some(block) = open.last() {
         let at = Place { file, start: source.tokens[block.branches[0]].start };
-        return Err(Fault::invalid(at, format!("this #{} has no #end", block.opener.text())));
+        return Err(Error::invalid(at, format!("this #{} has no #end", block.opener.text())));
     }
     Ok(())
 }
@@ -91,13 +91,13 @@ pub(crate) fn match_blocks(source: &mut Source, file: u32) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::interner::Interner;
     use crate::limits::Limits;
-    use crate::names::Names;
     use std::path::PathBuf;
 
     fn matched(text: &str) -> std::result::Result<Source, String> {
         let mut source = Source::new(PathBuf::new(), text.into());
-        crate::lexer::lex(&mut source, 0, &mut Names::new(), &Limits::default()).map_err(|f| f.text)?;
+        crate::lexer::lex(&mut source, 0, &mut Interner::new(), &Limits::default()).map_err(|f| f.text)?;
         match_blocks(&mut source, 0).map_err(|f| f.text)?;
         Ok(source)
     }

@@ -1,9 +1,9 @@
 //! The rays that go on behind a surface, and those that it mirrors.
 
-use super::bundle::{Bundle, Paths8, Standing};
-use super::coats::Coats;
-use super::media::{Border, Crossing};
-use super::spot::Spot;
+use super::bundle::{Bundle, BundleState, Paths8};
+use super::layers::Coats;
+use super::media::{Crossing, Interface};
+use super::shading_point::Spot;
 use crate::lanes::Rgb8;
 use crate::material::{Mirror, refract};
 use crate::stats::RayCounts;
@@ -31,9 +31,9 @@ const FIRST_MIRROR: u32 = 2;
 /// Surfaces that look alike, met by rays of one bundle.
 pub(super) struct Part<'a, 'w> {
     pub(super) look: &'w Look,
-    pub(super) border: Border,
+    pub(super) border: Interface,
     /// The rays that met them.
-    pub(super) standing: &'a Standing<'w>,
+    pub(super) standing: &'a BundleState<'w>,
 }
 
 impl<'w> Onward<'w> {
@@ -58,7 +58,7 @@ impl<'w> Onward<'w> {
     fn bundle(
         &mut self,
         order: Order,
-        standing: &Standing<'w>,
+        standing: &BundleState<'w>,
         (level, mask, draws): (u32, u32, u32),
         mirror: Option<&'w Mirror>,
         media: &[u32],
@@ -199,7 +199,7 @@ fn dimmed(world: &World, spot: &Spot) -> (F8, M8) {
 
 /// The direction behind the surface, and where light passes it.
 #[inline(always)]
-fn passing(world: &World, border: &Border, spot: &Spot) -> (Vec3<F8>, M8) {
+fn passing(world: &World, border: &Interface, spot: &Spot) -> (Vec3<F8>, M8) {
     let open = open(world, spot);
     if border.ratio == 1.0 {
         return (spot.view.eye, open);
@@ -210,7 +210,7 @@ fn passing(world: &World, border: &Border, spot: &Spot) -> (Vec3<F8>, M8) {
 
 /// Where light that would pass is reflected instead.
 #[inline(always)]
-fn totally_reflected(world: &World, border: &Border, spot: &Spot) -> M8 {
+fn totally_reflected(world: &World, border: &Interface, spot: &Spot) -> M8 {
     if border.ratio == 1.0 {
         return M8::NONE;
     }

@@ -3,12 +3,12 @@
 //! Each adds its own light, times what the layers above let pass; what all of them let pass is seen behind the surface. Reflections of all
 //! layers are added as they are.
 
-use super::media::Border;
-use super::spot::Spot;
+use super::media::Interface;
+use super::shading_point::Spot;
 use crate::lanes::{Colour8, Rgb8};
 use crate::material::{Finish, Mirror};
 use crate::sampler::random;
-use crate::texture::Coat;
+use crate::texture::RenderLayer;
 use crate::world::World;
 use durer_math::{F8, Isa, M8};
 use durer_scene::Colour;
@@ -58,8 +58,8 @@ impl<'w> Coats<'w> {
     pub(super) fn lay(
         &mut self,
         (world, isa): (&'w World, Isa),
-        layers: &'w [Coat],
-        border: &Border,
+        layers: &'w [RenderLayer],
+        border: &Interface,
         mut draws: u32,
         spots: &mut [Spot],
     ) {
@@ -158,7 +158,7 @@ impl<'w> Coats<'w> {
         &mut self,
         isa: Isa,
         (mirror, conserve_energy): (&Mirror, bool),
-        border: &Border,
+        border: &Interface,
         spots: &mut [Spot],
     ) {
         let (live, paint, mirrored) = (&self.live, &self.paint, &mut self.mirrored);
@@ -199,6 +199,6 @@ impl<'w> Coats<'w> {
 }
 
 /// How many random numbers layers draw.
-pub(super) fn draws(layers: &[Coat]) -> u32 {
+pub(super) fn draws(layers: &[RenderLayer]) -> u32 {
     layers.iter().filter(|coat| coat.finish.is_lit && coat.finish.crand > 0.0).count() as u32
 }

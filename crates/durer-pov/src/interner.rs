@@ -10,12 +10,12 @@ pub(crate) struct Name(pub(crate) u32);
 
 /// Every word seen so far.
 #[derive(Debug)]
-pub(crate) struct Names {
+pub(crate) struct Interner {
     known: HashMap<Box<str>, Name>,
     texts: Vec<Box<str>>,
 }
 
-impl Names {
+impl Interner {
     /// The reserved words.
     pub(crate) fn new() -> Self {
         let mut names = Self { known: HashMap::new(), texts: Vec::new() };

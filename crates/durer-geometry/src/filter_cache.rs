@@ -1,35 +1,35 @@
 //! The outlines of slots, each made when lanes first ask for it.
 
 use crate::Geometry;
-use crate::csg::Body;
+use crate::csg::PacketCsg;
 use durer_math::{Aabb, Shaft};
 use durer_surfaces::packet::{FilterSource, PacketFilter};
 use std::sync::OnceLock;
 
 /// Outlines by arena and slot.
 #[derive(Debug, Default)]
-pub(crate) struct Outlines(Vec<Vec<OnceLock<Box<Drawn>>>>);
+pub(crate) struct Outlines(Vec<Vec<OnceLock<Box<SlotFilter>>>>);
 
 /// A slot as lanes see it.
 #[derive(Debug)]
-pub(crate) struct Drawn {
-    pub(crate) seen: Seen,
+pub(crate) struct SlotFilter {
+    pub(crate) seen: FilterKind,
     /// A box that holds the slot's surface or part.
     pub(crate) bounds: Aabb,
 }
 
 /// What lanes see.
 #[derive(Debug)]
-pub(crate) enum Seen {
+pub(crate) enum FilterKind {
     /// A surface.
     Outline(PacketFilter),
     /// A body made of several solids.
-    Body(Box<Body>),
+    Body(Box<PacketCsg>),
     /// Its numbers are too large or too small.
     Nothing,
 }
 
-impl Seen {
+impl FilterKind {
     pub(crate) fn of(sketch: &FilterSource) -> Self {
         sketch.build().map_or(Self::Nothing, Self::Outline)
     }
@@ -52,7 +52,7 @@ impl Outlines {
 
 impl Geometry {
     #[inline]
-    fn drawn(&self, arena: u32, slot: u32) -> Option<&Drawn> {
+    fn drawn(&self, arena: u32, slot: u32) -> Option<&SlotFilter> {
         let outlines = self.outlines.get_or_init(|| Outlines::of(self));
         let place = outlines.0.get(arena as usize)?.get(slot as usize)?;
         Some(place.get_or_init(|| Box::new(self.arenas[arena as usize].drawn(slot))))
@@ -60,8 +60,8 @@ impl Geometry {
 
     /// What lanes see of a slot.
     #[inline]
-    pub(crate) fn seen_of(&self, arena: u32, slot: u32) -> &Seen {
-        self.drawn(arena, slot).map_or(&Seen::Nothing, |drawn| &drawn.seen)
+    pub(crate) fn seen_of(&self, arena: u32, slot: u32) -> &FilterKind {
+        self.drawn(arena, slot).map_or(&FilterKind::Nothing, |drawn| &drawn.seen)
     }
 
     /// Whether no ray of a bundle meets a slot, by its box: `true` is certain.

@@ -4,11 +4,11 @@
 
 use super::avx2::{Numbers, OUTWARD, SLACK};
 use super::avx512::{Rest, Three, earliest, edges, judge_edges, latest, planes_of, slabs};
-use super::packet::{NEIGHBOURS, eight, least_of_each};
+use super::packet8::{NEIGHBOURS, eight, least_of_each};
 use super::planes::Planes;
 use super::{Avx512, Rows, Together};
 use crate::node::{Node, SLOT_BITS, WIDTH};
-use crate::ray::{Glances, INSIDE, LONGEST, NEARBY, TWICE, U32, Way};
+use crate::ray::{ClippedRay, INSIDE, LONGEST, NEARBY, Packet32, TWICE, U32};
 use crate::tree::Bvh;
 use crate::triangles::{Block, FLAT, Filter, NEAR, Verdict};
 use core::arch::x86_64::*;
@@ -80,7 +80,7 @@ fn least<const GREATEST: bool>(x: [__m512; 4]) -> __m128 {
 /// `super::packet::gather` for two times eight rays.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma")]
-fn gather(tree: &Bvh, [a, b]: [&Glances; 2]) -> Option<Sixteen> {
+fn gather(tree: &Bvh, [a, b]: [&Packet32; 2]) -> Option<Sixteen> {
     let both =
         |a: &[f32; 8], b: &[f32; 8]| _mm512_insertf32x8::<1>(_mm512_castps256_ps512(eight(a)), eight(b));
     let three =
@@ -268,10 +268,10 @@ impl Sixteen {
 
     #[inline]
     #[target_feature(enable = "avx512f")]
-    fn way(&self, tree: &Bvh, ray: usize) -> Way {
+    fn way(&self, tree: &Bvh, ray: usize) -> ClippedRay {
         let one = |x: &__m512| numbers(*x)[ray % TWICE];
         let three = |x: &Three| [one(&x[0]), one(&x[1]), one(&x[2]), 0.0];
-        Way {
+        ClippedRay {
             start: three(&self.start),
             direction: three(&self.direction),
             t_near: one(&self.t_near),
@@ -315,7 +315,7 @@ impl Together<TWICE> for Avx512 {
     type Filters = Filters;
 
     #[inline(always)]
-    fn gather(self, tree: &Bvh, rays: &[&Glances]) -> Option<Sixteen> {
+    fn gather(self, tree: &Bvh, rays: &[&Packet32]) -> Option<Sixteen> {
         let &[a, b] = rays else { return None };
         // SAFETY: `self` exists, so an `Isa` has seen all of its features on this CPU.
         unsafe { gather(tree, [a, b]) }
@@ -328,13 +328,13 @@ impl Together<TWICE> for Avx512 {
     }
 
     #[inline(always)]
-    fn one(self, tree: &Bvh, packet: &Sixteen, ray: usize) -> (Numbers, Way) {
+    fn one(self, tree: &Bvh, packet: &Sixteen, ray: usize) -> (Numbers, ClippedRay) {
         // SAFETY: as above.
         unsafe { (packet.numbers(ray), packet.way(tree, ray)) }
     }
 
     #[inline(always)]
-    fn way(self, tree: &Bvh, packet: &Sixteen, ray: usize) -> Way {
+    fn way(self, tree: &Bvh, packet: &Sixteen, ray: usize) -> ClippedRay {
         // SAFETY: as above.
         unsafe { packet.way(tree, ray) }
     }
