@@ -1,10 +1,11 @@
-//! The tree: which surfaces might this ray meet?
+//! The bounding volume hierarchy: which surfaces might this ray hit?
 //!
-//! Boxes are f32, rays are f64, and no box that the exact ray meets is ever missed: boxes are rounded outward, and the node
-//! test charges each of its roundings to "may meet". What it costs is nothing: the test has the instructions of an unsafe one.
+//! Boxes are f32 and rays are f64. The tree never misses a box that the exact ray hits: boxes are
+//! rounded outward, and the node test counts each of its own rounding errors as a possible hit. The
+//! conservative test takes as many instructions as an unsafe one.
 //!
 //! ```
-//! use durer_bvh::{Bvh, Frame, Leaf, Line, Settings};
+//! use durer_bvh::{Bvh, Frame, Leaf, Ray64, Settings};
 //! use durer_math::{Aabb, Isa, Point3, Vec3};
 //!
 //! // A row of unit boxes along x.
@@ -16,7 +17,7 @@
 //! let entries = boxes.iter().enumerate().map(|(i, b)| frame.entry(b, 0, i as u32)).collect();
 //! let (tree, order) = Bvh::build(&frame, entries, &[None], &Settings::GOOD);
 //!
-//! let down = Line {
+//! let down = Ray64 {
 //!     origin: Point3::new(42.0, 0.0, 9.0),
 //!     direction: -Vec3::Z,
 //!     origin_error: Vec3::ZERO,
@@ -31,9 +32,14 @@
 //! assert!(found);
 //! ```
 //!
-//! The way through: [`Frame`] chooses the units and makes an [`Entry`] of each box; [`Bvh::build`] sorts them into nodes of sixteen;
-//! [`Bvh::closest`] and [`Bvh::any`], which are asked about a ray ([`TreeRay`]), [`Bvh::in_shaft`] and [`Bvh::containing`] show the [`Leaf`]s that matter; [`Bvh::trace`] tells how; [`Bvh::refit`] follows what moves; [`Bvh::validate`] and
-//! [`Bvh::stats`] look at the result. A tree knows boxes and numbers, and of triangles their corners in f32: what else the things are is its caller's business.
+//! [`Frame`] chooses the units and makes an [`Entry`] of each box. [`Bvh::build`] sorts entries into
+//! nodes of sixteen children. Queries pass the [`Leaf`]s that matter to the caller: [`Bvh::closest`]
+//! and [`Bvh::any`] for a ray ([`TreeRay`]), [`Bvh::in_shaft`] for a bundle, [`Bvh::containing`] for a
+//! point. [`Bvh::trace`] reports each step of a query, [`Bvh::refit`] follows surfaces that move, and
+//! [`Bvh::validate`] and [`Bvh::stats`] inspect the result.
+//!
+//! A tree knows boxes, numbers, and the f32 corners of triangles. What the numbers mean is the
+//! caller's business.
 #![deny(unsafe_code)]
 
 mod batch;

@@ -1,4 +1,4 @@
-//! The built, immutable world: where does this ray meet all that is in it?
+//! A built, immutable scene of surfaces: where does a ray hit it?
 //!
 //! ```
 //! use durer_geometry::Geometry;
@@ -27,12 +27,22 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A [`Builder`] takes surfaces of any type and placements of other geometries; a [`Geometry`] answers. Surfaces live in one
-//! array per type, in the order of the leaves of a [`durer_bvh`] tree; what is unbounded is tested beside it. Answers do not depend on
-//! the tree, the instruction set or the number of threads.
+//! A [`Builder`] takes surfaces of any type and instances of other geometries; a [`Geometry`] answers
+//! queries. Surfaces live in one array per type, in the order of the leaves of a [`durer_bvh`] tree;
+//! unbounded surfaces are tested beside the tree. Answers do not depend on the tree, the instruction
+//! set or the number of threads.
 //!
-//! Closest, any and all are in `query`, bundles of rays that share one search in `candidates`, eight rays side by side in `lanes`, stretches inside solids in `spans`, solids made of solids in `csg`, points in `resolve`, many rays in `batch`, surfaces that move in `refit`, and the story of
-//! one ray in `explain`.
+//! | module | what it holds |
+//! |---|---|
+//! | `query` | closest, any and all for one ray |
+//! | `spans` | intervals inside solids |
+//! | `batch` | the same for arrays of rays |
+//! | `bundle` | the candidates of a bundle of rays that share one search |
+//! | `packet` | eight rays at a time |
+//! | `csg` | solids made of solids |
+//! | `resolve` | hit points: position, bounds, normals, uv |
+//! | `refit` | surfaces that move |
+//! | `explain` | a report of every step of one ray |
 #![forbid(unsafe_code)]
 
 mod arena;

@@ -13,11 +13,11 @@ use std::sync::Arc;
 ///
 /// ```
 /// use durer_math::{Affine, Point3, Vec3};
-/// use durer_surfaces::{AxisBox, Erased, Placed, Sphere, Surface};
+/// use durer_surfaces::{AxisBox, DynSurface, Placed, Sphere, Surface};
 ///
 /// // Two kinds in one array, and one type for both where they are placed.
 /// let unit = AxisBox::new(Point3::ORIGIN, Point3::new(1.0, 1.0, 1.0))?;
-/// let both = [Erased::new(Sphere::new(Point3::ORIGIN, 1.0)?), Erased::new(unit)];
+/// let both = [DynSurface::new(Sphere::new(Point3::ORIGIN, 1.0)?), DynSurface::new(unit)];
 /// let map = Affine::translation(Vec3::X)?;
 /// let moved = both.map(|s| Placed::new(s, map));
 /// assert_eq!(moved[1].bounds().max, Point3::new(2.0, 1.0, 1.0));
