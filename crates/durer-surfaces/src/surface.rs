@@ -1,42 +1,46 @@
-//! What a surface is: the one query an author writes, and what it answers with.
+//! The trait that every surface implements, and the types of its answers.
 
 use crate::packet::FilterSource;
 use crate::{LocalPoint, LocalRay, Sink, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::{Aabb, Affine, Point3, RaySide, Shaft};
 
-/// A surface, in its own frame. Its one question: *where does this ray meet you?*
+/// A surface in its own frame. It answers one question: *where does this ray meet you?*
 ///
-/// Closest, any, all and spans are [`Sink`]s over the one [`roots`](Surface::roots), so they cannot disagree.
+/// The closest hit, any hit, all hits and spans are [`Sink`]s over the one method
+/// [`roots`](Surface::roots), so they cannot disagree.
 pub trait Surface: Send + Sync {
-    /// A box that provably holds the surface (and, for a solid, its inside); [`Aabb::UNBOUNDED`] if there is none.
+    /// A box that provably holds the surface and, for a solid, its inside; [`Aabb::UNBOUNDED`] if
+    /// none does.
     fn bounds(&self) -> Aabb;
 
-    /// A box that provably holds the surface after `map` has moved it. A surface that can do better than the box of its box does.
+    /// A box that provably holds the surface after `map` has moved it. The default is the box of
+    /// the moved box; a surface that knows a tighter one returns that.
     fn bounds_through(&self, map: &Affine) -> Aabb {
         map.bounds(&self.bounds())
     }
 
-    /// Whether no ray of a bundle meets the surface: `true` is certain.
+    /// Whether no ray of a bundle meets the surface. `true` is certain, `false` is not.
     fn misses(&self, shaft: &Shaft) -> bool {
         !shaft.may_meet(&self.bounds())
     }
 
-    /// Whether no ray of a bundle that starts strictly on `side` of the surface ever comes back to it: `true` is certain.
+    /// Whether no ray of a bundle that starts strictly on `side` of the surface meets it again.
+    /// `true` is certain, `false` is not.
     fn is_left(&self, _side: RaySide, _shaft: &Shaft) -> bool {
         false
     }
 
-    /// Pushes every crossing in the ray's closed range, once, ascending; the exact surface's crossings with the exact ray
-    /// lie in the pushed brackets.
+    /// Pushes every crossing in the ray's closed range, once, ascending. Each pushed bracket holds
+    /// a crossing of the exact surface with the exact ray.
     ///
-    /// [`Sink::range`] may be used to skip a whole root or to stop; it never enters arithmetic, so that the bits
-    /// do not depend on the order of visits.
+    /// An implementation may use [`Sink::range`] to skip a whole root or to stop. The range must
+    /// not enter arithmetic, so that results do not depend on the order of visits.
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S)
     where
         Self: Sized;
 
-    /// The point of a root of this surface and this ray, as far as `need` asks.
+    /// The point of a root of this surface and this ray, with the data that `need` names.
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint;
 
     /// Whether the surface bounds a solid.
@@ -44,41 +48,45 @@ pub trait Surface: Send + Sync {
         Solidity::Open
     }
 
-    /// On which side of the solid a point lies: exact. Asked of solids only; an open surface answers [`Side::Out`].
+    /// The side of the solid on which a point lies, exactly. Only solids are asked; an open surface
+    /// returns [`Side::Out`].
     fn side(&self, _point: &LocalPoint<'_>) -> Side {
         Side::Out
     }
 
-    /// Whether there may be more parts than one.
+    /// Whether the surface may have more than one part.
     #[inline(always)]
     fn is_in_parts(&self) -> bool {
         false
     }
 
-    /// Calls `f` for each part that a tree may hold by itself, with a box that provably holds the part.
+    /// Calls `f` for each part that a tree may hold by itself, with a box that provably holds the
+    /// part.
     fn parts(&self, f: &mut dyn FnMut(Aabb, PartId)) {
         f(self.bounds(), PartId(0));
     }
 
-    /// By how much the number of a part, as a primitive, is above the surface's own: the faces of a mesh are primitives by themselves, the
-    /// walls of a prism are not.
+    /// The offset from a surface's number to the primitive number of one of its parts. Faces of a
+    /// mesh are primitives of their own; walls of a prism are not.
     #[inline(always)]
     fn primitive_of(&self, _part: PartId) -> u32 {
         0
     }
 
-    /// The corners of a part, if it is a flat triangle to which edges belong by the one rule of all triangles, and which nothing cuts. All parts of
-    /// all surfaces of a type have corners, or none has.
+    /// The corners of a part, if it is a flat, uncut triangle whose edges follow the edge rule of
+    /// meshes. Either all parts of all surfaces of a type have corners, or none has.
     fn corners(&self, _part: PartId) -> Option<[Point3; 3]> {
         None
     }
 
-    /// One part as lanes see it. Without more than its box, every ray that may meet that asks the surface itself.
+    /// The packet filter of one part. The default knows only the bounds, so every ray that may hit
+    /// the box falls back to [`part_roots`](Surface::part_roots).
     fn packet_filter(&self, _part: PartId) -> FilterSource {
         FilterSource::vague(self.bounds())
     }
 
-    /// All of a solid as lanes see it, for bodies made of several, and the part on which each of its faces is, by the numbers that lanes have for them.
+    /// The packet filter of a whole solid, for CSG, and the part on which each of the filter's
+    /// faces lies.
     fn solid_packet_filter(&self) -> (FilterSource, Vec<PartId>) {
         let part = PartId(0);
         (
@@ -87,7 +95,8 @@ pub trait Surface: Send + Sync {
         )
     }
 
-    /// The crossings of one part; the union over all parts is what [`roots`](Surface::roots) pushes.
+    /// Pushes the crossings of one part. The union over all parts is what [`roots`](Surface::roots)
+    /// pushes.
     #[inline(always)]
     fn part_roots<S: Sink + ?Sized>(&self, _part: PartId, ray: &LocalRay<'_>, sink: &mut S)
     where
@@ -97,7 +106,7 @@ pub trait Surface: Send + Sync {
     }
 }
 
-/// Names a part of a surface: a face of a mesh, a cell of a patch.
+/// The number of a part of a surface: a face of a mesh, a wall of a prism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PartId(pub u32);
 
@@ -106,13 +115,14 @@ pub struct PartId(pub u32);
 pub struct Root {
     /// The crossing in the caller's parameter, somewhere in `[lo, hi]`.
     pub t: f64,
-    /// The exact crossing is not below this (caller's parameter).
+    /// The exact crossing is not less than this (caller's parameter).
     pub lo: f64,
-    /// The exact crossing is not above this (caller's parameter).
+    /// The exact crossing is not greater than this (caller's parameter).
     pub hi: f64,
-    /// The crossing in the kernel's own re-centred parameter: what `resolve` starts from, without the digits that `t` lost.
+    /// The crossing in the kernel's re-centred parameter. `resolve` starts from it, because `t` has
+    /// lost digits.
     pub s: f64,
-    /// The kernel's own tag (triangle: b1, b2).
+    /// Data of the kernel for `resolve` (triangle: barycentric b1, b2).
     pub tag: [f64; 2],
     /// Which face of the surface (cap, wall, side of a box, face of a mesh).
     pub face: u32,
@@ -123,7 +133,8 @@ pub struct Root {
 }
 
 impl Root {
-    /// By `t`, then by face: the order of crossings whose exact order is not known, those of different faces of a mesh.
+    /// By `t`, then by face: an order for crossings whose exact order is unknown, those of
+    /// different faces of a mesh.
     pub fn order(&self, other: &Self) -> Ordering {
         self.t.total_cmp(&other.t).then(self.face.cmp(&other.face))
     }
@@ -137,7 +148,8 @@ pub enum RootKind {
     Simple = 0,
     /// The ray touches the surface and stays on its side (an exact tangent).
     Grazing = 1,
-    /// Several crossings that could not be told apart; counted, and never used where exact arithmetic can decide.
+    /// Several crossings that rounding cannot separate. Never used where exact arithmetic can
+    /// decide.
     Cluster = 2,
 }
 
@@ -146,11 +158,12 @@ pub enum RootKind {
 pub enum Solidity {
     /// A sheet: no inside.
     Open,
-    /// An inside is defined. It may be unbounded, and a line may cross its boundary an odd number of times.
+    /// A surface with an inside, which may be unbounded; a line may cross its boundary an odd
+    /// number of times.
     Solid,
 }
 
-/// Where a point lies with respect to a solid.
+/// The side of a solid on which a point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// Strictly inside.
@@ -161,7 +174,7 @@ pub enum Side {
     On,
 }
 
-/// What [`Surface::resolve`] is asked for; position, `dp`, `off` and `ng` always come.
+/// The data that [`Surface::resolve`] must compute. Position, `dp`, `off` and `ng` always come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Need(u8);
 
@@ -177,7 +190,7 @@ impl Need {
     /// Everything.
     pub const ALL: Self = Self(7);
 
-    /// Whether all of `other` is asked for.
+    /// Whether this need includes all of `other`.
     pub const fn contains(self, other: Self) -> bool {
         self.0 & other.0 == other.0
     }

@@ -1,17 +1,20 @@
-//! Formulas' surfaces as lanes see them.
+//! Packets of rays against the surface of a formula.
 //!
-//! Each line goes from cell to cell, past those in which the formula has one sign (`march.rs`). In a cell with surface the bounds of its gradient bound the slope `[l, h]` along the line:
+//! Each line moves from cell to cell past those in which the formula has one sign (`march.rs`). In
+//! a cell with surface the bounds of its gradient bound the slope `[l, h]` along the line:
 //!
 //! ```text
-//!   0 not in [l, h]                 g goes one way: the sign at the end tells
-//!   |g(m)| > max(|l|, |h|) w / 2    g has the sign that it has in the middle m of a stretch of length w
+//!   0 not in [l, h]                 g is monotone: the sign at the end decides
+//!   |g(m)| > max(|l|, |h|) w / 2    g has the sign of its value in the middle m of a stretch of length w
 //! ```
 //!
-//! Else the formula is asked for bounds on the stretch, of the slope too (`subdivide.rs`). What it is asked for, a value or a stretch of each line, it is asked eight times at once, by the tape that is right
-//! for all of these lines.
+//! Otherwise bounds of the formula and its slope on the stretch are computed (`subdivide.rs`).
+//! Values and stretches are computed for eight lines at once, by the tape that is right for all of
+//! them.
 //!
-//! Lines are divided where rounded numbers say that they change cells, as those of single rays are (`octree.rs`, `octree_lookup.rs`): a point is sought in the cell that is a sixteenth of the margin ahead, and
-//! lines whose points are known worse than half of that do without lanes.
+//! Lines are divided where rounded numbers say that they change cells, as for single rays
+//! (`octree.rs`, `octree_lookup.rs`): a point is looked up in the cell that is a sixteenth of the
+//! margin ahead. Lines whose points are known worse than half of that are left to single rays.
 
 use super::Isosurface;
 use super::march::Stop;
@@ -37,12 +40,12 @@ impl Isosurface {
         number.map_or(&self.tape, |number| cells.tape(number))
     }
 
-    /// The same at a point of each of some lines.
+    /// The tape that is right at a point of each of some lines.
     fn tape_of(&self, line: &Line8, s: &F8, lanes: M8) -> &Tape {
         self.tape_at(lanes, |i| at(line, s.0[i], i))
     }
 
-    /// Whether all cells that points of some lines are in know the sign.
+    /// Whether the sign is known in all cells that hold points of some lines.
     fn in_signs(&self, line: &Line8, s: &F8, lanes: M8, value: &mut Value8) -> bool {
         (value.above, value.below) = (M8::NONE, M8::NONE);
         for i in lanes.lanes() {
@@ -63,7 +66,7 @@ fn at(line: &Line8, s: f64, i: usize) -> [f64; 3] {
     [s * d.x.0[i] + o.x.0[i], s * d.y.0[i] + o.y.0[i], s * d.z.0[i] + o.z.0[i]]
 }
 
-/// Stretches are not asked to be shorter than this part of what holds the solid.
+/// The shortest stretch, as a fraction of the container's size.
 const SHORTEST: f64 = durer_math::scale::pow2(-24);
 
 impl ImplicitKernel for Isosurface {
@@ -170,13 +173,16 @@ impl ImplicitKernel for Isosurface {
         isa.run_in_lanes(
             #[inline(always)]
             || {
-                // So far around bounds of the gradient are asked for. Whether `off` stays within is looked at afterwards (`PacketFilter::points`); the nearer, the tighter.
+                // Bounds of the gradient are computed in this neighbourhood; a smaller one gives
+                // tighter bounds. Whether `off` stays within is checked later
+                // (`PacketFilter::points`).
                 let room = *e * 16.0 + reach * (1024.0 * U);
                 let axis = |y: F8, e: F8| I8::new(y - e - y.abs() * U, y + e + y.abs() * U);
                 x = [axis(y.x, *e), axis(y.y, *e), axis(y.z, *e)];
                 let all = *e + room;
                 wide = [axis(y.x, all), axis(y.y, all), axis(y.z, all)];
-                // A cell's tape is right as far as the margin from it; a quarter pays for roundings many times over.
+                // A cell's tape is right within the margin; a quarter of it covers roundings many
+                // times over.
                 near = all.lt(F8::splat(cells.margin() * 0.25));
                 skin.room = near.select(room, F8::ZERO);
             },

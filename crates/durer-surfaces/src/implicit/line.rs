@@ -1,4 +1,5 @@
-//! A tape along a line: what `g(s) = f(q + s d)` is on stretches of `s`, with every rounding of the ray charged.
+//! A tape along a line: bounds of `g(s) = f(q + s d)` on stretches of `s`, with every rounding of
+//! the ray included.
 
 use super::root_isolator::{CertifiedFunction, interpolated};
 use crate::CentredRay;
@@ -6,7 +7,7 @@ use crate::tape::Tape;
 use durer_math::eft::two_sum;
 use durer_math::{Dual, F8, I8, Point3, U, Vec3};
 
-/// Pays for results below the normal range.
+/// Covers underflow.
 const TINY: f64 = durer_math::scale::pow2(-1000);
 
 /// The line `q + s d`, each coordinate known within an error, for `|s| <= reach`.
@@ -18,7 +19,7 @@ pub(super) struct BoundedLine {
     pub(super) d_err: [f64; 3],
     /// Per-axis bound on the error of a computed point.
     pub(super) err: [f64; 3],
-    /// The spacing of parameters that are worth telling apart: an ulp of `reach`.
+    /// The spacing of parameters that are worth separating: an ulp of `reach`.
     pub(super) ulp: f64,
 }
 
@@ -31,7 +32,7 @@ impl BoundedLine {
         for i in 0..3 {
             let (q, lost) = two_sum(c[i], o[i]);
             line.q[i] = q;
-            // One rounding of the point, and two where its error is added and taken off.
+            // One rounding of the point, and two when its error is added and subtracted.
             let size = q.abs() + reach * d[i].abs();
             line.err[i] =
                 (lost.abs() + o_err[i] + reach * d_err[i] + 3.0 * U * size) * (1.0 + 16.0 * U) + TINY;
@@ -39,7 +40,7 @@ impl BoundedLine {
         line
     }
 
-    /// The line next to it, as far away as this, however that is rounded.
+    /// The line moved by `by`; rounding of the move does not matter.
     pub(super) fn beside(&self, by: Vec3) -> Self {
         Self { q: core::array::from_fn(|i| self.q[i] + by[i]), ..*self }
     }
@@ -51,11 +52,12 @@ impl BoundedLine {
         Point3::new(x(0), x(1), x(2))
     }
 
-    /// The middle of the stretch from `a` to `b`, and how far from it along any axis the exact line can be there.
+    /// The middle of the stretch from `a` to `b`, and the greatest distance of the exact line from
+    /// it along any axis.
     pub(super) fn around(&self, a: f64, b: f64) -> (Point3, f64) {
         let middle = self.point(0.5 * a + 0.5 * b);
         let reach = (b - a).abs() * Vec3::from(self.d).max_abs();
-        // Half of it would do: the other half pays for rounding.
+        // Half of it is enough; the other half covers rounding.
         (middle, reach + 2.0 * Vec3::from(self.err).max_abs())
     }
 
@@ -64,7 +66,8 @@ impl BoundedLine {
         Vec3::from(self.d)
     }
 
-    /// Where along an axis the line is at `x`, rounded; not finite where it never is.
+    /// The parameter at which the line reaches `x` along an axis, rounded; not finite if it never
+    /// does.
     #[inline(always)]
     pub(super) fn meets(&self, axis: usize, x: f64) -> f64 {
         (x - self.q[axis]) / self.d[axis]
@@ -78,7 +81,8 @@ impl BoundedLine {
             |i| {
                 let (mut lo, mut hi) = (F8::ZERO, F8::ZERO);
                 for k in 0..8 {
-                    // Not fused, but rounded twice: the error of the product is one of the three that `err` pays for.
+                    // Not fused but rounded twice: the product's error is one of the three that
+                    // `err` covers.
                     let (x, y) = (a[k] * self.d[i] + self.q[i], b[k] * self.d[i] + self.q[i]);
                     lo.0[k] = (if x < y { x } else { y }) - self.err[i];
                     hi.0[k] = (if x < y { y } else { x }) + self.err[i];
@@ -98,7 +102,7 @@ impl BoundedLine {
         let v = self.boxes(a, b);
         let slope =
             |i: usize| I8::new(F8::splat(self.d[i] - self.d_err[i]), F8::splat(self.d[i] + self.d_err[i]));
-        // Rounded once, by less than the next number: where there is an error at all.
+        // Rounded once, by less than the next number, where there is an error at all.
         let d = [0, 1, 2].map(|i| {
             let mut d = slope(i);
             if self.d_err[i] > 0.0 {
@@ -109,12 +113,12 @@ impl BoundedLine {
         tape.slopes(&[0, 1, 2].map(|i| Dual { v: v[i], d: d[i] }))
     }
 
-    /// The one sign of `g` from `a` to `b`, if it is certain beside what jumps there.
+    /// The sign of `g` from `a` to `b` apart from its jumps, if it is certain.
     pub(super) fn sign_beside_jumps(&self, tape: &Tape, a: f64, b: f64) -> Option<bool> {
         tape.sign_beside_jumps(&self.boxes(&[a; 8], &[b; 8]))
     }
 
-    /// The one sign of `g` from `a` to `b`, if it is certain.
+    /// The sign of `g` from `a` to `b`, if it is certain.
     pub(super) fn sign_on(&self, tape: &Tape, a: f64, b: f64) -> Option<bool> {
         CertifiedFunction::signs(self, tape, &[a; 8], &[b; 8])[0]
     }
@@ -149,7 +153,7 @@ impl CertifiedFunction for BoundedLine {
     }
 
     fn is_plain(&self, tape: &Tape, s: f64) -> bool {
-        // Bounds are as far apart as rounding makes them.
+        // The bounds are as far apart as rounding makes them.
         let v = self.bounds(tape, &[s; 8], &[s; 8]);
         let (lo, hi) = (v.lo.0[0], v.hi.0[0]);
         v.partial & 1 == 0 && lo.max(-hi) > 8.0 * (hi - lo)
@@ -164,8 +168,8 @@ impl CertifiedFunction for BoundedLine {
     }
 }
 
-/// The root of a monotone `g` in `[lo, hi]`, and places with certain signs around it, 128 times `first` apart at most; by eight values at a time. `None` where that does
-/// not close in at once.
+/// The root of a monotone `g` in `[lo, hi]`, and places with certain signs around it, at most 128
+/// times `first` apart, by eight values at a time. `None` if that does not converge at once.
 fn closed_in(
     line: &BoundedLine,
     tape: &Tape,

@@ -1,7 +1,9 @@
-//! Eight lines through the cells of a formula, as far as it surely keeps its sign.
+//! Eight lines through the cells of a formula, as far as it certainly keeps its sign.
 //!
-//! A line passes a cell where the formula has its sign, or is undefined outside, or where the bounds of the gradient say that it goes away from zero. It stops before the first cell of which none
-//! of that is known. Lines go from cell to cell together, each by cells of its own; what a cell's number leads to is looked up line by line, all else is done in lanes.
+//! A line passes a cell where the formula has the line's sign, where it is undefined and the line
+//! is outside, or where the bounds of the gradient prove that it moves away from zero. The line
+//! stops before the first other cell. All eight lines step together, each through its own cells;
+//! the lookup of a cell is done line by line, everything else in lanes.
 
 use super::octree::{Cells, slope_along};
 use super::octree_lookup::Found;
@@ -9,16 +11,18 @@ use crate::packet::{Line8, Segment8};
 use durer_math::lanes::LANES;
 use durer_math::{F8, M8, Vec3};
 
-/// A line that rounding takes out of so many cells as soon as it is in them runs along their faces: it does without lanes.
+/// A line that rounding takes out of this many cells as soon as it enters them runs along their
+/// faces. It is left to single rays.
 const GRAZED: f64 = 8.0;
 
-/// Where lines stopped.
+/// Where the lines stopped.
 pub(super) struct Stop {
-    /// The formula keeps its sign until here.
+    /// The formula keeps its sign up to here.
     pub(super) a: F8,
-    /// Here the cell ends.
+    /// The end of the cell.
     pub(super) b: F8,
-    /// Lines that stopped before a leaf, its tape's number, and bounds of the slope along the line in it.
+    /// The lines that stopped before a leaf, the number of the leaf's tape, and bounds of the slope
+    /// along the line in it.
     pub(super) leaf: M8,
     pub(super) tape: [u32; LANES],
     pub(super) low: F8,
@@ -26,7 +30,7 @@ pub(super) struct Stop {
 }
 
 impl Stop {
-    /// Lets the lines that are asked go on from where their stretches begin.
+    /// Moves the `asked` lines on from where their stretches begin.
     #[inline(never)]
     pub(super) fn of(cells: &Cells, line: &Line8, told: &Segment8) -> Self {
         let (a, b, zero) = (told.a, told.b, F8::ZERO);
@@ -71,7 +75,7 @@ fn go_on(cells: &Cells, line: &Line8, told: &Segment8, stop: &mut Stop) {
         stop.a.set_where(through, told.last);
         stop.b.set_where(through, told.last);
         open = open & passed & !through;
-        // Cells that are grazed at a corner, so that rounding says that they are left at once.
+        // Cells grazed at a corner: rounding says that the line leaves them at once.
         grazed += (open & end.le(s)).keep(F8::ONE);
         let along = open & grazed.gt(F8::splat(GRAZED));
         stop.a.set_where(along, s);
@@ -81,7 +85,7 @@ fn go_on(cells: &Cells, line: &Line8, told: &Segment8, stop: &mut Stop) {
     }
 }
 
-/// Bounds of the slopes of lines in the leaves that they are in, and the numbers of these leaves' tapes.
+/// Bounds of the slopes of lines in their leaves, and the numbers of these leaves' tapes.
 #[inline(always)]
 fn slopes(
     cells: &Cells,
@@ -108,7 +112,7 @@ mod tests {
     use crate::laws::TestRng;
     use durer_math::{Aabb, Dyadic, Isa, Point3, U};
 
-    /// Two points of the container beside a tangent of the surface, if the dice find one.
+    /// Two points of the container beside a tangent of the surface, if the generator finds one.
     fn beside_a_tangent(dice: &mut TestRng, c: f64) -> Option<(Vec3, Vec3)> {
         let Vec3 { x, y, .. } = dice.vector() * 0.75;
         let p = Vec3::new(x, y, (2.0 * x - x * x * x - c) / y);
@@ -137,7 +141,8 @@ mod tests {
         length
     }
 
-    /// The sign is kept as far as a line goes on, and in the leaf before which it stops the slope is within its bounds.
+    /// The formula keeps its sign as far as a line moves, and the slope in the leaf before which it
+    /// stops is within the bounds.
     #[test]
     fn lines_go_on_while_they_keep_the_sign() {
         let (mut gone, mut through, mut leaves) = (0, 0, 0);

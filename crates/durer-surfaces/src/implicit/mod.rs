@@ -1,17 +1,20 @@
 //! The surface of a formula: all points of a container where `f(x, y, z) = threshold`.
 //!
 //! ```text
-//!   { p in C : f(p) = T },  inside: f(p) < T;  C is a box or a ball, and shows its face where that is inside
+//!   { p in C : f(p) = T },  inside: f(p) < T;  C is a box or a ball; its faces show where they are inside
 //! ```
 //!
-//! No knowledge of the formula is asked for, no bound of its gradient and no accuracy: along a ray the formula is evaluated in interval arithmetic,
-//! and a stretch is passed over only if the bounds exclude a root (R. E. Moore 1966; D. P. Mitchell 1990; D. Kalra, A. H. Barr, "Guaranteed ray
-//! intersections with implicit surfaces", SIGGRAPH 1989, does it with Lipschitz constants that the user must give). A root is called simple where
-//! the formula is strictly monotone between two certain and opposite signs.
+//! The user gives neither a bound on the gradient nor an accuracy. Interval arithmetic evaluates
+//! the formula along a ray, and a stretch is skipped only if the bounds exclude a root (R. E. Moore
+//! 1966; D. P. Mitchell 1990; D. Kalra, A. H. Barr, "Guaranteed ray intersections with implicit
+//! surfaces", SIGGRAPH 1989, use Lipschitz constants from the user). A root is simple where the
+//! formula is strictly monotone between two certain and opposite signs.
 //!
-//! What is exact here is the formula with its numbers. Where rounding leaves the sign open over a whole stretch (at tangents, mostly) the
-//! crossings of that stretch are one [`RootKind::Cluster`](crate::RootKind). Where the formula jumps from one sign to the other, also over a pole, the solid
-//! has a wall, which is a cluster too: no derivative says that there is just one. Where it is undefined there is no surface.
+//! The exact surface is that of the formula with its numbers. Where rounding leaves the sign
+//! unknown over a whole stretch, mostly at tangents, the crossings of that stretch form one
+//! [`RootKind::Cluster`](crate::RootKind). Where the formula jumps from one sign to the other, or
+//! has a pole, the solid has a wall, which is a cluster too, because no derivative proves that it
+//! is only one. Where the formula is undefined there is no surface.
 
 mod coincident_face;
 mod container;
@@ -47,26 +50,26 @@ use std::sync::{Arc, OnceLock};
 use superellipsoid_concave::Star;
 use superellipsoid_convex::Gauge;
 
-/// A formula's surface in a container. Face 0 is the formula's, the container's faces follow.
+/// The surface of a formula in a container. Face 0 is the formula's; the container's faces follow.
 ///
 /// # Invariants
 ///
-/// The formula takes three numbers, the threshold is finite.
+/// The formula takes three numbers, and the threshold is finite.
 #[derive(Clone, Debug)]
 pub struct Isosurface {
     /// `f - T`.
     tape: Tape,
     container: Container,
     open: bool,
-    /// What the surface only touches is none of it: see [`Isosurface::regular`].
+    /// Touching points do not belong to the surface: see [`Isosurface::regular`].
     regular: bool,
-    /// Divided when they are asked for: a convex superellipsoid hardly ever asks.
+    /// The octree, built at first use; a convex superellipsoid hardly ever needs it.
     cells: Arc<OnceLock<Cells>>,
-    /// Of what degree it is along lines at most, if it is a polynomial.
+    /// If the formula is a polynomial: its greatest degree along a line.
     degree: Option<usize>,
-    /// Of a convex superellipsoid: most rays do without the tape.
+    /// The gauge of a convex superellipsoid, with which most rays need no tape.
     gauge: Option<Gauge>,
-    /// Of a superellipsoid with dents between all axes: what lanes see.
+    /// The gauge of a superellipsoid with dents between all axes, for packets.
     dented: Option<Gauge>,
 }
 
@@ -76,26 +79,27 @@ pub enum IsosurfaceError {
     /// The threshold is infinite or NaN.
     #[error("isosurface: the threshold must be finite, got {0}")]
     Threshold(f64),
-    /// The formula takes another number of arguments.
+    /// The formula takes another number of arguments than three.
     #[error("isosurface: its function must have three arguments, this one has {0}")]
     Arguments(u32),
     /// The formula is too long.
     #[error("isosurface: {0}")]
     Formula(#[from] FormulaError),
-    /// Its container is none.
+    /// The container is not valid.
     #[error("isosurface: {0}")]
     Container(#[from] crate::AxisBoxError),
 }
 
 impl Isosurface {
-    /// The surface of `formula`, at `threshold`, in `container`; it closes the solid where the container cuts it.
+    /// The surface of `formula`, at `threshold`, in `container`; the container closes the solid
+    /// where it cuts it.
     pub fn new(formula: &Formula, threshold: f64, container: Container) -> Result<Self, IsosurfaceError> {
         let surface = Self::undivided(formula, threshold, container)?;
         surface.divided();
         Ok(surface)
     }
 
-    /// The same, with its container to be divided when that is asked for.
+    /// The same surface, whose octree is built at first use.
     fn undivided(formula: &Formula, threshold: f64, container: Container) -> Result<Self, IsosurfaceError> {
         if !threshold.is_finite() {
             return Err(IsosurfaceError::Threshold(threshold));
@@ -115,12 +119,12 @@ impl Isosurface {
         Ok(Self { tape, container, open: false, regular: false, degree, cells, gauge: None, dented: None })
     }
 
-    /// The container's cells.
+    /// The octree over the container.
     fn divided(&self) -> &Cells {
         self.cells.get_or_init(|| Cells::new(&self.tape, self.container.bounds()))
     }
 
-    /// A tape that is right within `reach` of `p` along each axis: a cell's own, if it can be.
+    /// A tape that is right within `reach` of `p` along each axis: a cell's own, if possible.
     fn tape_near(&self, p: Point3, reach: f64) -> &Tape {
         match self.divided().place(p, reach) {
             Some(CellLookup::Open(tape) | CellLookup::Slope(tape, _)) => tape,
@@ -135,17 +139,19 @@ impl Isosurface {
         self
     }
 
-    /// The same solid without its touches: where a ray certainly is on one side before and behind, it has not crossed. A solid of solids as one formula
-    /// has zeros where two of its parts' faces coincide, which are no surface of it (R. B. Tilove, A. A. G. Requicha, "Closure of Boolean operations on
-    /// geometric entities", *Computer-Aided Design* 12(5), 1980: the regularised one). Rays tangent to it within rounding do not meet it either.
+    /// The same solid without touching points: a ray that is certainly on one side before and
+    /// behind has not crossed. CSG as one formula has zeros where faces of two parts coincide,
+    /// which are no surface of the result (R. B. Tilove, A. A. G. Requicha, "Closure of Boolean
+    /// operations on geometric entities", *Computer-Aided Design* 12(5), 1980: the regularised
+    /// set). Rays that are tangent within rounding do not meet it either.
     #[must_use]
     pub fn regular(mut self) -> Self {
         self.regular = true;
         self
     }
 
-    /// How many cells of the container there may be surface in, and how many steps their tapes have on average; the formula has
-    /// as many as the third number says.
+    /// The number of cells that may hold surface, the mean length of their tapes, and the length of
+    /// the whole formula's tape.
     pub fn cells(&self) -> (usize, f64, usize) {
         let (open, steps) = self.divided().open();
         (open, steps, self.tape.len())
@@ -223,7 +229,7 @@ impl Surface for Isosurface {
 }
 
 impl Algebraic for Isosurface {
-    /// None: a formula has no polynomial.
+    /// A formula has no polynomial along a ray.
     fn polynomial(&self, _face: u32, _ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
         None
     }

@@ -1,13 +1,16 @@
-//! Where the surface is not: an octree over the container, built once.
+//! An octree over the container that records where the surface is not.
 //!
-//! Each cell is asked for bounds of the formula, eight cells in one pass. Cells in which it has one sign are dropped; the others are divided,
-//! and keep a tape in which what is decided there is decided (T. Duff 1992; M. Keeter 2020).
+//! Bounds of the formula are computed for eight cells in one pass. Cells in which it has one sign
+//! are dropped. The others are divided and keep a shorter tape in which decided branches are fixed
+//! (T. Duff 1992; M. Keeter 2020).
 //!
-//! The smallest cells know bounds of the gradient, too. Where these say that the formula rises or falls along a ray's direction, a stretch in the cell needs
-//! not be looked at: what has the same sign at both ends has no root between.
+//! The smallest cells also have bounds of the gradient. Where these prove that the formula rises or
+//! falls along a ray's direction, a stretch in the cell with the same sign at both ends holds no
+//! root.
 //!
-//! Bounds are taken of cells grown by a margin. A ray is divided where *rounded* numbers say that it changes cells; as long as its points are
-//! known to less than the margin, what is said of a cell holds on its stretch.
+//! Bounds are taken of cells enlarged by a margin. A ray is divided where *rounded* numbers say
+//! that it changes cells. As long as its points are known to less than the margin, the bounds of a
+//! cell hold on its stretch.
 
 use super::line::BoundedLine;
 use super::octree_lookup::{Grid, Lookup};
@@ -16,34 +19,35 @@ use durer_math::{Aabb, Dual, F8, I8, Interval, Number, Point3, Scalar, U};
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
-/// No cell is smaller than the container divided by two to this power.
+/// The depth of the smallest cells: the container is divided by two this many times.
 pub(super) const DEEPEST: u32 = 6;
-/// So many times larger than the margin is the container.
+/// The margin, as a fraction of the container's size.
 const MARGIN: f64 = 1.0 / (1u64 << 28) as f64;
 
-/// What is known of a cell.
+/// What is certain about a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cell {
-    /// The formula has this sign.
+    /// The formula has this sign in all of it.
     Sign(bool),
-    /// There is no surface, but the formula is not everywhere defined; whether it is positive where it is.
+    /// There is no surface, but the formula may be undefined; the flag is whether it is positive
+    /// where defined.
     Gap(bool),
     /// There may be surface; the number of the leaf.
     Leaf(u32),
-    /// Divided; the number of the first of eight.
+    /// The cell is divided; the number of the first of its eight parts.
     Inner(u32),
 }
 
 /// A cell in which there may be surface.
 #[derive(Clone, Copy, Debug)]
 struct Leaf {
-    /// The number of its tape.
+    /// The number of the cell's tape.
     tape: u32,
-    /// Where it is, in parts of its size.
+    /// The cell's place, in multiples of its size.
     at: [u8; 3],
 }
 
-/// Bounds of the gradient, rounded outward; infinite where there may be none.
+/// Bounds of the gradient, rounded outward; infinite where the gradient may not exist.
 #[derive(Clone, Copy, Debug)]
 struct Gradient {
     lo: [f32; 3],
@@ -57,29 +61,30 @@ impl Gradient {
         Self { lo: of.map(|x| (x.lo as f32).next_down()), hi: of.map(|x| (x.hi as f32).next_up()) }
     }
 
-    /// The way the formula goes along a line, if that is certain: up is `true`.
+    /// Whether the formula rises (`true`) or falls along a line, if that is certain.
     fn rises(&self, line: &BoundedLine) -> Option<bool> {
         let (lo, hi) = slope_along(self.lo.map(f64::from), self.hi.map(f64::from), line.d, line.d_err);
         if lo > 0.0 { Some(true) } else { (hi < 0.0).then_some(false) }
     }
 }
 
-/// Bounds of the slope along a direction `d` that is known within `e`, where the gradient is between `least` and `most`; of one line, or of eight. Nothing is known if that is infinite.
+/// Bounds of the slope along a direction `d` that is known within `e`, for a gradient between
+/// `least` and `most`; for one line, or for eight. Infinite bounds say nothing.
 #[inline(always)]
 pub(super) fn slope_along<T: Scalar + Number>(least: [T; 3], most: [T; 3], d: [T; 3], e: [T; 3]) -> (T, T) {
     let zero = T::from(0.0);
-    // Pays for what may be lost below the normal range.
+    // Covers underflow.
     let (mut lo, mut hi, mut unsure) = (zero, zero, T::from(durer_math::scale::pow2(-1000)));
     for axis in 0..3 {
         let (a, b) = (least[axis] * d[axis], most[axis] * d[axis]);
         lo = lo + T::min(&a, &b);
         hi = hi + T::max(&a, &b);
         let steepest = T::max(&Scalar::abs(least[axis]), &Scalar::abs(most[axis]));
-        // The product's rounding, those of the sums, and what is not known of the direction.
+        // The product's rounding, those of the sums, and the error of the direction.
         let off = Scalar::abs(d[axis]) * T::from(8.0 * U) + e[axis] * T::from(1.0 + 8.0 * U);
         unsure = unsure + steepest * off;
     }
-    // One rounding more.
+    // One more rounding.
     let unsure = unsure + (Scalar::abs(lo) + Scalar::abs(hi)) * T::from(2.0 * U);
     (lo - unsure, hi + unsure)
 }
@@ -89,26 +94,26 @@ pub(super) fn slope_along<T: Scalar + Number>(least: [T; 3], most: [T; 3], d: [T
 pub(super) struct Cells {
     extent: Aabb,
     margin: f64,
-    /// How far from the origin the container is, at most.
+    /// The container's greatest distance from the origin.
     reach: f64,
     root: Cell,
     cells: Vec<Cell>,
     grid: Grid,
-    /// Eight with one tape after the other: where there are fewer of them the last one stands in for the rest.
+    /// Groups of eight leaves with one tape each. A group with fewer leaves repeats its last one.
     leaves: Vec<Leaf>,
-    /// Of eight leaves each, when one of them is first asked for.
+    /// Gradients of each group of eight leaves, computed when one of them is first needed.
     gradients: Box<[OnceLock<[Gradient; 8]>]>,
     tapes: Vec<Tape>,
-    /// How many leaves there are, and the steps of their tapes on average.
+    /// The number of leaves, and the mean length of their tapes.
     open: (usize, f64),
 }
 
-/// What is only needed while cells are divided.
+/// Data needed only while cells are divided.
 #[derive(Default)]
 struct OctreeBuild {
-    /// The tapes there are, by a number that their steps say, so that cells that ask the same share one.
+    /// The tapes so far, by a hash of their operations, so that equal tapes are shared.
     tapes: HashMap<u64, Vec<u32>>,
-    /// What becomes of a tape by what is decided about its steps, so that each is made once.
+    /// The shorter tape for each tape and set of decisions, so that each is made once.
     shorter: HashMap<u32, HashMap<Box<[u64]>, u32>>,
 }
 

@@ -1,4 +1,5 @@
-//! The point of a root: near it, how far from the surface, and how the surface bends there.
+//! The point of a root: its position near the surface, its distance from it, and the surface's
+//! curvature.
 
 use super::Isosurface;
 use super::line::BoundedLine;
@@ -10,27 +11,28 @@ use durer_math::{Dual, I8, Interval, Point3, U, Vec3};
 /// A point next to the surface.
 pub(super) struct Foot {
     pub(super) p: Point3,
-    /// The normal, of length 1.
+    /// The unit normal.
     pub(super) n: Vec3,
-    /// How far along it one must go to leave the surface for certain.
+    /// The distance along the normal that certainly leaves the surface.
     pub(super) off: f64,
     /// A bound on the curvature.
     pub(super) bend: f64,
 }
 
-/// What is known of the formula near a point.
+/// Bounds of the formula near a point.
 struct Near {
     value: Interval,
     gradient: [Interval; 3],
 }
 
 impl Near {
-    /// What is known within `r` of `p`, per axis, by a tape that is right there; `None` where bounds are not finite or the formula may not be smooth.
+    /// Bounds within `r` of `p`, per axis, by a tape that is right there; `None` if they are not
+    /// finite or the formula may not be smooth.
     fn new(tape: &Tape, p: Point3, r: f64) -> Option<Self> {
         Self::with_value(tape, p, r).map(|(near, _)| near)
     }
 
-    /// The same, and bounds of the value at `p` itself, which the fourth lane looks at.
+    /// The same bounds, and bounds of the value at `p` itself from the fourth lane.
     fn with_value(tape: &Tape, p: Point3, r: f64) -> Option<(Self, Interval)> {
         let p = p.to_array();
         let x = [0, 1, 2].map(|i| {
@@ -45,10 +47,12 @@ impl Near {
         (defined && finite).then(|| (Self { value: g.v.lane(0), gradient }, g.v.lane(3)))
     }
 
-    /// How far along `n` one must go from `p` to leave the surface for certain, and a bound on its curvature; `None` if `r` does not hold the whole way.
+    /// The distance along `n` from `p` that certainly leaves the surface, and a bound on its
+    /// curvature; `None` if `r` does not cover the whole step.
     ///
-    /// Within `r` of `p` the slope along `n` is at least `m`. So `f(p ± off n)` is on its side of zero if `m off` exceeds `|f(p)|`, which is at most `here`, and
-    /// what rounding the start moves it: three roundings per axis, each times the largest slope along it.
+    /// Within `r` of `p` the slope along `n` is at least `m`. So `f(p ± off n)` has the right sign
+    /// if `m off` exceeds `|f(p)|`, which is at most `here`, plus the change from rounding the
+    /// start: three roundings per axis, each times the largest slope along it.
     fn off(&self, p: Point3, n: Vec3, here: f64, r: f64) -> Option<(f64, f64)> {
         let along = |i: usize| self.gradient[i] * Interval { lo: n[i], hi: n[i] };
         let m = (along(0) + along(1) + along(2)).lo;
@@ -56,8 +60,9 @@ impl Near {
         let stray = (0..3).map(|i| self.gradient[i].magnitude() * (ulp[i] + r * 4.0 * U)).sum::<f64>();
         let off = (here + stray) / m * (1.0 + 16.0 * U);
         let holds = m > 0.0 && off + ulp.max_abs() * 2.0 <= r;
-        // Within r the gradient turns by at most `turn`, so that at a distance d the surface has left its tangent plane by at most
-        // `turn d`: no more than `bend / 2 d^2` from one rounding of the place on, and nothing that counts below that.
+        // Within `r` the gradient turns by at most `turn`, so at a distance `d` the surface has
+        // left its tangent plane by at most `turn d`: no more than `bend / 2 d^2` from one rounding
+        // of the position on, and nothing that matters below that.
         let width = |i: usize| self.gradient[i].width();
         let turn = Vec3::new(width(0), width(1), width(2)).length() / m;
         holds.then(|| (off, 2.0 * turn / ulp.max_abs() * (1.0 + 16.0 * U)))
@@ -65,9 +70,10 @@ impl Near {
 }
 
 impl Isosurface {
-    /// Bounds of the formula and of its gradient within `r` of `p`, per axis; `None` where they are not finite or it may not be smooth.
+    /// Bounds of the formula and of its gradient within `r` of `p`, per axis; `None` if they are
+    /// not finite or the formula may not be smooth.
     fn near(&self, p: Point3, r: f64) -> Option<Near> {
-        // Rounding the ends of the boxes outward is charged to the reach.
+        // The reach includes the outward rounding of the boxes.
         Near::new(self.tape_near(p, 2.0 * r + least_step(p)), p, r)
     }
 
@@ -88,7 +94,8 @@ impl Isosurface {
         let width = at.width(root.lo, root.hi);
         let direction = line.direction();
         let reach = 64.0 * (width + size * U) + f64::MIN_POSITIVE;
-        // The crossing is no farther than this, along any axis: so it may be on a plane that is not.
+        // The crossing is no farther than this along any axis, so it may lie on a plane that is
+        // not.
         let fold = (width * direction.max_abs() + Vec3::from(line.err).max_abs()) * (1.0 + 8.0 * U);
         let foot = self.gauge.as_ref().and_then(|gauge| gauge.foot(p0, (fold, reach)));
         let Foot { p, n, off, bend } =
@@ -109,7 +116,8 @@ impl Isosurface {
         point
     }
 
-    /// The point next to `p0` for any formula: towards the surface along the gradient, until rounding stops it.
+    /// The point next to `p0` for any formula: towards the surface along the gradient, until
+    /// rounding stops it.
     fn foot(&self, p0: Point3, direction: Vec3, (reach, width): (f64, f64), sign: i8) -> Foot {
         if let Some(foot) = self.quick_foot(p0, reach) {
             return foot;
@@ -117,14 +125,15 @@ impl Isosurface {
         let back = if sign > 0 { direction } else { -direction };
         let (p, ng) = match self.tape_near(p0, reach).wall(p0, reach) {
             Some(wall) => {
-                // Beside what is no wall, as the formula jumps to and fro, or not across zero, the surface goes on.
+                // Beside a jump that is no wall, because the formula jumps back or not across zero,
+                // the surface continues.
                 let aside = wall * (4.0 * reach / wall.length());
                 if let Some(foot) =
                     [aside, -aside].iter().find_map(|&aside| self.quick_foot(p0 + aside, 16.0 * reach))
                 {
                     return foot;
                 }
-                // Which way is outward the ray knows.
+                // The ray decides which way is outward.
                 (p0, if wall.dot(back) < 0.0 { -wall } else { wall })
             }
             None => {
@@ -138,7 +147,8 @@ impl Isosurface {
         Foot { p, n, off, bend }
     }
 
-    /// The same in two looks at the formula, as it goes where one step of Newton's is enough; `None` where it is not.
+    /// The same point from two evaluations of the formula, where one step of Newton's method is
+    /// enough; `None` where it is not.
     fn quick_foot(&self, p0: Point3, reach: f64) -> Option<Foot> {
         let r = 256.0 * (p0.to_vec().max_abs() * U) + least_step(p0);
         let tape = self.tape_near(p0, reach + 4.0 * r);
@@ -157,9 +167,10 @@ impl Isosurface {
         Some(Foot { p, n, off, bend })
     }
 
-    /// A point at most `reach` away whose value is nearer to zero, by a few steps of Newton's along the gradient; and the gradient there.
+    /// A point at most `reach` away whose value is nearer to zero, by a few steps of Newton's
+    /// method along the gradient; and the gradient there.
     ///
-    /// Not inlined: where it was, the optimiser lost a coordinate of the point.
+    /// Not inlined: when it was, the optimiser lost a coordinate of the point.
     #[inline(never)]
     fn nearer(&self, mut p: Point3, reach: f64) -> (Point3, Option<Vec3>) {
         let (mut f, mut slope) = (self.tape_near(p, 0.0).value(p), self.slope(p));
@@ -178,14 +189,15 @@ impl Isosurface {
         (p, slope)
     }
 
-    /// The gradient at a point, rounded; `None` where it has none.
+    /// The gradient at a point, rounded; `None` where it does not exist.
     fn slope(&self, p: Point3) -> Option<Vec3> {
         let near = self.near(p, 0.0)?;
         let g = Vec3::from(near.gradient.map(Interval::mid));
         (g.is_finite() && g != Vec3::ZERO).then_some(g)
     }
 
-    /// How far along `n` one must go from `p` to leave the surface for certain, and a bound on its curvature there.
+    /// The distance along `n` from `p` that certainly leaves the surface, and a bound on its
+    /// curvature there.
     fn off(&self, p: Point3, n: Vec3, scale: f64, width: f64) -> (f64, f64) {
         let here = self.near(p, 0.0).map_or(f64::INFINITY, |near| near.value.magnitude());
         let mut r = 64.0 * scale + least_step(p);
@@ -195,7 +207,8 @@ impl Isosurface {
             }
             r *= 4.0;
         }
-        // A point without a normal (a tip, a seam, a cluster): some way off, in the scale of the coordinates and of what is not known.
+        // A point without a normal (a tip, a seam, a cluster): some distance away, in the scale of
+        // the coordinates and of their errors.
         (4096.0 * scale + 4.0 * width, 0.0)
     }
 }

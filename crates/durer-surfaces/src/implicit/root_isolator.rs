@@ -1,24 +1,27 @@
-//! From stretches of a line to roots: each once, ascending, in brackets with certain signs at their ends.
+//! Root isolation: from stretches of a line to roots, each once, ascending, in brackets with
+//! certain signs at their ends.
 
 use crate::{PREVIEW_WIDTH, RootKind};
 
 /// A function `g` of one number whose roots are wanted.
 pub(crate) trait CertifiedFunction {
-    /// What is evaluated on a stretch and near it.
+    /// The form of `g` that is evaluated on a stretch and near it.
     type Form<'a>: Copy;
-    /// Whether two are one and the same.
+    /// Whether two forms are the same.
     fn same(a: Self::Form<'_>, b: Self::Form<'_>) -> bool;
-    /// The spacing of numbers that are worth telling apart.
+    /// The spacing of parameters that are worth separating.
     fn ulp(&self) -> f64;
     /// The rounded value at `s`; NaN where `g` is undefined.
     fn value(&self, form: Self::Form<'_>, s: f64) -> f64;
-    /// The one sign (up is `true`) on each of eight stretches, if it is certain; `None` also where `g` may be undefined.
+    /// The sign on each of eight stretches (`true`: positive), if it is certain; `None` also where
+    /// `g` may be undefined.
     fn signs(&self, form: Self::Form<'_>, a: &[f64; 8], b: &[f64; 8]) -> [Option<bool>; 8];
-    /// Whether one is so much shorter than the other that it is worth another look.
+    /// Whether one form is so much shorter than the other that another evaluation pays.
     fn is_shorter(_form: Self::Form<'_>, _than: Self::Form<'_>) -> bool {
         false
     }
-    /// The root of a monotone `g` between two numbers in a bracket about as wide as `first`, if there is a quicker way to it than one value after another.
+    /// The root of a monotone `g` between two numbers, in a bracket about as wide as `first`, if
+    /// there is a quicker way than one value after another.
     fn closed_in(
         &self,
         _form: Self::Form<'_>,
@@ -28,7 +31,8 @@ pub(crate) trait CertifiedFunction {
     ) -> Option<(f64, f64, f64)> {
         None
     }
-    /// Whether the sign at `s`, which is certain, is so by far: also with several times the rounding errors.
+    /// Whether the sign at `s`, which is certain, stays certain with several times the rounding
+    /// error.
     fn is_plain(&self, form: Self::Form<'_>, s: f64) -> bool;
     /// The sign at `s`, if it is certain.
     fn sign(&self, form: Self::Form<'_>, s: f64) -> Option<bool> {
@@ -36,16 +40,16 @@ pub(crate) trait CertifiedFunction {
     }
 }
 
-/// What is known of `g` on a stretch.
+/// What is certain about `g` on a stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SignInfo {
     /// It is defined and has this sign (`true`: positive) on all of it.
     Sign(bool),
-    /// It has no root there, and may be undefined.
+    /// `g` has no root on the stretch and may be undefined.
     Gap,
-    /// It is continuous, and strictly rises (`true`) or falls.
+    /// `g` is continuous, and strictly rises (`true`) or falls.
     Monotone(bool),
-    /// Its sign cannot be told from zero, down to the rounding of the formula.
+    /// The sign of `g` cannot be separated from zero within the formula's rounding.
     Unresolved,
 }
 
@@ -55,26 +59,26 @@ pub(crate) struct Found {
     pub(crate) s: f64,
     pub(crate) lo: f64,
     pub(crate) hi: f64,
-    /// +1 where `g` goes from below to above, -1 the other way, 0 where it returns to its side.
+    /// +1 where `g` becomes positive, -1 where it becomes negative, 0 where it returns to its sign.
     pub(crate) sign: i8,
     pub(crate) kind: RootKind,
-    /// The sign that `g` certainly has both before and behind.
+    /// The sign that `g` certainly has both before and behind the root.
     pub(crate) touches: Option<bool>,
 }
 
-/// A run of stretches in which there may be a root.
+/// A run of successive stretches in which there may be a root.
 #[derive(Clone, Copy)]
 struct Run<F> {
     lo: f64,
     hi: f64,
-    /// The way `g` goes; `None` if that is not known.
+    /// The direction of `g`; `None` if unknown.
     rises: Option<bool>,
     form: F,
-    /// The sign behind the run, certain by so little that the run may go on.
+    /// The sign behind the run, certain by so little that the run may continue.
     past: Option<bool>,
 }
 
-/// Takes stretches in ascending order, without holes, and gives the roots.
+/// Takes stretches in ascending order, without gaps, and gives the roots.
 pub(crate) struct RootIsolator<'a, C: CertifiedFunction> {
     line: &'a C,
     /// A form that is right everywhere.
@@ -82,12 +86,13 @@ pub(crate) struct RootIsolator<'a, C: CertifiedFunction> {
     /// The sign before the run, if it is known.
     before: Option<bool>,
     run: Option<Run<C::Form<'a>>>,
-    /// Brackets may be wide, except of roots that may be in one of these two intervals: the ends of the ray's range, within rounding.
+    /// Brackets may be wide, except for roots that may be in one of these two intervals: the ends
+    /// of the ray's range, within rounding.
     rough: Option<[(f64, f64); 2]>,
 }
 
 impl<'a, C: CertifiedFunction> RootIsolator<'a, C> {
-    /// A tracker that starts where `g` has the sign `before`.
+    /// Starts where `g` has the sign `before`.
     pub(crate) fn new(
         line: &'a C,
         whole: C::Form<'a>,
@@ -97,21 +102,22 @@ impl<'a, C: CertifiedFunction> RootIsolator<'a, C> {
         Self { line, whole, before, run: None, rough }
     }
 
-    /// The sign where the last stretch ended, if that is known.
+    /// The sign where the last stretch ended, if it is known.
     pub(crate) fn settled(&self) -> Option<bool> {
         if self.run.is_none() { self.before } else { None }
     }
 
-    /// The next stretch, of which it is plain that `g` has one sign: a run ends before it.
+    /// Takes a stretch on which `g` certainly has one sign. A run ends before it.
     pub(crate) fn settle(&mut self, sign: bool) -> Option<Found> {
         let found = self.close(Some(sign));
         self.before = Some(sign);
         found
     }
 
-    /// The next stretch. `form` is right on it and near it.
+    /// Takes the next stretch. `form` is right on it and near it.
     ///
-    /// Along a tangent the sign is certain here and open there, as rounding has it. So what has become open stays open until the sign is plain.
+    /// Near a tangent the sign flickers between known and unknown. Once unknown it stays so until
+    /// it is known with a margin.
     pub(crate) fn take(&mut self, a: f64, b: f64, verdict: SignInfo, form: C::Form<'a>) -> Option<Found> {
         match verdict {
             SignInfo::Sign(sign) if self.run.is_some_and(|run| run.rises.is_none()) => {
@@ -145,7 +151,8 @@ impl<'a, C: CertifiedFunction> RootIsolator<'a, C> {
         }
         run.past = None;
         let same = C::same(run.form, form);
-        // Where the form of all of the container is much longer, one look at the border saves many at that.
+        // Where the whole container's form is much longer, one evaluation at the border saves many
+        // evaluations of it.
         let worth = !same && C::is_shorter(form, self.whole);
         let own = form;
         let form = if same { form } else { self.whole };
@@ -167,13 +174,13 @@ impl<'a, C: CertifiedFunction> RootIsolator<'a, C> {
         self.turn(a, b, rises)
     }
 
-    /// From what could not be told to a stretch on which `g` is monotone.
+    /// From an unresolved stretch to one on which `g` is monotone.
     fn leave(&mut self, a: f64, b: f64, rises: Option<bool>, form: C::Form<'a>) -> Option<Found> {
         let past = self.run.and_then(|run| run.past);
         let Some(sign) = past.or_else(|| self.line.sign(form, a)) else { return self.turn(a, b, rises) };
         match (self.line.sign(form, b), &mut self.run) {
             (Some(after), _) if after == sign => return self.hold(sign, b, form),
-            // Certain for a moment only.
+            // The sign is certain by too little.
             (None, Some(run)) if !self.line.is_plain(form, a) => {
                 (run.hi, run.form, run.past) = (b, self.whole, None);
                 return None;
@@ -185,7 +192,8 @@ impl<'a, C: CertifiedFunction> RootIsolator<'a, C> {
         found
     }
 
-    /// A turn from the run to the next stretch cannot be told from a root: all of it is one cluster, without what is certainly none.
+    /// A turn between the run and the next stretch cannot be separated from a root: all of it is
+    /// one cluster, without the parts that certainly hold no root.
     fn turn(&mut self, a: f64, b: f64, rises: Option<bool>) -> Option<Found> {
         let (line, whole) = (self.line, self.whole);
         let run = self.run.as_mut()?;
@@ -196,7 +204,8 @@ impl<'a, C: CertifiedFunction> RootIsolator<'a, C> {
         self.hold(sign, b, whole)
     }
 
-    /// Behind what could not be told there is this sign as far as `b`: all of that is told if it is plain there.
+    /// Behind an unresolved stretch `g` has this sign as far as `b`. If the sign has a margin
+    /// there, the run ends.
     fn hold(&mut self, sign: bool, b: f64, form: C::Form<'a>) -> Option<Found> {
         if self.line.is_plain(form, b) {
             return self.settle(sign);
@@ -205,12 +214,12 @@ impl<'a, C: CertifiedFunction> RootIsolator<'a, C> {
         None
     }
 
-    /// Whether all that was taken is told.
+    /// Whether no run is open.
     pub(crate) fn is_idle(&self) -> bool {
         self.run.is_none()
     }
 
-    /// The end of the line, where `g` has the sign `after`.
+    /// Takes the end of the line, where `g` has the sign `after`.
     pub(crate) fn finish(&mut self, after: Option<bool>) -> Option<Found> {
         self.close(after)
     }
@@ -219,7 +228,7 @@ impl<'a, C: CertifiedFunction> RootIsolator<'a, C> {
         let run = self.run.take()?;
         let (before, after) = (self.before, after.or(run.past));
         match (run.rises, before, after) {
-            // What rises comes from below and goes above, if it meets zero at all.
+            // A rising `g` that meets zero comes from negative and becomes positive.
             (Some(rises), before, after) => {
                 let (start, end) = (before.unwrap_or(!rises), after.unwrap_or(rises));
                 if start == end || start == rises {
@@ -230,7 +239,8 @@ impl<'a, C: CertifiedFunction> RootIsolator<'a, C> {
                 if self.rough.is_some_and(|ends| ends.iter().any(|end| lo <= end.1 && end.0 <= hi)) {
                     (s, lo, hi) = polished(false);
                 }
-                // Where one sign is not known the root may lie on an end, or just not be there: it cannot be disproved.
+                // If one sign is unknown, the root may lie on an end, or not exist: it cannot be
+                // disproved.
                 let kind =
                     if before.is_some() && after.is_some() { RootKind::Simple } else { RootKind::Cluster };
                 Some(Found { s, lo, hi, sign: if rises { 1 } else { -1 }, kind, touches: None })
@@ -249,7 +259,8 @@ impl<'a, C: CertifiedFunction> RootIsolator<'a, C> {
     }
 }
 
-/// The root of a monotone `g` in `[lo, hi]`, and a bracket with certain signs at its ends where there are any.
+/// The root of a monotone `g` in `[lo, hi]`, in a bracket with certain signs at its ends where
+/// there are any.
 fn polished<C: CertifiedFunction>(
     line: &C,
     form: C::Form<'_>,
@@ -261,7 +272,7 @@ fn polished<C: CertifiedFunction>(
     let sense = if rises { 1.0 } else { -1.0 };
     let g = |s: f64| sense * line.value(form, s);
     let widest = if rough { PREVIEW_WIDTH * (line.ulp() / f64::EPSILON) * 0.25 } else { line.ulp() };
-    // Steps on both sides: how far must one go for certain signs?
+    // Steps on both sides until the signs are certain.
     let first = if rough { 0.03125 * widest } else { 2.0 * widest };
     if rough && let Some(found) = line.closed_in(form, (lo, hi), rises, first) {
         return found;
@@ -282,8 +293,9 @@ fn polished<C: CertifiedFunction>(
     (s.max(a).min(b), a, b)
 }
 
-/// Where `g` is zero, by the polynomial of degree three of its inverse through the four places around there (E. H. Neville's scheme), and how far from those of degree
-/// two that is. `None` where the values do not rise, or there is no zero between.
+/// The zero of `g` by cubic inverse interpolation through the four points around it (E. H.
+/// Neville's scheme), and its distance from the quadratic one. `None` if the values do not rise, or
+/// there is no zero between.
 pub(super) fn interpolated(at: &[f64; 8], g: &[f64; 8]) -> Option<(f64, f64)> {
     let above = g.iter().position(|&g| g > 0.0).filter(|&above| above > 0)?;
     let first = above.saturating_sub(2).min(4);
@@ -306,8 +318,9 @@ pub(super) fn interpolated(at: &[f64; 8], g: &[f64; 8]) -> Option<(f64, f64)> {
     between.then(|| (s[0], (s[0] - lower[0]).abs().max((s[0] - lower[1]).abs())))
 }
 
-/// A root of `g`, which rises, in `[lo, hi]`, as well as f64 knows it: false position that halves the weight of an end that stays (M. Dowell, P.
-/// Jarratt, "A modified regula falsi method for computing the root of an equation", *BIT* 11, 1971), with bisection where that is slow.
+/// A root of a rising `g` in `[lo, hi]` at f64's precision: false position that halves the weight
+/// of an end that stays (M. Dowell, P. Jarratt, "A modified regula falsi method for computing the
+/// root of an equation", *BIT* 11, 1971), with bisection where that is slow.
 fn guess(g: impl Fn(f64) -> f64, lo: f64, hi: f64, close: f64) -> f64 {
     let (mut a, mut b) = (lo, hi);
     let (mut ga, mut gb) = (g(a), g(b));
@@ -342,7 +355,7 @@ fn guess(g: impl Fn(f64) -> f64, lo: f64, hi: f64, close: f64) -> f64 {
             if (b - s).abs() <= close && stayed > 0 {
                 return s;
             }
-            // A value that is no number goes with the upper end: one step of bisection.
+            // NaN goes with the upper end: one step of bisection.
             (b, gb) = (s, gs);
             if stayed > 0 {
                 ga *= ga / (ga - gs);
@@ -353,7 +366,7 @@ fn guess(g: impl Fn(f64) -> f64, lo: f64, hi: f64, close: f64) -> f64 {
     0.5 * a + 0.5 * b
 }
 
-/// The narrowest part of `[lo, hi]` with certain signs at its ends, by sections of eight.
+/// The narrowest part of `[lo, hi]` with certain signs at its ends, by division into eight.
 fn sectioned<C: CertifiedFunction>(line: &C, form: C::Form<'_>, lo: f64, hi: f64, rises: bool) -> (f64, f64) {
     let (mut a, mut b) = (lo, hi);
     loop {
@@ -371,7 +384,8 @@ fn sectioned<C: CertifiedFunction>(line: &C, form: C::Form<'_>, lo: f64, hi: f64
     }
 }
 
-/// How far from `far` towards `near` the sign of a monotone `g` is certainly that at `far`: where it is so at a point, it is so at all points before.
+/// How far from `far` towards `near` the sign of a monotone `g` certainly equals that at `far`. If
+/// it does at a point, it does at all points before it.
 fn plain_until<C: CertifiedFunction>(line: &C, form: C::Form<'_>, far: f64, near: f64) -> f64 {
     let Some(sign) = line.sign(form, far) else { return far };
     let (mut known, mut open) = (far, near);
@@ -382,7 +396,7 @@ fn plain_until<C: CertifiedFunction>(line: &C, form: C::Form<'_>, far: f64, near
         let next = (if held > 0 { at[held - 1] } else { known }, if held < 8 { at[held] } else { open });
         let gained = (next.1 - next.0).abs() < 0.5 * (open - known).abs();
         (known, open) = next;
-        // What is left may be a part of what is open beyond, but no more than that.
+        // The rest may be a part of the unresolved stretch beyond, but no more than that.
         if !gained || (open - known).abs() <= 0.25 * (near - open).abs().max(16.0 * line.ulp()) {
             return known;
         }

@@ -1,4 +1,5 @@
-//! The roots of a ray: the container's stretch of it, divided by cells, told apart, in one row with the caps.
+//! The roots of a ray: the ray's stretch inside the container, divided by cells, isolated, and
+//! merged with the container's own crossings.
 
 use super::Isosurface;
 use super::coincident_face;
@@ -26,8 +27,9 @@ impl Sink for Caps {
     }
 }
 
-/// Passes on what lies in the container: within rounding a root may seem to be beyond the container's own crossing, and is moved to it. The bracket is widened
-/// where that leaves it. Nothing depends on what was shown before, so that a root is the same whatever the range is.
+/// Passes on roots inside the container. Within rounding a root may seem to lie beyond the
+/// container's crossing; it is then moved there, and its bracket is widened if necessary. Nothing
+/// depends on earlier roots, so a root is the same for every range.
 struct Held<'s> {
     sink: &'s mut dyn Sink,
     from: f64,
@@ -50,7 +52,7 @@ impl Sink for Held<'_> {
 }
 
 impl Isosurface {
-    /// Shows all roots to `sink`, ascending.
+    /// Passes all roots to `sink`, ascending.
     pub(super) fn all_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         match self.gauge.as_ref().map_or(Answer::Open, |gauge| gauge.roots(ray, sink)) {
             Answer::All => {}
@@ -59,7 +61,7 @@ impl Isosurface {
         }
     }
 
-    /// The roots between two places beyond which all is outside.
+    /// The roots between two places beyond which everything is outside.
     #[cold]
     #[inline(never)]
     fn roots_between(&self, ray: &LocalRay<'_>, (lo, hi): (f64, f64), sink: &mut dyn Sink) {
@@ -77,17 +79,18 @@ impl Isosurface {
         }
     }
 
-    /// A ray as the container's centre sees it.
+    /// A ray relative to the container's centre.
     pub(super) fn centred<'a>(&self, ray: &'a LocalRay<'a>) -> CentredRay<'a> {
         let bounds = self.container.bounds();
         ray.recentre(bounds.centre(), 0).sharp(0.5 * (bounds.max - bounds.min).max_abs())
     }
 
-    /// The same for any formula.
+    /// All roots of any formula, by its tape.
     pub(super) fn roots_of_the_tape(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         let mut whole = *ray;
         (whole.t_min, whole.t_max, whole.source) = (f64::NEG_INFINITY, f64::INFINITY, None);
-        // At a rim the formula's sign there decides whether there is anything: for pictures, too.
+        // At a rim the formula's sign decides whether there is a hit, so narrow brackets are needed
+        // for pictures, too.
         whole.rough = false;
         let mut caps = Caps::default();
         self.container.roots(&whole, &mut caps);
@@ -99,7 +102,8 @@ impl Isosurface {
         if exit.hi < ray.t_min || entry.lo > ray.t_max {
             return;
         }
-        // A range that begins behind the container, or ends before it, by less than a bracket: exactly.
+        // A range that begins behind the container, or ends before it, by less than a bracket:
+        // decided exactly.
         let is_within = |t_min: f64, t_max: f64, root: &Root| {
             let mut part = whole;
             (part.t_min, part.t_max) = (t_min, t_max);
@@ -123,7 +127,8 @@ impl Isosurface {
 }
 
 impl Isosurface {
-    /// Shows where a line only touches the container, if the formula holds there. A regular solid has no such points.
+    /// Passes on the point where a line only touches the container, if the formula holds there. A
+    /// regular solid has no such points.
     #[cold]
     #[inline(never)]
     fn touched(&self, ray: &LocalRay<'_>, touch: &Root, sink: &mut dyn Sink) {
@@ -140,12 +145,12 @@ impl Isosurface {
         }
     }
 
-    /// Shows a crossing of the container, or a touch, if it is in the ray's range.
+    /// Passes on a crossing of the container, or a touch, if it is in the ray's range.
     fn cap(&self, ray: &LocalRay<'_>, cap: &Root, sink: &mut dyn Sink) -> Flow {
         self.cap_or_rim(ray, cap, (f64::INFINITY, f64::NEG_INFINITY), sink)
     }
 
-    /// The same, in a bracket that holds a stretch beside it too.
+    /// Passes on a crossing of the container in a bracket that also holds a stretch beside it.
     fn cap_or_rim(&self, ray: &LocalRay<'_>, cap: &Root, beside: (f64, f64), sink: &mut dyn Sink) -> Flow {
         if self.open {
             return Flow::Continue;
@@ -167,7 +172,8 @@ impl Isosurface {
         }
     }
 
-    /// The one sign of the formula on a short stretch of a line, if it is certain: the cell knows, or its tape.
+    /// The sign of the formula on a short stretch of a line, if it is certain from the cell or its
+    /// tape.
     fn sign_on(&self, line: &BoundedLine, (lo, hi): (f64, f64)) -> Option<bool> {
         let (middle, reach) = line.around(lo, hi);
         match self.divided().place(middle, reach) {
@@ -177,21 +183,21 @@ impl Isosurface {
         }
     }
 
-    /// Whether a solid's formula may be zero where the line crosses the container; it is defined there.
+    /// Whether a solid's formula is defined and may be zero where the line crosses the container.
     fn is_rim(&self, line: &BoundedLine, (lo, hi): (f64, f64)) -> bool {
         let v = line.bounds(&self.tape, &[lo; 8], &[hi; 8]);
         let defined = (v.partial | v.empty) & 1 == 0;
         !self.open && defined && v.lo.0[0] <= 0.0 && v.hi.0[0] >= 0.0
     }
 
-    /// The sign of the rounded value there. Undefined is outside.
+    /// The sign of the rounded value there. Undefined counts as outside.
     fn rounded(&self, line: &BoundedLine, (lo, hi): (f64, f64)) -> bool {
         let within = line.value(&self.tape, 0.5 * lo + 0.5 * hi) < 0.0;
         !within
     }
 }
 
-/// A ray's question, half answered.
+/// A query of a ray in progress.
 struct Query<'a> {
     surface: &'a Isosurface,
     ray: &'a LocalRay<'a>,
@@ -201,8 +207,9 @@ struct Query<'a> {
 }
 
 impl Query<'_> {
-    /// A ray that was spawned on the formula's own surface starts on a side that is known. Any other one is looked at as the whole line is, as far as its range
-    /// reaches, so that it has the same roots whatever its range is: what could not be told across an end of the range is one cluster for both sides of it.
+    /// A ray that was spawned on the formula's own surface starts on a known side. Any other ray is
+    /// treated as the whole line up to the end of its range, so it has the same roots for every
+    /// range: an unresolved stretch across an end of the range is one cluster for both sides of it.
     fn run(&mut self, [entry, exit]: &[(Root, f64, f64); 2]) {
         let (from, to) = self.at.window((self.ray.t_min, self.ray.t_max));
         let within = from > entry.2;
@@ -223,7 +230,7 @@ impl Query<'_> {
             _ if start.at < end.1 => {
                 self.between(&start, end, range, [(!within).then_some(&entry.0), Some(&exit.0)])
             }
-            // The container's edge is all there is.
+            // The line has nothing but the container's edge.
             Some(lo) => {
                 let (hi, kind) = (end.1, RootKind::Cluster);
                 let s = (0.5 * lo + 0.5 * hi).max(lo).min(hi);
@@ -237,8 +244,9 @@ impl Query<'_> {
         }
     }
 
-    /// Where the line comes into the container, between two places. What cannot be told of the formula there cannot be told from its surface, which meets the container's
-    /// face at a rim: so it is what the line begins with, outside. A sheet has no such face.
+    /// The start of the line inside the container, between two places. If the formula's sign is
+    /// unknown there, its surface may meet the container's face in a rim; then the line begins
+    /// outside with that unresolved stretch. A sheet has no such face.
     fn start(&self, lo: f64, hi: f64) -> Start {
         match self.surface.sign_on(self.line, (lo, hi)) {
             Some(before) => Start { at: lo, before, rim: None },
@@ -247,13 +255,16 @@ impl Query<'_> {
         }
     }
 
-    /// The formula's sign where the line crosses the container: the certain one, or else that of the rounded value. Undefined is outside.
+    /// The formula's sign where the line crosses the container: the certain one, or else that of
+    /// the rounded value. Undefined counts as outside.
     fn declared(&self, lo: f64, hi: f64) -> bool {
         let at = (lo, hi);
         self.surface.sign_on(self.line, at).unwrap_or_else(|| self.surface.rounded(self.line, at))
     }
 
-    /// Shows the roots from the start to the end of the container that may be in `range`. The sign at that end; `None` if it was not asked for, or is that of a rim, which was shown.
+    /// Passes on the roots from the start to the end of the container that may be in `range`.
+    /// Returns the sign at that end; `None` if it was not needed, or is that of a rim, which was
+    /// passed on.
     fn between(
         &mut self,
         start: &Start,
@@ -280,7 +291,8 @@ impl Query<'_> {
         if let Some(degree) = surface.degree {
             return if walk.all(degree, (a, end.1)) { walk.end(end, exit) } else { None };
         }
-        // Cells before the range that may hold surface, since the last of which it is plain that it does not.
+        // Cells before the range that may hold surface, since the last one that certainly holds
+        // none.
         let mut ahead = Vec::new();
         let mut go_on = true;
         surface.divided().walk(self.line, (a, end.1), &mut |a, b, place| {
@@ -301,11 +313,11 @@ impl Query<'_> {
     }
 }
 
-/// Where the formula is looked at from, and its sign there.
+/// Where the walk begins, and the formula's sign there.
 struct Start {
     at: f64,
     before: bool,
-    /// From here on it cannot be told, where the container's face begins.
+    /// If the sign is unknown from here on: where the container's face begins.
     rim: Option<f64>,
 }
 
@@ -316,15 +328,16 @@ struct Walk<'a, 's> {
     at: &'a CentredRay<'a>,
     sink: &'s mut dyn Sink,
     tracker: RootIsolator<'a, BoundedLine>,
-    /// Roots behind this are of no interest.
+    /// Roots beyond this do not matter.
     last: f64,
     passes: u32,
-    /// The next root that is found is at a rim, with this crossing of the container; without one if that is out of the ray's range.
+    /// The next root lies at a rim with this crossing of the container; without one if that is out
+    /// of the ray's range.
     rim: Option<Option<&'a Root>>,
 }
 
 impl<'a> Walk<'a, '_> {
-    /// Takes all of a stretch of a formula that is a polynomial; says whether to go on.
+    /// Takes a whole stretch of a formula that is a polynomial. Returns whether to continue.
     fn all(&mut self, degree: usize, ends: (f64, f64)) -> bool {
         let (line, tape, mut passes) = (self.line, &self.surface.tape, self.passes);
         let go_on = isolate_powers((line, tape, degree), ends, &mut passes, &mut |a, b, verdict| {
@@ -338,19 +351,20 @@ impl<'a> Walk<'a, '_> {
         go_on
     }
 
-    /// Whether nothing that begins here is of any interest.
+    /// Whether nothing that begins here matters.
     fn is_beyond(&self, a: f64) -> bool {
         self.tracker.is_idle() && (a > self.last || self.at.bracket(a, a).0 > self.sink.limit())
     }
 
-    /// The sign where the container ends; `None` if it is that of a rim, which was shown, or if no more is asked for.
+    /// The sign where the container ends; `None` if it is that of a rim, which was passed on, or if
+    /// no more is wanted.
     fn end(&mut self, end: (f64, f64), exit: Option<&'a Root>) -> Option<bool> {
         let surface = self.surface;
-        // What the walk has told up to there counts before a rounded value.
+        // The walk's own result counts before a rounded value.
         let told = self.tracker.settled();
         let after = surface.sign_on(self.line, end).or(told);
         if after.is_none() && surface.is_rim(self.line, end) {
-            // What is told before that is a root by itself.
+            // A root found before that stands by itself.
             let found = self.tracker.take(end.0, end.1, SignInfo::Unresolved, &surface.tape);
             if !self.show(found) {
                 return None;
@@ -365,7 +379,7 @@ impl<'a> Walk<'a, '_> {
         if self.show(found) { Some(after) } else { None }
     }
 
-    /// Takes the next cell's stretch; says whether to go on.
+    /// Takes the next cell's stretch. Returns whether to continue.
     fn take(&mut self, a: f64, b: f64, place: CellLookup<'a>) -> bool {
         if self.is_beyond(a) {
             return false;
@@ -388,7 +402,8 @@ impl<'a> Walk<'a, '_> {
         self.show(found)
     }
 
-    /// Shows a root. A touch from outside is none of a regular surface, unless the ray runs along a face that two of its parts share, which is in it.
+    /// Passes on a root. A touch from outside does not belong to a regular surface, unless the ray
+    /// runs along a face that two of its parts share, which is inside.
     fn show(&mut self, found: Option<Found>) -> bool {
         let rim = if found.is_some() { self.rim.take() } else { None };
         let flow = match found {
@@ -404,7 +419,7 @@ impl<'a> Walk<'a, '_> {
                     Flow::Continue
                 }
             }
-            // What was left when the passes had been used up may be much longer than what is open.
+            // What is left when the passes are used up may be much longer than the unresolved part.
             Some(found) if found.kind == RootKind::Cluster && self.passes >= MOST_PASSES => {
                 shown(self.at, self.sink, &trimmed(self.line, &self.surface.tape, found))
             }
@@ -413,7 +428,8 @@ impl<'a> Walk<'a, '_> {
         flow == Flow::Continue
     }
 
-    /// Into the solid or out of it at a rim, by the container's face or right beside it: one crossing, told as the container's is.
+    /// A crossing at a rim, by the container's face or right beside it: one crossing, reported as
+    /// the container's.
     #[cold]
     #[inline(never)]
     fn show_rim(&mut self, cap: &Root, found: &Found) -> Flow {
@@ -438,7 +454,7 @@ impl<'a> Walk<'a, '_> {
     }
 }
 
-/// Shows a root of the formula, unless it is certainly out of the ray's range.
+/// Passes on a root of the formula, unless it is certainly out of the ray's range.
 pub(super) fn shown(at: &CentredRay<'_>, sink: &mut dyn Sink, found: &Found) -> Flow {
     let (mut lo, hi) = at.bracket(found.lo.next_down(), found.hi.next_up());
     if at.admits(lo, hi) == Some(false) {

@@ -1,7 +1,8 @@
-//! Which face do eight rays meet first?
+//! The first face that each of eight rays hits.
 //!
-//! A *convex* solid is met where the last of its faces is entered, if that is before the first is left (`convex.rs`). Of other surfaces each root of each wall is
-//! looked at: it counts where no other face is positive.
+//! A ray hits a *convex* solid where it enters the last of its faces, if that is before it leaves
+//! the first (`convex.rs`). For other surfaces every root of every wall is tested: it counts where
+//! no other face is positive.
 
 use super::PacketFilter;
 use super::convex::Hull;
@@ -11,7 +12,7 @@ use super::quadric::{FaceKind, QuadricFace8, Seen, Start, taxicab};
 use super::rays::{FAR, From8, NEVER, Nearest, RayLanes, SLACK};
 use durer_math::{F8, M8, U, Vec3};
 
-/// Points of eight rays.
+/// Eight points, one for each ray.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spot {
     pub(super) y: Vec3<F8>,
@@ -20,14 +21,15 @@ pub(super) struct Spot {
     pub(super) e1: F8,
 }
 
-/// Memory for what is known of eight rays and one outline on the way: kept, so that it need not be cleared for each.
+/// Working memory for eight rays and one filter. It is kept between calls, so it need not be
+/// cleared.
 #[derive(Debug, Default)]
 pub struct Scratch {
     start: Start,
     pub(super) steps: Steps,
 }
 
-/// What each step leaves to the next.
+/// Results that each step passes to the next.
 #[derive(Debug, Default)]
 pub(super) struct Steps {
     pub(super) faces: FaceSteps,
@@ -36,7 +38,7 @@ pub(super) struct Steps {
     pub(super) detail: kernel::KernelScratch,
 }
 
-/// What is known of one face, by its kind.
+/// Working memory for one face, by kind.
 #[derive(Debug, Default)]
 pub(super) struct FaceSteps {
     pub(super) plane: PlaneRoot,
@@ -44,21 +46,21 @@ pub(super) struct FaceSteps {
     pub(super) roots: Roots,
 }
 
-/// Eight rays that ask an outline.
+/// A query of eight rays to a packet filter.
 #[derive(Clone, Copy, Debug)]
 pub struct PacketQuery<'a> {
     /// The rays.
     pub rays: &'a RayLanes<'a>,
-    /// Those that leave this very surface, if there are any.
+    /// Data of the rays that start on this very surface, if any do.
     pub from: Option<&'a From8>,
-    /// The outline's number.
+    /// The number under which hits are reported.
     pub number: f64,
-    /// Whether all that matters is that there is a crossing, not where.
+    /// Whether only the existence of a crossing matters, not its place.
     pub any: bool,
 }
 
 impl PacketFilter {
-    /// Offers the first crossing of each ray to `nearest`, under the outline's number.
+    /// Passes the first crossing of each ray to `nearest`, under the filter's number.
     pub fn meet(&self, asked: &PacketQuery<'_>, nearest: &mut Nearest, scratch: &mut Scratch) {
         if self.is_passed_by(asked.rays, &mut scratch.start) {
             return;
@@ -69,9 +71,9 @@ impl PacketFilter {
             detail.meet((asked, self.turned), nearest, (start, is_cut.then_some(hull)), memory);
             return;
         }
-        // The faces of a box are not those that rays leave.
+        // A bounding box has faces of its own, and rays do not start on those.
         let asked = &PacketQuery { from: asked.from.filter(|_| !self.vague), ..*asked };
-        // What is only known to be within one face may be met before that is left.
+        // A surface inside one face may be hit before the ray leaves that face.
         if self.convex && (self.vague || self.faces.len() > 1) {
             self.meet_convex(asked, nearest, scratch);
         } else {
@@ -79,13 +81,14 @@ impl PacketFilter {
         }
     }
 
-    /// Whether many eights of rays are better told together ([`PacketFilter::meet_together`]) than one after the other.
+    /// Whether several groups of eight rays should be tested together
+    /// ([`PacketFilter::meet_together`]) instead of one after the other.
     #[inline]
     pub fn is_asked_together(&self) -> bool {
         self.detail.as_ref().is_some_and(|detail| detail.level().is_some())
     }
 
-    /// As [`PacketFilter::meet`], of those of many eights of rays that are `open`.
+    /// [`PacketFilter::meet`] for those groups of eight rays that are `open`.
     pub fn meet_together(
         &self,
         asked: &[PacketQuery<'_>],
@@ -113,21 +116,23 @@ impl PacketFilter {
         scratch.steps.detail.level.meet(level, asked, nearest);
     }
 
-    /// Where rays are in the convex cell that cuts a surface off or contains it, if one does.
+    /// The part of each ray inside the convex cell that clips or contains the surface, if there is
+    /// one.
     fn cell(&self, detail: &Detail, asked: &PacketQuery<'_>, scratch: &mut Scratch) -> bool {
         let is_contained = detail.is_contained();
         let is_cut = is_contained || detail.is_endless() && !self.faces.is_empty();
         if is_cut {
             let Scratch { start, steps } = scratch;
             let seen = &Seen { d: asked.rays.direction, d1: &asked.rays.d1, start };
-            // The faces that clip a surface are not those that rays leave.
+            // The clipping faces are not the face that a ray starts on.
             let Steps { hull, faces, .. } = steps;
             self.hull(asked.rays, asked.from.filter(|_| is_contained), seen, (faces, hull));
         }
         is_cut
     }
 
-    /// Sees the rays from the centre; says whether every one surely passes the ball that holds the surface, or has left it behind.
+    /// Computes the rays relative to the centre. Returns whether every ray certainly misses the
+    /// ball that holds the surface, or has left it behind.
     #[inline(never)]
     pub(super) fn is_passed_by(&self, rays: &RayLanes<'_>, start: &mut Start) -> bool {
         rays.isa.run_in_lanes(
@@ -174,7 +179,7 @@ impl PacketFilter {
         self.conclude(asked, hull, nearest);
     }
 
-    /// Where the faces of a convex solid are entered and left.
+    /// Entries and exits of the faces of a convex solid.
     pub(super) fn hull(
         &self,
         rays: &RayLanes<'_>,
@@ -205,7 +210,7 @@ impl PacketFilter {
         }
     }
 
-    /// What entries and exits come to.
+    /// The hits and misses that follow from the entries and exits.
     #[inline(never)]
     fn conclude(&self, asked: &PacketQuery<'_>, hull: &Hull, nearest: &mut Nearest) {
         asked.rays.isa.run_in_lanes(
@@ -229,18 +234,19 @@ impl PacketFilter {
         let outside = open & entered.lt(left) & earliest.gt(F8::ZERO) & earliest.gt(enter.others);
         let within = open & entered.lt(F8::ZERO);
         let inside = within & left.gt(F8::ZERO) & (leave.t - leave.e).gt(leave.others);
-        // From within, what is left is met.
+        // A ray that starts inside hits the face through which it leaves.
         let t = outside.select(enter.t, -leave.t);
         let e = outside.select(enter.e, leave.e);
         let face = outside.select(enter.face, leave.face);
-        // What is never left is not met again from within; of a vague outline the surface may be met before that is left.
+        // A ray that starts inside and never leaves has no further hit. A surface that is known
+        // only by a bound may be hit before the ray leaves the bound.
         missed |= M8::splat(!self.vague) & (within & left.ge(NEVER) | inside & (t - e).gt(limit));
         let sure = (outside | inside) & !missed & (t + e).le(*rays.t_max);
         let unsure = !(missed | sure);
         self.put_down(sure, unsure, (t, e, face), earliest, asked.number, nearest);
     }
 
-    /// Sure hits of a vague outline are doubts.
+    /// A certain hit of a bound is only a possible hit of the surface in it.
     #[inline(always)]
     fn put_down(
         &self,
@@ -283,7 +289,7 @@ impl PacketFilter {
         }
     }
 
-    /// Offers a root of one wall, where the others do not cut it off.
+    /// Passes a root of one wall to `nearest`, unless another face cuts it off.
     fn meet_wall(
         &self,
         asked: &PacketQuery<'_>,
@@ -317,7 +323,8 @@ impl PacketFilter {
         for hole in &self.holes {
             let (mut within, mut beside) = (M8::ALL, M8::NONE);
             let is_within = |face: &QuadricFace8| face.cut(rays.isa, spot, &open, &mut within, &mut beside);
-            // Where a point is surely beside one face the others no longer matter.
+            // A point that is certainly outside one face of the hole is kept, whatever the other
+            // faces say.
             hole.iter().all(is_within);
             inside &= beside;
             outside |= within & !beside;
@@ -339,7 +346,8 @@ impl PacketFilter {
         );
     }
 
-    /// Where other faces cut off points of a wall, and where they surely do not; says whether any of the open ones may still be there.
+    /// Where other faces certainly cut off points of a wall, and where they certainly do not.
+    /// Returns whether any open point may remain.
     pub(super) fn cut_by_others(
         &self,
         rays: &RayLanes<'_>,
@@ -356,7 +364,7 @@ impl PacketFilter {
         }
     }
 
-    /// Offers a root of a surface with one face.
+    /// Passes a root of a surface with a single face to `nearest`.
     #[inline(never)]
     fn meet_only_wall(&self, asked: &PacketQuery<'_>, lanes: &M8, (t, e): (&F8, &F8), nearest: &mut Nearest) {
         let rays = asked.rays;
@@ -374,14 +382,14 @@ impl PacketFilter {
 }
 
 impl Spot {
-    /// Becomes the points at `t` within `e`.
+    /// Sets the points to those at `t`, which is known within `e`.
     #[inline(always)]
     pub(super) fn put(&mut self, seen: &Seen<'_>, t: F8, e: F8) {
         let (h, d) = (seen.start.h, seen.d);
         let y = Vec3::new(t.mul_add(d.x, h.x), t.mul_add(d.y, h.y), t.mul_add(d.z, h.z));
         self.y = y;
         self.y1 = taxicab(y) * SLACK;
-        // One rounding of h, one of y, and the error of t.
+        // One rounding of `h`, one of `y`, and the error of `t`.
         self.e1 = ((seen.start.h1 + self.y1) * (2.0 * U) + e * *seen.d1) * SLACK;
     }
 }

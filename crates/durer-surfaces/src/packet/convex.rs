@@ -1,16 +1,17 @@
-//! Where eight rays are inside all faces of a convex solid: after the last entry and before the first exit (T. L. Kay, J. T. Kajiya, "Ray tracing complex scenes",
-//! SIGGRAPH 1986, for any convex faces).
+//! The part of each of eight rays inside all faces of a convex solid: after the last entry and
+//! before the first exit (T. L. Kay, J. T. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986, for
+//! any convex faces).
 
 use super::quadratic_roots::{PlaneRoot, Roots, SlabRoots};
 use durer_math::{F8, Isa, M8};
 
-/// The greatest of the entries, or with signs exchanged the least of the exits, so far.
+/// The greatest entry so far; with the signs exchanged, the least exit.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Extreme {
     pub(super) t: F8,
     pub(super) e: F8,
     pub(super) face: F8,
-    /// The upper end of all others.
+    /// The upper end of all other entries.
     pub(super) others: F8,
 }
 
@@ -35,12 +36,12 @@ impl Extreme {
     }
 }
 
-/// What the faces of a convex solid say so far.
+/// Entry and exit from the faces seen so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Hull {
     /// The latest entry.
     pub(super) enter: Extreme,
-    /// The earliest exit, by its negative.
+    /// The earliest exit, negated.
     pub(super) leave: Extreme,
     pub(super) missed: M8,
     pub(super) unsure: M8,

@@ -1,7 +1,8 @@
-//! Outlines of solids as operands: every crossing of eight rays, and on which side points of the rays are.
+//! All crossings of eight rays with a solid, and the side on which points of the rays lie.
 //!
-//! What a body made of several solids needs to know of each (S. D. Roth, "Ray casting for modeling solids", Computer Graphics and Image
-//! Processing 18, 1982). A solid is the set where all its faces are negative, or the rest where it is turned round.
+//! CSG needs this of each operand (S. D. Roth, "Ray casting for modeling solids", *Computer
+//! Graphics and Image Processing* 18, 1982). A solid is the set where all its faces are negative,
+//! or the complement of that set.
 
 use super::PacketFilter;
 use super::closest::{FaceSteps, Scratch, Spot, Steps};
@@ -12,42 +13,42 @@ use super::rays::{FAR, From8, NEVER, RayLanes};
 use arrayvec::ArrayVec;
 use durer_math::{F8, Isa, M8};
 
-/// Eight rays as one outline sees them.
+/// Eight rays in the coordinates of one packet filter.
 #[derive(Debug, Default)]
 pub struct SolidState8 {
     start: Start,
-    /// Of convex solids: where the rays are in them.
+    /// For convex solids: the part of each ray inside.
     hull: Hull,
     stay: Stay,
 }
 
-/// The part of each of eight rays that is in a convex solid.
+/// The part of each of eight rays inside a convex solid.
 #[derive(Debug, Default)]
 struct Stay {
-    /// It begins between these two, if there is one, ...
+    /// The part, if there is one, begins between these two,
     earliest: F8,
     entered: F8,
-    /// ... and ends between these.
+    /// and ends between these two.
     left: F8,
     latest: F8,
-    /// There is none, or none is ahead.
+    /// Rays with no such part, or with none ahead of them.
     missed: M8,
-    /// What cuts it off is not known of all faces.
+    /// Rays for which some clipping face is not known well enough.
     unsure: M8,
 }
 
-/// Crossings of eight rays.
+/// One crossing for each of eight rays.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossing8 {
-    /// Which rays surely cross here, and from one side to the other.
+    /// Rays that certainly cross here, from one side to the other.
     pub sure: M8,
-    /// Where, within `e`: it may lie behind a ray's start, or beyond its end.
+    /// The parameter, known within `e`. It may lie before the ray's start or after its end.
     pub t: F8,
-    /// See `t`.
+    /// The bound on the error of `t`.
     pub e: F8,
     /// The face.
     pub face: F8,
-    /// What the face wants to know of the point when that is asked for.
+    /// The face's own data for computing the point later.
     pub tag: F8,
 }
 
@@ -55,7 +56,7 @@ pub struct Crossing8 {
 #[derive(Debug)]
 pub struct Crossings {
     list: ArrayVec<Crossing8, { Crossings::MOST }>,
-    /// From here on there may be others; infinite without a doubt.
+    /// From this parameter on there may be other crossings; infinite if there are certainly none.
     pub doubt: F8,
 }
 
@@ -66,22 +67,24 @@ impl Default for Crossings {
 }
 
 impl Crossings {
-    /// As many are told: two of each of six faces, or those of a solid that has eight walls one above the other.
+    /// The most crossings that are stored: two for each of six faces, or those of a solid with
+    /// eight walls above each other.
     const MOST: usize = 24;
-    /// Of so many faces two each.
+    /// Number of faces for which two crossings each are stored.
     const FACES: usize = 6;
 
-    /// What is told.
+    /// The stored crossings.
     pub fn iter(&self) -> core::slice::Iter<'_, Crossing8> {
         self.list.iter()
     }
 
-    /// The same, to be changed.
+    /// The stored crossings, mutable.
     pub(super) fn all(&mut self) -> &mut [Crossing8] {
         &mut self.list
     }
 
-    /// Adds a crossing, beside others of other rays if there are such; what finds no room is a doubt.
+    /// Adds a crossing, in one slot with crossings of other rays where possible. If no slot is free
+    /// the crossing becomes a doubt.
     #[inline(always)]
     pub(super) fn push(&mut self, sure: M8, t: F8, e: F8, (face, tag): (F8, F8)) {
         if !sure.any() {
@@ -100,10 +103,10 @@ impl Crossings {
         }
     }
 
-    /// Of these lanes nothing is sure from `t` on.
+    /// Marks everything from `t` on as uncertain for these lanes.
     #[inline(always)]
     pub(super) fn doubt_from(&mut self, lanes: M8, t: F8) {
-        // `max` answers zero for what is not a number.
+        // `max` returns zero for NaN.
         self.doubt.set_where(lanes, t.max(F8::ZERO).min(self.doubt));
     }
 }
@@ -130,7 +133,8 @@ impl Stay {
         }
     }
 
-    /// Which points at `t` within `e`, not behind the start, are surely within the faces, and which surely not.
+    /// For points at `t`, known within `e` and not before the start: which are certainly inside the
+    /// faces, and which certainly outside.
     #[inline(always)]
     fn holds(&self, t: F8, e: F8) -> (M8, M8) {
         let (first, last) = (t - e, t + e);
@@ -140,42 +144,46 @@ impl Stay {
 }
 
 impl PacketFilter {
-    /// So many faces of an operand have numbers.
+    /// The greatest number of numbered faces of an operand.
     pub const FACES: usize = 128;
 
-    /// Whether the outline tells all about a solid: what else cuts off a surface is no face of its inside.
+    /// Whether the filter describes the solid completely. Faces that only clip a surface do not
+    /// bound its inside.
     pub fn is_operand(&self) -> bool {
         let told = self.faces.len() <= Crossings::FACES;
         told && self.loops.is_none() && self.holes.is_empty() && self.own_face.is_none()
     }
 
-    /// What is known of it as an operand beside its faces.
+    /// The kernel that describes the operand in addition to its faces, if there is one.
     fn as_detail(&self) -> Option<&Detail> {
         self.detail.as_deref().filter(|detail| detail.is_operand())
     }
 
-    /// Whether the solid is the outside of the faces.
+    /// Whether the solid is the complement of the set inside the faces.
     pub fn is_turned(&self) -> bool {
         self.turned
     }
 
-    /// Whether it is all that is within some faces, or all that is not, so that a ray is in there all the way between two places.
+    /// Whether the solid is the set inside some faces or its complement, so that a ray is inside on
+    /// one interval.
     #[inline]
     pub fn is_convex(&self) -> bool {
         self.convex && self.as_detail().is_none()
     }
 
-    /// Whether nothing holds the surface, so that it is worth to know which part of a ray matters.
+    /// Whether the surface is unbounded, so that it pays to know which part of a ray matters.
     pub fn is_endless(&self) -> bool {
         self.as_detail().is_some_and(Detail::is_endless)
     }
 
-    /// Sees the rays from the outline's centre; whether every one surely passes the solid by, or has left it behind.
+    /// Computes the rays in the filter's coordinates. Returns whether every ray certainly misses
+    /// the solid or has left it behind.
     pub fn sight(&self, rays: &RayLanes<'_>, sight: &mut SolidState8) -> bool {
         self.is_passed_by(rays, &mut sight.start)
     }
 
-    /// Puts down where the rays are in a convex solid, and tells which surely are nowhere in it. `from` names those that leave its own surface.
+    /// Stores the part of each ray inside a convex solid. Returns the rays that certainly have no
+    /// such part. `from` describes rays that start on the solid's own surface.
     pub fn stay(
         &self,
         rays: &RayLanes<'_>,
@@ -183,7 +191,7 @@ impl PacketFilter {
         sight: &mut SolidState8,
         scratch: &mut Scratch,
     ) -> u8 {
-        // The faces of a box are not those that rays leave.
+        // A bounding box has faces of its own, and rays do not start on those.
         let from = from.filter(|_| !self.vague);
         let SolidState8 { start, hull, stay } = sight;
         self.hull(
@@ -201,8 +209,9 @@ impl PacketFilter {
         )
     }
 
-    /// Puts down all crossings of the solid; of an endless one those `within` a convex solid that the rays have been seen in. `from` names the rays that
-    /// leave its own surface. Of a convex solid it is known where rays are in it.
+    /// Stores all crossings of the solid; of an unbounded one, those inside the convex solid
+    /// `within`. `from` describes rays that start on the solid's own surface. The part inside a
+    /// convex solid must be known.
     pub fn crossings(
         &self,
         rays: &RayLanes<'_>,
@@ -224,7 +233,7 @@ impl PacketFilter {
         }
     }
 
-    /// Where a convex solid is entered and where it is left.
+    /// The entry into a convex solid and the exit from it.
     #[inline(never)]
     fn both_ends(&self, rays: &RayLanes<'_>, sight: &SolidState8, to: &mut Crossings) {
         rays.isa.run_in_lanes(
@@ -242,7 +251,7 @@ impl PacketFilter {
             to.doubt_from(!missed, earliest);
             return;
         }
-        // What is behind the start matters no more; half-spaces have one end.
+        // What lies before the start no longer matters; half-spaces have one end only.
         let ahead = !entered.lt(F8::ZERO);
         let ends = !left.ge(NEVER);
         let enters = through & ahead & earliest.gt(enter.others);
@@ -255,7 +264,7 @@ impl PacketFilter {
         to.list.push(Crossing8 { sure: leaves, t: -leave.t, e: leave.e, face: leave.face, tag });
     }
 
-    /// The roots of each wall, where the other faces are negative.
+    /// The roots of each wall where the other faces are negative.
     fn each_wall(
         &self,
         rays: &RayLanes<'_>,
@@ -315,7 +324,8 @@ impl PacketFilter {
         );
     }
 
-    /// Which points at `t` within `e` are surely in the solid, and which surely not, of the rays that are `asked` about: as bits.
+    /// For the `asked` rays, as bit masks: points at `t`, known within `e`, that are certainly
+    /// inside the solid, and those that are certainly outside.
     pub fn holds(
         &self,
         rays: &RayLanes<'_>,
@@ -345,7 +355,7 @@ impl PacketFilter {
         if self.turned { (outside, inside) } else { (inside, outside) }
     }
 
-    /// By where the rays are in a convex solid.
+    /// By the part of each ray inside a convex solid.
     #[inline(never)]
     fn holds_by_stay(&self, isa: Isa, stay: &Stay, (t, e, asked): (&F8, &F8, u8)) -> (u8, u8) {
         isa.run_in_lanes(
@@ -357,7 +367,7 @@ impl PacketFilter {
         )
     }
 
-    /// By the signs of the faces there.
+    /// By the signs of the faces at the points.
     #[inline(always)]
     fn holds_by_faces(
         &self,
@@ -372,7 +382,7 @@ impl PacketFilter {
             || spot.put(&seen, *t, *e),
         );
         let (mut inside, mut outside) = (if self.vague { 0 } else { asked }, 0);
-        // Beside one face the others no longer matter.
+        // A point outside one face is outside, whatever the other faces say.
         for face in &self.faces {
             let (below, above) = face.sides(rays.isa, spot);
             inside &= below;

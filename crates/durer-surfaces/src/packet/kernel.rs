@@ -1,4 +1,4 @@
-//! What lanes know of surfaces whose faces are of a degree above two: an equation in coordinates of the surface's own.
+//! Packet kernels: equations of degree above two, in the surface's own coordinates.
 
 use super::PacketFilter;
 use super::blob::{self, Fields};
@@ -18,7 +18,7 @@ use core::slice;
 use durer_math::{Dd, EFloat, F8, Isa, Point3, Vec3};
 use std::sync::Arc;
 
-/// What kind of surface it is.
+/// The kinds of packet kernel.
 #[derive(Clone, Debug)]
 pub(crate) enum PacketKernel {
     /// A surface of revolution.
@@ -33,25 +33,25 @@ pub(crate) enum PacketKernel {
     High(Arc<Terms<17>>),
     /// A blob.
     Fields(Arc<Fields>),
-    /// A solid that is told a stretch at a time.
+    /// A solid that is classified segment by segment.
     Level(Arc<dyn ImplicitKernel>),
 }
 
-/// The surface, and its coordinates before they are rounded.
+/// The kernel and its coordinates before rounding.
 #[derive(Clone, Debug)]
 pub(super) struct DetailSketch {
     own: OwnSketch,
     shape: PacketKernel,
 }
 
-/// The surface and its coordinates.
+/// The kernel and its coordinates, rounded to f64.
 #[derive(Clone, Debug)]
 pub(super) struct Detail {
     own: Own,
     shape: PacketKernel,
 }
 
-/// Memory for one of them on the way.
+/// Working memory for one kernel.
 #[derive(Debug, Default)]
 pub(super) struct KernelScratch {
     lathe: revolution::RevolutionScratch,
@@ -75,7 +75,7 @@ impl DetailSketch {
         Self { own: OwnSketch::new(centre, origin, scale, order), shape }
     }
 
-    /// Whether nothing holds the surface but what clips it.
+    /// Whether the surface is unbounded except for what clips it.
     pub(super) fn is_endless(&self) -> bool {
         self.shape.is_endless()
     }
@@ -101,7 +101,8 @@ impl PacketKernel {
 }
 
 impl Detail {
-    /// Whether it lies in a container with faces of its own, which have the numbers after that of its only face.
+    /// Whether the surface lies in a container with faces of its own. These are numbered after the
+    /// surface's own face.
     pub(super) fn is_contained(&self) -> bool {
         self.shape.is_contained()
     }
@@ -111,7 +112,7 @@ impl Detail {
         self.shape.is_endless()
     }
 
-    /// The face of roots on the face that lanes call by a number.
+    /// The `Root::face` of the face with this number.
     #[inline]
     pub(super) fn face_of(&self, face: u32) -> u32 {
         match &self.shape {
@@ -125,7 +126,8 @@ impl Detail {
         }
     }
 
-    /// Offers the first crossing of each ray to `nearest`; of an endless surface, and of one in a container, what is within a convex cell.
+    /// Passes the first crossing of each ray to `nearest`; of an unbounded or contained surface,
+    /// the first one inside a convex cell.
     pub(super) fn meet(
         &self,
         (asked, turned): (&PacketQuery<'_>, bool),
@@ -148,18 +150,18 @@ impl Detail {
         self.show((asked.rays, leaving), (start, cell), &mut to, memory);
     }
 
-    /// The solid that is told a stretch at a time, if it is one.
+    /// The segment-by-segment kernel, if it is one.
     #[inline]
     pub(super) fn level(&self) -> Option<&dyn ImplicitKernel> {
         if let PacketKernel::Level(level) = &self.shape { Some(&**level) } else { None }
     }
 
-    /// Its coordinates.
+    /// The kernel's coordinates.
     pub(super) fn own(&self) -> &Own {
         &self.own
     }
 
-    /// Whether it can tell all crossings, and on which side points are.
+    /// Whether the kernel finds all crossings, and the side of points.
     pub(super) fn is_operand(&self) -> bool {
         match &self.shape {
             PacketKernel::Lathe(lathe) => lathe.faces() <= PacketFilter::FACES,
@@ -172,7 +174,7 @@ impl Detail {
         }
     }
 
-    /// Puts down all crossings of a solid; of an endless one, what is within a convex cell.
+    /// Stores all crossings of a solid; of an unbounded one, those inside a convex cell.
     pub(super) fn crossings(
         &self,
         rays: (&RayLanes<'_>, Option<(&From8, bool)>),
@@ -204,7 +206,8 @@ impl Detail {
         }
     }
 
-    /// Which points at `t` within `e` are surely in the solid, and which surely not, of the rays that are `asked` about: as bits.
+    /// For the `asked` rays, as bit masks: points at `t`, known within `e`, that are certainly
+    /// inside the solid, and those that are certainly outside.
     pub(super) fn holds(
         &self,
         rays: &RayLanes<'_>,
@@ -223,7 +226,7 @@ impl Detail {
         }
     }
 
-    /// What is next to a face, rounded.
+    /// Rounded data next to a face.
     #[inline(always)]
     pub(super) fn slant(&self, isa: Isa, (face, tag): (usize, F8), h: Vec3<F8>, h1: F8) -> Slant {
         match &self.shape {
@@ -235,7 +238,7 @@ impl Detail {
         }
     }
 
-    /// What is at points of a face; `tag` is what [`Nearest`] keeps of them.
+    /// Data at points of a face; `tag` is what [`Nearest`] stores of them.
     #[inline(always)]
     pub(super) fn skin(&self, isa: Isa, (face, tag): (usize, F8), h: Vec3<F8>, h1: F8) -> Skin {
         match &self.shape {
@@ -249,7 +252,7 @@ impl Detail {
         }
     }
 
-    /// The covectors that points are shaded by, if those are not those of the surface.
+    /// Covectors for shading, if they differ from the surface's own.
     #[inline(always)]
     pub(super) fn shading(&self, isa: Isa, h: Vec3<F8>) -> Option<Vec3<F8>> {
         let PacketKernel::Level(level) = &self.shape else { return None };

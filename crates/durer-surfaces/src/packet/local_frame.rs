@@ -1,25 +1,26 @@
-//! Eight rays in a surface's own coordinates: where its equation is short.
+//! Eight rays in a surface's own coordinates, in which its equation is short.
 //!
 //! ```text
-//!   y_i = row_i · h + c_i,   h counted from the outline's centre
+//!   y_i = row_i · h + c_i,   h counted from the filter's centre
 //! ```
 //!
-//! The three linear functions are moved by maps in double-double, as the faces of an outline are, and rounded to f64 once. With `M` the largest entry,
-//! `e_b` what rounding and maps lost of an entry and `e_c` of a constant, a point's coordinates are wrong by `|h|₁ k_b + k_c` at most and a
-//! direction's by `|d|₁ k_b`,
+//! Maps move the three linear functions in double-double, as they move the faces of a filter. Then
+//! the functions are rounded to f64 once. Let `M` be the largest entry, `e_b` the error of an entry
+//! from rounding and maps, and `e_c` that of a constant. A point's coordinates are wrong by at most
+//! `|h|₁ k_b + k_c` and a direction's by `|d|₁ k_b`,
 //!
 //! ```text
 //!   k_b = 8 U M + e_b,   k_c = 4 U |c| + e_c
 //! ```
 //!
-//! which pays for three fused products, the sum and the rounding of `h`.
+//! which covers three fused products, the sum and the rounding of `h`.
 
 use crate::quadric::form::Form;
 use durer_math::{Dd, EFloat, F8, Point3, Ring, U, Vec3};
 
 type N = EFloat<Dd>;
 
-/// The three functions, times one number, before they are rounded.
+/// The three functions before rounding, times one common number.
 #[derive(Clone, Debug)]
 pub(super) struct OwnSketch {
     axes: [Form<N>; 3],
@@ -33,12 +34,13 @@ pub(super) struct Own {
     c: [f64; 3],
     k_b: f64,
     k_c: f64,
-    /// No less than the norm of the matrix of the rows.
+    /// An upper bound of the norm of the matrix of the rows.
     pub(super) norm: f64,
 }
 
 impl OwnSketch {
-    /// Coordinates in units of `2^scale` about `origin`, the axes in this order, for points counted from `centre`.
+    /// Coordinates in units of `2^scale` about `origin`, with the axes in this order, for points
+    /// counted from `centre`.
     pub(super) fn new(centre: Point3, origin: Point3, scale: i32, order: [usize; 3]) -> Self {
         let zero = || N::exact(0.0);
         let axes = order.map(|axis| {
@@ -50,12 +52,13 @@ impl OwnSketch {
         Self { axes, gain: N::exact(1.0) }
     }
 
-    /// The same of a surface moved by a map of this determinant; `moved` moves planes and multiplies them by it.
+    /// The coordinates of a surface moved by a map with this determinant. `moved` maps planes and
+    /// multiplies them by the determinant.
     pub(super) fn moved(self, det: N, moved: impl Fn(Form<N>) -> Form<N>) -> Self {
         Self { axes: self.axes.map(moved), gain: self.gain * det }
     }
 
-    /// Rounded; `None` if the numbers are too large for lanes.
+    /// The rounded coordinates; `None` if the numbers are too large for f64 packets.
     pub(super) fn round(&self) -> Option<Own> {
         let (mut largest, mut e_b, mut big_c, mut e_c) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
         let round = |x: N, largest: &mut f64, error: &mut f64| {
@@ -106,7 +109,7 @@ impl Own {
         Vec3::new(dot(x, d), dot(y, d), dot(z, d))
     }
 
-    /// What a covector in these coordinates is in the outline's.
+    /// The covector in the filter's coordinates that corresponds to one in these coordinates.
     #[inline(always)]
     pub(super) fn covector(&self, g: Vec3<F8>) -> Vec3<F8> {
         let [x, y, z] = Vec3::splats(self.rows);
@@ -123,7 +126,7 @@ impl Own {
         h1 * self.k_b + self.k_c
     }
 
-    /// The same for directions.
+    /// A bound on the error of the coordinates of directions with this `|d|₁`.
     #[inline(always)]
     pub(super) fn vector_error(&self, d1: F8) -> F8 {
         d1 * self.k_b

@@ -1,11 +1,15 @@
-//! Closed outlines in a plane, and how often they go around points of it.
+//! Closed outlines in a plane, and their winding numbers about points.
 //!
-//! The winding number counts the edges that pass a point's level, upward on its one side and downward on the other (`polygon.rs` counts in the same way, about
-//! the exact ray). A level is the height along some direction in the plane; both it and the side of an edge are linear.
+//! The winding number counts the edges that pass a point's level, upward on one side of the point
+//! and downward on the other; `polygon.rs` counts the same way for the exact ray. A level is the
+//! height along some direction in the plane. Both the level and the side of an edge are linear.
 //!
-//! Vertices of a polygon may lie off its plane by a small distance `δ`, and the ray passes the edges between the stored ones. Moved into the plane along the ray,
-//! a vertex is at most `δ / cos θ` from its foot, `θ` the angle of ray and normal; so are the points of moved edges from those of the edges between feet, of which
-//! `level` and `side` tell. A point that is farther than that from a level, or from the line of an edge that passes its level, is above or beside it in both.
+//! Vertices of a polygon may lie off its plane by a small distance `δ`, and the exact ray is tested
+//! against the edges between the stored vertices. Moved into the plane along the ray, a vertex is
+//! at most `δ / cos θ` from its foot, with `θ` the angle between ray and normal. The same holds for
+//! points of the moved edges and the edges between feet, which `level` and `side` describe. A point
+//! that is farther than that from a level, or from the line of an edge that passes its level, is on
+//! the same side of both.
 
 use super::closest::Spot;
 use super::quadric::{QuadricFace8, Seen};
@@ -19,16 +23,17 @@ pub(super) struct Loops<F> {
     /// Where each outline ends.
     pub(super) ends: Vec<usize>,
     pub(super) rule: FillRule,
-    /// `None` if all vertices lie in the plane, exactly.
+    /// The vertices' distance from the plane; `None` if all lie in it exactly.
     pub(super) off: Option<Off>,
 }
 
 /// How far vertices lie off the plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Off {
-    /// At most so far.
+    /// The greatest distance.
     pub(super) distance: f64,
-    /// Points of the plane that are at most so far outside the feet of the outlines still lie in the polygon's box.
+    /// Points of the plane up to this far outside the feet of the outlines still lie in the
+    /// polygon's box.
     pub(super) room: f64,
 }
 
@@ -42,13 +47,13 @@ pub(super) struct Edge<F> {
 }
 
 impl<F> Loops<F> {
-    /// The same loops in other numbers.
+    /// The same outlines with each form mapped by `f`.
     pub(super) fn map<G>(self, f: impl Fn(F) -> G) -> Loops<G> {
         let edges = self.edges.into_iter().map(|e| Edge { level: f(e.level), side: f(e.side) });
         Loops { edges: edges.collect(), ends: self.ends, rule: self.rule, off: self.off }
     }
 
-    /// The same, if there are such numbers.
+    /// The same outlines with each form mapped by `f`, if `f` succeeds for all of them.
     pub(super) fn try_map<G>(&self, f: impl Fn(&F) -> Option<G>) -> Option<Loops<G>> {
         let edges = self.edges.iter().map(|e| Some(Edge { level: f(&e.level)?, side: f(&e.side)? }));
         let edges = edges.collect::<Option<_>>()?;
@@ -56,11 +61,11 @@ impl<F> Loops<F> {
     }
 }
 
-/// The level of a vertex: where points are above it, and where that is not sure.
+/// For each of eight rays: whether a vertex is above the point, and whether that is uncertain.
 type VertexSide8 = (M8, M8);
 
 impl Loops<QuadricFace8> {
-    /// Where points of a plane are surely inside, and where they are surely outside.
+    /// For eight points: which are certainly inside, and which certainly outside.
     #[inline(always)]
     pub(super) fn cut(
         &self,
@@ -98,7 +103,7 @@ impl Loops<QuadricFace8> {
             }
         }
         let within = match self.rule {
-            // Few turns: half of an odd number is not whole.
+            // Half of an odd number is not an integer; winding numbers are small.
             FillRule::EvenOdd => {
                 let half = turns * 0.5;
                 let whole = (half + F8::splat(ROUND)) - F8::splat(ROUND);
@@ -112,18 +117,20 @@ impl Loops<QuadricFace8> {
 }
 
 impl Off {
-    /// How far vertices move that are moved into the plane along eight rays, as a sum of absolute values; and where that may be too far.
+    /// How far vertices move, as a sum of absolute values, when they are moved into the plane along
+    /// eight rays; and for which rays that may be too far.
     #[inline(always)]
     fn slip(&self, plane: &QuadricFace8, rays: &Seen<'_>) -> (F8, M8) {
         let slope = plane.slope_at_least(rays);
-        // cos θ >= |b·d| / (|b|₁ |d|₁); a length of one is at most √3 as a sum of absolute values.
+        // `cos θ >= |b·d| / (|b|₁ |d|₁)`; a length of one is at most √3 as a sum of absolute
+        // values.
         let slip = *rays.d1 * (plane.b1() * self.distance) / slope * (1.0 + 16.0 * U);
         let near = slope.gt(F8::ZERO) & slip.le(F8::splat(self.room));
         (near.keep(slip) * 1.75, !near)
     }
 }
 
-/// Adding and taking away this number rounds to a whole one.
+/// Adding and subtracting this number rounds to an integer.
 const ROUND: f64 = 1.5 * (1u64 << 52) as f64;
 
 #[inline(always)]

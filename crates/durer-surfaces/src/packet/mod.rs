@@ -65,37 +65,38 @@ use durer_math::{Point3, Vec3};
 /// The packet filter of one surface, for eight rays at a time. [`FilterSource::build`] makes it.
 #[derive(Clone, Debug)]
 pub struct PacketFilter {
-    /// Coordinates are counted from here.
+    /// The origin of the filter's coordinates.
     centre: Point3,
     faces: Box<[QuadricFace8]>,
-    /// How many of them are part of the surface; the others cut it off.
+    /// How many of the faces are part of the surface; the others clip it.
     walls: usize,
-    /// A ball of this radius about the centre holds the surface; infinite if there is none.
+    /// The radius of a ball about the centre that holds the surface; infinite if there is none.
     reach: f64,
     /// The surface bounds the convex set where all faces are negative.
     convex: bool,
-    /// Which faces are planes that, with the next one, bound a slab.
+    /// For each face, whether it is a plane that bounds a slab together with the next face.
     slabs: Box<[bool]>,
-    /// For each wall the faces that may cut off some of it, `None` if it is cut off as a whole; empty if all faces may cut all others.
+    /// For each wall the faces that may cut off a part of it, `None` if the wall is cut off
+    /// entirely. Empty if every face may cut every other.
     cutters: Box<[Option<Box<[u32]>>]>,
     /// Normals point to where the faces are negative.
     turned: bool,
-    /// The outline only holds the surface: what meets it may still miss.
+    /// The filter describes only a bound: a ray that hits it may miss the surface.
     vague: bool,
     /// See [`PacketFilter::own_face`].
     own_face: Option<u32>,
     /// Shading normals: a value and its change along x, y and z.
     normals: Option<Box<[Vec3; 4]>>,
-    /// What cuts off the first wall beside the other faces.
+    /// Outlines that clip the first wall in addition to the other faces.
     loops: Option<Box<Loops<QuadricFace8>>>,
-    /// What lies where all of some faces are negative is cut away.
+    /// Holes: points where all faces of one entry are negative are cut away.
     holes: Box<[Box<[QuadricFace8]>]>,
-    /// What is known of a surface whose faces only hold it.
+    /// The kernel of a surface whose faces only bound it.
     detail: Option<Box<Detail>>,
 }
 
 impl PacketFilter {
-    /// The face of a surface's roots on the face that lanes call by a number.
+    /// The `Root::face` of the face with this number.
     #[inline(always)]
     pub fn face_of(&self, face: u32) -> u32 {
         match &self.detail {
@@ -104,13 +105,13 @@ impl PacketFilter {
         }
     }
 
-    /// The number of the first of the faces: a container's come after that of what it holds.
+    /// The number of the first face: a container's faces are numbered after those of its content.
     #[inline(always)]
     fn first_face(&self) -> usize {
         usize::from(self.detail.as_ref().is_some_and(|detail| detail.is_contained()))
     }
 
-    /// If this is one part of a surface: the face that its roots have there.
+    /// If this is one part of a surface: the `Root::face` of its roots.
     #[inline(always)]
     pub fn own_face(&self) -> Option<u32> {
         self.own_face

@@ -1,16 +1,19 @@
-//! Where polynomials along eight rays have their roots, with proof.
+//! Certified roots of one polynomial for each of eight rays.
 //!
 //! ```text
 //!   p(x) = Σ c_k x^k = Σ b_j C(n,j) x^j (1-x)^(n-j)     0 <= x <= 1, n = N - 1
 //! ```
 //!
-//! Signs of the `b_j` count roots (J. M. Lane, R. F. Riesenfeld, "Bounds on a polynomial", *BIT* 21, 1981; see `roots/bernstein.rs`): all of one sign, none; one change, one
-//! simple root. A part of which neither can be told is shortened to its first half. A root is found by Newton's method and shut in by
-//! certain signs on either side.
+//! The signs of the `b_j` count roots (J. M. Lane, R. F. Riesenfeld, "Bounds on a polynomial",
+//! *BIT* 21, 1981; see `roots/bernstein.rs`): no sign change, no root; one sign change, one simple
+//! root. A part in which neither is certain is shortened to its first half. Newton's method finds a
+//! root, and certain signs on either side enclose it.
 //!
-//! **Errors.** A value is wrong by `e` at most. That includes the rounding of Taylor's shift to a part (`Σ |c_k|` does not grow by it while the part is within `[0, 1]`), of the
-//! Bernstein coefficients, which are sums of the `c_k` with weights up to one, and of W. G. Horner's scheme: fewer than `6 N + 2` roundings, one after the other, of numbers no
-//! larger than `Σ |c_k|`, for which whoever makes a polynomial pays.
+//! **Errors.** A value is wrong by at most `e`. This includes the rounding of Taylor's shift to a
+//! part (`Σ |c_k|` does not grow while the part is within `[0, 1]`), of the Bernstein coefficients,
+//! which are sums of the `c_k` with weights up to one, and of W. G. Horner's scheme: fewer than `6
+//! N + 2` successive roundings of numbers no larger than `Σ |c_k|`. The caller that makes a
+//! polynomial includes them in `e`.
 
 use super::rays::SLACK;
 use durer_math::{F8, Isa, M8};
@@ -19,46 +22,48 @@ use durer_math::{F8, Isa, M8};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Poly8<const N: usize> {
     pub(super) c: [F8; N],
-    /// Bounds on the errors: of all values, and of those at the ends.
+    /// Error bounds: of all values, and of the values at the ends.
     pub(super) e: F8,
     pub(super) e_first: F8,
     pub(super) e_last: F8,
 }
 
-/// A part of each, and what is known of it.
+/// For each polynomial, a part of `[0, 1]` and its classification.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Part8 {
-    /// Lanes that are to be told.
+    /// Lanes whose part is not yet classified.
     pub(super) open: M8,
-    /// The part. Before it all is told; the sign at its start is certain.
+    /// The part's start. Everything before it is classified, and the sign there is certain.
     pub(super) l: F8,
     pub(super) r: F8,
-    /// Where all is told.
+    /// The end of the range to be classified.
     pub(super) end: F8,
     /// The sign at the part's start: 1 or -1.
     pub(super) sign: F8,
     /// Lanes with exactly one root in the part, and certain signs at its ends.
     pub(super) one: M8,
-    /// Lanes in which nothing can be told from `l` on.
+    /// Lanes that cannot be classified from `l` on.
     pub(super) unsure: M8,
 }
 
-/// A root of each.
+/// One root for each polynomial.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Root8 {
-    /// Where it is surely within `e` of `x`.
+    /// Lanes whose root is certainly within `e` of `x`.
     pub(super) sure: M8,
     pub(super) x: F8,
     pub(super) e: F8,
 }
 
-/// After so many parts without a root, or halved, what is left is a doubt: a ray by itself takes as long as hundreds.
+/// After this many parts the rest becomes a doubt: a single ray then costs as much as hundreds of
+/// parts.
 const MOST_PARTS: usize = 64;
-/// Behind a part without a root the next one is so many times as long.
+/// After a part without a root the next part is this many times as long.
 const LONGER: f64 = 2.0;
-/// Newton's steps at least before the first look whether all lanes are done, and at most.
+/// The least number of Newton steps before the first test for convergence, and the greatest number.
 const STEPS: (usize, usize) = (1, 24);
-/// After a step as short as this the next one, which squares it, is at the end of f64. Only time depends on it: signs prove the root.
+/// After a step as short as this, the next step, whose error is its square, reaches f64's
+/// precision. Only the running time depends on this number: signs prove the root.
 const CONVERGED: f64 = 1.0 / (1u64 << 30) as f64;
 
 impl<const N: usize> Default for Poly8<N> {
@@ -99,7 +104,7 @@ impl<const N: usize> Weights<N> {
 }
 
 impl<const N: usize> Poly8<N> {
-    /// The value.
+    /// The value at `x`.
     #[inline(always)]
     fn at(&self, x: F8) -> F8 {
         let mut p = self.c[N - 1];
@@ -109,7 +114,7 @@ impl<const N: usize> Poly8<N> {
         p
     }
 
-    /// Value and slope.
+    /// The value and the slope at `x`.
     #[inline(always)]
     fn value_and_slope(&self, x: F8) -> (F8, F8) {
         let (mut p, mut q) = (self.c[N - 1], F8::ZERO);
@@ -120,33 +125,33 @@ impl<const N: usize> Poly8<N> {
         (p, q)
     }
 
-    /// The signs at both ends: 1, -1, or 0 where it is not certain.
+    /// The signs at both ends: 1, -1, or 0 where the sign is uncertain.
     #[inline(always)]
     pub(super) fn ends(&self) -> (F8, F8) {
         (certain(self.c[0], self.e_first), certain(self.at(F8::ONE), self.e_last))
     }
 
-    /// Begins with all of the lanes in `live`.
+    /// Begins with all of `[0, 1]` for the lanes in `live`.
     #[inline(always)]
     pub(super) fn begin(&self, live: M8, part: &mut Part8) {
         self.begin_with(live, F8::ZERO, part);
     }
 
-    /// The same where the sign at the start is known for other reasons: 1 or -1, or 0 if it is not.
+    /// Begins where the sign at the start is known from elsewhere: 1 or -1, or 0 if it is unknown.
     #[inline(always)]
     pub(super) fn begin_with(&self, live: M8, known: F8, part: &mut Part8) {
         let sign = certain(self.c[0], self.e_first);
         self.go(live, (F8::ZERO, F8::ONE), known.equals(F8::ZERO).select(sign, known), part);
     }
 
-    /// The same where all Bernstein coefficients are known, within `e`.
+    /// Begins where all Bernstein coefficients are known within `e`.
     #[inline(always)]
     pub(super) fn begin_at(&self, live: M8, b: &[F8; N], part: &mut Part8) {
         self.begin(live, part);
         self.classify(b, part);
     }
 
-    /// The same between two places other than 0 and 1.
+    /// Begins with the part between two places other than 0 and 1.
     #[inline(always)]
     pub(super) fn begin_within(&self, live: M8, (l, end): (F8, F8), known: F8, part: &mut Part8) {
         let sign = certain(self.at(l), self.e);
@@ -162,7 +167,7 @@ impl<const N: usize> Poly8<N> {
         part.one = M8::NONE;
     }
 
-    /// Goes on behind the root in the part.
+    /// Continues after the root in the part.
     #[inline(always)]
     pub(super) fn go_on(&self, part: &mut Part8) {
         part.sign.set_where(part.one, -part.sign);
@@ -172,7 +177,7 @@ impl<const N: usize> Poly8<N> {
         part.one = M8::NONE;
     }
 
-    /// Shortens the part until it is told in each lane whether there is a root, and which part holds it.
+    /// Shortens the part until each lane either has one root in it or none at all.
     #[inline(never)]
     pub(super) fn isolate(&self, isa: Isa, part: &mut Part8) {
         isa.run_in_lanes(
@@ -194,7 +199,7 @@ impl<const N: usize> Poly8<N> {
         part.open = M8::NONE;
     }
 
-    /// What the Bernstein coefficients on a part tell of it, but for the first; and the part to look at next.
+    /// Classifies a part by its Bernstein coefficients except the first, and chooses the next part.
     #[inline(always)]
     fn classify(&self, b: &[F8; N], part: &mut Part8) {
         let is_last = part.r.ge(part.end);
@@ -218,7 +223,7 @@ impl<const N: usize> Poly8<N> {
         part.r.set_where(part.open, next.select(longer, half));
     }
 
-    /// All Bernstein coefficients on a part; the first, the value at its start, is not to be used.
+    /// All Bernstein coefficients on a part; the first, the value at its start, must not be used.
     #[inline(always)]
     fn bernstein(&self, l: F8, r: F8) -> [F8; N] {
         // Shifted to `l`.
@@ -244,7 +249,7 @@ impl<const N: usize> Poly8<N> {
         b
     }
 
-    /// The root in the part of each lane with one.
+    /// The root in the part of each lane that has one.
     #[inline(never)]
     pub(super) fn refine(&self, isa: Isa, part: &Part8, root: &mut Root8) {
         isa.run_in_lanes(
@@ -264,7 +269,7 @@ impl<const N: usize> Poly8<N> {
             hi = behind.select(x, hi);
             lo = behind.select(lo, x);
             let next = x - value / slope;
-            // Where it has converged the next one is an end.
+            // After convergence the next step may land on an end.
             let fits = next.ge(lo) & next.le(hi);
             let next = fits.select(next, (lo + hi) * 0.5);
             let way = (next - x).abs();

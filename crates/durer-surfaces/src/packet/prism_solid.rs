@@ -1,13 +1,18 @@
-//! Swept solids whose outlines may cross themselves, as lanes see them: inside is where the outlines go round an odd number of times.
+//! Packets against prisms whose outlines may cross themselves. A point is inside where the outlines
+//! go round it an odd number of times.
 //!
-//! All crossings of a ray's line with walls and caps are told. Those behind the start say whether it is inside, and that says on which side of the first one ahead
-//! the solid lies. Where one of them is in doubt, and where two cannot be put in order, there is a doubt from there on. Rays that leave such a solid
-//! start so far from it (see `Swept::spot`) that the crossing they left is surely behind.
+//! All crossings of a ray's line with walls and caps are found. Those before the start decide
+//! whether the ray starts inside, and so on which side of the next crossing the solid lies. If one
+//! crossing is uncertain, or two cannot be ordered, everything from there on is a doubt. Rays that
+//! start on such a solid start so far from it (see `Swept::spot`) that the crossing they left is
+//! certainly behind them.
 //!
-//! As operands of bodies such solids tell each crossing, and on which side of it the solid lies: as many crossings before it as there are. Solids whose outlines do not cross
-//! know the side of each curve, and need to be asked ahead of the rays only.
+//! As CSG operands such prisms report each crossing and the side on which the solid lies, given by
+//! the number of crossings before it. For prisms whose outlines do not cross, the side of each
+//! curve is known, and only crossings ahead of the rays are needed.
 //!
-//! A conic sweep may end in its apex. There is no cap; a ray that passes the apex so near that its trace is not known is a doubt.
+//! A conic sweep may end in its apex, where there is no cap. A ray that passes the apex so closely
+//! that its trace is unknown is a doubt.
 
 use super::closest::PacketQuery;
 use super::crossings::Crossings;
@@ -21,11 +26,12 @@ use super::rays::{CLEAR, From8, Nearest, RayLanes, SLACK};
 use super::sink::{First, Sink8};
 use durer_math::{F8, M8, U};
 
-/// What is known of eight lines so far.
+/// The crossings of eight lines found so far.
 #[derive(Debug, Default)]
 struct Tally {
     inside: M8,
-    /// The first crossing ahead: the face, its place round the curve, and whether the trace falls there.
+    /// The first crossing ahead: its face, its place on the curve, and whether the trace falls
+    /// there.
     t: F8,
     e: F8,
     face: F8,
@@ -33,13 +39,14 @@ struct Tally {
     falls: M8,
 }
 
-/// Where the crossings of a line go, those behind its start, too.
+/// Receives the crossings of eight lines, those before the start included.
 trait Line8: Sink8 {
-    /// A ray surely crosses face `i` at `t` within `e`; what the tag of a wall is but for the side, and whether the trace falls there.
+    /// Rays that certainly cross face `i` at `t`, known within `e`; the wall's tag without the
+    /// side, and whether the trace falls there.
     fn cross(&mut self, on: M8, at: (F8, F8), face: usize, way: (F8, M8));
 }
 
-/// Offers the first crossing of each ray to `nearest`.
+/// Passes the first crossing of each ray to `nearest`.
 pub(super) fn meet(
     own: &Own,
     asked: &PacketQuery<'_>,
@@ -59,7 +66,8 @@ pub(super) fn meet(
             let Tally { inside, t, e, face, tag, falls } = tally;
             let met = *rays.live & t.lt(F8::splat(f64::INFINITY)) & !(t - e).gt(nearest.limit(rays));
             let sure = met & (t + e).le(*rays.t_max);
-            // From inside it is left: where the trace falls the inside is to the left of the curve.
+            // A ray that starts inside leaves here: where the trace falls, the inside is to the
+            // left of the curve.
             nearest.take_at(sure, (t, e), number, face, tag_of(tag, left_of(inside, falls)));
             nearest.doubt_from(met & !sure, t - e);
         },
@@ -72,7 +80,7 @@ fn left_of(from_inside: M8, falls: M8) -> M8 {
     !flipped(from_inside, falls)
 }
 
-/// Puts down all crossings; of solids whose outlines do not cross it is known on which side of each curve the inside is.
+/// Stores all crossings. For prisms whose outlines do not cross, the side of each curve is known.
 pub(super) fn crossings(
     own: &Own,
     (rays, leaving): (&RayLanes<'_>, Option<(&From8, bool)>),
@@ -106,7 +114,7 @@ pub(super) fn crossings(
     }
 }
 
-/// The rays that leave a face.
+/// The rays that start on a face.
 #[inline(always)]
 fn leaves(leaving: Option<(&From8, bool)>, face: usize) -> Option<From8> {
     let (from, turned) = leaving?;
@@ -114,7 +122,8 @@ fn leaves(leaving: Option<(&From8, bool)>, face: usize) -> Option<From8> {
     lanes.any().then_some(From8 { lanes, face: from.face, back: flipped(from.back, M8::splat(turned)) })
 }
 
-/// Which points at `t` within `e` are surely in the solid, and which surely not, of the rays that are `asked` about: as bits.
+/// For the `asked` rays, as bit masks: points at `t`, known within `e`, that are certainly inside
+/// the solid, and those that are certainly outside.
 pub(super) fn holds(
     own: &Own,
     rays: &RayLanes<'_>,
@@ -139,7 +148,7 @@ pub(super) fn holds(
             beyond = low.lt(-e_y) | high.gt(e_y);
             let mut known = e.lt(F8::splat(f64::INFINITY));
             if sweep.conic {
-                // (e + |x / y| e) / (|y| - e), and two roundings.
+                // `(e + |x / y| e) / (|y| - e)`, and two roundings.
                 known &= y.abs().gt(e * CLEAR);
                 let inverse = F8::ONE / y;
                 (x, z) = (x * inverse, z * inverse);
@@ -173,7 +182,7 @@ fn see_in_lanes(own: &Own, rays: &RayLanes<'_>, start: &Start, memory: &mut Pris
     );
 }
 
-/// Shows all crossings of eight lines.
+/// Passes all crossings of eight lines to `lines`.
 fn each<L: Line8>(
     own: &Own,
     rays: &RayLanes<'_>,
@@ -276,7 +285,7 @@ impl Line8 for Tallied<'_> {
         let behind = on & (t + e).lt(F8::ZERO);
         let ahead = on & (t - e).gt(F8::ZERO);
         tally.inside = flipped(tally.inside, behind);
-        // Two of which either may be the first.
+        // Either of the two may be the first.
         let tied = ahead & (t - tally.t).abs().le((e + tally.e) * SLACK);
         let tied_from = (t - e).min(tally.t - tally.e);
         let better = ahead & t.lt(tally.t);
@@ -296,14 +305,15 @@ impl Line8 for Tallied<'_> {
 }
 
 impl Line8 for Crossings {
-    /// Until all crossings are known the tag says whether the trace falls.
+    /// Until all crossings are known, the tag says whether the trace falls.
     #[inline(always)]
     fn cross(&mut self, on: M8, (t, e): (F8, F8), face: usize, (tag, falls): (F8, M8)) {
         self.push(on, t, e, (F8::splat(face as f64), tag_of(tag, falls)));
     }
 }
 
-/// Says on which side of each crossing the solid lies, and where two cannot be put in order.
+/// Finds the side of each crossing on which the solid lies, and pairs of crossings that cannot be
+/// ordered.
 #[inline(never)]
 fn settle(rays: &RayLanes<'_>, to: &mut Crossings) {
     rays.isa.run_in_lanes(

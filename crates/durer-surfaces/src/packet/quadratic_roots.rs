@@ -1,18 +1,18 @@
-//! Where eight rays cross the faces of an outline.
+//! Crossings of eight rays with faces of degree at most two.
 
 use super::closest::Spot;
 use super::quadric::{Quadratic8, QuadricFace8, Seen};
 use super::rays::{BEHIND, CLEAR, FAR, From8, SLACK};
 use durer_math::{F8, Isa, M8, U};
 
-/// The two roots of a face along eight rays: that at which it is entered (the polynomial falls), and that at which it is left.
+/// The two roots of a face along eight rays: the entry, where the polynomial falls, and the exit.
 #[derive(Debug, Default)]
 pub(super) struct Roots {
-    /// Both are there and both are known.
+    /// Both roots exist and are known.
     pub(super) known: M8,
-    /// There is none: the polynomial has the sign of `A` all along.
+    /// There is no root: the polynomial has the sign of `A` everywhere.
     pub(super) none: M8,
-    /// `A` is surely positive.
+    /// `A` is certainly positive.
     pub(super) opens: M8,
     pub(super) enter: F8,
     pub(super) e_enter: F8,
@@ -23,26 +23,26 @@ pub(super) struct Roots {
 /// The root of a plane along eight rays.
 #[derive(Debug, Default)]
 pub(super) struct PlaneRoot {
-    /// The ray surely crosses.
+    /// The ray certainly crosses the plane.
     pub(super) crosses: M8,
-    /// It goes down.
+    /// The ray goes downward.
     pub(super) falls: M8,
-    /// It surely stays above, or surely below, as far as that matters.
+    /// The ray certainly stays above, or certainly below, on the part that matters.
     pub(super) above: M8,
     pub(super) below: M8,
     pub(super) t: F8,
     pub(super) e: F8,
 }
 
-/// Where eight rays are inside a slab, that is between two parallel planes.
+/// The part of each of eight rays inside a slab, that is, between two parallel planes.
 #[derive(Debug, Default)]
 pub(super) struct SlabRoots {
-    /// They surely cross both planes.
+    /// The ray certainly crosses both planes.
     pub(super) known: M8,
-    /// They surely stay outside, or surely inside, as far as that matters.
+    /// The ray certainly stays outside, or certainly inside, on the part that matters.
     pub(super) outside: M8,
     pub(super) inside: M8,
-    /// They enter by the first plane.
+    /// The ray enters through the first plane.
     pub(super) rises: M8,
     pub(super) enter: F8,
     pub(super) e_enter: F8,
@@ -50,7 +50,7 @@ pub(super) struct SlabRoots {
     pub(super) e_leave: F8,
 }
 
-/// Rays that leave a surface, as one of its faces sees them.
+/// Rays that start on a surface, seen from one of its faces.
 #[derive(Clone, Copy)]
 pub(super) struct Leaving<'a> {
     pub(super) from: &'a From8,
@@ -59,7 +59,7 @@ pub(super) struct Leaving<'a> {
 }
 
 impl Leaving<'_> {
-    /// The lanes that start on this face, and where its polynomial is negative at their start.
+    /// The lanes that start on this face, and those whose polynomial is negative at the start.
     #[inline(always)]
     pub(super) fn lanes(&self) -> (M8, M8) {
         let here = F8::splat(self.face as f64);
@@ -73,17 +73,20 @@ impl Leaving<'_> {
 pub(super) fn quotient(c: F8, e_c: F8, inverse: F8, e_slope: F8) -> (F8, F8) {
     let t = c * inverse;
     let far = t.abs();
-    // Two roundings, and what exact numbers may differ by: (e_c + |t| e_slope) / (|slope| - e_slope), where that is at most 4/3 of the division by |slope|.
+    // Two roundings, and the greatest difference to the exact quotient: `(e_c + |t| e_slope) /
+    // (|slope| - e_slope)`, which is at most 4/3 of the division by `|slope|`.
     let e = ((e_c + far * e_slope) * inverse.abs() * (CLEAR / (CLEAR - 1.0)) + far * (4.0 * U)) * SLACK;
     (t, e)
 }
 
-// Each step below is a function of its own that takes from memory and puts into memory what eight lanes hold. In one large function the compiler would
-// mix lanes of different numbers, which costs several times as much as the loads and stores.
+// Each step below is a separate function that reads its eight lanes from memory and writes them
+// back. In one large function the compiler mixes lanes of different numbers, which costs several
+// times as much as the loads and stores.
 impl QuadricFace8 {
     /// Roots of `A t² + 2 B t + C` by the stable formula, with bounds.
     ///
-    /// Of the rays that start on this face the near root is the one they left: it lies behind if they go away from the surface.
+    /// For a ray that starts on this face, the near root is the point that it left. It lies behind
+    /// the ray if the ray goes away from the surface.
     #[inline(never)]
     pub(super) fn roots(&self, isa: Isa, rays: &Seen<'_>, from: Option<&Leaving<'_>>, roots: &mut Roots) {
         isa.run_in_lanes(
@@ -120,7 +123,7 @@ impl QuadricFace8 {
             near = lanes.select(F8::splat(BEHIND), near);
             e_near = lanes.select(F8::ZERO, e_near);
         }
-        // The slope at the far root has the sign of q, also where B is zero of either sign.
+        // The slope at the far root has the sign of `q`, also if `B` is zero of either sign.
         let falls = q.lt(F8::ZERO);
         roots.known = known;
         roots.none = disc.lt(-e_disc);
@@ -170,7 +173,7 @@ impl QuadricFace8 {
         root.e = e;
     }
 
-    /// The crossings of two parallel planes that look away from each other.
+    /// The crossings of two parallel planes with opposite normals.
     #[inline(never)]
     pub(super) fn slab(
         &self,
@@ -228,7 +231,8 @@ impl QuadricFace8 {
         roots.e_leave = rises.select(e1, e0);
     }
 
-    /// Where this face cuts off points, and where it surely does not; says whether any of the open ones may still be inside.
+    /// Where this face cuts off points, and where it certainly does not. Returns whether any open
+    /// point may still be inside.
     #[inline(never)]
     pub(super) fn cut(&self, isa: Isa, at: &Spot, open: &M8, inside: &mut M8, outside: &mut M8) -> bool {
         isa.run_in_lanes(
@@ -242,7 +246,7 @@ impl QuadricFace8 {
         )
     }
 
-    /// Which points are surely below this face, and which above: as bits.
+    /// The points that are certainly below this face, and those certainly above, as bit masks.
     #[inline(never)]
     pub(super) fn sides(&self, isa: Isa, at: &Spot) -> (u8, u8) {
         isa.run_in_lanes(

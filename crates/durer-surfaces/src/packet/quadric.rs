@@ -1,7 +1,9 @@
-//! One face: `f(y) = y·Qy + 2 b·y + c`, negative inside, with what its coefficients lost.
+//! One face in f64: `f(y) = y·Qy + 2 b·y + c`, negative inside, with bounds on its coefficients'
+//! errors.
 //!
-//! **Errors.** Coefficients are within `e_Q`, `e_b`, `e_c` of the exact ones. With `|h|₁`, `|d|₁` the sums of absolute values, `M = max |Q_ij|` and
-//! `B = max |b_i|`, every formula below takes at most 10 roundings (`h = o - centre` included), so that
+//! **Errors.** Coefficients are within `e_Q`, `e_b`, `e_c` of the exact ones. With `|h|₁`, `|d|₁`
+//! the sums of absolute values, `M = max |Q_ij|` and `B = max |b_i|`, every formula below takes at
+//! most 10 roundings (`h = o - centre` included), so that
 //!
 //! ```text
 //!   |δA| <= |d|₁² k_Q                        k_Q = 16 U M + e_Q
@@ -9,16 +11,18 @@
 //!   |δC| <= |h|₁ (|h|₁ k_Q + 2 k_b) + k_c    k_c = 16 U |c| + e_c
 //! ```
 //!
-//! where the 16 covers the second order and the rounding of these bounds themselves.
+//! where the 16 includes the second order and the rounding of these bounds themselves.
 //!
-//! **Underflow.** Forms are scaled so that `max(M, B)` is between 1 and 2, and `|d|₁` is between `2^-200` and its inverse (`rays.rs`). With `TINY = 2^-550` added to
-//! `k_c` the error of the discriminant is at least `|δA| |δC| >= 2^-450 2^-550` where `M >= 1`, and at least `|δB|² >= 2^-500` where `B >= 1`: far above the
-//! `2^-1074` that a product may lose below the normal numbers. Where `A` itself is so small its far root is beyond `FAR`.
+//! **Underflow.** Forms are scaled so that `max(M, B)` is between 1 and 2, and `|d|₁` is between
+//! `2^-200` and its inverse (`rays.rs`). `TINY = 2^-550` is added to `k_c`, so the error of the
+//! discriminant is at least `|δA| |δC| >= 2^-450 2^-550` where `M >= 1`, and at least `|δB|² >=
+//! 2^-500` where `B >= 1`: far above the `2^-1074` that a product may lose to underflow. Where `A`
+//! itself is that small, its far root is beyond `FAR`.
 
 use crate::quadric::form::Form;
 use durer_math::{Dd, EFloat, F8, U, Vec3};
 
-/// See the file's head.
+/// See the head of this file.
 const TINY: f64 = durer_math::scale::pow2(-550);
 
 /// A face in f64.
@@ -34,20 +38,20 @@ pub(super) struct QuadricFace8 {
     k_c: f64,
     /// `M` and `B`.
     largest: (f64, f64),
-    /// The error of `b`'s entries alone.
+    /// The error of the entries of `b` alone.
     e_b: f64,
     /// An upper bound of the norm of the Hessian `2 Q`.
     pub(super) bend: f64,
 }
 
-/// How much of the form there is.
+/// Which terms a form has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FaceKind {
     /// No `Q`.
     Plane,
-    /// `Q` is a multiple of the identity and `b` is zero.
+    /// `Q` is a multiple of the identity, and `b` is zero.
     Ball,
-    /// All of it.
+    /// All terms.
     Quadric,
 }
 
@@ -62,7 +66,7 @@ pub(super) struct Quadratic8 {
     pub(super) e_c: F8,
 }
 
-/// Eight rays seen from the outline's centre.
+/// Eight rays relative to the filter's centre.
 #[derive(Clone, Copy)]
 pub(super) struct Seen<'a> {
     pub(super) d: &'a Vec3<F8>,
@@ -71,13 +75,13 @@ pub(super) struct Seen<'a> {
     pub(super) start: &'a Start,
 }
 
-/// Where they start.
+/// The starts of eight rays relative to the filter's centre.
 #[derive(Debug)]
 pub(super) struct Start {
     pub(super) h: Vec3<F8>,
     /// `|h|₁`.
     pub(super) h1: F8,
-    /// A bound on every `t` at which the surface can be met.
+    /// A bound on every `t` at which a ray can meet the surface.
     pub(super) far: F8,
 }
 
@@ -106,10 +110,11 @@ fn dot8(a: Vec3<F8>, v: Vec3<F8>) -> F8 {
 }
 
 impl QuadricFace8 {
-    /// Rounds a form; `None` if its numbers are too large or too small for lanes.
+    /// Rounds a form; `None` if its numbers are too large or too small for f64 packets.
     pub(super) fn new(form: &Form<EFloat<Dd>>) -> Option<Self> {
         let most = |part: &[EFloat<Dd>]| part.iter().map(|x| x.value().abs()).fold(0.0, f64::max);
-        // Sizes in which products of coefficients, squares of coordinates and their errors stay ordinary numbers.
+        // In this range products of coefficients, squares of coordinates and their errors stay
+        // normal numbers.
         let scale = most(&form.q).max(most(&form.b));
         let k = -durer_math::eft::exponent(scale);
         if !(scale > 0.0 && scale < f64::INFINITY && k.abs() < 900) {
@@ -162,9 +167,11 @@ impl QuadricFace8 {
         Vec3::new(dot([xx, xy, xz], v), dot([xy, yy, yz], v), dot([xz, yz, zz], v))
     }
 
-    /// `B`, a bound on its error, and `C` without the constant, along eight rays, of a plane: `2 B t + C`.
+    /// `B`, a bound on its error, and `C` without the constant, along eight rays, of a plane: `2 B
+    /// t + C`.
     ///
-    /// The error of `B` is told coefficient by coefficient, so that a ray along the plane has exactly `B = 0`.
+    /// The error of `B` is computed coefficient by coefficient, so a ray parallel to the plane has
+    /// exactly `B = 0`.
     #[inline(always)]
     pub(super) fn slope(&self, rays: &Seen<'_>) -> (F8, F8, F8) {
         let b = dot(self.b, *rays.d);
@@ -192,7 +199,7 @@ impl QuadricFace8 {
         (self.b.iter().map(|b| b.abs()).sum::<f64>() + 3.0 * self.e_b) * (1.0 + 8.0 * U)
     }
 
-    /// Whether this and another face are parallel planes that look away from each other.
+    /// Whether two faces are parallel planes with opposite normals.
     pub(super) fn is_opposite(&self, other: &Self) -> bool {
         let planes = self.kind == FaceKind::Plane && other.kind == FaceKind::Plane;
         planes && (0..3).all(|i| self.b[i] == -other.b[i]) && self.e_b == other.e_b
@@ -238,7 +245,7 @@ impl QuadricFace8 {
             return (f, (y1 * self.k_b + e1 * big) * 2.0 + self.k_c);
         }
         let (f, _) = self.value_and_half_gradient(y);
-        // |f(y + δ) - f(y)| <= |δ|₁ (2 (M |y|₁ + B) + M |δ|₁).
+        // `|f(y + δ) - f(y)| <= |δ|₁ (2 (M |y|₁ + B) + M |δ|₁)`.
         let drift = e1 * ((y1 * m + big) * 2.0 + e1 * m);
         (f, y1 * (y1 * self.k_q + 2.0 * self.k_b) + self.k_c + drift * (1.0 + 16.0 * U))
     }

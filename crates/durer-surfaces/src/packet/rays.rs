@@ -1,12 +1,13 @@
-//! Eight rays, and the first of what they meet.
+//! Eight rays, and the first hit of each.
 //!
-//! Every parameter `t` comes with a bound `e` on its error. What is decided with its help is certain; the rest is put down as a doubt, at the least `t`
-//! at which it can matter. Comparisons are written so that what is not a number ends as a doubt.
+//! Every parameter `t` comes with a bound `e` on its error. What the bounds decide is certain;
+//! everything else is recorded as a doubt, at the least `t` at which it can matter. Comparisons are
+//! written so that NaN ends as a doubt.
 
 use super::quadric::taxicab;
 use durer_math::{F8, Isa, M8, Point3, U, Vec3};
 
-/// Eight rays `o + t d` with `t` in `[0, t_max]`, as far as outlines are concerned.
+/// Eight rays `o + t d`, `t` in `[0, t_max]`, as packet filters use them.
 #[derive(Clone, Copy, Debug)]
 pub struct RayLanes<'a> {
     pub(super) isa: Isa,
@@ -20,19 +21,20 @@ pub struct RayLanes<'a> {
     pub(super) d2: F8,
 }
 
-/// Rays that leave the very outline under test.
+/// Rays that start on the very surface under test.
 #[derive(Clone, Copy, Debug)]
 pub struct From8 {
-    /// Which do.
+    /// The lanes of these rays.
     pub lanes: M8,
-    /// From which face, as a number.
+    /// The face on which each starts, as a number.
     pub face: F8,
-    /// Which start behind it, by the normal that hits have.
+    /// The rays that start behind the face, by the normal of hits.
     pub back: M8,
 }
 
 impl From8 {
-    /// On which side of a solid that is negative inside they start: -1 inside, 1 outside, 0 where they leave something else. `turned` if the solid is inside out.
+    /// The side of a solid on which the rays start: -1 inside, 1 outside, 0 for rays that start
+    /// elsewhere. The solid is negative inside, or the complement of that set if `turned`.
     #[inline(always)]
     pub(super) fn side(&self, turned: bool) -> F8 {
         let inside = if turned { !self.back } else { self.back };
@@ -40,39 +42,40 @@ impl From8 {
     }
 }
 
-/// The first sure hit so far, and the first doubt.
+/// The first certain hit so far, and the first doubt.
 #[derive(Clone, Copy, Debug)]
 pub struct Nearest {
-    /// Where; infinite where there is none.
+    /// The hit's parameter; infinite if there is no hit.
     pub t: F8,
-    /// How far from there the crossing may be.
+    /// The bound on the error of `t`.
     pub e: F8,
-    /// The outline's number, as the caller gave it.
+    /// The filter's number, as the caller gave it.
     pub number: F8,
-    /// The face of that outline.
+    /// The face of the filter.
     pub face: F8,
-    /// What the face wants to know of the point when that is asked for.
+    /// The face's own data for computing the point later.
     pub tag: F8,
-    /// From here on nothing is sure; infinite without a doubt.
+    /// From this parameter on nothing is certain; infinite without a doubt.
     pub doubt: F8,
 }
 
 pub(super) const NEVER: F8 = F8::splat(f64::INFINITY);
-/// Pays for the roundings of error bounds.
+/// Covers the roundings of error bounds.
 pub(super) const SLACK: f64 = 1.0 + 64.0 * U;
-/// A divisor is trusted if it is this many times its error.
+/// A divisor is used only if it is this many times its error.
 pub(super) const CLEAR: f64 = 4.0;
-/// Behind the start of a ray, surely.
+/// A parameter certainly before the start of a ray.
 pub(super) const BEHIND: f64 = -f64::MIN_POSITIVE;
-/// Farther than anything; its products with ordinary numbers are ordinary.
+/// Farther than any crossing; its products with ordinary numbers are ordinary.
 pub(super) const FAR: f64 = durer_math::scale::pow2(500);
 
-/// Directions are shorter than this, and longer than one over it, or their products could leave the range in which error bounds hold. A face adds what products
-/// of its own and of these may lose below the normal numbers (`quadric.rs`).
+/// Directions are shorter than this and longer than its inverse; other products could leave the
+/// range in which the error bounds hold. A face adds what its own products with these may lose to
+/// underflow (`quadric.rs`).
 const LONGEST: f64 = durer_math::scale::pow2(200);
 
 impl Nearest {
-    /// Nothing is met yet; of rays with directions too long or too short for lanes nothing is sure.
+    /// No hit yet. Rays whose directions are too long or too short for packets are doubts.
     #[inline]
     pub fn of(rays: &RayLanes<'_>) -> Self {
         let mut doubt = NEVER;
@@ -86,13 +89,13 @@ impl Nearest {
         Self { t: NEVER, e: F8::ZERO, number: F8::ZERO, face: F8::ZERO, tag: F8::ZERO, doubt }
     }
 
-    /// No crossing behind this can win.
+    /// The parameter beyond which no crossing can be the first.
     #[inline(always)]
     pub fn limit(&self, rays: &RayLanes<'_>) -> F8 {
         (self.t + self.e).min(*rays.t_max)
     }
 
-    /// Some rays surely cross a face at `t` within `e`.
+    /// Records that some rays certainly cross a face at `t`, known within `e`.
     #[inline(always)]
     pub fn take(&mut self, sure: M8, t: F8, e: F8, number: f64, face: F8) {
         let better = sure & t.lt(self.t);
@@ -102,7 +105,7 @@ impl Nearest {
         self.face.set_where(better, face);
     }
 
-    /// The same of faces that want to know more of a point.
+    /// Records a certain crossing with data of the face for computing the point later.
     #[inline(always)]
     pub fn take_at(&mut self, sure: M8, (t, e): (F8, F8), number: f64, face: F8, tag: F8) {
         let better = sure & t.lt(self.t);
@@ -110,7 +113,7 @@ impl Nearest {
         self.take(sure, t, e, number, face);
     }
 
-    /// Of live rays of which none of these is known nothing is sure.
+    /// Records a doubt for those live rays of which none of these is known.
     #[inline(always)]
     pub(super) fn doubt_unless(&mut self, live: &M8, known: &[&M8]) {
         let unsure = known.iter().fold(*live, |unsure, known| unsure & !**known);
@@ -119,17 +122,17 @@ impl Nearest {
         }
     }
 
-    /// Of some rays nothing is sure from `t` on.
+    /// Records that nothing is certain from `t` on for some rays.
     #[inline(always)]
     pub fn doubt_from(&mut self, where_: M8, t: F8) {
-        // `max` answers zero for what is not a number.
+        // `max` returns zero for NaN.
         let from = t.max(F8::ZERO);
         self.doubt.set_where(where_ & from.lt(self.doubt), from);
     }
 }
 
 impl<'a> RayLanes<'a> {
-    /// Eight rays; those that are not live may hold anything.
+    /// Eight rays; lanes that are not live may hold anything.
     #[inline]
     pub fn new(
         isa: Isa,

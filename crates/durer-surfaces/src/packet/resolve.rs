@@ -1,4 +1,4 @@
-//! Where eight rays meet a face, and how far rays start from there.
+//! Hit points of eight rays, and how far spawned rays start from them.
 
 use super::local_frame::dot;
 use super::quadric::{FaceKind, taxicab};
@@ -7,7 +7,8 @@ use super::revolution::{Skin, Slant};
 use super::{PacketFilter, quadric};
 use durer_math::{F8, M8, Point3, U, Vec3};
 
-/// Where points of a surface are put, with what a picture needs of a [`SurfacePoint`](crate::SurfacePoint), which says what each number means.
+/// Where hit points are stored, with the fields of a [`SurfacePoint`](crate::SurfacePoint) that
+/// pictures need; see there for their meaning.
 #[derive(Debug)]
 pub struct Points8<'a> {
     /// The points.
@@ -16,7 +17,7 @@ pub struct Points8<'a> {
     pub ng: &'a mut Vec3<F8>,
     /// Unit shading normals.
     pub ns: &'a mut Vec3<F8>,
-    /// How far along the normal the surface is surely left.
+    /// A distance along the normal that certainly leaves the surface.
     pub off: &'a mut F8,
 }
 
@@ -26,13 +27,15 @@ fn times(v: Vec3<F8>, k: F8) -> Vec3<F8> {
 }
 
 impl PacketFilter {
-    /// Puts down the points at `t` on face `i`, with what [`Nearest`](super::Nearest) keeps of them, moved onto the face by one step of Newton's method, for some lanes; answers with those for which all is proven. Of the
-    /// others the surface itself has to be asked.
+    /// Stores the points at `t` on face `i` for some lanes, from the data in
+    /// [`Nearest`](super::Nearest), moved onto the face by one step of Newton's method. Returns the
+    /// lanes for which everything is proven; the others must ask the surface itself.
     ///
-    /// With `|f(p)| <= η`, gradient `G` and `|Hessian| <= h`, a start at `p ± off n + τ` has `|f| >= off |G| - h (off² + |τ|²) - η`. Where
-    /// `x = 4 h η / |G|²` is small, `off = η (1 + x) / |G|` is enough, since `1 - √(1 - x) <= x`. `G` is rounded: its own relative error, which may be large for slivers
-    /// and near tips, has to be as small as `x`. As in the scalar kernels `η` includes twice the error of `f`,
-    /// so that rays from there see on which side they start.
+    /// With `|f(p)| <= η`, gradient `G` and `|Hessian| <= h`, a start at `p ± off n + τ` has `|f|
+    /// >= off |G| - h (off² + |τ|²) - η`. Where `x = 4 h η / |G|²` is small, `off = η (1 + x) /
+    /// |G|` is enough, since `1 - √(1 - x) <= x`. `G` is rounded: its own relative error, which may
+    /// be large for slivers and near tips, must be as small as `x`. As in the scalar kernels `η`
+    /// includes twice the error of `f`, so that rays from there know on which side they start.
     #[inline(never)]
     pub fn points(
         &self,
@@ -119,7 +122,7 @@ impl PacketFilter {
         skin: impl Fn(Vec3<F8>) -> Skin,
         shade: impl Fn(Vec3<F8>, Vec3<F8>) -> Vec3<F8>,
     ) -> M8 {
-        /// How small `x` has to be.
+        /// The greatest `x` that counts as small.
         const SMALL: f64 = 1.0 / (1u64 << 20) as f64;
         let c = self.centre;
         let (o, d) = (rays.origin, rays.direction);
@@ -128,13 +131,14 @@ impl PacketFilter {
         let Slant { f, half: g } = slant(y);
         let step = f * 0.5 / dot(g, g);
         let y = Vec3::new(y.x - g.x * step, y.y - g.y * step, y.z - g.z * step);
-        // The world's numbers, and what the centre sees of them: again with an error of U |y|, which the bounds of a face include.
+        // The world's coordinates, and the coordinates relative to the centre again, with an error
+        // of `U |y|` that the bounds of a face include.
         let p = Point3::new(y.x + c.x, y.y + c.y, y.z + c.z);
         let y = Vec3::new(p.x - c.x, p.y - c.y, p.z - c.z);
         let Skin { f, half: g, e_f, e_half, bend, room } = skin(y);
         let length = dot(g, g).sqrt();
         let gradient = length * 2.0;
-        // A start is rounded at p's own size; `start_towards` steps as much further.
+        // A start is rounded at the size of `p`; `start_towards` steps that much further.
         let tau = taxicab(p.to_vec()) * (4.0 * U);
         let eta = f.abs() + e_f * 2.0 + tau * tau * (bend * 2.0);
         let x = eta * (bend * 4.0) / (gradient * gradient);
@@ -162,7 +166,7 @@ impl PacketFilter {
     }
 }
 
-/// A covector as a normal to shade by: of length one, if it is on the side of `ng`; else that.
+/// A covector as a unit shading normal if it is on the side of `ng`; otherwise `ng`.
 #[inline(always)]
 fn shaded_by(g: Vec3<F8>, ng: Vec3<F8>, turned: bool) -> Vec3<F8> {
     let size = super::local_frame::largest(g);

@@ -1,24 +1,24 @@
-//! Where the crossings of eight rays go: the first ones to [`Nearest`], all of an operand to [`Crossings`].
+//! Receivers of crossings: [`Nearest`] takes the first ones, [`Crossings`] takes all of an operand.
 
 use super::crossings::Crossings;
 use super::rays::{Nearest, RayLanes};
 use durer_math::{F8, M8};
 
-/// Where crossings go.
+/// A receiver of the crossings of eight rays.
 pub(super) trait Sink8 {
-    /// All crossings are asked for, not only the first ones.
+    /// Whether all crossings are wanted, not only the first ones.
     const ALL: bool;
-    /// Crossings behind this do not matter.
+    /// The parameter beyond which crossings do not matter.
     fn limit(&self, rays: &RayLanes<'_>) -> F8;
-    /// Some rays surely cross a face at `t` within `e`.
+    /// Records that some rays certainly cross a face at `t`, known within `e`.
     fn take(&mut self, sure: M8, at: (F8, F8), face: F8);
-    /// The same of faces that want to know more of a point.
+    /// Records a certain crossing with data of the face for computing the point later.
     fn take_at(&mut self, sure: M8, at: (F8, F8), face: F8, tag: F8);
-    /// Of some rays nothing is sure from `t` on.
+    /// Records that nothing is certain from `t` on for some rays.
     fn doubt(&mut self, lanes: M8, t: F8);
 }
 
-/// The first crossings, under the number of an outline.
+/// The first crossings, under the number of a filter.
 pub(super) struct First<'n> {
     pub(super) nearest: &'n mut Nearest,
     pub(super) number: f64,

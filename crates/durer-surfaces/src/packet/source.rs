@@ -1,4 +1,4 @@
-//! From a surface's own numbers to an outline.
+//! From a surface's own numbers to a packet filter.
 
 use super::blob::Fields;
 use super::implicit::ImplicitKernel;
@@ -13,22 +13,22 @@ use crate::quadric::form::Form;
 use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Isa, Point3, Ring, U, Vec3};
 use std::sync::Arc;
 
-/// Precise enough that maps can be applied one after the other before anything is rounded to f64.
+/// Precise enough for several maps, one after the other, before the only rounding to f64.
 type N = EFloat<Dd>;
 
-/// The polynomials of a surface's faces, not yet rounded.
+/// The polynomials of a surface's faces before rounding.
 #[derive(Clone, Debug)]
 pub struct FilterSource {
-    /// Coordinates are counted from here.
+    /// The origin of the coordinates.
     centre: Point3,
-    /// Negative inside. The first `walls` are part of the surface.
+    /// Negative inside. The first `walls` forms are part of the surface.
     forms: Vec<Form<N>>,
     walls: usize,
     /// See [`PacketFilter`].
     reach: f64,
     convex: bool,
     turned: bool,
-    /// If the forms only hold the surface: a box that does, too.
+    /// If the forms only bound the surface: a box that bounds it, too.
     vague: Option<Aabb>,
     own_face: Option<u32>,
     normals: Option<[Vec3; 4]>,
@@ -37,23 +37,24 @@ pub struct FilterSource {
     holes: Vec<Vec<Form<N>>>,
     /// See [`PacketFilter`].
     detail: Option<DetailSketch>,
-    /// What is known of walls and faces that are parallel planes.
+    /// Walls and faces that are parallel planes.
     parallel: Vec<Parallel>,
 }
 
-/// A wall and a face that cuts others off, two parallel planes with some distance between them.
+/// A wall and a clipping face that are parallel planes some distance apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Parallel {
     wall: usize,
     face: usize,
-    /// The face cuts off the whole wall, or nothing of it.
+    /// Whether the face cuts off the whole wall, or nothing of it.
     cuts: bool,
 }
 
 impl Parallel {
-    /// What two faces are to each other, where that is sure.
+    /// The relation of two faces, where it is certain.
     ///
-    /// With `b' = λ b`, `f' = 2 b'·x + c'` is `c' - λ c` where `2 b·x + c = 0`, which has the sign of `(c' b_k - c b'_k) b_k` for every `k`.
+    /// With `b' = λ b`, `f' = 2 b'·x + c'` equals `c' - λ c` where `2 b·x + c = 0`, which has the
+    /// sign of `(c' b_k - c b'_k) b_k` for every `k`.
     fn of(wall: (usize, &Form<N>), face: (usize, &Form<N>)) -> Option<Self> {
         let is_flat = |f: &Form<N>| f.q.iter().all(|x| x.magnitude() == 0.0);
         let (a, b) = (wall.1, face.1);
@@ -68,10 +69,11 @@ impl Parallel {
     }
 }
 
-/// Where the numbers of an outline are: far enough from the ends of the range of f64 for all products of them.
+/// The range of the numbers of a filter: all their products stay within the range of f64.
 pub(super) const LARGEST: f64 = durer_math::scale::pow2(150);
 
-/// Whether the set where a form is not positive is convex whatever its linear part: all principal minors of `Q` are at least zero.
+/// Whether the set where a form is not positive is convex whatever its linear part: all principal
+/// minors of `Q` are at least zero.
 fn is_convex(form: &Form<Dyadic>) -> bool {
     let [xx, yy, zz, xy, xz, yz] = &form.q;
     let minor = |a: &Dyadic, b: &Dyadic, ab: &Dyadic| &(a * b) - &(ab * ab);
@@ -108,7 +110,7 @@ fn cross(a: &[N; 3], b: &[N; 3]) -> [N; 3] {
 }
 
 impl FilterSource {
-    /// A sheet or solid made of these faces about `centre`, all within `reach` of it.
+    /// A sheet or solid with these faces about `centre`, all within `reach` of it.
     fn new(centre: Point3, forms: Vec<Form<N>>, walls: usize, reach: f64) -> Self {
         Self {
             centre,
@@ -130,7 +132,7 @@ impl FilterSource {
     /// A solid with quadric faces.
     pub(crate) fn of_shape<S: QuadricFaces>(shape: &S) -> Self {
         let frame = shape.frame();
-        // y = (x - centre) / 2^k; f 2^k has the world's units and the same sign.
+        // `y = (x - centre) / 2^k`; `f 2^k` has the world's units and the same sign.
         let k = frame.scale;
         let forms = (0..shape.faces()).map(|i| {
             let f: Form<N> = shape.form(i);
@@ -176,7 +178,7 @@ impl FilterSource {
         Self::new(centre, forms, 1, radius * (1.0 + 2.0 * U))
     }
 
-    /// The flat convex sheet with these vertices, which lie in one plane and go round the normal `(v1 - v0) x (v2 - v0)`.
+    /// A flat convex sheet whose coplanar vertices go round the normal `(v1 - v0) x (v2 - v0)`.
     pub(crate) fn flat<const K: usize>(vertices: [Point3; K]) -> Self {
         let centre = Aabb::from_points(vertices).centre();
         Isa::detect().run(
@@ -200,8 +202,8 @@ impl FilterSource {
         Self::sheet(centre, &cross(&u, &v), &[(near, u), (far, back(&u)), (near, back(&v)), (far, v)])
     }
 
-    /// The part of the plane through three points that some closed outlines go around; these lie in it, or so near that the polygon's box exceeds
-    /// theirs by `margin`.
+    /// The part of the plane through three points that some closed outlines go around. The outlines
+    /// lie in the plane, or so near it that the polygon's box exceeds theirs by `margin`.
     pub(crate) fn polygon<'a>(
         spanning: [Point3; 3],
         bounds: Aabb,
@@ -235,7 +237,8 @@ impl FilterSource {
         Self { loops: Some(loops), ..Self::new(centre, vec![through(&n, &a)], 1, reach) }
     }
 
-    /// The part of the plane across `n` to the left of some edges, each by a point, counted from the centre, and a direction.
+    /// The part of the plane across `n` to the left of some edges. Each edge is a point, relative
+    /// to the centre, and a direction.
     #[inline(always)]
     fn sheet(centre: Point3, n: &[N; 3], edges: &[([N; 3], [N; 3])]) -> Self {
         let through = |n: &[N; 3], p: &[N; 3]| Form::half_space(*n, -dot(n, p));
@@ -243,19 +246,20 @@ impl FilterSource {
         let mut reach = 0.0_f64;
         for (point, direction) in edges {
             forms.push(through(&cross(direction, n), point));
-            // Each corner is the start of an edge, or the end of one.
+            // Each corner is the start or the end of an edge.
             let end = minus(point, &direction.map(|x| -x));
             reach = reach.max(dot(point, point).sqrt().hi()).max(dot(&end, &end).sqrt().hi());
         }
         Self::new(centre, forms, 1, reach)
     }
 
-    /// A surface of which only a box is known that holds it.
+    /// A surface of which only a bounding box is known.
     pub fn vague(bounds: Aabb) -> Self {
         Self { vague: Some(bounds), ..Self::axis_box(bounds.min, bounds.max) }
     }
 
-    /// A surface of revolution within a box, in units of `2^scale` about `origin`; its axis is that of the second coordinate of these three.
+    /// A surface of revolution within a box, in units of `2^scale` about `origin`, around the
+    /// second of its coordinate axes.
     pub(crate) fn lathe(bounds: Aabb, lathe: Lathe, origin: Point3, scale: i32, order: [usize; 3]) -> Self {
         let vague = Self::vague(bounds);
         let detail =
@@ -263,7 +267,7 @@ impl FilterSource {
         Self { detail, ..vague }
     }
 
-    /// A part of a swept solid within a box, in units of `2^scale` about `origin`.
+    /// A part of a prism within a box, in units of `2^scale` about `origin`.
     pub(crate) fn swept(bounds: Aabb, part: Swept, origin: Point3, scale: i32) -> Self {
         let vague = Self::vague(bounds);
         let shape = PacketKernel::Swept(Arc::new(part));
@@ -277,14 +281,15 @@ impl FilterSource {
         Self { detail: Some(DetailSketch::new(shape, vague.centre, origin, scale, [0, 1, 2])), ..vague }
     }
 
-    /// A solid within a box that is told a stretch at a time, about `origin`.
+    /// A solid within a box that is classified segment by segment, about `origin`.
     pub(crate) fn level(bounds: Aabb, level: Arc<dyn ImplicitKernel>, origin: Point3) -> Self {
         let vague = Self::vague(bounds);
         let detail = DetailSketch::new(PacketKernel::Level(level), vague.centre, origin, 0, [0, 1, 2]);
         Self { detail: Some(detail), ..vague }
     }
 
-    /// What of such a solid lies in a convex container, which has the faces after its own, about `origin`.
+    /// The part of such a solid in a convex container, whose faces are numbered after its own,
+    /// about `origin`.
     pub(crate) fn contained(container: Self, level: Arc<dyn ImplicitKernel>, origin: Point3) -> Self {
         let detail = DetailSketch::new(PacketKernel::Level(level), container.centre, origin, 0, [0, 1, 2]);
         Self { vague: Some(container.bounds()), detail: Some(detail), ..container }
@@ -298,7 +303,7 @@ impl FilterSource {
         Self { convex: true, vague: Some(Aabb::UNBOUNDED), detail, ..endless }
     }
 
-    /// The same sheet, shaded with normals that change linearly over the triangle.
+    /// The same sheet with shading normals that vary linearly over the triangle.
     pub(crate) fn with_normals(mut self, vertices: [Point3; 3], normals: [Vec3; 3]) -> Self {
         let [v0, v1, v2] = vertices;
         let (u, v) = (v1 - v0, v2 - v0);
@@ -319,7 +324,8 @@ impl FilterSource {
     pub fn placed(self, map: &Affine) -> Self {
         let m = map.centre();
         let centre = m + map.vector(self.centre.to_vec());
-        // With h = x - centre, and L⁻¹ = adj / det: det y = adj h + δ, δ = adj (centre - m) - det c.
+        // With `h = x - centre` and `L⁻¹ = adj / det`: `det y = adj h + δ`, `δ = adj (centre - m) -
+        // det c`.
         let (adj, det) = map.adjugate::<N>();
         let row = |i: usize, v: &[N; 3]| adj[i][0] * v[0] + adj[i][1] * v[1] + adj[i][2] * v[2];
         let from = [0, 1, 2].map(|i| N::exact(centre[i]) - N::exact(m[i]));
@@ -331,18 +337,18 @@ impl FilterSource {
             isa.run(
                 #[inline(always)]
                 || {
-                    // det² f(y) = z·Qz + 2 det b·z + det² c at z = adj h + δ.
+                    // `det² f(y) = z·Qz + 2 det b·z + det² c` at `z = adj h + δ`.
                     let b = f.b.map(|x| x * det);
                     let c = f.c * det.square();
                     if f.q.iter().all(|x| x.magnitude() == 0.0) {
-                        // A plane, and one factor det less.
+                        // A plane needs one factor `det` less.
                         let (b, c) = (f.b, f.c * det + dot(&f.b, &shift).scale2(1));
                         return Form { q: f.q, b: transposed(&b), c };
                     }
                     let scaled = Form { q: f.q, b, c }.seen_from(&shift);
                     let [xx, yy, zz, xy, xz, yz] = scaled.q;
                     let q = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-                    // adjᵀ Q adj, column by column.
+                    // `adjᵀ Q adj`, column by column.
                     let columns = [0, 1, 2].map(|j| {
                         let a = [adj[0][j], adj[1][j], adj[2][j]];
                         let qa = q.map(|r| r[0] * a[0] + r[1] * a[1] + r[2] * a[2]);
@@ -364,7 +370,7 @@ impl FilterSource {
             )
         };
         let normals = self.normals.map(|[n, x, y, z]| {
-            // n(x) = L⁻ᵀ n(y), and y changes with L⁻¹ h.
+            // `n(x) = L⁻ᵀ n(y)`, and `y` changes with `L⁻¹ h`.
             let covector = |v: Vec3| {
                 let m = map.inverse_linear();
                 Vec3::from([0, 1, 2].map(|j| m[0][j] * v.x + m[1][j] * v.y + m[2][j] * v.z))
@@ -374,7 +380,8 @@ impl FilterSource {
             let change = |j: usize| x * m[0][j] + y * m[1][j] + z * m[2][j];
             [covector(n), change(0), change(1), change(2)]
         });
-        // The rounded centre is off the mapped one by three roundings of the products' sums and one of the last sum.
+        // The rounded centre differs from the mapped one by three roundings of the products' sums
+        // and one of the last sum.
         let slip = map.linear_reach(self.centre.to_vec().abs()).length() * 4.0 + centre.to_vec().length();
         let reach = (self.reach * map.linear_norm() + slip * (2.0 * U)) * (1.0 + 16.0 * U);
         let forms = self.forms.into_iter().map(moved).collect();
@@ -391,27 +398,28 @@ impl FilterSource {
         Self { centre, forms, reach, normals, loops, holes, vague, detail, ..self }
     }
 
-    /// The surface with its normals, and its inside, turned round.
+    /// The surface with its normals, and inside and outside, exchanged.
     #[must_use]
     pub fn turned(self) -> Self {
-        // The inside of a solid is now all the rest; its surface is what it was.
+        // The inside is now the complement; the surface stays the same.
         Self { turned: !self.turned, ..self }
     }
 
-    /// The same, as one part of a surface, all of whose roots are on this face.
+    /// The filter of one part of a surface; all roots of the part are on this face.
     #[must_use]
     pub(crate) fn on_face(self, face: u32) -> Self {
         Self { own_face: Some(face), ..self }
     }
 
-    /// What of the surface lies in the region where all faces of another are negative.
+    /// The part of the surface inside the region where all faces of `region` are negative.
     #[must_use]
     pub(crate) fn within(mut self, region: Self) -> Self {
         if self.detail.as_ref().is_some_and(DetailSketch::is_endless) {
             return if region.convex { self.within_convex(region) } else { Self::vague(Aabb::UNBOUNDED) };
         }
         if self.vague.is_some() {
-            // Where in its box the surface is is not known: all that can be said is where both are.
+            // Where in its box the surface lies is unknown: only the part of the box in both is
+            // known.
             self.detail = None;
             return if region.convex { self.within_convex(region) } else { self };
         }
@@ -427,7 +435,8 @@ impl FilterSource {
         self
     }
 
-    /// The same of an endless surface, whose only faces are those that clip it, and of a convex set.
+    /// The part of an unbounded surface, whose only faces are those that clip it, inside a convex
+    /// set.
     fn within_convex(mut self, region: Self) -> Self {
         let away = (region.centre - self.centre).length() + region.reach;
         self.reach = self.reach.min(away * (1.0 + 16.0 * U));
@@ -436,7 +445,7 @@ impl FilterSource {
         self
     }
 
-    /// What of the surface does not.
+    /// The part of the surface outside the region where all faces of `region` are negative.
     #[must_use]
     pub(crate) fn without(mut self, region: Self) -> Self {
         if self.detail.as_ref().is_some_and(DetailSketch::is_endless) {
@@ -453,13 +462,13 @@ impl FilterSource {
         self
     }
 
-    /// The faces with coordinates counted from another point.
+    /// The faces with coordinates relative to another point.
     fn faces_from(self, centre: Point3) -> impl Iterator<Item = Form<N>> {
         let shift = [0, 1, 2].map(|i| N::exact(centre[i]) - N::exact(self.centre[i]));
         self.forms.into_iter().map(move |f| f.seen_from(&shift))
     }
 
-    /// A box that holds the surface; unbounded if only its faces tell where it is.
+    /// A box that holds the surface; unbounded if only its faces bound it.
     pub fn bounds(&self) -> Aabb {
         if let Some(bounds) = self.vague {
             bounds
@@ -470,7 +479,7 @@ impl FilterSource {
         }
     }
 
-    /// The faces that may cut off some of a wall; `None` if one cuts off all of it.
+    /// The faces that may cut off part of a wall; `None` if one of them cuts off all of it.
     fn cutters(&self, wall: usize) -> Option<Box<[u32]>> {
         let known = |face: usize| self.parallel.iter().find(|p| (p.wall, p.face) == (wall, face));
         if self.parallel.iter().any(|p| p.wall == wall && p.cuts) {
@@ -480,7 +489,7 @@ impl FilterSource {
         Some(others.map(|face| face as u32).collect())
     }
 
-    /// The outline; `None` if its numbers are too large or too small for lanes.
+    /// The packet filter; `None` if its numbers are too large or too small for f64 packets.
     pub fn build(&self) -> Option<PacketFilter> {
         let ordinary = self.centre.is_finite()
             && self.centre.to_vec().max_abs() < LARGEST
