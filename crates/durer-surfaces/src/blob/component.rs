@@ -1,13 +1,15 @@
-//! A component as the kernel sees it: its own frame, what it adds at a point, and its pieces along a ray.
+//! A component in its own frame: its field at a point, and its segments along a ray.
 //!
 //! ```text
 //!   w = W (y - m)                y: the blob's frame, in units; w: the component's, in units of its radius
 //!   q = |w|²                     of a ball; of a cylinder's axis from 0 to l along w_z: |w_x, w_y, w_z - clamp(w_z, 0, l)|²
-//!   what it adds: S max(0, 1 - q)²
+//!   field: S max(0, 1 - q)²
 //! ```
 //!
-//! Along a ray `q = m + v (2 b + n v)` with `v = s - at`, seen from the component's own closest approach: all of these are at most about one where `q < 1`, so
-//! that nothing cancels, however small the component is beside the blob. A cylinder has three such pieces, which meet where `w_z` is 0 or `l`.
+//! Along a ray `q = m + v (2 b + n v)` with `v = s - at`, relative to the component's own closest
+//! approach. All of these are at most about one where `q < 1`, so nothing cancels, however small
+//! the component is beside the blob. A cylinder has three such segments, which meet where `w_z` is
+//! 0 or `l`.
 
 use super::BlobShape;
 use super::{BlobComponent, march::Along};
@@ -17,9 +19,10 @@ use crate::{SphereError, Surface};
 use durer_math::eft::{scale2, two_diff};
 use durer_math::{Aabb, Affine, Point3, U, Vec3};
 
-/// Pays for results below the normal range.
+/// Covers underflow.
 const TINY: f64 = durer_math::scale::pow2(-900);
-/// The part of a ray that is looked at, in its parameter: the blob is within `√3` of its centre, in units.
+/// The part of a ray that is examined, in its parameter: the blob is within `√3` of its centre, in
+/// units.
 pub(super) const REACH: f64 = 2.0;
 
 /// A component in units of the blob's frame.
@@ -27,22 +30,23 @@ pub(super) const REACH: f64 = 2.0;
 pub(super) struct Component {
     /// `W`.
     rows: [Vec3; 3],
-    /// `W` is this number, if that is all; else zero.
+    /// The factor if `W` is a multiple of the identity; else zero.
     plain: f64,
     /// `m`, and its error along any axis.
     centre: Vec3,
     centre_err: f64,
-    /// The largest sum of magnitudes in a row of `W`, and of their errors.
+    /// The largest sum of magnitudes in a row of `W`, and the errors.
     size: f64,
     size_err: f64,
-    /// Of the axis; zero for a ball.
+    /// The length of the axis; zero for a ball.
     length: f64,
     strength: f64,
-    /// No less than the norm of the second derivatives of what it adds.
+    /// An upper bound of the norm of the field's second derivatives.
     pub(super) bend: f64,
 }
 
-/// What a component adds along a part of a ray: `strength (1 - m - v (2 b + n v))²`, `v = s - at`, from `from` to `to`.
+/// The field along a part of a ray: `strength (1 - m - v (2 b + n v))²`, `v = s - at`, from `from`
+/// to `to`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FieldSegment {
     pub(super) at: f64,
@@ -52,33 +56,34 @@ pub(super) struct FieldSegment {
     pub(super) from: f64,
     pub(super) to: f64,
     pub(super) strength: f64,
-    /// It adds no more than this; zero where it takes away.
+    /// An upper bound of the field; zero where it is negative.
     pub(super) peak: f64,
     /// The sum of the errors of its coefficients over any part of the stretch, scaled to `[-1, 1]`.
     pub(super) slack: f64,
-    /// The sum of the magnitudes of those coefficients is no larger.
+    /// An upper bound of the sum of the magnitudes of those coefficients.
     pub(super) size: f64,
-    /// `|1 - q|` is no larger where its field begins and ends.
+    /// An upper bound of `|1 - q|` at the computed ends of the field.
     pub(super) seam: f64,
-    /// How fast `w_z` changes, at an end where it meets another piece of its component; else zero.
+    /// The rate of `w_z` at an end where it meets another segment of its component; else zero.
     pub(super) joint: [f64; 2],
-    /// How fast `w` changes.
+    /// The rate of `w`.
     pub(super) speed: f64,
 }
 
-/// Where on a ray a component is asked for which of its pieces.
+/// The part of a ray on which a component has one of its segments.
 struct Segment {
-    /// The height of the point of the axis from which distances are measured; without one, they are measured from the axis.
+    /// The height of the point of the axis from which distances are measured; without one, they are
+    /// measured from the axis.
     lift: Option<f64>,
     low: f64,
     high: f64,
     /// See [`Piece::joint`].
     joint: [f64; 2],
-    /// The error of `w_z`, where there are ends to be told by it.
+    /// The error of `w_z`, where ends depend on it.
     doubt: f64,
 }
 
-/// What a component adds at a point, within an error; and its gradient.
+/// The field at a point, with its error and gradient.
 pub(super) struct Added {
     pub(super) value: f64,
     pub(super) error: f64,
@@ -87,7 +92,7 @@ pub(super) struct Added {
 }
 
 impl BlobComponent {
-    /// A box around all that its field reaches.
+    /// A box around the reach of the field.
     pub(super) fn bounds(&self) -> Result<Aabb, SphereError> {
         let ball = |centre| Ok(crate::Sphere::new(centre, self.radius)?.bounds_through(&self.place));
         match self.shape {
@@ -99,7 +104,7 @@ impl BlobComponent {
 }
 
 impl Component {
-    /// A component as seen from `origin`, in units of `2^scale`.
+    /// A component relative to `origin`, in units of `2^scale`.
     pub(super) fn new(it: &BlobComponent, origin: Point3, scale: i32) -> Self {
         let (start, axis) = match it.shape {
             BlobShape::Ball(c) => (c, Vec3::ZERO),
@@ -146,7 +151,8 @@ impl Component {
             (scale2(x, -scale), scale2((lost.abs() + moved) * (1.0 + 8.0 * U), -scale) + TINY)
         };
         let ((x, ex), (y, ey), (z, ez)) = (apart(0), apart(1), apart(2));
-        // |D²(1 - q)²| <= 8 |W|², as the square of a distance to a convex set has second derivatives between 0 and 2.
+        // `|D²(1 - q)²| <= 8 |W|²`, as the square of a distance to a convex set has second
+        // derivatives between 0 and 2.
         let norm: f64 = rows.iter().map(|r| r.x * r.x + r.y * r.y + r.z * r.z).sum();
         let plain = if unmoved && length == 0.0 { factor } else { 0.0 };
         let norm = if plain > 0.0 { plain * plain } else { norm };
@@ -163,7 +169,7 @@ impl Component {
         }
     }
 
-    /// The same for eight rays at a time.
+    /// The field for packets of eight rays.
     pub(super) fn for_lanes(&self) -> Field {
         let Self { rows, centre, centre_err, size, size_err, length, strength, bend, .. } = *self;
         Field { rows, size, size_err, centre, centre_err, length, strength, bend }
@@ -178,7 +184,8 @@ impl Component {
         Vec3::new(self.rows[0].dot(v), self.rows[1].dot(v), self.rows[2].dot(v))
     }
 
-    /// The pieces along a ray. What a field that all but misses the ray could add is added to `charge`.
+    /// The segments along a ray. The possible field of a component that almost misses the ray is
+    /// added to `charge`.
     #[inline(always)]
     pub(super) fn pieces(&self, ray: &Along, charge: &mut f64, mut show: impl FnMut(FieldSegment)) {
         let r = ray.o - self.centre;
@@ -188,13 +195,14 @@ impl Component {
             self.piece(ray, (r, a), &whole, charge, &mut show);
             return;
         }
-        // w_z along the ray, within `doubt` on all of it.
+        // `w_z` along the ray, within `doubt` everywhere.
         let (height, rate) = (self.rows[2].dot(r), a.z);
         let doubt = self.error_at(ray, r.max_abs(), REACH)
             + REACH * self.rate_error(ray)
             + (height.abs() + REACH * rate.abs() + self.length) * (16.0 * U);
         let (low, high) = (-height / rate, (self.length - height) / rate);
-        // Where it passes the ends of the axis, in the order of the ray; it may be between them, or beyond one, all along.
+        // Where the ray passes the ends of the axis, in its order; it may be between them, or
+        // beyond one, everywhere.
         let within = |s: f64| s.clamp(-REACH, REACH);
         let (enter, leave) = if rate == 0.0 {
             match height {
@@ -238,7 +246,7 @@ impl Component {
         self.size * ray.d_err + (self.size_err + self.size * (4.0 * U)) * 2.0 + TINY
     }
 
-    /// One piece. `r` is the ray's start as seen from the component, and `a` is `W d`.
+    /// One segment. `r` is the ray's start relative to the component, and `a` is `W d`.
     #[inline(always)]
     fn piece(
         &self,
@@ -255,19 +263,19 @@ impl Component {
         };
         let a = if lift.is_some() { a } else { Vec3::new(a.x, a.y, 0.0) };
         let n = a.dot(a);
-        // The closest approach, as well as it can be had; any number will do. What is not a number becomes an end.
+        // The closest approach, rounded; any number will do. NaN becomes an end.
         let at = (-placed(self.turned(r)).dot(a) / n).max(low).min(high);
         let y = Vec3::new(at.mul_add(ray.d.x, r.x), at.mul_add(ray.d.y, r.y), at.mul_add(ray.d.z, r.z));
         let w = placed(self.turned(y));
         let (m, b) = (w.dot(w), w.dot(a));
-        // Passed by, where the errors are far below one, as they mostly are.
+        // A miss where the errors are far below one, as they mostly are.
         let (e_w, e_a) = (self.error_at(ray, y.max_abs(), at), self.rate_error(ray));
         let top = if n > 0.0 { (-b / n).max(low - at).min(high - at) } else { 0.0 };
         let most = 1.0 - m - top * (2.0 * b + n * top);
         if most < -0.125 && e_w + (2.0 * REACH) * e_a < 1.0 / 1024.0 {
             return;
         }
-        // q = 1 at v = (-b ± √(b² + n (1 - m))) / n, without a difference of equals.
+        // `q = 1` at `v = (-b ± √(b² + n (1 - m))) / n`, without cancellation.
         let square_root = b.mul_add(b, n * (1.0 - m)).max(0.0).sqrt();
         let (first, last) = if b > 0.0 {
             let sum = -b - square_root;
@@ -278,7 +286,8 @@ impl Component {
         };
         let (from, to) = ((at + first).max(low).min(high), (at + last).min(high).max(low));
         let far = (from - at).abs().max((to - at).abs()).max(top.abs());
-        // |q exact - q| <= 2√3 G E + 3 E² with G² <= 2 (m + n V²), E = e_w + V e_a; and the roundings of q as it is evaluated.
+        // `|q exact - q| <= 2√3 G E + 3 E²` with `G² <= 2 (m + n V²)`, `E = e_w + V e_a`; and the
+        // roundings of `q`.
         let extent = far.mul_add(far * n, m);
         let whole = (2.0 * far).mul_add(b.abs(), extent);
         let e = far.mul_add(e_a, e_w);
@@ -314,7 +323,7 @@ impl Component {
         });
     }
 
-    /// What it adds at `y`, each coordinate known within `e`.
+    /// The field at `y`, each coordinate known within `e`.
     #[inline(always)]
     pub(super) fn added(&self, y: Vec3, e: f64) -> Added {
         let z = y - self.centre;
@@ -367,8 +376,8 @@ impl FieldSegment {
         c[4] = sq.mul_add(q2, c[4]);
     }
 
-    /// No less than what is wrong between `border` and `s` beyond it if the piece is not told at the border that it begins or ends there; and no less than
-    /// how fast that grows.
+    /// A bound on the error between `border` and `s` beyond it if the segment is not switched at
+    /// the border where it begins or ends; and a bound on the growth of that error.
     #[inline(always)]
     pub(super) fn overrun(&self, border: f64, s: f64) -> (f64, f64) {
         let strength = self.strength.abs();
@@ -378,7 +387,8 @@ impl FieldSegment {
             }
             let way = (s - end) * (1.0 + 8.0 * U);
             if joint > 0.0 {
-                // The squares of the distances differ by w_z² there; each of the two pieces is asked.
+                // The squares of the distances differ by `w_z²` there; each of the two segments is
+                // charged.
                 let off = joint.mul_add(way, self.seam);
                 return (4.0 * strength * (off * off), 8.0 * strength * off * joint);
             }

@@ -1,8 +1,10 @@
-//! Along a ray: fields begin and end, and between two such points the sum is one polynomial.
+//! A blob along a ray: fields begin and end, and between two such points the sum is one polynomial.
 //!
-//! The points are rounded, and nothing is lost by it: `(1 - q)²` has a double zero where the field begins, and so have, along the axis, the
-//! differences of a cylinder's pieces. A point that is wrong by `δ` puts an error of the order of `δ²` into the sum, which is charged. The same
-//! serves where a crossing is so near such a point that the sign there is open: the stretch is then continued a little beyond it.
+//! The points are rounded, and nothing is lost by that: `(1 - q)²` has a double zero where the
+//! field begins, and so have, along the axis, the differences between a cylinder's segments. An
+//! error `δ` of a point adds an error of order `δ²` to the sum, which is included. The same
+//! argument helps where a crossing is so near such a point that the sign there is unknown: the
+//! stretch is then extended a little beyond it.
 
 use super::Blob;
 use super::component::{FieldSegment, REACH};
@@ -25,7 +27,7 @@ pub(super) struct Along {
     pub(super) d_err: f64,
     /// The largest coordinate of `o`.
     pub(super) o_size: f64,
-    /// Whether boxes leave room for its errors.
+    /// Whether the boxes leave room for the ray's errors.
     pub(super) known: bool,
 }
 
@@ -39,16 +41,16 @@ impl Along {
     }
 }
 
-/// The lists of a ray; kept by the thread, so that rays do not allocate.
+/// Lists of one ray, kept by the thread so that rays do not allocate.
 #[derive(Default)]
 struct Lists {
     /// Nodes not yet opened, with their entries.
     nodes: Vec<(f64, u32)>,
-    /// All pieces that are known.
+    /// All segments found so far.
     pieces: Vec<FieldSegment>,
-    /// Those that are still ahead, the nearest last.
+    /// Segments still ahead, the nearest last.
     waiting: Vec<u32>,
-    /// Those that are here.
+    /// Segments at the current point.
     active: Vec<u32>,
 }
 
@@ -65,11 +67,11 @@ thread_local! {
     static LISTS: Cell<Lists> = Cell::default();
 }
 
-/// What is known so far, and what is to be told.
+/// The state of the march, and the crossings that are not yet reported.
 struct CrossingLog {
     /// Whether the sum is above the threshold before `open`.
     before: Option<bool>,
-    /// Where it cannot be told.
+    /// The unresolved stretch.
     open: Option<(f64, f64)>,
     least: f64,
 }
@@ -80,23 +82,24 @@ struct Query<'a> {
     line: Along,
     sink: &'a mut dyn Sink,
     lists: Lists,
-    /// What all known pieces could add where they are taken for none, and how fast that may change.
+    /// A bound on the fields of all segments that are treated as absent, and on its rate of change.
     charge: f64,
     bent: f64,
-    /// Of the ray's range, each within rounding.
+    /// The ends of the ray's range, each within rounding.
     ends: [(f64, f64); 2],
-    /// Crossings behind this are of no interest.
+    /// Crossings beyond this do not matter.
     last: f64,
-    /// Nothing before this is looked at.
+    /// Nothing before this is examined.
     begin: f64,
-    /// Whether the ray starts inside, if it was spawned on the surface, and where.
+    /// For a ray that was spawned on the surface: whether it starts inside, and where.
     start: Option<(bool, EFloat)>,
     tracker: CrossingLog,
-    /// What could not be told reaches over the begin, so that the sign before it is not known: all of the ray has to be looked at.
+    /// An unresolved stretch reaches over the beginning, so the sign before it is unknown: the
+    /// whole ray must be examined.
     blind: bool,
 }
 
-/// Shows all crossings to `sink`, ascending.
+/// Passes all crossings to `sink`, ascending.
 #[inline(always)]
 pub(super) fn roots(blob: &Blob, at: &CentredRay<'_>, sink: &mut dyn Sink) {
     let line = Along::new(at);
@@ -106,7 +109,7 @@ pub(super) fn roots(blob: &Blob, at: &CentredRay<'_>, sink: &mut dyn Sink) {
     let ends = at.ends((ray.t_min, ray.t_max));
     let window = at.window((ray.t_min, ray.t_max.min(sink.limit())));
     let start = at.spawned().map(|(side, _, s)| (side == RaySide::Back, s));
-    // A little before the range, where the sign is known more likely than at its very start.
+    // A little before the range, where the sign is more likely to be known than at its very start.
     let begin = start.map_or(window.0 - 1.0 / 1024.0, |(_, s)| s.v);
     let mut begin = begin;
     loop {
@@ -140,7 +143,7 @@ pub(super) fn roots(blob: &Blob, at: &CentredRay<'_>, sink: &mut dyn Sink) {
 }
 
 impl Query<'_> {
-    /// Puts a node on the list, if the ray meets it.
+    /// Adds a node to the list, if the ray meets it.
     #[inline(always)]
     fn meet(&mut self, node: u32) {
         if let Some((near, far)) = self.blob.tree.entry(node, &self.line)
@@ -150,7 +153,8 @@ impl Query<'_> {
         }
     }
 
-    /// Opens nodes until all pieces that begin before `s` are known, or the next that begins is; gives where that does.
+    /// Opens nodes until all segments that begin before `s` are known, or the next one that begins.
+    /// Returns where it begins.
     #[inline(always)]
     fn reveal(&mut self, s: f64) -> f64 {
         loop {
@@ -208,7 +212,8 @@ impl Query<'_> {
                 .active
                 .iter()
                 .fold(f64::INFINITY, |least: f64, &i| least.min(self.lists.pieces[i as usize].to));
-            // What begins within a stretch must be known, also behind what is of interest.
+            // Segments that begin within a stretch must be known, also beyond the part that
+            // matters.
             let ahead = if self.lists.active.is_empty() { self.last } else { leave };
             let next = self.reveal(ahead).min(leave);
             if (here > self.last && self.tracker.open.is_none()) || next == f64::INFINITY {
@@ -240,7 +245,8 @@ impl Query<'_> {
                 }
             }
         }
-        // Behind the last field the sum is zero. A ray that ends within one may leave what it could not tell.
+        // Behind the last field the sum is zero. A ray that ends within a field may leave an
+        // unresolved stretch open.
         let after = self.lists.active.is_empty().then_some(false);
         self.close(after);
     }
@@ -263,16 +269,18 @@ impl Query<'_> {
         Stretch { mid, half, c, slack, bent: 5.0 * half * self.bent }
     }
 
-    /// Tells a stretch apart. Gives where it ends: at `hi`, or a little beyond; `None` if nothing more is wanted.
+    /// Classifies a stretch. Returns its end, `hi` or a little beyond; `None` if nothing more is
+    /// wanted.
     #[inline(always)]
     fn stretch(&mut self, lo: f64, hi: f64) -> Option<f64> {
         let most = self.lists.active.iter().fold(0.0, |sum, &i| sum + self.lists.pieces[i as usize].peak);
         if (most + self.charge) * (1.0 + 1.0 / 1024.0) < self.blob.threshold {
             return (self.report(SegmentRoot::Sign(false)) == Flow::Continue).then_some(hi);
         }
-        // What the stretch before has told of its end is certain of the sum itself, though rounding may hide it here.
+        // The previous stretch's result at its end is certain for the sum itself, though rounding
+        // may hide it here.
         let told = if self.tracker.open.is_none() { self.tracker.before } else { None };
-        // So is where a ray starts that was spawned on the surface.
+        // So is the start of a ray that was spawned on the surface.
         let (mut lo, mut first, mut late) = (lo, told, 0.0);
         if lo < self.begin {
             (lo, first) = (self.begin, None);
@@ -319,7 +327,7 @@ impl Query<'_> {
         }
         let (ends, scale) = (self.ends, self.scale());
         let rough = self.at.local().rough;
-        // Pictures, too, must know on which side of an end of the range a crossing is.
+        // Pictures, too, must know on which side of an end of the range a crossing lies.
         let widest = |s: f64| {
             let away = |(lo, hi): (f64, f64)| (lo - s).max(s - hi);
             let rough = rough && away(ends[0]).min(away(ends[1])) > 4.0 * PREVIEW_WIDTH * scale(s);
@@ -367,14 +375,15 @@ impl Query<'_> {
         }
     }
 
-    /// What brackets are measured by.
+    /// The unit for widths of brackets.
     #[inline(always)]
     fn scale(&self) -> impl Fn(f64) -> f64 + use<> {
         let origin = self.at.shift();
         move |s: f64| (origin + s).abs().max(s.abs()).max(0.5)
     }
 
-    /// Shows a crossing between certain signs, in a bracket as narrow as it can be; of pictures only where it may be on either side of an end of the range.
+    /// Reports a crossing between certain signs, in the narrowest bracket; for pictures only where
+    /// it may lie on either side of an end of the range.
     fn crossing(&mut self, found: Bracket) -> Flow {
         let (lo, hi) = self.at.bracket(found.lo, found.hi);
         let found = if self.at.local().rough && self.at.admits(lo, hi).is_some() {
@@ -387,7 +396,7 @@ impl Query<'_> {
         self.show(found.s, (found.lo, found.hi), if found.rises { -1 } else { 1 }, kind)
     }
 
-    /// What could not be told ends where the sign is `after`.
+    /// The unresolved stretch ends where the sign is `after`.
     fn close(&mut self, after: Option<bool>) -> Flow {
         let Some((lo, hi)) = self.tracker.open.take() else { return Flow::Continue };
         let s = (0.5 * lo + 0.5 * hi).max(lo).min(hi);
@@ -400,7 +409,7 @@ impl Query<'_> {
         }
     }
 
-    /// What could not be told ends on the side on which it began.
+    /// The unresolved stretch ends on the side on which it began.
     #[cold]
     fn touch(&mut self, stretch: (f64, f64), out: bool) -> Flow {
         match self.blob.touched(self.at, stretch, out) {
@@ -419,8 +428,9 @@ impl Query<'_> {
         }
     }
 
-    /// Whether a crossing whose bracket holds an end of the range is beyond it: there it is not yet on the side to which it goes, or already. So it is in one of two ranges that
-    /// meet there, however its bracket was found.
+    /// Whether a crossing whose bracket holds an end of the range lies beyond it, decided by the
+    /// sign at the end. So the crossing is in exactly one of two ranges that meet there, whatever
+    /// its bracket.
     #[cold]
     fn is_beyond(&self, (lo, hi): (f64, f64), sign: i8) -> bool {
         let within = |end: f64| end.is_finite() && lo <= end && end <= hi;
@@ -430,7 +440,7 @@ impl Query<'_> {
                 || within(self.at.end(End::Max)) && self.blob.is_out_at(self.at, End::Max) == Some(sign < 0))
     }
 
-    /// Shows a root, unless it is certainly out of the ray's range.
+    /// Passes on a root, unless it is certainly out of the ray's range.
     #[inline(never)]
     fn show(&mut self, s: f64, ends: (f64, f64), sign: i8, kind: RootKind) -> Flow {
         Isa::detect().run(

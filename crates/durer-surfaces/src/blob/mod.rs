@@ -1,4 +1,4 @@
-//! Blobs: fields of balls and sausages, added up; the surface is where the sum has one value.
+//! Blobs: the surface where a sum of fields of balls and cylinders has one value.
 //!
 //! ```text
 //!   sum of S max(0, 1 - d²/R²)² = T,  inside: more
@@ -6,17 +6,23 @@
 //!   d: the distance from the centre of a ball component, or from the segment that is the axis of a cylinder component
 //! ```
 //!
-//! J. F. Blinn, "A generalization of algebraic surface drawing", *ACM Transactions on Graphics* 1(3), 1982, with fields of finite reach: G. Wyvill,
-//! C. McPheeters, B. Wyvill, "Data structure for soft objects", *The Visual Computer* 2, 1986. Strengths may be negative: such components dent.
+//! J. F. Blinn, "A generalization of algebraic surface drawing", *ACM Transactions on Graphics*
+//! 1(3), 1982, with fields of finite reach: G. Wyvill, C. McPheeters, B. Wyvill, "Data structure
+//! for soft objects", *The Visual Computer* 2, 1986. Strengths may be negative: such components
+//! dent the surface.
 //!
-//! Along a ray each field begins and ends, and in between it is a polynomial of degree four (`component.rs`), and so is their sum between two such points
-//! (`march.rs`): T. Nishita, E. Nakamae, "A method for displaying metaballs by using Bézier clipping", *Computer Graphics Forum* 13(3), 1994. It is
-//! summed anew for each stretch, so that no rounding is carried along, and its sign is told in Bernstein form (`segment.rs`). Which fields a
-//! ray meets, a tree of boxes says in the order of the ray (`tree.rs`; O. Gourmel et al., "Fitted BVH for fast raytracing of metaballs", *Computer
-//! Graphics Forum* 29(2), 2010).
+//! Along a ray each field begins and ends, and in between it is a polynomial of degree four
+//! (`component.rs`). So is the sum between two such points (`march.rs`): T. Nishita, E. Nakamae, "A
+//! method for displaying metaballs by using Bézier clipping", *Computer Graphics Forum* 13(3),
+//! 1994. The sum is computed anew for each stretch, so no rounding accumulates, and its sign
+//! follows from its Bernstein form (`segment.rs`). A tree of boxes finds the fields that a ray
+//! meets, in the order of the ray (`tree.rs`; O. Gourmel et al., "Fitted BVH for fast raytracing of
+//! metaballs", *Computer Graphics Forum* 29(2), 2010).
 //!
-//! What is proven: a root of kind simple is the only crossing in its bracket, at whose ends the sum is certainly on opposite sides of the threshold.
-//! Where f64 cannot tell the sign over a stretch (at tangents, mostly) the crossings there are one [`RootKind::Cluster`](crate::RootKind).
+//! A simple root is proven to be the only crossing in its bracket, and the sum is certainly on
+//! opposite sides of the threshold at the bracket's ends. Where f64 cannot decide the sign over a
+//! stretch (mostly at tangents) the crossings there form one
+//! [`RootKind::Cluster`](crate::RootKind).
 
 mod component;
 mod march;
@@ -38,7 +44,7 @@ use durer_math::{Aabb, Affine, Dyadic, Isa, Point3};
 use std::sync::Arc;
 use tree::Tree;
 
-/// What a field's distance is measured from.
+/// The point or segment from which a field's distance is measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BlobShape {
     /// A point.
@@ -47,16 +53,16 @@ pub enum BlobShape {
     Segment(Point3, Point3),
 }
 
-/// A term of the sum.
+/// One component of the sum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BlobComponent {
-    /// What its field surrounds.
+    /// The centre of the field.
     pub shape: BlobShape,
-    /// How far its field reaches; positive.
+    /// The reach of the field; positive.
     pub radius: f64,
-    /// How strong it is at distance zero.
+    /// The strength of the field at distance zero.
     pub strength: f64,
-    /// From its own frame to the blob's.
+    /// The map from the component's frame to the blob's.
     pub place: Affine,
 }
 
@@ -69,13 +75,13 @@ pub enum BlobError {
     /// A strength is infinite or NaN.
     #[error("blob: the strength of a component must be finite, got {0}")]
     Strength(f64),
-    /// No component has a positive strength: the sum is nowhere the threshold.
+    /// No component has a positive strength: the sum never reaches the threshold.
     #[error("blob: none of its components has a positive strength, so it has no surface")]
     Nothing,
-    /// The radius or the centre of a component is none.
+    /// The radius or the centre of a component is not valid.
     #[error("blob: {0}")]
     Component(#[from] SphereError),
-    /// Its components reach too far or nowhere.
+    /// The components reach too far or nowhere.
     #[error("blob: {0}")]
     Container(#[from] AxisBoxError),
     /// There are more components than can be numbered.
@@ -83,23 +89,25 @@ pub enum BlobError {
     Count(usize),
 }
 
-/// The solid in which the fields of its components add up to more than its threshold. One face.
+/// The solid in which the fields of the components add up to more than the threshold. It has one
+/// face.
 ///
 /// # Invariants
 ///
-/// The threshold is positive and finite; with that all of the surface is where components of positive strength reach.
+/// The threshold is positive and finite, so the whole surface lies where components of positive
+/// strength reach.
 #[derive(Clone, Debug)]
 pub struct Blob {
     threshold: f64,
     bounds: Aabb,
     centre: Point3,
     scale: i32,
-    /// A ball about the centre with this radius holds it.
+    /// The radius of a ball about the centre that holds the blob.
     reach: f64,
     parts: Arc<[Component]>,
-    /// The components that the parts were made of.
+    /// The components after sorting into the tree's order.
     components: Arc<[BlobComponent]>,
-    /// The numbers of these in the caller's list.
+    /// The numbers of the components in the caller's list.
     numbers: Arc<[u32]>,
     tree: Arc<Tree>,
 }
@@ -132,7 +140,7 @@ impl Blob {
         let centre = bounds.centre();
         let reach = bounds.reach_from(centre);
         let scale = exponent(reach) + 1;
-        // Components that are nowhere near add nothing where there is a surface.
+        // Distant components add nothing where there is a surface.
         let meets = |b: &Aabb| b.intersection(bounds);
         let (mut parts, mut units) = (Vec::with_capacity(boxes.len()), Vec::with_capacity(boxes.len()));
         let mut sources = Vec::with_capacity(boxes.len());
@@ -165,7 +173,7 @@ impl Blob {
     }
 }
 
-/// Those with the same threshold and the same list of components are equal.
+/// Blobs are equal if threshold and list of components are.
 impl PartialEq for Blob {
     fn eq(&self, other: &Self) -> bool {
         self.threshold == other.threshold
@@ -210,7 +218,7 @@ impl Surface for Blob {
 }
 
 impl Algebraic for Blob {
-    /// None: along a ray it is one polynomial after another.
+    /// A blob has no polynomial of its own along a ray: it is one polynomial after another.
     fn polynomial(&self, _face: u32, _ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
         None
     }

@@ -1,4 +1,4 @@
-//! What a blob is at a point: the sum of the fields, its gradient, and how it bends.
+//! A blob at a point: the sum of the fields, its gradient, and bounds of its second derivatives.
 
 use super::Blob;
 use crate::point::least_step;
@@ -7,12 +7,12 @@ use crate::{LocalPoint, LocalRay, Need, Root, Side, SurfacePoint};
 use durer_math::eft::{scale2, two_sum};
 use durer_math::{Isa, Point3, U, Vec3};
 
-/// What is said of the surroundings of a point holds as far from it, along any axis, in units.
+/// Bounds around a point hold up to this distance along any axis, in units.
 pub(super) const ROOM: f64 = durer_math::scale::pow2(-16);
-/// Pays for results below the normal range.
+/// Covers underflow.
 const TINY: f64 = durer_math::scale::pow2(-500);
 
-/// The threshold without the sum of the fields: less inside.
+/// The threshold minus the sum of the fields: negative inside.
 pub(super) struct Near {
     pub(super) value: f64,
     pub(super) error: f64,
@@ -23,7 +23,7 @@ pub(super) struct Near {
 }
 
 impl Blob {
-    /// At `y`, each coordinate of which is known within `e`.
+    /// The values at `y`, each coordinate of which is known within `e`.
     #[inline(always)]
     pub(super) fn near(&self, y: Vec3, e: f64) -> Near {
         let mut sum =
@@ -50,8 +50,8 @@ impl Blob {
         sum
     }
 
-    /// The fields that reach a point of the blob's own frame near its surface: the number of each component in the list that the blob was made of, and the value of its field
-    /// there, rounded.
+    /// The fields that reach a point of the blob's own frame near its surface: for each the
+    /// component's number in the caller's list, and the rounded value of its field.
     pub fn fields_at(&self, p: Point3, mut take: impl FnMut(usize, f64)) {
         let y = (p - self.centre).map(|x| scale2(x, -self.scale));
         Isa::detect().run(
@@ -72,7 +72,7 @@ impl Blob {
         );
     }
 
-    /// The sign of the threshold without the sum, if it is certain.
+    /// The sign of the threshold minus the sum, if it is certain.
     #[inline(always)]
     fn is_out(&self, y: Vec3, e: f64) -> Option<bool> {
         let near = self.near(y, e);
@@ -81,7 +81,7 @@ impl Blob {
 
     pub(super) fn side_of(&self, point: &LocalPoint<'_>) -> Side {
         let (y, e) = point.relative_to(self.centre, self.scale);
-        // Also for points far from what the boxes hold.
+        // Also for points far outside the boxes.
         let out = Isa::detect().run(
             #[inline(always)]
             || self.is_out(y, e.max_abs()),
@@ -107,7 +107,7 @@ impl Blob {
         let y = Vec3::new(s.mul_add(at.d.x, at.o.x), s.mul_add(at.d.y, at.o.y), s.mul_add(at.d.z, at.o.z));
         let e_y = at.o_err + at.d_err * s.abs() + y.abs() * U;
         let (y1, near) = self.projected(y);
-        // The frame's numbers; what their rounding loses is known exactly.
+        // The frame's numbers; their rounding is known exactly.
         let axis = |c: f64, y: f64| two_sum(c, scale2(y, self.scale));
         let ((px, lx), (py, ly), (pz, lz)) =
             (axis(self.centre.x, y1.x), axis(self.centre.y, y1.y), axis(self.centre.z, y1.z));
@@ -116,7 +116,8 @@ impl Blob {
         let width = at.width(root.lo, root.hi);
         let dp = (e_y + at.d.abs() * width + (y1 - y).abs() * (1.0 + 4.0 * U) + lost) * (1.0 + 16.0 * U);
 
-        // A start at p ± off n + τ, τ what rounding adds away from the surface, has |f| >= off |G| - h (off² + |τ|²) - η; see `off` of quadrics.
+        // A start at `p ± off n + τ`, with `τ` the rounding away from the surface, has `|f| >= off
+        // |G| - h (off² + |τ|²) - η`; see `off` of quadrics.
         let tau = scale2(p.to_vec().max_abs(), -self.scale) * (6.0 * U) + TINY;
         let g = near.gradient;
         let length = g.length();
@@ -168,7 +169,8 @@ impl Blob {
         (y, near)
     }
 
-    /// How far to go along `n`, either way, until the sign is certain, also for all points within `e` and a 64th of the way.
+    /// The distance along `n`, either way, at which the sign is certain, also for all points within
+    /// `e` and a 64th of the way.
     #[inline(always)]
     fn leave(&self, y: Vec3, n: Vec3, e: f64) -> f64 {
         let mut way = 64.0 * (e + U * y.max_abs());

@@ -1,10 +1,14 @@
-//! Crossings and touches looked at closely: by the sum in double-double, at points of the exact ray.
+//! Crossings and touches in double-double, at points of the exact ray.
 //!
-//! What f64 cannot tell of a stretch is told by three things at its points: the value of the sum within some `2^-100` of the fields' strengths, the slope along the ray
-//! and a bound of how it bends. So the sign is known as far around a point as a parabola says, and a crossing is the only one where the slope outweighs the bend.
+//! Where f64 leaves a stretch undecided, three things at its points decide it: the value of the sum
+//! within some `2^-100` of the fields' strengths, the slope along the ray, and a bound on the
+//! second derivative. So the sign is known as far around a point as a parabola allows, and a
+//! crossing is the only one where the slope outweighs the second derivative.
 //!
-//! A component's value is worked out from its own numbers, `q = |L⁻¹ (p - c) - a|² / R²`. Where it is not certain on which side of an axis's end a point
-//! is, `q` differs by no more than `h² / |b - a|²`, with `h` the part along the axis of the way from that end; what is outside of the field by less than is known adds no more than the square of that.
+//! The field of a component is computed from its own numbers, `q = |L⁻¹ (p - c) - a|² / R²`. Where
+//! it is uncertain on which side of an axis's end a point lies, `q` differs by no more than `h² /
+//! |b - a|²`, with `h` the component along the axis of the vector from that end. A point that is
+//! outside the field by less than the error adds no more than the square of the error.
 
 use super::point::ROOM;
 use super::{Blob, BlobComponent, BlobShape};
@@ -13,7 +17,8 @@ use arrayvec::ArrayVec;
 use core::cmp::Ordering;
 use durer_math::{Dd, EFloat, Isa, Point3, Ring, U, Vec3};
 
-/// So often a bracket is shortened at most, and so many steps a sign is followed: next to a tangent a step goes about as far as the tangent's middle is.
+/// The most steps in which a bracket is shortened or a sign is followed: next to a tangent a step
+/// is about as long as the distance from the tangent's middle.
 const MOST_STEPS: u32 = 64;
 
 type Exact = EFloat<Dd>;
@@ -30,16 +35,16 @@ pub(super) struct Bracket {
     pub(super) alone: bool,
 }
 
-/// What is said of a stretch with the same sign before and behind.
+/// The classification of a stretch with the same sign before and behind.
 #[derive(Clone, Debug)]
 pub(super) enum Touch {
     /// Crossings: none, or two.
     Crossings(ArrayVec<Bracket, 2>),
-    /// It cannot be told, of so much of it.
+    /// Undecided on this part.
     Open(f64, f64),
 }
 
-/// A number in f64, and how far off it may be.
+/// A number in f64, and its error.
 fn enclosed(x: Exact) -> (f64, f64) {
     let v = x.value();
     (v, (x.hi() - v).max(v - x.lo()).next_up())
@@ -53,7 +58,7 @@ fn difference(a: Point3, b: Point3) -> [Exact; 3] {
     [0, 1, 2].map(|i| Exact::exact(a[i]) - Exact::exact(b[i]))
 }
 
-/// A number along a ray, and how fast it changes.
+/// A number along a ray, and its rate of change.
 #[derive(Clone, Copy)]
 struct Moving {
     value: Exact,
@@ -81,13 +86,13 @@ impl Moving {
         Self::new(self.value * self.value, (self.value * self.slope).scale2(1))
     }
 
-    /// All that it may be if it may as well be zero.
+    /// The interval of all that the number may be if it may also be zero.
     fn doubtful(self) -> Self {
         let around = |x: Exact| Exact::with_error(Dd::from(0.0), x.magnitude());
         Self::new(around(self.value), around(self.slope))
     }
 
-    /// The square of what is positive of it.
+    /// The square of its positive part.
     fn positive_squared(self) -> Self {
         match self.value.sign() {
             Some(Ordering::Greater) => self.squared(),
@@ -108,7 +113,7 @@ fn square(a: &[Moving; 3]) -> Moving {
 }
 
 impl BlobComponent {
-    /// What it adds at a point of the blob's own frame that moves.
+    /// The field at a moving point of the blob's own frame.
     fn added(&self, p: &[Moving; 3]) -> Moving {
         let (adjugate, determinant) = self.place.adjugate::<Exact>();
         let c = self.place.centre();
@@ -120,7 +125,8 @@ impl BlobComponent {
             BlobShape::Segment(a, b) => {
                 let (axis, first, last) = (difference(b, a), from(a), from(b));
                 let shorter = Exact::exact(1.0) / dot(&axis, &axis);
-                // What the axis takes away: nothing before its start or behind its end.
+                // The part of the distance that the axis removes: nothing before its start or
+                // behind its end.
                 let (h, rest) = (along(&first, &axis), Moving::none().minus(along(&last, &axis)));
                 if rest.value.sign() == Some(Ordering::Greater) {
                     square(&first).minus(h.positive_squared().times(shorter))
@@ -136,12 +142,12 @@ impl BlobComponent {
     }
 }
 
-/// What the threshold without the sum is at a place of a ray.
+/// The threshold minus the sum at a point of a ray.
 #[derive(Clone, Copy)]
 struct RefinedValue {
     value: f64,
     error: f64,
-    /// How fast it grows, and how well that is known.
+    /// Its rate of change, and the error of that.
     slope: f64,
     doubt: f64,
     /// A bound of the second derivatives along the ray, as far as [`ROOM`].
@@ -162,7 +168,7 @@ struct Points<'a> {
     o_err: Vec3,
     d: Vec3,
     d_err: Vec3,
-    /// As they are, where f64 does not do.
+    /// The exact ray, where f64 does not suffice.
     exact: Option<RingRay<Exact>>,
 }
 
@@ -175,7 +181,7 @@ impl<'a> Points<'a> {
         Some(Self { exact: Some(at.in_ring()?), ..Self::rounded(blob, at) })
     }
 
-    /// Of the direction, no less than it is.
+    /// An upper bound of the direction's length.
     fn length(&self) -> f64 {
         (self.d.length() + 2.0 * self.d_err.max_abs()) * (1.0 + 8.0 * U)
     }
@@ -211,7 +217,8 @@ impl<'a> Points<'a> {
         place
     }
 
-    /// A bracket between certain signs, made as short as signs at its points make it: Newton's method, and halving where that leaves the bracket.
+    /// A bracket between certain signs, shortened as far as signs at its points allow: Newton's
+    /// method, and bisection where that leaves the bracket.
     fn narrow(&self, mut found: Bracket) -> Bracket {
         let mut s = found.s.max(found.lo).min(found.hi);
         let mut reach = f64::INFINITY;
@@ -243,11 +250,12 @@ impl<'a> Points<'a> {
         found
     }
 
-    /// Whether a crossing in the inner of two brackets is the only one in both: the sum rises all over the inner one, or falls, and keeps its sign in the rest.
+    /// Whether a crossing in the inner of two brackets is the only one in both: the sum is monotone
+    /// on the inner one and keeps its sign in the rest.
     fn is_alone(&self, inner: &Bracket, whole: &Bracket) -> bool {
         let at = self.at(0.5 * inner.lo + 0.5 * inner.hi);
         let way = 0.5 * (inner.hi - inner.lo) * (1.0 + 8.0 * U) + f64::MIN_POSITIVE;
-        // The threshold without the sum falls where that rises.
+        // The threshold minus the sum falls where the sum rises.
         let least = if inner.rises { -at.slope } else { at.slope } - at.doubt - at.bend * way;
         way * self.length() < ROOM
             && least > 0.0
@@ -255,8 +263,9 @@ impl<'a> Points<'a> {
             && self.keeps_its_sign((inner.hi, whole.hi), !inner.rises)
     }
 
-    /// Whether the threshold without the sum is certainly above zero, or below, from one parameter to another: with a value `v`, a growth of at least `g` and second derivatives
-    /// of at most `h` it is above `v + g w - h w²/2` a way `w` further on, so that each step goes as far as that is above zero.
+    /// Whether the threshold minus the sum certainly keeps its sign from one parameter to another.
+    /// With a value `v`, a slope of at least `g` and second derivatives of at most `h` it is above
+    /// `v + g w - h w²/2` at a distance `w`, and each step goes as far as that is positive.
     fn keeps_its_sign(&self, (from, to): (f64, f64), above: bool) -> bool {
         let away = if to < from { -1.0 } else { 1.0 };
         let sense = if above { 1.0 } else { -1.0 };
@@ -271,7 +280,7 @@ impl<'a> Points<'a> {
             let root = (g * g + 2.0 * h * v).sqrt();
             let reach = if g > 0.0 { (g + root) / h } else { 2.0 * v / (root - g) };
             let next = s + away * (reach * (1.0 - 1.0 / 64.0)).min(ROOM / length * 0.5);
-            // A step of some units in the last place would be one of roundings.
+            // A step of a few ulps would measure only rounding.
             let goes_on = v > 0.0 && (next - s).abs() > s.abs() * (256.0 * U);
             if !goes_on {
                 return false;
@@ -281,7 +290,8 @@ impl<'a> Points<'a> {
         false
     }
 
-    /// Where the sum is nearest to the threshold, about, between two places on one side of it.
+    /// Approximately where the sum is nearest to the threshold, between two places on one side of
+    /// it.
     fn turn(&self, (mut lo, mut hi): (f64, f64), out: bool) -> f64 {
         for _ in 0..MOST_STEPS {
             let s = 0.5 * lo + 0.5 * hi;
@@ -299,7 +309,8 @@ impl<'a> Points<'a> {
 }
 
 impl Blob {
-    /// The crossing in a narrower bracket, if it is not as narrow as `enough` or not yet known to be alone.
+    /// The crossing in a narrower bracket, if it is wider than `enough` or not yet proven to be the
+    /// only one.
     #[inline(never)]
     pub(super) fn narrowed(
         &self,
@@ -325,7 +336,7 @@ impl Blob {
         )
     }
 
-    /// A stretch that could not be told, of which the sign is certain, and the same, at both ends.
+    /// An undecided stretch whose sign is certain, and the same, at both ends.
     #[inline(never)]
     pub(super) fn touched(&self, at: &CentredRay<'_>, (lo, hi): (f64, f64), out: bool) -> Touch {
         Isa::detect().run(
@@ -351,7 +362,7 @@ impl Blob {
 }
 
 impl Blob {
-    /// Whether the ray is outside at an end of its range, which is finite, if that is certain.
+    /// Whether the ray is outside at a finite end of its range, if that is certain.
     #[cold]
     #[inline(never)]
     pub(super) fn is_out_at(&self, at: &CentredRay<'_>, end: End) -> Option<bool> {
@@ -370,7 +381,7 @@ impl Blob {
 }
 
 impl Points<'_> {
-    /// The shortest stretch around a place that cannot be told, beyond which the sign is certain.
+    /// The shortest stretch around a place that stays undecided, beyond which the sign is certain.
     #[cold]
     fn open_around(&self, s: f64, (lo, hi): (f64, f64), out: bool) -> Touch {
         let mut way = (s.abs() + 1.0) * (64.0 * U);

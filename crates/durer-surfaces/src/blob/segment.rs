@@ -1,38 +1,41 @@
-//! A stretch of a ray on which the sum of the fields is one polynomial of degree four: where its sign changes, with proof.
+//! A stretch of a ray on which the sum of the fields is one polynomial of degree four: certified
+//! sign changes.
 //!
-//! The polynomial is in Bernstein form ([`Bernstein`]): all coefficients of one sign, no crossing, which is what mostly happens; one change between
-//! certain signs, one simple crossing; else the stretch is divided. Numbers carry one bound, of all that is not known of the sum (rounding, the ray,
-//! fields that begin or end a little beside the stretch's ends), so that a sign that is called certain is that of the sum itself.
+//! The polynomial is in Bernstein form ([`Bernstein`]). Coefficients of one sign, the common case,
+//! prove that there is no crossing; one change between certain signs proves one simple crossing;
+//! otherwise the stretch is divided. All numbers carry one bound of all errors of the sum
+//! (rounding, the ray, fields that begin or end slightly beside the stretch's ends), so a certain
+//! sign is that of the sum itself.
 
 use crate::Flow;
 use crate::roots::bernstein::{Bernstein, Count, FLOOR};
 use arrayvec::ArrayVec;
 use durer_math::U;
 
-/// Below this share of a stretch nothing is divided.
+/// The shortest part of a stretch that is divided.
 const FINEST: u32 = 44;
-/// No stretch is divided more often.
+/// The most parts of a stretch.
 const MOST_PARTS: u32 = 4096;
 
-/// `Σ c_k x^k` with `s = mid + half x`, wrong by `slack` at most for all `x` in `[-1, 1]`.
+/// `Σ c_k x^k` with `s = mid + half x`, within `slack` of the sum for all `x` in `[-1, 1]`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch {
     pub(super) mid: f64,
     pub(super) half: f64,
     pub(super) c: [f64; 5],
     pub(super) slack: f64,
-    /// The derivative by `x` of what is not a polynomial in the sum is no larger.
+    /// A bound on the derivative by `x` of the part of the sum that is no polynomial.
     pub(super) bent: f64,
 }
 
-/// What is known of a part of a ray, in its parameter.
+/// The classification of a part of a ray, in its parameter.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum SegmentRoot {
-    /// The sum is above the threshold all over, or below.
+    /// The sum is above the threshold everywhere, or below.
     Sign(bool),
-    /// One crossing between certain signs; and whether it is proven that there is only one.
+    /// One crossing between certain signs, and whether it is proven to be the only one.
     Root { s: f64, lo: f64, hi: f64, rises: bool, alone: bool },
-    /// Its sign cannot be told here, down to rounding.
+    /// The sign cannot be decided here, within rounding.
     Unresolved { lo: f64, hi: f64 },
 }
 
@@ -41,12 +44,12 @@ struct SegmentPart {
     l: f64,
     r: f64,
     bits: u32,
-    /// The sign at its start, where that is known for other reasons.
+    /// The sign at its start, if it is known from elsewhere.
     first: Option<bool>,
 }
 
 impl Stretch {
-    /// In Bernstein form.
+    /// The polynomial in Bernstein form.
     #[inline(always)]
     pub(super) fn form(&self) -> Bernstein<f64, 5> {
         Bernstein::quick(&self.c, self.slack)
@@ -65,8 +68,8 @@ impl Stretch {
         (b.abs() > form.e * (1.0 + 8.0 * U)).then_some(b > 0.0)
     }
 
-    /// Tells all of it apart, in ascending order, without holes. `first` is the sign at its start, where that is known for other reasons; a bracket
-    /// should be no wider than `widest` in `s`.
+    /// Classifies the stretch in ascending order, without gaps. `first` is the sign at its start,
+    /// if it is known from elsewhere; a bracket should be no wider than `widest` in `s`.
     #[inline(always)]
     pub(super) fn classify(
         &self,
@@ -94,7 +97,7 @@ impl Stretch {
                 }
                 continue;
             }
-            // Where the sign is certain, if there is such a point near the middle.
+            // Divided where the sign is certain, if there is such a point near the middle.
             let half = node.form.split(0.5);
             let (part, bits, (left, right)) = if half.0.last_is_certain() {
                 (0.5, 1, half)
@@ -135,7 +138,8 @@ impl Stretch {
         (value, slope)
     }
 
-    /// No less than the error of a value for `|x| <= 1`: Horner's scheme rounds each coefficient's share at most nine times.
+    /// A bound on the error of a value for `|x| <= 1`: Horner's scheme rounds each coefficient's
+    /// share at most nine times.
     #[inline(always)]
     pub(super) fn doubt(&self) -> f64 {
         let size = self.c.iter().fold(0.0, |sum, c| sum + c.abs());
@@ -169,7 +173,7 @@ impl Stretch {
         let rate = slope.abs();
         let reach = (value.abs() + 2.0 * eta) / rate * (1.0 + 1.0 / 16.0);
         let certain = |x: f64, sign: f64| self.at(x).0 * sign > eta;
-        // The ends of the part are certain.
+        // The signs at the ends of the part are certain.
         let lower = |x: f64| x <= l || certain(x, -sense);
         let upper = |x: f64| x >= r || certain(x, sense);
         let (mut lo, mut hi) = (x - reach, x + reach);
@@ -179,7 +183,8 @@ impl Stretch {
             (lo, hi) = self.halved((l, r), sense, eta, widest(self.half.mul_add(x, self.mid)) / self.half);
             x = x.max(lo).min(hi);
         }
-        // With |p″| <= bend the slope keeps its sign in the bracket, whatever of the sum is no polynomial.
+        // With `|p″| <= bend` the slope keeps its sign in the bracket, whatever part of the sum is
+        // no polynomial.
         let bend = 2.0 * self.c[2].abs() + 6.0 * self.c[3].abs() + 12.0 * self.c[4].abs();
         let alone = self.at(x).1.abs() - bend * (hi - lo) * (1.0 + 16.0 * U) > 6.0 * eta + self.bent;
         let s = self.half.mul_add(x, self.mid);
@@ -187,7 +192,8 @@ impl Stretch {
         SegmentRoot::Root { s: s.max(lo).min(hi), lo, hi, rises, alone }
     }
 
-    /// Certain signs as near to the crossing as halving and a search around where that ends can bring them.
+    /// Certain signs as near to the crossing as bisection and a search around its end can bring
+    /// them.
     #[inline(always)]
     fn halved(&self, (mut a, mut b): (f64, f64), sense: f64, eta: f64, most: f64) -> (f64, f64) {
         for _ in 0..60 {
@@ -219,7 +225,7 @@ impl Stretch {
     }
 }
 
-/// What the signs of a part say, with what is known of its first.
+/// The result of the signs of a part, given the sign at its start.
 #[inline(always)]
 fn known(node: &SegmentPart) -> Count {
     match node.first {

@@ -1,33 +1,34 @@
-//! Which components a ray, or a point, can meet: a binary tree of boxes, divided at the median.
+//! The components that a ray or a point can meet: a binary tree of boxes, divided at the median.
 //!
-//! Boxes are enlarged by far more than the rounding of a ray, so that what is passed over adds exactly nothing.
+//! Boxes are enlarged by far more than the rounding of a ray, so skipped components add exactly
+//! nothing.
 
 use super::march::Along;
 use arrayvec::ArrayVec;
 use durer_math::{Aabb, Vec3};
 
-/// So many components are asked one by one.
+/// The number of components in a leaf.
 const LEAF: usize = 4;
-/// By how much boxes are enlarged, in units.
+/// The enlargement of boxes, in units.
 const MARGIN: f64 = durer_math::scale::pow2(-20);
 
-/// A box and what is in it.
+/// A box and its content.
 #[derive(Clone, Debug)]
 struct BoxNode {
     low: Vec3,
     high: Vec3,
-    /// Of the components, if there is a count; else the first of two nodes.
+    /// With a count, the first component; else the first of two nodes.
     first: u32,
     count: u32,
 }
 
-/// The tree; component numbers are those of the order that building has made.
+/// The tree; component numbers are those of its own order.
 #[derive(Clone, Debug)]
 pub(super) struct Tree {
     nodes: Vec<BoxNode>,
 }
 
-/// What a node says.
+/// The content of a node.
 pub(super) enum Inner {
     /// Components from the first number to before the second.
     Leaf(usize, usize),
@@ -36,7 +37,8 @@ pub(super) enum Inner {
 }
 
 impl Tree {
-    /// From boxes in the units of the frame: the tree, and the order in which its components are to be kept.
+    /// Builds the tree from boxes in the units of the frame. Returns the tree and the order of its
+    /// components.
     pub(super) fn new(boxes: &[Aabb]) -> (Self, Vec<u32>) {
         let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
         let mut nodes = vec![Self::around(boxes, &order, 0)];
@@ -80,7 +82,7 @@ impl Tree {
         BoxNode { low: all.min.to_vec() - room, high: all.max.to_vec() + room, first, count: 0 }
     }
 
-    /// Where a ray enters a node and leaves it, in its parameter; `None` if it does not meet it.
+    /// Where a ray enters and leaves a node, in its parameter; `None` if it misses it.
     #[inline(always)]
     pub(super) fn entry(&self, node: u32, ray: &Along) -> Option<(f64, f64)> {
         if !ray.known {
@@ -89,7 +91,7 @@ impl Tree {
         let node = &self.nodes[node as usize];
         let (mut near, mut far) = (f64::NEG_INFINITY, f64::INFINITY);
         for axis in 0..3 {
-            // Of infinity and what is not a number, from directions without this axis, the latter is no bound.
+            // A direction without this axis gives infinity, or NaN, which is no bound.
             let a = (node.low[axis] - ray.o[axis]) * ray.inverse[axis];
             let b = (node.high[axis] - ray.o[axis]) * ray.inverse[axis];
             near = near.max(a.min(b));
@@ -98,7 +100,7 @@ impl Tree {
         (near <= far).then_some((near, far))
     }
 
-    /// What is in a node.
+    /// The content of a node.
     #[inline(always)]
     pub(super) fn inner(&self, node: u32) -> Inner {
         let node = &self.nodes[node as usize];
@@ -109,7 +111,8 @@ impl Tree {
         }
     }
 
-    /// Calls `take` for the components near a point: all whose boxes are within `e` of it along each axis.
+    /// Calls `take` for the components near a point: all whose boxes are within `e` of it along
+    /// each axis.
     #[inline(always)]
     pub(super) fn near(&self, y: Vec3, e: f64, mut take: impl FnMut(usize)) {
         let mut open = ArrayVec::<u32, 64>::new();
@@ -122,14 +125,14 @@ impl Tree {
             }
             match self.inner(i) {
                 Inner::Leaf(from, to) => (from..to).for_each(&mut take),
-                // No deeper than the number of components has binary digits.
+                // The depth is at most the number of binary digits of the number of components.
                 Inner::Nodes(a, b) => open.extend([b, a]),
             }
         }
     }
 }
 
-/// Whether the rounding of a ray is far below the room that boxes leave.
+/// Whether the rounding of a ray is far below the enlargement of boxes.
 #[inline(always)]
 pub(super) fn is_known(o_err: f64, d_err: f64) -> bool {
     o_err + 4.0 * d_err < MARGIN / 16.0

@@ -1,14 +1,17 @@
 //! Rays along a face that two parts of a solid share.
 //!
 //! ```text
-//!      A  |  B          min(f, g) = 0 on all of the face that A and B share, and no sign tells
-//!    -----+----->       that a ray in it is inside. A little to either side of it both are plain.
+//!      A  |  B          min(f, g) = 0 on all of the face that A and B share, so no sign proves
+//!    -----+----->       that a ray in it is inside. A little to either side both signs are clear.
 //! ```
 //!
-//! A regularised solid (A. A. G. Requicha, "Representations for rigid solids: theory, methods, and systems", *ACM Computing Surveys* 12(4), 1980) has the
-//! points next to which all is inside, so it holds such a face. The ray is in it where two lines beside the ray, across the face, are both inside for certain,
-//! and out of it where one of them is outside. They are as far away as it takes for rounding to leave the sign alone: the distance begins with the error of a point and grows
-//! until something is told, at most to the length of what is asked about. It is what the brackets of the crossings are wider by. These are clusters, as all is that no sign of the ray's own proves.
+//! A regularised solid (A. A. G. Requicha, "Representations for rigid solids: theory, methods, and
+//! systems", *ACM Computing Surveys* 12(4), 1980) contains the points whose neighbourhood is
+//! inside, so it contains such a face. The ray is inside where two lines beside it, across the
+//! face, are both certainly inside, and outside where one of them is outside. Their distance starts
+//! with the error of a point and grows until something is certain, at most to the length of the
+//! stretch in question. The brackets of the crossings are wider by that distance. These crossings
+//! are clusters, because no sign of the ray's own proves them.
 
 use super::line::BoundedLine;
 use super::root_isolator::{CertifiedFunction, Found};
@@ -17,12 +20,12 @@ use crate::tape::Tape;
 use crate::{Flow, RootKind};
 use durer_math::Vec3;
 
-/// Directions across the ray that are tried, in half a turn.
+/// The number of directions across the ray that are tried in half a turn.
 const TURNS: usize = 8;
 /// Cosines of multiples of a sixteenth of a turn.
 const COSINES: [f64; 5] =
     [1.0, 0.923_879_532_511_286_7, core::f64::consts::FRAC_1_SQRT_2, 0.382_683_432_365_089_8, 0.0];
-/// So many looks at eight stretches are spent on a run at most.
+/// The most passes over eight stretches for one run.
 const MOST_LOOKS: u32 = 2_000;
 
 /// Two lines beside a ray.
@@ -32,7 +35,8 @@ struct Beside<'a> {
 }
 
 impl<'a> Beside<'a> {
-    /// The lines on either side of the face, where there is one: of both it is certain at most of eight places of the run whether they are inside, and one of them is.
+    /// The lines on either side of the face, if there is one: at most of eight places of the run it
+    /// is certain for both whether they are inside, and one of them is.
     fn new(line: &BoundedLine, tape: &'a Tape, (lo, hi): (f64, f64)) -> Option<Self> {
         let (u, v) = tangents(line.direction() * (1.0 / line.direction().length()));
         let at: [f64; 8] = core::array::from_fn(|i| lo + (hi - lo) * ((i as f64 + 0.5) / 8.0));
@@ -71,8 +75,8 @@ impl<'a> Beside<'a> {
     }
 }
 
-/// Shows the crossings in a run of which no sign is known, and of which `ends` says whether the ray is inside before and behind it; what it says. `None` if it has
-/// nothing to say.
+/// Passes on the crossings in a run without a known sign; `ends` says whether the ray is inside
+/// before and behind it. `None` if nothing is certain.
 pub(super) fn crossings(
     line: &BoundedLine,
     tape: &Tape,
@@ -90,7 +94,7 @@ pub(super) fn crossings(
 }
 
 impl Beside<'_> {
-    /// Takes the stretches of a run of which the state is certain, in ascending order.
+    /// Visits the stretches of a run whose state is certain, in ascending order.
     fn walk(&self, (lo, hi): (f64, f64), ulp: f64, looks: &mut u32, known: &mut FaceStretches<'_>) -> Flow {
         let node: [f64; 9] = core::array::from_fn(|i| match i {
             0 => lo,
@@ -116,16 +120,16 @@ impl Beside<'_> {
     }
 }
 
-/// What is known so far.
+/// The result so far.
 struct FaceStretches<'a> {
-    /// Where what is known ends, and whether that is inside.
+    /// The end of the last certain stretch, and whether that is inside.
     at: f64,
     inside: bool,
     show: &'a mut dyn FnMut(&Found) -> Flow,
 }
 
 impl FaceStretches<'_> {
-    /// The next stretch that is known.
+    /// Takes the next certain stretch.
     fn take(&mut self, a: f64, b: f64, inside: bool) -> Flow {
         let (from, was) = (self.at, self.inside);
         (self.at, self.inside) = (b, inside);

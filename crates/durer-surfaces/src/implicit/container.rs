@@ -1,4 +1,4 @@
-//! What a formula's surface is contained in.
+//! The container that bounds a formula's surface.
 
 use crate::packet::FilterSource;
 use crate::{AxisBox, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Sphere, Surface, SurfacePoint};

@@ -1,17 +1,20 @@
-//! Telling stretches of a line apart: where there is certainly no root, where there is at most one, and where it cannot be told.
+//! Classification of stretches of a line: certainly no root, at most one root, or undecided.
 //!
-//! R. E. Moore, *Interval Analysis*, Prentice-Hall 1966; D. P. Mitchell, "Robust ray intersection with interval arithmetic", Graphics Interface 1990,
-//! here with eight stretches of one ray in each pass over the tape.
+//! R. E. Moore, *Interval Analysis*, Prentice-Hall 1966; D. P. Mitchell, "Robust ray intersection
+//! with interval arithmetic", Graphics Interface 1990; here with eight stretches of one ray in each
+//! pass over the tape.
 
 use super::line::{BoundedLine, signs};
 use super::root_isolator::{CertifiedFunction, Found, SignInfo};
 use crate::tape::Tape;
 use durer_math::I8;
 
-/// After so many passes over a tape for one ray what is left counts as murky: the work for a ray is bounded.
+/// After this many passes over a tape for one ray the rest counts as unresolved, so the work for a
+/// ray is bounded.
 pub(super) const MOST_PASSES: u32 = 40_000;
 
-/// Tells `[lo, hi]` apart. `take` gets the stretches in ascending order, without holes, and says whether to go on.
+/// Classifies `[lo, hi]`. `take` gets the stretches in ascending order, without gaps, and returns
+/// whether to continue.
 pub(super) fn isolate(
     line: &BoundedLine,
     tape: &Tape,
@@ -26,7 +29,8 @@ pub(super) fn isolate(
     });
     let a: [f64; 8] = core::array::from_fn(|i| node[i]);
     let b: [f64; 8] = core::array::from_fn(|i| node[i + 1]);
-    // Most stretches of a cell that the surface passes have no root: their bounds alone say so, at a third of the price.
+    // Most stretches of a cell with surface have no root; bounds of the values alone prove that at
+    // a third of the cost.
     let v = line.bounds(tape, &a, &b);
     *passes += 1;
     let plain = sign_infos(&v);
@@ -77,7 +81,7 @@ pub(super) fn isolate(
     true
 }
 
-/// What bounds of the values alone say.
+/// What bounds of the values alone prove.
 fn sign_infos(v: &I8) -> [Option<SignInfo>; 8] {
     let sign = signs(v);
     core::array::from_fn(|i| match sign[i] {
@@ -87,7 +91,8 @@ fn sign_infos(v: &I8) -> [Option<SignInfo>; 8] {
     })
 }
 
-/// What the value in the middle and the steepest slope say of a stretch that reaches so far from there; `None`: it must be divided.
+/// What the value in the middle and the steepest slope prove about a stretch; `None` if it must be
+/// divided.
 fn by_mean_value(
     line: &BoundedLine,
     middle: &I8,
@@ -105,7 +110,8 @@ fn by_mean_value(
         if hi < -spread {
             return Some(SignInfo::Sign(false));
         }
-        // The value cannot be told from zero at the middle, and the stretch adds no more than the rounding.
+        // The value at the middle cannot be separated from zero, and the stretch adds no more than
+        // its rounding.
         if lo <= 0.0 && hi >= 0.0 && spread <= hi - lo {
             return Some(SignInfo::Unresolved);
         }
@@ -113,15 +119,17 @@ fn by_mean_value(
     (reach <= line.ulp || passes >= MOST_PASSES).then_some(SignInfo::Unresolved)
 }
 
-/// So many passes are spent on each part of a cluster of which it is asked whether it has one sign.
+/// The most passes for each part of a cluster when its sign is checked.
 const PASSES_OF_A_PART: u32 = 256;
-/// So many parts are asked about at each end.
+/// The most parts that are checked at each end.
 const MOST_PARTS: u32 = 128;
 
-/// A cluster without what certainly has the sign of before, or of behind, at its ends, where the work for a ray was too much to look at each stretch alike.
+/// Shortens a cluster at its ends by what certainly has the sign before or behind it, where the
+/// work for a ray did not suffice for each stretch alike.
 #[cold]
 pub(super) fn trimmed(line: &BoundedLine, tape: &Tape, mut found: Found) -> Found {
-    // What begins with another sign, as where a container's face meets the surface, has a crossing there.
+    // A cluster that begins with another sign, as where a container's face meets the surface, has a
+    // crossing there.
     let (before, after) = match found.sign {
         0 => (found.touches, found.touches),
         sign => (Some(sign < 0), Some(sign > 0)),
@@ -154,12 +162,12 @@ pub(super) fn trimmed(line: &BoundedLine, tape: &Tape, mut found: Found) -> Foun
     found
 }
 
-/// Whether a stretch has this sign, as far as that can be told soon.
+/// Whether a stretch certainly has this sign, with bounded effort.
 fn has_sign(line: &BoundedLine, tape: &Tape, (lo, hi): (f64, f64), sign: bool) -> bool {
     let mut passes = MOST_PASSES - PASSES_OF_A_PART;
     isolate(line, tape, (lo, hi), &mut passes, &mut |a, b, verdict| match verdict {
         SignInfo::Sign(it) => it == sign,
-        // What rises is least where it begins.
+        // A rising `g` is least at its start.
         SignInfo::Monotone(rises) => line.sign(tape, if rises == sign { a } else { b }) == Some(sign),
         SignInfo::Gap | SignInfo::Unresolved => false,
     })

@@ -1,7 +1,9 @@
-//! The cells of a formula by the numbers of places, so that two looks tell what is at a point, however deep its cell lies in the octree.
+//! Lookup of a formula's cells: two memory accesses find the cell of a point, however deep it lies
+//! in the octree.
 //!
-//! A place is as large as the smallest cells. For each place of a coarse grid there is a cell, or a brick of places with a cell for each. A cell is a number with its width: a power of two in the
-//! lowest three bits, or all of them set for a brick.
+//! A grid place is as large as the smallest cells. Each place of a coarse grid holds a cell, or a
+//! brick of places with a cell for each. A cell is stored as a number with its width: a power of
+//! two in the lowest three bits, or all three bits set for a brick.
 
 use super::octree::{Cell, DEEPEST};
 use durer_math::lanes::LANES;
@@ -9,15 +11,15 @@ use durer_math::{Aabb, F8, M8, Vec3};
 
 /// A brick has two to this power places along each axis.
 const BRICK: u32 = 2;
-/// Along each axis there are so many places.
+/// The number of places along each axis.
 const PLACES: f64 = (1_u32 << DEEPEST) as f64;
 
-/// What is known in the cell of a point.
+/// What is certain in the cell of a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Lookup {
     /// The formula has this sign.
     Sign(bool),
-    /// Nothing that counts: the formula is undefined, or has one sign (`true`: positive).
+    /// No surface: the formula is undefined or has one sign (`true`: positive).
     Gap(bool),
     /// There may be surface; the number of the leaf.
     Leaf(u32),
@@ -28,7 +30,7 @@ impl Lookup {
     const SIGN: u32 = 2;
     const LEAF: u32 = 4;
 
-    /// As a number.
+    /// The cell as a number.
     fn code(self) -> u32 {
         match self {
             Self::Gap(above) => Self::GAP + u32::from(above),
@@ -49,10 +51,10 @@ impl Lookup {
     }
 }
 
-/// The places.
+/// The grid of places.
 #[derive(Clone, Debug)]
 pub(super) struct Grid {
-    /// Where they begin, their size, and one over it.
+    /// The origin of the grid, the size of a place, and its inverse.
     min: [f64; 3],
     size: [f64; 3],
     over: [f64; 3],
@@ -60,7 +62,7 @@ pub(super) struct Grid {
     bricks: Vec<[u32; 1 << (3 * BRICK)]>,
 }
 
-/// The number of a place along three axes, of which there are two to this power along each.
+/// The index of a place in a grid with two to this power places along each axis.
 #[inline(always)]
 fn number(at: [u32; 3], power: u32) -> usize {
     (at[0] | at[1] << power | at[2] << (2 * power)) as usize
@@ -69,7 +71,7 @@ fn number(at: [u32; 3], power: u32) -> usize {
 impl Grid {
     const IS_BRICK: u32 = 0b111;
 
-    /// Nothing anywhere.
+    /// A grid without any cells.
     pub(super) fn new(extent: &Aabb) -> Self {
         let size = (extent.max - extent.min).to_array().map(|x| x / PLACES);
         Self {
@@ -77,17 +79,18 @@ impl Grid {
             size,
             over: size.map(|x| 1.0 / x),
             coarse: vec![0; 1 << (3 * (DEEPEST - BRICK))].into(),
-            // Whoever asks for no brick may read the first one, which is nobody's.
+            // A lookup without a brick may read the first one, which no place uses.
             bricks: vec![[0; 1 << (3 * BRICK)]],
         }
     }
 
-    /// Puts down the cells of an octree with this root, whose inner ones name the first of eight in a list.
+    /// Stores the cells of an octree with this root; inner cells name the first of eight in a list.
     pub(super) fn fill(&mut self, root: Cell, cells: &[Cell]) {
         self.put(cells, root, [0; 3], DEEPEST);
     }
 
-    /// Puts down a cell that begins at a place, two to the power of `shift` places wide, and those below it.
+    /// Stores a cell that begins at a place and is two to the power of `shift` places wide, and all
+    /// cells below it.
     fn put(&mut self, cells: &[Cell], cell: Cell, at: [u32; 3], shift: u32) {
         let told = match cell {
             Cell::Inner(first) => {
@@ -123,7 +126,8 @@ impl Grid {
         }
     }
 
-    /// The cell of a place, with its width. No branch asks whether there is a brick: places of eight lines are looked up side by side.
+    /// The cell of a place, with its width. There is no branch on whether the place has a brick, so
+    /// that the lookups of eight lines overlap.
     #[inline(always)]
     fn cell(&self, [x, y, z]: [u32; 3]) -> u32 {
         let cell = self.coarse[number([x >> BRICK, y >> BRICK, z >> BRICK], DEEPEST - BRICK)];
@@ -134,13 +138,14 @@ impl Grid {
         if is_brick { inner } else { cell }
     }
 
-    /// The number of the place of a coordinate: one at the border for what is beyond it by rounding, or not a number.
+    /// The index of the place of a coordinate; the border's for NaN and for what rounding puts
+    /// beyond it.
     #[inline(always)]
     fn place(&self, x: f64, axis: usize) -> u32 {
         (((x - self.min[axis]) * self.over[axis]) as i32).clamp(0, (1 << DEEPEST) - 1) as u32
     }
 
-    /// What is known in the cell of a point.
+    /// What is certain in the cell of a point.
     pub(super) fn look_up(&self, [x, y, z]: [f64; 3]) -> Lookup {
         Lookup::of(self.cell([self.place(x, 0), self.place(y, 1), self.place(z, 2)]) >> 3)
     }
@@ -162,7 +167,8 @@ impl Grid {
         found
     }
 
-    /// Where lines leave the cells that were found, by their origins and one over their directions. Cells at the border end nowhere.
+    /// Where lines leave the cells that were found, from their origins and inverse directions.
+    /// Cells at the border have no end.
     #[inline(always)]
     pub(super) fn ends(&self, found: &Found, o: &Vec3<F8>, over: &Vec3<F8>) -> F8 {
         let mut end = F8::splat(f64::INFINITY);
@@ -173,7 +179,7 @@ impl Grid {
                 let first = found.at[axis][i] & 0_u32.wrapping_sub(wide);
                 let number = f64::from((first + if rises { wide } else { 0 }) as i32);
                 let s = (number * self.size[axis] + self.min[axis] - o.0[i]) * over.0[i];
-                // What is not a number ends nowhere, too.
+                // NaN gives no end either.
                 let ends = (number != if rises { PLACES } else { 0.0 }) & (s < end.0[i]);
                 end.0[i] = if ends { s } else { end.0[i] };
             }
@@ -185,20 +191,20 @@ impl Grid {
 /// The cells of eight points.
 pub(super) struct Found {
     code: [u32; LANES],
-    /// How many places they are wide.
+    /// How many places each cell is wide.
     wide: [u32; LANES],
     /// The places of the points.
     at: [[u32; LANES]; 3],
 }
 
 impl Found {
-    /// Where there is no surface, and outside if anything: the formula is positive, or nothing else where it is defined.
+    /// Lanes without surface that are outside: the formula is positive where it is defined.
     #[inline(always)]
     pub(super) fn outside(&self) -> M8 {
         self.is(Lookup::SIGN + 1) | self.is(Lookup::GAP + 1)
     }
 
-    /// Where the formula is negative.
+    /// Lanes where the formula is negative.
     #[inline(always)]
     pub(super) fn within(&self) -> M8 {
         self.is(Lookup::SIGN)
@@ -213,7 +219,7 @@ impl Found {
         same.gt(F8::ZERO)
     }
 
-    /// Where there may be surface.
+    /// Lanes where there may be surface.
     #[inline(always)]
     pub(super) fn leaf(&self) -> M8 {
         let mut leaf = F8::ZERO;

@@ -1,13 +1,17 @@
-//! Formulas that are polynomials, along a line: told apart by Bernstein coefficients.
+//! Formulas that are polynomials along a line: isolation by Bernstein coefficients.
 //!
 //! ```text
 //!   g(mid + s) = Σ c_k s^k,    each c_k within e_k      (tape/powers.rs)
 //! ```
 //!
-//! Intervals of a formula's steps know nothing of how they hang together: where a line touches a surface at a point where that crosses itself, what is left of the terms is smaller by orders than the terms, and
-//! stretches must be as short as that. The polynomial has them added up already. Of each half, of each half of that, and so on, its Bernstein coefficients, or those of its slope, have one sign
-//! (`roots/bernstein.rs`), or all are within their error. There the polynomial is found anew, about the middle of what is left, where its terms are smaller and so are their roundings; and where that does not help
-//! either, the formula's own steps are asked.
+//! Interval arithmetic ignores the dependence between a formula's steps: where a line touches a
+//! surface at a point where it crosses itself, the sum of the terms is smaller than the terms by
+//! orders of magnitude, and stretches would have to be that short. The polynomial has the terms
+//! already added. Its Bernstein coefficients, or those of its slope (`roots/bernstein.rs`), are
+//! computed for each half, each half of that, and so on, until they have one sign or are all within
+//! their error. In the latter case the polynomial is computed anew about the middle of that part,
+//! where its terms are smaller and so is their rounding. If that does not help either, the
+//! formula's own steps are evaluated.
 
 use super::isolate::isolate;
 use super::line::BoundedLine;
@@ -16,10 +20,12 @@ use crate::roots::bernstein::{Bernstein, FLOOR};
 use crate::tape::{Powers, Tape};
 use durer_math::{Isa, U};
 
-/// Places are rounded by less than this part of a stretch, or the polynomial is not asked: `(1 + 1/64)^15 < 4/3`, which is by how much a slope may grow on the way.
+/// Places must be rounded by less than this part of a stretch, or the polynomial is not used: `(1 +
+/// 1/64)^15 < 4/3` bounds the growth of a slope.
 const NEAR: f64 = 1.0 / 64.0;
 
-/// Tells `[lo, hi]` apart, as [`isolate`] does, if the formula is a polynomial of this degree at most.
+/// Isolates the roots in `[lo, hi]`, as [`isolate`] does, if the formula is a polynomial of at most
+/// this degree.
 pub(super) fn isolate_powers(
     (line, tape, degree): (&BoundedLine, &Tape, usize),
     ends: (f64, f64),
@@ -41,7 +47,7 @@ impl BoundedLine {
     }
 }
 
-/// A stretch with its middle and its half, and the parts of it that are told.
+/// A stretch with its middle and half length, and its parts that are decided.
 struct Halves<'a, const N: usize> {
     line: &'a BoundedLine,
     tape: &'a Tape,
@@ -68,7 +74,7 @@ impl<const N: usize> Halves<'_, N> {
     ) -> bool {
         let mid = 0.5 * lo + 0.5 * hi;
         let half = (hi - mid).max(mid - lo) * (1.0 + 2.0 * U);
-        // By what places are rounded, in parts of `half`, which may be zero.
+        // The rounding of places, in units of `half`, which may be zero.
         let moved = (mid.abs() + half) * (4.0 * U) / half;
         let is_near = moved < NEAR;
         if !is_near {
@@ -83,7 +89,7 @@ impl<const N: usize> Halves<'_, N> {
         Halves::<N> { line, tape, lo, hi, mid, half }.classify(&whole, passes, take)
     }
 
-    /// The place on the line, rounded; what that is off by is charged to the coefficients.
+    /// The place on the line, rounded; its error is included in the coefficients.
     fn place(&self, x: f64) -> f64 {
         (self.half * x + self.mid).max(self.lo).min(self.hi)
     }
@@ -94,7 +100,7 @@ impl<const N: usize> Halves<'_, N> {
         passes: &mut u32,
         take: &mut dyn FnMut(f64, f64, SignInfo) -> bool,
     ) -> bool {
-        // The ends are those that are asked about.
+        // The first and last ends are exactly the given ones.
         let a = if node.l == -1.0 { self.lo } else { self.place(node.l) };
         let b = if node.r == 1.0 { self.hi } else { self.place(node.r) };
         if let Some(sign) = node.value.one_sign() {
@@ -120,7 +126,7 @@ impl<const N: usize> Halves<'_, N> {
 }
 
 impl<const N: usize> PolynomialPart<N> {
-    /// All of `half x`, where places are rounded by `moved` at most.
+    /// All of `half x`, where places are rounded by at most `moved`.
     #[inline(always)]
     fn new(p: &Powers, half: f64, moved: f64) -> Self {
         let (mut c, mut e) = ([0.0_f64; N], [0.0_f64; N]);
@@ -192,7 +198,8 @@ mod tests {
         &sum - &(&(&(&x * &y) * &z) * &Dyadic::from(2.0))
     }
 
-    /// What is told of stretches is so, next to each other they are all of the line, and next to points where the surface crosses itself there is little that is not told.
+    /// What is reported of stretches is true, the stretches cover the line, and next to points
+    /// where the surface crosses itself little stays undecided.
     #[test]
     fn what_is_told_of_stretches_is_so() {
         let tape = roman();
@@ -214,7 +221,7 @@ mod tests {
             let all = isolate_powers((&line, &tape, 4), (lo, hi), &mut passes, &mut |a, b, verdict| {
                 assert!(a == here && b >= a, "{seed}: {a} {b} {here}");
                 here = b;
-                // What the exact line is at the same parameter of the ray.
+                // The point of the exact line at the same parameter of the ray.
                 let of_ray = |s: f64| at.t(s);
                 let places: Vec<f64> = (0..=8).map(|k| ((b - a) * f64::from(k) / 8.0 + a).min(b)).collect();
                 let values: Vec<Dyadic> = places.iter().map(|&s| exactly(&ray, of_ray(s))).collect();
@@ -225,7 +232,7 @@ mod tests {
                     }
                     SignInfo::Monotone(rises) => {
                         ways += 1;
-                        // Places that the ray's own parameter cannot tell apart say nothing.
+                        // Places that the ray's own parameter cannot separate prove nothing.
                         for pair in values.windows(2).filter(|_| b - a > pow2(-30)) {
                             let step = (&pair[1] - &pair[0]).exact_sign();
                             assert!(if rises { step.is_gt() } else { step.is_lt() }, "{seed}: {a} {b}");
@@ -237,7 +244,8 @@ mod tests {
                 true
             });
             assert!(all && here == hi);
-            // Where a triple root is below the roundings of the terms, which are few and below 8: |s|³ <= 2^-45.
+            // Where a triple root is below the roundings of the terms, which are few and below 8:
+            // `|s|³ <= 2^-45`.
             assert!(open < pow2(-14), "{seed}: {open}");
         }
         assert!(signs > 5000 && ways > 1000, "{signs} {ways} {passes}");

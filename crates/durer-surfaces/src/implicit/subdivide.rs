@@ -1,13 +1,16 @@
-//! Stretches of some of eight lines, divided into pieces until no lane is empty.
+//! Stretches of some of eight lines, divided into pieces so that no lane is empty.
 //!
-//! A pass over a tape costs the same for one lane as for eight, and lines that go through space at their own pace seldom ask all together. Where `n` lines ask, each stretch is told in `8 / n` pieces: of a
-//! piece less is asked than of the whole, and a line goes on as far as its first pieces keep the sign.
+//! A pass over a tape costs the same for one lane as for eight, and lines that advance at their own
+//! pace seldom need it all at once. Where `n` lines ask, each stretch is divided into `8 / n`
+//! pieces. A piece is more likely to be decided than the whole, and a line advances as far as its
+//! first pieces keep the sign.
 //!
 //! ```text
 //!   |g(m)| > max(|l|, |h|) w / 2     on a piece of length w with the middle m, where the slope is in [l, h]
 //! ```
 //!
-//! first with the slope in the whole cell, and then, with the same value, with that on the piece itself, which also tells whether `g` goes one way.
+//! first with the slope in the whole cell, then, with the same value, with the slope on the piece
+//! itself, which also decides whether `g` is monotone.
 
 use crate::packet::{Line8, Segment8};
 use crate::tape::Tape;
@@ -28,7 +31,7 @@ pub(super) struct Pieces {
     /// The lines that ask, as bits, and how many pieces each of them has.
     asking: u8,
     each: usize,
-    /// The line of each piece. Lanes that are left stand in for the last one.
+    /// The line of each piece. Unused lanes repeat the last piece.
     line: Line8,
     a: F8,
     b: F8,
@@ -37,7 +40,7 @@ pub(super) struct Pieces {
     high: F8,
 }
 
-/// What is certain of pieces.
+/// What is certain about pieces.
 #[derive(Clone, Copy)]
 struct Certain {
     out: M8,
@@ -47,7 +50,8 @@ struct Certain {
 }
 
 impl Pieces {
-    /// Of the stretches of the lines that ask, of which there must be one, with bounds of the slope in their cells.
+    /// Divides the stretches of the lines that ask, at least one, with bounds of the slope in their
+    /// cells.
     #[inline(never)]
     pub(super) fn new(line: &Line8, told: &Segment8, asking: M8, slope: &[F8; 2]) -> Self {
         let zero = Vec3::new(F8::ZERO, F8::ZERO, F8::ZERO);
@@ -92,7 +96,8 @@ impl Pieces {
         (self.low.0[lane], self.high.0[lane]) = (slope[0].0[i], slope[1].0[i]);
     }
 
-    /// Tells the lines that ask what is certain of their stretches, by a tape that is right on all of them. No stretch is asked to be shorter than `least`.
+    /// Classifies the stretches of the lines that ask, by a tape that is right on all of them. No
+    /// stretch becomes shorter than `least`.
     pub(super) fn classify(&self, tape: &Tape, least: f64, told: &mut Segment8) {
         let certain = self.certain(tape, told);
         self.take(&certain, least, told);
@@ -108,7 +113,7 @@ impl Pieces {
                 e = line.error(a.abs().max(b.abs()));
                 let mid = (*a + *b) * 0.5;
                 x = boxes(line, (&mid, &mid), e);
-                // Half of it, and the middle's rounding.
+                // Half the length, and the rounding of the middle.
                 half = (*b - *a) * (0.5 * (1.0 + 8.0 * U)) + (a.abs() + b.abs()) * (2.0 * U);
             },
         );
@@ -155,7 +160,8 @@ impl Pieces {
         certain
     }
 
-    /// Whether each line goes on over its first piece at least: then slopes, which cost three times as much as values, are not asked for.
+    /// Whether each line advances over its first piece at least. Slopes, which cost three times as
+    /// much as values, are then not needed.
     fn all_go_on(&self, certain: &Certain, told: &Segment8) -> bool {
         let (out, within) = (certain.out.bits(), certain.within.bits());
         let mut firsts = durer_math::lanes::set_bits(self.asking).enumerate();
@@ -165,7 +171,9 @@ impl Pieces {
         })
     }
 
-    /// Each line goes on over the pieces that keep its sign. If `g` goes one way towards zero behind these, that is what is told; else the next stretch is no longer than the piece that could not be told.
+    /// Each line advances over the pieces that keep its sign. If `g` is monotone towards zero
+    /// behind them, that is the result; otherwise the next stretch is no longer than the undecided
+    /// piece.
     fn take(&self, certain: &Certain, least: f64, told: &mut Segment8) {
         let (out, within) = (certain.out.bits(), certain.within.bits());
         let (rises, falls) = (certain.rises.bits(), certain.falls.bits());
@@ -228,8 +236,9 @@ pub(super) mod tests {
         &(&cube - &(&x + &x)) + &(&(&y * &z) + &Dyadic::from(c))
     }
 
-    /// For any number of lines that ask: where the sign is said to be kept it is, where `g` is said to go one way it does, nothing is told behind the stretch, and the sign at
-    /// its start stays that at the start.
+    /// For any number of lines that ask: where the sign is reported as kept it is, where `g` is
+    /// reported as monotone it is, nothing is reported beyond the stretch, and the sign at the
+    /// start stays the same.
     #[test]
     fn what_is_told_of_stretches_is_so() {
         let (mut kept, mut shortened, mut ways, mut moved) = (0, 0, 0, 0);
@@ -256,7 +265,7 @@ pub(super) mod tests {
             let x = boxes(&line, (&a, &b), line.error(F8::splat(2.0)));
             let d = [line.d.x, line.d.y, line.d.z].map(|d| I8::new(d, d));
             let g = tape.slopes(&[0, 1, 2].map(|i| Dual { v: x[i], d: d[i] }));
-            // As if cells were larger, now and then by far.
+            // As if cells were larger, sometimes much larger.
             let far = F8::splat(dice.power(0, 6));
             let slope = [g.d.lo - far, g.d.hi + far];
             let (none, never) = (M8::NONE, F8::splat(f64::INFINITY));
@@ -302,7 +311,7 @@ pub(super) mod tests {
                 moved += usize::from((is(told.rises) || is(told.falls)) && from > a.0[i]);
             }
         }
-        // Counted on each path.
+        // Counted once for each instruction set.
         let paths = Isa::available().count();
         assert!(
             kept > 1250 * paths && shortened > 125 * paths && ways > 125 * paths && moved > 50 * paths,
