@@ -13,7 +13,7 @@ use super::orbit::{Rule, StretchSigns8};
 pub(super) struct Lift<const M: usize, const C: usize> {
     a: [[Vec3; C]; M],
     b: [[f64; C]; M],
-    /// The sum of magnitudes in a row of `A` at most, and of the errors.
+    /// The largest sum of magnitudes in a row of `A`, and the errors.
     size: f64,
     a_err: f64,
     b_err: f64,
@@ -101,20 +101,21 @@ impl<const M: usize, const C: usize> Lift<M, C> {
         )
     }
 
-    /// How much longer than a way in space its image can be.
+    /// The greatest factor by which the map lengthens a vector.
     #[inline(always)]
     pub(super) fn stretch(&self) -> f64 {
         self.size * root_of(C as f64)
     }
 
-    /// A bound on the length of the error of each number of an image: of a point that is `reach` long along an axis, and known within `e`.
+    /// A bound on the error, in length, of each number of an image: of a point that is `reach` long
+    /// along an axis and known within `e`.
     #[inline(always)]
     pub(super) fn error(&self, reach: f64, e: f64) -> f64 {
         let row = self.size * e + (self.a_err + self.size * (6.0 * U)) * (reach + e) + self.b_err;
         row * root_of(C as f64) * (1.0 + 16.0 * U)
     }
 
-    /// The same for the image of a direction.
+    /// A bound on the error, in length, of each number of the image of a direction.
     #[inline(always)]
     pub(super) fn error_of_way(&self, reach: f64, e: f64) -> f64 {
         let row = self.size * e + (self.a_err + self.size * (6.0 * U)) * (reach + e);
@@ -123,7 +124,7 @@ impl<const M: usize, const C: usize> Lift<M, C> {
 }
 
 impl<const M: usize, const C: usize> Lift<M, C> {
-    /// `A v`, eight times.
+    /// `A v` for eight vectors.
     #[inline(always)]
     pub(super) fn turned8(&self, v: Vec3<F8>) -> [[F8; C]; M] {
         let mut z = [[F8::ZERO; C]; M];
@@ -147,14 +148,14 @@ impl<const M: usize, const C: usize> Lift<M, C> {
         z
     }
 
-    /// [`Lift::error_of_way`], eight times.
+    /// [`Lift::error_of_way`] for eight vectors.
     #[inline(always)]
     pub(super) fn errors_of_way(&self, reach: f64, e: F8) -> F8 {
         let row = e * self.size + (e + reach) * (self.a_err + self.size * (6.0 * U));
         row * (root_of(C as f64) * (1.0 + 16.0 * U)) + TINY
     }
 
-    /// [`Lift::error`], eight times.
+    /// [`Lift::error`] for eight points.
     #[inline(always)]
     pub(super) fn errors(&self, reach: F8, e: F8) -> F8 {
         let row = e * self.size + (reach + e) * (self.a_err + self.size * (6.0 * U)) + self.b_err;
@@ -181,13 +182,13 @@ fn dot8(a: Vec3, v: Vec3<F8>) -> F8 {
     F8::splat(a.x).mul_add(v.x, F8::splat(a.y).mul_add(v.y, v.z * a.z))
 }
 
-/// No less than the root of 2 or 4.
+/// An upper bound of the root of 2 or 4.
 #[inline(always)]
 fn root_of(count: f64) -> f64 {
     if count > 2.0 { 2.0 } else { 1.5 }
 }
 
-/// A ray's line among the starts of orbits.
+/// A ray's line in the space of the starts of orbits.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct EmbeddedLine<'a, const M: usize, const C: usize> {
     rule: &'a Rule<f64, M, C>,
@@ -202,7 +203,7 @@ pub(super) struct EmbeddedLine<'a, const M: usize, const C: usize> {
 }
 
 impl<'a, const M: usize, const C: usize> EmbeddedLine<'a, M, C> {
-    /// Of a ray, as far as `reach`.
+    /// The line of a ray, as far as `reach`.
     #[inline(always)]
     pub(super) fn new(rule: &'a Rule<f64, M, C>, lift: &Lift<M, C>, at: &CentredRay<'_>, reach: f64) -> Self {
         let (o, d) = (lift.at(at.o), lift.turned(at.d));
@@ -220,7 +221,7 @@ impl<'a, const M: usize, const C: usize> EmbeddedLine<'a, M, C> {
         }
     }
 
-    /// What is certain of eight stretches.
+    /// What is certain about eight stretches.
     #[inline(never)]
     pub(super) fn known(&self, mid: &F8, half: &F8) -> StretchSigns8 {
         Isa::detect().run(
@@ -248,7 +249,7 @@ impl<'a, const M: usize, const C: usize> EmbeddedLine<'a, M, C> {
         )
     }
 
-    /// What is certain from `a` to `b`, eight times; and the stretches' half lengths.
+    /// What is certain about eight stretches from `a` to `b`, and their half lengths.
     #[inline(always)]
     pub(super) fn between(&self, a: &[f64; 8], b: &[f64; 8]) -> StretchSigns8 {
         let (mut mid, mut half) = (F8::ZERO, F8::ZERO);

@@ -1,20 +1,29 @@
-//! Julia sets as lanes see them, if an orbit that leaves the ball never comes back: `g = |z_N|² - R²`.
+//! Packets of rays against Julia sets whose escaped orbits never return: `g = |z_N|² - R²`.
 //!
-//! **Far from it** no stretch has to be tried: a point tells how far away the solid is at least (J. C. Hart, D. J. Sandin, L. H. Kauffman, "Ray tracing deterministic 3-D
-//! fractals", SIGGRAPH 1989, call it an unbounding sphere; theirs is an estimate). If no point within `ρ` of `z_(n+1)` is inside, then none within
+//! **Far from the set** a point gives a lower bound on its distance to the set (J. C. Hart, D. J.
+//! Sandin, L. H. Kauffman, "Ray tracing deterministic 3-D fractals", SIGGRAPH 1989, call it an
+//! unbounding sphere; theirs is an estimate). If no point within `ρ` of `z_(n+1)` is inside, then
+//! none within
 //!
 //! ```text
 //!   2 |z_n| ρ' + ρ'² = ρ - e,    ρ' = (ρ - e) / (|z_n| + √(|z_n|² + ρ - e))
 //! ```
 //!
-//! of `z_n` is, and as `√x <= (x + m²) / 2m` for any `m > 0`, none within `2 m (ρ - e) / (2 m |z_n| + |z_n|² + m² + ρ - e)`, which needs no root once the next point's `ρ` is known; `m` is
-//! `|z_n|` or 1/2. This, with what rounding does to the next point, `e = 10 U (|z_n|² + |c|)`, as for balls (`orbit.rs`). And none within `|z_n| - R`. Steps forward and back cost half of
-//! what balls along a stretch do, and no length has to be guessed. Cubes have `3 |z_n|² ρ' + 3 |z_n| ρ'² + ρ'³`, of which `ρ' = (ρ - e) / (3 (|z_n| + m)²)` is no more than the root for any `m` that is no less than this `ρ'`: for
-//! `(ρ - e) / 3 |z_n|²`, and for the larger one of 1 and `ρ - e`. Of the two numbers of a hypercomplex one each may move by `ρ`, which moves the root of their mean square by no more; the
-//! longer one counts on the way back.
+//! of `z_n` is. As `√x <= (x + m²) / 2m` for any `m > 0`, none is within `2 m (ρ - e) / (2 m |z_n|
+//! + |z_n|² + m² + ρ - e)` either, which needs no root once the next point's `ρ` is known; `m` is
+//! `|z_n|` or 1/2. The rounding of the next point is included: `e = 10 U (|z_n|² + |c|)`, as for
+//! balls (`orbit.rs`). Nor is any point inside within `|z_n| - R`. The steps forward and back cost
+//! half of what balls along a stretch do, and no length has to be guessed. Cubes have `3 |z_n|² ρ'
+//! + 3 |z_n| ρ'² + ρ'³`, for which `ρ' = (ρ - e) / (3 (|z_n| + m)²)` is at most the root for any
+//! `m` not less than this `ρ'`: for `(ρ - e) / 3 |z_n|²`, and for the larger of 1 and `ρ - e`. Each
+//! of the two numbers of a hypercomplex one may move by `ρ`, which moves the root of their mean
+//! square by no more; the longer one counts on the way back.
 //!
-//! **Near it** balls around the orbits of eight stretches say what they say of the eight stretches of one ray. How near, and how long these are at first, goes with the orbit's derivative; behind one that
-//! was passed the next one is longer by three tenths, and nobody asks how far away the solid is until they are long, or lead away from it. The factors were found by trying.
+//! **Near the set** balls around the orbits of eight stretches decide, as for the eight stretches
+//! of a single ray. How near, and how long the stretches are at first, depends on the orbit's
+//! derivative. After a stretch without a crossing the next one is longer by three tenths, and
+//! distances are not computed until the stretches are long, or lead away from the set. The factors
+//! were found by experiment.
 
 use super::embed::Lift;
 use super::orbit::{Ball, Rule, TINY};
@@ -24,25 +33,28 @@ use durer_math::scale::pow2;
 use durer_math::{Aabb, F8, Isa, M8, Point3, U, Vec3};
 use std::sync::Arc;
 
-/// In parts of what the orbit's stretch makes of a length of one: nearer than this the solid is looked at along stretches...
+/// Relative to the orbit's stretching of a unit length: nearer than this the set is examined along
+/// stretches,
 const NEAR: f64 = 4.0;
-/// ...which start as long as this.
+/// which start as long as this.
 const STRETCH: f64 = 6.0;
-/// The next one is so much longer.
+/// The factor from one stretch to the next.
 const LONGER: f64 = 1.3;
-/// They are never longer, and after one of half that a point tells how far away the solid is.
+/// The greatest length of a stretch. After a stretch of half of that a point's distance bound is
+/// computed.
 const LONGEST: f64 = 2.0;
-/// Stretches that are no shorter than this are looked at in f32, whose roundings are few beside what is left open along so long a stretch.
+/// Stretches no shorter than this are computed in f32, whose rounding is small beside what such a
+/// long stretch leaves undecided.
 const COARSE: f64 = pow2(-13);
-/// An orbit beyond this has left for good, by far.
+/// An orbit beyond this has certainly escaped.
 const GONE: f64 = pow2(40);
-/// How many iterations' points are kept.
+/// The number of iterations whose points are stored.
 const MOST: usize = 32;
-/// Second derivatives hold so far around a point.
+/// Bounds of second derivatives hold up to this distance from a point.
 const AROUND: f64 = pow2(-30);
 
 impl<const M: usize, const C: usize> Solid<M, C> {
-    /// As lanes see it, if they can.
+    /// The packet filter, if the set has one.
     pub(super) fn packet_filter(&self, bounds: Aabb) -> FilterSource {
         let Rule { escapes, iterations, radius, .. } = self.rule;
         let seen = escapes && (iterations as usize) < MOST && radius > 1.0 && 4.0 * radius * radius < GONE;
@@ -71,7 +83,8 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         balls
     }
 
-    /// How far from points of lines the solid is at least, along the lines; and by how much less a way is than what the orbit makes of it.
+    /// Lower bounds of the distance from points of lines to the set, along the lines; and the
+    /// factor by which lengths in space are less than those of the orbit.
     #[inline(never)]
     fn clearance(&self, line: &Line8, s: &F8, room: &mut F8, stretch: &mut F8) {
         line.isa.run_in_lanes(
@@ -100,7 +113,8 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         );
     }
 
-    /// The next points of orbits, and `|z|²` of these. What has left stays where it is, so that nothing overflows.
+    /// The next points of orbits, and their `|z|²`. Escaped points stay where they are, so that
+    /// nothing overflows.
     #[inline(always)]
     fn forward(&self, z: &mut [[F8; C]; M]) -> [F8; M] {
         let (mut rests, mut squares) = ([F8::ZERO; M], [F8::ZERO; M]);
@@ -123,7 +137,8 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         squares
     }
 
-    /// From what is free around the next point to what is free around this one; and by how much the orbit is stretched from here, as long as it is near.
+    /// From a ball without the set around the next point to one around this point; and the
+    /// stretching of the orbit from here, as long as it is near.
     #[inline(always)]
     fn back(&self, squares: &[F8; M], over: f64, free: &mut F8, slope: &mut [F8; M]) {
         let rule = &self.rule;
@@ -135,7 +150,8 @@ impl<const M: usize, const C: usize> Solid<M, C> {
             JuliaPower::Square => {
                 let e = (square + rule.c_size) * (16.0 * U) + rule.c_err;
                 let left = (*free - e).max(F8::ZERO);
-                // √x <= (x + m²) / 2m for any m; what does not hang on `left` is there before it.
+                // `√x <= (x + m²) / 2m` for any `m`; what does not depend on `left` is computed
+                // before it.
                 let twice = size.max(F8::splat(0.5)) * 2.0;
                 let rest = twice.mul_add(size, twice.mul_add(twice * 0.25, square));
                 twice * left / (rest + left)
@@ -158,7 +174,7 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         }
     }
 
-    /// `|z_N|²`, the last points and the balls around them; what has left is somewhere far out.
+    /// `|z_N|²`, the last points and the balls around them; escaped points are somewhere far out.
     #[inline(always)]
     fn last(&self, balls: &mut [Ball<f64, C>; M]) -> F8 {
         let Rule { power, c_err, c_size, .. } = self.rule;
@@ -269,14 +285,14 @@ impl<const M: usize, const C: usize> ImplicitKernel for Solid<M, C> {
             || {
                 let o = line.o;
                 let away = o.x.mul_add(o.x, o.y.mul_add(o.y, o.z * o.z));
-                // The solid is within this by far: half of the room that its ball has.
+                // The solid lies well within this: half of the margin of its ball.
                 let radius = self.radius - 0.5 * super::ROOM;
                 let room = F8::splat(radius * radius) - away;
-                // The direction is as long as 1, but for the rounding of it.
+                // The direction has length 1, up to its rounding.
                 let half = room.max(F8::ZERO).sqrt();
                 let far = F8::splat(2.0 * self.radius);
                 part.unsure = !line.error(far).lt(F8::splat(super::ROOM / 64.0));
-                // Of a line that is known badly the doubt begins before all of the solid.
+                // A line with a large error bound is uncertain from in front of the solid.
                 part.from = part.unsure.select(-far, -half);
                 part.to = part.unsure.select(far, room.gt(F8::ZERO).select(half, -half - F8::ONE));
             },
@@ -315,11 +331,11 @@ impl<const M: usize, const C: usize> ImplicitKernel for Solid<M, C> {
                 let mid = (told.a + told.b) * 0.5;
                 let half = (told.b - told.a) * (0.5 * (1.0 + 4.0 * U)) + mid.abs() * (2.0 * U);
                 let mut balls = self.balls(line, mid, half);
-                // What is not asked must not keep the others from an early end.
+                // Lanes that are not asked must not delay the others.
                 for ball in &mut balls {
                     ball.q[0].0 = told.lanes.select(F8(ball.q[0].0), F8::splat(4.0 * self.rule.radius)).0;
                 }
-                // Of points far apart f32 knows enough.
+                // For points far apart f32 suffices.
                 let is_fine = (told.lanes & (told.b - told.a).lt(F8::splat(COARSE))).any();
                 if is_fine { self.rule.known(balls) } else { self.coarse.known(rounded(&balls)) }
             },
@@ -347,7 +363,7 @@ impl<const M: usize, const C: usize> ImplicitKernel for Solid<M, C> {
                 let size = square.sqrt();
                 let e = (size * 2.0 + r) * r + (square + level) * (32.0 * U);
                 let g = square - level;
-                // Of the same sign, and less steep far out.
+                // The same sign, and less steep far out.
                 value.g = g / (square + level);
                 (value.above, value.below) = (g.gt(e), g.lt(-e));
             },
@@ -388,7 +404,7 @@ impl<const M: usize, const C: usize> ImplicitKernel for Solid<M, C> {
         isa.run_in_lanes(
             #[inline(always)]
             || {
-                // What is not asked for is not worked out.
+                // Only what is asked for is computed.
                 let gradient = gradient8(&self.rule, &self.lift, self.rule.iterations, y, &F8::ZERO);
                 let Gradient { square, half, .. } = gradient;
                 *slant = Slant { f: square - self.rule.radius * self.rule.radius, half };
@@ -396,7 +412,7 @@ impl<const M: usize, const C: usize> ImplicitKernel for Solid<M, C> {
         );
     }
 
-    /// The surface that one iteration more would make, at the same point: see `point.rs`.
+    /// The surface that one more iteration would give, at the same point: see `point.rs`.
     fn shading(&self, isa: Isa, y: &Vec3<F8>, g: &mut Vec3<F8>) -> bool {
         isa.run_in_lanes(
             #[inline(always)]
@@ -406,10 +422,10 @@ impl<const M: usize, const C: usize> ImplicitKernel for Solid<M, C> {
     }
 }
 
-/// `|z_N|²`, half its gradient by the point, and what is not known of them.
+/// `|z_N|²`, half its gradient by the point, and their errors.
 struct Gradient {
     square: F8,
-    /// What the balls around the last points leave open of it.
+    /// The error from the balls around the last points.
     e_square: F8,
     half: Vec3<F8>,
     e_half: F8,
@@ -447,8 +463,10 @@ fn gradient8<const M: usize, const C: usize>(
     all
 }
 
-/// The same of one number, whose start is known within `r`. `|t|` is the size of the largest tangent, `d` a bound on the error of each, as `v` and `d` are for stretches (`orbit.rs`);
-/// `slope` and `curve` are bounds of the first and second derivatives of the last point, as far as `AROUND` from the point.
+/// The gradient of one number, whose start is known within `r`. `|t|` is the size of the largest
+/// tangent, `d` a bound on the error of each, like `v` and `d` for stretches (`orbit.rs`); `slope`
+/// and `curve` bound the first and second derivatives of the last point up to `AROUND` from the
+/// point.
 #[inline(always)]
 fn gradient_of<const M: usize, const C: usize>(
     rule: &Rule<f64, M, C>,
@@ -472,7 +490,8 @@ fn gradient_of<const M: usize, const C: usize>(
             JuliaPower::Square => (far * 2.0, F8::splat(2.0)),
             JuliaPower::Cube => (far * far * 3.0, far * 6.0),
         };
-        // What a tangent is turned by, wrongly: the change of the differential within r, and its rounding.
+        // The error of a tangent's direction: the change of the differential within `r`, and its
+        // rounding.
         d = (l * d + h * F8(ball.r.0) * (slope + d) + l * slope * (32.0 * U)) * (1.0 + 16.0 * U);
         curve = (l * curve + h * slope * slope) * (1.0 + 16.0 * U);
         slope = l * slope * (1.0 + 16.0 * U);

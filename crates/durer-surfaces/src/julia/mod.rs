@@ -1,4 +1,4 @@
-//! Julia sets of quaternions and hypercomplex numbers, to a number of iterations.
+//! Julia sets of quaternions and hypercomplex numbers, for a fixed number of iterations.
 //!
 //! ```text
 //!   z_0 = the point in its slice of four dimensions,  z_(n+1) = z_n^k + c,  k = 2 or 3
@@ -6,17 +6,22 @@
 //!   the solid: { p : |z_n| <= R for n = 0 .. N }
 //! ```
 //!
-//! A. Norton, "Generation and display of geometric fractals in 3-D", SIGGRAPH 1982; J. C. Hart, D. J. Sandin, L. H. Kauffman, "Ray tracing
-//! deterministic 3-D fractals", SIGGRAPH 1989. Those march by an estimate of the distance. Here the surface is what it is defined to be, the
-//! zero set of `max |z_n|² - R²`, and its crossings are bracketed by certain signs: the orbits of stretches of the ray are enclosed in balls
-//! (`orbit.rs`).
+//! A. Norton, "Generation and display of geometric fractals in 3-D", SIGGRAPH 1982; J. C. Hart, D.
+//! J. Sandin, L. H. Kauffman, "Ray tracing deterministic 3-D fractals", SIGGRAPH 1989. Those march
+//! by an estimate of the distance. Here the surface is exactly its definition, the zero set of `max
+//! |z_n|² - R²`, and certain signs bracket its crossings: balls enclose the orbits of stretches of
+//! the ray (`orbit.rs`).
 //!
-//! **Escape.** For quaternions, where `|z^k| = |z|^k`, an orbit that leaves the ball of radius `R >= 1` never returns if `R² - R >= |c|`: then
-//! `|z| > R` makes `|z^k + c| >= |z|² - |c| > R² - |c| >= R`. The surface is then `|z_N| = R`; in general it is not. Of the two complex numbers of a hypercomplex one outside of the ball
-//! the longer one is longer than `R`, and the next one longer than `√2 R`, so that their mean square is beyond `R²` again, if `R² - √2 R >= |c|` for the `c` of each.
+//! **Escape.** For quaternions, where `|z^k| = |z|^k`, an orbit that leaves the ball of radius `R
+//! >= 1` never returns if `R² - R >= |c|`: then `|z| > R` makes `|z^k + c| >= |z|² - |c| > R² - |c|
+//! >= R`. The surface is then `|z_N| = R`; in general it is not. Of the two complex numbers of a
+//! hypercomplex one outside the ball, the longer is longer than `R`, and its successor is longer
+//! than `√2 R`, so that their mean square exceeds `R²` again, if `R² - √2 R >= |c|` for the `c` of
+//! each.
 //!
-//! **The extent.** A point is no longer than it is in its slice. Of quaternions `|z_(n+1)| <= ρ` needs `|z_n|^k <= ρ + |c|`, so that `N` roots leave a
-//! smaller ball than `n = 0` does; and so it is for the two complex numbers of a hypercomplex one, which are `√2` times as long at most.
+//! **The extent.** A point is no longer than it is in its slice. For quaternions `|z_(n+1)| <= ρ`
+//! needs `|z_n|^k <= ρ + |c|`, so `N` roots give a smaller ball than `n = 0` does. The same holds
+//! for the two complex numbers of a hypercomplex one, which are at most `√2` times as long.
 
 mod embed;
 mod lanes;
@@ -45,7 +50,7 @@ pub enum JuliaAlgebra {
     Hypercomplex,
 }
 
-/// What is iterated, besides adding `c`.
+/// The iterated power, to which `c` is added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JuliaPower {
     /// `z²`.
@@ -54,7 +59,7 @@ pub enum JuliaPower {
     Cube,
 }
 
-/// A Julia set, not yet checked.
+/// The parameters of a Julia set, not yet checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Julia {
     /// The constant: 1, i, j, k.
@@ -63,9 +68,9 @@ pub struct Julia {
     pub algebra: JuliaAlgebra,
     /// The power.
     pub power: JuliaPower,
-    /// How often it is iterated.
+    /// The number of iterations.
     pub iterations: u32,
-    /// `R`: no point of the orbit may be further from zero; positive.
+    /// `R`: inside, no point of the orbit is farther from zero; positive.
     pub radius: f64,
     /// The normal of the slice, `x y z w`; `w` is not zero.
     pub normal: [f64; 4],
@@ -73,7 +78,7 @@ pub struct Julia {
     pub distance: f64,
 }
 
-/// Why a Julia set cannot be had.
+/// Why a Julia set cannot exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum JuliaError {
     /// A number is infinite or NaN.
@@ -90,31 +95,31 @@ pub enum JuliaError {
     Iterations(u32),
 }
 
-/// More iterations than this no Julia set may have.
+/// The greatest number of iterations.
 pub const MOST_ITERATIONS: u32 = 1000;
 
-/// By how much the ball that is looked at is larger than what holds the solid.
+/// The margin between the solid and the ball that is examined.
 const ROOM: f64 = 1.0 / 64.0;
 
 /// A solid Julia set. One face.
 #[derive(Clone, Debug)]
 pub struct JuliaSet(Arc<Algebra>);
 
-/// A set in the numbers of its algebra.
+/// A set, in the numbers of its algebra.
 #[derive(Clone, Debug)]
 enum Algebra {
     Quaternion(Solid<1, 4>),
     Hypercomplex(Solid<2, 2>),
 }
 
-/// A set of `M` numbers of `C` coordinates.
+/// A set of `M` numbers with `C` coordinates each.
 #[derive(Clone, Debug)]
 struct Solid<const M: usize, const C: usize> {
     rule: Rule<f64, M, C>,
-    /// The same in f32, for lanes.
+    /// The same iteration in f32, for packets.
     coarse: Rule<f32, M, C>,
     lift: Lift<M, C>,
-    /// A ball about the origin holds it strictly.
+    /// The radius of a ball about the origin that strictly holds the set.
     radius: f64,
 }
 
@@ -159,7 +164,7 @@ impl JuliaSet {
                 })
             }
             JuliaAlgebra::Hypercomplex => {
-                // Of a + b i + c j + d k: (a - d)² + (b + c)², and (a + d)² + (b - c)².
+                // For `a + b i + c j + d k`: `(a - d)² + (b + c)²` and `(a + d)² + (b - c)²`.
                 let square = |x: f64, y: f64| {
                     let sums = Interval::from(x).square() + Interval::from(y).square();
                     sums.sqrt().hi * (1.0 + 8.0 * durer_math::U)
@@ -207,7 +212,8 @@ impl JuliaSet {
     }
 }
 
-/// The radius of a ball that holds a set strictly, with [`ROOM`] to spare: `most` is no less than the length of any point of an orbit inside, `size` than that of `c`.
+/// The radius of a ball that strictly holds a set, with [`ROOM`] to spare. `most` bounds the length
+/// of any point of an orbit inside, `size` that of `c`.
 fn least_ball(set: &Julia, most: f64, size: f64) -> f64 {
     let mut radius = most;
     for _ in 0..set.iterations {

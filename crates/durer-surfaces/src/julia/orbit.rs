@@ -1,14 +1,17 @@
-//! Orbits of balls: what is certain of `|z_n|` on eight stretches of a line at once.
+//! Orbits of balls: what is certain about `|z_n|` on eight stretches of a line at once.
 //!
-//! Along a stretch `s = mid + half x`, `|x| <= 1`, the orbit's `n`-th point and its derivative by `x` are
+//! Along a stretch `s = mid + half x`, `|x| <= 1`, the orbit's `n`-th point and its derivative by
+//! `x` are
 //!
 //! ```text
 //!   z_n  = q + v x + (no longer than r),    z_n' = v + (no longer than d)
 //! ```
 //!
-//! With `δ = v x + e`, `|e| <= r`, the square `(q + δ)² + c` is `q² + c + (q v + v q) x` and a rest of `q e + e q + δ²`; the cube likewise. Lengths of
-//! products are products of lengths, for quaternions as for complex numbers, so that the rests stay as small as they are: second order in
-//! the stretch's length. A point is a stretch without length. Hypercomplex numbers are two complex numbers side by side,
+//! With `δ = v x + e`, `|e| <= r`, the square `(q + δ)² + c` is `q² + c + (q v + v q) x` plus a
+//! remainder `q e + e q + δ²`; the cube likewise. Lengths of products are products of lengths, for
+//! quaternions as for complex numbers, so the remainders stay of second order in the stretch's
+//! length. A point is a stretch of length zero. Hypercomplex numbers are two complex numbers side
+//! by side,
 //!
 //! ```text
 //!   a + b i + c j + d k  ->  (a - d) + (b + c) i,  (a + d) + (b - c) i,    |z|² = half the sum of their squares
@@ -20,7 +23,7 @@ use super::JuliaPower;
 use durer_math::real::{Eight, Real, less, more, real, roundings};
 use durer_math::{F8, M8, U};
 
-/// Pays for results below the normal range.
+/// Covers underflow.
 pub(super) const TINY: f64 = f64::TINY;
 
 /// A point of an orbit on eight stretches; `C` coordinates, of which the first is the real one.
@@ -32,40 +35,41 @@ pub(super) struct Ball<T, const C: usize> {
     pub(super) d: Eight<T>,
 }
 
-/// What is known of eight stretches.
+/// What is certain about eight stretches.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct StretchSigns8 {
     /// Certainly outside.
     pub(super) out: M8,
     /// Certainly inside.
     pub(super) within: M8,
-    /// What decides is one `|z_n|`, and it grows; or it shrinks.
+    /// A single `|z_n|` decides, and it grows; or it shrinks.
     pub(super) rises: M8,
     pub(super) falls: M8,
-    /// How much `|z_n|` may change for the stretch's length, and by what is not known, for the last `n` that was not certain.
+    /// For the last uncertain `n`: how much `|z_n|` may change from the stretch's length, and from
+    /// errors.
     pub(super) spread: F8,
     pub(super) blur: F8,
 }
 
-/// What is iterated.
+/// The iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rule<T: Real, const M: usize, const C: usize> {
     pub(super) c: [[T; C]; M],
-    /// A bound on the error of each `c`, and on its length.
+    /// A bound on the error of each `c`, in length.
     pub(super) c_err: T,
     pub(super) c_size: T,
     pub(super) power: JuliaPower,
     pub(super) iterations: u32,
-    /// What leaves the ball of this radius is outside.
+    /// Points outside the ball of this radius are outside the set.
     pub(super) radius: T,
     /// A bound on the error of the radius.
     pub(super) radius_err: T,
-    /// Whether an orbit that leaves that ball never comes back, so that the last point decides.
+    /// Whether an orbit that leaves that ball never returns, so that the last point decides.
     pub(super) escapes: bool,
 }
 
 impl<T: Real, const C: usize> Ball<T, C> {
-    /// Zero itself, all along.
+    /// Zero, everywhere.
     pub(super) const ZERO: Self =
         Self { q: [Eight::ZERO; C], v: [Eight::ZERO; C], r: Eight::ZERO, d: Eight::ZERO };
 
@@ -93,7 +97,8 @@ impl<T: Real, const C: usize> Ball<T, C> {
             let (q_size, v_size) = (q_all.sqrt(), v_all.sqrt());
             let (r, d) = (self.r.0[k], self.d.0[k]);
             let way = v_size + r;
-            // 8 U (|q|² + |c|) for the new middle and 16 U |q| |v| for the new slope; what is left pays for this line.
+            // `8 U (|q|² + |c|)` for the new middle and `16 U |q| |v|` for the new slope; the rest
+            // covers this line.
             let rounding = (q_all + c_size + q_size * real(2.0) * v_size).mul_add(roundings(10.0), c_err);
             let rest = (q_size * real(2.0)).mul_add(r, way.mul_add(way, rounding));
             self.r.0[k] = rest * more(32.0) + T::TINY;
@@ -148,7 +153,7 @@ impl<T: Real, const C: usize> Ball<T, C> {
     }
 }
 
-/// Positive where the points are certainly outside: a part of [`tell`].
+/// Positive where the points are certainly outside: a part of [`classify`].
 #[inline(always)]
 fn outside<T: Real, const M: usize, const C: usize>(
     balls: &[Ball<T, C>; M],
@@ -175,7 +180,8 @@ fn outside<T: Real, const M: usize, const C: usize>(
     out
 }
 
-/// What the `n`-th points say of `|z_n|`, as numbers that are positive where something is certain.
+/// What the `n`-th points prove about `|z_n|`, as numbers that are positive where something is
+/// certain.
 struct OrbitSigns<T> {
     out: Eight<T>,
     within: Eight<T>,
@@ -212,23 +218,24 @@ fn classify<T: Real, const M: usize, const C: usize>(
             d2 = ball.d.0[k].mul_add(ball.d.0[k], d2);
         }
         (a, b, c) = (a * share, b * share, c * share);
-        // The mean square of the parts; of one alone, its own size.
+        // The mean square of the parts; of a single one, its own size.
         let size = |x: T| (x * share).sqrt() * more(8.0);
         let (r, d) = if M == 1 { (balls[0].r.0[k], balls[0].d.0[k]) } else { (size(r2), size(d2)) };
         let rounding = (a + b.abs() * real(2.0) + c) * roundings(16.0);
-        // |q + v x|² = a + 2 b x + c x² is least where x = -b / c, if that is in reach: no less than a - |b| there.
+        // `|q + v x|² = a + 2 b x + c x²` is least where `x = -b / c`, if that is in reach: no less
+        // than `a - |b|` there.
         let least = a - b.abs() * real(2.0) + c.min(b.abs());
         let most = a + b.abs() * real(2.0) + c;
         let blur = r + radius_err;
         let (over, under) = (radius + blur, (radius - blur).max(real(0.0)));
         told.out.0[k] = least - rounding - over * over * more(8.0);
         told.within.0[k] = under * under * less(8.0) - (most + rounding);
-        // z · z' = (q + v x + e) · (v + ε).
+        // `z · z' = (q + v x + e) · (v + ε)`.
         let (q_size, v_size) = (a.sqrt(), c.sqrt());
         let doubt = (c + q_size * d + v_size * (d + r) + r * d) * more(64.0) + rounding + T::TINY;
         told.rises.0[k] = b - doubt;
         told.falls.0[k] = -b - doubt;
-        // Across the orbit's point, as at a tangent, it changes by the square of the way.
+        // Across the orbit's point, as at a tangent, it changes by the square of the distance.
         told.spread.0[k] = ((b.abs() * real(2.0) + c) / q_size).min(v_size);
         told.blur.0[k] = r;
     }
@@ -236,7 +243,8 @@ fn classify<T: Real, const M: usize, const C: usize>(
 }
 
 impl<T: Real, const M: usize, const C: usize> Rule<T, M, C> {
-    /// What is certain of eight stretches that begin as `balls`. Where a lane is outside it may be anything else, too.
+    /// What is certain about eight stretches that begin as `balls`. Where a lane is outside its
+    /// other flags mean nothing.
     #[inline(always)]
     pub(super) fn known(&self, mut balls: [Ball<T, C>; M]) -> StretchSigns8 {
         let radius = (self.radius, self.radius_err);
@@ -279,7 +287,8 @@ impl<T: Real, const M: usize, const C: usize> Rule<T, M, C> {
         known
     }
 
-    /// Whether the middle of any stretch is beyond the radius that is not known to be outside: else nothing new is certainly [`outside`], which takes three times as long to tell.
+    /// Whether the middle of any undecided stretch is beyond the radius. Otherwise [`outside`],
+    /// which costs three times as much, can prove nothing new.
     #[inline(always)]
     fn may_leave(&self, balls: &[Ball<T, C>; M], out: &Eight<T>) -> bool {
         let mut may = false;
@@ -299,7 +308,7 @@ impl<T: Real, const M: usize, const C: usize> Rule<T, M, C> {
 }
 
 impl<const M: usize, const C: usize> Rule<f64, M, C> {
-    /// The largest `|z_n|² - R²`, rounded; large as soon as it is certain to be positive by far.
+    /// The largest `|z_n|² - R²`, rounded; large as soon as it is certainly positive.
     #[inline(always)]
     pub(super) fn value(&self, mut z: [[f64; C]; M]) -> f64 {
         let (mut most, level) = (f64::NEG_INFINITY, self.radius * self.radius);
@@ -327,8 +336,9 @@ impl<const M: usize, const C: usize> Rule<f64, M, C> {
         core::array::from_fn(|i| if i == 0 { real + c[0] } else { factor.mul_add(z[i], c[i]) })
     }
 
-    /// The gradient of the largest `|z_n|²` by what moves along `tangents`, rounded; and, with a ball of radius `r` about the point, a bound on the
-    /// second derivatives there. `stretch` is no less than how much longer than a way in space the way of the start is.
+    /// The gradient of the largest `|z_n|²` along `tangents`, rounded; and a bound on the second
+    /// derivatives in a ball of radius `r` about the point. `stretch` bounds the factor by which
+    /// the embedding lengthens a vector.
     #[inline(always)]
     pub(super) fn gradient(
         &self,

@@ -1,4 +1,4 @@
-//! What a Julia set is at a point: on which side it lies, and where the surface is near it.
+//! A Julia set at a point: its side, and the surface near it.
 
 use super::Solid;
 use super::orbit::{Ball, Rule, TINY};
@@ -9,7 +9,8 @@ use core::cmp::Ordering::Less;
 use durer_math::{Isa, Point3, U, Vec3};
 
 impl<const M: usize, const C: usize> Solid<M, C> {
-    /// Whether points are outside, where that is certain of all that are within `e` of each along any axis.
+    /// Whether points are outside, where that is certain for all points within `e` of each along
+    /// any axis.
     #[inline(never)]
     fn are_out(&self, points: &[Vec3; 8], e: &[f64; 8]) -> [Option<bool>; 8] {
         Isa::detect().run(
@@ -97,8 +98,8 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         point
     }
 
-    /// The unit normal of the surface that one iteration more would make, at the same point: it shows the finer folds that the surface itself does not have
-    /// yet, and is what POV-Ray shades with.
+    /// The unit normal of the surface that one more iteration would give, at the same point. It
+    /// shows the finer folds that the surface itself does not have yet, and POV-Ray shades with it.
     #[inline(never)]
     fn next_normal(&self, p: Vec3) -> Option<Vec3> {
         let rule = Rule { iterations: self.rule.iterations + 1, escapes: true, ..self.rule };
@@ -113,16 +114,17 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         n.is_finite().then_some(n)
     }
 
-    /// A point at most `reach` away whose value is nearer to zero, by a few steps of Newton's along the gradient; and the gradient there, with a bound of
-    /// the second derivatives around.
+    /// A point at most `reach` away whose value is nearer to zero, by a few steps of Newton's
+    /// method along the gradient; and the gradient there, with a bound of the second derivatives
+    /// around.
     fn nearer(&self, mut p: Vec3, reach: f64) -> (Vec3, Vec3, f64) {
-        /// Surroundings, in the set's own frame, where all is of the order of one.
+        /// The neighbourhood, in the set's own frame, where everything is of order one.
         const AROUND: f64 = durer_math::scale::pow2(-30);
         let (mut f, mut g, mut bend) = self.near(p, AROUND);
         for _ in 0..3 {
             let square = g.x * g.x + g.y * g.y + g.z * g.z;
             let step = g * (-f / square);
-            // What is not a number is no step.
+            // NaN is no step.
             if f == 0.0 || step.max_abs().partial_cmp(&reach) != Some(Less) {
                 break;
             }
@@ -136,8 +138,8 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         (p, g, bend)
     }
 
-    /// How far one must go along `n` to be out for certain, and against it to be in, whatever rounding does to the place; and whether that is so and not
-    /// only that some side is certain.
+    /// The distance along `n` that is certainly outside, and against `n` certainly inside, whatever
+    /// rounding does to the place; and whether both hold, not only some certain side.
     fn leave(&self, p: Vec3, n: Vec3) -> (f64, bool) {
         let least = 8.0 * U * p.max_abs() + TINY;
         let mut way = 4.0 * least;

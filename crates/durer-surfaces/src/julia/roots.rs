@@ -1,4 +1,4 @@
-//! The roots of a ray: stretches told apart by the balls around their orbits, and put in one row.
+//! The roots of a ray: stretches classified by the balls around their orbits, in ascending order.
 
 use super::Solid;
 use super::embed::EmbeddedLine;
@@ -6,7 +6,8 @@ use crate::implicit::{CertifiedFunction, Found, RootIsolator, SignInfo};
 use crate::{CentredRay, Flow, LocalRay, Root, Sink};
 use durer_math::{Isa, Point3, RaySide};
 
-/// After so many looks at eight stretches for one ray what is left counts as murky: the work for a ray is bounded.
+/// After this many passes over eight stretches for one ray the rest counts as unresolved, so the
+/// work for a ray is bounded.
 const MOST_PASSES: u32 = 20_000;
 
 struct Query<'a, const M: usize, const C: usize> {
@@ -14,14 +15,14 @@ struct Query<'a, const M: usize, const C: usize> {
     ray: &'a LocalRay<'a>,
     at: &'a CentredRay<'a>,
     sink: &'a mut dyn Sink,
-    /// Roots behind this are of no interest.
+    /// Roots beyond this do not matter.
     last: f64,
     tracker: RootIsolator<'a, EmbeddedLine<'a, M, C>>,
     passes: u32,
 }
 
 impl<const M: usize, const C: usize> Solid<M, C> {
-    /// Shows all roots to `sink`, ascending.
+    /// Passes all roots to `sink`, ascending.
     pub(super) fn roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         Isa::detect().run(
             #[inline(always)]
@@ -38,8 +39,9 @@ impl<const M: usize, const C: usize> Solid<M, C> {
             return;
         }
         let line = EmbeddedLine::new(&self.rule, &self.lift, &at, first.abs().max(last.abs()));
-        // Outside of the ball all is outside. A ray that was spawned on the surface starts on a side that is known. Any other one is looked at all along, so that it
-        // has the same roots whatever its range is.
+        // Everything outside the ball is outside. A ray that was spawned on the surface starts on a
+        // known side. Any other ray is examined as a whole, so that it has the same roots for every
+        // range.
         let (a, before) = match ray.source {
             Some(side) if ray.t_min == 0.0 && from > first => (from, Some(side == RaySide::Front)),
             _ => (first, Some(true)),
@@ -55,7 +57,8 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         }
     }
 
-    /// The part of a ray within the ball that holds the solid; all of it that can be if the ray is not well known.
+    /// The part of a ray within the ball that holds the solid; the largest possible part if the
+    /// ray's error is large.
     #[inline(always)]
     fn stretch(&self, at: &CentredRay<'_>) -> Option<(f64, f64)> {
         let (mid, half) = crate::polynomial_surface::ball_and_slab(
@@ -72,7 +75,7 @@ impl<const M: usize, const C: usize> Solid<M, C> {
 }
 
 impl<const M: usize, const C: usize> Query<'_, M, C> {
-    /// Tells the stretch from `lo` to `hi` apart, and shows the roots on it that are complete.
+    /// Classifies the stretch from `lo` to `hi`, and passes on the roots on it that are complete.
     fn isolate(&mut self, lo: f64, hi: f64) -> Flow {
         let node: [f64; 9] = core::array::from_fn(|i| match i {
             0 => lo,
@@ -90,7 +93,7 @@ impl<const M: usize, const C: usize> Query<'_, M, C> {
             if width <= 4.0 * self.line.ulp() || self.passes >= MOST_PASSES {
                 murky = !told;
             } else if width < durer_math::scale::pow2(-20) {
-                // Where even a point's side is open, and no more certain than the stretch's.
+                // Even a point's side is unknown, and no more certain than the stretch's.
                 let middle: [f64; 8] = core::array::from_fn(|i| 0.5 * (a[i] + b[i]));
                 let points = self.line.at(&middle);
                 self.passes += 1;
@@ -129,7 +132,7 @@ impl<const M: usize, const C: usize> Query<'_, M, C> {
         Flow::Continue
     }
 
-    /// Shows a root, unless it is certainly out of the ray's range.
+    /// Passes on a root, unless it is certainly out of the ray's range.
     #[inline(never)]
     fn show(&mut self, found: &Found) -> Flow {
         Isa::detect().run(

@@ -1,6 +1,7 @@
-//! Orbits in f32, where stretches are long beside its roundings.
+//! Orbits in f32, for stretches that are long beside its rounding.
 //!
-//! Eight f32 fill one register of AVX2, where the ten numbers of an orbit's step, eight times in f64, do not fit into all of them.
+//! Eight f32 fill one AVX2 register; the ten numbers of an orbit's step, eight times in f64, do not
+//! fit into all of them.
 
 use super::orbit::{Ball, Rule};
 use durer_math::F8;
@@ -8,7 +9,7 @@ use durer_math::lanes::LANES;
 use durer_math::real::{Eight, Real, more};
 use durer_math::scale::pow2;
 
-/// To the nearest f32; too large ones become infinite.
+/// Rounds to the nearest f32; too large numbers become infinite.
 #[inline(always)]
 fn nearest(x: &Eight<f64>) -> Eight<f32> {
     let mut near = Eight::ZERO;
@@ -18,14 +19,14 @@ fn nearest(x: &Eight<f64>) -> Eight<f32> {
     near
 }
 
-/// No less than a number that is not negative.
+/// Rounds a number that is not negative upward.
 #[inline(always)]
 fn no_less(x: f64) -> f32 {
     (x as f32) * more::<f32>(4.0) + f32::TINY
 }
 
 impl<const C: usize> Ball<f64, C> {
-    /// Middles, slopes, and what is not known of both.
+    /// Middles, slopes, and the errors of both.
     #[inline(always)]
     pub(super) fn new(q: &[F8; C], v: &[F8; C], r: F8, d: F8) -> Self {
         let mut ball = Self { r: Eight(r.0), d: Eight(d.0), ..Self::ZERO };
@@ -45,10 +46,12 @@ impl<const C: usize> Ball<f64, C> {
         points
     }
 
-    /// The same stretches in f32, a bit wider: middles and slopes are rounded, which is charged to their errors.
+    /// The same stretches in f32, slightly wider: the rounding of middles and slopes is added to
+    /// their errors.
     #[inline(always)]
     pub(super) fn rounded(&self) -> Ball<f32, C> {
-        // Each sum of magnitudes is rounded by less than a millionth of it, and no root of a sum of squares is longer.
+        // Each sum of magnitudes is rounded by less than a millionth of it, and no root of a sum of
+        // squares is longer.
         let u = f64::from(f32::U) * (1.0 + pow2(-20));
         let mut less = Ball::ZERO;
         for i in 0..C {
