@@ -4,7 +4,7 @@ use crate::arena::{AnyArena, Arena, Arrange, Unsorted};
 use crate::csg::{Compound, Compounds};
 use crate::geometry::{Beside, Geometry, Instance};
 use crate::ids::{EVERYTHING, Id};
-use crate::{ObjectId, geometry};
+use crate::{ObjectId, PrimitiveId, geometry};
 use core::any::TypeId;
 use durer_bvh::{Bvh, CornersOf, Entry, Frame, Settings};
 use durer_math::{Aabb, Affine, Isa};
@@ -67,7 +67,7 @@ pub enum BuildError {
 impl Builder {
     /// Adds a surface as an object of its own, with the next free number.
     pub fn add<S: Surface + 'static>(&mut self, surface: S) -> &mut Self {
-        self.add_as(surface, ObjectId(self.next_object), 0, EVERYTHING)
+        self.add_as(surface, ObjectId(self.next_object), PrimitiveId(0), EVERYTHING)
     }
 
     /// Adds a surface under the given numbers. Where a surface has parts (the faces of a mesh), part `i` is the primitive `primitive + i`.
@@ -77,7 +77,7 @@ impl Builder {
         &mut self,
         surface: S,
         object: ObjectId,
-        primitive: u32,
+        primitive: PrimitiveId,
         mask: u32,
     ) -> &mut Self {
         let arenas = &mut self.arenas;
@@ -88,7 +88,7 @@ impl Builder {
         let arena = self.arenas[index].as_any().downcast_mut::<Arena<S>>();
         // The map leads from the type to its own arena.
         if let Some(arena) = arena {
-            arena.push(surface, Id { object: object.0, primitive }, mask);
+            arena.push(surface, Id { object: object.0, primitive: primitive.0 }, mask);
         }
         self.next_object = self.next_object.max(object.0.saturating_add(1));
         self
@@ -96,15 +96,15 @@ impl Builder {
 
     /// Adds a solid made of solids as an object of its own, with the next free number.
     pub fn add_compound(&mut self, body: impl Into<Arc<Compound>>) -> &mut Self {
-        self.add_compound_as(body, ObjectId(self.next_object), 0, EVERYTHING)
+        self.add_compound_as(body, ObjectId(self.next_object), PrimitiveId(0), EVERYTHING)
     }
 
-    /// Adds a solid made of solids under the given numbers: `primitive` is added to those of its leaves.
+    /// Adds a solid made of solids as a part of an object: `first` is added to the numbers of its leaves.
     pub fn add_compound_as(
         &mut self,
         body: impl Into<Arc<Compound>>,
         object: ObjectId,
-        primitive: u32,
+        first: PrimitiveId,
         mask: u32,
     ) -> &mut Self {
         let arenas = &mut self.arenas;
@@ -113,7 +113,7 @@ impl Builder {
             arenas.len() - 1
         });
         if let Some(bodies) = self.arenas[index].as_any().downcast_mut::<Compounds>() {
-            bodies.push(body.into(), Id { object: object.0, primitive }, mask);
+            bodies.push(body.into(), Id { object: object.0, primitive: first.0 }, mask);
         }
         self.next_object = self.next_object.max(object.0.saturating_add(1));
         self
@@ -121,7 +121,7 @@ impl Builder {
 
     /// Adds a placement of a whole geometry; its objects get the next free numbers, in their order.
     pub fn instance(&mut self, geometry: &Arc<Geometry>, affine: Affine, mask: u32) -> &mut Self {
-        self.instance_as(geometry, affine, ObjectId(self.next_object), 0, mask)
+        self.instance_as(geometry, affine, ObjectId(self.next_object), PrimitiveId(0), mask)
     }
 
     /// Adds a placement of a whole geometry; `object` and `primitive` are added to the numbers in it.
@@ -130,7 +130,7 @@ impl Builder {
         geometry: &Arc<Geometry>,
         affine: Affine,
         object: ObjectId,
-        primitive: u32,
+        primitive: PrimitiveId,
         mask: u32,
     ) -> &mut Self {
         let (geometry, first_placement) = (Arc::clone(geometry), 0);
@@ -139,7 +139,7 @@ impl Builder {
             geometry,
             affine,
             object: object.0,
-            primitive,
+            primitive: primitive.0,
             mask,
             first_placement,
         });
@@ -191,11 +191,13 @@ impl Builder {
     /// Puts other surfaces in the place of those of type `S`, where there is one for an object, a primitive and the surface as it is.
     pub(crate) fn replace<S: Surface + 'static>(
         &mut self,
-        mut moved: impl FnMut(ObjectId, u32, &S) -> Option<S>,
+        mut moved: impl FnMut(ObjectId, PrimitiveId, &S) -> Option<S>,
     ) {
         let arenas = self.arenas.iter_mut();
         if let Some(arena) = arenas.filter_map(|arena| arena.as_any().downcast_mut::<Arena<S>>()).next() {
-            arena.renew(|Id { object, primitive }, surface| moved(ObjectId(object), primitive, surface));
+            arena.renew(|Id { object, primitive }, surface| {
+                moved(ObjectId(object), PrimitiveId(primitive), surface)
+            });
         }
     }
 

@@ -6,6 +6,23 @@ use durer_surfaces::{Root, RootKind};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ObjectId(pub u32);
 
+/// The number of a primitive within its object: what a [`Hit`] answers with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PrimitiveId(pub u32);
+
+impl PrimitiveId {
+    /// The number of a primitive within a compound whose first primitive is `first`. [`Builder::add_compound_as`](crate::Builder::add_compound_as) adds `first` again.
+    ///
+    /// `None` if the primitive comes before the compound.
+    pub fn within(self, first: Self) -> Option<LeafId> {
+        self.0.checked_sub(first.0).map(LeafId)
+    }
+}
+
+/// The number of a primitive within a [`Compound`](crate::Compound): it knows nothing of the object that the compound becomes a part of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct LeafId(pub u32);
+
 /// One crossing of a ray and a surface of a [`Geometry`](crate::Geometry).
 ///
 /// The exact crossing of the exact ray and the exact surface lies in `[t_lo, t_hi]`, which also holds `t`.

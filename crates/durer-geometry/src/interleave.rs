@@ -280,7 +280,7 @@ impl Rays<bool> for Any<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ObjectId;
+    use crate::{ObjectId, PrimitiveId};
     use durer_math::{Isa, Point3, Vec3};
     use durer_surfaces::{Mesh, MeshData, Plane, Sphere};
 
@@ -305,7 +305,7 @@ mod tests {
         for n in 0..900_u32 {
             let (i, j) = (2 * (n / 30) + 1, 2 * (n % 30) + 1);
             let ball = Sphere::new(Point3::new(f64::from(i), f64::from(j), height(i, j)), 0.6).unwrap();
-            builder.add_as(ball, ObjectId(1 + n), 0, if n % 2 == 0 { EVERYTHING } else { 2 });
+            builder.add_as(ball, ObjectId(1 + n), PrimitiveId(0), if n % 2 == 0 { EVERYTHING } else { 2 });
         }
         builder.add(Plane::new(Vec3::Z, -1.0).unwrap());
         builder.build().unwrap()

@@ -4,7 +4,7 @@ use crate::arena::Arena;
 use crate::filter_cache::Outlines;
 use crate::geometry::{Geometry, solids_in_parts};
 use crate::ids::Id;
-use crate::{BuildError, ObjectId};
+use crate::{BuildError, ObjectId, PrimitiveId};
 use durer_bvh::CornersOf;
 use durer_math::Aabb;
 use durer_surfaces::Surface;
@@ -57,12 +57,13 @@ impl Geometry {
     /// If the tree has no place for what has moved; see [`RefitError`].
     pub fn refit<S: Surface + 'static>(
         &mut self,
-        mut moved: impl FnMut(ObjectId, u32, &S) -> Option<S>,
+        mut moved: impl FnMut(ObjectId, PrimitiveId, &S) -> Option<S>,
     ) -> Result<(), RefitError> {
         let found = self.arenas.iter_mut().position(|arena| arena.as_any().is::<Arena<S>>());
         let Some(kind) = found else { return Ok(()) };
         let parts = |Id { object, primitive }| RefitError::Parts { object, primitive };
-        let by_name = |Id { object, primitive }, surface: &S| moved(ObjectId(object), primitive, surface);
+        let by_name =
+            |Id { object, primitive }, surface: &S| moved(ObjectId(object), PrimitiveId(primitive), surface);
         let Some(arena) = self.arenas[kind].as_any().downcast_mut::<Arena<S>>() else { return Ok(()) };
         let mut old = arena.replace(by_name).map_err(parts)?;
         let refitted = self.follow(kind);
@@ -96,7 +97,7 @@ impl Geometry {
     /// If there are too many parts now.
     pub fn rebuild<S: Surface + 'static>(
         self,
-        moved: impl FnMut(ObjectId, u32, &S) -> Option<S>,
+        moved: impl FnMut(ObjectId, PrimitiveId, &S) -> Option<S>,
     ) -> Result<Self, BuildError> {
         let mut builder = self.reopened();
         builder.replace(moved);

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Dice, rays};
-use durer_geometry::{Geometry, Hit, ObjectId, RefitError, Settings};
+use durer_geometry::{Geometry, Hit, ObjectId, PrimitiveId, RefitError, Settings};
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{AxisBox, Mesh, MeshData, Plane, Sphere, Triangle};
 use std::sync::Arc;
@@ -158,8 +158,9 @@ fn what_is_built_again_answers_as_what_is_built_anew() {
             }
             planes[1] = Plane::new(Vec3::X, -4.0 - dice.signed()).unwrap();
             mesh = drum(&mut dice, sides + [40, 3, 0][round], 1.2);
-            let moved =
-                |ObjectId(object), _: u32, _: &Sphere| (object % 2 == 0).then(|| balls[object as usize]);
+            let moved = |ObjectId(object), _: PrimitiveId, _: &Sphere| {
+                (object % 2 == 0).then(|| balls[object as usize])
+            };
             geometry = geometry.rebuild(moved).unwrap();
             geometry = geometry
                 .rebuild(|ObjectId(object), _, _: &Plane| (object == 61).then_some(planes[1]))

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Dice, fill, ground, object, rays};
-use durer_geometry::{BuildError, EVERYTHING, Geometry};
+use durer_geometry::{BuildError, EVERYTHING, Geometry, PrimitiveId};
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{
     AxisBox, Clip, DynSurface, EllipticCylinder, Frustum, Mesh, MeshData, Need, Placed, Plane, Quadric,
@@ -94,13 +94,13 @@ fn a_million_nested_duplicates() {
 #[test]
 fn numbers_are_what_they_were_asked_to_be() {
     let mut builder = Geometry::builder();
-    builder.add_as(ball(0.0, 0.0, 0.0, 1.0), object(7), 3, EVERYTHING);
+    builder.add_as(ball(0.0, 0.0, 0.0, 1.0), object(7), PrimitiveId(3), EVERYTHING);
     builder.add(ball(5.0, 0.0, 0.0, 1.0));
     let inner = Arc::new(builder.build().unwrap());
     assert_eq!(inner.objects(), 9);
     let mut builder = Geometry::builder();
     builder.add(ball(-9.0, 0.0, 0.0, 1.0));
-    builder.instance_as(&inner, Affine::IDENTITY, object(100), 1000, EVERYTHING);
+    builder.instance_as(&inner, Affine::IDENTITY, object(100), PrimitiveId(1000), EVERYTHING);
     builder.instance(&inner, Affine::translation(Vec3::X * 20.0).unwrap(), EVERYTHING);
     let world = builder.build().unwrap();
     let seen: Vec<_> = world
@@ -115,9 +115,9 @@ fn numbers_are_what_they_were_asked_to_be() {
 #[test]
 fn masks_hide_surfaces_and_instances() {
     let mut builder = Geometry::builder();
-    builder.add_as(ball(0.0, 0.0, 0.0, 1.0), object(0), 0, 0b01);
-    builder.add_as(ball(4.0, 0.0, 0.0, 1.0), object(1), 0, 0b10);
-    builder.add_as(ground(), object(2), 0, 0b10);
+    builder.add_as(ball(0.0, 0.0, 0.0, 1.0), object(0), PrimitiveId(0), 0b01);
+    builder.add_as(ball(4.0, 0.0, 0.0, 1.0), object(1), PrimitiveId(0), 0b10);
+    builder.add_as(ground(), object(2), PrimitiveId(0), 0b10);
     let inner = Arc::new(builder.build().unwrap());
     let mut builder = Geometry::builder();
     builder.instance(&inner, Affine::translation(Vec3::X * 10.0).unwrap(), 0b110);
@@ -382,7 +382,7 @@ fn cube() -> Mesh {
 fn the_faces_of_a_mesh_are_primitives() {
     let mut builder = Geometry::builder();
     builder.add(ball(9.0, 0.0, 0.0, 1.0));
-    builder.add_as(cube(), object(5), 40, EVERYTHING);
+    builder.add_as(cube(), object(5), PrimitiveId(40), EVERYTHING);
     let world = builder.build().unwrap();
     assert_eq!(world.stats().primitives, 13);
     let mut dice = Dice(4);

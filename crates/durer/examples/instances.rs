@@ -7,7 +7,7 @@
 //! `MESH` is any mesh file that durer reads; without one, a knotted tube of 70 000 triangles stands in for it. The placements fill a cube, each
 //! turned and scaled at random, so that their boxes overlap; the camera looks at the cube from outside.
 
-use durer::geometry::{EVERYTHING, Geometry, ObjectId};
+use durer::geometry::{EVERYTHING, Geometry, ObjectId, PrimitiveId};
 use durer::math::elementary::sin_cos;
 use durer::math::{Affine, Point3, Ray, Vec3};
 use durer::surfaces::{Mesh, MeshData};
@@ -120,7 +120,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let place = |i: u64| placement(i, count, size, middle).map_err(|e| e.to_string());
         let places: Result<Vec<Affine>, String> = (first..next).into_par_iter().map(place).collect();
         for place in places? {
-            builder.instance_as(&body, place, ObjectId(0), 0, EVERYTHING);
+            builder.instance_as(&body, place, ObjectId(0), PrimitiveId(0), EVERYTHING);
         }
         first = next;
     }

@@ -7,7 +7,7 @@ use crate::arena::AnyArena;
 use crate::filter_cache::FilterKind;
 use crate::geometry::slots;
 use crate::ids::EVERYTHING;
-use crate::{BuildError, Builder, Geometry, ObjectId};
+use crate::{BuildError, Builder, Geometry, LeafId, ObjectId, PrimitiveId};
 use durer_bvh::Leaf;
 use durer_math::Aabb;
 use durer_surfaces::{LocalPoint, Side, Solidity, Surface};
@@ -110,14 +110,14 @@ pub struct CompoundBuilder {
 impl CompoundBuilder {
     /// Adds a solid, as the next primitive.
     pub fn leaf<S: Surface + 'static>(&mut self, solid: S) -> Result<Part, CsgError> {
-        self.leaf_as(solid, self.primitives, Shown::All)
+        self.leaf_as(solid, LeafId(self.primitives), Shown::All)
     }
 
-    /// Adds a solid under the given number; where a surface has parts (the faces of a mesh), part `i` is the primitive `primitive + i`.
+    /// Adds a solid under the given number; where a surface has parts (the faces of a mesh), part `i` comes `i` numbers later.
     pub fn leaf_as<S: Surface + 'static>(
         &mut self,
         solid: S,
-        primitive: u32,
+        LeafId(primitive): LeafId,
         shown: Shown,
     ) -> Result<Part, CsgError> {
         if solid.solidity() != Solidity::Solid {
@@ -132,7 +132,7 @@ impl CompoundBuilder {
         self.traits.push(Traits { sense, shown, is_endless });
         self.bounds.push(bounds);
         self.primitives = self.primitives.max(primitive.saturating_add(parts.max(1)));
-        self.leaves.add_as(solid, ObjectId(leaf), primitive, EVERYTHING);
+        self.leaves.add_as(solid, ObjectId(leaf), PrimitiveId(primitive), EVERYTHING);
         Ok(self.part(Expr::Leaf(leaf)))
     }
 

@@ -1,6 +1,6 @@
 //! Putting a surface into the geometry: placed, clipped, turned inside out.
 
-use durer_geometry::{Builder, CompoundBuilder, ObjectId, Part, Shown};
+use durer_geometry::{Builder, CompoundBuilder, LeafId, ObjectId, Part, PrimitiveId, Shown};
 use durer_math::{Aabb, Affine};
 use durer_surfaces::{Algebraic, Clip, Complement, DynSurface, Placed, Region, Solidity, Surface};
 
@@ -8,16 +8,15 @@ use super::camera_media::{Enclosure, Held};
 
 /// Where a surface goes.
 pub(super) enum To<'b> {
-    /// It is a primitive of the scene, met by rays with the mask.
-    Scene(&'b mut Builder, ObjectId, u32),
+    /// It is a primitive of an object of the scene, met by rays with the mask.
+    Scene(&'b mut Builder, ObjectId, PrimitiveId, u32),
     /// It is a leaf of a solid made of solids; its part of it, once it is there.
-    Leaf(&'b mut CompoundBuilder, Shown, &'b mut Option<Part>),
+    Leaf(&'b mut CompoundBuilder, LeafId, Shown, &'b mut Option<Part>),
 }
 
 /// Where a surface goes, and what is done to it on the way.
 pub(super) struct Target<'b> {
     pub(super) to: To<'b>,
-    pub(super) primitive: u32,
     pub(super) clips: Vec<Region>,
     pub(super) inverse: bool,
     /// The solid, if rays of the camera may start in it.
@@ -83,11 +82,11 @@ impl Target<'_> {
 
     fn push<S: Surface + 'static>(&mut self, surface: S) {
         match &mut self.to {
-            To::Scene(builder, object, mask) => {
-                builder.add_as(surface, *object, self.primitive, *mask);
+            To::Scene(builder, object, primitive, mask) => {
+                builder.add_as(surface, *object, *primitive, *mask);
             }
             // Whoever asks for a leaf sees whether there is one: sheets are none.
-            To::Leaf(csg, shown, part) => **part = csg.leaf_as(surface, self.primitive, *shown).ok(),
+            To::Leaf(csg, leaf, shown, part) => **part = csg.leaf_as(surface, *leaf, *shown).ok(),
         }
     }
 }

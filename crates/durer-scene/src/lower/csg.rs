@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use durer_geometry::{Compound, CompoundBuilder, CsgError, Part, Shown};
+use durer_geometry::{Compound, CompoundBuilder, CsgError, LeafId, Part, PrimitiveId, Shown};
 use durer_math::Aabb;
 
 use super::build::{Target, To};
@@ -16,6 +16,8 @@ use crate::{Object, Operation, Pattern, Placement, Shape, Texture};
 /// A body under construction.
 struct Work {
     csg: CompoundBuilder,
+    /// Its first primitive: those of its leaves are counted from there.
+    first: PrimitiveId,
     /// The medium of clear leaves without an interior: that of the whole body.
     medium: Option<u32>,
     /// Some light may pass a leaf.
@@ -40,8 +42,8 @@ impl Lowering {
     ) -> Result<(), LowerError> {
         let fail = |kind: LowerErrorKind| kind.at(object.place);
         let flags = inner.flags;
-        let first = self.count()? - self.looks_at.last().map_or(0, |l| l.start);
-        let mut work = Work { csg: Compound::builder(), medium: inner.medium, is_clear: false };
+        let first = self.table.next().map_err(fail)?;
+        let mut work = Work { csg: Compound::builder(), first, medium: inner.medium, is_clear: false };
         let whole =
             Context { flags: Flags { inverse: false, open: false, ..flags }, clips: Vec::new(), ..inner };
         let how = How { shown: Shown::All, inverse: around.flags.inverse };
@@ -200,8 +202,8 @@ impl Lowering {
         work: &mut Work,
         How { shown, inverse }: How,
     ) -> Result<Part, LowerErrorKind> {
-        let primitive = if shown == Shown::None {
-            0
+        let leaf = if shown == Shown::None {
+            Some(LeafId::default())
         } else {
             let (texture, frame) = self.texture_of(context);
             let is_clear = is_clear(object, &texture) || shows_through(&context.inside);
@@ -211,13 +213,16 @@ impl Lowering {
                 None if is_clear => *work.medium.insert(self.medium(&Arc::default())),
                 None => 0,
             };
-            self.looks_of(object, place.affine(), (texture, frame), &context.inside, medium, context.flags)?
+            let painted = (texture, frame);
+            self.looks_of(object, place.affine(), painted, &context.inside, medium, context.flags)?
+                .within(work.first)
         };
+        // The body was begun before its leaves.
+        let leaf = leaf.ok_or(LowerErrorKind::TooMany)?;
         let mut part = None;
         let shown = if object.flags.open && shown == Shown::All { Shown::Wall } else { shown };
         let target = Target {
-            to: To::Leaf(&mut work.csg, shown, &mut part),
-            primitive,
+            to: To::Leaf(&mut work.csg, leaf, shown, &mut part),
             clips: Vec::new(),
             inverse: false,
             inside: None,

@@ -9,19 +9,21 @@ mod camera_media;
 mod csg;
 mod fold_transform;
 mod level_set;
+mod looks;
 mod named_quadric;
 mod shapes;
 mod shared;
 
-use core::ops::Range;
-use std::collections::HashMap;
 use std::sync::Arc;
 
-use durer_geometry::{BuildError, Builder, EVERYTHING, Geometry, ObjectId};
+use durer_geometry::{BuildError, Builder, EVERYTHING, Geometry, ObjectId, PrimitiveId};
 use durer_math::{Aabb, Affine, AffineError, Point3, Vec3};
 
 use crate::{Camera, Face, Flags, Interior, Mesh, Object, Place, Placement, Scene, Shape, Texture, mask};
 use camera_media::Enclosure;
+use looks::{LookTable, PrimitiveLooks};
+
+pub use looks::{Look, LookId};
 
 /// A scene made ready for rays.
 pub struct Lowered {
@@ -33,31 +35,8 @@ pub struct Lowered {
     pub media: Vec<Arc<Interior>>,
     /// What the reader of the text should be told: the scene is rendered all the same.
     pub warnings: Vec<(Option<Place>, String)>,
-    /// For each object, where its primitives' looks are.
-    looks_at: Vec<Range<u32>>,
-    of_primitive: Vec<LookId>,
+    primitives: PrimitiveLooks,
     around_camera: Vec<(u32, Box<dyn Enclosure>)>,
-}
-
-/// The number of a [`Look`] among [`Lowered::looks`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct LookId(pub u32);
-
-/// What a surface looks like.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Look {
-    /// Its texture, placed in the frame.
-    pub texture: Arc<Texture>,
-    /// From the space in which the texture is placed to the world.
-    pub frame: Arc<Placement>,
-    /// The number of the medium behind it among [`Lowered::media`].
-    pub medium: u32,
-    /// Light from behind counts too.
-    pub double_illuminate: bool,
-    /// Some light may pass.
-    pub is_clear: bool,
-    /// What is seen instead where a ray goes along the normal, if that is something else.
-    pub inside: Option<LookId>,
 }
 
 /// Why a scene has no geometry, and where it says so.
@@ -143,11 +122,10 @@ impl Scene {
         let mut lowering = Lowering::new(self);
         for (number, object) in (0..).zip(&self.objects) {
             lowering.object = ObjectId(number);
-            let first = lowering.count()?;
-            lowering.looks_at.push(first..first);
+            lowering.table.begin().map_err(|kind| kind.at(object.place))?;
             lowering.top = object;
             lowering.walk(object, &Context::default())?;
-            lowering.close()?;
+            lowering.table.end().map_err(|kind| kind.at(object.place))?;
         }
         lowering.finish()
     }
@@ -157,8 +135,7 @@ impl Lowered {
     /// What a primitive of an object looks like; `None` if there is no such primitive.
     #[inline]
     pub fn look_of(&self, object: u32, primitive: u32) -> Option<LookId> {
-        let first = self.looks_at.get(object as usize)?.start;
-        self.of_primitive.get(first as usize + primitive as usize).copied()
+        self.primitives.of(object, primitive)
     }
 
     /// Appends the media of all solids that hold `point`, at which a ray of the camera starts, in the order of the text.
@@ -183,7 +160,7 @@ impl Lowered {
 
     /// How many primitives an object has.
     pub fn primitives(&self, object: u32) -> u32 {
-        self.looks_at.get(object as usize).map_or(0, |looks| looks.end - looks.start)
+        self.primitives.count(object)
     }
 }
 
@@ -230,12 +207,9 @@ struct Cutter<'s> {
 /// The work at hand.
 struct Lowering {
     builder: Builder,
-    looks: Vec<Look>,
-    known: HashMap<(*const Texture, *const Placement, u32, bool, Option<LookId>), LookId>,
+    table: LookTable,
     media: Vec<Arc<Interior>>,
     warnings: Vec<(Option<Place>, String)>,
-    looks_at: Vec<Range<u32>>,
-    of_primitive: Vec<LookId>,
     around_camera: Vec<(u32, Box<dyn Enclosure>)>,
     /// Meshes of several objects.
     shared: shared::Meshes,
@@ -255,12 +229,9 @@ impl Lowering {
     fn new(scene: &Scene) -> Self {
         Self {
             builder: Geometry::builder(),
-            looks: Vec::new(),
-            known: HashMap::new(),
+            table: LookTable::default(),
             media: vec![Arc::default()],
             warnings: Vec::new(),
-            looks_at: Vec::with_capacity(scene.objects.len()),
-            of_primitive: Vec::new(),
             around_camera: Vec::new(),
             shared: shared::Meshes::of(&scene.objects),
             top: core::ptr::null(),
@@ -272,19 +243,15 @@ impl Lowering {
         }
     }
 
-    fn count(&self) -> Result<u32, LowerError> {
-        u32::try_from(self.of_primitive.len()).map_err(|_| LowerErrorKind::TooMany.at(None))
-    }
-
     fn finish(mut self) -> Result<Lowered, LowerError> {
         let geometry = self.builder.build().map_err(|e| LowerErrorKind::from(e).at(None))?;
+        let (looks, primitives) = self.table.finish();
         Ok(Lowered {
             geometry,
-            looks: self.looks,
+            looks,
             media: self.media,
             warnings: self.warnings,
-            looks_at: self.looks_at,
-            of_primitive: self.of_primitive,
+            primitives,
             around_camera: self.around_camera,
         })
     }
@@ -342,7 +309,7 @@ impl Lowering {
         (self.media.len() - 1) as u32
     }
 
-    /// The number of a look. Objects that look alike share one.
+    /// The number of a look.
     fn look(
         &mut self,
         (texture, frame): Painted,
@@ -351,13 +318,9 @@ impl Lowering {
         inside: Option<LookId>,
     ) -> LookId {
         let frame = if texture.is_uniform() { Arc::clone(&self.world) } else { frame };
-        let key = (Arc::as_ptr(&texture), Arc::as_ptr(&frame), medium, flags.double_illuminate, inside);
-        *self.known.entry(key).or_insert_with(|| {
-            let is_clear = !texture.is_opaque();
-            let double_illuminate = flags.double_illuminate;
-            self.looks.push(Look { texture, frame, medium, double_illuminate, is_clear, inside });
-            LookId((self.looks.len() - 1) as u32)
-        })
+        let is_clear = !texture.is_opaque();
+        let double_illuminate = flags.double_illuminate;
+        self.table.number(Look { texture, frame, medium, double_illuminate, is_clear, inside })
     }
 
     /// The texture in force and its frame.
@@ -394,8 +357,7 @@ impl Lowering {
             return self.instance(mesh, place, primitive, mask, medium);
         }
         let target = build::Target {
-            to: build::To::Scene(&mut self.builder, self.object, mask),
-            primitive,
+            to: build::To::Scene(&mut self.builder, self.object, primitive, mask),
             clips: context.clips.into_iter().filter_map(|c| c.region).collect(),
             inverse: flags.inverse,
             inside: None,
@@ -420,7 +382,7 @@ impl Lowering {
         inside: &Option<Painted>,
         medium: u32,
         flags: Flags,
-    ) -> Result<u32, LowerErrorKind> {
+    ) -> Result<PrimitiveId, LowerErrorKind> {
         let texture = match &object.shape {
             Shape::Blob(blob) if blob.textures.iter().any(Option::is_some) => {
                 (blob_texture::texture(blob, place, &texture)?, Arc::clone(&self.world))
@@ -437,9 +399,9 @@ impl Lowering {
                 self.look(front, medium, flags, Some(back))
             }
         };
-        let primitive = self.count().map_err(|e| e.kind)? - self.looks_at.last().map_or(0, |l| l.start);
+        let primitive = self.table.next()?;
         let Shape::Mesh(mesh) = &object.shape else {
-            self.of_primitive.push(look);
+            self.table.push(look);
             return Ok(primitive);
         };
         let own_frame = Arc::new(Placement::new(*place));
@@ -448,18 +410,20 @@ impl Lowering {
             own.push(self.look((Arc::clone(texture), Arc::clone(&own_frame)), medium, flags, None));
         }
         let is_shared = object.clips.is_empty() && self.shared.whole(object).is_some();
-        if is_shared && core::ptr::eq(object, self.top) && self.same_looks(mesh, look, own.clone()) {
+        if is_shared && core::ptr::eq(object, self.top) && self.table.same_as_before(mesh, look, own.clone())
+        {
             return Ok(primitive);
         }
         for (face, given) in mesh.faces.iter().enumerate() {
-            self.of_primitive.push(match given.texture {
+            let look = match given.texture {
                 None => look,
                 Some(texture) => {
                     let count = own.len();
                     let missing = LowerErrorKind::MeshTexture { face, texture, count };
                     *own.get(texture as usize).ok_or(missing)?
                 }
-            });
+            };
+            self.table.push(look);
         }
         Ok(primitive)
     }

@@ -1,20 +1,17 @@
-//! Meshes that several objects have: each is built once, and placed as often as it is shown. Their looks are listed once too, where they are the same.
+//! Meshes that several objects have: each is built once, and placed as often as it is shown.
 
-use core::ops::Range;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use durer_geometry::{EVERYTHING, Geometry, ObjectId};
+use durer_geometry::{EVERYTHING, Geometry, ObjectId, PrimitiveId};
 use durer_math::Affine;
 
-use super::{LookId, LowerError, LowerErrorKind, Lowering, build, shapes};
+use super::{LowerErrorKind, Lowering, build, shapes};
 use crate::{Mesh, Object, Shape};
 
 /// The meshes that more than one of a scene's objects are, by their addresses, which do not change while the scene is borrowed.
 pub(super) struct Meshes {
     built: HashMap<*const Mesh, Option<Arc<Geometry>>>,
-    /// Where the looks of an object are whose faces have certain textures.
-    looks: HashMap<(*const Mesh, LookId, Vec<LookId>), Range<u32>>,
 }
 
 impl Meshes {
@@ -26,7 +23,7 @@ impl Meshes {
             }
         }
         let shared = counts.into_iter().filter(|c| c.1 > 1);
-        Self { built: shared.map(|c| (c.0, None)).collect(), looks: HashMap::new() }
+        Self { built: shared.map(|c| (c.0, None)).collect() }
     }
 
     /// The mesh that an object is, if others are it too.
@@ -39,41 +36,12 @@ impl Meshes {
 }
 
 impl Lowering {
-    /// Ends the list of an object's looks, unless it has those of another.
-    pub(super) fn close(&mut self) -> Result<(), LowerError> {
-        let end = self.count()?;
-        if let Some(looks) = self.looks_at.last_mut().filter(|looks| looks.end == looks.start) {
-            looks.end = looks.end.max(end);
-        }
-        Ok(())
-    }
-
-    /// Gives the object at hand, which is this mesh and nothing else, the looks of another with the same textures, if there is one.
-    pub(super) fn same_looks(&mut self, mesh: &Arc<Mesh>, look: LookId, own: Vec<LookId>) -> bool {
-        let key = (Arc::as_ptr(mesh), look, own);
-        let Some(looks) = self.looks_at.last_mut().filter(|l| l.start as usize == self.of_primitive.len())
-        else {
-            return false;
-        };
-        match self.shared.looks.get(&key) {
-            Some(known) => {
-                *looks = known.clone();
-                true
-            }
-            None => {
-                let end = looks.start.saturating_add(mesh.faces.len() as u32);
-                self.shared.looks.insert(key, looks.start..end);
-                false
-            }
-        }
-    }
-
     /// Places a mesh that is built once.
     pub(super) fn instance(
         &mut self,
         mesh: &Arc<Mesh>,
         place: &Affine,
-        primitive: u32,
+        primitive: PrimitiveId,
         mask: u32,
         medium: u32,
     ) -> Result<(), LowerErrorKind> {
@@ -83,7 +51,8 @@ impl Lowering {
             None => {
                 let surface = shapes::mesh(mesh)?;
                 let mut builder = Geometry::builder();
-                let geometry = Arc::new(builder.add_as(surface, ObjectId(0), 0, EVERYTHING).build()?);
+                let geometry =
+                    Arc::new(builder.add_as(surface, ObjectId(0), PrimitiveId(0), EVERYTHING).build()?);
                 self.shared.built.insert(Arc::as_ptr(mesh), Some(Arc::clone(&geometry)));
                 geometry
             }
@@ -92,8 +61,7 @@ impl Lowering {
         let standing = place.bounds(&geometry.bounds()).intersection(self.camera);
         if mesh.inside_vector.is_some() && !standing.is_empty() {
             let mut target = build::Target {
-                to: build::To::Scene(&mut self.builder, self.object, mask),
-                primitive,
+                to: build::To::Scene(&mut self.builder, self.object, primitive, mask),
                 clips: Vec::new(),
                 inverse: false,
                 inside: None,

@@ -2,7 +2,7 @@
 
 use super::worlds::{World, crossed_eight, crossed_star, heart, map, placements, tent};
 use super::{Aim, Dice, OF_HIGHER_DEGREE, Tally, compare, eight, point};
-use crate::{Geometry, Shown};
+use crate::{Geometry, LeafId, Shown};
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{
     AlgebraicSurface, Axis, AxisBox, Blob, BlobComponent, BlobShape, CappedCylinder, Complement, Cone,
@@ -141,9 +141,9 @@ fn bodies() -> Vec<World> {
     });
     world("cutters that are not seen", &|csg| {
         let outer = csg.leaf(block(-0.9, 0.9)).unwrap();
-        let hole = csg.leaf_as(ball(0.6, 0.7), 5, Shown::None).unwrap();
+        let hole = csg.leaf_as(ball(0.6, 0.7), LeafId(5), Shown::None).unwrap();
         let tube = CappedCylinder::new(point(-2.0, 0.1, 0.2), point(2.0, 0.1, 0.2), 0.4).unwrap();
-        let wall = csg.leaf_as(tube, 7, Shown::Wall).unwrap();
+        let wall = csg.leaf_as(tube, LeafId(7), Shown::Wall).unwrap();
         let rest = csg.difference(outer, [hole]);
         csg.union([rest, wall])
     });
