@@ -46,6 +46,11 @@ impl CandidateList {
     pub fn is_empty(&self) -> bool {
         self.candidates.is_empty()
     }
+
+    /// Whether the rays may meet something that has a bit in common with `mask`: `false` is certain.
+    pub fn admits(&self, mask: u32) -> bool {
+        self.candidates.iter().any(|candidate| candidate.mask & mask != 0)
+    }
 }
 
 impl Geometry {

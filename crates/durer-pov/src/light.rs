@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use crate::diagnostics::{Error, Result};
+use crate::diagnostics::Result;
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::object::{Object, Shape};
@@ -95,7 +95,7 @@ impl Parser<'_> {
         if (matches!(light.beam, Beam::Spot | Beam::Cylinder) || light.parallel)
             && length(std::array::from_fn(|i| light.point_at[i] - light.location[i])) == 0.0
         {
-            return Err(Error::invalid(begin, "this light points at its own location"));
+            self.notice(begin, "this light points at its own location: it does not shine");
         }
         Ok(Object::new(Shape::Light(Rc::new(light)), begin))
     }

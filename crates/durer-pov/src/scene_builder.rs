@@ -87,7 +87,7 @@ impl Parser<'_> {
             self.scene.objects.push(shown);
         }
         for (light, moved) in lights {
-            self.emit_light(&light, &moved, at, &default)?;
+            self.emit_light(&light, &moved, &default)?;
         }
         Ok(())
     }
@@ -104,16 +104,7 @@ impl Parser<'_> {
         Ok(made)
     }
 
-    fn emit_light(
-        &mut self,
-        light: &Light,
-        moved: &Matrix,
-        at: Place,
-        default: &Arc<scene::Texture>,
-    ) -> Result<()> {
-        if light.fade_distance < 0.0 || light.fade_power < 0.0 {
-            return Err(Error::invalid(at, "a light's fade_distance and fade_power cannot be negative"));
-        }
+    fn emit_light(&mut self, light: &Light, moved: &Matrix, default: &Arc<scene::Texture>) -> Result<()> {
         let kind = match light.beam {
             Beam::Point | Beam::Shadowless => scene::LightKind::Point,
             Beam::Spot => scene::LightKind::Spot {
@@ -127,7 +118,7 @@ impl Parser<'_> {
                 tightness: light.tightness,
             },
         };
-        let fades = light.fade_distance > 0.0 && light.fade_power > 0.0;
+        let fades = light.fade_distance != 0.0 && light.fade_power > 0.0;
         limits::charge_for_good(size_of::<scene::Light>());
         self.scene.lights.push(scene::Light {
             location: point(moved.point(light.location)),

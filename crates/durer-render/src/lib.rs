@@ -37,6 +37,7 @@ mod material;
 mod medium;
 mod power;
 mod progress;
+mod ray_end;
 mod render;
 mod sampler;
 mod settings;

@@ -21,23 +21,39 @@ struct Fade {
     /// `None` for exponential fading.
     power: Option<Power>,
     colour: Rgb,
+    /// A fact of the scene language: without a positive power shadows do not fade, though what is seen through the medium does.
+    fades_shadows: bool,
 }
 
 /// From this power on light fades exponentially: a fact of the scene language.
 const EXPONENTIAL: f64 = 1000.0;
 
+/// Distances that are not farther from zero are none: a fact of the scene language, for interiors and lights.
+pub(crate) const NO_DISTANCE: f64 = 1e-10;
+
 impl Medium {
     pub(crate) fn new(interior: &Interior) -> Self {
-        let fade = (interior.fade_distance > 0.0).then(|| Fade {
+        let fade = (interior.fade_distance.abs() > NO_DISTANCE).then(|| Fade {
             distance: interior.fade_distance,
             power: (interior.fade_power < EXPONENTIAL).then(|| Power::new(interior.fade_power)),
             colour: interior.fade_color,
+            fades_shadows: interior.fade_power > 0.0,
         });
         let caustics = (interior.caustics != 0.0).then(|| Power::new(interior.caustics));
         Self { ior: interior.ior, fade, caustics }
     }
 
-    /// What is left of light after some distances in the medium.
+    /// What is left of a lamp's light after some distances in the medium.
+    #[inline(always)]
+    pub(crate) fn shadow_after(&self, distance: F8, live: M8) -> Rgb8 {
+        match &self.fade {
+            Some(fade) if fade.fades_shadows => self.left_after(distance, live),
+            _ => Rgb8::WHITE,
+        }
+    }
+
+    /// What is left of what is seen after some distances in the medium. Of a negative fade distance the formula is taken at its word;
+    /// where there is no power nothing is left.
     #[inline(always)]
     pub(crate) fn left_after(&self, distance: F8, live: M8) -> Rgb8 {
         let Some(fade) = &self.fade else { return Rgb8::WHITE };
@@ -45,10 +61,11 @@ impl Medium {
         let colour = Rgb8::splat(fade.colour);
         match fade.power {
             Some(power) => {
-                let k = F8::ONE / (F8::ONE + power.lanes(depth, live));
+                let k = F8::ONE / (F8::ONE + power.signed_lanes(depth, live));
+                let is_number = k.equals(k);
                 colour.map(
                     #[inline(always)]
-                    |c| c + (F8::ONE - c) * k,
+                    |c| is_number.keep(c + (F8::ONE - c) * k),
                 )
             }
             None => {
@@ -89,6 +106,34 @@ mod tests {
         let interior = Interior { fade_distance: 2.0, fade_power: 1000.0, ..Default::default() };
         let left = left_after(&interior, 6.0);
         assert!((left.r - elementary::exp(-3.0)).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_negative_distance_fades_by_the_formula() {
+        let at = |fade_power| {
+            left_after(&Interior { fade_distance: -2.0, fade_power, ..Default::default() }, 6.0).r
+        };
+        assert_eq!([at(1.0), at(2.0), at(-1.0), at(0.5)], [-0.5, 0.1, 1.5, 0.0]);
+        assert!((at(1000.0) - elementary::exp(3.0)).abs() < 1e-14);
+    }
+
+    #[test]
+    fn without_a_positive_power_shadows_do_not_fade() {
+        let both = |fade_power| {
+            let medium = Medium::new(&Interior { fade_distance: 2.0, fade_power, ..Default::default() });
+            let d = F8::splat(6.0);
+            [medium.left_after(d, M8::ALL).r.0[0], medium.shadow_after(d, M8::ALL).r.0[0]]
+        };
+        assert_eq!([both(0.0), both(-1.0), both(1.0)], [[0.5, 1.0], [0.75, 1.0], [0.25, 0.25]]);
+    }
+
+    #[test]
+    fn distances_next_to_zero_are_none() {
+        let at = |fade_distance| {
+            left_after(&Interior { fade_distance, fade_power: 1.0, ..Default::default() }, 5.0)
+        };
+        assert_eq!([at(1e-10), at(-1e-10)], [Rgb::WHITE; 2]);
+        assert!(at(1.1e-10).r < 1e-10);
     }
 
     #[test]

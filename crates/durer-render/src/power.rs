@@ -40,6 +40,22 @@ impl Power {
         }
     }
 
+    /// As `lanes`, also for `x < 0`: the exponent is then even or odd, or the answer is NaN.
+    #[inline(always)]
+    pub(crate) fn signed_lanes(self, x: F8, live: M8) -> F8 {
+        let Self::Real(e) = self else { return self.lanes(x, live) };
+        let size = self.lanes(x.abs(), live);
+        let half = 0.5 * e;
+        let of_negative = if e != crate::vector::floor(e) {
+            F8::splat(f64::NAN)
+        } else if half == crate::vector::floor(half) {
+            size
+        } else {
+            -size
+        };
+        x.lt(F8::ZERO).select(of_negative, size)
+    }
+
     /// The same in lanes; those that are not live hold anything.
     #[inline(always)]
     pub(crate) fn lanes(self, x: F8, live: M8) -> F8 {
@@ -76,6 +92,29 @@ mod tests {
                 let want = elementary::pow(x, e);
                 assert!((Power::new(e).of(x) - want).abs() <= 1e-12 * want, "{x}^{e}");
             }
+        }
+    }
+
+    #[test]
+    fn powers_of_negative_numbers_have_their_sign_or_are_none() {
+        for (e, want) in [
+            (0.0, 1.0),
+            (1.0, -2.0),
+            (2.0, 4.0),
+            (3.0, -8.0),
+            (-1.0, -0.5),
+            (-2.0, 0.25),
+            (5001.0, f64::NEG_INFINITY),
+            (5002.0, f64::INFINITY),
+        ] {
+            let got = Power::new(e).signed_lanes(F8::splat(-2.0), M8::ALL).0[3];
+            assert!(got == want || (got - want).abs() <= 1e-12 * want.abs(), "{e}: {got}");
+        }
+        assert!(Power::new(0.5).signed_lanes(F8::splat(-2.0), M8::ALL).0[3].is_nan());
+        let x = F8([0.0, 0.1, 0.25, 0.5, 0.99, 0.999_9, 1.0, 1.5]);
+        for e in [0.0, 1.0, 7.0, 4097.0, 0.5, 2.5, -3.0] {
+            let power = Power::new(e);
+            assert_eq!(power.signed_lanes(x, M8::ALL), power.lanes(x, M8::ALL), "{e}");
         }
     }
 

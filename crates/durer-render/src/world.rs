@@ -10,6 +10,7 @@ use crate::camera::{Camera, CameraError};
 use crate::film::Encoding;
 use crate::light::RenderLight;
 use crate::medium::Medium;
+use crate::ray_end::RayEnd;
 use crate::texture::RenderTexture;
 
 /// A scene made ready to be rendered: built once, then shared by all threads.
@@ -20,6 +21,8 @@ pub struct World {
     pub(crate) media: Vec<Medium>,
     pub(crate) lamps: Vec<RenderLight>,
     camera: Option<Camera>,
+    /// Where the camera's rays start.
+    pub(crate) camera_end: Option<RayEnd>,
     /// The media in which all rays of the camera start, if it has one standpoint, or those are the same for all.
     standing: Option<Vec<u32>>,
     pub(crate) background: Rgb,
@@ -100,13 +103,15 @@ impl World {
             _ => scene.camera.as_ref().and_then(|camera| lowered.media_in(&camera.standpoints())),
         };
         let background = scene.background.0;
+        let lights = scene.lights.iter().filter_map(RenderLight::new);
         Ok(Self {
             has_insides: lowered.looks.iter().any(|l| l.inside.is_some()),
             has_clear_shadows: lowered.looks.iter().any(|l| l.is_clear),
             media: lowered.media.iter().map(|i| Medium::new(i)).collect(),
-            lamps: scene.lights.iter().filter_map(RenderLight::new).collect(),
+            lamps: lights.map(|light| light.among(&lowered.geometry)).collect(),
             looks,
             paints,
+            camera_end: camera.map(|camera| RayEnd::camera(&lowered.geometry, camera.start_size())),
             camera,
             standing,
             // What is clear of the background is black, as nothing lies behind it.

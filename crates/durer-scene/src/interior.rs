@@ -7,9 +7,9 @@ use crate::Rgb;
 pub struct Interior {
     /// The index of refraction; positive.
     pub ior: f64,
-    /// The depth at which light has faded half way; 0 is never.
+    /// The depth at which light has faded half way; 0 is never. With a negative one the formula is taken at its word.
     pub fade_distance: f64,
-    /// How sharply light fades; from 1000 on exponentially.
+    /// How sharply light fades; from 1000 on exponentially. If it is not positive shadows do not fade.
     pub fade_power: f64,
     /// What light fades to.
     pub fade_color: Rgb,

@@ -51,9 +51,9 @@ pub enum LightKind {
 /// A light is multiplied by `2 / (1 + (d / distance)^power)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fade {
-    /// Where it has its own strength; positive.
+    /// Where it has its own strength. With a negative one the formula is taken at its word.
     pub distance: f64,
-    /// How sharply it fades; positive.
+    /// How sharply it fades; a light does not fade if this is not positive.
     pub power: f64,
 }
 

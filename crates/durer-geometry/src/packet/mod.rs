@@ -248,7 +248,7 @@ impl Geometry {
         let clear = t.lt(never) & doubt.gt(*t + *e) & e.le(*t * (0.5 * PREVIEW_WIDTH));
         let mut left = rays.live & !(clear | t.ge(never) & doubt.ge(never));
         let mut waiting = clear.bits();
-        hits.t = *t;
+        (hits.t, hits.t_error) = (*t, *e);
         let (mut is_first, mut these) = (true, M8::NONE);
         while waiting != 0 {
             let i = waiting.trailing_zeros() as usize;

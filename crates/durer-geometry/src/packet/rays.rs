@@ -44,6 +44,8 @@ pub struct Hits8 {
     pub touching: M8,
     /// Where, in units of the direction.
     pub t: F8,
+    /// Bounds on the distance of `t` from the exact crossing.
+    pub t_error: F8,
     /// The points.
     pub p: Point3<F8>,
     /// The unit geometric normals: outward for solids, as stored for open surfaces.
@@ -185,6 +187,7 @@ impl Hits8 {
         hit: M8::NONE,
         touching: M8::NONE,
         t: F8::ZERO,
+        t_error: F8::ZERO,
         p: Point3::new(F8::ZERO, F8::ZERO, F8::ZERO),
         ng: Vec3::new(F8::ZERO, F8::ZERO, F8::ONE),
         ns: Vec3::new(F8::ZERO, F8::ZERO, F8::ONE),
@@ -217,12 +220,14 @@ impl Hits8 {
         }
     }
 
-    /// What a ray saw by itself.
-    pub(super) fn set_lane(&mut self, i: usize, seen: Option<(Hit, SurfacePoint)>) {
+    /// Puts the answer of a single ray into lane `i`.
+    pub fn set_lane(&mut self, i: usize, seen: Option<(Hit, SurfacePoint)>) {
         self.hit.set_lane(i, seen.is_some());
         let Some((hit, point)) = seen else { return };
         self.touching.set_lane(i, hit.sign == 0);
         self.t.0[i] = hit.t;
+        // The differences are rounded.
+        self.t_error.0[i] = (hit.t - hit.t_lo).max(hit.t_hi - hit.t) * (1.0 + 2.0 * U);
         (self.p.x.0[i], self.p.y.0[i], self.p.z.0[i]) = (point.p.x, point.p.y, point.p.z);
         self.ng.set_lane(i, point.ng.to_vec());
         self.ns.set_lane(i, point.ns.to_vec());

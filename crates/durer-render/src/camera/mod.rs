@@ -59,6 +59,15 @@ impl Camera {
         }
     }
 
+    /// The sum of the coordinates from which the starts of rays are computed.
+    pub(crate) fn start_size(&self) -> f64 {
+        let sum = |v: Vec3| v.x.abs() + v.y.abs() + v.z.abs();
+        match self {
+            Self::Perspective(camera) => sum(camera.origin().to_vec()),
+            Self::Orthographic(camera) => camera.start_terms().map(sum).into_iter().sum(),
+        }
+    }
+
     /// The rays through some places of a picture of the given size, measured in pixels from the top left.
     #[inline(always)]
     pub(crate) fn rays(&self, x: F8, y: F8, (width, height): (u32, u32)) -> (Point3<F8>, Vec3<F8>) {

@@ -39,6 +39,12 @@ impl Orthographic {
     pub fn ray(&self, px: f64, py: f64) -> Ray {
         Ray::new(self.origin + (self.sx * px + self.sy * py), self.direction)
     }
+
+    /// The vectors of which the starts of rays are sums.
+    pub(super) fn start_terms(&self) -> [Vec3; 3] {
+        [self.origin.to_vec(), self.sx, self.sy]
+    }
+
     /// The origins and the direction of the rays through some points.
     #[inline(always)]
     pub(super) fn rays(&self, px: F8, py: F8) -> (Point3<F8>, Vec3<F8>) {

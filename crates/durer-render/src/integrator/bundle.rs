@@ -12,6 +12,10 @@ pub(super) const TOGETHER: usize = 16;
 /// A group with at least so many rays that belong together is used as it is; rays of others are gathered into new groups.
 const DENSE: u32 = 6;
 
+/// Black is seen after so many rays in a row, and as many clear surfaces in a row let no light pass: each ray keeps a list of
+/// the media it is in.
+pub(super) const DEEPEST: u32 = 4096;
+
 /// What is to become of what eight rays see.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Paths8 {

@@ -56,7 +56,7 @@ impl<'w> Lamps<'w> {
                 }
             }
             self.aim(isa, lamp, spots);
-            self.shadows.cast((world, isa), media, stop, counts);
+            self.shadows.cast((world, isa), lamp.end.as_ref(), media, stop, counts);
             isa.run_in_lanes(
                 #[inline(always)]
                 || {

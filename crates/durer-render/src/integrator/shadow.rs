@@ -1,11 +1,12 @@
 //! Shadow rays: what is left of a light on its way to points.
 
-use super::bundle::{Bundle, Paths8, TOGETHER, see};
+use super::bundle::{Bundle, BundleState, DEEPEST, Paths8, TOGETHER, see};
 use super::group::{Piece, cut, sort};
 use super::media::Crossing;
 use super::shading_point::{Spot, Spots};
 use crate::lanes::Rgb8;
 use crate::progress::Progress;
+use crate::ray_end::RayEnd;
 use crate::stats::RayCounts;
 use crate::vector::{dot, length};
 use crate::world::{Look, World};
@@ -36,6 +37,8 @@ pub(super) struct Shadows<'w> {
     /// Bundles to be used again.
     spare: Vec<Bundle<'w>>,
     hits: Vec<Hits8>,
+    /// What opaque surfaces some rays meet, where it matters which.
+    blockers: Vec<Hits8>,
     scratch: Box<Scratch>,
     pieces: Vec<Piece>,
     spots: Spots,
@@ -60,9 +63,11 @@ impl<'w> Shadows<'w> {
     }
 
     /// Takes away what does not arrive: all behind anything opaque, else what clear surfaces on the way do not let pass. They do not bend it.
+    /// Surfaces that pass through `end` throw no shadow.
     pub(super) fn cast(
         &mut self,
         (world, isa): (&'w World, Isa),
+        end: Option<&RayEnd>,
         media: &[u32],
         stop: &Progress<'_>,
         counts: &mut RayCounts,
@@ -85,7 +90,17 @@ impl<'w> Shadows<'w> {
             }
             let (beam, scratch) = (beam.as_ref(), &mut self.scratch);
             let met = &mut [M8::NONE; TOGETHER][..rays.len()];
-            world.geometry().any8(beam, rays, mask::SHADOW, met, scratch);
+            match end {
+                None => world.geometry().any8(beam, rays, mask::SHADOW, met, scratch),
+                Some(end) => {
+                    self.blockers.resize(rays.len(), Hits8::NONE);
+                    let hits = &mut self.blockers;
+                    world.geometry().first_visible8(beam, rays, mask::SHADOW, hits, scratch);
+                    for ((rays, hits), met) in rays.iter().zip(hits).zip(&mut *met) {
+                        *met = end.blocked(world.geometry(), mask::SHADOW, rays, hits);
+                    }
+                }
+            }
             isa.run_in_lanes(
                 #[inline(always)]
                 || {
@@ -100,10 +115,13 @@ impl<'w> Shadows<'w> {
             if clear {
                 let hits = &mut self.hits[chunk * TOGETHER..][..rays.len()];
                 world.geometry().first_visible8(beam, rays, mask::CLEAR_SHADOW, hits, scratch);
+                if let Some(end) = end {
+                    end.see_before(world.geometry(), mask::CLEAR_SHADOW, rays, hits);
+                }
             }
         }
         if self.hits.iter().any(|h| h.hit.any()) {
-            self.go_through_clear((world, isa), media, stop, counts);
+            self.go_through_clear((world, isa), end, media, stop, counts);
         }
     }
 
@@ -111,6 +129,7 @@ impl<'w> Shadows<'w> {
     fn go_through_clear(
         &mut self,
         (world, isa): (&'w World, Isa),
+        end: Option<&RayEnd>,
         media: &[u32],
         stop: &Progress<'_>,
         counts: &mut RayCounts,
@@ -120,26 +139,45 @@ impl<'w> Shadows<'w> {
             ..Paths8::NONE
         }));
         let (rays, starts) = (core::mem::take(&mut self.rays), core::mem::take(&mut self.starts));
-        self.cross((world, isa), (&rays, &starts), media);
+        self.cross((world, isa), (&rays, &starts), media, 1);
         (self.rays, self.starts) = (rays, starts);
         while let Some(bundle) = self.clear.pop() {
             if stop.is_cancelled() {
                 self.spare.push(bundle);
                 continue;
             }
+            if bundle.standing.depth >= DEEPEST {
+                for (rays, paths) in bundle.rays.iter().zip(&bundle.paths) {
+                    settle(&mut self.light, &Paths8 { factor: Rgb8::BLACK, ..*paths }, rays.live);
+                }
+                self.spare.push(bundle);
+                continue;
+            }
             self.hits.resize(bundle.rays.len(), Hits8::NONE);
             counts.shadow += bundle.rays.iter().map(|rays| rays.live.count() as u64).sum::<u64>();
             see(world.geometry(), &bundle.rays, mask::CLEAR_SHADOW, &mut self.hits, &mut self.scratch);
+            if let Some(end) = end {
+                end.see_before(world.geometry(), mask::CLEAR_SHADOW, &bundle.rays, &mut self.hits);
+            }
             for ((rays, paths), hits) in bundle.rays.iter().zip(&bundle.paths).zip(&self.hits) {
                 settle(&mut self.light, paths, rays.live & !hits.hit);
             }
-            self.cross((world, isa), (&bundle.rays, &bundle.paths), &bundle.standing.media);
+            let BundleState { media, depth, .. } = &bundle.standing;
+            self.cross((world, isa), (&bundle.rays, &bundle.paths), media, depth + 1);
             self.spare.push(bundle);
         }
     }
 
     /// Rays in some media go on behind the surfaces that they met.
-    fn cross(&mut self, (world, isa): (&'w World, Isa), rays: (&[Rays8], &[Paths8]), media: &[u32]) {
+    /// They are aimed at the light again. Each leaves a surface behind; one that has passed the light has arrived. So all arrive, unless they
+    /// meet more surfaces than [`DEEPEST`]. `depth` is how many that are.
+    fn cross(
+        &mut self,
+        (world, isa): (&'w World, Isa),
+        rays: (&[Rays8], &[Paths8]),
+        media: &[u32],
+        depth: u32,
+    ) {
         self.pieces.clear();
         for (group, hits) in self.hits.iter().enumerate() {
             cut(world, group, &rays.0[group], hits, &mut self.pieces);
@@ -152,6 +190,7 @@ impl<'w> Shadows<'w> {
             let mut behind = self.spare.pop().unwrap_or_else(Bundle::new);
             behind.clear();
             crossing.behind(look.medium, media, &mut behind.standing.media);
+            behind.standing.depth = depth;
             let (light, targets) = (&mut self.light, &self.targets);
             isa.run_in_lanes(
                 #[inline(always)]
@@ -159,8 +198,9 @@ impl<'w> Shadows<'w> {
                     for spot in spots {
                         let goes_on = pass(world, look, crossing, spot);
                         let target = targets_of(spot, targets);
-                        settle(light, &spot.paths, spot.live & !goes_on);
                         let (origin, back) = spot.hits.start_towards(target - spot.hits.p);
+                        let goes_on = goes_on & F8::ZERO.lt(dot(target - origin, spot.view.eye));
+                        settle(light, &spot.paths, spot.live & !goes_on);
                         let rays = Rays8 {
                             origin,
                             direction: target - origin,
@@ -186,7 +226,7 @@ fn pass(world: &World, look: &Look, crossing: Crossing, spot: &mut Spot) -> M8 {
     let speed = length(direction);
     let medium = &world.media[look.medium as usize];
     if matches!(crossing, Crossing::Leave { .. }) {
-        left = left * medium.left_after(spot.hits.t * speed, goes_on);
+        left = left * medium.shadow_after(spot.hits.t * speed, goes_on);
     }
     if let Some(power) = medium.caustics {
         let cosine = dot(spot.hits.ng, direction).abs() / speed;

@@ -10,7 +10,7 @@
 //! counts in the picture and to which sum its colour is added, so nothing waits for it: bundles lie on a stack, the last one is followed
 //! first, and there is no recursion. In which bundle a ray comes along, and beside which others, changes nothing about its colour.
 
-use super::bundle::{Bundle, BundleState, Paths8, see};
+use super::bundle::{Bundle, BundleState, DEEPEST, Paths8, see};
 use super::direct_light::Lamps;
 use super::group::{Piece, cut, sort};
 use super::layers::{Coats, draws};
@@ -34,8 +34,6 @@ use durer_scene::{Rgb, mask};
 const CAMERA_RAYS: usize = 128 * LANES;
 /// So many groups are seen and shaded at a time: what is known of them on the way is to stay in the cache.
 const AT_A_TIME: usize = 16;
-/// Black is seen after so many rays in a row: each keeps a list of the media it is in.
-const DEEPEST: u32 = 4096;
 
 /// Traces rays for one thread; keeps its buffers, so that nothing is allocated for a ray.
 pub(crate) struct Whitted<'w> {
@@ -245,7 +243,7 @@ impl<'w> Whitted<'w> {
 
     /// The same of some of its groups.
     fn follow_some(&mut self, (rays, paths): (&[Rays8], &[Paths8]), standing: &BundleState<'w>) {
-        self.see((rays, paths), standing.mask);
+        self.see((rays, paths), standing);
         let pieces = core::mem::take(&mut self.pieces);
         let mut spots = core::mem::take(&mut self.spots);
         for part in pieces.chunk_by(Piece::is_like) {
@@ -264,12 +262,15 @@ impl<'w> Whitted<'w> {
     }
 
     /// What rays meet first: in `hits`, and in `pieces` what is to be shaded together. Where they meet nothing the background is seen.
-    fn see(&mut self, (rays, paths): (&[Rays8], &[Paths8]), mask: u32) {
+    fn see(&mut self, (rays, paths): (&[Rays8], &[Paths8]), standing: &BundleState<'w>) {
         let world = self.world;
         self.pieces.clear();
         // What is there of other rays is written over.
         self.hits.resize(rays.len(), Hits8::NONE);
-        see(world.geometry(), rays, mask, &mut self.hits, &mut self.scratch);
+        see(world.geometry(), rays, standing.mask, &mut self.hits, &mut self.scratch);
+        if let Some(camera) = world.camera_end.filter(|_| standing.depth == 0) {
+            camera.see_beyond(world.geometry(), standing.mask, rays, &mut self.hits);
+        }
         let (hits, sums, pieces) = (&self.hits, &mut self.sums, &mut self.pieces);
         self.isa.run_in_lanes(
             #[inline(always)]

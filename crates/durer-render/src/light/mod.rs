@@ -1,9 +1,12 @@
 //! Lights made ready: from where they shine on a point, and how strongly.
 
+use crate::medium::NO_DISTANCE;
 use crate::power::Power;
+use crate::ray_end::RayEnd;
 use crate::vector::{dot, length, unit};
+use durer_geometry::Geometry;
 use durer_math::{F8, M8, Point3, Vec3, elementary};
-use durer_scene::{Light, LightKind, Rgb};
+use durer_scene::{Light, LightKind, Rgb, mask};
 
 /// A light.
 #[derive(Clone, Debug)]
@@ -16,6 +19,8 @@ pub(crate) struct RenderLight {
     pub(crate) parallel: bool,
     pub(crate) shadowless: bool,
     fade: Option<(f64, Power)>,
+    /// Where its shadow rays end, if a surface may pass through that.
+    pub(crate) end: Option<RayEnd>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -60,9 +65,11 @@ fn smooth_step(a: f64, b: f64, x: F8) -> F8 {
 }
 
 impl RenderLight {
-    /// `None` for a light that is black.
+    /// `None` for a light that is black, or that has a direction and points at its own location.
     pub(crate) fn new(light: &Light) -> Option<Self> {
-        if light.colour.is_black() {
+        let way = light.point_at - light.location;
+        let is_aimed = light.parallel || !matches!(light.kind, LightKind::Point);
+        if light.colour.is_black() || is_aimed && length(way) < NO_DISTANCE {
             return None;
         }
         let beam = match light.kind {
@@ -73,19 +80,38 @@ impl RenderLight {
                 tightness: Power::new(tightness),
             },
             LightKind::Cylinder { radius, falloff, tightness } => {
-                Beam::Tube { full: radius, end: falloff, tightness: Power::new(tightness) }
+                // Without a positive radius the beam has no soft edge: a fact of the scene language.
+                let full = if radius > 0.0 { radius } else { falloff };
+                Beam::Tube { full, end: falloff, tightness: Power::new(tightness) }
             }
         };
         let tube = matches!(beam, Beam::Tube { .. });
         Some(Self {
             location: light.location,
             colour: light.colour,
-            axis: unit(light.point_at - light.location),
+            axis: unit(way),
             beam,
             parallel: light.parallel || tube,
             shadowless: light.shadowless,
-            fade: light.fade.map(|f| (f.distance, Power::new(f.power))),
+            fade: light
+                .fade
+                .filter(|fade| fade.power > 0.0 && fade.distance.abs() > NO_DISTANCE)
+                .map(|fade| (fade.distance, Power::new(fade.power))),
+            end: None,
         })
+    }
+
+    /// The light in a world of surfaces, on which it may lie.
+    #[must_use]
+    pub(crate) fn among(self, geometry: &Geometry) -> Self {
+        let end = if self.shadowless {
+            None
+        } else if self.parallel {
+            RayEnd::light_plane(geometry, self.location, self.axis)
+        } else {
+            RayEnd::light(geometry, self.location, mask::SHADOW | mask::CLEAR_SHADOW)
+        };
+        Self { end, ..self }
     }
 
     /// The light at some points. Blockers are not looked for.
@@ -117,13 +143,11 @@ impl RenderLight {
             }
         };
         if let Some((at, power)) = self.fade {
-            // Behind the plane of a parallel light distances are negative. The formula is taken at its word there: light may be negative; where there is no power
-            // there is no light.
-            let far = distance / at;
-            if let Power::Real(_) = power {
-                lit &= !far.lt(F8::ZERO);
-            }
-            strength = strength * (F8::splat(2.0) / (F8::ONE + power.lanes(far, lit)));
+            // Behind the plane of a parallel light, and for a negative fade distance, the quotient is negative. The formula is taken at
+            // its word there: light may be negative; where there is no power there is no light.
+            let power = power.signed_lanes(distance / at, lit);
+            lit &= power.equals(power);
+            strength = strength * (F8::splat(2.0) / (F8::ONE + power));
         }
         let (target, blockable) = match (self.shadowless, self.parallel) {
             (true, _) => (location, M8::NONE),
@@ -194,6 +218,39 @@ mod tests {
         assert_eq!(strength(&down(tube), [1.5, 0.0, 0.0]), 0.25 * 0.5);
         assert_eq!(strength(&down(tube), [2.0, 0.0, 0.0]), 0.0);
         assert_eq!(strength(&down(tube), [0.0, 11.0, 0.0]), 0.0);
+    }
+
+    #[test]
+    fn a_tube_without_a_positive_radius_has_no_soft_edge() {
+        for radius in [0.0, -1.0] {
+            let tube = LightKind::Cylinder { radius, falloff: 2.0, tightness: 1.0 };
+            assert_eq!(strength(&down(tube), [1.5, 0.0, 0.0]), 0.25);
+        }
+    }
+
+    #[test]
+    fn a_light_that_points_at_itself_does_not_shine() {
+        let at = |kind, parallel, away| {
+            let location = Point3::new(1.0, 0.0, 2.0);
+            let point_at = Point3::new(1.0, away, 2.0);
+            let light = Light { kind, parallel, point_at, ..Light::point(location, Rgb::WHITE) };
+            RenderLight::new(&light).is_some()
+        };
+        let spot = LightKind::Spot { radius: 0.5, falloff: 0.7, tightness: 0.0 };
+        let tube = LightKind::Cylinder { radius: 1.0, falloff: 2.0, tightness: 0.0 };
+        for (kind, parallel) in [(spot, false), (tube, false), (LightKind::Point, true)] {
+            assert_eq!([0.0, 0.9e-10, 1.1e-10].map(|away| at(kind, parallel, away)), [false, false, true]);
+        }
+        assert!(at(LightKind::Point, false, 0.0));
+    }
+
+    #[test]
+    fn a_negative_fade_distance_is_taken_at_its_word() {
+        let at = |power| {
+            let fade = Some(Fade { distance: -5.0, power });
+            strength(&Light { fade, ..down(LightKind::Point) }, [0.0, 0.0, 0.0])
+        };
+        assert_eq!([at(1.0), at(2.0), at(0.5), at(0.0), at(-2.0)], [-2.0, 0.4, 0.0, 1.0, 1.0]);
     }
 
     #[test]

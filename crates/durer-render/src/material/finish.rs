@@ -75,18 +75,21 @@ impl Finish {
         let n = 1.0 / f.roughness;
         let specular_albedo =
             if f.specular_albedo { (n + 2.0) / (4.0 * (2.0 - elementary::exp2(-n * 0.5))) } else { 1.0 };
+        // Negative amounts are none: a fact of the scene language.
+        let [diffuse, diffuse_back, phong, specular, metallic] =
+            [f.diffuse, f.diffuse_back, f.phong, f.specular, f.metallic].map(|amount| amount.max(0.0));
         let mirror = f.reflection.as_ref().filter(|r| !(r.min.is_black() && r.max.is_black()));
         Self {
             own_light: f.ambient * ambient_light + f.emission,
-            diffuse: f.diffuse * albedo,
-            diffuse_back: f.diffuse_back * albedo,
+            diffuse: diffuse * albedo,
+            diffuse_back: diffuse_back * albedo,
             brilliance: Power::new(f.brilliance),
-            phong: f.phong * phong_albedo,
+            phong: phong * phong_albedo,
             phong_power: Power::new(f.phong_size),
             phong_end: if f.phong_size >= PHONG_SHARP { PHONG_END } else { 0.0 },
-            specular: f.specular * specular_albedo,
+            specular: specular * specular_albedo,
             specular_power: Power::new(n),
-            metallic: f.metallic,
+            metallic,
             crand: f.crand,
             mirror: mirror.map(|r| {
                 Box::new(Mirror {
@@ -99,7 +102,7 @@ impl Finish {
                 })
             }),
             conserve_energy: f.conserve_energy,
-            is_lit: f.diffuse != 0.0 || f.diffuse_back != 0.0 || f.phong != 0.0 || f.specular != 0.0,
+            is_lit: diffuse != 0.0 || diffuse_back != 0.0 || phong != 0.0 || specular != 0.0,
         }
     }
 
