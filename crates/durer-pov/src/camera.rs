@@ -29,6 +29,8 @@ pub(crate) struct Camera {
     pub(crate) right: [f64; 3],
     pub(crate) up: [f64; 3],
     pub(crate) sky: [f64; 3],
+    /// What `look_at` said last; transforms leave it as it is.
+    look_at: [f64; 3],
 }
 
 impl Default for Camera {
@@ -40,6 +42,7 @@ impl Default for Camera {
             right: [1.33, 0.0, 0.0],
             up: [0.0, 1.0, 0.0],
             sky: [0.0, 1.0, 0.0],
+            look_at: [0.0, 0.0, 1.0],
         }
     }
 }
@@ -116,6 +119,7 @@ impl Camera {
         }
         // For a mirrored camera the product points down.
         self.up = scaled(upward, hand * high / upward_length);
+        self.look_at = target;
         Ok(())
     }
 }
@@ -125,7 +129,19 @@ impl Parser<'_> {
     pub(crate) fn camera_block(&mut self) -> Result<Camera> {
         let begin = self.here();
         self.expect(Mark::BraceOpen)?;
-        let mut camera = Camera::default();
+        let known = match self.peek()? {
+            Item::Value(Value::Camera(known)) => Some(**known),
+            _ => None,
+        };
+        if known.is_some() {
+            self.next()?;
+        }
+        let mut camera = known.unwrap_or(match self.scene.camera {
+            Some(before) if self.applies_in_written_order() => before,
+            _ => self.default_camera,
+        });
+        // Only old scenes may change more of a camera that has a name than its place.
+        let is_whole = known.is_some() && !self.applies_in_written_order();
         let mut settings = Vec::new();
         let mut moves = Vec::new();
         loop {
@@ -137,10 +153,7 @@ impl Parser<'_> {
             let place = lexeme.place;
             settings.push(match &lexeme.item {
                 Item::Mark(Mark::BraceClose) => break,
-                Item::Value(Value::Camera(known)) => {
-                    camera = **known;
-                    continue;
-                }
+                _ if is_whole => return Err(self.unexpected(&lexeme, "a transform of the camera, or `}`")),
                 Item::Word(Keyword::Perspective) => {
                     camera.projection = Projection::Perspective;
                     continue;
@@ -156,8 +169,9 @@ impl Parser<'_> {
                 Item::Word(Keyword::Location) => Setting::Location(self.vector()?),
                 Item::Word(Keyword::LookAt) => Setting::LookAt(self.vector()?, place),
                 Item::Word(Keyword::Angle) => {
-                    let angle = self.float()?;
-                    if !(angle > 0.0 && angle < 180.0) {
+                    // No number behind the word is 0.
+                    let angle = self.float_or(0.0)?;
+                    if !(0.0..180.0).contains(&angle) {
                         let text = format!("a camera's angle is between 0 and 180 degrees, not {angle}");
                         return Err(Error::invalid(place, text));
                     }
@@ -170,10 +184,12 @@ impl Parser<'_> {
             });
             self.skip_comma()?;
         }
-        if self.language.version >= 3.5 {
-            settings.sort_by_key(Setting::rank);
+        if !is_whole {
+            if !self.applies_in_written_order() {
+                settings.sort_by_key(Setting::rank);
+            }
+            self.apply(&mut camera, &settings)?;
         }
-        self.apply(&mut camera, &settings)?;
         for by in &moves {
             camera.transform(by);
         }
@@ -185,6 +201,11 @@ impl Parser<'_> {
         Ok(camera)
     }
 
+    /// Whether a camera's words are applied in the order in which they are written.
+    fn applies_in_written_order(&self) -> bool {
+        self.language.version < 3.5
+    }
+
     fn axis(&mut self, name: &str) -> Result<[f64; 3]> {
         let place = self.here();
         let v = self.vector()?;
@@ -194,9 +215,8 @@ impl Parser<'_> {
         Ok(v)
     }
 
-    fn apply(&mut self, camera: &mut Camera, settings: &[Setting]) -> Result<()> {
-        let orthographic = camera.projection == Projection::Orthographic;
-        let (mut sized, mut angled, mut distance) = (false, false, None);
+    fn apply(&self, camera: &mut Camera, settings: &[Setting]) -> Result<()> {
+        let (mut sized, mut angled) = (false, false);
         for setting in settings {
             match *setting {
                 Setting::Right(v) => (camera.right, sized) = (v, true),
@@ -205,23 +225,33 @@ impl Parser<'_> {
                 Setting::Sky(v) => camera.sky = v,
                 Setting::Location(v) => camera.location = v,
                 Setting::Angle(degrees) => {
-                    camera.set_angle(degrees);
+                    // An angle of 0 leaves the direction as it is.
+                    if degrees > 0.0 {
+                        camera.set_angle(degrees);
+                    }
                     angled = true;
                 }
                 Setting::LookAt(target, place) => {
-                    let away: [f64; 3] = std::array::from_fn(|i| target[i] - camera.location[i]);
-                    distance = Some(length(away));
                     camera.look_at(target).map_err(|text| Error::invalid(place, text))?;
                 }
             }
         }
         // So that the orthographic picture shows at `look_at` what the perspective one would.
-        if orthographic && (angled || !sized) {
-            let default_target = || length(std::array::from_fn(|i| [0.0, 0.0, 1.0][i] - camera.location[i]));
-            let by = distance.unwrap_or_else(default_target) / length(camera.direction);
+        if camera.projection == Projection::Orthographic
+            && (angled || !sized)
+            && !self.applies_in_written_order()
+        {
+            let away = std::array::from_fn(|i| camera.look_at[i] - camera.location[i]);
+            let by = length(away) / length(camera.direction);
             camera.right = scaled(camera.right, by);
             camera.up = scaled(camera.up, by);
         }
+        Ok(())
+    }
+
+    /// `camera` in `#default`: what cameras start from. A scene without one does not have it (a fact of the language).
+    pub(crate) fn default_camera_item(&mut self) -> Result<()> {
+        self.default_camera = self.nested(Self::camera_block)?;
         Ok(())
     }
 

@@ -6,7 +6,7 @@ use crate::colour::begins_colour;
 use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::{Kind, Mark};
-use crate::parser::{Item, Parser};
+use crate::parser::{Item, Parser, strayed};
 use crate::strings::makes_string;
 use crate::value::{Unsupported, Value};
 
@@ -27,9 +27,14 @@ impl Parser<'_> {
         let element = if subscripts { Some(self.element_reference(name)?) } else { None };
         self.expect(Mark::Equal)?;
         let outer = self.declaring.replace(name);
-        let value = self.declared_value()?;
+        let (value, is_ended) = self.declared_value()?;
         self.declaring = outer;
-        self.back_to_frame(serial, place)?;
+        // Of the macro that gave the value more may be left than directives: it is read as what stands behind this.
+        let is_back = self.leave_finished_frames(serial, place)?;
+        if is_back && !is_ended && !self.has_peeked() {
+            // The semicolon behind the call of a macro.
+            self.take_raw_mark(Mark::Semicolon);
+        }
         match element {
             Some(target) => {
                 // A shared array is copied before it is changed.
@@ -42,6 +47,7 @@ impl Parser<'_> {
                 let before = std::mem::replace(held, value).held();
                 self.scopes.element_changed(&target, depth, before, after);
             }
+            None if local && !is_back => return Err(strayed(place)),
             None if local => self.scopes.local(name, value),
             None => self.scopes.declare(name, value),
         }
@@ -74,29 +80,32 @@ impl Parser<'_> {
         self.check_memory(crate::value::Array::bytes(shared), place)
     }
 
-    /// The value of a declaration, and its semicolon.
-    fn declared_value(&mut self) -> Result<Value> {
+    /// The value of a declaration, and whether its semicolon was taken: only numbers need one.
+    fn declared_value(&mut self) -> Result<(Value, bool)> {
         let braces = self.braces;
         let value = match self.value("a value to declare") {
             Ok(value) => value,
             // Names made of what cannot be computed yet are refused when they are used.
             Err(fault) if fault.kind == ErrorKind::Unsupported => {
                 self.skip_to_semicolon(braces, &fault)?;
-                return Ok(Value::Unsupported(Rc::new(Unsupported { text: fault.text, number: true })));
+                return Ok((
+                    Value::Unsupported(Rc::new(Unsupported { text: fault.text, number: true })),
+                    true,
+                ));
             }
             Err(fault) => return Err(fault),
         };
-        if matches!(value, Value::Number(_)) {
-            if !self.take_mark(Mark::Semicolon)? {
-                let text = "a declaration of a float, vector or colour ends with `;`";
-                return Err(Error::invalid(self.here(), text));
-            }
-        } else if self.has_peeked() {
-            self.take_mark(Mark::Semicolon)?;
+        let is_number = matches!(value, Value::Number(_));
+        let is_ended = if is_number || self.has_peeked() {
+            self.take_mark(Mark::Semicolon)?
         } else {
-            self.take_raw_mark(Mark::Semicolon);
+            self.take_raw_mark(Mark::Semicolon)
+        };
+        if is_number && !is_ended {
+            let text = "a declaration of a float, vector or colour ends with `;`";
+            return Err(Error::invalid(self.here(), text));
         }
-        Ok(value)
+        Ok((value, is_ended))
     }
 
     fn skip_to_semicolon(&mut self, braces: u64, fault: &Error) -> Result<()> {

@@ -1,7 +1,7 @@
 //! Directives: conditions, loops, includes, messages. They run while tokens are fetched.
 
 use crate::diagnostics::{Error, ErrorKind, Place, Result};
-use crate::expression::same;
+use crate::expression::{nearly_same, same};
 use crate::interner::Name;
 use crate::lexer::{Directive, Kind, Mark};
 use crate::messages::{Message, MessageKind};
@@ -124,7 +124,7 @@ impl Parser<'_> {
             self.go_to(next + 1);
             let Some(Kind::Directive(directive, index)) = self.token_kind(next) else { return Ok(()) };
             let chosen = match directive {
-                Directive::Case => same(value, self.parenthesised(place)?),
+                Directive::Case => nearly_same(value, self.parenthesised(place)?),
                 Directive::Range => {
                     let (first, last) = self.range(place)?;
                     value >= first && value <= last
@@ -360,11 +360,11 @@ impl Parser<'_> {
     }
 }
 
-/// Whether a condition holds: values nearer to zero than the language's tolerance do not.
+/// Whether a condition holds: values that equal zero within the language's tolerance do not.
 pub(crate) fn truth(value: f64) -> bool {
     !same(value, 0.0)
 }
 
 fn goes_on(value: f64, last: f64, step: f64) -> bool {
-    if step > 0.0 { value <= last || same(value, last) } else { value >= last || same(value, last) }
+    nearly_same(value, last) || if step > 0.0 { value <= last } else { value >= last }
 }

@@ -6,11 +6,17 @@ use crate::lexer::Mark;
 use crate::parser::{Item, Parser};
 use crate::value::{Terms, Value};
 
-/// Numbers nearer than this are equal to the language: a fact of POV-Ray, seen with `(1 = 1 + 1e-11)`.
+/// How far apart numbers may be that are equal to the language: a fact of POV-Ray. `=`, `!=`, `<=` and `>=` have this
+/// tolerance, and so have conditions; `<` and `>` are exact. So `(1 < 1 + 1e-11)` holds, and `(1 = 1 + 1e-11)` as well.
 pub(crate) const TOLERANCE: f64 = 1e-10;
 
-/// Whether the language calls `a` and `b` equal.
+/// Whether `a = b` holds in the language.
 pub(crate) fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= TOLERANCE
+}
+
+/// Whether `#case` and the end of `#for` take `a` for `b`: here the tolerance itself is too far (a fact of POV-Ray).
+pub(crate) fn nearly_same(a: f64, b: f64) -> bool {
     (a - b).abs() < TOLERANCE
 }
 
@@ -76,7 +82,7 @@ impl Parser<'_> {
                 return Err(Error::invalid(place, "only floats can be compared"));
             };
             left = flag(match mark {
-                Mark::Less => a < b && !same(a, b),
+                Mark::Less => a < b,
                 Mark::Greater => a > b,
                 Mark::LessEqual => a <= b || same(a, b),
                 Mark::GreaterEqual => a >= b || same(a, b),

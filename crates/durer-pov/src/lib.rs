@@ -10,7 +10,7 @@
 //! hands tokens to the grammar one by one; on the way it runs directives (`directives`), unfolds macros (`macros`)
 //! and replaces names by their values (`scope`, `value`, `arrays`), because all of them may stand anywhere. Values are
 //! computed in `expression`, `functions`, `strings` and `colour`; blocks are read in `object`, `texture`, `light`,
-//! `camera` and `settings`; `emit` makes scene data of what is finished.
+//! `camera` and `settings`; `emit` makes scene data of what is finished (`volume` of what is flat or empty).
 //!
 //! Whatever the text is, reading ends: [`Limits`] bounds it in time, memory and depth, and every fault is one
 //! [`PovError`] with its file, line, column and the words underlined. The reader shades nothing, and the only thing it
@@ -52,6 +52,7 @@ mod transform;
 mod unsupported;
 mod value;
 mod vector_function;
+mod volume;
 
 pub use crate::diagnostics::{ErrorKind, PovError};
 pub use crate::limits::Limits;

@@ -91,8 +91,8 @@ pub(crate) fn is_noise(word: Keyword) -> bool {
 /// Whether the pattern needs noise of a generator that is not there; vectors of noise are the same with all of them.
 pub(crate) fn lacks_generator(pattern: &Pattern) -> bool {
     let PatternKind::Written(word, _) = pattern.kind else { return false };
-    let asks = is_noise(word) || word == Keyword::Marble && !pattern.turbulence.is_none();
-    asks && pattern.turbulence.generator.trunc() == 3.0
+    let asks = is_noise(word) || word == Keyword::Marble && !pattern.modifiers.turbulence.is_none();
+    asks && pattern.modifiers.turbulence.generator.trunc() == 3.0
 }
 
 /// Writes steps.
@@ -204,7 +204,7 @@ impl Draft<'_> {
 /// The value of a pattern that rests on noise, or is stirred by it in its own way.
 pub(crate) fn value(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Option<NodeId> {
     let PatternKind::Written(word, _) = pattern.kind else { return None };
-    let turbulence = *pattern.turbulence;
+    let turbulence = *pattern.modifiers.turbulence;
     let mut draft = Draft { b, turbulence };
     match word {
         Keyword::Bozo | Keyword::Bumps | Keyword::Spotted => {
@@ -253,6 +253,6 @@ pub(crate) fn value(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Opt
 /// A point in a pattern's space, stirred as most patterns are.
 pub(crate) fn stirred(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Option<[NodeId; 3]> {
     let its_own = matches!(pattern.kind, PatternKind::Written(Keyword::Marble | Keyword::Wood, _));
-    let turbulence = *pattern.turbulence;
+    let turbulence = *pattern.modifiers.turbulence;
     if its_own || turbulence.is_none() { Some(own) } else { Draft { b, turbulence }.stirred(own) }
 }

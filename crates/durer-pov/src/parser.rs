@@ -11,7 +11,7 @@ use crate::ReadOptions;
 use crate::diagnostics::{Error, Place, Result};
 use crate::interner::{Interner, Name};
 use crate::keywords::Keyword;
-use crate::lexer::{Kind, Mark, Token};
+use crate::lexer::{Directive, Kind, Mark, Token};
 use crate::limits;
 use crate::macros::Macro;
 use crate::messages::Messages;
@@ -89,6 +89,7 @@ pub(crate) struct Parser<'a> {
     pub(crate) streams: Vec<u32>,
     pub(crate) language: crate::settings::Language,
     pub(crate) defaults: Rc<crate::texture::Layer>,
+    pub(crate) default_camera: crate::camera::Camera,
     pub(crate) scene: crate::scene_builder::Output,
 }
 
@@ -115,6 +116,7 @@ impl<'a> Parser<'a> {
             streams: Vec::new(),
             language: crate::settings::Language::default(),
             defaults: Rc::default(),
+            default_camera: crate::camera::Camera::default(),
             scene: crate::scene_builder::Output::default(),
         }
     }
@@ -212,14 +214,19 @@ impl<'a> Parser<'a> {
 
     /// Makes the frame numbered `serial` the innermost again, by leaving those that are read to their ends.
     pub(crate) fn back_to_frame(&mut self, serial: u64, place: Place) -> Result<()> {
-        let strayed = || Error::invalid(place, "this directive does not end where it began");
+        if self.leave_finished_frames(serial, place)? { Ok(()) } else { Err(strayed(place)) }
+    }
+
+    /// Leaves the frames within the one numbered `serial`, up to the first in which more is left than directives; whether there
+    /// was none.
+    pub(crate) fn leave_finished_frames(&mut self, serial: u64, place: Place) -> Result<bool> {
         loop {
-            let frame = self.frames.last().ok_or_else(strayed)?;
+            let frame = self.frames.last().ok_or_else(|| strayed(place))?;
             if frame.serial == serial {
-                return Ok(());
+                return Ok(true);
             }
             if self.peeked.is_some() {
-                return Err(strayed());
+                return Ok(false);
             }
             match self.raw() {
                 None if self.leave_frame() => {}
@@ -229,7 +236,7 @@ impl<'a> Parser<'a> {
                     self.count_steps(1, at)?;
                     self.run_directive(directive, block, at)?;
                 }
-                _ => return Err(strayed()),
+                _ => return Ok(false),
             }
         }
     }
@@ -449,6 +456,11 @@ impl<'a> Parser<'a> {
             }
             Item::Unknown(name) => {
                 let text = crate::diagnostics::shortened(self.names.text(*name));
+                if self.stands_after_hash(lexeme.place) {
+                    let hint = self.similar_directive(*name);
+                    let hint = hint.map_or_else(String::new, |s| format!(" (did you mean `#{s}`?)"));
+                    return Error::invalid(lexeme.place, format!("there is no directive `#{text}`{hint}"));
+                }
                 let hint = if text.starts_with("f_") && !self.has_functions() {
                     r#" (such functions are declared by #include "functions.inc")"#.to_owned()
                 } else {
@@ -472,6 +484,13 @@ impl<'a> Parser<'a> {
         Error::invalid(lexeme.place, format!("expected {wanted}, found {found}"))
     }
 
+    /// Whether what stands at `place` follows a `#`.
+    fn stands_after_hash(&self, place: Place) -> bool {
+        let source = self.sources.get(place.file as usize);
+        let before = source.and_then(|source| source.text.get(..place.start as usize));
+        before.is_some_and(|text| text.trim_end().ends_with('#'))
+    }
+
     /// Whether functions.inc has been read.
     fn has_functions(&self) -> bool {
         self.loaded.keys().any(|path| path.ends_with("functions.inc"))
@@ -479,12 +498,14 @@ impl<'a> Parser<'a> {
 
     /// A declared name or reserved word that `name` may be a misspelling of.
     fn similar(&self, name: Name) -> Option<&str> {
-        let wrong = self.names.text(name);
-        let allowed = wrong.len() / 3;
         let reserved = Keyword::ALL.iter().map(|keyword| keyword.text());
         let declared = self.scopes.bound().map(|n| self.names.text(n));
-        let near = declared.chain(reserved).map(|word| (distance(wrong, word), word));
-        near.filter(|(d, _)| (1..=allowed).contains(d)).min().map(|(_, word)| word)
+        nearest(self.names.text(name), declared.chain(reserved))
+    }
+
+    /// A directive that `name` may be a misspelling of.
+    fn similar_directive(&self, name: Name) -> Option<&str> {
+        nearest(self.names.text(name), Directive::ALL.iter().map(|directive| directive.text()))
     }
 
     /// Skips what is left of the blocks that were opened after `braces` were open.
@@ -502,6 +523,18 @@ impl<'a> Parser<'a> {
         self.check_memory(text.len(), place)?;
         Ok(Value::Text(Text::new(text)))
     }
+}
+
+/// The fault of a directive at `place` that ends in another macro or file.
+pub(crate) fn strayed(place: Place) -> Box<Error> {
+    Error::invalid(place, "this directive does not end where it began")
+}
+
+/// The word among `words` that `wrong` may be a misspelling of.
+fn nearest<'a>(wrong: &str, words: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let allowed = wrong.len() / 3;
+    let near = words.map(|word| (distance(wrong, word), word));
+    near.filter(|(d, _)| (1..=allowed).contains(d)).min().map(|(_, word)| word)
 }
 
 /// Letters to change, insert or drop between two short words (V. Levenshtein, *Soviet Physics Doklady* 10, 1966).

@@ -62,9 +62,9 @@ pub(crate) fn is_written(word: Keyword) -> bool {
     value(word).is_some() || noise_pattern::is_noise(word) || matches!(word, Keyword::Marble | Keyword::Wood)
 }
 
-/// The wave that a pattern has by itself.
-pub(crate) fn own_wave(word: Keyword) -> Wave {
-    if matches!(word, Keyword::Marble | Keyword::Wood) { Wave::Triangle } else { Wave::Ramp }
+/// The wave that the word of a pattern brings with it.
+pub(crate) fn own_wave(word: Keyword) -> Option<Wave> {
+    matches!(word, Keyword::Marble | Keyword::Wood).then_some(Wave::Triangle)
 }
 
 /// How a wave bends `x`.
@@ -92,12 +92,12 @@ impl Parser<'_> {
     }
 
     fn pattern_function_items(&mut self, place: Place) -> diagnostics::Result<Formula> {
-        let Some(kind) = self.pattern_kind()? else { return Err(lacking(place)) };
+        let Some(kind) = self.pattern_kind(None)? else { return Err(lacking(place)) };
         let mut pattern = self.plain_pattern(kind);
         while !self.at_mark(Mark::BraceClose)? {
             if let Some(by) = self.transform_item()? {
-                pattern.transform(&by);
-            } else if !self.pattern_modifier(&mut pattern)? {
+                pattern.modifiers.transform(&by);
+            } else if !self.pattern_modifier(Some(&mut pattern.kind), &mut pattern.modifiers)? {
                 let lexeme = self.next()?;
                 return Err(self.unexpected(&lexeme, "a transform, or what changes the pattern's value"));
             }
@@ -105,11 +105,11 @@ impl Parser<'_> {
         let formula = || {
             let mut b = Builder::new();
             let p = [b.input(0).ok()?, b.input(1).ok()?, b.input(2).ok()?];
-            let own = moved(&mut b, p, &pattern.place.inverse()?).ok()?;
+            let own = moved(&mut b, p, &pattern.modifiers.place.inverse()?).ok()?;
             let root = written(&mut b, &pattern, own)?;
             Some(b.finish(root, 3))
         };
-        if pattern.place.inverse().is_none() {
+        if pattern.modifiers.place.inverse().is_none() {
             return Err(Error::invalid(place, CANNOT_BE_UNDONE));
         }
         if noise_pattern::lacks_generator(&pattern) {
@@ -168,13 +168,14 @@ pub(crate) fn changed_number(pattern: &Pattern, number: usize) -> Option<f64> {
 /// What frequency, phase and wave make of a pattern's value.
 fn changed(b: &mut Builder, pattern: &Pattern, value: NodeId) -> Option<NodeId> {
     // The language keeps these two in single precision.
-    let [frequency, phase] = [pattern.frequency, pattern.phase].map(|v| f64::from(v as f32));
+    let [frequency, phase] =
+        [pattern.modifiers.frequency, pattern.modifiers.phase].map(|v| f64::from(v as f32));
     let value = if frequency == 0.0 {
         called(b, AS_IT_IS, [value; 3], &[])?
     } else {
         called(b, BEGUN_ANEW, [value; 3], &[frequency, phase])?
     };
-    let (wave, exponent) = bent(pattern.wave);
+    let (wave, exponent) = bent(pattern.modifiers.wave);
     called(b, wave, [value; 3], exponent.as_slice())
 }
 

@@ -15,7 +15,7 @@ use crate::formulas::pieces::{Knot, chosen};
 use crate::noise_pattern::lacks_generator;
 use crate::parser::Parser;
 use crate::pattern_function::{CANNOT_BE_UNDONE, has_noise, lacking, moved, third_generator, written};
-use crate::texture::{Map, Paint, Pattern, Pigment};
+use crate::texture::{Body, Map, Paint, Pattern, Pigment};
 
 /// The parts of a colour, as steps.
 type Colour = [NodeId; 5];
@@ -35,8 +35,8 @@ impl Parser<'_> {
     pub(crate) fn pigment_function(&mut self) -> Result<Vec<Formula>> {
         let place = self.here();
         self.next()?;
-        let base = self.defaults.clone();
-        let pigment = self.nested(|r| r.pigment_block(&base.pigment))?;
+        // It does not start from the default pigment (a fact of the language); those inside it do.
+        let pigment = self.nested(|r| r.pigment_block(&Pigment::default()))?;
         let mut b = Builder::new();
         match everywhere(&mut b, &pigment) {
             Ok(colour) => {
@@ -60,23 +60,26 @@ fn everywhere(b: &mut Builder, pigment: &Pigment) -> std::result::Result<Colour,
 
 /// What a pigment shows at a point.
 fn shown(b: &mut Builder, p: [NodeId; 3], pigment: &Pigment) -> std::result::Result<Colour, Lack> {
-    match pigment {
-        Pigment::Solid(colour) => constant(b, colour),
-        Pigment::Patterned { pattern, paint: Paint::Colors(map) } => {
-            let (value, _) = place_and_value(b, p, pattern)?;
+    let kind = match pigment.body {
+        Body::Solid(colour) => return constant(b, &colour),
+        Body::Patterned(kind) => kind,
+    };
+    let pattern = Pattern { kind, modifiers: pigment.modifiers.clone() };
+    let (value, own) = place_and_value(b, p, &pattern)?;
+    match pigment.paint(kind) {
+        Paint::Colors(map) => {
             let mut entries = Vec::with_capacity(map.entries.len());
             for (_, colour) in &map.entries {
                 entries.push(constant(b, colour)?);
             }
-            mapped(b, pattern, value, map, &entries)
+            mapped(b, &pattern, value, &map, &entries)
         }
-        Pigment::Patterned { pattern, paint: Paint::Pigments(map) } => {
-            let (value, own) = place_and_value(b, p, pattern)?;
+        Paint::Pigments(map) => {
             let mut entries = Vec::with_capacity(map.entries.len());
             for (_, part) in &map.entries {
                 entries.push(shown(b, own, part)?);
             }
-            mapped(b, pattern, value, map, &entries)
+            mapped(b, &pattern, value, &map, &entries)
         }
     }
 }
@@ -98,7 +101,7 @@ fn place_and_value(
     if lacks_generator(pattern) {
         return Err(Lack::Generator);
     }
-    let back = pattern.place.inverse().ok_or(Lack::Place)?;
+    let back = pattern.modifiers.place.inverse().ok_or(Lack::Place)?;
     let own = moved(b, p, &back).map_err(|_| Lack::Formula)?;
     Ok((written(b, pattern, own).ok_or(Lack::Formula)?, own))
 }

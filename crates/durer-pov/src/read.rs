@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
+use crate::camera::Camera;
 use crate::diagnostics::{Error, ErrorKind, Place, PovError, Result};
 use crate::keywords::Keyword;
+use crate::lexer::{Directive, NO_BLOCK};
 use crate::limits::{self, Limits};
 use crate::messages::{Message, Messages};
 use crate::object::begins_object;
@@ -170,6 +172,10 @@ impl Parser<'_> {
             match &lexeme.item {
                 Item::End => break,
                 Item::Word(Keyword::Camera) => self.camera_statement(place)?,
+                // A statement may begin with one of these without `#`.
+                Item::Word(keyword) if let Some(directive) = bare_directive(*keyword) => {
+                    self.nested(|r| r.run_directive(directive, NO_BLOCK, place))?;
+                }
                 Item::Word(Keyword::Background) => self.background()?,
                 Item::Word(Keyword::GlobalSettings) => self.global_settings()?,
                 Item::Word(keyword) if begins_object(*keyword) => self.object_statement(lexeme)?,
@@ -181,6 +187,11 @@ impl Parser<'_> {
             let start = Place { file, start: 0 };
             self.notice(start, "assumed_gamma is not given: taken as 1.0");
         }
+        if self.scene.camera.is_none() {
+            self.scene.camera = Some(Camera::default());
+            let start = Place { file, start: 0 };
+            self.notice(start, "the scene has no camera: the default one is used");
+        }
         Ok(self.finished())
     }
 
@@ -188,6 +199,17 @@ impl Parser<'_> {
         self.put_back(first);
         let object = self.object()?;
         self.emit(&object)
+    }
+}
+
+/// The directive that `keyword` is where a statement begins.
+fn bare_directive(keyword: Keyword) -> Option<Directive> {
+    match keyword {
+        Keyword::Declare => Some(Directive::Declare),
+        Keyword::Include => Some(Directive::Include),
+        Keyword::Default => Some(Directive::Default),
+        Keyword::Version => Some(Directive::Version),
+        _ => None,
     }
 }
 

@@ -16,7 +16,9 @@ use crate::object::{Object, Shape};
 use crate::parser::Parser;
 use crate::pattern_function::changed_number;
 use crate::settings::{Gamma, Globals};
-use crate::texture::{Finish, Interior, Layer, Map, Paint, Pattern, PatternKind, Pigment, Texture, Wave};
+use crate::texture::{
+    Body, Finish, Interior, Layer, Map, Paint, Pattern, PatternKind, Pigment, Texture, Wave,
+};
 use crate::transform::{Matrix, length};
 
 /// What the statements so far amount to.
@@ -38,11 +40,11 @@ const TEXTURES_COMPARED: usize = 8;
 /// What the allocations of a texture take beyond its layers and finishes, about.
 const TEXTURE_EXTRA: usize = 448;
 
-fn point(p: [f64; 3]) -> Point3 {
+pub(crate) fn point(p: [f64; 3]) -> Point3 {
     Point3::new(p[0], p[1], p[2])
 }
 
-fn vector(v: [f64; 3]) -> Vec3 {
+pub(crate) fn vector(v: [f64; 3]) -> Vec3 {
     Vec3::new(v[0], v[1], v[2])
 }
 
@@ -72,6 +74,16 @@ fn placement(matrix: &Matrix, at: Place) -> Result<scene::Placement> {
     affine(matrix, at).map(scene::Placement::new)
 }
 
+/// Lights, and where the unions around them move them.
+pub(crate) type Lights = Vec<(Rc<Light>, Matrix)>;
+
+/// Moves lights by a union's transform.
+pub(crate) fn move_lights(lights: &mut [(Rc<Light>, Matrix)], by: &Matrix) {
+    for (_, moved) in lights {
+        *moved = moved.then(by);
+    }
+}
+
 impl Parser<'_> {
     /// Adds a finished object of the scene's own level.
     pub(crate) fn emit(&mut self, object: &Rc<Object>) -> Result<()> {
@@ -79,7 +91,7 @@ impl Parser<'_> {
         // Names inside names inside names can stand for more than there is room for.
         self.check_memory((object.leaves as usize).saturating_mul(size_of::<scene::Object>()), at)?;
         self.count_steps(object.leaves, at)?;
-        let mut lights = Vec::new();
+        let mut lights = Lights::new();
         let default = self.default_look(at)?;
         let shown = self.emitted(object, &mut lights)?;
         if let Some(mut shown) = shown {
@@ -143,12 +155,10 @@ impl Parser<'_> {
     }
 
     /// The object as scene data; lights in it go to `lights`. `None` if no surface is left.
-    fn emitted(
-        &mut self,
-        object: &Object,
-        lights: &mut Vec<(Rc<Light>, Matrix)>,
-    ) -> Result<Option<scene::Object>> {
-        let at = object.at;
+    pub(crate) fn emitted(&mut self, object: &Object, lights: &mut Lights) -> Result<Option<scene::Object>> {
+        if object.lacks_volume {
+            return Ok(self.without_volume(object, lights)?.surfaces());
+        }
         let shape = match &object.shape {
             Shape::Light(light) => {
                 lights.push((light.clone(), object.place));
@@ -160,9 +170,7 @@ impl Parser<'_> {
                 for part in parts {
                     shown.extend(self.emitted(part, lights)?);
                 }
-                for (_, moved) in &mut lights[first..] {
-                    *moved = moved.then(&object.place);
-                }
+                move_lights(&mut lights[first..], &object.place);
                 if shown.is_empty() {
                     return Ok(None);
                 }
@@ -175,9 +183,33 @@ impl Parser<'_> {
                 }
                 scene::Shape::Csg(*operation, shown)
             }
-            Shape::Deform(solid, warps) => return self.emitted_deformed(object, solid, warps).map(Some),
-            leaf => surface(leaf, at)?,
+            Shape::Deform(solid, warps) => {
+                let clips = self.clips(object)?;
+                return self.emitted_deformed(object, solid, warps, clips).map(Some);
+            }
+            leaf => surface(leaf, object.at)?,
         };
+        let clips = self.clips(object)?;
+        self.finished_object(object, shape, clips).map(Some)
+    }
+
+    /// What clips an object.
+    fn clips(&mut self, object: &Object) -> Result<Vec<scene::Object>> {
+        let mut clips = Vec::with_capacity(object.clips.len());
+        for clip in &object.clips {
+            clips.extend(self.emitted(clip, &mut Lights::new())?);
+        }
+        Ok(clips)
+    }
+
+    /// A shape with all that its object has beside it.
+    pub(crate) fn finished_object(
+        &mut self,
+        object: &Object,
+        shape: scene::Shape,
+        clips: Vec<scene::Object>,
+    ) -> Result<scene::Object> {
+        let at = object.at;
         let mut made = scene::Object::new(shape);
         made.placement = placement(&object.place, at)?;
         let moved = if object.place.is_identity() { 0 } else { size_of::<Affine>() };
@@ -196,20 +228,19 @@ impl Parser<'_> {
             made.cutaway_textures = Some(self.default_look(at)?);
         }
         made.interior = object.interior.as_ref().map(|interior| Arc::new(filling(interior)));
-        for clip in &object.clips {
-            made.clips.extend(self.emitted(clip, &mut Vec::new())?);
-        }
+        made.clips = clips;
         made.flags = flags(object);
         made.place = Some(scene::Place { file: at.file, start: at.start });
-        Ok(Some(made))
+        Ok(made)
     }
 
     /// A deformed solid; a union of deformed parts, if the solid is a union.
-    fn emitted_deformed(
+    pub(crate) fn emitted_deformed(
         &mut self,
         object: &Object,
         solid: &Object,
         warps: &[scene::Warp],
+        clips: Vec<scene::Object>,
     ) -> Result<scene::Object> {
         let at = object.at;
         let Some(solid) = self.emitted(solid, &mut Vec::new())? else {
@@ -234,9 +265,7 @@ impl Parser<'_> {
         if let Some(interior) = &object.interior {
             made.interior.get_or_insert_with(|| Arc::new(filling(interior)));
         }
-        for clip in &object.clips {
-            made.clips.extend(self.emitted(clip, &mut Vec::new())?);
-        }
+        made.clips.extend(clips);
         made.flags = made.flags.or(flags(object));
         made.place = Some(scene::Place { file: at.file, start: at.start });
         Ok(made)
@@ -328,7 +357,7 @@ fn flags(object: &Object) -> scene::Flags {
 }
 
 /// A shape that is neither a union nor a light.
-fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
+pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
     Ok(match shape {
         Shape::Sphere { center, radius } => scene::Shape::Sphere { centre: point(*center), radius: *radius },
         Shape::Box { a, b } => scene::Shape::Box { a: point(*a), b: point(*b) },
@@ -422,7 +451,12 @@ fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
                 textures: component_textures(&blob.textures, at)?,
             }))
         }
-        Shape::Deform(..) | Shape::Union(_) | Shape::Csg(..) | Shape::Light(_) => {
+        Shape::FlatBox { .. }
+        | Shape::Nothing
+        | Shape::Deform(..)
+        | Shape::Union(_)
+        | Shape::Csg(..)
+        | Shape::Light(_) => {
             return Err(Error::invalid(at, "a single surface is needed here"));
         }
     })
@@ -488,7 +522,7 @@ fn texture(own: &Texture, at: Place) -> Result<scene::Texture> {
             )?;
             Ok(scene::Texture {
                 body: scene::TextureBody::Pattern(Box::new(made)),
-                placement: placement(&pattern.place, at)?,
+                placement: placement(&pattern.modifiers.place, at)?,
             })
         }
     }
@@ -499,28 +533,29 @@ fn layer_of(layer: &Layer, at: Place) -> Result<scene::Layer> {
 }
 
 fn pigment(own: &Pigment, at: Place) -> Result<scene::Pigment> {
-    let Pigment::Patterned { pattern, paint } = own else {
-        let Pigment::Solid(color) = own else { return Ok(scene::Pigment::default()) };
-        return Ok(scene::Pigment::solid(scene::Colour::from_terms(*color)));
+    let kind = match own.body {
+        Body::Solid(color) => return Ok(scene::Pigment::solid(scene::Colour::from_terms(color))),
+        Body::Patterned(kind) => kind,
     };
-    let mut made = match paint {
+    let pattern = Pattern { kind, modifiers: own.modifiers.clone() };
+    let mut made = match own.paint(kind) {
         Paint::Colors(map) => scene::Pigment::colours(pattern_of(
-            pattern,
-            map,
+            &pattern,
+            &map,
             |color| Ok(scene::Colour::from_terms(*color)),
             |a, b, k| Ok(blended(*a, *b, k)),
         )?),
         Paint::Pigments(map) => scene::Pigment::pigments(pattern_of(
-            pattern,
-            map,
+            &pattern,
+            &map,
             |part| pigment(part, at),
-            |a, b, k| match (a, b) {
-                (Pigment::Solid(a), Pigment::Solid(b)) => Ok(Pigment::Solid(blended(*a, *b, k))),
+            |a, b, k| match (a.body, b.body) {
+                (Body::Solid(a), Body::Solid(b)) => Ok(Pigment::solid(blended(a, b, k))),
                 _ => Err(blend_of_patterns(at)),
             },
         )?),
     };
-    made.placement = placement(&pattern.place, at)?;
+    made.placement = placement(&pattern.modifiers.place, at)?;
     Ok(made)
 }
 
@@ -543,7 +578,9 @@ fn pattern_of<T: Clone, U>(
 ) -> Result<scene::Pattern<U>> {
     let cells = match pattern.kind {
         PatternKind::Written(word, place) => return Err(Error::unsupported(place, word.text())),
-        _ if let Some(place) = pattern.turbulence.at => return Err(Error::unsupported(place, "turbulence")),
+        _ if let Some(place) = pattern.modifiers.turbulence.at => {
+            return Err(Error::unsupported(place, "turbulence"));
+        }
         PatternKind::Checker => scene::Cells::Checker,
         PatternKind::Hexagon => scene::Cells::Hexagon,
         PatternKind::Brick { size, mortar } => scene::Cells::Brick { size: vector(size), mortar },
@@ -552,9 +589,9 @@ fn pattern_of<T: Clone, U>(
             return Ok(scene::Pattern::Map {
                 value: scene::Value {
                     ramp: scene::Ramp::Gradient(vector(direction)),
-                    frequency: pattern.frequency,
-                    phase: pattern.phase,
-                    wave: match pattern.wave {
+                    frequency: pattern.modifiers.frequency,
+                    phase: pattern.modifiers.phase,
+                    wave: match pattern.modifiers.wave {
                         Wave::Ramp => scene::Wave::Ramp,
                         Wave::Triangle => scene::Wave::Triangle,
                         Wave::Sine => scene::Wave::Sine,
@@ -584,23 +621,24 @@ fn pattern_of<T: Clone, U>(
     Ok(scene::Pattern::Cells { cells, entries })
 }
 
+/// A finish. What scatters or shines less than not at all does nothing (a fact of the language).
 fn finish(own: &Finish) -> scene::Finish {
     let mirror = own.reflection;
     let mirrors = mirror.min.iter().chain(&mirror.max).any(|part| *part != 0.0);
     scene::Finish {
         ambient: rgb(own.ambient),
         emission: rgb(own.emission),
-        diffuse: own.diffuse,
-        diffuse_back: own.diffuse_back,
+        diffuse: own.diffuse.max(0.0),
+        diffuse_back: own.diffuse_back.max(0.0),
         diffuse_albedo: own.diffuse_albedo,
         brilliance: own.brilliance,
-        phong: own.phong,
+        phong: own.phong.max(0.0),
         phong_albedo: own.phong_albedo,
         phong_size: own.phong_size,
-        specular: own.specular,
+        specular: own.specular.max(0.0),
         specular_albedo: own.specular_albedo,
         roughness: own.roughness,
-        metallic: own.metallic,
+        metallic: own.metallic.max(0.0),
         crand: own.crand,
         reflection: mirrors.then(|| {
             Box::new(scene::Reflection {

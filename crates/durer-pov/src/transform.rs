@@ -169,7 +169,7 @@ impl Parser<'_> {
             }
             Keyword::Matrix => {
                 self.next()?;
-                self.matrix_literal()?
+                self.matrix_literal(place)?
             }
             Keyword::Transform => {
                 self.next()?;
@@ -186,8 +186,8 @@ impl Parser<'_> {
         Ok(Some(matrix))
     }
 
-    /// `<12 numbers>`.
-    fn matrix_literal(&mut self) -> Result<Matrix> {
+    /// `<12 numbers>`. A column of zeros flattens space: as in POV-Ray it gets a 1.
+    fn matrix_literal(&mut self, place: Place) -> Result<Matrix> {
         self.expect(Mark::Less)?;
         let mut matrix = Matrix::IDENTITY;
         for row in &mut matrix.rows {
@@ -197,6 +197,12 @@ impl Parser<'_> {
             }
         }
         self.expect(Mark::Greater)?;
+        for i in 0..3 {
+            if matrix.rows[..3].iter().all(|row| row[i] == 0.0) {
+                matrix.rows[i][i] = 1.0;
+                self.notice(place, format!("column {} of this matrix is 0: its scale is taken as 1", i + 1));
+            }
+        }
         Ok(matrix)
     }
 

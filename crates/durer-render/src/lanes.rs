@@ -65,6 +65,12 @@ impl Rgb8 {
         self.r * 0.297 + self.g * 0.589 + self.b * 0.114
     }
 
+    /// The greatest magnitude of a channel.
+    #[inline(always)]
+    pub(crate) fn greatest_magnitude(self) -> F8 {
+        self.map(F8::abs).greatest()
+    }
+
     /// Where every channel is exactly zero.
     #[inline(always)]
     pub(crate) fn is_black(self) -> M8 {

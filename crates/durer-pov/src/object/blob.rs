@@ -33,6 +33,9 @@ pub(crate) struct Blob {
 
 impl Blob {
     fn add(&mut self, (component, texture): (BlobComponent, Option<Rc<Texture>>)) {
+        if component.radius == 0.0 {
+            return;
+        }
         self.components.push(component);
         self.layers += texture.as_ref().map_or(0, |texture| texture.size());
         self.textures.push(texture);
@@ -52,9 +55,12 @@ impl Parser<'_> {
     /// The items of a blob, after its opening brace.
     pub(crate) fn blob(&mut self, place: Place) -> Result<Shape> {
         let mut blob = Blob { threshold: THRESHOLD, components: Vec::new(), textures: Vec::new(), layers: 0 };
+        let mut has_components = false;
         loop {
             self.skip_comma()?;
-            match self.peek_word()? {
+            let word = self.peek_word()?;
+            has_components |= matches!(word, Some(Keyword::Sphere | Keyword::Cylinder | Keyword::Component));
+            match word {
                 Some(Keyword::Threshold) => {
                     let at = self.here();
                     self.next()?;
@@ -101,8 +107,11 @@ impl Parser<'_> {
             }
             self.check_memory(blob.size(), place)?;
         }
-        if blob.components.is_empty() {
+        if !has_components {
             return Err(Error::invalid(place, "this blob has no components"));
+        }
+        if blob.components.is_empty() {
+            return Ok(self.nothing("no component of this blob has a field", place));
         }
         Ok(Shape::Blob(Rc::new(blob)))
     }
@@ -134,16 +143,13 @@ impl Parser<'_> {
         Ok((BlobComponent { shape, radius, strength, place }, texture))
     }
 
-    /// How far a field reaches.
+    /// How far a field reaches. One that reaches nowhere is left out.
     fn reach(&mut self) -> Result<f64> {
         self.peek()?;
         let at = self.here();
-        let radius = self.float()?;
-        if radius <= 0.0 {
-            return Err(Error::invalid(
-                at,
-                format!("the radius of a blob's component is greater than 0, not {radius}"),
-            ));
+        let radius = self.size()?;
+        if radius == 0.0 {
+            self.notice(at, "a component of the radius 0 is left out");
         }
         Ok(radius)
     }

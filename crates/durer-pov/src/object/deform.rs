@@ -210,6 +210,8 @@ fn check(object: &Rc<Object>) -> Result<()> {
         | Shape::Superellipsoid { .. } => return Ok(()),
         Shape::Blob(blob) if blob.textures.iter().all(Option::is_none) => return Ok(()),
         Shape::Blob(_) => return refuse("a blob whose components have textures cannot be deformed"),
+        Shape::FlatBox { .. } => "a box without thickness",
+        Shape::Nothing => "an object without a surface",
         Shape::Disc { .. } => "a disc",
         Shape::Parallelogram { .. } => "a parallelogram",
         Shape::Triangle(_) | Shape::SmoothTriangle(_) => "a triangle",

@@ -39,6 +39,13 @@ pub(crate) enum Shape {
         a: [f64; 3],
         b: [f64; 3],
     },
+    /// A box that has no extent along one axis: a rectangle, which has no inside.
+    FlatBox {
+        a: [f64; 3],
+        b: [f64; 3],
+    },
+    /// What has no point to be seen, such as a sphere of radius 0.
+    Nothing,
     Cylinder {
         base: [f64; 3],
         cap: [f64; 3],
@@ -151,6 +158,8 @@ pub(crate) struct Object {
     depth: u32,
     /// Surfaces in it.
     pub(crate) leaves: u64,
+    /// It, a part of it or something that cuts it is [`Shape::FlatBox`] or [`Shape::Nothing`].
+    pub(crate) lacks_volume: bool,
     charge: Charge,
 }
 
@@ -169,6 +178,11 @@ impl Object {
             Shape::Light(light) => (1, light.looks_like.as_ref().map_or(0, |shown| shown.leaves), 200),
             _ => (1, 1, 0),
         };
+        let lacks_volume = match &shape {
+            Shape::FlatBox { .. } | Shape::Nothing => true,
+            Shape::Union(parts) | Shape::Csg(_, parts) => parts.iter().any(|part| part.lacks_volume),
+            _ => false,
+        };
         Self {
             shape,
             place: Matrix::IDENTITY,
@@ -182,6 +196,7 @@ impl Object {
             at,
             depth,
             leaves,
+            lacks_volume,
             charge: Charge::new(size_of::<Self>() + extra),
         }
     }
@@ -210,6 +225,7 @@ impl Object {
         let parts = self.clips.iter().chain(&self.bounds);
         let deepest = parts.clone().map(|part| part.depth + 1).max().unwrap_or(0);
         self.depth = self.depth.max(deepest);
+        self.lacks_volume |= self.clips.iter().any(|clip| clip.lacks_volume);
         let textures = self.texture.iter().chain(&self.interior_texture);
         let texture = textures.map(|texture| texture.size() * size_of::<Layer>()).sum::<usize>();
         let own = match &self.shape {
@@ -285,7 +301,10 @@ impl Parser<'_> {
                     inner.at = place;
                     inner
                 }
-                Item::Word(Keyword::Union) => Object::new(Shape::Union(r.parts("union", place)?), place),
+                Item::Word(Keyword::Union) => match r.parts("union", place)? {
+                    none if none.is_empty() => Object::new(Shape::Nothing, place),
+                    parts => Object::new(Shape::Union(parts), place),
+                },
                 Item::Word(Keyword::Merge) => r.combined(Operation::Merge, place)?,
                 Item::Word(Keyword::Intersection) => r.combined(Operation::Intersection, place)?,
                 Item::Word(Keyword::Difference) => r.combined(Operation::Difference, place)?,
@@ -341,6 +360,9 @@ impl Parser<'_> {
             Operation::Difference => "difference",
         };
         let parts = self.parts(what, place)?;
+        if parts.is_empty() {
+            return Ok(Object::new(Shape::Nothing, place));
+        }
         if let Some(light) = parts.iter().find(|part| part.holds_light()) {
             return Err(Error::invalid(
                 light.at,
@@ -350,7 +372,7 @@ impl Parser<'_> {
         Ok(Object::new(Shape::Csg(operation, parts), place))
     }
 
-    /// The objects of a union or of another combination, after its word.
+    /// The objects of a union or of another combination, after its word. A block without any is read, with a warning.
     fn parts(&mut self, what: &str, place: Place) -> Result<Vec<Rc<Object>>> {
         self.expect(Mark::BraceOpen)?;
         let mut parts = Vec::new();
@@ -360,7 +382,14 @@ impl Parser<'_> {
         }
         if parts.is_empty() {
             let lexeme = self.next()?;
-            return Err(self.unexpected(&lexeme, &format!("the first object of the {what}")));
+            // Modifiers may follow, anything else is taken for a part that is not understood.
+            match lexeme.item {
+                Item::Word(keyword) if !crate::unsupported::is_unsupported(keyword) => {}
+                Item::Mark(Mark::BraceClose) => {}
+                _ => return Err(self.unexpected(&lexeme, &format!("the first object of the {what}"))),
+            }
+            self.put_back(lexeme);
+            self.notice(place, format!("this {what} has no objects"));
         }
         Ok(parts)
     }
@@ -386,10 +415,21 @@ impl Parser<'_> {
     pub(crate) fn radius(&mut self, what: &str) -> Result<f64> {
         self.peek()?;
         let place = self.here();
-        let radius = self.float()?;
+        let radius = self.size()?;
         if radius == 0.0 {
             return Err(Error::invalid(place, format!("{what} is zero")));
         }
-        Ok(radius.abs())
+        Ok(radius)
+    }
+
+    /// A length; a negative one is taken without its sign, as POV-Ray does.
+    pub(crate) fn size(&mut self) -> Result<f64> {
+        Ok(self.float()?.abs())
+    }
+
+    /// The shape of an object that shows nothing, as in POV-Ray, and a warning that says so.
+    pub(crate) fn nothing(&mut self, why: &str, place: Place) -> Shape {
+        self.notice(place, format!("{why}: nothing of it is seen"));
+        Shape::Nothing
     }
 }

@@ -41,7 +41,9 @@ impl Parser<'_> {
                 Keyword::NoImage => habits.no_image = true,
                 Keyword::NoReflection => habits.no_reflection = true,
                 Keyword::CutawayTextures => {
-                    let Shape::Csg(Operation::Intersection | Operation::Difference, _) = object.shape else {
+                    let (Shape::Csg(Operation::Intersection | Operation::Difference, _) | Shape::Nothing) =
+                        object.shape
+                    else {
                         let text = "cutaway_textures is for an intersection or a difference";
                         return Err(Error::invalid(lexeme.place, text));
                     };
@@ -53,7 +55,8 @@ impl Parser<'_> {
                 Keyword::Open
                     if matches!(
                         object.shape,
-                        Shape::Cylinder { .. }
+                        Shape::Nothing
+                            | Shape::Cylinder { .. }
                             | Shape::Cone { .. }
                             | Shape::Named(_)
                             | Shape::Isosurface(..)

@@ -16,21 +16,28 @@ impl Parser<'_> {
         Ok(match keyword {
             Keyword::Sphere => {
                 let center = self.corner()?;
-                Shape::Sphere { center, radius: self.radius("the sphere's radius")? }
+                match self.size()? {
+                    0.0 => self.nothing("this sphere has the radius 0", place),
+                    radius => Shape::Sphere { center, radius },
+                }
             }
             Keyword::Box => {
                 let (a, b) = (self.corner()?, self.vector()?);
-                if (0..3).any(|i| a[i] == b[i]) {
-                    return Err(Error::invalid(place, "this box has no thickness"));
+                match (0..3).filter(|&i| a[i] == b[i]).count() {
+                    0 => Shape::Box { a, b },
+                    1 => Shape::FlatBox { a, b },
+                    _ => self.nothing("this box has neither volume nor area", place),
                 }
-                Shape::Box { a, b }
             }
             Keyword::Cylinder => {
                 let (base, cap) = (self.corner()?, self.corner()?);
                 if base == cap {
                     return Err(Error::invalid(place, "this cylinder's ends are the same point"));
                 }
-                Shape::Cylinder { base, cap, radius: self.radius("the cylinder's radius")? }
+                match self.size()? {
+                    0.0 => self.nothing("this cylinder has the radius 0", place),
+                    radius => Shape::Cylinder { base, cap, radius },
+                }
             }
             Keyword::Cone => {
                 let base = self.corner()?;
@@ -41,44 +48,51 @@ impl Parser<'_> {
                 if base == cap {
                     return Err(Error::invalid(place, "this cone's ends are the same point"));
                 }
-                let (base_radius, cap_radius) = match (base_radius, cap_radius) {
-                    (a, b) if a == 0.0 && b == 0.0 => {
-                        return Err(Error::invalid(place, "both of this cone's radii are zero"));
+                match (base_radius, cap_radius) {
+                    (0.0, 0.0) => self.nothing("both radii of this cone are 0", place),
+                    (a, b) if a.min(b) < 0.0 && a.max(b) > 0.0 => {
+                        return Err(Error::invalid(place, "this cone's radii have different signs"));
                     }
-                    (a, b) if a >= 0.0 && b >= 0.0 => (a, b),
-                    (a, b) if a <= 0.0 && b <= 0.0 => (-a, -b),
-                    _ => return Err(Error::invalid(place, "this cone's radii have different signs")),
-                };
-                Shape::Cone { base, base_radius, cap, cap_radius }
+                    (a, b) => Shape::Cone { base, base_radius: a.abs(), cap, cap_radius: b.abs() },
+                }
             }
             Keyword::Plane => {
                 let normal = self.normal("the plane's normal")?;
                 Shape::Plane { normal, distance: self.float()? }
             }
             Keyword::Disc => {
-                let center = self.corner()?;
-                let normal = self.normal("the disc's normal")?;
-                let radius = self.radius("the disc's radius")?;
-                let hole = if self.take_mark(Mark::Comma)? { self.float()?.abs() } else { 0.0 };
-                if hole >= radius {
-                    return Err(Error::invalid(place, "the disc's hole is as large as the disc"));
+                let (center, normal) = (self.corner()?, self.corner()?);
+                let radius = self.size()?;
+                let hole = if self.take_mark(Mark::Comma)? { self.size()? } else { 0.0 };
+                if length(normal) == 0.0 {
+                    self.nothing("the normal of this disc has no length", place)
+                } else if hole >= radius {
+                    self.nothing("this disc has no area", place)
+                } else {
+                    Shape::Disc { center, normal, radius, hole }
                 }
-                Shape::Disc { center, normal, radius, hole }
             }
             Keyword::Triangle => Shape::Triangle([self.corner()?, self.corner()?, self.vector()?]),
             Keyword::SmoothTriangle => {
                 let mut corners = [[0.0; 3]; 3];
                 let mut normals = [[0.0; 3]; 3];
                 for i in 0..3 {
-                    corners[i] = self.corner()?;
-                    normals[i] = self.normal("a normal of the triangle")?;
+                    (corners[i], normals[i]) = (self.corner()?, self.corner()?);
                 }
-                Shape::SmoothTriangle(Box::new((corners, normals)))
+                if normals.iter().any(|&normal| length(normal) == 0.0) {
+                    self.nothing("a normal of this triangle has no length", place)
+                } else {
+                    Shape::SmoothTriangle(Box::new((corners, normals)))
+                }
             }
             Keyword::Polygon => {
                 let loops = self.polygon(place)?;
                 let rule = self.fill_rule()?;
-                Shape::Polygon(Rc::new(loops), rule)
+                if loops.is_empty() {
+                    self.nothing("this polygon has no area", place)
+                } else {
+                    Shape::Polygon(Rc::new(loops), rule)
+                }
             }
             Keyword::Mesh => self.mesh()?,
             Keyword::Mesh2 => self.mesh2()?,
@@ -89,31 +103,36 @@ impl Parser<'_> {
                 let [d, e, f] = mixed;
                 let [g, h, i] = linear;
                 if [squares, mixed, linear].iter().flatten().all(|v| *v == 0.0) {
-                    return Err(Error::invalid(place, "this quadric's equation has no variable in it"));
+                    self.nothing("the equation of this quadric has no variable in it", place)
+                } else {
+                    Shape::Quadric(Box::new([a, b, c, d, e, f, g, h, i, constant]))
                 }
-                Shape::Quadric(Box::new([a, b, c, d, e, f, g, h, i, constant]))
             }
             Keyword::Isosurface => self.isosurface(place)?,
             Keyword::Superellipsoid => self.superellipsoid()?,
             Keyword::Blob => self.blob(place)?,
             Keyword::JuliaFractal => self.julia_fractal()?,
             Keyword::Torus => {
-                let major = self.radius("the torus's major radius")?;
+                let major = self.size()?;
                 self.skip_comma()?;
-                Shape::Torus { major, minor: self.radius("the torus's minor radius")? }
+                match (major, self.size()?) {
+                    (_, 0.0) => self.nothing("the minor radius of this torus is 0", place),
+                    (0.0, radius) => Shape::Sphere { center: [0.0; 3], radius },
+                    (major, minor) => Shape::Torus { major, minor },
+                }
             }
             Keyword::Prism => self.prism(place)?,
             Keyword::Sor => self.sor()?,
-            Keyword::Ovus => self.ovus()?,
-            Keyword::Cubic => Shape::Polynomial(3, self.coefficients(3, place)?),
-            Keyword::Quartic => Shape::Polynomial(4, self.coefficients(4, place)?),
+            Keyword::Ovus => self.ovus(place)?,
+            Keyword::Cubic => self.coefficients(3, place)?,
+            Keyword::Quartic => self.coefficients(4, place)?,
             Keyword::Poly => {
                 let order = self.order()?;
-                Shape::Polynomial(order, self.coefficients(order, place)?)
+                self.coefficients(order, place)?
             }
             Keyword::Polynomial => {
                 let order = self.order()?;
-                Shape::Polynomial(order, self.terms(order, place)?)
+                self.terms(order, place)?
             }
             // `begins_object` lists no other shape.
             _ => return Err(Error::unsupported(place, keyword.text())),
@@ -159,7 +178,7 @@ impl Parser<'_> {
     }
 
     /// `<A1, A2, ...>`: all coefficients of a polynomial, by falling powers of x, then of y, then of z.
-    fn coefficients(&mut self, order: u32, place: Place) -> Result<Rc<[f64]>> {
+    fn coefficients(&mut self, order: u32, place: Place) -> Result<Shape> {
         let wanted = coefficient_count(order);
         let mut list = Vec::with_capacity(wanted);
         self.expect(Mark::Less)?;
@@ -182,12 +201,11 @@ impl Parser<'_> {
                 format!("a polynomial of order {order} has {wanted} coefficients, and here are {found}"),
             ));
         }
-        self.varies(&list, place)?;
-        Ok(list.into())
+        Ok(self.zero_set(order, &list, place))
     }
 
     /// `xyz(i, j, k): value, ...`: the coefficients that are not zero.
-    fn terms(&mut self, order: u32, place: Place) -> Result<Rc<[f64]>> {
+    fn terms(&mut self, order: u32, place: Place) -> Result<Shape> {
         let mut list = vec![0.0; coefficient_count(order)];
         while self.take_word(Keyword::Xyz)? {
             self.expect(Mark::ParenOpen)?;
@@ -211,16 +229,16 @@ impl Parser<'_> {
             list[place_of(order, powers.map(|p| p as u32))] = self.float()?;
             self.skip_comma()?;
         }
-        self.varies(&list, place)?;
-        Ok(list.into())
+        Ok(self.zero_set(order, &list, place))
     }
 
-    /// Refuses what has no variable in it.
-    fn varies(&self, list: &[f64], place: Place) -> Result<()> {
+    /// The surface where a polynomial with these coefficients is zero.
+    fn zero_set(&mut self, order: u32, list: &[f64], place: Place) -> Shape {
+        // The constant is the last one.
         if list.iter().rev().skip(1).all(|c| *c == 0.0) {
-            return Err(Error::invalid(place, "this polynomial has no variable in it"));
+            return self.nothing("this polynomial has no variable in it", place);
         }
-        Ok(())
+        Shape::Polynomial(order, list.into())
     }
 
     /// A direction and the comma behind it.
@@ -255,9 +273,8 @@ impl Parser<'_> {
             self.notice(place, "this polygon does not end at its first point: it is closed");
             loops.push(current);
         }
-        if loops.iter().any(|points| points.len() < 3) {
-            return Err(Error::invalid(place, "a loop of this polygon has fewer than three corners"));
-        }
+        // Where it turns back at once there is no area.
+        loops.retain(|points| points.len() >= 3);
         if loops.first().is_some_and(|outline| starts_inward(outline)) {
             // The first corners stay the first.
             loops.iter_mut().for_each(|points| points[1..].reverse());

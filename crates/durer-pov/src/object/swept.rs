@@ -6,7 +6,7 @@ use super::Shape;
 use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::parser::Parser;
-use durer_scene::{Curve, Prism, Spline, Sweep};
+use durer_scene::{Curve, FillRule, Prism, Spline, Sweep};
 
 impl Parser<'_> {
     /// `[linear_spline | quadratic_spline | cubic_spline | bezier_spline] [linear_sweep | conic_sweep] height, height, number of points, points`.
@@ -33,7 +33,7 @@ impl Parser<'_> {
         self.skip_comma()?;
         let to = self.float()?;
         self.skip_comma()?;
-        if from == to {
+        if from == to && spline != Spline::Linear {
             return Err(Error::invalid(
                 place,
                 format!("this prism has no height: it goes from {from} to {to}"),
@@ -46,7 +46,24 @@ impl Parser<'_> {
             }
             Spline::Curved(curve) => self.curves(curve)?,
         };
+        if from == to {
+            return Ok(self.flat_prism(&outlines, sweep, from, place));
+        }
         Ok(Shape::Prism(Rc::new(Prism { outlines, spline, heights: [from, to], sweep })))
+    }
+
+    /// A prism of straight edges without height: a polygon.
+    fn flat_prism(&mut self, outlines: &[Vec<[f64; 2]>], sweep: Sweep, y: f64, place: Place) -> Shape {
+        let size = match sweep {
+            Sweep::Linear => 1.0,
+            Sweep::Conic => y,
+        };
+        if size == 0.0 {
+            return self.nothing("this prism has neither volume nor area", place);
+        }
+        let loops =
+            outlines.iter().map(|points| points.iter().map(|&[x, z]| [x * size, y, z * size]).collect());
+        Shape::Polygon(Rc::new(loops.collect()), FillRule::EvenOdd)
     }
 
     /// The points of closed curves, those before and behind each curve included.
@@ -142,11 +159,17 @@ impl Parser<'_> {
         Ok(Shape::Sor(points.into()))
     }
 
-    /// `bottom radius, top radius`.
-    pub(super) fn ovus(&mut self) -> Result<Shape> {
-        let bottom = self.radius("the ovus's bottom radius")?;
+    /// `bottom radius, top radius`. One of them may be 0; then the other sphere is all.
+    pub(super) fn ovus(&mut self, place: Place) -> Result<Shape> {
+        let bottom = self.size()?;
         self.skip_comma()?;
-        Ok(Shape::Ovus { bottom, top: self.radius("the ovus's top radius")? })
+        Ok(match (bottom, self.size()?) {
+            (0.0, 0.0) => self.nothing("both radii of this ovus are 0", place),
+            (bottom, top) if bottom == 0.0 || top == 0.0 => {
+                Shape::Sphere { center: [0.0; 3], radius: bottom.max(top) }
+            }
+            (bottom, top) => Shape::Ovus { bottom, top },
+        })
     }
 
     /// `base, radius, apex, radius, inner radius`.

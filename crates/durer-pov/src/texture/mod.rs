@@ -19,7 +19,7 @@ pub(crate) use finish::Finish;
 pub(crate) use interior::{Interior, Material};
 pub(crate) use maps::{ColorMap, Map};
 pub(crate) use pattern::{Pattern, PatternKind, Wave};
-pub(crate) use pigment::{Paint, Pigment};
+pub(crate) use pigment::{Body, Paint, Pigment};
 
 /// One layer: what colour, and how it takes the light.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -50,7 +50,7 @@ impl Texture {
     pub(crate) fn transform(&mut self, by: &Matrix) {
         match self {
             Self::Layers(layers) => layers.iter_mut().for_each(|layer| layer.pigment.transform(by)),
-            Self::Patterned { pattern, .. } => pattern.transform(by),
+            Self::Patterned { pattern, .. } => pattern.modifiers.transform(by),
         }
     }
 
@@ -118,12 +118,13 @@ impl Parser<'_> {
             if self.layer_item(&mut texture)? {
                 continue;
             }
-            if let Some(kind) = self.pattern_kind()? {
+            if let Some(kind) = self.pattern_kind(None)? {
                 texture = self.patterned_texture(kind)?;
                 continue;
             }
             if let Texture::Patterned { pattern, map } = &mut texture
-                && (self.pattern_modifier(pattern)? || self.texture_map_item(map)?)
+                && (self.pattern_modifier(Some(&mut pattern.kind), &mut pattern.modifiers)?
+                    || self.texture_map_item(map)?)
             {
                 continue;
             }
@@ -177,7 +178,7 @@ impl Parser<'_> {
         Ok(true)
     }
 
-    /// `#default { texture {} }` or a part of one.
+    /// `#default { texture {} }` or a part of one, or `#default { camera {} }`.
     pub(crate) fn default_texture(&mut self) -> Result<()> {
         self.expect(Mark::BraceOpen)?;
         let mut texture = Texture::single((*self.defaults).clone());
@@ -192,10 +193,8 @@ impl Parser<'_> {
                 let lexeme = self.next()?;
                 match &lexeme.item {
                     Item::Mark(Mark::BraceClose) => break,
-                    Item::Word(Keyword::Camera) => {
-                        return Err(Error::unsupported(place, "camera in #default"));
-                    }
-                    _ => return Err(self.unexpected(&lexeme, "texture, pigment or finish")),
+                    Item::Word(Keyword::Camera) => self.default_camera_item()?,
+                    _ => return Err(self.unexpected(&lexeme, "texture, pigment, finish or camera")),
                 }
             }
             match &texture {

@@ -46,10 +46,10 @@ pub(crate) enum Wave {
     Poly(f64),
 }
 
-/// A pattern in its place.
+/// What changes a pattern's value, and where the pattern is.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Pattern {
-    pub(crate) kind: PatternKind,
+pub(crate) struct PatternModifiers {
+    /// 0 leaves the value alone, and then the phase does not count either.
     pub(crate) frequency: f64,
     pub(crate) phase: f64,
     pub(crate) wave: Wave,
@@ -58,35 +58,59 @@ pub(crate) struct Pattern {
     pub(crate) place: Matrix,
 }
 
-impl Pattern {
-    pub(crate) fn new(kind: PatternKind) -> Self {
-        let wave = if let PatternKind::Written(word, _) = kind {
-            pattern_function::own_wave(word)
-        } else {
-            Wave::Ramp
-        };
-        // What has a list has no frequency unless one is given, and then neither has it a phase.
-        let frequency = if kind.list_length().is_some() { 0.0 } else { 1.0 };
-        Self { kind, frequency, phase: 0.0, wave, turbulence: Rc::default(), place: Matrix::IDENTITY }
+impl Default for PatternModifiers {
+    fn default() -> Self {
+        Self {
+            frequency: 1.0,
+            phase: 0.0,
+            wave: Wave::Ramp,
+            turbulence: Rc::default(),
+            place: Matrix::IDENTITY,
+        }
+    }
+}
+
+impl PatternModifiers {
+    /// What the word of a pattern changes by itself; all else stays as it was (a fact of the language).
+    pub(crate) fn begin(&mut self, kind: PatternKind) {
+        if kind.list_length().is_some() {
+            self.frequency = 0.0;
+        }
+        if let PatternKind::Written(word, _) = kind {
+            self.wave = pattern_function::own_wave(word).unwrap_or(self.wave);
+        }
     }
 
     pub(crate) fn transform(&mut self, by: &Matrix) {
         self.place = self.place.then(by);
     }
+}
 
+/// A pattern in its place.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Pattern {
+    pub(crate) kind: PatternKind,
+    pub(crate) modifiers: PatternModifiers,
+}
+
+impl Pattern {
     /// Whether each cell shows an entry of a list, which neither a frequency nor a wave changes.
     pub(crate) fn is_plain_list(&self) -> bool {
-        self.kind.list_length().is_some() && self.frequency == 0.0 && self.wave == Wave::Ramp
+        let PatternModifiers { frequency, wave, .. } = self.modifiers;
+        self.kind.list_length().is_some() && frequency == 0.0 && wave == Wave::Ramp
     }
 }
 
 impl Parser<'_> {
-    /// The word of a pattern, if one comes next.
-    pub(crate) fn pattern_kind(&mut self) -> Result<Option<PatternKind>> {
+    /// The word of a pattern, if one comes next; `base` is the pattern that it replaces.
+    pub(crate) fn pattern_kind(&mut self, base: Option<PatternKind>) -> Result<Option<PatternKind>> {
         let kind = match self.peek_word()? {
             Some(Keyword::Checker) => PatternKind::Checker,
             Some(Keyword::Hexagon) => PatternKind::Hexagon,
-            Some(Keyword::Brick) => PatternKind::Brick { size: [8.0, 3.0, 4.5], mortar: 0.5 },
+            Some(Keyword::Brick) => match base {
+                Some(bricks @ PatternKind::Brick { .. }) => bricks,
+                _ => PatternKind::Brick { size: [8.0, 3.0, 4.5], mortar: 0.5 },
+            },
             Some(Keyword::Gradient) => {
                 self.next()?;
                 let place = self.here();
@@ -105,13 +129,26 @@ impl Parser<'_> {
 
     /// The pattern of a word just read, with the scene's noise.
     pub(crate) fn plain_pattern(&self, kind: PatternKind) -> Pattern {
-        let mut pattern = Pattern::new(kind);
-        Rc::make_mut(&mut pattern.turbulence).generator = self.language.noise_generator();
-        pattern
+        let mut modifiers = PatternModifiers::default();
+        self.set_noise_generator(&mut modifiers);
+        modifiers.begin(kind);
+        Pattern { kind, modifiers }
+    }
+
+    /// Makes the pattern's noise that of the scene.
+    pub(super) fn set_noise_generator(&self, modifiers: &mut PatternModifiers) {
+        let generator = self.language.noise_generator();
+        if modifiers.turbulence.generator != generator {
+            Rc::make_mut(&mut modifiers.turbulence).generator = generator;
+        }
     }
 
     /// `frequency`, `phase`, a wave, a brick's sizes: what changes a pattern, transforms apart.
-    pub(crate) fn pattern_modifier(&mut self, pattern: &mut Pattern) -> Result<bool> {
+    pub(crate) fn pattern_modifier(
+        &mut self,
+        kind: Option<&mut PatternKind>,
+        modifiers: &mut PatternModifiers,
+    ) -> Result<bool> {
         let Some(keyword) = self.peek_word()? else { return Ok(false) };
         let place = self.here();
         let wave = match keyword {
@@ -125,7 +162,7 @@ impl Parser<'_> {
         };
         if let Some(wave) = wave {
             self.next()?;
-            pattern.wave = match wave {
+            modifiers.wave = match wave {
                 Wave::Poly(absent) => Wave::Poly(self.float_or(absent)?),
                 plain => plain,
             };
@@ -134,18 +171,18 @@ impl Parser<'_> {
         match keyword {
             Keyword::Frequency => {
                 self.next()?;
-                pattern.frequency = self.float()?;
+                modifiers.frequency = self.float()?;
             }
             Keyword::Phase => {
                 self.next()?;
-                pattern.phase = self.float()?;
+                modifiers.phase = self.float()?;
             }
             Keyword::BrickSize => {
                 self.next()?;
                 let given = self.vector()?;
-                match &mut pattern.kind {
-                    PatternKind::Brick { size, .. } if given.iter().all(|v| *v != 0.0) => *size = given,
-                    PatternKind::Brick { .. } => {
+                match kind {
+                    Some(PatternKind::Brick { size, .. }) if given.iter().all(|v| *v != 0.0) => *size = given,
+                    Some(PatternKind::Brick { .. }) => {
                         return Err(Error::invalid(place, "a brick has no zero sizes"));
                     }
                     _ => return Err(Error::invalid(place, "brick_size belongs to brick")),
@@ -154,37 +191,37 @@ impl Parser<'_> {
             Keyword::Mortar => {
                 self.next()?;
                 let given = self.float()?;
-                match &mut pattern.kind {
-                    PatternKind::Brick { mortar, .. } => *mortar = given,
+                match kind {
+                    Some(PatternKind::Brick { mortar, .. }) => *mortar = given,
                     _ => return Err(Error::invalid(place, "mortar belongs to brick")),
                 }
             }
             Keyword::Octaves => {
                 self.next()?;
-                Rc::make_mut(&mut pattern.turbulence).octaves = self.float()?;
+                Rc::make_mut(&mut modifiers.turbulence).octaves = self.float()?;
             }
             Keyword::Omega => {
                 self.next()?;
-                Rc::make_mut(&mut pattern.turbulence).omega = self.float()?;
+                Rc::make_mut(&mut modifiers.turbulence).omega = self.float()?;
             }
             Keyword::Lambda => {
                 self.next()?;
-                Rc::make_mut(&mut pattern.turbulence).lambda = self.float()?;
+                Rc::make_mut(&mut modifiers.turbulence).lambda = self.float()?;
             }
             Keyword::AgateTurb => {
                 self.next()?;
-                Rc::make_mut(&mut pattern.turbulence).agate = self.float()?;
+                Rc::make_mut(&mut modifiers.turbulence).agate = self.float()?;
             }
             Keyword::NoiseGenerator => {
                 self.next()?;
                 // 0 is that of the scene.
                 let said = self.float()?;
                 let generator = if said == 0.0 { self.language.noise_generator() } else { said };
-                Rc::make_mut(&mut pattern.turbulence).generator = generator;
+                Rc::make_mut(&mut modifiers.turbulence).generator = generator;
             }
             Keyword::Turbulence => {
                 self.next()?;
-                let turbulence = Rc::make_mut(&mut pattern.turbulence);
+                let turbulence = Rc::make_mut(&mut modifiers.turbulence);
                 turbulence.amount = self.vector()?;
                 turbulence.at = (!turbulence.is_none()).then_some(place);
             }

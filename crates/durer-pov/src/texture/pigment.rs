@@ -2,7 +2,8 @@
 
 use std::rc::Rc;
 
-use super::{ColorMap, Map, Pattern, PatternKind};
+use super::pattern::PatternModifiers;
+use super::{ColorMap, Map, PatternKind};
 use crate::colour::Colour;
 use crate::diagnostics::{Error, Result};
 use crate::keywords::Keyword;
@@ -19,31 +20,65 @@ pub(crate) enum Paint {
 }
 
 /// The colour at each point.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Pigment {
-    Solid(Colour),
-    Patterned { pattern: Pattern, paint: Paint },
+///
+/// A word for a colour or a pattern replaces what is shown and keeps all else of the pigment that it changes (a fact of the
+/// language): its transforms, its frequency and the like, and its map.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Pigment {
+    pub(crate) body: Body,
+    pub(crate) modifiers: PatternModifiers,
+    /// The list or map, if the text gave one.
+    paint: Option<Paint>,
 }
 
-impl Default for Pigment {
+/// What a pigment shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Body {
+    /// One colour.
+    Solid(Colour),
+    /// Colours or pigments by a pattern.
+    Patterned(PatternKind),
+}
+
+impl Default for Body {
     fn default() -> Self {
         Self::Solid([0.0; 5])
     }
 }
 
 impl Pigment {
+    /// One colour everywhere.
+    pub(crate) fn solid(colour: Colour) -> Self {
+        Self { body: Body::Solid(colour), ..Self::default() }
+    }
+
     pub(crate) fn transform(&mut self, by: &Matrix) {
-        if let Self::Patterned { pattern, .. } = self {
-            pattern.transform(by);
-        }
+        self.modifiers.transform(by);
+    }
+
+    /// What the pattern `kind` of this pigment chooses from.
+    pub(crate) fn paint(&self, kind: PatternKind) -> Paint {
+        self.paint.clone().unwrap_or_else(|| {
+            let opaque = |&(at, [r, g, b]): &(f64, [f64; 3])| (at, [r, g, b, 0.0, 0.0]);
+            let entries = default_map(kind).iter().map(opaque).collect();
+            Paint::Colors(Rc::new(Map::new(entries, 1)))
+        })
     }
 
     /// How deeply maps stand in each other.
     pub(crate) fn depth(&self) -> u32 {
-        match self {
-            Self::Solid(_) => 0,
-            Self::Patterned { paint: Paint::Colors(_), .. } => 1,
-            Self::Patterned { paint: Paint::Pigments(map), .. } => map.depth,
+        match (&self.paint, self.body) {
+            (Some(Paint::Pigments(map)), _) => map.depth,
+            (_, Body::Solid(_)) => 0,
+            (_, Body::Patterned(_)) => 1,
+        }
+    }
+
+    /// The pattern that is shown now.
+    fn kind(&self) -> Option<PatternKind> {
+        match self.body {
+            Body::Solid(_) => None,
+            Body::Patterned(kind) => Some(kind),
         }
     }
 }
@@ -125,25 +160,36 @@ impl Parser<'_> {
                 continue;
             }
             let place = self.here();
-            let pattern = self.pattern_kind()?;
+            let pattern = self.pattern_kind(pigment.kind())?;
             let solid = pattern.is_none() && self.starts_colour()?;
             if chosen && (pattern.is_some() || solid) {
                 return Err(Error::invalid(place, "this pigment has its colour or pattern already"));
             }
             chosen |= pattern.is_some() || solid;
             if let Some(kind) = pattern {
-                pigment = Pigment::Patterned {
-                    pattern: self.plain_pattern(kind),
-                    paint: self.list_or_default(kind)?,
-                };
+                if pigment.kind().is_none() {
+                    self.set_noise_generator(&mut pigment.modifiers);
+                }
+                pigment.body = Body::Patterned(kind);
+                pigment.modifiers.begin(kind);
+                if let Some(list) = self.list(kind)? {
+                    pigment.paint = Some(list);
+                }
                 continue;
             }
             if solid {
-                pigment = Pigment::Solid(self.colour()?);
+                pigment.body = Body::Solid(self.colour()?);
                 continue;
             }
-            if let Pigment::Patterned { pattern, paint } = &mut pigment
-                && (self.pattern_modifier(pattern)? || self.paint_item(pattern.kind, paint)?)
+            let kind = match &mut pigment.body {
+                Body::Solid(_) => None,
+                Body::Patterned(kind) => Some(kind),
+            };
+            if self.pattern_modifier(kind, &mut pigment.modifiers)? {
+                continue;
+            }
+            if let Some(kind) = pigment.kind()
+                && self.paint_item(kind, &mut pigment.paint)?
             {
                 continue;
             }
@@ -166,17 +212,12 @@ impl Parser<'_> {
         }
     }
 
-    /// The colours or pigments after the word of a discrete pattern.
-    fn list_or_default(&mut self, kind: PatternKind) -> Result<Paint> {
-        let Some(length) = kind.list_length() else {
-            let opaque = |&(at, [r, g, b]): &(f64, [f64; 3])| (at, [r, g, b, 0.0, 0.0]);
-            let map = Map::new(default_map(kind).iter().map(opaque).collect(), 1);
-            return Ok(Paint::Colors(Rc::new(map)));
-        };
-        let mut colours = default_list(kind);
+    /// The colours or pigments after the word of a discrete pattern; `None` for patterns with a map.
+    fn list(&mut self, kind: PatternKind) -> Result<Option<Paint>> {
+        let Some(length) = kind.list_length() else { return Ok(None) };
         if self.peek_word()? == Some(Keyword::Pigment) {
-            let mut pigments: Vec<Pigment> = colours.into_iter().map(Pigment::Solid).collect();
             let base = self.defaults.clone();
+            let mut pigments = vec![base.pigment.clone(); length];
             for pigment in &mut pigments {
                 if !self.take_word(Keyword::Pigment)? {
                     break;
@@ -185,8 +226,9 @@ impl Parser<'_> {
                 self.skip_comma()?;
             }
             let depth = 1 + pigments.iter().map(Pigment::depth).max().unwrap_or(0);
-            return Ok(Paint::Pigments(Rc::new(Map::list(pigments, self.check_map_depth(depth)?))));
+            return Ok(Some(Paint::Pigments(Rc::new(Map::list(pigments, self.check_map_depth(depth)?)))));
         }
+        let mut colours = default_list(kind);
         for colour in colours.iter_mut().take(length) {
             if !self.starts_colour()? {
                 break;
@@ -194,11 +236,11 @@ impl Parser<'_> {
             *colour = self.colour()?;
             self.skip_comma()?;
         }
-        Ok(Paint::Colors(Rc::new(Map::list(colours, 1))))
+        Ok(Some(Paint::Colors(Rc::new(Map::list(colours, 1)))))
     }
 
     /// A map inside a patterned pigment.
-    fn paint_item(&mut self, kind: PatternKind, paint: &mut Paint) -> Result<bool> {
+    fn paint_item(&mut self, kind: PatternKind, paint: &mut Option<Paint>) -> Result<bool> {
         let keyword = match self.peek_word()? {
             Some(keyword @ (Keyword::ColorMap | Keyword::PigmentMap)) => keyword,
             _ => return Ok(false),
@@ -208,11 +250,11 @@ impl Parser<'_> {
             return Err(Error::invalid(self.here(), text));
         }
         self.next()?;
-        *paint = if keyword == Keyword::ColorMap {
+        *paint = Some(if keyword == Keyword::ColorMap {
             Paint::Colors(self.nested(Self::color_map_block)?)
         } else {
             Paint::Pigments(self.nested(Self::pigment_map_block)?)
-        };
+        });
         Ok(true)
     }
 }

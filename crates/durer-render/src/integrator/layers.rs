@@ -2,6 +2,9 @@
 //!
 //! Each adds its own light, times what the layers above let pass; what all of them let pass is seen behind the surface. Reflections of all
 //! layers are added as they are.
+//!
+//! Negative `filter` and `transmit` extrapolate: what is behind is taken away. So all that compares with `adc_bailout` what
+//! layers let pass takes magnitudes (a fact of the scene language).
 
 use super::media::Interface;
 use super::shading_point::Spot;
@@ -89,7 +92,7 @@ impl<'w> Coats<'w> {
                 #[inline(always)]
                 || {
                     for (live, spot) in self.live.iter_mut().zip(&*spots) {
-                        *live &= !spot.passed.luminance().le(bailout);
+                        *live &= !spot.passed.luminance().abs().le(bailout);
                     }
                 },
             );
@@ -170,7 +173,7 @@ impl<'w> Coats<'w> {
                     let fresnel = if mirror.fresnel { border.fresnel(cosine) } else { F8::ZERO };
                     let (reflectance, counts) = mirror.reflectance(cosine, paint.rgb, live, fresnel);
                     let reflectance = reflectance.kept(live);
-                    let importance = passed.luminance() * counts;
+                    let importance = passed.luminance().abs() * counts;
                     mirrored.push(Mirrored { reflectance, importance });
                     let mut left = passed * paint.passed();
                     if conserve_energy {

@@ -187,13 +187,13 @@ fn mirrored(spot: &Spot) -> Vec3<F8> {
 /// Where the layers let enough pass that what is behind them is looked at.
 #[inline(always)]
 fn open(world: &World, spot: &Spot) -> M8 {
-    spot.live & !spot.passed.luminance().le(F8::splat(world.adc_bailout))
+    spot.live & !spot.passed.luminance().abs().le(F8::splat(world.adc_bailout))
 }
 
 /// What rays count for behind the layers, and where that is enough.
 #[inline(always)]
 fn dimmed(world: &World, spot: &Spot) -> (F8, M8) {
-    let weight = spot.paths.weight * spot.passed.greatest();
+    let weight = spot.paths.weight * spot.passed.greatest_magnitude();
     (weight, !weight.lt(F8::splat(world.adc_bailout)))
 }
 

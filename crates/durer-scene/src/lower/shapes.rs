@@ -5,8 +5,9 @@ use std::fmt::Display;
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Blob, BlobError, CappedCylinder, CurvedPrism,
-    Cyclide, Disc, FLAT, Frustum, Isosurface, JuliaSet, Parallelogram, Plane, Polygon, Prism, Quadric,
-    Region, Sphere, SphericalSector, SurfaceOfRevolution, Torus, Triangle, TriangleError, superellipsoid,
+    Cyclide, Disc, FLAT, Frustum, Isosurface, JuliaSet, Parallelogram, Plane, Polygon, PolygonError, Prism,
+    Quadric, Region, Sphere, SphericalSector, SurfaceOfRevolution, Torus, Triangle, TriangleError,
+    superellipsoid,
 };
 
 use super::build::Target;
@@ -297,9 +298,13 @@ fn flat(shape: &Shape, map: Option<&Affine>, mut target: Target<'_>) -> Result<B
                 Err(e) => return Err(shape_error(e)),
             }
         }
-        Shape::Polygon { loops, rule } => {
-            target.add_rare(Polygon::new(loops, *rule).map_err(shape_error)?, map);
-        }
+        Shape::Polygon { loops, rule } => match Polygon::new(loops, *rule) {
+            Ok(polygon) => target.add_rare(polygon, map),
+            Err(why @ (PolygonError::Degenerate | PolygonError::NotPlanar { .. })) => {
+                return Ok(Built::Nothing(format!("{why}, so it is left out")));
+            }
+            Err(why) => return Err(shape_error(why)),
+        },
         Shape::Mesh(data) => {
             let mesh = mesh(data)?;
             add_flat(&mut target, mesh, map);
