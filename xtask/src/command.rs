@@ -71,22 +71,8 @@ impl Durer {
     }
 
     fn made_by(title: &str, arguments: &[&str]) -> Outcome<Self> {
-        println!("==> {title}");
-        let output = cargo()
-            .args(arguments)
-            .arg("--message-format=json-render-diagnostics")
-            .stderr(Stdio::inherit())
-            .output()
-            .map_err(|e| format!("{title}: cannot start: {e}"))?;
-        if !output.status.success() {
-            return Err(format!("{title}: failed ({})", output.status));
-        }
-        let program = String::from_utf8_lossy(&output.stdout)
-            .lines()
-            .filter_map(|line| executable(line).map(PathBuf::from))
-            .rfind(|path| path.file_stem().is_some_and(|name| name == "durer"))
-            .ok_or_else(|| format!("{title}: cargo named no executable"))?;
-        Ok(Self { program })
+        let is_durer = |path: &Path| path.file_stem().is_some_and(|name| name == "durer");
+        Ok(Self { program: built(title, arguments, is_durer)? })
     }
 
     /// Where it is.
@@ -109,6 +95,25 @@ impl Durer {
         }
         Err(format!("{}: {}\n{}", scene.display(), output.status, String::from_utf8_lossy(&output.stderr)))
     }
+}
+
+/// Runs cargo and finds the last executable of a wanted name that it has built.
+pub(crate) fn built(title: &str, arguments: &[&str], is_wanted: impl Fn(&Path) -> bool) -> Outcome<PathBuf> {
+    println!("==> {title}");
+    let output = cargo()
+        .args(arguments)
+        .arg("--message-format=json-render-diagnostics")
+        .stderr(Stdio::inherit())
+        .output()
+        .map_err(|e| format!("{title}: cannot start: {e}"))?;
+    if !output.status.success() {
+        return Err(format!("{title}: failed ({})", output.status));
+    }
+    String::from_utf8_lossy(&output.stdout)
+        .lines()
+        .filter_map(|line| executable(line).map(PathBuf::from))
+        .rfind(|path| is_wanted(path))
+        .ok_or_else(|| format!("{title}: cargo named no executable"))
 }
 
 /// The value of `"executable":"..."` in one of cargo's JSON lines.

@@ -39,8 +39,9 @@ usage: cargo xtask NAME
   bench [--rounds N] HARNESS MESH.tri..
                                    traces the same rays with Embree and with durer, in turn, and prints both; HARNESS is
                                    a folder with embree_bench.cpp
-  soak [--minutes N]               runs the random tests with ever new cases for N minutes (60), and adds up in
-                                   docs/reliability.md
+  soak [--minutes N] [--rays N] [KIND]..
+                                   runs the random tests with ever new cases for N minutes (60) or until each KIND (all)
+                                   has N rays, fewest rays first, and adds up in docs/reliability.md
   fused [BINARY]                   lists compiled code that calls fma where it should be one instruction";
 
 /// What a chore comes to: nothing to say, or the reason why it failed.

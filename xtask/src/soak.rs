@@ -1,72 +1,168 @@
-//! `cargo xtask soak`: the tests that draw their cases at random, round after round, with cases that no round before has drawn; docs/reliability.md adds them up.
+//! `cargo xtask soak`: the tests that draw their cases at random, turn after turn, with cases that no turn before has drawn; docs/reliability.md adds them up.
+//!
+//! Each turn goes to the kind that has had the fewest rays, and takes about a minute.
 
 use crate::Outcome;
-use crate::command::{cargo, root};
+use crate::command::{built, root, scratch};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::{BufRead, BufReader};
-use std::process::Stdio;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// What is run in each round, and how many times as many cases as in a test run: a round takes some minutes.
-const TESTS: [Test; 3] = [
-    Test { name: "meshes", package: "durer-geometry", select: &["--test", "leaks"], factor: 40 },
-    Test { name: "surfaces", package: "durer-surfaces", select: &["--lib", "laws"], factor: 1 },
-    Test { name: "numbers", package: "durer-math", select: &["--tests"], factor: 1 },
-];
-
 const PAGE: &str = "docs/reliability.md";
-/// Before what the next round needs to know.
+/// Before what the next turn needs to know.
 const DRAWN: &str = "<!-- drawn: ";
+/// How long a turn should take. One of a kind whose speed is not known yet may take shorter.
+const TURN: Duration = Duration::from_secs(60);
+/// How many times as many cases as the last one a turn may have: speeds of short turns are not known well.
+const GROWTH: f64 = 32.0;
+/// The tests of durer-surfaces that a soak runs have this in their names.
+const LAW: &str = "obey_the_laws";
 
-struct Test {
-    name: &'static str,
-    package: &'static str,
-    select: &'static [&'static str],
+/// What is counted together.
+struct Kind {
+    name: String,
+    program: Program,
+    /// The tests' names; none stand for all of the program.
+    tests: Vec<String>,
+    /// How many times the cases of a test run the next turn draws.
     factor: u64,
 }
+
+/// A test program.
+#[derive(Clone, Copy)]
+struct Program {
+    package: &'static str,
+    target: &'static [&'static str],
+}
+
+const MESHES: Program = Program { package: "durer-geometry", target: &["--test", "leaks"] };
+const SURFACES: Program = Program { package: "durer-surfaces", target: &["--lib"] };
 
 /// What the page adds up.
 #[derive(Debug, Default)]
 struct Sums {
-    /// How many times the cases of a test run each of the tests has drawn.
+    /// How many times the cases of a test run each of the kinds has drawn.
     drawn: BTreeMap<String, u64>,
     /// Rays, and tests that failed, of each row.
     rows: BTreeMap<String, (u64, u64)>,
 }
 
-/// Runs rounds until so many minutes are over, an hour if it is not said.
+/// What is asked for on the command line.
+#[derive(Debug, PartialEq)]
+struct Request {
+    minutes: u64,
+    /// Kinds stop at so many rays.
+    rays: u64,
+    /// None stand for all.
+    kinds: Vec<String>,
+}
+
+impl Request {
+    fn read(words: &[String]) -> Outcome<Self> {
+        let mut request = Self { minutes: 60, rays: u64::MAX, kinds: vec![] };
+        let mut words = words.iter();
+        while let Some(word) = words.next() {
+            let mut number = || {
+                let n = words.next().ok_or_else(|| format!("soak: {word} needs a number"))?;
+                n.parse().ok().filter(|&n| n > 0).ok_or_else(|| format!("soak: {n:?} is no number from 1 on"))
+            };
+            match word.as_str() {
+                "--minutes" => request.minutes = number()?,
+                "--rays" => request.rays = number()?,
+                _ if word.starts_with('-') => {
+                    return Err(format!(
+                        "soak: there is no option {word}; there are --minutes N and --rays N"
+                    ));
+                }
+                _ => request.kinds.push(word.clone()),
+            }
+        }
+        Ok(request)
+    }
+}
+
+/// Runs turns until the time is over or all kinds have enough rays.
 pub(crate) fn run(words: &[String]) -> Outcome {
-    let minutes = match words {
-        [] => 60,
-        [flag, n] if flag == "--minutes" => {
-            n.parse().ok().filter(|&n| n > 0).ok_or_else(|| format!("soak: {n:?} is no number of minutes"))?
-        }
-        _ => return Err("soak: only --minutes N is understood".into()),
-    };
+    let request = Request::read(words)?;
     let path = root().join(PAGE);
-    let end = Instant::now() + Duration::from_secs(60 * minutes);
+    let surfaces = SURFACES.build()?;
+    let mut kinds = kinds(&surfaces)?;
+    if let Some(name) = request.kinds.iter().find(|name| kinds.iter().all(|kind| kind.name != **name)) {
+        let names: Vec<&str> = kinds.iter().map(|kind| kind.name.as_str()).collect();
+        return Err(format!("soak: there is no kind {name:?}; there are {}", names.join(", ")));
+    }
+    kinds.retain(|kind| request.kinds.is_empty() || request.kinds.contains(&kind.name));
+    let mut programs = BTreeMap::from([(SURFACES.package, surfaces)]);
     let mut sums = Sums::read(&std::fs::read_to_string(&path).unwrap_or_default());
+    let end = Instant::now() + Duration::from_secs(60 * request.minutes);
     while Instant::now() < end {
-        for test in &TESTS {
-            let outcome = test.round(&mut sums);
-            // What has been seen stays seen, whatever comes next.
-            std::fs::write(&path, sums.page()).map_err(|e| format!("{PAGE}: {e}"))?;
-            outcome?;
+        let Some(kind) = kinds.iter_mut().min_by_key(|kind| sums.rays(&kind.name)) else { break };
+        if sums.rays(&kind.name) >= request.rays {
+            break;
         }
+        let program = match programs.get(kind.program.package) {
+            Some(program) => program.clone(),
+            None => kind.program.build()?,
+        };
+        programs.insert(kind.program.package, program.clone());
+        let start = Instant::now();
+        let outcome = kind.turn(&program, &mut sums);
+        // What has been seen stays seen, whatever comes next.
+        std::fs::write(&path, sums.page()).map_err(|e| format!("{PAGE}: {e}"))?;
+        outcome?;
+        kind.factor = next_factor(kind.factor, start.elapsed());
     }
     println!("{}", sums.table());
     Ok(())
 }
 
-impl Test {
-    fn round(&self, sums: &mut Sums) -> Outcome {
-        let from = sums.drawn.get(self.name).copied().unwrap_or(0);
+/// How many times the cases of a test run take a turn, if `factor` times took so long.
+fn next_factor(factor: u64, took: Duration) -> u64 {
+    let growth = (TURN.as_secs_f64() / took.as_secs_f64().max(1e-3)).min(GROWTH);
+    ((factor as f64 * growth) as u64).max(1)
+}
+
+/// Closed meshes, and each kind of surface: all modules of durer-surfaces that have tests of the laws.
+fn kinds(surfaces: &Path) -> Outcome<Vec<Kind>> {
+    let mut kinds = vec![Kind { name: "meshes".into(), program: MESHES, tests: vec![], factor: 1 }];
+    let list = Command::new(surfaces).arg("--list").output();
+    let list = list.map_err(|e| format!("{}: cannot start: {e}", surfaces.display()))?;
+    if !list.status.success() {
+        return Err(format!("{}: {}", surfaces.display(), String::from_utf8_lossy(&list.stderr)));
+    }
+    let list = String::from_utf8_lossy(&list.stdout);
+    for test in list.lines().filter_map(|line| line.strip_suffix(": test")).filter(|name| name.contains(LAW))
+    {
+        let name = module(test);
+        match kinds.iter_mut().find(|kind| kind.name == name) {
+            Some(kind) => kind.tests.push(test.into()),
+            None => kinds.push(Kind { name, program: SURFACES, tests: vec![test.into()], factor: 1 }),
+        }
+    }
+    Ok(kinds)
+}
+
+impl Program {
+    /// Builds it and keeps a copy: a soak goes on with what it began with, whatever is built meanwhile.
+    fn build(self) -> Outcome<PathBuf> {
+        let arguments = [&["test", "--release", "--no-run", "--package", self.package], self.target].concat();
+        let path = built(&format!("cargo {}", arguments.join(" ")), &arguments, |_| true)?;
+        let copy = scratch("soak")?.join(self.package);
+        std::fs::copy(path, &copy).map_err(|e| format!("{}: {e}", copy.display()))?;
+        Ok(copy)
+    }
+}
+
+impl Kind {
+    fn turn(&self, program: &Path, sums: &mut Sums) -> Outcome {
+        let from = sums.drawn.get(&self.name).copied().unwrap_or(0);
         println!("==> {}: {} times the cases of a test run, after {from}", self.name, self.factor);
-        let mut child = cargo()
-            .args(["test", "--release", "--quiet", "--package", self.package])
-            .args(self.select)
-            .args(["--", "--nocapture"])
+        let mut child = Command::new(program)
+            .args(["--nocapture", "--exact", "--quiet"])
+            .args(&self.tests)
             .env("DURER_SOAK", self.factor.to_string())
             .env("DURER_SOAK_FROM", from.to_string())
             .stdout(Stdio::piped())
@@ -78,36 +174,48 @@ impl Test {
             let line = line.map_err(|e| format!("{}: {e}", self.name))?;
             // The harness puts its dots before what a test prints.
             if let Some((_, soaked)) = line.split_once("soaked: ") {
-                let (name, rays) = soaked.rsplit_once(' ').unwrap_or((soaked, "0"));
-                sums.rows.entry(row(self.name, name)).or_default().0 += rays.parse::<u64>().unwrap_or(0);
+                let (test, rays) = soaked.rsplit_once(' ').unwrap_or((soaked, "0"));
+                sums.rows.entry(self.row(test)).or_default().0 += rays.parse::<u64>().unwrap_or(0);
             } else if line == "failures:" {
                 listed = true;
-            } else if let Some(name) = line.strip_prefix("    ").filter(|_| listed) {
-                failures.push(row(self.name, name));
+            } else if let Some(test) = line.strip_prefix("    ").filter(|_| listed) {
+                failures.push(self.row(test));
             }
         }
         let status = child.wait().map_err(|e| format!("{}: {e}", self.name))?;
-        *sums.drawn.entry(self.name.into()).or_default() += self.factor;
+        *sums.drawn.entry(self.name.clone()).or_default() += self.factor;
         for name in &failures {
             sums.rows.entry(name.clone()).or_default().1 += 1;
         }
         if status.success() { Ok(()) } else { Err(format!("{}: failed ({status})", self.name)) }
     }
+
+    /// The row for which a test counts: tests of meshes have rows of their own.
+    fn row(&self, test: &str) -> String {
+        if self.tests.is_empty() { format!("{}: {}", self.name, module(test)) } else { self.name.clone() }
+    }
 }
 
-/// The row of a test: its module, without what all tests share.
-fn row(test: &str, name: &str) -> String {
-    let module = name.split("::tests").next().unwrap_or(name);
-    format!("{test}: {}", module.replace("::", " ").replace('_', " "))
+/// The module of a test in words; its own name, if it has none.
+fn module(test: &str) -> String {
+    let module = test.split("::tests").next().unwrap_or(test);
+    module.replace("::", " ").replace('_', " ")
 }
 
 impl Sums {
+    /// How many rays a kind has had: the least of its rows.
+    fn rays(&self, kind: &str) -> u64 {
+        let is_of =
+            |row: &str| row == kind || row.strip_prefix(kind).is_some_and(|rest| rest.starts_with(": "));
+        self.rows.iter().filter(|(row, _)| is_of(row)).map(|(_, sums)| sums.0).min().unwrap_or(0)
+    }
+
     /// What a page has added up; nothing, if it is not one of ours.
     fn read(page: &str) -> Self {
         let mut sums = Self::default();
         for line in page.lines() {
             if let Some(drawn) = line.strip_prefix(DRAWN).and_then(|rest| rest.strip_suffix(" -->")) {
-                let pairs = drawn.split(", ").filter_map(|pair| pair.split_once(' '));
+                let pairs = drawn.split(", ").filter_map(|pair| pair.rsplit_once(' '));
                 sums.drawn = pairs.filter_map(|(name, n)| Some((name.into(), n.parse().ok()?))).collect();
             }
             let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
@@ -121,7 +229,7 @@ impl Sums {
     }
 
     fn table(&self) -> String {
-        let mut table = String::from("| what | rays | violations | rate below |\n|---|---:|---:|---:|\n");
+        let mut table = String::from("| kind | rays | violations | rate below |\n|---|---:|---:|---:|\n");
         for (name, &(rays, failed)) in &self.rows {
             // The rule of three: with none in n, the rate is below 3/n with a confidence of 95 %.
             let bound =
@@ -134,12 +242,13 @@ impl Sums {
     fn page(&self) -> String {
         let drawn: Vec<String> = self.drawn.iter().map(|(name, n)| format!("{name} {n}")).collect();
         format!(
-            "# Reliability\n\nAdded up by `cargo xtask soak [--minutes N]`: the laws that every test run checks for some rays, checked for ever more of them.\n\n\
+            "# Reliability\n\n`cargo xtask soak` runs the laws that every test run checks, with ever new rays, and adds up this table. \
+             Each turn goes to the kind with the fewest rays. `--minutes N` limits the time (60), `--rays N` the rays of each kind, and names of kinds the kinds.\n\n\
              - **meshes**: closed meshes (a grid of integers, an icosphere, a body with spikes; shifted by up to 10⁶, scaled by 10⁻⁶, turned by a placement); rays from inside, half of them \
              aimed exactly at vertices and points of edges, some along axes. Each has to cross an odd number of times, and the first crossing is the closest hit (`crates/durer-geometry/tests/leaks.rs`).\n\
-             - **surfaces**: rays aimed at tangents, edges and vertices from near and far; what a surface says of them against exact arithmetic: no crossing missing, extra, doubled or outside its bracket \
-             (`crates/durer-surfaces/src/laws`).\n\
-             - **numbers**: the laws of durer-math, of which no rays are counted.\n\n\
+             - **other kinds**: rays aimed at tangents, edges and vertices from near and far. The laws compare the surface's answers with exact arithmetic: no crossing is missing, extra, doubled or \
+             outside its bracket, points and normals are within their bounds, and rays that leave the surface start on its right side and meet what the exact ray meets \
+             (`crates/durer-surfaces/src/laws`). A ray counts once, with all rays that leave its crossings.\n\n\
              With no violation in n rays the rate is below 3/n with a confidence of 95 %.\n\n{}\n{DRAWN}{} -->\n",
             self.table(),
             drawn.join(", ")
@@ -167,17 +276,46 @@ mod tests {
     #[test]
     fn a_page_is_read_as_it_was_written() {
         let sums = Sums {
-            drawn: [("meshes".into(), 2500), ("surfaces".into(), 1)].into(),
-            rows: [("surfaces: torus".into(), (1_234_567, 0)), ("meshes: leaks".into(), (40, 2))].into(),
+            drawn: [("meshes".into(), 2500), ("quadric general".into(), 1)].into(),
+            rows: [("torus".into(), (1_234_567, 0)), ("meshes: leaks".into(), (40, 2))].into(),
         };
         let read = Sums::read(&sums.page());
         assert_eq!((&read.drawn, &read.rows), (&sums.drawn, &sums.rows));
-        assert!(sums.table().contains("| surfaces: torus | 1 234 567 | 0 | 2.4e-6 |"), "{}", sums.table());
+        assert!(sums.table().contains("| torus | 1 234 567 | 0 | 2.4e-6 |"), "{}", sums.table());
     }
 
     #[test]
     fn a_test_counts_for_its_module() {
-        assert_eq!(row("surfaces", "prism::curved::tests::obeys_the_laws"), "surfaces: prism curved");
-        assert_eq!(row("meshes", "closed_meshes_leak_nowhere"), "meshes: closed meshes leak nowhere");
+        assert_eq!(module("prism::curved::tests::prisms_obey_the_laws"), "prism curved");
+        assert_eq!(module("closed_meshes_leak_nowhere"), "closed meshes leak nowhere");
+    }
+
+    #[test]
+    fn a_kind_has_had_as_many_rays_as_the_least_of_its_rows() {
+        let rows = [("quadric", 9), ("quadric general", 3), ("meshes: a", 7), ("meshes: b", 5)];
+        let rows = rows.map(|(name, rays)| (name.to_string(), (rays, 0)));
+        let sums = Sums { rows: rows.into(), ..Sums::default() };
+        assert_eq!(
+            ["quadric", "quadric general", "meshes", "torus"].map(|kind| sums.rays(kind)),
+            [9, 3, 5, 0]
+        );
+    }
+
+    #[test]
+    fn turns_become_a_minute_long() {
+        assert_eq!(next_factor(10, Duration::from_secs(30)), 20);
+        assert_eq!(next_factor(10, Duration::from_secs(600)), 1);
+        assert_eq!(next_factor(1, Duration::from_secs(600)), 1);
+        assert_eq!(next_factor(1, Duration::ZERO), 32);
+    }
+
+    #[test]
+    fn what_is_asked_for_is_read() {
+        let read = |words: &str| Request::read(&words.split(' ').map(String::from).collect::<Vec<_>>());
+        let request = Request { minutes: 5, rays: 9, kinds: vec!["torus".into()] };
+        assert_eq!(read("--minutes 5 torus --rays 9"), Ok(request));
+        assert_eq!(read("--minutes"), Err("soak: --minutes needs a number".into()));
+        assert_eq!(read("--rays 0"), Err("soak: \"0\" is no number from 1 on".into()));
+        assert!(read("--hours 5").is_err());
     }
 }

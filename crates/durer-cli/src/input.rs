@@ -51,7 +51,14 @@ pub(crate) fn load(args: &SceneArgs, (width, height): (u32, u32)) -> Result<Load
 
 fn load_mesh(path: &Path, (width, height): (u32, u32)) -> Result<Loaded, Failure> {
     let model = durer::mesh::read(path).map_err(|e| Failure::Input(format!("error: {e}")))?;
+    for warning in &model.warnings {
+        eprintln!("{}", mesh_warning(path, warning));
+    }
     Ok(Loaded::Mesh(path.to_path_buf(), Box::new(model.into_scene(width, height))))
+}
+
+fn mesh_warning(path: &Path, text: impl std::fmt::Display) -> String {
+    format!("warning: {}: {text}", path.display())
 }
 
 fn check_ending(scene: &Path) -> Result<(), Failure> {
@@ -119,7 +126,11 @@ impl Loaded {
 
     fn warn(&self, warnings: &[(Option<Place>, String)]) {
         for (place, why) in warnings {
-            eprintln!("{}", self.message(*place, format!("warning: {why}")));
+            let text = match self {
+                Self::Pov(_) => self.message(*place, format!("warning: {why}")),
+                Self::Mesh(path, _) => mesh_warning(path, why),
+            };
+            eprintln!("{text}");
         }
     }
 }

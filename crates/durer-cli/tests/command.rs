@@ -90,6 +90,21 @@ fn tetrahedra() -> [String; 3] {
     [format!("o a\n{}{}o b\n{}{}", obj(0.0), faces(0), obj(2.0), faces(4)), gltf(1), gltf(2)]
 }
 
+/// What is left out is told with the file and the place; the rest is read.
+#[test]
+fn warnings_of_a_mesh_file_name_the_file() {
+    let folder = folder("mesh-warnings");
+    write(&folder, "dangling.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1/1/1 2/2/2 3/3/3\n");
+    let output = durer(&["check", "dangling.obj"], &folder);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    assert_eq!(
+        String::from_utf8_lossy(&output.stderr),
+        "warning: dangling.obj: line 4: there is no texture coordinate 1, there are 0 so far; \
+         3 indices of texture coordinates and 3 indices of normals that are not there are left out\n"
+    );
+    assert!(String::from_utf8_lossy(&output.stdout).contains("primitives  1\n"), "{output:?}");
+}
+
 /// The same triangles make the same picture, whatever file they come from and however often a mesh is stored.
 #[test]
 fn a_mesh_shown_twice_looks_like_two_meshes() {

@@ -89,6 +89,16 @@ pub enum ErrorKind {
         /// How many there can be.
         room: u64,
     },
+    /// A binary STL file ends before all of its triangles are there.
+    #[error("the file ends {} triangle {triangle} of {promised}", if *.is_begun { "in" } else { "before" })]
+    Cut {
+        /// Whether some of the triangle is there.
+        is_begun: bool,
+        /// Its number, from 1.
+        triangle: u64,
+        /// How many triangles the header promises.
+        promised: u32,
+    },
     /// An element of a list promises more than there is.
     #[error("{spot}: it promises {promised} {what}, but there is room for {room}")]
     Room {

@@ -4,7 +4,8 @@
 //! of them is shown. Texture coordinates come along to the hits of rays; no texture depends on them yet.
 //! [`Model::into_scene`] frames and lights them; [`Topology`] says whether they are closed.
 //!
-//! Nothing in a file is trusted: counts in headers reserve no memory, indices are checked, and whatever is wrong is told with its place.
+//! Nothing in a file is trusted: counts in headers reserve no memory, indices are checked, and errors name the place. What other programs write and can be
+//! left out without harm to the rest is left out with a [`Warning`].
 //!
 //! ```
 //! use durer_mesh::{Format, read_bytes};
@@ -24,9 +25,11 @@ mod polygon;
 mod stl;
 mod text;
 mod topology;
+mod warning;
 
 pub use crate::error::{ErrorKind, Location, MeshError};
 pub use crate::topology::Topology;
+pub use crate::warning::Warning;
 
 use durer_math::Affine;
 use durer_scene::Mesh;
@@ -41,6 +44,8 @@ pub struct Model {
     pub instances: Vec<Instance>,
     /// Its format.
     pub format: Format,
+    /// What was left out.
+    pub warnings: Vec<Warning>,
 }
 
 /// Triangles that belong together.
@@ -106,16 +111,17 @@ pub fn read_bytes(bytes: &[u8], format: Format) -> Result<Model, ErrorKind> {
 }
 
 fn read_beside(bytes: &[u8], format: Format, folder: Option<&Path>) -> Result<Model, ErrorKind> {
+    let mut warnings = Vec::new();
     let groups = match format {
-        Format::Obj => obj::read(bytes),
-        Format::Ply => ply::read(bytes),
-        Format::Stl => stl::read(bytes),
+        Format::Obj => obj::read(text::without_mark(bytes), &mut warnings),
+        Format::Ply => ply::read(text::without_mark(bytes)),
+        Format::Stl => stl::read(bytes, &mut warnings),
         Format::Gltf => {
-            let (groups, instances) = gltf::read(bytes, folder)?;
+            let (groups, instances) = gltf::read(text::without_mark(bytes), folder, &mut warnings)?;
             return if groups.is_empty() {
                 Err(ErrorKind::Empty)
             } else {
-                Ok(Model { groups, instances, format })
+                Ok(Model { groups, instances, format, warnings })
             };
         }
     }?;
@@ -123,5 +129,5 @@ fn read_beside(bytes: &[u8], format: Format, folder: Option<&Path>) -> Result<Mo
         return Err(ErrorKind::Empty);
     }
     let instances = (0..groups.len()).map(|group| Instance { group, placement: Affine::IDENTITY }).collect();
-    Ok(Model { groups, instances, format })
+    Ok(Model { groups, instances, format, warnings })
 }

@@ -1,13 +1,14 @@
 //! OBJ: text, one statement a line.
 //!
 //! Read are `v`, `vt` (two numbers of up to three), `vn`, `f` with indices from 1 or, negative, from the end of what was given so far, `o` and `g` (each begins a group), and lines that a
-//! backslash continues. Points, lines, materials and smoothing groups are passed over. Free-form curves
+//! backslash continues. Indices of texture coordinates and normals that are not there are left out with one warning: programs that export only
+//! vertices write such files. Points, lines, materials and smoothing groups are passed over. Free-form curves
 //! and surfaces are refused. (Alias/Wavefront, *Advanced Visualizer*, appendix B1, 1991.)
 
-use crate::Group;
 use crate::error::{ErrorKind, Location};
 use crate::group::{Corner, Groups};
 use crate::text::{lines, number, shortened, three};
+use crate::{Group, Warning};
 use durer_math::{Point3, Vec3};
 
 /// Statements about what is passed over.
@@ -35,7 +36,8 @@ const FREE_FORM: [&str; 16] = [
     "end", "con", "ctech",
 ];
 
-pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
+pub(crate) fn read(bytes: &[u8], warnings: &mut Vec<Warning>) -> Result<Vec<Group>, ErrorKind> {
+    let mut dangling = None;
     let mut groups = Groups::default();
     let mut face = Vec::new();
     let mut continued = String::new();
@@ -63,7 +65,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
                 let counts = [groups.vertices.len(), groups.uv.len(), groups.normals.len()];
                 face.clear();
                 for word in words {
-                    face.push(corner(word, counts, Location::Line(at))?);
+                    face.push(corner(word, counts, Location::Line(at), &mut dangling)?);
                 }
                 if face.is_empty() {
                     return Err(ErrorKind::End { spot: Location::Line(at), expected: "a face's corners" });
@@ -81,6 +83,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
             }
         }
     }
+    warnings.extend(dangling);
     Ok(groups.end())
 }
 
@@ -95,8 +98,13 @@ fn texture_coordinates<'a>(
     Ok([u, if words.peek().is_some() { number(&mut words, line, EXPECTED)? } else { 0.0 }])
 }
 
-/// A corner as `v`, `v/vt`, `v//vn` or `v/vt/vn`.
-fn corner(word: &str, counts: [usize; 3], spot: Location) -> Result<Corner, ErrorKind> {
+/// A corner as `v`, `v/vt`, `v//vn` or `v/vt/vn`. Texture coordinates and normals that are not there are left out and counted in `dangling`.
+fn corner(
+    word: &str,
+    counts: [usize; 3],
+    spot: Location,
+    dangling: &mut Option<Warning>,
+) -> Result<Corner, ErrorKind> {
     const WHAT: [&str; 3] = ["vertex", "texture coordinate", "normal"];
     let mut numbers = [None; 3];
     for (i, part) in word.split('/').enumerate() {
@@ -111,7 +119,16 @@ fn corner(word: &str, counts: [usize; 3], spot: Location) -> Result<Corner, Erro
         let count = counts[i];
         let number = if index < 0 { index.checked_add(count as i64) } else { index.checked_sub(1) };
         let number = number.and_then(|n| u32::try_from(n).ok()).filter(|n| (*n as usize) < count);
-        numbers[i] = Some(number.ok_or(ErrorKind::Index { spot, what: WHAT[i], index, count })?);
+        if number.is_none() && i == 0 {
+            return Err(ErrorKind::Index { spot, what: WHAT[i], index, count });
+        }
+        if number.is_none() {
+            let first = Warning::Dangling { spot, what: WHAT[i], index, count, uv: 0, normals: 0 };
+            if let Warning::Dangling { uv, normals, .. } = dangling.get_or_insert(first) {
+                *(if i == 1 { uv } else { normals }) += 1;
+            }
+        }
+        numbers[i] = number;
     }
     let [vertex, uv, normal] = numbers;
     // The first part is never left out: an empty one is no number.

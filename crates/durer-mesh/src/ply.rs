@@ -1,7 +1,10 @@
 //! PLY: a header that declares elements and their properties, in any order, then the elements as text or binary numbers of either byte order. (G. Turk, "The PLY
 //! polygon file format", Stanford 1994.)
 //!
-//! Read are `x y z`, `nx ny nz` and `u v` (or `s t`, `texture_u texture_v`) of `vertex`, and the lists `vertex_indices` or `vertex_index` of `face`. Everything else is passed over; elements `tristrips` are refused.
+//! Read are `x y z`, `nx ny nz` and `u v` (or `s t`, `texture_u texture_v`) of `vertex`, and the lists `vertex_indices` or `vertex_index` of `face` and of `tristrips`. Everything else is passed over.
+//!
+//! Each three neighbours in a strip are a triangle, the second of every two of them turned around; -1 ends a strip and begins another. Triangles of a strip
+//! that name a vertex twice lead from one part of it to the next: they are left out, and count.
 
 use crate::Group;
 use crate::error::{ErrorKind, Location};
@@ -88,6 +91,7 @@ fn kind(name: &str) -> &'static str {
     match name {
         "vertex" => "vertex",
         "face" => "face",
+        "tristrips" => "strip",
         _ => "element",
     }
 }
@@ -117,7 +121,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
     let mut has_normals = false;
     let mut has_uv = false;
     // The file's order is kept, but faces may come before the vertices that they name.
-    let mut faces: Vec<(Vec<i64>, usize)> = Vec::new();
+    let mut faces: Vec<(Vec<i64>, Location)> = Vec::new();
     for element in header.elements.values() {
         let left = reader.get_ref().len();
         let room = (left + 1) / least_size(element, header.encoding);
@@ -132,10 +136,6 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
                 spot: Location::Element("vertex", 0),
                 expected: "the properties x, y and z",
             });
-        }
-        if element.name == "tristrips" {
-            let spot = Location::Element("tristrips", 0);
-            return Err(ErrorKind::Unsupported { spot, what: "triangle strips".into() });
         }
         has_normals |= is_vertices && has(&["nx", "ny", "nz"]);
         has_uv |= is_vertices && UV.iter().any(|names| has(names));
@@ -152,24 +152,52 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
                         groups.uv.push(item.uv);
                     }
                 }
-                "face" => faces.push((item.corners, number)),
+                "face" | "tristrips" => faces.push((item.corners, spot)),
                 _ => {}
             }
         }
     }
+    let count = groups.vertices.len();
+    let corner = |index: i64, spot: Location| {
+        let vertex = u32::try_from(index).ok().filter(|v| (*v as usize) < count);
+        let vertex = vertex.ok_or(ErrorKind::Index { spot, what: "vertex", index, count })?;
+        Ok(Corner { vertex, uv: has_uv.then_some(vertex), normal: has_normals.then_some(vertex) })
+    };
     let mut face = Vec::new();
-    for (corners, number) in faces {
-        let spot = Location::Element("face", number);
-        face.clear();
-        for index in corners {
-            let count = groups.vertices.len();
-            let vertex = u32::try_from(index).ok().filter(|v| (*v as usize) < count);
-            let vertex = vertex.ok_or(ErrorKind::Index { spot, what: "vertex", index, count })?;
-            face.push(Corner { vertex, uv: has_uv.then_some(vertex), normal: has_normals.then_some(vertex) });
+    for (indices, spot) in faces {
+        let is_strips = matches!(spot, Location::Element("strip", _));
+        for part in indices.split(|&index| is_strips && is_end_of_strip(index)) {
+            face.clear();
+            for &index in part {
+                face.push(corner(index, spot)?);
+            }
+            if is_strips {
+                strip(&mut groups, &face, spot)?;
+            } else {
+                groups.face(&face, spot)?;
+            }
         }
-        groups.face(&face, spot)?;
     }
     Ok(groups.end())
+}
+
+/// -1, also as it is read from a list without signs.
+fn is_end_of_strip(index: i64) -> bool {
+    index == -1 || index == i64::from(u32::MAX)
+}
+
+/// Adds the triangles of a strip.
+fn strip(groups: &mut Groups, corners: &[Corner], spot: Location) -> Result<(), ErrorKind> {
+    for (i, triangle) in corners.windows(3).enumerate() {
+        if let &[a, b, c] = triangle
+            && a.vertex != b.vertex
+            && b.vertex != c.vertex
+            && c.vertex != a.vertex
+        {
+            groups.face(&if i % 2 == 0 { [a, b, c] } else { [b, a, c] }, spot)?;
+        }
+    }
+    Ok(())
 }
 
 fn next(

@@ -1,11 +1,12 @@
 //! STL: triangles one by one, as text (`solid ... endsolid`, each a group) or binary (80 bytes, a count, then 50 bytes for each).
 //!
-//! A file is binary if its length is what its count says, whatever its first word: many binary files begin with `solid` too. Corners with the same coordinates
-//! become one vertex. The normals in the file are passed over: the order of the corners tells the side. (3D Systems, *StereoLithography Interface Specification*, 1988.)
+//! Many binary files begin with `solid` too. A file that does is binary if bytes 80 to 83, where a binary file has its count, have a character that no text has,
+//! or if as many triangles are there: four characters of text are a count above 150 million. Bytes after the last triangle are ignored with a warning.
+//! Corners with the same coordinates become one vertex. The normals in the file are passed over: the order of the corners tells the side. (3D Systems, *StereoLithography Interface Specification*, 1988.)
 
-use crate::Group;
 use crate::error::{ErrorKind, Location};
-use crate::text::{lines, shortened, three};
+use crate::text::{lines, shortened, three, without_mark};
+use crate::{Group, Warning};
 use durer_math::Point3;
 use durer_scene::Face;
 use std::collections::HashMap;
@@ -13,26 +14,41 @@ use std::collections::HashMap;
 const HEADER: usize = 84;
 const RECORD: usize = 50;
 
-pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
-    let promised = bytes.get(80..HEADER).and_then(|b| b.try_into().ok()).map(u32::from_le_bytes);
-    let room = bytes.len().saturating_sub(HEADER) / RECORD;
-    let is_text = bytes.trim_ascii_start().get(..5).is_some_and(|b| b.eq_ignore_ascii_case(b"solid"));
-    match promised {
-        Some(n) if n as usize == room && bytes.len() == HEADER + RECORD * room => binary(bytes, room),
-        _ if is_text => text(bytes),
-        Some(n) if n as usize <= room => binary(bytes, n as usize),
-        Some(n) => {
-            Err(ErrorKind::Promise { what: "triangles".into(), promised: n.into(), room: room as u64 })
-        }
-        None => {
-            let found = shortened(&String::from_utf8_lossy(bytes.get(..16).unwrap_or(bytes)));
-            Err(ErrorKind::Expected {
-                spot: Location::Byte(0),
-                expected: "'solid' or a binary header",
-                found,
-            })
-        }
+pub(crate) fn read(bytes: &[u8], warnings: &mut Vec<Warning>) -> Result<Vec<Group>, ErrorKind> {
+    let solid = without_mark(bytes).trim_ascii_start();
+    let begins_as_text = solid.get(..5).is_some_and(|b| b.eq_ignore_ascii_case(b"solid"));
+    let end = |expected| ErrorKind::End { spot: Location::Byte(bytes.len()), expected };
+    let Some(count) = bytes.get(80..HEADER).and_then(|b| <[u8; 4]>::try_from(b).ok()) else {
+        return match (begins_as_text, bytes.iter().all(|b| may_be_text(*b))) {
+            (true, true) => text(without_mark(bytes)),
+            (true, false) => Err(end("the rest of a binary header of 84 bytes")),
+            _ => {
+                let found = shortened(&String::from_utf8_lossy(bytes.get(..16).unwrap_or(bytes)));
+                let expected = "'solid' or a binary header";
+                Err(ErrorKind::Expected { spot: Location::Byte(0), expected, found })
+            }
+        };
+    };
+    let promised = u32::from_le_bytes(count);
+    let room = (bytes.len() - HEADER) / RECORD;
+    let is_there = room as u64 >= u64::from(promised);
+    if begins_as_text && !is_there && count.iter().all(|b| may_be_text(*b)) {
+        return text(without_mark(bytes));
     }
+    if !is_there {
+        let is_begun = !(bytes.len() - HEADER).is_multiple_of(RECORD);
+        return Err(ErrorKind::Cut { is_begun, triangle: room as u64 + 1, promised });
+    }
+    let at = HEADER + RECORD * promised as usize;
+    if bytes.len() > at {
+        warnings.push(Warning::Trailing { at, triangles: promised, count: bytes.len() - at });
+    }
+    binary(bytes, promised as usize)
+}
+
+/// Whether a byte may stand in a text: control characters do not, except white space.
+fn may_be_text(byte: u8) -> bool {
+    !byte.is_ascii_control() || matches!(byte, b'\t'..=b'\r')
 }
 
 /// Triangles whose corners become vertices.

@@ -3,6 +3,11 @@
 use crate::error::{ErrorKind, Location};
 use std::borrow::Cow;
 
+/// The bytes after the byte-order mark of UTF-8, which some programs write before their text.
+pub(crate) fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
+}
+
 /// The lines of a file, numbered from 1; what is not UTF-8 is replaced.
 pub(crate) fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
     let lines = bytes.split(|&b| b == b'\n').enumerate();

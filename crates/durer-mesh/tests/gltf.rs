@@ -3,7 +3,7 @@
 mod made;
 
 use durer_math::{Affine, Point3};
-use durer_mesh::{ErrorKind, Format, Location, Model, Topology, read, read_bytes};
+use durer_mesh::{ErrorKind, Format, Location, Model, Topology, Warning, read, read_bytes};
 use durer_scene::{Colour, PigmentBody, Rgb, Shape, TextureBody};
 use made::{File, floats, shorts};
 
@@ -352,13 +352,7 @@ fn a_mesh_that_is_shown_often_is_built_once() -> Result<(), Box<dyn std::error::
 
 #[test]
 fn trees_of_nodes_that_are_none_are_refused() {
-    let with = |nodes: &[&str], scene: &str| {
-        let mut file = tetrahedron();
-        file.lists.retain(|(name, _)| name != "nodes" && name != "scenes");
-        nodes.iter().for_each(|n| file.list("nodes", n));
-        file.list("scenes", &format!(r#"{{ "nodes": [{scene}] }}"#));
-        message(gltf(&file.glb()))
-    };
+    let with = |nodes: &[&str], scene: &str| message(gltf(&with_nodes(nodes, scene).glb()));
     for (nodes, scene, said) in [
         (
             &[r#"{ "children": [1] }"#, r#"{ "children": [0] }"#][..],
@@ -371,11 +365,21 @@ fn trees_of_nodes_that_are_none_are_refused() {
         (&[r#"{ "mesh": 0 }"#], "1", "scene 0: there is no node 1, there are 1 so far"),
         (&[r#"{ "children": [5] }"#], "0", "node 0: there is no node 5, there are 1 so far"),
         (&[r#"{ "mesh": 7 }"#], "0", "node 0: there is no mesh 7, there are 1 so far"),
-        (&[r#"{ "mesh": 0, "scale": [1, 0, 1] }"#], "0", "node 0: transformation: the matrix is singular"),
+        (
+            &[r#"{ "mesh": 0, "scale": [1, 0, 1] }"#],
+            "0",
+            "node 0: a scale of 0 in y flattens it, so its faces have no area, and there are no others",
+        ),
         (
             &[r#"{ "mesh": 0, "matrix": [1,2,3,0, 2,4,6,0, 0,0,1,0, 0,0,0,1] }"#],
             "0",
-            "node 0: transformation: the matrix is singular",
+            "node 0: a matrix with the determinant 0 flattens it",
+        ),
+        // What is below a flat node is checked too.
+        (
+            &[r#"{ "scale": [0, 0, 0], "children": [1] }"#, r#"{ "mesh": 7 }"#],
+            "0",
+            "node 1: there is no mesh 7, there are 1 so far",
         ),
         (
             &[r#"{ "mesh": 0, "matrix": [1,0,0,1, 0,1,0,0, 0,0,1,0, 0,0,0,1] }"#],
@@ -392,12 +396,76 @@ fn trees_of_nodes_that_are_none_are_refused() {
     ] {
         assert!(with(nodes, scene).starts_with(said), "{nodes:?}: {}", with(nodes, scene));
     }
+    // Flat or not, what is infinite is no transform.
+    let infinite = r#"{ "mesh": 0, "scale": [0, 1e39, 1] }"#;
+    assert!(gltf(with_nodes(&[infinite], "0").glb().as_slice()).is_err());
     // Deep, but a tree.
     let mut file = tetrahedron();
     file.lists.retain(|(name, _)| name != "nodes");
     (0..20_000).for_each(|i| file.list("nodes", &format!(r#"{{ "children": [{}] }}"#, i + 1)));
     file.list("nodes", r#"{ "mesh": 0 }"#);
     assert_eq!(gltf(&file.glb()).map(|m| m.instances.len()), Ok(1));
+}
+
+fn with_nodes(nodes: &[&str], scene: &str) -> File {
+    let mut file = tetrahedron();
+    file.lists.retain(|(name, _)| name != "nodes" && name != "scenes");
+    nodes.iter().for_each(|n| file.list("nodes", n));
+    file.list("scenes", &format!(r#"{{ "nodes": [{scene}] }}"#));
+    file
+}
+
+/// Animations hide nodes by a scale of 0.
+#[test]
+fn flat_nodes_are_left_out() -> Result<(), ErrorKind> {
+    let plain = r#"{ "mesh": 0 }"#;
+    for (nodes, scene, warnings) in [
+        (&[r#"{ "mesh": 0, "scale": [0, 1, 1] }"#, plain][..], "0, 1", &[(0, "a scale of 0 in x")][..]),
+        (&[plain, r#"{ "mesh": 0, "scale": [0, 3, -0.0] }"#], "0, 1", &[(1, "a scale of 0 in x and z")]),
+        (&[plain, r#"{ "mesh": 0, "scale": [0, 0, 0] }"#], "1, 0", &[(1, "a scale of 0")]),
+        (
+            &[plain, r#"{ "mesh": 0, "matrix": [1,0,0,0, 0,1,0,0, 0,0,0,0, 0,0,0,1] }"#],
+            "0, 1",
+            &[(1, "a matrix with the determinant 0")],
+        ),
+        // Each flat node once, with all that is below it; one that shows nothing says nothing.
+        (
+            &[
+                plain,
+                r#"{ "scale": [1, 0, 1], "children": [2, 3], "mesh": 0 }"#,
+                r#"{ "mesh": 0, "scale": [0, 0, 1] }"#,
+                r#"{ "children": [4] }"#,
+                r#"{ "mesh": 0, "translation": [1, 2, 3] }"#,
+                r#"{ "scale": [0, 1, 1], "children": [6] }"#,
+                r#"{ "translation": [1, 2, 3] }"#,
+            ],
+            "0, 1, 5",
+            &[(1, "a scale of 0 in y")],
+        ),
+    ] {
+        let model = gltf(&with_nodes(nodes, scene).glb())?;
+        assert_eq!(placed(&model), expected(&FACES), "{nodes:?}");
+        let told: Vec<_> =
+            warnings.iter().map(|&(node, how)| Warning::Flat { node, how: how.to_string() }).collect();
+        assert_eq!(model.warnings, told, "{nodes:?}");
+    }
+    // Scales whose product is too small for a number.
+    let nested = |n: usize| format!(r#"{{ "scale": [1e-40, 1e-40, 1e-40], "children": [{n}] }}"#);
+    let mut nodes: Vec<String> = (2..10).map(nested).collect();
+    nodes.insert(0, r#"{ "mesh": 0 }"#.into());
+    nodes.push(r#"{ "mesh": 0 }"#.into());
+    let nodes: Vec<&str> = nodes.iter().map(String::as_str).collect();
+    let model = gltf(&with_nodes(&nodes, "0, 1").glb())?;
+    assert_eq!(placed(&model), expected(&FACES));
+    assert_eq!(model.warnings, [Warning::Flat { node: 8, how: "a transform too small for a number".into() }]);
+    Ok(())
+}
+
+#[test]
+fn a_byte_order_mark_is_passed_over() -> Result<(), ErrorKind> {
+    let text = tetrahedron().data();
+    assert_eq!(gltf(format!("\u{feff}{text}").as_bytes())?, gltf(text.as_bytes())?);
+    Ok(())
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Mesh files: what is read is what was written, and what is damaged is told with its place.
 
 use durer_math::{Point3, Ray, Vec3};
-use durer_mesh::{ErrorKind, Format, Location, Model, Topology, read_bytes};
+use durer_mesh::{ErrorKind, Format, Location, Model, Topology, Warning, read_bytes};
 
 type Read = Result<Model, ErrorKind>;
 
@@ -13,6 +13,11 @@ fn obj(text: &str) -> Read {
 const CORNERS: [[f64; 3]; 4] =
     [[0.1, 0.2, 0.3], [1.1, 0.2, 0.3], [0.1, 1.2, 0.3], [0.1, 0.2, 1.0 / 3.0 + 1.0]];
 const FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+
+/// The message of a file that is refused.
+fn message(read: Read) -> String {
+    read.err().map_or_else(|| "it was read".into(), |error| error.to_string())
+}
 
 /// The triangles of a model by their corners.
 fn triangles(model: &Model) -> Vec<[[f64; 3]; 3]> {
@@ -185,15 +190,12 @@ fn texture_coordinates_reach_the_hits() -> Result<(), Box<dyn std::error::Error>
 
 #[test]
 fn what_is_wrong_is_told_with_its_place_and_value() {
-    let message = |read: Read| read.map(|_| String::new()).unwrap_or_else(|e| e.to_string());
     let three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (tail, said) in [
         ("f 1 2 4", "line 4: there is no vertex 4, there are 3 so far"),
         ("vt x", "line 4: expected texture coordinates, found 'x'"),
-        ("vt 1\nf 1/2 2 3", "line 5: there is no texture coordinate 2, there are 1 so far"),
         ("f 1 2 0", "line 4: there is no vertex 0, there are 3 so far"),
         ("f 1 2 -4", "line 4: there is no vertex -4, there are 3 so far"),
-        ("f 1//2 2 3", "line 4: there is no normal 2, there are 0 so far"),
         ("f 1 2 9999999999999999999", "line 4: expected a corner's indices, found '9999999999999999999'"),
         ("f 1 2 /3", "line 4: expected a corner's indices, found '/3'"),
         ("f 1///4 2 3", "line 4: expected a corner's indices, found '1///4'"),
@@ -215,7 +217,6 @@ fn what_is_wrong_is_told_with_its_place_and_value() {
         "the header promises 2147483648 elements 'face', but the file has room for 12"
     );
     assert!(ply("200 0.3 0.1 0.2", "200 0.3 here 0.2").starts_with("vertex 0: "));
-    assert!(ply("element face", "element tristrips").contains("triangle strips"));
     assert!(ply("property double x", "property double a").contains("x, y and z"));
     let stl =
         |from: &str, to: &str| message(read_bytes(stl_text().replacen(from, to, 1).as_bytes(), Format::Stl));
@@ -225,10 +226,170 @@ fn what_is_wrong_is_told_with_its_place_and_value() {
     assert!(stl("endsolid a b", "").ends_with("the file ends where 'endsolid' should follow"));
     let mut lying = stl_binary("x");
     lying[83] = 0x80;
+    assert_eq!(message(read_bytes(&lying, Format::Stl)), "the file ends before triangle 5 of 2147483652");
+}
+
+/// Some programs begin text with the byte-order mark of UTF-8.
+#[test]
+fn a_byte_order_mark_is_passed_over() -> Result<(), ErrorKind> {
+    let marked = |text: &[u8]| [b"\xef\xbb\xbf", text].concat();
+    for (bytes, format) in [
+        (obj_text().into_bytes(), Format::Obj),
+        (ply_text().into_bytes(), Format::Ply),
+        (ply_binary(true), Format::Ply),
+        (stl_text().into_bytes(), Format::Stl),
+        (b" \n".iter().copied().chain(stl_text().into_bytes()).collect(), Format::Stl),
+    ] {
+        let model = read_bytes(&marked(&bytes), format)?;
+        assert_eq!(model, read_bytes(&bytes, format)?);
+        assert_eq!(model.warnings, []);
+    }
+    // In the header of a binary file these bytes are like any others.
+    assert_eq!(triangles(&read_bytes(&stl_binary("\u{feff}solid"), Format::Stl)?), expected(single));
+    assert_eq!(message(obj("\u{feff}\u{feff}v 0 0 0")), "line 1: expected a statement, found '\u{feff}v'");
+    Ok(())
+}
+
+#[test]
+fn what_is_not_there_for_a_corner_is_left_out() -> Result<(), ErrorKind> {
+    let three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    let dangling = |index, what, count, uv, normals| Warning::Dangling {
+        spot: Location::Line(4),
+        what,
+        index,
+        count,
+        uv,
+        normals,
+    };
+    let (uv, normal) = ("texture coordinate", "normal");
+    for (face, warning) in [
+        ("f 1/1/1 2/2/2 3/3/3", dangling(1, uv, 0, 3, 3)),
+        ("f 1//1 2//2 3//3", dangling(1, normal, 0, 0, 3)),
+        ("f 1/0 2/0 3/0", dangling(0, uv, 0, 3, 0)),
+        ("f -3/-3/-3 -2/-2/-2 -1/-1/-1", dangling(-3, uv, 0, 3, 3)),
+        ("f 1 2//-9223372036854775808 3", dangling(i64::MIN, normal, 0, 0, 1)),
+    ] {
+        let model = obj(&format!("{three}{face}\nf 1 2 3\n"))?;
+        let mesh = &model.groups[0].mesh;
+        assert_eq!((mesh.faces.len(), mesh.uv_faces.len(), mesh.normals.len()), (2, 0, 0), "{face}");
+        assert_eq!(model.warnings, [warning], "{face}");
+    }
+    // One warning for a file; a face keeps what all of its corners have.
+    let model =
+        obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/2/1\nf 1/1/1 2/1/-2 3/1/1\n")?;
+    let mesh = &model.groups[0].mesh;
+    let has = |face: usize| (mesh.uv_faces[face].is_some(), mesh.faces[face].normals.is_some());
+    assert_eq!([has(0), has(1)], [(false, true), (true, false)]);
     assert_eq!(
-        message(read_bytes(&lying, Format::Stl)),
-        "the header promises 2147483652 triangles, but the file has room for 4"
+        model.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        ["line 6: there is no texture coordinate 2, there are 1 so far; \
+          1 index of texture coordinates and 1 index of normals that are not there are left out"]
     );
+    Ok(())
+}
+
+#[test]
+fn bytes_after_the_last_triangle_are_ignored() -> Result<(), ErrorKind> {
+    for title in ["made by hand", "solid a"] {
+        for more in [1, 49, 50, 117] {
+            let mut bytes = stl_binary(title);
+            bytes.resize(bytes.len() + more, b'x');
+            let model = read_bytes(&bytes, Format::Stl)?;
+            assert_eq!(triangles(&model), expected(single));
+            assert_eq!(model.warnings, [Warning::Trailing { at: 284, triangles: 4, count: more }]);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_binary_file_that_ends_early_says_in_which_triangle() {
+    let cut = |title: &str, length: usize| message(read_bytes(&stl_binary(title)[..length], Format::Stl));
+    for title in ["made by hand", "solid a"] {
+        assert_eq!(cut(title, 283), "the file ends in triangle 4 of 4");
+        assert_eq!(cut(title, 235), "the file ends in triangle 4 of 4");
+        assert_eq!(cut(title, 234), "the file ends before triangle 4 of 4");
+        assert_eq!(cut(title, 84), "the file ends before triangle 1 of 4");
+        // A count of nothing, whatever follows.
+        let mut empty = stl_binary(title);
+        empty[80] = 0;
+        assert_eq!(message(read_bytes(&empty, Format::Stl)), "there are no faces in it");
+        assert_eq!(message(read_bytes(&empty[..84], Format::Stl)), "there are no faces in it");
+    }
+    assert_eq!(
+        cut("solid\0", 83),
+        "byte 83: the file ends where the rest of a binary header of 84 bytes should follow"
+    );
+    // A text that is long enough for a count stays a text.
+    let text = stl_text();
+    assert!(message(read_bytes(&text.as_bytes()[..200], Format::Stl)).starts_with("line "));
+}
+
+/// The faces of two strips on a grid of points: two rows of four, then the first of them alone.
+fn strips(list: &str, encoding: &str, indices: &[i64]) -> Read {
+    let mut file = format!(
+        "ply\nformat {encoding} 1.0\nelement tristrips 1\nproperty list int {list} vertex_indices\n\
+         element vertex 8\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+    )
+    .into_bytes();
+    let vertices = (0..8).map(|i| [(i / 2) as f32, (i % 2) as f32, 0.0]);
+    if encoding == "ascii" {
+        let words: Vec<String> = indices.iter().map(ToString::to_string).collect();
+        file.extend(format!("{} {}\n", indices.len(), words.join(" ")).into_bytes());
+        vertices.for_each(|[x, y, z]| file.extend(format!("{x} {y} {z}\n").into_bytes()));
+    } else {
+        file.extend((indices.len() as i32).to_le_bytes());
+        indices.iter().for_each(|&i| file.extend((i as i32).to_le_bytes()));
+        vertices.flatten().for_each(|x| file.extend(x.to_le_bytes()));
+    }
+    read_bytes(&file, Format::Ply)
+}
+
+#[test]
+fn strips_of_triangles_are_read() -> Result<(), ErrorKind> {
+    // The second strip begins anew; 6 6 leads over triangles without area, which count.
+    for (indices, faces) in [
+        (&[0, 2, 1, 3][..], &[[0, 2, 1], [1, 2, 3]][..]),
+        (&[0, 2, 1, -1, 2, 4, 3, 5, -1], &[[0, 2, 1], [2, 4, 3], [3, 4, 5]]),
+        (&[-1, -1, 0, 2, -1, 0, 2, 1], &[[0, 2, 1]]),
+        (&[0, 2, 1, 1, 4, 4, 6, 5, 7], &[[0, 2, 1], [6, 4, 5], [6, 5, 7]]),
+        (&[0, 2, 1, 1, 1, 4, 4, 6, 5], &[[0, 2, 1], [4, 6, 5]]),
+    ] {
+        for (list, encoding) in
+            [("int", "ascii"), ("int", "binary_little_endian"), ("uint", "binary_little_endian")]
+        {
+            let model = strips(list, encoding, indices)?;
+            let corner = |v: u32| [f64::from(v / 2), f64::from(v % 2), 0.0];
+            let wanted: Vec<_> = faces.iter().map(|f: &[u32; 3]| f.map(corner)).collect();
+            // The same triangles from the same sides: the first corner may be any of the three.
+            let least_first = |mut t: [[f64; 3]; 3]| {
+                let first = (0..3).min_by(|&a, &b| t[a].partial_cmp(&t[b]).unwrap()).unwrap();
+                t.rotate_left(first);
+                t
+            };
+            assert_eq!(
+                triangles(&model).into_iter().map(least_first).collect::<Vec<_>>(),
+                wanted.into_iter().map(least_first).collect::<Vec<_>>(),
+                "{indices:?} {list} {encoding}"
+            );
+        }
+    }
+    // All triangles of a flat strip show the same side.
+    let model = strips("int", "ascii", &[0, 2, 1, 3, 5, 4, 7, 6][..4])?;
+    for [a, b, c] in triangles(&model) {
+        let (p, q) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
+        assert!(p[0] * q[1] - p[1] * q[0] > 0.0);
+    }
+    assert_eq!(
+        message(strips("int", "ascii", &[0, 2, 9])),
+        "strip 0: there is no vertex 9, there are 8 so far"
+    );
+    assert_eq!(
+        message(strips("int", "ascii", &[0, 2, -2])),
+        "strip 0: there is no vertex -2, there are 8 so far"
+    );
+    assert_eq!(message(strips("int", "ascii", &[0, 2, -1, 1, 3])), "there are no faces in it");
+    Ok(())
 }
 
 /// Cut anywhere, or with any byte changed, a file is read or refused.

@@ -189,8 +189,10 @@ impl Parser<'_> {
         }
         if self.scene.camera.is_none() {
             self.scene.camera = Some(Camera::default());
-            let start = Place { file, start: 0 };
-            self.notice(start, "the scene has no camera: the default one is used");
+            if !self.scene.objects.is_empty() {
+                let start = Place { file, start: 0 };
+                self.notice(start, "the scene has no camera: the default one is used");
+            }
         }
         Ok(self.finished())
     }

@@ -27,7 +27,7 @@ pub(crate) struct Output {
     pub(crate) camera: Option<Camera>,
     pub(crate) background: Option<Colour>,
     pub(crate) globals: Globals,
-    objects: Vec<scene::Object>,
+    pub(crate) objects: Vec<scene::Object>,
     lights: Vec<scene::Light>,
     /// Textures given out lately: what looks equal is shared.
     textures: VecDeque<(Rc<Texture>, Arc<scene::Texture>)>,

@@ -37,6 +37,15 @@ thread_local! {
     static SCRATCH: RefCell<Scratch> = RefCell::default();
 }
 
+/// Lends the thread's working memory. Whoever asks while it is lent, as a visitor of crossings that resolves
+/// one of them does, gets memory of its own.
+fn with_scratch<R>(f: impl FnOnce(&mut Scratch) -> R) -> R {
+    let mut scratch = SCRATCH.take();
+    let result = f(&mut scratch);
+    SCRATCH.set(scratch);
+    result
+}
+
 /// Where on a body a ray starts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Start {
@@ -86,9 +95,7 @@ impl Compound {
         show: &mut dyn FnMut(Found) -> Flow,
     ) -> bool {
         // In one piece nothing can be split.
-        SCRATCH.with_borrow_mut(|scratch| {
-            self.walk(isa, ray, from, f64::INFINITY, None, scratch, show).unwrap_or(false)
-        })
+        with_scratch(|scratch| self.walk(isa, ray, from, f64::INFINITY, None, scratch, show).unwrap_or(false))
     }
 
     /// Shows the first crossing of the body in the ray's range, if there is one; what begins behind `until` need not be shown.
@@ -105,7 +112,7 @@ impl Compound {
             Flow::Stop
         };
         let pieces = if self.by_pieces { self.pieces(ray, until) } else { None };
-        SCRATCH.with_borrow_mut(|scratch| {
+        with_scratch(|scratch| {
             if self.walk(isa, ray, from, until, pieces, scratch, &mut take).is_none() {
                 // Something wide reaches over the end of a piece. Nothing has been shown.
                 self.walk(isa, ray, from, until, None, scratch, &mut take);
@@ -361,7 +368,7 @@ impl Compound {
         let more = |t: f64| (t.abs() + self.size) * MARGIN;
         let line =
             Ray64 { t_min: near - more(near), t_max: far + more(far), ..self.line(ray, f64::INFINITY) };
-        SCRATCH.with_borrow_mut(|scratch| {
+        with_scratch(|scratch| {
             let asked = self.begin(isa, ray, None, scratch);
             self.gather(&asked, &line, scratch);
             let mut off = point.off;

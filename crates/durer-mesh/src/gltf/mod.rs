@@ -16,7 +16,7 @@ mod primitive;
 
 use crate::error::{ErrorKind, Location};
 use crate::text::shortened;
-use crate::{Group, Instance};
+use crate::{Group, Instance, Warning};
 use buffers::Buffers;
 use primitive::Assembly;
 use std::path::Path;
@@ -28,7 +28,11 @@ const UNDERSTOOD: [&str; 3] = ["KHR_mesh_quantization", "KHR_texture_transform",
 const MOST_CLEAR: usize = 1 << 26;
 
 /// Reads a file that is in memory; `folder` holds the buffers beside it.
-pub(crate) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Vec<Group>, Vec<Instance>), ErrorKind> {
+pub(crate) fn read(
+    bytes: &[u8],
+    folder: Option<&Path>,
+    warnings: &mut Vec<Warning>,
+) -> Result<(Vec<Group>, Vec<Instance>), ErrorKind> {
     let (text, chunk) = container::split(bytes)?;
     let root = container::parse(text)?;
     let major = root.asset.version.split('.').next();
@@ -42,7 +46,7 @@ pub(crate) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Vec<Group>, V
             return Err(ErrorKind::Unsupported { spot, what: shortened(name) });
         }
     }
-    let shown = nodes::shown(&root)?;
+    let shown = nodes::shown(&root, warnings)?;
     let mut groups = Vec::new();
     let mut instances = Vec::new();
     let mut clear = 0;
@@ -69,7 +73,14 @@ pub(crate) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Vec<Group>, V
             return Err(ErrorKind::Unsupported { spot: Location::Element("mesh", mesh), what });
         }
     }
-    Ok((groups, instances))
+    match warnings.first() {
+        // Nothing else is there: the reason is of more use than that there are no faces.
+        Some(Warning::Flat { node, how }) if groups.is_empty() => wrong(
+            Location::Element("node", *node),
+            format!("{how} flattens it, so its faces have no area, and there are no others"),
+        ),
+        _ => Ok((groups, instances)),
+    }
 }
 
 /// How many faces a mesh has, if light passes some of them.

@@ -1,12 +1,22 @@
 //! The tree of nodes: which meshes are shown, and where.
 
 use super::{item, wrong};
+use crate::Warning;
 use crate::error::{ErrorKind, Location};
-use durer_math::{Affine, Point3};
+use durer_math::{Affine, AffineError, Point3};
 use gltf::json::{Node, Root};
 
+/// Where a node is.
+#[derive(Clone, Copy)]
+enum Standing {
+    /// From its frame to the world.
+    Placed(Affine),
+    /// Its transform, or that of the node of this number above it, has no inverse, so its faces have no area. A scale of 0 is how animations hide a node.
+    Flat(usize),
+}
+
 /// The meshes that the scene shows, each with its place in the world, in the order of the tree.
-pub(super) fn shown(root: &Root) -> Result<Vec<(usize, Affine)>, ErrorKind> {
+pub(super) fn shown(root: &Root, warnings: &mut Vec<Warning>) -> Result<Vec<(usize, Affine)>, ErrorKind> {
     let (tops, asked) = tops(root)?;
     if root.nodes.is_empty() && tops.is_empty() {
         return Ok((0..root.meshes.len()).map(|mesh| (mesh, Affine::IDENTITY)).collect());
@@ -14,8 +24,9 @@ pub(super) fn shown(root: &Root) -> Result<Vec<(usize, Affine)>, ErrorKind> {
     let mut shown = Vec::new();
     let mut seen = vec![false; root.nodes.len()];
     let mut parents = vec![None; root.nodes.len()];
-    let mut open: Vec<(usize, Option<usize>, Affine)> =
-        tops.into_iter().rev().map(|node| (node, None, Affine::IDENTITY)).collect();
+    let mut warned = vec![false; root.nodes.len()];
+    let mut open: Vec<(usize, Option<usize>, Standing)> =
+        tops.into_iter().rev().map(|node| (node, None, Standing::Placed(Affine::IDENTITY))).collect();
     while let Some((number, parent, around)) = open.pop() {
         let spot = Location::Element("node", number);
         let node = item(&root.nodes, number, "node", parent.map_or(asked, |p| Location::Element("node", p)))?;
@@ -27,11 +38,26 @@ pub(super) fn shown(root: &Root) -> Result<Vec<(usize, Affine)>, ErrorKind> {
             );
         }
         parents[number] = parent;
-        let place = local(node, spot)?.then(&around);
-        let place = place.map_err(|e| ErrorKind::Element { spot, said: e.to_string() })?;
+        let local = local(node, spot)?;
+        let place = match (around, local) {
+            (Standing::Placed(around), Some(local)) => match local.then(&around) {
+                Ok(place) => Standing::Placed(place),
+                Err(AffineError::Singular(_) | AffineError::Inverse(_)) => Standing::Flat(number),
+                Err(e) => return wrong(spot, e.to_string()),
+            },
+            (Standing::Placed(_), None) => Standing::Flat(number),
+            (flat, _) => flat,
+        };
         if let Some(mesh) = node.mesh {
             item(&root.meshes, mesh.value(), "mesh", spot)?;
-            shown.push((mesh.value(), place));
+            match place {
+                Standing::Placed(place) => shown.push((mesh.value(), place)),
+                Standing::Flat(at) => {
+                    if !std::mem::replace(&mut warned[at], true) {
+                        warnings.push(Warning::Flat { node: at, how: flattening(&root.nodes[at]) });
+                    }
+                }
+            }
         }
         open.extend(node.children.iter().flatten().rev().map(|child| (child.value(), Some(number), place)));
     }
@@ -61,8 +87,22 @@ fn tops(root: &Root) -> Result<(Vec<usize>, Location), ErrorKind> {
     }
 }
 
-/// From a node's frame to its parent's: a matrix, column by column, or a scale, then a rotation, then a translation.
-fn local(node: &Node, spot: Location) -> Result<Affine, ErrorKind> {
+/// Why a node's transform has no inverse.
+fn flattening(node: &Node) -> String {
+    let scale = node.scale.filter(|_| node.matrix.is_none()).unwrap_or([1.0; 3]);
+    let axes: Vec<&str> =
+        ["x", "y", "z"].into_iter().zip(scale).filter(|(_, s)| *s == 0.0).map(|(a, _)| a).collect();
+    match axes[..] {
+        [] if node.matrix.is_some() => "a matrix with the determinant 0".into(),
+        [] => "a transform too small for a number".into(),
+        [a] => format!("a scale of 0 in {a}"),
+        [a, b] => format!("a scale of 0 in {a} and {b}"),
+        _ => "a scale of 0".into(),
+    }
+}
+
+/// From a node's frame to its parent's: a matrix, column by column, or a scale, then a rotation, then a translation. `None` if it has no inverse.
+fn local(node: &Node, spot: Location) -> Result<Option<Affine>, ErrorKind> {
     let wide = |x: f32| f64::from(x);
     let (rows, centre) = match node.matrix {
         Some(m) => {
@@ -77,12 +117,19 @@ fn local(node: &Node, spot: Location) -> Result<Affine, ErrorKind> {
         }
         None => {
             let scale = node.scale.map_or([1.0; 3], |s| s.map(wide));
+            if scale.contains(&0.0) {
+                return Ok(None);
+            }
             let turn = rotation(node.rotation.unwrap_or_default().0.map(wide), spot)?;
             let rows = turn.map(|row: [f64; 3]| core::array::from_fn(|column| row[column] * scale[column]));
             (rows, node.translation.map_or([0.0; 3], |t| t.map(wide)))
         }
     };
-    Affine::new(rows, Point3::from(centre)).map_err(|e| ErrorKind::Element { spot, said: e.to_string() })
+    match Affine::new(rows, Point3::from(centre)) {
+        Ok(place) => Ok(Some(place)),
+        Err(AffineError::Singular(_) | AffineError::Inverse(_)) => Ok(None),
+        Err(e) => wrong(spot, e.to_string()),
+    }
 }
 
 /// The rotation of a quaternion `x y z w` of any length but zero; that of one of length 1 that was rounded is still a rotation.

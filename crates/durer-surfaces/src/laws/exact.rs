@@ -2,6 +2,7 @@
 //! with anything that quadratic polynomials bound.
 
 use super::real_root::RealRoot;
+use core::cell::RefCell;
 use core::cmp::Ordering;
 use core::ops::{Add, Mul, Neg, Sub};
 use dashu::base::{Abs, BitTest, SquareRoot, UnsignedAbs};
@@ -390,6 +391,81 @@ impl ExactLine {
     /// The point at `t`.
     pub fn at(&self, t: &Exact) -> [Exact; 3] {
         [0, 1, 2].map(|i| &self.o[i] + &(t * &self.d[i]))
+    }
+}
+
+impl ExactLine {
+    /// Whether two lines were made of the same numbers.
+    fn is_same(&self, other: &Self) -> bool {
+        let numbers = |line: &Self| line.o.clone().into_iter().chain(line.d.clone());
+        numbers(self).zip(numbers(other)).all(|(a, b)| a.m == b.m && a.e == b.e)
+    }
+}
+
+/// What was found for the lines asked for last: the laws ask for the same line again and again, and exact answers take long.
+#[derive(Clone, Debug)]
+pub struct LineCache<T>(RefCell<Vec<(ExactLine, T)>>);
+
+impl<T> Default for LineCache<T> {
+    fn default() -> Self {
+        Self(RefCell::default())
+    }
+}
+
+impl<T: Clone> LineCache<T> {
+    /// A ray, and two that leave each of a few crossings.
+    const LINES: usize = 16;
+
+    /// The answer for a line, found by `find` if the line is not among the last ones.
+    pub fn get(&self, line: &ExactLine, find: impl FnOnce() -> T) -> T {
+        let known = self.0.borrow().iter().find(|(l, _)| l.is_same(line)).map(|(_, found)| found.clone());
+        known.unwrap_or_else(|| {
+            let found = find();
+            let mut last = self.0.borrow_mut();
+            if last.len() == Self::LINES {
+                last.remove(0);
+            }
+            last.push((line.clone(), found.clone()));
+            found
+        })
+    }
+}
+
+/// An oracle that finds the crossings of a line once.
+pub(super) struct Cached<'a> {
+    oracle: &'a dyn Oracle,
+    crossings: LineCache<Vec<Crossing>>,
+}
+
+impl<'a> Cached<'a> {
+    pub(super) fn new(oracle: &'a dyn Oracle) -> Self {
+        Self { oracle, crossings: LineCache::default() }
+    }
+}
+
+impl Oracle for Cached<'_> {
+    fn crossings(&self, line: &ExactLine) -> Vec<Crossing> {
+        self.crossings.get(line, || self.oracle.crossings(line))
+    }
+
+    fn face_side(&self, face: u32, point: &[Exact; 3]) -> Ordering {
+        self.oracle.face_side(face, point)
+    }
+
+    fn face_normal(&self, face: u32, point: &[Exact; 3]) -> Vec3 {
+        self.oracle.face_normal(face, point)
+    }
+
+    fn side(&self, point: &[Exact; 3]) -> Option<Ordering> {
+        self.oracle.side(point)
+    }
+
+    fn size(&self) -> f64 {
+        self.oracle.size()
+    }
+
+    fn is_convex(&self) -> bool {
+        self.oracle.is_convex()
     }
 }
 

@@ -7,7 +7,9 @@ pub mod exact;
 pub mod real_root;
 pub mod test_rng;
 
-pub use exact::{Clipped, Crossing, Exact, ExactBody, ExactForm, ExactLine, Oracle, Surd, exact3, near};
+pub use exact::{
+    Clipped, Crossing, Exact, ExactBody, ExactForm, ExactLine, LineCache, Oracle, Surd, exact3, near,
+};
 pub use real_root::{RealRoot, ZeroOracle, real_roots};
 pub use test_rng::{Feature, TestRng, aim};
 
@@ -16,7 +18,9 @@ use crate::{
     SurfacePoint,
 };
 use core::cmp::Ordering;
-use durer_math::{Ray, RaySide, U, Vec3};
+use core::ops::Range;
+use durer_math::eft::exponent;
+use durer_math::{Aabb, Ray, RaySide, U, Vec3};
 
 /// Why a law does not hold.
 pub type Broken = String;
@@ -52,6 +56,7 @@ pub fn all_roots(surface: &dyn TestSurface, ray: &Ray) -> Vec<Root> {
 
 /// Every law that one ray can test. Returns the roots.
 pub fn check(surface: &dyn TestSurface, oracle: &dyn Oracle, ray: &Ray) -> Result<Vec<Root>, Broken> {
+    let oracle = &exact::Cached::new(oracle);
     let roots = roots_are_the_exact_crossings(surface, oracle, ray, None)?;
     closest_is_the_first_of_all(surface, ray, &roots)?;
     brackets_are_narrow(surface, oracle, ray, &roots)?;
@@ -67,9 +72,28 @@ pub fn check(surface: &dyn TestSurface, oracle: &dyn Oracle, ray: &Ray) -> Resul
     Ok(roots)
 }
 
-/// Draws `count` rays at `features` and checks all laws for each.
+/// The numbers of the cases that this run draws, where a test run draws `count`.
 ///
 /// `DURER_SOAK=N` draws N times as many, and `DURER_SOAK_FROM=K` others than K such runs have drawn before (`cargo xtask soak`).
+pub fn drawn(count: u64) -> Range<u64> {
+    let variable = |name: &str| std::env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
+    let from = variable("DURER_SOAK_FROM").unwrap_or(0);
+    count * from..count * (from + variable("DURER_SOAK").unwrap_or(1))
+}
+
+/// The numbers at random of one of these cases: no two seeds and cases have the same.
+pub fn dice(seed: u64, case: u64) -> TestRng {
+    TestRng::new(seed.wrapping_mul(0x1_0000_0001).wrapping_add(case))
+}
+
+/// Says how many rays obeyed the laws, for a soak to add up.
+pub fn report(rays: u64) {
+    if std::env::var_os("DURER_SOAK").is_some() {
+        println!("soaked: {} {rays}", std::thread::current().name().unwrap_or("laws"));
+    }
+}
+
+/// Draws `count` rays at `features` and checks all laws for each; see [`drawn`].
 ///
 /// # Panics
 ///
@@ -82,11 +106,8 @@ pub fn check_many(
     count: u64,
 ) -> Tally {
     let mut tally = Tally::default();
-    let variable = |name: &str| std::env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
-    let (soak, from) = (variable("DURER_SOAK"), variable("DURER_SOAK_FROM").unwrap_or(0));
-    for i in count * from..count * (from + soak.unwrap_or(1)) {
-        let mut dice = TestRng::new(seed.wrapping_mul(0x1_0000_0001).wrapping_add(i));
-        let ray = aim(&mut dice, features, oracle.size());
+    for i in drawn(count) {
+        let ray = aim(&mut dice(seed, i), features, oracle.size());
         if !ray.is_valid() {
             continue;
         }
@@ -102,10 +123,7 @@ pub fn check_many(
             Err(broken) => panic!("{broken}\n  ray {i} of seed {seed}: {ray:?}\n  surface: {surface:?}"),
         }
     }
-    if soak.is_some() {
-        // What a soak adds up.
-        println!("soaked: {} {}", std::thread::current().name().unwrap_or("laws"), tally.rays);
-    }
+    report(tally.rays);
     tally
 }
 
@@ -134,7 +152,7 @@ impl Tally {
 
 /// The width of a bracket, in ulp of `max(|t|, size / |d|)`. An unbounded surface is as large as the part of it that is looked at.
 pub fn width(surface: &dyn TestSurface, oracle: &dyn Oracle, ray: &Ray, root: &Root) -> f64 {
-    let k = durer_math::eft::exponent(ray.direction.max_abs());
+    let k = exponent(ray.direction.max_abs());
     let length = ray.direction.map(|x| durer_math::scale::ldexp(x, -k)).length();
     let place = ray.at(root.t).to_vec().max_abs();
     let seen = if surface.bounds().is_bounded() || place == f64::INFINITY { 0.0 } else { place };
@@ -312,33 +330,30 @@ pub fn points_are_within_their_bounds(
     };
     let point = surface.resolve(&LocalRay::new(ray), root, Need::ALL);
     is_well_formed(&point)?;
-    let truth = line.at(&exact.t.about(2400));
-    let bounds = surface.bounds();
-    for (i, exact) in truth.iter().enumerate() {
-        let error = (exact - &point.p[i].into()).abs();
-        let bound = Exact::from(point.dp[i]);
+    // A crossing known to 2^-640 of the surface's size nearly always decides; only else the digits are found that always do.
+    let digits = 640 + i64::from(exponent(ray.direction.max_abs()) - exponent(oracle.size()));
+    let near = exact.t.about(digits.max(64));
+    let errors = ray.direction.to_array().map(|d| Exact::from(d).abs().shifted(-digits.max(64)));
+    let place = surface.bounds();
+    let far = || line.at(&exact.t.about(2400));
+    let mut truth = line.at(&near);
+    let decided = point_is_near(&point, &truth, &errors, &place).is_ok();
+    if !decided {
+        truth = far();
         // The witness itself is known to 2^-2400.
-        ensure!(
-            (&error - &bound).shifted(1100).to_f64() <= 1.0,
-            "p misses the crossing by {} along axis {i}, dp is {}: {point:?}",
-            error.to_f64(),
-            point.dp[i]
-        );
-        let outside = |end: f64, sign: Ordering| {
-            end.is_finite() && {
-                let gap = exact - &end.into();
-                gap.sign() == sign && gap.abs().shifted(1100).to_f64() > 1.0
-            }
-        };
-        ensure!(
-            !outside(bounds.min[i], Ordering::Less) && !outside(bounds.max[i], Ordering::Greater),
-            "the crossing is outside the bounds {bounds:?}: {point:?}"
-        );
+        let known = [0; 3].map(|_| Exact::from(-1.0).shifted(-1100));
+        point_is_near(&point, &truth, &known, &place)?;
     }
+    let normal = |mut truth: [Exact; 3]| {
+        normal_is_the_exact_one(oracle, root, &truth, &point).or_else(|_| {
+            truth = far();
+            normal_is_the_exact_one(oracle, root, &truth, &point)
+        })
+    };
     // A surface that bends within the spacing of the coordinates has no sides that they could tell.
     let spacing = point.p.to_vec().max_abs() * durer_math::scale::ldexp(1.0, -50);
     if point.bend.is_finite() && point.bend * spacing > 1.0 / 64.0 {
-        return normal_is_the_exact_one(oracle, root, &truth, &point);
+        return normal(truth);
     }
     for (side, expected) in [(RaySide::Front, Ordering::Greater), (RaySide::Back, Ordering::Less)] {
         let n = point.ng.to_vec();
@@ -374,7 +389,34 @@ pub fn points_are_within_their_bounds(
             ensure!(surface.solidity() == Solidity::Open, "the oracle knows no inside, the surface does");
         }
     }
-    normal_is_the_exact_one(oracle, root, &truth, &point)
+    normal(truth)
+}
+
+/// A point is at most `dp` from a crossing and the crossing is in the bounds, where `truth` is at most `errors` from the crossing.
+///
+/// Negative errors allow as much instead.
+fn point_is_near(
+    point: &SurfacePoint,
+    truth: &[Exact; 3],
+    errors: &[Exact; 3],
+    bounds: &Aabb,
+) -> Result<(), Broken> {
+    for (i, (exact, slack)) in truth.iter().zip(errors).enumerate() {
+        let error = (exact - &point.p[i].into()).abs();
+        ensure!(
+            (&(&error + slack) - &Exact::from(point.dp[i])).sign().is_le(),
+            "p misses the crossing by {} along axis {i}, dp is {}: {point:?}",
+            error.to_f64(),
+            point.dp[i]
+        );
+        let above = |end: f64| !end.is_finite() || (&(exact - &end.into()) - slack).sign().is_ge();
+        let below = |end: f64| !end.is_finite() || (&(exact - &end.into()) + slack).sign().is_le();
+        ensure!(
+            above(bounds.min[i]) && below(bounds.max[i]),
+            "the crossing is outside the bounds {bounds:?}: {point:?}"
+        );
+    }
+    Ok(())
 }
 
 /// Nothing is NaN, lengths are what they should be, tangents are tangent.
@@ -386,7 +428,7 @@ fn is_well_formed(point: &SurfacePoint) -> Result<(), Broken> {
     ensure!(point.ns.dot(n) > 0.0, "the shading normal is on the other side: {point:?}");
     ensure!(point.uv.iter().all(|x| x.is_finite()), "uv is not finite: {point:?}");
     for v in [point.dpdu, point.dpdv] {
-        let size = durer_math::eft::exponent(v.max_abs().max(f64::MIN_POSITIVE));
+        let size = exponent(v.max_abs().max(f64::MIN_POSITIVE));
         let unit: Vec3 = v.map(|x| durer_math::scale::ldexp(x, -size));
         ensure!(v.is_finite(), "a tangent is not finite: {point:?}");
         // Tangents are for shading: half the digits. A tip has none.

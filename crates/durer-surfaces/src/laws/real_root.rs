@@ -102,25 +102,62 @@ fn sign_at(p: &Whole, x: &Exact) -> Ordering {
     sum.cmp(&zero)
 }
 
+/// Greatest common divisor of two polynomials, neither of them zero.
+fn common_divisor(a: &Whole, b: &Whole) -> Whole {
+    let (mut a, mut b) = if a.len() >= b.len() { (a.clone(), b.clone()) } else { (b.clone(), a.clone()) };
+    while !b.is_empty() {
+        (a, b) = (b.clone(), remainder(&a, &b));
+    }
+    a
+}
+
+/// Whole numbers in the proportions of the coefficients.
+fn whole_numbers(coefficients: &[Exact]) -> Whole {
+    let least = coefficients.iter().filter(|c| c.sign().is_ne()).map(|c| c.e).min().unwrap_or(0);
+    primitive(coefficients.iter().map(|c| &c.m << (c.e - least).max(0) as usize).collect())
+}
+
+fn bits(x: &IBig) -> i64 {
+    dashu::base::BitTest::bit_len(x) as i64
+}
+
 /// A real root of a polynomial.
+///
+/// Inside, the unknown is `t / 2^scale`: roots of the polynomial are then about one, whatever the unit of `t` is.
 #[derive(Clone, Debug)]
 pub struct RealRoot {
     /// Has the root once.
     simple: Arc<Whole>,
+    /// The root is between `l` and `r`; `simple` is not zero at `r` unless the two are equal.
     l: Exact,
     r: Exact,
+    /// The sign of `simple` at `r`.
+    at_r: Ordering,
+    scale: i64,
     /// The sign of the given polynomial before and after.
     pub before: Ordering,
     /// See `before`.
     pub after: Ordering,
 }
 
+/// The power of two that roots of a polynomial are about: that of the geometric mean of the absolute values of its roots other than zero.
+fn scale_of(coefficients: &[Exact]) -> i64 {
+    let mut present = coefficients.iter().enumerate().filter(|(_, c)| c.sign().is_ne());
+    match (present.next(), present.next_back()) {
+        (Some((i, first)), Some((n, last))) => {
+            (bits(&first.m) + first.e - bits(&last.m) - last.e).div_euclid((n - i) as i64)
+        }
+        _ => 0,
+    }
+}
+
 /// All distinct real roots, ascending, of the polynomial with these coefficients, the constant first.
 pub fn real_roots(coefficients: &[Exact]) -> Vec<RealRoot> {
-    let Some(least) = coefficients.iter().filter(|c| c.sign().is_ne()).map(|c| c.e).min() else {
+    if coefficients.iter().all(|c| c.sign().is_eq()) {
         return vec![];
-    };
-    let whole = primitive(coefficients.iter().map(|c| &c.m << (c.e - least).max(0) as usize).collect());
+    }
+    let scale = scale_of(coefficients);
+    let whole = whole_numbers(&rescaled(coefficients, scale));
     let first = chain(&whole);
     let common = &first[first.len() - 1];
     let simple = if common.len() > 1 { quotient(&whole, common) } else { whole.clone() };
@@ -134,7 +171,6 @@ pub fn real_roots(coefficients: &[Exact]) -> Vec<RealRoot> {
         n
     };
     // A. Cauchy's bound.
-    let bits = |x: &IBig| dashu::base::BitTest::bit_len(x) as i64;
     let lead = bits(&whole[whole.len() - 1]);
     let reach = whole.iter().map(|c| bits(c) - lead + 2).max().unwrap_or(0).max(1);
     let one = Exact::from(1.0);
@@ -148,7 +184,8 @@ pub fn real_roots(coefficients: &[Exact]) -> Vec<RealRoot> {
             0 => {}
             1 => {
                 let (before, after) = (sign_at(&whole, &l), sign_at(&whole, &r));
-                out.push(RealRoot { simple: simple.clone(), l, r, before, after });
+                let at_r = sign_at(&simple, &r);
+                out.push(RealRoot { simple: simple.clone(), l, r, at_r, scale, before, after });
             }
             _ => {
                 let mut m = (&l + &r).shifted(-1);
@@ -164,9 +201,19 @@ pub fn real_roots(coefficients: &[Exact]) -> Vec<RealRoot> {
     out
 }
 
+/// The coefficients of `p(2^scale x)`.
+fn rescaled(p: &[Exact], scale: i64) -> Vec<Exact> {
+    p.iter().enumerate().map(|(k, c)| c.clone().shifted(scale * k as i64)).collect()
+}
+
 impl RealRoot {
     /// Compared with an exact number.
     pub fn cmp_exact(&self, x: &Exact) -> Ordering {
+        self.compare(&x.clone().shifted(-self.scale))
+    }
+
+    /// Compared with a number in the unit of `l` and `r`.
+    fn compare(&self, x: &Exact) -> Ordering {
         if (&self.l - x).sign().is_ge() {
             return if self.is_exact() { (&self.l - x).sign() } else { Ordering::Greater };
         }
@@ -175,7 +222,7 @@ impl RealRoot {
         }
         match sign_at(&self.simple, x) {
             Ordering::Equal => Ordering::Equal,
-            s if s == sign_at(&self.simple, &self.r) => Ordering::Less,
+            s if s == self.at_r => Ordering::Less,
             _ => Ordering::Greater,
         }
     }
@@ -186,7 +233,7 @@ impl RealRoot {
 
     fn halve(&mut self) {
         let m = (&self.l + &self.r).shifted(-1);
-        match self.cmp_exact(&m) {
+        match self.compare(&m) {
             Ordering::Equal => (self.l, self.r) = (m.clone(), m),
             Ordering::Less => self.r = m,
             Ordering::Greater => self.l = m,
@@ -196,17 +243,23 @@ impl RealRoot {
     /// An exact number at most `2^-bits` away.
     pub fn about(&self, bits: i64) -> Exact {
         let mut at = self.clone();
-        let narrow =
-            |at: &Self, bits: i64| (&(&at.r - &at.l).shifted(bits) - &Exact::from(1.0)).sign().is_le();
-        while !narrow(&at, bits) {
+        at.narrow(bits + self.scale);
+        at.l.shifted(self.scale)
+    }
+
+    /// Narrows the interval to a width of `2^-digits` in its own unit.
+    fn narrow(&mut self, digits: i64) {
+        loop {
+            let width = &self.r - &self.l;
+            if (&width.clone().shifted(digits) - &Exact::from(1.0)).sign().is_le() {
+                return;
+            }
             // Newton's method doubles the digits, as soon as it works; what it proposes counts if the signs beside it say so.
-            let width = &at.r - &at.l;
-            let known = -(dashu::base::BitTest::bit_len(&width.m) as i64 + width.e);
-            if !at.newton((2 * known - 8).min(bits + 2)) {
-                at.halve();
+            let known = -(bits(&width.m) + width.e);
+            if !self.newton((2 * known - 8).min(digits + 2)) {
+                self.halve();
             }
         }
-        at.l
     }
 
     /// Proposes an interval of width `2^-bits` about the point to which Newton's method goes from the middle.
@@ -225,19 +278,32 @@ impl RealRoot {
         let half = Exact::from(0.5).shifted(-bits);
         let (l, r) = (&to - &half, &to + &half);
         let inside = (&l - &self.l).sign().is_gt() && (&self.r - &r).sign().is_gt();
-        if !inside || self.cmp_exact(&l).is_le() || self.cmp_exact(&r).is_ge() {
+        // The sign of `simple` is `at_r` at `r` and beyond, and the other one at `l` and before.
+        if !inside
+            || sign_at(&self.simple, &l) != self.at_r.reverse()
+            || sign_at(&self.simple, &r) != self.at_r
+        {
             return false;
         }
         (self.l, self.r) = (l, r);
         true
     }
 
-    /// The sign of another polynomial, the constant first: zero if it is zero all the way down to `2^-3000`.
+    /// The sign of another polynomial, the constant first.
     pub fn sign_of(&self, q: &[Exact]) -> Ordering {
-        let mut at = self.clone();
+        if q.iter().all(|c| c.sign().is_eq()) {
+            return Ordering::Equal;
+        }
+        let q = rescaled(q, self.scale);
         let value = |x: &Exact| q.iter().rev().fold(Exact::zero(), |sum, c| &(&sum * x) + c);
+        let mut at = self.clone();
+        let mut digits = 4;
         loop {
-            let (l, r) = (value(&at.l), value(&at.r));
+            at.narrow(digits);
+            let l = value(&at.l);
+            if at.is_exact() {
+                return l.sign();
+            }
             let width = &at.r - &at.l;
             // |q'| over the interval.
             let size = &at.l.clone().abs() + &width;
@@ -248,13 +314,14 @@ impl RealRoot {
             if (&l.clone().abs() - &change).sign().is_gt() {
                 return l.sign();
             }
-            if at.is_exact() {
-                return r.sign();
+            // It is zero if the two polynomials have a common divisor that has the root.
+            if digits == 64 {
+                let common = common_divisor(&self.simple, &whole_numbers(&q));
+                if common.len() > 1 && sign_at(&common, &at.l) != sign_at(&common, &at.r) {
+                    return Ordering::Equal;
+                }
             }
-            if (&width.shifted(3000) - &Exact::from(1.0)).sign().is_lt() {
-                return Ordering::Equal;
-            }
-            at.halve();
+            digits *= 2;
         }
     }
 }

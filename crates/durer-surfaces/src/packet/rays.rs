@@ -95,18 +95,10 @@ impl Nearest {
         (self.t + self.e).min(*rays.t_max)
     }
 
-    /// Which of some crossings at `t` within `e` come before those so far. Of two surfaces that cannot be told apart the one
-    /// that was tested first stays: where faces coincide it is the same one in the whole picture.
-    #[inline(always)]
-    fn is_before(&self, sure: M8, t: F8, e: F8, number: f64) -> M8 {
-        let margin = self.number.equals(F8::splat(number)).select(F8::ZERO, self.e + e);
-        sure & (t + margin).lt(self.t)
-    }
-
     /// Records that some rays certainly cross a face at `t`, known within `e`.
     #[inline(always)]
     pub fn take(&mut self, sure: M8, t: F8, e: F8, number: f64, face: F8) {
-        let better = self.is_before(sure, t, e, number);
+        let better = sure & t.lt(self.t);
         self.t.set_where(better, t);
         self.e.set_where(better, e);
         self.number.set_where(better, F8::splat(number));
@@ -116,7 +108,7 @@ impl Nearest {
     /// Records a certain crossing with data of the face for computing the point later.
     #[inline(always)]
     pub fn take_at(&mut self, sure: M8, (t, e): (F8, F8), number: f64, face: F8, tag: F8) {
-        let better = self.is_before(sure, t, e, number);
+        let better = sure & t.lt(self.t);
         self.tag.set_where(better, tag);
         self.take(sure, t, e, number, face);
     }

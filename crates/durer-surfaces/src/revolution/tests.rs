@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::laws::{
-    Crossing, Exact, ExactLine, Feature, Oracle, Surd, TestRng, ZeroOracle, aim, all_roots, check, exact3,
-    real_roots, roots_are_the_exact_crossings,
+    self, Crossing, Exact, ExactLine, Feature, LineCache, Oracle, Surd, TestRng, ZeroOracle, aim, all_roots,
+    check, exact3, real_roots, roots_are_the_exact_crossings,
 };
 use crate::{Axis, Sphere, Torus};
 use durer_math::Ray;
@@ -13,7 +13,14 @@ struct ExactTurned {
     heights: Vec<f64>,
     walls: Vec<(ZeroOracle, Option<ZeroOracle>)>,
     size: f64,
+    known: LineCache<Option<Vec<Met>>>,
 }
+
+/// Digits, in bits, of the parameters of crossings: directions are `2^-330` to `2^330` long.
+const BITS: i64 = 700;
+
+/// A crossing, with the number of the height at which it is, if any.
+type Met = (Crossing, Option<usize>);
 
 fn zero_set(terms: Vec<(Exact, [usize; 3])>) -> ZeroOracle {
     ZeroOracle { terms, size: 1.0 }
@@ -66,7 +73,7 @@ fn expanded(solid: &SurfaceOfRevolution) -> ExactTurned {
     };
     let walls = solid.walls.iter().map(wall).collect();
     let size = solid.bounds.widths().max_abs();
-    ExactTurned { heights: solid.heights.clone(), walls, size }
+    ExactTurned { heights: solid.heights.clone(), walls, size, known: LineCache::default() }
 }
 
 /// `p(n/d + s)`, times a positive number; `d > 0`.
@@ -97,8 +104,12 @@ fn beside(p: &[Exact], after: bool) -> Ordering {
 }
 
 impl ExactTurned {
-    /// All crossings, each with the number of the height at which it is, if any; `None` if the ray runs along a height.
-    fn met(&self, line: &ExactLine) -> Option<Vec<(Crossing, Option<usize>)>> {
+    /// All crossings; `None` if the ray runs along a height.
+    fn met(&self, line: &ExactLine) -> Option<Vec<Met>> {
+        self.known.get(line, || self.find(line))
+    }
+
+    fn find(&self, line: &ExactLine) -> Option<Vec<Met>> {
         let last = self.walls.len();
         let height = |i: usize| [&line.o[1] - &Exact::from(self.heights[i]), line.d[1].clone()];
         let still = line.d[1].sign().is_eq();
@@ -178,7 +189,7 @@ impl ExactTurned {
 
     fn is_clear(&self, line: &ExactLine) -> bool {
         self.crossings(line).iter().all(|c| {
-            let p = Vec3::from(line.at(&c.t.about(2400)).map(|x| x.to_f64()));
+            let p = Vec3::from(line.at(&c.t.about(BITS)).map(|x| x.to_f64()));
             // Not at the axis, where a sheet may have a tip.
             self.owner(p).is_some() && (p.x.abs() + p.z.abs()) > 1e-4 * self.size
         })
@@ -305,10 +316,9 @@ fn turned_solids_obey_the_laws() {
     for (seed, solid) in solids().iter().enumerate() {
         let oracle = expanded(solid);
         let features = features(solid);
-        let mut dice = TestRng::new(seed as u64);
         let mut roots = 0;
-        for i in 0..120 {
-            let ray = aim(&mut dice, &features, oracle.size());
+        for i in laws::drawn(120) {
+            let ray = aim(&mut laws::dice(seed as u64, i), &features, oracle.size());
             let line = ExactLine::new(&ray);
             let Some(met) = ray.is_valid().then(|| oracle.met(&line)).flatten() else { continue };
             at_heights += met.iter().filter(|c| c.1.is_some_and(|i| i > 0 && i < solid.walls.len())).count();
@@ -324,6 +334,7 @@ fn turned_solids_obey_the_laws() {
         }
         assert!(roots > 40, "{roots} roots on solid {seed}");
     }
+    laws::report(rays);
     assert!(
         rays > 1500 && clear > 1000 && at_heights > 10 && grazing > 0,
         "{rays} {clear} {at_heights} {grazing}"

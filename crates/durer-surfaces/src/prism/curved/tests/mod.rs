@@ -67,7 +67,7 @@ fn cases() -> Vec<(CurvedPrism, Swept)> {
             // The heights in the other order make no difference.
             let prism = CurvedPrism::new(&outlines, high, low, sweep).unwrap();
             assert_eq!(prism.inside_is_left.is_none(), tangled, "{outlines:?}");
-            out.push((prism, Swept { outlines: outlines.clone(), low, high, sweep }));
+            out.push((prism, Swept::new(outlines.clone(), low, high, sweep)));
         }
     }
     out
@@ -108,15 +108,15 @@ fn curved_prisms_obey_the_laws_off_their_joints() {
     let mut obeyed = Obeyed::default();
     for (seed, (prism, oracle)) in cases().iter().enumerate() {
         let features = features(oracle);
-        let mut dice = TestRng::new(seed as u64);
-        for i in 0..4 {
-            let ray = aim(&mut dice, &features, oracle.size());
+        for i in laws::drawn(4) {
+            let ray = aim(&mut laws::dice(seed as u64, i), &features, oracle.size());
             // Rays that meet a joint exactly are the business of the next test.
             let broken = |e| panic!("{e}\n{seed} {i} {ray:?}\n{prism:?}");
             obeyed.count(prism, oracle, &ray).unwrap_or_else(broken);
         }
     }
     let Obeyed { rays, roots, clear } = obeyed;
+    laws::report(rays);
     assert!(rays > 60 && roots > 60 && clear > 30, "{rays} {roots} {clear}");
 }
 
@@ -173,7 +173,7 @@ fn rays_through_joints_and_rims_go_in_as_often_as_out() {
 fn beside_a_crossing_of_outlines_walls_are_met_in_their_order() {
     let outlines = vec![round([0.0; 2], 2.0, 0.75), round([1.0, 0.5], 2.0, 0.5)];
     let prism = CurvedPrism::linear(&outlines, -1.0, 1.0).unwrap();
-    let oracle = Swept { outlines, low: -1.0, high: 1.0, sweep: Sweep::Linear };
+    let oracle = Swept::new(outlines, -1.0, 1.0, Sweep::Linear);
     // Where the two cross each other, in f64.
     let crossings = [
         [-0.245_676_154_133_823_1, 1.995_083_175_442_483_8],

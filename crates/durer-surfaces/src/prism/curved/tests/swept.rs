@@ -1,7 +1,7 @@
 //! The witness: crossings of a curved prism in exact numbers, by polynomials of its own.
 
 use super::super::*;
-use crate::laws::{self, Exact, ExactLine, Oracle, RealRoot, Surd, exact3, real_roots};
+use crate::laws::{self, Exact, ExactLine, LineCache, Oracle, RealRoot, Surd, exact3, real_roots};
 use crate::prism::tests::Known;
 
 type Poly = Vec<Exact>;
@@ -49,7 +49,11 @@ pub(super) struct Swept {
     pub(super) low: f64,
     pub(super) high: f64,
     pub(super) sweep: Sweep,
+    known: LineCache<Option<Vec<Met>>>,
 }
+
+/// A crossing and its face.
+type Met = (laws::Crossing, u32);
 
 /// Faces that are nearer to a point than this are not told apart.
 const NEAR: f64 = 1e-5;
@@ -57,6 +61,10 @@ const NEAR: f64 = 1e-5;
 const BITS: i64 = 1200;
 
 impl Swept {
+    pub(super) fn new(outlines: Vec<Vec<Bezier>>, low: f64, high: f64, sweep: Sweep) -> Self {
+        Self { outlines, low, high, sweep, known: LineCache::default() }
+    }
+
     pub(super) fn pieces(&self) -> impl Iterator<Item = &Bezier> {
         self.outlines.iter().flatten()
     }
@@ -164,7 +172,11 @@ impl Swept {
     }
 
     /// All crossings, ascending, with their faces; `None` if the line meets a joint or a rim, or runs within a face, or two crossings are one.
-    pub(super) fn met(&self, line: &ExactLine) -> Option<Vec<(laws::Crossing, u32)>> {
+    pub(super) fn met(&self, line: &ExactLine) -> Option<Vec<Met>> {
+        self.known.get(line, || self.find(line))
+    }
+
+    fn find(&self, line: &ExactLine) -> Option<Vec<Met>> {
         let mut found: Vec<(Exact, Surd, bool, u32)> = vec![];
         for b in self.pieces() {
             let [g, num, den] = self.along(line, b);
