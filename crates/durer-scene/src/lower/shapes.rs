@@ -132,7 +132,7 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             }
         }
         Shape::Sor(points) => {
-            turned(SurfaceOfRevolution::sor(points).map_err(shape_error)?, open, map, &mut target)
+            turned(SurfaceOfRevolution::sor(points).map_err(shape_error)?, open, map, &mut target);
         }
         &Shape::Ovus { bottom, top } => {
             turned(SurfaceOfRevolution::ovus(bottom, top).map_err(shape_error)?, open, map, &mut target);
