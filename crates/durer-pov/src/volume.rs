@@ -25,6 +25,9 @@ enum Volume<T> {
     Of(T),
 }
 
+/// Volumes, and the objects that they are made of.
+type VolumesAndParts = (Vec<Volume<scene::Object>>, Vec<Vec<scene::Object>>);
+
 impl<T> Volume<T> {
     /// `inverse`, which only what is `Of` something leaves to its own flag.
     fn inverted(self) -> Self {
@@ -110,11 +113,7 @@ impl Parser<'_> {
         Ok(Parted { volume, sheets: shown })
     }
 
-    fn all_parted(
-        &mut self,
-        parts: &[Rc<Object>],
-        lights: &mut Lights,
-    ) -> Result<(Vec<Volume<scene::Object>>, Vec<Vec<scene::Object>>)> {
+    fn all_parted(&mut self, parts: &[Rc<Object>], lights: &mut Lights) -> Result<VolumesAndParts> {
         let (mut volumes, mut sheets) = (Vec::with_capacity(parts.len()), Vec::with_capacity(parts.len()));
         for part in parts {
             let parted = self.parted(part, lights)?;

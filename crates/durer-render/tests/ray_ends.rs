@@ -126,9 +126,9 @@ fn places(random: &mut Random) -> Vec<Place> {
         let ellipsoid = Shape::Named(Box::new(NamedQuadric { kind, semi_axes: axes, extent: None }));
         add("ellipsoid", ellipsoid, p, &[gradient]);
 
-        let quartic = |n: Vec3| n.x.powi(4) + n.y.powi(4) + n.z.powi(4);
-        let p = n * quartic(n).powf(-0.25);
-        let gradient = v(p.x.powi(3), p.y.powi(3), p.z.powi(3));
+        let quartic = |n: Vec3| n.x * n.x * n.x * n.x + n.y * n.y * n.y * n.y + n.z * n.z * n.z * n.z;
+        let p = n * (1.0 / quartic(n).sqrt().sqrt());
+        let gradient = v(p.x * p.x * p.x, p.y * p.y * p.y, p.z * p.z * p.z);
         add("polynomial", cushion(), p, &[gradient]);
         add("superellipsoid", Shape::Superellipsoid { e: 0.5, n: 0.5 }, p, &[gradient]);
 
