@@ -6,7 +6,7 @@
 //! closed form. Rays on which two crossings are too near to each other to be put in order are left out.
 
 use durer::geometry::{Geometry, Hits8, Rays8, Scratch, Sources8};
-use durer::math::{F8, M8, Ray, Vec3};
+use durer::math::{F8, M8, Ray, Vec3, elementary};
 use durer::pov::ReadOptions;
 use durer::scene::{Lowered, PigmentBody, TextureBody, mask};
 use durer::surfaces::Need;
@@ -319,7 +319,8 @@ fn seen(
     for step in tree.steps.iter().rev() {
         let undo = |v: [f64; 3], is_point: bool| match *step {
             Step::Rotate(axis, by) => {
-                let (s, c) = (-by.to_radians()).sin_cos();
+                let turn = -by.to_radians();
+                let (s, c) = (elementary::sin(turn), elementary::cos(turn));
                 let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
                 let mut to = v;
                 (to[j], to[k]) = (v[j] * c - v[k] * s, v[j] * s + v[k] * c);
