@@ -32,12 +32,12 @@ const SCALE_FLOOR: f64 = f64::from_bits(16);
 /// A number `v` that differs from the true one by at most `e`. `T` is f64 or [`Dd`].
 ///
 /// ```
-/// use durer_math::{Ring, Run};
-/// let third = Run::<f64>::exact(1.0) / Run::exact(3.0);
+/// use durer_math::{Ring, EFloat};
+/// let third = EFloat::<f64>::exact(1.0) / EFloat::exact(3.0);
 /// let sum = third + third + third;
 /// assert!(sum.lo() <= 1.0 && 1.0 <= sum.hi());
-/// assert_eq!((sum - Run::exact(1.0)).sign(), None); // cannot tell
-/// assert_eq!((sum - Run::exact(0.999)).sign(), Some(core::cmp::Ordering::Greater));
+/// assert_eq!((sum - EFloat::exact(1.0)).sign(), None); // cannot tell
+/// assert_eq!((sum - EFloat::exact(0.999)).sign(), Some(core::cmp::Ordering::Greater));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EFloat<T = f64> {

@@ -7,7 +7,7 @@
 //! ```
 //! use core::cmp::Ordering;
 //! use durer_math::ladder::{self, Predicate};
-//! use durer_math::{Point3, Ray, Ring, Run, Vec3};
+//! use durer_math::{Point3, Ray, Ring, EFloat, Vec3};
 //!
 //! /// Does the line of `ray` meet the unit sphere? The discriminant `(o.d)^2 - d.d (o.o - 1)`.
 //! struct MeetsUnitSphere(Ray);
@@ -30,7 +30,7 @@
 //! assert_eq!(ladder::sign(&aimed_at(1.0_f64.next_up())), Some(Ordering::Less)); // one ulp higher it does not
 //!
 //! // f64 alone cannot know that, and says so:
-//! let in_f64: Run = aimed_at(1.0_f64.next_up()).eval().unwrap();
+//! let in_f64: EFloat = aimed_at(1.0_f64.next_up()).eval().unwrap();
 //! assert_eq!(in_f64.sign(), None);
 //! ```
 //!

@@ -3,7 +3,7 @@
 //! Along a ray `o + s d` the *height* above a plane is `h + s g`, and the crossing is at `s = -h/g`. Everything that
 //! is asked about it is a sign: of the slope `g` (0: the ray runs beside the plane and never crosses it), of the height at an end
 //! of the ray's range (is the crossing in it?), and of the polynomials that say whether the crossing lies in a disc, within edges
-//! or between slabs. Each is written once, generic over [`Ring`], and taken up the ladder: `Run<f64>`, `Run<Dd>`,
+//! or between slabs. Each is written once, generic over [`Ring`], and taken up the ladder: `EFloat<f64>`, `EFloat<Dd>`,
 //! [`Dyadic`]. The first step uses the re-centred ray with its rounding charged (rule W3), which stands for the exact ray:
 //! a sign that is certain there is the sign for the ray that was given.
 

@@ -104,7 +104,7 @@ pub struct Rounded {
 }
 
 impl Rounded {
-    /// Rounds a form that is given in `Run<Dd>`, and exactly where that leaves a coefficient doubtful.
+    /// Rounds a form that is given in `EFloat<Dd>`, and exactly where that leaves a coefficient doubtful.
     pub(crate) fn new(rough: &Form<EFloat<Dd>>, exact: impl Fn() -> Form<Dyadic>) -> Self {
         let coefficients = |f: &Form<EFloat<Dd>>| -> Option<[f64; 11]> {
             let mut out = [0.0; 11];
