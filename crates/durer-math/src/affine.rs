@@ -68,7 +68,7 @@ impl Rounded {
     const HALF_ULP: f64 = U * (1.0 + crate::scale::pow2(-40));
     const EXPONENT: u64 = 0x7ff << 52;
 
-    /// What rounding may have cost each entry.
+    /// Bounds on the rounding error of each entry.
     #[inline(always)]
     fn errors(self, inverse: &Matrix3) -> Matrix3 {
         let mut errors = [[0.0; 3]; 3];
@@ -341,7 +341,7 @@ impl Affine {
         frobenius(&self.linear, &[[0.0; 3]; 3])
     }
 
-    /// The same of the exact inverse of `L`.
+    /// A bound on the norm of the exact inverse of `L`.
     pub fn inverse_norm(&self) -> f64 {
         self.inverse_norm.number()
     }

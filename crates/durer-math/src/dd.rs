@@ -18,7 +18,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 pub struct Dd {
     /// The number rounded to f64.
     pub hi: f64,
-    /// What the rounding left.
+    /// The rounding error of `hi`.
     pub lo: f64,
 }
 

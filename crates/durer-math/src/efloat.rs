@@ -26,7 +26,8 @@ const K: f64 = 1.0 + 8.0 * f64::EPSILON;
 /// numbers: a subnormal operand or result costs a microcode assist on many CPUs, a hundred times the operation itself. It is felt only
 /// where numbers are below `2^-890`.
 const FLOOR: f64 = crate::scale::pow2(-1000);
-/// The same for [`Ring::scale2`], where it is rarely used and tightness counts: maps of size `1e300` have inverses near `2^-1000`.
+/// The floor for [`Ring::scale2`], which is rarely used and must be tight: maps of size `1e300`
+/// have inverses near `2^-1000`.
 const SCALE_FLOOR: f64 = f64::from_bits(16);
 
 /// A number `v` that differs from the true one by at most `e`. `T` is f64 or [`Dd`].
@@ -53,7 +54,7 @@ mod sealed {
     impl Sealed for crate::Dd {}
 }
 
-/// What [`EFloat`] may carry: f64 or [`Dd`].
+/// The number types that [`EFloat`] may hold: f64 or [`Dd`].
 pub trait Word:
     sealed::Sealed
     + Copy
@@ -68,9 +69,9 @@ pub trait Word:
 {
     /// Bound on the relative error of a sum, as a multiple of the computed sum, and a little more.
     const ADD: f64;
-    /// The same for products.
+    /// Relative rounding error of a product.
     const MUL: f64;
-    /// The same for quotients and square roots.
+    /// Relative rounding error of a quotient or a square root.
     const DIV: f64;
     /// Absolute error which underflow may put into the residual of a quotient or root.
     const RESIDUAL: f64;

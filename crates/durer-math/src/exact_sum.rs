@@ -20,7 +20,7 @@ pub(crate) struct Terms {
     terms: [f64; MOST],
 }
 
-/// What a sum is.
+/// The result of an exact summation.
 pub(crate) struct Sum {
     /// Its sign, exactly.
     pub(crate) sign: Ordering,

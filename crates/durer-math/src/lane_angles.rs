@@ -1,9 +1,11 @@
 //! Angles of eight boxes of points at once.
 //!
-//! `t = min / max` of `|x|` and `|y|`; beyond `tan(pi/8)` an eighth of a turn is taken off, `u = (t - 1) / (t + 1)`, so that `|u| <= 0.4143`. The series of `atan u / u` in
-//! `z = u^2 <= 0.1717` is cut after `z^19 / 39`, which leaves out `0.1 U`. In the one case `u = t` errs by `U` of itself and the angle by `3 U`; in the other `u` errs by
-//! `1.8 U` and the angle, at least `pi/8`, by `4 U`, `10 U` of itself. What is then taken from `pi/2` or `pi` rounds once more for each, and is the larger: claimed is
-//! [`ANGLE_ERROR`].
+//! `t = min / max` of `|x|` and `|y|`. Beyond `tan(pi/8)` an eighth of a turn is subtracted,
+//! `u = (t - 1) / (t + 1)`, so `|u| <= 0.4143`. The series of `atan u / u` in `z = u^2 <= 0.1717`
+//! ends with `z^19 / 39`, a truncation error of `0.1 U`. If `u = t`, it errs by `U` of itself and
+//! the angle by `3 U`; otherwise `u` errs by `1.8 U` and the angle, at least `pi/8`, by `4 U`,
+//! which is `10 U` of itself. Each subtraction from `pi/2` or `pi` rounds once more, and its result
+//! is larger. The sum is below [`ANGLE_ERROR`].
 
 use crate::{F8, I8, Isa, M8, U};
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};

@@ -44,7 +44,7 @@ impl I8 {
         Self { lo, hi, partial: 0, empty: 0, jump: 0 }
     }
 
-    /// The same interval in each lane.
+    /// Every lane holds `x`.
     #[inline(always)]
     pub fn splat(x: Interval) -> Self {
         Self::new(F8::splat(x.lo), F8::splat(x.hi))
@@ -66,7 +66,7 @@ impl I8 {
         (self.lo.0[i], self.hi.0[i]) = (x.lo, x.hi);
     }
 
-    /// The same intervals with what is said of the operands.
+    /// Adds the marks of the operands.
     #[inline(always)]
     pub(crate) fn said(mut self, a: &Self, b: &Self) -> Self {
         self.partial |= a.partial | b.partial;
@@ -275,7 +275,7 @@ impl Number for I8 {
             let positive = lo > 0.0;
             let apart = positive | (hi < 0.0);
             let (l, h) = (below(1.0 / hi), above(1.0 / lo));
-            // What has one sign keeps it.
+            // A value of one sign stays so.
             let l = if positive & (l < 0.0) { 0.0 } else { l };
             let h = if !positive & (h > 0.0) { 0.0 } else { h };
             inverse.lo.0[i] = if apart { l } else { f64::NEG_INFINITY };
@@ -559,7 +559,7 @@ fn pow(a: &I8, b: &I8) -> I8 {
     or_by_itself(a, b, crate::lane_powers::pow(a, b), Interval::pow)
 }
 
-/// What was worked out in lanes, and the lanes that were not: each by itself.
+/// Completes a packet result: lanes in `left` are computed one by one.
 #[inline(always)]
 fn or_by_itself(a: &I8, b: &I8, (out, left): (I8, u8), f: impl Fn(Interval, Interval) -> Range) -> I8 {
     let mut out = out.said(a, b);

@@ -7,7 +7,7 @@ use crate::{F8, Interval, M8, lane_angles, lane_powers, lane_waves, noise};
 
 const NAN: F8 = F8::splat(f64::NAN);
 
-/// What was worked out in lanes, and the lanes that were not: each by itself.
+/// Completes a packet result: unknown lanes are computed one by one.
 #[inline(always)]
 fn or_by_itself((mut out, known): (F8, M8), f: impl Fn(usize) -> f64) -> F8 {
     for i in (!known).lanes() {
@@ -77,7 +77,7 @@ impl Number for F8 {
             base = base * base;
             left >>= 1;
         }
-        // What is undefined stays so, also to the power of zero.
+        // Undefined stays undefined, even to the power of zero.
         let result = defined(a).select(result, NAN);
         if n < 0 { a.equals(Self::ZERO).select(NAN, Self::ONE / result) } else { result }
     }
@@ -193,7 +193,7 @@ mod tests {
         f64::NAN,
     ];
 
-    /// The same but for rounding: a few units in the last place, and what the reduction of a large angle leaves.
+    /// Equal up to rounding: a few ulp, and the error of the reduction of a large angle.
     fn agree(lane: f64, single: f64) -> bool {
         lane == single
             || lane.is_nan() && single.is_nan()

@@ -1,7 +1,9 @@
 //! Powers of eight intervals at once, with any exponents of one sign.
 //!
-//! `x^y` is monotone in each of its two numbers as long as `x` and `y` keep their signs: the corners of a box have its extremes, and `y` counts the other way round for `x`
-//! below 1. What is left (bases that may be negative or vanish, exponents of either sign or far out) goes lane by lane to [`Interval::pow`].
+//! `x^y` is monotone in each operand as long as `x` and `y` keep their signs: the corners of a box
+//! hold its extremes, with `y` in the opposite order for `x` below 1. All other cases (bases that
+//! may be negative or zero, exponents of either sign or very large) go lane by lane to
+//! [`Interval::pow`].
 
 use crate::lane_logs::{MOST_POWER, power, power_error};
 use crate::{F8, I8, Isa, M8, U};

@@ -24,14 +24,14 @@ const PARTS: [f64; 3] = [
 /// A sum with it is a whole number.
 const WHOLE: f64 = 6_755_399_441_055_744.0;
 
-/// What arguments come to: the sine and the cosine of what is left of whole quarter turns, and the number of these.
+/// A reduced argument: sine and cosine of the rest, and the number of whole quarter turns.
 struct Turned {
     sine: F8,
     cosine: F8,
     k: F8,
 }
 
-/// Of anything in lanes that are [`FAR`].
+/// Lanes that are [`FAR`] hold anything.
 #[inline(always)]
 fn turned(x: &F8) -> Turned {
     let mut out = Turned { sine: F8::ZERO, cosine: F8::ZERO, k: F8::ZERO };

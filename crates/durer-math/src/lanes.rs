@@ -57,13 +57,13 @@ impl F8 {
     /// One in every lane.
     pub const ONE: Self = Self([1.0; LANES]);
 
-    /// The same number in every lane.
+    /// Every lane holds `x`.
     #[inline(always)]
     pub const fn splat(x: f64) -> Self {
         Self([x; LANES])
     }
 
-    /// The same numbers in every lane, one after the other.
+    /// One packet for each number; every lane holds that number.
     #[inline(always)]
     pub const fn splats<const N: usize>(x: [f64; N]) -> [Self; N] {
         let mut all = [Self::ZERO; N];
@@ -75,9 +75,10 @@ impl F8 {
         all
     }
 
-    /// Becomes `x` in some lanes.
+    /// Replaces the value by `x` in some lanes.
     ///
-    /// The compiler is kept from making a masked store of this, which takes long on some machines (docs/performance.md, "What helped", 6).
+    /// Written so that the compiler does not emit a masked store, which is slow on some machines
+    /// (docs/performance.md, "What helped", 6).
     #[inline(always)]
     pub fn set_where(&mut self, lanes: M8, x: Self) {
         let old = *self;
@@ -177,7 +178,7 @@ impl M8 {
         Self(lanes!(0, i => all_bits(i < n)))
     }
 
-    /// The same answer in every lane.
+    /// Every lane holds `x`.
     #[inline(always)]
     pub const fn splat(x: bool) -> Self {
         if x { Self::ALL } else { Self::NONE }
@@ -272,13 +273,13 @@ impl M8 {
 }
 
 impl Vec3<F8> {
-    /// The same vector in every lane.
+    /// Every lane holds `v`.
     #[inline(always)]
     pub const fn splat(v: Vec3) -> Self {
         Self::new(F8::splat(v.x), F8::splat(v.y), F8::splat(v.z))
     }
 
-    /// The same vectors in every lane, one after the other.
+    /// One packet for each vector; every lane holds that vector.
     #[inline(always)]
     pub const fn splats<const N: usize>(v: [Vec3; N]) -> [Self; N] {
         let mut all = [Self::splat(Vec3::ZERO); N];

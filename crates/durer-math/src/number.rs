@@ -5,7 +5,8 @@
 
 use crate::{Dual, F8, Interval, Joined, elementary, noise};
 
-/// What formulas are made of. Operations take references: the types may be large.
+/// The number types on which formulas are evaluated. Operations take references: the types may be
+/// large.
 pub trait Number: Copy + Joined {
     /// A number that is known within an interval.
     fn constant(c: Interval) -> Self;
@@ -45,7 +46,7 @@ pub trait Number: Copy + Joined {
     fn pow(a: &Self, b: &Self) -> Self;
     /// The angle of `(x, y)`.
     fn atan2(y: &Self, x: &Self) -> Self;
-    /// What whole numbers of `b` leave of `a`, with the sign of `a`.
+    /// The remainder of `a / b` with the sign of `a` (C's `fmod`).
     fn rem(a: &Self, b: &Self) -> Self;
     /// A function of one number.
     fn function(f: Function, a: &Self) -> Self;
@@ -62,7 +63,7 @@ pub trait Number: Copy + Joined {
     fn select(c: &Self, below: &Self, at: &Self, above: &Self) -> Self;
     /// Whether it is defined and exactly zero.
     fn is_zero(&self) -> bool;
-    /// What is known of a number that is at least `a`, if `a` is certainly above 1.
+    /// A number of which only `>= a` is known, if `a` is certainly above 1.
     fn above(a: &Self) -> Option<Self>;
 }
 
@@ -197,7 +198,7 @@ impl Number for f64 {
     }
     #[inline(always)]
     fn powi(a: &Self, n: i32) -> Self {
-        // What is undefined stays so, also to the power of zero.
+        // Undefined stays undefined, even to the power of zero.
         if a.is_nan() || (*a == 0.0 && n < 0) { Self::NAN } else { elementary::powi(*a, n) }
     }
     #[inline(always)]
@@ -267,9 +268,10 @@ impl Sloped for f64 {
     }
 }
 
-/// What the derivatives of a [`Dual`] are: one number, or a [`Gradient`], whose directions share all that goes into slopes.
+/// The derivatives of a [`Dual`]: one number, or a [`Gradient`], whose directions share all factors
+/// of slopes.
 pub trait Slopes<T>: Copy {
-    /// Of what does not vary.
+    /// The slopes of a constant.
     fn zero() -> Self;
     /// Nothing is known.
     fn unknown() -> Self;
@@ -281,13 +283,13 @@ pub trait Slopes<T>: Copy {
     fn negated(a: &Self) -> Self;
     /// `k a`.
     fn scaled(k: &T, a: &Self) -> Self;
-    /// The same with a number that is finite and not zero.
+    /// `k a` for a finite `k` that is not zero.
     fn times(k: f64, a: &Self) -> Self;
     /// `a / k`.
     fn divided(a: &Self, k: &T) -> Self;
     /// One of three by the sign of `c`: below, at and above zero.
     fn selected(c: &T, below: &Self, at: &Self, above: &Self) -> Self;
-    /// The same, and it is known of each whether it is exactly zero.
+    /// The same values; each is marked if it is exactly zero.
     fn settled(&self) -> Self;
     /// Whether all are known to be exactly zero.
     fn are_zero(&self) -> bool;

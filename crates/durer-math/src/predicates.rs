@@ -1,22 +1,24 @@
 //! On which side of an edge does a ray pass? Exactly, and never "on it".
 //!
-//! For the ray `o + t d` and the edge from `v1` to `v2`, with `a = v1 - o` and `b = v2 - o`, the sign of
+//! For the ray `o + t d` and the edge from `v1` to `v2`, with `a = v1 - o` and `b = v2 - o`, the
+//! side is the sign of
 //!
 //! ```text
 //!     U = d . (b x a)
 //! ```
 //!
-//! tells the side. It comes in three stages: an f64 value with Shewchuk's bound (`orient3d`, stage A), then a sum of all its
-//! terms, each exact (`exact_sum.rs`), then, only where exponents are so wild that these could under- or overflow, [`Dyadic`].
-//! J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", Discrete &
-//! Computational Geometry 18 (1997).
+//! It is computed in three stages: in f64 with Shewchuk's bound (`orient3d`, stage A); as a sum of
+//! exact terms (`exact_sum.rs`); and, only where exponents are so extreme that these could under-
+//! or overflow, with [`Dyadic`]. J. R. Shewchuk, "Adaptive precision floating-point arithmetic and
+//! fast robust geometric predicates", Discrete & Computational Geometry 18 (1997).
 //!
-//! **Ties.** If `U = 0`, the ray is moved symbolically to `o + eps x_a + eps^2 x_b`, where `a < b` are the axes other than the
-//! first one on which `|d|` is largest (simulation of simplicity: H. Edelsbrunner, E. P. Mücke, ACM Transactions on
-//! Graphics 9, 1990). With `e = v2 - v1` the derivatives of `U` are `(e x d)_a` and `(e x d)_b`; the first that is not zero
-//! gives the sign. Both are zero only if `e` is parallel to `d` (or is zero). The rule knows coordinates only: two triangles that
-//! share an edge see exactly opposite signs, whether or not they share an index, so a ray crosses a closed mesh an even number of
-//! times, vertices and edges included.
+//! **Ties.** If `U = 0`, the ray is moved symbolically to `o + eps x_a + eps^2 x_b`, where `a < b`
+//! are the axes other than the first one on which `|d|` is largest (simulation of simplicity: H.
+//! Edelsbrunner, E. P. Mücke, ACM Transactions on Graphics 9, 1990). With `e = v2 - v1` the
+//! derivatives of `U` are `(e x d)_a` and `(e x d)_b`; the first that is not zero gives the sign.
+//! Both are zero only if `e` is parallel to `d` (or is zero). The rule uses coordinates only: two
+//! triangles with a common edge get exactly opposite signs, whether or not they share an index. So
+//! a ray crosses a closed mesh an even number of times, vertices and edges included.
 //!
 //! Coordinates must be finite; for others the answers are meaningless, but nothing panics.
 
@@ -52,7 +54,7 @@ pub struct Edge {
 pub struct EdgeRay {
     o: Point3,
     d: Vec3,
-    /// What underflow can do to `U`.
+    /// A bound on the underflow error of `U`.
     floor: f64,
 }
 

@@ -37,7 +37,7 @@ pub struct Source {
     pub side: RaySide,
 }
 
-/// A side of a surface, told by its outward (or stored) normal.
+/// A side of a surface, by its outward (or stored) normal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RaySide {
     /// Where the normal points.
@@ -52,7 +52,7 @@ impl Ray {
         Self { origin, direction, t_min: 0.0, t_max: f64::INFINITY, source: None }
     }
 
-    /// The same ray with another range.
+    /// Returns this ray with another range.
     #[must_use]
     pub const fn with_range(mut self, t_min: f64, t_max: f64) -> Self {
         self.t_min = t_min;
@@ -60,7 +60,8 @@ impl Ray {
         self
     }
 
-    /// The same ray, known to start at `side` of a primitive. For `SurfacePoint::spawn`, which has proved it.
+    /// Returns this ray, known to start at `side` of a primitive, as `SurfacePoint::spawn` has
+    /// proven.
     #[doc(hidden)]
     #[must_use]
     pub const fn spawned_from(mut self, source: Option<Source>) -> Self {

@@ -1,6 +1,7 @@
-//! Numbers that may be f32: where something is so rough that f32's roundings do not count beside it, eight of them fill one register of AVX2 in place of two.
+//! Numbers that may be f32. Where f32's rounding is small compared with other errors, eight numbers
+//! fill one AVX2 register instead of two.
 //!
-//! What is said with either kind is certain: each charges its own roundings ([`Real::U`]).
+//! Results with either type are certain: each includes its own rounding errors ([`Real::U`]).
 
 use crate::lanes::LANES;
 use crate::scale::pow2;
@@ -106,7 +107,7 @@ impl<T: Real> Eight<T> {
     /// Zero in every lane.
     pub const ZERO: Self = Self([T::ZERO; LANES]);
 
-    /// The same number in every lane.
+    /// Every lane holds `x`.
     #[inline(always)]
     pub const fn splat(x: T) -> Self {
         Self([x; LANES])

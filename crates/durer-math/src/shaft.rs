@@ -135,7 +135,8 @@ impl Shaft {
         let (falls, climbs) = (falls - slope, climbs + slope);
         let lowest = if falls < 0.0 { least + self.t_max * falls * (1.0 + 16.0 * U) } else { least };
         let highest = if climbs > 0.0 { most + self.t_max * climbs * (1.0 + 16.0 * U) } else { most };
-        // What cancels in the last sum was rounded at its own size. Where something is not a number, nothing is disproved.
+        // The last sum was rounded at the size of its operands before they cancel. A NaN disproves
+        // nothing.
         let above = lowest > (least.abs() + lowest.abs()) * (4.0 * U);
         let below = highest < -((most.abs() + highest.abs()) * (4.0 * U));
         !above && !below

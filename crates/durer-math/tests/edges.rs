@@ -275,7 +275,7 @@ fn integer_rays_cross_a_cube_an_even_number_of_times() {
     assert!(check_parity(&mesh, 4, inside, 24_000, 2) > 23_667);
 }
 
-/// The same rule on a scale where the filter and the expansions give up.
+/// The parity law on a scale where the filter and the expansions fail.
 #[test]
 fn parity_holds_on_a_subnormal_octahedron() {
     let shrink = |p: Point3| p.map(|x| durer_math::scale::ldexp(x, -1070));
@@ -289,7 +289,8 @@ fn parity_holds_on_a_subnormal_octahedron() {
     }
 }
 
-/// What the rule replaces: counting a zero as positive (inclusive edges) miscounts on the same rays, so the rays do test ties.
+/// The naive rule, zero counts as positive (inclusive edges), miscounts on these rays; so the rays
+/// do test ties.
 #[test]
 fn the_rays_of_the_parity_test_do_meet_ties() {
     let mesh = octahedron(4);

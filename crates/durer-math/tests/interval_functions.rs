@@ -167,7 +167,7 @@ fn powers_and_angles_hold_the_exact_values() {
         let (a, b) = (Interval::new(v - reach, v + reach), Interval::new(u - reach, u + reach));
         let (range, _) = a.atan2(b);
         assert!(holds(range, &angle), "atan2({v}, {u}) within {reach}: {angle} not in {range:?}");
-        // The same in lanes, which is as narrow.
+        // The packet version is as narrow.
         let lanes = I8::atan2(&I8::splat(a), &I8::splat(b)).lane(3);
         assert!(holds(lanes, &angle), "atan2({v}, {u}) within {reach}: {angle} not in {lanes:?}");
         let same = |x: f64, y: f64| (x - y).abs() <= 32.0 * f64::EPSILON * y.abs();
@@ -186,7 +186,8 @@ fn powers_and_angles_hold_the_exact_values() {
     assert!(worst <= ULPS / 2.0, "pow: {worst} ulp");
 }
 
-/// What eight lanes say holds what f64 says of points in their boxes; where f64 says NaN the lane says that it may be undefined.
+/// Each lane encloses the f64 values of points in its boxes; where f64 gives NaN the lane is marked
+/// as partly undefined.
 #[test]
 fn lanes_hold_the_values_of_points() {
     let mut dice = Dice(5);

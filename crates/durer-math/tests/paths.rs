@@ -1,4 +1,4 @@
-//! The same bits on every path, and the door's environment variable.
+//! All instruction paths give the same bits, also when the environment variable selects one.
 #![allow(missing_docs, reason = "a test program")]
 
 use durer_math::kernels::Path;

@@ -1,12 +1,15 @@
 //! Elementary functions of intervals.
 //!
-//! Each function of f64 comes from [`elementary`](crate::elementary), a port of musl's and CORE-MATH's functions, whose authors state errors
-//! below 1 ulp for most and below 2 to 4 ulp for the hyperbolic ones and their inverses. Those statements are no proofs, so every value is
-//! widened by [`ULPS`] ulp, at least twice the largest error stated, and `tests/interval_functions.rs` measures the true errors against
-//! multi-precision arithmetic. What rests on no measurement: where a function rises, falls or has its extremes, and the limits of its range.
+//! Each function of f64 comes from [`elementary`](crate::elementary), a port of musl's and
+//! CORE-MATH's functions. Their authors state errors below 1 ulp for most, and below 2 to 4 ulp for
+//! the hyperbolic functions and their inverses. These statements are not proofs, so every value is
+//! widened by [`ULPS`] ulp, at least twice the largest stated error, and
+//! `tests/interval_functions.rs` measures the true errors against multi-precision arithmetic.
+//! Monotonicity, extremes and ranges of the functions are proven and need no measurement.
 //!
-//! Where a function is undefined on a part of the interval, the result holds its values on the rest, and [`Defined`] says so: the decorations
-//! of IEEE 1788-2015, "Standard for interval arithmetic", clause 8, as far as root finding asks for them.
+//! Where a function is undefined on a part of the interval, the result encloses its values on the
+//! rest, and [`Defined`] reports it: the decorations of IEEE 1788-2015, "Standard for interval
+//! arithmetic", clause 8, as far as root finding needs them.
 
 use super::Interval;
 use crate::elementary as f64s;
@@ -17,7 +20,7 @@ use core::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI};
 /// Bessel functions apart, which are not used), and what the tests measure is below 2.
 pub const ULPS: f64 = 8.0;
 
-/// What is known of a function on an interval.
+/// Where a function is defined and continuous on an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Defined {
     /// It is defined and continuous everywhere.
@@ -338,7 +341,7 @@ impl Interval {
         self.steps(f64::trunc)
     }
 
-    /// What is left of `self` after as many whole `b` as go into it towards zero; the sign is that of `self`. Undefined for `b = 0`.
+    /// The remainder of `self / b` with the sign of `self` (C's `fmod`). Undefined for `b = 0`.
     pub fn remainder(self, b: Self) -> Range {
         if b.lo == 0.0 && b.hi == 0.0 {
             return NONE;
@@ -362,7 +365,8 @@ impl Interval {
         (Self { lo, hi }, if size.lo > 0.0 { Jumps } else { Partly })
     }
 
-    /// The same for one number `b > 0` where no whole multiple of it lies above the lower end (of what is positive): remainders of numbers are exact.
+    /// The remainder by one number `b > 0` if no multiple of `b` lies above the lower end (of a
+    /// positive interval). Remainders of numbers are exact.
     fn remainder_of_one(self, b: Self) -> Option<Self> {
         if self.hi <= 0.0 && self.lo < 0.0 {
             return (-self).remainder_of_one(b).map(|rest| -rest);

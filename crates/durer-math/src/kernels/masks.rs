@@ -1,7 +1,7 @@
 //! Eight masks as eight bits.
 //!
-//! The compiler sees through a comparison that becomes a mask that becomes a bit, and puts the bits together in pieces, with shifts and through memory: thirty instructions and more, where
-//! seven do (docs/performance.md, "What helped", 5).
+//! From portable code the compiler makes thirty instructions and more, with shifts and memory;
+//! seven are enough (docs/performance.md, "What helped", 5).
 
 use crate::lanes::LANES;
 

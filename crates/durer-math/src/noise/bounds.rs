@@ -54,7 +54,7 @@ pub(crate) fn bounds(p: [&I8; 3]) -> I8 {
     )
 }
 
-/// The same with bounds of its derivatives.
+/// Bounds of noise and of its derivatives.
 #[inline(never)]
 pub(crate) fn slopes(p: [&I8; 3]) -> (I8, [I8; 3]) {
     Isa::detect().run_in_lanes(
@@ -118,7 +118,7 @@ fn around(p: [&I8; 3], lanes: M8, out: &mut (I8, [I8; 3])) {
     }
 }
 
-/// What is known of noise anywhere.
+/// Bounds that hold everywhere.
 #[inline(always)]
 fn nothing(p: [&I8; 3]) -> (I8, [I8; 3]) {
     let v = I8::new(F8::splat(-RANGE), F8::splat(RANGE)).said(p[0], p[1]).said(p[2], p[2]);
@@ -136,7 +136,7 @@ fn narrow(x: &mut I8, i: usize, lo: f64, hi: f64) {
 /// The part of a box along an axis that is in one cell.
 #[derive(Clone, Copy)]
 struct Part {
-    /// What the cell's lower corner adds to the hash.
+    /// The contribution of the cell's lower corner to the hash.
     corner: [u32; 8],
     /// From where to where, in the cell.
     lo: F8,
@@ -355,7 +355,7 @@ fn slope(within: &[Within; 3], corners: &[Sum<f32>; 8], [axis, second, third]: [
     Ends { lo: lo - margin, hi: hi + margin }
 }
 
-/// The same of an edge's two corners: `f' (b - a)`, and the slopes there.
+/// Bounds for an edge with two corners: `f' (b - a)`, and the slopes there.
 #[inline(always)]
 fn pair(within: &[Within; 3], axis: usize, a: &Sum<f32>, b: &Sum<f32>) -> Ends {
     // The difference is linear along all axes.

@@ -24,7 +24,7 @@ use crate::{F8, Isa};
 
 /// Bound on the rounding errors of a value, in roundings of 1.
 const VALUE_ROUNDINGS: f32 = 80.0;
-/// The same of a derivative.
+/// The error bound of a derivative, in roundings.
 const SLOPE_ROUNDINGS: f32 = 320.0;
 
 /// Primes that take the three whole numbers apart: those of Y. Collet's xxHash.
@@ -52,7 +52,7 @@ impl Grain for f32 {
 
 /// A coordinate: its cell, and where in it.
 struct Along<T> {
-    /// What the two corners of the cell add to the hash.
+    /// The contribution of the cell's two corners to the hash.
     corner: [[u32; 8]; 2],
     /// How far from these.
     from: [Eight<T>; 2],
@@ -79,7 +79,7 @@ impl<T: Grain> Along<T> {
 }
 
 impl Along<f64> {
-    /// Of any numbers.
+    /// The cells of any numbers.
     #[inline(always)]
     fn of(x: &F8, apart: u32) -> Self {
         let (mut corner, mut t) = ([0; 8], Eight::ZERO);
@@ -122,7 +122,7 @@ fn mixed(x: u32) -> u32 {
     x ^ x >> 16
 }
 
-/// What the numbers of a corner of each lane's cell come to.
+/// The hash of one corner of each lane's cell.
 #[inline(always)]
 fn hashes<T>(along: &[Along<T>; 3], corner: usize) -> [u32; 8] {
     let mut hash = [0; 8];
@@ -211,7 +211,7 @@ impl<T: Grain> Sum<T> {
         each_corner!(c => said.splat(c).seen(along, c))
     }
 
-    /// What one lane says, in all.
+    /// One lane's value and slopes in all lanes.
     #[inline(always)]
     fn splat(&self, lane: usize) -> Self {
         let [x, y, z] = &self.d;
@@ -221,7 +221,7 @@ impl<T: Grain> Sum<T> {
         }
     }
 
-    /// What a corner's value and slope come to at the points.
+    /// The value and the slope that a corner contributes at the points.
     #[inline(always)]
     fn seen(mut self, along: &[Along<T>; 3], corner: usize) -> Self {
         let [gx, gy, gz] = self.d;
@@ -231,7 +231,7 @@ impl<T: Grain> Sum<T> {
         self
     }
 
-    /// Of all corners.
+    /// Blends all corners.
     #[inline(always)]
     fn of(along: &[Along<T>; 3], c: &[Self; 8]) -> Self {
         let near = Self::blended(
@@ -272,7 +272,7 @@ pub(crate) fn values(p: [&F8; 3]) -> F8 {
     )
 }
 
-/// The same with its derivatives.
+/// Noise and its derivatives.
 #[inline(never)]
 pub(crate) fn slants(p: [&F8; 3]) -> (F8, [F8; 3]) {
     Isa::detect().run_in_lanes(

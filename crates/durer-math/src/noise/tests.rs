@@ -175,7 +175,8 @@ fn bounds_hold_exact_values_and_rounded_ones() {
 fn constants_bound_the_derivatives_whatever_the_corners_have() {
     let number = |x: f64| Interval { lo: x, hi: x };
     let (one, two, six) = (number(1.0), number(2.0), number(6.0));
-    // Of the blend f(t), its first and its second derivative, and what a derivative takes of the slopes that two corners have along its axis.
+    // The blend f(t), its first two derivatives, and the weights of two corners' slopes in a
+    // derivative along their axis.
     let parts = |t: Interval| {
         let f = t.square() * (number(3.0) - two * t);
         let (d, dd) = (six * t * (one - t), six - number(12.0) * t);
@@ -229,7 +230,7 @@ fn values_and_slopes_go_on_from_cell_to_cell() {
 
 #[test]
 fn corners_are_alike_and_know_nothing_of_each_other() {
-    // What 64^3 points of the lattice have, and what the next ones along each direction have.
+    // The values at 64^3 lattice points, and at their neighbours along each direction.
     let corner = |p: [f64; 3]| {
         let (v, [x, y, z]) = slants(F8::splats(p).each_ref());
         [v.0[0] + 4.5 / 256.0, x.0[0], y.0[0], z.0[0]]
