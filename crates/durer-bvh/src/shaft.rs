@@ -1,4 +1,4 @@
-//! Which leaves lie in a shaft?
+//! Which leaves does a shaft meet?
 
 use crate::batch::each;
 use crate::kernels::MAX_DEPTH;
@@ -9,14 +9,15 @@ use durer_math::scale::pow2;
 use durer_math::{F8, Isa, Shaft, Shaft8, Vec3};
 
 impl Bvh {
-    /// Shows the leaves that a bundle of rays may meet to `visit`, in no particular order, until it says that it has seen enough; says
-    /// whether it did. Every leaf that a ray of the bundle meets is shown; what stands in several leaves may be shown several times.
+    /// Passes the leaves that a bundle of rays may meet to `visit`, in no particular order, until
+    /// it returns true; returns whether it did. Every leaf that a ray of the bundle meets is
+    /// visited; an entry in several leaves may be visited several times.
     pub fn in_shaft(&self, isa: Isa, shaft: &Shaft, mut visit: impl FnMut(Leaf) -> bool) -> bool {
         if self.is_empty() {
             return false;
         }
         let lanes = shaft.lanes();
-        // A tree may be larger than one f64 can say.
+        // Two factors, as the unit of a tree may exceed the range of one f64.
         let half = self.frame.outward_exponent() / 2;
         let units = [pow2(half), pow2(self.frame.outward_exponent() - half)];
         let mut waiting = ArrayVec::<ChildRef, { MAX_DEPTH * WIDTH }>::new();
@@ -38,7 +39,7 @@ impl Bvh {
 }
 
 impl Node {
-    /// Which children a bundle may meet, as bits; a length is to be multiplied by both units.
+    /// The mask of children that a bundle may meet. Lengths are to be multiplied by both units.
     #[inline(never)]
     fn in_shaft(&self, isa: Isa, shaft: &Shaft8, units: [f64; 2]) -> u32 {
         isa.run_in_lanes(
@@ -49,7 +50,7 @@ impl Node {
                 for half in 0..WIDTH / 8 {
                     let min = Vec3::new(wide(x0, half, units), wide(y0, half, units), wide(z0, half, units));
                     let max = Vec3::new(wide(x1, half, units), wide(y1, half, units), wide(z1, half, units));
-                    // A child that is not there has no room between its planes.
+                    // The planes of an empty slot are in the wrong order.
                     met |= u32::from((min.x.le(max.x) & shaft.may_meet(&min, &max)).bits()) << (8 * half);
                 }
                 met
@@ -58,7 +59,7 @@ impl Node {
     }
 }
 
-/// Planes in the caller's units.
+/// Planes in the caller's units, as f64.
 #[inline(always)]
 fn wide(planes: &[f32; WIDTH], half: usize, [first, second]: [f64; 2]) -> F8 {
     let planes = core::array::from_fn(

@@ -8,19 +8,20 @@ use crate::tree::Bvh;
 use durer_math::kernels::Path;
 use durer_math::{Isa, Point3, Vec3};
 
-/// What is done with a tree, for any kernel.
+/// An operation on a tree that works with any kernel.
 pub(crate) trait Traversal {
     type Answer;
     fn run<K: Abreast>(self, kernel: K, tree: &Bvh) -> Self::Answer;
 }
 
 impl Bvh {
-    /// Shows what the ray might meet to `test`, front to back as far as the order of octants tells; `test` returns the parameter
-    /// beyond which nothing matters any more.
+    /// Passes what the ray might hit to `test`, front to back as far as the order of octants
+    /// allows. `test` returns the parameter beyond which nothing matters any more.
     ///
-    /// Every leaf in whose box the exact ray is at some `t` in its range, not beyond the least limit so far, is shown; of
-    /// triangles those alone that the ray may meet there, one by one, and not one that is certainly behind another that it certainly meets
-    /// and that `admits` admits.
+    /// Every leaf is tested in whose box the exact ray is at some `t` in its range, not beyond the
+    /// least limit so far. Of triangles only those are tested, one by one, that the ray may hit
+    /// there, without those that are certainly behind another triangle that it certainly hits and
+    /// for which `admits` returns true.
     #[inline(always)]
     pub fn closest(
         &self,
@@ -32,11 +33,13 @@ impl Bvh {
         self.with_kernel(isa, Single::<_, _, true> { sight, quest: Closest(Callbacks { admits, test }) });
     }
 
-    /// Shows what the ray might meet to `test`, until it says that it has found what it looked for; says whether it did, or
-    /// whether the ray certainly meets a triangle within its range that `trusts` says is it.
+    /// Passes what the ray might hit to `test` until it returns true. Returns whether it did, or
+    /// whether the ray certainly hits, within its range, a triangle for which `trusts` returns
+    /// true.
     ///
-    /// Every leaf in whose box the exact ray is at some `t` in its range is shown, of triangles those alone that the ray may
-    /// meet there, one by one, all in no particular order; one that stands in several leaves may be shown several times.
+    /// Every leaf is tested in whose box the exact ray is at some `t` in its range; of triangles
+    /// only those that the ray may hit there, one by one. The order is arbitrary; a triangle in
+    /// several leaves may be tested several times.
     #[inline(always)]
     pub fn any(
         &self,
@@ -48,19 +51,21 @@ impl Bvh {
         self.with_kernel(isa, Single::<_, _, false> { sight, quest: Any(Callbacks { admits: trusts, test }) })
     }
 
-    /// [`Bvh::any`] that trusts in nothing and shows each triangle once.
+    /// [`Bvh::any`] that trusts no triangle and tests each triangle once.
     #[inline(always)]
     pub fn each(&self, isa: Isa, sight: &impl TreeRay, test: impl FnMut(Leaf) -> bool) -> bool {
         self.with_kernel(isa, AllOnce { sight, test })
     }
 
-    /// Shows the leaves whose boxes may hold a point, known within `error` (per axis), to `test`, until it says that it
-    /// has found what it looked for; says whether it did. What stands in several leaves may be shown several times.
+    /// Passes the leaves whose boxes may hold a point, known within `error` (per axis), to `test`,
+    /// until it returns true; returns whether it did. An entry in several leaves may be tested
+    /// several times.
     pub fn containing(&self, point: Point3, error: Vec3, mut test: impl FnMut(Leaf) -> bool) -> bool {
         if self.is_empty() {
             return false;
         }
-        // Boxes were rounded outward after scaling; so the point may be rounded by less than that and a step.
+        // Boxes were rounded outward after scaling; so the point may be rounded by less than that
+        // and a step.
         let reach = |x: f64, e: f64| {
             let (a, b) = (self.frame.inward((x - e).next_down()), self.frame.inward((x + e).next_up()));
             (a.next_down(), b.next_up())
@@ -85,7 +90,7 @@ impl Bvh {
         false
     }
 
-    /// Picks the kernel once and enters it through the one door.
+    /// Picks the kernel once and runs a traversal, compiled for its instructions.
     #[inline(always)]
     pub(crate) fn with_kernel<E: Traversal>(&self, isa: Isa, errand: E) -> E::Answer {
         #[cfg(target_arch = "x86_64")]
@@ -109,7 +114,7 @@ impl Bvh {
     }
 }
 
-/// One ray. The answer is whether it found what it looked for.
+/// A query of one ray. The answer is whether it found what it looked for.
 struct Single<'a, S, Q, const ORDERED: bool> {
     sight: &'a S,
     quest: Q,
@@ -132,7 +137,7 @@ impl<S: TreeRay, Q: TreeQuery<ORDERED>, const ORDERED: bool> Traversal for Singl
     }
 }
 
-/// One ray that looks at everything.
+/// A query of one ray for everything that it may hit.
 struct AllOnce<'a, S, F> {
     sight: &'a S,
     test: F,
@@ -155,7 +160,7 @@ impl<S: TreeRay, F: FnMut(Leaf) -> bool> Traversal for AllOnce<'_, S, F> {
     }
 }
 
-/// Goes through what is below a child; says whether the search is over.
+/// Traverses the subtree of a child; returns whether the search is over.
 #[inline(always)]
 #[expect(
     clippy::too_many_arguments,

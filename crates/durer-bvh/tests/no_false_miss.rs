@@ -1,8 +1,10 @@
 //! No box that the exact ray meets is missed.
 //!
-//! Rays are aimed, exactly, at points of boxes: all coordinates are integers below 2^53, and the origin is `target - m d` for integers
-//! `m` and `d`, without rounding, so the exact ray is in the box at `t = m`. Targets are corners, edges, faces and insides; directions have
-//! components that are zero or one unit; origins are near, on faces, and far; whole scenes are scaled by powers of two.
+//! Rays are aimed, exactly, at points of boxes: all coordinates are integers below 2^53, and the
+//! origin is `target - m d` for integers `m` and `d`, without rounding, so the exact ray is in the
+//! box at `t = m`. Targets are corners, edges, faces and interiors; directions have components that
+//! are zero or one unit; origins are near, on faces, and far; whole scenes are scaled by powers of
+//! two.
 
 mod common;
 
@@ -35,7 +37,7 @@ fn boxes(dice: &mut Dice, grid: i64) -> Vec<(Place, Place)> {
     (0..count).map(|_| one(dice)).collect()
 }
 
-/// A point of a box: on each axis an end or something between.
+/// A point of a box: on each axis an end or a point between.
 fn aim(dice: &mut Dice, (lo, hi): (Place, Place)) -> Place {
     core::array::from_fn(|i| match dice.below(3) {
         0 => lo[i],
@@ -44,7 +46,7 @@ fn aim(dice: &mut Dice, (lo, hi): (Place, Place)) -> Place {
     })
 }
 
-/// A direction and a number of steps along it that lead to a target from a place that is exact too.
+/// A direction and a number of steps along it that lead to the target from an exact origin.
 fn approach(dice: &mut Dice, target: Place) -> Option<(Place, i64)> {
     let size = [1, 9, 1000, 1 << 20][dice.below(4) as usize];
     let d: Place = core::array::from_fn(|_| match dice.below(6) {
@@ -61,7 +63,7 @@ fn approach(dice: &mut Dice, target: Place) -> Option<(Place, i64)> {
     (d != [0; 3] && (0..3).all(fits)).then_some((d, steps))
 }
 
-/// The line, and its `t` at the target.
+/// The ray, and its `t` at the target.
 fn line(target: Place, (d, steps): (Place, i64), k: i32) -> (Ray64, f64) {
     let direction = Vec3::from(d.map(|x| x as f64));
     let e = exponent(direction.max_abs());
@@ -77,7 +79,7 @@ fn line(target: Place, (d, steps): (Place, i64), k: i32) -> (Ray64, f64) {
     (line, scale2(steps as f64, e + k))
 }
 
-/// All queries, on all paths, show the leaf that holds box `wanted`.
+/// Checks that all queries, on all paths, visit the leaf that holds box `wanted`.
 fn assert_shown(tree: &Bvh, order: &[u32], line: &Ray64, t_hit: f64, wanted: u32) {
     let slot = order.iter().position(|&i| i == wanted).expect("each box is in a leaf") as u32;
     for isa in Isa::available() {
@@ -178,7 +180,7 @@ fn rays_that_are_known_within_errors_meet_what_the_exact_ones_meet() {
         let known = Ray64 {
             origin: line.origin + do_,
             direction,
-            // The sums were rounded, too.
+            // These errors include the rounding of the sums.
             origin_error: do_.abs() + room * line.origin.to_vec().max_abs().max(1.0),
             direction_error: dd.abs() + room,
             ..line
@@ -210,7 +212,7 @@ fn points_are_found_in_their_boxes() {
 
 #[test]
 fn boxes_far_off_the_ray_are_not_tested() {
-    // Conservative must not mean everything: of a row of boxes a ray across meets few.
+    // The test is conservative but not useless: a ray across a row of boxes meets few of them.
     let boxes: Vec<Aabb> = (0..4096)
         .map(|i| Aabb::centred(Point3::new(f64::from(i), 0.0, 0.0), Vec3::new(0.25, 0.25, 0.25)))
         .collect();

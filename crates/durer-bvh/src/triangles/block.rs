@@ -6,31 +6,33 @@ use durer_math::Point3;
 /// How many triangles a block holds.
 pub(crate) const LANES: usize = 16;
 
-/// How many bits of a lane's tag are its triangle's number; the others hold the [`Block::size`].
+/// How many bits of a lane's tag are its triangle's slot; the others hold the [`Block::size`].
 const SLOT_BITS: u32 = 27;
 const SLOT: u32 = (1 << SLOT_BITS) - 1;
 
-/// How many bits of a size are not kept.
+/// How many low bits of a size are not stored.
 const SIZE_SHIFT: u32 = 31 - 10;
 
-/// The least size of a block: with a lesser one the filter's own roundings could underflow.
+/// The least size of a block: with a smaller one the filter's own roundings could underflow.
 const SMALLEST: f64 = 1.0 / (1_u128 << 100) as f64;
 
-/// Sixteen triangles in tree units: corners, each coordinate rounded once to f32, and slots. Ten cache lines, all of which a test reads.
+/// Sixteen triangles in tree units: corners, each coordinate rounded once to f32, and slots. Ten
+/// cache lines, all of which a test reads.
 ///
-/// A lane without a triangle holds NaN, which no comparison finds.
+/// A lane without a triangle holds NaN, for which all comparisons are false.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct Block {
     /// `x`, `y`, `z` of `v0`, of `v1`, of `v2`.
     pub(crate) rows: [[f32; LANES]; 9],
-    /// The triangle's slot in the lower 27 bits. The upper five of the first two lanes are the first ten bits of [`Block::size`] behind the sign.
+    /// The triangle's slot in the lower 27 bits. The upper five bits of the first two lanes are the
+    /// first ten bits of [`Block::size`] after the sign.
     tags: [u32; LANES],
 }
 
 const _: () = assert!(size_of::<Block>() == 10 * 64 && crate::node::MAX_ENTRIES == 1 << SLOT_BITS);
 
-/// The same bits: empty lanes are equal, too.
+/// Compares bits, so that empty lanes are equal, too.
 impl PartialEq for Block {
     fn eq(&self, other: &Self) -> bool {
         let bits = |block: &Self| block.rows.map(|row| row.map(f32::to_bits));
@@ -38,11 +40,12 @@ impl PartialEq for Block {
     }
 }
 
-/// Corners of a triangle in the caller's units.
+/// The corners of a triangle, in the caller's units.
 pub type Corners = [Point3; 3];
 
 impl Block {
-    /// A block of triangles and their slots: at most sixteen. Also says whether f32 holds all corners.
+    /// A block of triangles and their slots, at most sixteen, and whether f32 holds all corners
+    /// exactly.
     #[inline(always)]
     pub(crate) fn new(frame: Frame, triangles: impl Iterator<Item = (u32, Corners)>) -> (Self, bool) {
         let mut block = Self { rows: [[f32::NAN; LANES]; 9], tags: [SLOT; LANES] };
@@ -54,7 +57,7 @@ impl Block {
                 for axis in 0..3 {
                     let inward = frame.inward(v[axis]);
                     let x = inward as f32;
-                    // Neither scaling nor rounding has lost anything.
+                    // Whether neither scaling nor rounding has lost anything.
                     is_held &= (f64::from(x) == inward) & (frame.outward(inward) == v[axis]);
                     block.rows[3 * i + axis][lane] = x;
                     lo[axis] = if x < lo[axis] { x } else { lo[axis] };
@@ -70,22 +73,23 @@ impl Block {
         }
         let widths: f64 = (0..3).map(|i| f64::from(hi[i]) - f64::from(lo[i])).sum();
         let size = if is_held { edge } else { widths };
-        // Two bits of the fraction: rounded by a unit of the 24th bit and more, and grown by one of the third.
+        // Keeps two bits of the fraction. The size is rounded by a unit of the 24th bit and more,
+        // and increased by one of the third.
         let upper = (size.max(SMALLEST) as f32).to_bits() / (1 << SIZE_SHIFT) + 1;
         block.tags[0] |= (upper & 31) << SLOT_BITS;
         block.tags[1] |= (upper >> 5) << SLOT_BITS;
         (block, is_held)
     }
 
-    /// What the magnitudes of an edge from a first corner, all three added, do not exceed; nor do the widths of a box around all triangles if f32 does not
-    /// hold all corners.
+    /// A bound on the sum of the magnitudes of an edge from a first corner, and, if f32 does not
+    /// hold all corners, on the sum of the widths of a box around all triangles.
     #[inline(always)]
     pub(crate) fn size(&self) -> f32 {
         let upper = (self.tags[0] >> SLOT_BITS) | (self.tags[1] >> SLOT_BITS << 5);
         f32::from_bits(upper << SIZE_SHIFT)
     }
 
-    /// How many triangles it holds.
+    /// How many triangles the block holds.
     pub(crate) fn len(&self) -> usize {
         self.rows[0].iter().take_while(|x| !x.is_nan()).count()
     }
@@ -96,7 +100,7 @@ impl Block {
         self.tags[lane & (LANES - 1)] & SLOT
     }
 
-    /// The corners of a lane's triangle as they are kept, in the caller's units, which are `1 / grow`.
+    /// The stored corners of a lane's triangle, in the caller's units, which are `1 / grow`.
     #[inline(always)]
     pub(crate) fn corners(&self, grow: f64, lane: usize) -> Corners {
         let lane = lane & (LANES - 1);

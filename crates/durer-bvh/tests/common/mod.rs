@@ -1,9 +1,9 @@
-//! What the tests share: numbers, boxes, trees.
+//! Shared by the tests: random numbers, boxes, trees.
 
 use durer_bvh::{Bvh, Frame, Settings};
 use durer_math::Aabb;
 
-/// A sequence of numbers that look random (splitmix64).
+/// A generator of pseudorandom numbers (splitmix64).
 pub(crate) struct Dice(pub(crate) u64);
 
 impl Dice {
@@ -33,17 +33,17 @@ impl Dice {
     }
 }
 
-/// Every way to build a tree.
+/// One setting for each quality.
 #[allow(dead_code, reason = "not every test needs it")]
 pub(crate) const QUALITIES: [Settings; 3] = [Settings::FAST, Settings::GOOD, Settings::BEST];
 
-/// A tree over boxes of one kind, and where each slot comes from.
+/// A tree over boxes of one kind, and the box in each slot.
 #[allow(dead_code, reason = "not every test needs it")]
 pub(crate) fn tree(boxes: &[Aabb]) -> (Bvh, Vec<u32>) {
     tree_of(boxes, &Settings::GOOD)
 }
 
-/// The same of any quality.
+/// A tree over boxes of one kind with these settings, and the box in each slot.
 #[allow(dead_code, reason = "not every test needs it")]
 pub(crate) fn tree_of(boxes: &[Aabb], settings: &Settings) -> (Bvh, Vec<u32>) {
     let extent = boxes.iter().copied().fold(Aabb::EMPTY, Aabb::union);

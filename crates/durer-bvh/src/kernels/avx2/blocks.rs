@@ -18,7 +18,8 @@ fn cross(a: &[__m256; 3], b: &[__m256; 3]) -> [__m256; 3] {
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
-/// Eight triangles, half a block, without a ray: the first corner, the edges from there, their cross product, and the size of the block.
+/// Eight triangles, half a block, without a ray: the first corner, the edges from there, their
+/// cross product, and the size of the block.
 pub(in crate::kernels) struct Edges {
     v: [__m256; 3],
     e1: [__m256; 3],
@@ -55,7 +56,7 @@ pub(super) fn judge(block: &Block, filter: &Filter, t_far: f32) -> Verdict {
     verdict
 }
 
-/// What `Scalar::judge` does, in two halves; says which are alive, and the rest only if one is.
+/// `Scalar::judge` in two halves. Writes the other results only if a triangle is alive.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 pub(in crate::kernels) fn judge_halves(
@@ -70,7 +71,8 @@ pub(in crate::kernels) fn judge_halves(
     verdict.alive
 }
 
-/// One half: which are alive, and which of these surely met. Most end at the first test.
+/// One half: which triangles are alive, and which of these are certainly hit. Most calls end at the
+/// first test.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 fn judge_edges(edges: &Edges, half: usize, filter: &Filter, t_far: f32, verdict: &mut Verdict) -> (u32, u32) {
