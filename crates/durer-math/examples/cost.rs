@@ -1,7 +1,8 @@
-//! What certainty costs: the sphere's discriminant and the edge predicate, in ns per evaluation.
+//! The cost of certainty: the sphere's discriminant and the edge predicate, in ns per evaluation.
 //!
-//! `cargo run --release -p durer-math --example cost`. Each row evaluates `(o.d)^2 - d.d (o.o - 1)` for 1024 rays in cache, through the
-//! feature door and outside it; "sum" keeps the compiler from dropping the work, and is equal for equal bits.
+//! `cargo run --release -p durer-math --example cost`. Each row evaluates `(o.d)^2 - d.d (o.o - 1)`
+//! for 1024 rays in cache, inside [`durer_math::Isa::run`] and outside it. "sum" keeps the compiler
+//! from removing the work, and is equal for equal bits.
 
 use durer_math::ladder::{self, Predicate};
 use durer_math::{Dd, Dyadic, EFloat, EdgeRay, Isa, Point3, Ring, Vec3};
@@ -34,7 +35,7 @@ fn plain(p: &Discriminant) -> f64 {
     b * b - a * c
 }
 
-/// Best of several runs over all `rays`, entered through the door once per run as a leaf would be.
+/// Best of several runs over all `rays`, with one call of `run` each, as for a leaf.
 fn time<T>(name: &str, isa: Isa, rays: &[T], f: impl Fn(&T) -> f64 + Copy) {
     let (mut best, mut sum) = (f64::INFINITY, 0.0);
     for _ in 0..40 {

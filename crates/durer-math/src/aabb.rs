@@ -3,7 +3,8 @@
 use crate::rounding::{add_up, mul_up, sub_down, sub_up};
 use crate::{Point3, U, Vec3};
 
-/// The box of all points between `min` and `max`, both included. Ends may be infinite; empty if `min > max` on an axis.
+/// The box of all points between `min` and `max`, both included. Ends may be infinite; empty if
+/// `min > max` on an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
     /// The least coordinates.
@@ -28,13 +29,13 @@ impl Aabb {
     /// All of space.
     pub const UNBOUNDED: Self = Self { min: Self::EMPTY.max, max: Self::EMPTY.min };
 
-    /// From the least to the greatest coordinates.
+    /// The box from the least to the greatest coordinates.
     #[inline(always)]
     pub const fn new(min: Point3, max: Point3) -> Self {
         Self { min, max }
     }
 
-    /// The least box that holds all `points`.
+    /// The least box that contains all `points`.
     pub fn from_points(points: impl IntoIterator<Item = Point3>) -> Self {
         points.into_iter().fold(Self::EMPTY, Self::with_point)
     }
@@ -44,28 +45,28 @@ impl Aabb {
         Self { min: centre, max: centre }.expanded(half)
     }
 
-    /// The least box that holds this one and `p`.
+    /// The least box that contains this one and `p`.
     #[inline]
     #[must_use]
     pub fn with_point(self, p: Point3) -> Self {
         self.union(Self { min: p, max: p })
     }
 
-    /// The least box that holds both.
+    /// The least box that contains both.
     #[inline]
     #[must_use]
     pub fn union(self, b: Self) -> Self {
         Self { min: zip(self.min, b.min, f64::min), max: zip(self.max, b.max, f64::max) }
     }
 
-    /// The points in both; perhaps none.
+    /// The points in both boxes; possibly none.
     #[inline]
     #[must_use]
     pub fn intersection(self, b: Self) -> Self {
         Self { min: zip(self.min, b.min, f64::max), max: zip(self.max, b.max, f64::min) }
     }
 
-    /// Whether there is no point in it. A NaN makes it empty.
+    /// Whether the box has no point. A NaN makes it empty.
     #[inline]
     pub fn is_empty(&self) -> bool {
         !(self.min.x <= self.max.x && self.min.y <= self.max.y && self.min.z <= self.max.z)
@@ -77,13 +78,13 @@ impl Aabb {
         self.min.is_finite() && self.max.is_finite() && !self.is_empty()
     }
 
-    /// Whether `p` lies in it, faces included.
+    /// Whether `p` lies in the box, faces included.
     #[inline]
     pub fn contains(&self, p: Point3) -> bool {
         (0..3).all(|i| self.min[i] <= p[i] && p[i] <= self.max[i])
     }
 
-    /// Whether all of `b` lies in it.
+    /// Whether all of `b` lies in the box.
     #[inline]
     pub fn encloses(&self, b: &Self) -> bool {
         b.is_empty() || (0..3).all(|i| self.min[i] <= b.min[i] && b.max[i] <= self.max[i])
@@ -135,27 +136,29 @@ impl Aabb {
         })
     }
 
-    /// An upper bound of the largest absolute coordinate.
+    /// An upper bound on the largest absolute coordinate.
     #[inline]
     pub fn magnitude(&self) -> f64 {
         self.min.abs().max_abs().max(self.max.abs().max_abs())
     }
 
-    /// An upper bound of the distance from `p` to the farthest point of the box.
+    /// An upper bound on the distance from `p` to the farthest point of the box.
     pub fn reach_from(&self, p: Point3) -> f64 {
         let far = |i: usize| sub_up(p[i], self.min[i]).max(sub_up(self.max[i], p[i])).max(0.0);
         let squares = [far(0), far(1), far(2)].map(|x| mul_up(x, x));
         crate::rounding::sqrt_up(add_up(add_up(squares[0], squares[1]), squares[2]))
     }
 
-    /// The parameters `t` in `[t_min, t_max]` at which the line `o + t d` may be in the box, rounded outward; `None` only if it
-    /// certainly is not.
+    /// The parameters `t` in `[t_min, t_max]` at which the line `o + t d` may be in the box,
+    /// rounded outward; `None` only if it certainly is not.
     ///
-    /// Slabs: T. L. Kay, J. T. Kajiya, "Ray tracing complex scenes", SIGGRAPH (1986); signed zeros: A. Williams, S. Barrus, R. K. Morley, P. Shirley, "An
-    /// efficient and robust ray-box intersection algorithm", Journal of Graphics Tools 10 (2005); the widening: T. Ize, "Robust BVH ray
-    /// traversal", Journal of Computer Graphics Techniques 2(2), 2013. Each plane's `t` carries two roundings (difference, quotient) and
-    /// is widened by four units and the least normal number. An axis with `d = 0`, of either sign, is decided without dividing, so no NaN arises from a
-    /// finite ray.
+    /// Slabs: T. L. Kay, J. T. Kajiya, "Ray tracing complex scenes", SIGGRAPH (1986); signed zeros:
+    /// A. Williams, S. Barrus, R. K. Morley, P. Shirley, "An efficient and robust ray-box
+    /// intersection algorithm", Journal of Graphics Tools 10 (2005); the widening: T. Ize, "Robust
+    /// BVH ray traversal", Journal of Computer Graphics Techniques 2(2), 2013. Each plane's `t`
+    /// carries two roundings (difference, quotient) and is widened by four units and the least
+    /// normal number. An axis with `d = 0`, of either sign, is decided without dividing, so no NaN
+    /// arises from a finite ray.
     #[inline]
     pub fn slabs(&self, o: Point3, d: Vec3, t_min: f64, t_max: f64) -> Option<(f64, f64)> {
         /// Two roundings, and those of the widening itself.
@@ -173,7 +176,8 @@ impl Aabb {
             }
             let (near, far) =
                 if d[i] > 0.0 { (self.min[i], self.max[i]) } else { (self.max[i], self.min[i]) };
-            // A quotient that overflows belongs to a finite plane: it bounds from below no further than the greatest number.
+            // A quotient that overflows belongs to a finite plane: it bounds from below no further
+            // than the greatest number.
             let near = ((near - o[i]) / d[i]).min(f64::MAX);
             let far = ((far - o[i]) / d[i]).max(f64::MIN);
             let near = near - (WIDEN * near.abs() + f64::MIN_POSITIVE);

@@ -1,8 +1,8 @@
 //! Affine maps `x -> c + L x`.
 //!
-//! The stored `L` and `c` are exact: a placed surface *is* `{ c + L x : x in S }`. The inverse is rounded, and
-//! what that costs is known: [`Affine::inverse_error`] bounds each entry's error. The translation is never folded into the
-//! inverse, `x = L^-1 (p - c)`, because `L^-1 p - L^-1 c` cancels.
+//! The stored `L` and `c` are exact: a placed surface *is* `{ c + L x : x in S }`. The inverse is
+//! rounded, and [`Affine::inverse_error`] bounds the error of each entry. The translation is never
+//! folded into the inverse, `x = L^-1 (p - c)`, because `L^-1 p - L^-1 c` cancels.
 
 use crate::rounding::{add_up, mul_up, sqrt_up};
 use crate::{Aabb, Dd, Dyadic, EFloat, Interval, Isa, Normal3, Point3, Ring, U, Vec3, elementary};
@@ -16,7 +16,8 @@ const IDENTITY: Matrix3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 ///
 /// # Invariants
 ///
-/// - `L` and `c` are finite, `det L` is not zero (decided exactly), and the inverse's entries are finite.
+/// - `L` and `c` are finite, `det L` is not zero (decided exactly), and the inverse's entries are
+///   finite.
 ///
 /// ```
 /// use durer_math::{Affine, Point3, Vec3};
@@ -32,21 +33,21 @@ pub struct Affine {
     linear: Matrix3,
     /// Each entry is the number nearest to the exact one.
     inverse: Matrix3,
-    /// An upper bound of the spectral norm of the exact inverse.
+    /// An upper bound on the spectral norm of the exact inverse.
     inverse_norm: Above,
     centre: Point3,
     rounded: Rounded,
     mirrored: bool,
 }
 
-/// A number that is not below another one, which is not negative, and at most 2^-20 of it above: the upper half of an f64. Scenes of millions of maps hold
-/// them, and a bound needs no more.
+/// An upper bound on a number that is not negative, at most 2^-20 of the number above it: the upper
+/// half of an f64. Scenes store millions of maps, and a bound needs no more digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Above(u32);
 
 impl Above {
     const fn of(x: f64) -> Self {
-        // Positive numbers ascend as their bits do; of infinity the lower half is zero.
+        // The order of positive numbers is that of their bits; the lower half of infinity is zero.
         Self(((x.to_bits() + 0xffff_ffff) >> 32) as u32)
     }
 
@@ -55,16 +56,19 @@ impl Above {
     }
 }
 
-/// Which entries of an inverse are rounded: bit `3 i + j` is that of row `i` and column `j`; and whether one of them is [`TINY`](Self::TINY).
+/// Flags of an inverse: bit `3 i + j` is set if the entry of row `i` and column `j` is rounded;
+/// another bit if some entry is [`TINY`](Self::TINY).
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Rounded(u16);
 
 impl Rounded {
     const NONE: Self = Self(0);
-    /// Entries below this, other than zero, may have errors of more than half an ulp: see [`Rounded::slow`].
+    /// Entries below this, other than zero, may have errors of more than half an ulp: see
+    /// [`Rounded::slow`].
     const TINY: f64 = crate::scale::pow2(-960);
     const HAS_TINY: u16 = 1 << 9;
-    /// Half an ulp, and what is left of it when an entry has been rounded from a double-double that errs, too.
+    /// Half an ulp, and a little more for an entry that was rounded from a double-double, which
+    /// errs, too.
     const HALF_ULP: f64 = U * (1.0 + crate::scale::pow2(-40));
     const EXPONENT: u64 = 0x7ff << 52;
 
@@ -88,7 +92,8 @@ impl Rounded {
         errors
     }
 
-    /// At the bottom of the range the double-double errs by a few of the least number.
+    /// The bounds for tiny entries: at the bottom of the range the double-double errs by a few of
+    /// the least number.
     #[cold]
     #[inline(never)]
     fn slow(self, inverse: &Matrix3) -> Matrix3 {
@@ -101,7 +106,7 @@ impl Rounded {
     }
 }
 
-/// Why an affine map cannot be used to place something.
+/// Why an affine map cannot be used to place a surface.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum AffineError {
     /// An entry of the matrix is infinite or NaN.
@@ -137,7 +142,7 @@ pub enum AffineError {
 }
 
 impl Affine {
-    /// The map that moves nothing.
+    /// The identity.
     pub const IDENTITY: Self = Self {
         linear: IDENTITY,
         inverse: IDENTITY,
@@ -170,37 +175,38 @@ impl Affine {
         Ok(Self { linear: rows, inverse: entries, inverse_norm, centre, rounded, mirrored })
     }
 
-    /// Moves by `v`.
+    /// The translation by `v`.
     pub fn translation(v: Vec3) -> Result<Self, AffineError> {
         let centre = v.to_point();
         check_translation(centre)?;
         Ok(Self { centre, ..Self::IDENTITY })
     }
 
-    /// Scales by `x`, `y`, `z` along the axes.
+    /// The scaling by `x`, `y`, `z` along the axes.
     pub fn scaling(x: f64, y: f64, z: f64) -> Result<Self, AffineError> {
         Self::new([[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]], Point3::ORIGIN)
     }
 
-    /// Turns about the x axis: y goes to z for +90 degrees.
+    /// The rotation about the x axis: y goes to z for +90 degrees.
     pub fn rotation_x(radians: f64) -> Result<Self, AffineError> {
         let (s, c) = sine_and_cosine(radians)?;
         Self::new([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]], Point3::ORIGIN)
     }
 
-    /// Turns about the y axis: z goes to x, and x to -z, for +90 degrees.
+    /// The rotation about the y axis: z goes to x, and x to -z, for +90 degrees.
     pub fn rotation_y(radians: f64) -> Result<Self, AffineError> {
         let (s, c) = sine_and_cosine(radians)?;
         Self::new([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]], Point3::ORIGIN)
     }
 
-    /// Turns about the z axis: x goes to y for +90 degrees.
+    /// The rotation about the z axis: x goes to y for +90 degrees.
     pub fn rotation_z(radians: f64) -> Result<Self, AffineError> {
         let (s, c) = sine_and_cosine(radians)?;
         Self::new([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]], Point3::ORIGIN)
     }
 
-    /// Turns about `axis` through the origin, counter-clockwise seen from its tip (Rodrigues' formula).
+    /// The rotation about `axis` through the origin, counter-clockwise as seen from its tip
+    /// (Rodrigues' formula).
     pub fn rotation(axis: Vec3, radians: f64) -> Result<Self, AffineError> {
         let (s, c) = sine_and_cosine(radians)?;
         let k = axis.normalized().ok_or(AffineError::Axis(axis))?;
@@ -215,7 +221,8 @@ impl Affine {
         Self::new(rows, Point3::ORIGIN)
     }
 
-    /// This map first, then `next`. Composed in f64: the result's entries are rounded once each per term, and are then exact data.
+    /// The composition: this map first, then `next`. Computed in f64: each term of the result's
+    /// entries is rounded once, and the entries are then exact data.
     pub fn then(&self, next: &Self) -> Result<Self, AffineError> {
         let l = &next.linear;
         let column = |j: usize| Vec3::new(self.linear[0][j], self.linear[1][j], self.linear[2][j]);
@@ -223,15 +230,16 @@ impl Affine {
         let rows = [0, 1, 2].map(|i| [columns[0][i], columns[1][i], columns[2][i]]);
         let centre = next.point(self.centre);
         if next.linear == IDENTITY {
-            // The inverse is unchanged, so it need not be found again.
+            // The inverse matrix does not change.
             check_translation(centre)?;
             return Ok(Self { centre, ..*self });
         }
         Self::new(rows, centre)
     }
 
-    /// The inverse map, whose matrix is the rounded inverse and whose centre is rounded too: for display and cameras. Exactness is
-    /// kept by asking this map for `inverse_point` and [`Affine::inverse_error`].
+    /// The inverse map, whose matrix is the rounded inverse and whose centre is rounded too: for
+    /// display and cameras. Certified code uses this map's `inverse_point` and
+    /// [`Affine::inverse_error`] instead.
     pub fn inverted(&self) -> Result<Self, AffineError> {
         let centre = apply(&self.inverse, -self.centre.to_vec()).to_point();
         Self::new(self.inverse, centre)
@@ -249,8 +257,9 @@ impl Affine {
         self.inverse
     }
 
-    /// For each entry of [`Affine::inverse_linear`] a bound on its distance to the exact inverse of `L`: zero if it is exact, half an ulp
-    /// otherwise (for subnormal entries a few of the least number).
+    /// For each entry of [`Affine::inverse_linear`] a bound on its distance from the exact inverse
+    /// of `L`: zero if it is exact, else half an ulp (for subnormal entries a few of the least
+    /// number).
     #[inline(always)]
     pub fn inverse_error(&self) -> Matrix3 {
         self.rounded.errors(&self.inverse)
@@ -268,7 +277,7 @@ impl Affine {
         self.mirrored
     }
 
-    /// The translation, if the map is nothing else.
+    /// The translation, if the map is only a translation.
     #[inline]
     pub fn as_translation(&self) -> Option<Vec3> {
         (self.linear == IDENTITY).then(|| self.centre.to_vec())
@@ -298,14 +307,15 @@ impl Affine {
         apply(&self.linear, v)
     }
 
-    /// The image of a normal, by the inverse transpose; not of unit length. Points to the same side of the surface, also if the map
-    /// mirrors.
+    /// The image of a normal, by the inverse transpose; not of unit length. It points to the same
+    /// side of the surface, also if the map mirrors.
     #[inline(always)]
     pub fn normal(&self, n: Normal3) -> Normal3 {
         apply_transposed(&self.inverse, n.to_vec()).to_normal()
     }
 
-    /// The point that is mapped to `p`: `Linv (p - c)`. Error: `gamma(4) |Linv||p - c| + E|p - c|`, `E` the inverse's error.
+    /// The point that is mapped to `p`: `Linv (p - c)`. Error: `gamma(4) |Linv||p - c| + E|p - c|`,
+    /// `E` the inverse's error.
     #[inline]
     pub fn inverse_point(&self, p: Point3) -> Point3 {
         apply(&self.inverse, p - self.centre).to_point()
@@ -323,36 +333,39 @@ impl Affine {
         apply_transposed(&self.linear, n.to_vec()).to_normal()
     }
 
-    /// An upper bound of `|L| v`, for `v >= 0`: how far displacements of up to `v` along each axis can reach.
+    /// An upper bound on `|L| v`, for `v >= 0`: on the images of displacements of up to `v` along
+    /// each axis.
     #[inline(always)]
     pub fn linear_reach(&self, v: Vec3) -> Vec3 {
         reach(&self.linear, &[[0.0; 3]; 3], v)
     }
 
-    /// An upper bound of `|L^-1| v` (of the exact inverse), for `v >= 0`.
+    /// An upper bound on `|L^-1| v` (of the exact inverse), for `v >= 0`.
     #[inline(always)]
     pub fn inverse_reach(&self, v: Vec3) -> Vec3 {
         reach(&self.inverse, &self.inverse_error(), v)
     }
 
-    /// An upper bound of `L`'s spectral norm: the greatest length of the image of a unit vector, by Frobenius' norm (at most `sqrt 3`
-    /// times too large).
+    /// An upper bound on `L`'s spectral norm, the greatest length of the image of a unit vector:
+    /// the Frobenius norm (at most `sqrt 3` times too large).
     pub fn linear_norm(&self) -> f64 {
         frobenius(&self.linear, &[[0.0; 3]; 3])
     }
 
-    /// A bound on the norm of the exact inverse of `L`.
+    /// An upper bound on the spectral norm of the exact inverse of `L`.
     pub fn inverse_norm(&self) -> f64 {
         self.inverse_norm.number()
     }
 
-    /// The adjugate of `L` and its determinant in the ring `T`, both times `sign(det L)`, so that the determinant is positive.
+    /// The adjugate of `L` and its determinant in the ring `T`, both times `sign(det L)`, so that
+    /// the determinant is positive.
     ///
-    /// `adjugate / determinant` is `L^-1`. Predicates about a placed surface multiply by the determinant instead of dividing, and stay
-    /// polynomial in the exact data.
+    /// `adjugate / determinant` is `L^-1`. Predicates about a placed surface multiply by the
+    /// determinant instead of dividing, and stay polynomial in the exact data.
     #[inline(always)]
     pub fn adjugate<T: Ring>(&self) -> ([[T; 3]; 3], T) {
-        // Maps of arrays could be compiled by themselves, without fused sums.
+        // A function of its own: the compiler may compile the closure of `array::map` separately,
+        // without fused instructions.
         #[inline(always)]
         fn exact<T: Ring>(r: [f64; 3]) -> [T; 3] {
             [T::exact(r[0]), T::exact(r[1]), T::exact(r[2])]
@@ -370,7 +383,8 @@ impl Affine {
         ([negative(r), negative(s), negative(t)], -d)
     }
 
-    /// A box that holds the image of `b`, rounded outward: J. Arvo, "Transforming axis-aligned bounding boxes", Graphics Gems (1990).
+    /// A box that contains the image of `b`, rounded outward: J. Arvo, "Transforming axis-aligned
+    /// bounding boxes", Graphics Gems (1990).
     pub fn bounds(&self, b: &Aabb) -> Aabb {
         if b.is_empty() {
             return Aabb::EMPTY;
@@ -400,8 +414,8 @@ struct Inverse {
 }
 
 impl Inverse {
-    /// In double-double with error bounds: a hundredth of the time. `None` if that does not tell the sign of the determinant, or whether an entry is
-    /// exact.
+    /// The inverse by double-double arithmetic with error bounds: a hundredth of the time. `None`
+    /// if that does not decide the sign of the determinant, or whether an entry is exact.
     #[inline(always)]
     fn in_double_double(rows: &Matrix3) -> Option<Self> {
         // Three times the exponent, and 106 bits, stay in the range of f64.
@@ -420,7 +434,8 @@ impl Inverse {
                 }
                 let quotient = adjugate[i][j] / determinant;
                 let (entry, lost) = (quotient.v.hi, quotient.v.lo.abs());
-                // Inexact for certain, and the nearest for certain but for what `Rounded::HALF_ULP` allows.
+                // Certainly inexact, and certainly the nearest up to the tolerance of
+                // `Rounded::HALF_ULP`.
                 let known = lost > quotient.e && quotient.e <= crate::scale::pow2(-94) * entry.abs();
                 if !(known && entry.abs() > Rounded::TINY && entry.is_finite()) {
                     return None;
@@ -485,7 +500,7 @@ fn reach(m: &Matrix3, e: &Matrix3, v: Vec3) -> Vec3 {
     fn row(m: [f64; 3], e: [f64; 3], v: Vec3) -> f64 {
         let (a, b, c) = (m[0].abs() + e[0], m[1].abs() + e[1], m[2].abs() + e[2]);
         let sum = a.mul_add(v.x, b.mul_add(v.y, c * v.z));
-        // Four roundings; where nothing is left, either nothing was there or it underflowed.
+        // Four roundings. If the sum is zero, either all terms are zero or it underflowed.
         let nothing =
             sum == 0.0 && (a == 0.0 || v.x == 0.0) && (b == 0.0 || v.y == 0.0) && (c == 0.0 || v.z == 0.0);
         if nothing { 0.0 } else { sum.mul_add(1.0 + 8.0 * U, f64::MIN_POSITIVE) }

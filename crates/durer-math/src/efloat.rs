@@ -1,18 +1,22 @@
 //! Running error: a number together with a proven bound on its error.
 //!
-//! Each operation rounds once and charges that rounding, and what it does to the errors it was given, to `e`. The result
-//! is nearly as tight as interval arithmetic at half its cost, and the value is exactly the one that the plain formula gives.
-//! N. J. Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., SIAM (2002), section 3.3; J. H. Wilkinson, "Error analysis
-//! revisited", IMA Bulletin 22 (1986).
+//! Each operation rounds once and adds to `e` this rounding, and the effect of the operands'
+//! errors. The result is nearly as tight as interval arithmetic at half its cost, and the value is
+//! exactly that of the plain formula. N. J. Higham, "Accuracy and Stability of Numerical
+//! Algorithms", 2nd ed., SIAM (2002), section 3.3; J. H. Wilkinson, "Error analysis revisited", IMA
+//! Bulletin 22 (1986).
 //!
-//! **Why the bound is a true bound although it is itself rounded.** With `u = 2^-53`, an addition needs
-//! `a.e + b.e + u|s|`; it is computed as `fma(K, a.e + b.e, u'|s|)` with `K = 1 + 16u`, `u' = u(1 + 32u)`, whose two roundings
-//! lose at most a factor `(1-u)^2`. A product needs `|a| b.e + a.e (|b| + b.e) + u|p| + 2^-1075`; it is computed with one sum, three
-//! fused operations and a final product by `K`, which lose at most `(1-u)^5`, and, where they are subnormal, `2^-1075` each, for which
-//! `FLOOR` pays. Additions are exact in the subnormal range and need no floor. A factor that is exactly zero gives exactly zero.
-//! For `T = Dd` the part `hi` stands for the number, which costs another `(1+u)^2`, again within `K`.
+//! **Why the bound is a true bound although it is itself rounded.** With `u = 2^-53`, an addition
+//! needs `a.e + b.e + u|s|`; it is computed as `fma(K, a.e + b.e, u'|s|)` with `K = 1 + 16u`,
+//! `u' = u(1 + 32u)`, whose two roundings lose at most a factor `(1-u)^2`. A product needs
+//! `|a| b.e + a.e (|b| + b.e) + u|p| + 2^-1075`; it is computed with one sum, three fused
+//! operations and a final product by `K`, which lose at most `(1-u)^5`, and, where they are
+//! subnormal, `2^-1075` each, for which `FLOOR` pays. Additions are exact in the subnormal range
+//! and need no floor. A factor that is exactly zero gives exactly zero. For `T = Dd` the part `hi`
+//! is used for the number, which costs another `(1+u)^2`, again within `K`.
 //!
-//! Overflow turns `v` or `e` into an infinity or NaN; then no sign is certain and the enclosure is the whole line.
+//! Overflow turns `v` or `e` into an infinity or NaN; then no sign is certain and the enclosure is
+//! the whole line.
 
 use crate::rounding::{add_down, add_up, sub_down};
 use crate::scale::ldexp;
@@ -20,11 +24,12 @@ use crate::{Dd, Ring};
 use core::cmp::Ordering;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Covers the roundings made while a bound is computed; see the module's text.
+/// Covers the roundings made while a bound is computed; see the module's documentation.
 const K: f64 = 1.0 + 8.0 * f64::EPSILON;
-/// Covers what subnormal results lose, at most a few times `2^-1074`. Far more than needed, so that it and its multiples are normal
-/// numbers: a subnormal operand or result costs a microcode assist on many CPUs, a hundred times the operation itself. It is felt only
-/// where numbers are below `2^-890`.
+/// Covers the loss in subnormal results, at most a few times `2^-1074`. Far more than needed, so
+/// that it and its multiples are normal numbers: a subnormal operand or result costs a microcode
+/// assist on many CPUs, a hundred times the operation itself. It has an effect only where numbers
+/// are below `2^-890`.
 const FLOOR: f64 = crate::scale::pow2(-1000);
 /// The floor for [`Ring::scale2`], which is rarely used and must be tight: maps of size `1e300`
 /// have inverses near `2^-1000`.
@@ -73,7 +78,7 @@ pub trait Word:
     const MUL: f64;
     /// Relative rounding error of a quotient or a square root.
     const DIV: f64;
-    /// Absolute error which underflow may put into the residual of a quotient or root.
+    /// The absolute error that underflow may cause in the residual of a quotient or root.
     const RESIDUAL: f64;
     /// The nearest f64.
     fn to_f64(self) -> f64;
@@ -81,7 +86,7 @@ pub trait Word:
     fn root(self) -> Self;
     /// Times `2^k`.
     fn times_pow2(self, k: i32) -> Self;
-    /// An f64 not above `self - e`, and one not below `self + e`.
+    /// A lower bound on `self - e`, and an upper bound on `self + e`.
     fn enclose(self, e: f64) -> (f64, f64);
 }
 
@@ -151,28 +156,28 @@ impl<T: Word> EFloat<T> {
         self.v.to_f64()
     }
 
-    /// An f64 not above the true number; `-inf` if nothing is known.
+    /// A lower bound on the true number; `-inf` if nothing is known.
     #[inline(always)]
     pub fn lo(self) -> f64 {
         let lo = self.v.enclose(self.e).0;
         if lo.is_nan() { f64::NEG_INFINITY } else { lo }
     }
 
-    /// An f64 not below the true number; `inf` if nothing is known.
+    /// An upper bound on the true number; `inf` if nothing is known.
     #[inline(always)]
     pub fn hi(self) -> f64 {
         let hi = self.v.enclose(self.e).1;
         if hi.is_nan() { f64::INFINITY } else { hi }
     }
 
-    /// An upper bound of the absolute value of the true number.
+    /// An upper bound on the absolute value of the true number.
     #[inline(always)]
     pub fn magnitude(self) -> f64 {
         let m = (self.v.to_f64().abs() + self.e) * K;
         if m.is_nan() { f64::INFINITY } else { m }
     }
 
-    /// The absolute value; the bound stays.
+    /// The absolute value; the bound does not change.
     #[inline(always)]
     #[must_use]
     pub fn abs(self) -> Self {
@@ -181,7 +186,7 @@ impl<T: Word> EFloat<T> {
 
     /// The square root of the true number's non-negative part.
     ///
-    /// A number that is certainly negative has none: NaN, with an infinite bound.
+    /// If the number is certainly negative: NaN, with an infinite bound.
     #[inline(always)]
     #[must_use]
     pub fn sqrt(self) -> Self {

@@ -1,10 +1,11 @@
 //! Elementary functions with the same bits on every CPU.
 //!
-//! The C library's `sin`, `pow`, ... are chosen at run time for the CPU at hand and differ in the last place; these stand
-//! on the pure-Rust `libm` crate, a port of musl and of CORE-MATH. Its feature `arch` (on by default) replaces only `sqrt`, `fma`
-//! and `rint` by machine instructions on x86-64 and ARM64. Those three are correctly rounded, so their bits cannot
-//! differ; the functions that call them are otherwise plain IEEE operations in a fixed order. (Only on 32-bit x86 without SSE2
-//! does `arch` reach further, into x87's `exp`; durer does not run there.)
+//! The C library chooses its `sin`, `pow`, ... at run time for the CPU, and they differ in the last
+//! place. The functions here use the pure-Rust `libm` crate, a port of musl and of CORE-MATH. Its
+//! feature `arch` (on by default) replaces only `sqrt`, `fma` and `rint` by machine instructions on
+//! x86-64 and ARM64. Those three are correctly rounded, so their bits cannot differ; the functions
+//! that call them are otherwise plain IEEE operations in a fixed order. (Only on 32-bit x86 without
+//! SSE2 does `arch` extend further, to x87's `exp`; durer does not run there.)
 //!
 //! None of them has a proven bound, most err by less than 1 ulp: good for shading and for building
 //! matrices, which are then the exact data; never for a certified bracket.
@@ -60,16 +61,16 @@ one! {
     log10 = log10;
     /// The cube root.
     cbrt = cbrt;
-    /// The largest whole number not above `x`.
+    /// The largest integer not above `x`.
     floor = floor;
-    /// The smallest whole number not below `x`.
+    /// The smallest integer not below `x`.
     ceil = ceil;
 }
 
 /// The inverse hyperbolic cosine; NaN below 1.
 #[inline]
 pub fn acosh(x: f64) -> f64 {
-    // Between -2^26 and -2 `libm` makes the logarithm of a rounding error out of it.
+    // Between -2^26 and -2 `libm` returns the logarithm of a rounding error.
     if x < 1.0 { f64::NAN } else { libm::acosh(x) }
 }
 
@@ -91,11 +92,14 @@ pub fn pow(x: f64, y: f64) -> f64 {
     libm::pow(x, y)
 }
 
-/// `x^y` in lanes, within one part in 10^12 of the true power for positive normal `x`; zero where that is below `2^-1021`.
+/// `x^y` in lanes, within one part in 10^12 of the true power for positive normal `x`; zero where
+/// that is below `2^-1021`.
 ///
-/// With `x = 2^e m` and `m` between the roots of 1/2 and 2, the logarithm is `e + log2 m`, where `ln m = 2 artanh s` with
-/// `s = (m - 1) / (m + 1)`; both that series and the one of `2^r` for `|r| <= 1/2` are cut where less than the last place is left. The
-/// products with `y` and with `log2 e` err by a few last places of an exponent below 1024. Lanes that are not live hold anything.
+/// With `x = 2^e m` and `m` between the roots of 1/2 and 2, the logarithm is `e + log2 m`, where
+/// `ln m = 2 artanh s` with `s = (m - 1) / (m + 1)`; both that series and the one of `2^r` for
+/// `|r| <= 1/2` are cut where the rest is less than the last place. The products with `y` and with
+/// `log2 e` err by a few last places of an exponent below 1024. The contents of lanes that are not
+/// live do not matter.
 #[inline(always)]
 pub fn pow_lanes(x: F8, y: f64, live: M8) -> F8 {
     if !live.any() {
@@ -103,7 +107,7 @@ pub fn pow_lanes(x: F8, y: f64, live: M8) -> F8 {
     }
     const ROOT: u64 = 0x3fe6_a09e_667f_3bcd; // of 1/2, in bits
     const ONE: u64 = 0x3ff0_0000_0000_0000;
-    const WHOLE: f64 = 6_755_399_441_055_744.0; // 1.5 * 2^52: a sum with it is a whole number, which its last bits say
+    const WHOLE: f64 = 6_755_399_441_055_744.0; // 1.5 * 2^52: rounds a sum to an integer, in the last bits
     let bits = |x: F8, f: fn(u64) -> u64| x.map(|x| f64::from_bits(f(x.to_bits())));
     let e = bits(x, |b| (b.wrapping_add(ONE - ROOT) >> 52) | WHOLE.to_bits()) - F8::splat(WHOLE + 1023.0);
     let m = bits(x, |b| b.wrapping_sub(b.wrapping_sub(ROOT) & (u64::MAX << 52)));
@@ -128,7 +132,7 @@ pub fn pow_lanes(x: F8, y: f64, live: M8) -> F8 {
     if other.any() { other.select(others(x, y, other), scaled) } else { scaled }
 }
 
-/// The powers of what is zero, negative, subnormal, infinite or no number.
+/// The powers of a base that is zero, negative, subnormal, infinite or NaN.
 #[cold]
 #[inline(never)]
 fn others(x: F8, y: f64, lanes: M8) -> F8 {
@@ -165,12 +169,13 @@ mod tests {
 
     const PINNED: u64 = 0x694b_16fa_cc6e_c32d;
 
-    /// Bits of all functions over many arguments, folded into one number that must never change: pictures depend on it.
+    /// The bits of all functions for many arguments, folded into one number that must never change:
+    /// pictures depend on it.
     #[test]
     fn bits_are_pinned() {
         let mut hash = 0_u64;
         let mut fold = |x: f64| {
-            // NaNs have many forms; one stands for all.
+            // NaNs have many bit patterns; all count as one.
             let bits = if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() };
             hash = hash.rotate_left(5).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ bits;
         };
@@ -190,7 +195,7 @@ mod tests {
         assert_eq!(hash, PINNED, "{hash:#018x}");
     }
 
-    /// Known values, so that what is pinned is also right.
+    /// Known values, so that the pinned bits are also right.
     #[test]
     fn known_values() {
         use core::f64::consts::{E, FRAC_PI_6, LN_10, PI, SQRT_2};

@@ -1,20 +1,22 @@
-//! Distillation: a few f64 are summed until the sign of their exact sum shows.
+//! Distillation: a few f64 are summed until the sign of their exact sum is certain.
 //!
-//! One pass carries a running sum through the terms and leaves each rounding error in place of the term that made it (VecSum): what is
-//! summed does not change, but nearly all of it gathers in one number. As soon as that is larger than all the rest together its sign is
-//! the sum's. T. Ogita, S. M. Rump, S. Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26 (2005); W. Kahan, "A survey of error
-//! analysis", IFIP Congress (1971). Exact barring overflow.
+//! One pass carries a running sum through the terms and replaces each term by the rounding error
+//! that it made (VecSum): the sum of all does not change, but nearly all of it gathers in one
+//! number. As soon as that is larger than all the rest together, its sign is the sum's. T. Ogita,
+//! S. M. Rump, S. Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26 (2005); W. Kahan,
+//! "A survey of error analysis", IFIP Congress (1971). Exact barring overflow.
 
 use crate::U;
 use crate::eft::{two_prod, two_sum};
 use core::cmp::Ordering;
 
-/// No sum has more terms.
+/// The greatest number of terms.
 const MOST: usize = 96;
-/// After so many passes the question goes to [`Dyadic`](crate::Dyadic), which always answers: only time is at stake. A pass takes some 50 bits off what has cancelled.
+/// After so many passes the caller uses [`Dyadic`](crate::Dyadic), which always decides but takes
+/// longer. A pass removes some 50 bits of cancellation.
 const PASSES: usize = 24;
 
-/// Some f64 that are to be summed.
+/// The terms of a sum.
 pub(crate) struct Terms {
     len: usize,
     terms: [f64; MOST],
@@ -22,9 +24,9 @@ pub(crate) struct Terms {
 
 /// The result of an exact summation.
 pub(crate) struct Sum {
-    /// Its sign, exactly.
+    /// The exact sign.
     pub(crate) sign: Ordering,
-    /// The sum in f64, and a bound on the error of that.
+    /// The sum in f64, and a bound on its error.
     pub(crate) value: f64,
     pub(crate) error: f64,
 }
@@ -61,7 +63,7 @@ impl Terms {
         self.add_product(p, c);
     }
 
-    /// The exact sum's sign and about what it is; `None` if too many passes did not tell.
+    /// The exact sum's sign and approximate value; `None` if all passes left the sign unknown.
     #[inline(always)]
     pub(crate) fn sum(mut self) -> Option<Sum> {
         let terms = &mut self.terms[..self.len];
@@ -78,7 +80,8 @@ impl Terms {
                 let sign = sum.partial_cmp(&0.0)?;
                 return Some(Sum { sign, value: sum, error });
             }
-            // The first error is that of a sum with zero: its place is free. The sum goes last, where it meets what is left of the rest.
+            // The first error is that of a sum with zero: its place is free. The sum goes to the
+            // end, where the next pass adds it to the rest.
             terms.rotate_left(1);
             *terms.last_mut()? = sum;
         }
@@ -91,7 +94,7 @@ mod tests {
     use super::*;
     use crate::Dyadic;
 
-    /// Terms that cancel again and again, and what exact arithmetic says of them.
+    /// Terms that cancel again and again, compared with exact arithmetic.
     #[test]
     fn the_sign_is_that_of_the_exact_sum() {
         let mut state = 1_u64;
@@ -106,7 +109,7 @@ mod tests {
                 let x = next() as f64 * crate::scale::pow2((next() % 240) as i32 - 120);
                 let x = if next() % 2 == 0 { x } else { -x };
                 numbers.push(x);
-                // Most meet their negative, or nearly so.
+                // Most terms meet their negative, or nearly so.
                 match next() % 4 {
                     0 => numbers.push(-x.next_up()),
                     1 | 2 => numbers.insert((next() % numbers.len() as u64) as usize, -x),

@@ -1,11 +1,12 @@
-//! Choices between two functions that meet: at zero of what chooses, both have the same value, so that nothing jumps there.
+//! Continuous choices between two functions: where the selector is zero, both have the same value,
+//! so that there is no jump.
 
 use crate::number::Slopes;
 use crate::{Dual, F8, I8, Number, Sloped};
 
-/// A number that may be one of two which meet.
+/// Number types with a continuous choice.
 pub trait Joined {
-    /// One of two by the sign of `c`, which have the same value where `c` is zero.
+    /// `below` or `above`, by the sign of `c`. Both have the same value where `c` is zero.
     fn joined(c: &Self, below: &Self, above: &Self) -> Self;
 }
 
@@ -24,7 +25,7 @@ impl Joined for F8 {
 }
 
 impl Joined for I8 {
-    /// It jumps where one of the sides does.
+    /// The result may jump only where one of the sides does.
     #[inline(always)]
     fn joined(c: &Self, below: &Self, above: &Self) -> Self {
         let (may_below, may_above) = (c.lo.lt(F8::ZERO).bits(), c.hi.ge(F8::ZERO).bits());
@@ -35,7 +36,7 @@ impl Joined for I8 {
 }
 
 impl<T: Sloped, D: Slopes<T>> Joined for Dual<T, D> {
-    /// Where they meet: all slopes between the two.
+    /// Where the sides meet, the slopes are all between the two.
     #[inline(always)]
     fn joined(c: &Self, below: &Self, above: &Self) -> Self {
         let d = D::selected(&c.v, &below.d, &above.d, &above.d);

@@ -20,9 +20,10 @@
 use crate::{Dd, Dyadic, EFloat, Ring};
 use core::cmp::Ordering;
 
-/// A polynomial whose sign is asked for.
+/// A polynomial whose sign is wanted.
 pub trait Predicate {
-    /// The polynomial's value. `None` only where `T` cannot hold the inputs: [`Ring::within`] said so.
+    /// The polynomial's value. `None` only if `T` cannot hold the inputs: then [`Ring::within`]
+    /// returned `None`.
     fn eval<T: Ring>(&self) -> Option<T>;
 }
 
@@ -39,8 +40,9 @@ pub enum Step {
 
 /// The sign of `p`, compared with zero.
 ///
-/// `None` only if the inputs are not exact (an error came in through [`Ring::within`]) and their errors leave the sign
-/// open. Inputs must be finite; intermediate overflow and underflow are no trouble.
+/// `None` only if the inputs are not exact (an error came in through [`Ring::within`]) and their
+/// errors leave the sign open. Inputs must be finite; intermediate overflow and underflow do no
+/// harm.
 #[inline(always)]
 pub fn sign<P: Predicate + ?Sized>(p: &P) -> Option<Ordering> {
     match p.eval::<EFloat<f64>>().and_then(|x| x.sign()) {
@@ -49,7 +51,7 @@ pub fn sign<P: Predicate + ?Sized>(p: &P) -> Option<Ordering> {
     }
 }
 
-/// As [`sign()`], and which step knew it: for measuring how often the ladder is climbed.
+/// [`sign()`], and the step that decided it: for measuring how often each step is needed.
 pub fn sign_and_step<P: Predicate + ?Sized>(p: &P) -> Option<(Ordering, Step)> {
     match p.eval::<EFloat<f64>>().and_then(|x| x.sign()) {
         Some(sign) => Some((sign, Step::Double)),

@@ -10,16 +10,18 @@
 use crate::{F8, I8, Isa, M8, U};
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-/// Bound on an angle's error, relative to the angle: that of the single functions.
+/// Bound on an angle's error, relative to the angle: equal to that of the scalar functions.
 const ANGLE_ERROR: f64 = 16.0 * U;
 /// Pays for results below the normal range.
 const TINY: f64 = crate::scale::pow2(-1000);
-/// Coordinates are taken up to this, and one of the two from its inverse on.
+/// Points whose larger coordinate is beyond this, or below its inverse, are left to the scalar
+/// functions.
 const FAR: f64 = crate::scale::pow2(500);
 /// `tan(pi/8)`, about.
 const EIGHTH: f64 = 0.414_213_562_373_095_05;
 
-/// The angles of eight points whose larger coordinates are neither too large nor too small, in `(-pi, pi]`.
+/// The angles of eight points whose larger coordinates are neither too large nor too small, in
+/// `(-pi, pi]`.
 #[inline(always)]
 fn angle(y: F8, x: F8) -> F8 {
     let (ax, ay) = (x.abs(), y.abs());
@@ -27,7 +29,7 @@ fn angle(y: F8, x: F8) -> F8 {
     let beyond = t.gt(F8::splat(EIGHTH));
     let u = beyond.select((t - F8::ONE) / (t + F8::ONE), t);
     let z = u * u;
-    // One over the odd numbers, with alternating signs, from the last.
+    // The reciprocals of the odd numbers, with alternating signs, from the last.
     let mut series = F8::splat(-1.0 / 39.0);
     for k in (0..19_i32).rev() {
         let c = 1.0 / f64::from(2 * k + 1);
@@ -40,26 +42,27 @@ fn angle(y: F8, x: F8) -> F8 {
     a.copysign(y)
 }
 
-/// Where a point's larger coordinate is neither too large nor too small.
+/// The lanes in which a point's larger coordinate is neither too large nor too small.
 #[inline(always)]
 fn ordinary(y: F8, x: F8) -> M8 {
     let size = y.abs().max(x.abs());
     size.ge(F8::splat(1.0 / FAR)) & size.le(F8::splat(FAR))
 }
 
-/// The angles, rounded, and where they are that.
+/// The rounded angles, and the lanes that are computed.
 #[inline(always)]
 pub(crate) fn rounded(y: F8, x: F8) -> (F8, M8) {
     (angle(y + F8::ZERO, x), ordinary(y, x))
 }
 
-/// Bounds of the angles, and the lanes that are known.
+/// Bounds on the angles, and the lanes that are computed.
 #[inline(always)]
 fn corners(y: &I8, x: &I8) -> (F8, F8, M8) {
     let zero = F8::ZERO;
     let right = x.lo.gt(zero);
     let (up, down) = (y.lo.gt(zero) & !right, y.hi.lt(zero) & !right);
-    // To the right of the origin the angle rises with y, and goes towards zero as x grows; above it falls with x, below it rises.
+    // To the right of the origin the angle rises with y, and goes towards zero as x grows; above it
+    // falls with x, below it rises.
     let low_y =
         right.select(y.lo, up.select(x.hi.ge(zero).select(y.lo, y.hi), x.lo.ge(zero).select(y.lo, y.hi)));
     let low_x = right.select(y.lo.ge(zero).select(x.hi, x.lo), up.select(x.hi, x.lo));
@@ -67,13 +70,14 @@ fn corners(y: &I8, x: &I8) -> (F8, F8, M8) {
         right.select(y.hi, up.select(x.lo.ge(zero).select(y.hi, y.lo), x.hi.ge(zero).select(y.hi, y.lo)));
     let high_x = right.select(y.hi.ge(zero).select(x.lo, x.hi), up.select(x.lo, x.hi));
     let known = (right | up | down) & ordinary(low_y, low_x) & ordinary(high_y, high_x);
-    // A zero is positive: to the right both have the same angle, and nothing else comes here.
+    // Adding zero makes a zero positive: to the right both zeros have the same angle, and no other
+    // case gets here.
     let (low, high) = (angle(low_y + zero, low_x), angle(high_y + zero, high_x));
     let slack = |a: F8| a.abs() * ANGLE_ERROR + F8::splat(TINY);
     (low - slack(low), high + slack(high), known)
 }
 
-/// The angles of the points `(x, y)` in lanes, and the lanes that must be done by themselves.
+/// The angles of the points `(x, y)` in lanes, and the lanes that must be computed one by one.
 #[inline(never)]
 pub(crate) fn atan2(y: &I8, x: &I8) -> (I8, u8) {
     Isa::detect().run_in_lanes(

@@ -1,25 +1,28 @@
-//! Eight intervals side by side: one formula on eight boxes, or on eight stretches of a ray, at once.
+//! Eight intervals side by side: one formula on eight boxes, or on eight segments of a ray, at
+//! once.
 //!
-//! Sums, products and quotients are rounded to nearest and then, sums where they have lost something, widened: by S. M. Rump, P. Zimmermann, S. Boldo, G. Melquiond, "Computing
-//! predecessor and successor in rounding to nearest", *BIT* 49 (2009), `fl(x - fl(phi |x|))` with `phi = u (1 + 2u)` is at or below the
-//! predecessor of a normal `x`, and so at or below everything that rounds to `x`. Where results may be subnormal a step of `2^-1000` is added.
-//! That is branch-free, as vector instructions need it. Sines and cosines are
-//! worked out in lanes too (`lane_waves.rs`), the other elementary functions are those of [`Interval`], lane by lane.
+//! Sums, products and quotients are rounded to nearest and then, sums only if they are inexact,
+//! widened: by S. M. Rump, P. Zimmermann, S. Boldo, G. Melquiond, "Computing predecessor and
+//! successor in rounding to nearest", *BIT* 49 (2009), `fl(x - fl(phi |x|))` with
+//! `phi = u (1 + 2u)` is at or below the predecessor of a normal `x`, and so at or below everything
+//! that rounds to `x`. Where results may be subnormal a step of `2^-1000` is added. That is
+//! branch-free, as vector instructions need it. Sines and cosines are computed in lanes too
+//! (`lane_waves.rs`), the other elementary functions are those of [`Interval`], lane by lane.
 
 use crate::interval::elementary::{Defined, Range};
 use crate::lane_waves::{wave, waves};
 use crate::number::{Comparison, Function, Number, Sloped};
 use crate::{F8, Interval, M8, noise};
 
-/// How many there are.
+/// The number of intervals.
 const LANES: usize = crate::lanes::LANES;
 /// `u (1 + 2 u)`.
 const PHI: f64 = crate::U * (1.0 + f64::EPSILON);
 /// Pays for results below the normal range, and is a normal number itself.
 const TINY: f64 = crate::scale::pow2(-1000);
-/// Of whole numbers below this, f64 has all: what rounds to less is exact.
+/// All integers below this are f64 numbers: a result that rounds to less is exact.
 const ALL_WHOLE: f64 = crate::scale::pow2(53);
-/// Of dividends from here on no remainder is lost below the range.
+/// For dividends from here on, no remainder underflows.
 const LARGE_ENOUGH: f64 = crate::scale::pow2(-900);
 
 /// Eight intervals. No end is NaN, no lower end is `inf`, no upper end `-inf`.
@@ -31,14 +34,15 @@ pub struct I8 {
     pub hi: F8,
     /// Lanes (as bits) where the formula may be undefined somewhere.
     pub partial: u8,
-    /// Lanes where it is undefined everywhere; the interval there means nothing. Such a lane is also in `partial`.
+    /// Lanes where it is undefined everywhere; the interval there has no meaning. Such a lane is
+    /// also in `partial`.
     pub empty: u8,
     /// Lanes where it may jump.
     pub jump: u8,
 }
 
 impl I8 {
-    /// From `lo` to `hi` in each lane. Ends must not be NaN.
+    /// The intervals from `lo` to `hi` in each lane. Ends must not be NaN.
     #[inline(always)]
     pub fn new(lo: F8, hi: F8) -> Self {
         Self { lo, hi, partial: 0, empty: 0, jump: 0 }
@@ -66,7 +70,7 @@ impl I8 {
         (self.lo.0[i], self.hi.0[i]) = (x.lo, x.hi);
     }
 
-    /// Adds the marks of the operands.
+    /// Adds the flags of the operands.
     #[inline(always)]
     pub(crate) fn said(mut self, a: &Self, b: &Self) -> Self {
         self.partial |= a.partial | b.partial;
@@ -75,7 +79,7 @@ impl I8 {
         self
     }
 
-    /// A function of each lane's interval.
+    /// Applies a function to each lane's interval.
     #[inline(always)]
     fn each(a: &Self, f: impl Fn(Interval) -> Range) -> Self {
         Self::each2(a, a, |x, _| f(x))
@@ -94,7 +98,7 @@ impl I8 {
         out
     }
 
-    /// Sets a lane to the values of a function.
+    /// Sets a lane to a function's range.
     #[inline(always)]
     fn put(&mut self, i: usize, range: Interval, defined: Defined) {
         match defined {
@@ -113,7 +117,7 @@ impl I8 {
     }
 }
 
-/// At or below all numbers that round to `x`.
+/// A number at or below all numbers that round to `x`.
 #[inline(always)]
 fn below(x: f64) -> f64 {
     let x = if x > f64::MAX { f64::MAX } else { x };
@@ -126,10 +130,13 @@ fn above(x: f64) -> f64 {
     x + x.abs().mul_add(PHI, TINY)
 }
 
-/// A sum rounded down. The sum `s` in f64 is a bound as it stands if the exact one is not below it: so sums of whole numbers are exact, and greater operands do not have
-/// lower bounds. Let `s = a + b - lost`. Then `s - a` is `b - lost`: in f64 at most `b` if `lost >= 0`, as rounding is monotone; and if `a` is the greater operand in magnitude
-/// it is a number (T. J. Dekker, "A floating-point technique for extending the available precision", *Numerische Mathematik* 18 (1971)), so above `b` if
-/// `lost < 0`. The same holds with `a` and `b` exchanged. Of infinite sums only `-inf` passes both comparisons.
+/// A sum rounded down. The sum `s` in f64 is a bound without widening if the exact one is not below
+/// it: so sums of integers are exact, and greater operands do not have lower bounds. Let
+/// `s = a + b - lost`. Then `s - a` is `b - lost`: in f64 at most `b` if `lost >= 0`, as rounding
+/// is monotone; and if `a` is the greater operand in magnitude it is a number (T. J. Dekker, "A
+/// floating-point technique for extending the available precision", *Numerische Mathematik* 18
+/// (1971)), so above `b` if `lost < 0`. The same holds with `a` and `b` exchanged. Of infinite sums
+/// only `-inf` passes both comparisons.
 #[inline(always)]
 fn sum_below(a: f64, b: f64) -> f64 {
     let sum = a + b;
@@ -138,13 +145,13 @@ fn sum_below(a: f64, b: f64) -> f64 {
     if is_below { sum } else { finite - finite.abs().mul_add(PHI, TINY) }
 }
 
-/// A sum rounded up.
+/// A sum rounded up; see [`sum_below`].
 #[inline(always)]
 fn sum_above(a: f64, b: f64) -> f64 {
     -sum_below(-a, -b)
 }
 
-/// Quotients by numbers, none of which is zero: exact where f64 is.
+/// Quotients by single numbers, none of which is zero: exact where f64 is.
 #[inline(always)]
 fn divided_by_points(a: &I8, b: &I8) -> I8 {
     let mut out = I8::new(F8::ZERO, F8::ZERO).said(a, b);
@@ -159,8 +166,10 @@ fn divided_by_points(a: &I8, b: &I8) -> I8 {
     out
 }
 
-/// A quotient by a positive number, rounded down. The quotient `q` in f64 is a bound as it stands if `q b - a`, rounded once, is not above zero: rounding keeps the sign unless
-/// the difference is lost below the range. It is a multiple of the last bit of `a` and of the last bits of `q` and `b` together, at least `2^-106 q b`; where `q` is below the normal numbers, `b` is above
+/// A quotient by a positive number, rounded down. The quotient `q` in f64 is a bound without
+/// widening if `q b - a`, rounded once, is not above zero: rounding keeps the sign unless the
+/// difference underflows. It is a multiple of the last bit of `a` and of the last bits of `q` and
+/// `b` together, at least `2^-106 q b`; where `q` is below the normal numbers, `b` is above
 /// `2^1022 |a|`, and these are at least `2^-1074 2^-52 b`. So it is 0 or at least `2^-107 |a|`.
 #[inline(always)]
 fn quotient_below(a: f64, b: f64) -> f64 {
@@ -170,7 +179,7 @@ fn quotient_below(a: f64, b: f64) -> f64 {
     if is_below { q } else { below(q) }
 }
 
-/// A product that takes `0 inf` as 0: an infinite end is never reached.
+/// A product that takes `0 inf` as 0, since an infinite end is never attained.
 #[inline(always)]
 fn times(a: f64, b: f64) -> f64 {
     let p = a * b;
@@ -225,7 +234,8 @@ impl Number for I8 {
             let (p, q, r, s) = (times(al, bl), times(al, bh), times(ah, bl), times(ah, bh));
             let lo = below(least(least(p, q), least(r, s)));
             let hi = above(most(most(p, q), most(r, s)));
-            // Of numbers with known signs the product has one, which underflow must not lose.
+            // The product of operands with known signs has a known sign, which underflow must not
+            // lose.
             let same = (al >= 0.0) & (bl >= 0.0) | (ah <= 0.0) & (bh <= 0.0);
             let opposite = (al >= 0.0) & (bh <= 0.0) | (ah <= 0.0) & (bl >= 0.0);
             out.lo.0[i] = if same & (lo < 0.0) { 0.0 } else { lo };
@@ -264,7 +274,7 @@ impl Number for I8 {
 
     #[inline(always)]
     fn div(a: &Self, b: &Self) -> Self {
-        // Mostly the divisor is a constant.
+        // Usually the divisor is a constant.
         if (b.lo.equals(b.hi) & b.lo.abs().gt(F8::ZERO)).all() {
             return divided_by_points(a, b);
         }
@@ -275,7 +285,7 @@ impl Number for I8 {
             let positive = lo > 0.0;
             let apart = positive | (hi < 0.0);
             let (l, h) = (below(1.0 / hi), above(1.0 / lo));
-            // A value of one sign stays so.
+            // A value of one sign keeps it.
             let l = if positive & (l < 0.0) { 0.0 } else { l };
             let h = if !positive & (h > 0.0) { 0.0 } else { h };
             inverse.lo.0[i] = if apart { l } else { f64::NEG_INFINITY };
@@ -330,7 +340,7 @@ impl Number for I8 {
         for i in 0..LANES {
             let (l, h) = (a.lo.0[i], a.hi.0[i]);
             let (l, h) = (if l > 0.0 { l } else { 0.0 }, if h > 0.0 { h } else { 0.0 });
-            // Roots are normal numbers; that of an infinite lower end there is none.
+            // Square roots are normal numbers. An infinite lower end does not occur.
             let lo = below(l.sqrt());
             out.lo.0[i] = if lo < 0.0 { 0.0 } else { lo };
             out.hi.0[i] = if h == 0.0 { 0.0 } else { above(h.sqrt()) };
@@ -425,7 +435,7 @@ impl Number for I8 {
         let may_below = c.lo.lt(F8::ZERO).bits();
         let may_at = (c.lo.le(F8::ZERO) & c.hi.ge(F8::ZERO)).bits();
         let may_above = c.hi.gt(F8::ZERO).bits();
-        // Mostly it is the same one in all lanes.
+        // Usually it is the same one in all lanes.
         match (may_below, may_at, may_above) {
             (_, 0, 0) => return below.said(c, c),
             (0, 0, _) => return above.said(c, c),
@@ -504,7 +514,7 @@ fn cube(a: &I8) -> I8 {
     out
 }
 
-/// `x^n` by squaring of numbers that are not negative, each product widened up or down.
+/// `x^n` by repeated squaring of non-negative numbers, each product widened up or down.
 #[inline(always)]
 fn widened(x: &[f64; LANES], n: i32, up: bool) -> [f64; LANES] {
     let (mut result, mut base, mut left) = ([1.0; LANES], *x, n);
@@ -523,11 +533,12 @@ fn widened(x: &[f64; LANES], n: i32, up: bool) -> [f64; LANES] {
     }
 }
 
-/// `a^n`: of the ends of `a` without their signs, rounded down or up, and then the sign.
+/// `a^n`: powers of the magnitudes of the ends of `a`, rounded down or up, and then the sign.
 #[inline(always)]
 fn product(a: &I8, n: i32) -> I8 {
     let odd = n & 1 == 1;
-    // The ends that are nearer to zero and farther from it where the power is even; else the lower and the upper one.
+    // If the power is even, the ends nearer to zero and farther from it; else the lower and the
+    // upper end.
     let (mut x, mut y) = ([0.0; LANES], [0.0; LANES]);
     for i in 0..LANES {
         let (l, h) = (a.lo.0[i], a.hi.0[i]);

@@ -1,6 +1,8 @@
-//! Eight rounded numbers side by side as what formulas are made of: for looking around quickly, as f64 is for one point. Undefined is NaN.
+//! Eight rounded numbers side by side as a [`Number`] of formulas: for quick estimates, as f64 is
+//! for one point. Undefined is NaN.
 //!
-//! Each function errs by what its kernel errs by (`lane_waves.rs`, `lane_logs.rs`, `lane_angles.rs`), or is that of f64, lane by lane.
+//! Each function has the error of its kernel (`lane_waves.rs`, `lane_logs.rs`, `lane_angles.rs`),
+//! or is that of f64, lane by lane.
 
 use crate::number::{Comparison, Function, Number, Sloped};
 use crate::{F8, Interval, M8, lane_angles, lane_powers, lane_waves, noise};
@@ -16,7 +18,7 @@ fn or_by_itself((mut out, known): (F8, M8), f: impl Fn(usize) -> f64) -> F8 {
     out
 }
 
-/// Where a number is one.
+/// The lanes that are not NaN.
 #[inline(always)]
 fn defined(a: &F8) -> M8 {
     a.equals(*a)
@@ -77,7 +79,7 @@ impl Number for F8 {
             base = base * base;
             left >>= 1;
         }
-        // Undefined stays undefined, even to the power of zero.
+        // NaN stays NaN, even to the power of zero.
         let result = defined(a).select(result, NAN);
         if n < 0 { a.equals(Self::ZERO).select(NAN, Self::ONE / result) } else { result }
     }
@@ -173,7 +175,7 @@ impl Sloped for F8 {
 mod tests {
     use super::*;
 
-    /// Odd numbers, and what functions are undefined or jump at.
+    /// Unusual numbers, and points at which functions are undefined or jump.
     const PROBES: [f64; 16] = [
         0.0,
         -0.0,

@@ -8,14 +8,15 @@
 use crate::lane_logs::{MOST_POWER, power, power_error};
 use crate::{F8, I8, Isa, M8, U};
 
-/// Exponents of two that are taken; beyond, bounds are these or infinite.
+/// The greatest magnitude of the power's binary exponent that is computed; beyond, bounds are zero,
+/// infinite, or powers of two near the limit.
 const FAR: f64 = 1000.0;
-/// A smaller base counts as this where a bound may be too large.
+/// A smaller base is replaced by this where a bound may be too large.
 const LEAST: f64 = crate::scale::pow2(-1000);
 /// Pays for results below the normal range.
 const TINY: f64 = crate::scale::pow2(-1000);
 
-/// Powers, and the lanes that are known.
+/// Bounds on powers, and the lanes that are computed.
 #[inline(always)]
 fn corners(a: &I8, b: &I8) -> (F8, F8, M8) {
     let (zero, one) = (F8::ZERO, F8::ONE);
@@ -34,7 +35,7 @@ fn corners(a: &I8, b: &I8) -> (F8, F8, M8) {
     let error = |p: F8| p.map(|p| power_error(p) + 4.0 * U);
     let lo = (low - (low * error(least) + slack)).max(zero);
     let hi = high + (high * error(most) + slack);
-    // Exponents that were not taken, and bases that were not either.
+    // Exponents beyond the limit, and bases below theirs.
     let lo = (t_low.le(-far) | from.lt(small))
         .select(zero, t_low.ge(far).select(F8::splat(crate::scale::pow2(999)), lo));
     let hi = t_high
@@ -44,7 +45,7 @@ fn corners(a: &I8, b: &I8) -> (F8, F8, M8) {
     (lo, nothing.select(zero, hi), known)
 }
 
-/// `a^b`, rounded, and where it is that.
+/// `a^b`, rounded, and the lanes that are computed.
 #[inline(always)]
 pub(crate) fn rounded(a: F8, b: F8) -> (F8, M8) {
     let (value, t) = power(a, b);
@@ -52,7 +53,7 @@ pub(crate) fn rounded(a: F8, b: F8) -> (F8, M8) {
     (value, ordinary & b.abs().le(F8::splat(MOST_POWER)) & t.abs().lt(F8::splat(FAR)))
 }
 
-/// `a^b` in lanes, and the lanes that must be done by themselves.
+/// `a^b` in lanes, and the lanes that must be computed one by one.
 #[inline(never)]
 pub(crate) fn pow(a: &I8, b: &I8) -> (I8, u8) {
     Isa::detect().run_in_lanes(

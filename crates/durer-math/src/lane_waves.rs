@@ -1,17 +1,20 @@
 //! Sines and cosines of eight intervals at once.
 //!
-//! The argument is taken off by whole quarter turns: `r = x - k pi/2` with `pi/2` in three parts of 25, 24 and 53 bits (W. J. Cody, W. Waite, *Software
-//! Manual for the Elementary Functions*, 1980). For `|x| <= 2^20` the products with the first two parts are exact, and so are the
-//! differences, multiples of `2^-53` below 1; the third rounds to `2^-54`, and what is left of `pi/2` is below `2^-88`. On `|r| <= 0.7855` Taylor's series to `r^17` and `r^18` leave out
-//! less than `1e-19`, and Horner's scheme rounds to less than `4 u` of the value. Claimed are [`RELATIVE`] and [`ABSOLUTE`], twice as much at least.
+//! The argument is reduced by integer multiples of a quarter turn: `r = x - k pi/2` with `pi/2` in
+//! three parts of 25, 24 and 53 bits (W. J. Cody, W. Waite, *Software Manual for the Elementary
+//! Functions*, 1980). For `|x| <= 2^20` the products with the first two parts are exact, and so are
+//! the differences, multiples of `2^-53` below 1; the third rounds to `2^-54`, and the rest of
+//! `pi/2` is below `2^-88`. On `|r| <= 0.7855` Taylor's series to `r^17` and `r^18` omit less than
+//! `1e-19`, and Horner's scheme rounds to less than `4 u` of the value. The stated bounds are
+//! [`RELATIVE`] and [`ABSOLUTE`], twice as much at least.
 
 use crate::{F8, I8, M8};
 
-/// The largest argument that is taken; a sine of more is only known to be a sine.
+/// The largest argument that is reduced; beyond, the bounds are -1 and 1.
 const FAR: f64 = (1u64 << 20) as f64;
 /// Bound on the error, relative to the value: `8 u`.
 const RELATIVE: f64 = 8.0 * crate::U;
-/// Bound on what the argument's reduction adds, where there is one.
+/// Bound on the error of the argument's reduction, if there is one.
 const ABSOLUTE: f64 = 2.0 * crate::U;
 /// Pays for results below the normal range.
 const TINY: f64 = crate::scale::pow2(-1000);
@@ -21,17 +24,17 @@ const PARTS: [f64; 3] = [
     f64::from_bits(0x3e51_10b4_6000_0000),
     f64::from_bits(0x3c91_a626_3314_5c07),
 ];
-/// A sum with it is a whole number.
+/// A sum with this is rounded to an integer.
 const WHOLE: f64 = 6_755_399_441_055_744.0;
 
-/// A reduced argument: sine and cosine of the rest, and the number of whole quarter turns.
+/// A reduced argument: sine and cosine of the rest, and the integer number of quarter turns.
 struct Turned {
     sine: F8,
     cosine: F8,
     k: F8,
 }
 
-/// Lanes that are [`FAR`] hold anything.
+/// Reduces arguments; the result of lanes beyond [`FAR`] is arbitrary.
 #[inline(always)]
 fn turned(x: &F8) -> Turned {
     let mut out = Turned { sine: F8::ZERO, cosine: F8::ZERO, k: F8::ZERO };
@@ -63,13 +66,13 @@ fn turned(x: &F8) -> Turned {
     out
 }
 
-/// The sine of what was turned plus `shift` quarter turns, and the bound on its error.
+/// The sine of the argument plus `shift` quarter turns, and the bound on its error.
 #[inline(always)]
 fn shifted(turned: &Turned, shift: f64) -> (F8, F8) {
     let (mut value, mut error) = (F8::ZERO, F8::ZERO);
     for i in 0..8 {
         let (sine, cosine, k) = (turned.sine.0[i], turned.cosine.0[i], turned.k.0[i]);
-        // The quarter's number from 0 to 3, as a number.
+        // The number of the quarter, from 0 to 3, as an f64.
         let q = k + shift;
         let q = q - 4.0 * (q * 0.25).floor();
         let v = if (q == 1.0) | (q == 3.0) { cosine } else { sine };
@@ -80,13 +83,13 @@ fn shifted(turned: &Turned, shift: f64) -> (F8, F8) {
     (value, error)
 }
 
-/// Sines (`shift` 0) or cosines (1), rounded, and where they are those.
+/// Rounded sines (`shift` 0) or cosines (1), and the lanes that are computed.
 #[inline(always)]
 pub(crate) fn rounded(x: &F8, shift: f64) -> (F8, M8) {
     (shifted(&turned(x), shift).0, x.abs().le(F8::splat(FAR)))
 }
 
-/// Sines and cosines, rounded, and where they are those.
+/// Rounded sines and cosines, and the lanes that are computed.
 #[inline(always)]
 pub(crate) fn both_rounded(x: &F8) -> (F8, F8, M8) {
     let turned = turned(x);
@@ -108,7 +111,8 @@ pub(crate) fn waves(a: &I8) -> (I8, I8) {
 
 #[inline(always)]
 fn between(a: &I8, (lo, hi): (&Turned, &Turned), shift: f64) -> I8 {
-    // An argument's quotient by a quarter turn errs by less: to see a crest needlessly costs next to nothing.
+    // More than the error of an argument's quotient by a quarter turn. A needless crest widens the
+    // result only a little.
     const MARGIN: f64 = 1.0 / (1u64 << 26) as f64;
     let mut out = *a;
     let (from, e_from) = shifted(lo, shift);

@@ -1,16 +1,18 @@
 //! Eight numbers side by side: the same formula for eight rays at once.
 //!
-//! Plain arrays with plain loops. Inside [`Isa::run_in_lanes`](crate::Isa::run_in_lanes) the compiler turns them into vector instructions, two registers
-//! with AVX2 and one with AVX-512; each lane has the bits of the scalar operation everywhere.
+//! Plain arrays with plain loops. Inside [`Isa::run_in_lanes`](crate::Isa::run_in_lanes) the
+//! compiler turns them into vector instructions, two registers with AVX2 and one with AVX-512; each
+//! lane has the bits of the scalar operation everywhere.
 //!
-//! Each operation is a loop by itself (`lanes!`). The library's `array::from_fn` and `array::map` are made of functions that the compiler leaves apart in
-//! large kernels, where they are compiled for the basic CPU: a fused product is eight calls there.
+//! Each operation is a loop by itself (`lanes!`). The library's `array::from_fn` and `array::map`
+//! consist of functions that the compiler does not inline in large kernels. They are then compiled
+//! for the basic CPU, where a fused product is eight calls.
 
 use crate::{Scalar, Vec3};
 use core::ops::{Add, AddAssign, BitAnd, BitAndAssign, BitOr, BitOrAssign, Div, Mul, Neg, Not, Sub};
 use core::sync::atomic::{Ordering, compiler_fence};
 
-/// How many lanes there are.
+/// The number of lanes.
 pub const LANES: usize = 8;
 
 /// Eight f64.
@@ -18,7 +20,7 @@ pub const LANES: usize = 8;
 #[repr(align(64))]
 pub struct F8(pub [f64; LANES]);
 
-/// Eight answers to a yes-no question: all bits set for a yes, as vector instructions have it.
+/// A mask of eight lanes: all bits set for true, as vector instructions have it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(align(64))]
 pub struct M8([u64; LANES]);
@@ -28,7 +30,7 @@ fn all_bits(yes: bool) -> u64 {
     if yes { u64::MAX } else { 0 }
 }
 
-/// An array of what an expression is in each lane.
+/// An array of the values of an expression in each lane.
 macro_rules! lanes {
     ($zero:expr, $i:ident => $each:expr) => {{
         let mut all = [$zero; LANES];
@@ -86,7 +88,7 @@ impl F8 {
         *self = lanes.select(x, old);
     }
 
-    /// A function of each lane.
+    /// Applies a function to each lane.
     #[inline(always)]
     #[must_use]
     pub fn map(self, f: impl Fn(f64) -> f64) -> Self {
@@ -114,14 +116,14 @@ impl F8 {
         Self(lanes!(0.0, i => self.0[i].abs()))
     }
 
-    /// The lesser number; `other` where one is not a number.
+    /// The lesser number; `other` if one is NaN.
     #[inline(always)]
     #[must_use]
     pub fn min(self, other: Self) -> Self {
         Self(lanes!(0.0, i => if self.0[i] < other.0[i] { self.0[i] } else { other.0[i] }))
     }
 
-    /// The greater number; `other` where one is not a number.
+    /// The greater number; `other` if one is NaN.
     #[inline(always)]
     #[must_use]
     pub fn max(self, other: Self) -> Self {
@@ -184,19 +186,19 @@ impl M8 {
         if x { Self::ALL } else { Self::NONE }
     }
 
-    /// An answer for each lane.
+    /// The mask of the lanes for which `f` is true.
     #[inline(always)]
     pub fn from_fn(f: impl Fn(usize) -> bool) -> Self {
         Self(lanes!(0, i => all_bits(f(i))))
     }
 
-    /// The answer of lane `i`.
+    /// Whether lane `i` is set.
     #[inline(always)]
     pub fn lane(&self, i: usize) -> bool {
         self.0[i] != 0
     }
 
-    /// Sets the answer of lane `i`.
+    /// Sets lane `i` to `yes`.
     #[inline(always)]
     pub fn set_lane(&mut self, i: usize, yes: bool) {
         self.0[i] = all_bits(yes);
@@ -214,7 +216,7 @@ impl M8 {
         F8(lanes!(0.0, i => f64::from_bits(x.0[i].to_bits() & self.0[i])))
     }
 
-    /// As [`M8::select`], for vectors.
+    /// [`M8::select`] for vectors.
     #[inline(always)]
     pub fn select3(self, yes: Vec3<F8>, no: Vec3<F8>) -> Vec3<F8> {
         Vec3::new(self.select(yes.x, no.x), self.select(yes.y, no.y), self.select(yes.z, no.z))
@@ -305,7 +307,7 @@ impl Vec3<F8> {
         self.z.set_where(lanes, v.z);
     }
 
-    /// Puts a vector into lane `i`.
+    /// Sets the vector of lane `i`.
     #[inline(always)]
     pub fn set_lane(&mut self, i: usize, v: Vec3) {
         (self.x.0[i], self.y.0[i], self.z.0[i]) = (v.x, v.y, v.z);
@@ -422,7 +424,7 @@ mod tests {
                 let same = |got: F8, want: f64| assert_eq!(got.0[i].to_bits(), want.to_bits(), "{isa:?} {i}");
                 same(sum, x + y);
                 same(least, if x < y { x } else { y });
-                // The sign of a NaN means nothing.
+                // The sign of a NaN has no meaning.
                 if !(x * y).is_nan() && (x * y).is_finite() && x >= 0.0 {
                     same(fused, x.mul_add(y, x));
                     same(kahan, crate::eft::difference_of_products(x, y, y, x));

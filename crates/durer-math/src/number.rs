@@ -1,7 +1,9 @@
-//! The number types in which a formula can be evaluated: f64, eight intervals, and dual numbers over either.
+//! The number types in which a formula can be evaluated: f64, eight intervals, and dual numbers
+//! over either.
 //!
-//! A formula of a scene is written once and asked in several ways: for its value, for a bound of its values on boxes, for its slope along a
-//! ray. [`Number`] lists what such formulas are made of; a type that has these operations can be put through any of them.
+//! A formula of a scene is written once and evaluated in several ways: for its value, for bounds on
+//! its values on boxes, for its slope along a ray. [`Number`] lists the operations of such
+//! formulas; every type with these operations can evaluate all of them.
 
 use crate::{Dual, F8, Interval, Joined, elementary, noise};
 
@@ -16,7 +18,7 @@ pub trait Number: Copy + Joined {
     fn sub(a: &Self, b: &Self) -> Self;
     /// `a b`.
     fn mul(a: &Self, b: &Self) -> Self;
-    /// `a b` of whole numbers: below 2^53 no f64 is rounded.
+    /// `a b` for integers: below 2^53 no f64 is rounded.
     #[inline(always)]
     fn mul_whole(a: &Self, b: &Self) -> Self {
         Self::mul(a, b)
@@ -36,9 +38,9 @@ pub trait Number: Copy + Joined {
     fn abs(a: &Self) -> Self;
     /// The square root.
     fn sqrt(a: &Self) -> Self;
-    /// The lesser one.
+    /// The lesser number.
     fn min(a: &Self, b: &Self) -> Self;
-    /// The greater one.
+    /// The greater number.
     fn max(a: &Self, b: &Self) -> Self;
     /// `a^n`.
     fn powi(a: &Self, n: i32) -> Self;
@@ -57,17 +59,18 @@ pub trait Number: Copy + Joined {
     }
     /// Noise at a point of space.
     fn noise(p: [&Self; 3]) -> Self;
-    /// 1 or 0.
+    /// The result of a comparison, 1 or 0.
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self;
-    /// One of three by the sign of `c`: below, at and above zero. Where two of them are one and the same (by address, as steps of a formula are), nothing jumps between them.
+    /// One of three by the sign of `c`: below, at or above zero. If two of them are the same object
+    /// (the same step of a formula, by address), there is no jump between them.
     fn select(c: &Self, below: &Self, at: &Self, above: &Self) -> Self;
     /// Whether it is defined and exactly zero.
     fn is_zero(&self) -> bool;
-    /// A number of which only `>= a` is known, if `a` is certainly above 1.
+    /// A number known only to be at least `a`, if `a` is certainly above 1.
     fn above(a: &Self) -> Option<Self>;
 }
 
-/// A number that knows the slopes of all that has some: a [`Dual`] can be made of it.
+/// A number type that provides the slopes of all functions, so that a [`Dual`] can be made of it.
 pub trait Sloped: Number {
     /// Noise at a point of space, and its derivatives along the three axes.
     fn noise_and_slopes(p: [&Self; 3]) -> (Self, [Self; 3]);
@@ -97,7 +100,7 @@ pub enum Function {
     Trunc,
 }
 
-/// The questions about two numbers. `And` and `Or` take zero for no.
+/// The comparisons of two numbers. `And` and `Or` take zero as false.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Comparison {
@@ -110,7 +113,7 @@ pub enum Comparison {
 }
 
 impl Comparison {
-    /// The answer for two f64.
+    /// The result for two f64.
     #[inline]
     pub fn holds(self, a: f64, b: f64) -> bool {
         match self {
@@ -169,7 +172,7 @@ impl Number for f64 {
     }
     #[inline(always)]
     fn div(a: &Self, b: &Self) -> Self {
-        // Undefined, not infinite.
+        // Division by zero is undefined, not infinite.
         if *b == 0.0 { Self::NAN } else { a / b }
     }
     #[inline(always)]
@@ -198,7 +201,7 @@ impl Number for f64 {
     }
     #[inline(always)]
     fn powi(a: &Self, n: i32) -> Self {
-        // Undefined stays undefined, even to the power of zero.
+        // NaN stays NaN, even to the power of zero.
         if a.is_nan() || (*a == 0.0 && n < 0) { Self::NAN } else { elementary::powi(*a, n) }
     }
     #[inline(always)]
@@ -208,7 +211,7 @@ impl Number for f64 {
     }
     #[inline(always)]
     fn atan2(y: &Self, x: &Self) -> Self {
-        // -0 is 0.
+        // -0 counts as 0.
         if *y == 0.0 && *x == 0.0 { Self::NAN } else { elementary::atan2(*y + 0.0, *x) }
     }
     #[inline(always)]
@@ -218,7 +221,7 @@ impl Number for f64 {
     #[inline(always)]
     fn function(f: Function, a: &Self) -> Self {
         let value = f.of(*a);
-        // The logarithm of zero and the like.
+        // The logarithm of zero and similar values.
         if value.is_infinite()
             && a.is_finite()
             && !matches!(f, Function::Exp | Function::Sinh | Function::Cosh)
@@ -273,7 +276,7 @@ impl Sloped for f64 {
 pub trait Slopes<T>: Copy {
     /// The slopes of a constant.
     fn zero() -> Self;
-    /// Nothing is known.
+    /// Slopes of which nothing is known.
     fn unknown() -> Self;
     /// `a + b`.
     fn sum(a: &Self, b: &Self) -> Self;
@@ -289,7 +292,7 @@ pub trait Slopes<T>: Copy {
     fn divided(a: &Self, k: &T) -> Self;
     /// One of three by the sign of `c`: below, at and above zero.
     fn selected(c: &T, below: &Self, at: &Self, above: &Self) -> Self;
-    /// The same values; each is marked if it is exactly zero.
+    /// The same slopes, with a mark for each that is exactly zero.
     fn settled(&self) -> Self;
     /// Whether all are known to be exactly zero.
     fn are_zero(&self) -> bool;
@@ -342,7 +345,8 @@ impl<T: Number> Slopes<T> for T {
     }
 }
 
-/// Derivatives along three directions, and along which of them there is any (as bits): most parts of a formula vary along one or two, and what is zero is not multiplied.
+/// Derivatives along three directions, and a mask of those that are not zero: most parts of a
+/// formula vary along one or two directions, and zeros are not multiplied.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gradient<T> {
     /// The derivatives.
@@ -351,7 +355,7 @@ pub struct Gradient<T> {
 }
 
 impl<T: Number> Gradient<T> {
-    /// That of the coordinate number `axis` in space.
+    /// The gradient of a coordinate in space, that of axis number `axis`.
     #[inline(always)]
     pub fn of_axis(axis: usize) -> Self {
         let mut d = [number(0.0); 3];
@@ -364,7 +368,7 @@ impl<T: Number> Gradient<T> {
         self.varies >> axis & 1 == 1
     }
 
-    /// A function that is zero at zero, of each derivative.
+    /// Applies a function that maps zero to zero to each derivative.
     #[inline(always)]
     fn each(&self, f: impl Fn(&T) -> T) -> Self {
         let mut out = *self;
@@ -515,7 +519,7 @@ impl<T: Sloped, D: Slopes<T>> Number for Dual<T, D> {
     fn sqr(a: &Self) -> Self {
         Self::chain(T::sqr(&a.v), &T::add(&a.v, &a.v), a)
     }
-    /// At zero: all slopes between -1 and 1, as for an interval around it.
+    /// At zero the slopes are all those between -1 and 1, as for an interval around it.
     #[inline(always)]
     fn abs(a: &Self) -> Self {
         let back = D::negated(&a.d);
@@ -547,7 +551,8 @@ impl<T: Sloped, D: Slopes<T>> Number for Dual<T, D> {
         let v = T::pow(&a.v, &b.v);
         let less = T::pow(&a.v, &T::sub(&b.v, &number(1.0)));
         let along = D::scaled(&T::mul(&b.v, &less), &a.d);
-        // Where the power stays there is no logarithm, which would be undefined at a = 0.
+        // If the exponent is constant the logarithm, which would be undefined at a = 0, is not
+        // needed.
         let power = b.d.settled();
         if power.are_zero() {
             return Self { v, d: along };
@@ -564,7 +569,7 @@ impl<T: Sloped, D: Slopes<T>> Number for Dual<T, D> {
     }
     #[inline(always)]
     fn rem(a: &Self, b: &Self) -> Self {
-        // Between its jumps a - b trunc(a / b), with a factor that stays.
+        // Between its jumps it is a - b trunc(a / b), with a constant factor.
         let v = T::rem(&a.v, &b.v);
         let whole = T::function(Function::Trunc, &T::div(&a.v, &b.v));
         Self { v, d: D::difference(&a.d, &D::scaled(&whole, &b.d)) }

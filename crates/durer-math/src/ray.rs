@@ -7,7 +7,7 @@ use crate::{Point3, Vec3};
 /// The direction has any length but zero; `t` is in its units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where `t = 0` is.
+    /// The point at `t = 0`.
     pub origin: Point3,
     /// The displacement for one unit of `t`.
     pub direction: Vec3,
@@ -18,12 +18,14 @@ pub struct Ray {
     source: Option<Source>,
 }
 
-/// The primitive from which a secondary ray starts, and the side of it on which its origin provably lies.
+/// The primitive from which a secondary ray starts, and the side of it on which its origin provably
+/// lies.
 ///
-/// `arena`, `index` and `part` say where the geometry keeps the primitive; they mean nothing outside it.
+/// `arena`, `index` and `part` are the place of the primitive in the geometry; they have no meaning
+/// outside it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Source {
-    /// Which arena holds the primitive.
+    /// The arena that holds the primitive.
     pub arena: u32,
     /// Its place in the arena.
     pub index: u32,
@@ -40,7 +42,7 @@ pub struct Source {
 /// A side of a surface, by its outward (or stored) normal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RaySide {
-    /// Where the normal points.
+    /// The side to which the normal points.
     Front,
     /// The other side.
     Back,
@@ -74,8 +76,8 @@ impl Ray {
         self.source
     }
 
-    /// Whether the ray can meet anything: finite origin and direction, a direction that is not zero, and a range that
-    /// holds at least one number.
+    /// Whether the ray can hit anything: finite origin and direction, a direction that is not zero,
+    /// and a range that contains at least one number.
     #[inline(always)]
     pub fn is_valid(&self) -> bool {
         self.origin.is_finite()
@@ -84,7 +86,8 @@ impl Ray {
             && self.t_min <= self.t_max
     }
 
-    /// The point at `t`, rounded: for display. Hit points come from `resolve`, which does not lose the low digits.
+    /// The point at `t`, rounded: for display. Hit points come from `resolve`, which does not lose
+    /// the low digits.
     pub fn at(&self, t: f64) -> Point3 {
         Point3::new(
             t.mul_add(self.direction.x, self.origin.x),

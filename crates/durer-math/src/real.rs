@@ -35,13 +35,13 @@ pub trait Real:
     /// The absolute value.
     #[must_use]
     fn abs(self) -> Self;
-    /// The lesser number; `other` where one is not a number.
+    /// The lesser number; `other` if one is NaN.
     #[inline(always)]
     #[must_use]
     fn min(self, other: Self) -> Self {
         if self < other { self } else { other }
     }
-    /// The greater number; `other` where one is not a number.
+    /// The greater number; `other` if one is NaN.
     #[inline(always)]
     #[must_use]
     fn max(self, other: Self) -> Self {
@@ -49,25 +49,25 @@ pub trait Real:
     }
 }
 
-/// A number that both kinds have.
+/// A number that both types represent.
 #[inline(always)]
 pub fn real<T: Real>(x: f32) -> T {
     T::from(x)
 }
 
-/// So many roundings of 1.
+/// `count` roundings of 1.
 #[inline(always)]
 pub fn roundings<T: Real>(count: f32) -> T {
     T::from(count) * T::U
 }
 
-/// 1, and so many roundings more.
+/// 1 plus `count` roundings of 1.
 #[inline(always)]
 pub fn more<T: Real>(count: f32) -> T {
     T::from(1.0) + roundings(count)
 }
 
-/// 1, less so many roundings.
+/// 1 minus `count` roundings of 1.
 #[inline(always)]
 pub fn less<T: Real>(count: f32) -> T {
     T::from(1.0) - roundings(count)
@@ -98,7 +98,7 @@ macro_rules! impl_real {
 impl_real!(f64, pow2(-900));
 impl_real!(f32, pow2(-110) as f32);
 
-/// Eight numbers of either kind, as [`F8`] is.
+/// Eight numbers of either type, like [`F8`].
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub struct Eight<T>(pub [T; LANES]);
@@ -113,7 +113,7 @@ impl<T: Real> Eight<T> {
         Self([x; LANES])
     }
 
-    /// In f64, exactly.
+    /// Converts to f64, exactly.
     #[inline(always)]
     pub fn widened(&self) -> F8 {
         let mut wide = F8::ZERO;
@@ -123,7 +123,7 @@ impl<T: Real> Eight<T> {
         wide
     }
 
-    /// Becomes the greater ones of these and others.
+    /// Replaces each number by the greater one of it and the other.
     #[inline(always)]
     pub fn raise(&mut self, others: &Self) {
         for k in 0..LANES {
@@ -141,7 +141,7 @@ impl<T: Real> Eight<T> {
         all
     }
 
-    /// Where they are positive.
+    /// The mask of positive numbers.
     #[inline(always)]
     pub fn are_positive(&self) -> M8 {
         self.widened().gt(F8::ZERO)
@@ -167,7 +167,7 @@ impl<T: Real> Eight<T> {
         self
     }
 
-    /// The lesser number; `other` where one is not a number.
+    /// The lesser number; `other` if one is NaN.
     #[inline(always)]
     #[must_use]
     pub fn min(mut self, other: Self) -> Self {
@@ -177,7 +177,7 @@ impl<T: Real> Eight<T> {
         self
     }
 
-    /// The greater number; `other` where one is not a number.
+    /// The greater number; `other` if one is NaN.
     #[inline(always)]
     #[must_use]
     pub fn max(mut self, other: Self) -> Self {

@@ -1,19 +1,22 @@
-//! Sums, products, quotients and square roots rounded down or up, without touching the CPU's rounding mode.
+//! Sums, products, quotients and square roots rounded down or up, without a change of the CPU's
+//! rounding mode.
 //!
-//! The rounded result and the *sign* of its exact error tell whether to step to the neighbour. The error comes from an error-free
-//! transform; where its low part could underflow the operands are first scaled by powers of two, so that the results are
-//! correctly directed for all finite operands: the greatest f64 not above (least not below) the exact result.
-//! With infinite operands the results still bound. NaN in, NaN out.
+//! The rounded result and the *sign* of its exact error decide whether to step to the neighbour.
+//! The error comes from an error-free transform; where its low part could underflow the operands
+//! are first scaled by powers of two, so that the results are correctly directed for all finite
+//! operands: the greatest f64 not above (least not below) the exact result. With infinite operands
+//! the results are still bounds. NaN in, NaN out.
 
 use crate::eft::{two_prod, two_sum};
 use crate::scale::{exponent, ldexp};
 
-/// Below this a product's error term may be subnormal: `2^-1022 * 2^53`, and then some.
+/// Below this a product's error term may be subnormal: `2^-1022 * 2^53`, with some reserve.
 const SMALL: f64 = f64::from_bits((1023 - 960) << 52);
 /// Above this a scaled residual could overflow.
 const LARGE: f64 = f64::from_bits((1023 + 960) << 52);
 
-/// `s` or the next number below, if the exact result lies below `s`; a NaN error says "perhaps".
+/// `s` or the next number below, if the exact result lies below `s`; a NaN error counts as
+/// "perhaps".
 #[inline(always)]
 fn down(s: f64, error: f64) -> f64 {
     if error >= 0.0 { s } else { s.next_down() }
@@ -98,7 +101,7 @@ fn wild_quotient(a: f64, b: f64, q: f64) -> (f64, f64) {
         return (q, 0.0);
     }
     if !a.is_finite() || !b.is_finite() || b == 0.0 || q.is_infinite() {
-        // Infinite operands: a step inward from an infinity, or from zero, still bounds.
+        // Infinite operands: a step inward from an infinity, or from zero, is still a bound.
         return (q, f64::NAN);
     }
     let (ka, kb) = (exponent(a), exponent(b));

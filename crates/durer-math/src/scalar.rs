@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A number type for points and vectors: f64, and the interval and dual numbers that come free with it.
+/// A number type for points and vectors: f64, and the interval and dual numbers made of it.
 pub trait Scalar:
     Copy
     + core::fmt::Debug

@@ -1,16 +1,17 @@
-//! The shaft: all that a bundle of rays can reach.
+//! The shaft: a convex bound of all rays of a bundle.
 //!
 //! ```text
-//!            ╱│            the rays start in a box, and each component of their directions is in an interval:
-//!     ┌─┐ ╱   │            at t, the bundle lies in the box  [a_i + t l_i, b_i + t u_i]
-//!     └─┘ ╲   │
+//!            ╱│            the rays start in a box, and each component of their
+//!     ┌─┐ ╱   │            directions is in an interval: at t, the bundle lies
+//!     └─┘ ╲   │            in the box  [a_i + t l_i, b_i + t u_i]
 //!            ╲│
 //! ```
 //!
-//! A box `[m, M]` can be met only where `a_i + t l_i <= M_i` and `b_i + t u_i >= m_i` on every axis: six linear inequalities for `t`, whose common
-//! solutions are an interval. If it is empty, no ray of the bundle meets the box. Neighbouring rays (the pixels of a tile, the rays of a small
-//! region to one lamp) can so share one walk through the tree. After E. A. Haines, J. R. Wallace, "Shaft culling for efficient ray-traced
-//! radiosity", *Eurographics Workshop on Rendering* (1991).
+//! A box `[m, M]` can be met only where `a_i + t l_i <= M_i` and `b_i + t u_i >= m_i` on every
+//! axis: six linear inequalities for `t`, whose common solutions are an interval. If it is empty,
+//! no ray of the bundle meets the box. So neighbouring rays (the pixels of a tile, the rays of a
+//! small region to one light) can share one search of the tree. After E. A. Haines, J. R. Wallace,
+//! "Shaft culling for efficient ray-traced radiosity", *Eurographics Workshop on Rendering* (1991).
 
 use crate::{Aabb, F8, M8, U, Vec3};
 
@@ -23,10 +24,10 @@ pub struct Shaft {
     t_max: f64,
 }
 
-/// A shaft as eight boxes at a time ask it.
+/// A shaft in the form for tests of eight boxes at a time.
 #[derive(Clone, Copy, Debug)]
 pub struct Shaft8 {
-    /// Of each axis, that of the boxes' upper planes and that of their lower ones.
+    /// For each axis the inequality of the boxes' upper planes and that of their lower ones.
     cuts: [[Cut; 2]; 3],
     t_max: f64,
 }
@@ -35,7 +36,7 @@ pub struct Shaft8 {
 #[derive(Clone, Copy, Debug)]
 struct Cut {
     base: f64,
-    /// One over the slope, rounded.
+    /// The reciprocal of the slope, rounded.
     inverse: f64,
     kind: CutKind,
 }
@@ -48,17 +49,18 @@ enum CutKind {
     Exit,
     /// It is negative: `t` has a lower bound.
     Enter,
-    /// It is not a number, or its inverse might have lost bits below the normal range.
+    /// It is NaN, or its reciprocal might have underflowed.
     Nothing,
 }
 
-/// More than the roundings of a difference, of a quotient (or of an inverse and a product with it) and of what is added to it.
+/// More than the roundings of a difference, of a quotient (or of a reciprocal and a product with
+/// it) and of the term that is then added.
 const WIDEN: f64 = 8.0 * U;
-/// Pays for bounds and quotients that lost bits below the normal range.
+/// Pays for underflow in bounds and quotients.
 const LOST: f64 = f64::MIN_POSITIVE;
 
 impl Shaft {
-    /// The rays that start in `start` with directions between `low` and `high`, however far they go.
+    /// The unbounded rays that start in `start` with directions between `low` and `high`.
     pub fn new(start: Aabb, low: Vec3, high: Vec3) -> Self {
         Self { start, low, high, t_max: f64::INFINITY }
     }
@@ -66,7 +68,8 @@ impl Shaft {
     /// The rays with `t` in `[0, 1]` that start in one box and end in another.
     pub fn between(start: Aabb, end: Aabb) -> Self {
         let axis = |a0: f64, a1: f64, b0: f64, b1: f64| {
-            // Far more than the roundings of these differences, and of a direction that is one itself.
+            // Far more than the roundings of these differences, and of a direction that is itself
+            // such a difference.
             let size = a0.abs() + a1.abs() + b0.abs() + b1.abs();
             let slack = size.mul_add(32.0 * U, f64::MIN_POSITIVE);
             ((b0 - a0) - slack, (b1 - a1) + slack)
@@ -78,7 +81,7 @@ impl Shaft {
         Self { start, low: Vec3::new(x0, y0, z0), high: Vec3::new(x1, y1, z1), t_max: 1.0 }
     }
 
-    /// A box in which all rays of the bundle end; unbounded if they do not.
+    /// A box in which all rays of the bundle end; unbounded if they do not end.
     pub fn end(&self) -> Aabb {
         if self.t_max == f64::INFINITY {
             return Aabb::UNBOUNDED;
@@ -88,7 +91,7 @@ impl Shaft {
         Aabb::new(a, b).expanded((a.to_vec().abs() + b.to_vec().abs()) * (2.0 * U))
     }
 
-    /// Whether the bundle may meet a box: `false` is certain.
+    /// Whether the bundle may meet a box; `false` is certain.
     #[inline(always)]
     pub fn may_meet(&self, bounds: &Aabb) -> bool {
         let (mut enter, mut exit) = (0.0, self.t_max);
@@ -101,22 +104,22 @@ impl Shaft {
         axis(a.x, b.x, self.low.x, self.high.x, bounds.min.x, bounds.max.x);
         axis(a.y, b.y, self.low.y, self.high.y, bounds.min.y, bounds.max.y);
         axis(a.z, b.z, self.low.z, self.high.z, bounds.min.z, bounds.max.z);
-        // Neither is ever a NaN: what is not a number cuts nothing.
+        // Neither is ever NaN: a comparison with NaN cuts nothing.
         enter <= exit
     }
 
-    /// As eight boxes at a time ask it.
+    /// The form for tests of eight boxes at a time.
     pub fn lanes(&self) -> Shaft8 {
         let (a, b) = (self.start.min, self.start.max);
         let axis = |i: usize| [Cut::new(a[i], self.low[i]), Cut::new(-b[i], -self.high[i])];
         Shaft8 { cuts: [axis(0), axis(1), axis(2)], t_max: self.t_max }
     }
 
-    /// Whether the bundle may meet the plane of the points with `normal . p = offset`, of which the offset is known within `error`: `false` is
-    /// certain.
+    /// Whether the bundle may meet the plane `normal . p = offset`, whose offset is known within
+    /// `error`; `false` is certain.
     pub fn may_cross(&self, normal: Vec3, offset: f64, error: f64) -> bool {
         let n = normal;
-        // The least and the greatest height over the start, and how it changes.
+        // The least and the greatest height over the start box, and its change along the rays.
         let (mut least, mut most, mut size) = (0.0, 0.0, offset.abs());
         let (mut falls, mut climbs, mut steep) = (0.0_f64, 0.0_f64, 0.0);
         for i in 0..3 {
@@ -135,8 +138,8 @@ impl Shaft {
         let (falls, climbs) = (falls - slope, climbs + slope);
         let lowest = if falls < 0.0 { least + self.t_max * falls * (1.0 + 16.0 * U) } else { least };
         let highest = if climbs > 0.0 { most + self.t_max * climbs * (1.0 + 16.0 * U) } else { most };
-        // The last sum was rounded at the size of its operands before they cancel. A NaN disproves
-        // nothing.
+        // The last sum was rounded at the size of its operands before they cancel. With NaN both
+        // comparisons are false.
         let above = lowest > (least.abs() + lowest.abs()) * (4.0 * U);
         let below = highest < -((most.abs() + highest.abs()) * (4.0 * U));
         !above && !below
@@ -144,7 +147,8 @@ impl Shaft {
 }
 
 impl Shaft8 {
-    /// Which of eight boxes the bundle may meet: where the answer is no that is certain. As [`Shaft::may_meet`], but for a few ulps.
+    /// The mask of boxes that the bundle may meet; a bit that is not set is certain. Like
+    /// [`Shaft::may_meet`] up to a few ulps.
     #[inline(always)]
     pub fn may_meet(&self, min: &Vec3<F8>, max: &Vec3<F8>) -> M8 {
         let (mut enter, mut exit, mut met) = (F8::ZERO, F8::splat(self.t_max), M8::ALL);
@@ -154,7 +158,7 @@ impl Shaft8 {
             let room = (plane - cut.base) + LOST;
             let t = room * cut.inverse;
             let slack = t.abs() * WIDEN + LOST;
-            // Comparisons with NaN keep what there was.
+            // Comparisons with NaN leave the bound unchanged.
             match cut.kind {
                 CutKind::Level => met &= !room.lt(F8::ZERO),
                 CutKind::Exit => exit = (t + slack).lt(exit).select(t + slack, exit),
@@ -194,7 +198,7 @@ fn clip(room: f64, slope: f64, enter: &mut f64, exit: &mut f64) {
     }
     let t = room / slope;
     let slack = t.abs() * WIDEN + LOST;
-    // Comparisons with NaN keep what there was.
+    // Comparisons with NaN leave the bound unchanged.
     if slope > 0.0 {
         if t + slack < *exit {
             *exit = t + slack;
@@ -209,7 +213,7 @@ mod tests {
     use super::*;
     use crate::{Point3, Ray};
 
-    /// Whole numbers at random, so that points of rays are exact.
+    /// Random integers, so that points of rays are exact.
     struct Dice(u64);
 
     impl Dice {
@@ -226,7 +230,7 @@ mod tests {
             Point3::new(self.about(n), self.about(n), self.about(n))
         }
 
-        /// Mostly with a width of zero on some axis.
+        /// A box, mostly with a width of zero on some axis.
         fn bounds(&mut self, n: u64) -> Aabb {
             let (a, b) = (self.point(n), self.point(n));
             let keep = self.below(8);
@@ -258,13 +262,13 @@ mod tests {
             if ray.direction == Vec3::ZERO {
                 continue;
             }
-            // A box that the ray touches in this exact point, if no more.
+            // A box that the ray touches in this exact point, at least.
             let p = ray.at(far);
             let side = dice.bounds(3).max.to_vec().abs();
             let bounds = Aabb::new(p - if dice.below(2) == 0 { side } else { Vec3::ZERO }, p + side);
             assert!(shaft.may_meet(&bounds), "{shaft:?} {ray:?} {bounds:?}");
             met += 1;
-            // And any box: what is missed holds no point of the ray.
+            // And any box: one that is excluded contains no point of the ray.
             let other = dice.bounds(20);
             let eight = |i: usize| if i.is_multiple_of(2) { &bounds } else { &other };
             let corner = |f: fn(&Aabb) -> Vec3| {

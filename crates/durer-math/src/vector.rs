@@ -1,8 +1,9 @@
-//! Points, vectors and normals: three types, because translations and linear maps treat them differently.
+//! Points, vectors and normals: three types, because translations and linear maps treat them
+//! differently.
 //!
-//! A point is a place, a vector a displacement, a normal a linear form (it maps by the inverse transpose). So
-//! `point - point = vector`, `point + vector = point`, and two points cannot be added; what can be formed is an
-//! [affine combination](Point3::affine), whose weights sum to one.
+//! A point is a position, a vector a displacement, a normal a linear form (it maps by the inverse
+//! transpose). So `point - point = vector`, `point + vector = point`, and two points cannot be
+//! added; but there is the [affine combination](Point3::affine), whose weights sum to one.
 
 use crate::Scalar;
 use core::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, Neg, Sub, SubAssign};
@@ -84,7 +85,7 @@ macro_rules! triple {
 }
 
 triple! {
-    /// A place in space.
+    /// A position in space.
     Point3
 }
 triple! {
@@ -214,20 +215,22 @@ impl<T: Scalar> Point3<T> {
 }
 
 impl<T: Scalar> Vec3<T> {
-    /// The point that lies at this displacement from the frame's origin.
+    /// The point at this displacement from the frame's origin.
     #[inline(always)]
     pub fn to_point(self) -> Point3<T> {
         Point3::new(self.x, self.y, self.z)
     }
 
-    /// The dot product, summed as `fma(x, x', fma(y, y', z z'))`. Error: at most `gamma(3) * sum |a_i b_i|`.
+    /// The dot product, summed as `fma(x, x', fma(y, y', z z'))`. Error: at most
+    /// `gamma(3) * sum |a_i b_i|`.
     #[inline(always)]
     pub fn dot(self, b: Self) -> T {
         self.x.mul_add(b.x, self.y.mul_add(b.y, self.z * b.z))
     }
 
-    /// The cross product; each minor within 1.5 ulp for f64 (Kahan's `ab - cd`; Jeannerod, Louvet, Muller, "Further
-    /// analysis of Kahan's algorithm for the accurate computation of 2x2 determinants", Math. Comp. 82, 2013).
+    /// The cross product; each minor within 1.5 ulp for f64 (Kahan's `ab - cd`; Jeannerod, Louvet,
+    /// Muller, "Further analysis of Kahan's algorithm for the accurate computation of 2x2
+    /// determinants", Math. Comp. 82, 2013).
     #[inline(always)]
     pub fn cross(self, b: Self) -> Self {
         Self::new(
@@ -243,13 +246,14 @@ impl<T: Scalar> Vec3<T> {
         self.dot(self)
     }
 
-    /// The length. Overflows and underflows with the squares; see [`Vec3::normalized`] for the safe form.
+    /// The length. Overflows and underflows with the squares; see [`Vec3::normalized`] for the safe
+    /// form.
     #[inline(always)]
     pub fn length(self) -> T {
         self.length_squared().sqrt()
     }
 
-    /// As a normal with the same coordinates.
+    /// The normal with the same coordinates.
     #[inline(always)]
     pub fn to_normal(self) -> Normal3<T> {
         Normal3::new(self.x, self.y, self.z)
@@ -263,7 +267,7 @@ impl<T: Scalar> Normal3<T> {
         self.x.mul_add(v.x, self.y.mul_add(v.y, self.z * v.z))
     }
 
-    /// As a vector with the same coordinates.
+    /// The vector with the same coordinates.
     #[inline(always)]
     pub fn to_vec(self) -> Vec3<T> {
         Vec3::new(self.x, self.y, self.z)

@@ -52,7 +52,7 @@ impl Exact for Dd {
 }
 
 fn bounds<T: Exact>(x: EFloat<T>, truth: &RBig) -> bool {
-    // A negative or NaN bound with a finite value would be a lie of its own.
+    // A negative or NaN bound with a finite value would be wrong, too.
     let known = x.v.finite() && x.e.is_finite();
     (!known || (x.e >= 0.0 && within(&x.v.exact(), truth, x.e)))
         && below(x.lo(), truth)
@@ -100,7 +100,8 @@ fn pow2(k: i32) -> RBig {
     if k >= 0 { two } else { RBig::from(1) / two }
 }
 
-/// Runs a little stack machine in `T` and in rationals; every intermediate result must keep its promise.
+/// Runs a small stack machine in `T` and in rationals; the bound of every intermediate result must
+/// hold.
 fn programme<T: Exact>(inputs: &[(f64, f64, RBig)], ops: &[(Op, usize, usize)]) -> Result<(), TestCaseError> {
     let mut stack: Vec<(EFloat<T>, RBig)> = inputs
         .iter()
@@ -183,7 +184,7 @@ proptest! {
         prop_assert!(check::<Dd>(x, e, &truth), "{x:e} {e:e}");
     }
 
-    /// Each operation's bound is the first-order one and hardly more.
+    /// Each operation's bound is hardly more than the first-order bound.
     #[test]
     fn running_errors_are_tight(a in scaled(40), b in scaled(40), ka in 10..60_i32, kb in 10..60_i32) {
         let error = |x: f64, k: i32| x.abs() * durer_math::scale::ldexp(1.0, -k);
@@ -198,7 +199,7 @@ proptest! {
         prop_assert!(tight((x / y).e, (ea + q * eb) / (b.abs() - eb) + U * q));
         let (s, r) = (x.abs().sqrt(), a.abs().sqrt());
         prop_assert!(tight(s.e, ea / (r + (a.abs() - ea).sqrt()) + U * r));
-        // In double-double exact inputs leave errors of a few u^2.
+        // In double-double the errors of exact inputs are a few u^2.
         let (x, y) = (EFloat::<Dd>::exact(a), EFloat::<Dd>::exact(b));
         prop_assert!((x * y).e <= 4.01 * U * U * (a * b).abs());
         prop_assert!((x + y).e <= 3.01 * U * U * (a + b).abs());
@@ -255,7 +256,7 @@ fn a_zero_factor_gives_an_exact_zero() {
     let x = EFloat::with_error(0.3, 0.1);
     assert_eq!((zero * x).sign(), Some(core::cmp::Ordering::Equal));
     assert_eq!((zero / x).sign(), Some(core::cmp::Ordering::Equal));
-    // An underflow to zero is not one.
+    // A result that underflows to zero is not certainly zero.
     let tiny = EFloat::<f64>::exact(1e-200);
     assert_eq!((tiny * tiny).sign(), None);
     assert!((tiny * tiny).hi() > 0.0);
@@ -354,7 +355,7 @@ proptest! {
     }
 }
 
-/// A bound far above what underflow loses must still grow by it: `e + 2^-1070` rounds to `e`.
+/// A bound far above the loss by underflow must still grow by it: `e + 2^-1070` rounds to `e`.
 #[test]
 fn scaling_into_the_subnormals_widens_a_large_bound() {
     let (v, e) = (1.828_245_992_610_490_4, 2_179_652_282_933.859_9);

@@ -1,4 +1,5 @@
-//! Intervals of elementary functions against multi-precision values, and how far the f64 functions are from those.
+//! Intervals of elementary functions against multi-precision values, and the errors of the f64
+//! functions.
 
 mod common;
 
@@ -13,7 +14,7 @@ const P: usize = 256;
 const RM: RoundingMode = RoundingMode::ToEven;
 
 impl Dice {
-    /// Numbers of all sizes up to `most`, near whole numbers and near multiples of a quarter turn.
+    /// Numbers of all sizes up to `most`, near integers and near multiples of a quarter turn.
     fn number(&mut self, most: f64) -> f64 {
         let quarter = core::f64::consts::FRAC_PI_2;
         let x = match self.bits() % 6 {
@@ -139,7 +140,7 @@ fn powers_and_angles_hold_the_exact_values() {
     let mut worst = 0.0_f64;
     for _ in 0..2000 {
         let (x, y) = (dice.number(50.0).abs(), dice.number(20.0));
-        // The witness does not take subnormal numbers as they are.
+        // The witness does not represent subnormal numbers exactly.
         if x < f64::MIN_POSITIVE {
             continue;
         }
@@ -172,7 +173,7 @@ fn powers_and_angles_hold_the_exact_values() {
         assert!(holds(lanes, &angle), "atan2({v}, {u}) within {reach}: {angle} not in {lanes:?}");
         let same = |x: f64, y: f64| (x - y).abs() <= 32.0 * f64::EPSILON * y.abs();
         assert!(same(lanes.lo, range.lo) && same(lanes.hi, range.hi), "{a:?} {b:?}: {lanes:?} {range:?}");
-        // The witness does not take subnormal numbers as they are.
+        // The witness does not represent subnormal numbers exactly.
         if !u.is_normal() || !v.is_normal() {
             continue;
         }
@@ -278,7 +279,8 @@ fn lanes_hold_the_values_of_points() {
     }
 }
 
-/// Remainders of numbers are numbers, and an interval that meets no whole multiple, or only where it begins, has the remainders of its ends.
+/// Remainders of numbers are single numbers, and an interval that contains no integer multiple, or
+/// only at its lower end, has the remainders of its ends.
 #[test]
 fn remainders_are_those_of_the_ends() {
     let mut dice = Dice(41);
@@ -296,7 +298,8 @@ fn remainders_are_those_of_the_ends() {
             // The remainder of an f64 is exact.
             assert!(told.contains(inside % b), "{inside} of {x:?} mod {b}: {told:?}");
         }
-        // As many whole b in all of it, by exact arithmetic; what is as wide as b within rounding need not be known.
+        // The same integer quotient at both ends, by exact arithmetic; an interval as wide as b
+        // within rounding may be left out.
         let whole = |x: f64| (rat(x) / rat(b)).trunc();
         let of_one_sign = x.lo >= 0.0 || x.hi <= 0.0;
         if of_one_sign && whole(x.lo) == whole(x.hi) && x.hi - x.lo < b {
@@ -314,7 +317,8 @@ fn remainders_are_those_of_the_ends() {
 proptest! {
     #![proptest_config(common::cases(4000))]
 
-    /// They keep a sign that underflow loses, and are as narrow as those of two intervals; so are their derivatives.
+    /// Products with a constant keep a sign that underflow loses, and are as narrow as those of two
+    /// intervals; so are their derivatives.
     #[test]
     fn products_with_a_constant_hold_the_exact_ones(k in prop_oneof![number(), wild()], x in prop_oneof![number(), wild()], y in prop_oneof![number(), wild()]) {
         prop_assume!(k != 0.0);

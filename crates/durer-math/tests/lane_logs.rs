@@ -1,4 +1,5 @@
-//! Logarithms and powers of two in lanes keep their bounds against multi-precision values, with the same bits on every path.
+//! Logarithms and powers of two in lanes keep their bounds against multi-precision values, with the
+//! same bits on every path.
 
 mod common;
 
@@ -128,7 +129,8 @@ fn any_power_keeps_its_bound() {
     println!("power: at most {worst:.3} of its bound");
 }
 
-/// Bases with every kind of end, exponents of every kind: the interval holds the exact powers, and is not much wider than the one of a single lane.
+/// Bases with every kind of end, exponents of every kind: the interval contains the exact powers,
+/// and is not much wider than that of the scalar function.
 #[test]
 fn powers_of_intervals_hold_the_exact_ones() {
     let mut constants = Consts::new().unwrap();
@@ -171,7 +173,7 @@ fn powers_of_intervals_hold_the_exact_ones() {
                 );
             }
             for (x, z) in [(lo, p), (hi, q), (lo, q), (hi, p), (0.5 * lo + 0.5 * hi, 0.5 * p + 0.5 * q)] {
-                // The witness does not take subnormal numbers as they are.
+                // The witness does not represent subnormal numbers exactly.
                 if x < f64::MIN_POSITIVE || got.is_empty() {
                     continue;
                 }

@@ -1,11 +1,13 @@
-//! Powers of eight intervals hold the exact powers of numbers in them, whatever their signs and sizes, and little else.
+//! Powers of eight intervals contain the exact powers of their numbers, whatever their signs and
+//! sizes, and are narrow.
 
 mod common;
 
 use common::Dice;
 use durer_math::{Dyadic, F8, I8, Interval, Number, Ring};
 
-/// Of either sign, from 2^-40 to 2^40, sometimes zero or so small or large that powers leave the range.
+/// Numbers of either sign, from 2^-40 to 2^40, sometimes zero or so small or large that powers
+/// leave the range.
 fn number(dice: &mut Dice) -> f64 {
     let unit = dice.unit();
     match dice.bits() % 8 {
@@ -36,9 +38,10 @@ fn powers_hold_the_exact_ones() {
                 let above = most == f64::INFINITY || Dyadic::exact(most) >= exact;
                 assert!(below && above, "{t}^{n} is not in [{least}, {most}], of [{lo}, {hi}]");
             }
-            // An even power is never negative, nor is one of what is not.
+            // An even power is never negative, nor is a power of a non-negative number.
             assert!(least >= 0.0 || (n % 2 == 1 && lo < 0.0), "[{lo}, {hi}]^{n}: {least}");
-            // Each product pays 2^-1000 for what may be lost below the normal range: a last place of what is above 2^-900 is more.
+            // Each product pays 2^-1000 for underflow: the last place of a number above 2^-900 is
+            // more.
             if lo == hi && most.is_finite() && least.abs() > durer_math::scale::pow2(-900) {
                 assert!((most - least).abs() <= least.abs() * f64::EPSILON * 3.0 * f64::from(n), "{lo}^{n}");
                 tight += 1;

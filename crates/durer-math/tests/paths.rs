@@ -12,7 +12,7 @@ fn generator(mut state: u64) -> impl FnMut() -> f64 {
     }
 }
 
-/// A little of everything, folded into bits.
+/// Some of every kind of operation, folded into bits.
 #[inline(always)]
 fn work() -> Vec<u64> {
     let mut random = generator(5);
@@ -43,7 +43,7 @@ fn numbers_have_the_same_bits_on_every_path() {
     }
 }
 
-/// Run again by the test below, in a process of its own, since the answer is remembered.
+/// Run again by the test below, in a process of its own, since the path is cached.
 #[test]
 fn tells_its_path() {
     println!(

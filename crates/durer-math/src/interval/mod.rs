@@ -1,7 +1,8 @@
 //! Intervals of f64 with outward rounding.
 //!
-//! R. E. Moore, "Interval Analysis", Prentice-Hall (1966); the treatment of undefined parts follows IEEE 1788-2015's set-based flavour.
-//! Each end is the tightest f64 that bounds the exact result (see [`rounding`](crate::rounding)).
+//! R. E. Moore, "Interval Analysis", Prentice-Hall (1966); the treatment of undefined parts follows
+//! IEEE 1788-2015's set-based flavour. Each end is the tightest f64 that bounds the exact result
+//! (see [`rounding`](crate::rounding)).
 
 pub mod elementary;
 
@@ -11,7 +12,8 @@ use crate::rounding::{
 };
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// The closed interval `[lo, hi]`; ends may be infinite. The empty interval is `[NaN, NaN]` and spreads.
+/// The closed interval `[lo, hi]`; ends may be infinite. The empty interval is `[NaN, NaN]` and
+/// propagates.
 ///
 /// ```
 /// use durer_math::Interval;
@@ -27,7 +29,7 @@ pub struct Interval {
     pub hi: f64,
 }
 
-/// A product that takes `0 * inf` as 0: an infinite end is never reached.
+/// A product that takes `0 * inf` as 0, since an infinite end is never attained.
 #[inline(always)]
 fn times(a: f64, b: f64, round: impl Fn(f64, f64) -> f64) -> f64 {
     if a == 0.0 || b == 0.0 { 0.0 } else { round(a, b) }
@@ -39,7 +41,7 @@ impl Interval {
     /// All numbers.
     pub const ENTIRE: Self = Self { lo: f64::NEG_INFINITY, hi: f64::INFINITY };
 
-    /// From `lo` to `hi`; `lo <= hi` is the caller's promise.
+    /// The interval from `lo` to `hi`; the caller must ensure `lo <= hi`.
     #[inline(always)]
     pub const fn new(lo: f64, hi: f64) -> Self {
         Self { lo, hi }
@@ -51,25 +53,25 @@ impl Interval {
         Self { lo: sub_down(centre, radius), hi: add_up(centre, radius) }
     }
 
-    /// Whether there is no number in it.
+    /// Whether the interval contains no number.
     #[inline(always)]
     pub fn is_empty(self) -> bool {
         self.lo.is_nan() || self.hi.is_nan()
     }
 
-    /// Whether `x` lies in it.
+    /// Whether the interval contains `x`.
     #[inline(always)]
     pub fn contains(self, x: f64) -> bool {
         self.lo <= x && x <= self.hi
     }
 
-    /// Whether all of `other` lies in it.
+    /// Whether the interval contains all of `other`.
     #[inline(always)]
     pub fn encloses(self, other: Self) -> bool {
         other.is_empty() || (self.lo <= other.lo && other.hi <= self.hi)
     }
 
-    /// The numbers in both, if any.
+    /// The intersection, if it is not empty.
     #[inline(always)]
     pub fn intersection(self, other: Self) -> Option<Self> {
         let lo = if self.lo > other.lo { self.lo } else { other.lo };
@@ -78,11 +80,11 @@ impl Interval {
         (lo <= hi && !empty).then_some(Self { lo, hi })
     }
 
-    /// The least interval that holds both.
+    /// The least interval that contains both.
     #[inline(always)]
     #[must_use]
     pub fn hull(self, other: Self) -> Self {
-        // `f64::min` prefers the number to the NaN of an empty interval.
+        // `f64::min` ignores the NaN of an empty interval.
         Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
     }
 
@@ -103,13 +105,13 @@ impl Interval {
         m.clamp_to(self.lo, self.hi)
     }
 
-    /// The largest absolute value in it.
+    /// The largest absolute value.
     #[inline(always)]
     pub fn magnitude(self) -> f64 {
         self.lo.abs().max(self.hi.abs())
     }
 
-    /// The interval of the lesser of two numbers.
+    /// The interval of the lesser of two numbers, one from each interval.
     #[inline(always)]
     #[must_use]
     pub fn min(self, b: Self) -> Self {
@@ -119,7 +121,7 @@ impl Interval {
         Self { lo: self.lo.min(b.lo), hi: self.hi.min(b.hi) }
     }
 
-    /// The interval of the greater of two numbers.
+    /// The interval of the greater of two numbers, one from each interval.
     #[inline(always)]
     #[must_use]
     pub fn max(self, b: Self) -> Self {
@@ -170,7 +172,7 @@ trait ClampTo {
 }
 
 impl ClampTo for f64 {
-    /// As `clamp`, which panics for NaN.
+    /// `clamp` without its panic for NaN.
     #[inline(always)]
     fn clamp_to(self, lo: f64, hi: f64) -> f64 {
         if self < lo {
@@ -184,7 +186,7 @@ impl ClampTo for f64 {
 }
 
 impl PartialEq for Interval {
-    /// As sets: two empty intervals are equal.
+    /// Compares as sets: two empty intervals are equal.
     #[inline(always)]
     fn eq(&self, b: &Self) -> bool {
         (self.lo == b.lo && self.hi == b.hi) || (self.is_empty() && b.is_empty())
@@ -192,7 +194,7 @@ impl PartialEq for Interval {
 }
 
 impl From<f64> for Interval {
-    /// The number `x` alone; empty for an infinity or NaN.
+    /// The interval that contains `x` alone; empty for an infinity or NaN.
     #[inline(always)]
     fn from(x: f64) -> Self {
         if x.is_finite() { Self { lo: x, hi: x } } else { Self::EMPTY }
@@ -231,7 +233,7 @@ impl Mul for Interval {
         if a.is_empty() || b.is_empty() {
             return Self::EMPTY;
         }
-        // Which ends meet in the least product, and which in the greatest.
+        // Which ends give the least product, and which the greatest.
         let (l, h) = if a.lo >= 0.0 {
             if b.lo >= 0.0 {
                 ((a.lo, b.lo), (a.hi, b.hi))

@@ -1,4 +1,4 @@
-//! The one door through which code gets the CPU's vector and fused instructions.
+//! The only access to the CPU's vector and fused instructions.
 #![expect(
     unsafe_code,
     reason = "calling a function compiled for CPU features is unsafe; an Isa, or the architecture, proves them"
@@ -12,20 +12,20 @@ pub use pages::in_large_pages;
 
 use std::sync::OnceLock;
 
-/// Which instructions a computation may use.
+/// An instruction set for a computation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Path {
     /// For CPUs without fused multiply-add.
     Unfused,
-    /// Scalar code with `mul_add`: the definition that the others must equal bit for bit.
+    /// Scalar code with `mul_add`: it defines the results, which the others equal bit for bit.
     Reference,
     /// AVX2 and FMA.
     Avx2,
-    /// AVX-512 F, VL, DQ and BW, with what [`Path::Avx2`] has.
+    /// AVX-512 F, VL, DQ and BW, and the features of [`Path::Avx2`].
     Avx512,
 }
 
-/// `DURER_ISA` asks for something that cannot be had.
+/// Why the path that `DURER_ISA` names is not available.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum IsaError {
     /// No path has this name.
@@ -38,8 +38,8 @@ pub enum IsaError {
 
 /// Proof that this CPU can run a [`Path`]: only detection makes one.
 ///
-/// Everything reachable from [`Isa::run`]'s closure must be `#[inline(always)]`, or it is compiled for the basic CPU and each `mul_add` in it
-/// becomes a library call: right, but slow.
+/// Everything reachable from [`Isa::run`]'s closure must be `#[inline(always)]`, or it is compiled
+/// for the basic CPU and each `mul_add` in it becomes a library call: right, but slow.
 ///
 /// ```
 /// use durer_math::Isa;
@@ -92,9 +92,11 @@ impl Isa {
     /// The scalar definition, which runs everywhere.
     pub const REFERENCE: Self = Self(Path::Reference);
 
-    /// The best path of this CPU, or the one that the environment variable `DURER_ISA` names. Asked once, then remembered.
+    /// The best path of this CPU, or the one that the environment variable `DURER_ISA` names.
+    /// Detected once, then cached.
     ///
-    /// A name that is unknown or not available is ignored here; a program's `main` reports it by [`Isa::requested`].
+    /// A name that is unknown or not available is ignored here; a program's `main` reports it by
+    /// [`Isa::requested`].
     #[inline]
     pub fn detect() -> Self {
         static FOUND: OnceLock<Isa> = OnceLock::new();
@@ -136,9 +138,10 @@ impl Isa {
     pub fn run<R>(self, f: impl FnOnce() -> R) -> R {
         match self.0 {
             Path::Reference | Path::Unfused => f(),
-            // SAFETY: an `Isa` with this path is made only by `with`, after `is_available` has seen every feature that the
-            // function is compiled for on this CPU.
-            // Code that is not written for lanes gains nothing from AVX-512, so both paths share one compiled copy of it.
+            // SAFETY: an `Isa` with this path is made only by `with`, after `is_available` has
+            // detected on this CPU every feature that the function is compiled for. Code that is
+            // not written for lanes gains nothing from AVX-512, so both paths share one compiled
+            // copy of it.
             #[cfg(target_arch = "x86_64")]
             Path::Avx2 | Path::Avx512 => unsafe { run_avx2(f) },
             #[cfg(not(target_arch = "x86_64"))]
@@ -146,11 +149,13 @@ impl Isa {
         }
     }
 
-    /// As [`Isa::run`], for code that is written for lanes ([`crate::lanes`]): compiled for AVX-512 too.
+    /// [`Isa::run`] for code that is written for lanes ([`crate::lanes`]): compiled for AVX-512
+    /// too.
     #[inline(always)]
     pub fn run_in_lanes<R>(self, f: impl FnOnce() -> R) -> R {
         match self.0 {
-            // SAFETY: as in `run`: `is_available` has seen every feature of this path on this CPU.
+            // SAFETY: as in `run`: `is_available` has detected every feature of this path on this
+            // CPU.
             #[cfg(target_arch = "x86_64")]
             Path::Avx512 => unsafe { run_avx512(f) },
             _ => self.run(f),

@@ -1,10 +1,12 @@
 //! Large arrays in large pages.
 //!
-//! A ray through millions of triangles reads memory all over the place, and for pages of 4 KiB most of these reads have to look up first where the page is.
-//! And what is written once, as a film, costs a call of the system for each page, which takes longer than to write it.
-//! Linux backs memory by pages of 2 MiB where it is asked to; elsewhere, and for small arrays, nothing is done.
+//! A ray through millions of triangles reads memory at scattered addresses, and with pages of 4 KiB
+//! most of these reads miss the TLB. An array that is written once, such as a film, costs a page
+//! fault for each page, which takes longer than the writing. Linux backs memory by pages of 2 MiB
+//! on request; elsewhere, and for small arrays, nothing is done.
 
-/// Asks for large pages for all the room that a list has, which should not have been written yet: zeros from the system count as not written.
+/// Requests large pages for the whole capacity of a list, which should not have been written yet:
+/// zeros from the system count as not written.
 #[cfg(target_os = "linux")]
 #[expect(unsafe_code, reason = "advice about a list's own memory, which changes nothing that can be seen")]
 pub fn in_large_pages<T>(list: &Vec<T>) {
@@ -14,21 +16,21 @@ pub fn in_large_pages<T>(list: &Vec<T>) {
     const PAGE: usize = 1 << 21;
     let start = list.as_ptr().cast::<u8>();
     let bytes = list.capacity() * size_of::<T>();
-    // The large pages that lie wholly within.
+    // The large pages that lie wholly within the capacity.
     let before = start.align_offset(PAGE);
     let inside = bytes.saturating_sub(before) / PAGE * PAGE;
     if inside == 0 {
         return;
     }
     let Some(first) = NonNull::new(start.wrapping_add(before).cast_mut().cast::<c_void>()) else { return };
-    // SAFETY: the range is part of the list's allocation, and this advice, unlike others, leaves all contents and rights as they are: it
-    // only says by which pages they are to be held.
+    // SAFETY: the range is part of the list's allocation, and this advice, unlike others, does not
+    // change contents or access rights: it only affects which pages hold them.
     let advised = unsafe { madvise(first, inside, MmapAdvise::MADV_HUGEPAGE) };
-    // A system without large pages goes on without them.
+    // A system without large pages works without them.
     let _ = advised;
 }
 
-/// Asks for nothing: this system is not known to give large pages on demand.
+/// Does nothing: this system is not known to provide large pages on request.
 #[cfg(not(target_os = "linux"))]
 pub fn in_large_pages<T>(_: &Vec<T>) {}
 

@@ -1,48 +1,60 @@
-//! Bounds of noise and of its derivatives on boxes.
+//! Bounds on noise and its derivatives on boxes.
 //!
-//! **In a cell.** `|n| <= 33/64 + 3/2`, since `(1 - f) t + f (1 - t) <= 1/2`. A derivative is a blend, along the other two axes, of what it is on the four edges along its own:
+//! **In a cell.** `|n| <= 33/64 + 3/2`, since `(1 - f) t + f (1 - t) <= 1/2`. A derivative is a
+//! blend, along the other two axes, of its values on the four edges along its own axis:
 //!
 //! ```text
-//!   f'(x) (b - a) + (1 - f(x)) a_x + f(x) b_x,     a and b: v + g . (x - i, y - j, z - k) of the edge's two corners
+//!   f'(x) (b - a) + (1 - f(x)) a_x + f(x) b_x,
+//!   a and b: v + g . (x - i, y - j, z - k) of the edge's two corners
 //! ```
 //!
-//! `b - a` is linear, so it is as far from its value in the box's middle as its slopes say; `f` and `f'` have their extremes at the box's ends, or `f'` in the cell's middle; a blend of intervals rises with both and is
-//! linear in `f`, so it has its extremes at the ends. The value follows from the one in the middle by the mean value theorem. Of a box in several cells this is asked of the parts, up to two along each axis; of
-//! larger ones the range is all that is known.
+//! `b - a` is linear, so its slopes bound its distance from its value in the box's middle; `f` and
+//! `f'` have their extremes at the box's ends, or `f'` in the cell's middle; a blend of intervals
+//! is increasing in both and linear in `f`, so it has its extremes at the ends. The bound on the
+//! value follows from the value in the middle by the mean value theorem. For a box in several cells
+//! the bounds are the union of those of its parts, up to two along each axis; for larger boxes the
+//! range is all that is known.
 //!
-//! **Small boxes**, with the middle `m` and the half sides `r`, need only one look at the corners:
+//! **Small boxes**, with the middle `m` and the half sides `r`, need only one evaluation of the
+//! corners:
 //!
 //! ```text
 //!   |n(p) - n(m)| <= sum |n_i(m)| r_i + 1/2 sum H_ij r_i r_j,   |n_i(p) - n_i(m)| <= sum H_ij r_j
 //! ```
 //!
-//! where `H` bounds the second derivatives, which jump between cells but are bounded in all of them: so this holds over any number of cells. [`SLOPE`], [`BEND`] and [`TWIST`] bound the first derivatives, and the second
-//! ones along one axis and along two, whatever the corners have: as sums of absolute values, whose extremes the tests find by interval arithmetic.
+//! where `H` bounds the second derivatives, which jump between cells but are bounded in all of
+//! them: so this holds over any number of cells. [`SLOPE`], [`BEND`] and [`TWIST`] bound the first
+//! derivatives, and the second ones along one axis and along two, for all corners: as sums of
+//! absolute values, whose extremes the tests find by interval arithmetic.
 //!
-//! **Rounding** is that of values and slopes; what is said of an edge errs by `115 u`, and each of the two blends adds `75 u`: in all less than [`SLOPE_ROUNDINGS`].
-//! A box's middle is rounded by half of `u` along each axis, which moves a value by less than `8 u`.
+//! **Rounding** is that of values and slopes; the bounds on an edge err by `115 u`, and each of the
+//! two blends adds `75 u`: in all less than [`SLOPE_ROUNDINGS`]. A box's middle is rounded by half
+//! of `u` along each axis, which moves a value by less than `8 u`.
 //!
-//! In a cell all is done in f32, whose roundings are less than 2^-16 of what a derivative may be: a box's ends are rounded outward first, and whatever holds on the larger box holds on it. Boxes so small that such a rounding counts
-//! beside what they add to the value in the middle are looked at as small ones, too.
+//! In a cell all is computed in f32, whose roundings are less than 2^-16 of the range of a
+//! derivative: a box's ends are rounded outward first, and bounds on the larger box hold on it.
+//! Boxes so small that such a rounding is significant beside the variation of the value are also
+//! treated as small ones.
 
 use super::{APART, Along, SLOPE_ROUNDINGS, Sum, VALUE_ROUNDINGS, are_one_cell, number};
 use crate::real::{Eight, Real, less, more, roundings};
 use crate::{F8, I8, Isa, M8};
 
-/// Errors count twice in bounds, so that these hold rounded values too; the rest is for the bounds' own rounding.
+/// Errors count twice in bounds, so that these also hold for rounded values; the rest is for the
+/// bounds' own rounding.
 const VALUE_MARGIN: f32 = 2.0 * VALUE_ROUNDINGS + 16.0;
 const SLOPE_MARGIN: f32 = 2.0 * SLOPE_ROUNDINGS + 16.0;
-/// Pays for the roundings of sums of numbers that are not negative: twelve at most one after the other.
+/// Pays for the roundings of sums of non-negative numbers: at most twelve in succession.
 const UP: f32 = 16.0;
-/// The largest value of a corner.
+/// The largest value of a lattice point.
 pub(super) const CORNER: f64 = 33.0 / 64.0;
 /// Bound on the values.
 const RANGE: f64 = CORNER + 1.5;
 /// Bound on the first derivatives.
 pub(super) const SLOPE: f64 = 5.06;
-/// Bound on the second ones along one axis.
+/// Bound on the second derivatives along one axis.
 pub(super) const BEND: f64 = 24.3;
-/// Bound on the second ones along two.
+/// Bound on the second derivatives along two axes.
 pub(super) const TWIST: f64 = 12.45;
 
 /// Bounds of noise on eight boxes.
@@ -54,7 +66,7 @@ pub(crate) fn bounds(p: [&I8; 3]) -> I8 {
     )
 }
 
-/// Bounds of noise and of its derivatives.
+/// Bounds on noise and its derivatives on eight boxes.
 #[inline(never)]
 pub(crate) fn slopes(p: [&I8; 3]) -> (I8, [I8; 3]) {
     Isa::detect().run_in_lanes(
@@ -65,9 +77,9 @@ pub(crate) fn slopes(p: [&I8; 3]) -> (I8, [I8; 3]) {
 
 #[inline(always)]
 fn bounds_in_cell(p: [&I8; 3]) -> (I8, [I8; 3]) {
-    /// Bounds that know nothing of the corners will do if all sides are as short as this.
+    /// The bounds for small boxes suffice if all sides are as short as this.
     const SMALL: f64 = 1.0 / 128.0;
-    /// A derivative of 1 makes nearly six times [`VALUE_MARGIN`] of half of this, in f32.
+    /// Half of this times a derivative of 1 is nearly six times [`VALUE_MARGIN`], in f32.
     const FINE: f64 = 1.0 / 8192.0;
     let mut side = F8::ZERO;
     for axis in p {
@@ -85,7 +97,7 @@ fn bounds_in_cell(p: [&I8; 3]) -> (I8, [I8; 3]) {
     out
 }
 
-/// Bounds of some lanes that hold over any number of cells.
+/// Narrows the bounds of some lanes by those for small boxes, which hold over any number of cells.
 #[inline(always)]
 fn around(p: [&I8; 3], lanes: M8, out: &mut (I8, [I8; 3])) {
     let (mut m, mut r) = ([F8::ZERO; 3], [F8::ZERO; 3]);
@@ -126,7 +138,7 @@ fn nothing(p: [&I8; 3]) -> (I8, [I8; 3]) {
     (v, [d; 3])
 }
 
-/// Takes new bounds of a lane where they are narrower; what is no number is not.
+/// Takes new bounds of a lane where they are narrower; a NaN is not.
 #[inline(always)]
 fn narrow(x: &mut I8, i: usize, lo: f64, hi: f64) {
     x.lo.0[i] = if lo > x.lo.0[i] { lo } else { x.lo.0[i] };
@@ -138,12 +150,13 @@ fn narrow(x: &mut I8, i: usize, lo: f64, hi: f64) {
 struct Part {
     /// The contribution of the cell's lower corner to the hash.
     corner: [u32; 8],
-    /// From where to where, in the cell.
+    /// The part's interval in the cell.
     lo: F8,
     hi: F8,
 }
 
-/// A box along an axis: the part in its first cell, in which lanes there is one in the next cell, and in which one in a third.
+/// A box along an axis: the part in its first cell, the lanes with a part in the next cell, and the
+/// lanes with a part in a third.
 struct Parts {
     first: Part,
     /// Where the part in the second cell ends.
@@ -165,7 +178,7 @@ impl Parts {
             first.hi.0[i] = if hi < 1.0 { hi } else { 1.0 };
             rest.0[i] = hi - 1.0;
         }
-        // Where an end is infinite there are more.
+        // A negated comparison, so that infinite ends count as more.
         Self { first, rest, two: rest.gt(F8::ZERO), more: !rest.le(F8::ONE) }
     }
 
@@ -181,7 +194,8 @@ impl Parts {
     }
 }
 
-/// Bounds by those on the parts in single cells; of boxes of more than two cells along an axis nothing is known.
+/// Narrows bounds by those on the parts in single cells, except for boxes of more than two cells
+/// along an axis.
 #[inline(always)]
 fn cellwise(p: [&I8; 3], out: &mut (I8, [I8; 3])) {
     let parts = [Parts::new(p[0], APART[0]), Parts::new(p[1], APART[1]), Parts::new(p[2], APART[2])];
@@ -203,7 +217,7 @@ fn cellwise(p: [&I8; 3], out: &mut (I8, [I8; 3])) {
     }
 }
 
-/// Widens bounds by those on the parts in other cells than the first, eight of them at a time.
+/// Widens bounds by those on the parts in other cells than the first, eight parts at a time.
 #[inline(always)]
 fn beside(parts: &[Parts; 3], two: &[M8; 3], held: &mut (Ends, [Ends; 3])) {
     let [x, y, z] = [two[0].bits(), two[1].bits(), two[2].bits()];
@@ -230,7 +244,7 @@ fn beside(parts: &[Parts; 3], two: &[M8; 3], held: &mut (Ends, [Ends; 3])) {
     }
 }
 
-/// Bounds of some lanes as wide as others are.
+/// Widens the bounds of the lanes `of` to contain the bounds `by`.
 #[inline(always)]
 fn widen(held: &mut (Ends, [Ends; 3]), of: &[usize], by: &(Ends, [Ends; 3])) {
     held.0.widen(of, &by.0);
@@ -239,7 +253,7 @@ fn widen(held: &mut (Ends, [Ends; 3]), of: &[usize], by: &(Ends, [Ends; 3])) {
     }
 }
 
-/// The least and the greatest numbers of eight.
+/// Eight intervals in f32.
 #[derive(Clone, Copy)]
 struct Ends {
     lo: Eight<f32>,
@@ -247,7 +261,7 @@ struct Ends {
 }
 
 impl Ends {
-    /// Some lanes as wide as others are.
+    /// Widens the lanes `of` to contain the intervals `by`.
     #[inline(always)]
     fn widen(&mut self, of: &[usize], by: &Self) {
         for (k, &i) in of.iter().enumerate() {
@@ -256,7 +270,7 @@ impl Ends {
         }
     }
 
-    /// Of `(1 - f) a + f b`: it rises with both, and is linear in `f`.
+    /// Bounds on `(1 - f) a + f b`, which is increasing in both and linear in `f`.
     #[inline(always)]
     fn blended(f: &Self, a: &Self, b: &Self) -> Self {
         let (lo, hi) = (b.lo - a.lo, b.hi - a.hi);
@@ -267,7 +281,7 @@ impl Ends {
     }
 }
 
-/// A part along an axis, and what the blend and its derivative are on it.
+/// A part along an axis, with bounds on the blend and its derivative.
 struct Within {
     /// Half of its length.
     half: Eight<f32>,
@@ -280,7 +294,7 @@ impl Within {
     fn new(part: &Part, apart: u32) -> (Along<f32>, Self) {
         let (mut lo, mut hi) = (Eight::ZERO, Eight::ZERO);
         for i in 0..8 {
-            // In f32 a bit outside, in the cell.
+            // Rounded outward to f32, but within the cell.
             let down = (part.lo.0[i] as f32) * less::<f32>(4.0) - f32::TINY;
             let up = (part.hi.0[i] as f32) * more::<f32>(4.0) + f32::TINY;
             lo.0[i] = Real::max(down, 0.0);
@@ -298,7 +312,8 @@ impl Within {
     }
 }
 
-/// Bounds on eight boxes, each of which is in one cell: of the derivatives by the blends' extremes, of the value by the one in the middle and the derivatives.
+/// Bounds on eight boxes, each of which is in one cell: on the derivatives by the blends' extremes,
+/// on the value by its value in the middle and the derivatives.
 #[inline(never)]
 fn whole(parts: &[Part; 3]) -> (Ends, [Ends; 3]) {
     Isa::detect().run_in_lanes(
@@ -336,7 +351,7 @@ fn within_corners(
     (Ends { lo: v - reach, hi: v + reach }, d)
 }
 
-/// Bounds of the derivative along the first of three axes.
+/// Bounds on the derivative along the first of three axes.
 #[inline(always)]
 fn slope(within: &[Within; 3], corners: &[Sum<f32>; 8], [axis, second, third]: [usize; 3]) -> Ends {
     let (upper, b, c) = (1 << axis, 1 << second, 1 << third);
@@ -355,7 +370,7 @@ fn slope(within: &[Within; 3], corners: &[Sum<f32>; 8], [axis, second, third]: [
     Ends { lo: lo - margin, hi: hi + margin }
 }
 
-/// Bounds for an edge with two corners: `f' (b - a)`, and the slopes there.
+/// Bounds for an edge with two corners: `f' (b - a)`, and the blended slopes.
 #[inline(always)]
 fn pair(within: &[Within; 3], axis: usize, a: &Sum<f32>, b: &Sum<f32>) -> Ends {
     // The difference is linear along all axes.

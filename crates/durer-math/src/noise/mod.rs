@@ -1,17 +1,24 @@
 //! Noise on the unit lattice: K. Perlin, "An image synthesizer", SIGGRAPH 1985.
 //!
 //! ```text
-//!   n(x, y, z) = sum of w(x - i) w(y - j) w(z - k) (v + g . (x - i, y - j, z - k))   over the corners (i, j, k) of the lattice's cell
+//!   n(x, y, z) = sum of w(x - i) w(y - j) w(z - k) (v + g . (x - i, y - j, z - k))
+//!                over the corners (i, j, k) of the lattice's cell
 //!   w(t) = 1 - f(|t|),  f(t) = 3 t^2 - 2 t^3
 //! ```
 //!
-//! Each point of the lattice has a value `v` and a slope `g` of its own, which a hash of its three whole numbers says, each taken modulo 2^32: `v` is one of the 256 multiples of 1/256 from -132/256 on, the three
-//! parts of `g` are odd multiples of 1/256 between -1 and 1. So noise is a polynomial in each cell, with numbers that f64 holds exactly, and its derivatives are continuous everywhere: what is bounded here is that
-//! function of real numbers.
+//! Each point of the lattice has a value `v` and a slope `g` of its own, which are determined by a
+//! hash of its three integer coordinates, each taken modulo 2^32: `v` is one of the 256 multiples
+//! of 1/256 from -132/256 on, the three components of `g` are odd multiples of 1/256 in (-1, 1).
+//! So noise is a polynomial in each cell, with coefficients that f64 holds exactly, and its
+//! derivatives are continuous everywhere: the bounds are on that function of real numbers.
 //!
-//! **Rounding.** With `u` for one rounding of 1, in f64 or in f32, which holds the same numbers exactly: a coordinate in its cell is exact, but for one between -1 and 0, where it errs by `u/2`; all roundings of `f` are `2 u`, of `f'` `4 u`,
-//! of a corner's sum `7 u`. A step of the interpolation, of which there are three, adds `21 u` to a value (`2 u` times a difference of at most 7.04, its rounding of `4 u` and the sum's of `2 u`), and to a derivative at most `75 u`, or
-//! `180 u` along its own axis. With what the coordinates' errors make of it these are below [`VALUE_ROUNDINGS`] and [`SLOPE_ROUNDINGS`].
+//! **Rounding.** With `u` for one rounding of 1, in f64 or in f32, which holds the same numbers
+//! exactly: a coordinate in its cell is exact, but for one between -1 and 0, where it errs by
+//! `u/2`; all roundings of `f` are `2 u`, of `f'` `4 u`, of a corner's sum `7 u`. A step of the
+//! interpolation, of which there are three, adds `21 u` to a value (`2 u` times a difference of at
+//! most 7.04, its rounding of `4 u` and the sum's of `2 u`), and to a derivative at most `75 u`, or
+//! `180 u` along its own axis. With the effect of the coordinates' errors these are below
+//! [`VALUE_ROUNDINGS`] and [`SLOPE_ROUNDINGS`].
 
 mod bounds;
 #[cfg(test)]
@@ -24,15 +31,16 @@ use crate::{F8, Isa};
 
 /// Bound on the rounding errors of a value, in roundings of 1.
 const VALUE_ROUNDINGS: f32 = 80.0;
-/// The error bound of a derivative, in roundings.
+/// Bound on the rounding errors of a derivative, in roundings of 1.
 const SLOPE_ROUNDINGS: f32 = 320.0;
 
-/// Primes that take the three whole numbers apart: those of Y. Collet's xxHash.
+/// Primes that distinguish the three coordinates in the hash: those of Y. Collet's xxHash.
 const APART: [u32; 3] = [0x9e37_79b1, 0x85eb_ca77, 0xc2b2_ae3d];
 
-/// A number that a lattice's point can be said in.
+/// A number type for the values of lattice points.
 trait Grain: Real {
-    /// The lowest eight bits as what is behind the point of a number: from 1 to 2 by 1/256, or from 2 to 4 by 1/128.
+    /// A number with the lowest eight bits as its fraction: from 1 to 2 by 1/256, or from 2 to 4 by
+    /// 1/128.
     fn eight(bits: u32, first: Self) -> Self;
 }
 
@@ -50,11 +58,11 @@ impl Grain for f32 {
     }
 }
 
-/// A coordinate: its cell, and where in it.
+/// A coordinate: its cell, and its position there.
 struct Along<T> {
     /// The contribution of the cell's two corners to the hash.
     corner: [[u32; 8]; 2],
-    /// How far from these.
+    /// The distances from these corners.
     from: [Eight<T>; 2],
     /// The blend and its derivative.
     f: Eight<T>,
@@ -62,7 +70,7 @@ struct Along<T> {
 }
 
 impl<T: Grain> Along<T> {
-    /// Of numbers from 0 to 1 in cells whose lower corners add this.
+    /// The coordinates `t` from 0 to 1 in cells whose lower corners contribute `corner`.
     #[inline(always)]
     fn new(corner: [u32; 8], t: &Eight<T>, apart: u32) -> Self {
         let mut out =
@@ -79,7 +87,7 @@ impl<T: Grain> Along<T> {
 }
 
 impl Along<f64> {
-    /// The cells of any numbers.
+    /// The cells and positions of any numbers.
     #[inline(always)]
     fn of(x: &F8, apart: u32) -> Self {
         let (mut corner, mut t) = ([0; 8], Eight::ZERO);
@@ -104,17 +112,17 @@ fn are_one_cell<T>(along: &[Along<T>; 3]) -> bool {
     different == 0
 }
 
-/// A whole number modulo 2^32; any if it is none.
+/// An integer modulo 2^32; arbitrary for a number that is no integer.
 #[inline(always)]
 fn number(whole: f64) -> u32 {
     const TURN: f64 = (1_u64 << 32) as f64;
-    // Added to a whole number below 2^32 it leaves that in the lowest bits.
+    // Added to an integer below 2^32, it leaves that in the lowest bits.
     const WHOLE: f64 = (1_u64 << 52) as f64;
     let rest = whole - (whole * (1.0 / TURN)).floor() * TURN;
     (rest + WHOLE).to_bits() as u32
 }
 
-/// Mixes the bits of what the three numbers came to: the last rounds of A. Appleby's MurmurHash3.
+/// Mixes the bits of the combined coordinates: the last rounds of A. Appleby's MurmurHash3.
 #[inline(always)]
 fn mixed(x: u32) -> u32 {
     let x = (x ^ x >> 16).wrapping_mul(0x85eb_ca6b);
@@ -133,7 +141,8 @@ fn hashes<T>(along: &[Along<T>; 3], corner: usize) -> [u32; 8] {
     hash
 }
 
-/// An array of what an expression is for each corner: bit `i` of its number says where it is along axis `i`.
+/// An array of the values of an expression for each corner: bit `i` of its number is its position
+/// along axis `i`.
 macro_rules! each_corner {
     ($c:ident => $each:expr) => {
         [
@@ -176,7 +185,7 @@ impl<T: Grain> Sum<T> {
         out
     }
 
-    /// From one to another along an axis.
+    /// Blends from `a` to `b` along an axis.
     #[inline(always)]
     fn blended(along: &[Along<T>; 3], axis: usize, a: &Self, b: &Self) -> Self {
         let Along { f, slope, .. } = &along[axis];
@@ -189,7 +198,8 @@ impl<T: Grain> Sum<T> {
         out
     }
 
-    /// All corners, as seen from there; if all lanes are in one cell, eight corners are asked once.
+    /// The contributions of all corners; if all lanes are in one cell, its eight corners are hashed
+    /// once.
     #[inline(always)]
     fn corners<const ONE_CELL: bool>(along: &[Along<T>; 3]) -> [Self; 8] {
         if !ONE_CELL {
@@ -251,7 +261,7 @@ impl<T: Grain> Sum<T> {
 }
 
 impl Sum<f64> {
-    /// At eight points.
+    /// The noise at eight points.
     #[inline(always)]
     fn at([x, y, z]: [&F8; 3]) -> Self {
         let along = [Along::of(x, APART[0]), Along::of(y, APART[1]), Along::of(z, APART[2])];
@@ -272,7 +282,7 @@ pub(crate) fn values(p: [&F8; 3]) -> F8 {
     )
 }
 
-/// Noise and its derivatives.
+/// The noise of eight points and its derivatives, rounded.
 #[inline(never)]
 pub(crate) fn slants(p: [&F8; 3]) -> (F8, [F8; 3]) {
     Isa::detect().run_in_lanes(

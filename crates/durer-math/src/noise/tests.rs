@@ -1,4 +1,4 @@
-//! Noise against exact arithmetic, its bounds, and what its corners are like.
+//! Noise and its bounds against exact arithmetic, and the statistics of its corners.
 
 use super::bounds::{BEND, CORNER, SLOPE, TWIST};
 use super::*;
@@ -39,7 +39,8 @@ fn exact(p: [f64; 3]) -> [Dyadic; 4] {
     sum
 }
 
-/// Numbers of all kinds: in cells, on their faces and next to these, small and large, of both signs.
+/// Numbers of all kinds: in cells, on their faces and next to these, small and large, of both
+/// signs.
 struct Dice(u64);
 
 impl Dice {
@@ -81,14 +82,15 @@ fn rounded_values_and_slopes_are_as_near_as_is_said() {
         let told = [v, d[0], d[1], d[2]];
         for (told, exact) in told.iter().zip(exact(p)) {
             let e = crate::U * f64::from(if *told == v { VALUE_ROUNDINGS } else { SLOPE_ROUNDINGS });
-            // A quarter of what is claimed is what happens.
+            // The true error is at most a quarter of the bound.
             let (lo, hi) = (told.0[0] - e / 4.0, told.0[0] + e / 4.0);
             assert!(is_within(&exact, lo, hi), "{p:?}: {told:?} {exact:?}");
         }
     }
 }
 
-/// In single precision, too, of points that it knows: in the cells around the lattice's point 0.
+/// In single precision, too, at points that it can represent: in the cells around the lattice's
+/// point 0.
 #[test]
 fn single_precision_is_as_near_as_is_said() {
     let mut dice = Dice(5);
@@ -101,7 +103,8 @@ fn single_precision_is_as_near_as_is_said() {
         };
         let along = [axis(0), axis(1), axis(2)];
         let Sum { v, d } = Sum::of(&along, &Sum::corners::<false>(&along));
-        // Sums with a whole number are exact in f64 but for some small ones below zero, which then do not count in f32.
+        // Sums with an integer are exact in f64 but for some small ones below zero, which then do
+        // not count in f32.
         let exact = exact([0, 1, 2].map(|i| whole[i] + f64::from(t[i])));
         for (k, (told, exact)) in [v, d[0], d[1], d[2]].iter().zip(&exact).enumerate() {
             let off = exact.clone() - Dyadic::exact(f64::from(told.0[0]));
@@ -109,7 +112,7 @@ fn single_precision_is_as_near_as_is_said() {
             worst[usize::from(k > 0)] = worst[usize::from(k > 0)].max(off);
         }
     }
-    // A quarter of what is claimed is what happens.
+    // The true error is at most a quarter of the bound.
     assert!(
         worst[0] <= f64::from(VALUE_ROUNDINGS) / 4.0 && worst[1] <= f64::from(SLOPE_ROUNDINGS) / 4.0,
         "{worst:?}"
@@ -128,7 +131,7 @@ fn pictures_of_noise_stay_what_they_are() {
     for (p, value) in known {
         assert_eq!(at(p), value, "{p:?}");
     }
-    // It begins anew after 2^32.
+    // The lattice repeats after 2^32.
     assert_eq!(at([0.5 + 4_294_967_296.0, 0.5, 0.5]), at([0.5, 0.5, 0.5]));
     assert!(at([f64::INFINITY, 0.0, 0.0]).is_nan() && at([f64::MAX, f64::MIN, 1e300]).is_finite());
 }
@@ -183,7 +186,8 @@ fn constants_bound_the_derivatives_whatever_the_corners_have() {
         (d, dd, (one - f - d * t).abs() + (f - d * (one - t)).abs())
     };
     let piece = |k: u32, n: u32| Interval::new(f64::from(k) / f64::from(n), f64::from(k + 1) / f64::from(n));
-    // Distances from two corners, weighted, are at most 1/2 together: so 1 of two pairs along each of the other axes.
+    // The weighted distances from two corners are at most 1/2 together: so 1 for two pairs along
+    // the other axes.
     let other = number(2.0 * CORNER + 2.0);
     let (mut slope, mut bend, mut twist) = (0.0_f64, 0.0_f64, 0.0_f64);
     for i in 0..4096 {
@@ -200,7 +204,7 @@ fn constants_bound_the_derivatives_whatever_the_corners_have() {
             twist = twist.max(all.hi);
         }
     }
-    // Not more than a hundredth too large.
+    // At most a hundredth too large.
     for (found, claimed) in [(slope, SLOPE), (bend, BEND), (twist, TWIST)] {
         assert!(found <= claimed && claimed <= 1.01 * found, "{found} {claimed}");
     }
@@ -253,7 +257,8 @@ fn corners_are_alike_and_know_nothing_of_each_other() {
             }
         }
     }
-    // Uniform between -1/2 and 1/2, and between -1 and 1. Of so many, means and correlations are within 5 standard errors.
+    // Uniform between -1/2 and 1/2, and between -1 and 1. With so many samples, means and
+    // correlations are within 5 standard errors.
     let variance = [1.0 / 12.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0];
     let error = 5.0 / f64::sqrt(count);
     for i in 0..4 {

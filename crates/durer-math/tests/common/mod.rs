@@ -1,11 +1,11 @@
-//! Exact witnesses and generators that aim at trouble, shared by the laws.
+//! Exact witnesses and generators of hard cases, shared by the tests.
 #![allow(dead_code, reason = "each test program uses its own part")]
 
 use dashu::rational::RBig;
 use proptest::prelude::*;
 
-/// So many cases, times the variable `DURER_SOAK` if it is set, and no files of past failures: a failure worth keeping becomes a
-/// test with a name.
+/// `n` cases, times the variable `DURER_SOAK` if it is set, without files of past failures: a
+/// failure worth keeping becomes a test with a name.
 pub(crate) fn cases(n: u32) -> ProptestConfig {
     let soak = std::env::var("DURER_SOAK").ok().and_then(|x| x.parse().ok()).unwrap_or(1);
     ProptestConfig { cases: n.saturating_mul(soak), failure_persistence: None, ..ProptestConfig::default() }
@@ -20,12 +20,12 @@ pub(crate) fn abs(x: RBig) -> RBig {
     if x < RBig::ZERO { -x } else { x }
 }
 
-/// Whether `|x - truth| <= e`. A bound that is infinite or NaN says nothing, so it holds.
+/// Whether `|x - truth| <= e`. A bound that is infinite or NaN holds always.
 pub(crate) fn within(x: &RBig, truth: &RBig, e: f64) -> bool {
     !e.is_finite() || abs(x - truth) <= rat(e)
 }
 
-/// `x <= truth`, where infinities are what they should be.
+/// `x <= truth`, where `x` may be infinite.
 pub(crate) fn below(x: f64, truth: &RBig) -> bool {
     x == f64::NEG_INFINITY || (x.is_finite() && rat(x) <= *truth)
 }
@@ -39,7 +39,7 @@ pub(crate) fn wild() -> impl Strategy<Value = f64> {
     any::<u64>().prop_map(f64::from_bits).prop_filter("finite", |x| x.is_finite())
 }
 
-/// Exponents within `[-e, e]`, full mantissas.
+/// Numbers with exponents within `[-e, e]` and full mantissas.
 pub(crate) fn scaled(e: i32) -> impl Strategy<Value = f64> {
     (any::<bool>(), 1.0..2.0_f64, -e..=e).prop_map(|(negative, m, k)| {
         let x = durer_math::scale::ldexp(m, k);
@@ -47,7 +47,7 @@ pub(crate) fn scaled(e: i32) -> impl Strategy<Value = f64> {
     })
 }
 
-/// Small whole numbers and halves, where exact ties live.
+/// Small integers and halves, which make exact ties.
 pub(crate) fn small() -> impl Strategy<Value = f64> {
     (-8..=8).prop_map(|i| f64::from(i) * 0.5)
 }
