@@ -12,17 +12,18 @@ pub struct Frame {
     exponent: i32,
 }
 
-/// A box for the builder, in tree units, and what it is the box of. 32 bytes.
+/// A box for the builder, in tree units, with the kind and the index of its object. 32 bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(align(32))]
 pub struct Entry {
-    /// The low corner, negated, so that boxes grow by maxima alone; the kind; the high corner; the index. Coordinates are the bits of f32.
+    /// The low corner, negated, so that boxes grow by maxima alone; the kind; the high corner; the
+    /// index. Coordinates are the bits of f32.
     pub(crate) words: [u32; 8],
 }
 
 impl Frame {
-    /// The least exponent taken: below it lengths are so small that a tree would need numbers below f32's; it then holds everything near
-    /// its centre, and every ray there meets every box.
+    /// The least exponent. Below it lengths are so small that a tree would need numbers below
+    /// f32's. Such a tree holds everything near its centre, and every ray there meets every box.
     const LEAST: i32 = -900;
 
     /// The units for a tree over everything in `bounds`, which should be bounded or empty.
@@ -33,27 +34,28 @@ impl Frame {
         Self { exponent: exponent.max(Self::LEAST) }
     }
 
-    /// A length of the caller's, in tree units; exact unless it underflows (or is far outside the tree and overflows).
+    /// Converts a length of the caller's to tree units; exact unless it underflows (or is far
+    /// outside the tree and overflows).
     #[inline(always)]
     pub(crate) fn inward(self, x: f64) -> f64 {
         scale2(x, -self.exponent)
     }
 
-    /// A length in tree units, in the caller's.
+    /// Converts a length in tree units to the caller's units.
     #[inline(always)]
     pub(crate) fn outward(self, x: f64) -> f64 {
         scale2(x, self.exponent)
     }
 
-    /// Lengths in tree units are the caller's by two to this power.
+    /// Lengths in tree units times two to this power are the caller's.
     pub(crate) fn outward_exponent(self) -> i32 {
         self.exponent
     }
 
-    /// A box for the builder: the box of the thing `index` of its `kind`, rounded outward. An unbounded box, or one that holds a
-    /// NaN, gives an entry that is not [bounded](Entry::is_bounded).
+    /// The entry of object `index` of its `kind`, with its box rounded outward. An unbounded box,
+    /// or one with a NaN, gives an entry that is not [bounded](Entry::is_bounded).
     pub fn entry(self, bounds: &Aabb, kind: u32, index: u32) -> Entry {
-        // Where scaling underflows, a step outward makes up for what it lost.
+        // Where scaling underflows, one more step outward makes up for the loss.
         let lost = |x: f64, y: f64| y.abs() < f64::MIN_POSITIVE && x != 0.0;
         let low = |x: f64, y: f64| down32(if lost(x, y) { y.next_down() } else { y });
         let high = |x: f64, y: f64| up32(if lost(x, y) { y.next_up() } else { y });
@@ -62,7 +64,7 @@ impl Frame {
         Entry::new(a, kind, b, index)
     }
 
-    /// A box in tree units, in the caller's.
+    /// Converts a box in tree units to the caller's units.
     pub(crate) fn bounds(self, lo: [f32; 3], hi: [f32; 3]) -> Aabb {
         let point = |c: [f32; 3]| Point3::from(c.map(|x| self.outward(f64::from(x))));
         Aabb::new(point(lo), point(hi))
@@ -72,19 +74,19 @@ impl Frame {
 impl Entry {
     #[inline(always)]
     fn new(lo: [f32; 3], kind: u32, hi: [f32; 3], index: u32) -> Self {
-        // Zeros are positive, so that no maximum depends on an order.
+        // Zeros are positive, so that no maximum depends on the order.
         let low = |i: usize| (0.0 - lo[i]).to_bits();
         let high = |i: usize| (hi[i] + 0.0).to_bits();
         Self { words: [low(0), low(1), low(2), kind, high(0), high(1), high(2), index] }
     }
 
-    /// The kind of thing.
+    /// The kind of its object.
     #[inline]
     pub fn kind(&self) -> u32 {
         self.words[3]
     }
 
-    /// Which one of its kind.
+    /// The index of its object within the kind.
     #[inline]
     pub fn index(&self) -> u32 {
         self.words[7]
@@ -116,19 +118,19 @@ impl Entry {
         (0..3).all(|i| lo[i] <= hi[i] && lo[i] > f32::NEG_INFINITY && hi[i] < f32::INFINITY)
     }
 
-    /// Whether there is no point in it, so that nothing can be met. A NaN is not empty: nothing is known.
+    /// Whether the box has no point, so that no ray can meet it. A NaN is not empty, but unknown.
     #[inline]
     pub fn is_empty(&self) -> bool {
         let (lo, hi) = (self.lo(), self.hi());
         (0..3).any(|i| lo[i] > hi[i]) && lo.iter().chain(&hi).all(|x| !x.is_nan())
     }
 
-    /// A box in tree units.
+    /// An entry with this box, in tree units.
     pub(crate) fn of_extent(extent: &Extent, kind: u32, index: u32) -> Self {
         Self::new(extent.lo(), kind, extent.hi(), index)
     }
 
-    /// The same thing, or a part of it, in another box.
+    /// The same object, or a part of it, with another box.
     pub(crate) fn with_extent(&self, extent: &Extent) -> Self {
         Self::of_extent(extent, self.kind(), self.index())
     }

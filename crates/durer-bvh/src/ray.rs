@@ -1,19 +1,22 @@
-//! The ray as the tree sees it: conservative in f32, so that no box is missed.
+//! Rays for the tree: conservative in f32, so that no box is missed.
 
 use crate::frame::{Frame, down32, up32};
 use durer_math::{Aabb, Point3, U, Vec3};
 
 /// Half an ulp of 1 in f32.
 pub(crate) const U32: f64 = 1.0 / (1 << 24) as f64;
-/// Sizes below this count as this: it keeps flat trees from dividing nothing by nothing.
+/// Smaller sizes are replaced by this, so that a flat tree causes no division of zero by zero.
 pub(crate) const LEAST: f64 = 1.0 / (1_u64 << 60) as f64;
-/// The longest way through the tree that is culled; the ends of a ray from farther away are too uncertain.
+/// The greatest length of a ray's segment in the tree with which boxes are tested; the ends of a
+/// ray from farther away are too uncertain.
 pub(crate) const LONGEST: f64 = (1 << 16) as f64;
-/// More than the roundings of a difference, of `1 / d`, of their product and of what is then added.
+/// More than the roundings of a difference, of `1 / d`, of their product and of the terms that are
+/// then added.
 pub(crate) const WIDEN: f64 = 8.0 * U;
-/// The least component of a direction that is told from zero: within the longest way it moves a ray by 2^-284, which is nothing.
+/// The least component of a direction that is distinguished from zero: within the greatest length
+/// it moves a ray by 2^-284, which is nothing.
 pub(crate) const SLOWEST: f64 = f64::from_bits((1023 - 300) << 52);
-/// What is added so that the nearest f32 is a bound.
+/// Added before rounding to the nearest f32, so that the result is a bound.
 pub(crate) const TO_NEAREST: f64 = U32 * (1.0 + 1.0 / (1 << 20) as f64);
 
 /// A ray in the caller's units: `origin + t direction`, known within errors (per axis).
@@ -33,12 +36,13 @@ pub struct Ray64 {
     pub t_min: f64,
     /// Crossings above this do not matter.
     pub t_max: f64,
-    /// Crossings between these certainly do: the caller's range, where that of the line had to be widened.
+    /// Crossings between these certainly matter: the caller's range, where `t_min` and `t_max` had
+    /// to be widened.
     pub inner: (f64, f64),
 }
 
 impl Ray64 {
-    /// Whether the ray may meet a box, which may be unbounded: `false` is certain.
+    /// Whether the ray may meet a box, which may be unbounded; `false` is certain.
     pub fn may_meet(&self, bounds: &Aabb) -> bool {
         if bounds.is_empty() {
             return false;
@@ -55,12 +59,12 @@ impl Ray64 {
     }
 }
 
-/// A ray that a tree is asked about.
+/// A ray for queries of a tree.
 pub trait TreeRay {
-    /// The ray.
+    /// The ray in f64.
     fn line(&self) -> Ray64;
 
-    /// The same at a glance, which is all that many rays need.
+    /// The ray in f32, which suffices for many rays.
     fn glance(&self) -> Ray32;
 }
 
@@ -80,7 +84,7 @@ pub struct Ray32 {
 }
 
 impl Ray32 {
-    /// Of no ray.
+    /// A value for which `line` is used instead.
     pub const NOTHING: Self = Self {
         origin: [f32::NAN; 4],
         direction: [f32::NAN; 4],
@@ -90,10 +94,10 @@ impl Ray32 {
     };
 }
 
-/// How many rays go together.
+/// The number of rays in a packet.
 pub const PACKET: usize = 8;
 
-/// How many go together where there are lanes for two times as many.
+/// The number of rays in a large packet, where there are lanes for it.
 pub(crate) const TWICE: usize = 2 * PACKET;
 
 /// The numbers of eight [`Ray64`]s that are all exactly known, each rounded to the nearest f32.
@@ -105,12 +109,12 @@ pub struct Packet32 {
     pub direction: [[f32; PACKET]; 3],
     /// The least parameters that matter.
     pub t_min: [f32; PACKET],
-    /// The greatest.
+    /// The greatest parameters that matter.
     pub t_max: [f32; PACKET],
 }
 
 impl Packet32 {
-    /// Of eight rays, if all are exact.
+    /// The packet of eight rays, if all are exact.
     #[inline(always)]
     pub fn of(rays: &[Ray32; PACKET]) -> Option<Self> {
         let mut all = Self {
@@ -156,16 +160,19 @@ impl TreeRay for Ray64 {
     }
 }
 
-/// What a node test needs: per axis `near = plane * r + c_near`, `far = plane * r + c_far`, in f32.
+/// The numbers of a node test: per axis `near = plane * r + c_near`, `far = plane * r + c_far`, in
+/// f32.
 ///
-/// In f64, once per ray: the ray is clipped to the tree's box and its origin moved to the entry. `r` is `1 / d`, clamped so that a
-/// ray parallel to an axis needs no branch; the constants carry the slack that pays for every rounding of the node test:
-/// of `r` (one unit), of the fused multiply-add (one), what is left for the moved origin and the second order (a tenth), and, where `r` is
-/// clamped, for the direction that was bent (four tenths). So `near <= t <= far` for each `t` at which the exact ray is in the box.
-/// The same as growing each box by `1.5e-7 (M + |o|)`, in the instructions of an unsafe test. Compare T. Ize, "Robust
-/// BVH ray traversal", Journal of Computer Graphics Techniques 2(2), 2013, which computes differences per plane instead.
+/// They are computed in f64, once per ray: the ray is clipped to the tree's box and its origin
+/// moved to the entry. `r` is `1 / d`, clamped so that a ray parallel to an axis needs no branch.
+/// The constants carry the slack that pays for every rounding of the node test: of `r` (one unit),
+/// of the fused multiply-add (one), of the moved origin and the second order (a tenth), and, where
+/// `r` is clamped, for the changed direction (four tenths). So `near <= t <= far` for each `t` at
+/// which the exact ray is in the box. This equals growing each box by `1.5e-7 (M + |o|)`, with the
+/// instructions of an unsafe test. Compare T. Ize, "Robust BVH ray traversal", Journal of Computer
+/// Graphics Techniques 2(2), 2013, which computes differences per plane instead.
 ///
-/// Of each four numbers three count: they are written and read all at once.
+/// Three of each four numbers have a meaning: they are written and read all at once.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CullRay {
     pub(crate) r: [f32; 4],
@@ -176,26 +183,27 @@ pub(crate) struct CullRay {
     pub(crate) way: ClippedRay,
 }
 
-/// A ray's way through a tree.
+/// A ray's segment within a tree.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ClippedRay {
-    /// The entry's point in tree units, rounded to f64 and to f32, and the direction, rounded to f32.
+    /// The entry point in tree units, rounded to f64 and to f32, and the direction, rounded to f32.
     pub(crate) start: [f32; 4],
     pub(crate) direction: [f32; 4],
     /// The first and the last parameter that matter, from the entry.
     pub(crate) t_near: f32,
     pub(crate) t_far: f32,
-    /// Whether the start is the ray's origin, nothing but the rounding to f32 makes it or the direction uncertain, and crossings anywhere between the first
-    /// and the last parameter count.
+    /// Whether the start is the ray's origin, the rounding to f32 is the only error of start and
+    /// direction, and all crossings between the first and the last parameter count.
     pub(crate) is_exact: bool,
     /// A bound on the error of the ray's points within the tree, per axis.
     pub(crate) error: f64,
-    /// The entry.
+    /// The parameter of the entry.
     pub(crate) t_enter: f64,
     pub(crate) frame: Frame,
 }
 
-/// The roundings a node test makes after `r`'s own: one if multiplication and addition are fused, else two.
+/// How many roundings a node test makes after `r`'s own: one if multiplication and addition are
+/// fused, else two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Rounding {
     Fused,
@@ -212,32 +220,37 @@ impl Rounding {
     }
 }
 
-/// A tree's box as exactly known rays are clipped to it; the fourth lane is any ray's.
+/// A tree's box, to which exactly known rays are clipped; the fourth lane suits every ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(32))]
 pub(crate) struct Clip {
-    /// The box, larger by [`MARGIN`].
+    /// The box, grown by [`MARGIN`].
     pub(crate) lo: [f64; 4],
     pub(crate) hi: [f64; 4],
     /// The greatest magnitude of a coordinate.
     pub(crate) most: [f64; 4],
-    /// What the caller's lengths are to be multiplied by, which is exact; 0 if one number cannot do that.
+    /// The factor from the caller's lengths to tree units, which is exact; 0 if one number cannot
+    /// hold it.
     pub(crate) shrink: f64,
-    /// What lengths in tree units are to be multiplied by; 0 as above.
+    /// The factor from tree units to the caller's lengths; 0 as above.
     pub(crate) grow: f64,
     /// The greatest magnitude of a coordinate, for rays that start [nearby](NEARBY).
     pub(crate) most32: [f32; 4],
-    /// What the lengths of a [`Ray32`] are to be multiplied by; infinite if the tree's size is [far](GLANCED) from 1.
+    /// The factor from the lengths of a [`Ray32`] to tree units; infinite if the tree's size is
+    /// [far](GLANCED) from 1.
     pub(crate) shrink32: f32,
 }
 
-/// Trees of sizes between `2^-32` and `2^32` are seen at a glance: what underflow takes from f32 is then below `2^-117` in tree units.
+/// Trees of sizes between `2^-32` and `2^32` accept rays in f32: the loss by underflow is then
+/// below `2^-117` in tree units.
 const GLANCED: (f64, f64) = (1.0 / (1_u64 << 32) as f64, (1_u64 << 32) as f64);
 
-/// Rays that start with coordinates up to this, in tree units, need no clipping: f32 tells where they are as well as where the tree is.
+/// Rays that start with coordinates up to this, in tree units, need no clipping: f32 holds their
+/// origins as accurately as the tree.
 pub(crate) const NEARBY: f32 = 4.0;
 
-/// A ray that runs within a face of the box, or nearly so, enters it this much earlier: far more than [`SLOWEST`] moves it.
+/// A ray that runs within a face of the box, or nearly so, enters it this much earlier: far more
+/// than [`SLOWEST`] moves it.
 const MARGIN: f64 = 1.0 / (1_u64 << 40) as f64;
 
 impl Clip {
@@ -261,7 +274,7 @@ impl Clip {
 }
 
 impl CullRay {
-    /// Clips a line to the box `[lo, hi]` of a tree; `None` if it certainly misses it.
+    /// Clips a ray to the box `[lo, hi]` of a tree; `None` if it certainly misses it.
     #[inline(always)]
     pub(crate) fn new(
         line: &Ray64,
@@ -275,7 +288,7 @@ impl CullRay {
         // One axis has |d| >= 1, so within the box |t| stays below this.
         let reach = o.iter().fold(0.0_f64, |m, x| m.max(x.abs())) + 4.0;
         let error: [f64; 3] = core::array::from_fn(|i| {
-            // What underflow may have taken from the origin is far below this.
+            // The loss of the origin by underflow is far below this.
             let origin = frame.inward(line.origin_error[i]) + f64::MIN_POSITIVE;
             let lost = if line.direction_error[i] == 0.0 { 0.0 } else { reach * line.direction_error[i] };
             (origin + lost) * (1.0 + WIDEN)
@@ -284,7 +297,8 @@ impl CullRay {
             return Some(Self::everywhere(&d, frame));
         }
         let (t_min, t_max) = (frame.inward(line.t_min), frame.inward(line.t_max));
-        // A tiny parameter that was rounded in scaling is widened by the clipping below only if the box does not begin later.
+        // A tiny parameter that was rounded in scaling is widened by the clipping below only if the
+        // box does not begin later.
         let (mut enter, mut exit) = (if t_min == 0.0 { line.t_min.min(0.0) } else { t_min }, t_max.next_up());
         let inverse = d.map(|x| 1.0 / x);
         for i in 0..3 {
@@ -341,7 +355,8 @@ impl CullRay {
         })
     }
 
-    /// A ray so far away, or so uncertain, that nothing can be disproved in these units: it meets every box.
+    /// A ray so far away, or so uncertain, that in these units no box can be excluded: it meets
+    /// every box.
     #[cold]
     fn everywhere(d: &[f64; 3], frame: Frame) -> Self {
         let big = 4.0 * LONGEST as f32;
@@ -365,15 +380,16 @@ impl CullRay {
     }
 }
 
-/// What the ends of an exactly known ray's range are moved inward by: relative, and absolute.
+/// The ends of an exactly known ray's range are moved inward by this: relative, and absolute.
 pub(crate) const INSIDE: (f32, f32) = (1.0 / (1 << 20) as f32, 1.0 / (1_u128 << 100) as f32);
 
 impl ClippedRay {
-    /// How far to look if nothing beyond the caller's `t` matters.
+    /// The limit of the search if nothing beyond the caller's `t` matters.
     #[inline(always)]
     pub(crate) fn shortened(&self, t: f64) -> f32 {
         let way = self.frame.inward(t) - self.t_enter;
-        // A ray that meets everything is never shortened: its entry is at minus infinity.
+        // A ray that meets everything has its entry at minus infinity, so that it is never
+        // shortened.
         up32(way.next_up()).min(self.t_far)
     }
 
@@ -383,28 +399,30 @@ impl ClippedRay {
         self.t_enter
     }
 
-    /// A range of the caller's `t` in the parameter of the node test, rounded inward.
+    /// Converts a range of the caller's `t` to the parameter of the node test, rounded inward.
     #[inline(always)]
     pub(crate) fn inner(&self, (from, to): (f64, f64)) -> (f32, f32) {
-        // Beyond a tree's longest way nothing is met; so far away f32 is coarse, but finite.
+        // Nothing is met beyond the greatest length; so far away f32 is coarse, but finite.
         const BEYOND: f64 = (1_u64 << 40) as f64;
         let single = |x: f64| (self.frame.inward(x) - self.t_enter).clamp(-BEYOND, BEYOND) as f32;
-        // More than the roundings of the difference and to f32, and than what scaling may have lost to underflow.
+        // More than the roundings of the difference and to f32, and than the loss of the scaling by
+        // underflow.
         let step = |x: f32| x.abs().mul_add(1.0 / (1 << 22) as f32, 1.0 / (1_u128 << 120) as f32);
         let (from, to) = (single(from), single(to));
         (from + step(from), to - step(to))
     }
 
-    /// The same for the whole range of a ray that is [exact](ClippedRay::is_exact): its ends are within ten units of the first and the last parameter.
+    /// The whole range of a ray that is [exact](ClippedRay::is_exact), rounded inward: its ends are
+    /// within ten units of the first and the last parameter.
     #[inline(always)]
     pub(crate) fn inside(&self) -> (f32, f32) {
         let step = |x: f32| x.abs().mul_add(INSIDE.0, INSIDE.1);
-        // Beyond a tree's longest way nothing is met.
+        // Nothing is met beyond the greatest length.
         let last = if self.t_far > LONGEST as f32 { LONGEST as f32 } else { self.t_far };
         (self.t_near + step(self.t_near), last - step(last))
     }
 
-    /// The caller's `t` of a parameter of the node test.
+    /// Converts a parameter of the node test to the caller's `t`.
     pub(crate) fn caller_t(&self, t: f32) -> f64 {
         self.frame.outward(f64::from(t) + self.t_enter)
     }

@@ -6,63 +6,68 @@ use crate::ray::{Clip, CullRay, PACKET, Ray64, Rounding};
 use crate::triangles::{Block, Corners, LANES};
 use durer_math::Aabb;
 
-/// A tree of boxes: which things might this ray meet?
+/// A bounding volume hierarchy: which entries might this ray hit?
 ///
-/// Coordinates are f32 and in units that make all of them at most 1; boxes are rounded outward and tests charge every rounding to "may
-/// meet", so that no box that the exact ray meets is missed.
+/// Coordinates are f32, in units that make all of them at most 1. Boxes are rounded outward, and
+/// tests count every rounding error as a possible hit, so that no box that the exact ray meets is
+/// missed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bvh {
     pub(crate) frame: Frame,
     pub(crate) nodes: Vec<Node>,
     /// The first slot of each kind, and the end.
     pub(crate) starts: Vec<u32>,
-    /// What references to leaves mean, kind by kind.
+    /// The meaning of references to leaves, kind by kind.
     pub(crate) kinds: Vec<KindOfLeaf>,
     /// The leaves that hold triangles.
     pub(crate) blocks: Vec<Block>,
-    /// Triangles that stand in several of them.
+    /// The triangles that are in several of the blocks.
     pub(crate) splits: Splits,
-    /// Whether f32 does not hold all corners of the blocks.
+    /// Whether f32 does not hold all corners of the blocks exactly.
     pub(crate) rounded: bool,
-    /// Whether there is one kind, and of triangles: then references to leaves are the numbers of their blocks.
+    /// Whether the only kind is one of triangles: then references to leaves are the numbers of
+    /// their blocks.
     pub(crate) is_all_triangles: bool,
     pub(crate) lo: [f32; 3],
     pub(crate) hi: [f32; 3],
     pub(crate) clip: Clip,
 }
 
-/// What references to leaves of one kind mean.
+/// The meaning of references to leaves of one kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct KindOfLeaf {
     /// The first reference.
     pub(crate) first: u32,
-    /// For triangles, the number of its block; else references are slots.
+    /// For triangles, the number of the first block; else references are slots.
     pub(crate) blocks: Option<u32>,
 }
 
-/// Where triangles stand that are in several leaves: the last slots of their kinds.
+/// The places of triangles that are in several leaves: they have the last slots of their kinds.
 ///
-/// A ray may come to several of these leaves. Let the *first* be the one that comes first in `places` of those whose boxes the ray meets by the
-/// test of nodes. That test is monotonous in the planes of a box, rounding included, so a ray comes to a leaf if and only if it meets the leaf's own box:
-/// boxes around it are met, too. So who shows a triangle in its first leaf alone shows it once, if the test is always up to the same `t`; and does not
-/// miss it, since where the ray meets the triangle it is in one of the boxes.
+/// A ray may visit several of these leaves. Let the *first* be the one that comes first in `places`
+/// among those whose boxes the ray meets by the node test. That test is monotonic in the planes of
+/// a box, rounding included, so a ray visits a leaf if and only if it meets the leaf's own box: it
+/// then meets the boxes around it, too. So a query that reports a triangle in its first leaf alone
+/// reports it once, if the test is always up to the same `t`; and does not miss it, since the point
+/// where the ray meets the triangle is in one of the boxes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Splits {
-    /// For each kind its first such slot, and how many there are of kinds before it. None if there are none at all.
+    /// For each kind its first such slot, and how many such slots the kinds before it have. Empty
+    /// if there are none at all.
     pub(crate) kinds: Vec<(u32, u32)>,
-    /// Where the places of each begin, and the end.
+    /// The begin of each triangle's places, and the end.
     pub(crate) starts: Vec<u32>,
     /// Children of nodes, in the order of the nodes: see [`Splits::place`].
     pub(crate) places: Vec<u32>,
 }
 
 impl Splits {
-    /// A child of a node in one number: there are fewer than `2^28` nodes.
+    /// The place of a child as one number: there are fewer than `2^28` nodes.
     pub(crate) fn place(node: usize, slot: usize) -> u32 {
         (node * WIDTH + slot) as u32
     }
 
-    /// Node and child of a place.
+    /// The node and the slot of a place.
     #[inline(always)]
     pub(crate) fn child(place: u32) -> (usize, usize) {
         (place as usize / WIDTH, place as usize % WIDTH)
@@ -72,14 +77,14 @@ impl Splits {
         self.places.is_empty()
     }
 
-    /// The number of a slot among those in several leaves, if it is one.
+    /// The number of a slot among those in several leaves, if it is one of them.
     #[inline(always)]
     pub(crate) fn number(&self, kind: u32, slot: u32) -> Option<u32> {
         let &(whole, before) = self.kinds.get(kind as usize)?;
         (slot >= whole).then(|| before + slot - whole)
     }
 
-    /// All places of a thing that stands in several leaves.
+    /// All places of a triangle that is in several leaves.
     #[inline(always)]
     pub(crate) fn places(&self, number: u32) -> &[u32] {
         let number = number as usize;
@@ -88,18 +93,18 @@ impl Splits {
 }
 
 impl Bvh {
-    /// A tree over nothing.
+    /// An empty tree.
     pub fn empty() -> Self {
         Self::assembled(Frame::around(&Aabb::EMPTY), vec![0])
     }
 
-    /// The same tree with these nodes.
+    /// This tree with other nodes.
     pub(crate) fn with_nodes(mut self, nodes: Vec<Node>) -> Self {
         self.set_nodes(nodes);
         self
     }
 
-    /// Takes these nodes for its own, whose boxes are in units of its frame.
+    /// Replaces the nodes. Their boxes are in units of the tree's frame.
     pub(crate) fn set_nodes(&mut self, nodes: Vec<Node>) {
         (self.lo, self.hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
         if let Some(root) = nodes.first() {
@@ -112,7 +117,7 @@ impl Bvh {
         self.nodes = nodes;
     }
 
-    /// A tree without nodes over as many kinds as there are starts but one.
+    /// A tree without nodes; `starts` has one element more than there are kinds.
     pub(crate) fn assembled(frame: Frame, starts: Vec<u32>) -> Self {
         let (lo, hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
         let slots = |&first: &u32| KindOfLeaf { first, blocks: None };
@@ -131,28 +136,28 @@ impl Bvh {
         }
     }
 
-    /// How many things it holds.
+    /// How many entries the tree holds.
     pub fn len(&self) -> usize {
         self.starts.last().map_or(0, |&n| n as usize)
     }
 
-    /// How many things of a kind it holds.
+    /// How many entries of a kind the tree holds.
     pub fn count(&self, kind: u32) -> usize {
         let start = |kind: usize| self.starts.get(kind).map_or(0, |&n| n as usize);
         start(kind as usize + 1).saturating_sub(start(kind as usize))
     }
 
-    /// Whether it holds nothing.
+    /// Whether the tree holds nothing.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
 
-    /// A box around everything in it.
+    /// A box around all entries.
     pub fn bounds(&self) -> Aabb {
         if self.is_empty() { Aabb::EMPTY } else { self.frame.bounds(self.lo, self.hi) }
     }
 
-    /// How many of its leaves hold triangles.
+    /// How many leaves hold triangles.
     pub fn blocks(&self) -> usize {
         self.blocks.len()
     }
@@ -162,7 +167,7 @@ impl Bvh {
         self.kinds.get(kind as usize).is_some_and(|kind| kind.blocks.is_some())
     }
 
-    /// An upper bound of its coordinates.
+    /// An upper bound on the magnitudes of its coordinates.
     #[inline(always)]
     pub fn size(&self) -> f64 {
         self.frame.outward(1.0)
@@ -191,7 +196,8 @@ impl Bvh {
         Leaf::new(kind as u32, first, child.slots().1)
     }
 
-    /// Shows all that is in a leaf to `visit`, in one piece where slots follow each other, until it says that it has seen enough; says whether it did.
+    /// Passes the content of a leaf to `visit`, in one piece where slots are successive, until it
+    /// returns true; returns whether it did.
     #[inline(always)]
     pub(crate) fn leaves(&self, child: ChildRef, visit: &mut impl FnMut(Leaf) -> bool) -> bool {
         if self.splits.is_empty() {
@@ -232,7 +238,8 @@ impl Bvh {
         Some((kind as u32, first + at))
     }
 
-    /// The exact corners of a triangle that was shown by itself, where f32 holds those of all: they are at hand, as the ray has just looked at them.
+    /// The exact corners of a triangle that a query passed by itself, if f32 holds all corners
+    /// exactly. They are in the cache, as the ray has just tested the block.
     #[inline(always)]
     pub fn corners(&self, triangle: &Leaf) -> Option<Corners> {
         let grow = self.clip.grow;
@@ -243,7 +250,8 @@ impl Bvh {
         self.blocks.get(place / LANES).map(|block| block.corners(grow, place % LANES))
     }
 
-    /// [`Bvh::corners`] of a triangle for each of eight rays, corner by corner and axis by axis; zeros where there is none to tell of.
+    /// [`Bvh::corners`] of a triangle for each of eight rays, corner by corner and axis by axis;
+    /// zeros where there is no triangle.
     #[inline(always)]
     pub fn corners_of_each(&self, triangles: &[Option<Leaf>; PACKET]) -> Option<[[[f64; PACKET]; 3]; 3]> {
         let grow = self.clip.grow;
@@ -270,12 +278,13 @@ impl Bvh {
         Some(corners)
     }
 
-    /// How many bytes rays may read.
+    /// How many bytes queries may read.
     pub(crate) fn held(&self) -> usize {
         size_of_val(self.nodes.as_slice()) + size_of_val(self.blocks.as_slice())
     }
 
-    /// Where in memory a child begins, for prefetching: right for nodes, and for blocks if there is one kind.
+    /// The address of a child, for prefetching: right for nodes, and for blocks if there is one
+    /// kind.
     #[inline(always)]
     pub(crate) fn place(&self, child: ChildRef) -> *const u8 {
         let node = self.nodes.as_ptr().wrapping_add(child.index()).cast::<u8>();

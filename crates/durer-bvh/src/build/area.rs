@@ -1,10 +1,11 @@
-//! Boxes while building.
+//! The boxes of the builder.
 
 use crate::frame::Entry;
 
-/// A box in tree units, empty to begin with: the low corner, negated, and the high one, so that it grows by eight maxima at once.
+/// A box in tree units, empty at first: the low corner, negated, and the high one, so that it grows
+/// by eight maxima at once.
 ///
-/// Lanes 3 and 7 mean nothing.
+/// Lanes 3 and 7 have no meaning.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub(crate) struct Extent(pub(crate) [f32; 8]);
@@ -40,20 +41,20 @@ impl Extent {
         self
     }
 
-    /// A point.
+    /// The box of one point.
     #[inline(always)]
     pub(crate) fn at(p: &[f32; 3]) -> Self {
         Self([-p[0], -p[1], -p[2], 0.0, p[0], p[1], p[2], 0.0])
     }
 
-    /// Whether there is no point in it.
+    /// Whether the box has no point.
     #[inline(always)]
     pub(crate) fn is_empty(&self) -> bool {
         let gap = |i: usize| self.0[i] + self.0[4 + i] < 0.0;
         gap(0) | gap(1) | gap(2)
     }
 
-    /// What is in both.
+    /// The intersection of both boxes.
     #[inline(always)]
     pub(crate) fn common(mut self, b: &Self) -> Self {
         for i in 0..8 {
@@ -72,7 +73,7 @@ impl Extent {
         [self.0[4], self.0[5], self.0[6]]
     }
 
-    /// Half the surface; zero if empty.
+    /// Half the surface area; zero if empty.
     #[inline(always)]
     pub(crate) fn half_area(&self) -> f32 {
         let mut widths = [0.0; 4];

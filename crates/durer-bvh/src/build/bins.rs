@@ -1,4 +1,4 @@
-//! Bins: where entries are sorted to, along three axes at once.
+//! Bins: the builder sorts entries into them along three axes at once.
 
 use super::area::Extent;
 use crate::frame::Entry;
@@ -7,7 +7,8 @@ use core::ops::Range;
 /// Bins per axis.
 pub(crate) const BINS: usize = 16;
 
-/// How twice-centres map to bins: `(x - from) scale` is in `[0, 16)`, and half less is rounded to the nearest integer.
+/// The map from twice-centres to bins: `(x - from) scale` is in `[0, 16)`, and half less is rounded
+/// to the nearest integer.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bins {
     /// The last lanes are zero.
@@ -15,10 +16,11 @@ pub(crate) struct Bins {
     pub(crate) scale: [f32; 4],
 }
 
-/// A little less than the number of bins: three roundings by half an ulp do not lead out of the last one.
+/// Slightly less than the number of bins: three roundings by half an ulp do not leave the last one.
 const REACH: f32 = BINS as f32 * (1.0 - 1.0 / (1 << 20) as f32);
 
-/// Added to a small number it leaves its nearest integer in the lowest bits, which a conversion takes more steps to find.
+/// Added to a small number, it leaves the nearest integer in the lowest bits. A conversion would
+/// take more steps.
 pub(crate) const INTEGERS: f32 = 1.5 * (1 << 23) as f32;
 
 impl Bins {
@@ -41,7 +43,7 @@ impl Bins {
     }
 }
 
-/// What is in the bins of each axis.
+/// The contents of the bins of each axis.
 #[derive(Debug)]
 pub(crate) struct Filled {
     pub(crate) extents: [[Extent; BINS]; 3],
@@ -61,7 +63,7 @@ impl Filled {
         self
     }
 
-    /// All of some bins.
+    /// The contents of a range of bins.
     pub(super) fn all(&self, axis: usize, bins: Range<usize>) -> (Extent, usize) {
         let extent = self.extents[axis][bins.clone()].iter().fold(Extent::EMPTY, Extent::united);
         (extent, self.counts[axis][bins].iter().sum::<u32>() as usize)

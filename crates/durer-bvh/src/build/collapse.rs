@@ -1,8 +1,10 @@
-//! Which cuts of a binary tree become nodes of sixteen? The best choice, by dynamic programming.
+//! The optimal collapse of a binary tree into nodes of sixteen children, by dynamic programming.
 //!
-//! For each range of a binary tree and each number of children from one to sixteen the least cost of what is below is found from those of its two halves: after
-//! H. Ylitie, T. Karras, S. Laine, "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", High Performance Graphics (2017). Done for
-//! small ranges, which are nearly all of a tree; above them the largest range is cut first.
+//! For each range of a binary tree and each number of children from one to sixteen, the least cost
+//! of the subtree is computed from those of the range's two halves: after H. Ylitie, T. Karras, S.
+//! Laine, "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", High
+//! Performance Graphics (2017). This is done for small ranges, which are nearly all of a tree;
+//! above them the largest range is split first.
 
 use super::area::Extent;
 use super::{Costs, Divided, Half, Range};
@@ -10,11 +12,12 @@ use crate::frame::Entry;
 use crate::kernels::MAX_DEPTH;
 use crate::node::{ChildRef, MAX_LEAF, Node, WIDTH};
 
-/// Below this many entries a range is worth it.
+/// Ranges with fewer entries are collapsed optimally.
 pub(super) const COLLAPSED: usize = 4096;
 
-/// From this level on ranges are halved by count, until 16 are left. Of these each two cuts by kind at least halve the part that is of
-/// several kinds, and so do cuts by count. So eight and eight more levels follow, even if each cut makes a node.
+/// From this level on ranges are halved by count, until 16 entries are left. Each two splits by
+/// kind at least halve the part of these that is of several kinds, and so do splits by count. So
+/// eight and eight more levels follow, even if each split makes a node.
 pub(super) const BALANCED_FROM: usize = 20;
 
 const _: () = assert!(BALANCED_FROM + 8 + 8 + 1 < MAX_DEPTH && COLLAPSED == 16 << 8 && MAX_LEAF == 16);
@@ -24,11 +27,11 @@ struct Part {
     range: Range,
     /// Its halves.
     halves: Option<(u32, u32)>,
-    /// The least cost of at most `i + 1` children that hold all of it.
+    /// The least cost of at most `i + 1` children that hold the whole range.
     costs: [f32; WIDTH],
-    /// How many of `i + 1` children the first half gets; 0 if it is better to make do with one child less.
+    /// How many of `i + 1` children the first half gets; 0 if one child less is cheaper.
     shares: [u8; WIDTH],
-    /// How many of sixteen children the first half gets, if it becomes a node.
+    /// How many of sixteen children the first half gets if the range becomes a node.
     share_of_node: u8,
 }
 
@@ -38,7 +41,8 @@ struct Binary<'a> {
     costs: &'a Costs<'a>,
 }
 
-/// Appends the node over all of a range, of which these are the entries and the room, and those below it; `base` is the position of the first entry.
+/// Appends the node over a whole range, and its subtree. `entries` are those of the range and its
+/// room; `base` is the position of the first entry.
 pub(super) fn subtree(
     entries: &mut [Entry],
     base: usize,
@@ -54,7 +58,7 @@ pub(super) fn subtree(
 }
 
 impl Binary<'_> {
-    /// Cuts a range as long as it pays or has to be, and adds up costs.
+    /// Splits a range as long as it pays or is necessary, and computes the costs.
     fn grow(&mut self, entries: &mut [Entry], range: Range, level: usize) -> u32 {
         let Range { first, len, extent, .. } = range;
         let held = &entries[..len];
@@ -110,7 +114,7 @@ impl Binary<'_> {
         (self.parts.len() - 1) as u32
     }
 
-    /// Appends the node over a range, and those below.
+    /// Appends the node over a range, and its subtree.
     fn emit(&self, part: u32, base: usize, nodes: &mut Vec<Node>) {
         let this = nodes.len();
         nodes.push(Node::EMPTY);
@@ -141,7 +145,7 @@ impl Binary<'_> {
         nodes[this] = node;
     }
 
-    /// The at most `count` children that hold a range at the least cost.
+    /// Collects the children, at most `count`, that hold a range at the least cost.
     fn gather(&self, part: u32, mut count: usize, children: &mut [u32; WIDTH], found: &mut usize) {
         let whole = &self.parts[part as usize];
         while count > 1 && whole.shares[count - 1] == 0 {
@@ -161,7 +165,7 @@ impl Binary<'_> {
     }
 }
 
-/// Cuts the first `len` entries in two, if that is more than one and it may pay.
+/// Splits the first `len` entries in two, if there is more than one and it may pay.
 fn cut(
     entries: &mut [Entry],
     len: usize,

@@ -1,8 +1,11 @@
-//! Leaves of neighbours along a space-filling curve, nodes of sixteen of these, and a tree over the nodes: a fraction of the work.
+//! The fast build: leaves of neighbours along a space-filling curve, nodes of sixteen leaves, and a
+//! tree over the nodes.
 //!
-//! Things stand in the order of the Morton codes of their centres, kind by kind (C. Lauterbach, M. Garland, S. Sengupta, D. Luebke, D. Manocha, "Fast BVH
-//! construction on GPUs", Eurographics, 2009). Of each run of [`RUN`] things dynamic programming chooses the leaves with the least cost, and
-//! of each run of leaves the nodes. The [tree](super) over these has some fiftieth of the things that one over all would have.
+//! Entries are sorted by the Morton codes of their centres, kind by kind (C. Lauterbach, M.
+//! Garland, S. Sengupta, D. Luebke, D. Manocha, "Fast BVH construction on GPUs", Eurographics,
+//! 2009). In each run of [`RUN`] entries dynamic programming chooses the leaves of least cost, and
+//! in each run of leaves the nodes. The [tree](super) over these has some fiftieth of the entries
+//! of a full build.
 
 use super::area::Extent;
 use super::{Costs, Grown};
@@ -12,19 +15,20 @@ use durer_math::Isa;
 use durer_math::kernels::in_large_pages;
 use rayon::prelude::*;
 
-/// Groups are chosen from so many things at once.
+/// Groups are chosen among so many entries at once.
 const RUN: usize = 2048;
 
 /// Bits of a code along each axis.
 const BITS: u32 = 20;
 
-/// Bits by which codes are sorted at once, three times; those that agree so far are compared.
+/// How many bits of the codes are sorted at once, three times; codes that are equal so far are
+/// compared.
 const DIGIT: u32 = 11;
 
-/// What another group costs beside its own tests, in tests of a group as large as they are on average.
+/// The cost of one more group beside its own tests, in tests of a group of average size.
 const ANOTHER: f32 = 0.5;
 
-/// Nodes over `entries`, which are put into the order of the curve. Leaves refer to positions.
+/// Builds nodes over `entries`, and sorts these along the curve. Leaves refer to positions.
 pub(super) fn build(entries: &mut Vec<Entry>, costs: &Costs<'_>) -> Grown {
     sort(entries);
     let leaf_costs = |run: &[Entry]| {
@@ -36,7 +40,7 @@ pub(super) fn build(entries: &mut Vec<Entry>, costs: &Costs<'_>) -> Grown {
         (kind.most, of_leaf)
     };
     let leaves = grouped(entries, costs.isa, leaf_costs);
-    // A node costs what it costs, full or not.
+    // The cost of a node does not depend on its number of children.
     let node_costs = |_: &[Entry]| (WIDTH, [1.0; MAX_LEAF + 1]);
     let mut lowest = grouped(&leaves, costs.isa, node_costs);
     let above = Costs { max_leaf: 1, leaf: 0.0, shapes: &[None], ..*costs };
@@ -65,7 +69,7 @@ pub(super) fn build(entries: &mut Vec<Entry>, costs: &Costs<'_>) -> Grown {
     Grown { nodes, below: Vec::new() }
 }
 
-/// Puts entries into the order of their kinds, and of the codes of their centres.
+/// Sorts entries by kind, then by the codes of their centres.
 fn sort(entries: &mut Vec<Entry>) {
     let coded = |(at, entry): (usize, &Entry)| (code(entry), at as u32);
     let mut codes: Vec<(u64, u32)> = entries.par_iter().enumerate().map(coded).collect();
@@ -84,7 +88,7 @@ fn sort(entries: &mut Vec<Entry>) {
     *entries = codes.par_iter().map(|&(_, at)| entries[at as usize]).collect();
 }
 
-/// Sorts by some bits from `first` on; equal ones stay as they stand.
+/// Sorts by [`DIGIT`] bits from `first` on; the sort is stable.
 fn by_digit(from: &[(u64, u32)], to: &mut [(u64, u32)], first: u32) {
     let digit = |code: u64| (code >> first) as usize & ((1 << DIGIT) - 1);
     let mut next = vec![0_usize; 1 << DIGIT];
@@ -100,7 +104,8 @@ fn by_digit(from: &[(u64, u32)], to: &mut [(u64, u32)], first: u32) {
     }
 }
 
-/// The bits of the centre's three coordinates in turn. Coordinates of the tree are at most 1.
+/// The Morton code of an entry's centre: the bits of the three coordinates, interleaved.
+/// Coordinates of the tree are at most 1.
 #[inline]
 fn code(entry: &Entry) -> u64 {
     let scale = (1_u32 << (BITS - 2)) as f32;
@@ -111,7 +116,7 @@ fn code(entry: &Entry) -> u64 {
     part(0) << 2 | part(1) << 1 | part(2)
 }
 
-/// Two zeros between a number's bits.
+/// Inserts two zeros between a number's bits.
 #[inline]
 fn spread(mut x: u64) -> u64 {
     x = (x | x << 32) & 0x001f_0000_0000_ffff;
@@ -121,7 +126,9 @@ fn spread(mut x: u64) -> u64 {
     (x | x << 2) & 0x1249_2492_4924_9249
 }
 
-/// Groups of neighbours, of one kind each: their boxes, and ranges of positions as references to leaves in place of indices. `costs` says of a run how large a group may be and what groups of each size cost.
+/// Groups of neighbours, of one kind each: their boxes, and in place of indices their ranges of
+/// positions, as references to leaves. `costs` returns for a run the greatest size of a group, and
+/// the cost of groups of each size.
 fn grouped(
     entries: &[Entry],
     isa: Isa,
@@ -147,7 +154,7 @@ fn grouped(
     groups.concat()
 }
 
-/// The groups of least cost of a run, at most `most` in each: boxes and counts.
+/// The groups of least cost of a run, with at most `most` entries each: boxes and counts.
 #[inline(always)]
 fn choose(run: &[Entry], most: usize, of_size: &[f32; MAX_LEAF + 1]) -> Vec<(Extent, usize)> {
     let (mut sum, mut groups) = (0.0, 0.0);
@@ -156,7 +163,7 @@ fn choose(run: &[Entry], most: usize, of_size: &[f32; MAX_LEAF + 1]) -> Vec<(Ext
         groups += 1.0;
     }
     let another = ANOTHER * of_size[most] * sum / groups;
-    // The least cost of those before each, and how many its last group holds.
+    // The least cost of the entries before each one, and the size of the last group.
     let mut least = [(0.0_f32, 0_usize); RUN + 1];
     for end in 1..=run.len() {
         let (mut extent, mut best) = (Extent::EMPTY, (f32::INFINITY, 1));

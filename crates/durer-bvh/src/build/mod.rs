@@ -1,13 +1,17 @@
-//! The builder: binned SAH, straight into sixteen children; near the leaves, [optimal](collapse) ones.
+//! The builder: binned SAH, straight into sixteen children; near the leaves, [optimal](collapse)
+//! nodes.
 //!
-//! Each node of many entries starts as one range and keeps splitting the child with the largest surface until there are sixteen, by the surface area
-//! heuristic over bins (I. Wald, "On fast construction of SAH-based bounding volume hierarchies", IEEE Symposium on Interactive
-//! Ray Tracing, 2007; I. Wald, C. Benthin, S. Boulos, "Getting rid of packets", same, 2008, for the wide collapse). A leaf holds one
-//! kind of thing only, so that it is one call. The result is a function of the entries and their order alone: threads share out
-//! subtrees and merge bins by minima, maxima and counts, which do not depend on order.
+//! A node of many entries starts as one range. The child with the largest surface is split until
+//! there are sixteen, by the surface area heuristic over bins (I. Wald, "On fast construction of
+//! SAH-based bounding volume hierarchies", IEEE Symposium on Interactive Ray Tracing, 2007; I.
+//! Wald, C. Benthin, S. Boulos, "Getting rid of packets", same, 2008, for the wide collapse). A
+//! leaf holds entries of one kind only, so that it is one call. The result is a function of the
+//! entries and their order alone: threads share out subtrees and merge bins by minima, maxima and
+//! counts, which do not depend on order.
 //!
-//! That is [`Quality::Good`]. [`Quality::Fast`] makes leaves of [neighbours along a curve](curve) and a tree over these; [`Quality::Best`] also cuts
-//! triangles [in space](spatial), so that some [stand in several leaves](shared).
+//! That is [`Quality::Good`]. [`Quality::Fast`] makes leaves of [neighbours along a curve](curve)
+//! and a tree over these; [`Quality::Best`] also splits triangles [in space](spatial), so that some
+//! [are in several leaves](shared).
 //!
 //! Depth is bounded: from level [`BALANCED_FROM`] on ranges are halved by count.
 
@@ -33,24 +37,26 @@ use rayon::prelude::*;
 use shared::{Arranged, Placed, Slots};
 use split::Split;
 
-/// How much work a tree is worth. Answers do not depend on it.
+/// How much work is put into a tree. Answers do not depend on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quality {
-    /// Built in a fraction of the time; rays take longer.
+    /// Built in a fraction of the time; queries take longer.
     Fast,
     /// The surface area heuristic at each step.
     #[default]
     Good,
-    /// Triangles may stand in several leaves, a quarter more than there are at most: for scenes that are built once, with triangles that are large beside others.
+    /// Triangles may be in several leaves, with at most a quarter more references than entries. For
+    /// scenes that are built once, with triangles that are large beside others.
     Best,
 }
 
-/// What a build weighs. Costs are in units of a node test.
+/// The parameters of a build. Costs are in units of a node test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// How much work the tree is worth.
+    /// How much work is put into the tree.
     pub quality: Quality,
-    /// How many things a leaf may hold, 1 to 16; triangles go by the sixteen that are tested together.
+    /// The greatest number of entries of a leaf, 1 to 16. It does not apply to triangles, of which
+    /// sixteen are tested together.
     pub max_leaf: usize,
     /// The cost of one test.
     pub test_cost: f32,
@@ -59,13 +65,13 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Measured on spheres.
+    /// The default: costs measured on spheres.
     pub const GOOD: Self = Self { quality: Quality::Good, max_leaf: 8, test_cost: 1.0, leaf_cost: 1.0 };
 
-    /// A tree soon.
+    /// The fastest build.
     pub const FAST: Self = Self { quality: Quality::Fast, ..Self::GOOD };
 
-    /// Rays fast.
+    /// The fastest queries.
     pub const BEST: Self = Self { quality: Quality::Best, ..Self::GOOD };
 }
 
@@ -75,7 +81,7 @@ impl Default for Settings {
     }
 }
 
-/// What leaves cost, in units of a node test.
+/// The costs of leaves, in units of a node test.
 #[derive(Clone, Copy)]
 struct Costs<'a> {
     max_leaf: usize,
@@ -86,12 +92,12 @@ struct Costs<'a> {
     isa: Isa,
 }
 
-/// The same for one kind of things.
+/// The costs of leaves of one kind.
 #[derive(Clone, Copy, Debug)]
 struct KindCosts {
-    /// Two to this power things are tested together, at the cost of one test.
+    /// Two to this power entries are tested together, at the cost of one test.
     block: u32,
-    /// How many a leaf may hold.
+    /// The greatest number of entries of a leaf.
     most: usize,
     test: f32,
     leaf: f32,
@@ -105,7 +111,7 @@ impl<'a> Costs<'a> {
         Self { max_leaf, test: test_cost, leaf: leaf_cost, shapes, frame, isa }
     }
 
-    /// The triangle of an entry in the tree's units, if it is one and that loses nothing.
+    /// The triangle of an entry in the tree's units, if it is a triangle and the scaling is exact.
     fn scaled(&self, entry: &Entry) -> Option<spatial::Scaled> {
         let corners = self.shapes[entry.kind() as usize]?;
         spatial::scaled(self.frame, &corners(entry.index()))
@@ -116,11 +122,12 @@ impl<'a> Costs<'a> {
         entries.len() <= self.of_range(entries).most && split::is_one_kind(entries)
     }
 
-    /// What a range costs, as its first entry tells: mostly all of it is of one kind, and a leaf always is.
+    /// The costs of a range, by the kind of its first entry: most ranges are of one kind, and a
+    /// leaf always is.
     fn of_range(&self, entries: &[Entry]) -> KindCosts {
         let is_triangles = entries.first().is_some_and(|e| self.shapes[e.kind() as usize].is_some());
         if is_triangles {
-            // A block costs what it costs, full or not.
+            // The cost of a block does not depend on its number of triangles.
             KindCosts { block: LANES.ilog2(), most: LANES, test: self.test, leaf: 0.0 }
         } else {
             KindCosts { block: 0, most: self.max_leaf, test: self.test, leaf: self.leaf }
@@ -129,12 +136,12 @@ impl<'a> Costs<'a> {
 }
 
 impl KindCosts {
-    /// The cost of a leaf of `count` things.
+    /// The cost of a leaf of `count` entries.
     fn of_leaf(&self, count: usize) -> f32 {
         self.leaf + self.test * self.tests(count)
     }
 
-    /// How many tests `count` things take.
+    /// How many tests `count` entries take.
     #[inline(always)]
     fn tests(&self, count: usize) -> f32 {
         ((count + (1 << self.block) - 1) >> self.block) as f32
@@ -144,18 +151,20 @@ impl KindCosts {
 /// The corners of the triangle with an index, in the caller's units.
 pub type CornersOf<'a> = &'a (dyn Fn(u32) -> Corners + Sync);
 
-/// From this level on ranges are halved by count. Halving reaches single things in `log16(2^27) < 7` levels, and
-/// the kinds of a last range of 16 need two more; so no tree is deeper than 33, with nodes made along a [curve] below it than 34, and [`MAX_DEPTH`] is 40.
+/// From this level on ranges are halved by count. Halving reaches single entries in
+/// `log16(2^27) < 7` levels, and the kinds of a last range of 16 need two more; so no tree is
+/// deeper than 33, with nodes made along a [curve] below it than 34, and [`MAX_DEPTH`] is 40.
 const BALANCED_FROM: usize = 24;
 
 const _: () = assert!(LANES.is_power_of_two() && LANES <= MAX_LEAF);
 
 const _: () = assert!(BALANCED_FROM + 7 + 2 + 1 < MAX_DEPTH && MAX_ENTRIES == 1 << 27 && MAX_LEAF == 16);
 
-/// Ranges with fewer entries are one thread's.
+/// A range with fewer entries is built by one thread.
 const PARALLEL: usize = 4096;
 
-/// Nodes over the first `len` of `entries`, which are put into leaf order; the others are room. The first node is the root. Leaves refer to positions.
+/// Builds nodes over the first `len` of `entries`, and sorts these into leaf order; the rest of
+/// `entries` is room. The first node is the root. Leaves refer to positions.
 fn build(entries: &mut [Entry], len: usize, costs: &Costs<'_>) -> Grown {
     if len == 0 {
         return Grown { nodes: Vec::new(), below: Vec::new() };
@@ -165,15 +174,16 @@ fn build(entries: &mut [Entry], len: usize, costs: &Costs<'_>) -> Grown {
     grow(entries, 0, &whole, 0, costs)
 }
 
-/// Nodes that are still in several lists: those of a subtree that one thread has made, or one node and those below it.
+/// Nodes that are still in several lists: those of a subtree that one thread has made, or one node
+/// and its subtrees.
 struct Grown {
     nodes: Vec<Node>,
-    /// In which slot of the one node each of these begins.
+    /// The subtrees of the one node, with their slots.
     below: Vec<(usize, Self)>,
 }
 
 impl Grown {
-    /// All of them in one list, as nodes before those below them.
+    /// All nodes in one list, parents before their children.
     fn listed(mut self) -> Vec<Node> {
         if self.below.is_empty() {
             self.nodes.shrink_to_fit();
@@ -202,21 +212,21 @@ impl Grown {
     }
 }
 
-/// A range of entries on its way to becoming a child.
+/// A range of entries that will become a child.
 #[derive(Clone, Copy, Debug)]
 struct Range {
-    /// Counted within the slice of its parent.
+    /// The position of the first entry within the slice of its parent.
     first: usize,
     len: usize,
-    /// How many entries there may be behind these.
+    /// The room behind the entries: how many more there may be.
     room: usize,
     extent: Extent,
-    /// It is to be a leaf.
+    /// Whether it becomes a leaf.
     closed: bool,
 }
 
 impl Range {
-    /// Its entries, and its room.
+    /// The range's entries, and its room.
     fn of<'a>(&self, entries: &'a mut [Entry]) -> &'a mut [Entry] {
         &mut entries[self.first..self.first + self.len + self.room]
     }
@@ -226,7 +236,7 @@ impl Range {
     }
 }
 
-/// A range cut in two: the second half begins behind the room of the first.
+/// A range split in two: the second half begins behind the room of the first.
 struct Divided {
     left: Half,
     right: Half,
@@ -240,7 +250,8 @@ struct Half {
 }
 
 impl Divided {
-    /// Halves with their shares of some room: by number and surface, as what a cut in space may gain grows with both.
+    /// Divides the room between the halves in proportion to number times surface, as the possible
+    /// gain of spatial splits grows with both.
     fn sharing(room: usize, left: (usize, Extent), right: (usize, Extent)) -> Self {
         let weight = |(len, extent): &(usize, Extent)| f64::from(extent.half_area()) * *len as f64;
         let (a, b) = (weight(&left), weight(&right));
@@ -250,7 +261,8 @@ impl Divided {
         Self { left: half(left, first), right: half(right, room - first) }
     }
 
-    /// Gives both halves of the first `len` entries their shares of the room behind them; what may be a leaf after all stays together.
+    /// Divides the room behind the first `len` entries between both halves. What may be a leaf
+    /// after all stays together.
     fn of(entries: &mut [Entry], len: usize, may_be_leaf: bool, Split { at, left, right }: Split) -> Self {
         let room = entries.len() - len;
         if may_be_leaf {
@@ -260,14 +272,15 @@ impl Divided {
             };
         }
         let divided = Self::sharing(room, (at, left), (len - at, right));
-        // As many of the second half as have to go move to its other end.
+        // Only as many entries of the second half as necessary move, to its other end.
         let moved = divided.left.room.min(len - at);
         entries.copy_within(at..at + moved, len + divided.left.room - moved);
         divided
     }
 }
 
-/// The node over all of `entries`, and those below it; `base` is the position of the first entry.
+/// Builds the node over all of `entries`, and its subtree; `base` is the position of the first
+/// entry.
 fn grow(entries: &mut [Entry], base: usize, whole: &Range, level: usize, costs: &Costs<'_>) -> Grown {
     if whole.len + whole.room < collapse::COLLAPSED && level < collapse::BALANCED_FROM {
         let mut nodes = Vec::new();
@@ -288,7 +301,7 @@ fn grow(entries: &mut [Entry], base: usize, whole: &Range, level: usize, costs: 
                 a.len.cmp(&b.len)
             }
         };
-        // The first of the largest, as `max_by` would give the last.
+        // Reversed, as `max_by` returns the last of equal elements and the first is wanted.
         let Some(widest) = open.rev().max_by(by_size) else { break };
         let range = ranges[widest];
         match split(range.of(entries), range.len, &range.extent, level, costs) {
@@ -343,7 +356,8 @@ fn move_by(node: &mut Node, offset: usize) {
     }
 }
 
-/// Splits the first `len` entries in two; `None` if it is better, and possible, to make them a leaf.
+/// Splits the first `len` entries in two; `None` if it is better, and possible, to make them a
+/// leaf.
 fn split(
     entries: &mut [Entry],
     len: usize,
@@ -363,18 +377,18 @@ fn split(
         return Some(Divided::of(entries, len, false, halves));
     }
     if may_be_leaf && kind.block > 1 {
-        // One test does for all of them: parts would cost as much each, and as much memory.
+        // All of them are one test: each half would cost as much, and as much memory.
         return None;
     }
     if !one_kind {
-        // Where centres coincide kinds part.
+        // Separates the kinds where centres coincide.
         held.sort_by_key(Entry::kind);
     }
     let best = split::best_plane(held, &kind, costs.isa);
     if may_be_leaf {
         let leaf = kind.of_leaf(len);
         let whole = extent.half_area();
-        // In this node another child costs no other node test.
+        // One more child of this node costs no further node test.
         let pays = best.as_ref().is_some_and(|b| b.cost(&kind) < leaf * whole);
         if !pays {
             return None;
@@ -393,11 +407,13 @@ fn split(
 }
 
 impl Bvh {
-    /// Builds a tree over `entries`, all [bounded](Entry::is_bounded) and made by `frame`, of as many kinds as `shapes`
-    /// has elements: for a kind of triangles the corners of each, in the caller's units and within its entry's box.
+    /// Builds a tree over `entries`, all [bounded](Entry::is_bounded) and made by `frame`, of as
+    /// many kinds as `shapes` has elements: for a kind of triangles the corners of each, in the
+    /// caller's units and within its entry's box.
     ///
-    /// Also gives, for each kind, the indices of its entries in the order of the leaves: [`Leaf`](crate::Leaf)s
-    /// refer to positions in these lists. The tree does not depend on the number of threads.
+    /// Also returns, for each kind, the indices of its entries in the order of the leaves:
+    /// [`Leaf`](crate::Leaf)s refer to positions in these lists. The tree does not depend on the
+    /// number of threads.
     ///
     /// # Panics
     ///
@@ -412,7 +428,7 @@ impl Bvh {
         let (costs, kinds, len) = (Costs::of(settings, *frame, shapes), shapes.len(), entries.len());
         let by_position = |entries: Vec<Entry>, grown: Grown| {
             let slots = Slots::of(&entries, kinds);
-            // Before there is a second copy of the nodes.
+            // Freed before there is a second copy of the nodes.
             drop(entries);
             let nodes = grown.listed();
             let arranged = Arranged::by_position(&nodes, slots);
@@ -440,7 +456,7 @@ impl Bvh {
         Self::of_nodes(*frame, nodes, arranged, shapes)
     }
 
-    /// The tree of these nodes, whose leaves stand in the order of `arranged`.
+    /// The tree of these nodes, whose leaves are in the order of `arranged`.
     fn of_nodes(
         frame: Frame,
         mut nodes: Vec<Node>,
@@ -473,7 +489,8 @@ impl Bvh {
         (tree.with_nodes(nodes), arranged.order)
     }
 
-    /// Makes a block of each leaf of triangles, kind by kind, and says where references to leaves lead.
+    /// Makes a block of each leaf of triangles, kind by kind, and sets the first reference of each
+    /// kind.
     fn keep_triangles(&mut self, arranged: &Arranged, shapes: &[Option<CornersOf<'_>>]) {
         let frame = self.frame;
         let is_block = |leaf: &&Placed| shapes[leaf.kind as usize].is_some();

@@ -1,8 +1,8 @@
-//! Which things stand in which leaves, and in which slots.
+//! Assigns entries to leaves and slots.
 //!
-//! Things of a kind have successive slots in the order of the leaves. Triangles that stand in several leaves have the last ones, and for
-//! each of them the tree knows all places, so that those who want to see each triangle once can tell which of its leaves shows it
-//! (see [`Splits`]).
+//! Entries of a kind have successive slots in the order of the leaves. Triangles in several leaves
+//! have the last slots. For each of them the tree records all places, so that a query that reports
+//! each triangle once can decide which of its leaves reports it (see [`Splits`]).
 
 use crate::frame::Entry;
 use crate::node::{Node, WIDTH};
@@ -10,17 +10,17 @@ use crate::tree::{Bvh, Splits};
 use durer_math::kernels::in_large_pages;
 use rayon::prelude::*;
 
-/// What stands where.
+/// The leaves, and the slots of the entries.
 pub(super) struct Arranged {
-    /// For each kind the indices of things, slot by slot.
+    /// For each kind the indices of the entries, slot by slot.
     pub(super) order: Vec<Vec<u32>>,
     /// All leaves in the order of the nodes.
     pub(super) leaves: Vec<Placed>,
-    /// If triangles may stand in several leaves, what their leaves hold.
+    /// The contents of the leaves, if triangles may be in several.
     pub(super) listed: Option<Listed>,
 }
 
-/// A leaf: a range of slots, or if these are listed, of the list.
+/// A leaf: a range of slots, or of positions in [`Listed::slots`].
 #[derive(Clone, Copy)]
 pub(super) struct Placed {
     pub(super) kind: u32,
@@ -28,7 +28,7 @@ pub(super) struct Placed {
     pub(super) count: u32,
 }
 
-/// For each kind, the slots of its leaves one after the other, and how many slots stand in one leaf only.
+/// For each kind, the slots of its leaves, concatenated, and how many slots are in one leaf only.
 pub(super) struct Listed {
     pub(super) slots: Vec<Vec<u32>>,
     pub(super) whole: Vec<u32>,
@@ -45,7 +45,7 @@ fn positions(nodes: &[Node]) -> impl Iterator<Item = (usize, usize)> + '_ {
 }
 
 impl Arranged {
-    /// Leaves that refer to positions of entries, each of which is in one.
+    /// For leaves that refer to positions of entries, each of which is in one leaf.
     pub(super) fn by_position(nodes: &[Node], slots: Slots) -> Self {
         let leaf = |(first, count): (usize, usize)| {
             let slot = slots.places.get(first).copied().unwrap_or(first as u32);
@@ -56,12 +56,13 @@ impl Arranged {
         Self { order: slots.order, leaves, listed: None }
     }
 
-    /// Leaves that refer to positions of references: a triangle may be in several, or several times in one, and there is room between them.
+    /// For leaves that refer to positions of references: a triangle may be in several, or several
+    /// times in one, and there is room between them.
     pub(super) fn sharing(nodes: &[Node], entries: &[Entry], kinds: usize) -> Self {
         let mut leaves = Vec::new();
-        // For each kind and index, in how many leaves.
+        // For each kind and index the number of leaves that hold it.
         let mut times: Vec<Vec<u8>> = vec![Vec::new(); kinds];
-        // All leaves one after the other, each index once.
+        // The indices of all leaves, concatenated, each index once per leaf.
         let mut indices: Vec<u32> = Vec::with_capacity(entries.len());
         for (first, count) in positions(nodes) {
             let kind = entries[first].kind();
@@ -85,7 +86,8 @@ impl Arranged {
         let counts: Vec<u32> = times.iter().map(all).collect();
         let mut order: Vec<Vec<u32>> = counts.iter().map(|&n| vec![0; n as usize]).collect();
         let mut slots: Vec<Vec<u32>> = vec![Vec::new(); kinds];
-        // The next slots of things in one leaf, and in several; and what slots those have got.
+        // The next slot for an entry in one leaf, and for one in several; and the slots that the
+        // latter got.
         let mut next: Vec<(u32, u32)> = whole.iter().map(|&n| (0, n)).collect();
         let mut given: Vec<Vec<u32>> = times
             .iter()
@@ -127,13 +129,13 @@ impl Arranged {
     }
 }
 
-/// Positions become slots, which are counted kind by kind.
+/// The slot of each position; slots are counted kind by kind.
 pub(super) struct Slots {
     /// The first slot of each kind, and the end.
     starts: Vec<u32>,
-    /// For each kind the indices of things, slot by slot.
+    /// For each kind the indices of the entries, slot by slot.
     order: Vec<Vec<u32>>,
-    /// The slot at each position. Of one kind, positions are slots, and there is nothing here.
+    /// The slot at each position. Empty if there is one kind: then positions are slots.
     places: Vec<u32>,
 }
 
@@ -164,7 +166,7 @@ impl Slots {
 }
 
 impl Bvh {
-    /// Puts down where triangles stand that are in several leaves of these nodes.
+    /// Records the places of triangles that are in several leaves of these nodes.
     pub(super) fn share(&mut self, nodes: &[Node], listed: &Listed) {
         let mut splits = Splits::default();
         let mut starts: Vec<u32> = Vec::new();
@@ -175,7 +177,7 @@ impl Bvh {
         if starts.is_empty() {
             return;
         }
-        // Counts, then ends, which become starts as places are filled in from the last.
+        // First counts, then ends, which become starts as places are filled in from the last.
         let all = |visit: &mut dyn FnMut(u32, u32)| {
             for (index, node) in nodes.iter().enumerate().rev() {
                 for slot in (0..WIDTH).rev().filter(|&slot| node.is_used(slot) && node.child[slot].is_leaf())

@@ -1,26 +1,32 @@
-//! Splits in space: a triangle that a plane cuts stands on both sides of it.
+//! Spatial splits: a triangle that a plane cuts is put on both sides of it.
 //!
-//! Where the boxes of two halves overlap much, as they do around large triangles, a plane through all of them may be the better cut (M. Stich, H.
-//! Friedrich, A. Dietrich, "Spatial splits in bounding volume hierarchies", High Performance Graphics, 2009). An entry is then a *reference*: a
-//! box around a part of a triangle. All parts of a triangle together are the whole of it: what a plane cuts is replaced by two
-//! parts, each with a box that holds all on its side. A budget bounds how many references there are: it is *room* behind the entries of a
-//! range, of which both halves get their shares.
+//! Where the boxes of two halves overlap much, as they do around large triangles, a plane through
+//! all of them may be the better split (M. Stich, H. Friedrich, A. Dietrich, "Spatial splits in
+//! bounding volume hierarchies", High Performance Graphics, 2009). An entry is then a *reference*:
+//! a box around a part of a triangle. All parts of a triangle together are the whole of it: a part
+//! that a plane cuts is replaced by two, each with a box that holds all on its side. A budget
+//! bounds the number of references: it is *room* behind the entries of a range, of which both
+//! halves get their shares.
 //!
 //! # The boxes of parts
 //!
-//! With `u = 2^-53` an edge from `a` to `b`, coordinates at most 1, that crosses the plane `x = p` does so at
+//! With `u = 2^-53` an edge from `a` to `b`, coordinates at most 1, that crosses the plane `x = p`
+//! does so at
 //!
 //! ```text
 //!     y = a_y + s (b_y - a_y),   s = (p - a_x) / (b_x - a_x) in [0, 1].
 //! ```
 //!
-//! Both differences and the quotient are rounded, so `s` errs by `3 u` of itself; with the third difference and the product that is `5 u` of at most 2;
-//! and the sum is at most `1 + 10 u` and rounded once: `12 u` in all, with terms of second order. Underflow needs no charge: differences of f64 do not, and
-//! a quotient or a product that does loses less than `2^-1074`. A part's box has the corners on its side and these points, and is grown by [`SLACK`], `32 u`; so
-//! at least `20 u` are left, more than [`Bounds`] of any other planes err: which is how [`is_covered`] can look for gaps. It is also
-//! inside the box of what was cut, and on its side of the plane, both of which hold the part.
+//! Both differences and the quotient are rounded, so `s` errs by `3 u` of itself; with the third
+//! difference and the product that is `5 u` of at most 2; and the sum is at most `1 + 10 u` and
+//! rounded once: `12 u` in all, with terms of second order. Underflow needs no charge: differences
+//! of f64 do not underflow, and a quotient or a product that does loses less than `2^-1074`. A
+//! part's box contains the corners on its side and these points, and is grown by [`SLACK`], `32 u`;
+//! so at least `20 u` are left, more than the error of [`Bounds`] for any other planes: this is why
+//! [`is_covered`] can look for gaps. The box is also inside the box of the part that was cut, and
+//! on its side of the plane, both of which hold the new part.
 //!
-//! Corners are scaled to the tree's units. A triangle of which that loses something is never cut.
+//! Corners are scaled to the tree's units. A triangle for which that is inexact is never cut.
 
 use super::area::Extent;
 use super::split::{Plane, fold};
@@ -28,26 +34,27 @@ use super::{Costs, Divided, KindCosts};
 use crate::frame::{Entry, Frame, down32, up32};
 use crate::triangles::Corners;
 
-/// What the boxes of parts are grown by: see above.
+/// The boxes of parts are grown by this: see above.
 const SLACK: f64 = 16.0 * f64::EPSILON;
 
-/// How many places for a plane there are along each axis.
+/// The number of bins along each axis, whose borders are the planes to choose from.
 const BINS: usize = 16;
 
-/// A cut in space is looked for where what halves have in common has more than this much of their range's surface. The paper compares with the whole tree's
-/// instead: then it is looked for nearly everywhere, which takes three times as long and is worth nothing.
+/// A spatial split is tried where the overlap of the halves has more than this fraction of their
+/// range's surface. The paper compares with the whole tree's surface instead: then it is tried
+/// nearly everywhere, which takes three times as long and gains nothing.
 const OVERLAP: f32 = 0.3;
 
-/// A range of fewer entries is not cut in space: it is a few blocks.
+/// A range of fewer entries gets no spatial split: it is a few blocks.
 const LEAST: usize = 64;
 
-/// Of how many entries there may be one more reference.
+/// There may be one more reference for so many entries.
 pub(super) const BUDGET: usize = 4;
 
 /// A triangle in the tree's units.
 pub(crate) type Scaled = [[f64; 3]; 3];
 
-/// A triangle in the tree's units, if that loses nothing.
+/// A triangle in the tree's units, if the scaling is exact.
 pub(crate) fn scaled(frame: Frame, corners: &Corners) -> Option<Scaled> {
     let mut scaled = [[0.0; 3]; 3];
     for (to, from) in scaled.iter_mut().zip(corners) {
@@ -61,7 +68,7 @@ pub(crate) fn scaled(frame: Frame, corners: &Corners) -> Option<Scaled> {
     Some(scaled)
 }
 
-/// A box around a part of a triangle, within 12 u; empty to begin with.
+/// A box around a part of a triangle, within 12 u; empty at first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Bounds {
     pub(crate) lo: [f64; 3],
@@ -79,7 +86,7 @@ impl Bounds {
         }
     }
 
-    /// Around the parts of a triangle on both sides of the plane `x_axis = at`.
+    /// The boxes of the parts of a triangle on both sides of the plane `x_axis = at`.
     #[inline(always)]
     fn of_parts(v: &Scaled, axis: usize, at: f64) -> [Self; 2] {
         let [mut below, mut above] = [Self::EMPTY; 2];
@@ -118,7 +125,7 @@ impl Bounds {
     }
 }
 
-/// The boxes of an entry's parts on both sides of a plane, where it has such parts.
+/// The boxes of an entry's parts on both sides of a plane; `None` for a part that does not exist.
 #[inline(always)]
 fn parts(entry: &Entry, v: &Scaled, axis: usize, at: f32) -> [Option<Extent>; 2] {
     let [below, above] = Bounds::of_parts(v, axis, f64::from(at));
@@ -136,7 +143,7 @@ fn parts(entry: &Entry, v: &Scaled, axis: usize, at: f32) -> [Option<Extent>; 2]
     [side(&below, lo, below_hi), side(&above, above_lo, hi)]
 }
 
-/// Whether boxes hold all of a triangle's part in `bounds`, but for what f64 cannot tell.
+/// Whether boxes cover a triangle's part in `bounds`, up to the accuracy of f64.
 pub(crate) fn is_covered(v: &Scaled, bounds: &Bounds, boxes: &[Bounds]) -> bool {
     if bounds.is_empty() {
         return true;
@@ -145,7 +152,8 @@ pub(crate) fn is_covered(v: &Scaled, bounds: &Bounds, boxes: &[Bounds]) -> bool 
     if boxes.iter().any(holds) {
         return true;
     }
-    // A plane of a box that goes through it. Without one all of it is beside all boxes.
+    // Looks for a plane of a box that cuts the part. If there is none, the part is outside all
+    // boxes.
     let meets = |b: &&Bounds| !bounds.within(b).is_empty();
     let planes = |b: &Bounds| (0..3).flat_map(|i| [(i, b.lo[i]), (i, b.hi[i])]).collect::<Vec<_>>();
     let mut all = boxes.iter().filter(meets).flat_map(planes);
@@ -154,7 +162,8 @@ pub(crate) fn is_covered(v: &Scaled, bounds: &Bounds, boxes: &[Bounds]) -> bool 
     is_covered(v, &below.within(bounds), boxes) && is_covered(v, &above.within(bounds), boxes)
 }
 
-/// What is in the bins of each axis: boxes of parts, and how many triangles begin and end there.
+/// The contents of the bins of each axis: boxes of parts, and how many triangles begin and end
+/// there.
 struct Chopped {
     extents: [[Extent; BINS]; 3],
     begin: [[u32; BINS]; 3],
@@ -179,7 +188,7 @@ impl Chopped {
     #[inline(always)]
     fn add(&mut self, entry: &Entry, grid: &Grid, costs: &Costs<'_>) {
         let (lo, hi) = (entry.lo(), entry.hi());
-        // Fetched if a plane cuts it.
+        // Fetched only if a plane cuts the triangle.
         let mut corners = None;
         for axis in 0..3 {
             let (first, last) = (grid.bin(lo[axis], axis), grid.bin(hi[axis], axis));
@@ -193,7 +202,7 @@ impl Chopped {
                 {
                     continue;
                 }
-                // It stands on one side.
+                // Not cut: the entry counts on one side.
                 let bin = grid.bin(0.5 * entry.centre2(axis), axis);
                 self.put(axis, bin, bin, &Extent::of(entry));
             } else {
@@ -209,7 +218,8 @@ impl Chopped {
         self.end[axis][last] += 1;
     }
 
-    /// Adds a triangle's parts in some bins, rounded: nothing depends on them but which plane is chosen. Says whether there are any.
+    /// Adds a triangle's parts in some bins, rounded, which affects only the choice of the plane.
+    /// Returns whether there are any.
     #[inline(always)]
     fn chop(
         &mut self,
@@ -283,7 +293,7 @@ impl Grid {
         (((x - self.from[axis]) * self.scale[axis]) as usize).min(BINS - 1)
     }
 
-    /// Where a bin begins.
+    /// The plane at which a bin begins.
     #[inline(always)]
     fn plane(&self, bin: usize, axis: usize) -> f32 {
         self.from[axis] + self.width[axis] * (bin as f32 / BINS as f32)
@@ -297,7 +307,8 @@ struct Cut {
     sides: [(Extent, usize); 2],
 }
 
-/// Cuts the first `len` entries, behind which there is room, by a plane in space, if that is better than `other`; else nothing has changed.
+/// Splits the first `len` entries, which are followed by room, by a plane in space, if that is
+/// better than `other`; else nothing changes.
 pub(super) fn divide(
     entries: &mut [Entry],
     len: usize,
@@ -357,7 +368,7 @@ fn best(
             below.1 += begin[bin - 1] as usize;
             let sides = [below, above[bin]];
             let counts = [below.1, above[bin].1];
-            // Each side lacks something.
+            // Whether neither side has all entries.
             let is_cut = counts.iter().all(|&n| n < entries.len());
             if !is_cut || counts[0] + counts[1] > entries.len() + room {
                 continue;
@@ -371,7 +382,8 @@ fn best(
     found
 }
 
-/// Makes the cut. What is cut may stand whole on one side, if that is better. `None` if there turns out to be nothing on one side: then nothing has changed.
+/// Makes the split. An entry that the plane cuts may be put whole on one side, if that is better.
+/// `None` if one side turns out to be empty: then nothing has changed.
 fn make(entries: &mut [Entry], len: usize, cut: &Cut, costs: &Costs<'_>) -> Option<Divided> {
     let Cut { axis, at, .. } = *cut;
     let [(below, n_below), (above, n_above)] = cut.sides;
@@ -430,7 +442,7 @@ mod tests {
     use durer_math::{Aabb, Point3};
     use proptest::prelude::*;
 
-    /// Coordinates are integers by this, so that what follows is exact in f64.
+    /// Coordinates are multiples of this, so that the test's arithmetic is exact in f64.
     const UNIT: f64 = 1.0 / (1 << 20) as f64;
 
     fn corner() -> impl Strategy<Value = [i32; 3]> {

@@ -1,4 +1,4 @@
-//! Where to cut a range of entries.
+//! How to split a range of entries.
 
 use super::area::Extent;
 use super::bins::{BINS, Bins, Filled};
@@ -8,13 +8,13 @@ use crate::kernels;
 use durer_math::Isa;
 use rayon::prelude::*;
 
-/// With so few entries all cuts are tried, which is less work than bins.
+/// With so few entries all splits are tried, which is less work than bins.
 const SWEPT: usize = 32;
 
-/// Ranges with more entries are binned and parted by all threads.
+/// Ranges with more entries are binned and partitioned by all threads.
 const PARALLEL: usize = 1 << 15;
 
-/// A range cut in two: the first part's length, and the boxes of both.
+/// A range split in two: the length of the first half, and the boxes of both.
 pub(super) struct Split {
     pub(super) at: usize,
     pub(super) left: Extent,
@@ -27,7 +27,7 @@ pub(super) fn extent(entries: &[Entry]) -> Extent {
     fold(entries, || Extent::EMPTY, add, |a, b| a.united(&b))
 }
 
-/// Folds in an order that does not matter: by all threads if it pays.
+/// Folds by all threads if it pays; the order must not matter.
 pub(super) fn fold<T: Send>(
     entries: &[Entry],
     identity: impl Fn() -> T + Sync + Send,
@@ -50,7 +50,7 @@ pub(super) fn is_one_kind(entries: &[Entry]) -> bool {
     entries.len() > super::MAX_LEAF || entries.iter().all(|e| e.kind() == entries[0].kind())
 }
 
-/// A way to cut a range in two.
+/// A candidate for a split.
 pub(super) struct Plane {
     cut: Cut,
     left: (Extent, usize),
@@ -66,7 +66,7 @@ enum Cut {
 }
 
 impl Plane {
-    /// Half the surface of what both boxes have in common.
+    /// Half the surface of the intersection of both boxes.
     pub(super) fn overlap(&self) -> f32 {
         self.left.0.common(&self.right.0).half_area()
     }
@@ -78,7 +78,7 @@ impl Plane {
     }
 }
 
-/// The best cut so far.
+/// The best split so far.
 struct Best {
     cost: f32,
     axis: usize,
@@ -89,7 +89,8 @@ struct Best {
 impl Best {
     const NONE: Self = Self { cost: f32::INFINITY, axis: 0, at: 0, uneven: usize::MAX };
 
-    /// Takes a cut into `left` and `right` entries if it is better. Flat in two directions, the surface says nothing: then the most even cut wins.
+    /// Takes a split into `left` and `right` entries if it is better. All surfaces of boxes that
+    /// are flat in two directions are zero: then the most even split wins.
     #[inline(always)]
     fn improve(&mut self, cost: f32, axis: usize, at: usize, left: usize, right: usize) {
         let uneven = left.abs_diff(right);
@@ -99,7 +100,8 @@ impl Best {
     }
 }
 
-/// The best cut along any axis by the surface area heuristic; `None` if all centres coincide (or nearly).
+/// The best split along any axis by the surface area heuristic; `None` if all centres coincide (or
+/// nearly).
 pub(super) fn best_plane(entries: &[Entry], costs: &KindCosts, isa: Isa) -> Option<Plane> {
     if entries.len() <= SWEPT {
         isa.run(
@@ -111,7 +113,8 @@ pub(super) fn best_plane(entries: &[Entry], costs: &KindCosts, isa: Isa) -> Opti
     }
 }
 
-/// The best of all cuts of a few entries in the order of their centres; equal ones stay as they stand.
+/// The best of all splits of a few entries in the order of their centres; the order of equal
+/// centres is kept.
 #[inline(always)]
 fn best_of_all(entries: &[Entry], costs: &KindCosts) -> Option<Plane> {
     let n = entries.len();
@@ -119,7 +122,7 @@ fn best_of_all(entries: &[Entry], costs: &KindCosts) -> Option<Plane> {
     for (to, entry) in boxes.iter_mut().zip(entries) {
         *to = Extent::of(entry);
     }
-    // Lanes where there is no cut are infinite.
+    // Lanes without a split are infinite.
     let (mut tests_left, mut tests_right) = ([1.0; SWEPT], [1.0; SWEPT]);
     for i in 1..n {
         (tests_left[i], tests_right[i]) = (costs.tests(i), costs.tests(n - i));
@@ -164,7 +167,8 @@ fn best_of_all(entries: &[Entry], costs: &KindCosts) -> Option<Plane> {
     Some(Plane { left: (all(left), left.len()), right: (all(right), right.len()), cut: Cut::Order { order } })
 }
 
-/// How many of `n` numbers come before each: lesser ones, and equal ones that stand before it. Without a branch, which sorting few numbers is full of.
+/// The rank of each of `n` numbers in a stable sort: how many are less, or equal and earlier.
+/// Without branches, which make the usual sort of a few numbers slow.
 #[inline(always)]
 fn ranks(x: &[f32; SWEPT], n: usize) -> [u32; SWEPT] {
     const STEP: usize = 8;
@@ -207,7 +211,7 @@ fn best_between_bins(entries: &[Entry], costs: &KindCosts, isa: Isa) -> Option<P
     })
 }
 
-/// The best cut before a bin that is not the first.
+/// The best split before a bin that is not the first.
 #[inline(always)]
 fn best_bin(filled: &Filled, costs: &KindCosts) -> Best {
     let mut best = Best::NONE;
@@ -233,7 +237,7 @@ fn best_bin(filled: &Filled, costs: &KindCosts) -> Best {
     best
 }
 
-/// Whether a range that its node has no room to split should be a leaf rather than a node below.
+/// Whether a range that its node has no room to split should be a leaf rather than a node.
 pub(super) fn is_better_as_leaf(entries: &[Entry], extent: &Extent, costs: &Costs<'_>) -> bool {
     if entries.len() > costs.of_range(entries).most || !is_one_kind(entries) {
         return false;
@@ -244,7 +248,7 @@ pub(super) fn is_better_as_leaf(entries: &[Entry], extent: &Extent, costs: &Cost
     best_plane(entries, &costs, isa).is_none_or(|plane| leaf <= whole + plane.cost(&costs))
 }
 
-/// Makes the cut.
+/// Makes the split.
 pub(super) fn by_plane(entries: &mut [Entry], plane: &Plane, isa: Isa) -> Split {
     match &plane.cut {
         Cut::Bin { axis, bin, bins } => {
@@ -262,7 +266,7 @@ pub(super) fn by_plane(entries: &mut [Entry], plane: &Plane, isa: Isa) -> Split 
     Split { at: plane.left.1, left: plane.left.0, right: plane.right.0 }
 }
 
-/// Puts entries in bins before `bin` first, and says how many there are.
+/// Partitions: puts entries in bins before `bin` first, and returns how many there are.
 fn part(entries: &mut [Entry], bins: &Bins, axis: usize, bin: u32, isa: Isa) -> usize {
     const CHUNK: usize = PARALLEL / 4;
     if entries.len() <= PARALLEL {
@@ -279,7 +283,8 @@ fn part(entries: &mut [Entry], bins: &Bins, axis: usize, bin: u32, isa: Isa) -> 
     };
     let lefts: Vec<usize> = entries.par_chunks_mut(CHUNK).map(some).collect();
     let (at, end) = (lefts.iter().sum(), entries.len());
-    // What went right in chunks that are on the left, and what went left in those on the right, changes places.
+    // Exchanges the right entries of chunks on the left with the left entries of chunks on the
+    // right.
     let chunks = || lefts.iter().enumerate().map(|(i, left)| (i * CHUNK, i * CHUNK + left));
     let mut from_left = chunks().map(|(start, middle)| middle.min(at)..(start + CHUNK).min(end).min(at));
     let mut from_right = chunks().map(|(start, middle)| start.max(at) - at..middle.max(at) - at);
@@ -300,8 +305,8 @@ fn part(entries: &mut [Entry], bins: &Bins, axis: usize, bin: u32, isa: Isa) -> 
     }
 }
 
-/// The same by one thread. Which side an entry goes to nobody could foresee, so there is no branch: each changes places with the first one that
-/// is not known to go left.
+/// Partitions on one thread. The side of an entry is unpredictable, so there is no branch: each
+/// entry is exchanged with the first one that is not known to go left.
 #[inline(always)]
 fn part_in_turn(entries: &mut [Entry], bins: &Bins, axis: usize, bin: u32) -> usize {
     let mut at = 0;
@@ -313,14 +318,15 @@ fn part_in_turn(entries: &mut [Entry], bins: &Bins, axis: usize, bin: u32) -> us
     at
 }
 
-/// Cuts in the middle, as the entries stand.
+/// Splits in the middle, in the present order.
 pub(super) fn halve(entries: &[Entry]) -> Split {
     let at = entries.len() / 2;
     let (left, right) = entries.split_at(at);
     Split { at, left: extent(left), right: extent(right) }
 }
 
-/// Cuts in the middle; a range that is small enough for a leaf is sorted by kind first, so that kinds part.
+/// Splits in the middle; a range that is small enough for a leaf is sorted by kind first, to
+/// separate the kinds.
 pub(super) fn halve_by_kind(entries: &mut [Entry]) -> Split {
     if entries.len() > super::MAX_LEAF {
         return halve(entries);
