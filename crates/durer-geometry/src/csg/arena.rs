@@ -1,7 +1,7 @@
-//! Bodies as a geometry holds them: one slot in the tree each.
+//! The CSG solids of a geometry: one slot in the tree each.
 //!
-//! What rays meet are the surfaces of leaves. So hits and sources name those, by slots that are counted over all leaves of all bodies, with
-//! two flags above the number.
+//! Rays hit the surfaces of leaves. So hits and sources name those, by slots that are counted over
+//! all leaves of all solids, with two flags above the number.
 
 use super::compound::Compound;
 use super::packet::PacketCsg;
@@ -19,25 +19,26 @@ use durer_surfaces::{Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Solid
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// In the slot of a hit: its normal is that of the leaf turned round.
+/// Flag in the slot of a hit: its normal is that of the leaf, reversed.
 pub(super) const TURNED: u32 = 1 << 31;
-/// In the slot of a hit: it was decided together with crossings of other leaves.
+/// Flag in the slot of a hit: it was decided in a tie with crossings of other leaves.
 pub(super) const TIED: u32 = 1 << 30;
 /// The slot itself.
 pub(super) const SLOT: u32 = TIED - 1;
 
-/// Whether two slots of hits name one surface, turned the same way. Other arenas have no slots with flags.
+/// Whether two slots of hits denote one surface with the same orientation. Slots of other arenas
+/// have no flags.
 #[inline(always)]
 pub(crate) fn same_surface(a: u32, b: u32) -> bool {
     (a ^ b) & !TIED == 0
 }
 
-/// All bodies of a geometry.
+/// All CSG solids of a geometry.
 #[derive(Default)]
 pub(crate) struct Compounds {
     bodies: Vec<Arc<Compound>>,
     ids: Ids,
-    /// The first slot of each body's leaves; one more at the end.
+    /// The first slot of each solid's leaves, and the end.
     first: Vec<u32>,
 }
 
@@ -47,23 +48,23 @@ impl Compounds {
         self.ids.push(id, mask);
     }
 
-    /// How many slots the leaves have.
+    /// The total number of the leaves' slots.
     pub(crate) fn leaf_slots(&self) -> u64 {
         self.bodies.iter().map(|b| u64::from(b.slots())).sum()
     }
 
-    /// How many there may be.
+    /// The greatest total number of slots.
     pub(crate) const MOST_SLOTS: u64 = SLOT as u64;
 
-    /// The body of a hit's slot, and the slot in it.
+    /// The solid of a hit's slot, and the slot within it.
     fn body(&self, slot: u32) -> (usize, u32) {
         let slot = slot & SLOT;
-        // Bodies without leaves have no slot.
+        // Solids without leaves have no slot.
         let body = self.first.partition_point(|&first| first <= slot) - 1;
         (body, slot - self.first[body])
     }
 
-    /// Where on a body the ray starts.
+    /// The start of the ray on a solid, if it starts there.
     fn from(&self, body: usize, filter: &Filter) -> Option<Start> {
         let (named, side) = filter.source?;
         let (of, slot) = self.body(named);
@@ -83,8 +84,9 @@ impl Compounds {
         Id { primitive: id.primitive.wrapping_add(found.primitive), ..id }
     }
 
-    /// Shows the crossings of the admitted bodies of a leaf, those of each ascending, until `show` says for one that no more of it are
-    /// wanted (then the next one's turn is), or that nothing is.
+    /// Passes the crossings of the admitted solids of a leaf to `show`, those of each solid
+    /// ascending. When `show` returns [`Flow::Stop`] the next solid follows; when `is_done` returns
+    /// true the search ends.
     fn each_body(
         &self,
         isa: Isa,
@@ -170,7 +172,7 @@ impl AnyArena for Compounds {
     }
 
     fn start_of(&self, _: u32, _: &LocalRay<'_>, _: &LocalPoint<'_>, _: &mut Tracks) {
-        // No body is in parts.
+        // No CSG solid is in parts.
     }
 
     fn starts_inside(&self, slot: u32, ray: &LocalRay<'_>) -> bool {
@@ -293,7 +295,7 @@ impl Arrange for Compounds {
         let old = core::mem::take(&mut self.ids);
         self.first = vec![0];
         for i in order {
-            // Each one stands in the order once.
+            // Each index occurs in the order once.
             if let Some(body) = bodies[i as usize].take() {
                 self.first.push(self.first[self.first.len() - 1] + body.slots());
                 self.ids.push(old.name(i as usize), old.mask(i as usize));

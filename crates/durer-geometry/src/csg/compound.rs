@@ -1,4 +1,4 @@
-//! A body with its leaves.
+//! A CSG solid with its leaves.
 
 use super::packet::Operand;
 use super::sweep::Sense;
@@ -31,36 +31,38 @@ use durer_surfaces::{LocalPoint, Side, Solidity, Surface};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Compound {
-    /// The leaves; their objects are their numbers, their primitives are as they were given. Each has the box in which it matters.
+    /// The leaves. Their objects are their numbers, their primitives are those given by the caller.
+    /// Each has the box in which it matters.
     pub(super) leaves: Geometry,
     pub(super) tree: Tree,
-    /// What is known of each leaf.
+    /// The traits of each leaf.
     pub(super) traits: Vec<Traits>,
-    /// The first slot of each arena of the leaves, counted over all; one more at the end.
+    /// The first slot of each arena of the leaves, counted over all, and the end.
     pub(super) first_slot: Vec<u32>,
     bounds: Aabb,
-    /// An upper bound of the coordinates of all leaves that have an end.
+    /// An upper bound on the coordinates of all bounded leaves.
     pub(super) size: f64,
-    /// Some leaves stand in the tree in parts: whether a ray starts inside of one is told by all of them that it crosses.
+    /// Whether some leaves are in the tree in parts: then all parts that a ray crosses are needed
+    /// to decide whether it starts inside.
     pub(super) in_parts: bool,
-    /// Rays take their way through the leaves piece by piece.
+    /// Whether rays search the leaves piece by piece.
     pub(super) by_pieces: bool,
-    /// Some leaves have no end, or may be met in several pieces.
+    /// Whether some leaves are unbounded, or may be met in several pieces.
     pub(super) one_by_one: bool,
-    /// It has a surface and no inside.
+    /// Whether it is a surface without an inside.
     is_sheet: bool,
 }
 
-/// What is known of a leaf.
+/// Properties of a leaf.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Traits {
     pub(super) sense: Sense,
     pub(super) shown: Shown,
-    /// It has no end, so a ray may be in it without ever crossing it.
+    /// Whether it is unbounded, so that a ray may be inside without ever crossing it.
     pub(super) is_endless: bool,
 }
 
-/// Which faces of a leaf can be seen. What cannot be seen bounds the body all the same.
+/// Which faces of a leaf are visible. An invisible face bounds the solid all the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shown {
     /// All of them.
@@ -68,7 +70,7 @@ pub enum Shown {
     All,
     /// The first one only: the wall of a cylinder without caps.
     Wall,
-    /// None: the leaf cuts, and what it opens stays open.
+    /// None: the leaf cuts, and the openings stay open.
     None,
 }
 
@@ -82,7 +84,7 @@ impl Shown {
     }
 }
 
-/// A solid under construction; it becomes a part of one other, or the whole.
+/// A solid under construction. It becomes an operand of one other, or the whole.
 #[derive(Debug)]
 pub struct Part(u32);
 
@@ -92,12 +94,12 @@ pub enum CsgError {
     /// The surface has no inside.
     #[error("csg: a {0} has no inside, so it cannot be combined with other solids")]
     Sheet(&'static str),
-    /// The leaves do not fit.
+    /// The leaves do not fit into a geometry.
     #[error(transparent)]
     Build(#[from] BuildError),
 }
 
-/// Gathers the leaves of a [`Compound`] and says how they are combined.
+/// Collects the leaves of a [`Compound`] and combines them.
 #[derive(Default)]
 pub struct CompoundBuilder {
     leaves: Builder,
@@ -113,7 +115,8 @@ impl CompoundBuilder {
         self.leaf_as(solid, LeafId(self.primitives), Shown::All)
     }
 
-    /// Adds a solid under the given number; where a surface has parts (the faces of a mesh), part `i` comes `i` numbers later.
+    /// Adds a solid under the given number. If a surface has parts (the faces of a mesh), part `i`
+    /// has the number plus `i`.
     pub fn leaf_as<S: Surface + 'static>(
         &mut self,
         solid: S,
@@ -136,19 +139,19 @@ impl CompoundBuilder {
         Ok(self.part(Expr::Leaf(leaf)))
     }
 
-    /// All that lies in each of the parts.
+    /// The points that lie in all of the parts.
     pub fn intersection(&mut self, parts: impl IntoIterator<Item = Part>) -> Part {
         let parts = parts.into_iter().map(|p| p.0).collect();
         self.part(Expr::All(parts))
     }
 
-    /// All that lies in any of the parts.
+    /// The points that lie in any of the parts.
     pub fn union(&mut self, parts: impl IntoIterator<Item = Part>) -> Part {
         let parts = parts.into_iter().map(|p| p.0).collect();
         self.part(Expr::Any(parts))
     }
 
-    /// What lies in `from` and in none of the others.
+    /// The points that lie in `from` and in none of the others.
     pub fn difference(&mut self, from: Part, others: impl IntoIterator<Item = Part>) -> Part {
         let mut parts = vec![from];
         for other in others {
@@ -157,7 +160,7 @@ impl CompoundBuilder {
         self.intersection(parts)
     }
 
-    /// All that does not lie in the part.
+    /// The points that do not lie in the part.
     pub fn inverse(&mut self, part: Part) -> Part {
         self.part(Expr::Not(part.0))
     }
@@ -177,7 +180,7 @@ impl CompoundBuilder {
         self.traits.is_empty()
     }
 
-    /// Builds the solid; the builder is empty afterwards. `whole` is a part of this very builder.
+    /// Builds the solid; the builder is empty afterwards. `whole` must be a part of this builder.
     pub fn build(&mut self, whole: Part) -> Result<Compound, CsgError> {
         let mut all = core::mem::take(self);
         let tree = Tree::new(&all.exprs, whole.0, all.traits.len());
@@ -212,15 +215,15 @@ impl CompoundBuilder {
 }
 
 impl Compound {
-    /// From how many leaves on rays take their way through them piece by piece.
+    /// With so many leaves or more, rays search them piece by piece.
     const MANY: usize = 64;
 
-    /// Starts a new body.
+    /// Starts a new CSG solid.
     pub fn builder() -> CompoundBuilder {
         CompoundBuilder::default()
     }
 
-    /// The surface alone: nothing is inside it.
+    /// The surface alone, without an inside.
     #[must_use]
     pub fn as_sheet(self) -> Self {
         Self { is_sheet: true, ..self }
@@ -231,7 +234,7 @@ impl Compound {
         if self.is_sheet { Solidity::Open } else { Solidity::Solid }
     }
 
-    /// A box that holds the body; unbounded if there is none.
+    /// A box around the solid; unbounded if there is none.
     pub fn bounds(&self) -> Aabb {
         self.bounds
     }
@@ -251,12 +254,12 @@ impl Compound {
         self.first_slot[self.first_slot.len() - 1]
     }
 
-    /// Memory held, about.
+    /// Memory held, approximately.
     pub(super) fn bytes(&self) -> usize {
         self.leaves.stats().bytes + self.traits.len() * 64 + self.tree.nodes() * 16
     }
 
-    /// The arena and the slot in it of a slot among all.
+    /// Converts a slot counted over all arenas to its arena and the slot there.
     pub(super) fn place(&self, slot: u32) -> (u32, u32) {
         let arena = self.first_slot.partition_point(|&first| first <= slot) - 1;
         (arena as u32, slot - self.first_slot[arena])
@@ -266,13 +269,13 @@ impl Compound {
         &self.tree
     }
 
-    /// The leaves as lanes see them, in their order; `None` if lanes cannot see one.
+    /// The leaves with their packet filters, in their order; `None` if one has no filter.
     pub(super) fn operands(&self) -> Option<Vec<Operand>> {
         let mut operands: Vec<Option<Operand>> = self.traits.iter().map(|_| None).collect();
         for (arena, &first) in self.leaves.arenas.iter().zip(&self.first_slot) {
             let in_parts = arena.solids_in_parts().into_iter().map(|(surface, _)| {
                 let (seen, slots) = arena.solid(surface);
-                // Crossings of leaves in parts count, whichever way these are turned.
+                // For leaves in parts crossings count by parity, whatever the orientation.
                 let seen = match seen {
                     FilterKind::Outline(outline) if outline.is_turned() => FilterKind::Nothing,
                     seen => seen,
@@ -295,12 +298,14 @@ impl Compound {
         &*self.leaves.arenas[arena as usize]
     }
 
-    /// On which side of the body a point lies. Where it is on the borders of several leaves it is on the body's, unless the other leaves decide.
+    /// The side of the solid on which a point lies. A point on the borders of several leaves is on
+    /// the solid's border, unless the other leaves decide.
     pub fn side(&self, point: &LocalPoint<'_>) -> Side {
         if self.is_sheet {
             return Side::Out;
         }
-        // Both ways: leaves on whose border the point lies count as what makes the body smaller, then larger.
+        // Evaluated twice: leaves on whose border the point lies count so as to make the solid
+        // smaller, then larger.
         let (mut less, mut more) = (Values::default(), Values::default());
         less.begin(&self.tree);
         more.begin(&self.tree);

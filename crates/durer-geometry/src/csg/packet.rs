@@ -1,13 +1,16 @@
-//! Bodies as lanes see them.
+//! The packet filter of CSG solids.
 //!
-//! Where a ray crosses a leaf it crosses the body if, of the other leaves, those that could outvote this one do not: up from the leaf to the
-//! root of the tree every node needs the same of its other children, that all hold in an intersection and that none does in a union. So no
-//! crossings are put in order. Each crossing is taken by itself, and the point's place in other leaves is asked for as far as it matters.
+//! A crossing of a leaf is a crossing of the solid if none of the other leaves decides against it:
+//! on the path from the leaf to the root, every intersection needs all its other children to hold,
+//! and every union needs none of them to hold. So no crossings are put in order. Each crossing is
+//! handled by itself, and the point is classified against other leaves only as far as necessary.
 //!
-//! Leaves answer with *surely in*, *surely out*, or neither, and so do nodes. Where faces coincide or nearly so, neither is the answer, and rays
-//! for which that matters walk through their crossings in order (`sweep.rs`).
+//! The answers of leaves and nodes are *certainly in*, *certainly out*, or neither. Where faces
+//! coincide, or nearly so, the answer is neither, and rays for which that matters sweep along their
+//! crossings in order (`sweep.rs`).
 //!
-//! Who says *surely* says it of eight rays by the bits of a byte: what trees of a few leaves do with such answers are single instructions.
+//! Certain answers are bit masks, one bit a ray: the evaluation of a tree of a few leaves takes
+//! single instructions.
 
 use super::arena::{SLOT, TIED, TURNED};
 use super::compound::{Compound, Shown};
@@ -20,18 +23,18 @@ use durer_surfaces::packet::{
     self, Crossing8, Crossings, From8, Nearest, PacketFilter, RayLanes, SolidState8,
 };
 
-/// A body with the outlines of its leaves.
+/// A CSG solid with the packet filters of its leaves.
 #[derive(Debug)]
 pub(crate) struct PacketCsg {
     leaves: Vec<Operand>,
     places: Vec<LeafPosition>,
-    /// For each leaf a convex one outside of which it does not matter, if there is such.
+    /// For each leaf a convex leaf outside of which it does not matter, if there is one.
     around: Vec<Option<u32>>,
     nodes: Vec<Node>,
     children: Vec<Child>,
-    /// The slots of the body's leaves, counted over all bodies.
+    /// The slots of the solid's leaves, counted over all solids.
     slots: core::ops::Range<u32>,
-    /// The leaf of each slot, and its place among the slots of that one.
+    /// The leaf of each slot, and its index among the slots of that leaf.
     owners: Box<[(u32, u32)]>,
 }
 
@@ -39,13 +42,14 @@ pub(crate) struct PacketCsg {
 #[derive(Debug)]
 pub(super) struct Operand {
     pub(super) outline: PacketFilter,
-    /// The slots of its faces, counted over all leaves of the body; one if all have the same.
+    /// The slots of its faces, counted over all leaves of the solid; a single one if all faces
+    /// share it.
     pub(super) slots: Box<[u32]>,
     pub(super) primitive: u32,
     pub(super) shown: Shown,
 }
 
-/// Where a leaf stands in the tree.
+/// The position of a leaf in the tree.
 #[derive(Clone, Copy, Debug)]
 struct LeafPosition {
     node: u32,
@@ -60,30 +64,30 @@ struct Node {
     children: core::ops::Range<usize>,
 }
 
-/// Memory for what is known of eight rays and the leaves of one body.
+/// Reusable memory for the states of eight rays relative to the leaves of one solid.
 #[derive(Debug, Default)]
 pub(crate) struct Memory {
     sights: Vec<SolidState8>,
-    /// Which rays do not meet each leaf, surely.
+    /// For each leaf the mask of rays that certainly miss it.
     passed: Vec<u8>,
     crossings: Crossings,
 }
 
-/// A face of a body, in one number.
+/// The number of a solid's face is the leaf's number times this, plus the face of the leaf.
 const FACES: f64 = PacketFilter::FACES as f64;
 
-/// A face of a leaf, as hits name it.
+/// A face of a leaf, with the numbers for hits.
 pub(crate) struct LeafFace<'b> {
     pub(crate) outline: &'b PacketFilter,
     pub(crate) face: u32,
-    /// The body's normal is the leaf's turned round.
+    /// Whether the solid's normal is the leaf's, reversed.
     pub(crate) turned: bool,
     pub(crate) slot: u32,
-    /// The primitive, counted from the body's first.
+    /// The primitive, counted from the solid's first.
     pub(crate) primitive: u32,
 }
 
-/// Eight rays and all that is known of them here.
+/// Eight rays, with their states relative to all leaves.
 struct PacketState<'a> {
     isa: Isa,
     rays: &'a RayLanes<'a>,
@@ -92,7 +96,8 @@ struct PacketState<'a> {
     steps: &'a mut packet::Scratch,
 }
 
-/// Rays that leave the body: which, and of each the leaf, the face there, and whether it starts behind it.
+/// The rays that start on the solid: their mask, and for each the leaf, the face there, and whether
+/// it starts behind it.
 struct SpawnFaces {
     lanes: u8,
     leaf: [u32; LANES],
@@ -100,7 +105,7 @@ struct SpawnFaces {
     back: M8,
 }
 
-/// Where something surely holds, and where it surely does not.
+/// The masks of rays for which something certainly holds, and certainly does not.
 #[derive(Clone, Copy)]
 struct Sure {
     yes: u8,
@@ -121,10 +126,10 @@ impl Sure {
 }
 
 impl PacketCsg {
-    /// More leaves than this are walked through in order.
+    /// A solid with more leaves than this has no packet filter.
     const MOST: usize = 32;
 
-    /// The body whose leaves have these slots; `None` if lanes cannot see it.
+    /// The filter of a solid whose leaves have these slots; `None` if there is none.
     pub(super) fn new(body: &Compound, slots: core::ops::Range<u32>) -> Option<Self> {
         if body.len() > Self::MOST {
             return None;
@@ -156,7 +161,8 @@ impl PacketCsg {
         Some(body)
     }
 
-    /// A convex leaf that has all in common with this one that matters of it: next to it, or to what it is part of, in an intersection.
+    /// A convex leaf that contains the relevant part of this one: a sibling of it, or of a node
+    /// above it, in an intersection.
     fn around(&self, leaf: usize) -> Option<u32> {
         let is_cell = |i: u32| {
             let Operand { outline, .. } = &self.leaves[i as usize];
@@ -195,12 +201,12 @@ impl PacketCsg {
         }
     }
 
-    /// The name of a leaf's hits.
+    /// The numbers for a leaf's hits.
     pub(crate) fn name(body: Id, skin: &LeafFace<'_>) -> Id {
         Id { primitive: body.primitive.wrapping_add(skin.primitive), ..body }
     }
 
-    /// Offers the first crossing of each ray to `nearest`, under the body's number.
+    /// Passes the first crossing of each ray to `nearest`, with the solid's number.
     pub(crate) fn meet(
         &self,
         isa: Isa,
@@ -255,7 +261,7 @@ impl PacketCsg {
         }
     }
 
-    /// The rays that leave this body.
+    /// The rays that start on this solid.
     fn own_rays(&self, arena: u32, rays: &Rays8, live: u8, nearest: &mut Nearest) -> Option<SpawnFaces> {
         let source = &rays.source;
         let slot = |i: usize| source.slot[i] as u32 & SLOT;
@@ -276,18 +282,18 @@ impl PacketCsg {
             let faces = self.leaves.get(leaf[i] as usize).map_or(0, |leaf| leaf.slots.len());
             face.0[i] = f64::from(if faces > 1 { place } else { source.face[i] });
             let named = source.slot[i] as u32;
-            // The side is that of the body's normal.
+            // The side is that of the solid's normal.
             back.set_lane(i, source.back.lane(i) != (named & TURNED != 0));
             tied |= u8::from(named & TIED != 0) << i;
         }
         if tied != 0 {
-            // What was decided for several leaves together is not told by one of them.
+            // A start in a tie of several leaves cannot be decided by one of them.
             nearest.doubt_from(M8::from_bits(tied), F8::ZERO);
         }
         Some(SpawnFaces { lanes, leaf, face, back })
     }
 
-    /// Offers a crossing of a leaf where it is one of the body.
+    /// Passes a crossing of a leaf to `nearest` where it is a crossing of the solid.
     fn decide(
         &self,
         leaf: usize,
@@ -339,7 +345,7 @@ impl PacketCsg {
         );
     }
 
-    /// Whether a child of a node holds at some points of some rays, or on all of them.
+    /// Whether a child of a node holds at the points `at` of some rays, or on whole rays.
     fn child(&self, child: Child, look: &mut PacketState<'_>, at: Option<(&F8, &F8, u8)>) -> Sure {
         match child {
             Child::Node(node) => self.node(node, look, at),
@@ -358,7 +364,7 @@ impl PacketCsg {
         }
     }
 
-    /// The same for a node.
+    /// Whether a node holds at the points `at` of some rays, or on whole rays.
     fn node(&self, node: u32, look: &mut PacketState<'_>, at: Option<(&F8, &F8, u8)>) -> Sure {
         let Node { all, children, .. } = &self.nodes[node as usize];
         // A union is the complement of the complements' intersection.
@@ -377,7 +383,7 @@ impl PacketCsg {
 }
 
 impl SpawnFaces {
-    /// Those that leave a leaf.
+    /// The rays that start on a leaf.
     fn of(&self, leaf: usize) -> Option<From8> {
         let lanes = M8::from_fn(
             #[inline(always)]

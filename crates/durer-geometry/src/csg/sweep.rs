@@ -1,4 +1,4 @@
-//! The walk along a ray: from the crossings of leaves to those of the body.
+//! The sweep along a ray: from the crossings of leaves to those of the CSG solid.
 
 use super::tree::{Tree, Values};
 use durer_surfaces::{Flow, Root};
@@ -8,35 +8,35 @@ use durer_surfaces::{Flow, Root};
 pub(super) struct Event {
     pub(super) root: Root,
     pub(super) leaf: u32,
-    /// Where the surface that is crossed is kept.
+    /// The arena of the surface that is crossed.
     pub(super) arena: u32,
     /// Its slot there.
     pub(super) slot: u32,
-    /// Events of one surface come in the exact order of their crossings: this counts them.
+    /// A running number: it keeps the events of one surface in the exact order of their crossings.
     number: u32,
 }
 
-/// A crossing of the body.
+/// A crossing of the CSG solid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Crossing {
-    /// The crossing of the leaf that is the reason for it.
+    /// The crossing of the leaf that causes it.
     pub(super) event: Event,
-    /// -1 where the body is entered, +1 where it is left, 0 where it is touched.
+    /// -1 where the ray enters the solid, +1 where it leaves it, 0 where it touches it.
     pub(super) sign: i8,
-    /// Whether it was decided together with crossings of other leaves, which matter there.
+    /// Whether it was decided in a tie with crossings of other leaves that matter there.
     pub(super) tied: bool,
 }
 
-/// What is known of a leaf on a ray.
+/// The state of a leaf on a ray.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tally {
-    /// The query in which its surface was asked.
+    /// The query that last tested its surface.
     asked: u64,
-    /// The query in which it was met.
+    /// The query that last found a crossing of it.
     query: u64,
     /// Whether the ray starts inside.
     starts: bool,
-    /// The step that counted it last.
+    /// The step that last counted its crossings.
     step: u64,
     /// The sum of the signs of its crossings in that step.
     net: i32,
@@ -46,19 +46,19 @@ struct Tally {
     mattered: bool,
 }
 
-/// Memory for the walk along a ray, to be used again.
+/// Reusable memory for the sweep along a ray.
 #[derive(Debug, Default)]
 pub(super) struct Scratch {
     query: u64,
     events: Vec<Event>,
-    /// How many of the events have been walked past.
+    /// How many of the events the sweep has passed.
     done: usize,
-    /// How many of the events have been in a walk.
+    /// How many of the events have been part of a sweep.
     looked_at: usize,
     leaves: Vec<Tally>,
     /// Leaves in which the ray starts.
     starts: Vec<u32>,
-    /// How many of them the values know.
+    /// How many of them are set in the values.
     started: usize,
     /// Leaves of a tie.
     tied: Vec<u32>,
@@ -70,14 +70,14 @@ pub(super) struct Scratch {
 /// How a leaf's crossings change its state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sense {
-    /// By their signs.
+    /// By the signs of the crossings.
     Sign,
-    /// Each crossing changes it, whichever way the surface is turned.
+    /// By parity: each crossing changes the state, whatever the orientation of the surface.
     Parity,
 }
 
 impl Scratch {
-    /// Begins with a new ray.
+    /// Starts a new ray.
     pub(super) fn begin(&mut self, leaves: usize) {
         self.query += 1;
         self.events.clear();
@@ -88,7 +88,7 @@ impl Scratch {
         }
     }
 
-    /// Whether a leaf is asked for the first time.
+    /// Whether this ray tests a leaf for the first time.
     pub(super) fn is_new(&mut self, leaf: u32) -> bool {
         let tally = &mut self.leaves[leaf as usize];
         let is_new = tally.asked != self.query;
@@ -96,16 +96,17 @@ impl Scratch {
         is_new
     }
 
-    /// Whether a crossing of the leaf has been taken, one that is no touch: it tells where the ray starts.
+    /// Whether a crossing of the leaf has been added that is not a touch: it decides whether the
+    /// ray starts inside.
     pub(super) fn is_crossed(&self, leaf: u32) -> bool {
         self.leaves[leaf as usize].query == self.query
     }
 
-    /// Takes a crossing ahead of the ray's start. Those of a surface come in their order.
+    /// Adds a crossing ahead of the ray's start. Those of a surface come in their order.
     pub(super) fn push(&mut self, leaf: u32, sense: Sense, (arena, slot): (u32, u32), root: Root) {
         let tally = &mut self.leaves[leaf as usize];
         if tally.query != self.query {
-            // The first crossing tells where the ray starts; a touch does not.
+            // The first crossing decides whether the ray starts inside; a touch does not.
             if root.sign != 0 {
                 *tally = Tally { asked: tally.asked, query: self.query, ..Tally::default() };
                 tally.starts = sense == Sense::Sign && root.sign > 0;
@@ -120,7 +121,7 @@ impl Scratch {
             if tally.starts {
                 self.starts.push(leaf);
             } else {
-                // Its parity may change often: the last word counts.
+                // Its parity may change often: the last value counts.
                 self.starts.retain(|&l| l != leaf);
             }
         }
@@ -128,19 +129,20 @@ impl Scratch {
         self.events.push(Event { root, leaf, arena, slot, number });
     }
 
-    /// Says that the ray starts inside a leaf that it does not cross.
+    /// Records that the ray starts inside a leaf that it does not cross.
     pub(super) fn start_inside(&mut self, leaf: u32) {
         self.starts.push(leaf);
     }
 
-    /// Whether the ray starts inside the body.
+    /// Whether the ray starts inside the CSG solid.
     pub(super) fn starts_inside(&mut self, tree: &Tree) -> bool {
         self.values.begin(tree);
         self.start_more(tree);
         self.values.holds(tree)
     }
 
-    /// Takes it in that the ray starts inside leaves that were asked since. What they are up to now has not mattered so far.
+    /// Sets the leaves in which the ray starts and that were tested since the last call. They have
+    /// not mattered up to now.
     pub(super) fn start_more(&mut self, tree: &Tree) {
         self.values.next_step();
         for &leaf in &self.starts[self.started..] {
@@ -149,13 +151,14 @@ impl Scratch {
         self.started = self.starts.len();
     }
 
-    /// Whether an event that no walk has seen yet may belong before and behind this parameter.
+    /// Whether the bracket of an event that no sweep has included yet contains this parameter.
     pub(super) fn is_split_at(&self, t: f64) -> bool {
         self.events[self.looked_at..].iter().any(|e| e.root.lo <= t && t <= e.root.hi)
     }
 
-    /// Shows the body's crossings, in their order; `false` if it was told to stop. [`Scratch::starts_inside`] comes first. Goes on from where it
-    /// was before, no further than `until`: before that no event is missing.
+    /// Passes the solid's crossings to `show`, in their order; returns `false` if `show` returned
+    /// [`Flow::Stop`]. [`Scratch::starts_inside`] must be called before. Continues from the last
+    /// call, not beyond `until`: before that no event is missing.
     pub(super) fn sweep(
         &mut self,
         tree: &Tree,
@@ -182,7 +185,8 @@ impl Scratch {
                 in_leafs_order(group, &sense);
                 go_on = group.chunks(1).all(|event| self.step(tree, event, &sense, &is_shown, &mut show));
             } else if let Some(leaves) = copies(group, &sense) {
-                // The same crossings of each, whose order is known: they take place together, one after the other.
+                // All leaves have the same crossings, whose order is known: each crossing is one
+                // step for all of them.
                 let count = group.len() / leaves;
                 let mut together = core::mem::take(&mut self.together);
                 for i in 0..count {
@@ -199,7 +203,7 @@ impl Scratch {
         go_on
     }
 
-    /// Takes all events of a tie at once.
+    /// Applies all events of a tie at once.
     fn step(
         &mut self,
         tree: &Tree,
@@ -232,7 +236,7 @@ impl Scratch {
             let Tally { net, count, .. } = self.leaves[leaf as usize];
             let is = self.values.leaf(leaf);
             let then = match sense(leaf) {
-                // Where it is touched a leaf begins or ends, for a point.
+                // Where a leaf is touched it begins or ends, for one point.
                 _ if touches => !is,
                 Sense::Parity => is ^ (count % 2 == 1),
                 Sense::Sign if net == 0 => is,
@@ -243,7 +247,7 @@ impl Scratch {
         let after = self.values.holds(tree);
         let mut go_on = true;
         if before != after {
-            // The first-named leaf that is a reason for it.
+            // The leaf with the least number among those that cause the change.
             let reason = |e: &&Event| {
                 is_shown(e) && (touches || e.root.sign != 0) && self.values.explains(tree, e.leaf)
             };
@@ -276,7 +280,7 @@ impl Scratch {
     }
 }
 
-/// Puts events into the order of leaves, and those of a leaf into the order in which they take place.
+/// Sorts events by leaf, and those of a leaf in the order of their crossings.
 fn in_leafs_order(group: &mut [Event], sense: &impl Fn(u32) -> Sense) {
     group.sort_unstable_by(|a, b| {
         a.leaf.cmp(&b.leaf).then_with(|| match sense(a.leaf) {
@@ -286,8 +290,9 @@ fn in_leafs_order(group: &mut [Event], sense: &impl Fn(u32) -> Sense) {
     });
 }
 
-/// If the events are several crossings of each of some leaves, the same of all to the last bit, how many leaves there are; the events are in
-/// their order then. Surfaces that coincide near a tangent are such.
+/// If the events are several crossings of each of some leaves, equal for all leaves to the last
+/// bit: the number of leaves; the events are then sorted. This happens near a tangent of surfaces
+/// that coincide.
 fn copies(group: &mut [Event], sense: &impl Fn(u32) -> Sense) -> Option<usize> {
     if group.len() < 4 || group.iter().any(|e| e.root.sign == 0) {
         return None;
@@ -300,7 +305,7 @@ fn copies(group: &mut [Event], sense: &impl Fn(u32) -> Sense) -> Option<usize> {
     (first.len() > 1 && leaves.all(same)).then(|| group.len() / first.len())
 }
 
-/// Puts events into the order in which their enclosures begin.
+/// Sorts events by the lower ends of their brackets.
 fn in_order(events: &mut [Event]) {
     events.sort_unstable_by(|a, b| {
         a.root
@@ -311,8 +316,8 @@ fn in_order(events: &mut [Event]) {
     });
 }
 
-/// How many of the events form a group with the first whose enclosures overlap transitively, and how far it reaches; they ascend by their
-/// lower ends.
+/// How many of the events, sorted by their lower ends, form a group with the first whose brackets
+/// overlap transitively, and the upper end of the group.
 fn overlapping(first: &Event, rest: &[Event]) -> (usize, f64) {
     let mut reach = first.root.hi;
     let touches = |e: &&Event| {
@@ -325,7 +330,7 @@ fn overlapping(first: &Event, rest: &[Event]) -> (usize, f64) {
     (1 + rest.iter().take_while(touches).count(), reach)
 }
 
-/// The events whose enclosures overlap, transitively, with that of a given one, itself left out.
+/// The events whose brackets overlap, transitively, with that of a given event, without that event.
 pub(super) fn partners<'a>(
     scratch: &'a mut Scratch,
     is_it: &'a dyn Fn(&Event) -> bool,

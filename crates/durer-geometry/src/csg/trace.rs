@@ -1,11 +1,13 @@
-//! What a ray meets of a body.
+//! The search for a ray's crossings with a CSG solid.
 //!
-//! Leaves stand in one tree, whatever the operators between them, and each has there the box in which it matters (`Tree::where_leaves_matter`): a ray that passes
-//! by it is outside of the leaf, or where some node above the leaf does not hold anyway. So what is not asked changes nothing.
+//! All leaves are in one tree, whatever the operators between them, each with the box in which it
+//! matters (`Tree::where_leaves_matter`): a ray that misses the box is outside of the leaf, or some
+//! node above the leaf does not hold anyway. So a leaf that is not tested changes nothing.
 //!
-//! Whoever wants all crossings gets them from all leaves that the ray meets. Whoever wants the first one goes through many leaves piece by piece, each piece of the
-//! way twice as long as the one before: where a piece ends, leaves that were not met before it have no crossing before it, but for the width of
-//! enclosures, and the walk along the crossings goes as far.
+//! A query for all crossings takes them from all leaves that the ray meets. A query for the first
+//! crossing searches many leaves piece by piece, each piece of the ray twice as long as the one
+//! before. Leaves that were not met before the end of a piece have no crossing before it, up to the
+//! width of brackets, and the sweep along the crossings goes as far.
 
 use super::Compound;
 use super::sweep::{Crossing, Event, Scratch, partners};
@@ -18,27 +20,27 @@ use durer_bvh::{Leaf, Ray64};
 use durer_math::{Isa, RaySide};
 use durer_surfaces::{Flow, LocalRay, Need, Root, SurfacePoint};
 
-/// A root of the body, as a geometry's queries take it.
+/// A root of the CSG solid, in the form for a geometry's queries.
 pub(super) struct Found {
-    /// The slot of the leaf's surface among all of the compound.
+    /// The slot of the leaf's surface, counted over all slots of the compound.
     pub(super) slot: u32,
-    /// Whether the body's normal is the leaf's turned round.
+    /// Whether the solid's normal is the leaf's, reversed.
     pub(super) turned: bool,
     /// See [`Crossing::tied`].
     pub(super) tied: bool,
     /// The primitive, counted from the compound's first.
     pub(super) primitive: u32,
-    /// The leaf's root with the body's sign.
+    /// The leaf's root with the solid's sign.
     pub(super) root: Root,
 }
 
 thread_local! {
-    /// Each thread's memory for walks along rays.
+    /// The thread's memory for sweeps along rays.
     static SCRATCH: RefCell<Scratch> = RefCell::default();
 }
 
-/// Lends the thread's working memory. Whoever asks while it is lent, as a visitor of crossings that resolves
-/// one of them does, gets memory of its own.
+/// Lends the thread's working memory. A nested call, as by a visitor of crossings that resolves one
+/// of them, gets memory of its own.
 fn with_scratch<R>(f: impl FnOnce(&mut Scratch) -> R) -> R {
     let mut scratch = SCRATCH.take();
     let result = f(&mut scratch);
@@ -46,24 +48,24 @@ fn with_scratch<R>(f: impl FnOnce(&mut Scratch) -> R) -> R {
     result
 }
 
-/// Where on a body a ray starts.
+/// The start of a ray on a CSG solid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Start {
-    /// The slot among all of the compound.
+    /// The slot, counted over all slots of the compound.
     pub(super) slot: u32,
     /// The side of that leaf's own surface.
     pub(super) side: RaySide,
-    /// Whether that is inside the body.
+    /// Whether the start is inside the CSG solid.
     pub(super) inside: bool,
     /// See [`Crossing::tied`].
     pub(super) tied: bool,
 }
 
-/// Far more than an enclosure's ends are away from the exact crossing, in units of `|t| + size`: that is 32 ulp, and what is wider is computed again in
-/// double-double.
+/// Far more than the distance of a bracket's ends from the exact crossing, in units of
+/// `|t| + size`: that is 32 ulp, and wider brackets are computed again in double-double.
 const MARGIN: f64 = durer_math::scale::pow2(-40);
 
-/// A ray, asked ahead of its start.
+/// A ray for tests of leaves, with its range extended ahead.
 struct Asked<'a> {
     isa: Isa,
     ahead: LocalRay<'a>,
@@ -77,16 +79,17 @@ impl Asked<'_> {
     }
 }
 
-/// The pieces of a way, in the tree's parameter, each twice as long as the one before.
+/// The pieces of a ray, in the tree's parameter, each twice as long as the one before.
 struct Pieces {
     end: f64,
     length: f64,
-    /// Where the ray has left the tree.
+    /// The parameter at which the ray has left the tree.
     leave: f64,
 }
 
 impl Compound {
-    /// Shows the crossings of the body in the ray's range, ascending, until `show` has enough; says whether the ray starts inside.
+    /// Passes the crossings of the solid in the ray's range to `show`, ascending, until it returns
+    /// [`Flow::Stop`]; returns whether the ray starts inside.
     pub(super) fn trace(
         &self,
         isa: Isa,
@@ -94,11 +97,12 @@ impl Compound {
         from: Option<Start>,
         show: &mut dyn FnMut(Found) -> Flow,
     ) -> bool {
-        // In one piece nothing can be split.
+        // A single piece has no inner end at which a crossing could be split.
         with_scratch(|scratch| self.walk(isa, ray, from, f64::INFINITY, None, scratch, show).unwrap_or(false))
     }
 
-    /// Shows the first crossing of the body in the ray's range, if there is one; what begins behind `until` need not be shown.
+    /// Passes the first crossing of the solid in the ray's range to `show`, if there is one; a
+    /// crossing that begins behind `until` may be left out.
     pub(super) fn first(
         &self,
         isa: Isa,
@@ -114,13 +118,14 @@ impl Compound {
         let pieces = if self.by_pieces { self.pieces(ray, until) } else { None };
         with_scratch(|scratch| {
             if self.walk(isa, ray, from, until, pieces, scratch, &mut take).is_none() {
-                // Something wide reaches over the end of a piece. Nothing has been shown.
+                // A wide bracket contains the end of a piece. Nothing has been passed to `show`
+                // yet.
                 self.walk(isa, ray, from, until, None, scratch, &mut take);
             }
         });
     }
 
-    /// Walks along the ray; `None` if a crossing may belong on both sides of where a piece ended.
+    /// Searches along the ray; `None` if a crossing may belong on both sides of the end of a piece.
     #[expect(clippy::too_many_arguments, reason = "one walk for two queries")]
     fn walk(
         &self,
@@ -143,7 +148,8 @@ impl Compound {
             self.gather(&asked, &piece, scratch);
             if known == f64::NEG_INFINITY {
                 inside = scratch.starts_inside(&self.tree);
-                // On an edge where leaves meet the ray's start is on the right side of one of them only.
+                // On an edge where leaves meet, the ray's start is on the right side of one of them
+                // only.
                 astray = from.is_some_and(|start| start.tied && start.inside != inside);
             } else if scratch.is_split_at(known) {
                 return None;
@@ -180,13 +186,13 @@ impl Compound {
         }
     }
 
-    /// The ray as the tree of the leaves sees it.
+    /// The ray in the form for the tree of the leaves.
     fn line(&self, ray: &LocalRay<'_>, until: f64) -> Ray64 {
-        // All that a ray crosses of a leaf in parts tells where it starts.
+        // For a leaf in parts all crossings are needed to decide whether the ray starts inside.
         let end = if self.in_parts { f64::INFINITY } else { ray.t_max.min(until) };
         let (near, mut far) = ray.unmoved().window((ray.t_min, end));
         if end < ray.t_max {
-            // The neighbours of what reaches over the end.
+            // Includes the neighbours of a bracket that contains the end.
             far = (far.abs() + self.size).mul_add(MARGIN, far);
         }
         Ray64 {
@@ -200,19 +206,19 @@ impl Compound {
         }
     }
 
-    /// The pieces of the ray's way through the leaves; `None` if it is not known where that begins and ends.
+    /// The pieces of the ray within the leaves; `None` if their begin and end are not known.
     fn pieces(&self, ray: &LocalRay<'_>, until: f64) -> Option<Pieces> {
         let line = self.line(ray, until);
         let bounds = self.leaves.tree.bounds();
-        // What lies before and behind belongs to the first and the last piece, so this need not be exact.
+        // Need not be exact: what lies before and behind belongs to the first and the last piece.
         let (enter, leave) = bounds.slabs(line.origin, line.direction, line.t_min, line.t_max)?;
-        // Leaves that fill a square are so far apart.
+        // The distance between leaves that fill a square.
         let length = bounds.widths().max_abs() / (self.traits.len() as f64).sqrt();
         let pieces = Pieces { end: enter, length, leave };
         (enter.is_finite() && leave.is_finite() && length > 0.0).then_some(pieces)
     }
 
-    /// Begins with a ray: asks the leaves that stand in no tree.
+    /// Starts a ray: tests the leaves that are not in the tree.
     fn begin<'a>(
         &self,
         isa: Isa,
@@ -222,7 +228,7 @@ impl Compound {
     ) -> Asked<'a> {
         scratch.begin(self.traits.len());
         let mut ahead = ray.from_side(None);
-        // What lies behind the range tells where a leaf is in it.
+        // The crossings behind the range help to decide where a leaf is within it.
         (ahead.t_max, ahead.rough) = (f64::INFINITY, false);
         let asked = Asked { isa, ahead, from: from.map(|start| (self.place(start.slot), start.side)) };
         for beside in &self.leaves.beside {
@@ -231,7 +237,7 @@ impl Compound {
         asked
     }
 
-    /// Gathers the crossings of the leaves in whose boxes a line is, those of each leaf once and all of them.
+    /// Collects all crossings of the leaves in whose boxes the segment is, each leaf once.
     fn gather(&self, asked: &Asked<'_>, line: &Ray64, scratch: &mut Scratch) {
         let visit = |leaf| {
             self.visit(asked, leaf, scratch);
@@ -240,7 +246,7 @@ impl Compound {
         self.leaves.tree.each(asked.isa, line, visit);
     }
 
-    /// Asks some slots that were not asked before.
+    /// Tests those of some slots that were not tested before.
     fn visit(&self, asked: &Asked<'_>, leaf: Leaf, scratch: &mut Scratch) {
         if !self.one_by_one {
             return self.ask(asked, leaf.kind, slots(&leaf), scratch);
@@ -249,7 +255,7 @@ impl Compound {
         for slot in slots(&leaf) {
             let of = arena.name(slot).object;
             let traits = self.traits[of as usize];
-            // A leaf may be in several pieces of the way.
+            // A leaf may be in several pieces of the ray.
             if self.by_pieces && !scratch.is_new(of) {
                 continue;
             }
@@ -273,7 +279,7 @@ impl Compound {
         self.arena(arena).each(asked.isa, slots, &asked.ahead, &filter, &mut take);
     }
 
-    /// Whether a ray starts so near to a surface that it crosses that nothing but rounding is between.
+    /// Whether a ray starts at a surface that it crosses, up to rounding.
     #[cold]
     fn starts_at(&self, isa: Isa, ray: &LocalRay<'_>, event: &Event) -> bool {
         let local = ray.from_side(None);
@@ -281,12 +287,14 @@ impl Compound {
         let start = ray.point_at_start();
         let way = q.p - start;
         let height = q.ng.to_vec().dot(way).abs();
-        // Starts are at most a few roundings of their coordinates away from the point that was meant, and that is as far from the surface.
+        // A start is at most a few roundings of its coordinates away from the intended point, and
+        // that is as far from the surface.
         let spacing = start.to_vec().max_abs() * (64.0 * durer_math::U);
         height <= 4.0 * q.off + spacing + q.bend * way.dot(way)
     }
 
-    /// The crossing's root if it is in the ray's range. Its start was looked at where the crossing was found.
+    /// The crossing's root if it is in the ray's range. The begin of the range was tested where the
+    /// crossing was found.
     fn in_range(&self, isa: Isa, ray: &LocalRay<'_>, crossing: &Crossing) -> Option<Root> {
         let Event { root, arena, slot, .. } = crossing.event;
         if root.hi <= ray.t_max {
@@ -347,11 +355,14 @@ impl Compound {
         point
     }
 
-    /// A distance along the normal that leaves all surfaces behind which lie along the point's own and could not be told from it.
+    /// A distance along the normal that leaves behind all surfaces that lie along the point's own
+    /// and could not be distinguished from it.
     ///
-    /// Where `n` and `n'` are the normals here and of another surface, and `h` its height over this point along `n'`, a step `x n` leaves it
-    /// if `x |n.n'| - |h|` is more than the other's own bound and what it bends away over the distance between its point and the end of the
-    /// step. A surface that crosses this one at an angle is not left by going along `n`, but rays decide exactly on which side of it they are.
+    /// Where `n` and `n'` are the normals here and of another surface, and `h` its height over this
+    /// point along `n'`, a step `x n` leaves it if `x |n.n'| - |h|` is more than the sum of the
+    /// other's own bound and its deviation from its tangent plane over the distance between its
+    /// point and the end of the step. A step along `n` does not leave a surface that crosses this
+    /// one at an angle, but rays decide exactly on which side of it they are.
     #[cold]
     fn clear_of_partners(
         &self,
@@ -363,7 +374,7 @@ impl Compound {
     ) -> f64 {
         let event = |e: &Event| (e.arena, e.slot, e.root.face, e.root.s.to_bits());
         let own = (arena, slot, root.face, root.s.to_bits());
-        // All of them are near.
+        // All of these surfaces are near.
         let (near, far) = ray.unmoved().window((root.lo, root.hi));
         let more = |t: f64| (t.abs() + self.size) * MARGIN;
         let line =
@@ -377,7 +388,7 @@ impl Compound {
                 let (n, m) = (point.ng.to_vec(), q.ng.to_vec());
                 let along = n.dot(m).abs();
                 let apart = (q.p - point.p).length();
-                // Half: which surfaces lie along this one, and which cross it.
+                // One half separates surfaces along this one from those that cross it.
                 if along >= 0.5 && q.bend.is_finite() {
                     let height = m.dot(q.p - point.p).abs();
                     let reach = apart + 2.0 * (point.off + q.off);
@@ -393,7 +404,7 @@ impl Compound {
 }
 
 impl Pieces {
-    /// Where the next piece ends; `None` for the last one.
+    /// The end of the next piece; `None` for the last one.
     fn next_end(&mut self) -> Option<f64> {
         self.end += self.length;
         self.length *= 2.0;

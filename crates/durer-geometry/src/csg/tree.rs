@@ -1,12 +1,14 @@
-//! Boolean trees over leaves, and their value as leaves come and go.
+//! Boolean trees over leaves, and their value as leaves change.
 //!
-//! A tree is kept in one normal form: unions and intersections take turns, and complements stand at the leaves only (De Morgan's laws; a difference
-//! `A - B` is the intersection of `A` and the complement of `B`). Each node counts its children that hold. So a leaf that changes costs as much
-//! as it is deep, however many others there are, and a tree without unions in intersections in unions ... is flat.
+//! A tree is in one normal form: unions and intersections alternate, and complements are at the
+//! leaves only (De Morgan's laws; a difference `A - B` is the intersection of `A` and the
+//! complement of `B`). Each node counts its children that hold. So the cost of a change of a leaf
+//! is its depth, however many others there are, and a tree without unions in intersections in
+//! unions ... is flat.
 
 use durer_math::Aabb;
 
-/// A set under construction, in terms of leaves.
+/// An expression under construction.
 #[derive(Debug)]
 pub(crate) enum Expr {
     Leaf(u32),
@@ -18,12 +20,12 @@ pub(crate) enum Expr {
 /// A union or an intersection.
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    /// The node around it, one of a lower number; none for the first.
+    /// The parent, which has a lower number; none for the root.
     parent: u32,
-    /// An intersection: all children must hold.
+    /// Whether it is an intersection: all children must hold.
     all: bool,
     children: u32,
-    /// How many children hold where no leaf does.
+    /// How many children hold when no leaf does.
     outside: u32,
 }
 
@@ -33,7 +35,7 @@ impl Node {
     }
 }
 
-/// Where a leaf stands in the tree.
+/// The position of a leaf in the tree.
 #[derive(Clone, Copy, Debug)]
 struct TreePosition {
     node: u32,
@@ -48,7 +50,7 @@ pub(crate) struct Tree {
     places: Vec<TreePosition>,
 }
 
-/// What a node is made of.
+/// A child of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Child {
     Leaf(u32),
@@ -58,7 +60,7 @@ pub(crate) enum Child {
 const NONE: u32 = u32::MAX;
 
 impl Tree {
-    /// The tree of the expression `root`; each expression stands in one place at most.
+    /// The tree of the expression `root`; each expression occurs at most once.
     pub(crate) fn new(exprs: &[Expr], root: u32, leaves: usize) -> Self {
         let first = Node { parent: NONE, all: false, children: 0, outside: 0 };
         let mut tree =
@@ -107,12 +109,12 @@ impl Tree {
         self.nodes.len()
     }
 
-    /// Whether the leaf counts where it is not.
+    /// Whether the complement of the leaf is in the tree.
     pub(crate) fn is_inverted(&self, leaf: u32) -> bool {
         self.places[leaf as usize].inverted
     }
 
-    /// Where each leaf stands: its node, and whether it is inverted there.
+    /// The position of each leaf: its node, and whether it is inverted there.
     pub(crate) fn places(&self) -> impl Iterator<Item = Option<(u32, bool)>> {
         self.places.iter().map(|p| (p.node != NONE).then_some((p.node, p.inverted)))
     }
@@ -129,15 +131,17 @@ impl Tree {
         self.nodes.iter().zip(children).map(move |(n, children)| (parent(n), n.all, children))
     }
 
-    /// A box that holds the set, given boxes that hold the leaves.
+    /// A box around the set, given boxes around the leaves.
     pub(crate) fn bounds(&self, leaves: &[Aabb]) -> Aabb {
         self.boxes(leaves)[0]
     }
 
-    /// For each leaf, a box outside of which it does not matter whether it holds: there it does not, or a node above it does not.
+    /// For each leaf, a box outside of which its value does not matter: there it does not hold, or
+    /// a node above it does not.
     ///
-    /// These are S-bounds (S. Cameron, "Efficient intersection tests for objects defined constructively", International Journal of Robotics
-    /// Research 8(1), 1989): boxes of nodes are made from below, and cut by those of the nodes above from above.
+    /// These are S-bounds (S. Cameron, "Efficient intersection tests for objects defined
+    /// constructively", International Journal of Robotics Research 8(1), 1989): boxes of nodes are
+    /// computed from below, and clipped by those of the nodes above from above.
     pub(crate) fn where_leaves_matter(&self, leaves: &[Aabb]) -> Vec<Aabb> {
         let mut within = self.boxes(leaves);
         for i in 1..within.len() {
@@ -150,7 +154,7 @@ impl Tree {
         self.places.iter().zip(leaves).map(matters).collect()
     }
 
-    /// Boxes that hold the nodes.
+    /// Boxes around the nodes.
     fn boxes(&self, leaves: &[Aabb]) -> Vec<Aabb> {
         let start = |n: &Node| if n.all { Aabb::UNBOUNDED } else { Aabb::EMPTY };
         let mut boxes: Vec<Aabb> = self.nodes.iter().map(start).collect();
@@ -171,16 +175,16 @@ impl Tree {
     }
 }
 
-/// What two boxes have in common: what is empty on one axis is empty.
+/// The intersection of two boxes; if it is empty on one axis it is empty.
 fn cut(a: Aabb, b: Aabb) -> Aabb {
     let both = a.intersection(b);
     if both.is_empty() { Aabb::EMPTY } else { both }
 }
 
-/// What a node counts at the moment.
+/// The present count of a node.
 #[derive(Clone, Copy, Debug, Default)]
 struct Count {
-    /// Older counts are forgotten.
+    /// Counts of older epochs are void.
     epoch: u64,
     /// The step in which it changed last.
     step: u64,
@@ -189,14 +193,14 @@ struct Count {
     count: u32,
 }
 
-/// Whether a leaf holds at the moment.
+/// The present value of a leaf.
 #[derive(Clone, Copy, Debug, Default)]
 struct Bit {
     epoch: u64,
     holds: bool,
 }
 
-/// The states of a tree's leaves and nodes, to be used again for any tree: nothing is cleared.
+/// The values of a tree's leaves and nodes, reusable for any tree without clearing.
 #[derive(Debug, Default)]
 pub(crate) struct Values {
     epoch: u64,
@@ -206,7 +210,7 @@ pub(crate) struct Values {
 }
 
 impl Values {
-    /// Forgets everything: no leaf holds.
+    /// Resets all values: no leaf holds.
     pub(crate) fn begin(&mut self, tree: &Tree) {
         self.epoch += 1;
         self.step += 1;
@@ -218,7 +222,7 @@ impl Values {
         }
     }
 
-    /// Begins a step: what changes from now on is told apart from what changed before.
+    /// Starts a step: later changes are distinguished from earlier ones.
     pub(crate) fn next_step(&mut self) -> u64 {
         self.step += 1;
         self.step
@@ -244,13 +248,13 @@ impl Values {
         self.node(tree, 0)
     }
 
-    /// Whether a leaf holds (its complement's is not asked for).
+    /// Whether a leaf holds (not its complement).
     pub(crate) fn leaf(&self, leaf: u32) -> bool {
         let bit = &self.bits[leaf as usize];
         bit.epoch == self.epoch && bit.holds
     }
 
-    /// Lets a leaf hold, or not.
+    /// Sets whether a leaf holds.
     pub(crate) fn set(&mut self, tree: &Tree, leaf: u32, holds: bool) {
         if self.leaf(leaf) == holds {
             return;
@@ -275,7 +279,8 @@ impl Values {
         }
     }
 
-    /// Whether the root would change if a leaf did: no node above the leaf is decided by its other children.
+    /// Whether the root would change if a leaf did: no node above the leaf is decided by its other
+    /// children.
     pub(crate) fn matters(&self, tree: &Tree, leaf: u32) -> bool {
         let TreePosition { mut node, inverted } = tree.places[leaf as usize];
         let mut holds = self.leaf(leaf) != inverted;
@@ -291,7 +296,8 @@ impl Values {
         true
     }
 
-    /// Whether everything from a leaf up to the root has changed in this step, so that the leaf is a reason for the root's change.
+    /// Whether everything from a leaf up to the root has changed in this step, so that the leaf is
+    /// a cause of the root's change.
     pub(crate) fn explains(&self, tree: &Tree, leaf: u32) -> bool {
         let mut node = tree.places[leaf as usize].node;
         while node != NONE {
@@ -373,7 +379,7 @@ mod tests {
                 }
                 let (was, is) = (direct(&exprs, root, &before), direct(&exprs, root, &bits));
                 assert_eq!(values.holds(&tree), is);
-                // If the tree has changed some leaf that has changed is a reason for it.
+                // If the tree has changed, some leaf that has changed is a cause of it.
                 let changed = |l: &u32| before[*l as usize] != bits[*l as usize];
                 let reasons: Vec<u32> =
                     (0..leaves).filter(changed).filter(|&l| values.explains(&tree, l)).collect();
@@ -402,7 +408,7 @@ mod tests {
         assert_eq!(tree.bounds(&boxes), cube(0.0, 5.0));
         let disjoint = [cube(0.0, 1.0), Aabb::EMPTY, cube(3.0, 5.0), cube(6.0, 7.0)];
         assert_eq!(tree.bounds(&disjoint), cube(0.0, 1.0));
-        // What is taken away matters where there is something to take it from.
+        // A subtracted leaf matters only where there is something to subtract it from.
         let matters = tree.where_leaves_matter(&boxes);
         assert_eq!(matters, [cube(0.0, 1.0), cube(0.5, 1.0), cube(3.0, 5.0), cube(3.0, 5.0)]);
         let apart = [cube(0.0, 1.0), cube(2.0, 3.0), cube(3.0, 5.0), cube(6.0, 7.0)];
