@@ -7,6 +7,7 @@ use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::{Kind, Mark};
 use crate::parser::{Item, Parser, strayed};
+use crate::scope::Reference;
 use crate::strings::makes_string;
 use crate::value::{Unsupported, Value};
 
@@ -36,22 +37,26 @@ impl Parser<'_> {
             self.take_raw_mark(Mark::Semicolon);
         }
         match element {
-            Some(target) => {
-                // A shared array is copied before it is changed.
-                let depth = value.array_depth() + target.path.len() as u32;
-                self.check_array_depth(depth, place)?;
-                self.count_array_copy(name, place)?;
-                let gone = || Error::invalid(place, "this array is gone");
-                let after = value.held();
-                let held = self.scopes.get_mut(&target).ok_or_else(gone)?;
-                let before = std::mem::replace(held, value).held();
-                self.scopes.element_changed(&target, depth, before, after);
-            }
+            Some(target) => self.assign_element(&target, value, place)?,
             None if local && !is_back => return Err(strayed(place)),
             None if local => self.scopes.local(name, value),
             None => self.scopes.declare(name, value),
         }
         self.check_memory(0, place)
+    }
+
+    /// Gives a variable or an array element a new value.
+    pub(crate) fn assign_element(&mut self, target: &Reference, value: Value, place: Place) -> Result<()> {
+        // A shared array is copied before it is changed.
+        let depth = value.array_depth() + target.path.len() as u32;
+        self.check_array_depth(depth, place)?;
+        self.count_array_copy(target.name, place)?;
+        let gone = || Error::invalid(place, "this variable is gone");
+        let after = value.held();
+        let held = self.scopes.get_mut(target).ok_or_else(gone)?;
+        let before = std::mem::replace(held, value).held();
+        self.scopes.element_changed(target, depth, before, after);
+        Ok(())
     }
 
     /// `deprecated`, `once` and a text before the name: advice of the standard files to their users.

@@ -37,6 +37,10 @@ pub(crate) fn begins_expression(keyword: Keyword) -> bool {
                 | DimensionSize
                 | Div
                 | FileExists
+                | Inside
+                | MinExtent
+                | MaxExtent
+                | Trace
                 | Max
                 | Min
                 | Mod
@@ -56,10 +60,10 @@ pub(crate) fn begins_expression(keyword: Keyword) -> bool {
         )
 }
 
-/// Functions that need what is not there yet: other objects' rays, functions of their own, noise.
+/// Functions that are not supported yet.
 fn needs_more(keyword: Keyword) -> bool {
     use Keyword::*;
-    matches!(keyword, Inside | Prod | Sum | MinExtent | MaxExtent | Trace | Vturbulence)
+    matches!(keyword, Prod | Sum | Vturbulence)
 }
 
 fn constant(keyword: Keyword) -> Option<Terms> {
@@ -168,7 +172,7 @@ impl Parser<'_> {
         Ok(value)
     }
 
-    fn vector_argument(&mut self) -> Result<[f64; 3]> {
+    pub(crate) fn vector_argument(&mut self) -> Result<[f64; 3]> {
         let value = self.vector()?;
         self.skip_comma()?;
         Ok(value)
@@ -275,6 +279,10 @@ impl Parser<'_> {
                 let (v, axis) = (self.vector_argument()?, self.vector_argument()?);
                 Matrix::turn(axis, self.argument()?).direction(v).into()
             }
+            Keyword::Trace => self.trace(place)?,
+            Keyword::Inside => flag(self.inside(place)?),
+            Keyword::MinExtent => self.object_extent(place)?[0].into(),
+            Keyword::MaxExtent => self.object_extent(place)?[1].into(),
             // `begins_expression` lists no other function.
             _ => return Err(Error::unsupported(place, keyword.text())),
         })

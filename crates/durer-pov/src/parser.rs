@@ -91,6 +91,7 @@ pub(crate) struct Parser<'a> {
     pub(crate) defaults: Rc<crate::texture::Layer>,
     pub(crate) default_camera: crate::camera::Camera,
     pub(crate) scene: crate::scene_builder::Output,
+    pub(crate) queried: crate::object_query::Queried,
 }
 
 impl<'a> Parser<'a> {
@@ -118,6 +119,7 @@ impl<'a> Parser<'a> {
             defaults: Rc::default(),
             default_camera: crate::camera::Camera::default(),
             scene: crate::scene_builder::Output::default(),
+            queried: crate::object_query::Queried::new(),
         }
     }
 
