@@ -356,7 +356,7 @@ impl<S: TreeRay> BlockFilterSource for LazyFilter<'_, S> {
             // Written where it stays: what is written number by number and then copied has to wait for that.
             kernel.apart(
                 #[inline(always)]
-                || *filter = Some(Filter::new(sight, way, tree.rounded)),
+                || *filter = Some(Filter::new(|| tree.local_line(sight), way, tree.rounded)),
             );
         }
         filter.get_or_insert(Filter::NOTHING)
@@ -381,7 +381,7 @@ impl<S: TreeRay> BlockFilterSource for QueuedFilter<'_, S> {
                 }
                 kernel.apart(
                     #[inline(always)]
-                    || Filter::new(sight, way, tree.rounded),
+                    || Filter::new(|| tree.local_line(sight), way, tree.rounded),
                 )
             },
         )

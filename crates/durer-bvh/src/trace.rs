@@ -50,7 +50,7 @@ impl Bvh {
     /// Tells the steps of [`Bvh::closest`], in the same order, but leaves of triangles whole, those of which triangles stand in other leaves, too, piece by piece; `tell` returns the limit after a leaf (and is not asked otherwise). Says whether the
     /// tree's own box was met at all.
     pub fn trace(&self, line: &Ray64, mut tell: impl FnMut(&Step) -> f64) -> bool {
-        let Some(ray) = self.cull(line, Rounding::Fused) else { return false };
+        let Some(ray) = self.cull(&self.local_line(line), Rounding::Fused) else { return false };
         let mut t_far = ray.way.t_far;
         let mut waiting = vec![(ChildRef::node(0), 0.0_f32, 0_u32, self.bounds())];
         while let Some((child, near, level, bounds)) = waiting.pop() {

@@ -54,7 +54,7 @@
 //! where `s` keeps hits apart whose rounded f64 parameters may stand in another order than the exact ones.
 
 use super::block::LANES;
-use crate::ray::{ClippedRay, Ray64, TreeRay};
+use crate::ray::{ClippedRay, Ray64};
 
 /// Half an ulp of 1 in f32.
 const U: f32 = 1.0 / (1 << 24) as f32;
@@ -92,13 +92,14 @@ pub(crate) struct Filter {
 }
 
 impl Filter {
-    /// The ray from its entry on; `rounded` says that f32 does not hold the corners.
+    /// The ray from its entry on; `rounded` says that f32 does not hold the corners. The origin of
+    /// `line` is counted from the tree's centre.
     #[inline(always)]
-    pub(crate) fn new(sight: &impl TreeRay, way: &ClippedRay, rounded: bool) -> Self {
+    pub(crate) fn new(line: impl FnOnce() -> Ray64, way: &ClippedRay, rounded: bool) -> Self {
         if way.is_exact {
             Self::of_exact(way, rounded)
         } else {
-            Self::known_within(&sight.line(), way, Self::of_corners(rounded))
+            Self::known_within(&line(), way, Self::of_corners(rounded))
         }
     }
 

@@ -33,6 +33,18 @@ impl Dice {
     }
 }
 
+/// Where a scene is: at the origin, or up to `2^bits` away on some axes.
+#[allow(dead_code, reason = "not every test needs it")]
+pub(crate) fn place(dice: &mut Dice, bits: u64) -> [i64; 3] {
+    if dice.below(2) == 0 {
+        return [0; 3];
+    }
+    core::array::from_fn(|_| {
+        let size = dice.below(bits);
+        dice.about(1 << size)
+    })
+}
+
 /// Every way to build a tree.
 #[allow(dead_code, reason = "not every test needs it")]
 pub(crate) const QUALITIES: [Settings; 3] = [Settings::FAST, Settings::GOOD, Settings::BEST];
@@ -43,7 +55,7 @@ pub(crate) fn tree(boxes: &[Aabb]) -> (Bvh, Vec<u32>) {
     tree_of(boxes, &Settings::GOOD)
 }
 
-/// The same of any quality.
+/// A tree over boxes of one kind, of any quality.
 #[allow(dead_code, reason = "not every test needs it")]
 pub(crate) fn tree_of(boxes: &[Aabb], settings: &Settings) -> (Bvh, Vec<u32>) {
     let extent = boxes.iter().copied().fold(Aabb::EMPTY, Aabb::union);
