@@ -117,9 +117,6 @@ fn local(node: &Node, spot: Location) -> Result<Option<Affine>, ErrorKind> {
         }
         None => {
             let scale = node.scale.map_or([1.0; 3], |s| s.map(wide));
-            if scale.contains(&0.0) {
-                return Ok(None);
-            }
             let turn = rotation(node.rotation.unwrap_or_default().0.map(wide), spot)?;
             let rows = turn.map(|row: [f64; 3]| core::array::from_fn(|column| row[column] * scale[column]));
             (rows, node.translation.map_or([0.0; 3], |t| t.map(wide)))
