@@ -1,9 +1,11 @@
 //! Many rays at once: while one waits for memory, or for its own last step, others go on.
 //!
-//! Each step of a ray through a tree depends on the one before, so that a single ray leaves most of a CPU idle, and all of it while what
-//! it needs is not in the cache. Here some rays are under way at a time, each takes one step in turn, and what its next step will read is fetched
-//! meanwhile (O. Kocberber, B. Falsafi, B. Grot, "Asynchronous memory access chaining", Proceedings of the VLDB Endowment 9(4), 2015). Whether a step
-//! leads to a node or to a leaf nobody can foresee; so first all rays that are at nodes take their step, then all that are at leaves, and no branch
+//! Each step of a ray through a tree depends on the one before, so that a single ray leaves most of
+//! a CPU idle, and all of it while what it needs is not in the cache. Here some rays are under way
+//! at a time, each takes one step in turn, and what its next step will read is fetched meanwhile
+//! (O. Kocberber, B. Falsafi, B. Grot, "Asynchronous memory access chaining", Proceedings of the
+//! VLDB Endowment 9(4), 2015). Whether a step leads to a node or to a leaf nobody can foresee; so
+//! first all rays that are at nodes take their step, then all that are at leaves, and no branch
 //! depends on it. Each ray takes the very steps that it takes alone.
 
 use crate::kernels::{Abreast, Kernel, Stack, Together};
@@ -25,7 +27,8 @@ pub(crate) const LARGE: usize = 1 << 24;
 
 /// Rays by their numbers.
 ///
-/// `R` is what a test says: for the closest hit the parameter beyond which nothing matters any more; for any hit, whether it was one.
+/// `R` is what a test says: for the closest hit the parameter beyond which nothing matters any
+/// more; for any hit, whether it was one.
 pub trait Rays<R> {
     /// A ray as it is asked about.
     type TreeRay: TreeRay;
@@ -33,7 +36,8 @@ pub trait Rays<R> {
     /// A ray, asked for once, before its first test; `None` if it is to meet nothing.
     fn sight(&mut self, ray: usize) -> Option<Self::TreeRay>;
 
-    /// Eight rays from this one on as f32 sees them, if they are exactly known and may go through a tree together: such rays are not asked for their lines.
+    /// Eight rays from this one on as f32 sees them, if they are exactly known and may go through a
+    /// tree together: such rays are not asked for their lines.
     fn glances(&mut self, _first: usize) -> Option<Packet32> {
         None
     }
@@ -44,7 +48,8 @@ pub trait Rays<R> {
     /// Tests what a ray may meet.
     fn test(&mut self, ray: usize, leaf: Leaf) -> R;
 
-    /// The last tests of eight rays: what they say does not matter any more. A ray without a leaf may be any.
+    /// The last tests of eight rays: what they say does not matter any more. A ray without a leaf
+    /// may be any.
     fn last_tests(&mut self, rays: &[usize; PACKET], leaves: &[Option<Leaf>; PACKET]) {
         for (&ray, leaf) in rays.iter().zip(leaves) {
             if let Some(leaf) = leaf {
@@ -53,18 +58,21 @@ pub trait Rays<R> {
         }
     }
 
-    /// The ray has found what it looked for, or a triangle that it certainly meets: only of any hit.
+    /// The ray has found what it looked for, or a triangle that it certainly meets: only of any
+    /// hit.
     fn found(&mut self, ray: usize);
 }
 
 impl Bvh {
-    /// [`Bvh::closest`] of the rays `0..count`, each shown the same, in the same order, as if it were alone.
+    /// [`Bvh::closest`] of the rays `0..count`, each shown the same, in the same order, as if it
+    /// were alone.
     #[inline(always)]
     pub fn closest_of_each(&self, isa: Isa, count: usize, rays: &mut impl Rays<f64>) {
         self.with_kernel(isa, Many::<_, ForClosest, true> { count, rays, aim: PhantomData });
     }
 
-    /// [`Bvh::any`] of the rays `0..count`, each shown the same, in the same order, as if it were alone.
+    /// [`Bvh::any`] of the rays `0..count`, each shown the same, in the same order, as if it were
+    /// alone.
     #[inline(always)]
     pub fn any_of_each(&self, isa: Isa, count: usize, rays: &mut impl Rays<bool>) {
         self.with_kernel(isa, Many::<_, ForAny, false> { count, rays, aim: PhantomData });
@@ -240,12 +248,14 @@ struct Queue {
     alone_until: usize,
     /// For how many rays more that will be so if the next eight cannot go together either.
     patience: usize,
-    /// Eight rays that were asked for a glance, by the number of the first, and the eight after them: nobody is asked twice.
+    /// Eight rays that were asked for a glance, by the number of the first, and the eight after
+    /// them: nobody is asked twice.
     seen: (usize, Option<Packet32>),
     more: (usize, Option<Packet32>),
 }
 
-/// Rays that go alone, at least and at most, before eight are asked again whether they could go together.
+/// Rays that go alone, at least and at most, before eight are asked again whether they could go
+/// together.
 const PATIENCE: (usize, usize) = (PACKET, 32 * PACKET);
 
 impl Queue {
@@ -254,7 +264,8 @@ impl Queue {
         Self { next: 0, count, alone_until: 0, patience: PATIENCE.0, seen: nobody, more: nobody }
     }
 
-    /// Gives a place to the next ray that goes alone and does not certainly miss everything, if there is one; before that, all go that go together.
+    /// Gives a place to the next ray that goes alone and does not certainly miss everything, if
+    /// there is one; before that, all go that go together.
     #[inline(always)]
     fn upcoming<K: Abreast, B: Rays<M::Answer>, M: QueryKind<ORDERED>, const ORDERED: bool>(
         &mut self,
@@ -284,7 +295,8 @@ impl Queue {
             if tree.is_empty() {
                 continue;
             }
-            // Twice the same, so that compilers do not bring both ways together first and the ray into its place then.
+            // Twice the same, so that compilers do not bring both ways together first and the ray
+            // into its place then.
             if let Some(ready) = kernel.nearby(tree, &sight) {
                 seat(flights, place, number, sight, ready);
                 return true;
@@ -297,7 +309,8 @@ impl Queue {
         false
     }
 
-    /// Shows the tree to the next rays together, if they are alike: sixteen or eight. Says how many.
+    /// Shows the tree to the next rays together, if they are alike: sixteen or eight. Says how
+    /// many.
     #[inline(always)]
     fn go_together<K: Abreast, B: Rays<M::Answer>, M: QueryKind<ORDERED>, const ORDERED: bool>(
         &mut self,

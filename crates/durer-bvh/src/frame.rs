@@ -5,11 +5,11 @@
 //! ```
 //!
 //! f32 has 24 bits, so boxes in the caller's coordinates would be useless far from the origin: at
-//! 5e6, a UTM northing, f32 numbers are 0.5 apart. Let `H` be half the largest width of everything in
-//! the tree, and `m` the middle along an axis. Where `|m| <= 4 H` the centre is 0: coordinates are at
-//! most `5 H`, so f32 loses three bits at most, and nothing is subtracted. Elsewhere the centre is
-//! `m`. A coordinate `x` of something in the tree is then within `H` of `m`, so `x / m` is in
-//! `[3/4, 5/4]`, and the difference of two f64 numbers within a factor of two is exact (P. H.
+//! 5e6, a UTM northing, f32 numbers are 0.5 apart. Let `H` be half the largest width of everything
+//! in the tree, and `m` the middle along an axis. Where `|m| <= 4 H` the centre is 0: coordinates
+//! are at most `5 H`, so f32 loses three bits at most, and nothing is subtracted. Elsewhere the
+//! centre is `m`. A coordinate `x` of something in the tree is then within `H` of `m`, so `x / m`
+//! is in `[3/4, 5/4]`, and the difference of two f64 numbers within a factor of two is exact (P. H.
 //! Sterbenz, *Floating-point computation*, 1974). Boxes and corners lose nothing; only the origins
 //! of rays may, and their rounding is added to the ray's error.
 
@@ -39,7 +39,8 @@ pub(crate) struct Units {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(align(32))]
 pub struct Entry {
-    /// The low corner, negated, so that boxes grow by maxima alone; the kind; the high corner; the index. Coordinates are the bits of f32.
+    /// The low corner, negated, so that boxes grow by maxima alone; the kind; the high corner; the
+    /// index. Coordinates are the bits of f32.
     pub(crate) words: [u32; 8],
 }
 
@@ -55,8 +56,8 @@ impl Units {
         Self { exponent: exponent.max(Self::LEAST) }
     }
 
-    /// A length of the caller's, in tree units; exact unless it underflows (or is far outside the tree
-    /// and overflows).
+    /// A length of the caller's, in tree units; exact unless it underflows (or is far outside the
+    /// tree and overflows).
     #[inline(always)]
     pub(crate) fn inward(self, x: f64) -> f64 {
         scale2(x, -self.exponent)
@@ -75,8 +76,8 @@ impl Units {
 }
 
 impl Frame {
-    /// How many times half the largest width the middle may be from the origin before it becomes the
-    /// centre.
+    /// How many times half the largest width the middle may be from the origin before it becomes
+    /// the centre.
     const NEAR: f64 = 4.0;
 
     /// The frame of a tree over everything in `bounds`, which should be bounded or empty.
@@ -156,8 +157,9 @@ impl Frame {
         (low, high)
     }
 
-    /// A box for the builder: the box of the thing `index` of its `kind`, rounded outward. An unbounded
-    /// box, or one that holds a NaN, gives an entry that is not [bounded](Entry::is_bounded).
+    /// A box for the builder: the box of the thing `index` of its `kind`, rounded outward. An
+    /// unbounded box, or one that holds a NaN, gives an entry that is not
+    /// [bounded](Entry::is_bounded).
     pub fn entry(self, bounds: &Aabb, kind: u32, index: u32) -> Entry {
         let a = core::array::from_fn(|i| down32(self.interval(bounds.min[i], i).0));
         let b = core::array::from_fn(|i| up32(self.interval(bounds.max[i], i).1));
@@ -229,7 +231,8 @@ impl Entry {
         (0..3).all(|i| lo[i] <= hi[i] && lo[i] > f32::NEG_INFINITY && hi[i] < f32::INFINITY)
     }
 
-    /// Whether there is no point in it, so that nothing can be met. A NaN is not empty: nothing is known.
+    /// Whether there is no point in it, so that nothing can be met. A NaN is not empty: nothing is
+    /// known.
     #[inline]
     pub fn is_empty(&self) -> bool {
         let (lo, hi) = (self.lo(), self.hi());

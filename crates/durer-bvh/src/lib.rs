@@ -32,11 +32,11 @@
 //! assert!(found);
 //! ```
 //!
-//! [`Frame`] chooses the units and makes an [`Entry`] of each box. [`Bvh::build`] sorts entries into
-//! nodes of sixteen children. Queries pass the [`Leaf`]s that matter to the caller: [`Bvh::closest`]
-//! and [`Bvh::any`] for a ray ([`TreeRay`]), [`Bvh::in_shaft`] for a bundle, [`Bvh::containing`] for a
-//! point. [`Bvh::trace`] reports each step of a query, [`Bvh::refit`] follows surfaces that move, and
-//! [`Bvh::validate`] and [`Bvh::stats`] inspect the result.
+//! [`Frame`] chooses the units and makes an [`Entry`] of each box. [`Bvh::build`] sorts entries
+//! into nodes of sixteen children. Queries pass the [`Leaf`]s that matter to the caller:
+//! [`Bvh::closest`] and [`Bvh::any`] for a ray ([`TreeRay`]), [`Bvh::in_shaft`] for a bundle,
+//! [`Bvh::containing`] for a point. [`Bvh::trace`] reports each step of a query, [`Bvh::refit`]
+//! follows surfaces that move, and [`Bvh::validate`] and [`Bvh::stats`] inspect the result.
 //!
 //! A tree knows boxes, numbers, and the f32 corners of triangles. What the numbers mean is the
 //! caller's business.

@@ -14,24 +14,28 @@ pub(crate) const MAX_LEAF: usize = 16;
 /// How many things a tree holds at most.
 pub const MAX_ENTRIES: usize = 1 << 27;
 
-/// Sixteen children: their boxes by planes, what they are, and in which order rays of each octant meet them.
+/// Sixteen children: their boxes by planes, what they are, and in which order rays of each octant
+/// meet them.
 ///
-/// 512 bytes: after V. Fuetterling, C. Lojewski, F.-J. Pfreundt, A. Ebert, "Accelerated single ray tracing for wide vector units", High
-/// Performance Graphics (2017).
+/// 512 bytes: after V. Fuetterling, C. Lojewski, F.-J. Pfreundt, A. Ebert, "Accelerated single ray
+/// tracing for wide vector units", High Performance Graphics (2017).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub(crate) struct Node {
-    /// Low x, y, z, then high x, y, z, of each child. A child that is not there has a box that no ray meets.
+    /// Low x, y, z, then high x, y, z, of each child. A child that is not there has a box that no
+    /// ray meets.
     pub(crate) planes: [[f32; WIDTH]; 6],
     pub(crate) child: [ChildRef; WIDTH],
-    /// Word `j`, bits `4 o .. 4 o + 4`: the child that comes `j`-th from the back for rays of octant `o`.
+    /// Word `j`, bits `4 o .. 4 o + 4`: the child that comes `j`-th from the back for rays of
+    /// octant `o`.
     pub(crate) order: [u32; WIDTH],
 }
 
 /// A place where no ray of a tree comes: the near plane of a child that is not there.
 ///
-/// `|1/d| > 1/2` on every axis and origins are near the tree, so `near >= 2^29 - ...`, far beyond any exit (which is at
-/// most `2^16`); and nothing overflows to NaN, since the added constant is finite.
+/// `|1/d| > 1/2` on every axis and origins are near the tree, so `near >= 2^29 - ...`, far beyond
+/// any exit (which is at most `2^16`); and nothing overflows to NaN, since the added constant is
+/// finite.
 const NOWHERE: f32 = (1_u64 << 30) as f32;
 
 impl Node {
@@ -73,7 +77,8 @@ impl Node {
         (0..WIDTH).filter(|&slot| self.is_used(slot))
     }
 
-    /// Orders the children for each octant: by their centres along the octant's diagonal, farthest first.
+    /// Orders the children for each octant: by their centres along the octant's diagonal, farthest
+    /// first.
     pub(crate) fn sort(&mut self) {
         self.order = [0; WIDTH];
         // The opposite octant has the opposite order.
@@ -111,7 +116,8 @@ impl ChildRef {
     const LEAF: u32 = 1 << 31;
     const COUNT_SHIFT: u32 = 27;
 
-    /// Nothing more: looks like a leaf that begins with the last thing that a tree can hold and has fifteen more.
+    /// Nothing more: looks like a leaf that begins with the last thing that a tree can hold and has
+    /// fifteen more.
     pub(crate) const END: Self = Self(u32::MAX);
 
     pub(crate) fn node(index: usize) -> Self {
@@ -151,7 +157,8 @@ pub struct Leaf {
     pub first: u32,
     /// How many.
     pub count: u32,
-    /// For a triangle that is shown by itself sixteen times the number of its block, and its lane; else [`Leaf::NO_BLOCK`].
+    /// For a triangle that is shown by itself sixteen times the number of its block, and its lane;
+    /// else [`Leaf::NO_BLOCK`].
     pub(crate) place: u32,
 }
 

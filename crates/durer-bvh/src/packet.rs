@@ -1,6 +1,8 @@
-//! Rays of a batch that are much alike: eight of them go through the tree together, with one stack, or sixteen where there are lanes for as many.
+//! Rays of a batch that are much alike: eight of them go through the tree together, with one stack,
+//! or sixteen where there are lanes for as many.
 //!
-//! Each is shown what it is shown alone, in the same order: who goes where is told ray by ray, with the arithmetic of a single ray. A ray that is left alone goes on alone.
+//! Each is shown what it is shown alone, in the same order: who goes where is told ray by ray, with
+//! the arithmetic of a single ray. A ray that is left alone goes on alone.
 
 use crate::batch::{LARGE, One, QueryKind, Rays, each};
 use crate::kernels::{Rows, Together};

@@ -160,7 +160,8 @@ impl<T: LeafTest<f64>> TreeQuery<true> for Closest<T> {
 }
 
 impl<T: LeafTest<f64>> Closest<T> {
-    /// What triangles that may be met do to how far to look: one is held if it is certainly met before all others, else the caller is asked.
+    /// What triangles that may be met do to how far to look: one is held if it is certainly met
+    /// before all others, else the caller is asked.
     #[inline(always)]
     fn sort_out(
         &mut self,
@@ -208,7 +209,8 @@ impl<T: LeafTest<f64>> Closest<T> {
     }
 }
 
-/// Of some lanes the one with the least number: what is met first may spare questions about the others.
+/// Of some lanes the one with the least number: what is met first may spare questions about the
+/// others.
 #[inline(always)]
 fn first(lanes: u32, lo: &[f32; LANES]) -> usize {
     let lane = |lanes: u32| lanes.trailing_zeros() as usize % LANES;
@@ -353,7 +355,8 @@ impl<S: TreeRay> BlockFilterSource for LazyFilter<'_, S> {
     fn filter<K: Kernel>(&mut self, kernel: K, tree: &Bvh, way: &ClippedRay) -> &Filter {
         let (sight, filter) = (self.sight, &mut *self.filter);
         if filter.is_none() {
-            // Written where it stays: what is written number by number and then copied has to wait for that.
+            // Written where it stays: what is written number by number and then copied has to wait
+            // for that.
             kernel.apart(
                 #[inline(always)]
                 || *filter = Some(Filter::new(|| tree.local_line(sight), way, tree.rounded)),

@@ -7,11 +7,13 @@ use durer_math::{Aabb, Point3, U, Vec3};
 pub(crate) const U32: f64 = 1.0 / (1 << 24) as f64;
 /// Sizes below this count as this: it keeps flat trees from dividing nothing by nothing.
 pub(crate) const LEAST: f64 = 1.0 / (1_u64 << 60) as f64;
-/// The longest way through the tree that is culled; the ends of a ray from farther away are too uncertain.
+/// The longest way through the tree that is culled; the ends of a ray from farther away are too
+/// uncertain.
 pub(crate) const LONGEST: f64 = (1 << 16) as f64;
 /// More than the roundings of a difference, of `1 / d`, of their product and of what is then added.
 pub(crate) const WIDEN: f64 = 8.0 * U;
-/// The least component of a direction that is told from zero: within the longest way it moves a ray by 2^-284, which is nothing.
+/// The least component of a direction that is told from zero: within the longest way it moves a ray
+/// by 2^-284, which is nothing.
 pub(crate) const SLOWEST: f64 = f64::from_bits((1023 - 300) << 52);
 /// What is added so that the nearest f32 is a bound.
 pub(crate) const TO_NEAREST: f64 = U32 * (1.0 + 1.0 / (1 << 20) as f64);
@@ -33,7 +35,8 @@ pub struct Ray64 {
     pub t_min: f64,
     /// Crossings above this do not matter.
     pub t_max: f64,
-    /// Crossings between these certainly do: the caller's range, where that of the line had to be widened.
+    /// Crossings between these certainly do: the caller's range, where that of the line had to be
+    /// widened.
     pub inner: (f64, f64),
 }
 
@@ -158,12 +161,14 @@ impl TreeRay for Ray64 {
 
 /// What a node test needs: per axis `near = plane * r + c_near`, `far = plane * r + c_far`, in f32.
 ///
-/// In f64, once per ray: the ray is clipped to the tree's box and its origin moved to the entry. `r` is `1 / d`, clamped so that a
-/// ray parallel to an axis needs no branch; the constants carry the slack that pays for every rounding of the node test:
-/// of `r` (one unit), of the fused multiply-add (one), what is left for the moved origin and the second order (a tenth), and, where `r` is
-/// clamped, for the direction that was bent (four tenths). So `near <= t <= far` for each `t` at which the exact ray is in the box.
-/// The same as growing each box by `1.5e-7 (M + |o|)`, in the instructions of an unsafe test. Compare T. Ize, "Robust
-/// BVH ray traversal", Journal of Computer Graphics Techniques 2(2), 2013, which computes differences per plane instead.
+/// In f64, once per ray: the ray is clipped to the tree's box and its origin moved to the entry.
+/// `r` is `1 / d`, clamped so that a ray parallel to an axis needs no branch; the constants carry
+/// the slack that pays for every rounding of the node test: of `r` (one unit), of the fused
+/// multiply-add (one), what is left for the moved origin and the second order (a tenth), and, where
+/// `r` is clamped, for the direction that was bent (four tenths). So `near <= t <= far` for each
+/// `t` at which the exact ray is in the box. The same as growing each box by `1.5e-7 (M + |o|)`, in
+/// the instructions of an unsafe test. Compare T. Ize, "Robust BVH ray traversal", Journal of
+/// Computer Graphics Techniques 2(2), 2013, which computes differences per plane instead.
 ///
 /// Of each four numbers three count: they are written and read all at once.
 #[derive(Clone, Copy, Debug)]
@@ -179,14 +184,15 @@ pub(crate) struct CullRay {
 /// A ray's way through a tree.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ClippedRay {
-    /// The entry's point in tree units, rounded to f64 and to f32, and the direction, rounded to f32.
+    /// The entry's point in tree units, rounded to f64 and to f32, and the direction, rounded to
+    /// f32.
     pub(crate) start: [f32; 4],
     pub(crate) direction: [f32; 4],
     /// The first and the last parameter that matter, from the entry.
     pub(crate) t_near: f32,
     pub(crate) t_far: f32,
-    /// Whether the start is the ray's origin, nothing but the rounding to f32 makes it or the direction uncertain, and crossings anywhere between the first
-    /// and the last parameter count.
+    /// Whether the start is the ray's origin, nothing but the rounding to f32 makes it or the
+    /// direction uncertain, and crossings anywhere between the first and the last parameter count.
     pub(crate) is_exact: bool,
     /// A bound on the error of the ray's points within the tree, per axis.
     pub(crate) error: f64,
@@ -195,7 +201,8 @@ pub(crate) struct ClippedRay {
     pub(crate) units: Units,
 }
 
-/// The roundings a node test makes after `r`'s own: one if multiplication and addition are fused, else two.
+/// The roundings a node test makes after `r`'s own: one if multiplication and addition are fused,
+/// else two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Rounding {
     Fused,
@@ -221,23 +228,28 @@ pub(crate) struct Clip {
     pub(crate) hi: [f64; 4],
     /// The greatest magnitude of a coordinate.
     pub(crate) most: [f64; 4],
-    /// What the caller's lengths are to be multiplied by, which is exact; 0 if one number cannot do that.
+    /// What the caller's lengths are to be multiplied by, which is exact; 0 if one number cannot do
+    /// that.
     pub(crate) shrink: f64,
     /// What lengths in tree units are to be multiplied by; 0 as above.
     pub(crate) grow: f64,
     /// The greatest magnitude of a coordinate, for rays that start [nearby](NEARBY).
     pub(crate) most32: [f32; 4],
-    /// What the lengths of a [`Ray32`] are to be multiplied by; infinite if the tree's size is [far](GLANCED) from 1.
+    /// What the lengths of a [`Ray32`] are to be multiplied by; infinite if the tree's size is
+    /// [far](GLANCED) from 1.
     pub(crate) shrink32: f32,
 }
 
-/// Trees of sizes between `2^-32` and `2^32` are seen at a glance: what underflow takes from f32 is then below `2^-117` in tree units.
+/// Trees of sizes between `2^-32` and `2^32` are seen at a glance: what underflow takes from f32 is
+/// then below `2^-117` in tree units.
 const GLANCED: (f64, f64) = (1.0 / (1_u64 << 32) as f64, (1_u64 << 32) as f64);
 
-/// Rays that start with coordinates up to this, in tree units, need no clipping: f32 tells where they are as well as where the tree is.
+/// Rays that start with coordinates up to this, in tree units, need no clipping: f32 tells where
+/// they are as well as where the tree is.
 pub(crate) const NEARBY: f32 = 4.0;
 
-/// A ray that runs within a face of the box, or nearly so, enters it this much earlier: far more than [`SLOWEST`] moves it.
+/// A ray that runs within a face of the box, or nearly so, enters it this much earlier: far more
+/// than [`SLOWEST`] moves it.
 const MARGIN: f64 = 1.0 / (1_u64 << 40) as f64;
 
 impl Clip {
@@ -261,8 +273,8 @@ impl Clip {
 }
 
 impl CullRay {
-    /// Clips a line, whose origin is counted from the tree's centre, to the box `[lo, hi]` of the tree;
-    /// `None` if it certainly misses it.
+    /// Clips a line, whose origin is counted from the tree's centre, to the box `[lo, hi]` of the
+    /// tree; `None` if it certainly misses it.
     #[inline(always)]
     pub(crate) fn new(
         line: &Ray64,
@@ -285,7 +297,8 @@ impl CullRay {
             return Some(Self::everywhere(&d, units));
         }
         let (t_min, t_max) = (units.inward(line.t_min), units.inward(line.t_max));
-        // A tiny parameter that was rounded in scaling is widened by the clipping below only if the box does not begin later.
+        // A tiny parameter that was rounded in scaling is widened by the clipping below only if the
+        // box does not begin later.
         let (mut enter, mut exit) = (if t_min == 0.0 { line.t_min.min(0.0) } else { t_min }, t_max.next_up());
         let inverse = d.map(|x| 1.0 / x);
         for i in 0..3 {
@@ -342,7 +355,8 @@ impl CullRay {
         })
     }
 
-    /// A ray so far away, or so uncertain, that nothing can be disproved in these units: it meets every box.
+    /// A ray so far away, or so uncertain, that nothing can be disproved in these units: it meets
+    /// every box.
     #[cold]
     fn everywhere(d: &[f64; 3], units: Units) -> Self {
         let big = 4.0 * LONGEST as f32;
@@ -390,13 +404,15 @@ impl ClippedRay {
         // Beyond a tree's longest way nothing is met; so far away f32 is coarse, but finite.
         const BEYOND: f64 = (1_u64 << 40) as f64;
         let single = |x: f64| (self.units.inward(x) - self.t_enter).clamp(-BEYOND, BEYOND) as f32;
-        // More than the roundings of the difference and to f32, and than what scaling may have lost to underflow.
+        // More than the roundings of the difference and to f32, and than what scaling may have lost
+        // to underflow.
         let step = |x: f32| x.abs().mul_add(1.0 / (1 << 22) as f32, 1.0 / (1_u128 << 120) as f32);
         let (from, to) = (single(from), single(to));
         (from + step(from), to - step(to))
     }
 
-    /// The same for the whole range of a ray that is [exact](ClippedRay::is_exact): its ends are within ten units of the first and the last parameter.
+    /// The same for the whole range of a ray that is [exact](ClippedRay::is_exact): its ends are
+    /// within ten units of the first and the last parameter.
     #[inline(always)]
     pub(crate) fn inside(&self) -> (f32, f32) {
         let step = |x: f32| x.abs().mul_add(INSIDE.0, INSIDE.1);

@@ -23,12 +23,16 @@ pub enum RefitError {
 }
 
 impl Bvh {
-    /// Renews all boxes, from the leaves upwards and rounded outward, and all corners of triangles; also the tree's units.
+    /// Renews all boxes, from the leaves upwards and rounded outward, and all corners of triangles;
+    /// also the tree's units.
     ///
-    /// `bounds` gives the box of the thing at a position within its kind, as for [`Bvh::validate`], and `shapes` the corners of triangles: those of [`Bvh::build`], but by
-    /// position. Answers are those of a tree that is built anew. Triangles that stand in several leaves (see [`Quality::Best`](crate::Quality::Best)) do so with all of their boxes from then
-    /// on, so that such a tree loses what its cuts in space had gained. Rays take as long as before while neighbours stay neighbours; when the cost in
-    /// [`Bvh::stats`] has grown by half, it pays to build anew.
+    /// `bounds` gives the box of the thing at a position within its kind, as for [`Bvh::validate`],
+    /// and `shapes` the corners of triangles: those of [`Bvh::build`], but by position. Answers are
+    /// those of a tree that is built anew. Triangles that stand in several leaves (see
+    /// [`Quality::Best`](crate::Quality::Best)) do so with all of their boxes from then on, so that
+    /// such a tree loses what its cuts in space had gained. Rays take as long as before while
+    /// neighbours stay neighbours; when the cost in [`Bvh::stats`] has grown by half, it pays to
+    /// build anew.
     ///
     /// # Errors
     ///

@@ -9,8 +9,9 @@ use durer_math::scale::pow2;
 use durer_math::{F8, Isa, Point3, Shaft, Shaft8, U, Vec3};
 
 impl Bvh {
-    /// Shows the leaves that a bundle of rays may meet to `visit`, in no particular order, until it says that it has seen enough; says
-    /// whether it did. Every leaf that a ray of the bundle meets is shown; what stands in several leaves may be shown several times.
+    /// Shows the leaves that a bundle of rays may meet to `visit`, in no particular order, until it
+    /// says that it has seen enough; says whether it did. Every leaf that a ray of the bundle meets
+    /// is shown; what stands in several leaves may be shown several times.
     pub fn in_shaft(&self, isa: Isa, shaft: &Shaft, mut visit: impl FnMut(Leaf) -> bool) -> bool {
         if self.is_empty() {
             return false;

@@ -18,7 +18,8 @@ pub struct Stats {
     pub depth: usize,
     /// Bytes on the heap.
     pub bytes: usize,
-    /// The surface area heuristic: what a random ray that meets the tree's box is expected to cost, in node tests.
+    /// The surface area heuristic: what a random ray that meets the tree's box is expected to cost,
+    /// in node tests.
     pub sah: f64,
 }
 

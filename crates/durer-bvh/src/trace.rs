@@ -47,8 +47,9 @@ pub enum Step {
 }
 
 impl Bvh {
-    /// Tells the steps of [`Bvh::closest`], in the same order, but leaves of triangles whole, those of which triangles stand in other leaves, too, piece by piece; `tell` returns the limit after a leaf (and is not asked otherwise). Says whether the
-    /// tree's own box was met at all.
+    /// Tells the steps of [`Bvh::closest`], in the same order, but leaves of triangles whole, those
+    /// of which triangles stand in other leaves, too, piece by piece; `tell` returns the limit
+    /// after a leaf (and is not asked otherwise). Says whether the tree's own box was met at all.
     pub fn trace(&self, line: &Ray64, mut tell: impl FnMut(&Step) -> f64) -> bool {
         let Some(ray) = self.cull(&self.local_line(line), Rounding::Fused) else { return false };
         let mut t_far = ray.way.t_far;

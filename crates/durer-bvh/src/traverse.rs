@@ -15,12 +15,13 @@ pub(crate) trait Traversal {
 }
 
 impl Bvh {
-    /// Shows what the ray might meet to `test`, front to back as far as the order of octants tells; `test` returns the parameter
-    /// beyond which nothing matters any more.
+    /// Shows what the ray might meet to `test`, front to back as far as the order of octants tells;
+    /// `test` returns the parameter beyond which nothing matters any more.
     ///
-    /// Every leaf in whose box the exact ray is at some `t` in its range, not beyond the least limit so far, is shown; of
-    /// triangles those alone that the ray may meet there, one by one, and not one that is certainly behind another that it certainly meets
-    /// and that `admits` admits.
+    /// Every leaf in whose box the exact ray is at some `t` in its range, not beyond the least
+    /// limit so far, is shown; of triangles those alone that the ray may meet there, one by one,
+    /// and not one that is certainly behind another that it certainly meets and that `admits`
+    /// admits.
     #[inline(always)]
     pub fn closest(
         &self,
@@ -32,11 +33,13 @@ impl Bvh {
         self.with_kernel(isa, Single::<_, _, true> { sight, quest: Closest(Callbacks { admits, test }) });
     }
 
-    /// Shows what the ray might meet to `test`, until it says that it has found what it looked for; says whether it did, or
-    /// whether the ray certainly meets a triangle within its range that `trusts` says is it.
+    /// Shows what the ray might meet to `test`, until it says that it has found what it looked for;
+    /// says whether it did, or whether the ray certainly meets a triangle within its range that
+    /// `trusts` says is it.
     ///
-    /// Every leaf in whose box the exact ray is at some `t` in its range is shown, of triangles those alone that the ray may
-    /// meet there, one by one, all in no particular order; one that stands in several leaves may be shown several times.
+    /// Every leaf in whose box the exact ray is at some `t` in its range is shown, of triangles
+    /// those alone that the ray may meet there, one by one, all in no particular order; one that
+    /// stands in several leaves may be shown several times.
     #[inline(always)]
     pub fn any(
         &self,
@@ -54,13 +57,15 @@ impl Bvh {
         self.with_kernel(isa, AllOnce { sight, test })
     }
 
-    /// Shows the leaves whose boxes may hold a point, known within `error` (per axis), to `test`, until it says that it
-    /// has found what it looked for; says whether it did. What stands in several leaves may be shown several times.
+    /// Shows the leaves whose boxes may hold a point, known within `error` (per axis), to `test`,
+    /// until it says that it has found what it looked for; says whether it did. What stands in
+    /// several leaves may be shown several times.
     pub fn containing(&self, point: Point3, error: Vec3, mut test: impl FnMut(Leaf) -> bool) -> bool {
         if self.is_empty() {
             return false;
         }
-        // Boxes were rounded outward after scaling; so the point may be rounded by less than that and a step.
+        // Boxes were rounded outward after scaling; so the point may be rounded by less than that
+        // and a step.
         let units = self.frame.units();
         let reach = |(x, lost): (f64, f64), e: f64| {
             let e = if lost == 0.0 { e } else { (e + lost.abs()).next_up() };

@@ -8,8 +8,8 @@ use durer_math::{Aabb, Point3};
 
 /// A tree of boxes: which things might this ray meet?
 ///
-/// Coordinates are f32 and in units that make all of them at most 1; boxes are rounded outward and tests charge every rounding to "may
-/// meet", so that no box that the exact ray meets is missed.
+/// Coordinates are f32 and in units that make all of them at most 1; boxes are rounded outward and
+/// tests charge every rounding to "may meet", so that no box that the exact ray meets is missed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bvh {
     pub(crate) frame: Frame,
@@ -24,7 +24,8 @@ pub struct Bvh {
     pub(crate) splits: Splits,
     /// Whether f32 does not hold all corners of the blocks.
     pub(crate) rounded: bool,
-    /// Whether there is one kind, and of triangles: then references to leaves are the numbers of their blocks.
+    /// Whether there is one kind, and of triangles: then references to leaves are the numbers of
+    /// their blocks.
     pub(crate) is_all_triangles: bool,
     pub(crate) lo: [f32; 3],
     pub(crate) hi: [f32; 3],
@@ -42,13 +43,16 @@ pub(crate) struct KindOfLeaf {
 
 /// Where triangles stand that are in several leaves: the last slots of their kinds.
 ///
-/// A ray may come to several of these leaves. Let the *first* be the one that comes first in `places` of those whose boxes the ray meets by the
-/// test of nodes. That test is monotonous in the planes of a box, rounding included, so a ray comes to a leaf if and only if it meets the leaf's own box:
-/// boxes around it are met, too. So who shows a triangle in its first leaf alone shows it once, if the test is always up to the same `t`; and does not
-/// miss it, since where the ray meets the triangle it is in one of the boxes.
+/// A ray may come to several of these leaves. Let the *first* be the one that comes first in
+/// `places` of those whose boxes the ray meets by the test of nodes. That test is monotonous in the
+/// planes of a box, rounding included, so a ray comes to a leaf if and only if it meets the leaf's
+/// own box: boxes around it are met, too. So who shows a triangle in its first leaf alone shows it
+/// once, if the test is always up to the same `t`; and does not miss it, since where the ray meets
+/// the triangle it is in one of the boxes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Splits {
-    /// For each kind its first such slot, and how many there are of kinds before it. None if there are none at all.
+    /// For each kind its first such slot, and how many there are of kinds before it. None if there
+    /// are none at all.
     pub(crate) kinds: Vec<(u32, u32)>,
     /// Where the places of each begin, and the end.
     pub(crate) starts: Vec<u32>,
@@ -203,7 +207,8 @@ impl Bvh {
         Leaf::new(kind as u32, first, child.slots().1)
     }
 
-    /// Shows all that is in a leaf to `visit`, in one piece where slots follow each other, until it says that it has seen enough; says whether it did.
+    /// Shows all that is in a leaf to `visit`, in one piece where slots follow each other, until it
+    /// says that it has seen enough; says whether it did.
     #[inline(always)]
     pub(crate) fn leaves(&self, child: ChildRef, visit: &mut impl FnMut(Leaf) -> bool) -> bool {
         if self.splits.is_empty() {
@@ -244,7 +249,8 @@ impl Bvh {
         Some((kind as u32, first + at))
     }
 
-    /// The exact corners of a triangle that was shown by itself, where f32 holds those of all: they are at hand, as the ray has just looked at them.
+    /// The exact corners of a triangle that was shown by itself, where f32 holds those of all: they
+    /// are at hand, as the ray has just looked at them.
     #[inline(always)]
     pub fn corners(&self, triangle: &Leaf) -> Option<Corners> {
         let grow = self.clip.grow;
@@ -258,7 +264,8 @@ impl Bvh {
         Some(if self.frame.is_moved() { corners.map(moved) } else { corners })
     }
 
-    /// [`Bvh::corners`] of a triangle for each of eight rays, corner by corner and axis by axis; zeros where there is none to tell of.
+    /// [`Bvh::corners`] of a triangle for each of eight rays, corner by corner and axis by axis;
+    /// zeros where there is none to tell of.
     #[inline(always)]
     pub fn corners_of_each(&self, triangles: &[Option<Leaf>; PACKET]) -> Option<[[[f64; PACKET]; 3]; 3]> {
         let grow = self.clip.grow;
@@ -294,7 +301,8 @@ impl Bvh {
         size_of_val(self.nodes.as_slice()) + size_of_val(self.blocks.as_slice())
     }
 
-    /// Where in memory a child begins, for prefetching: right for nodes, and for blocks if there is one kind.
+    /// Where in memory a child begins, for prefetching: right for nodes, and for blocks if there is
+    /// one kind.
     #[inline(always)]
     pub(crate) fn place(&self, child: ChildRef) -> *const u8 {
         let node = self.nodes.as_ptr().wrapping_add(child.index()).cast::<u8>();

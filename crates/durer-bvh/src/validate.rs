@@ -68,7 +68,8 @@ pub enum Violation {
         /// In how many the tree says.
         known: u32,
     },
-    /// A place of a triangle that stands in several leaves is none of its leaves, or it comes twice.
+    /// A place of a triangle that stands in several leaves is none of its leaves, or it comes
+    /// twice.
     #[error("kind {kind}, number {index}: is not in all leaves in which it should be, once each")]
     Place {
         /// Its kind.
@@ -76,7 +77,8 @@ pub enum Violation {
         /// Its position within the kind.
         index: u32,
     },
-    /// A thing is not inside its leaf's box; if it stands in several leaves, not inside their boxes together, as far as f64 can tell.
+    /// A thing is not inside its leaf's box; if it stands in several leaves, not inside their boxes
+    /// together, as far as f64 can tell.
     #[error("kind {kind}, number {index}: sticks out of the box of its leaf, or of its leaves")]
     ThingSticksOut {
         /// Its kind.
@@ -180,7 +182,8 @@ impl Bvh {
         None
     }
 
-    /// A triangle that stands in several leaves is in each of its places, and their boxes hold all of it.
+    /// A triangle that stands in several leaves is in each of its places, and their boxes hold all
+    /// of it.
     fn check_split(&self, kind: u32, index: u32, places: &[u32], bounds: &Aabb) -> Result<(), Violation> {
         let mut boxes = Vec::new();
         let (mut whole, mut corners) = (Aabb::EMPTY, None);

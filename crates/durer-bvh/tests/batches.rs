@@ -61,8 +61,9 @@ impl World {
             })
         };
         let mut lines: Vec<Option<Ray64>> = (0..600).map(|_| line(&mut dice)).collect();
-        // Some that are much alike: side by side, or from one point, which may be a corner of a box, and along axes, or nearly so.
-        // As many as go by sixteen and by eight, and some that are left.
+        // Some that are much alike: side by side, or from one point, which may be a corner of a
+        // box, and along axes, or nearly so. As many as go by sixteen and by eight, and some that
+        // are left.
         for some in lines.chunks_mut(4 * PACKET) {
             let size = [0.5, 3.0][dice.below(2) as usize];
             let mut origin = point(&mut dice, size);

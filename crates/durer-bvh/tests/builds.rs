@@ -165,7 +165,8 @@ fn slivers(dice: &mut Dice, count: usize) -> Vec<Corners> {
 #[test]
 fn parts_of_triangles_are_held_by_the_boxes_of_their_leaves() {
     let mut dice = Dice(9);
-    // As f64 and as f32; also where scaling loses something, or surfaces are too small for f32, so that they are not cut.
+    // As f64 and as f32; also where scaling loses something, or surfaces are too small for f32, so
+    // that they are not cut.
     for (is_held, size) in
         [(false, 1.0), (true, 1.0), (true, 1e30), (false, 1e-300), (false, 1e-315), (false, 1e308)]
     {

@@ -1,8 +1,10 @@
 //! No box that the exact ray meets is missed.
 //!
-//! Rays are aimed, exactly, at points of boxes: all coordinates are integers below 2^53, and the origin is `target - m d` for integers
-//! `m` and `d`, without rounding, so the exact ray is in the box at `t = m`. Targets are corners, edges, faces and insides; directions have
-//! components that are zero or one unit; origins are near, on faces, and far; whole scenes are scaled by powers of two.
+//! Rays are aimed, exactly, at points of boxes: all coordinates are integers below 2^53, and the
+//! origin is `target - m d` for integers `m` and `d`, without rounding, so the exact ray is in the
+//! box at `t = m`. Targets are corners, edges, faces and insides; directions have components that
+//! are zero or one unit; origins are near, on faces, and far; whole scenes are scaled by powers of
+//! two.
 
 mod common;
 

@@ -1,7 +1,8 @@
 //! What the triangles' filter says for certain is true.
 //!
-//! Vertices, origins and directions are integers, so `U`, `V`, `W` and the crossing's parameter are exact in 128 bits. Rays are aimed at vertices,
-//! edges and insides; meshes are soups, fans and folded sheets, large and small in their scene; scenes are scaled by powers of two.
+//! Vertices, origins and directions are integers, so `U`, `V`, `W` and the crossing's parameter are
+//! exact in 128 bits. Rays are aimed at vertices, edges and insides; meshes are soups, fans and
+//! folded sheets, large and small in their scene; scenes are scaled by powers of two.
 
 mod common;
 

@@ -1,4 +1,5 @@
-//! What a camera's ray costs by itself, with a search shared by its neighbours, and in lanes: prints nanoseconds for small worlds.
+//! What a camera's ray costs by itself, with a search shared by its neighbours, and in lanes:
+//! prints nanoseconds for small worlds.
 //!
 //! `cargo run --release -p durer-geometry --example bundles`
 

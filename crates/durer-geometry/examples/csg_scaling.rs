@@ -1,4 +1,5 @@
-//! What a ray costs in bodies of 100 and of 10 000 leaves: prints nanoseconds per ray, the least of some runs.
+//! What a ray costs in bodies of 100 and of 10 000 leaves: prints nanoseconds per ray, the least of
+//! some runs.
 //!
 //! `cargo run --release -p durer-geometry --example csg_scaling`
 

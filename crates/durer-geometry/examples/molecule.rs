@@ -1,4 +1,5 @@
-//! A molecule of a million atoms: how long it takes to build, what it weighs, how many rays it answers.
+//! A molecule of a million atoms: how long it takes to build, what it weighs, how many rays it
+//! answers.
 //!
 //! ```text
 //! cargo run --release -p durer-geometry --example molecule [-- ATOMS]
@@ -9,8 +10,8 @@ use durer_math::{Isa, Point3, Ray, Vec3};
 use durer_surfaces::Sphere;
 use std::time::Instant;
 
-/// Numbers that look random: the n-th output of G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number
-/// generators", OOPSLA (2014).
+/// Numbers that look random: the n-th output of G. L. Steele, D. Lea, C. H. Flood, "Fast splittable
+/// pseudorandom number generators", OOPSLA (2014).
 fn hash(n: u64) -> u64 {
     let mut z = n.wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -27,7 +28,8 @@ fn point(n: u64, side: f64) -> Point3 {
     Point3::new(unit(3 * n) * side, unit(3 * n + 1) * side, unit(3 * n + 2) * side)
 }
 
-/// Atoms at the density of a protein (about one per 20 cubic angstrom, hydrogen not counted), with van der Waals radii.
+/// Atoms at the density of a protein (about one per 20 cubic angstrom, hydrogen not counted), with
+/// van der Waals radii.
 fn molecule(atoms: u64) -> (Vec<Sphere>, f64) {
     let side = (20.0 * atoms as f64).cbrt_by_newton();
     let radius = |n: u64| [1.7, 1.7, 1.7, 1.55, 1.52, 1.8][(hash(!n) % 6) as usize];
@@ -64,7 +66,8 @@ fn random(side: f64) -> Vec<Ray> {
     (0..1 << 20).map(ray).collect()
 }
 
-/// The processor time of all this process's threads so far, in seconds, where the system tells; else the time that went by.
+/// The processor time of all this process's threads so far, in seconds, where the system tells;
+/// else the time that went by.
 fn processor_seconds(since: Instant) -> f64 {
     let ticks = || {
         let stat = std::fs::read_to_string("/proc/self/stat").ok()?;

@@ -70,9 +70,11 @@ impl Builder {
         self.add_as(surface, ObjectId(self.next_object), PrimitiveId(0), EVERYTHING)
     }
 
-    /// Adds a surface under the given numbers. Where a surface has parts (the faces of a mesh), part `i` is the primitive `primitive + i`.
+    /// Adds a surface under the given numbers. Where a surface has parts (the faces of a mesh),
+    /// part `i` is the primitive `primitive + i`.
     ///
-    /// A ray with mask `m` meets the surface if `m & mask != 0`. Two surfaces may have the same numbers.
+    /// A ray with mask `m` meets the surface if `m & mask != 0`. Two surfaces may have the same
+    /// numbers.
     pub fn add_as<S: Surface + 'static>(
         &mut self,
         surface: S,
@@ -99,7 +101,8 @@ impl Builder {
         self.add_compound_as(body, ObjectId(self.next_object), PrimitiveId(0), EVERYTHING)
     }
 
-    /// Adds a solid made of solids as a part of an object: `first` is added to the numbers of its leaves.
+    /// Adds a solid made of solids as a part of an object: `first` is added to the numbers of its
+    /// leaves.
     pub fn add_compound_as(
         &mut self,
         body: impl Into<Arc<Compound>>,
@@ -124,7 +127,8 @@ impl Builder {
         self.instance_as(geometry, affine, ObjectId(self.next_object), PrimitiveId(0), mask)
     }
 
-    /// Adds a placement of a whole geometry; `object` and `primitive` are added to the numbers in it.
+    /// Adds a placement of a whole geometry; `object` and `primitive` are added to the numbers in
+    /// it.
     pub fn instance_as(
         &mut self,
         geometry: &Arc<Geometry>,
@@ -146,13 +150,15 @@ impl Builder {
         self
     }
 
-    /// How the tree is built: [`Settings::GOOD`] if not told otherwise. Answers do not depend on it.
+    /// How the tree is built: [`Settings::GOOD`] if not told otherwise. Answers do not depend on
+    /// it.
     pub fn settings(&mut self, settings: Settings) -> &mut Self {
         self.settings = settings;
         self
     }
 
-    /// Builds no tree: every query tests everything. The definition that the tree must equal, bit for bit.
+    /// Builds no tree: every query tests everything. The definition that the tree must equal, bit
+    /// for bit.
     pub fn without_tree(&mut self) -> &mut Self {
         self.without_tree = true;
         self
@@ -164,7 +170,8 @@ impl Builder {
         self
     }
 
-    /// By object: what lies outside of this box does not matter, so rays that pass the box by need not ask.
+    /// By object: what lies outside of this box does not matter, so rays that pass the box by need
+    /// not ask.
     pub(crate) fn limits(&mut self, limits: Vec<Aabb>) {
         self.limits = limits;
     }
@@ -188,7 +195,8 @@ impl Builder {
         }
     }
 
-    /// Puts other surfaces in the place of those of type `S`, where there is one for an object, a primitive and the surface as it is.
+    /// Puts other surfaces in the place of those of type `S`, where there is one for an object, a
+    /// primitive and the surface as it is.
     pub(crate) fn replace<S: Surface + 'static>(
         &mut self,
         mut moved: impl FnMut(ObjectId, PrimitiveId, &S) -> Option<S>,
@@ -295,8 +303,8 @@ fn leaf_slots(arena: &mut dyn Arrange) -> u64 {
     arena.as_any().downcast_ref::<Compounds>().map_or(0, Compounds::leaf_slots)
 }
 
-/// Numbers the placements in the order in which instances were added, each followed by what is nested in it; says how many there are, the
-/// geometry's own included.
+/// Numbers the placements in the order in which instances were added, each followed by what is
+/// nested in it; says how many there are, the geometry's own included.
 fn number_placements(instances: &mut [Instance]) -> Result<u32, BuildError> {
     let mut next = 1_u32;
     for instance in instances {

@@ -36,7 +36,8 @@ impl CandidateList {
     const MOST: usize = 64;
     /// The same for one ray.
     const FEW: usize = 12;
-    /// The same for triangles of large meshes: the tree tests sixteen of them at once, and few rays would share what lanes need to know of each.
+    /// The same for triangles of large meshes: the tree tests sixteen of them at once, and few rays
+    /// would share what lanes need to know of each.
     const TRIANGLES: u32 = 8;
     /// Meshes with more leaves than this are large.
     const DENSE: usize = 512;
@@ -47,15 +48,16 @@ impl CandidateList {
         self.candidates.is_empty()
     }
 
-    /// Whether the rays may meet something that has a bit in common with `mask`: `false` is certain.
+    /// Whether the rays may meet something that has a bit in common with `mask`: `false` is
+    /// certain.
     pub fn admits(&self, mask: u32) -> bool {
         self.candidates.iter().any(|candidate| candidate.mask & mask != 0)
     }
 }
 
 impl Geometry {
-    /// What the rays of a bundle may meet; `None` if that is so much that each ray should walk through the tree by itself. They all come from
-    /// the same side of `source`, if there is one.
+    /// What the rays of a bundle may meet; `None` if that is so much that each ray should walk
+    /// through the tree by itself. They all come from the same side of `source`, if there is one.
     pub fn candidates(&self, shaft: &Shaft, source: Option<Source>) -> Option<CandidateList> {
         let mut beam = CandidateList::default();
         let candidates = &mut beam.candidates;
@@ -103,7 +105,8 @@ impl Geometry {
         Candidate { arena, slot, name, mask }
     }
 
-    /// As [`Geometry::first_visible`], of a ray of the bundle that `candidates` was made for: the same answer.
+    /// As [`Geometry::first_visible`], of a ray of the bundle that `candidates` was made for: the
+    /// same answer.
     #[inline]
     pub fn seen_in(
         &self,
@@ -133,7 +136,8 @@ impl Geometry {
         )?
     }
 
-    /// As [`Geometry::any_masked`], of a ray of the bundle that `candidates` was made for: the same answer.
+    /// As [`Geometry::any_masked`], of a ray of the bundle that `candidates` was made for: the same
+    /// answer.
     #[inline]
     pub fn any_in(&self, beam: &CandidateList, ray: &Ray, mask: u32) -> bool {
         if beam.candidates.len() > CandidateList::FEW {

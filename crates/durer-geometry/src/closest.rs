@@ -37,7 +37,8 @@ impl Placement {
     }
 }
 
-/// The least hit so far, by [`Hit::order`]; of equal ones the first, which is the first in the exact order.
+/// The least hit so far, by [`Hit::order`]; of equal ones the first, which is the first in the
+/// exact order.
 #[derive(Debug)]
 pub(crate) struct ClosestHit {
     pub(crate) hit: Option<Hit>,

@@ -110,10 +110,12 @@ impl<'a> RayContext<'a> {
         }
     }
 
-    /// What no crossing that could be less than a hit with this upper bound exceeds, in the tree's parameter.
+    /// What no crossing that could be less than a hit with this upper bound exceeds, in the tree's
+    /// parameter.
     ///
-    /// A bracket is at most 32 ulp of `max(|t|, size / |d|)` wide on either side of the exact crossing (what is wider is computed again
-    /// in double-double), so a rounded `t` can precede the exact one by no more: twice that is kept.
+    /// A bracket is at most 32 ulp of `max(|t|, size / |d|)` wide on either side of the exact
+    /// crossing (what is wider is computed again in double-double), so a rounded `t` can precede
+    /// the exact one by no more: twice that is kept.
     #[inline(always)]
     pub(crate) fn limit(&self, t_hi: f64) -> f64 {
         let s = self.clock.above(t_hi);

@@ -100,7 +100,8 @@ pub enum Event {
         object: ObjectId,
         /// Its primitive.
         primitive: u32,
-        /// Whether the ray started on it, so that the crossing at its start is known and not counted.
+        /// Whether the ray started on it, so that the crossing at its start is known and not
+        /// counted.
         source: bool,
         /// All its crossings in the ray's range, each with what became of it.
         roots: Vec<(Hit, Verdict)>,
@@ -114,7 +115,8 @@ pub enum Verdict {
     Closest,
     /// A closer one was known.
     Farther,
-    /// Equally far as the closest so far, and its (object, primitive) comes later, or the same one gave it later.
+    /// Equally far as the closest so far, and its (object, primitive) comes later, or the same one
+    /// gave it later.
     LaterInOrder,
 }
 

@@ -13,9 +13,11 @@ use std::sync::{Arc, OnceLock};
 /// How deep instances may be nested.
 pub(crate) const MAX_NESTING: u32 = 8;
 
-/// Surfaces, objects and instances, built once and then immutable: `Send`, `Sync`, and shared by all threads.
+/// Surfaces, objects and instances, built once and then immutable: `Send`, `Sync`, and shared by
+/// all threads.
 ///
-/// Surfaces are kept by type, in the order of the tree's leaves. What has no bounded box is kept beside the tree.
+/// Surfaces are kept by type, in the order of the tree's leaves. What has no bounded box is kept
+/// beside the tree.
 pub struct Geometry {
     pub(crate) isa: Isa,
     pub(crate) arenas: Vec<Box<dyn AnyArena>>,
@@ -162,7 +164,8 @@ impl Geometry {
         self.depth
     }
 
-    /// How many invalid rays (not finite, without direction, or with an empty range) were asked so far: they miss.
+    /// How many invalid rays (not finite, without direction, or with an empty range) were asked so
+    /// far: they miss.
     pub fn invalid_rays(&self) -> u64 {
         self.invalid.load(Ordering::Relaxed)
     }

@@ -2,7 +2,8 @@
 
 use durer_surfaces::{Root, RootKind};
 
-/// The number of an object, as the caller gave it: in a scene, the top-level objects count from 0 in the order of the text.
+/// The number of an object, as the caller gave it: in a scene, the top-level objects count from 0
+/// in the order of the text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ObjectId(pub u32);
 
@@ -11,7 +12,8 @@ pub struct ObjectId(pub u32);
 pub struct PrimitiveId(pub u32);
 
 impl PrimitiveId {
-    /// The number of a primitive within a compound whose first primitive is `first`. [`Builder::add_compound_as`](crate::Builder::add_compound_as) adds `first` again.
+    /// The number of a primitive within a compound whose first primitive is `first`.
+    /// [`Builder::add_compound_as`](crate::Builder::add_compound_as) adds `first` again.
     ///
     /// `None` if the primitive comes before the compound.
     pub fn within(self, first: Self) -> Option<LeafId> {
@@ -19,13 +21,15 @@ impl PrimitiveId {
     }
 }
 
-/// The number of a primitive within a [`Compound`](crate::Compound): it knows nothing of the object that the compound becomes a part of.
+/// The number of a primitive within a [`Compound`](crate::Compound): it knows nothing of the object
+/// that the compound becomes a part of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct LeafId(pub u32);
 
 /// One crossing of a ray and a surface of a [`Geometry`](crate::Geometry).
 ///
-/// The exact crossing of the exact ray and the exact surface lies in `[t_lo, t_hi]`, which also holds `t`.
+/// The exact crossing of the exact ray and the exact surface lies in `[t_lo, t_hi]`, which also
+/// holds `t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// The crossing's parameter, in units of the ray's direction.
@@ -34,14 +38,15 @@ pub struct Hit {
     pub t_lo: f64,
     /// The exact parameter is not above this.
     pub t_hi: f64,
-    /// The kernel's own tag (triangle: barycentric b1, b2). Texture coordinates come from [`Geometry::resolve`](crate::Geometry::resolve).
+    /// The kernel's own tag (triangle: barycentric b1, b2). Texture coordinates come from
+    /// [`Geometry::resolve`](crate::Geometry::resolve).
     pub uv: [f64; 2],
     /// The object.
     pub object: u32,
     /// The primitive within the object.
     pub primitive: u32,
-    /// Which placement: 0 for what the geometry holds itself; then its instances in the order in which they were added, each
-    /// followed by those nested in it.
+    /// Which placement: 0 for what the geometry holds itself; then its instances in the order in
+    /// which they were added, each followed by those nested in it.
     pub instance: u32,
     /// Which face of the primitive (cap, wall, side of a box).
     pub face: u32,
@@ -49,7 +54,8 @@ pub struct Hit {
     pub sign: i8,
     /// How sure the count is.
     pub kind: RootKind,
-    /// The crossing in the kernel's own parameter: what `resolve` starts from, without the digits that `t` lost.
+    /// The crossing in the kernel's own parameter: what `resolve` starts from, without the digits
+    /// that `t` lost.
     pub(crate) s: f64,
     /// Where the primitive is kept.
     pub(crate) arena: u32,
@@ -73,10 +79,12 @@ impl Hit {
         }
     }
 
-    /// The order of hits along a ray: by `t`, then object and primitive. What is equal in all these is ordered by placement and storage.
+    /// The order of hits along a ray: by `t`, then object and primitive. What is equal in all these
+    /// is ordered by placement and storage.
     ///
-    /// Two crossings of one surface may round to one `t`: they are equal here, and every query keeps the order in which the surface gave
-    /// them, which is their exact one. So a solid is entered before it is left.
+    /// Two crossings of one surface may round to one `t`: they are equal here, and every query
+    /// keeps the order in which the surface gave them, which is their exact one. So a solid is
+    /// entered before it is left.
     #[inline]
     pub fn order(&self, other: &Self) -> core::cmp::Ordering {
         let key = |h: &Self| (h.object, h.primitive, h.instance, h.arena, h.slot);

@@ -85,7 +85,8 @@ struct All<'a> {
     rays: &'a [Ray],
     mask: u32,
     locals: &'a mut Vec<LocalRay<'static>>,
-    /// The last sixteen rays that were asked for together, as the tree sees them, each at its number's remainder: eight that are asked for may have to wait for eight more.
+    /// The last sixteen rays that were asked for together, as the tree sees them, each at its
+    /// number's remainder: eight that are asked for may have to wait for eight more.
     together: [Option<Ray64>; 2 * PACKET],
 }
 
@@ -113,7 +114,8 @@ impl<'a> All<'a> {
         is_valid
     }
 
-    /// Whether eight rays look as if they could go together: the first and the last have much the same direction.
+    /// Whether eight rays look as if they could go together: the first and the last have much the
+    /// same direction.
     #[inline(always)]
     fn are_alike(&self, first: usize) -> bool {
         let Some([a, .., b]) = self.rays[first..].first_chunk::<PACKET>() else { return false };
@@ -284,7 +286,8 @@ mod tests {
     use durer_math::{Isa, Point3, Vec3};
     use durer_surfaces::{Mesh, MeshData, Plane, Sphere};
 
-    /// A hilly sheet of 8192 triangles, 900 balls half sunk into it, every other one seen by some rays only, and a plane below.
+    /// A hilly sheet of 8192 triangles, 900 balls half sunk into it, every other one seen by some
+    /// rays only, and a plane below.
     fn world(isa: Isa) -> Geometry {
         const SIDE: u32 = 64;
         let height = |i: u32, j: u32| f64::from((i * i + 3 * j * j + i * j) % 17) / 16.0;
@@ -311,7 +314,8 @@ mod tests {
         builder.build().unwrap()
     }
 
-    /// Many rays see what each sees alone, to the bit: those of a camera, those that leave what these see, and some that are no rays.
+    /// Many rays see what each sees alone, to the bit: those of a camera, those that leave what
+    /// these see, and some that are no rays.
     #[test]
     fn what_is_seen_abreast_is_what_is_seen() {
         for isa in Isa::available() {

@@ -27,10 +27,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A [`Builder`] takes surfaces of any type and instances of other geometries; a [`Geometry`] answers
-//! queries. Surfaces live in one array per type, in the order of the leaves of a [`durer_bvh`] tree;
-//! unbounded surfaces are tested beside the tree. Answers do not depend on the tree, the instruction
-//! set or the number of threads.
+//! A [`Builder`] takes surfaces of any type and instances of other geometries; a [`Geometry`]
+//! answers queries. Surfaces live in one array per type, in the order of the leaves of a
+//! [`durer_bvh`] tree; unbounded surfaces are tested beside the tree. Answers do not depend on the
+//! tree, the instruction set or the number of threads.
 //!
 //! | module | what it holds |
 //! |---|---|

@@ -10,7 +10,8 @@ use durer_math::{Point3, Ray};
 use durer_surfaces::{Flow, LocalPoint, LocalRay, Need, SurfacePoint};
 
 impl Geometry {
-    /// The first hit: the least by (`t`, object, primitive), and of one primitive the first along the exact ray.
+    /// The first hit: the least by (`t`, object, primitive), and of one primitive the first along
+    /// the exact ray.
     pub fn closest(&self, ray: &Ray) -> Option<Hit> {
         self.closest_masked(ray, EVERYTHING)
     }
@@ -24,8 +25,9 @@ impl Geometry {
         })?
     }
 
-    /// The first hit and its point, for pictures: brackets may be as wide as [`durer_surfaces::PREVIEW_WIDTH`] allows, so of two surfaces that are
-    /// nearer to each other either may be seen. What is hit at all is exact.
+    /// The first hit and its point, for pictures: brackets may be as wide as
+    /// [`durer_surfaces::PREVIEW_WIDTH`] allows, so of two surfaces that are nearer to each other
+    /// either may be seen. What is hit at all is exact.
     #[inline]
     pub fn first_visible(&self, ray: &Ray, mask: u32, need: Need) -> Option<(Hit, SurfacePoint)> {
         self.walk_roughly(
@@ -51,9 +53,11 @@ impl Geometry {
         self.walk_roughly(ray, mask, any).unwrap_or(false)
     }
 
-    /// Whether there is a hit that `accept` accepts. The hits come in no particular order, each at most once, and nothing is allocated.
+    /// Whether there is a hit that `accept` accepts. The hits come in no particular order, each at
+    /// most once, and nothing is allocated.
     ///
-    /// What must not depend on an order (a product of rounded numbers) is better computed from [`Geometry::all_into`].
+    /// What must not depend on an order (a product of rounded numbers) is better computed from
+    /// [`Geometry::all_into`].
     pub fn any_where(&self, ray: &Ray, mask: u32, mut accept: impl FnMut(&Hit) -> bool) -> bool {
         let visit = &mut |hit: &Hit| if accept(hit) { Flow::Stop } else { Flow::Continue };
         self.walk(ray, mask, |walk| each(walk, visit)).is_some_and(|flow| flow == Flow::Stop)
@@ -80,13 +84,16 @@ impl Geometry {
                 Flow::Continue
             })
         });
-        // Stable: two crossings of one surface may round to one t, and it gave them in their exact order.
+        // Stable: two crossings of one surface may round to one t, and it gave them in their exact
+        // order.
         hits.sort_by(Hit::order);
     }
 
-    /// Where the ray is inside the union of all solids: merged, ascending; open surfaces are ignored.
+    /// Where the ray is inside the union of all solids: merged, ascending; open surfaces are
+    /// ignored.
     ///
-    /// A ray that starts inside has `t_in = t_min` and no `object_in`. Works for unbounded solids too. Touches have no length and do not show.
+    /// A ray that starts inside has `t_in = t_min` and no `object_in`. Works for unbounded solids
+    /// too. Touches have no length and do not show.
     pub fn spans(&self, ray: &Ray) -> Vec<Span> {
         self.spans_masked(ray, EVERYTHING)
     }

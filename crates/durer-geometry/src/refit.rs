@@ -10,7 +10,8 @@ use durer_math::Aabb;
 use durer_surfaces::Surface;
 use std::sync::OnceLock;
 
-/// Why a geometry cannot follow what has moved. It is what it was; one that is built anew holds any surfaces.
+/// Why a geometry cannot follow what has moved. It is what it was; one that is built anew holds any
+/// surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RefitError {
     /// A surface has other parts: a mesh other faces with an area, say.
@@ -21,7 +22,8 @@ pub enum RefitError {
         /// The primitive within the object.
         primitive: u32,
     },
-    /// A surface was bounded and is not any more, or it was nowhere and is somewhere, or the other way round.
+    /// A surface was bounded and is not any more, or it was nowhere and is somewhere, or the other
+    /// way round.
     #[error(
         "geometry: primitive {primitive} of object {object} has other bounds than the tree can hold: build anew"
     )]
@@ -34,10 +36,13 @@ pub enum RefitError {
 }
 
 impl Geometry {
-    /// Puts other surfaces in the place of those of type `S`, where `moved` gives one for an object, a primitive and the surface as it is.
+    /// Puts other surfaces in the place of those of type `S`, where `moved` gives one for an
+    /// object, a primitive and the surface as it is.
     ///
-    /// The tree keeps its nodes and gets new boxes, in a fraction of the time that it takes to build one. Answers are those of a geometry that is
-    /// built anew. Rays take as long as before while neighbours stay neighbours; when the tree's cost in [`Geometry::stats`] has grown by half, it pays to [build anew](Geometry::rebuild).
+    /// The tree keeps its nodes and gets new boxes, in a fraction of the time that it takes to
+    /// build one. Answers are those of a geometry that is built anew. Rays take as long as before
+    /// while neighbours stay neighbours; when the tree's cost in [`Geometry::stats`] has grown by
+    /// half, it pays to [build anew](Geometry::rebuild).
     ///
     /// ```
     /// use durer_geometry::Geometry;
@@ -75,9 +80,11 @@ impl Geometry {
         refitted
     }
 
-    /// The same with a tree that is built anew: as good as the first one, wherever things have moved, and with surfaces that have other parts or bounds.
+    /// The same with a tree that is built anew: as good as the first one, wherever things have
+    /// moved, and with surfaces that have other parts or bounds.
     ///
-    /// Of what is left alone nothing is made again but the order. Answers are those of a geometry that is built anew.
+    /// Of what is left alone nothing is made again but the order. Answers are those of a geometry
+    /// that is built anew.
     ///
     /// ```
     /// use durer_geometry::Geometry;
@@ -111,7 +118,8 @@ impl Geometry {
             let Id { object, primitive } = self.arenas[kind].name(slot as u32);
             Err(RefitError::Bounds { object, primitive })
         };
-        // Behind what the tree holds stands what every ray asks about, and behind that what is nowhere.
+        // Behind what the tree holds stands what every ray asks about, and behind that what is
+        // nowhere.
         let in_tree = self.tree.count(kind as u32);
         let asked = self.beside.iter().find(|b| b.arena as usize == kind);
         let met = asked.map_or(in_tree, |b| (b.first + b.count) as usize);

@@ -1,11 +1,12 @@
 //! In and out: the stretches of a ray inside the union of all solids.
 //!
-//! Each solid's crossings are turned into states by their signs; whether a ray starts inside is told by the first sign, and for
-//! solids that are not crossed by the crossings outside the range or by the exact side of a point. Then one sweep merges the
-//! solids: crossings whose enclosures overlap (transitively) form one group, all their bits are flipped, and only
-//! the union before and after counts, so that touching bodies fuse and no skin of zero thickness appears (S. D. Roth, "Ray casting for
-//! modeling solids", Computer Graphics and Image Processing 18, 1982; R. B. Tilove, "Set membership classification", IEEE
-//! Transactions on Computers C-29, 1980).
+//! Each solid's crossings are turned into states by their signs; whether a ray starts inside is
+//! told by the first sign, and for solids that are not crossed by the crossings outside the range
+//! or by the exact side of a point. Then one sweep merges the solids: crossings whose enclosures
+//! overlap (transitively) form one group, all their bits are flipped, and only the union before and
+//! after counts, so that touching bodies fuse and no skin of zero thickness appears (S. D. Roth,
+//! "Ray casting for modeling solids", Computer Graphics and Image Processing 18, 1982; R. B.
+//! Tilove, "Set membership classification", IEEE Transactions on Computers C-29, 1980).
 
 use crate::arena::Filter;
 use crate::closest::Placement;
@@ -89,14 +90,16 @@ impl Tracks {
         self.events.iter().filter(|e| e.solid == key).map(|e| i32::from(e.sign)).sum::<i32>() != 0
     }
 
-    /// The same of a surface's crossings that were shown in a row, ascending, from this one on: those that overlap count by their sum.
+    /// The same of a surface's crossings that were shown in a row, ascending, from this one on:
+    /// those that overlap count by their sum.
     pub(crate) fn tell_from(&self, first: usize) -> bool {
         overlapping(&self.events[first..]).any(|group| net(group) != 0)
     }
 
     /// The spans of the union.
     pub(crate) fn merge(mut self, t_min: f64, t_max: f64) -> Vec<Span> {
-        // Where crossings of one solid fall together the order of its parts counts, not that in which a tree shows them.
+        // Where crossings of one solid fall together the order of its parts counts, not that in
+        // which a tree shows them.
         self.events.sort_by(|a, b| a.solid.cmp(&b.solid).then(a.t.total_cmp(&b.t)).then(a.part.cmp(&b.part)));
         let mut depth = self.inside_without_crossing();
         let mut changes = Vec::with_capacity(self.events.len());
@@ -121,7 +124,8 @@ impl Tracks {
     }
 }
 
-/// A crossing of a solid is not before the earlier ones of the same: said by the lower ends, by which all solids' crossings are put in order.
+/// A crossing of a solid is not before the earlier ones of the same: said by the lower ends, by
+/// which all solids' crossings are put in order.
 fn keep_order(events: &mut [Event]) {
     let mut lo = f64::NEG_INFINITY;
     for event in events {
@@ -130,7 +134,8 @@ fn keep_order(events: &mut [Event]) {
     }
 }
 
-/// Turns the crossings of one solid into changes of state, alternating; says whether the ray starts inside.
+/// Turns the crossings of one solid into changes of state, alternating; says whether the ray starts
+/// inside.
 fn transitions(events: &[Event], told: Option<bool>, changes: &mut Vec<Event>) -> bool {
     let groups = || overlapping(events);
     // A group's net sign tells the state before it; groups without one leave the state as it was.

@@ -7,7 +7,8 @@ use std::sync::Arc;
 /// Counts and memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stats {
-    /// Each type of surface with the number of its surfaces or parts, in the order in which the types were first added.
+    /// Each type of surface with the number of its surfaces or parts, in the order in which the
+    /// types were first added.
     pub kinds: Vec<(&'static str, u32)>,
     /// Surfaces and parts, instances not counted.
     pub primitives: u64,
@@ -17,7 +18,8 @@ pub struct Stats {
     pub beside: u64,
     /// The tree.
     pub tree: durer_bvh::Stats,
-    /// Bytes on the heap: surfaces (without what they own in turn), numbers and masks, the tree. What instances share is not counted.
+    /// Bytes on the heap: surfaces (without what they own in turn), numbers and masks, the tree.
+    /// What instances share is not counted.
     pub bytes: usize,
 }
 
@@ -56,7 +58,8 @@ impl Inventory {
         inventory
     }
 
-    /// Adds a geometry and those that it places, and says how many primitives it has as rays meet them.
+    /// Adds a geometry and those that it places, and says how many primitives it has as rays meet
+    /// them.
     fn count(&mut self, geometry: &Geometry, known: &mut HashMap<*const Geometry, u128>) -> u128 {
         let stats = of(geometry);
         self.geometries += 1;

@@ -1,4 +1,5 @@
-//! The tree, the instruction set and the threads change nothing: answers equal those of testing everything, bit for bit.
+//! The tree, the instruction set and the threads change nothing: answers equal those of testing
+//! everything, bit for bit.
 
 mod common;
 
@@ -53,7 +54,8 @@ fn mixed_surfaces() {
     assert!(crossings > 2000, "{crossings} crossings test little");
 }
 
-/// Small triangles and large ones through them, by themselves and as a mesh, a solid of long triangles, and other things.
+/// Small triangles and large ones through them, by themselves and as a mesh, a solid of long
+/// triangles, and other things.
 fn fill_with_triangles(builder: &mut Builder, dice: &mut Dice) {
     for i in 0..600 {
         let (a, size) = (dice.point(4.0), if i % 12 == 0 { 6.0 } else { 0.2 });

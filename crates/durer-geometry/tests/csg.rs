@@ -1,4 +1,5 @@
-//! Solids made of solids against the exact truth: the exact crossings of all leaves, merged exactly, and the Boolean expression itself.
+//! Solids made of solids against the exact truth: the exact crossings of all leaves, merged
+//! exactly, and the Boolean expression itself.
 
 mod common;
 
@@ -213,7 +214,8 @@ struct Truth {
 const CLOSE: i64 = 36;
 
 impl Body {
-    /// All crossings of the line `t >= 0`; `None` where distinct ones are so close that a tie may take them together.
+    /// All crossings of the line `t >= 0`; `None` where distinct ones are so close that a tie may
+    /// take them together.
     fn truth(&self, ray: &Ray) -> Option<Vec<Truth>> {
         let line = ExactLine::new(ray);
         let zero = Exact::zero();
@@ -622,7 +624,8 @@ fn rays_leave_a_body_on_the_side_they_are_asked_for() {
 
 #[test]
 fn a_touch_does_not_tell_where_a_ray_starts() {
-    // The ray is in the first solid (outside of a cylinder without ends), touches its border and stays in; so what is in it cannot be seen.
+    // The ray is in the first solid (outside of a cylinder without ends), touches its border and
+    // stays in; so what is in it cannot be seen.
     let outside = Leaf::General([-1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
     let ball = Leaf::Ball(Point3::new(1.0, -3.0, 0.0), 0.5);
     let union = body(vec![outside, ball], Expr::Any(vec![Expr::Leaf(0), Expr::Leaf(1)]));

@@ -1,6 +1,8 @@
-//! Spans of solids that are formulas, along rays that are hard for them: the laws of spans, and the same solids as polynomials.
+//! Spans of solids that are formulas, along rays that are hard for them: the laws of spans, and the
+//! same solids as polynomials.
 //!
-//! All points named here are whole numbers on their surfaces, so that rays begin exactly on them, touch them exactly, or run within them.
+//! All points named here are whole numbers on their surfaces, so that rays begin exactly on them,
+//! touch them exactly, or run within them.
 
 mod common;
 
@@ -20,7 +22,8 @@ const R: f64 = 9.0;
 const BALL: [[f64; 3]; 5] =
     [[9.0, 0.0, 0.0], [1.0, 4.0, 8.0], [4.0, 4.0, 7.0], [-6.0, 3.0, 6.0], [0.0, -9.0, 0.0]];
 
-/// Of the cylinder about y and of the torus about y: a circle of radius 5 across, from -6 to 6; and a tube of radius 5 around a circle of radius 10.
+/// Of the cylinder about y and of the torus about y: a circle of radius 5 across, from -6 to 6; and
+/// a tube of radius 5 around a circle of radius 10.
 const TUBE: f64 = 5.0;
 const WALL: [[f64; 3]; 4] = [[5.0, 1.0, 0.0], [3.0, -2.0, 4.0], [-4.0, 0.0, 3.0], [0.0, 5.0, -5.0]];
 const RING: [[f64; 3]; 7] = [
@@ -208,7 +211,8 @@ fn ray(dice: &mut Dice, pair: &Pair) -> Ray {
     };
     let n = normal * (1.0 / 4.0);
     let along = match dice.below(8) {
-        // In the tangent plane, in whole numbers or nearly: of a cylinder often its generator, of a torus often the plane of its top circle.
+        // In the tangent plane, in whole numbers or nearly: of a cylinder often its generator, of a
+        // torus often the plane of its top circle.
         0 if pair.on.len() == 4 => Vec3::Y,
         0 | 1 => n.cross(Vec3::Y),
         2 => n.cross(Vec3::X),
@@ -324,7 +328,8 @@ fn spans_of_formulas_are_bounded_and_clusters_are_no_more_than_tangents() {
     assert!(faults.is_empty(), "{} faults\n{}", faults.len(), faults.join("\n"));
 }
 
-/// A range that ends just before a crossing or just behind it, also where the origin is so far away that one unit in the last place of `t` is much of the set.
+/// A range that ends just before a crossing or just behind it, also where the origin is so far away
+/// that one unit in the last place of `t` is much of the set.
 #[test]
 fn ranges_that_end_beside_a_crossing_are_told_by_narrow_brackets() {
     let julia = Julia {

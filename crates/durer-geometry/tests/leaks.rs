@@ -1,6 +1,8 @@
-//! Closed meshes leak nowhere: a ray from inside meets an odd number of faces, also one aimed at a vertex, at an edge, or along an axis.
+//! Closed meshes leak nowhere: a ray from inside meets an odd number of faces, also one aimed at a
+//! vertex, at an edge, or along an axis.
 //!
-//! `DURER_SOAK=N` shoots N times as many rays, and `DURER_SOAK_FROM=K` others than K such runs have shot before (`cargo xtask soak`).
+//! `DURER_SOAK=N` shoots N times as many rays, and `DURER_SOAK_FROM=K` others than K such runs have
+//! shot before (`cargo xtask soak`).
 
 mod common;
 
@@ -20,7 +22,8 @@ struct Body {
     room: f64,
 }
 
-/// The surface of the cube `[-n, n]^3`, each face a grid of squares of side 1, cut in two. All coordinates are integers.
+/// The surface of the cube `[-n, n]^3`, each face a grid of squares of side 1, cut in two. All
+/// coordinates are integers.
 fn cube(n: i32) -> Body {
     let mut data = MeshData::default();
     let mut numbers = HashMap::new();
@@ -54,7 +57,8 @@ fn cube(n: i32) -> Body {
     Body { data, room: f64::from(n) - 1.0 }
 }
 
-/// An icosahedron whose faces were cut in four so many times, each new corner moved onto the sphere of radius 64.
+/// An icosahedron whose faces were cut in four so many times, each new corner moved onto the sphere
+/// of radius 64.
 fn icosphere(levels: u32) -> Body {
     const RADIUS: f64 = 64.0;
     let golden = 0.5 + 1.25_f64.sqrt();
@@ -98,7 +102,8 @@ fn icosphere(levels: u32) -> Body {
     Body { data: MeshData { vertices, faces, ..MeshData::default() }, room: 0.4 * RADIUS }
 }
 
-/// An icosphere with some corners pulled far out: long triangles, which are cut in space, beside small ones.
+/// An icosphere with some corners pulled far out: long triangles, which are cut in space, beside
+/// small ones.
 fn urchin() -> Body {
     let mut body = icosphere(4);
     for v in body.data.vertices.iter_mut().step_by(9) {
@@ -115,7 +120,8 @@ fn moved(body: &Body, scale: f64, by: f64) -> (MeshData, Point3) {
     (data, centre)
 }
 
-/// A ray from inside: half of them are aimed at vertices and at points of edges, and some along an axis.
+/// A ray from inside: half of them are aimed at vertices and at points of edges, and some along an
+/// axis.
 fn ray(dice: &mut Dice, data: &MeshData, centre: Point3, room: f64) -> Ray {
     let place = if dice.below(2) == 0 {
         // In one plane with corners of the mesh, some of them.
@@ -137,9 +143,11 @@ fn ray(dice: &mut Dice, data: &MeshData, centre: Point3, room: f64) -> Ray {
     }
 }
 
-/// Shoots so many times a thousand rays from inside, the first of them of this number: none gets out, and each crosses an odd number of times.
+/// Shoots so many times a thousand rays from inside, the first of them of this number: none gets
+/// out, and each crosses an odd number of times.
 ///
-/// All crossings are counted of each; every fourth is asked for the first of them, and another whether there is any, which takes as long.
+/// All crossings are counted of each; every fourth is asked for the first of them, and another
+/// whether there is any, which takes as long.
 fn shoot(world: &Geometry, data: &MeshData, centre: Point3, room: f64, thousands: Range<u64>, name: &str) {
     thousands.into_par_iter().for_each(|seed| {
         let mut dice = Dice(seed << 32);
@@ -192,7 +200,8 @@ fn leak_nowhere(bodies: &[(&str, Body)], settings: &Settings) -> u64 {
             shared += stats.tree.entries as u64 - stats.primitives;
             shoot(&world, &data, centre, room, part(32), &format!("{name} times {scale} at {by}"));
             rays += 1000 * soak.unwrap_or(1) * (32 + 8);
-            // The same mesh, placed: now the rays are known within errors only, and take several times as long.
+            // The same mesh, placed: now the rays are known within errors only, and take several
+            // times as long.
             let place = Affine::rotation(Vec3::new(1.0, 2.0, -0.5), 0.7).unwrap();
             let placed = Geometry::builder().instance(&Arc::new(world), place, EVERYTHING).build().unwrap();
             let mut data = data;

@@ -149,7 +149,8 @@ fn what_is_built_again_answers_as_what_is_built_anew() {
         let mut geometry = build(&balls, &planes, &mesh);
         let rays = rays(&mut dice, 600);
         for round in 0..3 {
-            // Half of the balls, one of them beyond all boxes and back; one plane; and a mesh with more faces, or less.
+            // Half of the balls, one of them beyond all boxes and back; one plane; and a mesh with
+            // more faces, or less.
             for ball in balls.iter_mut().step_by(2) {
                 *ball = self::ball(&mut dice);
             }

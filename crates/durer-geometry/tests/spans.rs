@@ -11,7 +11,8 @@ use durer_surfaces::{
 };
 use std::sync::Arc;
 
-/// A point of the ray in the middle of a stretch, if the stretch is long enough for rounding not to matter.
+/// A point of the ray in the middle of a stretch, if the stretch is long enough for rounding not to
+/// matter.
 fn middle(ray: &Ray, a: f64, b: f64) -> Option<Point3> {
     let (a, b) = (a.max(-100.0), b.min(100.0));
     ((b - a) * ray.direction.length() > 1e-6).then(|| ray.at(0.5 * (a + b)))
@@ -115,7 +116,8 @@ fn quadric([a, b, c, w]: [f64; 4]) -> Quadric {
     Quadric::new([a, b, c, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, w]).unwrap()
 }
 
-/// Found by the examiner in `tests/outside`: at the start of these ranges the ray only touches the solid.
+/// Found by the examiner in `tests/outside`: at the start of these ranges the ray only touches the
+/// solid.
 #[test]
 fn ranges_that_begin_at_a_touch() {
     const INF: f64 = f64::INFINITY;
@@ -166,8 +168,9 @@ fn ranges_that_begin_at_a_touch() {
     check(&world, along([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], -3.0), whole(-3.0));
 }
 
-/// What a ray meets does not depend on where on its line it has its origin: here every origin but one is off the boundary, the
-/// directions are such that tangents, rims, edges and corners are common, and all numbers are exact.
+/// What a ray meets does not depend on where on its line it has its origin: here every origin but
+/// one is off the boundary, the directions are such that tangents, rims, edges and corners are
+/// common, and all numbers are exact.
 #[test]
 fn spans_do_not_depend_on_the_origin() {
     fn try_solid<S: Algebraic + Clone + 'static>(solid: &S, dice: &mut Dice, touches: &mut usize) {
@@ -184,7 +187,8 @@ fn spans_do_not_depend_on_the_origin() {
                 let from = |k: f64| {
                     let ray = Ray::new(a + d * k, d).with_range(-k, f64::INFINITY);
                     let mut spans = ends(world, &ray);
-                    // A range that begins where a solid ends may keep a stretch of no length but rounding.
+                    // A range that begins where a solid ends may keep a stretch of no length but
+                    // rounding.
                     spans.retain(|s| s.1 - s.0 > 1e-12);
                     // In the first ray's parameter.
                     spans.iter().map(|s| (s.0 + k, s.1 + k, s.2, s.3)).collect::<Vec<_>>()
@@ -237,7 +241,8 @@ fn spans_do_not_depend_on_the_origin() {
     assert!(touches > 400, "{touches}");
 }
 
-/// Two crossings of one solid at one point, where the ray touches a corner of a rim: a range that ends just before it is outside all along.
+/// Two crossings of one solid at one point, where the ray touches a corner of a rim: a range that
+/// ends just before it is outside all along.
 #[test]
 fn a_corner_that_is_touched_behind_the_range_says_nothing() {
     let outline = [
@@ -284,7 +289,8 @@ fn a_corner_that_is_touched_behind_the_range_says_nothing() {
     assert!(touched > 50, "{touched}");
 }
 
-/// The ray begins, or ends, exactly on the solid, next to a tangent, and its other crossing is within the bracket of that.
+/// The ray begins, or ends, exactly on the solid, next to a tangent, and its other crossing is
+/// within the bracket of that.
 #[test]
 fn crossings_at_the_ends_of_a_range_are_its_own() {
     let p = |x: f64, z: f64| [x, z];
@@ -317,8 +323,9 @@ fn crossings_at_the_ends_of_a_range_are_its_own() {
     assert!(spans.len() == 1 && spans[0].t_in == all[0].t, "{spans:?}");
 }
 
-/// The ray enters a spindle beside its apex and leaves it within rounding, from outside of which it comes and to which it goes; its origin is in between. That says nothing about a range that begins
-/// elsewhere.
+/// The ray enters a spindle beside its apex and leaves it within rounding, from outside of which it
+/// comes and to which it goes; its origin is in between. That says nothing about a range that
+/// begins elsewhere.
 #[test]
 fn a_chord_within_rounding_does_not_tell_where_a_range_begins() {
     let lemon = SurfaceOfRevolution::lemon(10_485_760.0, 0.0, 0.0, 13_631_488.0).unwrap();
@@ -358,7 +365,8 @@ fn a_chord_within_rounding_does_not_tell_where_a_range_begins() {
     }
 }
 
-/// The ray begins exactly on a cap and leaves by a wall right behind it, nearer than rounding tells: the order of the two is exact all the same.
+/// The ray begins exactly on a cap and leaves by a wall right behind it, nearer than rounding
+/// tells: the order of the two is exact all the same.
 #[test]
 fn a_corner_is_entered_before_it_is_left() {
     let outline = [

@@ -159,7 +159,8 @@ fn a_filter_sees_every_hit_and_may_stop() {
     }
 }
 
-/// A cone whose wall a ray enters and whose disc it leaves behind it, both at one rounded `t`: found by the examiner in `tests/outside`.
+/// A cone whose wall a ray enters and whose disc it leaves behind it, both at one rounded `t`:
+/// found by the examiner in `tests/outside`.
 #[test]
 fn a_cone_clipped_at_its_rim_is_entered_first() {
     let map = Affine::new(
@@ -179,7 +180,8 @@ fn a_cone_clipped_at_its_rim_is_entered_first() {
     assert_eq!(world.all_batch(&[ray]).of(0), all);
 }
 
-/// Found by the examiner in `tests/outside`: the ray leaves the first of these, a cylinder clipped by a half-space, at `t` of about 1e321.
+/// Found by the examiner in `tests/outside`: the ray leaves the first of these, a cylinder clipped
+/// by a half-space, at `t` of about 1e321.
 #[test]
 fn what_is_met_beyond_all_numbers_is_not_met() {
     let clipped = Clip::new(
@@ -228,7 +230,8 @@ fn what_is_met_beyond_all_numbers_is_not_met() {
     }
 }
 
-/// The crossings of a box's corner whose entry has a wide bracket and whose exit has a narrow one within it: found by the examiner, too.
+/// The crossings of a box's corner whose entry has a wide bracket and whose exit has a narrow one
+/// within it: found by the examiner, too.
 #[test]
 fn a_box_clipped_at_its_corner_is_entered_first() {
     let map =
@@ -255,7 +258,8 @@ fn solids_are_entered_and_left_in_turn_where_t_cannot_tell() {
     let mut dice = Dice(11);
     let (mut tied, mut hits) = (0, 0);
     for _ in 0..60 {
-        // Several in one arena; rays from afar that cut off a corner or a rim by about what `t` can tell.
+        // Several in one arena; rays from afar that cut off a corner or a rim by about what `t` can
+        // tell.
         let mut builder = Geometry::builder();
         let maps = [0; 4].map(|_| dice.affine());
         for map in &maps {

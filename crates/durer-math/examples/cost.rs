@@ -1,7 +1,8 @@
 //! What certainty costs: the sphere's discriminant and the edge predicate, in ns per evaluation.
 //!
-//! `cargo run --release -p durer-math --example cost`. Each row evaluates `(o.d)^2 - d.d (o.o - 1)` for 1024 rays in cache, through the
-//! feature door and outside it; "sum" keeps the compiler from dropping the work, and is equal for equal bits.
+//! `cargo run --release -p durer-math --example cost`. Each row evaluates `(o.d)^2 - d.d (o.o - 1)`
+//! for 1024 rays in cache, through the feature door and outside it; "sum" keeps the compiler from
+//! dropping the work, and is equal for equal bits.
 
 use durer_math::ladder::{self, Predicate};
 use durer_math::{Dd, Dyadic, EFloat, EdgeRay, Isa, Point3, Ring, Vec3};

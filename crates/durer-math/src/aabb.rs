@@ -3,7 +3,8 @@
 use crate::rounding::{add_up, mul_up, sub_down, sub_up};
 use crate::{Point3, U, Vec3};
 
-/// The box of all points between `min` and `max`, both included. Ends may be infinite; empty if `min > max` on an axis.
+/// The box of all points between `min` and `max`, both included. Ends may be infinite; empty if
+/// `min > max` on an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
     /// The least coordinates.
@@ -148,14 +149,16 @@ impl Aabb {
         crate::rounding::sqrt_up(add_up(add_up(squares[0], squares[1]), squares[2]))
     }
 
-    /// The parameters `t` in `[t_min, t_max]` at which the line `o + t d` may be in the box, rounded outward; `None` only if it
-    /// certainly is not.
+    /// The parameters `t` in `[t_min, t_max]` at which the line `o + t d` may be in the box,
+    /// rounded outward; `None` only if it certainly is not.
     ///
-    /// Slabs: T. L. Kay, J. T. Kajiya, "Ray tracing complex scenes", SIGGRAPH (1986); signed zeros: A. Williams, S. Barrus, R. K. Morley, P. Shirley, "An
-    /// efficient and robust ray-box intersection algorithm", Journal of Graphics Tools 10 (2005); the widening: T. Ize, "Robust BVH ray
-    /// traversal", Journal of Computer Graphics Techniques 2(2), 2013. Each plane's `t` carries two roundings (difference, quotient) and
-    /// is widened by four units and the least normal number. An axis with `d = 0`, of either sign, is decided without dividing, so no NaN arises from a
-    /// finite ray.
+    /// Slabs: T. L. Kay, J. T. Kajiya, "Ray tracing complex scenes", SIGGRAPH (1986); signed zeros:
+    /// A. Williams, S. Barrus, R. K. Morley, P. Shirley, "An efficient and robust ray-box
+    /// intersection algorithm", Journal of Graphics Tools 10 (2005); the widening: T. Ize, "Robust
+    /// BVH ray traversal", Journal of Computer Graphics Techniques 2(2), 2013. Each plane's `t`
+    /// carries two roundings (difference, quotient) and is widened by four units and the least
+    /// normal number. An axis with `d = 0`, of either sign, is decided without dividing, so no NaN
+    /// arises from a finite ray.
     #[inline]
     pub fn slabs(&self, o: Point3, d: Vec3, t_min: f64, t_max: f64) -> Option<(f64, f64)> {
         /// Two roundings, and those of the widening itself.
@@ -173,7 +176,8 @@ impl Aabb {
             }
             let (near, far) =
                 if d[i] > 0.0 { (self.min[i], self.max[i]) } else { (self.max[i], self.min[i]) };
-            // A quotient that overflows belongs to a finite plane: it bounds from below no further than the greatest number.
+            // A quotient that overflows belongs to a finite plane: it bounds from below no further
+            // than the greatest number.
             let near = ((near - o[i]) / d[i]).min(f64::MAX);
             let far = ((far - o[i]) / d[i]).max(f64::MIN);
             let near = near - (WIDEN * near.abs() + f64::MIN_POSITIVE);

@@ -1,8 +1,9 @@
 //! Affine maps `x -> c + L x`.
 //!
-//! The stored `L` and `c` are exact: a placed surface *is* `{ c + L x : x in S }`. The inverse is rounded, and
-//! what that costs is known: [`Affine::inverse_error`] bounds each entry's error. The translation is never folded into the
-//! inverse, `x = L^-1 (p - c)`, because `L^-1 p - L^-1 c` cancels.
+//! The stored `L` and `c` are exact: a placed surface *is* `{ c + L x : x in S }`. The inverse is
+//! rounded, and what that costs is known: [`Affine::inverse_error`] bounds each entry's error. The
+//! translation is never folded into the inverse, `x = L^-1 (p - c)`, because `L^-1 p - L^-1 c`
+//! cancels.
 
 use crate::rounding::{add_up, mul_up, sqrt_up};
 use crate::{Aabb, Dd, Dyadic, EFloat, Interval, Isa, Normal3, Point3, Ring, U, Vec3, elementary};
@@ -16,7 +17,8 @@ const IDENTITY: Matrix3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 ///
 /// # Invariants
 ///
-/// - `L` and `c` are finite, `det L` is not zero (decided exactly), and the inverse's entries are finite.
+/// - `L` and `c` are finite, `det L` is not zero (decided exactly), and the inverse's entries are
+///   finite.
 ///
 /// ```
 /// use durer_math::{Affine, Point3, Vec3};
@@ -39,8 +41,8 @@ pub struct Affine {
     mirrored: bool,
 }
 
-/// A number that is not below another one, which is not negative, and at most 2^-20 of it above: the upper half of an f64. Scenes of millions of maps hold
-/// them, and a bound needs no more.
+/// A number that is not below another one, which is not negative, and at most 2^-20 of it above:
+/// the upper half of an f64. Scenes of millions of maps hold them, and a bound needs no more.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Above(u32);
 
@@ -55,16 +57,19 @@ impl Above {
     }
 }
 
-/// Which entries of an inverse are rounded: bit `3 i + j` is that of row `i` and column `j`; and whether one of them is [`TINY`](Self::TINY).
+/// Which entries of an inverse are rounded: bit `3 i + j` is that of row `i` and column `j`; and
+/// whether one of them is [`TINY`](Self::TINY).
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Rounded(u16);
 
 impl Rounded {
     const NONE: Self = Self(0);
-    /// Entries below this, other than zero, may have errors of more than half an ulp: see [`Rounded::slow`].
+    /// Entries below this, other than zero, may have errors of more than half an ulp: see
+    /// [`Rounded::slow`].
     const TINY: f64 = crate::scale::pow2(-960);
     const HAS_TINY: u16 = 1 << 9;
-    /// Half an ulp, and what is left of it when an entry has been rounded from a double-double that errs, too.
+    /// Half an ulp, and what is left of it when an entry has been rounded from a double-double that
+    /// errs, too.
     const HALF_ULP: f64 = U * (1.0 + crate::scale::pow2(-40));
     const EXPONENT: u64 = 0x7ff << 52;
 
@@ -200,7 +205,8 @@ impl Affine {
         Self::new([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]], Point3::ORIGIN)
     }
 
-    /// Turns about `axis` through the origin, counter-clockwise seen from its tip (Rodrigues' formula).
+    /// Turns about `axis` through the origin, counter-clockwise seen from its tip (Rodrigues'
+    /// formula).
     pub fn rotation(axis: Vec3, radians: f64) -> Result<Self, AffineError> {
         let (s, c) = sine_and_cosine(radians)?;
         let k = axis.normalized().ok_or(AffineError::Axis(axis))?;
@@ -215,7 +221,8 @@ impl Affine {
         Self::new(rows, Point3::ORIGIN)
     }
 
-    /// This map first, then `next`. Composed in f64: the result's entries are rounded once each per term, and are then exact data.
+    /// This map first, then `next`. Composed in f64: the result's entries are rounded once each per
+    /// term, and are then exact data.
     pub fn then(&self, next: &Self) -> Result<Self, AffineError> {
         let l = &next.linear;
         let column = |j: usize| Vec3::new(self.linear[0][j], self.linear[1][j], self.linear[2][j]);
@@ -230,8 +237,9 @@ impl Affine {
         Self::new(rows, centre)
     }
 
-    /// The inverse map, whose matrix is the rounded inverse and whose centre is rounded too: for display and cameras. Exactness is
-    /// kept by asking this map for `inverse_point` and [`Affine::inverse_error`].
+    /// The inverse map, whose matrix is the rounded inverse and whose centre is rounded too: for
+    /// display and cameras. Exactness is kept by asking this map for `inverse_point` and
+    /// [`Affine::inverse_error`].
     pub fn inverted(&self) -> Result<Self, AffineError> {
         let centre = apply(&self.inverse, -self.centre.to_vec()).to_point();
         Self::new(self.inverse, centre)
@@ -249,8 +257,9 @@ impl Affine {
         self.inverse
     }
 
-    /// For each entry of [`Affine::inverse_linear`] a bound on its distance to the exact inverse of `L`: zero if it is exact, half an ulp
-    /// otherwise (for subnormal entries a few of the least number).
+    /// For each entry of [`Affine::inverse_linear`] a bound on its distance to the exact inverse of
+    /// `L`: zero if it is exact, half an ulp otherwise (for subnormal entries a few of the least
+    /// number).
     #[inline(always)]
     pub fn inverse_error(&self) -> Matrix3 {
         self.rounded.errors(&self.inverse)
@@ -298,14 +307,15 @@ impl Affine {
         apply(&self.linear, v)
     }
 
-    /// The image of a normal, by the inverse transpose; not of unit length. Points to the same side of the surface, also if the map
-    /// mirrors.
+    /// The image of a normal, by the inverse transpose; not of unit length. Points to the same side
+    /// of the surface, also if the map mirrors.
     #[inline(always)]
     pub fn normal(&self, n: Normal3) -> Normal3 {
         apply_transposed(&self.inverse, n.to_vec()).to_normal()
     }
 
-    /// The point that is mapped to `p`: `Linv (p - c)`. Error: `gamma(4) |Linv||p - c| + E|p - c|`, `E` the inverse's error.
+    /// The point that is mapped to `p`: `Linv (p - c)`. Error: `gamma(4) |Linv||p - c| + E|p - c|`,
+    /// `E` the inverse's error.
     #[inline]
     pub fn inverse_point(&self, p: Point3) -> Point3 {
         apply(&self.inverse, p - self.centre).to_point()
@@ -323,7 +333,8 @@ impl Affine {
         apply_transposed(&self.linear, n.to_vec()).to_normal()
     }
 
-    /// An upper bound of `|L| v`, for `v >= 0`: how far displacements of up to `v` along each axis can reach.
+    /// An upper bound of `|L| v`, for `v >= 0`: how far displacements of up to `v` along each axis
+    /// can reach.
     #[inline(always)]
     pub fn linear_reach(&self, v: Vec3) -> Vec3 {
         reach(&self.linear, &[[0.0; 3]; 3], v)
@@ -335,8 +346,8 @@ impl Affine {
         reach(&self.inverse, &self.inverse_error(), v)
     }
 
-    /// An upper bound of `L`'s spectral norm: the greatest length of the image of a unit vector, by Frobenius' norm (at most `sqrt 3`
-    /// times too large).
+    /// An upper bound of `L`'s spectral norm: the greatest length of the image of a unit vector, by
+    /// Frobenius' norm (at most `sqrt 3` times too large).
     pub fn linear_norm(&self) -> f64 {
         frobenius(&self.linear, &[[0.0; 3]; 3])
     }
@@ -346,10 +357,11 @@ impl Affine {
         self.inverse_norm.number()
     }
 
-    /// The adjugate of `L` and its determinant in the ring `T`, both times `sign(det L)`, so that the determinant is positive.
+    /// The adjugate of `L` and its determinant in the ring `T`, both times `sign(det L)`, so that
+    /// the determinant is positive.
     ///
-    /// `adjugate / determinant` is `L^-1`. Predicates about a placed surface multiply by the determinant instead of dividing, and stay
-    /// polynomial in the exact data.
+    /// `adjugate / determinant` is `L^-1`. Predicates about a placed surface multiply by the
+    /// determinant instead of dividing, and stay polynomial in the exact data.
     #[inline(always)]
     pub fn adjugate<T: Ring>(&self) -> ([[T; 3]; 3], T) {
         // Maps of arrays could be compiled by themselves, without fused sums.
@@ -370,7 +382,8 @@ impl Affine {
         ([negative(r), negative(s), negative(t)], -d)
     }
 
-    /// A box that holds the image of `b`, rounded outward: J. Arvo, "Transforming axis-aligned bounding boxes", Graphics Gems (1990).
+    /// A box that holds the image of `b`, rounded outward: J. Arvo, "Transforming axis-aligned
+    /// bounding boxes", Graphics Gems (1990).
     pub fn bounds(&self, b: &Aabb) -> Aabb {
         if b.is_empty() {
             return Aabb::EMPTY;
@@ -400,8 +413,8 @@ struct Inverse {
 }
 
 impl Inverse {
-    /// In double-double with error bounds: a hundredth of the time. `None` if that does not tell the sign of the determinant, or whether an entry is
-    /// exact.
+    /// In double-double with error bounds: a hundredth of the time. `None` if that does not tell
+    /// the sign of the determinant, or whether an entry is exact.
     #[inline(always)]
     fn in_double_double(rows: &Matrix3) -> Option<Self> {
         // Three times the exponent, and 106 bits, stay in the range of f64.
@@ -411,7 +424,8 @@ impl Inverse {
             return None;
         }
         let (adjugate, determinant) = adjugate(&rows.map(|r| r.map(EFloat::<Dd>::exact)));
-        // Where the determinant is exactly zero there is no inverse, even if all cofactors are zero, too.
+        // Where the determinant is exactly zero there is no inverse, even if all cofactors are
+        // zero, too.
         let sign = determinant.sign()?;
         if sign.is_eq() {
             return None;
@@ -425,7 +439,8 @@ impl Inverse {
                 }
                 let quotient = adjugate[i][j] / determinant;
                 let (entry, lost) = (quotient.v.hi, quotient.v.lo.abs());
-                // Inexact for certain, and the nearest for certain but for what `Rounded::HALF_ULP` allows.
+                // Inexact for certain, and the nearest for certain but for what `Rounded::HALF_ULP`
+                // allows.
                 let known = lost > quotient.e && quotient.e <= crate::scale::pow2(-94) * entry.abs();
                 if !(known && entry.abs() > Rounded::TINY && entry.is_finite()) {
                     return None;

@@ -1,9 +1,11 @@
 //! Double-double numbers: the unevaluated sum of two f64, about 106 bits.
 //!
-//! Algorithms and bounds: M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for basic building blocks of
-//! double-word arithmetic", ACM Transactions on Mathematical Software 44(2), 2017 (JMP below); the square root is from V. Lefèvre, N. Louvet,
-//! J.-M. Muller, J. Picot, L. Rideau, "Accurate calculation of Euclidean norms using double-word arithmetic", ACM TOMS
-//! 49(1), 2023. `u = 2^-53`; all bounds are relative, and hold barring overflow and underflow ([`EFloat`](crate::EFloat) charges for underflow).
+//! Algorithms and bounds: M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for
+//! basic building blocks of double-word arithmetic", ACM Transactions on Mathematical Software
+//! 44(2), 2017 (JMP below); the square root is from V. Lefèvre, N. Louvet, J.-M. Muller, J. Picot,
+//! L. Rideau, "Accurate calculation of Euclidean norms using double-word arithmetic", ACM TOMS
+//! 49(1), 2023. `u = 2^-53`; all bounds are relative, and hold barring overflow and underflow
+//! ([`EFloat`](crate::EFloat) charges for underflow).
 
 use crate::eft::{fast_two_sum, two_diff, two_prod, two_sum};
 use core::cmp::Ordering;
@@ -61,8 +63,8 @@ impl Dd {
         if self.hi < 0.0 { -self } else { self }
     }
 
-    /// The square root: JMP-style correction of `fl(sqrt(hi))`; error at most `25/8 u^2` (Lefèvre et al. 2023, theorem on
-    /// SQRTDWtoDW). NaN for a negative number.
+    /// The square root: JMP-style correction of `fl(sqrt(hi))`; error at most `25/8 u^2` (Lefèvre
+    /// et al. 2023, theorem on SQRTDWtoDW). NaN for a negative number.
     #[inline(always)]
     pub fn sqrt(self) -> Self {
         let s = self.hi.sqrt();
@@ -98,7 +100,8 @@ impl Neg for Dd {
 
 impl Add for Dd {
     type Output = Self;
-    /// JMP algorithm 6 (AccurateDWPlusDW): error at most `3 u^2 + 13 u^3`. Exact in the subnormal range.
+    /// JMP algorithm 6 (AccurateDWPlusDW): error at most `3 u^2 + 13 u^3`. Exact in the subnormal
+    /// range.
     #[inline(always)]
     fn add(self, b: Self) -> Self {
         let (sh, sl) = two_sum(self.hi, b.hi);

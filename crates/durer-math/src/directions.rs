@@ -18,9 +18,10 @@ pub enum CombinationError {
 impl Point3 {
     /// The point `sum w_i P_i`, for weights `w_i` whose sum is 1.
     ///
-    /// Formed as `P_0 + sum_{i>0} w_i (P_i - P_0)`, so that equal points give that point exactly. Weights such as `1/3` are rounded;
-    /// their sum, taken here without further error, may differ from 1 by one rounding of each, `gamma(n) * sum |w_i|`. A greater difference
-    /// is an error, and so is a NaN.
+    /// Formed as `P_0 + sum_{i>0} w_i (P_i - P_0)`, so that equal points give that point exactly.
+    /// Weights such as `1/3` are rounded; their sum, taken here without further error, may differ
+    /// from 1 by one rounding of each, `gamma(n) * sum |w_i|`. A greater difference is an error,
+    /// and so is a NaN.
     pub fn affine(combination: &[(f64, Self)]) -> Result<Self, CombinationError> {
         let Some(&(_, base)) = combination.first() else { return Err(CombinationError::Empty) };
         let (mut sum, mut low, mut magnitude) = (0.0, 0.0, 0.0);
@@ -75,17 +76,18 @@ impl Vec3 {
         self.map(|x| ldexp(x, k))
     }
 
-    /// The vector of length 1 in this direction; `None` for zero, infinite or NaN vectors. Each coordinate is within `4 U` of
-    /// the exact one, relatively.
+    /// The vector of length 1 in this direction; `None` for zero, infinite or NaN vectors. Each
+    /// coordinate is within `4 U` of the exact one, relatively.
     #[inline]
     pub fn normalized(self) -> Option<Self> {
         unit(self)
     }
 
-    /// Two vectors that form, with this unit vector, a right-handed orthonormal frame: `u x v = self`.
+    /// Two vectors that form, with this unit vector, a right-handed orthonormal frame:
+    /// `u x v = self`.
     ///
-    /// T. Duff, J. Burgess, P. Christensen, C. Hery, A. Kensler, M. Liani, R. Villemin, "Building an orthonormal basis, revisited", Journal of
-    /// Computer Graphics Techniques 6(1), 2017.
+    /// T. Duff, J. Burgess, P. Christensen, C. Hery, A. Kensler, M. Liani, R. Villemin, "Building
+    /// an orthonormal basis, revisited", Journal of Computer Graphics Techniques 6(1), 2017.
     #[inline]
     pub fn orthonormal_basis(self) -> (Self, Self) {
         let sign = 1.0_f64.copysign(self.z);
@@ -99,7 +101,8 @@ impl Vec3 {
 }
 
 impl Normal3 {
-    /// The normal of length 1 in this direction; `None` for zero, infinite or NaN normals. Accurate as [`Vec3::normalized`].
+    /// The normal of length 1 in this direction; `None` for zero, infinite or NaN normals. Accurate
+    /// as [`Vec3::normalized`].
     #[inline]
     pub fn normalized(self) -> Option<Self> {
         unit(self.to_vec()).map(Vec3::to_normal)

@@ -1,12 +1,15 @@
-//! Dual numbers: a value and its derivative, by the chain rule alone (forward-mode differentiation).
+//! Dual numbers: a value and its derivative, by the chain rule alone (forward-mode
+//! differentiation).
 //!
-//! W. K. Clifford, "Preliminary sketch of biquaternions", Proc. London Math. Soc. 4 (1873); for the use in computing: R. E. Wengert, "A simple
-//! automatic derivative evaluation program", Communications of the ACM 7 (1964).
+//! W. K. Clifford, "Preliminary sketch of biquaternions", Proc. London Math. Soc. 4 (1873); for the
+//! use in computing: R. E. Wengert, "A simple automatic derivative evaluation program",
+//! Communications of the ACM 7 (1964).
 
 use crate::Scalar;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// `v + d eps` with `eps^2 = 0`; or, with a [`Gradient`](crate::Gradient), `v + d_1 eps_1 + d_2 eps_2 + d_3 eps_3`, where all `eps_i eps_j = 0`.
+/// `v + d eps` with `eps^2 = 0`; or, with a [`Gradient`](crate::Gradient),
+/// `v + d_1 eps_1 + d_2 eps_2 + d_3 eps_3`, where all `eps_i eps_j = 0`.
 ///
 /// ```
 /// use durer_math::{Dual, Interval, Scalar};
@@ -97,7 +100,8 @@ impl<T: Scalar> Scalar for Dual<T> {
         let right = T::difference_of_products(a.d, b.v, c.d, d.v);
         Self { v, d: left + right }
     }
-    /// The derivative is `d v/|v|`: undefined at zero (NaN for f64; an interval around zero gives one that is too wide).
+    /// The derivative is `d v/|v|`: undefined at zero (NaN for f64; an interval around zero gives
+    /// one that is too wide).
     #[inline(always)]
     fn abs(self) -> Self {
         let v = self.v.abs();

@@ -1,8 +1,9 @@
 //! Exact numbers: an integer of any size times a power of two.
 //!
-//! Sums, differences and products of f64 are such numbers, so every polynomial predicate has an exact value here. This is the
-//! last step of the [ladder](crate::ladder): slow (tens to hundreds of nanoseconds an operation), never wrong. Up to 512
-//! bits live inside the number; longer ones spill to the heap. The exponent is an `i64`: nothing overflows or underflows.
+//! Sums, differences and products of f64 are such numbers, so every polynomial predicate has an
+//! exact value here. This is the last step of the [ladder](crate::ladder): slow (tens to hundreds
+//! of nanoseconds an operation), never wrong. Up to 512 bits live inside the number; longer ones
+//! spill to the heap. The exponent is an `i64`: nothing overflows or underflows.
 
 use crate::Ring;
 use crate::scale::ldexp;
@@ -56,7 +57,8 @@ impl core::ops::DerefMut for Limbs {
 ///
 /// # Invariants
 ///
-/// The magnitude is odd or zero, has no leading zero limb, and zero is positive with exponent 0: each number has one form.
+/// The magnitude is odd or zero, has no leading zero limb, and zero is positive with exponent 0:
+/// each number has one form.
 ///
 /// ```
 /// use durer_math::{Dyadic, Ring};
@@ -207,10 +209,12 @@ impl Dyadic {
         Self::normalized(a.negative != b.negative, a.exponent + b.exponent, out)
     }
 
-    /// The quotient, if `divisor` divides this number: if it is a whole number times a power of two. `None` otherwise.
+    /// The quotient, if `divisor` divides this number: if it is a whole number times a power of
+    /// two. `None` otherwise.
     ///
-    /// From the low end: both magnitudes are odd, so each limb of the quotient follows from the lowest limb that is left, modulo `2^64`
-    /// (T. Jebelean, "An algorithm for exact division", *Journal of Symbolic Computation* 15, 1993).
+    /// From the low end: both magnitudes are odd, so each limb of the quotient follows from the
+    /// lowest limb that is left, modulo `2^64` (T. Jebelean, "An algorithm for exact division", *Journal
+    /// of Symbolic Computation* 15, 1993).
     pub fn exact_quotient(&self, divisor: &Self) -> Option<Self> {
         if divisor.is_zero() {
             return None;
@@ -242,12 +246,14 @@ impl Dyadic {
         (&quotient * divisor == *self).then_some(quotient)
     }
 
-    /// The `e` of the lowest bit that is set: this number is an odd one times `2^e`; `None` for zero.
+    /// The `e` of the lowest bit that is set: this number is an odd one times `2^e`; `None` for
+    /// zero.
     pub fn lowest_bit(&self) -> Option<i64> {
         (!self.is_zero()).then_some(self.exponent)
     }
 
-    /// The remainder modulo an odd number, from 0 on, where `2^-1` stands for the inverse of 2: a homomorphism of rings.
+    /// The remainder modulo an odd number, from 0 on, where `2^-1` stands for the inverse of 2: a
+    /// homomorphism of rings.
     ///
     /// # Panics
     ///
@@ -321,7 +327,8 @@ impl Dyadic {
         }
     }
 
-    /// `(hi, lo, k)` with `|x 2^-k - (hi + lo)| <= 2^-106 |x 2^-k|` and `hi` in `[1, 2]` in magnitude (all zero for zero).
+    /// `(hi, lo, k)` with `|x 2^-k - (hi + lo)| <= 2^-106 |x 2^-k|` and `hi` in `[1, 2]` in
+    /// magnitude (all zero for zero).
     pub(crate) fn to_scaled_dd(&self) -> (crate::Dd, i64) {
         let Some(k) = self.exponent() else { return (crate::Dd::ZERO, 0) };
         let scaled = Self { exponent: self.exponent - k, ..self.clone() };
@@ -331,7 +338,8 @@ impl Dyadic {
     }
 }
 
-/// The inverse of an odd number modulo `2^64`, by Newton's iteration: three bits are right at first, and each step doubles them.
+/// The inverse of an odd number modulo `2^64`, by Newton's iteration: three bits are right at
+/// first, and each step doubles them.
 fn odd_inverse(x: u64) -> u64 {
     (0..5).fold(x, |y, _| y.wrapping_mul(2_u64.wrapping_sub(x.wrapping_mul(y))))
 }

@@ -1,18 +1,22 @@
 //! Running error: a number together with a proven bound on its error.
 //!
-//! Each operation rounds once and charges that rounding, and what it does to the errors it was given, to `e`. The result
-//! is nearly as tight as interval arithmetic at half its cost, and the value is exactly the one that the plain formula gives.
-//! N. J. Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., SIAM (2002), section 3.3; J. H. Wilkinson, "Error analysis
+//! Each operation rounds once and charges that rounding, and what it does to the errors it was
+//! given, to `e`. The result is nearly as tight as interval arithmetic at half its cost, and the
+//! value is exactly the one that the plain formula gives. N. J. Higham, "Accuracy and Stability of
+//! Numerical Algorithms", 2nd ed., SIAM (2002), section 3.3; J. H. Wilkinson, "Error analysis
 //! revisited", IMA Bulletin 22 (1986).
 //!
-//! **Why the bound is a true bound although it is itself rounded.** With `u = 2^-53`, an addition needs
-//! `a.e + b.e + u|s|`; it is computed as `fma(K, a.e + b.e, u'|s|)` with `K = 1 + 16u`, `u' = u(1 + 32u)`, whose two roundings
-//! lose at most a factor `(1-u)^2`. A product needs `|a| b.e + a.e (|b| + b.e) + u|p| + 2^-1075`; it is computed with one sum, three
-//! fused operations and a final product by `K`, which lose at most `(1-u)^5`, and, where they are subnormal, `2^-1075` each, for which
-//! `FLOOR` pays. Additions are exact in the subnormal range and need no floor. A factor that is exactly zero gives exactly zero.
-//! For `T = Dd` the part `hi` stands for the number, which costs another `(1+u)^2`, again within `K`.
+//! **Why the bound is a true bound although it is itself rounded.** With `u = 2^-53`, an addition
+//! needs `a.e + b.e + u|s|`; it is computed as `fma(K, a.e + b.e, u'|s|)` with `K = 1 + 16u`,
+//! `u' = u(1 + 32u)`, whose two roundings lose at most a factor `(1-u)^2`. A product needs
+//! `|a| b.e + a.e (|b| + b.e) + u|p| + 2^-1075`; it is computed with one sum, three fused
+//! operations and a final product by `K`, which lose at most `(1-u)^5`, and, where they are
+//! subnormal, `2^-1075` each, for which `FLOOR` pays. Additions are exact in the subnormal range
+//! and need no floor. A factor that is exactly zero gives exactly zero. For `T = Dd` the part `hi`
+//! stands for the number, which costs another `(1+u)^2`, again within `K`.
 //!
-//! Overflow turns `v` or `e` into an infinity or NaN; then no sign is certain and the enclosure is the whole line.
+//! Overflow turns `v` or `e` into an infinity or NaN; then no sign is certain and the enclosure is
+//! the whole line.
 
 use crate::rounding::{add_down, add_up, sub_down};
 use crate::scale::ldexp;
@@ -22,9 +26,10 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Covers the roundings made while a bound is computed; see the module's text.
 const K: f64 = 1.0 + 8.0 * f64::EPSILON;
-/// Covers what subnormal results lose, at most a few times `2^-1074`. Far more than needed, so that it and its multiples are normal
-/// numbers: a subnormal operand or result costs a microcode assist on many CPUs, a hundred times the operation itself. It is felt only
-/// where numbers are below `2^-890`.
+/// Covers what subnormal results lose, at most a few times `2^-1074`. Far more than needed, so that
+/// it and its multiples are normal numbers: a subnormal operand or result costs a microcode assist
+/// on many CPUs, a hundred times the operation itself. It is felt only where numbers are below
+/// `2^-890`.
 const FLOOR: f64 = crate::scale::pow2(-1000);
 /// The floor for [`Ring::scale2`], which is rarely used and must be tight: maps of size `1e300`
 /// have inverses near `2^-1000`.

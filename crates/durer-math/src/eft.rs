@@ -1,8 +1,9 @@
 //! Error-free transforms: a rounded result together with its exact rounding error.
 //!
-//! T. J. Dekker, "A floating-point technique for extending the available precision", Numer. Math. 18 (1971);
-//! D. E. Knuth, The Art of Computer Programming, vol. 2; T. Ogita, S. M. Rump, S. Oishi, "Accurate sum and dot product",
-//! SIAM J. Sci. Comput. 26 (2005). All are exact barring overflow; [`two_prod`] also needs the product's low part not to underflow.
+//! T. J. Dekker, "A floating-point technique for extending the available precision", Numer. Math.
+//! 18 (1971); D. E. Knuth, The Art of Computer Programming, vol. 2; T. Ogita, S. M. Rump, S. Oishi,
+//! "Accurate sum and dot product", SIAM J. Sci. Comput. 26 (2005). All are exact barring overflow;
+//! [`two_prod`] also needs the product's low part not to underflow.
 
 /// `(s, e)` with `s = fl(a + b)` and `s + e = a + b` exactly.
 #[inline(always)]
@@ -34,8 +35,8 @@ pub fn two_prod(a: f64, b: f64) -> (f64, f64) {
 
 /// `a b - c d` within 1.5 ulp (Kahan).
 ///
-/// Jeannerod, Louvet, Muller, "Further analysis of Kahan's algorithm for the accurate computation of 2x2 determinants",
-/// Mathematics of Computation 82 (2013).
+/// Jeannerod, Louvet, Muller, "Further analysis of Kahan's algorithm for the accurate computation
+/// of 2x2 determinants", Mathematics of Computation 82 (2013).
 #[inline(always)]
 pub fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
     let w = c * d;

@@ -1,10 +1,11 @@
 //! Elementary functions with the same bits on every CPU.
 //!
-//! The C library's `sin`, `pow`, ... are chosen at run time for the CPU at hand and differ in the last place; these stand
-//! on the pure-Rust `libm` crate, a port of musl and of CORE-MATH. Its feature `arch` (on by default) replaces only `sqrt`, `fma`
-//! and `rint` by machine instructions on x86-64 and ARM64. Those three are correctly rounded, so their bits cannot
-//! differ; the functions that call them are otherwise plain IEEE operations in a fixed order. (Only on 32-bit x86 without SSE2
-//! does `arch` reach further, into x87's `exp`; durer does not run there.)
+//! The C library's `sin`, `pow`, ... are chosen at run time for the CPU at hand and differ in the
+//! last place; these stand on the pure-Rust `libm` crate, a port of musl and of CORE-MATH. Its
+//! feature `arch` (on by default) replaces only `sqrt`, `fma` and `rint` by machine instructions on
+//! x86-64 and ARM64. Those three are correctly rounded, so their bits cannot differ; the functions
+//! that call them are otherwise plain IEEE operations in a fixed order. (Only on 32-bit x86 without
+//! SSE2 does `arch` reach further, into x87's `exp`; durer does not run there.)
 //!
 //! None of them has a proven bound, most err by less than 1 ulp: good for shading and for building
 //! matrices, which are then the exact data; never for a certified bracket.
@@ -91,11 +92,14 @@ pub fn pow(x: f64, y: f64) -> f64 {
     libm::pow(x, y)
 }
 
-/// `x^y` in lanes, within one part in 10^12 of the true power for positive normal `x`; zero where that is below `2^-1021`.
+/// `x^y` in lanes, within one part in 10^12 of the true power for positive normal `x`; zero where
+/// that is below `2^-1021`.
 ///
-/// With `x = 2^e m` and `m` between the roots of 1/2 and 2, the logarithm is `e + log2 m`, where `ln m = 2 artanh s` with
-/// `s = (m - 1) / (m + 1)`; both that series and the one of `2^r` for `|r| <= 1/2` are cut where less than the last place is left. The
-/// products with `y` and with `log2 e` err by a few last places of an exponent below 1024. Lanes that are not live hold anything.
+/// With `x = 2^e m` and `m` between the roots of 1/2 and 2, the logarithm is `e + log2 m`, where
+/// `ln m = 2 artanh s` with `s = (m - 1) / (m + 1)`; both that series and the one of `2^r` for
+/// `|r| <= 1/2` are cut where less than the last place is left. The products with `y` and with
+/// `log2 e` err by a few last places of an exponent below 1024. Lanes that are not live hold
+/// anything.
 #[inline(always)]
 pub fn pow_lanes(x: F8, y: f64, live: M8) -> F8 {
     if !live.any() {
@@ -165,7 +169,8 @@ mod tests {
 
     const PINNED: u64 = 0x694b_16fa_cc6e_c32d;
 
-    /// Bits of all functions over many arguments, folded into one number that must never change: pictures depend on it.
+    /// Bits of all functions over many arguments, folded into one number that must never change:
+    /// pictures depend on it.
     #[test]
     fn bits_are_pinned() {
         let mut hash = 0_u64;

@@ -1,9 +1,10 @@
 //! Distillation: a few f64 are summed until the sign of their exact sum shows.
 //!
-//! One pass carries a running sum through the terms and leaves each rounding error in place of the term that made it (VecSum): what is
-//! summed does not change, but nearly all of it gathers in one number. As soon as that is larger than all the rest together its sign is
-//! the sum's. T. Ogita, S. M. Rump, S. Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26 (2005); W. Kahan, "A survey of error
-//! analysis", IFIP Congress (1971). Exact barring overflow.
+//! One pass carries a running sum through the terms and leaves each rounding error in place of the
+//! term that made it (VecSum): what is summed does not change, but nearly all of it gathers in one
+//! number. As soon as that is larger than all the rest together its sign is the sum's. T. Ogita, S.
+//! M. Rump, S. Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26 (2005); W. Kahan, "A
+//! survey of error analysis", IFIP Congress (1971). Exact barring overflow.
 
 use crate::U;
 use crate::eft::{two_prod, two_sum};
@@ -11,7 +12,8 @@ use core::cmp::Ordering;
 
 /// No sum has more terms.
 const MOST: usize = 96;
-/// After so many passes the question goes to [`Dyadic`](crate::Dyadic), which always answers: only time is at stake. A pass takes some 50 bits off what has cancelled.
+/// After so many passes the question goes to [`Dyadic`](crate::Dyadic), which always answers: only
+/// time is at stake. A pass takes some 50 bits off what has cancelled.
 const PASSES: usize = 24;
 
 /// Some f64 that are to be summed.
@@ -78,7 +80,8 @@ impl Terms {
                 let sign = sum.partial_cmp(&0.0)?;
                 return Some(Sum { sign, value: sum, error });
             }
-            // The first error is that of a sum with zero: its place is free. The sum goes last, where it meets what is left of the rest.
+            // The first error is that of a sum with zero: its place is free. The sum goes last,
+            // where it meets what is left of the rest.
             terms.rotate_left(1);
             *terms.last_mut()? = sum;
         }

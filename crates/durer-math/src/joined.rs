@@ -1,4 +1,5 @@
-//! Choices between two functions that meet: at zero of what chooses, both have the same value, so that nothing jumps there.
+//! Choices between two functions that meet: at zero of what chooses, both have the same value, so
+//! that nothing jumps there.
 
 use crate::number::Slopes;
 use crate::{Dual, F8, I8, Number, Sloped};

@@ -22,7 +22,8 @@ use core::cmp::Ordering;
 
 /// A polynomial whose sign is asked for.
 pub trait Predicate {
-    /// The polynomial's value. `None` only where `T` cannot hold the inputs: [`Ring::within`] said so.
+    /// The polynomial's value. `None` only where `T` cannot hold the inputs: [`Ring::within`] said
+    /// so.
     fn eval<T: Ring>(&self) -> Option<T>;
 }
 
@@ -39,8 +40,9 @@ pub enum Step {
 
 /// The sign of `p`, compared with zero.
 ///
-/// `None` only if the inputs are not exact (an error came in through [`Ring::within`]) and their errors leave the sign
-/// open. Inputs must be finite; intermediate overflow and underflow are no trouble.
+/// `None` only if the inputs are not exact (an error came in through [`Ring::within`]) and their
+/// errors leave the sign open. Inputs must be finite; intermediate overflow and underflow are no
+/// trouble.
 #[inline(always)]
 pub fn sign<P: Predicate + ?Sized>(p: &P) -> Option<Ordering> {
     match p.eval::<EFloat<f64>>().and_then(|x| x.sign()) {

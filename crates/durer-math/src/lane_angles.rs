@@ -19,7 +19,8 @@ const FAR: f64 = crate::scale::pow2(500);
 /// `tan(pi/8)`, about.
 const EIGHTH: f64 = 0.414_213_562_373_095_05;
 
-/// The angles of eight points whose larger coordinates are neither too large nor too small, in `(-pi, pi]`.
+/// The angles of eight points whose larger coordinates are neither too large nor too small, in
+/// `(-pi, pi]`.
 #[inline(always)]
 fn angle(y: F8, x: F8) -> F8 {
     let (ax, ay) = (x.abs(), y.abs());
@@ -59,7 +60,8 @@ fn corners(y: &I8, x: &I8) -> (F8, F8, M8) {
     let zero = F8::ZERO;
     let right = x.lo.gt(zero);
     let (up, down) = (y.lo.gt(zero) & !right, y.hi.lt(zero) & !right);
-    // To the right of the origin the angle rises with y, and goes towards zero as x grows; above it falls with x, below it rises.
+    // To the right of the origin the angle rises with y, and goes towards zero as x grows; above it
+    // falls with x, below it rises.
     let low_y =
         right.select(y.lo, up.select(x.hi.ge(zero).select(y.lo, y.hi), x.lo.ge(zero).select(y.lo, y.hi)));
     let low_x = right.select(y.lo.ge(zero).select(x.hi, x.lo), up.select(x.hi, x.lo));

@@ -1,10 +1,13 @@
-//! Eight intervals side by side: one formula on eight boxes, or on eight stretches of a ray, at once.
+//! Eight intervals side by side: one formula on eight boxes, or on eight stretches of a ray, at
+//! once.
 //!
-//! Sums, products and quotients are rounded to nearest and then, sums where they have lost something, widened: by S. M. Rump, P. Zimmermann, S. Boldo, G. Melquiond, "Computing
-//! predecessor and successor in rounding to nearest", *BIT* 49 (2009), `fl(x - fl(phi |x|))` with `phi = u (1 + 2u)` is at or below the
-//! predecessor of a normal `x`, and so at or below everything that rounds to `x`. Where results may be subnormal a step of `2^-1000` is added.
-//! That is branch-free, as vector instructions need it. Sines and cosines are
-//! worked out in lanes too (`lane_waves.rs`), the other elementary functions are those of [`Interval`], lane by lane.
+//! Sums, products and quotients are rounded to nearest and then, sums where they have lost
+//! something, widened: by S. M. Rump, P. Zimmermann, S. Boldo, G. Melquiond, "Computing predecessor
+//! and successor in rounding to nearest", *BIT* 49 (2009), `fl(x - fl(phi |x|))` with
+//! `phi = u (1 + 2u)` is at or below the predecessor of a normal `x`, and so at or below everything
+//! that rounds to `x`. Where results may be subnormal a step of `2^-1000` is added. That is
+//! branch-free, as vector instructions need it. Sines and cosines are worked out in lanes too
+//! (`lane_waves.rs`), the other elementary functions are those of [`Interval`], lane by lane.
 
 use crate::interval::elementary::{Defined, Range};
 use crate::lane_waves::{wave, waves};
@@ -31,7 +34,8 @@ pub struct I8 {
     pub hi: F8,
     /// Lanes (as bits) where the formula may be undefined somewhere.
     pub partial: u8,
-    /// Lanes where it is undefined everywhere; the interval there means nothing. Such a lane is also in `partial`.
+    /// Lanes where it is undefined everywhere; the interval there means nothing. Such a lane is
+    /// also in `partial`.
     pub empty: u8,
     /// Lanes where it may jump.
     pub jump: u8,
@@ -126,10 +130,13 @@ fn above(x: f64) -> f64 {
     x + x.abs().mul_add(PHI, TINY)
 }
 
-/// A sum rounded down. The sum `s` in f64 is a bound as it stands if the exact one is not below it: so sums of whole numbers are exact, and greater operands do not have
-/// lower bounds. Let `s = a + b - lost`. Then `s - a` is `b - lost`: in f64 at most `b` if `lost >= 0`, as rounding is monotone; and if `a` is the greater operand in magnitude
-/// it is a number (T. J. Dekker, "A floating-point technique for extending the available precision", *Numerische Mathematik* 18 (1971)), so above `b` if
-/// `lost < 0`. The same holds with `a` and `b` exchanged. Of infinite sums only `-inf` passes both comparisons.
+/// A sum rounded down. The sum `s` in f64 is a bound as it stands if the exact one is not below it:
+/// so sums of whole numbers are exact, and greater operands do not have lower bounds. Let
+/// `s = a + b - lost`. Then `s - a` is `b - lost`: in f64 at most `b` if `lost >= 0`, as rounding
+/// is monotone; and if `a` is the greater operand in magnitude it is a number (T. J. Dekker, "A
+/// floating-point technique for extending the available precision", *Numerische Mathematik* 18
+/// (1971)), so above `b` if `lost < 0`. The same holds with `a` and `b` exchanged. Of infinite sums
+/// only `-inf` passes both comparisons.
 #[inline(always)]
 fn sum_below(a: f64, b: f64) -> f64 {
     let sum = a + b;
@@ -159,8 +166,10 @@ fn divided_by_points(a: &I8, b: &I8) -> I8 {
     out
 }
 
-/// A quotient by a positive number, rounded down. The quotient `q` in f64 is a bound as it stands if `q b - a`, rounded once, is not above zero: rounding keeps the sign unless
-/// the difference is lost below the range. It is a multiple of the last bit of `a` and of the last bits of `q` and `b` together, at least `2^-106 q b`; where `q` is below the normal numbers, `b` is above
+/// A quotient by a positive number, rounded down. The quotient `q` in f64 is a bound as it stands
+/// if `q b - a`, rounded once, is not above zero: rounding keeps the sign unless the difference is
+/// lost below the range. It is a multiple of the last bit of `a` and of the last bits of `q` and
+/// `b` together, at least `2^-106 q b`; where `q` is below the normal numbers, `b` is above
 /// `2^1022 |a|`, and these are at least `2^-1074 2^-52 b`. So it is 0 or at least `2^-107 |a|`.
 #[inline(always)]
 fn quotient_below(a: f64, b: f64) -> f64 {
@@ -527,7 +536,8 @@ fn widened(x: &[f64; LANES], n: i32, up: bool) -> [f64; LANES] {
 #[inline(always)]
 fn product(a: &I8, n: i32) -> I8 {
     let odd = n & 1 == 1;
-    // The ends that are nearer to zero and farther from it where the power is even; else the lower and the upper one.
+    // The ends that are nearer to zero and farther from it where the power is even; else the lower
+    // and the upper one.
     let (mut x, mut y) = ([0.0; LANES], [0.0; LANES]);
     for i in 0..LANES {
         let (l, h) = (a.lo.0[i], a.hi.0[i]);

@@ -1,18 +1,24 @@
-//! Binary logarithms and powers of two of eight numbers at once, with bounds that are derived, not measured.
+//! Binary logarithms and powers of two of eight numbers at once, with bounds that are derived, not
+//! measured.
 //!
-//! **Logarithm.** `x = 2^e m` with `m` between the roots of 1/2 and 2, `ln m = 2 artanh s`, `s = (m - 1) / (m + 1)`, `|s| <= 0.1716`. `m - 1` is exact, the sum
-//! and the quotient round: `s` errs by `2 u` of itself. The series of `artanh s / s` in `z = s^2 <= 0.02945` is cut after `z^9 / 19`, which leaves out
-//! `z^10 / 21 / (1 - z) < 0.22 u`; all but its first term are below `0.0101`, so that Horner's scheme, fused, errs by `1.1 u`. The product with `s`
-//! and the constant `2 log2 e` add `2 u`, the sum with `e` rounds once, and is at least `|log2 m|` where `e` is not zero. Together `6.5 u` of the logarithm: claimed
-//! is [`LOG2_ERROR`].
+//! **Logarithm.** `x = 2^e m` with `m` between the roots of 1/2 and 2, `ln m = 2 artanh s`,
+//! `s = (m - 1) / (m + 1)`, `|s| <= 0.1716`. `m - 1` is exact, the sum and the quotient round: `s`
+//! errs by `2 u` of itself. The series of `artanh s / s` in `z = s^2 <= 0.02945` is cut after
+//! `z^9 / 19`, which leaves out `z^10 / 21 / (1 - z) < 0.22 u`; all but its first term are below
+//! `0.0101`, so that Horner's scheme, fused, errs by `1.1 u`. The product with `s` and the constant
+//! `2 log2 e` add `2 u`, the sum with `e` rounds once, and is at least `|log2 m|` where `e` is not
+//! zero. Together `6.5 u` of the logarithm: claimed is [`LOG2_ERROR`].
 //!
-//! **Power.** `t = k + f` with a whole `k` and `|f| <= 1/2`, exactly; `r = f ln 2` errs by `2 u` of itself, so `e^r` by `0.7 u`. The series is cut after `r^13 / 13!`,
-//! which leaves out `0.06 u`; Horner's scheme, fused, errs by `1.5 u` before its last rounding of at most `1.42 u`, of a value of at least 0.707. Together `3.1 u` of the
-//! power: claimed is [`EXP2_ERROR`].
+//! **Power.** `t = k + f` with a whole `k` and `|f| <= 1/2`, exactly; `r = f ln 2` errs by `2 u` of
+//! itself, so `e^r` by `0.7 u`. The series is cut after `r^13 / 13!`, which leaves out `0.06 u`;
+//! Horner's scheme, fused, errs by `1.5 u` before its last rounding of at most `1.42 u`, of a value
+//! of at least 0.707. Together `3.1 u` of the power: claimed is [`EXP2_ERROR`].
 
 //!
-//! **Any power.** `x^p = 2^(p e + p log2 m)`: the product `p e` is taken with its error, a whole number `k` is taken off, and what is left has errors of `3.2 u |p|` from
-//! the logarithm of `m`, at most 1/2, and of `u |p| / 2 + u` from its own rounding. That makes `(2.6 |p| + 4) u` of the power: claimed is [`power_error`].
+//! **Any power.** `x^p = 2^(p e + p log2 m)`: the product `p e` is taken with its error, a whole
+//! number `k` is taken off, and what is left has errors of `3.2 u |p|` from the logarithm of `m`,
+//! at most 1/2, and of `u |p| / 2 + u` from its own rounding. That makes `(2.6 |p| + 4) u` of the
+//! power: claimed is [`power_error`].
 
 use crate::{F8, U};
 
@@ -104,7 +110,8 @@ fn raised(rounded: F8, f: F8) -> F8 {
     series * power
 }
 
-/// The logarithms to base 2 of eight positive normal numbers, within [`LOG2_ERROR`]; of anything else, anything.
+/// The logarithms to base 2 of eight positive normal numbers, within [`LOG2_ERROR`]; of anything
+/// else, anything.
 #[inline(always)]
 #[must_use]
 pub fn log2(x: F8) -> F8 {
@@ -112,7 +119,8 @@ pub fn log2(x: F8) -> F8 {
     half.mul_add(F8::splat(2.0 * core::f64::consts::LOG2_E), e)
 }
 
-/// Two to the power of eight numbers from -1020 to 1020, within [`EXP2_ERROR`]; of anything else, anything.
+/// Two to the power of eight numbers from -1020 to 1020, within [`EXP2_ERROR`]; of anything else,
+/// anything.
 #[inline(always)]
 #[must_use]
 pub fn exp2(t: F8) -> F8 {
@@ -120,8 +128,9 @@ pub fn exp2(t: F8) -> F8 {
     raised(rounded, t - (rounded - F8::splat(WHOLE)))
 }
 
-/// `x^p` of eight positive normal numbers and exponents of size up to [`MOST_POWER`], within [`power_error`], and the exponent to base 2, rounded: where that is not
-/// within 1010 the power is anything.
+/// `x^p` of eight positive normal numbers and exponents of size up to [`MOST_POWER`], within
+/// [`power_error`], and the exponent to base 2, rounded: where that is not within 1010 the power is
+/// anything.
 #[inline(always)]
 #[must_use]
 pub fn power(x: F8, p: F8) -> (F8, F8) {

@@ -1,6 +1,8 @@
-//! Eight rounded numbers side by side as what formulas are made of: for looking around quickly, as f64 is for one point. Undefined is NaN.
+//! Eight rounded numbers side by side as what formulas are made of: for looking around quickly, as
+//! f64 is for one point. Undefined is NaN.
 //!
-//! Each function errs by what its kernel errs by (`lane_waves.rs`, `lane_logs.rs`, `lane_angles.rs`), or is that of f64, lane by lane.
+//! Each function errs by what its kernel errs by (`lane_waves.rs`, `lane_logs.rs`,
+//! `lane_angles.rs`), or is that of f64, lane by lane.
 
 use crate::number::{Comparison, Function, Number, Sloped};
 use crate::{F8, Interval, M8, lane_angles, lane_powers, lane_waves, noise};

@@ -1,9 +1,12 @@
 //! Sines and cosines of eight intervals at once.
 //!
-//! The argument is taken off by whole quarter turns: `r = x - k pi/2` with `pi/2` in three parts of 25, 24 and 53 bits (W. J. Cody, W. Waite, *Software
-//! Manual for the Elementary Functions*, 1980). For `|x| <= 2^20` the products with the first two parts are exact, and so are the
-//! differences, multiples of `2^-53` below 1; the third rounds to `2^-54`, and what is left of `pi/2` is below `2^-88`. On `|r| <= 0.7855` Taylor's series to `r^17` and `r^18` leave out
-//! less than `1e-19`, and Horner's scheme rounds to less than `4 u` of the value. Claimed are [`RELATIVE`] and [`ABSOLUTE`], twice as much at least.
+//! The argument is taken off by whole quarter turns: `r = x - k pi/2` with `pi/2` in three parts of
+//! 25, 24 and 53 bits (W. J. Cody, W. Waite, *Software Manual for the Elementary Functions*, 1980).
+//! For `|x| <= 2^20` the products with the first two parts are exact, and so are the differences,
+//! multiples of `2^-53` below 1; the third rounds to `2^-54`, and what is left of `pi/2` is below
+//! `2^-88`. On `|r| <= 0.7855` Taylor's series to `r^17` and `r^18` leave out less than `1e-19`,
+//! and Horner's scheme rounds to less than `4 u` of the value. Claimed are [`RELATIVE`] and
+//! [`ABSOLUTE`], twice as much at least.
 
 use crate::{F8, I8, M8};
 
@@ -108,7 +111,8 @@ pub(crate) fn waves(a: &I8) -> (I8, I8) {
 
 #[inline(always)]
 fn between(a: &I8, (lo, hi): (&Turned, &Turned), shift: f64) -> I8 {
-    // An argument's quotient by a quarter turn errs by less: to see a crest needlessly costs next to nothing.
+    // An argument's quotient by a quarter turn errs by less: to see a crest needlessly costs next
+    // to nothing.
     const MARGIN: f64 = 1.0 / (1u64 << 26) as f64;
     let mut out = *a;
     let (from, e_from) = shifted(lo, shift);

@@ -1,10 +1,12 @@
 //! Eight numbers side by side: the same formula for eight rays at once.
 //!
-//! Plain arrays with plain loops. Inside [`Isa::run_in_lanes`](crate::Isa::run_in_lanes) the compiler turns them into vector instructions, two registers
-//! with AVX2 and one with AVX-512; each lane has the bits of the scalar operation everywhere.
+//! Plain arrays with plain loops. Inside [`Isa::run_in_lanes`](crate::Isa::run_in_lanes) the
+//! compiler turns them into vector instructions, two registers with AVX2 and one with AVX-512; each
+//! lane has the bits of the scalar operation everywhere.
 //!
-//! Each operation is a loop by itself (`lanes!`). The library's `array::from_fn` and `array::map` are made of functions that the compiler leaves apart in
-//! large kernels, where they are compiled for the basic CPU: a fused product is eight calls there.
+//! Each operation is a loop by itself (`lanes!`). The library's `array::from_fn` and `array::map`
+//! are made of functions that the compiler leaves apart in large kernels, where they are compiled
+//! for the basic CPU: a fused product is eight calls there.
 
 use crate::{Scalar, Vec3};
 use core::ops::{Add, AddAssign, BitAnd, BitAndAssign, BitOr, BitOrAssign, Div, Mul, Neg, Not, Sub};

@@ -1,8 +1,9 @@
 //! Points, vectors, rays and affine maps, and arithmetic that knows its own error.
 //!
-//! Everything that durer claims about a hit rests on two questions that this crate answers: *how far can this number be from the true
-//! one?* and *what is the sign of this expression, exactly?* A formula is written once, generic over [`Ring`], and evaluated ever more
-//! precisely until its sign is certain:
+//! Everything that durer claims about a hit rests on two questions that this crate answers: *how
+//! far can this number be from the true one?* and *what is the sign of this expression, exactly?* A
+//! formula is written once, generic over [`Ring`], and evaluated ever more precisely until its sign
+//! is certain:
 //!
 //! ```
 //! use core::cmp::Ordering;
@@ -34,19 +35,22 @@
 //! assert_eq!(in_f64.sign(), None);
 //! ```
 //!
-//! **Geometry.** [`Point3`], [`Vec3`] and [`Normal3`] are three types, generic over a [`Scalar`]: f64, [`Interval`] or [`Dual`]. [`Ray`] is
-//! `o + t d` with a direction of any length; [`Affine`] is `c + L x` with a proven bound on its rounded inverse; [`Aabb`] a box, and a
-//! conservative bound.
+//! **Geometry.** [`Point3`], [`Vec3`] and [`Normal3`] are three types, generic over a [`Scalar`]:
+//! f64, [`Interval`] or [`Dual`]. [`Ray`] is `o + t d` with a direction of any length; [`Affine`]
+//! is `c + L x` with a proven bound on its rounded inverse; [`Aabb`] a box, and a conservative
+//! bound.
 //!
-//! **Numbers, by rising cost.** [`eft`] gives sums and products with their exact errors; [`EFloat`] a value with its running error;
-//! [`rounding`] and [`Interval`] directed rounding; [`Dd`] 106 bits; [`Dyadic`] is exact. [`ladder`] climbs from one to the
-//! next, and [`predicates`] holds the one decision that must be faster than that: on which side a ray passes an edge.
+//! **Numbers, by rising cost.** [`eft`] gives sums and products with their exact errors; [`EFloat`]
+//! a value with its running error; [`rounding`] and [`Interval`] directed rounding; [`Dd`] 106
+//! bits; [`Dyadic`] is exact. [`ladder`] climbs from one to the next, and [`predicates`] holds the
+//! one decision that must be faster than that: on which side a ray passes an edge.
 //!
-//! **The same bits everywhere.** [`elementary`] replaces the C library's functions, and [`Isa::run`] is the only door to the CPU's vector and
-//! fused instructions; `unsafe` lives behind it and nowhere else.
+//! **The same bits everywhere.** [`elementary`] replaces the C library's functions, and
+//! [`Isa::run`] is the only door to the CPU's vector and fused instructions; `unsafe` lives behind
+//! it and nowhere else.
 //!
-//! Deliberately absent: surfaces, colour, files, and allocation on any hot path ([`Dyadic`] alone may allocate, at the end of
-//! the ladder).
+//! Deliberately absent: surfaces, colour, files, and allocation on any hot path ([`Dyadic`] alone
+//! may allocate, at the end of the ladder).
 #![deny(unsafe_code)]
 
 mod aabb;

@@ -1,7 +1,9 @@
-//! The number types in which a formula can be evaluated: f64, eight intervals, and dual numbers over either.
+//! The number types in which a formula can be evaluated: f64, eight intervals, and dual numbers
+//! over either.
 //!
-//! A formula of a scene is written once and asked in several ways: for its value, for a bound of its values on boxes, for its slope along a
-//! ray. [`Number`] lists what such formulas are made of; a type that has these operations can be put through any of them.
+//! A formula of a scene is written once and asked in several ways: for its value, for a bound of
+//! its values on boxes, for its slope along a ray. [`Number`] lists what such formulas are made of;
+//! a type that has these operations can be put through any of them.
 
 use crate::{Dual, F8, Interval, Joined, elementary, noise};
 
@@ -59,7 +61,8 @@ pub trait Number: Copy + Joined {
     fn noise(p: [&Self; 3]) -> Self;
     /// 1 or 0.
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self;
-    /// One of three by the sign of `c`: below, at and above zero. Where two of them are one and the same (by address, as steps of a formula are), nothing jumps between them.
+    /// One of three by the sign of `c`: below, at and above zero. Where two of them are one and the
+    /// same (by address, as steps of a formula are), nothing jumps between them.
     fn select(c: &Self, below: &Self, at: &Self, above: &Self) -> Self;
     /// Whether it is defined and exactly zero.
     fn is_zero(&self) -> bool;
@@ -342,7 +345,8 @@ impl<T: Number> Slopes<T> for T {
     }
 }
 
-/// Derivatives along three directions, and along which of them there is any (as bits): most parts of a formula vary along one or two, and what is zero is not multiplied.
+/// Derivatives along three directions, and along which of them there is any (as bits): most parts
+/// of a formula vary along one or two, and what is zero is not multiplied.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gradient<T> {
     /// The derivatives.

@@ -58,8 +58,9 @@ pub struct EdgeRay {
     floor: f64,
 }
 
-/// Seven roundings lie between the input and each term of `U` (two differences, product and sum of a minor, three of the dot
-/// product); the rest pays for their second order and for the rounding of the permanent and of the bound.
+/// Seven roundings lie between the input and each term of `U` (two differences, product and sum of
+/// a minor, three of the dot product); the rest pays for their second order and for the rounding of
+/// the permanent and of the bound.
 const FILTER: f64 = (7.0 + 72.0 * U) * U;
 
 impl EdgeRay {
@@ -67,13 +68,15 @@ impl EdgeRay {
     #[inline(always)]
     pub fn new(o: Point3, d: Vec3) -> Self {
         let m = d.abs();
-        // A minor loses at most 2 * 2^-1075, the dot product 3 * 2^-1075. Far more is charged, so that the floor is a normal
-        // number: subnormal operands and results cost a microcode assist.
+        // A minor loses at most 2 * 2^-1075, the dot product 3 * 2^-1075. Far more is charged, so
+        // that the floor is a normal number: subnormal operands and results cost a microcode
+        // assist.
         let tiny = crate::scale::pow2(-1000);
         Self { o, d, floor: tiny.mul_add(m.x + m.y + m.z, tiny) }
     }
 
-    /// The axes of the symbolic displacement: those other than the first on which `|d|` is largest. Needed for ties alone.
+    /// The axes of the symbolic displacement: those other than the first on which `|d|` is largest.
+    /// Needed for ties alone.
     fn axes(&self) -> [usize; 2] {
         let m = self.d.abs();
         if m.x >= m.y && m.x >= m.z {
@@ -97,7 +100,8 @@ impl EdgeRay {
         self.d
     }
 
-    /// `U` in f64, and a bound on its error: the filter alone, for kernels that decide the rest themselves.
+    /// `U` in f64, and a bound on its error: the filter alone, for kernels that decide the rest
+    /// themselves.
     ///
     /// The order of operations is part of the specification; vector kernels repeat it lane by lane.
     #[inline(always)]
@@ -189,11 +193,13 @@ impl EdgeRay {
         (ej * Dyadic::from(dk) - ek * Dyadic::from(dj)).exact_sign() as i8
     }
 
-    /// On which side of the plane of a triangle the origin lies: the sign of `n . (o - v0)`, `n = (v1 - v0) x (v2 - v0)`.
+    /// On which side of the plane of a triangle the origin lies: the sign of `n . (o - v0)`,
+    /// `n = (v1 - v0) x (v2 - v0)`.
     ///
-    /// An origin exactly in the plane is moved by the same symbolic displacement as in [`EdgeRay::edge`], and then by `eps^3 d`.
-    /// Zero only for triangles without area. The plane is met at `t > 0` exactly if this sign is that of the triangle's edges
-    /// `(v1, v2)`, `(v2, v0)`, `(v0, v1)`, where these agree.
+    /// An origin exactly in the plane is moved by the same symbolic displacement as in
+    /// [`EdgeRay::edge`], and then by `eps^3 d`. Zero only for triangles without area. The plane is
+    /// met at `t > 0` exactly if this sign is that of the triangle's edges `(v1, v2)`, `(v2, v0)`,
+    /// `(v0, v1)`, where these agree.
     pub fn side(&self, v0: Point3, v1: Point3, v2: Point3) -> i8 {
         // n . (o - v0) = (v0 - o) . ((v2 - o) x (v1 - o)).
         let towards = Self::new(self.o, v0 - self.o);
@@ -220,7 +226,8 @@ impl EdgeRay {
     }
 }
 
-/// Whether products of three of these numbers, or of their differences, neither overflow nor have bits below `2^-1074`.
+/// Whether products of three of these numbers, or of their differences, neither overflow nor have
+/// bits below `2^-1074`.
 #[inline(always)]
 fn tame(numbers: &[f64]) -> bool {
     // The least bit of a difference is at least 2^(-300 - 52); three such factors: 2^-1056.

@@ -18,9 +18,11 @@ pub struct Ray {
     source: Option<Source>,
 }
 
-/// The primitive from which a secondary ray starts, and the side of it on which its origin provably lies.
+/// The primitive from which a secondary ray starts, and the side of it on which its origin provably
+/// lies.
 ///
-/// `arena`, `index` and `part` say where the geometry keeps the primitive; they mean nothing outside it.
+/// `arena`, `index` and `part` say where the geometry keeps the primitive; they mean nothing
+/// outside it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Source {
     /// Which arena holds the primitive.
@@ -74,8 +76,8 @@ impl Ray {
         self.source
     }
 
-    /// Whether the ray can meet anything: finite origin and direction, a direction that is not zero, and a range that
-    /// holds at least one number.
+    /// Whether the ray can meet anything: finite origin and direction, a direction that is not
+    /// zero, and a range that holds at least one number.
     #[inline(always)]
     pub fn is_valid(&self) -> bool {
         self.origin.is_finite()
@@ -84,7 +86,8 @@ impl Ray {
             && self.t_min <= self.t_max
     }
 
-    /// The point at `t`, rounded: for display. Hit points come from `resolve`, which does not lose the low digits.
+    /// The point at `t`, rounded: for display. Hit points come from `resolve`, which does not lose
+    /// the low digits.
     pub fn at(&self, t: f64) -> Point3 {
         Point3::new(
             t.mul_add(self.direction.x, self.origin.x),

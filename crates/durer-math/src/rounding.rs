@@ -1,9 +1,11 @@
-//! Sums, products, quotients and square roots rounded down or up, without touching the CPU's rounding mode.
+//! Sums, products, quotients and square roots rounded down or up, without touching the CPU's
+//! rounding mode.
 //!
-//! The rounded result and the *sign* of its exact error tell whether to step to the neighbour. The error comes from an error-free
-//! transform; where its low part could underflow the operands are first scaled by powers of two, so that the results are
-//! correctly directed for all finite operands: the greatest f64 not above (least not below) the exact result.
-//! With infinite operands the results still bound. NaN in, NaN out.
+//! The rounded result and the *sign* of its exact error tell whether to step to the neighbour. The
+//! error comes from an error-free transform; where its low part could underflow the operands are
+//! first scaled by powers of two, so that the results are correctly directed for all finite
+//! operands: the greatest f64 not above (least not below) the exact result. With infinite operands
+//! the results still bound. NaN in, NaN out.
 
 use crate::eft::{two_prod, two_sum};
 use crate::scale::{exponent, ldexp};

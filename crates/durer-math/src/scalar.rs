@@ -2,7 +2,8 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A number type for points and vectors: f64, and the interval and dual numbers that come free with it.
+/// A number type for points and vectors: f64, and the interval and dual numbers that come free with
+/// it.
 pub trait Scalar:
     Copy
     + core::fmt::Debug

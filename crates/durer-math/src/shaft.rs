@@ -7,10 +7,11 @@
 //!            ╲│
 //! ```
 //!
-//! A box `[m, M]` can be met only where `a_i + t l_i <= M_i` and `b_i + t u_i >= m_i` on every axis: six linear inequalities for `t`, whose common
-//! solutions are an interval. If it is empty, no ray of the bundle meets the box. Neighbouring rays (the pixels of a tile, the rays of a small
-//! region to one lamp) can so share one walk through the tree. After E. A. Haines, J. R. Wallace, "Shaft culling for efficient ray-traced
-//! radiosity", *Eurographics Workshop on Rendering* (1991).
+//! A box `[m, M]` can be met only where `a_i + t l_i <= M_i` and `b_i + t u_i >= m_i` on every
+//! axis: six linear inequalities for `t`, whose common solutions are an interval. If it is empty,
+//! no ray of the bundle meets the box. Neighbouring rays (the pixels of a tile, the rays of a small
+//! region to one lamp) can so share one walk through the tree. After E. A. Haines, J. R. Wallace,
+//! "Shaft culling for efficient ray-traced radiosity", *Eurographics Workshop on Rendering* (1991).
 
 use crate::{Aabb, F8, M8, U, Vec3};
 
@@ -52,13 +53,15 @@ enum CutKind {
     Nothing,
 }
 
-/// More than the roundings of a difference, of a quotient (or of an inverse and a product with it) and of what is added to it.
+/// More than the roundings of a difference, of a quotient (or of an inverse and a product with it)
+/// and of what is added to it.
 const WIDEN: f64 = 8.0 * U;
 /// Pays for bounds and quotients that lost bits below the normal range.
 const LOST: f64 = f64::MIN_POSITIVE;
 
 impl Shaft {
-    /// The rays that start in `start` with directions between `low` and `high`, however far they go.
+    /// The rays that start in `start` with directions between `low` and `high`, however far they
+    /// go.
     pub fn new(start: Aabb, low: Vec3, high: Vec3) -> Self {
         Self { start, low, high, t_max: f64::INFINITY }
     }
@@ -66,7 +69,8 @@ impl Shaft {
     /// The rays with `t` in `[0, 1]` that start in one box and end in another.
     pub fn between(start: Aabb, end: Aabb) -> Self {
         let axis = |a0: f64, a1: f64, b0: f64, b1: f64| {
-            // Far more than the roundings of these differences, and of a direction that is one itself.
+            // Far more than the roundings of these differences, and of a direction that is one
+            // itself.
             let size = a0.abs() + a1.abs() + b0.abs() + b1.abs();
             let slack = size.mul_add(32.0 * U, f64::MIN_POSITIVE);
             ((b0 - a0) - slack, (b1 - a1) + slack)
@@ -112,8 +116,8 @@ impl Shaft {
         Shaft8 { cuts: [axis(0), axis(1), axis(2)], t_max: self.t_max }
     }
 
-    /// Whether the bundle may meet the plane of the points with `normal . p = offset`, of which the offset is known within `error`: `false` is
-    /// certain.
+    /// Whether the bundle may meet the plane of the points with `normal . p = offset`, of which the
+    /// offset is known within `error`: `false` is certain.
     pub fn may_cross(&self, normal: Vec3, offset: f64, error: f64) -> bool {
         let n = normal;
         // The least and the greatest height over the start, and how it changes.
@@ -144,7 +148,8 @@ impl Shaft {
 }
 
 impl Shaft8 {
-    /// Which of eight boxes the bundle may meet: where the answer is no that is certain. As [`Shaft::may_meet`], but for a few ulps.
+    /// Which of eight boxes the bundle may meet: where the answer is no that is certain. As
+    /// [`Shaft::may_meet`], but for a few ulps.
     #[inline(always)]
     pub fn may_meet(&self, min: &Vec3<F8>, max: &Vec3<F8>) -> M8 {
         let (mut enter, mut exit, mut met) = (F8::ZERO, F8::splat(self.t_max), M8::ALL);

@@ -1,8 +1,9 @@
-//! Points, vectors and normals: three types, because translations and linear maps treat them differently.
+//! Points, vectors and normals: three types, because translations and linear maps treat them
+//! differently.
 //!
-//! A point is a place, a vector a displacement, a normal a linear form (it maps by the inverse transpose). So
-//! `point - point = vector`, `point + vector = point`, and two points cannot be added; what can be formed is an
-//! [affine combination](Point3::affine), whose weights sum to one.
+//! A point is a place, a vector a displacement, a normal a linear form (it maps by the inverse
+//! transpose). So `point - point = vector`, `point + vector = point`, and two points cannot be
+//! added; what can be formed is an [affine combination](Point3::affine), whose weights sum to one.
 
 use crate::Scalar;
 use core::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, Neg, Sub, SubAssign};
@@ -220,14 +221,16 @@ impl<T: Scalar> Vec3<T> {
         Point3::new(self.x, self.y, self.z)
     }
 
-    /// The dot product, summed as `fma(x, x', fma(y, y', z z'))`. Error: at most `gamma(3) * sum |a_i b_i|`.
+    /// The dot product, summed as `fma(x, x', fma(y, y', z z'))`. Error: at most
+    /// `gamma(3) * sum |a_i b_i|`.
     #[inline(always)]
     pub fn dot(self, b: Self) -> T {
         self.x.mul_add(b.x, self.y.mul_add(b.y, self.z * b.z))
     }
 
-    /// The cross product; each minor within 1.5 ulp for f64 (Kahan's `ab - cd`; Jeannerod, Louvet, Muller, "Further
-    /// analysis of Kahan's algorithm for the accurate computation of 2x2 determinants", Math. Comp. 82, 2013).
+    /// The cross product; each minor within 1.5 ulp for f64 (Kahan's `ab - cd`; Jeannerod, Louvet,
+    /// Muller, "Further analysis of Kahan's algorithm for the accurate computation of 2x2
+    /// determinants", Math. Comp. 82, 2013).
     #[inline(always)]
     pub fn cross(self, b: Self) -> Self {
         Self::new(
@@ -243,7 +246,8 @@ impl<T: Scalar> Vec3<T> {
         self.dot(self)
     }
 
-    /// The length. Overflows and underflows with the squares; see [`Vec3::normalized`] for the safe form.
+    /// The length. Overflows and underflows with the squares; see [`Vec3::normalized`] for the safe
+    /// form.
     #[inline(always)]
     pub fn length(self) -> T {
         self.length_squared().sqrt()

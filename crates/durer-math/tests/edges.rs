@@ -138,7 +138,8 @@ fn check_side(o: [f64; 3], d: [f64; 3], v: [[f64; 3]; 3]) -> Result<(), TestCase
 /// A closed mesh as unwelded triangles.
 type Mesh = Vec<[Point3; 3]>;
 
-/// The octahedron |x| + |y| + |z| = n with n^2 triangles per face, all vertices on the integer grid.
+/// The octahedron |x| + |y| + |z| = n with n^2 triangles per face, all vertices on the integer
+/// grid.
 fn octahedron(n: i32) -> Mesh {
     let mut mesh = Mesh::new();
     for octant in 0..8 {
@@ -185,7 +186,8 @@ fn cube(n: i32) -> Mesh {
     mesh
 }
 
-/// Each triangle begins at another of its vertices, and the triangles change places: a rule by index would now leak.
+/// Each triangle begins at another of its vertices, and the triangles change places: a rule by
+/// index would now leak.
 fn shuffled(mut mesh: Mesh, seed: u64) -> Mesh {
     let mut random = generator(seed);
     for i in (1..mesh.len()).rev() {
@@ -202,8 +204,8 @@ fn generator(mut state: u64) -> impl FnMut(u64) -> u64 {
     }
 }
 
-/// The signs (+1 leaving, -1 entering, by the outward normal) of the faces that the ray crosses at `t > 0`, and of those that
-/// its line crosses at all.
+/// The signs (+1 leaving, -1 entering, by the outward normal) of the faces that the ray crosses at
+/// `t > 0`, and of those that its line crosses at all.
 fn crossings(ray: &EdgeRay, mesh: &Mesh) -> (Vec<i8>, Vec<i8>) {
     let (mut ahead, mut line) = (Vec::new(), Vec::new());
     for &[a, b, c] in mesh {
@@ -219,7 +221,8 @@ fn crossings(ray: &EdgeRay, mesh: &Mesh) -> (Vec<i8>, Vec<i8>) {
     (ahead, line)
 }
 
-/// Integer rays through vertices, along edges and in faces: parity is exact, and enters and leaves balance.
+/// Integer rays through vertices, along edges and in faces: parity is exact, and enters and leaves
+/// balance.
 fn check_parity(
     mesh: &Mesh,
     half: i32,
@@ -244,7 +247,8 @@ fn check_parity(
             assert_eq!(ahead.len() % 2 == 1, inside, "from {o:?} along {d:?}: {ahead:?}");
             assert_eq!(ahead.iter().map(|&s| i32::from(s)).sum::<i32>(), i32::from(inside));
         } else {
-            // The origin lies on the mesh: moved symbolically, it is inside or outside, and nothing else.
+            // The origin lies on the mesh: moved symbolically, it is inside or outside, and nothing
+            // else.
             assert!((0..=1).contains(&ahead.iter().map(|&s| i32::from(s)).sum::<i32>()), "{o:?} {d:?}");
         }
         tested += 1;

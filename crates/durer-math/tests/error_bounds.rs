@@ -100,7 +100,8 @@ fn pow2(k: i32) -> RBig {
     if k >= 0 { two } else { RBig::from(1) / two }
 }
 
-/// Runs a little stack machine in `T` and in rationals; every intermediate result must keep its promise.
+/// Runs a little stack machine in `T` and in rationals; every intermediate result must keep its
+/// promise.
 fn programme<T: Exact>(inputs: &[(f64, f64, RBig)], ops: &[(Op, usize, usize)]) -> Result<(), TestCaseError> {
     let mut stack: Vec<(EFloat<T>, RBig)> = inputs
         .iter()

@@ -1,4 +1,5 @@
-//! Intervals of elementary functions against multi-precision values, and how far the f64 functions are from those.
+//! Intervals of elementary functions against multi-precision values, and how far the f64 functions
+//! are from those.
 
 mod common;
 
@@ -278,7 +279,8 @@ fn lanes_hold_the_values_of_points() {
     }
 }
 
-/// Remainders of numbers are numbers, and an interval that meets no whole multiple, or only where it begins, has the remainders of its ends.
+/// Remainders of numbers are numbers, and an interval that meets no whole multiple, or only where
+/// it begins, has the remainders of its ends.
 #[test]
 fn remainders_are_those_of_the_ends() {
     let mut dice = Dice(41);
@@ -296,7 +298,8 @@ fn remainders_are_those_of_the_ends() {
             // The remainder of an f64 is exact.
             assert!(told.contains(inside % b), "{inside} of {x:?} mod {b}: {told:?}");
         }
-        // As many whole b in all of it, by exact arithmetic; what is as wide as b within rounding need not be known.
+        // As many whole b in all of it, by exact arithmetic; what is as wide as b within rounding
+        // need not be known.
         let whole = |x: f64| (rat(x) / rat(b)).trunc();
         let of_one_sign = x.lo >= 0.0 || x.hi <= 0.0;
         if of_one_sign && whole(x.lo) == whole(x.hi) && x.hi - x.lo < b {
@@ -314,7 +317,8 @@ fn remainders_are_those_of_the_ends() {
 proptest! {
     #![proptest_config(common::cases(4000))]
 
-    /// They keep a sign that underflow loses, and are as narrow as those of two intervals; so are their derivatives.
+    /// They keep a sign that underflow loses, and are as narrow as those of two intervals; so are
+    /// their derivatives.
     #[test]
     fn products_with_a_constant_hold_the_exact_ones(k in prop_oneof![number(), wild()], x in prop_oneof![number(), wild()], y in prop_oneof![number(), wild()]) {
         prop_assume!(k != 0.0);

@@ -1,4 +1,5 @@
-//! Logarithms and powers of two in lanes keep their bounds against multi-precision values, with the same bits on every path.
+//! Logarithms and powers of two in lanes keep their bounds against multi-precision values, with the
+//! same bits on every path.
 
 mod common;
 
@@ -128,7 +129,8 @@ fn any_power_keeps_its_bound() {
     println!("power: at most {worst:.3} of its bound");
 }
 
-/// Bases with every kind of end, exponents of every kind: the interval holds the exact powers, and is not much wider than the one of a single lane.
+/// Bases with every kind of end, exponents of every kind: the interval holds the exact powers, and
+/// is not much wider than the one of a single lane.
 #[test]
 fn powers_of_intervals_hold_the_exact_ones() {
     let mut constants = Consts::new().unwrap();

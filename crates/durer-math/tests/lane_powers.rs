@@ -1,11 +1,13 @@
-//! Powers of eight intervals hold the exact powers of numbers in them, whatever their signs and sizes, and little else.
+//! Powers of eight intervals hold the exact powers of numbers in them, whatever their signs and
+//! sizes, and little else.
 
 mod common;
 
 use common::Dice;
 use durer_math::{Dyadic, F8, I8, Interval, Number, Ring};
 
-/// Of either sign, from 2^-40 to 2^40, sometimes zero or so small or large that powers leave the range.
+/// Of either sign, from 2^-40 to 2^40, sometimes zero or so small or large that powers leave the
+/// range.
 fn number(dice: &mut Dice) -> f64 {
     let unit = dice.unit();
     match dice.bits() % 8 {
@@ -38,7 +40,8 @@ fn powers_hold_the_exact_ones() {
             }
             // An even power is never negative, nor is one of what is not.
             assert!(least >= 0.0 || (n % 2 == 1 && lo < 0.0), "[{lo}, {hi}]^{n}: {least}");
-            // Each product pays 2^-1000 for what may be lost below the normal range: a last place of what is above 2^-900 is more.
+            // Each product pays 2^-1000 for what may be lost below the normal range: a last place
+            // of what is above 2^-900 is more.
             if lo == hi && most.is_finite() && least.abs() > durer_math::scale::pow2(-900) {
                 assert!((most - least).abs() <= least.abs() * f64::EPSILON * 3.0 * f64::from(n), "{lo}^{n}");
                 tight += 1;

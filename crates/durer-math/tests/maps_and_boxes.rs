@@ -81,7 +81,8 @@ proptest! {
             for j in 0..3 {
                 let (x, e) = (inverse[i][j], error[i][j]);
                 prop_assert!(within(&rat(x), &truth(i, j), e));
-                // Half an ulp, and hardly more: correctly rounded. At the bottom of the range, a few of the least number.
+                // Half an ulp, and hardly more: correctly rounded. At the bottom of the range, a
+                // few of the least number.
                 let half_ulp = 0.5 * (x.abs().next_up() - x.abs());
                 prop_assert!(half_ulp == 0.0 || rat(e) <= rat(half_ulp * 1.001) + rat(f64::from_bits(64)), "{x:e} {e:e}");
                 if rat(x) == truth(i, j) {
@@ -145,7 +146,8 @@ proptest! {
         prop_assert!(lv2 <= rat(map.linear_norm()) * rat(map.linear_norm()) * &v2);
         let iv2 = square(&|i| (0..3).map(|j| &adj[i][j] * rat(p[j])).fold(RBig::ZERO, |s, x| s + x) / &det);
         prop_assert!(iv2 <= rat(map.inverse_norm()) * rat(map.inverse_norm()) * v2);
-        // Frobenius' norm of the exact inverse, of which the lower half of the bits is rounded upward.
+        // Frobenius' norm of the exact inverse, of which the lower half of the bits is rounded
+        // upward.
         let sum: RBig = (0..9).map(|i| &adj[i / 3][i % 3] / &det).map(|x| &x * &x).fold(RBig::ZERO, |s, x| s + x);
         let norm2 = rat(map.inverse_norm()) * rat(map.inverse_norm());
         prop_assert!(sum <= norm2 && norm2 <= sum * rat(1.0 + durer_math::scale::pow2(-18)));
@@ -170,7 +172,8 @@ proptest! {
         for i in 0..3 {
             let least = points.iter().map(|x| coordinate(*x, i)).min().expect("corners");
             let size: RBig = (0..3).map(|j| abs(exact[i][j].clone()) * rat(b.magnitude())).fold(abs(rat(c[i])), |s, x| s + x);
-            // Where a term can overflow its bound saturates: still a bound, but no longer a tight one.
+            // Where a term can overflow its bound saturates: still a bound, but no longer a tight
+            // one.
             if size <= rat(f64::MAX / 4.0) {
                 prop_assert!(&least - rat(image.min[i]) <= &size * rat(16.0 * U) + rat(1e-320));
             }
@@ -180,7 +183,8 @@ proptest! {
     /// Wherever the exact line is in the exact box, the answer covers it.
     #[test]
     fn slabs_never_miss(b in boxes(), o in triple(number()), aim in triple(-0.1..=1.1_f64), direction in directions(), k in -2..=2_i32, range in ranges()) {
-        // Half of the rays are aimed at a point of the box: at its corners and faces too, by the generator's rounding to them.
+        // Half of the rays are aimed at a point of the box: at its corners and faces too, by the
+        // generator's rounding to them.
         let target = |i: usize| {
             let s = aim[i].clamp(0.0, 1.0);
             nudge((1.0 - s) * b.min[i] + s * b.max[i], k)
@@ -192,7 +196,8 @@ proptest! {
         check_slabs(b, o, d, range)?;
     }
 
-    /// Flat boxes, integer rays in faces, along edges and through corners; signed zeros in the direction.
+    /// Flat boxes, integer rays in faces, along edges and through corners; signed zeros in the
+    /// direction.
     #[test]
     fn slabs_never_miss_on_a_grid(p in triple(small()), q in triple(small()), o in triple(small()), d in triple(prop_oneof![small(), Just(-0.0)])) {
         if d != [0.0; 3] {

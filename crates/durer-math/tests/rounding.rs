@@ -25,7 +25,8 @@ proptest! {
         prop_assert!(tight(sub_down(a, b), sub_up(a, b), &(rat(a) - rat(b))));
     }
 
-    /// In lanes a sum holds the exact one between bounds, and f64's is the bound on the side where it may be.
+    /// In lanes a sum holds the exact one between bounds, and f64's is the bound on the side where
+    /// it may be.
     #[test]
     fn sums_in_lanes(a in number(), b in number()) {
         let of = |x: f64| I8::splat(Interval::from(x));
@@ -72,7 +73,8 @@ proptest! {
         prop_assert!(tight(mul_down(a, b), mul_up(a, b), &(rat(a) * rat(b))));
     }
 
-    /// The image of every pair of members lies in the interval, and its ends are attained up to rounding.
+    /// The image of every pair of members lies in the interval, and its ends are attained up to
+    /// rounding.
     #[test]
     fn interval_operations_enclose(a in interval(), b in interval(), s in 0.0..=1.0_f64, t in 0.0..=1.0_f64) {
         let (x, y) = (member(a, s), member(b, t));

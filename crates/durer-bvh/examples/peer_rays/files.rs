@@ -41,7 +41,8 @@ pub(crate) struct Hits {
 /// The number of no triangle.
 pub(crate) const MISS: u32 = u32::MAX;
 
-/// The words of a file behind its magic number; `words` says from the first ones how many there must be.
+/// The words of a file behind its magic number; `words` says from the first ones how many there
+/// must be.
 fn words(path: &Path, magic: &'static str, words: impl Fn(&[u32]) -> u64) -> Result<Vec<u32>, FileError> {
     let bytes = std::fs::read(path).map_err(|error| FileError::Io { path: path.into(), error })?;
     let rest =

@@ -1,12 +1,14 @@
-//! Traces the rays of the comparison with other ray kernels, and prints what the other programs print.
+//! Traces the rays of the comparison with other ray kernels, and prints what the other programs
+//! print.
 //!
 //! ```text
 //! cargo run --release -p durer-bvh --example peer_rays -- MESH.tri --load DIR [--threads N] [--repeats N] [--builds N] [--modes single,batch] [--quality fast|good|best] [--json]
 //! ```
 //!
-//! `DIR` holds `primary ao diffuse random` as `.rays` and the reference answers as `.hits`. The answers here are those of exact arithmetic on the
-//! coordinates of the file. Without `--threads`: one thread, then all. `--json` leaves out the table. Batches are
-//! rays that are under way at the same time, with the same answers as alone.
+//! `DIR` holds `primary ao diffuse random` as `.rays` and the reference answers as `.hits`. The
+//! answers here are those of exact arithmetic on the coordinates of the file. Without `--threads`:
+//! one thread, then all. `--json` leaves out the table. Batches are rays that are under way at the
+//! same time, with the same answers as alone.
 
 mod files;
 mod memory;
@@ -65,7 +67,8 @@ fn options() -> Result<Options, String> {
     Ok(Options { mesh, load, threads, repeats, builds, modes, quality, json })
 }
 
-/// Traces some rays and puts down `t` and the triangle of each; for any-hit queries `t` is 0 or infinite.
+/// Traces some rays and puts down `t` and the triangle of each; for any-hit queries `t` is 0 or
+/// infinite.
 type Tracer<'a> = dyn Fn(&[PeerRay], &mut [f32], &mut [u32]) + Sync + 'a;
 
 /// Traces all rays `repeats` times, and once before to warm up.

@@ -7,9 +7,11 @@ fn told(name: &str) -> Option<usize> {
     Some(line.split_whitespace().next()?.parse::<usize>().ok()? << 10)
 }
 
-/// What `f` gives, and the most memory that was held meanwhile above what was held before, in bytes; `None` where the system does not tell.
+/// What `f` gives, and the most memory that was held meanwhile above what was held before, in
+/// bytes; `None` where the system does not tell.
 ///
-/// That is memory in the process's pages: what was asked for and never written to does not count, and what pages hold beside it does.
+/// That is memory in the process's pages: what was asked for and never written to does not count,
+/// and what pages hold beside it does.
 pub(crate) fn most_held<R>(f: impl FnOnce() -> R) -> (R, Option<usize>) {
     // "5" lets the most begin anew (proc(5), Linux 4.0 and later).
     let before = std::fs::write("/proc/self/clear_refs", "5").ok().and_then(|()| told("VmRSS"));

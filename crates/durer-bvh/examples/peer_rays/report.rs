@@ -107,7 +107,8 @@ impl Report {
         );
     }
 
-    /// Hit or miss, `t` within 1e-4, and triangles, against the reference; any-hit answers by hit or miss alone.
+    /// Hit or miss, `t` within 1e-4, and triangles, against the reference; any-hit answers by hit
+    /// or miss alone.
     pub(crate) fn compare(&mut self, work: &str, hits: &Hits, reference: Option<&Hits>, any: bool) {
         let found = hits.t.iter().filter(|t| t.is_finite()).count();
         let mut line = format!("  check        {work:<8} n {} hits {found}", hits.t.len());

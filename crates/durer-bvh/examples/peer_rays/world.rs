@@ -179,7 +179,8 @@ impl World {
     }
 }
 
-/// A ray as the tree sees it: with a direction whose largest component is in `[1, 2)`, and a parameter that is `2^k` times the ray's.
+/// A ray as the tree sees it: with a direction whose largest component is in `[1, 2)`, and a
+/// parameter that is `2^k` times the ray's.
 #[derive(Clone, Copy)]
 struct Seen<'a> {
     r: &'a PeerRay,
@@ -255,7 +256,8 @@ fn three_of(v: [[f64; 8]; 3]) -> Vec3<F8> {
     Vec3::new(F8(v[0]), F8(v[1]), F8(v[2]))
 }
 
-/// Eight rays as they are given, and two to the power `k` of each (see [`Seen`]); `None` if one of these is extreme.
+/// Eight rays as they are given, and two to the power `k` of each (see [`Seen`]); `None` if one of
+/// these is extreme.
 #[inline(always)]
 fn side_by_side(rays: [&PeerRay; 8]) -> Option<(Packet32, [f32; 8])> {
     let mut seen =

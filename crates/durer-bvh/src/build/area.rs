@@ -2,7 +2,8 @@
 
 use crate::frame::Entry;
 
-/// A box in tree units, empty to begin with: the low corner, negated, and the high one, so that it grows by eight maxima at once.
+/// A box in tree units, empty to begin with: the low corner, negated, and the high one, so that it
+/// grows by eight maxima at once.
 ///
 /// Lanes 3 and 7 mean nothing.
 #[derive(Clone, Copy, Debug)]

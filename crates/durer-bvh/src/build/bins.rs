@@ -7,7 +7,8 @@ use core::ops::Range;
 /// Bins per axis.
 pub(crate) const BINS: usize = 16;
 
-/// How twice-centres map to bins: `(x - from) scale` is in `[0, 16)`, and half less is rounded to the nearest integer.
+/// How twice-centres map to bins: `(x - from) scale` is in `[0, 16)`, and half less is rounded to
+/// the nearest integer.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bins {
     /// The last lanes are zero.
@@ -15,10 +16,12 @@ pub(crate) struct Bins {
     pub(crate) scale: [f32; 4],
 }
 
-/// A little less than the number of bins: three roundings by half an ulp do not lead out of the last one.
+/// A little less than the number of bins: three roundings by half an ulp do not lead out of the
+/// last one.
 const REACH: f32 = BINS as f32 * (1.0 - 1.0 / (1 << 20) as f32);
 
-/// Added to a small number it leaves its nearest integer in the lowest bits, which a conversion takes more steps to find.
+/// Added to a small number it leaves its nearest integer in the lowest bits, which a conversion
+/// takes more steps to find.
 pub(crate) const INTEGERS: f32 = 1.5 * (1 << 23) as f32;
 
 impl Bins {

@@ -1,8 +1,10 @@
 //! Which cuts of a binary tree become nodes of sixteen? The best choice, by dynamic programming.
 //!
-//! For each range of a binary tree and each number of children from one to sixteen the least cost of what is below is found from those of its two halves: after
-//! H. Ylitie, T. Karras, S. Laine, "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", High Performance Graphics (2017). Done for
-//! small ranges, which are nearly all of a tree; above them the largest range is cut first.
+//! For each range of a binary tree and each number of children from one to sixteen the least cost
+//! of what is below is found from those of its two halves: after H. Ylitie, T. Karras, S. Laine,
+//! "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", High Performance
+//! Graphics (2017). Done for small ranges, which are nearly all of a tree; above them the largest
+//! range is cut first.
 
 use super::area::Extent;
 use super::{Costs, Divided, Half, Range};
@@ -13,8 +15,9 @@ use crate::node::{ChildRef, MAX_LEAF, Node, WIDTH};
 /// Below this many entries a range is worth it.
 pub(super) const COLLAPSED: usize = 4096;
 
-/// From this level on ranges are halved by count, until 16 are left. Of these each two cuts by kind at least halve the part that is of
-/// several kinds, and so do cuts by count. So eight and eight more levels follow, even if each cut makes a node.
+/// From this level on ranges are halved by count, until 16 are left. Of these each two cuts by kind
+/// at least halve the part that is of several kinds, and so do cuts by count. So eight and eight
+/// more levels follow, even if each cut makes a node.
 pub(super) const BALANCED_FROM: usize = 20;
 
 const _: () = assert!(BALANCED_FROM + 8 + 8 + 1 < MAX_DEPTH && COLLAPSED == 16 << 8 && MAX_LEAF == 16);
@@ -26,7 +29,8 @@ struct Part {
     halves: Option<(u32, u32)>,
     /// The least cost of at most `i + 1` children that hold all of it.
     costs: [f32; WIDTH],
-    /// How many of `i + 1` children the first half gets; 0 if it is better to make do with one child less.
+    /// How many of `i + 1` children the first half gets; 0 if it is better to make do with one
+    /// child less.
     shares: [u8; WIDTH],
     /// How many of sixteen children the first half gets, if it becomes a node.
     share_of_node: u8,
@@ -38,7 +42,8 @@ struct Binary<'a> {
     costs: &'a Costs<'a>,
 }
 
-/// Appends the node over all of a range, of which these are the entries and the room, and those below it; `base` is the position of the first entry.
+/// Appends the node over all of a range, of which these are the entries and the room, and those
+/// below it; `base` is the position of the first entry.
 pub(super) fn subtree(
     entries: &mut [Entry],
     base: usize,

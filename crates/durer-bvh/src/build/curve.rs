@@ -1,8 +1,11 @@
-//! Leaves of neighbours along a space-filling curve, nodes of sixteen of these, and a tree over the nodes: a fraction of the work.
+//! Leaves of neighbours along a space-filling curve, nodes of sixteen of these, and a tree over the
+//! nodes: a fraction of the work.
 //!
-//! Things stand in the order of the Morton codes of their centres, kind by kind (C. Lauterbach, M. Garland, S. Sengupta, D. Luebke, D. Manocha, "Fast BVH
-//! construction on GPUs", Eurographics, 2009). Of each run of [`RUN`] things dynamic programming chooses the leaves with the least cost, and
-//! of each run of leaves the nodes. The [tree](super) over these has some fiftieth of the things that one over all would have.
+//! Things stand in the order of the Morton codes of their centres, kind by kind (C. Lauterbach, M.
+//! Garland, S. Sengupta, D. Luebke, D. Manocha, "Fast BVH construction on GPUs", Eurographics,
+//! 2009). Of each run of [`RUN`] things dynamic programming chooses the leaves with the least cost,
+//! and of each run of leaves the nodes. The [tree](super) over these has some fiftieth of the
+//! things that one over all would have.
 
 use super::area::Extent;
 use super::{Costs, Grown};
@@ -21,7 +24,8 @@ const BITS: u32 = 20;
 /// Bits by which codes are sorted at once, three times; those that agree so far are compared.
 const DIGIT: u32 = 11;
 
-/// What another group costs beside its own tests, in tests of a group as large as they are on average.
+/// What another group costs beside its own tests, in tests of a group as large as they are on
+/// average.
 const ANOTHER: f32 = 0.5;
 
 /// Nodes over `entries`, which are put into the order of the curve. Leaves refer to positions.
@@ -121,7 +125,9 @@ fn spread(mut x: u64) -> u64 {
     (x | x << 2) & 0x1249_2492_4924_9249
 }
 
-/// Groups of neighbours, of one kind each: their boxes, and ranges of positions as references to leaves in place of indices. `costs` says of a run how large a group may be and what groups of each size cost.
+/// Groups of neighbours, of one kind each: their boxes, and ranges of positions as references to
+/// leaves in place of indices. `costs` says of a run how large a group may be and what groups of
+/// each size cost.
 fn grouped(
     entries: &[Entry],
     isa: Isa,

@@ -1,13 +1,17 @@
-//! The builder: binned SAH, straight into sixteen children; near the leaves, [optimal](collapse) ones.
+//! The builder: binned SAH, straight into sixteen children; near the leaves, [optimal](collapse)
+//! ones.
 //!
-//! Each node of many entries starts as one range and keeps splitting the child with the largest surface until there are sixteen, by the surface area
-//! heuristic over bins (I. Wald, "On fast construction of SAH-based bounding volume hierarchies", IEEE Symposium on Interactive
-//! Ray Tracing, 2007; I. Wald, C. Benthin, S. Boulos, "Getting rid of packets", same, 2008, for the wide collapse). A leaf holds one
-//! kind of thing only, so that it is one call. The result is a function of the entries and their order alone: threads share out
-//! subtrees and merge bins by minima, maxima and counts, which do not depend on order.
+//! Each node of many entries starts as one range and keeps splitting the child with the largest
+//! surface until there are sixteen, by the surface area heuristic over bins (I. Wald, "On fast
+//! construction of SAH-based bounding volume hierarchies", IEEE Symposium on Interactive Ray
+//! Tracing, 2007; I. Wald, C. Benthin, S. Boulos, "Getting rid of packets", same, 2008, for the
+//! wide collapse). A leaf holds one kind of thing only, so that it is one call. The result is a
+//! function of the entries and their order alone: threads share out subtrees and merge bins by
+//! minima, maxima and counts, which do not depend on order.
 //!
-//! That is [`Quality::Good`]. [`Quality::Fast`] makes leaves of [neighbours along a curve](curve) and a tree over these; [`Quality::Best`] also cuts
-//! triangles [in space](spatial), so that some [stand in several leaves](shared).
+//! That is [`Quality::Good`]. [`Quality::Fast`] makes leaves of [neighbours along a curve](curve)
+//! and a tree over these; [`Quality::Best`] also cuts triangles [in space](spatial), so that some
+//! [stand in several leaves](shared).
 //!
 //! Depth is bounded: from level [`BALANCED_FROM`] on ranges are halved by count.
 
@@ -41,7 +45,8 @@ pub enum Quality {
     /// The surface area heuristic at each step.
     #[default]
     Good,
-    /// Triangles may stand in several leaves, a quarter more than there are at most: for scenes that are built once, with triangles that are large beside others.
+    /// Triangles may stand in several leaves, a quarter more than there are at most: for scenes
+    /// that are built once, with triangles that are large beside others.
     Best,
 }
 
@@ -50,7 +55,8 @@ pub enum Quality {
 pub struct Settings {
     /// How much work the tree is worth.
     pub quality: Quality,
-    /// How many things a leaf may hold, 1 to 16; triangles go by the sixteen that are tested together.
+    /// How many things a leaf may hold, 1 to 16; triangles go by the sixteen that are tested
+    /// together.
     pub max_leaf: usize,
     /// The cost of one test.
     pub test_cost: f32,
@@ -116,7 +122,8 @@ impl<'a> Costs<'a> {
         entries.len() <= self.of_range(entries).most && split::is_one_kind(entries)
     }
 
-    /// What a range costs, as its first entry tells: mostly all of it is of one kind, and a leaf always is.
+    /// What a range costs, as its first entry tells: mostly all of it is of one kind, and a leaf
+    /// always is.
     fn of_range(&self, entries: &[Entry]) -> KindCosts {
         let is_triangles = entries.first().is_some_and(|e| self.shapes[e.kind() as usize].is_some());
         if is_triangles {
@@ -144,8 +151,9 @@ impl KindCosts {
 /// The corners of the triangle with an index, in the caller's units.
 pub type CornersOf<'a> = &'a (dyn Fn(u32) -> Corners + Sync);
 
-/// From this level on ranges are halved by count. Halving reaches single things in `log16(2^27) < 7` levels, and
-/// the kinds of a last range of 16 need two more; so no tree is deeper than 33, with nodes made along a [curve] below it than 34, and [`MAX_DEPTH`] is 40.
+/// From this level on ranges are halved by count. Halving reaches single things in
+/// `log16(2^27) < 7` levels, and the kinds of a last range of 16 need two more; so no tree is
+/// deeper than 33, with nodes made along a [curve] below it than 34, and [`MAX_DEPTH`] is 40.
 const BALANCED_FROM: usize = 24;
 
 const _: () = assert!(LANES.is_power_of_two() && LANES <= MAX_LEAF);
@@ -155,7 +163,8 @@ const _: () = assert!(BALANCED_FROM + 7 + 2 + 1 < MAX_DEPTH && MAX_ENTRIES == 1 
 /// Ranges with fewer entries are one thread's.
 const PARALLEL: usize = 4096;
 
-/// Nodes over the first `len` of `entries`, which are put into leaf order; the others are room. The first node is the root. Leaves refer to positions.
+/// Nodes over the first `len` of `entries`, which are put into leaf order; the others are room. The
+/// first node is the root. Leaves refer to positions.
 fn build(entries: &mut [Entry], len: usize, costs: &Costs<'_>) -> Grown {
     if len == 0 {
         return Grown { nodes: Vec::new(), below: Vec::new() };
@@ -165,7 +174,8 @@ fn build(entries: &mut [Entry], len: usize, costs: &Costs<'_>) -> Grown {
     grow(entries, 0, &whole, 0, costs)
 }
 
-/// Nodes that are still in several lists: those of a subtree that one thread has made, or one node and those below it.
+/// Nodes that are still in several lists: those of a subtree that one thread has made, or one node
+/// and those below it.
 struct Grown {
     nodes: Vec<Node>,
     /// In which slot of the one node each of these begins.
@@ -240,7 +250,8 @@ struct Half {
 }
 
 impl Divided {
-    /// Halves with their shares of some room: by number and surface, as what a cut in space may gain grows with both.
+    /// Halves with their shares of some room: by number and surface, as what a cut in space may
+    /// gain grows with both.
     fn sharing(room: usize, left: (usize, Extent), right: (usize, Extent)) -> Self {
         let weight = |(len, extent): &(usize, Extent)| f64::from(extent.half_area()) * *len as f64;
         let (a, b) = (weight(&left), weight(&right));
@@ -250,7 +261,8 @@ impl Divided {
         Self { left: half(left, first), right: half(right, room - first) }
     }
 
-    /// Gives both halves of the first `len` entries their shares of the room behind them; what may be a leaf after all stays together.
+    /// Gives both halves of the first `len` entries their shares of the room behind them; what may
+    /// be a leaf after all stays together.
     fn of(entries: &mut [Entry], len: usize, may_be_leaf: bool, Split { at, left, right }: Split) -> Self {
         let room = entries.len() - len;
         if may_be_leaf {
@@ -343,7 +355,8 @@ fn move_by(node: &mut Node, offset: usize) {
     }
 }
 
-/// Splits the first `len` entries in two; `None` if it is better, and possible, to make them a leaf.
+/// Splits the first `len` entries in two; `None` if it is better, and possible, to make them a
+/// leaf.
 fn split(
     entries: &mut [Entry],
     len: usize,
@@ -393,11 +406,13 @@ fn split(
 }
 
 impl Bvh {
-    /// Builds a tree over `entries`, all [bounded](Entry::is_bounded) and made by `frame`, of as many kinds as `shapes`
-    /// has elements: for a kind of triangles the corners of each, in the caller's units and within its entry's box.
+    /// Builds a tree over `entries`, all [bounded](Entry::is_bounded) and made by `frame`, of as
+    /// many kinds as `shapes` has elements: for a kind of triangles the corners of each, in the
+    /// caller's units and within its entry's box.
     ///
-    /// Also gives, for each kind, the indices of its entries in the order of the leaves: [`Leaf`](crate::Leaf)s
-    /// refer to positions in these lists. The tree does not depend on the number of threads.
+    /// Also gives, for each kind, the indices of its entries in the order of the leaves:
+    /// [`Leaf`](crate::Leaf)s refer to positions in these lists. The tree does not depend on the
+    /// number of threads.
     ///
     /// # Panics
     ///
@@ -473,7 +488,8 @@ impl Bvh {
         (tree.with_nodes(nodes), arranged.order)
     }
 
-    /// Makes a block of each leaf of triangles, kind by kind, and says where references to leaves lead.
+    /// Makes a block of each leaf of triangles, kind by kind, and says where references to leaves
+    /// lead.
     fn keep_triangles(&mut self, arranged: &Arranged, shapes: &[Option<CornersOf<'_>>]) {
         let frame = self.frame;
         let is_block = |leaf: &&Placed| shapes[leaf.kind as usize].is_some();

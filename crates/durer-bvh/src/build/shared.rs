@@ -1,8 +1,8 @@
 //! Which things stand in which leaves, and in which slots.
 //!
-//! Things of a kind have successive slots in the order of the leaves. Triangles that stand in several leaves have the last ones, and for
-//! each of them the tree knows all places, so that those who want to see each triangle once can tell which of its leaves shows it
-//! (see [`Splits`]).
+//! Things of a kind have successive slots in the order of the leaves. Triangles that stand in
+//! several leaves have the last ones, and for each of them the tree knows all places, so that those
+//! who want to see each triangle once can tell which of its leaves shows it (see [`Splits`]).
 
 use crate::frame::Entry;
 use crate::node::{Node, WIDTH};
@@ -28,7 +28,8 @@ pub(super) struct Placed {
     pub(super) count: u32,
 }
 
-/// For each kind, the slots of its leaves one after the other, and how many slots stand in one leaf only.
+/// For each kind, the slots of its leaves one after the other, and how many slots stand in one leaf
+/// only.
 pub(super) struct Listed {
     pub(super) slots: Vec<Vec<u32>>,
     pub(super) whole: Vec<u32>,
@@ -56,7 +57,8 @@ impl Arranged {
         Self { order: slots.order, leaves, listed: None }
     }
 
-    /// Leaves that refer to positions of references: a triangle may be in several, or several times in one, and there is room between them.
+    /// Leaves that refer to positions of references: a triangle may be in several, or several times
+    /// in one, and there is room between them.
     pub(super) fn sharing(nodes: &[Node], entries: &[Entry], kinds: usize) -> Self {
         let mut leaves = Vec::new();
         // For each kind and index, in how many leaves.

@@ -1,24 +1,30 @@
 //! Splits in space: a triangle that a plane cuts stands on both sides of it.
 //!
-//! Where the boxes of two halves overlap much, as they do around large triangles, a plane through all of them may be the better cut (M. Stich, H.
-//! Friedrich, A. Dietrich, "Spatial splits in bounding volume hierarchies", High Performance Graphics, 2009). An entry is then a *reference*: a
-//! box around a part of a triangle. All parts of a triangle together are the whole of it: what a plane cuts is replaced by two
-//! parts, each with a box that holds all on its side. A budget bounds how many references there are: it is *room* behind the entries of a
-//! range, of which both halves get their shares.
+//! Where the boxes of two halves overlap much, as they do around large triangles, a plane through
+//! all of them may be the better cut (M. Stich, H. Friedrich, A. Dietrich, "Spatial splits in
+//! bounding volume hierarchies", High Performance Graphics, 2009). An entry is then a *reference*:
+//! a box around a part of a triangle. All parts of a triangle together are the whole of it: what a
+//! plane cuts is replaced by two parts, each with a box that holds all on its side. A budget bounds
+//! how many references there are: it is *room* behind the entries of a range, of which both halves
+//! get their shares.
 //!
 //! # The boxes of parts
 //!
-//! With `u = 2^-53` an edge from `a` to `b`, coordinates at most 1, that crosses the plane `x = p` does so at
+//! With `u = 2^-53` an edge from `a` to `b`, coordinates at most 1, that crosses the plane `x = p`
+//! does so at
 //!
 //! ```text
 //!     y = a_y + s (b_y - a_y),   s = (p - a_x) / (b_x - a_x) in [0, 1].
 //! ```
 //!
-//! Both differences and the quotient are rounded, so `s` errs by `3 u` of itself; with the third difference and the product that is `5 u` of at most 2;
-//! and the sum is at most `1 + 10 u` and rounded once: `12 u` in all, with terms of second order. Underflow needs no charge: differences of f64 do not, and
-//! a quotient or a product that does loses less than `2^-1074`. A part's box has the corners on its side and these points, and is grown by [`SLACK`], `32 u`; so
-//! at least `20 u` are left, more than [`Bounds`] of any other planes err: which is how [`is_covered`] can look for gaps. It is also
-//! inside the box of what was cut, and on its side of the plane, both of which hold the part.
+//! Both differences and the quotient are rounded, so `s` errs by `3 u` of itself; with the third
+//! difference and the product that is `5 u` of at most 2; and the sum is at most `1 + 10 u` and
+//! rounded once: `12 u` in all, with terms of second order. Underflow needs no charge: differences
+//! of f64 do not, and a quotient or a product that does loses less than `2^-1074`. A part's box has
+//! the corners on its side and these points, and is grown by [`SLACK`], `32 u`; so at least `20 u`
+//! are left, more than [`Bounds`] of any other planes err: which is how [`is_covered`] can look for
+//! gaps. It is also inside the box of what was cut, and on its side of the plane, both of which
+//! hold the part.
 //!
 //! Corners are scaled to the tree's units. A triangle of which that loses something is never cut.
 
@@ -34,8 +40,9 @@ const SLACK: f64 = 16.0 * f64::EPSILON;
 /// How many places for a plane there are along each axis.
 const BINS: usize = 16;
 
-/// A cut in space is looked for where what halves have in common has more than this much of their range's surface. The paper compares with the whole tree's
-/// instead: then it is looked for nearly everywhere, which takes three times as long and is worth nothing.
+/// A cut in space is looked for where what halves have in common has more than this much of their
+/// range's surface. The paper compares with the whole tree's instead: then it is looked for nearly
+/// everywhere, which takes three times as long and is worth nothing.
 const OVERLAP: f32 = 0.3;
 
 /// A range of fewer entries is not cut in space: it is a few blocks.
@@ -210,7 +217,8 @@ impl Chopped {
         self.end[axis][last] += 1;
     }
 
-    /// Adds a triangle's parts in some bins, rounded: nothing depends on them but which plane is chosen. Says whether there are any.
+    /// Adds a triangle's parts in some bins, rounded: nothing depends on them but which plane is
+    /// chosen. Says whether there are any.
     #[inline(always)]
     fn chop(
         &mut self,
@@ -298,7 +306,8 @@ struct Cut {
     sides: [(Extent, usize); 2],
 }
 
-/// Cuts the first `len` entries, behind which there is room, by a plane in space, if that is better than `other`; else nothing has changed.
+/// Cuts the first `len` entries, behind which there is room, by a plane in space, if that is better
+/// than `other`; else nothing has changed.
 pub(super) fn divide(
     entries: &mut [Entry],
     len: usize,
@@ -372,7 +381,8 @@ fn best(
     found
 }
 
-/// Makes the cut. What is cut may stand whole on one side, if that is better. `None` if there turns out to be nothing on one side: then nothing has changed.
+/// Makes the cut. What is cut may stand whole on one side, if that is better. `None` if there turns
+/// out to be nothing on one side: then nothing has changed.
 fn make(entries: &mut [Entry], len: usize, cut: &Cut, costs: &Costs<'_>) -> Option<Divided> {
     let Cut { axis, at, .. } = *cut;
     let [(below, n_below), (above, n_above)] = cut.sides;

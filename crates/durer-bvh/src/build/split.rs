@@ -89,7 +89,8 @@ struct Best {
 impl Best {
     const NONE: Self = Self { cost: f32::INFINITY, axis: 0, at: 0, uneven: usize::MAX };
 
-    /// Takes a cut into `left` and `right` entries if it is better. Flat in two directions, the surface says nothing: then the most even cut wins.
+    /// Takes a cut into `left` and `right` entries if it is better. Flat in two directions, the
+    /// surface says nothing: then the most even cut wins.
     #[inline(always)]
     fn improve(&mut self, cost: f32, axis: usize, at: usize, left: usize, right: usize) {
         let uneven = left.abs_diff(right);
@@ -99,7 +100,8 @@ impl Best {
     }
 }
 
-/// The best cut along any axis by the surface area heuristic; `None` if all centres coincide (or nearly).
+/// The best cut along any axis by the surface area heuristic; `None` if all centres coincide (or
+/// nearly).
 pub(super) fn best_plane(entries: &[Entry], costs: &KindCosts, isa: Isa) -> Option<Plane> {
     if entries.len() <= SWEPT {
         isa.run(
@@ -111,7 +113,8 @@ pub(super) fn best_plane(entries: &[Entry], costs: &KindCosts, isa: Isa) -> Opti
     }
 }
 
-/// The best of all cuts of a few entries in the order of their centres; equal ones stay as they stand.
+/// The best of all cuts of a few entries in the order of their centres; equal ones stay as they
+/// stand.
 #[inline(always)]
 fn best_of_all(entries: &[Entry], costs: &KindCosts) -> Option<Plane> {
     let n = entries.len();
@@ -164,7 +167,8 @@ fn best_of_all(entries: &[Entry], costs: &KindCosts) -> Option<Plane> {
     Some(Plane { left: (all(left), left.len()), right: (all(right), right.len()), cut: Cut::Order { order } })
 }
 
-/// How many of `n` numbers come before each: lesser ones, and equal ones that stand before it. Without a branch, which sorting few numbers is full of.
+/// How many of `n` numbers come before each: lesser ones, and equal ones that stand before it.
+/// Without a branch, which sorting few numbers is full of.
 #[inline(always)]
 fn ranks(x: &[f32; SWEPT], n: usize) -> [u32; SWEPT] {
     const STEP: usize = 8;
@@ -279,7 +283,8 @@ fn part(entries: &mut [Entry], bins: &Bins, axis: usize, bin: u32, isa: Isa) -> 
     };
     let lefts: Vec<usize> = entries.par_chunks_mut(CHUNK).map(some).collect();
     let (at, end) = (lefts.iter().sum(), entries.len());
-    // What went right in chunks that are on the left, and what went left in those on the right, changes places.
+    // What went right in chunks that are on the left, and what went left in those on the right,
+    // changes places.
     let chunks = || lefts.iter().enumerate().map(|(i, left)| (i * CHUNK, i * CHUNK + left));
     let mut from_left = chunks().map(|(start, middle)| middle.min(at)..(start + CHUNK).min(end).min(at));
     let mut from_right = chunks().map(|(start, middle)| start.max(at) - at..middle.max(at) - at);
@@ -300,8 +305,8 @@ fn part(entries: &mut [Entry], bins: &Bins, axis: usize, bin: u32, isa: Isa) -> 
     }
 }
 
-/// The same by one thread. Which side an entry goes to nobody could foresee, so there is no branch: each changes places with the first one that
-/// is not known to go left.
+/// The same by one thread. Which side an entry goes to nobody could foresee, so there is no branch:
+/// each changes places with the first one that is not known to go left.
 #[inline(always)]
 fn part_in_turn(entries: &mut [Entry], bins: &Bins, axis: usize, bin: u32) -> usize {
     let mut at = 0;
@@ -320,7 +325,8 @@ pub(super) fn halve(entries: &[Entry]) -> Split {
     Split { at, left: extent(left), right: extent(right) }
 }
 
-/// Cuts in the middle; a range that is small enough for a leaf is sorted by kind first, so that kinds part.
+/// Cuts in the middle; a range that is small enough for a leaf is sorted by kind first, so that
+/// kinds part.
 pub(super) fn halve_by_kind(entries: &mut [Entry]) -> Split {
     if entries.len() > super::MAX_LEAF {
         return halve(entries);

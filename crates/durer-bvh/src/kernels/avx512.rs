@@ -1,6 +1,8 @@
-//! Sixteen lanes at once with AVX-512: all of a node, all of a block, or two children for eight rays.
+//! Sixteen lanes at once with AVX-512: all of a node, all of a block, or two children for eight
+//! rays.
 //!
-//! Comparisons give masks in registers of their own, and such a mask closes gaps by itself. Rays are made ready as with AVX2.
+//! Comparisons give masks in registers of their own, and such a mask closes gaps by itself. Rays
+//! are made ready as with AVX2.
 #![expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")]
 
 use super::avx2::Numbers;
@@ -15,7 +17,8 @@ use core::arch::x86_64::*;
 use durer_math::Isa;
 use durer_math::kernels::Path;
 
-/// Proof that this CPU has all that [`Path::Avx512`] asks for: AVX-512 F, VL, DQ and BW, and what [`Avx2`] proves.
+/// Proof that this CPU has all that [`Path::Avx512`] asks for: AVX-512 F, VL, DQ and BW, and what
+/// [`Avx2`] proves.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx512(pub(super) Avx2);
 
@@ -264,8 +267,9 @@ fn descend<const ORDERED: bool>(node: &Node, lanes: &Wide, t_far: f32, stack: &m
     };
     let met = _mm512_cmp_ps_mask::<_CMP_LE_OQ>(near, far);
     let mask = u32::from(met);
-    // SAFETY: sixteen elements are staged; eight or sixteen, and not fewer than are met, are written to each of the others, through pointers to sixteen; a mask of
-    // sixteen bits has at most sixteen.
+    // SAFETY: sixteen elements are staged; eight or sixteen, and not fewer than are met, are
+    // written to each of the others, through pointers to sixteen; a mask of sixteen bits has at
+    // most sixteen.
     unsafe {
         stack.exchange(
             (32 - mask.leading_zeros()) as usize,
@@ -374,7 +378,8 @@ fn cross(a: &Three, b: &Three) -> Three {
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
-/// Sixteen triangles without a ray: the first corner, the edges from there, their cross product, and the size of the block.
+/// Sixteen triangles without a ray: the first corner, the edges from there, their cross product,
+/// and the size of the block.
 pub(super) struct Edges {
     first: Three,
     e1: Three,
@@ -418,7 +423,8 @@ fn judge(block: &Block, filter: &Filter, t_far: f32) -> Verdict {
     verdict
 }
 
-/// What a block's judge needs of a ray if the first test has not missed all triangles: members of [`Filter`], and what follows from these and the size of the block.
+/// What a block's judge needs of a ray if the first test has not missed all triangles: members of
+/// [`Filter`], and what follows from these and the size of the block.
 pub(super) struct Rest {
     pub(super) q: f32,
     /// `p + NEAR E`.
@@ -432,7 +438,8 @@ pub(super) struct Rest {
     pub(super) last: f32,
 }
 
-/// What `Scalar::judge` does, sixteen triangles at once; says which are alive, and the rest only if one is. Most blocks end at the first test.
+/// What `Scalar::judge` does, sixteen triangles at once; says which are alive, and the rest only if
+/// one is. Most blocks end at the first test.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 pub(super) fn judge_edges(

@@ -1,4 +1,5 @@
-//! What the builder does for each thing: boxes and bins, eight lanes at a time. The loops below the door are the definition.
+//! What the builder does for each thing: boxes and bins, eight lanes at a time. The loops below the
+//! door are the definition.
 #![cfg_attr(
     target_arch = "x86_64",
     expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")
@@ -53,7 +54,8 @@ mod avx2 {
     use crate::build::INTEGERS;
     use core::arch::x86_64::*;
 
-    /// The low corner, negated, and the high one. Kind and index would be subnormal numbers, with which processors take their time: zeros.
+    /// The low corner, negated, and the high one. Kind and index would be subnormal numbers, with
+    /// which processors take their time: zeros.
     #[target_feature(enable = "avx2")]
     #[inline]
     fn reach(entry: &Entry) -> __m256 {
@@ -103,7 +105,8 @@ mod avx2 {
         let (half, integers) = (_mm_set1_ps(0.5), _mm_set1_ps(INTEGERS));
         let mask = _mm_set1_epi32(BINS as i32 - 1);
         let Filled { extents: [ex, ey, ez], counts: [cx, cy, cz] } = filled;
-        // Neighbours often go to one bin, and each would have to wait for the other: two halves side by side.
+        // Neighbours often go to one bin, and each would have to wait for the other: two halves
+        // side by side.
         let (first, second) = entries.split_at(entries.len() / 2);
         let pairs = second.iter().zip(first.iter().map(Some).chain([None]));
         for entry in pairs.flat_map(|(b, a)| a.into_iter().chain([b])) {

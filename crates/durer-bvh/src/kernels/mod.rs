@@ -1,5 +1,6 @@
-//! What is done for each node and block, once per instruction set. `scalar` is the definition; the others equal it bit for bit, but for how a ray
-//! is made ready: there each may be as generous as its bounds allow.
+//! What is done for each node and block, once per instruction set. `scalar` is the definition; the
+//! others equal it bit for bit, but for how a ray is made ready: there each may be as generous as
+//! its bounds allow.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
@@ -30,7 +31,8 @@ use crate::triangles::{Block, Filter, Verdict};
 
 /// Tests a node's boxes against a ray and stacks the children it meets.
 ///
-/// A kernel for another instruction set is one more implementation, and one more line in `traverse::with_kernel`.
+/// A kernel for another instruction set is one more implementation, and one more line in
+/// `traverse::with_kernel`.
 pub(crate) trait Kernel: Copy {
     /// What node tests need of a ray.
     type Ray;
@@ -38,7 +40,8 @@ pub(crate) trait Kernel: Copy {
     /// The same, spread over the lanes.
     type Lanes;
 
-    /// What the tests need of a ray, clipped to the tree's box or not; `None` if it certainly misses that.
+    /// What the tests need of a ray, clipped to the tree's box or not; `None` if it certainly
+    /// misses that.
     #[inline(always)]
     fn set_up(self, tree: &Bvh, sight: &impl TreeRay) -> Option<(Self::Ray, ClippedRay)> {
         let nearby = self.nearby(tree, sight);
@@ -54,8 +57,9 @@ pub(crate) trait Kernel: Copy {
     /// Brings a ray into the lanes.
     fn spread(self, ray: &Self::Ray) -> Self::Lanes;
 
-    /// Pushes the children whose boxes the ray meets before `t_far`, and takes the last off the stack, or what was there before if it meets none. In
-    /// the order of the ray's octant, the farthest first, or in that of the node.
+    /// Pushes the children whose boxes the ray meets before `t_far`, and takes the last off the
+    /// stack, or what was there before if it meets none. In the order of the ray's octant, the
+    /// farthest first, or in that of the node.
     fn descend<const ORDERED: bool>(
         self,
         node: &Node,
@@ -70,8 +74,9 @@ pub(crate) trait Kernel: Copy {
     /// What can be said of sixteen triangles, of crossings up to `t_far`.
     fn judge(self, block: &Block, filter: &Filter, t_far: f32) -> Verdict;
 
-    /// Runs what few steps need, and what is the caller's, compiled apart from the code around it: else compilers do parts of it ahead, for every
-    /// ray. For the instructions of [`Isa::run`](durer_math::Isa::efloat).
+    /// Runs what few steps need, and what is the caller's, compiled apart from the code around it:
+    /// else compilers do parts of it ahead, for every ray. For the instructions of
+    /// [`Isa::run`](durer_math::Isa::efloat).
     fn apart<R>(self, f: impl FnOnce() -> R) -> R;
 
     /// The same for what is made of this kernel's own steps, and compiled for its own instructions.
@@ -92,7 +97,8 @@ pub(crate) trait Together<const N: usize>: Kernel {
     /// Whether there are such packets at all.
     const EXISTS: bool = true;
 
-    /// Rays, eight in each element, as a packet, if they are exactly known, nearby and so much alike that it pays.
+    /// Rays, eight in each element, as a packet, if they are exactly known, nearby and so much
+    /// alike that it pays.
     fn gather(self, tree: &Bvh, rays: &[&Packet32]) -> Option<Self::Packet>;
 
     /// How far each ray of a packet looks at most.
@@ -110,7 +116,8 @@ pub(crate) trait Together<const N: usize>: Kernel {
     /// What [`Filter::of_exact`] gives for each ray.
     fn filters(self, tree: &Bvh, packet: &Self::Packet) -> Self::Filters;
 
-    /// [`Kernel::judge`] for those rays that are `awake`: of whom a triangle is alive, and their verdicts.
+    /// [`Kernel::judge`] for those rays that are `awake`: of whom a triangle is alive, and their
+    /// verdicts.
     fn judge_together(
         self,
         block: &Block,
@@ -120,8 +127,8 @@ pub(crate) trait Together<const N: usize>: Kernel {
         verdicts: &mut [Verdict; N],
     ) -> u32;
 
-    /// Pushes the children that [`Kernel::descend`] pushes for any of the rays that are awake, and where each ray enters them, or NaN where it does not. Beyond
-    /// `far` none of the rays looks.
+    /// Pushes the children that [`Kernel::descend`] pushes for any of the rays that are awake, and
+    /// where each ray enters them, or NaN where it does not. Beyond `far` none of the rays looks.
     fn descend_together<const ORDERED: bool>(
         self,
         node: &Node,

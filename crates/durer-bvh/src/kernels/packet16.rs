@@ -1,5 +1,6 @@
-//! Sixteen rays that go through a tree together, with AVX-512: one box against all of them is one step, as it is for eight (see [`packet`](super::packet), where the bounds
-//! of a hull are derived; they hold for any number of rays).
+//! Sixteen rays that go through a tree together, with AVX-512: one box against all of them is one
+//! step, as it is for eight (see [`packet`](super::packet), where the bounds of a hull are derived;
+//! they hold for any number of rays).
 #![expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")]
 
 use super::avx2::{Numbers, OUTWARD, SLACK};

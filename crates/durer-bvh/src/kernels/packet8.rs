@@ -1,21 +1,28 @@
 //! Eight rays that go through a tree together, with AVX2 and FMA.
 //!
-//! A node's boxes are tested at once against what bounds all eight rays, then each box that is met there against the eight rays at once, so that a
-//! ray is shown what it is shown alone, to the bit (I. Wald, P. Slusallek, C. Benthin, M. Wagner, "Interactive rendering with coherent ray tracing", Computer
-//! Graphics Forum 20(3), 2001; A. Reshetov, A. Soupikov, J. Hurley, "Multi-level ray tracing algorithm", ACM Transactions on Graphics 24(3), 2005).
+//! A node's boxes are tested at once against what bounds all eight rays, then each box that is met
+//! there against the eight rays at once, so that a ray is shown what it is shown alone, to the bit
+//! (I. Wald, P. Slusallek, C. Benthin, M. Wagner, "Interactive rendering with coherent ray
+//! tracing", Computer Graphics Forum 20(3), 2001; A. Reshetov, A. Soupikov, J. Hurley, "Multi-level
+//! ray tracing algorithm", ACM Transactions on Graphics 24(3), 2005).
 //!
 //! # What bounds eight rays
 //!
-//! All planes of a tree are at `p` in `[-1, 1]`. Ray `i` meets one at the fused `f_i(p) = p r_i + c_i`, and what is wanted is a line `g(p) = p r + c` below all of them. As all are
-//! straight it has to be so at both ends only. With `a` and `b` the least of the rounded `c_i + r_i` and `c_i - r_i` and `u = 2^-24`
+//! All planes of a tree are at `p` in `[-1, 1]`. Ray `i` meets one at the fused
+//! `f_i(p) = p r_i + c_i`, and what is wanted is a line `g(p) = p r + c` below all of them. As all
+//! are straight it has to be so at both ends only. With `a` and `b` the least of the rounded
+//! `c_i + r_i` and `c_i - r_i` and `u = 2^-24`
 //!
 //! ```text
 //!     r = (a - b) / 2,    c = (a + b) / 2 - s,    s = 4 u (|a| + |b|)
 //! ```
 //!
-//! do: `r + c` and `c - r` err by `u (|a| + |b|) (1/2 + 1/2 + 1/2)` before `s` is taken, `a` and `b` are within `u |a|` and `u |b|` of what they are rounded from, and a unit and a half pays
-//! for the second order and the rounding of `s`. Rounding is monotone, so `g(p)`, fused, is not above the rounded `f_i(p)` either. Nothing underflows that could matter:
-//! `|r_i| >= 1/2`, so `|a| + |b|` is not small. The same from above for where boxes are left. Where `[-1, 1]` does not hold the origins, and these are one, it is the best line there is.
+//! do: `r + c` and `c - r` err by `u (|a| + |b|) (1/2 + 1/2 + 1/2)` before `s` is taken, `a` and
+//! `b` are within `u |a|` and `u |b|` of what they are rounded from, and a unit and a half pays for
+//! the second order and the rounding of `s`. Rounding is monotone, so `g(p)`, fused, is not above
+//! the rounded `f_i(p)` either. Nothing underflows that could matter: `|r_i| >= 1/2`, so
+//! `|a| + |b|` is not small. The same from above for where boxes are left. Where `[-1, 1]` does not
+//! hold the origins, and these are one, it is the best line there is.
 #![expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")]
 
 use super::Rows;
@@ -27,7 +34,8 @@ use crate::tree::Bvh;
 use crate::triangles::{Block, Filter, Verdict};
 use core::arch::x86_64::*;
 
-/// Rays that go together differ by this much in each component of their directions, and of their origins in tree units: more, and they part soon.
+/// Rays that go together differ by this much in each component of their directions, and of their
+/// origins in tree units: more, and they part soon.
 pub(super) const NEIGHBOURS: f32 = 1.0 / 16.0;
 
 /// Eight rays.
@@ -81,7 +89,8 @@ pub(super) fn least_of_each<const GREATEST: bool>(x: [__m256; 4]) -> __m128 {
     if GREATEST { _mm_max_ps(a, b) } else { _mm_min_ps(a, b) }
 }
 
-/// `super::avx2::nearby` for eight rays that are exactly known; `None` if one of them is not nearby, or they are no neighbours.
+/// `super::avx2::nearby` for eight rays that are exactly known; `None` if one of them is not
+/// nearby, or they are no neighbours.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 pub(super) fn gather(tree: &Bvh, rays: &Packet32) -> Option<Packet> {
@@ -177,7 +186,8 @@ pub(super) fn ordered(node: &Node, mask: u32, octant: usize) -> u32 {
     places
 }
 
-/// Pushes the children of a node that one of the rays meets which are `awake`: those whose entry into the node is not behind what they found.
+/// Pushes the children of a node that one of the rays meets which are `awake`: those whose entry
+/// into the node is not behind what they found.
 ///
 /// The hull's `far` is not below any of `t_far`.
 #[inline]

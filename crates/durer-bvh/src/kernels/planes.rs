@@ -1,11 +1,13 @@
-//! Where in a node the planes begin that a ray comes to first, and last, on each axis: a matter of its octant.
+//! Where in a node the planes begin that a ray comes to first, and last, on each axis: a matter of
+//! its octant.
 
 use crate::node::WIDTH;
 
 /// A row of [`Node::planes`](crate::node::Node::planes), in bytes.
 const ROW: usize = size_of::<f32>() * WIDTH;
 
-/// In bytes from the beginning of [`Node::planes`](crate::node::Node::planes): each of these begins one of its six rows, as they come from [`Planes::of`] only.
+/// In bytes from the beginning of [`Node::planes`](crate::node::Node::planes): each of these begins
+/// one of its six rows, as they come from [`Planes::of`] only.
 #[derive(Clone, Copy)]
 pub(super) struct Planes {
     near: [usize; 3],

@@ -7,10 +7,12 @@ use core::mem::MaybeUninit;
 /// The deepest tree that is built.
 pub(crate) const MAX_DEPTH: usize = 40;
 
-/// On each level at most fifteen siblings wait while the sixteenth is entered; one push writes sixteen lanes; and at the bottom lies the end.
+/// On each level at most fifteen siblings wait while the sixteenth is entered; one push writes
+/// sixteen lanes; and at the bottom lies the end.
 const CAPACITY: usize = (WIDTH - 1) * MAX_DEPTH + WIDTH + 1;
 
-/// Children that wait, with the parameter at which the ray enters each; at the bottom [`ChildRef::END`].
+/// Children that wait, with the parameter at which the ray enters each; at the bottom
+/// [`ChildRef::END`].
 pub(crate) struct Stack {
     refs: [MaybeUninit<u32>; CAPACITY],
     near: [MaybeUninit<f32>; CAPACITY],
@@ -19,8 +21,8 @@ pub(crate) struct Stack {
     len: usize,
 }
 
-/// The top of a stack in the last word of a cache line, and all children of a node in the next: who writes across a border of lines, and reads one
-/// word of it at once, has to wait.
+/// The top of a stack in the last word of a cache line, and all children of a node in the next: who
+/// writes across a border of lines, and reads one word of it at once, has to wait.
 #[repr(align(64))]
 struct Staged([MaybeUninit<u32>; 2 * WIDTH]);
 
@@ -61,7 +63,8 @@ impl Stack {
         ChildRef(unsafe { self.refs[self.len].assume_init() })
     }
 
-    /// Drops what the ray enters later than this; the others stay in their order. Without branches, which nobody could foresee.
+    /// Drops what the ray enters later than this; the others stay in their order. Without branches,
+    /// which nobody could foresee.
     pub(crate) fn prune(&mut self, t_far: f32) {
         let mut kept = 0;
         for i in 0..self.len {
@@ -74,13 +77,15 @@ impl Stack {
         self.len = kept;
     }
 
-    /// Pushes those of sixteen children that are met and pops the last, or what was on top before if none is. `stage` writes all sixteen, `push` the
-    /// `count` that are met without gaps; `last` is one more than the place of the last of them among the sixteen, 0 if there is none.
+    /// Pushes those of sixteen children that are met and pops the last, or what was on top before
+    /// if none is. `stage` writes all sixteen, `push` the `count` that are met without gaps; `last`
+    /// is one more than the place of the last of them among the sixteen, 0 if there is none.
     ///
     /// # Safety
     ///
-    /// Both functions get pointers to sixteen elements, `stage` to such as are aligned to 64 bytes. `stage` must write all of them; `push` must write at least `count` of each, at
-    /// most sixteen; `count` is at most sixteen, and so is `last`.
+    /// Both functions get pointers to sixteen elements, `stage` to such as are aligned to 64 bytes.
+    /// `stage` must write all of them; `push` must write at least `count` of each, at most sixteen;
+    /// `count` is at most sixteen, and so is `last`.
     #[inline(always)]
     pub(crate) unsafe fn exchange(
         &mut self,
@@ -92,8 +97,9 @@ impl Stack {
         // One comparison for both ends: there is something on top, and room.
         assert!(self.len.wrapping_sub(1) < CAPACITY - WIDTH, "the builder bounds the depth");
         debug_assert!(count <= WIDTH && last <= WIDTH);
-        // SAFETY: `1 <= len <= CAPACITY - 16`, so sixteen elements from `len` on are in the arrays, and so is the one before them. What is staged has sixteen words
-        // before the sixteen that `stage` writes.
+        // SAFETY: `1 <= len <= CAPACITY - 16`, so sixteen elements from `len` on are in the arrays,
+        // and so is the one before them. What is staged has sixteen words before the sixteen that
+        // `stage` writes.
         unsafe {
             let refs = self.refs.as_mut_ptr().add(self.len).cast::<u32>();
             let near = self.near.as_mut_ptr().add(self.len).cast::<f32>();
@@ -116,7 +122,8 @@ impl Stack {
     }
 }
 
-/// The same for rays that go together: children that wait, with the parameter at which each ray enters, NaN where one does not.
+/// The same for rays that go together: children that wait, with the parameter at which each ray
+/// enters, NaN where one does not.
 pub(crate) struct Rows<const N: usize> {
     refs: [MaybeUninit<u32>; CAPACITY],
     near: [MaybeUninit<[f32; N]>; CAPACITY],

@@ -16,7 +16,8 @@ const SIZE_SHIFT: u32 = 31 - 10;
 /// The least size of a block: with a lesser one the filter's own roundings could underflow.
 const SMALLEST: f64 = 1.0 / (1_u128 << 100) as f64;
 
-/// Sixteen triangles in tree units: corners, each coordinate rounded once to f32, and slots. Ten cache lines, all of which a test reads.
+/// Sixteen triangles in tree units: corners, each coordinate rounded once to f32, and slots. Ten
+/// cache lines, all of which a test reads.
 ///
 /// A lane without a triangle holds NaN, which no comparison finds.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +25,8 @@ const SMALLEST: f64 = 1.0 / (1_u128 << 100) as f64;
 pub(crate) struct Block {
     /// `x`, `y`, `z` of `v0`, of `v1`, of `v2`.
     pub(crate) rows: [[f32; LANES]; 9],
-    /// The triangle's slot in the lower 27 bits. The upper five of the first two lanes are the first ten bits of [`Block::size`] behind the sign.
+    /// The triangle's slot in the lower 27 bits. The upper five of the first two lanes are the
+    /// first ten bits of [`Block::size`] behind the sign.
     tags: [u32; LANES],
 }
 
@@ -42,7 +44,8 @@ impl PartialEq for Block {
 pub type Corners = [Point3; 3];
 
 impl Block {
-    /// A block of triangles and their slots: at most sixteen. Also says whether f32 holds all corners.
+    /// A block of triangles and their slots: at most sixteen. Also says whether f32 holds all
+    /// corners.
     #[inline(always)]
     pub(crate) fn new(frame: Frame, triangles: impl Iterator<Item = (u32, Corners)>) -> (Self, bool) {
         let mut block = Self { rows: [[f32::NAN; LANES]; 9], tags: [SLOT; LANES] };
@@ -73,15 +76,16 @@ impl Block {
         }
         let widths: f64 = (0..3).map(|i| f64::from(hi[i]) - f64::from(lo[i])).sum();
         let size = if is_held { edge } else { widths };
-        // Two bits of the fraction: rounded by a unit of the 24th bit and more, and grown by one of the third.
+        // Two bits of the fraction: rounded by a unit of the 24th bit and more, and grown by one of
+        // the third.
         let upper = (size.max(SMALLEST) as f32).to_bits() / (1 << SIZE_SHIFT) + 1;
         block.tags[0] |= (upper & 31) << SLOT_BITS;
         block.tags[1] |= (upper >> 5) << SLOT_BITS;
         (block, is_held)
     }
 
-    /// What the magnitudes of an edge from a first corner, all three added, do not exceed; nor do the widths of a box around all triangles if f32 does not
-    /// hold all corners.
+    /// What the magnitudes of an edge from a first corner, all three added, do not exceed; nor do
+    /// the widths of a box around all triangles if f32 does not hold all corners.
     #[inline(always)]
     pub(crate) fn size(&self) -> f32 {
         let upper = (self.tags[0] >> SLOT_BITS) | (self.tags[1] >> SLOT_BITS << 5);

@@ -1,18 +1,22 @@
-//! The filter: f32 arithmetic that says of most triangles for certain whether a ray meets them, and about where.
+//! The filter: f32 arithmetic that says of most triangles for certain whether a ray meets them, and
+//! about where.
 //!
-//! With `C = v0 - o`, edges `e1`, `e2` from `v0`, `N = e1 x e2` and `R = C x d` the ray `o + t d` meets the triangle's plane at
+//! With `C = v0 - o`, edges `e1`, `e2` from `v0`, `N = e1 x e2` and `R = C x d` the ray `o + t d`
+//! meets the triangle's plane at
 //!
 //! ```text
 //!     t = T / D,   T = C . N,   D = d . N,        b1 = U / D,   U = R . e2,      b2 = V / D,   V = -R . e1,
 //! ```
 //!
-//! and it passes through the triangle if `U`, `V` and `W = D - U - V` have one sign (T. Moeller, B. Trumbore, "Fast, minimum storage
-//! ray-triangle intersection", Journal of Graphics Tools 2(1), 1997, in the form with one cross product for `U` and `V`).
+//! and it passes through the triangle if `U`, `V` and `W = D - U - V` have one sign (T. Moeller, B.
+//! Trumbore, "Fast, minimum storage ray-triangle intersection", Journal of Graphics Tools 2(1),
+//! 1997, in the form with one cross product for `U` and `V`).
 //!
 //! # What f32 can say
 //!
-//! Let `u = 2^-24`, all coordinates of the tree at most 1, those of `o` at most `O` and known within `e`, those of `d` at most `M` and known
-//! within `g`; `c = 1 + O`; and `E` the size of the block, which no sum of magnitudes of an edge from a `v0` in it exceeds. To first order, per
+//! Let `u = 2^-24`, all coordinates of the tree at most 1, those of `o` at most `O` and known
+//! within `e`, those of `d` at most `M` and known within `g`; `c = 1 + O`; and `E` the size of the
+//! block, which no sum of magnitudes of an edge from a `v0` in it exceeds. To first order, per
 //! component, for the triangle as it is kept:
 //!
 //! ```text
@@ -27,38 +31,48 @@
 //!                                                                           (42 u c M + 4 k) E + (10 u M + g) E^2
 //! ```
 //!
-//! counted without fused operations, which round less. The last is the largest, so it serves for `U`, `V` and `W`.
+//! counted without fused operations, which round less. The last is the largest, so it serves for
+//! `U`, `V` and `W`.
 //!
-//! Where f32 does not hold the corners they are within `u` of the exact ones. A volume `d . (b2 x b1)` of two corners as seen from `o` does not
-//! change when they move along `d`, so each corner's error counts as often as the other is away from the *ray*, not from `o`: at most `E`, which then bounds the widths of a box around the block too, and
-//! what rounding and the boxes' tests have grown them by on three axes, less than `10 u c + 2 e`, since the ray meets the block's box. That is `3 u M`
-//! times this for either, and twice as much is charged. In sum `U`, `V` and `W` err by
+//! Where f32 does not hold the corners they are within `u` of the exact ones. A volume
+//! `d . (b2 x b1)` of two corners as seen from `o` does not change when they move along `d`, so
+//! each corner's error counts as often as the other is away from the *ray*, not from `o`: at most
+//! `E`, which then bounds the widths of a box around the block too, and what rounding and the
+//! boxes' tests have grown them by on three axes, less than `10 u c + 2 e`, since the ray meets the
+//! block's box. That is `3 u M` times this for either, and twice as much is charged. In sum `U`,
+//! `V` and `W` err by
 //!
 //! ```text
 //!     A E + B E^2 + G,     A = 42 u c M + 4 k (+ 12 u M),  B = 10 u M + g,  G = (12 u M (10 u c + 2 e)),
 //! ```
 //!
-//! with what is in brackets for rounded corners. Second-order terms are below 2^-9 of the first-order ones, since `e` and `g / M` are at most [`ROUGH`]
-//! (a ray that is known less well meets everything); the factor [`PAYS`] pays for them and for the roundings of the bounds themselves. Underflow
-//! loses less than 2^-145, far below `A E >= 2^-118`, as `E` is at least 2^-100.
+//! with what is in brackets for rounded corners. Second-order terms are below 2^-9 of the
+//! first-order ones, since `e` and `g / M` are at most [`ROUGH`] (a ray that is known less well
+//! meets everything); the factor [`PAYS`] pays for them and for the roundings of the bounds
+//! themselves. Underflow loses less than 2^-145, far below `A E >= 2^-118`, as `E` is at least
+//! 2^-100.
 //!
-//! For `t = T / D` let `|D|` be greater than `2 (8 u M + g) E^2 + 2^-100` and four times the bound above. Then the exact `D` is at least half as large,
-//! and `b0`, `b1`, `b2` of a triangle that is not surely missed have magnitudes that sum to at most 2. So `C = t d - b1 e1 - b2 e2` is at most
-//! `|t| M + 2 E`, errs by `u O + e` and one rounding of that, and the rounding of the corners moves the crossing by at most `2 u` off the plane. With
-//! `S = |e1| |e2|`, sums of magnitudes, in place of `E^2` in the bounds of `T` and `D`,
+//! For `t = T / D` let `|D|` be greater than `2 (8 u M + g) E^2 + 2^-100` and four times the bound
+//! above. Then the exact `D` is at least half as large, and `b0`, `b1`, `b2` of a triangle that is
+//! not surely missed have magnitudes that sum to at most 2. So `C = t d - b1 e1 - b2 e2` is at most
+//! `|t| M + 2 E`, errs by `u O + e` and one rounding of that, and the rounding of the corners moves
+//! the crossing by at most `2 u` off the plane. With `S = |e1| |e2|`, sums of magnitudes, in place
+//! of `E^2` in the bounds of `T` and `D`,
 //!
 //! ```text
 //!     |error of t| <= 2 S / |D| (8 u (|t| M + 2 E) + u O + e + (2 u) + |t| (8 u M + g)) + 4 u |t| + s,
 //! ```
 //!
-//! where `s` keeps hits apart whose rounded f64 parameters may stand in another order than the exact ones.
+//! where `s` keeps hits apart whose rounded f64 parameters may stand in another order than the
+//! exact ones.
 
 use super::block::LANES;
 use crate::ray::{ClippedRay, Ray64};
 
 /// Half an ulp of 1 in f32.
 const U: f32 = 1.0 / (1 << 24) as f32;
-/// The largest error of a ray, in tree units and relative to its direction, with which f32 can still say something.
+/// The largest error of a ray, in tree units and relative to its direction, with which f32 can
+/// still say something.
 pub(crate) const ROUGH: f32 = 1.0 / (1 << 10) as f32;
 /// Second-order terms, and the roundings of bounds and of what they are made of.
 const PAYS: f32 = 1.0 + 1.0 / 64.0;
@@ -115,7 +129,8 @@ impl Filter {
         if rounded { U } else { 0.0 }
     }
 
-    /// Factors for exactly known rays: of `c M` in `a`, of `M` in `b`, of `O` in `p`; `s`; and in `a` and `p` those of what rounding took from corners.
+    /// Factors for exactly known rays: of `c M` in `a`, of `M` in `b`, of `O` in `p`; `s`; and in
+    /// `a` and `p` those of what rounding took from corners.
     pub(crate) const A: f32 = 42.0 * U * PAYS;
     pub(crate) const B: f32 = 10.0 * U * PAYS;
     pub(crate) const P: f32 = 2.0 * U * PAYS;
@@ -160,7 +175,8 @@ impl Filter {
         }
         let k = e.mul_add(m, c * g);
         let slope = (8.0 * U).mul_add(m, g);
-        // Rounded parameters are within 32 ulp of `max(|t|, size / |d|)`; twice that, for each of two.
+        // Rounded parameters are within 32 ulp of `max(|t|, size / |d|)`; twice that, for each of
+        // two.
         let s = (128.0 * U * U) * (way.entry().abs() as f32 + 8.0);
         let (first, last) = way.inner(line.inner);
         Self {

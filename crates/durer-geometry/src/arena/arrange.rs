@@ -1,4 +1,5 @@
-//! Arenas on their way into a geometry: parts are listed, boxes become entries of a tree, and slots are put into the order of its leaves.
+//! Arenas on their way into a geometry: parts are listed, boxes become entries of a tree, and slots
+//! are put into the order of its leaves.
 
 use super::{AnyArena, Arena, PartRef};
 use durer_bvh::{Entry, Frame};
@@ -12,11 +13,13 @@ pub(crate) trait Arrange: AnyArena {
     fn seal(&mut self);
     /// The box of all bounded slots, each cut by its object's limit, if there is one.
     fn extent(&self, limits: &[Aabb]) -> Aabb;
-    /// Appends the bounded slots, cut like that, as entries of the given kind, to `entries`, and sorts out the others.
+    /// Appends the bounded slots, cut like that, as entries of the given kind, to `entries`, and
+    /// sorts out the others.
     fn entries(&self, frame: &Frame, kind: u32, limits: &[Aabb], entries: &mut Vec<Entry>) -> Unsorted;
     /// The corners of a triangle, by its number in [`Arrange::entries`].
     fn corners(&self, index: u32) -> [Point3; 3];
-    /// Puts the slots into a new order: the new slot `i` is the old `order[i]`. The array is used up.
+    /// Puts the slots into a new order: the new slot `i` is the old `order[i]`. The array is used
+    /// up.
     fn arrange(&mut self, order: Vec<u32>);
     /// As the arena of a finished geometry.
     fn finish(self: Box<Self>) -> Box<dyn AnyArena>;
@@ -25,14 +28,16 @@ pub(crate) trait Arrange: AnyArena {
 /// Slots that no tree holds.
 #[derive(Debug, Default)]
 pub(crate) struct Unsorted {
-    /// Unbounded, or with a box that is not a number: nothing can be disproved, so they are always tested.
+    /// Unbounded, or with a box that is not a number: nothing can be disproved, so they are always
+    /// tested.
     pub(crate) beside: Vec<u32>,
     /// Empty: there is nothing to meet.
     pub(crate) nothing: Vec<u32>,
 }
 
 impl Unsorted {
-    /// Appends bounded boxes, numbered in their order, as entries of a kind, and sorts out the others.
+    /// Appends bounded boxes, numbered in their order, as entries of a kind, and sorts out the
+    /// others.
     pub(crate) fn beside(
         entries: &mut Vec<Entry>,
         frame: &Frame,
@@ -131,7 +136,8 @@ impl<S: Surface + 'static> Arrange for Arena<S> {
             self.placed = order.iter().map(|&i| parts[i as usize].0).collect();
             return;
         }
-        // The permutation's cycles, in place: surfaces need not be `Clone`, and no second arena is held.
+        // The permutation's cycles, in place: surfaces need not be `Clone`, and no second arena is
+        // held.
         for start in 0..order.len() {
             let mut to = start;
             loop {

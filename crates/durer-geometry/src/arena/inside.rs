@@ -6,10 +6,14 @@ use durer_math::eft::{exponent, scale2};
 use durer_math::scale::pow2;
 use durer_surfaces::{Flow, LocalPoint, LocalRay, Root, Side, Sink, Surface};
 
-/// Whether a ray comes to its start (at `t_min`) inside a solid whose crossings within its range leave that open; `start` is some point of its line.
+/// Whether a ray comes to its start (at `t_min`) inside a solid whose crossings within its range
+/// leave that open; `start` is some point of its line.
 ///
-/// A crossing at the very start is one of the range, and says what was before. Else it is decided by the signs of the crossings before and behind the range, and where the line crosses the solid nowhere, and the solid has no bounds, by the exact
-/// side of a point of it, which must not be where the line goes in and out again within rounding. A point may be known to be inside that is on no chord known: where a tangent touches a formula's solid within rounding.
+/// A crossing at the very start is one of the range, and says what was before. Else it is decided
+/// by the signs of the crossings before and behind the range, and where the line crosses the solid
+/// nowhere, and the solid has no bounds, by the exact side of a point of it, which must not be
+/// where the line goes in and out again within rounding. A point may be known to be inside that is
+/// on no chord known: where a tangent touches a formula's solid within rounding.
 pub(super) fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint<'_>) -> bool {
     if let Some(side) = ray.source {
         return side == RaySide::Back;
@@ -30,7 +34,8 @@ pub(super) fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: 
     if let Some(sign) = signs(f64::NEG_INFINITY, ray.t_min).last {
         return sign < 0;
     }
-    // One at the very end is one of the range, too: behind it is what was before, as the crossings of the range cancel.
+    // One at the very end is one of the range, too: behind it is what was before, as the crossings
+    // of the range cancel.
     if let Some(sign) = signs(ray.t_max, ray.t_max).last {
         return sign < 0;
     }
@@ -48,10 +53,12 @@ pub(super) fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: 
     }
 }
 
-/// On which side the line is but for touches and pairs of crossings, which are all within `pairs`; `On` if that is not found.
+/// On which side the line is but for touches and pairs of crossings, which are all within `pairs`;
+/// `On` if that is not found.
 fn side_beside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint<'_>, pairs: Hull) -> Side {
     let Some((low, high)) = pairs.0 else { return surface.side(start) };
-    // Farther and farther away from where the ray's own parameter starts, which is near the surface's middle.
+    // Farther and farther away from where the ray's own parameter starts, which is near the
+    // surface's middle.
     let places = (0..128).flat_map(|j| [pow2(j), -pow2(j)]);
     let beside = places.filter(|&s| {
         let (before, after) = ray.caller_bounds(s);
@@ -77,11 +84,13 @@ impl Hull {
     }
 }
 
-/// Whether a line lies in a closed solid that it does not cross, though it may touch it in single points.
+/// Whether a line lies in a closed solid that it does not cross, though it may touch it in single
+/// points.
 ///
-/// All its points but those lie on one side. Solids with quadric faces, of which there are six at most, are touched in no more than
-/// twelve points; a line in a face of a solid of many faces has left it where it has left the box. A line of which no point
-/// is off the boundary lies in it, and so in the closed solid.
+/// All its points but those lie on one side. Solids with quadric faces, of which there are six at
+/// most, are touched in no more than twelve points; a line in a face of a solid of many faces has
+/// left it where it has left the box. A line of which no point is off the boundary lies in it, and
+/// so in the closed solid.
 fn runs_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>) -> bool {
     let bounds = surface.bounds();
     let far = bounds.max.to_vec().max_abs().max(bounds.min.to_vec().max_abs()).max(ray.o.to_vec().max_abs());
@@ -92,13 +101,15 @@ fn runs_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>) -> bool {
     sides.find(|&side| side != Side::On) != Some(Side::Out)
 }
 
-/// The signs of the first and the last crossing that changes sides. Crossings whose enclosures overlap count as one, by their sum: where the line touches an edge, it
-/// goes in and out at one point, or out and in, and their order says nothing.
+/// The signs of the first and the last crossing that changes sides. Crossings whose enclosures
+/// overlap count as one, by their sum: where the line touches an edge, it goes in and out at one
+/// point, or out and in, and their order says nothing.
 #[derive(Default)]
 struct Ends {
     first: Option<i32>,
     last: Option<i32>,
-    /// The crossings that overlap the last one: their sum, where they begin, and how far they reach.
+    /// The crossings that overlap the last one: their sum, where they begin, and how far they
+    /// reach.
     group: Option<(i32, (f64, f64))>,
     /// Touches, and groups that cancel.
     pairs: Hull,

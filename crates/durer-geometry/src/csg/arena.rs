@@ -1,7 +1,7 @@
 //! Bodies as a geometry holds them: one slot in the tree each.
 //!
-//! What rays meet are the surfaces of leaves. So hits and sources name those, by slots that are counted over all leaves of all bodies, with
-//! two flags above the number.
+//! What rays meet are the surfaces of leaves. So hits and sources name those, by slots that are
+//! counted over all leaves of all bodies, with two flags above the number.
 
 use super::compound::Compound;
 use super::packet::PacketCsg;
@@ -26,7 +26,8 @@ pub(super) const TIED: u32 = 1 << 30;
 /// The slot itself.
 pub(super) const SLOT: u32 = TIED - 1;
 
-/// Whether two slots of hits name one surface, turned the same way. Other arenas have no slots with flags.
+/// Whether two slots of hits name one surface, turned the same way. Other arenas have no slots with
+/// flags.
 #[inline(always)]
 pub(crate) fn same_surface(a: u32, b: u32) -> bool {
     (a ^ b) & !TIED == 0
@@ -83,8 +84,9 @@ impl Compounds {
         Id { primitive: id.primitive.wrapping_add(found.primitive), ..id }
     }
 
-    /// Shows the crossings of the admitted bodies of a leaf, those of each ascending, until `show` says for one that no more of it are
-    /// wanted (then the next one's turn is), or that nothing is.
+    /// Shows the crossings of the admitted bodies of a leaf, those of each ascending, until `show`
+    /// says for one that no more of it are wanted (then the next one's turn is), or that nothing
+    /// is.
     fn each_body(
         &self,
         isa: Isa,

@@ -31,7 +31,8 @@ use durer_surfaces::{LocalPoint, Side, Solidity, Surface};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Compound {
-    /// The leaves; their objects are their numbers, their primitives are as they were given. Each has the box in which it matters.
+    /// The leaves; their objects are their numbers, their primitives are as they were given. Each
+    /// has the box in which it matters.
     pub(super) leaves: Geometry,
     pub(super) tree: Tree,
     /// What is known of each leaf.
@@ -41,7 +42,8 @@ pub struct Compound {
     bounds: Aabb,
     /// An upper bound of the coordinates of all leaves that have an end.
     pub(super) size: f64,
-    /// Some leaves stand in the tree in parts: whether a ray starts inside of one is told by all of them that it crosses.
+    /// Some leaves stand in the tree in parts: whether a ray starts inside of one is told by all of
+    /// them that it crosses.
     pub(super) in_parts: bool,
     /// Rays take their way through the leaves piece by piece.
     pub(super) by_pieces: bool,
@@ -113,7 +115,8 @@ impl CompoundBuilder {
         self.leaf_as(solid, LeafId(self.primitives), Shown::All)
     }
 
-    /// Adds a solid under the given number; where a surface has parts (the faces of a mesh), part `i` comes `i` numbers later.
+    /// Adds a solid under the given number; where a surface has parts (the faces of a mesh), part
+    /// `i` comes `i` numbers later.
     pub fn leaf_as<S: Surface + 'static>(
         &mut self,
         solid: S,
@@ -295,12 +298,14 @@ impl Compound {
         &*self.leaves.arenas[arena as usize]
     }
 
-    /// On which side of the body a point lies. Where it is on the borders of several leaves it is on the body's, unless the other leaves decide.
+    /// On which side of the body a point lies. Where it is on the borders of several leaves it is
+    /// on the body's, unless the other leaves decide.
     pub fn side(&self, point: &LocalPoint<'_>) -> Side {
         if self.is_sheet {
             return Side::Out;
         }
-        // Both ways: leaves on whose border the point lies count as what makes the body smaller, then larger.
+        // Both ways: leaves on whose border the point lies count as what makes the body smaller,
+        // then larger.
         let (mut less, mut more) = (Values::default(), Values::default());
         less.begin(&self.tree);
         more.begin(&self.tree);

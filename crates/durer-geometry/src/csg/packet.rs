@@ -1,13 +1,17 @@
 //! Bodies as lanes see them.
 //!
-//! Where a ray crosses a leaf it crosses the body if, of the other leaves, those that could outvote this one do not: up from the leaf to the
-//! root of the tree every node needs the same of its other children, that all hold in an intersection and that none does in a union. So no
-//! crossings are put in order. Each crossing is taken by itself, and the point's place in other leaves is asked for as far as it matters.
+//! Where a ray crosses a leaf it crosses the body if, of the other leaves, those that could outvote
+//! this one do not: up from the leaf to the root of the tree every node needs the same of its other
+//! children, that all hold in an intersection and that none does in a union. So no crossings are
+//! put in order. Each crossing is taken by itself, and the point's place in other leaves is asked
+//! for as far as it matters.
 //!
-//! Leaves answer with *surely in*, *surely out*, or neither, and so do nodes. Where faces coincide or nearly so, neither is the answer, and rays
-//! for which that matters walk through their crossings in order (`sweep.rs`).
+//! Leaves answer with *surely in*, *surely out*, or neither, and so do nodes. Where faces coincide
+//! or nearly so, neither is the answer, and rays for which that matters walk through their
+//! crossings in order (`sweep.rs`).
 //!
-//! Who says *surely* says it of eight rays by the bits of a byte: what trees of a few leaves do with such answers are single instructions.
+//! Who says *surely* says it of eight rays by the bits of a byte: what trees of a few leaves do
+//! with such answers are single instructions.
 
 use super::arena::{SLOT, TIED, TURNED};
 use super::compound::{Compound, Shown};
@@ -92,7 +96,8 @@ struct PacketState<'a> {
     steps: &'a mut packet::Scratch,
 }
 
-/// Rays that leave the body: which, and of each the leaf, the face there, and whether it starts behind it.
+/// Rays that leave the body: which, and of each the leaf, the face there, and whether it starts
+/// behind it.
 struct SpawnFaces {
     lanes: u8,
     leaf: [u32; LANES],
@@ -156,7 +161,8 @@ impl PacketCsg {
         Some(body)
     }
 
-    /// A convex leaf that has all in common with this one that matters of it: next to it, or to what it is part of, in an intersection.
+    /// A convex leaf that has all in common with this one that matters of it: next to it, or to
+    /// what it is part of, in an intersection.
     fn around(&self, leaf: usize) -> Option<u32> {
         let is_cell = |i: u32| {
             let Operand { outline, .. } = &self.leaves[i as usize];

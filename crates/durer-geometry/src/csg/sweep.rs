@@ -96,7 +96,8 @@ impl Scratch {
         is_new
     }
 
-    /// Whether a crossing of the leaf has been taken, one that is no touch: it tells where the ray starts.
+    /// Whether a crossing of the leaf has been taken, one that is no touch: it tells where the ray
+    /// starts.
     pub(super) fn is_crossed(&self, leaf: u32) -> bool {
         self.leaves[leaf as usize].query == self.query
     }
@@ -140,7 +141,8 @@ impl Scratch {
         self.values.holds(tree)
     }
 
-    /// Takes it in that the ray starts inside leaves that were asked since. What they are up to now has not mattered so far.
+    /// Takes it in that the ray starts inside leaves that were asked since. What they are up to now
+    /// has not mattered so far.
     pub(super) fn start_more(&mut self, tree: &Tree) {
         self.values.next_step();
         for &leaf in &self.starts[self.started..] {
@@ -154,8 +156,9 @@ impl Scratch {
         self.events[self.looked_at..].iter().any(|e| e.root.lo <= t && t <= e.root.hi)
     }
 
-    /// Shows the body's crossings, in their order; `false` if it was told to stop. [`Scratch::starts_inside`] comes first. Goes on from where it
-    /// was before, no further than `until`: before that no event is missing.
+    /// Shows the body's crossings, in their order; `false` if it was told to stop.
+    /// [`Scratch::starts_inside`] comes first. Goes on from where it was before, no further than
+    /// `until`: before that no event is missing.
     pub(super) fn sweep(
         &mut self,
         tree: &Tree,
@@ -182,7 +185,8 @@ impl Scratch {
                 in_leafs_order(group, &sense);
                 go_on = group.chunks(1).all(|event| self.step(tree, event, &sense, &is_shown, &mut show));
             } else if let Some(leaves) = copies(group, &sense) {
-                // The same crossings of each, whose order is known: they take place together, one after the other.
+                // The same crossings of each, whose order is known: they take place together, one
+                // after the other.
                 let count = group.len() / leaves;
                 let mut together = core::mem::take(&mut self.together);
                 for i in 0..count {
@@ -276,7 +280,8 @@ impl Scratch {
     }
 }
 
-/// Puts events into the order of leaves, and those of a leaf into the order in which they take place.
+/// Puts events into the order of leaves, and those of a leaf into the order in which they take
+/// place.
 fn in_leafs_order(group: &mut [Event], sense: &impl Fn(u32) -> Sense) {
     group.sort_unstable_by(|a, b| {
         a.leaf.cmp(&b.leaf).then_with(|| match sense(a.leaf) {
@@ -286,8 +291,9 @@ fn in_leafs_order(group: &mut [Event], sense: &impl Fn(u32) -> Sense) {
     });
 }
 
-/// If the events are several crossings of each of some leaves, the same of all to the last bit, how many leaves there are; the events are in
-/// their order then. Surfaces that coincide near a tangent are such.
+/// If the events are several crossings of each of some leaves, the same of all to the last bit, how
+/// many leaves there are; the events are in their order then. Surfaces that coincide near a tangent
+/// are such.
 fn copies(group: &mut [Event], sense: &impl Fn(u32) -> Sense) -> Option<usize> {
     if group.len() < 4 || group.iter().any(|e| e.root.sign == 0) {
         return None;
@@ -311,8 +317,8 @@ fn in_order(events: &mut [Event]) {
     });
 }
 
-/// How many of the events form a group with the first whose enclosures overlap transitively, and how far it reaches; they ascend by their
-/// lower ends.
+/// How many of the events form a group with the first whose enclosures overlap transitively, and
+/// how far it reaches; they ascend by their lower ends.
 fn overlapping(first: &Event, rest: &[Event]) -> (usize, f64) {
     let mut reach = first.root.hi;
     let touches = |e: &&Event| {

@@ -1,11 +1,13 @@
 //! What a ray meets of a body.
 //!
-//! Leaves stand in one tree, whatever the operators between them, and each has there the box in which it matters (`Tree::where_leaves_matter`): a ray that passes
-//! by it is outside of the leaf, or where some node above the leaf does not hold anyway. So what is not asked changes nothing.
+//! Leaves stand in one tree, whatever the operators between them, and each has there the box in
+//! which it matters (`Tree::where_leaves_matter`): a ray that passes by it is outside of the leaf,
+//! or where some node above the leaf does not hold anyway. So what is not asked changes nothing.
 //!
-//! Whoever wants all crossings gets them from all leaves that the ray meets. Whoever wants the first one goes through many leaves piece by piece, each piece of the
-//! way twice as long as the one before: where a piece ends, leaves that were not met before it have no crossing before it, but for the width of
-//! enclosures, and the walk along the crossings goes as far.
+//! Whoever wants all crossings gets them from all leaves that the ray meets. Whoever wants the
+//! first one goes through many leaves piece by piece, each piece of the way twice as long as the
+//! one before: where a piece ends, leaves that were not met before it have no crossing before it,
+//! but for the width of enclosures, and the walk along the crossings goes as far.
 
 use super::Compound;
 use super::sweep::{Crossing, Event, Scratch, partners};
@@ -37,8 +39,8 @@ thread_local! {
     static SCRATCH: RefCell<Scratch> = RefCell::default();
 }
 
-/// Lends the thread's working memory. Whoever asks while it is lent, as a visitor of crossings that resolves
-/// one of them does, gets memory of its own.
+/// Lends the thread's working memory. Whoever asks while it is lent, as a visitor of crossings that
+/// resolves one of them does, gets memory of its own.
 fn with_scratch<R>(f: impl FnOnce(&mut Scratch) -> R) -> R {
     let mut scratch = SCRATCH.take();
     let result = f(&mut scratch);
@@ -59,8 +61,8 @@ pub(super) struct Start {
     pub(super) tied: bool,
 }
 
-/// Far more than an enclosure's ends are away from the exact crossing, in units of `|t| + size`: that is 32 ulp, and what is wider is computed again in
-/// double-double.
+/// Far more than an enclosure's ends are away from the exact crossing, in units of `|t| + size`:
+/// that is 32 ulp, and what is wider is computed again in double-double.
 const MARGIN: f64 = durer_math::scale::pow2(-40);
 
 /// A ray, asked ahead of its start.
@@ -86,7 +88,8 @@ struct Pieces {
 }
 
 impl Compound {
-    /// Shows the crossings of the body in the ray's range, ascending, until `show` has enough; says whether the ray starts inside.
+    /// Shows the crossings of the body in the ray's range, ascending, until `show` has enough; says
+    /// whether the ray starts inside.
     pub(super) fn trace(
         &self,
         isa: Isa,
@@ -98,7 +101,8 @@ impl Compound {
         with_scratch(|scratch| self.walk(isa, ray, from, f64::INFINITY, None, scratch, show).unwrap_or(false))
     }
 
-    /// Shows the first crossing of the body in the ray's range, if there is one; what begins behind `until` need not be shown.
+    /// Shows the first crossing of the body in the ray's range, if there is one; what begins behind
+    /// `until` need not be shown.
     pub(super) fn first(
         &self,
         isa: Isa,
@@ -143,7 +147,8 @@ impl Compound {
             self.gather(&asked, &piece, scratch);
             if known == f64::NEG_INFINITY {
                 inside = scratch.starts_inside(&self.tree);
-                // On an edge where leaves meet the ray's start is on the right side of one of them only.
+                // On an edge where leaves meet the ray's start is on the right side of one of them
+                // only.
                 astray = from.is_some_and(|start| start.tied && start.inside != inside);
             } else if scratch.is_split_at(known) {
                 return None;
@@ -200,11 +205,13 @@ impl Compound {
         }
     }
 
-    /// The pieces of the ray's way through the leaves; `None` if it is not known where that begins and ends.
+    /// The pieces of the ray's way through the leaves; `None` if it is not known where that begins
+    /// and ends.
     fn pieces(&self, ray: &LocalRay<'_>, until: f64) -> Option<Pieces> {
         let line = self.line(ray, until);
         let bounds = self.leaves.tree.bounds();
-        // What lies before and behind belongs to the first and the last piece, so this need not be exact.
+        // What lies before and behind belongs to the first and the last piece, so this need not be
+        // exact.
         let (enter, leave) = bounds.slabs(line.origin, line.direction, line.t_min, line.t_max)?;
         // Leaves that fill a square are so far apart.
         let length = bounds.widths().max_abs() / (self.traits.len() as f64).sqrt();
@@ -231,7 +238,8 @@ impl Compound {
         asked
     }
 
-    /// Gathers the crossings of the leaves in whose boxes a line is, those of each leaf once and all of them.
+    /// Gathers the crossings of the leaves in whose boxes a line is, those of each leaf once and
+    /// all of them.
     fn gather(&self, asked: &Asked<'_>, line: &Ray64, scratch: &mut Scratch) {
         let visit = |leaf| {
             self.visit(asked, leaf, scratch);
@@ -273,7 +281,8 @@ impl Compound {
         self.arena(arena).each(asked.isa, slots, &asked.ahead, &filter, &mut take);
     }
 
-    /// Whether a ray starts so near to a surface that it crosses that nothing but rounding is between.
+    /// Whether a ray starts so near to a surface that it crosses that nothing but rounding is
+    /// between.
     #[cold]
     fn starts_at(&self, isa: Isa, ray: &LocalRay<'_>, event: &Event) -> bool {
         let local = ray.from_side(None);
@@ -281,12 +290,14 @@ impl Compound {
         let start = ray.point_at_start();
         let way = q.p - start;
         let height = q.ng.to_vec().dot(way).abs();
-        // Starts are at most a few roundings of their coordinates away from the point that was meant, and that is as far from the surface.
+        // Starts are at most a few roundings of their coordinates away from the point that was
+        // meant, and that is as far from the surface.
         let spacing = start.to_vec().max_abs() * (64.0 * durer_math::U);
         height <= 4.0 * q.off + spacing + q.bend * way.dot(way)
     }
 
-    /// The crossing's root if it is in the ray's range. Its start was looked at where the crossing was found.
+    /// The crossing's root if it is in the ray's range. Its start was looked at where the crossing
+    /// was found.
     fn in_range(&self, isa: Isa, ray: &LocalRay<'_>, crossing: &Crossing) -> Option<Root> {
         let Event { root, arena, slot, .. } = crossing.event;
         if root.hi <= ray.t_max {
@@ -347,11 +358,14 @@ impl Compound {
         point
     }
 
-    /// A distance along the normal that leaves all surfaces behind which lie along the point's own and could not be told from it.
+    /// A distance along the normal that leaves all surfaces behind which lie along the point's own
+    /// and could not be told from it.
     ///
-    /// Where `n` and `n'` are the normals here and of another surface, and `h` its height over this point along `n'`, a step `x n` leaves it
-    /// if `x |n.n'| - |h|` is more than the other's own bound and what it bends away over the distance between its point and the end of the
-    /// step. A surface that crosses this one at an angle is not left by going along `n`, but rays decide exactly on which side of it they are.
+    /// Where `n` and `n'` are the normals here and of another surface, and `h` its height over this
+    /// point along `n'`, a step `x n` leaves it if `x |n.n'| - |h|` is more than the other's own
+    /// bound and what it bends away over the distance between its point and the end of the step. A
+    /// surface that crosses this one at an angle is not left by going along `n`, but rays decide
+    /// exactly on which side of it they are.
     #[cold]
     fn clear_of_partners(
         &self,

@@ -1,8 +1,10 @@
 //! Boolean trees over leaves, and their value as leaves come and go.
 //!
-//! A tree is kept in one normal form: unions and intersections take turns, and complements stand at the leaves only (De Morgan's laws; a difference
-//! `A - B` is the intersection of `A` and the complement of `B`). Each node counts its children that hold. So a leaf that changes costs as much
-//! as it is deep, however many others there are, and a tree without unions in intersections in unions ... is flat.
+//! A tree is kept in one normal form: unions and intersections take turns, and complements stand at
+//! the leaves only (De Morgan's laws; a difference `A - B` is the intersection of `A` and the
+//! complement of `B`). Each node counts its children that hold. So a leaf that changes costs as
+//! much as it is deep, however many others there are, and a tree without unions in intersections in
+//! unions ... is flat.
 
 use durer_math::Aabb;
 
@@ -134,10 +136,12 @@ impl Tree {
         self.boxes(leaves)[0]
     }
 
-    /// For each leaf, a box outside of which it does not matter whether it holds: there it does not, or a node above it does not.
+    /// For each leaf, a box outside of which it does not matter whether it holds: there it does
+    /// not, or a node above it does not.
     ///
-    /// These are S-bounds (S. Cameron, "Efficient intersection tests for objects defined constructively", International Journal of Robotics
-    /// Research 8(1), 1989): boxes of nodes are made from below, and cut by those of the nodes above from above.
+    /// These are S-bounds (S. Cameron, "Efficient intersection tests for objects defined
+    /// constructively", International Journal of Robotics Research 8(1), 1989): boxes of nodes are
+    /// made from below, and cut by those of the nodes above from above.
     pub(crate) fn where_leaves_matter(&self, leaves: &[Aabb]) -> Vec<Aabb> {
         let mut within = self.boxes(leaves);
         for i in 1..within.len() {
@@ -275,7 +279,8 @@ impl Values {
         }
     }
 
-    /// Whether the root would change if a leaf did: no node above the leaf is decided by its other children.
+    /// Whether the root would change if a leaf did: no node above the leaf is decided by its other
+    /// children.
     pub(crate) fn matters(&self, tree: &Tree, leaf: u32) -> bool {
         let TreePosition { mut node, inverted } = tree.places[leaf as usize];
         let mut holds = self.leaf(leaf) != inverted;
@@ -291,7 +296,8 @@ impl Values {
         true
     }
 
-    /// Whether everything from a leaf up to the root has changed in this step, so that the leaf is a reason for the root's change.
+    /// Whether everything from a leaf up to the root has changed in this step, so that the leaf is
+    /// a reason for the root's change.
     pub(crate) fn explains(&self, tree: &Tree, leaf: u32) -> bool {
         let mut node = tree.places[leaf as usize].node;
         while node != NONE {

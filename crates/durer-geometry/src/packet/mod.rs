@@ -1,6 +1,7 @@
 //! Eight rays side by side, and what they meet.
 //!
-//! Lanes ask the outlines of a beam's surfaces; rays of which an outline leaves a doubt ask the surfaces themselves, one by one.
+//! Lanes ask the outlines of a beam's surfaces; rays of which an outline leaves a doubt ask the
+//! surfaces themselves, one by one.
 
 mod rays;
 mod together;
@@ -22,7 +23,8 @@ use durer_math::{Aabb, F8, Isa, M8, Point3, Ray, RaySide, Shaft, Source, Vec3};
 use durer_surfaces::packet::{self, Nearest, PacketFilter, PacketQuery, Points8, RayLanes};
 use durer_surfaces::{Need, PREVIEW_WIDTH};
 
-/// Memory for what is known of eight rays on the way: kept, so that it need not be cleared for each.
+/// Memory for what is known of eight rays on the way: kept, so that it need not be cleared for
+/// each.
 #[derive(Debug, Default)]
 pub struct Scratch {
     outline: packet::Scratch,
@@ -115,7 +117,8 @@ fn all_meet(isa: Isa, rays: &Rays8, nearest: &Nearest) -> bool {
 }
 
 impl Geometry {
-    /// What the rays of some eights may meet; `None` if that is so much that each ray should look for itself.
+    /// What the rays of some eights may meet; `None` if that is so much that each ray should look
+    /// for itself.
     pub fn bundle_candidates(&self, rays: &[Rays8]) -> Option<CandidateList> {
         let (mut start, mut ahead) = (Bounds8::NONE, Bounds8::NONE);
         let mut longer = M8::NONE;
@@ -156,8 +159,8 @@ impl Geometry {
         self.candidates(&shaft, common_source(self.isa, rays))
     }
 
-    /// Puts down what each ray of some eights sees first, as [`Geometry::first_visible`] answers. `candidates` holds what these rays may meet, if that is known; `scratch`
-    /// may hold anything.
+    /// Puts down what each ray of some eights sees first, as [`Geometry::first_visible`] answers.
+    /// `candidates` holds what these rays may meet, if that is known; `scratch` may hold anything.
     pub fn first_visible8(
         &self,
         beam: Option<&CandidateList>,
@@ -216,7 +219,8 @@ impl Geometry {
         }
     }
 
-    /// Puts down what is sure; answers with the rays of which something is not. For lanes, as [`Geometry::nearest`].
+    /// Puts down what is sure; answers with the rays of which something is not. For lanes, as
+    /// [`Geometry::nearest`].
     #[inline(always)]
     fn see(
         &self,
@@ -293,8 +297,8 @@ impl Geometry {
         }
     }
 
-    /// The first sure hit of each ray among the candidates, and the first doubt. Where `ANY` hit is enough it may be another, and once each ray has one no more
-    /// is asked.
+    /// The first sure hit of each ray among the candidates, and the first doubt. Where `ANY` hit is
+    /// enough it may be another, and once each ray has one no more is asked.
     #[inline(always)]
     fn nearest<const ANY: bool>(
         &self,

@@ -236,14 +236,16 @@ impl Hits8 {
         self.source.set_lane(i, point.source);
     }
 
-    /// Where rays along `direction` start, and which of them do so behind the surface: as [`durer_surfaces::SurfacePoint::spawn`].
+    /// Where rays along `direction` start, and which of them do so behind the surface: as
+    /// [`durer_surfaces::SurfacePoint::spawn`].
     #[inline(always)]
     pub fn start_towards(&self, direction: Vec3<F8>) -> (Point3<F8>, M8) {
         let n = self.ng;
         let back = (n.x * direction.x + n.y * direction.y + n.z * direction.z).lt(F8::ZERO);
         let p = self.p.to_vec();
-        // The start is rounded to the nearest f64, which costs up to U |p| per axis; `off` has room for steps a little longer (see
-        // `SurfacePoint::start`, which rounds away from the surface instead).
+        // The start is rounded to the nearest f64, which costs up to U |p| per axis; `off` has room
+        // for steps a little longer (see `SurfacePoint::start`, which rounds away from the surface
+        // instead).
         let size = p.x.abs() + p.y.abs() + p.z.abs();
         let far = size.mul_add(F8::splat(2.0 * U), self.off);
         let step = back.select(-far, far);

@@ -1,6 +1,7 @@
 //! Many eights of rays that ask a surface together, one candidate of their beam after the other.
 //!
-//! Most surfaces are asked by one eight at a time, which is faster: all that is known of eight rays stays at hand. Those that are told a stretch at a time gain more by the company
+//! Most surfaces are asked by one eight at a time, which is faster: all that is known of eight rays
+//! stays at hand. Those that are told a stretch at a time gain more by the company
 //! ([`PacketFilter::meet_together`](durer_surfaces::packet8::PacketFilter::meet_together)).
 
 use super::rays::slot_number;

@@ -78,7 +78,8 @@ pub(crate) fn fill(builder: &mut Builder, dice: &mut Dice, count: usize, on_grid
     }
 }
 
-/// Rays at random, and rays between points of the grid, which meet edges, corners and tangents exactly.
+/// Rays at random, and rays between points of the grid, which meet edges, corners and tangents
+/// exactly.
 pub(crate) fn rays(dice: &mut Dice, count: usize) -> Vec<Ray> {
     let ray = |dice: &mut Dice| loop {
         let ray = if dice.below(2) == 0 {

@@ -16,8 +16,9 @@ use crate::elementary as f64s;
 use crate::rounding::{add_up, mul_up, sub_down};
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI};
 
-/// How far, in ulp, a value of [`crate::elementary`] is taken to be from the true one. Its authors state at most 4 (`lgamma` and
-/// Bessel functions apart, which are not used), and what the tests measure is below 2.
+/// How far, in ulp, a value of [`crate::elementary`] is taken to be from the true one. Its authors
+/// state at most 4 (`lgamma` and Bessel functions apart, which are not used), and what the tests
+/// measure is below 2.
 pub const ULPS: f64 = 8.0;
 
 /// Where a function is defined and continuous on an interval.
@@ -71,9 +72,11 @@ fn domain(x: Interval, lo: f64, hi: f64) -> Range {
 }
 
 impl Interval {
-    /// Whether some `k` with the given parity has `offset + k` near or in the interval of `x / pi`: where a sine has its extremes.
+    /// Whether some `k` with the given parity has `offset + k` near or in the interval of `x / pi`:
+    /// where a sine has its extremes.
     fn has_turn(turns: Self, offset: f64, parity: f64) -> bool {
-        // The quotient by pi errs by a few ulp of at most 2^20: 1e-9 is more. To say yes needlessly loses nothing to speak of.
+        // The quotient by pi errs by a few ulp of at most 2^20: 1e-9 is more. To say yes needlessly
+        // loses nothing to speak of.
         const MARGIN: f64 = 1e-9;
         let first = 2.0 * ((turns.lo - offset - parity - MARGIN) * 0.5).ceil() + parity;
         first <= turns.hi - offset + MARGIN
@@ -163,7 +166,8 @@ impl Interval {
             let (angle, d) = (-y).atan2(x);
             return (-angle, d);
         }
-        // The negative half of the x axis is in it, where the angle jumps, unless all is on one side of that.
+        // The negative half of the x axis is in it, where the angle jumps, unless all is on one
+        // side of that.
         if y.lo >= 0.0 {
             return (
                 Self { lo: if x.hi < 0.0 { lower(f64s::atan2(y.hi, x.hi)) } else { 0.0 }, hi: upper(PI) },
@@ -282,7 +286,8 @@ impl Interval {
         Self { lo: end(x.lo).lo, hi: end(x.hi).hi }
     }
 
-    /// `x^y` for real exponents: for `x > 0`, for `x = 0 < y`, and of negative `x` for whole `y` alone.
+    /// `x^y` for real exponents: for `x > 0`, for `x = 0 < y`, and of negative `x` for whole `y`
+    /// alone.
     pub fn pow(self, y: Self) -> Range {
         if y.lo == y.hi && y.lo.fract() == 0.0 && y.lo.abs() < 65536.0 {
             return self.powi(y.lo as i32);
@@ -294,8 +299,8 @@ impl Interval {
         // The one power for a base up to 1, the other beyond.
         let corner = |x: f64, to_one: f64, beyond: f64| f64s::pow(x, if x <= 1.0 { to_one } else { beyond });
         let power = |x: Self| {
-            // Each edge of the rectangle is monotone and its inside has no extreme: the corners say all. Which two of them do is plain where the
-            // power has one sign.
+            // Each edge of the rectangle is monotone and its inside has no extreme: the corners say
+            // all. Which two of them do is plain where the power has one sign.
             let (least, most) = if y.lo >= 0.0 {
                 (corner(x.lo, y.hi, y.lo), corner(x.hi, y.lo, y.hi))
             } else if y.hi <= 0.0 {
@@ -354,7 +359,8 @@ impl Interval {
             let q = (self / b).trunc();
             if q.1 == Continuous && q.0.lo.is_finite() {
                 let rest = self - b * q.0;
-                // A quotient's rounding may have put a whole number on the wrong side, but not at both ends.
+                // A quotient's rounding may have put a whole number on the wrong side, but not at
+                // both ends.
                 let bound = Self { lo: -size.hi, hi: size.hi };
                 return (rest.intersection(bound).unwrap_or(rest), Continuous);
             }
@@ -372,7 +378,8 @@ impl Interval {
             return (-self).remainder_of_one(b).map(|rest| -rest);
         }
         let (least, most) = (self.lo % b.lo, self.hi % b.lo);
-        // Less than b apart, as their rounded difference is no less than b where the exact one is not: k b + least and m b + most have the same k and m unless the remainder falls.
+        // Less than b apart, as their rounded difference is no less than b where the exact one is
+        // not: k b + least and m b + most have the same k and m unless the remainder falls.
         let is_one = b.lo == b.hi && self.lo >= 0.0 && self.hi - self.lo < b.lo;
         (is_one && least <= most).then_some(Self { lo: least, hi: most })
     }

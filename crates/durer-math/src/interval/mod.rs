@@ -1,7 +1,8 @@
 //! Intervals of f64 with outward rounding.
 //!
-//! R. E. Moore, "Interval Analysis", Prentice-Hall (1966); the treatment of undefined parts follows IEEE 1788-2015's set-based flavour.
-//! Each end is the tightest f64 that bounds the exact result (see [`rounding`](crate::rounding)).
+//! R. E. Moore, "Interval Analysis", Prentice-Hall (1966); the treatment of undefined parts follows
+//! IEEE 1788-2015's set-based flavour. Each end is the tightest f64 that bounds the exact result
+//! (see [`rounding`](crate::rounding)).
 
 pub mod elementary;
 
@@ -11,7 +12,8 @@ use crate::rounding::{
 };
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// The closed interval `[lo, hi]`; ends may be infinite. The empty interval is `[NaN, NaN]` and spreads.
+/// The closed interval `[lo, hi]`; ends may be infinite. The empty interval is `[NaN, NaN]` and
+/// spreads.
 ///
 /// ```
 /// use durer_math::Interval;

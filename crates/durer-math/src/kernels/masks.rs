@@ -13,9 +13,11 @@ pub(crate) fn bits_of_masks(masks: &[u64; LANES]) -> u8 {
     let [a, b, c, d, e, f, g, h] = *masks;
     let (a, b, c, d) = (a.cast_signed(), b.cast_signed(), c.cast_signed(), d.cast_signed());
     let (e, f, g, h) = (e.cast_signed(), f.cast_signed(), g.cast_signed(), h.cast_signed());
-    // SAFETY: these instructions are part of SSE2, which every x86-64 CPU has, and they touch no memory.
+    // SAFETY: these instructions are part of SSE2, which every x86-64 CPU has, and they touch no
+    // memory.
     unsafe {
-        // Two masks are four numbers of 32 bits, each -1 or 0, which stay what they are in half the width; so do the masks in those.
+        // Two masks are four numbers of 32 bits, each -1 or 0, which stay what they are in half the
+        // width; so do the masks in those.
         let (ab, cd) = (_mm_set_epi64x(b, a), _mm_set_epi64x(d, c));
         let (ef, gh) = (_mm_set_epi64x(f, e), _mm_set_epi64x(h, g));
         let halves = _mm_packs_epi32(_mm_packs_epi32(ab, cd), _mm_packs_epi32(ef, gh));

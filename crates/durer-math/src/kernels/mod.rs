@@ -38,8 +38,8 @@ pub enum IsaError {
 
 /// Proof that this CPU can run a [`Path`]: only detection makes one.
 ///
-/// Everything reachable from [`Isa::run`]'s closure must be `#[inline(always)]`, or it is compiled for the basic CPU and each `mul_add` in it
-/// becomes a library call: right, but slow.
+/// Everything reachable from [`Isa::run`]'s closure must be `#[inline(always)]`, or it is compiled
+/// for the basic CPU and each `mul_add` in it becomes a library call: right, but slow.
 ///
 /// ```
 /// use durer_math::Isa;
@@ -92,9 +92,11 @@ impl Isa {
     /// The scalar definition, which runs everywhere.
     pub const REFERENCE: Self = Self(Path::Reference);
 
-    /// The best path of this CPU, or the one that the environment variable `DURER_ISA` names. Asked once, then remembered.
+    /// The best path of this CPU, or the one that the environment variable `DURER_ISA` names. Asked
+    /// once, then remembered.
     ///
-    /// A name that is unknown or not available is ignored here; a program's `main` reports it by [`Isa::requested`].
+    /// A name that is unknown or not available is ignored here; a program's `main` reports it by
+    /// [`Isa::requested`].
     #[inline]
     pub fn detect() -> Self {
         static FOUND: OnceLock<Isa> = OnceLock::new();
@@ -136,9 +138,9 @@ impl Isa {
     pub fn run<R>(self, f: impl FnOnce() -> R) -> R {
         match self.0 {
             Path::Reference | Path::Unfused => f(),
-            // SAFETY: an `Isa` with this path is made only by `with`, after `is_available` has seen every feature that the
-            // function is compiled for on this CPU.
-            // Code that is not written for lanes gains nothing from AVX-512, so both paths share one compiled copy of it.
+            // SAFETY: an `Isa` with this path is made only by `with`, after `is_available` has seen
+            // every feature that the function is compiled for on this CPU. Code that is not written
+            // for lanes gains nothing from AVX-512, so both paths share one compiled copy of it.
             #[cfg(target_arch = "x86_64")]
             Path::Avx2 | Path::Avx512 => unsafe { run_avx2(f) },
             #[cfg(not(target_arch = "x86_64"))]
@@ -146,7 +148,8 @@ impl Isa {
         }
     }
 
-    /// As [`Isa::run`], for code that is written for lanes ([`crate::lanes`]): compiled for AVX-512 too.
+    /// As [`Isa::run`], for code that is written for lanes ([`crate::lanes`]): compiled for AVX-512
+    /// too.
     #[inline(always)]
     pub fn run_in_lanes<R>(self, f: impl FnOnce() -> R) -> R {
         match self.0 {

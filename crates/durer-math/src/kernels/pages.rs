@@ -1,10 +1,12 @@
 //! Large arrays in large pages.
 //!
-//! A ray through millions of triangles reads memory all over the place, and for pages of 4 KiB most of these reads have to look up first where the page is.
-//! And what is written once, as a film, costs a call of the system for each page, which takes longer than to write it.
-//! Linux backs memory by pages of 2 MiB where it is asked to; elsewhere, and for small arrays, nothing is done.
+//! A ray through millions of triangles reads memory all over the place, and for pages of 4 KiB most
+//! of these reads have to look up first where the page is. And what is written once, as a film,
+//! costs a call of the system for each page, which takes longer than to write it. Linux backs
+//! memory by pages of 2 MiB where it is asked to; elsewhere, and for small arrays, nothing is done.
 
-/// Asks for large pages for all the room that a list has, which should not have been written yet: zeros from the system count as not written.
+/// Asks for large pages for all the room that a list has, which should not have been written yet:
+/// zeros from the system count as not written.
 #[cfg(target_os = "linux")]
 #[expect(unsafe_code, reason = "advice about a list's own memory, which changes nothing that can be seen")]
 pub fn in_large_pages<T>(list: &Vec<T>) {
@@ -21,8 +23,8 @@ pub fn in_large_pages<T>(list: &Vec<T>) {
         return;
     }
     let Some(first) = NonNull::new(start.wrapping_add(before).cast_mut().cast::<c_void>()) else { return };
-    // SAFETY: the range is part of the list's allocation, and this advice, unlike others, leaves all contents and rights as they are: it
-    // only says by which pages they are to be held.
+    // SAFETY: the range is part of the list's allocation, and this advice, unlike others, leaves
+    // all contents and rights as they are: it only says by which pages they are to be held.
     let advised = unsafe { madvise(first, inside, MmapAdvise::MADV_HUGEPAGE) };
     // A system without large pages goes on without them.
     let _ = advised;

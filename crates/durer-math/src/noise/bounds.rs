@@ -1,14 +1,17 @@
 //! Bounds of noise and of its derivatives on boxes.
 //!
-//! **In a cell.** `|n| <= 33/64 + 3/2`, since `(1 - f) t + f (1 - t) <= 1/2`. A derivative is a blend, along the other two axes, of what it is on the four edges along its own:
+//! **In a cell.** `|n| <= 33/64 + 3/2`, since `(1 - f) t + f (1 - t) <= 1/2`. A derivative is a
+//! blend, along the other two axes, of what it is on the four edges along its own:
 //!
 //! ```text
 //!   f'(x) (b - a) + (1 - f(x)) a_x + f(x) b_x,     a and b: v + g . (x - i, y - j, z - k) of the edge's two corners
 //! ```
 //!
-//! `b - a` is linear, so it is as far from its value in the box's middle as its slopes say; `f` and `f'` have their extremes at the box's ends, or `f'` in the cell's middle; a blend of intervals rises with both and is
-//! linear in `f`, so it has its extremes at the ends. The value follows from the one in the middle by the mean value theorem. Of a box in several cells this is asked of the parts, up to two along each axis; of
-//! larger ones the range is all that is known.
+//! `b - a` is linear, so it is as far from its value in the box's middle as its slopes say; `f` and
+//! `f'` have their extremes at the box's ends, or `f'` in the cell's middle; a blend of intervals
+//! rises with both and is linear in `f`, so it has its extremes at the ends. The value follows from
+//! the one in the middle by the mean value theorem. Of a box in several cells this is asked of the
+//! parts, up to two along each axis; of larger ones the range is all that is known.
 //!
 //! **Small boxes**, with the middle `m` and the half sides `r`, need only one look at the corners:
 //!
@@ -16,23 +19,30 @@
 //!   |n(p) - n(m)| <= sum |n_i(m)| r_i + 1/2 sum H_ij r_i r_j,   |n_i(p) - n_i(m)| <= sum H_ij r_j
 //! ```
 //!
-//! where `H` bounds the second derivatives, which jump between cells but are bounded in all of them: so this holds over any number of cells. [`SLOPE`], [`BEND`] and [`TWIST`] bound the first derivatives, and the second
-//! ones along one axis and along two, whatever the corners have: as sums of absolute values, whose extremes the tests find by interval arithmetic.
+//! where `H` bounds the second derivatives, which jump between cells but are bounded in all of
+//! them: so this holds over any number of cells. [`SLOPE`], [`BEND`] and [`TWIST`] bound the first
+//! derivatives, and the second ones along one axis and along two, whatever the corners have: as
+//! sums of absolute values, whose extremes the tests find by interval arithmetic.
 //!
-//! **Rounding** is that of values and slopes; what is said of an edge errs by `115 u`, and each of the two blends adds `75 u`: in all less than [`SLOPE_ROUNDINGS`].
-//! A box's middle is rounded by half of `u` along each axis, which moves a value by less than `8 u`.
+//! **Rounding** is that of values and slopes; what is said of an edge errs by `115 u`, and each of
+//! the two blends adds `75 u`: in all less than [`SLOPE_ROUNDINGS`]. A box's middle is rounded by
+//! half of `u` along each axis, which moves a value by less than `8 u`.
 //!
-//! In a cell all is done in f32, whose roundings are less than 2^-16 of what a derivative may be: a box's ends are rounded outward first, and whatever holds on the larger box holds on it. Boxes so small that such a rounding counts
-//! beside what they add to the value in the middle are looked at as small ones, too.
+//! In a cell all is done in f32, whose roundings are less than 2^-16 of what a derivative may be: a
+//! box's ends are rounded outward first, and whatever holds on the larger box holds on it. Boxes so
+//! small that such a rounding counts beside what they add to the value in the middle are looked at
+//! as small ones, too.
 
 use super::{APART, Along, SLOPE_ROUNDINGS, Sum, VALUE_ROUNDINGS, are_one_cell, number};
 use crate::real::{Eight, Real, less, more, roundings};
 use crate::{F8, I8, Isa, M8};
 
-/// Errors count twice in bounds, so that these hold rounded values too; the rest is for the bounds' own rounding.
+/// Errors count twice in bounds, so that these hold rounded values too; the rest is for the bounds'
+/// own rounding.
 const VALUE_MARGIN: f32 = 2.0 * VALUE_ROUNDINGS + 16.0;
 const SLOPE_MARGIN: f32 = 2.0 * SLOPE_ROUNDINGS + 16.0;
-/// Pays for the roundings of sums of numbers that are not negative: twelve at most one after the other.
+/// Pays for the roundings of sums of numbers that are not negative: twelve at most one after the
+/// other.
 const UP: f32 = 16.0;
 /// The largest value of a corner.
 pub(super) const CORNER: f64 = 33.0 / 64.0;
@@ -143,7 +153,8 @@ struct Part {
     hi: F8,
 }
 
-/// A box along an axis: the part in its first cell, in which lanes there is one in the next cell, and in which one in a third.
+/// A box along an axis: the part in its first cell, in which lanes there is one in the next cell,
+/// and in which one in a third.
 struct Parts {
     first: Part,
     /// Where the part in the second cell ends.
@@ -181,7 +192,8 @@ impl Parts {
     }
 }
 
-/// Bounds by those on the parts in single cells; of boxes of more than two cells along an axis nothing is known.
+/// Bounds by those on the parts in single cells; of boxes of more than two cells along an axis
+/// nothing is known.
 #[inline(always)]
 fn cellwise(p: [&I8; 3], out: &mut (I8, [I8; 3])) {
     let parts = [Parts::new(p[0], APART[0]), Parts::new(p[1], APART[1]), Parts::new(p[2], APART[2])];
@@ -298,7 +310,8 @@ impl Within {
     }
 }
 
-/// Bounds on eight boxes, each of which is in one cell: of the derivatives by the blends' extremes, of the value by the one in the middle and the derivatives.
+/// Bounds on eight boxes, each of which is in one cell: of the derivatives by the blends' extremes,
+/// of the value by the one in the middle and the derivatives.
 #[inline(never)]
 fn whole(parts: &[Part; 3]) -> (Ends, [Ends; 3]) {
     Isa::detect().run_in_lanes(

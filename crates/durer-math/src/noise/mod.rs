@@ -5,13 +5,19 @@
 //!   w(t) = 1 - f(|t|),  f(t) = 3 t^2 - 2 t^3
 //! ```
 //!
-//! Each point of the lattice has a value `v` and a slope `g` of its own, which a hash of its three whole numbers says, each taken modulo 2^32: `v` is one of the 256 multiples of 1/256 from -132/256 on, the three
-//! parts of `g` are odd multiples of 1/256 between -1 and 1. So noise is a polynomial in each cell, with numbers that f64 holds exactly, and its derivatives are continuous everywhere: what is bounded here is that
-//! function of real numbers.
+//! Each point of the lattice has a value `v` and a slope `g` of its own, which a hash of its three
+//! whole numbers says, each taken modulo 2^32: `v` is one of the 256 multiples of 1/256 from -132/256
+//! on, the three parts of `g` are odd multiples of 1/256 between -1 and 1. So noise is a polynomial
+//! in each cell, with numbers that f64 holds exactly, and its derivatives are continuous
+//! everywhere: what is bounded here is that function of real numbers.
 //!
-//! **Rounding.** With `u` for one rounding of 1, in f64 or in f32, which holds the same numbers exactly: a coordinate in its cell is exact, but for one between -1 and 0, where it errs by `u/2`; all roundings of `f` are `2 u`, of `f'` `4 u`,
-//! of a corner's sum `7 u`. A step of the interpolation, of which there are three, adds `21 u` to a value (`2 u` times a difference of at most 7.04, its rounding of `4 u` and the sum's of `2 u`), and to a derivative at most `75 u`, or
-//! `180 u` along its own axis. With what the coordinates' errors make of it these are below [`VALUE_ROUNDINGS`] and [`SLOPE_ROUNDINGS`].
+//! **Rounding.** With `u` for one rounding of 1, in f64 or in f32, which holds the same numbers
+//! exactly: a coordinate in its cell is exact, but for one between -1 and 0, where it errs by
+//! `u/2`; all roundings of `f` are `2 u`, of `f'` `4 u`, of a corner's sum `7 u`. A step of the
+//! interpolation, of which there are three, adds `21 u` to a value (`2 u` times a difference of at
+//! most 7.04, its rounding of `4 u` and the sum's of `2 u`), and to a derivative at most `75 u`, or
+//! `180 u` along its own axis. With what the coordinates' errors make of it these are below
+//! [`VALUE_ROUNDINGS`] and [`SLOPE_ROUNDINGS`].
 
 mod bounds;
 #[cfg(test)]
@@ -32,7 +38,8 @@ const APART: [u32; 3] = [0x9e37_79b1, 0x85eb_ca77, 0xc2b2_ae3d];
 
 /// A number that a lattice's point can be said in.
 trait Grain: Real {
-    /// The lowest eight bits as what is behind the point of a number: from 1 to 2 by 1/256, or from 2 to 4 by 1/128.
+    /// The lowest eight bits as what is behind the point of a number: from 1 to 2 by 1/256, or from
+    /// 2 to 4 by 1/128.
     fn eight(bits: u32, first: Self) -> Self;
 }
 
@@ -133,7 +140,8 @@ fn hashes<T>(along: &[Along<T>; 3], corner: usize) -> [u32; 8] {
     hash
 }
 
-/// An array of what an expression is for each corner: bit `i` of its number says where it is along axis `i`.
+/// An array of what an expression is for each corner: bit `i` of its number says where it is along
+/// axis `i`.
 macro_rules! each_corner {
     ($c:ident => $each:expr) => {
         [

@@ -39,7 +39,8 @@ fn exact(p: [f64; 3]) -> [Dyadic; 4] {
     sum
 }
 
-/// Numbers of all kinds: in cells, on their faces and next to these, small and large, of both signs.
+/// Numbers of all kinds: in cells, on their faces and next to these, small and large, of both
+/// signs.
 struct Dice(u64);
 
 impl Dice {
@@ -101,7 +102,8 @@ fn single_precision_is_as_near_as_is_said() {
         };
         let along = [axis(0), axis(1), axis(2)];
         let Sum { v, d } = Sum::of(&along, &Sum::corners::<false>(&along));
-        // Sums with a whole number are exact in f64 but for some small ones below zero, which then do not count in f32.
+        // Sums with a whole number are exact in f64 but for some small ones below zero, which then
+        // do not count in f32.
         let exact = exact([0, 1, 2].map(|i| whole[i] + f64::from(t[i])));
         for (k, (told, exact)) in [v, d[0], d[1], d[2]].iter().zip(&exact).enumerate() {
             let off = exact.clone() - Dyadic::exact(f64::from(told.0[0]));
@@ -183,7 +185,8 @@ fn constants_bound_the_derivatives_whatever_the_corners_have() {
         (d, dd, (one - f - d * t).abs() + (f - d * (one - t)).abs())
     };
     let piece = |k: u32, n: u32| Interval::new(f64::from(k) / f64::from(n), f64::from(k + 1) / f64::from(n));
-    // Distances from two corners, weighted, are at most 1/2 together: so 1 of two pairs along each of the other axes.
+    // Distances from two corners, weighted, are at most 1/2 together: so 1 of two pairs along each
+    // of the other axes.
     let other = number(2.0 * CORNER + 2.0);
     let (mut slope, mut bend, mut twist) = (0.0_f64, 0.0_f64, 0.0_f64);
     for i in 0..4096 {
@@ -253,7 +256,8 @@ fn corners_are_alike_and_know_nothing_of_each_other() {
             }
         }
     }
-    // Uniform between -1/2 and 1/2, and between -1 and 1. Of so many, means and correlations are within 5 standard errors.
+    // Uniform between -1/2 and 1/2, and between -1 and 1. Of so many, means and correlations are
+    // within 5 standard errors.
     let variance = [1.0 / 12.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0];
     let error = 5.0 / f64::sqrt(count);
     for i in 0..4 {

@@ -4,8 +4,8 @@
 use dashu::rational::RBig;
 use proptest::prelude::*;
 
-/// So many cases, times the variable `DURER_SOAK` if it is set, and no files of past failures: a failure worth keeping becomes a
-/// test with a name.
+/// So many cases, times the variable `DURER_SOAK` if it is set, and no files of past failures: a
+/// failure worth keeping becomes a test with a name.
 pub(crate) fn cases(n: u32) -> ProptestConfig {
     let soak = std::env::var("DURER_SOAK").ok().and_then(|x| x.parse().ok()).unwrap_or(1);
     ProptestConfig { cases: n.saturating_mul(soak), failure_persistence: None, ..ProptestConfig::default() }

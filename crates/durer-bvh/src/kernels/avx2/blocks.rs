@@ -18,7 +18,8 @@ fn cross(a: &[__m256; 3], b: &[__m256; 3]) -> [__m256; 3] {
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
-/// Eight triangles, half a block, without a ray: the first corner, the edges from there, their cross product, and the size of the block.
+/// Eight triangles, half a block, without a ray: the first corner, the edges from there, their
+/// cross product, and the size of the block.
 pub(in crate::kernels) struct Edges {
     v: [__m256; 3],
     e1: [__m256; 3],

@@ -23,7 +23,8 @@ use durer_math::{Isa, Vec3};
 use node::{Lanes, descend, meets};
 use setup::{Clipped, clip, nearby};
 
-/// Proof that this CPU has all that [`Path::Avx2`] asks for: AVX2, FMA, BMI1 and 2, LZCNT and POPCNT.
+/// Proof that this CPU has all that [`Path::Avx2`] asks for: AVX2, FMA, BMI1 and 2, LZCNT and
+/// POPCNT.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx2(());
 

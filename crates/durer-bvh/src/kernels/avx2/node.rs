@@ -9,8 +9,9 @@ use core::arch::x86_64::*;
 
 /// A ray as a node test needs it, number by number.
 ///
-/// The octant stands apart from the last of `far`: where it followed `t_near`, the three were read back as one vector, which waits until the stores before it
-/// have reached the cache (single rays took 8 to 20 % longer).
+/// The octant stands apart from the last of `far`: where it followed `t_near`, the three were read
+/// back as one vector, which waits until the stores before it have reached the cache (single rays
+/// took 8 to 20 % longer).
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub(crate) struct Numbers {
@@ -65,7 +66,8 @@ pub(crate) struct Lanes {
     octant_shift: __m128i,
 }
 
-/// For each set of lanes the lanes in it, in order, one per byte: what `vpcompressd` does, from a table.
+/// For each set of lanes the lanes in it, in order, one per byte: what `vpcompressd` does, from a
+/// table.
 static COMPRESS: [u64; 256] = {
     let mut table = [0; 256];
     let mut mask = 0;
@@ -114,8 +116,9 @@ impl Lanes {
     }
 }
 
-/// Half of a node's boxes: where they are entered and left, this up to `t_far`. A plane `x` is met at `x r + c`, with the `r` and `c` of near planes and of far ones.
-/// Six fused multiply-adds, six minima and maxima.
+/// Half of a node's boxes: where they are entered and left, this up to `t_far`. A plane `x` is met
+/// at `x r + c`, with the `r` and `c` of near planes and of far ones. Six fused multiply-adds, six
+/// minima and maxima.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 pub(in crate::kernels) fn slabs(
@@ -126,7 +129,8 @@ pub(in crate::kernels) fn slabs(
     t_far: f32,
 ) -> (__m256, __m256) {
     let plane = |begins: usize, axis: usize, (r, c): (&[__m256; 3], &[__m256; 3])| {
-        // SAFETY: one of six rows begins there, and half a row holds eight f32, 32 bytes, aligned to as many in a node aligned to 64.
+        // SAFETY: one of six rows begins there, and half a row holds eight f32, 32 bytes, aligned
+        // to as many in a node aligned to 64.
         let planes =
             unsafe { _mm256_load_ps(node.planes.as_ptr().cast::<f32>().byte_add(begins + 32 * (half & 1))) };
         _mm256_fmadd_ps(planes, r[axis], c[axis])
@@ -155,11 +159,12 @@ fn placed(places: __m256i, [low, high]: [__m256; 2]) -> __m256 {
     _mm256_blendv_ps(low, high, is_high)
 }
 
-/// A permutation that sorts children by the ray's octant (or none); and one that closes the
-/// gaps between those that are met, in place of a branch per child. In two halves.
+/// A permutation that sorts children by the ray's octant (or none); and one that closes the gaps
+/// between those that are met, in place of a branch per child. In two halves.
 ///
-/// The way to the next child is as short as can be: all sixteen are written to one place, while the boxes are still being tested, and
-/// the highest bit of the mask says which to read; with no bit it is the one that was on top before.
+/// The way to the next child is as short as can be: all sixteen are written to one place, while the
+/// boxes are still being tested, and the highest bit of the mask says which to read; with no bit it
+/// is the one that was on top before.
 #[inline]
 #[target_feature(enable = "avx2,fma,popcnt,lzcnt")]
 pub(super) fn descend<const ORDERED: bool>(
@@ -186,8 +191,9 @@ pub(super) fn descend<const ORDERED: bool>(
     let mask = low | high << 8;
     let close = |mask: u32| _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(COMPRESS[mask as usize] as i64));
     let (close0, close1) = (close(low), close(high));
-    // SAFETY: sixteen elements are written to each, or as many as a mask of sixteen bits has and at most eight more, through pointers to sixteen: the first of
-    // the second half go where the first half ends, after at most eight.
+    // SAFETY: sixteen elements are written to each, or as many as a mask of sixteen bits has and at
+    // most eight more, through pointers to sixteen: the first of the second half go where the first
+    // half ends, after at most eight.
     unsafe {
         stack.exchange(
             (32 - mask.leading_zeros()) as usize,

@@ -12,23 +12,28 @@ use core::arch::x86_64::*;
 
 /// What [`nearby`] charges of the tree's coordinates, and of the origin's.
 pub(in crate::kernels) const SLACK: (f32, f32) = (4.0 * U32 as f32, 7.0 * U32 as f32);
-/// Eight units: errors are rounded to f32, multiplied, added and grown by this, a rounding each; the range has fewer.
+/// Eight units: errors are rounded to f32, multiplied, added and grown by this, a rounding each;
+/// the range has fewer.
 pub(in crate::kernels) const OUTWARD: f32 = 8.0 * U32 as f32;
 
-/// A ray that starts nearby, at a glance, in f32: neither the way to the tree nor the end of that through it is looked for.
+/// A ray that starts nearby, at a glance, in f32: neither the way to the tree nor the end of that
+/// through it is looked for.
 ///
-/// Let `u = 2^-24`, `M` the greatest magnitude of a coordinate of the tree on an axis, `o` that of the origin, and `e` and `g` the errors of origin and
-/// direction. Both `e + 6 g` and so `g` are at most [`ROUGH`] (else the ray is left to others), so `t` is at most `(1 + NEARBY + e) / (1 - g) < 6` in magnitude within the tree,
-/// where the ray's points err by `e + 6 g`. A component of the direction below `(M + o) u / 20` counts as that, which moves them by less than
-/// `0.3 u (M + o)`. `r` errs by two units, the one of `d` and its own; so a plane at `x` is met at `x r - o r` with an error of
+/// Let `u = 2^-24`, `M` the greatest magnitude of a coordinate of the tree on an axis, `o` that of
+/// the origin, and `e` and `g` the errors of origin and direction. Both `e + 6 g` and so `g` are at
+/// most [`ROUGH`] (else the ray is left to others), so `t` is at most
+/// `(1 + NEARBY + e) / (1 - g) < 6` in magnitude within the tree, where the ray's points err by
+/// `e + 6 g`. A component of the direction below `(M + o) u / 20` counts as that, which moves them
+/// by less than `0.3 u (M + o)`. `r` errs by two units, the one of `d` and its own; so a plane at
+/// `x` is met at `x r - o r` with an error of
 ///
 /// ```text
 ///     |r| (u (2 M  +  4 o  +  o  +  M + o  +  0.3 (M + o))  +  e + 6 g)
 ///              x r    o r    -slack  sum       bent
 /// ```
 ///
-/// at most. [`SLACK`] pays for this and for second-order terms; [`OUTWARD`] for the roundings of the errors and of the range. What underflow may take from
-/// them is far below either.
+/// at most. [`SLACK`] pays for this and for second-order terms; [`OUTWARD`] for the roundings of
+/// the errors and of the range. What underflow may take from them is far below either.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 pub(super) fn nearby(tree: &Bvh, glance: &Ray32) -> Option<(Numbers, ClippedRay)> {
@@ -102,15 +107,17 @@ const CERTAIN: f64 = durer_math::scale::pow2(256);
 
 /// `CullRay::new` for a line that is exactly known, all axes at once and without branches.
 ///
-/// It differs in two ways, both conservative: a component of the direction that is (nearly) zero counts as [`SLOWEST`], for which the box is a
-/// little larger; and what is rounded to f32 is moved outward before, by what rounding to nearest may move it inward, instead of after.
+/// It differs in two ways, both conservative: a component of the direction that is (nearly) zero
+/// counts as [`SLOWEST`], for which the box is a little larger; and what is rounded to f32 is moved
+/// outward before, by what rounding to nearest may move it inward, instead of after.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 pub(super) fn clip(tree: &Bvh, line: &Ray64) -> Clipped {
     let minus = _mm256_set1_pd(-0.0);
     let all = |x: f64| _mm256_set1_pd(x);
     let size = |x: __m256d| _mm256_andnot_pd(minus, x);
-    // SAFETY: four f64 each, aligned to 32 bytes as the first fields of a struct with that alignment.
+    // SAFETY: four f64 each, aligned to 32 bytes as the first fields of a struct with that
+    // alignment.
     let (lo, hi, most) = unsafe {
         (
             _mm256_load_pd(tree.clip.lo.as_ptr()),

@@ -1,4 +1,5 @@
-//! Rays that are aimed at trouble: at edges, rims, tips and tangents, exactly and by a few ulps beside.
+//! Rays that are aimed at trouble: at edges, rims, tips and tangents, exactly and by a few ulps
+//! beside.
 
 use super::worlds::{World, all_worlds};
 use super::{Aim, Dice, Tally, compare, eight, point};
@@ -61,7 +62,8 @@ fn met(world: &World, from: Point3, to: Point3) -> Option<(u32, u32, u32)> {
 
 #[test]
 fn rays_at_a_border() {
-    // Between two targets of which one is met and the other not, or another face of it, there is a border. Exact answers lead to it.
+    // Between two targets of which one is met and the other not, or another face of it, there is a
+    // border. Exact answers lead to it.
     let mut dice = Dice(4);
     for world in all_worlds(Isa::detect()) {
         let mut tally = Tally::default();

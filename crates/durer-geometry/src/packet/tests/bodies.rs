@@ -72,7 +72,8 @@ fn bodies() -> Vec<World> {
         let hole = csg.leaf(ball(0.25, 0.625)).unwrap();
         csg.difference(cushion, [hole])
     });
-    // x³ - 3 x z² = y, which goes on for ever, where a convex solid holds what matters of it, alone and as part of a part; and where none does.
+    // x³ - 3 x z² = y, which goes on for ever, where a convex solid holds what matters of it, alone
+    // and as part of a part; and where none does.
     let saddle = || {
         let mut c = vec![0.0; 20];
         (c[0], c[5], c[15]) = (1.0, -3.0, -1.0);

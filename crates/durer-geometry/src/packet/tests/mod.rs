@@ -1,6 +1,7 @@
 //! Lanes see what single rays see, and rarely have to ask.
 //!
-//! Every claim of lanes is held against the kernels that decide exactly: `closest` and `any` for what is met, `side` and exact planes for where rays start.
+//! Every claim of lanes is held against the kernels that decide exactly: `closest` and `any` for
+//! what is met, `side` and exact planes for where rays start.
 
 mod aimed;
 mod bodies;
@@ -123,7 +124,8 @@ const OF_HIGHER_DEGREE: [&str; 46] = [
     "open curved prism",
 ];
 
-/// Compares lanes with single rays, and goes on with rays that are spawned where these meet something, `depth` times.
+/// Compares lanes with single rays, and goes on with rays that are spawned where these meet
+/// something, `depth` times.
 fn compare(world: &World, aim: Aim, rays: &Rays8, dice: &mut Dice, depth: u32, tally: &mut Tally) {
     let geometry = &world.geometry;
     let mut hits = Hits8::NONE;
@@ -141,7 +143,8 @@ fn compare(world: &World, aim: Aim, rays: &Rays8, dice: &mut Dice, depth: u32, t
     }
 }
 
-/// Compares what lanes have `met`, of which some had to be `asked` by themselves, with single rays; answers with those that others may start from.
+/// Compares what lanes have `met`, of which some had to be `asked` by themselves, with single rays;
+/// answers with those that others may start from.
 fn check(world: &World, rays: &Rays8, (hits, met, asked): (&Hits8, M8, M8), tally: &mut Tally) -> M8 {
     let geometry = &world.geometry;
     tally.asked += asked.count();
@@ -150,7 +153,8 @@ fn check(world: &World, rays: &Rays8, (hits, met, asked): (&Hits8, M8, M8), tall
         let ray = rays.lane(i);
         let exact = geometry.closest(&ray);
         tally.rays += 1;
-        // Where an edge is met within rounding of a formula single rays, too, may say one thing or another. Lanes are as near as `see` asks for.
+        // Where an edge is met within rounding of a formula single rays, too, may say one thing or
+        // another. Lanes are as near as `see` asks for.
         let seen = (hits.t.0[i], 0.5 * PREVIEW_WIDTH * hits.t.0[i]);
         let told = exact.map_or(seen, |hit| (hit.t, hit.t_hi - hit.t_lo));
         if [seen, told].into_iter().any(|near| world.has_edge_on(&ray, near)) {
@@ -158,7 +162,8 @@ fn check(world: &World, rays: &Rays8, (hits, met, asked): (&Hits8, M8, M8), tall
             starts.set_lane(i, false);
             continue;
         }
-        // A tangent, as far as f64 can tell in a surface's frame, or a crossing at an end of the range; lanes, who know the way there better, may know that there is none.
+        // A tangent, as far as f64 can tell in a surface's frame, or a crossing at an end of the
+        // range; lanes, who know the way there better, may know that there is none.
         let in_brackets = matches!(world.sides, Sides::Bracketed | Sides::Rimmed { .. });
         let untold = exact.is_some_and(|hit| {
             let at_an_end = hit.t_lo <= 0.0 || hit.t_hi >= ray.t_max;
@@ -222,11 +227,13 @@ fn check_hit(world: &World, ray: &Ray, first: &Hit, hits: &Hits8, i: usize) {
     let far = 2.0 * apart * length + exact.dp.max_abs();
     assert!((p - exact.p.to_vec()).max_abs() <= far, "{name}: {ray:?} {p:?} {exact:?}");
     check_normals(world, far, &exact, (hits.ng.lane(i), hits.ns.lane(i)));
-    // `off` is |f| and twice its error, over the gradient. With 16 U for each term of f that is at most 3 * 16 U of the coordinates' sum for a plane; where the
-    // surface is curved, the squares of coordinates add as much times the curvature.
+    // `off` is |f| and twice its error, over the gradient. With 16 U for each term of f that is at
+    // most 3 * 16 U of the coordinates' sum for a plane; where the surface is curved, the squares
+    // of coordinates add as much times the curvature.
     let off = hits.off.0[i];
     let extent = world.reach() + p.x.abs() + p.y.abs() + p.z.abs();
-    // Of faces of higher degree lanes know the largest terms, of coordinates of three times the size; crossed outlines are left farther.
+    // Of faces of higher degree lanes know the largest terms, of coordinates of three times the
+    // size; crossed outlines are left farther.
     let terms = match world.surface {
         name if name.contains("crossed") => 4096.0,
         name if OF_HIGHER_DEGREE.contains(&name) => 64.0,
@@ -244,14 +251,16 @@ fn check_hit(world: &World, ray: &Ray, first: &Hit, hits: &Hits8, i: usize) {
 
 /// Normals of points that are at most `far` from each other.
 fn check_normals(world: &World, far: f64, exact: &SurfacePoint, (ng, ns): (Vec3, Vec3)) {
-    // A unit normal turns by at most the curvature times the way, twice as far over the short way that `bend` itself may change on. Where the gradient
-    // is small, as near tips, the rounding of coordinates counts as a way, too. Normals of planes are rounded, as they are and by inverse maps.
+    // A unit normal turns by at most the curvature times the way, twice as far over the short way
+    // that `bend` itself may change on. Where the gradient is small, as near tips, the rounding of
+    // coordinates counts as a way, too. Normals of planes are rounded, as they are and by inverse
+    // maps.
     let rounding = 64.0 * U;
     let turn = 2.0 * exact.bend * (far + rounding * world.size()) + rounding;
     let off_by = (ng - exact.ng.to_vec()).max_abs();
     assert!(off_by.is_finite() && off_by <= turn, "{}: {ng:?} {exact:?}: {off_by} > {turn}", world.name);
-    // Normals over the triangle differ by less than 3 from each other, are longer than 0.5, and its heights are above a third of its size; placed, they are longer
-    // than a quarter of that.
+    // Normals over the triangle differ by less than 3 from each other, are longer than 0.5, and its
+    // heights are above a third of its size; placed, they are longer than a quarter of that.
     let shading = turn + 4.0 * 3.0 * 3.0 / 0.5 * far / world.size();
     let off_by = (ns - exact.ns.to_vec()).max_abs();
     assert!(off_by <= shading, "{}: {ns:?} {exact:?}: {off_by} > {shading}", world.name);
@@ -294,7 +303,8 @@ fn check_starts(world: &World, aim: Aim, hits: &Hits8, lanes: M8) {
     }
 }
 
-/// Rays that go on from hits, at random or all but along the surface. Spare lanes hold rays that were there already.
+/// Rays that go on from hits, at random or all but along the surface. Spare lanes hold rays that
+/// were there already.
 fn onward(aim: Aim, rays: &Rays8, hits: &Hits8, dice: &mut Dice) -> Rays8 {
     let mut onward = *rays;
     for i in hits.hit.lanes() {
@@ -312,7 +322,8 @@ fn onward(aim: Aim, rays: &Rays8, hits: &Hits8, dice: &mut Dice) -> Rays8 {
     onward
 }
 
-/// Of what is told a stretch at a time many eights are told together, and rays change their lanes on the way.
+/// Of what is told a stretch at a time many eights are told together, and rays change their lanes
+/// on the way.
 #[test]
 fn many_eights_together_see_what_single_rays_see() {
     let mut dice = Dice(11);
@@ -390,14 +401,18 @@ fn lanes_see_what_single_rays_see() {
         // Brackets are narrow: rays at random hardly ever meet an edge within one.
         assert!(edges * 500 <= rays, "{name}: {edges} of {rays} at edges");
         let least = match name {
-            // A face, or a part of one, lies exactly in a face of what cuts: only exact arithmetic can tell that it stays.
+            // A face, or a part of one, lies exactly in a face of what cuts: only exact arithmetic
+            // can tell that it stays.
             "box without a box" => 20,
             "box within a box" => 12,
-            // It goes on for ever, hardly bent: rays from within meet it thousands of times its size away, where the rounding of their squares is that of the form.
+            // It goes on for ever, hardly bent: rays from within meet it thousands of times its
+            // size away, where the rounding of their squares is that of the form.
             "parabolic cylinder" => 300,
-            // Where a plane through a ray and the origin meets an outline at a slant, its trace is known badly.
+            // Where a plane through a ray and the origin meets an outline at a slant, its trace is
+            // known badly.
             "crossed conic prism" => 6,
-            // What is clipped is looked at within the clip only; what is not, to where it ends, and far away the degree counts.
+            // What is clipped is looked at within the clip only; what is not, to where it ends, and
+            // far away the degree counts.
             "clipped cubic" => 800,
             "cubic" => 200,
             "quartic" | "balls" => 50,
@@ -405,7 +420,8 @@ fn lanes_see_what_single_rays_see() {
             "sextic" => 15,
             // Where a place is known badly, far away, little is known of the gradient around it.
             "cushion" => 3,
-            // Rays that start inside are told by the formula, and its ridges are as steep as one likes.
+            // Rays that start inside are told by the formula, and its ridges are as steep as one
+            // likes.
             "star" => 12,
             "julia" | "cubic julia" | "hypercomplex julia" | "hypercomplex cubic julia" => 8,
             // Next to where a formula is undefined nothing is sure.

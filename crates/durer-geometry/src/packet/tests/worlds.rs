@@ -19,11 +19,14 @@ use durer_surfaces::{
 pub(super) enum Sides {
     /// A solid with a single face: it has an inside and an outside along the normal everywhere.
     Smooth,
-    /// The same, of a solid whose kernel tells sides in f64: within rounding it says that a point is on the surface.
+    /// The same, of a solid whose kernel tells sides in f64: within rounding it says that a point
+    /// is on the surface.
     Rounded,
-    /// The same, and whether a crossing is in a ray's range is told by its bracket, which may hold an end of that.
+    /// The same, and whether a crossing is in a ray's range is told by its bracket, which may hold
+    /// an end of that.
     Bracketed,
-    /// The same with edges, where a container cuts it off, closed or not: where a ray meets such an edge is told within rounding.
+    /// The same with edges, where a container cuts it off, closed or not: where a ray meets such an
+    /// edge is told within rounding.
     Rimmed { closed: bool },
     /// A convex solid with edges: what leaves it is outside, also at an edge.
     Convex,
@@ -75,7 +78,8 @@ impl World {
         self.maps.iter().fold(2.0, |reach, map| reach * map.linear_norm() + map.centre().to_vec().length())
     }
 
-    /// Whether a ray may meet an edge where something is met at `t` within `e`: both surfaces are, within brackets as wide as those of pictures.
+    /// Whether a ray may meet an edge where something is met at `t` within `e`: both surfaces are,
+    /// within brackets as wide as those of pictures.
     pub(super) fn has_edge_on(&self, ray: &Ray, (t, e): (f64, f64)) -> bool {
         let line = Ray::new(ray.origin, ray.direction);
         let near = |a: &Hit| a.t_lo <= t + e && a.t_hi >= t - e;
@@ -89,7 +93,8 @@ impl World {
         })
     }
 
-    /// On which side of a flat surface's plane a point is, exactly; positive where the mapped normal points.
+    /// On which side of a flat surface's plane a point is, exactly; positive where the mapped
+    /// normal points.
     pub(super) fn height(&self, p: Point3) -> Option<core::cmp::Ordering> {
         let Sides::Flat(normal, q) = self.sides else { return None };
         let exact = |v: Vec3| v.to_array().map(|x| Dyadic::new(x).unwrap());
@@ -139,7 +144,8 @@ pub(super) fn placements() -> Vec<(&'static str, Vec<Affine>)> {
         ("huge", vec![scaled(durer_math::scale::pow2(60)), map()]),
         ("far", vec![map(), far]),
         ("far, exactly", vec![moved(1_048_576.0, -3_145_728.0, 2_097_152.0)]),
-        // There and back again: the centre is moved by a map whose products are a million times as large as what is left of them.
+        // There and back again: the centre is moved by a map whose products are a million times as
+        // large as what is left of them.
         ("returned", vec![far, moved(-1e6, 3e6, -2e6), map()]),
         ("turned about a far point", vec![far, moved(-1e6, 3e6, -2e6).then(&map()).unwrap()]),
         ("far and tiny", vec![scaled(1e-6), moved(1.0, 2.0, -0.7), map()]),
@@ -277,14 +283,16 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     worlds("prism", Sides::Solid, Prism::linear(&outlines, -0.5, 0.75).unwrap(), all);
     worlds("conic prism", Sides::Solid, Prism::conic(&outlines, -0.5, 1.0).unwrap(), all);
     worlds("open prism", Sides::Sheet, Prism::conic(&outlines, 0.25, 1.0).unwrap().without_caps(), all);
-    // A sheet of which one corner is out of the plane by a little, and a surface without what lies in a box.
+    // A sheet of which one corner is out of the plane by a little, and a surface without what lies
+    // in a box.
     let mut bent = square(1.0);
     bent[3].z = 0.5 + durer_math::scale::pow2(-40);
     worlds("bent frame", Sides::Sheet, Polygon::new(&[bent], FillRule::EvenOdd).unwrap(), all);
     let hole = Region::axis_box(point(-0.5, -0.5, -0.25), point(2.0, 2.0, 0.75)).unwrap().inverse();
     worlds("sphere without a box", Sides::Sheet, Clip::new(ball, vec![hole.clone()]), all);
     worlds("box without a box", Sides::Sheet, Clip::new(block, vec![hole]), all);
-    // Planes that cut off all of a wall, by far and by an ulp; that cut off nothing; and one that the wall lies in.
+    // Planes that cut off all of a wall, by far and by an ulp; that cut off nothing; and one that
+    // the wall lies in.
     let room = Region::axis_box(point(-0.25, -0.5, -2.0), point(2.0, 0.5_f64.next_down(), 0.25)).unwrap();
     worlds("box within a box", Sides::Sheet, Clip::new(block, vec![room]), all);
     let ring = Torus::new(point(0.25, 0.0, -0.25), Axis::Y, 0.75, 0.25).unwrap();
@@ -296,7 +304,8 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     worlds("open sor", Sides::Sheet, vase.without_ends(), all);
     worlds("ovus", Sides::Smooth, SurfaceOfRevolution::ovus(0.75, 0.5).unwrap(), all);
     worlds("lemon", Sides::Convex, SurfaceOfRevolution::lemon(1.5, 0.5, 0.25, 1.25).unwrap(), all);
-    // A cushion with dimples, a cubic that goes on for ever, one that a ball and a half-space cut, and a bowl of degree six.
+    // A cushion with dimples, a cubic that goes on for ever, one that a ball and a half-space cut,
+    // and a bowl of degree six.
     let of = |order: u32, terms: &[([u32; 3], f64)]| {
         let mut c = vec![0.0; durer_surfaces::algebraic::coefficient_count(order)];
         for &(powers, value) in terms {
@@ -381,7 +390,8 @@ fn level_worlds(all: &mut Worlds) {
     worlds("julia", Sides::Bracketed, JuliaSet::new(&set).unwrap(), all);
     let cube = Julia { c: [0.25, -0.5, 0.25, 0.0], power: JuliaPower::Cube, iterations: 3, ..set };
     worlds("cubic julia", Sides::Bracketed, JuliaSet::new(&cube).unwrap(), all);
-    // A bit smaller, so that few rays on a grid touch it: the formula is asked thousands of times about each that does.
+    // A bit smaller, so that few rays on a grid touch it: the formula is asked thousands of times
+    // about each that does.
     let cushion = Placed::new(superellipsoid(0.5, 1.25).unwrap(), scaled(0.9));
     worlds("cushion", Sides::Bracketed, cushion, all);
     contained_worlds(all);
@@ -445,9 +455,11 @@ fn contained_worlds(all: &mut Worlds) {
     edged("boxed waves", closed, boxed, [DynSurface::new(block), whole()], all);
 }
 
-/// Formulas that are undefined on a line far outside of their solids, and in half of space beside them.
+/// Formulas that are undefined on a line far outside of their solids, and in half of space beside
+/// them.
 fn partly_defined_worlds(held: AxisBox, all: &mut Worlds) {
-    // (sqrt(x² + z²) - 3/4)² + y² + sin(3 atan2(z, x)) / 32 - 1/8: a ring with an angle about its axis.
+    // (sqrt(x² + z²) - 3/4)² + y² + sin(3 atan2(z, x)) / 32 - 1/8: a ring with an angle about its
+    // axis.
     let mut b = Builder::new();
     let [x, y, z] = [0, 1, 2].map(|i| b.input(i).unwrap());
     let numbers = [0.75, 3.0, 1.0 / 32.0, 0.125].map(|c| b.constant(c).unwrap());
@@ -479,7 +491,8 @@ fn partly_defined_worlds(held: AxisBox, all: &mut Worlds) {
     worlds("thorn", Sides::Rimmed { closed: false }, thorn, all);
 }
 
-/// A star, for rays at random. Its ridges are edges that `edges` does not know, and a start beside one may be on either side.
+/// A star, for rays at random. Its ridges are edges that `edges` does not know, and a start beside
+/// one may be on either side.
 pub(super) fn star_worlds(isa: Isa) -> Vec<World> {
     let mut all = (isa, Vec::new());
     let star = Placed::new(superellipsoid(3.0, 2.5).unwrap(), scaled(0.9));
@@ -487,7 +500,8 @@ pub(super) fn star_worlds(isa: Isa) -> Vec<World> {
     all.1
 }
 
-/// What is clipped within the box that holds it, so that rays enter and leave that where nothing is left: lanes know no more than where it may be.
+/// What is clipped within the box that holds it, so that rays enter and leave that where nothing is
+/// left: lanes know no more than where it may be.
 pub(super) fn clipped_worlds(isa: Isa) -> Vec<World> {
     let all = &mut (isa, Vec::new());
     let pieces = [-0.5, 0.0, 0.5].map(|x| BlobComponent {
@@ -504,7 +518,8 @@ pub(super) fn clipped_worlds(isa: Isa) -> Vec<World> {
     core::mem::take(&mut all.1)
 }
 
-/// Forty balls and sausages round a spiral, large and small, some of which are placed, and some take away.
+/// Forty balls and sausages round a spiral, large and small, some of which are placed, and some
+/// take away.
 fn cloud() -> Blob {
     let components = (0..40).map(f64::from).map(|i| {
         let (sin, cos) = durer_math::elementary::sin_cos(i * 0.7);
