@@ -1,45 +1,43 @@
-// Objects set on others by trace(), with its normal; points kept by inside(); the edges of bounding boxes.
+// What a scene asks about its own objects: trace, inside, min_extent and max_extent.
 #version 3.7;
 global_settings { assumed_gamma 1 }
-camera { location <1, 4, -9> look_at <0, 0.4, 0> angle 45 }
-light_source { <-6, 9, -8>, rgb 1 }
-light_source { <7, 5, -4>, rgb 0.3 shadowless }
+camera { location <0, 3, -9> look_at <0, 0.4, 0> angle 45 }
+light_source { <-5, 8, -7>, rgb 1 }
+plane { y, -1 pigment { checker rgb 0.5 rgb 0.8 } }
 
 #declare Hill = union {
-    sphere { <-1.5, -0.6, 0>, 1.6 }
-    cone { <1.5, -1, 0.5>, 1.4, <1.5, 1.2, 0.5>, 0.3 }
-    box { <-3, -1, -2>, <3, -0.4, 2> rotate 8*z }
+  sphere { 0, 1 scale <1.4, 0.8, 1.2> }
+  difference { box { <0.4, -0.8, -0.6>, <1.8, 0.6, 0.8> } cylinder { <1.1, -1, 0.1>, <1.1, 1, 0.1>, 0.4 } }
+  torus { 1.1, 0.25 rotate 30*z translate -0.4*x }
+  rotate 20*y
 }
-object { Hill pigment { rgb <0.5, 0.7, 0.4> } }
+object { Hill pigment { rgb <0.4, 0.6, 0.3> } }
 
-#declare R = seed(7);
-#for (I, 1, 60)
-    #declare N = <0, 0, 0>;
-    #declare P = trace(Hill, <6*rand(R) - 3, 5, 4*rand(R) - 2>, -y, N);
-    #if (vlength(N) > 0)
-        cylinder { P, P + 0.35*N, 0.04 pigment { rgb 0.5 + 0.5*N } }
-        sphere { P + 0.35*N, 0.07 pigment { rgb <0.9, 0.3, 0.2> } }
+// Pins that stand on it.
+#declare Low = min_extent(Hill);
+#declare High = max_extent(Hill);
+#for (I, 0, 8)
+  #for (J, 0, 5)
+    #declare Start = <Low.x + (High.x - Low.x)*(I + 0.5)/9, High.y + 1, Low.z + (High.z - Low.z)*(J + 0.5)/6>;
+    #declare Across = <0, 0, 0>;
+    #declare Foot = trace(Hill, Start, -y, Across);
+    #if (vlength(Across) != 0)
+      cylinder { Foot, Foot + 0.3*Across, 0.04 pigment { rgb <0.9, 0.3, 0.2> } }
     #end
+  #end
 #end
 
-#declare Body = difference { sphere { <0, 2, 1>, 0.9 } box { <0, 2, 0>, <1, 3, 2> } rotate 20*y }
-#for (I, 1, 150)
-    #declare P = <4*rand(R) - 2, 1.6*rand(R) + 1.2, 3*rand(R) - 0.5>;
-    #if (inside(Body, P)) sphere { P, 0.09 pigment { rgb <0.3, 0.4, 0.9> } } #end
+// Beads where it is solid, drawn apart.
+#for (I, 0, 11)
+  #declare P = <-1.6 + 0.3*I, 0.2, 0>;
+  sphere { P + <0, 1.9, 0>, 0.12 pigment { rgb #if (inside(Hill, P)) <1, 0.8, 0.1> #else <0.1, 0.2, 0.8> #end } }
 #end
 
-#declare Ring = torus { 0.7, 0.15 rotate 50*x rotate 30*z translate <0, 0.7, -2> }
-object { Ring pigment { rgb <0.9, 0.8, 0.3> } }
-#declare A = min_extent(Ring);
-#declare B = max_extent(Ring);
-#macro Edge(P, Q) cylinder { P, Q, 0.02 pigment { rgb 0.9 } } #end
-#for (I, 0, 1)
-    #for (J, 0, 1)
-        #declare U = select(I, 0, A.x, B.x); #declare V = select(J, 0, A.y, B.y);
-        Edge(<U, V, A.z>, <U, V, B.z>)
-        #declare V = select(J, 0, A.z, B.z);
-        Edge(<U, A.y, V>, <U, B.y, V>)
-        #declare U = select(I, 0, A.y, B.y);
-        Edge(<A.x, U, V>, <B.x, U, V>)
-    #end
+// A box around something turned.
+#declare Turned = box { <-0.4, -0.3, -0.2>, <0.4, 0.3, 0.2> rotate <20, 30, 10> translate <-2.6, 0, -1> }
+object { Turned pigment { rgb <0.7, 0.5, 0.8> } }
+#declare A = min_extent(Turned);
+#declare B = max_extent(Turned);
+#for (I, 0, 7)
+  sphere { <select(mod(I, 2), A.x, A.x, B.x), select(mod(int(I/2), 2), A.y, A.y, B.y), select(int(I/4), A.z, A.z, B.z)>, 0.07 pigment { rgb 1 } }
 #end

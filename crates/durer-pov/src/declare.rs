@@ -87,19 +87,7 @@ impl Parser<'_> {
 
     /// The value of a declaration, and whether its semicolon was taken: only numbers need one.
     fn declared_value(&mut self) -> Result<(Value, bool)> {
-        let braces = self.braces;
-        let value = match self.value("a value to declare") {
-            Ok(value) => value,
-            // Names made of what cannot be computed yet are refused when they are used.
-            Err(fault) if fault.kind == ErrorKind::Unsupported => {
-                self.skip_to_semicolon(braces, &fault)?;
-                return Ok((
-                    Value::Unsupported(Rc::new(Unsupported { text: fault.text, number: true })),
-                    true,
-                ));
-            }
-            Err(fault) => return Err(fault),
-        };
+        let value = self.value("a value to declare")?;
         let is_number = matches!(value, Value::Number(_));
         let is_ended = if is_number || self.has_peeked() {
             self.take_mark(Mark::Semicolon)?
@@ -111,17 +99,6 @@ impl Parser<'_> {
             return Err(Error::invalid(self.here(), text));
         }
         Ok((value, is_ended))
-    }
-
-    fn skip_to_semicolon(&mut self, braces: u64, fault: &Error) -> Result<()> {
-        loop {
-            let lexeme = self.next()?;
-            match lexeme.item {
-                Item::Mark(Mark::Semicolon) if self.braces <= braces => return Ok(()),
-                Item::End => return Err(Box::new(fault.clone())),
-                _ => {}
-            }
-        }
     }
 
     /// A value of any kind.
@@ -296,7 +273,15 @@ impl Parser<'_> {
                 _ => {}
             }
         }
-        self.skip_to_brace_level(braces)?;
+        while self.braces > braces {
+            match self.next()?.item {
+                // What would change something else cannot be skipped without changing the scene.
+                Item::Word(Keyword::Rand | Keyword::Seed | Keyword::Trace) | Item::End => {
+                    return Err(Box::new(fault.clone()));
+                }
+                _ => {}
+            }
+        }
         // Layers of one texture belong together.
         if self.raw_or_peeked_texture()? {
             self.next()?;

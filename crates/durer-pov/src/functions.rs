@@ -38,11 +38,10 @@ pub(crate) fn begins_expression(keyword: Keyword) -> bool {
                 | Div
                 | FileExists
                 | Inside
-                | MinExtent
-                | MaxExtent
-                | Trace
                 | Max
+                | MaxExtent
                 | Min
+                | MinExtent
                 | Mod
                 | Pow
                 | Rand
@@ -50,6 +49,7 @@ pub(crate) fn begins_expression(keyword: Keyword) -> bool {
                 | Select
                 | Strcmp
                 | Strlen
+                | Trace
                 | Val
                 | Vdot
                 | Vlength
@@ -60,7 +60,7 @@ pub(crate) fn begins_expression(keyword: Keyword) -> bool {
         )
 }
 
-/// Functions that are not supported yet.
+/// Functions that need what is not there yet: functions of their own, noise.
 fn needs_more(keyword: Keyword) -> bool {
     use Keyword::*;
     matches!(keyword, Prod | Sum | Vturbulence)
@@ -172,7 +172,7 @@ impl Parser<'_> {
         Ok(value)
     }
 
-    pub(crate) fn vector_argument(&mut self) -> Result<[f64; 3]> {
+    fn vector_argument(&mut self) -> Result<[f64; 3]> {
         let value = self.vector()?;
         self.skip_comma()?;
         Ok(value)
@@ -280,9 +280,9 @@ impl Parser<'_> {
                 Matrix::turn(axis, self.argument()?).direction(v).into()
             }
             Keyword::Trace => self.trace(place)?,
-            Keyword::Inside => flag(self.inside(place)?),
-            Keyword::MinExtent => self.object_extent(place)?[0].into(),
-            Keyword::MaxExtent => self.object_extent(place)?[1].into(),
+            Keyword::Inside => self.inside(place)?,
+            Keyword::MinExtent => self.end_of_extent(false, place)?,
+            Keyword::MaxExtent => self.end_of_extent(true, place)?,
             // `begins_expression` lists no other function.
             _ => return Err(Error::unsupported(place, keyword.text())),
         })

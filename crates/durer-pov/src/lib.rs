@@ -37,7 +37,6 @@ mod macros;
 mod messages;
 mod noise_pattern;
 mod object;
-mod object_query;
 mod parser;
 mod pattern_function;
 mod pigment_function;

@@ -91,7 +91,8 @@ pub(crate) struct Parser<'a> {
     pub(crate) defaults: Rc<crate::texture::Layer>,
     pub(crate) default_camera: crate::camera::Camera,
     pub(crate) scene: crate::scene_builder::Output,
-    pub(crate) queried: crate::object_query::Queried,
+    /// Objects that the scene asks about.
+    pub(crate) questions: crate::object::queries::Questions,
 }
 
 impl<'a> Parser<'a> {
@@ -119,7 +120,7 @@ impl<'a> Parser<'a> {
             defaults: Rc::default(),
             default_camera: crate::camera::Camera::default(),
             scene: crate::scene_builder::Output::default(),
-            queried: crate::object_query::Queried::new(),
+            questions: crate::object::queries::Questions::default(),
         }
     }
 

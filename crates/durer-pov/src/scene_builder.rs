@@ -93,26 +93,15 @@ impl Parser<'_> {
         self.count_steps(object.leaves, at)?;
         let mut lights = Lights::new();
         let default = self.default_look(at)?;
-        let shown = self.emitted_with_default(object, &mut lights)?;
-        self.scene.objects.extend(shown);
+        let shown = self.emitted(object, &mut lights)?;
+        if let Some(mut shown) = shown {
+            dress(&mut shown, &default);
+            self.scene.objects.push(shown);
+        }
         for (light, moved) in lights {
             self.emit_light(&light, &moved, &default)?;
         }
         Ok(())
-    }
-
-    /// The object as scene data, with the default texture where it has none.
-    pub(crate) fn emitted_with_default(
-        &mut self,
-        object: &Object,
-        lights: &mut Lights,
-    ) -> Result<Option<scene::Object>> {
-        let default = self.default_look(object.at)?;
-        let shown = self.emitted(object, lights)?;
-        Ok(shown.map(|mut shown| {
-            dress(&mut shown, &default);
-            shown
-        }))
     }
 
     /// The default texture in force, made once for each change.
