@@ -29,7 +29,7 @@ def test_a_picture_is_an_array_that_notebooks_show(tmp_path):
     picture = durer.render(SCENE)
     assert picture.shape == (31, 41, 3) and picture.dtype == np.float64 and isinstance(picture, np.ndarray)
     png = picture._repr_png_()
-    assert np.array_equal(decoded(png), picture.bytes())
+    assert np.array_equal(decoded(png), picture.to_bytes())
     picture.save(tmp_path / "a.png")
     assert (tmp_path / "a.png").read_bytes() == png
     with pytest.raises(ValueError, match="png"):

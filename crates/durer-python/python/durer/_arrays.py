@@ -138,7 +138,7 @@ class Progress:
             self.call = tell
         elif wanted:
             try:
-                from tqdm.auto import tqdm
+                from tqdm.auto import tqdm  # type: ignore[import-untyped, unused-ignore]
             except ImportError:
                 return
             self._bar = tqdm(total=total, unit="ray", unit_scale=True)

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._native import Camera as NativeCamera
 from ._arrays import Floats, Vector, number, vector
 
 
@@ -43,7 +44,7 @@ class Camera:
     """
 
     __slots__ = ("_native", "_arguments", "_size")
-    _native: _native.Camera
+    _native: NativeCamera
     _arguments: tuple[Any, ...]
     _size: tuple[int, int]
 
@@ -80,7 +81,7 @@ class Camera:
         arguments = (eye, aim, top, angle, columns, rows, None if orthographic is None else wide)
         self._set(native, arguments, (columns, rows))
 
-    def _set(self, native: _native.Camera, arguments: tuple[Any, ...], size: tuple[int, int]) -> None:
+    def _set(self, native: NativeCamera, arguments: tuple[Any, ...], size: tuple[int, int]) -> None:
         object.__setattr__(self, "_native", native)
         object.__setattr__(self, "_arguments", arguments)
         object.__setattr__(self, "_size", size)
@@ -97,10 +98,12 @@ class Camera:
         orthographic: bool = False,
     ) -> Camera:
         """The camera of POV-Ray's vectors: `right` and `up` span the whole picture, whose middle is seen along `direction`."""
-        vectors = [
-            vector(value, name)
-            for value, name in ((location, "location"), (direction, "direction"), (right, "right"), (up, "up"))
-        ]
+        vectors = (
+            vector(location, "location"),
+            vector(direction, "direction"),
+            vector(right, "right"),
+            vector(up, "up"),
+        )
         camera = cls.__new__(cls)
         native = _native.Camera(*vectors, bool(orthographic))
         camera._set(native, (*vectors, int(width), int(height), bool(orthographic), "vectors"), (int(width), int(height)))
@@ -146,8 +149,10 @@ class Camera:
 
     def sized(self, width: int, height: int) -> Camera:
         """The same view in another number of pixels."""
-        vectors = (self.location, self.direction, self.right, self.up)
-        return Camera.from_vectors(*vectors, width, height, self._native.is_orthographic)
+        own = self._native
+        return Camera.from_vectors(
+            own.location, own.direction, own.right, own.up, width, height, own.is_orthographic
+        )
 
     def rays(self) -> Floats:
         """The rays through the middles of all pixels, row by row from the top: float64 (height * width, 6)."""

@@ -53,16 +53,17 @@ class Expression:
     def __rtruediv__(self, other: Any) -> Expression:
         return self._tape.two("div", other, self)
 
-    def __mod__(self, other: Any) -> Expression:
+    def __mod__(self, other: Any) -> Any:
         """As Python and NumPy have it: with the sign of the divisor."""
         tape = self._tape
         quotient = tape.one("floor", self / other)
         return self - quotient * other
 
     def __pow__(self, other: Any) -> Expression:
-        if isinstance(other, (int, np.integer)) or (isinstance(other, float) and other.is_integer()):
-            if abs(other) < 1024:
-                return self._tape.push("powi", (self._index,), float(other))
+        if isinstance(other, (int, float, np.integer)):
+            power = float(other)
+            if power.is_integer() and abs(power) < 1024:
+                return self._tape.push("powi", (self._index,), power)
         return self._tape.two("pow", self, other)
 
     def __rpow__(self, other: Any) -> Expression:

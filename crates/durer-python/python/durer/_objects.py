@@ -8,12 +8,13 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Sequence
-from typing import Any, Self, final
+from typing import Any, final
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._native import Object as NativeObject
 from ._arrays import Floats, Ints, Vector, index_table, matrix, number, read_only, real_array, table, vector
 
 
@@ -34,10 +35,10 @@ class Object:
     """
 
     __slots__ = ("_native", "_arguments")
-    _native: _native.Object
+    _native: NativeObject
     _arguments: tuple[Any, ...]
 
-    def _set(self, native: _native.Object, arguments: tuple[Any, ...]) -> None:
+    def _set(self, native: NativeObject, arguments: tuple[Any, ...]) -> None:
         object.__setattr__(self, "_native", native)
         object.__setattr__(self, "_arguments", arguments)
 
@@ -50,10 +51,10 @@ class Object:
     def __reduce__(self) -> tuple[Any, ...]:
         return (type(self), self._arguments)
 
-    def __copy__(self) -> Self:
+    def __copy__(self) -> Object:
         return self
 
-    def __deepcopy__(self, memo: object) -> Self:
+    def __deepcopy__(self, memo: object) -> Object:
         return self
 
     def __repr__(self) -> str:
@@ -686,8 +687,9 @@ def read_mesh(path: str | os.PathLike[str], solid: bool | None = None) -> Object
     groups, placements, _ = _native.read_mesh(os.fspath(path))
     meshes = []
     for _, vertices, faces, normals, uv in groups:
-        lists = (*(normals or (None, None)), *(uv or (None, None)))
-        meshes.append(Mesh(vertices, faces, *lists, solid))
+        n, n_faces = normals or (None, None)
+        t, t_faces = uv or (None, None)
+        meshes.append(Mesh(vertices, faces, n, n_faces, t, t_faces, solid))
     identity = np.eye(3, 4).tolist()
     objects = [
         meshes[group] if rows == identity else meshes[group].placed(rows) for group, rows in placements

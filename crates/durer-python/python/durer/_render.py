@@ -21,7 +21,7 @@ class Picture(np.ndarray[Any, np.dtype[np.float64]]):
     It is made by `durer.render` and is an ordinary NumPy array otherwise.
     """
 
-    def bytes(self) -> npt.NDArray[np.uint8]:
+    def to_bytes(self) -> npt.NDArray[np.uint8]:
         """The pixels as an 8-bit sRGB file holds them: uint8, (height, width, 3)."""
         light = np.ascontiguousarray(np.asarray(self, dtype=np.float64).reshape(-1, 3))
         return _native.Scene.bytes_of(light).reshape(self.shape)
@@ -31,7 +31,7 @@ class Picture(np.ndarray[Any, np.dtype[np.float64]]):
         import struct
         import zlib
 
-        pixels = self.bytes()
+        pixels = self.to_bytes()
         height, width, _ = pixels.shape
 
         def chunk(kind: bytes, data: bytes) -> bytes:
@@ -99,7 +99,7 @@ def render(
         watch = progress
     elif progress:
         try:
-            from tqdm.auto import tqdm
+            from tqdm.auto import tqdm  # type: ignore[import-untyped, unused-ignore]
 
             bar = tqdm(total=view.width * view.height, unit="pixel", unit_scale=True)
 

@@ -8,7 +8,7 @@ from typing import Any, final
 import numpy as np
 import numpy.typing as npt
 
-from . import _native
+from . import _native as native
 from ._arrays import Bools, Floats, Ints
 
 #: `kind` of a hit: a plain crossing, a touch, crossings that cannot be told apart; and of a ray that misses.
@@ -57,7 +57,7 @@ class _Columns:
 
     def to_dataframe(self) -> Any:
         """A pandas DataFrame with one row for each answer; vectors become columns such as `position_x`."""
-        import pandas
+        import pandas  # type: ignore[import-untyped, unused-ignore]
 
         flat: dict[str, npt.NDArray[Any]] = {}
         for name, array in self._columns().items():
@@ -71,12 +71,12 @@ class _Columns:
 
 class _HitColumns(_Columns):
     __slots__ = ("_native", "_cache", "_threads")
-    _native: _native.Hits
+    _native: native.Hits
     _cache: dict[str, npt.NDArray[Any]]
     _threads: int
 
-    def __init__(self, native: _native.Hits, threads: int = 0) -> None:
-        object.__setattr__(self, "_native", native)
+    def __init__(self, hits: native.Hits, threads: int = 0) -> None:
+        object.__setattr__(self, "_native", hits)
         object.__setattr__(self, "_cache", {})
         object.__setattr__(self, "_threads", threads)
 
@@ -246,7 +246,7 @@ class AllHits(_HitColumns):
     @property
     def ray(self) -> Ints:
         """The number of each hit's ray. int64, (n,)."""
-        return self._column("ray_index") if "ray" not in self._cache else self._cache["ray"]  # type: ignore[no-any-return]
+        return self._cache["ray"] if "ray" in self._cache else self._column("ray_index")
 
     @property
     def counts(self) -> Ints:
@@ -323,7 +323,9 @@ class Spans(_Columns):
 
     def totals(self) -> Floats:
         """The length inside solids along each ray, in units of its direction. float64, (rays,)."""
-        return np.bincount(self.ray, weights=self.lengths, minlength=len(self.offsets) - 1)
+        totals = np.zeros(len(self.offsets) - 1)
+        np.add.at(totals, self.ray, self.lengths)
+        return totals
 
     def __len__(self) -> int:
         return len(self.t_in)

@@ -13,6 +13,7 @@ from . import _native
 from ._arrays import Bools, Floats, Ints, Progress, Vector, rays, table, thread_count, vector
 from ._camera import Camera
 from ._objects import Object
+from ._native import Scene as NativeScene
 from ._results import AllHits, Hits, Spans
 
 Watch = bool | Callable[[int, int], object]
@@ -82,7 +83,7 @@ class Scene:
     """
 
     __slots__ = ("_native", "_recipe", "__weakref__")
-    _native: _native.Scene
+    _native: NativeScene
     _recipe: tuple[Any, ...]
 
     def __init__(
@@ -109,7 +110,7 @@ class Scene:
         )
         self._set(native, ("objects", parts, camera, lamps, behind, int(max_trace_level)))
 
-    def _set(self, native: _native.Scene, recipe: tuple[Any, ...]) -> None:
+    def _set(self, native: NativeScene, recipe: tuple[Any, ...]) -> None:
         object.__setattr__(self, "_native", native)
         object.__setattr__(self, "_recipe", recipe)
 
@@ -166,8 +167,16 @@ class Scene:
         native = self._native.camera
         if native is None:
             return None
-        vectors = (native.location, native.direction, native.right, native.up)
-        return Camera.from_vectors(*vectors, *self._recipe[2][:2], native.is_orthographic)
+        width, height = self._recipe[2][:2]
+        return Camera.from_vectors(
+            native.location,
+            native.direction,
+            native.right,
+            native.up,
+            width,
+            height,
+            native.is_orthographic,
+        )
 
     # -- queries
 

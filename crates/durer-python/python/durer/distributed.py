@@ -122,7 +122,7 @@ def _over_executor(
 def _over_dask(
     client: Any, token: str, payload: bytes, query: str, pieces: list[Any]
 ) -> Iterator[tuple[int, Any]]:
-    from distributed import as_completed
+    import distributed
 
     # Made by a task: if all its holders die it is made again, which scattered data are not.
     scene = client.submit(_scene_of, token, payload, key=token, pure=True)
@@ -130,7 +130,7 @@ def _over_dask(
     waiting = list(range(len(pieces)))[::-1]
     tried: dict[int, int] = {}
     running: dict[Any, int] = {}
-    completed = as_completed(with_results=True, raise_errors=False)
+    completed: Any = getattr(distributed, "as_completed")(with_results=True, raise_errors=False)
 
     def submit(index: int) -> None:
         tried[index] = tried.get(index, 0) + 1
@@ -181,7 +181,7 @@ class _Told:
         self.wanted = wanted if callable(wanted) else None
         if wanted and not callable(wanted):
             try:
-                from tqdm.auto import tqdm
+                from tqdm.auto import tqdm  # type: ignore[import-untyped, unused-ignore]
 
                 self.bar = tqdm(total=self.total, unit=unit, unit_scale=True)
             except ImportError:

@@ -44,9 +44,10 @@ def _array(value: Any) -> npt.NDArray[Any]:
 def _like(value: Any, *arrays: npt.NDArray[Any]) -> list[Any]:
     """The arrays as tensors of the same library as `value`."""
     if type(value).__module__.partition(".")[0] == "open3d":
-        from open3d.core import Tensor as Open3dTensor
+        import importlib
 
-        return [Open3dTensor(np.ascontiguousarray(array)) for array in arrays]
+        core: Any = importlib.import_module("open3d.core")
+        return [core.Tensor(np.ascontiguousarray(array)) for array in arrays]
     return [array.view(Tensor) for array in arrays]
 
 

@@ -160,14 +160,15 @@ class RayMeshIntersector:
         rows = table(points, 3, "points")
         if is_closed:
             along = np.broadcast_to(_PROBES[0], rows.shape)
-            return scene.all(rows, along, threads=self.threads or None).counts % 2 == 1
+            odd: Bools = scene.all(rows, along, threads=self.threads or None).counts % 2 == 1
+            return odd
         votes = np.zeros(len(rows), dtype=np.int64)
         for probe in _PROBES:
-            odd = np.ones(len(rows), dtype=np.bool_)
+            both = np.ones(len(rows), dtype=np.bool_)
             for sign in (1.0, -1.0):
                 along = np.broadcast_to(np.multiply(probe, sign), rows.shape)
-                odd &= scene.all(rows, along, threads=self.threads or None).counts % 2 == 1
-            votes += odd
+                both &= scene.all(rows, along, threads=self.threads or None).counts % 2 == 1
+            votes += both
         inside: Bools = votes * 2 > len(_PROBES)
         return inside
 
@@ -177,8 +178,9 @@ class RayMeshIntersector:
 
 def install() -> None:
     """Makes this class the one that new trimesh meshes get as ``mesh.ray``."""
-    import trimesh
+    import importlib
 
-    trimesh.ray.ray_triangle.RayMeshIntersector = RayMeshIntersector
-    if trimesh.ray.has_embree:
-        trimesh.ray.ray_pyembree.RayMeshIntersector = RayMeshIntersector
+    ray: Any = importlib.import_module("trimesh.ray")
+    ray.ray_triangle.RayMeshIntersector = RayMeshIntersector
+    if ray.has_embree:
+        ray.ray_pyembree.RayMeshIntersector = RayMeshIntersector
