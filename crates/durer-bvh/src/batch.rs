@@ -1,12 +1,12 @@
-//! Many rays at once: while one waits for memory, or for its own last step, others go on.
+//! Batches of rays: while one ray waits for memory, or for its own last step, others proceed.
 //!
-//! Each step of a ray through a tree depends on the one before, so that a single ray leaves most of
-//! a CPU idle, and all of it while what it needs is not in the cache. Here some rays are under way
-//! at a time, each takes one step in turn, and what its next step will read is fetched meanwhile
+//! Each step of a ray through a tree depends on the step before. So a single ray leaves most of a
+//! CPU idle, and all of it while the data that it needs are not in the cache. Here several rays are
+//! in flight. Each takes one step in turn, and the data of its next step are prefetched meanwhile
 //! (O. Kocberber, B. Falsafi, B. Grot, "Asynchronous memory access chaining", Proceedings of the
-//! VLDB Endowment 9(4), 2015). Whether a step leads to a node or to a leaf nobody can foresee; so
+//! VLDB Endowment 9(4), 2015). Whether a step leads to a node or to a leaf is unpredictable; so
 //! first all rays that are at nodes take their step, then all that are at leaves, and no branch
-//! depends on it. Each ray takes the very steps that it takes alone.
+//! depends on it. Each ray takes exactly the steps that it takes in a single query.
 
 use crate::kernels::{Abreast, Kernel, Stack, Together};
 use crate::node::{ChildRef, Leaf};
@@ -19,37 +19,38 @@ use crate::triangles::Filter;
 use core::marker::PhantomData;
 use durer_math::Isa;
 
-/// How many rays are under way. A word has a bit for each.
+/// The greatest number of rays in flight. A word has a bit for each.
 const FLIGHTS: usize = 32;
 
-/// A tree of more bytes than this is large.
+/// A tree of more bytes than this counts as large.
 pub(crate) const LARGE: usize = 1 << 24;
 
-/// Rays by their numbers.
+/// A batch of rays, by number.
 ///
-/// `R` is what a test says: for the closest hit the parameter beyond which nothing matters any
-/// more; for any hit, whether it was one.
+/// `R` is the answer of a test: for closest hits the parameter beyond which nothing matters any
+/// more; for any hits, whether there was a hit.
 pub trait Rays<R> {
-    /// A ray as it is asked about.
+    /// The type of one ray.
     type TreeRay: TreeRay;
 
-    /// A ray, asked for once, before its first test; `None` if it is to meet nothing.
+    /// A ray. It is called once per ray, before the ray's first test; `None` if the ray is to hit
+    /// nothing.
     fn sight(&mut self, ray: usize) -> Option<Self::TreeRay>;
 
-    /// Eight rays from this one on as f32 sees them, if they are exactly known and may go through a
-    /// tree together: such rays are not asked for their lines.
+    /// Eight consecutive rays in f32, if they are exactly known and may traverse a tree as a
+    /// packet. For such rays `sight` is not called.
     fn glances(&mut self, _first: usize) -> Option<Packet32> {
         None
     }
 
-    /// Whether a triangle that a ray certainly meets within its range counts.
+    /// Whether a triangle counts that the ray certainly hits within its range.
     fn admits(&self, ray: usize, triangle: Leaf) -> bool;
 
-    /// Tests what a ray may meet.
+    /// Tests a ray against a leaf that it may hit.
     fn test(&mut self, ray: usize, leaf: Leaf) -> R;
 
-    /// The last tests of eight rays: what they say does not matter any more. A ray without a leaf
-    /// may be any.
+    /// The last tests of eight rays, whose answers are not needed any more. Where there is no leaf,
+    /// the ray's number means nothing.
     fn last_tests(&mut self, rays: &[usize; PACKET], leaves: &[Option<Leaf>; PACKET]) {
         for (&ray, leaf) in rays.iter().zip(leaves) {
             if let Some(leaf) = leaf {
@@ -58,30 +59,29 @@ pub trait Rays<R> {
         }
     }
 
-    /// The ray has found what it looked for, or a triangle that it certainly meets: only of any
-    /// hit.
+    /// For any-hit queries only: the ray has hit something, or certainly hits a triangle.
     fn found(&mut self, ray: usize);
 }
 
 impl Bvh {
-    /// [`Bvh::closest`] of the rays `0..count`, each shown the same, in the same order, as if it
-    /// were alone.
+    /// [`Bvh::closest`] for the rays `0..count`. Each ray gets the same calls in the same order as
+    /// in a single query.
     #[inline(always)]
     pub fn closest_of_each(&self, isa: Isa, count: usize, rays: &mut impl Rays<f64>) {
         self.with_kernel(isa, Many::<_, ForClosest, true> { count, rays, aim: PhantomData });
     }
 
-    /// [`Bvh::any`] of the rays `0..count`, each shown the same, in the same order, as if it were
-    /// alone.
+    /// [`Bvh::any`] for the rays `0..count`. Each ray gets the same calls in the same order as in a
+    /// single query.
     #[inline(always)]
     pub fn any_of_each(&self, isa: Isa, count: usize, rays: &mut impl Rays<bool>) {
         self.with_kernel(isa, Many::<_, ForAny, false> { count, rays, aim: PhantomData });
     }
 }
 
-/// What all rays look for.
+/// The query that all rays of a batch make.
 pub(crate) trait QueryKind<const ORDERED: bool> {
-    /// What a test says.
+    /// The answer of a test.
     type Answer;
 
     fn query(one: impl LeafTest<Self::Answer>) -> impl TreeQuery<ORDERED>;
@@ -126,7 +126,7 @@ impl<R, B: Rays<R>> LeafTest<R> for One<'_, B> {
     }
 }
 
-/// A ray under way.
+/// A ray in flight.
 struct Flight<K: Kernel, S> {
     ray: K::Ray,
     reach: SearchLimit,
@@ -144,7 +144,7 @@ struct Many<'a, B, M, const ORDERED: bool> {
     aim: PhantomData<M>,
 }
 
-/// The bits that are set.
+/// The positions of the bits that are set.
 #[inline(always)]
 pub(crate) fn each(mut bits: u32) -> impl Iterator<Item = usize> {
     core::iter::from_fn(
@@ -167,7 +167,8 @@ impl<B: Rays<M::Answer>, M: QueryKind<ORDERED>, const ORDERED: bool> Traversal f
         let most = FLIGHTS.min(self.count);
         let mut flights: Vec<Flight<K, B::TreeRay>> = Vec::new();
         let mut last = Last { rays: [0; PACKET], leaves: [None; PACKET], count: 0 };
-        // Who comes to a node next, to a leaf, and who is over: at first all places.
+        // Bit sets: flights that are at a node, at a leaf, and finished. At first all count as
+        // finished.
         let (mut at_nodes, mut at_leaves, mut over) = (0_u32, 0_u32, ((1_u64 << most) - 1) as u32);
         loop {
             for place in each(over) {
@@ -213,7 +214,7 @@ impl<B: Rays<M::Answer>, M: QueryKind<ORDERED>, const ORDERED: bool> Traversal f
     }
 }
 
-/// Rays that are over, each with a triangle that it still has to ask about.
+/// Rays that are finished but for one last exact test of the triangle that they hold.
 struct Last {
     rays: [usize; PACKET],
     leaves: [Option<Leaf>; PACKET],
@@ -227,7 +228,7 @@ impl Last {
         self.count += 1;
     }
 
-    /// Asks for all.
+    /// Makes all last tests.
     #[inline(always)]
     fn test<R>(&mut self, kernel: impl Kernel, rays: &mut impl Rays<R>) {
         if self.count > 0 {
@@ -240,22 +241,21 @@ impl Last {
     }
 }
 
-/// The rays that are not yet under way.
+/// The rays that have not started.
 struct Queue {
     next: usize,
     count: usize,
-    /// Up to here rays go alone.
+    /// Rays before this one go singly.
     alone_until: usize,
-    /// For how many rays more that will be so if the next eight cannot go together either.
+    /// How many more rays go singly if the next eight do not form a packet either.
     patience: usize,
-    /// Eight rays that were asked for a glance, by the number of the first, and the eight after
-    /// them: nobody is asked twice.
+    /// Results of `glances` with the number of their first ray, for the next eight rays and the
+    /// eight after them, so that it is called once for each.
     seen: (usize, Option<Packet32>),
     more: (usize, Option<Packet32>),
 }
 
-/// Rays that go alone, at least and at most, before eight are asked again whether they could go
-/// together.
+/// The least and the greatest number of rays that go singly before the next try to form a packet.
 const PATIENCE: (usize, usize) = (PACKET, 32 * PACKET);
 
 impl Queue {
@@ -264,8 +264,8 @@ impl Queue {
         Self { next: 0, count, alone_until: 0, patience: PATIENCE.0, seen: nobody, more: nobody }
     }
 
-    /// Gives a place to the next ray that goes alone and does not certainly miss everything, if
-    /// there is one; before that, all go that go together.
+    /// Traverses the packets that come next, then starts the next single ray that may hit
+    /// something, at `place`. Returns whether there was one.
     #[inline(always)]
     fn upcoming<K: Abreast, B: Rays<M::Answer>, M: QueryKind<ORDERED>, const ORDERED: bool>(
         &mut self,
@@ -295,8 +295,8 @@ impl Queue {
             if tree.is_empty() {
                 continue;
             }
-            // Twice the same, so that compilers do not bring both ways together first and the ray
-            // into its place then.
+            // The call of `seat` occurs twice, so that the compiler does not merge both results
+            // into a temporary and copy that.
             if let Some(ready) = kernel.nearby(tree, &sight) {
                 seat(flights, place, number, sight, ready);
                 return true;
@@ -309,8 +309,8 @@ impl Queue {
         false
     }
 
-    /// Shows the tree to the next rays together, if they are alike: sixteen or eight. Says how
-    /// many.
+    /// Traverses the tree with the next sixteen or eight rays as a packet, if they are similar.
+    /// Returns how many rays that were.
     #[inline(always)]
     fn go_together<K: Abreast, B: Rays<M::Answer>, M: QueryKind<ORDERED>, const ORDERED: bool>(
         &mut self,
@@ -363,7 +363,7 @@ impl Queue {
     }
 }
 
-/// A ray takes a place that is free, or the next one.
+/// Starts a ray: puts it at `place`, which is free or the end of the list.
 #[inline(always)]
 fn seat<K: Kernel, S>(
     flights: &mut Vec<Flight<K, S>>,
@@ -383,7 +383,7 @@ fn seat<K: Kernel, S>(
         flight.filter = None;
         flight.stack.clear();
     } else {
-        // Where all rays go together none takes a place.
+        // Allocated late: if all rays go in packets, nothing is needed.
         if flights.is_empty() {
             flights.reserve_exact(FLIGHTS);
         }
@@ -392,7 +392,7 @@ fn seat<K: Kernel, S>(
 }
 
 impl<K: Kernel, S: TreeRay> Flight<K, S> {
-    /// Looks at a leaf; says to which child to turn.
+    /// Tests a leaf; returns the next child to visit.
     #[inline(always)]
     fn look<B: Rays<M::Answer>, M: QueryKind<ORDERED>, const ORDERED: bool>(
         &mut self,

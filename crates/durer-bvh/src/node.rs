@@ -1,6 +1,6 @@
-//! The node: sixteen boxes and what is in them, in eight cache lines.
+//! The node: sixteen boxes and references to their contents, in eight cache lines.
 
-/// How many children a node has at most.
+/// The greatest number of children of a node.
 pub(crate) const WIDTH: usize = 16;
 
 /// Bits of a slot in a word of [`Node::order`].
@@ -8,30 +8,29 @@ pub(crate) const SLOT_BITS: u32 = WIDTH.ilog2();
 
 const _: () = assert!(WIDTH == 16 && 8 * SLOT_BITS == u32::BITS);
 
-/// How many things a leaf holds at most.
+/// The greatest number of entries of a leaf.
 pub(crate) const MAX_LEAF: usize = 16;
 
-/// How many things a tree holds at most.
+/// The greatest number of entries of a tree.
 pub const MAX_ENTRIES: usize = 1 << 27;
 
-/// Sixteen children: their boxes by planes, what they are, and in which order rays of each octant
-/// meet them.
+/// Sixteen children: the planes of their boxes, their references, and the order in which rays of
+/// each octant visit them.
 ///
 /// 512 bytes: after V. Fuetterling, C. Lojewski, F.-J. Pfreundt, A. Ebert, "Accelerated single ray
 /// tracing for wide vector units", High Performance Graphics (2017).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub(crate) struct Node {
-    /// Low x, y, z, then high x, y, z, of each child. A child that is not there has a box that no
-    /// ray meets.
+    /// Low x, y, z, then high x, y, z, of each child. An empty slot has a box that no ray meets.
     pub(crate) planes: [[f32; WIDTH]; 6],
     pub(crate) child: [ChildRef; WIDTH],
-    /// Word `j`, bits `4 o .. 4 o + 4`: the child that comes `j`-th from the back for rays of
-    /// octant `o`.
+    /// Word `j`, bits `4 o .. 4 o + 4`: the slot of the child that is `j`-th from the back for rays
+    /// of octant `o`.
     pub(crate) order: [u32; WIDTH],
 }
 
-/// A place where no ray of a tree comes: the near plane of a child that is not there.
+/// The near plane of an empty slot, which no ray of a tree reaches.
 ///
 /// `|1/d| > 1/2` on every axis and origins are near the tree, so `near >= 2^29 - ...`, far beyond
 /// any exit (which is at most `2^16`); and nothing overflows to NaN, since the added constant is
@@ -81,7 +80,7 @@ impl Node {
     /// first.
     pub(crate) fn sort(&mut self) {
         self.order = [0; WIDTH];
-        // The opposite octant has the opposite order.
+        // The opposite octant has the reverse order.
         for octant in 0..4_u32 {
             let (mut depths, mut slots) = ([0.0_f32; WIDTH], [0_usize; WIDTH]);
             for slot in 0..WIDTH {
@@ -105,7 +104,7 @@ impl Node {
     }
 }
 
-/// What a child is: another node, or a leaf.
+/// A reference to a child: another node, or a leaf.
 ///
 /// Node: its index. Leaf: bit 31, then the count less one in four bits, then the first slot in 27.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,8 +115,8 @@ impl ChildRef {
     const LEAF: u32 = 1 << 31;
     const COUNT_SHIFT: u32 = 27;
 
-    /// Nothing more: looks like a leaf that begins with the last thing that a tree can hold and has
-    /// fifteen more.
+    /// The end of a stack. It looks like a leaf that begins with the last entry that a tree can
+    /// hold and has fifteen more.
     pub(crate) const END: Self = Self(u32::MAX);
 
     pub(crate) fn node(index: usize) -> Self {
@@ -148,24 +147,24 @@ impl ChildRef {
     }
 }
 
-/// A leaf: a range of things of one kind.
+/// A leaf: a range of entries of one kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Leaf {
     /// The kind.
     pub kind: u32,
-    /// The first one, counted within the kind in the order of the leaves.
+    /// The first entry, counted within the kind in the order of the leaves.
     pub first: u32,
-    /// How many.
+    /// How many entries.
     pub count: u32,
-    /// For a triangle that is shown by itself sixteen times the number of its block, and its lane;
-    /// else [`Leaf::NO_BLOCK`].
+    /// For a single triangle of a block, sixteen times the number of the block, plus the lane; else
+    /// [`Leaf::NO_BLOCK`].
     pub(crate) place: u32,
 }
 
 impl Leaf {
     pub(crate) const NO_BLOCK: u32 = u32::MAX;
 
-    /// Things of one kind.
+    /// A range of entries of one kind.
     #[inline(always)]
     pub fn new(kind: u32, first: u32, count: u32) -> Self {
         Self { kind, first, count, place: Self::NO_BLOCK }

@@ -1,8 +1,9 @@
-//! Rays of a batch that are much alike: eight of them go through the tree together, with one stack,
-//! or sixteen where there are lanes for as many.
+//! Packet traversal: eight similar rays of a batch traverse the tree with one stack, or sixteen
+//! where the lanes suffice.
 //!
-//! Each is shown what it is shown alone, in the same order: who goes where is told ray by ray, with
-//! the arithmetic of a single ray. A ray that is left alone goes on alone.
+//! Each ray visits the same leaves in the same order as in a single query: for each ray the
+//! decision where to go is made with the arithmetic of a single ray. When one ray of a packet is
+//! left, it continues as a single ray.
 
 use crate::batch::{LARGE, One, QueryKind, Rays, each};
 use crate::kernels::{Rows, Together};
@@ -14,24 +15,24 @@ use crate::tree::Bvh;
 use crate::triangles::{Block, Verdict};
 use core::marker::PhantomData;
 
-/// Some rays, and what each has found.
+/// A packet under traversal.
 struct Group<'a, K: Together<N>, B, M, const N: usize> {
     kernel: K,
     tree: &'a Bvh,
     rays: &'a mut B,
-    /// The number of the first.
+    /// The number of the first ray.
     first: usize,
     packet: &'a K::Packet,
-    /// NaN for a ray that has found what it looked for: nothing is before this.
+    /// The limit of each ray. NaN if its search is over: then no comparison with it is true.
     t_far: [f32; N],
-    /// The greatest there was at the last step that changed one.
+    /// The greatest of `t_far` that is a number.
     far: f32,
-    /// The same parameters, but for NaN, and what each holds.
+    /// The same limits, but without NaN, and the triangle that each ray holds.
     reaches: &'a mut [SearchLimit; N],
     aim: PhantomData<M>,
 }
 
-/// Shows the tree to the rays `first` and those after it.
+/// Traverses the tree with a packet whose first ray has the number `first`.
 #[inline(always)]
 pub(crate) fn traverse_packet<
     K: Together<N>,
@@ -47,7 +48,7 @@ pub(crate) fn traverse_packet<
     packet: &K::Packet,
 ) {
     let t_far = kernel.ends(packet);
-    // Apart from the rest, which moves: what is written in parts and then moved has to wait.
+    // Not a member of the group, which is moved: a move right after piecewise stores would stall.
     let mut reaches = [SearchLimit::NOWHERE; N];
     for (reach, &t_far) in reaches.iter_mut().zip(&t_far) {
         reach.t_far = t_far;
@@ -112,13 +113,13 @@ pub(crate) fn traverse_packet<
     }
 }
 
-/// The greatest of those that are numbers.
+/// The greatest element that is not NaN.
 #[inline(always)]
 fn greatest<const N: usize>(t_far: &[f32; N]) -> f32 {
     let pick = |a: f32, b: f32| if b > a { b } else { a };
     let mut most = [f32::NEG_INFINITY; N];
     for (most, &t_far) in most.iter_mut().zip(t_far) {
-        // NaN is not picked.
+        // A comparison with NaN is false, so NaN is not picked.
         *most = pick(*most, t_far);
     }
     let mut half = N / 2;
@@ -132,7 +133,7 @@ fn greatest<const N: usize>(t_far: &[f32; N]) -> f32 {
 }
 
 impl<K: Together<N>, B, M, const N: usize> Group<'_, K, B, M, N> {
-    /// What one ray does with triangles that it may meet, or else with all that is in a child.
+    /// Continues one ray: with the verdict on a block, or else with everything below a child.
     #[inline(always)]
     fn advance<const ORDERED: bool>(
         &mut self,
@@ -166,7 +167,7 @@ impl<K: Together<N>, B, M, const N: usize> Group<'_, K, B, M, N> {
         }
     }
 
-    /// Who writes one number of many and reads all at once has to wait; so all are written.
+    /// Writes all elements: a vector load right after a store of one element would stall.
     #[inline(always)]
     fn shorten(&mut self, ray: usize, t_far: f32) {
         let mut all = self.t_far;

@@ -1,4 +1,4 @@
-//! What a ray looks for, leaf by leaf.
+//! The queries of a ray, leaf by leaf.
 
 use crate::kernels::Kernel;
 use crate::node::{ChildRef, Leaf};
@@ -6,16 +6,16 @@ use crate::ray::{ClippedRay, TreeRay};
 use crate::tree::{Bvh, Splits};
 use crate::triangles::{Block, Filter, LANES, Verdict};
 
-/// How far to look, and a triangle that is certainly met no farther away.
+/// The end of the search, and a triangle that is certainly hit no farther away.
 #[derive(Clone, Copy)]
 pub(crate) struct SearchLimit {
-    /// Nothing beyond matters; a triangle held is not beyond it.
+    /// Nothing beyond this matters. The triangle that is held is not beyond it.
     pub(crate) t_far: f32,
     pub(crate) held: Candidate,
 }
 
 impl SearchLimit {
-    /// Of a ray that looks at nothing.
+    /// The limit of a ray that hits nothing.
     pub(crate) const NOWHERE: Self = Self { t_far: f32::NEG_INFINITY, held: Candidate::NOTHING };
 
     #[inline(always)]
@@ -24,7 +24,7 @@ impl SearchLimit {
     }
 }
 
-/// A triangle that the ray certainly meets, before any other that has been shown.
+/// A triangle that the ray certainly hits, before any other that was tested.
 #[derive(Clone, Copy)]
 pub(crate) struct Candidate {
     leaf: Leaf,
@@ -48,16 +48,16 @@ impl Candidate {
     }
 }
 
-/// What the caller knows of leaves.
+/// The caller's tests of leaves.
 pub(crate) trait LeafTest<R> {
-    /// Whether a triangle that is certainly met counts.
+    /// Whether a triangle counts that is certainly hit.
     fn admits(&self, triangle: Leaf) -> bool;
 
-    /// Asks about a leaf, or about one triangle.
+    /// Tests a leaf, or one triangle.
     fn test(&mut self, leaf: Leaf) -> R;
 }
 
-/// Two functions.
+/// A [`LeafTest`] made of two functions.
 pub(crate) struct Callbacks<A, F> {
     pub(crate) admits: A,
     pub(crate) test: F,
@@ -75,9 +75,9 @@ impl<R, A: Fn(Leaf) -> bool, F: FnMut(Leaf) -> R> LeafTest<R> for Callbacks<A, F
     }
 }
 
-/// The aim of a search; `ORDERED` says whether near leaves should come first.
+/// A query; `ORDERED` tells whether near leaves should come first.
 pub(crate) trait TreeQuery<const ORDERED: bool> {
-    /// Looks at a leaf; says whether the search is over.
+    /// Tests a leaf; returns whether the search is over.
     #[inline(always)]
     fn leaf<K: Kernel>(
         &mut self,
@@ -95,17 +95,17 @@ pub(crate) trait TreeQuery<const ORDERED: bool> {
         if verdict.alive == 0 {
             return false;
         }
-        // A copy: what only this function has a pointer to stays in registers.
+        // A copy: values to which only this function has a pointer stay in registers.
         let mut here = *reach;
         let is_over = self.judged(kernel, way, (kind, number), block, &verdict, &mut here);
         *reach = here;
         is_over
     }
 
-    /// Looks at a leaf that holds no triangles; says whether the search is over.
+    /// Tests a leaf that holds no triangles; returns whether the search is over.
     fn shown(&mut self, way: &ClippedRay, leaf: Leaf, reach: &mut SearchLimit) -> bool;
 
-    /// What a block's triangles do that may be met; says whether the search is over.
+    /// Handles the triangles of a block that may be hit; returns whether the search is over.
     fn judged<K: Kernel>(
         &mut self,
         kernel: K,
@@ -116,7 +116,7 @@ pub(crate) trait TreeQuery<const ORDERED: bool> {
         reach: &mut SearchLimit,
     ) -> bool;
 
-    /// There are no more leaves; says whether there was what it looked for.
+    /// Finishes the search when there are no more leaves; returns whether it succeeded.
     fn end<K: Kernel>(&mut self, kernel: K, reach: &SearchLimit) -> bool;
 }
 
@@ -160,8 +160,8 @@ impl<T: LeafTest<f64>> TreeQuery<true> for Closest<T> {
 }
 
 impl<T: LeafTest<f64>> Closest<T> {
-    /// What triangles that may be met do to how far to look: one is held if it is certainly met
-    /// before all others, else the caller is asked.
+    /// Updates the limit with the triangles that may be hit. A triangle that is certainly hit
+    /// before all others is held; else the caller tests it.
     #[inline(always)]
     fn sort_out(
         &mut self,
@@ -177,7 +177,7 @@ impl<T: LeafTest<f64>> Closest<T> {
             let lane = first(alive, &verdict.lo);
             alive &= !(1 << lane);
             let (lo, hi) = (verdict.lo[lane], verdict.hi[lane]);
-            // The limit may have come nearer since.
+            // The limit may have decreased since the verdict.
             if lo > t_far {
                 break;
             }
@@ -188,11 +188,11 @@ impl<T: LeafTest<f64>> Closest<T> {
                 t_far = t_far.min(hi);
                 continue;
             }
-            // In another of its leaves.
+            // The same triangle in another leaf.
             if held.is(&leaf) {
                 continue;
             }
-            // In doubt, or too near to the one held.
+            // In doubt, or its bounds overlap those of the triangle held.
             if is_sure {
                 t_far = t_far.min(way.shortened(self.0.test(held.leaf)));
                 held = Candidate::NOTHING;
@@ -209,8 +209,7 @@ impl<T: LeafTest<f64>> Closest<T> {
     }
 }
 
-/// Of some lanes the one with the least number: what is met first may spare questions about the
-/// others.
+/// The lane with the least `lo` of some lanes: the nearest first may save tests of the others.
 #[inline(always)]
 fn first(lanes: u32, lo: &[f32; LANES]) -> usize {
     let lane = |lanes: u32| lanes.trailing_zeros() as usize % LANES;
@@ -271,7 +270,7 @@ impl<T: LeafTest<bool>> Any<T> {
     }
 }
 
-/// All that may be met, each thing once.
+/// All entries that may be hit, each once.
 pub(crate) struct Each<'a, K: Kernel, F> {
     pub(crate) kernel: K,
     pub(crate) tree: &'a Bvh,
@@ -320,7 +319,8 @@ impl<L: Kernel, F: FnMut(Leaf) -> bool> TreeQuery<false> for Each<'_, L, F> {
 }
 
 impl<K: Kernel, F> Each<'_, K, F> {
-    /// Whether a block is the one that shows a triangle of it: see [`Splits`](crate::tree::Splits).
+    /// Whether a block is the one that reports a triangle of it: see
+    /// [`Splits`](crate::tree::Splits).
     #[inline(always)]
     fn is_first(&self, block: u32, triangle: &Leaf, t_far: f32) -> bool {
         let tree = self.tree;
@@ -339,12 +339,12 @@ impl<K: Kernel, F> Each<'_, K, F> {
     }
 }
 
-/// What triangles need to know of a ray.
+/// The source of a ray's triangle filter.
 pub(crate) trait BlockFilterSource {
     fn filter<K: Kernel>(&mut self, kernel: K, tree: &Bvh, way: &ClippedRay) -> &Filter;
 }
 
-/// Found when a ray comes to its first triangle: many rays come to none.
+/// For single rays: builds the filter at the first triangle, since many rays reach none.
 pub(crate) struct LazyFilter<'a, S> {
     pub(crate) sight: &'a S,
     pub(crate) filter: &'a mut Option<Filter>,
@@ -355,8 +355,7 @@ impl<S: TreeRay> BlockFilterSource for LazyFilter<'_, S> {
     fn filter<K: Kernel>(&mut self, kernel: K, tree: &Bvh, way: &ClippedRay) -> &Filter {
         let (sight, filter) = (self.sight, &mut *self.filter);
         if filter.is_none() {
-            // Written where it stays: what is written number by number and then copied has to wait
-            // for that.
+            // Written in place: a copy right after piecewise stores would stall.
             kernel.apart(
                 #[inline(always)]
                 || *filter = Some(Filter::new(|| tree.local_line(sight), way, tree.rounded)),
@@ -366,7 +365,7 @@ impl<S: TreeRay> BlockFilterSource for LazyFilter<'_, S> {
     }
 }
 
-/// The same for a ray that waits in memory for its turns: nothing is done ahead of the leaf.
+/// For batched rays: builds the filter at the first triangle.
 pub(crate) struct QueuedFilter<'a, S> {
     pub(crate) sight: &'a S,
     pub(crate) filter: &'a mut Option<Filter>,
@@ -391,7 +390,7 @@ impl<S: TreeRay> BlockFilterSource for QueuedFilter<'_, S> {
     }
 }
 
-/// The same for a ray that is exactly known.
+/// For exactly known rays: builds the filter at the first triangle.
 pub(crate) struct ExactRayData {
     pub(crate) filter: Option<Filter>,
 }
@@ -406,7 +405,7 @@ impl BlockFilterSource for ExactRayData {
     }
 }
 
-/// A triangle of a block, by its kind and the number of the block.
+/// One triangle of a block, from its kind and the number of the block.
 #[inline(always)]
 fn triangle((kind, number): (u32, u32), block: &Block, lane: usize) -> Leaf {
     Leaf { kind, first: block.slot(lane), count: 1, place: number * LANES as u32 + lane as u32 }

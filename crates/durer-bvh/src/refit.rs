@@ -1,4 +1,4 @@
-//! Things have moved: the same tree with other boxes.
+//! Refitting: new boxes for an old tree after its entries have moved.
 
 use crate::CornersOf;
 use crate::build::Extent;
@@ -9,10 +9,10 @@ use crate::triangles::Block;
 use durer_math::Aabb;
 use rayon::prelude::*;
 
-/// Why a tree cannot follow what has moved.
+/// Why a tree cannot be refitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RefitError {
-    /// A thing is where no box holds it.
+    /// An entry has no bounded box.
     #[error("kind {kind}, number {slot}: has moved to where no bounded box holds it")]
     Unbounded {
         /// Its kind.
@@ -23,20 +23,20 @@ pub enum RefitError {
 }
 
 impl Bvh {
-    /// Renews all boxes, from the leaves upwards and rounded outward, and all corners of triangles;
-    /// also the tree's units.
+    /// Computes all boxes anew, from the leaves upwards and rounded outward, and all corners of
+    /// triangles; also the tree's units.
     ///
-    /// `bounds` gives the box of the thing at a position within its kind, as for [`Bvh::validate`],
-    /// and `shapes` the corners of triangles: those of [`Bvh::build`], but by position. Answers are
-    /// those of a tree that is built anew. Triangles that stand in several leaves (see
-    /// [`Quality::Best`](crate::Quality::Best)) do so with all of their boxes from then on, so that
-    /// such a tree loses what its cuts in space had gained. Rays take as long as before while
+    /// `bounds` gives the box of the entry at a position within its kind, as for [`Bvh::validate`],
+    /// and `shapes` the corners of triangles, as for [`Bvh::build`], but by position. Answers are
+    /// those of a new tree. A triangle in several leaves (see
+    /// [`Quality::Best`](crate::Quality::Best)) then has its whole box in each of them, so that
+    /// such a tree loses the gain of its spatial splits. Queries take as long as before while
     /// neighbours stay neighbours; when the cost in [`Bvh::stats`] has grown by half, it pays to
     /// build anew.
     ///
     /// # Errors
     ///
-    /// If a box is not bounded, or empty. Then the tree is what it was.
+    /// If a box is not bounded, or empty. Then the tree is unchanged.
     ///
     /// # Panics
     ///
@@ -67,7 +67,7 @@ impl Bvh {
         Ok(())
     }
 
-    /// New corners for all blocks.
+    /// Writes new corners to all blocks.
     fn refit_blocks(&mut self, shapes: &[Option<CornersOf<'_>>]) {
         let frame = self.frame;
         let renew = |corners: CornersOf<'_>, block: &mut Block| {
@@ -87,13 +87,13 @@ impl Bvh {
             };
             let end = ends.next().unwrap_or(first);
             let blocks = &mut self.blocks[first as usize..end as usize];
-            // All are renewed, whatever the first one says.
+            // No short circuit: every block must be renewed.
             self.rounded |=
                 blocks.par_iter_mut().map(|block| !renew(corners, block)).reduce(|| false, |a, b| a | b);
         }
     }
 
-    /// New boxes for all nodes. Nodes stand before those below them.
+    /// Writes new boxes to all nodes. Parents precede their children.
     fn refit_nodes(&mut self, entries: &[Entry]) {
         let mut nodes = core::mem::take(&mut self.nodes);
         for index in (0..nodes.len()).rev() {

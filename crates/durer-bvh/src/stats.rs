@@ -1,4 +1,4 @@
-//! What a tree is like.
+//! Statistics of a tree.
 
 use crate::build::Settings;
 use crate::node::{ChildRef, Node};
@@ -12,19 +12,19 @@ pub struct Stats {
     pub nodes: usize,
     /// Leaves.
     pub leaves: usize,
-    /// Things in leaves; those in several leaves are counted in each.
+    /// Entries in leaves; one in several leaves counts in each.
     pub entries: usize,
     /// Levels, leaves not counted: 1 for a root with leaves only.
     pub depth: usize,
     /// Bytes on the heap.
     pub bytes: usize,
-    /// The surface area heuristic: what a random ray that meets the tree's box is expected to cost,
-    /// in node tests.
+    /// The cost by the surface area heuristic: what a random ray that meets the tree's box is
+    /// expected to cost, in node tests.
     pub sah: f64,
 }
 
 impl Bvh {
-    /// Walks the tree and counts.
+    /// Traverses the whole tree and computes its statistics.
     pub fn stats(&self) -> Stats {
         let mut stats = Stats {
             bytes: self.nodes.capacity() * size_of::<Node>()

@@ -1,4 +1,4 @@
-//! The same way through the tree, told step by step.
+//! A query that reports each of its steps.
 
 use crate::kernels::Scalar;
 use crate::node::{ChildRef, Leaf, SLOT_BITS, WIDTH};
@@ -17,7 +17,7 @@ pub enum Step {
         level: u32,
         /// Its box, in the caller's units.
         bounds: Aabb,
-        /// Where the ray enters it at the earliest.
+        /// The least parameter at which the ray may enter it.
         t: f64,
         /// How many children it has.
         children: u32,
@@ -32,24 +32,25 @@ pub enum Step {
         level: u32,
         /// Its box, in the caller's units.
         bounds: Aabb,
-        /// Where the ray enters it at the earliest.
+        /// The least parameter at which the ray may enter it.
         t: f64,
     },
-    /// A box that was met, but begins behind the closest hit found in the meantime.
+    /// A box that the ray meets, but behind the closest hit found since.
     Skipped {
         /// Its level.
         level: u32,
         /// Its box, in the caller's units.
         bounds: Aabb,
-        /// Where the ray enters it at the earliest.
+        /// The least parameter at which the ray may enter it.
         t: f64,
     },
 }
 
 impl Bvh {
-    /// Tells the steps of [`Bvh::closest`], in the same order, but leaves of triangles whole, those
-    /// of which triangles stand in other leaves, too, piece by piece; `tell` returns the limit
-    /// after a leaf (and is not asked otherwise). Says whether the tree's own box was met at all.
+    /// Reports the steps of [`Bvh::closest`] in the same order, but with whole leaves of triangles,
+    /// piece by piece if they hold triangles that are in other leaves too. After a leaf the result
+    /// of `tell` is the new limit; else it is ignored. Returns whether the ray meets the tree's own
+    /// box.
     pub fn trace(&self, line: &Ray64, mut tell: impl FnMut(&Step) -> f64) -> bool {
         let Some(ray) = self.cull(&self.local_line(line), Rounding::Fused) else { return false };
         let mut t_far = ray.way.t_far;

@@ -1,4 +1,4 @@
-//! Is this a tree? Every invariant, walked.
+//! Validation: every invariant of a tree.
 
 use crate::build::spatial::{Bounds, is_covered};
 use crate::kernels::MAX_DEPTH;
@@ -34,7 +34,7 @@ pub enum Violation {
         /// The child.
         slot: usize,
     },
-    /// A child's box is not finite or has no point.
+    /// A child's box is not finite, or it is empty.
     #[error("node {node}: the box of child {slot} is no box")]
     NoBox {
         /// The node.
@@ -58,17 +58,17 @@ pub enum Violation {
         /// The child.
         slot: usize,
     },
-    /// A slot is in no leaf or in several, and the tree does not know of it.
+    /// A slot is in no leaf, or in another number of leaves than the tree records.
     #[error("slot {slot} is in {times} leaves, not in {known}")]
     Slot {
         /// The slot.
         slot: usize,
         /// In how many leaves.
         times: u32,
-        /// In how many the tree says.
+        /// In how many by the tree's record.
         known: u32,
     },
-    /// A place of a triangle that stands in several leaves is none of its leaves, or it comes
+    /// A recorded place of a triangle in several leaves is none of its leaves, or is recorded
     /// twice.
     #[error("kind {kind}, number {index}: is not in all leaves in which it should be, once each")]
     Place {
@@ -77,8 +77,8 @@ pub enum Violation {
         /// Its position within the kind.
         index: u32,
     },
-    /// A thing is not inside its leaf's box; if it stands in several leaves, not inside their boxes
-    /// together, as far as f64 can tell.
+    /// An entry is not inside its leaf's box; if it is in several leaves, not inside the union of
+    /// their boxes, as far as f64 can decide.
     #[error("kind {kind}, number {index}: sticks out of the box of its leaf, or of its leaves")]
     ThingSticksOut {
         /// Its kind.
@@ -92,7 +92,7 @@ pub enum Violation {
 }
 
 impl Bvh {
-    /// Checks every invariant; `bounds` gives the box of the thing at a position within its kind.
+    /// Checks every invariant; `bounds` gives the box of the entry at a position within its kind.
     pub fn validate(&self, bounds: impl Fn(u32, u32) -> Aabb) -> Result<(), Violation> {
         let mut reached = vec![0_u32; self.nodes.len()];
         let mut held = vec![0_u32; self.len()];
@@ -182,8 +182,8 @@ impl Bvh {
         None
     }
 
-    /// A triangle that stands in several leaves is in each of its places, and their boxes hold all
-    /// of it.
+    /// Checks that a triangle in several leaves is in each of its places, and that their boxes
+    /// cover it.
     fn check_split(&self, kind: u32, index: u32, places: &[u32], bounds: &Aabb) -> Result<(), Violation> {
         let mut boxes = Vec::new();
         let (mut whole, mut corners) = (Aabb::EMPTY, None);
@@ -205,7 +205,8 @@ impl Bvh {
             boxes.push(Bounds { lo: lo.map(f64::from), hi: hi.map(f64::from) });
             corners = Some(block.corners(1.0, lane));
         }
-        // What is held of its corners may be rounded; its box may be cut by what bounds its object.
+        // The stored corners may be rounded; the entry's box may be cut by the bounds of its
+        // object.
         let is_covered = |corners: Corners| {
             let inward = |p: Point3| {
                 core::array::from_fn(|i| self.frame.units().inward(self.frame.difference(p[i], i).0))
@@ -221,7 +222,7 @@ impl Bvh {
     }
 }
 
-/// What a leaf violates.
+/// The violations of a leaf.
 enum Wrong {
     Leaf,
     Thing(u32),

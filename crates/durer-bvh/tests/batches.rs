@@ -1,4 +1,4 @@
-//! Many rays at once are shown what each is shown alone, in the same order.
+//! In a batch each ray visits the same leaves in the same order as in a single query.
 
 mod common;
 
@@ -43,7 +43,7 @@ impl World {
         let shape = |n: u32| corners[n as usize];
         let (tree, _) = Bvh::build(&frame, entries, &[None, Some(&shape)], settings);
         let line = |dice: &mut Dice| {
-            // From within, from near and from far; some have nothing to look for.
+            // Origins are inside, near and far; some rays have an empty range.
             let size = [0.5, 3.0, 1e6][dice.below(3) as usize];
             let origin = point(dice, size);
             let d = point(dice, 1.0) - origin;
@@ -61,9 +61,8 @@ impl World {
             })
         };
         let mut lines: Vec<Option<Ray64>> = (0..600).map(|_| line(&mut dice)).collect();
-        // Some that are much alike: side by side, or from one point, which may be a corner of a
-        // box, and along axes, or nearly so. As many as go by sixteen and by eight, and some that
-        // are left.
+        // Some rays are similar: side by side, or from one point, which may be a corner of a box,
+        // and along axes, or nearly so. As many as go by sixteen and by eight, and some more.
         for some in lines.chunks_mut(4 * PACKET) {
             let size = [0.5, 3.0][dice.below(2) as usize];
             let mut origin = point(&mut dice, size);
@@ -95,7 +94,7 @@ impl World {
     }
 }
 
-/// Answers that depend on nothing but ray and leaf.
+/// Answers that depend on the ray and the leaf only.
 fn says(ray: usize, leaf: Leaf) -> u64 {
     Dice(ray as u64 ^ u64::from(leaf.first) << 20 ^ u64::from(leaf.kind) << 60).next()
 }
@@ -116,7 +115,7 @@ fn is_hit(ray: usize, leaf: Leaf) -> bool {
     says(ray, leaf) & 24 == 0
 }
 
-/// What each ray is shown, and which have found something.
+/// The leaves that each ray visits, and which rays have found something.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Log {
     shown: Vec<Vec<Leaf>>,
@@ -126,9 +125,9 @@ struct Log {
 struct Logging<'a> {
     world: &'a World,
     log: Log,
-    /// How many rays were asked for their lines.
+    /// How many calls of `sight` there were.
     asked: usize,
-    /// Rays before this one were asked for a glance.
+    /// The end of the rays for which `glances` was called.
     glanced: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Any boxes make a valid tree, and the same one on any number of threads.
+//! Any boxes make a valid tree, and the same tree on any number of threads.
 
 mod common;
 
@@ -45,7 +45,8 @@ fn a_million_identical_boxes() {
 
 #[test]
 fn a_hundred_thousand_nested_boxes() {
-    // Each halves the last: the heuristic peels them off one by one until the numbers end.
+    // Each box is half as large as the one before: the heuristic splits off one at a time until the
+    // exponents end.
     let boxes: Vec<_> =
         (0..100_000).map(|i| cube(0.0, 0.0, 0.0, 1.5_f64.powf_by_squaring(-(i % 1700)))).collect();
     assert_valid(&boxes);
@@ -53,7 +54,7 @@ fn a_hundred_thousand_nested_boxes() {
 
 #[test]
 fn geometric_rows_do_not_grow_deep() {
-    // x = 2^i: a tree by area alone would be a list.
+    // x = 2^i: a tree by area alone would degenerate to a list.
     let boxes: Vec<_> = (-1000..1000)
         .map(|i| {
             let x = 2.0_f64.powf_by_squaring(i);
@@ -106,7 +107,7 @@ fn huge_and_tiny_extents() {
 fn leaves_hold_one_kind() {
     let mut dice = Dice(6);
     for kinds in [1, 2, 3, 40] {
-        // All in few places, so that kinds must part where boxes do not.
+        // All entries at few places, so that kinds must be separated where boxes cannot be.
         let count = 4000;
         let boxes: Vec<_> = (0..count).map(|_| cube(dice.below(9) as f64, 0.0, 0.0, 0.6)).collect();
         let kind: Vec<_> = (0..count).map(|_| dice.below(kinds) as u32).collect();
@@ -165,8 +166,8 @@ fn slivers(dice: &mut Dice, count: usize) -> Vec<Corners> {
 #[test]
 fn parts_of_triangles_are_held_by_the_boxes_of_their_leaves() {
     let mut dice = Dice(9);
-    // As f64 and as f32; also where scaling loses something, or surfaces are too small for f32, so
-    // that they are not cut.
+    // As f64 and as f32; also where scaling is inexact, or surfaces are too small for f32, so that
+    // the triangles are not split.
     for (is_held, size) in
         [(false, 1.0), (true, 1.0), (true, 1e30), (false, 1e-300), (false, 1e-315), (false, 1e308)]
     {
@@ -187,7 +188,7 @@ fn parts_of_triangles_are_held_by_the_boxes_of_their_leaves() {
         assert!(slots.iter().copied().eq(0..5000));
         let more = tree.stats().entries - 5000;
         assert!(more <= 5000 / 4 && (more > 500 || size < 1e-200), "{size}: {more} references more");
-        // One that is elsewhere is not held, whether it stands in one leaf or in several.
+        // A triangle that is elsewhere is not covered, whether it is in one leaf or in several.
         for lost in [0, 4999] {
             let elsewhere = |kind: u32, slot: u32| {
                 let b = place(kind, slot);
@@ -195,7 +196,7 @@ fn parts_of_triangles_are_held_by_the_boxes_of_their_leaves() {
             };
             assert!(tree.validate(elsewhere).is_err());
         }
-        // Leaves of whole triangles hold them, too.
+        // After a refit leaves hold whole triangles, which must be covered, too.
         tree.refit(place, &[Some(&|slot| corners(order[0][slot as usize]))]).unwrap();
         tree.validate(place).unwrap_or_else(|e| panic!("{size}: {e}"));
     }
@@ -205,7 +206,7 @@ fn parts_of_triangles_are_held_by_the_boxes_of_their_leaves() {
 fn a_broken_tree_is_found_out() {
     let boxes: Vec<_> = (0..100).map(|i| cube(f64::from(i), 0.0, 0.0, 0.4)).collect();
     let (tree, order) = tree(&boxes);
-    // The walk notices a thing that is not where its leaf is.
+    // Validation detects an entry that is outside its leaf.
     let moved = |_: u32, slot: u32| {
         let b = boxes[order[slot as usize] as usize];
         if slot == 50 { Aabb::new(b.min, b.max + Vec3::Y) } else { b }

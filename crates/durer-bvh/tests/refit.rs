@@ -1,4 +1,4 @@
-//! A tree that has followed what moved answers as one that is built anew.
+//! A refitted tree gives the answers of a new one.
 
 mod common;
 
@@ -19,7 +19,7 @@ fn boxes(dice: &mut Dice, count: usize, size: f64) -> Vec<Aabb> {
 #[test]
 fn boxes_that_moved_are_found_where_they_are() {
     let mut dice = Dice(21);
-    // Into units that are larger, smaller, and at the ends of the numbers.
+    // To larger and smaller units, and to the ends of f64's range.
     for (count, size) in [(1, 1.0), (9, 1e6), (700, 1e-9), (20_000, 3.0), (700, 1e300), (700, 1e-305)] {
         let (mut tree, order) = tree(&boxes(&mut dice, count, 1.0));
         let moved = boxes(&mut dice, count, size);
@@ -33,7 +33,7 @@ fn boxes_that_moved_are_found_where_they_are() {
             if direction == Vec3::ZERO {
                 continue;
             }
-            // What rounding takes from the way to the target is far below the errors.
+            // The rounding of the direction to the target is far below the errors.
             let direction = direction.scale2(-exponent(direction.max_abs()));
             let line = Ray64 {
                 origin,
@@ -64,7 +64,7 @@ fn around(v: Corners) -> Aabb {
     Aabb::from_points(v)
 }
 
-/// Where a ray meets the first of some triangles.
+/// The first hit of a ray among some triangles.
 fn meet(shape: &[Corners], numbers: impl Iterator<Item = u32>, ray: &LocalRay<'_>) -> Option<(f64, u32)> {
     let root = |n: u32| {
         let mut sink = Closest::default();
@@ -103,7 +103,7 @@ fn closest(tree: &Bvh, order: &[u32], shape: &[Corners], ray: &Ray) -> Option<(f
 #[test]
 fn triangles_that_moved_are_met_where_they_are() {
     let mut dice = Dice(22);
-    // In f32 as they are, and rounded.
+    // With corners that f32 holds exactly, and rounded.
     for (count, size, is_held) in [(1, 1.0, false), (300, 1.0, true), (300, 1e5, false), (3000, 0.1, true)] {
         let mut shape = |size: f64| {
             let mut shape = triangles(&mut dice, count, size);
@@ -132,7 +132,7 @@ fn triangles_that_moved_are_met_where_they_are() {
             met += usize::from(expected.is_some());
         }
         assert!(met > 0);
-        // And back: the same tree, but for where it rounded.
+        // A refit back gives the same tree, but for rounding.
         let back = |slot: u32| old[order[slot as usize] as usize];
         let mut again = tree.clone();
         again.refit(|_, slot| around(back(slot)), &[Some(&back)]).unwrap();
@@ -149,7 +149,7 @@ fn triangles_that_moved_are_met_where_they_are() {
 #[test]
 fn several_kinds_go_and_come_back() {
     let mut dice = Dice(24);
-    // Boxes and triangles in turn; a kind of which there is nothing.
+    // Kinds of boxes and of triangles, and an empty kind.
     let kinds: [(usize, bool); 6] = [(60, false), (500, true), (0, true), (3, false), (90, true), (0, false)];
     let mut scene = |size: f64| kinds.map(|(count, _)| triangles(&mut dice, count, size));
     let (old, new) = (scene(1.0), scene(40.0));

@@ -1,7 +1,7 @@
-//! What the triangles' filter says for certain is true.
+//! What the triangles' filter calls certain is true.
 //!
 //! Vertices, origins and directions are integers, so `U`, `V`, `W` and the crossing's parameter are
-//! exact in 128 bits. Rays are aimed at vertices, edges and insides; meshes are soups, fans and
+//! exact in 128 bits. Rays are aimed at vertices, edges and interiors; meshes are soups, fans and
 //! folded sheets, large and small in their scene; scenes are scaled by powers of two.
 
 mod common;
@@ -33,7 +33,7 @@ struct Crossing {
     /// `t = over / under`, `under > 0`.
     over: i128,
     under: i128,
-    /// It passes no edge.
+    /// It touches no edge.
     inside: bool,
 }
 
@@ -56,7 +56,7 @@ impl Crossing {
     }
 
     fn order(&self, other: &Self) -> Ordering {
-        // Below 2^84 and 2^63 each: the whole parts first, then what is left.
+        // Below 2^84 and 2^63 each: the integer parts are compared first, then the remainders.
         let split = |c: &Self| (c.over.div_euclid(c.under), c.over.rem_euclid(c.under));
         let ((a, p), (b, q)) = (split(self), split(other));
         a.cmp(&b).then_with(|| (p * other.under).cmp(&(q * self.under)))
@@ -69,9 +69,9 @@ impl Crossing {
     }
 }
 
-/// Triangles of which none is flat, some of which share edges and vertices.
+/// Triangles, none of them degenerate, some of which share edges and vertices.
 fn scene(dice: &mut Dice, grid: i64) -> Vec<Triangle> {
-    // From triangles as large as the scene to such as f32 hardly sees.
+    // From triangles as large as the scene to triangles at the resolution of f32.
     let spread = 1 + (grid >> dice.below(22));
     let corner = |dice: &mut Dice, about: Place, size: i64| -> Place {
         core::array::from_fn(|i| (about[i] + dice.about(size)).clamp(-grid, grid))
@@ -104,9 +104,9 @@ fn point(p: Place, k: i32) -> Point3 {
     Point3::from(p.map(|x| scale2(x as f64, k)))
 }
 
-/// A ray at a vertex, at the middle of an edge or at something within, from an integer point.
+/// A ray from an integer point at a vertex, at the middle of an edge or at an inner point.
 fn aim(dice: &mut Dice, v: &Triangle, grid: i64) -> (Place, Place) {
-    // Twice the target, so that middles are integers.
+    // Twice the target, so that midpoints are integers.
     let [a, b, c] = *v;
     let target: Place = match dice.below(4) {
         0 => a.map(|x| 2 * x),
@@ -139,7 +139,7 @@ fn triangles_that_stand_in_several_leaves_are_shown_once() {
     assert!(shared > 1000, "{shared} more references than triangles");
 }
 
-/// Says how many more references than triangles there were.
+/// Returns how many more references than triangles there were.
 fn the_filter_is_right(seeds: u64, settings: &Settings) -> usize {
     let (mut offered, mut hits, mut trusted, mut known) = (0_u64, 0_u64, 0_u64, 0_u64);
     let mut shared = 0;
@@ -147,7 +147,7 @@ fn the_filter_is_right(seeds: u64, settings: &Settings) -> usize {
         let mut dice = Dice(seed);
         // f32 holds the coordinates of the first three.
         let grid = [6, 1000, 1 << 20, 1 << 26][seed as usize % 4];
-        // Rays of the first two are seen at a glance.
+        // Rays of the first two exponents use the f32 setup.
         let k = [0, -30, 250, -500][dice.below(4) as usize];
         let triangles = scene(&mut dice, grid);
         if triangles.is_empty() {
@@ -174,7 +174,8 @@ fn the_filter_is_right(seeds: u64, settings: &Settings) -> usize {
             let (o, d) = aim(&mut dice, &one, grid);
             let direction = Vec3::from(d.map(|x| x as f64));
             let e = exponent(direction.max_abs());
-            // The line's parameter of t: the origin was scaled by 2^k, the direction by 2^-e.
+            // Converts t to the tree ray's parameter: the origin was scaled by 2^k, the direction
+            // by 2^-e.
             let clock = |t: f64| scale2(t, k + e);
             let line = Ray64 {
                 origin: point(o),
@@ -255,7 +256,7 @@ fn the_filter_is_right(seeds: u64, settings: &Settings) -> usize {
     shared
 }
 
-/// What a mesh costs does not depend on what else there is, or could be.
+/// The cost of a mesh does not depend on what else the tree holds, or could hold.
 #[test]
 fn triangles_fill_their_blocks_beside_other_things() {
     let mut dice = Dice(5);
@@ -279,7 +280,7 @@ fn triangles_fill_their_blocks_beside_other_things() {
     assert_eq!(order[0], other[1]);
     assert_eq!(alone.stats().leaves, among.stats().leaves);
     assert_eq!((alone.blocks(), among.blocks()), (alone.stats().leaves, among.stats().leaves));
-    // A box of its own beside them changes one leaf, not all.
+    // One more box beside them changes one leaf, not all.
     let mut more = entries(1);
     more.push(frame.entry(&Aabb::from_points(corners(0)), 0, 0));
     let (mixed, _) = Bvh::build(&frame, more, &[None, Some(&corners), None], &Settings::GOOD);

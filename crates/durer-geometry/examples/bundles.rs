@@ -1,4 +1,4 @@
-//! What a camera's ray costs by itself, with a search shared by its neighbours, and in lanes:
+//! The cost of a camera ray by itself, with a search shared by its neighbours, and in a packet:
 //! prints nanoseconds for small worlds.
 //!
 //! `cargo run --release -p durer-geometry --example bundles`

@@ -1,5 +1,5 @@
-//! What a ray costs in bodies of 100 and of 10 000 leaves: prints nanoseconds per ray, the least of
-//! some runs.
+//! The cost of a ray in CSG solids of 100 and of 10 000 leaves: prints nanoseconds per ray, the
+//! least of several runs.
 //!
 //! `cargo run --release -p durer-geometry --example csg_scaling`
 
@@ -29,7 +29,7 @@ fn main() {
     }
 }
 
-/// From all around at points of a cube.
+/// Rays from all around at points of a cube.
 fn rays() -> Vec<Ray> {
     let mut dice = TestRng::new(1);
     let point = |dice: &mut TestRng| {

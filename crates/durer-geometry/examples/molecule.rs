@@ -1,5 +1,4 @@
-//! A molecule of a million atoms: how long it takes to build, what it weighs, how many rays it
-//! answers.
+//! A molecule of a million atoms: build time, memory, and rays per second.
 //!
 //! ```text
 //! cargo run --release -p durer-geometry --example molecule [-- ATOMS]
@@ -10,7 +9,7 @@ use durer_math::{Isa, Point3, Ray, Vec3};
 use durer_surfaces::Sphere;
 use std::time::Instant;
 
-/// Numbers that look random: the n-th output of G. L. Steele, D. Lea, C. H. Flood, "Fast splittable
+/// A pseudorandom number: the n-th output of G. L. Steele, D. Lea, C. H. Flood, "Fast splittable
 /// pseudorandom number generators", OOPSLA (2014).
 fn hash(n: u64) -> u64 {
     let mut z = n.wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -47,7 +46,7 @@ impl CubeRoot for f64 {
     }
 }
 
-/// A camera's rays, a frame of 1024 x 1024.
+/// Camera rays, a frame of 1024 x 1024.
 fn primary(side: f64) -> Vec<Ray> {
     let eye = Point3::new(0.5 * side, 0.6 * side, -1.4 * side);
     let ray = |i: u32| {
@@ -57,7 +56,7 @@ fn primary(side: f64) -> Vec<Ray> {
     (0..1 << 20).map(ray).collect()
 }
 
-/// Rays from anywhere to anywhere inside.
+/// Rays from random points to random points of the molecule.
 fn random(side: f64) -> Vec<Ray> {
     let ray = |i: u64| {
         let (a, b) = (point(i + (1 << 40), side), point(i + (2 << 40), side));
@@ -66,19 +65,20 @@ fn random(side: f64) -> Vec<Ray> {
     (0..1 << 20).map(ray).collect()
 }
 
-/// The processor time of all this process's threads so far, in seconds, where the system tells;
-/// else the time that went by.
+/// The processor time of all this process's threads so far, in seconds, if the system reports it;
+/// else the elapsed time.
 fn processor_seconds(since: Instant) -> f64 {
     let ticks = || {
         let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
-        // Behind the name in parentheses; user and system time are fields 14 and 15, in hundredths.
+        // After the name in parentheses; user and system time are fields 14 and 15, in hundredths
+        // of a second.
         let mut fields = stat.rsplit(')').next()?.split_whitespace().skip(11);
         Some(fields.next()?.parse::<f64>().ok()? + fields.next()?.parse::<f64>().ok()?)
     };
     ticks().map_or_else(|| since.elapsed().as_secs_f64(), |t| t / 100.0)
 }
 
-/// The most memory this process ever held, in bytes, where the system tells.
+/// The peak memory of this process, in bytes, if the system reports it.
 fn peak() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|l| l.starts_with("VmHWM:"))?;

@@ -1,4 +1,4 @@
-//! Many rays at once, over all threads.
+//! Queries for arrays of rays, on all threads.
 
 use crate::geometry::Geometry;
 use crate::ids::EVERYTHING;
@@ -7,10 +7,10 @@ use crate::{Hit, Span};
 use durer_math::Ray;
 use rayon::prelude::*;
 
-/// Answers of different lengths: those of ray `i` are `items[offsets[i]..offsets[i + 1]]`.
+/// Answers of different lengths: those to ray `i` are `items[offsets[i]..offsets[i + 1]]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ragged<T> {
-    /// One more than there are rays.
+    /// The offsets, one more than there are rays.
     pub offsets: Vec<u64>,
     /// All answers, in the order of the rays.
     pub items: Vec<T>,
@@ -38,28 +38,28 @@ impl<T> Ragged<T> {
     }
 }
 
-/// Rays per task: enough to pay for handing it out.
+/// Rays per task: enough to pay for its overhead.
 const CHUNK: usize = 1024;
 
 impl Geometry {
-    /// [`Geometry::closest`] of each ray. The answers do not depend on the number of threads.
+    /// [`Geometry::closest`] for each ray. The answers do not depend on the number of threads.
     pub fn closest_batch(&self, rays: &[Ray]) -> Vec<Option<Hit>> {
         each(rays, |some, hits| self.closest_abreast(some, hits))
     }
 
-    /// [`Geometry::any`] of each ray.
+    /// [`Geometry::any`] for each ray.
     pub fn any_batch(&self, rays: &[Ray]) -> Vec<bool> {
         each(rays, |some, hits| {
             self.any_abreast(some, EVERYTHING, &mut Abreast::default(), |_, is_met| hits.push(is_met));
         })
     }
 
-    /// [`Geometry::all`] of each ray.
+    /// [`Geometry::all`] for each ray.
     pub fn all_batch(&self, rays: &[Ray]) -> Ragged<Hit> {
         ragged(rays, |ray| self.all(ray))
     }
 
-    /// [`Geometry::spans`] of each ray.
+    /// [`Geometry::spans`] for each ray.
     pub fn spans_batch(&self, rays: &[Ray]) -> Ragged<Span> {
         ragged(rays, |ray| self.spans(ray))
     }

@@ -1,4 +1,4 @@
-//! How a geometry comes to be.
+//! The builder of a geometry.
 
 use crate::arena::{AnyArena, Arena, Arrange, Unsorted};
 use crate::csg::{Compound, Compounds};
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Gathers surfaces and instances for a [`Geometry`].
+/// Collects surfaces and instances for a [`Geometry`].
 ///
 /// ```
 /// use durer_geometry::Geometry;
@@ -41,7 +41,7 @@ pub struct Builder {
 /// Why a geometry cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BuildError {
-    /// More surfaces or parts than numbers for them.
+    /// There are more surfaces or parts than a tree can number.
     #[error(
         "geometry: at most {limit} surfaces, parts and instances fit into one tree, got {count}; use instances of smaller geometries"
     )]
@@ -51,7 +51,7 @@ pub enum BuildError {
         /// How many fit.
         limit: usize,
     },
-    /// More placements, counting nested ones, than numbers for them.
+    /// There are more placements, counting nested ones, than can be numbered.
     #[error("geometry: at most {} placements fit, counting nested ones", u32::MAX)]
     TooManyPlacements,
     /// Instances are nested too deeply.
@@ -70,10 +70,10 @@ impl Builder {
         self.add_as(surface, ObjectId(self.next_object), PrimitiveId(0), EVERYTHING)
     }
 
-    /// Adds a surface under the given numbers. Where a surface has parts (the faces of a mesh),
-    /// part `i` is the primitive `primitive + i`.
+    /// Adds a surface under the given numbers. If a surface has parts (the faces of a mesh), part
+    /// `i` is the primitive `primitive + i`.
     ///
-    /// A ray with mask `m` meets the surface if `m & mask != 0`. Two surfaces may have the same
+    /// A ray with mask `m` can hit the surface if `m & mask != 0`. Two surfaces may have the same
     /// numbers.
     pub fn add_as<S: Surface + 'static>(
         &mut self,
@@ -88,7 +88,7 @@ impl Builder {
             arenas.len() - 1
         });
         let arena = self.arenas[index].as_any().downcast_mut::<Arena<S>>();
-        // The map leads from the type to its own arena.
+        // Always succeeds: the map has the arena of each type under that type.
         if let Some(arena) = arena {
             arena.push(surface, Id { object: object.0, primitive: primitive.0 }, mask);
         }
@@ -96,13 +96,12 @@ impl Builder {
         self
     }
 
-    /// Adds a solid made of solids as an object of its own, with the next free number.
+    /// Adds a CSG solid as an object of its own, with the next free number.
     pub fn add_compound(&mut self, body: impl Into<Arc<Compound>>) -> &mut Self {
         self.add_compound_as(body, ObjectId(self.next_object), PrimitiveId(0), EVERYTHING)
     }
 
-    /// Adds a solid made of solids as a part of an object: `first` is added to the numbers of its
-    /// leaves.
+    /// Adds a CSG solid to an object; `first` is added to the primitive numbers of its leaves.
     pub fn add_compound_as(
         &mut self,
         body: impl Into<Arc<Compound>>,
@@ -122,13 +121,12 @@ impl Builder {
         self
     }
 
-    /// Adds a placement of a whole geometry; its objects get the next free numbers, in their order.
+    /// Adds a placement of a whole geometry. Its objects get the next free numbers, in their order.
     pub fn instance(&mut self, geometry: &Arc<Geometry>, affine: Affine, mask: u32) -> &mut Self {
         self.instance_as(geometry, affine, ObjectId(self.next_object), PrimitiveId(0), mask)
     }
 
-    /// Adds a placement of a whole geometry; `object` and `primitive` are added to the numbers in
-    /// it.
+    /// Adds a placement of a whole geometry; `object` and `primitive` are added to its numbers.
     pub fn instance_as(
         &mut self,
         geometry: &Arc<Geometry>,
@@ -150,33 +148,33 @@ impl Builder {
         self
     }
 
-    /// How the tree is built: [`Settings::GOOD`] if not told otherwise. Answers do not depend on
-    /// it.
+    /// Sets how the tree is built; the default is [`Settings::GOOD`]. Answers do not depend on it.
     pub fn settings(&mut self, settings: Settings) -> &mut Self {
         self.settings = settings;
         self
     }
 
-    /// Builds no tree: every query tests everything. The definition that the tree must equal, bit
-    /// for bit.
+    /// Builds no tree: every query tests everything. This defines the answers; those with a tree
+    /// are equal, bit for bit.
     pub fn without_tree(&mut self) -> &mut Self {
         self.without_tree = true;
         self
     }
 
-    /// Uses this instruction set in place of [`Isa::detect`]'s; answers do not depend on it.
+    /// Sets the instruction set, in place of that from [`Isa::detect`]. Answers do not depend on
+    /// it.
     pub fn isa(&mut self, isa: Isa) -> &mut Self {
         self.isa = Some(isa);
         self
     }
 
-    /// By object: what lies outside of this box does not matter, so rays that pass the box by need
-    /// not ask.
+    /// Sets a box for each object; what lies outside of it does not matter, so that rays that miss
+    /// the box need no test.
     pub(crate) fn limits(&mut self, limits: Vec<Aabb>) {
         self.limits = limits;
     }
 
-    /// What a geometry holds: nothing is to be added, as types are not looked up any more.
+    /// A builder with the content of a geometry. Nothing may be added, as it has no map of types.
     pub(crate) fn again(
         arenas: Vec<Box<dyn Arrange>>,
         instances: Vec<Instance>,
@@ -195,8 +193,8 @@ impl Builder {
         }
     }
 
-    /// Puts other surfaces in the place of those of type `S`, where there is one for an object, a
-    /// primitive and the surface as it is.
+    /// Replaces the surfaces of type `S` for which `moved` returns another one, given the object,
+    /// the primitive and the present surface.
     pub(crate) fn replace<S: Surface + 'static>(
         &mut self,
         mut moved: impl FnMut(ObjectId, PrimitiveId, &S) -> Option<S>,
@@ -219,7 +217,7 @@ impl Builder {
         let placements = number_placements(&mut instances)?;
         arenas.iter_mut().for_each(|a| a.seal());
 
-        // Asked for twice, which takes less than keeping them.
+        // Computed twice, which takes less than storing them.
         let placed = || instances.par_iter().map(|i| i.affine.bounds(&i.geometry.bounds()));
         let bounded = |b: Aabb| if b.is_bounded() { b } else { Aabb::EMPTY };
         let extent = arenas
@@ -258,7 +256,7 @@ impl Builder {
                 .collect();
             let mut shapes: Vec<Option<CornersOf<'_>>> =
                 corners.iter().map(|of| of.as_ref().map(|of| of as CornersOf<'_>)).collect();
-            // Instances.
+            // The kind of instances.
             shapes.push(None);
             Bvh::build(&frame, entries, &shapes, &builder.settings)
         };
@@ -298,13 +296,13 @@ impl Builder {
     }
 }
 
-/// How many surfaces the leaves of an arena's compounds have.
+/// The total number of slots of the leaves of an arena's compounds.
 fn leaf_slots(arena: &mut dyn Arrange) -> u64 {
     arena.as_any().downcast_ref::<Compounds>().map_or(0, Compounds::leaf_slots)
 }
 
-/// Numbers the placements in the order in which instances were added, each followed by what is
-/// nested in it; says how many there are, the geometry's own included.
+/// Numbers the placements in the order in which instances were added, each followed by its nested
+/// ones. Returns how many there are, including the geometry's own.
 fn number_placements(instances: &mut [Instance]) -> Result<u32, BuildError> {
     let mut next = 1_u32;
     for instance in instances {

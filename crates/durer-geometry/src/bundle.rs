@@ -1,4 +1,4 @@
-//! Rays that belong together share one walk through the tree.
+//! Bundles: rays that share one search through the tree.
 
 use crate::closest::ClosestHit;
 use crate::geometry::{Geometry, slots};
@@ -10,13 +10,13 @@ use durer_bvh::Leaf;
 use durer_math::{Ray, Shaft, Source};
 use durer_surfaces::{Need, SurfacePoint};
 
-/// What the rays of a bundle may meet, by object and primitive.
+/// What the rays of a bundle may hit, in the order of object and primitive.
 #[derive(Clone, Debug, Default)]
 pub struct CandidateList {
     pub(crate) candidates: ArrayVec<Candidate, { CandidateList::MOST }>,
 }
 
-/// A slot that rays may meet.
+/// A slot that rays may hit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Candidate {
     pub(crate) arena: u32,
@@ -32,23 +32,23 @@ impl Candidate {
 }
 
 impl CandidateList {
-    /// With more slots than this the tree is the faster way.
+    /// The greatest number of slots. With more, the tree is faster.
     const MOST: usize = 64;
-    /// The same for one ray.
+    /// The greatest number of slots for one ray.
     const FEW: usize = 12;
-    /// The same for triangles of large meshes: the tree tests sixteen of them at once, and few rays
-    /// would share what lanes need to know of each.
+    /// The greatest number of triangles of large meshes: the tree tests sixteen of them at once,
+    /// and few rays would share the packet filter of each.
     const TRIANGLES: u32 = 8;
-    /// Meshes with more leaves than this are large.
+    /// Meshes with more leaves than this count as large.
     const DENSE: usize = 512;
 
-    /// Whether the rays meet nothing.
+    /// Whether the rays certainly hit nothing.
     #[inline(always)]
     pub fn is_empty(&self) -> bool {
         self.candidates.is_empty()
     }
 
-    /// Whether the rays may meet something that has a bit in common with `mask`: `false` is
+    /// Whether the rays may hit something whose mask has a common bit with `mask`; `false` is
     /// certain.
     pub fn admits(&self, mask: u32) -> bool {
         self.candidates.iter().any(|candidate| candidate.mask & mask != 0)
@@ -56,8 +56,8 @@ impl CandidateList {
 }
 
 impl Geometry {
-    /// What the rays of a bundle may meet; `None` if that is so much that each ray should walk
-    /// through the tree by itself. They all come from the same side of `source`, if there is one.
+    /// What the rays of a bundle may hit; `None` if that is so much that each ray should search the
+    /// tree by itself. If there is a `source`, all rays start on the same side of it.
     pub fn candidates(&self, shaft: &Shaft, source: Option<Source>) -> Option<CandidateList> {
         let mut beam = CandidateList::default();
         let candidates = &mut beam.candidates;
@@ -83,14 +83,14 @@ impl Geometry {
                 }
             }
             slots(&leaf).any(|slot| {
-                // The tree has looked at the box of all slots together.
+                // For a single slot the tree has already tested the box.
                 let missed = leaf.count > 1 && self.slot_misses(leaf.kind, slot, shaft);
                 !missed && candidates.try_push(self.candidate(leaf.kind, slot)).is_err()
             })
         });
-        // Where two hits have the same `t` the first one tested is kept.
+        // Of two hits with the same `t` the first one tested is kept.
         candidates.sort_unstable_by_key(|c| (c.name.object, c.name.primitive, c.arena, c.slot));
-        // A triangle may stand in several leaves.
+        // A triangle may be in several leaves.
         let mut last = None;
         candidates.retain(|c| last.replace((c.arena, c.slot)) != Some((c.arena, c.slot)));
         (!full).then_some(beam)
@@ -99,13 +99,13 @@ impl Geometry {
     fn candidate(&self, arena: u32, slot: u32) -> Candidate {
         let (name, mask) = match self.arenas.get(arena as usize) {
             Some(a) => (a.name(slot), a.mask(slot)),
-            // An instance has no name of its own: it is asked anyway.
+            // An instance has no numbers of its own, and is always tested.
             None => (Id { object: u32::MAX, primitive: u32::MAX }, EVERYTHING),
         };
         Candidate { arena, slot, name, mask }
     }
 
-    /// As [`Geometry::first_visible`], of a ray of the bundle that `candidates` was made for: the
+    /// [`Geometry::first_visible`] for a ray of the bundle that `candidates` was made for, with the
     /// same answer.
     #[inline]
     pub fn seen_in(
@@ -136,8 +136,8 @@ impl Geometry {
         )?
     }
 
-    /// As [`Geometry::any_masked`], of a ray of the bundle that `candidates` was made for: the same
-    /// answer.
+    /// [`Geometry::any_masked`] for a ray of the bundle that `candidates` was made for, with the
+    /// same answer.
     #[inline]
     pub fn any_in(&self, beam: &CandidateList, ray: &Ray, mask: u32) -> bool {
         if beam.candidates.len() > CandidateList::FEW {

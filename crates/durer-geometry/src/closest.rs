@@ -11,12 +11,12 @@ pub(crate) struct Placement {
     pub(crate) object: u32,
     /// Added to primitive numbers.
     pub(crate) primitive: u32,
-    /// Which placement it is.
+    /// The number of the placement.
     pub(crate) instance: u32,
 }
 
 impl Placement {
-    /// A hit of a slot of this placement.
+    /// The hit for a root of a slot in this placement.
     #[inline(always)]
     pub(crate) fn hit(&self, arena: u32, slot: u32, name: Id, root: &Root) -> Hit {
         Hit {
@@ -42,23 +42,23 @@ impl Placement {
 #[derive(Debug)]
 pub(crate) struct ClosestHit {
     pub(crate) hit: Option<Hit>,
-    /// The least upper end of a bracket: what begins behind it cannot win.
+    /// The least upper end of a bracket: a bracket that begins behind it cannot win.
     limit: f64,
     pub(crate) placement: Placement,
     pub(crate) arena: u32,
-    /// Any hit will do, and what it is does not matter.
+    /// Whether any hit suffices, whatever it is.
     any: bool,
     satisfied: bool,
 }
 
 impl ClosestHit {
-    /// Looks for the least hit.
+    /// A search for the least hit.
     pub(crate) fn least() -> Self {
         let (placement, limit) = (Placement::default(), f64::INFINITY);
         Self { hit: None, limit, placement, arena: 0, any: false, satisfied: false }
     }
 
-    /// Looks for any hit.
+    /// A search for any hit.
     pub(crate) fn any() -> Self {
         Self { any: true, ..Self::least() }
     }
@@ -69,13 +69,13 @@ impl ClosestHit {
         self.satisfied
     }
 
-    /// Beyond this no root can win; ties are not beyond.
+    /// No root beyond this can win; ties are not beyond.
     #[inline(always)]
     pub(crate) fn limit(&self) -> f64 {
         self.limit
     }
 
-    /// Takes the root if it is less than the best; says whether it did.
+    /// Takes the root if it is less than the best; returns whether it did.
     #[inline(always)]
     pub(crate) fn offer(&mut self, slot: u32, name: Id, root: &Root) -> bool {
         if self.any {

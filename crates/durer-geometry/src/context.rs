@@ -1,4 +1,4 @@
-//! A ray on its way through trees and instances.
+//! The state of a ray during its traversal of trees and instances.
 
 use crate::arena::Filter;
 use crate::closest::Placement;
@@ -8,7 +8,8 @@ use durer_math::eft::{exponent, scale2};
 use durer_math::{Ray, Source, U};
 use durer_surfaces::{LocalRay, WideCache};
 
-/// `t = shift + 2^k s`, within `err`: what culling needs to know of a local ray's parameter `s`.
+/// The relation of the caller's parameter `t` to a local ray's parameter `s`, which culling needs:
+/// `t = shift + 2^k s`, within `err`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Clock {
     shift: f64,
@@ -17,13 +18,13 @@ pub(crate) struct Clock {
 }
 
 impl Clock {
-    /// The clock of a ray in its own frame.
+    /// The relation for a ray in its own frame.
     #[inline(always)]
     pub(crate) fn of(ray: &Ray) -> Self {
         Self { shift: 0.0, err: 0.0, k: -exponent(ray.direction.max_abs()) }
     }
 
-    /// The clock of a ray that went through an affine map.
+    /// The relation for a ray that an affine map has transformed.
     #[inline(always)]
     fn then(self, ray: &LocalRay<'_>) -> Self {
         let Some((step, k)) = ray.parent_clock() else { return self };
@@ -31,13 +32,13 @@ impl Clock {
         Self { shift, err: self.err + 2.0 * U * shift.abs(), k: self.k + k }
     }
 
-    /// A number not below the `s` of `t`.
+    /// An upper bound on the `s` of `t`.
     #[inline(always)]
     pub(crate) fn above(&self, t: f64) -> f64 {
         self.bound(t, 1.0)
     }
 
-    /// A number not above the `s` of `t`.
+    /// A lower bound on the `s` of `t`.
     #[inline(always)]
     fn below(&self, t: f64) -> f64 {
         self.bound(t, -1.0)
@@ -48,7 +49,8 @@ impl Clock {
         if t.is_infinite() {
             return t;
         }
-        // Exact if nothing is shifted; else one rounding of the difference, and that of the slack.
+        // Exact without a shift; else there is one rounding of the difference, and one of the
+        // slack.
         let moved = if self.shift == 0.0 && self.err == 0.0 {
             t
         } else {
@@ -59,7 +61,7 @@ impl Clock {
     }
 }
 
-/// A ray in one geometry's frame, and what it may meet there.
+/// A ray in one geometry's frame, and what it can hit there.
 pub(crate) struct RayContext<'a> {
     pub(crate) geometry: &'a Geometry,
     pub(crate) ray: &'a LocalRay<'a>,
@@ -82,20 +84,20 @@ impl<'a> RayContext<'a> {
         }
     }
 
-    /// What the ray meets of an arena.
+    /// What the ray can hit in an arena.
     #[inline(always)]
     pub(crate) fn filter(&self, arena: u32) -> Filter {
         let source = self.source.filter(|s| s.arena == arena && s.instance == self.placement.instance);
         Filter { mask: self.mask, source: source.map(|s| (s.index, s.side)) }
     }
 
-    /// Whether the ray meets a triangle, as far as masks tell.
+    /// Whether the mask lets the ray hit a triangle.
     #[inline(always)]
     pub(crate) fn admits(&self, triangle: Leaf) -> bool {
         self.geometry.arenas[triangle.kind as usize].mask(triangle.first) & self.mask != 0
     }
 
-    /// The ray as the tree sees it.
+    /// The ray in the tree's form.
     #[inline(always)]
     pub(crate) fn line(&self) -> Ray64 {
         let r = self.ray;
@@ -110,12 +112,12 @@ impl<'a> RayContext<'a> {
         }
     }
 
-    /// What no crossing that could be less than a hit with this upper bound exceeds, in the tree's
-    /// parameter.
+    /// A bound, in the tree's parameter, on all crossings that could be less than a hit with this
+    /// upper end.
     ///
     /// A bracket is at most 32 ulp of `max(|t|, size / |d|)` wide on either side of the exact
-    /// crossing (what is wider is computed again in double-double), so a rounded `t` can precede
-    /// the exact one by no more: twice that is kept.
+    /// crossing (wider ones are computed again in double-double), so a rounded `t` can precede the
+    /// exact one by no more: twice that is added.
     #[inline(always)]
     pub(crate) fn limit(&self, t_hi: f64) -> f64 {
         let s = self.clock.above(t_hi);
@@ -123,7 +125,7 @@ impl<'a> RayContext<'a> {
         (t + self.geometry.tree.size()).mul_add(128.0 * U, s)
     }
 
-    /// Enters an instance, if the ray is to meet it at all.
+    /// Calls `f` with the ray in an instance's frame, if the mask lets it hit the instance.
     #[inline(always)]
     pub(crate) fn enter<R>(&self, instance: &Instance, f: impl FnOnce(&RayContext<'_>) -> R) -> Option<R> {
         if instance.mask & self.mask == 0 {

@@ -1,4 +1,4 @@
-//! What happened to this ray, in words.
+//! A report of all steps of one ray.
 
 use crate::closest::Placement;
 use crate::context::RayContext;
@@ -10,25 +10,25 @@ use durer_bvh::{Leaf, Step};
 use durer_math::{Aabb, Ray};
 use durer_surfaces::{Flow, LocalRay};
 
-/// The story of a ray: the same steps, in the same order, as [`Geometry::closest`] takes them.
+/// The report of a ray: the same steps, in the same order, as [`Geometry::closest`] takes them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Explanation {
     /// The ray.
     pub ray: Ray,
-    /// Whether it can meet anything at all ([`Ray::is_valid`]).
+    /// Whether it can hit anything at all ([`Ray::is_valid`]).
     pub valid: bool,
-    /// What happened.
+    /// The steps.
     pub events: Vec<Event>,
     /// The closest hit.
     pub closest: Option<Hit>,
 }
 
-/// A step of the story.
+/// A step of the report.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Event {
     /// Surfaces without a bounded box are tested first.
     Beside {
-        /// How deep in instances.
+        /// How deeply nested in instances.
         depth: u32,
         /// Their type.
         surface: &'static str,
@@ -37,12 +37,12 @@ pub enum Event {
     },
     /// The ray misses the box around everything in the tree.
     OutsideTree {
-        /// How deep in instances.
+        /// How deeply nested in instances.
         depth: u32,
     },
     /// A node's box was entered.
     Node {
-        /// How deep in instances.
+        /// How deeply nested in instances.
         depth: u32,
         /// The level in the tree.
         level: u32,
@@ -50,14 +50,14 @@ pub enum Event {
         bounds: Aabb,
         /// Where the ray enters the box, in the parameter of the tree's frame.
         t: f64,
-        /// The children.
+        /// How many children it has.
         children: u32,
-        /// Those whose boxes the ray may meet.
+        /// How many of their boxes the ray may meet.
         met: u32,
     },
-    /// A box was met, but begins behind the closest hit.
+    /// A box that the ray meets, but behind the closest hit.
     Skipped {
-        /// How deep in instances.
+        /// How deeply nested in instances.
         depth: u32,
         /// The level in the tree.
         level: u32,
@@ -68,7 +68,7 @@ pub enum Event {
     },
     /// A leaf's box was entered.
     Leaf {
-        /// How deep in instances.
+        /// How deeply nested in instances.
         depth: u32,
         /// The level in the tree.
         level: u32,
@@ -76,23 +76,23 @@ pub enum Event {
         bounds: Aabb,
         /// Where the ray enters the box.
         t: f64,
-        /// The type of what is in it.
+        /// The type of its surfaces.
         surface: &'static str,
         /// How many.
         count: u32,
     },
-    /// The ray was moved into the frame of an instance.
+    /// The ray reached an instance and was transformed into its frame.
     Instance {
-        /// How deep in instances, this one not counted.
+        /// How deeply nested in instances, this one not counted.
         depth: u32,
         /// Its placement.
         instance: u32,
-        /// Whether the mask lets the ray in.
+        /// Whether the mask admits the ray.
         admitted: bool,
     },
-    /// A surface was asked.
+    /// A surface was tested.
     Tested {
-        /// How deep in instances.
+        /// How deeply nested in instances.
         depth: u32,
         /// Its type.
         surface: &'static str,
@@ -103,25 +103,25 @@ pub enum Event {
         /// Whether the ray started on it, so that the crossing at its start is known and not
         /// counted.
         source: bool,
-        /// All its crossings in the ray's range, each with what became of it.
+        /// All its crossings in the ray's range, with the verdict on each.
         roots: Vec<(Hit, Verdict)>,
     },
 }
 
-/// What became of a crossing.
+/// The verdict on a crossing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// It was the closest so far.
     Closest,
-    /// A closer one was known.
+    /// A closer one was known already.
     Farther,
-    /// Equally far as the closest so far, and its (object, primitive) comes later, or the same one
-    /// gave it later.
+    /// It is as far as the closest so far, and its (object, primitive) comes later, or the same
+    /// primitive reported it later.
     LaterInOrder,
 }
 
 impl Geometry {
-    /// Tells what happens to a ray on its way to its closest hit.
+    /// Reports all steps of the search for a ray's closest hit.
     pub fn explain(&self, ray: &Ray) -> Explanation {
         let mut story = Story { events: Vec::new(), best: None };
         let valid = ray.is_valid();
@@ -217,7 +217,7 @@ impl Story {
     }
 }
 
-/// A type's name without the way to it.
+/// A type's name without its path.
 fn short(name: &'static str) -> &'static str {
     let head = name.split('<').next().unwrap_or(name);
     match head.rfind("::") {

@@ -1,4 +1,4 @@
-//! The outlines of slots, each made when lanes first ask for it.
+//! The packet filters of slots, each made at its first use.
 
 use crate::Geometry;
 use crate::csg::PacketCsg;
@@ -6,11 +6,11 @@ use durer_math::{Aabb, Shaft};
 use durer_surfaces::packet::{FilterSource, PacketFilter};
 use std::sync::OnceLock;
 
-/// Outlines by arena and slot.
+/// Packet filters by arena and slot.
 #[derive(Debug, Default)]
 pub(crate) struct Outlines(Vec<Vec<OnceLock<Box<SlotFilter>>>>);
 
-/// A slot as lanes see it.
+/// The packet filter of a slot.
 #[derive(Debug)]
 pub(crate) struct SlotFilter {
     pub(crate) seen: FilterKind,
@@ -18,14 +18,14 @@ pub(crate) struct SlotFilter {
     pub(crate) bounds: Aabb,
 }
 
-/// What lanes see.
+/// The kinds of packet filters.
 #[derive(Debug)]
 pub(crate) enum FilterKind {
     /// A surface.
     Outline(PacketFilter),
-    /// A body made of several solids.
+    /// A CSG solid.
     Body(Box<PacketCsg>),
-    /// Its numbers are too large or too small.
+    /// No filter: the surface's numbers are too large or too small.
     Nothing,
 }
 
@@ -36,10 +36,11 @@ impl FilterKind {
 }
 
 impl Outlines {
-    /// Each slot needs 16 bytes, made or not: 16 MiB are enough.
+    /// The greatest number of slots. Each takes 16 bytes, whether its filter is made or not: 16 MiB
+    /// are enough.
     const MOST: u64 = 1 << 20;
 
-    /// Room for all, none of them made.
+    /// An empty cell for each slot.
     pub(crate) fn of(geometry: &Geometry) -> Self {
         let slots: u64 = geometry.arenas.iter().map(|a| u64::from(a.len())).sum();
         if slots > Self::MOST {
@@ -58,13 +59,13 @@ impl Geometry {
         Some(place.get_or_init(|| Box::new(self.arenas[arena as usize].drawn(slot))))
     }
 
-    /// What lanes see of a slot.
+    /// The packet filter of a slot.
     #[inline]
     pub(crate) fn seen_of(&self, arena: u32, slot: u32) -> &FilterKind {
         self.drawn(arena, slot).map_or(&FilterKind::Nothing, |drawn| &drawn.seen)
     }
 
-    /// Whether no ray of a bundle meets a slot, by its box: `true` is certain.
+    /// Whether no ray of a bundle hits a slot, by its box; `true` is certain.
     #[inline]
     pub(crate) fn slot_misses(&self, arena: u32, slot: u32, shaft: &Shaft) -> bool {
         self.drawn(arena, slot).is_some_and(|drawn| !shaft.may_meet(&drawn.bounds))

@@ -1,4 +1,4 @@
-//! The built world.
+//! The built geometry.
 
 use crate::arena::AnyArena;
 use crate::closest::Placement;
@@ -10,32 +10,32 @@ use durer_bvh::{Bvh, Leaf, Settings};
 use durer_math::{Aabb, Affine, Isa};
 use std::sync::{Arc, OnceLock};
 
-/// How deep instances may be nested.
+/// The greatest depth of nested instances.
 pub(crate) const MAX_NESTING: u32 = 8;
 
 /// Surfaces, objects and instances, built once and then immutable: `Send`, `Sync`, and shared by
 /// all threads.
 ///
-/// Surfaces are kept by type, in the order of the tree's leaves. What has no bounded box is kept
-/// beside the tree.
+/// Surfaces are stored by type, in the order of the tree's leaves. Unbounded ones are stored beside
+/// the tree.
 pub struct Geometry {
     pub(crate) isa: Isa,
     pub(crate) arenas: Vec<Box<dyn AnyArena>>,
     /// In the order in which they were added, so that their placements ascend.
     instances: Vec<Instance>,
-    /// Which instance each slot is.
+    /// The instance in each slot.
     pub(crate) instance_slots: Vec<u32>,
     pub(crate) tree: Bvh,
     pub(crate) beside: Vec<Beside>,
     pub(crate) solids_in_parts: Vec<SolidInParts>,
     pub(crate) bounds: Aabb,
-    /// How the tree is built, if there is to be one.
+    /// How the tree is built; `None` if there is none.
     settings: Option<Settings>,
     objects: u32,
     placements: u32,
     depth: u32,
     invalid: AtomicU64,
-    /// Made when lanes first ask for them.
+    /// Made when a packet first needs them.
     pub(crate) outlines: OnceLock<Outlines>,
 }
 
@@ -62,7 +62,7 @@ impl Instance {
     }
 }
 
-/// Slots that no tree holds.
+/// Slots that are not in the tree.
 pub(crate) struct Beside {
     pub(crate) arena: u32,
     pub(crate) first: u32,
@@ -75,14 +75,14 @@ impl Beside {
     }
 }
 
-/// A solid whose parts the tree holds one by one: its inside is in no part's box.
+/// A solid whose parts are in the tree one by one: its interior is in no part's box.
 pub(crate) struct SolidInParts {
     pub(crate) arena: u32,
     pub(crate) surface: u32,
     pub(crate) bounds: Aabb,
 }
 
-/// All of them.
+/// All solids in parts.
 pub(crate) fn solids_in_parts(arenas: &[Box<dyn AnyArena>]) -> Vec<SolidInParts> {
     let mut all = Vec::new();
     for (i, arena) in arenas.iter().enumerate() {
@@ -138,13 +138,13 @@ impl Geometry {
         }
     }
 
-    /// A builder that holds what the geometry does.
+    /// A builder with the geometry's content.
     pub(crate) fn reopened(self) -> Builder {
         let arenas = self.arenas.into_iter().map(AnyArena::reopen).collect();
         Builder::again(arenas, self.instances, self.objects, self.settings, self.isa)
     }
 
-    /// A box that holds everything; unbounded if something in it is, empty if nothing is in it.
+    /// A box around everything; unbounded if something is, empty if there is nothing.
     pub fn bounds(&self) -> Aabb {
         self.bounds
     }
@@ -154,18 +154,18 @@ impl Geometry {
         self.objects
     }
 
-    /// How many placements there are, nested ones included, the geometry's own being the first.
+    /// The number of placements, nested ones included; the geometry's own is the first.
     pub fn placements(&self) -> u32 {
         self.placements
     }
 
-    /// How deep instances are nested: 0 without any.
+    /// How deeply instances are nested: 0 without any.
     pub fn depth(&self) -> u32 {
         self.depth
     }
 
-    /// How many invalid rays (not finite, without direction, or with an empty range) were asked so
-    /// far: they miss.
+    /// How many queries so far had an invalid ray (not finite, without direction, or with an empty
+    /// range); such a ray hits nothing.
     pub fn invalid_rays(&self) -> u64 {
         self.invalid.load(Ordering::Relaxed)
     }
@@ -174,12 +174,12 @@ impl Geometry {
         self.invalid.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// What the geometry consists of and what it costs.
+    /// Counts, memory and the cost of the tree.
     pub fn stats(&self) -> stats::Stats {
         stats::of(self)
     }
 
-    /// The same with all that its instances place, however deep.
+    /// The counts of this geometry and of all that its instances place, at any depth.
     pub fn inventory(&self) -> stats::Inventory {
         stats::Inventory::of(self)
     }
@@ -200,13 +200,13 @@ impl Geometry {
         &self.instances[self.instance_slots[slot as usize] as usize]
     }
 
-    /// The instance in which a placement is; `None` for the geometry's own.
+    /// The instance that contains a placement; `None` for the geometry's own.
     pub(crate) fn instance_of(&self, placement: u32) -> Option<&Instance> {
         let after = self.instances.partition_point(|i| i.first_placement <= placement);
         after.checked_sub(1).map(|i| &self.instances[i])
     }
 
-    /// The kind of leaves that hold instances: one more than the last arena's.
+    /// Whether a leaf holds instances. Their kind is one more than the last arena's.
     #[inline(always)]
     pub(crate) fn is_instances(&self, leaf: &Leaf) -> bool {
         leaf.kind as usize == self.arenas.len()

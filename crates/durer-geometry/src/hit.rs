@@ -1,13 +1,13 @@
-//! What queries answer with.
+//! The answers of queries.
 
 use durer_surfaces::{Root, RootKind};
 
-/// The number of an object, as the caller gave it: in a scene, the top-level objects count from 0
+/// The number of an object, as given by the caller: in a scene, the top-level objects count from 0
 /// in the order of the text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ObjectId(pub u32);
 
-/// The number of a primitive within its object: what a [`Hit`] answers with.
+/// The number of a primitive within its object, as in a [`Hit`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PrimitiveId(pub u32);
 
@@ -21,8 +21,8 @@ impl PrimitiveId {
     }
 }
 
-/// The number of a primitive within a [`Compound`](crate::Compound): it knows nothing of the object
-/// that the compound becomes a part of.
+/// The number of a primitive within a [`Compound`](crate::Compound). It does not depend on the
+/// object that the compound is added to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct LeafId(pub u32);
 
@@ -34,37 +34,37 @@ pub struct LeafId(pub u32);
 pub struct Hit {
     /// The crossing's parameter, in units of the ray's direction.
     pub t: f64,
-    /// The exact parameter is not below this.
+    /// A lower bound on the exact parameter.
     pub t_lo: f64,
-    /// The exact parameter is not above this.
+    /// An upper bound on the exact parameter.
     pub t_hi: f64,
-    /// The kernel's own tag (triangle: barycentric b1, b2). Texture coordinates come from
+    /// The kernel's own coordinates (triangle: barycentric b1, b2). Texture coordinates come from
     /// [`Geometry::resolve`](crate::Geometry::resolve).
     pub uv: [f64; 2],
     /// The object.
     pub object: u32,
     /// The primitive within the object.
     pub primitive: u32,
-    /// Which placement: 0 for what the geometry holds itself; then its instances in the order in
-    /// which they were added, each followed by those nested in it.
+    /// The placement: 0 for the geometry's own surfaces; then its instances in the order in which
+    /// they were added, each followed by those nested in it.
     pub instance: u32,
-    /// Which face of the primitive (cap, wall, side of a box).
+    /// The face of the primitive (cap, wall, side of a box).
     pub face: u32,
     /// The sign of (outward or stored normal) . direction: -1 entering, +1 leaving, 0 grazing.
     pub sign: i8,
     /// How sure the count is.
     pub kind: RootKind,
-    /// The crossing in the kernel's own parameter: what `resolve` starts from, without the digits
-    /// that `t` lost.
+    /// The crossing in the kernel's own parameter: `resolve` starts from it, as `t` has lost
+    /// digits.
     pub(crate) s: f64,
-    /// Where the primitive is kept.
+    /// The arena of the primitive.
     pub(crate) arena: u32,
-    /// Its place there.
+    /// Its slot there.
     pub(crate) slot: u32,
 }
 
 impl Hit {
-    /// The kernel's root, nothing lost.
+    /// The kernel's root, without loss.
     #[inline]
     pub fn root(&self) -> Root {
         Root {
@@ -79,11 +79,11 @@ impl Hit {
         }
     }
 
-    /// The order of hits along a ray: by `t`, then object and primitive. What is equal in all these
-    /// is ordered by placement and storage.
+    /// The order of hits along a ray: by `t`, then object and primitive. Hits that are equal in all
+    /// these are ordered by placement and storage.
     ///
-    /// Two crossings of one surface may round to one `t`: they are equal here, and every query
-    /// keeps the order in which the surface gave them, which is their exact one. So a solid is
+    /// Two crossings of one surface may round to the same `t`. They are equal here, and every query
+    /// keeps the order in which the surface reported them, which is their exact one. So a solid is
     /// entered before it is left.
     #[inline]
     pub fn order(&self, other: &Self) -> core::cmp::Ordering {
@@ -92,12 +92,12 @@ impl Hit {
     }
 }
 
-/// A stretch of a ray inside solids.
+/// An interval of a ray inside solids.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
-    /// Where it begins.
+    /// Its begin.
     pub t_in: f64,
-    /// Where it ends.
+    /// Its end.
     pub t_out: f64,
     /// The object whose surface is entered; `None` if the ray's range begins inside.
     pub object_in: Option<ObjectId>,

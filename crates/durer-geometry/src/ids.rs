@@ -1,16 +1,16 @@
 //! Object and primitive numbers and masks, in arrays beside the surfaces.
 
-/// The mask of what every ray meets.
+/// The mask that every ray matches.
 pub const EVERYTHING: u32 = u32::MAX;
 
-/// What a surface is called.
+/// The object and primitive numbers of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Id {
     pub(crate) object: u32,
     pub(crate) primitive: u32,
 }
 
-/// The names and masks of an arena's surfaces.
+/// The numbers and masks of an arena's surfaces.
 #[derive(Debug, Default)]
 pub(crate) struct Ids {
     names: Vec<Id>,
@@ -34,13 +34,13 @@ impl Ids {
         self.names[surface]
     }
 
-    /// Which rays meet the surface.
+    /// The mask of a surface.
     #[inline(always)]
     pub(crate) fn mask(&self, surface: usize) -> u32 {
         self.masks.get(surface).copied().unwrap_or(EVERYTHING)
     }
 
-    /// Whether a ray with this mask meets the surface.
+    /// Whether a ray with this mask can hit the surface.
     #[inline(always)]
     pub(crate) fn admits(&self, surface: usize, mask: u32) -> bool {
         self.mask(surface) & mask != 0

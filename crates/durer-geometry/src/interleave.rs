@@ -1,4 +1,4 @@
-//! Rays that go through a tree side by side: see [`durer_bvh::Rays`].
+//! Queries of several rays that traverse a tree at the same time: see [`durer_bvh::Rays`].
 
 use crate::Hit;
 use crate::closest::ClosestHit;
@@ -10,10 +10,10 @@ use durer_bvh::{Leaf, PACKET, Packet32, Ray32, Ray64, Rays};
 use durer_math::Ray;
 use durer_surfaces::{LocalRay, Need, SurfacePoint};
 
-/// A tree of fewer things is in the cache, where single rays are as fast.
+/// A tree of fewer entries fits into the cache, where single rays are as fast.
 const LEAST: usize = 1 << 12;
 
-/// How many rays of a batch are prepared at a time.
+/// How many rays of a batch are set up at a time.
 pub(crate) const ABREAST: usize = 256;
 
 impl Geometry {
@@ -29,7 +29,8 @@ impl Geometry {
         hits.extend(memory.best.into_iter().map(|best| best.hit));
     }
 
-    /// [`Geometry::first_visible`] of a few rays, told to `put` by their numbers.
+    /// [`Geometry::first_visible`] of a few rays; `put` receives the answers with their rays'
+    /// numbers.
     pub(crate) fn seen_abreast(
         &self,
         rays: &[Ray],
@@ -50,7 +51,7 @@ impl Geometry {
         }
     }
 
-    /// [`Geometry::any_masked`] of a few rays, told to `put` by their numbers.
+    /// [`Geometry::any_masked`] of a few rays; `put` receives the answers with their rays' numbers.
     pub(crate) fn any_abreast(
         &self,
         rays: &[Ray],
@@ -71,7 +72,7 @@ impl Geometry {
     }
 }
 
-/// Memory for what is known of rays on the way.
+/// Reusable memory for rays under way.
 #[derive(Debug, Default)]
 pub(crate) struct Abreast {
     locals: Vec<LocalRay<'static>>,
@@ -79,14 +80,14 @@ pub(crate) struct Abreast {
     met: Vec<bool>,
 }
 
-/// Rays, and those under way in the geometry's frame.
+/// The rays of a query; those that have started are also in the geometry's frame.
 struct All<'a> {
     geometry: &'a Geometry,
     rays: &'a [Ray],
     mask: u32,
     locals: &'a mut Vec<LocalRay<'static>>,
-    /// The last sixteen rays that were asked for together, as the tree sees them, each at its
-    /// number's remainder: eight that are asked for may have to wait for eight more.
+    /// The last sixteen rays that were set up in groups of eight, in the tree's form, each at its
+    /// number modulo sixteen: a group of eight may have to wait for the next one.
     together: [Option<Ray64>; 2 * PACKET],
 }
 
@@ -102,7 +103,7 @@ impl<'a> All<'a> {
         Self { geometry, rays, mask, locals, together: [None; 2 * PACKET] }
     }
 
-    /// Makes ready the next ray: they are asked for in their order.
+    /// Starts the next ray; the tree requests them in their order.
     #[inline(always)]
     fn start(&mut self, ray: usize, local: LocalRay<'static>) -> bool {
         debug_assert_eq!(ray, self.locals.len());
@@ -114,15 +115,15 @@ impl<'a> All<'a> {
         is_valid
     }
 
-    /// Whether eight rays look as if they could go together: the first and the last have much the
-    /// same direction.
+    /// A guess whether eight rays can form a packet: whether the first and the last have similar
+    /// directions.
     #[inline(always)]
     fn are_alike(&self, first: usize) -> bool {
         let Some([a, .., b]) = self.rays[first..].first_chunk::<PACKET>() else { return false };
         (a.direction - b.direction).max_abs() <= a.direction.max_abs() * (1.0 / 8.0)
     }
 
-    /// The line of a ray that was made ready together with others.
+    /// The result of the set-up of a ray, if it was set up in a group.
     #[inline(always)]
     fn made_ready(&self, ray: usize) -> Option<Option<Ray64>> {
         (ray < self.locals.len()).then(|| self.together[ray % (2 * PACKET)])
@@ -137,7 +138,7 @@ impl<'a> All<'a> {
 struct Closest<'a> {
     all: All<'a>,
     best: &'a mut Vec<ClosestHit>,
-    /// Whether nobody will see how wide a bracket is.
+    /// Whether the preview width of brackets suffices.
     rough: bool,
 }
 
@@ -154,7 +155,7 @@ impl<'a> Closest<'a> {
         Self { all: All::of(geometry, rays, mask, locals), best, rough }
     }
 
-    /// Makes a ray ready; `None` if it is to meet nothing more.
+    /// Sets up a ray; `None` if nothing in the tree matters to it.
     #[inline(always)]
     fn ready(&mut self, ray: usize) -> Option<Ray64> {
         let local = LocalRay::new(&self.all.rays[ray]);
@@ -221,7 +222,7 @@ struct Any<'a> {
 }
 
 impl Any<'_> {
-    /// Makes a ray ready; `None` if it is to meet nothing more.
+    /// Sets up a ray; `None` if nothing in the tree matters to it.
     #[inline(always)]
     fn ready(&mut self, ray: usize) -> Option<Ray64> {
         if !self.all.start(ray, LocalRay::new(&self.all.rays[ray]).roughly()) {
@@ -286,8 +287,8 @@ mod tests {
     use durer_math::{Isa, Point3, Vec3};
     use durer_surfaces::{Mesh, MeshData, Plane, Sphere};
 
-    /// A hilly sheet of 8192 triangles, 900 balls half sunk into it, every other one seen by some
-    /// rays only, and a plane below.
+    /// A hilly sheet of 8192 triangles, 900 balls half sunk into it, every other one visible to
+    /// some rays only, and a plane below.
     fn world(isa: Isa) -> Geometry {
         const SIDE: u32 = 64;
         let height = |i: u32, j: u32| f64::from((i * i + 3 * j * j + i * j) % 17) / 16.0;
@@ -314,8 +315,8 @@ mod tests {
         builder.build().unwrap()
     }
 
-    /// Many rays see what each sees alone, to the bit: those of a camera, those that leave what
-    /// these see, and some that are no rays.
+    /// Rays at the same time get the answers of single rays, to the bit: camera rays, rays that
+    /// leave their hits, and some invalid rays.
     #[test]
     fn what_is_seen_abreast_is_what_is_seen() {
         for isa in Isa::available() {

@@ -1,4 +1,4 @@
-//! Closest, any and all.
+//! The queries closest, any and all.
 
 use crate::closest::ClosestHit;
 use crate::context::RayContext;
@@ -16,7 +16,7 @@ impl Geometry {
         self.closest_masked(ray, EVERYTHING)
     }
 
-    /// The first hit of what has a bit in common with `mask`.
+    /// The first hit of a surface whose mask has a common bit with `mask`.
     pub fn closest_masked(&self, ray: &Ray, mask: u32) -> Option<Hit> {
         self.walk(ray, mask, |walk| {
             let mut best = ClosestHit::least();
@@ -27,7 +27,7 @@ impl Geometry {
 
     /// The first hit and its point, for pictures: brackets may be as wide as
     /// [`durer_surfaces::PREVIEW_WIDTH`] allows, so of two surfaces that are nearer to each other
-    /// either may be seen. What is hit at all is exact.
+    /// either may be returned. Whether anything is hit is exact.
     #[inline]
     pub fn first_visible(&self, ray: &Ray, mask: u32, need: Need) -> Option<(Hit, SurfacePoint)> {
         self.walk_roughly(
@@ -48,16 +48,16 @@ impl Geometry {
         self.any_masked(ray, EVERYTHING)
     }
 
-    /// Whether anything is hit that has a bit in common with `mask`.
+    /// Whether a surface is hit whose mask has a common bit with `mask`.
     pub fn any_masked(&self, ray: &Ray, mask: u32) -> bool {
         self.walk_roughly(ray, mask, any).unwrap_or(false)
     }
 
-    /// Whether there is a hit that `accept` accepts. The hits come in no particular order, each at
-    /// most once, and nothing is allocated.
+    /// Whether there is a hit for which `accept` returns true. The hits come in no particular
+    /// order, each at most once, and nothing is allocated.
     ///
-    /// What must not depend on an order (a product of rounded numbers) is better computed from
-    /// [`Geometry::all_into`].
+    /// A result that must not depend on the order (a product of rounded numbers) is better computed
+    /// from [`Geometry::all_into`].
     pub fn any_where(&self, ray: &Ray, mask: u32, mut accept: impl FnMut(&Hit) -> bool) -> bool {
         let visit = &mut |hit: &Hit| if accept(hit) { Flow::Stop } else { Flow::Continue };
         self.walk(ray, mask, |walk| each(walk, visit)).is_some_and(|flow| flow == Flow::Stop)
@@ -68,14 +68,14 @@ impl Geometry {
         self.all_masked(ray, EVERYTHING)
     }
 
-    /// Every crossing with what has a bit in common with `mask`.
+    /// Every crossing with surfaces whose mask has a common bit with `mask`.
     pub fn all_masked(&self, ray: &Ray, mask: u32) -> Vec<Hit> {
         let mut hits = Vec::new();
         self.all_into(ray, mask, &mut hits);
         hits
     }
 
-    /// As [`Geometry::all_masked`], into a buffer that is cleared first and can be used again.
+    /// [`Geometry::all_masked`] into a buffer that is cleared first and can be reused.
     pub fn all_into(&self, ray: &Ray, mask: u32, hits: &mut Vec<Hit>) {
         hits.clear();
         self.walk(ray, mask, |walk| {
@@ -84,21 +84,21 @@ impl Geometry {
                 Flow::Continue
             })
         });
-        // Stable: two crossings of one surface may round to one t, and it gave them in their exact
-        // order.
+        // Stable: two crossings of one surface may round to one t, and it reported them in their
+        // exact order.
         hits.sort_by(Hit::order);
     }
 
-    /// Where the ray is inside the union of all solids: merged, ascending; open surfaces are
-    /// ignored.
+    /// The intervals of the ray inside the union of all solids: merged, ascending; open surfaces
+    /// are ignored.
     ///
-    /// A ray that starts inside has `t_in = t_min` and no `object_in`. Works for unbounded solids
-    /// too. Touches have no length and do not show.
+    /// A ray that starts inside has `t_in = t_min` and no `object_in`. Unbounded solids are
+    /// included. Touches have no length and are left out.
     pub fn spans(&self, ray: &Ray) -> Vec<Span> {
         self.spans_masked(ray, EVERYTHING)
     }
 
-    /// As [`Geometry::spans`], of the solids that have a bit in common with `mask`.
+    /// [`Geometry::spans`] of the solids whose mask has a common bit with `mask`.
     pub fn spans_masked(&self, ray: &Ray, mask: u32) -> Vec<Span> {
         let tracks = self.walk(ray, mask, |walk| {
             let mut tracks = Tracks::new(mask);
@@ -118,7 +118,7 @@ impl Geometry {
         self.walk_along(ray, LocalRay::new, mask, f)
     }
 
-    /// As `walk`, where nobody will see how wide a bracket is.
+    /// `walk`, with brackets of the preview width.
     #[inline(always)]
     pub(crate) fn walk_roughly<R>(
         &self,
@@ -157,7 +157,7 @@ impl Geometry {
     }
 }
 
-/// Improves `best` by what the ray meets in one geometry.
+/// Updates `best` with the hits of the ray in one geometry.
 pub(crate) fn closest(walk: &RayContext<'_>, best: &mut ClosestHit) {
     walk.geometry.isa.run(
         #[inline(always)]
@@ -238,7 +238,7 @@ pub(crate) fn any_in(walk: &RayContext<'_>, leaf: Leaf) -> bool {
     }
 }
 
-/// Shows every hit to `visit`.
+/// Passes every hit to `visit`.
 pub(crate) fn each(walk: &RayContext<'_>, visit: &mut dyn FnMut(&Hit) -> Flow) -> Flow {
     let geometry = walk.geometry;
     let mut test = |leaf: Leaf| {
@@ -281,7 +281,7 @@ fn spans(walk: &RayContext<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks) {
         gather(leaf, tracks);
         false
     });
-    // A solid in parts may hold the whole range without one of its parts being near it.
+    // The whole range may be inside a solid in parts without being near any of its parts.
     (tracks.placement, tracks.source) = (walk.placement, None);
     for solid in &geometry.solids_in_parts {
         tracks.arena = solid.arena;

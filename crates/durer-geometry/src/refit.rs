@@ -1,4 +1,4 @@
-//! Surfaces that move, in the geometry that they are in.
+//! Surfaces that move: new surfaces in an existing geometry.
 
 use crate::arena::Arena;
 use crate::filter_cache::Outlines;
@@ -10,11 +10,11 @@ use durer_math::Aabb;
 use durer_surfaces::Surface;
 use std::sync::OnceLock;
 
-/// Why a geometry cannot follow what has moved. It is what it was; one that is built anew holds any
-/// surfaces.
+/// Why a geometry cannot be refitted. It is then unchanged; a geometry that is built anew can hold
+/// any surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RefitError {
-    /// A surface has other parts: a mesh other faces with an area, say.
+    /// A surface has other parts than before: for example, a mesh has other faces with an area.
     #[error("geometry: primitive {primitive} of object {object} has other parts than before: build anew")]
     Parts {
         /// The object.
@@ -22,7 +22,7 @@ pub enum RefitError {
         /// The primitive within the object.
         primitive: u32,
     },
-    /// A surface was bounded and is not any more, or it was nowhere and is somewhere, or the other
+    /// A surface was bounded and is not any more, or it was empty and is not any more, or the other
     /// way round.
     #[error(
         "geometry: primitive {primitive} of object {object} has other bounds than the tree can hold: build anew"
@@ -36,13 +36,13 @@ pub enum RefitError {
 }
 
 impl Geometry {
-    /// Puts other surfaces in the place of those of type `S`, where `moved` gives one for an
-    /// object, a primitive and the surface as it is.
+    /// Replaces surfaces of type `S` for which `moved` returns another one, given the object, the
+    /// primitive and the present surface.
     ///
-    /// The tree keeps its nodes and gets new boxes, in a fraction of the time that it takes to
-    /// build one. Answers are those of a geometry that is built anew. Rays take as long as before
-    /// while neighbours stay neighbours; when the tree's cost in [`Geometry::stats`] has grown by
-    /// half, it pays to [build anew](Geometry::rebuild).
+    /// The tree keeps its nodes and gets new boxes, in a fraction of the time of a build. Answers
+    /// are those of a geometry that is built anew. Queries take as long as before while neighbours
+    /// stay neighbours; when the tree's cost in [`Geometry::stats`] has grown by half, it pays to
+    /// [build anew](Geometry::rebuild).
     ///
     /// ```
     /// use durer_geometry::Geometry;
@@ -59,7 +59,7 @@ impl Geometry {
     ///
     /// # Errors
     ///
-    /// If the tree has no place for what has moved; see [`RefitError`].
+    /// If the tree cannot hold the new surfaces; see [`RefitError`].
     pub fn refit<S: Surface + 'static>(
         &mut self,
         mut moved: impl FnMut(ObjectId, PrimitiveId, &S) -> Option<S>,
@@ -80,11 +80,11 @@ impl Geometry {
         refitted
     }
 
-    /// The same with a tree that is built anew: as good as the first one, wherever things have
-    /// moved, and with surfaces that have other parts or bounds.
+    /// Replaces surfaces like [`Geometry::refit`], but builds the tree anew: as good as the first
+    /// one, wherever things have moved, and with surfaces that have other parts or bounds.
     ///
-    /// Of what is left alone nothing is made again but the order. Answers are those of a geometry
-    /// that is built anew.
+    /// The surfaces that are not replaced are only sorted. Answers are those of a geometry that is
+    /// built anew.
     ///
     /// ```
     /// use durer_geometry::Geometry;
@@ -111,15 +111,15 @@ impl Geometry {
         builder.build()
     }
 
-    /// Renews what depends on where the surfaces of a kind are; if that cannot be, nothing.
+    /// Updates everything that depends on the positions of the surfaces of a kind; on an error
+    /// nothing has changed.
     fn follow(&mut self, kind: usize) -> Result<(), RefitError> {
         let mut boxes: Vec<Vec<Aabb>> = self.arenas.iter().map(|arena| arena.slot_bounds()).collect();
         let refused = |slot: usize| {
             let Id { object, primitive } = self.arenas[kind].name(slot as u32);
             Err(RefitError::Bounds { object, primitive })
         };
-        // Behind what the tree holds stands what every ray asks about, and behind that what is
-        // nowhere.
+        // The slots in the tree come first, then those that every ray tests, then the empty ones.
         let in_tree = self.tree.count(kind as u32);
         let asked = self.beside.iter().find(|b| b.arena as usize == kind);
         let met = asked.map_or(in_tree, |b| (b.first + b.count) as usize);

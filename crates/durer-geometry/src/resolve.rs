@@ -1,4 +1,4 @@
-//! From a hit to a point of a surface; and on which side of all solids a point lies.
+//! From a hit to a point of a surface, and the side of all solids on which a point lies.
 
 use crate::Hit;
 use crate::csg::same_surface;
@@ -7,12 +7,13 @@ use durer_math::{Point3, Ray, RaySide, Source};
 use durer_surfaces::{LocalPoint, LocalRay, Need, Side, SurfacePoint};
 
 impl Geometry {
-    /// Everything about the point of a hit that one of this geometry's queries gave for this very ray.
+    /// Everything about the point of a hit that one of this geometry's queries returned for this
+    /// very ray.
     pub fn resolve(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         self.resolve_with(ray, hit, Need::ALL)
     }
 
-    /// As [`Geometry::resolve`], as far as `need` asks.
+    /// [`Geometry::resolve`], as far as `need` requires.
     ///
     /// # Panics
     ///
@@ -21,7 +22,7 @@ impl Geometry {
         self.point_of(&LocalRay::new(ray), ray.source(), hit, need)
     }
 
-    /// The point of a hit on a ray that came from `source`.
+    /// The point of a hit on a ray that was spawned from `source`.
     #[inline(always)]
     pub(crate) fn point_of(
         &self,
@@ -48,7 +49,7 @@ impl Geometry {
         point
     }
 
-    /// In this geometry's frame: `placement` is counted from this geometry's own.
+    /// Resolves in this geometry's frame: `placement` is counted from this geometry's own.
     fn resolve_in(&self, ray: &LocalRay<'_>, placement: u32, hit: &Hit, need: Need) -> (SurfacePoint, u32) {
         let Some(instance) = self.instance_of(placement) else {
             let arena = &self.arenas[hit.arena as usize];
@@ -60,8 +61,8 @@ impl Geometry {
         (point.placed(&instance.affine), part)
     }
 
-    /// On which side of the union of all solids a point lies: exact. A point on the common border of two solids that touch is
-    /// [`Side::On`].
+    /// The exact side of the union of all solids on which a point lies. A point on the common
+    /// border of two solids that touch is [`Side::On`].
     pub fn side(&self, point: Point3) -> Side {
         if !point.is_finite() {
             return Side::Out;
@@ -71,7 +72,7 @@ impl Geometry {
 
     fn side_of(&self, point: &LocalPoint<'_>) -> Side {
         let mut found = Side::Out;
-        // Says whether there is nothing more to learn.
+        // Takes one side into account; returns whether the result is final.
         let mut learn = |side: Side| {
             match side {
                 Side::In => found = Side::In,
@@ -88,7 +89,7 @@ impl Geometry {
                 });
             }
             let arena = &self.arenas[leaf.kind as usize];
-            // The inside of a solid in parts is in no part's box.
+            // The interior of a solid in parts is in no part's box.
             slots(&leaf).filter_map(|slot| arena.whole(slot)).any(|surface| learn(arena.side(surface, point)))
         };
         let done = self.beside.iter().any(|b| test(b.leaf()))

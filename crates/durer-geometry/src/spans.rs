@@ -1,8 +1,8 @@
-//! In and out: the stretches of a ray inside the union of all solids.
+//! Spans: the intervals of a ray inside the union of all solids.
 //!
-//! Each solid's crossings are turned into states by their signs; whether a ray starts inside is
-//! told by the first sign, and for solids that are not crossed by the crossings outside the range
-//! or by the exact side of a point. Then one sweep merges the solids: crossings whose enclosures
+//! Each solid's crossings are turned into states by their signs. Whether the ray starts inside is
+//! decided by the first sign; for solids that are not crossed, by the crossings outside the range
+//! or by the exact side of a point. Then one sweep merges the solids: crossings whose brackets
 //! overlap (transitively) form one group, all their bits are flipped, and only the union before and
 //! after counts, so that touching bodies fuse and no skin of zero thickness appears (S. D. Roth,
 //! "Ray casting for modeling solids", Computer Graphics and Image Processing 18, 1982; R. B.
@@ -14,7 +14,7 @@ use crate::ids::Id;
 use crate::{ObjectId, Span};
 use durer_surfaces::{PartId, Root};
 
-/// Which solid: placement, arena, surface.
+/// A solid: placement, arena, surface.
 type Key = (u32, u32, u32);
 
 /// A crossing of a solid that changes sides.
@@ -29,7 +29,7 @@ struct Event {
     part: u32,
 }
 
-/// What a traversal gathers for [`Tracks::merge`].
+/// The crossings that a traversal collects, with their context.
 pub(crate) struct Tracks {
     events: Vec<Event>,
     starts: Vec<(Key, bool)>,
@@ -64,7 +64,7 @@ impl Tracks {
         self.events.len()
     }
 
-    /// A crossing of a part of a solid; a touch has no length and is left out.
+    /// Adds a crossing of a part of a solid. A touch has no length and is left out.
     pub(crate) fn push(&mut self, surface: u32, part: PartId, id: Id, root: &Root) {
         if root.sign != 0 {
             self.events.push(Event {
@@ -79,27 +79,27 @@ impl Tracks {
         }
     }
 
-    /// Whether the ray starts inside a solid whose crossings do not tell.
+    /// Records whether the ray starts inside a solid whose crossings do not decide it.
     pub(crate) fn start(&mut self, surface: u32, inside: bool) {
         self.starts.push((self.key(surface), inside));
     }
 
-    /// Whether the crossings of a surface tell whether the ray starts inside.
+    /// Whether the crossings of a surface decide whether the ray starts inside.
     pub(crate) fn tell(&self, surface: u32) -> bool {
         let key = self.key(surface);
         self.events.iter().filter(|e| e.solid == key).map(|e| i32::from(e.sign)).sum::<i32>() != 0
     }
 
-    /// The same of a surface's crossings that were shown in a row, ascending, from this one on:
-    /// those that overlap count by their sum.
+    /// [`Tracks::tell`] for a surface whose crossings are those from `first` on, ascending:
+    /// overlapping ones count by their sum.
     pub(crate) fn tell_from(&self, first: usize) -> bool {
         overlapping(&self.events[first..]).any(|group| net(group) != 0)
     }
 
     /// The spans of the union.
     pub(crate) fn merge(mut self, t_min: f64, t_max: f64) -> Vec<Span> {
-        // Where crossings of one solid fall together the order of its parts counts, not that in
-        // which a tree shows them.
+        // Where crossings of one solid coincide, the order of its parts counts, not that of the
+        // tree.
         self.events.sort_by(|a, b| a.solid.cmp(&b.solid).then(a.t.total_cmp(&b.t)).then(a.part.cmp(&b.part)));
         let mut depth = self.inside_without_crossing();
         let mut changes = Vec::with_capacity(self.events.len());
@@ -108,12 +108,12 @@ impl Tracks {
             let told = self.starts.iter().find(|s| s.0 == solid[0].solid).map(|s| s.1);
             depth += usize::from(transitions(solid, told, &mut changes));
         }
-        // Stable: what one solid does in a row stays in its order.
+        // Stable: successive crossings of one solid stay in their order.
         changes.sort_by(|a, b| a.lo.total_cmp(&b.lo).then(a.t.total_cmp(&b.t)));
         sweep(&changes, depth, t_min, t_max)
     }
 
-    /// How many solids without crossings hold the whole range.
+    /// The number of solids without crossings that contain the whole range.
     fn inside_without_crossing(&self) -> usize {
         let crossed = |key: &Key| self.events.binary_search_by(|e| e.solid.cmp(key)).is_ok();
         let mut inside: Vec<Key> =
@@ -124,8 +124,8 @@ impl Tracks {
     }
 }
 
-/// A crossing of a solid is not before the earlier ones of the same: said by the lower ends, by
-/// which all solids' crossings are put in order.
+/// Makes the lower ends of one solid's brackets ascend, as a crossing is not before the earlier
+/// ones of the same solid. The crossings of all solids are sorted by these ends.
 fn keep_order(events: &mut [Event]) {
     let mut lo = f64::NEG_INFINITY;
     for event in events {
@@ -134,11 +134,12 @@ fn keep_order(events: &mut [Event]) {
     }
 }
 
-/// Turns the crossings of one solid into changes of state, alternating; says whether the ray starts
-/// inside.
+/// Turns the crossings of one solid into alternating changes of state; returns whether the ray
+/// starts inside.
 fn transitions(events: &[Event], told: Option<bool>, changes: &mut Vec<Event>) -> bool {
     let groups = || overlapping(events);
-    // A group's net sign tells the state before it; groups without one leave the state as it was.
+    // A group's net sign determines the state before it; a group without one does not change the
+    // state.
     let by_net = groups().map(net).find(|&n| n != 0).map(|n| n > 0);
     let starts_inside = by_net.or(told).unwrap_or(events[0].sign > 0);
     let mut inside = starts_inside;
@@ -164,7 +165,7 @@ fn net(group: &[Event]) -> i32 {
     group.iter().map(|e| i32::from(e.sign)).sum()
 }
 
-/// Runs of events whose enclosures overlap transitively.
+/// The groups of events whose brackets overlap transitively.
 fn overlapping(events: &[Event]) -> impl Iterator<Item = &[Event]> {
     let mut rest = events;
     core::iter::from_fn(move || {
@@ -183,7 +184,7 @@ fn overlapping(events: &[Event]) -> impl Iterator<Item = &[Event]> {
     })
 }
 
-/// Walks along the ray and keeps the number of solids that hold it.
+/// Sweeps along the ray and counts the solids that contain each point.
 fn sweep(changes: &[Event], depth: usize, t_min: f64, t_max: f64) -> Vec<Span> {
     let mut spans = Vec::new();
     let mut depth = depth as i64;
@@ -199,7 +200,7 @@ fn sweep(changes: &[Event], depth: usize, t_min: f64, t_max: f64) -> Vec<Span> {
         } else if before > 0 && depth <= 0 {
             let t = of_sign(1).map(|e| e.t).fold(f64::NEG_INFINITY, f64::max);
             if let Some((t_in, object_in)) = open.take() {
-                // A range that begins where a solid ends is not in it.
+                // A range that begins where a solid ends is outside of it.
                 if object_in.is_some() || t > t_in {
                     spans.push(Span { t_in, t_out: t, object_in, object_out: first_object(1) });
                 }
@@ -272,7 +273,7 @@ mod tests {
 
     #[test]
     fn what_one_solid_does_in_a_row_stays_in_its_order() {
-        // Out and in again at the start, where the second is known less well than the first.
+        // Leaves and enters at the start; the second crossing has the wider bracket.
         let events = [event(0, 0.0, 0.0, 1), event(0, 0.0, 0.5, -1)];
         assert_eq!(merged(&events, &[(0, true)]), [(0.0, 100.0, Some(0), None)]);
     }
@@ -281,10 +282,10 @@ mod tests {
     fn a_thin_solid_is_kept_and_seams_of_one_solid_are_not() {
         let thin = [event(0, 1.0, 0.1, -1), event(0, 1.05, 0.1, 1)];
         assert_eq!(merged(&thin, &[]), [(1.0, 1.05, Some(0), Some(0))]);
-        // Two faces report one entry: the net sign says "in", once.
+        // Two faces report one entry: by the net sign the ray enters once.
         let seam = [event(0, 1.0, 0.1, -1), event(0, 1.05, 0.1, -1), event(0, 4.0, 0.0, 1)];
         assert_eq!(merged(&seam, &[]), [(1.0, 4.0, Some(0), Some(0))]);
-        // A sliver whose crossings were rounded past each other, then the body.
+        // A sliver whose crossings were swapped by rounding, then the body.
         let swapped =
             [event(0, 1.0, 0.1, 1), event(0, 1.05, 0.1, -1), event(0, 2.0, 0.0, -1), event(0, 4.0, 0.0, 1)];
         assert_eq!(merged(&swapped, &[]), [(2.0, 4.0, Some(0), Some(0))]);

@@ -1,4 +1,4 @@
-//! What a geometry consists of and what it costs.
+//! Statistics of a geometry.
 
 use crate::geometry::{Geometry, Instance};
 use std::collections::HashMap;
@@ -10,11 +10,11 @@ pub struct Stats {
     /// Each type of surface with the number of its surfaces or parts, in the order in which the
     /// types were first added.
     pub kinds: Vec<(&'static str, u32)>,
-    /// Surfaces and parts, instances not counted.
+    /// The number of surfaces and parts, without instances.
     pub primitives: u64,
-    /// Instances.
+    /// The number of instances.
     pub instances: usize,
-    /// What is tested beside the tree, by every ray.
+    /// The number of slots beside the tree, which every ray tests.
     pub beside: u64,
     /// The tree.
     pub tree: durer_bvh::Stats,
@@ -38,16 +38,16 @@ pub(crate) fn of(geometry: &Geometry) -> Stats {
     }
 }
 
-/// What a geometry consists of together with all that its instances place, at any depth.
+/// Counts of a geometry and of all that its instances place, at any depth.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Inventory {
-    /// Geometries, itself included, each once however often it is placed.
+    /// The number of geometries, itself included, each counted once however often it is placed.
     pub geometries: usize,
     /// Each type of surface with the number of its surfaces or parts in these geometries.
     pub kinds: Vec<(&'static str, u64)>,
-    /// Surfaces and parts as rays meet them: once for each placement.
+    /// The number of surfaces and parts, counted once for each placement.
     pub placed: u128,
-    /// Bytes on the heap, as [`Stats::bytes`] counts them, of all of these geometries.
+    /// Bytes on the heap of all of these geometries, counted as in [`Stats::bytes`].
     pub bytes: usize,
 }
 
@@ -58,8 +58,8 @@ impl Inventory {
         inventory
     }
 
-    /// Adds a geometry and those that it places, and says how many primitives it has as rays meet
-    /// them.
+    /// Adds a geometry and those that it places; returns its number of primitives, counted once for
+    /// each placement.
     fn count(&mut self, geometry: &Geometry, known: &mut HashMap<*const Geometry, u128>) -> u128 {
         let stats = of(geometry);
         self.geometries += 1;

@@ -14,7 +14,7 @@ use durer_surfaces::{
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What a hit says, without where it is kept.
+/// The content of a hit without its place in memory.
 fn public(hit: &Hit) -> impl PartialEq + core::fmt::Debug + use<> {
     let numbers = [hit.t, hit.t_lo, hit.t_hi, hit.uv[0], hit.uv[1]].map(f64::to_bits);
     (numbers, hit.object, hit.primitive, hit.instance, hit.face, hit.sign, hit.kind)
@@ -54,8 +54,8 @@ fn mixed_surfaces() {
     assert!(crossings > 2000, "{crossings} crossings test little");
 }
 
-/// Small triangles and large ones through them, by themselves and as a mesh, a solid of long
-/// triangles, and other things.
+/// Small triangles and large ones through them, single and as a mesh, a solid of long triangles,
+/// and other surfaces.
 fn fill_with_triangles(builder: &mut Builder, dice: &mut Dice) {
     for i in 0..600 {
         let (a, size) = (dice.point(4.0), if i % 12 == 0 { 6.0 } else { 0.2 });
@@ -114,7 +114,7 @@ fn all_instruction_sets() {
     for isa in Isa::available() {
         let tree = build(isa, false);
         if isa.path() == Path::Unfused {
-            // Its own brackets, but the same for tree and brute force.
+            // Each path has brackets of its own, equal for tree and brute force.
             assert_same(&tree, &build(isa, true), &rays);
         } else {
             assert_same(&tree, &reference, &rays);
@@ -159,7 +159,7 @@ fn nested_instances() {
 
 #[test]
 fn batches_on_any_number_of_threads() {
-    // Many rays go side by side through the larger one.
+    // In the larger world rays traverse the tree at the same time.
     for (things, count) in [(300, 3000), (5000, 1500)] {
         batches_of(things, count);
     }
@@ -171,7 +171,7 @@ fn batches_of(things: usize, count: usize) {
     builder.add(ground());
     let world = builder.build().unwrap();
     let mut rays = rays(&mut Dice(32), count);
-    // Some are neighbours, and go together where they can.
+    // Some rays are neighbours, and form packets where they can.
     let mut dice = Dice(33);
     for some in rays.chunks_mut(24) {
         let one = some[0];
@@ -215,7 +215,7 @@ fn builds_on_any_number_of_threads_answer_alike() {
     };
     let (one, three) = (on(1), on(3));
     assert!(one.tree() == three.tree());
-    // Even where things are kept is the same.
+    // Even the places in memory are equal.
     for ray in rays(&mut Dice(42), 300) {
         assert_eq!(one.closest(&ray), three.closest(&ray));
     }
@@ -268,7 +268,8 @@ fn extreme_rays_and_sizes() {
     }
 }
 
-/// Rays that share one search are answered as each by itself, and what is seen is what is closest.
+/// Rays that share one search get the answers of single rays, and the first visible hit is the
+/// closest.
 #[test]
 fn bundles_of_rays() {
     let (mut shared, mut hits) = (0, 0);
@@ -283,7 +284,7 @@ fn bundles_of_rays() {
             }
             let seen = tree.first_visible(&ray, u32::MAX, Need::POINT);
             assert_eq!(seen.is_some(), tree.any(&ray), "{ray:?}");
-            // Brackets may be wider, but they hold the same crossing.
+            // Brackets may be wider, but they contain the same crossing.
             if let (Some((seen, _)), Some(closest)) = (&seen, tree.closest(&ray)) {
                 assert!(seen.t_lo <= closest.t_hi && closest.t_lo <= seen.t_hi, "{seen:?} {closest:?}");
             }
@@ -310,7 +311,7 @@ fn bundles_of_rays() {
     assert!(shared > 300 && hits > 100, "{shared} {hits}");
 }
 
-/// Rays that leave a plane do not meet it where they all end on its side.
+/// Rays that start on a plane do not hit it if they all end on its side.
 #[test]
 fn bundles_that_leave_a_plane() {
     let mut builder = Geometry::builder();
@@ -327,13 +328,13 @@ fn bundles_that_leave_a_plane() {
         assert!(source.is_some());
         let beam = world.candidates(&shaft, source).unwrap();
         assert_eq!(beam.is_empty(), beam_is_empty, "{height}");
-        // Without the source nothing is known.
+        // Without the source the plane remains a candidate.
         assert!(!world.candidates(&shaft, None).unwrap().is_empty());
         assert!(!world.any_in(&beam, &ray, u32::MAX) || height == 0.0);
     }
 }
 
-/// A solid that counts how often a ray asks it.
+/// A solid that counts how often rays test it.
 struct Counted(DynSurface, Arc<AtomicU64>);
 
 impl Surface for Counted {
@@ -359,7 +360,8 @@ impl Surface for Counted {
     }
 }
 
-/// How many leaves of a body the rays ask for their first crossings; these are the first of all.
+/// How many leaves of a CSG solid the rays test for their first hits. Also checks these hits
+/// against the lists of all hits.
 fn asked(
     rays: &[Ray],
     body: impl FnOnce(&mut CompoundBuilder, &dyn Fn(DynSurface) -> Counted) -> Part,
@@ -407,7 +409,7 @@ fn ten_thousand_leaves_are_asked_at_most_ten_times_as_often_as_a_hundred() {
     };
     let (few, many) = (plate(10), plate(100));
     assert!(many < 4 * few, "a plate: {few} and {many}");
-    // Every ray that goes through it meets many, but the first few decide.
+    // Every ray through it crosses many sheets, but the first few decide.
     let sheets = |count: u32| {
         asked(&rays, |csg, counted| {
             let sheets = (0..count / 2).map(|i| {

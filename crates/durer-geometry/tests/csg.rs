@@ -1,5 +1,5 @@
-//! Solids made of solids against the exact truth: the exact crossings of all leaves, merged
-//! exactly, and the Boolean expression itself.
+//! CSG solids against the exact truth: the exact crossings of all leaves, merged exactly, and the
+//! Boolean expression itself.
 
 mod common;
 
@@ -187,7 +187,7 @@ fn random_expr(dice: &mut Dice, first: usize, count: usize) -> Expr {
     }
 }
 
-/// A body with its witnesses.
+/// A CSG solid with its witnesses.
 struct Body {
     scene: Geometry,
     leaves: Vec<Leaf>,
@@ -204,18 +204,18 @@ fn body(leaves: Vec<Leaf>, expr: Expr) -> Body {
     Body { scene, leaves, witnesses, expr }
 }
 
-/// A crossing of the body, exactly.
+/// An exact crossing of the CSG solid.
 struct Truth {
     t: Surd,
     sign: i8,
 }
 
-/// Crossings of leaves closer than this, but not equal, may be taken together.
+/// Crossings of leaves that are closer than this, but not equal, may form a tie.
 const CLOSE: i64 = 36;
 
 impl Body {
-    /// All crossings of the line `t >= 0`; `None` where distinct ones are so close that a tie may
-    /// take them together.
+    /// All crossings of the line `t >= 0`; `None` where distinct ones are so close that they may
+    /// form a tie.
     fn truth(&self, ray: &Ray) -> Option<Vec<Truth>> {
         let line = ExactLine::new(ray);
         let zero = Exact::zero();
@@ -269,7 +269,7 @@ impl Body {
         Some(out)
     }
 
-    /// Compares every query with the truth; says whether the ray told anything.
+    /// Compares every query with the truth; returns how many hits were compared.
     fn check(&self, ray: &Ray) -> usize {
         let Some(truth) = self.truth(ray) else { return 0 };
         let hits = self.scene.all(ray);
@@ -287,7 +287,7 @@ impl Body {
         }
         assert_eq!(self.scene.closest(ray), hits.first().copied(), "{}", told());
         assert_eq!(self.scene.any(ray), !hits.is_empty(), "{}", told());
-        // Spans take turns: in, out.
+        // The ends of spans alternate: in, out.
         let spans = self.scene.spans(ray);
         let ends: Vec<f64> = spans
             .iter()
@@ -297,7 +297,7 @@ impl Body {
                 a.into_iter().chain(b)
             })
             .collect();
-        // A range that begins where the body ends has nothing of it.
+        // A range that begins where the solid ends contains nothing of it.
         let all: Vec<f64> = hits
             .iter()
             .enumerate()
@@ -398,10 +398,10 @@ fn trees_of_many_leaves_are_what_their_leaves_say() {
     let mut met = 0;
     for seed in 0..16 {
         let mut dice = Dice(7000 + seed);
-        // So many are asked piece by piece.
+        // With so many leaves the search goes piece by piece.
         let count = 64 + dice.below(64) as usize;
         let leaves: Vec<Leaf> = (0..count).map(|_| random_leaf(&mut dice)).collect();
-        // Rooms side by side in a row of boxes, so that the parts are not all of one place.
+        // Rooms side by side in a row of boxes, so that the parts are not all in one place.
         let rooms = |i: usize| {
             Leaf::Block(
                 Point3::new(i as f64 * 0.5 - 4.0, -2.0, -2.0),
@@ -462,7 +462,7 @@ fn nothing_is_left_of_a_solid_without_itself() {
     }
 }
 
-/// What hits of a geometry say without naming leaves.
+/// The contents of a geometry's hits without the numbers of leaves.
 fn told(scene: &Geometry, ray: &Ray) -> Vec<(u64, u64, u64, i8, RootKind)> {
     let bits = |x: f64| x.to_bits();
     scene.all(ray).iter().map(|h| (bits(h.t), bits(h.t_lo), bits(h.t_hi), h.sign, h.kind)).collect()
@@ -501,7 +501,7 @@ fn identities_hold_for_every_pair_of_kinds() {
                 let met_both = told(&both.scene, &ray);
                 assert_eq!(told(&less_less.scene, &ray), met_both, "A-(A-B) = A&B for {i} {j}: {ray:?}");
                 let whole = told(&split.scene, &ray);
-                // What is cut in two and put together again has no seam.
+                // A solid that is cut in two and put together again has no seam.
                 let close = either.truth(&ray).is_none();
                 assert!(whole == own || close, "(A-B)|(A&B) = A for {i} {j}: {ray:?} {whole:?} {own:?}");
                 met += met_both.len() + both.check(&ray) + either.check(&ray);
@@ -519,10 +519,10 @@ fn bodies_that_touch_fuse() {
     let row = body(blocks.collect(), expr);
     let through = row.scene.all(&Ray::new(p(-1.0, 0.5, 0.5), Vec3::X));
     assert_eq!(through.iter().map(|h| (h.t, h.sign)).collect::<Vec<_>>(), [(1.0, -1), (11.0, 1)]);
-    // Along the seam, where two blocks have an edge in common, and down on it.
+    // Along the seam, where two blocks have a common edge, and down on it.
     assert_eq!(row.scene.all(&Ray::new(p(3.0, 5.0, 0.5), -Vec3::Y)).len(), 2);
     assert_eq!(row.scene.all(&Ray::new(p(3.0, 5.0, 0.5), Vec3::new(0.25, -1.0, 0.0))).len(), 2);
-    // A ray that leaves the seam does not come back to it.
+    // A ray that leaves the seam does not hit it again.
     let ray = Ray::new(p(3.0, 5.0, 0.5), -Vec3::Y);
     let hit = row.scene.closest(&ray).unwrap();
     let point = row.scene.resolve(&ray, &hit);
@@ -533,7 +533,7 @@ fn bodies_that_touch_fuse() {
 #[test]
 fn differences_nest_a_hundred_deep() {
     let p = Point3::new;
-    // Onion: ((((b0 - b1) | b2) - b3) ... from the outside in.
+    // An onion: ((((b0 - b1) | b2) - b3) ... from the outside in.
     let mut csg = Compound::builder();
     let ball = |i: u32| Sphere::new(Point3::ORIGIN, f64::from(101 - i)).unwrap();
     let mut whole = csg.leaf(ball(0)).unwrap();
@@ -592,7 +592,7 @@ fn rays_leave_a_body_on_the_side_they_are_asked_for() {
             for (i, hit) in hits.iter().enumerate() {
                 let point = body.scene.resolve(&ray, hit);
                 let ahead = point.spawn(ray.direction);
-                // What is left of the ray: the crossings behind this one, once.
+                // The rest of the ray: the crossings behind this one, each once.
                 let rest = body.scene.all(&ahead);
                 let far = truth
                     .get(i + 1)
@@ -624,8 +624,8 @@ fn rays_leave_a_body_on_the_side_they_are_asked_for() {
 
 #[test]
 fn a_touch_does_not_tell_where_a_ray_starts() {
-    // The ray is in the first solid (outside of a cylinder without ends), touches its border and
-    // stays in; so what is in it cannot be seen.
+    // The ray is in the first solid (the outside of an infinite cylinder), touches its border and
+    // stays inside; so what is in the solid is not visible.
     let outside = Leaf::General([-1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
     let ball = Leaf::Ball(Point3::new(1.0, -3.0, 0.0), 0.5);
     let union = body(vec![outside, ball], Expr::Any(vec![Expr::Leaf(0), Expr::Leaf(1)]));

@@ -1,8 +1,8 @@
 //! Spans of solids that are formulas, along rays that are hard for them: the laws of spans, and the
 //! same solids as polynomials.
 //!
-//! All points named here are whole numbers on their surfaces, so that rays begin exactly on them,
-//! touch them exactly, or run within them.
+//! All points named here have integer coordinates and lie on their surfaces, so that rays begin
+//! exactly on them, touch them exactly, or run within them.
 
 mod common;
 
@@ -17,13 +17,13 @@ use durer_surfaces::{
     Torus, Warp, superellipsoid,
 };
 
-/// The radius of balls; `BALL` has points of whole numbers on them.
+/// The radius of balls; `BALL` has points with integer coordinates on them.
 const R: f64 = 9.0;
 const BALL: [[f64; 3]; 5] =
     [[9.0, 0.0, 0.0], [1.0, 4.0, 8.0], [4.0, 4.0, 7.0], [-6.0, 3.0, 6.0], [0.0, -9.0, 0.0]];
 
-/// Of the cylinder about y and of the torus about y: a circle of radius 5 across, from -6 to 6; and
-/// a tube of radius 5 around a circle of radius 10.
+/// For the cylinder about y and the torus about y: a circle of radius 5 across, from -6 to 6; and a
+/// tube of radius 5 around a circle of radius 10.
 const TUBE: f64 = 5.0;
 const WALL: [[f64; 3]; 4] = [[5.0, 1.0, 0.0], [3.0, -2.0, 4.0], [-4.0, 0.0, 3.0], [0.0, 5.0, -5.0]];
 const RING: [[f64; 3]; 7] = [
@@ -108,13 +108,13 @@ fn deformed(solid: LevelSet, warp: &Warp) -> Isosurface {
     solid.deformed(warp).unwrap().surface().unwrap().unwrap()
 }
 
-/// A formula's solid beside the same one in exact numbers.
+/// A formula's solid and the same solid in exact numbers.
 struct Pair {
     name: &'static str,
     formula: Geometry,
     exact: Geometry,
     on: &'static [[f64; 3]],
-    /// No line touches it more often.
+    /// The greatest number of points in which a line touches it.
     touches: usize,
 }
 
@@ -188,7 +188,7 @@ fn pairs() -> Vec<Pair> {
     all
 }
 
-/// By a step of whole numbers, of a few ulp, or of something between.
+/// Changed by an integer, by a few ulp, or by something between.
 fn nudged(dice: &mut Dice, v: Vec3) -> Vec3 {
     let mut moved = v;
     let axis = dice.below(3) as usize;
@@ -197,7 +197,7 @@ fn nudged(dice: &mut Dice, v: Vec3) -> Vec3 {
     moved
 }
 
-/// Begins on the surface, or passes it there; touches it, runs in it, or leaves it.
+/// A ray that begins on the surface, or passes it there: it touches it, runs in it, or leaves it.
 fn ray(dice: &mut Dice, pair: &Pair) -> Ray {
     let p = Vec3::from(pair.on[dice.below(pair.on.len() as u64) as usize]);
     let normal = match pair.on.len() {
@@ -211,8 +211,8 @@ fn ray(dice: &mut Dice, pair: &Pair) -> Ray {
     };
     let n = normal * (1.0 / 4.0);
     let along = match dice.below(8) {
-        // In the tangent plane, in whole numbers or nearly: of a cylinder often its generator, of a
-        // torus often the plane of its top circle.
+        // In the tangent plane, with integer coordinates or nearly: for a cylinder often along its
+        // generator, for a torus often in the plane of its top circle.
         0 if pair.on.len() == 4 => Vec3::Y,
         0 | 1 => n.cross(Vec3::Y),
         2 => n.cross(Vec3::X),
@@ -240,7 +240,8 @@ fn ray(dice: &mut Dice, pair: &Pair) -> Ray {
     }
 }
 
-/// A point in the middle of a stretch, if the stretch is so long that no tangent may hide in it.
+/// The midpoint of an interval of the ray, if the interval is so long that it cannot hide a
+/// tangent.
 fn middle(ray: &Ray, a: f64, b: f64) -> Option<Point3> {
     let reach = 64.0 / ray.direction.length();
     let at = -ray.origin.to_vec().dot(ray.direction) / ray.direction.dot(ray.direction);
@@ -251,7 +252,7 @@ fn middle(ray: &Ray, a: f64, b: f64) -> Option<Point3> {
 fn check(pair: &Pair, ray: &Ray) -> Result<(usize, usize), String> {
     let spans = pair.formula.spans(ray);
     let mut at = ray.t_min;
-    // Deep inside or outside: where the exact solid has one side all about.
+    // Deep inside or outside: where the exact solid has one side all around.
     let side = |p: Point3| {
         let n = Vec3::new(1e-4, 1e-4, 1e-4);
         let sides = [1.0, -1.0].map(|s| pair.exact.side(p + n * s));
@@ -283,7 +284,7 @@ fn check(pair: &Pair, ray: &Ray) -> Result<(usize, usize), String> {
     }
     let hits = pair.formula.all(ray);
     let clusters = hits.iter().filter(|h| h.kind == RootKind::Cluster).count();
-    // Where the line certainly passes through, an end of a very short chord may be one, too.
+    // Where the line certainly crosses, an end of a very short chord may be a crossing, too.
     let whole = ray.with_range(f64::NEG_INFINITY, f64::INFINITY);
     let crossings = pair.exact.all(&whole).iter().filter(|h| h.kind == RootKind::Simple).count();
     if clusters > pair.touches.max(crossings) {
@@ -328,8 +329,8 @@ fn spans_of_formulas_are_bounded_and_clusters_are_no_more_than_tangents() {
     assert!(faults.is_empty(), "{} faults\n{}", faults.len(), faults.join("\n"));
 }
 
-/// A range that ends just before a crossing or just behind it, also where the origin is so far away
-/// that one unit in the last place of `t` is much of the set.
+/// A range that ends just before a crossing or just behind it, also with an origin so far away that
+/// one ulp of `t` is a large part of the set.
 #[test]
 fn ranges_that_end_beside_a_crossing_are_told_by_narrow_brackets() {
     let julia = Julia {

@@ -1,8 +1,8 @@
-//! Closed meshes leak nowhere: a ray from inside meets an odd number of faces, also one aimed at a
+//! Closed meshes do not leak: a ray from inside crosses an odd number of faces, also one aimed at a
 //! vertex, at an edge, or along an axis.
 //!
-//! `DURER_SOAK=N` shoots N times as many rays, and `DURER_SOAK_FROM=K` others than K such runs have
-//! shot before (`cargo xtask soak`).
+//! `DURER_SOAK=N` traces N times as many rays, and `DURER_SOAK_FROM=K` skips the rays of K such
+//! runs (`cargo xtask soak`).
 
 mod common;
 
@@ -44,7 +44,7 @@ fn cube(n: i32) -> Body {
                     };
                     let square = [at(u, v), at(u + 1, v), at(u + 1, v + 1), at(u, v + 1)];
                     let [a, b, c, d] = square.map(|p| corner(&mut data, p));
-                    // The cut goes one way or the other.
+                    // The diagonal alternates.
                     if (u + v) % 2 == 0 {
                         data.faces.extend([[a, b, c], [a, c, d]]);
                     } else {
@@ -57,8 +57,8 @@ fn cube(n: i32) -> Body {
     Body { data, room: f64::from(n) - 1.0 }
 }
 
-/// An icosahedron whose faces were cut in four so many times, each new corner moved onto the sphere
-/// of radius 64.
+/// An icosahedron whose faces are subdivided into four `levels` times, each new corner moved onto
+/// the sphere of radius 64.
 fn icosphere(levels: u32) -> Body {
     const RADIUS: f64 = 64.0;
     let golden = 0.5 + 1.25_f64.sqrt();
@@ -102,7 +102,7 @@ fn icosphere(levels: u32) -> Body {
     Body { data: MeshData { vertices, faces, ..MeshData::default() }, room: 0.4 * RADIUS }
 }
 
-/// An icosphere with some corners pulled far out: long triangles, which are cut in space, beside
+/// An icosphere with some corners pulled far out: long triangles, which get spatial splits, beside
 /// small ones.
 fn urchin() -> Body {
     let mut body = icosphere(4);
@@ -124,7 +124,7 @@ fn moved(body: &Body, scale: f64, by: f64) -> (MeshData, Point3) {
 /// axis.
 fn ray(dice: &mut Dice, data: &MeshData, centre: Point3, room: f64) -> Ray {
     let place = if dice.below(2) == 0 {
-        // In one plane with corners of the mesh, some of them.
+        // Some start in one plane with corners of the mesh.
         let mut x = || (dice.below(9) as f64 - 4.0) * 0.125 * room;
         centre + Vec3::new(x(), x(), x())
     } else {
@@ -143,11 +143,11 @@ fn ray(dice: &mut Dice, data: &MeshData, centre: Point3, room: f64) -> Ray {
     }
 }
 
-/// Shoots so many times a thousand rays from inside, the first of them of this number: none gets
-/// out, and each crosses an odd number of times.
+/// Traces so many times a thousand rays from inside, the first of them with this number: none
+/// escapes, and each crosses an odd number of times.
 ///
-/// All crossings are counted of each; every fourth is asked for the first of them, and another
-/// whether there is any, which takes as long.
+/// For each ray all crossings are counted; one ray in four also makes the closest-hit query, and
+/// another one the any-hit query, which take as long.
 fn shoot(world: &Geometry, data: &MeshData, centre: Point3, room: f64, thousands: Range<u64>, name: &str) {
     thousands.into_par_iter().for_each(|seed| {
         let mut dice = Dice(seed << 32);
@@ -184,7 +184,7 @@ fn closed_meshes_leak_nowhere_where_triangles_stand_in_several_leaves() {
     assert!(shared > 500, "{shared} more references than triangles");
 }
 
-/// Says how many more references than triangles there were.
+/// Returns how many more references than triangles there were.
 fn leak_nowhere(bodies: &[(&str, Body)], settings: &Settings) -> u64 {
     let variable = |name: &str| std::env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
     let (soak, from) = (variable("DURER_SOAK"), variable("DURER_SOAK_FROM").unwrap_or(0));
@@ -200,8 +200,7 @@ fn leak_nowhere(bodies: &[(&str, Body)], settings: &Settings) -> u64 {
             shared += stats.tree.entries as u64 - stats.primitives;
             shoot(&world, &data, centre, room, part(32), &format!("{name} times {scale} at {by}"));
             rays += 1000 * soak.unwrap_or(1) * (32 + 8);
-            // The same mesh, placed: now the rays are known within errors only, and take several
-            // times as long.
+            // The same mesh, placed: now the rays have errors, and take several times as long.
             let place = Affine::rotation(Vec3::new(1.0, 2.0, -0.5), 0.7).unwrap();
             let placed = Geometry::builder().instance(&Arc::new(world), place, EVERYTHING).build().unwrap();
             let mut data = data;
@@ -217,7 +216,7 @@ fn leak_nowhere(bodies: &[(&str, Body)], settings: &Settings) -> u64 {
         }
     }
     if soak.is_some() {
-        // What a soak adds up.
+        // The soak adds up these lines.
         println!("soaked: {} {rays}", std::thread::current().name().unwrap_or("leaks"));
     }
     shared

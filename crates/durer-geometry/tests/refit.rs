@@ -1,4 +1,4 @@
-//! A geometry that has followed what moved answers as one that is built anew.
+//! A refitted geometry gives the answers of a new one.
 
 mod common;
 
@@ -8,7 +8,7 @@ use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{AxisBox, Mesh, MeshData, Plane, Sphere, Triangle};
 use std::sync::Arc;
 
-/// What a hit says, without where it is kept.
+/// The content of a hit without its place in memory.
 fn said(hit: &Hit) -> (u32, u32, u32, i8, [u64; 3]) {
     let Hit { t, t_lo, t_hi, object, primitive, instance, sign, .. } = *hit;
     (object, primitive, instance, sign, [t, t_lo, t_hi].map(f64::to_bits))
@@ -85,11 +85,11 @@ fn what_moved_is_met_where_it_is() {
             let before = assert_same_answers(&moved, &build(&old, &mesh), &rays);
             moved.refit(|ObjectId(object), _, _: &Sphere| Some(new[object as usize])).unwrap();
             moved.refit(|_, _, _: &Mesh| Some(bent.clone())).unwrap();
-            // Of this there is nothing.
+            // There is no surface of this type.
             moved.refit(|_, _, _: &Triangle| None).unwrap();
             let met = assert_same_answers(&moved, &build(&new, &bent), &rays);
             assert!(before > 100 && met > 100);
-            // Only some.
+            // Only some are replaced.
             moved
                 .refit(|ObjectId(object), _, _: &Sphere| (object < 30).then(|| old[object as usize]))
                 .unwrap();
@@ -106,13 +106,13 @@ fn what_cannot_be_followed_is_named_and_changes_nothing() {
     let build = || Geometry::builder().add(ball(&mut Dice(33))).add(mesh.clone()).build().unwrap();
     let mut geometry = build();
     let mut data = mesh.data().clone();
-    // A face that has no area any more is no part.
+    // A face whose area becomes zero is no part any more.
     let [a, b, _] = data.faces[3];
     data.vertices[a as usize] = data.vertices[b as usize];
     let flat = Mesh::new(data).unwrap();
     let lost = geometry.refit(|_, _, _: &Mesh| Some(flat.clone()));
     assert_eq!(lost, Err(RefitError::Parts { object: 1, primitive: 0 }));
-    // So large that no box holds it.
+    // So large that no box can contain it.
     let vast = Sphere::new(Point3::new(1.7e308, 0.0, 0.0), 1e308).unwrap();
     let lost = geometry.refit(|_, _, _: &Sphere| Some(vast));
     assert_eq!(lost, Err(RefitError::Bounds { object: 0, primitive: 0 }));
@@ -150,7 +150,7 @@ fn what_is_built_again_answers_as_what_is_built_anew() {
         let rays = rays(&mut dice, 600);
         for round in 0..3 {
             // Half of the balls, one of them beyond all boxes and back; one plane; and a mesh with
-            // more faces, or less.
+            // more or fewer faces.
             for ball in balls.iter_mut().step_by(2) {
                 *ball = self::ball(&mut dice);
             }
@@ -168,7 +168,7 @@ fn what_is_built_again_answers_as_what_is_built_anew() {
                 .unwrap()
                 .rebuild(|_, _, _: &Mesh| Some(mesh.clone()))
                 .unwrap()
-                // Of this there is nothing.
+                // There is no surface of this type.
                 .rebuild(|_, _, _: &Triangle| None)
                 .unwrap();
             let anew = build(&balls, &planes, &mesh);

@@ -1,4 +1,4 @@
-//! The laws of spans: ordered, apart, inside where they say and outside where they do not.
+//! The laws of spans: they are ordered and disjoint; their points are inside, all others outside.
 
 mod common;
 
@@ -11,7 +11,7 @@ use durer_surfaces::{
 };
 use std::sync::Arc;
 
-/// A point of the ray in the middle of a stretch, if the stretch is long enough for rounding not to
+/// The midpoint of an interval of the ray, if the interval is so long that rounding does not
 /// matter.
 fn middle(ray: &Ray, a: f64, b: f64) -> Option<Point3> {
     let (a, b) = (a.max(-100.0), b.min(100.0));
@@ -36,7 +36,7 @@ fn check(world: &Geometry, ray: &Ray) -> usize {
     if let Some(p) = middle(ray, at, ray.t_max) {
         assert_ne!(world.side(p), Side::In, "behind {spans:?} of {ray:?} it is inside");
     }
-    // Each end is a crossing that all crossings know of.
+    // Each end is one of all crossings.
     let all = world.all(ray);
     for span in &spans {
         for (t, object) in [(span.t_in, span.object_in), (span.t_out, span.object_out)] {
@@ -81,7 +81,7 @@ fn ranges_that_begin_and_end_inside() {
     assert_eq!(spans(-1.0, 1.0), [(-1.0, 1.0, false, false)]);
     assert_eq!(spans(2.5, 5.0), []);
     assert_eq!(spans(-5.0, -3.0), []);
-    // Its own ends: entering exactly at the start, leaving exactly at the start.
+    // The range itself: entering exactly at the start, leaving exactly at the start.
     assert_eq!(spans(-2.0, 1.0), [(-2.0, 1.0, true, false)]);
     assert_eq!(spans(2.0, 5.0), []);
 }
@@ -97,10 +97,10 @@ fn boxes_that_share_a_face_are_one() {
     assert_eq!(spans.len(), 1);
     assert_eq!((spans[0].t_in, spans[0].t_out), (3.0, 13.0));
     assert_eq!((spans[0].object_in.map(|o| o.0), spans[0].object_out.map(|o| o.0)), (Some(0), Some(9)));
-    // Slantwise too, where the crossings are rounded.
+    // At a slant, too, where the crossings are rounded.
     let spans = world.spans(&Ray::new(Point3::new(-3.0, 0.1, 0.2), Vec3::new(1.0, 0.03, 0.031)));
     assert_eq!(spans.len(), 1);
-    // The disc is open: it is hit, but holds nothing.
+    // The disc is open: it is hit, but has no inside.
     assert_eq!(world.all(&Ray::new(Point3::new(-3.0, 1.5, 0.5), Vec3::X)).len(), 1);
     assert!(world.spans(&Ray::new(Point3::new(-3.0, 1.5, 0.5), Vec3::X)).is_empty());
 }
@@ -116,7 +116,7 @@ fn quadric([a, b, c, w]: [f64; 4]) -> Quadric {
     Quadric::new([a, b, c, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, w]).unwrap()
 }
 
-/// Found by the examiner in `tests/outside`: at the start of these ranges the ray only touches the
+/// Found by the oracle in `tests/outside`: at the start of these ranges the ray only touches the
 /// solid.
 #[test]
 fn ranges_that_begin_at_a_touch() {
@@ -132,7 +132,7 @@ fn ranges_that_begin_at_a_touch() {
         let mut builder = Geometry::builder();
         add(&mut builder);
         let inner = Arc::new(builder.build().unwrap());
-        // The same within an instance, whose frame the rays enter by rounded numbers.
+        // Within an instance, whose map rounds the rays.
         let map =
             Affine::new([[0.5, 0.25, 0.0], [0.0, 2.0, 0.0], [0.0, -1.0, 4.0]], Point3::new(2.0, 3.0, 5.0))
                 .unwrap();
@@ -154,10 +154,10 @@ fn ranges_that_begin_at_a_touch() {
     check(&world, along([1.0, -1.0, -2.0], [0.0, 1.0, 2.0], 1.0), whole(1.0));
     // Along a generator: in the boundary all the way, and so in the closed set.
     check(&world, along([1.0, 0.0, 0.0], [0.0, 1.0, 1.0], 0.0), whole(0.0));
-    // The other side of the same.
+    // The complement.
     let world = one(&|b| _ = b.add(Complement(DynSurface::new(hyperboloid.clone()))));
     check(&world, along([1.0, 0.0, 0.0], [0.0, 1.0, 2.0], -1.0), vec![]);
-    // From the tip of a cone, within it and without.
+    // From the tip of a cone, inside it and outside.
     let world = one(&|b| _ = b.add(DynSurface::new(cone.clone())));
     check(&world, along([0.0, 0.0, 0.0], [0.0, 0.0, -0.348], 0.0), whole(0.0));
     check(&world, along([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], 0.0), vec![]);
@@ -168,9 +168,9 @@ fn ranges_that_begin_at_a_touch() {
     check(&world, along([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], -3.0), whole(-3.0));
 }
 
-/// What a ray meets does not depend on where on its line it has its origin: here every origin but
-/// one is off the boundary, the directions are such that tangents, rims, edges and corners are
-/// common, and all numbers are exact.
+/// A ray's hits do not depend on the position of its origin on the line: here every origin but one
+/// is off the boundary, the directions are such that tangents, rims, edges and corners are common,
+/// and all numbers are exact.
 #[test]
 fn spans_do_not_depend_on_the_origin() {
     fn try_solid<S: Algebraic + Clone + 'static>(solid: &S, dice: &mut Dice, touches: &mut usize) {
@@ -187,7 +187,7 @@ fn spans_do_not_depend_on_the_origin() {
                 let from = |k: f64| {
                     let ray = Ray::new(a + d * k, d).with_range(-k, f64::INFINITY);
                     let mut spans = ends(world, &ray);
-                    // A range that begins where a solid ends may keep a stretch of no length but
+                    // A range that begins where a solid ends may keep a span whose length is only
                     // rounding.
                     spans.retain(|s| s.1 - s.0 > 1e-12);
                     // In the first ray's parameter.
@@ -242,7 +242,7 @@ fn spans_do_not_depend_on_the_origin() {
 }
 
 /// Two crossings of one solid at one point, where the ray touches a corner of a rim: a range that
-/// ends just before it is outside all along.
+/// ends just before it is completely outside.
 #[test]
 fn a_corner_that_is_touched_behind_the_range_says_nothing() {
     let outline = [
@@ -290,7 +290,7 @@ fn a_corner_that_is_touched_behind_the_range_says_nothing() {
 }
 
 /// The ray begins, or ends, exactly on the solid, next to a tangent, and its other crossing is
-/// within the bracket of that.
+/// within the bracket of that one.
 #[test]
 fn crossings_at_the_ends_of_a_range_are_its_own() {
     let p = |x: f64, z: f64| [x, z];
@@ -314,7 +314,7 @@ fn crossings_at_the_ends_of_a_range_are_its_own() {
     let spans = world.spans(&ray);
     assert!(spans.len() == 1 && spans[0].t_out == all[1].t, "{spans:?}");
     assert_eq!(check(&world, &ray), 1);
-    // The other way round it ends exactly on the way out.
+    // In reverse it ends exactly where it leaves the solid.
     let mut back = Ray::new(ray.origin, -direction);
     (back.t_min, back.t_max) = (f64::NEG_INFINITY, 0.0);
     let all = world.all(&back);
@@ -323,13 +323,13 @@ fn crossings_at_the_ends_of_a_range_are_its_own() {
     assert!(spans.len() == 1 && spans[0].t_in == all[0].t, "{spans:?}");
 }
 
-/// The ray enters a spindle beside its apex and leaves it within rounding, from outside of which it
-/// comes and to which it goes; its origin is in between. That says nothing about a range that
-/// begins elsewhere.
+/// The line enters a spindle beside its apex and leaves it within rounding; it comes from outside
+/// and goes there; its origin is in between. That has no influence on a range that begins
+/// elsewhere.
 #[test]
 fn a_chord_within_rounding_does_not_tell_where_a_range_begins() {
     let lemon = SurfaceOfRevolution::lemon(10_485_760.0, 0.0, 0.0, 13_631_488.0).unwrap();
-    // The text's matrices have their vectors in rows.
+    // The matrices of the scene language have their vectors in rows.
     let rows = [[-2.0, 6.0, -3.0], [6.0, 3.0, 2.0], [-3.0, 2.0, 6.0]];
     let place = Affine::new(rows, Point3::new(0.125, 0.0, -7.0)).unwrap();
     let origin = Point3::new(0.125_000_015_910_094, 1.164_153_218_269_350_2e-9, -6.999_999_992_433_004);
@@ -365,8 +365,8 @@ fn a_chord_within_rounding_does_not_tell_where_a_range_begins() {
     }
 }
 
-/// The ray begins exactly on a cap and leaves by a wall right behind it, nearer than rounding
-/// tells: the order of the two is exact all the same.
+/// The ray begins exactly on a cap and leaves by a wall right behind it, nearer than rounding can
+/// separate: the order of the two is exact all the same.
 #[test]
 fn a_corner_is_entered_before_it_is_left() {
     let outline = [

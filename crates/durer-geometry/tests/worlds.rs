@@ -1,4 +1,4 @@
-//! What worlds are made of: instances, masks, numbers, parts, nothing at all.
+//! The parts of worlds: instances, masks, numbers, parts, nothing at all.
 
 mod common;
 
@@ -27,7 +27,7 @@ fn nothing() {
     assert_eq!((world.spans(&ray), world.contains(Point3::ORIGIN)), (Vec::new(), false));
     assert!(world.bounds().is_empty());
     assert!(world.explain(&ray).to_string().contains("meets nothing"));
-    // An instance of nothing is nothing.
+    // An instance of an empty geometry is empty.
     let twice = Geometry::builder().instance(&Arc::new(world), Affine::IDENTITY, EVERYTHING).build().unwrap();
     assert!(!twice.any(&ray) && twice.bounds().is_empty());
 }
@@ -81,7 +81,7 @@ fn a_million_nested_duplicates() {
     let stats = world.stats();
     assert!(stats.bytes < 200_000_000, "{} bytes", stats.bytes);
     assert!(stats.tree.depth <= 8);
-    // All tie; the first object wins.
+    // All have the same `t`; the first object wins.
     let hit = world.closest(&along_x(-5.0)).unwrap();
     assert_eq!((hit.t, hit.object), (4.0, 0));
     let all = world.all(&along_x(-5.0));
@@ -160,7 +160,7 @@ fn a_filter_sees_every_hit_and_may_stop() {
 }
 
 /// A cone whose wall a ray enters and whose disc it leaves behind it, both at one rounded `t`:
-/// found by the examiner in `tests/outside`.
+/// found by the oracle in `tests/outside`.
 #[test]
 fn a_cone_clipped_at_its_rim_is_entered_first() {
     let map = Affine::new(
@@ -180,7 +180,7 @@ fn a_cone_clipped_at_its_rim_is_entered_first() {
     assert_eq!(world.all_batch(&[ray]).of(0), all);
 }
 
-/// Found by the examiner in `tests/outside`: the ray leaves the first of these, a cylinder clipped
+/// Found by the oracle in `tests/outside`: the ray leaves the first of these, a cylinder clipped
 /// by a half-space, at `t` of about 1e321.
 #[test]
 fn what_is_met_beyond_all_numbers_is_not_met() {
@@ -195,7 +195,7 @@ fn what_is_met_beyond_all_numbers_is_not_met() {
     let first = Geometry::builder().add(DynSurface::new(Placed::new(clipped, map.unwrap()))).build().unwrap();
     let origin = Point3::new(0.0015024038461538462, 1000.0090144230769, 1000.0);
     let first_ray = Ray::new(origin, Vec3::new(5e-324, 0.0, 0.6141631519109444));
-    // x² + y² <= 1, and the same as a plane.
+    // x² + y² <= 1, and a half-space in its place.
     let pipe = Quadric::new([1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0]).unwrap();
     let second = Geometry::builder().add(DynSurface::new(pipe.clone())).build().unwrap();
     let third = Geometry::builder().add(DynSurface::new(Plane::new(Vec3::X, 1.0).unwrap())).build().unwrap();
@@ -215,7 +215,7 @@ fn what_is_met_beyond_all_numbers_is_not_met() {
         );
         assert!(world.spans(&Ray::new(Point3::new(2.0, 0.0, 0.0), Vec3::new(5e-324, 0.0, 1.0))).is_empty());
     }
-    // Just within the numbers: met, though a bracket's end may be infinite.
+    // Just within the range of f64: hit, though a bracket's end may be infinite.
     for (world, count, x) in [
         (&second, 2, 1e-307),
         (&second, 2, 6e-309),
@@ -230,8 +230,8 @@ fn what_is_met_beyond_all_numbers_is_not_met() {
     }
 }
 
-/// The crossings of a box's corner whose entry has a wide bracket and whose exit has a narrow one
-/// within it: found by the examiner, too.
+/// The crossings at a box's corner, where the entry has a wide bracket and the exit a narrow one
+/// within it: found by the oracle, too.
 #[test]
 fn a_box_clipped_at_its_corner_is_entered_first() {
     let map =
@@ -258,8 +258,8 @@ fn solids_are_entered_and_left_in_turn_where_t_cannot_tell() {
     let mut dice = Dice(11);
     let (mut tied, mut hits) = (0, 0);
     for _ in 0..60 {
-        // Several in one arena; rays from afar that cut off a corner or a rim by about what `t` can
-        // tell.
+        // Several solids in one arena; rays from afar that cut off a corner or a rim by about an
+        // ulp of `t`.
         let mut builder = Geometry::builder();
         let maps = [0; 4].map(|_| dice.affine());
         for map in &maps {
@@ -343,7 +343,7 @@ fn too_deep_is_refused() {
     assert!(world.any(&along_x(-5.0)));
     let error = Geometry::builder().instance(&world, Affine::IDENTITY, EVERYTHING).build().unwrap_err();
     assert_eq!(error, BuildError::TooDeep { depth: 9, limit: 8 });
-    // 2^33 placements have no numbers.
+    // 2^33 placements exceed the numbers.
     let mut many = Arc::new(Geometry::builder().build().unwrap());
     let result = (0..5).try_for_each(|_| {
         let mut builder = Geometry::builder();

@@ -1,9 +1,9 @@
-//! The harness's files: triangles, rays and answers, all little endian.
+//! The harness's files: triangles, rays and hits, all little endian.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// A file that cannot be read as what it should be.
+/// Why a file cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum FileError {
     #[error("{}: {error}", .path.display())]
@@ -22,7 +22,7 @@ pub(crate) struct Mesh {
     pub(crate) faces: Vec<[u32; 3]>,
 }
 
-/// `t_near`, `t_far` are the range.
+/// A ray; `t_near` and `t_far` are its range.
 #[derive(Clone, Copy)]
 pub(crate) struct PeerRay {
     pub(crate) origin: [f32; 3],
@@ -31,18 +31,18 @@ pub(crate) struct PeerRay {
     pub(crate) t_far: f32,
 }
 
-/// Where each ray hits: infinity and [`MISS`] where it does not.
+/// The hit of each ray: `t` and triangle, or infinity and [`MISS`].
 #[derive(Default)]
 pub(crate) struct Hits {
     pub(crate) t: Vec<f32>,
     pub(crate) triangle: Vec<u32>,
 }
 
-/// The number of no triangle.
+/// The triangle number of a miss.
 pub(crate) const MISS: u32 = u32::MAX;
 
-/// The words of a file behind its magic number; `words` says from the first ones how many there
-/// must be.
+/// The words of a file after its magic number. `words` computes from the header how many there must
+/// be.
 fn words(path: &Path, magic: &'static str, words: impl Fn(&[u32]) -> u64) -> Result<Vec<u32>, FileError> {
     let bytes = std::fs::read(path).map_err(|error| FileError::Io { path: path.into(), error })?;
     let rest =

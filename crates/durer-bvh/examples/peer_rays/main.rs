@@ -1,14 +1,15 @@
-//! Traces the rays of the comparison with other ray kernels, and prints what the other programs
-//! print.
+//! Traces the rays of the comparison with other ray kernels. The output has the format of the other
+//! programs.
 //!
 //! ```text
-//! cargo run --release -p durer-bvh --example peer_rays -- MESH.tri --load DIR [--threads N] [--repeats N] [--builds N] [--modes single,batch] [--quality fast|good|best] [--json]
+//! cargo run --release -p durer-bvh --example peer_rays -- MESH.tri --load DIR [--threads N]
+//!     [--repeats N] [--builds N] [--modes single,batch] [--quality fast|good|best] [--json]
 //! ```
 //!
 //! `DIR` holds `primary ao diffuse random` as `.rays` and the reference answers as `.hits`. The
-//! answers here are those of exact arithmetic on the coordinates of the file. Without `--threads`:
-//! one thread, then all. `--json` leaves out the table. Batches are rays that are under way at the
-//! same time, with the same answers as alone.
+//! answers here are those of exact arithmetic on the coordinates of the file. Without `--threads`
+//! it runs with one thread, then with all. `--json` leaves out the table. Batch mode traces several
+//! rays at the same time; the answers are those of single mode.
 
 mod files;
 mod memory;
@@ -25,7 +26,7 @@ use std::time::Instant;
 use world::World;
 
 const WORKLOADS: [&str; 4] = ["primary", "ao", "diffuse", "random"];
-/// Rays that a thread takes at once.
+/// How many rays a thread takes at once.
 const BLOCK: usize = 4096;
 
 struct Options {
@@ -67,11 +68,11 @@ fn options() -> Result<Options, String> {
     Ok(Options { mesh, load, threads, repeats, builds, modes, quality, json })
 }
 
-/// Traces some rays and puts down `t` and the triangle of each; for any-hit queries `t` is 0 or
+/// Traces some rays and stores `t` and the triangle of each. For any-hit queries `t` is 0 or
 /// infinite.
 type Tracer<'a> = dyn Fn(&[PeerRay], &mut [f32], &mut [u32]) + Sync + 'a;
 
-/// Traces all rays `repeats` times, and once before to warm up.
+/// Traces all rays `repeats` times, after one run to warm up.
 fn time_trace(rays: &[PeerRay], threads: usize, repeats: usize, trace: &Tracer<'_>) -> (Rate, Hits) {
     let mut hits = Hits { t: vec![0.0; rays.len()], triangle: vec![0; rays.len()] };
     let mut rate = report::Samples::default();
@@ -122,7 +123,7 @@ fn run() -> Result<(), String> {
     let mut report = Report::new(engine, name, mesh.faces.len(), !options.json);
 
     let exact = World::exact(&mesh)?;
-    // The first one: later ones find memory that others have left.
+    // Only the first build: later ones reuse freed memory.
     let (world, most) = memory::most_held(|| World::build(&mesh, exact, &settings));
     let mut exact = world.into_exact();
     for &n in &threads {

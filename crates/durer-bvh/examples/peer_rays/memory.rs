@@ -1,4 +1,4 @@
-//! What a process holds, as Linux tells.
+//! The memory of this process, as Linux reports it.
 
 /// A number of `/proc/self/status`, in bytes.
 fn told(name: &str) -> Option<usize> {
@@ -7,13 +7,13 @@ fn told(name: &str) -> Option<usize> {
     Some(line.split_whitespace().next()?.parse::<usize>().ok()? << 10)
 }
 
-/// What `f` gives, and the most memory that was held meanwhile above what was held before, in
-/// bytes; `None` where the system does not tell.
+/// The result of `f`, and the peak memory during `f` above that before, in bytes; `None` if the
+/// system does not report it.
 ///
-/// That is memory in the process's pages: what was asked for and never written to does not count,
-/// and what pages hold beside it does.
+/// Counted are the process's resident pages: memory that was allocated but never written does not
+/// count, and everything else on a page does.
 pub(crate) fn most_held<R>(f: impl FnOnce() -> R) -> (R, Option<usize>) {
-    // "5" lets the most begin anew (proc(5), Linux 4.0 and later).
+    // "5" resets the peak (proc(5), Linux 4.0 and later).
     let before = std::fs::write("/proc/self/clear_refs", "5").ok().and_then(|()| told("VmRSS"));
     let made = f();
     let most = before.and_then(|before| Some(told("VmHWM")?.saturating_sub(before)));

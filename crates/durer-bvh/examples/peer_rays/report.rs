@@ -1,4 +1,4 @@
-//! What the comparison's programs print: a line per workload and mode, then one line of JSON.
+//! The output of the comparison's programs: a line per workload and mode, then one line of JSON.
 
 use crate::files::{Hits, MISS};
 use std::fmt::Write as _;
@@ -34,7 +34,7 @@ fn median(mut x: Vec<f64>) -> f64 {
     if n == 0 { 0.0 } else { 0.5 * (x[(n - 1) / 2] + x[n / 2]) }
 }
 
-/// The processor time of this thread so far.
+/// The processor time that this thread has used so far.
 pub(crate) fn thread_cpu_ns() -> f64 {
     use nix::time::{ClockId, clock_gettime};
     clock_gettime(ClockId::CLOCK_THREAD_CPUTIME_ID)
@@ -80,7 +80,7 @@ impl Report {
         self.note(format!("build_ms_{threads}_best"), best);
     }
 
-    /// What is held for rays, and what was held at most while it was built.
+    /// Records the memory that queries need, and the peak during the build.
     pub(crate) fn memory(&mut self, bytes: usize, most: Option<usize>) {
         let peak = most.map_or_else(String::new, |most| format!(", {most} at the peak of the build"));
         self.say(&format!(
@@ -107,8 +107,8 @@ impl Report {
         );
     }
 
-    /// Hit or miss, `t` within 1e-4, and triangles, against the reference; any-hit answers by hit
-    /// or miss alone.
+    /// Compares with the reference: hit or miss, `t` within 1e-4, and triangles. Any-hit answers
+    /// are compared by hit or miss alone.
     pub(crate) fn compare(&mut self, work: &str, hits: &Hits, reference: Option<&Hits>, any: bool) {
         let found = hits.t.iter().filter(|t| t.is_finite()).count();
         let mut line = format!("  check        {work:<8} n {} hits {found}", hits.t.len());

@@ -8,7 +8,7 @@ use durer_math::{Aabb, Isa, Point3, Ray, Vec3};
 use durer_surfaces::{Closest, LocalRay, MeshData, PartId, Surface, Triangle, meet_eight};
 use rayon::prelude::*;
 
-/// What a tree is built with.
+/// The build settings of a name.
 pub(crate) fn quality(name: &str) -> Option<Settings> {
     match name {
         "fast" => Some(Settings::FAST),
@@ -22,7 +22,7 @@ pub(crate) struct World {
     /// The exact triangles.
     exact: durer_surfaces::Mesh,
     tree: Bvh,
-    /// The triangles' numbers, slot by slot.
+    /// The number of the triangle in each slot.
     numbers: Vec<u32>,
 }
 
@@ -40,7 +40,7 @@ impl World {
         durer_surfaces::Mesh::new(data).map_err(|e| e.to_string())
     }
 
-    /// The part that is timed. `exact` holds the same triangles as `mesh`.
+    /// Builds the tree; this is what is timed. `exact` holds the same triangles as `mesh`.
     pub(crate) fn build(mesh: &Mesh, exact: durer_surfaces::Mesh, settings: &Settings) -> Self {
         let frame = Frame::around(&exact.bounds());
         let corners = |n: u32| mesh.faces[n as usize].map(|i| point(mesh.vertices[i as usize]));
@@ -61,7 +61,7 @@ impl World {
         self.tree.stats().bytes + self.numbers.capacity() * size_of::<u32>()
     }
 
-    /// Where the ray meets one triangle, if it does.
+    /// Where the ray hits one triangle, if it does.
     #[inline(never)]
     fn exactly(&self, isa: Isa, r: &PeerRay, leaf: &Leaf) -> Option<f64> {
         isa.run(
@@ -81,7 +81,7 @@ impl World {
         )
     }
 
-    /// Where each ray meets its triangle, if that is certain at once.
+    /// Where each ray hits its triangle, if f64 proves that it does.
     #[inline(never)]
     fn exactly_eight(&self, isa: Isa, rays: [&PeerRay; 8], leaves: &[Option<Leaf>; 8]) -> [Option<f64>; 8] {
         isa.run_in_lanes(
@@ -98,7 +98,7 @@ impl World {
                 let corners = [three_of(v0), three_of(v1), three_of(v2)];
                 let found = meet_eight(o, d, range, corners);
                 let s = found.s * across;
-                // Of a ray without a triangle nobody asks.
+                // The caller ignores the answer of a ray without a triangle.
                 for i in found.met.lanes() {
                     t[i] = Some(s.0[i]);
                 }
@@ -179,8 +179,8 @@ impl World {
     }
 }
 
-/// A ray as the tree sees it: with a direction whose largest component is in `[1, 2)`, and a
-/// parameter that is `2^k` times the ray's.
+/// A ray in the form that the tree wants: the largest component of the direction is in `[1, 2)`,
+/// and the parameter is `2^k` times the ray's.
 #[derive(Clone, Copy)]
 struct Seen<'a> {
     r: &'a PeerRay,
@@ -220,7 +220,7 @@ impl TreeRay for Seen<'_> {
 
     #[inline(always)]
     fn glance(&self) -> Ray32 {
-        // Out of the range of f32 nothing is seen of the ray, and the line is asked for.
+        // Outside the range of f32: the tree then takes `line`.
         if !(-126..=126).contains(&self.k) {
             return Ray32::NOTHING;
         }
@@ -256,8 +256,7 @@ fn three_of(v: [[f64; 8]; 3]) -> Vec3<F8> {
     Vec3::new(F8(v[0]), F8(v[1]), F8(v[2]))
 }
 
-/// Eight rays as they are given, and two to the power `k` of each (see [`Seen`]); `None` if one of
-/// these is extreme.
+/// Eight unscaled rays, and `2^k` of each (see [`Seen`]); `None` if one of these powers is extreme.
 #[inline(always)]
 fn side_by_side(rays: [&PeerRay; 8]) -> Option<(Packet32, [f32; 8])> {
     let mut seen =
@@ -296,7 +295,7 @@ fn seen_together(rays: &[PeerRay]) -> Option<Packet32> {
     Some(seen)
 }
 
-/// A ray and what it has met.
+/// A ray and its closest hit so far.
 struct Asked<'a> {
     world: &'a World,
     isa: Isa,

@@ -1,8 +1,8 @@
-//! Sixteen lanes at once with AVX-512: all of a node, all of a block, or two children for eight
-//! rays.
+//! The kernel for AVX-512: sixteen lanes hold all of a node, all of a block, or two children for
+//! eight rays.
 //!
-//! Comparisons give masks in registers of their own, and such a mask closes gaps by itself. Rays
-//! are made ready as with AVX2.
+//! Comparisons give masks in registers of their own, and the compress instruction takes such a
+//! mask. The setup of rays is that of AVX2.
 #![expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")]
 
 use super::avx2::Numbers;
@@ -17,13 +17,13 @@ use core::arch::x86_64::*;
 use durer_math::Isa;
 use durer_math::kernels::Path;
 
-/// Proof that this CPU has all that [`Path::Avx512`] asks for: AVX-512 F, VL, DQ and BW, and what
-/// [`Avx2`] proves.
+/// Proof that this CPU has all features of [`Path::Avx512`]: AVX-512 F, VL, DQ and BW, and those of
+/// [`Avx2`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx512(pub(super) Avx2);
 
 impl Avx512 {
-    /// What an [`Isa`] proves.
+    /// The kernel, if `isa` proves the features.
     #[inline(always)]
     pub(crate) fn of(isa: Isa) -> Option<Self> {
         if isa.path() == Path::Avx512 { Avx2::of(isa).map(Self) } else { None }
@@ -161,7 +161,7 @@ fn apart<R>(f: impl FnOnce() -> R) -> R {
 
 pub(super) type Three = [__m512; 3];
 
-/// The ray in all sixteen lanes.
+/// A ray, broadcast to sixteen lanes.
 pub(crate) struct Wide {
     r: Three,
     near: Three,
@@ -186,7 +186,8 @@ impl Wide {
         }
     }
 
-    /// Where the ray enters a node's boxes and leaves them, this up to `t_far`.
+    /// The parameters at which the ray enters and leaves a node's boxes, the latter at most
+    /// `t_far`.
     #[inline]
     #[target_feature(enable = "avx512f,avx512vl,avx2,fma")]
     fn slabs(&self, node: &Node, t_far: f32) -> (__m512, __m512) {
@@ -206,7 +207,7 @@ pub(super) fn planes_of(node: &Node, planes: &Planes) -> (Three, Three) {
     ([row(nx), row(ny), row(nz)], [row(fx), row(fy), row(fz)])
 }
 
-/// The parameter at which the last of three planes is met, but not before this.
+/// The parameter at which the last of three planes is met, but at least `t_near`.
 #[inline]
 #[target_feature(enable = "avx512f")]
 pub(super) fn latest(planes: &Three, (r, c): (&Three, &Three), t_near: __m512) -> __m512 {
@@ -214,7 +215,7 @@ pub(super) fn latest(planes: &Three, (r, c): (&Three, &Three), t_near: __m512) -
     _mm512_max_ps(_mm512_max_ps(plane(0), plane(1)), _mm512_max_ps(plane(2), t_near))
 }
 
-/// The same of the first, but not after this.
+/// The parameter at which the first of three planes is met, but at most `t_far`.
 #[inline]
 #[target_feature(enable = "avx512f")]
 pub(super) fn earliest(planes: &Three, (r, c): (&Three, &Three), t_far: __m512) -> __m512 {
@@ -222,7 +223,7 @@ pub(super) fn earliest(planes: &Three, (r, c): (&Three, &Three), t_far: __m512) 
     _mm512_min_ps(_mm512_min_ps(plane(0), plane(1)), _mm512_min_ps(plane(2), t_far))
 }
 
-/// As with AVX2, all of a node at once.
+/// The AVX2 kernel's `slabs`, for a whole node at once.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx2,fma")]
 pub(super) fn slabs(
@@ -245,7 +246,7 @@ fn meets(node: &Node, slot: usize, lanes: &Wide, t_far: f32) -> bool {
     _mm512_cmp_ps_mask::<_CMP_LE_OQ>(near, far) >> slot & 1 != 0
 }
 
-/// As with AVX2, but a mask closes the gaps.
+/// The AVX2 kernel's `descend`, for a whole node at once; a compress instruction removes the gaps.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma,lzcnt,popcnt")]
 fn descend<const ORDERED: bool>(node: &Node, lanes: &Wide, t_far: f32, stack: &mut Stack) -> ChildRef {
@@ -303,7 +304,7 @@ fn halves(x: __m512) -> [__m256; 2] {
     [_mm512_castps512_ps256(x), _mm512_extractf32x8_ps::<1>(x)]
 }
 
-/// As with AVX2, but two children at a time.
+/// The AVX2 kernel's packet step, two children at a time.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 fn descend_together<const ORDERED: bool>(
@@ -341,11 +342,11 @@ fn descend_together<const ORDERED: bool>(
     while left != 0 {
         let a = slot(left.trailing_zeros());
         left &= left - 1;
-        // Without another the same again.
+        // Without a second child the first is tested twice.
         let is_pair = left != 0;
         let b = if is_pair { slot(left.trailing_zeros()) } else { a };
         left &= left.wrapping_sub(1);
-        // The first child's planes in one half of the lanes, the other's in the other.
+        // The first child's planes in one half of the lanes, the second child's in the other.
         let both = _mm512_mask_set1_epi32(_mm512_set1_epi32(a as i32), 0xff00, b as i32);
         let pick = |row: __m512| _mm512_permutexvar_ps(both, row);
         let of_both = |rows: &Three| [pick(rows[0]), pick(rows[1]), pick(rows[2])];
@@ -423,14 +424,14 @@ fn judge(block: &Block, filter: &Filter, t_far: f32) -> Verdict {
     verdict
 }
 
-/// What a block's judge needs of a ray if the first test has not missed all triangles: members of
-/// [`Filter`], and what follows from these and the size of the block.
+/// The members of [`Filter`], and values that follow from these and the size of the block, that are
+/// needed only if the first test has not excluded all triangles.
 pub(super) struct Rest {
     pub(super) q: f32,
     /// `p + NEAR E`.
     pub(super) nearby: f32,
     pub(super) s: f32,
-    /// What a `D` that says something exceeds.
+    /// `D` is of use only if it exceeds this.
     pub(super) certain: f32,
     pub(super) t_near: f32,
     pub(super) t_far: f32,
@@ -438,8 +439,8 @@ pub(super) struct Rest {
     pub(super) last: f32,
 }
 
-/// What `Scalar::judge` does, sixteen triangles at once; says which are alive, and the rest only if
-/// one is. Most blocks end at the first test.
+/// `Scalar::judge` for sixteen triangles at once. Returns which are alive, and writes the rest only
+/// if one is. Most blocks end at the first test.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 pub(super) fn judge_edges(
@@ -494,7 +495,7 @@ pub(super) fn judge_edges(
     verdict.alive
 }
 
-/// What [`Kernel::judge`] says for each ray that is awake.
+/// [`Kernel::judge`] for each ray that is awake.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 fn judge_together(
@@ -511,7 +512,7 @@ fn judge_together(
     let slack = _mm256_fmadd_ps(extent, _mm256_fmadd_ps(b, extent, a), g);
     let flat = _mm256_mul_ps(all(2.0), b);
     let certain = _mm256_fmadd_ps(flat, _mm256_mul_ps(extent, extent), all(FLAT));
-    // For all rays at once, then spread one by one.
+    // Computed for all rays at once, then broadcast one by one.
     let slacks = numbers(slack);
     let certain = numbers(_mm256_fmadd_ps(all(4.0), slack, certain));
     let nearby = numbers(_mm256_fmadd_ps(all(NEAR), extent, p));

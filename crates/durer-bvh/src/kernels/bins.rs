@@ -1,5 +1,5 @@
-//! What the builder does for each thing: boxes and bins, eight lanes at a time. The loops below the
-//! door are the definition.
+//! The builder's work per entry: boxes and bins, eight lanes at a time. The plain loops are the
+//! definition.
 #![cfg_attr(
     target_arch = "x86_64",
     expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")
@@ -54,8 +54,8 @@ mod avx2 {
     use crate::build::INTEGERS;
     use core::arch::x86_64::*;
 
-    /// The low corner, negated, and the high one. Kind and index would be subnormal numbers, with
-    /// which processors take their time: zeros.
+    /// The low corner, negated, and the high one. Kind and index are replaced by zeros: as f32 they
+    /// would be subnormal, and subnormal numbers are slow.
     #[target_feature(enable = "avx2")]
     #[inline]
     fn reach(entry: &Entry) -> __m256 {
@@ -87,7 +87,7 @@ mod avx2 {
 
     #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub(super) fn add_centres(entries: &[Entry], centres: &mut Extent) {
-        // `-lo` and `hi` of points: the same number with either sign.
+        // `-lo` and `hi` of a point: the coordinates with either sign.
         let negated = _mm256_castsi256_ps(_mm256_setr_epi32(i32::MIN, i32::MIN, i32::MIN, 0, 0, 0, 0, 0));
         let mut most = load(centres);
         for entry in entries {
@@ -105,8 +105,8 @@ mod avx2 {
         let (half, integers) = (_mm_set1_ps(0.5), _mm_set1_ps(INTEGERS));
         let mask = _mm_set1_epi32(BINS as i32 - 1);
         let Filled { extents: [ex, ey, ez], counts: [cx, cy, cz] } = filled;
-        // Neighbours often go to one bin, and each would have to wait for the other: two halves
-        // side by side.
+        // Two halves side by side: neighbours often go to the same bin, where each would have to
+        // wait for the one before.
         let (first, second) = entries.split_at(entries.len() / 2);
         let pairs = second.iter().zip(first.iter().map(Some).chain([None]));
         for entry in pairs.flat_map(|(b, a)| a.into_iter().chain([b])) {
@@ -117,7 +117,7 @@ mod avx2 {
             let y = _mm_extract_epi32::<1>(bins) as usize % BINS;
             let z = _mm_extract_epi32::<2>(bins) as usize % BINS;
             for (extents, counts, bin) in [(&mut *ex, &mut *cx, x), (ey, cy, y), (ez, cz, z)] {
-                // The second of two equal numbers, as the definition has it.
+                // Of two equal numbers the second is taken, as in the definition.
                 let most = _mm256_max_ps(reach, load(&extents[bin]));
                 store(&mut extents[bin], most);
                 counts[bin] += 1;

@@ -1,6 +1,6 @@
-//! What is done for each node and block, once per instruction set. `scalar` is the definition; the
-//! others equal it bit for bit, but for how a ray is made ready: there each may be as generous as
-//! its bounds allow.
+//! The work per node and block, once per instruction set. `scalar` is the definition. The others
+//! return the same bits, but for the setup of a ray: there each may be as generous as its bounds
+//! allow.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
@@ -29,37 +29,37 @@ use crate::ray::{ClippedRay, PACKET, Packet32, TWICE, TreeRay};
 use crate::tree::Bvh;
 use crate::triangles::{Block, Filter, Verdict};
 
-/// Tests a node's boxes against a ray and stacks the children it meets.
+/// Tests a node's boxes against a ray and pushes the children that it meets.
 ///
 /// A kernel for another instruction set is one more implementation, and one more line in
 /// `traverse::with_kernel`.
 pub(crate) trait Kernel: Copy {
-    /// What node tests need of a ray.
+    /// The numbers that node tests need of a ray.
     type Ray;
 
-    /// The same, spread over the lanes.
+    /// [`Kernel::Ray`], broadcast to the lanes.
     type Lanes;
 
-    /// What the tests need of a ray, clipped to the tree's box or not; `None` if it certainly
-    /// misses that.
+    /// Sets up a ray for the tests, clipped to the tree's box or not; `None` if it certainly misses
+    /// the box.
     #[inline(always)]
     fn set_up(self, tree: &Bvh, sight: &impl TreeRay) -> Option<(Self::Ray, ClippedRay)> {
         let nearby = self.nearby(tree, sight);
         if nearby.is_some() { nearby } else { self.afar(tree, sight) }
     }
 
-    /// The same at a glance; `None` if that is not enough.
+    /// Sets up a ray from its f32 form; `None` if that does not suffice.
     fn nearby(self, tree: &Bvh, sight: &impl TreeRay) -> Option<(Self::Ray, ClippedRay)>;
 
-    /// The same of a ray of which a glance did not say it.
+    /// Sets up a ray for which [`Kernel::nearby`] returned `None`.
     fn afar(self, tree: &Bvh, sight: &impl TreeRay) -> Option<(Self::Ray, ClippedRay)>;
 
-    /// Brings a ray into the lanes.
+    /// Broadcasts a ray to the lanes.
     fn spread(self, ray: &Self::Ray) -> Self::Lanes;
 
-    /// Pushes the children whose boxes the ray meets before `t_far`, and takes the last off the
-    /// stack, or what was there before if it meets none. In the order of the ray's octant, the
-    /// farthest first, or in that of the node.
+    /// Pushes the children whose boxes the ray meets before `t_far`, and pops the last of them, or
+    /// the old top of the stack if it meets none. If `ORDERED`, the order is that of the ray's
+    /// octant, the farthest first, else that of the node.
     fn descend<const ORDERED: bool>(
         self,
         node: &Node,
@@ -71,53 +71,54 @@ pub(crate) trait Kernel: Copy {
     /// Whether [`Kernel::descend`] pushes the child in a slot.
     fn meets(self, node: &Node, slot: usize, lanes: &Self::Lanes, t_far: f32) -> bool;
 
-    /// What can be said of sixteen triangles, of crossings up to `t_far`.
+    /// The filter's verdict on sixteen triangles, for crossings up to `t_far`.
     fn judge(self, block: &Block, filter: &Filter, t_far: f32) -> Verdict;
 
-    /// Runs what few steps need, and what is the caller's, compiled apart from the code around it:
-    /// else compilers do parts of it ahead, for every ray. For the instructions of
-    /// [`Isa::run`](durer_math::Isa::efloat).
+    /// Runs a closure that few steps need, and calls into the caller's code, compiled apart from
+    /// the code around it: else compilers hoist parts of it, which every ray would pay for.
+    /// Compiled for the instructions of [`Isa::run`](durer_math::Isa::efloat).
     fn apart<R>(self, f: impl FnOnce() -> R) -> R;
 
-    /// The same for what is made of this kernel's own steps, and compiled for its own instructions.
+    /// [`Kernel::apart`] for code that is made of this kernel's own steps, compiled for its own
+    /// instructions.
     fn apart_in_lanes<R>(self, f: impl FnOnce() -> R) -> R;
 
-    /// Asks for what a step into a child will read.
+    /// Prefetches what a step into a child will read.
     fn fetch(self, tree: &Bvh, child: ChildRef);
 }
 
-/// The same for `N` rays that go through a tree together.
+/// A kernel for packets of `N` rays.
 pub(crate) trait Together<const N: usize>: Kernel {
     /// The rays.
     type Packet;
 
-    /// What triangles need to know of them.
+    /// The numbers that triangle tests need of a packet.
     type Filters;
 
-    /// Whether there are such packets at all.
+    /// Whether this kernel has packets of this size.
     const EXISTS: bool = true;
 
-    /// Rays, eight in each element, as a packet, if they are exactly known, nearby and so much
-    /// alike that it pays.
+    /// Makes a packet of rays, eight in each element, if they are exactly known, near the tree and
+    /// so similar that a packet pays.
     fn gather(self, tree: &Bvh, rays: &[&Packet32]) -> Option<Self::Packet>;
 
-    /// How far each ray of a packet looks at most.
+    /// The greatest parameter of each ray of a packet.
     fn ends(self, packet: &Self::Packet) -> [f32; N];
 
-    /// One of a packet's rays: the very numbers that [`Kernel::set_up`] gives.
+    /// One of a packet's rays: the same numbers as from [`Kernel::set_up`].
     fn one(self, tree: &Bvh, packet: &Self::Packet, ray: usize) -> (Self::Ray, ClippedRay);
 
-    /// The second half of that.
+    /// The second half of [`Together::one`].
     fn way(self, tree: &Bvh, packet: &Self::Packet, ray: usize) -> ClippedRay;
 
-    /// Which rays' parameters in a `row` are not beyond their `t_far`.
+    /// The mask of rays whose parameter in `row` is not beyond their `t_far`.
     fn awake(self, row: &[f32; N], t_far: &[f32; N]) -> u32;
 
-    /// What [`Filter::of_exact`] gives for each ray.
+    /// [`Filter::of_exact`] for each ray.
     fn filters(self, tree: &Bvh, packet: &Self::Packet) -> Self::Filters;
 
-    /// [`Kernel::judge`] for those rays that are `awake`: of whom a triangle is alive, and their
-    /// verdicts.
+    /// [`Kernel::judge`] for the rays that are `awake`. Returns the mask of rays with a triangle
+    /// alive, and writes their verdicts.
     fn judge_together(
         self,
         block: &Block,
@@ -127,8 +128,9 @@ pub(crate) trait Together<const N: usize>: Kernel {
         verdicts: &mut [Verdict; N],
     ) -> u32;
 
-    /// Pushes the children that [`Kernel::descend`] pushes for any of the rays that are awake, and
-    /// where each ray enters them, or NaN where it does not. Beyond `far` none of the rays looks.
+    /// Pushes each child that [`Kernel::descend`] pushes for any of the rays that are awake, with
+    /// the parameter at which each ray enters it, or NaN where it does not. No ray searches beyond
+    /// `far`.
     fn descend_together<const ORDERED: bool>(
         self,
         node: &Node,
@@ -139,7 +141,7 @@ pub(crate) trait Together<const N: usize>: Kernel {
     );
 }
 
-/// A kernel for rays alone, and for as many together as there are lanes for.
+/// A kernel for single rays and for packets of both sizes.
 pub(crate) trait Abreast: Kernel + Together<PACKET> + Together<TWICE> {}
 
 impl<K: Kernel + Together<PACKET> + Together<TWICE>> Abreast for K {}

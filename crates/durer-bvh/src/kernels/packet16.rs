@@ -1,6 +1,6 @@
-//! Sixteen rays that go through a tree together, with AVX-512: one box against all of them is one
-//! step, as it is for eight (see [`packet`](super::packet), where the bounds of a hull are derived;
-//! they hold for any number of rays).
+//! Packets of sixteen rays, with AVX-512: one box against all of them is one step, as it is for
+//! eight (see [`packet8`](super::packet8), where the bounds of a packet are derived; they hold for
+//! any number of rays).
 #![expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")]
 
 use super::avx2::{Numbers, OUTWARD, SLACK};
@@ -14,25 +14,26 @@ use crate::tree::Bvh;
 use crate::triangles::{Block, FLAT, Filter, NEAR, Verdict};
 use core::arch::x86_64::*;
 
-/// Sixteen rays.
+/// A packet of sixteen rays.
 pub(crate) struct Sixteen {
-    /// `r` and `c` of near planes that bound all of them, and of far ones; and the least parameter.
+    /// `r` and `c` of near planes that bound all of the rays, and of far planes; and the least
+    /// parameter.
     enter: (Three, Three),
     leave: (Three, Three),
     t_first: __m512,
-    /// Each as a node test needs it.
+    /// The numbers of each ray for node tests.
     r: Three,
     near: Three,
     far: Three,
     t_near: __m512,
-    /// And as triangles do.
+    /// The numbers of each ray for triangle tests.
     start: Three,
     direction: Three,
     t_far: __m512,
     octant: usize,
 }
 
-/// What triangles need to know of sixteen rays: `Filter`, member by member.
+/// The `Filter`s of sixteen rays, member by member.
 pub(crate) struct Filters {
     o: [[f32; 16]; 3],
     d: [[f32; 16]; 3],
@@ -67,7 +68,7 @@ fn all(x: f32) -> __m512 {
     _mm512_set1_ps(x)
 }
 
-/// The least, or the greatest, of each of four vectors.
+/// The least, or the greatest, element of each of four vectors.
 #[inline]
 #[target_feature(enable = "avx512f,avx512dq,avx2,fma")]
 fn least<const GREATEST: bool>(x: [__m512; 4]) -> __m128 {
@@ -78,7 +79,7 @@ fn least<const GREATEST: bool>(x: [__m512; 4]) -> __m128 {
     least_of_each::<GREATEST>([half(x[0]), half(x[1]), half(x[2]), half(x[3])])
 }
 
-/// `super::packet::gather` for two times eight rays.
+/// `super::packet8::gather` for two times eight rays.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma")]
 fn gather(tree: &Bvh, [a, b]: [&Packet32; 2]) -> Option<Sixteen> {
@@ -98,14 +99,14 @@ fn gather(tree: &Bvh, [a, b]: [&Packet32; 2]) -> Option<Sixteen> {
         }
         octant |= usize::from(signs & 1) << axis;
         is_close &= _mm512_cmp_ps_mask::<_CMP_LE_OQ>(size(o[axis]), all(NEARBY));
-        // Neighbours of the first.
+        // The distance of each ray from the first.
         let aside = |x: __m512| size(_mm512_sub_ps(x, _mm512_broadcastss_ps(_mm512_castps512_ps128(x))));
         let apart = _mm512_max_ps(aside(o[axis]), aside(d[axis]));
         is_close &= _mm512_cmp_ps_mask::<_CMP_LE_OQ>(apart, all(NEIGHBOURS));
     }
     let first = _mm512_mul_ps(both(&a.t_min, &b.t_min), shrink);
     let last = _mm512_mul_ps(both(&a.t_max, &b.t_max), shrink);
-    // What is not a number has no greatest and no least.
+    // Minima and maxima ignore a NaN; so it is excluded here.
     is_close &= _mm512_cmp_ps_mask::<_CMP_ORD_Q>(first, last);
     if is_close != u16::MAX {
         return None;
@@ -173,7 +174,7 @@ fn awake(row: &[f32; 16], t_far: &[f32; 16]) -> u32 {
     u32::from(_mm512_cmp_ps_mask::<_CMP_LE_OQ>(sixteen(row), sixteen(t_far)))
 }
 
-/// As for eight rays, one child after the other.
+/// The packet step of eight rays, for sixteen: one child after the other.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 fn descend<const ORDERED: bool>(
@@ -213,7 +214,7 @@ fn descend<const ORDERED: bool>(
     }
 }
 
-/// What [`Kernel::judge`](super::Kernel::judge) says for each ray that is awake.
+/// [`Kernel::judge`](super::Kernel::judge) for each ray that is awake.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 fn judge(
@@ -229,7 +230,7 @@ fn judge(
     let slack = _mm512_fmadd_ps(extent, _mm512_fmadd_ps(b, extent, a), g);
     let flat = _mm512_mul_ps(all(2.0), b);
     let certain = _mm512_fmadd_ps(flat, _mm512_mul_ps(extent, extent), all(FLAT));
-    // For all rays at once, then spread one by one.
+    // Computed for all rays at once, then broadcast one by one.
     let slacks = numbers(slack);
     let certain = numbers(_mm512_fmadd_ps(all(4.0), slack, certain));
     let nearby = numbers(_mm512_fmadd_ps(all(NEAR), extent, p));

@@ -1,28 +1,28 @@
-//! Eight rays that go through a tree together, with AVX2 and FMA.
+//! Packets of eight rays, with AVX2 and FMA.
 //!
-//! A node's boxes are tested at once against what bounds all eight rays, then each box that is met
-//! there against the eight rays at once, so that a ray is shown what it is shown alone, to the bit
-//! (I. Wald, P. Slusallek, C. Benthin, M. Wagner, "Interactive rendering with coherent ray
-//! tracing", Computer Graphics Forum 20(3), 2001; A. Reshetov, A. Soupikov, J. Hurley, "Multi-level
-//! ray tracing algorithm", ACM Transactions on Graphics 24(3), 2005).
+//! A node's boxes are tested at once against a bound of all eight rays. Then each box that the
+//! bound meets is tested against the eight rays at once. So each ray visits what it visits in a
+//! single query, to the bit (I. Wald, P. Slusallek, C. Benthin, M. Wagner, "Interactive rendering
+//! with coherent ray tracing", Computer Graphics Forum 20(3), 2001; A. Reshetov, A. Soupikov, J.
+//! Hurley, "Multi-level ray tracing algorithm", ACM Transactions on Graphics 24(3), 2005).
 //!
-//! # What bounds eight rays
+//! # The bound of eight rays
 //!
 //! All planes of a tree are at `p` in `[-1, 1]`. Ray `i` meets one at the fused
-//! `f_i(p) = p r_i + c_i`, and what is wanted is a line `g(p) = p r + c` below all of them. As all
-//! are straight it has to be so at both ends only. With `a` and `b` the least of the rounded
-//! `c_i + r_i` and `c_i - r_i` and `u = 2^-24`
+//! `f_i(p) = p r_i + c_i`. Wanted is a line `g(p) = p r + c` below all of them. As all are
+//! straight, it suffices to be below them at both ends. With `a` and `b` the least of the rounded
+//! `c_i + r_i` and `c_i - r_i` and `u = 2^-24`, take
 //!
 //! ```text
-//!     r = (a - b) / 2,    c = (a + b) / 2 - s,    s = 4 u (|a| + |b|)
+//!     r = (a - b) / 2,    c = (a + b) / 2 - s,    s = 4 u (|a| + |b|).
 //! ```
 //!
-//! do: `r + c` and `c - r` err by `u (|a| + |b|) (1/2 + 1/2 + 1/2)` before `s` is taken, `a` and
-//! `b` are within `u |a|` and `u |b|` of what they are rounded from, and a unit and a half pays for
-//! the second order and the rounding of `s`. Rounding is monotone, so `g(p)`, fused, is not above
-//! the rounded `f_i(p)` either. Nothing underflows that could matter: `|r_i| >= 1/2`, so
-//! `|a| + |b|` is not small. The same from above for where boxes are left. Where `[-1, 1]` does not
-//! hold the origins, and these are one, it is the best line there is.
+//! `r + c` and `c - r` err by `u (|a| + |b|) (1/2 + 1/2 + 1/2)` before `s` is subtracted; `a` and
+//! `b` are within `u |a|` and `u |b|` of the values that they are rounded from; and a unit and a
+//! half pays for the second order and the rounding of `s`. Rounding is monotone, so the fused
+//! `g(p)` is not above the rounded `f_i(p)` either. No underflow matters: `|r_i| >= 1/2`, so
+//! `|a| + |b|` is not small. Where boxes are left, the same bound is taken from above. Where
+//! `[-1, 1]` does not hold the origins, and these are one, it is the best line there is.
 #![expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")]
 
 use super::Rows;
@@ -34,27 +34,27 @@ use crate::tree::Bvh;
 use crate::triangles::{Block, Filter, Verdict};
 use core::arch::x86_64::*;
 
-/// Rays that go together differ by this much in each component of their directions, and of their
-/// origins in tree units: more, and they part soon.
+/// The greatest difference between rays of a packet in each component of their directions, and of
+/// their origins in tree units. Rays that differ more would soon diverge.
 pub(super) const NEIGHBOURS: f32 = 1.0 / 16.0;
 
-/// Eight rays.
+/// A packet of eight rays.
 pub(crate) struct Packet {
-    /// What bounds all of them.
+    /// The bound of all of them.
     pub(super) hull: Hull,
-    /// Each as a node test needs it.
+    /// The numbers of each ray for node tests.
     pub(super) r: [__m256; 3],
     pub(super) near: [__m256; 3],
     pub(super) far: [__m256; 3],
     pub(super) t_near: __m256,
-    /// And as triangles do.
+    /// The numbers of each ray for triangle tests.
     start: [__m256; 3],
     direction: [__m256; 3],
     t_far: __m256,
     pub(super) octant: usize,
 }
 
-/// `r` and `c` of near planes, and of far ones; and the least parameter.
+/// The bound of a packet: `r` and `c` of near planes, and of far ones; and the least parameter.
 pub(super) struct Hull {
     pub(super) enter: ([__m256; 3], [__m256; 3]),
     pub(super) leave: ([__m256; 3], [__m256; 3]),
@@ -77,7 +77,7 @@ pub(super) fn numbers(v: __m256) -> [f32; 8] {
     numbers
 }
 
-/// The least, or the greatest, of each of four vectors.
+/// The least, or the greatest, element of each of four vectors.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 pub(super) fn least_of_each<const GREATEST: bool>(x: [__m256; 4]) -> __m128 {
@@ -89,8 +89,8 @@ pub(super) fn least_of_each<const GREATEST: bool>(x: [__m256; 4]) -> __m128 {
     if GREATEST { _mm_max_ps(a, b) } else { _mm_min_ps(a, b) }
 }
 
-/// `super::avx2::nearby` for eight rays that are exactly known; `None` if one of them is not
-/// nearby, or they are no neighbours.
+/// `super::avx2::nearby` for eight rays that are exactly known; `None` if one of them is not near
+/// the tree, or if they differ too much.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 pub(super) fn gather(tree: &Bvh, rays: &Packet32) -> Option<Packet> {
@@ -109,7 +109,7 @@ pub(super) fn gather(tree: &Bvh, rays: &Packet32) -> Option<Packet> {
         }
         octant |= (signs as usize & 1) << axis;
         let is_nearby = _mm256_cmp_ps::<_CMP_LE_OQ>(size(o[axis]), all(NEARBY));
-        // Neighbours of the first.
+        // The distance of each ray from the first.
         let aside = |x: __m256| size(_mm256_sub_ps(x, _mm256_broadcastss_ps(_mm256_castps256_ps128(x))));
         let apart = _mm256_max_ps(aside(o[axis]), aside(d[axis]));
         let are_neighbours = _mm256_cmp_ps::<_CMP_LE_OQ>(apart, all(NEIGHBOURS));
@@ -117,7 +117,7 @@ pub(super) fn gather(tree: &Bvh, rays: &Packet32) -> Option<Packet> {
     }
     let (first, last) =
         (_mm256_mul_ps(eight(&rays.t_min), shrink), _mm256_mul_ps(eight(&rays.t_max), shrink));
-    // What is not a number has no greatest and no least.
+    // Minima and maxima ignore a NaN; so it is excluded here.
     is_close = _mm256_and_ps(is_close, _mm256_cmp_ps::<_CMP_ORD_Q>(first, last));
     if _mm256_movemask_ps(is_close) & 255 != 255 {
         return None;
@@ -170,7 +170,7 @@ pub(super) fn gather(tree: &Bvh, rays: &Packet32) -> Option<Packet> {
     Some(Packet { hull, r, near, far, t_near, start: o, direction: d, t_far, octant })
 }
 
-/// A mask of slots as one of places in the order of an octant.
+/// Permutes a mask of slots into the order of an octant.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 pub(super) fn ordered(node: &Node, mask: u32, octant: usize) -> u32 {
@@ -186,10 +186,10 @@ pub(super) fn ordered(node: &Node, mask: u32, octant: usize) -> u32 {
     places
 }
 
-/// Pushes the children of a node that one of the rays meets which are `awake`: those whose entry
-/// into the node is not behind what they found.
+/// Pushes the children of a node that one of the `awake` rays meets: those whose entry into the
+/// node is not behind their limit.
 ///
-/// The hull's `far` is not below any of `t_far`.
+/// The bound's `far` is not below any of `t_far`.
 #[inline]
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 pub(super) fn descend<const ORDERED: bool>(
@@ -243,7 +243,7 @@ pub(super) fn descend<const ORDERED: bool>(
     }
 }
 
-/// The rays whose entry is not behind what they found.
+/// The mask of rays whose entry is not behind their limit.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 pub(super) fn awake(row: &[f32; 8], t_far: &[f32; 8]) -> u32 {
@@ -251,7 +251,7 @@ pub(super) fn awake(row: &[f32; 8], t_far: &[f32; 8]) -> u32 {
 }
 
 impl Packet {
-    /// Where what bounds the rays enters a node's boxes and leaves them.
+    /// The parameters at which the bound of the rays enters and leaves a node's boxes.
     #[inline]
     #[target_feature(enable = "avx2,fma")]
     pub(super) fn slabs(&self, node: &Node, half: usize, far: f32) -> (__m256, __m256) {
@@ -265,7 +265,7 @@ impl Packet {
         )
     }
 
-    /// How far each ray looks at most.
+    /// The greatest parameter of each ray.
     #[inline]
     #[target_feature(enable = "avx2,fma")]
     pub(super) fn ends(&self) -> [f32; 8] {
@@ -299,7 +299,7 @@ impl Packet {
     }
 }
 
-/// What triangles need to know of eight rays: `Filter`, member by member.
+/// The `Filter`s of eight rays, member by member.
 pub(crate) struct Filters {
     pub(super) o: [[f32; 8]; 3],
     pub(super) d: [[f32; 8]; 3],
@@ -362,7 +362,7 @@ impl Filters {
     }
 }
 
-/// What `super::avx2::judge` says for each ray that is awake.
+/// `super::avx2::judge` for each ray that is awake.
 #[inline]
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 pub(super) fn judge(

@@ -1,13 +1,12 @@
-//! Where in a node the planes begin that a ray comes to first, and last, on each axis: a matter of
-//! its octant.
+//! Where in a node a ray's near and far planes begin on each axis, which depends on its octant.
 
 use crate::node::WIDTH;
 
-/// A row of [`Node::planes`](crate::node::Node::planes), in bytes.
+/// The size of a row of [`Node::planes`](crate::node::Node::planes), in bytes.
 const ROW: usize = size_of::<f32>() * WIDTH;
 
-/// In bytes from the beginning of [`Node::planes`](crate::node::Node::planes): each of these begins
-/// one of its six rows, as they come from [`Planes::of`] only.
+/// Offsets in bytes from the beginning of [`Node::planes`](crate::node::Node::planes). Each is the
+/// beginning of one of its six rows, as only [`Planes::of`] makes them.
 #[derive(Clone, Copy)]
 pub(super) struct Planes {
     near: [usize; 3],
@@ -33,7 +32,7 @@ static TABLE: [[[u16; 3]; 2]; 8] = {
 };
 
 impl Planes {
-    /// For the rays of an octant.
+    /// The offsets for rays of an octant.
     #[inline(always)]
     pub(super) fn of(octant: usize) -> Self {
         let [near, far] = &TABLE[octant & 7];
@@ -51,7 +50,7 @@ impl Planes {
         self.far
     }
 
-    /// The number of the row that begins there.
+    /// The number of the row that begins at this offset.
     #[inline(always)]
     pub(super) fn row(begins: usize) -> usize {
         begins / ROW % 6

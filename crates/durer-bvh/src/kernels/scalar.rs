@@ -1,4 +1,4 @@
-//! The definition.
+//! The scalar kernel, which defines the results of all kernels.
 
 use super::{Kernel, Stack};
 use crate::node::{ChildRef, Node, SLOT_BITS, WIDTH};
@@ -10,26 +10,27 @@ use crate::triangles::{Block, FAR, FLAT, Filter, LANES, NEAR, Verdict};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scalar<const FUSED: bool>;
 
-/// Each child's entry, and which are met.
+/// The entry parameter of each child, and which children are met.
 pub(crate) struct Slabs {
     pub(crate) near: [f32; WIDTH],
     pub(crate) met: [bool; WIDTH],
 }
 
-/// The greater; the second if neither is (`maxps`).
+/// The greater number; the second if they are equal or one is NaN (`maxps`).
 #[inline(always)]
 fn max(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// The lesser; the second if neither is (`minps`).
+/// The lesser number; the second if they are equal or one is NaN (`minps`).
 #[inline(always)]
 fn min(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
 impl<const FUSED: bool> Scalar<FUSED> {
-    /// Slabs: enter at the last near plane, leave at the first far plane.
+    /// The slab test: the ray enters a box at the last near plane and leaves it at the first far
+    /// plane.
     #[inline(always)]
     pub(crate) fn slabs(self, node: &Node, ray: &CullRay, t_far: f32) -> Slabs {
         let at = |plane: f32, r: f32, c: f32| if FUSED { plane.mul_add(r, c) } else { plane * r + c };
@@ -49,10 +50,10 @@ impl<const FUSED: bool> Scalar<FUSED> {
     }
 }
 
-/// There is no such packet.
+/// A packet that does not exist.
 pub(crate) enum NoPacket {}
 
-/// Packets of a kernel that has none of this size.
+/// Implements [`Together`] for a kernel that has no packets of this size.
 macro_rules! no_packets {
     ([$($of:tt)*] $kernel:ty, $n:tt) => {
         impl<$($of)*> $crate::kernels::Together<$n> for $kernel {
@@ -119,7 +120,7 @@ macro_rules! no_packets {
 }
 pub(super) use no_packets;
 
-// One lane after the other nothing is gained together.
+// With one lane a packet gains nothing.
 no_packets!([const FUSED: bool, const N: usize] Scalar<FUSED>, N);
 
 impl<const FUSED: bool> Kernel for Scalar<FUSED> {

@@ -1,28 +1,29 @@
-//! The traversal's stacks, of one ray and of several: two arrays each that are never cleared.
+//! The traversal's stacks, for single rays and for packets: two arrays each that are never cleared.
 #![expect(unsafe_code, reason = "a stack that is written before it is read needs no clearing, 2 KB per ray")]
 
 use crate::node::{ChildRef, WIDTH};
 use core::mem::MaybeUninit;
 
-/// The deepest tree that is built.
+/// The greatest depth of a tree.
 pub(crate) const MAX_DEPTH: usize = 40;
 
-/// On each level at most fifteen siblings wait while the sixteenth is entered; one push writes
-/// sixteen lanes; and at the bottom lies the end.
+/// On each level at most fifteen siblings wait while the sixteenth is visited; one push writes
+/// sixteen lanes; and the bottom element marks the end.
 const CAPACITY: usize = (WIDTH - 1) * MAX_DEPTH + WIDTH + 1;
 
-/// Children that wait, with the parameter at which the ray enters each; at the bottom
+/// The children to visit, with the parameter at which the ray enters each; at the bottom
 /// [`ChildRef::END`].
 pub(crate) struct Stack {
     refs: [MaybeUninit<u32>; CAPACITY],
     near: [MaybeUninit<f32>; CAPACITY],
     staged: Staged,
-    /// Everything below has been written. At most `CAPACITY`; 0 once the end was taken.
+    /// All elements below this have been written. At most `CAPACITY`; 0 once the end was popped.
     len: usize,
 }
 
-/// The top of a stack in the last word of a cache line, and all children of a node in the next: who
-/// writes across a border of lines, and reads one word of it at once, has to wait.
+/// The top of the stack in the last word of a cache line, and all children of a node in the next
+/// line: a store across the border of two lines delays a load of one of its words that follows at
+/// once.
 #[repr(align(64))]
 struct Staged([MaybeUninit<u32>; 2 * WIDTH]);
 
@@ -54,7 +55,7 @@ impl Stack {
         self.len += 1;
     }
 
-    /// The last child, or the end; not to be asked again after that.
+    /// Pops the last child, or the end. Must not be called again after the end.
     #[inline(always)]
     pub(crate) fn pop(&mut self) -> ChildRef {
         assert!(self.len > 0, "the end is taken once");
@@ -63,8 +64,8 @@ impl Stack {
         ChildRef(unsafe { self.refs[self.len].assume_init() })
     }
 
-    /// Drops what the ray enters later than this; the others stay in their order. Without branches,
-    /// which nobody could foresee.
+    /// Removes the children that the ray enters later than this; the others keep their order.
+    /// Without branches, which would be unpredictable.
     pub(crate) fn prune(&mut self, t_far: f32) {
         let mut kept = 0;
         for i in 0..self.len {
@@ -77,13 +78,14 @@ impl Stack {
         self.len = kept;
     }
 
-    /// Pushes those of sixteen children that are met and pops the last, or what was on top before
-    /// if none is. `stage` writes all sixteen, `push` the `count` that are met without gaps; `last`
-    /// is one more than the place of the last of them among the sixteen, 0 if there is none.
+    /// Pushes the children of a node that are met and pops the last of them, or the old top if none
+    /// is met. `stage` writes all sixteen children; `push` writes the `count` that are met, without
+    /// gaps. `last` is one more than the index of the last of them among the sixteen, 0 if there is
+    /// none.
     ///
     /// # Safety
     ///
-    /// Both functions get pointers to sixteen elements, `stage` to such as are aligned to 64 bytes.
+    /// Both functions get pointers to sixteen elements; those of `stage` are aligned to 64 bytes.
     /// `stage` must write all of them; `push` must write at least `count` of each, at most sixteen;
     /// `count` is at most sixteen, and so is `last`.
     #[inline(always)]
@@ -94,17 +96,17 @@ impl Stack {
         stage: impl FnOnce(*mut u32),
         push: impl FnOnce(*mut u32, *mut f32),
     ) -> ChildRef {
-        // One comparison for both ends: there is something on top, and room.
+        // One comparison for both ends: the stack is not empty, and there is room.
         assert!(self.len.wrapping_sub(1) < CAPACITY - WIDTH, "the builder bounds the depth");
         debug_assert!(count <= WIDTH && last <= WIDTH);
         // SAFETY: `1 <= len <= CAPACITY - 16`, so sixteen elements from `len` on are in the arrays,
-        // and so is the one before them. What is staged has sixteen words before the sixteen that
-        // `stage` writes.
+        // and so is the one before them. The staging array has sixteen words before the sixteen
+        // that `stage` writes.
         unsafe {
             let refs = self.refs.as_mut_ptr().add(self.len).cast::<u32>();
             let near = self.near.as_mut_ptr().add(self.len).cast::<f32>();
             let staged = self.staged.0.as_mut_ptr().add(WIDTH).cast::<u32>();
-            // It has been written as it is below the length.
+            // This element has been written, as it is below the length.
             staged.sub(1).write(refs.sub(1).read());
             stage(staged);
             let next = staged.sub(1).add(last).read();
@@ -122,12 +124,12 @@ impl Stack {
     }
 }
 
-/// The same for rays that go together: children that wait, with the parameter at which each ray
-/// enters, NaN where one does not.
+/// The stack of a packet: the children to visit, with the parameter at which each ray enters them,
+/// NaN where it does not.
 pub(crate) struct Rows<const N: usize> {
     refs: [MaybeUninit<u32>; CAPACITY],
     near: [MaybeUninit<[f32; N]>; CAPACITY],
-    /// Everything below has been written. At most `CAPACITY`.
+    /// All elements below this have been written. At most `CAPACITY`.
     len: usize,
 }
 
@@ -154,7 +156,7 @@ impl<const N: usize> Rows<N> {
         self.len
     }
 
-    /// A child that waits.
+    /// A child on the stack.
     #[inline(always)]
     pub(crate) fn child(&self, at: usize) -> ChildRef {
         assert!(at < self.len);

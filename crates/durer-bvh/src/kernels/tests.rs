@@ -9,7 +9,7 @@ use durer_math::eft::exponent;
 use durer_math::{Aabb, Isa, Point3, Vec3};
 use proptest::prelude::*;
 
-/// Coordinates on a coarse grid meet planes, edges and corners exactly; fine ones do not.
+/// On a coarse grid rays meet planes, edges and corners exactly; on a fine one they do not.
 fn coordinate() -> impl Strategy<Value = f32> {
     prop_oneof![
         (-4_i32..=4).prop_map(|i| i as f32 / 4.0),
@@ -47,7 +47,7 @@ fn direction() -> impl Strategy<Value = [f64; 3]> {
     )
 }
 
-/// A ray from `origin`, all of it.
+/// A ray from `origin` with an unbounded range.
 fn line(origin: [f64; 3], direction: [f64; 3]) -> Ray64 {
     Ray64 {
         origin: Point3::from(origin),
@@ -60,7 +60,7 @@ fn line(origin: [f64; 3], direction: [f64; 3]) -> Ray64 {
     }
 }
 
-/// Sixteen rays much like one.
+/// Sixteen rays that are similar to one.
 fn neighbours(o: [f64; 3], d: [f64; 3], aside: &[Moved], bent: &[Moved], t_max: &[f64]) -> Vec<Ray64> {
     let moved = |by: &Moved, i: usize| if by.1 { by.0[i] } else { 0.0 };
     (0..TWICE)
@@ -84,7 +84,7 @@ fn ends() -> impl Strategy<Value = Vec<f64>> {
     prop::collection::vec(prop_oneof![Just(f64::INFINITY), 0.0..4.0_f64], TWICE)
 }
 
-/// The first of these rays as a packet, if they can go together.
+/// The first of these rays as a packet, if they can form one.
 fn as_packet<K: Together<N>, const N: usize>(kernel: K, tree: &Bvh, lines: &[Ray64]) -> Option<K::Packet> {
     let eight = |lines: &[Ray64]| {
         let glances: [Ray32; PACKET] = core::array::from_fn(|i| lines[i].glance());
@@ -95,7 +95,7 @@ fn as_packet<K: Together<N>, const N: usize>(kernel: K, tree: &Bvh, lines: &[Ray
     kernel.gather(tree, &glances.iter().collect::<Vec<_>>())
 }
 
-/// A kernel stacks what the scalar one does.
+/// Checks that a kernel pushes what the scalar one does.
 fn stacks_alike(
     kernel: impl Kernel<Ray = Numbers>,
     node: &Node,
@@ -118,7 +118,7 @@ fn stacks_alike(
     Ok(())
 }
 
-/// The same verdict, and of lanes alive the same bounds.
+/// Checks that verdicts are equal, with equal bounds for lanes alive.
 fn same_verdict(a: &Verdict, b: &Verdict) -> Result<(), TestCaseError> {
     prop_assert_eq!((a.alive, a.sure), (b.alive, b.sure));
     for lane in (0..LANES).filter(|lane| a.alive >> lane & 1 != 0) {
@@ -128,7 +128,7 @@ fn same_verdict(a: &Verdict, b: &Verdict) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// A packet pushes for each of its rays what the ray stacks alone.
+/// Checks that a packet pushes for each of its rays what the single ray pushes.
 fn enters_alike<K: Together<N> + Kernel<Ray = Numbers>, const N: usize>(
     kernel: K,
     node: Node,
@@ -173,7 +173,7 @@ fn enters_alike<K: Together<N> + Kernel<Ray = Numbers>, const N: usize>(
     Ok(())
 }
 
-/// A packet says of a block for each of its rays that are awake what the scalar kernel says.
+/// Checks that a packet's verdicts are the scalar kernel's, for each ray that is awake.
 fn judges_alike<K: Together<N>, const N: usize>(
     kernel: K,
     block: &Block,

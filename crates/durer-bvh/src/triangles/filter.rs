@@ -1,56 +1,61 @@
-//! The filter: f32 arithmetic that says of most triangles for certain whether a ray meets them, and
-//! about where.
+//! The filter: f32 arithmetic that decides for most triangles with certainty whether a ray hits
+//! them, and bounds the parameter.
 //!
 //! With `C = v0 - o`, edges `e1`, `e2` from `v0`, `N = e1 x e2` and `R = C x d` the ray `o + t d`
 //! meets the triangle's plane at
 //!
 //! ```text
-//!     t = T / D,   T = C . N,   D = d . N,        b1 = U / D,   U = R . e2,      b2 = V / D,   V = -R . e1,
+//!     t = T / D,  T = C . N,  D = d . N,    b1 = U / D,  U = R . e2,    b2 = V / D,  V = -R . e1,
 //! ```
 //!
 //! and it passes through the triangle if `U`, `V` and `W = D - U - V` have one sign (T. Moeller, B.
 //! Trumbore, "Fast, minimum storage ray-triangle intersection", Journal of Graphics Tools 2(1),
 //! 1997, in the form with one cross product for `U` and `V`).
 //!
-//! # What f32 can say
+//! # The error in f32
 //!
 //! Let `u = 2^-24`, all coordinates of the tree at most 1, those of `o` at most `O` and known
 //! within `e`, those of `d` at most `M` and known within `g`; `c = 1 + O`; and `E` the size of the
-//! block, which no sum of magnitudes of an edge from a `v0` in it exceeds. To first order, per
-//! component, for the triangle as it is kept:
+//! block, which bounds the sum of the magnitudes of every edge from a `v0` in it. To first order,
+//! per component, for the triangle as it is stored:
 //!
 //! ```text
-//!     C    o is rounded, and so is the difference                           2 u c + e            |C| <= c
-//!     d    is rounded                                                       u M + g              |d| <= M
-//!     e1   is rounded                                                       u |e1|
-//!     R    three roundings, 4 u c M; C and d: 2 ((2uc + e) M + c (uM + g))   10 u c M + 2 k       |R| <= 2 c M,  k = e M + c g
-//!     U    three roundings, 6 u c M E; R and e2: (10 u c M + 2 k + 2 u c M) E   (18 u c M + 2 k) E
-//!     N    the four products |e1_j e2_k| + ... sum to E^2 at most over all axes: two roundings and the edges: 4 u of them
-//!     D    three roundings, N and d                                         (8 u M + g) E^2
+//!     C    o is rounded, and so is the difference            2 u c + e         |C| <= c
+//!     d    is rounded                                        u M + g           |d| <= M
+//!     e1   is rounded                                        u |e1|
+//!     R    three roundings, 4 u c M;
+//!          C and d: 2 ((2uc + e) M + c (uM + g))             10 u c M + 2 k    |R| <= 2 c M,
+//!                                                                              k = e M + c g
+//!     U    three roundings, 6 u c M E;
+//!          R and e2: (10 u c M + 2 k + 2 u c M) E            (18 u c M + 2 k) E
+//!     N    the four products |e1_j e2_k| + ... sum to E^2 at most over all axes:
+//!          two roundings and the edges: 4 u of them
+//!     D    three roundings, N and d                          (8 u M + g) E^2
 //!     W    D, U, V and two roundings of at most M E^2 + 2 c M E, M E^2 + 4 c M E
-//!                                                                           (42 u c M + 4 k) E + (10 u M + g) E^2
+//!                                                            (42 u c M + 4 k) E + (10 u M + g) E^2
 //! ```
 //!
 //! counted without fused operations, which round less. The last is the largest, so it serves for
 //! `U`, `V` and `W`.
 //!
 //! Where f32 does not hold the corners they are within `u` of the exact ones. A volume
-//! `d . (b2 x b1)` of two corners as seen from `o` does not change when they move along `d`, so
-//! each corner's error counts as often as the other is away from the *ray*, not from `o`: at most
-//! `E`, which then bounds the widths of a box around the block too, and what rounding and the
+//! `d . (b2 x b1)` of two corners relative to `o` does not change when they move along `d`. So each
+//! corner's error is multiplied by the distance of the other from the *ray*, not from `o`: at most
+//! `E`, which then bounds the widths of a box around the block too, plus what rounding and the
 //! boxes' tests have grown them by on three axes, less than `10 u c + 2 e`, since the ray meets the
 //! block's box. That is `3 u M` times this for either, and twice as much is charged. In sum `U`,
 //! `V` and `W` err by
 //!
 //! ```text
-//!     A E + B E^2 + G,     A = 42 u c M + 4 k (+ 12 u M),  B = 10 u M + g,  G = (12 u M (10 u c + 2 e)),
+//!     A E + B E^2 + G,   A = 42 u c M + 4 k (+ 12 u M),
+//!                        B = 10 u M + g,   G = (12 u M (10 u c + 2 e)),
 //! ```
 //!
-//! with what is in brackets for rounded corners. Second-order terms are below 2^-9 of the
-//! first-order ones, since `e` and `g / M` are at most [`ROUGH`] (a ray that is known less well
-//! meets everything); the factor [`PAYS`] pays for them and for the roundings of the bounds
-//! themselves. Underflow loses less than 2^-145, far below `A E >= 2^-118`, as `E` is at least
-//! 2^-100.
+//! with the terms in brackets for rounded corners. Second-order terms are below 2^-9 of the
+//! first-order ones, since `e` and `g / M` are at most [`ROUGH`] (for a ray with larger errors
+//! every triangle is in doubt); the factor [`PAYS`] pays for them and for the roundings of the
+//! bounds themselves. Underflow loses less than 2^-145, far below `A E >= 2^-118`, as `E` is at
+//! least 2^-100.
 //!
 //! For `t = T / D` let `|D|` be greater than `2 (8 u M + g) E^2 + 2^-100` and four times the bound
 //! above. Then the exact `D` is at least half as large, and `b0`, `b1`, `b2` of a triangle that is
@@ -60,29 +65,30 @@
 //! of `E^2` in the bounds of `T` and `D`,
 //!
 //! ```text
-//!     |error of t| <= 2 S / |D| (8 u (|t| M + 2 E) + u O + e + (2 u) + |t| (8 u M + g)) + 4 u |t| + s,
+//!     |error of t| <= 2 S / |D| (8 u (|t| M + 2 E) + u O + e + (2 u) + |t| (8 u M + g))
+//!                     + 4 u |t| + s,
 //! ```
 //!
-//! where `s` keeps hits apart whose rounded f64 parameters may stand in another order than the
-//! exact ones.
+//! where `s` separates hits whose rounded f64 parameters may be in another order than the exact
+//! ones.
 
 use super::block::LANES;
 use crate::ray::{ClippedRay, Ray64};
 
 /// Half an ulp of 1 in f32.
 const U: f32 = 1.0 / (1 << 24) as f32;
-/// The largest error of a ray, in tree units and relative to its direction, with which f32 can
-/// still say something.
+/// The largest error of a ray, in tree units and relative to its direction, with which f32 is of
+/// use.
 pub(crate) const ROUGH: f32 = 1.0 / (1 << 10) as f32;
-/// Second-order terms, and the roundings of bounds and of what they are made of.
+/// Pays for second-order terms, and for the roundings of bounds and of their constituents.
 const PAYS: f32 = 1.0 + 1.0 / 64.0;
-/// Parts of the bound of `t` that are every ray's: see [`Filter::s`].
+/// Parts of the bound of `t` that all rays share: see [`Filter::s`].
 pub(crate) const NEAR: f32 = 32.0 * U * PAYS;
 pub(crate) const FAR: f32 = 4.0 * U * PAYS;
-/// Below this `D` is not told from zero: what underflow may have cost, many times over.
+/// A smaller `D` is not distinguished from zero. This is many times the loss by underflow.
 pub(crate) const FLAT: f32 = 1.0 / (1_u128 << 100) as f32;
 
-/// A ray as triangles see it.
+/// A ray, with the error bounds of its triangle tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Filter {
     /// Where it enters the tree's box.
@@ -98,7 +104,7 @@ pub(crate) struct Filter {
     pub(crate) p: f32,
     pub(crate) q: f32,
     pub(crate) s: f32,
-    /// A crossing before this does not matter.
+    /// The least parameter that matters.
     pub(crate) t_near: f32,
     /// A crossing between these is certainly in the ray's range.
     pub(crate) first: f32,
@@ -106,8 +112,7 @@ pub(crate) struct Filter {
 }
 
 impl Filter {
-    /// The ray from its entry on; `rounded` says that f32 does not hold the corners. The origin of
-    /// `line` is counted from the tree's centre.
+    /// The filter of a ray from its entry on; `rounded` tells that f32 does not hold the corners.
     #[inline(always)]
     pub(crate) fn new(line: impl FnOnce() -> Ray64, way: &ClippedRay, rounded: bool) -> Self {
         if way.is_exact {
@@ -117,20 +122,20 @@ impl Filter {
         }
     }
 
-    /// The same for a ray that is [exactly known](ClippedRay::is_exact).
+    /// The filter of a ray that is [exactly known](ClippedRay::is_exact).
     #[inline(always)]
     pub(crate) fn of_exact(way: &ClippedRay, rounded: bool) -> Self {
         Self::exact(way, Self::of_corners(rounded))
     }
 
-    /// How far corners may be from where they are kept.
+    /// A bound on the distance of corners from their stored values.
     #[inline(always)]
     pub(crate) fn of_corners(rounded: bool) -> f32 {
         if rounded { U } else { 0.0 }
     }
 
     /// Factors for exactly known rays: of `c M` in `a`, of `M` in `b`, of `O` in `p`; `s`; and in
-    /// `a` and `p` those of what rounding took from corners.
+    /// `a` and `p` those for rounded corners.
     pub(crate) const A: f32 = 42.0 * U * PAYS;
     pub(crate) const B: f32 = 10.0 * U * PAYS;
     pub(crate) const P: f32 = 2.0 * U * PAYS;
@@ -166,10 +171,10 @@ impl Filter {
         let (o, d) = (way.start, way.direction);
         let (size, m) = (most(&o), most(&d));
         let g = line.direction_error.max_abs() as f32;
-        // The start was rounded once more than the tests of boxes know, by 2^-53 of itself.
+        // The start was rounded once more than the box tests account for, by 2^-53 of itself.
         let e = (way.error as f32).mul_add(PAYS, U * U * size);
         let c = 1.0 + size;
-        // An error that is not a number is not this small either.
+        // Negated, so that a NaN counts as too large.
         if !(e <= ROUGH && g <= ROUGH * m) {
             return Self::NOTHING;
         }
@@ -195,7 +200,7 @@ impl Filter {
         }
     }
 
-    /// A ray of which f32 can say nothing: every triangle is in doubt.
+    /// The filter of a ray for which f32 is of no use: every triangle is in doubt.
     pub(crate) const NOTHING: Self = Self {
         o: [0.0; 4],
         d: [0.0; 4],
@@ -219,12 +224,12 @@ fn most(v: &[f32; 4]) -> f32 {
     max(max(v[0].abs(), v[1].abs()), v[2].abs())
 }
 
-/// What the filter says of a block.
+/// The filter's verdict on a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Verdict {
-    /// Lanes that the ray may meet before it has gone too far: bit `i` is lane `i`.
+    /// The mask of lanes that the ray may hit within its limit: bit `i` is lane `i`.
     pub(crate) alive: u32,
-    /// Lanes of these that it certainly meets, within its range.
+    /// The mask of those lanes that it certainly hits, within its range.
     pub(crate) sure: u32,
     /// Bounds of the crossing's parameter, from the entry, of the lanes alive.
     pub(crate) lo: [f32; LANES],
@@ -232,6 +237,6 @@ pub(crate) struct Verdict {
 }
 
 impl Verdict {
-    /// All are missed.
+    /// A verdict that all triangles are missed.
     pub(crate) const NOTHING: Self = Self { alive: 0, sure: 0, lo: [0.0; LANES], hi: [0.0; LANES] };
 }

@@ -1,5 +1,5 @@
-//! Arenas on their way into a geometry: parts are listed, boxes become entries of a tree, and slots
-//! are put into the order of its leaves.
+//! Arenas during the build of a geometry: parts are listed, boxes become entries of a tree, and
+//! slots are sorted into the order of its leaves.
 
 use super::{AnyArena, Arena, PartRef};
 use durer_bvh::{Entry, Frame};
@@ -7,36 +7,34 @@ use durer_math::{Aabb, Point3};
 use durer_surfaces::{PartId, Surface};
 use rayon::prelude::*;
 
-/// What the builder asks of an arena.
+/// The builder's view of an arena.
 pub(crate) trait Arrange: AnyArena {
-    /// Lists the parts; no surface is added afterwards.
+    /// Lists the parts. No surface may be added afterwards.
     fn seal(&mut self);
-    /// The box of all bounded slots, each cut by its object's limit, if there is one.
+    /// The box of all bounded slots, each clipped by its object's limit, if there is one.
     fn extent(&self, limits: &[Aabb]) -> Aabb;
-    /// Appends the bounded slots, cut like that, as entries of the given kind, to `entries`, and
-    /// sorts out the others.
+    /// Appends the bounded slots, clipped in the same way, as entries of the given kind, to
+    /// `entries`, and returns the others.
     fn entries(&self, frame: &Frame, kind: u32, limits: &[Aabb], entries: &mut Vec<Entry>) -> Unsorted;
     /// The corners of a triangle, by its number in [`Arrange::entries`].
     fn corners(&self, index: u32) -> [Point3; 3];
-    /// Puts the slots into a new order: the new slot `i` is the old `order[i]`. The array is used
-    /// up.
+    /// Reorders the slots: the new slot `i` is the old `order[i]`. Consumes the array.
     fn arrange(&mut self, order: Vec<u32>);
-    /// As the arena of a finished geometry.
+    /// Converts to the arena of a finished geometry.
     fn finish(self: Box<Self>) -> Box<dyn AnyArena>;
 }
 
-/// Slots that no tree holds.
+/// Slots that are not in the tree.
 #[derive(Debug, Default)]
 pub(crate) struct Unsorted {
-    /// Unbounded, or with a box that is not a number: nothing can be disproved, so they are always
-    /// tested.
+    /// Unbounded slots, and slots whose box has a NaN: every ray tests them.
     pub(crate) beside: Vec<u32>,
-    /// Empty: there is nothing to meet.
+    /// Empty slots: no ray hits them.
     pub(crate) nothing: Vec<u32>,
 }
 
 impl Unsorted {
-    /// Appends bounded boxes, numbered in their order, as entries of a kind, and sorts out the
+    /// Appends bounded boxes, numbered in their order, as entries of a kind, and returns the
     /// others.
     pub(crate) fn beside(
         entries: &mut Vec<Entry>,
@@ -130,14 +128,14 @@ impl<S: Surface + 'static> Arrange for Arena<S> {
     }
 
     fn arrange(&mut self, mut order: Vec<u32>) {
-        // Of an arena that is arranged anew.
+        // Left over from before, if the arena is arranged anew.
         self.placed = Vec::new();
         if let Some(parts) = self.parts.take() {
             self.placed = order.iter().map(|&i| parts[i as usize].0).collect();
             return;
         }
-        // The permutation's cycles, in place: surfaces need not be `Clone`, and no second arena is
-        // held.
+        // Follows the permutation's cycles, in place: surfaces need not be `Clone`, and no second
+        // arena is allocated.
         for start in 0..order.len() {
             let mut to = start;
             loop {

@@ -1,4 +1,4 @@
-//! On which side of a solid a ray starts.
+//! Decides on which side of a solid a ray starts.
 
 use super::ALL;
 use durer_math::RaySide;
@@ -6,14 +6,14 @@ use durer_math::eft::{exponent, scale2};
 use durer_math::scale::pow2;
 use durer_surfaces::{Flow, LocalPoint, LocalRay, Root, Side, Sink, Surface};
 
-/// Whether a ray comes to its start (at `t_min`) inside a solid whose crossings within its range
-/// leave that open; `start` is some point of its line.
+/// Whether a ray starts (at `t_min`) inside a solid, for solids whose crossings within the range do
+/// not decide it; `start` is some point of its line.
 ///
-/// A crossing at the very start is one of the range, and says what was before. Else it is decided
-/// by the signs of the crossings before and behind the range, and where the line crosses the solid
-/// nowhere, and the solid has no bounds, by the exact side of a point of it, which must not be
-/// where the line goes in and out again within rounding. A point may be known to be inside that is
-/// on no chord known: where a tangent touches a formula's solid within rounding.
+/// A crossing exactly at the start belongs to the range, and its sign decides. Else the crossings
+/// before and behind the range decide. If the line crosses the solid nowhere, and the solid is
+/// unbounded, the exact side of a point of the line decides; this point must not be where the line
+/// enters and leaves the solid within rounding. A point may be proven inside though no chord is
+/// known there: where a tangent touches a formula's solid within rounding.
 pub(super) fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint<'_>) -> bool {
     if let Some(side) = ray.source {
         return side == RaySide::Back;
@@ -34,8 +34,8 @@ pub(super) fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: 
     if let Some(sign) = signs(f64::NEG_INFINITY, ray.t_min).last {
         return sign < 0;
     }
-    // One at the very end is one of the range, too: behind it is what was before, as the crossings
-    // of the range cancel.
+    // A crossing exactly at the end belongs to the range, too. The state behind it is the state at
+    // the start, as the crossings of the range cancel.
     if let Some(sign) = signs(ray.t_max, ray.t_max).last {
         return sign < 0;
     }
@@ -43,7 +43,7 @@ pub(super) fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: 
         return sign > 0;
     }
     if surface.bounds().is_bounded() {
-        // The line comes from outside and goes there, and does not cross it on the way.
+        // The line comes from outside, leaves to the outside, and does not cross the solid between.
         return false;
     }
     match side_beside(surface, ray, start, pairs) {
@@ -53,12 +53,12 @@ pub(super) fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: 
     }
 }
 
-/// On which side the line is but for touches and pairs of crossings, which are all within `pairs`;
-/// `On` if that is not found.
+/// The side of the line apart from touches and pairs of crossings, which are all within `pairs`;
+/// `On` if it is not found.
 fn side_beside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint<'_>, pairs: Hull) -> Side {
     let Some((low, high)) = pairs.0 else { return surface.side(start) };
-    // Farther and farther away from where the ray's own parameter starts, which is near the
-    // surface's middle.
+    // At growing distances from the origin of the ray's own parameter, which is near the surface's
+    // middle.
     let places = (0..128).flat_map(|j| [pow2(j), -pow2(j)]);
     let beside = places.filter(|&s| {
         let (before, after) = ray.caller_bounds(s);
@@ -71,7 +71,7 @@ fn side_beside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint<'
         .unwrap_or(Side::On)
 }
 
-/// The least range that holds some brackets.
+/// The least interval that contains some brackets.
 #[derive(Clone, Copy, Default)]
 struct Hull(Option<(f64, f64)>);
 
@@ -87,10 +87,10 @@ impl Hull {
 /// Whether a line lies in a closed solid that it does not cross, though it may touch it in single
 /// points.
 ///
-/// All its points but those lie on one side. Solids with quadric faces, of which there are six at
-/// most, are touched in no more than twelve points; a line in a face of a solid of many faces has
-/// left it where it has left the box. A line of which no point is off the boundary lies in it, and
-/// so in the closed solid.
+/// All its other points lie on one side. Solids with quadric faces, of which there are six at most,
+/// are touched in at most twelve points; a line in a face of a solid of many faces has left the
+/// face where it has left the box. If no point is found off the boundary, the line lies in the
+/// boundary, and so in the closed solid.
 fn runs_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>) -> bool {
     let bounds = surface.bounds();
     let far = bounds.max.to_vec().max_abs().max(bounds.min.to_vec().max_abs()).max(ray.o.to_vec().max_abs());
@@ -101,15 +101,14 @@ fn runs_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>) -> bool {
     sides.find(|&side| side != Side::On) != Some(Side::Out)
 }
 
-/// The signs of the first and the last crossing that changes sides. Crossings whose enclosures
-/// overlap count as one, by their sum: where the line touches an edge, it goes in and out at one
-/// point, or out and in, and their order says nothing.
+/// The signs of the first and the last crossing that changes sides. Crossings whose brackets
+/// overlap count as one, by their sum: where the line touches an edge, it enters and leaves at one
+/// point, or leaves and enters, and their order has no meaning.
 #[derive(Default)]
 struct Ends {
     first: Option<i32>,
     last: Option<i32>,
-    /// The crossings that overlap the last one: their sum, where they begin, and how far they
-    /// reach.
+    /// The crossings that overlap the last one: their sum, and the ends of their common interval.
     group: Option<(i32, (f64, f64))>,
     /// Touches, and groups that cancel.
     pairs: Hull,

@@ -1,8 +1,9 @@
-//! One arena per concrete surface type: one virtual call per leaf, static inside.
+//! Arenas: one per concrete surface type, with one virtual call per leaf and static calls inside.
 //!
-//! A *slot* is what a tree's leaf holds: a surface, or one part of a surface that has several. Slots are kept in the
-//! order of the leaves, so that a leaf is one contiguous range. Where every surface of an arena has one part, the surfaces
-//! themselves are moved into that order, and slot and surface are the same number.
+//! A *slot* is an element of a tree's leaf: a surface, or one part of a surface that has several.
+//! Slots are in the order of the leaves, so that a leaf is one contiguous range. If every surface
+//! of an arena has one part, the surfaces themselves are sorted into that order, and slot and
+//! surface have the same number.
 
 mod arrange;
 mod inside;
@@ -22,23 +23,24 @@ use durer_surfaces::{
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// What a ray meets of an arena.
+/// What a ray can hit in an arena.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Filter {
-    /// Surfaces with a common bit are met.
+    /// The ray hits only surfaces whose mask has a common bit.
     pub(crate) mask: u32,
-    /// The slot that the ray was spawned from and the side on which it starts, if it is in this arena.
+    /// The slot that the ray was spawned from, and the side on which it starts, if that slot is in
+    /// this arena.
     pub(crate) source: Option<(u32, RaySide)>,
 }
 
-/// A receiver of hits: slot, name, root.
+/// A receiver of hits: slot, numbers, root.
 pub(crate) type Visit<'a> = dyn FnMut(u32, Id, Root) -> Flow + 'a;
 
-/// The object-safe face of an [`Arena`], for ranges of slots.
+/// The object-safe interface of an [`Arena`], for ranges of slots.
 pub(crate) trait AnyArena: Send + Sync {
-    /// Improves `best` by the slots of a leaf, until it is satisfied.
+    /// Updates `best` with the slots of a leaf, until no further hit matters.
     fn improve(&self, isa: Isa, leaf: Range<u32>, ray: &LocalRay<'_>, filter: &Filter, best: &mut ClosestHit);
-    /// Shows every hit of the leaf to `visit`, until it says stop.
+    /// Passes every hit of the leaf to `visit`, until it returns [`Flow::Stop`].
     fn each(
         &self,
         isa: Isa,
@@ -56,49 +58,51 @@ pub(crate) trait AnyArena: Send + Sync {
         start: &LocalPoint<'_>,
         tracks: &mut Tracks,
     );
-    /// Adds what a solid of many parts needs to know beside the crossings of its parts: whether the ray starts inside.
+    /// Adds, for a solid of many parts, what the crossings of its parts do not decide: whether the
+    /// ray starts inside.
     fn start_of(&self, surface: u32, ray: &LocalRay<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks);
-    /// Whether a ray starts inside the solid in a slot, which it does not cross in its range.
+    /// Whether a ray starts inside the solid in a slot. The ray does not cross it in its range.
     fn starts_inside(&self, slot: u32, ray: &LocalRay<'_>) -> bool;
-    /// Whether no ray of a bundle meets the surface in a slot: `true` is certain.
+    /// Whether no ray of a bundle hits the surface in a slot; `true` is certain.
     fn misses(&self, slot: u32, shaft: &Shaft) -> bool;
-    /// Whether no ray of a bundle that starts on this side of the surface in a slot comes back to it: `true` is certain.
+    /// Whether no ray of a bundle that starts on this side of the surface in a slot hits it again;
+    /// `true` is certain.
     fn is_left(&self, slot: u32, side: RaySide, shaft: &Shaft) -> bool;
     /// On which side of a surface a point lies; `Out` for open surfaces.
     fn side(&self, surface: u32, point: &LocalPoint<'_>) -> Side;
     /// The point of a hit.
     fn resolve(&self, isa: Isa, slot: u32, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint;
-    /// A slot as lanes see it.
+    /// The packet filter of a slot.
     fn drawn(&self, slot: u32) -> SlotFilter;
-    /// A solid of several parts as lanes see it, and the slots of its faces.
+    /// The packet filter of a solid of several parts, and the slots of its faces.
     fn solid(&self, surface: u32) -> (FilterKind, Vec<u32>);
-    /// Which rays meet a slot.
+    /// The mask of a slot.
     fn mask(&self, slot: u32) -> u32;
-    /// Which part of its surface a slot is.
+    /// The part of its surface that a slot holds.
     fn part(&self, slot: u32) -> PartId;
-    /// The name of a slot.
+    /// The object and primitive numbers of a slot.
     fn name(&self, slot: u32) -> Id;
     /// The object of a surface.
     fn object_of(&self, surface: u32) -> u32;
-    /// The surface of which a slot is all, if it is not a part of one.
+    /// The surface that a slot holds, unless the slot is only a part of one.
     fn whole(&self, slot: u32) -> Option<u32>;
-    /// Solids of several parts, with their boxes.
+    /// The solids of several parts, with their boxes.
     fn solids_in_parts(&self) -> Vec<(u32, Aabb)>;
-    /// The box of each slot, as it is now.
+    /// The present box of each slot.
     fn slot_bounds(&self) -> Vec<Aabb>;
     /// Whether all slots are flat triangles.
     fn is_of_triangles(&self) -> bool;
     /// The corners of the triangle in a slot.
     fn slot_corners(&self, slot: u32) -> [Point3; 3];
-    /// For taking the concrete arena back.
+    /// Access to the concrete arena.
     fn as_any(&mut self) -> &mut dyn core::any::Any;
-    /// As an arena that may be arranged anew.
+    /// Converts to an arena that can be arranged anew.
     fn reopen(self: Box<Self>) -> Box<dyn Arrange>;
     /// The type's name.
     fn type_name(&self) -> &'static str;
     /// How many slots there are.
     fn len(&self) -> u32;
-    /// Heap memory held, without what the surfaces own in turn.
+    /// Bytes on the heap, without what the surfaces own in turn.
     fn bytes(&self) -> usize;
 }
 
@@ -107,7 +111,7 @@ pub(crate) trait AnyArena: Send + Sync {
 struct PartRef {
     surface: u32,
     part: u32,
-    /// The surface has no other part.
+    /// Whether the surface has no other part.
     whole: bool,
 }
 
@@ -117,7 +121,7 @@ pub(crate) struct Arena<S> {
     ids: Ids,
     /// `None` if every surface is one part.
     parts: Option<Vec<(PartRef, Aabb)>>,
-    /// The parts without their boxes, once these are in the tree.
+    /// The parts without their boxes, after these have been put into the tree.
     placed: Vec<PartRef>,
 }
 
@@ -133,7 +137,8 @@ impl<S: Surface + 'static> Arena<S> {
         self.ids.push(id, mask);
     }
 
-    /// Puts other surfaces in the place of those for which there is one, if they have the same parts, and gives back the old ones with their places.
+    /// Replaces the surfaces for which `moved` returns one, if they have the same parts. Returns
+    /// the old surfaces with their positions.
     pub(crate) fn replace(
         &mut self,
         mut moved: impl FnMut(Id, &S) -> Option<S>,
@@ -158,7 +163,7 @@ impl<S: Surface + 'static> Arena<S> {
         Ok(new)
     }
 
-    /// Puts other surfaces in the place of those for which there is one, whatever parts they have.
+    /// Replaces the surfaces for which `moved` returns one, whatever parts they have.
     pub(crate) fn renew(&mut self, mut moved: impl FnMut(Id, &S) -> Option<S>) {
         for (i, surface) in self.surfaces.iter_mut().enumerate() {
             if let Some(other) = moved(self.ids.name(i), surface) {
@@ -167,14 +172,15 @@ impl<S: Surface + 'static> Arena<S> {
         }
     }
 
-    /// Puts surfaces in their places, and what was there in theirs.
+    /// Exchanges surfaces with those at the given positions.
     pub(crate) fn swap(&mut self, others: &mut [(usize, S)]) {
         for (i, other) in others {
             core::mem::swap(&mut self.surfaces[*i], other);
         }
     }
 
-    /// Calls `f` with each admitted slot of a leaf: its surface, its part and the ray, which knows its side if it starts there.
+    /// Calls `f` with each slot of a leaf that the mask admits, and the ray; if the ray starts on
+    /// the slot, it carries its side.
     #[inline(always)]
     fn walk(
         &self,
@@ -188,7 +194,7 @@ impl<S: Surface + 'static> Arena<S> {
             if !self.ids.admits(item.index, filter.mask) {
                 continue;
             }
-            // One call: what is inlined here is large.
+            // Only one call of `f`, as the code inlined here is large.
             let started;
             let ray = match filter.source {
                 Some((source, side)) if source == slot => {
@@ -206,7 +212,7 @@ impl<S: Surface + 'static> Arena<S> {
 
     #[inline(always)]
     fn slot(&self, slot: u32) -> Slot<'_, S> {
-        // An arena without parts keeps no list of them: slot and surface are the same number.
+        // An arena without parts has no list of them: slot and surface have the same number.
         let (index, part, whole) = match self.placed.get(slot as usize) {
             Some(p) => (p.surface as usize, PartId(p.part), p.whole),
             None => (slot as usize, PartId(0), true),
@@ -215,7 +221,7 @@ impl<S: Surface + 'static> Arena<S> {
     }
 }
 
-/// A slot at hand.
+/// A slot with its surface.
 struct Slot<'a, S> {
     arena: &'a Arena<S>,
     surface: &'a S,
@@ -226,7 +232,8 @@ struct Slot<'a, S> {
 }
 
 impl<S: Surface> Slot<'_, S> {
-    /// Shows the roots to any sink. Compiled once per path, where [`AnyArena::improve`] has a copy of its own.
+    /// Passes the roots to any sink. Compiled once per path; [`AnyArena::improve`] has a copy of
+    /// its own.
     #[inline(never)]
     fn show(&self, isa: Isa, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         isa.run(
@@ -235,7 +242,7 @@ impl<S: Surface> Slot<'_, S> {
         );
     }
 
-    /// The name: parts of a surface may be primitives of their own.
+    /// The object and primitive numbers: parts of a surface may be primitives of their own.
     #[inline(always)]
     fn name(&self) -> Id {
         let id = self.arena.ids.name(self.index);
@@ -243,8 +250,8 @@ impl<S: Surface> Slot<'_, S> {
     }
 }
 
-/// A root with its `t` in the ray's range, where the exact crossing is: rounding may have put it a step outside. `None` where the exact `t`
-/// is beyond all numbers: there is nothing to tell about such a crossing.
+/// A root with its `t` moved into the ray's range, where the exact crossing is: rounding may have
+/// put it a step outside. `None` if the exact `t` exceeds the range of f64.
 #[inline(always)]
 fn in_range(mut root: Root, ray: &LocalRay<'_>) -> Option<Root> {
     root.t = if root.t < ray.t_min {
@@ -257,17 +264,18 @@ fn in_range(mut root: Root, ray: &LocalRay<'_>) -> Option<Root> {
     if root.t.is_finite() { Some(root) } else { brought_back(root, ray) }
 }
 
-/// A root with the number next to its infinite `t`, unless the crossing itself is as far.
+/// A root whose infinite `t` is replaced by the nearest finite number; `None` if the crossing
+/// itself is beyond.
 #[cold]
 fn brought_back(root: Root, ray: &LocalRay<'_>) -> Option<Root> {
     let t = root.t.clamp(f64::MIN, f64::MAX);
     (root.lo <= t && t <= root.hi && ray.t_min <= t && t <= ray.t_max).then_some(Root { t, ..root })
 }
 
-/// All of a line: what a surface computes must not depend on what was met before.
+/// The whole line: a surface's results must not depend on earlier hits.
 const ALL: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 
-/// A root of one slot against the best so far.
+/// A sink that compares the roots of one slot with the best so far.
 struct Challenger<'a> {
     slot: u32,
     name: Id,
@@ -288,13 +296,13 @@ impl Sink for Challenger<'_> {
 
     #[inline(always)]
     fn push(&mut self, root: Root) -> Flow {
-        // Roots ascend: behind one that lost, the others lose too.
+        // Roots ascend: once one is not better, the later ones are not either.
         let Some(root) = in_range(root, self.ray) else { return Flow::Continue };
         if self.best.offer(self.slot, self.name, &root) { Flow::Continue } else { Flow::Stop }
     }
 }
 
-/// Hands roots on to a visitor.
+/// A sink that passes roots to a visitor.
 struct Forward<'a, 'b> {
     slot: u32,
     name: Id,
@@ -423,7 +431,7 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
     fn drawn(&self, slot: u32) -> SlotFilter {
         let Slot { surface, part, whole, .. } = self.slot(slot);
         let sketch = surface.packet_filter(part);
-        // The surface's own box is the tighter one, unless this is a small part of it.
+        // The surface's own box is tighter, unless the slot is a part of it.
         let bounds = if whole { surface.bounds() } else { sketch.bounds() };
         SlotFilter { seen: FilterKind::of(&sketch), bounds }
     }
@@ -482,12 +490,12 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
                 parts.insert((surface as u32, part.0), bounds);
             });
         }
-        // A part that is gone is nowhere.
+        // A part that no longer exists has an empty box.
         self.placed.iter().map(|p| parts.get(&(p.surface, p.part)).copied().unwrap_or(Aabb::EMPTY)).collect()
     }
 
     fn is_of_triangles(&self) -> bool {
-        // All surfaces of a type, or none.
+        // Either all surfaces of a type are triangles, or none.
         self.surfaces.first().is_some_and(|surface| surface.corners(PartId(0)).is_some())
     }
 

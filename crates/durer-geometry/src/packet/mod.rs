@@ -1,7 +1,7 @@
-//! Eight rays side by side, and what they meet.
+//! Packets of eight rays.
 //!
-//! Lanes ask the outlines of a beam's surfaces; rays of which an outline leaves a doubt ask the
-//! surfaces themselves, one by one.
+//! A packet tests the packet filters of a bundle's candidates. A ray for which a filter leaves a
+//! doubt then tests the surfaces themselves, as a single ray.
 
 mod rays;
 mod together;
@@ -23,8 +23,7 @@ use durer_math::{Aabb, F8, Isa, M8, Point3, Ray, RaySide, Shaft, Source, Vec3};
 use durer_surfaces::packet::{self, Nearest, PacketFilter, PacketQuery, Points8, RayLanes};
 use durer_surfaces::{Need, PREVIEW_WIDTH};
 
-/// Memory for what is known of eight rays on the way: kept, so that it need not be cleared for
-/// each.
+/// Reusable memory for packet queries, which need not be cleared.
 #[derive(Debug, Default)]
 pub struct Scratch {
     outline: packet::Scratch,
@@ -32,7 +31,7 @@ pub struct Scratch {
     abreast: Abreast,
 }
 
-/// What lanes meet: a face of an outline, with the names of hits on it.
+/// A face of a packet filter, with the numbers of hits on it.
 struct Face<'g> {
     outline: &'g PacketFilter,
     face: u32,
@@ -42,7 +41,7 @@ struct Face<'g> {
     part: u32,
 }
 
-/// The slots that eight rays leave.
+/// The slots from which eight rays start.
 type Slots = ArrayVec<u64, LANES>;
 
 /// Boxes around points, lane by lane.
@@ -76,7 +75,7 @@ impl Bounds8 {
     }
 }
 
-/// The source of all rays, if they have the same and start on the same side of it.
+/// The source of all rays, if they have the same one and start on the same side of it.
 fn common_source(isa: Isa, rays: &[Rays8]) -> Option<Source> {
     let source = rays.iter().find_map(|r| r.live.first_set().map(|i| r.source.lane(i)))??;
     let (slot, back) = (slot_number(source.arena, source.index), M8::splat(source.side == RaySide::Back));
@@ -95,7 +94,7 @@ fn common_source(isa: Isa, rays: &[Rays8]) -> Option<Source> {
     (source.instance == 0 && shared).then_some(source)
 }
 
-/// Puts down the lanes that wait with these numbers; answers with their bits.
+/// Stores the waiting lanes that have these numbers, and returns their bits.
 #[inline(never)]
 fn together(isa: Isa, waiting: &M8, (number, n): (&F8, f64), (face, f): (&F8, f64), to: &mut M8) -> u8 {
     isa.run_in_lanes(
@@ -107,7 +106,7 @@ fn together(isa: Isa, waiting: &M8, (number, n): (&F8, f64), (face, f): (&F8, f6
     )
 }
 
-/// Whether each ray surely meets something.
+/// Whether each ray certainly hits something.
 #[inline(never)]
 fn all_meet(isa: Isa, rays: &Rays8, nearest: &Nearest) -> bool {
     isa.run_in_lanes(
@@ -117,12 +116,13 @@ fn all_meet(isa: Isa, rays: &Rays8, nearest: &Nearest) -> bool {
 }
 
 impl Geometry {
-    /// What the rays of some eights may meet; `None` if that is so much that each ray should look
-    /// for itself.
+    /// What the rays of some packets may hit; `None` if that is so much that each ray should search
+    /// by itself.
     pub fn bundle_candidates(&self, rays: &[Rays8]) -> Option<CandidateList> {
         let (mut start, mut ahead) = (Bounds8::NONE, Bounds8::NONE);
         let mut longer = M8::NONE;
-        // Bounds stay in memory between these steps: the compiler mixes the lanes of larger ones.
+        // The bounds are in memory between these steps, since the compiler mixes the lanes of
+        // larger closures.
         self.isa.run_in_lanes(
             #[inline(always)]
             || {
@@ -132,7 +132,8 @@ impl Geometry {
                 }
             },
         );
-        // Shorter rays are held by the shaft of longer ones, of which only the directions matter.
+        // The shaft of the longer rays, of which only the directions matter, contains the shorter
+        // ones.
         let shaft = if longer.any() {
             self.isa.run_in_lanes(
                 #[inline(always)]
@@ -159,8 +160,9 @@ impl Geometry {
         self.candidates(&shaft, common_source(self.isa, rays))
     }
 
-    /// Puts down what each ray of some eights sees first, as [`Geometry::first_visible`] answers.
-    /// `candidates` holds what these rays may meet, if that is known; `scratch` may hold anything.
+    /// Stores the first hit of each ray of some packets, with the answers of
+    /// [`Geometry::first_visible`]. `candidates` holds what these rays may hit, if that is known.
+    /// The contents of `scratch` do not matter.
     pub fn first_visible8(
         &self,
         beam: Option<&CandidateList>,
@@ -204,7 +206,7 @@ impl Geometry {
             let put = |i: usize, seen| hits.set_lane(lanes[i], seen);
             return self.seen_abreast(&alone, mask, Need::SHADING_NORMAL, &mut scratch.abreast, put);
         };
-        // Whole blocks are filled and copied on the way, too.
+        // Compiled for these instructions, as it also fills and copies whole packets.
         let left = self.isa.run_in_lanes(
             #[inline(always)]
             || self.see(beam, rays, mask, hits, scratch),
@@ -212,14 +214,14 @@ impl Geometry {
         self.see_alone(beam, (rays, left), mask, hits);
     }
 
-    /// What rays of which lanes leave something open see by themselves.
+    /// Computes the hits of rays with a doubt as single rays.
     fn see_alone(&self, beam: &CandidateList, (rays, left): (&Rays8, M8), mask: u32, hits: &mut Hits8) {
         for i in left.lanes() {
             hits.set_lane(i, self.seen_in(beam, &rays.lane(i), mask, Need::SHADING_NORMAL));
         }
     }
 
-    /// Puts down what is sure; answers with the rays of which something is not. For lanes, as
+    /// Stores the hits that are certain, and returns the rays with a doubt. Works in lanes, like
     /// [`Geometry::nearest`].
     #[inline(always)]
     fn see(
@@ -236,7 +238,7 @@ impl Geometry {
         self.take_down(beam, rays, &lanes, &nearest, hits)
     }
 
-    /// Puts down what of the nearest hits is sure; answers with the rays of which something is not.
+    /// Stores the nearest hits that are certain, and returns the rays with a doubt.
     #[inline(always)]
     fn take_down(
         &self,
@@ -248,7 +250,7 @@ impl Geometry {
     ) -> M8 {
         let Nearest { t, e, doubt, number, face, tag } = nearest;
         let never = F8::splat(f64::INFINITY);
-        // Known well enough to be seen, and before all doubt.
+        // Known within the preview width, and before every doubt.
         let clear = t.lt(never) & doubt.gt(*t + *e) & e.le(*t * (0.5 * PREVIEW_WIDTH));
         let mut left = rays.live & !(clear | t.ge(never) & doubt.ge(never));
         let mut waiting = clear.bits();
@@ -277,7 +279,7 @@ impl Geometry {
         left
     }
 
-    /// The face that lanes call by a number.
+    /// The face that a packet filter denotes by a number.
     #[inline(always)]
     fn face(&self, candidate: &Candidate, face: f64) -> Option<Face<'_>> {
         let Candidate { arena, slot, name, .. } = *candidate;
@@ -297,8 +299,8 @@ impl Geometry {
         }
     }
 
-    /// The first sure hit of each ray among the candidates, and the first doubt. Where `ANY` hit is
-    /// enough it may be another, and once each ray has one no more is asked.
+    /// The first certain hit of each ray among the candidates, and the first doubt. If `ANY` hit
+    /// suffices it may be another hit, and the search ends when each ray has one.
     #[inline(always)]
     fn nearest<const ANY: bool>(
         &self,
@@ -322,7 +324,7 @@ impl Geometry {
         }
     }
 
-    /// Asks one of the candidates.
+    /// Tests one of the candidates.
     #[inline(always)]
     fn ask<const ANY: bool>(
         &self,
@@ -349,7 +351,8 @@ impl Geometry {
         }
     }
 
-    /// Puts down which rays of some eights meet anything, as [`Geometry::any_masked`] answers.
+    /// Stores which rays of some packets hit anything, with the answers of
+    /// [`Geometry::any_masked`].
     pub fn any8(
         &self,
         beam: Option<&CandidateList>,
@@ -406,7 +409,7 @@ impl Geometry {
         met
     }
 
-    /// Whether rays of which lanes leave something open meet anything.
+    /// Decides for rays with a doubt, as single rays, whether they hit anything.
     fn meet_alone(&self, beam: &CandidateList, (rays, left): (&Rays8, M8), mask: u32, met: &mut M8) {
         for i in left.lanes() {
             met.set_lane(i, self.any_in(beam, &rays.lane(i), mask));
@@ -414,12 +417,12 @@ impl Geometry {
     }
 }
 
-/// The rays of an eight, and their lanes.
+/// The rays of a packet, and their lanes.
 fn one_by_one(rays: &Rays8) -> (ArrayVec<Ray, LANES>, ArrayVec<usize, LANES>) {
     rays.live.lanes().map(|i| (rays.lane(i), i)).unzip()
 }
 
-/// Which rays surely meet something, and of which that is open.
+/// Which rays certainly hit something, and for which it is in doubt.
 #[inline(always)]
 fn sure(rays: &Rays8, nearest: &Nearest) -> (M8, M8) {
     let never = F8::splat(f64::INFINITY);

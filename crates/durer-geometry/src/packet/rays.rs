@@ -1,4 +1,4 @@
-//! What eight rays are, and what they see.
+//! Packets of eight rays, and their hits.
 
 use crate::Hit;
 use crate::ids::Id;
@@ -11,19 +11,19 @@ use durer_surfaces::packet::{From8, PacketFilter};
 /// Eight rays `o + t d` with `t` in `[0, t_max]`.
 #[derive(Clone, Copy, Debug)]
 pub struct Rays8 {
-    /// Where they start.
+    /// The origins.
     pub origin: Point3<F8>,
-    /// Their directions, of any length but zero.
+    /// The directions, of any length but zero.
     pub direction: Vec3<F8>,
-    /// How far they go.
+    /// The ends of the ranges.
     pub t_max: F8,
-    /// Which lanes hold a ray; the others may hold anything.
+    /// Which lanes hold a ray; the contents of the others do not matter.
     pub live: M8,
-    /// What they were spawned from.
+    /// The sources of spawned rays.
     pub source: Sources8,
 }
 
-/// The primitives that rays leave, or none.
+/// The primitives from which eight rays start, if any.
 #[derive(Clone, Copy, Debug)]
 pub struct Sources8 {
     /// Arena and index, the arena in the upper half; all ones where there is none.
@@ -31,18 +31,18 @@ pub struct Sources8 {
     pub(crate) instance: [u32; LANES],
     part: [u32; LANES],
     pub(crate) face: [u32; LANES],
-    /// Where the ray starts behind the surface.
+    /// Whether the ray starts behind the surface.
     pub(crate) back: M8,
 }
 
-/// What eight rays see first.
+/// The first hits of eight rays.
 #[derive(Clone, Copy, Debug)]
 pub struct Hits8 {
-    /// Which rays meet anything. The rest is about these.
+    /// Which rays hit anything. Only their lanes of the other members have a meaning.
     pub hit: M8,
-    /// Which rays only touch what they meet.
+    /// Which hits are grazing.
     pub touching: M8,
-    /// Where, in units of the direction.
+    /// The parameters, in units of the direction.
     pub t: F8,
     /// Bounds on the distance of `t` from the exact crossing.
     pub t_error: F8,
@@ -58,11 +58,11 @@ pub struct Hits8 {
     pub object: [u32; LANES],
     /// The primitives within the objects.
     pub primitive: [u32; LANES],
-    /// What rays that are spawned here leave.
+    /// The sources for rays that are spawned at the hits.
     pub source: Sources8,
 }
 
-/// The number that stands for no slot.
+/// The number for no slot.
 const NOWHERE: u64 = u64::MAX;
 
 /// Arena and index in one number.
@@ -72,7 +72,7 @@ pub(crate) fn slot_number(arena: u32, index: u32) -> u64 {
 }
 
 impl Sources8 {
-    /// Rays from nowhere in particular.
+    /// No sources.
     pub const NONE: Self = Self {
         slot: [NOWHERE; LANES],
         instance: [0; LANES],
@@ -94,10 +94,10 @@ impl Sources8 {
         })
     }
 
-    /// Puts down every slot that some ray leaves, once.
+    /// Lists every slot from which some ray starts, once.
     #[inline]
     pub(super) fn all(&self, all: &mut ArrayVec<u64, LANES>) {
-        // Mostly they leave the same one, or none.
+        // Usually all rays start from the same slot, or from none.
         let first = self.slot[0];
         let (mut differ, mut instances) = (0, 0);
         for i in 0..LANES {
@@ -117,7 +117,7 @@ impl Sources8 {
         }
     }
 
-    /// The rays that leave a slot.
+    /// The rays that start from a slot.
     #[inline(always)]
     pub(super) fn of(&self, arena: u32, slot: u32, outline: &PacketFilter) -> From8 {
         let lanes = self.leave(slot_number(arena, slot));
@@ -130,7 +130,7 @@ impl Sources8 {
         From8 { lanes, face, back: self.back }
     }
 
-    /// Which rays leave a slot that no instance places.
+    /// The mask of rays that start from a slot outside of instances.
     #[inline(always)]
     pub(super) fn leave(&self, slot: u64) -> M8 {
         M8::from_fn(
@@ -139,7 +139,7 @@ impl Sources8 {
         )
     }
 
-    /// Gives lane `i` a source.
+    /// Sets the source of lane `i`.
     #[inline]
     pub fn set_lane(&mut self, i: usize, source: Option<Source>) {
         self.slot[i] = source.map_or(NOWHERE, |s| slot_number(s.arena, s.index));
@@ -149,7 +149,7 @@ impl Sources8 {
         }
     }
 
-    /// Lane `i` becomes lane `j` of another eight.
+    /// Copies lane `j` of another packet to lane `i`.
     #[inline(always)]
     pub fn copy_lane(&mut self, i: usize, from: &Self, j: usize) {
         self.slot[i] = from.slot[j];
@@ -197,13 +197,13 @@ impl Hits8 {
         source: Sources8::NONE,
     };
 
-    /// Nothing is met; all else may stay.
+    /// Clears the mask of hits; the other members keep their contents.
     #[inline(always)]
     pub(super) fn forget(&mut self) {
         (self.hit, self.touching) = (M8::NONE, M8::NONE);
     }
 
-    /// Says what these lanes meet, an instance of nothing.
+    /// Sets the numbers of hits in these lanes, outside of instances.
     #[inline(always)]
     pub(super) fn name(&mut self, lanes: u8, name: Id, (slot, part, face): (u64, u32, u32)) {
         let from = &mut self.source;
@@ -220,13 +220,13 @@ impl Hits8 {
         }
     }
 
-    /// Puts the answer of a single ray into lane `i`.
+    /// Stores the answer of a single ray in lane `i`.
     pub fn set_lane(&mut self, i: usize, seen: Option<(Hit, SurfacePoint)>) {
         self.hit.set_lane(i, seen.is_some());
         let Some((hit, point)) = seen else { return };
         self.touching.set_lane(i, hit.sign == 0);
         self.t.0[i] = hit.t;
-        // The differences are rounded.
+        // The factor pays for the rounding of the differences.
         self.t_error.0[i] = (hit.t - hit.t_lo).max(hit.t_hi - hit.t) * (1.0 + 2.0 * U);
         (self.p.x.0[i], self.p.y.0[i], self.p.z.0[i]) = (point.p.x, point.p.y, point.p.z);
         self.ng.set_lane(i, point.ng.to_vec());
@@ -236,16 +236,16 @@ impl Hits8 {
         self.source.set_lane(i, point.source);
     }
 
-    /// Where rays along `direction` start, and which of them do so behind the surface: as
+    /// The origins of rays along `direction`, and which of them are behind the surface: like
     /// [`durer_surfaces::SurfacePoint::spawn`].
     #[inline(always)]
     pub fn start_towards(&self, direction: Vec3<F8>) -> (Point3<F8>, M8) {
         let n = self.ng;
         let back = (n.x * direction.x + n.y * direction.y + n.z * direction.z).lt(F8::ZERO);
         let p = self.p.to_vec();
-        // The start is rounded to the nearest f64, which costs up to U |p| per axis; `off` has room
-        // for steps a little longer (see `SurfacePoint::start`, which rounds away from the surface
-        // instead).
+        // The origin is rounded to the nearest f64, which costs up to U |p| per axis; `off` has
+        // room for steps a little longer (see `SurfacePoint::start`, which rounds away from the
+        // surface instead).
         let size = p.x.abs() + p.y.abs() + p.z.abs();
         let far = size.mul_add(F8::splat(2.0 * U), self.off);
         let step = back.select(-far, far);

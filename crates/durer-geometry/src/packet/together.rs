@@ -1,8 +1,8 @@
-//! Many eights of rays that ask a surface together, one candidate of their beam after the other.
+//! Queries of many packets that test each candidate of their bundle together.
 //!
-//! Most surfaces are asked by one eight at a time, which is faster: all that is known of eight rays
-//! stays at hand. Those that are told a stretch at a time gain more by the company
-//! ([`PacketFilter::meet_together`](durer_surfaces::packet8::PacketFilter::meet_together)).
+//! Most surfaces are tested by one packet at a time, which is faster, since all data of eight rays
+//! stay in registers and cache. Filters that classify segments gain more from many packets at once
+//! ([`PacketFilter::meet_together`](durer_surfaces::packet::PacketFilter::meet_together)).
 
 use super::rays::slot_number;
 use super::{Hits8, Rays8, Scratch, Slots, all_meet, sure};
@@ -13,11 +13,11 @@ use arrayvec::ArrayVec;
 use durer_math::M8;
 use durer_surfaces::packet::{From8, Nearest, PacketQuery, RayLanes};
 
-/// So many eights go together.
+/// The greatest number of packets in one query.
 pub(super) const MANY: usize = 16;
 
 impl Geometry {
-    /// Whether a beam holds a surface that many eights of rays are better told of together.
+    /// Whether a bundle has a candidate that many packets should test together.
     pub(super) fn is_asked_together(&self, beam: &CandidateList, mask: u32) -> bool {
         let is_one = |candidate: &Candidate| {
             let seen = self.seen_of(candidate.arena, candidate.slot);
@@ -26,7 +26,7 @@ impl Geometry {
         beam.candidates.iter().any(|candidate| candidate.mask & mask != 0 && is_one(candidate))
     }
 
-    /// [`Geometry::first_visible8`] of at most [`MANY`] eights.
+    /// [`Geometry::first_visible8`] of at most [`MANY`] packets.
     pub(super) fn see_together(
         &self,
         beam: &CandidateList,
@@ -46,7 +46,7 @@ impl Geometry {
         }
     }
 
-    /// As [`Geometry::see`], of at most [`MANY`] eights.
+    /// [`Geometry::see`] of at most [`MANY`] packets.
     #[inline(always)]
     pub(super) fn see_many(
         &self,
@@ -66,7 +66,7 @@ impl Geometry {
         }
     }
 
-    /// [`Geometry::any8`] of at most [`MANY`] eights.
+    /// [`Geometry::any8`] of at most [`MANY`] packets.
     pub(super) fn any_together(
         &self,
         beam: &CandidateList,
@@ -103,7 +103,7 @@ impl Geometry {
         lanes
     }
 
-    /// [`Geometry::nearest`] of some eights, one candidate after the other.
+    /// [`Geometry::nearest`] of some packets, one candidate after the other.
     #[inline(always)]
     fn nearest_together<const ANY: bool>(
         &self,

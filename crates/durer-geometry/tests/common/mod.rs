@@ -1,11 +1,11 @@
-//! What the tests share: numbers that look random, and mixed worlds.
+//! Shared by the tests: random numbers, and mixed worlds.
 #![allow(dead_code, reason = "not every test needs everything")]
 
 use durer_geometry::{Builder, Geometry, ObjectId};
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{AxisBox, Disc, Placed, Plane, Sphere, Triangle};
 
-/// A sequence of numbers that look random (splitmix64).
+/// A generator of pseudorandom numbers (splitmix64).
 pub(crate) struct Dice(pub(crate) u64);
 
 impl Dice {
@@ -34,7 +34,7 @@ impl Dice {
         self.point(size).to_vec()
     }
 
-    /// On a coarse grid, where coincidences are common.
+    /// A point of a coarse grid, where coincidences are common.
     pub(crate) fn grid(&mut self) -> Point3 {
         let mut x = || self.below(9) as f64 - 4.0;
         Point3::new(x(), x(), x())
@@ -78,7 +78,7 @@ pub(crate) fn fill(builder: &mut Builder, dice: &mut Dice, count: usize, on_grid
     }
 }
 
-/// Rays at random, and rays between points of the grid, which meet edges, corners and tangents
+/// Random rays, and rays between points of the grid, which meet edges, corners and tangents
 /// exactly.
 pub(crate) fn rays(dice: &mut Dice, count: usize) -> Vec<Ray> {
     let ray = |dice: &mut Dice| loop {
@@ -118,7 +118,7 @@ pub(crate) fn ground() -> Plane {
     Plane::new(Vec3::Y, -4.0).unwrap()
 }
 
-/// The name of an object.
+/// The number of an object.
 pub(crate) fn object(number: u32) -> ObjectId {
     ObjectId(number)
 }

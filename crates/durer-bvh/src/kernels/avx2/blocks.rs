@@ -56,7 +56,7 @@ pub(super) fn judge(block: &Block, filter: &Filter, t_far: f32) -> Verdict {
     verdict
 }
 
-/// What `Scalar::judge` does, in two halves; says which are alive, and the rest only if one is.
+/// `Scalar::judge` in two halves. Writes the other results only if a triangle is alive.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 pub(in crate::kernels) fn judge_halves(
@@ -71,7 +71,8 @@ pub(in crate::kernels) fn judge_halves(
     verdict.alive
 }
 
-/// One half: which are alive, and which of these surely met. Most end at the first test.
+/// One half: which triangles are alive, and which of these are certainly hit. Most calls end at the
+/// first test.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 fn judge_edges(edges: &Edges, half: usize, filter: &Filter, t_far: f32, verdict: &mut Verdict) -> (u32, u32) {

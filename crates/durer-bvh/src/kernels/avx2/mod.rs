@@ -1,4 +1,4 @@
-//! Eight lanes at once with AVX2 and FMA: nodes and blocks are asked in two halves.
+//! The kernel for AVX2 and FMA: eight lanes; nodes and blocks are tested in two halves.
 #![expect(unsafe_code, reason = "vector loads and stores, and functions compiled for CPU features")]
 
 mod blocks;
@@ -23,13 +23,12 @@ use durer_math::{Isa, Vec3};
 use node::{Lanes, descend, meets};
 use setup::{Clipped, clip, nearby};
 
-/// Proof that this CPU has all that [`Path::Avx2`] asks for: AVX2, FMA, BMI1 and 2, LZCNT and
-/// POPCNT.
+/// Proof that this CPU has all features of [`Path::Avx2`]: AVX2, FMA, BMI1 and 2, LZCNT and POPCNT.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx2(());
 
 impl Avx2 {
-    /// What an [`Isa`] proves.
+    /// The kernel, if `isa` proves the features.
     #[inline(always)]
     pub(crate) fn of(isa: Isa) -> Option<Self> {
         matches!(isa.path(), Path::Avx2 | Path::Avx512).then_some(Self(()))
@@ -116,7 +115,7 @@ impl Kernel for Avx2 {
     fn fetch(self, tree: &Bvh, child: ChildRef) {
         let place = tree.place(child);
         for line in 0..size_of::<Block>() / 64 {
-            // SAFETY: a prefetch reads nothing that the program could see, whatever the address.
+            // SAFETY: a prefetch has no effect that the program can observe, whatever the address.
             unsafe { _mm_prefetch::<_MM_HINT_T0>(place.wrapping_add(64 * line).cast()) };
         }
     }
@@ -190,7 +189,7 @@ impl Together<PACKET> for Avx2 {
     }
 }
 
-// Two vectors of eight rays are no less work than two packets.
+// Sixteen rays in two vectors would be as much work as two packets of eight.
 no_packets!([] Avx2, TWICE);
 
 #[inline(never)]

@@ -7,11 +7,11 @@ use crate::node::{ChildRef, Node, SLOT_BITS};
 use crate::ray::CullRay;
 use core::arch::x86_64::*;
 
-/// A ray as a node test needs it, number by number.
+/// The numbers that a node test needs of a ray.
 ///
-/// The octant stands apart from the last of `far`: where it followed `t_near`, the three were read
-/// back as one vector, which waits until the stores before it have reached the cache (single rays
-/// took 8 to 20 % longer).
+/// The octant is not next to the end of `far`. When it followed `t_near`, the three were read back
+/// as one vector, and this load had to wait until the stores before it had reached the cache
+/// (single rays took 8 to 20 % longer).
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub(crate) struct Numbers {
@@ -39,7 +39,7 @@ impl Numbers {
         Planes::of(self.octant)
     }
 
-    /// By how much the places for rays of its octant are to be shifted.
+    /// The shift that moves the order for the ray's octant into the low bits.
     #[inline]
     #[target_feature(enable = "avx2")]
     pub(in crate::kernels) fn octant_shift(&self) -> __m128i {
@@ -56,7 +56,7 @@ pub(super) fn stored(x: __m128) -> [f32; 4] {
     stored
 }
 
-/// The ray in all lanes.
+/// A ray, broadcast to all lanes.
 pub(crate) struct Lanes {
     pub(in crate::kernels) r: [__m256; 3],
     pub(in crate::kernels) near: [__m256; 3],
@@ -66,8 +66,7 @@ pub(crate) struct Lanes {
     octant_shift: __m128i,
 }
 
-/// For each set of lanes the lanes in it, in order, one per byte: what `vpcompressd` does, from a
-/// table.
+/// For each set of lanes its members in order, one per byte: `vpcompressd` by a table.
 static COMPRESS: [u64; 256] = {
     let mut table = [0; 256];
     let mut mask = 0;
@@ -100,14 +99,15 @@ impl Lanes {
         }
     }
 
-    /// Where the ray enters a node's boxes and leaves them, this up to `t_far`.
+    /// The parameters at which the ray enters and leaves a node's boxes, the latter at most
+    /// `t_far`.
     #[inline]
     #[target_feature(enable = "avx2,fma")]
     pub(in crate::kernels) fn slabs(&self, node: &Node, half: usize, t_far: f32) -> (__m256, __m256) {
         slabs((node, half), &self.planes, [(&self.r, &self.near), (&self.r, &self.far)], self.t_near, t_far)
     }
 
-    /// Where it enters them, and which it meets.
+    /// The parameters at which the ray enters the boxes, and the mask of boxes that it meets.
     #[inline]
     #[target_feature(enable = "avx2,fma")]
     fn boxes(&self, node: &Node, half: usize, t_far: f32) -> (__m256, __m256) {
@@ -116,9 +116,9 @@ impl Lanes {
     }
 }
 
-/// Half of a node's boxes: where they are entered and left, this up to `t_far`. A plane `x` is met
-/// at `x r + c`, with the `r` and `c` of near planes and of far ones. Six fused multiply-adds, six
-/// minima and maxima.
+/// The parameters at which half of a node's boxes are entered and left, the latter at most `t_far`.
+/// A plane `x` is met at `x r + c`, with one `r` and `c` for near planes and one for far ones. Six
+/// fused multiply-adds, six minima and maxima.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 pub(in crate::kernels) fn slabs(
@@ -150,7 +150,7 @@ pub(super) fn meets(node: &Node, slot: usize, lanes: &Lanes, t_far: f32) -> bool
     _mm256_movemask_ps(met) >> (slot % 8) & 1 != 0
 }
 
-/// Sixteen elements in the order of `places`, of which the low four bits count: one half of them.
+/// One half of a permutation of sixteen elements by `places`, of which the low four bits count.
 #[inline]
 #[target_feature(enable = "avx2")]
 fn placed(places: __m256i, [low, high]: [__m256; 2]) -> __m256 {
@@ -159,12 +159,13 @@ fn placed(places: __m256i, [low, high]: [__m256; 2]) -> __m256 {
     _mm256_blendv_ps(low, high, is_high)
 }
 
-/// A permutation that sorts children by the ray's octant (or none); and one that closes the gaps
-/// between those that are met, in place of a branch per child. In two halves.
+/// Pushes the children that the ray meets. One permutation sorts the children by the ray's octant
+/// (if `ORDERED`), another compacts those that are met, in place of a branch per child. In two
+/// halves.
 ///
-/// The way to the next child is as short as can be: all sixteen are written to one place, while the
-/// boxes are still being tested, and the highest bit of the mask says which to read; with no bit it
-/// is the one that was on top before.
+/// The latency to the next child is as short as possible: all sixteen are written to a staging
+/// array while the boxes are still being tested, and the highest bit of the mask selects which to
+/// read; if no bit is set, the old top of the stack is read.
 #[inline]
 #[target_feature(enable = "avx2,fma,popcnt,lzcnt")]
 pub(super) fn descend<const ORDERED: bool>(

@@ -1,5 +1,5 @@
-//! Rays that are aimed at trouble: at edges, rims, tips and tangents, exactly and by a few ulps
-//! beside.
+//! Rays that are aimed at difficult points: at edges, rims, tips and tangents, exactly and by a few
+//! ulps beside.
 
 use super::worlds::{World, all_worlds};
 use super::{Aim, Dice, Tally, compare, eight, point};
@@ -32,7 +32,7 @@ fn rays_on_a_grid() {
             let rays = eight(|_| {
                 let (mut from, mut to) = (grid(&mut dice), grid(&mut dice));
                 if round % 3 == 0 {
-                    // Along an axis of the surface's own.
+                    // Along an axis of the surface's own frame.
                     let axis = dice.below(3);
                     let keep = to;
                     to = from;
@@ -54,7 +54,7 @@ fn rays_on_a_grid() {
     }
 }
 
-/// What a ray meets first, and where on it, as far as edges tell.
+/// The object, primitive and face that a ray hits first, if edges leave no doubt.
 fn met(world: &World, from: Point3, to: Point3) -> Option<(u32, u32, u32)> {
     let hit = world.geometry.closest(&Ray::new(from, to - from))?;
     Some((hit.primitive, hit.face, u32::from(hit.sign > 0)))
@@ -62,8 +62,8 @@ fn met(world: &World, from: Point3, to: Point3) -> Option<(u32, u32, u32)> {
 
 #[test]
 fn rays_at_a_border() {
-    // Between two targets of which one is met and the other not, or another face of it, there is a
-    // border. Exact answers lead to it.
+    // If one of two targets is hit and the other is not, or on another face, there is a border
+    // between them. A bisection with exact answers finds it.
     let mut dice = Dice(4);
     for world in all_worlds(Isa::detect()) {
         let mut tally = Tally::default();
@@ -98,7 +98,7 @@ fn rays_at_a_border() {
 
 #[test]
 fn numbers_near_the_end_of_their_range() {
-    // Products of lengths like these are below the normal numbers, or infinite.
+    // Products of such lengths are subnormal or infinite.
     let mut dice = Dice(5);
     for world in all_worlds(Isa::detect()) {
         let mut tally = Tally::default();
@@ -109,7 +109,7 @@ fn numbers_near_the_end_of_their_range() {
                 Ray::new(from, (to - from) * durer_math::scale::pow2(k))
             });
             compare(&world, Aim::Trouble, &long, &mut dice, 0, &mut tally);
-            // Near the origin, which is a tip or a centre of some.
+            // Near the origin, which is a tip or a centre of some surfaces.
             let near = eight(|i| {
                 let small = durer_math::scale::pow2(k.min(-k));
                 let (from, to) = (dice.vector(2.0) * small, dice.vector(1.0) * small);

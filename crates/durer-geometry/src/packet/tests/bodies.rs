@@ -1,4 +1,4 @@
-//! Solids of solids, beside each other and beside simple surfaces.
+//! CSG solids, beside each other and beside simple surfaces.
 
 use super::worlds::{World, crossed_eight, crossed_star, heart, map, placements, tent};
 use super::{Aim, Dice, OF_HIGHER_DEGREE, Tally, compare, eight, point};
@@ -10,7 +10,7 @@ use durer_surfaces::{
     Torus,
 };
 
-/// Solids of solids: convex and not, with faces in common, and several in one world.
+/// CSG solids: convex and not, with common faces, and several in one world.
 fn bodies() -> Vec<World> {
     let mut all = Vec::new();
     let ball = |z: f64, r: f64| Sphere::new(point(0.0, 0.0, z), r).unwrap();
@@ -23,7 +23,7 @@ fn bodies() -> Vec<World> {
         let mut g = Geometry::builder();
         g.add_compound(body(&mut crate::Compound::builder()));
         all.push(World::of(name, g.build().unwrap()));
-        // Beside others, so that numbers of slots and of bodies differ.
+        // Beside other surfaces, so that numbers of slots and of solids differ.
         let mut g = Geometry::builder();
         for x in [-3.0, 3.0] {
             let csg = &mut crate::Compound::builder();
@@ -72,8 +72,8 @@ fn bodies() -> Vec<World> {
         let hole = csg.leaf(ball(0.25, 0.625)).unwrap();
         csg.difference(cushion, [hole])
     });
-    // x³ - 3 x z² = y, which goes on for ever, where a convex solid holds what matters of it, alone
-    // and as part of a part; and where none does.
+    // x³ - 3 x z² = y, which is unbounded. A convex solid holds the relevant part of it, alone and
+    // as a part of a part; or none does.
     let saddle = || {
         let mut c = vec![0.0; 20];
         (c[0], c[5], c[15]) = (1.0, -3.0, -1.0);
@@ -124,7 +124,7 @@ fn bodies() -> Vec<World> {
         csg.difference(half, [dent])
     });
     let mut tetrahedron = tent();
-    // Turned inside out: its own normals do not matter to the body.
+    // Turned inside out: its own normals do not matter to the CSG solid.
     tetrahedron.faces.iter_mut().for_each(|f| f.swap(1, 2));
     let mesh = Mesh::new(tetrahedron).unwrap().solid(Vec3::X).unwrap();
     world("mesh with a hole", &|csg| {
@@ -219,7 +219,7 @@ fn bodies() -> Vec<World> {
     all
 }
 
-/// Prisms in each other, in all placements.
+/// Nested prisms, in all placements.
 fn placed() -> Vec<World> {
     let (outline, hole) = heart();
     let curves = [outline.as_slice(), hole.as_slice()];
@@ -248,7 +248,7 @@ fn placed() -> Vec<World> {
     all
 }
 
-/// Bodies of balls, boxes and tubes at random: deep trees and flat ones.
+/// Random CSG solids of balls, boxes and tubes: deep trees and flat ones.
 fn at_random(dice: &mut Dice) -> World {
     let csg = &mut crate::Compound::builder();
     let mut parts = Vec::new();
@@ -262,7 +262,7 @@ fn at_random(dice: &mut Dice) -> World {
             _ => csg.leaf(CappedCylinder::new(c - half, c + dice.vector(1.0), size).unwrap()),
         };
         let leaf = leaf.unwrap();
-        // Whatever is last may be outside out.
+        // Every leaf but the first may be complemented.
         parts.push(if i > 0 && dice.below(4) == 0 { csg.inverse(leaf) } else { leaf });
     }
     while parts.len() > 1 {
@@ -277,7 +277,7 @@ fn at_random(dice: &mut Dice) -> World {
     World::of("random body", Geometry::builder().add_compound(body).build().unwrap())
 }
 
-/// Rays at a world and from it; how many, and how many had to ask.
+/// Rays at a world and from its surface; how many there were, and how many fell back.
 fn tally(world: &World, rounds: usize, dice: &mut Dice) -> Tally {
     let mut tally = Tally::default();
     for round in 0..rounds {
@@ -298,11 +298,11 @@ fn lanes_see_what_single_rays_see_of_solids_of_solids() {
         let tally = tally(&world, 200, &mut dice);
         println!("{}: {} rays, {} asked", world.name, tally.rays, tally.asked);
         assert!(tally.met > 200, "{}: {}", world.name, tally.met);
-        // Where faces coincide, and of meshes, lanes cannot tell.
+        // Packets cannot decide where faces coincide, or on meshes.
         let coincide = ["blocks", "turned blocks with a face in common", "mesh with a hole"];
         let least = match world.surface {
             name if coincide.contains(&name) => 1,
-            // Where one ray has asked, those that go on from there mostly ask, too.
+            // After a fallback, the rays spawned there mostly fall back, too.
             name if OF_HIGHER_DEGREE.contains(&name) => 12,
             _ => 1000,
         };

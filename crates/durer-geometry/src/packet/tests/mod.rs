@@ -1,7 +1,7 @@
-//! Lanes see what single rays see, and rarely have to ask.
+//! Packets give the answers of single rays, and rarely fall back.
 //!
-//! Every claim of lanes is held against the kernels that decide exactly: `closest` and `any` for
-//! what is met, `side` and exact planes for where rays start.
+//! Every result of a packet is compared with the kernels that decide exactly: `closest` and `any`
+//! for hits, `side` and exact planes for the origins of spawned rays.
 
 mod aimed;
 mod bodies;
@@ -14,7 +14,7 @@ use durer_math::lanes::LANES;
 use durer_math::{Ray, U};
 use durer_surfaces::{RootKind, Side, SurfacePoint};
 
-/// Numbers at random in `[-1, 1)`.
+/// Random numbers in `[-1, 1)`.
 struct Dice(u64);
 
 impl Dice {
@@ -50,7 +50,7 @@ fn eight(mut ray: impl FnMut(usize) -> Ray) -> Rays8 {
     rays
 }
 
-/// How many rays meet anything, how many lanes had to ask, and how many were left out at edges.
+/// How many rays hit anything, how many lanes fell back, and how many were left out at edges.
 #[derive(Default)]
 struct Tally {
     rays: usize,
@@ -74,7 +74,7 @@ enum Aim {
     Trouble,
 }
 
-/// Surfaces that lanes see in coordinates of their own.
+/// Surfaces whose packet filters use coordinates of their own.
 const OF_HIGHER_DEGREE: [&str; 46] = [
     "decic",
     "hypercomplex julia",
@@ -124,8 +124,8 @@ const OF_HIGHER_DEGREE: [&str; 46] = [
     "open curved prism",
 ];
 
-/// Compares lanes with single rays, and goes on with rays that are spawned where these meet
-/// something, `depth` times.
+/// Compares packets with single rays, and repeats this `depth` times with rays that are spawned at
+/// the hits.
 fn compare(world: &World, aim: Aim, rays: &Rays8, dice: &mut Dice, depth: u32, tally: &mut Tally) {
     let geometry = &world.geometry;
     let mut hits = Hits8::NONE;
@@ -143,8 +143,8 @@ fn compare(world: &World, aim: Aim, rays: &Rays8, dice: &mut Dice, depth: u32, t
     }
 }
 
-/// Compares what lanes have `met`, of which some had to be `asked` by themselves, with single rays;
-/// answers with those that others may start from.
+/// Compares a packet's `hits` and `met` with single rays; `asked` are the lanes that fell back.
+/// Returns the lanes at whose hits rays may be spawned.
 fn check(world: &World, rays: &Rays8, (hits, met, asked): (&Hits8, M8, M8), tally: &mut Tally) -> M8 {
     let geometry = &world.geometry;
     tally.asked += asked.count();
@@ -153,8 +153,8 @@ fn check(world: &World, rays: &Rays8, (hits, met, asked): (&Hits8, M8, M8), tall
         let ray = rays.lane(i);
         let exact = geometry.closest(&ray);
         tally.rays += 1;
-        // Where an edge is met within rounding of a formula single rays, too, may say one thing or
-        // another. Lanes are as near as `see` asks for.
+        // Where an edge is met within a formula's rounding, single rays may answer either way, too.
+        // The packet's `t` is as accurate as `see` requires.
         let seen = (hits.t.0[i], 0.5 * PREVIEW_WIDTH * hits.t.0[i]);
         let told = exact.map_or(seen, |hit| (hit.t, hit.t_hi - hit.t_lo));
         if [seen, told].into_iter().any(|near| world.has_edge_on(&ray, near)) {
@@ -162,8 +162,8 @@ fn check(world: &World, rays: &Rays8, (hits, met, asked): (&Hits8, M8, M8), tall
             starts.set_lane(i, false);
             continue;
         }
-        // A tangent, as far as f64 can tell in a surface's frame, or a crossing at an end of the
-        // range; lanes, who know the way there better, may know that there is none.
+        // A tangent, as far as f64 can decide in a surface's frame, or a crossing at an end of the
+        // range; the packet, whose bounds are tighter there, may have proven that there is none.
         let in_brackets = matches!(world.sides, Sides::Bracketed | Sides::Rimmed { .. });
         let untold = exact.is_some_and(|hit| {
             let at_an_end = hit.t_lo <= 0.0 || hit.t_hi >= ray.t_max;
@@ -193,7 +193,7 @@ fn check(world: &World, rays: &Rays8, (hits, met, asked): (&Hits8, M8, M8), tall
                 "{}: {ray:?}",
                 world.name
             );
-            // At a tip, or nearer than its own bounds tell, there is no tangent plane.
+            // At a tip, or nearer to it than the point's own bounds, there is no tangent plane.
             starts.set_lane(i, seen.is_some_and(|(_, p)| p.bend * p.off < 0.5));
         } else {
             check_hit(world, &ray, &hit, hits, i);
@@ -202,17 +202,17 @@ fn check(world: &World, rays: &Rays8, (hits, met, asked): (&Hits8, M8, M8), tall
     starts
 }
 
-/// All that is put down of one hit.
+/// All members of one hit.
 fn one(hits: &Hits8, i: usize) -> impl core::fmt::Debug {
     let p = Vec3::new(hits.p.x.0[i], hits.p.y.0[i], hits.p.z.0[i]);
     let numbers = (hits.t.0[i], p, hits.ng.lane(i), hits.ns.lane(i), hits.off.0[i]);
     (numbers, hits.object[i], hits.primitive[i], hits.touching.lane(i), hits.source.lane(i))
 }
 
-/// A sure hit of lanes beside the first exact one.
+/// Compares a packet's certain hit with the first exact one.
 fn check_hit(world: &World, ray: &Ray, first: &Hit, hits: &Hits8, i: usize) {
     let name = &world.name;
-    // The bound that `see` asks for; the exact crossing is in a bracket, too.
+    // The bound that `see` requires; the exact crossing is in a bracket, too.
     let apart = 0.5 * PREVIEW_WIDTH * first.t + (first.t_hi - first.t_lo);
     assert!((hits.t.0[i] - first.t).abs() <= apart, "{name}: {ray:?} {first:?} {}", hits.t.0[i]);
     assert_eq!(
@@ -228,12 +228,12 @@ fn check_hit(world: &World, ray: &Ray, first: &Hit, hits: &Hits8, i: usize) {
     assert!((p - exact.p.to_vec()).max_abs() <= far, "{name}: {ray:?} {p:?} {exact:?}");
     check_normals(world, far, &exact, (hits.ng.lane(i), hits.ns.lane(i)));
     // `off` is |f| and twice its error, over the gradient. With 16 U for each term of f that is at
-    // most 3 * 16 U of the coordinates' sum for a plane; where the surface is curved, the squares
-    // of coordinates add as much times the curvature.
+    // most 3 * 16 U of the coordinates' sum for a plane; if the surface is curved, the squares of
+    // coordinates add as much times the curvature.
     let off = hits.off.0[i];
     let extent = world.reach() + p.x.abs() + p.y.abs() + p.z.abs();
-    // Of faces of higher degree lanes know the largest terms, of coordinates of three times the
-    // size; crossed outlines are left farther.
+    // For faces of higher degree packets bound the largest terms, in coordinates three times as
+    // large; rays start farther from self-crossing profiles.
     let terms = match world.surface {
         name if name.contains("crossed") => 4096.0,
         name if OF_HIGHER_DEGREE.contains(&name) => 64.0,
@@ -249,12 +249,12 @@ fn check_hit(world: &World, ray: &Ray, first: &Hit, hits: &Hits8, i: usize) {
     );
 }
 
-/// Normals of points that are at most `far` from each other.
+/// Compares the normals of points that are at most `far` from each other.
 fn check_normals(world: &World, far: f64, exact: &SurfacePoint, (ng, ns): (Vec3, Vec3)) {
-    // A unit normal turns by at most the curvature times the way, twice as far over the short way
-    // that `bend` itself may change on. Where the gradient is small, as near tips, the rounding of
-    // coordinates counts as a way, too. Normals of planes are rounded, as they are and by inverse
-    // maps.
+    // A unit normal turns by at most the curvature times the distance, by twice that over the short
+    // distance on which `bend` itself may change. Where the gradient is small, as near tips, the
+    // rounding of coordinates counts as a distance, too. Normals of planes are rounded, as they are
+    // and by inverse maps.
     let rounding = 64.0 * U;
     let turn = 2.0 * exact.bend * (far + rounding * world.size()) + rounding;
     let off_by = (ng - exact.ng.to_vec()).max_abs();
@@ -266,7 +266,7 @@ fn check_normals(world: &World, far: f64, exact: &SurfacePoint, (ng, ns): (Vec3,
     assert!(off_by <= shading, "{}: {ns:?} {exact:?}: {off_by} > {shading}", world.name);
 }
 
-/// Rays start strictly on the side that is asked for.
+/// Checks that rays start strictly on the side that is requested.
 fn check_starts(world: &World, aim: Aim, hits: &Hits8, lanes: M8) {
     let sides = [1.0, -1.0].map(|k| {
         let n = hits.ng;
@@ -303,8 +303,8 @@ fn check_starts(world: &World, aim: Aim, hits: &Hits8, lanes: M8) {
     }
 }
 
-/// Rays that go on from hits, at random or all but along the surface. Spare lanes hold rays that
-/// were there already.
+/// Rays that are spawned at hits, in random directions or nearly along the surface. The other lanes
+/// hold rays that were there before.
 fn onward(aim: Aim, rays: &Rays8, hits: &Hits8, dice: &mut Dice) -> Rays8 {
     let mut onward = *rays;
     for i in hits.hit.lanes() {
@@ -322,8 +322,7 @@ fn onward(aim: Aim, rays: &Rays8, hits: &Hits8, dice: &mut Dice) -> Rays8 {
     onward
 }
 
-/// Of what is told a stretch at a time many eights are told together, and rays change their lanes
-/// on the way.
+/// Filters that classify segments test many packets at once, and rays change their lanes meanwhile.
 #[test]
 fn many_eights_together_see_what_single_rays_see() {
     let mut dice = Dice(11);
@@ -338,7 +337,8 @@ fn many_eights_together_see_what_single_rays_see() {
                 let from = world.place(dice.vector(far).to_point());
                 Ray::new(from, world.place(dice.vector(1.0).to_point()) - from)
             };
-            // Full and half empty eights, one with no ray, and fewer than go together.
+            // Full and half empty packets, one without a ray, and fewer packets than are tested
+            // together.
             let mut rays: Vec<Rays8> = (0..=round + 1).map(|_| eight(&mut ray)).collect();
             rays[0].live = M8::from_bits(0b1001_0100);
             rays[round / 2].live = M8::NONE;
@@ -378,7 +378,7 @@ fn lanes_see_what_single_rays_see() {
     for world in &worlds {
         let mut tally = Tally::default();
         for round in 0..64 {
-            // From about, from far away, and from within.
+            // From around, from far away, and from inside.
             let far = [4.0, 1.0, 1000.0, 30.0][round % 4];
             let rays = eight(|_| {
                 let from = world.place(dice.vector(far).to_point());
@@ -398,39 +398,38 @@ fn lanes_see_what_single_rays_see() {
     }
     for (name, Tally { rays, asked, edges, .. }) in surfaces {
         println!("{name}: {rays} rays, {asked} asked, {edges} at edges");
-        // Brackets are narrow: rays at random hardly ever meet an edge within one.
+        // Brackets are narrow: random rays hardly ever meet an edge within one.
         assert!(edges * 500 <= rays, "{name}: {edges} of {rays} at edges");
         let least = match name {
-            // A face, or a part of one, lies exactly in a face of what cuts: only exact arithmetic
-            // can tell that it stays.
+            // A face, or a part of one, lies exactly in a face of the clip: only exact arithmetic
+            // can prove that it is kept.
             "box without a box" => 20,
             "box within a box" => 12,
-            // It goes on for ever, hardly bent: rays from within meet it thousands of times its
+            // It is unbounded and hardly curved: rays from inside hit it thousands of times its
             // size away, where the rounding of their squares is that of the form.
             "parabolic cylinder" => 300,
-            // Where a plane through a ray and the origin meets an outline at a slant, its trace is
-            // known badly.
+            // Where a plane through a ray and the origin meets a profile at a slant, its
+            // intersection has a large error bound.
             "crossed conic prism" => 6,
-            // What is clipped is looked at within the clip only; what is not, to where it ends, and
-            // far away the degree counts.
+            // A clipped surface is tested within the clip only; an unclipped one as far as it
+            // extends, and far away the degree counts.
             "clipped cubic" => 800,
             "cubic" => 200,
             "quartic" | "balls" => 50,
             "sausages" => 30,
             "sextic" => 15,
-            // Where a place is known badly, far away, little is known of the gradient around it.
+            // Where a point has a large error bound, far away, so has the gradient around it.
             "cushion" => 3,
-            // Rays that start inside are told by the formula, and its ridges are as steep as one
-            // likes.
+            // The formula decides for rays that start inside, and its ridges are arbitrarily steep.
             "star" => 12,
             "julia" | "cubic julia" | "hypercomplex julia" | "hypercomplex cubic julia" => 8,
-            // Next to where a formula is undefined nothing is sure.
+            // Next to where a formula is undefined nothing is certain.
             "thorn" => 1,
             "wavy ring" => 6,
             "egg" | "waves" | "open waves" | "boxed waves" => 3,
-            // Rays along a plane across the axis, and those that touch.
+            // Rays along a plane across the axis, and tangent rays.
             _ if OF_HIGHER_DEGREE.contains(&name) => 12,
-            // They have a tip, or go on for ever, too.
+            // These have a tip, or are unbounded, too.
             "double cone" => 500,
             _ => 1000,
         };
@@ -457,11 +456,11 @@ fn what_is_clipped_within_its_box_is_seen() {
     }
 }
 
-/// How far a ray has gone where it starts says nothing about how near to a place counts as close.
+/// The distance from the ray's origin to its start has no influence on how near counts as close.
 #[test]
 fn rays_from_within_level_sets_are_seen() {
     let mut dice = Dice(7);
-    // Far from the origin places are known worse than that.
+    // Far from the origin points have larger error bounds than that.
     let far = |name: &str| name.contains("far") || name.contains("returned");
     let within = |w: &&World| ["cushion", "egg"].contains(&w.surface) && !far(&w.name);
     for world in all_worlds(Isa::detect()).iter().filter(within) {

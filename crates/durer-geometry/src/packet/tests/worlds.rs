@@ -1,4 +1,5 @@
-//! Worlds of one surface each: as it is, inside out, and moved in ways that are hard on an outline.
+//! Worlds of one surface each: as it is, inside out, and placed by maps that are hard on a packet
+//! filter.
 
 use super::point;
 use crate::{Geometry, Hit};
@@ -14,27 +15,27 @@ use durer_surfaces::{
     SphericalSector, SurfaceOfRevolution, Torus, Triangle, superellipsoid,
 };
 
-/// What is known exactly of points beside the surface.
+/// What the tests can decide about points beside the surface.
 #[derive(Clone, Copy)]
 pub(super) enum Sides {
     /// A solid with a single face: it has an inside and an outside along the normal everywhere.
     Smooth,
-    /// The same, of a solid whose kernel tells sides in f64: within rounding it says that a point
-    /// is on the surface.
+    /// Smooth, but the kernel decides sides in f64: within rounding it returns that a point is on
+    /// the surface.
     Rounded,
-    /// The same, and whether a crossing is in a ray's range is told by its bracket, which may hold
-    /// an end of that.
+    /// Rounded, and whether a crossing is in a ray's range is decided by its bracket, which may
+    /// contain an end of the range.
     Bracketed,
-    /// The same with edges, where a container cuts it off, closed or not: where a ray meets such an
-    /// edge is told within rounding.
+    /// Bracketed, with edges where a container cuts it off, closed or not: whether a ray meets such
+    /// an edge is decided within rounding.
     Rimmed { closed: bool },
-    /// A convex solid with edges: what leaves it is outside, also at an edge.
+    /// A convex solid with edges: a ray that leaves it is outside, also at an edge.
     Convex,
-    /// A solid that is not convex, with edges.
+    /// A solid with edges that is not convex.
     Solid,
-    /// Part of the plane across this vector through this point, both exact.
+    /// A part of the plane with this normal through this point, both exact.
     Flat(Vec3, Point3),
-    /// A sheet that is not flat.
+    /// An open surface that is not flat.
     Sheet,
 }
 
@@ -45,41 +46,41 @@ pub(super) struct World {
     pub(super) geometry: Geometry,
     pub(super) sides: Sides,
     pub(super) turned: bool,
-    /// Where two surfaces are both met there is an edge of this one; placed as it is.
+    /// Two surfaces with the same placement: where a ray meets both, this one has an edge.
     edges: Option<[Geometry; 2]>,
     /// The maps that placed it, the first one first.
     maps: Vec<Affine>,
 }
 
 impl World {
-    /// Surfaces of which nothing more is known.
+    /// A world about whose surface nothing more is known.
     pub(super) fn of(surface: &'static str, geometry: Geometry) -> Self {
         let (name, sides) = (surface.to_string(), Sides::Sheet);
         Self { surface, name, geometry, sides, turned: false, edges: None, maps: Vec::new() }
     }
 
-    /// The same, placed.
+    /// A placed world about whose surface nothing more is known.
     pub(super) fn placed(surface: &'static str, how: &str, geometry: Geometry, maps: Vec<Affine>) -> Self {
         Self { name: format!("{surface}, {how}"), maps, ..Self::of(surface, geometry) }
     }
 
-    /// Where a point of the surface's own frame went; rounded, or exact if all numbers are short.
+    /// The image of a point of the surface's own frame; rounded, or exact if all numbers are short.
     pub(super) fn place(&self, p: Point3) -> Point3 {
         self.maps.iter().fold(p, |p, map| map.point(p))
     }
 
-    /// About how large the surface is, or what of it rays are aimed at.
+    /// The approximate size of the surface, or of the part that rays are aimed at.
     pub(super) fn size(&self) -> f64 {
         self.maps.iter().fold(2.0, |size, map| size * map.linear_norm())
     }
 
-    /// A bound on all coordinates of it on the way through its maps.
+    /// A bound on all its coordinates under all its maps.
     pub(super) fn reach(&self) -> f64 {
         self.maps.iter().fold(2.0, |reach, map| reach * map.linear_norm() + map.centre().to_vec().length())
     }
 
-    /// Whether a ray may meet an edge where something is met at `t` within `e`: both surfaces are,
-    /// within brackets as wide as those of pictures.
+    /// Whether a ray may meet an edge at a hit at `t` within `e`: both surfaces are met, within
+    /// brackets as wide as those of pictures.
     pub(super) fn has_edge_on(&self, ray: &Ray, (t, e): (f64, f64)) -> bool {
         let line = Ray::new(ray.origin, ray.direction);
         let near = |a: &Hit| a.t_lo <= t + e && a.t_hi >= t - e;
@@ -93,8 +94,8 @@ impl World {
         })
     }
 
-    /// On which side of a flat surface's plane a point is, exactly; positive where the mapped
-    /// normal points.
+    /// The exact side of a flat surface's plane on which a point lies; positive in the direction of
+    /// the mapped normal.
     pub(super) fn height(&self, p: Point3) -> Option<core::cmp::Ordering> {
         let Sides::Flat(normal, q) = self.sides else { return None };
         let exact = |v: Vec3| v.to_array().map(|x| Dyadic::new(x).unwrap());
@@ -116,7 +117,7 @@ impl World {
     }
 }
 
-/// Rotated, sheared and moved a little: nothing stays dyadic.
+/// A map that rotates, shears and moves slightly: nothing stays dyadic.
 pub(super) fn map() -> Affine {
     let turn = Affine::rotation_x(0.7).unwrap().then(&Affine::rotation_z(-0.4).unwrap()).unwrap();
     let sheared = Affine::new([[1.0, 0.3, 0.0], [0.0, 0.8, -0.2], [0.1, 0.0, 1.3]], Point3::ORIGIN).unwrap();
@@ -145,14 +146,14 @@ pub(super) fn placements() -> Vec<(&'static str, Vec<Affine>)> {
         ("far", vec![map(), far]),
         ("far, exactly", vec![moved(1_048_576.0, -3_145_728.0, 2_097_152.0)]),
         // There and back again: the centre is moved by a map whose products are a million times as
-        // large as what is left of them.
+        // large as their sum.
         ("returned", vec![far, moved(-1e6, 3e6, -2e6), map()]),
         ("turned about a far point", vec![far, moved(-1e6, 3e6, -2e6).then(&map()).unwrap()]),
         ("far and tiny", vec![scaled(1e-6), moved(1.0, 2.0, -0.7), map()]),
     ]
 }
 
-/// What has been built so far, and for which instructions.
+/// The worlds built so far, and the instruction set.
 type Worlds = (Isa, Vec<World>);
 
 /// A surface in all its placements.
@@ -214,8 +215,8 @@ pub(super) fn crossed_eight() -> [Bezier; 3] {
     ]
 }
 
-/// Every kind of surface that lanes know, in every placement. Numbers are short, so that rays can
-/// be aimed at edges, rims, tips and tangents exactly.
+/// Every kind of surface with a packet filter, in every placement. Numbers are short, so that rays
+/// can be aimed at edges, rims, tips and tangents exactly.
 pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     let mut all = (isa, Vec::new());
     let all = &mut all;
@@ -283,16 +284,15 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     worlds("prism", Sides::Solid, Prism::linear(&outlines, -0.5, 0.75).unwrap(), all);
     worlds("conic prism", Sides::Solid, Prism::conic(&outlines, -0.5, 1.0).unwrap(), all);
     worlds("open prism", Sides::Sheet, Prism::conic(&outlines, 0.25, 1.0).unwrap().without_caps(), all);
-    // A sheet of which one corner is out of the plane by a little, and a surface without what lies
-    // in a box.
+    // A sheet with one corner slightly out of the plane, and a surface without its part in a box.
     let mut bent = square(1.0);
     bent[3].z = 0.5 + durer_math::scale::pow2(-40);
     worlds("bent frame", Sides::Sheet, Polygon::new(&[bent], FillRule::EvenOdd).unwrap(), all);
     let hole = Region::axis_box(point(-0.5, -0.5, -0.25), point(2.0, 2.0, 0.75)).unwrap().inverse();
     worlds("sphere without a box", Sides::Sheet, Clip::new(ball, vec![hole.clone()]), all);
     worlds("box without a box", Sides::Sheet, Clip::new(block, vec![hole]), all);
-    // Planes that cut off all of a wall, by far and by an ulp; that cut off nothing; and one that
-    // the wall lies in.
+    // Planes that cut off a whole wall, by far and by an ulp; planes that cut off nothing; and one
+    // that contains the wall.
     let room = Region::axis_box(point(-0.25, -0.5, -2.0), point(2.0, 0.5_f64.next_down(), 0.25)).unwrap();
     worlds("box within a box", Sides::Sheet, Clip::new(block, vec![room]), all);
     let ring = Torus::new(point(0.25, 0.0, -0.25), Axis::Y, 0.75, 0.25).unwrap();
@@ -304,8 +304,8 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     worlds("open sor", Sides::Sheet, vase.without_ends(), all);
     worlds("ovus", Sides::Smooth, SurfaceOfRevolution::ovus(0.75, 0.5).unwrap(), all);
     worlds("lemon", Sides::Convex, SurfaceOfRevolution::lemon(1.5, 0.5, 0.25, 1.25).unwrap(), all);
-    // A cushion with dimples, a cubic that goes on for ever, one that a ball and a half-space cut,
-    // and a bowl of degree six.
+    // A cushion with dimples, an unbounded cubic, one clipped by a ball and a half-space, and a
+    // bowl of degree six.
     let of = |order: u32, terms: &[([u32; 3], f64)]| {
         let mut c = vec![0.0; durer_surfaces::algebraic::coefficient_count(order)];
         for &(powers, value) in terms {
@@ -318,7 +318,7 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     let cushion = of(4, &[dimples.as_slice(), lower.as_slice()].concat());
     worlds("quartic", Sides::Smooth, cushion, all);
     let cubic = [([3, 0, 0], 1.0), ([1, 2, 0], -3.0), ([0, 0, 2], 1.0), ([0, 0, 1], 0.5), ([0, 0, 0], -0.25)];
-    // In a list for quartics leading terms of zero say nothing.
+    // Leading terms of zero in a list for quartics have no effect.
     let padded = of(4, &cubic);
     let cubic = of(3, &cubic);
     worlds("cubic", Sides::Smooth, cubic.clone(), all);
@@ -333,7 +333,7 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
         ([0, 0, 0], -0.75),
     ];
     worlds("sextic", Sides::Smooth, of(6, &sextic), all);
-    // Two balls that flow together, with a dent; and a sausage across another one that is placed.
+    // Two balls that blend, with a dent; and a sausage across another one that is placed.
     let component = |shape, radius, strength, place| BlobComponent { shape, radius, strength, place };
     let ball = |x: f64, z: f64, r: f64, s: f64| {
         component(BlobShape::Ball(point(x, 0.25, z)), r, s, Affine::IDENTITY)
@@ -376,7 +376,7 @@ pub(super) fn all_worlds(isa: Isa) -> Vec<World> {
     core::mem::take(&mut all.1)
 }
 
-/// Solids that are told a stretch at a time.
+/// Solids whose filters classify segments.
 fn level_worlds(all: &mut Worlds) {
     let set = Julia {
         c: [-0.083, 0.0, -0.83, -0.025],
@@ -390,14 +390,14 @@ fn level_worlds(all: &mut Worlds) {
     worlds("julia", Sides::Bracketed, JuliaSet::new(&set).unwrap(), all);
     let cube = Julia { c: [0.25, -0.5, 0.25, 0.0], power: JuliaPower::Cube, iterations: 3, ..set };
     worlds("cubic julia", Sides::Bracketed, JuliaSet::new(&cube).unwrap(), all);
-    // A bit smaller, so that few rays on a grid touch it: the formula is asked thousands of times
-    // about each that does.
+    // Slightly smaller, so that few rays on a grid touch it: each that does evaluates the formula
+    // thousands of times.
     let cushion = Placed::new(superellipsoid(0.5, 1.25).unwrap(), scaled(0.9));
     worlds("cushion", Sides::Bracketed, cushion, all);
     contained_worlds(all);
 }
 
-/// Sets of two complex numbers.
+/// Sets of pairs of complex numbers.
 fn hypercomplex_worlds(all: &mut Worlds) {
     let set = Julia {
         c: [-0.5, 0.125, 0.25, 0.0625],
@@ -432,7 +432,7 @@ fn contained_worlds(all: &mut Worlds) {
     let egg = Isosurface::new(&b.finish(root, 3), 0.0, Container::Box(held)).unwrap();
     worlds("egg", Sides::Bracketed, egg, all);
     partly_defined_worlds(held, all);
-    // sin 4x + y² - z, which a ball or a box cuts.
+    // sin 4x + y² - z, cut by a ball or a box.
     let mut b = Builder::new();
     let [x, y, z] = [0, 1, 2].map(|i| b.input(i).unwrap());
     let four = b.constant(4.0).unwrap();
@@ -455,8 +455,7 @@ fn contained_worlds(all: &mut Worlds) {
     edged("boxed waves", closed, boxed, [DynSurface::new(block), whole()], all);
 }
 
-/// Formulas that are undefined on a line far outside of their solids, and in half of space beside
-/// them.
+/// Formulas that are undefined on a line far outside their solids, and in a half-space beside them.
 fn partly_defined_worlds(held: AxisBox, all: &mut Worlds) {
     // (sqrt(x² + z²) - 3/4)² + y² + sin(3 atan2(z, x)) / 32 - 1/8: a ring with an angle about its
     // axis.
@@ -479,7 +478,7 @@ fn partly_defined_worlds(held: AxisBox, all: &mut Worlds) {
     let root = b.push(Op::Sub(sum, rest)).unwrap();
     let ring = Isosurface::new(&b.finish(root, 3), 0.0, Container::Box(held)).unwrap();
     worlds("wavy ring", Sides::Bracketed, ring, all);
-    // sqrt x + y² + z² - 1/2, which has no wall where it ends.
+    // sqrt x + y² + z² - 1/2, which has no wall where its domain ends.
     let mut b = Builder::new();
     let [x, y, z] = [0, 1, 2].map(|i| b.input(i).unwrap());
     let rest = b.constant(0.5).unwrap();
@@ -491,7 +490,7 @@ fn partly_defined_worlds(held: AxisBox, all: &mut Worlds) {
     worlds("thorn", Sides::Rimmed { closed: false }, thorn, all);
 }
 
-/// A star, for rays at random. Its ridges are edges that `edges` does not know, and a start beside
+/// A star, for random rays. Its ridges are edges that `edges` does not contain, and a start beside
 /// one may be on either side.
 pub(super) fn star_worlds(isa: Isa) -> Vec<World> {
     let mut all = (isa, Vec::new());
@@ -500,8 +499,8 @@ pub(super) fn star_worlds(isa: Isa) -> Vec<World> {
     all.1
 }
 
-/// What is clipped within the box that holds it, so that rays enter and leave that where nothing is
-/// left: lanes know no more than where it may be.
+/// Surfaces that are clipped within their bounding boxes, so that rays enter and leave these where
+/// nothing is left: packets know only the boxes.
 pub(super) fn clipped_worlds(isa: Isa) -> Vec<World> {
     let all = &mut (isa, Vec::new());
     let pieces = [-0.5, 0.0, 0.5].map(|x| BlobComponent {
@@ -518,8 +517,8 @@ pub(super) fn clipped_worlds(isa: Isa) -> Vec<World> {
     core::mem::take(&mut all.1)
 }
 
-/// Forty balls and sausages round a spiral, large and small, some of which are placed, and some
-/// take away.
+/// Forty balls and sausages along a spiral, large and small; some are placed, and some are
+/// negative.
 fn cloud() -> Blob {
     let components = (0..40).map(f64::from).map(|i| {
         let (sin, cos) = durer_math::elementary::sin_cos(i * 0.7);
@@ -535,7 +534,7 @@ fn cloud() -> Blob {
     Blob::new(0.375, &components.collect::<Vec<_>>()).unwrap()
 }
 
-/// A surface in all its placements that has edges where two others are met.
+/// A surface in all its placements, with edges where a ray meets two other surfaces.
 fn edged<S: Algebraic + 'static>(
     name: &'static str,
     sides: Sides,
