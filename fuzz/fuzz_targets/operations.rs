@@ -1,4 +1,5 @@
-//! Any bytes as one operation of a formula and two intervals: the bounds hold what f64 and what exact arithmetic compute.
+//! Any bytes as one operation of a formula and two intervals: the bounds hold what f64 and what
+//! exact arithmetic compute.
 #![no_main]
 
 #[path = "../../crates/durer-surfaces/tests/corpus/operations.rs"]

@@ -1,4 +1,5 @@
-//! Any bytes as a formula: its bounds hold its values, its slopes its changes, its roots are in order.
+//! Any bytes as a formula: its bounds hold its values, its slopes its changes, its roots are in
+//! order.
 #![no_main]
 
 #[path = "../../crates/durer-surfaces/examples/tape_soak/case.rs"]

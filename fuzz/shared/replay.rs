@@ -1,4 +1,5 @@
-//! What fuzzing has found worth keeping, once more: for the tests of the crates that the targets are about.
+//! What fuzzing has found worth keeping, once more: for the tests of the crates that the targets
+//! are about.
 
 use std::path::Path;
 

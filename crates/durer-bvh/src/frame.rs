@@ -1,14 +1,37 @@
-//! The tree's own units, and boxes in them: f32, rounded outward.
+//! The tree's own coordinates, and boxes in them: f32, rounded outward.
+//!
+//! ```text
+//!   tree = (caller - centre) 2^-exponent,      |tree| <= 1 on each axis
+//! ```
+//!
+//! f32 has 24 bits, so boxes in the caller's coordinates would be useless far from the origin: at
+//! 5e6, a UTM northing, f32 numbers are 0.5 apart. Let `H` be half the largest width of everything
+//! in the tree, and `m` the middle along an axis. Where `|m| <= 4 H` the centre is 0: coordinates
+//! are at most `5 H`, so f32 loses three bits at most, and nothing is subtracted. Elsewhere the
+//! centre is `m`. A coordinate `x` of something in the tree is then within `H` of `m`, so `x / m`
+//! is in `[3/4, 5/4]`, and the difference of two f64 numbers within a factor of two is exact (P. H.
+//! Sterbenz, *Floating-point computation*, 1974). Boxes and corners lose nothing; only the origins
+//! of rays may, and their rounding is added to the ray's error.
 
 use crate::build::Extent;
-use durer_math::eft::scale2;
+use crate::ray::Ray64;
+use durer_math::eft::{scale2, two_diff, two_sum};
 use durer_math::scale::exponent;
 use durer_math::{Aabb, Point3};
 
+/// The exact map from the caller's coordinates to the tree's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    units: Units,
+    centre: Point3,
+    /// Whether the centre is not the origin.
+    is_moved: bool,
+}
+
 /// The exact power of two that makes all coordinates of a tree at most 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Frame {
-    /// Tree coordinates are `2^-exponent` times the caller's.
+pub(crate) struct Units {
+    /// Lengths in tree units are `2^-exponent` times the caller's.
     exponent: i32,
 }
 
@@ -21,15 +44,14 @@ pub struct Entry {
     pub(crate) words: [u32; 8],
 }
 
-impl Frame {
+impl Units {
     /// The least exponent. Below it lengths are so small that a tree would need numbers below
     /// f32's. Such a tree holds everything near its centre, and every ray there meets every box.
     const LEAST: i32 = -900;
 
-    /// The units for a tree over everything in `bounds`, which should be bounded or empty.
-    pub fn around(bounds: &Aabb) -> Self {
-        let size = if bounds.is_empty() { 0.0 } else { bounds.magnitude().min(f64::MAX) };
-        // magnitude < 2^(e + 1)
+    /// The units in which lengths up to `size` are at most 1.
+    fn of(size: f64) -> Self {
+        // size < 2^(e + 1)
         let exponent = if size > 0.0 { exponent(size) + 1 } else { 0 };
         Self { exponent: exponent.max(Self::LEAST) }
     }
@@ -51,23 +73,113 @@ impl Frame {
     pub(crate) fn outward_exponent(self) -> i32 {
         self.exponent
     }
+}
+
+impl Frame {
+    /// How many times half the largest width the middle may be from the origin before it becomes
+    /// the centre.
+    const NEAR: f64 = 4.0;
+
+    /// The frame of a tree over everything in `bounds`, which should be bounded or empty.
+    pub fn around(bounds: &Aabb) -> Self {
+        if bounds.is_empty() {
+            return Self { units: Units::of(0.0), centre: Point3::ORIGIN, is_moved: false };
+        }
+        let half = 0.5 * bounds.widths().max_abs();
+        let middle = bounds.centre();
+        // False for NaN.
+        let is_far = |m: f64| m.abs() > Self::NEAR * half && m.is_finite();
+        let centre = middle.map(|m| if is_far(m) { m } else { 0.0 });
+        let is_moved = centre != Point3::ORIGIN;
+        let size = if is_moved {
+            let corners = [bounds.min - centre, bounds.max - centre];
+            // A tree without extent has the units of the numbers around it.
+            let spacing = centre.to_vec().max_abs() * f64::EPSILON;
+            corners[0].max_abs().max(corners[1].max_abs()).max(spacing)
+        } else {
+            bounds.magnitude().min(f64::MAX)
+        };
+        Self { units: Units::of(size), centre, is_moved }
+    }
+
+    /// The scale of lengths.
+    #[inline(always)]
+    pub(crate) fn units(self) -> Units {
+        self.units
+    }
+
+    /// Whether the tree's origin is not the caller's.
+    #[inline(always)]
+    pub(crate) fn is_moved(self) -> bool {
+        self.is_moved
+    }
+
+    /// The caller's coordinates of the tree's origin.
+    pub(crate) fn centre(self) -> Point3 {
+        self.centre
+    }
+
+    /// An upper bound on the caller's coordinates.
+    #[inline(always)]
+    pub(crate) fn size(self) -> f64 {
+        self.units.outward(1.0) + self.centre.to_vec().max_abs()
+    }
+
+    /// The difference of a coordinate and the centre's, and its rounding error.
+    #[inline(always)]
+    pub(crate) fn difference(self, x: f64, axis: usize) -> (f64, f64) {
+        // Also keeps infinities.
+        if self.centre[axis] == 0.0 { (x, 0.0) } else { two_diff(x, self.centre[axis]) }
+    }
+
+    /// A ray whose origin is counted from the centre.
+    pub(crate) fn moved(self, ray: &Ray64) -> Ray64 {
+        let (mut origin, mut error) = (ray.origin, ray.origin_error);
+        for axis in 0..3 {
+            let (o, lost) = self.difference(ray.origin[axis], axis);
+            origin[axis] = o;
+            if lost != 0.0 {
+                error[axis] = (error[axis] + lost.abs()).next_up();
+            }
+        }
+        Ray64 { origin, origin_error: error, ..*ray }
+    }
+
+    /// The least f64 interval around a coordinate, in tree units.
+    #[inline(always)]
+    pub(crate) fn interval(self, x: f64, axis: usize) -> (f64, f64) {
+        let (from_centre, error) = self.difference(x, axis);
+        let y = self.units.inward(from_centre);
+        // Where scaling underflows, one more step outward makes up for the loss.
+        let is_lost = y.abs() < f64::MIN_POSITIVE && from_centre != 0.0;
+        let low = if is_lost || error < 0.0 { y.next_down() } else { y };
+        let high = if is_lost || error > 0.0 { y.next_up() } else { y };
+        (low, high)
+    }
 
     /// The entry of object `index` of its `kind`, with its box rounded outward. An unbounded box,
     /// or one with a NaN, gives an entry that is not [bounded](Entry::is_bounded).
     pub fn entry(self, bounds: &Aabb, kind: u32, index: u32) -> Entry {
-        // Where scaling underflows, one more step outward makes up for the loss.
-        let lost = |x: f64, y: f64| y.abs() < f64::MIN_POSITIVE && x != 0.0;
-        let low = |x: f64, y: f64| down32(if lost(x, y) { y.next_down() } else { y });
-        let high = |x: f64, y: f64| up32(if lost(x, y) { y.next_up() } else { y });
-        let a = bounds.min.map(|x| low(x, self.inward(x))).to_array();
-        let b = bounds.max.map(|x| high(x, self.inward(x))).to_array();
+        let a = core::array::from_fn(|i| down32(self.interval(bounds.min[i], i).0));
+        let b = core::array::from_fn(|i| up32(self.interval(bounds.max[i], i).1));
         Entry::new(a, kind, b, index)
     }
 
-    /// Converts a box in tree units to the caller's units.
+    /// Converts a box in tree units to the caller's coordinates, rounded outward.
     pub(crate) fn bounds(self, lo: [f32; 3], hi: [f32; 3]) -> Aabb {
-        let point = |c: [f32; 3]| Point3::from(c.map(|x| self.outward(f64::from(x))));
-        Aabb::new(point(lo), point(hi))
+        let place = |x: f32, axis: usize| {
+            let y = self.units.outward(f64::from(x));
+            if self.centre[axis] == 0.0 { (y, 0.0) } else { two_sum(y, self.centre[axis]) }
+        };
+        let low = |axis: usize| match place(lo[axis], axis) {
+            (x, error) if error < 0.0 => x.next_down(),
+            (x, _) => x,
+        };
+        let high = |axis: usize| match place(hi[axis], axis) {
+            (x, error) if error > 0.0 => x.next_up(),
+            (x, _) => x,
+        };
+        Aabb::new(Point3::new(low(0), low(1), low(2)), Point3::new(high(0), high(1), high(2)))
     }
 }
 
@@ -171,6 +283,35 @@ mod tests {
             prop_assert!(entry.is_bounded() && !entry.is_empty());
             prop_assert!(entry.lo().iter().chain(&entry.hi()).all(|x| x.abs() <= 1.0));
             prop_assert!(frame.bounds(entry.lo(), entry.hi()).encloses(&bounds));
+        }
+    }
+
+    proptest! {
+        /// Far from the origin boxes are as narrow as near it, and nothing is lost.
+        #[test]
+        fn boxes_far_from_the_origin_are_narrow(
+            place in prop::array::uniform3((-1.0..1.0, 0..60_i32)),
+            a in prop::array::uniform3(-1.0..1.0_f64),
+            b in prop::array::uniform3(-1.0..1.0_f64),
+        ) {
+            let place: Point3 = Point3::from(place.map(|(x, e): (f64, i32)| x * durer_math::scale::pow2(e)));
+            let corner = |v: [f64; 3]| Point3::new(place.x + v[0], place.y + v[1], place.z + v[2]);
+            let bounds = Aabb::from_points([corner(a), corner(b)]);
+            let frame = Frame::around(&bounds);
+            let entry = frame.entry(&bounds, 0, 0);
+            prop_assert!(entry.lo().iter().chain(&entry.hi()).all(|x| x.abs() <= 1.0));
+            let back = frame.bounds(entry.lo(), entry.hi());
+            prop_assert!(back.encloses(&bounds));
+            // Two roundings to f32 of coordinates up to five times half the largest width, in units
+            // of the next power of two, and one to f64 of the caller's coordinates.
+            let slack = 10.0 * bounds.widths().max_abs() * 2.0_f64.next_up() / (1 << 24) as f64;
+            for i in 0..3 {
+                let ulp = place[i].abs() * 4.0 * f64::EPSILON;
+                prop_assert!(back.max[i] - bounds.max[i] <= slack + ulp && bounds.min[i] - back.min[i] <= slack + ulp);
+                for x in [bounds.min[i], bounds.max[i]] {
+                    prop_assert_eq!(frame.difference(x, i).1, 0.0);
+                }
+            }
         }
     }
 

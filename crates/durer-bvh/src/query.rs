@@ -358,7 +358,7 @@ impl<S: TreeRay> BlockFilterSource for LazyFilter<'_, S> {
             // Written in place: a copy right after piecewise stores would stall.
             kernel.apart(
                 #[inline(always)]
-                || *filter = Some(Filter::new(sight, way, tree.rounded)),
+                || *filter = Some(Filter::new(|| tree.local_line(sight), way, tree.rounded)),
             );
         }
         filter.get_or_insert(Filter::NOTHING)
@@ -383,7 +383,7 @@ impl<S: TreeRay> BlockFilterSource for QueuedFilter<'_, S> {
                 }
                 kernel.apart(
                     #[inline(always)]
-                    || Filter::new(sight, way, tree.rounded),
+                    || Filter::new(|| tree.local_line(sight), way, tree.rounded),
                 )
             },
         )

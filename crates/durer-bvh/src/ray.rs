@@ -1,6 +1,6 @@
 //! Rays for the tree: conservative in f32, so that no box is missed.
 
-use crate::frame::{Frame, down32, up32};
+use crate::frame::{Units, down32, up32};
 use durer_math::{Aabb, Point3, U, Vec3};
 
 /// Half an ulp of 1 in f32.
@@ -199,7 +199,7 @@ pub(crate) struct ClippedRay {
     pub(crate) error: f64,
     /// The parameter of the entry.
     pub(crate) t_enter: f64,
-    pub(crate) frame: Frame,
+    pub(crate) units: Units,
 }
 
 /// How many roundings a node test makes after `r`'s own: one if multiplication and addition are
@@ -254,12 +254,12 @@ pub(crate) const NEARBY: f32 = 4.0;
 const MARGIN: f64 = 1.0 / (1_u64 << 40) as f64;
 
 impl Clip {
-    pub(crate) fn to(frame: Frame, lo: [f32; 3], hi: [f32; 3]) -> Self {
+    pub(crate) fn to(units: Units, lo: [f32; 3], hi: [f32; 3]) -> Self {
         let wide = |x: [f32; 3], by: f64, beyond: f64| {
             [f64::from(x[0]) + by, f64::from(x[1]) + by, f64::from(x[2]) + by, beyond]
         };
         let most = |i: usize| f64::from(lo[i]).abs().max(f64::from(hi[i]).abs()).max(LEAST);
-        let (shrink, grow) = (frame.inward(1.0), frame.outward(1.0));
+        let (shrink, grow) = (units.inward(1.0), units.outward(1.0));
         let is_factor = shrink.is_normal() && grow.is_normal();
         Self {
             lo: wide(lo, -MARGIN, f64::MIN / 8.0),
@@ -274,29 +274,30 @@ impl Clip {
 }
 
 impl CullRay {
-    /// Clips a ray to the box `[lo, hi]` of a tree; `None` if it certainly misses it.
+    /// Clips a ray, whose origin is counted from the tree's centre, to the box `[lo, hi]` of the
+    /// tree; `None` if it certainly misses it.
     #[inline(always)]
     pub(crate) fn new(
         line: &Ray64,
-        frame: Frame,
+        units: Units,
         lo: &[f32; 3],
         hi: &[f32; 3],
         rounding: Rounding,
     ) -> Option<Self> {
-        let o = line.origin.map(|x| frame.inward(x)).to_array();
+        let o = line.origin.map(|x| units.inward(x)).to_array();
         let d = line.direction.to_array();
         // One axis has |d| >= 1, so within the box |t| stays below this.
         let reach = o.iter().fold(0.0_f64, |m, x| m.max(x.abs())) + 4.0;
         let error: [f64; 3] = core::array::from_fn(|i| {
             // The loss of the origin by underflow is far below this.
-            let origin = frame.inward(line.origin_error[i]) + f64::MIN_POSITIVE;
+            let origin = units.inward(line.origin_error[i]) + f64::MIN_POSITIVE;
             let lost = if line.direction_error[i] == 0.0 { 0.0 } else { reach * line.direction_error[i] };
             (origin + lost) * (1.0 + WIDEN)
         });
         if !(reach < f64::MAX && error.iter().all(|&e| e < 1.0)) {
-            return Some(Self::everywhere(&d, frame));
+            return Some(Self::everywhere(&d, units));
         }
-        let (t_min, t_max) = (frame.inward(line.t_min), frame.inward(line.t_max));
+        let (t_min, t_max) = (units.inward(line.t_min), units.inward(line.t_max));
         // A tiny parameter that was rounded in scaling is widened by the clipping below only if the
         // box does not begin later.
         let (mut enter, mut exit) = (if t_min == 0.0 { line.t_min.min(0.0) } else { t_min }, t_max.next_up());
@@ -321,7 +322,7 @@ impl CullRay {
         }
         let way = (exit - enter).max(LEAST);
         if way.is_nan() || way > LONGEST {
-            return Some(Self::everywhere(&d, frame));
+            return Some(Self::everywhere(&d, units));
         }
         let (mut r32, mut near, mut far, mut starts) = ([0.0; 4], [0.0; 4], [0.0; 4], [0.0; 4]);
         for i in 0..3 {
@@ -350,7 +351,7 @@ impl CullRay {
                 is_exact: false,
                 error: error[0].max(error[1]).max(error[2]),
                 t_enter: enter,
-                frame,
+                units,
             },
         })
     }
@@ -358,7 +359,7 @@ impl CullRay {
     /// A ray so far away, or so uncertain, that in these units no box can be excluded: it meets
     /// every box.
     #[cold]
-    fn everywhere(d: &[f64; 3], frame: Frame) -> Self {
+    fn everywhere(d: &[f64; 3], units: Units) -> Self {
         let big = 4.0 * LONGEST as f32;
         let direction = single(d);
         Self {
@@ -374,7 +375,7 @@ impl CullRay {
                 is_exact: false,
                 error: f64::INFINITY,
                 t_enter: f64::NEG_INFINITY,
-                frame,
+                units,
             },
         }
     }
@@ -387,7 +388,7 @@ impl ClippedRay {
     /// The limit of the search if nothing beyond the caller's `t` matters.
     #[inline(always)]
     pub(crate) fn shortened(&self, t: f64) -> f32 {
-        let way = self.frame.inward(t) - self.t_enter;
+        let way = self.units.inward(t) - self.t_enter;
         // A ray that meets everything has its entry at minus infinity, so that it is never
         // shortened.
         up32(way.next_up()).min(self.t_far)
@@ -404,7 +405,7 @@ impl ClippedRay {
     pub(crate) fn inner(&self, (from, to): (f64, f64)) -> (f32, f32) {
         // Nothing is met beyond the greatest length; so far away f32 is coarse, but finite.
         const BEYOND: f64 = (1_u64 << 40) as f64;
-        let single = |x: f64| (self.frame.inward(x) - self.t_enter).clamp(-BEYOND, BEYOND) as f32;
+        let single = |x: f64| (self.units.inward(x) - self.t_enter).clamp(-BEYOND, BEYOND) as f32;
         // More than the roundings of the difference and to f32, and than the loss of the scaling by
         // underflow.
         let step = |x: f32| x.abs().mul_add(1.0 / (1 << 22) as f32, 1.0 / (1_u128 << 120) as f32);
@@ -424,7 +425,7 @@ impl ClippedRay {
 
     /// Converts a parameter of the node test to the caller's `t`.
     pub(crate) fn caller_t(&self, t: f32) -> f64 {
-        self.frame.outward(f64::from(t) + self.t_enter)
+        self.units.outward(f64::from(t) + self.t_enter)
     }
 }
 

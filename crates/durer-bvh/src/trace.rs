@@ -52,7 +52,7 @@ impl Bvh {
     /// of `tell` is the new limit; else it is ignored. Returns whether the ray meets the tree's own
     /// box.
     pub fn trace(&self, line: &Ray64, mut tell: impl FnMut(&Step) -> f64) -> bool {
-        let Some(ray) = self.cull(line, Rounding::Fused) else { return false };
+        let Some(ray) = self.cull(&self.local_line(line), Rounding::Fused) else { return false };
         let mut t_far = ray.way.t_far;
         let mut waiting = vec![(ChildRef::node(0), 0.0_f32, 0_u32, self.bounds())];
         while let Some((child, near, level, bounds)) = waiting.pop() {

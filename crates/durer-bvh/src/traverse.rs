@@ -66,11 +66,13 @@ impl Bvh {
         }
         // Boxes were rounded outward after scaling; so the point may be rounded by less than that
         // and a step.
-        let reach = |x: f64, e: f64| {
-            let (a, b) = (self.frame.inward((x - e).next_down()), self.frame.inward((x + e).next_up()));
+        let units = self.frame.units();
+        let reach = |(x, lost): (f64, f64), e: f64| {
+            let e = if lost == 0.0 { e } else { (e + lost.abs()).next_up() };
+            let (a, b) = (units.inward((x - e).next_down()), units.inward((x + e).next_up()));
             (a.next_down(), b.next_up())
         };
-        let reach = [0, 1, 2].map(|i| reach(point[i], error[i]));
+        let reach = [0, 1, 2].map(|i| reach(self.frame.difference(point[i], i), error[i]));
         let mut waiting = vec![ChildRef::node(0)];
         while let Some(child) = waiting.pop() {
             if child.is_leaf() {

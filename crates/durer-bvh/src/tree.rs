@@ -2,9 +2,9 @@
 
 use crate::frame::Frame;
 use crate::node::{ChildRef, Leaf, Node, WIDTH};
-use crate::ray::{Clip, CullRay, PACKET, Ray64, Rounding};
+use crate::ray::{Clip, CullRay, PACKET, Ray32, Ray64, Rounding, TreeRay};
 use crate::triangles::{Block, Corners, LANES};
-use durer_math::Aabb;
+use durer_math::{Aabb, Point3};
 
 /// A bounding volume hierarchy: which entries might this ray hit?
 ///
@@ -113,7 +113,7 @@ impl Bvh {
                 self.hi = [0, 1, 2].map(|i| self.hi[i].max(b[i]));
             }
         }
-        self.clip = Clip::to(self.frame, self.lo, self.hi);
+        self.clip = Clip::to(self.frame.units(), self.lo, self.hi);
         self.nodes = nodes;
     }
 
@@ -132,7 +132,7 @@ impl Bvh {
             is_all_triangles: false,
             lo,
             hi,
-            clip: Clip::to(frame, lo, hi),
+            clip: Clip::to(frame.units(), lo, hi),
         }
     }
 
@@ -167,10 +167,22 @@ impl Bvh {
         self.kinds.get(kind as usize).is_some_and(|kind| kind.blocks.is_some())
     }
 
+    /// A ray as the tree's kernels need it: its origin is counted from the tree's centre.
+    #[inline(always)]
+    pub(crate) fn local_line(&self, ray: &impl TreeRay) -> Ray64 {
+        if self.frame.is_moved() { self.frame.moved(&ray.line()) } else { ray.line() }
+    }
+
+    /// [`TreeRay::glance`] with the origin counted from the tree's centre, as packets need it.
+    #[inline(always)]
+    pub fn glance(&self, ray: &impl TreeRay) -> Ray32 {
+        if self.frame.is_moved() { self.frame.moved(&ray.line()).glance() } else { ray.glance() }
+    }
+
     /// An upper bound on the magnitudes of its coordinates.
     #[inline(always)]
     pub fn size(&self) -> f64 {
-        self.frame.outward(1.0)
+        self.frame.size()
     }
 
     /// The kind of a reference to a leaf, and the reference counted within the kind.
@@ -247,7 +259,10 @@ impl Bvh {
             return None;
         }
         let place = triangle.place as usize;
-        self.blocks.get(place / LANES).map(|block| block.corners(grow, place % LANES))
+        let corners = self.blocks.get(place / LANES)?.corners(grow, place % LANES);
+        // Exact, as the difference was.
+        let moved = |p: Point3| p + self.frame.centre().to_vec();
+        Some(if self.frame.is_moved() { corners.map(moved) } else { corners })
     }
 
     /// [`Bvh::corners`] of a triangle for each of eight rays, corner by corner and axis by axis;
@@ -273,6 +288,10 @@ impl Bvh {
                 for i in 0..PACKET {
                     corners[corner][axis][i] = f64::from(kept[3 * corner + axis][i]) * grow;
                 }
+                if self.frame.is_moved() {
+                    // Exact, as the difference was.
+                    corners[corner][axis].iter_mut().for_each(|x| *x += self.frame.centre()[axis]);
+                }
             }
         }
         Some(corners)
@@ -297,6 +316,6 @@ impl Bvh {
         if self.is_empty() {
             return None;
         }
-        CullRay::new(line, self.frame, &self.lo, &self.hi, rounding)
+        CullRay::new(line, self.frame.units(), &self.lo, &self.hi, rounding)
     }
 }

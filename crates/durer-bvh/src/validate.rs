@@ -208,7 +208,9 @@ impl Bvh {
         // The stored corners may be rounded; the entry's box may be cut by the bounds of its
         // object.
         let is_covered = |corners: Corners| {
-            let inward = |p: Point3| p.map(|x| self.frame.inward(x)).to_array();
+            let inward = |p: Point3| {
+                core::array::from_fn(|i| self.frame.units().inward(self.frame.difference(p[i], i).0))
+            };
             let bounds = Bounds { lo: inward(bounds.min), hi: inward(bounds.max) };
             self.rounded || is_covered(&corners.map(Point3::to_array), &bounds, &boxes)
         };

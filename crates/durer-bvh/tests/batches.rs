@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Dice, QUALITIES};
-use durer_bvh::{Bvh, Corners, Frame, Leaf, PACKET, Packet32, Ray32, Ray64, Rays, Settings, TreeRay};
+use durer_bvh::{Bvh, Corners, Frame, Leaf, PACKET, Packet32, Ray32, Ray64, Rays, Settings};
 use durer_math::eft::exponent;
 use durer_math::kernels::Path;
 use durer_math::{Aabb, Isa, Point3, Vec3};
@@ -139,7 +139,8 @@ impl Logging<'_> {
         if lines.iter().any(Option::is_none) {
             return None;
         }
-        Packet32::of(&lines.map(|line| line.map_or(Ray32::NOTHING, |line| line.glance())))
+        let tree = &self.world.tree;
+        Packet32::of(&lines.map(|line| line.map_or(Ray32::NOTHING, |line| tree.glance(&line))))
     }
 }
 

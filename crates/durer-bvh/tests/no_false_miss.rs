@@ -37,6 +37,13 @@ fn boxes(dice: &mut Dice, grid: i64) -> Vec<(Place, Place)> {
     (0..count).map(|_| one(dice)).collect()
 }
 
+/// Half of the scenes are far from the origin.
+fn moved(dice: &mut Dice, boxes: Vec<(Place, Place)>) -> Vec<(Place, Place)> {
+    let place = common::place(dice, 51);
+    let moved = |p: Place| [0, 1, 2].map(|i| p[i] + place[i]);
+    boxes.into_iter().map(|(lo, hi)| (moved(lo), moved(hi))).collect()
+}
+
 /// A point of a box: on each axis an end or a point between.
 fn aim(dice: &mut Dice, (lo, hi): (Place, Place)) -> Place {
     core::array::from_fn(|i| match dice.below(3) {
@@ -118,6 +125,7 @@ fn rays_aimed_at_boxes_meet_them() {
         let grid = [8, 1000, 1 << 24, 1 << 40][round % 4];
         let scale = [0, -40, 300, -700, 900][round % 5];
         let boxes = boxes(&mut dice, grid);
+        let boxes = moved(&mut dice, boxes);
         let f64_boxes: Vec<Aabb> =
             boxes.iter().map(|(lo, hi)| Aabb::new(point(*lo, scale), point(*hi, scale))).collect();
         let (tree, order) = tree(&f64_boxes);
@@ -136,11 +144,37 @@ fn rays_aimed_at_boxes_meet_them() {
     assert!(rays > 50_000, "{rays}");
 }
 
+/// Rays from far outside of a tree that has no extent.
+#[test]
+fn rays_from_anywhere_meet_a_point() {
+    for k in [0, 30, 60, 100, 300, 600, 1000] {
+        for place in [0.0, 7.0] {
+            let p = Point3::new(place, 0.0, place);
+            let (tree, order) = tree(&[Aabb::from_points([p])]);
+            let distance = scale2(1.0, k);
+            if place != 0.0 && k > 50 {
+                continue;
+            }
+            let line = Ray64 {
+                origin: Point3::new(place + distance, 0.0, place),
+                direction: Vec3::new(-1.0, 0.0, 0.0),
+                origin_error: Vec3::ZERO,
+                direction_error: Vec3::ZERO,
+                t_min: 0.0,
+                t_max: f64::INFINITY,
+                inner: (0.0, f64::INFINITY),
+            };
+            assert_shown(&tree, &order, &line, distance, 0);
+        }
+    }
+}
+
 #[test]
 fn rays_along_edges_and_in_faces_meet_them() {
     let mut dice = Dice(2);
     for _ in 0..6000 {
         let boxes = boxes(&mut dice, 64);
+        let boxes = moved(&mut dice, boxes);
         let f64_boxes: Vec<Aabb> =
             boxes.iter().map(|(lo, hi)| Aabb::new(point(*lo, -3), point(*hi, -3))).collect();
         let (tree, order) = tree(&f64_boxes);
@@ -163,6 +197,7 @@ fn rays_that_are_known_within_errors_meet_what_the_exact_ones_meet() {
     let mut dice = Dice(3);
     for _ in 0..3000 {
         let boxes = boxes(&mut dice, 1000);
+        let boxes = moved(&mut dice, boxes);
         let f64_boxes: Vec<Aabb> =
             boxes.iter().map(|(lo, hi)| Aabb::new(point(*lo, -10), point(*hi, -10))).collect();
         let (tree, order) = tree(&f64_boxes);
@@ -196,6 +231,7 @@ fn points_are_found_in_their_boxes() {
     for round in 0..2000 {
         let scale = [0, -900, 900, -1040][round % 4];
         let boxes = boxes(&mut dice, 1000);
+        let boxes = moved(&mut dice, boxes);
         let f64_boxes: Vec<Aabb> =
             boxes.iter().map(|(lo, hi)| Aabb::new(point(*lo, scale), point(*hi, scale))).collect();
         let (tree, order) = tree(&f64_boxes);

@@ -28,7 +28,8 @@ pub(crate) enum Command {
 /// How to read a scene.
 #[derive(Debug, Args)]
 pub(crate) struct SceneArgs {
-    /// The scene: a .pov file, or a mesh as .obj, .ply, .stl, .gltf or .glb, which is framed and lit by itself.
+    /// The scene: a .pov file, or a mesh as .obj, .ply, .stl, .gltf or .glb, which is framed and
+    /// lit by itself.
     pub(crate) scene: PathBuf,
     /// A folder to search for included files; may be given several times.
     #[arg(short = 'L', value_name = "DIR")]
@@ -72,7 +73,8 @@ impl SizeArgs {
 pub(crate) struct RenderArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// The picture; its ending says the format: .png, .exr or .ppm. [default: SCENE's name with .png, in the current folder]
+    /// The picture; its ending says the format: .png, .exr or .ppm.
+    /// [default: SCENE's name with .png, in the current folder]
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
@@ -86,7 +88,8 @@ pub(crate) struct RenderArgs {
     /// Bits per channel of a PNG or PPM.
     #[arg(long, value_name = "8|16", default_value = "8", value_parser = bits)]
     pub(crate) bits: u8,
-    /// Renders only the pixels from X0,Y0 up to but not including X1,Y1, from the top left; the rest is transparent.
+    /// Renders only the pixels from X0,Y0 up to but not including X1,Y1, from the top left; the
+    /// rest is transparent.
     #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = region)]
     pub(crate) region: Option<Region>,
     /// Shows no progress bar.
@@ -111,7 +114,8 @@ pub(crate) enum Query {
 pub(crate) struct TraceArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// The rays: an .npy file of f64, shape (n, 6) [origin, direction] or (n, 8) [origin, direction, t_min, t_max].
+    /// The rays: an .npy file of f64, shape (n, 6) [origin, direction] or (n, 8)
+    /// [origin, direction, t_min, t_max].
     #[arg(long, value_name = "RAYS.npy")]
     pub(crate) rays: PathBuf,
     /// What to ask of each ray.

@@ -135,7 +135,8 @@ impl Loaded {
     }
 }
 
-/// Stack of a thread: kernels that the compiler did not optimise have frames of hundreds of kilobytes. Only what is used is ever touched.
+/// Stack of a thread: kernels that the compiler did not optimise have frames of hundreds of
+/// kilobytes. Only what is used is ever touched.
 const STACK: usize = 64 << 20;
 
 /// Runs `work` with so many threads, or with as many as there are cores.

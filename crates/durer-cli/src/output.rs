@@ -4,7 +4,8 @@ use crate::failure::Failure;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-/// Writes `path` through a temporary neighbour, which takes the name when `write` has succeeded and is removed when it has not.
+/// Writes `path` through a temporary neighbour, which takes the name when `write` has succeeded and
+/// is removed when it has not.
 pub(crate) fn write_whole<E: std::fmt::Display>(
     path: &Path,
     write: impl FnOnce(File) -> Result<(), E>,

@@ -38,7 +38,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
             depth: format.depth(),
             threads: None,
         };
-        // If there can be no handler, Ctrl-C ends the program as it always did, and only the partial picture is lost.
+        // If there can be no handler, Ctrl-C ends the program as it always did, and only the
+        // partial picture is lost.
         let _ = ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
         let rendered = watched(&world, &settings, args.no_progress);
         let rendered = rendered.map_err(|e| Failure::file(&args.scene.scene, e))?;

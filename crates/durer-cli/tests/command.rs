@@ -57,7 +57,8 @@ fn wrong_usage_is_told_from_wrong_input() {
     assert_eq!(output.status.code(), Some(1), "{output:?}");
 }
 
-/// A tetrahedron twice, `x` to the right by 2 the second time: as OBJ, and as glTF that shows one mesh twice, or two.
+/// A tetrahedron twice, `x` to the right by 2 the second time: as OBJ, and as glTF that shows one
+/// mesh twice, or two.
 fn tetrahedra() -> [String; 3] {
     let obj = |dx: f64| format!("v {dx} 0 0\nv {} 0 0\nv {dx} 1 0\nv {dx} 0 1\n", dx + 1.0);
     let faces = |n: i32| {
@@ -105,7 +106,8 @@ fn warnings_of_a_mesh_file_name_the_file() {
     assert!(String::from_utf8_lossy(&output.stdout).contains("primitives  1\n"), "{output:?}");
 }
 
-/// The same triangles make the same picture, whatever file they come from and however often a mesh is stored.
+/// The same triangles make the same picture, whatever file they come from and however often a mesh
+/// is stored.
 #[test]
 fn a_mesh_shown_twice_looks_like_two_meshes() {
     let folder = folder("meshes");

@@ -6,7 +6,7 @@ use crate::context::RayContext;
 use crate::geometry::Geometry;
 use crate::ids::EVERYTHING;
 use crate::query::{any_in, closest_in};
-use durer_bvh::{Leaf, PACKET, Packet32, Ray32, Ray64, Rays, TreeRay};
+use durer_bvh::{Leaf, PACKET, Packet32, Ray32, Ray64, Rays};
 use durer_math::Ray;
 use durer_surfaces::{LocalRay, Need, SurfacePoint};
 
@@ -194,7 +194,7 @@ impl Rays<f64> for Closest<'_> {
         for (ray, glance) in (first..).zip(&mut glances) {
             let line = self.ready(ray);
             if let Some(line) = &line {
-                *glance = line.glance();
+                *glance = self.all.geometry.tree.glance(line);
             }
             self.all.together[ray % (2 * PACKET)] = line;
         }
@@ -257,7 +257,7 @@ impl Rays<bool> for Any<'_> {
         for (ray, glance) in (first..).zip(&mut glances) {
             let line = self.ready(ray);
             if let Some(line) = &line {
-                *glance = line.glance();
+                *glance = self.all.geometry.tree.glance(line);
             }
             self.all.together[ray % (2 * PACKET)] = line;
         }

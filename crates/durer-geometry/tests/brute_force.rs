@@ -224,11 +224,14 @@ fn builds_on_any_number_of_threads_answer_alike() {
 #[test]
 fn extreme_rays_and_sizes() {
     let mut dice = Dice(51);
-    for scale in [1.0, 1e-150, 1e150] {
+    let far = Vec3::new(1e6, -3e4, 2e3);
+    for (scale, place) in
+        [(1.0, Vec3::ZERO), (1e-150, Vec3::ZERO), (1e150, Vec3::ZERO), (1.0, far), (1e-6, far)]
+    {
         let (tree, flat) = both(|builder| {
             let mut dice = Dice(52);
             for _ in 0..60 {
-                let c = dice.point(4.0).map(|x| x * scale);
+                let c = dice.point(4.0).map(|x| x * scale) + place;
                 builder.add(Sphere::new(c, (0.5 + 0.4 * dice.signed()) * scale).unwrap());
             }
         });
@@ -241,7 +244,7 @@ fn extreme_rays_and_sizes() {
             };
             let far = power(&mut dice, 60);
             let step = power(&mut dice, 400);
-            let target = dice.point(3.0).map(|x| x * scale);
+            let target = dice.point(3.0).map(|x| x * scale) + place;
             let way = dice.vector(1.0);
             let origin = target - way * (far * scale);
             let direction = way * step;
@@ -250,7 +253,7 @@ fn extreme_rays_and_sizes() {
                 crossings += assert_same(&tree, &flat, &[ray]);
             }
         }
-        assert!(crossings > 200, "{crossings} crossings at scale {scale}");
+        assert!(crossings > 200, "{crossings} crossings at scale {scale}, moved by {place:?}");
     }
     // Crossings beyond the range of f64 have no parameter to compare, but nothing panics.
     let (tree, _) = both(|builder| fill(builder, &mut Dice(53), 40, true));

@@ -425,7 +425,13 @@ impl Inverse {
             return None;
         }
         let (adjugate, determinant) = adjugate(&rows.map(|r| r.map(EFloat::<Dd>::exact)));
-        let mirrored = determinant.sign()?.is_lt();
+        // Where the determinant is exactly zero there is no inverse, even if all cofactors are
+        // zero, too.
+        let sign = determinant.sign()?;
+        if sign.is_eq() {
+            return None;
+        }
+        let mirrored = sign.is_lt();
         let (mut entries, mut rounded) = ([[0.0; 3]; 3], 0);
         for i in 0..3 {
             for j in 0..3 {

@@ -42,8 +42,8 @@
 //!
 //! **Numbers, by rising cost.** [`eft`] gives sums and products with their exact errors; [`EFloat`]
 //! a value with its running error; [`rounding`] and [`Interval`] directed rounding; [`Dd`] 106
-//! bits; [`Dyadic`] is exact. [`ladder`] goes from one to the next, and [`predicates`] holds the one
-//! decision that must be faster than that: on which side a ray passes an edge.
+//! bits; [`Dyadic`] is exact. [`ladder`] goes from one to the next, and [`predicates`] holds the
+//! one decision that must be faster than that: on which side a ray passes an edge.
 //!
 //! **The same bits everywhere.** [`elementary`] replaces the C library's functions, and
 //! [`Isa::run`] is the only access to the CPU's vector and fused instructions; `unsafe` is confined

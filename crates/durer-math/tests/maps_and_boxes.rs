@@ -376,6 +376,14 @@ fn a_bad_map_is_named() {
     assert!(bad(Affine::IDENTITY.linear(), Point3::new(0.0, f64::INFINITY, 0.0)).contains("axis 1"));
     let flat = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]];
     assert_eq!(Affine::new(flat, Point3::ORIGIN), Err(AffineError::Singular(flat)));
+    // Of rank one and zero, with zeros of both signs: all cofactors are zero.
+    for zero in [0.0, -0.0] {
+        for (x, y) in [(1.0, zero), (-2.0, zero), (zero, zero)] {
+            let flat = [[x, 2.0 * x, zero], [y, zero, zero], [zero, y, zero]];
+            assert_eq!(Affine::new(flat, Point3::ORIGIN), Err(AffineError::Singular(flat)));
+            assert!(Affine::scaling(zero, x, zero).is_err() && Affine::scaling(zero, zero, zero).is_err());
+        }
+    }
     // Singular in f64, not exactly: 0.1 * 3 is not 0.3.
     let nearly = [[0.1, 0.3, 0.0], [1.0, 3.0, 0.0], [0.0, 0.0, 1.0]];
     assert!(Affine::new(nearly, Point3::ORIGIN).is_ok());

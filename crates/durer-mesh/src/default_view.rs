@@ -10,7 +10,8 @@ use std::sync::Arc;
 /// Half the smaller side of the picture at distance one: 20 degrees.
 const SLOPE: f64 = 0.364;
 
-/// The direction that tells inside from outside of closed meshes: any will do; along no axis, and in no plane of two, few edges of modelled parts are met exactly.
+/// The direction that tells inside from outside of closed meshes: any will do; along no axis, and
+/// in no plane of two, few edges of modelled parts are met exactly.
 const INSIDE: Vec3 = Vec3::new(0.48, 0.6, 0.64);
 
 impl Model {
@@ -28,8 +29,8 @@ impl Model {
         self.instances.iter().map(placed).fold(Aabb::EMPTY, Aabb::union)
     }
 
-    /// An object for each instance, in their order, those of one group with one mesh; light grey where a file has no colours. Groups that are closed, as
-    /// [`Topology`] has it, are solids.
+    /// An object for each instance, in their order, those of one group with one mesh; light grey
+    /// where a file has no colours. Groups that are closed, as [`Topology`] has it, are solids.
     pub fn into_objects(self) -> Vec<Object> {
         let texture = Arc::new(paint(Colour::opaque(Rgb::new(0.8, 0.8, 0.8))));
         let mesh = |group: crate::Group| {
@@ -46,8 +47,9 @@ impl Model {
         self.instances.into_iter().map(object).collect()
     }
 
-    /// The objects with a camera that sees all of them and a light behind its left shoulder. The camera is right-handed: nothing is mirrored. Up is +y; in
-    /// [STL](Format::Stl) files, which machines make, +z. `width` and `height` are the picture's.
+    /// The objects with a camera that sees all of them and a light behind its left shoulder. The
+    /// camera is right-handed: nothing is mirrored. Up is +y; in [STL](Format::Stl) files, which
+    /// machines make, +z. `width` and `height` are the picture's.
     pub fn into_scene(self, width: u32, height: u32) -> Scene {
         let bounds = self.bounds();
         let (centre, half) = if bounds.is_bounded() && !bounds.is_empty() {
@@ -67,7 +69,8 @@ impl Model {
         let up = back.cross(right);
         let (width, height) = (f64::from(width.max(1)), f64::from(height.max(1)));
         let unit_of = 2.0 * SLOPE / width.min(height);
-        // The ball around everything touches the picture's sides: 1 / sin of an angle by its tangent.
+        // The ball around everything touches the picture's sides: 1 / sin of an angle by its
+        // tangent.
         let distance = radius * SLOPE.mul_add(SLOPE, 1.0).sqrt() / SLOPE;
         let location = centre + back * distance;
         let camera = Camera {

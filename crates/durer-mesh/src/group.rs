@@ -6,7 +6,8 @@ use crate::polygon;
 use durer_math::{Point3, Vec3};
 use durer_scene::Face;
 
-/// A corner of a face: the numbers of its vertex, its texture coordinates and its normal in the file.
+/// A corner of a face: the numbers of its vertex, its texture coordinates and its normal in the
+/// file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Corner {
     pub(crate) vertex: u32,
@@ -22,7 +23,8 @@ pub(crate) struct Groups {
     pub(crate) normals: Vec<Vec3>,
     done: Vec<Group>,
     now: Group,
-    /// The numbers that the file's vertices, texture coordinates and normals have in the group; [`NONE`] for those it has not used.
+    /// The numbers that the file's vertices, texture coordinates and normals have in the group;
+    /// [`NONE`] for those it has not used.
     vertex_here: Vec<u32>,
     uv_here: Vec<u32>,
     normal_here: Vec<u32>,

@@ -1,11 +1,14 @@
-//! Mesh files as scene data: OBJ, PLY (as text and both binary orders), STL (as text and binary) and glTF 2.0 (as text and binary).
+//! Mesh files as scene data: OBJ, PLY (as text and both binary orders), STL (as text and binary)
+//! and glTF 2.0 (as text and binary).
 //!
-//! [`read`] gives a [`Model`]: groups of triangles in the file's order, with the coordinates as f64 wherever the file has that many digits, and where each
-//! of them is shown. Texture coordinates come along to the hits of rays; no texture depends on them yet.
-//! [`Model::into_scene`] frames and lights them; [`Topology`] says whether they are closed.
+//! [`read`] gives a [`Model`]: groups of triangles in the file's order, with the coordinates as f64
+//! wherever the file has that many digits, and where each of them is shown. Texture coordinates
+//! come along to the hits of rays; no texture depends on them yet. [`Model::into_scene`] frames and
+//! lights them; [`Topology`] says whether they are closed.
 //!
-//! Nothing in a file is trusted: counts in headers reserve no memory, indices are checked, and errors name the place. What other programs write and can be
-//! left out without harm to the rest is left out with a [`Warning`].
+//! Nothing in a file is trusted: counts in headers reserve no memory, indices are checked, and
+//! errors name the place. What other programs write and can be left out without harm to the rest is
+//! left out with a [`Warning`].
 //!
 //! ```
 //! use durer_mesh::{Format, read_bytes};
@@ -40,7 +43,8 @@ use std::path::Path;
 pub struct Model {
     /// Its groups, in its order; there is at least one, and each has a triangle.
     pub groups: Vec<Group>,
-    /// Where they are shown; at least one. In formats without transforms each group stands once where its coordinates say.
+    /// Where they are shown; at least one. In formats without transforms each group stands once
+    /// where its coordinates say.
     pub instances: Vec<Instance>,
     /// Its format.
     pub format: Format,

@@ -1,9 +1,11 @@
 //! OBJ: text, one statement a line.
 //!
-//! Read are `v`, `vt` (two numbers of up to three), `vn`, `f` with indices from 1 or, negative, from the end of what was given so far, `o` and `g` (each begins a group), and lines that a
-//! backslash continues. Indices of texture coordinates and normals that are not there are left out with one warning: programs that export only
-//! vertices write such files. Points, lines, materials and smoothing groups are passed over. Free-form curves
-//! and surfaces are refused. (Alias/Wavefront, *Advanced Visualizer*, appendix B1, 1991.)
+//! Read are `v`, `vt` (two numbers of up to three), `vn`, `f` with indices from 1 or, negative,
+//! from the end of what was given so far, `o` and `g` (each begins a group), and lines that a
+//! backslash continues. Indices of texture coordinates and normals that are not there are left out
+//! with one warning: programs that export only vertices write such files. Points, lines, materials
+//! and smoothing groups are passed over. Free-form curves and surfaces are refused.
+//! (Alias/Wavefront, *Advanced Visualizer*, appendix B1, 1991.)
 
 use crate::error::{ErrorKind, Location};
 use crate::group::{Corner, Groups};
@@ -87,7 +89,8 @@ pub(crate) fn read(bytes: &[u8], warnings: &mut Vec<Warning>) -> Result<Vec<Grou
     Ok(groups.end())
 }
 
-/// One or two numbers; a second one that is not there is zero, a third one is that of solid textures.
+/// One or two numbers; a second one that is not there is zero, a third one is that of solid
+/// textures.
 fn texture_coordinates<'a>(
     words: &mut impl Iterator<Item = &'a str>,
     line: usize,
@@ -98,7 +101,8 @@ fn texture_coordinates<'a>(
     Ok([u, if words.peek().is_some() { number(&mut words, line, EXPECTED)? } else { 0.0 }])
 }
 
-/// A corner as `v`, `v/vt`, `v//vn` or `v/vt/vn`. Texture coordinates and normals that are not there are left out and counted in `dangling`.
+/// A corner as `v`, `v/vt`, `v//vn` or `v/vt/vn`. Texture coordinates and normals that are not
+/// there are left out and counted in `dangling`.
 fn corner(
     word: &str,
     counts: [usize; 3],

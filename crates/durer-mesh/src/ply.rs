@@ -1,10 +1,14 @@
-//! PLY: a header that declares elements and their properties, in any order, then the elements as text or binary numbers of either byte order. (G. Turk, "The PLY
-//! polygon file format", Stanford 1994.)
+//! PLY: a header that declares elements and their properties, in any order, then the elements as
+//! text or binary numbers of either byte order. (G. Turk, "The PLY polygon file format", Stanford
+//! 1994.)
 //!
-//! Read are `x y z`, `nx ny nz` and `u v` (or `s t`, `texture_u texture_v`) of `vertex`, and the lists `vertex_indices` or `vertex_index` of `face` and of `tristrips`. Everything else is passed over.
+//! Read are `x y z`, `nx ny nz` and `u v` (or `s t`, `texture_u texture_v`) of `vertex`, and the
+//! lists `vertex_indices` or `vertex_index` of `face` and of `tristrips`. Everything else is passed
+//! over.
 //!
-//! Each three neighbours in a strip are a triangle, the second of every two of them turned around; -1 ends a strip and begins another. Triangles of a strip
-//! that name a vertex twice lead from one part of it to the next: they are left out, and count.
+//! Each three neighbours in a strip are a triangle, the second of every two of them turned around; -1
+//! ends a strip and begins another. Triangles of a strip that name a vertex twice lead from one
+//! part of it to the next: they are left out, and count.
 
 use crate::Group;
 use crate::error::{ErrorKind, Location};

@@ -1,13 +1,16 @@
 //! Polygons cut into triangles.
 //!
-//! A convex polygon becomes a fan about its first corner, as other readers have it. Of others ears are cut off (G. H. Meisters, "Polygons have ears",
-//! American Mathematical Monthly 1975): a corner whose triangle turns as the polygon does and holds no other corner. All is decided in the plane along
-//! the axis to which the polygon's normal (the sum of M. E. Newell's products) is closest. Which triangles fill the polygon is a choice, so that rounding
-//! in it changes no vertex and leaves no gap: the outline of the triangles is the polygon's, whatever is chosen.
+//! A convex polygon becomes a fan about its first corner, as other readers have it. Of others ears
+//! are cut off (G. H. Meisters, "Polygons have ears", American Mathematical Monthly 1975): a corner
+//! whose triangle turns as the polygon does and holds no other corner. All is decided in the plane
+//! along the axis to which the polygon's normal (the sum of M. E. Newell's products) is closest.
+//! Which triangles fill the polygon is a choice, so that rounding in it changes no vertex and
+//! leaves no gap: the outline of the triangles is the polygon's, whatever is chosen.
 
 use durer_math::Point3;
 
-/// Polygons with more corners than this are cut only if they are convex: ears take a time that grows with the square.
+/// Polygons with more corners than this are cut only if they are convex: ears take a time that
+/// grows with the square.
 pub(crate) const MOST: usize = 10_000;
 
 type P = [f64; 2];
@@ -35,7 +38,8 @@ fn flattened(corners: &[Point3]) -> Vec<P> {
     corners.iter().map(|p| (*p - first).to_array()).map(|p| [p[u], p[v]]).collect()
 }
 
-/// Cuts a polygon of at least three corners into triangles of corner numbers; `None` if it has too many corners.
+/// Cuts a polygon of at least three corners into triangles of corner numbers; `None` if it has too
+/// many corners.
 pub(crate) fn triangles(corners: &[Point3]) -> Option<Vec<[usize; 3]>> {
     let n = corners.len();
     let fan = |left: &[usize]| left.windows(2).skip(1).map(|w| [left[0], w[0], w[1]]).collect::<Vec<_>>();
@@ -73,7 +77,8 @@ pub(crate) fn triangles(corners: &[Point3]) -> Option<Vec<[usize; 3]>> {
     Some(cut)
 }
 
-/// Whether the sides of a polygon that always turns left turn by one whole turn: their first coordinate changes its sign twice.
+/// Whether the sides of a polygon that always turns left turn by one whole turn: their first
+/// coordinate changes its sign twice.
 fn winds_once(flat: &[P]) -> bool {
     let n = flat.len();
     let steps = (0..n).map(|i| flat[(i + 1) % n][0] - flat[i][0]).filter(|x| *x != 0.0);
@@ -103,7 +108,8 @@ mod tests {
         (2..flat.len()).map(|i| turn(flat[0], flat[i - 1], flat[i])).sum()
     }
 
-    /// The triangles turn as the polygon does, and their areas add up to its own: so they cover it once. Coordinates are small whole numbers, areas exact.
+    /// The triangles turn as the polygon does, and their areas add up to its own: so they cover it
+    /// once. Coordinates are small whole numbers, areas exact.
     fn check(flat: &[P]) {
         let cut = triangles(&points(flat)).unwrap_or_default();
         assert_eq!(cut.len(), flat.len() - 2);
@@ -162,7 +168,8 @@ mod tests {
         assert_eq!(cut, Some(vec![[0, 1, 2], [0, 2, 3], [0, 3, 4]]));
     }
 
-    /// A star that is drawn in one stroke always turns left, twice: it is no convex polygon. Something comes out for it, and for no area at all.
+    /// A star that is drawn in one stroke always turns left, twice: it is no convex polygon.
+    /// Something comes out for it, and for no area at all.
     #[test]
     fn what_crosses_itself_becomes_something() {
         let star = [[0.0, 3.0], [-2.0, -3.0], [3.0, 1.0], [-3.0, 1.0], [2.0, -3.0]];

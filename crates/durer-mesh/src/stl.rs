@@ -1,8 +1,12 @@
-//! STL: triangles one by one, as text (`solid ... endsolid`, each a group) or binary (80 bytes, a count, then 50 bytes for each).
+//! STL: triangles one by one, as text (`solid ... endsolid`, each a group) or binary (80 bytes, a
+//! count, then 50 bytes for each).
 //!
-//! Many binary files begin with `solid` too. A file that does is binary if bytes 80 to 83, where a binary file has its count, have a character that no text has,
-//! or if as many triangles are there: four characters of text are a count above 150 million. Bytes after the last triangle are ignored with a warning.
-//! Corners with the same coordinates become one vertex. The normals in the file are passed over: the order of the corners tells the side. (3D Systems, *StereoLithography Interface Specification*, 1988.)
+//! Many binary files begin with `solid` too. A file that does is binary if bytes 80 to 83, where a
+//! binary file has its count, have a character that no text has, or if as many triangles are there:
+//! four characters of text are a count above 150 million. Bytes after the last triangle are ignored
+//! with a warning. Corners with the same coordinates become one vertex. The normals in the file are
+//! passed over: the order of the corners tells the side. (3D Systems, *StereoLithography Interface
+//! Specification*, 1988.)
 
 use crate::error::{ErrorKind, Location};
 use crate::text::{lines, shortened, three, without_mark};

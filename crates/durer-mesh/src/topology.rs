@@ -4,10 +4,12 @@ use durer_scene::Mesh;
 use durer_surfaces::MeshData;
 use std::collections::HashMap;
 
-/// How the triangles of a mesh hang together. Vertices with the same coordinates count as one, whatever their numbers.
+/// How the triangles of a mesh hang together. Vertices with the same coordinates count as one,
+/// whatever their numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Topology {
-    /// Triangles without area, or with a coordinate that is not finite: no ray meets them, and they do not count in what follows.
+    /// Triangles without area, or with a coordinate that is not finite: no ray meets them, and they
+    /// do not count in what follows.
     pub degenerate: usize,
     /// Triangles that use the same three vertices as an earlier one.
     pub duplicates: usize,

@@ -5,7 +5,8 @@ use crate::error::Location;
 /// Something in a mesh file that is left out; the rest is read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Warning {
-    /// Faces name texture coordinates or normals that are not there. There is one such warning for each file.
+    /// Faces name texture coordinates or normals that are not there. There is one such warning for
+    /// each file.
     #[error(
         "{spot}: there is no {what} {index}, there are {count} so far; {} that are not there are left out",
         missing(*.uv, *.normals)

@@ -17,7 +17,8 @@ fn corners() -> Vec<u8> {
     floats(CORNERS.as_flattened())
 }
 
-/// A file of one mesh and one node, with a primitive's members beside its positions, and the accessors of those.
+/// A file of one mesh and one node, with a primitive's members beside its positions, and the
+/// accessors of those.
 fn one(members: &str, count: usize, accessors: &[(&str, &[u8])]) -> File {
     let mut file = File::default();
     let positions =
@@ -149,7 +150,8 @@ fn indices_of_all_types_modes_and_none_at_all() -> Result<(), ErrorKind> {
     Ok(())
 }
 
-/// Positions as small integers, normalised or not, with a stride, an offset, and single ones replaced.
+/// Positions as small integers, normalised or not, with a stride, an offset, and single ones
+/// replaced.
 #[test]
 fn components_of_all_types_strides_and_sparse_lists() -> Result<(), ErrorKind> {
     let positions = |model: &Model| model.groups[0].mesh.vertices.clone();
@@ -290,7 +292,8 @@ fn nodes_place_meshes_and_share_them() -> Result<(), ErrorKind> {
     };
     assert!(std::sync::Arc::ptr_eq(a, b) && a.inside_vector.is_some());
 
-    // Without a default scene the first one counts, without scenes all that is nobody's child, without nodes the meshes.
+    // Without a default scene the first one counts, without scenes all that is nobody's child,
+    // without nodes the meshes.
     file.lists.retain(|(name, _)| name != "scene");
     let first = gltf(&file.glb())?;
     assert_eq!(first.instances.len(), 1);
@@ -303,7 +306,8 @@ fn nodes_place_meshes_and_share_them() -> Result<(), ErrorKind> {
     Ok(())
 }
 
-/// Rays meet the same, with the same numbers and looks, whether a mesh is stored once or as often as it is shown.
+/// Rays meet the same, with the same numbers and looks, whether a mesh is stored once or as often
+/// as it is shown.
 #[test]
 fn a_mesh_that_is_shown_often_is_built_once() -> Result<(), Box<dyn std::error::Error>> {
     let shown = |meshes: usize, count: usize| {
@@ -705,7 +709,8 @@ fn rich() -> File {
 #[path = "corpus/case.rs"]
 mod case;
 
-/// Cut anywhere, with any bit changed, or any number replaced by a wild one, a file is read or refused.
+/// Cut anywhere, with any bit changed, or any number replaced by a wild one, a file is read or
+/// refused.
 #[test]
 fn damaged_files_are_read_or_refused() {
     let file = rich();

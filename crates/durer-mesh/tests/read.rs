@@ -143,7 +143,8 @@ fn obj_statements_mean_what_they_say() -> Result<(), ErrorKind> {
         face.normals.map(|n| n.map(|n| first.mesh.normals[n as usize])),
         Some([Vec3::Z, Vec3::Y, Vec3::Z])
     );
-    // A corner without a normal makes the face flat; a quadrilateral is two triangles; a face of two corners is a line.
+    // A corner without a normal makes the face flat; a quadrilateral is two triangles; a face of
+    // two corners is a line.
     assert_eq!(second.mesh.faces.len(), 3);
     assert!(second.mesh.faces.iter().all(|f| f.normals.is_none()));
     let corners = second.mesh.faces[0].vertices.map(|v| second.mesh.vertices[v as usize]);
@@ -151,7 +152,8 @@ fn obj_statements_mean_what_they_say() -> Result<(), ErrorKind> {
     Ok(())
 }
 
-/// Texture coordinates of OBJ and PLY files are those of the hits; faces without any have those that faces have where there are none at all.
+/// Texture coordinates of OBJ and PLY files are those of the hits; faces without any have those
+/// that faces have where there are none at all.
 #[test]
 fn texture_coordinates_reach_the_hits() -> Result<(), Box<dyn std::error::Error>> {
     let obj = "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 9 0 0\nvt 0.5 8 7\nvt 2.5\nvt 0.5 16\nf 2 4 3\nf 1/1 2/2 3/3\nf 1/1 2/2 3\n";
@@ -175,7 +177,8 @@ fn texture_coordinates_reach_the_hits() -> Result<(), Box<dyn std::error::Error>
             let hit = lowered.geometry.closest(&ray)?;
             Some((hit.primitive, lowered.geometry.resolve(&ray, &hit).uv))
         };
-        // A quarter of the way to the second corner, and half of that to the third: all in small dyadic numbers.
+        // A quarter of the way to the second corner, and half of that to the third: all in small
+        // dyadic numbers.
         let face = u32::from(format == Format::Obj);
         assert_eq!(uv(1.0, 2.0), Some((face, [1.0, 10.0])), "{format:?}");
         if format == Format::Obj {

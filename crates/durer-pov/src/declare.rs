@@ -7,6 +7,7 @@ use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::{Kind, Mark};
 use crate::parser::{Item, Parser, strayed};
+use crate::scope::Reference;
 use crate::strings::makes_string;
 use crate::value::{Unsupported, Value};
 
@@ -36,22 +37,26 @@ impl Parser<'_> {
             self.take_raw_mark(Mark::Semicolon);
         }
         match element {
-            Some(target) => {
-                // A shared array is copied before it is changed.
-                let depth = value.array_depth() + target.path.len() as u32;
-                self.check_array_depth(depth, place)?;
-                self.count_array_copy(name, place)?;
-                let gone = || Error::invalid(place, "this array is gone");
-                let after = value.held();
-                let held = self.scopes.get_mut(&target).ok_or_else(gone)?;
-                let before = std::mem::replace(held, value).held();
-                self.scopes.element_changed(&target, depth, before, after);
-            }
+            Some(target) => self.assign_element(&target, value, place)?,
             None if local && !is_back => return Err(strayed(place)),
             None if local => self.scopes.local(name, value),
             None => self.scopes.declare(name, value),
         }
         self.check_memory(0, place)
+    }
+
+    /// Gives a variable or an array element a new value.
+    pub(crate) fn assign_element(&mut self, target: &Reference, value: Value, place: Place) -> Result<()> {
+        // A shared array is copied before it is changed.
+        let depth = value.array_depth() + target.path.len() as u32;
+        self.check_array_depth(depth, place)?;
+        self.count_array_copy(target.name, place)?;
+        let gone = || Error::invalid(place, "this variable is gone");
+        let after = value.held();
+        let held = self.scopes.get_mut(target).ok_or_else(gone)?;
+        let before = std::mem::replace(held, value).held();
+        self.scopes.element_changed(target, depth, before, after);
+        Ok(())
     }
 
     /// `deprecated`, `once` and a text before the name: advice of the standard files to their users.
@@ -82,19 +87,7 @@ impl Parser<'_> {
 
     /// The value of a declaration, and whether its semicolon was taken: only numbers need one.
     fn declared_value(&mut self) -> Result<(Value, bool)> {
-        let braces = self.braces;
-        let value = match self.value("a value to declare") {
-            Ok(value) => value,
-            // Names made of what cannot be computed yet are refused when they are used.
-            Err(fault) if fault.kind == ErrorKind::Unsupported => {
-                self.skip_to_semicolon(braces, &fault)?;
-                return Ok((
-                    Value::Unsupported(Rc::new(Unsupported { text: fault.text, number: true })),
-                    true,
-                ));
-            }
-            Err(fault) => return Err(fault),
-        };
+        let value = self.value("a value to declare")?;
         let is_number = matches!(value, Value::Number(_));
         let is_ended = if is_number || self.has_peeked() {
             self.take_mark(Mark::Semicolon)?
@@ -106,17 +99,6 @@ impl Parser<'_> {
             return Err(Error::invalid(self.here(), text));
         }
         Ok((value, is_ended))
-    }
-
-    fn skip_to_semicolon(&mut self, braces: u64, fault: &Error) -> Result<()> {
-        loop {
-            let lexeme = self.next()?;
-            match lexeme.item {
-                Item::Mark(Mark::Semicolon) if self.braces <= braces => return Ok(()),
-                Item::End => return Err(Box::new(fault.clone())),
-                _ => {}
-            }
-        }
     }
 
     /// A value of any kind.
@@ -291,7 +273,15 @@ impl Parser<'_> {
                 _ => {}
             }
         }
-        self.skip_to_brace_level(braces)?;
+        while self.braces > braces {
+            match self.next()?.item {
+                // What would change something else cannot be skipped without changing the scene.
+                Item::Word(Keyword::Rand | Keyword::Seed | Keyword::Trace) | Item::End => {
+                    return Err(Box::new(fault.clone()));
+                }
+                _ => {}
+            }
+        }
         // Layers of one texture belong together.
         if self.raw_or_peeked_texture()? {
             self.next()?;

@@ -37,8 +37,11 @@ pub(crate) fn begins_expression(keyword: Keyword) -> bool {
                 | DimensionSize
                 | Div
                 | FileExists
+                | Inside
                 | Max
+                | MaxExtent
                 | Min
+                | MinExtent
                 | Mod
                 | Pow
                 | Rand
@@ -46,6 +49,7 @@ pub(crate) fn begins_expression(keyword: Keyword) -> bool {
                 | Select
                 | Strcmp
                 | Strlen
+                | Trace
                 | Val
                 | Vdot
                 | Vlength
@@ -56,10 +60,10 @@ pub(crate) fn begins_expression(keyword: Keyword) -> bool {
         )
 }
 
-/// Functions that need what is not there yet: other objects' rays, functions of their own, noise.
+/// Functions that need what is not there yet: functions of their own, noise.
 fn needs_more(keyword: Keyword) -> bool {
     use Keyword::*;
-    matches!(keyword, Inside | Prod | Sum | MinExtent | MaxExtent | Trace | Vturbulence)
+    matches!(keyword, Prod | Sum | Vturbulence)
 }
 
 fn constant(keyword: Keyword) -> Option<Terms> {
@@ -275,6 +279,10 @@ impl Parser<'_> {
                 let (v, axis) = (self.vector_argument()?, self.vector_argument()?);
                 Matrix::turn(axis, self.argument()?).direction(v).into()
             }
+            Keyword::Trace => self.trace(place)?,
+            Keyword::Inside => self.inside(place)?,
+            Keyword::MinExtent => self.end_of_extent(false, place)?,
+            Keyword::MaxExtent => self.end_of_extent(true, place)?,
             // `begins_expression` lists no other function.
             _ => return Err(Error::unsupported(place, keyword.text())),
         })

@@ -69,6 +69,8 @@ pub(crate) fn exceeded(place: Place, name: &str, limit: u64, what: &str) -> Box<
 thread_local! {
     /// Bytes held by the values of the scene that this thread is reading.
     static HELD: Cell<u64> = const { Cell::new(0) };
+    /// Those of them that were charged until the scene is finished.
+    static FOR_GOOD: Cell<u64> = const { Cell::new(0) };
 }
 
 /// Bytes charged to the scene's memory, given back when the value that owns them is dropped.
@@ -109,11 +111,22 @@ impl Drop for Charge {
 /// Charges bytes that stay until the scene is finished.
 pub(crate) fn charge_for_good(bytes: usize) {
     HELD.with(|held| held.set(held.get() + bytes as u64));
+    FOR_GOOD.with(|held| held.set(held.get() + bytes as u64));
+}
+
+/// Does `work`, whose scene data does not outlive it for long: what it charges for good is given back.
+pub(crate) fn giving_back<T>(work: impl FnOnce() -> T) -> T {
+    let before = FOR_GOOD.with(Cell::get);
+    let made = work();
+    let more = FOR_GOOD.with(|held| held.replace(before)) - before;
+    HELD.with(|held| held.set(held.get() - more));
+    made
 }
 
 /// Starts counting from nothing.
 pub(crate) fn reset_memory() {
     HELD.with(|held| held.set(0));
+    FOR_GOOD.with(|held| held.set(0));
 }
 
 /// Fails if what is held, and `more` bytes that are about to be, exceed the limit `memory`.

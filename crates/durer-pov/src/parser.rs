@@ -91,6 +91,8 @@ pub(crate) struct Parser<'a> {
     pub(crate) defaults: Rc<crate::texture::Layer>,
     pub(crate) default_camera: crate::camera::Camera,
     pub(crate) scene: crate::scene_builder::Output,
+    /// Objects that the scene asks about.
+    pub(crate) questions: crate::object::queries::Questions,
 }
 
 impl<'a> Parser<'a> {
@@ -118,6 +120,7 @@ impl<'a> Parser<'a> {
             defaults: Rc::default(),
             default_camera: crate::camera::Camera::default(),
             scene: crate::scene_builder::Output::default(),
+            questions: crate::object::queries::Questions::default(),
         }
     }
 

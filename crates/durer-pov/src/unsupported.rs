@@ -84,7 +84,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | ImageMap
             | ImagePattern
             | Importance
-            | Inside
             | InteriorTexture
             | Interpolate
             | Intervals
@@ -103,13 +102,11 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | MapType
             | Marble
             | MaterialMap
-            | MaxExtent
             | MaxSample
             | MaximumReuse
             | Media
             | Method
             | Metric
-            | MinExtent
             | MinimumReuse
             | NearestCount
             | NoBumpScale
@@ -184,7 +181,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Tiling
             | Tolerance
             | Toroidal
-            | Trace
             | Translucency
             | Triangular
             | Ttf

@@ -1,6 +1,7 @@
 //! Cameras, lights, textures, films and Whitted's recursive ray tracing.
 //!
-//! A [`World`] is a [`Scene`](durer_scene::Scene) made ready; [`render`] makes a [`Film`](film::Film) of it, which becomes a file.
+//! A [`World`] is a [`Scene`](durer_scene::Scene) made ready; [`render`] makes a
+//! [`Film`](film::Film) of it, which becomes a file.
 //!
 //! ```
 //! use durer_math::Point3;
@@ -25,7 +26,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Nothing here has an epsilon: secondary rays start where [`SurfacePoint`](durer_surfaces::SurfacePoint) proves that they leave the surface.
+//! Nothing here has an epsilon: secondary rays start where
+//! [`SurfacePoint`](durer_surfaces::SurfacePoint) proves that they leave the surface.
 #![forbid(unsafe_code)]
 
 pub mod camera;

@@ -21,14 +21,16 @@ struct Fade {
     /// `None` for exponential fading.
     power: Option<Power>,
     colour: Rgb,
-    /// A fact of the scene language: without a positive power shadows do not fade, though what is seen through the medium does.
+    /// A fact of the scene language: without a positive power shadows do not fade, though what is
+    /// seen through the medium does.
     fades_shadows: bool,
 }
 
 /// From this power on light fades exponentially: a fact of the scene language.
 const EXPONENTIAL: f64 = 1000.0;
 
-/// Distances that are not farther from zero are none: a fact of the scene language, for interiors and lights.
+/// Distances that are not farther from zero are none: a fact of the scene language, for interiors
+/// and lights.
 pub(crate) const NO_DISTANCE: f64 = 1e-10;
 
 impl Medium {
@@ -52,8 +54,8 @@ impl Medium {
         }
     }
 
-    /// What is left of what is seen after some distances in the medium. Of a negative fade distance the formula is taken at its word;
-    /// where there is no power nothing is left.
+    /// What is left of what is seen after some distances in the medium. Of a negative fade distance
+    /// the formula is taken at its word; where there is no power nothing is left.
     #[inline(always)]
     pub(crate) fn left_after(&self, distance: F8, live: M8) -> Rgb8 {
         let Some(fade) = &self.fade else { return Rgb8::WHITE };

@@ -54,7 +54,8 @@ impl<'a> Progress<'a> {
         self
     }
 
-    /// Traces no further ray once `cancel` is true: pixels that are finished by then stay on the film, the rest is clear.
+    /// Traces no further ray once `cancel` is true: pixels that are finished by then stay on the
+    /// film, the rest is clear.
     #[must_use]
     pub fn cancelled_by(mut self, cancel: &'a AtomicBool) -> Self {
         self.cancel = Some(cancel);

@@ -1,8 +1,8 @@
 //! Ends of rays that lie on surfaces: where the camera stands, and where lights are.
 //!
-//! The surface on which the camera stands is not seen, and the surface on which a light lies does not shadow it. So the
-//! crossings of a ray that belong to one of its ends must be told from the others. No distance decides that, but the
-//! rounding of the numbers involved.
+//! The surface on which the camera stands is not seen, and the surface on which a light lies does
+//! not shadow it. So the crossings of a ray that belong to one of its ends must be told from the
+//! others. No distance decides that, but the rounding of the numbers involved.
 //!
 //! ```text
 //!        o ───────────────────●── q         q   the end of the ray at t = e: the camera (e = 0), a light (e = 1)
@@ -16,30 +16,34 @@
 //!     off + sum |n_i| u |d_i| + gamma(12) |q|₁
 //! ```
 //!
-//! - `off` bounds how far the computed point of the crossing is from the exact surface: it counts what the numbers of the
-//!   surface itself (centres, radii, coefficients) lose.
-//! - A ray to a light has `d = fl(q - o)`, so that `o + d` misses `q` by at most `u |d_i|` on each axis; `off` and the bracket
-//!   `[t_lo, t_hi]` count everything else on the way to the crossing. A camera's ray starts at `q` itself.
-//! - `q` stands on a surface because somebody worked it out so: each of the two was written (one rounding), scaled (one), rotated
-//!   (three, as a rotation about an axis is two products and a sum) and moved (one). Six roundings for each of both
-//!   are `gamma(12)` of the sum of the coordinates, as a rotation exchanges them.
+//! - `off` bounds how far the computed point of the crossing is from the exact surface: it counts
+//!   what the numbers of the surface itself (centres, radii, coefficients) lose.
+//! - A ray to a light has `d = fl(q - o)`, so that `o + d` misses `q` by at most `u |d_i|` on each
+//!   axis; `off` and the bracket `[t_lo, t_hi]` count everything else on the way to the crossing. A
+//!   camera's ray starts at `q` itself.
+//! - `q` stands on a surface because somebody worked it out so: each of the two was written (one
+//!   rounding), scaled (one), rotated (three, as a rotation about an axis is two products and a
+//!   sum) and moved (one). Six roundings for each of both are `gamma(12)` of the sum of the
+//!   coordinates, as a rotation exchanges them.
 //!
-//! The height is taken over the tangent plane at the crossing, from the end of the bracket that is nearer to `q`. A curved
-//! surface leaves that plane by at most `bend / 2 r²` at the distance `r`; what it leaves it by between the crossing and `q` must
-//! not be more than the bound either. Otherwise the crossing is a different place of the surface, such as a silhouette whose tangent
+//! The height is taken over the tangent plane at the crossing, from the end of the bracket that is
+//! nearer to `q`. A curved surface leaves that plane by at most `bend / 2 r²` at the distance `r`;
+//! what it leaves it by between the crossing and `q` must not be more than the bound either.
+//! Otherwise the crossing is a different place of the surface, such as a silhouette whose tangent
 //! plane happens to hold `q`.
 //!
-//! The decision is a function of the exact query's answer for one ray, so that it does not depend on how rays are bundled. The
-//! packet kernels answer with wider brackets. [`RayEnd::may_be`] is the filter for those: it admits each crossing that the decision could
-//! accept.
+//! The decision is a function of the exact query's answer for one ray, so that it does not depend
+//! on how rays are bundled. The packet kernels answer with wider brackets. [`RayEnd::may_be`] is
+//! the filter for those: it admits each crossing that the decision could accept.
 
 use crate::vector::dot;
 use durer_geometry::{Geometry, Hit, Hits8, Rays8};
 use durer_math::{Aabb, F8, M8, Point3, Ray, Shaft, U, Vec3, gamma};
 use durer_surfaces::{Need, SurfacePoint};
 
-/// The part of a scene's size that the filter admits, `2^-40`. The widths that the decision allows for are far below half of
-/// it: `gamma(12) < 2^-49`, and brackets of exact queries are at most 32 ulp, `2^-47`, on each side.
+/// The part of a scene's size that the filter admits, `2^-40`. The widths that the decision allows
+/// for are far below half of it: `gamma(12) < 2^-49`, and brackets of exact queries are at most 32
+/// ulp, `2^-47`, on each side.
 const FILTER_WIDTH: f64 = 1.0 / (1_u64 << 40) as f64;
 
 /// The end of rays at the camera or at a light.
@@ -71,12 +75,14 @@ impl RayEnd {
         Self { t, size, is_parallel, filter: FILTER_WIDTH * (size + reach(geometry)) }
     }
 
-    /// The start of a camera's rays. `size` is the sum of the coordinates from which the starts are computed.
+    /// The start of a camera's rays. `size` is the sum of the coordinates from which the starts are
+    /// computed.
     pub(crate) fn camera(geometry: &Geometry, size: f64) -> Self {
         Self::new(geometry, 0.0, size, false)
     }
 
-    /// The end of the shadow rays of a light; `None` if certainly no surface that throws shadows passes near it.
+    /// The end of the shadow rays of a light; `None` if certainly no surface that throws shadows
+    /// passes near it.
     pub(crate) fn light(geometry: &Geometry, location: Point3, mask: u32) -> Option<Self> {
         let end = Self::new(geometry, 1.0, sum_of(location.to_vec()), false);
         let near = Aabb::centred(location, Vec3::new(end.filter, end.filter, end.filter));
@@ -84,8 +90,8 @@ impl RayEnd {
         candidates.is_none_or(|candidates| candidates.admits(mask)).then_some(end)
     }
 
-    /// The ends of the shadow rays of a parallel light, on the plane through its location; `None` if certainly no
-    /// surface passes near that plane.
+    /// The ends of the shadow rays of a parallel light, on the plane through its location; `None`
+    /// if certainly no surface passes near that plane.
     pub(crate) fn light_plane(geometry: &Geometry, location: Point3, axis: Vec3) -> Option<Self> {
         let end = Self::new(geometry, 1.0, sum_of(location.to_vec()), true);
         let all = geometry.bounds();
@@ -96,8 +102,8 @@ impl RayEnd {
         (meets && !all.is_empty()).then_some(end)
     }
 
-    /// Rays that start here see nothing of the surfaces that pass through their start: `hits` is what they see first, and
-    /// becomes what they see first behind those.
+    /// Rays that start here see nothing of the surfaces that pass through their start: `hits` is
+    /// what they see first, and becomes what they see first behind those.
     pub(crate) fn see_beyond(&self, geometry: &Geometry, mask: u32, rays: &[Rays8], hits: &mut [Hits8]) {
         for (rays, hits) in rays.iter().zip(hits) {
             for i in self.may_be(rays, hits).lanes() {
@@ -106,7 +112,8 @@ impl RayEnd {
         }
     }
 
-    /// Rays that end here see nothing of the surfaces that pass through their end: `hits` is what they see first.
+    /// Rays that end here see nothing of the surfaces that pass through their end: `hits` is what
+    /// they see first.
     pub(crate) fn see_before(&self, geometry: &Geometry, mask: u32, rays: &[Rays8], hits: &mut [Hits8]) {
         for (rays, hits) in rays.iter().zip(hits) {
             for i in self.may_be(rays, hits).lanes() {
@@ -115,7 +122,8 @@ impl RayEnd {
         }
     }
 
-    /// Which rays that end here meet a surface that does not pass through their end; `hits` is what they see first.
+    /// Which rays that end here meet a surface that does not pass through their end; `hits` is what
+    /// they see first.
     pub(crate) fn blocked(&self, geometry: &Geometry, mask: u32, rays: &Rays8, hits: &Hits8) -> M8 {
         let mut blocked = hits.hit;
         for i in self.may_be(rays, hits).lanes() {

@@ -55,7 +55,8 @@ pub struct Rendered {
 
 /// Renders a picture of `world`.
 ///
-/// The picture is the same, bit for bit, for any number of threads: every pixel depends on its place alone.
+/// The picture is the same, bit for bit, for any number of threads: every pixel depends on its
+/// place alone.
 pub fn render(
     world: &World,
     settings: &RenderSettings,

@@ -15,7 +15,8 @@ pub struct RenderSettings {
     pub region: Option<Region>,
     /// What is kept of colours.
     pub depth: Depth,
-    /// How many threads work; as many as there are processors (or as the surrounding pool has) if absent. The picture does not depend on it.
+    /// How many threads work; as many as there are processors (or as the surrounding pool has) if
+    /// absent. The picture does not depend on it.
     pub threads: Option<usize>,
 }
 
@@ -66,7 +67,8 @@ pub enum AntiAliasing {
     Off,
     /// `depth x depth` more rays for pixels that differ from their left or upper neighbour.
     Method1 {
-        /// How much they must differ: the sum of the differences of all channels as a screen of gamma 2.5 shows them.
+        /// How much they must differ: the sum of the differences of all channels as a screen of
+        /// gamma 2.5 shows them.
         threshold: f64,
         /// Rays per pixel along each axis.
         depth: u32,

@@ -1,7 +1,8 @@
 //! Plain vector arithmetic for shading.
 //!
-//! The certified kernels use fused operations; shading needs no bounds, and unfused products and sums have the same bits on every CPU and
-//! cost no library call where the compiler may not assume a fused unit.
+//! The certified kernels use fused operations; shading needs no bounds, and unfused products and
+//! sums have the same bits on every CPU and cost no library call where the compiler may not assume
+//! a fused unit.
 
 use durer_math::{F8, Scalar, Vec3};
 

@@ -23,7 +23,8 @@ pub struct World {
     camera: Option<Camera>,
     /// Where the camera's rays start.
     pub(crate) camera_end: Option<RayEnd>,
-    /// The media in which all rays of the camera start, if it has one standpoint, or those are the same for all.
+    /// The media in which all rays of the camera start, if it has one standpoint, or those are the
+    /// same for all.
     standing: Option<Vec<u32>>,
     pub(crate) background: Rgb,
     pub(crate) max_level: u32,
@@ -146,7 +147,8 @@ impl World {
         self.lowered.look_of(object, primitive).map_or(0, |l| l.0)
     }
 
-    /// The media in which rays of the camera from some points of a box start, if those are certainly the same.
+    /// The media in which rays of the camera from some points of a box start, if those are
+    /// certainly the same.
     pub(crate) fn standing(&self, origins: impl FnOnce() -> Aabb) -> Option<Vec<u32>> {
         self.standing.clone().or_else(|| self.lowered.media_in(&origins()))
     }

@@ -1,4 +1,5 @@
-//! Laws of optics with known answers, to many digits: mirrors, Snell's law, total reflection, nothing lost and nothing won.
+//! Laws of optics with known answers, to many digits: mirrors, Snell's law, total reflection,
+//! nothing lost and nothing won.
 
 use durer_math::elementary::{asin, atan, cos, sin};
 use durer_math::{Affine, Point3, Vec3};
@@ -113,7 +114,8 @@ fn a_glass_ball_turns_a_ray_by_twice_the_bend() {
         let height = 0.095 * f64::from(i);
         let angle = asin(height);
         let inner = asin(height / n);
-        // In at the angle `pi - angle` around the ball, out after a chord that spans `pi - 2 inner`.
+        // In at the angle `pi - angle` around the ball, out after a chord that spans
+        // `pi - 2 inner`.
         let turn = 2.0 * (angle - inner);
         let around = 2.0 * inner - angle;
         let exit = Point3::new(cos(around), sin(around), 0.0);
@@ -209,7 +211,8 @@ fn no_surface_shades_itself_and_none_leaks() {
         for y in 0..90 {
             for x in 0..120 {
                 let light = film.light(x, y).unwrap()[0];
-                // On the right of the picture nothing stands between the floor and the lamp: its light is at least 30/900 aslant.
+                // On the right of the picture nothing stands between the floor and the lamp: its
+                // light is at least 30/900 aslant.
                 if x > 80 && y > 60 {
                     assert!(light > 0.02, "acne at {x}, {y}, scale {scale}: {light}");
                 }
@@ -341,7 +344,8 @@ fn a_pixel_that_takes_years_can_be_cancelled() {
     }
 }
 
-/// Rays that pass unbent do not raise the level: thousands of sheets in a row must neither exhaust a thread's stack nor turn black.
+/// Rays that pass unbent do not raise the level: thousands of sheets in a row must neither exhaust
+/// a thread's stack nor turn black.
 #[test]
 fn thousands_of_clear_sheets_are_seen_through() {
     let disc =

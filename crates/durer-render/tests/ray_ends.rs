@@ -1,8 +1,9 @@
 //! Cameras that stand on surfaces, and lights that lie on them.
 //!
-//! The witness is convexity. From a point of a convex body's surface a direction leads outside if it is on the outer side of
-//! one of the tangent planes there, and through the body if it is behind all of them: then it meets the surface once more. So
-//! a camera there sees the body exactly in the directions behind the planes, and a light there is blocked exactly in those.
+//! The witness is convexity. From a point of a convex body's surface a direction leads outside if
+//! it is on the outer side of one of the tangent planes there, and through the body if it is behind
+//! all of them: then it meets the surface once more. So a camera there sees the body exactly in the
+//! directions behind the planes, and a light there is blocked exactly in those.
 
 use durer_math::{Affine, Point3, Vec3};
 use durer_render::camera::Camera;
@@ -260,7 +261,8 @@ fn the_surface_on_which_the_camera_stands_is_not_seen() {
     }
 }
 
-/// A ball all around, white and lit by a light at a place of the body, which the camera does not see.
+/// A ball all around, white and lit by a light at a place of the body, which the camera does not
+/// see.
 fn lit_from(place: &Place, location: Vec3, colour: [f64; 5]) -> Scene {
     let around = Shape::Sphere { centre: Point3::ORIGIN, radius: 20.0 };
     let mut body = place.body.clone().with_texture(paint(colour, 0.0, 0.0));
@@ -307,7 +309,8 @@ fn a_billionth_beside_the_surface_is_not_on_it() {
                 for (part, p) in arriving(&lit_from(place, location, colour)) {
                     let steep = n.dot((p - location).normalized().unwrap());
                     let outside = if colour == WHITE { 0.0 } else { 0.5 };
-                    // From outside the way inward crosses both walls; from inside the way out crosses one.
+                    // From outside the way inward crosses both walls; from inside the way out
+                    // crosses one.
                     let want = match (steep > 0.1, steep < -0.1) {
                         (true, _) => {
                             if away > 0.0 {
@@ -328,7 +331,8 @@ fn a_billionth_beside_the_surface_is_not_on_it() {
                 camera: Some(wide_camera(location, n * away)),
                 ..Scene::default()
             };
-            // It looks away from the wall: from inside at the wall it is in front of, from outside at nothing.
+            // It looks away from the wall: from inside at the wall it is in front of, from outside
+            // at nothing.
             for (seen, d) in picture(&scene, None, 1).iter().zip(directions(&scene)) {
                 if n.dot(d.normalized().unwrap()).abs() > 0.1 {
                     let sees = away < 0.0 || n.dot(d) < 0.0;
@@ -341,7 +345,8 @@ fn a_billionth_beside_the_surface_is_not_on_it() {
 
 #[test]
 fn each_ray_of_an_orthographic_camera_stands_where_it_starts() {
-    // All rays start on the upper face of the box: those that look down see its floor, those that look up see nothing.
+    // All rays start on the upper face of the box: those that look down see its floor, those that
+    // look up see nothing.
     for (up_or_down, sees) in [(-1.0, true), (1.0, false)] {
         for tilt in [0.0, 0.3, 20.0] {
             let scene = Scene {

@@ -2,7 +2,8 @@
 
 use durer_math::{Aabb, Affine, Point3, U, Vec3};
 
-/// A camera, after all its words have been worked in: the picture is spanned by `right` and `up`, and its middle is seen along `direction`.
+/// A camera, after all its words have been worked in: the picture is spanned by `right` and `up`,
+/// and its middle is seen along `direction`.
 ///
 /// The lecture's forms with `s_x = right / 2`, `s_y = -up / 2` are built from it by the renderer.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,8 @@
 
 use core::ops::{Add, AddAssign, Mul};
 
-/// Red, green and blue on the scene's own numbers; not clipped, and not yet related to light by a gamma.
+/// Red, green and blue on the scene's own numbers; not clipped, and not yet related to light by a
+/// gamma.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rgb {
     /// Red.

@@ -25,7 +25,8 @@ pub struct Finish {
     pub phong_size: f64,
     /// The strength of Blinn's highlight.
     pub specular: f64,
-    /// `specular` is the albedo: it is multiplied by `(n + 2) / (4 (2 - 2^(-n/2)))`, `n = 1 / roughness`.
+    /// `specular` is the albedo: it is multiplied by `(n + 2) / (4 (2 - 2^(-n/2)))`,
+    /// `n = 1 / roughness`.
     pub specular_albedo: bool,
     /// One over the exponent of Blinn's highlight; positive.
     pub roughness: f64,

@@ -1,6 +1,7 @@
 //! A scene as plain data: what is where, what it looks like, what shines and who looks.
 //!
-//! A [`Scene`] prints, compares and clones; it has no syntax and does nothing by itself. Readers build it from text, programs by hand:
+//! A [`Scene`] prints, compares and clones; it has no syntax and does nothing by itself. Readers
+//! build it from text, programs by hand:
 //!
 //! ```
 //! use durer_math::Point3;

@@ -8,23 +8,27 @@ use crate::{Deform, Interior, Placement, Shape, Texture, Warp};
 
 /// A shape with its place and its look.
 ///
-/// What stands in a union and has no texture (interior) of its own takes the union's. Flags of a union hold for all its parts.
+/// What stands in a union and has no texture (interior) of its own takes the union's. Flags of a
+/// union hold for all its parts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Object {
     /// Its surface.
     pub shape: Shape,
     /// From the shape's own frame to the space around the object (a union's frame, or the world).
     pub placement: Placement,
-    /// Convex solids (spheres, boxes, planes, ...; `inverse` keeps what is outside): only what lies in all of them is left. Placed in the
-    /// space around the object.
+    /// Convex solids (spheres, boxes, planes, ...; `inverse` keeps what is outside): only what lies
+    /// in all of them is left. Placed in the space around the object.
     pub clips: Vec<Object>,
     /// Its texture, placed in the space around the object.
     pub texture: Option<Arc<Texture>>,
-    /// What is seen from inside in place of its texture, placed like that: where a ray leaves a solid, or goes along the normal of an open surface; of
-    /// triangles and open meshes where it comes from the other side of that (a fact of the scene language).
+    /// What is seen from inside in place of its texture, placed like that: where a ray leaves a
+    /// solid, or goes along the normal of an open surface; of triangles and open meshes where it
+    /// comes from the other side of that (a fact of the scene language).
     pub interior_texture: Option<Arc<Texture>>,
-    /// Of an intersection or a difference: a part without a texture shows those of the other parts at each point, as far as they hold the point, in equal parts.
-    /// What is taken away lends no texture, and parts of unions borrow none (facts of the scene language). This is what those show that borrow none.
+    /// Of an intersection or a difference: a part without a texture shows those of the other parts
+    /// at each point, as far as they hold the point, in equal parts. What is taken away lends no
+    /// texture, and parts of unions borrow none (facts of the scene language). This is what those
+    /// show that borrow none.
     pub cutaway_textures: Option<Arc<Texture>>,
     /// What fills it.
     pub interior: Option<Arc<Interior>>,
@@ -94,10 +98,13 @@ impl Object {
         }
     }
 
-    /// A solid, deformed. A union becomes a union of deformed parts, so that each keeps its look; so does a merge, intersection or difference if one
-    /// of its parts has a look of its own, since the deformation of an intersection is that of its parts' deformations. Each part must have an end then.
+    /// A solid, deformed. A union becomes a union of deformed parts, so that each keeps its look;
+    /// so does a merge, intersection or difference if one of its parts has a look of its own, since
+    /// the deformation of an intersection is that of its parts' deformations. Each part must have
+    /// an end then.
     ///
-    /// Textures are not deformed: they are placed in the space around the deformed object, where the solid's own were placed around the solid.
+    /// Textures are not deformed: they are placed in the space around the deformed object, where
+    /// the solid's own were placed around the solid.
     pub fn deformed(mut solid: Self, warps: &[Warp]) -> Result<Self, AffineError> {
         let mut made = Self::new(Shape::Union(Vec::new()));
         (made.texture, made.interior, made.place) =

@@ -33,7 +33,8 @@ impl Default for Background {
 pub struct Settings {
     /// How the scene's numbers relate to light.
     pub assumed_gamma: AssumedGamma,
-    /// The version of the language the scene is written in, 3.7 say. Before 3.7 a filtering layer is more opaque.
+    /// The version of the language the scene is written in, 3.7 say. Before 3.7 a filtering layer
+    /// is more opaque.
     pub version: f64,
     /// How deep rays may follow each other; the camera's has level 1.
     pub max_trace_level: u32,

@@ -7,7 +7,8 @@ use durer_math::{Point3, Vec3};
 use crate::tape::Formula;
 use crate::{BlobComponent, FillRule, Julia, Object, Texture, Warp};
 
-/// A surface in its object's own frame, not yet checked: lowering builds it and names what is wrong.
+/// A surface in its object's own frame, not yet checked: lowering builds it and names what is
+/// wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// All points at `radius` from `centre`.
@@ -44,7 +45,8 @@ pub enum Shape {
         /// The radius there.
         cap_radius: f64,
     },
-    /// The plane of points `p` with `p . normal = distance |normal|`; its inside is behind the normal.
+    /// The plane of points `p` with `p . normal = distance |normal|`; its inside is behind the
+    /// normal.
     Plane {
         /// The normal, of any length but zero.
         normal: Vec3,
@@ -84,7 +86,8 @@ pub enum Shape {
     },
     /// Triangles over shared corners.
     Mesh(Arc<Mesh>),
-    /// The general quadric `A x^2 + B y^2 + C z^2 + D xy + E xz + F yz + G x + H y + I z + J = 0`: the ten coefficients in this order.
+    /// The general quadric `A x^2 + B y^2 + C z^2 + D xy + E xz + F yz + G x + H y + I z + J = 0`:
+    /// the ten coefficients in this order.
     Quadric(Box<[f64; 10]>),
     /// The zero set of a polynomial in x, y and z; its inside is where the polynomial is negative.
     Polynomial {
@@ -111,8 +114,9 @@ pub enum Shape {
     },
     /// An outline swept along y.
     Prism(Arc<Prism>),
-    /// A smooth curve through these points, a radius and a height each, turned about the y axis; the first and the last point only tell slopes. Closed
-    /// by flat ends unless the object is open.
+    /// A smooth curve through these points, a radius and a height each, turned about the y axis;
+    /// the first and the last point only tell slopes. Closed by flat ends unless the object is
+    /// open.
     Sor(Arc<[[f64; 2]]>),
     /// An egg about the y axis: two spheres with a piece of a spindle between them.
     Ovus {
@@ -164,7 +168,8 @@ pub enum Shape {
     Deform(Box<Deform>),
     /// All the parts' surfaces together. Parts are placed in the union's own frame.
     Union(Vec<Object>),
-    /// A solid made of solids. Parts are placed in its own frame; a union among them is the solid of all its parts.
+    /// A solid made of solids. Parts are placed in its own frame; a union among them is the solid
+    /// of all its parts.
     Csg(Operation, Vec<Object>),
 }
 
@@ -179,32 +184,38 @@ pub enum Operation {
     Difference,
 }
 
-/// The points of a container where a function of `x`, `y` and `z` has the value `threshold`; the inside is where it is below.
+/// The points of a container where a function of `x`, `y` and `z` has the value `threshold`; the
+/// inside is where it is below.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Isosurface {
     /// The function.
     pub function: Arc<Formula>,
     /// The value.
     pub threshold: f64,
-    /// What holds the surface. Where it cuts the inside it is closed by its own face, unless the object is open.
+    /// What holds the surface. Where it cuts the inside it is closed by its own face, unless the
+    /// object is open.
     pub container: Container,
 }
 
 /// A solid and what is done to it, in this order. All of it is one surface with one texture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deform {
-    /// The solid: of shapes with an inside that have a formula, combined in any way. A union is the solid of its parts here. Textures in it do not count.
+    /// The solid: of shapes with an inside that have a formula, combined in any way. A union is the
+    /// solid of its parts here. Textures in it do not count.
     pub solid: Object,
     /// What is done to it.
     pub warps: Vec<Warp>,
 }
 
-/// An outline in the xz plane, swept from one height to another; closed by flat caps unless the object is open.
+/// An outline in the xz plane, swept from one height to another; closed by flat caps unless the
+/// object is open.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prism {
-    /// Closed outlines, `[x, z]` for each point. Inside is what they go round an odd number of times.
+    /// Closed outlines, `[x, z]` for each point. Inside is what they go round an odd number of
+    /// times.
     pub outlines: Vec<Vec<[f64; 2]>>,
-    /// How an outline goes through its points; curves have all the points that their spline asks for, the first one of the curve again as its last.
+    /// How an outline goes through its points; curves have all the points that their spline asks
+    /// for, the first one of the curve again as its last.
     pub spline: Spline,
     /// The heights of both ends, in any order.
     pub heights: [f64; 2],
@@ -237,7 +248,8 @@ pub struct Blob {
     pub threshold: f64,
     /// The fields.
     pub components: Vec<BlobComponent>,
-    /// The texture of each of them, placed in the blob's space; what has none has the blob's. Empty if none has one.
+    /// The texture of each of them, placed in the blob's space; what has none has the blob's. Empty
+    /// if none has one.
     pub textures: Vec<Option<Arc<Texture>>>,
 }
 
@@ -255,9 +267,11 @@ pub enum Container {
 pub struct NamedQuadric {
     /// Its name.
     pub kind: QuadricKind,
-    /// Its semi-axes along x, y and z; see [`QuadricKind`] for what each means. Unused ones are ignored.
+    /// Its semi-axes along x, y and z; see [`QuadricKind`] for what each means. Unused ones are
+    /// ignored.
     pub semi_axes: [f64; 3],
-    /// The part between two planes `z = from` and `z = to`, closed by flat caps unless the object is open; all of it if absent.
+    /// The part between two planes `z = from` and `z = to`, closed by flat caps unless the object
+    /// is open; all of it if absent.
     pub extent: Option<[f64; 2]>,
 }
 
@@ -295,13 +309,14 @@ pub struct Mesh {
     pub faces: Vec<Face>,
     /// The texture coordinates that faces may refer to.
     pub uv: Vec<[f64; 2]>,
-    /// The numbers of the texture coordinates at each face's corners, if it has any; as many as there are faces, or none for all. The coordinates of hits are
-    /// interpolated between them; on other faces the corners have (0, 0), (1, 0) and (0, 1). No texture depends on them yet.
+    /// The numbers of the texture coordinates at each face's corners, if it has any; as many as
+    /// there are faces, or none for all. The coordinates of hits are interpolated between them; on
+    /// other faces the corners have (0, 0), (1, 0) and (0, 1). No texture depends on them yet.
     pub uv_faces: Vec<Option<[u32; 3]>>,
     /// The textures that faces may refer to, placed in the mesh's own frame.
     pub textures: Vec<Arc<Texture>>,
-    /// A direction that decides what is inside: points from which it crosses the mesh an odd number of times. Without it the mesh
-    /// is a sheet.
+    /// A direction that decides what is inside: points from which it crosses the mesh an odd number
+    /// of times. Without it the mesh is a sheet.
     pub inside_vector: Option<Vec3>,
 }
 

@@ -9,9 +9,9 @@ use crate::{Colour, Finish, Pattern, Placement, Rgb};
 
 /// The look of a surface: layers of paint, or a pattern of textures.
 ///
-/// Its placement leads from the pattern's space to the space in which the object stands *after* the object's own placement. So a
-/// transform written after the texture moves both, and one written before it moves the object alone. Textures inside a pattern are
-/// placed in the pattern's space.
+/// Its placement leads from the pattern's space to the space in which the object stands *after* the
+/// object's own placement. So a transform written after the texture moves both, and one written
+/// before it moves the object alone. Textures inside a pattern are placed in the pattern's space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
     /// What is shown.
@@ -31,8 +31,8 @@ pub enum TextureBody {
     Fields(Box<Fields>),
 }
 
-/// Textures by the fields of a blob: at each point a mean of those whose fields reach it, each weighed by how strong its field is there, whether that is positive or
-/// negative.
+/// Textures by the fields of a blob: at each point a mean of those whose fields reach it, each
+/// weighed by how strong its field is there, whether that is positive or negative.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fields {
     /// From the blob's space to that of the texture.
@@ -82,7 +82,8 @@ impl Texture {
         self.placement.then(map)
     }
 
-    /// Whether no light passes anywhere: where there are layers, it takes one that is opaque everywhere.
+    /// Whether no light passes anywhere: where there are layers, it takes one that is opaque
+    /// everywhere.
     pub fn is_opaque(&self) -> bool {
         match &self.body {
             TextureBody::Layers(layers) => layers.iter().any(|l| l.pigment.is_opaque()),
@@ -134,7 +135,8 @@ pub enum PigmentBody {
     Solid(Colour),
     /// Colours by a pattern.
     Colours(Box<Pattern<Colour>>),
-    /// Other pigments by a pattern; a map blends their colours. They are placed in this pigment's space.
+    /// Other pigments by a pattern; a map blends their colours. They are placed in this pigment's
+    /// space.
     Pigments(Box<Pattern<Pigment>>),
 }
 

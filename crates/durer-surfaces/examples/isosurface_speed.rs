@@ -1,4 +1,5 @@
-//! What a ray costs that meets a formula: `cargo run --release -p durer-surfaces --example isosurface_speed`.
+//! What a ray costs that meets a formula:
+//! `cargo run --release -p durer-surfaces --example isosurface_speed`.
 
 use durer_math::{Function, Point3, Ray, RaySide, Vec3};
 use durer_surfaces::tape::{Builder, FormulaError, Op};
@@ -16,7 +17,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Rays of a picture: all of them, and of those that meet the surface the points and the rays that leave them.
+/// Rays of a picture: all of them, and of those that meet the surface the points and the rays that
+/// leave them.
 fn timed(
     name: &str,
     make: impl Fn() -> Result<Isosurface, Box<dyn std::error::Error>>,

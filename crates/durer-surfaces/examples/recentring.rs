@@ -4,13 +4,17 @@
 //! cargo run --release -p durer-surfaces --example recentring
 //! ```
 //!
-//! For each distance of the ray's origin, the worst error of the first crossing's `t` over 200 000 rays, divided by the ray's condition
-//! number `r / h` (`h` is half the chord: near a tangent `t` is that much more sensitive than the ray's own coordinates), and how many
-//! hits were lost. The impact parameter is log-uniform towards grazing; the reference is computed in double-double. The forms:
+//! For each distance of the ray's origin, the worst error of the first crossing's `t` over 200 000
+//! rays, divided by the ray's condition number `r / h` (`h` is half the chord: near a tangent `t`
+//! is that much more sensitive than the ray's own coordinates), and how many hits were lost. The
+//! impact parameter is log-uniform towards grazing; the reference is computed in double-double. The
+//! forms:
 //!
 //! - `b^2 - ac`: the algebraic form with the stable pair of roots;
-//! - `Kahan`: the same with the discriminant by Kahan's fused `ab - cd`, within 1.5 ulp *of the rounded a, b, c*;
-//! - `Haines et al.`: the discriminant as `r^2 - |f - (f.d) d|^2`, without fused steps (*Ray Tracing Gems*, 2019, chapter 7);
+//! - `Kahan`: the same with the discriminant by Kahan's fused `ab - cd`, within 1.5 ulp *of the
+//!   rounded a, b, c*;
+//! - `Haines et al.`: the discriminant as `r^2 - |f - (f.d) d|^2`, without fused steps (*Ray
+//!   Tracing Gems*, 2019, chapter 7);
 //! - `re-centred`: the same after `LocalRay::recentre`;
 //! - `Sphere`: what production returns, decided exactly.
 

@@ -16,7 +16,8 @@ fn unit(n: u64) -> f64 {
     ((z ^ (z >> 31)) >> 11) as f64 * (f64::EPSILON / 2.0)
 }
 
-/// Seconds that this thread has run, where Linux tells (other programs do not count), else of the clock.
+/// Seconds that this thread has run, where Linux tells (other programs do not count), else of the
+/// clock.
 fn seconds() -> f64 {
     static START: LazyLock<Instant> = LazyLock::new(Instant::now);
     let ran = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
@@ -68,7 +69,8 @@ fn main() {
         })
         .collect();
     measure("spheres, nearly all missed", &few, &rays, 5);
-    // Each sphere is the same, so that each test finds the crossing anew (the closest one has been found by the first).
+    // Each sphere is the same, so that each test finds the crossing anew (the closest one has been
+    // found by the first).
     measure("spheres, all hit", &one, &rays, 5);
     let rods: Vec<CappedCylinder> = (0..n)
         .map(|i| {

@@ -1,4 +1,5 @@
-//! Nanoseconds per ray and torus, in one thread: rays that miss its ball, that miss only the torus, that hit; with brackets to see by and to measure by.
+//! Nanoseconds per ray and torus, in one thread: rays that miss its ball, that miss only the torus,
+//! that hit; with brackets to see by and to measure by.
 //!
 //! `cargo run --release -p durer-surfaces --example torus_speed`
 
@@ -17,7 +18,8 @@ fn signed(n: u64) -> f64 {
     ((z ^ (z >> 31)) >> 11) as f64 * f64::EPSILON - 1.0
 }
 
-/// Seconds that this thread has run, where Linux tells (other programs do not count), else of the clock.
+/// Seconds that this thread has run, where Linux tells (other programs do not count), else of the
+/// clock.
 fn seconds() -> f64 {
     static START: LazyLock<Instant> = LazyLock::new(Instant::now);
     let ran = std::fs::read_to_string("/proc/thread-self/schedstat").ok();

@@ -4,8 +4,10 @@
 //!   f(x, y, z) = Σ a_ijk x^i y^j z^k,   i + j + k <= n;      inside where f < 0
 //! ```
 //!
-//! Along a ray `f` is a polynomial of degree `n`: P. Hanrahan, "Ray tracing algebraic surfaces", *Computer Graphics (Proc. SIGGRAPH)* 17(3),
-//! 1983. Coefficients are listed by falling powers of x, then of y, then of z, so that one pass over the list with nested Horner schemes puts
+//! Along a ray `f` is a polynomial of degree `n`: P. Hanrahan, "Ray tracing algebraic surfaces", *Computer
+//! Graphics (Proc. SIGGRAPH)* 17(3), 1983.
+//! Coefficients are listed by falling powers of x, then of y, then of z, so that one pass
+//!       over the list with nested Horner schemes puts
 //! a ray into `f`.
 
 use crate::packet::{FilterSource, PacketKernel, Terms};
@@ -27,7 +29,8 @@ use std::sync::Arc;
 /// The greatest order.
 pub const MAX_ORDER: u32 = 16;
 
-/// The zero set of a polynomial of an order from 1 to [`MAX_ORDER`], as a solid where the polynomial is negative. It counts as unbounded.
+/// The zero set of a polynomial of an order from 1 to [`MAX_ORDER`], as a solid where the
+/// polynomial is negative. It counts as unbounded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AlgebraicSurface(Fitting);
 
@@ -94,7 +97,8 @@ pub fn powers(order: u32) -> impl Iterator<Item = [u32; 3]> {
 
 /// The place of a term in the list.
 pub const fn place_of(order: u32, [i, j, k]: [u32; 3]) -> usize {
-    // Terms with a higher power of x, with a higher power of y among the rest, with a higher power of z among those.
+    // Terms with a higher power of x, with a higher power of y among the rest, with a higher power
+    // of z among those.
     let left = (order - i) as usize;
     let rest = left - j as usize;
     let higher_x = left * (left + 1) * (left + 2) / 6;
@@ -102,7 +106,8 @@ pub const fn place_of(order: u32, [i, j, k]: [u32; 3]) -> usize {
 }
 
 impl AlgebraicSurface {
-    /// The surface of `order` with these coefficients, by falling powers of x, then of y, then of z.
+    /// The surface of `order` with these coefficients, by falling powers of x, then of y, then of
+    /// z.
     pub fn new(order: u32, coefficients: &[f64]) -> Result<Self, AlgebraicError> {
         if !(1..=MAX_ORDER).contains(&order) {
             return Err(AlgebraicError::Order(order));
@@ -161,7 +166,8 @@ impl<const N: usize> Dense<N> {
     }
 }
 
-/// The order of the highest terms that are not zero, and all coefficients up to there. Higher ones would leave the sign at infinity open.
+/// The order of the highest terms that are not zero, and all coefficients up to there. Higher ones
+/// would leave the sign at infinity open.
 fn trimmed(order: u32, coefficients: &[f64]) -> (u32, Vec<f64>) {
     let degree = |n: [u32; 3]| n.iter().sum::<u32>();
     let terms = || coefficients.iter().copied().zip(powers(order).map(degree));
@@ -169,7 +175,8 @@ fn trimmed(order: u32, coefficients: &[f64]) -> (u32, Vec<f64>) {
     (top, terms().filter(|(_, n)| *n <= top).map(|(c, _)| c).collect())
 }
 
-/// A unit of length in which the surface is about one large, and the coefficients in it; the given ones if others would not be exact.
+/// A unit of length in which the surface is about one large, and the coefficients in it; the given
+/// ones if others would not be exact.
 fn measured(order: u32, coefficients: &[f64]) -> (i32, Arc<[f64]>) {
     let mut largest = [0.0_f64; MAX_ORDER as usize + 1];
     for (c, n) in coefficients.iter().zip(powers(order)) {
@@ -194,7 +201,8 @@ fn measured(order: u32, coefficients: &[f64]) -> (i32, Arc<[f64]>) {
     if exact { (scale, scaled) } else { (0, coefficients.into()) }
 }
 
-/// A polynomial in the ray's parameter, or a number, while it is being built: `p` with `len` coefficients.
+/// A polynomial in the ray's parameter, or a number, while it is being built: `p` with `len`
+/// coefficients.
 struct Sum<T, const N: usize> {
     p: [T; N],
     len: usize,
@@ -325,7 +333,8 @@ impl<const N: usize> PolynomialSurface<N> for Dense<N> {
     }
 
     fn slopes(&self, y: Vec3) -> (Vec3, f64) {
-        // The second derivatives of a term of degree m are at most m (m-1) |c| M^(m-2) in sum, M the largest coordinate.
+        // The second derivatives of a term of degree m are at most m (m-1) |c| M^(m-2) in sum, M
+        // the largest coordinate.
         let far = y.max_abs() + 1.0 / 64.0;
         let bend = (2..N).rev().fold(0.0, |sum, m| sum * far + (m * (m - 1)) as f64 * self.sizes[m]);
         (self.gradient(y, 1.0), bend * (1.0 + 1.0 / 1024.0) + FLOOR)
@@ -363,7 +372,8 @@ impl<const N: usize> PolynomialSurface<N> for Dense<N> {
 impl<const N: usize> Dense<N> {
     #[inline(always)]
     fn tip_here(&self, y: Vec3) -> Vec3 {
-        // So far out the gradient itself may be beyond the range of f64; of homogeneous coordinates within one it is not, and has the same direction.
+        // So far out the gradient itself may be beyond the range of f64; of homogeneous coordinates
+        // within one it is not, and has the same direction.
         let far = exponent(y.max_abs());
         if far > 0 {
             let g = self.gradient_here(y.map(|x| ldexp(x, -far)), ldexp(1.0, -far));
@@ -372,7 +382,8 @@ impl<const N: usize> Dense<N> {
                 return g * (1.0 / g.length());
             }
         }
-        // Of the thirteen directions of a cube, the one along which the polynomial leaves zero most.
+        // Of the thirteen directions of a cube, the one along which the polynomial leaves zero
+        // most.
         let mut best = (Vec3::Z, -1.0);
         for code in 14..27 {
             let axis = |p: u32| f64::from(code / p % 3) - 1.0;
@@ -479,7 +490,8 @@ mod tests {
         (tally.grazing, tally.median_width())
     }
 
-    /// x³ + y z² - 3 at z = 2^k, where the gradient, (3 x², z², 2 y z), leaves the range of f64 or its square does.
+    /// x³ + y z² - 3 at z = 2^k, where the gradient, (3 x², z², 2 y z), leaves the range of f64 or
+    /// its square does.
     #[test]
     fn normals_far_out_are_those_of_the_gradient() {
         let list = list(3, &[([3, 0, 0], 1.0), ([0, 1, 2], 1.0), ([0, 0, 0], -3.0)]);
@@ -497,7 +509,8 @@ mod tests {
         }
     }
 
-    /// The same, sheared and stretched: a normal goes along as the gradient does, not as a direction.
+    /// The same, sheared and stretched: a normal goes along as the gradient does, not as a
+    /// direction.
     #[test]
     fn normals_far_out_are_placed_as_gradients_are() {
         let list = list(3, &[([3, 0, 0], 1.0), ([0, 1, 2], 1.0), ([0, 0, 0], -3.0)]);
@@ -523,7 +536,8 @@ mod tests {
         }
     }
 
-    /// A node, double lines, an order that is really lower, a quartic with singular points, a quintic, an octic.
+    /// A node, double lines, an order that is really lower, a quartic with singular points, a
+    /// quintic, an octic.
     #[test]
     fn algebraic_surfaces_obey_the_laws() {
         let here = |p: [f64; 3]| Feature::new(p, [0.0; 3]);

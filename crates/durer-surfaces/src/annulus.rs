@@ -50,7 +50,8 @@ pub enum AnnulusError {
 }
 
 impl Annulus {
-    /// The part of the disc of radius `radius` about `centre` that lies at least `hole` away from it; the normal has any length.
+    /// The part of the disc of radius `radius` about `centre` that lies at least `hole` away from
+    /// it; the normal has any length.
     pub fn new(centre: Point3, normal: Vec3, hole: f64, radius: f64) -> Result<Self, AnnulusError> {
         if !centre.is_finite() {
             return Err(AnnulusError::Centre(centre));

@@ -6,10 +6,11 @@
 //!     lo └────────┘           entry: the last slab entered,  exit: the first slab left
 //! ```
 //!
-//! T. L. Kay, J. T. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986, made exact: the ratios `(lo_i - o_i) / d_i` are compared as
-//! brackets, and where brackets overlap by the sign of `n_i d_j - n_j d_i`. Ties of the entry (the ray comes in through an edge) go
-//! to the first axis; a line that only touches an edge or a corner meets the box in one grazing root; a line within a face enters and
-//! leaves through the other slabs, since the box is closed.
+//! T. L. Kay, J. T. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986, made exact: the ratios
+//! `(lo_i - o_i) / d_i` are compared as brackets, and where brackets overlap by the sign of
+//! `n_i d_j - n_j d_i`. Ties of the entry (the ray comes in through an edge) go to the first axis;
+//! a line that only touches an edge or a corner meets the box in one grazing root; a line within a
+//! face enters and leaves through the other slabs, since the box is closed.
 
 use crate::packet::FilterSource;
 use crate::planar::{self, AlongRay, Crossing, Line, PlaneForm, PointLine, Probe};
@@ -22,7 +23,8 @@ use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Isa, Normal3, Point3, RaySide, Ring, U, Vec3};
 
-/// A solid box with faces across the axes. Face `2 i` is the one at the least coordinate of axis `i`, face `2 i + 1` the opposite one.
+/// A solid box with faces across the axes. Face `2 i` is the one at the least coordinate of axis
+/// `i`, face `2 i + 1` the opposite one.
 ///
 /// # Invariants
 ///
@@ -49,7 +51,8 @@ pub enum AxisBoxError {
     },
 }
 
-/// One face's plane. Its normal is `+axis` for both faces of a slab; the sign is set by [`AxisBox`].
+/// One face's plane. Its normal is `+axis` for both faces of a slab; the sign is set by
+/// [`AxisBox`].
 #[derive(Clone, Copy)]
 struct SlabPlane {
     axis: usize,
@@ -108,7 +111,8 @@ struct Passage {
     hi: f64,
 }
 
-/// The filter takes directions of which each component is known this well: then the second order of their error is `STEEP` times the first.
+/// The filter takes directions of which each component is known this well: then the second order of
+/// their error is `STEEP` times the first.
 const STEEP: f64 = 1.0 / (1u64 << 20) as f64;
 
 /// What the filter knows.
@@ -209,7 +213,8 @@ impl AxisBox {
             let turn = d_err * inverse.abs();
             let passage = |number: u32, (gap, err): (f64, f64)| {
                 let s = gap * inverse;
-                // The direction's error, and three roundings: of the inverse, of the product and of the ends below.
+                // The direction's error, and three roundings: of the inverse, of the product and of
+                // the ends below.
                 let err = err.mul_add(inverse.abs(), s.abs() * (turn + 3.0 * U));
                 let err = err.mul_add(1.0 + 4.0 * STEEP, planar::TINY);
                 Passage { number, s, lo: s - err, hi: s + err }
@@ -339,7 +344,8 @@ fn later_climb(probe: &Probe<'_>, a: &Event, b: &Event) -> Ordering {
             match probe.sign(&Later(a.face, b.face)) {
                 Some(order) if a.crossing.sign == b.crossing.sign => order,
                 Some(order) => order.reverse(),
-                // Only for rays that are not exactly known: the line may touch the edge between the two faces.
+                // Only for rays that are not exactly known: the line may touch the edge between the
+                // two faces.
                 None => Ordering::Equal,
             }
         },
@@ -364,7 +370,8 @@ impl Surface for AxisBox {
         }
         let probe = Probe::new(ray, self.centre(), self.size());
         let Some((mut entry, mut exit, touches)) = self.span(&probe) else { return };
-        // The entry is known to come first: brackets that overlap are told so, and with them the numbers within.
+        // The entry is known to come first: brackets that overlap are told so, and with them the
+        // numbers within.
         if entry.crossing.s_hi >= exit.crossing.s_lo {
             let (e, x) = (&mut entry.crossing, &mut exit.crossing);
             (x.s_lo, e.s_hi) = (x.s_lo.max(e.s_lo), e.s_hi.min(x.s_hi));
@@ -398,7 +405,8 @@ impl Surface for AxisBox {
         }
     }
 
-    /// Texture coordinates run from 0 to 1 over each face, along the two other axes in cyclic order.
+    /// Texture coordinates run from 0 to 1 over each face, along the two other axes in cyclic
+    /// order.
     #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         let probe = Probe::new(ray, self.centre(), self.size());
@@ -407,7 +415,8 @@ impl Surface for AxisBox {
         let along = |i: usize| if i == axis { 1.0 } else { 0.0 };
         let normal = Vec3::new(along(0), along(1), along(2));
         let (p, dp) = planar::foot_point(&probe, &face, normal, 1.0, -level(&face));
-        // On the face exactly, and within it: moving a point into a convex set brings it no farther from the set's points.
+        // On the face exactly, and within it: moving a point into a convex set brings it no farther
+        // from the set's points.
         let (low, high) = (self.min, self.max);
         let mut p =
             Point3::new(p.x.max(low.x).min(high.x), p.y.max(low.y).min(high.y), p.z.max(low.z).min(high.z));

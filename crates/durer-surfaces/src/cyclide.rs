@@ -1,4 +1,5 @@
-//! Dupin's cyclide: what a sphere sweeps whose centre goes round an ellipse and whose radius changes evenly with the way along its major axis.
+//! Dupin's cyclide: what a sphere sweeps whose centre goes round an ellipse and whose radius
+//! changes evenly with the way along its major axis.
 //!
 //! ```text
 //!   centre (a cos t, 0, b sin t), radius d - c cos t;  b² = a² - c²
@@ -8,11 +9,14 @@
 //!   ─────────────────┼─┼────┼─────┼──┼──▶ x
 //! ```
 //!
-//! With c = 0 it is the torus about the y axis. Otherwise: a *ring* for c < d < a, thick on the side of -x; a *horn* for d <= c, two crescents that
-//! meet in two points; a *spindle* for d >= a, in which what is inside twice is outside, as the sign of `f` has it. All its lines of curvature are circles. C. Dupin,
-//! *Applications de géométrie et de mécanique*, Paris 1822; its equation as J. C. Maxwell, "On the cyclide", *Quarterly Journal of Pure and Applied
-//! Mathematics* 9, 1868, derives it from focal conics. The plane y = 0 cuts it in circles of radii a + d about (-c, 0) and |a - d| about (c, 0),
-//! the plane z = 0 in circles of radii d - c about (a, 0) and d + c about (-a, 0).
+//! With c = 0 it is the torus about the y axis. Otherwise: a *ring* for c < d < a, thick on the
+//! side of -x; a *horn* for d <= c, two crescents that meet in two points; a *spindle* for d >= a,
+//! in which what is inside twice is outside, as the sign of `f` has it. All its lines of curvature
+//! are circles. C. Dupin, *Applications de géométrie et de mécanique*, Paris 1822; its equation as
+//! J. C. Maxwell, "On the cyclide", *Quarterly Journal of Pure and Applied Mathematics* 9, 1868,
+//! derives it from focal conics. The plane y = 0 cuts it in circles of radii a + d about (-c, 0)
+//! and |a - d| about (c, 0), the plane z = 0 in circles of radii d - c about (a, 0) and d + c about
+//! (-a, 0).
 
 use crate::packet::FilterSource;
 use crate::polynomial_surface::{self, PolynomialSurface};
@@ -58,7 +62,8 @@ pub enum CyclideError {
 }
 
 impl Cyclide {
-    /// The cyclide of the ellipse with semi-axis `a` and focal distance `c`, and spheres of the mean radius `d`.
+    /// The cyclide of the ellipse with semi-axis `a` and focal distance `c`, and spheres of the
+    /// mean radius `d`.
     pub fn new(a: f64, c: f64, d: f64) -> Result<Self, CyclideError> {
         if !(a > 0.0 && a < f64::MAX / 8.0) {
             return Err(CyclideError::SemiAxis(a));
@@ -111,8 +116,8 @@ impl Cyclide {
         polynomial_surface::roots(self, ray, sink);
     }
 
-    /// How far it reaches along a row of a map: of the sphere at t that is row . centre + |row| radius, with either sign of the radius, whose
-    /// greatest value over t is that of a cosine.
+    /// How far it reaches along a row of a map: of the sphere at t that is row . centre + |row|
+    /// radius, with either sign of the radius, whose greatest value over t is that of a cosine.
     fn reach(&self, row: [f64; 3]) -> f64 {
         let [x, y, z] = row.map(Interval::from);
         let (a, c, d) = (Interval::from(self.a), Interval::from(self.c), Interval::from(self.d));
@@ -177,7 +182,8 @@ impl PolynomialSurface<5> for Cyclide {
         let (square, radii) = (y.dot(y), b2 + d * d);
         let q = square - radii;
         let g = y * (4.0 * q) + Vec3::Y * (8.0 * b2 * y.y) + Vec3::X * (8.0 * c * (a * d - c * y.x));
-        // H = 4 Q I + 8 y yᵀ + 8 b² e eᵀ - 8 c² h hᵀ with e across h and b, c < a; a 64th further out.
+        // H = 4 Q I + 8 y yᵀ + 8 b² e eᵀ - 8 c² h hᵀ with e across h and b, c < a; a 64th further
+        // out.
         let far = (square.sqrt() + 1.0 / 64.0) * (1.0 + 1.0 / 1024.0);
         let bend = 4.0 * (far * far - radii).abs().max(q.abs() + 0.125 * far) + 8.0 * (far * far + a * a);
         (g, bend * (1.0 + 1.0 / 1024.0))
@@ -189,12 +195,14 @@ impl PolynomialSurface<5> for Cyclide {
         v * (4.0 * q) + y * (8.0 * y.dot(v)) + Vec3::Y * (8.0 * b2 * v.y) - Vec3::X * (8.0 * c * c * v.x)
     }
 
-    /// Once round the ellipse, and once round the circle in which the sphere there touches, from its inner side over the top.
+    /// Once round the ellipse, and once round the circle in which the sphere there touches, from
+    /// its inner side over the top.
     fn chart(&self, y: Vec3, n: Vec3) -> Chart {
         const TURN: f64 = 2.0 * core::f64::consts::PI;
         let (a, c, d) = self.numbers();
         let b = self.b2().sqrt();
-        // p = centre + radius n for one of the normal's directions: that whose centre is on the ellipse. Of x: X (1 - c n / a) = x - d n.
+        // p = centre + radius n for one of the normal's directions: that whose centre is on the
+        // ellipse. Of x: X (1 - c n / a) = x - d n.
         let sphere = |n: Vec3| {
             let cos = (y.x - d * n.x) / (a - c * n.x);
             let radius = d - c * cos;
@@ -210,18 +218,21 @@ impl PolynomialSurface<5> for Cyclide {
         let along = Vec3::new(-a * sin, 0.0, b * cos);
         let outward = Vec3::Y.cross(along);
         let outward = outward * (1.0 / outward.length().max(f64::MIN_POSITIVE));
-        // Round that circle lines of curvature are spaced as a planet's eccentric anomalies are by the true ones, with the eccentricity k.
+        // Round that circle lines of curvature are spaced as a planet's eccentric anomalies are by
+        // the true ones, with the eccentricity k.
         let k = c / a * cos.clamp(-1.0, 1.0);
         let (up, inner) = (-out.y, -out.dot(outward));
         let squeeze = (1.0 - k * k).max(0.0).sqrt();
         let size = elementary::hypot(up, inner).max(f64::MIN_POSITIVE);
         let (up, inner) = (up / size, inner / size);
         let (u, v) = (turns(elementary::atan2(sin, cos)), turns(elementary::atan2(squeeze * up, inner + k)));
-        // The lines of constant v are lines of curvature: dn = bend dp, so that dp (1 - radius bend) = centre' + radius' n.
+        // The lines of constant v are lines of curvature: dn = bend dp, so that dp (1 - radius
+        // bend) = centre' + radius' n.
         let east = along + out * (c * sin);
         let east = east - n * n.dot(east);
         let length = east.length();
-        // On the surface it is b long; a point of which this is not true is no such point (beside a tip).
+        // On the surface it is b long; a point of which this is not true is no such point (beside a
+        // tip).
         let is_told = length > 0.5 * b;
         if !is_told {
             let (u_way, v_way) = tangents(n);
@@ -234,13 +245,15 @@ impl PolynomialSurface<5> for Cyclide {
         let east = east * (if stretch.is_finite() { stretch } else { 1.0 } * TURN);
         let slant = c * sin / along.length().max(f64::MIN_POSITIVE);
         let small = radius.abs() * (1.0 - slant * slant).max(0.0).sqrt();
-        // The true anomaly's change with the eccentric one is squeeze / (1 - k cos), which is (1 + k cos of the true one) / squeeze.
+        // The true anomaly's change with the eccentric one is squeeze / (1 - k cos), which is (1 +
+        // k cos of the true one) / squeeze.
         let small = small * (1.0 + k * inner) / squeeze.max(f64::MIN_POSITIVE);
         Chart { uv: [u, v], dpdu: east, dpdv: n.cross(unit) * (small * TURN) }
     }
 
     fn tip(&self, y: Vec3) -> Vec3 {
-        // A horn's tips lie in the plane of the ellipse, and its surface is across their direction there; a spindle's lie across that plane.
+        // A horn's tips lie in the plane of the ellipse, and its surface is across their direction
+        // there; a spindle's lie across that plane.
         if y.y.abs() > y.z.abs() { Vec3::Y } else { Vec3::X }
     }
 }

@@ -7,8 +7,9 @@
 //!       r  c
 //! ```
 //!
-//! The line `o + s d` (relative to `c`) meets the plane at `p = (n x (o x d)) / (n . d)`, so whether it meets the disc is the sign of
-//! `|n x (o x d)|^2 - r^2 (n . d)^2`: a polynomial, decided exactly; the rim belongs to the disc.
+//! The line `o + s d` (relative to `c`) meets the plane at `p = (n x (o x d)) / (n . d)`, so
+//! whether it meets the disc is the sign of `|n x (o x d)|^2 - r^2 (n . d)^2`: a polynomial,
+//! decided exactly; the rim belongs to the disc.
 
 use crate::packet::FilterSource;
 use crate::planar::{
@@ -164,7 +165,8 @@ impl RoundSheet {
         let radius = scale2(radius, -self.scale);
         let (x, err) = probe.place(crossing);
         let gap = x.length_squared() - radius * radius;
-        // Each square errs by 2 |x| err + err^2 and passes through three roundings; so does r^2, through one, and the difference.
+        // Each square errs by 2 |x| err + err^2 and passes through three roundings; so does r^2,
+        // through one, and the difference.
         let spread = (x.abs() * 2.0 + err).dot(err);
         let bound = (x.length_squared() + radius * radius).mul_add(5.0 * U, spread) * (1.0 + 32.0 * U);
         if gap.abs() > bound + planar::TINY {
@@ -193,7 +195,8 @@ impl RoundSheet {
         Aabb::centred(self.centre, Vec3::new(half(n2.y, n2.z), half(n2.z, n2.x), half(n2.x, n2.y)))
     }
 
-    /// Polar texture coordinates: `u` is the angle over a full turn, `v` runs from the inner to the outer radius.
+    /// Polar texture coordinates: `u` is the angle over a full turn, `v` runs from the inner to the
+    /// outer radius.
     #[inline(always)]
     pub(crate) fn resolve(&self, ray: &LocalRay<'_>, need: Need, inner: f64) -> SurfacePoint {
         let (probe, outer) = (self.probe(ray), self.radius);
@@ -236,7 +239,8 @@ pub(crate) mod tests {
         ExactBody { faces, walls: 1, size: disc.radius(), convex: false }
     }
 
-    /// A normal, and two vectors across it of the same length and at right angles: whole numbers all.
+    /// A normal, and two vectors across it of the same length and at right angles: whole numbers
+    /// all.
     pub(crate) const FRAMES: [[[f64; 3]; 3]; 4] = [
         [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
         [[1.0, 2.0, 2.0], [2.0, 1.0, -2.0], [2.0, -2.0, 1.0]],

@@ -7,8 +7,9 @@
 //!      │ ╲__╱  0, radius a
 //! ```
 //!
-//! It is the inner sheet of the torus that meets itself (see [`Torus`](crate::Torus)), closed by discs where `a` and `b` are not zero. The exact solid has R and c as
-//! f64 holds them; an end that is a point is moved inward by the few ulps that it takes for the sheet to reach there.
+//! It is the inner sheet of the torus that meets itself (see [`Torus`](crate::Torus)), closed by
+//! discs where `a` and `b` are not zero. The exact solid has R and c as f64 holds them; an end that
+//! is a point is moved inward by the few ulps that it takes for the sheet to reach there.
 
 use crate::revolution::{Profile, SurfaceOfRevolution};
 use durer_math::{Dyadic, Ring, U, elementary};
@@ -22,7 +23,8 @@ pub enum LemonError {
     /// An end's radius is negative, infinite or NaN.
     #[error("lemon: the radius of an end must be finite and not negative, got {0}")]
     Radius(f64),
-    /// An arc of this radius bulges beyond a half circle about the axis, or does not reach from end to end.
+    /// An arc of this radius bulges beyond a half circle about the axis, or does not reach from end
+    /// to end.
     #[error("lemon: the inner radius must be greater than {least} for these ends, got {inner}")]
     Inner {
         /// The radius of the arc.
@@ -36,7 +38,8 @@ pub enum LemonError {
 }
 
 impl SurfaceOfRevolution {
-    /// The lemon from the height 0 with the radius `base` to the height `height` with the radius `apex`, its profile an arc of radius `inner`.
+    /// The lemon from the height 0 with the radius `base` to the height `height` with the radius
+    /// `apex`, its profile an arc of radius `inner`.
     pub fn lemon(height: f64, base: f64, apex: f64, inner: f64) -> Result<Self, LemonError> {
         if !(height > 0.0 && height.is_finite()) {
             return Err(LemonError::Height(height));
@@ -48,7 +51,8 @@ impl SurfaceOfRevolution {
         }
         let chord = elementary::hypot(apex - base, height);
         let middle = 0.5 * (base + apex);
-        // With R = 0 the arc's centre is on the axis: half a chord across, and as far along its bisector as leads to the axis.
+        // With R = 0 the arc's centre is on the axis: half a chord across, and as far along its
+        // bisector as leads to the axis.
         let least = elementary::hypot(0.5 * chord, middle * (chord / height));
         if !(inner > least && inner.is_finite()) {
             return Err(LemonError::Inner { inner, least });

@@ -7,8 +7,10 @@
 //!     `---'      bottom: a sphere of radius a about the origin
 //! ```
 //!
-//! The three pieces have common tangents where they meet, at the heights `-c a / (r - a)` and `a + (a - c) b / (r - b)`. With `b >= 2a` the upper sphere holds the
-//! lower one and is all. The definition is that of POV-Ray's documentation ("Ovus"). The exact solid has R, c and the heights as f64 holds them.
+//! The three pieces have common tangents where they meet, at the heights `-c a / (r - a)` and
+//! `a + (a - c) b / (r - b)`. With `b >= 2a` the upper sphere holds the lower one and is all. The
+//! definition is that of POV-Ray's documentation ("Ovus"). The exact solid has R, c and the heights
+//! as f64 holds them.
 
 use crate::revolution::{Profile, SurfaceOfRevolution};
 use durer_math::U;
@@ -25,7 +27,8 @@ pub enum OvusError {
 }
 
 impl SurfaceOfRevolution {
-    /// The ovus about the y axis with the radius `bottom` about the origin and `top` about the point `bottom` above it.
+    /// The ovus about the y axis with the radius `bottom` about the origin and `top` about the
+    /// point `bottom` above it.
     pub fn ovus(bottom: f64, top: f64) -> Result<Self, OvusError> {
         for (name, radius) in [("bottom", bottom), ("top", top)] {
             if !(radius > 0.0 && radius.is_finite()) {

@@ -7,8 +7,9 @@
 //!      c       u
 //! ```
 //!
-//! With `q = o - c` Cramer's rule gives `a = q . (v x d) / (n . d)` and `b = q . (d x u) / (n . d)`; whether they lie in `[0, 1]` is the sign
-//! of four polynomials, decided exactly. The sheet is closed: its edges belong to it.
+//! With `q = o - c` Cramer's rule gives `a = q . (v x d) / (n . d)` and
+//! `b = q . (d x u) / (n . d)`; whether they lie in `[0, 1]` is the sign of four polynomials,
+//! decided exactly. The sheet is closed: its edges belong to it.
 
 use crate::edges::EdgeFilter;
 use crate::facet;
@@ -19,7 +20,8 @@ use core::cmp::Ordering;
 use durer_math::eft::scale2;
 use durer_math::{Aabb, EFloat, Point3, Ring, U, Vec3};
 
-/// The sheet `corner + a u + b v` with `a` and `b` in `[0, 1]`. A root's tag is `(a, b)`, and so are the texture coordinates.
+/// The sheet `corner + a u + b v` with `a` and `b` in `[0, 1]`. A root's tag is `(a, b)`, and so
+/// are the texture coordinates.
 ///
 /// # Invariants
 ///
@@ -192,7 +194,8 @@ impl AlongRay for FromEdge<'_> {
     }
 }
 
-/// Whether the crossing lies between two opposite edges; an inexact ray that cannot be excluded does.
+/// Whether the crossing lies between two opposite edges; an inexact ray that cannot be excluded
+/// does.
 #[inline(always)]
 fn between(probe: &Probe<'_>, spanned: &Spanned<'_>, which: usize, slope: i8) -> bool {
     let along = |far| {
@@ -204,7 +207,8 @@ fn between(probe: &Probe<'_>, spanned: &Spanned<'_>, which: usize, slope: i8) ->
 
 impl Surface for Parallelogram {
     fn bounds(&self) -> Aabb {
-        // One coordinate at a time: the corner plus the negative, or the positive, parts of the edges.
+        // One coordinate at a time: the corner plus the negative, or the positive, parts of the
+        // edges.
         let part = |clip: fn(f64) -> f64| self.u.map(clip) + self.v.map(clip);
         let low = part(|x| x.min(0.0)).map(f64::next_down);
         let high = part(|x| x.max(0.0)).map(f64::next_up);

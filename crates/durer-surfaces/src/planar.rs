@@ -1,11 +1,14 @@
-//! What all flat surfaces share: the one crossing of a ray and a plane, decided exactly and bracketed tightly.
+//! What all flat surfaces share: the one crossing of a ray and a plane, decided exactly and
+//! bracketed tightly.
 //!
-//! Along a ray `o + s d` the *height* above a plane is `h + s g`, and the crossing is at `s = -h/g`. Everything that
-//! is asked about it is a sign: of the slope `g` (0: the ray runs beside the plane and never crosses it), of the height at an end
-//! of the ray's range (is the crossing in it?), and of the polynomials that say whether the crossing lies in a disc, within edges
-//! or between slabs. Each is written once, generic over [`Ring`], and taken up the ladder: `EFloat<f64>`, `EFloat<Dd>`,
-//! [`Dyadic`]. The first step uses the re-centred ray with its rounding charged (rule W3), which stands for the exact ray:
-//! a sign that is certain there is the sign for the ray that was given.
+//! Along a ray `o + s d` the *height* above a plane is `h + s g`, and the crossing is at
+//! `s = -h/g`. Everything that is asked about it is a sign: of the slope `g` (0: the ray runs
+//! beside the plane and never crosses it), of the height at an end of the ray's range (is the
+//! crossing in it?), and of the polynomials that say whether the crossing lies in a disc, within
+//! edges or between slabs. Each is written once, generic over [`Ring`], and taken up the ladder:
+//! `EFloat<f64>`, `EFloat<Dd>`, [`Dyadic`]. The first step uses the re-centred ray with its
+//! rounding charged (rule W3), which stands for the exact ray: a sign that is certain there is the
+//! sign for the ray that was given.
 
 mod vectors;
 
@@ -22,18 +25,20 @@ use durer_math::eft::{exponent, scale2};
 use durer_math::rounding::{add_up, div_down, div_up, sub_down};
 use durer_math::{Dd, Dyadic, EFloat, Isa, Point3, RaySide, Ring, U, Vec3};
 
-/// A bracket that is wider than 32 ulp of `max(|t|, size / |d|)` is found again in double-double; here relative to `size / |d|`, taking the ulp
-/// at its smallest.
+/// A bracket that is wider than 32 ulp of `max(|t|, size / |d|)` is found again in double-double;
+/// here relative to `size / |d|`, taking the ulp at its smallest.
 const NARROW: f64 = 32.0 * U;
-/// Coordinates in a plane known this well need no better: their error goes into `dp` alone, where it is a few hundred times the rounding of the
-/// position at most.
+/// Coordinates in a plane known this well need no better: their error goes into `dp` alone, where
+/// it is a few hundred times the rounding of the position at most.
 pub(crate) const TIGHT: f64 = 256.0 * U;
 
-/// Pays for underflow in numbers of about unit size: far more than needed, so that it and its multiples are normal numbers. A subnormal
-/// operand costs a hundred times the operation itself on many CPUs.
+/// Pays for underflow in numbers of about unit size: far more than needed, so that it and its
+/// multiples are normal numbers. A subnormal operand costs a hundred times the operation itself on
+/// many CPUs.
 pub(crate) const TINY: f64 = durer_math::scale::pow2(-1000);
 
-/// A plane, by its height function along a ray; the height is zero on the plane and grows along the normal.
+/// A plane, by its height function along a ray; the height is zero on the plane and grows along the
+/// normal.
 ///
 /// Both numbers may be multiplied by one positive factor, the same for a given ray.
 pub(crate) trait PlaneForm {
@@ -60,7 +65,8 @@ pub(crate) trait PlaneForm {
     }
 }
 
-/// A plane's height and slope along a ray in plain f64, each with a bound on its error: the filter in front of the ladder.
+/// A plane's height and slope along a ray in plain f64, each with a bound on its error: the filter
+/// in front of the ladder.
 pub(crate) struct Quick {
     height: f64,
     height_err: f64,
@@ -69,9 +75,11 @@ pub(crate) struct Quick {
 }
 
 impl Quick {
-    /// `height = n . q + lift`, `slope = n . d`; each number comes as a value and a bound on its error.
+    /// `height = n . q + lift`, `slope = n . d`; each number comes as a value and a bound on its
+    /// error.
     ///
-    /// A dot product passes each term through at most three roundings; the sum with the lift is one more.
+    /// A dot product passes each term through at most three roundings; the sum with the lift is one
+    /// more.
     #[inline(always)]
     pub(crate) fn new(
         (n, n_err): (Vec3, Vec3),
@@ -91,7 +99,8 @@ impl Quick {
         }
     }
 
-    /// The crossing's parameter, a bound on its error, and the sign of the slope, if that is certain.
+    /// The crossing's parameter, a bound on its error, and the sign of the slope, if that is
+    /// certain.
     #[inline(always)]
     fn crossing(&self) -> Option<(f64, f64, Ordering)> {
         let least = self.slope.abs() - self.slope_err;
@@ -132,7 +141,8 @@ pub(crate) trait Line {
     /// From where the line is seen, and in which unit.
     fn view(&self) -> (Point3, i32);
 
-    /// The sign of a polynomial. `None` only if the line is not exactly known and its error leaves the sign open.
+    /// The sign of a polynomial. `None` only if the line is not exactly known and its error leaves
+    /// the sign open.
     #[inline(always)]
     fn sign<P: AlongRay>(&self, p: &P) -> Option<Ordering> {
         match p.eval(&self.running()).and_then(|x| x.sign()) {
@@ -196,7 +206,8 @@ pub(crate) struct Crossing {
 }
 
 impl<'a> Probe<'a> {
-    /// The ray as seen from `centre`, in units of a power of two just above `size`, the surface's size.
+    /// The ray as seen from `centre`, in units of a power of two just above `size`, the surface's
+    /// size.
     #[inline(always)]
     pub(crate) fn new(ray: &'a LocalRay<'a>, centre: Point3, size: f64) -> Self {
         let scale = exponent(size) + 1;
@@ -215,8 +226,8 @@ impl<'a> Probe<'a> {
         Self { ray, size }
     }
 
-    /// The crossing with a plane, wherever it is on the line; `None` if there is none: the slope is exactly zero. A crossing beyond
-    /// the range of f64 has an infinite `s`.
+    /// The crossing with a plane, wherever it is on the line; `None` if there is none: the slope is
+    /// exactly zero. A crossing beyond the range of f64 has an infinite `s`.
     #[inline(always)]
     pub(crate) fn crossing<F: PlaneForm>(&self, plane: &F) -> Option<Crossing> {
         if let Some((s, err, sign)) = plane.quick(&self.ray).and_then(|quick| quick.crossing()) {
@@ -228,8 +239,8 @@ impl<'a> Probe<'a> {
         self.crossing_climb(plane)
     }
 
-    /// As [`Probe::crossing`], but only a crossing that may matter: not where the ray was spawned, not surely outside its range or the
-    /// sink's. What f64 can dismiss needs no narrow bracket.
+    /// As [`Probe::crossing`], but only a crossing that may matter: not where the ray was spawned,
+    /// not surely outside its range or the sink's. What f64 can dismiss needs no narrow bracket.
     #[inline(always)]
     pub(crate) fn crossing_within<F: PlaneForm>(&self, plane: &F, range: (f64, f64)) -> Option<Crossing> {
         let matters = |c: &Crossing| !self.leaves(c) && !c.is_outside(range) && self.may_admit(c);
@@ -298,7 +309,8 @@ impl<'a> Probe<'a> {
                         best = Some(crossing);
                     }
                 }
-                // What is left: rays that are almost parallel, numbers at the ends of the range of f64, inexact rays.
+                // What is left: rays that are almost parallel, numbers at the ends of the range of
+                // f64, inexact rays.
                 let exact = self.ray.in_ring::<Dyadic>().and_then(|ray| {
                     let slope = plane.slope(&ray);
                     let (low, high) = plane.height_bounds(&ray)?;
@@ -353,7 +365,8 @@ impl<'a> Probe<'a> {
             && self.ray.admits(crossing.lo, crossing.hi) != Some(false)
     }
 
-    /// Whether a crossing is in the ray's closed range: exactly, unless the ray is not exactly known and it cannot be excluded.
+    /// Whether a crossing is in the ray's closed range: exactly, unless the ray is not exactly
+    /// known and it cannot be excluded.
     #[inline(always)]
     pub(crate) fn admits<F: PlaneForm>(&self, plane: &F, crossing: &Crossing) -> bool {
         match self.ray.admits(crossing.lo, crossing.hi) {
@@ -401,8 +414,9 @@ impl<'a> Probe<'a> {
         plane.exact_side(&advanced(ray, &self.ray.end_in_ring(end)))
     }
 
-    /// Whether the ray was spawned on this very plane, from the side towards which it goes, with nothing of it behind its start:
-    /// then there is no crossing, and no exact arithmetic is needed to see that.
+    /// Whether the ray was spawned on this very plane, from the side towards which it goes, with
+    /// nothing of it behind its start: then there is no crossing, and no exact arithmetic is needed
+    /// to see that.
     #[inline(always)]
     pub(crate) fn leaves(&self, crossing: &Crossing) -> bool {
         self.departs(crossing.sign)
@@ -418,7 +432,8 @@ impl<'a> Probe<'a> {
         }
     }
 
-    /// The point of a crossing relative to the centre, in units of `2^scale`, and a bound on its error per axis.
+    /// The point of a crossing relative to the centre, in units of `2^scale`, and a bound on its
+    /// error per axis.
     #[inline(always)]
     pub(crate) fn place(&self, crossing: &Crossing) -> (Vec3, Vec3) {
         let half = (crossing.s_hi - crossing.s).max(crossing.s - crossing.s_lo);
@@ -477,7 +492,8 @@ pub(crate) fn quotient_bounds(low: &Dyadic, high: &Dyadic, d: &Dyadic) -> (f64, 
     (lo, hi)
 }
 
-/// A point on each step of the ladder, as the start of a line in a fixed direction, seen from a centre.
+/// A point on each step of the ladder, as the start of a line in a fixed direction, seen from a
+/// centre.
 pub(crate) struct PointLine<'a> {
     point: &'a LocalPoint<'a>,
     direction: Vec3,
@@ -545,9 +561,11 @@ pub(crate) fn below_is_in(side: Option<Ordering>) -> Side {
     }
 }
 
-/// The point of a ray's crossing with a plane, moved onto the plane along its normal, and a bound on its error per axis.
+/// The point of a ray's crossing with a plane, moved onto the plane along its normal, and a bound
+/// on its error per axis.
 ///
-/// `n` is the normal, `n2` its squared length, `lift` the height of the centre above the plane, all in the form's units.
+/// `n` is the normal, `n2` its squared length, `lift` the height of the centre above the plane, all
+/// in the form's units.
 #[inline(always)]
 pub(crate) fn foot_point<F: PlaneForm>(
     probe: &Probe<'_>,
@@ -575,8 +593,9 @@ pub(crate) fn foot_point<F: PlaneForm>(
     (Point3::new(x, y, z), Vec3::new(ex, ey, ez))
 }
 
-/// A bound on the distance of `p` (a point given in f64) from the plane, such that a step of that length along the rounded unit
-/// normal provably leaves the plane; see [`SurfacePoint::off`](crate::SurfacePoint::off).
+/// A bound on the distance of `p` (a point given in f64) from the plane, such that a step of that
+/// length along the rounded unit normal provably leaves the plane; see
+/// [`SurfacePoint::off`](crate::SurfacePoint::off).
 ///
 /// `length` is a lower bound of the normal's length in the units of the form's height.
 #[inline(always)]
@@ -587,11 +606,13 @@ pub(crate) fn clearance<F: PlaneForm>(plane: &F, p: Point3, centre: Point3, scal
     let zero = || EFloat::exact(0.0);
     let at = RingRay { o, d: [zero(), zero(), zero()], w: EFloat::exact(1.0) };
     let height = plane.height(&at).map_or(f64::INFINITY, EFloat::magnitude);
-    // A step `off` along the rounded unit normal moves by `off (1 - 8u)` along the exact one, at least.
+    // A step `off` along the rounded unit normal moves by `off (1 - 8u)` along the exact one, at
+    // least.
     scale2(height / length, scale).mul_add(1.0 + 32.0 * U, least_step(p))
 }
 
-/// Two quotients with a common denominator: coordinates in a plane of the point where a ray meets it.
+/// Two quotients with a common denominator: coordinates in a plane of the point where a ray meets
+/// it.
 pub(crate) trait Ratios {
     /// Both numerators, then the denominator.
     fn eval<T: Ring>(&self, ray: &RingRay<T>) -> [T; 3];

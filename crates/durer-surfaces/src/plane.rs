@@ -7,8 +7,9 @@
 //!   · · · · · · · · · · · · · · · ·     inside: n . p <= h |n|
 //! ```
 //!
-//! The surface is *exactly* this set for the stored normal `n` (of any length) and distance `h`. Where `|n|` is irrational the
-//! plane has no rational point, yet every decision is rational: `n . p < h |n|` is a matter of signs and of `(n . p)^2 < h^2 n . n`.
+//! The surface is *exactly* this set for the stored normal `n` (of any length) and distance `h`.
+//! Where `|n|` is irrational the plane has no rational point, yet every decision is rational:
+//! `n . p < h |n|` is a matter of signs and of `(n . p)^2 < h^2 n . n`.
 
 use crate::packet::FilterSource;
 use crate::planar::{self, PlaneForm, PointLine, Probe, Quick, dot, exact3, scaled_to_one, unit};
@@ -24,8 +25,8 @@ use durer_math::{Aabb, Dd, Dyadic, EFloat, Normal3, Point3, RaySide, Ring, Shaft
 ///
 /// # Invariants
 ///
-/// The normal's largest component is in [1, 2) in magnitude (a positive factor of the normal changes nothing), and the
-/// distance is finite.
+/// The normal's largest component is in [1, 2) in magnitude (a positive factor of the normal
+/// changes nothing), and the distance is finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
     normal: Vec3,
@@ -53,7 +54,8 @@ pub enum PlaneError {
 }
 
 impl Plane {
-    /// The plane of the points whose distance from the origin along `normal` is `distance`. The normal has any length.
+    /// The plane of the points whose distance from the origin along `normal` is `distance`. The
+    /// normal has any length.
     pub fn new(normal: Vec3, distance: f64) -> Result<Self, PlaneError> {
         let n = scaled_to_one(normal).ok_or(PlaneError::Normal(normal))?;
         if !distance.is_finite() {
@@ -103,8 +105,9 @@ impl Plane {
         foot.map(|x| if x.is_finite() { x } else { 0.0 })
     }
 
-    /// Whether it is plain to see that the plane is not in front of the ray's start: the ray was spawned on it and goes away, or starts on one
-    /// side and goes to the same. The first and cheapest test.
+    /// Whether it is plain to see that the plane is not in front of the ray's start: the ray was
+    /// spawned on it and goes away, or starts on one side and goes to the same. The first and
+    /// cheapest test.
     #[inline(always)]
     fn is_behind(&self, ray: &LocalRay<'_>) -> bool {
         let (n, size) = (self.normal, self.normal.abs());
@@ -224,8 +227,8 @@ impl Surface for Plane {
 
     #[inline(always)]
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
-        // Seen from the ray's own origin, so that a near crossing is as precise as a far one: a plane has no middle, and no size but its
-        // distance from the origin.
+        // Seen from the ray's own origin, so that a near crossing is as precise as a far one: a
+        // plane has no middle, and no size but its distance from the origin.
         if self.is_behind(ray) {
             return;
         }
@@ -246,7 +249,8 @@ impl Surface for Plane {
         let length = n2.sqrt();
         let x =
             Vec3::new(s.mul_add(ray.d.x, ray.o.x), s.mul_add(ray.d.y, ray.o.y), s.mul_add(ray.d.z, ray.o.z));
-        // Moved onto the plane: within the bracket along the ray, which undoes the rounding of a far start's parameter; then along the normal.
+        // Moved onto the plane: within the bracket along the ray, which undoes the rounding of a
+        // far start's parameter; then along the normal.
         let height = |x: Vec3| n.dot(x) - offset.v.hi;
         let width = ray.unmoved().width(root.lo, root.hi);
         let step = height(x) / n.dot(ray.d);
@@ -258,7 +262,8 @@ impl Surface for Plane {
             + ray.d.abs() * (width + step.abs())
             + (x - p).abs()
             + (x.abs() + p.abs()) * (2.0 * U);
-        // The height over the plane: three roundings in the dot product, one in the difference, and what f64 does not hold of the offset.
+        // The height over the plane: three roundings in the dot product, one in the difference, and
+        // what f64 does not hold of the offset.
         let height = n.dot(p) - offset.v.hi;
         let err = n.abs().dot(p.abs()) * (3.0 * U)
             + (height.abs() + offset.v.hi.abs()) * U

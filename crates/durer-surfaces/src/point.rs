@@ -9,8 +9,9 @@ pub struct SurfacePoint {
     pub p: Point3,
     /// Per-axis bound on the distance to the exact crossing.
     pub dp: Vec3,
-    /// A distance along the normal that provably leaves the surface: `p + off ng` is strictly in front, `p - off ng` strictly behind, also
-    /// after each coordinate is rounded away from `p`. Usually far smaller than `dp`.
+    /// A distance along the normal that provably leaves the surface: `p + off ng` is strictly in
+    /// front, `p - off ng` strictly behind, also after each coordinate is rounded away from `p`.
+    /// Usually far smaller than `dp`.
     pub off: f64,
     /// The geometric normal: unit length, outward for solids, as stored for open surfaces.
     pub ng: Normal3,
@@ -26,8 +27,9 @@ pub struct SurfacePoint {
     pub dndu: Vec3,
     /// Change of the normal with v.
     pub dndv: Vec3,
-    /// Bound on the curvature near the point: at a distance `r` the surface has left its tangent plane by at most `bend / 2 r^2`. Infinite
-    /// at a tip, which has no tangent plane; `off` then leaves the tip along `ng`, also from any point within `slack` of `p`.
+    /// Bound on the curvature near the point: at a distance `r` the surface has left its tangent
+    /// plane by at most `bend / 2 r^2`. Infinite at a tip, which has no tangent plane; `off` then
+    /// leaves the tip along `ng`, also from any point within `slack` of `p`.
     pub bend: f64,
     /// See `bend`.
     pub slack: f64,
@@ -35,8 +37,9 @@ pub struct SurfacePoint {
     pub source: Option<Source>,
 }
 
-/// A step from a point of which nothing was lost: far below its last place, yet so long that no coordinate, and no error bound that is worked out
-/// from it, gets near the subnormal numbers, which cost many CPUs a hundred times as much as others.
+/// A step from a point of which nothing was lost: far below its last place, yet so long that no
+/// coordinate, and no error bound that is worked out from it, gets near the subnormal numbers,
+/// which cost many CPUs a hundred times as much as others.
 #[inline(always)]
 pub(crate) fn least_step(p: Point3) -> f64 {
     p.to_vec().max_abs().mul_add(durer_math::scale::pow2(-500), f64::MIN_POSITIVE)
@@ -68,10 +71,12 @@ impl SurfacePoint {
         Self::new(p, far, f64::INFINITY, Vec3::Y.to_normal())
     }
 
-    /// A ray that leaves the surface along `direction`, from the side to which it points, with `t` in `[0, inf]`.
+    /// A ray that leaves the surface along `direction`, from the side to which it points, with `t`
+    /// in `[0, inf]`.
     ///
-    /// Its origin is provably on that side, so no hit needs to be ignored (Pharr, Jakob, Humphreys, *Physically Based
-    /// Rendering*, 4th ed. 2023, section 6.8, with a bound along the normal in place of one per axis).
+    /// Its origin is provably on that side, so no hit needs to be ignored (Pharr, Jakob, Humphreys, *Physically
+    /// Based Rendering*, 4th ed. 2023, section 6.8, with a bound along the normal in place of one
+    /// per axis).
     #[inline]
     pub fn spawn(&self, direction: Vec3) -> Ray {
         self.spawn_from(self.side_towards(direction), direction)
@@ -92,7 +97,8 @@ impl SurfacePoint {
         Ray::new(self.start(side), direction).spawned_from(self.source.map(|s| Source { side, ..s }))
     }
 
-    /// The side to which a direction points. Where it all but grazes either side will do: a start there is proven for both.
+    /// The side to which a direction points. Where it all but grazes either side will do: a start
+    /// there is proven for both.
     #[inline(always)]
     fn side_towards(&self, d: Vec3) -> RaySide {
         // Not fused: this is compiled for any CPU.

@@ -8,15 +8,18 @@
 //!        └───────────────┘
 //! ```
 //!
-//! A. Appel, "Some techniques for shading machine renderings of solids", AFIPS 1968, counted crossings in the plane; here they are counted about
-//! the ray itself. Seen along the ray, an edge that crosses a fixed half-line from the ray's point counts by its direction; which edges do
-//! is told by the sign of one 2x2 minor for each vertex and of `U` for the edges in question, the edge function of the triangles with its
-//! rule for ties (see `edges.rs`). So a polygon is watertight against polygons and triangles with the same vertices.
+//! A. Appel, "Some techniques for shading machine renderings of solids", AFIPS 1968, counted
+//! crossings in the plane; here they are counted about the ray itself. Seen along the ray, an edge
+//! that crosses a fixed half-line from the ray's point counts by its direction; which edges do is
+//! told by the sign of one 2x2 minor for each vertex and of `U` for the edges in question, the edge
+//! function of the triangles with its rule for ties (see `edges.rs`). So a polygon is watertight
+//! against polygons and triangles with the same vertices.
 //!
-//! The plane goes through three of the vertices. The others may lie off it by the rounding of single-precision numbers, in which many
-//! files hold them; worse polygons are refused. If they do, the ray still has to pass through the outline of the stored vertices (so that there is no
-//! gap to a neighbour), the crossing is the one with the plane, and it has to lie in the bounding box: a ray that
-//! skims the plane would otherwise pass the outline far from where it meets the plane.
+//! The plane goes through three of the vertices. The others may lie off it by the rounding of
+//! single-precision numbers, in which many files hold them; worse polygons are refused. If they do,
+//! the ray still has to pass through the outline of the stored vertices (so that there is no gap to
+//! a neighbour), the crossing is the one with the plane, and it has to lie in the bounding box: a
+//! ray that skims the plane would otherwise pass the outline far from where it meets the plane.
 
 use crate::edges::{self, EdgeFilter};
 use crate::facet::{self, Facet};
@@ -33,7 +36,8 @@ pub enum FillRule {
     /// Odd ones: an outline within another is a hole, whatever its direction.
     #[default]
     EvenOdd,
-    /// All but zero: overlapping outlines of one direction unite, one of the opposite direction is a hole.
+    /// All but zero: overlapping outlines of one direction unite, one of the opposite direction is
+    /// a hole.
     NonZero,
 }
 
@@ -89,12 +93,13 @@ pub enum PolygonError {
     },
 }
 
-/// Vertices may be this far off the plane, relative to the polygon's width: the half ulp of single precision, in which many files hold
-/// their coordinates.
+/// Vertices may be this far off the plane, relative to the polygon's width: the half ulp of single
+/// precision, in which many files hold their coordinates.
 const PLANARITY: f64 = 1.0 / (1u64 << 24) as f64;
 
 impl Polygon {
-    /// The polygon within these outlines. Each is closed by itself; a last vertex equal to the first is left out.
+    /// The polygon within these outlines. Each is closed by itself; a last vertex equal to the
+    /// first is left out.
     pub fn new<L: AsRef<[Point3]>>(outlines: &[L], rule: FillRule) -> Result<Self, PolygonError> {
         let (mut vertices, mut ends) = (Vec::new(), Vec::new());
         for (outline, points) in outlines.iter().enumerate() {
@@ -162,7 +167,8 @@ impl Polygon {
         facet::plane(probe, &self.plane)
     }
 
-    /// Whether a line passes through the outlines. Its view holds the polygon within one unit of its centre.
+    /// Whether a line passes through the outlines. Its view holds the polygon within one unit of
+    /// its centre.
     #[inline(always)]
     pub(crate) fn holds<L: Line>(&self, line: &L) -> bool {
         let winding = Winding::new(line);
@@ -192,7 +198,8 @@ impl AlongRay for FromLevel<'_> {
     }
 }
 
-/// Whether a crossing with a plane lies in a box, faces included; an inexact ray that cannot be excluded does.
+/// Whether a crossing with a plane lies in a box, faces included; an inexact ray that cannot be
+/// excluded does.
 #[inline(always)]
 fn within(probe: &Probe<'_>, plane: &ThreePoints, slope: i8, bounds: &Aabb) -> bool {
     let above = |axis, at| {
@@ -205,7 +212,8 @@ fn within(probe: &Probe<'_>, plane: &ThreePoints, slope: i8, bounds: &Aabb) -> b
     })
 }
 
-/// Three vertices that are far from being on one line, such that their normal is that of the first outline.
+/// Three vertices that are far from being on one line, such that their normal is that of the first
+/// outline.
 fn spanning(vertices: &[Point3], first_end: usize) -> Option<Facet> {
     let a = *vertices.first()?;
     let size = vertices.iter().map(|v| (*v - a).max_abs()).fold(0.0, f64::max);
@@ -233,7 +241,8 @@ struct Winding<'a, L> {
     line: &'a L,
     filter: EdgeFilter,
     d: Vec3,
-    /// The axis that tells above from below, and the one along which vertices are moved onto a plane across it.
+    /// The axis that tells above from below, and the one along which vertices are moved onto a
+    /// plane across it.
     level: usize,
     main: usize,
     /// Bounds for all vertices.
@@ -241,7 +250,8 @@ struct Winding<'a, L> {
     level_bound: f64,
 }
 
-/// `((v - o) x d)`'s component that tells whether a vertex is above the ray, as seen along it; times the sign of `d`'s main component.
+/// `((v - o) x d)`'s component that tells whether a vertex is above the ray, as seen along it;
+/// times the sign of `d`'s main component.
 struct Above {
     vertex: Point3,
     level: usize,
@@ -282,7 +292,8 @@ impl<'a, L: Line> Winding<'a, L> {
         for &vertex in outline {
             let to = (vertex, self.above(vertex));
             if from.1 != to.1 {
-                // An edge upward counts where it passes the ray on the positive side, one downward on the negative.
+                // An edge upward counts where it passes the ray on the positive side, one downward
+                // on the negative.
                 let side = self.side(from.0, to.0);
                 if to.1 && side > 0 {
                     turns += 1;
@@ -295,7 +306,8 @@ impl<'a, L: Line> Winding<'a, L> {
         turns
     }
 
-    /// Whether a vertex is above the ray. One that is level with it is below: the ray is moved up, by less than anything.
+    /// Whether a vertex is above the ray. One that is level with it is below: the ray is moved up,
+    /// by less than anything.
     #[inline(always)]
     fn above(&self, v: Point3) -> bool {
         let d = self.d;
@@ -389,7 +401,8 @@ mod tests {
     const COMB: [[f64; 2]; 8] =
         [[0.0, 0.0], [6.0, 0.0], [6.0, 3.0], [4.0, 1.0], [3.0, 3.0], [2.0, 1.0], [1.0, 3.0], [0.0, 1.0]];
 
-    /// Crossings of a half-line in the plane's own (exact) coordinates: nothing shared with the kernel but the answer.
+    /// Crossings of a half-line in the plane's own (exact) coordinates: nothing shared with the
+    /// kernel but the answer.
     struct ExactPolygon {
         /// Each outline's vertices by `(x, y)`.
         outlines: Vec<Vec<[f64; 2]>>,
@@ -414,7 +427,8 @@ mod tests {
             Self::by(&self.normal(), &[0, 1, 2].map(|i| &p[i] - &at[i]))
         }
 
-        /// The winding number at a point of the plane, `(x, y)` times `w > 0`; `None` on an outline.
+        /// The winding number at a point of the plane, `(x, y)` times `w > 0`; `None` on an
+        /// outline.
         fn winding(&self, x: &Exact, y: &Exact, w: &Exact) -> Option<i64> {
             let mut turns = 0;
             for outline in &self.outlines {
@@ -440,7 +454,8 @@ mod tests {
         fn holds(&self, line: &ExactLine) -> Option<bool> {
             let slope = Self::by(&self.normal(), &line.d);
             let height = self.above(&line.o);
-            // slope * (o - at) - height * d, then by Cramer's rule along the axes, which are at right angles here.
+            // slope * (o - at) - height * d, then by Cramer's rule along the axes, which are at
+            // right angles here.
             let at = exact3(self.at.to_array());
             let p = [0, 1, 2].map(|i| &(&(&line.o[i] - &at[i]) * &slope) - &(&line.d[i] * &height));
             let axes = self.axes.map(|a| exact3(a.to_array()));
@@ -543,7 +558,8 @@ mod tests {
 
     #[test]
     fn polygons_are_watertight_against_triangles_and_each_other() {
-        // A square with a square hole, the hole filled by two triangles, the rest around it filled by another polygon.
+        // A square with a square hole, the hole filled by two triangles, the rest around it filled
+        // by another polygon.
         for axes in AXES {
             let axes = axes.map(Vec3::from);
             let at = Vec3::new(1.0, 2.0, 3.0);

@@ -1,4 +1,5 @@
-//! Surfaces that are the zero set of one polynomial: what their authors write, and what follows from it.
+//! Surfaces that are the zero set of one polynomial: what their authors write, and what follows
+//! from it.
 //!
 //! Along a ray the polynomial has one unknown (`roots`); where it is negative is the inside.
 
@@ -24,16 +25,19 @@ pub trait PolynomialSurface<const N: usize>: Send + Sync {
     /// Centre, unit of length and reach.
     fn frame(&self) -> Frame;
 
-    /// `f` along a ray in the frame, times any positive factor: the coefficients of the powers of the ray's parameter, the constant first.
+    /// `f` along a ray in the frame, times any positive factor: the coefficients of the powers of
+    /// the ray's parameter, the constant first.
     fn along<T: Ring>(&self, ray: &RingRay<T>) -> [T; N];
 
-    /// The same in f64, for a ray whose origin and direction are known within `eo` and `ed`. An author who counts the roundings by hand makes it faster.
+    /// The same in f64, for a ray whose origin and direction are known within `eo` and `ed`. An
+    /// author who counts the roundings by hand makes it faster.
     #[inline(always)]
     fn along_in_f64(&self, o: Vec3, d: Vec3, eo: Vec3, ed: Vec3) -> [EFloat; N] {
         self.along(&RingRay { o: within(o, eo), d: within(d, ed), w: EFloat::exact(1.0) })
     }
 
-    /// `f` at the point `p / w`, times any positive factor that depends on `w` only and is 1 for `w = 1`.
+    /// `f` at the point `p / w`, times any positive factor that depends on `w` only and is 1 for
+    /// `w = 1`.
     #[inline(always)]
     fn at<T: Ring>(&self, p: &[T; 3], w: &T) -> T {
         let zero = || T::exact(0.0);
@@ -45,11 +49,13 @@ pub trait PolynomialSurface<const N: usize>: Send + Sync {
         value.clone()
     }
 
-    /// The middle and the half length of the part of the ray, in its parameter, that holds all of the surface strictly within. `None` if it
-    /// passes by, an infinite length if there is no such part.
+    /// The middle and the half length of the part of the ray, in its parameter, that holds all of
+    /// the surface strictly within. `None` if it passes by, an infinite length if there is no such
+    /// part.
     fn stretch(&self, ray: &CentredRay<'_>) -> Option<(f64, f64)>;
 
-    /// The gradient at `y`, up to rounding, and a bound on the Hessian's norm within a 64th of a unit of it.
+    /// The gradient at `y`, up to rounding, and a bound on the Hessian's norm within a 64th of a
+    /// unit of it.
     fn slopes(&self, y: Vec3) -> (Vec3, f64);
 
     /// The change of the gradient along `v`, up to rounding.
@@ -58,7 +64,8 @@ pub trait PolynomialSurface<const N: usize>: Send + Sync {
     /// Coordinates at `y` (close to the surface), where the unit normal is `n`.
     fn chart(&self, y: Vec3, n: Vec3) -> Chart;
 
-    /// A direction in which `f` is not flat, for points where the gradient vanishes or is beyond the range of f64.
+    /// A direction in which `f` is not flat, for points where the gradient vanishes or is beyond
+    /// the range of f64.
     fn tip(&self, y: Vec3) -> Vec3;
 }
 
@@ -82,7 +89,8 @@ fn moved<T: Ring>(ray: RingRay<T>, mid: f64) -> RingRay<T> {
     RingRay { o: [step(&o[0], &d[0], mid), step(&o[1], &d[1], mid), step(&o[2], &d[2], mid)], d, w: ray.w }
 }
 
-/// The exact ray; if it is not exactly known, the one that the rounded numbers describe, and `false`.
+/// The exact ray; if it is not exactly known, the one that the rounded numbers describe, and
+/// `false`.
 fn exact_ray(ray: &CentredRay<'_>) -> (RingRay<Dyadic>, bool) {
     match ray.in_ring::<Dyadic>() {
         Some(exact) => (exact, true),
@@ -212,8 +220,8 @@ impl<Z> Showing<'_, Z> {
     }
 }
 
-/// An endless stretch cut off a little beyond the ends of the window in which roots matter; where that is so long that powers of it might
-/// leave the range of f64 it is left as it is.
+/// An endless stretch cut off a little beyond the ends of the window in which roots matter; where
+/// that is so long that powers of it might leave the range of f64 it is left as it is.
 #[inline(always)]
 fn shorter((mid, half): (f64, f64), (lo, hi): (f64, f64)) -> (f64, f64) {
     const LONGEST: f64 = durer_math::scale::pow2(16);
@@ -227,8 +235,10 @@ fn shorter((mid, half): (f64, f64), (lo, hi): (f64, f64)) -> (f64, f64) {
     }
 }
 
-/// The part of a ray within the ball of radius `reach` about the frame's centre and the slab `low <= o + s d <= high` of one coordinate along it.
-/// All of them have to be larger than what they hold by `margin` at least, which pays for every rounding; the result is no shorter than its square.
+/// The part of a ray within the ball of radius `reach` about the frame's centre and the slab
+/// `low <= o + s d <= high` of one coordinate along it. All of them have to be larger than what
+/// they hold by `margin` at least, which pays for every rounding; the result is no shorter than its
+/// square.
 #[inline(always)]
 pub(crate) fn ball_and_slab(
     ray: &CentredRay<'_>,
@@ -269,7 +279,8 @@ fn outward(s: f64, away: f64) -> f64 {
     }
 }
 
-/// Whether a ray that was spawned on this surface certainly does not meet it again before `end`: as seen from its start, where the side is known.
+/// Whether a ray that was spawned on this surface certainly does not meet it again before `end`: as
+/// seen from its start, where the side is known.
 #[inline(always)]
 fn leaves<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, ray: &CentredRay<'_>, end: f64) -> bool {
     let Some((side, _, start)) = ray.spawned() else { return false };
@@ -343,8 +354,8 @@ fn end_against_root<const N: usize, Z: PolynomialSurface<N>>(
     if lo > found.hi {
         return Greater;
     }
-    // The polynomial at the end's own point, which does not carry the rounding of the closest approach. Rays that were spawned on
-    // this surface start where its sign is certain.
+    // The polynomial at the end's own point, which does not carry the rounding of the closest
+    // approach. Rays that were spawned on this surface start where its sign is certain.
     if lo >= found.alone.0 && hi <= found.alone.1 {
         let (p, e) = ray.point_at_end(end);
         let value =
@@ -436,7 +447,8 @@ fn resolve_here<const N: usize, Z: PolynomialSurface<N>>(
     let y = Vec3::new(s.mul_add(at.d.x, at.o.x), s.mul_add(at.d.y, at.o.y), s.mul_add(at.d.z, at.o.z));
     let e_y = at.o_err + at.d_err * s.abs() + y.abs() * U;
     let (y1, f, g, bend) = project(shape, y);
-    // Far out the square of the gradient may be beyond the range of f64. A part of f has the same zeros.
+    // Far out the square of the gradient may be beyond the range of f64. A part of f has the same
+    // zeros.
     let far = Some(exponent(g.max_abs())).filter(|k| *k > 500 && g.is_finite()).unwrap_or(0);
     let part = |x: f64| scale2(x, -far);
     let (f, g, bend) = (EFloat { v: part(f.v), e: part(f.e) + TINY }, g.map(part), part(bend));
@@ -449,8 +461,9 @@ fn resolve_here<const N: usize, Z: PolynomialSurface<N>>(
     let width = at.width(root.lo, root.hi);
     let dp = (e_y + at.d.abs() * width + (y1 - y).abs() * (1.0 + 4.0 * U) + lost) * (1.0 + 16.0 * U);
 
-    // A start at p ± off n + τ, τ what rounding adds away from the surface, has |f| >= off |G| - h (off² + |τ|²) - η; see `off` of quadrics.
-    // The gradient is taken a little shorter for its own rounding.
+    // A start at p ± off n + τ, τ what rounding adds away from the surface, has |f| >= off |G| - h
+    // (off² + |τ|²) - η; see `off` of quadrics. The gradient is taken a little shorter for its own
+    // rounding.
     let tau = scale2(p.to_vec().max_abs(), -scale) * (6.0 * U) + TINY;
     let length = g.length();
     let sure = length * (1.0 - 1.0 / (1u64 << 20) as f64);
@@ -496,7 +509,8 @@ fn resolve_here<const N: usize, Z: PolynomialSurface<N>>(
     point
 }
 
-/// `y` moved onto the surface by Newton's method along the gradient; with `f`, the gradient and the bound of the Hessian there.
+/// `y` moved onto the surface by Newton's method along the gradient; with `f`, the gradient and the
+/// bound of the Hessian there.
 #[inline(always)]
 fn project<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, mut y: Vec3) -> (Vec3, EFloat, Vec3, f64) {
     let mut f = value(shape, y, Vec3::ZERO);
@@ -522,7 +536,8 @@ fn project<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, mut y: Vec3) -> (
     (y, f, g, bend)
 }
 
-/// How far to go along `n`, either way, until the sign of `f` is certain, also for all points within `e` and a 64th of the way.
+/// How far to go along `n`, either way, until the sign of `f` is certain, also for all points
+/// within `e` and a 64th of the way.
 #[inline(always)]
 fn leave<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, y: Vec3, n: Vec3, e: Vec3) -> f64 {
     let mut way = 64.0 * (e.max_abs() + U * y.max_abs());
@@ -539,7 +554,8 @@ fn leave<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, y: Vec3, n: Vec3, e
     way
 }
 
-/// The exact sign of a quadratic in the ray's own parameter at a root of the surface, for clipping; `None` if the ray is not exactly known.
+/// The exact sign of a quadratic in the ray's own parameter at a root of the surface, for clipping;
+/// `None` if the ray is not exactly known.
 pub(crate) fn sign_at_root<const N: usize, Z: PolynomialSurface<N>>(
     shape: &Z,
     ray: &LocalRay<'_>,
@@ -552,7 +568,8 @@ pub(crate) fn sign_at_root<const N: usize, Z: PolynomialSurface<N>>(
     let (lo, hi) = at.window((root.lo, root.hi));
     let (from, to) = (exact.beside(lo.max(f64::MIN), -1.0), exact.beside(hi.min(f64::MAX), 1.0));
     let roots = exact.isolate(&from, &to);
-    // Of several so close together that `t` cannot tell them apart, the one that goes the root's way.
+    // Of several so close together that `t` cannot tell them apart, the one that goes the root's
+    // way.
     let goes = |before: Ordering, after: Ordering| match (before, after) {
         (Greater, Less) => -1,
         (Less, Greater) => 1,

@@ -13,12 +13,12 @@ pub enum Flow {
 
 /// A receiver of roots.
 pub trait Sink {
-    /// The range of `t` (caller's parameter) in which a root may still matter, both ends included. A producer may skip a
-    /// root whose bracket lies outside, and does nothing else with it.
+    /// The range of `t` (caller's parameter) in which a root may still matter, both ends included.
+    /// A producer may skip a root whose bracket lies outside, and does nothing else with it.
     fn range(&self) -> (f64, f64);
 
-    /// Roots whose brackets begin behind this (caller's parameter) can no longer matter. A producer may stop before them; it enters no
-    /// arithmetic either.
+    /// Roots whose brackets begin behind this (caller's parameter) can no longer matter. A producer
+    /// may stop before them; it enters no arithmetic either.
     fn limit(&self) -> f64 {
         f64::INFINITY
     }
@@ -27,7 +27,8 @@ pub trait Sink {
     fn push(&mut self, root: Root) -> Flow;
 }
 
-/// Passes everything on to a sink of any type: a type of known size that a pointer can name, so that a kernel behind `dyn Sink` is compiled once.
+/// Passes everything on to a sink of any type: a type of known size that a pointer can name, so
+/// that a kernel behind `dyn Sink` is compiled once.
 #[derive(Debug)]
 pub struct Forward<'k, K: ?Sized>(pub &'k mut K);
 

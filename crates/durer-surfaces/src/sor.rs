@@ -1,4 +1,5 @@
-//! POV-Ray's surface of revolution: the squared radius is a cubic of the height between each two points.
+//! POV-Ray's surface of revolution: the squared radius is a cubic of the height between each two
+//! points.
 //!
 //! ```text
 //!    y ▲   · <r_3, h_3>          r²(h) = a₀ + a₁ v + a₂ v² + a₃ v³,  v = h - h_i,   h_i <= h <= h_{i+1}
@@ -7,9 +8,11 @@
 //!      └──· <r_0, h_0> ──▶ r
 //! ```
 //!
-//! The first and the last point only tell the slopes at their neighbours, so the curve is smooth and, along a ray, `x² + z² = r²(y)` a cubic. Which cubic this is
-//! follows from POV-Ray's documentation ("Surface of Revolution"); see `revolution/` for how rays meet it. The exact surface has the coefficients as f64 holds them:
-//! at a height between two of them the radii may differ in the last bits, and what one has and the other has not is a ring that narrow.
+//! The first and the last point only tell the slopes at their neighbours, so the curve is smooth
+//! and, along a ray, `x² + z² = r²(y)` a cubic. Which cubic this is follows from POV-Ray's
+//! documentation ("Surface of Revolution"); see `revolution/` for how rays meet it. The exact
+//! surface has the coefficients as f64 holds them: at a height between two of them the radii may
+//! differ in the last bits, and what one has and the other has not is a ring that narrow.
 
 use crate::revolution::{Profile, SurfaceOfRevolution};
 
@@ -29,7 +32,8 @@ pub enum SorError {
         /// The height.
         height: f64,
     },
-    /// Heights have to ascend: of the points on the curve each from its predecessor, and of the first and last ones not to equal that of the next but one.
+    /// Heights have to ascend: of the points on the curve each from its predecessor, and of the
+    /// first and last ones not to equal that of the next but one.
     #[error("sor: heights must ascend, but {0} comes before {1}")]
     Heights(f64, f64),
     /// The curve has no inside, or its numbers are beyond the range in which it can be described.
@@ -38,7 +42,8 @@ pub enum SorError {
 }
 
 impl SurfaceOfRevolution {
-    /// The surface of revolution through `points`, each a radius and a height; the first and the last one are not on it. Closed by flat ends.
+    /// The surface of revolution through `points`, each a radius and a height; the first and the
+    /// last one are not on it. Closed by flat ends.
     pub fn sor(points: &[[f64; 2]]) -> Result<Self, SorError> {
         if points.len() < 4 {
             return Err(SorError::TooFew(points.len()));

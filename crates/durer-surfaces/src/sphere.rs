@@ -4,9 +4,10 @@
 //!   f(x) = |x - c|² - r² <= 0
 //! ```
 //!
-//! Along a ray that is re-centred to its closest approach to `c`, `B = d·o` is all but zero, so the discriminant is
-//! `r² - |o|²` times `|d|²`: the form of E. Haines, J. Günther, T. Akenine-Möller, "Precision improvements for ray/sphere intersection",
-//! *Ray Tracing Gems* (2019), chapter 7, here without a unit direction.
+//! Along a ray that is re-centred to its closest approach to `c`, `B = d·o` is all but zero, so the
+//! discriminant is `r² - |o|²` times `|d|²`: the form of E. Haines, J. Günther, T. Akenine-Möller,
+//! "Precision improvements for ray/sphere intersection", *Ray Tracing Gems* (2019), chapter 7, here
+//! without a unit direction.
 
 use crate::packet::FilterSource;
 use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, View};
@@ -80,7 +81,8 @@ impl Sphere {
         let r = scale2(self.radius, -scale);
         let (o, d, eo, ed) = (at.o, at.d, at.o_err, at.d_err);
         let (od, dd) = (o.abs(), d.abs());
-        // Dot products of three terms: gamma(3); errors of o and d as for any form (see `Rounded::along`), with Q = 1.
+        // Dot products of three terms: gamma(3); errors of o and d as for any form (see
+        // `Rounded::along`), with Q = 1.
         let (k, up) = (3.0 * U * (1.0 + 16.0 * U), 1.0 + 16.0 * U);
         let a = d.dot(d);
         let inverse = at.inverse_d2();
@@ -88,7 +90,8 @@ impl Sphere {
         let b = o.dot(d);
         let e_b = (k * od.dot(dd) + ed.dot(od) + eo.dot(dd + ed)) * up + FLOOR;
         let origin = at.shift();
-        // A ray that was spawned here starts outside or inside, for certain: if it leaves there is nothing ahead, and from within just the exit.
+        // A ray that was spawned here starts outside or inside, for certain: if it leaves there is
+        // nothing ahead, and from within just the exit.
         let spawned = at.spawned();
         if let Some((side, ..)) = spawned
             && side == RaySide::Front
@@ -108,7 +111,8 @@ impl Sphere {
             c: EFloat::with_error(c, e_c),
         };
         let disc = line.kahan_discriminant();
-        // B is all but zero, so neither root (-B ∓ √disc) / A suffers cancellation, and A is known to a few ulp.
+        // B is all but zero, so neither root (-B ∓ √disc) / A suffers cancellation, and A is known
+        // to a few ulp.
         let (ratio, e_rel) = (disc.e / disc.v, e_a * inverse);
         if disc.v < -disc.e * (1.0 + 4.0 * U) {
             return Reach::Done;
@@ -154,8 +158,8 @@ impl Sphere {
         Reach::Done
     }
 
-    /// The point of a root, if the sphere is neither far away nor seen dimly: what [`View::resolve`] finds, with the gradient `2 y` and the
-    /// Hessian `2 I`.
+    /// The point of a root, if the sphere is neither far away nor seen dimly: what
+    /// [`View::resolve`] finds, with the gradient `2 y` and the Hessian `2 I`.
     #[inline(always)]
     fn quick_point(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> Option<SurfacePoint> {
         let scale = self.scale();
@@ -179,7 +183,8 @@ impl Sphere {
         let tau = scale2(p.x.abs() + p.y.abs() + p.z.abs(), -scale) * (4.0 * U) + FLOOR;
         let away = 2.0 * (2.0 * y1.abs().dot(lost) + 2.0 * (lost.dot(lost) + tau * tau));
         let eta = f.abs() + 2.0 * e_f + away;
-        // off = 2 η / (G + √(G² - 4 h η)) with h = 2 and G = 2 |y1| >= 2 - ..., where 1 - √(1 - x) <= x for x <= 1.
+        // off = 2 η / (G + √(G² - 4 h η)) with h = 2 and G = 2 |y1| >= 2 - ..., where 1 - √(1 - x)
+        // <= x for x <= 1.
         if !(square > 0.75 && eta < 1.0 / (1u64 << 20) as f64 && scale > -900) {
             return None;
         }
@@ -243,7 +248,8 @@ impl QuadricFaces for Sphere {
     }
 }
 
-/// Longitude and latitude: `u = φ / 2π` from the x axis, `v` from 0 at the pole -z to 1 at +z; so `dpdu x dpdv` points outward.
+/// Longitude and latitude: `u = φ / 2π` from the x axis, `v` from 0 at the pole -z to 1 at +z; so
+/// `dpdu x dpdv` points outward.
 ///
 /// At the poles the longitude is taken as 0.
 pub(crate) fn sphere_chart(y: Vec3) -> Chart {

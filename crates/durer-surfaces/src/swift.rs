@@ -1,4 +1,5 @@
-//! A triangle met by a ray that is exactly known, in plain f64 and without re-centring: what nearly all rays need, in a tenth of the steps.
+//! A triangle met by a ray that is exactly known, in plain f64 and without re-centring: what nearly
+//! all rays need, in a tenth of the steps.
 //!
 //! With `C = v0 - o`, edges `e1`, `e2` from `v0`, `N = e1 x e2`, `R = C x d`:
 //!
@@ -6,30 +7,35 @@
 //!     s = T / D,   T = C . N,   D = d . N,        b1 = U / D,   U = R . e2,      b2 = V / D,   V = -R . e1,      W = D - U - V
 //! ```
 //!
-//! (T. Moeller, B. Trumbore, "Fast, minimum storage ray-triangle intersection", Journal of Graphics Tools 2(1), 1997). Let `u = 2^-53`, `c` and `M` the
-//! greatest magnitudes in `C` and `d`, `S` the product and `E` the greater of the edges' sums of magnitudes. Corners and ray are
-//! exact; to first order, per component and counted without fused operations,
+//! (T. Moeller, B. Trumbore, "Fast, minimum storage ray-triangle intersection", Journal of Graphics
+//! Tools 2(1), 1997). Let `u = 2^-53`, `c` and `M` the greatest magnitudes in `C` and `d`, `S` the
+//! product and `E` the greater of the edges' sums of magnitudes. Corners and ray are exact; to
+//! first order, per component and counted without fused operations,
 //!
 //! ```text
 //!     C   u c        e   u |e|        R   4 u c M + 2 u c M            U, V   (6 + 6 + 2) u c M E
 //!     N   4 u S in sum                D   (3 + 4) u M S                W      9 u M S + 34 u c M E
 //! ```
 //!
-//! The quotient alone would carry the error of `N` over the whole way. So it is corrected once: with `p = C - s d`, which errs by `u |C| + u |p|`,
+//! The quotient alone would carry the error of `N` over the whole way. So it is corrected once:
+//! with `p = C - s d`, which errs by `u |C| + u |p|`,
 //!
 //! ```text
 //!     s + N . p / D     errs by  (u sum |N_i C_i| + 8 u S |p|) / |D|  and what D and two roundings do to the correction.
 //! ```
 //!
-//! Near the start that is not enough: `p` is as long as the triangle, `s` is not. There `T / D` is found once more, in double-double, from differences that
-//! are exact. Its operations err by `4 u^2` (products), `2 u^2` (by an f64), `3 u^2` (sums) and `15 u^2` (the quotient) of what they give: see [`Dd`]. So
+//! Near the start that is not enough: `p` is as long as the triangle, `s` is not. There `T / D` is
+//! found once more, in double-double, from differences that are exact. Its operations err by
+//! `4 u^2` (products), `2 u^2` (by an f64), `3 u^2` (sums) and `15 u^2` (the quotient) of what they
+//! give: see [`Dd`]. So
 //!
 //! ```text
 //!     N   (4 + 3) u^2 S in sum        T   (7 + 4 + 6) u^2 c S          D   (7 + 2 + 6) u^2 M S
 //!     s   errs by  17 u^2 S (c + |s| M) / |D|  +  15 u^2 |s|,  and by u |s| where it is rounded.
 //! ```
 //!
-//! What is not certain by these bounds, or known less well than it should be, is left to [`facet`](crate::facet).
+//! What is not certain by these bounds, or known less well than it should be, is left to
+//! [`facet`](crate::facet).
 
 use crate::facet::Facet;
 use crate::planar::TINY;
@@ -40,14 +46,17 @@ use durer_math::{Dd, Isa, Point3, U, Vec3};
 
 /// Second-order terms, and the roundings of the bounds.
 const PAYS: f64 = 1.0 + 256.0 * U;
-/// A bracket this wide, relative to the parameter or to `size / |d|`, is narrow: 32 ulp at their smallest.
+/// A bracket this wide, relative to the parameter or to `size / |d|`, is narrow: 32 ulp at their
+/// smallest.
 const NARROW: f64 = 32.0 * U;
-/// The error of the volumes over their sum up to which tags are taken: they are then within twice this of the exact coordinates.
+/// The error of the volumes over their sum up to which tags are taken: they are then within twice
+/// this of the exact coordinates.
 const TAG: f64 = durer_math::scale::pow2(-32);
 /// Products of lengths between these do not leave the range of f64, whatever the direction.
 const RANGE: (f64, f64) = (durer_math::scale::pow2(-400), durer_math::scale::pow2(400));
 
-/// The same for the second computation, with low parts of products: what underflow takes from these, below `2^-1071`, moves `s` by less than [`LOST`].
+/// The same for the second computation, with low parts of products: what underflow takes from
+/// these, below `2^-1071`, moves `s` by less than [`LOST`].
 const NEAR: (f64, f64) = (durer_math::scale::pow2(-200), durer_math::scale::pow2(100));
 const LOST: f64 = durer_math::scale::pow2(-700);
 
@@ -128,7 +137,8 @@ pub(crate) fn meet(ray: &LocalRay<'_>, facet: &Facet, face: u32, range: (f64, f6
     }
     let inverse = 1.0 / along;
     let s = c.dot(n) * inverse;
-    // What is left of the way to the plane; now the error of N counts only as far as the corners are from there.
+    // What is left of the way to the plane; now the error of N counts only as far as the corners
+    // are from there.
     let p = Vec3::new((-s).mul_add(d.x, c.x), (-s).mul_add(d.y, c.y), (-s).mul_add(d.z, c.z));
     let step = p.dot(n) * inverse;
     let s = s + step;
@@ -188,14 +198,16 @@ pub struct Crossings {
     pub s: F8,
     /// Who certainly meets its triangle, within its range.
     pub met: M8,
-    /// Of whom nothing is certain: it has to ask alone. Who neither meets its triangle nor is in doubt misses it.
+    /// Of whom nothing is certain: it has to ask alone. Who neither meets its triangle nor is in
+    /// doubt misses it.
     pub open: M8,
 }
 
-/// The first of the two computations above for eight rays at once, each with a triangle of its own and its largest component of `d` in `[1, 2)`; compiled for lanes by
-/// [`Isa::run_in_lanes`].
+/// The first of the two computations above for eight rays at once, each with a triangle of its own
+/// and its largest component of `d` in `[1, 2)`; compiled for lanes by [`Isa::run_in_lanes`].
 ///
-/// A crossing counts if three times its error is within the range: once for itself, once for the rounding of `s + 3 err`, which is below `u |s| + 3 u err` and so below `1.01 err`.
+/// A crossing counts if three times its error is within the range: once for itself, once for the
+/// rounding of `s + 3 err`, which is below `u |s| + 3 u err` and so below `1.01 err`.
 #[inline(always)]
 pub fn meet_eight(o: Vec3<F8>, d: Vec3<F8>, range: (F8, F8), corners: [Vec3<F8>; 3]) -> Crossings {
     let all = F8::splat;
@@ -251,7 +263,8 @@ mod tests {
                     let facet = [dice.vector(), dice.vector(), dice.vector()].map(Vec3::to_point);
                     let [a, b, c] = facet;
                     let (p, q) = (dice.unit(), dice.unit());
-                    // Through the triangle, near it, or through one of its edges, from afar and from nearby.
+                    // Through the triangle, near it, or through one of its edges, from afar and
+                    // from nearby.
                     let at = match dice.below(3) {
                         0 => a + (b - a) * (0.4 * p) + (c - a) * (0.4 * q),
                         1 => a + (b - a) * (2.0 * p) + (c - a) * (2.0 * q),

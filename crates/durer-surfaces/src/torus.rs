@@ -6,10 +6,11 @@
 //!     ├──── R ────┼r┤
 //! ```
 //!
-//! `a` is the coordinate along the axis. `f` is `((ρ - R)² + a² - r²) ((ρ + R)² + a² - r²)` in a form that has no root in it and whose terms are
-//! no larger than `(2 R r)²` near the surface. Along a ray it is a quartic: S. D. Roth, "Ray casting for modeling solids", *Computer Graphics
-//! and Image Processing* 18 (1982). With `r > R` the tube meets itself on the axis (a *spindle*); what is inside twice is then outside, as the
-//! sign of `f` has it. `r = R` is a *horn*.
+//! `a` is the coordinate along the axis. `f` is `((ρ - R)² + a² - r²) ((ρ + R)² + a² - r²)` in a
+//! form that has no root in it and whose terms are no larger than `(2 R r)²` near the surface.
+//! Along a ray it is a quartic: S. D. Roth, "Ray casting for modeling solids", *Computer Graphics
+//! and Image Processing* 18 (1982). With `r > R` the tube meets itself on the axis (a *spindle*);
+//! what is inside twice is then outside, as the sign of `f` has it. `r = R` is a *horn*.
 
 use crate::packet::{FilterSource, Lathe, LatheWall};
 use crate::polynomial_surface::{self, PolynomialSurface};
@@ -62,7 +63,8 @@ pub enum TorusError {
 }
 
 impl Torus {
-    /// The torus about `axis` through `centre` whose tube of radius `minor` goes round a circle of radius `major`.
+    /// The torus about `axis` through `centre` whose tube of radius `minor` goes round a circle of
+    /// radius `major`.
     pub fn new(centre: Point3, axis: Axis, major: f64, minor: f64) -> Result<Self, TorusError> {
         if !centre.is_finite() {
             return Err(TorusError::Centre(centre));
@@ -175,7 +177,8 @@ impl PolynomialSurface<5> for Torus {
         let (major, minor) = self.radii();
         let (big, small) = (major * major, minor * minor);
         let (od, dd) = (o.abs() + eo, d.abs() + ed);
-        // Dot products of three terms round three times; errors of the inputs enter to first order, the others' bounds included.
+        // Dot products of three terms round three times; errors of the inputs enter to first order,
+        // the others' bounds included.
         let (q2, q1, oo) = (d.dot(d), o.dot(d), o.dot(o));
         let q0 = oo - (big + small);
         let e2 = (3.0 * U).mul_add(q2, 2.0 * ed.dot(dd));
@@ -290,8 +293,8 @@ impl Surface for Torus {
     }
 
     fn bounds_through(&self, map: &Affine) -> Aabb {
-        // A ball's image that goes round a circle's: of the ellipsoid the half-widths are r times the lengths of L's rows, of the ellipse R times those of
-        // the rows' parts across the axis.
+        // A ball's image that goes round a circle's: of the ellipsoid the half-widths are r times
+        // the lengths of L's rows, of the ellipse R times those of the rows' parts across the axis.
         let centre = map.bounds(&Aabb::new(self.centre, self.centre));
         let half = map.linear().map(|row| {
             let mut flat = row;
@@ -385,7 +388,8 @@ mod tests {
         ZeroOracle { terms, size: torus.major + torus.minor }
     }
 
-    /// Points with whole coordinates for R = 5 k and r = 3 k, and tangents there: circles of latitude, of the tube, Villarceau's.
+    /// Points with whole coordinates for R = 5 k and r = 3 k, and tangents there: circles of
+    /// latitude, of the tube, Villarceau's.
     fn features(torus: &Torus) -> Vec<Feature> {
         let k = torus.major / 5.0;
         let (e, f) = torus.across();
@@ -403,7 +407,8 @@ mod tests {
                 add(p, d);
             }
         }
-        // Lines in the plane that touches it twice: sin = r / R = 3/5; they touch at ρ = 4 R / 5, a = ± 4 r / 5.
+        // Lines in the plane that touches it twice: sin = r / R = 3/5; they touch at ρ = 4 R / 5, a =
+        // ± 4 r / 5.
         let (touch, other) = (at(3.2, 0.0, 2.4), at(-3.2, 0.0, -2.4));
         add(touch, touch - other);
         add(touch, at(0.0, 1.0, 0.0));

@@ -6,7 +6,8 @@
 //!         v0────v1
 //! ```
 //!
-//! Which edges belong to the triangle is told by the rule of `edges.rs`: each edge to exactly one of its two sides, for each ray.
+//! Which edges belong to the triangle is told by the rule of `edges.rs`: each edge to exactly one
+//! of its two sides, for each ray.
 
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
@@ -57,13 +58,15 @@ impl Triangle {
         Ok(Self { vertices, normals: None, uv: None })
     }
 
-    /// The triangle with corners that are known to be finite and not in line, such as those of a mesh's face: nothing is looked at again.
+    /// The triangle with corners that are known to be finite and not in line, such as those of a
+    /// mesh's face: nothing is looked at again.
     #[inline(always)]
     pub fn known(vertices: [Point3; 3]) -> Self {
         Self { vertices, normals: None, uv: None }
     }
 
-    /// The same triangle, shaded with normals that are interpolated between these at the vertices (of any length).
+    /// The same triangle, shaded with normals that are interpolated between these at the vertices
+    /// (of any length).
     pub fn with_normals(mut self, normals: [Normal3; 3]) -> Result<Self, TriangleError> {
         if let Some(n) = normals.into_iter().find(|n| n.normalized().is_none()) {
             return Err(TriangleError::Normal(n));
@@ -72,7 +75,8 @@ impl Triangle {
         Ok(self)
     }
 
-    /// The same triangle with these texture coordinates at the vertices. Without, they are (0, 0), (1, 0), (0, 1).
+    /// The same triangle with these texture coordinates at the vertices. Without, they are (0, 0),
+    /// (1, 0), (0, 1).
     pub fn with_uv(mut self, uv: [[f64; 2]; 3]) -> Result<Self, TriangleError> {
         if let Some(bad) = uv.into_iter().find(|uv| !uv.iter().all(|x| x.is_finite())) {
             return Err(TriangleError::Uv(bad));
@@ -150,7 +154,8 @@ mod tests {
     use core::cmp::Ordering;
     use durer_math::Vec3;
 
-    /// The triangle by big integers, ties told by the rule: an oracle of its own, since which edges belong to it depends on the ray.
+    /// The triangle by big integers, ties told by the rule: an oracle of its own, since which edges
+    /// belong to it depends on the ray.
     struct ExactTriangle {
         v: [[Exact; 3]; 3],
         n: [Exact; 3],
@@ -176,7 +181,8 @@ mod tests {
             Self { v, n, size: planar::middle(&t.bounds()).1 }
         }
 
-        /// Moves the line's origin by `2^-3000` and `2^-6000`, far less than any two different numbers here differ, instead of by symbols.
+        /// Moves the line's origin by `2^-3000` and `2^-6000`, far less than any two different
+        /// numbers here differ, instead of by symbols.
         fn moved(line: &ExactLine) -> ExactLine {
             let size: Vec<Exact> = line.d.iter().map(|d| d.clone().abs()).collect();
             let greater = |i: usize, j: usize| (&size[i] - &size[j]).sign().is_ge();

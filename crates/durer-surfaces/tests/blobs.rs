@@ -1,4 +1,5 @@
-//! Blobs against spheres, against the same sum as a formula on the interval tape, and against exact arithmetic.
+//! Blobs against spheres, against the same sum as a formula on the interval tape, and against exact
+//! arithmetic.
 
 mod common;
 #[path = "common/blob_formula.rs"]
@@ -36,7 +37,8 @@ fn a_blob_of_one_ball_is_a_ball() {
     assert!(met.simple > 6_000 && met.clusters * 1000 < met.simple && met.median() < 1000.0);
 }
 
-/// Brackets are those of the exact placement, however much its inverse makes of a rounding; and the crossings next to a tangent are simple ones.
+/// Brackets are those of the exact placement, however much its inverse makes of a rounding; and the
+/// crossings next to a tangent are simple ones.
 #[test]
 fn a_shear_widens_no_bracket() {
     let one = Blob::new(0.25, &[ball(Point3::ORIGIN, 2.0, 1.0)]).unwrap();
@@ -66,12 +68,14 @@ fn a_shear_widens_no_bracket() {
     assert!(met > 1900 && clusters == 0 && median < 1000.0, "{clusters} of {met}: {median}");
 }
 
-/// What f64 cannot tell of the sum of placed fields, double-double can: rays that miss a surface, or cut it, by a millionth of a millionth of its size.
+/// What f64 cannot tell of the sum of placed fields, double-double can: rays that miss a surface,
+/// or cut it, by a millionth of a millionth of its size.
 #[test]
 fn next_to_a_tangent_there_are_two_crossings_or_none() {
     let squeeze = [[4.0, 0.0, -3.0], [0.0, 5.0, 0.0], [3.0, 0.0, 4.0]];
     let place = Affine::new(squeeze, Point3::new(-1.0, 0.5, 1000.0)).unwrap();
-    // Far from the middle of what both reach, so that it is known badly in f64 how strong it is; alone it is a ball of radius 1.
+    // Far from the middle of what both reach, so that it is known badly in f64 how strong it is;
+    // alone it is a ball of radius 1.
     let small = BlobComponent { place, ..ball(Point3::new(0.0, 0.0, -200.0), 2.0_f64.sqrt(), 4.0) };
     let parts = [small, ball(Point3::new(-900.0, 0.0, 0.0), 500.0, 1.0)];
     let blob = Blob::new(1.0, &parts).unwrap();
@@ -94,7 +98,8 @@ fn next_to_a_tangent_there_are_two_crossings_or_none() {
     assert!(two > 150 && none > 150, "{two} {none}");
 }
 
-/// A crossing between the end of a range and the next number: it is in the range that goes on from there and in no other, of whatever length.
+/// A crossing between the end of a range and the next number: it is in the range that goes on from
+/// there and in no other, of whatever length.
 #[test]
 fn a_crossing_next_to_an_end_is_on_one_side_of_it() {
     let blob = Blob::new(9.0, &[ball(Point3::ORIGIN, 18.0, 16.0)]).unwrap();
@@ -175,7 +180,8 @@ fn a_blob_of_one_sausage_is_a_cylinder_with_round_ends() {
     assert!(met.simple > 1_000 && met.clusters * 100 < met.simple, "{} {}", met.simple, met.clusters);
 }
 
-/// The sign of `sum of S (1 - d^2/R^2)^2 - T` at `o + t d`, all in exact numbers; radii are powers of two.
+/// The sign of `sum of S (1 - d^2/R^2)^2 - T` at `o + t d`, all in exact numbers; radii are powers
+/// of two.
 fn exact_sign(parts: &[BlobComponent], threshold: f64, ray: &Ray, t: f64) -> std::cmp::Ordering {
     let x = |x: f64| Dyadic::new(x).unwrap();
     let p: [Dyadic; 3] = core::array::from_fn(|i| x(ray.origin[i]) + x(t) * x(ray.direction[i]));
@@ -321,7 +327,8 @@ fn through(dice: &mut Dice, p: Point3, direction: Vec3) -> Ray {
 
 #[test]
 fn where_fields_begin_and_end_nothing_is_lost() {
-    // Small numbers, so that rays pass exactly where fields begin, along their tangents, and through points where the sum is the threshold.
+    // Small numbers, so that rays pass exactly where fields begin, along their tangents, and
+    // through points where the sum is the threshold.
     let mut dice = Dice(19);
     let mut met = (0, 0);
     for case in 0..24 {
@@ -364,7 +371,8 @@ fn where_fields_begin_and_end_nothing_is_lost() {
 
 #[test]
 fn a_crossing_where_another_field_begins_is_one_simple_crossing() {
-    // The surface of the first ball, at a distance of 0.5 from its centre, meets the very point at which the field of the second begins.
+    // The surface of the first ball, at a distance of 0.5 from its centre, meets the very point at
+    // which the field of the second begins.
     let parts = [ball(Point3::ORIGIN, 1.0, 1.0), ball(Point3::new(1.5, 0.0, 0.0), 1.0, 1.0)];
     let blob = Blob::new(0.5625, &parts).unwrap();
     for (d, count) in

@@ -1,4 +1,5 @@
-//! Deformed solids against multi-precision values of the same maps written another way, against solids that they are, and against themselves.
+//! Deformed solids against multi-precision values of the same maps written another way, against
+//! solids that they are, and against themselves.
 
 mod common;
 #[path = "common/warp_witness.rs"]
@@ -232,7 +233,8 @@ fn a_tapered_block_is_a_piece_of_a_pyramid() {
     assert!(met > 2000, "{met}");
 }
 
-/// Each root of one has a root of the other in an overlapping bracket; where one cannot tell, only the sums of signs count.
+/// Each root of one has a root of the other in an overlapping bracket; where one cannot tell, only
+/// the sums of signs count.
 fn same(a: &[Root], b: &[Root]) -> bool {
     let sure = |roots: &[Root]| roots.iter().all(|r| r.kind == RootKind::Simple);
     if sure(a) && sure(b) {
@@ -319,7 +321,8 @@ fn a_deformed_union_is_the_union_of_the_deformed() {
 
 #[test]
 fn a_bent_cylinder_is_a_piece_of_a_torus() {
-    // 180 degrees along 2: R = 2 / pi, which is no f64, so that roots agree to rounding times their condition.
+    // 180 degrees along 2: R = 2 / pi, which is no f64, so that roots agree to rounding times their
+    // condition.
     let pipe = {
         let (a, b) = (Point3::new(0.0, 0.0, 0.0), Point3::new(0.0, 0.0, 2.0));
         let bounds = Aabb::new(Point3::new(-0.25, -0.25, 0.0), Point3::new(0.25, 0.25, 2.0));
@@ -426,7 +429,8 @@ fn what_is_not_one_to_one_is_refused() {
     // The centre at 0.2, the block up to 0.25.
     let near = (2.0_f64 / 0.2).to_degrees();
     assert!(matches!(refused(bend(near, -1.0, 1.0)), DeformError::Centre { .. }));
-    // Thin enough to come round: the piece of 2.5 by 360 degrees has R = 0.398; by 320 it is told apart from itself.
+    // Thin enough to come round: the piece of 2.5 by 360 degrees has R = 0.398; by 320 it is told
+    // apart from itself.
     assert!(matches!(refused(bend(360.0, -1.0, 1.5)), DeformError::Round { .. }));
     assert!(block.deformed(&bend(320.0, -1.0, 1.5)).is_ok());
     assert!(matches!(refused(bend(10.0, 1.0, 1.0)), DeformError::Stretch { warp: "bend", .. }));
@@ -463,7 +467,8 @@ fn formulas_without_an_inverse_are_refused() {
     // Flattens.
     let flat = formula_map(|_, [x, y, _]| [x, y, y], 1.0);
     assert!(matches!(refused(&flat), DeformError::Injective(_)));
-    // A turn about z by an angle that grows with x: its determinant at a point is never zero where it turns little, and a box sees more.
+    // A turn about z by an angle that grows with x: its determinant at a point is never zero where
+    // it turns little, and a box sees more.
     let turning = |rate: f64| {
         move |b: &mut Builder, [x, y, z]: [NodeId; 3]| {
             let rate = b.constant(rate).unwrap();
@@ -561,7 +566,8 @@ fn a_ray_in_a_face_that_two_parts_share_is_inside() {
     };
     let twist = Warp::Twist { axis: Vec3::Y, degrees: 50.0, from: 0.0, to: 1.0 };
     let low = block([-0.5, 0.0, -0.5], [0.5, 0.5, 0.5]);
-    // On all of it, on a half, on two quarters that are apart; the solid that has just that as its section at 0.5.
+    // On all of it, on a half, on two quarters that are apart; the solid that has just that as its
+    // section at 0.5.
     let upper: [&[LevelSet]; 3] = [
         &[block([-0.5, 0.5, -0.5], [0.5, 1.0, 0.5])],
         &[block([0.0, 0.5, -0.5], [0.5, 1.0, 0.5])],

@@ -1,4 +1,5 @@
-//! Formulas as surfaces against the same surfaces as quadrics, against other formulas of the same set, and against themselves.
+//! Formulas as surfaces against the same surfaces as quadrics, against other formulas of the same
+//! set, and against themselves.
 
 mod common;
 #[path = "common/formulas.rs"]
@@ -60,7 +61,8 @@ fn quartic_torus(major: f64, minor: f64) -> Formula {
     p.done(f)
 }
 
-/// Rays from anywhere through points near the surface of a unit ball, often all but tangent to it, with all kinds of ranges.
+/// Rays from anywhere through points near the surface of a unit ball, often all but tangent to it,
+/// with all kinds of ranges.
 fn ray_at_a_ball(dice: &mut Dice, radius: f64) -> Ray {
     let direction = dice.vector();
     let across = direction.cross(dice.vector());
@@ -80,7 +82,8 @@ fn ray_at_a_ball(dice: &mut Dice, radius: f64) -> Ray {
     }
 }
 
-/// Each root of one has a root of the other in an overlapping bracket; where one could not tell roots apart only the parity counts.
+/// Each root of one has a root of the other in an overlapping bracket; where one could not tell
+/// roots apart only the parity counts.
 fn same(a: &[Root], b: &[Root]) -> bool {
     let sure = |roots: &[Root]| roots.iter().all(|r| r.kind == RootKind::Simple);
     if sure(a) && sure(b) {
@@ -107,7 +110,8 @@ fn a_sphere_as_a_formula_is_the_sphere() {
             met += a.len();
             unsure += a.iter().filter(|r| r.kind == RootKind::Cluster).count();
             let unit = ray.direction.length();
-            // Brackets are as wide as the crossing is ill-conditioned: those of rays that do not graze are looked at.
+            // Brackets are as wide as the crossing is ill-conditioned: those of rays that do not
+            // graze are looked at.
             let o = ray.origin.to_vec();
             let apart = o.cross(ray.direction).length() / unit;
             if apart > 0.9 * r {
@@ -141,7 +145,8 @@ fn wavy() -> Formula {
     p.done(f)
 }
 
-/// Rays that look ask less of a bracket: the same roots, in brackets about the narrow ones, no wider than they may be.
+/// Rays that look ask less of a bracket: the same roots, in brackets about the narrow ones, no
+/// wider than they may be.
 #[test]
 fn who_looks_roughly_sees_the_same_roots() {
     let mut dice = Dice(40);
@@ -159,7 +164,8 @@ fn who_looks_roughly_sees_the_same_roots() {
             for root in rough.iter().filter(|r| r.kind == RootKind::Simple) {
                 met += 1;
                 let most = durer_surfaces::PREVIEW_WIDTH * root.t.abs().max(3.0 / ray.direction.length());
-                // Where the ray is not known better, or is all but tangent, no bracket can be that narrow.
+                // Where the ray is not known better, or is all but tangent, no bracket can be that
+                // narrow.
                 let clear = |r: &Root| r.hi - r.lo < most / 1024.0 && r.lo <= root.hi && root.lo <= r.hi;
                 wide += usize::from(narrow.iter().any(clear) && root.hi - root.lo > 2.0 * most);
             }
@@ -169,7 +175,8 @@ fn who_looks_roughly_sees_the_same_roots() {
     }
 }
 
-/// A ball, cut off: rays that cut its rim by less than pictures care for meet it there all the same.
+/// A ball, cut off: rays that cut its rim by less than pictures care for meet it there all the
+/// same.
 #[test]
 fn pictures_see_as_much_of_a_rim() {
     let held = AxisBox::new(Point3::new(-2.0, -2.0, -2.0), Point3::new(2.0, 0.5, 2.0)).unwrap();
@@ -224,7 +231,8 @@ fn two_formulas_of_a_torus_agree() {
 
 #[test]
 fn a_container_closes_what_it_cuts() {
-    // A ball of radius 1.2 in a cube of half-width 1: a rounded cube whose faces are partly the container's.
+    // A ball of radius 1.2 in a cube of half-width 1: a rounded cube whose faces are partly the
+    // container's.
     let closed = iso(&sphere(0.0, 1.2), 1.0);
     let open = iso(&sphere(0.0, 1.2), 1.0).without_caps();
     let (ball, block) = (
@@ -305,7 +313,8 @@ fn rays_leave_what_they_were_spawned_on() {
 
 #[test]
 fn no_root_is_lost_where_a_formula_is_wild() {
-    // sin(40 x) sin(40 y) sin(40 z) + 0.1: hundreds of sheets, none of which a sample may find that we do not.
+    // sin(40 x) sin(40 y) sin(40 z) + 0.1: hundreds of sheets, none of which a sample may find that
+    // we do not.
     let (mut p, xyz) = Pen::new();
     let forty = p.c(40.0);
     let waves = xyz.map(|x| {
@@ -396,7 +405,8 @@ fn touches_of_the_container_are_told() {
     }
 }
 
-/// Next to its pole the ball is within the cushion by less than any bracket: a ray that starts outside of it and goes away meets nothing.
+/// Next to its pole the ball is within the cushion by less than any bracket: a ray that starts
+/// outside of it and goes away meets nothing.
 #[test]
 fn a_start_outside_the_container_is_outside() {
     let (mut p, [x, y, z]) = Pen::new();
@@ -419,7 +429,8 @@ fn a_start_outside_the_container_is_outside() {
     assert_eq!(met(&Ray::new(back.origin, -direction)), [-1, 1]);
 }
 
-/// A rim is where a formula's surface meets its container: a ray that passes there within rounding meets it once, if at all, or is inside for longer than that.
+/// A rim is where a formula's surface meets its container: a ray that passes there within rounding
+/// meets it once, if at all, or is inside for longer than that.
 #[test]
 fn a_rim_within_rounding_is_one_touch() {
     let (mut p, [x, y, _]) = Pen::new();
@@ -442,7 +453,8 @@ fn a_rim_within_rounding_is_one_touch() {
     assert!(touches > 200, "{touches}");
 }
 
-/// Along a cone's line within rounding nothing can be told; a cluster of it holds where the ball is entered and left, where the formula's sign is certain by chance.
+/// Along a cone's line within rounding nothing can be told; a cluster of it holds where the ball is
+/// entered and left, where the formula's sign is certain by chance.
 #[test]
 fn a_cluster_holds_the_rims_at_its_ends() {
     let (mut p, inputs) = Pen::new();
@@ -463,7 +475,8 @@ fn a_cluster_holds_the_rims_at_its_ends() {
     assert!(roots[0].lo <= enters && leaves <= roots[0].hi, "{roots:?}");
 }
 
-/// Next to a wall that is a plane within rounding, where the formula cannot be told from zero in the container's own face: the root before that is one by itself.
+/// Next to a wall that is a plane within rounding, where the formula cannot be told from zero in
+/// the container's own face: the root before that is one by itself.
 #[test]
 fn a_root_before_a_rim_is_told() {
     let (mut p, [x, y, z]) = Pen::new();

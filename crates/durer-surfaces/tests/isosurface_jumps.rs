@@ -36,7 +36,8 @@ fn jumps_are_walls_and_undefined_is_nothing() {
     assert!(roots.len() == 2 && (roots[1].t - 3.1).abs() < 1e-14, "{roots:?}");
 }
 
-/// Where two that have one value meet nothing jumps: rays that cross there, or go along it, cross simply.
+/// Where two that have one value meet nothing jumps: rays that cross there, or go along it, cross
+/// simply.
 #[test]
 fn what_is_joined_is_no_wall() {
     let (mut p, [x, y, _]) = Pen::new();
@@ -71,7 +72,8 @@ fn what_is_joined_is_no_wall() {
     }
 }
 
-/// Sums of whole numbers are exact: of `mod(floor(x) + floor(y) + 10, 2) = 1/2`, a checker, the walls are met, and nothing between them.
+/// Sums of whole numbers are exact: of `mod(floor(x) + floor(y) + 10, 2) = 1/2`, a checker, the
+/// walls are met, and nothing between them.
 #[test]
 fn sums_of_whole_numbers_are_whole() {
     let (mut p, [x, y, _]) = Pen::new();
@@ -95,7 +97,9 @@ fn sums_of_whole_numbers_are_whole() {
     }
 }
 
-/// So are their products, and their quotients where they are: of `k mod 3 = 0` with `k = floor(x)`, written as `k - 3 floor(k/3)`, the walls are met, though what is chosen below zero, where it never is, would fill everything.
+/// So are their products, and their quotients where they are: of `k mod 3 = 0` with `k = floor(x)`,
+/// written as `k - 3 floor(k/3)`, the walls are met, though what is chosen below zero, where it
+/// never is, would fill everything.
 #[test]
 fn products_and_quotients_of_whole_numbers_are_exact() {
     let (mut p, [x, _, _]) = Pen::new();
@@ -121,7 +125,8 @@ fn products_and_quotients_of_whole_numbers_are_exact() {
     }
 }
 
-/// A wall, where a formula jumps, has the normal of what decides about the side, outward as the ray goes.
+/// A wall, where a formula jumps, has the normal of what decides about the side, outward as the ray
+/// goes.
 #[test]
 fn walls_have_the_normals_of_what_jumps() {
     let (mut p, [x, y, z]) = Pen::new();
@@ -184,7 +189,8 @@ fn parts(p: &mut Pen, x: NodeId) -> Vec<NodeId> {
     vec![down, p.add(up, one), rest, chosen]
 }
 
-/// A saw `|frac(x) - 1/2| - y` does not jump where `frac` does: a line meets its teeth and nothing else.
+/// A saw `|frac(x) - 1/2| - y` does not jump where `frac` does: a line meets its teeth and nothing
+/// else.
 #[test]
 fn what_jumps_to_and_fro_is_no_wall() {
     for which in 0..4 {
@@ -215,8 +221,9 @@ fn what_jumps_to_and_fro_is_no_wall() {
     }
 }
 
-/// An angle jumps behind the axis, and so do its whole turns: a gear of seven teeth, `r + cos(7 (a - 2 pi floor(a / 2 pi))) / 8 = 1`, is round there. Rays through
-/// its axis meet it twice.
+/// An angle jumps behind the axis, and so do its whole turns: a gear of seven teeth,
+/// `r + cos(7 (a - 2 pi floor(a / 2 pi))) / 8 = 1`, is round there. Rays through its axis meet it
+/// twice.
 #[test]
 fn angles_that_begin_anew_are_no_walls() {
     let (mut p, [x, y, _]) = Pen::new();
@@ -237,7 +244,8 @@ fn angles_that_begin_anew_are_no_walls() {
     let one = p.c(1.0);
     let f = p.sub(sum, one);
     let gear = iso(&p.done(f), 1.5);
-    // Near the axis, not through it: there is no angle on it. The last ones cross the place where the angle jumps inside and outside of the gear.
+    // Near the axis, not through it: there is no angle on it. The last ones cross the place where
+    // the angle jumps inside and outside of the gear.
     for (o, d) in [
         ([3.0, 1e-3, 0.1], [-1.0, 0.0, 0.0]),
         ([3.0, 0.25, 0.1], [-2.0, 0.0625, 0.0]),
@@ -257,7 +265,8 @@ fn angles_that_begin_anew_are_no_walls() {
     assert!((at.ng.to_vec() + Vec3::new(1.0, 0.0, 0.0)).length() < 1e-9, "{at:?} {found:?}");
 }
 
-/// What is chosen by a sign: `|x|` as `x < 0 ? -x : x` is nowhere a wall, and three jumps at one place are told apart.
+/// What is chosen by a sign: `|x|` as `x < 0 ? -x : x` is nowhere a wall, and three jumps at one
+/// place are told apart.
 #[test]
 fn choices_that_meet_are_no_walls() {
     let (mut p, [x, y, z]) = Pen::new();
@@ -276,7 +285,8 @@ fn choices_that_meet_are_no_walls() {
     for d in [[1.0, 0.0, 0.0], [1.0, 2.0, 0.0], [1.0, -2.0, 4.0], [0.0, 0.0, 1.0]] {
         let d = Vec3::from(d);
         let found = all(&diamond, &Ray::new(Point3::ORIGIN - d * 8.0, d));
-        // Through its centre, where all three choices meet; the crossings lie at the corner or edge of a facet, or in it.
+        // Through its centre, where all three choices meet; the crossings lie at the corner or edge
+        // of a facet, or in it.
         assert_eq!(found.iter().map(|root| root.sign).collect::<Vec<_>>(), [-1, 1], "{d:?}: {found:?}");
         let l1 = d.abs().dot(Vec3::new(1.0, 1.0, 1.0));
         for (root, t) in found.iter().zip([8.0 - 1.0 / l1, 8.0 + 1.0 / l1]) {
@@ -287,7 +297,8 @@ fn choices_that_meet_are_no_walls() {
     }
 }
 
-/// Two choices by one sign: `a b = 2` on both sides, and -2 between them only where zero belongs to different sides.
+/// Two choices by one sign: `a b = 2` on both sides, and -2 between them only where zero belongs to
+/// different sides.
 #[test]
 fn choices_by_one_sign_go_together() {
     for apart in [false, true] {

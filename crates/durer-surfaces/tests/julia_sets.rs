@@ -31,7 +31,8 @@ fn a_julia_set_of_zero_is_a_ball() {
             let ray = dice.ray();
             let roots = all(&set, &ray);
             for root in &roots {
-                // Distance from the origin at both ends of the bracket, in ray parameters times their speed.
+                // Distance from the origin at both ends of the bracket, in ray parameters times
+                // their speed.
                 let speed = ray.direction.length();
                 let off = |t: f64| (ray.at(t).to_vec().length() - radius).abs();
                 let slack = 1e-13 * (1.0 + root.t * speed) + (root.hi - root.lo) * speed;

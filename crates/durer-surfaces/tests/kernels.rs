@@ -1,5 +1,6 @@
-//! The same surface in several kernels: quadric, polynomial, formula, swept, turned. Each holds its exact crossings in brackets, so that brackets of
-//! one crossing overlap, whichever kernel gave them.
+//! The same surface in several kernels: quadric, polynomial, formula, swept, turned. Each holds its
+//! exact crossings in brackets, so that brackets of one crossing overlap, whichever kernel gave
+//! them.
 
 mod common;
 
@@ -25,7 +26,8 @@ fn named<S: Surface + 'static>(name: &'static str, surface: S) -> Named {
     (name, Box::new(all))
 }
 
-/// Rays through the cube from -2 to 2, from near and far: anywhere, along axes, through points with few bits, and nearly tangent to the unit sphere.
+/// Rays through the cube from -2 to 2, from near and far: anywhere, along axes, through points with
+/// few bits, and nearly tangent to the unit sphere.
 fn ray(dice: &mut Dice) -> Ray {
     let mut direction = dice.vector();
     let mut through = dice.vector() * 1.25;
@@ -43,7 +45,8 @@ fn ray(dice: &mut Dice) -> Ray {
     Ray::new(through.to_point() - direction * back, direction)
 }
 
-/// Compares all with the first. Clusters and tangents say that they are not sure: such rays are counted and may not be many.
+/// Compares all with the first. Clusters and tangents say that they are not sure: such rays are
+/// counted and may not be many.
 fn agree(kernels: &[Named], seed: u64, count: usize) {
     let mut dice = Dice(seed);
     let (mut met, mut unsure) = (0, 0);

@@ -1,4 +1,5 @@
-//! Surfaces of noise against exact arithmetic: what noise is, written out once more in numbers without rounding.
+//! Surfaces of noise against exact arithmetic: what noise is, written out once more in numbers
+//! without rounding.
 
 mod common;
 

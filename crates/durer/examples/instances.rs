@@ -1,11 +1,13 @@
-//! A million placements of one mesh: how long they take to build, what they weigh, how long a picture's rays take.
+//! A million placements of one mesh: how long they take to build, what they weigh, how long a
+//! picture's rays take.
 //!
 //! ```text
 //! cargo run --release -p durer --example instances [-- MESH [COUNT]]
 //! ```
 //!
-//! `MESH` is any mesh file that durer reads; without one, a knotted tube of 70 000 triangles stands in for it. The placements fill a cube, each
-//! turned and scaled at random, so that their boxes overlap; the camera looks at the cube from outside.
+//! `MESH` is any mesh file that durer reads; without one, a knotted tube of 70 000 triangles stands
+//! in for it. The placements fill a cube, each turned and scaled at random, so that their boxes
+//! overlap; the camera looks at the cube from outside.
 
 use durer::geometry::{EVERYTHING, Geometry, ObjectId, PrimitiveId};
 use durer::math::elementary::sin_cos;
@@ -20,7 +22,8 @@ use std::time::Instant;
 const WIDTH: u32 = 1920;
 const HEIGHT: u32 = 1080;
 
-/// Numbers that look random: the n-th output of G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators", OOPSLA (2014), in `[0, 1)`.
+/// Numbers that look random: the n-th output of G. L. Steele, D. Lea, C. H. Flood, "Fast splittable
+/// pseudorandom number generators", OOPSLA (2014), in `[0, 1)`.
 fn unit(n: u64) -> f64 {
     let mut z = n.wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -60,7 +63,8 @@ fn cells_along(count: u64) -> u64 {
     (1..).find(|n| n * n * n >= count).unwrap_or(1)
 }
 
-/// Placement `i` of `count` in a cube of as many cells: turned about an axis at random, and larger than its cell.
+/// Placement `i` of `count` in a cube of as many cells: turned about an axis at random, and larger
+/// than its cell.
 fn placement(i: u64, count: u64, size: f64, middle: Point3) -> Result<Affine, Box<dyn Error>> {
     let side = cells_along(count);
     let at = |n: u64| unit(16 * i + n) - 0.5;

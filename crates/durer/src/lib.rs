@@ -1,12 +1,14 @@
 //! Where does this ray meet that surface? Every crossing, once, with a proven bound.
 //!
-//! This crate is the facade: each capability of durer lives in a crate of its own and appears here by name.
+//! This crate is the facade: each capability of durer lives in a crate of its own and appears here
+//! by name.
 //!
 //! - [`math`]: points, vectors, rays, affine maps, and arithmetic that knows its own error.
 //! - [`surfaces`]: the surfaces; each answers with brackets that provably hold the crossing.
 //! - [`bvh`]: the tree over any of them.
 //! - [`geometry`]: the built world, and its queries for one ray and for batches.
-//! - [`scene`]: a scene as plain data; [`pov`] reads one from POV-Ray's language, [`mesh`] from mesh files.
+//! - [`scene`]: a scene as plain data; [`pov`] reads one from POV-Ray's language, [`mesh`] from
+//!   mesh files.
 //! - [`render`]: cameras, lights, textures and Whitted's recursion.
 #![forbid(unsafe_code)]
 

@@ -1,9 +1,10 @@
-//! Every surface of a scene keeps its own texture and interior, however unions, merges, intersections, differences, placements, copies and
-//! instances are nested.
+//! Every surface of a scene keeps its own texture and interior, however unions, merges,
+//! intersections, differences, placements, copies and instances are nested.
 //!
-//! Random scenes are written as text, one colour and one index of refraction for each object that has its own. What a ray sees first is worked
-//! out a second time from the tree that the text was written from: by the rules of sets, with the crossings of spheres, boxes and planes in
-//! closed form. Rays on which two crossings are too near to each other to be put in order are left out.
+//! Random scenes are written as text, one colour and one index of refraction for each object that
+//! has its own. What a ray sees first is worked out a second time from the tree that the text was
+//! written from: by the rules of sets, with the crossings of spheres, boxes and planes in closed
+//! form. Rays on which two crossings are too near to each other to be put in order are left out.
 
 use durer::geometry::{Geometry, Hits8, Rays8, Scratch, Sources8};
 use durer::math::{F8, M8, Ray, Vec3, elementary};
@@ -12,7 +13,8 @@ use durer::scene::{Lowered, PigmentBody, TextureBody, mask};
 use durer::surfaces::Need;
 use std::fmt::Write as _;
 
-/// A sequence of numbers that look random: a function of the seed and the count (S. Vigna's SplitMix64).
+/// A sequence of numbers that look random: a function of the seed and the count (S. Vigna's
+/// SplitMix64).
 struct Dice(u64);
 
 impl Dice {
@@ -352,7 +354,8 @@ fn seen(
     })
 }
 
-/// Whether a node is turned inside out, and whether it has been at all: a fact of the scene language is that a union that has been turned keeps no inner surfaces.
+/// Whether a node is turned inside out, and whether it has been at all: a fact of the scene
+/// language is that a union that has been turned keeps no inner surfaces.
 #[derive(Clone, Copy, Default)]
 struct Turned {
     now: bool,
@@ -442,7 +445,8 @@ fn eight(dice: &mut Dice) -> Rays8 {
     rays
 }
 
-/// What a ray sees first, and whether it meets anything that throws a shadow; `None` if that is not sure.
+/// What a ray sees first, and whether it meets anything that throws a shadow; `None` if that is not
+/// sure.
 fn expected(objects: &[Tree], ray: &Ray) -> Option<(Option<(f64, Look)>, bool)> {
     let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
     let mut all = Vec::new();

@@ -59,8 +59,9 @@ pub(crate) fn scaled(frame: Frame, corners: &Corners) -> Option<Scaled> {
     let mut scaled = [[0.0; 3]; 3];
     for (to, from) in scaled.iter_mut().zip(corners) {
         for axis in 0..3 {
-            to[axis] = frame.inward(from[axis]);
-            if frame.outward(to[axis]) != from[axis] {
+            let (x, lost) = frame.difference(from[axis], axis);
+            to[axis] = frame.units().inward(x);
+            if frame.units().outward(to[axis]) != x || lost != 0.0 {
                 return None;
             }
         }

@@ -281,7 +281,7 @@ impl Sixteen {
             is_exact: true,
             error: 0.0,
             t_enter: 0.0,
-            frame: tree.frame,
+            units: tree.frame.units(),
         }
     }
 

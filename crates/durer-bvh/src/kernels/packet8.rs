@@ -294,7 +294,7 @@ impl Packet {
             is_exact: true,
             error: 0.0,
             t_enter: 0.0,
-            frame: tree.frame,
+            units: tree.frame.units(),
         }
     }
 }

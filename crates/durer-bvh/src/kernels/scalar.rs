@@ -134,7 +134,8 @@ impl<const FUSED: bool> Kernel for Scalar<FUSED> {
 
     #[inline(always)]
     fn afar(self, tree: &Bvh, sight: &impl TreeRay) -> Option<(CullRay, ClippedRay)> {
-        let ray = tree.cull(&sight.line(), if FUSED { Rounding::Fused } else { Rounding::Unfused })?;
+        let ray =
+            tree.cull(&tree.local_line(sight), if FUSED { Rounding::Fused } else { Rounding::Unfused })?;
         Some((ray, ray.way))
     }
 

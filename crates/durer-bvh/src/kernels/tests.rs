@@ -227,7 +227,7 @@ proptest! {
         let o = o.map(|x| f64::from(x) * [1.0, 2.0, 1e3, 1e12][far as usize]);
         let line = line(o, d);
         let frame = Frame::around(&Aabb::EMPTY);
-        let Some(ray) = CullRay::new(&line, frame, &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
+        let Some(ray) = CullRay::new(&line, frame.units(), &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
         let ray = CullRay { way: ClippedRay { t_near, ..ray.way }, ..ray };
         let t_far = t_far.min(ray.way.t_far);
         stacks_alike(avx2, &node, &ray, t_far)?;
@@ -245,9 +245,9 @@ proptest! {
         let block = block(&corners);
         let line = line(o.map(f64::from), d);
         let frame = Frame::around(&Aabb::EMPTY);
-        let Some(ray) = CullRay::new(&line, frame, &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
+        let Some(ray) = CullRay::new(&line, frame.units(), &[-1.0; 3], &[1.0; 3], Rounding::Fused) else { return Ok(()) };
         let way = ClippedRay { t_near, is_exact, ..ray.way };
-        let filter = Filter::new(&line, &way, rounded);
+        let filter = Filter::new(|| line, &way, rounded);
         let one = Scalar::<true>.judge(&block, &filter, far);
         same_verdict(&one, &avx2.judge(&block, &filter, far))?;
         if let Some(avx512) = Isa::available().find_map(Avx512::of) {

@@ -55,10 +55,13 @@ impl Block {
             block.tags[lane] = slot;
             for (i, v) in corners.iter().enumerate() {
                 for axis in 0..3 {
-                    let inward = frame.inward(v[axis]);
+                    let (from_centre, lost) = frame.difference(v[axis], axis);
+                    let inward = frame.units().inward(from_centre);
                     let x = inward as f32;
-                    // Whether neither scaling nor rounding has lost anything.
-                    is_held &= (f64::from(x) == inward) & (frame.outward(inward) == v[axis]);
+                    // Whether neither the difference nor scaling nor rounding has lost anything.
+                    is_held &= (f64::from(x) == inward)
+                        & (frame.units().outward(inward) == from_centre)
+                        & (lost == 0.0);
                     block.rows[3 * i + axis][lane] = x;
                     lo[axis] = if x < lo[axis] { x } else { lo[axis] };
                     hi[axis] = if x > hi[axis] { x } else { hi[axis] };
@@ -100,7 +103,7 @@ impl Block {
         self.tags[lane & (LANES - 1)] & SLOT
     }
 
-    /// The stored corners of a lane's triangle, in the caller's units, which are `1 / grow`.
+    /// The stored corners of a lane's triangle, relative to the centre, in units of `1 / grow`.
     #[inline(always)]
     pub(crate) fn corners(&self, grow: f64, lane: usize) -> Corners {
         let lane = lane & (LANES - 1);

@@ -73,7 +73,7 @@
 //! ones.
 
 use super::block::LANES;
-use crate::ray::{ClippedRay, Ray64, TreeRay};
+use crate::ray::{ClippedRay, Ray64};
 
 /// Half an ulp of 1 in f32.
 const U: f32 = 1.0 / (1 << 24) as f32;
@@ -114,11 +114,11 @@ pub(crate) struct Filter {
 impl Filter {
     /// The filter of a ray from its entry on; `rounded` tells that f32 does not hold the corners.
     #[inline(always)]
-    pub(crate) fn new(sight: &impl TreeRay, way: &ClippedRay, rounded: bool) -> Self {
+    pub(crate) fn new(line: impl FnOnce() -> Ray64, way: &ClippedRay, rounded: bool) -> Self {
         if way.is_exact {
             Self::of_exact(way, rounded)
         } else {
-            Self::known_within(&sight.line(), way, Self::of_corners(rounded))
+            Self::known_within(&line(), way, Self::of_corners(rounded))
         }
     }
 

@@ -33,6 +33,18 @@ impl Dice {
     }
 }
 
+/// The position of a scene: at the origin, or up to `2^bits` away on some axes.
+#[allow(dead_code, reason = "not every test needs it")]
+pub(crate) fn place(dice: &mut Dice, bits: u64) -> [i64; 3] {
+    if dice.below(2) == 0 {
+        return [0; 3];
+    }
+    core::array::from_fn(|_| {
+        let size = dice.below(bits);
+        dice.about(1 << size)
+    })
+}
+
 /// One setting for each quality.
 #[allow(dead_code, reason = "not every test needs it")]
 pub(crate) const QUALITIES: [Settings; 3] = [Settings::FAST, Settings::GOOD, Settings::BEST];

@@ -1,4 +1,5 @@
-//! Accessors: lists of numbers in the bytes of a view, with single ones replaced by those of others if they are sparse.
+//! Accessors: lists of numbers in the bytes of a view, with single ones replaced by those of others
+//! if they are sparse.
 
 use super::buffers::Buffers;
 use super::{item, wrong};
@@ -133,7 +134,8 @@ impl Accessors<'_> {
         Ok(all)
     }
 
-    /// Reads what lies where the layout says, after making sure that there is as much as it promises.
+    /// Reads what lies where the layout says, after making sure that there is as much as it
+    /// promises.
     fn read<T>(&mut self, layout: &Layout, read: impl Fn(&[u8]) -> T) -> Result<Vec<T>, ErrorKind> {
         let &Layout { view, offset, kind, components, count, spot } = layout;
         let element = kind.size() * components;

@@ -1,7 +1,8 @@
 //! The outside of a file: its text, and the chunk of bytes behind it.
 //!
-//! A `.glb` file is 12 bytes (`glTF`, a version, the length of all) and chunks: a length, a kind, as many bytes. The first is the text, the second, if its kind
-//! is `BIN`, the buffer without a name. Chunks of other kinds are passed over.
+//! A `.glb` file is 12 bytes (`glTF`, a version, the length of all) and chunks: a length, a kind,
+//! as many bytes. The first is the text, the second, if its kind is `BIN`, the buffer without a
+//! name. Chunks of other kinds are passed over.
 
 use crate::error::{ErrorKind, Location};
 use crate::text::{one_line, shortened};

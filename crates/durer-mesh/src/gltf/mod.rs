@@ -1,11 +1,16 @@
-//! glTF 2.0: a text in JSON with buffers beside it (`.gltf`) or behind it (`.glb`). (The Khronos Group, *glTF 2.0 Specification*, 2021.)
+//! glTF 2.0: a text in JSON with buffers beside it (`.gltf`) or behind it (`.glb`). (The Khronos
+//! Group, *glTF 2.0 Specification*, 2021.)
 //!
-//! Read are the nodes of the default scene (of the first one, if none is named; all nodes that are nobody's children, if there is no scene; all meshes,
-//! if there are no nodes), their transforms, and of their meshes `POSITION`, `NORMAL` and `TEXCOORD_0`, indices, strips and fans, all types of components,
-//! sparse accessors, and the base colours of materials. Each mesh becomes one group, however many primitives it has, and is there once, however many nodes show it.
+//! Read are the nodes of the default scene (of the first one, if none is named; all nodes that are
+//! nobody's children, if there is no scene; all meshes, if there are no nodes), their transforms,
+//! and of their meshes `POSITION`, `NORMAL` and `TEXCOORD_0`, indices, strips and fans, all types
+//! of components, sparse accessors, and the base colours of materials. Each mesh becomes one group,
+//! however many primitives it has, and is there once, however many nodes show it.
 //!
-//! Coordinates and transforms are f32 in these files; transforms are composed in f64. Passed over are points, lines, vertex colours, images, everything else of
-//! materials, cameras, lights, skins, morph targets and animations. Files that require an extension that changes how their triangles are stored are refused.
+//! Coordinates and transforms are f32 in these files; transforms are composed in f64. Passed over
+//! are points, lines, vertex colours, images, everything else of materials, cameras, lights, skins,
+//! morph targets and animations. Files that require an extension that changes how their triangles
+//! are stored are refused.
 
 mod accessor;
 mod buffers;
@@ -21,10 +26,12 @@ use buffers::Buffers;
 use primitive::Assembly;
 use std::path::Path;
 
-/// Extensions that may be required: what they change is understood, or passed over without harm to the triangles.
+/// Extensions that may be required: what they change is understood, or passed over without harm to
+/// the triangles.
 const UNDERSTOOD: [&str; 3] = ["KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual"];
 
-/// Each object that light passes is a body of its own, with a look for each face: few bytes could fill any memory with these.
+/// Each object that light passes is a body of its own, with a look for each face: few bytes could
+/// fill any memory with these.
 const MOST_CLEAR: usize = 1 << 26;
 
 /// Reads a file that is in memory; `folder` holds the buffers beside it.

@@ -11,7 +11,8 @@ use gltf::json::{Node, Root};
 enum Standing {
     /// From its frame to the world.
     Placed(Affine),
-    /// Its transform, or that of the node of this number above it, has no inverse, so its faces have no area. A scale of 0 is how animations hide a node.
+    /// Its transform, or that of the node of this number above it, has no inverse, so its faces
+    /// have no area. A scale of 0 is how animations hide a node.
     Flat(usize),
 }
 
@@ -101,7 +102,8 @@ fn flattening(node: &Node) -> String {
     }
 }
 
-/// From a node's frame to its parent's: a matrix, column by column, or a scale, then a rotation, then a translation. `None` if it has no inverse.
+/// From a node's frame to its parent's: a matrix, column by column, or a scale, then a rotation,
+/// then a translation. `None` if it has no inverse.
 fn local(node: &Node, spot: Location) -> Result<Option<Affine>, ErrorKind> {
     let wide = |x: f32| f64::from(x);
     let (rows, centre) = match node.matrix {
@@ -117,9 +119,6 @@ fn local(node: &Node, spot: Location) -> Result<Option<Affine>, ErrorKind> {
         }
         None => {
             let scale = node.scale.map_or([1.0; 3], |s| s.map(wide));
-            if scale.contains(&0.0) {
-                return Ok(None);
-            }
             let turn = rotation(node.rotation.unwrap_or_default().0.map(wide), spot)?;
             let rows = turn.map(|row: [f64; 3]| core::array::from_fn(|column| row[column] * scale[column]));
             (rows, node.translation.map_or([0.0; 3], |t| t.map(wide)))
@@ -132,7 +131,8 @@ fn local(node: &Node, spot: Location) -> Result<Option<Affine>, ErrorKind> {
     }
 }
 
-/// The rotation of a quaternion `x y z w` of any length but zero; that of one of length 1 that was rounded is still a rotation.
+/// The rotation of a quaternion `x y z w` of any length but zero; that of one of length 1 that was
+/// rounded is still a rotation.
 fn rotation(q: [f64; 4], spot: Location) -> Result<[[f64; 3]; 3], ErrorKind> {
     let [x, y, z, w] = q;
     let square: f64 = q.iter().map(|c| c * c).sum();

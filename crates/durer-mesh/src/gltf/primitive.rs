@@ -12,8 +12,9 @@ use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
 use std::collections::HashMap;
 
-/// Triangles that a file may have for each byte of it. Each index is a byte or more and begins one triangle at most, so that only a file that uses the same
-/// indices more often than this is refused: its few bytes could fill any memory.
+/// Triangles that a file may have for each byte of it. Each index is a byte or more and begins one
+/// triangle at most, so that only a file that uses the same indices more often than this is
+/// refused: its few bytes could fill any memory.
 const MOST_OF_A_BYTE: u64 = 16;
 
 /// What is put together to meshes.

@@ -2,7 +2,8 @@
 
 use durer_mesh::{Format, Model, Topology, read_bytes};
 
-/// Reads the bytes. What is refused has one short line to say; of what is read, all indices are in range, and a scene can be made of it.
+/// Reads the bytes. What is refused has one short line to say; of what is read, all indices are in
+/// range, and a scene can be made of it.
 ///
 /// # Panics
 ///

@@ -6,6 +6,7 @@ pub(crate) mod extension;
 mod julia;
 mod mesh;
 mod modifiers;
+pub(crate) mod queries;
 mod shapes;
 mod swept;
 

@@ -1,9 +1,10 @@
 //! Cameras: from a point of the picture to a ray.
 //!
-//! The picture is the square `[-1, 1] x [-1, 1]` of points `p = (px, py)`, with `px` to the right and `py` *down*: the middle of the
-//! pixel in column `x` and row `y` of an `X` by `Y` picture has `px = 2 (x + 0.5) / X - 1` and `py = 2 (y + 0.5) / Y - 1`, rows counted from the
-//! top. A camera has two screen vectors: `sx` from the middle of the picture to the middle of its right side, and `sy` to the middle of its
-//! *lower* side.
+//! The picture is the square `[-1, 1] x [-1, 1]` of points `p = (px, py)`, with `px` to the right
+//! and `py` *down*: the middle of the pixel in column `x` and row `y` of an `X` by `Y` picture has
+//! `px = 2 (x + 0.5) / X - 1` and `py = 2 (y + 0.5) / Y - 1`, rows counted from the top. A camera
+//! has two screen vectors: `sx` from the middle of the picture to the middle of its right side, and
+//! `sy` to the middle of its *lower* side.
 
 mod orthographic;
 mod perspective;
@@ -68,7 +69,8 @@ impl Camera {
         }
     }
 
-    /// The rays through some places of a picture of the given size, measured in pixels from the top left.
+    /// The rays through some places of a picture of the given size, measured in pixels from the top
+    /// left.
     #[inline(always)]
     pub(crate) fn rays(&self, x: F8, y: F8, (width, height): (u32, u32)) -> (Point3<F8>, Vec3<F8>) {
         let (px, py) = (on_picture_lanes(x, width), on_picture_lanes(y, height));
@@ -78,13 +80,15 @@ impl Camera {
         }
     }
 
-    /// The ray through the middle of the pixel in column `x` and row `y` of a picture of `width` by `height` pixels.
+    /// The ray through the middle of the pixel in column `x` and row `y` of a picture of `width` by
+    /// `height` pixels.
     pub fn pixel(&self, x: u32, y: u32, width: u32, height: u32) -> Ray {
         self.ray(on_picture(f64::from(x) + 0.5, width), on_picture(f64::from(y) + 0.5, height))
     }
 }
 
-/// The coordinate in `[-1, 1]` of a place measured in pixels from the left or the top: `2 x / X - 1`.
+/// The coordinate in `[-1, 1]` of a place measured in pixels from the left or the top:
+/// `2 x / X - 1`.
 #[inline]
 pub fn on_picture(x: f64, size: u32) -> f64 {
     2.0 * x / f64::from(size) - 1.0

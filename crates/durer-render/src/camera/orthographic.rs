@@ -19,7 +19,8 @@ pub struct Orthographic {
 }
 
 impl Orthographic {
-    /// From the middle of the picture, the direction of all rays, and the vectors from the middle to the middles of the right and lower sides.
+    /// From the middle of the picture, the direction of all rays, and the vectors from the middle
+    /// to the middles of the right and lower sides.
     ///
     /// ```
     /// use durer_math::{Point3, Vec3};

@@ -8,9 +8,10 @@
 //!                    ╲│ o + f - sx          (sy points down)
 //! ```
 //!
-//! The direction is affine in `p` and not normalised, so `t` is the depth in units of `|f|`, and the differentials of the ray are just `sx` and
-//! `sy` times the size of a pixel. With `|f|` = 1 the picture is `2 |sx|` wide at distance 1: `|sx| = tan(w / 2)` for a horizontal field of
-//! view `w`, and `|sy| = |sx| Y / X` for square pixels.
+//! The direction is affine in `p` and not normalised, so `t` is the depth in units of `|f|`, and
+//! the differentials of the ray are just `sx` and `sy` times the size of a pixel. With `|f|` = 1
+//! the picture is `2 |sx|` wide at distance 1: `|sx| = tan(w / 2)` for a horizontal field of view
+//! `w`, and `|sy| = |sx| Y / X` for square pixels.
 
 use super::{CameraError, check};
 use durer_math::{F8, Point3, Ray, Vec3, elementary};
@@ -25,14 +26,16 @@ pub struct Perspective {
 }
 
 impl Perspective {
-    /// From the eye, the vector to the middle of the picture, and the vectors from there to the middles of its right and lower sides.
+    /// From the eye, the vector to the middle of the picture, and the vectors from there to the
+    /// middles of its right and lower sides.
     pub fn new(origin: Point3, f: Vec3, sx: Vec3, sy: Vec3) -> Result<Self, CameraError> {
         check(origin, [("direction", f), ("right vector", sx), ("up vector", sy)])?;
         Ok(Self { origin, f, sx, sy })
     }
 
-    /// A right-handed camera at `origin` that sees `target` in the middle, with `up` upwards, a horizontal field of view in radians (below pi) and
-    /// a picture `aspect` times as wide as it is high.
+    /// A right-handed camera at `origin` that sees `target` in the middle, with `up` upwards, a
+    /// horizontal field of view in radians (below pi) and a picture `aspect` times as wide as it is
+    /// high.
     ///
     /// ```
     /// use durer_math::{Point3, Vec3};

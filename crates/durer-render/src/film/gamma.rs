@@ -81,7 +81,8 @@ impl Encoding {
     /// The least number that is written as the byte `k` or a greater one.
     fn least(self, k: u8) -> f64 {
         let reaches = |bits| (self.file(f64::from_bits(bits)) * 255.0 + 0.5) as u8 >= k;
-        // Positive f64 are in the order of their bits. Rounding has moved the guess by a few of them.
+        // Positive f64 are in the order of their bits. Rounding has moved the guess by a few of
+        // them.
         let guess = self.number(decode((f64::from(k) - 0.5) / 255.0)).clamp(0.0, 1.0).to_bits();
         let (mut below, mut above, mut step) = (guess, guess, 1);
         if reaches(guess) {
@@ -118,11 +119,12 @@ pub(super) struct Bytes {
     numbers: [f64; 256],
 }
 
-/// `[0, 1]` has so many cells, around the multiples of one over this: so fine that few hold the ends of two bytes, also where the sRGB curve
-/// is steep.
+/// `[0, 1]` has so many cells, around the multiples of one over this: so fine that few hold the
+/// ends of two bytes, also where the sRGB curve is steep.
 const CELLS: usize = 4096;
 
-/// Numbers in `[0, 1]` are rounded to the middle of their cell when this is added, and its number is what the last bits say.
+/// Numbers in `[0, 1]` are rounded to the middle of their cell when this is added, and its number
+/// is what the last bits say.
 const ROUNDER: f64 = (1_u64 << 52) as f64 / CELLS as f64;
 
 impl Bytes {
@@ -309,13 +311,15 @@ mod tests {
                 assert_eq!((table.of(v.next_down()), table.of(v)), (k as u8 - 1, k as u8));
             }
             assert_eq!([f64::NAN, f64::INFINITY, f64::NEG_INFINITY].map(|v| table.of(v)), [0, 255, 0]);
-            // All at once, and some that are left over; around the ends of bytes, where the curve is steep.
+            // All at once, and some that are left over; around the ends of bytes, where the curve
+            // is steep.
             let near = |k: usize| [table.least[k].next_down(), table.least[k]];
             let numbers: Vec<f64> = (1..=255).flat_map(near).chain([f64::NAN, 7.0, -7.0, 0.0, 1.0]).collect();
             let mut bytes = vec![7; numbers.len()];
             table.of_all(&numbers, &mut bytes);
             assert_eq!(bytes, numbers.iter().map(|&v| byte(v)).collect::<Vec<_>>(), "{encoding:?}");
-            // The same as colours: eight that differ, eight alike, alike but for the last, black again, and some that are left over.
+            // The same as colours: eight that differ, eight alike, alike but for the last, black
+            // again, and some that are left over.
             let mut colours: Vec<Rgb> =
                 numbers.as_chunks::<3>().0.iter().map(|&[r, g, b]| Rgb { r, g, b }).collect();
             let grey = Rgb { r: 0.3, g: 0.4, b: 0.5 };

@@ -29,7 +29,8 @@ pub enum Depth {
     /// The scene's own numbers.
     #[default]
     Numbers,
-    /// The bytes of an 8-bit file, and no more: an eighth of the memory. Who wants nothing but such a file gets the same one.
+    /// The bytes of an 8-bit file, and no more: an eighth of the memory. Who wants nothing but such
+    /// a file gets the same one.
     Bytes,
 }
 
@@ -79,7 +80,8 @@ impl Film {
         self.encoding
     }
 
-    /// All pixels, row by row from the top. Where only bytes were kept, the numbers are those that stand for them.
+    /// All pixels, row by row from the top. Where only bytes were kept, the numbers are those that
+    /// stand for them.
     pub fn pixels(&self) -> impl Iterator<Item = Pixel> {
         (0..self.rendered.len()).map(|i| self.at(i))
     }

@@ -1,4 +1,5 @@
-//! Files: written beside the goal under another name, then renamed, so that a half-written picture never has the picture's name.
+//! Files: written beside the goal under another name, then renamed, so that a half-written picture
+//! never has the picture's name.
 
 use super::gamma::Bytes;
 use super::{Colours, Depth, Film};
@@ -69,8 +70,8 @@ impl FileFormat {
 }
 
 impl Film {
-    /// Writes the picture to `path`. What had that name is replaced at once, when the new file is complete; if anything fails it is left as it
-    /// was.
+    /// Writes the picture to `path`. What had that name is replaced at once, when the new file is
+    /// complete; if anything fails it is left as it was.
     pub fn save(&self, path: &Path, format: FileFormat) -> Result<(), SaveError> {
         let failed = |source| SaveError::Io { path: path.to_owned(), source };
         let mut name = std::ffi::OsString::from(".");

@@ -9,11 +9,12 @@ use durer_math::{F8, M8};
 /// As many groups of neighbouring rays share one search of the tree.
 pub(super) const TOGETHER: usize = 16;
 
-/// A group with at least so many rays that belong together is used as it is; rays of others are gathered into new groups.
+/// A group with at least so many rays that belong together is used as it is; rays of others are
+/// gathered into new groups.
 const DENSE: u32 = 6;
 
-/// Black is seen after so many rays in a row, and as many clear surfaces in a row let no light pass: each ray keeps a list of
-/// the media it is in.
+/// Black is seen after so many rays in a row, and as many clear surfaces in a row let no light
+/// pass: each ray keeps a list of the media it is in.
 pub(super) const DEEPEST: u32 = 4096;
 
 /// What is to become of what eight rays see.

@@ -31,8 +31,8 @@ struct Falling {
 }
 
 impl<'w> Lamps<'w> {
-    /// Adds the light of all lamps on layers to the spots. `double` tells that light from behind counts like light from the front; the rays
-    /// came in `media`.
+    /// Adds the light of all lamps on layers to the spots. `double` tells that light from behind
+    /// counts like light from the front; the rays came in `media`.
     pub(super) fn light(
         &mut self,
         (world, isa): (&'w World, Isa),
@@ -47,7 +47,8 @@ impl<'w> Lamps<'w> {
             if stop.is_cancelled() {
                 return;
             }
-            // Small steps, each of which leaves its results in memory: the compiler mixes the lanes of large ones.
+            // Small steps, each of which leaves its results in memory: the compiler mixes the lanes
+            // of large ones.
             self.fall(isa, lamp, (double, behind), spots);
             for (k, finish) in coats.finishes.iter().enumerate() {
                 self.scatter(isa, finish, coats.lit(k));
@@ -103,7 +104,8 @@ impl<'w> Lamps<'w> {
         );
     }
 
-    /// Adds the highlights of a layer: on both sides if light from behind counts like light from the front.
+    /// Adds the highlights of a layer: on both sides if light from behind counts like light from
+    /// the front.
     fn highlight(&mut self, isa: Isa, finish: &Finish, lit: &[Lit], spots: &[Spot]) {
         let (falling, places) = (&self.falling, self.shadows.places(lit.len()));
         isa.run_in_lanes(

@@ -1,4 +1,5 @@
-//! Which rays of a bundle are shaded together: those that meet surfaces that look alike, in the same way.
+//! Which rays of a bundle are shaded together: those that meet surfaces that look alike, in the
+//! same way.
 
 use crate::vector::dot;
 use crate::world::{Look, World};

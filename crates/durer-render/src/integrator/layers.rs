@@ -1,10 +1,10 @@
 //! Layers of paint, worked through from the outermost.
 //!
-//! Each adds its own light, times what the layers above let pass; what all of them let pass is seen behind the surface. Reflections of all
-//! layers are added as they are.
+//! Each adds its own light, times what the layers above let pass; what all of them let pass is seen
+//! behind the surface. Reflections of all layers are added as they are.
 //!
-//! Negative `filter` and `transmit` extrapolate: what is behind is taken away. So all that compares with `adc_bailout` what
-//! layers let pass takes magnitudes (a fact of the scene language).
+//! Negative `filter` and `transmit` extrapolate: what is behind is taken away. So all that compares
+//! with `adc_bailout` what layers let pass takes magnitudes (a fact of the scene language).
 
 use super::media::Interface;
 use super::shading_point::Spot;
@@ -57,7 +57,8 @@ pub(super) struct Mirrored {
 }
 
 impl<'w> Coats<'w> {
-    /// Lays the layers, the innermost first, on the spots. `draws` is how many random numbers were drawn before.
+    /// Lays the layers, the innermost first, on the spots. `draws` is how many random numbers were
+    /// drawn before.
     pub(super) fn lay(
         &mut self,
         (world, isa): (&'w World, Isa),
@@ -86,7 +87,8 @@ impl<'w> Coats<'w> {
             },
         );
         for coat in layers.iter().rev() {
-            // Small steps, each of which leaves its results in memory: the compiler mixes the lanes of large ones.
+            // Small steps, each of which leaves its results in memory: the compiler mixes the lanes
+            // of large ones.
             let bailout = F8::splat(world.adc_bailout);
             isa.run_in_lanes(
                 #[inline(always)]

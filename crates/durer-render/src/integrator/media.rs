@@ -1,7 +1,8 @@
 //! Which media rays are in, and what happens at the border between two of them.
 //!
-//! Rays keep a list of the media they are in. A surface whose medium is in the list is left, any other is entered. The list decides,
-//! and not the normal, so that sheets and overlapping bodies have a meaning too.
+//! Rays keep a list of the media they are in. A surface whose medium is in the list is left, any
+//! other is entered. The list decides, and not the normal, so that sheets and overlapping bodies
+//! have a meaning too.
 
 use crate::material::reflectance;
 use crate::world::World;
@@ -47,8 +48,8 @@ pub(super) struct Interface {
     pub(super) crossing: Crossing,
     /// The index of refraction before the surface over that behind it.
     pub(super) ratio: f64,
-    /// The same as Fresnel's formula takes it. A fact of the scene language: behind the surface is always its own medium, save where a ray is in
-    /// that alone and leaves it.
+    /// The same as Fresnel's formula takes it. A fact of the scene language: behind the surface is
+    /// always its own medium, save where a ray is in that alone and leaves it.
     fresnel_ratio: f64,
 }
 

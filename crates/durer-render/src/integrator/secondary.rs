@@ -16,13 +16,15 @@ use durer_scene::mask;
 /// Bundles of rays that surfaces of one bundle send on.
 #[derive(Default)]
 pub(super) struct Onward<'w> {
-    /// With what they are ordered by: of what comes together in one sum, the least is followed first, whatever else is in the bundles.
+    /// With what they are ordered by: of what comes together in one sum, the least is followed
+    /// first, whatever else is in the bundles.
     bundles: Vec<(Order, Bundle<'w>)>,
     /// Bundles to be used again.
     spare: Vec<Bundle<'w>>,
 }
 
-/// Which stack of layers of a surface, and which of its rays: through it, totally reflected, or of which reflecting layer.
+/// Which stack of layers of a surface, and which of its rays: through it, totally reflected, or of
+/// which reflecting layer.
 type Order = (u32, u32);
 const THROUGH: u32 = 0;
 const TOTAL: u32 = 1;
@@ -83,8 +85,8 @@ impl<'w> Onward<'w> {
         &mut self.bundles[at].1
     }
 
-    /// Sends rays on from some spots. `stack` is the number of their stack of layers among those of the surface; `drawn` tells how many
-    /// random numbers it took.
+    /// Sends rays on from some spots. `stack` is the number of their stack of layers among those of
+    /// the surface; `drawn` tells how many random numbers it took.
     pub(super) fn send(
         &mut self,
         (world, isa): (&'w World, Isa),
@@ -127,7 +129,8 @@ impl<'w> Onward<'w> {
                             let (weight, counts_for_enough) = dimmed(world, spot);
                             let lanes = totally_reflected(world, border, spot) & counts_for_enough;
                             if lanes.any() {
-                                // Nothing passes, so the paint does not colour it; but the ray counts as if it did.
+                                // Nothing passes, so the paint does not colour it; but the ray
+                                // counts as if it did.
                                 let factor = spot.paths.factor * faded(world, part, spot);
                                 send(
                                     total,

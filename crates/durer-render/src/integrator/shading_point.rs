@@ -88,7 +88,8 @@ impl Spots {
         spot
     }
 
-    /// Adds some lanes of some groups: dense groups by `whole(to, group)`, single lanes by `copy(to, i, group, j)`.
+    /// Adds some lanes of some groups: dense groups by `whole(to, group)`, single lanes by
+    /// `copy(to, i, group, j)`.
     #[inline(always)]
     fn pack(
         &mut self,
@@ -118,7 +119,8 @@ impl Spots {
         }
     }
 
-    /// Gathers what some rays met. Their directions stand for the eye until [`face`] has looked at them.
+    /// Gathers what some rays met. Their directions stand for the eye until [`face`] has looked at
+    /// them.
     pub(super) fn gather(
         &mut self,
         isa: Isa,

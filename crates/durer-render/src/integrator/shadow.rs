@@ -32,7 +32,8 @@ pub(super) struct Shadows<'w> {
     targets: Vec<Point3<F8>>,
     /// The paths of the rays as they start: group by group, nothing of the light is lost yet.
     starts: Vec<Paths8>,
-    /// Rays on their way through clear surfaces: the factor is what is left of the light, the slot their number in `light`.
+    /// Rays on their way through clear surfaces: the factor is what is left of the light, the slot
+    /// their number in `light`.
     clear: Vec<Bundle<'w>>,
     /// Bundles to be used again.
     spare: Vec<Bundle<'w>>,
@@ -62,8 +63,8 @@ impl<'w> Shadows<'w> {
         &self.light
     }
 
-    /// Takes away what does not arrive: all behind anything opaque, else what clear surfaces on the way do not let pass. They do not bend it.
-    /// Surfaces that pass through `end` throw no shadow.
+    /// Takes away what does not arrive: all behind anything opaque, else what clear surfaces on the
+    /// way do not let pass. They do not bend it. Surfaces that pass through `end` throw no shadow.
     pub(super) fn cast(
         &mut self,
         (world, isa): (&'w World, Isa),
@@ -168,9 +169,9 @@ impl<'w> Shadows<'w> {
         }
     }
 
-    /// Rays in some media go on behind the surfaces that they met.
-    /// They are aimed at the light again. Each leaves a surface behind; one that has passed the light has arrived. So all arrive, unless they
-    /// meet more surfaces than [`DEEPEST`]. `depth` is how many that are.
+    /// Rays in some media go on behind the surfaces that they met. They are aimed at the light
+    /// again. Each leaves a surface behind; one that has passed the light has arrived. So all
+    /// arrive, unless they meet more surfaces than [`DEEPEST`]. `depth` is how many that are.
     fn cross(
         &mut self,
         (world, isa): (&'w World, Isa),
@@ -217,7 +218,8 @@ impl<'w> Shadows<'w> {
     }
 }
 
-/// What is left of the light on some rays behind the surfaces that they meet; the answer tells where anything is.
+/// What is left of the light on some rays behind the surfaces that they meet; the answer tells
+/// where anything is.
 #[inline(always)]
 fn pass(world: &World, look: &Look, crossing: Crossing, spot: &mut Spot) -> M8 {
     let direction = spot.view.eye;

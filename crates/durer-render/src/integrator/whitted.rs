@@ -1,14 +1,18 @@
 //! Whitted's ray tracing with the scene language's shading, many rays at once.
 //!
-//! T. Whitted, "An improved illumination model for shaded display", Communications of the ACM 23(6), 1980: at each hit, shadow rays to the
-//! lights, one mirrored and one refracted ray. The camera's rays have level 1, mirrored and bent ones one more than the ray before; where the
-//! level is `max_trace_level`, and where a ray would count for less than `adc_bailout`, black is seen instead. What passes unbent does not
-//! raise the level; so many clear sheets may lie in a row, up to 4096.
+//! T. Whitted, "An improved illumination model for shaded display", Communications of the ACM
+//! 23(6), 1980: at each hit, shadow rays to the lights, one mirrored and one refracted ray. The
+//! camera's rays have level 1, mirrored and bent ones one more than the ray before; where the level
+//! is `max_trace_level`, and where a ray would count for less than `adc_bailout`, black is seen
+//! instead. What passes unbent does not raise the level; so many clear sheets may lie in a row, up
+//! to 4096.
 //!
-//! Rays that belong together are followed together, in bundles: all rays of one have the same level and are in the same media. Where they
-//! meet surfaces that do not look alike the bundle is split, so that all that is decided by the look is decided once. A ray knows what it
-//! counts in the picture and to which sum its colour is added, so nothing waits for it: bundles lie on a stack, the last one is followed
-//! first, and there is no recursion. In which bundle a ray comes along, and beside which others, changes nothing about its colour.
+//! Rays that belong together are followed together, in bundles: all rays of one have the same level
+//! and are in the same media. Where they meet surfaces that do not look alike the bundle is split,
+//! so that all that is decided by the look is decided once. A ray knows what it counts in the
+//! picture and to which sum its colour is added, so nothing waits for it: bundles lie on a stack,
+//! the last one is followed first, and there is no recursion. In which bundle a ray comes along,
+//! and beside which others, changes nothing about its colour.
 
 use super::bundle::{Bundle, BundleState, DEEPEST, Paths8, see};
 use super::direct_light::Lamps;
@@ -30,9 +34,11 @@ use durer_math::lanes::LANES;
 use durer_math::{Aabb, F8, Isa, M8};
 use durer_scene::{Rgb, mask};
 
-/// So many of the camera's rays are followed until nothing is left of them: what they send on is still many after some reflections.
+/// So many of the camera's rays are followed until nothing is left of them: what they send on is
+/// still many after some reflections.
 const CAMERA_RAYS: usize = 128 * LANES;
-/// So many groups are seen and shaded at a time: what is known of them on the way is to stay in the cache.
+/// So many groups are seen and shaded at a time: what is known of them on the way is to stay in the
+/// cache.
 const AT_A_TIME: usize = 16;
 
 /// Traces rays for one thread; keeps its buffers, so that nothing is allocated for a ray.
@@ -88,7 +94,8 @@ impl<'w> Whitted<'w> {
         Self { stop: *stop, ..self }
     }
 
-    /// The colours seen at some places of a picture of the given size, in their order; `None` if the work was stopped.
+    /// The colours seen at some places of a picture of the given size, in their order; `None` if
+    /// the work was stopped.
     pub(crate) fn look(
         &mut self,
         camera: &Camera,
@@ -135,7 +142,8 @@ impl<'w> Whitted<'w> {
         Some(())
     }
 
-    /// Follows the camera's rays at some places, whose sums begin with `slot`: in one bundle, if all start in the same media.
+    /// Follows the camera's rays at some places, whose sums begin with `slot`: in one bundle, if
+    /// all start in the same media.
     fn start(&mut self, camera: &Camera, picture: (u32, u32), slot: usize, places: &[Place]) {
         self.counts.camera += places.len() as u64;
         let mut all = self.onward.empty();
@@ -181,7 +189,8 @@ impl<'w> Whitted<'w> {
     #[cold]
     fn start_apart(&mut self, all: &Bundle<'w>, first: &BundleState<'w>) {
         let mut apart: Vec<Bundle<'w>> = Vec::new();
-        // Compared number by number: the library's comparison of blocks is slow where both lists are empty.
+        // Compared number by number: the library's comparison of blocks is slow where both lists
+        // are empty.
         let mut media = Vec::new();
         for (rays, paths) in all.rays.iter().zip(&all.paths) {
             let mut of = [0; LANES];
@@ -261,7 +270,8 @@ impl<'w> Whitted<'w> {
         (self.pieces, self.spots) = (pieces, spots);
     }
 
-    /// What rays meet first: in `hits`, and in `pieces` what is to be shaded together. Where they meet nothing the background is seen.
+    /// What rays meet first: in `hits`, and in `pieces` what is to be shaded together. Where they
+    /// meet nothing the background is seen.
     fn see(&mut self, (rays, paths): (&[Rays8], &[Paths8]), standing: &BundleState<'w>) {
         let world = self.world;
         self.pieces.clear();
@@ -288,7 +298,8 @@ impl<'w> Whitted<'w> {
         sort(&mut self.pieces);
     }
 
-    /// Shades spots with a paint, in whose space `inside` is; `stack` counts the stacks of layers of the surface.
+    /// Shades spots with a paint, in whose space `inside` is; `stack` counts the stacks of layers
+    /// of the surface.
     fn paint(&mut self, part: &Part<'_, 'w>, paint: &'w RenderTexture, spots: &mut [Spot], stack: &mut u32) {
         match paint {
             RenderTexture::Layers(layers) => {

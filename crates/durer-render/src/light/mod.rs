@@ -49,7 +49,8 @@ pub(crate) struct Beamed {
     pub(crate) to_light: Vec3<F8>,
     /// What the light's colour is multiplied by.
     pub(crate) strength: F8,
-    /// How far blockers may be: the light itself, or for parallel light the point of its plane above.
+    /// How far blockers may be: the light itself, or for parallel light the point of its plane
+    /// above.
     pub(crate) target: Point3<F8>,
     /// Where anything can block it.
     pub(crate) blockable: M8,
@@ -80,7 +81,8 @@ impl RenderLight {
                 tightness: Power::new(tightness),
             },
             LightKind::Cylinder { radius, falloff, tightness } => {
-                // Without a positive radius the beam has no soft edge: a fact of the scene language.
+                // Without a positive radius the beam has no soft edge: a fact of the scene
+                // language.
                 let full = if radius > 0.0 { radius } else { falloff };
                 Beam::Tube { full, end: falloff, tightness: Power::new(tightness) }
             }
@@ -143,8 +145,9 @@ impl RenderLight {
             }
         };
         if let Some((at, power)) = self.fade {
-            // Behind the plane of a parallel light, and for a negative fade distance, the quotient is negative. The formula is taken at
-            // its word there: light may be negative; where there is no power there is no light.
+            // Behind the plane of a parallel light, and for a negative fade distance, the quotient
+            // is negative. The formula is taken at its word there: light may be negative; where
+            // there is no power there is no light.
             let power = power.signed_lanes(distance / at, lit);
             lit &= power.equals(power);
             strength = strength * (F8::splat(2.0) / (F8::ONE + power));

@@ -7,7 +7,8 @@ use crate::vector::{dot, reflect};
 use durer_math::{F8, M8, Vec3, elementary};
 use durer_scene::Rgb;
 
-/// From this size on, Phong's highlight ends where its cosine is [`PHONG_END`]: a fact of the scene language.
+/// From this size on, Phong's highlight ends where its cosine is [`PHONG_END`]: a fact of the scene
+/// language.
 const PHONG_SHARP: f64 = 60.0;
 const PHONG_END: f64 = 0.0008;
 
@@ -171,8 +172,9 @@ impl Mirror {
         seen.map(|v| self.exponent.of(v.max(0.0)))
     }
 
-    /// What the reflected light is multiplied by, and what rays count for that bring it. `cosine` is that of the angle between the normal and the
-    /// eye; `fresnel` is Fresnel's reflectance, which mirrors of that kind need.
+    /// What the reflected light is multiplied by, and what rays count for that bring it. `cosine`
+    /// is that of the angle between the normal and the eye; `fresnel` is Fresnel's reflectance,
+    /// which mirrors of that kind need.
     #[inline(always)]
     pub(crate) fn reflectance(&self, cosine: F8, colour: Rgb8, live: M8, fresnel: F8) -> (Rgb8, F8) {
         let most = F8::splat(self.min.greatest().max(self.max.greatest()));
@@ -226,8 +228,8 @@ mod tests {
 
     #[test]
     fn the_albedo_forms_scatter_what_they_say() {
-        // The integral of k cos^b over the half sphere, with the cosine of projection, is 2 pi k / (b + 2) for plain diffuse light: the
-        // language's factor is (b + 1) / 2 all the same.
+        // The integral of k cos^b over the half sphere, with the cosine of projection, is 2 pi k /
+        // (b + 2) for plain diffuse light: the language's factor is (b + 1) / 2 all the same.
         let f =
             durer_scene::Finish { brilliance: 3.0, diffuse: 0.5, diffuse_albedo: true, ..Default::default() };
         assert_eq!(scattered(&ready(&f), Vec3::Y), 1.0);

@@ -3,8 +3,9 @@
 use crate::vector::dot;
 use durer_math::{F8, M8, Vec3};
 
-/// The part of unpolarised light that is reflected, for light that falls at an angle of cosine `cosine >= 0` from a medium of index `n` times
-/// that of the medium behind (`n = n_from / n_to`); 1 beyond the critical angle.
+/// The part of unpolarised light that is reflected, for light that falls at an angle of cosine
+/// `cosine >= 0` from a medium of index `n` times that of the medium behind (`n = n_from / n_to`);
+/// 1 beyond the critical angle.
 #[inline(always)]
 pub(crate) fn reflectance(n: f64, cosine: F8) -> F8 {
     let sine2 = (F8::ONE - cosine * cosine) * (n * n);
@@ -18,8 +19,9 @@ pub(crate) fn reflectance(n: f64, cosine: F8) -> F8 {
     partial.select(r.max(F8::ZERO), F8::ONE)
 }
 
-/// The unit directions in which light of unit directions `d` goes on behind a surface with unit normals `normal` that face it
-/// (`d . normal <= 0`), from a medium of index `n` times that behind; and where it does, as it is totally reflected elsewhere.
+/// The unit directions in which light of unit directions `d` goes on behind a surface with unit
+/// normals `normal` that face it (`d . normal <= 0`), from a medium of index `n` times that behind;
+/// and where it does, as it is totally reflected elsewhere.
 #[inline(always)]
 pub(crate) fn refract(d: Vec3<F8>, normal: Vec3<F8>, n: f64) -> (Vec3<F8>, M8) {
     let cosine = -dot(d, normal);
@@ -77,7 +79,8 @@ mod tests {
         assert_eq!(reflectance(1.0, 0.5), 0.0);
     }
 
-    /// All bounces inside a clear plate together let `T = 2 n / (n^2 + 1)` pass head-on (the textbook sum of the geometric series).
+    /// All bounces inside a clear plate together let `T = 2 n / (n^2 + 1)` pass head-on (the
+    /// textbook sum of the geometric series).
     #[test]
     fn a_plate_lets_through_what_the_series_says() {
         let n = 1.5;
@@ -91,7 +94,8 @@ mod tests {
         assert!((through - 2.0 * n / (n * n + 1.0)).abs() < 1e-14);
     }
 
-    /// Brewster's angle: no light with the electric field in the plane of incidence is reflected, so half of `across` is left.
+    /// Brewster's angle: no light with the electric field in the plane of incidence is reflected,
+    /// so half of `across` is left.
     #[test]
     fn brewsters_angle_is_where_one_half_vanishes() {
         let n = 1.5_f64;

@@ -4,15 +4,17 @@ use crate::lanes::Rgb8;
 use core::f64::consts::FRAC_2_PI;
 use durer_math::{F8, M8, elementary};
 
-/// How near to grazing an angle is, from 0 (head-on) to 1: the scene language's fit to Fresnel's formula for metals,
-/// `0.014567225 / (x - 1.12)^2 - 0.011612903` with `x` the angle in units of 90 degrees.
+/// How near to grazing an angle is, from 0 (head-on) to 1: the scene language's fit to Fresnel's
+/// formula for metals, `0.014567225 / (x - 1.12)^2 - 0.011612903` with `x` the angle in units of 90
+/// degrees.
 fn grazing(cosine: f64) -> f64 {
     let x = elementary::acos(cosine.clamp(-1.0, 1.0)) * FRAC_2_PI;
     let d = x - 1.12;
     (0.014_567_225 / (d * d) - 0.011_612_903).clamp(0.0, 1.0)
 }
 
-/// What light is multiplied by at surfaces of colour `colour` that are metallic to the degree `metallic`.
+/// What light is multiplied by at surfaces of colour `colour` that are metallic to the degree
+/// `metallic`.
 #[inline(always)]
 pub(crate) fn tint(metallic: f64, cosine: F8, colour: Rgb8, live: M8) -> Rgb8 {
     let mut grazed = F8::ZERO;

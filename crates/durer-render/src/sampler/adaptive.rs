@@ -20,11 +20,12 @@ fn difference(a: Rgb, b: Rgb) -> f64 {
     d.r + d.g + d.b
 }
 
-/// Non-recursive: each pixel's middle is compared with its left and its upper neighbour's; both of a pair that differs get
-/// `depth x depth` more rays, jittered, which are averaged with the middle.
+/// Non-recursive: each pixel's middle is compared with its left and its upper neighbour's; both of
+/// a pair that differs get `depth x depth` more rays, jittered, which are averaged with the middle.
 ///
-/// Neighbours outside the tile are traced once more for comparison, and a pixel at the tile's right or lower side looks at the middle beyond
-/// it too, so that the picture does not depend on how it is cut.
+/// Neighbours outside the tile are traced once more for comparison, and a pixel at the tile's right
+/// or lower side looks at the middle beyond it too, so that the picture does not depend on how it
+/// is cut.
 pub(super) fn method1(
     threshold: f64,
     depth: u32,
@@ -94,9 +95,11 @@ fn finer(depth: u32, x: u32, y: u32, places: &mut Vec<Place>) {
     }
 }
 
-/// Recursive: a pixel is the mean of its corners, or of its four quarters where any two corners differ.
+/// Recursive: a pixel is the mean of its corners, or of its four quarters where any two corners
+/// differ.
 ///
-/// Corners are jittered by up to half a cell of the finest grid; the shift depends on the corner's place, so that neighbours share it.
+/// Corners are jittered by up to half a cell of the finest grid; the shift depends on the corner's
+/// place, so that neighbours share it.
 pub(super) fn method2(
     threshold: f64,
     depth: u32,

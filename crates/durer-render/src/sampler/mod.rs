@@ -1,7 +1,8 @@
 //! Samplers: which rays make a pixel, and how their colours are joined.
 //!
-//! Every sample is a function of its place in the picture alone, so that tiles may be rendered in any order and by any thread. Rays are asked
-//! for many at a time and neighbour after neighbour, as those that follow one another are traced together.
+//! Every sample is a function of its place in the picture alone, so that tiles may be rendered in
+//! any order and by any thread. Rays are asked for many at a time and neighbour after neighbour, as
+//! those that follow one another are traced together.
 
 mod adaptive;
 mod jitter;
@@ -33,10 +34,11 @@ const ENOUGH: usize = 4096;
 /// Neighbours are taken in squares of this many pixels.
 const BLOCK: usize = 8;
 
-/// Renders the pixels of `tile`, a part of a picture of the given size, row by row. `look` answers with the colours at some places, in their
-/// order.
+/// Renders the pixels of `tile`, a part of a picture of the given size, row by row. `look` answers
+/// with the colours at some places, in their order.
 ///
-/// Where it answers `None` the work ends: what is returned are the pixels that were finished before.
+/// Where it answers `None` the work ends: what is returned are the pixels that were finished
+/// before.
 pub(crate) fn sample_tile(
     aa: AntiAliasing,
     tile: Region,

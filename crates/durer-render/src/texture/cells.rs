@@ -53,8 +53,9 @@ impl Cutter {
     }
 }
 
-/// How far below a border the next cell begins: a fact of the scene language (so that a plane at `y = 0`, say, shows one
-/// cell, whatever the last digit of its points), and no bound of any geometry.
+/// How far below a border the next cell begins: a fact of the scene language (so that a plane at
+/// `y = 0`, say, shows one cell, whatever the last digit of its points), and no bound of any
+/// geometry.
 pub(super) const BORDER: f64 = 1e-10;
 
 /// The number of the cell along one axis.

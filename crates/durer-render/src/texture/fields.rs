@@ -27,7 +27,8 @@ pub(crate) struct Weights {
 }
 
 impl Weights {
-    /// Makes fields ready that are in a texture with this placement; `paint` makes a texture ready in such a one.
+    /// Makes fields ready that are in a texture with this placement; `paint` makes a texture ready
+    /// in such a one.
     pub(super) fn new(
         fields: &Fields,
         around: &Affine,
@@ -64,7 +65,8 @@ impl Weights {
         &self.textures[number as usize]
     }
 
-    /// The textures that are shown at a point, with their parts, which add up to 1: each texture once, ascending.
+    /// The textures that are shown at a point, with their parts, which add up to 1: each texture
+    /// once, ascending.
     pub(crate) fn shown(&self, p: Point3, shown: &mut Vec<(u32, f64)>) {
         shown.clear();
         let mut sum = 0.0;
@@ -98,7 +100,8 @@ mod tests {
         Arc::new(Texture::plain(Pigment::solid(Colour::opaque(Rgb::grey(v))), Finish::default()))
     }
 
-    /// Fields of which each value at the points that are asked for is a dyadic number, so that all sums are exact.
+    /// Fields of which each value at the points that are asked for is a dyadic number, so that all
+    /// sums are exact.
     #[test]
     fn textures_are_shown_by_how_strong_their_fields_are() {
         let ball = |x: f64, strength: f64, place: Affine| BlobComponent {
@@ -107,7 +110,8 @@ mod tests {
             strength,
             place,
         };
-        // At the origin: (1 - 1/4)² = 9/16, half of that taken away, nothing, 9/16 of a ball that is moved there, and (1 - 0)² / 4 of a cylinder.
+        // At the origin: (1 - 1/4)² = 9/16, half of that taken away, nothing, 9/16 of a ball that
+        // is moved there, and (1 - 0)² / 4 of a cylinder.
         let cylinder = BlobShape::Segment(Point3::new(0.0, -1.0, 0.0), Point3::new(0.0, 1.0, 0.0));
         let components = [
             ball(1.0, 1.0, Affine::IDENTITY),

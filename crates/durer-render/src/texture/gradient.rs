@@ -14,7 +14,8 @@ pub(crate) struct Lookup {
     shape: Shape,
 }
 
-/// Waves begin anew not at 1 but a little later, so that 1 itself is still the end: a fact of the scene language.
+/// Waves begin anew not at 1 but a little later, so that 1 itself is still the end: a fact of the
+/// scene language.
 const PERIOD: f64 = 1.000_01;
 
 impl Lookup {

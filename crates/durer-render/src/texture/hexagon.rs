@@ -1,8 +1,8 @@
 //! Hexagonal columns along y in three colours, like floor tiles.
 //!
 //! Sides have length 1. The hexagon around the origin has corners on the x axis; centres are at
-//! `(x, z) = (1.5 a, (sqrt 3 / 2)(a + 2 b))` for whole `a`, `b`, and a point belongs to the nearest. The colour is `(b + 2 a) mod 3`,
-//! so that no two neighbours share it.
+//! `(x, z) = (1.5 a, (sqrt 3 / 2)(a + 2 b))` for whole `a`, `b`, and a point belongs to the
+//! nearest. The colour is `(b + 2 a) mod 3`, so that no two neighbours share it.
 
 use crate::vector::{floor, floor_lanes};
 use durer_math::{F8, Point3};
@@ -11,7 +11,8 @@ const HALF_HEIGHT: f64 = 0.866_025_403_784_438_6; // sqrt(3) / 2
 
 /// 0, 1 or 2.
 pub(super) fn kind(p: Point3) -> usize {
-    // Fractional coordinates in the lattice; the nearest centre is a corner of the cell they lie in or of a neighbour.
+    // Fractional coordinates in the lattice; the nearest centre is a corner of the cell they lie in
+    // or of a neighbour.
     let a = p.x / 1.5;
     let b = (p.z / HALF_HEIGHT - a) * 0.5;
     let (a0, b0) = (floor(a), floor(b));

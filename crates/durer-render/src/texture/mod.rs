@@ -254,7 +254,8 @@ impl RenderPigment {
 }
 
 impl RenderTexture {
-    /// Makes a texture ready. Its own placement is joined with that of `around`, the space in which it is used.
+    /// Makes a texture ready. Its own placement is joined with that of `around`, the space in which
+    /// it is used.
     pub(crate) fn new(texture: &Texture, around: &Affine, ambient_light: Rgb) -> Result<Self, AffineError> {
         let joined = || match texture.placement.is_identity() {
             true => Ok(*around),

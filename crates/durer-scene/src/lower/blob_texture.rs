@@ -1,4 +1,5 @@
-//! Blobs whose components have textures of their own: one texture, in the world, that is their mean by the fields.
+//! Blobs whose components have textures of their own: one texture, in the world, that is their mean
+//! by the fields.
 
 use std::sync::Arc;
 
@@ -8,7 +9,8 @@ use durer_surfaces::Blob;
 use super::{LowerErrorKind, Painted};
 use crate::{Fields, Placement, Texture, TextureBody};
 
-/// The textures of a blob's components, and the blob's own one of those that have none, in the world.
+/// The textures of a blob's components, and the blob's own one of those that have none, in the
+/// world.
 pub(super) fn texture(
     blob: &crate::Blob,
     place: &Affine,

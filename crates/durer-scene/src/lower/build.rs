@@ -26,7 +26,8 @@ pub(super) struct Target<'b> {
 }
 
 impl Target<'_> {
-    /// Adds a surface of a common kind, placed by `map` if its numbers are not final: it has an array of its own, for either case.
+    /// Adds a surface of a common kind, placed by `map` if its numbers are not final: it has an
+    /// array of its own, for either case.
     pub(super) fn add<S: Algebraic + 'static>(&mut self, surface: S, map: Option<&Affine>) {
         match map {
             _ if self.is_changed() => self.add_rare(surface, map),
@@ -44,7 +45,8 @@ impl Target<'_> {
         }
     }
 
-    /// Adds a surface of a rare kind. What is clipped is a sheet: turning it inside out changes nothing.
+    /// Adds a surface of a rare kind. What is clipped is a sheet: turning it inside out changes
+    /// nothing.
     pub(super) fn add_rare<S: Algebraic + 'static>(&mut self, surface: S, map: Option<&Affine>) {
         if self.clips.is_empty() {
             self.add_whole(surface, map);
@@ -63,7 +65,8 @@ impl Target<'_> {
         self.inverse || !self.clips.is_empty()
     }
 
-    /// Keeps the closed, unclipped solid if rays of the camera may start in it: that is what the scene language asks where the camera is concerned.
+    /// Keeps the closed, unclipped solid if rays of the camera may start in it: that is what the
+    /// scene language asks where the camera is concerned.
     pub(super) fn contain<S: Surface + Clone + 'static>(&mut self, solid: &S, map: Option<&Affine>) {
         let bounds = || map.map_or_else(|| solid.bounds(), |m| solid.bounds_through(m));
         if self.camera.is_empty()
@@ -91,7 +94,8 @@ impl Target<'_> {
     }
 }
 
-/// A surface, placed by `map`, behind pointers. What is done to it is done outside of its own, so that each kind is compiled once.
+/// A surface, placed by `map`, behind pointers. What is done to it is done outside of its own, so
+/// that each kind is compiled once.
 fn erased<S: Algebraic + 'static>(surface: S, map: Option<&Affine>) -> DynSurface {
     let surface = DynSurface::new(surface);
     match map {

@@ -109,8 +109,9 @@ impl Lowering {
 
     /// The part that an object makes, given what it hands down.
     ///
-    /// A fact of the scene language: what clips a part clips it after everything around it has been turned inside out, so it is never turned
-    /// itself. Complements are therefore handed down to the leaves.
+    /// A fact of the scene language: what clips a part clips it after everything around it has been
+    /// turned inside out, so it is never turned itself. Complements are therefore handed down to
+    /// the leaves.
     fn part_of<'s>(
         &mut self,
         object: &'s Object,
@@ -270,8 +271,8 @@ impl Lent<'_> {
         )
     }
 
-    /// Adds those of an object that holds it, or does not if `outside`. `around` is what it inherits, `place` leads from the space around it to that of the
-    /// textures.
+    /// Adds those of an object that holds it, or does not if `outside`. `around` is what it
+    /// inherits, `place` leads from the space around it to that of the textures.
     fn gather(
         &mut self,
         object: &Object,

@@ -1,12 +1,14 @@
 //! Folding a placement into a shape's own numbers, only where that loses nothing.
 //!
-//! The exact surface is `{ c + L x }` with the text's numbers and the stored map. Where each new number is *exactly* the image of the old
-//! one, the folded shape is the same set and costs no inverse. Sums and products are checked by their error terms.
+//! The exact surface is `{ c + L x }` with the text's numbers and the stored map. Where each new
+//! number is *exactly* the image of the old one, the folded shape is the same set and costs no
+//! inverse. Sums and products are checked by their error terms.
 
 use durer_math::eft::{two_prod, two_sum};
 use durer_math::{Affine, Point3, Vec3};
 
-/// Largest magnitude whose products cannot overflow, and smallest whose error terms cannot underflow.
+/// Largest magnitude whose products cannot overflow, and smallest whose error terms cannot
+/// underflow.
 const SAFE: core::ops::Range<f64> = 1e-140..1e140;
 
 fn is_safe(x: f64) -> bool {
@@ -55,8 +57,8 @@ pub(super) fn is_diagonal(map: &Affine) -> bool {
     (0..3).all(|i| (0..3).all(|j| i == j || l[i][j] == 0.0))
 }
 
-/// Where a map takes the direction of an axis, and by how much it stretches, if it only turns axes into axes (either way round) and is the same in
-/// all directions.
+/// Where a map takes the direction of an axis, and by how much it stretches, if it only turns axes
+/// into axes (either way round) and is the same in all directions.
 pub(super) fn axis(map: &Affine, of: usize) -> Option<(usize, f64)> {
     let l = map.linear();
     let (mut image, mut size) = (None, None);

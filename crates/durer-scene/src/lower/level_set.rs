@@ -57,7 +57,8 @@ fn turned(solid: LevelSet, inverse: bool) -> Result<LevelSet> {
     if inverse { solid.complement().map_err(shape_error) } else { Ok(solid) }
 }
 
-/// A formula in its own frame, placed. The surface tells whether its numbers are in order, and where it is.
+/// A formula in its own frame, placed. The surface tells whether its numbers are in order, and
+/// where it is.
 fn placed(formula: Formula, surface: &impl Surface, place: &Affine) -> Result<LevelSet> {
     let bounds = if surface.bounds().is_bounded() { surface.bounds_through(place) } else { Aabb::UNBOUNDED };
     LevelSet::new(formula, surface.bounds()).placed_within(place, bounds).map_err(shape_error)

@@ -1,4 +1,5 @@
-//! What each primitive looks like. Primitives are numbered here and nowhere else: a primitive has a number because it has a look.
+//! What each primitive looks like. Primitives are numbered here and nowhere else: a primitive has a
+//! number because it has a look.
 
 use core::ops::Range;
 use std::collections::HashMap;
@@ -45,7 +46,8 @@ pub(super) struct LookTable {
     /// By the addresses of textures and frames, which the looks keep alive.
     known: HashMap<(*const Texture, *const Placement, u32, bool, Option<LookId>), LookId>,
     primitives: PrimitiveLooks,
-    /// Where the looks of an object are that is this mesh, has this look, and whose faces have these.
+    /// Where the looks of an object are that is this mesh, has this look, and whose faces have
+    /// these.
     meshes: HashMap<(*const Mesh, LookId, Vec<LookId>), Range<u32>>,
 }
 
@@ -108,7 +110,8 @@ impl LookTable {
         })
     }
 
-    /// Gives the object at hand, which is this mesh and nothing else, the looks of another with the same textures, if there is one.
+    /// Gives the object at hand, which is this mesh and nothing else, the looks of another with the
+    /// same textures, if there is one.
     pub(super) fn same_as_before(&mut self, mesh: &Arc<Mesh>, look: LookId, own: Vec<LookId>) -> bool {
         let PrimitiveLooks { of_object, of_primitive } = &mut self.primitives;
         let Some(looks) = of_object.last_mut().filter(|l| l.start as usize == of_primitive.len()) else {

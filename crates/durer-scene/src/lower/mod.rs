@@ -1,7 +1,8 @@
 //! From a scene to the geometry that rays meet, and what each surface looks like.
 //!
-//! Unions are taken apart, what they say about looks is handed down, and every surface gets its two numbers: `object` counts the
-//! scene's objects in the order of the text, `primitive` the surfaces within the object, each face of a mesh by itself.
+//! Unions are taken apart, what they say about looks is handed down, and every surface gets its two
+//! numbers: `object` counts the scene's objects in the order of the text, `primitive` the surfaces
+//! within the object, each face of a mesh by itself.
 
 mod blob_texture;
 mod build;
@@ -138,7 +139,8 @@ impl Lowered {
         self.primitives.of(object, primitive)
     }
 
-    /// Appends the media of all solids that hold `point`, at which a ray of the camera starts, in the order of the text.
+    /// Appends the media of all solids that hold `point`, at which a ray of the camera starts, in
+    /// the order of the text.
     pub fn media_at(&self, point: Point3, media: &mut Vec<u32>) {
         for (medium, solid) in &self.around_camera {
             if !media.contains(medium) && solid.holds(point) {
@@ -219,7 +221,8 @@ struct Lowering {
     /// Where rays of the camera start.
     camera: Aabb,
     default_texture: Arc<Texture>,
-    /// The one frame of everything that no union moves: one address, so that looks can be told apart by it.
+    /// The one frame of everything that no union moves: one address, so that looks can be told
+    /// apart by it.
     world: Arc<Placement>,
     /// No object has habits and all are opaque: one mask for all.
     is_plain: bool,
@@ -271,7 +274,8 @@ impl Lowering {
         self.leaf(object, place.affine(), inner).map_err(fail)
     }
 
-    /// What an object hands down to its parts: its own, and what it has none of from those around it.
+    /// What an object hands down to its parts: its own, and what it has none of from those around
+    /// it.
     fn inherited<'s>(&mut self, object: &'s Object, around: &Context<'s>) -> Result<Context<'s>, LowerError> {
         let own = |texture: &Option<Arc<Texture>>, inherited: &Option<Painted>| match texture {
             Some(texture) if texture.has_empty_pattern() => {
@@ -333,7 +337,8 @@ impl Lowering {
     fn leaf(&mut self, object: &Object, place: &Affine, context: Context<'_>) -> Result<(), LowerErrorKind> {
         let (texture, frame) = self.texture_of(&context);
         let is_clear = is_clear(object, &texture) || shows_through(&context.inside);
-        // Each clear object without an interior has one of its own all the same: leaving it is leaving it alone.
+        // Each clear object without an interior has one of its own all the same: leaving it is
+        // leaving it alone.
         let medium = match context.medium {
             Some(medium) => medium,
             None if is_clear => self.medium(&Arc::default()),
@@ -392,7 +397,8 @@ impl Lowering {
         let look = match inside.clone() {
             None => self.look(texture, medium, flags, None),
             Some(inside) => {
-                // A fact of the scene language: the corners of a flat triangle go round the other way.
+                // A fact of the scene language: the corners of a flat triangle go round the other
+                // way.
                 let (front, back) =
                     if goes_round_backward(object) { (inside, texture) } else { (texture, inside) };
                 let back = self.look(back, medium, flags, None);
@@ -459,8 +465,9 @@ fn shows_through(texture: &Option<Painted>) -> bool {
     texture.as_ref().is_some_and(|(texture, _)| !texture.is_opaque())
 }
 
-/// Whether it is made of triangles, has no inside, and its outside is not where the corners go round counterclockwise. Flat triangles are such; of smooth ones the
-/// normals tell, those of most faces where they disagree.
+/// Whether it is made of triangles, has no inside, and its outside is not where the corners go
+/// round counterclockwise. Flat triangles are such; of smooth ones the normals tell, those of most
+/// faces where they disagree.
 fn goes_round_backward(object: &Object) -> bool {
     match &object.shape {
         Shape::Triangle(_) => true,

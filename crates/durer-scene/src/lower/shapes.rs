@@ -324,8 +324,10 @@ fn add_flat<S: Algebraic + Clone + 'static>(target: &mut Target<'_>, surface: S,
 const DEGENERATE: &str = "triangle: its corners lie on one line, so it is left out";
 const TWO_SIDED: &str = "smooth_triangle: its normals do not all look to one side of it, so it is left out";
 
-/// Whether the normals of a smooth triangle look to the side from which its corners go round counterclockwise; `None` if they do not all look to
-/// one side, before or after it is placed (a shear turns a plane's normal and others apart). The scene language knows no such triangles, but for those of meshes.
+/// Whether the normals of a smooth triangle look to the side from which its corners go round
+/// counterclockwise; `None` if they do not all look to one side, before or after it is placed (a
+/// shear turns a plane's normal and others apart). The scene language knows no such triangles, but
+/// for those of meshes.
 fn front(&[a, b, c]: &[Point3; 3], normals: &[Vec3; 3], map: Option<&Affine>) -> Option<bool> {
     let n = (b - a).cross(c - a);
     if n == Vec3::ZERO {
@@ -343,12 +345,14 @@ fn front(&[a, b, c]: &[Point3; 3], normals: &[Vec3; 3], map: Option<&Affine>) ->
     side(placed(n), normals.map(placed))
 }
 
-/// The numbers that the placement gives, if it can be worked into them; those of no placement are the text's own.
+/// The numbers that the placement gives, if it can be worked into them; those of no placement are
+/// the text's own.
 fn folded<T>(map: Option<&Affine>, numbers: impl Fn(&Affine) -> Option<T>) -> Option<T> {
     numbers(map.unwrap_or(&Affine::IDENTITY))
 }
 
-/// The same for surfaces whose sides are told by the order of their corners: a mirror would exchange them.
+/// The same for surfaces whose sides are told by the order of their corners: a mirror would
+/// exchange them.
 fn kept_side<T>(map: Option<&Affine>, numbers: impl Fn(&Affine) -> Option<T>) -> Option<T> {
     if map.is_some_and(Affine::determinant_is_negative) { None } else { folded(map, numbers) }
 }
@@ -401,7 +405,8 @@ pub(super) fn mesh(data: &Mesh) -> Result<durer_surfaces::Mesh> {
 /// A number for each corner of each face.
 type Triples = Vec<[u32; 3]>;
 
-/// The texture coordinates of all faces; those without any get the ones that faces have where no face has any.
+/// The texture coordinates of all faces; those without any get the ones that faces have where no
+/// face has any.
 fn texture_coordinates(data: &Mesh) -> Result<(Vec<[f64; 2]>, Triples)> {
     if data.uv_faces.iter().all(Option::is_none) {
         return Ok((Vec::new(), Vec::new()));

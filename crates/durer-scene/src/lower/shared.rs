@@ -9,7 +9,8 @@ use durer_math::Affine;
 use super::{LowerErrorKind, Lowering, build, shapes};
 use crate::{Mesh, Object, Shape};
 
-/// The meshes that more than one of a scene's objects are, by their addresses, which do not change while the scene is borrowed.
+/// The meshes that more than one of a scene's objects are, by their addresses, which do not change
+/// while the scene is borrowed.
 pub(super) struct Meshes {
     built: HashMap<*const Mesh, Option<Arc<Geometry>>>,
 }

@@ -37,7 +37,8 @@ impl Steps {
         Some(self.builder.finish(*self.made.last()?, 3))
     }
 
-    /// Whether a step leaves the range of f64 at a point: what comes of its infinity says nothing of the formula.
+    /// Whether a step leaves the range of f64 at a point: what comes of its infinity says nothing
+    /// of the formula.
     fn overflow(&self, p: Point3) -> bool {
         self.made.iter().any(|&step| self.builder.finish(step, 3).value(&p.to_array()).is_infinite())
     }
@@ -150,8 +151,10 @@ fn point(boxes: &[I8; 3], lane: usize, k: [f64; 3]) -> Point3 {
     Point3::new(at(0), at(1), at(2))
 }
 
-/// Bounds hold the values of points. A tape that was shortened on a box has the same exact values there, so that its bounds and those of the whole one have numbers in common; where a decision makes a
-/// constant of a step, what follows from it is computed as an interval, of which another number may be the middle than rounding step by step gives.
+/// Bounds hold the values of points. A tape that was shortened on a box has the same exact values
+/// there, so that its bounds and those of the whole one have numbers in common; where a decision
+/// makes a constant of a step, what follows from it is computed as an interval, of which another
+/// number may be the middle than rounding step by step gives.
 fn bounds_hold(steps: &Steps, formula: &Formula, tape: &Tape, boxes: &[I8; 3]) {
     let (v, shorter) = tape.shortened(boxes, |_, _| true);
     for lane in 0..8 {
@@ -175,8 +178,10 @@ fn bounds_hold(steps: &Steps, formula: &Formula, tape: &Tape, boxes: &[I8; 3]) {
                     let short = shorter.value(p);
                     let here = p.to_array().map(|x| I8::splat(Interval { lo: x, hi: x }));
                     let (told, known) = (shorter.bounds(&here), tape.bounds(&here));
-                    // An exponent that is no longer known to be a whole number may leave the domain: then bounds say so, and there is no value or no bound of it. And the side of a joined pair that
-                    // the whole formula did not take may have come from an infinity.
+                    // An exponent that is no longer known to be a whole number may leave the
+                    // domain: then bounds say so, and there is no value or no bound of it. And the
+                    // side of a joined pair that the whole formula did not take may have come from
+                    // an infinity.
                     let left = told.partial & 1 == 1 && (short.is_nan() || told.empty & 1 == 1);
                     let lost = left || short.is_nan() && steps.overflow(p);
                     let agree = told.lane(0).intersection(known.lane(0)).is_some();
@@ -215,7 +220,8 @@ fn slopes_hold(tape: &Tape, boxes: &[I8; 3]) {
     }
 }
 
-/// All directions at once say what they say one by one, or more; rounded numbers are within the bounds of their points.
+/// All directions at once say what they say one by one, or more; rounded numbers are within the
+/// bounds of their points.
 fn gradients_hold(tape: &Tape, boxes: &[I8; 3]) {
     let number = |x: f64| I8::constant(Interval { lo: x, hi: x });
     let all = tape.gradients(boxes);
@@ -231,7 +237,8 @@ fn gradients_hold(tape: &Tape, boxes: &[I8; 3]) {
             }
             let (told, wider) = (d.lane(lane), one.d.lane(lane));
             assert!(d.partial >> lane & 1 == 0, "{tape:?}");
-            // Not only do both hold the slopes: what does not vary is not multiplied by, which is narrower, but for what each step is charged for underflow.
+            // Not only do both hold the slopes: what does not vary is not multiplied by, which is
+            // narrower, but for what each step is charged for underflow.
             let is_tiny = |x: f64| x.abs() < durer_math::scale::pow2(-900);
             let is_below = wider.lo <= told.lo || is_tiny(told.lo) && is_tiny(wider.lo);
             let is_above = told.hi <= wider.hi || is_tiny(told.hi) && is_tiny(wider.hi);

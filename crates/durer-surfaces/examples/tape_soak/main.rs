@@ -1,6 +1,8 @@
-//! Random formulas for as many seconds as are given: `cargo run --release -p durer-surfaces --example tape_soak -- 60 1`.
+//! Random formulas for as many seconds as are given:
+//! `cargo run --release -p durer-surfaces --example tape_soak -- 60 1`.
 //!
-//! The same as the fuzz target `tape`, for those who have no fuzzer at hand. The second number is the first seed.
+//! The same as the fuzz target `tape`, for those who have no fuzzer at hand. The second number is
+//! the first seed.
 
 mod case;
 

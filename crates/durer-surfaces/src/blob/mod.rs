@@ -13,8 +13,8 @@
 //!
 //! Along a ray each field begins and ends, and in between it is a polynomial of degree four
 //! (`component.rs`). So is the sum between two such points (`march.rs`): T. Nishita, E. Nakamae, "A
-//! method for displaying metaballs by using Bézier clipping", *Computer Graphics Forum* 13(3),
-//! 1994. The sum is computed anew for each stretch, so no rounding accumulates, and its sign
+//! method for displaying metaballs by using Bézier clipping", *Computer Graphics Forum* 13(3), 1994.
+//! The sum is computed anew for each stretch, so no rounding accumulates, and its sign
 //! follows from its Bernstein form (`segment.rs`). A tree of boxes finds the fields that a ray
 //! meets, in the order of the ray (`tree.rs`; O. Gourmel et al., "Fitted BVH for fast raytracing of
 //! metaballs", *Computer Graphics Forum* 29(2), 2010).

@@ -1,7 +1,8 @@
 //! A surface placed by an affine map.
 //!
-//! The exact surface is `{ c + L x : x in S }`, with the surface's own numbers and the map's stored ones. Rays go through the inverse, whose
-//! rounding is charged to every bracket; points come back through `L` itself.
+//! The exact surface is `{ c + L x : x in S }`, with the surface's own numbers and the map's stored
+//! ones. Rays go through the inverse, whose rounding is charged to every bracket; points come back
+//! through `L` itself.
 
 use crate::packet::FilterSource;
 use crate::point::least_step;
@@ -125,7 +126,8 @@ fn place_here(map: &Affine, local: &SurfacePoint) -> SurfacePoint {
     if local.bend == f64::INFINITY {
         return place_tip(map, local, SurfacePoint::new(p, dp, 0.0, local.ng), rho);
     }
-    // Heights: a world displacement Δ changes the height over the local tangent plane by w·Δ, w = L⁻ᵀ n.
+    // Heights: a world displacement Δ changes the height over the local tangent plane by w·Δ, w =
+    // L⁻ᵀ n.
     let n_l = local.ng.to_vec();
     let (w, e_w) = covector(map, n_l);
     let length = w.length();
@@ -134,7 +136,8 @@ fn place_here(map: &Affine, local: &SurfacePoint) -> SurfacePoint {
     let bend = local.bend * reach * reach;
     let (sure, slip) =
         (length * (1.0 - 8.0 * U) - (e_w.x + e_w.y + e_w.z), 4.0 * U * p.to_vec().length() + TINY);
-    // What a start at this point costs when it goes through the inverse, so that its side is still seen in f64.
+    // What a start at this point costs when it goes through the inverse, so that its side is still
+    // seen in f64.
     let offset = p - map.centre();
     let (_, e_back) = through_inverse(map, offset, offset.abs() * U);
     let stray = rho.length() + slip;
@@ -182,8 +185,8 @@ fn place_tip(map: &Affine, local: &SurfacePoint, mut point: SurfacePoint, rho: V
     let length = axis.length();
     point.ng = (axis * (1.0 / length)).to_normal();
     point.ns = point.ng;
-    // The start misses the one meant by rounding, in the world and of the axis; where that is more than the tip allows, the way is
-    // longer by as much: f grows with its square.
+    // The start misses the one meant by rounding, in the world and of the axis; where that is more
+    // than the tip allows, the way is longer by as much: f grows with its square.
     let reach = map.inverse_norm();
     let stray = rho.length() + 4.0 * U * point.p.to_vec().length() + 16.0 * U * map.linear_norm() * local.off;
     let factor = (reach * stray * (1.0 + 16.0 * U) / local.slack * 2.0).max(1.0);

@@ -1,9 +1,11 @@
 //! A surface clipped by solids: what of it lies in a region.
 //!
-//! A root stays if it is in the closed region. Where an enclosure of the root straddles the region's border, the answer is the exact sign
-//! of the border's polynomial at the root of the surface's, so that the cut neither leaks nor doubles.
+//! A root stays if it is in the closed region. Where an enclosure of the root straddles the
+//! region's border, the answer is the exact sign of the border's polynomial at the root of the
+//! surface's, so that the cut neither leaks nor doubles.
 //!
-//! The result is a sheet: clipping removes surface and does not cap what it opens. It has no inside, also where the surface had one.
+//! The result is a sheet: clipping removes surface and does not cap what it opens. It has no
+//! inside, also where the surface had one.
 
 use super::region::{FaceSet, Region};
 use crate::packet::FilterSource;
@@ -18,24 +20,28 @@ use std::sync::OnceLock;
 
 /// A surface each of whose faces is the zero set of a polynomial.
 pub trait Algebraic: Surface {
-    /// The polynomial of the face along the ray, in the ray's own parameter `s`, times any positive factor; negative behind the face.
-    /// `None` if the ray is not exactly known, and on faces of a degree above two.
+    /// The polynomial of the face along the ray, in the ray's own parameter `s`, times any positive
+    /// factor; negative behind the face. `None` if the ray is not exactly known, and on faces of a
+    /// degree above two.
     fn polynomial(&self, _face: u32, _ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
         None
     }
 
-    /// The same in double-doubles with their errors, which tell the sign of most of what f64 cannot tell, for a small part of the steps. Not all surfaces know it.
+    /// The same in double-doubles with their errors, which tell the sign of most of what f64 cannot
+    /// tell, for a small part of the steps. Not all surfaces know it.
     fn wide_polynomial(&self, _face: u32, _ray: &LocalRay<'_>) -> Option<Quadratic<EFloat<Dd>>> {
         None
     }
 
-    /// The exact sign of a polynomial in the ray's own parameter at a root of this surface; `None` if the ray is not exactly known.
+    /// The exact sign of a polynomial in the ray's own parameter at a root of this surface; `None`
+    /// if the ray is not exactly known.
     fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {
         let p = self.polynomial(root.face, ray)?;
         Some(sign_at_root(&p, name(&p, root), q))
     }
 
-    /// A box of what of the surface, placed by a map, lies in all of some regions; of more, if that is not known.
+    /// A box of what of the surface, placed by a map, lies in all of some regions; of more, if that
+    /// is not known.
     fn bounds_among(&self, _regions: &[Region], map: Option<&Affine>) -> Aabb {
         map.map_or_else(|| self.bounds(), |map| self.bounds_through(map))
     }
@@ -146,8 +152,9 @@ fn in_childs_parameter(p: &Quadratic<Dyadic>, step: f64, k: i32) -> Quadratic<Dy
 pub struct Clip<S> {
     surface: S,
     regions: Vec<Region>,
-    /// For each region, and each of the surface's first faces, the faces of the region on which all of that lies: looked for when a root is first
-    /// in doubt. Where a body ends in the very plane that cuts it, each ray that meets it there would ask in exact arithmetic.
+    /// For each region, and each of the surface's first faces, the faces of the region on which all
+    /// of that lies: looked for when a root is first in doubt. Where a body ends in the very plane
+    /// that cuts it, each ray that meets it there would ask in exact arithmetic.
     around: Vec<[OnceLock<FaceSet>; REMEMBERED]>,
 }
 
@@ -202,13 +209,15 @@ impl<S: Algebraic> Clip<S> {
             return keeps;
         }
         let decided = region.holds_exactly(ray, (doubtful, on), |q| self.surface.sign_at_root(ray, root, q));
-        // A ray that is known within errors only may be on the border: then it is, and closed sets hold their border.
+        // A ray that is known within errors only may be on the border: then it is, and closed sets
+        // hold their border.
         decided.unwrap_or(true)
     }
 }
 
 impl<S: Algebraic> Clip<S> {
-    /// The same where the face is a plane and double-doubles suffice: faces that are in one plane but for the rounding of a decimal number, mostly.
+    /// The same where the face is a plane and double-doubles suffice: faces that are in one plane
+    /// but for the rounding of a decimal number, mostly.
     fn keeps_widely(
         &self,
         region: &Region,
@@ -344,7 +353,8 @@ mod tests {
 
     #[test]
     fn double_doubles_cut_as_exact_numbers_do() {
-        // A lid in the plane that cuts it but for a few units in the last place, or exactly: decimal numbers, as in texts.
+        // A lid in the plane that cuts it but for a few units in the last place, or exactly:
+        // decimal numbers, as in texts.
         let mut dice = TestRng::new(5);
         let (mut told, mut kept) = (0, 0);
         for round in 0..400 {
@@ -379,7 +389,8 @@ mod tests {
         assert!(told > 100 && kept > 20 && kept < told - 20, "{told} {kept}");
     }
 
-    /// Of quadrics along an axis, clipped across it: the box holds all that is left, and is no larger than that needs.
+    /// Of quadrics along an axis, clipped across it: the box holds all that is left, and is no
+    /// larger than that needs.
     #[test]
     fn what_is_clipped_across_its_axis_has_a_box() {
         let below = |sign: f64, at: f64| Region::half_space(Normal3::new(0.0, sign, 0.0), sign * at).unwrap();

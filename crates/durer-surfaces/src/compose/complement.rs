@@ -7,8 +7,8 @@ use crate::{LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surf
 use core::cmp::Ordering;
 use durer_math::{Aabb, Dd, Dyadic, EFloat, RaySide};
 
-/// The complement of the solid `S`, with its boundary: entering becomes leaving, and normals point the other way. An open surface
-/// keeps its place and turns its normal.
+/// The complement of the solid `S`, with its boundary: entering becomes leaving, and normals point
+/// the other way. An open surface keeps its place and turns its normal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Complement<S>(pub S);
 

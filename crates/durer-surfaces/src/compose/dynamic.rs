@@ -1,4 +1,5 @@
-//! A surface behind a pointer: for the rarer kinds and combinations, which are not worth an array (and its code) of their own.
+//! A surface behind a pointer: for the rarer kinds and combinations, which are not worth an array
+//! (and its code) of their own.
 
 use crate::compose::clip::Algebraic;
 use crate::compose::region::Region;

@@ -1,8 +1,8 @@
 //! The faces of flat surfaces as polynomials along a ray, so that they can be clipped.
 //!
-//! A face is crossed where `n·(o + s d - p)` vanishes: at a rational `s`, where the sign of a region's polynomial is a matter of whole
-//! numbers. Only the plane at a given distance, `n·x = h |n|`, may have no rational point; it is one of the two roots of
-//! `(n·x)² = h² n·n`.
+//! A face is crossed where `n·(o + s d - p)` vanishes: at a rational `s`, where the sign of a
+//! region's polynomial is a matter of whole numbers. Only the plane at a given distance,
+//! `n·x = h |n|`, may have no rational point; it is one of the two roots of `(n·x)² = h² n·n`.
 
 use crate::compose::clip::Algebraic;
 use crate::planar::{ThreePoints, cross, dot, exact3};
@@ -41,7 +41,8 @@ impl Algebraic for Plane {
         let (at, slope) = (dot(&n, &ray.o), dot(&n, &ray.d));
         let far = Ring::square(Dyadic::exact(h) * ray.w) * dot(&n, &n);
         let (a, b, c) = (Ring::square(slope.clone()), at.clone() * slope, Ring::square(at) - far);
-        // Between the two planes it is negative; behind this one, if it is the first along the normal, positive.
+        // Between the two planes it is negative; behind this one, if it is the first along the
+        // normal, positive.
         Some(if h > 0.0 { Quadratic { a, b, c } } else { Quadratic { a: -a, b: -b, c: -c } })
     }
 }
@@ -105,7 +106,8 @@ mod tests {
     use core::cmp::Ordering;
     use durer_math::{Aabb, Affine, Normal3, Ray, Vec3};
 
-    /// Regions, each with its faces' exact polynomials, chosen so that borders go through whole points.
+    /// Regions, each with its faces' exact polynomials, chosen so that borders go through whole
+    /// points.
     fn regions(dice: &mut TestRng) -> (Vec<Region>, Vec<ExactForm>) {
         let half = |n: [f64; 3], p: [f64; 3]| ExactForm::half_space(exact3(n), exact3(p));
         let (mut all, mut cuts) = (vec![], vec![]);

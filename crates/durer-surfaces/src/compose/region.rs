@@ -1,4 +1,5 @@
-//! Closed sets that surfaces are clipped by: solids with plane and quadric faces, half-spaces, boxes, and the closures of their complements.
+//! Closed sets that surfaces are clipped by: solids with plane and quadric faces, half-spaces,
+//! boxes, and the closures of their complements.
 
 use super::clip::in_parents_parameter;
 use crate::packet::FilterSource;
@@ -34,7 +35,8 @@ pub struct Region {
     map: Option<Affine>,
     inverse: bool,
     bounds: Aabb,
-    /// Boxes that hold the region before it is placed, and the closure of its complement; of half-spaces they have one end.
+    /// Boxes that hold the region before it is placed, and the closure of its complement; of
+    /// half-spaces they have one end.
     slabs: [Aabb; 2],
 }
 
@@ -171,7 +173,8 @@ pub enum RegionError {
 }
 
 impl Region {
-    /// The inside of a solid with quadric faces, its boundary included; of a sheet, what its walls and its cut-offs enclose.
+    /// The inside of a solid with quadric faces, its boundary included; of a sheet, what its walls
+    /// and its cut-offs enclose.
     pub fn solid<S: QuadricFaces + 'static>(shape: S) -> Self {
         let bounds = shape.bounds();
         let slabs = [bounds, Aabb::UNBOUNDED];
@@ -225,7 +228,8 @@ impl Region {
         self.bounds
     }
 
-    /// A box that holds the region where it is seen as a surface is that was placed by the same map; also one without all of its ends.
+    /// A box that holds the region where it is seen as a surface is that was placed by the same
+    /// map; also one without all of its ends.
     pub(super) fn slab(&self, map: Option<&Affine>) -> Aabb {
         if self.map.as_ref() == map { self.slabs[0] } else { Aabb::UNBOUNDED }
     }
@@ -240,7 +244,8 @@ impl Region {
         if self.inverse { surface.without(region) } else { surface.within(region) }
     }
 
-    /// Whether the closed region holds a root, if that can be told from its bracket; else the faces that do not tell.
+    /// Whether the closed region holds a root, if that can be told from its bracket; else the faces
+    /// that do not tell.
     pub(super) fn holds(&self, ray: &LocalRay<'_>, root: &Root) -> Result<bool, FaceSet> {
         Isa::detect().run(
             #[inline(always)]
@@ -274,8 +279,8 @@ impl Region {
         if doubtful.is_empty() { Ok(!self.inverse) } else { Err(doubtful) }
     }
 
-    /// The same, exactly, for a root that is inside all faces but the doubtful ones and those of which it is known that it lies on them (`on`);
-    /// `sign` tells that of a polynomial at it.
+    /// The same, exactly, for a root that is inside all faces but the doubtful ones and those of
+    /// which it is known that it lies on them (`on`); `sign` tells that of a polynomial at it.
     pub(super) fn holds_exactly(
         &self,
         ray: &LocalRay<'_>,
@@ -307,7 +312,8 @@ impl Region {
         Some(if self.inverse { worst.is_ge() } else { worst.is_le() })
     }
 
-    /// The exact polynomials of some faces along a ray, in its own parameter, each times a positive factor; `None` if the ray is not exactly known.
+    /// The exact polynomials of some faces along a ray, in its own parameter, each times a positive
+    /// factor; `None` if the ray is not exactly known.
     fn polynomials(
         &self,
         ray: &LocalRay<'_>,
@@ -346,11 +352,13 @@ impl Region {
         )
     }
 
-    /// The faces on which all of a face of a surface lies: those whose polynomial is a multiple of its own. `face` tells the latter along a ray.
+    /// The faces on which all of a face of a surface lies: those whose polynomial is a multiple of
+    /// its own. `face` tells the latter along a ray.
     ///
-    /// Let `f` and `g` be the two, of degree two at most, and `p` a point where `f` does not vanish. Where they are proportional along a line
-    /// through `p`, `h = g(p) f - f(p) g` vanishes on it. In its direction `v` the terms of `h(p + s v)` of first and second degree are a linear and a quadratic form of
-    /// `v`; the six `v` below leave neither of them a coefficient.
+    /// Let `f` and `g` be the two, of degree two at most, and `p` a point where `f` does not
+    /// vanish. Where they are proportional along a line through `p`, `h = g(p) f - f(p) g` vanishes
+    /// on it. In its direction `v` the terms of `h(p + s v)` of first and second degree are a
+    /// linear and a quadratic form of `v`; the six `v` below leave neither of them a coefficient.
     pub(super) fn faces_around(&self, face: impl Fn(&LocalRay<'_>) -> Option<Quadratic<Dyadic>>) -> FaceSet {
         /// Of few bits, and on no surface that anybody would write down.
         const P: Point3 = Point3::new(179.0 / 256.0, -347.0 / 256.0, 89.0 / 256.0);
@@ -436,7 +444,8 @@ mod tests {
         let on = |region: &Region| [0, 1, 2, 3, 4, 5].map(|face| around(region, &cube, face));
         assert_eq!(on(&block(2.0)), [vec![], vec![], vec![2], vec![3], vec![], vec![5]]);
         assert_eq!(on(&block(2.0_f64.next_down())), [vec![], vec![], vec![2], vec![], vec![], vec![5]]);
-        // Turned about its axis by a quarter, within rounding: what is exactly in the plane still is.
+        // Turned about its axis by a quarter, within rounding: what is exactly in the plane still
+        // is.
         let quarter = |moved: f64| {
             let turn = Affine::rotation_y(core::f64::consts::FRAC_PI_2).unwrap();
             turn.then(&Affine::translation(Vec3::new(0.0, moved, 0.0)).unwrap()).unwrap()
@@ -457,7 +466,8 @@ mod tests {
         assert_eq!(around(&region, &ball(1.5), 0), [0]);
         assert_eq!(around(&region, &ball(1.5_f64.next_up()), 0), []);
         assert_eq!(around(&region.inverse(), &ball(1.5), 0), [0]);
-        // Twice as large and half as high: the same cone, of another length. Sheared a little it is another.
+        // Twice as large and half as high: the same cone, of another length. Sheared a little it is
+        // another.
         let cone = |r: f64, h: f64| Cone::new(r, r, h).unwrap();
         let region = Region::solid(*cone(1.0, 2.0).shape());
         assert_eq!(around(&region, &cone(2.0, 4.0), 0), [0]);

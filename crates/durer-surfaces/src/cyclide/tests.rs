@@ -3,7 +3,8 @@ use crate::laws::{Exact, Feature, TestRng, ZeroOracle, check_many};
 use crate::{All, Axis, Placed, RootKind, Torus};
 use durer_math::Ray;
 
-/// `(x² + y² + z² - d² + b²)² - 4 (a x - c d)² - 4 b² y'²`: the other form of the equation, in which the roles of two axes are exchanged; expanded.
+/// `(x² + y² + z² - d² + b²)² - 4 (a x - c d)² - 4 b² y'²`: the other form of the equation, in
+/// which the roles of two axes are exchanged; expanded.
 fn oracle(it: &Cyclide) -> ZeroOracle {
     let [a, c, d] = [it.a, it.c, it.d].map(Exact::from);
     let b2 = &a.squared() - &c.squared();
@@ -29,7 +30,8 @@ fn oracle(it: &Cyclide) -> ZeroOracle {
     ZeroOracle { terms, size: it.a + it.c + it.d }
 }
 
-/// Points with few-bit coordinates, for (a, c, d) = k (10, 6, 7.5), k (65, 25, 15) or k (25, 15, 65), tangents there, and tips.
+/// Points with few-bit coordinates, for (a, c, d) = k (10, 6, 7.5), k (65, 25, 15) or k (25, 15,
+/// 65), tangents there, and tips.
 fn features(it: &Cyclide, k: f64) -> Vec<Feature> {
     let (a, c, d) = (it.a / k, it.c / k, it.d / k);
     let mut out = vec![];
@@ -163,7 +165,8 @@ fn charts_follow_the_surface() {
             for root in all(&it, &ray).iter().filter(|r| r.kind == RootKind::Simple) {
                 let p = it.resolve(&LocalRay::new(&ray), root, Need::ALL);
                 assert!(p.uv.iter().all(|x| (0.0..=1.0).contains(x)), "{p:?}");
-                // A small step along each line of the chart changes its coordinate by that much and not the other.
+                // A small step along each line of the chart changes its coordinate by that much and
+                // not the other.
                 for (i, way) in [p.dpdu, p.dpdv].into_iter().enumerate() {
                     let h = 1e-5;
                     let aside = p.p + way * h;

@@ -123,7 +123,8 @@ mod tests {
         (from.max_abs() <= 1.0 && to.max_abs() <= 1.0).then_some((from, to))
     }
 
-    /// From one point of the container to another: beside a tangent, anywhere, along an axis, or from a corner of cells.
+    /// From one point of the container to another: beside a tangent, anywhere, along an axis, or
+    /// from a corner of cells.
     fn line_into(dice: &mut TestRng, c: f64, line: &mut Line8, i: usize) -> f64 {
         let (mut p, mut q) = (dice.vector(), dice.vector());
         if dice.once_in(4) {

@@ -126,7 +126,8 @@ pub(super) enum CellLookup<'a> {
     Gap,
     /// Perhaps; this tape says more.
     Open(&'a Tape),
-    /// Perhaps; the formula, of which this is a tape, strictly rises (`true`) or falls along the line.
+    /// Perhaps; the formula, of which this is a tape, strictly rises (`true`) or falls along the
+    /// line.
     Slope(&'a Tape, bool),
 }
 
@@ -155,7 +156,8 @@ impl Cells {
         made
     }
 
-    /// What becomes of a cell in which there may be surface; `at` is where it is, in parts of its size.
+    /// What becomes of a cell in which there may be surface; `at` is where it is, in parts of its
+    /// size.
     fn divided(
         &mut self,
         bounds: &Aabb,
@@ -265,7 +267,8 @@ impl Cells {
         &self.tapes[self.leaves[leaf as usize].tape as usize]
     }
 
-    /// What is known of all points within `reach` of `p` along each axis; `None` if that is more than the margin pays for.
+    /// What is known of all points within `reach` of `p` along each axis; `None` if that is more
+    /// than the margin pays for.
     pub(super) fn place(&self, p: Point3, reach: f64) -> Option<CellLookup<'_>> {
         let spare = 0.5 * self.margin;
         let held = (0..3).all(|i| p[i] >= self.extent.min[i] - spare && p[i] <= self.extent.max[i] + spare);
@@ -289,7 +292,8 @@ impl Cells {
         self.margin
     }
 
-    /// The number of the tape that is right in the cell of a point, and near it; the whole one where there is no surface.
+    /// The number of the tape that is right in the cell of a point, and near it; the whole one
+    /// where there is no surface.
     pub(super) fn tape_at(&self, p: [f64; 3]) -> u32 {
         match self.grid.look_up(p) {
             Lookup::Leaf(leaf) => self.leaves[leaf as usize].tape,
@@ -314,7 +318,8 @@ impl Cells {
         &self.grid
     }
 
-    /// Divides the stretch from `a` to `b` of a line by the cells, in ascending order, without holes, as long as `take` says so.
+    /// Divides the stretch from `a` to `b` of a line by the cells, in ascending order, without
+    /// holes, as long as `take` says so.
     pub(super) fn walk<'a>(
         &'a self,
         line: &BoundedLine,

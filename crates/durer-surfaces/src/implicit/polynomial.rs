@@ -173,7 +173,8 @@ mod tests {
     use durer_math::scale::pow2;
     use durer_math::{Dyadic, Point3, Ray, Vec3};
 
-    /// J. Steiner's Roman surface, `x²y² + y²z² + z²x² - 2xyz`, which crosses itself along the axes.
+    /// J. Steiner's Roman surface, `x²y² + y²z² + z²x² - 2xyz`, which crosses itself along the
+    /// axes.
     fn roman() -> Tape {
         let mut b = Builder::new();
         let mut op = |op| b.push(op).unwrap();

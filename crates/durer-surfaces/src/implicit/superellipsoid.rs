@@ -6,15 +6,18 @@
 //!   e shapes the sections across z (1: circles, towards 0: squares, 2: diamonds, beyond: stars), n those along z
 //! ```
 //!
-//! With `e <= 2` and `n <= 2` it is convex, and most rays do without what follows (`superellipsoid_convex/`). With `2 <= e, n <= 8` what is outside is convex between the planes of two axes, and lanes do
-//! without it outside (`superellipsoid_concave.rs`).
+//! With `e <= 2` and `n <= 2` it is convex, and most rays do without what follows
+//! (`superellipsoid_convex/`). With `2 <= e, n <= 8` what is outside is convex between the planes
+//! of two axes, and lanes do without it outside (`superellipsoid_concave.rs`).
 //!
-//! A. H. Barr, "Superquadrics and angle-preserving transformations", *IEEE Computer Graphics and Applications* 1(1), 1981.
+//! A. H. Barr, "Superquadrics and angle-preserving transformations", *IEEE Computer Graphics and
+//! Applications* 1(1), 1981.
 //!
-//! Powers rise, so bounds of the formula on a box are as tight as those of `|x|`, `|y|` and `|z|`. Its slope is not: it is unbounded at the planes
-//! `x = 0` and `y = 0` for `e > 2`, at `z = 0` for `n > 2`, and on the z axis for `n > e`, where the inner sum is zero. Stretches of a ray there are
-//! told apart by the bounds alone, down to the rounding of the formula if need be: no crossing is lost, but one on an edge or at a tip of the
-//! surface itself may be reported as a cluster.
+//! Powers rise, so bounds of the formula on a box are as tight as those of `|x|`, `|y|` and `|z|`.
+//! Its slope is not: it is unbounded at the planes `x = 0` and `y = 0` for `e > 2`, at `z = 0` for
+//! `n > 2`, and on the z axis for `n > e`, where the inner sum is zero. Stretches of a ray there
+//! are told apart by the bounds alone, down to the rounding of the formula if need be: no crossing
+//! is lost, but one on an edge or at a tip of the surface itself may be reported as a cluster.
 
 use super::superellipsoid_convex::Gauge;
 use super::{Container, Isosurface, IsosurfaceError};
@@ -23,14 +26,16 @@ use crate::{AxisBox, AxisBoxError};
 use durer_math::eft::two_prod;
 use durer_math::{Interval, Point3};
 
-/// Half the width of the container. The surface touches the planes at 1, so that its own sign is plain at this distance: the power of this number
-/// exceeds 1 by more than its rounding for exponents up to 1e11.
+/// Half the width of the container. The surface touches the planes at 1, so that its own sign is
+/// plain at this distance: the power of this number exceeds 1 by more than its rounding for
+/// exponents up to 1e11.
 const HALF: f64 = 1.0 + 1.0 / 64.0;
 
 /// Why a superellipsoid cannot exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SuperellipsoidError {
-    /// An exponent is out of range: powers beyond are those of a box or of three lines, to the last bit.
+    /// An exponent is out of range: powers beyond are those of a box or of three lines, to the last
+    /// bit.
     #[error("superellipsoid: its exponents must be between 1e-9 and 1e9, got {0}")]
     Exponent(f64),
     /// The formula cannot be had.

@@ -1,4 +1,5 @@
-//! Superellipsoids with dents between all axes, as lanes see them: between two planes through their axes a ray that is outside meets one at most once.
+//! Superellipsoids with dents between all axes, as lanes see them: between two planes through their
+//! axes a ray that is outside meets one at most once.
 //!
 //! ```text
 //!   N(x, y) = (|x|^p + |y|^p)^(1/p),   G(x, y, z) = (N^q + |z|^q)^(1/q),   1/4 <= p = 2/e <= 1,  1/4 <= q = 2/n <= 1
@@ -6,30 +7,40 @@
 //!   { G <= 1 } is the superellipsoid, within |x| + |y| + |z| <= 1
 //! ```
 //!
-//! For `p <= 1` the power sum `N` of numbers that are not negative is concave (H. Minkowski's inequality turned round: G. H. Hardy, J. E. Littlewood, G. Pólya, *Inequalities*, 1934,
-//! 2.11), and `G` is the same of `N` and `|z|`, and rises with both. So `g(s) = G(o + s d)` is concave as long as no coordinate changes its sign. There:
+//! For `p <= 1` the power sum `N` of numbers that are not negative is concave (H. Minkowski's
+//! inequality turned round: G. H. Hardy, J. E. Littlewood, G. Pólya, *Inequalities*, 1934, 2.11),
+//! and `G` is the same of `N` and `|z|`, and rises with both. So `g(s) = G(o + s d)` is concave as
+//! long as no coordinate changes its sign. There:
 //!
 //! - Where `g > 1` at both ends of a stretch, `g > 1` on all of it.
 //! - Where `g > 1` at one end and `g < 1` at the other, there is exactly one crossing.
 //!
-//! So the signs where a ray goes through the three planes `x = 0`, `y = 0`, `z = 0` are all that has to be known. `G` is as steep as one likes there, but it rises with the size of each coordinate: it
-//! is least in a box of places at the box's corner that is nearest to the origin, and greatest at the farthest. The box of a place next to a plane holds all
-//! places up to where the exact ray goes through the plane, so that it does not matter on which side of it the place is.
+//! So the signs where a ray goes through the three planes `x = 0`, `y = 0`, `z = 0` are all that
+//! has to be known. `G` is as steep as one likes there, but it rises with the size of each
+//! coordinate: it is least in a box of places at the box's corner that is nearest to the origin,
+//! and greatest at the farthest. The box of a place next to a plane holds all places up to where
+//! the exact ray goes through the plane, so that it does not matter on which side of it the place
+//! is.
 //!
 //! Rays inside are told by the formula.
 //!
-//! **The value.** As in `superellipsoid_convex/gauge.rs`, with logarithms that err by `8 u` of themselves and powers by `4 u`. The larger of two numbers is no less than `2^(-1/p)` of `N`, `2^(-1/q)` of `G`; so
-//! `log N` errs by no more than `(16 |a| + 20 / p + |log N|) u`, `log G` by `(36 / p + 41 / q + 22 |log G|) u`, and `G`, where it is from 1/4 to 4, by `(25 / p + 29 / q + 36) u` of itself. Where it
-//! is beyond these errors are far below what it differs from 1 by.
+//! **The value.** As in `superellipsoid_convex/gauge.rs`, with logarithms that err by `8 u` of
+//! themselves and powers by `4 u`. The larger of two numbers is no less than `2^(-1/p)` of `N`,
+//! `2^(-1/q)` of `G`; so `log N` errs by no more than `(16 |a| + 20 / p + |log N|) u`, `log G` by
+//! `(36 / p + 41 / q + 22 |log G|) u`, and `G`, where it is from 1/4 to 4, by
+//! `(25 / p + 29 / q + 36) u` of itself. Where it is beyond these errors are far below what it
+//! differs from 1 by.
 
 use super::Isosurface;
 use super::superellipsoid_convex::{Gauge, Sample};
 use crate::packet::{ImplicitKernel, Line8, LineExtent8, Segment8, Skin, Slant, Value8};
 use durer_math::{F8, Isa, M8, U, Vec3};
 
-/// An octahedron that is larger by this holds the solid with room for all rounding of a line that is known well enough.
+/// An octahedron that is larger by this holds the solid with room for all rounding of a line that
+/// is known well enough.
 const ROOM: f64 = 1.0 / 64.0;
-/// So many times as far as a point may be off it counts as a point of a plane between octants. Two would be enough of where lines go through these by rounded numbers.
+/// So many times as far as a point may be off it counts as a point of a plane between octants. Two
+/// would be enough of where lines go through these by rounded numbers.
 const NEAR: f64 = 8.0;
 /// What has a coordinate of this size is outside.
 const FAR_OUT: f64 = 4.0;
@@ -58,7 +69,8 @@ impl Star {
         Self { gauge: gauge.clone(), error, formula: formula.clone() }
     }
 
-    /// The place of each line, and all places up to where it goes through a plane that the place is next to.
+    /// The place of each line, and all places up to where it goes through a plane that the place is
+    /// next to.
     #[inline(always)]
     fn sizes(line: &Line8, s: F8) -> Sizes {
         let (p, e) = (line.point(s).map(F8::abs), line.error(s.abs()));
@@ -114,7 +126,8 @@ impl ImplicitKernel for Star {
                 let near = x.min(y).min(z).le(line.error(told.a.abs()) * NEAR);
                 within = told.lanes & told.sign.lt(F8::ZERO);
                 told.seen = told.lanes & !within;
-                // Who begins next to a plane is not known to be outside up to it, and is left to others.
+                // Who begins next to a plane is not known to be outside up to it, and is left to
+                // others.
                 told.falls = told.seen & !(near & told.hint.equals(NEVER));
                 let mut end = told.last;
                 for (o, d) in [(line.o.x, line.d.x), (line.o.y, line.d.y), (line.o.z, line.d.z)] {
@@ -258,7 +271,8 @@ mod tests {
         assert!(worst > 1.0 / 64.0, "{worst}");
     }
 
-    /// Through where, and in which direction: along a ridge at a small angle and beside it by some times `e`, beside a tangent, or anywhere.
+    /// Through where, and in which direction: along a ridge at a small angle and beside it by some
+    /// times `e`, beside a tangent, or anywhere.
     fn aim(dice: &mut TestRng, star: &Star, e: f64) -> (Vec3, Vec3) {
         let (mut x, mut d) = (wild(dice), wild(dice));
         let axis = dice.below(3) as usize;
@@ -294,7 +308,8 @@ mod tests {
         [0, 1, 2].map(|k| big(o[k]).add(&big(off[k]), 2000, RM))
     }
 
-    /// Lines go on from stretch to stretch as those of pictures do: what is said to be outside is, and where a line is said to go in once it goes in once.
+    /// Lines go on from stretch to stretch as those of pictures do: what is said to be outside is,
+    /// and where a line is said to go in once it goes in once.
     #[test]
     fn what_is_told_of_stretches_is_so() {
         let (mut exact, mut dice) = (Exact::new(), TestRng::new(2));
@@ -348,7 +363,8 @@ mod tests {
                     let mut places =
                         [0.0, 1e-15, 1e-9, 0.1, 0.3, 0.5, 0.7, 0.9].map(|k| a + (b - a) * k).to_vec();
                     places.push(b);
-                    // Where the exact line goes through planes it is nearest to the solid, by far: there are ridges.
+                    // Where the exact line goes through planes it is nearest to the solid, by far:
+                    // there are ridges.
                     let planes = [0, 1, 2].map(|k| -number(&origin[k]) / d[k]);
                     places.extend(planes.into_iter().filter(|s| (a..=b).contains(s)));
                     places.sort_by(f64::total_cmp);
@@ -394,7 +410,8 @@ mod tests {
         }
     }
 
-    /// Of a line that is known so badly that it may meet the solid where its rounded numbers pass by, there is a part to doubt.
+    /// Of a line that is known so badly that it may meet the solid where its rounded numbers pass
+    /// by, there is a part to doubt.
     #[test]
     fn lines_that_are_hardly_known_are_doubted() {
         let (x, zero) = (Vec3::splat(Vec3::X), Vec3::splat(Vec3::ZERO));

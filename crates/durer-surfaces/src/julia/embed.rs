@@ -8,7 +8,8 @@ use durer_math::{F8, Interval, Isa, U, Vec3};
 
 use super::orbit::{Rule, StretchSigns8};
 
-/// An affine map from space to `M` numbers of `C` coordinates: `A p + b`, each entry known within an error.
+/// An affine map from space to `M` numbers of `C` coordinates: `A p + b`, each entry known within
+/// an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Lift<const M: usize, const C: usize> {
     a: [[Vec3; C]; M],

@@ -14,10 +14,10 @@
 //!
 //! **Escape.** For quaternions, where `|z^k| = |z|^k`, an orbit that leaves the ball of radius
 //! `R >= 1` never returns if `R² - R >= |c|`: then `|z| > R` makes
-//! `|z^k + c| >= |z|² - |c| > R² - |c| >= R`. The surface is then `|z_N| = R`; in general it is not.
-//! Of the two complex numbers of a hypercomplex one outside the ball, the longer is longer than `R`,
-//! and its successor is longer than `√2 R`, so that their mean square exceeds `R²` again, if
-//! `R² - √2 R >= |c|` for the `c` of each.
+//! `|z^k + c| >= |z|² - |c| > R² - |c| >= R`. The surface is then `|z_N| = R`; in general it is
+//! not. Of the two complex numbers of a hypercomplex one outside the ball, the longer is longer
+//! than `R`, and its successor is longer than `√2 R`, so that their mean square exceeds `R²` again,
+//! if `R² - √2 R >= |c|` for the `c` of each.
 //!
 //! **The extent.** A point is no longer than it is in its slice. For quaternions `|z_(n+1)| <= ρ`
 //! needs `|z_n|^k <= ρ + |c|`, so `N` roots give a smaller ball than `n = 0` does. The same holds

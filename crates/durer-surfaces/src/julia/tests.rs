@@ -36,8 +36,9 @@ fn exact<const M: usize, const C: usize>(
     all
 }
 
-/// Radii that are as near to the ends of stretches as f32 can tell, or nearer, and stretches that are long and short beside its roundings: what it says is certain all the same, and of long
-/// ones it says nearly as much as f64 does, or lanes would look in vain.
+/// Radii that are as near to the ends of stretches as f32 can tell, or nearer, and stretches that
+/// are long and short beside its roundings: what it says is certain all the same, and of long ones
+/// it says nearly as much as f64 does, or lanes would look in vain.
 fn what_f32_says_is_so<const M: usize, const C: usize>(seed: u64) {
     let mut dice = TestRng::new(seed);
     let (mut told, mut told_fine) = ([0; 4], [0; 4]);

@@ -1,5 +1,5 @@
-//! The witness: exact arithmetic that shares nothing with the kernels (big integers from `dashu`), and exact crossings of a line
-//! with anything that quadratic polynomials bound.
+//! The witness: exact arithmetic that shares nothing with the kernels (big integers from `dashu`),
+//! and exact crossings of a line with anything that quadratic polynomials bound.
 
 use super::real_root::RealRoot;
 use core::cell::RefCell;
@@ -140,7 +140,8 @@ fn surd_sign(u: &Exact, v: &Exact, d: &Exact) -> Ordering {
     if su.is_gt() { squares } else { squares.reverse() }
 }
 
-/// An exact real number: `(p + k √d) / a`, `k` one of -1, 0, 1, or a root of a polynomial of any degree.
+/// An exact real number: `(p + k √d) / a`, `k` one of -1, 0, 1, or a root of a polynomial of any
+/// degree.
 #[derive(Clone, Debug)]
 pub struct Surd(Number);
 
@@ -402,7 +403,8 @@ impl ExactLine {
     }
 }
 
-/// What was found for the lines asked for last: the laws ask for the same line again and again, and exact answers take long.
+/// What was found for the lines asked for last: the laws ask for the same line again and again, and
+/// exact answers take long.
 #[derive(Clone, Debug)]
 pub struct LineCache<T>(RefCell<Vec<(ExactLine, T)>>);
 
@@ -485,13 +487,15 @@ pub trait Oracle {
     /// All crossings with a line, ascending, each once.
     fn crossings(&self, line: &ExactLine) -> Vec<Crossing>;
 
-    /// On which side of a face (numbered as in `Root::face`) a point lies: `Greater` where its normal points.
+    /// On which side of a face (numbered as in `Root::face`) a point lies: `Greater` where its
+    /// normal points.
     fn face_side(&self, face: u32, point: &[Exact; 3]) -> Ordering;
 
     /// The face's normal at a point on it, of any length.
     fn face_normal(&self, face: u32, point: &[Exact; 3]) -> Vec3;
 
-    /// Whether a point is inside a solid (`Less`), on its boundary or outside; `None` for open surfaces.
+    /// Whether a point is inside a solid (`Less`), on its boundary or outside; `None` for open
+    /// surfaces.
     fn side(&self, point: &[Exact; 3]) -> Option<Ordering>;
 
     /// The surface's size.
@@ -529,7 +533,8 @@ impl ExactBody {
 }
 
 impl Oracle for ExactBody {
-    /// All roots of all faces cut the line into pieces; each piece is inside or outside as its middle is.
+    /// All roots of all faces cut the line into pieces; each piece is inside or outside as its
+    /// middle is.
     fn crossings(&self, line: &ExactLine) -> Vec<Crossing> {
         let polys: Vec<Poly> = self.faces.iter().map(|f| f.along(line)).collect();
         let all = |t: &Surd| polys.iter().all(|p| t.sign_of(p).is_le());

@@ -1,7 +1,8 @@
 //! What every surface promises, as plain functions named by sentences. [`check`] calls them all.
 //!
-//! A surface joins with an [`Oracle`] (its exact description, usually an [`ExactBody`]), a few [`Feature`]s at which rays are aimed, and
-//! one call of [`check_many`]. Witnesses are exact: big integers that share no code with the kernels.
+//! A surface joins with an [`Oracle`] (its exact description, usually an [`ExactBody`]), a few
+//! [`Feature`]s at which rays are aimed, and one call of [`check_many`]. Witnesses are exact: big
+//! integers that share no code with the kernels.
 
 pub mod exact;
 pub mod real_root;
@@ -35,7 +36,8 @@ macro_rules! ensure {
     };
 }
 
-/// A surface under test, behind a pointer, so that the laws and each surface's kernel are compiled once.
+/// A surface under test, behind a pointer, so that the laws and each surface's kernel are compiled
+/// once.
 pub trait TestSurface: Surface + core::fmt::Debug {
     /// Shows the roots to any sink.
     fn send(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink);
@@ -74,7 +76,8 @@ pub fn check(surface: &dyn TestSurface, oracle: &dyn Oracle, ray: &Ray) -> Resul
 
 /// The numbers of the cases that this run draws, where a test run draws `count`.
 ///
-/// `DURER_SOAK=N` draws N times as many, and `DURER_SOAK_FROM=K` others than K such runs have drawn before (`cargo xtask soak`).
+/// `DURER_SOAK=N` draws N times as many, and `DURER_SOAK_FROM=K` others than K such runs have drawn
+/// before (`cargo xtask soak`).
 pub fn drawn(count: u64) -> Range<u64> {
     let variable = |name: &str| std::env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
     let from = variable("DURER_SOAK_FROM").unwrap_or(0);
@@ -150,7 +153,8 @@ impl Tally {
     }
 }
 
-/// The width of a bracket, in ulp of `max(|t|, size / |d|)`. An unbounded surface is as large as the part of it that is looked at.
+/// The width of a bracket, in ulp of `max(|t|, size / |d|)`. An unbounded surface is as large as
+/// the part of it that is looked at.
 pub fn width(surface: &dyn TestSurface, oracle: &dyn Oracle, ray: &Ray, root: &Root) -> f64 {
     let k = exponent(ray.direction.max_abs());
     let length = ray.direction.map(|x| durer_math::scale::ldexp(x, -k)).length();
@@ -161,7 +165,8 @@ pub fn width(surface: &dyn TestSurface, oracle: &dyn Oracle, ray: &Ray, root: &R
     (root.hi - root.lo) / (unit.next_up() - unit)
 }
 
-/// P1, P2, P3, P6: no crossing is missing, extra or doubled; each lies in its bracket, in order, with its sign and kind.
+/// P1, P2, P3, P6: no crossing is missing, extra or doubled; each lies in its bracket, in order,
+/// with its sign and kind.
 pub fn roots_are_the_exact_crossings(
     surface: &dyn TestSurface,
     oracle: &dyn Oracle,
@@ -212,7 +217,8 @@ pub fn roots_are_the_exact_crossings(
     Ok(roots)
 }
 
-/// The parts of a surface have the whole's roots, each within the part's box: says how many parts were asked and how many roots they have.
+/// The parts of a surface have the whole's roots, each within the part's box: says how many parts
+/// were asked and how many roots they have.
 pub fn parts_are_the_whole<S: TestSurface>(surface: &S, ray: &Ray) -> Result<(usize, usize), Broken> {
     let local = LocalRay::new(ray);
     let (mut sink, mut parts, mut astray) = (All::default(), 0, None);
@@ -253,8 +259,8 @@ pub fn closest_is_the_first_of_all(
     Ok(())
 }
 
-/// P8: a bracket is at most 96 ulp of `max(|t|, size / |d|)` wide: 48, where size over length is taken as a half though it may be 0.29, and
-/// what rounding `t` adds.
+/// P8: a bracket is at most 96 ulp of `max(|t|, size / |d|)` wide: 48, where size over length is
+/// taken as a half though it may be 0.29, and what rounding `t` adds.
 pub fn brackets_are_narrow(
     surface: &dyn TestSurface,
     oracle: &dyn Oracle,
@@ -311,8 +317,8 @@ pub fn powers_of_two_change_nothing(
     Ok(())
 }
 
-/// P4, P5, P11, P12: the point is within `dp` of the exact one and in the bounds; its normal is the surface's; rays start on the asked side, and
-/// what they meet is what the exact ray meets.
+/// P4, P5, P11, P12: the point is within `dp` of the exact one and in the bounds; its normal is the
+/// surface's; rays start on the asked side, and what they meet is what the exact ray meets.
 pub fn points_are_within_their_bounds(
     surface: &dyn TestSurface,
     oracle: &dyn Oracle,
@@ -330,7 +336,8 @@ pub fn points_are_within_their_bounds(
     };
     let point = surface.resolve(&LocalRay::new(ray), root, Need::ALL);
     is_well_formed(&point)?;
-    // A crossing known to 2^-640 of the surface's size nearly always decides; only else the digits are found that always do.
+    // A crossing known to 2^-640 of the surface's size nearly always decides; only else the digits
+    // are found that always do.
     let digits = 640 + i64::from(exponent(ray.direction.max_abs()) - exponent(oracle.size()));
     let near = exact.t.about(digits.max(64));
     let errors = ray.direction.to_array().map(|d| Exact::from(d).abs().shifted(-digits.max(64)));
@@ -392,7 +399,8 @@ pub fn points_are_within_their_bounds(
     normal(truth)
 }
 
-/// A point is at most `dp` from a crossing and the crossing is in the bounds, where `truth` is at most `errors` from the crossing.
+/// A point is at most `dp` from a crossing and the crossing is in the bounds, where `truth` is at
+/// most `errors` from the crossing.
 ///
 /// Negative errors allow as much instead.
 fn point_is_near(
@@ -442,7 +450,8 @@ fn is_well_formed(point: &SurfacePoint) -> Result<(), Broken> {
     Ok(())
 }
 
-/// The normal agrees with the exact gradient, unless the point is so close to a tip that it has none.
+/// The normal agrees with the exact gradient, unless the point is so close to a tip that it has
+/// none.
 fn normal_is_the_exact_one(
     oracle: &dyn Oracle,
     root: &Root,

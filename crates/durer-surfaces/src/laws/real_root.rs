@@ -1,5 +1,5 @@
-//! The witness for polynomials of any degree: exact real roots by Sturm's theorem on whole numbers, and surfaces that are the zero set of one
-//! polynomial.
+//! The witness for polynomials of any degree: exact real roots by Sturm's theorem on whole numbers,
+//! and surfaces that are the zero set of one polynomial.
 
 use super::exact::{Crossing, Exact, ExactLine, Oracle};
 use core::cmp::Ordering;
@@ -123,7 +123,8 @@ fn bits(x: &IBig) -> i64 {
 
 /// A real root of a polynomial.
 ///
-/// Inside, the unknown is `t / 2^scale`: roots of the polynomial are then about one, whatever the unit of `t` is.
+/// Inside, the unknown is `t / 2^scale`: roots of the polynomial are then about one, whatever the
+/// unit of `t` is.
 #[derive(Clone, Debug)]
 pub struct RealRoot {
     /// Has the root once.
@@ -140,7 +141,8 @@ pub struct RealRoot {
     pub after: Ordering,
 }
 
-/// The power of two that roots of a polynomial are about: that of the geometric mean of the absolute values of its roots other than zero.
+/// The power of two that roots of a polynomial are about: that of the geometric mean of the
+/// absolute values of its roots other than zero.
 fn scale_of(coefficients: &[Exact]) -> i64 {
     let mut present = coefficients.iter().enumerate().filter(|(_, c)| c.sign().is_ne());
     match (present.next(), present.next_back()) {
@@ -151,7 +153,8 @@ fn scale_of(coefficients: &[Exact]) -> i64 {
     }
 }
 
-/// All distinct real roots, ascending, of the polynomial with these coefficients, the constant first.
+/// All distinct real roots, ascending, of the polynomial with these coefficients, the constant
+/// first.
 pub fn real_roots(coefficients: &[Exact]) -> Vec<RealRoot> {
     if coefficients.iter().all(|c| c.sign().is_eq()) {
         return vec![];
@@ -254,7 +257,8 @@ impl RealRoot {
             if (&width.clone().shifted(digits) - &Exact::from(1.0)).sign().is_le() {
                 return;
             }
-            // Newton's method doubles the digits, as soon as it works; what it proposes counts if the signs beside it say so.
+            // Newton's method doubles the digits, as soon as it works; what it proposes counts if
+            // the signs beside it say so.
             let known = -(bits(&width.m) + width.e);
             if !self.newton((2 * known - 8).min(digits + 2)) {
                 self.halve();
@@ -262,7 +266,8 @@ impl RealRoot {
         }
     }
 
-    /// Proposes an interval of width `2^-bits` about the point to which Newton's method goes from the middle.
+    /// Proposes an interval of width `2^-bits` about the point to which Newton's method goes from
+    /// the middle.
     fn newton(&mut self, bits: i64) -> bool {
         let m = (&self.l + &self.r).shifted(-1);
         let exact = |p: &Whole| -> Vec<Exact> { p.iter().map(|c| Exact { m: c.clone(), e: 0 }).collect() };

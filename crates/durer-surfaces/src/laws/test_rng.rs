@@ -88,7 +88,8 @@ impl TestRng {
         Vec3::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0))
     }
 
-    /// A map with few-bit entries, sheared, stretched or mirrored; sometimes one with full-width entries.
+    /// A map with few-bit entries, sheared, stretched or mirrored; sometimes one with full-width
+    /// entries.
     pub fn map(&mut self) -> Affine {
         loop {
             let wild = self.once_in(4);
@@ -108,7 +109,8 @@ impl TestRng {
     }
 }
 
-/// A place on a surface where something may go wrong, and a direction that makes it worse (a tangent, an axis, a generator).
+/// A place on a surface where something may go wrong, and a direction that makes it worse (a
+/// tangent, an axis, a generator).
 #[derive(Clone, Copy, Debug)]
 pub struct Feature {
     /// The place.
@@ -130,9 +132,11 @@ impl Feature {
     }
 }
 
-/// A ray that aims at one of the features, or at two of them in a line, or anywhere; exactly, or missing by an ulp or a little.
+/// A ray that aims at one of the features, or at two of them in a line, or anywhere; exactly, or
+/// missing by an ulp or a little.
 ///
-/// `size` is the surface's size: origins lie 0 to `2^30` sizes away (sometimes `2^50`), directions are `2^-330` to `2^330` long.
+/// `size` is the surface's size: origins lie 0 to `2^30` sizes away (sometimes `2^50`), directions
+/// are `2^-330` to `2^330` long.
 pub fn aim(dice: &mut TestRng, features: &[Feature], size: f64) -> Ray {
     let mut f = dice.pick(features);
     if f.direction != Vec3::ZERO {

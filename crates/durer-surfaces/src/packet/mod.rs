@@ -1,11 +1,11 @@
 //! Packet filters: eight rays at a time against one surface.
 //!
 //! Most surfaces are made of *faces* `f_i(x) = 0` of degree at most two, each cut off where another
-//! `f_j` is positive, so one short formula serves them all. A [`PacketFilter`] holds those polynomials
-//! in the world's frame, rounded to f64 with a bound on the rounding. For each ray it gives one of
-//! three answers: a certain miss, a certain first face, or *doubt*. In doubt the ray asks the surface
-//! itself. So a filter saves work and never decides anything that the exact kernels would decide
-//! otherwise.
+//! `f_j` is positive, so one short formula serves them all. A [`PacketFilter`] holds those
+//! polynomials in the world's frame, rounded to f64 with a bound on the rounding. For each ray it
+//! gives one of three answers: a certain miss, a certain first face, or *doubt*. In doubt the ray
+//! asks the surface itself. So a filter saves work and never decides anything that the exact
+//! kernels would decide otherwise.
 //!
 //! ```text
 //!   source.rs           polynomials in double-double, moved by maps (built once)

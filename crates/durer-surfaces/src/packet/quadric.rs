@@ -236,7 +236,8 @@ impl QuadricFace8 {
         }
     }
 
-    /// `f` at points `y`, with a bound on the error if these are within `e1` (in the sum of absolute values) of the exact ones; `y1` is `|y|₁`.
+    /// `f` at points `y`, with a bound on the error if these are within `e1` (in the sum of
+    /// absolute values) of the exact ones; `y1` is `|y|₁`.
     #[inline(always)]
     pub(super) fn at(&self, y: Vec3<F8>, y1: F8, e1: F8) -> (F8, F8) {
         let (m, big) = self.largest;

@@ -33,9 +33,10 @@ impl PacketFilter {
     ///
     /// With `|f(p)| <= η`, gradient `G` and `|Hessian| <= h`, a start at `p ± off n + τ` has
     /// `|f| >= off |G| - h (off² + |τ|²) - η`. Where `x = 4 h η / |G|²` is small,
-    /// `off = η (1 + x) / |G|` is enough, since `1 - √(1 - x) <= x`. `G` is rounded: its own relative error, which may
-    /// be large for slivers and near tips, must be as small as `x`. As in the scalar kernels `η`
-    /// includes twice the error of `f`, so that rays from there know on which side they start.
+    /// `off = η (1 + x) / |G|` is enough, since `1 - √(1 - x) <= x`. `G` is rounded: its own
+    /// relative error, which may be large for slivers and near tips, must be as small as `x`. As in
+    /// the scalar kernels `η` includes twice the error of `f`, so that rays from there know on
+    /// which side they start.
     #[inline(never)]
     pub fn points(
         &self,

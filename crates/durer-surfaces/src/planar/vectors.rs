@@ -50,17 +50,20 @@ pub(crate) fn minus<T: Ring>([x, y, z]: [T; 3], [a, b, c]: [T; 3]) -> [T; 3] {
     [x - a, y - b, z - c]
 }
 
-/// From a ray's point at `s = 0` to `v`, times the ray's `w`; the ray is seen from `centre` in units of `2^scale`.
+/// From a ray's point at `s = 0` to `v`, times the ray's `w`; the ray is seen from `centre` in
+/// units of `2^scale`.
 #[inline(always)]
 pub(crate) fn towards<T: Ring>(ray: &RingRay<T>, v: Point3, centre: Point3, scale: i32) -> [T; 3] {
     minus(times(seen_from(v, centre, scale), &ray.w), ray.o.clone())
 }
 
-/// The cross product of two vectors of which each component was rounded at most once, and a bound on its error per component.
+/// The cross product of two vectors of which each component was rounded at most once, and a bound
+/// on its error per component.
 #[inline(always)]
 pub(crate) fn cross_and_error(a: Vec3, b: Vec3) -> (Vec3, Vec3) {
     let (p, q) = (a.abs(), b.abs());
-    // A product of two such components errs by 2u and a little; Kahan's minor by 1.5 ulp of the difference.
+    // A product of two such components errs by 2u and a little; Kahan's minor by 1.5 ulp of the
+    // difference.
     let err =
         |i: usize, j: usize| (p[i].mul_add(q[j], p[j] * q[i])).mul_add(6.0 * U * (1.0 + 16.0 * U), TINY);
     (a.cross(b), Vec3::new(err(1, 2), err(2, 0), err(0, 1)))
@@ -90,14 +93,16 @@ pub(crate) fn middle(b: &Aabb) -> (Point3, f64) {
     (min + max.to_vec(), (max - min).max_abs())
 }
 
-/// The unit normal of a vector whose largest component is in [1, 2) in magnitude; each component within 4u, relatively.
+/// The unit normal of a vector whose largest component is in [1, 2) in magnitude; each component
+/// within 4u, relatively.
 #[inline(always)]
 pub(crate) fn unit(n: Vec3) -> Normal3 {
     (n / n.length()).to_normal()
 }
 
-/// A vector scaled by a power of two so that its largest component is in [1, 2) in magnitude; `None` if it is zero or not finite.
-/// Components more than `2^1022` below the largest may lose bits.
+/// A vector scaled by a power of two so that its largest component is in [1, 2) in magnitude;
+/// `None` if it is zero or not finite. Components more than `2^1022` below the largest may lose
+/// bits.
 pub(crate) fn scaled_to_one(n: Vec3) -> Option<Vec3> {
     if !n.is_finite() || n == Vec3::ZERO {
         return None;

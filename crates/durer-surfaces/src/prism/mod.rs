@@ -9,13 +9,14 @@
 //!    └──────┘                                for bottom <= y <= top
 //! ```
 //!
-//! A point is inside where the outlines go round an odd number of times. All faces are flat: walls of two triangles for each edge, and two caps,
-//! polygons with the walls' own corners. Triangles and polygons share one rule for rays that meet an edge or a corner exactly (see `edges.rs`), so the
-//! solid is closed: a line crosses it an even number of times, exactly. The corners of a conic sweep are the products rounded to f64, which
-//! are the exact solid's.
+//! A point is inside where the outlines go round an odd number of times. All faces are flat: walls
+//! of two triangles for each edge, and two caps, polygons with the walls' own corners. Triangles
+//! and polygons share one rule for rays that meet an edge or a corner exactly (see `edges.rs`), so
+//! the solid is closed: a line crosses it an even number of times, exactly. The corners of a conic
+//! sweep are the products rounded to f64, which are the exact solid's.
 //!
-//! J. T. Kajiya, "New techniques for ray tracing procedurally defined objects", SIGGRAPH 1983, sweeps curves; straight edges need no equation but that
-//! of a plane.
+//! J. T. Kajiya, "New techniques for ray tracing procedurally defined objects", SIGGRAPH 1983,
+//! sweeps curves; straight edges need no equation but that of a plane.
 
 pub mod curved;
 mod outline;
@@ -34,10 +35,13 @@ use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Point3, Ring, U, Vec3};
 use outline::Point;
 
-/// A solid between two planes across y, within outlines that are swept from one to the other; without its caps a sheet.
+/// A solid between two planes across y, within outlines that are swept from one to the other;
+/// without its caps a sheet.
 ///
-/// Faces: 0 the walls, 1 the cap at the bottom, 2 the one at the top. A root's tag names the triangle of the wall. Parts: the walls of the edges, then the
-/// caps, so that a ray only asks those that it comes near. A tangled prism is one part, since its signs alternate along the whole line.
+/// Faces: 0 the walls, 1 the cap at the bottom, 2 the one at the top. A root's tag names the
+/// triangle of the wall. Parts: the walls of the edges, then the caps, so that a ray only asks
+/// those that it comes near. A tangled prism is one part, since its signs alternate along the whole
+/// line.
 ///
 /// # Invariants
 ///
@@ -46,7 +50,8 @@ use outline::Point;
 pub struct Prism {
     walls: Vec<Wall>,
     caps: Vec<Cap>,
-    /// The outlines cross or touch themselves or each other, so that an edge may have the inside on either side.
+    /// The outlines cross or touch themselves or each other, so that an edge may have the inside on
+    /// either side.
     tangled: bool,
     open: bool,
     sweep: Sweep,
@@ -152,14 +157,14 @@ enum PrismPart<'a> {
 }
 
 impl Prism {
-    /// The prism between the heights `bottom` and `top` (in any order) within these outlines, `[x, z]` each. An outline is closed by itself; a last point
-    /// equal to the first is left out.
+    /// The prism between the heights `bottom` and `top` (in any order) within these outlines,
+    /// `[x, z]` each. An outline is closed by itself; a last point equal to the first is left out.
     pub fn linear(outlines: &[impl AsRef<[Point]>], bottom: f64, top: f64) -> Result<Self, PrismError> {
         Self::new(outlines, bottom, top, Sweep::Linear)
     }
 
-    /// The same, the outlines at the height `y` being `y` times as large: a pyramid with its apex at the origin, or the part of one between the
-    /// heights, or two that meet.
+    /// The same, the outlines at the height `y` being `y` times as large: a pyramid with its apex
+    /// at the origin, or the part of one between the heights, or two that meet.
     pub fn conic(outlines: &[impl AsRef<[Point]>], bottom: f64, top: f64) -> Result<Self, PrismError> {
         Self::new(outlines, bottom, top, Sweep::Conic)
     }
@@ -255,7 +260,8 @@ impl Prism {
         }
     }
 
-    /// All of it, its edges taken for curves; `None` if triangles that are parts by themselves would have to be told from each other, or rounded corners count too much.
+    /// All of it, its edges taken for curves; `None` if triangles that are parts by themselves
+    /// would have to be told from each other, or rounded corners count too much.
     fn whole_for_lanes(&self) -> Option<FilterSource> {
         let [low, high] = [self.bounds.min.y, self.bounds.max.y];
         let conic = self.sweep == Sweep::Conic;
@@ -286,7 +292,8 @@ impl Prism {
                 let step = (b[k] - a[k]) * (1.0 / 3.0);
                 [a[k], a[k] + step, b[k] - step, b[k]]
             };
-            // A corner is rounded by U of its size at each height, and triangles lie between them; here it is divided, and a third of the way rounds by 4 U.
+            // A corner is rounded by U of its size at each height, and triangles lie between them;
+            // here it is divided, and a third of the way rounds by 4 U.
             ProfileCurve8::new([along(0), along(1)], reach(&e) * (8.0 * U), reach(&e) * (1.0 + 8.0 * U))
         };
         let curves: Box<[ProfileCurve8]> = edges.map(curve).collect();
@@ -297,7 +304,8 @@ impl Prism {
         Some(FilterSource::swept(self.bounds, Swept::Whole { curves, sweep, left }, centre, scale))
     }
 
-    /// Every crossing of the line with a face, in no order: the crossing, its plane, its face and tag, and whether the sign is to be turned.
+    /// Every crossing of the line with a face, in no order: the crossing, its plane, its face and
+    /// tag, and whether the sign is to be turned.
     #[inline(always)]
     fn each_crossing(&self, probe: &Probe<'_>, mut f: impl FnMut(Crossing, ThreePoints, u32, f64, bool)) {
         self.wall_crossings(probe, (&self.walls, 0), &mut f);
@@ -344,7 +352,8 @@ impl Prism {
 fn cap_crossing(probe: &Probe<'_>, cap: &Cap, f: &mut impl FnMut(Crossing, ThreePoints, u32, f64, bool)) {
     let plane = cap.polygon.plane(probe);
     let Some(crossing) = probe.crossing(&plane) else { return };
-    // The prism lies within one unit of its centre: what is certainly farther away needs no look at the outline.
+    // The prism lies within one unit of its centre: what is certainly farther away needs no look at
+    // the outline.
     let (at, err) = probe.place(&crossing);
     if at.max_abs() <= 1.0 + err.max_abs() && cap.polygon.holds(probe) {
         f(crossing, plane, cap.face, 0.0, cap.turned);
@@ -362,7 +371,8 @@ impl AlongRay for Apart<'_> {
     }
 }
 
-/// The order of two crossings `s = -h / g`: equal if they are at one point, or if the ray is not exactly known.
+/// The order of two crossings `s = -h / g`: equal if they are at one point, or if the ray is not
+/// exactly known.
 #[cold]
 #[inline(never)]
 fn order(
@@ -422,7 +432,8 @@ impl Surface for Prism {
         }
     }
 
-    /// Texture coordinates: of the walls once round all outlines, edge by edge, and from the bottom to the top; of the caps lengths.
+    /// Texture coordinates: of the walls once round all outlines, edge by edge, and from the bottom
+    /// to the top; of the caps lengths.
     #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         let point = match self.walls.get(root.tag[0] as usize) {
@@ -535,7 +546,8 @@ impl Surface for Prism {
             {
                 return Side::On;
             }
-            // Ahead of the point if it lies above the plane and the line goes down, or below and up; walls along y are never passed.
+            // Ahead of the point if it lies above the plane and the line goes down, or below and
+            // up; walls along y are never passed.
             if let Some(passed) = facet::passes(&line, &filter, facet)
                 && line.side_of(&plane).is_some_and(|height| height as i8 == passed.side)
             {

@@ -41,8 +41,9 @@ pub(super) fn edges(outlines: &[Vec<Point>]) -> Vec<[Point; 2]> {
     outlines.iter().flat_map(around).collect()
 }
 
-/// For each edge, whether the inside (where outlines go round an odd number of times) lies to its left, x to the right and z up. `None` if that
-/// may change along an edge, since edges meet elsewhere than at their ends.
+/// For each edge, whether the inside (where outlines go round an odd number of times) lies to its
+/// left, x to the right and z up. `None` if that may change along an edge, since edges meet
+/// elsewhere than at their ends.
 pub(super) fn inside_is_left(edges: &[[Point; 2]]) -> Option<Vec<bool>> {
     if edges.len() > MOST_EDGES {
         return None;
@@ -59,7 +60,8 @@ pub(super) fn inside_is_left(edges: &[[Point; 2]]) -> Option<Vec<bool>> {
 fn turn(a: Point, b: Point, c: Point) -> Ordering {
     let (left, right) = ((b[0] - a[0]) * (c[1] - a[1]), (b[1] - a[1]) * (c[0] - a[0]));
     let value = left - right;
-    // Two roundings of differences and one of the product on each side, and one of the result; subnormal products are left to exact numbers.
+    // Two roundings of differences and one of the product on each side, and one of the result;
+    // subnormal products are left to exact numbers.
     if value.abs() > 8.0 * U * (left.abs() + right.abs()) + f64::MIN_POSITIVE {
         return if value > 0.0 { Ordering::Greater } else { Ordering::Less };
     }
@@ -81,7 +83,8 @@ fn meet_within(e: &[Point; 2], f: &[Point; 2]) -> bool {
     }
     let shared = e.iter().filter(|p| f.contains(p)).count();
     if sides.iter().all(|s| s.is_eq()) {
-        // On one line: they share a point, unless they only touch at one end of each, on opposite sides of it.
+        // On one line: they share a point, unless they only touch at one end of each, on opposite
+        // sides of it.
         let Some(&at) = e.iter().find(|p| f.contains(p)) else { return overlaps(e, f) };
         let other = |edge: &[Point; 2]| if edge[0] == at { edge[1] } else { edge[0] };
         return shared == 2 || same_way(at, other(e), other(f));
@@ -100,7 +103,8 @@ fn same_way(at: Point, p: Point, q: Point) -> bool {
     (0..2).all(|k| p[k].partial_cmp(&at[k]) == q[k].partial_cmp(&at[k]))
 }
 
-/// The parity of crossings from just beside the middle of an edge, along x (along z for an edge along x), tells whether that side is inside.
+/// The parity of crossings from just beside the middle of an edge, along x (along z for an edge
+/// along x), tells whether that side is inside.
 fn left_of(edges: &[[Point; 2]], i: usize) -> bool {
     let [a, b] = edges[i];
     // The coordinate along which we look, and the one across.
@@ -113,7 +117,8 @@ fn left_of(edges: &[[Point; 2]], i: usize) -> bool {
         if j == i || above(p) == above(q) {
             continue;
         }
-        // The edge crosses our level; ahead of the middle if the middle lies on the lesser side of it.
+        // The edge crosses our level; ahead of the middle if the middle lies on the lesser side of
+        // it.
         let (low, high) = if above(q) { (p, q) } else { (q, p) };
         let at = |p: Point, k: usize| Dyadic::from(p[k]) + Dyadic::from(p[k]);
         let rise = at(high, across) - at(low, across);
@@ -137,7 +142,8 @@ mod tests {
     #[test]
     fn the_inside_of_a_ring_is_between_its_outlines() {
         let square = |r: f64| vec![[-r, -r], [r, -r], [r, r], [-r, r], [-r, -r]];
-        // Counter-clockwise: the inside is left of the outer outline, right of the inner one, left of the innermost.
+        // Counter-clockwise: the inside is left of the outer outline, right of the inner one, left
+        // of the innermost.
         let found = sides(&[square(3.0), square(2.0), square(1.0)]).unwrap();
         assert_eq!(found, [[true; 4], [false; 4], [true; 4]].concat());
         let turned: Vec<_> = square(2.0).into_iter().rev().collect();

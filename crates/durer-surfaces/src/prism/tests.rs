@@ -1,4 +1,5 @@
-//! The laws, against crossings in exact numbers that share nothing with the kernel; and what must hold of rays through edges and corners.
+//! The laws, against crossings in exact numbers that share nothing with the kernel; and what must
+//! hold of rays through edges and corners.
 
 use super::*;
 use crate::AxisBox;
@@ -8,7 +9,8 @@ use crate::laws::{
 };
 use durer_math::{Ray, RaySide};
 
-/// The points `p` whose projection `(x, z) / w` lies within the outlines, `w` being 1 or `y`, between two heights.
+/// The points `p` whose projection `(x, z) / w` lies within the outlines, `w` being 1 or `y`,
+/// between two heights.
 struct Swept {
     outlines: Vec<Vec<Point>>,
     low: f64,
@@ -101,7 +103,8 @@ impl Swept {
         self.height(p).max(self.across(p))
     }
 
-    /// All crossings, ascending, with their faces; `None` if the line meets an edge or a corner, or runs within a face.
+    /// All crossings, ascending, with their faces; `None` if the line meets an edge or a corner, or
+    /// runs within a face.
     fn met(&self, line: &ExactLine) -> Option<Vec<Met>> {
         self.known.get(line, || self.find(line))
     }
@@ -332,7 +335,8 @@ fn leaves_clearly(prism: &dyn TestSurface, oracle: &impl Known, ray: &Ray) -> bo
     })
 }
 
-/// How many rays have obeyed the laws, how many roots they had, and how many rays were clear of everything, so that all laws were asked.
+/// How many rays have obeyed the laws, how many roots they had, and how many rays were clear of
+/// everything, so that all laws were asked.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Obeyed {
     pub(super) rays: u64,
@@ -446,7 +450,9 @@ fn rays_through_edges_and_corners_go_in_as_often_as_out() {
     assert!(through > 3000, "{through}");
 }
 
-/// Edges z = x and z = -x cross at the origin, x to the right and z up. A line that passes above the crossing of the edges leaves its left half by the one that falls, and enters the other by the one that rises.
+/// Edges z = x and z = -x cross at the origin, x to the right and z up. A line that passes above
+/// the crossing of the edges leaves its left half by the one that falls, and enters the other by
+/// the one that rises.
 #[test]
 fn beside_a_crossing_of_the_outline_walls_are_met_in_their_order() {
     let bow = [[-2.0, -2.0], [2.0, 2.0], [2.0, -2.0], [-2.0, 2.0]];

@@ -1,6 +1,8 @@
-//! Quadrics in canonical place: centre or vertex at the origin, axis along z; whole, or a piece `from <= z <= to` of them.
+//! Quadrics in canonical place: centre or vertex at the origin, axis along z; whole, or a piece
+//! `from <= z <= to` of them.
 //!
-//! A piece is a solid with flat ends or, if it is open, the wall alone. Each surface gives its polynomial ([`Wall`]); its own file says which.
+//! A piece is a solid with flat ends or, if it is open, the wall alone. Each surface gives its
+//! polynomial ([`Wall`]); its own file says which.
 
 use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, sheared};
 use crate::quadric::form::Form;
@@ -31,7 +33,8 @@ pub trait Wall: Clone + Copy + core::fmt::Debug + PartialEq + Send + Sync {
         [f64::NEG_INFINITY, f64::INFINITY]
     }
 
-    /// Coordinates at `x` (in the wall's own frame), where the unit normal is `n` and `z` has the range `ends` (all of space if there is none).
+    /// Coordinates at `x` (in the wall's own frame), where the unit normal is `n` and `z` has the
+    /// range `ends` (all of space if there is none).
     fn chart(&self, x: Vec3, n: Vec3, ends: Option<[f64; 2]>) -> Chart;
 
     /// Whether there is a tip at the origin.
@@ -190,7 +193,8 @@ impl<W: Wall> QuadricFaces for AxialShape<W> {
     }
 }
 
-/// An upper bound of `a √f(z²/c²)` for increasing `f`, where `z` is in a range: `f` is given the larger `z²/c²`.
+/// An upper bound of `a √f(z²/c²)` for increasing `f`, where `z` is in a range: `f` is given the
+/// larger `z²/c²`.
 pub(crate) fn widest(axes: [f64; 2], z: [f64; 2], c: f64, f: impl Fn(EFloat) -> EFloat) -> [f64; 2] {
     let z = z[0].abs().max(z[1].abs());
     if z == f64::INFINITY {
@@ -201,7 +205,8 @@ pub(crate) fn widest(axes: [f64; 2], z: [f64; 2], c: f64, f: impl Fn(EFloat) -> 
     axes.map(|a| (EFloat::exact(a) * root).hi())
 }
 
-/// `u` around the axis in the angle of the ellipse with semi-axes `a`, `b`, from x; `v` along z, from 0 to 1 over a piece.
+/// `u` around the axis in the angle of the ellipse with semi-axes `a`, `b`, from x; `v` along z,
+/// from 0 to 1 over a piece.
 pub(crate) fn around(x: Vec3, n: Vec3, a: f64, b: f64, ends: Option<[f64; 2]>) -> Chart {
     const TURN: f64 = 2.0 * core::f64::consts::PI;
     let phi = elementary::atan2(x.y / b, x.x / a);

@@ -1,12 +1,15 @@
 //! Solids whose faces are quadrics or planes: `{ x : f_i(x) <= 0 for all i }`, a closed set.
 //!
-//! Along a ray each face is a quadratic `p_i(s)`, and the solid is where all of them are `<= 0`: a union of closed intervals, whose ends are
-//! the crossings (S. D. Roth, "Ray casting for modeling solids", *Computer Graphics and Image Processing* 18, 1982). A crossing is a root
-//! of one face at which no other face is positive. Whether one is, is decided in f64 with a running error where that suffices,
-//! and exactly otherwise; so rims cannot leak:
+//! Along a ray each face is a quadratic `p_i(s)`, and the solid is where all of them are `<= 0`: a
+//! union of closed intervals, whose ends are the crossings (S. D. Roth, "Ray casting for modeling
+//! solids", *Computer Graphics and Image Processing* 18, 1982). A crossing is a root of one face at
+//! which no other face is positive. Whether one is, is decided in f64 with a running error where
+//! that suffices, and exactly otherwise; so rims cannot leak:
 //!
-//! - a root at which another face is exactly zero (a rim) is reported by one of the two faces, once;
-//! - what the crossing is (entering, leaving, touching) follows from the signs of the slopes of all faces that are zero there;
+//! - a root at which another face is exactly zero (a rim) is reported by one of the two faces,
+//!   once;
+//! - what the crossing is (entering, leaving, touching) follows from the signs of the slopes of all
+//!   faces that are zero there;
 //! - a line that lies in a face is inside that face, so other faces end the interval.
 
 use crate::quadric::form::{Form, Rounded};
@@ -31,7 +34,8 @@ pub struct Frame {
     pub centre: Point3,
     /// The exponent of the unit of length; the shape's size should be about one unit.
     pub scale: i32,
-    /// A ball of this radius about the centre, in units, holds the shape; infinite if there is none.
+    /// A ball of this radius about the centre, in units, holds the shape; infinite if there is
+    /// none.
     pub reach: f64,
 }
 
@@ -46,8 +50,8 @@ pub struct Chart {
     pub dpdv: Vec3,
 }
 
-/// Two unit vectors across a unit vector, all three right-handed: T. Duff et al., "Building an orthonormal basis, revisited", *Journal of Computer
-/// Graphics Techniques* 6(1), 2017.
+/// Two unit vectors across a unit vector, all three right-handed: T. Duff et al., "Building an
+/// orthonormal basis, revisited", *Journal of Computer Graphics Techniques* 6(1), 2017.
 pub(crate) fn tangents(n: Vec3) -> (Vec3, Vec3) {
     let sign = 1.0_f64.copysign(n.z);
     let a = -1.0 / (sign + n.z);
@@ -55,12 +59,14 @@ pub(crate) fn tangents(n: Vec3) -> (Vec3, Vec3) {
     (Vec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), Vec3::new(b, sign + n.y * n.y * a, -n.y))
 }
 
-/// The tangent that `v` becomes if it is moved along `along` onto the plane across `n`: how a graph over directions changes.
+/// The tangent that `v` becomes if it is moved along `along` onto the plane across `n`: how a graph
+/// over directions changes.
 pub(crate) fn sheared(v: Vec3, along: Vec3, n: Vec3) -> Vec3 {
     let flat = |w: Vec3| w - n * n.dot(w);
     let w = flat(v - along * (n.dot(v) / n.dot(along)));
     let size = v.max_abs();
-    // Seen edge-on there is no graph; then the part of v in the plane, and if there is none, any tangent.
+    // Seen edge-on there is no graph; then the part of v in the plane, and if there is none, any
+    // tangent.
     if w.max_abs() <= 1e6 * size && w.max_abs() >= 1e-6 * size {
         return flat(w);
     }
@@ -76,12 +82,14 @@ pub trait QuadricFaces: Send + Sync {
     /// How many faces bound the shape, at most [`MAX_FACES`].
     fn faces(&self) -> usize;
 
-    /// How many of them, the first ones, are part of the surface. If not all are, the shape is a sheet: the other faces cut it off.
+    /// How many of them, the first ones, are part of the surface. If not all are, the shape is a
+    /// sheet: the other faces cut it off.
     fn walls(&self) -> usize {
         self.faces()
     }
 
-    /// The face's polynomial in the frame's coordinates `y`, negative inside; exact in an exact ring. A positive factor is free.
+    /// The face's polynomial in the frame's coordinates `y`, negative inside; exact in an exact
+    /// ring. A positive factor is free.
     fn form<T: Ring>(&self, face: usize) -> Form<T>;
 
     /// A box that provably holds the shape.
@@ -100,13 +108,15 @@ pub trait QuadricFaces: Send + Sync {
     /// Coordinates on a face, at `y` (close to the face), where the unit normal is `n`.
     fn chart(&self, face: usize, y: Vec3, n: Vec3) -> Chart;
 
-    /// The normal at a point where the face's gradient vanishes (the tip of a cone), if there is one. The form must not vanish along it.
+    /// The normal at a point where the face's gradient vanishes (the tip of a cone), if there is
+    /// one. The form must not vanish along it.
     fn tip(&self, _face: usize) -> Option<Vec3> {
         None
     }
 }
 
-/// [`QuadricFaces`] behind a pointer: what kernels ask it when f64 has left a doubt. They are compiled once and not for each shape.
+/// [`QuadricFaces`] behind a pointer: what kernels ask it when f64 has left a doubt. They are
+/// compiled once and not for each shape.
 pub(crate) trait Faces: Send + Sync {
     /// The face's polynomial, exactly.
     fn exact(&self, face: usize) -> Form<Dyadic>;
@@ -174,7 +184,8 @@ pub(crate) fn rounded<S: QuadricFaces>(shape: &S) -> Box<[Rounded]> {
         .collect()
 }
 
-/// The exact ray; if it is not exactly known, the one that the rounded numbers describe, and `false`.
+/// The exact ray; if it is not exactly known, the one that the rounded numbers describe, and
+/// `false`.
 fn exact_ray(ray: &CentredRay<'_>) -> (RingRay<Dyadic>, bool) {
     match ray.in_ring::<Dyadic>() {
         Some(exact) => (exact, true),
@@ -245,7 +256,8 @@ impl View<'_> {
         limits: &Limits,
     ) -> Option<LineRoots> {
         let (a, b, c) = (line.a, line.b, line.c);
-        // Where B² and AC cancel, the parameter is moved on to the vertex first: there B vanishes and nothing cancels.
+        // Where B² and AC cancel, the parameter is moved on to the vertex first: there B vanishes
+        // and nothing cancels.
         if a.v * c.v > 0.5 * b.v * b.v && a.v.abs() > 4.0 * a.e && b.v != 0.0 {
             let step = -b.v / a.v;
             let o = Vec3::new(
@@ -261,8 +273,8 @@ impl View<'_> {
         solve(a.into(), b.into(), c.into(), line.kahan_discriminant().into(), 0.0, limits)
     }
 
-    /// The roots in double-double and, if that leaves a doubt, exactly. The flag is false if the ray itself is not exactly known and
-    /// that matters.
+    /// The roots in double-double and, if that leaves a doubt, exactly. The flag is false if the
+    /// ray itself is not exactly known and that matters.
     #[cold]
     #[inline(never)]
     fn climb(&self, face: usize, ray: &CentredRay<'_>, limits: &Limits) -> (LineRoots, bool) {
@@ -302,7 +314,8 @@ impl View<'_> {
         (solve(a, b, c, d, 0.0, &limits).unwrap_or(none), certain)
     }
 
-    /// All crossings of the line within the sink's and the ray's range (as far as f64 can tell), in order.
+    /// All crossings of the line within the sink's and the ray's range (as far as f64 can tell), in
+    /// order.
     #[inline(always)]
     pub(crate) fn events(&self, ray: &CentredRay<'_>, range: (f64, f64)) -> Events {
         let mut events = Events::new();
@@ -327,7 +340,8 @@ impl View<'_> {
             }
             let start = start(ray, face, &lines[face]);
             for root in found.roots.into_iter().flatten() {
-                // Where the ray was spawned, side and slope tell which roots are behind it: no exact arithmetic is needed.
+                // Where the ray was spawned, side and slope tell which roots are behind it: no
+                // exact arithmetic is needed.
                 let ahead = match start.and_then(|start| start.against(root.crossing)) {
                     Some(Greater) => continue,
                     known => known.is_some(),
@@ -353,7 +367,8 @@ impl View<'_> {
         events
     }
 
-    /// Whether a root of `face` belongs to the closed solid, exactly, and what happens there: kind and sign of the crossing.
+    /// Whether a root of `face` belongs to the closed solid, exactly, and what happens there: kind
+    /// and sign of the crossing.
     #[cold]
     #[inline(never)]
     fn examine(
@@ -492,8 +507,8 @@ impl View<'_> {
     /// Where an end of the range lies relative to a crossing.
     #[inline(always)]
     fn end_against_root(&self, end: End, event: &Event, ray: &CentredRay<'_>) -> Ordering {
-        // The polynomial at the end's own point, which does not carry the rounding of the closest approach. Rays that were spawned on
-        // this surface start where its sign is certain.
+        // The polynomial at the end's own point, which does not carry the rounding of the closest
+        // approach. Rays that were spawned on this surface start where its sign is certain.
         let (p, ep) = ray.point_at_end(end);
         let at = self.forms[event.face].along(p, ray.d, ep, ray.d_err);
         let value = match (ray.source(), end) {
@@ -532,7 +547,8 @@ impl View<'_> {
     }
 }
 
-/// Where a ray that was spawned on a face starts: the signs of `A`, of the polynomial and of its slope there.
+/// Where a ray that was spawned on a face starts: the signs of `A`, of the polynomial and of its
+/// slope there.
 #[derive(Clone, Copy)]
 struct Start {
     a: Option<Ordering>,
@@ -570,7 +586,8 @@ fn solve_linear(line: &Quadratic<EFloat>, limits: &Limits) -> Option<LineRoots> 
     Some(LineRoots { roots: [root, None], outside: false })
 }
 
-/// Whether the line is in all faces but one, over an enclosure of `s`; `None` if that cannot be told.
+/// Whether the line is in all faces but one, over an enclosure of `s`; `None` if that cannot be
+/// told.
 #[inline(always)]
 fn within(lines: &Lines, face: usize, at: EFloat) -> Option<bool> {
     let mut all = Some(true);

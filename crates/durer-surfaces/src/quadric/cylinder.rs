@@ -117,7 +117,8 @@ impl Wall for HyperbolicWall {
 
 impl Wall for ParabolicWall {
     fn form<T: Ring>(&self, k: i32) -> Form<T> {
-        // b X² - a² Y in units of 2^k: a²b f, times the power of two that makes its larger coefficient about one.
+        // b X² - a² Y in units of 2^k: a²b f, times the power of two that makes its larger
+        // coefficient about one.
         let [e, f] = self.axes.map(|x| exponent(x) - k);
         let [a, b] = self.axes.map(|x| T::exact(x).scale2(-exponent(x)));
         let (x, y) = (f, 2 * e - 1);

@@ -27,7 +27,8 @@ impl Ellipsoid {
         Ok(Self::whole(EllipsoidWall { axes: [a, b, c] }))
     }
 
-    /// The spheroid with the radius `equator` across z and the semi-axis `pole` along it: flattened if `pole` is the smaller.
+    /// The spheroid with the radius `equator` across z and the semi-axis `pole` along it: flattened
+    /// if `pole` is the smaller.
     pub fn spheroid(equator: f64, pole: f64) -> Result<Self, AxialError> {
         positive("spheroid", [("equatorial radius", equator), ("polar radius", pole)])?;
         Ok(Self::whole(EllipsoidWall { axes: [equator, equator, pole] }))

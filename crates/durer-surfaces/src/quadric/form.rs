@@ -89,7 +89,8 @@ fn row(a: f64, b: f64, c: f64, v: Vec3) -> f64 {
     a.mul_add(v.x, b.mul_add(v.y, c * v.z))
 }
 
-/// A [`Form`] rounded to f64: each coefficient within the factor `1 ± rel` of the exact one, zeros exact.
+/// A [`Form`] rounded to f64: each coefficient within the factor `1 ± rel` of the exact one, zeros
+/// exact.
 #[derive(Clone, Copy, Debug)]
 pub struct Rounded {
     q: [f64; 6],
@@ -104,7 +105,8 @@ pub struct Rounded {
 }
 
 impl Rounded {
-    /// Rounds a form that is given in `EFloat<Dd>`, and exactly where that leaves a coefficient doubtful.
+    /// Rounds a form that is given in `EFloat<Dd>`, and exactly where that leaves a coefficient
+    /// doubtful.
     pub(crate) fn new(rough: &Form<EFloat<Dd>>, exact: impl Fn() -> Form<Dyadic>) -> Self {
         let coefficients = |f: &Form<EFloat<Dd>>| -> Option<[f64; 11]> {
             let mut out = [0.0; 11];
@@ -135,7 +137,8 @@ impl Rounded {
         Self { q, b: [bx, by, bz], c, rel: rel * (1.0 + 8.0 * U), largest, bend }
     }
 
-    /// The form of a ball about the origin, `x·x - radius²`: what [`Rounded::new`] gives, without the detour.
+    /// The form of a ball about the origin, `x·x - radius²`: what [`Rounded::new`] gives, without
+    /// the detour.
     #[inline(always)]
     pub(crate) fn ball(radius: f64) -> Self {
         /// Twice the Frobenius norm of the identity, rounded up.
@@ -166,9 +169,11 @@ impl Rounded {
 
     /// `A`, `B`, `C` along `o + s d`, with `o` within `eo` and `d` within `ed`.
     ///
-    /// `Qd` and `Qo + b` take at most 4 roundings a coordinate, the dot products 4 more, and the coefficients bring `rel`: so
-    /// `gamma(9) + rel` of the sums of absolute values covers rounding. Errors of the inputs enter through the exact differences,
-    /// `|δ(d·Qd)| <= |δd|·|Q|(2|d| + |δd|)`, `|δ(d·(Qo+b))| <= |δd|·|Qo+b| + |δo|·|Q|(|d| + |δd|)`, `|δf| <= 2|δo|·|Qo+b| + |δo|·|Q||δo|`.
+    /// `Qd` and `Qo + b` take at most 4 roundings a coordinate, the dot products 4 more, and the
+    /// coefficients bring `rel`: so `gamma(9) + rel` of the sums of absolute values covers
+    /// rounding. Errors of the inputs enter through the exact differences,
+    /// `|δ(d·Qd)| <= |δd|·|Q|(2|d| + |δd|)`, `|δ(d·(Qo+b))| <= |δd|·|Qo+b| + |δo|·|Q|(|d| + |δd|)`,
+    /// `|δf| <= 2|δo|·|Qo+b| + |δo|·|Q||δo|`.
     #[inline(always)]
     pub(crate) fn along(&self, o: Vec3, d: Vec3, eo: Vec3, ed: Vec3) -> Quadratic<EFloat> {
         let k = (9.0 * U + self.rel) * (1.0 + 64.0 * U);

@@ -4,9 +4,10 @@
 //!   f = A x² + B y² + C z² + D xy + E xz + F yz + G x + H y + I z + J <= 0
 //! ```
 //!
-//! Its name follows from the inertia (how many eigenvalues are positive and negative) of `Q` and of the 4x4 matrix of the
-//! homogeneous form. Both matrices are symmetric, so all their eigenvalues are real, and Descartes' rule of signs on the
-//! characteristic polynomials counts them exactly; the signs of those polynomials' coefficients are computed in exact arithmetic.
+//! Its name follows from the inertia (how many eigenvalues are positive and negative) of `Q` and of
+//! the 4x4 matrix of the homogeneous form. Both matrices are symmetric, so all their eigenvalues
+//! are real, and Descartes' rule of signs on the characteristic polynomials counts them exactly;
+//! the signs of those polynomials' coefficients are computed in exact arithmetic.
 
 use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, sheared};
 use crate::quadric::form::Form;
@@ -109,8 +110,9 @@ fn matrix<T: Ring>(k: &[f64; 10]) -> ([[T; 3]; 3], [T; 3], T) {
     (q, [6, 7, 8].map(|i| T::exact(k[i]).scale2(-1)), T::exact(k[9]))
 }
 
-/// How many eigenvalues of a real symmetric matrix are positive and how many negative, from the coefficients of its characteristic
-/// polynomial (leading one first): Descartes' rule is exact where all roots are real.
+/// How many eigenvalues of a real symmetric matrix are positive and how many negative, from the
+/// coefficients of its characteristic polynomial (leading one first): Descartes' rule is exact
+/// where all roots are real.
 fn inertia(polynomial: &[Dyadic]) -> (usize, usize) {
     let changes = |signs: &mut dyn Iterator<Item = Ordering>| {
         let mut last = Ordering::Equal;
@@ -126,8 +128,8 @@ fn inertia(polynomial: &[Dyadic]) -> (usize, usize) {
     (changes(&mut signs()), changes(&mut { alternating }))
 }
 
-/// The characteristic polynomial by the Faddeev-LeVerrier recurrence, times positive integers (which divide nothing here: each
-/// coefficient is scaled by `k!`, which does not change signs).
+/// The characteristic polynomial by the Faddeev-LeVerrier recurrence, times positive integers
+/// (which divide nothing here: each coefficient is scaled by `k!`, which does not change signs).
 fn characteristic<const N: usize>(m: &[[Dyadic; N]; N]) -> Vec<Dyadic> {
     let zero = || Dyadic::from(0.0);
     let product = |a: &[[Dyadic; N]; N], b: &[[Dyadic; N]; N]| -> [[Dyadic; N]; N] {
@@ -135,8 +137,8 @@ fn characteristic<const N: usize>(m: &[[Dyadic; N]; N]) -> Vec<Dyadic> {
             core::array::from_fn(|j| (0..N).fold(zero(), |s, k| &s + &(&a[i][k] * &b[k][j])))
         })
     };
-    // Newton's identities: k e_k = sum_{i=1..k} (-1)^(i-1) e_{k-i} p_i with power sums p_i = tr M^i; E_k = k! e_k obeys
-    // E_k = sum (-1)^(i-1) (k-1)!/(k-i)! E_{k-i} p_i.
+    // Newton's identities: k e_k = sum_{i=1..k} (-1)^(i-1) e_{k-i} p_i with power sums p_i = tr
+    // M^i; E_k = k! e_k obeys E_k = sum (-1)^(i-1) (k-1)!/(k-i)! E_{k-i} p_i.
     let mut powers = vec![];
     let mut power = m.clone();
     for _ in 0..N {
@@ -196,8 +198,9 @@ fn classify(k: &[f64; 10]) -> QuadricKind {
     }
 }
 
-/// Eigenvalues and vectors of a symmetric matrix by Jacobi's rotations (H. Rutishauser, "The Jacobi method for real symmetric
-/// matrices", *Numerische Mathematik* 9, 1966). Only for choosing a frame: its rounding harms nothing.
+/// Eigenvalues and vectors of a symmetric matrix by Jacobi's rotations (H. Rutishauser, "The Jacobi
+/// method for real symmetric matrices", *Numerische Mathematik* 9, 1966). Only for choosing a
+/// frame: its rounding harms nothing.
 fn eigen(mut m: [[f64; 3]; 3]) -> ([f64; 3], [Vec3; 3]) {
     let mut v = [Vec3::X, Vec3::Y, Vec3::Z];
     for _ in 0..12 {
@@ -225,7 +228,8 @@ fn eigen(mut m: [[f64; 3]; 3]) -> ([f64; 3], [Vec3; 3]) {
 /// Below this share of the strongest, a bend counts as none for the choice of a centre.
 const NEARLY_PARABOLIC: f64 = 1.0 / 64.0;
 
-/// A frame for rays to be re-centred to: the centre or vertex, and the surface's size there. Any numbers would be right; these are good.
+/// A frame for rays to be re-centred to: the centre or vertex, and the surface's size there. Any
+/// numbers would be right; these are good.
 fn frame(k: &[f64; 10]) -> (Frame, i32, Vec3) {
     let k_max = k.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     let unit = |x: f64| durer_math::eft::scale2(x, -exponent(k_max));
@@ -250,7 +254,8 @@ fn frame(k: &[f64; 10]) -> (Frame, i32, Vec3) {
         let g = qv(c) + b;
         (c, size) =
             if g.length() > 1e-9 * b.length() { vertex(c, g) } else { (c, (f(c).abs() / largest).sqrt()) };
-        // A surface that is all but a paraboloid has its centre far away, where nothing of it is: then its vertex, if that is nearer and on it.
+        // A surface that is all but a paraboloid has its centre far away, where nothing of it is:
+        // then its vertex, if that is nearer and on it.
         let near = centre_without(NEARLY_PARABOLIC);
         let (near, near_size) = vertex(near, qv(near) + b);
         let slope = qv(near) + b;
@@ -264,7 +269,8 @@ fn frame(k: &[f64; 10]) -> (Frame, i32, Vec3) {
     let centre = if c.is_finite() && c.max_abs() < 1e140 { c.to_point() } else { Point3::ORIGIN };
     let scale = if usable(size) { exponent(size) } else { 0 };
     let gain = -exponent(k_max) - if largest > 0.0 { 2 * scale } else { scale };
-    // The axis of a cone is where the sign is the odd one; elsewhere the form must not vanish along it, the more it changes the better.
+    // The axis of a cone is where the sign is the odd one; elsewhere the form must not vanish along
+    // it, the more it changes the better.
     let product = values[0] * values[1] * values[2];
     let positive = values.iter().filter(|&&x| x > 0.0).count();
     let tip = (0..3)
@@ -322,13 +328,15 @@ impl QuadricFaces for GeneralQuadric {
 }
 
 impl GeneralQuadric {
-    /// The box of what of the surface lies between two planes across an axis, where that is an axis of the quadric and all its sections are ellipses:
+    /// The box of what of the surface lies between two planes across an axis, where that is an axis
+    /// of the quadric and all its sections are ellipses:
     ///
     /// ```text
     ///   A (x - m)² + B (y - n)² = s(z) = A m² + B n² - (C z² + I z + J),    A, B > 0 >= C,    m = -G / 2A,    n = -H / 2B
     /// ```
     ///
-    /// `s` is convex, and so the largest section is at one of the ends. A paraboloid, with `C = 0`, has one of its own, where `s` vanishes.
+    /// `s` is convex, and so the largest section is at one of the ends. A paraboloid, with `C = 0`,
+    /// has one of its own, where `s` vanishes.
     fn slab_bounds(&self, axis: usize, slab: &Aabb) -> Aabb {
         let k = &self.coefficients;
         let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -365,7 +373,8 @@ impl GeneralQuadric {
         if bounds.is_bounded() { bounds } else { Aabb::UNBOUNDED }
     }
 
-    /// The box of a solid ellipsoid: about `-Q⁻¹b`, half-widths `√(K (Q⁻¹)ᵢᵢ)` with `K = b·Q⁻¹b - c`.
+    /// The box of a solid ellipsoid: about `-Q⁻¹b`, half-widths `√(K (Q⁻¹)ᵢᵢ)` with
+    /// `K = b·Q⁻¹b - c`.
     fn ellipsoid_bounds(&self) -> Option<Aabb> {
         if self.kind != QuadricKind::Ellipsoid || self.coefficients[0] < 0.0 {
             return None;
@@ -447,7 +456,8 @@ mod tests {
         }
     }
 
-    /// The vertices of a quadric in canonical place, and directions in which it is flat or asymptotic.
+    /// The vertices of a quadric in canonical place, and directions in which it is flat or
+    /// asymptotic.
     fn features() -> Vec<Feature> {
         let mut out = vec![];
         for p in [

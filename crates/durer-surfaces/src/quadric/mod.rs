@@ -1,6 +1,7 @@
 //! Quadrics, and solids cut from space by them.
 //!
-//! [`boolean_faces`] holds the method that all share; [`form`] the arithmetic of one quadric along one ray; each other file one surface.
+//! [`boolean_faces`] holds the method that all share; [`form`] the arithmetic of one quadric along
+//! one ray; each other file one surface.
 
 pub mod axial;
 pub mod boolean_faces;

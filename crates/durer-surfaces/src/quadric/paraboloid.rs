@@ -52,7 +52,8 @@ impl HyperbolicParaboloid {
     }
 }
 
-/// `b²c X² ± a²c Y² - a²b² Z` in units of `2^k`: the surface's `a²b²c f`, times the power of two that makes its largest coefficient about one.
+/// `b²c X² ± a²c Y² - a²b² Z` in units of `2^k`: the surface's `a²b²c f`, times the power of two
+/// that makes its largest coefficient about one.
 fn graph<T: Ring>(axes: [f64; 3], k: i32, saddle: bool) -> Form<T> {
     let [e, f, g] = axes.map(|x| exponent(x) - k);
     // Each number by its own power of two first, so that no product leaves the range.

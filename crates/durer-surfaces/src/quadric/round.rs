@@ -6,9 +6,10 @@
 //!        ╰───────────╯           cone      |a|⁴|y|² - |a|²h² - (r₀|a|² + (r₁ - r₀) h)²   <= 0
 //! ```
 //!
-//! The polynomials hold for the very numbers given: no axis is turned, nothing is normalised, and the cone's radius is linear
-//! from one end to the other. J. M. Cychosz, W. N. Waggenspack, "Intersecting a ray with a cylinder", *Graphics Gems IV* (1994), treat the
-//! cylinder by vectors in the same way.
+//! The polynomials hold for the very numbers given: no axis is turned, nothing is normalised, and
+//! the cone's radius is linear from one end to the other. J. M. Cychosz, W. N. Waggenspack,
+//! "Intersecting a ray with a cylinder", *Graphics Gems IV* (1994), treat the cylinder by vectors
+//! in the same way.
 
 use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, sheared, tangents};
 use crate::quadric::form::Form;
@@ -18,7 +19,8 @@ use durer_math::{Aabb, Dd, EFloat, Point3, Ring, U, Vec3, elementary};
 
 /// A cylinder between two points, capped or open.
 pub type CappedCylinder = QuadricSolid<CylinderShape>;
-/// A cone between two points with a radius at each, capped or open; a full cone if one radius is zero.
+/// A cone between two points with a radius at each, capped or open; a full cone if one radius is
+/// zero.
 pub type Frustum = QuadricSolid<FrustumShape>;
 
 /// Face numbers of [`CappedCylinder`] and [`Frustum`].
@@ -346,7 +348,8 @@ mod tests {
         ExactBody { walls: if open { 1 } else { 3 }, faces, size, convex: !open }
     }
 
-    /// Rims, the axis, generators and tangents. `e` has whole-number vectors across the axis of the same length.
+    /// Rims, the axis, generators and tangents. `e` has whole-number vectors across the axis of the
+    /// same length.
     fn features(base: Point3, r: [f64; 2], cap: Point3, e: [Vec3; 2]) -> Vec<Feature> {
         let a = cap - base;
         let length = e[0].length();

@@ -6,8 +6,9 @@
 //!       ╰──╯ ╲
 //! ```
 //!
-//! The exact surface has the number `k`: an angle is turned into its cosine once, when the sector is made. A half-angle of 90
-//! degrees gives half a ball; larger ones are not convex and are not built here.
+//! The exact surface has the number `k`: an angle is turned into its cosine once, when the sector
+//! is made. A half-angle of 90 degrees gives half a ball; larger ones are not convex and are not
+//! built here.
 
 use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, sheared, tangents};
 use crate::quadric::form::Form;
@@ -16,7 +17,8 @@ use crate::sphere::sphere_chart;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Point3, Ring, U, Vec3, elementary};
 
-/// A spherical sector, a solid. Face 0 is the sphere's part, face 1 the cone, face 2 the plane that takes the cone's other half away.
+/// A spherical sector, a solid. Face 0 is the sphere's part, face 1 the cone, face 2 the plane that
+/// takes the cone's other half away.
 pub type SphericalSector = QuadricSolid<SectorShape>;
 
 /// The numbers of a [`SphericalSector`].
@@ -134,7 +136,8 @@ impl QuadricFaces for SectorShape {
     }
 
     fn bounds(&self) -> Aabb {
-        // The ball's box, cut where the cone keeps an axis out: a point at the angle θ from the axis reaches r cos(θ - half-angle) at most.
+        // The ball's box, cut where the cone keeps an axis out: a point at the angle θ from the
+        // axis reaches r cos(θ - half-angle) at most.
         let a = self.direction();
         let sine = (1.0 - self.cosine * self.cosine).max(0.0).sqrt();
         let reach = |cos: f64| {

@@ -7,8 +7,9 @@ use crate::{LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surf
 use durer_math::eft::{scale2, two_sum};
 use durer_math::{Aabb, Affine, Dd, EFloat, Isa, Point3, Ring, U, Vec3};
 
-/// Pays for results below the normal range, in units of the shape's size. Far more than needed, so that it and its square are normal numbers: a
-/// subnormal operand costs many CPUs a hundred times the operation itself.
+/// Pays for results below the normal range, in units of the shape's size. Far more than needed, so
+/// that it and its square are normal numbers: a subnormal operand costs many CPUs a hundred times
+/// the operation itself.
 const TINY: f64 = durer_math::scale::pow2(-500);
 
 /// A shape with its rounded polynomials: a surface.
@@ -154,16 +155,18 @@ impl View<'_> {
         point
     }
 
-    /// A distance along the normal that leaves the face on either side, for a point of which the world's numbers `p` miss `lost`, and where `f` and half
-    /// its gradient are these.
+    /// A distance along the normal that leaves the face on either side, for a point of which the
+    /// world's numbers `p` miss `lost`, and where `f` and half its gradient are these.
     ///
-    /// From `|f(p)| <= η`, gradient `G` and `|Hessian| <= h`: a start at `p ± off n + τ`, where `τ` is what
-    /// rounding adds away from the surface, has `|f| >= off |G| - h (off² + |τ|²) - η`; this is positive from
-    /// `off = 2 η' / (|G| + √(|G|² - 4 h η'))` on, with `η' = η + h|τ|²`. `η` includes twice the error of an evaluation of `f`, so
-    /// that a ray that starts there finds the sign of `f` in f64.
+    /// From `|f(p)| <= η`, gradient `G` and `|Hessian| <= h`: a start at `p ± off n + τ`, where `τ`
+    /// is what rounding adds away from the surface, has `|f| >= off |G| - h (off² + |τ|²) - η`;
+    /// this is positive from `off = 2 η' / (|G| + √(|G|² - 4 h η'))` on, with `η' = η + h|τ|²`. `η`
+    /// includes twice the error of an evaluation of `f`, so that a ray that starts there finds the
+    /// sign of `f` in f64.
     ///
-    /// `err` bounds the distance from `y` to the crossing. Where there is a tip within that and a few roundings of the coordinates, the point
-    /// counts as the tip: no point beside it could be told from it.
+    /// `err` bounds the distance from `y` to the crossing. Where there is a tip within that and a
+    /// few roundings of the coordinates, the point counts as the tip: no point beside it could be
+    /// told from it.
     #[inline(always)]
     fn off(&self, face: usize, p: Point3, (f, half): (EFloat, Vec3), lost: Vec3, err: f64) -> Off {
         let form = &self.forms[face];
@@ -174,12 +177,14 @@ impl View<'_> {
         let tau = scale2(p.to_vec().max_abs(), -self.frame.scale) * (6.0 * U) + TINY;
         let away = 2.0 * (g.abs().dot(lost) + h * (lost.dot(lost) + tau * tau));
         let normal = (g * (1.0 / gradient), gradient);
-        // On a cone `G / h` is about the distance from its axis: as near as this, the normal may turn by a sixteenth within those errors.
+        // On a cone `G / h` is about the distance from its axis: as near as this, the normal may
+        // turn by a sixteenth within those errors.
         let near_tip = gradient <= 16.0 * h * (err + tau);
         let tip = if near_tip { self.shape.tip(face) } else { None };
         if tip.is_none() {
             let eta = f.v.abs() + 2.0 * f.e + away;
-            // Where f64 sees the face only dimly (a thin needle), f at the very numbers of p tells more.
+            // Where f64 sees the face only dimly (a thin needle), f at the very numbers of p tells
+            // more.
             let eta =
                 if 4.0 * h * eta < 1e-3 * gradient * gradient { eta } else { self.value_at(face, p) + away };
             let square = gradient * gradient - 4.0 * h * eta;
@@ -192,7 +197,8 @@ impl View<'_> {
                 return Off { distance, normal, tip: false };
             }
         }
-        // A tip: f changes with the square of the way a along the axis n, and for any displacement e with |e| <= ε
+        // A tip: f changes with the square of the way a along the axis n, and for any displacement
+        // e with |e| <= ε
         // |f(p + a n + e)| >= a² |n·Qn| - a (|G| + 2 ε |Qn|) - (η + ε |G| + ε² h / 2).
         let n = tip.unwrap_or(Vec3::Z);
         let qn = form.times(n);
@@ -214,12 +220,14 @@ impl View<'_> {
     }
 }
 
-/// `y` moved onto the face by Newton's method along the gradient: one step, as a rule; more where the ray came from so far that `y` is off by
-/// more than the face's size. With `f` and half its gradient there.
+/// `y` moved onto the face by Newton's method along the gradient: one step, as a rule; more where
+/// the ray came from so far that `y` is off by more than the face's size. With `f` and half its
+/// gradient there.
 #[inline(always)]
 fn project(form: &Rounded, mut y: Vec3) -> (Vec3, EFloat, Vec3) {
     let (first, mut half) = form.at(y, y.abs() * U);
-    // On the face as far as f64 can see: a step would follow rounding, far where the gradient is small.
+    // On the face as far as f64 can see: a step would follow rounding, far where the gradient is
+    // small.
     if first.v.abs() <= first.e {
         return (y, first, half);
     }

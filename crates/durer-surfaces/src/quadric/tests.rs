@@ -17,7 +17,8 @@ fn canonical(wall: &ExactForm, ends: Option<[f64; 2]>, open: bool, size: f64, co
     ExactBody { walls: if open { 1 } else { faces.len() }, faces, size, convex: convex && !open }
 }
 
-/// Places of a canonical quadric with semi-axes `a`, `b`, `c` at which something happens, and rims at the heights `ends`.
+/// Places of a canonical quadric with semi-axes `a`, `b`, `c` at which something happens, and rims
+/// at the heights `ends`.
 fn features([a, b, c]: [f64; 3], ends: [f64; 2]) -> Vec<Feature> {
     let points = [
         [0.0, 0.0, 0.0],
@@ -190,7 +191,8 @@ fn cylinders_obey_the_laws() {
 
 #[test]
 fn the_normal_of_a_cone_is_its_axis_only_where_the_point_may_be_the_tip() {
-    // Slender and large: far from the tip in the numbers' own units, near it in units of the semi-axes.
+    // Slender and large: far from the tip in the numbers' own units, near it in units of the
+    // semi-axes.
     let large = Cone::circular(1073741824.0, 139586437120.0).unwrap();
     let rows = [[0.5, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 3.0]];
     let map = durer_math::Affine::new(rows, Point3::new(125.0, 0.125, 0.0)).unwrap();
@@ -222,7 +224,8 @@ fn the_normal_of_a_cone_is_its_axis_only_where_the_point_may_be_the_tip() {
     assert_eq!(normals(&cone, all_roots(&cone, &through), &through), [1.0]);
 }
 
-/// The polynomial `x²/a² + sign y²/b² - z/c` (without `sign`: `x²/a² - y/b`) times its denominators, exactly.
+/// The polynomial `x²/a² + sign y²/b² - z/c` (without `sign`: `x²/a² - y/b`) times its
+/// denominators, exactly.
 fn parabolic_wall([a, b, c]: [f64; 3], sign: Option<f64>) -> ExactForm {
     let [a, b, c] = exact3([a, b, c]);
     let (a2, b2) = (a.squared(), b.squared());

@@ -1,13 +1,16 @@
-//! A ray as a surface's kernel sees it: counted from the surface's centre, in units of its size, from the point nearest to it (rules W3 and W4).
+//! A ray as a surface's kernel sees it: counted from the surface's centre, in units of its size,
+//! from the point nearest to it (rules W3 and W4).
 
 use super::{End, LocalRay, ParameterMap, RingRay, TINY, U, relative};
 use durer_math::eft::{scale2, two_sum};
 use durer_math::{Dd, EFloat, Point3, RaySide, Ring, Vec3};
 
-/// With fewer roundings than this a ray is known well enough in f64: what double-double costs is what they cost.
+/// With fewer roundings than this a ray is known well enough in f64: what double-double costs is
+/// what they cost.
 const MANY: f64 = 32.0;
 
-/// A local ray re-centred and rescaled: its points are `centre + 2^scale (o + s d)`, and `t = t0 + 2^k s`.
+/// A local ray re-centred and rescaled: its points are `centre + 2^scale (o + s d)`, and
+/// `t = t0 + 2^k s`.
 #[derive(Clone, Copy, Debug)]
 pub struct CentredRay<'a> {
     /// The point at `s = 0`, relative to the centre, in units of `2^scale`.
@@ -46,7 +49,8 @@ impl<'a> CentredRay<'a> {
         self.ray.source
     }
 
-    /// Where a ray that was spawned on this primitive starts: the side, the face and the `s` of `t = 0`, if its range starts there too.
+    /// Where a ray that was spawned on this primitive starts: the side, the face and the `s` of
+    /// `t = 0`, if its range starts there too.
     #[inline(always)]
     pub fn spawned(&self) -> Option<(RaySide, u32, EFloat)> {
         let side = self.ray.source?;
@@ -72,13 +76,15 @@ impl<'a> CentredRay<'a> {
     #[inline(always)]
     fn centred<T: Ring>(&self, ray: RingRay<T>) -> RingRay<T> {
         let RingRay { o: [x, y, z], d, w } = ray.moved(self.centre, self.step);
-        // Lengths are divided by 2^scale; so is the direction, and the parameter's unit is 2^scale: d stays.
+        // Lengths are divided by 2^scale; so is the direction, and the parameter's unit is 2^scale:
+        // d stays.
         let k = -self.scale;
         RingRay { o: [x.scale2(k), y.scale2(k), z.scale2(k)], d, w }
     }
 
-    /// The same ray with origin and direction rounded from double-double, if maps on its way make more than 32 roundings of one, in a frame in which the surface is
-    /// `size` large: a shear makes lengths of what it takes away again, and with them what they are rounded by.
+    /// The same ray with origin and direction rounded from double-double, if maps on its way make
+    /// more than 32 roundings of one, in a frame in which the surface is `size` large: a shear
+    /// makes lengths of what it takes away again, and with them what they are rounded by.
     #[inline(always)]
     #[must_use]
     pub fn sharp(self, size: f64) -> Self {
@@ -139,7 +145,8 @@ impl<'a> CentredRay<'a> {
         (end(lo, self.clock.k, -1.0, shift), end(hi, self.clock.k, 1.0, shift))
     }
 
-    /// Whether a crossing in the caller's bracket `[lo, hi]` is in the ray's closed range; `None` if the bracket straddles an end.
+    /// Whether a crossing in the caller's bracket `[lo, hi]` is in the ray's closed range; `None`
+    /// if the bracket straddles an end.
     #[inline(always)]
     pub fn admits(&self, lo: f64, hi: f64) -> Option<bool> {
         let (t_min, t_max) = (self.ray.t_min, self.ray.t_max);
@@ -152,7 +159,8 @@ impl<'a> CentredRay<'a> {
         }
     }
 
-    /// Numbers `(lo, hi)` such that an `s` outside `[lo, hi]` has its `t` outside the caller's range `[t_lo, t_hi]`.
+    /// Numbers `(lo, hi)` such that an `s` outside `[lo, hi]` has its `t` outside the caller's
+    /// range `[t_lo, t_hi]`.
     #[inline(always)]
     pub fn window(&self, (t_lo, t_hi): (f64, f64)) -> (f64, f64) {
         let (shift_hi, shift_lo, err) = self.clock.shift();
@@ -165,9 +173,11 @@ impl<'a> CentredRay<'a> {
         (bound(back(lo) - TINY, f64::NEG_INFINITY), bound(back(hi) + TINY, f64::INFINITY))
     }
 
-    /// For each end of a range of `t`, numbers `(lo, hi)` such that brackets of `s` outside `[lo, hi]` have brackets of `t` that do not hold that end.
+    /// For each end of a range of `t`, numbers `(lo, hi)` such that brackets of `s` outside
+    /// `[lo, hi]` have brackets of `t` that do not hold that end.
     pub fn ends(&self, (t_lo, t_hi): (f64, f64)) -> [(f64, f64); 2] {
-        // The slack of a window is more than a bracket is rounded by: that is an error of the clock, and three units in the last place.
+        // The slack of a window is more than a bracket is rounded by: that is an error of the
+        // clock, and three units in the last place.
         let end = |t: f64| if t.is_finite() { self.window((t, t)) } else { (t, t) };
         [end(t_lo), end(t_hi)]
     }
@@ -184,8 +194,9 @@ impl<'a> CentredRay<'a> {
         scale2((hi - lo) * (1.0 + 4.0 * U), -self.clock.k) + TINY
     }
 
-    /// The ray's point at an end of its range, relative to the centre, in units of `2^scale`, with a bound on its error. Unlike
-    /// `o + s d` it does not carry the rounding of the closest approach: where rays start on a surface, this is the sharper form.
+    /// The ray's point at an end of its range, relative to the centre, in units of `2^scale`, with
+    /// a bound on its error. Unlike `o + s d` it does not carry the rounding of the closest
+    /// approach: where rays start on a surface, this is the sharper form.
     #[inline(always)]
     pub fn point_at_end(&self, end: End) -> (Vec3, Vec3) {
         let (p, err) = self.ray.point_at(self.end(end));

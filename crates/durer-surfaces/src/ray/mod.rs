@@ -1,10 +1,12 @@
-//! The ray as a surface sees it: re-centred, rescaled, with its rounding charged, and exact on demand.
+//! The ray as a surface sees it: re-centred, rescaled, with its rounding charged, and exact on
+//! demand.
 //!
-//! Every kernel starts with one step, [`LocalRay::recentre`]: the parameter moves to the closest approach to the
-//! surface's centre and lengths are scaled by a power of two, so that the numbers a kernel meets are of the surface's size
-//! and not of the distance to the eye. The step is not exact, but its error is known ([`CentredRay::o_err`]), about
-//! two roundings of the *local* size; and the ray remembers where it came from, so that a doubtful decision can be
-//! taken again in any [`Ring`], up to exact arithmetic ([`CentredRay::in_ring`]).
+//! Every kernel starts with one step, [`LocalRay::recentre`]: the parameter moves to the closest
+//! approach to the surface's centre and lengths are scaled by a power of two, so that the numbers a
+//! kernel meets are of the surface's size and not of the distance to the eye. The step is not
+//! exact, but its error is known ([`CentredRay::o_err`]), about two roundings of the *local* size;
+//! and the ray remembers where it came from, so that a doubtful decision can be taken again in any
+//! [`Ring`], up to exact arithmetic ([`CentredRay::in_ring`]).
 
 mod centred;
 mod point;
@@ -19,8 +21,8 @@ use durer_math::{Aabb, Affine, Dd, EFloat, Isa, Point3, Ray, RaySide, Ring, Vec3
 
 /// Half an ulp of 1.
 const U: f64 = 1.0 / (1u64 << 53) as f64;
-/// Pays for results below the normal range. Far more than needed, so that it and its multiples are normal numbers: on many CPUs a
-/// subnormal operand costs a hundred times the operation itself.
+/// Pays for results below the normal range. Far more than needed, so that it and its multiples are
+/// normal numbers: on many CPUs a subnormal operand costs a hundred times the operation itself.
 const TINY: f64 = durer_math::scale::pow2(-1000);
 
 /// The least step worth taking: `2^-600`.
@@ -28,7 +30,8 @@ const LEAST_STEP: f64 = f64::from_bits((1023 - 600) << 52);
 
 /// A ray in a surface's frame: `o + s d`, where the caller's parameter is `t = t0 + 2^k s`.
 ///
-/// The largest |component| of `d` is in `[1, 2)`. `o` and `d` are within `o_err` and `d_err` (per axis) of the exact ones.
+/// The largest |component| of `d` is in `[1, 2)`. `o` and `d` are within `o_err` and `d_err` (per
+/// axis) of the exact ones.
 #[derive(Clone, Copy, Debug)]
 pub struct LocalRay<'a> {
     /// The point at `s = 0`.
@@ -56,7 +59,8 @@ pub struct LocalRay<'a> {
     kept: Option<&'a WideCache>,
 }
 
-/// Room for what a ray is in double-double, which is found once if anybody asks: see [`LocalRay::keeping`].
+/// Room for what a ray is in double-double, which is found once if anybody asks: see
+/// [`LocalRay::keeping`].
 #[derive(Debug, Default)]
 pub struct WideCache(OnceCell<Option<RingRay<EFloat<Dd>>>>);
 
@@ -73,7 +77,8 @@ impl WideCache {
 enum Lineage<'a> {
     /// `o` was given, and this direction (within `d_err`), which was scaled by `2^k`.
     Given { k: i32, direction: Vec3, d_err: Vec3 },
-    /// The parent's ray, moved on by `step`, through the inverse of an affine map; then scaled by `2^k`.
+    /// The parent's ray, moved on by `step`, through the inverse of an affine map; then scaled by
+    /// `2^k`.
     Placed { parent: &'a LocalRay<'a>, affine: &'a Affine, step: f64, k: i32 },
 }
 
@@ -91,7 +96,8 @@ impl ParameterMap {
     fn then(mut self, step: f64, k: i32) -> Self {
         let term = scale2(step, self.k);
         if term != 0.0 {
-            // Four steps are more than the levels there are (instance, placement, operand, surface).
+            // Four steps are more than the levels there are (instance, placement, operand,
+            // surface).
             self.terms[usize::from(self.len).min(3)] += term;
             self.len = (self.len + 1).min(4);
         }
@@ -120,8 +126,8 @@ impl ParameterMap {
     }
 }
 
-/// How wide a bracket may be, relative to `max(|t|, size / |d|)`, where nobody measures: about a millionth of a pixel. All
-/// decisions are exact all the same.
+/// How wide a bracket may be, relative to `max(|t|, size / |d|)`, where nobody measures: about a
+/// millionth of a pixel. All decisions are exact all the same.
 pub const PREVIEW_WIDTH: f64 = 1.0 / (1u64 << 30) as f64;
 
 /// An end of a ray's range.
@@ -147,14 +153,16 @@ fn relative(p: Point3, err: Vec3, centre: Point3) -> (Vec3, Vec3) {
     (Vec3::new(x, y, z), Vec3::new(ex, ey, ez))
 }
 
-/// A vector, known within `e`, through the inverse of an affine map's linear part; with a bound on the result's error.
+/// A vector, known within `e`, through the inverse of an affine map's linear part; with a bound on
+/// the result's error.
 #[inline(always)]
 pub(crate) fn through_inverse(affine: &Affine, v: Vec3, e: Vec3) -> (Vec3, Vec3) {
     let (inverse, slack) = (affine.inverse_linear(), affine.inverse_error());
     #[inline(always)]
     fn row(m: Vec3, s: Vec3, v: Vec3, e: Vec3) -> (f64, f64) {
         let x = m.dot(v);
-        // gamma_3 for the dot product, |Linv| times the error of v, and |Linv - L^-1| (|v| + error).
+        // gamma_3 for the dot product, |Linv| times the error of v, and |Linv - L^-1| (|v| +
+        // error).
         let size = m.abs().dot(v.abs());
         let err = size.mul_add(3.0 * U * (1.0 + 4.0 * U), m.abs().dot(e) + s.dot(v.abs() + e));
         // A row that meets only zeros gives exactly zero.
@@ -197,7 +205,8 @@ pub struct RingRay<T> {
 }
 
 impl LocalRay<'static> {
-    /// The ray itself, in the frame in which it is given. The ray must be valid ([`Ray::is_valid`]).
+    /// The ray itself, in the frame in which it is given. The ray must be valid
+    /// ([`Ray::is_valid`]).
     #[inline(always)]
     pub fn new(ray: &Ray) -> Self {
         Self::with_errors(ray, Vec3::ZERO, Vec3::ZERO)
@@ -262,10 +271,12 @@ impl<'a> LocalRay<'a> {
         self
     }
 
-    /// A range of `t` (caller's parameter) that holds all points of the ray in a box; `None` if there surely are none.
+    /// A range of `t` (caller's parameter) that holds all points of the ray in a box; `None` if
+    /// there surely are none.
     ///
-    /// Slabs (T. L. Kay, J. T. Kajiya, SIGGRAPH 1986). On an axis on which the direction is known to `2^-20` of itself the ends' parameters are
-    /// off by less than `2^-19` of their size: that, the origin's error and its rounding are added. Other axes give no bound.
+    /// Slabs (T. L. Kay, J. T. Kajiya, SIGGRAPH 1986). On an axis on which the direction is known
+    /// to `2^-20` of itself the ends' parameters are off by less than `2^-19` of their size: that,
+    /// the origin's error and its rounding are added. Other axes give no bound.
     #[inline(always)]
     pub fn within(&self, bounds: &Aabb) -> Option<(f64, f64)> {
         const SURE: f64 = durer_math::scale::pow2(-20);
@@ -291,10 +302,13 @@ impl<'a> LocalRay<'a> {
         Some((end(near, f64::NEG_INFINITY), end(far, f64::INFINITY)))
     }
 
-    /// Whether the line passes the ball of `radius` about `centre` at a distance that leaves no doubt: the first and cheapest test.
+    /// Whether the line passes the ball of `radius` about `centre` at a distance that leaves no
+    /// doubt: the first and cheapest test.
     ///
-    /// With `h = c - o` and `e = t₀ d - h` the distance is at least `|e| - δ`: `h`, `t₀ d` and `e` round to `3 U |h|` together, moving `t₀` by its
-    /// error of `8 U |h| / |d|` moves `e` by as much, and the ray's own errors add theirs. `(r + δ)² <= r² (1 + 2⁻²⁰) + δ² (1 + 2²⁰)` avoids the root.
+    /// With `h = c - o` and `e = t₀ d - h` the distance is at least `|e| - δ`: `h`, `t₀ d` and `e`
+    /// round to `3 U |h|` together, moving `t₀` by its error of `8 U |h| / |d|` moves `e` by as
+    /// much, and the ray's own errors add theirs. `(r + δ)² <= r² (1 + 2⁻²⁰) + δ² (1 + 2²⁰)` avoids
+    /// the root.
     #[inline(always)]
     pub fn passes_by(&self, centre: Point3, radius: f64) -> bool {
         /// `2²⁰`.
@@ -305,7 +319,8 @@ impl<'a> LocalRay<'a> {
         let own = t0
             .abs()
             .mul_add(self.d_err.x + self.d_err.y + self.d_err.z, self.o_err.x + self.o_err.y + self.o_err.z);
-        // δ = 16 U |h| + own, and δ² <= 2 (16 U |h|)² + 2 own², rounded up; the constant pays for underflow.
+        // δ = 16 U |h| + own, and δ² <= 2 (16 U |h|)² + 2 own², rounded up; the constant pays for
+        // underflow.
         let slack = own.mul_add(own * (2.0 * SPLIT + 4.0), 1e-300);
         let slack = h.dot(h).mul_add(512.0 * U * U * (SPLIT + 2.0), slack);
         e.dot(e) > (radius * (1.0 + 2.0 / SPLIT)).mul_add(radius, slack)
@@ -342,7 +357,8 @@ impl<'a> LocalRay<'a> {
         self.point_at(self.t_min).0
     }
 
-    /// The point at the caller's parameter `t`, with a bound on its error, without the detour over the closest approach.
+    /// The point at the caller's parameter `t`, with a bound on its error, without the detour over
+    /// the closest approach.
     fn point_at(&self, t: f64) -> (Point3, Vec3) {
         match self.lineage {
             Lineage::Given { k, .. } => {
@@ -359,14 +375,16 @@ impl<'a> LocalRay<'a> {
         }
     }
 
-    /// The exact ray in a ring, in this ray's own parameter, seen from `centre` in units of `2^scale`: unlike
-    /// [`CentredRay::in_ring`] the parameter does not depend on the centre, so that two surfaces can share it.
+    /// The exact ray in a ring, in this ray's own parameter, seen from `centre` in units of
+    /// `2^scale`: unlike [`CentredRay::in_ring`] the parameter does not depend on the centre, so
+    /// that two surfaces can share it.
     pub fn in_ring_from<T: Ring>(&self, centre: Point3, scale: i32) -> Option<RingRay<T>> {
         let at = self.in_ring::<T>()?.moved(centre, 0.0);
         Some(RingRay { o: at.o.map(|x| x.scale2(-scale)), d: at.d.map(|x| x.scale2(-scale)), w: at.w })
     }
 
-    /// The caller's parameters of some of a ray's own that [starts at zero](LocalRay::starts_at_zero), which is exact; `None` if f64 cannot hold one.
+    /// The caller's parameters of some of a ray's own that
+    /// [starts at zero](LocalRay::starts_at_zero), which is exact; `None` if f64 cannot hold one.
     #[inline(always)]
     pub(crate) fn caller_t(&self, s: [f64; 3]) -> Option<[f64; 3]> {
         let [a, b, c] = s;
@@ -381,7 +399,8 @@ impl<'a> LocalRay<'a> {
         let (hi, lo, lost) = self.clock.shift();
         let x = scale2(s, self.clock.k);
         let t = hi + (lo + x);
-        // Two roundings, of numbers that are no larger than this sum but for theirs; and what scaling may have lost.
+        // Two roundings, of numbers that are no larger than this sum but for theirs; and what
+        // scaling may have lost.
         let err = (hi.abs() + lo.abs() + x.abs()).mul_add(4.0 * U, lost * 2.0) + TINY;
         (t - err, t + err)
     }
@@ -394,7 +413,8 @@ impl<'a> LocalRay<'a> {
         }
     }
 
-    /// The ray as seen from `centre`, with lengths in units of `2^scale`: what every kernel works on (rules W3 and W4).
+    /// The ray as seen from `centre`, with lengths in units of `2^scale`: what every kernel works
+    /// on (rules W3 and W4).
     ///
     /// `scale` should make the surface's size about one.
     #[inline(always)]
@@ -414,7 +434,8 @@ impl<'a> LocalRay<'a> {
         }
     }
 
-    /// The ray as seen from its own start (of the parameter), in its own units: for surfaces that have no middle.
+    /// The ray as seen from its own start (of the parameter), in its own units: for surfaces that
+    /// have no middle.
     #[inline(always)]
     pub fn unmoved(&'a self) -> CentredRay<'a> {
         CentredRay {
@@ -430,8 +451,8 @@ impl<'a> LocalRay<'a> {
         }
     }
 
-    /// The ray in the frame of a surface that `affine` places: through the inverse map, re-centred on its centre first
-    /// (rules W3 and W5), the inverse's own error charged.
+    /// The ray in the frame of a surface that `affine` places: through the inverse map, re-centred
+    /// on its centre first (rules W3 and W5), the inverse's own error charged.
     #[inline(always)]
     pub fn through(&'a self, affine: &'a Affine) -> LocalRay<'a> {
         let c = affine.centre();
@@ -474,7 +495,8 @@ impl<'a> LocalRay<'a> {
         }
     }
 
-    /// The exact ray in a ring, in this ray's parameter; `None` if `T` holds exact numbers only and the ray is not exactly known.
+    /// The exact ray in a ring, in this ray's parameter; `None` if `T` holds exact numbers only and
+    /// the ray is not exactly known.
     #[inline(never)]
     pub fn in_ring<T: Ring>(&self) -> Option<RingRay<T>> {
         Isa::detect().run(

@@ -1,4 +1,5 @@
-//! Turned solids: what a profile sweeps that goes once round the y axis, between two planes across it.
+//! Turned solids: what a profile sweeps that goes once round the y axis, between two planes across
+//! it.
 //!
 //! ```text
 //!      ______  y_n        Between two of the heights y_0 < y_1 < ... < y_n the solid is what a wall encloses:
@@ -9,9 +10,11 @@
 //!     \_w_0__/  y_0
 //! ```
 //!
-//! A ray passes the heights in order. Between two of them the roots of the one wall's polynomial count that lie strictly between; at each of them the
-//! ray is inside or outside just before and just after, each by the exact sign of a polynomial, and where these differ there is one crossing. So a line
-//! crosses the solid's boundary in turn inward and outward, whatever the numbers are: a crossing exactly at a seam counts once.
+//! A ray passes the heights in order. Between two of them the roots of the one wall's polynomial
+//! count that lie strictly between; at each of them the ray is inside or outside just before and
+//! just after, each by the exact sign of a polynomial, and where these differ there is one
+//! crossing. So a line crosses the solid's boundary in turn inward and outward, whatever the
+//! numbers are: a crossing exactly at a seam counts once.
 
 pub(crate) mod level;
 mod profile;
@@ -36,7 +39,8 @@ use profile_piece::Wall;
 
 /// A solid of revolution about the y axis; without its ends a sheet.
 ///
-/// Faces: 0 the walls and what seams leave of rings, 1 the end below, 2 the end above. A root's tag names the wall, or the height of a flat part.
+/// Faces: 0 the walls and what seams leave of rings, 1 the end below, 2 the end above. A root's tag
+/// names the wall, or the height of a flat part.
 ///
 /// # Invariants
 ///
@@ -57,7 +61,8 @@ pub struct SurfaceOfRevolution {
 pub(crate) enum Profile {
     /// The square of the radius by the height above `at`.
     Cubic { at: f64, a: [f64; 4] },
-    /// The inner sheet of a torus: its circle's height and radius, and the radius of its tube, which is larger.
+    /// The inner sheet of a torus: its circle's height and radius, and the radius of its tube,
+    /// which is larger.
     Spindle { at: f64, major: f64, minor: f64 },
 }
 
@@ -69,7 +74,8 @@ pub(crate) struct Unfit;
 const LARGEST: f64 = pow2(200);
 
 impl SurfaceOfRevolution {
-    /// The solid whose profile between `heights[i]` and `heights[i + 1]` is `profiles[i]`; `widest` is about its largest radius.
+    /// The solid whose profile between `heights[i]` and `heights[i + 1]` is `profiles[i]`; `widest`
+    /// is about its largest radius.
     pub(crate) fn of(heights: Vec<f64>, profiles: &[Profile], widest: f64) -> Result<Self, Unfit> {
         let (low, high) = match heights[..] {
             [low, .., high] if heights.windows(2).all(|h| h[0] < h[1]) => (low, high),
@@ -159,7 +165,8 @@ impl SurfaceOfRevolution {
 
     #[inline(always)]
     fn all_roots_here(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
-        // Which wall a ray was spawned on is not known; it starts where the sign of that wall's polynomial is certain.
+        // Which wall a ray was spawned on is not known; it starts where the sign of that wall's
+        // polynomial is certain.
         let ray = &ray.from_side(None);
         let probe = self.probe(ray);
         let mut out = Out { sink, least: f64::NEG_INFINITY, stopped: false };
@@ -211,8 +218,8 @@ impl SurfaceOfRevolution {
         }
     }
 
-    /// Pushes the crossing at a height, if what the wall behind says at its end and what the wall ahead says at its beginning are not the same; a wall
-    /// that the ray passes by says outside.
+    /// Pushes the crossing at a height, if what the wall behind says at its end and what the wall
+    /// ahead says at its beginning are not the same; a wall that the ray passes by says outside.
     #[inline(always)]
     fn seam(
         &self,
@@ -248,7 +255,8 @@ impl SurfaceOfRevolution {
         let faces_up = (crossing.sign > 0) != inward;
         let tag = [i as f64, if faces_up { 1.0 } else { -1.0 }];
         let root = Root { sign, ..probe.root(crossing, face, tag) };
-        // A rim or a ray through a seam exactly: the wall is there, and the wall it is for those who ask.
+        // A rim or a ray through a seam exactly: the wall is there, and the wall it is for those
+        // who ask.
         let wall = (0..self.walls.len())
             .filter(|&w| w == i || w + 1 == i)
             .find(|&w| self.meets(w, i, probe, crossing));
@@ -363,10 +371,12 @@ impl<'a> Axial<'a> {
         Self { ray, a: d.x * d.x + d.z * d.z, b: o.x * d.x + o.z * d.z, c: o.x * o.x + o.z * o.z }
     }
 
-    /// Whether the ray surely passes by a wall of this radius between the two heights that bound it: all the way it is farther from the axis.
+    /// Whether the ray surely passes by a wall of this radius between the two heights that bound
+    /// it: all the way it is farther from the axis.
     ///
-    /// With `p >= |o| + |s| |d|` the sums are wrong by `5 U p²` at most, and by less than a rounding since `s` is not exactly the least point; coordinates that
-    /// are wrong by `e` change the square by `2 (p + e) e` at most.
+    /// With `p >= |o| + |s| |d|` the sums are wrong by `5 U p²` at most, and by less than a
+    /// rounding since `s` is not exactly the least point; coordinates that are wrong by `e` change
+    /// the square by `2 (p + e) e` at most.
     #[inline(always)]
     fn misses(&self, reach: f64, entry: &Crossing, exit: &Crossing) -> bool {
         let (low, high) = (entry.s_lo.min(exit.s_lo), entry.s_hi.max(exit.s_hi));

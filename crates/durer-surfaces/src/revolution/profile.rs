@@ -1,4 +1,5 @@
-//! Walls of turned solids: `x² + z² = p(y)` with a cubic `p`, and the sheets of a torus that meets itself.
+//! Walls of turned solids: `x² + z² = p(y)` with a cubic `p`, and the sheets of a torus that meets
+//! itself.
 
 use crate::polynomial_surface::{self, PolynomialSurface};
 use crate::quadric::boolean_faces::{Chart, Frame};
@@ -7,7 +8,8 @@ use crate::{CentredRay, RingRay};
 use durer_math::eft::scale2;
 use durer_math::{Point3, Ring, U, Vec3, elementary};
 
-/// What both kinds share: where they stand on the axis, from where they are seen, and between which heights they are asked for.
+/// What both kinds share: where they stand on the axis, from where they are seen, and between which
+/// heights they are asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stand {
     /// The frame's centre is on the axis; `reach` holds the whole solid.
@@ -65,7 +67,8 @@ impl Stand {
         let out = if rho > 0.0 { Vec3::new(y.x / rho, 0.0, y.z / rho) } else { Vec3::X };
         let east = Vec3::new(-out.z, 0.0, out.x);
         let height = self.extent[1] - self.extent[0];
-        // Up along the profile: across the normal and the way east, by as much as the height grows. At a pole the profile does not rise.
+        // Up along the profile: across the normal and the way east, by as much as the height grows.
+        // At a pole the profile does not rise.
         let north = east.cross(n);
         let up = if north.y.abs() > 1e-9 { height / north.y } else { height };
         Chart {
@@ -151,7 +154,8 @@ impl PolynomialSurface<4> for Cubic {
 }
 
 impl Cubic {
-    /// No less than the radius anywhere in the slab, in units: the square is no larger than the largest of its Bernstein coefficients.
+    /// No less than the radius anywhere in the slab, in units: the square is no larger than the
+    /// largest of its Bernstein coefficients.
     pub(super) fn widest(&self) -> f64 {
         let shift = scale2(self.stand.at - self.stand.frame.centre.y, -self.stand.frame.scale);
         let [l, r] = self.stand.slab.map(|y| y - shift);
@@ -167,13 +171,15 @@ impl Cubic {
     }
 }
 
-/// The inner sheet of the torus with a tube of radius `r` about a circle of radius `R < r`, at the height `v` above the circle's plane:
+/// The inner sheet of the torus with a tube of radius `r` about a circle of radius `R < r`, at the
+/// height `v` above the circle's plane:
 ///
 /// ```text
 ///   (√(x² + z²) + R)² + v² = r²
 /// ```
 ///
-/// With `Q = x² + v² + z² + R² - r²` both sheets are `Q² = 4R² (x² + z²)`; on the inner one `Q <= 0`, zero only on the axis.
+/// With `Q = x² + v² + z² + R² - r²` both sheets are `Q² = 4R² (x² + z²)`; on the inner one
+/// `Q <= 0`, zero only on the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Spindle {
     pub(super) stand: Stand,

@@ -40,7 +40,8 @@ impl Wall {
         }
     }
 
-    /// As lanes see it, no wider than `radius`; `None` if they would see more than the sheet that counts.
+    /// As lanes see it, no wider than `radius`; `None` if they would see more than the sheet that
+    /// counts.
     pub(super) fn for_lanes(&self, radius: f64) -> Option<LatheWall> {
         let stand = match self {
             Self::Cubic(w) => &w.stand,

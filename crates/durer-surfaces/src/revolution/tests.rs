@@ -8,7 +8,8 @@ use crate::laws::{
 use crate::{Axis, Sphere, Torus};
 use durer_math::Ray;
 
-/// The walls' polynomials in space, and what is negative on the sheet that counts; the same numbers, expanded.
+/// The walls' polynomials in space, and what is negative on the sheet that counts; the same
+/// numbers, expanded.
 struct ExactTurned {
     heights: Vec<f64>,
     walls: Vec<(ZeroOracle, Option<ZeroOracle>)>,
@@ -156,7 +157,8 @@ impl ExactTurned {
         Some(found)
     }
 
-    /// The wall or the height to which a point on the solid belongs: the nearest; `None` if several are near.
+    /// The wall or the height to which a point on the solid belongs: the nearest; `None` if several
+    /// are near.
     fn owner(&self, p: Vec3) -> Option<Result<usize, usize>> {
         let near = 1e-4 * self.size;
         let heights =

@@ -4,17 +4,19 @@
 //!   p(x) = Σ b_j C(n,j) u^j (1-u)^(n-j),    u = (x + 1) / 2,    x in [-1, 1]
 //! ```
 //!
-//! The number of roots in the open interval is at most the number of sign changes among the `b_j`, and differs from it by an even number
-//! (J. M. Lane, R. F. Riesenfeld, "Bounds on a polynomial", *BIT* 21, 1981); `b_0` and `b_n` are the values at the ends. The form is the
-//! best conditioned one on an interval (R. T. Farouki, V. T. Rajan, "On the numerical condition of polynomials in Bernstein form",
-//! *Computer Aided Geometric Design* 4, 1987).
+//! The number of roots in the open interval is at most the number of sign changes among the `b_j`,
+//! and differs from it by an even number (J. M. Lane, R. F. Riesenfeld, "Bounds on a polynomial", *BIT*
+//! 21, 1981); `b_0` and `b_n` are the values at the ends. The form is the best conditioned one on
+//! an interval (R. T. Farouki, V. T. Rajan, "On the numerical condition of polynomials in Bernstein
+//! form", *Computer Aided Geometric Design* 4, 1987).
 
 use durer_math::efloat::Word;
 
 /// Pays for results below the normal range.
 pub(crate) const FLOOR: f64 = durer_math::scale::pow2(-1000);
 
-/// `K[k][j]`, the factor of `u^j (1-u)^(n-j)` in `(2u - 1)^k`: whole numbers (M. Krawtchouk, 1929), exact in f64, and `|K[k][j]| <= C(n,j)`.
+/// `K[k][j]`, the factor of `u^j (1-u)^(n-j)` in `(2u - 1)^k`: whole numbers (M. Krawtchouk, 1929),
+/// exact in f64, and `|K[k][j]| <= C(n,j)`.
 struct Matrix<const N: usize>;
 
 const fn choose(n: usize, k: usize) -> i64 {
@@ -37,7 +39,8 @@ impl<const N: usize> Matrix<N> {
         while k < N {
             let mut j = 0;
             while j < N {
-                // i of the k factors (u - (1-u)) give u, and j - i of the n - k factors (u + (1-u)).
+                // i of the k factors (u - (1-u)) give u, and j - i of the n - k factors (u +
+                // (1-u)).
                 let (mut sum, mut i) = (0, 0);
                 while i <= k && i <= j {
                     let term = choose(k, i) * choose(n - k, j - i);
@@ -94,12 +97,14 @@ pub(crate) enum Count {
 impl<T: Word, const N: usize> Bernstein<T, N> {
     /// From `Σ c_k x^k`, where the `c_k` are wrong by `slack` in sum.
     ///
-    /// `|K[k][j] / C(n,j)| <= 1`, so errors of coefficients at most add up; each `b_j` takes `n + 1` products and sums and a division.
+    /// `|K[k][j] / C(n,j)| <= 1`, so errors of coefficients at most add up; each `b_j` takes
+    /// `n + 1` products and sums and a division.
     #[inline(always)]
     pub(crate) fn new(c: &[T; N], slack: f64) -> Self {
         let unit = (N + 1) as f64 * (T::ADD + T::MUL) + T::DIV;
         let size = c.iter().fold(0.0, |sum, c| sum + c.to_f64().abs());
-        // Loops: functions of arrays are too large to be inlined, and by themselves would be compiled without fused sums.
+        // Loops: functions of arrays are too large to be inlined, and by themselves would be
+        // compiled without fused sums.
         let mut b = [T::from(0.0); N];
         for (j, b) in b.iter_mut().enumerate() {
             for (row, &c) in Matrix::<N>::K.iter().zip(c) {
@@ -131,7 +136,8 @@ impl<T: Word, const N: usize> Bernstein<T, N> {
         if plus == all || minus == all {
             return Count::None;
         }
-        // All low ones of one sign, at most one open between them and the high ones of the other sign: any sign of the open one makes one change.
+        // All low ones of one sign, at most one open between them and the high ones of the other
+        // sign: any sign of the open one makes one change.
         let turn = |low: u32, high: u32| {
             let (a, b) = (low.trailing_ones(), (!high & all).leading_zeros());
             low != 0
@@ -167,8 +173,8 @@ impl<T: Word, const N: usize> Bernstein<T, N> {
         self.b[N - 1].to_f64().abs() > self.e * (1.0 + 4.0 * f64::EPSILON)
     }
 
-    /// The two parts on either side of `u = part`, by P. de Casteljau's scheme: each new coefficient is a mean of two, so errors add up over its
-    /// `n` levels and do not grow.
+    /// The two parts on either side of `u = part`, by P. de Casteljau's scheme: each new
+    /// coefficient is a mean of two, so errors add up over its `n` levels and do not grow.
     #[inline(always)]
     pub(crate) fn split(&self, part: f64) -> (Self, Self) {
         let e = (N - 1) as f64 * (T::ADD + 2.0 * T::MUL);
@@ -188,7 +194,8 @@ impl<T: Word, const N: usize> Bernstein<T, N> {
 }
 
 impl<const N: usize> Bernstein<f64, N> {
-    /// As [`Bernstein::new`], with a rounded inverse in place of the division (one rounding more) and fused sums.
+    /// As [`Bernstein::new`], with a rounded inverse in place of the division (one rounding more)
+    /// and fused sums.
     #[inline(always)]
     pub(crate) fn quick(c: &[f64; N], slack: f64) -> Self {
         let unit = (N + 3) as f64 * f64::ADD;
@@ -203,8 +210,8 @@ impl<const N: usize> Bernstein<f64, N> {
         Self { b, e: size.mul_add(unit, slack) * (1.0 + 64.0 * f64::EPSILON) + FLOOR }
     }
 
-    /// Whether all coefficients but the first are of this sign for certain, and the first is not of the other. If the first is of this sign too, for other
-    /// reasons, there is no root.
+    /// Whether all coefficients but the first are of this sign for certain, and the first is not of
+    /// the other. If the first is of this sign too, for other reasons, there is no root.
     #[inline(always)]
     pub(crate) fn stays(&self, positive: bool) -> bool {
         let sign = if positive { 1.0 } else { -1.0 };
@@ -228,7 +235,8 @@ mod tests {
     use crate::laws::TestRng;
     use durer_math::{Dd, Dyadic};
 
-    /// The Bernstein coefficients of the part between `l` and `r`, times `C(n,j)`, exactly: by substituting and expanding.
+    /// The Bernstein coefficients of the part between `l` and `r`, times `C(n,j)`, exactly: by
+    /// substituting and expanding.
     fn exact<const N: usize>(c: &[f64; N], l: f64, r: f64) -> [Dyadic; N] {
         let (l, r) = (Dyadic::from(l), Dyadic::from(r));
         // x = l (1-u) + r u: the factors of u^j (1-u)^(k-j) in x^k, then times ((1-u) + u)^(n-k).

@@ -1,18 +1,25 @@
-//! The real roots of a polynomial whose coefficients are exactly known: how many there are, where, and on which side of what.
+//! The real roots of a polynomial whose coefficients are exactly known: how many there are, where,
+//! and on which side of what.
 //!
-//! The last step of the ladder. Multiple roots are made simple first (`residues.rs`). Then, with `n` the degree,
+//! The last step of the ladder. Multiple roots are made simple first (`residues.rs`). Then, with
+//! `n` the degree,
 //!
 //! ```text
 //!   (1 + x)^n p((l + r x) / (1 + x))
 //! ```
 //!
-//! has a positive root for each root of `p` between `l` and `r`, and no more of them than its coefficients change sign (R. Descartes), by an even number: no
-//! change is no root, one change is one. Where there are more the interval is divided (G. E. Collins, A. G. Akritas, "Polynomial real root isolation using
-//! Descartes' rule of signs", SYMSAC 1976): it ends, since the roots are simple. Roots that are very close to each other, or to the real line, would take a step
-//! a bit; as long as halving does not part them, Newton's method for a multiple root proposes a much shorter interval, and if that has as many changes of sign
-//! there are no roots in the rest (M. Sagraloff, K. Mehlhorn, "Computing real roots of real polynomials", *Journal of Symbolic Computation* 73, 2016).
+//! has a positive root for each root of `p` between `l` and `r`, and no more of them than its
+//! coefficients change sign (R. Descartes), by an even number: no change is no root, one change is
+//! one. Where there are more the interval is divided (G. E. Collins, A. G. Akritas, "Polynomial
+//! real root isolation using Descartes' rule of signs", SYMSAC 1976): it ends, since the roots are
+//! simple. Roots that are very close to each other, or to the real line, would take a step a bit;
+//! as long as halving does not part them, Newton's method for a multiple root proposes a much
+//! shorter interval, and if that has as many changes of sign there are no roots in the rest (M.
+//! Sagraloff, K. Mehlhorn, "Computing real roots of real polynomials", *Journal of Symbolic
+//! Computation* 73, 2016).
 //!
-//! Intervals are halved in the order of the f64 numbers, not in their values: 64 steps reach neighbours at any scale.
+//! Intervals are halved in the order of the f64 numbers, not in their values: 64 steps reach
+//! neighbours at any scale.
 
 use super::residues::{Poly, common_factor};
 use core::cmp::Ordering;
@@ -41,7 +48,8 @@ pub(crate) struct Isolated {
 }
 
 impl Isolated {
-    /// A number behind the root, and not behind the next one; no root, as long as the interval has not been narrowed.
+    /// A number behind the root, and not behind the next one; no root, as long as the interval has
+    /// not been narrowed.
     pub(crate) fn end(&self) -> &Dyadic {
         &self.r
     }
@@ -102,7 +110,8 @@ fn changes(p: &Poly, l: &Dyadic, r: &Dyadic) -> usize {
         *c = &*c * &power;
         power = &power * &width;
     }
-    // With y = x / (1 + x): the coefficients the other way round, with 1 + x in place of x. Each is known after one pass.
+    // With y = x / (1 + x): the coefficients the other way round, with 1 + x in place of x. Each is
+    // known after one pass.
     c.reverse();
     let (mut last, mut found) = (Equal, 0);
     for i in 0..n {
@@ -118,8 +127,10 @@ fn changes(p: &Poly, l: &Dyadic, r: &Dyadic) -> usize {
     found
 }
 
-/// A power of two that no root exceeds in magnitude: twice the largest `|a_k / a_n|^(1 / (n - k))` (M. Fujiwara, "Über die obere Schranke des absoluten
-/// Betrages der Wurzeln einer algebraischen Gleichung", *Tôhoku Mathematical Journal* 10, 1916), by exponents. `None` if there are none but zero.
+/// A power of two that no root exceeds in magnitude: twice the largest `|a_k / a_n|^(1 / (n - k))`
+/// (M. Fujiwara, "Über die obere Schranke des absoluten Betrages der Wurzeln einer algebraischen
+/// Gleichung", *Tôhoku Mathematical Journal* 10, 1916), by exponents. `None` if there are none but
+/// zero.
 fn reach(p: &[Dyadic]) -> Option<Dyadic> {
     let (lead, rest) = p.split_last()?;
     let top = lead.exponent()?;
@@ -133,7 +144,8 @@ fn reach(p: &[Dyadic]) -> Option<Dyadic> {
 }
 
 impl ExactRoots {
-    /// The roots of the polynomial with these coefficients, the constant first. `None` if it is zero everywhere.
+    /// The roots of the polynomial with these coefficients, the constant first. `None` if it is
+    /// zero everywhere.
     pub(crate) fn new(coefficients: Vec<Dyadic>) -> Option<Self> {
         let whole = trimmed(coefficients);
         if whole.is_empty() {
@@ -144,11 +156,13 @@ impl ExactRoots {
         Some(Self { whole, simple })
     }
 
-    /// The distinct roots strictly between two numbers which are no roots, ascending, each by itself.
+    /// The distinct roots strictly between two numbers which are no roots, ascending, each by
+    /// itself.
     pub(crate) fn isolate(&self, from: &Dyadic, to: &Dyadic) -> Vec<Isolated> {
         let (mut out, mut open) = (vec![], vec![]);
         let far = reach(&self.simple).unwrap_or(Dyadic::from(1.0));
-        // Zero is a simple root, if it is one; the others are no nearer than the inverses of those of the polynomial the other way round are far.
+        // Zero is a simple root, if it is one; the others are no nearer than the inverses of those
+        // of the polynomial the other way round are far.
         let zero = usize::from(self.simple[0].is_zero());
         let near =
             reach(&self.simple[zero..].iter().rev().cloned().collect::<Poly>()).and_then(|x| x.exponent());
@@ -198,7 +212,8 @@ impl ExactRoots {
         out
     }
 
-    /// An interval `2^bits` times shorter than that from `l` to `r` with as many changes of sign, `n`: there are no roots in the rest.
+    /// An interval `2^bits` times shorter than that from `l` to `r` with as many changes of sign,
+    /// `n`: there are no roots in the rest.
     fn proposed(&self, l: &Dyadic, r: &Dyadic, n: usize, bits: u32) -> Option<(Dyadic, Dyadic)> {
         let slope = derivative(&self.simple);
         let width = r - l;
@@ -265,7 +280,8 @@ impl ExactRoots {
         }
     }
 
-    /// Narrows a root's interval until `enough` says so of its bracket in f64, or until f64 can do no better.
+    /// Narrows a root's interval until `enough` says so of its bracket in f64, or until f64 can do
+    /// no better.
     pub(crate) fn bracket(&self, root: &mut Isolated, enough: impl Fn(f64, f64) -> bool) -> (f64, f64) {
         loop {
             let (lo, hi) = (root.l.to_bounds().0, root.r.to_bounds().1);
@@ -312,7 +328,8 @@ impl ExactRoots {
         if q.is_empty() {
             return Equal;
         }
-        // The root is common if the greatest common divisor changes its sign with it: as a divisor of `simple` it has only simple roots.
+        // The root is common if the greatest common divisor changes its sign with it: as a divisor
+        // of `simple` it has only simple roots.
         if let Some((common, _)) = common_factor(&self.simple, &q)
             && sign_at(&common, &root.l) != sign_at(&common, &root.r)
         {
@@ -331,7 +348,8 @@ impl ExactRoots {
     }
 }
 
-/// A number between `l` and `r`: half way in the order of the f64 numbers while they can tell the two apart, in value after that.
+/// A number between `l` and `r`: half way in the order of the f64 numbers while they can tell the
+/// two apart, in value after that.
 fn middle(l: &Dyadic, r: &Dyadic) -> Dyadic {
     let rank = |x: f64| {
         let bits = x.to_bits() as i64;
@@ -404,7 +422,8 @@ mod tests {
         }
     }
 
-    /// The product of polynomials of degree two at most, and of a sum of single terms, in any numbers.
+    /// The product of polynomials of degree two at most, and of a sum of single terms, in any
+    /// numbers.
     fn product<T>(factors: &[[f64; 3]], sparse: &[(usize, f64)]) -> Vec<T>
     where
         T: Clone + From<f64> + core::ops::Add<Output = T> + core::ops::Mul<Output = T>,
@@ -466,7 +485,8 @@ mod tests {
 
     #[test]
     fn roots_nearer_than_any_number_can_tell_are_parted() {
-        // Three roots 2^-300 apart at 1, and at 2^-40 a pair of complex ones as near to the real line.
+        // Three roots 2^-300 apart at 1, and at 2^-40 a pair of complex ones as near to the real
+        // line.
         let tiny = durer_math::scale::pow2(-600);
         let at = durer_math::scale::pow2(-40);
         let p = product::<Dyadic>(&[[0.0, 1.0, 0.0], [-tiny, 0.0, 1.0]], &[(0, 1.0)]);

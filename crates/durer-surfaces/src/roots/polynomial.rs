@@ -1,17 +1,21 @@
-//! The real roots of a polynomial of degree up to 16 along a ray, each in a proven bracket, in ascending order.
+//! The real roots of a polynomial of degree up to 16 along a ray, each in a proven bracket, in
+//! ascending order.
 //!
-//! One ladder, as everywhere: in f64 with proven errors, then in double-double, then exactly. What a step has proven stands; where it is in
-//! doubt the next one goes on, from a point at which the sign is certain. On the first two steps:
+//! One ladder, as everywhere: in f64 with proven errors, then in double-double, then exactly. What
+//! a step has proven stands; where it is in doubt the next one goes on, from a point at which the
+//! sign is certain. On the first two steps:
 //!
-//! 1. The polynomial is put into Bernstein form ([`Bernstein`]) over the stretch of the line where roots may be. All coefficients of one sign:
-//!    no root. This is what mostly happens.
-//! 2. Exactly one change of sign: one simple root. Otherwise the stretch is halved, the first half first.
-//! 3. A root is found by Newton's method and its bracket proven: by the size of the polynomial and of its slope (Kantorovich), or by certain
-//!    signs on either side.
+//! 1. The polynomial is put into Bernstein form ([`Bernstein`]) over the stretch of the line where
+//!    roots may be. All coefficients of one sign: no root. This is what mostly happens.
+//! 2. Exactly one change of sign: one simple root. Otherwise the stretch is halved, the first half
+//!    first.
+//! 3. A root is found by Newton's method and its bracket proven: by the size of the polynomial and
+//!    of its slope (Kantorovich), or by certain signs on either side.
 //!
 //! On the last step, [`ExactRoots`] counts the roots with their multiplicities.
 //!
-//! A line on which the surface has no end is cut at `s = -1` and `s = 1`; what is outside is looked at as `σ = 1 / s`.
+//! A line on which the surface has no end is cut at `s = -1` and `s = 1`; what is outside is looked
+//! at as `σ = 1 / s`.
 
 use crate::Flow;
 use crate::roots::bernstein::{Bernstein, Count, FLOOR};
@@ -23,13 +27,15 @@ use core::cmp::Ordering::{Greater, Less};
 use durer_math::efloat::Word;
 use durer_math::{Dd, Dyadic, EFloat, Isa, Ring, U};
 
-/// A polynomial along a line, in `y = s - mid`, at every step of the ladder; its first coefficient is the constant.
+/// A polynomial along a line, in `y = s - mid`, at every step of the ladder; its first coefficient
+/// is the constant.
 pub(crate) trait Along<const N: usize> {
     /// In f64.
     fn double(&self) -> [EFloat; N];
     /// In double-double, times any positive number.
     fn wide(&self) -> Option<[EFloat<Dd>; N]>;
-    /// Exactly, times any positive number; and whether that is the line itself and not only one near it.
+    /// Exactly, times any positive number; and whether that is the line itself and not only one
+    /// near it.
     fn exact(&self) -> (Vec<Dyadic>, bool);
 }
 
@@ -47,8 +53,8 @@ pub(crate) struct Found<'a> {
     pub(crate) s: f64,
     pub(crate) lo: f64,
     pub(crate) hi: f64,
-    /// It is the only root between these, and the signs before and after it are those of the polynomial from the one to it, and from it to
-    /// the other.
+    /// It is the only root between these, and the signs before and after it are those of the
+    /// polynomial from the one to it, and from it to the other.
     pub(crate) alone: (f64, f64),
     pub(crate) before: Ordering,
     pub(crate) after: Ordering,
@@ -112,7 +118,8 @@ struct Scaled<T, const N: usize> {
     degree: usize,
 }
 
-/// A part `l..r` of the stretch and the polynomial on it. The sign at `l` is certain, unless it is the stretch's own end.
+/// A part `l..r` of the stretch and the polynomial on it. The sign at `l` is certain, unless it is
+/// the stretch's own end.
 struct BernsteinPart<T, const N: usize> {
     form: Bernstein<T, N>,
     l: f64,
@@ -215,7 +222,8 @@ impl<T: Word, const N: usize> Scaled<T, N> {
         (value.value(), sign.map(|s| (s == Greater) == rising))
     }
 
-    /// The root between `a` and `b`, where the signs are certain and opposite, in a bracket no wider than `widest`.
+    /// The root between `a` and `b`, where the signs are certain and opposite, in a bracket no
+    /// wider than `widest`.
     #[inline(always)]
     fn refine(
         &self,
@@ -250,8 +258,9 @@ impl<T: Word, const N: usize> Scaled<T, N> {
         None
     }
 
-    /// The one root between `a` and `b`, where the signs are certain, as well as it can be had: where far origins allow wide brackets the point
-    /// itself need not suffer. Newton's steps from the middle as long as they shrink, a half where one would leave.
+    /// The one root between `a` and `b`, where the signs are certain, as well as it can be had:
+    /// where far origins allow wide brackets the point itself need not suffer. Newton's steps from
+    /// the middle as long as they shrink, a half where one would leave.
     #[inline(always)]
     fn polished(&self, mut a: f64, mut b: f64, rising: bool) -> f64 {
         let (mut x, mut last) = (0.5 * (a + b), f64::INFINITY);
@@ -273,8 +282,8 @@ impl<T: Word, const N: usize> Scaled<T, N> {
         }
     }
 
-    /// Settles the stretch, first parts first: shows each part with one root to `visit`, until it says stop or is in doubt. Parts that `skips`
-    /// does not want are passed over.
+    /// Settles the stretch, first parts first: shows each part with one root to `visit`, until it
+    /// says stop or is in doubt. Parts that `skips` does not want are passed over.
     #[inline(always)]
     fn walk(
         &self,
@@ -303,7 +312,8 @@ impl<T: Word, const N: usize> Scaled<T, N> {
             if node.bits > FINEST || !node.form.tells() {
                 return Err(Doubt(node.l));
             }
-            // A split where the sign is certain; near the middle there is one, unless all is in doubt.
+            // A split where the sign is certain; near the middle there is one, unless all is in
+            // doubt.
             let parts: &[(f64, u32)] =
                 if across_cut { &[(0.5, 1)] } else { &[(0.5, 1), (0.4375, 4), (0.5625, 4)] };
             let split = parts.iter().find_map(|&(part, bits)| {
@@ -320,9 +330,10 @@ impl<T: Word, const N: usize> Scaled<T, N> {
 }
 
 impl<const N: usize> Scaled<f64, N> {
-    /// As [`Scaled::refine`], without certain signs: with `|p(x)| <= η`, a slope of `g` at `x` that is wrong by less than `g / 256` and `|p''| <= H` all
-    /// over, `H δ <= g / 256` makes the slope at least `g (1 - 1/64)` within `δ = 33/32 η / g` of `x`; so there is one root there, and if all of that
-    /// is between `a` and `b` it is theirs.
+    /// As [`Scaled::refine`], without certain signs: with `|p(x)| <= η`, a slope of `g` at `x` that
+    /// is wrong by less than `g / 256` and `|p''| <= H` all over, `H δ <= g / 256` makes the slope
+    /// at least `g (1 - 1/64)` within `δ = 33/32 η / g` of `x`; so there is one root there, and if
+    /// all of that is between `a` and `b` it is theirs.
     #[inline(always)]
     fn newton(&self, (a, b): (f64, f64), start: f64, widest: impl Fn(f64) -> f64) -> Option<(f64, f64, f64)> {
         let mut x = start;
@@ -375,7 +386,8 @@ struct Work<'w, L, F, const N: usize> {
     emit: F,
 }
 
-/// Shows every root of the line to `emit`, ascending, until it says stop. Roots outside the limits may be left out.
+/// Shows every root of the line to `emit`, ascending, until it says stop. Roots outside the limits
+/// may be left out.
 #[inline(always)]
 pub(crate) fn solve<const N: usize, L: Along<N>>(
     line: &L,
@@ -440,7 +452,8 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
             |node, rising| {
                 let ends = (node.l, node.r);
                 let start = node.form.guess().mul_add(node.r - node.l, node.l);
-                // Each closure here is a caller's argument, or it would be compiled by itself, without fused sums.
+                // Each closure here is a caller's argument, or it would be compiled by itself,
+                // without fused sums.
                 let newton = scaled.newton(
                     ends,
                     start,
@@ -557,7 +570,8 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
                 let widest = |x: f64| PartToLine::Inverse.widest(x, limits);
                 let found =
                     reversed.refine(ends, rising, 0.5 * (node.l + node.r), widest).ok_or(Doubt(node.l))?;
-                // p(s) = s^n q(1 / s): on the negative side an odd degree turns the sign; and σ falls as s rises.
+                // p(s) = s^n q(1 / s): on the negative side an odd degree turns the sign; and σ
+                // falls as s rises.
                 let turned = ends.1 <= 0.0 && scaled.degree % 2 == 1;
                 out.push((ends, found, rising == turned));
                 Ok(Flow::Continue)
@@ -603,7 +617,8 @@ fn is_skipped(place: PartToLine, limits: &Limits, l: f64, r: f64) -> bool {
     hi.next_up() < limits.lo || lo.next_down() > limits.hi
 }
 
-/// From `x` in `[-1, 1]` over the part of a stretch from `from` on to the whole stretch: `from + (1 - from)(x + 1) / 2`.
+/// From `x` in `[-1, 1]` over the part of a stretch from `from` on to the whole stretch:
+/// `from + (1 - from)(x + 1) / 2`.
 #[inline(always)]
 fn back(from: f64, x: f64) -> f64 {
     (0.5 - 0.5 * from).mul_add(x + 1.0, from)

@@ -1,11 +1,13 @@
 //! The quadratic `A s² + 2 B s + C`: its real roots in proven brackets, and exact signs at them.
 //!
-//! Roots are `q / A` and `C / q` with `q = -(B + sign(B) √(B² - AC))`, so that neither suffers cancellation (W. H. Press et al.,
-//! *Numerical Recipes*, 3rd ed. 2007, section 5.6); the discriminant is formed by Kahan's `ab - cd` (C.-P. Jeannerod, N. Louvet, J.-M.
-//! Muller, "Further analysis of Kahan's algorithm", *Mathematics of Computation* 82, 2013).
+//! Roots are `q / A` and `C / q` with `q = -(B + sign(B) √(B² - AC))`, so that neither suffers
+//! cancellation (W. H. Press et al., *Numerical Recipes*, 3rd ed. 2007, section 5.6); the
+//! discriminant is formed by Kahan's `ab - cd` (C.-P. Jeannerod, N. Louvet, J.-M. Muller, "Further
+//! analysis of Kahan's algorithm", *Mathematics of Computation* 82, 2013).
 //!
-//! A root is named by what the quadratic does there: it falls ([`Crossing::In`]), rises ([`Crossing::Out`]) or touches zero. That name
-//! stays right while `A` passes through zero, where "the lower root" does not.
+//! A root is named by what the quadratic does there: it falls ([`Crossing::In`]), rises
+//! ([`Crossing::Out`]) or touches zero. That name stays right while `A` passes through zero, where
+//! "the lower root" does not.
 
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Equal, Greater, Less};
@@ -69,7 +71,8 @@ pub(crate) struct Limits {
 pub(crate) const NARROW: f64 = 48.0 * U;
 
 impl Limits {
-    /// In units of `s` sizes are about 1, and `|d|` is about 2. For unbounded surfaces the distance from their centre counts as a size.
+    /// In units of `s` sizes are about 1, and `|d|` is about 2. For unbounded surfaces the distance
+    /// from their centre counts as a size.
     #[inline(always)]
     fn allows(&self, lo: f64, hi: f64, s: f64) -> bool {
         self.width == f64::INFINITY || hi - lo <= self.width * (self.origin + s).abs().max(s.abs()).max(0.5)
@@ -147,7 +150,8 @@ impl<T: Ring> Quadratic<T> {
 }
 
 impl Quadratic<Dyadic> {
-    /// Times the power of two that makes the larger of `|B|` and `√|B² - AC|` about one, so that f64 can hold what matters.
+    /// Times the power of two that makes the larger of `|B|` and `√|B² - AC|` about one, so that
+    /// f64 can hold what matters.
     #[must_use]
     pub(crate) fn at_unit_size(self) -> Self {
         let half = |x: Option<i64>| x.map(|e| e.div_euclid(2));
@@ -179,7 +183,8 @@ impl Quadratic<EFloat> {
     }
 }
 
-/// The square root of a number that is certainly positive: `|√x - √v| = |x - v| / (√x + √v)`, and `√x >= √v (1 - e/v)`.
+/// The square root of a number that is certainly positive: `|√x - √v| = |x - v| / (√x + √v)`, and
+/// `√x >= √v (1 - e/v)`.
 #[inline(always)]
 fn root_of(x: EFloat) -> EFloat {
     let (root, ratio) = (x.v.sqrt(), x.e / x.v);
@@ -199,7 +204,8 @@ fn scaled(x: EFloat, k: i32) -> EFloat {
 
 /// The roots within the limits, or `None` if the numbers leave open what they are.
 ///
-/// `offset` is added to each root. `disc` may be known better than the coefficients would tell; it and `b` have the exponent 0.
+/// `offset` is added to each root. `disc` may be known better than the coefficients would tell; it
+/// and `b` have the exponent 0.
 #[inline(always)]
 pub(crate) fn solve(
     a: SignedEnclosure,
@@ -274,8 +280,8 @@ pub(crate) fn admit(
     Some(root.v.is_finite().then_some(LineRoot { s: root.v, lo, hi, crossing }))
 }
 
-/// Where a number lies relative to a root of a quadratic, from the quadratic's sign (`value`) and slope there and the sign of `A`;
-/// `None` if these do not tell.
+/// Where a number lies relative to a root of a quadratic, from the quadratic's sign (`value`) and
+/// slope there and the sign of `A`; `None` if these do not tell.
 #[inline(always)]
 pub(crate) fn locate(
     crossing: Crossing,
@@ -310,8 +316,8 @@ pub(crate) fn exact_sign(x: &Dyadic) -> Ordering {
 
 /// The exact sign of `q` at a root of `p`.
 ///
-/// With `A_p q - A_q p = 2 l₁ s + l₀`, which has the sign of `A_p q` at the root, the question becomes on which side of the root the
-/// rational number `-l₀ / 2 l₁` lies, and `p` itself tells.
+/// With `A_p q - A_q p = 2 l₁ s + l₀`, which has the sign of `A_p q` at the root, the question
+/// becomes on which side of the root the rational number `-l₀ / 2 l₁` lies, and `p` itself tells.
 pub(crate) fn sign_at_root(p: &Quadratic<Dyadic>, root: Crossing, q: &Quadratic<Dyadic>) -> Ordering {
     let sign_a = exact_sign(&p.a);
     if sign_a == Equal {

@@ -1,10 +1,13 @@
-//! Greatest common divisors of polynomials with exact coefficients, by way of whole numbers modulo primes.
+//! Greatest common divisors of polynomials with exact coefficients, by way of whole numbers modulo
+//! primes.
 //!
-//! Modulo a prime that does not divide the leading coefficient a common divisor stays a common divisor, of the same degree. So if the greatest one modulo one
-//! such prime is a constant, it is one exactly: that proves most polynomials free of multiple roots in a few microseconds, whatever the size of their
-//! coefficients. Otherwise the divisor is put together from its remainders modulo many primes (Chinese remainder theorem) and then tried by exact division, so
-//! that nothing is left to chance (W. S. Brown, "On Euclid's algorithm and the computation of polynomial greatest common divisors", *Journal of the ACM* 18,
-//! 1971).
+//! Modulo a prime that does not divide the leading coefficient a common divisor stays a common
+//! divisor, of the same degree. So if the greatest one modulo one such prime is a constant, it is
+//! one exactly: that proves most polynomials free of multiple roots in a few microseconds, whatever
+//! the size of their coefficients. Otherwise the divisor is put together from its remainders modulo
+//! many primes (Chinese remainder theorem) and then tried by exact division, so that nothing is
+//! left to chance (W. S. Brown, "On Euclid's algorithm and the computation of polynomial greatest
+//! common divisors", *Journal of the ACM* 18, 1971).
 
 use durer_math::{Dyadic, Ring};
 use std::sync::{Mutex, PoisonError};
@@ -58,8 +61,9 @@ fn inverse(a: u64, p: u64) -> u64 {
     power(a, p - 2, p)
 }
 
-/// Whether an odd number above 37 is a prime (G. L. Miller's test with the first twelve primes, which suffice for 64 bits: J. Sorenson, J. Webster, "Strong
-/// pseudoprimes to twelve prime bases", *Mathematics of Computation* 86, 2017).
+/// Whether an odd number above 37 is a prime (G. L. Miller's test with the first twelve primes,
+/// which suffice for 64 bits: J. Sorenson, J. Webster, "Strong pseudoprimes to twelve prime bases", *Mathematics
+/// of Computation* 86, 2017).
 fn is_prime(n: u64) -> bool {
     let twos = (n - 1).trailing_zeros();
     [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37].into_iter().all(|base| {
@@ -110,7 +114,8 @@ fn whole(x: u64) -> Dyadic {
     Dyadic::from(hi).scale2(32) + Dyadic::from(lo)
 }
 
-/// `factor p / q`, if that is a polynomial whose coefficients are whole numbers times powers of two.
+/// `factor p / q`, if that is a polynomial whose coefficients are whole numbers times powers of
+/// two.
 fn exact_quotient(p: &[Dyadic], factor: &Dyadic, q: &[Dyadic]) -> Option<Poly> {
     let (lead, rest) = q.split_last()?;
     let mut left: Poly = p.iter().map(|a| a * factor).collect();
@@ -130,9 +135,11 @@ fn exact_quotient(p: &[Dyadic], factor: &Dyadic, q: &[Dyadic]) -> Option<Poly> {
     left.iter().all(Dyadic::is_zero).then_some(quotient)
 }
 
-/// The greatest common divisor of two polynomials, times a number, and the first one divided by it, times a number; `None` if that is a constant. Neither is zero everywhere.
+/// The greatest common divisor of two polynomials, times a number, and the first one divided by it,
+/// times a number; `None` if that is a constant. Neither is zero everywhere.
 pub(super) fn common_factor(a: &[Dyadic], b: &[Dyadic]) -> Option<(Poly, Poly)> {
-    // As whole numbers: the divisor with the leading coefficient of `a` has whole coefficients (C. F. Gauss).
+    // As whole numbers: the divisor with the leading coefficient of `a` has whole coefficients (C.
+    // F. Gauss).
     let lowest = a.iter().filter_map(Dyadic::lowest_bit).min()?;
     let lead = a.last()?.clone().scale2(i32::try_from(-lowest).ok()?);
     let mut found: Poly = vec![];

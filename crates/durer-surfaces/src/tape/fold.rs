@@ -1,4 +1,5 @@
-//! Simpler steps for steps: constants folded, and identities that hold wherever both sides are defined, and are defined on the same points.
+//! Simpler steps for steps: constants folded, and identities that hold wherever both sides are
+//! defined, and are defined on the same points.
 
 use super::formula::{NodeId, Op};
 use durer_math::interval::elementary::{Defined, Range};

@@ -36,9 +36,11 @@ pub enum Op {
     Sub(NodeId, NodeId),
     /// `a b`.
     Mul(NodeId, NodeId),
-    /// `a b` of numbers that are whole, which [`Builder::push`] finds out: what is a product to it becomes this, and the other way round.
+    /// `a b` of numbers that are whole, which [`Builder::push`] finds out: what is a product to it
+    /// becomes this, and the other way round.
     MulWhole(NodeId, NodeId),
-    /// `k a` with a number `k` that is finite and not zero: what is a product with a constant to [`Builder::push`] becomes this.
+    /// `k a` with a number `k` that is finite and not zero: what is a product with a constant to
+    /// [`Builder::push`] becomes this.
     Times(f64, NodeId),
     /// `a / b`; undefined at zero.
     Div(NodeId, NodeId),
@@ -58,9 +60,11 @@ pub enum Op {
     Compare(Comparison, NodeId, NodeId),
     /// By the sign of the first: one of the three others, for below, at and above zero.
     Select([NodeId; 4]),
-    /// By the sign of the first: the second below zero, else the third, with the promise that both have the same value where it is zero.
+    /// By the sign of the first: the second below zero, else the third, with the promise that both
+    /// have the same value where it is zero.
     Joined([NodeId; 3]),
-    /// `a`, with the promise that the formula's value is at least `a`. Where that is more than 1, far from zero, nothing that follows need be known.
+    /// `a`, with the promise that the formula's value is at least `a`. Where that is more than 1,
+    /// far from zero, nothing that follows need be known.
     Settled(NodeId),
 }
 
@@ -126,13 +130,15 @@ impl Op {
         }
     }
 
-    /// Whether it is a whole number wherever it is defined, and so are the ends of its bounds; `is_whole` tells that of its operands.
+    /// Whether it is a whole number wherever it is defined, and so are the ends of its bounds;
+    /// `is_whole` tells that of its operands.
     fn is_whole(&self, is_whole: impl Fn(NodeId) -> bool) -> bool {
         match *self {
             Self::Constant(c) => c.lo == c.hi && c.lo.fract() == 0.0,
             Self::Function(Function::Floor | Function::Ceil | Function::Trunc, _) | Self::Compare(..) => true,
             Self::Neg(a) | Self::Abs(a) => is_whole(a),
-            // Where bounds of sums and products are rounded they are beyond 2^53, where all numbers are whole.
+            // Where bounds of sums and products are rounded they are beyond 2^53, where all numbers
+            // are whole.
             Self::Add(a, b) | Self::Sub(a, b) | Self::MulWhole(a, b) | Self::Min(a, b) | Self::Max(a, b) => {
                 is_whole(a) && is_whole(b)
             }
@@ -222,7 +228,8 @@ impl Formula {
     }
 }
 
-/// Makes a [`Formula`]: each new step is folded if it is a constant, and found if it is there already.
+/// Makes a [`Formula`]: each new step is folded if it is a constant, and found if it is there
+/// already.
 #[derive(Clone, Debug, Default)]
 pub struct Builder {
     ops: Vec<Op>,
@@ -295,7 +302,8 @@ impl Builder {
         Ok(here[formula.root.0 as usize])
     }
 
-    /// The formula of `inputs` numbers whose value is that of `root`; what does not matter to it is left out.
+    /// The formula of `inputs` numbers whose value is that of `root`; what does not matter to it is
+    /// left out.
     pub fn finish(&self, root: NodeId, inputs: u32) -> Formula {
         let (ops, root) = live(&self.ops, root);
         Formula { ops, root, inputs }
@@ -326,7 +334,8 @@ pub(super) fn live(ops: &[Op], root: NodeId) -> (Vec<Op>, NodeId) {
 mod tests {
     use super::*;
 
-    /// A function that is called with something says what its text says of that: of whole numbers that products are whole.
+    /// A function that is called with something says what its text says of that: of whole numbers
+    /// that products are whole.
     #[test]
     fn calls_are_what_their_text_is() {
         let mut b = Builder::new();

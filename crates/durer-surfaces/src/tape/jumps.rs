@@ -4,10 +4,13 @@
 //!   floor(x) on [k - h, k + h] is k - 1 or k, and nothing between
 //! ```
 //!
-//! Bounds of a step that jumps hold all between its sides, and so may bounds of the formula, however small the box is: `|x - floor(x) - 1/2|` is 1/2 at a whole number, from
-//! both sides, and bounds say 0 to 1/2. So each of the first three choices on a box halves the eight lanes: one half takes one side, the other one the other, and steps that
-//! ask for the same sign take the same side. At each point of the box every step is
-//! on one of its sides, so some lane's bounds hold its value there (by induction over the steps); the formula has a sign on the box if it has it in all lanes.
+//! Bounds of a step that jumps hold all between its sides, and so may bounds of the formula,
+//! however small the box is: `|x - floor(x) - 1/2|` is 1/2 at a whole number, from both sides, and
+//! bounds say 0 to 1/2. So each of the first three choices on a box halves the eight lanes: one
+//! half takes one side, the other one the other, and steps that ask for the same sign take the same
+//! side. At each point of the box every step is on one of its sides, so some lane's bounds hold its
+//! value there (by induction over the steps); the formula has a sign on the box if it has it in all
+//! lanes.
 
 use super::formula::{NodeId, Op};
 use super::program::run_with;
@@ -70,7 +73,8 @@ pub(super) fn sign_beside(ops: &[Op], x: &[I8; 3], registers: &mut [I8]) -> Opti
     }
 }
 
-/// One side of a step in the lanes whose number has this bit, the other side in the others; `None` where it has no two sides.
+/// One side of a step in the lanes whose number has this bit, the other side in the others; `None`
+/// where it has no two sides.
 #[inline(never)]
 fn halved(op: &Op, before: &[I8], value: &I8, bit: usize) -> Option<I8> {
     let upper = |lane: usize| lane >> bit & 1 == 1;
@@ -193,7 +197,8 @@ fn chooser(op: &Op, before: &[Dual<I8>], value: &Dual<I8>) -> Option<Vec3> {
     (normal.is_finite() && normal != Vec3::ZERO).then_some(normal)
 }
 
-/// The less or the greater of two whole numbers that follow each other, as `upper` says of each lane; `None` where no lane has two.
+/// The less or the greater of two whole numbers that follow each other, as `upper` says of each
+/// lane; `None` where no lane has two.
 fn one_of_two(x: &I8, upper: impl Fn(usize) -> bool) -> Option<I8> {
     let mut out = *x;
     let mut any = false;

@@ -1,10 +1,12 @@
-//! Polynomials of one number, with bounds on what their coefficients are off by: what a formula is along a line, if it is no more than sums and products.
+//! Polynomials of one number, with bounds on what their coefficients are off by: what a formula is
+//! along a line, if it is no more than sums and products.
 //!
 //! ```text
 //!   p(s) = Σ c_k s^k,    each c_k within e_k
 //! ```
 //!
-//! Every operation bounds its own roundings. What is no polynomial, or of too high a degree, is [`Powers::UNKNOWN`], and so is all that is made of it.
+//! Every operation bounds its own roundings. What is no polynomial, or of too high a degree, is
+//! [`Powers::UNKNOWN`], and so is all that is made of it.
 
 use crate::roots::bernstein::FLOOR;
 use durer_math::{Comparison, Function, Interval, Joined, Number, U};
@@ -195,7 +197,8 @@ mod tests {
     use crate::tape::{Builder, Op, Tape};
     use durer_math::Dyadic;
 
-    /// What is formed of three lines by sums and products is within the bounds of what exact numbers, anywhere within theirs, form.
+    /// What is formed of three lines by sums and products is within the bounds of what exact
+    /// numbers, anywhere within theirs, form.
     #[test]
     fn coefficients_are_within_their_bounds() {
         let mut b = Builder::new();

@@ -57,7 +57,8 @@ fn run<T: Number>(ops: &[Op], inputs: &[T], registers: &mut [T]) -> T {
     )
 }
 
-/// The same; `amend` sees each step, those before it, and its value, which it may change. A step's value is put down where it stays: on the way there it would be copied once more.
+/// The same; `amend` sees each step, those before it, and its value, which it may change. A step's
+/// value is put down where it stays: on the way there it would be copied once more.
 #[inline(always)]
 pub(super) fn run_with<T: Number>(
     ops: &[Op],
@@ -141,7 +142,8 @@ impl Tape {
 
     /// A number that equal tapes share, and others hardly ever.
     pub(crate) fn fingerprint(&self) -> u64 {
-        // Whoever meets an equal number compares the steps: the multiplication of rustc's hash will do.
+        // Whoever meets an equal number compares the steps: the multiplication of rustc's hash will
+        // do.
         self.ops.iter().fold(0, |hash, op| {
             let (tag, a, b, c) = op.key();
             [u64::from(tag), a, b, c].into_iter().fold(hash, |hash: u64, word| {
@@ -182,7 +184,8 @@ impl Tape {
         )
     }
 
-    /// The one sign on a box, which is the same in all lanes, if it is certain on either side of what jumps there: positive is `true`.
+    /// The one sign on a box, which is the same in all lanes, if it is certain on either side of
+    /// what jumps there: positive is `true`.
     pub fn sign_beside_jumps(&self, x: &[I8; 3]) -> Option<bool> {
         with_memory(&BOXES, self.ops.len(), zero(), |registers| {
             Isa::detect().run_in_lanes(
@@ -192,7 +195,8 @@ impl Tape {
         })
     }
 
-    /// The gradient of what decides between two sides where the formula jumps within `r` of `p`, per axis: a normal of the wall there, of either orientation. `None` where nothing jumps.
+    /// The gradient of what decides between two sides where the formula jumps within `r` of `p`,
+    /// per axis: a normal of the wall there, of either orientation. `None` where nothing jumps.
     pub(crate) fn wall(&self, p: Point3, r: f64) -> Option<Vec3> {
         with_memory(&DUALS, self.ops.len(), zero(), |registers| {
             Isa::detect().run_in_lanes(
@@ -202,7 +206,8 @@ impl Tape {
         })
     }
 
-    /// Bounds of the values on eight boxes and of the slopes along what the inputs' derivatives say.
+    /// Bounds of the values on eight boxes and of the slopes along what the inputs' derivatives
+    /// say.
     pub fn slopes(&self, x: &[Dual<I8>; 3]) -> Dual<I8> {
         with_memory(&DUALS, self.ops.len(), zero(), |registers| {
             Isa::detect().run_in_lanes(
@@ -256,8 +261,9 @@ impl Tape {
         run(&self.ops, x, &mut registers)
     }
 
-    /// Bounds on eight boxes, and for each box that `wanted` names a shorter tape with the same exact values there, if there is one. Boxes on which
-    /// the formula is positive must not be wanted: not all of it need have been evaluated there.
+    /// Bounds on eight boxes, and for each box that `wanted` names a shorter tape with the same
+    /// exact values there, if there is one. Boxes on which the formula is positive must not be
+    /// wanted: not all of it need have been evaluated there.
     pub fn shortened(&self, x: &[I8; 3], wanted: impl Fn(usize, &I8) -> bool) -> (I8, [Option<Self>; 8]) {
         with_memory(&BOXES, self.ops.len(), zero(), |registers| {
             let bounds = self.bounds_with(x, registers);
@@ -268,8 +274,9 @@ impl Tape {
         })
     }
 
-    /// Bounds on eight boxes, as [`Tape::shortened`]. Of each box that `wanted` names, and on which something is decided, `take` is shown what, as words that say all that a
-    /// shorter tape depends on, and how to make that.
+    /// Bounds on eight boxes, as [`Tape::shortened`]. Of each box that `wanted` names, and on which
+    /// something is decided, `take` is shown what, as words that say all that a shorter tape
+    /// depends on, and how to make that.
     pub(crate) fn decided_on(
         &self,
         x: &[I8; 3],
@@ -316,7 +323,8 @@ impl Tape {
                 Some(Decided::Op(op)) => op,
                 None => *op,
             };
-            // What was decided may make constants of what follows: a term of a sum that is zero here is gone.
+            // What was decided may make constants of what follows: a term of a sum that is zero
+            // here is gone.
             match fold::simpler(kept.renamed(|id| names[id.0 as usize]), |id| ops[id.0 as usize]) {
                 fold::Simpler::Same(id) => names.push(id),
                 fold::Simpler::Op(op) => {

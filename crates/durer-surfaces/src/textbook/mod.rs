@@ -1,8 +1,9 @@
 //! The textbook forms: how one learns to intersect a triangle, a sphere and a box, in plain f64.
 //!
-//! Each function is one page: the formula, the code that follows it letter by letter, what goes wrong with it on a computer, and
-//! which part of this crate cures that. The tests use them as second witnesses: where a problem is well-conditioned they must agree with the
-//! exact kernels up to the rounding that their text admits.
+//! Each function is one page: the formula, the code that follows it letter by letter, what goes
+//! wrong with it on a computer, and which part of this crate cures that. The tests use them as
+//! second witnesses: where a problem is well-conditioned they must agree with the exact kernels up
+//! to the rounding that their text admits.
 //!
 //! | form | function | what goes wrong | cure |
 //! |---|---|---|---|
@@ -35,8 +36,8 @@ mod tests {
             .with_range(f64::NEG_INFINITY, f64::INFINITY)
     }
 
-    /// Whether a textbook `t` is the production one, up to rounding: `1e-9` is a million times the rounding of these sizes, and a
-    /// millionth of what a wrong formula would show.
+    /// Whether a textbook `t` is the production one, up to rounding: `1e-9` is a million times the
+    /// rounding of these sizes, and a millionth of what a wrong formula would show.
     fn agrees(a: f64, b: f64) -> bool {
         (a - b).abs() <= 1e-9 * b.abs().max(1.0)
     }

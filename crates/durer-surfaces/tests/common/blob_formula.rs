@@ -34,8 +34,9 @@ fn distance(part: &BlobComponent, b: &mut Builder, p: [NodeId; 3]) -> Result<Nod
         let scale = b.push(Op::Div(one, radius2))?;
         return b.push(Op::Mul(square, scale));
     }
-    // With u from one end to the other and h = w . u, the point is |w x u| / |u| beside the axis, and beyond its ends by what -h or
-    // h - u^2 says, times 1 / |u|. Beside and beyond share no coordinate of the point, so their bounds are tight.
+    // With u from one end to the other and h = w . u, the point is |w x u| / |u| beside the axis,
+    // and beyond its ends by what -h or h - u^2 says, times 1 / |u|. Beside and beyond share no
+    // coordinate of the point, so their bounds are tight.
     let start = [from.x, from.y, from.z];
     let mut u = [radius; 3];
     for (axis, part) in u.iter_mut().enumerate() {

@@ -5,7 +5,8 @@ use durer_math::{Ray, Vec3};
 use durer_surfaces::{All, LocalRay, Root, RootKind, Surface};
 
 impl Dice {
-    /// Through the cube around the origin, from near and far; often along an axis, in a plane between octants, or through the origin.
+    /// Through the cube around the origin, from near and far; often along an axis, in a plane
+    /// between octants, or through the origin.
     pub(crate) fn ray(&mut self) -> Ray {
         let mut through = self.vector();
         let mut direction = self.vector();

@@ -1,4 +1,5 @@
-//! The witness of deformed solids: their maps and themselves in polar coordinates, in f64 and in 256 bits.
+//! The witness of deformed solids: their maps and themselves in polar coordinates, in f64 and in
+//! 256 bits.
 
 use astro_float::{BigFloat, Consts, RoundingMode};
 use durer_math::{Aabb, Point3, Vec3};

@@ -1,4 +1,5 @@
-//! Any bytes as one operation of a formula and two intervals: the bounds hold what f64 computes, and what exact arithmetic does.
+//! Any bytes as one operation of a formula and two intervals: the bounds hold what f64 computes,
+//! and what exact arithmetic does.
 
 #[path = "../../../../fuzz/shared/bytes.rs"]
 #[allow(clippy::duplicate_mod, reason = "each target stands alone, too; only the tests load them all")]
@@ -69,7 +70,8 @@ fn big(x: f64) -> BigFloat {
     BigFloat::from_f64(x, P)
 }
 
-/// A value of many bits. The constants that it takes are made once: that takes longer than everything else.
+/// A value of many bits. The constants that it takes are made once: that takes longer than
+/// everything else.
 fn witness(value: impl FnOnce(&mut Consts) -> BigFloat) -> Option<Exact> {
     thread_local! {
         static CONSTANTS: RefCell<Option<Consts>> = RefCell::new(Consts::new().ok());
@@ -80,7 +82,8 @@ fn witness(value: impl FnOnce(&mut Consts) -> BigFloat) -> Option<Exact> {
 /// An operation of one or two operands, perhaps with a whole power.
 type Make = fn([NodeId; 2], i32) -> Op;
 
-/// What it is exactly, given the same; none where it is not defined or the witness is out of its depth.
+/// What it is exactly, given the same; none where it is not defined or the witness is out of its
+/// depth.
 type Truth = fn(f64, f64, i32) -> Option<Exact>;
 
 /// The operation with this number.
@@ -113,7 +116,8 @@ fn operation(code: u8) -> (Make, Truth) {
         8 => (
             |[x, y], _| Op::Pow(x, y),
             |x, y, _| {
-                // Where the power may be an f64 number itself the witness looks for more and more of its zeros, without end.
+                // Where the power may be an f64 number itself the witness looks for more and more
+                // of its zeros, without end.
                 let tame =
                     (1e-3..1e3).contains(&x) && x != 1.0 && y.abs() < 50.0 && (y * 1024.0).fract() != 0.0;
                 tame.then(|| witness(|c| big(x).pow(&big(y), P, RM, c))).flatten()

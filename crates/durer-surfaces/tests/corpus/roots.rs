@@ -1,4 +1,5 @@
-//! Any bytes as a polynomial in x, y and z and a ray: what the solver finds is what Sturm's theorem on whole numbers counts.
+//! Any bytes as a polynomial in x, y and z and a ray: what the solver finds is what Sturm's theorem
+//! on whole numbers counts.
 
 #[path = "../../../../fuzz/shared/bytes.rs"]
 #[allow(clippy::duplicate_mod, reason = "each target stands alone, too; only the tests load them all")]
@@ -25,7 +26,8 @@ impl Bytes<'_> {
     }
 }
 
-/// A product of `count` linear forms `x + a y + b z + c`, expanded in f64: roots that are near each other, or the same.
+/// A product of `count` linear forms `x + a y + b z + c`, expanded in f64: roots that are near each
+/// other, or the same.
 fn product(bytes: &mut Bytes<'_>, order: u32, count: u32) -> Vec<f64> {
     let mut all = vec![0.0; coefficient_count(order)];
     all[place_of(order, [0; 3])] = 1.0;
@@ -51,7 +53,8 @@ fn product(bytes: &mut Bytes<'_>, order: u32, count: u32) -> Vec<f64> {
     all
 }
 
-/// The laws of roots. Those of points and of the width of brackets speak of surfaces of a known size.
+/// The laws of roots. Those of points and of the width of brackets speak of surfaces of a known
+/// size.
 fn solved(surface: &AlgebraicSurface, oracle: &ZeroOracle, ray: &Ray) -> Result<(), laws::Broken> {
     let roots = laws::roots_are_the_exact_crossings(surface, oracle, ray, None)?;
     laws::closest_is_the_first_of_all(surface, ray, &roots)?;

@@ -39,7 +39,7 @@ impl Avx2 {
         self.apart(
             #[inline(always)]
             || {
-                let line = sight.line();
+                let line = tree.local_line(sight);
                 if line.origin_error != Vec3::ZERO || line.direction_error != Vec3::ZERO {
                     return tree.cull(&line, Rounding::Fused);
                 }
@@ -61,7 +61,7 @@ impl Kernel for Avx2 {
     #[inline(always)]
     fn nearby(self, tree: &Bvh, sight: &impl TreeRay) -> Option<(Numbers, ClippedRay)> {
         // SAFETY: as below.
-        unsafe { nearby(tree, &sight.glance()) }
+        unsafe { nearby(tree, &tree.glance(sight)) }
     }
 
     #[inline(always)]

@@ -87,7 +87,7 @@ pub(super) fn nearby(tree: &Bvh, glance: &Ray32) -> Option<(Numbers, ClippedRay)
         is_exact: glance.is_exact,
         error,
         t_enter: 0.0,
-        frame: tree.frame,
+        units: tree.frame.units(),
     };
     Some((Numbers::new(r, near, far, octant, way.t_near), way))
 }
@@ -99,6 +99,11 @@ pub(super) enum Clipped {
     /// The ray is far away, or the tree's size is unusual: `Bvh::cull` decides.
     Unusual,
 }
+
+/// Parameters below this are certain although a zero component of the direction counts as
+/// [`SLOWEST`], `2^-300`: a ray that is in the box on that axis leaves the box with its margin of
+/// `2^-40` only at `2^260`.
+const CERTAIN: f64 = durer_math::scale::pow2(256);
 
 /// `CullRay::new` for an exactly known ray, all axes at once and without branches.
 ///
@@ -138,7 +143,8 @@ pub(super) fn clip(tree: &Bvh, line: &Ray64) -> Clipped {
     let far = _mm256_fmadd_pd(size(far), all(WIDEN), far);
     let (enter, exit) = (greatest(near).max(t_min), least(far).min(t_max.next_up()));
     if enter > exit {
-        return Clipped::Missed;
+        let is_certain = enter.abs().max(exit.abs()) < CERTAIN;
+        return if is_certain { Clipped::Missed } else { Clipped::Unusual };
     }
     let way = (exit - enter).max(LEAST);
     if way.is_nan() || way > LONGEST {
@@ -177,7 +183,7 @@ pub(super) fn clip(tree: &Bvh, line: &Ray64) -> Clipped {
             is_exact: false,
             error: f64::MIN_POSITIVE,
             t_enter: enter,
-            frame: tree.frame,
+            units: tree.frame.units(),
         },
     })
 }

@@ -7,23 +7,28 @@
 //!       from ┤───▶── • centre (R, from)
 //! ```
 //!
-//! A. H. Barr, "Global and local deformations of solid primitives", SIGGRAPH 1984. In polar coordinates about the centre, with u = R - x and v = z - from,
-//! the inverse is x = R - r and z = from + R a in the bent part, the turn back by the whole angle beyond it. A determinant is no proof that the map is one
-//! to one (it is (R - x) / R however far the bend goes round), angles are: the bent part of a solid with x < R takes those from 0 to the whole
-//! angle, each rigid part those between it and an arcus tangens. As long as all of them are less than a turn together, they are told apart: the polar
-//! angle is taken from half a turn before their middle to half a turn behind it. Where it jumps nothing of the solid is, but bounds of the inverse
-//! would be those of everything: in a wedge about that half-plane the formula is replaced by a positive number.
+//! A. H. Barr, "Global and local deformations of solid primitives", SIGGRAPH 1984. In polar
+//! coordinates about the centre, with u = R - x and v = z - from, the inverse is x = R - r and z =
+//! from + R a in the bent part, the turn back by the whole angle beyond it. A determinant is no
+//! proof that the map is one to one (it is (R - x) / R however far the bend goes round), angles
+//! are: the bent part of a solid with x < R takes those from 0 to the whole angle, each rigid part
+//! those between it and an arcus tangens. As long as all of them are less than a turn together,
+//! they are told apart: the polar angle is taken from half a turn before their middle to half a
+//! turn behind it. Where it jumps nothing of the solid is, but bounds of the inverse would be those
+//! of everything: in a wedge about that half-plane the formula is replaced by a positive number.
 
 use super::{DeformError, Map, Stretch, columns, direction};
 use crate::implicit::level_set::expr::{ExprBuilder, Step};
 use crate::tape::{FormulaError, NodeId};
 use durer_math::{Aabb, Affine, Interval, Vec3, elementary};
 
-/// The least angle between the ends of a bent solid, across the gap: the cosine of the gap's edge, near -1, is told from it by half of this squared.
+/// The least angle between the ends of a bent solid, across the gap: the cosine of the gap's edge,
+/// near -1, is told from it by half of this squared.
 const LEAST_GAP: f64 = 1.0 / (1 << 20) as f64;
 
-/// The least sine of the angle between a bend's axis and direction. Both are rounded unit vectors, and what the direction has across the axis is wrong by some `8 U`: with
-/// this it is across it within a millionth.
+/// The least sine of the angle between a bend's axis and direction. Both are rounded unit vectors,
+/// and what the direction has across the axis is wrong by some `8 U`: with this it is across it
+/// within a millionth.
 const LEAST_SINE: f64 = 1.0 / (1 << 30) as f64;
 
 /// A bend towards x.
@@ -41,7 +46,8 @@ pub(super) struct Bend {
     above: bool,
 }
 
-/// The frame with the axis for z and the direction for x: exact where both are coordinate axes, else as f64 has it.
+/// The frame with the axis for z and the direction for x: exact where both are coordinate axes,
+/// else as f64 has it.
 pub(super) fn frame(axis: Vec3, toward: Vec3) -> Result<Affine, DeformError> {
     let z = direction(axis).ok_or(DeformError::Axis { warp: "bend", axis })?;
     let unit = direction(toward).ok_or(DeformError::Toward(toward))?;

@@ -1,11 +1,13 @@
 //! Maps whose inverse is given by formulas.
 //!
-//! That W (for a point of the deformed solid, where it was) never takes two points of a box to one is shown as follows. Between any two points p and q of
-//! the box, which is convex, W(p) - W(q) = M (p - q) by the mean value theorem, row by row, with a matrix M whose entries lie between bounds of
-//! W's slopes over the box. If no such matrix is singular, the two images differ. The determinant is linear in each entry, so that its
-//! extremes over all matrices between the bounds are among those at the 2^9 corners, and these are worked out (regularity of interval
-//! matrices: A. Neumaier, *Interval Methods for Systems of Equations*, Cambridge 1990). A determinant that is positive at every *point* would not
-//! do: a map may go round.
+//! That W (for a point of the deformed solid, where it was) never takes two points of a box to one
+//! is shown as follows. Between any two points p and q of the box, which is convex, W(p) - W(q) = M
+//! (p - q) by the mean value theorem, row by row, with a matrix M whose entries lie between bounds
+//! of W's slopes over the box. If no such matrix is singular, the two images differ. The
+//! determinant is linear in each entry, so that its extremes over all matrices between the bounds
+//! are among those at the 2^9 corners, and these are worked out (regularity of interval matrices:
+//! A. Neumaier, *Interval Methods for Systems of Equations*, Cambridge 1990). A determinant that is
+//! positive at every *point* would not do: a map may go round.
 
 use super::DeformError;
 use crate::implicit::level_set::{LevelSet, boxes, primitives};
@@ -106,11 +108,13 @@ mod tests {
     #[test]
     fn the_extremes_of_determinants_are_found() {
         let one = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        // With E = all entries 1, the nearest singular matrices are I - E / 3 and such: up to that, none is.
+        // With E = all entries 1, the nearest singular matrices are I - E / 3 and such: up to that,
+        // none is.
         assert!(!determinants(&around(one, 0.333)).contains(0.0));
         assert!(determinants(&around(one, 0.334)).contains(0.0));
         let far = determinants(&around(one, 0.25));
-        // (1 - 3/4) at the one end; (1 + 1/4)^3 and three products of a diagonal entry with two of different signs at the other.
+        // (1 - 3/4) at the one end; (1 + 1/4)^3 and three products of a diagonal entry with two of
+        // different signs at the other.
         assert_eq!(far.lo, 0.25);
         assert_eq!(far.hi, 1.953_125 + 3.0 * 1.25 * 0.0625);
     }

@@ -4,12 +4,15 @@
 //!   D(S) = { p : f(D^-1(p)) < 0 }  for the solid S = { p : f(p) < 0 }
 //! ```
 //!
-//! A. H. Barr, "Global and local deformations of solid primitives", SIGGRAPH 1984. The inverse is written before the solid's own formula, and what
-//! rays meet is an [`Isosurface`](super::Isosurface): no curve is traced through the undeformed space (A. H. Barr, "Ray tracing deformed surfaces",
-//! SIGGRAPH 1986, integrates one), a ray stays straight and the formula is deformed, so that each root has its certified bracket.
+//! A. H. Barr, "Global and local deformations of solid primitives", SIGGRAPH 1984. The inverse is
+//! written before the solid's own formula, and what rays meet is an
+//! [`Isosurface`](super::Isosurface): no curve is traced through the undeformed space (A. H. Barr,
+//! "Ray tracing deformed surfaces", SIGGRAPH 1986, integrates one), a ray stays straight and the
+//! formula is deformed, so that each root has its certified bracket.
 //!
-//! A map that sends two points of the solid to one has no inverse there. Twists never do, tapers as long as they do not shrink to nothing, bends
-//! as long as the solid stays on its side of the centre and does not come round to itself; of other maps it has to be proven on a box
+//! A map that sends two points of the solid to one has no inverse there. Twists never do, tapers as
+//! long as they do not shrink to nothing, bends as long as the solid stays on its side of the
+//! centre and does not come round to itself; of other maps it has to be proven on a box
 //! ([`Warp::Inverse`]).
 
 mod bend;
@@ -25,11 +28,13 @@ use durer_math::{Aabb, Affine, AffineError, Interval, Point3, Vec3};
 use std::sync::Arc;
 use turn::{Taper, Twist};
 
-/// A map of space. The first three act about an axis through the origin, along which heights are measured, between two of them: below the lower
-/// one nothing moves, and above the upper one all moves as it does there.
+/// A map of space. The first three act about an axis through the origin, along which heights are
+/// measured, between two of them: below the lower one nothing moves, and above the upper one all
+/// moves as it does there.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Warp {
-    /// Turns about the axis, by an angle that grows evenly with the height, counter-clockwise as seen from the axis' tip.
+    /// Turns about the axis, by an angle that grows evenly with the height, counter-clockwise as
+    /// seen from the axis' tip.
     Twist {
         /// The axis, of any length but zero.
         axis: Vec3,
@@ -51,7 +56,8 @@ pub enum Warp {
         /// The upper height.
         to: f64,
     },
-    /// Makes an arc of the piece of the axis between the heights, of its length, and moves with it what lies beside it.
+    /// Makes an arc of the piece of the axis between the heights, of its length, and moves with it
+    /// what lies beside it.
     Bend {
         /// The axis, of any length but zero.
         axis: Vec3,
@@ -64,7 +70,8 @@ pub enum Warp {
         /// The upper height.
         to: f64,
     },
-    /// The map whose inverse has these coordinates, as far as its images lie in a box. All of the solid's image that is not in the box is cut off.
+    /// The map whose inverse has these coordinates, as far as its images lie in a box. All of the
+    /// solid's image that is not in the box is cut off.
     Inverse {
         /// For a point of the deformed solid, where it was.
         functions: Arc<[Formula; 3]>,
@@ -266,7 +273,8 @@ fn angle(warp: &'static str, degrees: f64) -> Result<Interval, DeformError> {
     }
 }
 
-/// A right-handed frame with this axis for z: exact if it is one of the coordinate axes, else as f64 has it.
+/// A right-handed frame with this axis for z: exact if it is one of the coordinate axes, else as
+/// f64 has it.
 fn frame(warp: &'static str, axis: Vec3) -> Result<Affine, DeformError> {
     let z = direction(axis).ok_or(DeformError::Axis { warp, axis })?;
     let along = (0..3).find(|&i| z[i].abs() == 1.0);

@@ -5,8 +5,9 @@
 //!   taper: (x, y) -> s(z) (x, y),     inverse 1 / s(z);   s: 1 below, the factor above, linear between
 //! ```
 //!
-//! A. H. Barr, "Global and local deformations of solid primitives", SIGGRAPH 1984. Both are one to one: what they do to a height depends on the
-//! height alone, which they keep, and has an inverse there, since s > 0.
+//! A. H. Barr, "Global and local deformations of solid primitives", SIGGRAPH 1984. Both are one to
+//! one: what they do to a height depends on the height alone, which they keep, and has an inverse
+//! there, since s > 0.
 
 use super::{Map, Stretch};
 use crate::implicit::level_set::expr::{ExprBuilder, Step};

@@ -165,7 +165,8 @@ impl ExprBuilder {
 
     /// The value of a formula at a point.
     ///
-    /// A promise about the whole of a formula ([`Op::Settled`]) says nothing of what it becomes a part of, so it is left out.
+    /// A promise about the whole of a formula ([`Op::Settled`]) says nothing of what it becomes a
+    /// part of, so it is left out.
     pub(crate) fn call(&mut self, formula: &Formula, p: [NodeId; 3]) -> Step {
         let mut here: Vec<NodeId> = Vec::with_capacity(formula.ops().len());
         for &op in formula.ops() {

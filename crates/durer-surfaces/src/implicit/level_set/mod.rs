@@ -4,8 +4,9 @@
 //!   union: min(f, g)    intersection: max(f, g)    complement: -f    moved by D: f(D^-1(p))
 //! ```
 //!
-//! A. Ricci, "A constructive geometry for computer graphics", *The Computer Journal* 16(2), 1973. So every solid of solids is a formula, and on
-//! a box where it is known which of two operands counts, the other is gone from the tape.
+//! A. Ricci, "A constructive geometry for computer graphics", *The Computer Journal* 16(2), 1973.
+//! So every solid of solids is a formula, and on a box where it is known which of two operands
+//! counts, the other is gone from the tape.
 
 mod blob;
 pub(crate) mod expr;
@@ -17,7 +18,8 @@ use crate::tape::{Formula, FormulaError, NodeId, Tape};
 use durer_math::{Aabb, Affine, F8, I8, Vec3};
 use expr::ExprBuilder;
 
-/// By so much of its size the container of a level set is larger than what it holds on each side: the formula's sign is plain there.
+/// By so much of its size the container of a level set is larger than what it holds on each side:
+/// the formula's sign is plain there.
 const ROOM: f64 = 1.0 / 64.0;
 /// The container of a solid is divided this many times for its bounds.
 const DEPTH: u32 = 4;
@@ -32,7 +34,8 @@ pub struct LevelSet {
 }
 
 impl LevelSet {
-    /// The points with `formula < 0`, all of which must lie in `bounds`; [`Aabb::UNBOUNDED`] if there is no box.
+    /// The points with `formula < 0`, all of which must lie in `bounds`; [`Aabb::UNBOUNDED`] if
+    /// there is no box.
     ///
     /// # Panics
     ///
@@ -52,7 +55,8 @@ impl LevelSet {
         self.bounds
     }
 
-    /// The points whose images under the steps of `inverse` lie in this solid; all of them in `bounds`.
+    /// The points whose images under the steps of `inverse` lie in this solid; all of them in
+    /// `bounds`.
     pub(crate) fn pulled_back(
         &self,
         bounds: Aabb,
@@ -141,7 +145,8 @@ impl LevelSet {
         cells
     }
 
-    /// Its surface, without skins where faces of its parts coincide; `None` if it is certainly empty. Its box must be bounded.
+    /// Its surface, without skins where faces of its parts coincide; `None` if it is certainly
+    /// empty. Its box must be bounded.
     pub fn surface(&self) -> Result<Option<Isosurface>, IsosurfaceError> {
         let bounds = self.cells().iter().fold(Aabb::EMPTY, |all, cell| all.union(*cell));
         if bounds.is_empty() {

@@ -1,7 +1,8 @@
 //! The formulas of single solids: negative inside.
 //!
-//! Scales are free: a formula may be any positive multiple of a distance or of its square. What is no number of the text (a length, a difference) is a
-//! constant within an interval, so that the set is that of the text's numbers.
+//! Scales are free: a formula may be any positive multiple of a distance or of its square. What is
+//! no number of the text (a length, a difference) is a constant within an interval, so that the set
+//! is that of the text's numbers.
 
 use super::LevelSet;
 use super::expr::{ExprBuilder, Step};
@@ -55,8 +56,9 @@ fn slab(pen: &mut ExprBuilder, x: NodeId, low: f64, high: f64) -> Step {
     pen.max(under, over)
 }
 
-/// A cylinder (equal radii), a cone or a frustum between two points, with its ends:
-/// with u the axis, w from the base and h = w . u it is `|w x u|^2 <= (r0 |u| + (r1 - r0) h / |u|)^2` and `0 <= h <= |u|^2`.
+/// A cylinder (equal radii), a cone or a frustum between two points, with its ends: with u the
+/// axis, w from the base and h = w . u it is `|w x u|^2 <= (r0 |u| + (r1 - r0) h / |u|)^2` and
+/// `0 <= h <= |u|^2`.
 pub fn frustum(base: Point3, base_radius: f64, cap: Point3, cap_radius: f64) -> Made {
     let (mut pen, p) = ExprBuilder::new()?;
     let start = pen.numbers(base.to_array())?;
@@ -83,7 +85,8 @@ pub fn quadric([a, b, c, d, e, f, g, h, i, j]: [f64; 10]) -> Made {
     polynomial(2, &[a, d, e, g, b, f, h, c, i, j])
 }
 
-/// A polynomial of this order: coefficients by falling powers of x, then of y, then of z. The missing ones are zero.
+/// A polynomial of this order: coefficients by falling powers of x, then of y, then of z. The
+/// missing ones are zero.
 ///
 /// In powers, not in Horner's form: bounds of an even power on a box know that it is not negative.
 pub fn polynomial(order: u32, coefficients: &[f64]) -> Made {
@@ -100,7 +103,8 @@ pub fn polynomial(order: u32, coefficients: &[f64]) -> Made {
     Ok(pen.done(sum))
 }
 
-/// `(|p|^2 - R^2 - r^2)^2 + 4 R^2 (y^2 - r^2)`: about the y axis. What is inside twice, in a spindle, is outside.
+/// `(|p|^2 - R^2 - r^2)^2 + 4 R^2 (y^2 - r^2)`: about the y axis. What is inside twice, in a
+/// spindle, is outside.
 pub fn torus(major: f64, minor: f64) -> Made {
     let (mut pen, p) = ExprBuilder::new()?;
     let (major, minor) = (pen.number(major)?, pen.number(minor)?);
@@ -116,7 +120,8 @@ pub fn torus(major: f64, minor: f64) -> Made {
     Ok(pen.done(f))
 }
 
-/// `(|p|^2 - b^2 - d^2)^2 + 4 b^2 y^2 - 4 (a d - c x)^2` with `b^2 = a^2 - c^2`: see [`Cyclide`](crate::Cyclide).
+/// `(|p|^2 - b^2 - d^2)^2 + 4 b^2 y^2 - 4 (a d - c x)^2` with `b^2 = a^2 - c^2`: see
+/// [`Cyclide`](crate::Cyclide).
 pub fn cyclide(a: f64, c: f64, d: f64) -> Made {
     let (mut pen, p) = ExprBuilder::new()?;
     let (a, c, d) = (pen.number(a)?, pen.number(c)?, pen.number(d)?);
@@ -134,8 +139,8 @@ pub fn cyclide(a: f64, c: f64, d: f64) -> Made {
     Ok(pen.done(f))
 }
 
-/// A quadric in its principal frame: with X = x / a, Y = y / b, Z = z / c it is `s . (X², Y², Z²) + l . (X, Y, Z) + k`; the part between two
-/// heights, if there are any.
+/// A quadric in its principal frame: with X = x / a, Y = y / b, Z = z / c it is
+/// `s . (X², Y², Z²) + l . (X, Y, Z) + k`; the part between two heights, if there are any.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Principal {
     /// The semi-axes a, b, c.
@@ -171,7 +176,8 @@ pub fn principal(it: &Principal) -> Made {
     Ok(pen.done(f))
 }
 
-/// The part of a ball within an angle of an axis, given by its cosine: `cos |w| - w . a / |a|` and the ball.
+/// The part of a ball within an angle of an axis, given by its cosine: `cos |w| - w . a / |a|` and
+/// the ball.
 pub fn sector(centre: Point3, radius: f64, axis: Vec3, cosine: f64) -> Made {
     let (mut pen, p) = ExprBuilder::new()?;
     let c = pen.numbers(centre.to_array())?;
@@ -198,7 +204,8 @@ pub fn superellipsoid(e: f64, n: f64) -> Result<LevelSet, SuperellipsoidError> {
     Ok(LevelSet::new(f, Aabb::centred(Point3::ORIGIN, Vec3::new(1.0, 1.0, 1.0))))
 }
 
-/// The blob in which the fields of these components add up to more than a threshold, within its bounds.
+/// The blob in which the fields of these components add up to more than a threshold, within its
+/// bounds.
 pub fn blob(threshold: f64, components: &[BlobComponent], bounds: Aabb) -> Result<LevelSet, FormulaError> {
     Ok(LevelSet::new(below(&super::blob::missing(components)?, -threshold)?, bounds))
 }

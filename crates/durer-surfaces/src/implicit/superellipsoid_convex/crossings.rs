@@ -10,7 +10,8 @@ use arrayvec::ArrayVec;
 use durer_math::scale::pow2;
 use durer_math::{F8, Isa, Point3, RaySide, Vec3};
 
-/// Half the width of a cube that holds the solid with room for all rounding of a ray that is known well enough.
+/// Half the width of a cube that holds the solid with room for all rounding of a ray that is known
+/// well enough.
 const HALF: f64 = 1.0 + 1.0 / 64.0;
 /// A ray is, if its points are off by less than this.
 const KNOWN: f64 = pow2(-12);
@@ -63,7 +64,8 @@ struct Along<'a> {
 }
 
 impl Gauge {
-    /// Shows all roots in the ray's range to `sink`, ascending, if it can be told which there are; else none.
+    /// Shows all roots in the ray's range to `sink`, ascending, if it can be told which there are;
+    /// else none.
     pub(in crate::implicit) fn roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) -> Answer {
         if ray.passes_by(Point3::ORIGIN, self.reach) {
             return Answer::All;
@@ -142,7 +144,8 @@ impl Along<'_> {
         }
     }
 
-    /// Looks along the line from `a` to `b`, beyond which it is outside, ever closer to where it is nearest.
+    /// Looks along the line from `a` to `b`, beyond which it is outside, ever closer to where it is
+    /// nearest.
     fn classify(&self, a: f64, b: f64) -> StretchClass {
         let step = (b - a) / 7.0;
         let first = self.nodes(&core::array::from_fn(|i| if i == 7 { b } else { a + step * i as f64 }));
@@ -196,8 +199,9 @@ impl Along<'_> {
         turns.map_or(StretchClass::Open, |turns| self.grazed(first[0], first[7], turns))
     }
 
-    /// What rounding leaves open about where the gauge is least: all that is beyond places where it is outside and certainly goes up is outside, too. The places are brought
-    /// as near to each other as they can be.
+    /// What rounding leaves open about where the gauge is least: all that is beyond places where it
+    /// is outside and certainly goes up is outside, too. The places are brought as near to each
+    /// other as they can be.
     #[cold]
     fn grazed(
         &self,
@@ -244,8 +248,9 @@ impl Along<'_> {
 
     /// Whether the tangents at two places, falling and rising, meet above 1.
     ///
-    /// A tangent's value on the exact line is off by the value's own error, that of the place twice (there and where it is read), and the slope's, at most
-    /// `8` times the gradient's, for directions of size below 2.
+    /// A tangent's value on the exact line is off by the value's own error, that of the place twice
+    /// (there and where it is read), and the slope's, at most `8` times the gradient's, for
+    /// directions of size below 2.
     fn misses(&self, x: &GaugeSample, y: &GaugeSample) -> bool {
         let sure = 8.0 * self.gauge.turn;
         if !(-x.slope > sure && y.slope > sure) {
@@ -307,7 +312,8 @@ impl Along<'_> {
         true
     }
 
-    /// The crossing between a place outside and one inside: where it is about, and two such places, nearer to each other.
+    /// The crossing between a place outside and one inside: where it is about, and two such places,
+    /// nearer to each other.
     fn refined(&self, mut out: GaugeSample, mut inn: GaugeSample, widest: f64) -> (f64, f64, f64) {
         let mut even = false;
         for _ in 0..MOST_STEPS {
@@ -346,19 +352,21 @@ impl Along<'_> {
     }
 }
 
-/// About where the gauge is 1 between a place outside and one inside, and how far apart the tangents and the chord put it.
+/// About where the gauge is 1 between a place outside and one inside, and how far apart the
+/// tangents and the chord put it.
 fn guess(out: &GaugeSample, inn: &GaugeSample) -> (f64, f64) {
     let width = inn.s - out.s;
     let share = (out.g - 1.0) / (out.g - inn.g);
     let chord = share * width;
-    // Convexity puts the crossing between the later of the two tangents' and the chord's, as long as rounding does not count.
+    // Convexity puts the crossing between the later of the two tangents' and the chord's, as long
+    // as rounding does not count.
     let before = |x: f64| if x / width > 0.0 && x.abs() <= chord.abs() { x } else { 0.0 };
     let falls = inn.slope / out.slope > 0.0;
     let (first, second) = ((1.0 - out.g) / out.slope, width + (1.0 - inn.g) / inn.slope);
     let (first, second) = (before(first), if falls { before(second) } else { 0.0 });
     let tangent = if first.abs() > second.abs() { first } else { second };
-    // The cubic with the values and slopes of the inverse at both places (C. Hermite). If it does not go there, there is an edge between, and a tangent is
-    // the surface's.
+    // The cubic with the values and slopes of the inverse at both places (C. Hermite). If it does
+    // not go there, there is an edge between, and a tangent is the surface's.
     let (x, rest) = (share, 1.0 - share);
     let run = inn.g - out.g;
     let cubic = width * x * x * (3.0 - 2.0 * x) + x * rest * run * (rest / out.slope - x / inn.slope);

@@ -11,13 +11,14 @@ use durer_math::{F8, Isa, Point3, U, Vec3};
 /// How far below the point the solid is looked at.
 const DEPTHS: [f64; 8] = [0.25, pow2(-4), pow2(-6), pow2(-8), pow2(-10), pow2(-12), pow2(-16), pow2(-20)];
 
-/// The point, on each plane between octants that is no farther than `fold`: the surface may have an edge or a tip there.
+/// The point, on each plane between octants that is no farther than `fold`: the surface may have an
+/// edge or a tip there.
 fn unfolded(p: Point3, fold: f64) -> Point3 {
     p.map(|x| if x.abs() <= fold { 0.0 } else { x })
 }
 
-/// The gradient `m` at `p` without the parts that have no sign there. The gauge is even in each coordinate: where one is zero, zero is a fair part, and `m.p`
-/// does not change.
+/// The gradient `m` at `p` without the parts that have no sign there. The gauge is even in each
+/// coordinate: where one is zero, zero is a fair part, and `m.p` does not change.
 fn level(p: Point3, m: Vec3) -> Vec3 {
     Vec3::from([0, 1, 2].map(|i| if p[i] == 0.0 { 0.0 } else { m[i] }))
 }
@@ -37,11 +38,12 @@ impl Gauge {
         if g - 1.0 > noise { Some(Side::Out) } else { (1.0 - g > noise).then_some(Side::In) }
     }
 
-    /// The point next to `p0`, at most `reach` away, in which the normal there meets the surface; `None` where f64 cannot say. Planes between octants attract within
-    /// `fold`.
+    /// The point next to `p0`, at most `reach` away, in which the normal there meets the surface;
+    /// `None` where f64 cannot say. Planes between octants attract within `fold`.
     ///
-    /// With the gradient `m` at `p` the gauge is at least `m.y` everywhere: outward, it exceeds 1 as soon as `m.y` does. Inward, it is at most what the chord
-    /// from `p` to a point further down says, where it is known.
+    /// With the gradient `m` at `p` the gauge is at least `m.y` everywhere: outward, it exceeds 1
+    /// as soon as `m.y` does. Inward, it is at most what the chord from `p` to a point further down
+    /// says, where it is known.
     pub(in crate::implicit) fn foot(&self, p0: Point3, (fold, reach): (f64, f64)) -> Option<Foot> {
         let isa = Isa::detect();
         let mut sample = Sample::new();
@@ -76,9 +78,10 @@ impl Gauge {
         settled.then(|| Foot { p, n, off, bend: self.bend(isa, p, off, ulp.max_abs()) / m.length() })
     }
 
-    /// A bound on the curvature times the gradient's length: the surface leaves its tangent plane by at most what the gradient turns on the way, times the
-    /// way (it is below that plane, and the plane of each of its points is above `p`). Each factor of the gradient's parts goes one way with each
-    /// coordinate: the corners of a box have its extremes.
+    /// A bound on the curvature times the gradient's length: the surface leaves its tangent plane
+    /// by at most what the gradient turns on the way, times the way (it is below that plane, and
+    /// the plane of each of its points is above `p`). Each factor of the gradient's parts goes one
+    /// way with each coordinate: the corners of a box have its extremes.
     fn bend(&self, isa: Isa, p: Point3, off: f64, ulp: f64) -> f64 {
         let r = 4096.0 * U + 2.0 * off;
         let size = p.to_vec().abs();

@@ -1,6 +1,8 @@
-//! The gauge of a convex superellipsoid and its gradient at eight points, and how far they are from the true ones.
+//! The gauge of a convex superellipsoid and its gradient at eight points, and how far they are from
+//! the true ones.
 //!
-//! All is worked out from binary logarithms `a`, `b` of `max(|x|, |y|)`, `min(|x|, |y|)` and `c` of `|z|`:
+//! All is worked out from binary logarithms `a`, `b` of `max(|x|, |y|)`, `min(|x|, |y|)` and `c` of
+//! `|z|`:
 //!
 //! ```text
 //!   w = 2^(p (b - a)),  log N = a + log(1 + w) / p;   v = 2^(q (low - high)) of log N and c,  log G = high + log(1 + v) / q
@@ -8,13 +10,18 @@
 //!   d log N = (d log max + w d log min) / (1 + w), likewise for G: the gradient's parts are G times such shares, over the coordinate
 //! ```
 //!
-//! **The value.** Logarithms err by `8 u` of themselves, powers by `4 u`, sums `1 + w` by `u`. An error of the exponent `p (b - a)` counts in `log N` with
-//! the share of `w`, over `p`: `w |b - a| <= 0.54 / p`, so what is small weighs as little as it errs much. With `1/4 <= G <= 4` the larger of two logarithms is at most 3,
-//! `log N` errs by `125 u` (by `80 u` near the surface) and `log G` by `34 u` more: [`VALUE`] bounds what that makes of `G`. A coordinate below [`LEAST`] is taken for that, which moves the point by less than any rounding.
+//! **The value.** Logarithms err by `8 u` of themselves, powers by `4 u`, sums `1 + w` by `u`. An
+//! error of the exponent `p (b - a)` counts in `log N` with the share of `w`, over `p`:
+//! `w |b - a| <= 0.54 / p`, so what is small weighs as little as it errs much. With `1/4 <= G <= 4`
+//! the larger of two logarithms is at most 3, `log N` errs by `125 u` (by `80 u` near the surface)
+//! and `log G` by `34 u` more: [`VALUE`] bounds what that makes of `G`. A coordinate below
+//! [`LEAST`] is taken for that, which moves the point by less than any rounding.
 //!
-//! **The gradient.** With `|log| <= 66` each exponent errs by at most `p 1222 u` or `q 1972 u`, a share by `ln 2` times that: the parts are known within
-//! `1024 p u + 1536 q u + 2048 u` of themselves. For a true gradient `n` the dual norm is 1, and it is absolute: it sees sizes only. So parts within `ε` of
-//! themselves have a dual norm of at most `1 + ε`, and `G(y) >= n.y / (1 + ε)` for them.
+//! **The gradient.** With `|log| <= 66` each exponent errs by at most `p 1222 u` or `q 1972 u`, a
+//! share by `ln 2` times that: the parts are known within `1024 p u + 1536 q u + 2048 u` of
+//! themselves. For a true gradient `n` the dual norm is 1, and it is absolute: it sees sizes only.
+//! So parts within `ε` of themselves have a dual norm of at most `1 + ε`, and
+//! `G(y) >= n.y / (1 + ε)` for them.
 
 use durer_math::lane_logs::{exp2, log2};
 use durer_math::scale::pow2;
@@ -28,7 +35,8 @@ const LEAST: f64 = pow2(-64);
 pub(super) const REST: f64 = 8.0 * U;
 /// Lower exponents, whose powers count for nothing, are taken for this.
 const LOWEST: f64 = -1000.0;
-/// Thinner spikes than those of this exponent are left to the tape: the bound of the value grows with it (`superellipsoid_concave.rs`).
+/// Thinner spikes than those of this exponent are left to the tape: the bound of the value grows
+/// with it (`superellipsoid_concave.rs`).
 const MOST_DENTED: f64 = 8.0;
 /// Sharper exponents than this make a box, and are left to the tape.
 const SHARPEST: f64 = 1.0 / 128.0;
@@ -91,7 +99,8 @@ impl Gauge {
         Some(Self { p, q, over_p: 0.5 * e, over_q: 0.5 * n, turn, reach, least: LEAST })
     }
 
-    /// The same function for exponents that make dents between all axes, if these are such: no norm, and without a bound for gradients (`superellipsoid_concave.rs`).
+    /// The same function for exponents that make dents between all axes, if these are such: no
+    /// norm, and without a bound for gradients (`superellipsoid_concave.rs`).
     pub(in crate::implicit) fn of_dents(e: f64, n: f64) -> Option<Self> {
         let with_dents = 2.0..=MOST_DENTED;
         let gauge = Self {

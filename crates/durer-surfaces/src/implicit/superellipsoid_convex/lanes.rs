@@ -1,6 +1,7 @@
 //! Convex superellipsoids as lanes see them.
 //!
-//! Of each of eight rays two places are looked at, `a` and `r` behind it (`mod.rs` says why that is enough):
+//! Of each of eight rays two places are looked at, `a` and `r` behind it (`mod.rs` says why that is
+//! enough):
 //!
 //! ```text
 //!   outside, and g rises at a              it is outside from there on
@@ -15,7 +16,8 @@ use crate::packet::{ImplicitKernel, Line8, LineExtent8, Segment8, Skin, Slant, V
 use durer_math::scale::pow2;
 use durer_math::{F8, Isa, M8, U, Vec3};
 
-/// A ball that is larger by this holds the solid with room for all rounding of a line that is known well enough.
+/// A ball that is larger by this holds the solid with room for all rounding of a line that is known
+/// well enough.
 const ROOM: f64 = 1.0 / 64.0;
 /// A line is, if its points are off by less than this.
 const KNOWN: f64 = pow2(-12);
@@ -28,7 +30,8 @@ struct Node8 {
     slope: F8,
 }
 
-/// What a place and a point of a line err by, as values of the gauge: of a vector that is at most the sum of its sizes.
+/// What a place and a point of a line err by, as values of the gauge: of a vector that is at most
+/// the sum of its sizes.
 #[inline(always)]
 fn off(line: &Line8, far: F8) -> F8 {
     line.error(far) * (3.0 * (1.0 + 1.0 / 1024.0)) + REST
@@ -166,7 +169,8 @@ impl ImplicitKernel for Gauge {
         );
     }
 
-    /// Each factor of the gradient's parts goes one way with each coordinate: the corners of a box have its extremes (`foot.rs`).
+    /// Each factor of the gradient's parts goes one way with each coordinate: the corners of a box
+    /// have its extremes (`foot.rs`).
     fn skin(&self, isa: Isa, (y, e): (&Vec3<F8>, &F8), skin: &mut Skin) {
         let mut sample = Sample::new();
         self.sample(isa, y, &mut sample);

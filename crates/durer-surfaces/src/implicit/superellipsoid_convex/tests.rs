@@ -1,4 +1,5 @@
-//! The gauge against multi-precision arithmetic; its crossings, points and sides against that and against the tape.
+//! The gauge against multi-precision arithmetic; its crossings, points and sides against that and
+//! against the tape.
 
 use super::gauge::{Sample, VALUE};
 use super::{Answer, Gauge};
@@ -123,7 +124,8 @@ fn near_surface(dice: &mut TestRng, shape: (f64, f64), far: f64) -> Vec3 {
     x * ((1.0 + far * (2.0 * dice.unit() - 1.0)) / sample.value.0[0])
 }
 
-/// Rays at the surface: through it anywhere, all but tangent, through its edges and along the axes, from near and far, in all kinds of ranges.
+/// Rays at the surface: through it anywhere, all but tangent, through its edges and along the axes,
+/// from near and far, in all kinds of ranges.
 fn aimed(dice: &mut TestRng, shape: (f64, f64)) -> Ray {
     let far = dice.pick(&[0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3]);
     let through = near_surface(dice, shape, far);
@@ -213,7 +215,8 @@ fn all_paths_give_the_same_bits() {
     }
 }
 
-/// Brackets overlap one by one where all roots are certain; what is not certain to one of the two is a touch, or near an end of the range.
+/// Brackets overlap one by one where all roots are certain; what is not certain to one of the two
+/// is a touch, or near an end of the range.
 #[test]
 fn the_crossings_are_those_of_the_tape() {
     let mut dice = TestRng::new(3);
@@ -242,7 +245,8 @@ fn the_crossings_are_those_of_the_tape() {
                 a.iter().all(|r| r.kind == RootKind::Simple && r.lo <= r.t && r.t <= r.hi),
                 "{ray:?}: {a:?}"
             );
-            // A root of one that may lie beyond the range's end is one that the other may have left out.
+            // A root of one that may lie beyond the range's end is one that the other may have left
+            // out.
             let sure = |r: &&Root| r.lo >= ray.t_min && r.hi <= ray.t_max;
             let certain = |r: &&Root| sure(r) && r.kind == RootKind::Simple;
             let meets = |r: &Root, of: &[Root]| of.iter().any(|o| o.lo <= r.hi && r.lo <= o.hi);
@@ -346,7 +350,8 @@ fn rays_leave_what_they_were_spawned_on() {
                 let local = LocalRay::new(&out).from_side(Some(side)).roughly();
                 let mut met = All::default();
                 surface.roots(&local, &mut met);
-                // From inside there is one way out; from outside a convex solid is not met again by a ray that goes away from it.
+                // From inside there is one way out; from outside a convex solid is not met again by
+                // a ray that goes away from it.
                 let leaves = out.direction.dot(point.ng.to_vec()) * way > 1e-6;
                 if side == RaySide::Back || leaves {
                     let expected = usize::from(side == RaySide::Back);
@@ -366,7 +371,8 @@ fn rays_leave_what_they_were_spawned_on() {
     assert!(spawned > 1_500 && alone * 100 > spawned * 95, "{alone} of {spawned}");
 }
 
-/// The surface leaves the tangent plane by no more than `bend` says, and its normal turns by no more.
+/// The surface leaves the tangent plane by no more than `bend` says, and its normal turns by no
+/// more.
 #[test]
 fn the_bend_bounds_the_curvature() {
     let mut dice = TestRng::new(7);

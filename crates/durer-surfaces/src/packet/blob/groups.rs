@@ -1,7 +1,9 @@
-//! Fields that lie together: a tree of balls, so that of many fields only those near eight rays, or eight points, are asked.
+//! Fields that lie together: a tree of balls, so that of many fields only those near eight rays, or
+//! eight points, are asked.
 //!
-//! Fields come in such an order that neighbours in the list are neighbours in space. A ball about a run of them holds all that they reach; each half of the
-//! run has a ball of its own. What surely passes a ball by gets nothing from the fields in it.
+//! Fields come in such an order that neighbours in the list are neighbours in space. A ball about a
+//! run of them holds all that they reach; each half of the run has a ball of its own. What surely
+//! passes a ball by gets nothing from the fields in it.
 
 use crate::packet::rays::SLACK;
 use core::ops::Range;

@@ -1,4 +1,5 @@
-//! Blobs as lanes see them: fields that begin and end, and between two such places a polynomial of degree four.
+//! Blobs as lanes see them: fields that begin and end, and between two such places a polynomial of
+//! degree four.
 //!
 //! ```text
 //!   f(y) = T - Σ S max(0, 1 - q)²      negative inside
@@ -6,7 +7,8 @@
 //!   w = W (y - m),   q = |w|² of a ball, |(w_x, w_y, w_z - clamp(w_z, 0, l))|² of a cylinder
 //! ```
 //!
-//! See `blob/component.rs` for what the letters mean and how far they are off; errors here are counted the same way, for eight rays (`rays.rs`) or points at a time.
+//! See `blob/component.rs` for what the letters mean and how far they are off; errors here are
+//! counted the same way, for eight rays (`rays.rs`) or points at a time.
 
 mod groups;
 mod rays;
@@ -25,7 +27,8 @@ const TINY: f64 = pow2(-500);
 /// Curvatures at a point hold where `q` has changed by no more than this.
 const ROOM: f64 = pow2(-10);
 
-/// See [`Fields::new`]. With 256 components lanes take nine tenths of the time, with 512 eleven tenths (docs/performance.md).
+/// See [`Fields::new`]. With 256 components lanes take nine tenths of the time, with 512 eleven
+/// tenths (docs/performance.md).
 const MOST: usize = 256;
 
 /// One term of the sum.
@@ -56,7 +59,8 @@ pub(crate) struct Fields {
 }
 
 impl Fields {
-    /// Of fields and boxes that hold what they reach, such that neighbours in the list are neighbours in space. `None` if there are more than rays by themselves find their way through
+    /// Of fields and boxes that hold what they reach, such that neighbours in the list are
+    /// neighbours in space. `None` if there are more than rays by themselves find their way through
     /// sooner.
     pub(crate) fn new(fields: Vec<Field>, boxes: &[Aabb], threshold: f64) -> Option<Self> {
         if fields.len() > MOST || fields.len() != boxes.len() {
@@ -123,7 +127,8 @@ impl Fields {
     #[inline(always)]
     pub(super) fn skin(&self, own: &Own, h: Vec3<F8>, h1: F8) -> Skin {
         let y = own.point(h);
-        // Rays that start there are looked at from a place that may be this far from it (`rays.rs`).
+        // Rays that start there are looked at from a place that may be this far from it
+        // (`rays.rs`).
         let e = own.point_error(h1) + (largest(y) + 1.0) * (128.0 * U);
         let Skin { f, half, e_f, e_half, bend, room } = self.at(y, e);
         let e_half = (e_half + largest(half) * (16.0 * U)) * own.norm;

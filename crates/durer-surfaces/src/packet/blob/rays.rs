@@ -1,13 +1,18 @@
 //! Where eight rays cross a blob.
 //!
-//! With `s` the way along a ray from where it is closest to the blob's centre, in the blob's units, a field is a piece `S (1 - m - v (2 b + n v))²`, `v = s - at`, from
-//! where it begins to where it ends; a cylinder's is three. Each ray goes from one such place to the next; there the sum is a polynomial of degree four (`polynomial_roots.rs`).
+//! With `s` the way along a ray from where it is closest to the blob's centre, in the blob's units,
+//! a field is a piece `S (1 - m - v (2 b + n v))²`, `v = s - at`, from where it begins to where it
+//! ends; a cylinder's is three. Each ray goes from one such place to the next; there the sum is a
+//! polynomial of degree four (`polynomial_roots.rs`).
 //!
-//! **Errors** of pieces are those of `blob/component.rs`. A polynomial is made for `[0, 1]` in place of `[-1, 1]`, where the sum of the magnitudes of the coefficients of `q` is at
-//! most nine times as large. What pieces could add where they are taken for none, as they begin and end at rounded places, is a charge on all of the ray; stretches overlap by more than their
-//! ends are rounded by, `8 U`, for which the charge of a piece counts `4` more in the sum of the places.
+//! **Errors** of pieces are those of `blob/component.rs`. A polynomial is made for `[0, 1]` in
+//! place of `[-1, 1]`, where the sum of the magnitudes of the coefficients of `q` is at most nine
+//! times as large. What pieces could add where they are taken for none, as they begin and end at
+//! rounded places, is a charge on all of the ray; stretches overlap by more than their ends are
+//! rounded by, `8 U`, for which the charge of a piece counts `4` more in the sum of the places.
 //!
-//! **Where a ray starts** is rounded outward by `8 U (|t_c| |d| + 2)`, which is less than `128 U (1 + |y|)` at the start `y`: within that a start has the sign that it is known to have,
+//! **Where a ray starts** is rounded outward by `8 U (|t_c| |d| + 2)`, which is less than
+//! `128 U (1 + |y|)` at the start `y`: within that a start has the sign that it is known to have,
 //! if it was put off the surface (`Fields::skin`).
 
 use super::groups::Group;
@@ -63,7 +68,8 @@ pub(in crate::packet) struct BlobScratch {
     sight: BlobRays8,
     pieces: ArrayVec<Piece8, MOST>,
     charge: F8,
-    /// Where each ray is, where the stretch ahead and where all of it ends, and the sign there: 1, -1, or 0 if it is not known.
+    /// Where each ray is, where the stretch ahead and where all of it ends, and the sign there: 1, -1,
+    /// or 0 if it is not known.
     here: F8,
     next: F8,
     last: F8,
@@ -106,7 +112,8 @@ fn placed(w: Vec3<F8>, lift: Option<F8>) -> Vec3<F8> {
     Vec3::new(w.x, w.y, z)
 }
 
-/// Where on the rays a field is asked for which of its pieces: between two places, distances being measured from a point of its axis, or from the axis.
+/// Where on the rays a field is asked for which of its pieces: between two places, distances being
+/// measured from a point of its axis, or from the axis.
 #[derive(Clone, Copy)]
 struct Segment {
     lift: Option<F8>,
@@ -117,8 +124,8 @@ struct Segment {
 }
 
 impl Fields {
-    /// Shows the crossings of each ray to `to`, or the first one; and where there is a doubt. Of rays that leave the surface it is said whether the surface is
-    /// turned round.
+    /// Shows the crossings of each ray to `to`, or the first one; and where there is a doubt. Of
+    /// rays that leave the surface it is said whether the surface is turned round.
     pub(in crate::packet) fn meet<K: Sink8>(
         &self,
         own: &Own,
@@ -173,7 +180,8 @@ impl Fields {
         to.doubt(memory.open, F8::ZERO);
     }
 
-    /// Puts down the pieces of all fields that the rays may meet, and what others could add; false if there is no room.
+    /// Puts down the pieces of all fields that the rays may meet, and what others could add; false
+    /// if there is no room.
     fn pieces(&self, isa: Isa, memory: &mut BlobScratch) -> bool {
         let BlobScratch { sight, here, last, open, pieces, charge, .. } = memory;
         let mut i = 0;
@@ -190,7 +198,8 @@ impl Fields {
         true
     }
 
-    /// Which points at `t` within `e` are surely inside, and which surely outside, as bits; for rays seen from the outline's centre.
+    /// Which points at `t` within `e` are surely inside, and which surely outside, as bits; for
+    /// rays seen from the outline's centre.
     #[inline(never)]
     pub(in crate::packet) fn holds(
         &self,
@@ -232,7 +241,8 @@ impl Fields {
                     e += on.keep(piece.slack);
                     most += on.keep(piece.peak);
                 }
-                // The fields that are here do not add up to the threshold; by as much as a ray by itself wants to be sure.
+                // The fields that are here do not add up to the threshold; by as much as a ray by
+                // itself wants to be sure.
                 let outside = (most * (1.0 + 1.0 / 1024.0)).lt(F8::splat(self.threshold));
                 let live = *open & !outside;
                 if !live.any() {
@@ -309,7 +319,8 @@ impl BlobRays8 {
                 let m = Vec3::splat(centre);
                 let r = Vec3::new(self.o.x - m.x, self.o.y - m.y, self.o.z - m.z);
                 let (square, along) = (dot(r, r), dot(r, self.d));
-                // How far off a point of a ray may be, and by the roundings of these numbers: of the square of the distance fewer than 16, where |d| is one but for 4.
+                // How far off a point of a ray may be, and by the roundings of these numbers: of
+                // the square of the distance fewer than 16, where |d| is one but for 4.
                 let e =
                     (self.e_o + self.e_d * REACH) * 2.0 + (self.o_size + centre.max_abs() + 4.0) * (32.0 * U);
                 let reach = (e + radius) * SLACK;
@@ -351,7 +362,8 @@ fn offer<K: Sink8>(rays: &RayLanes<'_>, to: &mut K, memory: &mut BlobScratch) {
 }
 
 impl Field {
-    /// Adds its pieces along the rays, and what it could add where it all but misses them; false if there is no room.
+    /// Adds its pieces along the rays, and what it could add where it all but misses them; false if
+    /// there is no room.
     #[inline(never)]
     fn pieces(
         &self,
@@ -385,7 +397,8 @@ impl Field {
                 let doubt = self.error_at(sight, largest(r), reach)
                     + self.rate_error(sight) * REACH
                     + (height.abs() + rate.abs() * REACH + self.length) * (16.0 * U);
-                // Where they pass the ends of the axis, in the order of the ray; a ray across it is between them, or beyond one, all along.
+                // Where they pass the ends of the axis, in the order of the ray; a ray across it is
+                // between them, or beyond one, all along.
                 let (low, high) = (-height / rate, -(height - self.length) / rate);
                 let level = rate.equals(F8::ZERO);
                 let (below, above) = (level & height.lt(F8::ZERO), level & height.gt(F8::splat(self.length)));
@@ -449,7 +462,8 @@ impl Field {
         let &Segment { lift, low, high, doubt } = segment;
         let a = Vec3::new(a.x, a.y, if lift.is_some() { a.z } else { F8::ZERO });
         let n = dot(a, a);
-        // The closest approach, as well as it can be had; any number will do. What is not a number becomes an end.
+        // The closest approach, as well as it can be had; any number will do. What is not a number
+        // becomes an end.
         let at = (-dot(placed(self.turned(r), lift), a) / n).max(low).min(high);
         let y = on(r, at, sight.d);
         let w = placed(self.turned(y), lift);

@@ -1,6 +1,7 @@
 //! Many eights of rays at one level set.
 //!
-//! Some rays are through after one stretch and others after thirty. Eight rays look together as long as most of them go on; who is left over then goes on beside those of other eights: as soon
+//! Some rays are through after one stretch and others after thirty. Eight rays look together as
+//! long as most of them go on; who is left over then goes on beside those of other eights: as soon
 //! as one is through, the next one takes its lane.
 
 use super::ImplicitKernel;
@@ -38,7 +39,8 @@ impl Stream {
         self.numbers.clear();
     }
 
-    /// Adds eight rays, those with this number; of a solid in a container that is a cell. It is said whether the surface is turned round.
+    /// Adds eight rays, those with this number; of a solid in a container that is a cell. It is
+    /// said whether the surface is turned round.
     pub(in crate::packet) fn add(
         &mut self,
         number: usize,
@@ -55,7 +57,8 @@ impl Stream {
         prepare(level, own, (asked, turned), held, nearest, &mut self.eights[place]);
     }
 
-    /// Looks along all of them until nothing is left to be seen, and offers the first crossing of each ray to what is nearest so far.
+    /// Looks along all of them until nothing is left to be seen, and offers the first crossing of
+    /// each ray to what is nearest so far.
     pub(in crate::packet) fn meet(
         &mut self,
         level: &dyn ImplicitKernel,

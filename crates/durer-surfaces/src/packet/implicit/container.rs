@@ -1,7 +1,8 @@
 //! Where eight rays are in the container of a solid.
 //!
-//! A ray enters a convex container after `max(t_i + e_i)` of the faces that it enters, at the latest, and not before `t_i - e_i` of any of them; the same holds of where it leaves. Which
-//! face that is is sure if its bracket lies behind those of all others (`convex.rs`).
+//! A ray enters a convex container after `max(t_i + e_i)` of the faces that it enters, at the
+//! latest, and not before `t_i - e_i` of any of them; the same holds of where it leaves. Which face
+//! that is is sure if its bracket lies behind those of all others (`convex.rs`).
 
 use super::{Ends, LineExtent8};
 use crate::packet::convex::Hull;
@@ -9,7 +10,8 @@ use durer_math::{F8, Isa, M8, U};
 
 const NEVER: F8 = F8::splat(f64::INFINITY);
 
-/// Where rays are in a container, which is convex: from the last face that is entered to the first that is left.
+/// Where rays are in a container, which is convex: from the last face that is entered to the first
+/// that is left.
 #[derive(Debug)]
 pub(super) struct Held {
     pub(super) ends: Ends,
@@ -46,8 +48,9 @@ impl Held {
         before: NEVER,
         e_s: F8::ZERO,
     };
-    /// What the hull of the container's faces says of rays with `t = t_c + s unit`: what is looked at is as much longer as rounding asks for. Beyond the
-    /// container the solid is told as far as `slack`.
+    /// What the hull of the container's faces says of rays with `t = t_c + s unit`: what is looked
+    /// at is as much longer as rounding asks for. Beyond the container the solid is told as far as
+    /// `slack`.
     #[inline(never)]
     pub(super) fn put(
         &mut self,

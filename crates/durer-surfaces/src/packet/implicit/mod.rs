@@ -1,16 +1,22 @@
-//! Solids `g < 0` as lanes see them whose `g` is no polynomial: each of eight rays goes ahead at its own pace.
+//! Solids `g < 0` as lanes see them whose `g` is no polynomial: each of eight rays goes ahead at
+//! its own pace.
 //!
 //! ```text
 //!   g(o + s d) for eight lines at once:  its sign on a stretch, whether it rises or falls there, its value at a point
 //! ```
 //!
-//! What a [`Level`] says of a stretch is certain, of the exact ray: it knows how far lines are off. A ray whose sign is known goes on over stretches on which `g` keeps it: because it has
-//! one sign there, or goes away from zero, or goes towards zero and has kept its sign at the end. Where it has changed by the end of a stretch on which `g` only goes one
-//! way there is exactly one crossing, a simple one, and it is the first. It is closed in by rounded values, and proven by two certain signs around it (`rays.rs`).
+//! What a [`Level`] says of a stretch is certain, of the exact ray: it knows how far lines are off.
+//! A ray whose sign is known goes on over stretches on which `g` keeps it: because it has one sign
+//! there, or goes away from zero, or goes towards zero and has kept its sign at the end. Where it
+//! has changed by the end of a stretch on which `g` only goes one way there is exactly one
+//! crossing, a simple one, and it is the first. It is closed in by rounded values, and proven by
+//! two certain signs around it (`rays.rs`).
 //!
-//! Rays of many eights change their lanes on the way, so that none is empty as long as there are any (`compaction.rs`).
+//! Rays of many eights change their lanes on the way, so that none is empty as long as there are
+//! any (`compaction.rs`).
 //!
-//! A stretch of which nothing is certain is tried again shorter. What is left after so many stretches, or where rounding leaves a sign open, is a doubt.
+//! A stretch of which nothing is certain is tried again shorter. What is left after so many
+//! stretches, or where rounding leaves a sign open, is a doubt.
 
 mod compaction;
 mod container;
@@ -23,7 +29,8 @@ use super::rays::SLACK;
 use super::revolution::{Skin, Slant};
 use durer_math::{F8, Isa, M8, U, Vec3};
 
-/// Eight lines in the solid's own coordinates, `o + s d`, about where they are closest to its centre.
+/// Eight lines in the solid's own coordinates, `o + s d`, about where they are closest to its
+/// centre.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line8 {
     pub(crate) isa: Isa,
@@ -77,7 +84,8 @@ pub(crate) struct Segment8 {
     pub(crate) falls: M8,
     /// The sign of `g` at `a`, 1 or -1.
     pub(crate) sign: F8,
-    /// For whoever is asked to remember of each line: infinite at first, and `next` once a stretch is passed.
+    /// For whoever is asked to remember of each line: infinite at first, and `next` once a stretch
+    /// is passed.
     pub(crate) hint: F8,
     /// What `hint` is after this stretch; infinite if nobody sets it.
     pub(crate) next: F8,
@@ -97,7 +105,8 @@ pub(crate) struct Value8 {
 pub(crate) trait ImplicitKernel: core::fmt::Debug + Send + Sync {
     /// A bound on the distance from the centre of what is in the solid.
     fn reach(&self) -> f64;
-    /// What is where it ends: a solid in a container comes with that one's faces (`FilterSource::contained`), and is told a bit beyond them, by `slack`.
+    /// What is where it ends: a solid in a container comes with that one's faces
+    /// (`FilterSource::contained`), and is told a bit beyond them, by `slack`.
     fn ends(&self) -> (Ends, f64) {
         (Ends::Free, 0.0)
     }
@@ -107,7 +116,8 @@ pub(crate) trait ImplicitKernel: core::fmt::Debug + Send + Sync {
     fn classify(&self, line: &Line8, told: &mut Segment8);
     /// The values at `s`; only those of some lanes matter.
     fn values(&self, line: &Line8, s: &F8, lanes: M8, value: &mut Value8);
-    /// `g` at `s`, rounded, NaN where that is not known: for closing in, which needs no bounds. Only some lanes matter.
+    /// `g` at `s`, rounded, NaN where that is not known: for closing in, which needs no bounds.
+    /// Only some lanes matter.
     fn about(&self, line: &Line8, s: &F8, lanes: M8, g: &mut F8);
     /// `g` and half its gradient at points, rounded, as [`Level::about`] is.
     fn slant(&self, isa: Isa, y: &Vec3<F8>, slant: &mut Slant) {
@@ -115,7 +125,8 @@ pub(crate) trait ImplicitKernel: core::fmt::Debug + Send + Sync {
         self.skin(isa, (y, &F8::ZERO), &mut skin);
         *slant = Slant { f: skin.f, half: skin.half };
     }
-    /// `g` and its gradient at points known within `e` along any axis, and a bound on its second derivatives as far around as rays start.
+    /// `g` and its gradient at points known within `e` along any axis, and a bound on its second
+    /// derivatives as far around as rays start.
     fn skin(&self, isa: Isa, at: (&Vec3<F8>, &F8), skin: &mut Skin);
     /// The covectors that points are shaded by, if those are others.
     fn shading(&self, _isa: Isa, _y: &Vec3<F8>, _g: &mut Vec3<F8>) -> bool {

@@ -1,10 +1,12 @@
 //! Where eight rays cross a level set first.
 //!
-//! With `s` the way along a ray from where it is closest to the solid's centre, in the solid's units, `t = t_c + s unit`; the two numbers are what they are, and what rounding does to
-//! them is charged to the line.
+//! With `s` the way along a ray from where it is closest to the solid's centre, in the solid's
+//! units, `t = t_c + s unit`; the two numbers are what they are, and what rounding does to them is
+//! charged to the line.
 //!
-//! **Where a ray starts** is rounded outward by `8 U (|t_c| |d| + reach)`, which is less than `128 U (reach + |y|)` at the start `y`: within that a start has the sign that it is known to have,
-//! if it was put off the surface (`skin`).
+//! **Where a ray starts** is rounded outward by `8 U (|t_c| |d| + reach)`, which is less than
+//! `128 U (reach + |y|)` at the start `y`: within that a start has the sign that it is known to
+//! have, if it was put off the surface (`skin`).
 
 use super::container::Held;
 use super::{Ends, ImplicitKernel, Line8, LineExtent8, Segment8, Value8};
@@ -20,7 +22,8 @@ use durer_math::{F8, Isa, M8, U, Vec3};
 pub(super) const MOST: u32 = 160;
 /// Values that a crossing is closed in by; each second one at least halves what is left.
 const MOST_VALUES: u32 = 24;
-/// How much longer the next stretch is than one that was passed, and how much shorter after one of which nothing was certain.
+/// How much longer the next stretch is than one that was passed, and how much shorter after one of
+/// which nothing was certain.
 const LONGER: f64 = 2.0;
 const SHORTER: f64 = 0.3;
 /// The first stretch, and the shortest one, in parts of what holds the solid.
@@ -48,12 +51,14 @@ pub(super) struct ImplicitScratch {
     sign: F8,
     /// How many stretches were looked at.
     looks: u32,
-    /// Lanes that go on, those that came to the end, those that got nowhere, and those of which a value is asked for.
+    /// Lanes that go on, those that came to the end, those that got nowhere, and those of which a
+    /// value is asked for.
     open: M8,
     ended: M8,
     stuck: M8,
     asked: M8,
-    /// Lanes with one crossing between two places with opposite signs, and the values there with the sign of the first one.
+    /// Lanes with one crossing between two places with opposite signs, and the values there with
+    /// the sign of the first one.
     found: M8,
     a: F8,
     b: F8,
@@ -107,7 +112,8 @@ impl Default for ImplicitScratch {
     }
 }
 
-/// Makes ready what of each ray is looked at; of a solid in a container that is `cell`. It is said whether the surface is turned round.
+/// Makes ready what of each ray is looked at; of a solid in a container that is `cell`. It is said
+/// whether the surface is turned round.
 pub(super) fn prepare(
     level: &dyn ImplicitKernel,
     own: &Own,
@@ -267,7 +273,8 @@ fn has_unknown(isa: Isa, memory: &mut ImplicitScratch) -> bool {
     )
 }
 
-/// The value tells, or there is a doubt. Where a container is entered and the sign is that of the inside its face is met.
+/// The value tells, or there is a doubt. Where a container is entered and the sign is that of the
+/// inside its face is met.
 #[inline(never)]
 fn know(asked: &PacketQuery<'_>, nearest: &mut Nearest, memory: &mut ImplicitScratch) {
     asked.rays.isa.run_in_lanes(
@@ -457,7 +464,8 @@ fn end(asked: &PacketQuery<'_>, nearest: &mut Nearest, memory: &mut ImplicitScra
     );
 }
 
-/// Offers crossings where they were found, for those who do not ask where they are: there are certain signs on either side.
+/// Offers crossings where they were found, for those who do not ask where they are: there are
+/// certain signs on either side.
 #[inline(never)]
 fn take_roughly(asked: &PacketQuery<'_>, nearest: &mut Nearest, memory: &mut ImplicitScratch) {
     asked.rays.isa.run_in_lanes(

@@ -4,16 +4,19 @@
 //!   f(y) = Σ c_ijk x^i y^j z^k      negative inside
 //! ```
 //!
-//! Nothing holds such a surface, so a ray is looked at from where it starts, or enters what clips the surface, to where it ends (`rays.rs`).
+//! Nothing holds such a surface, so a ray is looked at from where it starts, or enters what clips
+//! the surface, to where it ends (`rays.rs`).
 //!
-//! **Errors.** With `S_m` the sum of `|c_ijk|` of the terms of degree `m`, and coordinates up to `M`,
+//! **Errors.** With `S_m` the sum of `|c_ijk|` of the terms of degree `m`, and coordinates up to
+//! `M`,
 //!
 //! ```text
 //!   F = Σ S_m M^m,   F₁ = Σ m S_m M^(m-1),   F₂ = Σ m (m-1) S_m M^(m-2)
 //! ```
 //!
-//! bound `f`, the sum of its first derivatives and the sum of its second, all with absolute values throughout. W. G. Horner's scheme in three variables puts each
-//! term through at most `4 n + 4` roundings, at a point and in sum along a ray, and its derivatives through twice as many.
+//! bound `f`, the sum of its first derivatives and the sum of its second, all with absolute values
+//! throughout. W. G. Horner's scheme in three variables puts each term through at most `4 n + 4`
+//! roundings, at a point and in sum along a ray, and its derivatives through twice as many.
 
 mod rays;
 
@@ -25,7 +28,8 @@ use super::revolution::Skin;
 use durer_math::{F8, U, Vec3};
 use std::sync::Arc;
 
-/// A polynomial of a degree below `N`: coefficients by falling powers of x, then of y, then of z, all that are of no higher degree than `order`.
+/// A polynomial of a degree below `N`: coefficients by falling powers of x, then of y, then of z,
+/// all that are of no higher degree than `order`.
 #[derive(Clone, Debug)]
 pub(crate) struct Terms<const N: usize> {
     pub(crate) order: u32,
@@ -145,7 +149,8 @@ impl<const N: usize> Terms<N> {
         let m = largest(y);
         let Sizes { f: size, slope, bend } = self.sizes(m + 1.0 / 64.0);
         let (f, g) = self.at(y);
-        // Rays that start there are looked at from a place that may be this far from it (`rays.rs`).
+        // Rays that start there are looked at from a place that may be this far from it
+        // (`rays.rs`).
         let e = (e + (m + 1.0) * (128.0 * U)) * SLACK;
         let e_f = (e * slope + size * (16.0 * N as f64 * U)) * 2.0;
         let e_half = (e * bend + slope * (16.0 * N as f64 * U)) * own.norm;

@@ -1,6 +1,7 @@
 //! Where eight rays cross an algebraic surface.
 //!
-//! About a place `t_c` of a ray the line is `y_c + x v`, `v = T d`. It is looked at in three pieces,
+//! About a place `t_c` of a ray the line is `y_c + x v`, `v = T d`. It is looked at in three
+//! pieces,
 //!
 //! ```text
 //!   far before   t = t_c - T / x           0 < x <= 1      x^n f(y_c - v / x)
@@ -8,22 +9,28 @@
 //!   far behind   t = t_c + T / (1 - x)     0 <= x < 1      (1 - x)^n f(y_c + v / (1 - x))
 //! ```
 //!
-//! whose coefficients all follow from those `c_k` of `f(y_c + s v)`. The magnitudes of their coefficients are, in sum, at most `Σ |c_k|`, `Σ |c_k| 3^k` (in powers of `2 x - 1`, then of `x`) and
-//! `Σ |c_k| 2^(n-k)` (in powers of `1 - x`, then of `x`), which `F` bounds, and `F₁` the errors. So they are wrong by no more than
+//! whose coefficients all follow from those `c_k` of `f(y_c + s v)`. The magnitudes of their
+//! coefficients are, in sum, at most `Σ |c_k|`, `Σ |c_k| 3^k` (in powers of `2 x - 1`, then of `x`)
+//! and `Σ |c_k| 2^(n-k)` (in powers of `1 - x`, then of `x`), which `F` bounds, and `F₁` the
+//! errors. So they are wrong by no more than
 //!
 //! ```text
 //!   e = r (F₁(M) e_y + 16 N U F(M)),   M = |y_c| + s |v| + e_y,      s = 1, r = 1;   s = 3, r = 1;   s = 1/2, r = 2^n
 //! ```
 //!
-//! as the roundings of `f` along a ray (`mod.rs`), of the change of variable, and of all that `polynomial_roots.rs` does are fewer than `12 N`. Where the part that
-//! matters is short it is the piece about its middle; else `t_c` is where the ray is closest to the origin, or starts if that is behind, and `|v| = 4 + 2 |y_c|` with largest
-//! coordinates for sizes, half of that for high orders: beyond, the leading terms decide mostly. (`n` is the order of `f`, not `N - 1`: a leading coefficient of zero would leave the sign at
-//! infinity open.)
+//! as the roundings of `f` along a ray (`mod.rs`), of the change of variable, and of all that
+//! `polynomial_roots.rs` does are fewer than `12 N`. Where the part that matters is short it is the
+//! piece about its middle; else `t_c` is where the ray is closest to the origin, or starts if that
+//! is behind, and `|v| = 4 + 2 |y_c|` with largest coordinates for sizes, half of that for high
+//! orders: beyond, the leading terms decide mostly. (`n` is the order of `f`, not `N - 1`: a
+//! leading coefficient of zero would leave the sign at infinity open.)
 //!
-//! **Which root** is proven so; where it is, within that error only. One step of Newton's method with `f` at the point itself, whose error goes with `|y|` alone, and two certain signs
-//! beside it close it in further, where they lie within.
+//! **Which root** is proven so; where it is, within that error only. One step of Newton's method
+//! with `f` at the point itself, whose error goes with `|y|` alone, and two certain signs beside it
+//! close it in further, where they lie within.
 //!
-//! **Where a ray starts** in a piece, or ends, is rounded outward by `8 U (|t_c| + T)`, and far before by as little: in all by no more than `128 U (1 + |y|)` at the start `y`, within which a
+//! **Where a ray starts** in a piece, or ends, is rounded outward by `8 U (|t_c| + T)`, and far
+//! before by as little: in all by no more than `128 U (1 + |y|)` at the start `y`, within which a
 //! start has the sign that it is known to have, if it was put off the surface (`Terms::skin`).
 
 use super::{Sizes, Terms};
@@ -36,7 +43,8 @@ use crate::packet::sink::Sink8;
 use durer_math::scale::pow2;
 use durer_math::{F8, M8, U, Vec3};
 
-/// Pays for what products may lose below the normal numbers: fewer than `2^17` of `2^-1075`, each times `N - 1` powers of numbers below `2 far`.
+/// Pays for what products may lose below the normal numbers: fewer than `2^17` of `2^-1075`, each
+/// times `N - 1` powers of numbers below `2 far`.
 const TINY: f64 = pow2(-240);
 
 /// Coordinates beyond this are doubts.
@@ -65,7 +73,8 @@ pub(in crate::packet) struct PolynomialScratch<const N: usize> {
     e: [F8; 3],
     t_c: F8,
     reach: F8,
-    /// The part of the ray that is looked at, and where within it crossings are surely of what is kept.
+    /// The part of the ray that is looked at, and where within it crossings are surely of what is
+    /// kept.
     from: F8,
     to: F8,
     after: F8,
@@ -110,8 +119,9 @@ impl<const N: usize> Default for PolynomialScratch<N> {
 }
 
 impl<const N: usize> Terms<N> {
-    /// Shows the crossings of each ray to `to`, or the first one; and where there is a doubt. Only what is within the faces of `cell`
-    /// counts. Of rays that leave the surface it is said whether the surface is turned round.
+    /// Shows the crossings of each ray to `to`, or the first one; and where there is a doubt. Only
+    /// what is within the faces of `cell` counts. Of rays that leave the surface it is said whether
+    /// the surface is turned round.
     pub(in crate::packet) fn meet<K: Sink8>(
         &self,
         own: &Own,
@@ -158,7 +168,8 @@ impl<const N: usize> Terms<N> {
         }
     }
 
-    /// Which points at `t` within `e` are surely inside, and which surely outside, as bits; for rays seen from the outline's centre.
+    /// Which points at `t` within `e` are surely inside, and which surely outside, as bits; for
+    /// rays seen from the outline's centre.
     #[inline(never)]
     pub(in crate::packet) fn holds(
         &self,
@@ -181,7 +192,8 @@ impl<const N: usize> Terms<N> {
         )
     }
 
-    /// A bound on the error of `f` at points with coordinates up to `m` that are known within `e`; infinite if they are too far away.
+    /// A bound on the error of `f` at points with coordinates up to `m` that are known within `e`;
+    /// infinite if they are too far away.
     #[inline(always)]
     fn error(&self, m: F8, e: F8) -> F8 {
         let m = m + e;
@@ -401,7 +413,8 @@ fn offer<K: Sink8, const N: usize>(
     );
 }
 
-/// The parameter of the ray at `x` in a piece, and how far that is off where `x` is within `e`; infinite where that could be anywhere.
+/// The parameter of the ray at `x` in a piece, and how far that is off where `x` is within `e`;
+/// infinite where that could be anywhere.
 #[inline(always)]
 fn at(piece: LineThird, (x, e): (F8, F8), t_c: F8, reach: F8) -> (F8, F8) {
     // T / (y - e) - T / y <= 2 T e / y²

@@ -12,19 +12,22 @@ pub(super) fn range(v: &[f64; 4]) -> (f64, f64) {
     (v.iter().fold(f64::INFINITY, |m, x| m.min(*x)), v.iter().fold(f64::NEG_INFINITY, |m, x| m.max(*x)))
 }
 
-/// The strip along the way from a curve's start to its end that holds the curve: between the least and the greatest height `h(p) = dx (z - z0) - dz (x - x0)` of its control points.
-/// A point beside the strip has all or none of the curve ahead.
+/// The strip along the way from a curve's start to its end that holds the curve: between the least
+/// and the greatest height `h(p) = dx (z - z0) - dz (x - x0)` of its control points. A point beside
+/// the strip has all or none of the curve ahead.
 struct Strip {
     way: [f64; 2],
     low: f64,
     high: f64,
-    /// No less than the change of a height with a coordinate, and than the errors of heights but for that of their point.
+    /// No less than the change of a height with a coordinate, and than the errors of heights but
+    /// for that of their point.
     slope: f64,
     rounding: f64,
 }
 
 impl Strip {
-    /// A height takes five roundings, of numbers no larger than `|dx| + |dz|` times two coordinates.
+    /// A height takes five roundings, of numbers no larger than `|dx| + |dz|` times two
+    /// coordinates.
     #[inline(always)]
     fn of(curve: &ProfileCurve8) -> Self {
         let [xs, zs] = curve.points;
@@ -39,7 +42,8 @@ impl Strip {
     }
 }
 
-/// Where the rays reach the plane of a cap; false if none does where it matters, which is everywhere on the line or only ahead.
+/// Where the rays reach the plane of a cap; false if none does where it matters, which is
+/// everywhere on the line or only ahead.
 #[inline(never)]
 pub(in crate::packet) fn reach<K: Sink8>(
     (rays, from): (&RayLanes<'_>, Option<&From8>),
@@ -56,7 +60,8 @@ pub(in crate::packet) fn reach<K: Sink8>(
             let steep = dy.abs().gt(e_d * CLEAR);
             let e_h = e_o + height.abs() * (4.0 * U);
             let (t, e) = quotient(-(oy - height), e_h, F8::ONE / dy, e_d);
-            // Of rays along the plane nothing is known from their start on, unless they stay away from it as far as that matters.
+            // Of rays along the plane nothing is known from their start on, unless they stay away
+            // from it as far as that matters.
             let (t, e) = (steep.keep(t), steep.keep(e));
             let rise = (dy.abs() + e_d) * memory.far + e_h + oy.abs() * U;
             let beside = !steep & (oy - height).abs().gt(rise * SLACK);

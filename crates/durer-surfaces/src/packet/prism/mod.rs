@@ -1,16 +1,21 @@
-//! Walls and caps of swept solids as lanes see them: a cubic curve in the xz plane, swept along y or towards the origin.
+//! Walls and caps of swept solids as lanes see them: a cubic curve in the xz plane, swept along y
+//! or towards the origin.
 //!
 //! ```text
 //!   linear   the trace of a ray o + t d in the plane is   dz x - dx z + (dx oz - dz ox) = 0,                            t = (x - ox) / dx
 //!   conic    ... of the plane through the origin and the ray, (o × d)·(x, 1, z) = 0,                                    t = (x oy - ox) / (dx - x dy)
 //! ```
 //!
-//! and the same with z for x; the larger divisor is taken. Along a curve `c(u) = (x, z)` the trace is a cubic `g(u)` (`polynomial_roots.rs`) whose Bernstein coefficients are its values at
-//! the control points: mostly they have one sign, and the ray passes by. Where they change, the root in `u` gives the point of the wall, and that the place on the ray.
-//! Inside a cap is where a line from the point along x crosses the curves an odd number of times. See `prism/curved/` for the same in exact numbers.
+//! and the same with z for x; the larger divisor is taken. Along a curve `c(u) = (x, z)` the trace
+//! is a cubic `g(u)` (`polynomial_roots.rs`) whose Bernstein coefficients are its values at the
+//! control points: mostly they have one sign, and the ray passes by. Where they change, the root in
+//! `u` gives the point of the wall, and that the place on the ray. Inside a cap is where a line
+//! from the point along x crosses the curves an odd number of times. See `prism/curved/` for the
+//! same in exact numbers.
 //!
-//! **Errors.** Values at control points are means' bounds: an error common to all of them is one of `g` everywhere. In powers of `u` the coefficients are no larger in sum than
-//! `12 Σ |g_i|`, for whose 64 roundings `polynomial_roots.rs` is paid.
+//! **Errors.** Values at control points are means' bounds: an error common to all of them is one of
+//! `g` everywhere. In powers of `u` the coefficients are no larger in sum than `12 Σ |g_i|`, for
+//! whose 64 roundings `polynomial_roots.rs` is paid.
 
 mod caps;
 mod walls;
@@ -38,7 +43,8 @@ pub(crate) struct ProfileCurve8 {
     slack: f64,
     /// No less than the magnitude of any number of it.
     reach: f64,
-    /// Least and greatest x, least and greatest z, with room for `slack` and for roundings of numbers of this size.
+    /// Least and greatest x, least and greatest z, with room for `slack` and for roundings of
+    /// numbers of this size.
     around: [f64; 4],
 }
 
@@ -57,7 +63,8 @@ pub(crate) enum Swept {
     Wall { curve: ProfileCurve8, sweep: Sweep8, left: bool },
     /// The cap at the bottom, or at the top, between all curves.
     Cap { curves: Box<[ProfileCurve8]>, sweep: Sweep8, top: bool },
-    /// All of a closed solid, and on which side of each curve the inside is; not known if curves may cross.
+    /// All of a closed solid, and on which side of each curve the inside is; not known if curves
+    /// may cross.
     Whole { curves: Box<[ProfileCurve8]>, sweep: Sweep8, left: Option<Box<[bool]>> },
 }
 
@@ -70,7 +77,8 @@ pub(super) struct PrismScratch {
     pub(super) e_d: F8,
     /// A bound on every `t` at which the surface can be met.
     far: F8,
-    /// Which rays are between the heights, and where their traces are there: the least and the greatest x, and z.
+    /// Which rays are between the heights, and where their traces are there: the least and the
+    /// greatest x, and z.
     between: M8,
     traces: [F8; 4],
     form: Form8,
@@ -96,7 +104,8 @@ impl Sweep8 {
     }
 }
 
-/// What a wall wants to know of a point: `u` round its curve, and, as the sign, whether the inside is to the left.
+/// What a wall wants to know of a point: `u` round its curve, and, as the sign, whether the inside
+/// is to the left.
 #[inline(always)]
 pub(super) fn tag_of(u: F8, left: M8) -> F8 {
     u.copysign(left.select(F8::ONE, F8::splat(-1.0)))
@@ -235,7 +244,8 @@ impl Swept {
         }
     }
 
-    /// Which points at `t` within `e` are surely in the solid, and which surely not, of the rays that are `asked` about: as bits.
+    /// Which points at `t` within `e` are surely in the solid, and which surely not, of the rays
+    /// that are `asked` about: as bits.
     pub(super) fn holds(
         &self,
         own: &Own,
@@ -265,8 +275,9 @@ impl Swept {
                     if sides.is_some() {
                         return skin;
                     }
-                    // So far out that its own crossing is surely behind: `cubic`'s bound along a ray, which comes with 12 U of 64 terms of
-                    // eight times the size, times what Newton's method and quotients make of it.
+                    // So far out that its own crossing is surely behind: `cubic`'s bound along a
+                    // ray, which comes with 12 U of 64 terms of eight times the size, times what
+                    // Newton's method and quotients make of it.
                     let stretch = if sweep.conic { 1.0 + sweep.low.abs().max(sweep.high.abs()) } else { 1.0 };
                     Skin { e_f: skin.e_f + curve.reach * (32768.0 * U) * stretch, ..skin }
                 }
@@ -306,7 +317,8 @@ fn cap_skin(own: &Own, sweep: &Sweep8, top: bool, y: Vec3<F8>, e: F8) -> Skin {
     }
 }
 
-/// What is at points of a wall, at `u` round the curve; `outward` is 1 where the inside is to the left, else -1.
+/// What is at points of a wall, at `u` round the curve; `outward` is 1 where the inside is to the
+/// left, else -1.
 #[inline(always)]
 fn wall_skin(
     own: &Own,
@@ -315,7 +327,8 @@ fn wall_skin(
     y: Vec3<F8>,
     e: F8,
 ) -> Skin {
-    // A step along the curve to the foot of the point: what `u` and the place on the ray are off by.
+    // A step along the curve to the foot of the point: what `u` and the place on the ray are off
+    // by.
     let ([cx, cz], [x1, z1]) = curve.at(u);
     let height = if sweep.conic { y.y } else { F8::ONE };
     let step = (y.x - cx * height).mul_add(x1, (y.z - cz * height) * z1);
@@ -339,7 +352,8 @@ fn wall_skin(
     let half = side * 0.5;
     let half = own.covector(Vec3::new(n.x * half, n.y * half, n.z * half));
     let (speed, turn) = curve.speed();
-    // The curve leaves its tangent by no more than |c''| / |c'|² times the square of the way along it.
+    // The curve leaves its tangent by no more than |c''| / |c'|² times the square of the way along
+    // it.
     let bend = F8::splat(2.0 * turn) / (slow * slow);
     let bend = if sweep.conic { bend * (1.0 + curve.reach) / y.y.abs() } else { bend };
     let way = along.abs() + across.abs();

@@ -7,10 +7,12 @@ use crate::packet::rays::{CLEAR, From8, RayLanes, SLACK};
 use crate::packet::sink::Sink8;
 use durer_math::{F8, M8, U};
 
-/// Finds where the rays are between the heights, ahead of their starts or anywhere on their lines, and a box in the plane of the outlines that holds their traces there; false if no ray is
-/// there. Puts down their traces' form, too.
+/// Finds where the rays are between the heights, ahead of their starts or anywhere on their lines,
+/// and a box in the plane of the outlines that holds their traces there; false if no ray is there.
+/// Puts down their traces' form, too.
 ///
-/// The places of the heights and of points are known as in `reach` of a cap. A trace is straight, so it lies between its ends; those of rays that may pass the apex are not bounded.
+/// The places of the heights and of points are known as in `reach` of a cap. A trace is straight,
+/// so it lies between its ends; those of rays that may pass the apex are not bounded.
 #[inline(never)]
 pub(in crate::packet) fn enclose<K: Sink8>(
     rays: &RayLanes<'_>,
@@ -133,7 +135,8 @@ pub(in crate::packet) fn cubic_of<K: Sink8>(
     )
 }
 
-/// The form `n·(x, 1, z)` that vanishes on the traces of eight rays; how large its values can be, and the bound `e + e_reach R` on their errors at points of size `R`.
+/// The form `n·(x, 1, z)` that vanishes on the traces of eight rays; how large its values can be,
+/// and the bound `e + e_reach R` on their errors at points of size `R`.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::packet) struct Form8 {
     n: [F8; 3],

@@ -1,4 +1,5 @@
-//! Surfaces of revolution as lanes see them: walls, each between two planes across the axis, and the flat ends.
+//! Surfaces of revolution as lanes see them: walls, each between two planes across the axis, and
+//! the flat ends.
 //!
 //! ```text
 //!   f(x, v, z) = α (n + v² + κ)² + β n - p(v),   n = x² + z²,   p a cubic         negative inside
@@ -8,13 +9,16 @@
 //!   α = -1, β = 4R²   4R² n = (n + v² + R² - r²)², the inner sheet of a spindle
 //! ```
 //!
-//! A ray is cut to where it is between the planes, within a cylinder that is a little wider than the wall, and in its range: there `f` is a quartic
-//! (`polynomial_roots.rs`). Outside the cylinder it is outside. Where it passes from one wall to the next both have to agree, for certain, on which side it is; else
-//! there is a doubt. So the walls may be asked in any order.
+//! A ray is cut to where it is between the planes, within a cylinder that is a little wider than
+//! the wall, and in its range: there `f` is a quartic (`polynomial_roots.rs`). Outside the cylinder
+//! it is outside. Where it passes from one wall to the next both have to agree, for certain, on
+//! which side it is; else there is a doubt. So the walls may be asked in any order.
 //!
-//! **Errors.** With coordinates up to `M`, `F`, `F₁` and `F₂` bound `f`, the sum of its first derivatives and the norm of its second, all with
-//! absolute values throughout. A point that is wrong by `e` per axis puts `F₁ e` into `f` and so it does, in sum, into the coefficients along a
-//! ray; the formulas round fewer than 16 times at a point, and 64 times along a ray with all that `polynomial_roots.rs` does.
+//! **Errors.** With coordinates up to `M`, `F`, `F₁` and `F₂` bound `f`, the sum of its first
+//! derivatives and the norm of its second, all with absolute values throughout. A point that is
+//! wrong by `e` per axis puts `F₁ e` into `f` and so it does, in sum, into the coefficients along a
+//! ray; the formulas round fewer than 16 times at a point, and 64 times along a ray with all that
+//! `polynomial_roots.rs` does.
 
 mod rays;
 
@@ -110,7 +114,8 @@ impl Lathe {
             let [low, high] = wall.slab.map(|y| y - wall.at);
             let far = low.abs().max(high.abs()) * (1.0 + 1.0 / 64.0);
             let m = wall.radius * (1.0 + 1.0 / 64.0);
-            // A ray's coefficients are made of a point within and of what leads from there to another one, twice as long at most.
+            // A ray's coefficients are made of a point within and of what leads from there to
+            // another one, twice as long at most.
             let (near, wide) = (wall.sizes(m, far), wall.sizes(3.0 * m, far + (high - low)));
             let slack = (wall.slab[0].abs() + wall.slab[1].abs() + wall.at.abs()) * (4.0 * U);
             Bounded { wall, near, wide, bend: wall.sizes(m * 1.25, far + 0.25 * m).bend, slack }
@@ -162,7 +167,8 @@ impl Lathe {
         let half = Vec3::new(across * y.x, (alpha * 2.0).mul_add(v, slope * -0.5), across * y.z);
         let e = e + (*slack + wall.radius * (4.0 * U));
         let e_half = (e * near.bend + near.slope * (16.0 * U)) * (2.0 * own.norm);
-        // Twice, so that rays from there are certain of their side by the bound of a polynomial's first value.
+        // Twice, so that rays from there are certain of their side by the bound of a polynomial's
+        // first value.
         let e_f = e * (4.0 * near.slope) + 32.0 * U * near.f;
         let bend = F8::splat(*bend * own.norm * own.norm * (1.0 + 16.0 * U));
         Skin { f, half: own.covector(half), e_f, e_half, bend, room: NEVER }

@@ -1,4 +1,5 @@
-//! Eight rays at a surface of revolution: where they cross its walls and ends, and which of their points are inside.
+//! Eight rays at a surface of revolution: where they cross its walls and ends, and which of their
+//! points are inside.
 
 use super::{Bounded, Lathe, value};
 use crate::packet::local_frame::Own;
@@ -18,7 +19,8 @@ struct RevolutionRays8 {
     e_d: F8,
     /// The sum of the direction's coordinates.
     d1: F8,
-    /// `a t² + 2 b t + c` is the square of the distance from the axis; the error of a point of the ray at most.
+    /// `a t² + 2 b t + c` is the square of the distance from the axis; the error of a point of the
+    /// ray at most.
     a: F8,
     b: F8,
     c: F8,
@@ -43,7 +45,8 @@ pub(in crate::packet) struct RevolutionScratch {
     high: HeightCrossing8,
     from: F8,
     length: F8,
-    /// On which side of the wall a ray is where it passes the height below and the one above: 1 outside, -1 inside, 0 not known.
+    /// On which side of the wall a ray is where it passes the height below and the one above: 1
+    /// outside, -1 inside, 0 not known.
     sides: [F8; 2],
     /// The same where rays start, if that is known.
     start: F8,
@@ -53,8 +56,8 @@ pub(in crate::packet) struct RevolutionScratch {
 }
 
 impl Lathe {
-    /// Shows the crossings of each ray to `to`, or the first one of each wall; and where there is a doubt. Of rays that leave the surface it is said whether the
-    /// surface is turned round.
+    /// Shows the crossings of each ray to `to`, or the first one of each wall; and where there is a
+    /// doubt. Of rays that leave the surface it is said whether the surface is turned round.
     pub(in crate::packet) fn meet<K: Sink8>(
         &self,
         own: &Own,
@@ -101,7 +104,8 @@ impl Lathe {
         self.seam(rays, self.walls.len(), &high, &(before, F8::ONE), to);
     }
 
-    /// Which points at `t` within `e` are surely inside, and which surely outside, as bits; for rays seen from the outline's centre.
+    /// Which points at `t` within `e` are surely inside, and which surely outside, as bits; for
+    /// rays seen from the outline's centre.
     #[inline(never)]
     pub(in crate::packet) fn holds(
         &self,

@@ -1,8 +1,10 @@
 //! Which of two crossings with curved walls comes first along a ray, exactly.
 //!
-//! Each is at `s = p(u) / q(u)` for a root `u` of a cubic `g` (`parameter.rs`). The resultant of `g(u)` and `p(u) - s q(u)`, from which `u` is eliminated (E. Bézout,
-//! *Théorie générale des équations algébriques*, 1779), is a polynomial in `s` that vanishes there. Between two roots of the product of both there is a number,
-//! and on which side of it each crossing lies is the sign of a polynomial at its `u`.
+//! Each is at `s = p(u) / q(u)` for a root `u` of a cubic `g` (`parameter.rs`). The resultant of
+//! `g(u)` and `p(u) - s q(u)`, from which `u` is eliminated (E. Bézout, *Théorie générale des
+//! équations algébriques*, 1779), is a polynomial in `s` that vanishes there. Between two roots of
+//! the product of both there is a number, and on which side of it each crossing lies is the sign of
+//! a polynomial at its `u`.
 
 use super::exact::Exactly;
 use super::forms::along;
@@ -18,7 +20,8 @@ use durer_math::Dyadic;
 type Poly = Vec<Dyadic>;
 
 impl Places<'_, '_> {
-    /// The order of two crossings; equal if they are at one point, or if the ray is not exactly known.
+    /// The order of two crossings; equal if they are at one point, or if the ray is not exactly
+    /// known.
     #[cold]
     #[inline(never)]
     pub(super) fn order(&self, a: (&ProfileCurve, &Meet), b: (&ProfileCurve, &Meet)) -> Ordering {
@@ -51,7 +54,8 @@ impl Places<'_, '_> {
     }
 }
 
-/// The resultant of `g(u)` and `p(u) - s q(u)`: the determinant of Bézout's matrix. Not zero, since no `u` makes all three vanish.
+/// The resultant of `g(u)` and `p(u) - s q(u)`: the determinant of Bézout's matrix. Not zero, since
+/// no `u` makes all three vanish.
 fn resultant(g: &[Dyadic; 4], p: &[Dyadic; 4], q: &[Dyadic; 4]) -> Poly {
     // Of polynomials with no power in common that is zero in all of them; else it would vanish.
     let n = (1..4).rev().find(|&i| [g, p, q].iter().any(|f| !f[i].is_zero())).unwrap_or(1);

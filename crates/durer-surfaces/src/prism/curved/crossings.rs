@@ -81,7 +81,8 @@ impl CurvedPrism {
         }
     }
 
-    /// The same by the order along the line of the crossing and the points at which the ray passes the heights.
+    /// The same by the order along the line of the crossing and the points at which the ray passes
+    /// the heights.
     #[cold]
     #[inline(never)]
     fn is_exactly_between(&self, probe: &Probe<'_>, piece: &ProfileCurve, meet: &Meet) -> bool {
@@ -100,14 +101,16 @@ impl CurvedPrism {
         };
         let order = if rise > 0 { [0, 1] } else { [1, 0] };
         let [entry, exit] = order.map(|i| &levels[i]);
-        // A ray passes the apex's height far beyond all outlines, and comes back from the other side.
+        // A ray passes the apex's height far beyond all outlines, and comes back from the other
+        // side.
         let at_apex = |level: &HeightPlane| self.view.sweep == Sweep::Conic && level.height == 0.0;
         let (entered, left) = (at_apex(entry) || !is_behind(entry), !at_apex(exit) && !is_behind(exit));
         let through_apex = self.view.sweep == Sweep::Conic && self.heights[0] < 0.0 && self.heights[1] > 0.0;
         if through_apex { entered || !left } else { entered && !left }
     }
 
-    /// The crossing with a cap, or, of a ray through the apex that goes on inside the other cap's outlines, with a tip.
+    /// The crossing with a cap, or, of a ray through the apex that goes on inside the other cap's
+    /// outlines, with a tip.
     #[inline(always)]
     fn cap_crossing(&self, probe: &Probe<'_>, top: bool, range: Option<(f64, f64)>) -> Option<Crossing> {
         let level = self.level(top);
@@ -237,7 +240,8 @@ impl CurvedPrism {
                 all.push((crossing, CrossedFace::Cap(top)));
             }
         }
-        // What is between the caps is, by the exact order along the line, after the one by which the ray enters and before the other.
+        // What is between the caps is, by the exact order along the line, after the one by which
+        // the ray enters and before the other.
         let rank = |(crossing, face): &(Crossing, CrossedFace)| match face {
             CrossedFace::Wall(..) => 1,
             CrossedFace::Cap(top) if (crossing.sign > 0) != *top => 0,

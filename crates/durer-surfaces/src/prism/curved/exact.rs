@@ -82,7 +82,8 @@ pub(super) enum Exactly {
 }
 
 impl Exactly {
-    /// Of several so close together that their brackets cannot tell them apart, the one that turns as the crossing does.
+    /// Of several so close together that their brackets cannot tell them apart, the one that turns
+    /// as the crossing does.
     pub(super) fn new(g: Vec<Dyadic>, meet: &Meet) -> Option<Self> {
         if meet.lo == meet.hi && meet.y.abs() == 0.5 && at(&g, meet.y).is_zero() {
             return Some(Self::At(meet.y));

@@ -15,9 +15,11 @@ pub(super) type Form<T> = [T; 3];
 pub(super) enum Cut<'a> {
     /// A ray.
     Ray,
-    /// A ray, and on it the point at a height; `positive` is the sign of what that point is divided by.
+    /// A ray, and on it the point at a height; `positive` is the sign of what that point is divided
+    /// by.
     Height { level: &'a HeightPlane, positive: bool },
-    /// The same for a ray that the plane of the outlines sees as a point: a line through it along x.
+    /// The same for a ray that the plane of the outlines sees as a point: a line through it along
+    /// x.
     Point { level: &'a HeightPlane, positive: bool },
     /// A point by itself, the start of the line, and a line through it along x.
     Start { positive: bool },
@@ -126,7 +128,8 @@ pub(super) fn sized(ray: RingRay<EFloat<Dd>>) -> RingRay<EFloat<Dd>> {
     RingRay { o: ray.o.map(|x| x.scale2(k)), d: ray.d.map(|x| x.scale2(k)), w: ray.w.scale2(k) }
 }
 
-/// The exact line; if it is not exactly known, the one that the rounded numbers describe, and `false`.
+/// The exact line; if it is not exactly known, the one that the rounded numbers describe, and
+/// `false`.
 pub(super) fn exact_line<L: Line>(line: &L) -> (RingRay<Dyadic>, bool) {
     match line.exact() {
         Some(exact) => (exact, true),

@@ -1,4 +1,5 @@
-//! The prism with curved walls: outlines of cubic curves in the xz plane, swept along y, or towards a point.
+//! The prism with curved walls: outlines of cubic curves in the xz plane, swept along y, or towards
+//! a point.
 //!
 //! ```text
 //!       linear                conic
@@ -9,13 +10,16 @@
 //!       `--'  bottom                        for bottom <= y <= top
 //! ```
 //!
-//! A ray and the direction of the sweep, or its apex, span a plane, which cuts the plane of the outlines in a line; where that meets an outline, a
-//! cubic in `u` vanishes (`profile_hits.rs`), and where on the ray that is, a quotient of two cubics says (`parameter.rs`). A point is inside where the outlines
-//! go round an odd number of times: a cap is met where the line has met the outlines an odd number of times before it, by the very signs that decide
-//! about the walls. So the solid is closed, exactly: a line crosses it inward and outward in turn.
+//! A ray and the direction of the sweep, or its apex, span a plane, which cuts the plane of the
+//! outlines in a line; where that meets an outline, a cubic in `u` vanishes (`profile_hits.rs`),
+//! and where on the ray that is, a quotient of two cubics says (`parameter.rs`). A point is inside
+//! where the outlines go round an odd number of times: a cap is met where the line has met the
+//! outlines an odd number of times before it, by the very signs that decide about the walls. So the
+//! solid is closed, exactly: a line crosses it inward and outward in turn.
 //!
-//! J. T. Kajiya, "New techniques for ray tracing procedurally defined objects", SIGGRAPH 1983; J. J. van Wijk, "Ray tracing objects defined by
-//! sweeping planar cubic splines", *ACM Transactions on Graphics* 3, 1984.
+//! J. T. Kajiya, "New techniques for ray tracing procedurally defined objects", SIGGRAPH 1983; J.
+//! J. van Wijk, "Ray tracing objects defined by sweeping planar cubic splines", *ACM Transactions
+//! on Graphics* 3, 1984.
 
 mod compare;
 mod crossings;
@@ -46,10 +50,12 @@ use profile_curve::{ProfileCurve, View};
 use profile_hits::{Meet, Scan};
 pub use spline::{Bezier, Spline};
 
-/// A solid between two planes across y, within curved outlines that are swept from one to the other; without its caps a sheet.
+/// A solid between two planes across y, within curved outlines that are swept from one to the
+/// other; without its caps a sheet.
 ///
-/// Faces: 0 the walls, 1 the cap at the bottom, 2 the one at the top, or the tip there. Parts: the walls of the pieces, then the caps. A tangled prism is one part, since
-/// its signs alternate along the whole line.
+/// Faces: 0 the walls, 1 the cap at the bottom, 2 the one at the top, or the tip there. Parts: the
+/// walls of the pieces, then the caps. A tangled prism is one part, since its signs alternate along
+/// the whole line.
 ///
 /// # Invariants
 ///
@@ -57,8 +63,8 @@ pub use spline::{Bezier, Spline};
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurvedPrism {
     pieces: Vec<ProfileCurve>,
-    /// For each piece, whether the inside is to its left, x to the right and z up; `None` if the outlines may meet themselves or each other, so
-    /// that it may be on either side.
+    /// For each piece, whether the inside is to its left, x to the right and z up; `None` if the
+    /// outlines may meet themselves or each other, so that it may be on either side.
     inside_is_left: Option<Vec<bool>>,
     /// The bottom and the top.
     heights: [f64; 2],
@@ -77,14 +83,14 @@ pub struct CurvedPrism {
 const LARGEST: f64 = durer_math::scale::pow2(200);
 
 impl CurvedPrism {
-    /// The prism between the heights `bottom` and `top` (in any order) within these outlines. A piece begins where the one before it ends, the first one
-    /// where the last one ends.
+    /// The prism between the heights `bottom` and `top` (in any order) within these outlines. A
+    /// piece begins where the one before it ends, the first one where the last one ends.
     pub fn linear(outlines: &[impl AsRef<[Bezier]>], bottom: f64, top: f64) -> Result<Self, PrismError> {
         Self::new(outlines, bottom, top, Sweep::Linear)
     }
 
-    /// The same, the outlines at the height `y` being `y` times as large: a cone with its apex at the origin, or the part of one between the
-    /// heights, or two that meet.
+    /// The same, the outlines at the height `y` being `y` times as large: a cone with its apex at
+    /// the origin, or the part of one between the heights, or two that meet.
     pub fn conic(outlines: &[impl AsRef<[Bezier]>], bottom: f64, top: f64) -> Result<Self, PrismError> {
         Self::new(outlines, bottom, top, Sweep::Conic)
     }
@@ -227,7 +233,8 @@ impl Surface for CurvedPrism {
         }
     }
 
-    /// Texture coordinates: of the walls once round all outlines, piece by piece, and from the bottom to the top; of the caps lengths.
+    /// Texture coordinates: of the walls once round all outlines, piece by piece, and from the
+    /// bottom to the top; of the caps lengths.
     #[inline(never)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         if root.face == 0 {
@@ -372,7 +379,8 @@ impl Algebraic for CurvedPrism {
             let piece = self.pieces.get(root.tag[0] as usize / 2)?;
             let probe = self.probe(ray);
             let scan = Scan::new(&probe, &self.view, Cut::Ray);
-            // Found again as it was found: by the same numbers, or, if this ray is known more roughly or less, the nearest.
+            // Found again as it was found: by the same numbers, or, if this ray is known more
+            // roughly or less, the nearest.
             let mut found: Option<Meet> = None;
             scan.meets(piece, |meet| {
                 let way = |m: &Meet| (m.y - root.tag[1]).abs();
@@ -380,7 +388,8 @@ impl Algebraic for CurvedPrism {
                     found = Some(meet);
                 }
             });
-            // The centre and its unit are the same, the parameter is the ray's own, and the curve's parameter does not depend on it.
+            // The centre and its unit are the same, the parameter is the ray's own, and the curve's
+            // parameter does not depend on it.
             return parameter::sign_at(&scan, &exact, piece, &found?, [&q.a, &q.b, &q.c]);
         }
         self.level(root.face == 2).sign_at_root(&exact, q)

@@ -1,4 +1,5 @@
-//! Where along a ray a crossing with a curved wall is: a quotient of two cubics in the curve's parameter.
+//! Where along a ray a crossing with a curved wall is: a quotient of two cubics in the curve's
+//! parameter.
 //!
 //! ```text
 //!   linear   s = d·(c(u) - o) / d·d              o, d without their heights
@@ -78,7 +79,8 @@ impl<'a, 'r> Places<'a, 'r> {
         )
     }
 
-    /// The root by Newton's method; its bracket has certain signs at both ends, or ends with the bracket that was given.
+    /// The root by Newton's method; its bracket has certain signs at both ends, or ends with the
+    /// bracket that was given.
     #[inline(always)]
     fn in_double_double(&self, piece: &ProfileCurve, meet: &Meet) -> Option<Crossing> {
         let ray = sized(self.probe.double()?);
@@ -160,7 +162,8 @@ impl<'a, 'r> Places<'a, 'r> {
         best
     }
 
-    /// The same in f64, as seen from the ends: their points do not carry the rounding of the closest approach.
+    /// The same in f64, as seen from the ends: their points do not carry the rounding of the
+    /// closest approach.
     #[inline(always)]
     fn is_surely_in_range(&self, piece: &ProfileCurve, meet: &Meet, crossing: &Crossing) -> Option<bool> {
         let c = ProfileCurve::at(&piece.powers, &meet.running());
@@ -233,7 +236,8 @@ impl<'a, 'r> Places<'a, 'r> {
     }
 }
 
-/// The exact sign of `a t² + 2 b t + c`, `t` the ray's own parameter in which it is given, at a crossing.
+/// The exact sign of `a t² + 2 b t + c`, `t` the ray's own parameter in which it is given, at a
+/// crossing.
 pub(super) fn sign_at<L: Line>(
     scan: &Scan<'_, L>,
     ray: &RingRay<Dyadic>,

@@ -9,8 +9,9 @@ use durer_math::{EFloat, Isa, Point3, Ring, U, Vec3};
 
 /// Pays for results below the normal range, in units of the prism's size.
 const TINY: f64 = durer_math::scale::pow2(-500);
-/// How far rays start from the surface at least, in units of the prism's size: far enough for f64 to see on which side of a crossing's bracket the
-/// start is. What the bracket loses at a grazing ray the way from the surface to the start gains.
+/// How far rays start from the surface at least, in units of the prism's size: far enough for f64
+/// to see on which side of a crossing's bracket the start is. What the bracket loses at a grazing
+/// ray the way from the surface to the start gains.
 const CLEAR: f64 = 256.0 * U;
 
 /// The piece of a root, the part of the outlines round which it is, and of the heights.
@@ -33,7 +34,8 @@ impl Wall<'_> {
         )
     }
 
-    /// The parameter near `y` where the curve is nearest to a point: one step of Newton's, if it is a small one.
+    /// The parameter near `y` where the curve is nearest to a point: one step of Newton's, if it is
+    /// a small one.
     #[inline(always)]
     fn nearest(&self, [x, z]: [f64; 2], y: f64) -> f64 {
         let [cx, cz] = ProfileCurve::at(&self.piece.powers, &EFloat::exact(y)).map(|c| c.v);
@@ -51,7 +53,8 @@ impl Wall<'_> {
         let q = Vec3::new(s.mul_add(at.d.x, at.o.x), s.mul_add(at.d.y, at.o.y), s.mul_add(at.d.z, at.o.z));
         let e_q = at.o_err + at.d_err * s.abs() + q.abs() * U;
 
-        // On the curve as f64 knows it, at the ray's height; where that is nearest to the ray's own place there, as the root's bracket knows it better than `u`.
+        // On the curve as f64 knows it, at the ray's height; where that is nearest to the ray's own
+        // place there, as the root's bracket knows it better than `u`.
         let height = if sweep == Sweep::Conic { q.y } else { 1.0 };
         let y = self.nearest([q.x / height, q.z / height], y);
         let [x, z] =
@@ -81,7 +84,8 @@ impl Wall<'_> {
         };
         let scaled = right.max_abs();
         let plain = scaled > TINY && scaled.is_finite();
-        // At a point of the curve where it stops and turns there is no normal: across the way from end to end.
+        // At a point of the curve where it stops and turns there is no normal: across the way from
+        // end to end.
         let [a, b] = [self.piece.points[0], self.piece.points[3]];
         let fallback = Vec3::new(b[1] - a[1], 0.0, a[0] - b[0]);
         let across = if plain {
@@ -93,8 +97,9 @@ impl Wall<'_> {
         };
         let length = across.length();
         let normal = across * (side / length);
-        // Along the ruling a wall is straight. Across it bends by c''·n G / (E G - F²), E, F, G the first fundamental form of (u, height):
-        // the cross product of the tangents is `right` times the height, its square E G - F².
+        // Along the ruling a wall is straight. Across it bends by c''·n G / (E G - F²), E, F, G the
+        // first fundamental form of (u, height): the cross product of the tangents is `right` times
+        // the height, its square E G - F².
         let size = length * scaled;
         let bend = if plain {
             let second = x2 * normal.x + z2 * normal.z;

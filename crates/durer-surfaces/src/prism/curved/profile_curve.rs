@@ -62,10 +62,13 @@ impl ProfileCurve {
         piece
     }
 
-    /// Whether a ray surely passes by all that the piece sweeps: its trace has all control points on one side. The first and cheapest test.
+    /// Whether a ray surely passes by all that the piece sweeps: its trace has all control points
+    /// on one side. The first and cheapest test.
     ///
-    /// With `R` the largest `|x - ox| + |z - oz|`, `D = |dx| + |dz|` the values round by `4 U D R`, and the ray's own errors add `D e_o + R e_d` and their product, twice. The
-    /// form of a conic sweep is a cross product, of which each component rounds by `3 U |o|₁ |d|₁`, times `1 + |x| + |z|`.
+    /// With `R` the largest `|x - ox| + |z - oz|`, `D = |dx| + |dz|` the values round by `4 U D R`,
+    /// and the ray's own errors add `D e_o + R e_d` and their product, twice. The form of a conic
+    /// sweep is a cross product, of which each component rounds by `3 U |o|₁ |d|₁`, times
+    /// `1 + |x| + |z|`.
     #[inline(always)]
     pub(super) fn is_passed_by(&self, ray: &LocalRay<'_>, sweep: Sweep) -> bool {
         let (o, d) = (ray.o, ray.d);
@@ -107,7 +110,8 @@ impl ProfileCurve {
 
     /// The factors of the powers of `y = u - 1/2`, in any ring.
     ///
-    /// `(1-u)³ = 1/8 - 3/4 y + 3/2 y² - y³` and `3u(1-u)² = 3/8 - 3/4 y - 3/2 y² + 3 y³`; the others by symmetry.
+    /// `(1-u)³ = 1/8 - 3/4 y + 3/2 y² - y³` and `3u(1-u)² = 3/8 - 3/4 y - 3/2 y² + 3 y³`; the
+    /// others by symmetry.
     #[inline(always)]
     pub(super) fn in_powers<T: Ring>(&self, view: &View) -> [[T; 2]; 4] {
         #[inline(always)]
@@ -141,8 +145,8 @@ impl ProfileCurve {
         [axis(powers, y, 0), axis(powers, y, 1)]
     }
 
-    /// The first and second derivative at `y = u - 1/2`, rounded. From differences of control points, so that they are precise where they are small at an
-    /// end of the curve.
+    /// The first and second derivative at `y = u - 1/2`, rounded. From differences of control
+    /// points, so that they are precise where they are small at an end of the curve.
     pub(super) fn slopes(&self, view: &View, y: f64) -> ([f64; 2], [f64; 2]) {
         let (u, v) = (0.5 + y, 0.5 - y);
         let unit = |x: f64| if view.sweep == Sweep::Linear { scale2(x, -view.scale) } else { x };
@@ -167,8 +171,9 @@ pub(super) fn extent(points: &Bezier) -> [[f64; 2]; 2] {
     })
 }
 
-/// No less than the greatest value of a polynomial with these Bernstein coefficients, and above it by little: the part whose coefficients promise
-/// most is halved until it promises no more than an end of it has.
+/// No less than the greatest value of a polynomial with these Bernstein coefficients, and above it
+/// by little: the part whose coefficients promise most is halved until it promises no more than an
+/// end of it has.
 fn greatest(b: [f64; 4]) -> f64 {
     let most = |b: &Bernstein<f64, 4>| b.b.iter().fold(f64::NEG_INFINITY, |m, &x| m.max(x)) + b.e;
     let ends = b[0].max(b[3]);

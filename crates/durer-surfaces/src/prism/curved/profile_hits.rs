@@ -1,11 +1,14 @@
 //! Where a line in the plane of the outlines meets their curves.
 //!
-//! A ray and the direction of a linear sweep, or the apex of a conic one, span a plane; its trace in the plane of the outlines is a line,
-//! `n·(x, 1, z) = 0`. It meets a piece `c(u)` where the cubic `g(u) = n·(x(u), 1, z(u))` vanishes. Signs of `g` are exact; that of zero is plus,
-//! as if the line were moved aside by less than any number, all of it and for all pieces alike. So a line through the common end of two pieces
-//! meets both, one or none of them, just as a line beside it does, and closed curves an even number of times.
+//! A ray and the direction of a linear sweep, or the apex of a conic one, span a plane; its trace
+//! in the plane of the outlines is a line, `n·(x, 1, z) = 0`. It meets a piece `c(u)` where the
+//! cubic `g(u) = n·(x(u), 1, z(u))` vanishes. Signs of `g` are exact; that of zero is plus, as if
+//! the line were moved aside by less than any number, all of it and for all pieces alike. So a line
+//! through the common end of two pieces meets both, one or none of them, just as a line beside it
+//! does, and closed curves an even number of times.
 //!
-//! Along the line the order of points is that of `r·(x, 1, z)`, zero at a point of the line that is asked about, and growing the way the ray goes.
+//! Along the line the order of points is that of `r·(x, 1, z)`, zero at a point of the line that is
+//! asked about, and growing the way the ray goes.
 
 use super::exact::{Ends, at, exact_sign, turn};
 use super::forms::{Coefficient, Cut, Form, along, exact_line, sized, value};
@@ -188,7 +191,8 @@ impl<'a, L: Line> Scan<'a, L> {
             self.exact_meets(piece, &mut f);
             return;
         }
-        // Mostly the bracket is as narrow as f64 allows; where it matters on the ray, it is closed in from there.
+        // Mostly the bracket is as narrow as f64 allows; where it matters on the ray, it is closed
+        // in from there.
         let limits = Limits { lo: -1.0, hi: 1.0, origin: 0.0, width: PREVIEW_WIDTH };
         solve(
             &Shadow { scan: self, piece },
@@ -208,7 +212,8 @@ impl<'a, L: Line> Scan<'a, L> {
         );
     }
 
-    /// The same, where the line passes through an end of the piece, or so near that f64 cannot tell.
+    /// The same, where the line passes through an end of the piece, or so near that f64 cannot
+    /// tell.
     #[cold]
     #[inline(never)]
     fn exact_meets(&self, piece: &ProfileCurve, f: &mut dyn FnMut(Meet)) {
@@ -258,7 +263,8 @@ impl<'a, L: Line> Scan<'a, L> {
         self.order(piece, meet).is_some_and(Ordering::is_lt)
     }
 
-    /// Where a crossing is, relative to the point that is asked about; `None` only if the line is not exactly known.
+    /// Where a crossing is, relative to the point that is asked about; `None` only if the line is
+    /// not exactly known.
     #[inline(always)]
     pub(super) fn order(&self, piece: &ProfileCurve, meet: &Meet) -> Option<Ordering> {
         match value(&self.r, ProfileCurve::at(&piece.powers, &meet.running())).sign() {

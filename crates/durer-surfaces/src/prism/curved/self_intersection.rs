@@ -1,8 +1,10 @@
 //! Whether curves meet themselves or each other, and on which side of each the inside lies.
 //!
-//! Curves are cut into *arcs* whose directions lie within less than half a turn, so that an arc does not meet itself. Two arcs are apart if their
-//! control points' boxes are; two that follow each other meet in nothing but their common end if a line through it has the control points of
-//! one on one side and those of the other on the other side. Arcs that are neither are halved. The answer "they may meet" costs only time.
+//! Curves are cut into *arcs* whose directions lie within less than half a turn, so that an arc
+//! does not meet itself. Two arcs are apart if their control points' boxes are; two that follow
+//! each other meet in nothing but their common end if a line through it has the control points of
+//! one on one side and those of the other on the other side. Arcs that are neither are halved. The
+//! answer "they may meet" costs only time.
 
 use super::spline::Bezier;
 use crate::prism::outline::Point;
@@ -25,7 +27,8 @@ struct Arc {
     still: [bool; 2],
 }
 
-/// The number of a piece's start on its curve; between it and the next there is room for all halves.
+/// The number of a piece's start on its curve; between it and the next there is room for all
+/// halves.
 fn number(piece: usize) -> u64 {
     (piece as u64) << DEEPEST
 }
@@ -117,7 +120,8 @@ fn dot(a: Point, b: Point) -> f64 {
 /// Whether curves certainly meet neither themselves nor each other.
 pub(super) fn are_simple(outlines: &[Vec<Bezier>]) -> bool {
     let most = outlines.iter().flatten().flatten().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
-    // Each halving moves a control point by a few roundings of its size, twice a unit at most for all; differences and products add theirs.
+    // Each halving moves a control point by a few roundings of its size, twice a unit at most for
+    // all; differences and products add theirs.
     let room = most * (64.0 * U) * 4.0;
     let mut arcs = Vec::new();
     for (outline, pieces) in outlines.iter().enumerate() {
@@ -169,9 +173,11 @@ pub(super) fn are_simple(outlines: &[Vec<Bezier>]) -> bool {
     true
 }
 
-/// Whether a closed curve that does not meet itself goes round counter-clockwise, x to the right and z up; `None` if it has no area.
+/// Whether a closed curve that does not meet itself goes round counter-clockwise, x to the right
+/// and z up; `None` if it has no area.
 ///
-/// Twice the area is the integral of `x z' - z x'`; the factors are those of the powers of `y`, integrated from -1/2 to 1/2, times 240.
+/// Twice the area is the integral of `x z' - z x'`; the factors are those of the powers of `y`,
+/// integrated from -1/2 to 1/2, times 240.
 pub(super) fn is_counter_clockwise(powers: impl Iterator<Item = [[Dyadic; 2]; 4]>) -> Option<bool> {
     let area = powers.fold(Dyadic::ZERO, |sum, p| {
         let minor = |i: usize, j: usize| &(&p[i][0] * &p[j][1]) - &(&p[j][0] * &p[i][1]);

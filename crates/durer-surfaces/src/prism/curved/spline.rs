@@ -6,9 +6,11 @@
 //!   Bezier      [a b c d] [d e f g] ..    the curve with these control points
 //! ```
 //!
-//! The curve is what stands in brackets and is closed; the points before and behind it only say how it begins and ends. Cubic splines are
-//! those of E. Catmull, R. Rom, "A class of local interpolating splines", *Computer Aided Geometric Design* (ed. Barnhill, Riesenfeld), 1974. Inner
-//! control points of a piece are rounded to f64, ends are the points themselves; the exact solid is that of the rounded points.
+//! The curve is what stands in brackets and is closed; the points before and behind it only say how
+//! it begins and ends. Cubic splines are those of E. Catmull, R. Rom, "A class of local
+//! interpolating splines", *Computer Aided Geometric Design* (ed. Barnhill, Riesenfeld), 1974.
+//! Inner control points of a piece are rounded to f64, ends are the points themselves; the exact
+//! solid is that of the rounded points.
 
 use crate::prism::outline::Point;
 
@@ -36,7 +38,8 @@ impl Spline {
             Self::Quadratic => {
                 let piece = |p: &[Point]| {
                     let [before, a, b] = [p[0], p[1], p[2]];
-                    // The middle control point of the parabola, a + (b - before) / 4, raised by one degree.
+                    // The middle control point of the parabola, a + (b - before) / 4, raised by one
+                    // degree.
                     let middle = toward(a, before, b, 0.25);
                     [a, toward(a, a, middle, 2.0 / 3.0), toward(b, b, middle, 2.0 / 3.0), b]
                 };

@@ -1,4 +1,5 @@
-//! The laws, against crossings in exact numbers that share nothing with the kernel; and what must hold of rays through joints and rims.
+//! The laws, against crossings in exact numbers that share nothing with the kernel; and what must
+//! hold of rays through joints and rims.
 
 mod swept;
 
@@ -73,7 +74,8 @@ fn cases() -> Vec<(CurvedPrism, Swept)> {
     out
 }
 
-/// Points of the walls, with tangents and rulings; at few-bit places of curves with few-bit control points all of this is exact.
+/// Points of the walls, with tangents and rulings; at few-bit places of curves with few-bit control
+/// points all of this is exact.
 fn features(oracle: &Swept) -> Vec<Feature> {
     let mut out = vec![];
     let heights = [oracle.low, oracle.high, 0.5 * oracle.low + 0.5 * oracle.high];
@@ -312,7 +314,8 @@ fn bad_curved_prisms_are_named() {
     assert!(matches!(CurvedPrism::linear(&[far], 0.0, 1.0), Err(PrismError::Point { .. })));
 }
 
-/// Under a placement of which the inverse is rounded, a ray that goes along the sweep crosses the walls where f64 knows nothing: no bracket but all numbers.
+/// Under a placement of which the inverse is rounded, a ray that goes along the sweep crosses the
+/// walls where f64 knows nothing: no bracket but all numbers.
 #[test]
 fn along_the_sweep_who_looks_finds_what_who_measures_finds() {
     let affine =

@@ -43,7 +43,8 @@ fn powers(b: &Bezier) -> [Poly; 2] {
     })
 }
 
-/// The points `p` whose projection `(x, z) / w` lies within the outlines, `w` being 1 or `y`, between two heights.
+/// The points `p` whose projection `(x, z) / w` lies within the outlines, `w` being 1 or `y`,
+/// between two heights.
 pub(super) struct Swept {
     pub(super) outlines: Vec<Vec<Bezier>>,
     pub(super) low: f64,
@@ -69,7 +70,8 @@ impl Swept {
         self.outlines.iter().flatten()
     }
 
-    /// Whether the outlines go an odd number of times round the point `(x, z) / w`, `w` above zero; `None` on them.
+    /// Whether the outlines go an odd number of times round the point `(x, z) / w`, `w` above zero;
+    /// `None` on them.
     fn is_within(&self, x: &Exact, z: &Exact, w: &Exact) -> Option<bool> {
         let half = Exact::from(0.5);
         let mut odd = false;
@@ -157,7 +159,8 @@ impl Swept {
                 [form(n), form([dx.clone(), back, dz.clone()]), vec![square]]
             }
             Sweep::Conic => {
-                // y of the ray's point is t dy + oy, and x(u) times that its x: of the two equations the one with the other's rows.
+                // y of the ray's point is t dy + oy, and x(u) times that its x: of the two
+                // equations the one with the other's rows.
                 let minor = |a: &Exact, b: &Exact, c: &Exact, d: &Exact| &(a * d) - &(b * c);
                 let n = [minor(oy, oz, dy, dz), minor(oz, ox, dz, dx), minor(ox, oy, dx, dy)];
                 // (o + t d) x C = 0, times n.
@@ -171,7 +174,8 @@ impl Swept {
         }
     }
 
-    /// All crossings, ascending, with their faces; `None` if the line meets a joint or a rim, or runs within a face, or two crossings are one.
+    /// All crossings, ascending, with their faces; `None` if the line meets a joint or a rim, or
+    /// runs within a face, or two crossings are one.
     pub(super) fn met(&self, line: &ExactLine) -> Option<Vec<Met>> {
         self.known.get(line, || self.find(line))
     }
@@ -262,7 +266,8 @@ impl Swept {
         Some(crossings)
     }
 
-    /// Of the piece that is nearest to a point of space: the normal in space at the nearest place, the distance, and the place on the piece.
+    /// Of the piece that is nearest to a point of space: the normal in space at the nearest place,
+    /// the distance, and the place on the piece.
     fn nearest(&self, point: &[Exact; 3]) -> (Vec3, f64, f64, usize) {
         let [x, y, z] = point.clone().map(|x| x.to_f64());
         let w = if self.sweep == Sweep::Linear { 1.0 } else { y };
@@ -309,7 +314,8 @@ impl Swept {
     }
 }
 
-/// `t = num / den` at a root of `g`: as the root of a polynomial in `t`, Bezout's resultant of `g` and `num - t den`, and a number near it.
+/// `t = num / den` at a root of `g`: as the root of a polynomial in `t`, Bezout's resultant of `g`
+/// and `num - t den`, and a number near it.
 fn parameter(g: &Poly, num: &Poly, den: &Poly, root: &RealRoot) -> Option<(RealRoot, Exact)> {
     let at = |p: &Poly, i: usize| p.get(i).cloned().unwrap_or_else(zero);
     let b: Vec<Poly> = (0..4).map(|i| vec![at(num, i), -at(den, i)]).collect();

@@ -1,0 +1,138 @@
+"""Where does this ray meet that surface? Every crossing, once, with a proven bound: arrays in, arrays out.
+
+>>> import durer
+>>> import numpy as np
+>>> ring = durer.Torus(2, 0.5)
+>>> scene = durer.Scene([ring, durer.Box((-1, -1, -1), (1, 1, 1)) - durer.Sphere((0, 0, 0), 1.2)])
+>>> origins = np.array([[-5.0, 0.0, 0.0], [-5.0, 0.9, 0.9]])
+>>> directions = np.array([[1.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
+>>> scene.closest(origins, directions).t
+array([2.5, 4. ])
+>>> scene.all(origins, directions).counts
+array([4, 2])
+
+`Scene` answers `closest`, `any`, `all`, `spans` and `contains`; `load` reads POV-Ray scenes and meshes; `render` makes
+pictures. Submodules: `durer.trimesh` and `durer.open3d` stand in for the ray classes of these libraries.
+"""
+
+from __future__ import annotations
+
+from . import _native
+from ._camera import Camera
+from ._formula import Expression, Formula, formula, where
+from ._objects import (
+    Blob,
+    Box,
+    Clipped,
+    Complement,
+    Cone,
+    Cyclide,
+    Cylinder,
+    Deformed,
+    Difference,
+    Disc,
+    Ellipsoid,
+    EllipticCone,
+    EllipticCylinder,
+    EllipticParaboloid,
+    HyperbolicCylinder,
+    HyperbolicParaboloid,
+    HyperboloidOneSheet,
+    HyperboloidTwoSheets,
+    Intersection,
+    Julia,
+    Lemon,
+    Merge,
+    Mesh,
+    Object,
+    Ovus,
+    ParabolicCylinder,
+    Parallelogram,
+    Placed,
+    Plane,
+    Polygon,
+    Polynomial,
+    Prism,
+    Quadric,
+    Sphere,
+    SphericalSector,
+    Superellipsoid,
+    SurfaceOfRevolution,
+    Texture,
+    Textured,
+    Torus,
+    Triangle,
+    Union,
+    WithoutCaps,
+    read_mesh,
+    rotation,
+)
+from ._render import Picture, bound_image, depth_image, normal_image, object_image, render
+from ._results import AllHits, Hits, Spans
+from ._scene import Light, Scene, load
+
+__version__: str = _native.__version__
+__all__ = [
+    "AllHits",
+    "Blob",
+    "bound_image",
+    "Box",
+    "Camera",
+    "Clipped",
+    "Complement",
+    "Cone",
+    "Cyclide",
+    "Cylinder",
+    "Deformed",
+    "depth_image",
+    "Difference",
+    "Disc",
+    "Ellipsoid",
+    "EllipticCone",
+    "EllipticCylinder",
+    "EllipticParaboloid",
+    "Expression",
+    "Formula",
+    "formula",
+    "Hits",
+    "HyperbolicCylinder",
+    "HyperbolicParaboloid",
+    "HyperboloidOneSheet",
+    "HyperboloidTwoSheets",
+    "Intersection",
+    "Julia",
+    "Lemon",
+    "Light",
+    "load",
+    "Merge",
+    "Mesh",
+    "normal_image",
+    "Object",
+    "object_image",
+    "Ovus",
+    "ParabolicCylinder",
+    "Parallelogram",
+    "Picture",
+    "Placed",
+    "Plane",
+    "Polygon",
+    "Polynomial",
+    "Prism",
+    "Quadric",
+    "read_mesh",
+    "render",
+    "rotation",
+    "Scene",
+    "Spans",
+    "Sphere",
+    "SphericalSector",
+    "Superellipsoid",
+    "SurfaceOfRevolution",
+    "Texture",
+    "Textured",
+    "Torus",
+    "Triangle",
+    "Union",
+    "where",
+    "WithoutCaps",
+]

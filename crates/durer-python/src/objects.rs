@@ -1,0 +1,369 @@
+//! Surfaces as scene data: one function for each kind. Numbers are checked by building the surface once.
+
+use crate::{formula, value_error};
+use durer::math::{Affine, Point3, Vec3};
+use durer::scene::{
+    Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, Interior, Isosurface, Julia,
+    JuliaAlgebra, JuliaPower, NamedQuadric, Object as SceneObject, Operation, Pigment, Prism, QuadricKind,
+    Reflection, Rgb, Scene, Shape, Spline, Sweep, Texture, Warp,
+};
+use pyo3::prelude::*;
+use std::sync::Arc;
+
+type V3 = [f64; 3];
+
+/// A surface or solid, with its placement and its look.
+#[pyclass(frozen, module = "durer._native")]
+#[derive(Clone)]
+pub(crate) struct Object(pub(crate) SceneObject);
+
+pub(crate) fn point(p: V3) -> Point3 {
+    Point3::new(p[0], p[1], p[2])
+}
+
+pub(crate) fn vec3(v: V3) -> Vec3 {
+    Vec3::new(v[0], v[1], v[2])
+}
+
+pub(crate) fn affine(rows: [[f64; 4]; 3]) -> PyResult<Affine> {
+    let linear = rows.map(|r| [r[0], r[1], r[2]]);
+    Affine::new(linear, Point3::new(rows[0][3], rows[1][3], rows[2][3])).map_err(value_error)
+}
+
+/// The shape, if a scene can hold it.
+fn checked(shape: Shape) -> PyResult<Object> {
+    checked_object(SceneObject::new(shape))
+}
+
+fn checked_object(object: SceneObject) -> PyResult<Object> {
+    let scene = Scene { objects: vec![object], ..Scene::default() };
+    scene.lower().map_err(value_error)?;
+    let [object] = <[SceneObject; 1]>::try_from(scene.objects).map_err(|_| value_error("no object"))?;
+    Ok(Object(object))
+}
+
+#[pyfunction]
+fn sphere(centre: V3, radius: f64) -> PyResult<Object> {
+    checked(Shape::Sphere { centre: point(centre), radius })
+}
+
+#[pyfunction]
+fn axis_box(a: V3, b: V3) -> PyResult<Object> {
+    checked(Shape::Box { a: point(a), b: point(b) })
+}
+
+#[pyfunction]
+fn cylinder(base: V3, cap: V3, radius: f64) -> PyResult<Object> {
+    checked(Shape::Cylinder { base: point(base), cap: point(cap), radius })
+}
+
+#[pyfunction]
+fn cone(base: V3, base_radius: f64, cap: V3, cap_radius: f64) -> PyResult<Object> {
+    checked(Shape::Cone { base: point(base), base_radius, cap: point(cap), cap_radius })
+}
+
+#[pyfunction]
+fn plane(normal: V3, distance: f64) -> PyResult<Object> {
+    checked(Shape::Plane { normal: vec3(normal), distance })
+}
+
+#[pyfunction]
+fn disc(centre: V3, normal: V3, radius: f64, hole: f64) -> PyResult<Object> {
+    checked(Shape::Disc { centre: point(centre), normal: vec3(normal), radius, hole })
+}
+
+#[pyfunction]
+fn parallelogram(corner: V3, u: V3, v: V3) -> PyResult<Object> {
+    checked(Shape::Parallelogram { corner: point(corner), u: vec3(u), v: vec3(v) })
+}
+
+#[pyfunction]
+fn triangle(vertices: [V3; 3], normals: Option<[V3; 3]>) -> PyResult<Object> {
+    let corners = vertices.map(point);
+    checked(match normals {
+        None => Shape::Triangle(corners),
+        Some(normals) => Shape::SmoothTriangle(Box::new((corners, normals.map(vec3)))),
+    })
+}
+
+#[pyfunction]
+fn polygon(loops: Vec<Vec<V3>>, even_odd: bool) -> PyResult<Object> {
+    let loops = loops.into_iter().map(|l| l.into_iter().map(point).collect()).collect();
+    let rule = if even_odd { FillRule::EvenOdd } else { FillRule::NonZero };
+    checked(Shape::Polygon { loops, rule })
+}
+
+#[pyfunction]
+fn quadric(coefficients: [f64; 10]) -> PyResult<Object> {
+    checked(Shape::Quadric(Box::new(coefficients)))
+}
+
+#[pyfunction]
+fn polynomial(order: u32, coefficients: Vec<f64>) -> PyResult<Object> {
+    checked(Shape::Polynomial { order, coefficients: coefficients.into() })
+}
+
+#[pyfunction]
+fn torus(major: f64, minor: f64) -> PyResult<Object> {
+    checked(Shape::Torus { major, minor })
+}
+
+#[pyfunction]
+fn cyclide(a: f64, c: f64, d: f64) -> PyResult<Object> {
+    checked(Shape::Cyclide { a, c, d })
+}
+
+#[pyfunction]
+fn prism(outlines: Vec<Vec<[f64; 2]>>, heights: [f64; 2], spline: &str, conic: bool) -> PyResult<Object> {
+    let spline = match spline {
+        "linear" => Spline::Linear,
+        "quadratic" => Spline::Curved(Curve::Quadratic),
+        "cubic" => Spline::Curved(Curve::Cubic),
+        "bezier" => Spline::Curved(Curve::Bezier),
+        other => {
+            return Err(value_error(format!(
+                "prism: the spline must be 'linear', 'quadratic', 'cubic' or 'bezier', got '{other}'"
+            )));
+        }
+    };
+    let sweep = if conic { Sweep::Conic } else { Sweep::Linear };
+    checked(Shape::Prism(Arc::new(Prism { outlines, spline, heights, sweep })))
+}
+
+#[pyfunction]
+fn surface_of_revolution(points: Vec<[f64; 2]>) -> PyResult<Object> {
+    checked(Shape::Sor(points.into()))
+}
+
+#[pyfunction]
+fn ovus(bottom: f64, top: f64) -> PyResult<Object> {
+    checked(Shape::Ovus { bottom, top })
+}
+
+#[pyfunction]
+fn lemon(base: V3, base_radius: f64, apex: V3, apex_radius: f64, inner_radius: f64) -> PyResult<Object> {
+    checked(Shape::Lemon { base: point(base), base_radius, apex: point(apex), apex_radius, inner_radius })
+}
+
+#[pyfunction]
+fn named_quadric(kind: &str, semi_axes: V3, extent: Option<[f64; 2]>) -> PyResult<Object> {
+    let kind = match kind {
+        "ellipsoid" => QuadricKind::Ellipsoid,
+        "elliptic_paraboloid" => QuadricKind::EllipticParaboloid,
+        "hyperbolic_paraboloid" => QuadricKind::HyperbolicParaboloid,
+        "hyperboloid_one_sheet" => QuadricKind::HyperboloidOneSheet,
+        "hyperboloid_two_sheets" => QuadricKind::HyperboloidTwoSheets,
+        "elliptic_cone" => QuadricKind::EllipticCone,
+        "elliptic_cylinder" => QuadricKind::EllipticCylinder,
+        "hyperbolic_cylinder" => QuadricKind::HyperbolicCylinder,
+        "parabolic_cylinder" => QuadricKind::ParabolicCylinder,
+        other => return Err(value_error(format!("there is no quadric called '{other}'"))),
+    };
+    checked(Shape::Named(Box::new(NamedQuadric { kind, semi_axes, extent })))
+}
+
+#[pyfunction]
+fn spherical_sector(centre: V3, radius: f64, axis: V3, half_angle: f64) -> PyResult<Object> {
+    checked(Shape::SphericalSector { centre: point(centre), radius, axis: vec3(axis), half_angle })
+}
+
+#[pyfunction]
+fn superellipsoid(e: f64, n: f64) -> PyResult<Object> {
+    checked(Shape::Superellipsoid { e, n })
+}
+
+/// Each component: one end, the other end (equal for a ball), its radius and its strength.
+#[pyfunction]
+fn blob(components: Vec<(V3, V3, f64, f64)>, threshold: f64) -> PyResult<Object> {
+    let component = |(a, b, radius, strength): (V3, V3, f64, f64)| BlobComponent {
+        shape: if a == b { BlobShape::Ball(point(a)) } else { BlobShape::Segment(point(a), point(b)) },
+        radius,
+        strength,
+        place: Affine::IDENTITY,
+    };
+    let components = components.into_iter().map(component).collect();
+    checked(Shape::Blob(Box::new(Blob { threshold, components, textures: Vec::new() })))
+}
+
+#[pyfunction]
+fn julia(
+    c: [f64; 4],
+    power: u32,
+    iterations: u32,
+    radius: f64,
+    normal: [f64; 4],
+    distance: f64,
+) -> PyResult<Object> {
+    let power = match power {
+        2 => JuliaPower::Square,
+        3 => JuliaPower::Cube,
+        other => return Err(value_error(format!("julia: the power must be 2 or 3, got {other}"))),
+    };
+    let algebra = JuliaAlgebra::Quaternion;
+    let julia = Julia { c, algebra, power, iterations, radius, normal, distance };
+    checked(Shape::Julia(Box::new(julia)))
+}
+
+#[pyfunction]
+fn isosurface(
+    steps: Vec<formula::Step>,
+    threshold: f64,
+    container_box: Option<[V3; 2]>,
+    container_ball: Option<(V3, f64)>,
+) -> PyResult<Object> {
+    let function = Arc::new(formula::build(&steps)?);
+    let container = match (container_box, container_ball) {
+        (Some([a, b]), None) => Container::Box(point(a), point(b)),
+        (None, Some((centre, radius))) => Container::Ball(point(centre), radius),
+        _ => return Err(value_error("formula: one container, a box or a ball, must hold the surface")),
+    };
+    checked(Shape::Isosurface(Box::new(Isosurface { function, threshold, container })))
+}
+
+/// The value of a formula at some points.
+#[pyfunction]
+fn formula_value(steps: Vec<formula::Step>, point: V3) -> PyResult<f64> {
+    Ok(formula::build(&steps)?.value(&point))
+}
+
+#[pyfunction]
+fn union(objects: Vec<PyRef<'_, Object>>) -> Object {
+    Object(SceneObject::new(Shape::Union(objects.iter().map(|o| o.0.clone()).collect())))
+}
+
+#[pyfunction]
+fn csg(operation: &str, objects: Vec<PyRef<'_, Object>>) -> PyResult<Object> {
+    let operation = match operation {
+        "merge" => Operation::Merge,
+        "intersection" => Operation::Intersection,
+        "difference" => Operation::Difference,
+        other => return Err(value_error(format!("there is no operation called '{other}'"))),
+    };
+    let parts: Vec<_> = objects.iter().map(|o| o.0.clone()).collect();
+    if parts.is_empty() {
+        return Err(value_error("a merge, intersection or difference needs at least one solid"));
+    }
+    checked(Shape::Csg(operation, parts))
+}
+
+/// Each warp: "twist", "taper" or "bend", its axis, its number and its two heights.
+#[pyfunction]
+fn deformed(object: &Object, warps: Vec<(String, V3, f64, [f64; 2], V3)>) -> PyResult<Object> {
+    let warp = |(name, axis, number, [from, to], toward): (String, V3, f64, [f64; 2], V3)| {
+        let axis = vec3(axis);
+        Ok(match &*name {
+            "twist" => Warp::Twist { axis, degrees: number, from, to },
+            "taper" => Warp::Taper { axis, factor: number, from, to },
+            "bend" => Warp::Bend { axis, toward: vec3(toward), degrees: number, from, to },
+            other => return Err(value_error(format!("there is no deformation called '{other}'"))),
+        })
+    };
+    let warps = warps.into_iter().map(warp).collect::<PyResult<Vec<_>>>()?;
+    checked_object(SceneObject::deformed(object.0.clone(), &warps).map_err(value_error)?)
+}
+
+#[pyfunction]
+fn placed(object: &Object, rows: [[f64; 4]; 3]) -> PyResult<Object> {
+    let mut object = object.0.clone();
+    object.transform(&affine(rows)?).map_err(value_error)?;
+    Ok(Object(object))
+}
+
+#[pyfunction]
+fn complement(object: &Object) -> Object {
+    let mut object = object.0.clone();
+    object.flags.inverse = !object.flags.inverse;
+    Object(object)
+}
+
+#[pyfunction]
+fn without_caps(object: &Object) -> PyResult<Object> {
+    let mut object = object.0.clone();
+    object.flags.open = true;
+    checked_object(object)
+}
+
+#[pyfunction]
+fn clipped(object: &Object, clips: Vec<PyRef<'_, Object>>) -> PyResult<Object> {
+    let mut object = object.0.clone();
+    object.clips.extend(clips.iter().map(|c| c.0.clone()));
+    checked_object(object)
+}
+
+fn rgb(c: V3) -> Rgb {
+    Rgb::new(c[0], c[1], c[2])
+}
+
+/// The numbers of a look.
+#[derive(FromPyObject)]
+struct Look {
+    colour: V3,
+    filter: f64,
+    transmit: f64,
+    ambient: f64,
+    diffuse: f64,
+    phong: f64,
+    phong_size: f64,
+    specular: f64,
+    roughness: f64,
+    reflection: f64,
+    refraction: f64,
+}
+
+#[pyfunction]
+fn with_texture(object: &Object, look: Look) -> Object {
+    let pigment =
+        Pigment::solid(Colour { rgb: rgb(look.colour), filter: look.filter, transmit: look.transmit });
+    let finish = Finish {
+        ambient: Rgb::grey(look.ambient),
+        diffuse: look.diffuse,
+        phong: look.phong,
+        phong_size: look.phong_size,
+        specular: look.specular,
+        roughness: look.roughness,
+        reflection: (look.reflection != 0.0)
+            .then(|| Box::new(Reflection::constant(Rgb::grey(look.reflection)))),
+        ..Finish::default()
+    };
+    let mut object = object.0.clone().with_texture(Texture::plain(pigment, finish));
+    if look.refraction != 1.0 {
+        object = object.with_interior(Interior { ior: look.refraction, ..Interior::default() });
+    }
+    Object(object)
+}
+
+pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<Object>()?;
+    module.add_function(wrap_pyfunction!(sphere, module)?)?;
+    module.add_function(wrap_pyfunction!(axis_box, module)?)?;
+    module.add_function(wrap_pyfunction!(cylinder, module)?)?;
+    module.add_function(wrap_pyfunction!(cone, module)?)?;
+    module.add_function(wrap_pyfunction!(plane, module)?)?;
+    module.add_function(wrap_pyfunction!(disc, module)?)?;
+    module.add_function(wrap_pyfunction!(parallelogram, module)?)?;
+    module.add_function(wrap_pyfunction!(triangle, module)?)?;
+    module.add_function(wrap_pyfunction!(polygon, module)?)?;
+    module.add_function(wrap_pyfunction!(quadric, module)?)?;
+    module.add_function(wrap_pyfunction!(polynomial, module)?)?;
+    module.add_function(wrap_pyfunction!(torus, module)?)?;
+    module.add_function(wrap_pyfunction!(cyclide, module)?)?;
+    module.add_function(wrap_pyfunction!(prism, module)?)?;
+    module.add_function(wrap_pyfunction!(surface_of_revolution, module)?)?;
+    module.add_function(wrap_pyfunction!(ovus, module)?)?;
+    module.add_function(wrap_pyfunction!(lemon, module)?)?;
+    module.add_function(wrap_pyfunction!(named_quadric, module)?)?;
+    module.add_function(wrap_pyfunction!(spherical_sector, module)?)?;
+    module.add_function(wrap_pyfunction!(superellipsoid, module)?)?;
+    module.add_function(wrap_pyfunction!(blob, module)?)?;
+    module.add_function(wrap_pyfunction!(julia, module)?)?;
+    module.add_function(wrap_pyfunction!(isosurface, module)?)?;
+    module.add_function(wrap_pyfunction!(formula_value, module)?)?;
+    module.add_function(wrap_pyfunction!(union, module)?)?;
+    module.add_function(wrap_pyfunction!(csg, module)?)?;
+    module.add_function(wrap_pyfunction!(deformed, module)?)?;
+    module.add_function(wrap_pyfunction!(placed, module)?)?;
+    module.add_function(wrap_pyfunction!(complement, module)?)?;
+    module.add_function(wrap_pyfunction!(without_caps, module)?)?;
+    module.add_function(wrap_pyfunction!(clipped, module)?)?;
+    module.add_function(wrap_pyfunction!(with_texture, module)?)
+}

@@ -1,0 +1,3 @@
+"""Examples of the documentation are tests too."""
+
+import durer

@@ -1,0 +1,270 @@
+"""Queries of scenes: arrays in, arrays out."""
+
+import copy
+import pickle
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import durer
+
+BALL = durer.Sphere((0, 0, 0), 1)
+SCENE = durer.Scene([BALL, durer.Box((2, -1, -1), (4, 1, 1))])
+
+
+def some_rays(n=3000, seed=1):
+    rng = np.random.default_rng(seed)
+    origins = rng.uniform(-6, 6, (n, 3))
+    return origins, rng.uniform(-2, 4, (n, 3)) - origins
+
+
+def test_closest_any_and_all_agree():
+    origins, directions = some_rays()
+    first, every = SCENE.closest(origins, directions), SCENE.all(origins, directions)
+    hit = first.hit
+    assert 500 < hit.sum() < 2900
+    assert (SCENE.any(origins, directions) == hit).all()
+    assert ((every.counts > 0) == hit).all()
+    heads = every.offsets[:-1][hit]
+    for name in ("t", "t_lo", "t_hi", "object", "primitive", "kind", "sign", "normal", "position"):
+        assert np.array_equal(every[name][heads], first[name][hit]), name
+    assert (np.repeat(np.arange(len(origins)), every.counts) == every.ray).all()
+    assert all((np.diff(every.t[a:b]) >= 0).all() for a, b in zip(every.offsets[:-1], every.offsets[1:]))
+
+
+def test_positions_lie_on_surfaces_within_their_bounds():
+    origins, directions = some_rays()
+    hits = SCENE.closest(origins, directions)
+    on_ball = hits.object == 0
+    p, e = hits.position[on_ball], hits.position_error[on_ball]
+    off = np.abs((p**2).sum(1) - 1)
+    assert (off <= 2 * (np.abs(p) * e).sum(1) * (1 + 1e-9) + 1e-15).all()
+    assert ((hits.t_lo <= hits.t) & (hits.t <= hits.t_hi))[hits.hit].all()
+    assert np.allclose(hits.normal[on_ball], p, atol=1e-12)
+
+
+def test_a_ray_that_misses_has_nothing():
+    hits = SCENE.closest([[0, 0, 9]], [[0, 0, 1]])
+    assert np.isinf(hits.t[0]) and hits.object[0] == -1 and hits.primitive[0] == -1 and hits.kind[0] == 255
+    assert np.isnan(hits.position).all() and np.isnan(hits.normal).all() and np.isnan(hits.uv).all()
+
+
+def test_rays_that_are_not_finite_miss_and_are_counted():
+    rays = np.array([[np.nan, 0, 0, 0, 0, 1], [0, 0, 0, 0, 0, 0], [0, 0, -5, 0, 0, np.inf], [0, 0, -5, 0, 0, 1.0]])
+    for result in (SCENE.closest(rays), SCENE.all(rays), SCENE.spans(rays)):
+        assert result.invalid == 3
+    assert SCENE.any(rays).tolist() == [False, False, False, True]
+    assert SCENE.contains([[np.nan, 0, 0], [0, 0, 0]]).tolist() == [False, True]
+
+
+@pytest.mark.parametrize("dtype", ["f4", ">f8", "i4", "f2", "u1"])
+def test_other_dtypes_are_converted(dtype):
+    rays = np.array([[0, 0, 9, 0, 0, 1], [3, 0, 9, 0, 0, 2]]).astype(dtype)
+    expected = SCENE.closest(rays.astype(float)).t
+    assert np.array_equal(SCENE.closest(rays).t, expected)
+    assert np.array_equal(SCENE.closest(rays[:, :3], rays[:, 3:]).t, expected)
+
+
+def test_layouts_do_not_matter():
+    origins, directions = some_rays(100)
+    rays = np.hstack([origins, directions])
+    expected = SCENE.closest(rays).t
+    wide = np.zeros((100, 12))
+    wide[:, ::2] = rays
+    backwards = rays[::-1].copy()[::-1]
+    for other in (np.asfortranarray(rays), wide[:, ::2], backwards, rays.tolist()):
+        assert np.array_equal(SCENE.closest(other).t, expected)
+    assert np.array_equal(SCENE.closest(np.asfortranarray(origins), directions[::1]).t, expected)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ((np.zeros(6),), r"\(6,\)"),
+        ((np.zeros((4, 5)),), r"\(4, 5\)"),
+        ((np.zeros((2, 3, 6)),), r"\(2, 3, 6\)"),
+        ((np.zeros((4, 3)), np.zeros((3, 3))), r"\(4, 3\) and \(3, 3\)"),
+        ((np.zeros((4, 2)), np.zeros((4, 3))), r"origins.*\(4, 2\)"),
+        ((np.zeros((4, 6), complex),), "complex"),
+        ((None,), "object"),
+        ((np.array([["a"] * 6]),), "<U1"),
+    ],
+)
+def test_wrong_arrays_are_refused_by_shape_and_dtype(arguments, said):
+    for query in (SCENE.closest, SCENE.any, SCENE.all, SCENE.spans):
+        with pytest.raises(ValueError, match=said):
+            query(*arguments)
+
+
+def test_no_rays_are_no_answers():
+    for empty in ([], np.zeros((0, 6))):
+        assert SCENE.closest(empty).t.shape == (0,)
+        assert SCENE.closest(empty).position.shape == (0, 3)
+        assert SCENE.all(empty).offsets.tolist() == [0]
+    assert SCENE.any(np.zeros((0, 3)), np.zeros((0, 3))).shape == (0,)
+    assert durer.Scene().closest([[0, 0, 0, 1, 0, 0]]).hit.tolist() == [False]
+
+
+def test_ranges_are_closed():
+    rays = np.array([[0, 0, -5, 0, 0, 1.0, 4, 5], [0, 0, -5, 0, 0, 1.0, 4.5, 5], [0, 0, -5, 0, 0, 1.0, 0, 4]])
+    assert SCENE.any(rays).tolist() == [True, False, True]
+    given = SCENE.any(rays[:, :3], rays[:, 3:6], t_min=rays[:, 6], t_max=rays[:, 7])
+    assert given.tolist() == [True, False, True]
+    with pytest.raises(ValueError, match="twice"):
+        SCENE.any(rays, t_min=0.0)
+    with pytest.raises(ValueError, match=r"t_max.*\(2,\)"):
+        SCENE.any(rays[:, :6], t_max=[1.0, 2.0])
+
+
+def test_the_number_of_threads_changes_nothing():
+    origins, directions = some_rays(70000)
+    one, many = SCENE.all(origins, directions, threads=1), SCENE.all(origins, directions, threads=3)
+    for name in one:
+        assert np.array_equal(one[name], many[name], equal_nan=True), name
+    with pytest.raises(ValueError, match="threads"):
+        SCENE.any(origins, directions, threads=0)
+
+
+def test_spans_merge_solids():
+    spans = SCENE.spans([[-5, 0, 0], [0, 0, 0], [0, 5, 0]], [[1, 0, 0]] * 3)
+    assert spans.offsets.tolist() == [0, 2, 4, 4]
+    assert spans.t_in.tolist() == [4, 7, 0, 2] and spans.t_out.tolist() == [6, 9, 1, 4]
+    assert spans.object_in.tolist() == [0, 1, -1, 1]
+    assert spans.totals().tolist() == [4, 3, 0] and spans.ray.tolist() == [0, 0, 1, 1]
+
+
+def test_results_convert():
+    pandas = pytest.importorskip("pandas")
+    hits = SCENE.all([[-5, 0, 0]], [[1, 0, 0]])
+    rows = hits.to_structured()
+    assert rows.shape == (4,) and rows["position"].shape == (4, 3) and rows["t"].tolist() == [4, 6, 7, 9]
+    frame = hits.to_dataframe()
+    assert isinstance(frame, pandas.DataFrame) and frame["position_x"].tolist() == [-1, 1, 2, 4]
+    assert set(hits.to_dict()) == set(hits.keys())
+    with pytest.raises(KeyError):
+        hits["nothing"]
+
+
+def test_results_pickle():
+    origins, directions = some_rays(50)
+    for result in (SCENE.closest(origins, directions), SCENE.all(origins, directions), SCENE.spans(origins, directions)):
+        back = pickle.loads(pickle.dumps(result))
+        assert type(back) is type(result) and len(back) == len(result) and repr(back) == repr(result)
+        for name in result:
+            assert np.array_equal(back[name], result[name], equal_nan=True)
+
+
+def test_scenes_pickle_and_copy():
+    origins, directions = some_rays(500)
+    scene = durer.Scene(
+        [durer.Torus(2, 0.5).rotated((1, 0, 0), 1.0), durer.formula("x*x + y*y - 1", ball=((0, 0, 0), 2))],
+        camera=durer.Camera((0, 0, 9), (0, 0, 0), width=16, height=12),
+        lights=[durer.Light((9, 9, 9))],
+    )
+    back = pickle.loads(pickle.dumps(scene))
+    assert np.array_equal(back.closest(origins, directions).t, scene.closest(origins, directions).t)
+    assert np.array_equal(durer.render(back), durer.render(scene))
+    assert copy.deepcopy(scene) is scene
+
+
+def test_nothing_can_be_changed():
+    hits = SCENE.closest([[0, 0, 9]], [[0, 0, -1]])
+    for thing in (BALL, SCENE, hits, durer.Camera((0, 0, 1), (0, 0, 0)), durer.Light((0, 0, 0)), durer.Texture((1, 1, 1))):
+        with pytest.raises(AttributeError):
+            thing.t = 1
+
+
+def test_several_threads_may_ask_one_scene():
+    origins, directions = some_rays(20000)
+    expected = SCENE.closest(origins, directions).t
+    found = []
+    threads = [threading.Thread(target=lambda: found.append(SCENE.closest(origins, directions).t)) for _ in range(4)]
+    [t.start() for t in threads]
+    [t.join() for t in threads]
+    assert len(found) == 4 and all(np.array_equal(t, expected) for t in found)
+
+
+def test_the_interpreter_is_free_meanwhile():
+    origins, directions = some_rays(400_000)
+    counted = 0
+    done = threading.Event()
+
+    def work():
+        SCENE.all(origins, directions)
+        done.set()
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    while not done.is_set():
+        counted += 1
+        time.sleep(0.001)
+    thread.join()
+    assert counted > 5
+
+
+def test_control_c_stops_a_batch():
+    origins, directions = some_rays(65536)
+    many = np.broadcast_to(np.hstack([origins, directions]), (60, 65536, 6)).reshape(-1, 6)
+    timer = threading.Timer(0.2, signal.raise_signal, [signal.SIGINT])
+    main = threading.main_thread().ident
+    timer = threading.Timer(0.2, signal.pthread_kill, [main, signal.SIGINT])
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        SCENE.all(many)
+
+
+def test_progress_is_told_and_may_stop():
+    origins, directions = some_rays(140_000)
+    told = []
+    SCENE.any(origins, directions, progress=lambda done, total: told.append((done, total)))
+    assert told == [(65536, 140000), (131072, 140000), (140000, 140000)]
+
+    def stop(done, total):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        SCENE.closest(origins, directions, progress=stop)
+
+
+def test_forked_processes_have_threads_of_their_own():
+    import multiprocessing
+
+    context = multiprocessing.get_context("fork")
+    queue = context.Queue()
+    expected = SCENE.any([[0, 0, 9]], [[0, 0, -1]]).tolist()
+    child = context.Process(target=lambda: queue.put(SCENE.any([[0, 0, 9]], [[0, 0, -1]]).tolist()))
+    child.start()
+    assert queue.get(timeout=60) == expected
+    child.join()
+
+
+def test_files_are_loaded(tmp_path):
+    pov = tmp_path / "a.pov"
+    pov.write_text("#declare R = Radius; sphere { 0, R } camera { location -5*z }")
+    scene = durer.load(pov, declares={"Radius": 2.0}, width=40, height=30)
+    assert scene.closest([[0, 0, -5]], [[0, 0, 1]]).t.tolist() == [3.0]
+    assert (scene.camera.width, scene.camera.height) == (40, 30)
+    assert pickle.loads(pickle.dumps(scene)).closest([[0, 0, -5]], [[0, 0, 1]]).t.tolist() == [3.0]
+    with pytest.raises(FileNotFoundError):
+        durer.load(tmp_path / "none.pov")
+    pov.write_text("sphere { 0, }")
+    with pytest.raises(ValueError, match=r"a\.pov"):
+        durer.load(pov)
+    with pytest.raises(ValueError, match="must be a .pov"):
+        other = tmp_path / "a.xyz"
+        other.write_text("")
+        durer.load(other)
+
+
+def test_mesh_files_are_loaded(tmp_path):
+    file = tmp_path / "a.obj"
+    file.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
+    mesh = durer.read_mesh(file)
+    assert isinstance(mesh, durer.Mesh) and mesh.is_solid and mesh.faces.shape == (4, 3)
+    for scene in (durer.load(file), durer.Scene([mesh])):
+        hits = scene.closest([[0.2, 0.2, -1]], [[0, 0, 1]])
+        assert hits.t.tolist() == [1.0] and hits.primitive.tolist() == [0]
+        assert scene.contains([[0.1, 0.1, 0.1], [1, 1, 1]]).tolist() == [True, False]
