@@ -6,15 +6,16 @@
 //! # Ok::<(), durer_pov::PovError>(())
 //! ```
 //!
-//! A file becomes tokens once (`lexer`), and where its directives lead is found once (`blocks`). The `reader` then
-//! hands tokens to the grammar one by one; on the way it runs directives (`directives`), unfolds macros (`macros`)
-//! and replaces names by their values (`scope`, `value`, `arrays`), because all of them may stand anywhere. Values are
-//! computed in `expression`, `functions`, `strings` and `colour`; blocks are read in `object`, `texture`, `light`,
-//! `camera` and `settings`; `emit` makes scene data of what is finished (`volume` of what is flat or empty).
+//! The `lexer` turns a file into tokens once, and `branches` finds once where its directives lead. The
+//! `parser` hands tokens to the grammar one by one. On the way it runs directives (`directives`),
+//! expands macros (`macros`) and replaces names by their values (`scope`, `value`, `arrays`), because
+//! all of these may stand anywhere. `expression`, `functions`, `strings` and `colour` compute values;
+//! `object`, `texture`, `light`, `camera` and `settings` read blocks; `scene_builder` makes scene data
+//! of finished objects (`volume` of those that are flat or empty).
 //!
-//! Whatever the text is, reading ends: [`Limits`] bounds it in time, memory and depth, and every fault is one
-//! [`PovError`] with its file, line, column and the words underlined. The reader shades nothing, and the only thing it
-//! does to the world is to read files.
+//! Reading ends for every text: [`Limits`] bounds it in time, memory and depth. Every fault is one
+//! [`PovError`] with its file, line and column and the text underlined. The reader does not shade, and
+//! its only effect outside is that it reads files.
 #![forbid(unsafe_code)]
 
 mod arrays;

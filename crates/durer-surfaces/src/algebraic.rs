@@ -4,11 +4,9 @@
 //!   f(x, y, z) = Σ a_ijk x^i y^j z^k,   i + j + k <= n;      inside where f < 0
 //! ```
 //!
-//! Along a ray `f` is a polynomial of degree `n`: P. Hanrahan, "Ray tracing algebraic surfaces", *Computer
-//! Graphics (Proc. SIGGRAPH)* 17(3), 1983.
-//! Coefficients are listed by falling powers of x, then of y, then of z, so that one pass
-//!       over the list with nested Horner schemes puts
-//! a ray into `f`.
+//! Along a ray `f` is a polynomial of degree `n`: P. Hanrahan, "Ray tracing algebraic surfaces",
+//! *Computer Graphics (Proc. SIGGRAPH)* 17(3), 1983. Coefficients are listed by falling powers of x,
+//! then of y, then of z, so that one pass over the list with nested Horner schemes puts a ray into `f`.
 
 use crate::packet::{FilterSource, PacketKernel, Terms};
 use crate::polynomial_surface::{self, PolynomialSurface};

@@ -1,4 +1,37 @@
 //! Exact surfaces. Each answers one question: *where does this ray meet you?*
+//!
+//! A surface implements [`Surface`]. [`Surface::roots`] pushes every crossing of a ray, in order, as a
+//! bracket that provably holds it; [`Surface::resolve`] gives the point, its normals and error bounds:
+//!
+//! ```
+//! use durer_math::{Point3, Ray, Vec3};
+//! use durer_surfaces::{All, LocalRay, Need, Sphere, Surface};
+//!
+//! let sphere = Sphere::new(Point3::new(0.0, 0.0, 0.0), 1.0)?;
+//! let ray = Ray::new(Point3::new(0.0, 0.6, -1e6), Vec3::new(0.0, 0.0, 1.0));
+//! let local = LocalRay::new(&ray);
+//! let mut crossings = All::default();
+//! let _ = sphere.roots(&local, &mut crossings);
+//! assert_eq!(crossings.roots.len(), 2);
+//! let entry = crossings.roots[0];
+//! assert!(entry.lo <= 1e6 - 0.8 && 1e6 - 0.8 <= entry.hi && entry.sign == -1);
+//! let point = sphere.resolve(&local, &entry, Need::ALL);
+//! assert!(point.off < 1e-15); // the distance to the exact sphere
+//! # Ok::<(), durer_surfaces::SphereError>(())
+//! ```
+//!
+//! Applications use a `Geometry` (crate `durer-geometry`), which holds many surfaces in a tree.
+//!
+//! | where | what |
+//! |---|---|
+//! | `sphere`, `quadric/`, `torus`, `algebraic`, ... | one surface, one file or folder, with its equation on top |
+//! | [`compose`] | placed, clipped and complemented surfaces |
+//! | `ray/`, `sink` | re-centred rays, and the queries as sinks of roots |
+//! | `roots/` | solvers of polynomial equations, up to exact arithmetic |
+//! | [`tape`], [`implicit`] | formulas, their interval arithmetic, level sets, deformations |
+//! | [`packet`] | bounded f64 models that answer for eight rays at once |
+//! | [`textbook`] | the textbook forms and their weaknesses |
+//! | `laws/` | what every surface must keep, checked against exact arithmetic |
 #![forbid(unsafe_code)]
 
 // Cases that the fuzz targets share with the tests name this crate as others do.
