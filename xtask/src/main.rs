@@ -2,6 +2,7 @@
 //!
 //! - `test`: what must pass before a change goes in ([`checks`]);
 //! - `conformance`: our pictures beside POV-Ray's, and what each cost ([`conformance`]);
+//! - `differential`: random scenes rendered by both programs, cut back where they differ ([`differential`]);
 //! - `gallery`: the pictures and pages of docs/gallery.md ([`gallery`]);
 //! - `examples`: the scenes that come with POV-Ray, beside its pictures ([`examples`]);
 //! - `bench`: the triangle kernels beside Embree's, on the same rays ([`mod@bench`]);
@@ -17,6 +18,7 @@ mod checks;
 mod command;
 mod compare;
 mod conformance;
+mod differential;
 mod examples;
 mod fused;
 mod gallery;
@@ -34,6 +36,9 @@ usage: cargo xtask NAME
   test                             formatting, clippy, docs, all tests and doc-tests, then every scene is rendered
   conformance [--check] [SCENE]..  renders tests/conformance with durer and with POV-Ray, compares, times, and
                                    writes docs/conformance.md; --check only compares, SCENEs limit it to a few
+  differential [--scenes N] [--seed S] [--first K] [--whole]
+                                   renders N random scenes (100) of seed S (1) from the K-th (0) on with durer and with POV-Ray;
+                                   what differs is cut back, unless --whole, and left in target/differential
   gallery [SCENE]..                renders scenes/ into docs/gallery and writes docs/gallery.md
   examples [SCENE]..               compares the scenes that come with POV-Ray and writes docs/examples.md
   bench [--rounds N] HARNESS MESH.tri..
@@ -52,6 +57,7 @@ fn main() -> ExitCode {
     let outcome = match words.split_first() {
         Some((name, [])) if name == "test" => checks::run(),
         Some((name, rest)) if name == "conformance" => conformance::run(rest),
+        Some((name, rest)) if name == "differential" => differential::run(rest),
         Some((name, rest)) if name == "examples" => examples::run(rest),
         Some((name, rest)) if name == "fused" => fused::run(rest),
         Some((name, rest)) if name == "bench" => bench::run(rest),

@@ -29,6 +29,11 @@ impl Povray {
         self.render_with(scene, picture, shot, scene.parent().unwrap_or(scene))
     }
 
+    /// The same, with the pixels in another order: where what was rendered before has an effect on a pixel, its colour changes.
+    pub(crate) fn render_in_blocks(&self, scene: &Path, picture: &Path, shot: Shot<'_>) -> Outcome {
+        self.run(scene, picture, shot, scene.parent().unwrap_or(scene), &["+BS3", "+RP3"])
+    }
+
     /// The same with a folder to search for included files.
     pub(crate) fn render_with(
         &self,
@@ -37,6 +42,10 @@ impl Povray {
         shot: Shot<'_>,
         library: &Path,
     ) -> Outcome {
+        self.run(scene, picture, shot, library, &[])
+    }
+
+    fn run(&self, scene: &Path, picture: &Path, shot: Shot<'_>, library: &Path, more: &[&str]) -> Outcome {
         assert_eq!(shot.aa, "off", "pictures are compared without anti-aliasing only");
         let output = Command::new("povray")
             .arg(format!("+I{}", scene.display()))
@@ -44,6 +53,7 @@ impl Povray {
             .arg(format!("+L{}", library.display()))
             .args([format!("+W{}", shot.width), format!("+H{}", shot.height)])
             .args(["+FN8", "-A", "-D", "-P", "Work_Threads=1"])
+            .args(more)
             .stdin(Stdio::null())
             .output()
             .map_err(|e| format!("povray: {e}"))?;

@@ -10,6 +10,7 @@ use durer::scene::{LowerError, Lowered, Place, Scene, Shape};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 
 /// A scene that was read.
 pub(crate) enum Loaded {
@@ -41,11 +42,27 @@ pub(crate) fn load(args: &SceneArgs, (width, height): (u32, u32)) -> Result<Load
         image_height: height,
         limits,
     };
+    // Scenes end the lines of their `#debug` themselves, or forget it: other messages begin on a line of their own.
+    let is_open = std::sync::atomic::AtomicBool::new(false);
+    let end_line = || {
+        if is_open.swap(false, Ordering::Relaxed) {
+            eprintln!();
+        }
+    };
     let listener = |message: &durer::pov::Message| match message.kind {
-        MessageKind::Debug => eprint!("{message}"),
-        MessageKind::Warning | MessageKind::Notice => eprintln!("{}", message.to_string().trim_end()),
+        MessageKind::Debug => {
+            eprint!("{message}");
+            if !message.text.is_empty() {
+                is_open.store(!message.text.ends_with('\n'), Ordering::Relaxed);
+            }
+        }
+        MessageKind::Warning | MessageKind::Notice => {
+            end_line();
+            eprintln!("{}", message.to_string().trim_end());
+        }
     };
     let read = durer::pov::read_with(&args.scene, &options, listener);
+    end_line();
     read.map(|read| Loaded::Pov(Box::new(read))).map_err(|e| Failure::Input(e.to_string()))
 }
 

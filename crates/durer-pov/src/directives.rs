@@ -292,7 +292,14 @@ impl Parser<'_> {
         let at = self.here();
         self.back_to_frame(serial, place)?;
         let Some(path) = self.library.find(&name) else {
-            return Err(Error::file(Some(at), format!("there is no include file \"{name}\"")));
+            let names = self.library.names();
+            let near = crate::parser::nearest(&name, names.iter().map(String::as_str));
+            let near = near.map_or_else(String::new, |near| format!(" (did you mean \"{near}\"?)"));
+            let folders = self.library.listed();
+            return Err(Error::file(
+                Some(at),
+                format!("there is no include file \"{name}\"{near}; searched: {folders}"),
+            ));
         };
         let file = self.load(path, Some(at))?;
         self.enter_file(file, Some(place))

@@ -77,6 +77,15 @@ impl Parser<'_> {
             };
             self.next()?;
             let place = self.here();
+            if self.at_mark(Mark::Equal)? {
+                return Err(Error::invalid(
+                    place,
+                    match mark {
+                        Mark::Equal => "`=` compares; there is no `==`",
+                        _ => "a second `=` stands here",
+                    },
+                ));
+            }
             let right = self.expression()?;
             let (Some(a), Some(b)) = (left.float(), right.float()) else {
                 return Err(Error::invalid(place, "only floats can be compared"));
@@ -197,7 +206,7 @@ impl Parser<'_> {
             Item::Value(Value::Number(terms)) => Ok(*terms),
             Item::Mark(Mark::ParenOpen) => {
                 let value = self.relation()?;
-                self.expect(Mark::ParenClose)?;
+                self.expect_closing(Mark::ParenClose, lexeme.place)?;
                 Ok(value)
             }
             Item::Mark(Mark::Less) => self.nested(Self::vector_literal),
@@ -229,6 +238,9 @@ impl Parser<'_> {
             self.skip_comma()?;
             if self.take_mark(Mark::Greater)? {
                 break;
+            }
+            if !self.starts_number()? {
+                return self.expect_closing(Mark::Greater, place).map(|()| Terms::new(&values));
             }
         }
         if values.len() == 1 {

@@ -29,11 +29,21 @@ impl Default for Limits {
             include_depth: 64,
             macro_depth: 1024,
             steps: 50_000_000,
-            memory: 768 << 20,
+            memory: half_of_memory(),
             file_size: 192 << 20,
             nesting: 512,
         }
     }
+}
+
+/// Half of the machine's memory; 768 MB where the system does not tell.
+fn half_of_memory() -> u64 {
+    let told = std::fs::read_to_string("/proc/meminfo").ok();
+    let total = told.as_deref().and_then(|text| {
+        let line = text.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
+        line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()
+    });
+    total.map_or(768 << 20, |kilobytes| kilobytes * 512)
 }
 
 impl Limits {

@@ -86,10 +86,16 @@ impl Parser<'_> {
         let plural = if wanted == 1 { "" } else { "s" };
         if arguments.len() < wanted {
             let found = arguments.len();
-            return Err(Error::invalid(
-                place,
-                format!("{name} has {wanted} parameter{plural}, but {found} are given"),
-            ));
+            let given = match found {
+                0 => "none is given".to_owned(),
+                1 => "1 is given".to_owned(),
+                _ => format!("{found} are given"),
+            };
+            let missing: Vec<&str> = body.parameters[found..].iter().map(|p| self.names.text(*p)).collect();
+            let verb = if missing.len() == 1 { "is" } else { "are" };
+            let missing = missing.join(", ");
+            let text = format!("{given}, {name} needs {wanted} argument{plural}: {missing} {verb} missing");
+            return Err(Error::invalid(place, text));
         }
         if !self.take_mark(Mark::ParenClose)? {
             let text = format!("{name} has {wanted} parameter{plural}: `)` should stand here");

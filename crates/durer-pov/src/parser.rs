@@ -84,6 +84,8 @@ pub(crate) struct Parser<'a> {
     nesting: u64,
     /// Braces open, counted in the tokens that the grammar has taken.
     pub(crate) braces: u64,
+    /// Where they stand.
+    opened: Vec<Place>,
     include_depth: u64,
     macro_depth: u64,
     pub(crate) streams: Vec<u32>,
@@ -113,6 +115,7 @@ impl<'a> Parser<'a> {
             steps: 0,
             nesting: 0,
             braces: 0,
+            opened: Vec::new(),
             include_depth: 0,
             macro_depth: 0,
             streams: Vec::new(),
@@ -346,8 +349,14 @@ impl<'a> Parser<'a> {
             None => self.fetch()?,
         };
         match lexeme.item {
-            Item::Mark(Mark::BraceOpen) => self.braces += 1,
-            Item::Mark(Mark::BraceClose) => self.braces = self.braces.saturating_sub(1),
+            Item::Mark(Mark::BraceOpen) => {
+                self.braces += 1;
+                self.opened.push(lexeme.place);
+            }
+            Item::Mark(Mark::BraceClose) => {
+                self.braces = self.braces.saturating_sub(1);
+                self.opened.pop();
+            }
             _ => {}
         }
         self.last = lexeme.place;
@@ -357,8 +366,14 @@ impl<'a> Parser<'a> {
     /// Puts back the token taken last.
     pub(crate) fn put_back(&mut self, lexeme: Lexeme) {
         match lexeme.item {
-            Item::Mark(Mark::BraceOpen) => self.braces = self.braces.saturating_sub(1),
-            Item::Mark(Mark::BraceClose) => self.braces += 1,
+            Item::Mark(Mark::BraceOpen) => {
+                self.braces = self.braces.saturating_sub(1);
+                self.opened.pop();
+            }
+            Item::Mark(Mark::BraceClose) => {
+                self.braces += 1;
+                self.opened.push(lexeme.place);
+            }
             _ => {}
         }
         self.peeked = Some(lexeme);
@@ -451,6 +466,68 @@ impl<'a> Parser<'a> {
         Ok(here)
     }
 
+    /// Fails with `what` unless a number or vector comes next.
+    pub(crate) fn need(&mut self, what: &str) -> Result<()> {
+        if self.starts_number()? {
+            return Ok(());
+        }
+        let lexeme = self.next()?;
+        let mut fault = self.unexpected(&lexeme, "it");
+        if let Some(found) = fault.text.strip_prefix("expected it") {
+            fault.text = format!("{what}{found}");
+        }
+        Err(fault)
+    }
+
+    /// Line and column of a place, after the file's name if that is not the one of `beside`.
+    pub(crate) fn named_place(&self, place: Place, beside: Place) -> String {
+        let Some(source) = self.sources.get(place.file as usize) else { return String::new() };
+        let (line, column) = source.line_and_column(place.start as usize);
+        if place.file == beside.file {
+            format!("{line}:{column}")
+        } else {
+            format!("{}:{line}:{column}", source.path.display())
+        }
+    }
+
+    /// Says which block is still open, where something is found that stands between blocks.
+    fn unclosed(&self, lexeme: &Lexeme) -> String {
+        use crate::lexer::Directive;
+        let between = match &lexeme.item {
+            Item::End => true,
+            Item::Word(Keyword::Camera | Keyword::Background | Keyword::GlobalSettings) => true,
+            Item::Word(keyword) => {
+                crate::object::begins_object(*keyword)
+                    || Directive::ALL.iter().any(|directive| directive.text() == keyword.text())
+            }
+            _ => false,
+        };
+        // A part of a block is found where the block's last brace was forgotten, and behind it.
+        let Some(&open) = self.opened.last().filter(|_| between) else { return String::new() };
+        let Some(source) = self.sources.get(open.file as usize) else { return String::new() };
+        let before = source.text.get(..open.start as usize).unwrap_or_default().trim_end();
+        let start = before.rfind(|c: char| !c.is_ascii_alphanumeric() && c != '_').map_or(0, |at| at + 1);
+        let word = &before[start..];
+        let begin = if word.is_empty() { open } else { Place { file: open.file, start: start as u32 } };
+        let shown = if word.is_empty() { "{".to_owned() } else { format!("{word} {{") };
+        format!(": `{shown}` opened at {} is not closed", self.named_place(begin, lexeme.place))
+    }
+
+    /// The fault of finding `lexeme` where `mark` should close what `open` opened.
+    pub(crate) fn expect_closing(&mut self, mark: Mark, open: Place) -> Result<()> {
+        let lexeme = self.next()?;
+        if matches!(lexeme.item, Item::Mark(found) if found == mark) {
+            return Ok(());
+        }
+        let mut fault = self.unexpected(&lexeme, &format!("`{}`", mark.text()));
+        let opening = if mark == Mark::ParenClose { "(" } else { "<" };
+        if fault.kind == crate::ErrorKind::Invalid && !fault.text.contains("is not closed") {
+            fault.text +=
+                &format!(": the `{opening}` at {} is not closed", self.named_place(open, lexeme.place));
+        }
+        Err(fault)
+    }
+
     /// The fault of finding `lexeme` where `wanted` should be.
     pub(crate) fn unexpected(&self, lexeme: &Lexeme, wanted: &str) -> Box<Error> {
         let found = match &lexeme.item {
@@ -467,7 +544,7 @@ impl<'a> Parser<'a> {
                 let hint = if text.starts_with("f_") && !self.has_functions() {
                     r#" (such functions are declared by #include "functions.inc")"#.to_owned()
                 } else {
-                    self.similar(*name).map_or_else(String::new, |s| format!(" (did you mean `{s}`?)"))
+                    self.hint(*name)
                 };
                 return Error::invalid(
                     lexeme.place,
@@ -484,7 +561,8 @@ impl<'a> Parser<'a> {
             Item::Value(value) => value.kind().to_owned(),
             Item::End => "the end of the scene".to_owned(),
         };
-        Error::invalid(lexeme.place, format!("expected {wanted}, found {found}"))
+        let unclosed = self.unclosed(lexeme);
+        Error::invalid(lexeme.place, format!("expected {wanted}, found {found}{unclosed}"))
     }
 
     /// Whether what stands at `place` follows a `#`.
@@ -499,11 +577,22 @@ impl<'a> Parser<'a> {
         self.loaded.keys().any(|path| path.ends_with("functions.inc"))
     }
 
-    /// A declared name or reserved word that `name` may be a misspelling of.
-    fn similar(&self, name: Name) -> Option<&str> {
-        let reserved = Keyword::ALL.iter().map(|keyword| keyword.text());
-        let declared = self.scopes.bound().map(|n| self.names.text(n));
-        nearest(self.names.text(name), declared.chain(reserved))
+    /// What an undeclared name may stand for: a word in other letters, a name of a standard file, a misspelling.
+    fn hint(&self, name: Name) -> String {
+        let text = self.names.text(name);
+        let words = || Keyword::ALL.iter().map(|keyword| keyword.text());
+        let declared = || self.scopes.bound().map(|n| self.names.text(n));
+        let did = |s: &str| format!(" (did you mean `{s}`?)");
+        if let Some(file) = self.library.file_that_declares(text) {
+            return format!(" (#include \"{file}\" declares it)");
+        }
+        if let Some(word) = words().chain(declared()).find(|w| w.eq_ignore_ascii_case(text)) {
+            return did(word);
+        }
+        // Words of the language have no capitals, so a name that has some was meant to be a name.
+        let is_name = text.contains(|c: char| c.is_ascii_uppercase());
+        let misspelt = nearest(text, declared().chain(words().filter(|_| !is_name)));
+        misspelt.map_or_else(String::new, did)
     }
 
     /// A directive that `name` may be a misspelling of.
@@ -534,13 +623,14 @@ pub(crate) fn strayed(place: Place) -> Box<Error> {
 }
 
 /// The word among `words` that `wrong` may be a misspelling of.
-fn nearest<'a>(wrong: &str, words: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(wrong: &str, words: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let allowed = wrong.len() / 3;
     let near = words.map(|word| (distance(wrong, word), word));
     near.filter(|(d, _)| (1..=allowed).contains(d)).min().map(|(_, word)| word)
 }
 
-/// Letters to change, insert or drop between two short words (V. Levenshtein, *Soviet Physics Doklady* 10, 1966).
+/// Letters to change, insert, drop or exchange with the next between two short words (V. Levenshtein, *Soviet Physics Doklady* 10, 1966; F. Damerau,
+/// *Communications of the ACM* 7, 1964).
 fn distance(a: &str, b: &str) -> usize {
     const FAR: usize = usize::MAX;
     if a.len().abs_diff(b.len()) > 2 || a.len() > 40 {
@@ -548,14 +638,21 @@ fn distance(a: &str, b: &str) -> usize {
     }
     let (a, b) = (a.as_bytes(), b.as_bytes());
     let mut row: Vec<usize> = (0..=b.len()).collect();
+    // The row before the last one.
+    let mut before = row.clone();
     for (i, x) in a.iter().enumerate() {
+        let previous = row.clone();
         let mut diagonal = row[0];
         row[0] = i + 1;
         for (j, y) in b.iter().enumerate() {
             let change = diagonal + usize::from(!x.eq_ignore_ascii_case(y));
             diagonal = row[j + 1];
             row[j + 1] = change.min(row[j] + 1).min(diagonal + 1);
+            if i > 0 && j > 0 && x.eq_ignore_ascii_case(&b[j - 1]) && y.eq_ignore_ascii_case(&a[i - 1]) {
+                row[j + 1] = row[j + 1].min(before[j - 1] + 1);
+            }
         }
+        before = previous;
     }
     row[b.len()]
 }

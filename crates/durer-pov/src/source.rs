@@ -140,6 +140,53 @@ impl Library {
     }
 }
 
+impl Library {
+    /// The folders, as a message lists them.
+    pub(crate) fn listed(&self) -> String {
+        let shown = |folder: &PathBuf| {
+            let text = folder.display().to_string();
+            if text.is_empty() { ".".to_owned() } else { text }
+        };
+        self.folders.iter().map(shown).collect::<Vec<_>>().join(", ")
+    }
+
+    /// Names of all files in the folders.
+    pub(crate) fn names(&self) -> Vec<String> {
+        let entries = self.folders.iter().filter_map(|folder| {
+            let listed = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+            std::fs::read_dir(listed).ok()
+        });
+        let mut names: Vec<String> =
+            entries.flatten().flatten().map(|e| e.file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names.dedup();
+        names
+    }
+
+    /// The standard file that declares `name`, for a hint.
+    pub(crate) fn file_that_declares(&self, name: &str) -> Option<String> {
+        let declares = |text: &str| {
+            text.lines().any(|line| {
+                let mut words = line.split(|c: char| c.is_whitespace() || c == '=' || c == '(');
+                let first = words.find(|word| !word.is_empty());
+                matches!(first, Some("#declare" | "#macro")) && words.find(|w| !w.is_empty()) == Some(name)
+            })
+        };
+        let mut found: Vec<String> = installed_folders()
+            .into_iter()
+            .filter_map(|folder| std::fs::read_dir(folder).ok())
+            .flatten()
+            .flatten()
+            .map(|entry| entry.path())
+            .filter(|path| path.extension().is_some_and(|ending| ending == "inc"))
+            .filter(|path| std::fs::read(path).is_ok_and(|b| declares(&String::from_utf8_lossy(&b))))
+            .filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()))
+            .collect();
+        found.sort_by_key(|file| (file.len(), file.clone()));
+        found.into_iter().next()
+    }
+}
+
 /// `name` (with `/` between folders) under `folder`, whatever the case of its letters.
 fn find_any_case(folder: &Path, name: &str) -> Option<PathBuf> {
     let mut at = if name.starts_with('/') { PathBuf::from("/") } else { folder.to_path_buf() };

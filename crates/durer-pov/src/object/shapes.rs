@@ -15,14 +15,19 @@ impl Parser<'_> {
     pub(crate) fn shape(&mut self, keyword: Keyword, place: Place) -> Result<Shape> {
         Ok(match keyword {
             Keyword::Sphere => {
+                self.need("a sphere needs its centre after `{`")?;
                 let center = self.corner()?;
+                self.need("a sphere needs a radius after its centre")?;
                 match self.size()? {
                     0.0 => self.nothing("this sphere has the radius 0", place),
                     radius => Shape::Sphere { center, radius },
                 }
             }
             Keyword::Box => {
-                let (a, b) = (self.corner()?, self.vector()?);
+                self.need("a box needs two opposite corners")?;
+                let a = self.corner()?;
+                self.need("a box needs its second corner after the first")?;
+                let b = self.vector()?;
                 match (0..3).filter(|&i| a[i] == b[i]).count() {
                     0 => Shape::Box { a, b },
                     1 => Shape::FlatBox { a, b },
@@ -30,7 +35,11 @@ impl Parser<'_> {
                 }
             }
             Keyword::Cylinder => {
-                let (base, cap) = (self.corner()?, self.corner()?);
+                self.need("a cylinder needs the centres of its two ends")?;
+                let base = self.corner()?;
+                self.need("a cylinder needs the centre of its second end after the first")?;
+                let cap = self.corner()?;
+                self.need("a cylinder needs a radius after the centres of its ends")?;
                 if base == cap {
                     return Err(Error::invalid(place, "this cylinder's ends are the same point"));
                 }
@@ -40,10 +49,14 @@ impl Parser<'_> {
                 }
             }
             Keyword::Cone => {
+                self.need("a cone needs the centre of its first end")?;
                 let base = self.corner()?;
+                self.need("a cone needs a radius after the centre of its first end")?;
                 let base_radius = self.float()?;
                 self.skip_comma()?;
+                self.need("a cone needs the centre of its second end after the first radius")?;
                 let cap = self.corner()?;
+                self.need("a cone needs a radius after the centre of its second end")?;
                 let cap_radius = self.float()?;
                 if base == cap {
                     return Err(Error::invalid(place, "this cone's ends are the same point"));
@@ -57,11 +70,17 @@ impl Parser<'_> {
                 }
             }
             Keyword::Plane => {
+                self.need("a plane needs its normal")?;
                 let normal = self.normal("the plane's normal")?;
+                self.need("a plane needs its distance from the origin after the normal")?;
                 Shape::Plane { normal, distance: self.float()? }
             }
             Keyword::Disc => {
-                let (center, normal) = (self.corner()?, self.corner()?);
+                self.need("a disc needs its centre")?;
+                let center = self.corner()?;
+                self.need("a disc needs its normal after the centre")?;
+                let normal = self.corner()?;
+                self.need("a disc needs a radius after its normal")?;
                 let radius = self.size()?;
                 let hole = if self.take_mark(Mark::Comma)? { self.size()? } else { 0.0 };
                 if length(normal) == 0.0 {
@@ -72,7 +91,14 @@ impl Parser<'_> {
                     Shape::Disc { center, normal, radius, hole }
                 }
             }
-            Keyword::Triangle => Shape::Triangle([self.corner()?, self.corner()?, self.vector()?]),
+            Keyword::Triangle => {
+                let mut corners = [[0.0; 3]; 3];
+                for (which, corner) in ["first", "second", "third"].iter().zip(&mut corners) {
+                    self.need(&format!("a triangle needs three corners: the {which} is missing"))?;
+                    *corner = self.corner()?;
+                }
+                Shape::Triangle(corners)
+            }
             Keyword::SmoothTriangle => {
                 let mut corners = [[0.0; 3]; 3];
                 let mut normals = [[0.0; 3]; 3];

@@ -37,7 +37,7 @@ impl Lookup {
         let along = dot(self.axis, p.to_vec());
         let ramp = if along > 1.0 { along - crate::vector::floor(along) } else { along };
         if self.frequency == 0.0 {
-            return ramp;
+            return if ramp < 0.0 { ramp - crate::vector::floor(ramp) } else { ramp };
         }
         let x = ramp * self.frequency + self.phase;
         let w = if x.abs() < PERIOD { x } else { x % PERIOD };
@@ -50,7 +50,7 @@ impl Lookup {
         let along = dot(Vec3::<F8>::splat(self.axis), p.to_vec());
         let ramp = (F8::ONE).lt(along).select(along - floor_lanes(along), along);
         if self.frequency == 0.0 {
-            return ramp;
+            return ramp.lt(F8::ZERO).select(ramp - floor_lanes(ramp), ramp);
         }
         let mut w = ramp * self.frequency + F8::splat(self.phase);
         for i in (live & !w.abs().lt(F8::splat(PERIOD))).lanes() {
@@ -103,6 +103,8 @@ mod tests {
         assert!(close(gradient(-1.0, 0.0)(0.25), 0.75));
         assert!(close(gradient(1.0, 0.5)(0.25), 0.75));
         assert!(close(gradient(0.0, 0.5)(0.25), 0.25));
+        // A gradient in place of a default list of bricks has no frequency, and no wave.
+        assert!(close(gradient(0.0, 0.5)(-0.25), 0.75));
     }
 
     #[test]

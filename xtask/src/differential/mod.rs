@@ -1,0 +1,262 @@
+//! `cargo xtask differential`: random small scenes, rendered by durer and by POV-Ray, and cut back where the pictures differ.
+
+mod random;
+mod reduce;
+mod scene;
+
+use crate::Outcome;
+use crate::command::{Durer, Shot};
+use crate::compare::compare;
+use crate::picture::Picture;
+use crate::povray::{self, Povray};
+use scene::Scene;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+const SHOT: Shot<'static> = Shot { width: 96, height: 72, aa: "off", threads: Some(1) };
+
+/// The share of pixels that POV-Ray must give twice, or its picture is noise.
+const STABLE: f64 = 0.997;
+
+/// Smaller scenes that are tried for one that differs.
+const TRIES: usize = 400;
+
+/// What is asked for on the command line.
+#[derive(Debug, PartialEq)]
+struct Request {
+    scenes: u64,
+    seed: u64,
+    first: u64,
+    reduce: bool,
+}
+
+/// What the two programs make of a scene.
+#[derive(Clone, Debug, PartialEq)]
+enum Verdict {
+    Agrees,
+    /// The share of pixels that differ.
+    Differs(f64),
+    /// durer does not render it, and why.
+    Refused(String),
+    /// POV-Ray does not render it.
+    NoScene,
+    /// POV-Ray's own picture is another one if the whole scene is moved by a thousandth and its pixels are rendered in another order: its rounding decides, or what it remembers of the
+    /// shadow rays before.
+    Noise,
+}
+
+impl Verdict {
+    fn is_fault(&self) -> bool {
+        matches!(self, Self::Differs(_) | Self::Refused(_))
+    }
+
+    /// Whether it is the same kind of fault.
+    fn is_like(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Differs(_), Self::Differs(_)) => true,
+            (Self::Refused(a), Self::Refused(b)) => a.get(..20) == b.get(..20),
+            _ => false,
+        }
+    }
+}
+
+/// The two programs, and where their pictures go.
+struct Bench<'a> {
+    durer: &'a Durer,
+    povray: &'a Povray,
+    folder: PathBuf,
+}
+
+impl Bench<'_> {
+    fn judge(&self, shown: &Scene, name: &str) -> Outcome<Verdict> {
+        let text = &shown.text();
+        let file = |ending: &str| self.folder.join(format!("{name}{ending}"));
+        let (scene, ours, theirs) = (file(".pov"), file("-durer.png"), file("-povray.png"));
+        std::fs::write(&scene, text).map_err(|e| format!("{}: {e}", scene.display()))?;
+        if self.povray.render(&scene, &theirs, SHOT).is_err() {
+            return Ok(Verdict::NoScene);
+        }
+        if let Err(why) = self.durer.render(&scene, &ours, SHOT) {
+            let text = why.lines().nth(1).unwrap_or_default();
+            let text = text.split_once(": ").map_or(text, |(_, text)| text);
+            return Ok(Verdict::Refused(text.to_owned()));
+        }
+        let (difference, drawn) = compare(&Picture::read(&ours)?, &Picture::read(&theirs)?)?;
+        if difference.passes() {
+            return Ok(Verdict::Agrees);
+        }
+        let (moved, picture) = (file("-moved.pov"), file("-moved.png"));
+        std::fs::write(&moved, shown.moved().text()).map_err(|e| format!("{}: {e}", moved.display()))?;
+        let made = self.povray.render_in_blocks(&moved, &picture, SHOT);
+        let stable = match made {
+            Ok(()) => compare(&Picture::read(&picture)?, &Picture::read(&theirs)?)?.0.agreeing >= STABLE,
+            Err(_) => true,
+        };
+        remove(&moved);
+        remove(&picture);
+        if !stable {
+            return Ok(Verdict::Noise);
+        }
+        drawn.write(&file("-difference.png"))?;
+        Ok(Verdict::Differs(1.0 - difference.agreeing))
+    }
+
+    /// The smallest scene found with the same kind of fault.
+    fn reduced(&self, mut scene: Scene, verdict: &Verdict, name: &str) -> Outcome<Scene> {
+        let mut tries = 0;
+        'smaller: loop {
+            for less in reduce::smaller(&scene) {
+                tries += 1;
+                if tries > TRIES {
+                    break 'smaller;
+                }
+                if self.judge(&less, name)?.is_like(verdict) {
+                    scene = less;
+                    continue 'smaller;
+                }
+            }
+            break;
+        }
+        // The pictures beside it are its own again.
+        self.judge(&scene, name)?;
+        Ok(scene)
+    }
+}
+
+/// Renders scenes and writes what differs to target/differential.
+pub(crate) fn run(words: &[String]) -> Outcome {
+    let request = Request::read(words)?;
+    let Some(povray) = Povray::find() else {
+        println!("differential: {}", povray::MISSING);
+        return Ok(());
+    };
+    let durer = Durer::build()?;
+    let folder = crate::command::root().join("target/differential");
+    std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let bench = Bench { durer: &durer, povray: &povray, folder: folder.clone() };
+    let next = AtomicU64::new(request.first);
+    let (last, found) = (request.first + request.scenes, Mutex::new(Vec::new()));
+    let (failed, skipped, noisy) = (Mutex::new(None), AtomicU64::new(0), AtomicU64::new(0));
+    let work = || {
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            if number >= last || failed.lock().is_ok_and(|f| f.is_some()) {
+                return;
+            }
+            match one(&bench, &request, number) {
+                Ok(Verdict::NoScene) => {
+                    skipped.fetch_add(1, Ordering::Relaxed);
+                }
+                Ok(Verdict::Noise) => {
+                    noisy.fetch_add(1, Ordering::Relaxed);
+                }
+                Ok(verdict) if verdict.is_fault() => {
+                    println!("scene {number}: {}", said(&verdict));
+                    if let Ok(mut found) = found.lock() {
+                        found.push(number);
+                    }
+                }
+                Ok(_) => {}
+                Err(why) => {
+                    if let Ok(mut failed) = failed.lock() {
+                        *failed = Some(why);
+                    }
+                }
+            }
+        }
+    };
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| (0..threads).for_each(|_| drop(scope.spawn(work))));
+    if let Ok(Some(why)) = failed.into_inner() {
+        return Err(why);
+    }
+    let mut found = found.into_inner().unwrap_or_default();
+    found.sort_unstable();
+    let skipped = skipped.into_inner();
+    println!(
+        "{} scenes of seed {}: {} differ; {} are noise in POV-Ray{}",
+        request.scenes - skipped,
+        request.seed,
+        found.len(),
+        noisy.into_inner(),
+        if skipped > 0 { format!("; {skipped} were no scenes for POV-Ray") } else { String::new() }
+    );
+    if found.is_empty() { Ok(()) } else { Err(format!("scenes that differ are in {}", folder.display())) }
+}
+
+/// Judges one scene; leaves its file and pictures behind if it is at fault.
+fn one(bench: &Bench<'_>, request: &Request, number: u64) -> Outcome<Verdict> {
+    let scene = scene::scene(request.seed, number);
+    let name = format!("seed-{}-{number}", request.seed);
+    let verdict = bench.judge(&scene, &name)?;
+    if verdict.is_fault() {
+        if request.reduce {
+            bench.reduced(scene, &verdict, &format!("{name}-small"))?;
+        }
+    } else {
+        for ending in [".pov", "-durer.png", "-povray.png"] {
+            remove(&bench.folder.join(format!("{name}{ending}")));
+        }
+    }
+    Ok(verdict)
+}
+
+/// A picture that was not made need not be removed.
+fn remove(path: &Path) {
+    let _ = std::fs::remove_file(path);
+}
+
+fn said(verdict: &Verdict) -> String {
+    match verdict {
+        Verdict::Differs(share) => format!("{:.2} % of the pixels differ", 100.0 * share),
+        Verdict::Refused(why) => format!("refused: {why}"),
+        _ => String::new(),
+    }
+}
+
+impl Request {
+    fn read(words: &[String]) -> Outcome<Self> {
+        let mut request = Self { scenes: 100, seed: 1, first: 0, reduce: true };
+        let mut words = words.iter();
+        while let Some(word) = words.next() {
+            let mut number = || {
+                let n = words.next().ok_or_else(|| format!("differential: {word} needs a number"))?;
+                n.parse().map_err(|_| format!("differential: {n:?} is no number"))
+            };
+            match word.as_str() {
+                "--scenes" => request.scenes = number()?,
+                "--seed" => request.seed = number()?,
+                "--first" => request.first = number()?,
+                "--whole" => request.reduce = false,
+                _ => return Err(format!("differential: there is no option {word}")),
+            }
+        }
+        Ok(request)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_gives_one_scene() {
+        for number in 0..50 {
+            let scene = scene::scene(7, number);
+            assert_eq!(scene.text(), scene::scene(7, number).text());
+            let text = scene.text();
+            assert_eq!(text.matches('{').count(), text.matches('}').count(), "{text}");
+        }
+        assert_ne!(scene::scene(7, 1).text(), scene::scene(8, 1).text());
+    }
+
+    #[test]
+    fn every_smaller_scene_is_smaller() {
+        for number in 0..20 {
+            let scene = scene::scene(3, number);
+            let all = reduce::smaller(&scene);
+            assert!(!all.is_empty() && all.iter().all(|less| less.size() < scene.size()));
+        }
+    }
+}
