@@ -3,13 +3,13 @@
 use crate::command::{Durer, Shot, cargo, root, scratch, step};
 use crate::compare::compare;
 use crate::picture::Picture;
-use crate::{Outcome, conformance, scenes};
+use crate::{Outcome, conformance, python, scenes};
 use std::path::Path;
 
 /// Two pixels that differ by more than this are visibly different.
 const CONTRAST: u8 = 24;
 
-/// Formatting, lints, documentation, tests, then the scenes; stops at the first failure.
+/// Formatting, lints, documentation, tests, the scenes, the Python package; stops at the first failure.
 pub(crate) fn run() -> Outcome {
     step("cargo fmt --all --check", cargo().args(["fmt", "--all", "--check"]))?;
     step(
@@ -31,6 +31,7 @@ pub(crate) fn run() -> Outcome {
     let durer = Durer::tested()?;
     gallery_scenes(&durer)?;
     reference_pictures(&durer)?;
+    python::run(&[])?;
     println!("==> everything passed");
     Ok(())
 }

@@ -6,6 +6,7 @@
 //! - `gallery`: the pictures and pages of docs/gallery.md ([`gallery`]);
 //! - `examples`: the scenes that come with POV-Ray, beside its pictures ([`examples`]);
 //! - `bench`: the triangle kernels beside Embree's, on the same rays ([`mod@bench`]);
+//! - `python`: the Python package, built and tested ([`python`]);
 //! - `soak`: the random tests, with ever new cases, added up ([`soak`]);
 //! - `fused`: which compiled code calls `fma` where it should be one instruction ([`fused`]).
 //!
@@ -24,6 +25,7 @@ mod fused;
 mod gallery;
 mod picture;
 mod povray;
+mod python;
 mod report;
 mod scenes;
 mod soak;
@@ -33,7 +35,7 @@ use std::process::ExitCode;
 const USAGE: &str = "\
 usage: cargo xtask NAME
 
-  test                             formatting, clippy, docs, all tests and doc-tests, then every scene is rendered
+  test                             formatting, clippy, docs, all tests and doc-tests, every scene, the Python package
   conformance [--check] [SCENE]..  renders tests/conformance with durer and with POV-Ray, compares, times, and
                                    writes docs/conformance.md; --check only compares, SCENEs limit it to a few
   differential [--scenes N] [--seed S] [--first K] [--whole]
@@ -44,6 +46,8 @@ usage: cargo xtask NAME
   bench [--rounds N] HARNESS MESH.tri..
                                    traces the same rays with Embree and with durer, in turn, and prints both; HARNESS is
                                    a folder with embree_bench.cpp
+  python [ARGUMENT]..              builds the Python package into target/python and runs pytest (with these arguments),
+                                   mypy and stubtest
   soak [--minutes N] [--rays N] [KIND]..
                                    runs the random tests with ever new cases for N minutes (60) or until each KIND (all)
                                    has N rays, fewest rays first, and adds up in docs/reliability.md
@@ -61,6 +65,7 @@ fn main() -> ExitCode {
         Some((name, rest)) if name == "examples" => examples::run(rest),
         Some((name, rest)) if name == "fused" => fused::run(rest),
         Some((name, rest)) if name == "bench" => bench::run(rest),
+        Some((name, rest)) if name == "python" => python::run(rest),
         Some((name, rest)) if name == "soak" => soak::run(rest),
         Some((name, rest)) if name == "gallery" => gallery::run(rest),
         _ => {

@@ -304,6 +304,12 @@ class Scene:
         start, along, ranges = rays(origins, directions)
         return _native.closest_ids(self._native, start, along, ranges, thread_count(threads), None)
 
+    def _parts(self) -> list[Scene]:
+        """A scene for each object, with that alone."""
+        if self._recipe[0] != "objects":
+            raise ValueError("objects one by one are known of scenes that were made of objects, not of loaded ones")
+        return [Scene([part]) for part in self._recipe[1]]
+
     def _repr_png_(self) -> bytes | None:
         """A small picture for notebooks."""
         from ._render import render

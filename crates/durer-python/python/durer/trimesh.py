@@ -1,6 +1,6 @@
 """Stands in for trimesh's ray classes: ``mesh.ray = durer.trimesh.RayMeshIntersector(mesh)``.
 
-trimesh itself is not needed: a mesh is anything with ``vertices``, ``faces`` and a hash that changes with them.
+trimesh itself is not needed: a mesh is anything with ``vertices``, ``faces``, ``is_watertight`` and a hash that changes with them.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class RayMeshIntersector:
         self.mesh = geometry
         self._scale_to_box = scale_to_box
         self.threads = threads
-        self._built: tuple[Any, Scene, bool] | None = None
+        self._built: tuple[Any, Scene] | None = None
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_built": None}
@@ -67,15 +67,16 @@ class RayMeshIntersector:
         """Another intersector of the same mesh."""
         return self.__copy__()
 
-    def _scene(self) -> tuple[Scene, bool]:
-        """The scene of the mesh as it is now, and whether it is closed."""
+    def _scene(self) -> Scene:
+        """The scene of the mesh as it is now."""
         key = hash(self.mesh)
         if self._built is None or self._built[0] != key:
             vertices = np.asarray(self.mesh.vertices, dtype=np.float64)
             faces = np.asarray(self.mesh.faces, dtype=np.int64)
-            mesh = Mesh(vertices.reshape(-1, 3), faces.reshape(-1, 3))
-            self._built = (key, Scene([mesh]), mesh.is_solid)
-        return self._built[1], self._built[2]
+            # A sheet: rays alone are asked for, and whether a mesh closes takes as long as building its tree.
+            mesh = Mesh(vertices.reshape(-1, 3), faces.reshape(-1, 3), solid=False)
+            self._built = (key, Scene([mesh]))
+        return self._built[1]
 
     def intersects_location(
         self,
@@ -121,7 +122,7 @@ class RayMeshIntersector:
         index_ray : int64 (h,)
         locations : float64 (h, 3), if `return_locations`
         """
-        scene, _ = self._scene()
+        scene = self._scene()
         if multiple_hits:
             hits = scene.all(ray_origins, ray_directions, threads=self.threads or None)
             keep: Any = slice(None)
@@ -143,7 +144,7 @@ class RayMeshIntersector:
         self, ray_origins: npt.ArrayLike, ray_directions: npt.ArrayLike, **kwargs: Any
     ) -> Ints:
         """The triangle that each ray hits first, -1 if it misses: int64 (n,)."""
-        scene, _ = self._scene()
+        scene = self._scene()
         origins, directions = table(ray_origins, 3, "ray_origins"), table(ray_directions, 3, "ray_directions")
         return scene._closest_ids(origins, directions, self.threads or None)[1]
 
@@ -151,14 +152,14 @@ class RayMeshIntersector:
         self, ray_origins: npt.ArrayLike, ray_directions: npt.ArrayLike, **kwargs: Any
     ) -> Bools:
         """Whether each ray hits anything: bool (n,)."""
-        scene, _ = self._scene()
+        scene = self._scene()
         return scene.any(ray_origins, ray_directions, threads=self.threads or None)
 
     def contains_points(self, points: npt.ArrayLike) -> Bools:
         """Whether each point lies inside the mesh, by the parity of crossings: bool (n,). Exact for points off a closed mesh."""
-        scene, is_closed = self._scene()
+        scene = self._scene()
         rows = table(points, 3, "points")
-        if is_closed:
+        if self.mesh.is_watertight:
             along = np.broadcast_to(_PROBES[0], rows.shape)
             odd: Bools = scene.all(rows, along, threads=self.threads or None).counts % 2 == 1
             return odd
