@@ -179,6 +179,8 @@ impl Library {
             .flatten()
             .map(|entry| entry.path())
             .filter(|path| path.extension().is_some_and(|ending| ending == "inc"))
+            // Names of long ago are not what is meant.
+            .filter(|path| !path.to_string_lossy().ends_with("_old.inc"))
             .filter(|path| std::fs::read(path).is_ok_and(|b| declares(&String::from_utf8_lossy(&b))))
             .filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()))
             .collect();
