@@ -81,14 +81,14 @@ impl PacketFilter {
         }
     }
 
-    /// Whether several groups of eight rays should be tested together
-    /// ([`PacketFilter::meet_together`]) instead of one after the other.
+    /// Whether several packets should be tested together ([`PacketFilter::meet_together`]) instead
+    /// of one after the other.
     #[inline]
     pub fn is_asked_together(&self) -> bool {
         self.detail.as_ref().is_some_and(|detail| detail.level().is_some())
     }
 
-    /// [`PacketFilter::meet`] for those groups of eight rays that are `open`.
+    /// [`PacketFilter::meet`] for those packets that are `open`.
     pub fn meet_together(
         &self,
         asked: &[PacketQuery<'_>],

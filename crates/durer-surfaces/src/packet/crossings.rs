@@ -251,7 +251,7 @@ impl PacketFilter {
             to.doubt_from(!missed, earliest);
             return;
         }
-        // What lies before the start no longer matters; half-spaces have one end only.
+        // Crossings before the start do not matter; half-spaces have only one end.
         let ahead = !entered.lt(F8::ZERO);
         let ends = !left.ge(NEVER);
         let enters = through & ahead & earliest.gt(enter.others);
@@ -355,7 +355,7 @@ impl PacketFilter {
         if self.turned { (outside, inside) } else { (inside, outside) }
     }
 
-    /// By the part of each ray inside a convex solid.
+    /// [`PacketFilter::holds`] from the part of each ray inside a convex solid.
     #[inline(never)]
     fn holds_by_stay(&self, isa: Isa, stay: &Stay, (t, e, asked): (&F8, &F8, u8)) -> (u8, u8) {
         isa.run_in_lanes(
@@ -367,7 +367,7 @@ impl PacketFilter {
         )
     }
 
-    /// By the signs of the faces at the points.
+    /// [`PacketFilter::holds`] from the signs of the faces at the points.
     #[inline(always)]
     fn holds_by_faces(
         &self,

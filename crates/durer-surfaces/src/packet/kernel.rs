@@ -27,9 +27,9 @@ pub(crate) enum PacketKernel {
     Swept(Arc<Swept>),
     /// The zero set of a polynomial of degree up to four.
     Quartic(Arc<Terms<5>>),
-    /// Of degree up to eight.
+    /// The zero set of a polynomial of degree up to eight.
     Octic(Arc<Terms<9>>),
-    /// Of degree up to sixteen.
+    /// The zero set of a polynomial of degree up to sixteen.
     High(Arc<Terms<17>>),
     /// A blob.
     Fields(Arc<Fields>),
@@ -226,7 +226,7 @@ impl Detail {
         }
     }
 
-    /// Rounded data next to a face.
+    /// Rounded data near a face.
     #[inline(always)]
     pub(super) fn slant(&self, isa: Isa, (face, tag): (usize, F8), h: Vec3<F8>, h1: F8) -> Slant {
         match &self.shape {
@@ -238,7 +238,7 @@ impl Detail {
         }
     }
 
-    /// Data at points of a face; `tag` is what [`Nearest`] stores of them.
+    /// Data at points of a face; `tag` is the one that [`Nearest`] stores for them.
     #[inline(always)]
     pub(super) fn skin(&self, isa: Isa, (face, tag): (usize, F8), h: Vec3<F8>, h1: F8) -> Skin {
         match &self.shape {

@@ -47,13 +47,13 @@ pub(super) struct Edge<F> {
 }
 
 impl<F> Loops<F> {
-    /// The same outlines with each form mapped by `f`.
+    /// Maps each form by `f`.
     pub(super) fn map<G>(self, f: impl Fn(F) -> G) -> Loops<G> {
         let edges = self.edges.into_iter().map(|e| Edge { level: f(e.level), side: f(e.side) });
         Loops { edges: edges.collect(), ends: self.ends, rule: self.rule, off: self.off }
     }
 
-    /// The same outlines with each form mapped by `f`, if `f` succeeds for all of them.
+    /// Maps each form by `f`; `None` if `f` fails for one of them.
     pub(super) fn try_map<G>(&self, f: impl Fn(&F) -> Option<G>) -> Option<Loops<G>> {
         let edges = self.edges.iter().map(|e| Some(Edge { level: f(&e.level)?, side: f(&e.side)? }));
         let edges = edges.collect::<Option<_>>()?;

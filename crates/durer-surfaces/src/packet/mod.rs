@@ -9,7 +9,7 @@
 //!
 //! ```text
 //!   source.rs           polynomials in double-double, moved by maps (built once)
-//!   quadric.rs          the same in f64, with their errors
+//!   quadric.rs          the polynomials in f64, with bounds on their errors
 //!   quadratic_roots.rs  where eight rays cross a face of degree two
 //!   kernel.rs           the kernels for surfaces that are not faces of degree two:
 //!     revolution/         surfaces of revolution of higher degree

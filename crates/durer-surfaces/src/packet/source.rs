@@ -303,7 +303,7 @@ impl FilterSource {
         Self { convex: true, vague: Some(Aabb::UNBOUNDED), detail, ..endless }
     }
 
-    /// The same sheet with shading normals that vary linearly over the triangle.
+    /// Adds shading normals that vary linearly over the triangle.
     pub(crate) fn with_normals(mut self, vertices: [Point3; 3], normals: [Vec3; 3]) -> Self {
         let [v0, v1, v2] = vertices;
         let (u, v) = (v1 - v0, v2 - v0);

@@ -1,8 +1,8 @@
-//! Quadrics in canonical place: centre or vertex at the origin, axis along z; whole, or a piece
-//! `from <= z <= to` of them.
+//! Quadrics in canonical position: centre or vertex at the origin, axis along z. Each is whole, or
+//! clipped to `from <= z <= to`.
 //!
-//! A piece is a solid with flat ends or, if it is open, the wall alone. Each surface gives its
-//! polynomial ([`Wall`]); its own file says which.
+//! A clipped quadric is a solid with flat ends or, if it is open, the wall alone. Each surface
+//! defines its polynomial ([`Wall`]) in its own file.
 
 use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, sheared};
 use crate::quadric::form::Form;
@@ -11,7 +11,7 @@ use crate::sphere::length;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Affine, EFloat, Point3, Ring, U, Vec3, elementary};
 
-/// Pays for results below the normal range.
+/// Covers results below the normal range.
 const TINY: f64 = f64::from_bits(16);
 
 /// A canonical quadric, as a surface.
@@ -22,7 +22,7 @@ pub trait Wall: Clone + Copy + core::fmt::Debug + PartialEq + Send + Sync {
     /// The polynomial in `y` with `x = 2^k y`, negative inside.
     fn form<T: Ring>(&self, k: i32) -> Form<T>;
 
-    /// About how large its shape is.
+    /// The approximate size of the shape.
     fn size(&self) -> f64;
 
     /// Upper bounds of `|x|` and `|y|` where `z` is in a range.
@@ -33,8 +33,8 @@ pub trait Wall: Clone + Copy + core::fmt::Debug + PartialEq + Send + Sync {
         [f64::NEG_INFINITY, f64::INFINITY]
     }
 
-    /// Coordinates at `x` (in the wall's own frame), where the unit normal is `n` and `z` has the
-    /// range `ends` (all of space if there is none).
+    /// Surface coordinates at `x` (in the wall's own frame), where the unit normal is `n`. `ends`
+    /// is the range of `z`, `None` for the whole surface.
     fn chart(&self, x: Vec3, n: Vec3, ends: Option<[f64; 2]>) -> Chart;
 
     /// Whether there is a tip at the origin.
@@ -43,7 +43,7 @@ pub trait Wall: Clone + Copy + core::fmt::Debug + PartialEq + Send + Sync {
     }
 }
 
-/// A wall, with the range of `z` to which it is cut.
+/// A wall, with the range of `z` to which it is clipped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxialShape<W> {
     wall: W,
@@ -58,9 +58,9 @@ pub enum AxialError {
     /// A semi-axis is zero, negative, infinite or NaN.
     #[error("{surface}: {name} must be finite and positive, got {value}")]
     SemiAxis {
-        /// Which surface.
+        /// The surface.
         surface: &'static str,
-        /// Which semi-axis.
+        /// The semi-axis.
         name: &'static str,
         /// Its value.
         value: f64,
@@ -92,7 +92,7 @@ impl<W: Wall> Axial<W> {
         Self::of(AxialShape::new(wall, None, false))
     }
 
-    /// The wall, as it was given.
+    /// The wall, with the semi-axes that were given.
     pub fn wall(&self) -> W {
         self.shape().wall
     }
@@ -120,7 +120,7 @@ impl<W: Wall> AxialShape<W> {
         let origin = Frame { centre: Point3::ORIGIN, scale: 0, reach: f64::INFINITY };
         let mut shape = Self { wall, ends, open, frame: origin };
         let bounds = shape.bounds();
-        // Any centre and unit would be right; these are near the middle and about the size.
+        // Any centre and unit are correct; these are near the middle and close to the size.
         let z = ends.map_or(0.0, |[from, to]| 0.5 * from + 0.5 * to);
         let centre = Point3::new(0.0, 0.0, z);
         let reach = if bounds.is_bounded() { bounds.reach_from(centre) } else { f64::INFINITY };
@@ -186,15 +186,15 @@ impl<W: Wall> QuadricFaces for AxialShape<W> {
     }
 
     fn tip(&self, face: usize) -> Option<Vec3> {
-        // A piece that begins at the tip ends there: its outside is below.
+        // If the piece starts at the tip, it ends there: the outside is below.
         let below = self.ends.is_some_and(|[from, _]| from == 0.0);
         let holds_origin = self.ends.is_none_or(|[from, to]| from <= 0.0 && to >= 0.0);
         (face == 0 && self.wall.has_tip() && holds_origin).then_some(if below { -Vec3::Z } else { Vec3::Z })
     }
 }
 
-/// An upper bound of `a √f(z²/c²)` for increasing `f`, where `z` is in a range: `f` is given the
-/// larger `z²/c²`.
+/// An upper bound of `a √f(z²/c²)` for increasing `f`, where `z` is in a range: `f` is evaluated at
+/// the larger `z²/c²`.
 pub(crate) fn widest(axes: [f64; 2], z: [f64; 2], c: f64, f: impl Fn(EFloat) -> EFloat) -> [f64; 2] {
     let z = z[0].abs().max(z[1].abs());
     if z == f64::INFINITY {
@@ -205,8 +205,8 @@ pub(crate) fn widest(axes: [f64; 2], z: [f64; 2], c: f64, f: impl Fn(EFloat) -> 
     axes.map(|a| (EFloat::exact(a) * root).hi())
 }
 
-/// `u` around the axis in the angle of the ellipse with semi-axes `a`, `b`, from x; `v` along z,
-/// from 0 to 1 over a piece.
+/// `u` around the axis, by the angle of the ellipse with semi-axes `a`, `b`, counted from x; `v`
+/// along z, from 0 to 1 over a piece.
 pub(crate) fn around(x: Vec3, n: Vec3, a: f64, b: f64, ends: Option<[f64; 2]>) -> Chart {
     const TURN: f64 = 2.0 * core::f64::consts::PI;
     let phi = elementary::atan2(x.y / b, x.x / a);
@@ -214,7 +214,7 @@ pub(crate) fn around(x: Vec3, n: Vec3, a: f64, b: f64, ends: Option<[f64; 2]>) -
     let (from, height) = ends.map_or((0.0, 1.0), |[from, to]| (from, to - from));
     let radial = Vec3::new(x.x, x.y, 0.0);
     let ahead = Vec3::new(-x.y * (a / b), x.x * (b / a), 0.0) * TURN;
-    // On the axis there is no angle.
+    // On the axis the angle is undefined.
     let ahead = if ahead == Vec3::ZERO { Vec3::Y } else { ahead };
     let radial = if radial == Vec3::ZERO { Vec3::X } else { radial };
     Chart {

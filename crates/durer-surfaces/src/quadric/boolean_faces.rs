@@ -3,13 +3,13 @@
 //! Along a ray each face is a quadratic `p_i(s)`, and the solid is where all of them are `<= 0`: a
 //! union of closed intervals, whose ends are the crossings (S. D. Roth, "Ray casting for modeling
 //! solids", *Computer Graphics and Image Processing* 18, 1982). A crossing is a root of one face at
-//! which no other face is positive. Whether one is, is decided in f64 with a running error where
-//! that suffices, and exactly otherwise; so rims cannot leak:
+//! which no other face is positive. f64 with a running error decides this where that suffices, and
+//! exact arithmetic otherwise; so rims cannot leak:
 //!
 //! - a root at which another face is exactly zero (a rim) is reported by one of the two faces,
 //!   once;
-//! - what the crossing is (entering, leaving, touching) follows from the signs of the slopes of all
-//!   faces that are zero there;
+//! - the kind of the crossing (entering, leaving, touching) follows from the signs of the slopes of
+//!   all faces that are zero there;
 //! - a line that lies in a face is inside that face, so other faces end the interval.
 
 use crate::quadric::form::{Form, Rounded};
@@ -27,26 +27,26 @@ use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Isa, Point3, RaySide, Ring, U
 /// The most faces a shape can have.
 pub const MAX_FACES: usize = 6;
 
-/// Where a shape lives: kernels work on `y` with `x = centre + 2^scale y`.
+/// The coordinates in which a shape is computed: `y` with `x = centre + 2^scale y`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// The point to which rays are re-centred.
     pub centre: Point3,
     /// The exponent of the unit of length; the shape's size should be about one unit.
     pub scale: i32,
-    /// A ball of this radius about the centre, in units, holds the shape; infinite if there is
+    /// The radius of a ball about the centre that holds the shape, in units; infinite if there is
     /// none.
     pub reach: f64,
 }
 
-/// How a face is drawn over with coordinates at a point.
+/// Surface coordinates of a face at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chart {
     /// Texture coordinates.
     pub uv: [f64; 2],
-    /// Change of the position with u, in units of the frame.
+    /// The derivative of the position by u, in units of the frame.
     pub dpdu: Vec3,
-    /// Change of the position with v, in units of the frame.
+    /// The derivative of the position by v, in units of the frame.
     pub dpdv: Vec3,
 }
 
@@ -59,13 +59,13 @@ pub(crate) fn tangents(n: Vec3) -> (Vec3, Vec3) {
     (Vec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), Vec3::new(b, sign + n.y * n.y * a, -n.y))
 }
 
-/// The tangent that `v` becomes if it is moved along `along` onto the plane across `n`: how a graph
-/// over directions changes.
+/// The projection of `v` along `along` onto the plane across `n`: the tangent of a graph over
+/// directions.
 pub(crate) fn sheared(v: Vec3, along: Vec3, n: Vec3) -> Vec3 {
     let flat = |w: Vec3| w - n * n.dot(w);
     let w = flat(v - along * (n.dot(v) / n.dot(along)));
     let size = v.max_abs();
-    // Seen edge-on there is no graph; then the part of v in the plane, and if there is none, any
+    // Edge-on there is no graph; then the part of v in the plane, and if that vanishes, any
     // tangent.
     if w.max_abs() <= 1e6 * size && w.max_abs() >= 1e-6 * size {
         return flat(w);
@@ -74,7 +74,7 @@ pub(crate) fn sheared(v: Vec3, along: Vec3, n: Vec3) -> Vec3 {
     if w.max_abs() >= 1e-6 * size { flat(w) } else { tangents(n).0 * size.min(f64::MAX) }
 }
 
-/// What the author of a solid with quadric faces writes; everything else follows.
+/// A solid with quadric faces: the methods that its author writes. Everything else follows.
 pub trait QuadricFaces: Send + Sync {
     /// Centre, unit of length and reach.
     fn frame(&self) -> Frame;
@@ -82,20 +82,21 @@ pub trait QuadricFaces: Send + Sync {
     /// How many faces bound the shape, at most [`MAX_FACES`].
     fn faces(&self) -> usize;
 
-    /// How many of them, the first ones, are part of the surface. If not all are, the shape is a
-    /// sheet: the other faces cut it off.
+    /// The number of faces that are part of the surface; these come first. If not all are, the
+    /// shape is a sheet that the other faces clip.
     fn walls(&self) -> usize {
         self.faces()
     }
 
     /// The face's polynomial in the frame's coordinates `y`, negative inside; exact in an exact
-    /// ring. A positive factor is free.
+    /// ring. It may have any positive factor.
     fn form<T: Ring>(&self, face: usize) -> Form<T>;
 
     /// A box that provably holds the shape.
     fn bounds(&self) -> Aabb;
 
-    /// A box that provably holds what of the shape lies in a box, of which some sides may be open.
+    /// A box that provably holds the part of the shape inside a box, which may be unbounded on some
+    /// sides.
     fn bounds_within(&self, _slab: &Aabb) -> Aabb {
         self.bounds()
     }
@@ -105,7 +106,7 @@ pub trait QuadricFaces: Send + Sync {
         map.bounds(&self.bounds())
     }
 
-    /// Coordinates on a face, at `y` (close to the face), where the unit normal is `n`.
+    /// Surface coordinates on a face, at `y` (close to the face), where the unit normal is `n`.
     fn chart(&self, face: usize, y: Vec3, n: Vec3) -> Chart;
 
     /// The normal at a point where the face's gradient vanishes (the tip of a cone), if there is
@@ -115,12 +116,12 @@ pub trait QuadricFaces: Send + Sync {
     }
 }
 
-/// [`QuadricFaces`] behind a pointer: what kernels ask it when f64 has left a doubt. They are
+/// [`QuadricFaces`] as a trait object, for kernels that run when f64 has left a doubt. They are
 /// compiled once and not for each shape.
 pub(crate) trait Faces: Send + Sync {
     /// The face's polynomial, exactly.
     fn exact(&self, face: usize) -> Form<Dyadic>;
-    /// The same in double-double.
+    /// The face's polynomial in double-double.
     fn double(&self, face: usize) -> Form<EFloat<Dd>>;
     /// See [`QuadricFaces::chart`].
     fn chart(&self, face: usize, y: Vec3, n: Vec3) -> Chart;
@@ -149,7 +150,7 @@ impl<S: QuadricFaces> Faces for S {
     }
 }
 
-/// A shape together with what is computed from it once.
+/// A shape together with the data that is computed from it once.
 #[derive(Clone, Copy)]
 pub(crate) struct View<'a> {
     pub(crate) shape: &'a dyn Faces,
@@ -158,7 +159,7 @@ pub(crate) struct View<'a> {
     pub(crate) walls: usize,
 }
 
-/// A crossing that is known to be on the surface.
+/// A crossing that certainly lies on the surface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Event {
     pub(crate) face: usize,
@@ -168,7 +169,7 @@ pub(crate) struct Event {
     pub(crate) s: f64,
     pub(crate) lo: f64,
     pub(crate) hi: f64,
-    /// It is known to be in front of the ray's start, which is the start of its range.
+    /// It certainly lies ahead of the ray's start, which is also the start of the range.
     pub(crate) ahead: bool,
 }
 
@@ -184,7 +185,7 @@ pub(crate) fn rounded<S: QuadricFaces>(shape: &S) -> Box<[Rounded]> {
         .collect()
 }
 
-/// The exact ray; if it is not exactly known, the one that the rounded numbers describe, and
+/// The exact ray and `true`; if it is not exactly known, the ray with the rounded numbers, and
 /// `false`.
 fn exact_ray(ray: &CentredRay<'_>) -> (RingRay<Dyadic>, bool) {
     match ray.in_ring::<Dyadic>() {
@@ -203,13 +204,13 @@ impl View<'_> {
         ((0..self.forms.len()).map(|i| self.shape.exact(i).along(&exact)).collect(), known)
     }
 
-    /// The bounds of `s` outside which no root matters to anyone; `None` if nothing is within.
+    /// The bounds of `s` outside which no root matters; `None` if the interval is empty.
     #[inline(always)]
     fn limits(&self, ray: &CentredRay<'_>, range: (f64, f64)) -> Option<Limits> {
         let local = ray.local();
         let (mut lo, mut hi) = ray.window((local.t_min.max(range.0), local.t_max.min(range.1)));
         if self.frame.reach < f64::INFINITY {
-            // |s d| <= |o| + reach; the largest |d_i| is at least 1, but for its error.
+            // |s d| <= |o| + reach; the largest |d_i| is at least 1, up to its error.
             let derr = ray.d_err.x + ray.d_err.y + ray.d_err.z;
             let o = ray.o.abs() + ray.o_err;
             let far = (o.x + o.y + o.z + self.frame.reach) * (1.0 + 8.0 * U);
@@ -246,7 +247,7 @@ impl View<'_> {
         }
     }
 
-    /// The roots as far as f64 can tell.
+    /// The roots, as far as f64 can decide.
     #[inline(always)]
     fn double(
         &self,
@@ -256,8 +257,8 @@ impl View<'_> {
         limits: &Limits,
     ) -> Option<LineRoots> {
         let (a, b, c) = (line.a, line.b, line.c);
-        // Where B² and AC cancel, the parameter is moved on to the vertex first: there B vanishes
-        // and nothing cancels.
+        // Where B² and AC cancel, the parameter is first moved to the vertex: there B vanishes and
+        // nothing cancels.
         if a.v * c.v > 0.5 * b.v * b.v && a.v.abs() > 4.0 * a.e && b.v != 0.0 {
             let step = -b.v / a.v;
             let o = Vec3::new(
@@ -308,14 +309,14 @@ impl View<'_> {
         let [a, b, c, d] = if certain {
             exact
         } else {
-            // Decisions by the rounded ray, enclosures by all rays it may stand for.
+            // Signs come from the rounded ray, enclosures from all rays that it may represent.
             [0, 1, 2, 3].map(|i| SignedEnclosure { sign: exact[i].sign, ..known[i] })
         };
         (solve(a, b, c, d, 0.0, &limits).unwrap_or(none), certain)
     }
 
-    /// All crossings of the line within the sink's and the ray's range (as far as f64 can tell), in
-    /// order.
+    /// All crossings of the line within the sink's and the ray's range (as far as f64 can decide),
+    /// in order.
     #[inline(always)]
     pub(crate) fn events(&self, ray: &CentredRay<'_>, range: (f64, f64)) -> Events {
         let mut events = Events::new();
@@ -323,7 +324,7 @@ impl View<'_> {
         let [first, rest @ ..] = self.forms else { return events };
         let mut lines = Lines::new();
         lines.push(first.along(ray.o, ray.d, ray.o_err, ray.d_err));
-        // Mostly the first face tells that the line passes by.
+        // Usually the first face shows that the line misses.
         let mut known = Some(self.face_roots(0, &lines[0], ray, &limits));
         if known.as_ref().is_some_and(|(found, _)| found.outside) {
             return events;
@@ -340,8 +341,8 @@ impl View<'_> {
             }
             let start = start(ray, face, &lines[face]);
             for root in found.roots.into_iter().flatten() {
-                // Where the ray was spawned, side and slope tell which roots are behind it: no
-                // exact arithmetic is needed.
+                // For a spawned ray, side and slope at the start decide which roots are behind it:
+                // no exact arithmetic is needed.
                 let ahead = match start.and_then(|start| start.against(root.crossing)) {
                     Some(Greater) => continue,
                     known => known.is_some(),
@@ -367,8 +368,8 @@ impl View<'_> {
         events
     }
 
-    /// Whether a root of `face` belongs to the closed solid, exactly, and what happens there: kind
-    /// and sign of the crossing.
+    /// Decides exactly whether a root of `face` belongs to the closed solid. If so, returns the
+    /// kind and the sign of the crossing.
     #[cold]
     #[inline(never)]
     fn examine(
@@ -418,7 +419,7 @@ impl View<'_> {
         })
     }
 
-    /// Sorts by the exact order of the roots, and makes brackets agree with it.
+    /// Sorts by the exact order of the roots, and makes the brackets consistent with it.
     #[inline(always)]
     fn sort(&self, events: &mut Events, ray: &CentredRay<'_>) {
         events.sort_unstable_by(|x, y| x.s.total_cmp(&y.s));
@@ -476,7 +477,7 @@ impl View<'_> {
                 lo,
                 hi,
                 s: event.s,
-                // A rim that is only touched: what the face does there, for clips.
+                // At a rim that is only touched: how the face itself is crossed, for clips.
                 tag: [if event.sign == 0 { f64::from(sign_of(event.crossing)) } else { 0.0 }, 0.0],
                 face: event.face as u32,
                 sign: event.sign,
@@ -489,7 +490,7 @@ impl View<'_> {
         Flow::Continue
     }
 
-    /// Whether a crossing whose bracket straddles an end of the range is in it.
+    /// Whether a crossing whose bracket straddles an end of the range is in the range.
     #[cold]
     #[inline(never)]
     fn in_range(&self, event: &Event, ray: &CentredRay<'_>) -> bool {
@@ -504,10 +505,10 @@ impl View<'_> {
         low && high
     }
 
-    /// Where an end of the range lies relative to a crossing.
+    /// The order of an end of the range and a crossing.
     #[inline(always)]
     fn end_against_root(&self, end: End, event: &Event, ray: &CentredRay<'_>) -> Ordering {
-        // The polynomial at the end's own point, which does not carry the rounding of the closest
+        // The polynomial at the end's own point, which does not have the rounding of the closest
         // approach. Rays that were spawned on this surface start where its sign is certain.
         let (p, ep) = ray.point_at_end(end);
         let at = self.forms[event.face].along(p, ray.d, ep, ray.d_err);
@@ -547,7 +548,7 @@ impl View<'_> {
     }
 }
 
-/// Where a ray that was spawned on a face starts: the signs of `A`, of the polynomial and of its
+/// The start of a ray that was spawned on a face: the signs of `A`, of the polynomial and of its
 /// slope there.
 #[derive(Clone, Copy)]
 struct Start {
@@ -557,7 +558,7 @@ struct Start {
 }
 
 impl Start {
-    /// Where the start lies relative to a root of the face.
+    /// The order of the start and a root of the face; `None` if it is unknown.
     #[inline(always)]
     fn against(self, crossing: Crossing) -> Option<Ordering> {
         locate(crossing, self.a, Some(self.value), self.slope)
@@ -574,7 +575,7 @@ fn start(ray: &CentredRay<'_>, face: usize, line: &Quadratic<EFloat>) -> Option<
     Some(Start { a: line.a.sign(), value, slope: (line.a * s + line.b).sign() })
 }
 
-/// The root of a half-space's face, as far as f64 can tell.
+/// The root of a half-space's face, as far as f64 can decide.
 #[inline(always)]
 fn solve_linear(line: &Quadratic<EFloat>, limits: &Limits) -> Option<LineRoots> {
     let crossing = match line.b.sign()? {
@@ -586,8 +587,8 @@ fn solve_linear(line: &Quadratic<EFloat>, limits: &Limits) -> Option<LineRoots> 
     Some(LineRoots { roots: [root, None], outside: false })
 }
 
-/// Whether the line is in all faces but one, over an enclosure of `s`; `None` if that cannot be
-/// told.
+/// Whether the line is inside all faces but one, over an enclosure of `s`; `None` if that is
+/// uncertain.
 #[inline(always)]
 fn within(lines: &Lines, face: usize, at: EFloat) -> Option<bool> {
     let mut all = Some(true);

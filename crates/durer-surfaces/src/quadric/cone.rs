@@ -1,10 +1,10 @@
-//! The cone with its tip at the origin: both of its halves, unless it is cut.
+//! The cone with its tip at the origin: both halves, unless it is clipped.
 //!
 //! ```text
 //!   x²/a² + y²/b² - z²/c² <= 0      semi-axes a and b at the height c
 //! ```
 //!
-//! The cone between two discs, as most scenes have it, is [`Frustum`](crate::Frustum).
+//! The usual cone between two discs is [`Frustum`](crate::Frustum).
 
 use crate::quadric::axial::{Axial, AxialError, Wall, around, positive, widest};
 use crate::quadric::boolean_faces::Chart;

@@ -38,7 +38,7 @@ pub struct HyperbolicWall {
 /// The semi-axes of a [`ParabolicCylinder`], positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParabolicWall {
-    /// Half the width, and the y at which it is that.
+    /// Half the width, and the y at which it is reached.
     pub axes: [f64; 2],
 }
 

@@ -61,7 +61,7 @@ impl Wall for EllipsoidWall {
         [-self.axes[2], self.axes[2]]
     }
 
-    /// The sphere's coordinates, stretched.
+    /// The surface coordinates of the sphere, scaled.
     fn chart(&self, x: Vec3, _: Vec3, _: Option<[f64; 2]>) -> Chart {
         let [a, b, c] = self.axes;
         let on_sphere = sphere_chart(Vec3::new(x.x / a, x.y / b, x.z / c));

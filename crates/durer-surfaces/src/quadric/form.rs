@@ -1,10 +1,10 @@
-//! The quadratic form `f(x) = x·Qx + 2 b·x + c`, and what it becomes along a ray.
+//! The quadratic form `f(x) = x·Qx + 2 b·x + c`, and its restriction to a ray.
 
 use crate::RingRay;
 use crate::roots::quadratic::Quadratic;
 use durer_math::{Dd, Dyadic, EFloat, Ring, U, Vec3};
 
-/// Pays for underflow in sums of products of numbers of size one.
+/// Covers underflow in sums of products of numbers of size one.
 pub(crate) const FLOOR: f64 = 1e-290;
 
 /// `f(x) = x·Qx + 2 b·x + c` with coefficients in a ring. Negative inside.
@@ -33,13 +33,13 @@ impl<T: Ring> Form<T> {
         Self { q, b: twice_b.map(|x| x.scale2(-1)), c }
     }
 
-    /// The inside becomes the outside.
+    /// The negated form: inside and outside are exchanged.
     #[must_use]
     pub fn negated(self) -> Self {
         Self { q: self.q.map(|x| -x), b: self.b.map(|x| -x), c: -self.c }
     }
 
-    /// The same form seen from `p`: `f(y + p)`.
+    /// The form relative to `p`: `f(y + p)`.
     #[must_use]
     pub fn seen_from(self, p: &[T; 3]) -> Self {
         let c = self.at(p, &T::exact(1.0));
@@ -105,8 +105,8 @@ pub struct Rounded {
 }
 
 impl Rounded {
-    /// Rounds a form that is given in `EFloat<Dd>`, and exactly where that leaves a coefficient
-    /// doubtful.
+    /// Rounds a form that is given in `EFloat<Dd>`. Coefficients that this leaves uncertain are
+    /// computed exactly.
     pub(crate) fn new(rough: &Form<EFloat<Dd>>, exact: impl Fn() -> Form<Dyadic>) -> Self {
         let coefficients = |f: &Form<EFloat<Dd>>| -> Option<[f64; 11]> {
             let mut out = [0.0; 11];
@@ -137,8 +137,8 @@ impl Rounded {
         Self { q, b: [bx, by, bz], c, rel: rel * (1.0 + 8.0 * U), largest, bend }
     }
 
-    /// The form of a ball about the origin, `x·x - radius²`: what [`Rounded::new`] gives, without
-    /// the detour.
+    /// The form of a ball about the origin, `x·x - radius²`: the result of [`Rounded::new`],
+    /// computed directly.
     #[inline(always)]
     pub(crate) fn ball(radius: f64) -> Self {
         /// Twice the Frobenius norm of the identity, rounded up.
@@ -170,7 +170,7 @@ impl Rounded {
     /// `A`, `B`, `C` along `o + s d`, with `o` within `eo` and `d` within `ed`.
     ///
     /// `Qd` and `Qo + b` take at most 4 roundings a coordinate, the dot products 4 more, and the
-    /// coefficients bring `rel`: so `gamma(9) + rel` of the sums of absolute values covers
+    /// coefficients have the error `rel`: so `gamma(9) + rel` of the sums of absolute values covers
     /// rounding. Errors of the inputs enter through the exact differences,
     /// `|δ(d·Qd)| <= |δd|·|Q|(2|d| + |δd|)`, `|δ(d·(Qo+b))| <= |δd|·|Qo+b| + |δo|·|Q|(|d| + |δd|)`,
     /// `|δf| <= 2|δo|·|Qo+b| + |δo|·|Q||δo|`.
@@ -219,7 +219,8 @@ impl Rounded {
         let e_b = (k * size.dot(dd) + ed.dot(size) + eo.dot(reach)) * slack;
         let e_b = if e_b == 0.0 && self.vanishes_across(o, d) { 0.0 } else { e_b + FLOOR };
         let c = (g + linear).dot(o) + self.c;
-        // |Qo + b| itself, not the sum of absolute values: near the surface that is what errors of o amount to.
+        // |Qo + b| itself, not the sum of absolute values: near the surface it is the factor of errors
+        // of o.
         let gradient = g.abs() + size * k;
         let spread = eo.x + eo.y + eo.z;
         let e_c = k * ((size + linear.abs()).dot(od) + self.c.abs())

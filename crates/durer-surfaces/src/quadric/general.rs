@@ -4,7 +4,7 @@
 //!   f = A x² + B y² + C z² + D xy + E xz + F yz + G x + H y + I z + J <= 0
 //! ```
 //!
-//! Its name follows from the inertia (how many eigenvalues are positive and negative) of `Q` and of
+//! Its kind follows from the inertia (how many eigenvalues are positive and negative) of `Q` and of
 //! the 4x4 matrix of the homogeneous form. Both matrices are symmetric, so all their eigenvalues
 //! are real, and Descartes' rule of signs on the characteristic polynomials counts them exactly;
 //! the signs of those polynomials' coefficients are computed in exact arithmetic.
@@ -25,7 +25,7 @@ pub type Quadric = QuadricSolid<GeneralQuadric>;
 ///
 /// # Invariants
 ///
-/// All are finite, and one besides the last is not zero.
+/// All are finite, and at least one other than the last is not zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GeneralQuadric {
     coefficients: [f64; 10],
@@ -43,7 +43,7 @@ pub enum QuadricError {
     /// A coefficient is infinite or NaN.
     #[error("quadric: coefficient {index} must be finite, got {value}")]
     Coefficient {
-        /// Its place, from 0.
+        /// Its index, from 0.
         index: usize,
         /// Its value.
         value: f64,
@@ -53,7 +53,7 @@ pub enum QuadricError {
     Constant,
 }
 
-/// What a quadric is. Where the name says "imaginary" there is no real point.
+/// The kinds of quadric. An "imaginary" one has no real point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "each name is its own description")]
 pub enum QuadricKind {
@@ -96,13 +96,13 @@ impl Quadric {
         self.shape().coefficients
     }
 
-    /// What it is.
+    /// The kind of quadric.
     pub fn kind(&self) -> QuadricKind {
         self.shape().kind
     }
 }
 
-/// `Q`, `b` and `c` of the coefficients, in a ring.
+/// `Q`, `b` and `c` from the coefficients, in a ring.
 fn matrix<T: Ring>(k: &[f64; 10]) -> ([[T; 3]; 3], [T; 3], T) {
     let [xx, yy, zz] = [0, 1, 2].map(|i| T::exact(k[i]));
     let [xy, xz, yz] = [3, 4, 5].map(|i| T::exact(k[i]).scale2(-1));
@@ -173,7 +173,7 @@ fn classify(k: &[f64; 10]) -> QuadricKind {
         })
     });
     let (p4, n4) = inertia(&characteristic(&full));
-    // Both matrices with either sign mean the same surface.
+    // A matrix and its negative describe the same surface.
     let flip = (n3, n4) > (p3, p4);
     let (p3, n3, p4, n4) = if flip { (n3, p3, n4, p4) } else { (p3, n3, p4, n4) };
     match (p3, n3, p4 + n4) {
@@ -199,8 +199,8 @@ fn classify(k: &[f64; 10]) -> QuadricKind {
 }
 
 /// Eigenvalues and vectors of a symmetric matrix by Jacobi's rotations (H. Rutishauser, "The Jacobi
-/// method for real symmetric matrices", *Numerische Mathematik* 9, 1966). Only for choosing a
-/// frame: its rounding harms nothing.
+/// method for real symmetric matrices", *Numerische Mathematik* 9, 1966). They only choose a frame,
+/// so rounding does no harm.
 fn eigen(mut m: [[f64; 3]; 3]) -> ([f64; 3], [Vec3; 3]) {
     let mut v = [Vec3::X, Vec3::Y, Vec3::Z];
     for _ in 0..12 {
@@ -225,11 +225,11 @@ fn eigen(mut m: [[f64; 3]; 3]) -> ([f64; 3], [Vec3; 3]) {
     ([m[0][0], m[1][1], m[2][2]], v)
 }
 
-/// Below this share of the strongest, a bend counts as none for the choice of a centre.
+/// For the choice of a centre, a curvature below this fraction of the largest counts as zero.
 const NEARLY_PARABOLIC: f64 = 1.0 / 64.0;
 
-/// A frame for rays to be re-centred to: the centre or vertex, and the surface's size there. Any
-/// numbers would be right; these are good.
+/// A frame for re-centring rays: the centre or vertex, and the surface's size there. Any numbers
+/// are correct; these give small errors.
 fn frame(k: &[f64; 10]) -> (Frame, i32, Vec3) {
     let k_max = k.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     let unit = |x: f64| durer_math::eft::scale2(x, -exponent(k_max));
@@ -239,7 +239,7 @@ fn frame(k: &[f64; 10]) -> (Frame, i32, Vec3) {
     let b = Vec3::new(half(k[6]), half(k[7]), half(k[8]));
     let (values, vectors) = eigen(q);
     let largest = values.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    // The centre, as far as directions in which the surface bends more than this tell.
+    // The centre, from the directions in which the surface curves more than this.
     let centre_without = |weak: f64| {
         let strong = values.iter().zip(&vectors).filter(|(value, _)| value.abs() > weak * largest);
         strong.fold(Vec3::ZERO, |c, (value, &v)| c - v * (b.dot(v) / value))
@@ -254,8 +254,8 @@ fn frame(k: &[f64; 10]) -> (Frame, i32, Vec3) {
         let g = qv(c) + b;
         (c, size) =
             if g.length() > 1e-9 * b.length() { vertex(c, g) } else { (c, (f(c).abs() / largest).sqrt()) };
-        // A surface that is all but a paraboloid has its centre far away, where nothing of it is:
-        // then its vertex, if that is nearer and on it.
+        // A surface that is almost a paraboloid has its centre far away from the surface. Then its
+        // vertex is used, if that is nearer and on the surface.
         let near = centre_without(NEARLY_PARABOLIC);
         let (near, near_size) = vertex(near, qv(near) + b);
         let slope = qv(near) + b;
@@ -269,8 +269,8 @@ fn frame(k: &[f64; 10]) -> (Frame, i32, Vec3) {
     let centre = if c.is_finite() && c.max_abs() < 1e140 { c.to_point() } else { Point3::ORIGIN };
     let scale = if usable(size) { exponent(size) } else { 0 };
     let gain = -exponent(k_max) - if largest > 0.0 { 2 * scale } else { scale };
-    // The axis of a cone is where the sign is the odd one; elsewhere the form must not vanish along
-    // it, the more it changes the better.
+    // The axis of a cone belongs to the eigenvalue whose sign is unique. For other quadrics the
+    // form must not vanish along the axis; the more it changes the better.
     let product = values[0] * values[1] * values[2];
     let positive = values.iter().filter(|&&x| x > 0.0).count();
     let tip = (0..3)
@@ -319,7 +319,7 @@ impl QuadricFaces for GeneralQuadric {
         singular.contains(&self.kind).then_some(self.tip)
     }
 
-    /// Longitude and latitude as seen from the centre.
+    /// Longitude and latitude about the centre.
     fn chart(&self, _: usize, y: Vec3, n: Vec3) -> Chart {
         let Chart { uv, dpdu, dpdv } = sphere_chart(y);
         // The tangents of the sphere through y, moved along y onto the surface.
@@ -328,15 +328,17 @@ impl QuadricFaces for GeneralQuadric {
 }
 
 impl GeneralQuadric {
-    /// The box of what of the surface lies between two planes across an axis, where that is an axis
+    /// A box around the part of the surface between two planes across an axis, if that is an axis
     /// of the quadric and all its sections are ellipses:
     ///
     /// ```text
-    ///   A (x - m)² + B (y - n)² = s(z) = A m² + B n² - (C z² + I z + J),    A, B > 0 >= C,    m = -G / 2A,    n = -H / 2B
+    ///   A (x - m)² + B (y - n)² = s(z) = A m² + B n² - (C z² + I z + J)
+    ///
+    ///   A, B > 0 >= C,    m = -G / 2A,    n = -H / 2B
     /// ```
     ///
     /// `s` is convex, and so the largest section is at one of the ends. A paraboloid, with `C = 0`,
-    /// has one of its own, where `s` vanishes.
+    /// also ends by itself where `s` vanishes.
     fn slab_bounds(&self, axis: usize, slab: &Aabb) -> Aabb {
         let k = &self.coefficients;
         let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -369,11 +371,11 @@ impl GeneralQuadric {
             let half = (Interval::from(most) / k[i]).sqrt();
             (bounds.min[i], bounds.max[i]) = ((middle(i) - half).lo, (middle(i) + half).hi);
         }
-        // Infinite ends say nothing, and make something that is not a number of the others.
+        // Infinite ends give no bound, and make the others NaN.
         if bounds.is_bounded() { bounds } else { Aabb::UNBOUNDED }
     }
 
-    /// The box of a solid ellipsoid: about `-Q⁻¹b`, half-widths `√(K (Q⁻¹)ᵢᵢ)` with
+    /// The box of a solid ellipsoid: centre `-Q⁻¹b`, half-widths `√(K (Q⁻¹)ᵢᵢ)` with
     /// `K = b·Q⁻¹b - c`.
     fn ellipsoid_bounds(&self) -> Option<Aabb> {
         if self.kind != QuadricKind::Ellipsoid || self.coefficients[0] < 0.0 {
@@ -456,7 +458,7 @@ mod tests {
         }
     }
 
-    /// The vertices of a quadric in canonical place, and directions in which it is flat or
+    /// The vertices of a quadric in canonical position, and directions in which it is flat or
     /// asymptotic.
     fn features() -> Vec<Feature> {
         let mut out = vec![];
@@ -498,7 +500,7 @@ mod tests {
                 let k = match seed {
                     0 => k,
                     1 => k.map(|x| -x),
-                    // A size far from one, along with the whole frame.
+                    // A size far from one, together with the whole frame.
                     2 => k.map(|x| x * dice.power(-3, 3) * 0.5),
                     _ => k.map(|x| x + if x == 0.0 { 0.0 } else { dice.between(-0.25, 0.25) }),
                 };

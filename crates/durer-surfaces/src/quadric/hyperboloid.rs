@@ -2,7 +2,8 @@
 //!
 //! ```text
 //!   one sheet    x²/a² + y²/b² - z²/c² <= 1       a cooling tower; the inside holds the axis
-//!   two sheets   x²/a² + y²/b² - z²/c² <= -1      two bowls, with their vertices at z = ±c; the inside is within the bowls
+//!   two sheets   x²/a² + y²/b² - z²/c² <= -1      two bowls with vertices at z = ±c;
+//!                                                 the inside is within the bowls
 //! ```
 
 use crate::quadric::axial::{Axial, AxialError, Wall, around, positive, widest};

@@ -1,4 +1,4 @@
-//! Quadrics, and solids cut from space by them.
+//! Quadrics, and solids bounded by them.
 //!
 //! [`boolean_faces`] holds the method that all share; [`form`] the arithmetic of one quadric along
 //! one ray; each other file one surface.

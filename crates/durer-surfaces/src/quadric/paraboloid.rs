@@ -56,7 +56,7 @@ impl HyperbolicParaboloid {
 /// that makes its largest coefficient about one.
 fn graph<T: Ring>(axes: [f64; 3], k: i32, saddle: bool) -> Form<T> {
     let [e, f, g] = axes.map(|x| exponent(x) - k);
-    // Each number by its own power of two first, so that no product leaves the range.
+    // Each number is first scaled by its own power of two, so that no product leaves the range.
     let [a, b, c] = axes.map(|x| T::exact(x).scale2(-exponent(x)));
     let (x, y, z) = (2 * f + g, 2 * e + g, 2 * e + 2 * f - 1);
     let gain = -x.max(y).max(z);

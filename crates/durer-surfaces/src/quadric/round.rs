@@ -6,8 +6,8 @@
 //!        ╰───────────╯           cone      |a|⁴|y|² - |a|²h² - (r₀|a|² + (r₁ - r₀) h)²   <= 0
 //! ```
 //!
-//! The polynomials hold for the very numbers given: no axis is turned, nothing is normalised, and
-//! the cone's radius is linear from one end to the other. J. M. Cychosz, W. N. Waggenspack,
+//! The polynomials hold exactly for the numbers given: no axis is rotated, nothing is normalised,
+//! and the cone's radius is linear from one end to the other. J. M. Cychosz, W. N. Waggenspack,
 //! "Intersecting a ray with a cylinder", *Graphics Gems IV* (1994), treat the cylinder by vectors
 //! in the same way.
 
@@ -36,7 +36,7 @@ pub enum RoundError {
     /// An end has an infinite or NaN coordinate.
     #[error("{what}: an end must be finite, got <{}, {}, {}>", end.x, end.y, end.z)]
     End {
-        /// Which solid.
+        /// The solid.
         what: &'static str,
         /// The end.
         end: Point3,
@@ -44,15 +44,15 @@ pub enum RoundError {
     /// Both ends are the same point.
     #[error("{what}: the ends must differ, both are <{}, {}, {}>", end.x, end.y, end.z)]
     NoAxis {
-        /// Which solid.
+        /// The solid.
         what: &'static str,
         /// Both ends.
         end: Point3,
     },
-    /// A radius is negative, infinite or NaN, or zero where that leaves nothing.
+    /// A radius is negative, infinite or NaN, or zero where that leaves no solid.
     #[error("{what}: the radius must be finite and positive, got {radius}")]
     Radius {
-        /// Which solid.
+        /// The solid.
         what: &'static str,
         /// The radius.
         radius: f64,
@@ -88,7 +88,7 @@ impl Axis {
         Ok(Self { base, cap, scale, thin: length - scale })
     }
 
-    /// `a` in units of the axis' own size: the wall's polynomial is homogeneous in it.
+    /// `a` in units of the axis' own size; the wall's polynomial is homogeneous in it.
     fn unit<T: Ring>(&self) -> [T; 3] {
         let k = -self.scale - self.thin;
         [0, 1, 2].map(|i| (T::exact(self.cap[i]) - T::exact(self.base[i])).scale2(k))
@@ -176,7 +176,7 @@ impl CappedCylinder {
         Self::build(base, cap, radius, false)
     }
 
-    /// Its wall alone, rims included.
+    /// The wall alone of such a cylinder, rims included.
     pub fn open(base: Point3, cap: Point3, radius: f64) -> Result<Self, RoundError> {
         Self::build(base, cap, radius, true)
     }
@@ -239,7 +239,7 @@ impl Frustum {
         Self::build(base, base_radius, cap, cap_radius, false)
     }
 
-    /// Its wall alone, rims included.
+    /// The wall alone of such a solid, rims included.
     pub fn open(base: Point3, base_radius: f64, cap: Point3, cap_radius: f64) -> Result<Self, RoundError> {
         Self::build(base, base_radius, cap, cap_radius, true)
     }
@@ -277,7 +277,8 @@ impl QuadricFaces for FrustumShape {
             return self.axis.half_space(face as u32);
         }
         // With a = 2^m â: |a|⁴|y|² - (|a|² + δ²) h² - 2 r₀ δ |a|² h - r₀²|a|⁴, over 2^4m:
-        // |â|⁴|y|² - (|â|² + δ'²)(y·â)² - 2 r₀ δ' |â|² (y·â) - r₀²|â|⁴ with δ' = δ 2^-m. A δ' above one would make it large.
+        // |â|⁴|y|² - (|â|² + δ'²)(y·â)² - 2 r₀ δ' |â|² (y·â) - r₀²|â|⁴ with δ' = δ 2^-m. This is large
+        // if δ' is above one.
         let a = self.axis.unit::<T>();
         let aa = square(&a);
         let unit = |x: f64| T::exact(x).scale2(-self.axis.scale);
@@ -348,8 +349,8 @@ mod tests {
         ExactBody { walls: if open { 1 } else { 3 }, faces, size, convex: !open }
     }
 
-    /// Rims, the axis, generators and tangents. `e` has whole-number vectors across the axis of the
-    /// same length.
+    /// Rims, the axis, generators and tangents. `e` has integer vectors across the axis of the same
+    /// length.
     fn features(base: Point3, r: [f64; 2], cap: Point3, e: [Vec3; 2]) -> Vec<Feature> {
         let a = cap - base;
         let length = e[0].length();
@@ -371,7 +372,7 @@ mod tests {
         out
     }
 
-    /// Axes of whole length with whole vectors across.
+    /// Axes of integer length, each with integer vectors across.
     const AXES: [[[f64; 3]; 3]; 4] = [
         [[0.0, 0.0, 4.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]],
         [[1.0, 2.0, 2.0], [2.0, 1.0, -2.0], [2.0, -2.0, 1.0]],

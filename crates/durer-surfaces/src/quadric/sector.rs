@@ -1,4 +1,4 @@
-//! The spherical sector: what of a ball lies within a cone from its centre.
+//! The spherical sector: the part of a ball inside a cone from its centre.
 //!
 //! ```text
 //!       ╭──╮ ╱       y = x - centre,  k = cos(half-angle)
@@ -6,9 +6,9 @@
 //!       ╰──╯ ╲
 //! ```
 //!
-//! The exact surface has the number `k`: an angle is turned into its cosine once, when the sector
-//! is made. A half-angle of 90 degrees gives half a ball; larger ones are not convex and are not
-//! built here.
+//! The exact surface uses the number `k`: an angle is converted to its cosine once, when the sector
+//! is made. A half-angle of 90 degrees gives half a ball. Larger ones are not convex and are not
+//! supported.
 
 use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, sheared, tangents};
 use crate::quadric::form::Form;
@@ -17,8 +17,8 @@ use crate::sphere::sphere_chart;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Point3, Ring, U, Vec3, elementary};
 
-/// A spherical sector, a solid. Face 0 is the sphere's part, face 1 the cone, face 2 the plane that
-/// takes the cone's other half away.
+/// A spherical sector, a solid. Face 0 is the spherical part, face 1 the cone, face 2 the plane
+/// that cuts off the cone's other half.
 pub type SphericalSector = QuadricSolid<SectorShape>;
 
 /// The numbers of a [`SphericalSector`].
@@ -65,14 +65,14 @@ impl SphericalSector {
         Ok(Self::of(SectorShape { centre, radius, axis, cosine }))
     }
 
-    /// The same by the half-angle in radians.
+    /// The sector with a half-angle in radians.
     pub fn with_half_angle(
         centre: Point3,
         radius: f64,
         axis: Vec3,
         half_angle: f64,
     ) -> Result<Self, SectorError> {
-        // The cosine of the number nearest to a right angle is 6e-17, not 0.
+        // The cosine of the f64 nearest to a right angle is 6e-17, not 0.
         let right = half_angle == core::f64::consts::FRAC_PI_2;
         let cosine = if right { 0.0 } else { elementary::cos(half_angle) };
         if half_angle <= 0.0 {
@@ -136,8 +136,8 @@ impl QuadricFaces for SectorShape {
     }
 
     fn bounds(&self) -> Aabb {
-        // The ball's box, cut where the cone keeps an axis out: a point at the angle θ from the
-        // axis reaches r cos(θ - half-angle) at most.
+        // The ball's box, reduced where the cone excludes an axis: a point at the angle θ from the
+        // axis reaches at most r cos(θ - half-angle).
         let a = self.direction();
         let sine = (1.0 - self.cosine * self.cosine).max(0.0).sqrt();
         let reach = |cos: f64| {

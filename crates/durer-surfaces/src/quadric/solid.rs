@@ -7,12 +7,12 @@ use crate::{LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surf
 use durer_math::eft::{scale2, two_sum};
 use durer_math::{Aabb, Affine, Dd, EFloat, Isa, Point3, Ring, U, Vec3};
 
-/// Pays for results below the normal range, in units of the shape's size. Far more than needed, so
-/// that it and its square are normal numbers: a subnormal operand costs many CPUs a hundred times
-/// the operation itself.
+/// Covers results below the normal range, in units of the shape's size. Far more than needed, so
+/// that it and its square are normal numbers: on many CPUs an operation with a subnormal operand
+/// takes a hundred times as long.
 const TINY: f64 = durer_math::scale::pow2(-500);
 
-/// A shape with its rounded polynomials: a surface.
+/// A surface with quadric faces: a shape with its rounded polynomials.
 #[derive(Clone, Debug)]
 pub struct QuadricSolid<S> {
     shape: S,
@@ -26,7 +26,7 @@ impl<S: QuadricFaces> QuadricSolid<S> {
         Self { forms: rounded(&shape), frame: shape.frame(), shape }
     }
 
-    /// The numbers that define it.
+    /// The numbers that define the surface.
     pub fn shape(&self) -> &S {
         &self.shape
     }
@@ -73,7 +73,7 @@ impl<S: QuadricFaces> Surface for QuadricSolid<S> {
 }
 
 impl View<'_> {
-    /// Whether the line surely passes the shape by.
+    /// Whether the line certainly misses the shape.
     #[inline(always)]
     pub(crate) fn is_passed_by(&self, ray: &LocalRay<'_>) -> bool {
         let Frame { centre, scale, reach } = self.frame;
@@ -114,7 +114,7 @@ impl View<'_> {
 
         let (y1, f, half) = project(form, y);
 
-        // The world's numbers; what their rounding loses is known exactly.
+        // The world's coordinates; their rounding is known exactly.
         let axis = |c: f64, y: f64| two_sum(c, scale2(y, scale));
         let (px, lx) = axis(centre.x, y1.x);
         let (py, ly) = axis(centre.y, y1.y);
@@ -155,8 +155,8 @@ impl View<'_> {
         point
     }
 
-    /// A distance along the normal that leaves the face on either side, for a point of which the
-    /// world's numbers `p` miss `lost`, and where `f` and half its gradient are these.
+    /// A distance along the normal that leaves the face on either side, for a point at which `f`
+    /// and half its gradient are given. `lost` is the rounding of the world's coordinates `p`.
     ///
     /// From `|f(p)| <= η`, gradient `G` and `|Hessian| <= h`: a start at `p ± off n + τ`, where `τ`
     /// is what rounding adds away from the surface, has `|f| >= off |G| - h (off² + |τ|²) - η`;
@@ -164,27 +164,27 @@ impl View<'_> {
     /// includes twice the error of an evaluation of `f`, so that a ray that starts there finds the
     /// sign of `f` in f64.
     ///
-    /// `err` bounds the distance from `y` to the crossing. Where there is a tip within that and a
-    /// few roundings of the coordinates, the point counts as the tip: no point beside it could be
-    /// told from it.
+    /// `err` bounds the distance from `y` to the crossing. If a tip lies within that and a few
+    /// roundings of the coordinates, the point counts as the tip: no point near it could be
+    /// distinguished from the tip.
     #[inline(always)]
     fn off(&self, face: usize, p: Point3, (f, half): (EFloat, Vec3), lost: Vec3, err: f64) -> Off {
         let form = &self.forms[face];
         let g = half * 2.0;
         let gradient = g.length();
         let h = form.bend;
-        // Each coordinate moves at most 1.5 ulp, so 3 U, further than asked.
+        // Each coordinate moves by up to 1.5 ulp, so 3 U, more than intended.
         let tau = scale2(p.to_vec().max_abs(), -self.frame.scale) * (6.0 * U) + TINY;
         let away = 2.0 * (g.abs().dot(lost) + h * (lost.dot(lost) + tau * tau));
         let normal = (g * (1.0 / gradient), gradient);
-        // On a cone `G / h` is about the distance from its axis: as near as this, the normal may
+        // On a cone `G / h` is about the distance from its axis. This near the tip the normal may
         // turn by a sixteenth within those errors.
         let near_tip = gradient <= 16.0 * h * (err + tau);
         let tip = if near_tip { self.shape.tip(face) } else { None };
         if tip.is_none() {
             let eta = f.v.abs() + 2.0 * f.e + away;
-            // Where f64 sees the face only dimly (a thin needle), f at the very numbers of p tells
-            // more.
+            // Where f64 has a large error (a thin needle), the exact f at the rounded p gives a
+            // smaller bound.
             let eta =
                 if 4.0 * h * eta < 1e-3 * gradient * gradient { eta } else { self.value_at(face, p) + away };
             let square = gradient * gradient - 4.0 * h * eta;
@@ -197,8 +197,8 @@ impl View<'_> {
                 return Off { distance, normal, tip: false };
             }
         }
-        // A tip: f changes with the square of the way a along the axis n, and for any displacement
-        // e with |e| <= ε
+        // A tip: f changes with the square of the distance a along the axis n, and for any
+        // displacement e with |e| <= ε
         // |f(p + a n + e)| >= a² |n·Qn| - a (|G| + 2 ε |Qn|) - (η + ε |G| + ε² h / 2).
         let n = tip.unwrap_or(Vec3::Z);
         let qn = form.times(n);
@@ -210,7 +210,7 @@ impl View<'_> {
         Off { distance: distance.min(f64::MAX), normal: (n, gradient.max(TIP_SLACK * h)), tip: true }
     }
 
-    /// An upper bound of `|f|` at a point of the world.
+    /// An upper bound of `|f|` at a point in the world's coordinates.
     #[cold]
     fn value_at(&self, face: usize, p: Point3) -> f64 {
         type N = EFloat<Dd>;
@@ -220,14 +220,14 @@ impl View<'_> {
     }
 }
 
-/// `y` moved onto the face by Newton's method along the gradient: one step, as a rule; more where
-/// the ray came from so far that `y` is off by more than the face's size. With `f` and half its
-/// gradient there.
+/// Moves `y` onto the face by Newton's method along the gradient: usually one step; more if the ray
+/// came from so far away that the error of `y` exceeds the face's size. Returns the point with `f`
+/// and half its gradient there.
 #[inline(always)]
 fn project(form: &Rounded, mut y: Vec3) -> (Vec3, EFloat, Vec3) {
     let (first, mut half) = form.at(y, y.abs() * U);
-    // On the face as far as f64 can see: a step would follow rounding, far where the gradient is
-    // small.
+    // The point is on the face within the error of f64: a step would follow rounding, and would be
+    // long where the gradient is small.
     if first.v.abs() <= first.e {
         return (y, first, half);
     }
@@ -236,7 +236,7 @@ fn project(form: &Rounded, mut y: Vec3) -> (Vec3, EFloat, Vec3) {
         let step = f / (2.0 * half.dot(half));
         let next = y - half * step;
         let (f1, half1) = form.at(next, next.abs() * U);
-        // Where the gradient all but vanishes a step may overshoot: not taken.
+        // Where the gradient almost vanishes a step may overshoot; then it is not taken.
         if !(step.is_finite() && f1.v.abs() < f.abs()) {
             break;
         }
@@ -249,14 +249,14 @@ fn project(form: &Rounded, mut y: Vec3) -> (Vec3, EFloat, Vec3) {
     (y, f, half)
 }
 
-/// How far, in units, a point may be moved about a tip.
+/// How far, in units, a point may be moved near a tip.
 const TIP_SLACK: f64 = 1.0 / (1u64 << 40) as f64;
 
-/// What [`View::off`] finds.
+/// The result of [`View::off`].
 struct Off {
     distance: f64,
     /// The unit normal and the length of the gradient.
     normal: (Vec3, f64),
-    /// Whether the gradient vanishes, or all but.
+    /// Whether the gradient vanishes, or almost vanishes.
     tip: bool,
 }

@@ -1,4 +1,4 @@
-//! The named quadrics, the sector, and surfaces made from surfaces, against the laws.
+//! The laws for the named quadrics, the sector, and surfaces made from surfaces.
 
 use crate::laws::{
     self, Exact, ExactBody, ExactForm, Feature, Tally, TestRng, all_roots, check_many, exact3,
@@ -17,8 +17,7 @@ fn canonical(wall: &ExactForm, ends: Option<[f64; 2]>, open: bool, size: f64, co
     ExactBody { walls: if open { 1 } else { faces.len() }, faces, size, convex: convex && !open }
 }
 
-/// Places of a canonical quadric with semi-axes `a`, `b`, `c` at which something happens, and rims
-/// at the heights `ends`.
+/// Features of a canonical quadric with semi-axes `a`, `b`, `c`, and rims at the heights `ends`.
 fn features([a, b, c]: [f64; 3], ends: [f64; 2]) -> Vec<Feature> {
     let points = [
         [0.0, 0.0, 0.0],
@@ -54,7 +53,7 @@ fn features([a, b, c]: [f64; 3], ends: [f64; 2]) -> Vec<Feature> {
     points.iter().flat_map(|p| directions.iter().map(move |d| Feature::new(*p, *d))).collect()
 }
 
-/// The laws for a whole quadric, a solid piece, an open piece, and each of them placed.
+/// Tests the laws for a whole quadric, a solid piece, an open piece, and each of them placed.
 fn each_way<W: Wall>(
     whole: &Axial<W>,
     wall: &ExactForm,
@@ -91,7 +90,7 @@ fn enough(tally: Tally) {
     enough_roots(tally);
 }
 
-/// For numbers of many bits, to which f64 holds no tangents.
+/// For numbers with many bits, for which f64 rays have no exact tangents.
 fn enough_roots(mut tally: Tally) {
     assert!(tally.roots > 150, "{} roots", tally.roots);
     assert!(tally.median_width() < 40.0, "median width {}", tally.median_width());
@@ -191,8 +190,7 @@ fn cylinders_obey_the_laws() {
 
 #[test]
 fn the_normal_of_a_cone_is_its_axis_only_where_the_point_may_be_the_tip() {
-    // Slender and large: far from the tip in the numbers' own units, near it in units of the
-    // semi-axes.
+    // Slender and large: far from the tip in the world's units, near it in units of the semi-axes.
     let large = Cone::circular(1073741824.0, 139586437120.0).unwrap();
     let rows = [[0.5, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 3.0]];
     let map = durer_math::Affine::new(rows, Point3::new(125.0, 0.125, 0.0)).unwrap();
@@ -206,7 +204,7 @@ fn the_normal_of_a_cone_is_its_axis_only_where_the_point_may_be_the_tip() {
         roots.iter().map(at).collect()
     };
     let found = normals(&placed, all_roots(&placed, &ray), &ray);
-    // The first crossing cannot be told from the tip.
+    // The first crossing cannot be distinguished from the tip.
     assert!(found.len() == 2 && found[1].abs() < 0.01, "{found:?}");
     // Any distance from the tip of a cone at the origin.
     let cone = Cone::circular(1.0, 1.0).unwrap();
@@ -219,7 +217,7 @@ fn the_normal_of_a_cone_is_its_axis_only_where_the_point_may_be_the_tip() {
             "{k}: {found:?}"
         );
     }
-    // At the tip there is no normal but the axis.
+    // At the tip the axis is the only normal.
     let through = durer_math::Ray::new(Point3::new(-4.0, 0.0, 0.0), Vec3::X);
     assert_eq!(normals(&cone, all_roots(&cone, &through), &through), [1.0]);
 }
@@ -244,7 +242,7 @@ fn parabolic_wall([a, b, c]: [f64; 3], sign: Option<f64>) -> ExactForm {
     ExactForm::new(k)
 }
 
-/// Semi-axes of few bits and of many, of every size.
+/// Semi-axes with few bits and with many, of every size.
 const WILD: [[f64; 3]; 9] = [
     [2.0, 1.0, 1.0],
     [0.5, 0.5, 1.0],
@@ -304,7 +302,7 @@ fn a_parabolic_cylinder_keeps_its_semi_axes_through_a_map() {
         Vec3::new(0.40222268687226215, -0.34125492182311384, 0.5776332485252329),
     );
     assert_eq!(laws::check(&piece, &oracle, &through).unwrap().len(), 2);
-    // The image of the y axis, exactly: z = 0 all along, below the piece.
+    // The exact image of the y axis: z = 0 everywhere, below the piece.
     let beside = durer_math::Ray::new(Point3::new(1000.0, 1000.0, -7.0), Vec3::from(rows.map(|r| r[1])));
     assert_eq!(all_roots(&piece, &beside), []);
 }
@@ -370,7 +368,7 @@ fn sectors_obey_the_laws() {
     assert!(tally.roots > 1000 && tally.grazing > 10);
 }
 
-/// A surface clipped: the walls stay, and the regions' faces cut.
+/// A clipped surface: the walls stay, and the regions' faces cut.
 fn clipped(mut oracle: ExactBody, regions: &[ExactBody]) -> ExactBody {
     oracle.convex = false;
     for r in regions {
@@ -460,7 +458,7 @@ fn an_inverse_region_keeps_the_rest() {
         halves.each_ref().map(|h| all_roots(h, &ray).len())
     };
     assert_eq!(count(Vec3::Z, Point3::new(0.25, 0.0, -4.0)), [1, 1]);
-    // Along the border both halves have it: each is closed.
+    // On the border both halves contain the point: each is closed.
     assert_eq!(count(Vec3::X, Point3::new(-4.0, 0.0, 0.0)), [2, 2]);
     assert_eq!(count(Vec3::X, Point3::new(-4.0, 0.0, f64::from_bits(1))), [0, 2]);
 }

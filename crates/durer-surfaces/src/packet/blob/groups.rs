@@ -1,9 +1,9 @@
-//! Fields that lie together: a tree of balls, so that of many fields only those near eight rays, or
-//! eight points, are asked.
+//! A tree of balls over the fields of a blob. Only fields near the eight rays, or near the eight
+//! points, are evaluated.
 //!
-//! Fields come in such an order that neighbours in the list are neighbours in space. A ball about a
-//! run of them holds all that they reach; each half of the run has a ball of its own. What surely
-//! passes a ball by gets nothing from the fields in it.
+//! Fields are sorted so that neighbours in the list are neighbours in space. A ball around a run of
+//! fields contains everything that they reach, and each half of the run has a ball of its own. Rays
+//! or points that are certainly outside a ball get nothing from the fields in it.
 
 use crate::packet::rays::SLACK;
 use core::ops::Range;
@@ -14,16 +14,16 @@ use durer_math::{Aabb, U, Vec3};
 pub(super) struct Group {
     pub(super) centre: Vec3,
     pub(super) radius: f64,
-    /// The fields, if they are so few that the run is not divided.
+    /// The fields, if they are so few that the run is not divided; else empty.
     pub(super) fields: Range<usize>,
-    /// The first group behind it that holds none of its fields.
+    /// The next group in the list that contains none of this group's fields.
     pub(super) next: usize,
 }
 
-/// So many fields are not divided.
+/// Runs of at most this many fields are not divided.
 const FEW: usize = 2;
 
-/// The groups of fields that these boxes hold, each before its halves.
+/// The groups of fields with these bounding boxes, each before its halves.
 pub(super) fn groups(boxes: &[Aabb]) -> Box<[Group]> {
     let mut groups = Vec::new();
     add(boxes, 0..boxes.len(), &mut groups);
@@ -34,7 +34,7 @@ fn add(boxes: &[Aabb], fields: Range<usize>, groups: &mut Vec<Group>) {
     let held = boxes[fields.clone()].iter().fold(Aabb::EMPTY, |sum, b| sum.union(*b));
     let centre = held.centre();
     let far = held.min.to_vec().max_abs().max(held.max.to_vec().max_abs());
-    // Coordinates of corners have been rounded once.
+    // Each coordinate of a corner has been rounded once.
     let radius = held.reach_from(centre) * SLACK + far * (4.0 * U);
     let place = groups.len();
     let is_whole = fields.len() <= FEW;

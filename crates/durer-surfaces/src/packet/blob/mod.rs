@@ -1,5 +1,5 @@
-//! Blobs as lanes see them: fields that begin and end, and between two such places a polynomial of
-//! degree four.
+//! The packet kernel of blobs. Along a ray the fields begin and end, and between two such places
+//! the sum is a polynomial of degree four.
 //!
 //! ```text
 //!   f(y) = T - Σ S max(0, 1 - q)²      negative inside
@@ -7,8 +7,8 @@
 //!   w = W (y - m),   q = |w|² of a ball, |(w_x, w_y, w_z - clamp(w_z, 0, l))|² of a cylinder
 //! ```
 //!
-//! See `blob/component.rs` for what the letters mean and how far they are off; errors here are
-//! counted the same way, for eight rays (`rays.rs`) or points at a time.
+//! `blob/component.rs` defines the letters and their errors. The errors here are bounded in the
+//! same way, for eight rays (`rays.rs`) or eight points at a time.
 
 mod groups;
 mod rays;
@@ -22,33 +22,34 @@ use super::revolution::Skin;
 use durer_math::scale::pow2;
 use durer_math::{Aabb, F8, U, Vec3};
 
-/// Pays for results below the normal range.
+/// Covers results below the normal range.
 const TINY: f64 = pow2(-500);
-/// Curvatures at a point hold where `q` has changed by no more than this.
+/// The bounds on second derivatives at a point hold where `q` has changed by no more than this.
 const ROOM: f64 = pow2(-10);
 
-/// See [`Fields::new`]. With 256 components lanes take nine tenths of the time, with 512 eleven
-/// tenths (docs/performance.md).
+/// The largest number of components; see [`Fields::new`]. Compared with single rays, packets take
+/// nine tenths of the time with 256 components and eleven tenths with 512 (docs/performance.md).
 const MOST: usize = 256;
 
-/// One term of the sum.
+/// One component: a term of the sum.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Field {
-    /// `W`, the largest sum of magnitudes in a row of it, and of their errors.
+    /// `W`, the largest sum of magnitudes in one of its rows, and a bound on the errors of its
+    /// entries.
     pub(crate) rows: [Vec3; 3],
     pub(crate) size: f64,
     pub(crate) size_err: f64,
     /// `m`, and its error along any axis.
     pub(crate) centre: Vec3,
     pub(crate) centre_err: f64,
-    /// Of the axis; zero for a ball.
+    /// The length of the axis; zero for a ball.
     pub(crate) length: f64,
     pub(crate) strength: f64,
-    /// No less than the norm of the second derivatives of what it adds.
+    /// An upper bound of the norm of the field's second derivatives.
     pub(crate) bend: f64,
 }
 
-/// All of them.
+/// All components of a blob.
 #[derive(Clone, Debug)]
 pub(crate) struct Fields {
     fields: Box<[Field]>,
@@ -59,9 +60,8 @@ pub(crate) struct Fields {
 }
 
 impl Fields {
-    /// Of fields and boxes that hold what they reach, such that neighbours in the list are
-    /// neighbours in space. `None` if there are more than rays by themselves find their way through
-    /// sooner.
+    /// The kernel for these fields and their bounding boxes. Neighbours in the list must be
+    /// neighbours in space. `None` if there are so many fields that single rays are faster.
     pub(crate) fn new(fields: Vec<Field>, boxes: &[Aabb], threshold: f64) -> Option<Self> {
         if fields.len() > MOST || fields.len() != boxes.len() {
             return None;
@@ -70,7 +70,7 @@ impl Fields {
         Some(Self { fields: fields.into(), groups: groups(boxes), strength, threshold })
     }
 
-    /// What is at points that are known within `e`, in these coordinates.
+    /// `f` and its gradient at points that are known within `e`, in these coordinates.
     #[inline(always)]
     fn at(&self, y: Vec3<F8>, e: F8) -> Skin {
         let zero = F8::ZERO;
@@ -82,7 +82,7 @@ impl Fields {
         while let Some(Group { centre, radius, fields, next }) = self.groups.get(i) {
             let m = Vec3::splat(*centre);
             let z = Vec3::new(y.x - m.x, y.y - m.y, y.z - m.z);
-            // Curvatures are asked for a little beside a field, too.
+            // The second derivatives must also hold in a small margin around a field.
             let reach = e * 2.0 + (own + centre.max_abs()) * (4.0 * U) + radius * (1.0 + ROOM);
             if dot(z, z).gt(reach * reach * SLACK).all() {
                 i = *next;
@@ -123,17 +123,17 @@ impl Fields {
         Skin { f, half: g, e_f, e_half, bend: bend * SLACK, room: NEVER }
     }
 
-    /// What is at points `h` of the surface, with `|h|₁`.
+    /// `f` and its gradient at points `h` of the surface, with `|h|₁`.
     #[inline(always)]
     pub(super) fn skin(&self, own: &Own, h: Vec3<F8>, h1: F8) -> Skin {
         let y = own.point(h);
-        // Rays that start there are looked at from a place that may be this far from it
-        // (`rays.rs`).
+        // For rays that start there, the kernel begins at a place that may be this far from the
+        // start (`rays.rs`).
         let e = own.point_error(h1) + (largest(y) + 1.0) * (128.0 * U);
         let Skin { f, half, e_f, e_half, bend, room } = self.at(y, e);
         let e_half = (e_half + largest(half) * (16.0 * U)) * own.norm;
         let bend = bend * (own.norm * own.norm * SLACK);
-        // Twice, so that rays from there are certain of their side.
+        // Doubled, so that rays that start there are certain of their side.
         Skin { f, half: own.covector(half), e_f: e_f * 2.0, e_half, bend, room }
     }
 }

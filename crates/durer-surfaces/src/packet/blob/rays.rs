@@ -1,19 +1,19 @@
-//! Where eight rays cross a blob.
+//! Crossings of eight rays with a blob.
 //!
-//! With `s` the way along a ray from where it is closest to the blob's centre, in the blob's units,
-//! a field is a piece `S (1 - m - v (2 b + n v))²`, `v = s - at`, from where it begins to where it
-//! ends; a cylinder's is three. Each ray goes from one such place to the next; there the sum is a
-//! polynomial of degree four (`polynomial_roots.rs`).
+//! Let `s` be the distance along a ray from its closest approach to the blob's centre, in the
+//! blob's units. Along the ray a field is a piece `S (1 - m - v (2 b + n v))²`, `v = s - at`, from
+//! its start to its end; a cylinder has three such pieces. The kernel steps from one such start or
+//! end to the next. In between the sum is a polynomial of degree four (`polynomial_roots.rs`).
 //!
-//! **Errors** of pieces are those of `blob/component.rs`. A polynomial is made for `[0, 1]` in
+//! **Errors** of pieces are those of `blob/component.rs`. Polynomials are formed on `[0, 1]` in
 //! place of `[-1, 1]`, where the sum of the magnitudes of the coefficients of `q` is at most nine
-//! times as large. What pieces could add where they are taken for none, as they begin and end at
-//! rounded places, is a charge on all of the ray; stretches overlap by more than their ends are
-//! rounded by, `8 U`, for which the charge of a piece counts `4` more in the sum of the places.
+//! times as large. Pieces start and end at rounded places. What a piece could add outside of them
+//! is charged to the whole ray. Intervals overlap by more than the rounding of their ends, `8 U`;
+//! for this the charge of a piece counts `4` more in the sum of the places.
 //!
-//! **Where a ray starts** is rounded outward by `8 U (|t_c| |d| + 2)`, which is less than
-//! `128 U (1 + |y|)` at the start `y`: within that a start has the sign that it is known to have,
-//! if it was put off the surface (`Fields::skin`).
+//! **The start of a ray** is rounded outward by `8 U (|t_c| |d| + 2)`, which is less than
+//! `128 U (1 + |y|)` at the start `y`. Within that distance a start that was moved off the surface
+//! (`Fields::skin`) keeps its known sign.
 
 use super::groups::Group;
 use super::{Field, Fields, TINY};
@@ -26,13 +26,13 @@ use crate::packet::sink::Sink8;
 use arrayvec::ArrayVec;
 use durer_math::{F8, Isa, M8, U, Vec3};
 
-/// So many pieces that eight rays meet are put down; where there are more, nothing is told.
+/// The most pieces that are stored for eight rays; with more, all rays are doubts.
 const MOST: usize = 64;
 /// The blob is within `√3` of its centre, in units.
 const REACH: f64 = 2.0;
 const NEVER: F8 = F8::splat(f64::INFINITY);
 
-/// One piece along each ray; where a ray misses it, it begins nowhere.
+/// One piece along each ray; for a ray that misses it, it starts at infinity.
 #[derive(Clone, Copy, Debug)]
 struct Piece8 {
     from: F8,
@@ -42,13 +42,13 @@ struct Piece8 {
     b: F8,
     n: F8,
     strength: f64,
-    /// It adds no more than this; zero where it takes away.
+    /// An upper bound of the field; zero where it is negative.
     peak: F8,
-    /// The error of its part of the polynomial's coefficients, in sum.
+    /// The sum of the errors of its coefficients.
     slack: F8,
 }
 
-/// Eight rays in the blob's units, about where they are closest to its centre.
+/// Eight rays in the blob's units, relative to their closest approach to its centre.
 #[derive(Clone, Copy, Debug)]
 struct BlobRays8 {
     o: Vec3<F8>,
@@ -62,19 +62,19 @@ struct BlobRays8 {
     e_t: F8,
 }
 
-/// Memory for one blob on the way.
+/// Working memory for eight rays and one blob.
 #[derive(Debug)]
 pub(in crate::packet) struct BlobScratch {
     sight: BlobRays8,
     pieces: ArrayVec<Piece8, MOST>,
     charge: F8,
-    /// Where each ray is, where the stretch ahead and where all of it ends, and the sign there: 1, -1,
-    /// or 0 if it is not known.
+    /// The current place on each ray, the end of the current interval, the end of the whole range,
+    /// and the sign at the current place: 1, -1, or 0 if it is unknown.
     here: F8,
     next: F8,
     last: F8,
     sign: F8,
-    /// Lanes of which more is to be told.
+    /// Lanes that are not finished.
     open: M8,
     poly: Poly8<5>,
     part: Part8,
@@ -102,7 +102,7 @@ impl Default for BlobScratch {
     }
 }
 
-/// Seen from the point of the axis, or from the axis.
+/// `w` relative to the point of the axis at `lift`, or to the axis.
 #[inline(always)]
 fn placed(w: Vec3<F8>, lift: Option<F8>) -> Vec3<F8> {
     let z = match lift {
@@ -112,20 +112,20 @@ fn placed(w: Vec3<F8>, lift: Option<F8>) -> Vec3<F8> {
     Vec3::new(w.x, w.y, z)
 }
 
-/// Where on the rays a field is asked for which of its pieces: between two places, distances being
-/// measured from a point of its axis, or from the axis.
+/// The part of each ray on which a field has one of its pieces. Distances are measured from a point
+/// of its axis, or from the axis.
 #[derive(Clone, Copy)]
 struct Segment {
     lift: Option<F8>,
     low: F8,
     high: F8,
-    /// The error of `w_z`, where there are ends to be told by it.
+    /// The error of `w_z`, if the ends of the piece depend on it.
     doubt: F8,
 }
 
 impl Fields {
-    /// Shows the crossings of each ray to `to`, or the first one; and where there is a doubt. Of
-    /// rays that leave the surface it is said whether the surface is turned round.
+    /// Passes the crossings of each ray, or only the first one, and the doubts to `to`. `leaving`
+    /// describes rays that start on the surface, and whether the surface is turned.
     pub(in crate::packet) fn meet<K: Sink8>(
         &self,
         own: &Own,
@@ -148,13 +148,13 @@ impl Fields {
             to.doubt(memory.open, F8::ZERO);
             return;
         }
-        // A piece begins and ends.
+        // Each piece has a start and an end.
         for _ in 0..=2 * memory.pieces.len() {
             if !memory.open.any() {
                 return;
             }
             self.stretch(rays, to, memory);
-            // A quartic has no more roots.
+            // A quartic has at most four roots.
             for _ in 0..4 {
                 if !memory.part.open.any() {
                     break;
@@ -180,8 +180,8 @@ impl Fields {
         to.doubt(memory.open, F8::ZERO);
     }
 
-    /// Puts down the pieces of all fields that the rays may meet, and what others could add; false
-    /// if there is no room.
+    /// Stores the pieces of all fields that the rays may meet, and adds up what the others could
+    /// contribute. Returns false if there is no room.
     fn pieces(&self, isa: Isa, memory: &mut BlobScratch) -> bool {
         let BlobScratch { sight, here, last, open, pieces, charge, .. } = memory;
         let mut i = 0;
@@ -198,8 +198,8 @@ impl Fields {
         true
     }
 
-    /// Which points at `t` within `e` are surely inside, and which surely outside, as bits; for
-    /// rays seen from the outline's centre.
+    /// Points at `t`, known within `e`, that are certainly inside, and those that are certainly
+    /// outside, as bit masks; for rays relative to the filter's centre.
     #[inline(never)]
     pub(in crate::packet) fn holds(
         &self,
@@ -221,7 +221,7 @@ impl Fields {
         )
     }
 
-    /// The polynomial up to where the next piece begins or ends.
+    /// The polynomial up to the next start or end of a piece.
     #[inline(never)]
     fn stretch<K: Sink8>(&self, rays: &RayLanes<'_>, to: &mut K, memory: &mut BlobScratch) {
         rays.isa.run_in_lanes(
@@ -241,8 +241,8 @@ impl Fields {
                     e += on.keep(piece.slack);
                     most += on.keep(piece.peak);
                 }
-                // The fields that are here do not add up to the threshold; by as much as a ray by
-                // itself wants to be sure.
+                // The fields here do not add up to the threshold, with the same margin as in the
+                // scalar kernel.
                 let outside = (most * (1.0 + 1.0 / 1024.0)).lt(F8::splat(self.threshold));
                 let live = *open & !outside;
                 if !live.any() {
@@ -270,7 +270,7 @@ impl Fields {
     }
 }
 
-/// Puts down the rays in the blob's units, and the part of each that is looked at.
+/// Computes the rays in the blob's units, and the range of each that is searched.
 #[inline(always)]
 fn begin<K: Sink8>(own: &Own, rays: &RayLanes<'_>, start: &Start, to: &mut K, memory: &mut BlobScratch) {
     let (o, d) = (own.point(start.h), own.vector(*rays.direction));
@@ -293,18 +293,18 @@ fn begin<K: Sink8>(own: &Own, rays: &RayLanes<'_>, start: &Start, to: &mut K, me
     let reach = F8::splat(REACH);
     memory.here = (-t_c / unit - out).max(-reach);
     memory.last = ((to.limit(rays) - t_c) / unit + out).min(reach);
-    // Not a number stays, and ends as a doubt.
+    // NaN stays open, and ends as a doubt.
     memory.open = *rays.live & !memory.last.le(memory.here);
 }
 
 impl BlobRays8 {
-    /// The parameter of the ray at `s`, and the error of that.
+    /// The parameter of the ray at `s`, and its error.
     #[inline(always)]
     fn t(&self, s: F8) -> (F8, F8) {
         (s.mul_add(self.unit, self.t_c), self.e_t)
     }
 
-    /// Whether all rays surely pass a ball, or meet it only before `here` or behind `last`.
+    /// Whether all rays certainly miss a ball, or meet it only before `here` or beyond `last`.
     #[inline(never)]
     fn passes_by(
         &self,
@@ -319,8 +319,8 @@ impl BlobRays8 {
                 let m = Vec3::splat(centre);
                 let r = Vec3::new(self.o.x - m.x, self.o.y - m.y, self.o.z - m.z);
                 let (square, along) = (dot(r, r), dot(r, self.d));
-                // How far off a point of a ray may be, and by the roundings of these numbers: of
-                // the square of the distance fewer than 16, where |d| is one but for 4.
+                // The error of a point of a ray, and that from rounding these numbers: fewer than
+                // 16 roundings of the squared distance, where |d| is one up to 4 roundings.
                 let e =
                     (self.e_o + self.e_d * REACH) * 2.0 + (self.o_size + centre.max_abs() + 4.0) * (32.0 * U);
                 let reach = (e + radius) * SLACK;
@@ -332,7 +332,7 @@ impl BlobRays8 {
     }
 }
 
-/// Offers what was found of a stretch, and goes on behind it.
+/// Passes the root found in an interval to `to`, and continues after it.
 #[inline(never)]
 fn offer<K: Sink8>(rays: &RayLanes<'_>, to: &mut K, memory: &mut BlobScratch) {
     rays.isa.run_in_lanes(
@@ -346,7 +346,7 @@ fn offer<K: Sink8>(rays: &RayLanes<'_>, to: &mut K, memory: &mut BlobScratch) {
             to.take(sure, (t, e), F8::ZERO);
             let unsure = part.unsure | part.one & !sure;
             if unsure.any() {
-                // Of what is beyond nothing is told.
+                // Everything from here on is uncertain.
                 let (t, e) = sight.t(part.l.mul_add(width, *here));
                 to.doubt(unsure, t - e);
                 *open &= !unsure;
@@ -362,8 +362,8 @@ fn offer<K: Sink8>(rays: &RayLanes<'_>, to: &mut K, memory: &mut BlobScratch) {
 }
 
 impl Field {
-    /// Adds its pieces along the rays, and what it could add where it all but misses them; false if
-    /// there is no room.
+    /// Adds the field's pieces along the rays, and to `charge` what it could contribute where it
+    /// barely misses them. Returns false if there is no room.
     #[inline(never)]
     fn pieces(
         &self,
@@ -397,8 +397,8 @@ impl Field {
                 let doubt = self.error_at(sight, largest(r), reach)
                     + self.rate_error(sight) * REACH
                     + (height.abs() + rate.abs() * REACH + self.length) * (16.0 * U);
-                // Where they pass the ends of the axis, in the order of the ray; a ray across it is
-                // between them, or beyond one, all along.
+                // Where the rays pass the ends of the axis, in the order of the ray. A ray across
+                // the axis is between the ends, or beyond one of them, along its whole length.
                 let (low, high) = (-height / rate, -(height - self.length) / rate);
                 let level = rate.equals(F8::ZERO);
                 let (below, above) = (level & height.lt(F8::ZERO), level & height.gt(F8::splat(self.length)));
@@ -434,7 +434,7 @@ impl Field {
         sight.e_d * self.size + ((self.size_err + self.size * (4.0 * U)) * 2.0 + TINY)
     }
 
-    /// One piece. `r` is where the rays are as seen from the field, and `a` is `W d`.
+    /// One piece. `r` is the ray's origin relative to the field, and `a` is `W d`.
     #[inline(never)]
     fn piece(
         &self,
@@ -462,8 +462,7 @@ impl Field {
         let &Segment { lift, low, high, doubt } = segment;
         let a = Vec3::new(a.x, a.y, if lift.is_some() { a.z } else { F8::ZERO });
         let n = dot(a, a);
-        // The closest approach, as well as it can be had; any number will do. What is not a number
-        // becomes an end.
+        // The closest approach, approximately; any number would do. NaN becomes an end.
         let at = (-dot(placed(self.turned(r), lift), a) / n).max(low).min(high);
         let y = on(r, at, sight.d);
         let w = placed(self.turned(y), lift);
@@ -471,13 +470,13 @@ impl Field {
         let (e_w, e_a) = (self.error_at(sight, largest(y), at), self.rate_error(sight));
         let top = n.gt(F8::ZERO).keep((-b / n).max(low - at).min(high - at));
         let most = -((b * 2.0 + n * top).mul_add(top, m) - 1.0);
-        // Passed by, where the errors are far below one, as they mostly are.
+        // Certainly missed, if the errors are far below one, as they usually are.
         let passed = most.lt(F8::splat(-0.125)) & (e_w + e_a * (2.0 * REACH)).lt(F8::splat(1.0 / 1024.0));
         let some = high.gt(low);
         if (passed | !some).all() {
             return true;
         }
-        // q = 1 at v = (-b ± √(b² + n (1 - m))) / n, without a difference of equals.
+        // q = 1 at v = (-b ± √(b² + n (1 - m))) / n, without cancellation.
         let root = b.mul_add(b, n * (F8::ONE - m)).max(F8::ZERO).sqrt();
         let rises = b.gt(F8::ZERO);
         let sum = rises.select(-b - root, root - b);
@@ -485,7 +484,9 @@ impl Field {
         let (first, last) = (rises.select(outer, inner), rises.select(inner, outer));
         let (from, to) = ((at + first).max(low).min(high), (at + last).min(high).max(low));
         let far = (from - at).abs().max((to - at).abs()).max(top.abs());
-        // |q exact - q| <= 2√3 G E + 3 E² with G² <= 2 (m + n V²), E = e_w + V e_a; and the roundings of q as it is evaluated.
+        // The error |q exact - q| is at most 2√3 G E + 3 E² with G² <= 2 (m + n V²),
+        // E = e_w + V e_a; plus the rounding
+        // of q when it is evaluated.
         let extent = far.mul_add(far * n, m);
         let whole = (far * 2.0).mul_add(b.abs(), extent);
         let e = far.mul_add(e_a, e_w);
@@ -523,7 +524,7 @@ impl Field {
 }
 
 impl Piece8 {
-    /// Takes its coefficients over `here + x width` from the threshold's, in some lanes.
+    /// Subtracts its coefficients over `here + x width` in the lanes `on`.
     #[inline(always)]
     fn add(&self, on: M8, here: F8, width: F8, c: &mut [F8; 5]) {
         let u = here - self.at;

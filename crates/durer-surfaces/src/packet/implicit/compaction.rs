@@ -1,8 +1,8 @@
-//! Many eights of rays at one level set.
+//! Many packets of eight rays against one level set.
 //!
-//! Some rays are through after one stretch and others after thirty. Eight rays look together as
-//! long as most of them go on; who is left over then goes on beside those of other eights: as soon
-//! as one is through, the next one takes its lane.
+//! Some rays are finished after one segment and others after thirty. A packet is advanced as long
+//! as most of its rays are active. The remaining rays of all packets are then gathered into one
+//! packet: as soon as one of its rays is finished, the next one takes its lane.
 
 use super::ImplicitKernel;
 use super::rays::{ImplicitScratch, MOST, conclude, look, prepare};
@@ -13,19 +13,19 @@ use crate::packet::quadric::Start;
 use crate::packet::rays::Nearest;
 use durer_math::lanes::LANES;
 
-/// Eights in which fewer rays go on are left to be filled.
+/// Packets with fewer active rays wait for the gathered packet.
 const DENSE: usize = 6;
 
-/// Memory for the eights on the way, and for those rays that go on beside others.
+/// Working memory for all packets, and for the gathered packet.
 #[derive(Debug, Default)]
 pub(in crate::packet) struct Stream {
     eights: Vec<ImplicitScratch>,
-    /// Which of the caller's eights they are.
+    /// The caller's number of each packet.
     numbers: Vec<usize>,
     beside: ImplicitScratch,
 }
 
-/// A lane of an eight, and how often it has been looked at.
+/// A lane of a packet, and how many segments of its ray were examined.
 #[derive(Clone, Copy)]
 struct LaneSlot {
     eight: usize,
@@ -34,13 +34,13 @@ struct LaneSlot {
 }
 
 impl Stream {
-    /// Forgets the rays.
+    /// Removes all packets.
     pub(in crate::packet) fn clear(&mut self) {
         self.numbers.clear();
     }
 
-    /// Adds eight rays, those with this number; of a solid in a container that is a cell. It is
-    /// said whether the surface is turned round.
+    /// Adds the packet with this number. `turned` is whether the surface is turned; `held` contains
+    /// the container's cell if the solid has a container.
     pub(in crate::packet) fn add(
         &mut self,
         number: usize,
@@ -57,8 +57,8 @@ impl Stream {
         prepare(level, own, (asked, turned), held, nearest, &mut self.eights[place]);
     }
 
-    /// Looks along all of them until nothing is left to be seen, and offers the first crossing of
-    /// each ray to what is nearest so far.
+    /// Advances all packets until every ray is finished, and passes the first crossing of each ray
+    /// to its `nearest`.
     pub(in crate::packet) fn meet(
         &mut self,
         level: &dyn ImplicitKernel,
@@ -74,9 +74,9 @@ impl Stream {
     }
 }
 
-/// Looks along some eights until nothing is left to be seen.
+/// Advances packets until every ray is finished.
 fn search(eights: &mut [ImplicitScratch], beside: &mut ImplicitScratch, level: &dyn ImplicitKernel) {
-    // One eight has nobody to be filled up with.
+    // A single packet has no others to be gathered with.
     let dense = if eights.len() > 1 { DENSE } else { 1 };
     let mut left = 0;
     for eight in &mut *eights {
@@ -94,7 +94,7 @@ fn search(eights: &mut [ImplicitScratch], beside: &mut ImplicitScratch, level: &
     }
 }
 
-/// The same of the rays that are left over, each beside those of other eights.
+/// Advances the remaining rays of all packets in the gathered packet `beside`.
 fn go_on_beside_others(
     eights: &mut [ImplicitScratch],
     beside: &mut ImplicitScratch,

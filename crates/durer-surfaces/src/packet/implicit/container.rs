@@ -1,8 +1,8 @@
-//! Where eight rays are in the container of a solid.
+//! The part of each of eight rays inside the container of a solid.
 //!
-//! A ray enters a convex container after `max(t_i + e_i)` of the faces that it enters, at the
-//! latest, and not before `t_i - e_i` of any of them; the same holds of where it leaves. Which face
-//! that is is sure if its bracket lies behind those of all others (`convex.rs`).
+//! A ray is inside a convex container at the latest after `max(t_i + e_i)` of the faces that it
+//! enters, and it enters not before `t_i - e_i` of any of them; the same holds for the exit. The
+//! face of entry is certain if its bracket lies behind those of all others (`convex.rs`).
 
 use super::{Ends, LineExtent8};
 use crate::packet::convex::Hull;
@@ -10,30 +10,30 @@ use durer_math::{F8, Isa, M8, U};
 
 const NEVER: F8 = F8::splat(f64::INFINITY);
 
-/// Where rays are in a container, which is convex: from the last face that is entered to the first
+/// The part of each ray inside a convex container: from the last face that is entered to the first
 /// that is left.
 #[derive(Debug)]
 pub(super) struct Held {
     pub(super) ends: Ends,
-    /// Where a container's face is surely the one that is entered, or left, and its number.
+    /// Rays whose face of entry, or of exit, is certain, and the numbers of these faces.
     pub(super) enters: M8,
     pub(super) leaves: M8,
     pub(super) face_in: F8,
     pub(super) face_out: F8,
-    /// There, within what.
+    /// The parameters of entry and exit, with their errors.
     pub(super) t_in: F8,
     pub(super) e_in: F8,
     pub(super) t_out: F8,
     pub(super) e_out: F8,
-    /// Between these they are surely in it.
+    /// Between these parameters the rays are certainly inside.
     pub(super) after: F8,
     pub(super) before: F8,
-    /// How far from `s = here` a ray may enter.
+    /// A bound on the distance of the entry from `s = here`.
     pub(super) e_s: F8,
 }
 
 impl Held {
-    /// By nothing.
+    /// No container.
     pub(super) const FREE: Self = Self {
         ends: Ends::Free,
         enters: M8::NONE,
@@ -48,9 +48,9 @@ impl Held {
         before: NEVER,
         e_s: F8::ZERO,
     };
-    /// What the hull of the container's faces says of rays with `t = t_c + s unit`: what is looked
-    /// at is as much longer as rounding asks for. Beyond the container the solid is told as far as
-    /// `slack`.
+    /// Computes the part inside the hull of the container's faces for rays with `t = t_c + s unit`.
+    /// The part that is searched is widened by the rounding errors. The solid is described up to
+    /// `slack` beyond the container.
     #[inline(never)]
     pub(super) fn put(
         &mut self,

@@ -1,12 +1,12 @@
-//! Where eight rays cross a level set first.
+//! The first crossing of each of eight rays with a level set.
 //!
-//! With `s` the way along a ray from where it is closest to the solid's centre, in the solid's
-//! units, `t = t_c + s unit`; the two numbers are what they are, and what rounding does to them is
-//! charged to the line.
+//! Let `s` be the distance along a ray from its closest approach to the solid's centre, in the
+//! solid's units, so that `t = t_c + s unit`. The rounded `t_c` and `unit` are taken as exact;
+//! their rounding is charged to the line.
 //!
-//! **Where a ray starts** is rounded outward by `8 U (|t_c| |d| + reach)`, which is less than
-//! `128 U (reach + |y|)` at the start `y`: within that a start has the sign that it is known to
-//! have, if it was put off the surface (`skin`).
+//! **The start of a ray** is rounded outward by `8 U (|t_c| |d| + reach)`, which is less than
+//! `128 U (reach + |y|)` at the start `y`. Within that distance a start that was moved off the
+//! surface (`skin`) keeps its known sign.
 
 use super::container::Held;
 use super::{Ends, ImplicitKernel, Line8, LineExtent8, Segment8, Value8};
@@ -18,47 +18,46 @@ use crate::packet::rays::{Nearest, RayLanes, SLACK};
 use durer_math::scale::pow2;
 use durer_math::{F8, Isa, M8, U, Vec3};
 
-/// So many stretches of a ray are looked at.
+/// The most segments that are examined on one ray.
 pub(super) const MOST: u32 = 160;
-/// Values that a crossing is closed in by; each second one at least halves what is left.
+/// The most values that refine one crossing; every second one at least halves the bracket.
 const MOST_VALUES: u32 = 24;
-/// How much longer the next stretch is than one that was passed, and how much shorter after one of
-/// which nothing was certain.
+/// The next segment's length relative to one that was passed, and relative to one on which nothing
+/// was certain.
 const LONGER: f64 = 2.0;
 const SHORTER: f64 = 0.3;
-/// The first stretch, and the shortest one, in parts of what holds the solid.
+/// The lengths of the first and of the shortest segment, relative to the solid's reach.
 const FIRST: f64 = 0.25;
 const LEAST: f64 = pow2(-24);
-/// A crossing is known within this part of how far it is: a quarter of what pictures ask for.
+/// A crossing's error relative to its parameter: a quarter of what pictures need.
 const CLOSE: f64 = crate::PREVIEW_WIDTH / 8.0;
 const NEVER: F8 = F8::splat(f64::INFINITY);
 
-/// Memory for eight rays and a solid on the way.
+/// Working memory for eight rays and one solid.
 #[derive(Debug)]
 pub(super) struct ImplicitScratch {
     line: Line8,
     part: LineExtent8,
     held: Held,
-    /// `t = t_c + s unit`, and what that is rounded by.
+    /// `t = t_c + s unit`, and a bound on its rounding.
     t_c: F8,
     unit: F8,
     e_t: F8,
-    /// Where each ray is, where it ends, and how far it tries to go next.
+    /// The current place on each ray, the end of its range, and the length of the next segment.
     here: F8,
     last: F8,
     step: F8,
-    /// The sign at `here`: 1, -1, or 0 if it is not known.
+    /// The sign at `here`: 1, -1, or 0 if it is unknown.
     sign: F8,
-    /// How many stretches were looked at.
+    /// How many segments were examined.
     looks: u32,
-    /// Lanes that go on, those that came to the end, those that got nowhere, and those of which a
-    /// value is asked for.
+    /// Lanes that are active, that reached the end, that are stuck, and that need a value.
     open: M8,
     ended: M8,
     stuck: M8,
     asked: M8,
-    /// Lanes with one crossing between two places with opposite signs, and the values there with
-    /// the sign of the first one.
+    /// Lanes with exactly one crossing between two places with opposite signs; these places, and
+    /// the values there, multiplied by the sign of the first one.
     found: M8,
     a: F8,
     b: F8,
@@ -112,8 +111,8 @@ impl Default for ImplicitScratch {
     }
 }
 
-/// Makes ready what of each ray is looked at; of a solid in a container that is `cell`. It is said
-/// whether the surface is turned round.
+/// Prepares the rays. `cell` is the container's cell if the solid has a container; `turned` is
+/// whether the surface is turned.
 pub(super) fn prepare(
     level: &dyn ImplicitKernel,
     own: &Own,
@@ -141,7 +140,7 @@ pub(super) fn prepare(
     }
 }
 
-/// Looks at one stretch of each ray that goes on.
+/// Examines one segment of each active ray.
 #[inline(always)]
 pub(super) fn look(level: &dyn ImplicitKernel, memory: &mut ImplicitScratch) {
     let isa = memory.line.isa;
@@ -153,7 +152,7 @@ pub(super) fn look(level: &dyn ImplicitKernel, memory: &mut ImplicitScratch) {
     memory.looks += 1;
 }
 
-/// Offers the first crossing of each ray to `nearest`.
+/// Passes the first crossing of each ray to `nearest`.
 pub(super) fn conclude(
     level: &dyn ImplicitKernel,
     asked: &PacketQuery<'_>,
@@ -169,7 +168,7 @@ pub(super) fn conclude(
     }
 }
 
-/// Puts down the rays in the solid's units.
+/// Computes the rays in the solid's units.
 #[inline(never)]
 fn see(reach: f64, own: &Own, rays: &RayLanes<'_>, start: &Start, memory: &mut ImplicitScratch) {
     rays.isa.run_in_lanes(
@@ -194,7 +193,7 @@ fn see(reach: f64, own: &Own, rays: &RayLanes<'_>, start: &Start, memory: &mut I
     );
 }
 
-/// Puts down the part of each ray that is looked at, and the sign that it starts with.
+/// Computes the range of each ray that is searched, and the sign at its start.
 #[inline(never)]
 fn begin(
     (asked, turned): (&PacketQuery<'_>, bool),
@@ -228,7 +227,7 @@ fn begin(
             let within = start.gt(part.from);
             *here = within.select(start, part.from);
             *last = ((nearest.limit(rays) - *t_c) / *unit + out).min(part.to);
-            // Not a number stays, and ends as a doubt.
+            // NaN stays open, and ends as a doubt.
             *open = *rays.live & !last.le(*here);
             let side = asked.from.map_or(
                 F8::ZERO,
@@ -236,9 +235,10 @@ fn begin(
                 |from| from.side(turned),
             );
             *sign = match held.ends {
-                // Before the part all is outside.
+                // Everything before the part is outside.
                 Ends::Free => within.select(side, F8::ONE),
-                // The side of a container's face says nothing of the solid's own.
+                // The side of a container's face does not determine the side of the solid's own
+                // surface.
                 Ends::Capped | Ends::Open => {
                     let own = asked.from.map_or(
                         M8::NONE,
@@ -261,7 +261,7 @@ fn begin(
     );
 }
 
-/// Whether rays start within the part that is looked at without it being known on which side.
+/// Marks active rays with an unknown sign at the start, and returns whether there are any.
 #[inline(never)]
 fn has_unknown(isa: Isa, memory: &mut ImplicitScratch) -> bool {
     isa.run_in_lanes(
@@ -273,8 +273,8 @@ fn has_unknown(isa: Isa, memory: &mut ImplicitScratch) -> bool {
     )
 }
 
-/// The value tells, or there is a doubt. Where a container is entered and the sign is that of the
-/// inside its face is met.
+/// Sets unknown signs from the values; without a certain sign the ray is a doubt. A ray that enters
+/// the container where the sign is that of the inside hits the container's face.
 #[inline(never)]
 fn know(asked: &PacketQuery<'_>, nearest: &mut Nearest, memory: &mut ImplicitScratch) {
     asked.rays.isa.run_in_lanes(
@@ -289,7 +289,7 @@ fn know(asked: &PacketQuery<'_>, nearest: &mut Nearest, memory: &mut ImplicitScr
                 nearest.doubt_from(unsure, here.mul_add(*unit, *t_c) - *e_t);
                 *open &= !unsure;
             }
-            // Who starts inside of the container has not entered it.
+            // A ray that starts inside the container does not enter it.
             let covered = unknown & *open & sign.lt(F8::ZERO) & !held.after.lt(F8::ZERO);
             if held.ends == Ends::Capped && covered.any() {
                 let (t, e) = (held.t_in, held.e_in);
@@ -308,29 +308,29 @@ impl ImplicitScratch {
         self.line.isa
     }
 
-    /// How many stretches were looked at.
+    /// How many segments were examined.
     pub(super) fn looks(&self) -> u32 {
         self.looks
     }
 
-    /// Lanes that go on.
+    /// The active lanes.
     pub(super) fn open(&self) -> M8 {
         self.open
     }
 
-    /// Looks no more at a ray: where it is there is a doubt.
+    /// Stops a ray; from its current place on it is a doubt.
     pub(super) fn give_up(&mut self, lane: usize) {
         self.open.set_lane(lane, false);
         self.stuck.set_lane(lane, true);
     }
 
-    /// Nothing is under way.
+    /// Removes all rays.
     pub(super) fn clear(&mut self, isa: Isa) {
         self.line.isa = isa;
         (self.open, self.ended, self.stuck, self.found) = (M8::NONE, M8::NONE, M8::NONE, M8::NONE);
     }
 
-    /// Ray `i` goes on as ray `j` of others does.
+    /// Copies ray `j` of `from` to lane `i` and continues it there.
     pub(super) fn take_over(&mut self, i: usize, from: &Self, j: usize) {
         let (to, line) = (&mut self.line, &from.line);
         to.o.set_lane(i, line.o.lane(j));
@@ -341,7 +341,7 @@ impl ImplicitScratch {
         self.open.set_lane(i, true);
     }
 
-    /// Puts down what ray `i`, which goes on no more, has come to: ray `j` of others.
+    /// Copies the result of the finished ray `i` to lane `j` of `to`.
     pub(super) fn give_back(&mut self, i: usize, to: &mut Self, j: usize) {
         (to.here.0[j], to.a.0[j], to.b.0[j], to.g_b.0[j]) =
             (self.here.0[i], self.a.0[i], self.b.0[i], self.g_b.0[i]);
@@ -357,7 +357,7 @@ impl ImplicitScratch {
         }
     }
 
-    /// Asks for the next stretches, of rays that were taken over, too.
+    /// Sets the next segments, also for rays that were taken over.
     #[inline(never)]
     pub(super) fn ask_all(&mut self) {
         let Self { line, here, last, step, sign, open, told, .. } = self;
@@ -368,7 +368,7 @@ impl ImplicitScratch {
     }
 }
 
-/// Asks for the next stretches.
+/// Sets the next segments.
 #[inline(always)]
 fn ask(open: M8, (here, last): (F8, F8), step: F8, sign: F8, told: &mut Segment8) {
     (told.lanes, told.seen) = (open, M8::NONE);
@@ -377,7 +377,8 @@ fn ask(open: M8, (here, last): (F8, F8), step: F8, sign: F8, told: &mut Segment8
     told.next = NEVER;
 }
 
-/// Whether `g` goes towards zero somewhere, so that its sign at the end has to be asked for.
+/// Marks lanes where `g` moves towards zero, so that its sign at the segment's end is needed.
+/// Returns whether there are any.
 #[inline(never)]
 fn against(isa: Isa, memory: &mut ImplicitScratch) -> bool {
     isa.run_in_lanes(
@@ -391,7 +392,7 @@ fn against(isa: Isa, memory: &mut ImplicitScratch) -> bool {
     )
 }
 
-/// Takes what was told.
+/// Updates the rays from the classification of their segments.
 #[inline(never)]
 fn go_on(isa: Isa, reach: f64, memory: &mut ImplicitScratch) {
     isa.run_in_lanes(
@@ -438,19 +439,19 @@ fn go_on(isa: Isa, reach: f64, memory: &mut ImplicitScratch) {
     );
 }
 
-/// What is where rays came to the end of their part, or did not.
+/// Records doubts, and hits where rays leave the container.
 #[inline(never)]
 fn end(asked: &PacketQuery<'_>, nearest: &mut Nearest, memory: &mut ImplicitScratch) {
     asked.rays.isa.run_in_lanes(
         #[inline(always)]
         || {
             let ImplicitScratch { part, held, here, sign, open, ended, stuck, t_c, unit, e_t, .. } = &*memory;
-            // Not a number is not the end.
+            // NaN is not the end.
             let unsure = *stuck | *open | *ended & !here.ge(memory.last);
             if unsure.any() {
                 nearest.doubt_from(unsure, here.mul_add(*unit, *t_c) - *e_t);
             }
-            // Inside all the way: a container's face is met where it is left.
+            // A ray that is inside up to the end hits the container's face where it leaves it.
             let left = *ended & !sign.gt(F8::ZERO) & here.ge(memory.last);
             let left = left & !held.before.gt(nearest.limit(asked.rays));
             if held.ends == Ends::Capped && left.any() {
@@ -464,8 +465,8 @@ fn end(asked: &PacketQuery<'_>, nearest: &mut Nearest, memory: &mut ImplicitScra
     );
 }
 
-/// Offers crossings where they were found, for those who do not ask where they are: there are
-/// certain signs on either side.
+/// Passes crossings to `nearest` without refinement, for queries that do not need their place; the
+/// signs on either side are certain.
 #[inline(never)]
 fn take_roughly(asked: &PacketQuery<'_>, nearest: &mut Nearest, memory: &mut ImplicitScratch) {
     asked.rays.isa.run_in_lanes(
@@ -483,7 +484,7 @@ fn take_roughly(asked: &PacketQuery<'_>, nearest: &mut Nearest, memory: &mut Imp
     );
 }
 
-/// Closes in the crossings that were found, proves them and offers them.
+/// Refines the crossings that were found, proves them, and passes them to `nearest`.
 #[inline(never)]
 fn close_in(
     level: &dyn ImplicitKernel,
@@ -518,7 +519,7 @@ fn close_in(
     nearest.doubt_from(memory.found, memory.here.mul_add(memory.unit, memory.t_c) - memory.e_t);
 }
 
-/// Steps towards crossings until the last one was at most `near` times as long as is close.
+/// Steps towards the crossings until the last step was at most `near` times `close`.
 #[inline(never)]
 fn converge(
     level: &dyn ImplicitKernel,
@@ -541,7 +542,7 @@ fn converge(
                 let known = before | beyond;
                 let moving = !*done & known;
                 let (first, second) = (moving & before, moving & !before);
-                // What stays once more weighs less (N. Anderson, A. Bjorck, 1973).
+                // An end that stays a second time gets less weight (N. Anderson, A. Bjorck, 1973).
                 let share = F8::ONE - g / before.select(*g_a, *g_b);
                 let share = share.gt(F8::ZERO).select(share, F8::splat(0.5));
                 g_b.set_where(first & stayed.gt(F8::ZERO), *g_b * share);
@@ -562,13 +563,13 @@ fn converge(
     }
 }
 
-/// How near to a place counts as close: a part of the ray's parameter there.
+/// The precision that is wanted at `x`, in the ray's parameter.
 #[inline(always)]
 fn close(memory: &ImplicitScratch, x: F8) -> F8 {
     x.mul_add(memory.unit, memory.t_c).abs() * CLOSE
 }
 
-/// Where to look next: where the chord is zero, each eighth time in the middle.
+/// The next place to evaluate: the zero of the chord, and every eighth time the middle.
 #[inline(always)]
 fn next(memory: &ImplicitScratch, turn: u32) -> F8 {
     let ImplicitScratch { a, b, g_a, g_b, .. } = memory;
@@ -578,7 +579,7 @@ fn next(memory: &ImplicitScratch, turn: u32) -> F8 {
     if turn % 8 == 7 { middle } else { between.select(chord, middle) }
 }
 
-/// Offers what has certain signs on either side.
+/// Passes crossings with certain signs on either side to `nearest`.
 #[inline(never)]
 fn prove(
     level: &dyn ImplicitKernel,

@@ -1,11 +1,11 @@
-//! Algebraic surfaces as lanes see them.
+//! The packet kernel of algebraic surfaces.
 //!
 //! ```text
 //!   f(y) = Σ c_ijk x^i y^j z^k      negative inside
 //! ```
 //!
-//! Nothing holds such a surface, so a ray is looked at from where it starts, or enters what clips
-//! the surface, to where it ends (`rays.rs`).
+//! Such a surface may be unbounded. So a ray is searched from its start, or from its entry into
+//! what clips the surface, to its end (`rays.rs`).
 //!
 //! **Errors.** With `S_m` the sum of `|c_ijk|` of the terms of degree `m`, and coordinates up to
 //! `M`,
@@ -15,8 +15,8 @@
 //! ```
 //!
 //! bound `f`, the sum of its first derivatives and the sum of its second, all with absolute values
-//! throughout. W. G. Horner's scheme in three variables puts each term through at most `4 n + 4`
-//! roundings, at a point and in sum along a ray, and its derivatives through twice as many.
+//! throughout. In W. G. Horner's scheme in three variables each term takes at most `4 n + 4`
+//! roundings, at a point and in sum along a ray, and its derivatives take twice as many.
 
 mod rays;
 
@@ -28,13 +28,13 @@ use super::revolution::Skin;
 use durer_math::{F8, U, Vec3};
 use std::sync::Arc;
 
-/// A polynomial of a degree below `N`: coefficients by falling powers of x, then of y, then of z,
-/// all that are of no higher degree than `order`.
+/// A polynomial of degree below `N`: all coefficients of degree up to `order`, by falling powers of
+/// x, then of y, then of z.
 #[derive(Clone, Debug)]
 pub(crate) struct Terms<const N: usize> {
     pub(crate) order: u32,
     pub(crate) coefficients: Arc<[f64]>,
-    /// Of each total degree, the sum of the magnitudes.
+    /// For each total degree, the sum of the magnitudes.
     pub(crate) sizes: [f64; N],
 }
 
@@ -54,7 +54,7 @@ struct Sum<const N: usize> {
 impl<const N: usize> Sum<N> {
     const ZERO: Self = Self { p: [F8::ZERO; N], len: 0 };
 
-    /// Times `o + x v`.
+    /// Multiplies the polynomial by `o + x v`.
     #[inline(always)]
     fn times(&mut self, o: F8, v: F8) {
         if self.len == 0 {
@@ -129,7 +129,7 @@ impl<const N: usize> Terms<N> {
         (f, Vec3::new(fx, fy, fz))
     }
 
-    /// For coordinates up to `m`.
+    /// The sizes for coordinates up to `m`.
     #[inline(always)]
     fn sizes(&self, m: F8) -> Sizes {
         let (mut f, mut slope, mut half_bend) = (F8::ZERO, F8::ZERO, F8::ZERO);
@@ -142,15 +142,15 @@ impl<const N: usize> Terms<N> {
         Sizes { f: f * pay, slope: slope * pay, bend: half_bend * (2.0 * pay) }
     }
 
-    /// What is at points `h` of the surface, with `|h|₁`.
+    /// `f` and its gradient at points `h` of the surface, with `|h|₁`.
     #[inline(always)]
     pub(super) fn skin(&self, own: &Own, h: Vec3<F8>, h1: F8) -> Skin {
         let (y, e) = (own.point(h), own.point_error(h1));
         let m = largest(y);
         let Sizes { f: size, slope, bend } = self.sizes(m + 1.0 / 64.0);
         let (f, g) = self.at(y);
-        // Rays that start there are looked at from a place that may be this far from it
-        // (`rays.rs`).
+        // For rays that start there, the kernel begins at a place that may be this far from the
+        // start (`rays.rs`).
         let e = (e + (m + 1.0) * (128.0 * U)) * SLACK;
         let e_f = (e * slope + size * (16.0 * N as f64 * U)) * 2.0;
         let e_half = (e * bend + slope * (16.0 * N as f64 * U)) * own.norm;

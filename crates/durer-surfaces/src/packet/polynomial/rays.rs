@@ -1,7 +1,6 @@
-//! Where eight rays cross an algebraic surface.
+//! Crossings of eight rays with an algebraic surface.
 //!
-//! About a place `t_c` of a ray the line is `y_c + x v`, `v = T d`. It is looked at in three
-//! pieces,
+//! About a place `t_c` of a ray the line is `y_c + x v`, `v = T d`. It is searched in three pieces,
 //!
 //! ```text
 //!   far before   t = t_c - T / x           0 < x <= 1      x^n f(y_c - v / x)
@@ -9,29 +8,32 @@
 //!   far behind   t = t_c + T / (1 - x)     0 <= x < 1      (1 - x)^n f(y_c + v / (1 - x))
 //! ```
 //!
-//! whose coefficients all follow from those `c_k` of `f(y_c + s v)`. The magnitudes of their
-//! coefficients are, in sum, at most `Σ |c_k|`, `Σ |c_k| 3^k` (in powers of `2 x - 1`, then of `x`)
-//! and `Σ |c_k| 2^(n-k)` (in powers of `1 - x`, then of `x`), which `F` bounds, and `F₁` the
-//! errors. So they are wrong by no more than
+//! whose coefficients all follow from the coefficients `c_k` of `f(y_c + s v)`. The sums of their
+//! magnitudes are at most `Σ |c_k|`, `Σ |c_k| 3^k` (in powers of `2 x - 1`, then of `x`) and
+//! `Σ |c_k| 2^(n-k)` (in powers of `1 - x`, then of `x`). `F` bounds these sums, and `F₁` bounds
+//! the errors. So the coefficients are wrong by no more than
 //!
 //! ```text
-//!   e = r (F₁(M) e_y + 16 N U F(M)),   M = |y_c| + s |v| + e_y,      s = 1, r = 1;   s = 3, r = 1;   s = 1/2, r = 2^n
+//!   e = r (F₁(M) e_y + 16 N U F(M)),   M = |y_c| + s |v| + e_y
+//!
+//!   s = 1, r = 1;   s = 3, r = 1;   s = 1/2, r = 2^n
 //! ```
 //!
-//! as the roundings of `f` along a ray (`mod.rs`), of the change of variable, and of all that
-//! `polynomial_roots.rs` does are fewer than `12 N`. Where the part that matters is short it is the
-//! piece about its middle; else `t_c` is where the ray is closest to the origin, or starts if that
-//! is behind, and `|v| = 4 + 2 |y_c|` with largest coordinates for sizes, half of that for high
-//! orders: beyond, the leading terms decide mostly. (`n` is the order of `f`, not `N - 1`: a
-//! leading coefficient of zero would leave the sign at infinity open.)
+//! because the roundings of `f` along a ray (`mod.rs`), of the change of variable, and of
+//! everything in `polynomial_roots.rs` are fewer than `12 N`. If the part of the ray that matters
+//! is short, the piece about its middle contains it. Otherwise `t_c` is the closest approach to the
+//! origin, or the start if that lies behind, and `|v| = 4 + 2 |y_c|`, where sizes are largest
+//! coordinates, or half of that for high orders: farther out the leading terms usually decide. (`n`
+//! is the order of `f`, not `N - 1`: a leading coefficient of zero would leave the sign at infinity
+//! open.)
 //!
-//! **Which root** is proven so; where it is, within that error only. One step of Newton's method
-//! with `f` at the point itself, whose error goes with `|y|` alone, and two certain signs beside it
-//! close it in further, where they lie within.
+//! **Refinement.** This proves which roots exist, but locates each only within that error. One step
+//! of Newton's method with `f` at the point itself, whose error depends on `|y|` alone, and two
+//! certain signs on either side narrow the bracket further, if they lie inside it.
 //!
-//! **Where a ray starts** in a piece, or ends, is rounded outward by `8 U (|t_c| + T)`, and far
-//! before by as little: in all by no more than `128 U (1 + |y|)` at the start `y`, within which a
-//! start has the sign that it is known to have, if it was put off the surface (`Terms::skin`).
+//! **The start of a ray** in a piece, or its end, is rounded outward by `8 U (|t_c| + T)`, and far
+//! before by as little: in all by no more than `128 U (1 + |y|)` at the start `y`. Within that
+//! distance a start that was moved off the surface (`Terms::skin`) keeps its known sign.
 
 use super::{Sizes, Terms};
 use crate::packet::convex::Hull;
@@ -43,16 +45,16 @@ use crate::packet::sink::Sink8;
 use durer_math::scale::pow2;
 use durer_math::{F8, M8, U, Vec3};
 
-/// Pays for what products may lose below the normal numbers: fewer than `2^17` of `2^-1075`, each
-/// times `N - 1` powers of numbers below `2 far`.
+/// Covers what products may lose to underflow: fewer than `2^17` of `2^-1075`, each times `N - 1`
+/// powers of numbers below `2 far`.
 const TINY: f64 = pow2(-240);
 
-/// Coordinates beyond this are doubts.
+/// Points with larger coordinates are doubts.
 const fn far<const N: usize>() -> f64 {
     if N <= 9 { pow2(100) } else { pow2(50) }
 }
 
-/// Which piece of a ray.
+/// The three pieces of a ray.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum LineThird {
     Before,
@@ -60,7 +62,7 @@ enum LineThird {
     Behind,
 }
 
-/// Memory for one surface on the way.
+/// Working memory for eight rays and one surface.
 #[derive(Debug)]
 pub(in crate::packet) struct PolynomialScratch<const N: usize> {
     /// The rays in the surface's own coordinates.
@@ -73,20 +75,20 @@ pub(in crate::packet) struct PolynomialScratch<const N: usize> {
     e: [F8; 3],
     t_c: F8,
     reach: F8,
-    /// The part of the ray that is looked at, and where within it crossings are surely of what is
-    /// kept.
+    /// The part of the ray that is searched, and the parameters between which crossings are
+    /// certainly inside what clips the surface.
     from: F8,
     to: F8,
     after: F8,
     before: F8,
-    /// Lanes of which more is to be told.
+    /// Lanes that are not finished.
     open: M8,
-    /// The sign where the next piece begins: 1, -1, or 0 if it is not known.
+    /// The sign at the start of the next piece: 1, -1, or 0 if it is unknown.
     sign: F8,
     poly: Poly8<N>,
     part: Part8,
     root: Root8,
-    /// Where that is on the ray.
+    /// The root's parameter on the ray.
     t: F8,
     e_t: F8,
 }
@@ -119,9 +121,9 @@ impl<const N: usize> Default for PolynomialScratch<N> {
 }
 
 impl<const N: usize> Terms<N> {
-    /// Shows the crossings of each ray to `to`, or the first one; and where there is a doubt. Only
-    /// what is within the faces of `cell` counts. Of rays that leave the surface it is said whether
-    /// the surface is turned round.
+    /// Passes the crossings of each ray, or only the first one, and the doubts to `to`. Only
+    /// crossings inside the faces of `cell` count. `leaving` describes rays that start on the
+    /// surface, and whether the surface is turned.
     pub(in crate::packet) fn meet<K: Sink8>(
         &self,
         own: &Own,
@@ -168,8 +170,8 @@ impl<const N: usize> Terms<N> {
         }
     }
 
-    /// Which points at `t` within `e` are surely inside, and which surely outside, as bits; for
-    /// rays seen from the outline's centre.
+    /// Points at `t`, known within `e`, that are certainly inside, and those that are certainly
+    /// outside, as bit masks; for rays relative to the filter's centre.
     #[inline(never)]
     pub(in crate::packet) fn holds(
         &self,
@@ -202,7 +204,7 @@ impl<const N: usize> Terms<N> {
         m.lt(F8::splat(far::<N>())).select(error, F8::splat(f64::INFINITY))
     }
 
-    /// Puts down where on the rays the roots are.
+    /// Refines the roots' parameters on the rays.
     #[inline(never)]
     fn close_in(&self, piece: LineThird, rays: &RayLanes<'_>, memory: &mut PolynomialScratch<N>) {
         rays.isa.run_in_lanes(
@@ -216,7 +218,7 @@ impl<const N: usize> Terms<N> {
                 let y = on(o, next, d);
                 let (f, _) = self.at(y);
                 let size = largest(d);
-                // Of points up to `e` away, too.
+                // The bounds must hold for points up to `e` away, too.
                 let way = next.abs() + e;
                 let e_y = e_o + way * e_d + (largest(o) + way * size) * (4.0 * U);
                 let e_f = self.error(largest(y) + e * size, e_y);
@@ -233,7 +235,7 @@ impl<const N: usize> Terms<N> {
         );
     }
 
-    /// Puts down what the polynomial is along the rays.
+    /// Computes the polynomial along the rays.
     #[inline(never)]
     fn see(&self, own: &Own, rays: &RayLanes<'_>, start: &Start, memory: &mut PolynomialScratch<N>) {
         rays.isa.run_in_lanes(
@@ -266,7 +268,7 @@ impl<const N: usize> Terms<N> {
     }
 }
 
-/// The part of each ray that is looked at.
+/// Computes the part of each ray that is searched.
 #[inline(always)]
 fn range<K: Sink8, const N: usize>(
     rays: &RayLanes<'_>,
@@ -290,11 +292,12 @@ fn range<K: Sink8, const N: usize>(
         }
         memory.open &= !(*missed | *unsure);
     }
-    // Not a number stays, and ends as a doubt.
+    // NaN stays open, and ends as a doubt.
     memory.open &= !memory.to.le(memory.from);
 }
 
-/// The piece's polynomial, and what of it is looked at; false if nothing is.
+/// Computes the polynomial of a piece, and the part of the piece that is searched. Returns false if
+/// that is empty for all rays.
 #[inline(never)]
 fn begin<K: Sink8, const N: usize>(
     (piece, order): (LineThird, usize),
@@ -337,7 +340,7 @@ fn begin_here<K: Sink8, const N: usize>(
             (l, end.min(F8::ONE))
         }
         LineThird::About => {
-            // In powers of `2 x - 1`, shifted.
+            // In powers of `2 x - 1`, then shifted.
             p = c;
             let mut power = 1.0;
             for p in &mut p {
@@ -355,7 +358,7 @@ fn begin_here<K: Sink8, const N: usize>(
             for k in 0..=n {
                 p[k] = c[n - k];
             }
-            // In powers of `1 - x`: shifted, and turned round.
+            // In powers of `1 - x`: shifted, then `x` is replaced by `-x`.
             shift(&mut p, 1.0);
             for (k, p) in p.iter_mut().enumerate() {
                 if k % 2 == 1 {
@@ -380,7 +383,7 @@ fn begin_here<K: Sink8, const N: usize>(
     true
 }
 
-/// Offers what was found of a piece, and goes on behind it.
+/// Passes the root found in a piece to `to`, and continues after it.
 #[inline(never)]
 fn offer<K: Sink8, const N: usize>(
     piece: LineThird,
@@ -398,7 +401,7 @@ fn offer<K: Sink8, const N: usize>(
             to.take(sure, (t, e), F8::ZERO);
             let unsure = part.unsure | part.one & !sure;
             if unsure.any() {
-                // Of what is beyond nothing is told.
+                // Everything from here on is uncertain.
                 let (l, e) = at(piece, (part.l, F8::ZERO), *t_c, *reach);
                 to.doubt(unsure, l - e);
                 *open &= !unsure;
@@ -413,8 +416,8 @@ fn offer<K: Sink8, const N: usize>(
     );
 }
 
-/// The parameter of the ray at `x` in a piece, and how far that is off where `x` is within `e`;
-/// infinite where that could be anywhere.
+/// The parameter of the ray at `x` in a piece, where `x` is known within `e`, and its error; the
+/// error is infinite if the parameter could be anything.
 #[inline(always)]
 fn at(piece: LineThird, (x, e): (F8, F8), t_c: F8, reach: F8) -> (F8, F8) {
     // T / (y - e) - T / y <= 2 T e / y²
@@ -436,7 +439,7 @@ fn at(piece: LineThird, (x, e): (F8, F8), t_c: F8, reach: F8) -> (F8, F8) {
     (t, (e + (t_c.abs() + (t - t_c).abs()) * (8.0 * U)) * SLACK)
 }
 
-/// The polynomial about another place.
+/// The polynomial in powers of `x - by`.
 #[inline(always)]
 fn shift<const N: usize>(p: &mut [F8; N], by: f64) {
     for first in 0..N - 1 {

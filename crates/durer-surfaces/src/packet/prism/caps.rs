@@ -1,4 +1,4 @@
-//! Where eight rays cross the caps of a swept solid.
+//! Crossings of eight rays with the caps of a swept solid.
 
 use super::{PrismScratch, ProfileCurve8, Sweep8, cubic, lowest};
 use crate::packet::quadratic_roots::quotient;
@@ -6,28 +6,27 @@ use crate::packet::rays::{CLEAR, From8, RayLanes, SLACK};
 use crate::packet::sink::Sink8;
 use durer_math::{F8, Isa, M8, U};
 
-/// The least and the greatest of some numbers.
+/// The least and the greatest of four numbers.
 #[inline(always)]
 pub(super) fn range(v: &[f64; 4]) -> (f64, f64) {
     (v.iter().fold(f64::INFINITY, |m, x| m.min(*x)), v.iter().fold(f64::NEG_INFINITY, |m, x| m.max(*x)))
 }
 
-/// The strip along the way from a curve's start to its end that holds the curve: between the least
-/// and the greatest height `h(p) = dx (z - z0) - dz (x - x0)` of its control points. A point beside
-/// the strip has all or none of the curve ahead.
+/// A strip along a curve's chord that contains the curve: between the least and the greatest height
+/// `h(p) = dx (z - z0) - dz (x - x0)` of its control points. A point beside the strip has either
+/// the whole curve ahead or none of it.
 struct Strip {
     way: [f64; 2],
     low: f64,
     high: f64,
-    /// No less than the change of a height with a coordinate, and than the errors of heights but
-    /// for that of their point.
+    /// Bounds the change of a height with a coordinate, and the errors of heights except for those
+    /// of their points.
     slope: f64,
     rounding: f64,
 }
 
 impl Strip {
-    /// A height takes five roundings, of numbers no larger than `|dx| + |dz|` times two
-    /// coordinates.
+    /// A height takes five roundings of numbers no larger than `|dx| + |dz|` times two coordinates.
     #[inline(always)]
     fn of(curve: &ProfileCurve8) -> Self {
         let [xs, zs] = curve.points;
@@ -42,8 +41,8 @@ impl Strip {
     }
 }
 
-/// Where the rays reach the plane of a cap; false if none does where it matters, which is
-/// everywhere on the line or only ahead.
+/// Computes where the rays meet the plane of a cap. Returns false if none does where it matters:
+/// ahead of the rays, or anywhere on their lines.
 #[inline(never)]
 pub(in crate::packet) fn reach<K: Sink8>(
     (rays, from): (&RayLanes<'_>, Option<&From8>),
@@ -60,15 +59,16 @@ pub(in crate::packet) fn reach<K: Sink8>(
             let steep = dy.abs().gt(e_d * CLEAR);
             let e_h = e_o + height.abs() * (4.0 * U);
             let (t, e) = quotient(-(oy - height), e_h, F8::ONE / dy, e_d);
-            // Of rays along the plane nothing is known from their start on, unless they stay away
-            // from it as far as that matters.
+            // Rays along the plane are doubts from their start on, unless they stay away from it
+            // over the whole range that matters.
             let (t, e) = (steep.keep(t), steep.keep(e));
             let rise = (dy.abs() + e_d) * memory.far + e_h + oy.abs() * U;
             let beside = !steep & (oy - height).abs().gt(rise * SLACK);
             let mut open = *rays.live & !beside;
             if ahead {
                 if let Some(from) = from {
-                    // Outward is up at the top; they left it on the side to which they go.
+                    // Outward is up at the top. Rays that start on the cap start on the side to
+                    // which they go.
                     let outward = if top { dy.gt(F8::ZERO) } else { dy.lt(F8::ZERO) };
                     open &= !(from.lanes & steep & (outward & !from.back | !outward & from.back));
                 }
@@ -94,11 +94,11 @@ pub(in crate::packet) fn reach<K: Sink8>(
     )
 }
 
-/// How often a line from the point of a cap along x crosses curves, modulo two.
+/// Counts, modulo two, how often the line from the point of a cap along x crosses curves.
 pub(in crate::packet) fn count(isa: Isa, curves: &[ProfileCurve8], memory: &mut PrismScratch) {
     let ahead = ahead(isa, memory);
     for curve in curves {
-        // None of the lines goes there.
+        // No line comes near the curve.
         if !curve.is_beside(&ahead) {
             count_one(isa, curve, memory);
         }
@@ -127,7 +127,7 @@ fn count_one(isa: Isa, curve: &ProfileCurve8, memory: &mut PrismScratch) {
             let [xs, zs] = curve.points;
             let ((x0, x1), (z0, z1)) = (range(&xs), range(&zs));
             let e = e_place + curve.slack;
-            // Above, below, or behind: none.
+            // The curve is above, below or behind: no crossing.
             let none = (-(pz - z0)).gt(e) | (pz - z1).gt(e) | (px - x1).gt(e);
             let mut open = memory.open & !none;
             if !open.any() {
@@ -137,7 +137,8 @@ fn count_one(isa: Isa, curve: &ProfileCurve8, memory: &mut PrismScratch) {
             for i in 0..4 {
                 g[i] = -(pz - zs[i]);
             }
-            // All ahead: once if its ends are on different sides.
+            // The whole curve is ahead: an odd number of crossings if its ends are on different
+            // sides.
             let (first, last) = (g[0], g[3]);
             let certain = first.abs().gt(e) & last.abs().gt(e);
             let ahead = open & (-(px - x0)).gt(e) & certain;
@@ -151,7 +152,7 @@ fn count_one(isa: Isa, curve: &ProfileCurve8, memory: &mut PrismScratch) {
             let h = F8::splat(dx).mul_add(pz - zs[0], -((px - xs[0]) * dz));
             let e_h = ((e_place + (px.abs() + pz.abs()) * (16.0 * U)) * slope + rounding) * SLACK;
             let (above, below) = ((h - high).gt(e_h), (h - low).lt(-e_h));
-            // Above the way the strip is ahead where that rises.
+            // If the chord rises, points above it have the strip ahead.
             let sees = if dz > 0.0 { above } else { below };
             let beside = open & (above | below) & certain;
             memory.odd = flipped(memory.odd, beside & changes & sees);
@@ -199,7 +200,7 @@ pub(in crate::packet) fn flipped(odd: M8, where_: M8) -> M8 {
     odd & !where_ | !odd & where_
 }
 
-/// Offers the crossing with a cap.
+/// Passes the crossing with a cap to `to`.
 #[inline(never)]
 pub(in crate::packet) fn conclude<K: Sink8>(
     rays: &RayLanes<'_>,

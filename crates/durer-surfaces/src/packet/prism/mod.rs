@@ -1,21 +1,24 @@
-//! Walls and caps of swept solids as lanes see them: a cubic curve in the xz plane, swept along y
-//! or towards the origin.
+//! The packet kernel of the walls and caps of swept solids: a cubic curve in the xz plane, swept
+//! along y or towards the origin.
 //!
 //! ```text
-//!   linear   the trace of a ray o + t d in the plane is   dz x - dx z + (dx oz - dz ox) = 0,                            t = (x - ox) / dx
-//!   conic    ... of the plane through the origin and the ray, (o × d)·(x, 1, z) = 0,                                    t = (x oy - ox) / (dx - x dy)
+//!   linear   the trace of a ray o + t d in the plane is
+//!              dz x - dx z + (dx oz - dz ox) = 0,       t = (x - ox) / dx
+//!   conic    the trace of the plane through the origin and the ray is
+//!              (o × d)·(x, 1, z) = 0,                   t = (x oy - ox) / (dx - x dy)
 //! ```
 //!
-//! and the same with z for x; the larger divisor is taken. Along a curve `c(u) = (x, z)` the trace
+//! and the same with z for x; the larger divisor is used. Along a curve `c(u) = (x, z)` the trace
 //! is a cubic `g(u)` (`polynomial_roots.rs`) whose Bernstein coefficients are its values at the
-//! control points: mostly they have one sign, and the ray passes by. Where they change, the root in
-//! `u` gives the point of the wall, and that the place on the ray. Inside a cap is where a line
-//! from the point along x crosses the curves an odd number of times. See `prism/curved/` for the
-//! same in exact numbers.
+//! control points. Usually they have one sign, and the ray misses. If the sign changes, the root in
+//! `u` gives the point of the wall, and that gives the parameter on the ray. A point is inside a
+//! cap if a line from the point along x crosses the curves an odd number of times. `prism/curved/`
+//! does the same in exact numbers.
 //!
-//! **Errors.** Values at control points are means' bounds: an error common to all of them is one of
-//! `g` everywhere. In powers of `u` the coefficients are no larger in sum than `12 Σ |g_i|`, for
-//! whose 64 roundings `polynomial_roots.rs` is paid.
+//! **Errors.** The values of `g` are weighted means of the values at the control points, so a
+//! common error bound of these is an error bound of `g` everywhere. In powers of `u` the sum of the
+//! magnitudes of the coefficients is at most `12 Σ |g_i|`; the bound includes 64 roundings of that
+//! size for `polynomial_roots.rs`.
 
 mod caps;
 mod walls;
@@ -36,19 +39,19 @@ use super::revolution::Skin;
 use super::sink::First;
 use durer_math::{F8, M8, U, Vec3};
 
-/// A cubic curve by its control points, all x and all z, each within `slack` of the exact one.
+/// A cubic curve by its control points, all x and then all z, each within `slack` of the exact one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ProfileCurve8 {
     points: [[f64; 4]; 2],
     slack: f64,
-    /// No less than the magnitude of any number of it.
+    /// An upper bound of the magnitudes of all its coordinates.
     reach: f64,
-    /// Least and greatest x, least and greatest z, with room for `slack` and for roundings of
-    /// numbers of this size.
+    /// The bounding box: least and greatest x, least and greatest z, widened by `slack` and by the
+    /// rounding of numbers of this size.
     around: [f64; 4],
 }
 
-/// How the outlines are swept, and between which heights.
+/// The kind of sweep, and its two heights.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sweep8 {
     pub(crate) conic: bool,
@@ -59,16 +62,16 @@ pub(crate) struct Sweep8 {
 /// One part of a swept solid.
 #[derive(Clone, Debug)]
 pub(crate) enum Swept {
-    /// The wall of one curve; whether the inside is to the left of it, x to the right and z up.
+    /// The wall of one curve; whether the inside is to its left, with x to the right and z up.
     Wall { curve: ProfileCurve8, sweep: Sweep8, left: bool },
     /// The cap at the bottom, or at the top, between all curves.
     Cap { curves: Box<[ProfileCurve8]>, sweep: Sweep8, top: bool },
-    /// All of a closed solid, and on which side of each curve the inside is; not known if curves
+    /// A whole closed solid, and for each curve whether the inside is to its left; `None` if curves
     /// may cross.
     Whole { curves: Box<[ProfileCurve8]>, sweep: Sweep8, left: Option<Box<[bool]>> },
 }
 
-/// Memory for one part on the way.
+/// Working memory for eight rays and one part.
 #[derive(Debug, Default)]
 pub(super) struct PrismScratch {
     pub(super) o: [F8; 3],
@@ -77,17 +80,17 @@ pub(super) struct PrismScratch {
     pub(super) e_d: F8,
     /// A bound on every `t` at which the surface can be met.
     far: F8,
-    /// Which rays are between the heights, and where their traces are there: the least and the
-    /// greatest x, and z.
+    /// The rays between the two heights, and their traces there: the least and the greatest x, and
+    /// z.
     between: M8,
     traces: [F8; 4],
     form: Form8,
-    /// A box around them.
+    /// A box around the traces of all rays.
     pub(super) around: [f64; 4],
     pub(super) poly: Poly8<4>,
     pub(super) part: Part8,
     pub(super) root: Root8,
-    /// Of a cap: where, and whether the point is within so far.
+    /// For a cap: the crossing with its plane, the point there, and whether that is inside so far.
     pub(super) t: F8,
     pub(super) e: F8,
     pub(super) place: [F8; 2],
@@ -98,26 +101,27 @@ pub(super) struct PrismScratch {
 }
 
 impl Sweep8 {
-    /// Whether the sweep ends in its apex there, and not in a cap.
+    /// Whether the sweep ends at the top, or at the bottom, in its apex instead of a cap.
     pub(super) fn has_tip(&self, top: bool) -> bool {
         self.conic && (if top { self.high } else { self.low }) == 0.0
     }
 }
 
-/// What a wall wants to know of a point: `u` round its curve, and, as the sign, whether the inside
-/// is to the left.
+/// The tag of a point on a wall: `u` along its curve, and, as the sign, whether the inside is to
+/// the left.
 #[inline(always)]
 pub(super) fn tag_of(u: F8, left: M8) -> F8 {
     u.copysign(left.select(F8::ONE, F8::splat(-1.0)))
 }
 
-/// The same in two.
+/// The `u` and the side in a tag.
 #[inline(always)]
 pub(super) fn side_of(tag: F8) -> (F8, M8) {
     (tag.abs(), F8::ONE.copysign(tag).gt(F8::ZERO))
 }
 
-/// The least number of some lanes, infinite if there are none; not a number if one of them is none.
+/// The least number in some lanes: infinite if there are no lanes, NaN if one of the numbers is
+/// NaN.
 #[inline(always)]
 fn lowest(lanes: M8, v: F8) -> f64 {
     let mut least = f64::INFINITY;
@@ -134,21 +138,22 @@ fn lowest(lanes: M8, v: F8) -> f64 {
 }
 
 impl ProfileCurve8 {
-    /// By its control points, each within `slack`, and no number of them larger than `reach`.
+    /// The curve with these control points, each within `slack`; no coordinate is larger than
+    /// `reach`.
     pub(crate) fn new(points: [[f64; 4]; 2], slack: f64, reach: f64) -> Self {
         let room = slack + reach * (8.0 * U);
         let [(x0, x1), (z0, z1)] = points.each_ref().map(caps::range);
         Self { points, slack, reach, around: [x0 - room, x1 + room, z0 - room, z1 + room] }
     }
 
-    /// Whether it surely lies beside a box, given in the same way.
+    /// Whether the curve is certainly outside a box in the same format as `around`.
     #[inline(always)]
     pub(super) fn is_beside(&self, [x0, x1, z0, z1]: &[f64; 4]) -> bool {
         let [a, b, c, d] = &self.around;
         x1 < a || x0 > b || z1 < c || z0 > d
     }
 
-    /// A point and its change with `u`, for `u` in `[0, 1]`, by P. de Casteljau's scheme.
+    /// A point and its derivative by `u`, for `u` in `[0, 1]`, by P. de Casteljau's scheme.
     #[inline(always)]
     fn at(&self, u: F8) -> ([F8; 2], [F8; 2]) {
         let w = F8::ONE - u;
@@ -164,12 +169,12 @@ impl ProfileCurve8 {
         (at, slope)
     }
 
-    /// A bound on the error of a point, `u` itself taken for exact.
+    /// A bound on the error of a point, for exact `u`.
     fn rounding(&self) -> f64 {
         self.slack + self.reach * (16.0 * U)
     }
 
-    /// No less than any change of the point with `u`, and than the change of that.
+    /// Upper bounds of the magnitudes of the first and the second derivative by `u`.
     fn speed(&self) -> (f64, f64) {
         (self.reach * 8.5, self.reach * 34.0)
     }
@@ -187,7 +192,7 @@ fn cubic(g: [F8; 4], e: F8) -> Poly8<4> {
 }
 
 impl Swept {
-    /// Offers the first crossing of each ray to `nearest`.
+    /// Passes the first crossing of each ray to `nearest`.
     pub(super) fn meet(
         &self,
         own: &Own,
@@ -225,12 +230,12 @@ impl Swept {
         }
     }
 
-    /// Whether it is all of a solid, whose faces have numbers.
+    /// Whether this is a whole solid with few enough faces to number.
     pub(super) fn is_operand(&self) -> bool {
         matches!(self, Self::Whole { curves, .. } if curves.len() + 2 <= PacketFilter::FACES)
     }
 
-    /// Puts down all crossings of a solid.
+    /// Stores all crossings of a solid.
     pub(super) fn crossings(
         &self,
         own: &Own,
@@ -244,8 +249,8 @@ impl Swept {
         }
     }
 
-    /// Which points at `t` within `e` are surely in the solid, and which surely not, of the rays
-    /// that are `asked` about: as bits.
+    /// For the `asked` rays, as bit masks: points at `t`, known within `e`, that are certainly
+    /// inside the solid, and those that are certainly outside.
     pub(super) fn holds(
         &self,
         own: &Own,
@@ -262,7 +267,7 @@ impl Swept {
         }
     }
 
-    /// What is at points `h` of this part, with `|h|₁`; `u` says where round the curve.
+    /// The data at points `h` of this part, with `|h|₁`; `u` is the tag of a wall's point.
     #[inline(always)]
     pub(super) fn spot(&self, own: &Own, (face, u): (usize, F8), h: Vec3<F8>, h1: F8) -> Skin {
         let (y, e) = (own.point(h), own.point_error(h1));
@@ -275,9 +280,9 @@ impl Swept {
                     if sides.is_some() {
                         return skin;
                     }
-                    // So far out that its own crossing is surely behind: `cubic`'s bound along a
-                    // ray, which comes with 12 U of 64 terms of eight times the size, times what
-                    // Newton's method and quotients make of it.
+                    // Moves starts so far off the wall that the crossing they leave is certainly
+                    // behind them: `cubic`'s bound along a ray, which includes 12 U for 64 terms of
+                    // eight times the size, times the factors of Newton's method and of quotients.
                     let stretch = if sweep.conic { 1.0 + sweep.low.abs().max(sweep.high.abs()) } else { 1.0 };
                     Skin { e_f: skin.e_f + curve.reach * (32768.0 * U) * stretch, ..skin }
                 }
@@ -301,7 +306,7 @@ impl Swept {
     }
 }
 
-/// What is at points of a cap.
+/// The data at points of a cap.
 #[inline(always)]
 fn cap_skin(own: &Own, sweep: &Sweep8, top: bool, y: Vec3<F8>, e: F8) -> Skin {
     let (height, up) = if top { (sweep.high, 1.0) } else { (sweep.low, -1.0) };
@@ -317,7 +322,7 @@ fn cap_skin(own: &Own, sweep: &Sweep8, top: bool, y: Vec3<F8>, e: F8) -> Skin {
     }
 }
 
-/// What is at points of a wall, at `u` round the curve; `outward` is 1 where the inside is to the
+/// The data at points of a wall, at `u` along the curve; `outward` is 1 if the inside is to the
 /// left, else -1.
 #[inline(always)]
 fn wall_skin(
@@ -327,20 +332,21 @@ fn wall_skin(
     y: Vec3<F8>,
     e: F8,
 ) -> Skin {
-    // A step along the curve to the foot of the point: what `u` and the place on the ray are off
-    // by.
+    // A step along the curve to the foot of the point, which corrects the errors of `u` and of the
+    // place on the ray.
     let ([cx, cz], [x1, z1]) = curve.at(u);
     let height = if sweep.conic { y.y } else { F8::ONE };
     let step = (y.x - cx * height).mul_add(x1, (y.z - cz * height) * z1);
     let u = (step / (x1.mul_add(x1, z1 * z1) * height) + u).max(F8::ZERO).min(F8::ONE);
     let ([cx, cz], [x1, z1]) = curve.at(u);
-    // The right of the curve; for a conic sweep the plane through the origin and the tangent.
+    // The normal to the right of the curve; for a conic sweep, the normal of the plane through the
+    // origin and the tangent.
     let slow = x1.abs().max(z1.abs());
     let scale = outward / slow;
     let (x, z) = (z1 * scale, -(x1 * scale));
     let far = sweep.low.abs().max(sweep.high.abs());
     let (n, (px, pz), side) = if sweep.conic {
-        // Above the origin the right of the curve is the right of the wall.
+        // Above the origin the right side of the curve is the right side of the wall.
         let n = Vec3::new(x, -(x.mul_add(cx, z * cz)), z);
         (n, (cx * y.y, cz * y.y), F8::ONE.copysign(y.y))
     } else {
@@ -352,7 +358,7 @@ fn wall_skin(
     let half = side * 0.5;
     let half = own.covector(Vec3::new(n.x * half, n.y * half, n.z * half));
     let (speed, turn) = curve.speed();
-    // The curve leaves its tangent by no more than |c''| / |c'|² times the square of the way along
+    // The curve leaves its tangent by at most |c''| / |c'|² times the square of the distance along
     // it.
     let bend = F8::splat(2.0 * turn) / (slow * slow);
     let bend = if sweep.conic { bend * (1.0 + curve.reach) / y.y.abs() } else { bend };
@@ -365,7 +371,7 @@ fn wall_skin(
     Skin { f, half, e_f, e_half, bend, room: NEVER }
 }
 
-/// The rays in the sweep's own coordinates.
+/// Computes the rays in the sweep's own coordinates.
 #[inline(always)]
 pub(super) fn see(own: &Own, rays: &RayLanes<'_>, start: &Start, memory: &mut PrismScratch) {
     let (o, d) = (own.point(start.h), own.vector(*rays.direction));

@@ -1,4 +1,4 @@
-//! Where eight rays cross the wall of a swept curve.
+//! Crossings of eight rays with the wall of a swept curve.
 
 use super::caps::range;
 use super::{PrismScratch, ProfileCurve8, Sweep8, cubic, lowest, tag_of};
@@ -7,12 +7,12 @@ use crate::packet::rays::{CLEAR, From8, RayLanes, SLACK};
 use crate::packet::sink::Sink8;
 use durer_math::{F8, M8, U};
 
-/// Finds where the rays are between the heights, ahead of their starts or anywhere on their lines,
-/// and a box in the plane of the outlines that holds their traces there; false if no ray is there.
-/// Puts down their traces' form, too.
+/// Finds the part of each ray between the two heights, ahead of its start or anywhere on its line,
+/// and a box in the plane of the outlines that contains its trace there. Also stores the form of
+/// the trace. Returns false if no ray is between the heights.
 ///
-/// The places of the heights and of points are known as in `reach` of a cap. A trace is straight,
-/// so it lies between its ends; those of rays that may pass the apex are not bounded.
+/// Heights and points have the same errors as in `reach` of a cap. A trace is straight, so it lies
+/// between its ends. The traces of rays that may pass the apex are not bounded.
 #[inline(never)]
 pub(in crate::packet) fn enclose<K: Sink8>(
     rays: &RayLanes<'_>,
@@ -33,7 +33,7 @@ pub(in crate::packet) fn enclose<K: Sink8>(
             let rises = dy.gt(F8::ZERO);
             let enter = rises.select(low - e_low, high - e_high);
             let leave = rises.select(high + e_high, low + e_low);
-            // What is not known does not bound.
+            // An unknown end does not bound the part.
             let (mut from, mut till) =
                 (steep.select(enter.max(-far), -far), steep.select(leave.min(far), far));
             if ahead {
@@ -49,12 +49,13 @@ pub(in crate::packet) fn enclose<K: Sink8>(
             let mut bounded = M8::ALL;
             for (end, t) in ends.iter_mut().zip([from, till]) {
                 let (mut x, mut z) = (t.mul_add(dx, ox), t.mul_add(dz, oz));
-                // The last sum below, and what a curve's box loses by its slack, round as much.
+                // The factor covers also the rounding of the last sum below, and of widening a
+                // curve's box by its slack.
                 let mut e_end = e + (x.abs() + z.abs()) * (4.0 * U);
                 if sweep.conic {
                     let y = t.mul_add(dy, oy);
                     let e_y = e_end + (y.abs() + (t * dy).abs()) * (2.0 * U);
-                    // Both heights and both ends on one side of the apex.
+                    // Both heights and both ends must be on the same side of the apex.
                     bounded &=
                         (y * sweep.low.signum()).gt(e_y * CLEAR) & M8::splat(sweep.low * sweep.high > 0.0);
                     let inverse = F8::ONE / y;
@@ -79,7 +80,7 @@ pub(in crate::packet) fn enclose<K: Sink8>(
     )
 }
 
-/// Puts down a box around the traces of all rays.
+/// Stores a box around the traces of all rays.
 #[inline(never)]
 pub(in crate::packet) fn enclose_all(rays: &RayLanes<'_>, memory: &mut PrismScratch) {
     rays.isa.run_in_lanes(
@@ -92,7 +93,7 @@ pub(in crate::packet) fn enclose_all(rays: &RayLanes<'_>, memory: &mut PrismScra
     );
 }
 
-/// The cubic that the trace of the rays is along a curve; false if all pass by.
+/// Computes the cubic of the rays' traces along a curve. Returns false if all rays miss.
 #[inline(never)]
 pub(in crate::packet) fn cubic_of<K: Sink8>(
     rays: &RayLanes<'_>,
@@ -135,8 +136,8 @@ pub(in crate::packet) fn cubic_of<K: Sink8>(
     )
 }
 
-/// The form `n·(x, 1, z)` that vanishes on the traces of eight rays; how large its values can be,
-/// and the bound `e + e_reach R` on their errors at points of size `R`.
+/// The form `n·(x, 1, z)` that vanishes on the traces of eight rays, with a bound on its slope and
+/// the bound `e + e_reach R` on the errors of its values at points of size `R`.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::packet) struct Form8 {
     n: [F8; 3],
@@ -165,7 +166,7 @@ impl Form8 {
     }
 }
 
-/// The next root of the cubic; false if there is none in any lane.
+/// Finds the next root of the cubic. Returns false if no lane has one.
 pub(in crate::packet) fn parted<K: Sink8>(
     rays: &RayLanes<'_>,
     to: &mut K,
@@ -184,13 +185,13 @@ pub(in crate::packet) fn parted<K: Sink8>(
     true
 }
 
-/// Where the rays cross a wall.
+/// Crossings of the rays with a wall.
 pub(in crate::packet) struct Placed8 {
     pub(in crate::packet) t: F8,
     pub(in crate::packet) e: F8,
-    /// `t` is within `e`.
+    /// Lanes in which `t` is known within `e`.
     pub(in crate::packet) known: M8,
-    /// Surely between the heights, and surely not.
+    /// Lanes certainly between the heights, and lanes certainly not.
     pub(in crate::packet) inside: M8,
     pub(in crate::packet) outside: M8,
 }
@@ -202,7 +203,7 @@ pub(in crate::packet) struct Named {
     pub(in crate::packet) left: bool,
 }
 
-/// All crossings with a wall; `from` are rays that leave it.
+/// Passes all crossings with a wall to `to`; `from` describes rays that start on it.
 pub(in crate::packet) fn wall<K: Sink8>(
     (rays, from): (&RayLanes<'_>, Option<&From8>),
     (curve, sweep, named): (&ProfileCurve8, &Sweep8, Named),
@@ -218,7 +219,8 @@ pub(in crate::packet) fn wall<K: Sink8>(
     }
 }
 
-/// What a ray's parameter at a point of a wall follows from, beside one coordinate.
+/// The data from which a ray's parameter at a point of a wall is computed, in addition to one
+/// coordinate.
 #[derive(Clone, Copy)]
 struct WallPoint {
     oy: F8,
@@ -244,12 +246,12 @@ impl WallPoint {
     }
 }
 
-/// Where the roots of the cubic are on the rays.
+/// The roots of the cubic as parameters on the rays.
 #[inline(always)]
 pub(in crate::packet) fn placed((curve, sweep): (&ProfileCurve8, &Sweep8), memory: &PrismScratch) -> Placed8 {
     let PrismScratch { o: [ox, oy, oz], d: [dx, dy, dz], e_o, e_d, root, .. } = *memory;
     let ([x, z], slope) = curve.at(root.x);
-    // The slope changes by less than `turn e` on the way.
+    // Within the root's error the slope changes by less than `turn e`.
     let (_, turn) = curve.speed();
     let speed = slope[0].abs().max(slope[1].abs()) + root.e * turn + curve.reach * (32.0 * U);
     let e_c = (root.e * speed + curve.rounding()) * SLACK;

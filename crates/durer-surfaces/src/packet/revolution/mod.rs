@@ -1,4 +1,4 @@
-//! Surfaces of revolution as lanes see them: walls, each between two planes across the axis, and
+//! The packet kernel of surfaces of revolution: walls, each between two planes across the axis, and
 //! the flat ends.
 //!
 //! ```text
@@ -9,16 +9,17 @@
 //!   α = -1, β = 4R²   4R² n = (n + v² + R² - r²)², the inner sheet of a spindle
 //! ```
 //!
-//! A ray is cut to where it is between the planes, within a cylinder that is a little wider than
-//! the wall, and in its range: there `f` is a quartic (`polynomial_roots.rs`). Outside the cylinder
-//! it is outside. Where it passes from one wall to the next both have to agree, for certain, on
-//! which side it is; else there is a doubt. So the walls may be asked in any order.
+//! A ray is clipped to its range, to the slab between the two planes, and to a cylinder a little
+//! wider than the wall. There `f` is a quartic along the ray (`polynomial_roots.rs`); beyond the
+//! cylinder the ray is outside. Where a ray passes from one wall to the next, both walls must agree
+//! with certainty on the side it is on; otherwise it is a doubt. So the walls may be tested in any
+//! order.
 //!
 //! **Errors.** With coordinates up to `M`, `F`, `F₁` and `F₂` bound `f`, the sum of its first
 //! derivatives and the norm of its second, all with absolute values throughout. A point that is
-//! wrong by `e` per axis puts `F₁ e` into `f` and so it does, in sum, into the coefficients along a
-//! ray; the formulas round fewer than 16 times at a point, and 64 times along a ray with all that
-//! `polynomial_roots.rs` does.
+//! wrong by `e` per axis changes `f` by at most `F₁ e`, and the coefficients along a ray, in sum,
+//! by as much. The formulas round fewer than 16 times at a point, and 64 times along a ray,
+//! including everything in `polynomial_roots.rs`.
 
 mod rays;
 
@@ -39,29 +40,29 @@ pub(crate) struct LatheWall {
     pub(crate) at: f64,
     /// The planes between which the wall is.
     pub(crate) slab: [f64; 2],
-    /// Between them it is no wider than this, and `f` is positive beyond.
+    /// Between the planes the wall is no wider than this, and `f` is positive beyond.
     pub(crate) radius: f64,
-    /// No less than `|κ|` and the terms of which it is the sum.
+    /// An upper bound of `|κ|` and of the terms of its sum.
     pub(crate) kappa_size: f64,
 }
 
-/// Walls, the lowest first, in coordinates of which the second is the height.
+/// Walls, the lowest first, in coordinates in which the second is the height.
 #[derive(Clone, Debug)]
 pub(crate) struct Lathe {
     walls: Box<[Bounded]>,
-    /// The flat ends belong to the surface.
+    /// Whether the flat ends belong to the surface.
     closed: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Bounded {
     wall: LatheWall,
-    /// `F`, `F₁` at points of the wall, and for all that a ray's coefficients are made of.
+    /// `F` and `F₁` at points of the wall, and for everything that enters a ray's coefficients.
     near: Sizes,
     wide: Sizes,
     /// `F₂` near points of the wall.
     bend: f64,
-    /// What rounding the heights lost.
+    /// The error of the heights from rounding.
     slack: f64,
 }
 
@@ -73,7 +74,7 @@ struct Sizes {
 }
 
 impl LatheWall {
-    /// For `|x|, |z| <= m` and `|v| <= v`.
+    /// The sizes for `|x|, |z| <= m` and `|v| <= v`.
     fn sizes(&self, m: f64, v: f64) -> Sizes {
         let (alpha, beta) = (self.alpha.abs(), self.beta.abs());
         let [a, b, c, d] = self.p.map(f64::abs);
@@ -89,13 +90,13 @@ impl LatheWall {
     }
 }
 
-/// Next to a wall or an end: `f` and half its gradient, rounded.
+/// Rounded data near a face: `f` and half its gradient.
 pub(crate) struct Slant {
     pub(crate) f: F8,
     pub(crate) half: Vec3<F8>,
 }
 
-/// A point of a wall or an end: `f`, half its gradient, and bounds on what they lost.
+/// Data at a point of a face: `f`, half its gradient, and bounds on their errors.
 pub(crate) struct Skin {
     pub(crate) f: F8,
     pub(crate) half: Vec3<F8>,
@@ -103,19 +104,19 @@ pub(crate) struct Skin {
     pub(crate) e_half: F8,
     /// An upper bound of the Hessian's norm near the point.
     pub(crate) bend: F8,
-    /// How near that is.
+    /// The distance up to which `bend` holds.
     pub(crate) room: F8,
 }
 
 impl Lathe {
-    /// `closed` with flat ends.
+    /// The kernel for these walls; `closed` if it has flat ends.
     pub(crate) fn new(walls: &[LatheWall], closed: bool) -> Self {
         let walls = walls.iter().map(|&wall| {
             let [low, high] = wall.slab.map(|y| y - wall.at);
             let far = low.abs().max(high.abs()) * (1.0 + 1.0 / 64.0);
             let m = wall.radius * (1.0 + 1.0 / 64.0);
-            // A ray's coefficients are made of a point within and of what leads from there to
-            // another one, twice as long at most.
+            // A ray's coefficients are formed from a point inside and the vector from there to
+            // another one, which is at most twice as long.
             let (near, wide) = (wall.sizes(m, far), wall.sizes(3.0 * m, far + (high - low)));
             let slack = (wall.slab[0].abs() + wall.slab[1].abs() + wall.at.abs()) * (4.0 * U);
             Bounded { wall, near, wide, bend: wall.sizes(m * 1.25, far + 0.25 * m).bend, slack }
@@ -123,17 +124,17 @@ impl Lathe {
         Self { walls: walls.collect(), closed }
     }
 
-    /// The face of roots on the face that lanes call by a number.
+    /// The `Root::face` of the face with this number.
     pub(super) fn name(&self, face: u32) -> u32 {
         face.saturating_sub(self.walls.len() as u32 - 1).min(2)
     }
 
-    /// How many numbers it takes to name the faces.
+    /// The number of numbered faces.
     pub(super) fn faces(&self) -> usize {
         self.walls.len() + 2
     }
 
-    /// What is at points `h` of a face, with `|h|₁`.
+    /// `f` and its gradient at points `h` of a face, with `|h|₁`.
     #[inline(always)]
     pub(super) fn skin(&self, own: &Own, face: usize, h: Vec3<F8>, h1: F8) -> Skin {
         let (y, e) = (own.point(h), own.point_error(h1));
@@ -167,15 +168,15 @@ impl Lathe {
         let half = Vec3::new(across * y.x, (alpha * 2.0).mul_add(v, slope * -0.5), across * y.z);
         let e = e + (*slack + wall.radius * (4.0 * U));
         let e_half = (e * near.bend + near.slope * (16.0 * U)) * (2.0 * own.norm);
-        // Twice, so that rays from there are certain of their side by the bound of a polynomial's
-        // first value.
+        // Doubled, so that the bound on a polynomial's first value proves the side of rays that
+        // start there.
         let e_f = e * (4.0 * near.slope) + 32.0 * U * near.f;
         let bend = F8::splat(*bend * own.norm * own.norm * (1.0 + 16.0 * U));
         Skin { f, half: own.covector(half), e_f, e_half, bend, room: NEVER }
     }
 }
 
-/// `f` at a height `v` and the square of a distance from the axis.
+/// `f` at height `v` and squared distance `n` from the axis.
 #[inline(always)]
 fn value(wall: &LatheWall, n: F8, v: F8) -> F8 {
     let [p0, p1, p2, p3] = F8::splats(wall.p);

@@ -1,5 +1,5 @@
-//! Eight rays at a surface of revolution: where they cross its walls and ends, and which of their
-//! points are inside.
+//! Eight rays against a surface of revolution: their crossings with its walls and ends, and which
+//! of their points are inside.
 
 use super::{Bounded, Lathe, value};
 use crate::packet::local_frame::Own;
@@ -10,34 +10,34 @@ use crate::packet::sink::Sink8;
 use durer_math::scale::pow2;
 use durer_math::{F8, M8, U};
 
-/// Eight rays in the lathe's own coordinates.
+/// Eight rays in the surface's own coordinates.
 #[derive(Clone, Copy, Debug, Default)]
 struct RevolutionRays8 {
     o: [F8; 3],
     d: [F8; 3],
     e_o: F8,
     e_d: F8,
-    /// The sum of the direction's coordinates.
+    /// The sum of the magnitudes of the direction's coordinates.
     d1: F8,
-    /// `a t² + 2 b t + c` is the square of the distance from the axis; the error of a point of the
-    /// ray at most.
+    /// `a t² + 2 b t + c` is the squared distance from the axis; `e` bounds the error of all points
+    /// of the ray.
     a: F8,
     b: F8,
     c: F8,
     e: F8,
-    /// One over the way up, where that is surely not zero.
+    /// One over the direction's height, where that is certainly not zero.
     inverse: F8,
     steep: M8,
 }
 
-/// Where eight rays pass a height.
+/// Where eight rays pass one height.
 #[derive(Clone, Copy, Debug, Default)]
 struct HeightCrossing8 {
     t: F8,
     e: F8,
 }
 
-/// Memory for one lathe on the way.
+/// Working memory for eight rays and one surface.
 #[derive(Debug, Default)]
 pub(in crate::packet) struct RevolutionScratch {
     sight: RevolutionRays8,
@@ -45,10 +45,10 @@ pub(in crate::packet) struct RevolutionScratch {
     high: HeightCrossing8,
     from: F8,
     length: F8,
-    /// On which side of the wall a ray is where it passes the height below and the one above: 1
-    /// outside, -1 inside, 0 not known.
+    /// The side of the wall on which a ray passes the height below and the one above: 1 outside, -1
+    /// inside, 0 unknown.
     sides: [F8; 2],
-    /// The same where rays start, if that is known.
+    /// The side on which rays start, in the same form.
     start: F8,
     poly: Poly8<5>,
     part: Part8,
@@ -56,8 +56,8 @@ pub(in crate::packet) struct RevolutionScratch {
 }
 
 impl Lathe {
-    /// Shows the crossings of each ray to `to`, or the first one of each wall; and where there is a
-    /// doubt. Of rays that leave the surface it is said whether the surface is turned round.
+    /// Passes the crossings of each ray, or only the first one of each wall, and the doubts to
+    /// `to`. `leaving` describes rays that start on the surface, and whether the surface is turned.
     pub(in crate::packet) fn meet<K: Sink8>(
         &self,
         own: &Own,
@@ -83,7 +83,7 @@ impl Lathe {
             memory.low = memory.high;
             self.level(rays, i + 1, memory);
             self.cut(rays, i, to, memory);
-            // A quartic has no more roots.
+            // A quartic has at most four roots.
             for _ in 0..4 {
                 if !memory.part.open.any() {
                     break;
@@ -104,8 +104,8 @@ impl Lathe {
         self.seam(rays, self.walls.len(), &high, &(before, F8::ONE), to);
     }
 
-    /// Which points at `t` within `e` are surely inside, and which surely outside, as bits; for
-    /// rays seen from the outline's centre.
+    /// Points at `t`, known within `e`, that are certainly inside, and those that are certainly
+    /// outside, as bit masks; for rays relative to the filter's centre.
     #[inline(never)]
     pub(in crate::packet) fn holds(
         &self,
@@ -136,7 +136,7 @@ impl Lathe {
                         inside &= high.lt(-e);
                     }
                     let beside = below | above;
-                    // Beyond the cylinder; what `near` is made for.
+                    // Beyond the cylinder, up to which `near` is valid.
                     let far = known & n.gt(F8::splat(wall.radius * wall.radius * (1.0 + pow2(-8))));
                     let f = value(wall, n, y - wall.at);
                     let e_f = e * (2.0 * near.slope) + 16.0 * U * near.f;
@@ -148,7 +148,7 @@ impl Lathe {
         )
     }
 
-    /// Where the rays pass height `i`.
+    /// Computes where the rays pass height `i`.
     #[inline(never)]
     fn level(&self, rays: &RayLanes<'_>, i: usize, memory: &mut RevolutionScratch) {
         rays.isa.run_in_lanes(
@@ -166,7 +166,7 @@ impl Lathe {
         );
     }
 
-    /// The part of each ray on which a wall has to be looked at, and the polynomial there.
+    /// Computes the part of each ray on which a wall must be searched, and the polynomial there.
     #[inline(never)]
     fn cut<K: Sink8>(&self, rays: &RayLanes<'_>, i: usize, to: &mut K, memory: &mut RevolutionScratch) {
         rays.isa.run_in_lanes(
@@ -181,7 +181,7 @@ impl Lathe {
         let RevolutionScratch { sight, low, high, .. } = memory;
         let RevolutionRays8 { o, d, e_o, e_d, d1, a, b, c, e, inverse, steep } = *sight;
         let square = wall.radius * wall.radius;
-        // Rays that are known so well that the wider cylinder has room for all that is not.
+        // Rays whose errors fit into the room between the wall and the wider cylinder.
         let known = steep & (c * (16.0 * U)).lt(F8::splat(square * pow2(-11)));
         let known = known & e.lt(F8::splat(wall.radius * pow2(-12)));
         let disc = b.mul_add(b, -(a * (c - square * (1.0 + pow2(-8)))));
@@ -191,7 +191,7 @@ impl Lathe {
         let up = inverse.gt(F8::ZERO);
         let (enter, leave) = (up.select(low.t, high.t), up.select(high.t, low.t));
         let (e_enter, e_leave) = (up.select(low.e, high.e), up.select(high.e, low.e));
-        // `max` and `min` answer the second where one is not a number.
+        // `max` and `min` return the second operand where one is NaN.
         let from = near_side.max(enter).max(F8::ZERO);
         let limit = out.limit(rays);
         let to = far_side.min(leave).min(limit);
@@ -200,7 +200,7 @@ impl Lathe {
         if unknown.any() {
             out.doubt(unknown, F8::ZERO);
         }
-        // Where a ray passes a height outside the cylinder it is outside.
+        // A ray that passes a height outside the cylinder is outside there.
         let room = F8::splat(wall.radius * pow2(-12));
         let clear_enter = missed | (near_side.gt(enter) | far_side.lt(enter)) & (e_enter * d1).lt(room);
         let clear_leave = missed | (near_side.gt(leave) | far_side.lt(leave)) & (e_leave * d1).lt(room);
@@ -212,7 +212,7 @@ impl Lathe {
         }
         let length = to - from;
         (memory.from, memory.length) = (from, length);
-        // The point where the part begins, and what leads from there to its end.
+        // The point at the start of the part, and the vector from there to its end.
         let (x, y, z) = (from.mul_add(d[0], o[0]), from.mul_add(d[1], o[1]), from.mul_add(d[2], o[2]));
         let v = y - wall.at;
         let (dx, dv, dz) = (length * d[0], length * d[1], length * d[2]);
@@ -243,11 +243,11 @@ impl Lathe {
             k[3] = alpha.mul_add(q1 * q2 * 2.0, k[3]);
             k[4] = alpha * (q2 * q2);
         }
-        // The formulas' own rounding, that of the heights and of the points included.
+        // The rounding of the formulas, including that of the heights and of the points.
         let of_points = *slack + wall.radius * (4.0 * U);
         let (rounding, at_point) = (64.0 * U * wide.f + 2.0 * wide.slope * of_points, 16.0 * U * near.f);
         let (e_from, e_to) = (e_o + from * e_d, e_o + to * e_d);
-        // Where a part ends at a height, that is known within its own error.
+        // Where a part ends at a height, that end has an error of its own.
         let (at_enter, at_leave) = (enter.ge(from), leave.le(to));
         let e_first = e_from + of_points + at_enter.keep(e_enter) * d1;
         let e_last = e_to + at_leave.keep(e_leave) * d1;
@@ -258,7 +258,7 @@ impl Lathe {
             e_first: e_first * (2.0 * near.slope) + at_point,
             e_last: e_last * (2.0 * wide.slope) + rounding,
         };
-        // What the sizes are made for; rays along the axis may be elsewhere.
+        // The sizes are valid in this range; rays along the axis may leave it.
         let most = F8::splat(wall.radius * (1.0 + 1.0 / 64.0));
         let within = n0.lt(most * most) & (x + dx).abs().lt(most) & (z + dz).abs().lt(most);
         let open = live & within;
@@ -266,7 +266,7 @@ impl Lathe {
         sides.0 = (open & at_enter).select(first, sides.0);
         sides.1 = (open & at_leave).select(last, sides.1);
         memory.sides = [up.select(sides.0, sides.1), up.select(sides.1, sides.0)];
-        // Of a ray that leaves the only wall the side is known.
+        // If a ray starts on the only wall, its side is known.
         let start = memory.start;
         let known = (from.le(F8::ZERO)).select(start, F8::ZERO);
         memory.poly.begin_with(open, known, &mut memory.part);
@@ -277,7 +277,7 @@ impl Lathe {
         memory.part.unsure = M8::NONE;
     }
 
-    /// Offers what was found of a wall.
+    /// Passes the root found on a wall to `to`.
     #[inline(never)]
     fn offer<K: Sink8>(&self, rays: &RayLanes<'_>, i: usize, to: &mut K, memory: &mut RevolutionScratch) {
         rays.isa.run_in_lanes(
@@ -289,7 +289,7 @@ impl Lathe {
                 let sure = root.sure & (t - e).gt(F8::ZERO) & (t + e).le(*rays.t_max);
                 to.take(sure, (t, e), F8::splat(i as f64));
                 let unsure = part.unsure | part.one & !sure;
-                // Of what is beyond nothing is told.
+                // Everything beyond is uncertain.
                 part.unsure = M8::NONE;
                 if unsure.any() {
                     to.doubt(unsure, part.l.mul_add(*length, *from) * (1.0 - 4.0 * U));
@@ -298,7 +298,9 @@ impl Lathe {
         );
     }
 
-    /// Whether a ray that passes height `i` comes from one side and goes on on the other.
+    /// Compares the sides of a ray just below and just above height `i`. Opposite sides are a hit
+    /// at a flat end, correct at an open end, and a doubt at an inner height. An unknown side is a
+    /// doubt.
     #[inline(never)]
     fn seam<K: Sink8>(
         &self,
@@ -338,7 +340,7 @@ impl Lathe {
     }
 }
 
-/// The rays in the lathe's own coordinates.
+/// Computes the rays in the surface's own coordinates.
 #[inline(always)]
 fn see(own: &Own, rays: &RayLanes<'_>, start: &Start, sight: &mut RevolutionRays8) {
     let (o, d) = (own.point(start.h), own.vector(*rays.direction));
