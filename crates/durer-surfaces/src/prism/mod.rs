@@ -9,14 +9,14 @@
 //!    └──────┘                                for bottom <= y <= top
 //! ```
 //!
-//! A point is inside where the outlines go round an odd number of times. All faces are flat: walls
-//! of two triangles for each edge, and two caps, polygons with the walls' own corners. Triangles
-//! and polygons share one rule for rays that meet an edge or a corner exactly (see `edges.rs`), so
-//! the solid is closed: a line crosses it an even number of times, exactly. The corners of a conic
-//! sweep are the products rounded to f64, which are the exact solid's.
+//! A point is inside where the outlines go round it an odd number of times. All faces are flat: two
+//! triangles for each edge form the walls, and two polygons with the walls' own corners form the
+//! caps. Triangles and polygons share one rule for rays that meet an edge or a corner exactly (see
+//! `edges.rs`). So the solid is closed: every line crosses it an even number of times. The corners
+//! of a conic sweep are products rounded to f64; the rounded corners define the exact solid.
 //!
 //! J. T. Kajiya, "New techniques for ray tracing procedurally defined objects", SIGGRAPH 1983,
-//! sweeps curves; straight edges need no equation but that of a plane.
+//! sweeps curves; straight edges need no equation other than that of a plane.
 
 pub mod curved;
 mod outline;
@@ -38,9 +38,9 @@ use outline::Point;
 /// A solid between two planes across y, within outlines that are swept from one to the other;
 /// without its caps a sheet.
 ///
-/// Faces: 0 the walls, 1 the cap at the bottom, 2 the one at the top. A root's tag names the
-/// triangle of the wall. Parts: the walls of the edges, then the caps, so that a ray only asks
-/// those that it comes near. A tangled prism is one part, since its signs alternate along the whole
+/// Faces: 0 the walls, 1 the cap at the bottom, 2 the cap at the top. A root's tag is the number of
+/// the wall's triangle. Parts: the walls of the edges, then the caps, so that a ray tests only the
+/// parts that it comes near. A tangled prism is one part, since its signs alternate along the whole
 /// line.
 ///
 /// # Invariants
@@ -50,8 +50,8 @@ use outline::Point;
 pub struct Prism {
     walls: Vec<Wall>,
     caps: Vec<Cap>,
-    /// The outlines cross or touch themselves or each other, so that an edge may have the inside on
-    /// either side.
+    /// Whether the outlines cross or touch themselves or each other, so that an edge may have the
+    /// inside on either side.
     tangled: bool,
     open: bool,
     sweep: Sweep,
@@ -62,7 +62,7 @@ pub struct Prism {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Wall {
     facet: Facet,
-    /// The edges from the bottom to the top at both ends of the wall that the triangle is half of.
+    /// The edges from the bottom to the top at both ends of the wall to which the triangle belongs.
     ribs: [[Point3; 2]; 2],
     uv: [[f64; 2]; 3],
 }
@@ -70,7 +70,7 @@ struct Wall {
 #[derive(Clone, Debug, PartialEq)]
 struct Cap {
     polygon: Polygon,
-    /// The polygon's normal points inward.
+    /// Whether the polygon's normal points inward.
     turned: bool,
     /// 1 at the bottom, 2 at the top.
     face: u32,
@@ -106,7 +106,7 @@ pub enum PrismError {
         /// Its z.
         z: f64,
     },
-    /// The heights are not finite, or the same.
+    /// The heights are not finite, or equal.
     #[error("prism: the heights must be finite and different, got {0} and {1}")]
     Heights(f64, f64),
     /// A corner of a conic sweep is beyond the range of f64.
@@ -117,7 +117,7 @@ pub enum PrismError {
     Flat,
 }
 
-/// How the outline changes from one height to another.
+/// How the outline changes with the height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Sweep {
     Linear,
@@ -125,7 +125,7 @@ enum Sweep {
 }
 
 impl Sweep {
-    /// Where a point of the outline is at the height `y`.
+    /// The position of a point of the outline at the height `y`.
     fn at(self, [x, z]: Point, y: f64) -> Point3 {
         match self {
             Self::Linear => Point3::new(x, y, z),
@@ -133,7 +133,7 @@ impl Sweep {
         }
     }
 
-    /// How many triangles of a wall are one part: both, if they lie in one plane, exactly.
+    /// How many triangles of a wall form one part: both if they lie exactly in one plane.
     fn together(self) -> usize {
         match self {
             Self::Linear => 2,
@@ -151,20 +151,21 @@ fn ascending(bottom: f64, top: f64) -> Result<(f64, f64), PrismError> {
 
 /// A part of a prism.
 enum PrismPart<'a> {
-    /// Some triangles, the first one's number, and their corners in order.
+    /// Triangles, and the number of the first one.
     Walls(&'a [Wall], usize),
     Cap(&'a Cap),
 }
 
 impl Prism {
     /// The prism between the heights `bottom` and `top` (in any order) within these outlines,
-    /// `[x, z]` each. An outline is closed by itself; a last point equal to the first is left out.
+    /// `[x, z]` each. An outline is closed automatically; a last point equal to the first is
+    /// dropped.
     pub fn linear(outlines: &[impl AsRef<[Point]>], bottom: f64, top: f64) -> Result<Self, PrismError> {
         Self::new(outlines, bottom, top, Sweep::Linear)
     }
 
-    /// The same, the outlines at the height `y` being `y` times as large: a pyramid with its apex
-    /// at the origin, or the part of one between the heights, or two that meet.
+    /// The conic prism, whose outlines at the height `y` are `y` times as large: a pyramid with its
+    /// apex at the origin, the part of one between the heights, or two that meet.
     pub fn conic(outlines: &[impl AsRef<[Point]>], bottom: f64, top: f64) -> Result<Self, PrismError> {
         Self::new(outlines, bottom, top, Sweep::Conic)
     }
@@ -203,7 +204,7 @@ impl Prism {
         if !bounds.is_bounded() || !bounds.widths().is_finite() {
             return Err(PrismError::TooLarge(if low.abs() > high.abs() { low } else { high }));
         }
-        // Without area they meet no ray: two of three corners at an apex.
+        // Triangles without area meet no ray: two of three corners may be at an apex.
         walls.retain(|w| !facet::is_degenerate(&w.facet));
         let mut caps = Vec::with_capacity(2);
         for (y, face) in [(low, 1), (high, 2)] {
@@ -260,12 +261,13 @@ impl Prism {
         }
     }
 
-    /// All of it, its edges taken for curves; `None` if triangles that are parts by themselves
-    /// would have to be told from each other, or rounded corners count too much.
+    /// The packet filter of the whole prism, with its edges as curves. `None` if triangles that are
+    /// parts by themselves would have to be distinguished, or if the rounding of corners is too
+    /// large.
     fn whole_for_lanes(&self) -> Option<FilterSource> {
         let [low, high] = [self.bounds.min.y, self.bounds.max.y];
         let conic = self.sweep == Sweep::Conic;
-        // With an apex each wall is one triangle; the others of a conic sweep are two.
+        // With an apex each wall is one triangle; otherwise the walls of a conic sweep are two.
         let apex = low == 0.0 || high == 0.0;
         let steep = low.abs().max(high.abs()) > 64.0 * low.abs().min(high.abs());
         let told = if self.tangled { !steep && low * high > 0.0 } else { apex };
@@ -292,20 +294,20 @@ impl Prism {
                 let step = (b[k] - a[k]) * (1.0 / 3.0);
                 [a[k], a[k] + step, b[k] - step, b[k]]
             };
-            // A corner is rounded by U of its size at each height, and triangles lie between them;
-            // here it is divided, and a third of the way rounds by 4 U.
+            // Each corner is rounded by U of its size at each height, and the triangles lie between
+            // them; here it is divided, and a third of the edge rounds by 4 U.
             ProfileCurve8::new([along(0), along(1)], reach(&e) * (8.0 * U), reach(&e) * (1.0 + 8.0 * U))
         };
         let curves: Box<[ProfileCurve8]> = edges.map(curve).collect();
-        // Walls are turned so that the inside is to their left.
+        // Walls are oriented so that the inside is to their left.
         let left = (!self.tangled).then(|| vec![true; curves.len()].into());
         let [low, high] = [low, high].map(|y| scale2(y - centre.y, -scale));
         let sweep = Sweep8 { conic, low, high };
         Some(FilterSource::swept(self.bounds, Swept::Whole { curves, sweep, left }, centre, scale))
     }
 
-    /// Every crossing of the line with a face, in no order: the crossing, its plane, its face and
-    /// tag, and whether the sign is to be turned.
+    /// Calls `f` for every crossing of the line with a face, in no order: the crossing, its plane,
+    /// its face and tag, and whether the sign is to be reversed.
     #[inline(always)]
     fn each_crossing(&self, probe: &Probe<'_>, mut f: impl FnMut(Crossing, ThreePoints, u32, f64, bool)) {
         self.wall_crossings(probe, (&self.walls, 0), &mut f);
@@ -314,7 +316,7 @@ impl Prism {
         }
     }
 
-    /// The crossings with some triangles of the walls, the first one's number given.
+    /// Crossings with some triangles of the walls; `first` is the number of the first one.
     #[inline(always)]
     fn wall_crossings(
         &self,
@@ -325,7 +327,7 @@ impl Prism {
         let filter = EdgeFilter::new(probe);
         // The prism lies within one unit of its centre.
         let bound = filter.bound(probe.ray.o.max_abs() + 2.0);
-        // Neighbours share ribs: the last two are remembered.
+        // Neighbours share ribs: the last two are kept.
         let mut known = [([Point3::ORIGIN; 2], 0.0); 2];
         for (i, wall) in walls.iter().enumerate() {
             let sides = wall.ribs.map(|rib| match known.iter().find(|k| k.0 == rib) {
@@ -333,7 +335,7 @@ impl Prism {
                 None => filter.side(filter.seen(rib[0]), filter.seen(rib[1])),
             });
             known = [(wall.ribs[0], sides[0]), (wall.ribs[1], sides[1])];
-            // A ray that surely passes both ribs on one side passes beside the wall.
+            // A ray that certainly passes both ribs on the same side misses the wall.
             if sides[0] > bound && sides[1] > bound || sides[0] < -bound && sides[1] < -bound {
                 continue;
             }
@@ -352,8 +354,7 @@ impl Prism {
 fn cap_crossing(probe: &Probe<'_>, cap: &Cap, f: &mut impl FnMut(Crossing, ThreePoints, u32, f64, bool)) {
     let plane = cap.polygon.plane(probe);
     let Some(crossing) = probe.crossing(&plane) else { return };
-    // The prism lies within one unit of its centre: what is certainly farther away needs no look at
-    // the outline.
+    // The prism lies within one unit of its centre: farther crossings do not need the outline.
     let (at, err) = probe.place(&crossing);
     if at.max_abs() <= 1.0 + err.max_abs() && cap.polygon.holds(probe) {
         f(crossing, plane, cap.face, 0.0, cap.turned);
@@ -405,13 +406,13 @@ impl Surface for Prism {
             !crossing.is_outside(range) && probe.may_admit(crossing) && probe.admits(plane, crossing)
         };
         if self.tangled {
-            // Along the line, inside and outside alternate.
+            // Inside and outside alternate along the line.
             let mut all = Vec::new();
             self.each_crossing(&probe, |crossing, plane, face, wall, _| {
                 all.push((crossing, plane, face, wall));
             });
             all.sort_by(|a, b| a.0.s.total_cmp(&b.0.s));
-            // Where an outline crosses itself, what f64 cannot put in order is in the exact one.
+            // Where an outline crosses itself, crossings that f64 cannot order are ordered exactly.
             for group in all.chunk_by_mut(|(a, ..), (b, ..)| a.s_hi >= b.s_lo).filter(|g| g.len() > 1) {
                 group.sort_by(|(a, p, ..), (b, q, ..)| order(&probe, (a, p), (b, q)));
             }
@@ -432,8 +433,8 @@ impl Surface for Prism {
         }
     }
 
-    /// Texture coordinates: of the walls once round all outlines, edge by edge, and from the bottom
-    /// to the top; of the caps lengths.
+    /// Texture coordinates: on the walls once round all outlines, edge by edge, and from the bottom
+    /// to the top; on the caps lengths.
     #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         let point = match self.walls.get(root.tag[0] as usize) {
@@ -443,7 +444,7 @@ impl Surface for Prism {
             }
             _ => match self.caps.iter().find(|c| c.face == root.face) {
                 Some(cap) => cap.polygon.resolve(ray, root, need),
-                // Not a root of this surface: nothing is known.
+                // Not a root of this surface: nothing can be computed.
                 None => SurfacePoint::new(
                     self.view().0,
                     Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY),
@@ -497,7 +498,7 @@ impl Surface for Prism {
         if self.tangled {
             return (sketch, vec![PartId(0)]);
         }
-        // The walls, the bottom, the top. An apex has no face, and any part will do.
+        // The parts of the walls, the bottom, the top. An apex has no face, so any part is correct.
         let walls = self.walls.len() / self.sweep.together();
         let cap = |face: u32| self.caps.iter().position(|c| c.face == face).map_or(0, |i| walls + i);
         (sketch, (0..walls).chain([cap(1), cap(2)]).map(|part| PartId(part as u32)).collect())
@@ -540,14 +541,14 @@ impl Surface for Prism {
         for Wall { facet, .. } in &self.walls {
             let plane = ThreePoints { points: *facet, centre, scale };
             if may_hold(facet, point)
-                // Only an inexact point leaves the height open.
+                // The side is open only for an inexact point.
                 && line.side_of(&plane).is_none_or(Ordering::is_eq)
                 && facet::holds_start(&line, facet)
             {
                 return Side::On;
             }
-            // Ahead of the point if it lies above the plane and the line goes down, or below and
-            // up; walls along y are never passed.
+            // The wall is ahead of the point if the point lies above the plane and the line goes
+            // down, or below and up; no line crosses a wall along y.
             if let Some(passed) = facet::passes(&line, &filter, facet)
                 && line.side_of(&plane).is_some_and(|height| height as i8 == passed.side)
             {
@@ -556,7 +557,7 @@ impl Surface for Prism {
         }
         for Cap { polygon, turned, face } in &self.caps {
             let plane = ThreePoints { points: polygon.spanning(), centre, scale };
-            // The rims are the walls' own, and have been looked at.
+            // The rims belong to the walls, which have been tested.
             if !polygon.holds(&line) {
                 continue;
             }

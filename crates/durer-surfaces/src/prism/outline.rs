@@ -1,4 +1,5 @@
-//! Outlines of prisms: closed polygons in a plane, and on which side of each edge the inside lies.
+//! Outlines of prisms: closed polygons in a plane, and the side of each edge on which the inside
+//! lies.
 
 use super::PrismError;
 use core::cmp::Ordering;
@@ -7,7 +8,7 @@ use durer_math::{Dyadic, U};
 /// A point of the base plane, by its x and z.
 pub(super) type Point = [f64; 2];
 
-/// More edges than this are not examined: their number would be squared.
+/// With more edges the sides are not computed: the time grows with the square of their number.
 const MOST_EDGES: usize = 4096;
 
 /// The outlines without repeated points.
@@ -42,8 +43,8 @@ pub(super) fn edges(outlines: &[Vec<Point>]) -> Vec<[Point; 2]> {
 }
 
 /// For each edge, whether the inside (where outlines go round an odd number of times) lies to its
-/// left, x to the right and z up. `None` if that may change along an edge, since edges meet
-/// elsewhere than at their ends.
+/// left, with x to the right and z up. `None` if that may change along an edge, because edges meet
+/// at other points than their ends.
 pub(super) fn inside_is_left(edges: &[[Point; 2]]) -> Option<Vec<bool>> {
     if edges.len() > MOST_EDGES {
         return None;
@@ -61,7 +62,7 @@ fn turn(a: Point, b: Point, c: Point) -> Ordering {
     let (left, right) = ((b[0] - a[0]) * (c[1] - a[1]), (b[1] - a[1]) * (c[0] - a[0]));
     let value = left - right;
     // Two roundings of differences and one of the product on each side, and one of the result;
-    // subnormal products are left to exact numbers.
+    // subnormal products are computed exactly.
     if value.abs() > 8.0 * U * (left.abs() + right.abs()) + f64::MIN_POSITIVE {
         return if value > 0.0 { Ordering::Greater } else { Ordering::Less };
     }
@@ -83,8 +84,8 @@ fn meet_within(e: &[Point; 2], f: &[Point; 2]) -> bool {
     }
     let shared = e.iter().filter(|p| f.contains(p)).count();
     if sides.iter().all(|s| s.is_eq()) {
-        // On one line: they share a point, unless they only touch at one end of each, on opposite
-        // sides of it.
+        // On one line: they overlap, unless they only touch at one end of each, on opposite sides
+        // of it.
         let Some(&at) = e.iter().find(|p| f.contains(p)) else { return overlaps(e, f) };
         let other = |edge: &[Point; 2]| if edge[0] == at { edge[1] } else { edge[0] };
         return shared == 2 || same_way(at, other(e), other(f));
@@ -103,11 +104,11 @@ fn same_way(at: Point, p: Point, q: Point) -> bool {
     (0..2).all(|k| p[k].partial_cmp(&at[k]) == q[k].partial_cmp(&at[k]))
 }
 
-/// The parity of crossings from just beside the middle of an edge, along x (along z for an edge
-/// along x), tells whether that side is inside.
+/// The parity of crossings along a half-line that starts just beside the middle of an edge, along x
+/// (along z for an edge along x), decides whether that side is inside.
 fn left_of(edges: &[[Point; 2]], i: usize) -> bool {
     let [a, b] = edges[i];
-    // The coordinate along which we look, and the one across.
+    // The coordinate along the half-line, and the one across.
     let (along, across) = if a[1] == b[1] { (1, 0) } else { (0, 1) };
     let twice = |k: usize| Dyadic::from(a[k]) + Dyadic::from(b[k]);
     let level = twice(across);
@@ -117,8 +118,8 @@ fn left_of(edges: &[[Point; 2]], i: usize) -> bool {
         if j == i || above(p) == above(q) {
             continue;
         }
-        // The edge crosses our level; ahead of the middle if the middle lies on the lesser side of
-        // it.
+        // The edge crosses the half-line's line; it is ahead of the middle if the middle lies on
+        // its lesser side.
         let (low, high) = if above(q) { (p, q) } else { (q, p) };
         let at = |p: Point, k: usize| Dyadic::from(p[k]) + Dyadic::from(p[k]);
         let rise = at(high, across) - at(low, across);
@@ -126,7 +127,8 @@ fn left_of(edges: &[[Point; 2]], i: usize) -> bool {
         let ahead = (at(low, along) - twice(along)) * rise + run * (level.clone() - at(low, across));
         odd ^= ahead.exact_sign().is_gt();
     }
-    // Left of the edge is against x where it goes up, and along z where it goes to the right.
+    // A half-line along x starts to the left of the edge if the edge goes down; one along z, if the
+    // edge goes to the right.
     let looks_left = if along == 0 { b[1] < a[1] } else { b[0] > a[0] };
     odd == looks_left
 }

@@ -1,5 +1,5 @@
-//! The laws, against crossings in exact numbers that share nothing with the kernel; and what must
-//! hold of rays through edges and corners.
+//! The laws, tested against exact crossings that share no code with the kernel; and the laws of
+//! rays through edges and corners.
 
 use super::*;
 use crate::AxisBox;
@@ -19,13 +19,13 @@ struct Swept {
     known: LineCache<Option<Vec<Met>>>,
 }
 
-/// Digits, in bits, of the parameters of crossings: directions are `2^-330` to `2^330` long.
+/// The precision, in bits, of the parameters of crossings: directions are `2^-330` to `2^330` long.
 const BITS: i64 = 700;
 
 /// A crossing and its face.
 type Met = (Crossing, u32);
 
-/// A point times a weight above zero.
+/// A point times a positive weight.
 struct Weighted {
     x: Exact,
     y: Exact,
@@ -59,7 +59,7 @@ impl Swept {
         Weighted { x: p(0), y: p(1), z: p(2), w: d.clone().abs() }
     }
 
-    /// Projected: x, z and their weight, above zero; `None` at an apex.
+    /// The projected x, z and their weight, which is positive; `None` at an apex.
     fn projected(&self, p: &Weighted) -> Option<[Exact; 3]> {
         let w = if self.sweep == Sweep::Linear { p.w.clone() } else { p.y.clone() };
         match w.sign() {
@@ -78,7 +78,7 @@ impl Swept {
         }
     }
 
-    /// Inside the outlines, on them, or outside.
+    /// Whether the point is inside the outlines, on them, or outside.
     fn across(&self, p: &Weighted) -> Ordering {
         let Some([x, z, w]) = self.projected(p) else {
             let on_axis = p.x.sign().is_eq() && p.z.sign().is_eq();
@@ -110,7 +110,7 @@ impl Swept {
     }
 
     fn find(&self, line: &ExactLine) -> Option<Vec<Met>> {
-        // Numerators, denominators above zero, faces.
+        // Numerators, positive denominators, faces.
         let mut found: Vec<(Exact, Exact, u32)> = vec![];
         let ratio = |n: Exact, d: Exact| if d.sign().is_lt() { (-n, -d) } else { (n, d) };
         for edge in self.edges() {
@@ -119,7 +119,8 @@ impl Swept {
             let (height, slope) = (&dot(&line.o) + &at_origin, dot(&line.d));
             if slope.sign().is_eq() {
                 if height.sign().is_eq() {
-                    // Along y it meets the wall or passes beside it, otherwise we say nothing.
+                    // Along y it meets the wall or misses it; in other cases the oracle gives no
+                    // answer.
                     let along_y =
                         self.sweep == Sweep::Linear && [0, 2].iter().all(|&i| line.d[i].sign().is_eq());
                     if !along_y || self.across(&self.at(line, &0.0.into(), &1.0.into())).is_eq() {
@@ -141,7 +142,7 @@ impl Swept {
                 let p = [&x - &(&from[0] * &w), &z - &(&from[1] * &w)];
                 (&(&d[0] * &p[0]) + &(&d[1] * &p[1])).sign()
             };
-            // Strictly within the wall; on its rim we say nothing.
+            // Strictly within the wall; on its rim the oracle gives no answer.
             match (along(&a, &b).min(along(&b, &a)), self.height(&p)) {
                 (Ordering::Less, _) | (_, Ordering::Greater) => {}
                 (Ordering::Greater, Ordering::Less) => {
@@ -184,7 +185,7 @@ impl Swept {
     }
 }
 
-/// Faces that are nearer to a point than this are not told apart.
+/// Faces that are nearer to a point than this are not distinguished.
 const NEAR: f64 = 1e-5;
 
 impl Swept {
@@ -226,7 +227,7 @@ impl Oracle for Swept {
         self.met(line).unwrap_or_default().into_iter().map(|(c, _)| c).collect()
     }
 
-    /// Of points near one face only, see [`Swept::is_clear`].
+    /// Valid for points near one face only, see [`Swept::is_clear`].
     fn face_side(&self, face: u32, point: &[Exact; 3]) -> Ordering {
         match face {
             1 => (&Exact::from(self.low) - &point[1]).sign(),
@@ -294,13 +295,13 @@ fn cases() -> Vec<(Prism, Swept)> {
     out
 }
 
-/// What is known of a prism besides its crossings.
+/// The exact description of a prism, in addition to its crossings.
 pub(super) trait Known: Oracle {
-    /// Whether a line passes by all edges, so that each crossing is one face's.
+    /// Whether a line misses all edges, so that each crossing belongs to one face.
     fn is_plain(&self, line: &ExactLine) -> bool;
-    /// Whether the faces met are so far from the others that a point tells them apart.
+    /// Whether each crossing is so far from the other faces that its point identifies its face.
     fn is_clear(&self, line: &ExactLine) -> bool;
-    /// Whether the crossings are so far apart that `t` tells their order.
+    /// Whether the crossings are so far apart that `t` determines their order.
     fn is_spread(&self, line: &ExactLine) -> bool;
 }
 
@@ -323,7 +324,7 @@ impl Known for Swept {
     }
 }
 
-/// Whether the rays that start along the normals, from where a ray meets the prism, meet no edge.
+/// Whether rays that start along the normals at all crossings of a ray with the prism meet no edge.
 fn leaves_clearly(prism: &dyn TestSurface, oracle: &impl Known, ray: &Ray) -> bool {
     all_roots(prism, ray).iter().all(|root| {
         let point = prism.resolve(&LocalRay::new(ray), root, Need::POINT);
@@ -336,7 +337,7 @@ fn leaves_clearly(prism: &dyn TestSurface, oracle: &impl Known, ray: &Ray) -> bo
 }
 
 /// How many rays have obeyed the laws, how many roots they had, and how many rays were clear of
-/// everything, so that all laws were asked.
+/// everything, so that all laws were tested.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Obeyed {
     pub(super) rays: u64,
@@ -345,7 +346,7 @@ pub(super) struct Obeyed {
 }
 
 impl Obeyed {
-    /// Counts a ray that is plain, if it obeys as many of the laws as are claimed for it.
+    /// Counts a ray that meets no edge, after testing all laws that apply to it.
     pub(super) fn count(
         &mut self,
         prism: &dyn TestSurface,
@@ -363,7 +364,7 @@ impl Obeyed {
         } else if is_spread {
             roots_are_the_exact_crossings(prism, oracle, ray, None)?.len()
         } else {
-            // The order of crossings of different faces that t cannot tell apart is not claimed.
+            // The order of crossings of different faces that t does not separate is not tested.
             let roots = all_roots(prism, &ray.with_range(f64::NEG_INFINITY, f64::INFINITY)).len();
             let exact = oracle.crossings(&line).len();
             if roots != exact {
@@ -397,7 +398,7 @@ fn prisms_obey_the_laws_off_their_edges() {
         }
         for i in laws::drawn(150) {
             let ray = aim(&mut laws::dice(seed as u64, i), &features, oracle.size());
-            // Rays that meet an edge exactly are the business of the next test.
+            // The next test covers rays that meet an edge exactly.
             let broken = |e| panic!("{e}\n{seed} {i} {ray:?}\n{prism:?}");
             obeyed.count(prism, oracle, &ray).unwrap_or_else(broken);
         }
@@ -429,7 +430,7 @@ fn rays_through_edges_and_corners_go_in_as_often_as_out() {
                 "{roots:?} for {ray:?} and {prism:?}"
             );
             through += usize::from(!roots.is_empty());
-            // From within, out.
+            // From the inside outward.
             let from = (dice.lattice(12) * 0.5).to_point();
             let at = exact3(from.to_array());
             if oracle.side(&at) != Some(Ordering::Equal) {

@@ -219,8 +219,8 @@ impl Rounded {
         let e_b = (k * size.dot(dd) + ed.dot(size) + eo.dot(reach)) * slack;
         let e_b = if e_b == 0.0 && self.vanishes_across(o, d) { 0.0 } else { e_b + FLOOR };
         let c = (g + linear).dot(o) + self.c;
-        // |Qo + b| itself, not the sum of absolute values: near the surface it is the factor of errors
-        // of o.
+        // Uses |Qo + b| itself, not the sum of absolute values: near the surface it is the factor
+        // of errors of o.
         let gradient = g.abs() + size * k;
         let spread = eo.x + eo.y + eo.z;
         let e_c = k * ((size + linear.abs()).dot(od) + self.c.abs())

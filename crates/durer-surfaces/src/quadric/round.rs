@@ -277,8 +277,8 @@ impl QuadricFaces for FrustumShape {
             return self.axis.half_space(face as u32);
         }
         // With a = 2^m â: |a|⁴|y|² - (|a|² + δ²) h² - 2 r₀ δ |a|² h - r₀²|a|⁴, over 2^4m:
-        // |â|⁴|y|² - (|â|² + δ'²)(y·â)² - 2 r₀ δ' |â|² (y·â) - r₀²|â|⁴ with δ' = δ 2^-m. This is large
-        // if δ' is above one.
+        // |â|⁴|y|² - (|â|² + δ'²)(y·â)² - 2 r₀ δ' |â|² (y·â) - r₀²|â|⁴ with δ' = δ 2^-m.
+        // This is large if δ' is above one.
         let a = self.axis.unit::<T>();
         let aa = square(&a);
         let unit = |x: f64| T::exact(x).scale2(-self.axis.scale);

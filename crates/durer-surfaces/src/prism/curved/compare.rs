@@ -1,10 +1,10 @@
-//! Which of two crossings with curved walls comes first along a ray, exactly.
+//! The exact order of two crossings with curved walls along a ray.
 //!
 //! Each is at `s = p(u) / q(u)` for a root `u` of a cubic `g` (`parameter.rs`). The resultant of
 //! `g(u)` and `p(u) - s q(u)`, from which `u` is eliminated (E. Bézout, *Théorie générale des
 //! équations algébriques*, 1779), is a polynomial in `s` that vanishes there. Between two roots of
-//! the product of both there is a number, and on which side of it each crossing lies is the sign of
-//! a polynomial at its `u`.
+//! the product of both resultants there is a number, and the sign of a polynomial at the `u` of a
+//! crossing decides on which side of that number the crossing lies.
 
 use super::exact::Exactly;
 use super::forms::along;
@@ -55,9 +55,9 @@ impl Places<'_, '_> {
 }
 
 /// The resultant of `g(u)` and `p(u) - s q(u)`: the determinant of Bézout's matrix. Not zero, since
-/// no `u` makes all three vanish.
+/// all three vanish at no `u`.
 fn resultant(g: &[Dyadic; 4], p: &[Dyadic; 4], q: &[Dyadic; 4]) -> Poly {
-    // Of polynomials with no power in common that is zero in all of them; else it would vanish.
+    // The highest power that is present in one of them; otherwise the determinant would vanish.
     let n = (1..4).rev().find(|&i| [g, p, q].iter().any(|f| !f[i].is_zero())).unwrap_or(1);
     let minor = |f: &[Dyadic; 4], i: usize, j: usize| &(&g[i] * &f[j]) - &(&g[j] * &f[i]);
     let mut rows = vec![vec![vec![Dyadic::ZERO, Dyadic::ZERO]; n]; n];
@@ -72,7 +72,7 @@ fn resultant(g: &[Dyadic; 4], p: &[Dyadic; 4], q: &[Dyadic; 4]) -> Poly {
     determinant(&rows)
 }
 
-/// By the first column.
+/// Expanded by the first column.
 fn determinant(rows: &[Vec<Poly>]) -> Poly {
     if let [row] = rows {
         return row[0].clone();

@@ -1,4 +1,4 @@
-//! All crossings of a ray with a curved prism, by its walls and caps.
+//! All crossings of a ray with the walls and caps of a curved prism.
 
 use super::forms::Cut;
 use super::parameter::Places;
@@ -13,16 +13,16 @@ use core::cmp::Ordering;
 use durer_math::eft::scale2;
 use durer_math::{Aabb, EFloat, Isa, Ring, Vec3};
 
-/// What a ray crosses.
+/// A face that a ray crosses.
 enum CrossedFace {
-    /// A wall, there, by its number.
+    /// A wall: the crossing, and the wall's number.
     Wall(Meet, usize),
-    /// A cap, the top one or not.
+    /// A cap: whether it is the top one.
     Cap(bool),
 }
 
 impl CurvedPrism {
-    /// The cut of a ray at a height that it passes: by `rise`, the sign of the ray's way up.
+    /// The cut of a ray at a height that it passes; `rise` is the sign of its vertical direction.
     #[inline(always)]
     fn at_height<'a>(&self, probe: &Probe<'_>, level: &'a HeightPlane, rise: i8) -> Cut<'a> {
         let positive = match self.view.sweep {
@@ -36,14 +36,14 @@ impl CurvedPrism {
         }
     }
 
-    /// Whether a ray goes along the sweep, or through its apex.
+    /// Whether a ray runs along the sweep, or through its apex, so that its trace is a point.
     #[inline(always)]
     fn is_seen_as_a_point(&self, probe: &Probe<'_>) -> bool {
         let scan = Scan::new(probe, &self.view, Cut::Ray);
         scan.vanishes()
     }
 
-    /// Shows the crossings with the wall of a piece: with its number, and where `g` turns.
+    /// Passes the crossings with the wall of piece `i` to `f`, with the root of `g` and the number.
     #[inline(always)]
     fn wall_crossings(
         &self,
@@ -81,14 +81,14 @@ impl CurvedPrism {
         }
     }
 
-    /// The same by the order along the line of the crossing and the points at which the ray passes
-    /// the heights.
+    /// Decides this exactly, by the order along the line of the crossing and the points at which
+    /// the ray passes the heights.
     #[cold]
     #[inline(never)]
     fn is_exactly_between(&self, probe: &Probe<'_>, piece: &ProfileCurve, meet: &Meet) -> bool {
         let levels = [self.level(false), self.level(true)];
         let Some(rise) = probe.crossing(&levels[0]).map(|c| c.sign) else {
-            // All of the ray at one height. At the bottom is above it, at the top too.
+            // The whole ray is at one height. The bottom counts as above it, and so does the top.
             let above = |level: &HeightPlane| probe.sign(level).is_none_or(Ordering::is_ge);
             return above(&levels[0]) && !above(&levels[1]);
         };
@@ -101,16 +101,15 @@ impl CurvedPrism {
         };
         let order = if rise > 0 { [0, 1] } else { [1, 0] };
         let [entry, exit] = order.map(|i| &levels[i]);
-        // A ray passes the apex's height far beyond all outlines, and comes back from the other
-        // side.
+        // At the apex's height the ray's trace goes to infinity and comes back from the other side.
         let at_apex = |level: &HeightPlane| self.view.sweep == Sweep::Conic && level.height == 0.0;
         let (entered, left) = (at_apex(entry) || !is_behind(entry), !at_apex(exit) && !is_behind(exit));
         let through_apex = self.view.sweep == Sweep::Conic && self.heights[0] < 0.0 && self.heights[1] > 0.0;
         if through_apex { entered || !left } else { entered && !left }
     }
 
-    /// The crossing with a cap, or, of a ray through the apex that goes on inside the other cap's
-    /// outlines, with a tip.
+    /// The crossing with a cap. At a tip: the crossing of a ray through the apex that continues
+    /// inside the other cap's outlines.
     #[inline(always)]
     fn cap_crossing(&self, probe: &Probe<'_>, top: bool, range: Option<(f64, f64)>) -> Option<Crossing> {
         let level = self.level(top);
@@ -120,7 +119,7 @@ impl CurvedPrism {
         {
             return None;
         }
-        // What is certainly outside the box needs no look at the outlines.
+        // Points that are certainly outside the box do not need the outlines.
         let (at, err) = probe.place(&crossing);
         let Vec3 { x, z, .. } = at;
         let unit = |v: f64, c: f64| scale2(v - c, -self.view.scale);
@@ -162,7 +161,7 @@ impl CurvedPrism {
     #[inline(always)]
     fn cap_root(&self, probe: &Probe<'_>, crossing: &Crossing, top: bool) -> Root {
         let root = probe.root(crossing, 1 + u32::from(top), [0.0; 2]);
-        // Out of the bottom is down.
+        // At the bottom, outward is down.
         Root { sign: if top { root.sign } else { -root.sign }, ..root }
     }
 
@@ -223,7 +222,7 @@ impl CurvedPrism {
         }
     }
 
-    /// Along the line, inside and outside alternate.
+    /// The roots of a tangled prism: inside and outside alternate along the line.
     #[inline(always)]
     fn tangled_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         let probe = self.probe(ray);
@@ -240,15 +239,15 @@ impl CurvedPrism {
                 all.push((crossing, CrossedFace::Cap(top)));
             }
         }
-        // What is between the caps is, by the exact order along the line, after the one by which
-        // the ray enters and before the other.
+        // In the exact order along the line, the walls lie after the cap through which the ray
+        // enters and before the other one.
         let rank = |(crossing, face): &(Crossing, CrossedFace)| match face {
             CrossedFace::Wall(..) => 1,
             CrossedFace::Cap(top) if (crossing.sign > 0) != *top => 0,
             CrossedFace::Cap(_) => 2,
         };
         all.sort_by(|a, b| rank(a).cmp(&rank(b)).then(a.0.s.total_cmp(&b.0.s)));
-        // Where an outline crosses another, what f64 cannot put in order is in the exact one.
+        // Where an outline crosses another, crossings that f64 cannot order are ordered exactly.
         let overlap = |(a, x): &(Crossing, CrossedFace), (b, y): &(Crossing, CrossedFace)| {
             matches!((x, y), (CrossedFace::Wall(..), CrossedFace::Wall(..)))
                 && a.s_lo.max(b.s_lo) <= a.s_hi.min(b.s_hi)
@@ -267,7 +266,7 @@ impl CurvedPrism {
             match face {
                 CrossedFace::Wall(meet, i) => {
                     inside ^= meet.turn != 0;
-                    // Rising it enters what is to the left.
+                    // Where `g` rises, the ray goes to the left side of the curve.
                     let left = (meet.turn > 0) == inside;
                     if self.admits_wall(&places, crossing, meet, *i, sink.range()) {
                         roots.push(self.wall_root(&probe, crossing, meet, *i, left));

@@ -1,4 +1,4 @@
-//! Roots of a cubic on `[-1/2, 1/2]` in exact numbers, those at the ends included.
+//! Exact roots of a cubic on `[-1/2, 1/2]`, including those at the ends.
 
 use super::profile_hits::Meet;
 use crate::roots::exact::{ExactRoots, Isolated};
@@ -6,7 +6,7 @@ use core::cmp::Ordering;
 use core::cmp::Ordering::{Greater, Less};
 use durer_math::{Dyadic, Ring};
 
-/// How a polynomial with these signs before and after a root turns.
+/// The direction of the change of sign of a polynomial with these signs before and after a root.
 #[inline(always)]
 pub(super) fn turn(before: Ordering, after: Ordering) -> i8 {
     match (before, after) {
@@ -24,17 +24,17 @@ pub(super) fn at(p: &[Dyadic], y: f64) -> Dyadic {
 
 /// A polynomial on `[-1/2, 1/2]`, which may vanish at the ends.
 pub(super) struct Ends {
-    /// It crosses zero at the first end, and at the last, if zero counts as plus.
+    /// Whether it crosses zero at the first end, and at the last, if zero counts as positive.
     pub(super) first: bool,
     pub(super) last: bool,
     /// The polynomial without its roots at the ends.
     pub(super) exact: ExactRoots,
-    /// Between the ends it has the other sign.
+    /// Whether, between the ends, the given polynomial has the opposite sign of `exact`.
     turned: bool,
 }
 
 impl Ends {
-    /// `None` if the polynomial is zero everywhere.
+    /// Divides by the roots at the ends. `None` if the polynomial is zero everywhere.
     pub(super) fn new(mut p: Vec<Dyadic>) -> Option<Self> {
         while p.last()?.is_zero() {
             p.pop();
@@ -53,14 +53,14 @@ impl Ends {
             times
         };
         let (at_first, at_last) = (strip(-0.5), strip(0.5));
-        // y - 1/2 is negative between.
+        // y - 1/2 is negative between the ends.
         let turned = at_last % 2 == 1;
         let is_minus = |y: f64| at(&p, y).exact_sign() == if turned { Greater } else { Less };
         let (first, last) = (at_first > 0 && is_minus(-0.5), at_last > 0 && is_minus(0.5));
         Some(Self { first, last, exact: ExactRoots::new(p)?, turned })
     }
 
-    /// The roots between two numbers that are or are not roots, but for the ends.
+    /// The roots between two numbers that may themselves be roots, without those at the ends.
     pub(super) fn isolated(&self, lo: f64, hi: f64) -> Vec<Isolated> {
         let beside = |y: f64, away: f64| {
             if y.abs() >= 0.5 { Dyadic::from(0.5_f64.copysign(y)) } else { self.exact.beside(y, away) }
@@ -74,7 +74,7 @@ impl Ends {
     }
 }
 
-/// A crossing, found again in exact numbers.
+/// A crossing as an exact root.
 pub(super) enum Exactly {
     /// At an end of the piece.
     At(f64),
@@ -82,20 +82,20 @@ pub(super) enum Exactly {
 }
 
 impl Exactly {
-    /// Of several so close together that their brackets cannot tell them apart, the one that turns
-    /// as the crossing does.
+    /// The exact root of a crossing. If several are so close together that brackets do not separate
+    /// them, the one that turns as the crossing does.
     pub(super) fn new(g: Vec<Dyadic>, meet: &Meet) -> Option<Self> {
         if meet.lo == meet.hi && meet.y.abs() == 0.5 && at(&g, meet.y).is_zero() {
             return Some(Self::At(meet.y));
         }
         let ends = Ends::new(g)?;
-        // A root may be nearer to the end of a bracket than f64 can tell.
+        // A root may be nearer to the end of a bracket than the spacing of f64.
         let roots = ends.isolated(meet.lo.next_down(), meet.hi.next_up());
         let found = roots.iter().find(|root| ends.turn(root) == meet.turn).or(roots.first())?.clone();
         Some(Self::Root(Box::new((ends, found))))
     }
 
-    /// An interval of exact numbers that holds it, no wider than `2^log`.
+    /// An interval with exact ends that contains the root, no wider than `2^log`.
     pub(super) fn narrowed(&mut self, log: i32) -> (Dyadic, Dyadic) {
         match self {
             Self::At(y) => (Dyadic::from(*y), Dyadic::from(*y)),
@@ -106,7 +106,7 @@ impl Exactly {
         }
     }
 
-    /// The sign of a polynomial there.
+    /// The sign of a polynomial at the root.
     pub(super) fn sign(&self, q: &[Dyadic]) -> Ordering {
         match self {
             Self::At(y) => at(q, *y).exact_sign(),

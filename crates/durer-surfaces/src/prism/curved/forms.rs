@@ -10,16 +10,15 @@ use durer_math::{Dd, Dyadic, EFloat, Ring};
 /// A linear form `f·(x, 1, z)` in the plane of the outlines.
 pub(super) type Form<T> = [T; 3];
 
-/// What cuts the curves.
+/// The set that cuts the curves: a line, and a point on it.
 #[derive(Clone, Copy)]
 pub(super) enum Cut<'a> {
-    /// A ray.
+    /// The trace of a ray, without a point.
     Ray,
-    /// A ray, and on it the point at a height; `positive` is the sign of what that point is divided
-    /// by.
+    /// The trace of a ray, and the ray's point at a height; `positive` is the sign of that point's
+    /// denominator.
     Height { level: &'a HeightPlane, positive: bool },
-    /// The same for a ray that the plane of the outlines sees as a point: a line through it along
-    /// x.
+    /// For a ray whose trace is a point: the point, and a line through it along x.
     Point { level: &'a HeightPlane, positive: bool },
     /// A point by itself, the start of the line, and a line through it along x.
     Start { positive: bool },
@@ -39,7 +38,7 @@ fn trace<T: Ring>(sweep: Sweep, ray: &RingRay<T>) -> Form<T> {
     }
 }
 
-/// A point `(x, z) / w` of the plane, `w` above zero.
+/// A point `(x, z) / w` of the plane, `w` positive.
 struct Spot<T> {
     x: T,
     z: T,
@@ -52,7 +51,7 @@ impl<T: Ring> Spot<T> {
         if positive { Self { x, z, w } } else { Self { x: -x, z: -z, w: -w } }
     }
 
-    /// Where a ray is at a height.
+    /// The ray's point at a height.
     #[inline(always)]
     fn at_height(sweep: Sweep, ray: &RingRay<T>, level: &HeightPlane, positive: bool) -> Option<Self> {
         let above = level.height(ray)?;
@@ -66,7 +65,7 @@ impl<T: Ring> Spot<T> {
         Some(Self::new(x, z, w * dy, positive))
     }
 
-    /// The form that vanishes here and grows along the line `n`.
+    /// The form that vanishes at this point and grows along the line `n`.
     #[inline(always)]
     fn ahead(self, n: &Form<T>) -> Form<T> {
         let Self { x, z, w } = self;
@@ -83,7 +82,7 @@ impl<T: Ring> Spot<T> {
 }
 
 impl Cut<'_> {
-    /// Both forms.
+    /// The form of the line, and the form that grows along it from the point.
     #[inline(always)]
     pub(super) fn forms<T: Ring>(self, sweep: Sweep, ray: &RingRay<T>) -> Option<(Form<T>, Form<T>)> {
         let zero = || T::exact(0.0);
@@ -128,7 +127,7 @@ pub(super) fn sized(ray: RingRay<EFloat<Dd>>) -> RingRay<EFloat<Dd>> {
     RingRay { o: ray.o.map(|x| x.scale2(k)), d: ray.d.map(|x| x.scale2(k)), w: ray.w.scale2(k) }
 }
 
-/// The exact line; if it is not exactly known, the one that the rounded numbers describe, and
+/// The exact line and `true`; if it is not exactly known, the line with the rounded numbers, and
 /// `false`.
 pub(super) fn exact_line<L: Line>(line: &L) -> (RingRay<Dyadic>, bool) {
     match line.exact() {

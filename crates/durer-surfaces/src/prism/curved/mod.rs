@@ -11,11 +11,11 @@
 //! ```
 //!
 //! A ray and the direction of the sweep, or its apex, span a plane, which cuts the plane of the
-//! outlines in a line; where that meets an outline, a cubic in `u` vanishes (`profile_hits.rs`),
-//! and where on the ray that is, a quotient of two cubics says (`parameter.rs`). A point is inside
-//! where the outlines go round an odd number of times: a cap is met where the line has met the
-//! outlines an odd number of times before it, by the very signs that decide about the walls. So the
-//! solid is closed, exactly: a line crosses it inward and outward in turn.
+//! outlines in a line. Where that line meets an outline, a cubic in `u` vanishes
+//! (`profile_hits.rs`), and a quotient of two cubics gives the parameter on the ray
+//! (`parameter.rs`). A point is inside where the outlines go round it an odd number of times. A cap
+//! is hit where the line has met the outlines an odd number of times before it; this uses the same
+//! signs as the walls. So the solid is closed: every line crosses it inward and outward in turn.
 //!
 //! J. T. Kajiya, "New techniques for ray tracing procedurally defined objects", SIGGRAPH 1983; J.
 //! J. van Wijk, "Ray tracing objects defined by sweeping planar cubic splines", *ACM Transactions
@@ -53,9 +53,9 @@ pub use spline::{Bezier, Spline};
 /// A solid between two planes across y, within curved outlines that are swept from one to the
 /// other; without its caps a sheet.
 ///
-/// Faces: 0 the walls, 1 the cap at the bottom, 2 the one at the top, or the tip there. Parts: the
-/// walls of the pieces, then the caps. A tangled prism is one part, since its signs alternate along
-/// the whole line.
+/// Faces: 0 the walls, 1 the cap at the bottom, 2 the cap at the top, or a tip in their place.
+/// Parts: the walls of the pieces, then the caps. A tangled prism is one part, since its signs
+/// alternate along the whole line.
 ///
 /// # Invariants
 ///
@@ -63,23 +63,23 @@ pub use spline::{Bezier, Spline};
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurvedPrism {
     pieces: Vec<ProfileCurve>,
-    /// For each piece, whether the inside is to its left, x to the right and z up; `None` if the
-    /// outlines may meet themselves or each other, so that it may be on either side.
+    /// For each piece, whether the inside is to its left, with x to the right and z up; `None` if
+    /// the outlines may meet themselves or each other, so that it may be on either side.
     inside_is_left: Option<Vec<bool>>,
     /// The bottom and the top.
     heights: [f64; 2],
-    /// Of each wall.
+    /// The bounding box of each wall.
     boxes: Vec<Aabb>,
-    /// Of the bottom and the top.
+    /// The bounding boxes of the bottom and the top.
     cap_boxes: [Aabb; 2],
     open: bool,
     view: View,
-    /// In units.
+    /// The size, in units.
     size: f64,
     bounds: Aabb,
 }
 
-/// Numbers beyond this leave no room for products.
+/// Products of larger numbers could leave the range of f64.
 const LARGEST: f64 = durer_math::scale::pow2(200);
 
 impl CurvedPrism {
@@ -89,8 +89,8 @@ impl CurvedPrism {
         Self::new(outlines, bottom, top, Sweep::Linear)
     }
 
-    /// The same, the outlines at the height `y` being `y` times as large: a cone with its apex at
-    /// the origin, or the part of one between the heights, or two that meet.
+    /// The conic prism, whose outlines at the height `y` are `y` times as large: a cone with its
+    /// apex at the origin, the part of one between the heights, or two that meet.
     pub fn conic(outlines: &[impl AsRef<[Bezier]>], bottom: f64, top: f64) -> Result<Self, PrismError> {
         Self::new(outlines, bottom, top, Sweep::Conic)
     }
@@ -103,7 +103,7 @@ impl CurvedPrism {
     ) -> Result<Self, PrismError> {
         let (low, high) = super::ascending(bottom, top)?;
         let outlines = closed(outlines)?;
-        // What a piece sweeps between two heights; roundings outward.
+        // The box of a piece swept between two heights, rounded outward.
         let swept = |b: &Bezier, [low, high]: [f64; 2]| {
             let [x, z] = profile_curve::extent(b).map(|[min, max]| match sweep {
                 Sweep::Linear => [min, max],
@@ -159,7 +159,7 @@ impl CurvedPrism {
             let own = left.len()..left.len() + outline.len();
             let powers = self.pieces[own.clone()].iter().map(|piece| piece.in_powers(&self.view));
             let turns_left = self_intersection::is_counter_clockwise(powers)?;
-            // Within how many of the others is it?
+            // Is it within an odd number of the others?
             let [x, z] = outline[0][0];
             let start = LocalPoint::new(Point3::new(x, 1.0, z));
             let line = PointLine::new(&start, Vec3::ZERO, self.view.centre, self.view.scale);
@@ -192,14 +192,14 @@ impl CurvedPrism {
         }
     }
 
-    /// Whether the sweep ends in its apex there, and not in a cap.
+    /// Whether the sweep ends at the top, or at the bottom, in its apex instead of a cap.
     #[inline(always)]
     fn has_tip(&self, top: bool) -> bool {
         self.view.sweep == Sweep::Conic && self.heights[usize::from(top)] == 0.0
     }
 }
 
-/// The outlines without pieces that are points.
+/// The outlines without pieces that are single points.
 fn closed(outlines: &[impl AsRef<[Bezier]>]) -> Result<Vec<Vec<Bezier>>, PrismError> {
     if outlines.is_empty() {
         return Err(PrismError::Empty);
@@ -233,8 +233,8 @@ impl Surface for CurvedPrism {
         }
     }
 
-    /// Texture coordinates: of the walls once round all outlines, piece by piece, and from the
-    /// bottom to the top; of the caps lengths.
+    /// Texture coordinates: on the walls once round all outlines, piece by piece, and from the
+    /// bottom to the top; on the caps lengths.
     #[inline(never)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         if root.face == 0 {
@@ -255,7 +255,7 @@ impl Surface for CurvedPrism {
         let level = self.level(top);
         let lift = scale2(level.centre - level.height, -level.scale);
         let (p, dp) = planar::foot_point(&probe, &level, Vec3::Y, 1.0, lift);
-        // Exactly at the height: the step back onto the plane rounds.
+        // Exactly at the height: the projection onto the plane has rounded.
         let p = Point3::new(p.x, level.height, p.z);
         let off = planar::clearance(&level, p, self.view.centre, self.view.scale, 1.0);
         let n = if top { Vec3::Y } else { -Vec3::Y };
@@ -301,7 +301,7 @@ impl Surface for CurvedPrism {
     }
 
     fn solid_packet_filter(&self) -> (FilterSource, Vec<PartId>) {
-        // Caps that are not there would have to be counted, too.
+        // The filter would have to count the missing caps, too.
         if self.open {
             return (FilterSource::vague(self.bounds), vec![PartId(0)]);
         }
@@ -336,7 +336,7 @@ impl Surface for CurvedPrism {
             Sweep::Conic => match line.sign(&self.level_at_apex()).unwrap_or(Ordering::Equal) {
                 Ordering::Greater => true,
                 Ordering::Less => false,
-                // At the apex's height there is only the apex.
+                // At the apex's height the solid is only the apex.
                 Ordering::Equal => {
                     let on_axis =
                         [0, 2].iter().all(|&i| line.sign(&Coordinate(i)).is_none_or(Ordering::is_eq));
@@ -379,8 +379,8 @@ impl Algebraic for CurvedPrism {
             let piece = self.pieces.get(root.tag[0] as usize / 2)?;
             let probe = self.probe(ray);
             let scan = Scan::new(&probe, &self.view, Cut::Ray);
-            // Found again as it was found: by the same numbers, or, if this ray is known more
-            // roughly or less, the nearest.
+            // Find the crossing again: the same numbers give the same root; if this ray has other
+            // errors, take the nearest.
             let mut found: Option<Meet> = None;
             scan.meets(piece, |meet| {
                 let way = |m: &Meet| (m.y - root.tag[1]).abs();

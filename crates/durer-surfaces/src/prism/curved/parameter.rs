@@ -1,9 +1,10 @@
-//! Where along a ray a crossing with a curved wall is: a quotient of two cubics in the curve's
-//! parameter.
+//! The parameter of a crossing with a curved wall on the ray: a quotient of two cubics in the
+//! curve's parameter.
 //!
 //! ```text
 //!   linear   s = d·(c(u) - o) / d·d              o, d without their heights
-//!   conic    s = p·C / q·C,  C = (x(u), 1, z(u)),  p = (o·d) o - (o·o) d,  q = (o·d) d - (d·d) o,  seen from the apex
+//!   conic    s = p·C / q·C,  C = (x(u), 1, z(u)),  relative to the apex,
+//!            p = (o·d) o - (o·o) d,  q = (o·d) d - (d·d) o
 //! ```
 
 use super::Sweep;
@@ -16,7 +17,7 @@ use crate::{End, RingRay};
 use core::cmp::Ordering;
 use durer_math::{Dd, Dyadic, EFloat, Isa, Ring, U};
 
-/// The forms of numerator and denominator. The denominator of a linear sweep is positive.
+/// The forms of the numerator and the denominator. The denominator of a linear sweep is positive.
 #[inline(always)]
 pub(super) fn quotient<T: Ring>(sweep: Sweep, ray: &RingRay<T>) -> (Form<T>, Form<T>) {
     let (o, d) = (&ray.o, &ray.d);
@@ -42,7 +43,7 @@ pub(super) fn quotient<T: Ring>(sweep: Sweep, ray: &RingRay<T>) -> (Form<T>, For
     }
 }
 
-/// A prism's ray and the curves that it cuts.
+/// A ray, and the curves of a prism that it cuts.
 pub(super) struct Places<'a, 'r> {
     pub(super) probe: &'a Probe<'r>,
     pub(super) scan: &'a Scan<'a, Probe<'r>>,
@@ -54,7 +55,7 @@ impl<'a, 'r> Places<'a, 'r> {
         Self { probe, scan }
     }
 
-    /// The crossing as a crossing of the ray with a plane there; its sign is left open.
+    /// The crossing in the form of a crossing with a plane; its sign is not set.
     #[inline(always)]
     pub(super) fn crossing(&self, piece: &ProfileCurve, meet: &Meet) -> Crossing {
         let c = ProfileCurve::at(&piece.powers, &meet.running());
@@ -79,8 +80,8 @@ impl<'a, 'r> Places<'a, 'r> {
         )
     }
 
-    /// The root by Newton's method; its bracket has certain signs at both ends, or ends with the
-    /// bracket that was given.
+    /// The root by Newton's method. Each end of its bracket has a certain sign, or is an end of the
+    /// given bracket.
     #[inline(always)]
     fn in_double_double(&self, piece: &ProfileCurve, meet: &Meet) -> Option<Crossing> {
         let ray = sized(self.probe.double()?);
@@ -127,7 +128,7 @@ impl<'a, 'r> Places<'a, 'r> {
         Some(self.probe.bracketed(s.value(), s.lo(), s.hi(), Ordering::Equal))
     }
 
-    /// The root halved out until the quotient is as narrow as it should be.
+    /// The root by bisection in exact numbers, until the quotient is narrow enough.
     fn exactly(&self, piece: &ProfileCurve, meet: &Meet) -> Option<Crossing> {
         let ray = self.probe.exact()?;
         let powers = piece.in_powers::<Dyadic>(self.scan.view);
@@ -162,8 +163,8 @@ impl<'a, 'r> Places<'a, 'r> {
         best
     }
 
-    /// The same in f64, as seen from the ends: their points do not carry the rounding of the
-    /// closest approach.
+    /// [`Places::is_in_range`] in f64, relative to the ends of the range: their points do not have
+    /// the rounding of the closest approach.
     #[inline(always)]
     fn is_surely_in_range(&self, piece: &ProfileCurve, meet: &Meet, crossing: &Crossing) -> Option<bool> {
         let c = ProfileCurve::at(&piece.powers, &meet.running());
@@ -196,7 +197,7 @@ impl<'a, 'r> Places<'a, 'r> {
         Some(all)
     }
 
-    /// Whether a crossing whose bracket straddles an end of the ray's range is in it.
+    /// Whether a crossing whose bracket straddles an end of the ray's range is in the range.
     #[inline(never)]
     pub(super) fn is_in_range(&self, piece: &ProfileCurve, meet: &Meet, crossing: &Crossing) -> bool {
         let holds = Isa::detect().run(
@@ -236,8 +237,7 @@ impl<'a, 'r> Places<'a, 'r> {
     }
 }
 
-/// The exact sign of `a t² + 2 b t + c`, `t` the ray's own parameter in which it is given, at a
-/// crossing.
+/// The exact sign of `a t² + 2 b t + c` at a crossing; `t` is the ray's own parameter.
 pub(super) fn sign_at<L: Line>(
     scan: &Scan<'_, L>,
     ray: &RingRay<Dyadic>,

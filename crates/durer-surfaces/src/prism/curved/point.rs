@@ -7,22 +7,22 @@ use crate::{LocalRay, Need, Root, SurfacePoint};
 use durer_math::eft::{scale2, two_sum};
 use durer_math::{EFloat, Isa, Point3, Ring, U, Vec3};
 
-/// Pays for results below the normal range, in units of the prism's size.
+/// Covers results below the normal range, in units of the prism's size.
 const TINY: f64 = durer_math::scale::pow2(-500);
-/// How far rays start from the surface at least, in units of the prism's size: far enough for f64
-/// to see on which side of a crossing's bracket the start is. What the bracket loses at a grazing
-/// ray the way from the surface to the start gains.
+/// The least distance at which rays start from the surface, in units of the prism's size: far
+/// enough for f64 to decide on which side of a crossing's bracket the start is. At a grazing ray
+/// the bracket is wider by as much as the path from the surface to the start is longer.
 const CLEAR: f64 = 256.0 * U;
 
-/// The piece of a root, the part of the outlines round which it is, and of the heights.
+/// The piece that contains a root, with its place among the outlines, and the heights.
 pub(super) struct Wall<'a> {
     pub(super) view: &'a View,
     pub(super) piece: &'a ProfileCurve,
-    /// The inside is to the left of the piece as it is seen from above.
+    /// Whether the inside is to the left of the piece, seen from above.
     pub(super) inside_is_left: bool,
-    /// The number of the piece, and of pieces.
+    /// The number of the piece, and the number of pieces.
     pub(super) number: (usize, usize),
-    /// From the bottom to the top, in the numbers of the prism.
+    /// The bottom and the top, in the prism's own coordinates.
     pub(super) heights: [f64; 2],
 }
 
@@ -34,8 +34,8 @@ impl Wall<'_> {
         )
     }
 
-    /// The parameter near `y` where the curve is nearest to a point: one step of Newton's, if it is
-    /// a small one.
+    /// The parameter near `y` at which the curve is nearest to a point: one step of Newton's
+    /// method, if it is a small one.
     #[inline(always)]
     fn nearest(&self, [x, z]: [f64; 2], y: f64) -> f64 {
         let [cx, cz] = ProfileCurve::at(&self.piece.powers, &EFloat::exact(y)).map(|c| c.v);
@@ -53,15 +53,15 @@ impl Wall<'_> {
         let q = Vec3::new(s.mul_add(at.d.x, at.o.x), s.mul_add(at.d.y, at.o.y), s.mul_add(at.d.z, at.o.z));
         let e_q = at.o_err + at.d_err * s.abs() + q.abs() * U;
 
-        // On the curve as f64 knows it, at the ray's height; where that is nearest to the ray's own
-        // place there, as the root's bracket knows it better than `u`.
+        // The point on the f64 curve at the ray's height, nearest to the ray's own point: the
+        // root's bracket is more precise than `u`.
         let height = if sweep == Sweep::Conic { q.y } else { 1.0 };
         let y = self.nearest([q.x / height, q.z / height], y);
         let [x, z] =
             ProfileCurve::at(&self.piece.powers, &EFloat::exact(y)).map(|c| c * EFloat::exact(height));
         let p = Vec3::new(x.v, q.y, z.v);
 
-        // In the surface's own frame; what that rounding loses is known exactly.
+        // In the surface's own frame; the rounding is known exactly.
         let axis = |c: f64, y: f64| two_sum(c, scale2(y, scale));
         let ((px, lx), (py, ly), (pz, lz)) = (axis(centre.x, p.x), axis(centre.y, p.y), axis(centre.z, p.z));
         let place = Point3::new(px, py, pz);
@@ -71,7 +71,7 @@ impl Wall<'_> {
 
         let ([x1, z1], [x2, z2]) = self.piece.slopes(self.view, y);
         let [cx, cz] = [x.v / height, z.v / height];
-        // The right of the curve, and out of the wall there; c' x C for a conic sweep.
+        // The right of the curve, and the outward side of the wall; c' x C for a conic sweep.
         let side = if self.inside_is_left { 1.0 } else { -1.0 };
         let side = if height < 0.0 { -side } else { side };
         let (right, turn, ruling) = match sweep {
@@ -84,8 +84,7 @@ impl Wall<'_> {
         };
         let scaled = right.max_abs();
         let plain = scaled > TINY && scaled.is_finite();
-        // At a point of the curve where it stops and turns there is no normal: across the way from
-        // end to end.
+        // At a cusp of the curve there is no normal: use the one across the chord.
         let [a, b] = [self.piece.points[0], self.piece.points[3]];
         let fallback = Vec3::new(b[1] - a[1], 0.0, a[0] - b[0]);
         let across = if plain {
@@ -97,9 +96,9 @@ impl Wall<'_> {
         };
         let length = across.length();
         let normal = across * (side / length);
-        // Along the ruling a wall is straight. Across it bends by c''·n G / (E G - F²), E, F, G the
-        // first fundamental form of (u, height): the cross product of the tangents is `right` times
-        // the height, its square E G - F².
+        // Along the ruling a wall is straight. Across it the curvature is c''·n G / (E G - F²),
+        // with E, F, G the first fundamental form of (u, height): the cross product of the tangents
+        // is `right` times the height, its square E G - F².
         let size = length * scaled;
         let bend = if plain {
             let second = x2 * normal.x + z2 * normal.z;
@@ -130,7 +129,7 @@ impl Wall<'_> {
             if need.contains(Need::DERIVATIVES) {
                 let along = Vec3::new(x1, 0.0, z1) * (n * height);
                 (point.dpdu, point.dpdv) = (along.map(back), ruling * (high - low));
-                // The normal changes with `right`; along the ruling it stays.
+                // The normal changes with `right`; along the ruling it is constant.
                 let dn = turn * (side * n / size);
                 let dn = dn - normal * normal.dot(dn);
                 point.dndu = if dn.is_finite() { dn } else { Vec3::ZERO };

@@ -1,4 +1,4 @@
-//! One piece of a curved outline: a cubic curve in the plane, as rays see it.
+//! One piece of a curved outline: a cubic curve in the plane.
 
 use super::Sweep;
 use super::spline::Bezier;
@@ -8,7 +8,7 @@ use crate::roots::bernstein::Bernstein;
 use durer_math::eft::scale2;
 use durer_math::{EFloat, Point3, Ring, U, Vec3};
 
-/// From where a prism is seen, and in which unit of length.
+/// The origin and the unit of length of a prism's coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct View {
     pub(super) sweep: Sweep,
@@ -18,7 +18,8 @@ pub(super) struct View {
 }
 
 impl View {
-    /// A point of the outlines. Those of a conic sweep are ratios of lengths, and have no unit.
+    /// A point of the outlines in these coordinates. For a conic sweep they are ratios of lengths,
+    /// and have no unit.
     #[inline(always)]
     pub(super) fn seen<T: Ring>(&self, [x, z]: [f64; 2]) -> [T; 2] {
         match self.sweep {
@@ -36,12 +37,13 @@ impl View {
 pub(super) struct ProfileCurve {
     /// Its control points, `[x, z]`.
     pub(super) points: Bezier,
-    /// The same as they are seen: all x, all z, within `slack` of the true ones.
+    /// The control points in the view's coordinates: all x, all z, within `slack` of the exact
+    /// ones.
     pub(super) seen: [[f64; 4]; 2],
     pub(super) slack: [f64; 2],
-    /// No less than the magnitude of those.
+    /// Upper bounds of their magnitudes.
     pub(super) reach: [f64; 2],
-    /// The factors of the powers of `y = u - 1/2` in x and z, as they are seen.
+    /// The coefficients of the powers of `y = u - 1/2` in x and z, in the view's coordinates.
     pub(super) powers: [[EFloat; 2]; 4],
 }
 
@@ -62,13 +64,13 @@ impl ProfileCurve {
         piece
     }
 
-    /// Whether a ray surely passes by all that the piece sweeps: its trace has all control points
-    /// on one side. The first and cheapest test.
+    /// Whether a ray certainly misses everything that the piece sweeps: all control points are on
+    /// one side of its trace. This is the first and cheapest test.
     ///
-    /// With `R` the largest `|x - ox| + |z - oz|`, `D = |dx| + |dz|` the values round by `4 U D R`,
-    /// and the ray's own errors add `D e_o + R e_d` and their product, twice. The form of a conic
-    /// sweep is a cross product, of which each component rounds by `3 U |o|₁ |d|₁`, times
-    /// `1 + |x| + |z|`.
+    /// With `R` the largest `|x - ox| + |z - oz|` and `D = |dx| + |dz|`, the values round by
+    /// `4 U D R`, and the ray's own errors add `D e_o + R e_d` and their product, twice. The form
+    /// of a conic sweep is a cross product, of which each component rounds by `3 U |o|₁ |d|₁`,
+    /// times `1 + |x| + |z|`.
     #[inline(always)]
     pub(super) fn is_passed_by(&self, ray: &LocalRay<'_>, sweep: Sweep) -> bool {
         let (o, d) = (ray.o, ray.d);
@@ -97,18 +99,18 @@ impl ProfileCurve {
                 (o * d * far, 2.0 * far * (d * e_o + o * e_d + e_o * e_d))
             }
         };
-        // Not so if one of them is NaN.
+        // False if one of them is NaN.
         let e = (size * (16.0 * U) + own) * (1.0 + 32.0 * U) + durer_math::scale::pow2(-900);
         least > e || most < -e
     }
 
-    /// As lanes see it.
+    /// The curve for packets.
     pub(super) fn for_lanes(&self) -> ProfileCurve8 {
         let larger = |[x, z]: [f64; 2]| x.max(z);
         ProfileCurve8::new(self.seen, larger(self.slack), larger(self.reach))
     }
 
-    /// The factors of the powers of `y = u - 1/2`, in any ring.
+    /// The coefficients of the powers of `y = u - 1/2`, in any ring.
     ///
     /// `(1-u)³ = 1/8 - 3/4 y + 3/2 y² - y³` and `3u(1-u)² = 3/8 - 3/4 y - 3/2 y² + 3 y³`; the
     /// others by symmetry.
@@ -133,10 +135,10 @@ impl ProfileCurve {
         [[x0, z0], [x1, z1], [x2, z2], [x3, z3]]
     }
 
-    /// The point at `y = u - 1/2`, as it is seen.
+    /// The point at `y = u - 1/2`, in the view's coordinates.
     #[inline(always)]
     pub(super) fn at<T: Ring>(powers: &[[T; 2]; 4], y: &T) -> [T; 2] {
-        // A closure might be compiled by itself, without fused sums.
+        // A closure might be compiled by itself, without fused operations.
         #[inline(always)]
         fn axis<T: Ring>(powers: &[[T; 2]; 4], y: &T, k: usize) -> T {
             let [a, b, c, d] = [&powers[0][k], &powers[1][k], &powers[2][k], &powers[3][k]];
@@ -145,8 +147,9 @@ impl ProfileCurve {
         [axis(powers, y, 0), axis(powers, y, 1)]
     }
 
-    /// The first and second derivative at `y = u - 1/2`, rounded. From differences of control
-    /// points, so that they are precise where they are small at an end of the curve.
+    /// The first and second derivative at `y = u - 1/2`, rounded. They are computed from
+    /// differences of control points, so that they are precise where they are small at an end of
+    /// the curve.
     pub(super) fn slopes(&self, view: &View, y: f64) -> ([f64; 2], [f64; 2]) {
         let (u, v) = (0.5 + y, 0.5 - y);
         let unit = |x: f64| if view.sweep == Sweep::Linear { scale2(x, -view.scale) } else { x };
@@ -163,7 +166,7 @@ impl ProfileCurve {
     }
 }
 
-/// The least and the greatest x and z of a curve: `[[x, x], [z, z]]`, never too narrow.
+/// The least and the greatest x and z of a curve: `[[x, x], [z, z]]`, rounded outward.
 pub(super) fn extent(points: &Bezier) -> [[f64; 2]; 2] {
     [0, 1].map(|k| {
         let b = points.map(|p| p[k]);
@@ -171,9 +174,9 @@ pub(super) fn extent(points: &Bezier) -> [[f64; 2]; 2] {
     })
 }
 
-/// No less than the greatest value of a polynomial with these Bernstein coefficients, and above it
-/// by little: the part whose coefficients promise most is halved until it promises no more than an
-/// end of it has.
+/// An upper bound of the greatest value of a polynomial with these Bernstein coefficients, and
+/// close to it. The part with the greatest coefficient is halved until that coefficient does not
+/// exceed the greatest value found at an end.
 fn greatest(b: [f64; 4]) -> f64 {
     let most = |b: &Bernstein<f64, 4>| b.b.iter().fold(f64::NEG_INFINITY, |m, &x| m.max(x)) + b.e;
     let ends = b[0].max(b[3]);
@@ -181,7 +184,7 @@ fn greatest(b: [f64; 4]) -> f64 {
     if most(&whole) <= ends {
         return ends;
     }
-    // All ends so far are values of the curve, but for their error.
+    // All ends so far are values of the curve, up to rounding.
     let (mut open, mut least) = (vec![whole], ends);
     for _ in 0..64 {
         let Some((at, top)) = open.iter().map(most).enumerate().max_by(|a, b| a.1.total_cmp(&b.1)) else {
@@ -195,7 +198,7 @@ fn greatest(b: [f64; 4]) -> f64 {
         open.extend([l, r]);
     }
     let top = open.iter().map(most).fold(ends, f64::max);
-    // The sum with the error rounds.
+    // Adding the error rounds.
     if top > ends { top.next_up() } else { ends }
 }
 

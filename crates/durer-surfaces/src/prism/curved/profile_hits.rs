@@ -1,14 +1,14 @@
-//! Where a line in the plane of the outlines meets their curves.
+//! Crossings of a line in the plane of the outlines with their curves.
 //!
 //! A ray and the direction of a linear sweep, or the apex of a conic one, span a plane; its trace
 //! in the plane of the outlines is a line, `n·(x, 1, z) = 0`. It meets a piece `c(u)` where the
-//! cubic `g(u) = n·(x(u), 1, z(u))` vanishes. Signs of `g` are exact; that of zero is plus, as if
-//! the line were moved aside by less than any number, all of it and for all pieces alike. So a line
-//! through the common end of two pieces meets both, one or none of them, just as a line beside it
-//! does, and closed curves an even number of times.
+//! cubic `g(u) = n·(x(u), 1, z(u))` vanishes. Signs of `g` are exact, and zero counts as positive,
+//! as if the line were moved aside by an infinitesimal distance, the whole line and for all pieces
+//! alike. So a line through the common end of two pieces meets both, one or none of them, just as a
+//! line beside it does, and it meets closed curves an even number of times.
 //!
-//! Along the line the order of points is that of `r·(x, 1, z)`, zero at a point of the line that is
-//! asked about, and growing the way the ray goes.
+//! The order of points along the line is that of `r·(x, 1, z)`, which is zero at a given point of
+//! the line, the reference point, and grows in the direction of the ray.
 
 use super::exact::{Ends, at, exact_sign, turn};
 use super::forms::{Coefficient, Cut, Form, along, exact_line, sized, value};
@@ -21,17 +21,17 @@ use core::cmp::Ordering;
 use core::cmp::Ordering::{Greater, Less};
 use durer_math::{Dd, Dyadic, EFloat, Ring, U};
 
-/// Pays for results below the normal range.
+/// Covers results below the normal range.
 const FLOOR: f64 = durer_math::scale::pow2(-500);
 
-/// A line of space, what it cuts the curves in, and the forms of that in f64.
+/// A line in space, its cut through the curves, and the forms of the cut in f64.
 pub(super) struct Scan<'a, L> {
     pub(super) line: &'a L,
     pub(super) view: &'a View,
     cut: Cut<'a>,
-    /// The line's form.
+    /// The form of the line.
     pub(super) n: Form<EFloat>,
-    /// Grows along the line; zero everywhere for [`Cut::Ray`].
+    /// The form that grows along the line; zero everywhere for [`Cut::Ray`].
     pub(super) r: Form<EFloat>,
 }
 
@@ -44,18 +44,18 @@ pub(super) struct Meet {
     pub(super) hi: f64,
     /// 1 where `g` rises, -1 where it falls, 0 where it touches zero.
     pub(super) turn: i8,
-    /// False if the line was not known well enough to be sure.
+    /// False if the line is not known well enough to be certain.
     pub(super) certain: bool,
 }
 
-/// The values of a form at a piece's control points, all within one error.
+/// The values of a form at a piece's control points, with one common error.
 struct Corners {
     g: [f64; 4],
     e: f64,
 }
 
 impl Corners {
-    /// Each value takes three roundings, of numbers no larger than the sum of the terms.
+    /// Each value takes three roundings of numbers no larger than the sum of the terms.
     #[inline(always)]
     fn new(f: &Form<EFloat>, piece: &ProfileCurve) -> Self {
         let [[x0, x1, x2, x3], [z0, z1, z2, z3]] = piece.seen;
@@ -72,7 +72,7 @@ impl Corners {
         Self { g, e: (rounding + own + seen) * (1.0 + 32.0 * U) + FLOOR }
     }
 
-    /// Whether all are above zero, or below, for certain.
+    /// Whether all are certainly positive, or certainly negative.
     #[inline(always)]
     fn all(&self, sign: Ordering) -> bool {
         let [a, b, c, d] = self.g;
@@ -82,7 +82,7 @@ impl Corners {
         }
     }
 
-    /// The sign of one, if it is certain.
+    /// The sign of one value, if it is certain.
     #[inline(always)]
     fn sign(&self, i: usize) -> Option<Ordering> {
         if self.g[i] > self.e {
@@ -95,7 +95,7 @@ impl Corners {
     }
 }
 
-/// A form at a control point, to take its sign.
+/// A form at a control point, as a polynomial of the ray.
 struct Corner<'a, L> {
     scan: &'a Scan<'a, L>,
     at: [f64; 2],
@@ -143,7 +143,7 @@ impl<'a, L: Line> Scan<'a, L> {
         Self { line, view, cut, n, r }
     }
 
-    /// Whether the trace is not a line but a point.
+    /// Whether the trace is a point instead of a line.
     #[inline(always)]
     pub(super) fn vanishes(&self) -> bool {
         let is_zero = |i: usize| match self.n[i].sign() {
@@ -153,7 +153,7 @@ impl<'a, L: Line> Scan<'a, L> {
         is_zero(0) && is_zero(2) && is_zero(1)
     }
 
-    /// Both forms.
+    /// Both forms, in a ring.
     #[inline(always)]
     pub(super) fn forms<T: Ring>(&self, ray: &RingRay<T>) -> Option<(Form<T>, Form<T>)> {
         self.cut.forms(self.view.sweep, ray)
@@ -174,16 +174,17 @@ impl<'a, L: Line> Scan<'a, L> {
     fn corner(&self, piece: &ProfileCurve, i: usize, g: &Corners) -> Ordering {
         match g.sign(i) {
             Some(sign) => sign,
-            // Not exactly known: any sign will do, if it is the same for both pieces that end here.
+            // Not exactly known: any sign is correct, if it is the same for both pieces that end
+            // here.
             None => self.line.sign_climb(&Corner { scan: self, at: piece.points[i] }).unwrap_or(Greater),
         }
     }
 
-    /// Shows where the line meets a piece, in the order of `u`.
+    /// Passes the crossings of the line with a piece to `f`, in the order of `u`.
     #[inline(always)]
     pub(super) fn meets(&self, piece: &ProfileCurve, mut f: impl FnMut(Meet)) {
         let g = Corners::new(&self.n, piece);
-        // The common case: all control points, and so all of the curve, on one side.
+        // The common case: all control points, and so the whole curve, on one side.
         if g.all(Greater) || g.all(Less) {
             return;
         }
@@ -191,8 +192,8 @@ impl<'a, L: Line> Scan<'a, L> {
             self.exact_meets(piece, &mut f);
             return;
         }
-        // Mostly the bracket is as narrow as f64 allows; where it matters on the ray, it is closed
-        // in from there.
+        // Usually the bracket is as narrow as f64 allows; where it matters on the ray, it is
+        // narrowed later.
         let limits = Limits { lo: -1.0, hi: 1.0, origin: 0.0, width: PREVIEW_WIDTH };
         solve(
             &Shadow { scan: self, piece },
@@ -212,8 +213,8 @@ impl<'a, L: Line> Scan<'a, L> {
         );
     }
 
-    /// The same, where the line passes through an end of the piece, or so near that f64 cannot
-    /// tell.
+    /// [`Scan::meets`] where the line passes through an end of the piece, or so near that f64
+    /// cannot decide.
     #[cold]
     #[inline(never)]
     fn exact_meets(&self, piece: &ProfileCurve, f: &mut dyn FnMut(Meet)) {
@@ -233,7 +234,7 @@ impl<'a, L: Line> Scan<'a, L> {
         }
     }
 
-    /// How often, modulo two, the line meets a piece behind the point that is asked about.
+    /// Whether the line meets a piece an odd number of times behind the reference point.
     #[inline(always)]
     pub(super) fn is_odd_behind(&self, piece: &ProfileCurve) -> bool {
         let g = Corners::new(&self.n, piece);
@@ -245,7 +246,7 @@ impl<'a, L: Line> Scan<'a, L> {
             return false;
         }
         if r.all(Less) {
-            // As often as the sign changes.
+            // The parity is that of the changes of sign.
             return self.corner(piece, 0, &g).is_lt() != self.corner(piece, 3, &g).is_lt();
         }
         let mut odd = false;
@@ -257,14 +258,14 @@ impl<'a, L: Line> Scan<'a, L> {
         odd
     }
 
-    /// Whether a crossing is behind the point that is asked about; it is not if it is there.
+    /// Whether a crossing is behind the reference point; false if it is at that point.
     #[inline(always)]
     pub(super) fn is_behind(&self, piece: &ProfileCurve, meet: &Meet) -> bool {
         self.order(piece, meet).is_some_and(Ordering::is_lt)
     }
 
-    /// Where a crossing is, relative to the point that is asked about; `None` only if the line is
-    /// not exactly known.
+    /// The order of a crossing and the reference point; `None` only if the line is not exactly
+    /// known.
     #[inline(always)]
     pub(super) fn order(&self, piece: &ProfileCurve, meet: &Meet) -> Option<Ordering> {
         match value(&self.r, ProfileCurve::at(&piece.powers, &meet.running())).sign() {
@@ -282,7 +283,7 @@ impl<'a, L: Line> Scan<'a, L> {
         exact_sign(along(&n, &powers).to_vec(), meet, &along(&r, &powers))
     }
 
-    /// Whether the point that is asked about lies on the piece, exactly.
+    /// Whether the reference point lies on the piece, exactly.
     pub(super) fn touches(&self, piece: &ProfileCurve) -> bool {
         for form in [&self.n, &self.r] {
             let corners = Corners::new(form, piece);
@@ -299,7 +300,7 @@ impl<'a, L: Line> Scan<'a, L> {
             return true;
         }
         match (Ends::new(g), Ends::new(r.clone())) {
-            // All of the piece lies on the line: is the point within?
+            // The whole piece lies on the line: is the point within it?
             (None, Some(r)) => !r.isolated(-0.5, 0.5).is_empty(),
             (None, None) => true,
             (Some(g), _) => g.isolated(-0.5, 0.5).iter().any(|root| g.exact.sign_at_root(&r, root).is_eq()),

@@ -1,33 +1,33 @@
 //! Whether curves meet themselves or each other, and on which side of each the inside lies.
 //!
 //! Curves are cut into *arcs* whose directions lie within less than half a turn, so that an arc
-//! does not meet itself. Two arcs are apart if their control points' boxes are; two that follow
-//! each other meet in nothing but their common end if a line through it has the control points of
-//! one on one side and those of the other on the other side. Arcs that are neither are halved. The
-//! answer "they may meet" costs only time.
+//! does not meet itself. Two arcs are apart if their control points' boxes are. Two successive arcs
+//! meet only in their common end if some line through it has the control points of one on one side
+//! and those of the other on the other side. All other arcs are halved. The answer "they may meet"
+//! is always safe, and costs only time.
 
 use super::spline::Bezier;
 use crate::prism::outline::Point;
 use durer_math::{Dyadic, U};
 
-/// More pairs of arcs than this are not looked at.
+/// With more pairs of arcs than this the curves count as meeting.
 const MOST_PAIRS: usize = 1 << 20;
-/// No arc is halved more often.
+/// Arcs are halved at most this many times.
 const DEEPEST: u32 = 40;
 
 /// A part of a curve.
 #[derive(Clone, Copy)]
 struct Arc {
     b: Bezier,
-    /// The curve, the numbers of its ends on it, and how often it was halved.
+    /// The curve, the numbers of the arc's ends on it, and how often the arc was halved.
     outline: usize,
     ends: [u64; 2],
     depth: u32,
-    /// The curve stands still at this end: two control points are one.
+    /// Whether the derivative vanishes at this end: two control points are equal.
     still: [bool; 2],
 }
 
-/// The number of a piece's start on its curve; between it and the next there is room for all
+/// The number of a piece's start on its curve; the numbers up to the next start suffice for all
 /// halves.
 fn number(piece: usize) -> u64 {
     (piece as u64) << DEEPEST
@@ -41,7 +41,7 @@ impl Arc {
         let (lm, mr) = (mid(l, m), mid(m, r));
         let centre = mid(lm, mr);
         let [from, to] = self.ends;
-        // The last end may be the first of the curve again.
+        // The last end may be the first end of the closed curve.
         let to = if to > from { to } else { from + (1 << (DEEPEST - self.depth)) };
         let half = from + (to - from) / 2;
         let depth = self.depth + 1;
@@ -63,7 +63,8 @@ impl Arc {
         ]
     }
 
-    /// Whether all directions of the arc are within less than half a turn, by more than `room`.
+    /// Whether all directions of the arc certainly lie within less than half a turn, by more than
+    /// `room`.
     fn is_simple(&self, room: f64) -> bool {
         let step = |i: usize| minus(self.b[i + 1], self.b[i]);
         let way = minus(self.b[3], self.b[0]);
@@ -89,14 +90,14 @@ impl Arc {
         width(0).max(width(1))
     }
 
-    /// Whether this arc and the one that follows it meet in nothing but the common end.
+    /// Whether this arc and the one that follows it meet only in the common end.
     fn is_followed_simply_by(&self, next: &Self, room: f64) -> bool {
         let at = next.b[0];
         let unit = |v: Point| {
             let length = (v[0] * v[0] + v[1] * v[1]).sqrt();
             v.map(|x| x / length)
         };
-        // A control point that is the end itself gives no direction.
+        // A control point equal to the end gives no direction.
         let last = (0..3).rev().map(|i| minus(at, self.b[i])).find(|v| *v != [0.0; 2]);
         let first = (1..4).map(|i| minus(next.b[i], at)).find(|v| *v != [0.0; 2]);
         let (Some(last), Some(first)) = (last, first) else { return false };
@@ -120,8 +121,8 @@ fn dot(a: Point, b: Point) -> f64 {
 /// Whether curves certainly meet neither themselves nor each other.
 pub(super) fn are_simple(outlines: &[Vec<Bezier>]) -> bool {
     let most = outlines.iter().flatten().flatten().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
-    // Each halving moves a control point by a few roundings of its size, twice a unit at most for
-    // all; differences and products add theirs.
+    // Each halving moves a control point by a few roundings of its size, by at most twice a unit in
+    // total; differences and products add their own.
     let room = most * (64.0 * U) * 4.0;
     let mut arcs = Vec::new();
     for (outline, pieces) in outlines.iter().enumerate() {
@@ -131,7 +132,7 @@ pub(super) fn are_simple(outlines: &[Vec<Bezier>]) -> bool {
             let still = [b[0] == b[1], b[2] == b[3]];
             open.push(Arc { b, outline, ends, depth: 0, still });
         }
-        // Two halves at least, so that no two arcs have both ends in common.
+        // At least two halves, so that no two arcs have both ends in common.
         while let Some(arc) = open.pop() {
             if arc.depth > 0 && arc.is_simple(room) {
                 arcs.push(arc);
@@ -173,8 +174,8 @@ pub(super) fn are_simple(outlines: &[Vec<Bezier>]) -> bool {
     true
 }
 
-/// Whether a closed curve that does not meet itself goes round counter-clockwise, x to the right
-/// and z up; `None` if it has no area.
+/// Whether a closed curve that does not meet itself goes round counter-clockwise, with x to the
+/// right and z up; `None` if it has no area.
 ///
 /// Twice the area is the integral of `x z' - z x'`; the factors are those of the powers of `y`,
 /// integrated from -1/2 to 1/2, times 240.
@@ -194,7 +195,7 @@ mod tests {
     use super::super::spline::Spline;
     use super::*;
 
-    /// A circle, roughly, of four arcs.
+    /// An approximate circle of four arcs.
     fn ring(at: Point, r: f64) -> Vec<Bezier> {
         let k = 0.5523 * r;
         let p = |x: f64, z: f64| [at[0] + x, at[1] + z];

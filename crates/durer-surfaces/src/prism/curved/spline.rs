@@ -1,14 +1,16 @@
-//! Splines through points, as the Bezier pieces that they are.
+//! Splines through points, as Bezier pieces.
 //!
 //! ```text
-//!   quadratic   p0 [p1 p2 p3 .. p1]       between p_i and p_i+1 the parabola that is at p_i-1, p_i, p_i+1 for u = -1, 0, 1
-//!   cubic       p0 [p1 p2 p3 .. p1] pn    between p_i and p_i+1 the cubic that has there the slopes (p_i+1 - p_i-1) / 2 and (p_i+2 - p_i) / 2
+//!   quadratic   p0 [p1 p2 p3 .. p1]       between p_i and p_i+1 the parabola through
+//!                                         p_i-1, p_i, p_i+1 at u = -1, 0, 1
+//!   cubic       p0 [p1 p2 p3 .. p1] pn    between p_i and p_i+1 the cubic with the slopes
+//!                                         (p_i+1 - p_i-1) / 2 and (p_i+2 - p_i) / 2 there
 //!   Bezier      [a b c d] [d e f g] ..    the curve with these control points
 //! ```
 //!
-//! The curve is what stands in brackets and is closed; the points before and behind it only say how
-//! it begins and ends. Cubic splines are those of E. Catmull, R. Rom, "A class of local
-//! interpolating splines", *Computer Aided Geometric Design* (ed. Barnhill, Riesenfeld), 1974.
+//! The curve consists of the points in brackets and is closed; the points before and after only
+//! determine its slopes at the ends. Cubic splines are those of E. Catmull, R. Rom, "A class of
+//! local interpolating splines", *Computer Aided Geometric Design* (ed. Barnhill, Riesenfeld), 1974.
 //! Inner control points of a piece are rounded to f64, ends are the points themselves; the exact
 //! solid is that of the rounded points.
 
@@ -17,19 +19,19 @@ use crate::prism::outline::Point;
 /// A cubic curve by its control points: `[x, z]` each.
 pub type Bezier = [Point; 4];
 
-/// How a curve goes through its points.
+/// How points define a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spline {
     /// Parabolas; one point before the curve.
     Quadratic,
-    /// Cubics; one point before the curve and one behind it.
+    /// Cubics; one point before the curve and one after it.
     Cubic,
     /// Four control points for each piece.
     Bezier,
 }
 
 impl Spline {
-    /// The pieces of a curve: what is left of points after the last whole piece is not looked at.
+    /// The pieces of a curve. Points after the last complete piece are ignored.
     #[must_use]
     pub fn pieces(self, points: &[Point]) -> Vec<Bezier> {
         let toward =

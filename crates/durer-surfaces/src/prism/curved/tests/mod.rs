@@ -1,5 +1,5 @@
-//! The laws, against crossings in exact numbers that share nothing with the kernel; and what must
-//! hold of rays through joints and rims.
+//! The laws, tested against exact crossings that share no code with the kernel; and the laws of
+//! rays through joints and rims.
 
 mod swept;
 
@@ -74,8 +74,8 @@ fn cases() -> Vec<(CurvedPrism, Swept)> {
     out
 }
 
-/// Points of the walls, with tangents and rulings; at few-bit places of curves with few-bit control
-/// points all of this is exact.
+/// Points of the walls, with tangents and rulings. At few-bit parameters of curves with few-bit
+/// control points all of these are exact.
 fn features(oracle: &Swept) -> Vec<Feature> {
     let mut out = vec![];
     let heights = [oracle.low, oracle.high, 0.5 * oracle.low + 0.5 * oracle.high];
@@ -112,7 +112,7 @@ fn curved_prisms_obey_the_laws_off_their_joints() {
         let features = features(oracle);
         for i in laws::drawn(4) {
             let ray = aim(&mut laws::dice(seed as u64, i), &features, oracle.size());
-            // Rays that meet a joint exactly are the business of the next test.
+            // The next test covers rays that meet a joint exactly.
             let broken = |e| panic!("{e}\n{seed} {i} {ray:?}\n{prism:?}");
             obeyed.count(prism, oracle, &ray).unwrap_or_else(broken);
         }
@@ -150,7 +150,7 @@ fn rays_through_joints_and_rims_go_in_as_often_as_out() {
                 "{roots:?} for {ray:?} and {prism:?}"
             );
             through += usize::from(ins > 0);
-            // From within, out.
+            // From the inside outward.
             let from = (dice.lattice(12) * 0.5).to_point();
             let at = exact3(from.to_array());
             if oracle.side(&at) != Some(Ordering::Equal) {
@@ -314,15 +314,15 @@ fn bad_curved_prisms_are_named() {
     assert!(matches!(CurvedPrism::linear(&[far], 0.0, 1.0), Err(PrismError::Point { .. })));
 }
 
-/// Under a placement of which the inverse is rounded, a ray that goes along the sweep crosses the
-/// walls where f64 knows nothing: no bracket but all numbers.
+/// Under a placement whose inverse is rounded, a ray along the sweep crosses the walls where f64
+/// gives no information: the bracket contains all numbers.
 #[test]
 fn along_the_sweep_who_looks_finds_what_who_measures_finds() {
     let affine =
         Affine::new([[2.0, -3.0, -3.0], [2.0, 0.0, 2.0], [-3.0, 2.0, 0.0]], Point3::new(-7.0, 1.0, 1.0));
     let affine = affine.expect("a placement");
     let prism = CurvedPrism::linear(&[round([0.0; 2], 1.0, 0.5)], -1.0, 8.0).expect("a prism");
-    // From a point of a wall along the sweep, as it is rounded.
+    // From a point of a wall along the sweep, rounded.
     let mut dice = TestRng::new(23);
     let mut met = 0;
     for _ in 0..2000 {

@@ -1,4 +1,4 @@
-//! The witness: crossings of a curved prism in exact numbers, by polynomials of its own.
+//! The oracle: exact crossings of a curved prism, by polynomials of its own.
 
 use super::super::*;
 use crate::laws::{self, Exact, ExactLine, LineCache, Oracle, RealRoot, Surd, exact3, real_roots};
@@ -56,9 +56,9 @@ pub(super) struct Swept {
 /// A crossing and its face.
 type Met = (laws::Crossing, u32);
 
-/// Faces that are nearer to a point than this are not told apart.
+/// Faces that are nearer to a point than this are not distinguished.
 const NEAR: f64 = 1e-5;
-/// Digits, in bits, of numbers that are compared.
+/// The precision, in bits, of numbers that are compared.
 const BITS: i64 = 1200;
 
 impl Swept {
@@ -70,14 +70,14 @@ impl Swept {
         self.outlines.iter().flatten()
     }
 
-    /// Whether the outlines go an odd number of times round the point `(x, z) / w`, `w` above zero;
+    /// Whether the outlines go round the point `(x, z) / w`, `w` positive, an odd number of times;
     /// `None` on them.
     fn is_within(&self, x: &Exact, z: &Exact, w: &Exact) -> Option<bool> {
         let half = Exact::from(0.5);
         let mut odd = false;
         for b in self.pieces() {
             let [px, pz] = powers(b);
-            // A level that no end of a piece is at would do; ends are counted as above it.
+            // Ends of pieces exactly at the level count as above it.
             let level = sum(&scaled(&pz, w), &[-z.clone()]);
             let beside = sum(&scaled(&px, w), &[-x.clone()]);
             if level.iter().all(|c| c.sign().is_eq()) {
@@ -114,7 +114,8 @@ impl Swept {
         Some(odd)
     }
 
-    /// The same of a point of space; on the plane of the apex all but the apex is outside.
+    /// Whether a point in space is inside the outlines, on them, or outside. In the plane of the
+    /// apex everything but the apex is outside.
     fn across(&self, p: &[Exact; 3]) -> Ordering {
         let [x, y, z] = p;
         let within = match (self.sweep, y.sign()) {
@@ -175,7 +176,7 @@ impl Swept {
     }
 
     /// All crossings, ascending, with their faces; `None` if the line meets a joint or a rim, or
-    /// runs within a face, or two crossings are one.
+    /// runs within a face, or two crossings coincide.
     pub(super) fn met(&self, line: &ExactLine) -> Option<Vec<Met>> {
         self.known.get(line, || self.find(line))
     }
@@ -185,7 +186,7 @@ impl Swept {
         for b in self.pieces() {
             let [g, num, den] = self.along(line, b);
             if g.iter().all(|c| c.sign().is_eq()) {
-                // Seen as a point: caps only, or a tip.
+                // The trace is a point: caps only, or a tip.
                 if self.sweep == Sweep::Conic && (self.low == 0.0 || self.high == 0.0) {
                     return None;
                 }
@@ -199,7 +200,7 @@ impl Swept {
                     continue;
                 }
                 if root.sign_of(&den).is_eq() {
-                    // It meets the ruling far beyond all numbers.
+                    // It meets the ruling at infinity.
                     continue;
                 }
                 let (t, about) = parameter(&g, &num, &den, &root)?;
@@ -266,8 +267,8 @@ impl Swept {
         Some(crossings)
     }
 
-    /// Of the piece that is nearest to a point of space: the normal in space at the nearest place,
-    /// the distance, and the place on the piece.
+    /// The normal in space at the nearest place of the nearest piece, the distance, the parameter
+    /// there, and how many pieces are near.
     fn nearest(&self, point: &[Exact; 3]) -> (Vec3, f64, f64, usize) {
         let [x, y, z] = point.clone().map(|x| x.to_f64());
         let w = if self.sweep == Sweep::Linear { 1.0 } else { y };
@@ -346,7 +347,7 @@ fn parameter(g: &Poly, num: &Poly, den: &Poly, root: &RealRoot) -> Option<(RealR
             sum(&sum(&first, &second), &times(&e(0, 2), &minor(1, 2, 0, 1)))
         }
     };
-    // num(u) / den(u), to many digits: the quotient of whole numbers.
+    // num(u) / den(u), to many digits: a quotient of integers.
     let u = root.about(2000);
     let (n, d) = (value(num, &u), value(den, &u));
     let t = real_roots(&[-n, d]).pop()?.about(1400);
@@ -363,7 +364,7 @@ impl Oracle for Swept {
         self.met(line).unwrap_or_default().into_iter().map(|(c, _)| c).collect()
     }
 
-    /// Of points near one face only, see [`Swept::is_clear`].
+    /// Valid for points near one face only, see [`Swept::is_clear`].
     fn face_side(&self, face: u32, point: &[Exact; 3]) -> Ordering {
         match face {
             1 => (&Exact::from(self.low) - &point[1]).sign(),
@@ -404,7 +405,7 @@ impl Known for Swept {
         self.met(line).is_some()
     }
 
-    // Nor near a joint, nor a tangent.
+    // Also not near a joint or a tangent.
     fn is_clear(&self, line: &ExactLine) -> bool {
         self.crossings(line).iter().all(|c| {
             let p = line.at(&c.t.about(BITS));
