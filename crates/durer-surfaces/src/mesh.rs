@@ -1,9 +1,11 @@
 //! The mesh: triangles that share vertices.
 //!
-//! Every face is met by the rule of `edges.rs` on *one* ray for the whole mesh, so a ray through a shared edge or vertex meets
-//! exactly one of the faces there (or none, or two, at a silhouette), and a closed mesh is crossed an even number of times. A mesh may be
-//! declared solid: a point is inside if a ray from it crosses the faces an odd number of times (J. Arvo, D. Kirk, "A survey of ray
-//! tracing acceleration techniques", in A. Glassner (ed.), *An Introduction to Ray Tracing*, 1989; the scene language's `inside_vector`).
+//! Every face is met by the rule of `edges.rs` on *one* ray for the whole mesh, so a ray through a
+//! shared edge or vertex meets exactly one of the faces there (or none, or two, at a silhouette),
+//! and a closed mesh is crossed an even number of times. A mesh may be declared solid: a point is
+//! inside if a ray from it crosses the faces an odd number of times (J. Arvo, D. Kirk, "A survey of
+//! ray tracing acceleration techniques", in A. Glassner (ed.), *An Introduction to Ray Tracing*,
+//! 1989; the scene language's `inside_vector`).
 
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
@@ -16,7 +18,7 @@ use core::cmp::Ordering;
 use durer_math::eft::exponent;
 use durer_math::{Aabb, Normal3, Point3, Vec3};
 
-/// What a mesh is made of: lists of numbers, and indices into them.
+/// The data of a mesh: lists of numbers, and indices into them.
 ///
 /// ```
 /// use durer_math::Point3;
@@ -38,11 +40,11 @@ pub struct MeshData {
     pub faces: Vec<[u32; 3]>,
     /// Normals for shading, of any length. Empty: all faces are flat.
     pub normals: Vec<Normal3>,
-    /// Each face's three normals, or [`FLAT`]. Empty: the normals go with the vertices.
+    /// Each face's three normals, or [`FLAT`]. Empty: each vertex has the normal of its number.
     pub normal_faces: Vec<[u32; 3]>,
     /// Texture coordinates. Empty: each face has (0, 0), (1, 0), (0, 1).
     pub uv: Vec<[f64; 2]>,
-    /// Each face's three texture coordinates. Empty: they go with the vertices.
+    /// Each face's three texture coordinates. Empty: each vertex has those of its number.
     pub uv_faces: Vec<[u32; 3]>,
     /// One number for each face, for the mesh's owner (its material, say). Empty: all zero.
     pub attributes: Vec<u32>,
@@ -51,19 +53,20 @@ pub struct MeshData {
 /// In [`MeshData::normal_faces`]: a face without normals of its own.
 pub const FLAT: [u32; 3] = [u32::MAX; 3];
 
-/// Triangles that share vertices. A root's face is the triangle's number in [`MeshData::faces`], its tag is `(b1, b2)`.
+/// Triangles that share vertices. A root's face is the triangle's number in [`MeshData::faces`],
+/// its tag is `(b1, b2)`.
 ///
 /// # Invariants
 ///
-/// Indices are in range, lists of faces are empty or as long as `faces`. Faces without area or with a vertex that is
-/// not finite are *dropped*: they keep their numbers and meet no ray.
+/// Indices are in range, lists of faces are empty or as long as `faces`. Faces without area or with
+/// a vertex that is not finite are *dropped*: they keep their numbers and meet no ray.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     data: MeshData,
     /// Numbers of the dropped faces, ascending.
     dropped: Vec<u32>,
     bounds: Aabb,
-    /// If the mesh is solid: where the ray goes that tells inside from outside.
+    /// If the mesh is solid: the direction of the ray that decides whether a point is inside.
     inside: Option<Vec3>,
 }
 
@@ -82,7 +85,7 @@ pub enum MeshError {
         /// The list's length.
         len: usize,
     },
-    /// A list that goes with the faces has another length.
+    /// A list with one entry a face has another length.
     #[error("mesh: {what} has {len} entries for {faces} faces")]
     Length {
         /// The list.
@@ -92,10 +95,10 @@ pub enum MeshError {
         /// The number of faces.
         faces: usize,
     },
-    /// More faces than 32 bits count.
+    /// More faces than a 32-bit number can count.
     #[error("mesh: {0} faces are too many")]
     TooMany(usize),
-    /// The direction that tells inside from outside is zero, infinite or NaN.
+    /// The direction of the ray that decides whether a point is inside is zero, infinite or NaN.
     #[error("mesh: the inside vector must be finite and not zero, got <{}, {}, {}>", .0.x, .0.y, .0.z)]
     Inside(Vec3),
 }
@@ -134,8 +137,9 @@ impl Mesh {
         Ok(mesh)
     }
 
-    /// The same mesh as the boundary of a solid. A point is inside if the ray from it along `direction` crosses an odd number of faces;
-    /// for a closed mesh the direction makes no difference.
+    /// Declares the mesh to be the boundary of a solid. A point is inside if the ray from it along
+    /// `direction` crosses an odd number of faces; for a closed mesh the direction makes no
+    /// difference.
     pub fn solid(mut self, direction: Vec3) -> Result<Self, MeshError> {
         if !direction.is_finite() || direction == Vec3::ZERO {
             return Err(MeshError::Inside(direction));
@@ -149,7 +153,8 @@ impl Mesh {
         &self.data
     }
 
-    /// The numbers of the faces that meet no ray, because they have no area or a vertex that is not finite; ascending.
+    /// The numbers of the faces that meet no ray, because they have no area or a vertex that is not
+    /// finite; ascending.
     pub fn dropped(&self) -> &[u32] {
         &self.dropped
     }
@@ -159,8 +164,8 @@ impl Mesh {
         self.data.attributes.get(face as usize).copied().unwrap_or(0)
     }
 
-    /// Whether every edge is used equally often in both directions by the faces that are not dropped (vertices are compared by index):
-    /// then the mesh bounds a solid.
+    /// Whether every edge is used equally often in both directions by the faces that are not
+    /// dropped (vertices are compared by index): then the mesh bounds a solid.
     pub fn is_closed(&self) -> bool {
         let mut edges: Vec<(u32, u32, bool)> = Vec::with_capacity(3 * self.data.faces.len());
         for number in self.live() {
@@ -198,8 +203,8 @@ impl Mesh {
         if self.bounds.is_empty() { (Point3::ORIGIN, 1.0) } else { planar::middle(&self.bounds) }
     }
 
-    /// The ray as one face sees it: from the face's own middle, since a small face of a large mesh is not to pay for the mesh's size. Signs are those
-    /// of the one exact ray all the same.
+    /// The ray relative to the face's own middle: the error at a small face of a large mesh should
+    /// not depend on the mesh's size. The signs are still those of the one exact ray.
     #[inline(always)]
     fn probe<'a>(ray: &'a LocalRay<'a>, facet: &Facet) -> Probe<'a> {
         let (centre, size) = planar::middle(&Aabb::from_points(*facet));
@@ -245,7 +250,7 @@ fn check_indices(what: &'static str, faces: &[[u32; 3]], len: usize) -> Result<(
     Ok(())
 }
 
-/// Whether a point's box meets a face's.
+/// Whether the bounding box of a point meets that of a face.
 #[inline(always)]
 pub(crate) fn may_hold(facet: &Facet, point: &LocalPoint<'_>) -> bool {
     let Aabb { min, max, .. } = Aabb::from_points(*facet).expanded(point.p_err);
@@ -281,10 +286,12 @@ impl Sorted {
         show(roots, sink);
     }
 
-    /// Roots that were pushed in the order of the line, which is exact: none of them is told to be before an earlier one.
+    /// Passes on roots that were pushed in their exact order along the line: no parameter may be
+    /// less than an earlier one.
     pub(crate) fn pour_in_turn<S: Sink + ?Sized>(mut self, sink: &mut S) {
         let roots = if self.many.is_empty() { self.few.as_mut_slice() } else { &mut self.many };
-        // A crossing is not behind the upper end of any later one, and not before an earlier one: both hold of the exact parameters, so that each `t` stays in its bracket.
+        // A crossing is not beyond the upper end of any later one, and not before an earlier one.
+        // Both hold for the exact parameters, so each `t` stays in its bracket.
         let mut last = f64::INFINITY;
         for root in roots.iter_mut().rev() {
             last = last.min(root.hi);
@@ -361,13 +368,14 @@ impl Surface for Mesh {
             let facet = self.facet(number);
             let plane = ThreePoints { points: facet, centre, scale };
             if may_hold(&facet, point)
-                // Only an inexact point leaves the height open.
+                // The side is open only for an inexact point.
                 && line.side_of(&plane).is_none_or(Ordering::is_eq)
                 && facet::holds_start(&line, &facet)
             {
                 return Side::On;
             }
-            // Ahead of the point if it lies above the plane and the line goes down (all sides positive), or below and up.
+            // Ahead of the point if it lies above the plane and the line goes down (all sides
+            // positive), or below and up.
             if let Some(passed) = facet::passes(&line, &filter, &facet)
                 && line.side_of(&plane).is_some_and(|height| height as i8 == passed.side)
             {
@@ -411,7 +419,8 @@ mod tests {
     use crate::laws::{TestRng, all_roots};
     use durer_math::Ray;
 
-    /// The octahedron, its faces divided into `k * k` triangles with whole coordinates: flat faces, and vertices and edges galore.
+    /// The octahedron, its faces divided into `k * k` triangles with integer coordinates: flat
+    /// faces, and many vertices and edges.
     fn octahedron(k: i32) -> Mesh {
         let mut data = MeshData::default();
         let find = |p: [i32; 3], vertices: &mut Vec<Point3>| {
@@ -449,7 +458,7 @@ mod tests {
         let mut dice = TestRng::new(1);
         let (mut crossed, mut through_vertices) = (0, 0);
         for _ in 0..6000 {
-            // Whole numbers: through vertices, along edges, within faces.
+            // Integers: through vertices, along edges, within faces.
             let target =
                 if dice.once_in(2) { dice.lattice(4).to_point() } else { dice.pick(&mesh.data.vertices) };
             let direction = dice.lattice(3);

@@ -1,16 +1,17 @@
 //! The ovus: an egg of two spheres with a piece of a spindle torus between them.
 //!
 //! ```text
-//!      .-.       top: a sphere of radius b about <0, a, 0>      a piece of the inner sheet of the torus whose tube of radius r = 2 max(a, b) touches
-//!     /   \      both spheres from outside; its circle has the height c and the radius R:
-//!    (     )       R² + c² = (r - a)²,   R² + (c - a)² = (r - b)²
-//!     `---'      bottom: a sphere of radius a about the origin
+//!      .-.       top: a sphere of radius b about <0, a, 0>
+//!     /   \      a piece of the inner sheet of the torus whose tube of radius r = 2 max(a, b)
+//!    (     )     touches both spheres from outside; its circle has the height c and the radius R:
+//!     `---'        R² + c² = (r - a)²,   R² + (c - a)² = (r - b)²
+//!                bottom: a sphere of radius a about the origin
 //! ```
 //!
 //! The three pieces have common tangents where they meet, at the heights `-c a / (r - a)` and
-//! `a + (a - c) b / (r - b)`. With `b >= 2a` the upper sphere holds the lower one and is all. The
-//! definition is that of POV-Ray's documentation ("Ovus"). The exact solid has R, c and the heights
-//! as f64 holds them.
+//! `a + (a - c) b / (r - b)`. With `b >= 2a` the upper sphere contains the lower one and is the
+//! whole solid. The definition is that of POV-Ray's documentation ("Ovus"). The exact solid has R,
+//! c and the heights as rounded to f64.
 
 use crate::revolution::{Profile, SurfaceOfRevolution};
 use durer_math::U;
@@ -21,7 +22,7 @@ pub enum OvusError {
     /// A radius is zero, negative, infinite or NaN.
     #[error("ovus: the {0} radius must be finite and positive, got {1}")]
     Radius(&'static str, f64),
-    /// The radii are too different or beyond the range in which the solid can be described.
+    /// The radii are too different, or beyond the range in which the solid can be described.
     #[error("ovus: radii {0} and {1} are too large, too small or too different")]
     Range(f64, f64),
 }
@@ -36,7 +37,7 @@ impl SurfaceOfRevolution {
             }
         }
         let unfit = |_| OvusError::Range(bottom, top);
-        // Poles lie strictly between the ends, so that no rounding cuts them off.
+        // Poles lie strictly between the ends, so that rounding cannot cut them off.
         let beyond = |y: f64| y * (1.0 + 16.0 * U);
         let ball = |at: f64, r: f64| Profile::Cubic { at, a: [r * r, 0.0, -1.0, 0.0] };
         let (a, b) = (bottom, top);

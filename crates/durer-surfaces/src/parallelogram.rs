@@ -86,7 +86,7 @@ impl Parallelogram {
         let far = self.corner + self.u;
         let corners = [self.corner, far, far + self.v, self.corner + self.v];
         let [a, b, c, d] = corners.map(|p| filter.seen(p));
-        // Two roundings at most lead to a corner.
+        // A corner takes at most two roundings.
         let size = (self.corner.to_vec().abs() + self.u.abs() + self.v.abs()).max_abs() * (2.0 * U);
         let reach = a.max_abs().max(b.max_abs()).max(c.max_abs()).max(d.max_abs());
         let bound = filter.bound_about(reach, scale2(size, -probe.ray.scale) * (1.0 + 8.0 * U));
@@ -97,7 +97,8 @@ impl Parallelogram {
             return Quick::Miss;
         }
         if least > bound || most < -bound {
-            // Opposite sides add up to the same whole; a third side of zero changes nothing.
+            // The distances from opposite sides have the same sum; a third side of zero changes
+            // nothing.
             let part = |near: f64, far: f64| facet::quotients([far, near, 0.0], bound);
             return Quick::Through(
                 part(sides[3], sides[1]).zip(part(sides[0], sides[2])).map(|(u, v)| [u[0], v[0]]),
@@ -112,17 +113,17 @@ impl Parallelogram {
     }
 }
 
-/// What the filter knows.
+/// The result of the filter.
 enum Quick {
     /// The ray misses the sheet.
     Miss,
-    /// The line meets it, at these coordinates if they are known well.
+    /// The line meets the sheet, at these coordinates if they are precise enough.
     Through(Option<[EFloat; 2]>),
-    /// Too close to an edge, or edge-on: to be decided exactly.
+    /// Too close to an edge, or edge-on: must be decided exactly.
     Unsure,
 }
 
-/// The parallelogram seen from a centre.
+/// The parallelogram relative to a centre.
 struct Spanned<'a> {
     sheet: &'a Parallelogram,
     centre: Point3,
@@ -194,8 +195,8 @@ impl AlongRay for FromEdge<'_> {
     }
 }
 
-/// Whether the crossing lies between two opposite edges; an inexact ray that cannot be excluded
-/// does.
+/// Whether the crossing lies between two opposite edges. An inexact ray that cannot be excluded
+/// counts as between.
 #[inline(always)]
 fn between(probe: &Probe<'_>, spanned: &Spanned<'_>, which: usize, slope: i8) -> bool {
     let along = |far| {
@@ -261,7 +262,7 @@ mod tests {
     use super::*;
     use crate::laws::{ExactBody, ExactForm, Feature, TestRng, check_many, exact3};
 
-    /// `a x b`, exact for few-bit numbers.
+    /// `a x b`, exact for numbers with few bits.
     fn across(a: Vec3, b: Vec3) -> Vec3 {
         a.cross(b)
     }

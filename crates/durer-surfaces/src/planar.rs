@@ -1,14 +1,14 @@
-//! What all flat surfaces share: the one crossing of a ray and a plane, decided exactly and
-//! bracketed tightly.
+//! The part that all flat surfaces share: the one crossing of a ray and a plane, decided exactly
+//! and bracketed tightly.
 //!
 //! Along a ray `o + s d` the *height* above a plane is `h + s g`, and the crossing is at
-//! `s = -h/g`. Everything that is asked about it is a sign: of the slope `g` (0: the ray runs
-//! beside the plane and never crosses it), of the height at an end of the ray's range (is the
-//! crossing in it?), and of the polynomials that say whether the crossing lies in a disc, within
-//! edges or between slabs. Each is written once, generic over [`Ring`], and taken up the ladder:
-//! `EFloat<f64>`, `EFloat<Dd>`, [`Dyadic`]. The first step uses the re-centred ray with its
-//! rounding charged (rule W3), which stands for the exact ray: a sign that is certain there is the
-//! sign for the ray that was given.
+//! `s = -h/g`. Every decision about it is a sign: of the slope `g` (0: the ray is parallel to the
+//! plane and never crosses it), of the height at an end of the ray's range (is the crossing in
+//! it?), and of the polynomials that decide whether the crossing lies in a disc, within edges or
+//! between slabs. Each is written once, generic over [`Ring`], and evaluated on the ladder:
+//! `EFloat<f64>`, `EFloat<Dd>`, [`Dyadic`]. The first step uses the re-centred ray and includes its
+//! rounding (rule W3), so it stands for the exact ray: a sign that is certain there is the sign for
+//! the given ray.
 
 mod vectors;
 
@@ -25,16 +25,16 @@ use durer_math::eft::{exponent, scale2};
 use durer_math::rounding::{add_up, div_down, div_up, sub_down};
 use durer_math::{Dd, Dyadic, EFloat, Isa, Point3, RaySide, Ring, U, Vec3};
 
-/// A bracket that is wider than 32 ulp of `max(|t|, size / |d|)` is found again in double-double;
-/// here relative to `size / |d|`, taking the ulp at its smallest.
+/// A bracket that is wider than 32 ulp of `max(|t|, size / |d|)` is computed again in
+/// double-double; here relative to `size / |d|`, with the smallest value of the ulp.
 const NARROW: f64 = 32.0 * U;
-/// Coordinates in a plane known this well need no better: their error goes into `dp` alone, where
-/// it is a few hundred times the rounding of the position at most.
+/// Coordinates in a plane with this error need no refinement: it only enters `dp`, where it is at
+/// most a few hundred times the rounding of the position.
 pub(crate) const TIGHT: f64 = 256.0 * U;
 
-/// Pays for underflow in numbers of about unit size: far more than needed, so that it and its
-/// multiples are normal numbers. A subnormal operand costs a hundred times the operation itself on
-/// many CPUs.
+/// Covers underflow in numbers of about unit size: far more than needed, so that it and its
+/// multiples are normal numbers. On many CPUs an operation with a subnormal operand takes a hundred
+/// times as long.
 pub(crate) const TINY: f64 = durer_math::scale::pow2(-1000);
 
 /// A plane, by its height function along a ray; the height is zero on the plane and grows along the
@@ -42,13 +42,13 @@ pub(crate) const TINY: f64 = durer_math::scale::pow2(-1000);
 ///
 /// Both numbers may be multiplied by one positive factor, the same for a given ray.
 pub(crate) trait PlaneForm {
-    /// The change of the height with `s`.
+    /// The derivative of the height by `s`.
     fn slope<T: Ring>(&self, ray: &RingRay<T>) -> T;
 
-    /// The height at `s = 0`; `None` only where `T` holds exact numbers and the plane's are not.
+    /// The height at `s = 0`; `None` only if `T` holds exact numbers and the plane's are not exact.
     fn height<T: Ring>(&self, ray: &RingRay<T>) -> Option<T>;
 
-    /// Height and slope for a filter, if that pays.
+    /// Height and slope for a filter, for planes for which one is faster.
     #[inline(always)]
     fn quick(&self, _ray: &CentredRay<'_>) -> Option<Quick> {
         None
@@ -59,7 +59,7 @@ pub(crate) trait PlaneForm {
         self.height(ray).map(|h| h.exact_sign())
     }
 
-    /// Bounds of the height at `s = 0`, the tighter the better.
+    /// Bounds of the height at `s = 0`, as tight as possible.
     fn height_bounds(&self, ray: &RingRay<Dyadic>) -> Option<(Dyadic, Dyadic)> {
         self.height(ray).map(|h| (h.clone(), h))
     }
@@ -78,8 +78,7 @@ impl Quick {
     /// `height = n . q + lift`, `slope = n . d`; each number comes as a value and a bound on its
     /// error.
     ///
-    /// A dot product passes each term through at most three roundings; the sum with the lift is one
-    /// more.
+    /// In a dot product each term takes at most three roundings; the sum with the lift is one more.
     #[inline(always)]
     pub(crate) fn new(
         (n, n_err): (Vec3, Vec3),
@@ -104,7 +103,7 @@ impl Quick {
     #[inline(always)]
     fn crossing(&self) -> Option<(f64, f64, Ordering)> {
         let least = self.slope.abs() - self.slope_err;
-        // Not so if it is NaN.
+        // False if it is NaN.
         if least > 0.0 {
             let s = -self.height / self.slope;
             let err = s.abs().mul_add(self.slope_err, self.height_err) / least;
@@ -115,20 +114,20 @@ impl Quick {
     }
 }
 
-/// A polynomial in a ray's numbers, of which the sign is asked for.
+/// A polynomial of a ray's coordinates, whose sign is to be decided.
 pub(crate) trait AlongRay {
     /// The polynomial's value. `None` only where `T` cannot hold the inputs.
     fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T>;
 }
 
-/// A re-centred ray, together with its first step of the ladder.
+/// A re-centred ray for the steps of the ladder, and the size of a surface.
 pub(crate) struct Probe<'a> {
     pub(crate) ray: CentredRay<'a>,
     /// The surface's size in units of `2^scale`.
     size: f64,
 }
 
-/// An oriented line on each step of the ladder, seen from a centre, in units of `2^scale`.
+/// An oriented line on each step of the ladder, relative to a centre, in units of `2^scale`.
 pub(crate) trait Line {
     /// The line in f64, with its error.
     fn running(&self) -> RingRay<EFloat<f64>>;
@@ -136,9 +135,9 @@ pub(crate) trait Line {
     fn double(&self) -> Option<RingRay<EFloat<Dd>>>;
     /// The exact line; `None` if it is not exactly known.
     fn exact(&self) -> Option<RingRay<Dyadic>>;
-    /// A point of the exact line and its direction, in the surface's own frame, if f64 holds them.
+    /// A point of the exact line and its direction, in the surface's own frame, if they fit in f64.
     fn given(&self) -> Option<(Point3, Vec3)>;
-    /// From where the line is seen, and in which unit.
+    /// The centre and the scale of the line's coordinates.
     fn view(&self) -> (Point3, i32);
 
     /// The sign of a polynomial. `None` only if the line is not exactly known and its error leaves
@@ -191,7 +190,7 @@ impl Line for Probe<'_> {
     }
 }
 
-/// Where a ray crosses a plane.
+/// The crossing of a ray and a plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Crossing {
     /// The local parameter, and its bracket.
@@ -206,7 +205,7 @@ pub(crate) struct Crossing {
 }
 
 impl<'a> Probe<'a> {
-    /// The ray as seen from `centre`, in units of a power of two just above `size`, the surface's
+    /// The ray relative to `centre`, in units of a power of two just above `size`, the surface's
     /// size.
     #[inline(always)]
     pub(crate) fn new(ray: &'a LocalRay<'a>, centre: Point3, size: f64) -> Self {
@@ -214,20 +213,21 @@ impl<'a> Probe<'a> {
         Self::with_scale(ray, centre, scale, scale2(size, -scale))
     }
 
-    /// The ray as seen from `centre`, in units of `2^scale`, of which the surface measures `size`.
+    /// The ray relative to `centre`, in units of `2^scale`; `size` is the surface's size in these
+    /// units.
     #[inline(always)]
     pub(crate) fn with_scale(ray: &'a LocalRay<'a>, centre: Point3, scale: i32, size: f64) -> Self {
         Self::of(ray.recentre(centre, scale), size)
     }
 
-    /// A re-centred ray, in whose units the surface measures `size`.
+    /// A re-centred ray, with the surface's size in its units.
     #[inline(always)]
     pub(crate) fn of(ray: CentredRay<'a>, size: f64) -> Self {
         Self { ray, size }
     }
 
-    /// The crossing with a plane, wherever it is on the line; `None` if there is none: the slope is
-    /// exactly zero. A crossing beyond the range of f64 has an infinite `s`.
+    /// The crossing with a plane, anywhere on the line; `None` if the slope is exactly zero, so
+    /// that there is none. A crossing beyond the range of f64 has an infinite `s`.
     #[inline(always)]
     pub(crate) fn crossing<F: PlaneForm>(&self, plane: &F) -> Option<Crossing> {
         if let Some((s, err, sign)) = plane.quick(&self.ray).and_then(|quick| quick.crossing()) {
@@ -239,8 +239,9 @@ impl<'a> Probe<'a> {
         self.crossing_climb(plane)
     }
 
-    /// As [`Probe::crossing`], but only a crossing that may matter: not where the ray was spawned,
-    /// not surely outside its range or the sink's. What f64 can dismiss needs no narrow bracket.
+    /// [`Probe::crossing`], but only if the crossing may matter: not where the ray was spawned, not
+    /// certainly outside its range or the sink's. A crossing that f64 can dismiss needs no narrow
+    /// bracket.
     #[inline(always)]
     pub(crate) fn crossing_within<F: PlaneForm>(&self, plane: &F, range: (f64, f64)) -> Option<Crossing> {
         let matters = |c: &Crossing| !self.leaves(c) && !c.is_outside(range) && self.may_admit(c);
@@ -259,7 +260,7 @@ impl<'a> Probe<'a> {
         self.crossing_climb(plane).filter(matters)
     }
 
-    /// As [`Probe::crossing`], but not narrower than the error of a position needs.
+    /// [`Probe::crossing`], but only as narrow as the error of a position needs.
     #[inline(always)]
     fn crossing_for_a_point<F: PlaneForm>(&self, plane: &F) -> Option<Crossing> {
         if let Some((s, err, sign)) = plane.quick(&self.ray).and_then(|quick| quick.crossing())
@@ -270,7 +271,7 @@ impl<'a> Probe<'a> {
         self.crossing(plane)
     }
 
-    /// A crossing of which a bracket is known: that one if it is narrow, else a better one.
+    /// A crossing with a known bracket: that one if it is narrow, else a better one.
     #[inline(always)]
     pub(crate) fn refined<F: PlaneForm>(
         &self,
@@ -290,7 +291,7 @@ impl<'a> Probe<'a> {
         Isa::detect().run(
             #[inline(always)]
             || {
-                // A slope of zero is seen at once where each term of it is zero.
+                // A slope of zero is certain already here if each of its terms is zero.
                 if plane.slope(&self.running()).sign() == Some(Ordering::Equal) {
                     return None;
                 }
@@ -309,8 +310,8 @@ impl<'a> Probe<'a> {
                         best = Some(crossing);
                     }
                 }
-                // What is left: rays that are almost parallel, numbers at the ends of the range of
-                // f64, inexact rays.
+                // The remaining cases: rays that are almost parallel, numbers at the ends of the
+                // range of f64, inexact rays.
                 let exact = self.ray.in_ring::<Dyadic>().and_then(|ray| {
                     let slope = plane.slope(&ray);
                     let (low, high) = plane.height_bounds(&ray)?;
@@ -324,7 +325,7 @@ impl<'a> Probe<'a> {
                     let beyond = low.clone().abs() > most && high.clone().abs() > most;
                     let (lo, hi) = quotient_bounds(&-high, &-low, &slope);
                     let middle = 0.5 * lo + 0.5 * hi;
-                    // Only a crossing that is surely beyond the range of f64 is said to be there.
+                    // Only a crossing that is certainly beyond the range of f64 is reported there.
                     let s = if beyond { middle } else { middle.clamp(f64::MIN, f64::MAX) };
                     best = Some(self.bracketed(s, lo, hi, slope.exact_sign()));
                 }
@@ -333,16 +334,16 @@ impl<'a> Probe<'a> {
         )
     }
 
-    /// Whether a bracket needs no better one.
+    /// Whether a bracket is narrow enough.
     #[inline(always)]
     pub(crate) fn is_narrow(&self, c: &Crossing) -> bool {
         let (width, t) = (c.s_hi - c.s_lo, c.lo.abs().min(c.hi.abs()));
         if self.ray.local().rough {
-            // Of a bracket that says nothing both sides are infinite.
+            // A bracket without information has two infinite ends.
             return width <= PREVIEW_WIDTH * self.size
                 || (t < f64::INFINITY && c.hi - c.lo <= PREVIEW_WIDTH * t);
         }
-        // |d| < 4; the exact length is asked for only where it matters.
+        // |d| < 4; the exact length is computed only where it matters.
         width <= NARROW * 0.25 * self.size
             || c.hi - c.lo <= 32.0 * (t.next_up() - t)
             || width * self.ray.d.length() <= NARROW * self.size
@@ -365,8 +366,8 @@ impl<'a> Probe<'a> {
             && self.ray.admits(crossing.lo, crossing.hi) != Some(false)
     }
 
-    /// Whether a crossing is in the ray's closed range: exactly, unless the ray is not exactly
-    /// known and it cannot be excluded.
+    /// Whether a crossing is in the ray's closed range, exactly. If the ray is not exactly known, a
+    /// crossing that cannot be excluded counts as in the range.
     #[inline(always)]
     pub(crate) fn admits<F: PlaneForm>(&self, plane: &F, crossing: &Crossing) -> bool {
         match self.ray.admits(crossing.lo, crossing.hi) {
@@ -414,15 +415,15 @@ impl<'a> Probe<'a> {
         plane.exact_side(&advanced(ray, &self.ray.end_in_ring(end)))
     }
 
-    /// Whether the ray was spawned on this very plane, from the side towards which it goes, with
-    /// nothing of it behind its start: then there is no crossing, and no exact arithmetic is needed
-    /// to see that.
+    /// Whether the ray was spawned on this very plane, from the side towards which it goes, and its
+    /// range starts at or after its start: then there is no crossing, and this needs no exact
+    /// arithmetic.
     #[inline(always)]
     pub(crate) fn leaves(&self, crossing: &Crossing) -> bool {
         self.departs(crossing.sign)
     }
 
-    /// The same, by the sign of normal . direction alone.
+    /// [`Probe::leaves`] by the sign of normal . direction alone.
     #[inline(always)]
     fn departs(&self, sign: i8) -> bool {
         match self.ray.source() {
@@ -460,14 +461,14 @@ impl<'a> Probe<'a> {
 }
 
 impl Crossing {
-    /// Whether a sink's range leaves no room for this crossing.
+    /// Whether a sink's range excludes this crossing.
     #[inline(always)]
     pub(crate) fn is_outside(&self, (lo, hi): (f64, f64)) -> bool {
         self.hi < lo || self.lo > hi
     }
 }
 
-/// The ray with its parameter moved on by `step`.
+/// The ray with its parameter advanced by `step`.
 #[inline(always)]
 fn advanced<T: Ring>(ray: RingRay<T>, step: &T) -> RingRay<T> {
     let [a, b, c] = ray.o;
@@ -478,7 +479,7 @@ fn advanced<T: Ring>(ray: RingRay<T>, step: &T) -> RingRay<T> {
 
 /// Bounds in f64 of every `n / d` with `low <= n <= high`; `d` is not zero.
 pub(crate) fn quotient_bounds(low: &Dyadic, high: &Dyadic, d: &Dyadic) -> (f64, f64) {
-    // Into the range of f64 first: only the quotient matters.
+    // First into the range of f64: only the quotient matters.
     let k = i32::try_from(-d.exponent().unwrap_or(0)).unwrap_or(0);
     let scaled = |x: &Dyadic| Ring::scale2(x.clone(), k).to_bounds();
     let ((n0, _), (_, n1), (d0, d1)) = (scaled(low), scaled(high), scaled(d));
@@ -492,7 +493,7 @@ pub(crate) fn quotient_bounds(low: &Dyadic, high: &Dyadic, d: &Dyadic) -> (f64, 
     (lo, hi)
 }
 
-/// A point on each step of the ladder, as the start of a line in a fixed direction, seen from a
+/// A point on each step of the ladder, as the start of a line in a fixed direction, relative to a
 /// centre.
 pub(crate) struct PointLine<'a> {
     point: &'a LocalPoint<'a>,
@@ -511,7 +512,7 @@ impl<'a> PointLine<'a> {
         Self { point, direction, centre, scale, run }
     }
 
-    /// On which side of a plane the point lies: above (`Greater`), on it, or below; exact.
+    /// The exact side of a plane on which the point lies: above (`Greater`), on it, or below.
     #[inline(always)]
     pub(crate) fn side_of<F: PlaneForm>(&self, plane: &F) -> Option<Ordering> {
         if let Some(sign) = plane.height(&self.run).and_then(|h| h.sign()) {
@@ -550,13 +551,13 @@ impl Line for PointLine<'_> {
     }
 }
 
-/// What is exact about a side, for a solid whose inside is below.
+/// The side of a solid whose inside is below, from the side of a plane.
 #[inline(always)]
 pub(crate) fn below_is_in(side: Option<Ordering>) -> Side {
     match side {
         Some(Ordering::Less) => Side::In,
         Some(Ordering::Greater) => Side::Out,
-        // Only an inexact point is undecided; it may lie on the boundary.
+        // Only an inexact point has no certain side; it may lie on the boundary.
         Some(Ordering::Equal) | None => Side::On,
     }
 }
@@ -575,7 +576,7 @@ pub(crate) fn foot_point<F: PlaneForm>(
     lift: f64,
 ) -> (Point3, Vec3) {
     let Some(crossing) = probe.crossing_for_a_point(plane) else {
-        // Not a crossing of this ray: nothing is known.
+        // Not a crossing of this ray: nothing can be computed.
         let unknown = Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY);
         return (probe.ray.centre, unknown);
     };
@@ -606,19 +607,19 @@ pub(crate) fn clearance<F: PlaneForm>(plane: &F, p: Point3, centre: Point3, scal
     let zero = || EFloat::exact(0.0);
     let at = RingRay { o, d: [zero(), zero(), zero()], w: EFloat::exact(1.0) };
     let height = plane.height(&at).map_or(f64::INFINITY, EFloat::magnitude);
-    // A step `off` along the rounded unit normal moves by `off (1 - 8u)` along the exact one, at
-    // least.
+    // A step `off` along the rounded unit normal moves by at least `off (1 - 8u)` along the exact
+    // one.
     scale2(height / length, scale).mul_add(1.0 + 32.0 * U, least_step(p))
 }
 
-/// Two quotients with a common denominator: coordinates in a plane of the point where a ray meets
-/// it.
+/// Two quotients with a common denominator: the coordinates in a plane of the point where a ray
+/// crosses it.
 pub(crate) trait Ratios {
     /// Both numerators, then the denominator.
     fn eval<T: Ring>(&self, ray: &RingRay<T>) -> [T; 3];
 }
 
-/// Both quotients with bounds: in f64 where that is tight, else higher up the ladder.
+/// Both quotients with bounds: in f64 if that is tight, else further up the ladder.
 #[inline(always)]
 pub(crate) fn ratios<R: Ratios>(probe: &Probe<'_>, r: &R) -> [EFloat; 2] {
     let [a, b, d] = r.eval(&probe.running());
@@ -655,7 +656,7 @@ fn ratios_climb<R: Ratios>(probe: &Probe<'_>, r: &R) -> Option<[EFloat; 2]> {
     )
 }
 
-/// A plane through three points, seen from a centre; its normal is `(b - a) x (c - a)`.
+/// A plane through three points, relative to a centre; its normal is `(b - a) x (c - a)`.
 pub(crate) struct ThreePoints {
     pub(crate) points: [Point3; 3],
     pub(crate) centre: Point3,

@@ -25,18 +25,18 @@ use durer_math::{Aabb, Dd, Dyadic, EFloat, Normal3, Point3, RaySide, Ring, Shaft
 ///
 /// # Invariants
 ///
-/// The normal's largest component is in [1, 2) in magnitude (a positive factor of the normal
+/// The largest component of the normal is in [1, 2) in magnitude (a positive factor of the normal
 /// changes nothing), and the distance is finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
     normal: Vec3,
     /// Signed distance from the origin, along the normal.
     distance: f64,
-    /// `h |n|`, by its value and error.
+    /// `h |n|`, with its error.
     offset: EFloat<Dd>,
 }
 
-/// The plane seen from a centre, in the frame's own unit of length.
+/// The plane relative to a centre, in the frame's own unit of length.
 struct Seen<'a> {
     plane: &'a Plane,
     centre: Point3,
@@ -55,14 +55,14 @@ pub enum PlaneError {
 
 impl Plane {
     /// The plane of the points whose distance from the origin along `normal` is `distance`. The
-    /// normal has any length.
+    /// normal may have any length.
     pub fn new(normal: Vec3, distance: f64) -> Result<Self, PlaneError> {
         let n = scaled_to_one(normal).ok_or(PlaneError::Normal(normal))?;
         if !distance.is_finite() {
             return Err(PlaneError::Distance(distance));
         }
         let offset = match rational_length(n) {
-            // Only what two f64 cannot hold is rounded.
+            // Only what does not fit in two f64 is rounded.
             Some(length) => rounded(&(Dyadic::exact(distance) * Dyadic::exact(length))),
             None => EFloat::exact(distance) * dot(&exact3::<EFloat<Dd>>(n), &exact3(n)).sqrt(),
         };
@@ -75,7 +75,7 @@ impl Plane {
         self.normal
     }
 
-    /// `h |n|` to some 400 bits, and a bound on the error: for rays that are almost parallel.
+    /// `h |n|` to about 400 bits, and a bound on the error: for rays that are almost parallel.
     fn long_offset(&self) -> (Dyadic, Dyadic) {
         let n = exact3::<Dyadic>(self.normal);
         let square = Ring::square(Dyadic::exact(self.distance)) * dot(&n, &n);
@@ -105,9 +105,9 @@ impl Plane {
         foot.map(|x| if x.is_finite() { x } else { 0.0 })
     }
 
-    /// Whether it is plain to see that the plane is not in front of the ray's start: the ray was
-    /// spawned on it and goes away, or starts on one side and goes to the same. The first and
-    /// cheapest test.
+    /// Whether the plane is certainly not ahead of the ray's start, as far as f64 can decide: the
+    /// ray was spawned on it and goes away, or it starts on one side and goes away from the plane.
+    /// This is the first and cheapest test.
     #[inline(always)]
     fn is_behind(&self, ray: &LocalRay<'_>) -> bool {
         let (n, size) = (self.normal, self.normal.abs());
@@ -176,7 +176,7 @@ impl PlaneForm for Seen<'_> {
     }
 
     fn exact_side(&self, ray: &RingRay<Dyadic>) -> Option<Ordering> {
-        // n . p against h |n|, times w: by sign, and where the signs agree by the squares.
+        // n . p against h |n|, times w: by sign, and if the signs agree by the squares.
         let n = exact3::<Dyadic>(self.plane.normal);
         let reach = dot(&n, &ray.o) + dot(&n, &exact3(self.centre.to_vec())) * ray.w.clone();
         let h = Dyadic::exact(self.plane.distance);
@@ -207,7 +207,7 @@ impl Surface for Plane {
         !shaft.may_cross(self.normal, offset.v.hi, offset.v.lo.abs() + offset.e)
     }
 
-    /// A half-space is convex: what starts and ends in it stays in it.
+    /// A half-space is convex: a segment that starts and ends in it stays in it.
     fn is_left(&self, side: RaySide, shaft: &Shaft) -> bool {
         let (n, end) = (self.normal, shaft.end());
         let (mut least, mut most, mut size) = (0.0, 0.0, self.offset.v.hi.abs());
@@ -227,7 +227,7 @@ impl Surface for Plane {
 
     #[inline(always)]
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
-        // Seen from the ray's own origin, so that a near crossing is as precise as a far one: a
+        // Relative to the ray's own origin, so that a near crossing is as precise as a far one: a
         // plane has no middle, and no size but its distance from the origin.
         if self.is_behind(ray) {
             return;
@@ -249,7 +249,7 @@ impl Surface for Plane {
         let length = n2.sqrt();
         let x =
             Vec3::new(s.mul_add(ray.d.x, ray.o.x), s.mul_add(ray.d.y, ray.o.y), s.mul_add(ray.d.z, ray.o.z));
-        // Moved onto the plane: within the bracket along the ray, which undoes the rounding of a
+        // Moved onto the plane: along the ray within the bracket, which undoes the rounding of a
         // far start's parameter; then along the normal.
         let height = |x: Vec3| n.dot(x) - offset.v.hi;
         let width = ray.unmoved().width(root.lo, root.hi);
@@ -263,7 +263,7 @@ impl Surface for Plane {
             + (x - p).abs()
             + (x.abs() + p.abs()) * (2.0 * U);
         // The height over the plane: three roundings in the dot product, one in the difference, and
-        // what f64 does not hold of the offset.
+        // the part of the offset that f64 does not hold.
         let height = n.dot(p) - offset.v.hi;
         let err = n.abs().dot(p.abs()) * (3.0 * U)
             + (height.abs() + offset.v.hi.abs()) * U
@@ -338,7 +338,7 @@ mod tests {
                 return vec![];
             }
             let t = Surd::with_root(-self.dot(&line.o), self.h.sign() as i8, self.radicand(), slope.clone());
-            // Beyond the range of f64 there is no parameter, or no point, to report.
+            // Beyond the range of f64 there is no parameter or point to report.
             let reach = line.d.iter().map(|d| d.clone().abs().to_f64()).fold(1.0, f64::max);
             let most = f64::MAX / reach;
             let far = t.cmp_exact(&most.into()).is_gt() || t.cmp_exact(&(-most).into()).is_lt();
@@ -372,7 +372,7 @@ mod tests {
         let mut roots = 0;
         for seed in 0..60 {
             let mut dice = TestRng::new(seed);
-            // Lengths that are whole, halves of whole numbers, and irrational ones.
+            // Lengths that are integers, half-integers, and irrational numbers.
             let n = match seed % 4 {
                 0 => {
                     dice.pick(&[[0.0, 1.0, 0.0], [2.0, -1.0, 2.0], [0.0, 3.0, -4.0], [8.0, 4.0, 1.0]]).into()

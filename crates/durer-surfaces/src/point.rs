@@ -1,4 +1,4 @@
-//! What is known of a hit, and how rays leave it.
+//! The point of a hit, and the rays that leave it.
 
 use durer_math::{Normal3, Point3, Ray, RaySide, Source, Vec3};
 
@@ -19,13 +19,13 @@ pub struct SurfacePoint {
     pub ns: Normal3,
     /// Texture coordinates.
     pub uv: [f64; 2],
-    /// Change of the position with u.
+    /// The derivative of the position by u.
     pub dpdu: Vec3,
-    /// Change of the position with v.
+    /// The derivative of the position by v.
     pub dpdv: Vec3,
-    /// Change of the normal with u.
+    /// The derivative of the normal by u.
     pub dndu: Vec3,
-    /// Change of the normal with v.
+    /// The derivative of the normal by v.
     pub dndv: Vec3,
     /// Bound on the curvature near the point: at a distance `r` the surface has left its tangent
     /// plane by at most `bend / 2 r^2`. Infinite at a tip, which has no tangent plane; `off` then
@@ -37,16 +37,16 @@ pub struct SurfacePoint {
     pub source: Option<Source>,
 }
 
-/// A step from a point of which nothing was lost: far below its last place, yet so long that no
-/// coordinate, and no error bound that is worked out from it, gets near the subnormal numbers,
-/// which cost many CPUs a hundred times as much as others.
+/// The step from a point without rounding error: far below the last place of the point, but so long
+/// that no coordinate, and no error bound computed from it, comes near the subnormal numbers, with
+/// which many CPUs compute a hundred times more slowly.
 #[inline(always)]
 pub(crate) fn least_step(p: Point3) -> f64 {
     p.to_vec().max_abs().mul_add(durer_math::scale::pow2(-500), f64::MIN_POSITIVE)
 }
 
 impl SurfacePoint {
-    /// A point with its normal; the rest is zero until it is asked for.
+    /// A point with its normal; all other data is zero until it is computed.
     pub fn new(p: Point3, dp: Vec3, off: f64, ng: Normal3) -> Self {
         Self {
             p,
@@ -65,7 +65,7 @@ impl SurfacePoint {
         }
     }
 
-    /// The point of a root that is not the surface's own: nothing is known of it.
+    /// The point of a root that is not the surface's own: nothing can be computed.
     pub(crate) fn unknown(p: Point3) -> Self {
         let far = Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY);
         Self::new(p, far, f64::INFINITY, Vec3::Y.to_normal())
@@ -74,15 +74,15 @@ impl SurfacePoint {
     /// A ray that leaves the surface along `direction`, from the side to which it points, with `t`
     /// in `[0, inf]`.
     ///
-    /// Its origin is provably on that side, so no hit needs to be ignored (Pharr, Jakob, Humphreys, *Physically
-    /// Based Rendering*, 4th ed. 2023, section 6.8, with a bound along the normal in place of one
-    /// per axis).
+    /// Its origin is provably on that side, so no hit needs to be ignored (Pharr, Jakob, Humphreys,
+    /// *Physically Based Rendering*, 4th ed. 2023, section 6.8, with a bound along the normal in
+    /// place of one per axis).
     #[inline]
     pub fn spawn(&self, direction: Vec3) -> Ray {
         self.spawn_from(self.side_towards(direction), direction)
     }
 
-    /// A ray to `target`, which `t = 1` reaches; its range is `[0, 1]`.
+    /// A ray to `target`, which it reaches at `t = 1`; its range is `[0, 1]`.
     #[inline]
     pub fn spawn_to(&self, target: Point3) -> Ray {
         let side = self.side_towards(target - self.p);
@@ -91,14 +91,14 @@ impl SurfacePoint {
         ray.spawned_from(self.source.map(|s| Source { side, ..s }))
     }
 
-    /// A ray that leaves along `direction` from the named side.
+    /// A ray that leaves along `direction` from the given side.
     #[inline]
     pub fn spawn_from(&self, side: RaySide, direction: Vec3) -> Ray {
         Ray::new(self.start(side), direction).spawned_from(self.source.map(|s| Source { side, ..s }))
     }
 
-    /// The side to which a direction points. Where it all but grazes either side will do: a start
-    /// there is proven for both.
+    /// The side to which a direction points. At a grazing direction either side is correct: the
+    /// start is proven for both.
     #[inline(always)]
     fn side_towards(&self, d: Vec3) -> RaySide {
         // Not fused: this is compiled for any CPU.
@@ -106,7 +106,7 @@ impl SurfacePoint {
         if n.x * d.x + n.y * d.y + n.z * d.z < 0.0 { RaySide::Back } else { RaySide::Front }
     }
 
-    /// The point at `off` on the named side, each coordinate rounded away from the surface.
+    /// The point at `off` on the given side, each coordinate rounded away from the surface.
     #[inline(always)]
     fn start(&self, side: RaySide) -> Point3 {
         let step = if side == RaySide::Front { self.off } else { -self.off };

@@ -9,17 +9,17 @@
 //! ```
 //!
 //! A. Appel, "Some techniques for shading machine renderings of solids", AFIPS 1968, counted
-//! crossings in the plane; here they are counted about the ray itself. Seen along the ray, an edge
-//! that crosses a fixed half-line from the ray's point counts by its direction; which edges do is
-//! told by the sign of one 2x2 minor for each vertex and of `U` for the edges in question, the edge
-//! function of the triangles with its rule for ties (see `edges.rs`). So a polygon is watertight
-//! against polygons and triangles with the same vertices.
+//! crossings in the plane; here they are counted about the ray itself. Along the ray's direction,
+//! an edge that crosses a fixed half-line from the ray's point counts by its direction. The sign of
+//! one 2x2 minor for each vertex, and of `U` for the edges in question, decides which edges cross
+//! it: the edge function of the triangles with its rule for ties (see `edges.rs`). So a polygon is
+//! watertight against polygons and triangles with the same vertices.
 //!
 //! The plane goes through three of the vertices. The others may lie off it by the rounding of
-//! single-precision numbers, in which many files hold them; worse polygons are refused. If they do,
-//! the ray still has to pass through the outline of the stored vertices (so that there is no gap to
-//! a neighbour), the crossing is the one with the plane, and it has to lie in the bounding box: a
-//! ray that skims the plane would otherwise pass the outline far from where it meets the plane.
+//! single-precision numbers, in which many files store them; worse polygons are refused. In that
+//! case the ray must still pass through the outline of the stored vertices (so that there is no gap
+//! to a neighbour), the crossing is the one with the plane, and it must lie in the bounding box: a
+//! ray that skims the plane could otherwise pass the outline far from its crossing with the plane.
 
 use crate::edges::{self, EdgeFilter};
 use crate::facet::{self, Facet};
@@ -30,14 +30,14 @@ use core::cmp::Ordering;
 use durer_math::eft::exponent;
 use durer_math::{Aabb, Isa, Point3, Ring, Vec3};
 
-/// Which windings are inside.
+/// The winding numbers that count as inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FillRule {
-    /// Odd ones: an outline within another is a hole, whatever its direction.
+    /// Odd numbers: an outline within another is a hole, whatever its direction.
     #[default]
     EvenOdd,
-    /// All but zero: overlapping outlines of one direction unite, one of the opposite direction is
-    /// a hole.
+    /// All but zero: overlapping outlines of one direction form a union, and one of the opposite
+    /// direction is a hole.
     NonZero,
 }
 
@@ -55,7 +55,7 @@ pub struct Polygon {
     rule: FillRule,
     /// Three vertices that span the plane.
     plane: Facet,
-    /// If not all vertices lie in the plane, exactly: by how much the box exceeds theirs.
+    /// How far the box exceeds the vertices; `None` if all vertices lie exactly in the plane.
     margin: Option<f64>,
     bounds: Aabb,
 }
@@ -74,7 +74,7 @@ pub enum PolygonError {
         /// Its number of vertices.
         len: usize,
     },
-    /// More vertices than 32 bits count.
+    /// More vertices than a 32-bit number can count.
     #[error("polygon: {0} vertices are too many")]
     TooMany(usize),
     /// A vertex is infinite or NaN.
@@ -88,18 +88,18 @@ pub enum PolygonError {
     NotPlanar {
         /// The vertex.
         vertex: Point3,
-        /// How far away it is.
+        /// Its distance from the plane.
         distance: f64,
     },
 }
 
-/// Vertices may be this far off the plane, relative to the polygon's width: the half ulp of single
-/// precision, in which many files hold their coordinates.
+/// The largest distance of a vertex from the plane, relative to the polygon's width: the half ulp
+/// of single precision, in which many files store their coordinates.
 const PLANARITY: f64 = 1.0 / (1u64 << 24) as f64;
 
 impl Polygon {
-    /// The polygon within these outlines. Each is closed by itself; a last vertex equal to the
-    /// first is left out.
+    /// The polygon within these outlines. Each is closed automatically; a last vertex equal to the
+    /// first is dropped.
     pub fn new<L: AsRef<[Point3]>>(outlines: &[L], rule: FillRule) -> Result<Self, PolygonError> {
         let (mut vertices, mut ends) = (Vec::new(), Vec::new());
         for (outline, points) in outlines.iter().enumerate() {
@@ -146,7 +146,7 @@ impl Polygon {
         })
     }
 
-    /// Which windings are inside.
+    /// The winding numbers that count as inside.
     pub fn rule(&self) -> FillRule {
         self.rule
     }
@@ -167,8 +167,8 @@ impl Polygon {
         facet::plane(probe, &self.plane)
     }
 
-    /// Whether a line passes through the outlines. Its view holds the polygon within one unit of
-    /// its centre.
+    /// Whether a line passes through the outlines. The line's view must contain the polygon within
+    /// one unit of its centre.
     #[inline(always)]
     pub(crate) fn holds<L: Line>(&self, line: &L) -> bool {
         let winding = Winding::new(line);
@@ -198,8 +198,8 @@ impl AlongRay for FromLevel<'_> {
     }
 }
 
-/// Whether a crossing with a plane lies in a box, faces included; an inexact ray that cannot be
-/// excluded does.
+/// Whether a crossing with a plane lies in a box, faces included. An inexact ray that cannot be
+/// excluded counts as inside.
 #[inline(always)]
 fn within(probe: &Probe<'_>, plane: &ThreePoints, slope: i8, bounds: &Aabb) -> bool {
     let above = |axis, at| {
@@ -212,13 +212,14 @@ fn within(probe: &Probe<'_>, plane: &ThreePoints, slope: i8, bounds: &Aabb) -> b
     })
 }
 
-/// Three vertices that are far from being on one line, such that their normal is that of the first
-/// outline.
+/// Three vertices far from being on one line, in an order in which their normal is that of the
+/// first outline.
 fn spanning(vertices: &[Point3], first_end: usize) -> Option<Facet> {
     let a = *vertices.first()?;
     let size = vertices.iter().map(|v| (*v - a).max_abs()).fold(0.0, f64::max);
     let k = -exponent(size);
-    // All comparisons in units of the size: any choice will do, a good one gives tight brackets.
+    // All comparisons are in units of the size: any choice is correct, a good one gives tight
+    // brackets.
     let from_a = |v: Point3| (v - a).scale2(k);
     let b = *vertices
         .iter()
@@ -228,7 +229,7 @@ fn spanning(vertices: &[Point3], first_end: usize) -> Option<Facet> {
     if facet::is_degenerate(&[a, b, c]) {
         return None;
     }
-    // The sum of the fan's normals (Newell) tells the direction.
+    // The sum of the fan's normals (Newell) gives the direction.
     let newell = vertices[..first_end]
         .windows(2)
         .fold(Vec3::ZERO, |sum, edge| sum + from_a(edge[0]).cross(from_a(edge[1])));
@@ -241,7 +242,7 @@ struct Winding<'a, L> {
     line: &'a L,
     filter: EdgeFilter,
     d: Vec3,
-    /// The axis that tells above from below, and the one along which vertices are moved onto a
+    /// The axis that separates above from below, and the axis along which vertices are moved onto a
     /// plane across it.
     level: usize,
     main: usize,
@@ -250,8 +251,8 @@ struct Winding<'a, L> {
     level_bound: f64,
 }
 
-/// `((v - o) x d)`'s component that tells whether a vertex is above the ray, as seen along it;
-/// times the sign of `d`'s main component.
+/// The component of `((v - o) x d)` whose sign decides whether a vertex is above the ray, viewed
+/// along it; times the sign of `d`'s main component.
 struct Above {
     vertex: Point3,
     level: usize,
@@ -292,8 +293,8 @@ impl<'a, L: Line> Winding<'a, L> {
         for &vertex in outline {
             let to = (vertex, self.above(vertex));
             if from.1 != to.1 {
-                // An edge upward counts where it passes the ray on the positive side, one downward
-                // on the negative.
+                // An upward edge counts if it passes the ray on the positive side, a downward edge
+                // if on the negative.
                 let side = self.side(from.0, to.0);
                 if to.1 && side > 0 {
                     turns += 1;
@@ -306,8 +307,8 @@ impl<'a, L: Line> Winding<'a, L> {
         turns
     }
 
-    /// Whether a vertex is above the ray. One that is level with it is below: the ray is moved up,
-    /// by less than anything.
+    /// Whether a vertex is above the ray. A vertex level with the ray counts as below, as if the
+    /// ray were moved up by an infinitesimal distance.
     #[inline(always)]
     fn above(&self, v: Point3) -> bool {
         let d = self.d;
@@ -390,7 +391,7 @@ mod tests {
     use crate::{Mesh, MeshData};
     use durer_math::Ray;
 
-    /// Points of a plane with whole coordinates, from points of the xy plane.
+    /// Points of a plane with integer coordinates, from points of the xy plane.
     fn tilted(points: &[[f64; 2]], [a, b]: [Vec3; 2], at: Vec3) -> Vec<Point3> {
         points.iter().map(|[x, y]| (at + a * *x + b * *y).to_point()).collect()
     }
@@ -401,8 +402,8 @@ mod tests {
     const COMB: [[f64; 2]; 8] =
         [[0.0, 0.0], [6.0, 0.0], [6.0, 3.0], [4.0, 1.0], [3.0, 3.0], [2.0, 1.0], [1.0, 3.0], [0.0, 1.0]];
 
-    /// Crossings of a half-line in the plane's own (exact) coordinates: nothing shared with the
-    /// kernel but the answer.
+    /// Crossings of a half-line in the plane's own (exact) coordinates. Shares no code with the
+    /// kernel.
     struct ExactPolygon {
         /// Each outline's vertices by `(x, y)`.
         outlines: Vec<Vec<[f64; 2]>>,
@@ -454,8 +455,8 @@ mod tests {
         fn holds(&self, line: &ExactLine) -> Option<bool> {
             let slope = Self::by(&self.normal(), &line.d);
             let height = self.above(&line.o);
-            // slope * (o - at) - height * d, then by Cramer's rule along the axes, which are at
-            // right angles here.
+            // slope * (o - at) - height * d, then by Cramer's rule along the axes, which are
+            // perpendicular here.
             let at = exact3(self.at.to_array());
             let p = [0, 1, 2].map(|i| &(&(&line.o[i] - &at[i]) * &slope) - &(&line.d[i] * &height));
             let axes = self.axes.map(|a| exact3(a.to_array()));
@@ -533,7 +534,8 @@ mod tests {
     fn polygons_obey_the_laws_off_their_outlines() {
         let (mut rays, mut roots) = (0, 0);
         for (seed, (polygon, oracle)) in cases().iter().enumerate() {
-            // Points beside the vertices and edges by few bits, by one ulp, by anything.
+            // Points beside the vertices and edges by few-bit distances, by one ulp, by any
+            // distance.
             let mut features = vec![];
             for v in &polygon.vertices {
                 for off in [[0.25, 0.5], [-0.5, 0.25], [1.0 / 1024.0, -1.0 / 4096.0]] {
@@ -544,7 +546,7 @@ mod tests {
             }
             for i in laws::drawn(150) {
                 let ray = laws::aim(&mut laws::dice(seed as u64, i), &features, oracle.size());
-                // Rays that meet an outline exactly are the business of the next test.
+                // The next test covers rays that meet an outline exactly.
                 if ray.is_valid() && oracle.holds(&ExactLine::new(&ray)).is_some() {
                     let met = laws::check(polygon, oracle, &ray);
                     roots += met.unwrap_or_else(|e| panic!("{e}\n{seed} {i} {ray:?}\n{polygon:?}")).len();

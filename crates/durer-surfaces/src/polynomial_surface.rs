@@ -1,7 +1,7 @@
-//! Surfaces that are the zero set of one polynomial: what their authors write, and what follows
-//! from it.
+//! Surfaces that are the zero set of one polynomial: the trait for their authors, and the methods
+//! that follow from it.
 //!
-//! Along a ray the polynomial has one unknown (`roots`); where it is negative is the inside.
+//! Along a ray the polynomial has one unknown (`roots`). The inside is where it is negative.
 
 use crate::point::least_step;
 use crate::quadric::boolean_faces::{Chart, Frame};
@@ -17,7 +17,7 @@ use core::cmp::Ordering::{Equal, Greater, Less};
 use durer_math::eft::{exponent, scale2, two_sum};
 use durer_math::{Dd, Dyadic, EFloat, Isa, Point3, RaySide, Ring, U, Vec3};
 
-/// Pays for results below the normal range, in units of the surface's size.
+/// Covers results below the normal range, in units of the surface's size.
 const TINY: f64 = durer_math::scale::pow2(-500);
 
 /// A surface `f = 0` in its frame, `f` a polynomial of degree less than `N`.
@@ -29,14 +29,15 @@ pub trait PolynomialSurface<const N: usize>: Send + Sync {
     /// the ray's parameter, the constant first.
     fn along<T: Ring>(&self, ray: &RingRay<T>) -> [T; N];
 
-    /// The same in f64, for a ray whose origin and direction are known within `eo` and `ed`. An
-    /// author who counts the roundings by hand makes it faster.
+    /// [`PolynomialSurface::along`] in f64, for a ray whose origin and direction are known within
+    /// `eo` and `ed`. An implementation that counts its roundings by hand is faster than this
+    /// default.
     #[inline(always)]
     fn along_in_f64(&self, o: Vec3, d: Vec3, eo: Vec3, ed: Vec3) -> [EFloat; N] {
         self.along(&RingRay { o: within(o, eo), d: within(d, ed), w: EFloat::exact(1.0) })
     }
 
-    /// `f` at the point `p / w`, times any positive factor that depends on `w` only and is 1 for
+    /// `f` at the point `p / w`, times any positive factor that depends only on `w` and is 1 for
     /// `w = 1`.
     #[inline(always)]
     fn at<T: Ring>(&self, p: &[T; 3], w: &T) -> T {
@@ -49,19 +50,19 @@ pub trait PolynomialSurface<const N: usize>: Send + Sync {
         value.clone()
     }
 
-    /// The middle and the half length of the part of the ray, in its parameter, that holds all of
-    /// the surface strictly within. `None` if it passes by, an infinite length if there is no such
-    /// part.
+    /// The middle and the half length of the part of the ray, in its parameter, that holds the
+    /// whole surface strictly inside. `None` if the ray misses, an infinite length if there is no
+    /// such part.
     fn stretch(&self, ray: &CentredRay<'_>) -> Option<(f64, f64)>;
 
     /// The gradient at `y`, up to rounding, and a bound on the Hessian's norm within a 64th of a
     /// unit of it.
     fn slopes(&self, y: Vec3) -> (Vec3, f64);
 
-    /// The change of the gradient along `v`, up to rounding.
+    /// The derivative of the gradient along `v`, up to rounding.
     fn turn(&self, y: Vec3, v: Vec3) -> Vec3;
 
-    /// Coordinates at `y` (close to the surface), where the unit normal is `n`.
+    /// Surface coordinates at `y` (close to the surface), where the unit normal is `n`.
     fn chart(&self, y: Vec3, n: Vec3) -> Chart;
 
     /// A direction in which `f` is not flat, for points where the gradient vanishes or is beyond
@@ -89,7 +90,7 @@ fn moved<T: Ring>(ray: RingRay<T>, mid: f64) -> RingRay<T> {
     RingRay { o: [step(&o[0], &d[0], mid), step(&o[1], &d[1], mid), step(&o[2], &d[2], mid)], d, w: ray.w }
 }
 
-/// The exact ray; if it is not exactly known, the one that the rounded numbers describe, and
+/// The exact ray and `true`; if it is not exactly known, the ray with the rounded numbers, and
 /// `false`.
 fn exact_ray(ray: &CentredRay<'_>) -> (RingRay<Dyadic>, bool) {
     match ray.in_ring::<Dyadic>() {
@@ -121,7 +122,8 @@ impl<const N: usize, Z: PolynomialSurface<N>> Along<N> for RayPolynomial<'_, Z> 
     #[inline(always)]
     fn wide(&self) -> Option<[EFloat<Dd>; N]> {
         let ray = moved(self.ray.in_double()?, self.mid);
-        // A common factor is free: one that makes w about one keeps high powers of it in range.
+        // The result may have any common factor: one that makes w about one keeps its high powers
+        // in range.
         let k = -exponent(ray.w.value());
         let sized = |x: EFloat<Dd>| x.scale2(k);
         Some(self.shape.along(&RingRay { o: ray.o.map(sized), d: ray.d.map(sized), w: sized(ray.w) }))
@@ -168,7 +170,7 @@ fn roots_here<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, ray: &LocalRay
     solve(&RayPolynomial { shape, ray: &at, mid }, stretch, &limits, |found: &Found<'_>| showing.show(found));
 }
 
-/// Shows roots to a sink, ascending.
+/// Passes roots to a sink, ascending.
 struct Showing<'a, Z> {
     shape: &'a Z,
     ray: &'a LocalRay<'a>,
@@ -220,13 +222,13 @@ impl<Z> Showing<'_, Z> {
     }
 }
 
-/// An endless stretch cut off a little beyond the ends of the window in which roots matter; where
-/// that is so long that powers of it might leave the range of f64 it is left as it is.
+/// Shortens an infinite interval to a little more than the window in which roots matter. An
+/// interval so long that its powers might leave the range of f64 stays infinite.
 #[inline(always)]
 fn shorter((mid, half): (f64, f64), (lo, hi): (f64, f64)) -> (f64, f64) {
     const LONGEST: f64 = durer_math::scale::pow2(16);
     let (middle, reach) = (0.5 * (lo + hi), 0.5 * (hi - lo));
-    // The least length, so that a window that is a point is a stretch, too.
+    // The least length makes an interval even of a window that is a point.
     let reach = reach * 1.125 + lo.abs().max(hi.abs()).max(1.0) * durer_math::scale::pow2(-10);
     if half == f64::INFINITY && middle.abs() < LONGEST && reach < LONGEST {
         (middle, reach)
@@ -236,9 +238,8 @@ fn shorter((mid, half): (f64, f64), (lo, hi): (f64, f64)) -> (f64, f64) {
 }
 
 /// The part of a ray within the ball of radius `reach` about the frame's centre and the slab
-/// `low <= o + s d <= high` of one coordinate along it. All of them have to be larger than what
-/// they hold by `margin` at least, which pays for every rounding; the result is no shorter than its
-/// square.
+/// `low <= o + s d <= high` of one coordinate along it. Both must exceed their contents by at least
+/// `margin`, which covers every rounding; the result is no shorter than its square.
 #[inline(always)]
 pub(crate) fn ball_and_slab(
     ray: &CentredRay<'_>,
@@ -258,7 +259,7 @@ pub(crate) fn ball_and_slab(
         return None;
     }
     let half = square.sqrt();
-    // Along the slab, 0 / 0 is no bound; min and max leave it out.
+    // Along the slab, 0 / 0 is no bound; min and max ignore it.
     let (x, y) = ((low - o) / d, (high - o) / d);
     let (lo, hi) = (x.min(y).max(middle - half), x.max(y).min(middle + half));
     if lo > hi || (d == 0.0 && !(low..=high).contains(&o)) {
@@ -267,7 +268,7 @@ pub(crate) fn ball_and_slab(
     Some((0.5 * (lo + hi), (0.5 * (hi - lo)).max(margin * margin)))
 }
 
-/// The end of a bracket, moved outward where it is so near zero that scaling it might cost it bits.
+/// The end of a bracket, moved outward where it is so near zero that scaling it might lose bits.
 #[inline(always)]
 fn outward(s: f64, away: f64) -> f64 {
     if s.abs() >= TINY {
@@ -279,8 +280,8 @@ fn outward(s: f64, away: f64) -> f64 {
     }
 }
 
-/// Whether a ray that was spawned on this surface certainly does not meet it again before `end`: as
-/// seen from its start, where the side is known.
+/// Whether a ray that was spawned on this surface certainly does not meet it again before `end`.
+/// The polynomial is taken relative to the start, where the side is known.
 #[inline(always)]
 fn leaves<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, ray: &CentredRay<'_>, end: f64) -> bool {
     let Some((side, _, start)) = ray.spawned() else { return false };
@@ -295,14 +296,14 @@ fn leaves<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, ray: &CentredRay<'
     stays(&shape.along_in_f64(o, d, e, ray.d_err), half, side == RaySide::Front)
 }
 
-/// The least number with 8 significant bits that is not below `x`.
+/// The least number with 8 significant bits that is at least `x`.
 #[inline(always)]
 fn eight_bits(x: f64) -> f64 {
     let mask = (1_u64 << 45) - 1;
     f64::from_bits((x.to_bits() + mask) & !mask)
 }
 
-/// Whether a crossing whose bracket straddles an end of the range is in it.
+/// Whether a crossing whose bracket straddles an end of the range is in the range.
 #[cold]
 #[inline(never)]
 fn in_range<const N: usize, Z: PolynomialSurface<N>>(
@@ -337,7 +338,7 @@ fn end_against_root_in_door<const N: usize, Z: PolynomialSurface<N>>(
     )
 }
 
-/// Where an end of the range lies relative to a crossing.
+/// The order of an end of the range and a crossing.
 #[inline(always)]
 fn end_against_root<const N: usize, Z: PolynomialSurface<N>>(
     shape: &Z,
@@ -354,7 +355,7 @@ fn end_against_root<const N: usize, Z: PolynomialSurface<N>>(
     if lo > found.hi {
         return Greater;
     }
-    // The polynomial at the end's own point, which does not carry the rounding of the closest
+    // The polynomial at the end's own point, which does not have the rounding of the closest
     // approach. Rays that were spawned on this surface start where its sign is certain.
     if lo >= found.alone.0 && hi <= found.alone.1 {
         let (p, e) = ray.point_at_end(end);
@@ -389,13 +390,13 @@ fn exact_end_against_root<const N: usize, Z: PolynomialSurface<N>>(
         return exact.compare(&x, root);
     }
     let Some(exact) = ExactRoots::new(RayPolynomial { shape, ray, mid }.exact().0) else { return Equal };
-    // The bracket's ends are certainly no roots, but for their rounding outward.
+    // Before they were rounded outward, the bracket's ends were certainly no roots.
     let from = exact.beside_exact(y(found.lo.into()), -1.0);
     let to = exact.beside_exact(y(found.hi.into()), 1.0);
     exact.isolate(&from, &to).first().map_or(Equal, |root| exact.compare(&x, root))
 }
 
-/// On which side of the surface a point lies.
+/// The side of the surface on which a point lies.
 pub(crate) fn side<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, point: &LocalPoint<'_>) -> Side {
     let Frame { centre, scale, .. } = shape.frame();
     let (p, e) = point.relative_to(centre, scale);
@@ -447,13 +448,13 @@ fn resolve_here<const N: usize, Z: PolynomialSurface<N>>(
     let y = Vec3::new(s.mul_add(at.d.x, at.o.x), s.mul_add(at.d.y, at.o.y), s.mul_add(at.d.z, at.o.z));
     let e_y = at.o_err + at.d_err * s.abs() + y.abs() * U;
     let (y1, f, g, bend) = project(shape, y);
-    // Far out the square of the gradient may be beyond the range of f64. A part of f has the same
+    // Far out the square of the gradient may leave the range of f64. A multiple of f has the same
     // zeros.
     let far = Some(exponent(g.max_abs())).filter(|k| *k > 500 && g.is_finite()).unwrap_or(0);
     let part = |x: f64| scale2(x, -far);
     let (f, g, bend) = (EFloat { v: part(f.v), e: part(f.e) + TINY }, g.map(part), part(bend));
 
-    // The world's numbers; what their rounding loses is known exactly.
+    // The world's coordinates; their rounding is known exactly.
     let axis = |c: f64, y: f64| two_sum(c, scale2(y, scale));
     let ((px, lx), (py, ly), (pz, lz)) = (axis(centre.x, y1.x), axis(centre.y, y1.y), axis(centre.z, y1.z));
     let p = Point3::new(px, py, pz);
@@ -462,8 +463,8 @@ fn resolve_here<const N: usize, Z: PolynomialSurface<N>>(
     let dp = (e_y + at.d.abs() * width + (y1 - y).abs() * (1.0 + 4.0 * U) + lost) * (1.0 + 16.0 * U);
 
     // A start at p ± off n + τ, τ what rounding adds away from the surface, has |f| >= off |G| - h
-    // (off² + |τ|²) - η; see `off` of quadrics. The gradient is taken a little shorter for its own
-    // rounding.
+    // (off² + |τ|²) - η; see `off` of quadrics. The gradient is made a little shorter to cover its
+    // own rounding.
     let tau = scale2(p.to_vec().max_abs(), -scale) * (6.0 * U) + TINY;
     let length = g.length();
     let sure = length * (1.0 - 1.0 / (1u64 << 20) as f64);
@@ -476,7 +477,7 @@ fn resolve_here<const N: usize, Z: PolynomialSurface<N>>(
         (g * (1.0 / length), 2.0 * eta / (sure + square.sqrt()) * (1.0 + 64.0 * U), false)
     } else {
         let n = if length > 0.0 && length.is_finite() {
-            // Next to a tip its squares may be below the normal numbers.
+            // Near a tip its squares may be below the normal numbers.
             let g = g.map(|x| scale2(x, -exponent(g.max_abs())));
             g * (1.0 / g.length())
         } else {
@@ -509,20 +510,20 @@ fn resolve_here<const N: usize, Z: PolynomialSurface<N>>(
     point
 }
 
-/// `y` moved onto the surface by Newton's method along the gradient; with `f`, the gradient and the
-/// bound of the Hessian there.
+/// Moves `y` onto the surface by Newton's method along the gradient. Returns the point with `f`,
+/// the gradient and the bound of the Hessian there.
 #[inline(always)]
 fn project<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, mut y: Vec3) -> (Vec3, EFloat, Vec3, f64) {
     let mut f = value(shape, y, Vec3::ZERO);
     let (mut g, mut bend) = shape.slopes(y);
     for _ in 0..64 {
-        // On the surface as far as f64 can see: a step would follow rounding.
+        // On the surface within the error of f64: a step would follow rounding.
         if f.v.abs() <= 2.0 * f.e {
             break;
         }
         let step = g * (f.v / g.dot(g));
         let next = y - step;
-        // Where the gradient all but vanishes a step may overshoot: not taken.
+        // Where the gradient almost vanishes a step may overshoot; then it is not taken.
         if !(next.is_finite() && step.max_abs() < 1.0) {
             break;
         }
@@ -536,8 +537,8 @@ fn project<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, mut y: Vec3) -> (
     (y, f, g, bend)
 }
 
-/// How far to go along `n`, either way, until the sign of `f` is certain, also for all points
-/// within `e` and a 64th of the way.
+/// A distance along `n` in both directions at which the sign of `f` is certain, also for all points
+/// within `e` and a 64th of the distance.
 #[inline(always)]
 fn leave<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, y: Vec3, n: Vec3, e: Vec3) -> f64 {
     let mut way = 64.0 * (e.max_abs() + U * y.max_abs());
@@ -568,8 +569,7 @@ pub(crate) fn sign_at_root<const N: usize, Z: PolynomialSurface<N>>(
     let (lo, hi) = at.window((root.lo, root.hi));
     let (from, to) = (exact.beside(lo.max(f64::MIN), -1.0), exact.beside(hi.min(f64::MAX), 1.0));
     let roots = exact.isolate(&from, &to);
-    // Of several so close together that `t` cannot tell them apart, the one that goes the root's
-    // way.
+    // If `t` does not separate several roots, the one with the sign of the given root.
     let goes = |before: Ordering, after: Ordering| match (before, after) {
         (Greater, Less) => -1,
         (Less, Greater) => 1,

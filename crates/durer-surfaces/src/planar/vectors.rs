@@ -20,7 +20,7 @@ pub(crate) fn dot<T: Ring>(a: &[T; 3], b: &[T; 3]) -> T {
 /// The cross product in a ring.
 #[inline(always)]
 pub(crate) fn cross<T: Ring>(a: &[T; 3], b: &[T; 3]) -> [T; 3] {
-    // A closure could be compiled by itself, without fused sums.
+    // A closure could be compiled by itself, without fused operations.
     #[inline(always)]
     fn minor<T: Ring>(a: &[T; 3], b: &[T; 3], i: usize, j: usize) -> T {
         a[i].clone() * b[j].clone() - a[j].clone() * b[i].clone()
@@ -50,20 +50,20 @@ pub(crate) fn minus<T: Ring>([x, y, z]: [T; 3], [a, b, c]: [T; 3]) -> [T; 3] {
     [x - a, y - b, z - c]
 }
 
-/// From a ray's point at `s = 0` to `v`, times the ray's `w`; the ray is seen from `centre` in
-/// units of `2^scale`.
+/// The vector from a ray's point at `s = 0` to `v`, times the ray's `w`; the ray is relative to
+/// `centre` in units of `2^scale`.
 #[inline(always)]
 pub(crate) fn towards<T: Ring>(ray: &RingRay<T>, v: Point3, centre: Point3, scale: i32) -> [T; 3] {
     minus(times(seen_from(v, centre, scale), &ray.w), ray.o.clone())
 }
 
-/// The cross product of two vectors of which each component was rounded at most once, and a bound
-/// on its error per component.
+/// The cross product of two vectors whose components were rounded at most once, and a bound on its
+/// error per component.
 #[inline(always)]
 pub(crate) fn cross_and_error(a: Vec3, b: Vec3) -> (Vec3, Vec3) {
     let (p, q) = (a.abs(), b.abs());
-    // A product of two such components errs by 2u and a little; Kahan's minor by 1.5 ulp of the
-    // difference.
+    // A product of two such components has an error of slightly more than 2u; Kahan's minor of 1.5
+    // ulp of the difference.
     let err =
         |i: usize, j: usize| (p[i].mul_add(q[j], p[j] * q[i])).mul_add(6.0 * U * (1.0 + 16.0 * U), TINY);
     (a.cross(b), Vec3::new(err(1, 2), err(2, 0), err(0, 1)))
@@ -78,7 +78,7 @@ pub(crate) fn origin_from(ray: &CentredRay<'_>, p: Point3) -> (Vec3, Vec3) {
     (q, Vec3::new(err(0), err(1), err(2)))
 }
 
-/// A lower bound of a vector's length; zero if nothing better is known.
+/// A lower bound of a vector's length; zero if there is no better one.
 #[inline(always)]
 pub(crate) fn least_length(n: [EFloat; 3]) -> f64 {
     let least = n.map(|x| (x.v.abs() - x.e).max(0.0));
@@ -88,7 +88,7 @@ pub(crate) fn least_length(n: [EFloat; 3]) -> f64 {
 /// The middle of a box that is not empty, rounded, and half its largest width.
 #[inline(always)]
 pub(crate) fn middle(b: &Aabb) -> (Point3, f64) {
-    // Halves first: no overflow.
+    // Halves first, to prevent overflow.
     let (min, max) = (b.min.map(|x| 0.5 * x), b.max.map(|x| 0.5 * x));
     (min + max.to_vec(), (max - min).max_abs())
 }
