@@ -1,9 +1,12 @@
-//! On which side of an edge does a ray pass? The one rule that triangles, meshes and polygons share.
+//! On which side of an edge does a ray pass? The one rule that triangles, meshes and polygons
+//! share.
 //!
-//! `U = d . ((b - o) x (a - o))` tells the side; where it is exactly zero, the ray is moved symbolically (see
-//! [`durer_math::predicates`]): then it never meets an edge, two faces that share one see opposite signs, and a closed mesh is crossed
-//! an even number of times. `U` does not change when the origin moves along the ray, so the re-centred ray serves as a filter for every
-//! ray, and what it leaves open is decided on the exact ray: the given one, or the exact preimage of one under a placement.
+//! `U = d . ((b - o) x (a - o))` tells the side; where it is exactly zero, the ray is moved
+//! symbolically (see [`durer_math::predicates`]): then it never meets an edge, two faces that share
+//! one see opposite signs, and a closed mesh is crossed an even number of times. `U` does not
+//! change when the origin moves along the ray, so the re-centred ray serves as a filter for every
+//! ray, and what it leaves open is decided on the exact ray: the given one, or the exact preimage
+//! of one under a placement.
 
 use crate::RingRay;
 use crate::planar::{AlongRay, Line, TINY, cross, dot, towards};
@@ -55,8 +58,8 @@ pub(crate) fn displacement(d: Vec3) -> [usize; 2] {
     }
 }
 
-/// The side on which a ray passes the edge from `a` to `b`: `Some(0)` only if the edge is parallel to the ray or has no length, `None` only
-/// if the ray is not exactly known.
+/// The side on which a ray passes the edge from `a` to `b`: `Some(0)` only if the edge is parallel
+/// to the ray or has no length, `None` only if the ray is not exactly known.
 #[cold]
 #[inline(never)]
 pub(crate) fn exact_side<L: Line>(line: &L, a: Point3, b: Point3) -> Option<i8> {
@@ -83,7 +86,8 @@ pub(crate) fn exact_side<L: Line>(line: &L, a: Point3, b: Point3) -> Option<i8> 
     )
 }
 
-/// The re-centred ray in plain f64, and what its errors can do to `U`: the filter in front of [`exact_side`].
+/// The re-centred ray in plain f64, and what its errors can do to `U`: the filter in front of
+/// [`exact_side`].
 pub(crate) struct EdgeFilter {
     o: Vec3,
     d: Vec3,
@@ -110,17 +114,20 @@ impl EdgeFilter {
         (v - self.centre).map(|x| durer_math::eft::scale2(x, -self.scale)) - self.o
     }
 
-    /// A bound on the error of [`EdgeFilter::side`] for vertices of which all coordinates, as seen, are at most `reach`.
+    /// A bound on the error of [`EdgeFilter::side`] for vertices of which all coordinates, as seen,
+    /// are at most `reach`.
     ///
-    /// A coordinate as seen errs by `e = o_err + u (2 reach + |o|)` at most: one rounding of the difference, one of the subtraction
-    /// of `o`, and the error of `o`. Each of the six terms `d_k b_i a_j` of `U` is a product of three such numbers and passes through at
-    /// most four roundings.
+    /// A coordinate as seen errs by `e = o_err + u (2 reach + |o|)` at most: one rounding of the
+    /// difference, one of the subtraction of `o`, and the error of `o`. Each of the six terms
+    /// `d_k b_i a_j` of `U` is a product of three such numbers and passes through at most four
+    /// roundings.
     #[inline(always)]
     pub(crate) fn bound(&self, reach: f64) -> f64 {
         self.bound_about(reach, 0.0)
     }
 
-    /// As [`EdgeFilter::bound`], for vertices that are themselves known within `vertex_err` per axis, as seen.
+    /// As [`EdgeFilter::bound`], for vertices that are themselves known within `vertex_err` per
+    /// axis, as seen.
     #[inline(always)]
     pub(crate) fn bound_about(&self, reach: f64, vertex_err: f64) -> f64 {
         let e = U.mul_add(2.0 * reach + self.o.max_abs(), self.o_err + vertex_err);

@@ -1,9 +1,10 @@
 //! One triangle's worth of work, shared by [`Triangle`](crate::Triangle) and [`Mesh`](crate::Mesh).
 //!
-//! A ray meets the triangle if it passes its three edges on the same side: `U`, `V`, `W` of `edges.rs` have one
-//! sign. Their ratios to the sum are the barycentric coordinates (R. J. Segura, F. R. Feito, "Algorithms to test ray-triangle intersection.
-//! Comparative study", WSCG 2001; A. Kensler, P. Shirley, "Optimizing ray-triangle intersection via automated search", RT 2006). The crossing's
-//! parameter comes from the plane of the three vertices, exact numbers all of them.
+//! A ray meets the triangle if it passes its three edges on the same side: `U`, `V`, `W` of
+//! `edges.rs` have one sign. Their ratios to the sum are the barycentric coordinates (R. J. Segura,
+//! F. R. Feito, "Algorithms to test ray-triangle intersection. Comparative study", WSCG 2001; A.
+//! Kensler, P. Shirley, "Optimizing ray-triangle intersection via automated search", RT 2006). The
+//! crossing's parameter comes from the plane of the three vertices, exact numbers all of them.
 
 use crate::edges::{self, EdgeFilter};
 use crate::planar::{self, Crossing, Line, Probe, Ratios, ThreePoints, cross, dot, seen_from, towards};
@@ -21,8 +22,9 @@ pub(crate) struct Varying {
     pub(crate) uv: Option<[[f64; 2]; 3]>,
 }
 
-/// How far a component of [`unit_normal`] may be from the exact one: twice the error that is let through (the component it replaces by zero is
-/// no larger than its error), over a length of at least the largest component, and four roundings.
+/// How far a component of [`unit_normal`] may be from the exact one: twice the error that is let
+/// through (the component it replaces by zero is no larger than its error), over a length of at
+/// least the largest component, and four roundings.
 pub(crate) const NORMAL: f64 = 72.0 * U;
 
 /// Whether the triangle has no area, exactly.
@@ -35,7 +37,8 @@ pub(crate) fn is_degenerate(v: &Facet) -> bool {
     exact_normal(v).iter().all(Dyadic::is_zero)
 }
 
-/// Where the ray meets the triangle, and the barycentric coordinates `(b1, b2)`; nothing is said about the ray's range.
+/// Where the ray meets the triangle, and the barycentric coordinates `(b1, b2)`; nothing is said
+/// about the ray's range.
 #[inline(always)]
 pub(crate) fn hit(probe: &Probe<'_>, filter: &EdgeFilter, v: &Facet) -> Option<(Crossing, [f64; 2])> {
     let Passed { values, bound, .. } = passes(probe, filter, v)?;
@@ -117,7 +120,8 @@ pub(crate) fn holds_in_plane(v: &Facet, p: Point3) -> bool {
     dot(&exact_normal(v), &q).is_zero()
 }
 
-/// Whether the start of a line, known to lie in the triangle's plane, lies in the closed triangle. An inexact one does.
+/// Whether the start of a line, known to lie in the triangle's plane, lies in the closed triangle.
+/// An inexact one does.
 #[inline(always)]
 pub(crate) fn holds_start<L: Line>(line: &L, v: &Facet) -> bool {
     let Some(start) = line.exact() else { return true };
@@ -141,7 +145,8 @@ fn volume<T: Ring>(ray: &RingRay<T>, p: &[T; 3], q: &[T; 3]) -> T {
     dot(&ray.d, &cross(q, p))
 }
 
-/// `(V, W, U + V + W)`: the second and third barycentric coordinates and what they are to be divided by.
+/// `(V, W, U + V + W)`: the second and third barycentric coordinates and what they are to be
+/// divided by.
 #[inline(always)]
 fn volumes<T: Ring>(v: &Facet, ray: &RingRay<T>, centre: Point3, scale: i32) -> [T; 3] {
     let [a, b, c] = *v;
@@ -197,7 +202,8 @@ fn exact_barycentric(probe: &Probe<'_>, v: &Facet) -> [EFloat; 2] {
     )
 }
 
-/// The normal times a power of two that makes it of about unit size, if it can, and a bound on its error per component.
+/// The normal times a power of two that makes it of about unit size, if it can, and a bound on its
+/// error per component.
 #[inline(always)]
 fn normal_and_error(v: &Facet) -> (Vec3, Vec3) {
     let (e1, e2) = (v[1] - v[0], v[2] - v[0]);
@@ -213,14 +219,16 @@ fn exact_normal(v: &Facet) -> [Dyadic; 3] {
     cross(&edge(v[1]), &edge(v[2]))
 }
 
-/// The unit normal, each component within [`NORMAL`] of the exact one; one that is not zero has the exact one's sign.
+/// The unit normal, each component within [`NORMAL`] of the exact one; one that is not zero has the
+/// exact one's sign.
 ///
 /// So a step along it never leads back through the plane, however the coordinates are rounded.
 #[inline(always)]
 pub(crate) fn unit_normal(v: &Facet) -> Normal3 {
     let (n, err) = normal_and_error(v);
     let size = n.max_abs();
-    // Slivers lose digits to cancellation; they, and the ends of the range of f64, are found exactly.
+    // Slivers lose digits to cancellation; they, and the ends of the range of f64, are found
+    // exactly.
     if size > 1e-280 && size < 1e280 && err.max_abs() <= 32.0 * U * size {
         let n = Vec3::from(core::array::from_fn(|i| if n[i].abs() > err[i] { n[i] } else { 0.0 }));
         return planar::unit(n.scale2(-durer_math::scale::exponent(size)));
@@ -244,8 +252,8 @@ pub(crate) fn resolve(probe: &Probe<'_>, v: &Facet, varying: &Varying, need: Nee
     point
 }
 
-/// The point `base + b1 e1 + b2 e2` of a plane, `b1` and `b2` in `[0, 1]` known within bounds; the edges are rounded at most once, and `ng` is as
-/// [`unit_normal`] makes it.
+/// The point `base + b1 e1 + b2 e2` of a plane, `b1` and `b2` in `[0, 1]` known within bounds; the
+/// edges are rounded at most once, and `ng` is as [`unit_normal`] makes it.
 #[inline(always)]
 pub(crate) fn settle(base: Point3, [e1, e2]: [Vec3; 2], [b1, b2]: [EFloat; 2], ng: Normal3) -> SurfacePoint {
     // Within the sheet, as the exact point is.
@@ -261,13 +269,15 @@ pub(crate) fn settle(base: Point3, [e1, e2]: [Vec3; 2], [b1, b2]: [EFloat; 2], n
         (p, rounding, along.mul_add(1.0 + 32.0 * U, rounding))
     };
     let [(x, rx, dx), (y, ry, dy), (z, rz, dz)] = [axis(0), axis(1), axis(2)];
-    // Before rounding, the point lay in the plane, whatever the coordinates b: only the rounding along the normal leads off it.
+    // Before rounding, the point lay in the plane, whatever the coordinates b: only the rounding
+    // along the normal leads off it.
     let n = ng.to_vec().abs() + Vec3::new(NORMAL, NORMAL, NORMAL);
     let off = n.dot(Vec3::new(rx, ry, rz)) * (1.0 + 8.0 * U);
     SurfacePoint::new(Point3::new(x, y, z), Vec3::new(dx, dy, dz), along_rounded_normal(off), ng)
 }
 
-/// A step along [`unit_normal`] that moves by `off` along the exact normal at least: the cosine of their angle is above `1 - 2 NORMAL`.
+/// A step along [`unit_normal`] that moves by `off` along the exact normal at least: the cosine of
+/// their angle is above `1 - 2 NORMAL`.
 #[inline(always)]
 pub(crate) fn along_rounded_normal(off: f64) -> f64 {
     off.mul_add(1.0 + 4.0 * NORMAL, f64::MIN_POSITIVE)
@@ -284,7 +294,8 @@ fn vary(point: &mut SurfacePoint, v: &Facet, varying: &Varying, [b1, b2]: [f64; 
     if need.contains(Need::UV) {
         point.uv = [b1.mul_add(du1, b2.mul_add(du2, uv[0][0])), b1.mul_add(dv1, b2.mul_add(dv2, uv[0][1]))];
     }
-    // Change with (u, v) of something that changes by x1 and x2 along the two edges; zero if the texture map is singular.
+    // Change with (u, v) of something that changes by x1 and x2 along the two edges; zero if the
+    // texture map is singular.
     let determinant = durer_math::eft::difference_of_products(du1, dv2, dv1, du2);
     let by_uv = |x1: Vec3, x2: Vec3| {
         if determinant == 0.0 {

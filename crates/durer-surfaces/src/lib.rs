@@ -1,7 +1,8 @@
 //! Exact surfaces. Each answers one question: *where does this ray meet you?*
 //!
-//! A surface implements [`Surface`]. [`Surface::roots`] pushes every crossing of a ray, in order, as a
-//! bracket that provably holds it; [`Surface::resolve`] gives the point, its normals and error bounds:
+//! A surface implements [`Surface`]. [`Surface::roots`] pushes every crossing of a ray, in order,
+//! as a bracket that provably holds it; [`Surface::resolve`] gives the point, its normals and error
+//! bounds:
 //!
 //! ```
 //! use durer_math::{Point3, Ray, Vec3};
