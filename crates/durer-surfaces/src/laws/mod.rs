@@ -270,7 +270,7 @@ pub fn brackets_are_narrow(
 ) -> Result<(), Broken> {
     for root in roots {
         if !ray.at(root.t).is_finite() {
-            continue; // a place beyond all numbers
+            continue; // a point beyond the range of f64
         }
         let width = width(surface, oracle, ray, root);
         ensure!(width <= 96.0, "a bracket is {width} ulp wide: {root:?}");
