@@ -2,8 +2,8 @@
 //! across it.
 //!
 //! ```text
-//!      ______  y_n      Between two of the heights y_0 < ... < y_n a wall encloses the solid:
-//!     (  w_2 )          a surface of revolution with a polynomial along every ray (`profile.rs`).
+//!      ______  y_n      Between two of the heights y_0 < y_1 < ... < y_n a wall encloses the
+//!     (  w_2 )          solid: a surface of revolution, a polynomial on every ray (`profile.rs`).
 //!      )----(  y_2      At a height the solids below and above may differ, by rounding or more:
 //!     / w_1  \          the part that only one of them has is a flat ring there.
 //!    (--------) y_1
