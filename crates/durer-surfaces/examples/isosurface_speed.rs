@@ -1,4 +1,4 @@
-//! What a ray costs that meets a formula:
+//! The time of a ray that meets a formula:
 //! `cargo run --release -p durer-surfaces --example isosurface_speed`.
 
 use durer_math::{Function, Point3, Ray, RaySide, Vec3};
@@ -17,8 +17,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Rays of a picture: all of them, and of those that meet the surface the points and the rays that
-/// leave them.
+/// Times the rays of a picture: all of them, and for those that hit the surface the points and the
+/// rays that leave them.
 fn timed(
     name: &str,
     make: impl Fn() -> Result<Isosurface, Box<dyn std::error::Error>>,

@@ -11,12 +11,12 @@
 //! forms:
 //!
 //! - `b^2 - ac`: the algebraic form with the stable pair of roots;
-//! - `Kahan`: the same with the discriminant by Kahan's fused `ab - cd`, within 1.5 ulp *of the
+//! - `Kahan`: this form with the discriminant by Kahan's fused `ab - cd`, within 1.5 ulp *of the
 //!   rounded a, b, c*;
-//! - `Haines et al.`: the discriminant as `r^2 - |f - (f.d) d|^2`, without fused steps (*Ray
+//! - `Haines et al.`: the discriminant as `r^2 - |f - (f.d) d|^2`, without fused operations (*Ray
 //!   Tracing Gems*, 2019, chapter 7);
-//! - `re-centred`: the same after `LocalRay::recentre`;
-//! - `Sphere`: what production returns, decided exactly.
+//! - `re-centred`: the form of Haines et al. after `LocalRay::recentre`;
+//! - `Sphere`: the surface itself, decided exactly.
 
 use durer_math::eft::{difference_of_products, two_diff};
 use durer_math::{Dd, Point3, Ray, Vec3};
@@ -59,7 +59,7 @@ fn recentred(ray: &Ray) -> Option<f64> {
     let near = local.recentre(Point3::ORIGIN, 0);
     let (o, d) = (near.o, near.d);
     let (a, b, c) = (d.dot(d), o.dot(d), o.dot(o) - 1.0);
-    // b is all but zero here: this is the form above, with the foot already at hand.
+    // b is almost zero here: this is the form above, with the foot already known.
     let foot = o - d * (b / a);
     let inside = a * (1.0 - foot.dot(foot));
     first_root(a, b, c, inside).map(|s| near.t(s))

@@ -16,8 +16,7 @@ fn unit(n: u64) -> f64 {
     ((z ^ (z >> 31)) >> 11) as f64 * (f64::EPSILON / 2.0)
 }
 
-/// Seconds that this thread has run, where Linux tells (other programs do not count), else of the
-/// clock.
+/// Seconds of CPU time of this thread on Linux (other programs do not count), else of the clock.
 fn seconds() -> f64 {
     static START: LazyLock<Instant> = LazyLock::new(Instant::now);
     let ran = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
@@ -27,7 +26,7 @@ fn seconds() -> f64 {
 
 /// Tests each ray against each surface, `rounds` times; prints the time per test.
 fn measure<S: Surface>(name: &str, surfaces: &[S], rays: &[Ray], rounds: u32) {
-    // Words on the command line choose what is measured.
+    // Arguments on the command line select the measurements.
     if std::env::args().len() > 1 && !std::env::args().any(|word| name.contains(&word)) {
         return;
     }
@@ -69,7 +68,7 @@ fn main() {
         })
         .collect();
     measure("spheres, nearly all missed", &few, &rays, 5);
-    // Each sphere is the same, so that each test finds the crossing anew (the closest one has been
+    // All spheres are the same, so that each test computes the crossing again (the closest one was
     // found by the first).
     measure("spheres, all hit", &one, &rays, 5);
     let rods: Vec<CappedCylinder> = (0..n)

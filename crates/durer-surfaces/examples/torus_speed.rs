@@ -1,5 +1,5 @@
 //! Nanoseconds per ray and torus, in one thread: rays that miss its ball, that miss only the torus,
-//! that hit; with brackets to see by and to measure by.
+//! that hit; with brackets of preview width and with narrow brackets.
 //!
 //! `cargo run --release -p durer-surfaces --example torus_speed`
 
@@ -18,13 +18,12 @@ fn signed(n: u64) -> f64 {
     ((z ^ (z >> 31)) >> 11) as f64 * f64::EPSILON - 1.0
 }
 
-/// Seconds that this thread has run, where Linux tells (other programs do not count), else of the
-/// clock.
+/// Seconds of CPU time of this thread on Linux (other programs do not count), else of the clock.
 fn seconds() -> f64 {
     static START: LazyLock<Instant> = LazyLock::new(Instant::now);
     let ran = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let nanoseconds = ran.as_deref().and_then(|s| s.split(' ').next()?.parse::<f64>().ok());
-    // Some kernels do not count.
+    // Some Linux kernels do not count CPU time.
     let nanoseconds = nanoseconds.filter(|ns| *ns > 0.0);
     nanoseconds.map_or_else(|| START.elapsed().as_secs_f64(), |ns| ns * 1e-9)
 }

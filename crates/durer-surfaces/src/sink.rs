@@ -1,11 +1,11 @@
-//! Where roots go: closest, any, all.
+//! Receivers of roots: closest, any, all.
 
 use crate::Root;
 
-/// Whether a producer of roots should go on.
+/// Whether a producer of roots should continue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flow {
-    /// More roots are welcome.
+    /// More roots are wanted.
     Continue,
     /// Nothing more is needed.
     Stop,
@@ -17,8 +17,8 @@ pub trait Sink {
     /// A producer may skip a root whose bracket lies outside, and does nothing else with it.
     fn range(&self) -> (f64, f64);
 
-    /// Roots whose brackets begin behind this (caller's parameter) can no longer matter. A producer
-    /// may stop before them; it enters no arithmetic either.
+    /// The parameter (the caller's) beyond which roots can no longer matter. A producer may stop
+    /// before roots whose brackets start beyond it; it must not enter arithmetic either.
     fn limit(&self) -> f64 {
         f64::INFINITY
     }
@@ -27,8 +27,8 @@ pub trait Sink {
     fn push(&mut self, root: Root) -> Flow;
 }
 
-/// Passes everything on to a sink of any type: a type of known size that a pointer can name, so
-/// that a kernel behind `dyn Sink` is compiled once.
+/// Passes everything on to a sink of any type. Since its own type is sized, it can become a
+/// `dyn Sink`, so that a kernel behind `dyn Sink` is compiled once.
 #[derive(Debug)]
 pub struct Forward<'k, K: ?Sized>(pub &'k mut K);
 
@@ -46,7 +46,7 @@ impl<K: Sink + ?Sized> Sink for Forward<'_, K> {
     }
 }
 
-/// Keeps the least root by `t`; of equal ones the first, since surfaces push in the exact order.
+/// Keeps the least root by `t`; of equal roots the first, since surfaces push in the exact order.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Closest {
     /// The least root so far.
@@ -76,7 +76,7 @@ impl Sink for Closest {
 /// Stops at the first root.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Any {
-    /// Whether there was one.
+    /// Whether there was a root.
     pub hit: bool,
 }
 

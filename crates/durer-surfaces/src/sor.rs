@@ -1,25 +1,26 @@
-//! POV-Ray's surface of revolution: the squared radius is a cubic of the height between each two
-//! points.
+//! POV-Ray's surface of revolution: between successive points the squared radius is a cubic of the
+//! height.
 //!
 //! ```text
-//!    y ▲   · <r_3, h_3>          r²(h) = a₀ + a₁ v + a₂ v² + a₃ v³,  v = h - h_i,   h_i <= h <= h_{i+1}
-//!      │  ( <r_2, h_2>           r(h_i) = r_i,   r(h_{i+1}) = r_{i+1}
-//!      │   ) <r_1, h_1>          (r²)'(h_i) = 2 r_i (r_{i+1} - r_{i-1}) / (h_{i+1} - h_{i-1})
+//!    y ▲   · <r_3, h_3>      r²(h) = a₀ + a₁ v + a₂ v² + a₃ v³,  v = h - h_i,  h_i <= h <= h_{i+1}
+//!      │  ( <r_2, h_2>       r(h_i) = r_i,   r(h_{i+1}) = r_{i+1}
+//!      │   ) <r_1, h_1>      (r²)'(h_i) = 2 r_i (r_{i+1} - r_{i-1}) / (h_{i+1} - h_{i-1})
 //!      └──· <r_0, h_0> ──▶ r
 //! ```
 //!
-//! The first and the last point only tell the slopes at their neighbours, so the curve is smooth
-//! and, along a ray, `x² + z² = r²(y)` a cubic. Which cubic this is follows from POV-Ray's
-//! documentation ("Surface of Revolution"); see `revolution/` for how rays meet it. The exact
-//! surface has the coefficients as f64 holds them: at a height between two of them the radii may
-//! differ in the last bits, and what one has and the other has not is a ring that narrow.
+//! The first and the last point only determine the slopes at their neighbours, so the curve is
+//! smooth, and `x² + z² = r²(y)` is a cubic along a ray. The choice of this cubic follows POV-Ray's
+//! documentation ("Surface of Revolution"); `revolution/` intersects it with rays. The exact
+//! surface has the coefficients as rounded to f64: at a height between two of its cubics their
+//! radii may differ in the last bits, and the difference of the two discs is a flat ring of that
+//! width.
 
 use crate::revolution::{Profile, SurfaceOfRevolution};
 
 /// Why a surface of revolution cannot exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SorError {
-    /// The curve needs four points at least.
+    /// The curve needs at least four points.
     #[error("sor: it needs 4 points at least, and has {0}")]
     TooFew(usize),
     /// A radius or height is infinite or NaN, or a radius negative.
@@ -32,8 +33,8 @@ pub enum SorError {
         /// The height.
         height: f64,
     },
-    /// Heights have to ascend: of the points on the curve each from its predecessor, and of the
-    /// first and last ones not to equal that of the next but one.
+    /// Heights must ascend: each point on the curve must be higher than the one before it. The
+    /// first and the last point must differ in height from the next but one.
     #[error("sor: heights must ascend, but {0} comes before {1}")]
     Heights(f64, f64),
     /// The curve has no inside, or its numbers are beyond the range in which it can be described.
@@ -43,7 +44,7 @@ pub enum SorError {
 
 impl SurfaceOfRevolution {
     /// The surface of revolution through `points`, each a radius and a height; the first and the
-    /// last one are not on it. Closed by flat ends.
+    /// last one are not on it. It is closed by flat ends.
     pub fn sor(points: &[[f64; 2]]) -> Result<Self, SorError> {
         if points.len() < 4 {
             return Err(SorError::TooFew(points.len()));
@@ -57,7 +58,7 @@ impl SurfaceOfRevolution {
         if let Some(w) = on_curve.windows(2).find(|w| w[0][1] >= w[1][1]) {
             return Err(SorError::Heights(w[0][1], w[1][1]));
         }
-        // The slope of r² at a point, by its neighbours.
+        // The derivative of r² at a point, from its neighbours.
         let slope = |i: usize| {
             let ([r0, h0], [r1, h1]) = (points[i - 1], points[i + 1]);
             if h0 >= h1 {

@@ -4,7 +4,7 @@
 //!   f(x) = |x - c|² - r² <= 0
 //! ```
 //!
-//! Along a ray that is re-centred to its closest approach to `c`, `B = d·o` is all but zero, so the
+//! Along a ray that is re-centred to its closest approach to `c`, `B = d·o` is almost zero, so the
 //! discriminant is `r² - |o|²` times `|d|²`: the form of E. Haines, J. Günther, T. Akenine-Möller,
 //! "Precision improvements for ray/sphere intersection", *Ray Tracing Gems* (2019), chapter 7, here
 //! without a unit direction.
@@ -42,7 +42,7 @@ pub enum SphereError {
     Radius(f64),
 }
 
-/// Pays for underflow in sums of products of numbers of size one.
+/// Covers underflow in sums of products of numbers of size one.
 const FLOOR: f64 = 1e-290;
 
 impl Sphere {
@@ -73,7 +73,7 @@ impl Sphere {
         exponent(self.radius).max(-1022)
     }
 
-    /// The roots, as far as f64 knows them well enough.
+    /// Pushes the roots for which f64 is precise enough.
     #[inline(always)]
     fn quick_roots<K: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut K) -> Reach {
         let scale = self.scale();
@@ -90,8 +90,8 @@ impl Sphere {
         let b = o.dot(d);
         let e_b = (k * od.dot(dd) + ed.dot(od) + eo.dot(dd + ed)) * up + FLOOR;
         let origin = at.shift();
-        // A ray that was spawned here starts outside or inside, for certain: if it leaves there is
-        // nothing ahead, and from within just the exit.
+        // A ray that was spawned here certainly starts outside or inside. If it leaves from outside
+        // there is no root ahead, and from inside only the exit.
         let spawned = at.spawned();
         if let Some((side, ..)) = spawned
             && side == RaySide::Front
@@ -111,7 +111,7 @@ impl Sphere {
             c: EFloat::with_error(c, e_c),
         };
         let disc = line.kahan_discriminant();
-        // B is all but zero, so neither root (-B ∓ √disc) / A suffers cancellation, and A is known
+        // B is almost zero, so neither root (-B ∓ √disc) / A suffers cancellation, and A is known
         // to a few ulp.
         let (ratio, e_rel) = (disc.e / disc.v, e_a * inverse);
         if disc.v < -disc.e * (1.0 + 4.0 * U) {
@@ -158,8 +158,8 @@ impl Sphere {
         Reach::Done
     }
 
-    /// The point of a root, if the sphere is neither far away nor seen dimly: what
-    /// [`View::resolve`] finds, with the gradient `2 y` and the Hessian `2 I`.
+    /// The point of a root, if the sphere is not far away and the error of f is small: the result
+    /// of [`View::resolve`] with the gradient `2 y` and the Hessian `2 I`.
     #[inline(always)]
     fn quick_point(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> Option<SurfacePoint> {
         let scale = self.scale();
@@ -167,7 +167,7 @@ impl Sphere {
         let (r, s) = (scale2(self.radius, -scale), root.s);
         let y = Vec3::new(s.mul_add(at.d.x, at.o.x), s.mul_add(at.d.y, at.o.y), s.mul_add(at.d.z, at.o.z));
         let e_y = at.o_err + at.d_err * s.abs() + y.abs() * U;
-        // One step of Newton's along the gradient.
+        // One step of Newton's method along the gradient.
         let y1 = y * (1.0 - (-r).mul_add(r, y.dot(y)) * (0.5 / (r * r)));
         let (c, back) = (self.centre, |x: f64| scale2(x, scale));
         let (px, lx) = two_sum(c.x, back(y1.x));
@@ -179,7 +179,7 @@ impl Sphere {
         let square = y1.dot(y1);
         let f = (-r).mul_add(r, square);
         let e_f = (5.0 * square + r * r) * U;
-        // See `View::off`: rays start at p ± off n, each coordinate at most 3 U further.
+        // See `View::off`: rays start at p ± off n, with each coordinate moved by at most 3 U more.
         let tau = scale2(p.x.abs() + p.y.abs() + p.z.abs(), -scale) * (4.0 * U) + FLOOR;
         let away = 2.0 * (2.0 * y1.abs().dot(lost) + 2.0 * (lost.dot(lost) + tau * tau));
         let eta = f.abs() + 2.0 * e_f + away;
@@ -262,24 +262,24 @@ pub(crate) fn sphere_chart(y: Vec3) -> Chart {
     let latitude = elementary::atan2(y.z, rho);
     Chart {
         uv: [if u < 0.0 { u + 1.0 } else { u }, latitude / HALF + 0.5],
-        // At a pole the circle of latitude has no length; a unit step east keeps the frame.
+        // At a pole the circle of latitude has no length; a unit step east keeps the frame defined.
         dpdu: if rho > 0.0 { Vec3::new(-y.y, y.x, 0.0) * TURN } else { Vec3::Y },
         dpdv: Vec3::new(-y.z * cos, -y.z * sin, rho) * HALF,
     }
 }
 
-/// How far the quick way came.
+/// How much the f64 path has decided.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Reach {
-    /// All is said.
+    /// Everything.
     Done,
-    /// Nothing was said.
+    /// Nothing.
     Nothing,
-    /// What is to be said of the entry was said.
+    /// The entry.
     Entry,
 }
 
-/// Takes roots at which a ray leaves, and only those.
+/// Passes on only roots at which the ray leaves.
 struct Leaving<'k, K: ?Sized>(&'k mut K);
 
 impl<K: Sink + ?Sized> Sink for Leaving<'_, K> {
@@ -292,7 +292,8 @@ impl<K: Sink + ?Sized> Sink for Leaving<'_, K> {
     }
 }
 
-/// The length of a vector, at most 4 roundings below it; no over- or underflow on the way.
+/// The length of a vector, at most 4 roundings below the exact one; without intermediate overflow
+/// or underflow.
 pub(crate) fn length(v: [f64; 3]) -> f64 {
     let v = Vec3::from(v);
     let k = exponent(v.max_abs()).max(-1000);
@@ -354,7 +355,7 @@ mod tests {
         ExactBody::solid(vec![form], r, true)
     }
 
-    /// Points of the sphere of radius 9 with whole coordinates, and tangents there.
+    /// Points of the sphere of radius 9 with integer coordinates, and tangents there.
     fn features(sphere: &Sphere) -> Vec<Feature> {
         let k = sphere.radius / 9.0;
         let on = [[9.0, 0.0, 0.0], [0.0, 0.0, -9.0], [1.0, 4.0, 8.0], [-4.0, 4.0, 7.0], [3.0, -6.0, 6.0]];

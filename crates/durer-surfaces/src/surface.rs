@@ -15,7 +15,7 @@ pub trait Surface: Send + Sync {
     fn bounds(&self) -> Aabb;
 
     /// A box that provably holds the surface after `map` has moved it. The default is the box of
-    /// the moved box; a surface that knows a tighter one returns that.
+    /// the moved box; a surface with a tighter one returns that.
     fn bounds_through(&self, map: &Affine) -> Aabb {
         map.bounds(&self.bounds())
     }
@@ -48,8 +48,8 @@ pub trait Surface: Send + Sync {
         Solidity::Open
     }
 
-    /// The side of the solid on which a point lies, exactly. Only solids are asked; an open surface
-    /// returns [`Side::Out`].
+    /// The side of the solid on which a point lies, exactly. It matters only for solids; an open
+    /// surface returns [`Side::Out`].
     fn side(&self, _point: &LocalPoint<'_>) -> Side {
         Side::Out
     }

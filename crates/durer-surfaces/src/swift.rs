@@ -1,41 +1,43 @@
-//! A triangle met by a ray that is exactly known, in plain f64 and without re-centring: what nearly
-//! all rays need, in a tenth of the steps.
+//! The intersection of a triangle and an exactly known ray in plain f64, without re-centring. It
+//! decides nearly all rays, in a tenth of the steps.
 //!
 //! With `C = v0 - o`, edges `e1`, `e2` from `v0`, `N = e1 x e2`, `R = C x d`:
 //!
 //! ```text
-//!     s = T / D,   T = C . N,   D = d . N,        b1 = U / D,   U = R . e2,      b2 = V / D,   V = -R . e1,      W = D - U - V
+//!     s = T / D,   T = C . N,   D = d . N
+//!     b1 = U / D,   U = R . e2,      b2 = V / D,   V = -R . e1,      W = D - U - V
 //! ```
 //!
 //! (T. Moeller, B. Trumbore, "Fast, minimum storage ray-triangle intersection", Journal of Graphics
 //! Tools 2(1), 1997). Let `u = 2^-53`, `c` and `M` the greatest magnitudes in `C` and `d`, `S` the
-//! product and `E` the greater of the edges' sums of magnitudes. Corners and ray are exact; to
-//! first order, per component and counted without fused operations,
+//! product and `E` the greater of the edges' sums of magnitudes. Corners and ray are exact. To
+//! first order, per component and without fused operations, the errors are
 //!
 //! ```text
 //!     C   u c        e   u |e|        R   4 u c M + 2 u c M            U, V   (6 + 6 + 2) u c M E
 //!     N   4 u S in sum                D   (3 + 4) u M S                W      9 u M S + 34 u c M E
 //! ```
 //!
-//! The quotient alone would carry the error of `N` over the whole way. So it is corrected once:
-//! with `p = C - s d`, which errs by `u |C| + u |p|`,
+//! The quotient alone would have the error of `N` times the whole distance. So it is corrected
+//! once: with `p = C - s d`, whose error is `u |C| + u |p|`,
 //!
 //! ```text
-//!     s + N . p / D     errs by  (u sum |N_i C_i| + 8 u S |p|) / |D|  and what D and two roundings do to the correction.
+//!     s + N . p / D     has the error  (u sum |N_i C_i| + 8 u S |p|) / |D|
+//!                       and the error of D and of two roundings in the correction.
 //! ```
 //!
 //! Near the start that is not enough: `p` is as long as the triangle, `s` is not. There `T / D` is
-//! found once more, in double-double, from differences that are exact. Its operations err by
-//! `4 u^2` (products), `2 u^2` (by an f64), `3 u^2` (sums) and `15 u^2` (the quotient) of what they
-//! give: see [`Dd`]. So
+//! computed once more, in double-double, from differences that are exact. The relative errors of
+//! its operations are `4 u^2` (products), `2 u^2` (by an f64), `3 u^2` (sums) and `15 u^2` (the
+//! quotient): see [`Dd`]. So the errors are
 //!
 //! ```text
 //!     N   (4 + 3) u^2 S in sum        T   (7 + 4 + 6) u^2 c S          D   (7 + 2 + 6) u^2 M S
-//!     s   errs by  17 u^2 S (c + |s| M) / |D|  +  15 u^2 |s|,  and by u |s| where it is rounded.
+//!     s   17 u^2 S (c + |s| M) / |D|  +  15 u^2 |s|,  and u |s| where it is rounded.
 //! ```
 //!
-//! What is not certain by these bounds, or known less well than it should be, is left to
-//! [`facet`](crate::facet).
+//! If these bounds leave something uncertain, or less precise than it should be,
+//! [`facet`](crate::facet) decides.
 
 use crate::facet::Facet;
 use crate::planar::TINY;
@@ -44,29 +46,29 @@ use durer_math::lanes::{F8, M8};
 use durer_math::rounding::{add_up, sub_down};
 use durer_math::{Dd, Isa, Point3, U, Vec3};
 
-/// Second-order terms, and the roundings of the bounds.
+/// Covers second-order terms, and the rounding of the bounds.
 const PAYS: f64 = 1.0 + 256.0 * U;
-/// A bracket this wide, relative to the parameter or to `size / |d|`, is narrow: 32 ulp at their
-/// smallest.
+/// A bracket is narrow up to this width, relative to the parameter or to `size / |d|`: 32 ulp at
+/// their smallest.
 const NARROW: f64 = 32.0 * U;
-/// The error of the volumes over their sum up to which tags are taken: they are then within twice
-/// this of the exact coordinates.
+/// The largest error of the volumes, relative to their sum, for which tags are used: they are then
+/// within twice this of the exact coordinates.
 const TAG: f64 = durer_math::scale::pow2(-32);
-/// Products of lengths between these do not leave the range of f64, whatever the direction.
+/// Products of lengths in this range do not leave the range of f64, whatever the direction.
 const RANGE: (f64, f64) = (durer_math::scale::pow2(-400), durer_math::scale::pow2(400));
 
-/// The same for the second computation, with low parts of products: what underflow takes from
-/// these, below `2^-1071`, moves `s` by less than [`LOST`].
+/// The range of lengths for the second computation, with low parts of products: what underflow
+/// takes from these, below `2^-1071`, moves `s` by less than [`LOST`].
 const NEAR: (f64, f64) = (durer_math::scale::pow2(-200), durer_math::scale::pow2(100));
 const LOST: f64 = durer_math::scale::pow2(-700);
 
-/// What can be said.
+/// The result for one ray and one triangle.
 pub(crate) enum Swift {
     /// There is no crossing that matters.
     Missed,
-    /// There is one.
+    /// There is a crossing.
     Met(Root),
-    /// Something is not certain.
+    /// The result is not certain.
     Open,
 }
 
@@ -75,7 +77,7 @@ fn sum(v: Vec3) -> f64 {
     v.x.abs() + v.y.abs() + v.z.abs()
 }
 
-/// Two roundings per component, where [`Vec3::cross`] spends more on fewer.
+/// The cross product with two roundings per component; [`Vec3::cross`] is slower and more precise.
 #[inline(always)]
 fn cross(a: Vec3, b: Vec3) -> Vec3 {
     let minor = |i: usize, j: usize| a[i].mul_add(b[j], -(a[j] * b[i]));
@@ -102,7 +104,7 @@ fn sharper(o: Point3, d: Vec3, v: &Facet) -> f64 {
     )
 }
 
-/// The crossing of a ray and a triangle, as far as it matters for a sink's range.
+/// The crossing of a ray and a triangle, if it matters for a sink's range.
 #[inline(always)]
 pub(crate) fn meet(ray: &LocalRay<'_>, facet: &Facet, face: u32, range: (f64, f64)) -> Swift {
     let plain =
@@ -117,7 +119,7 @@ pub(crate) fn meet(ray: &LocalRay<'_>, facet: &Facet, face: u32, range: (f64, f6
     let w = (along - u) - v;
     let (l1, l2) = (sum(e1), sum(e2));
     let (reach, m, edge, area) = (c.max_abs(), d.max_abs(), l1.max(l2), l1 * l2);
-    // Not so if one of them is NaN.
+    // False if one of them is NaN.
     if !(area > RANGE.0 && edge.max(reach) < RANGE.1) {
         return Swift::Open;
     }
@@ -129,7 +131,7 @@ pub(crate) fn meet(ray: &LocalRay<'_>, facet: &Facet, face: u32, range: (f64, f6
     if least <= bound && most >= -bound {
         return Swift::Open;
     }
-    // All three have one sign, and so has their sum.
+    // All three have one sign, and their sum has the same.
     let slack = 7.0 * U * m * area * PAYS;
     let sure = along.abs() - slack;
     if !(sure > slack && bound <= TAG * sure) {
@@ -137,8 +139,8 @@ pub(crate) fn meet(ray: &LocalRay<'_>, facet: &Facet, face: u32, range: (f64, f6
     }
     let inverse = 1.0 / along;
     let s = c.dot(n) * inverse;
-    // What is left of the way to the plane; now the error of N counts only as far as the corners
-    // are from there.
+    // The remaining distance to the plane; here the error of N counts only in proportion to the
+    // distance of the corners from this point.
     let p = Vec3::new((-s).mul_add(d.x, c.x), (-s).mul_add(d.y, c.y), (-s).mul_add(d.z, c.z));
     let step = p.dot(n) * inverse;
     let s = s + step;
@@ -146,7 +148,7 @@ pub(crate) fn meet(ray: &LocalRay<'_>, facet: &Facet, face: u32, range: (f64, f6
     let err = (8.0 * area).mul_add(p.max_abs(), spread) * U;
     let err = step.abs().mul_add((3.0 * U).mul_add(sure, slack), err) / sure;
     let err = s.abs().mul_add(U, err).mul_add(PAYS, TINY);
-    // Half the largest width is a sixth of the longer edge's sum at least, and |d| is below 4.
+    // Half the largest width is at least a sixth of the longer edge's sum, and |d| is below 4.
     let size = edge / 24.0;
     let narrow = |s: f64, err: f64| err <= 0.5 * NARROW * s.abs().max(size);
     let (s, err) = if narrow(s, err) {
@@ -185,26 +187,27 @@ fn most_of_each(v: Vec3<F8>) -> F8 {
     v.x.abs().max(v.y.abs()).max(v.z.abs())
 }
 
-/// [`cross`] for eight.
+/// [`cross`] for eight vectors.
 #[inline(always)]
 fn cross_of_each(a: Vec3<F8>, b: Vec3<F8>) -> Vec3<F8> {
     Vec3::new(a.y.mul_add(b.z, -(a.z * b.y)), a.z.mul_add(b.x, -(a.x * b.z)), a.x.mul_add(b.y, -(a.y * b.x)))
 }
 
-/// Where eight rays meet a triangle each.
+/// The crossings of eight rays, each with a triangle of its own.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossings {
-    /// The parameters, to the bit those of [`Triangle::roots`](crate::Surface::roots).
+    /// The parameters, bit for bit those of [`Triangle::roots`](crate::Surface::roots).
     pub s: F8,
-    /// Who certainly meets its triangle, within its range.
+    /// Rays that certainly cross their triangle, within their range.
     pub met: M8,
-    /// Of whom nothing is certain: it has to ask alone. Who neither meets its triangle nor is in
-    /// doubt misses it.
+    /// Rays for which nothing is certain; they must be tested alone. A ray in neither set misses
+    /// its triangle.
     pub open: M8,
 }
 
-/// The first of the two computations above for eight rays at once, each with a triangle of its own
-/// and its largest component of `d` in `[1, 2)`; compiled for lanes by [`Isa::run_in_lanes`].
+/// The first of the two computations above for eight rays at once, each with a triangle of its own;
+/// the largest component of each `d` must be in `[1, 2)`. Compiled for packets by
+/// [`Isa::run_in_lanes`].
 ///
 /// A crossing counts if three times its error is within the range: once for itself, once for the
 /// rounding of `s + 3 err`, which is below `u |s| + 3 u err` and so below `1.01 err`.
@@ -263,8 +266,8 @@ mod tests {
                     let facet = [dice.vector(), dice.vector(), dice.vector()].map(Vec3::to_point);
                     let [a, b, c] = facet;
                     let (p, q) = (dice.unit(), dice.unit());
-                    // Through the triangle, near it, or through one of its edges, from afar and
-                    // from nearby.
+                    // Through the triangle, near it, or through one of its edges, from far and from
+                    // near.
                     let at = match dice.below(3) {
                         0 => a + (b - a) * (0.4 * p) + (c - a) * (0.4 * q),
                         1 => a + (b - a) * (2.0 * p) + (c - a) * (2.0 * q),

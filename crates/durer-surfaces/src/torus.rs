@@ -6,11 +6,12 @@
 //!     ├──── R ────┼r┤
 //! ```
 //!
-//! `a` is the coordinate along the axis. `f` is `((ρ - R)² + a² - r²) ((ρ + R)² + a² - r²)` in a
-//! form that has no root in it and whose terms are no larger than `(2 R r)²` near the surface.
-//! Along a ray it is a quartic: S. D. Roth, "Ray casting for modeling solids", *Computer Graphics
-//! and Image Processing* 18 (1982). With `r > R` the tube meets itself on the axis (a *spindle*);
-//! what is inside twice is then outside, as the sign of `f` has it. `r = R` is a *horn*.
+//! `a` is the coordinate along the axis. `f` equals `((ρ - R)² + a² - r²) ((ρ + R)² + a² - r²)`, in
+//! a form that contains no square root and whose terms are no larger than `(2 R r)²` near the
+//! surface. Along a ray it is a quartic: S. D. Roth, "Ray casting for modeling solids", *Computer
+//! Graphics and Image Processing* 18 (1982). With `r > R` the tube meets itself on the axis (a
+//! *spindle*); the part that is inside twice is then outside, by the sign of `f`. `r = R` is a
+//! *horn*.
 
 use crate::packet::{FilterSource, Lathe, LatheWall};
 use crate::polynomial_surface::{self, PolynomialSurface};
@@ -177,8 +178,8 @@ impl PolynomialSurface<5> for Torus {
         let (major, minor) = self.radii();
         let (big, small) = (major * major, minor * minor);
         let (od, dd) = (o.abs() + eo, d.abs() + ed);
-        // Dot products of three terms round three times; errors of the inputs enter to first order,
-        // the others' bounds included.
+        // Dot products of three terms round three times. The errors of the inputs enter to first
+        // order, times upper bounds of the other factors.
         let (q2, q1, oo) = (d.dot(d), o.dot(d), o.dot(o));
         let q0 = oo - (big + small);
         let e2 = (3.0 * U).mul_add(q2, 2.0 * ed.dot(dd));
@@ -198,7 +199,7 @@ impl PolynomialSurface<5> for Torus {
             4.0 * (q2 * q1),
             q2 * q2,
         ];
-        // At most five roundings of each term, 4 R² itself included.
+        // At most five roundings of each term, including 4 R².
         let e = [
             2.0 * m0 * e0 + 2.0 * big * b0 * ea0 + (5.0 * U) * (m0 * m0 + big * (b0 * b0 + small)),
             4.0 * (m1 * e0 + m0 * e1)
@@ -251,7 +252,7 @@ impl PolynomialSurface<5> for Torus {
         v * (4.0 * q) + y * (8.0 * y.dot(v)) + self.axis_vector() * (8.0 * major * major * self.along_axis(v))
     }
 
-    /// Once round the axis, and once round the tube, from its inner side over the top.
+    /// `u` once round the axis, `v` once round the tube, from its inner side over the top.
     fn chart(&self, y: Vec3, n: Vec3) -> Chart {
         const TURN: f64 = 2.0 * core::f64::consts::PI;
         let (e, f) = self.across();
@@ -264,12 +265,12 @@ impl PolynomialSurface<5> for Torus {
             if t < 0.0 { t + 1.0 } else { t }
         };
         let longitude = if rho > 0.0 { turns(elementary::atan2(py, px)) } else { 0.0 };
-        // On the inner part of a spindle the tube has come through the axis.
+        // On the inner part of a spindle the tube has passed through the axis.
         let through = if n.dot(out) * (rho - major) < 0.0 { -1.0 } else { 1.0 };
         let from_tube = through * rho - major;
         let round = turns(elementary::atan2(-a, -from_tube));
         let east = (f * out.dot(e) - e * out.dot(f)) * (if rho > 0.0 { rho } else { 1.0 } * TURN);
-        // Round the tube: across both the normal and the way east.
+        // Round the tube: across both the normal and the direction east.
         let north = n.cross(east);
         let north = north * (1.0 / north.length().max(f64::MIN_POSITIVE));
         let reach = elementary::hypot(from_tube, a);
@@ -281,7 +282,7 @@ impl PolynomialSurface<5> for Torus {
     }
 }
 
-/// By how much the body is taken larger than it is, in units, so that no rounding matters.
+/// By how much the torus is enlarged, in units, so that no rounding matters.
 const MARGIN: f64 = 1.0 / 256.0;
 
 impl Surface for Torus {
@@ -293,8 +294,9 @@ impl Surface for Torus {
     }
 
     fn bounds_through(&self, map: &Affine) -> Aabb {
-        // A ball's image that goes round a circle's: of the ellipsoid the half-widths are r times
-        // the lengths of L's rows, of the ellipse R times those of the rows' parts across the axis.
+        // The sum of the images of a circle and a ball: the half-widths of the ellipsoid are r
+        // times the lengths of L's rows, those of the ellipse R times the lengths of the rows'
+        // parts across the axis.
         let centre = map.bounds(&Aabb::new(self.centre, self.centre));
         let half = map.linear().map(|row| {
             let mut flat = row;
@@ -388,7 +390,7 @@ mod tests {
         ZeroOracle { terms, size: torus.major + torus.minor }
     }
 
-    /// Points with whole coordinates for R = 5 k and r = 3 k, and tangents there: circles of
+    /// Points with integer coordinates for R = 5 k and r = 3 k, and tangents there: circles of
     /// latitude, of the tube, Villarceau's.
     fn features(torus: &Torus) -> Vec<Feature> {
         let k = torus.major / 5.0;
@@ -402,13 +404,13 @@ mod tests {
         for d in
             [at(1.0, 0.0, 0.0), at(0.0, 1.0, 0.0), at(0.0, 0.0, 1.0), at(3.0, 4.0, 0.0), at(1.0, 2.0, 2.0)]
         {
-            // The equators, the top, where a plane rests on it along a circle.
+            // The equators, and the top, where a plane rests on it along a circle.
             for p in [at(8.0, 0.0, 0.0), at(0.0, 2.0, 0.0), at(5.0, 0.0, 3.0), at(0.0, -5.0, -3.0)] {
                 add(p, d);
             }
         }
-        // Lines in the plane that touches it twice: sin = r / R = 3/5; they touch at ρ = 4 R / 5, a =
-        // ± 4 r / 5.
+        // Lines in the plane that touches it twice: sin = r / R = 3/5; they touch at ρ = 4 R / 5
+        // and a = ± 4 r / 5.
         let (touch, other) = (at(3.2, 0.0, 2.4), at(-3.2, 0.0, -2.4));
         add(touch, touch - other);
         add(touch, at(0.0, 1.0, 0.0));
@@ -464,7 +466,7 @@ mod tests {
         assert!(tight > 5000, "{tight}");
     }
 
-    /// Through a horn's tip, where the gradient's square is below the normal numbers.
+    /// Through a horn's tip, where the squared gradient is below the normal numbers.
     #[test]
     fn normals_at_a_tip_have_unit_length() {
         let radius = 0.000_309_944_152_832_031_25;

@@ -6,8 +6,8 @@
 //!         v0────v1
 //! ```
 //!
-//! Which edges belong to the triangle is told by the rule of `edges.rs`: each edge to exactly one
-//! of its two sides, for each ray.
+//! The rule of `edges.rs` decides which edges belong to the triangle: for each ray, each edge
+//! belongs to exactly one of its two sides.
 
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
@@ -58,15 +58,14 @@ impl Triangle {
         Ok(Self { vertices, normals: None, uv: None })
     }
 
-    /// The triangle with corners that are known to be finite and not in line, such as those of a
-    /// mesh's face: nothing is looked at again.
+    /// The triangle with corners that are already known to be finite and not on one line, such as
+    /// those of a mesh's face. They are not tested again.
     #[inline(always)]
     pub fn known(vertices: [Point3; 3]) -> Self {
         Self { vertices, normals: None, uv: None }
     }
 
-    /// The same triangle, shaded with normals that are interpolated between these at the vertices
-    /// (of any length).
+    /// Adds shading normals, interpolated between these normals (of any length) at the vertices.
     pub fn with_normals(mut self, normals: [Normal3; 3]) -> Result<Self, TriangleError> {
         if let Some(n) = normals.into_iter().find(|n| n.normalized().is_none()) {
             return Err(TriangleError::Normal(n));
@@ -75,8 +74,7 @@ impl Triangle {
         Ok(self)
     }
 
-    /// The same triangle with these texture coordinates at the vertices. Without, they are (0, 0),
-    /// (1, 0), (0, 1).
+    /// Sets the texture coordinates at the vertices. The default is (0, 0), (1, 0), (0, 1).
     pub fn with_uv(mut self, uv: [[f64; 2]; 3]) -> Result<Self, TriangleError> {
         if let Some(bad) = uv.into_iter().find(|uv| !uv.iter().all(|x| x.is_finite())) {
             return Err(TriangleError::Uv(bad));
@@ -154,8 +152,8 @@ mod tests {
     use core::cmp::Ordering;
     use durer_math::Vec3;
 
-    /// The triangle by big integers, ties told by the rule: an oracle of its own, since which edges
-    /// belong to it depends on the ray.
+    /// The triangle by big integers, with ties decided by the rule. It is a separate oracle,
+    /// because the edges that belong to it depend on the ray.
     struct ExactTriangle {
         v: [[Exact; 3]; 3],
         n: [Exact; 3],
@@ -181,8 +179,8 @@ mod tests {
             Self { v, n, size: planar::middle(&t.bounds()).1 }
         }
 
-        /// Moves the line's origin by `2^-3000` and `2^-6000`, far less than any two different
-        /// numbers here differ, instead of by symbols.
+        /// Moves the line's origin by `2^-3000` and `2^-6000`, far less than the difference of any
+        /// two different numbers here, instead of symbolically.
         fn moved(line: &ExactLine) -> ExactLine {
             let size: Vec<Exact> = line.d.iter().map(|d| d.clone().abs()).collect();
             let greater = |i: usize, j: usize| (&size[i] - &size[j]).sign().is_ge();

@@ -37,8 +37,8 @@ fn a_blob_of_one_ball_is_a_ball() {
     assert!(met.simple > 6_000 && met.clusters * 1000 < met.simple && met.median() < 1000.0);
 }
 
-/// Brackets are those of the exact placement, however much its inverse makes of a rounding; and the
-/// crossings next to a tangent are simple ones.
+/// Brackets are those of the exact placement, however much its inverse magnifies rounding errors.
+/// The crossings near a tangent are simple ones.
 #[test]
 fn a_shear_widens_no_bracket() {
     let one = Blob::new(0.25, &[ball(Point3::ORIGIN, 2.0, 1.0)]).unwrap();
@@ -48,7 +48,7 @@ fn a_shear_widens_no_bracket() {
     let (one, exact) = (Placed::new(one, place), Placed::new(exact, place));
     let (mut dice, mut widths, mut clusters, mut met) = (Dice(21), vec![], 0, 0);
     for i in 0..1000 {
-        // Half of them pass as near to the ball's rim as 2^-22 of its size.
+        // Half of them pass within 2^-22 of the ball's size from its rim.
         let d = dice.vector();
         let across = d.cross(dice.vector());
         let beside = if i % 2 == 0 { 1.0 - durer_math::scale::pow2(-20 - (i % 3)) } else { 0.5 };
@@ -68,14 +68,14 @@ fn a_shear_widens_no_bracket() {
     assert!(met > 1900 && clusters == 0 && median < 1000.0, "{clusters} of {met}: {median}");
 }
 
-/// What f64 cannot tell of the sum of placed fields, double-double can: rays that miss a surface,
-/// or cut it, by a millionth of a millionth of its size.
+/// Double-double decides what f64 cannot decide about the sum of placed fields: rays that miss a
+/// surface, or cut it, by a millionth of a millionth of its size.
 #[test]
 fn next_to_a_tangent_there_are_two_crossings_or_none() {
     let squeeze = [[4.0, 0.0, -3.0], [0.0, 5.0, 0.0], [3.0, 0.0, 4.0]];
     let place = Affine::new(squeeze, Point3::new(-1.0, 0.5, 1000.0)).unwrap();
-    // Far from the middle of what both reach, so that it is known badly in f64 how strong it is;
-    // alone it is a ball of radius 1.
+    // Far from the middle of the region that both reach, so that its strength has a large error in
+    // f64; alone it is a ball of radius 1.
     let small = BlobComponent { place, ..ball(Point3::new(0.0, 0.0, -200.0), 2.0_f64.sqrt(), 4.0) };
     let parts = [small, ball(Point3::new(-900.0, 0.0, 0.0), 500.0, 1.0)];
     let blob = Blob::new(1.0, &parts).unwrap();
@@ -98,7 +98,7 @@ fn next_to_a_tangent_there_are_two_crossings_or_none() {
     assert!(two > 150 && none > 150, "{two} {none}");
 }
 
-/// A crossing between the end of a range and the next number: it is in the range that goes on from
+/// A crossing between the end of a range and the next number is in the range that continues from
 /// there and in no other, of whatever length.
 #[test]
 fn a_crossing_next_to_an_end_is_on_one_side_of_it() {
@@ -134,7 +134,7 @@ fn pictures_know_as_well_on_which_side_of_an_end_a_crossing_is() {
                     assert_eq!(rough.roots.len(), told, "{ray:?}");
                     sum += told;
                 }
-                // Each is on one side of the end.
+                // Each crossing is on one side of the end.
                 assert_eq!(sum, 2, "{ray:?}");
                 met += sum;
             }
@@ -168,7 +168,7 @@ fn a_blob_of_one_sausage_is_a_cylinder_with_round_ends() {
                 "{ray:?}: {root:?}, {off}"
             );
         }
-        // What meets an end's ball meets the sausage.
+        // A ray that hits an end's ball hits the sausage.
         if ends
             .iter()
             .any(|end| all(end, &ray).iter().all(|r| r.kind == RootKind::Simple) && all(end, &ray).len() == 2)
@@ -232,7 +232,7 @@ fn brackets_of_blobs_have_the_signs_of_exact_arithmetic_at_their_ends() {
             for root in roots.iter().filter(|r| r.kind == RootKind::Simple) {
                 let (lo, hi) =
                     (exact_sign(&parts, 0.375, &ray, root.lo), exact_sign(&parts, 0.375, &ray, root.hi));
-                // Inside there is more than the threshold.
+                // Inside, the sum exceeds the threshold.
                 let inside = if root.sign < 0 { hi } else { lo };
                 let outside = if root.sign < 0 { lo } else { hi };
                 assert!(inside.is_ge() && outside.is_le(), "{ray:?}: {root:?} {lo:?} {hi:?}");
@@ -302,11 +302,11 @@ fn what_makes_no_blob_is_named() {
     assert!(matches!(Blob::new(0.5, &[ball(Point3::ORIGIN, 1.0, -1.0)]), Err(BlobError::Nothing)));
     assert!(matches!(Blob::new(0.5, &[ball(Point3::ORIGIN, 0.0, 1.0)]), Err(BlobError::Component(_))));
     assert!(matches!(Blob::new(0.5, &[ball(Point3::ORIGIN, 1.0, f64::NAN)]), Err(BlobError::Strength(_))));
-    // Strength below the threshold: it is there, and empty.
+    // Strength below the threshold: the blob exists, and is empty.
     assert!(all(&Blob::new(2.0, &one).unwrap(), &Ray::new(Point3::new(0.0, 0.0, -3.0), Vec3::Z)).is_empty());
 }
 
-/// The same crossings as the formula has, as far as the one or the other can tell.
+/// The blob has the same crossings as the formula, as far as both are certain.
 fn agrees(parts: &[BlobComponent], threshold: f64, rays: &[Ray]) -> Met {
     let (blob, formula) = (Blob::new(threshold, parts).unwrap(), formula::blob(threshold, parts));
     let mut met = Met::default();
@@ -327,8 +327,8 @@ fn through(dice: &mut Dice, p: Point3, direction: Vec3) -> Ray {
 
 #[test]
 fn where_fields_begin_and_end_nothing_is_lost() {
-    // Small numbers, so that rays pass exactly where fields begin, along their tangents, and
-    // through points where the sum is the threshold.
+    // Small numbers, so that rays pass exactly through places where fields begin, along their
+    // tangents, and through points where the sum is the threshold.
     let mut dice = Dice(19);
     let mut met = (0, 0);
     for case in 0..24 {
@@ -346,7 +346,7 @@ fn where_fields_begin_and_end_nothing_is_lost() {
             })
             .collect();
         if case % 3 == 0 {
-            // Twice the same, and one taken away again.
+            // The first component once more, and once with the opposite strength.
             parts.push(parts[0].clone());
             parts.push(BlobComponent { strength: -parts[0].strength, ..parts[0].clone() });
         }
@@ -371,8 +371,8 @@ fn where_fields_begin_and_end_nothing_is_lost() {
 
 #[test]
 fn a_crossing_where_another_field_begins_is_one_simple_crossing() {
-    // The surface of the first ball, at a distance of 0.5 from its centre, meets the very point at
-    // which the field of the second begins.
+    // The surface of the first ball, at a distance of 0.5 from its centre, passes exactly through
+    // the point at which the field of the second begins.
     let parts = [ball(Point3::ORIGIN, 1.0, 1.0), ball(Point3::new(1.5, 0.0, 0.0), 1.0, 1.0)];
     let blob = Blob::new(0.5625, &parts).unwrap();
     for (d, count) in
@@ -382,7 +382,7 @@ fn a_crossing_where_another_field_begins_is_one_simple_crossing() {
             let ray = Ray::new(Point3::new(0.5, 0.0, 0.0) - d * back, d);
             let roots = all(&blob, &ray);
             if d == Vec3::Y {
-                // Tangent there.
+                // A tangent there.
                 assert!(roots.len() <= 2, "{roots:?}");
                 continue;
             }

@@ -1,5 +1,5 @@
-//! Deformed solids against multi-precision values of the same maps written another way, against
-//! solids that they are, and against themselves.
+//! Deformed solids against multi-precision values of the same maps in another form, against solids
+//! to which they are equal, and against themselves.
 
 mod common;
 #[path = "common/warp_witness.rs"]
@@ -17,7 +17,7 @@ use durer_surfaces::{
 use std::sync::Arc;
 use witness::{Real, Solid, was};
 
-/// A rope of warps, and each solid under it.
+/// Sequences of warps, to be applied to each solid.
 fn ropes() -> Vec<Vec<Warp>> {
     let twist = |axis: Vec3, degrees: f64, from: f64, to: f64| Warp::Twist { axis, degrees, from, to };
     let taper = |axis: Vec3, factor: f64, from: f64, to: f64| Warp::Taper { axis, factor, from, to };
@@ -39,7 +39,7 @@ fn ropes() -> Vec<Vec<Warp>> {
     ]
 }
 
-/// `y` was `y - sin(3 x) / 8`.
+/// The warp whose inverse maps `y` to `y - sin(3 x) / 8`.
 fn wave() -> Warp {
     let mut b = Builder::new();
     let [x, y, z] = [0, 1, 2].map(|i| b.input(i).unwrap());
@@ -71,7 +71,7 @@ fn all<S: Surface>(surface: &S, ray: &Ray) -> Vec<Root> {
     sink.roots
 }
 
-/// From outside through the box of a surface, from near and far, along axes too.
+/// A ray from outside through the box of a surface, from near and far, along axes too.
 fn ray_at(dice: &mut Dice, bounds: &Aabb) -> Ray {
     let centre = bounds.centre();
     let half = bounds.widths() * 0.45;
@@ -130,7 +130,7 @@ fn brackets_hold_changes_of_sign_in_256_bits_and_none_is_missing() {
                     met += 1;
                     widths.push((root.hi - root.lo) / (root.t.abs() * f64::EPSILON));
                 }
-                // Samples see no more changes than there are, and miss them in pairs.
+                // Samples find no more changes than there are, and miss them in pairs.
                 let length = ray.direction.length();
                 let bounds = Surface::bounds(&deformed);
                 let middle = (bounds.centre() - ray.origin).dot(ray.direction) / (length * length);
@@ -160,7 +160,7 @@ fn brackets_hold_changes_of_sign_in_256_bits_and_none_is_missing() {
     );
 }
 
-/// Against the half-spaces `n . p <= d` that it is, in exact fractions.
+/// Compared with the half-spaces `n . p <= d` that bound it, in exact fractions.
 #[test]
 fn a_tapered_block_is_a_piece_of_a_pyramid() {
     use durer_math::Dyadic;
@@ -233,7 +233,7 @@ fn a_tapered_block_is_a_piece_of_a_pyramid() {
     assert!(met > 2000, "{met}");
 }
 
-/// Each root of one has a root of the other in an overlapping bracket; where one cannot tell, only
+/// Each root of one has a root of the other in an overlapping bracket; if one is uncertain, only
 /// the sums of signs count.
 fn same(a: &[Root], b: &[Root]) -> bool {
     let sure = |roots: &[Root]| roots.iter().all(|r| r.kind == RootKind::Simple);
@@ -298,7 +298,7 @@ fn a_deformed_union_is_the_union_of_the_deformed() {
             let ray = ray_at(&mut dice, &Surface::bounds(&whole));
             let mut events: Vec<Root> = parts.iter().flat_map(|part| all(part, &ray)).collect();
             events.sort_by(|a, b| a.t.total_cmp(&b.t));
-            // Where brackets of both meet the order is not known.
+            // If brackets of both overlap, the order is unknown.
             if events.windows(2).any(|w| w[1].lo <= w[0].hi) {
                 continue;
             }
@@ -322,7 +322,7 @@ fn a_deformed_union_is_the_union_of_the_deformed() {
 #[test]
 fn a_bent_cylinder_is_a_piece_of_a_torus() {
     // 180 degrees along 2: R = 2 / pi, which is no f64, so that roots agree to rounding times their
-    // condition.
+    // condition number.
     let pipe = {
         let (a, b) = (Point3::new(0.0, 0.0, 0.0), Point3::new(0.0, 0.0, 2.0));
         let bounds = Aabb::new(Point3::new(-0.25, -0.25, 0.0), Point3::new(0.25, 0.25, 2.0));
@@ -396,7 +396,7 @@ fn rays_leave_deformed_solids() {
 
 #[test]
 fn any_axis_will_do() {
-    // About a slanted axis: what a rotation makes of the twist about z.
+    // About a slanted axis: the rotated twist about z.
     let turn = Affine::rotation(Vec3::new(1.0, -2.0, 0.5), 0.7).unwrap();
     let axis = turn.vector(Vec3::Z);
     let warp = |axis: Vec3| Warp::Twist { axis, degrees: 120.0, from: -1.0, to: 1.0 };
@@ -429,8 +429,8 @@ fn what_is_not_one_to_one_is_refused() {
     // The centre at 0.2, the block up to 0.25.
     let near = (2.0_f64 / 0.2).to_degrees();
     assert!(matches!(refused(bend(near, -1.0, 1.0)), DeformError::Centre { .. }));
-    // Thin enough to come round: the piece of 2.5 by 360 degrees has R = 0.398; by 320 it is told
-    // apart from itself.
+    // Thin enough to come round: the piece of 2.5 by 360 degrees has R = 0.398. By 320 degrees its
+    // ends are certainly apart.
     assert!(matches!(refused(bend(360.0, -1.0, 1.5)), DeformError::Round { .. }));
     assert!(block.deformed(&bend(320.0, -1.0, 1.5)).is_ok());
     assert!(matches!(refused(bend(10.0, 1.0, 1.0)), DeformError::Stretch { warp: "bend", .. }));
@@ -468,7 +468,7 @@ fn formulas_without_an_inverse_are_refused() {
     let flat = formula_map(|_, [x, y, _]| [x, y, y], 1.0);
     assert!(matches!(refused(&flat), DeformError::Injective(_)));
     // A turn about z by an angle that grows with x: its determinant at a point is never zero where
-    // it turns little, and a box sees more.
+    // it turns little, but over a box its bounds contain zero.
     let turning = |rate: f64| {
         move |b: &mut Builder, [x, y, z]: [NodeId; 3]| {
             let rate = b.constant(rate).unwrap();
@@ -481,7 +481,8 @@ fn formulas_without_an_inverse_are_refused() {
         }
     };
     assert!(block.deformed(&formula_map(turning(0.2), 1.5)).is_ok());
-    // It is one to one (a twist is), but bounds of its slopes over the whole box do not show it.
+    // It is one to one (as a twist is), but bounds of its slopes over the whole box do not prove
+    // it.
     assert!(matches!(refused(&formula_map(turning(4.0), 1.5)), DeformError::Injective(_)));
     // Jumps, holes and infinite slopes.
     let jumps = formula_map(
@@ -526,7 +527,7 @@ fn coincident_faces_leave_no_skin() {
     };
     let twist = Warp::Twist { axis: Vec3::Y, degrees: 50.0, from: 0.0, to: 1.0 };
     let whole = block([-0.5, 0.0, -0.5], [0.5, 1.0, 0.5]);
-    // Two halves, and the whole without its upper half: coincident faces within and on top.
+    // Two halves, and the whole without its upper half: coincident faces inside and on top.
     let (low, high) = (block([-0.5, 0.0, -0.5], [0.5, 0.5, 0.5]), block([-0.5, 0.5, -0.5], [0.5, 1.0, 0.5]));
     let both = LevelSet::union(&[low.clone(), high.clone()]).unwrap();
     let rest = LevelSet::intersection(&[whole.clone(), high.complement().unwrap()]).unwrap();
@@ -539,7 +540,7 @@ fn coincident_faces_leave_no_skin() {
             let ray = ray_at(&mut dice, &Surface::bounds(&same_as));
             let (a, b) = (all(&made, &ray), all(&same_as, &ray));
             let overlap = |(a, b): (&Root, &Root)| a.lo <= b.hi && b.lo <= a.hi && a.sign == b.sign;
-            // Touches of edges are told in some formulas only.
+            // Only some formulas report rays that touch edges.
             let b: Vec<Root> = b.into_iter().filter(|r| r.sign != 0).collect();
             assert!(a.len() == b.len() && a.iter().zip(&b).all(overlap), "{ray:?}\n {a:?}\n {b:?}");
             met += a.len();
@@ -566,8 +567,8 @@ fn a_ray_in_a_face_that_two_parts_share_is_inside() {
     };
     let twist = Warp::Twist { axis: Vec3::Y, degrees: 50.0, from: 0.0, to: 1.0 };
     let low = block([-0.5, 0.0, -0.5], [0.5, 0.5, 0.5]);
-    // On all of it, on a half, on two quarters that are apart; the solid that has just that as its
-    // section at 0.5.
+    // The upper part covers all of it, a half, or two separate quarters; `through` has just this as
+    // its section at 0.5.
     let upper: [&[LevelSet]; 3] = [
         &[block([-0.5, 0.5, -0.5], [0.5, 1.0, 0.5])],
         &[block([0.0, 0.5, -0.5], [0.5, 1.0, 0.5])],
@@ -605,7 +606,7 @@ fn a_ray_in_a_face_that_two_parts_share_is_inside() {
             assert!(met > 150 && missed > 10, "{met}, {missed}");
         }
     }
-    // What a face shares with nothing, or with what is taken away, is not inside.
+    // A face that is shared with nothing, or with a part that is subtracted, is not inside.
     let none = LevelSet::intersection(&[low.clone(), low.complement().unwrap()]).unwrap();
     for solid in [LevelSet::union(&[low.clone(), low]).unwrap(), none] {
         let Some(made) = deformed(&solid, core::slice::from_ref(&twist)).surface().unwrap() else { continue };

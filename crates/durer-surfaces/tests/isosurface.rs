@@ -61,7 +61,7 @@ fn quartic_torus(major: f64, minor: f64) -> Formula {
     p.done(f)
 }
 
-/// Rays from anywhere through points near the surface of a unit ball, often all but tangent to it,
+/// Rays from anywhere through points near the surface of a unit ball, often almost tangent to it,
 /// with all kinds of ranges.
 fn ray_at_a_ball(dice: &mut Dice, radius: f64) -> Ray {
     let direction = dice.vector();
@@ -82,15 +82,15 @@ fn ray_at_a_ball(dice: &mut Dice, radius: f64) -> Ray {
     }
 }
 
-/// Each root of one has a root of the other in an overlapping bracket; where one could not tell
-/// roots apart only the parity counts.
+/// Each root of one has a root of the other in an overlapping bracket; if one could not separate
+/// roots, only the parity counts.
 fn same(a: &[Root], b: &[Root]) -> bool {
     let sure = |roots: &[Root]| roots.iter().all(|r| r.kind == RootKind::Simple);
     if sure(a) && sure(b) {
         return a.len() == b.len()
             && a.iter().zip(b).all(|(a, b)| a.lo <= b.hi && b.lo <= a.hi && a.sign == b.sign);
     }
-    // A touch may lie at an end of the range, or may not.
+    // A touch may lie at an end of the range, or outside.
     let net = |roots: &[Root]| roots.iter().map(|r| i32::from(r.sign)).sum::<i32>();
     net(a) == net(b) || a.iter().any(|r| r.kind == RootKind::Cluster && r.sign == 0)
 }
@@ -110,8 +110,8 @@ fn a_sphere_as_a_formula_is_the_sphere() {
             met += a.len();
             unsure += a.iter().filter(|r| r.kind == RootKind::Cluster).count();
             let unit = ray.direction.length();
-            // Brackets are as wide as the crossing is ill-conditioned: those of rays that do not
-            // graze are looked at.
+            // The width of a bracket grows with the crossing's condition number: only rays that do
+            // not graze are measured.
             let o = ray.origin.to_vec();
             let apart = o.cross(ray.direction).length() / unit;
             if apart > 0.9 * r {
@@ -128,7 +128,7 @@ fn a_sphere_as_a_formula_is_the_sphere() {
     }
 }
 
-/// Waves that cells tell apart only here and there, with edges where the planes of `max` meet them.
+/// Waves that only some cells separate, with edges where the planes of `max` meet them.
 fn wavy() -> Formula {
     let (mut p, [x, y, z]) = Pen::new();
     let nine = p.c(9.0);
@@ -145,8 +145,8 @@ fn wavy() -> Formula {
     p.done(f)
 }
 
-/// Rays that look ask less of a bracket: the same roots, in brackets about the narrow ones, no
-/// wider than they may be.
+/// Rays of preview precision need wider brackets: they have the same roots, in brackets about the
+/// narrow ones that are no wider than allowed.
 #[test]
 fn who_looks_roughly_sees_the_same_roots() {
     let mut dice = Dice(40);
@@ -164,8 +164,8 @@ fn who_looks_roughly_sees_the_same_roots() {
             for root in rough.iter().filter(|r| r.kind == RootKind::Simple) {
                 met += 1;
                 let most = durer_surfaces::PREVIEW_WIDTH * root.t.abs().max(3.0 / ray.direction.length());
-                // Where the ray is not known better, or is all but tangent, no bracket can be that
-                // narrow.
+                // Where the ray itself has a larger error, or is almost tangent, no bracket can be
+                // that narrow.
                 let clear = |r: &Root| r.hi - r.lo < most / 1024.0 && r.lo <= root.hi && root.lo <= r.hi;
                 wide += usize::from(narrow.iter().any(clear) && root.hi - root.lo > 2.0 * most);
             }
@@ -175,8 +175,8 @@ fn who_looks_roughly_sees_the_same_roots() {
     }
 }
 
-/// A ball, cut off: rays that cut its rim by less than pictures care for meet it there all the
-/// same.
+/// A clipped ball: rays of preview precision hit its rim, also if they cut off less than their
+/// precision.
 #[test]
 fn pictures_see_as_much_of_a_rim() {
     let held = AxisBox::new(Point3::new(-2.0, -2.0, -2.0), Point3::new(2.0, 0.5, 2.0)).unwrap();
@@ -313,8 +313,8 @@ fn rays_leave_what_they_were_spawned_on() {
 
 #[test]
 fn no_root_is_lost_where_a_formula_is_wild() {
-    // sin(40 x) sin(40 y) sin(40 z) + 0.1: hundreds of sheets, none of which a sample may find that
-    // we do not.
+    // sin(40 x) sin(40 y) sin(40 z) + 0.1: hundreds of sheets. Samples must not find a sheet that
+    // the surface misses.
     let (mut p, xyz) = Pen::new();
     let forty = p.c(40.0);
     let waves = xyz.map(|x| {
@@ -333,7 +333,7 @@ fn no_root_is_lost_where_a_formula_is_wild() {
         let ray = Ray::new((dice.vector() * 0.9).to_point(), dice.vector()).with_range(0.0, 0.8);
         let roots: Vec<Root> = all(&surface, &ray).into_iter().filter(|r| r.face == 0).collect();
         assert!(roots.windows(2).all(|w| w[0].sign == -w[1].sign), "{ray:?}: {roots:?}");
-        // Samples see a subset of the changes of sign.
+        // Samples find a subset of the changes of sign.
         let mut changes = 0;
         let mut before = None;
         for i in 0..=20_000 {
@@ -358,7 +358,7 @@ fn no_root_is_lost_where_a_formula_is_wild() {
 
 #[test]
 fn cells_shorten_tapes() {
-    // The union of nine balls: in most cells one or two are left.
+    // The union of nine balls: in most cells one or two remain.
     let (mut p, [x, y, z]) = Pen::new();
     let mut union = None;
     for i in 0..9 {
@@ -374,7 +374,8 @@ fn cells_shorten_tapes() {
     assert!(open > 50 && steps * 3.0 < whole as f64, "{open} cells, {steps} of {whole} steps");
 }
 
-/// Where a line only touches the container, and the formula holds there, it touches the solid.
+/// If a line only touches the container, and the point is inside the formula's solid, it touches
+/// the solid.
 #[test]
 fn touches_of_the_container_are_told() {
     let plane = |at: f64| {
@@ -398,15 +399,15 @@ fn touches_of_the_container_are_told() {
         assert_eq!(met(&of(5.0), &line), [(1.0, 0, RootKind::Grazing, true)]);
         assert_eq!(met(&of(5.0), &line.with_range(0.0, 0.5)), []);
         assert_eq!(met(&of(5.0), &line.with_range(1.0, 1.0)).len(), 1);
-        // Outside of the formula, without caps, of a regular solid: nothing.
+        // Outside the formula's solid, without caps, or of a regular solid: nothing.
         assert_eq!(met(&of(1.0), &line), []);
         assert_eq!(met(&of(5.0).without_caps(), &line), []);
         assert_eq!(met(&of(5.0).regular(), &line), []);
     }
 }
 
-/// Next to its pole the ball is within the cushion by less than any bracket: a ray that starts
-/// outside of it and goes away meets nothing.
+/// Near its pole the ball lies within the cushion by less than any bracket: a ray that starts
+/// outside the ball and goes away hits nothing.
 #[test]
 fn a_start_outside_the_container_is_outside() {
     let (mut p, [x, y, z]) = Pen::new();
@@ -429,8 +430,8 @@ fn a_start_outside_the_container_is_outside() {
     assert_eq!(met(&Ray::new(back.origin, -direction)), [-1, 1]);
 }
 
-/// A rim is where a formula's surface meets its container: a ray that passes there within rounding
-/// meets it once, if at all, or is inside for longer than that.
+/// At a rim a formula's surface meets its container. A ray that passes there within rounding
+/// touches it at most once, or is inside for longer than that.
 #[test]
 fn a_rim_within_rounding_is_one_touch() {
     let (mut p, [x, y, _]) = Pen::new();
@@ -440,7 +441,7 @@ fn a_rim_within_rounding_is_one_touch() {
     let surface = iso(&p.done(f), 1.0);
     let (mut dice, mut touches) = (Dice(32), 0);
     for _ in 0..2000 {
-        // Through the rim at x = 1/2, y = -1, from below the one face to beyond the other.
+        // Through the rim at x = 1/2, y = -1, from below one face to beyond the other.
         let rim = Vec3::new(0.5, -1.0, 0.5 * dice.unit());
         let d = Vec3::new(dice.unit() - 0.25, dice.unit(), dice.unit());
         let d = if d.x + d.y > 0.1 && d.y > 0.1 { d } else { Vec3::new(0.3, 0.7, 0.1) };
@@ -453,8 +454,8 @@ fn a_rim_within_rounding_is_one_touch() {
     assert!(touches > 200, "{touches}");
 }
 
-/// Along a cone's line within rounding nothing can be told; a cluster of it holds where the ball is
-/// entered and left, where the formula's sign is certain by chance.
+/// Along a line of a cone, within rounding, nothing is certain. The resulting cluster contains the
+/// entry into the ball and the exit from it, where the formula's sign is certain by chance.
 #[test]
 fn a_cluster_holds_the_rims_at_its_ends() {
     let (mut p, inputs) = Pen::new();
@@ -469,14 +470,14 @@ fn a_cluster_holds_the_rims_at_its_ends() {
     let o = Point3::new(2.0662256623722506 - 1.0, 125.0 - 123.03311283118613, 2.0662256623722506);
     let d = Vec3::new(-0.00026030899960260013, -0.0004801970626986999, -0.0005044496246026003);
     let roots = all(&surface, &Ray::new(o, d));
-    // Where the line is in the ball: |o + t d| = 3.
+    // The part of the line in the ball: |o + t d| = 3.
     let (enters, leaves) = (61.12941187261574, 8130.8705881273745);
     assert!(matches!(roots.as_slice(), [Root { sign: 0, kind: RootKind::Cluster, .. }]), "{roots:?}");
     assert!(roots[0].lo <= enters && leaves <= roots[0].hi, "{roots:?}");
 }
 
-/// Next to a wall that is a plane within rounding, where the formula cannot be told from zero in
-/// the container's own face: the root before that is one by itself.
+/// Near a wall that is a plane within rounding, where the formula cannot be distinguished from zero
+/// in the container's own face: the root before that is reported separately.
 #[test]
 fn a_root_before_a_rim_is_told() {
     let (mut p, [x, y, z]) = Pen::new();
@@ -490,12 +491,12 @@ fn a_root_before_a_rim_is_told() {
     let f = p.sub(sum, one);
     let held = AxisBox::new(Point3::new(-1.0, -2.0, -2.0), Point3::new(3.0, 2.0, 2.0)).unwrap();
     let surface = Isosurface::new(&p.done(f), 0.0, Container::Box(held)).unwrap();
-    // All but in the plane z = -1, where it is x² = 0: (1 + z) (y² + z - 1) + x² (1 - z).
+    // Almost in the plane z = -1, where it is x² = 0: (1 + z) (y² + z - 1) + x² (1 - z).
     let o = Point3::new(124.99999999999999 - 125.0, -35.00000000000001, 998.9999999999999 - 1000.0);
     let roots = all(&surface, &Ray::new(o, Vec3::new(0.0, 0.0009765625, 0.0)));
     let signs: Vec<_> = roots.iter().map(|r| r.sign).collect();
     assert_eq!(signs, [-1, 1, -1, 1], "{roots:?}");
-    // Where |y| = 2 at the walls, and y² = 1 - z = 2 between, to five decimals.
+    // |y| = 2 at the walls, and y² = 1 - z = 2 between, to five decimals.
     for (root, t) in roots.iter().zip([33792.0, 34391.84531, 37288.15469, 37888.0]) {
         assert!(root.lo - 1e-5 <= t && t <= root.hi + 1e-5, "{root:?}");
     }

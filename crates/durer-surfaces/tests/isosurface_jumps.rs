@@ -1,4 +1,5 @@
-//! Formulas that jump: what is a wall of their surfaces, with which normal, and what is none.
+//! Formulas that jump: which jumps are walls of their surfaces, with which normals, and which are
+//! not.
 
 #[path = "common/formulas.rs"]
 mod formulas;
@@ -10,7 +11,7 @@ use formulas::{Pen, all, iso};
 
 #[test]
 fn jumps_are_walls_and_undefined_is_nothing() {
-    // select(x, -1, 1): all that is below x = 0.
+    // select(x, -1, 1): the half-space below x = 0.
     let (mut p, [x, _, z]) = Pen::new();
     let (below, above) = (p.c(-1.0), p.c(1.0));
     let step = p.op(Op::Select([x, below, above, above]));
@@ -36,8 +37,8 @@ fn jumps_are_walls_and_undefined_is_nothing() {
     assert!(roots.len() == 2 && (roots[1].t - 3.1).abs() < 1e-14, "{roots:?}");
 }
 
-/// Where two that have one value meet nothing jumps: rays that cross there, or go along it, cross
-/// simply.
+/// Where two branches meet with the same value, nothing jumps: rays that cross there, or run along
+/// it, have simple crossings.
 #[test]
 fn what_is_joined_is_no_wall() {
     let (mut p, [x, y, _]) = Pen::new();
@@ -59,10 +60,10 @@ fn what_is_joined_is_no_wall() {
         let roots = all(&roof, &Ray::new(origin, way));
         let [root] = roots.as_slice() else { panic!("{origin:?}: {roots:?}") };
         assert!(root.kind == RootKind::Simple && root.lo <= t && t <= root.hi, "{origin:?}: {root:?}");
-        // Across the bend Newton's steps know the slope from 1/2 to 3.
+        // Across the bend Newton's steps know the slope only as between 1/2 and 3.
         assert!(root.hi - root.lo < if i == 0 { 1e-10 } else { 1e-14 }, "{root:?}");
     }
-    // Cells on either side are shorter by the choice.
+    // The choice shortens the tapes of cells on either side.
     let tape = Tape::new(&p.done(f));
     let across = [Interval::new(-1.0, 0.0), Interval::new(0.0, 1.0)];
     for side in across {
@@ -72,8 +73,8 @@ fn what_is_joined_is_no_wall() {
     }
 }
 
-/// Sums of whole numbers are exact: of `mod(floor(x) + floor(y) + 10, 2) = 1/2`, a checker, the
-/// walls are met, and nothing between them.
+/// Sums of integers are exact: rays hit the walls of the checker
+/// `mod(floor(x) + floor(y) + 10, 2) = 1/2`, and nothing between them.
 #[test]
 fn sums_of_whole_numbers_are_whole() {
     let (mut p, [x, y, _]) = Pen::new();
@@ -97,9 +98,9 @@ fn sums_of_whole_numbers_are_whole() {
     }
 }
 
-/// So are their products, and their quotients where they are: of `k mod 3 = 0` with `k = floor(x)`,
-/// written as `k - 3 floor(k/3)`, the walls are met, though what is chosen below zero, where it
-/// never is, would fill everything.
+/// Products of integers are exact, and so are quotients that are integers. Rays hit the walls of
+/// `k mod 3 = 0` with `k = floor(x)`, written as `k - 3 floor(k/3)`. That expression is never
+/// negative; if it were, the value chosen below zero would fill everything.
 #[test]
 fn products_and_quotients_of_whole_numbers_are_exact() {
     let (mut p, [x, _, _]) = Pen::new();
@@ -125,8 +126,8 @@ fn products_and_quotients_of_whole_numbers_are_exact() {
     }
 }
 
-/// A wall, where a formula jumps, has the normal of what decides about the side, outward as the ray
-/// goes.
+/// The normal of a wall, where a formula jumps, is that of the operand that decides the side;
+/// outward along the ray.
 #[test]
 fn walls_have_the_normals_of_what_jumps() {
     let (mut p, [x, y, z]) = Pen::new();
@@ -163,7 +164,7 @@ fn walls_have_the_normals_of_what_jumps() {
             for root in walls {
                 let at = surface.resolve(&LocalRay::new(&ray), root, Need::ALL);
                 let n = at.ng.to_vec();
-                // Stairs have level steps, too, of which these rays meet none.
+                // Stairs also have level steps, which these rays do not hit.
                 let off = n - normal * n.dot(normal).signum();
                 assert!(off.length() < 1e-12, "{f:?}: {at:?}, expected {normal:?}");
                 assert_eq!(n.dot(d).signum(), f64::from(root.sign), "{f:?}: {at:?} {root:?}");
@@ -172,24 +173,24 @@ fn walls_have_the_normals_of_what_jumps() {
     }
 }
 
-/// `x` without its whole part, from 0 to 1, by each of the steps that can say it.
+/// The fractional part of `x`, from 0 to 1, by each of the operations that can express it.
 fn parts(p: &mut Pen, x: NodeId) -> Vec<NodeId> {
     let one = p.c(1.0);
     let floor = p.op(Op::Function(Function::Floor, x));
     let ceil = p.op(Op::Function(Function::Ceil, x));
     let (down, up) = (p.sub(x, floor), p.sub(x, ceil));
-    // Above zero only.
+    // Valid only above zero.
     let far = p.c(100.0);
     let positive = p.add(x, far);
     let rest = p.op(Op::Rem(positive, one));
-    // Of either sign, and one more where it is below zero.
+    // Of either sign, plus one where it is below zero.
     let signed = p.op(Op::Rem(x, one));
     let more = p.add(signed, one);
     let chosen = p.op(Op::Select([signed, more, signed, signed]));
     vec![down, p.add(up, one), rest, chosen]
 }
 
-/// A saw `|frac(x) - 1/2| - y` does not jump where `frac` does: a line meets its teeth and nothing
+/// A saw `|frac(x) - 1/2| - y` does not jump where `frac` does: a line hits its teeth and nothing
 /// else.
 #[test]
 fn what_jumps_to_and_fro_is_no_wall() {
@@ -221,8 +222,8 @@ fn what_jumps_to_and_fro_is_no_wall() {
     }
 }
 
-/// An angle jumps behind the axis, and so do its whole turns: a gear of seven teeth,
-/// `r + cos(7 (a - 2 pi floor(a / 2 pi))) / 8 = 1`, is round there. Rays through its axis meet it
+/// An angle jumps behind the axis, and so does its number of whole turns. A gear of seven teeth,
+/// `r + cos(7 (a - 2 pi floor(a / 2 pi))) / 8 = 1`, is continuous there. Rays near its axis hit it
 /// twice.
 #[test]
 fn angles_that_begin_anew_are_no_walls() {
@@ -244,8 +245,8 @@ fn angles_that_begin_anew_are_no_walls() {
     let one = p.c(1.0);
     let f = p.sub(sum, one);
     let gear = iso(&p.done(f), 1.5);
-    // Near the axis, not through it: there is no angle on it. The last ones cross the place where
-    // the angle jumps inside and outside of the gear.
+    // Near the axis, not through it, since the angle is undefined on it. The last rays cross the
+    // place where the angle jumps, inside and outside the gear.
     for (o, d) in [
         ([3.0, 1e-3, 0.1], [-1.0, 0.0, 0.0]),
         ([3.0, 0.25, 0.1], [-2.0, 0.0625, 0.0]),
@@ -265,8 +266,8 @@ fn angles_that_begin_anew_are_no_walls() {
     assert!((at.ng.to_vec() + Vec3::new(1.0, 0.0, 0.0)).length() < 1e-9, "{at:?} {found:?}");
 }
 
-/// What is chosen by a sign: `|x|` as `x < 0 ? -x : x` is nowhere a wall, and three jumps at one
-/// place are told apart.
+/// Values chosen by a sign: `|x|` as `x < 0 ? -x : x` is nowhere a wall, and three jumps at one
+/// place are distinguished.
 #[test]
 fn choices_that_meet_are_no_walls() {
     let (mut p, [x, y, z]) = Pen::new();
@@ -297,7 +298,7 @@ fn choices_that_meet_are_no_walls() {
     }
 }
 
-/// Two choices by one sign: `a b = 2` on both sides, and -2 between them only where zero belongs to
+/// Two choices by one sign: `a b = 2` on both sides, and -2 between them only if zero belongs to
 /// different sides.
 #[test]
 fn choices_by_one_sign_go_together() {

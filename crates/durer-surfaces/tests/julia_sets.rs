@@ -18,7 +18,7 @@ fn julia_of(c: [f64; 4], algebra: JuliaAlgebra, power: JuliaPower, iterations: u
 
 #[test]
 fn a_julia_set_of_zero_is_a_ball() {
-    // |z|^(2^N) = 2: the radius is the root of 2 that N square roots give.
+    // |z|^(2^N) = 2: the radius is the N-fold square root of 2.
     for (iterations, power, radius) in [
         (0, JuliaPower::Square, 2.0_f64),
         (1, JuliaPower::Square, 2.0_f64.sqrt()),
@@ -49,7 +49,7 @@ fn a_julia_set_of_zero_is_a_ball() {
     }
 }
 
-/// What is a touch within rounding is no longer than that: about `√2⁻⁵⁰` of the set.
+/// A touch within rounding is no longer than rounding requires: about `√2⁻⁵⁰` of the set.
 #[test]
 fn a_touch_is_as_short_as_rounding_allows() {
     let set = JuliaSet::new(&julia_of([0.0; 4], JuliaAlgebra::Quaternion, JuliaPower::Square, 0)).unwrap();
@@ -71,7 +71,7 @@ fn a_touch_is_as_short_as_rounding_allows() {
     assert!(touches > 100, "{touches}");
 }
 
-/// Brackets are those of the exact placement, however much its inverse makes of a rounding.
+/// Brackets are those of the exact placement, however much its inverse magnifies rounding errors.
 #[test]
 fn a_shear_widens_no_bracket() {
     let shear = [[1.0, 500.0, 0.0], [0.0, 1.0, 500.0], [0.0, 0.0, 1.0]];
@@ -109,7 +109,7 @@ fn times<T: Ring>(algebra: JuliaAlgebra, z: &[T; 4], y: &[T; 4]) -> [T; 4] {
     let mut out: [T; 4] = core::array::from_fn(|_| T::exact(0.0));
     for (i, z) in z.iter().enumerate() {
         for (j, y) in y.iter().enumerate() {
-            // 1 times anything, i i = j j = -1, and then as the algebra has it.
+            // 1 times anything, i i = j j = -1, and the rest by the algebra's rules.
             let minus = match (i, j) {
                 (0, _) | (_, 0) => false,
                 (1, 1) | (2, 2) => true,
@@ -179,7 +179,7 @@ fn brackets_of_julia_sets_have_the_signs_of_exact_arithmetic_at_their_ends() {
                 let (lo, hi) = (exactly_in(&data, &ray, root.lo), exactly_in(&data, &ray, root.hi));
                 assert_eq!((lo, hi), (root.sign > 0, root.sign < 0), "{data:?} {ray:?} {root:?}");
             }
-            // Between roots all is in or out.
+            // Between roots every point is on the same side.
             for i in 0..200 {
                 let t = (2.0 + f64::from(i) / 50.0) / ray.direction.length();
                 if roots.iter().all(|r| t < r.lo || t > r.hi) {
@@ -231,7 +231,7 @@ fn normals_and_starts_are_on_their_sides() {
                     assert_eq!(surface.side(&LocalPoint::new(start)), expected, "{ray:?} {point:?}");
                     assert_eq!(exactly_in(&set, &Ray::new(start, d), 0.0), expected == Side::In, "{point:?}");
                 }
-                // Straight away from the surface it is not met again at once.
+                // A ray straight away from the surface does not hit it again at once.
                 let away = point.spawn(point.ng.to_vec());
                 let local = LocalRay::new(&away).from_side(Some(durer_math::RaySide::Front));
                 let mut again = durer_surfaces::All::default();

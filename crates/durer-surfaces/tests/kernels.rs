@@ -1,6 +1,5 @@
-//! The same surface in several kernels: quadric, polynomial, formula, swept, turned. Each holds its
-//! exact crossings in brackets, so that brackets of one crossing overlap, whichever kernel gave
-//! them.
+//! One surface in several kernels: quadric, polynomial, formula, swept, revolution. Each
+//! brackets its exact crossings, so the brackets of one crossing overlap for all kernels.
 
 mod common;
 
@@ -14,7 +13,7 @@ use durer_surfaces::{
     SurfaceOfRevolution, Torus, Warp, superellipsoid,
 };
 
-/// A surface and what it is called.
+/// A surface's name and its roots along a ray.
 type Named = (&'static str, Box<dyn Fn(&Ray) -> Vec<Root>>);
 
 fn named<S: Surface + 'static>(name: &'static str, surface: S) -> Named {
@@ -45,15 +44,15 @@ fn ray(dice: &mut Dice) -> Ray {
     Ray::new(through.to_point() - direction * back, direction)
 }
 
-/// Compares all with the first. Clusters and tangents say that they are not sure: such rays are
-/// counted and may not be many.
+/// Compares all kernels with the first. Rays with clusters or tangents are uncertain; they are
+/// counted and must be few.
 fn agree(kernels: &[Named], seed: u64, count: usize) {
     let mut dice = Dice(seed);
     let (mut met, mut unsure) = (0, 0);
     for _ in 0..count {
         let ray = ray(&mut dice);
         let all: Vec<_> = kernels.iter().map(|(name, roots)| (name, roots(&ray))).collect();
-        // What t cannot put in order counts as unsure, too.
+        // Roots that t does not separate count as uncertain, too.
         let close = |roots: &[Root]| roots.windows(2).any(|w| w[1].lo <= w[0].hi);
         if all.iter().any(|(_, roots)| close(roots) || roots.iter().any(|r| r.kind != RootKind::Simple)) {
             unsure += 1;

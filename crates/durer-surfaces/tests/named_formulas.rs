@@ -121,8 +121,8 @@ fn exponents_out_of_range_are_named() {
     }
 }
 
-/// Beyond what rounding leaves open along a tangent of high order, or along a straight line in the
-/// surface, the sign is certain, and no cluster reaches there.
+/// Beyond the part of a high-order tangent, or of a straight line in the surface, that rounding
+/// leaves open, the sign is certain, and no cluster extends there.
 #[test]
 fn clusters_end_where_rounding_does() {
     let met = |(e, n): (f64, f64), o: [f64; 3], d: [f64; 3]| {

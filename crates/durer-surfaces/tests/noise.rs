@@ -1,5 +1,5 @@
-//! Surfaces of noise against exact arithmetic: what noise is, written out once more in numbers
-//! without rounding.
+//! Surfaces of noise against exact arithmetic: the definition of the noise, written once more in
+//! numbers without rounding.
 
 mod common;
 
@@ -13,7 +13,7 @@ fn number(x: f64) -> Dyadic {
     Dyadic::exact(x)
 }
 
-/// The greatest whole number that is not above `x`, which is small.
+/// The greatest integer that is at most `x`, which is small.
 fn floor(x: &Dyadic) -> f64 {
     let near = x.to_f64().floor();
     if number(near) > *x { near - 1.0 } else { near }
@@ -89,7 +89,7 @@ fn brackets_hold_a_change_of_the_exact_sign_and_none_is_left_out() {
             let ray = ray.with_range(f64::NEG_INFINITY, f64::INFINITY);
             let mut all = All::default();
             surface.roots(&LocalRay::new(&ray), &mut all);
-            // Outside, behind each crossing on the other side, and outside again.
+            // The ray starts outside, changes sides at each crossing, and ends outside.
             let mut side = Ordering::Greater;
             for root in &all.roots {
                 let expected = if root.sign < 0 { Ordering::Less } else { Ordering::Greater };
@@ -105,7 +105,7 @@ fn brackets_hold_a_change_of_the_exact_sign_and_none_is_left_out() {
                 }
             }
             assert_eq!(side, Ordering::Greater, "{ray:?}");
-            // Between the crossings the exact sign is what they say.
+            // Between the crossings the exact sign agrees with them.
             let reach = 3.0 / away.length();
             for step in 0..96 {
                 let t = 1.0 + reach * (f64::from(step) / 48.0 - 1.0);

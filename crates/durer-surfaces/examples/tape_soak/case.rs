@@ -1,4 +1,4 @@
-//! One random formula, and all that must hold of it: made of any bytes.
+//! One random formula, made from any bytes, and tests of everything that must hold for it.
 
 #[path = "../../../../fuzz/shared/bytes.rs"]
 #[allow(clippy::duplicate_mod, reason = "each target stands alone, too; only the tests load them all")]
@@ -10,7 +10,7 @@ use durer_surfaces::tape::{Builder, Formula, NodeId, Op, Tape};
 use durer_surfaces::{All, AxisBox, Container, Isosurface, LocalRay, Need, RootKind, Surface};
 
 impl Bytes<'_> {
-    /// Mostly small round numbers, sometimes any.
+    /// Usually a small round number, sometimes any number.
     fn number(&mut self) -> f64 {
         match self.next() {
             0 => f64::from_bits(self.bits()),
@@ -37,14 +37,14 @@ impl Steps {
         Some(self.builder.finish(*self.made.last()?, 3))
     }
 
-    /// Whether a step leaves the range of f64 at a point: what comes of its infinity says nothing
-    /// of the formula.
+    /// Whether a step leaves the range of f64 at a point: values that follow from its infinity do
+    /// not test the formula.
     fn overflow(&self, p: Point3) -> bool {
         self.made.iter().any(|&step| self.builder.finish(step, 3).value(&p.to_array()).is_infinite())
     }
 }
 
-/// The formula that the bytes spell: each step takes operands from what is there already.
+/// The formula that the bytes encode: each step takes operands from earlier steps.
 fn steps(bytes: &mut Bytes<'_>) -> Option<Steps> {
     const FUNCTIONS: [Function; 18] = [
         Function::Sin,
@@ -104,7 +104,7 @@ fn steps(bytes: &mut Bytes<'_>) -> Option<Steps> {
             }
             17 => Op::Noise([x, y, pick()]),
             18 => {
-                // y + x a or y + x b, which are the same where x is zero.
+                // y + x a or y + x b, which are equal where x is zero.
                 let (below, above) = (b.push(Op::Mul(x, pick())).ok()?, b.push(Op::Mul(x, pick())).ok()?);
                 Op::Joined([x, b.push(Op::Add(y, below)).ok()?, b.push(Op::Add(y, above)).ok()?])
             }
@@ -115,7 +115,7 @@ fn steps(bytes: &mut Bytes<'_>) -> Option<Steps> {
     Some(Steps { builder: b, made })
 }
 
-/// Checks everything about the formula that the bytes spell.
+/// Tests everything about the formula that the bytes encode.
 ///
 /// # Panics
 ///
@@ -137,7 +137,7 @@ pub(crate) fn check(data: &[u8]) {
     bounds_hold(&steps, &formula, &tape, &boxes);
     slopes_hold(&tape, &boxes);
     gradients_hold(&tape, &boxes);
-    // Cells are dear: a few formulas stand for all.
+    // Cells take long: only a few formulas are tested with them.
     if bytes.next().is_multiple_of(64) {
         roots_are_in_order(&formula, &mut bytes);
     }
@@ -151,10 +151,10 @@ fn point(boxes: &[I8; 3], lane: usize, k: [f64; 3]) -> Point3 {
     Point3::new(at(0), at(1), at(2))
 }
 
-/// Bounds hold the values of points. A tape that was shortened on a box has the same exact values
-/// there, so that its bounds and those of the whole one have numbers in common; where a decision
-/// makes a constant of a step, what follows from it is computed as an interval, of which another
-/// number may be the middle than rounding step by step gives.
+/// Bounds contain the values at points. A tape that was shortened on a box has the same exact
+/// values there, so its bounds and those of the whole tape overlap. If a decision makes a step
+/// constant, everything that follows from it is computed as an interval, whose middle may differ
+/// from the result of rounding step by step.
 fn bounds_hold(steps: &Steps, formula: &Formula, tape: &Tape, boxes: &[I8; 3]) {
     let (v, shorter) = tape.shortened(boxes, |_, _| true);
     for lane in 0..8 {
@@ -178,8 +178,8 @@ fn bounds_hold(steps: &Steps, formula: &Formula, tape: &Tape, boxes: &[I8; 3]) {
                     let short = shorter.value(p);
                     let here = p.to_array().map(|x| I8::splat(Interval { lo: x, hi: x }));
                     let (told, known) = (shorter.bounds(&here), tape.bounds(&here));
-                    // An exponent that is no longer known to be a whole number may leave the
-                    // domain: then bounds say so, and there is no value or no bound of it. And the
+                    // An exponent that is no longer known to be an integer may leave the domain:
+                    // then the bounds report this, and there is no value or no bound. Also, the
                     // side of a joined pair that the whole formula did not take may have come from
                     // an infinity.
                     let left = told.partial & 1 == 1 && (short.is_nan() || told.empty & 1 == 1);
@@ -195,7 +195,7 @@ fn bounds_hold(steps: &Steps, formula: &Formula, tape: &Tape, boxes: &[I8; 3]) {
     }
 }
 
-/// Between two points of a box a smooth formula changes by a slope that is in the bounds.
+/// Between two points of a box a smooth formula changes by a slope within the bounds.
 fn slopes_hold(tape: &Tape, boxes: &[I8; 3]) {
     let zero = I8::constant(Interval { lo: 0.0, hi: 0.0 });
     let one = I8::constant(Interval { lo: 1.0, hi: 1.0 });
@@ -220,8 +220,8 @@ fn slopes_hold(tape: &Tape, boxes: &[I8; 3]) {
     }
 }
 
-/// All directions at once say what they say one by one, or more; rounded numbers are within the
-/// bounds of their points.
+/// Slopes in all directions at once lie within those of single directions; rounded numbers are
+/// within the bounds at their points.
 fn gradients_hold(tape: &Tape, boxes: &[I8; 3]) {
     let number = |x: f64| I8::constant(Interval { lo: x, hi: x });
     let all = tape.gradients(boxes);
@@ -237,8 +237,8 @@ fn gradients_hold(tape: &Tape, boxes: &[I8; 3]) {
             }
             let (told, wider) = (d.lane(lane), one.d.lane(lane));
             assert!(d.partial >> lane & 1 == 0, "{tape:?}");
-            // Not only do both hold the slopes: what does not vary is not multiplied by, which is
-            // narrower, but for what each step is charged for underflow.
+            // Both contain the slopes. Computed together they are also narrower, up to the charge
+            // of each step for underflow, because they skip products with what does not vary.
             let is_tiny = |x: f64| x.abs() < durer_math::scale::pow2(-900);
             let is_below = wider.lo <= told.lo || is_tiny(told.lo) && is_tiny(wider.lo);
             let is_above = told.hi <= wider.hi || is_tiny(told.hi) && is_tiny(wider.hi);
@@ -258,7 +258,7 @@ fn gradients_hold(tape: &Tape, boxes: &[I8; 3]) {
         }
         let holds = |bounds: &I8, value: &F8| {
             let (bounds, value) = (bounds.lane(lane), value.0[lane]);
-            // Overflow is not bounded; what is rounded may lose its way where bounds know nothing.
+            // Overflow is not bounded; rounded numbers may be lost where bounds are unknown.
             !value.is_finite() || bounds.contains(value)
         };
         assert!(holds(&bounds, &values), "{values:?}, {bounds:?}: {tape:?}");
@@ -269,7 +269,7 @@ fn gradients_hold(tape: &Tape, boxes: &[I8; 3]) {
     }
 }
 
-/// Roots ascend, those of a solid alternate, points can be had of them.
+/// Roots ascend, those of a solid alternate, and their points can be computed.
 fn roots_are_in_order(formula: &Formula, bytes: &mut Bytes<'_>) {
     let block = AxisBox::new(Point3::new(-1.0, -1.0, -1.0), Point3::new(1.0, 1.0, 1.0));
     let Ok(block) = block else { return };

@@ -1,8 +1,8 @@
-//! Random formulas for as many seconds as are given:
+//! Tests random formulas for the given number of seconds:
 //! `cargo run --release -p durer-surfaces --example tape_soak -- 60 1`.
 //!
-//! The same as the fuzz target `tape`, for those who have no fuzzer at hand. The second number is
-//! the first seed.
+//! It runs the tests of the fuzz target `tape` without a fuzzer. The second number is the first
+//! seed.
 
 mod case;
 

@@ -165,7 +165,7 @@ fn charts_follow_the_surface() {
             for root in all(&it, &ray).iter().filter(|r| r.kind == RootKind::Simple) {
                 let p = it.resolve(&LocalRay::new(&ray), root, Need::ALL);
                 assert!(p.uv.iter().all(|x| (0.0..=1.0).contains(x)), "{p:?}");
-                // A small step along each line of the chart changes its coordinate by that much and
+                // A small step along each coordinate line changes its coordinate by as much, and
                 // not the other.
                 for (i, way) in [p.dpdu, p.dpdv].into_iter().enumerate() {
                     let h = 1e-5;

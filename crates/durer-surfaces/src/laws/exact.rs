@@ -1,5 +1,5 @@
-//! The witness: exact arithmetic that shares nothing with the kernels (big integers from `dashu`),
-//! and exact crossings of a line with anything that quadratic polynomials bound.
+//! The oracle: exact arithmetic that shares no code with the kernels (big integers from `dashu`),
+//! and exact crossings of a line with everything that is bounded by quadratic polynomials.
 
 use super::real_root::RealRoot;
 use core::cell::RefCell;
@@ -22,7 +22,7 @@ impl Exact {
         Self { m: IBig::ZERO, e: 0 }
     }
 
-    /// Compared with zero.
+    /// The sign: the order of this number and zero.
     pub fn sign(&self) -> Ordering {
         self.m.cmp(&IBig::ZERO)
     }
@@ -52,7 +52,7 @@ impl Exact {
         if shift >= 0 { &self.m << (shift as usize) } else { &self.m >> ((-shift) as usize) }
     }
 
-    /// About this number, as f64.
+    /// This number as f64, approximately.
     pub fn to_f64(&self) -> f64 {
         let bits = self.m.clone().unsigned_abs_bits();
         let drop = bits.saturating_sub(60);
@@ -135,7 +135,7 @@ fn surd_sign(u: &Exact, v: &Exact, d: &Exact) -> Ordering {
     if su.is_eq() {
         return sv;
     }
-    // Opposite signs: the larger square wins.
+    // Opposite signs: the larger square decides.
     let squares = (&u.squared() - &(&v.squared() * d)).sign();
     if su.is_gt() { squares } else { squares.reverse() }
 }
@@ -168,7 +168,7 @@ impl Surd {
         Self(Number::Quadratic { p, k, d, a })
     }
 
-    /// Compared with an exact number.
+    /// The order of this number and an exact number.
     pub fn cmp_exact(&self, x: &Exact) -> Ordering {
         let (p, k, d, a) = match &self.0 {
             Number::Quadratic { p, k, d, a } => (p, *k, d, a),
@@ -179,7 +179,7 @@ impl Surd {
         if a.sign().is_lt() { sign.reverse() } else { sign }
     }
 
-    /// The sign of a polynomial there.
+    /// The sign of a polynomial at this number.
     pub fn sign_of(&self, q: &Poly) -> Ordering {
         let (p, k, d, a) = match &self.0 {
             Number::Quadratic { p, k, d, a } => (p, *k, d, a),
@@ -192,13 +192,13 @@ impl Surd {
         if k == 0 { u.sign() } else { surd_sign(&u, &v, d) }
     }
 
-    /// An exact number at most `2^-bits` below this one, and at most `2^-bits` above.
+    /// An exact number within `2^-bits` of this one.
     pub fn about(&self, bits: i64) -> Exact {
         let (p, k, d, a) = match &self.0 {
             Number::Quadratic { p, k, d, a } => (p, *k, d, a),
             Number::Root(root) => return root.about(bits),
         };
-        // Enough digits that the quotient's error stays below.
+        // Enough digits to keep the quotient's error below the bound.
         let top = |x: &Exact| x.m.clone().unsigned_abs_bits() as i64 + x.e;
         let extra = bits + 16 + (-top(a)).max(0) * 2 + top(p).max(top(d)).max(0);
         let radicand = d.floor_at(2 * extra);
@@ -208,7 +208,7 @@ impl Surd {
         Exact { m: (n << (bits + 8) as usize) / a, e: -(bits + 8) }
     }
 
-    /// Compared with another root.
+    /// The order of this number and another root.
     pub fn compare(&self, other: &Self, equal: bool) -> Ordering {
         if equal {
             return Ordering::Equal;
@@ -227,9 +227,9 @@ impl Surd {
 /// `a t² + 2 b t + c`.
 #[derive(Clone, Debug)]
 pub struct Poly {
-    /// The factor of `t²`.
+    /// The coefficient of `t²`.
     pub a: Exact,
-    /// Half the factor of `t`.
+    /// Half the coefficient of `t`.
     pub b: Exact,
     /// The constant.
     pub c: Exact,
@@ -303,7 +303,7 @@ impl ExactForm {
         Self::new(k.map(Exact::from))
     }
 
-    /// The inside becomes the outside.
+    /// The negated form: inside and outside are exchanged.
     #[must_use]
     pub fn negated(self) -> Self {
         Self { q: self.q.map(|r| r.map(|x| -x)), b: self.b.map(|x| -x), c: -self.c }
@@ -367,7 +367,7 @@ impl ExactForm {
         [0, 1, 2].map(|i| &qx[i] + &self.b[i])
     }
 
-    /// Along a line.
+    /// The polynomial along a line.
     pub fn along(&self, line: &ExactLine) -> Poly {
         let qd = self.times(&line.d);
         Poly { a: dot(&qd, &line.d), b: &dot(&qd, &line.o) + &dot(&self.b, &line.d), c: self.value(&line.o) }
@@ -396,15 +396,15 @@ impl ExactLine {
 }
 
 impl ExactLine {
-    /// Whether two lines were made of the same numbers.
+    /// Whether two lines have the same numbers.
     fn is_same(&self, other: &Self) -> bool {
         let numbers = |line: &Self| line.o.clone().into_iter().chain(line.d.clone());
         numbers(self).zip(numbers(other)).all(|(a, b)| a.m == b.m && a.e == b.e)
     }
 }
 
-/// What was found for the lines asked for last: the laws ask for the same line again and again, and
-/// exact answers take long.
+/// The answers for the last lines: the laws use the same line again and again, and exact answers
+/// take long.
 #[derive(Clone, Debug)]
 pub struct LineCache<T>(RefCell<Vec<(ExactLine, T)>>);
 
@@ -415,10 +415,10 @@ impl<T> Default for LineCache<T> {
 }
 
 impl<T: Clone> LineCache<T> {
-    /// A ray, and two that leave each of a few crossings.
+    /// Enough for a ray, and two that leave each of a few crossings.
     const LINES: usize = 16;
 
-    /// The answer for a line, found by `find` if the line is not among the last ones.
+    /// The answer for a line; `find` computes it if the line is not among the last ones.
     pub fn get(&self, line: &ExactLine, find: impl FnOnce() -> T) -> T {
         let known = self.0.borrow().iter().find(|(l, _)| l.is_same(line)).map(|(_, found)| found.clone());
         known.unwrap_or_else(|| {
@@ -433,7 +433,7 @@ impl<T: Clone> LineCache<T> {
     }
 }
 
-/// An oracle that finds the crossings of a line once.
+/// An oracle that computes the crossings of each line once.
 pub(super) struct Cached<'a> {
     oracle: &'a dyn Oracle,
     crossings: LineCache<Vec<Crossing>>,
@@ -474,7 +474,7 @@ impl Oracle for Cached<'_> {
 /// One exact crossing.
 #[derive(Clone, Debug)]
 pub struct Crossing {
-    /// Where.
+    /// The parameter.
     pub t: Surd,
     /// -1 entering, +1 leaving, 0 grazing.
     pub sign: i8,
@@ -482,12 +482,12 @@ pub struct Crossing {
     pub grazing: bool,
 }
 
-/// Who knows the truth about a surface.
+/// An exact description of a surface.
 pub trait Oracle {
     /// All crossings with a line, ascending, each once.
     fn crossings(&self, line: &ExactLine) -> Vec<Crossing>;
 
-    /// On which side of a face (numbered as in `Root::face`) a point lies: `Greater` where its
+    /// The side of a face (numbered as in `Root::face`) on which a point lies: `Greater` where its
     /// normal points.
     fn face_side(&self, face: u32, point: &[Exact; 3]) -> Ordering;
 
@@ -505,12 +505,13 @@ pub trait Oracle {
     fn is_convex(&self) -> bool;
 }
 
-/// `{ x : f_i(x) <= 0 for all i }`, or, if not all faces are walls, the part of the walls in it.
+/// The solid `{ x : f_i(x) <= 0 for all i }`, or, if not all faces are walls, the part of the walls
+/// in it.
 #[derive(Clone, Debug)]
 pub struct ExactBody {
     /// The faces.
     pub faces: Vec<ExactForm>,
-    /// How many of them, the first ones, are part of the surface.
+    /// The number of faces that are part of the surface; these come first.
     pub walls: usize,
     /// The size.
     pub size: f64,
@@ -533,7 +534,7 @@ impl ExactBody {
 }
 
 impl Oracle for ExactBody {
-    /// All roots of all faces cut the line into pieces; each piece is inside or outside as its
+    /// The roots of all faces cut the line into pieces; each piece is inside or outside as its
     /// middle is.
     fn crossings(&self, line: &ExactLine) -> Vec<Crossing> {
         let polys: Vec<Poly> = self.faces.iter().map(|f| f.along(line)).collect();
@@ -599,7 +600,7 @@ impl Oracle for ExactBody {
 
     fn face_normal(&self, face: u32, point: &[Exact; 3]) -> Vec3 {
         let g = self.faces[face as usize].half_gradient(point);
-        // By a power of two to about one, so that any scale fits.
+        // Scaled by a power of two to about one, so that any size is in range.
         let nonzero = g.iter().filter(|x| x.sign().is_ne());
         let top = nonzero.map(|x| x.m.clone().unsigned_abs_bits() as i64 + x.e).max().unwrap_or(0);
         Vec3::from(g.map(|x| x.shifted(-top).to_f64()))
@@ -619,7 +620,7 @@ impl Oracle for ExactBody {
     }
 }
 
-/// What of a surface lies where some polynomials are not positive: a sheet.
+/// The part of a surface where some polynomials are not positive: a sheet.
 #[derive(Clone, Debug)]
 pub struct Clipped<O> {
     /// The surface.

@@ -1,8 +1,9 @@
-//! What every surface promises, as plain functions named by sentences. [`check`] calls them all.
+//! The laws that every surface must obey, as plain functions named by sentences. [`check`] tests
+//! them all.
 //!
-//! A surface joins with an [`Oracle`] (its exact description, usually an [`ExactBody`]), a few
-//! [`Feature`]s at which rays are aimed, and one call of [`check_many`]. Witnesses are exact: big
-//! integers that share no code with the kernels.
+//! To test a surface, give an [`Oracle`] (its exact description, usually an [`ExactBody`]), a few
+//! [`Feature`]s at which rays are aimed, and call [`check_many`] once. Oracles are exact: they use
+//! big integers and share no code with the kernels.
 
 pub mod exact;
 pub mod real_root;
@@ -23,7 +24,7 @@ use core::ops::Range;
 use durer_math::eft::exponent;
 use durer_math::{Aabb, Ray, RaySide, U, Vec3};
 
-/// Why a law does not hold.
+/// The reason why a law does not hold.
 pub type Broken = String;
 
 macro_rules! ensure {
@@ -36,10 +37,10 @@ macro_rules! ensure {
     };
 }
 
-/// A surface under test, behind a pointer, so that the laws and each surface's kernel are compiled
+/// A surface under test, as a trait object, so that the laws and each surface's kernel are compiled
 /// once.
 pub trait TestSurface: Surface + core::fmt::Debug {
-    /// Shows the roots to any sink.
+    /// Passes the roots to any sink.
     fn send(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink);
 }
 
@@ -56,7 +57,7 @@ pub fn all_roots(surface: &dyn TestSurface, ray: &Ray) -> Vec<Root> {
     sink.roots
 }
 
-/// Every law that one ray can test. Returns the roots.
+/// Tests every law that one ray can test. Returns the roots.
 pub fn check(surface: &dyn TestSurface, oracle: &dyn Oracle, ray: &Ray) -> Result<Vec<Root>, Broken> {
     let oracle = &exact::Cached::new(oracle);
     let roots = roots_are_the_exact_crossings(surface, oracle, ray, None)?;
@@ -74,22 +75,22 @@ pub fn check(surface: &dyn TestSurface, oracle: &dyn Oracle, ray: &Ray) -> Resul
     Ok(roots)
 }
 
-/// The numbers of the cases that this run draws, where a test run draws `count`.
+/// The numbers of the cases that this run tests, where a normal test run tests `count`.
 ///
-/// `DURER_SOAK=N` draws N times as many, and `DURER_SOAK_FROM=K` others than K such runs have drawn
-/// before (`cargo xtask soak`).
+/// `DURER_SOAK=N` tests N times as many, and `DURER_SOAK_FROM=K` starts after the cases of K such
+/// runs (`cargo xtask soak`).
 pub fn drawn(count: u64) -> Range<u64> {
     let variable = |name: &str| std::env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
     let from = variable("DURER_SOAK_FROM").unwrap_or(0);
     count * from..count * (from + variable("DURER_SOAK").unwrap_or(1))
 }
 
-/// The numbers at random of one of these cases: no two seeds and cases have the same.
+/// The random numbers of one of these cases: they differ for all seeds and cases.
 pub fn dice(seed: u64, case: u64) -> TestRng {
     TestRng::new(seed.wrapping_mul(0x1_0000_0001).wrapping_add(case))
 }
 
-/// Says how many rays obeyed the laws, for a soak to add up.
+/// Prints how many rays obeyed the laws, for a soak test to add up.
 pub fn report(rays: u64) {
     if std::env::var_os("DURER_SOAK").is_some() {
         println!("soaked: {} {rays}", std::thread::current().name().unwrap_or("laws"));
@@ -130,9 +131,9 @@ pub fn check_many(
     tally
 }
 
-/// How many rays were tried.
+/// How many rays were tested.
 ///
-/// A test should look at it: a law that met no root proved nothing.
+/// A test should check these numbers: a law that met no root proves nothing.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
     /// Rays.
@@ -153,8 +154,8 @@ impl Tally {
     }
 }
 
-/// The width of a bracket, in ulp of `max(|t|, size / |d|)`. An unbounded surface is as large as
-/// the part of it that is looked at.
+/// The width of a bracket, in ulp of `max(|t|, size / |d|)`. The size of an unbounded surface is
+/// that of the part up to the crossing.
 pub fn width(surface: &dyn TestSurface, oracle: &dyn Oracle, ray: &Ray, root: &Root) -> f64 {
     let k = exponent(ray.direction.max_abs());
     let length = ray.direction.map(|x| durer_math::scale::ldexp(x, -k)).length();
@@ -183,7 +184,7 @@ pub fn roots_are_the_exact_crossings(
         (!ray.t_min.is_finite() || t.cmp_exact(&ray.t_min.into()).is_ge())
             && (!ray.t_max.is_finite() || t.cmp_exact(&ray.t_max.into()).is_le())
     };
-    // A crossing whose t or place is beyond all numbers cannot be told.
+    // Crossings whose t or point is beyond the range of f64 cannot be compared.
     let most = Exact::from(f64::MAX / ray.direction.max_abs().max(1.0)).shifted(-16);
     let exact: Vec<Crossing> = oracle
         .crossings(&line)
@@ -217,8 +218,8 @@ pub fn roots_are_the_exact_crossings(
     Ok(roots)
 }
 
-/// The parts of a surface have the whole's roots, each within the part's box: says how many parts
-/// were asked and how many roots they have.
+/// The parts of a surface have the roots of the whole, each within the part's box. Returns how many
+/// parts were tested and how many roots they have.
 pub fn parts_are_the_whole<S: TestSurface>(surface: &S, ray: &Ray) -> Result<(usize, usize), Broken> {
     let local = LocalRay::new(ray);
     let (mut sink, mut parts, mut astray) = (All::default(), 0, None);
@@ -234,7 +235,7 @@ pub fn parts_are_the_whole<S: TestSurface>(surface: &S, ray: &Ray) -> Result<(us
         parts += 1;
     });
     ensure!(astray.is_none(), "{astray:?}: {ray:?} {surface:?}");
-    // One part alone shows them as the whole does, which may know their exact order.
+    // A single part passes them on as the whole does, which may know their exact order.
     if parts > 1 {
         sink.roots.sort_by(Root::order);
     }
@@ -243,7 +244,7 @@ pub fn parts_are_the_whole<S: TestSurface>(surface: &S, ray: &Ray) -> Result<(us
     Ok((parts, whole.len()))
 }
 
-/// P3: closest is the least of all, and any says whether there is one.
+/// P3: closest is the least of all, and any reports whether there is one.
 pub fn closest_is_the_first_of_all(
     surface: &dyn TestSurface,
     ray: &Ray,
@@ -259,8 +260,8 @@ pub fn closest_is_the_first_of_all(
     Ok(())
 }
 
-/// P8: a bracket is at most 96 ulp of `max(|t|, size / |d|)` wide: 48, where size over length is
-/// taken as a half though it may be 0.29, and what rounding `t` adds.
+/// P8: a bracket is at most 96 ulp of `max(|t|, size / |d|)` wide: 48, with size over length taken
+/// as a half though it may be 0.29, plus the rounding of `t`.
 pub fn brackets_are_narrow(
     surface: &dyn TestSurface,
     oracle: &dyn Oracle,
@@ -269,7 +270,7 @@ pub fn brackets_are_narrow(
 ) -> Result<(), Broken> {
     for root in roots {
         if !ray.at(root.t).is_finite() {
-            continue; // a place beyond all numbers
+            continue; // a point beyond the range of f64
         }
         let width = width(surface, oracle, ray, root);
         ensure!(width <= 96.0, "a bracket is {width} ulp wide: {root:?}");
@@ -277,7 +278,7 @@ pub fn brackets_are_narrow(
     Ok(())
 }
 
-/// P7: a ray read backwards meets the same crossings, in the opposite order.
+/// P7: a reversed ray meets the same crossings, in the opposite order.
 pub fn a_reversed_ray_meets_the_same(
     surface: &dyn TestSurface,
     ray: &Ray,
@@ -295,7 +296,7 @@ pub fn a_reversed_ray_meets_the_same(
     Ok(())
 }
 
-/// P7: a direction times a power of two divides every `t` by it, bit for bit.
+/// P7: scaling the direction by a power of two divides every `t` by it, bit for bit.
 pub fn powers_of_two_change_nothing(
     surface: &dyn TestSurface,
     ray: &Ray,
@@ -318,7 +319,7 @@ pub fn powers_of_two_change_nothing(
 }
 
 /// P4, P5, P11, P12: the point is within `dp` of the exact one and in the bounds; its normal is the
-/// surface's; rays start on the asked side, and what they meet is what the exact ray meets.
+/// surface's; spawned rays start on the requested side, and their hits are those of the exact ray.
 pub fn points_are_within_their_bounds(
     surface: &dyn TestSurface,
     oracle: &dyn Oracle,
@@ -327,7 +328,7 @@ pub fn points_are_within_their_bounds(
 ) -> Result<(), Broken> {
     let line = ExactLine::new(ray);
     let Some(exact) = oracle.crossings(&line).into_iter().find(|c| {
-        // Of two crossings closer than t can tell, the one that goes the root's way.
+        // If t does not separate two crossings, the one with the root's sign.
         c.sign == root.sign
             && c.t.cmp_exact(&root.lo.into()).is_ge()
             && c.t.cmp_exact(&root.hi.into()).is_le()
@@ -336,8 +337,8 @@ pub fn points_are_within_their_bounds(
     };
     let point = surface.resolve(&LocalRay::new(ray), root, Need::ALL);
     is_well_formed(&point)?;
-    // A crossing known to 2^-640 of the surface's size nearly always decides; only else the digits
-    // are found that always do.
+    // A crossing within 2^-640 of the surface's size nearly always suffices; only otherwise it is
+    // computed to the digits that always suffice.
     let digits = 640 + i64::from(exponent(ray.direction.max_abs()) - exponent(oracle.size()));
     let near = exact.t.about(digits.max(64));
     let errors = ray.direction.to_array().map(|d| Exact::from(d).abs().shifted(-digits.max(64)));
@@ -347,7 +348,7 @@ pub fn points_are_within_their_bounds(
     let decided = point_is_near(&point, &truth, &errors, &place).is_ok();
     if !decided {
         truth = far();
-        // The witness itself is known to 2^-2400.
+        // The oracle itself is precise to 2^-2400.
         let known = [0; 3].map(|_| Exact::from(-1.0).shifted(-1100));
         point_is_near(&point, &truth, &known, &place)?;
     }
@@ -357,7 +358,7 @@ pub fn points_are_within_their_bounds(
             normal_is_the_exact_one(oracle, root, &truth, &point)
         })
     };
-    // A surface that bends within the spacing of the coordinates has no sides that they could tell.
+    // If the surface curves within the spacing of the coordinates, these cannot resolve its sides.
     let spacing = point.p.to_vec().max_abs() * durer_math::scale::ldexp(1.0, -50);
     if point.bend.is_finite() && point.bend * spacing > 1.0 / 64.0 {
         return normal(truth);
@@ -367,13 +368,13 @@ pub fn points_are_within_their_bounds(
         let leaving = point.spawn_from(side, if side == RaySide::Front { n } else { -n });
         let at = exact3(leaving.origin.to_array());
         ensure!(
-            // A tip has no sides that a single polynomial could tell.
+            // The sign of a single polynomial does not give the sides of a tip.
             point.bend == f64::INFINITY || oracle.face_side(root.face, &at) == expected,
             "a ray for the {side:?} starts on the wrong side: off {}, {point:?}",
             point.off
         );
         roots_are_the_exact_crossings(surface, oracle, &leaving, None)?;
-        // A side is known of the whole surface only if it has one face, or is that face here.
+        // The side of the whole surface follows only if it has one face, or is that face here.
         if let Some(solid) = oracle.side(&at) {
             let told = surface.side(&LocalPoint::new(leaving.origin));
             let expected = match solid {
@@ -399,10 +400,10 @@ pub fn points_are_within_their_bounds(
     normal(truth)
 }
 
-/// A point is at most `dp` from a crossing and the crossing is in the bounds, where `truth` is at
-/// most `errors` from the crossing.
+/// Tests that a point is at most `dp` from a crossing and the crossing is in the bounds. `truth` is
+/// at most `errors` from the crossing.
 ///
-/// Negative errors allow as much instead.
+/// Negative errors loosen the test by as much instead.
 fn point_is_near(
     point: &SurfacePoint,
     truth: &[Exact; 3],
@@ -427,7 +428,7 @@ fn point_is_near(
     Ok(())
 }
 
-/// Nothing is NaN, lengths are what they should be, tangents are tangent.
+/// No number is NaN, lengths are correct, tangents are tangent.
 fn is_well_formed(point: &SurfacePoint) -> Result<(), Broken> {
     let n = point.ng.to_vec();
     ensure!(point.p.is_finite() && point.dp.is_finite(), "the point is not finite: {point:?}");
@@ -439,7 +440,7 @@ fn is_well_formed(point: &SurfacePoint) -> Result<(), Broken> {
         let size = exponent(v.max_abs().max(f64::MIN_POSITIVE));
         let unit: Vec3 = v.map(|x| durer_math::scale::ldexp(x, -size));
         ensure!(v.is_finite(), "a tangent is not finite: {point:?}");
-        // Tangents are for shading: half the digits. A tip has none.
+        // Tangents are for shading: half the digits suffice. A tip has none.
         ensure!(
             point.bend == f64::INFINITY || n.dot(unit).abs() < 1e-6,
             "a tangent is not tangent by {}: {point:?}",
@@ -462,7 +463,7 @@ fn normal_is_the_exact_one(
     let length = g.length();
     if length > 0.0 && length.is_finite() && point.bend.is_finite() {
         let error = (g * (1.0 / length) - point.ng.to_vec()).length();
-        // The normal turns by at most `bend` times the distance to the exact point.
+        // The normal rotates by at most `bend` times the distance to the exact point.
         let turn = if point.bend == 0.0 { 0.0 } else { point.bend * point.dp.length() * 4.0 };
         ensure!(
             error <= turn + 64.0 * U || turn > 0.1,

@@ -1,5 +1,5 @@
-//! The witness for polynomials of any degree: exact real roots by Sturm's theorem on whole numbers,
-//! and surfaces that are the zero set of one polynomial.
+//! The oracle for polynomials of any degree: exact real roots by Sturm's theorem on integers, and
+//! surfaces that are the zero set of one polynomial.
 
 use super::exact::{Crossing, Exact, ExactLine, Oracle};
 use core::cmp::Ordering;
@@ -8,7 +8,7 @@ use dashu::integer::IBig;
 use durer_math::Vec3;
 use std::sync::Arc;
 
-/// Constant term first, the last one not zero.
+/// A polynomial with integer coefficients: constant term first, the last one not zero.
 type Whole = Vec<IBig>;
 
 fn trimmed(mut p: Whole) -> Whole {
@@ -18,7 +18,7 @@ fn trimmed(mut p: Whole) -> Whole {
     p
 }
 
-/// Without the common factor of its coefficients, which is taken as positive.
+/// Divides by the greatest common factor of the coefficients, which is taken as positive.
 fn primitive(p: Whole) -> Whole {
     let p = trimmed(p);
     let mut common = IBig::ZERO;
@@ -31,7 +31,7 @@ fn primitive(p: Whole) -> Whole {
     if common.is_zero() { p } else { p.into_iter().map(|x| x / &common).collect() }
 }
 
-/// The remainder of `a` by `b`, times a positive number.
+/// The remainder of `a` divided by `b`, times a positive number.
 fn remainder(a: &Whole, b: &Whole) -> Whole {
     let (mut a, lead) = (a.clone(), b[b.len() - 1].clone());
     while a.len() >= b.len() {
@@ -70,7 +70,7 @@ fn chain(p: &Whole) -> Vec<Whole> {
     chain
 }
 
-/// The exact quotient of `p` by a divisor of it, times a number.
+/// The exact quotient of `p` and one of its divisors, times a number.
 fn quotient(p: &Whole, d: &Whole) -> Whole {
     let (mut p, lead) = (p.clone(), d[d.len() - 1].clone());
     let mut out = vec![];
@@ -91,7 +91,7 @@ fn quotient(p: &Whole, d: &Whole) -> Whole {
 }
 
 fn sign_at(p: &Whole, x: &Exact) -> Ordering {
-    // Σ c_k m^k 2^(e k), times a power of two that leaves whole numbers.
+    // Σ c_k m^k 2^(e k), times a power of two that makes all terms integers.
     let zero = IBig::ZERO;
     let mut sum = zero.clone();
     for (i, c) in p.iter().rev().enumerate() {
@@ -102,7 +102,7 @@ fn sign_at(p: &Whole, x: &Exact) -> Ordering {
     sum.cmp(&zero)
 }
 
-/// Greatest common divisor of two polynomials, neither of them zero.
+/// The greatest common divisor of two polynomials, neither of them zero.
 fn common_divisor(a: &Whole, b: &Whole) -> Whole {
     let (mut a, mut b) = if a.len() >= b.len() { (a.clone(), b.clone()) } else { (b.clone(), a.clone()) };
     while !b.is_empty() {
@@ -111,7 +111,7 @@ fn common_divisor(a: &Whole, b: &Whole) -> Whole {
     a
 }
 
-/// Whole numbers in the proportions of the coefficients.
+/// Integers in the ratios of the coefficients.
 fn whole_numbers(coefficients: &[Exact]) -> Whole {
     let least = coefficients.iter().filter(|c| c.sign().is_ne()).map(|c| c.e).min().unwrap_or(0);
     primitive(coefficients.iter().map(|c| &c.m << (c.e - least).max(0) as usize).collect())
@@ -123,11 +123,11 @@ fn bits(x: &IBig) -> i64 {
 
 /// A real root of a polynomial.
 ///
-/// Inside, the unknown is `t / 2^scale`: roots of the polynomial are then about one, whatever the
+/// Internally the unknown is `t / 2^scale`: the polynomial's roots are then about one, whatever the
 /// unit of `t` is.
 #[derive(Clone, Debug)]
 pub struct RealRoot {
-    /// Has the root once.
+    /// A polynomial in which the root is simple.
     simple: Arc<Whole>,
     /// The root is between `l` and `r`; `simple` is not zero at `r` unless the two are equal.
     l: Exact,
@@ -135,14 +135,14 @@ pub struct RealRoot {
     /// The sign of `simple` at `r`.
     at_r: Ordering,
     scale: i64,
-    /// The sign of the given polynomial before and after.
+    /// The sign of the given polynomial before the root and after it.
     pub before: Ordering,
     /// See `before`.
     pub after: Ordering,
 }
 
-/// The power of two that roots of a polynomial are about: that of the geometric mean of the
-/// absolute values of its roots other than zero.
+/// The exponent of the typical size of a polynomial's roots: of the geometric mean of the absolute
+/// values of its nonzero roots.
 fn scale_of(coefficients: &[Exact]) -> i64 {
     let mut present = coefficients.iter().enumerate().filter(|(_, c)| c.sign().is_ne());
     match (present.next(), present.next_back()) {
@@ -210,12 +210,12 @@ fn rescaled(p: &[Exact], scale: i64) -> Vec<Exact> {
 }
 
 impl RealRoot {
-    /// Compared with an exact number.
+    /// The order of this root and an exact number.
     pub fn cmp_exact(&self, x: &Exact) -> Ordering {
         self.compare(&x.clone().shifted(-self.scale))
     }
 
-    /// Compared with a number in the unit of `l` and `r`.
+    /// The order of this root and a number in the unit of `l` and `r`.
     fn compare(&self, x: &Exact) -> Ordering {
         if (&self.l - x).sign().is_ge() {
             return if self.is_exact() { (&self.l - x).sign() } else { Ordering::Greater };
@@ -243,7 +243,7 @@ impl RealRoot {
         }
     }
 
-    /// An exact number at most `2^-bits` away.
+    /// An exact number within `2^-bits` of this root.
     pub fn about(&self, bits: i64) -> Exact {
         let mut at = self.clone();
         at.narrow(bits + self.scale);
@@ -257,8 +257,8 @@ impl RealRoot {
             if (&width.clone().shifted(digits) - &Exact::from(1.0)).sign().is_le() {
                 return;
             }
-            // Newton's method doubles the digits, as soon as it works; what it proposes counts if
-            // the signs beside it say so.
+            // Newton's method doubles the digits, as soon as it converges; its interval is accepted
+            // if the signs at its ends prove it.
             let known = -(bits(&width.m) + width.e);
             if !self.newton((2 * known - 8).min(digits + 2)) {
                 self.halve();
@@ -266,8 +266,8 @@ impl RealRoot {
         }
     }
 
-    /// Proposes an interval of width `2^-bits` about the point to which Newton's method goes from
-    /// the middle.
+    /// Tries an interval of width `2^-bits` about the result of one step of Newton's method from
+    /// the middle. Returns whether the signs prove it.
     fn newton(&mut self, bits: i64) -> bool {
         let m = (&self.l + &self.r).shifted(-1);
         let exact = |p: &Whole| -> Vec<Exact> { p.iter().map(|c| Exact { m: c.clone(), e: 0 }).collect() };
@@ -283,7 +283,7 @@ impl RealRoot {
         let half = Exact::from(0.5).shifted(-bits);
         let (l, r) = (&to - &half, &to + &half);
         let inside = (&l - &self.l).sign().is_gt() && (&self.r - &r).sign().is_gt();
-        // The sign of `simple` is `at_r` at `r` and beyond, and the other one at `l` and before.
+        // The sign of `simple` must be `at_r` at the upper end and the opposite at the lower end.
         if !inside
             || sign_at(&self.simple, &l) != self.at_r.reverse()
             || sign_at(&self.simple, &r) != self.at_r
@@ -294,7 +294,7 @@ impl RealRoot {
         true
     }
 
-    /// The sign of another polynomial, the constant first.
+    /// The sign of another polynomial at this root, the constant first.
     pub fn sign_of(&self, q: &[Exact]) -> Ordering {
         if q.iter().all(|c| c.sign().is_eq()) {
             return Ordering::Equal;
@@ -319,7 +319,7 @@ impl RealRoot {
             if (&l.clone().abs() - &change).sign().is_gt() {
                 return l.sign();
             }
-            // It is zero if the two polynomials have a common divisor that has the root.
+            // It is zero if the two polynomials have a common divisor with this root.
             if digits == 64 {
                 let common = common_divisor(&self.simple, &whole_numbers(&q));
                 if common.len() > 1 && sign_at(&common, &at.l) != sign_at(&common, &at.r) {
@@ -331,7 +331,7 @@ impl RealRoot {
     }
 }
 
-/// A term of a polynomial in space: the factor of `x^i y^j z^k`.
+/// A term of a polynomial in space: the coefficient of `x^i y^j z^k`.
 pub type Term = (Exact, [usize; 3]);
 
 /// The zero set of a polynomial in space, as a solid where it is negative.
@@ -343,7 +343,7 @@ pub struct ZeroOracle {
     pub size: f64,
 }
 
-/// Products of polynomials in one unknown.
+/// The product of two polynomials in one unknown.
 fn times(a: &[Exact], b: &[Exact]) -> Vec<Exact> {
     let mut out = vec![Exact::zero(); (a.len() + b.len()).saturating_sub(1)];
     for (i, x) in a.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Numbers and rays that look for trouble.
+//! Random numbers and rays that aim at difficult cases.
 
 use durer_math::scale::{exponent, ldexp};
 use durer_math::{Affine, Point3, Ray, Vec3};
@@ -8,7 +8,7 @@ use durer_math::{Affine, Point3, Ray, Vec3};
 pub struct TestRng(u64);
 
 impl TestRng {
-    /// Dice number `seed`.
+    /// The generator with this seed.
     pub fn new(seed: u64) -> Self {
         Self(seed.wrapping_mul(0xd129_0cb3_7f4a_7c15))
     }
@@ -22,7 +22,7 @@ impl TestRng {
         z ^ (z >> 31)
     }
 
-    /// A whole number in `[0, n)`.
+    /// An integer in `[0, n)`.
     pub fn below(&mut self, n: u64) -> u64 {
         self.bits() % n
     }
@@ -42,7 +42,7 @@ impl TestRng {
         lo + (hi - lo) * self.unit()
     }
 
-    /// A whole number in `[lo, hi]`.
+    /// An integer in `[lo, hi]`.
     pub fn integer(&mut self, lo: i64, hi: i64) -> f64 {
         (lo + self.below((hi - lo + 1) as u64) as i64) as f64
     }
@@ -69,7 +69,7 @@ impl TestRng {
         (0..n.abs()).fold(x, |x, _| step(x))
     }
 
-    /// A vector of small whole numbers, not zero.
+    /// A vector of small integers, not zero.
     pub fn lattice(&mut self, reach: i64) -> Vec3 {
         loop {
             let v = Vec3::new(
@@ -109,23 +109,23 @@ impl TestRng {
     }
 }
 
-/// A place on a surface where something may go wrong, and a direction that makes it worse (a
+/// A point of a surface where errors are likely, and a direction that makes them more likely (a
 /// tangent, an axis, a generator).
 #[derive(Clone, Copy, Debug)]
 pub struct Feature {
-    /// The place.
+    /// The point.
     pub point: Point3,
-    /// The direction; zero if any will do.
+    /// The direction; zero if any direction is suitable.
     pub direction: Vec3,
 }
 
 impl Feature {
-    /// A place and a direction.
+    /// A feature with this point and direction.
     pub fn new(point: impl Into<[f64; 3]>, direction: impl Into<[f64; 3]>) -> Self {
         Self { point: Point3::from(point.into()), direction: Vec3::from(direction.into()) }
     }
 
-    /// The same feature on the placed surface, up to rounding (none, for few-bit numbers).
+    /// This feature on the placed surface, up to rounding (none, for few-bit numbers).
     #[must_use]
     pub fn placed(self, map: &Affine) -> Self {
         Self { point: map.point(self.point), direction: map.vector(self.direction) }
@@ -133,14 +133,14 @@ impl Feature {
 }
 
 /// A ray that aims at one of the features, or at two of them in a line, or anywhere; exactly, or
-/// missing by an ulp or a little.
+/// missing by an ulp or a little more.
 ///
 /// `size` is the surface's size: origins lie 0 to `2^30` sizes away (sometimes `2^50`), directions
 /// are `2^-330` to `2^330` long.
 pub fn aim(dice: &mut TestRng, features: &[Feature], size: f64) -> Ray {
     let mut f = dice.pick(features);
     if f.direction != Vec3::ZERO {
-        // As long as the surface is large, but for a power of two.
+        // Scaled by a power of two to about the surface's size.
         let k = exponent(size) - exponent(f.direction.max_abs());
         f.direction = f.direction.map(|x| ldexp(x, k));
     }
@@ -170,7 +170,7 @@ pub fn aim(dice: &mut TestRng, features: &[Feature], size: f64) -> Ray {
         0 => target = target + dice.vector() * size,
         1 => target = target + dice.vector() * (size * dice.scale(-52, -3)),
         2 => {
-            // Exactly beside the feature, by few bits.
+            // Exactly beside the feature, by a few-bit distance.
             target = target + dice.lattice(2) * (size * dice.power(-24, -1));
         }
         _ => {}
@@ -204,7 +204,7 @@ pub fn aim(dice: &mut TestRng, features: &[Feature], size: f64) -> Ray {
         1 => ray.with_range(f64::NEG_INFINITY, f64::INFINITY),
         2 => ray.with_range(f64::NEG_INFINITY, 0.0),
         _ => {
-            // Ends where the crossings are.
+            // The range ends at crossings.
             let at = back / length;
             let ends = [at, dice.nudge(at, 1), at * dice.between(0.0, 2.0), f64::INFINITY, 0.0, -at];
             let (a, b) = (dice.pick(&ends), dice.pick(&ends));

@@ -323,8 +323,8 @@ impl PacketFilter {
         for hole in &self.holes {
             let (mut within, mut beside) = (M8::ALL, M8::NONE);
             let is_within = |face: &QuadricFace8| face.cut(rays.isa, spot, &open, &mut within, &mut beside);
-            // A point that is certainly outside one face of the hole is kept, whatever the other
-            // faces say.
+            // A point that is certainly outside one face of the hole is kept, whatever the signs
+            // of its other faces.
             hole.iter().all(is_within);
             inside &= beside;
             outside |= within & !beside;

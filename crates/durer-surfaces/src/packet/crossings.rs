@@ -382,7 +382,7 @@ impl PacketFilter {
             || spot.put(&seen, *t, *e),
         );
         let (mut inside, mut outside) = (if self.vague { 0 } else { asked }, 0);
-        // A point outside one face is outside, whatever the other faces say.
+        // A point outside one face is outside, whatever the signs of the other faces.
         for face in &self.faces {
             let (below, above) = face.sides(rays.isa, spot);
             inside &= below;

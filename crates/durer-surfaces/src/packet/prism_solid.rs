@@ -305,7 +305,7 @@ impl Line8 for Tallied<'_> {
 }
 
 impl Line8 for Crossings {
-    /// Until all crossings are known, the tag says whether the trace falls.
+    /// Until all crossings are known, the tag stores whether the trace falls.
     #[inline(always)]
     fn cross(&mut self, on: M8, (t, e): (F8, F8), face: usize, (tag, falls): (F8, M8)) {
         self.push(on, t, e, (F8::splat(face as f64), tag_of(tag, falls)));

@@ -1,4 +1,4 @@
-//! A plane across the axis of a turned solid, or of a sweep.
+//! A plane across the axis of a solid of revolution, or of a sweep.
 
 use crate::planar::{self, AlongRay, Line, PlaneForm, Probe};
 use crate::roots::quadratic::{self, Quadratic};
@@ -14,7 +14,7 @@ pub(crate) struct HeightPlane {
     pub(crate) scale: i32,
 }
 
-/// How far the start of a ray is above the level.
+/// How far the start of a ray is above the plane.
 impl AlongRay for HeightPlane {
     #[inline(always)]
     fn eval<T: Ring>(&self, ray: &RingRay<T>) -> Option<T> {
@@ -42,7 +42,7 @@ impl PlaneForm for HeightPlane {
 }
 
 impl HeightPlane {
-    /// The exact sign of a quadratic where an exact ray passes this height.
+    /// The exact sign of a quadratic at the point where an exact ray passes this height.
     pub(crate) fn sign_at_root(&self, ray: &RingRay<Dyadic>, q: &Quadratic<Dyadic>) -> Option<Ordering> {
         let (slope, height) = (self.slope(ray).scale2(-1), self.height(ray)?);
         let p = Quadratic { a: Dyadic::exact(0.0), b: slope, c: height };

@@ -1,20 +1,20 @@
-//! Turned solids: what a profile sweeps that goes once round the y axis, between two planes across
-//! it.
+//! Solids of revolution: the solid that a profile sweeps around the y axis, between two planes
+//! across it.
 //!
 //! ```text
-//!      ______  y_n        Between two of the heights y_0 < y_1 < ... < y_n the solid is what a wall encloses:
-//!     (  w_2 )             a surface of revolution that has a polynomial along every ray (see `profile.rs`).
-//!      )----(  y_2        At a height the solid below and the one above need not agree, by a rounding or by more:
-//!     / w_1  \             what one has and the other has not is a flat ring there.
+//!      ______  y_n      Between two of the heights y_0 < y_1 < ... < y_n a wall encloses the
+//!     (  w_2 )          solid: a surface of revolution, a polynomial on every ray (`profile.rs`).
+//!      )----(  y_2      At a height the solids below and above may differ, by rounding or more:
+//!     / w_1  \          the part that only one of them has is a flat ring there.
 //!    (--------) y_1
 //!     \_w_0__/  y_0
 //! ```
 //!
-//! A ray passes the heights in order. Between two of them the roots of the one wall's polynomial
-//! count that lie strictly between; at each of them the ray is inside or outside just before and
-//! just after, each by the exact sign of a polynomial, and where these differ there is one
-//! crossing. So a line crosses the solid's boundary in turn inward and outward, whatever the
-//! numbers are: a crossing exactly at a seam counts once.
+//! A ray passes the heights in order. Between two of them, the roots of that wall's polynomial
+//! count that lie strictly between the heights. At each height the exact sign of a polynomial
+//! decides whether the ray is inside just before and just after it, and where these differ there is
+//! one crossing. So every line crosses the solid's boundary inward and outward in turn, whatever
+//! the numbers are: a crossing exactly at a seam counts once.
 
 pub(crate) mod level;
 mod profile;
@@ -39,30 +39,30 @@ use profile_piece::Wall;
 
 /// A solid of revolution about the y axis; without its ends a sheet.
 ///
-/// Faces: 0 the walls and what seams leave of rings, 1 the end below, 2 the end above. A root's tag
-/// names the wall, or the height of a flat part.
+/// Faces: 0 the walls and the rings at seams, 1 the end below, 2 the end above. A root's tag is the
+/// number of the wall, or of the height of a flat part.
 ///
 /// # Invariants
 ///
-/// The heights are finite and ascend; there is one wall between each two.
+/// The heights are finite and ascend; there is one wall between each two successive heights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceOfRevolution {
     heights: Vec<f64>,
     walls: Vec<Wall>,
-    /// No less than the radius of each wall, in units.
+    /// An upper bound of the radius of each wall, in units.
     widths: Vec<f64>,
     open: bool,
     frame: Frame,
     bounds: Aabb,
 }
 
-/// A wall in the numbers of its maker.
+/// A wall, in the author's own numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Profile {
-    /// The square of the radius by the height above `at`.
+    /// The squared radius as a polynomial of the height above `at`.
     Cubic { at: f64, a: [f64; 4] },
-    /// The inner sheet of a torus: its circle's height and radius, and the radius of its tube,
-    /// which is larger.
+    /// The inner sheet of a torus: the height and the radius of its circle, and the radius of its
+    /// tube, which is larger.
     Spindle { at: f64, major: f64, minor: f64 },
 }
 
@@ -70,12 +70,12 @@ pub(crate) enum Profile {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Unfit;
 
-/// Coefficients beyond this leave no room for products.
+/// Products of larger coefficients could leave the range of f64.
 const LARGEST: f64 = pow2(200);
 
 impl SurfaceOfRevolution {
     /// The solid whose profile between `heights[i]` and `heights[i + 1]` is `profiles[i]`; `widest`
-    /// is about its largest radius.
+    /// is approximately its largest radius.
     pub(crate) fn of(heights: Vec<f64>, profiles: &[Profile], widest: f64) -> Result<Self, Unfit> {
         let (low, high) = match heights[..] {
             [low, .., high] if heights.windows(2).all(|h| h[0] < h[1]) => (low, high),
@@ -83,7 +83,7 @@ impl SurfaceOfRevolution {
         };
         let half = 0.5 * (high - low);
         let size = half.max(widest);
-        // The fourth power of the size, and its inverse, are within range by far.
+        // The fourth power of the size, and its inverse, are well within range.
         if !(low.is_finite() && high.is_finite() && size < 1e70 && half > 1e-70) {
             return Err(Unfit);
         }
@@ -165,14 +165,14 @@ impl SurfaceOfRevolution {
 
     #[inline(always)]
     fn all_roots_here(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
-        // Which wall a ray was spawned on is not known; it starts where the sign of that wall's
+        // It is unknown on which wall a ray was spawned; it starts where the sign of that wall's
         // polynomial is certain.
         let ray = &ray.from_side(None);
         let probe = self.probe(ray);
         let mut out = Out { sink, least: f64::NEG_INFINITY, stopped: false };
         let last = self.walls.len();
         let Some(first) = probe.crossing(&self.level(0)) else {
-            // Across the axis: all of the ray is at one height. A seam belongs to what is above it.
+            // Across the axis: the whole ray is at one height. A seam belongs to the part above it.
             let above = |i: usize| probe.sign(&self.level(i)).is_none_or(Ordering::is_ge);
             if let Some(i) = (0..last).rev().find(|&i| above(i))
                 && !above(last)
@@ -191,7 +191,7 @@ impl SurfaceOfRevolution {
         };
         let axis = Axial::new(&probe.ray);
         let Some(mut entry) = crossing(0) else { return };
-        // The wall behind, unless the ray surely passes all of it by.
+        // The wall behind, unless the ray certainly misses all of it.
         let mut behind = None;
         for k in 0..=last {
             let exit = if k < last { crossing(k + 1) } else { None };
@@ -218,8 +218,8 @@ impl SurfaceOfRevolution {
         }
     }
 
-    /// Pushes the crossing at a height, if what the wall behind says at its end and what the wall
-    /// ahead says at its beginning are not the same; a wall that the ray passes by says outside.
+    /// Pushes the crossing at a height, if the ray is inside just before and outside just after it,
+    /// or the other way round. Next to a wall that the ray misses it is outside.
     #[inline(always)]
     fn seam(
         &self,
@@ -251,12 +251,12 @@ impl SurfaceOfRevolution {
             return;
         }
         let sign = if inward { -1 } else { 1 };
-        // The normal points where the ray comes from if it goes in.
+        // If the ray goes in, the normal points towards its origin.
         let faces_up = (crossing.sign > 0) != inward;
         let tag = [i as f64, if faces_up { 1.0 } else { -1.0 }];
         let root = Root { sign, ..probe.root(crossing, face, tag) };
-        // A rim or a ray through a seam exactly: the wall is there, and the wall it is for those
-        // who ask.
+        // A rim, or a ray exactly through a seam: the wall contains the point, and the root is
+        // reported on the wall.
         let wall = (0..self.walls.len())
             .filter(|&w| w == i || w + 1 == i)
             .find(|&w| self.meets(w, i, probe, crossing));
@@ -329,7 +329,7 @@ impl SurfaceOfRevolution {
                 if root.hi < c.lo {
                     return !later;
                 }
-                // The height at the root, times the way the ray goes.
+                // Decides by the exact sign of the root's height above the plane.
                 let level =
                     if core::ptr::eq(c, between.map_or(c, |b| b.0)) == (c.sign > 0) { i } else { i + 1 };
                 let Some(ray) = ray.in_ring_from::<Dyadic>(self.frame.centre, self.frame.scale) else {
@@ -356,7 +356,7 @@ impl SurfaceOfRevolution {
     }
 }
 
-/// A ray and the axis: the square of their distance is `a s² + 2 b s + c`, in units.
+/// A ray and the axis: their squared distance is `a s² + 2 b s + c`, in units.
 struct Axial<'a> {
     ray: &'a CentredRay<'a>,
     a: f64,
@@ -371,8 +371,8 @@ impl<'a> Axial<'a> {
         Self { ray, a: d.x * d.x + d.z * d.z, b: o.x * d.x + o.z * d.z, c: o.x * o.x + o.z * o.z }
     }
 
-    /// Whether the ray surely passes by a wall of this radius between the two heights that bound
-    /// it: all the way it is farther from the axis.
+    /// Whether the ray certainly misses a wall of this radius between the two heights that bound
+    /// it: everywhere there it is farther from the axis.
     ///
     /// With `p >= |o| + |s| |d|` the sums are wrong by `5 U p²` at most, and by less than a
     /// rounding since `s` is not exactly the least point; coordinates that are wrong by `e` change
@@ -389,7 +389,7 @@ impl<'a> Axial<'a> {
     }
 }
 
-/// Where the roots go, in order.
+/// Passes roots on to a sink, in order.
 struct Out<'k> {
     sink: &'k mut dyn Sink,
     least: f64,
@@ -406,7 +406,7 @@ impl Out<'_> {
     }
 }
 
-/// The roots of a wall's polynomial that are on the solid.
+/// Keeps the roots of a wall's polynomial that are on the solid.
 struct Keeping<'a, 'k> {
     out: &'a mut Out<'k>,
     keeps: &'a dyn Fn(&Root) -> bool,
@@ -445,7 +445,7 @@ impl Surface for SurfaceOfRevolution {
             return match self.walls.get(root.tag[0] as usize) {
                 Some(Wall::Cubic(w)) => polynomial_surface::resolve(w, ray, root, need),
                 Some(Wall::Spindle(w)) => polynomial_surface::resolve(w, ray, root, need),
-                // Not a root of this surface: nothing is known.
+                // Not a root of this surface: nothing can be computed.
                 None => SurfacePoint::unknown(self.frame.centre),
             };
         }
@@ -454,7 +454,7 @@ impl Surface for SurfaceOfRevolution {
         let n = Vec3::Y * root.tag[1];
         let lift = scale2(level.centre - level.height, -level.scale);
         let (p, dp) = planar::foot_point(&probe, &level, Vec3::Y, 1.0, lift);
-        // Exactly at the height: the step back onto the plane rounds.
+        // Exactly at the height: the projection onto the plane has rounded.
         let p = Point3::new(p.x, level.height, p.z);
         let off = planar::clearance(&level, p, self.frame.centre, self.frame.scale, 1.0);
         let mut point = SurfacePoint::new(p, dp, off, n.to_normal());
@@ -467,7 +467,7 @@ impl Surface for SurfaceOfRevolution {
     fn packet_filter(&self, _part: PartId) -> FilterSource {
         let walls = self.walls.iter().zip(&self.widths);
         let reach = self.widths.iter().copied().fold(0.0, f64::max);
-        // A wall that is all but a line is taken for a thicker one.
+        // A wall that is almost a line is treated as a wider one.
         let walls: Option<Vec<_>> =
             walls.map(|(wall, &width)| wall.for_lanes(width.max(reach * pow2(-10)))).collect();
         match walls {

@@ -1,5 +1,5 @@
-//! Walls of turned solids: `x² + z² = p(y)` with a cubic `p`, and the sheets of a torus that meets
-//! itself.
+//! Walls of solids of revolution: `x² + z² = p(y)` with a cubic `p`, and the sheets of a torus that
+//! meets itself.
 
 use crate::polynomial_surface::{self, PolynomialSurface};
 use crate::quadric::boolean_faces::{Chart, Frame};
@@ -8,17 +8,17 @@ use crate::{CentredRay, RingRay};
 use durer_math::eft::scale2;
 use durer_math::{Point3, Ring, U, Vec3, elementary};
 
-/// What both kinds share: where they stand on the axis, from where they are seen, and between which
-/// heights they are asked for.
+/// The part that both kinds share: the position on the axis, the frame, and the heights between
+/// which the wall is used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stand {
     /// The frame's centre is on the axis; `reach` holds the whole solid.
     pub(super) frame: Frame,
-    /// The height from which the wall's own is counted.
+    /// The height from which the wall's own height is counted.
     pub(super) at: f64,
-    /// The heights between which it is asked for, relative to the centre, in units.
+    /// The heights between which the wall is used, relative to the centre, in units.
     pub(super) slab: [f64; 2],
-    /// The heights of the whole solid, the same way.
+    /// The heights of the whole solid, relative to the centre, in units.
     pub(super) extent: [f64; 2],
 }
 
@@ -29,14 +29,14 @@ impl Stand {
         (T::exact(self.at) - T::exact(self.frame.centre.y)).scale2(-self.frame.scale)
     }
 
-    /// A ray whose heights are counted from `at`.
+    /// The origin of a ray with its height counted from `at`.
     #[inline(always)]
     fn seen<T: Ring>(&self, ray: &RingRay<T>) -> [T; 3] {
         let [x, y, z] = ray.o.clone();
         [x, y - self.height::<T>() * ray.w.clone(), z]
     }
 
-    /// The same, rounded.
+    /// `at` relative to the centre, in units, rounded.
     #[inline(always)]
     pub(super) fn at_height(&self) -> f64 {
         scale2(self.at - self.frame.centre.y, -self.frame.scale)
@@ -48,7 +48,8 @@ impl Stand {
         Vec3::new(y.x, y.y - self.at_height(), y.z)
     }
 
-    /// The part of a ray within the slab, a little enlarged, and the ball that holds the solid.
+    /// The part of a ray within the slab and within the ball that holds the solid, both a little
+    /// enlarged.
     #[inline(always)]
     fn stretch(&self, ray: &CentredRay<'_>) -> Option<(f64, f64)> {
         /// By how much both are enlarged, in units, so that no rounding matters.
@@ -58,7 +59,7 @@ impl Stand {
         polynomial_surface::ball_and_slab(ray, reach, (ray.o.y, ray.d.y), slab, MARGIN)
     }
 
-    /// Once round the axis, and from the bottom of the solid to its top.
+    /// `u` once round the axis, `v` from the bottom of the solid to its top.
     fn chart(&self, y: Vec3, n: Vec3) -> Chart {
         const TURN: f64 = 2.0 * core::f64::consts::PI;
         let rho = elementary::hypot(y.x, y.z);
@@ -67,8 +68,8 @@ impl Stand {
         let out = if rho > 0.0 { Vec3::new(y.x / rho, 0.0, y.z / rho) } else { Vec3::X };
         let east = Vec3::new(-out.z, 0.0, out.x);
         let height = self.extent[1] - self.extent[0];
-        // Up along the profile: across the normal and the way east, by as much as the height grows.
-        // At a pole the profile does not rise.
+        // Up along the profile: across the normal and the direction east, as far as the height
+        // grows. At a pole the profile does not rise.
         let north = east.cross(n);
         let up = if north.y.abs() > 1e-9 { height / north.y } else { height };
         Chart {
@@ -83,7 +84,7 @@ impl Stand {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cubic {
     pub(super) stand: Stand,
-    /// In units.
+    /// The coefficients, in units.
     pub(super) a: [f64; 4],
 }
 
@@ -154,8 +155,8 @@ impl PolynomialSurface<4> for Cubic {
 }
 
 impl Cubic {
-    /// No less than the radius anywhere in the slab, in units: the square is no larger than the
-    /// largest of its Bernstein coefficients.
+    /// An upper bound of the radius anywhere in the slab, in units: the squared radius is no larger
+    /// than the largest of its Bernstein coefficients.
     pub(super) fn widest(&self) -> f64 {
         let shift = scale2(self.stand.at - self.stand.frame.centre.y, -self.stand.frame.scale);
         let [l, r] = self.stand.slab.map(|y| y - shift);
@@ -183,9 +184,9 @@ impl Cubic {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Spindle {
     pub(super) stand: Stand,
-    /// In units.
+    /// The radius `R`, in units.
     pub(super) major: f64,
-    /// In units.
+    /// The radius `r`, in units.
     pub(super) minor: f64,
 }
 
@@ -203,7 +204,7 @@ impl Spindle {
         }
     }
 
-    /// No less than the radius anywhere, in units.
+    /// An upper bound of the radius, in units.
     pub(super) fn widest(&self) -> f64 {
         ((self.minor - self.major) * (1.0 + 4.0 * U)).next_up()
     }
@@ -269,7 +270,7 @@ impl PolynomialSurface<5> for Spindle {
     }
 }
 
-/// The centre of a frame on the axis at a height.
+/// The point of the axis at a height.
 pub(super) fn on_axis(y: f64) -> Point3 {
     Point3::new(0.0, y, 0.0)
 }

@@ -1,4 +1,4 @@
-//! What encloses a turned solid between two of its heights: one wall or the other.
+//! The walls that enclose a solid of revolution between two of its heights.
 
 use super::profile::{Cubic, Spindle};
 use crate::packet::LatheWall;
@@ -10,7 +10,7 @@ use crate::{LocalPoint, LocalRay, RingRay, Root, Side};
 use core::cmp::Ordering;
 use durer_math::{Dyadic, EFloat, Isa, Ring, Vec3};
 
-/// What encloses the solid between two heights.
+/// The wall between two heights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Wall {
     Cubic(Cubic),
@@ -18,7 +18,7 @@ pub(super) enum Wall {
 }
 
 impl Wall {
-    /// Whether a point known within `err` is inside, if that is certain.
+    /// Whether a point known within `err` is inside; `None` if that is uncertain.
     #[inline(always)]
     pub(super) fn rough(&self, at: Vec3, err: Vec3) -> Option<bool> {
         let run = |x: f64, e: f64| EFloat::with_error(x, e);
@@ -40,8 +40,8 @@ impl Wall {
         }
     }
 
-    /// As lanes see it, no wider than `radius`; `None` if they would see more than the sheet that
-    /// counts.
+    /// The wall for packets, no wider than `radius`; `None` if its polynomial has another sheet
+    /// within that radius.
     pub(super) fn for_lanes(&self, radius: f64) -> Option<LatheWall> {
         let stand = match self {
             Self::Cubic(w) => &w.stand,
@@ -70,7 +70,7 @@ impl Wall {
         }
     }
 
-    /// What is negative on the sheet that counts, if there are others.
+    /// The polynomial that is negative on the wall's own sheet, if there are others.
     pub(super) fn sheet(&self, ray: &RingRay<Dyadic>) -> Option<Vec<Dyadic>> {
         match self {
             Self::Cubic(_) => None,
@@ -93,7 +93,7 @@ impl Wall {
         }
     }
 
-    /// Whether a root is on the sheet that counts.
+    /// Whether a root is on the wall's own sheet.
     pub(super) fn holds(&self, probe: &Probe<'_>, root: &Root) -> bool {
         match self {
             Self::Cubic(_) => true,
@@ -114,7 +114,7 @@ impl Wall {
         }
         let ray = probe.ray.local();
         let Some(exact) = ray.in_ring_from::<Dyadic>(w.frame().centre, w.frame().scale) else { return true };
-        // Where both sheets meet, on the axis, it is outside by construction.
+        // On the axis, where both sheets meet, the point counts as outside by construction.
         self.sign_at_root(ray, root, &w.inner(&exact)).is_none_or(Ordering::is_lt)
     }
 

@@ -1,4 +1,4 @@
-//! The laws, against the roots of the walls' polynomials in exact numbers.
+//! The laws, tested against the exact roots of the walls' polynomials.
 
 use super::*;
 use crate::laws::{
@@ -8,8 +8,8 @@ use crate::laws::{
 use crate::{Axis, Sphere, Torus};
 use durer_math::Ray;
 
-/// The walls' polynomials in space, and what is negative on the sheet that counts; the same
-/// numbers, expanded.
+/// The walls' polynomials in space, expanded from the same numbers, and the polynomial that is
+/// negative on the wall's own sheet.
 struct ExactTurned {
     heights: Vec<f64>,
     walls: Vec<(ZeroOracle, Option<ZeroOracle>)>,
@@ -17,10 +17,10 @@ struct ExactTurned {
     known: LineCache<Option<Vec<Met>>>,
 }
 
-/// Digits, in bits, of the parameters of crossings: directions are `2^-330` to `2^330` long.
+/// The precision, in bits, of the parameters of crossings: directions are `2^-330` to `2^330` long.
 const BITS: i64 = 700;
 
-/// A crossing, with the number of the height at which it is, if any.
+/// A crossing, with the number of its height if it is at one.
 type Met = (Crossing, Option<usize>);
 
 fn zero_set(terms: Vec<(Exact, [usize; 3])>) -> ZeroOracle {
@@ -180,7 +180,7 @@ impl ExactTurned {
             (0, Some(i)) => Some(Ok(i)),
             (1, Some(i)) => {
                 let (here, far) = value(i);
-                // At an end, and away from the rim.
+                // At an end, and not near the rim.
                 let h = heights[0];
                 let is_end = h == 0 || h == self.walls.len();
                 (is_end && here.abs() > 4.0 * (far - here).abs()).then_some(Err(h))
@@ -192,7 +192,7 @@ impl ExactTurned {
     fn is_clear(&self, line: &ExactLine) -> bool {
         self.crossings(line).iter().all(|c| {
             let p = Vec3::from(line.at(&c.t.about(BITS)).map(|x| x.to_f64()));
-            // Not at the axis, where a sheet may have a tip.
+            // Not near the axis, where a sheet may have a tip.
             self.owner(p).is_some() && (p.x.abs() + p.z.abs()) > 1e-4 * self.size
         })
     }
@@ -408,7 +408,7 @@ fn an_ovus_with_a_large_top_is_a_ball_and_a_lemon_is_a_part_of_a_torus() {
     let (ovus, ball) =
         (SurfaceOfRevolution::ovus(1.0, 2.0).unwrap(), Sphere::new(Point3::new(0.0, 1.0, 0.0), 2.0).unwrap());
     let lemon = SurfaceOfRevolution::lemon(2.0, 0.0, 0.0, 1.25).unwrap();
-    // r = 5/4, half a height of 1: R = 3/4 - and all of the inner sheet.
+    // r = 5/4, half the height 1: R = 3/4, and the whole inner sheet.
     let torus = Torus::new(Point3::new(0.0, 1.0, 0.0), Axis::Y, 0.75, 1.25).unwrap();
     let mut met = 0;
     for _ in 0..400 {
@@ -417,7 +417,7 @@ fn an_ovus_with_a_large_top_is_a_ball_and_a_lemon_is_a_part_of_a_torus() {
         let (a, b) = (all_roots(&ovus, &ray), all_roots(&ball, &ray));
         assert_eq!(a.len(), b.len());
         assert!(a.iter().zip(&b).all(|(a, b)| a.sign == b.sign && (a.t - b.t).abs() < 1e-12), "{a:?} {b:?}");
-        // The torus is left where the lemon is entered.
+        // The ray leaves the torus where it enters the lemon.
         let (a, b) = (all_roots(&lemon, &ray), all_roots(&torus, &ray));
         for root in &a {
             met += 1;

@@ -19,7 +19,7 @@ pub(crate) fn blob(threshold: f64, components: &[BlobComponent]) -> Isosurface {
     Isosurface::new(&missing(components).unwrap(), -threshold, Container::Box(held)).unwrap()
 }
 
-/// The square of the distance of a component's own point `p`, in units of its radius.
+/// The squared distance of a component's own point `p`, in units of its radius.
 fn distance(part: &BlobComponent, b: &mut Builder, p: [NodeId; 3]) -> Result<NodeId, FormulaError> {
     let (from, to) = match part.shape {
         BlobShape::Ball(centre) => (centre, centre),
@@ -35,8 +35,8 @@ fn distance(part: &BlobComponent, b: &mut Builder, p: [NodeId; 3]) -> Result<Nod
         return b.push(Op::Mul(square, scale));
     }
     // With u from one end to the other and h = w . u, the point is |w x u| / |u| beside the axis,
-    // and beyond its ends by what -h or h - u^2 says, times 1 / |u|. Beside and beyond share no
-    // coordinate of the point, so their bounds are tight.
+    // and beyond its ends by the positive part of -h or of h - u^2, times 1 / |u|. The two
+    // distances share no coordinate of the point, so their bounds are tight.
     let start = [from.x, from.y, from.z];
     let mut u = [radius; 3];
     for (axis, part) in u.iter_mut().enumerate() {
@@ -66,7 +66,7 @@ fn distance(part: &BlobComponent, b: &mut Builder, p: [NodeId; 3]) -> Result<Nod
     b.push(Op::Mul(sum, scale))
 }
 
-/// Minus the sum of all fields: less inside, as formulas have it.
+/// Minus the sum of all fields: formulas are smaller inside.
 fn missing(components: &[BlobComponent]) -> Result<Formula, FormulaError> {
     let mut b = Builder::new();
     let p = [b.input(0)?, b.input(1)?, b.input(2)?];
@@ -85,7 +85,7 @@ fn missing(components: &[BlobComponent]) -> Result<Formula, FormulaError> {
     Ok(b.finish(sum, 3))
 }
 
-/// `L^-1 (p - c)`, with the inverse matrix known within its error.
+/// `L^-1 (p - c)`, with bounds on the error of the inverse matrix.
 fn undone(b: &mut Builder, p: [NodeId; 3], place: &Affine) -> Result<[NodeId; 3], FormulaError> {
     if *place == Affine::IDENTITY {
         return Ok(p);
@@ -121,7 +121,7 @@ fn squares(b: &mut Builder, v: [NodeId; 3]) -> Result<NodeId, FormulaError> {
     b.push(Op::Add(sum, z))
 }
 
-/// `x` times a constant; zero times anything here is zero, since what is multiplied is finite.
+/// `x` times a constant. Zero times anything is zero here, since every factor is finite.
 fn times(b: &mut Builder, x: NodeId, constant: NodeId) -> Result<NodeId, FormulaError> {
     let zero = b.constant(0.0)?;
     if constant == zero { Ok(zero) } else { b.push(Op::Mul(x, constant)) }

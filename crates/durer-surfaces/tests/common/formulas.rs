@@ -1,10 +1,10 @@
-//! Formulas as one would write them on paper, and their surfaces.
+//! Formulas in the notation of paper, and their surfaces.
 
 use durer_math::{Point3, Ray};
 use durer_surfaces::tape::{Builder, Formula, NodeId, Op};
 use durer_surfaces::{All, AxisBox, Container, Isosurface, LocalRay, Root, Surface};
 
-/// Writes formulas as one would on paper.
+/// Builds formulas in the notation of paper.
 pub(crate) struct Pen(pub(crate) Builder);
 
 impl Pen {

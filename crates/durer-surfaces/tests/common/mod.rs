@@ -1,4 +1,4 @@
-//! Numbers at random, shared by the tests.
+//! Random numbers, shared by the tests.
 
 use durer_math::Vec3;
 
@@ -14,7 +14,7 @@ impl Dice {
         z ^ (z >> 31)
     }
 
-    /// In `[-1, 1)`.
+    /// A number in `[-1, 1)`.
     pub(crate) fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 * f64::EPSILON - 1.0
     }

@@ -1,10 +1,10 @@
-//! What may be said of any solid's roots.
+//! Laws for the roots of any solid.
 
 use durer_math::{Point3, Ray};
 use durer_surfaces::algebraic::{coefficient_count, place_of};
 use durer_surfaces::{AlgebraicSurface, LocalPoint, Root, RootKind, Side, Surface};
 
-/// Brackets overlap one by one where all roots are certain; else the signs add up to the same.
+/// Brackets overlap one by one if all roots are certain; otherwise the sums of signs are equal.
 pub(crate) fn same(a: &[Root], b: &[Root]) -> bool {
     let sure = |roots: &[Root]| roots.iter().all(|r| r.kind == RootKind::Simple);
     if sure(a) && sure(b) {
@@ -24,7 +24,8 @@ pub(crate) fn polynomial(order: u32, terms: &[([u32; 3], f64)]) -> AlgebraicSurf
     AlgebraicSurface::new(order, &list).unwrap()
 }
 
-/// Chords alternate, and samples of the rounded formula see no change of sign that has no root.
+/// Signs of roots alternate, and samples of the rounded formula find no change of sign without a
+/// root.
 pub(crate) fn holds_together<S: Surface>(
     surface: &S,
     ray: &Ray,
@@ -48,7 +49,7 @@ pub(crate) fn holds_together<S: Surface>(
         let t = middle + reach * (f64::from(i) / 200.0 - 1.0);
         let p = ray.at(t);
         let v = value(p);
-        // Rounding of the point and of the value.
+        // Within the rounding of the point and of the value.
         if t < 0.0 || v.abs() < 1e-6 || ray.origin.to_vec().length() > 1e3 {
             continue;
         }

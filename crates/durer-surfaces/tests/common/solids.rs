@@ -1,11 +1,11 @@
-//! Rays at random, and all roots that they have.
+//! Random rays, and all roots that they have.
 
 use crate::common::Dice;
 use durer_math::{Ray, Vec3};
 use durer_surfaces::{All, LocalRay, Root, RootKind, Surface};
 
 impl Dice {
-    /// Through the cube around the origin, from near and far; often along an axis, in a plane
+    /// A ray through the cube around the origin, from near and far; often along an axis, in a plane
     /// between octants, or through the origin.
     pub(crate) fn ray(&mut self) -> Ray {
         let mut through = self.vector();
@@ -31,7 +31,7 @@ pub(crate) fn all<S: Surface>(surface: &S, ray: &Ray) -> Vec<Root> {
     sink.roots
 }
 
-/// Counts of roots, to see that the tests meet something.
+/// Counts of roots, to check that the tests hit something.
 #[derive(Default)]
 pub(crate) struct Met {
     pub(crate) simple: usize,

@@ -1,4 +1,4 @@
-//! The witness of deformed solids: their maps and themselves in polar coordinates, in f64 and in
+//! The oracle of deformed solids: their maps in polar coordinates, and the solids, in f64 and in
 //! 256 bits.
 
 use astro_float::{BigFloat, Consts, RoundingMode};
@@ -14,7 +14,7 @@ thread_local! {
     static CONSTS: RefCell<Consts> = RefCell::new(Consts::new().unwrap());
 }
 
-/// What the witness computes with: f64 for samples, 256 bits for signs.
+/// The numbers of the oracle: f64 for samples, 256 bits for signs.
 pub(crate) trait Real: Clone {
     fn of(x: f64) -> Self;
     fn add(&self, b: &Self) -> Self;
@@ -24,7 +24,7 @@ pub(crate) trait Real: Clone {
     fn sqrt(&self) -> Self;
     fn sin(&self) -> Self;
     fn cos(&self) -> Self;
-    /// Within half a turn.
+    /// The angle, within half a turn.
     fn atan2(&self, x: &Self) -> Self;
     fn pi() -> Self;
     fn is_negative(&self) -> bool;
@@ -157,7 +157,7 @@ impl Solid {
         }
     }
 
-    /// Negative inside.
+    /// The value of the solid's formula, negative inside.
     pub(crate) fn value<T: Real>(self, p: &[T; 3]) -> T {
         match self {
             Self::Block => (0..3)
@@ -181,7 +181,8 @@ impl Solid {
     }
 }
 
-/// A warp about a coordinate axis, either way round, in the test's own words: where a point was.
+/// The point that a warp about a coordinate axis, of either direction, moves to `p`; computed
+/// independently.
 pub(crate) fn was<T: Real>(warp: &Warp, p: &[T; 3]) -> [T; 3] {
     let along = |axis: &Vec3| {
         let k = (0..3).find(|&k| axis[k] != 0.0).unwrap();
@@ -197,7 +198,7 @@ pub(crate) fn was<T: Real>(warp: &Warp, p: &[T; 3]) -> [T; 3] {
             let height = sign.mul(&p[k]);
             let t = clamp(height.sub(&T::of(*from)).div(&T::of(*to).sub(&T::of(*from))));
             let a = sign.mul(&radians(*degrees)).mul(&t);
-            // Polar coordinates: the angle is less by a.
+            // Polar coordinates: the angle decreases by a.
             let far = p[i].square().add(&p[j].square()).sqrt();
             let angle = p[j].atan2(&p[i]).sub(&a);
             q[i] = far.mul(&angle.cos());
@@ -220,7 +221,7 @@ pub(crate) fn was<T: Real>(warp: &Warp, p: &[T; 3]) -> [T; 3] {
             let (height, near) = (sign.mul(&p[k]), side.mul(&p[m]));
             let (u, v) = (radius.sub(&near), height.sub(&T::of(*from)));
             let mut a = v.atan2(&u);
-            // What is so far back is nothing, or past the other end.
+            // An angle this far back is either empty or beyond the other end.
             if a.add(&T::of(1.9)).is_negative() {
                 a = a.add(&T::pi()).add(&T::pi());
             }
@@ -238,7 +239,7 @@ pub(crate) fn was<T: Real>(warp: &Warp, p: &[T; 3]) -> [T; 3] {
             q[m] = side.mul(&near);
         }
         Warp::Inverse { .. } => {
-            // The one that these tests use; see `wave`.
+            // The only inverse warp of these tests; see `wave`.
             let three = T::of(3.0).mul(&p[0]);
             q[1] = p[1].sub(&T::of(0.125).mul(&three.sin()));
         }

@@ -1,5 +1,5 @@
-//! Any bytes as one operation of a formula and two intervals: the bounds hold what f64 computes,
-//! and what exact arithmetic does.
+//! Any bytes as one operation of a formula and two intervals: the bounds contain the results of f64
+//! and of exact arithmetic.
 
 #[path = "../../../../fuzz/shared/bytes.rs"]
 #[allow(clippy::duplicate_mod, reason = "each target stands alone, too; only the tests load them all")]
@@ -12,12 +12,12 @@ use durer_math::{Function, I8, Interval, Point3};
 use durer_surfaces::tape::{Builder, NodeId, Op, Tape};
 use std::cell::RefCell;
 
-/// Bits of the witness of functions that are not rational.
+/// The precision, in bits, of the oracle for functions that are not rational.
 const P: usize = 256;
 const RM: RoundingMode = RoundingMode::ToEven;
 
 impl Bytes<'_> {
-    /// Small numbers, neighbours of whole ones, multiples of a quarter turn, numbers of any size.
+    /// Small numbers, neighbours of integers, multiples of a quarter turn, numbers of any size.
     fn number(&mut self) -> f64 {
         let x = match self.next() % 8 {
             0 => f64::from_bits(self.bits()),
@@ -32,12 +32,13 @@ impl Bytes<'_> {
     }
 }
 
-/// What an operation is exactly, at a point where it is defined.
+/// The exact result of an operation at a point where it is defined.
 enum Exact {
     Ratio(RBig),
-    /// The square is this, and the number is not negative.
+    /// The non-negative number whose square is this.
     Root(RBig),
-    /// To so many bits that no f64 lies between it and the truth, but for where it is one.
+    /// A value so precise that no f64 lies between it and the exact result, unless that is itself
+    /// an f64.
     Near(BigFloat),
 }
 
@@ -70,8 +71,8 @@ fn big(x: f64) -> BigFloat {
     BigFloat::from_f64(x, P)
 }
 
-/// A value of many bits. The constants that it takes are made once: that takes longer than
-/// everything else.
+/// A value of many bits. Its constants are computed once, since that takes longer than everything
+/// else.
 fn witness(value: impl FnOnce(&mut Consts) -> BigFloat) -> Option<Exact> {
     thread_local! {
         static CONSTANTS: RefCell<Option<Consts>> = RefCell::new(Consts::new().ok());
@@ -79,11 +80,11 @@ fn witness(value: impl FnOnce(&mut Consts) -> BigFloat) -> Option<Exact> {
     CONSTANTS.with_borrow_mut(|constants| constants.as_mut().map(|c| Exact::Near(value(c))))
 }
 
-/// An operation of one or two operands, perhaps with a whole power.
+/// An operation of one or two operands, perhaps with an integer power.
 type Make = fn([NodeId; 2], i32) -> Op;
 
-/// What it is exactly, given the same; none where it is not defined or the witness is out of its
-/// depth.
+/// The exact result for the same arguments; `None` where it is undefined or the oracle cannot
+/// compute it.
 type Truth = fn(f64, f64, i32) -> Option<Exact>;
 
 /// The operation with this number.
@@ -116,14 +117,14 @@ fn operation(code: u8) -> (Make, Truth) {
         8 => (
             |[x, y], _| Op::Pow(x, y),
             |x, y, _| {
-                // Where the power may be an f64 number itself the witness looks for more and more
-                // of its zeros, without end.
+                // If the power itself may be an f64 number the oracle computes more and more of its
+                // zeros, without end.
                 let tame =
                     (1e-3..1e3).contains(&x) && x != 1.0 && y.abs() < 50.0 && (y * 1024.0).fract() != 0.0;
                 tame.then(|| witness(|c| big(x).pow(&big(y), P, RM, c))).flatten()
             },
         ),
-        // The witness needs longer and longer for larger arguments of these.
+        // For larger arguments of these the oracle takes longer and longer.
         9 => function!(Sin, 1e6, |x, c| x.sin(P, RM, c)),
         10 => function!(Cos, 1e6, |x, c| x.cos(P, RM, c)),
         11 => function!(Tan, 1e6, |x, c| x.tan(P, RM, c)),
@@ -146,11 +147,11 @@ fn operation(code: u8) -> (Make, Truth) {
     }
 }
 
-/// Checks the bounds of the operation that the bytes spell.
+/// Tests the bounds of the operation that the bytes encode.
 ///
 /// # Panics
 ///
-/// If they do not hold a value.
+/// If they do not contain a value.
 pub(crate) fn check(data: &[u8]) {
     let mut bytes = Bytes(data);
     let code = bytes.next();
@@ -180,7 +181,7 @@ pub(crate) fn check(data: &[u8]) {
         };
         let (x, y) = (at(x, k), at(y, f64::from(bytes.next()) / 255.0));
         if x.is_nan() || y.is_nan() {
-            continue; // a width beyond all numbers
+            continue; // a width beyond the range of f64
         }
         let range = range.lane(0);
         let value = tape.value(Point3::new(x, y, 0.0));

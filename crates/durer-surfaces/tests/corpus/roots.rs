@@ -1,5 +1,5 @@
-//! Any bytes as a polynomial in x, y and z and a ray: what the solver finds is what Sturm's theorem
-//! on whole numbers counts.
+//! Any bytes as a polynomial in x, y and z and a ray: the solver finds as many roots as Sturm's
+//! theorem on integers counts.
 
 #[path = "../../../../fuzz/shared/bytes.rs"]
 #[allow(clippy::duplicate_mod, reason = "each target stands alone, too; only the tests load them all")]
@@ -12,7 +12,7 @@ use durer_surfaces::algebraic::{coefficient_count, place_of, powers};
 use durer_surfaces::laws::{self, Exact, ZeroOracle};
 
 impl Bytes<'_> {
-    /// Mostly small round numbers, some of any size, some next to a round one.
+    /// Usually a small round number, sometimes one of any size, sometimes one next to a round one.
     fn number(&mut self) -> f64 {
         let x = match self.next() {
             0 => f64::from_bits(self.bits()),
@@ -21,13 +21,13 @@ impl Bytes<'_> {
             3 => durer_math::scale::ldexp(f64::from(self.next()) - 128.0, i32::from(self.next()) - 128),
             n => (f64::from(n) - 128.0) / 16.0,
         };
-        // Products of sixteen factors stay in range.
+        // Limited so that products of sixteen factors stay in range.
         if x.is_finite() && (x == 0.0 || (1e-12..1e12).contains(&x.abs())) { x } else { 1.0 }
     }
 }
 
-/// A product of `count` linear forms `x + a y + b z + c`, expanded in f64: roots that are near each
-/// other, or the same.
+/// A product of `count` linear forms `x + a y + b z + c`, expanded in f64: its roots are close to
+/// each other, or equal.
 fn product(bytes: &mut Bytes<'_>, order: u32, count: u32) -> Vec<f64> {
     let mut all = vec![0.0; coefficient_count(order)];
     all[place_of(order, [0; 3])] = 1.0;
@@ -53,8 +53,8 @@ fn product(bytes: &mut Bytes<'_>, order: u32, count: u32) -> Vec<f64> {
     all
 }
 
-/// The laws of roots. Those of points and of the width of brackets speak of surfaces of a known
-/// size.
+/// The laws of roots. The laws of points and of the width of brackets apply only to surfaces of a
+/// known size.
 fn solved(surface: &AlgebraicSurface, oracle: &ZeroOracle, ray: &Ray) -> Result<(), laws::Broken> {
     let roots = laws::roots_are_the_exact_crossings(surface, oracle, ray, None)?;
     laws::closest_is_the_first_of_all(surface, ray, &roots)?;
@@ -62,7 +62,7 @@ fn solved(surface: &AlgebraicSurface, oracle: &ZeroOracle, ray: &Ray) -> Result<
     laws::powers_of_two_change_nothing(surface, ray, &roots)
 }
 
-/// Checks the laws of roots for the surface and the ray that the bytes spell.
+/// Tests the laws of roots for the surface and the ray that the bytes encode.
 ///
 /// # Panics
 ///

@@ -66,7 +66,7 @@ pub(crate) enum Ends {
     Open,
 }
 
-/// What is certain about `g` on one segment of each line.
+/// The certain properties of `g` on one segment of each line.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Segment8 {
     /// The lanes to classify, and those of them that were classified.

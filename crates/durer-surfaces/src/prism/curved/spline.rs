@@ -10,9 +10,9 @@
 //!
 //! The curve consists of the points in brackets and is closed; the points before and after only
 //! determine its slopes at the ends. Cubic splines are those of E. Catmull, R. Rom, "A class of
-//! local interpolating splines", *Computer Aided Geometric Design* (ed. Barnhill, Riesenfeld),
-//! 1974. Inner control points of a piece are rounded to f64, ends are the points themselves; the
-//! exact solid is that of the rounded points.
+//! local interpolating splines", *Computer Aided Geometric Design* (ed. Barnhill,
+//! Riesenfeld), 1974. Inner control points of a piece are rounded to f64, ends are the points
+//! themselves; the exact solid is that of the rounded points.
 
 use crate::prism::outline::Point;
 
