@@ -243,13 +243,10 @@ impl Maker {
                 self.r.number(2.0, 7.0),
                 self.r.number(-7.0, 3.0)
             );
-            match self.r.below(10) {
-                // On a ceiling. Lights on balls and boxes are speckles in POV-Ray.
-                0 => {
-                    at = "<0, 3, -1>".into();
-                    objects.push(self.plain("plane { y, 3".into()));
-                }
-                _ => {}
+            // On a ceiling. Lights on balls and boxes are speckles in POV-Ray.
+            if self.r.below(10) == 0 {
+                at = "<0, 3, -1>".into();
+                objects.push(self.plain("plane { y, 3".into()));
             }
             let mut light =
                 Node::block(format!("light_source {{ {at}, rgb {}", self.r.vector(0.3, 1.0)), vec![], 0);
