@@ -25,6 +25,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 SECONDS, BYTES = 10.0, 1 << 30
+# The limit given to scenes without end: the default follows the machine, and BYTES must not.
+MEMORY = ["--limit", f"memory={256 << 20}"]
 PLACE = re.compile(r"^(?!warning|notice|\s)\S*?([^/\s]+):(\d+):(\d+): (.+)$", re.M)
 FORBIDDEN = ("panicked", "RUST_BACKTRACE", "backtrace", "stack overflow", "unwrap()", "core dumped", "memory allocation")
 CAMERA = "camera { location <0, 0, -5> look_at 0 }\nlight_source { <5, 9, -9>, rgb 1 }\n"
@@ -123,13 +125,13 @@ class Examiner:
             if not re.search(r"^[\s|\d]*\^", err[m.end():], re.M):
                 fail("nothing underlined")
 
-    def scene(self, name, text, code=1, place=None, says=None, files=None, needs_place=True, command="render", **rest):
-        """A scene through `render`, small, or another command."""
+    def scene(self, name, text, code=1, place=None, says=None, files=None, needs_place=True, command="render", options=(), **rest):
+        """A scene through `render`, small, or another command, with further options."""
         content = text if isinstance(text, bytes) else text.encode()
         words = {
             "render": ["render", "s.pov", "-o", "s.png", "--width", "8", "--height", "6"],
             "check": ["check", "s.pov"],
-        }[command]
+        }[command] + list(options)
         makes = ["s.png"] if command == "render" else []
         place = ("s.pov", *place) if place and len(place) == 2 else place
         return self.examine(name, words, code, {"s.pov": content, **(files or {})}, place, says, makes, content, needs_place and code == 1, **rest)
@@ -219,11 +221,11 @@ def endless(x):
         "wait in a condition": "#while (vlength(<1, 2, 3>) > 0) #if (1) #else #end #end", "polygon without end": "polygon { 1e8, #while (1) x, #end }",
     }
     for name, words in cases.items():
-        x.scene(f"endless: {name}", GOOD + words + "\n", chatty="#debug" in words)
+        x.scene(f"endless: {name}", GOOD + words + "\n", chatty="#debug" in words, options=MEMORY)
     x.scene("includes itself", '#include "s.pov"\n')
     x.scene("includes in a circle", '#include "a.inc"\n', files={"a.inc": '#include "b.inc"', "b.inc": '#include "a.inc"'})
     x.scene("includes itself twice", '#include "s.pov"\n#include "s.pov"\n')
-    x.scene("includes a file a million times", '#for (I, 1, 1e9) #include "a.inc" #end\n', files={"a.inc": "sphere { 0, 1 }\n" * 100})
+    x.scene("includes a file a million times", '#for (I, 1, 1e9) #include "a.inc" #end\n', files={"a.inc": "sphere { 0, 1 }\n" * 100}, options=MEMORY)
     for depth in (100, 100_000):
         nests = {
             "parentheses": "sphere { 0, " + "(" * depth + "1" + ")" * depth + " }", "unclosed parentheses": "sphere { 0, " + "(" * depth, "minus signs": "sphere { 0, " + "-" * depth + "1 }", "not signs": "#if (" + "!" * depth + "1) #end",
