@@ -116,6 +116,7 @@ enum Expr {
     Leaf(usize),
     All(Vec<Expr>),
     Any(Vec<Expr>),
+    AnyWithInner(Vec<Expr>),
     Minus(Box<Expr>, Vec<Expr>),
     Not(Box<Expr>),
 }
@@ -125,9 +126,53 @@ impl Expr {
         match self {
             Expr::Leaf(i) => bits[*i],
             Expr::All(parts) => parts.iter().all(|p| p.holds(bits)),
-            Expr::Any(parts) => parts.iter().any(|p| p.holds(bits)),
+            Expr::Any(parts) | Expr::AnyWithInner(parts) => parts.iter().any(|p| p.holds(bits)),
             Expr::Minus(a, others) => a.holds(bits) && !others.iter().any(|p| p.holds(bits)),
             Expr::Not(a) => !a.holds(bits),
+        }
+    }
+
+    /// Whether a face of a leaf is visible where all other leaves have the values `bits`: `None` if
+    /// the leaf is not in the expression, otherwise also whether the leaf's complement is.
+    fn shows(&self, leaf: usize, inverted: bool, bits: &[bool]) -> Option<(bool, bool)> {
+        let (parts, taken_away, rule): (Vec<&Expr>, usize, _) = match self {
+            Expr::Leaf(i) => return (*i == leaf).then_some((true, inverted)),
+            Expr::Not(part) => return part.shows(leaf, !inverted, bits),
+            Expr::All(parts) => (parts.iter().collect(), usize::MAX, "all"),
+            Expr::Any(parts) => (parts.iter().collect(), usize::MAX, "any"),
+            Expr::AnyWithInner(parts) => (parts.iter().collect(), usize::MAX, "any with inner"),
+            Expr::Minus(a, others) => (core::iter::once(&**a).chain(others).collect(), 1, "all"),
+        };
+        let own = |i: usize| inverted != (i >= taken_away);
+        let (at, (is_visible, is_inverted)) =
+            parts.iter().enumerate().find_map(|(i, p)| Some((i, p.shows(leaf, own(i), bits)?)))?;
+        let mut others =
+            parts.iter().enumerate().filter(|(i, _)| *i != at).map(|(i, p)| p.holds(bits) != own(i));
+        let is_intersection = (rule == "all") != inverted;
+        let agree = if is_intersection {
+            others.all(|holds| holds)
+        } else {
+            rule == "any with inner" || !others.any(|holds| holds)
+        };
+        Some((is_visible && agree, is_inverted))
+    }
+
+    /// Turns every other union into one with inner faces.
+    fn with_inner_faces(self, dice: &mut Dice) -> Expr {
+        let mut each =
+            |parts: Vec<Expr>| parts.into_iter().map(|p| p.with_inner_faces(dice)).collect::<Vec<_>>();
+        match self {
+            Expr::Leaf(i) => Expr::Leaf(i),
+            Expr::All(parts) => Expr::All(each(parts)),
+            Expr::Any(parts) | Expr::AnyWithInner(parts) => {
+                let parts = each(parts);
+                if dice.below(3) == 0 { Expr::Any(parts) } else { Expr::AnyWithInner(parts) }
+            }
+            Expr::Minus(a, others) => {
+                let others = each(others);
+                Expr::Minus(Box::new(a.with_inner_faces(dice)), others)
+            }
+            Expr::Not(a) => Expr::Not(Box::new(a.with_inner_faces(dice))),
         }
     }
 
@@ -141,6 +186,10 @@ impl Expr {
             Expr::Any(parts) => {
                 let parts: Vec<Part> = parts.iter().map(|p| p.build(leaves, csg)).collect();
                 csg.union(parts)
+            }
+            Expr::AnyWithInner(parts) => {
+                let parts: Vec<Part> = parts.iter().map(|p| p.build(leaves, csg)).collect();
+                csg.union_with_inner_faces(parts)
             }
             Expr::Minus(a, others) => {
                 let a = a.build(leaves, csg);
@@ -193,6 +242,8 @@ struct Body {
     leaves: Vec<Leaf>,
     witnesses: Vec<ExactBody>,
     expr: Expr,
+    /// Whether unions keep inner faces. Then crossings need not alternate between in and out.
+    has_inner_faces: bool,
 }
 
 fn body(leaves: Vec<Leaf>, expr: Expr) -> Body {
@@ -201,7 +252,8 @@ fn body(leaves: Vec<Leaf>, expr: Expr) -> Body {
     let whole = expr.build(&mut parts, &mut csg);
     let scene = Geometry::builder().add_compound(csg.build(whole).unwrap()).build().unwrap();
     let witnesses = leaves.iter().map(Leaf::witness).collect();
-    Body { scene, leaves, witnesses, expr }
+    let has_inner_faces = format!("{expr:?}").contains("AnyWithInner");
+    Body { scene, leaves, witnesses, expr, has_inner_faces }
 }
 
 /// An exact crossing of the CSG solid.
@@ -256,6 +308,9 @@ impl Body {
             if end < events.len() && close(&events[i].1.t, &events[end].1.t, CLOSE) {
                 return None;
             }
+            if self.has_inner_faces && end > i + 1 {
+                return None;
+            }
             let before = state(&bits);
             for (leaf, crossing) in &events[i..end] {
                 bits[*leaf] = crossing.sign < 0;
@@ -263,6 +318,17 @@ impl Body {
             let after = state(&bits);
             if before != after {
                 out.push(Truth { t: events[i].1.t.clone(), sign: if after { -1 } else { 1 } });
+            } else if self.has_inner_faces {
+                let (leaf, crossing) = &events[i];
+                let told: Vec<bool> =
+                    bits.iter().zip(&self.leaves).map(|(b, l)| *b != l.is_turned()).collect();
+                let (is_visible, is_inverted) = self.expr.shows(*leaf, false, &told).unwrap();
+                // The sign of the leaf's own solid, which may be a complement twice.
+                let flip = is_inverted != self.leaves[*leaf].is_turned();
+                if is_visible {
+                    let sign = if flip { -crossing.sign } else { crossing.sign };
+                    out.push(Truth { t: crossing.t.clone(), sign });
+                }
             }
             i = end;
         }
@@ -287,6 +353,9 @@ impl Body {
         }
         assert_eq!(self.scene.closest(ray), hits.first().copied(), "{}", told());
         assert_eq!(self.scene.any(ray), !hits.is_empty(), "{}", told());
+        if self.has_inner_faces {
+            return hits.len();
+        }
         // The ends of spans alternate: in, out.
         let spans = self.scene.spans(ray);
         let ends: Vec<f64> = spans
@@ -391,6 +460,28 @@ fn random_trees_are_what_their_leaves_say() {
         }
     }
     assert!(met > 5_000, "only {met} crossings");
+}
+
+#[test]
+fn unions_keep_their_inner_faces() {
+    let (mut met, mut met_without) = (0, 0);
+    for seed in 0..600 {
+        let mut dice = Dice(90_000 + seed);
+        let count = 2 + dice.below(7) as usize;
+        let leaves: Vec<Leaf> = (0..count).map(|_| random_leaf(&mut dice)).collect();
+        let plain = random_expr(&mut dice, 0, count);
+        let expr = Expr::AnyWithInner(vec![plain.clone().with_inner_faces(&mut dice)]);
+        let (with, without) = (body(leaves.clone(), expr), body(leaves, plain));
+        for _ in 0..100 {
+            let ray = random_ray(&mut dice);
+            let count = with.check(&ray);
+            if count > 0 {
+                (met, met_without) = (met + count, met_without + without.scene.all(&ray).len());
+            }
+        }
+    }
+    assert!(met > 5_000, "only {met} crossings");
+    assert!(met > met_without + 500, "{met} crossings with inner faces, {met_without} without");
 }
 
 #[test]

@@ -69,7 +69,7 @@ const NEW_OPACITY: f64 = 3.7;
 impl World {
     /// Builds the geometry of a scene and makes its looks, lights and camera ready.
     pub fn new(scene: &Scene) -> Result<Self, WorldError> {
-        let lowered = scene.lower()?;
+        let lowered = scene.lower_for_pictures()?;
         let settings = &scene.settings;
         let mut paints = Vec::new();
         let mut looks = Vec::with_capacity(lowered.looks.len());

@@ -357,6 +357,10 @@ impl Surface for AxisBox {
         Aabb::new(self.min, self.max)
     }
 
+    fn inner_bounds(&self) -> Aabb {
+        self.bounds()
+    }
+
     #[inline(always)]
     fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
         // A ray that was spawned on a face and goes away from it has left the box.

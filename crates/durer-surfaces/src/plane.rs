@@ -15,11 +15,11 @@ use crate::packet::FilterSource;
 use crate::planar::{self, PlaneForm, PointLine, Probe, Quick, dot, exact3, scaled_to_one, unit};
 use crate::point::least_step;
 use crate::{
-    CentredRay, Flow, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side, Sink, Solidity, Surface,
-    SurfacePoint,
+    CentredRay, Flow, HalfSpace, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side, Sink, Solidity,
+    Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
-use durer_math::{Aabb, Dd, Dyadic, EFloat, Normal3, Point3, RaySide, Ring, Shaft, U, Vec3};
+use durer_math::{Aabb, Dd, Dyadic, EFloat, Interval, Normal3, Point3, RaySide, Ring, Shaft, U, Vec3};
 
 /// A plane, which is also the boundary of the half-space behind it.
 ///
@@ -73,6 +73,11 @@ impl Plane {
     #[inline(always)]
     pub fn normal(&self) -> Vec3 {
         self.normal
+    }
+
+    /// An interval that holds `h |n|`.
+    pub(crate) fn offset_bounds(&self) -> Interval {
+        Interval::new(self.offset.lo(), self.offset.hi())
     }
 
     /// `h |n|` to about 400 bits, and a bound on the error: for rays that are almost parallel.
@@ -200,6 +205,23 @@ impl PlaneForm for Seen<'_> {
 impl Surface for Plane {
     fn bounds(&self) -> Aabb {
         Aabb::UNBOUNDED
+    }
+
+    fn inner_bounds(&self) -> Aabb {
+        let mut inner = Aabb::UNBOUNDED;
+        let n = self.normal;
+        let mut entries = (0..3).filter(|&axis| n[axis] != 0.0);
+        let (Some(axis), None) = (entries.next(), entries.next()) else { return Aabb::EMPTY };
+        if n[axis] > 0.0 {
+            inner.max[axis] = self.distance;
+        } else {
+            inner.min[axis] = -self.distance;
+        }
+        inner
+    }
+
+    fn half_space(&self) -> Option<HalfSpace> {
+        Some(HalfSpace::behind(self))
     }
 
     fn misses(&self, shaft: &Shaft) -> bool {

@@ -1,7 +1,7 @@
 //! The trait that every surface implements, and the types of its answers.
 
 use crate::packet::FilterSource;
-use crate::{LocalPoint, LocalRay, Sink, SurfacePoint};
+use crate::{HalfSpace, LocalPoint, LocalRay, Sink, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::{Aabb, Affine, Point3, RaySide, Shaft};
 
@@ -18,6 +18,16 @@ pub trait Surface: Send + Sync {
     /// the moved box; a surface with a tighter one returns that.
     fn bounds_through(&self, map: &Affine) -> Aabb {
         map.bounds(&self.bounds())
+    }
+
+    /// A box that the solid provably holds, possibly unbounded; empty if none is known.
+    fn inner_bounds(&self) -> Aabb {
+        Aabb::EMPTY
+    }
+
+    /// The solid as a half-space, if it is one.
+    fn half_space(&self) -> Option<HalfSpace> {
+        None
     }
 
     /// Whether no ray of a bundle meets the surface. `true` is certain, `false` is not.

@@ -2,7 +2,7 @@
 
 use super::packet::Operand;
 use super::sweep::Sense;
-use super::tree::{Expr, Tree, Values};
+use super::tree::{Expr, Extent, Tree, Values};
 use crate::arena::AnyArena;
 use crate::filter_cache::FilterKind;
 use crate::geometry::slots;
@@ -105,7 +105,7 @@ pub struct CompoundBuilder {
     leaves: Builder,
     exprs: Vec<Expr>,
     traits: Vec<Traits>,
-    bounds: Vec<Aabb>,
+    extents: Vec<Extent>,
     primitives: u32,
 }
 
@@ -133,7 +133,8 @@ impl CompoundBuilder {
         let bounds = solid.bounds();
         let is_endless = sense == Sense::Sign && !bounds.is_bounded() && !bounds.is_empty();
         self.traits.push(Traits { sense, shown, is_endless });
-        self.bounds.push(bounds);
+        let (inner, half_space) = (solid.inner_bounds(), solid.half_space());
+        self.extents.push(Extent { bounds, inner, half_space });
         self.primitives = self.primitives.max(primitive.saturating_add(parts.max(1)));
         self.leaves.add_as(solid, ObjectId(leaf), PrimitiveId(primitive), EVERYTHING);
         Ok(self.part(Expr::Leaf(leaf)))
@@ -149,6 +150,14 @@ impl CompoundBuilder {
     pub fn union(&mut self, parts: impl IntoIterator<Item = Part>) -> Part {
         let parts = parts.into_iter().map(|p| p.0).collect();
         self.part(Expr::Any(parts))
+    }
+
+    /// The same solid as [`Self::union`], but the faces of a part that lie within other parts stay
+    /// visible: a ray also crosses them. So POV-Ray draws its `union`; its `merge` has none. For
+    /// pictures only: queries for spans and crossings of the solid need [`Self::union`].
+    pub fn union_with_inner_faces(&mut self, parts: impl IntoIterator<Item = Part>) -> Part {
+        let parts = parts.into_iter().map(|p| p.0).collect();
+        self.part(Expr::AnyWithInner(parts))
     }
 
     /// The points that lie in `from` and in none of the others.
@@ -184,7 +193,7 @@ impl CompoundBuilder {
     pub fn build(&mut self, whole: Part) -> Result<Compound, CsgError> {
         let mut all = core::mem::take(self);
         let tree = Tree::new(&all.exprs, whole.0, all.traits.len());
-        let mut limits = tree.where_leaves_matter(&all.bounds);
+        let mut limits = tree.where_leaves_matter(&all.extents);
         for (limit, _) in limits.iter_mut().zip(&all.traits).filter(|(_, t)| t.sense == Sense::Parity) {
             *limit = Aabb::UNBOUNDED;
         }
@@ -194,8 +203,9 @@ impl CompoundBuilder {
         for arena in &leaves.arenas {
             first_slot.push(first_slot[first_slot.len() - 1] + arena.len());
         }
-        let bounds = tree.bounds(&all.bounds);
-        let size = all.bounds.iter().filter(|b| b.is_bounded()).fold(0.0, |most, b| b.magnitude().max(most));
+        let bounds = tree.bounds(&all.extents);
+        let bounded = all.extents.iter().map(|e| e.bounds).filter(Aabb::is_bounded);
+        let size = bounded.fold(0.0, |most, b| b.magnitude().max(most));
         let in_parts = all.traits.iter().any(|t| t.sense == Sense::Parity);
         let by_pieces = all.traits.len() >= Compound::MANY && !in_parts;
         let one_by_one = by_pieces || all.traits.iter().any(|t| t.is_endless);

@@ -2,7 +2,7 @@
 //!
 //! A crossing of a leaf is a crossing of the solid if none of the other leaves decides against it:
 //! on the path from the leaf to the root, every intersection needs all its other children to hold,
-//! and every union needs none of them to hold. So no crossings are put in order. Each crossing is
+//! and every union, unless it keeps its inner faces, needs none of them to hold. So no crossings are put in order. Each crossing is
 //! handled by itself, and the point is classified against other leaves only as far as necessary.
 //!
 //! The answers of leaves and nodes are *certainly in*, *certainly out*, or neither. Where faces
@@ -14,7 +14,7 @@
 
 use super::arena::{SLOT, TIED, TURNED};
 use super::compound::{Compound, Shown};
-use super::tree::Child;
+use super::tree::{Child, Rule};
 use crate::ids::Id;
 use crate::packet::Rays8;
 use durer_math::lanes::{LANES, set_bits};
@@ -32,6 +32,7 @@ pub(crate) struct PacketCsg {
     around: Vec<Option<u32>>,
     nodes: Vec<Node>,
     children: Vec<Child>,
+    has_inner_faces: bool,
     /// The slots of the solid's leaves, counted over all solids.
     slots: core::ops::Range<u32>,
     /// The leaf of each slot, and its index among the slots of that leaf.
@@ -60,7 +61,7 @@ struct LeafPosition {
 #[derive(Debug)]
 struct Node {
     parent: Option<u32>,
-    all: bool,
+    rule: Rule,
     children: core::ops::Range<usize>,
 }
 
@@ -141,10 +142,10 @@ impl PacketCsg {
             return None;
         }
         let mut children = Vec::new();
-        let nodes = body.tree().lists().map(|(parent, all, list)| {
+        let nodes = body.tree().lists().map(|(parent, rule, list)| {
             let first = children.len();
             children.extend(list);
-            Node { parent, all, children: first..children.len() }
+            Node { parent, rule, children: first..children.len() }
         });
         let nodes = nodes.collect();
         let mut owners = vec![(u32::MAX, 0); slots.len()];
@@ -155,8 +156,16 @@ impl PacketCsg {
                 }
             }
         }
-        let mut body =
-            Self { leaves, places, around: Vec::new(), nodes, children, slots, owners: owners.into() };
+        let mut body = Self {
+            leaves,
+            places,
+            around: Vec::new(),
+            nodes,
+            children,
+            has_inner_faces: body.tree().has_inner_faces(),
+            slots,
+            owners: owners.into(),
+        };
         body.around = (0..body.leaves.len()).map(|i| body.around(i)).collect();
         Some(body)
     }
@@ -172,12 +181,14 @@ impl PacketCsg {
         };
         let mut above = Some(self.places[leaf].node);
         while let Some(node) = above {
-            let Node { parent, all, children } = &self.nodes[node as usize];
+            let Node { parent, rule, children } = &self.nodes[node as usize];
             let mut leaves = self.children[children.clone()].iter().filter_map(|child| match child {
                 Child::Leaf(leaf) => Some(*leaf),
                 Child::Node(_) => None,
             });
-            if *all && let Some(cell) = leaves.find(|&i| is_cell(i)) {
+            if *rule == Rule::All
+                && let Some(cell) = leaves.find(|&i| is_cell(i))
+            {
                 return Some(cell);
             }
             above = *parent;
@@ -223,8 +234,7 @@ impl PacketCsg {
         }
         let look = &mut PacketState { isa, rays: lanes, sights, passed, steps };
         let live = rays.live.bits();
-        let Sure { yes, no } = self.node(0, look, None);
-        if yes | no | !live == u8::MAX {
+        if self.has_no_face(look, live) {
             return;
         }
         let own = self.own_rays(arena, rays, live, nearest);
@@ -235,8 +245,7 @@ impl PacketCsg {
                 look.passed[i] = missed | !live;
             }
         }
-        let Sure { yes, no } = self.node(0, look, None);
-        if yes | no | !live == u8::MAX {
+        if self.has_no_face(look, live) {
             return;
         }
         for (i, leaf) in self.leaves.iter().enumerate() {
@@ -259,6 +268,14 @@ impl PacketCsg {
                 self.decide(i, crossing, (rays, look), number, nearest);
             }
         }
+    }
+
+    /// Whether none of the rays `live` meets a visible face: no ray enters the solid, or the solid
+    /// holds all rays and keeps no inner faces.
+    fn has_no_face(&self, look: &mut PacketState<'_>, live: u8) -> bool {
+        let Sure { yes, no } = self.node(0, look, None);
+        let yes = if self.has_inner_faces { 0 } else { yes };
+        yes | no | !live == u8::MAX
     }
 
     /// The rays that start on this solid.
@@ -320,14 +337,17 @@ impl PacketCsg {
         let mut matters = u8::MAX;
         let (mut child, mut above) = (Child::Leaf(leaf as u32), Some(node));
         while let Some(node) = above {
-            let Node { parent, all, children } = &self.nodes[node as usize];
-            for &sibling in self.children[children.clone()].iter().filter(|&&c| c != child) {
+            let Node { parent, rule, children } = &self.nodes[node as usize];
+            let decides = *rule != Rule::AnyWithInner;
+            let siblings = self.children[children.clone()].iter().filter(|&&c| decides && c != child);
+            for &sibling in siblings {
                 if open == 0 {
                     return;
                 }
                 let Sure { yes, no } = self.child(sibling, look, Some((t, e, open)));
-                matters &= if *all { yes } else { no };
-                open &= !(if *all { no } else { yes });
+                let (must, must_not) = if *rule == Rule::All { (yes, no) } else { (no, yes) };
+                matters &= must;
+                open &= !must_not;
             }
             (child, above) = (Child::Node(node), *parent);
         }
@@ -366,19 +386,20 @@ impl PacketCsg {
 
     /// Whether a node holds at the points `at` of some rays, or on whole rays.
     fn node(&self, node: u32, look: &mut PacketState<'_>, at: Option<(&F8, &F8, u8)>) -> Sure {
-        let Node { all, children, .. } = &self.nodes[node as usize];
+        let Node { rule, children, .. } = &self.nodes[node as usize];
+        let is_union = *rule != Rule::All;
         // A union is the complement of the complements' intersection.
         let mut sum = Sure { yes: u8::MAX, no: 0 };
         let asked = at.map_or(u8::MAX, |(_, _, lanes)| lanes);
         for &child in &self.children[children.clone()] {
-            let Sure { yes, no } = self.child(child, look, at).inverted(!*all);
+            let Sure { yes, no } = self.child(child, look, at).inverted(is_union);
             sum.yes &= yes;
             sum.no |= no;
             if sum.no & asked == asked {
                 break;
             }
         }
-        sum.inverted(!*all)
+        sum.inverted(is_union)
     }
 }
 

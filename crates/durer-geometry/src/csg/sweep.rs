@@ -269,6 +269,9 @@ impl Scratch {
                 go_on = show(&Crossing { event, sign, tied }) == Flow::Continue;
             }
         }
+        if before && after && tree.has_inner_faces() && !touches {
+            go_on = self.show_inner_faces(tree, group, sense, is_shown, show);
+        }
         if touches {
             for &leaf in &tied {
                 let is = self.values.leaf(leaf);
@@ -277,6 +280,32 @@ impl Scratch {
         }
         self.tied = tied;
         go_on
+    }
+
+    /// Passes the inner faces of unions among the events of a step to `show`, after the step's
+    /// values are set: there the solid's value does not change.
+    fn show_inner_faces(
+        &self,
+        tree: &Tree,
+        group: &[Event],
+        sense: &impl Fn(u32) -> Sense,
+        is_shown: &impl Fn(&Event) -> bool,
+        show: &mut impl FnMut(&Crossing) -> Flow,
+    ) -> bool {
+        group.iter().enumerate().all(|(i, event)| {
+            let holds = self.values.leaf(event.leaf);
+            let Tally { net, count, .. } = self.leaves[event.leaf as usize];
+            let is_cause = match sense(event.leaf) {
+                Sense::Sign => net != 0 && (event.root.sign < 0) == holds,
+                // Of several crossings of one leaf the first stands for all.
+                Sense::Parity => count % 2 == 1 && group[..i].iter().all(|e| e.leaf != event.leaf),
+            };
+            if !is_cause || !is_shown(event) || !self.values.is_visible(tree, event.leaf) {
+                return true;
+            }
+            let sign = if holds != tree.is_inverted(event.leaf) { -1 } else { 1 };
+            show(&Crossing { event: *event, sign, tied: false }) == Flow::Continue
+        })
     }
 }
 

@@ -7,14 +7,29 @@
 //! unions ... is flat.
 
 use durer_math::Aabb;
+use durer_surfaces::HalfSpace;
 
 /// An expression under construction.
 #[derive(Debug)]
 pub(crate) enum Expr {
     Leaf(u32),
     All(Vec<u32>),
+    /// A union without inner faces.
     Any(Vec<u32>),
+    /// A union whose parts keep the faces that lie in other parts.
+    AnyWithInner(Vec<u32>),
     Not(u32),
+}
+
+/// How a node combines its children.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Rule {
+    /// An intersection: all children must hold.
+    All,
+    /// A union: a child's face is visible where no other child holds.
+    Any,
+    /// A union: a child's face is visible wherever it lies.
+    AnyWithInner,
 }
 
 /// A union or an intersection.
@@ -22,8 +37,7 @@ pub(crate) enum Expr {
 struct Node {
     /// The parent, which has a lower number; none for the root.
     parent: u32,
-    /// Whether it is an intersection: all children must hold.
-    all: bool,
+    rule: Rule,
     children: u32,
     /// How many children hold when no leaf does.
     outside: u32,
@@ -31,8 +45,19 @@ struct Node {
 
 impl Node {
     fn holds(&self, count: u32) -> bool {
-        if self.all { count == self.children } else { count > 0 }
+        if self.rule == Rule::All { count == self.children } else { count > 0 }
     }
+}
+
+/// Where a leaf lies.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extent {
+    /// A box around it.
+    pub(crate) bounds: Aabb,
+    /// A box that it holds.
+    pub(crate) inner: Aabb,
+    /// The leaf itself, if it is a half-space.
+    pub(crate) half_space: Option<HalfSpace>,
 }
 
 /// The position of a leaf in the tree.
@@ -48,6 +73,8 @@ pub(crate) struct Tree {
     nodes: Vec<Node>,
     /// By leaf.
     places: Vec<TreePosition>,
+    /// Whether a union keeps its inner faces.
+    has_inner_faces: bool,
 }
 
 /// A child of a node.
@@ -62,13 +89,13 @@ const NONE: u32 = u32::MAX;
 impl Tree {
     /// The tree of the expression `root`; each expression occurs at most once.
     pub(crate) fn new(exprs: &[Expr], root: u32, leaves: usize) -> Self {
-        let first = Node { parent: NONE, all: false, children: 0, outside: 0 };
-        let mut tree =
-            Self { nodes: vec![first], places: vec![TreePosition { node: NONE, inverted: false }; leaves] };
+        let first = Node { parent: NONE, rule: Rule::Any, children: 0, outside: 0 };
+        let places = vec![TreePosition { node: NONE, inverted: false }; leaves];
+        let mut tree = Self { nodes: vec![first], places, has_inner_faces: false };
         let mut is_first = true;
         let mut waiting = vec![(root, false, 0_u32)];
         while let Some((expr, inverted, parent)) = waiting.pop() {
-            let (all, parts) = match &exprs[expr as usize] {
+            let (rule, parts) = match &exprs[expr as usize] {
                 Expr::Leaf(leaf) => {
                     tree.places[*leaf as usize] = TreePosition { node: parent, inverted };
                     tree.nodes[parent as usize].children += 1;
@@ -78,17 +105,18 @@ impl Tree {
                     waiting.push((*part, !inverted, parent));
                     continue;
                 }
-                Expr::All(parts) => (!inverted, parts),
-                Expr::Any(parts) => (inverted, parts),
+                Expr::All(parts) => (if inverted { Rule::Any } else { Rule::All }, parts),
+                Expr::Any(parts) => (if inverted { Rule::All } else { Rule::Any }, parts),
+                Expr::AnyWithInner(parts) => (if inverted { Rule::All } else { Rule::AnyWithInner }, parts),
             };
             let node = if is_first {
-                tree.nodes[0].all = all;
+                tree.nodes[0].rule = rule;
                 0
-            } else if parts.len() == 1 || tree.nodes[parent as usize].all == all {
+            } else if parts.len() == 1 || tree.nodes[parent as usize].rule == rule {
                 parent
             } else {
                 tree.nodes[parent as usize].children += 1;
-                tree.nodes.push(Node { parent, all, children: 0, outside: 0 });
+                tree.nodes.push(Node { parent, rule, children: 0, outside: 0 });
                 (tree.nodes.len() - 1) as u32
             };
             is_first = false;
@@ -101,12 +129,18 @@ impl Tree {
             let node = tree.nodes[i];
             tree.nodes[node.parent as usize].outside += u32::from(node.holds(node.outside));
         }
+        tree.has_inner_faces = tree.nodes.iter().any(|n| n.rule == Rule::AnyWithInner);
         tree
     }
 
     /// How many nodes there are.
     pub(crate) fn nodes(&self) -> usize {
         self.nodes.len()
+    }
+
+    /// Whether a union keeps its inner faces.
+    pub(crate) fn has_inner_faces(&self) -> bool {
+        self.has_inner_faces
     }
 
     /// Whether the complement of the leaf is in the tree.
@@ -119,8 +153,8 @@ impl Tree {
         self.places.iter().map(|p| (p.node != NONE).then_some((p.node, p.inverted)))
     }
 
-    /// Each node's parent, whether it is an intersection, and its children.
-    pub(crate) fn lists(&self) -> impl Iterator<Item = (Option<u32>, bool, Vec<Child>)> {
+    /// Each node's parent, its rule, and its children.
+    pub(crate) fn lists(&self) -> impl Iterator<Item = (Option<u32>, Rule, Vec<Child>)> {
         let mut children = vec![Vec::new(); self.nodes.len()];
         let leaves = self.places.iter().map(|p| p.node).zip((0..).map(Child::Leaf));
         let nodes = self.nodes.iter().map(|n| n.parent).zip((0..).map(Child::Node));
@@ -128,12 +162,12 @@ impl Tree {
             children[parent as usize].push(child);
         }
         let parent = |n: &Node| (n.parent != NONE).then_some(n.parent);
-        self.nodes.iter().zip(children).map(move |(n, children)| (parent(n), n.all, children))
+        self.nodes.iter().zip(children).map(move |(n, children)| (parent(n), n.rule, children))
     }
 
-    /// A box around the set, given boxes around the leaves.
-    pub(crate) fn bounds(&self, leaves: &[Aabb]) -> Aabb {
-        self.boxes(leaves)[0]
+    /// A box around the set.
+    pub(crate) fn bounds(&self, leaves: &[Extent]) -> Aabb {
+        self.boxes(leaves, true)[0]
     }
 
     /// For each leaf, a box outside of which its value does not matter: there it does not hold, or
@@ -142,37 +176,83 @@ impl Tree {
     /// These are S-bounds (S. Cameron, "Efficient intersection tests for objects defined
     /// constructively", International Journal of Robotics Research 8(1), 1989): boxes of nodes are
     /// computed from below, and clipped by those of the nodes above from above.
-    pub(crate) fn where_leaves_matter(&self, leaves: &[Aabb]) -> Vec<Aabb> {
-        let mut within = self.boxes(leaves);
+    ///
+    /// A ray that misses the box of a leaf may skip it, and then takes it not to hold. So the box
+    /// of an intersection may be smaller only because of children that are not complements:
+    /// outside of the box one of them does not hold, whether it is skipped or not, but a skipped
+    /// complement would hold.
+    pub(crate) fn where_leaves_matter(&self, leaves: &[Extent]) -> Vec<Aabb> {
+        let mut within = self.boxes(leaves, false);
         for i in 1..within.len() {
             within[i] = cut(within[i], within[self.nodes[i].parent as usize]);
         }
-        let matters = |(place, bounds): (&TreePosition, &Aabb)| match within.get(place.node as usize) {
-            Some(node) => cut(*bounds, *node),
+        let matters = |(place, leaf): (&TreePosition, &Extent)| match within.get(place.node as usize) {
+            Some(node) => cut(leaf.bounds, *node),
             None => Aabb::EMPTY,
         };
         self.places.iter().zip(leaves).map(matters).collect()
     }
 
-    /// Boxes around the nodes.
-    fn boxes(&self, leaves: &[Aabb]) -> Vec<Aabb> {
-        let start = |n: &Node| if n.all { Aabb::UNBOUNDED } else { Aabb::EMPTY };
+    /// Boxes around the nodes, the root first; smaller ones `with_complements`.
+    fn boxes(&self, leaves: &[Extent], with_complements: bool) -> Vec<Aabb> {
+        let start = |n: &Node| if n.rule == Rule::All { Aabb::UNBOUNDED } else { Aabb::EMPTY };
         let mut boxes: Vec<Aabb> = self.nodes.iter().map(start).collect();
         let add = |boxes: &mut Vec<Aabb>, node: u32, part: Aabb| {
             let b = &mut boxes[node as usize];
-            *b = if self.nodes[node as usize].all { cut(*b, part) } else { b.union(part) };
+            let is_intersection = self.nodes[node as usize].rule == Rule::All;
+            *b = if is_intersection { cut(*b, part) } else { b.union(part) };
         };
-        for (place, bounds) in self.places.iter().zip(leaves) {
-            if place.node != NONE {
-                add(&mut boxes, place.node, if place.inverted { Aabb::UNBOUNDED } else { *bounds });
+        // What a node's complements hold, and the half-spaces among its children.
+        let mut taken_away = vec![Vec::new(); self.nodes.len()];
+        let mut faces = vec![Vec::new(); self.nodes.len()];
+        for (place, leaf) in self.places.iter().zip(leaves).filter(|(place, _)| place.node != NONE) {
+            let node = place.node as usize;
+            add(&mut boxes, place.node, if place.inverted { Aabb::UNBOUNDED } else { leaf.bounds });
+            if self.nodes[node].rule != Rule::All {
+                continue;
+            }
+            match (place.inverted, leaf.half_space) {
+                (false, Some(half_space)) => faces[node].push(half_space),
+                (true, Some(half_space)) if with_complements => faces[node].push(half_space.complement()),
+                (true, _) if with_complements && !leaf.inner.is_empty() => taken_away[node].push(leaf.inner),
+                _ => {}
             }
         }
-        for i in (1..boxes.len()).rev() {
-            let part = boxes[i];
-            add(&mut boxes, self.nodes[i].parent, part);
+        for i in (0..boxes.len()).rev() {
+            if !faces[i].is_empty() {
+                boxes[i] = cut(boxes[i], HalfSpace::common_bounds(&faces[i]));
+            }
+            boxes[i] = without(boxes[i], &taken_away[i]);
+            if i > 0 {
+                let part = boxes[i];
+                add(&mut boxes, self.nodes[i].parent, part);
+            }
         }
         boxes
     }
+}
+
+/// A box around what is left of `whole` without the boxes `parts`.
+fn without(mut whole: Aabb, parts: &[Aabb]) -> Aabb {
+    let mut has_changed = true;
+    while has_changed && !whole.is_empty() {
+        has_changed = false;
+        for part in parts {
+            let spans = |axis: usize| part.min[axis] <= whole.min[axis] && whole.max[axis] <= part.max[axis];
+            for axis in 0..3 {
+                if !(spans((axis + 1) % 3) && spans((axis + 2) % 3)) {
+                    continue;
+                }
+                let (min, max) = (part.min[axis], part.max[axis]);
+                if min <= whole.min[axis] && max > whole.min[axis] {
+                    (whole.min[axis], has_changed) = (max, true);
+                } else if max >= whole.max[axis] && min < whole.max[axis] {
+                    (whole.max[axis], has_changed) = (min, true);
+                }
+            }
+        }
+    }
+    if whole.is_empty() { Aabb::EMPTY } else { whole }
 }
 
 /// The intersection of two boxes; if it is empty on one axis it is empty.
@@ -288,7 +368,29 @@ impl Values {
             let (state, its) = (&self.counts[node as usize], &tree.nodes[node as usize]);
             let count = if state.epoch == self.epoch { state.count } else { its.outside };
             let others = count - u32::from(holds);
-            if others != if its.all { its.children - 1 } else { 0 } {
+            if others != if its.rule == Rule::All { its.children - 1 } else { 0 } {
+                return false;
+            }
+            (holds, node) = (its.holds(count), its.parent);
+        }
+        true
+    }
+
+    /// Whether the faces of a leaf are visible here: on the path to the root, all other children
+    /// of an intersection hold, and no other child of a union without inner faces does.
+    pub(crate) fn is_visible(&self, tree: &Tree, leaf: u32) -> bool {
+        let TreePosition { mut node, inverted } = tree.places[leaf as usize];
+        let mut holds = self.leaf(leaf) != inverted;
+        while node != NONE {
+            let (state, its) = (&self.counts[node as usize], &tree.nodes[node as usize]);
+            let count = if state.epoch == self.epoch { state.count } else { its.outside };
+            let others = count - u32::from(holds);
+            let is_visible = match its.rule {
+                Rule::All => others == its.children - 1,
+                Rule::Any => others == 0,
+                Rule::AnyWithInner => true,
+            };
+            if !is_visible {
                 return false;
             }
             (holds, node) = (its.holds(count), its.parent);
@@ -321,7 +423,7 @@ mod tests {
             Expr::Leaf(leaf) => bits[*leaf as usize],
             Expr::Not(part) => !direct(exprs, *part, bits),
             Expr::All(parts) => parts.iter().all(|&p| direct(exprs, p, bits)),
-            Expr::Any(parts) => parts.iter().any(|&p| direct(exprs, p, bits)),
+            Expr::Any(parts) | Expr::AnyWithInner(parts) => parts.iter().any(|&p| direct(exprs, p, bits)),
         }
     }
 
@@ -335,9 +437,10 @@ mod tests {
             for _ in 0..count {
                 parts.push(free.swap_remove(dice(free.len() as u32) as usize));
             }
-            exprs.push(match dice(3) {
+            exprs.push(match dice(4) {
                 0 => Expr::All(parts),
                 1 => Expr::Any(parts),
+                2 => Expr::AnyWithInner(parts),
                 _ => {
                     free.extend(parts.split_off(1));
                     Expr::Not(parts[0])
@@ -404,15 +507,87 @@ mod tests {
             Expr::Any(vec![5, 6]),
         ];
         let tree = Tree::new(&exprs, 7, 4);
-        let boxes = [cube(0.0, 1.0), cube(0.5, 9.0), cube(3.0, 5.0), Aabb::UNBOUNDED];
+        let boxes = [cube(0.0, 1.0), cube(0.5, 9.0), cube(3.0, 5.0), Aabb::UNBOUNDED].map(round);
         assert_eq!(tree.bounds(&boxes), cube(0.0, 5.0));
-        let disjoint = [cube(0.0, 1.0), Aabb::EMPTY, cube(3.0, 5.0), cube(6.0, 7.0)];
+        let disjoint = [cube(0.0, 1.0), Aabb::EMPTY, cube(3.0, 5.0), cube(6.0, 7.0)].map(round);
         assert_eq!(tree.bounds(&disjoint), cube(0.0, 1.0));
         // A subtracted leaf matters only where there is something to subtract it from.
         let matters = tree.where_leaves_matter(&boxes);
         assert_eq!(matters, [cube(0.0, 1.0), cube(0.5, 1.0), cube(3.0, 5.0), cube(3.0, 5.0)]);
-        let apart = [cube(0.0, 1.0), cube(2.0, 3.0), cube(3.0, 5.0), cube(6.0, 7.0)];
+        let apart = [cube(0.0, 1.0), cube(2.0, 3.0), cube(3.0, 5.0), cube(6.0, 7.0)].map(round);
         let [a, b, c, d] = tree.where_leaves_matter(&apart)[..] else { panic!("four leaves") };
         assert!(a == cube(0.0, 1.0) && [b, c, d].iter().all(Aabb::is_empty));
+    }
+
+    /// The extent of a leaf of which no more than its bounds are known.
+    fn round(bounds: Aabb) -> Extent {
+        Extent { bounds, inner: Aabb::EMPTY, half_space: None }
+    }
+
+    #[test]
+    fn boxes_taken_away_make_the_bounds_smaller() {
+        let block = |x: [f64; 2], y: [f64; 2], z: [f64; 2]| {
+            let p = durer_math::Point3::new;
+            Aabb::new(p(x[0], y[0], z[0]), p(x[1], y[1], z[1]))
+        };
+        let solid = |inner: Aabb| Extent { bounds: inner, inner, half_space: None };
+        let exprs = vec![
+            Expr::Leaf(0),
+            Expr::Leaf(1),
+            Expr::Leaf(2),
+            Expr::Not(1),
+            Expr::Not(2),
+            Expr::All(vec![0, 3, 4]),
+        ];
+        let tree = Tree::new(&exprs, 5, 3);
+        let whole = round(block([-1.0, 1.0], [-1.0, 1.0], [-0.2, 0.2]));
+        // The second box covers the rest only after the first one is taken away.
+        let left = solid(block([-2.0, 0.0], [-2.0, 2.0], [-1.0, 1.0]));
+        let below = solid(block([0.0, 2.0], [-2.0, 0.25], [-1.0, 1.0]));
+        let rest = block([0.0, 1.0], [0.25, 1.0], [-0.2, 0.2]);
+        assert_eq!(tree.bounds(&[whole, left, below]), rest);
+        assert_eq!(tree.bounds(&[whole, below, left]), rest);
+        // Where the boxes matter does not change.
+        assert_eq!(tree.where_leaves_matter(&[whole, left, below])[0], whole.bounds);
+        // A hole in the middle, and a box that covers one axis only.
+        let hole = solid(block([-0.5, 0.5], [-2.0, 2.0], [-1.0, 1.0]));
+        let thin = solid(block([-2.0, 0.0], [-2.0, 2.0], [-0.1, 1.0]));
+        assert_eq!(tree.bounds(&[whole, hole, thin]), whole.bounds);
+        // Nothing is left.
+        assert!(tree.bounds(&[whole, solid(whole.bounds), hole]).is_empty());
+    }
+
+    #[test]
+    fn half_spaces_bound_an_intersection() {
+        let plane =
+            |x: f64, y: f64, z: f64| durer_surfaces::Plane::new(durer_math::Vec3::new(x, y, z), 1.0).unwrap();
+        let six = [
+            plane(1.0, 0.0, 0.0),
+            plane(-1.0, 0.0, 0.0),
+            plane(0.0, 1.0, 0.0),
+            plane(0.0, -1.0, 0.0),
+            plane(0.0, 0.0, 1.0),
+            plane(0.0, 0.0, -1.0),
+        ];
+        let half_spaces = six.map(|p| Extent {
+            bounds: Aabb::UNBOUNDED,
+            inner: durer_surfaces::Surface::inner_bounds(&p),
+            half_space: durer_surfaces::Surface::half_space(&p),
+        });
+        let mut exprs: Vec<Expr> = (0..6).map(Expr::Leaf).collect();
+        exprs.push(Expr::All((0..6).collect()));
+        let tree = Tree::new(&exprs, 6, 6);
+        let bounds = tree.bounds(&half_spaces);
+        assert!(bounds.is_bounded() && bounds.magnitude() < 1.0 + 1e-14, "{bounds:?}");
+        assert_eq!(tree.where_leaves_matter(&half_spaces), [bounds; 6]);
+        // A union of half-spaces is unbounded.
+        exprs[6] = Expr::Any((0..6).collect());
+        let tree = Tree::new(&exprs, 6, 6);
+        assert!(!tree.bounds(&half_spaces).is_bounded());
+        // The intersection of their complements is empty, but rays need to test each.
+        exprs.push(Expr::Not(6));
+        let tree = Tree::new(&exprs, 7, 6);
+        assert!(tree.bounds(&half_spaces).is_empty());
+        assert_eq!(tree.where_leaves_matter(&half_spaces), [Aabb::UNBOUNDED; 6]);
     }
 }

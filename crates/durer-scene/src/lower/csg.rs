@@ -8,7 +8,7 @@ use durer_math::Aabb;
 use super::build::{Target, To};
 use super::camera_media::Enclosure;
 use super::{
-    Context, Cutter, Flags, LowerError, LowerErrorKind, Lowering, is_clear, join, mask_of, shapes,
+    Context, Cutter, Flags, LowerError, LowerErrorKind, Lowering, Purpose, is_clear, join, mask_of, shapes,
     shows_through,
 };
 use crate::{Object, Operation, Pattern, Placement, Shape, Texture};
@@ -22,6 +22,13 @@ struct Work {
     medium: Option<u32>,
     /// Some light may pass a leaf.
     is_clear: bool,
+}
+
+/// What combines parts: a union, or one of the operations without inner faces.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Boolean {
+    Union,
+    Csg(Operation),
 }
 
 /// What becomes of a part.
@@ -123,11 +130,11 @@ impl Lowering {
         let place =
             join(&object.placement, &inner.frame).map_err(|e| LowerErrorKind::from(e).at(object.place))?;
         let whole = match &object.shape {
-            Shape::Union(parts) => self.parts(Operation::Merge, parts, place, inner, work, how)?,
+            Shape::Union(parts) => self.parts(Boolean::Union, parts, place, inner, work, how)?,
             Shape::Csg(operation, parts) => {
                 match object.cutaway_textures.as_ref().filter(|_| inner.texture.is_none()) {
                     Some(unlent) => self.cutaway((*operation, unlent), parts, place, inner, work, how)?,
-                    None => self.parts(*operation, parts, place, inner, work, how)?,
+                    None => self.parts(Boolean::Csg(*operation), parts, place, inner, work, how)?,
                 }
             }
             _ => self.leaf_of(object, &place, inner, work, how).map_err(|k| k.at(object.place))?,
@@ -141,7 +148,7 @@ impl Lowering {
 
     fn parts<'s>(
         &mut self,
-        operation: Operation,
+        operation: Boolean,
         parts: &'s [Object],
         place: Placement,
         inner: &Context<'s>,
@@ -149,18 +156,24 @@ impl Lowering {
         how: How,
     ) -> Result<Part, LowerError> {
         // De Morgan's laws: the complement of an intersection is the union of complements.
-        let any = (operation == Operation::Merge) != how.inverse;
+        let is_union = matches!(operation, Boolean::Union | Boolean::Csg(Operation::Merge));
+        let any = is_union != how.inverse;
         let mut inner = Context { frame: Arc::new(place), ..inner.clone() };
         if any && let Some(unlent) = inner.unlent.take() {
             inner.texture = Some((unlent, Arc::clone(&inner.frame)));
         }
         let mut made = Vec::with_capacity(parts.len());
         for (i, part) in parts.iter().enumerate() {
-            let is_taken_away = operation == Operation::Difference && i > 0;
+            let is_taken_away = operation == Boolean::Csg(Operation::Difference) && i > 0;
             let how = How { inverse: how.inverse != is_taken_away, ..how };
             made.push(self.part(part, &inner, work, how)?);
         }
-        Ok(if any { work.csg.union(made) } else { work.csg.intersection(made) })
+        let keeps_inner_faces = operation == Boolean::Union && self.purpose == Purpose::Pictures;
+        Ok(match any {
+            true if keeps_inner_faces => work.csg.union_with_inner_faces(made),
+            true => work.csg.union(made),
+            false => work.csg.intersection(made),
+        })
     }
 
     /// As `parts`, for parts that lend each other their textures.
@@ -177,7 +190,7 @@ impl Lowering {
         let painted = |texture: Arc<Texture>| Some((texture, Arc::clone(&frame)));
         if operation == Operation::Merge || how.inverse {
             let inner = Context { texture: painted(Arc::clone(unlent)), ..inner.clone() };
-            return self.parts(operation, parts, (*frame).clone(), &inner, work, how);
+            return self.parts(Boolean::Csg(operation), parts, (*frame).clone(), &inner, work, how);
         }
         let mut made = Vec::with_capacity(parts.len());
         for (i, part) in parts.iter().enumerate() {

@@ -119,8 +119,21 @@ pub enum LowerErrorKind {
 
 impl Scene {
     /// Builds the geometry, and says what each of its surfaces looks like.
+    ///
+    /// Each crossing of an object is one of the solid's own.
     pub fn lower(&self) -> Result<Lowered, LowerError> {
-        let mut lowering = Lowering::new(self);
+        self.lower_for(Purpose::Queries)
+    }
+
+    /// As [`Self::lower`], for pictures: a union within a merge, an intersection or a difference
+    /// keeps the faces that lie inside its parts, as POV-Ray draws it. They show through clear
+    /// textures.
+    pub fn lower_for_pictures(&self) -> Result<Lowered, LowerError> {
+        self.lower_for(Purpose::Pictures)
+    }
+
+    fn lower_for(&self, purpose: Purpose) -> Result<Lowered, LowerError> {
+        let mut lowering = Lowering::new(self, purpose);
         for (number, object) in (0..).zip(&self.objects) {
             lowering.object = ObjectId(number);
             lowering.table.begin().map_err(|kind| kind.at(object.place))?;
@@ -206,8 +219,18 @@ struct Cutter<'s> {
     region: Option<durer_surfaces::Region>,
 }
 
+/// What the geometry is built for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Purpose {
+    /// Crossings, spans, sides of points.
+    Queries,
+    /// Pictures.
+    Pictures,
+}
+
 /// The work at hand.
 struct Lowering {
+    purpose: Purpose,
     builder: Builder,
     table: LookTable,
     media: Vec<Arc<Interior>>,
@@ -229,8 +252,9 @@ struct Lowering {
 }
 
 impl Lowering {
-    fn new(scene: &Scene) -> Self {
+    fn new(scene: &Scene, purpose: Purpose) -> Self {
         Self {
+            purpose,
             builder: Geometry::builder(),
             table: LookTable::default(),
             media: vec![Arc::default()],

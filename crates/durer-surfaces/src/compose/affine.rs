@@ -7,8 +7,10 @@
 use crate::packet::FilterSource;
 use crate::point::least_step;
 use crate::ray::through_inverse;
-use crate::{LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
-use durer_math::{Aabb, Affine, Isa, U, Vec3};
+use crate::{
+    HalfSpace, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+};
+use durer_math::{Aabb, Affine, Interval, Isa, U, Vec3};
 
 /// Pays for results below the normal range.
 const TINY: f64 = f64::MIN_POSITIVE;
@@ -40,6 +42,14 @@ impl<S: Surface> Placed<S> {
 impl<S: Surface> Surface for Placed<S> {
     fn bounds(&self) -> Aabb {
         self.surface.bounds_through(&self.map)
+    }
+
+    fn inner_bounds(&self) -> Aabb {
+        inner_image(&self.map, &self.surface.inner_bounds())
+    }
+
+    fn half_space(&self) -> Option<HalfSpace> {
+        Some(self.surface.half_space()?.through(&self.map))
     }
 
     #[inline(always)]
@@ -94,6 +104,28 @@ impl<S: Surface> Surface for Placed<S> {
     fn part_roots<K: Sink + ?Sized>(&self, part: PartId, ray: &LocalRay<'_>, sink: &mut K) {
         self.surface.part_roots(part, &ray.through(&self.map), sink);
     }
+}
+
+/// A box within the image of a box, rounded inward; empty if the map turns the axes by other than
+/// right angles.
+fn inner_image(map: &Affine, inner: &Aabb) -> Aabb {
+    let (linear, centre) = (map.linear(), map.centre());
+    let mut image = Aabb::EMPTY;
+    if inner.is_empty() {
+        return image;
+    }
+    for i in 0..3 {
+        let mut entries = (0..3).filter(|&j| linear[i][j] != 0.0);
+        let (Some(j), None) = (entries.next(), entries.next()) else { return Aabb::EMPTY };
+        let placed = |x: f64| match x.is_finite() {
+            true => Interval::from(centre[i]) + Interval::from(linear[i][j]) * Interval::from(x),
+            false => Interval::from(x * linear[i][j].signum()),
+        };
+        let (a, b) = (placed(inner.min[j]), placed(inner.max[j]));
+        let (low, high) = if linear[i][j] > 0.0 { (a, b) } else { (b, a) };
+        (image.min[i], image.max[i]) = (low.hi, high.lo);
+    }
+    if image.is_empty() { Aabb::EMPTY } else { image }
 }
 
 impl SurfacePoint {

@@ -3,7 +3,7 @@
 use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
 use crate::roots::quadratic::Quadratic;
-use crate::{LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use crate::{HalfSpace, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::{Aabb, Dd, Dyadic, EFloat, RaySide};
 
@@ -38,6 +38,10 @@ impl<S: Surface> Surface for Complement<S> {
             Solidity::Open => self.0.bounds(),
             Solidity::Solid => Aabb::UNBOUNDED,
         }
+    }
+
+    fn half_space(&self) -> Option<HalfSpace> {
+        Some(self.0.half_space()?.complement())
     }
 
     #[inline(always)]

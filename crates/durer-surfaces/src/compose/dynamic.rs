@@ -5,7 +5,7 @@ use crate::compose::clip::Algebraic;
 use crate::compose::region::Region;
 use crate::packet::FilterSource;
 use crate::roots::quadratic::Quadratic;
-use crate::{Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use crate::{Forward, HalfSpace, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Isa, RaySide, Shaft};
 use std::sync::Arc;
@@ -79,6 +79,14 @@ impl Surface for DynSurface {
 
     fn bounds_through(&self, map: &Affine) -> Aabb {
         self.surface.bounds_through(map)
+    }
+
+    fn inner_bounds(&self) -> Aabb {
+        self.surface.inner_bounds()
+    }
+
+    fn half_space(&self) -> Option<HalfSpace> {
+        self.surface.half_space()
     }
 
     fn misses(&self, shaft: &Shaft) -> bool {
