@@ -48,7 +48,7 @@ fn here<T: Copy>(map: &mut Vec<u32>, all: &[T], used: &mut Vec<T>, number: u32) 
 }
 
 impl Group {
-    /// Ends the group: if one face has texture coordinates, `uv_faces` gets an entry for every face.
+    /// Ends the group: if one face has texture coordinates, `uv_faces` gets an entry for each face.
     pub(crate) fn end(&mut self) {
         if !self.mesh.uv_faces.is_empty() {
             self.mesh.uv_faces.resize(self.mesh.faces.len(), None);
