@@ -23,8 +23,8 @@ const SIZE: (u32, u32) = (320, 240);
 /// A scene with more replacements than this is not compared.
 const MOST_REPLACED: usize = 40;
 
-/// Scenes that show one surface of each kind, and the words they are rendered without, because
-/// durer does not support them yet.
+/// Scenes that show one surface of each kind. Objects that start with one of these words, which
+/// durer does not support yet, are removed from them.
 const WITHOUT: [(&str, &[&str]); 1] = [("primitiv", &["bicubic_patch", "height_field"])];
 
 /// The reasons why pictures differ, where they are known.
