@@ -34,7 +34,7 @@ type Made<T> = Option<T>;
 /// cells of the lattice.
 const ELSEWHERE: [[f64; 3]; 2] = [[157.0, -311.0, 89.0], [-223.0, 71.0, 439.0]];
 
-/// The noise `m` of the first generator.
+/// `N` of the first generator, and below it of the second.
 const OLD: &str = "max(min(noise(x, y, z) + 0.5, 1), 0)";
 const NEW: &str = "max(min((noise(x, y, z) + 1.05242)*0.48985582, 1), 0)";
 /// The noise of the second generator, spread: `2 N - 1/2`.

@@ -231,7 +231,7 @@ impl Value {
         }
     }
 
-    /// The nesting depth of values of this one's kind.
+    /// The nesting depth of arrays; 0 for other values.
     pub(crate) fn array_depth(&self) -> u32 {
         if let Self::Array(array) = self { array.depth } else { 0 }
     }
