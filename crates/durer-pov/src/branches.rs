@@ -7,7 +7,8 @@ use crate::source::Source;
 /// The jumps of a directive, as indices of tokens.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Block {
-    /// The next branch of the same block (`#else`, `#case` ...) or its `#end`; for an `#end`, its opener.
+    /// The next branch of the same block (`#else`, `#case` ...) or its `#end`; for an `#end`, its
+    /// opener.
     pub(crate) next: u32,
     /// The block's `#end`.
     pub(crate) end: u32,

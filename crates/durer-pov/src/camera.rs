@@ -19,8 +19,8 @@ pub(crate) enum Projection {
     Orthographic,
 }
 
-/// A finished camera: rays start at `location` along `direction + u right + v up` (perspective), or at
-/// `location + u right + v up` along `direction` (orthographic), with u and v from -1/2 to 1/2.
+/// A finished camera. Rays start at `location` along `direction + u right + v up` (perspective), or
+/// at `location + u right + v up` along `direction` (orthographic), with u and v from -1/2 to 1/2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Camera {
     pub(crate) projection: Projection,

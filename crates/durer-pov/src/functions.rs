@@ -125,7 +125,8 @@ fn flag(value: bool) -> Terms {
 }
 
 impl Parser<'_> {
-    /// The value of the constant or function `keyword`, which was just taken; `None` if it is neither.
+    /// The value of the constant or function `keyword`, which was just taken; `None` if it is
+    /// neither.
     pub(crate) fn function(&mut self, keyword: Keyword, place: Place) -> Result<Option<Terms>> {
         if let Some(value) = constant(keyword) {
             return Ok(Some(value));

@@ -1,6 +1,7 @@
 //! `spline { }`: curves of a parameter `t` through points, as values and as functions.
 //!
-//! Between the knots `t_i` and `t_(i+1)`, `h_i` apart, with `s = t - t_i` and the quotients `d_i = (P_(i+1) - P_i)/h_i`:
+//! Between the knots `t_i` and `t_(i+1)`, at the distance `h_i`, with `s = t - t_i` and the
+//! quotients `d_i = (P_(i+1) - P_i)/h_i`:
 //!
 //! ```text
 //!   linear_spline     P_i + d_i s

@@ -21,10 +21,10 @@
 //! - A ray to a light has `d = fl(q - o)`, so that `o + d` misses `q` by at most `u |d_i|` on each
 //!   axis. `off` and the bracket `[t_lo, t_hi]` include every other error on the way to the
 //!   crossing. A camera's ray starts at `q` itself.
-//! - `q` lies on a surface because the scene's author computed both to agree: each of the two was
-//!   written (one rounding), scaled (one), rotated (three, as a rotation about an axis is two
-//!   products and a sum) and translated (one). Six roundings for each of the two are `gamma(12)`
-//!   times the sum of the coordinates' magnitudes, as a rotation exchanges coordinates.
+//! - `q` lies on a surface because the scene's author gave matching numbers to both: each of the
+//!   two was written (one rounding), scaled (one), rotated (three, as a rotation about an axis is
+//!   two products and a sum) and translated (one). Six roundings for each of the two are
+//!   `gamma(12)` times the sum of the coordinates' magnitudes, as a rotation exchanges coordinates.
 //!
 //! The height is measured over the tangent plane at the crossing, from the end of the bracket that
 //! is nearer to `q`. A curved surface deviates from that plane by at most `bend / 2 r²` at the

@@ -3,9 +3,9 @@
 //! T. Whitted, "An improved illumination model for shaded display", Communications of the ACM
 //! 23(6), 1980: at each hit, shadow rays to the lights, one reflected and one refracted ray. The
 //! camera's rays have level 1; a reflected or refracted ray has one level more than the ray before
-//! it. A ray sees black if its level is above `max_trace_level` or if its weight is below
-//! `adc_bailout`. A ray that passes a surface unbent does not raise the level, so up to 4096 clear
-//! sheets may lie in a row.
+//! it. A hit of a ray with level `max_trace_level` starts no secondary rays, and neither does one
+//! whose secondary ray would have a weight below `adc_bailout`; black is seen instead. A ray that
+//! passes a surface unbent does not raise the level, so up to 4096 clear sheets may lie in a row.
 //!
 //! Rays are traced in bundles: all rays of a bundle have the same level and are in the same media.
 //! Where they hit surfaces with different looks the bundle is split, so that every decision that
