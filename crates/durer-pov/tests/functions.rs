@@ -19,7 +19,7 @@ fn functions_are_called_like_floats() {
     assert_eq!(value("#declare R = 7; #declare F = function(R, q) { R*q };", "F(2, 3)"), "6.000000000");
     assert_eq!(value("#declare R = 7; #declare F = function(q) { R*q };", "F(2)"), "14.000000000");
     assert_eq!(value("#declare F = function(q) { q*q }; #declare G = F;", "G(3)"), "9.000000000");
-    // What is declared at the function's own declaration counts, not at its call.
+    // The values at the function's declaration count, not those at its call.
     let redeclared = "#declare F = function(q) { q + 1 }; #declare G = function(q) { F(q) * 2 }; #declare F = function(q) { 0*q };";
     assert_eq!(value(redeclared, "G(4)"), "10.000000000");
     let twice = "#declare F = function(q) { q + 1 } #declare F = function(q) { F(F(q)) }";

@@ -106,7 +106,6 @@ impl<'w> Lamps<'w> {
 
     /// Adds the highlights of a layer; on both sides if light from behind counts like light from
     /// the front.
-    /// the front.
     fn highlight(&mut self, isa: Isa, finish: &Finish, lit: &[Lit], spots: &[Spot]) {
         let (falling, places) = (&self.falling, self.shadows.places(lit.len()));
         isa.run_in_lanes(
