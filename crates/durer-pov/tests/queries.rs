@@ -52,8 +52,8 @@ fn a_surface_on_which_the_ray_starts_is_left_out() {
     assert_eq!(debug(chain), "2");
     let row = chain.replace("<-1, -2, -1>/3", "-<3, 2, 1>/3");
     assert_eq!(debug(&row), "8");
-    // POV-Ray also leaves out crossings nearer than about 1e-4, depending on the shape. durer leaves
-    // out only the surface on which the ray starts.
+    // POV-Ray also leaves out crossings nearer than about 1e-4, depending on the shape. durer
+    // leaves out only the surface on which the ray starts.
     assert_eq!(
         traced("sphere { 0, 1 }", "-(1 + 1e-9)*z", "z"),
         "0.0000,0.0000,-1.0000 0.0000,0.0000,-1.0000"
