@@ -1,8 +1,10 @@
-//! `cargo xtask bench`: single rays and batches beside Embree's, interleaved.
+//! `cargo xtask bench`: measures single rays and batches against Embree, in turns.
 //!
-//! The other side is a harness: a folder with `embree_bench.cpp`, which traces files of rays with Embree and prints what `peer_rays` of durer-bvh prints, a last line
-//! of JSON among it. It is compiled here if Embree's headers are installed. Each round runs Embree with its default choice, with AVX2 alone, in robust mode and in high quality, then
-//! durer in each of its qualities, on the same rays; what is reported is medians over the rounds of processor nanoseconds per ray.
+//! The Embree side is a harness: a folder with `embree_bench.cpp`. It traces files of rays with
+//! Embree and prints the same as `peer_rays` of durer-bvh does, with JSON in the last line. It is
+//! compiled here if Embree's headers are installed. Each round runs Embree with its default kernel,
+//! with AVX2 alone, in robust mode and in high quality, and then durer in each of its qualities,
+//! all on the same rays. The report gives medians over the rounds of processor nanoseconds per ray.
 
 use crate::Outcome;
 use crate::command::{cargo, root, scratch, step};
@@ -12,16 +14,17 @@ use std::process::Command;
 
 const USAGE: &str = "usage: cargo xtask bench [--rounds N] HARNESS MESH.tri..";
 const ROUNDS: usize = 5;
-/// How many programs and settings take turns.
+/// The number of programs and settings that take turns.
 const ENGINES: usize = 7;
 const WORKLOADS: [&str; 4] = ["primary", "ao", "diffuse", "random"];
 
-/// Nanoseconds by mode, workload and threads, one for each round; builds and bytes under their names.
+/// Nanoseconds by mode, workload and threads, one for each round. Build times and bytes have names
+/// of their own.
 #[derive(Default)]
 struct Figures(BTreeMap<String, Vec<f64>>);
 
 impl Figures {
-    /// Takes the figures of a program's last line.
+    /// Adds the figures in the last line of a program's output.
     fn take(&mut self, output: &str) -> Outcome {
         let line = output.lines().rev().find_map(|l| l.strip_prefix("JSON "));
         let line = line.ok_or_else(|| format!("no line of JSON in: {output}"))?;
@@ -49,7 +52,7 @@ impl Figures {
     }
 }
 
-/// The value behind a name in one level of JSON.
+/// The value for a name in JSON without nesting.
 fn value<'a>(json: &'a str, name: &str) -> Option<&'a str> {
     let (_, rest) = json.split_once(&format!("\"{name}\":"))?;
     Some(rest.split([',', '}']).next().unwrap_or(rest).trim())
@@ -63,7 +66,7 @@ fn text<'a>(json: &'a str, name: &str) -> Option<&'a str> {
     Some(value(json, name)?.trim_matches('"'))
 }
 
-/// Compiles the harness; says what is missing where that is impossible.
+/// Compiles the harness. If that is impossible, prints what is missing.
 fn harness(folder: &Path) -> Outcome<Option<PathBuf>> {
     let source = folder.join("embree_bench.cpp");
     if !source.is_file() {
@@ -90,7 +93,7 @@ fn harness(folder: &Path) -> Outcome<Option<PathBuf>> {
     }
 }
 
-/// What a program prints.
+/// The output of a program.
 fn output(program: &Path, arguments: &[&str], files: [&Path; 2], load: &str) -> Outcome<String> {
     let mut command = Command::new(program);
     command.arg(files[0]).args(arguments).arg(load).arg(files[1]);
@@ -157,7 +160,7 @@ fn compare(embree: &Path, durer: &Path, mesh: &Path, rounds: usize) -> Outcome {
     Ok(())
 }
 
-/// What each way to build a tree costs, and what its single rays take with one thread.
+/// Reports the cost of each way to build a tree, and the time of its single rays on one thread.
 fn report_qualities(qualities: &[(&str, &Figures)]) {
     println!("  {:14} {:>10} {:>10} {:>12}  ns per ray: {WORKLOADS:?}", "", "ms 1 thr", "ms 2 thr", "bytes");
     for (name, figures) in qualities {
@@ -175,7 +178,8 @@ fn report_qualities(qualities: &[(&str, &Figures)]) {
     }
 }
 
-/// Embree's best, its robust mode's and durer's time, and durer's as a multiple of either: above 1 is slower.
+/// Reports the times of Embree at its best, of its robust mode and of durer, and durer's time as a
+/// multiple of the other two: above 1 is slower.
 fn report(name: &str, rounds: usize, [default, avx2, robust, durer]: [&Figures; 4]) {
     let best = |names: &[String]| {
         let all = names.iter().flat_map(|n| [default.median(n), avx2.median(n)]).flatten();

@@ -1,8 +1,8 @@
-//! Blocks of POV-Ray's language, as far as they can be told without understanding it.
+//! Blocks of POV-Ray's language, as far as they can be found without parsing it.
 
 use std::ops::Range;
 
-/// A block that can be replaced, and by what.
+/// A block that can be replaced, and its replacement.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Block {
     /// From its keyword to its closing brace.
@@ -10,7 +10,7 @@ pub(crate) struct Block {
     pub(crate) plain: &'static str,
 }
 
-/// What stands for a block of this kind.
+/// The replacement for a block of this kind.
 fn plain(keyword: &str) -> Option<&'static str> {
     const GREY: &str = "pigment { color rgb <0.6, 0.55, 0.5> }";
     const TEXTURE: &str = "texture { pigment { color rgb <0.6, 0.55, 0.5> } }";
@@ -22,7 +22,7 @@ fn plain(keyword: &str) -> Option<&'static str> {
     }
 }
 
-/// Where a line and column are, both counted from one.
+/// The byte at a line and column, both counted from 1.
 fn place(text: &str, line: usize, column: usize) -> Option<usize> {
     let start: usize = text.split_inclusive('\n').take(line.checked_sub(1)?).map(str::len).sum();
     Some(start + text[start..].chars().take(column.checked_sub(1)?).map(char::len_utf8).sum::<usize>())
@@ -43,13 +43,14 @@ pub(crate) fn beginning_at(text: &str, line: usize, column: usize) -> Option<Ran
     None
 }
 
-/// The innermost block of a kind that can be replaced around a line and column, both counted from one.
+/// The innermost replaceable block around a line and column, both counted from 1.
 pub(crate) fn around(text: &str, line: usize, column: usize) -> Option<Block> {
     let place = place(text, line, column)?;
     replaceable(text).find(|block| block.range.contains(&place))
 }
 
-/// The outermost one of those that end first in the block whose keyword is at a line and column.
+/// The first replaceable block to end within the block whose keyword is at a line and column; if
+/// another one encloses it, the outermost.
 pub(crate) fn first_in(text: &str, line: usize, column: usize) -> Option<Block> {
     let whole = beginning_at(text, line, column)?;
     let is_in = |block: &Block| whole.start < block.range.start && block.range.end < whole.end;
@@ -59,9 +60,9 @@ pub(crate) fn first_in(text: &str, line: usize, column: usize) -> Option<Block> 
         .last()
 }
 
-/// The blocks that can be replaced, in the order of their closing braces.
+/// The replaceable blocks, in the order of their closing braces.
 fn replaceable(text: &str) -> impl Iterator<Item = Block> + '_ {
-    // Blocks that are open: where their keyword starts, and what may stand for them.
+    // The open blocks: the start of each keyword, and the replacement.
     let mut open: Vec<(usize, Option<&'static str>)> = Vec::new();
     let mut last_word: Option<Range<usize>> = None;
     tokens(text).filter_map(move |token| match &text[token.clone()] {

@@ -1,4 +1,4 @@
-//! `cargo xtask test`: what must pass before a change goes in.
+//! `cargo xtask test`: the checks that must pass before a change goes in.
 
 use crate::command::{Durer, Shot, cargo, root, scratch, step};
 use crate::compare::compare;
@@ -9,7 +9,8 @@ use std::path::Path;
 /// Two pixels that differ by more than this are visibly different.
 const CONTRAST: u8 = 24;
 
-/// Formatting, lints, documentation, tests, the scenes, the Python package; stops at the first failure.
+/// Runs formatting, lints, documentation, tests, the scenes and the Python package. Stops at the
+/// first failure.
 pub(crate) fn run() -> Outcome {
     step("cargo fmt --all --check", cargo().args(["fmt", "--all", "--check"]))?;
     step(
@@ -20,14 +21,15 @@ pub(crate) fn run() -> Outcome {
         "cargo doc --workspace --no-deps",
         cargo().args(["doc", "--workspace", "--no-deps", "--quiet"]).env("RUSTDOCFLAGS", "-D warnings"),
     )?;
-    // Examples have been checked above; compiling them takes as long as a crate's tests.
+    // The examples have been checked above; compiling them takes as long as a crate's tests.
     step(
         "cargo test --workspace --lib --bins --tests",
         cargo().args(["test", "--workspace", "--lib", "--bins", "--tests", "--quiet"]),
     )?;
     step("cargo test --workspace --doc", cargo().args(["test", "--workspace", "--doc", "--quiet"]))?;
 
-    // What the tests have just built: a second build, for release, would take a quarter of all the time.
+    // Uses the program that the tests have just built. Another build, for release, would take a
+    // quarter of the total time.
     let durer = Durer::tested()?;
     gallery_scenes(&durer)?;
     reference_pictures(&durer)?;
@@ -36,7 +38,7 @@ pub(crate) fn run() -> Outcome {
     Ok(())
 }
 
-/// Every scene of the gallery renders, shows something, and comes out the same on one thread as on all.
+/// Every scene of the gallery must render, show something, and be the same on one thread as on all.
 fn gallery_scenes(durer: &Durer) -> Outcome {
     let scenes = scenes::list(&root().join("scenes"), &[])?;
     println!("==> {} scenes of scenes/", scenes.len());
@@ -65,7 +67,8 @@ fn bytes(path: &Path) -> Outcome<Vec<u8>> {
     std::fs::read(path).map_err(|e| format!("{}: {e}", path.display()))
 }
 
-/// Our pictures against the ones that POV-Ray made, kept beside their scenes, so that they are compared everywhere.
+/// Compares our pictures with reference pictures by POV-Ray. These are kept beside their scenes, so
+/// the comparison works without POV-Ray.
 fn reference_pictures(durer: &Durer) -> Outcome {
     let scenes = conformance::scenes(&[])?;
     println!("==> {} scenes against their reference pictures", scenes.len());

@@ -11,7 +11,7 @@ pub(crate) fn root() -> PathBuf {
     here.parent().unwrap_or(here).to_path_buf()
 }
 
-/// The folder for what the chores leave behind, made if it is missing; not under version control.
+/// The folder for the output of tasks, created if it is missing; not under version control.
 pub(crate) fn scratch(name: &str) -> Outcome<PathBuf> {
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
     let folder = target.join("xtask").join(name);
@@ -19,14 +19,14 @@ pub(crate) fn scratch(name: &str) -> Outcome<PathBuf> {
     Ok(folder)
 }
 
-/// The cargo that runs us.
+/// The cargo program that runs this task.
 pub(crate) fn cargo() -> Command {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.current_dir(root());
     command
 }
 
-/// Says what is run, runs it in view of the user, and says how long it took.
+/// Prints the command, runs it with its output visible, and prints how long it took.
 pub(crate) fn step(title: &str, command: &mut Command) -> Outcome {
     println!("==> {title}");
     let start = Instant::now();
@@ -44,14 +44,14 @@ pub(crate) struct Durer {
     program: PathBuf,
 }
 
-/// How one picture is asked for.
+/// The settings of a picture.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shot<'a> {
     pub(crate) width: u32,
     pub(crate) height: u32,
-    /// As on the command line: `off`, `method2`, `4x4` ...
+    /// Anti-aliasing as on the command line: `off`, `method2`, `4x4` ...
     pub(crate) aa: &'a str,
-    /// `None` for all cores.
+    /// The number of threads; `None` for all cores.
     pub(crate) threads: Option<u32>,
 }
 
@@ -64,7 +64,8 @@ impl Durer {
         )
     }
 
-    /// The command as `cargo test --workspace` builds it: optimised, with all assertions and checks for overflow.
+    /// Finds the command as `cargo test --workspace` builds it: optimised, with assertions and
+    /// overflow checks.
     pub(crate) fn tested() -> Outcome<Self> {
         let title = "cargo test --workspace --lib --bins --tests --no-run";
         Self::made_by(title, &["test", "--workspace", "--lib", "--bins", "--tests", "--no-run"])
@@ -75,12 +76,12 @@ impl Durer {
         Ok(Self { program: built(title, arguments, is_durer)? })
     }
 
-    /// Where it is.
+    /// The path of the program.
     pub(crate) fn program(&self) -> &Path {
         &self.program
     }
 
-    /// Renders `scene` into `picture`; the error holds what the command said.
+    /// Renders `scene` into `picture`. The error contains the output of the command.
     pub(crate) fn render(&self, scene: &Path, picture: &Path, shot: Shot<'_>) -> Outcome {
         let mut command = Command::new(&self.program);
         command.arg("render").arg(scene).arg("-o").arg(picture);
@@ -97,7 +98,7 @@ impl Durer {
     }
 }
 
-/// Runs cargo and finds the last executable of a wanted name that it has built.
+/// Runs cargo and finds the last executable for which `is_wanted` is true.
 pub(crate) fn built(title: &str, arguments: &[&str], is_wanted: impl Fn(&Path) -> bool) -> Outcome<PathBuf> {
     println!("==> {title}");
     let output = cargo()

@@ -1,4 +1,4 @@
-//! How far two pictures of one scene are apart.
+//! The difference between two pictures of one scene.
 
 use crate::Outcome;
 use crate::picture::Picture;
@@ -25,7 +25,7 @@ impl Difference {
     }
 }
 
-/// Compares two pictures of one size; also draws the difference, see [`highlight`].
+/// Compares two pictures of the same size, and draws the difference (see [`highlight`]).
 pub(crate) fn compare(ours: &Picture, theirs: &Picture) -> Outcome<(Difference, Picture)> {
     if (ours.width, ours.height) != (theirs.width, theirs.height) {
         let size = |p: &Picture| format!("{}x{}", p.width, p.height);
@@ -46,7 +46,7 @@ fn distance(a: [u8; 3], b: [u8; 3]) -> u8 {
     a.iter().zip(b).map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0)
 }
 
-/// A dim grey copy of what agrees; what does not is red, the brighter the worse.
+/// A dim grey copy of pixels that agree. Pixels that differ are red, the brighter the worse.
 fn highlight(pixel: [u8; 3], distance: u8) -> [u8; 3] {
     if distance <= TOLERANCE {
         let grey = pixel.iter().map(|c| u16::from(*c)).sum::<u16>() / 9;

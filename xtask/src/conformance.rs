@@ -1,4 +1,4 @@
-//! `cargo xtask conformance`: the same scenes rendered by durer and by POV-Ray.
+//! `cargo xtask conformance`: renders the same scenes with durer and with POV-Ray.
 
 use crate::command::{Durer, Shot, root, scratch};
 use crate::compare::{Difference, REQUIRED, TOLERANCE, compare};
@@ -9,7 +9,7 @@ use crate::{Outcome, report};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Where the scenes made for it are, and all reference pictures.
+/// The folder of the scenes made for the comparison, and of all reference pictures.
 const SCENES: &str = "tests/conformance";
 
 /// The size of the pictures that are kept beside the scenes.
@@ -18,8 +18,8 @@ pub(crate) const REFERENCE_SIZE: (u32, u32) = (160, 120);
 const SIZES: [(u32, u32); 2] = [REFERENCE_SIZE, (320, 240)];
 const TIMED_SIZE: (u32, u32) = (1280, 720);
 
-/// The scenes that both programs can read, all of them or the named ones: those made for the comparison, and the
-/// gallery's composition.
+/// The scenes that both programs can read, all of them or the named ones. They are the scenes made
+/// for the comparison, and the gallery's composition.
 pub(crate) fn scenes(names: &[String]) -> Outcome<Vec<Scene>> {
     let mut all = scenes::list(&root().join(SCENES), &[])?;
     all.extend(scenes::list(&root().join("scenes"), &["melencolia".to_owned()])?);
@@ -30,24 +30,24 @@ pub(crate) fn scenes(names: &[String]) -> Outcome<Vec<Scene>> {
     Ok(all)
 }
 
-/// POV-Ray's picture of a scene, kept under version control.
+/// The path of POV-Ray's picture of a scene, under version control.
 pub(crate) fn reference(name: &str) -> PathBuf {
     root().join(SCENES).join("reference").join(format!("{name}.png"))
 }
 
-/// What was measured on one scene.
+/// The measurements of one scene.
 #[derive(Debug)]
 pub(crate) struct Row {
     pub(crate) name: String,
-    /// The scene's file, from the top folder.
+    /// The scene's file, relative to the top folder.
     pub(crate) file: String,
-    /// One per size.
+    /// One for each size.
     pub(crate) differences: Vec<Difference>,
-    /// Missing if only the pictures were asked for.
+    /// `None` if only pictures were requested.
     pub(crate) cost: Option<Cost>,
 }
 
-/// Processor seconds of the whole program at the timed size, one thread.
+/// Processor seconds of the whole program at the timed size, on one thread.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cost {
     pub(crate) ours: f64,
@@ -121,7 +121,8 @@ fn measure(durer: &Durer, povray: &Povray, scene: &Scene, timed: bool) -> Outcom
     Ok(Row { name: scene.name.clone(), file, differences, cost })
 }
 
-/// Copies POV-Ray's small pictures beside the scenes, for `cargo xtask test` where POV-Ray is missing.
+/// Copies POV-Ray's small pictures to the folder of the scenes, for `cargo xtask test` where
+/// POV-Ray is not installed.
 fn keep_references(scenes: &[Scene]) -> Outcome {
     let folder = scratch("conformance")?;
     for scene in scenes {
@@ -135,8 +136,8 @@ fn keep_references(scenes: &[Scene]) -> Outcome {
     Ok(())
 }
 
-/// Processor seconds that the programs started by `work` used; where the system does not tell, the seconds of the
-/// clock on the wall.
+/// The processor seconds used by the programs that `work` started. If the system does not report
+/// them, the elapsed time.
 fn cost_of(work: impl FnOnce() -> Outcome) -> Outcome<f64> {
     let (start, before) = (Instant::now(), children_seconds());
     work()?;
@@ -146,11 +147,11 @@ fn cost_of(work: impl FnOnce() -> Outcome) -> Outcome<f64> {
     })
 }
 
-/// Processor seconds of all children that have ended, from Linux' process table.
+/// The processor seconds of all ended child processes, from Linux' process table.
 fn children_seconds() -> Option<f64> {
     let stat = std::fs::read_to_string(Path::new("/proc/self/stat")).ok()?;
-    // Field 2 is the program's name in parentheses and may hold spaces; cutime and cstime are fields 16 and 17, in
-    // ticks of 1/100 s on every Linux.
+    // Field 2 is the program's name in parentheses and may contain spaces. Fields 16 and 17 are
+    // cutime and cstime, in ticks of 1/100 s on every Linux.
     let (_, after_name) = stat.rsplit_once(')')?;
     let mut fields = after_name.split_whitespace().skip(13);
     let mut ticks = || fields.next()?.parse::<f64>().ok();

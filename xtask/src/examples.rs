@@ -1,6 +1,7 @@
-//! `cargo xtask examples`: the scenes that come with POV-Ray, rendered by both programs.
+//! `cargo xtask examples`: renders the scenes that come with POV-Ray with both programs.
 //!
-//! Words that the reader does not know yet are replaced, with the block around them, by something plain, for both programs alike.
+//! If the reader does not support a word yet, the block around it is replaced by something plain,
+//! for both programs.
 
 use crate::command::{Durer, Shot, root, scratch};
 use crate::compare::{Difference, compare};
@@ -11,21 +12,22 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Where Debian's `povray-examples` keeps the scenes of objects.
+/// The folder where Debian's `povray-examples` installs the scenes of objects.
 const INSTALLED: &str = "/usr/share/doc/povray/examples/objects";
 
-/// The folders in it that are looked at.
+/// The subfolders that are used.
 const FOLDERS: [&str; 3] = ["", "csg", "quartic"];
 
 const SIZE: (u32, u32) = (320, 240);
 
-/// A scene with more replacements than this is not the scene any more.
+/// A scene with more replacements than this is not compared.
 const MOST_REPLACED: usize = 40;
 
-/// Scenes that show one surface of each kind: those that durer does not know yet are left out.
+/// Scenes that show one surface of each kind. Objects that start with one of these words, which
+/// durer does not support yet, are removed from them.
 const WITHOUT: [(&str, &[&str]); 1] = [("primitiv", &["bicubic_patch", "height_field"])];
 
-/// Why pictures differ, where that is known.
+/// The reasons why pictures differ, where they are known.
 const NOTES: [(&str, &str); 3] = [
     (
         "quartic/hyptorus",
@@ -41,7 +43,7 @@ const NOTES: [(&str, &str); 3] = [
     ),
 ];
 
-/// What became of a scene.
+/// The result for a scene.
 struct Row {
     name: String,
     /// The words that were replaced.
@@ -50,7 +52,8 @@ struct Row {
     outcome: Outcome<Difference>,
 }
 
-/// Compares all scenes, or the named ones (`csg/intee1`), and writes docs/examples.md with pictures of those that differ.
+/// Compares all scenes, or the named ones (`csg/intee1`), and writes docs/examples.md, with
+/// pictures of those that differ.
 pub(crate) fn run(names: &[String]) -> Outcome {
     let installed = Path::new(INSTALLED);
     if !installed.is_dir() {
@@ -79,7 +82,7 @@ pub(crate) fn run(names: &[String]) -> Outcome {
     Ok(())
 }
 
-/// The scenes by their names from the folder of all objects.
+/// The names of the scenes, relative to the folder of all objects.
 fn scenes(installed: &Path, names: &[String]) -> Outcome<Vec<String>> {
     let mut found = Vec::new();
     for folder in FOLDERS {
@@ -144,7 +147,7 @@ fn measure(durer: &Durer, povray: &Povray, from: &Path, name: String, pictures: 
             let (difference, drawn) = compare(&a, &b)?;
             let shown = pictures.join(format!("{flat}.png"));
             if difference.passes() {
-                // A picture of an earlier comparison says nothing any more.
+                // A picture of an earlier comparison is out of date.
                 let _ = std::fs::remove_file(&shown);
             } else {
                 beside(&[&a, &b, &drawn]).write(&shown)?;
@@ -155,7 +158,7 @@ fn measure(durer: &Durer, povray: &Povray, from: &Path, name: String, pictures: 
     Ok(Row { name, replaced, outcome })
 }
 
-/// Renders a scene that includes files of its folder; the error is what the command said.
+/// Renders a scene that includes files of its folder. The error is the output of the command.
 fn render(durer: &Durer, scene: &Path, picture: &Path, library: &Path) -> Outcome {
     let mut command = Command::new(durer.program());
     command.arg("render").arg(scene).arg("-o").arg(picture).arg("-L").arg(library);
@@ -170,17 +173,17 @@ fn render(durer: &Durer, scene: &Path, picture: &Path, library: &Path) -> Outcom
     Err(String::from_utf8_lossy(&output.stderr).into_owned())
 }
 
-/// What a message says is not supported yet, and where in the scene.
+/// The word that a message reports as not supported yet, and its place in the scene.
 #[derive(Debug, PartialEq)]
 struct Unsupported<'s> {
     what: &'s str,
     line: usize,
     column: usize,
-    /// The place is that of an object which has its texture from another file.
+    /// Whether the place is that of an object whose texture comes from another file.
     of_object: bool,
 }
 
-/// What a message says is not supported yet, if the scene itself can do without it.
+/// The word that a message reports as not supported yet, if it stands in the scene itself.
 fn unsupported<'s>(said: &'s str, scene: &Path) -> Option<Unsupported<'s>> {
     let file = format!("{}:", scene.display());
     let place = |line: &str| {
@@ -204,7 +207,7 @@ fn first_line(said: &str, scene: &Path) -> String {
     line.replace(&scene.display().to_string(), &name)
 }
 
-/// Pictures of one size in a row.
+/// Pictures of the same size, side by side.
 fn beside(pictures: &[&Picture]) -> Picture {
     let (width, height) = (pictures[0].width, pictures[0].height);
     let mut pixels = Vec::new();
@@ -217,7 +220,7 @@ fn beside(pictures: &[&Picture]) -> Picture {
     Picture { width: width * pictures.len() as u32, height, pixels }
 }
 
-/// Rounded down to hundredths, so that 100.00 means all of them.
+/// The percentage, rounded down to hundredths, so that 100.00 means all pixels.
 fn percent(difference: &Difference) -> f64 {
     (difference.agreeing * 1e4).floor() / 100.0
 }

@@ -1,12 +1,17 @@
-//! `cargo xtask fused`: whether what runs on a CPU with fused operations ever calls the library function `fma`.
+//! `cargo xtask fused`: checks that code for CPUs with fused operations never calls the library
+//! function `fma`.
 //!
-//! `f64::mul_add` is one instruction in code that is compiled for CPUs that have it, and a slow call elsewhere. Everything below a query is
-//! to be inlined into the one door that switches the instructions on, or to enter it again; the compiler does not say when that fails.
-//! This reads the release binary (`nm` would not do: it is about who calls whom):
+//! `f64::mul_add` is one instruction in code that is compiled for CPUs that have it, and a slow
+//! call elsewhere. Everything below a query must be inlined into the one function that switches the
+//! instructions on, called the door, or must enter a door again. The compiler gives no message when
+//! that fails. This task reads the release binary. It disassembles it, because it needs to know
+//! which function calls which:
 //!
-//! - *fused* functions hold a fused instruction, or are the door itself;
-//! - *plain* functions hold none. One that calls fused ones is a door: it chooses, and its plain half is for other CPUs;
-//! - a plain function that calls `fma` and is reached from a fused one without passing a door is what should not be.
+//! - *fused* functions contain a fused instruction, or are a door themselves;
+//! - *plain* functions contain none. A plain function that calls fused ones is a door: it chooses
+//!   at run time, and its plain half is for other CPUs;
+//! - a plain function is an error if it calls `fma` and a fused function reaches it without passing
+//!   a door.
 //!
 //! Calls through pointers (trait objects) are not seen.
 
@@ -16,7 +21,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::process::Command;
 
-/// Checks a binary: the one named, or the `durer` command as built for release.
+/// Checks the named binary, or the `durer` command as built for release.
 pub(crate) fn run(words: &[String]) -> Outcome {
     let binary = match words {
         [] => Durer::build()?.program().to_path_buf(),
@@ -57,7 +62,7 @@ fn objdump(flags: &[&str], binary: &Path) -> Outcome<String> {
 struct Function<'t> {
     name: &'t str,
     is_fused: bool,
-    /// Addresses of what it calls or goes on to.
+    /// The addresses that it calls or jumps to.
     calls: Vec<u64>,
 }
 
@@ -67,12 +72,12 @@ struct Program<'t> {
     functions: BTreeMap<u64, Function<'t>>,
 }
 
-/// A function that calls `fma` and should not.
+/// A function that calls `fma` but should not.
 #[derive(Debug, PartialEq)]
 struct Stray<'t> {
     name: &'t str,
     calls: usize,
-    /// Who calls it.
+    /// The name of a caller.
     from: &'t str,
 }
 
@@ -81,7 +86,7 @@ fn hex(digits: &str) -> Option<u64> {
 }
 
 impl<'t> Program<'t> {
-    /// From the words of `objdump -R` and `objdump -d -C`.
+    /// Reads the output of `objdump -R` and `objdump -d -C`.
     fn read(relocations: &str, listing: &'t str) -> Self {
         // Addresses that the loader writes into the table of functions.
         let table: BTreeMap<u64, u64> = relocations
@@ -114,7 +119,7 @@ impl<'t> Program<'t> {
                     }
                     None => operand.trim().split(' ').next().and_then(hex),
                 };
-                // A jump within itself is none.
+                // A jump within the function itself does not count.
                 function.calls.extend(target.filter(|t| {
                     t != address && (mnemonic != "jmp" || operand.ends_with('>') && !operand.contains("+0x"))
                 }));

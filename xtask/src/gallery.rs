@@ -1,14 +1,15 @@
-//! `cargo xtask gallery`: the scenes of scenes/, each with its equation, source and picture.
+//! `cargo xtask gallery`: makes the page of the scenes in scenes/, each with its equation, source
+//! and picture.
 
 use crate::Outcome;
 use crate::command::{Durer, Shot, root};
 use crate::scenes::{self, Scene};
 use std::fmt::Write as _;
 
-/// The picture on the first page; it comes first here too, and larger.
+/// The picture on the README's first page. In the gallery it is also first, and larger.
 const MASTERPIECE: &str = "melencolia";
 
-/// Renders all scenes, or the named ones, and writes the page about all of them.
+/// Renders all scenes, or the named ones, and writes the page of all scenes.
 pub(crate) fn run(names: &[String]) -> Outcome {
     let folder = root().join("docs/gallery");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
@@ -60,14 +61,14 @@ fn document(scenes: &[Scene]) -> String {
     text
 }
 
-/// The text after the comment at its head.
+/// The text after the comment at the head of a scene.
 fn body(text: &str) -> &str {
     let head: usize =
         text.split_inclusive('\n').take_while(|line| line.starts_with("//")).map(str::len).sum();
     text[head..].trim()
 }
 
-/// The name by which the page links to a heading: lower case, dashes for spaces, no punctuation.
+/// The name of a heading in links: lower case, dashes for spaces, no punctuation.
 fn anchor(title: &str) -> String {
     let kept = title.chars().filter(|c| c.is_alphanumeric() || *c == ' ' || *c == '-');
     kept.map(|c| if c == ' ' { '-' } else { c }).flat_map(char::to_lowercase).collect()

@@ -1,16 +1,20 @@
-//! The project's chores, run as `cargo xtask NAME`.
+//! Maintenance tasks of the project, run as `cargo xtask NAME`.
 //!
-//! - `test`: what must pass before a change goes in ([`checks`]);
-//! - `conformance`: our pictures beside POV-Ray's, and what each cost ([`conformance`]);
-//! - `differential`: random scenes rendered by both programs, cut back where they differ ([`differential`]);
-//! - `gallery`: the pictures and pages of docs/gallery.md ([`gallery`]);
-//! - `examples`: the scenes that come with POV-Ray, beside its pictures ([`examples`]);
-//! - `bench`: the triangle kernels beside Embree's, on the same rays ([`mod@bench`]);
-//! - `python`: the Python package, built and tested ([`python`]);
-//! - `soak`: the random tests, with ever new cases, added up ([`soak`]);
-//! - `fused`: which compiled code calls `fma` where it should be one instruction ([`fused`]).
+//! - `test`: the checks that must pass before a change goes in ([`checks`]);
+//! - `conformance`: compares our pictures with POV-Ray's, and the time and memory of both
+//!   ([`conformance`]);
+//! - `differential`: renders random scenes with both programs, and reduces those whose pictures
+//!   differ ([`differential`]);
+//! - `gallery`: makes the pictures and pages of docs/gallery.md ([`gallery`]);
+//! - `examples`: compares the scenes that come with POV-Ray, rendered by both programs
+//!   ([`examples`]);
+//! - `bench`: measures the triangle kernels against Embree's, on the same rays ([`mod@bench`]);
+//! - `python`: builds and tests the Python package ([`python`]);
+//! - `soak`: runs the random tests with ever new cases, and adds up the results ([`soak`]);
+//! - `fused`: finds compiled code that calls `fma` where one instruction should do ([`fused`]).
 //!
-//! Everything here drives the programs a user has: cargo, the `durer` command built for release, and `povray`.
+//! The tasks run the programs that a user has: cargo, the `durer` command built for release, and
+//! `povray`.
 #![forbid(unsafe_code)]
 
 mod bench;
@@ -53,7 +57,7 @@ usage: cargo xtask NAME
                                    has N rays, fewest rays first, and adds up in docs/reliability.md
   fused [BINARY]                   lists compiled code that calls fma where it should be one instruction";
 
-/// What a chore comes to: nothing to say, or the reason why it failed.
+/// The result of a task: nothing, or the reason why it failed.
 type Outcome<T = ()> = Result<T, String>;
 
 fn main() -> ExitCode {

@@ -14,7 +14,7 @@ pub(crate) struct Picture {
 }
 
 impl Picture {
-    /// Reads a PNG; 16 bits are cut to 8, grey is spread to three channels, alpha is dropped.
+    /// Reads a PNG. 16 bits become 8, grey becomes three channels, alpha is dropped.
     pub(crate) fn read(path: &Path) -> Outcome<Self> {
         let fail = |e: &dyn std::fmt::Display| format!("{}: {e}", path.display());
         let file = File::open(path).map_err(|e| fail(&e))?;
@@ -45,7 +45,8 @@ impl Picture {
         writer.write_image_data(self.pixels.as_flattened()).map_err(|e| fail(&e))
     }
 
-    /// Whether nothing can be seen: all pixels within `contrast` of each other in every channel.
+    /// Whether the picture shows nothing: all pixels are within `contrast` of each other in every
+    /// channel.
     pub(crate) fn is_blank(&self, contrast: u8) -> bool {
         (0..3).all(|c| {
             let channel = || self.pixels.iter().map(|p| p[c]);

@@ -1,17 +1,17 @@
-//! The POV-Ray program as the other witness.
+//! The POV-Ray program, used as an independent reference.
 
 use crate::Outcome;
 use crate::command::Shot;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// What to say where it is missing.
+/// The message if it is not installed.
 pub(crate) const MISSING: &str = "not run: the program `povray` (POV-Ray 3.7; on Debian `apt-get install povray povray-includes`) is not installed";
 
 /// An installed POV-Ray.
 #[derive(Debug)]
 pub(crate) struct Povray {
-    /// As it reports itself, e.g. `3.7.0.10`.
+    /// Its version as it reports it, for example `3.7.0.10`.
     pub(crate) version: String,
 }
 
@@ -29,12 +29,13 @@ impl Povray {
         self.render_with(scene, picture, shot, scene.parent().unwrap_or(scene))
     }
 
-    /// The same, with the pixels in another order: where what was rendered before has an effect on a pixel, its colour changes.
+    /// As [`Povray::render`], with the pixels in another order. A pixel whose colour depends on
+    /// pixels rendered before it changes.
     pub(crate) fn render_in_blocks(&self, scene: &Path, picture: &Path, shot: Shot<'_>) -> Outcome {
         self.run(scene, picture, shot, scene.parent().unwrap_or(scene), &["+BS3", "+RP3"])
     }
 
-    /// The same with a folder to search for included files.
+    /// As [`Povray::render`], with a folder to search for included files.
     pub(crate) fn render_with(
         &self,
         scene: &Path,

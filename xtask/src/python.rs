@@ -1,21 +1,22 @@
-//! The Python package: built for release into an environment under target/, then its own tests, types and stubs.
+//! The Python package: builds it for release into an environment under target/, then runs its
+//! tests, type checks and stub checks.
 
 use crate::Outcome;
 use crate::command::{root, step};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What the package's tests need, with the numbers that they were written for.
+/// The packages that its tests need, with the versions that the tests were written for.
 const PACKAGES: [&str; 8] =
     ["maturin>=1.9,<2", "numpy", "pytest", "mypy", "trimesh", "pandas", "distributed", "types-tqdm"];
 
-/// Where the environment keeps its programs.
+/// The path of a program in the environment.
 fn program(environment: &Path, name: &str) -> PathBuf {
     let folder = if cfg!(windows) { "Scripts" } else { "bin" };
     environment.join(folder).join(name)
 }
 
-/// The Python that users call so.
+/// The name of the Python 3 program.
 fn interpreter() -> Option<&'static str> {
     let works = |name: &&str| {
         let old = "import sys, venv; sys.exit(sys.version_info < (3, 10))";
@@ -24,7 +25,7 @@ fn interpreter() -> Option<&'static str> {
     ["python3", "python"].into_iter().find(works)
 }
 
-/// Builds and tests the package. Without a Python of the right age nothing is run, and it says so.
+/// Builds and tests the package. Without a recent enough Python it prints so and runs nothing.
 pub(crate) fn run(rest: &[String]) -> Outcome {
     let Some(python) = interpreter() else {
         println!("==> Python: not run, as there is no python3 of version 3.10 or later with venv");

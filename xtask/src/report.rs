@@ -1,4 +1,4 @@
-//! The table of `cargo xtask conformance`, on the terminal and in docs/conformance.md.
+//! The table of `cargo xtask conformance`, for the terminal and for docs/conformance.md.
 
 use crate::conformance::{Cost, Row};
 use std::fmt::Write as _;
@@ -15,7 +15,7 @@ pub(crate) fn heading(sizes: &[(u32, u32)], timed: bool) -> String {
     line
 }
 
-/// One scene, for the terminal.
+/// The row of a scene, for the terminal.
 pub(crate) fn line(row: &Row) -> String {
     let mut line = format!("{:<32}", row.name);
     for d in &row.differences {
@@ -28,7 +28,7 @@ pub(crate) fn line(row: &Row) -> String {
     line
 }
 
-/// Rounded down to hundredths, so that 100.00 means all of them.
+/// The percentage, rounded down to hundredths, so that 100.00 means all pixels.
 fn percent(share: f64) -> f64 {
     (share * 1e4).floor() / 100.0
 }
@@ -37,7 +37,7 @@ fn ratio(cost: Cost) -> f64 {
     cost.theirs / cost.ours.max(0.01)
 }
 
-/// What it comes to, in a sentence or two.
+/// A summary in one or two sentences.
 pub(crate) fn summary(rows: &[Row]) -> String {
     let shares = || rows.iter().flat_map(|r| r.differences.iter().map(|d| d.agreeing));
     let least = shares().fold(1.0, f64::min);

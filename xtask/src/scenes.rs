@@ -1,21 +1,21 @@
-//! Scene files and the comment that heads each of them.
+//! Scene files and the comment at the head of each.
 
 use crate::Outcome;
 use std::path::{Path, PathBuf};
 
-/// A scene file: its comment's first line is the title, a line `Equation: ...` gives the surface's equation, the
-/// rest describes it.
+/// A scene file. The first line of its comment is the title. A line `Equation: ...` gives the
+/// surface's equation, and the rest is a description.
 #[derive(Debug)]
 pub(crate) struct Scene {
     pub(crate) path: PathBuf,
-    /// The file's name without its ending.
+    /// The file's name without its extension.
     pub(crate) name: String,
     pub(crate) header: Header,
     /// The whole text.
     pub(crate) text: String,
 }
 
-/// What the comment at the head of a scene says.
+/// The contents of the comment at the head of a scene.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct Header {
     pub(crate) title: String,
@@ -23,7 +23,7 @@ pub(crate) struct Header {
     pub(crate) description: String,
 }
 
-/// The scenes of a folder by name, all of them or the named ones.
+/// The scenes of a folder, sorted by name; all of them or the named ones.
 pub(crate) fn list(folder: &Path, names: &[String]) -> Outcome<Vec<Scene>> {
     let fail = |e: std::io::Error| format!("{}: {e}", folder.display());
     let mut scenes = Vec::new();

@@ -1,6 +1,7 @@
-//! `cargo xtask soak`: the tests that draw their cases at random, turn after turn, with cases that no turn before has drawn; docs/reliability.md adds them up.
+//! `cargo xtask soak`: runs the tests with random cases in turns, each with cases that no turn
+//! before has drawn. docs/reliability.md adds up the results.
 //!
-//! Each turn goes to the kind that has had the fewest rays, and takes about a minute.
+//! Each turn runs the kind with the fewest rays so far, and takes about a minute.
 
 use crate::Outcome;
 use crate::command::{built, root, scratch};
@@ -12,22 +13,23 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 const PAGE: &str = "docs/reliability.md";
-/// Before what the next turn needs to know.
+/// The start of the line that the next turn reads.
 const DRAWN: &str = "<!-- drawn: ";
-/// How long a turn should take. One of a kind whose speed is not known yet may take shorter.
+/// The intended time of a turn. While the speed of a kind is not known, its turn may be shorter.
 const TURN: Duration = Duration::from_secs(60);
-/// How many times as many cases as the last one a turn may have: speeds of short turns are not known well.
+/// The greatest growth of the number of cases from turn to turn. The speed of a short turn is not a
+/// reliable measure.
 const GROWTH: f64 = 32.0;
-/// The tests of durer-surfaces that a soak runs have this in their names.
+/// The tests of durer-surfaces in a soak have this in their names.
 const LAW: &str = "obey_the_laws";
 
-/// What is counted together.
+/// Tests that are counted together.
 struct Kind {
     name: String,
     program: Program,
-    /// The tests' names; none stand for all of the program.
+    /// The names of the tests; empty for all tests of the program.
     tests: Vec<String>,
-    /// How many times the cases of a test run the next turn draws.
+    /// The number of cases of the next turn, as a multiple of an ordinary test run.
     factor: u64,
 }
 
@@ -41,22 +43,22 @@ struct Program {
 const MESHES: Program = Program { package: "durer-geometry", target: &["--test", "leaks"] };
 const SURFACES: Program = Program { package: "durer-surfaces", target: &["--lib"] };
 
-/// What the page adds up.
+/// The sums on the page.
 #[derive(Debug, Default)]
 struct Sums {
-    /// How many times the cases of a test run each of the kinds has drawn.
+    /// The cases that each kind has drawn, as a multiple of an ordinary test run.
     drawn: BTreeMap<String, u64>,
-    /// Rays, and tests that failed, of each row.
+    /// The rays and the failed tests of each row.
     rows: BTreeMap<String, (u64, u64)>,
 }
 
-/// What is asked for on the command line.
+/// The request on the command line.
 #[derive(Debug, PartialEq)]
 struct Request {
     minutes: u64,
-    /// Kinds stop at so many rays.
+    /// The number of rays at which a kind stops.
     rays: u64,
-    /// None stand for all.
+    /// The requested kinds; empty for all.
     kinds: Vec<String>,
 }
 
@@ -110,7 +112,7 @@ pub(crate) fn run(words: &[String]) -> Outcome {
         programs.insert(kind.program.package, program.clone());
         let start = Instant::now();
         let outcome = kind.turn(&program, &mut sums);
-        // What has been seen stays seen, whatever comes next.
+        // The results so far are saved, whatever happens next.
         std::fs::write(&path, sums.page()).map_err(|e| format!("{PAGE}: {e}"))?;
         outcome?;
         kind.factor = next_factor(kind.factor, start.elapsed());
@@ -119,13 +121,13 @@ pub(crate) fn run(words: &[String]) -> Outcome {
     Ok(())
 }
 
-/// How many times the cases of a test run take a turn, if `factor` times took so long.
+/// The factor for a turn of the intended time, if a turn with `factor` took this long.
 fn next_factor(factor: u64, took: Duration) -> u64 {
     let growth = (TURN.as_secs_f64() / took.as_secs_f64().max(1e-3)).min(GROWTH);
     ((factor as f64 * growth) as u64).max(1)
 }
 
-/// Closed meshes, and each kind of surface: all modules of durer-surfaces that have tests of the laws.
+/// The kinds: closed meshes, and all modules of durer-surfaces with tests of the laws.
 fn kinds(surfaces: &Path) -> Outcome<Vec<Kind>> {
     let mut kinds = vec![Kind { name: "meshes".into(), program: MESHES, tests: vec![], factor: 1 }];
     let list = Command::new(surfaces).arg("--list").output();
@@ -146,7 +148,7 @@ fn kinds(surfaces: &Path) -> Outcome<Vec<Kind>> {
 }
 
 impl Program {
-    /// Builds it and keeps a copy: a soak goes on with what it began with, whatever is built meanwhile.
+    /// Builds the program and keeps a copy, so that later builds do not change a running soak.
     fn build(self) -> Outcome<PathBuf> {
         let arguments = [&["test", "--release", "--no-run", "--package", self.package], self.target].concat();
         let path = built(&format!("cargo {}", arguments.join(" ")), &arguments, |_| true)?;
@@ -172,7 +174,7 @@ impl Kind {
         let mut listed = false;
         for line in child.stdout.take().map(BufReader::new).into_iter().flat_map(BufRead::lines) {
             let line = line.map_err(|e| format!("{}: {e}", self.name))?;
-            // The harness puts its dots before what a test prints.
+            // The test harness prints its dots before the output of a test.
             if let Some((_, soaked)) = line.split_once("soaked: ") {
                 let (test, rays) = soaked.rsplit_once(' ').unwrap_or((soaked, "0"));
                 sums.rows.entry(self.row(test)).or_default().0 += rays.parse::<u64>().unwrap_or(0);
@@ -190,27 +192,27 @@ impl Kind {
         if status.success() { Ok(()) } else { Err(format!("{}: failed ({status})", self.name)) }
     }
 
-    /// The row for which a test counts: tests of meshes have rows of their own.
+    /// The row in which a test is counted. Tests of meshes have rows of their own.
     fn row(&self, test: &str) -> String {
         if self.tests.is_empty() { format!("{}: {}", self.name, module(test)) } else { self.name.clone() }
     }
 }
 
-/// The module of a test in words; its own name, if it has none.
+/// The module of a test, in words; the test's own name if it has no module.
 fn module(test: &str) -> String {
     let module = test.split("::tests").next().unwrap_or(test);
     module.replace("::", " ").replace('_', " ")
 }
 
 impl Sums {
-    /// How many rays a kind has had: the least of its rows.
+    /// The number of rays of a kind: the least of its rows.
     fn rays(&self, kind: &str) -> u64 {
         let is_of =
             |row: &str| row == kind || row.strip_prefix(kind).is_some_and(|rest| rest.starts_with(": "));
         self.rows.iter().filter(|(row, _)| is_of(row)).map(|(_, sums)| sums.0).min().unwrap_or(0)
     }
 
-    /// What a page has added up; nothing, if it is not one of ours.
+    /// Reads the sums on a page; empty if it is not one of ours.
     fn read(page: &str) -> Self {
         let mut sums = Self::default();
         for line in page.lines() {
@@ -231,7 +233,8 @@ impl Sums {
     fn table(&self) -> String {
         let mut table = String::from("| kind | rays | violations | rate below |\n|---|---:|---:|---:|\n");
         for (name, &(rays, failed)) in &self.rows {
-            // The rule of three: with none in n, the rate is below 3/n with a confidence of 95 %.
+            // The rule of three: with no failure in n cases, the rate is below 3/n with a
+            // confidence of 95 %.
             let bound =
                 if failed == 0 && rays > 0 { format!("{:.1e}", 3.0 / rays as f64) } else { "-".into() };
             let _ = writeln!(table, "| {name} | {} | {failed} | {bound} |", grouped(rays));

@@ -1,4 +1,4 @@
-//! NumPy's files: rays in, arrays of answers out.
+//! NumPy files: arrays of rays as input, arrays of answers as output.
 
 use durer::math::{Point3, Ray, Vec3};
 use npyz::{DType, NpyFile, Order, WriterBuilder};
@@ -68,12 +68,13 @@ pub(crate) struct NpzWriter {
 }
 
 impl NpzWriter {
-    /// Over a file that is open for writing.
+    /// Makes a writer for a file that is open for writing.
     pub(crate) fn new(file: File) -> Self {
         Self { zip: zip::ZipWriter::new(BufWriter::new(file)) }
     }
 
-    /// Adds the array `name`: `values` in C order, of shape `(len,)` or `(len / columns, columns)`.
+    /// Adds the array `name`: `values` in C order, with the shape `(len,)` or
+    /// `(len / columns, columns)`.
     pub(crate) fn array<T>(&mut self, name: &str, columns: Option<u64>, values: Vec<T>) -> std::io::Result<()>
     where
         T: npyz::AutoSerialize + npyz::Serialize + Copy,
@@ -90,7 +91,7 @@ impl NpzWriter {
         writer.finish()
     }
 
-    /// Writes the directory and hands every byte to the system.
+    /// Writes the directory and flushes the file.
     pub(crate) fn finish(self) -> std::io::Result<()> {
         let mut file = self.zip.finish()?;
         file.flush()?;

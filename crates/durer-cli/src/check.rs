@@ -1,4 +1,4 @@
-//! `durer check`: reads a scene, builds it, and says what it is.
+//! `durer check`: reads a scene, builds it, and reports its contents.
 
 use crate::args::CheckArgs;
 use crate::failure::Failure;
@@ -45,7 +45,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// How the triangles of a mesh hang together.
+/// Reports how the triangles of a mesh are connected.
 fn report(faces: usize, topology: &Topology) {
     let Topology { degenerate, duplicates, open_edges, turned_edges, shared_edges, is_closed } = *topology;
     println!("  mesh        {faces} faces, {}", if is_closed { "closed: a solid" } else { "open: a sheet" });
@@ -61,7 +61,7 @@ fn report(faces: usize, topology: &Topology) {
     }
 }
 
-/// A type's name without the path to it.
+/// The name of a type without its path.
 fn short(name: &str) -> String {
     name.split('<').map(|part| part.rsplit("::").next().unwrap_or(part)).collect::<Vec<_>>().join("<")
 }

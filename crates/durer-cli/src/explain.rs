@@ -1,4 +1,4 @@
-//! `durer explain`: what happens to one ray, in words.
+//! `durer explain`: reports in words what happens to one ray.
 
 use crate::args::ExplainArgs;
 use crate::failure::Failure;
@@ -23,7 +23,7 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The ray through a pixel's centre.
+/// The ray through the centre of a pixel.
 fn through_pixel(
     path: &Path,
     scene: &Scene,

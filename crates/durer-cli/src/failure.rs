@@ -1,12 +1,12 @@
-//! How the command ends when it does not end well.
+//! Failures of the command, with their messages and exit codes.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Why the command stopped: one message, one exit code.
+/// Why the command failed: it prints one message and ends with one exit code.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
-    /// The input is wrong. The message is complete, place and underlined text included.
+    /// The input is wrong. The message is complete, with place and underlined text.
     #[error("{0}")]
     Input(String),
     /// The command line is wrong.
@@ -18,7 +18,7 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    /// An input error of a file: its name, then what is wrong.
+    /// An error in a file: its name, then the message.
     pub(crate) fn file(path: &std::path::Path, what: impl std::fmt::Display) -> Self {
         Self::Input(format!("error: {}: {what}", path.display()))
     }

@@ -1,4 +1,4 @@
-//! Scenes: from a file's name to what can be asked.
+//! Input: from a file's name to a scene and its geometry.
 
 use crate::args::SceneArgs;
 use crate::failure::Failure;
@@ -12,15 +12,15 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
-/// A scene that was read.
+/// A scene that has been read.
 pub(crate) enum Loaded {
-    /// A scene in POV-Ray's language, with its text for messages.
+    /// A scene in POV-Ray's language, with its text for error messages.
     Pov(Box<Read>),
-    /// A mesh file.
+    /// The scene of a mesh file.
     Mesh(PathBuf, Box<Scene>),
 }
 
-/// Reads the scene; what it says goes to stderr.
+/// Reads the scene; its messages go to stderr.
 pub(crate) fn load(args: &SceneArgs, (width, height): (u32, u32)) -> Result<Loaded, Failure> {
     Isa::requested().map_err(|e| Failure::Usage(e.to_string()))?;
     if Format::of(&args.scene).is_some() {
@@ -42,7 +42,8 @@ pub(crate) fn load(args: &SceneArgs, (width, height): (u32, u32)) -> Result<Load
         image_height: height,
         limits,
     };
-    // Scenes end the lines of their `#debug` themselves, or forget it: other messages begin on a line of their own.
+    // Scenes end the lines of their `#debug` messages themselves, or forget to. Other messages
+    // start on a new line.
     let is_open = std::sync::atomic::AtomicBool::new(false);
     let end_line = || {
         if is_open.swap(false, Ordering::Relaxed) {
@@ -98,12 +99,12 @@ impl Loaded {
         }
     }
 
-    /// How many faces each mesh of a mesh file has, and how they hang together.
+    /// The number of faces of each mesh of a mesh file, and how they are connected.
     pub(crate) fn topologies(&self) -> Vec<(usize, Topology)> {
         let Self::Mesh(_, scene) = self else { return Vec::new() };
         let mut known = HashSet::new();
         let meshes = scene.objects.iter().filter_map(|object| match &object.shape {
-            // Each mesh once, however many objects have it.
+            // Each mesh is counted once, however many objects share it.
             Shape::Mesh(mesh) => {
                 known.insert(Arc::as_ptr(mesh)).then(|| (mesh.faces.len(), Topology::of(mesh)))
             }
@@ -112,7 +113,7 @@ impl Loaded {
         meshes.collect()
     }
 
-    /// A message about the input, with its place if it is known.
+    /// A message about the input, with its place if the place is known.
     fn message(&self, place: Option<Place>, text: String) -> String {
         match self {
             Self::Pov(read) => read.sources.error(place, text).to_string(),
@@ -120,14 +121,14 @@ impl Loaded {
         }
     }
 
-    /// Builds the geometry; what the scene's author should know goes to stderr.
+    /// Builds the geometry; warnings for the scene's author go to stderr.
     pub(crate) fn lower(&self) -> Result<Lowered, Failure> {
         let lowered = self.scene().lower().map_err(|e| self.refused(&e))?;
         self.warn(&lowered.warnings);
         Ok(lowered)
     }
 
-    /// Builds all that a picture needs, warnings as for [`Loaded::lower`].
+    /// Builds everything that a picture needs; warnings as in [`Loaded::lower`].
     pub(crate) fn world(&self) -> Result<World, Failure> {
         let world = World::new(self.scene()).map_err(|e| match e {
             WorldError::Lower(e) => self.refused(&e),
@@ -152,11 +153,11 @@ impl Loaded {
     }
 }
 
-/// Stack of a thread: kernels that the compiler did not optimise have frames of hundreds of
-/// kilobytes. Only what is used is ever touched.
+/// The size of a thread's stack. Without compiler optimisation, kernels have frames of hundreds of
+/// kilobytes. Only the part that is used takes memory.
 const STACK: usize = 64 << 20;
 
-/// Runs `work` with so many threads, or with as many as there are cores.
+/// Runs `work` with this many threads, or with one for each core.
 pub(crate) fn with_threads<R: Send>(
     threads: Option<u16>,
     work: impl FnOnce() -> Result<R, Failure> + Send,

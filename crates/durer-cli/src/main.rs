@@ -1,4 +1,4 @@
-//! The command `durer`: it parses its words, calls the library, and prints.
+//! The command `durer`: it parses the command line, calls the library, and prints the answers.
 #![forbid(unsafe_code)]
 
 mod args;

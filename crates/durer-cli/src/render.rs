@@ -1,4 +1,4 @@
-//! `durer render`: a scene in, a picture out.
+//! `durer render`: renders a scene to a picture.
 
 use crate::args::RenderArgs;
 use crate::failure::Failure;
@@ -38,8 +38,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
             depth: format.depth(),
             threads: None,
         };
-        // If there can be no handler, Ctrl-C ends the program as it always did, and only the
-        // partial picture is lost.
+        // Without a handler, Ctrl-C ends the program as usual, and only the partial picture is
+        // lost.
         let _ = ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
         let rendered = watched(&world, &settings, args.no_progress);
         let rendered = rendered.map_err(|e| Failure::file(&args.scene.scene, e))?;
@@ -52,7 +52,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     })
 }
 
-/// Renders, with a bar on stderr if someone is there to see it.
+/// Renders the picture, with a progress bar on stderr if that is a terminal.
 fn watched(world: &World, settings: &RenderSettings, quiet: bool) -> Result<Rendered, RenderError> {
     let progress = Progress::none().cancelled_by(&INTERRUPTED);
     if quiet || !std::io::stderr().is_terminal() {
@@ -93,7 +93,7 @@ fn partial_name(output: &Path) -> PathBuf {
     output.with_extension(format!("partial.{ending}"))
 }
 
-/// Asks before the work, not after it, whether there is a place for the result.
+/// Checks before the work whether the output can be written.
 fn check_place(output: &Path) -> Result<(), Failure> {
     let folder = output.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if output.is_dir() {

@@ -1,4 +1,4 @@
-//! `durer trace`: an array of rays in, arrays of answers out.
+//! `durer trace`: answers queries for an array of rays.
 
 use crate::args::{Query, TraceArgs};
 use crate::arrays::{NpzWriter, read_rays};
@@ -9,11 +9,12 @@ use durer::math::Ray;
 use durer::surfaces::{Need, SurfacePoint};
 use rayon::prelude::*;
 
-/// Rays per step: answers of one step are held beside the columns they go to.
+/// The number of rays in a step. The answers of one step are held in memory in addition to the
+/// columns.
 const STEP: usize = 1 << 16;
-/// `primitive` of a ray that misses.
+/// The value of `primitive` for a ray that misses.
 const NO_PRIMITIVE: u32 = u32::MAX;
-/// `kind` of a ray that misses.
+/// The value of `kind` for a ray that misses.
 const NO_KIND: u8 = 255;
 
 pub(crate) fn run(args: &TraceArgs) -> Result<(), Failure> {
@@ -21,7 +22,7 @@ pub(crate) fn run(args: &TraceArgs) -> Result<(), Failure> {
         return Err(Failure::Usage(format!("the output must end in .npz, got '{}'", args.output.display())));
     }
     input::with_threads(args.threads, || {
-        // A scene may ask for the picture's size; here it is the default one's.
+        // A scene may depend on the picture's size; this is the default size.
         let world = input::load(&args.scene, (800, 600))?.lower()?;
         let rays = read_rays(&args.rays).map_err(|e| Failure::file(&args.rays, e))?;
         let geometry = &world.geometry;
@@ -46,7 +47,7 @@ pub(crate) fn run(args: &TraceArgs) -> Result<(), Failure> {
     })
 }
 
-/// The answers of `closest` and `all`, a column each.
+/// The answers of `closest` and `all`, one column for each.
 #[derive(Default)]
 struct Columns {
     t: Vec<f64>,
@@ -98,7 +99,7 @@ impl Columns {
     }
 }
 
-/// The hit with its point.
+/// The hit, together with its point.
 fn resolved(geometry: &Geometry, ray: &Ray, hit: Hit) -> (Hit, SurfacePoint) {
     (hit, geometry.resolve_with(ray, &hit, Need::UV))
 }

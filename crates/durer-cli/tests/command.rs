@@ -1,4 +1,4 @@
-//! The command as a shell sees it: what it exits with, and what it leaves behind.
+//! Tests of the command as a shell sees it: its exit codes and its output files.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -57,8 +57,8 @@ fn wrong_usage_is_told_from_wrong_input() {
     assert_eq!(output.status.code(), Some(1), "{output:?}");
 }
 
-/// A tetrahedron twice, `x` to the right by 2 the second time: as OBJ, and as glTF that shows one
-/// mesh twice, or two.
+/// A tetrahedron and a copy of it, 2 to the right along `x`: as OBJ, as glTF that shows one mesh
+/// twice, and as glTF with two meshes.
 fn tetrahedra() -> [String; 3] {
     let obj = |dx: f64| format!("v {dx} 0 0\nv {} 0 0\nv {dx} 1 0\nv {dx} 0 1\n", dx + 1.0);
     let faces = |n: i32| {
@@ -69,7 +69,7 @@ fn tetrahedra() -> [String; 3] {
     let mut bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
     bytes.extend([0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3]);
     const LETTERS: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    // 60 bytes are 80 letters.
+    // 60 bytes become 80 characters.
     let letters = bytes.chunks(3).flat_map(|three| {
         let bits = three.iter().fold(0_usize, |bits, &b| bits << 8 | usize::from(b));
         [18, 12, 6, 0].map(|shift| char::from(LETTERS[bits >> shift & 63]))
@@ -91,7 +91,7 @@ fn tetrahedra() -> [String; 3] {
     [format!("o a\n{}{}o b\n{}{}", obj(0.0), faces(0), obj(2.0), faces(4)), gltf(1), gltf(2)]
 }
 
-/// What is left out is told with the file and the place; the rest is read.
+/// A warning names the file and the place of what is left out; the rest is read.
 #[test]
 fn warnings_of_a_mesh_file_name_the_file() {
     let folder = folder("mesh-warnings");
@@ -106,8 +106,8 @@ fn warnings_of_a_mesh_file_name_the_file() {
     assert!(String::from_utf8_lossy(&output.stdout).contains("primitives  1\n"), "{output:?}");
 }
 
-/// The same triangles make the same picture, whatever file they come from and however often a mesh
-/// is stored.
+/// The same triangles make the same picture, whatever the file's format and however often a mesh is
+/// stored.
 #[test]
 fn a_mesh_shown_twice_looks_like_two_meshes() {
     let folder = folder("meshes");

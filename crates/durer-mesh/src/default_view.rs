@@ -1,4 +1,4 @@
-//! A mesh file as a scene: framed and lit.
+//! The default view of a mesh file: a scene with a camera and a light.
 
 use crate::{Format, Instance, Model, Topology};
 use durer_math::{Aabb, Affine, Point3, Vec3};
@@ -7,15 +7,16 @@ use durer_scene::{
 };
 use std::sync::Arc;
 
-/// Half the smaller side of the picture at distance one: 20 degrees.
+/// Half of the smaller side of the picture at distance one: the tangent of 20 degrees.
 const SLOPE: f64 = 0.364;
 
-/// The direction that tells inside from outside of closed meshes: any will do; along no axis, and
-/// in no plane of two, few edges of modelled parts are met exactly.
+/// The direction along which closed meshes tell inside from outside. Any direction works. This one
+/// lies along no axis and in no coordinate plane, so it rarely meets an edge of a modelled part
+/// exactly.
 const INSIDE: Vec3 = Vec3::new(0.48, 0.6, 0.64);
 
 impl Model {
-    /// A box that holds all vertices that are finite.
+    /// A box that contains all finite vertices.
     pub fn bounds(&self) -> Aabb {
         let of = |group: &crate::Group| {
             let vertices = group.mesh.vertices.iter().copied();
@@ -29,8 +30,9 @@ impl Model {
         self.instances.iter().map(placed).fold(Aabb::EMPTY, Aabb::union)
     }
 
-    /// An object for each instance, in their order, those of one group with one mesh; light grey
-    /// where a file has no colours. Groups that are closed, as [`Topology`] has it, are solids.
+    /// Makes an object for each instance, in their order. Instances of one group share one mesh.
+    /// Objects are light grey if the file has no colours. Groups that are closed according to
+    /// [`Topology`] become solids.
     pub fn into_objects(self) -> Vec<Object> {
         let texture = Arc::new(paint(Colour::opaque(Rgb::new(0.8, 0.8, 0.8))));
         let mesh = |group: crate::Group| {
@@ -47,9 +49,10 @@ impl Model {
         self.instances.into_iter().map(object).collect()
     }
 
-    /// The objects with a camera that sees all of them and a light behind its left shoulder. The
-    /// camera is right-handed: nothing is mirrored. Up is +y; in [STL](Format::Stl) files, which
-    /// machines make, +z. `width` and `height` are the picture's.
+    /// Makes a scene: the objects, a camera that sees all of them, and a light behind its left
+    /// shoulder. The camera is right-handed, so nothing is mirrored. Up is +y; in
+    /// [STL](Format::Stl) files, which come from machines, it is +z. `width` and `height` are those
+    /// of the picture.
     pub fn into_scene(self, width: u32, height: u32) -> Scene {
         let bounds = self.bounds();
         let (centre, half) = if bounds.is_bounded() && !bounds.is_empty() {
@@ -59,7 +62,8 @@ impl Model {
         };
         let radius = half.length();
         let radius = if radius > 0.0 { radius } else { 1.0 };
-        // From the front, a little from the right and from above; `back` points to the viewer.
+        // The view is from the front, a little from the right and from above; `back` points to the
+        // viewer.
         let (front, side, top) = match self.format {
             Format::Stl => (-Vec3::Y, Vec3::X, Vec3::Z),
             _ => (Vec3::Z, Vec3::X, Vec3::Y),
@@ -69,8 +73,8 @@ impl Model {
         let up = back.cross(right);
         let (width, height) = (f64::from(width.max(1)), f64::from(height.max(1)));
         let unit_of = 2.0 * SLOPE / width.min(height);
-        // The ball around everything touches the picture's sides: 1 / sin of an angle by its
-        // tangent.
+        // The ball around everything touches the sides of the picture. Its distance is
+        // `radius / sin` of the angle whose tangent is `SLOPE`.
         let distance = radius * SLOPE.mul_add(SLOPE, 1.0).sqrt() / SLOPE;
         let location = centre + back * distance;
         let camera = Camera {
@@ -91,7 +95,7 @@ impl Model {
     }
 }
 
-/// A matt paint.
+/// A matt texture of one colour.
 pub(crate) fn paint(colour: Colour) -> Texture {
     Texture::plain(Pigment::solid(colour), Finish { diffuse: 0.9, ..Finish::default() })
 }

@@ -1,4 +1,4 @@
-//! What can be wrong with a mesh file.
+//! Errors in mesh files.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -16,13 +16,13 @@ pub struct MeshError {
 /// A place in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location {
-    /// A line of text, from 1.
+    /// A line of text, counted from 1.
     Line(usize),
-    /// A byte, from 0.
+    /// A byte, counted from 0.
     Byte(usize),
-    /// An element of a list, from 0: its kind and its number.
+    /// An element of a list: its kind, and its number counted from 0.
     Element(&'static str, usize),
-    /// A mesh, from 0, and a primitive of it.
+    /// A mesh and one of its primitives, counted from 0.
     Primitive(usize, usize),
 }
 
@@ -40,127 +40,127 @@ impl fmt::Display for Location {
 /// What is wrong with a mesh file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ErrorKind {
-    /// The file's ending is none that can be read.
+    /// The file's extension is not that of a known format.
     #[error("the ending tells no format that can be read: .obj, .ply, .stl, .gltf or .glb")]
     Format,
-    /// The file cannot be read at all.
+    /// The file cannot be opened or read.
     #[error("cannot be read: {0}")]
     Read(String),
-    /// There is no triangle in it.
+    /// The file contains no triangle.
     #[error("there are no faces in it")]
     Empty,
-    /// Something else should stand at a place.
+    /// Something unexpected stands at a place.
     #[error("{spot}: expected {expected}, found '{found}'")]
     Expected {
-        /// Where.
+        /// The place.
         spot: Location,
-        /// What should be there.
+        /// What was expected.
         expected: &'static str,
-        /// What is there.
+        /// What was found.
         found: String,
     },
     /// The file ends too early.
     #[error("{spot}: the file ends where {expected} should follow")]
     End {
-        /// Where.
+        /// The place.
         spot: Location,
-        /// What should follow.
+        /// What was expected next.
         expected: &'static str,
     },
-    /// An index names nothing.
+    /// An index is out of range.
     #[error("{spot}: there is no {what} {index}, there are {count} so far")]
     Index {
-        /// Where.
+        /// The place.
         spot: Location,
-        /// What the index should name.
+        /// What the index refers to.
         what: &'static str,
-        /// The index as it is written.
+        /// The index as written.
         index: i64,
-        /// How many there are.
+        /// The number of items.
         count: usize,
     },
-    /// A header promises more than the file has room for.
+    /// A header declares more than the file has room for.
     #[error("the header promises {promised} {what}, but the file has room for {room}")]
     Promise {
-        /// Of what.
+        /// What it declares.
         what: String,
-        /// How many.
+        /// The declared number.
         promised: u64,
-        /// How many there can be.
+        /// The greatest number that fits.
         room: u64,
     },
-    /// A binary STL file ends before all of its triangles are there.
+    /// A binary STL file ends before the last of its triangles.
     #[error("the file ends {} triangle {triangle} of {promised}", if *.is_begun { "in" } else { "before" })]
     Cut {
-        /// Whether some of the triangle is there.
+        /// Whether the file contains a part of that triangle.
         is_begun: bool,
-        /// Its number, from 1.
+        /// The number of the triangle, counted from 1.
         triangle: u64,
-        /// How many triangles the header promises.
+        /// The number of triangles that the header declares.
         promised: u32,
     },
-    /// An element of a list promises more than there is.
+    /// An element of a list declares more than the file has.
     #[error("{spot}: it promises {promised} {what}, but there is room for {room}")]
     Room {
-        /// Where.
+        /// The place.
         spot: Location,
-        /// Of what.
+        /// What it declares.
         what: String,
-        /// How many.
+        /// The declared number.
         promised: u64,
-        /// How many there can be.
+        /// The greatest number that fits.
         room: u64,
     },
-    /// Few bytes that would fill any memory.
+    /// A small file would become a mesh of any size.
     #[error(
         "the meshes use the same lists over and over: {made} vertices and triangles so far, more than {most}"
     )]
     Repeated {
-        /// How many there would be.
+        /// The number of vertices and triangles so far.
         made: u64,
-        /// How many a file of this size may have.
+        /// The greatest number for a file of this size.
         most: u64,
     },
-    /// The text of a glTF file is no JSON, or not of this format.
+    /// The text of a glTF file is not JSON, or not glTF.
     #[error("JSON, line {line}, column {column}: {said}")]
     Text {
-        /// The line, from 1.
+        /// The line, counted from 1.
         line: usize,
-        /// The column, from 1.
+        /// The column, counted from 1.
         column: usize,
-        /// What the reader says.
+        /// The message of the JSON parser.
         said: String,
     },
-    /// Something known that cannot be read yet.
+    /// A known feature that is not supported yet.
     #[error("{spot}: not supported yet: {what}")]
     Unsupported {
-        /// Where.
+        /// The place.
         spot: Location,
-        /// What.
+        /// The feature.
         what: String,
     },
-    /// A face is not convex and has too many corners to be cut into triangles.
+    /// A face is not convex and has too many corners to be divided into triangles.
     #[error("{spot}: a face that is not convex has {count} corners, more than {most}")]
     Corners {
-        /// Where.
+        /// The place.
         spot: Location,
-        /// Its corners.
+        /// The number of its corners.
         count: usize,
-        /// How many can be dealt with.
+        /// The greatest number that is supported.
         most: usize,
     },
-    /// More vertices or faces than 32 bits count.
+    /// There are more vertices or faces than 32 bits can count.
     #[error("there are more than {} vertices or triangles in a group", u32::MAX)]
     TooMany,
-    /// The header is not one of this format: what its reader says.
+    /// The header is not one of this format; the text is the parser's message.
     #[error("{0}")]
     Header(String),
-    /// An element is not what the header declares: what the reader says.
+    /// An element does not agree with the header or the format.
     #[error("{spot}: {said}")]
     Element {
-        /// Where.
+        /// The place.
         spot: Location,
-        /// What is wrong.
+        /// The description of the error.
         said: String,
     },
 }

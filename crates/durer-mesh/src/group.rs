@@ -1,4 +1,4 @@
-//! Groups while they are read.
+//! Groups of faces while a file is read.
 
 use crate::Group;
 use crate::error::{ErrorKind, Location};
@@ -6,7 +6,7 @@ use crate::polygon;
 use durer_math::{Point3, Vec3};
 use durer_scene::Face;
 
-/// A corner of a face: the numbers of its vertex, its texture coordinates and its normal in the
+/// A corner of a face: the indices of its vertex, its texture coordinates and its normal in the
 /// file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Corner {
@@ -15,7 +15,7 @@ pub(crate) struct Corner {
     pub(crate) normal: Option<u32>,
 }
 
-/// All vertices, texture coordinates and normals of a file, and the group that is being read.
+/// All vertices, texture coordinates and normals of a file, and the current group.
 #[derive(Default)]
 pub(crate) struct Groups {
     pub(crate) vertices: Vec<Point3>,
@@ -23,18 +23,18 @@ pub(crate) struct Groups {
     pub(crate) normals: Vec<Vec3>,
     done: Vec<Group>,
     now: Group,
-    /// The numbers that the file's vertices, texture coordinates and normals have in the group;
-    /// [`NONE`] for those it has not used.
+    /// The indices in the group of the file's vertices, texture coordinates and normals; [`NONE`]
+    /// for those that the group does not use.
     vertex_here: Vec<u32>,
     uv_here: Vec<u32>,
     normal_here: Vec<u32>,
-    /// Memory for one face.
+    /// A buffer for one face.
     corners: Vec<Point3>,
 }
 
 const NONE: u32 = u32::MAX;
 
-/// The number in a group of an item of the file; new ones are added.
+/// The index in a group of an item of the file. New items are added.
 fn here<T: Copy>(map: &mut Vec<u32>, all: &[T], used: &mut Vec<T>, number: u32) -> Result<u32, ErrorKind> {
     if map.len() < all.len() {
         map.resize(all.len(), NONE);
@@ -48,7 +48,7 @@ fn here<T: Copy>(map: &mut Vec<u32>, all: &[T], used: &mut Vec<T>, number: u32) 
 }
 
 impl Group {
-    /// All faces are there: where one has texture coordinates, all have some or none.
+    /// Ends the group: if one face has texture coordinates, `uv_faces` gets an entry for each face.
     pub(crate) fn end(&mut self) {
         if !self.mesh.uv_faces.is_empty() {
             self.mesh.uv_faces.resize(self.mesh.faces.len(), None);
@@ -57,7 +57,7 @@ impl Group {
 }
 
 impl Groups {
-    /// What follows belongs to another group.
+    /// Starts another group.
     pub(crate) fn begin(&mut self, name: &str) {
         self.finish();
         self.now.name = name.to_string();
@@ -74,7 +74,7 @@ impl Groups {
         }
     }
 
-    /// Adds a face whose indices are in range. Points and lines are left out.
+    /// Adds a face whose indices are in range. Points and lines are ignored.
     pub(crate) fn face(&mut self, face: &[Corner], spot: Location) -> Result<(), ErrorKind> {
         if face.len() < 3 {
             return Ok(());

@@ -1,14 +1,14 @@
-//! Mesh files as scene data: OBJ, PLY (as text and both binary orders), STL (as text and binary)
-//! and glTF 2.0 (as text and binary).
+//! This crate reads mesh files as scene data: OBJ, PLY (as text and in both binary orders), STL (as
+//! text and binary) and glTF 2.0 (as text and binary).
 //!
-//! [`read`] gives a [`Model`]: groups of triangles in the file's order, with the coordinates as f64
-//! wherever the file has that many digits, and where each of them is shown. Texture coordinates
-//! come along to the hits of rays; no texture depends on them yet. [`Model::into_scene`] frames and
-//! lights them; [`Topology`] says whether they are closed.
+//! [`read`] returns a [`Model`]: groups of triangles in the file's order, and the placements at
+//! which they are shown. Coordinates are f64 if the file has that many digits. Hits of rays report
+//! the file's texture coordinates; no texture uses them yet. [`Model::into_scene`] adds a camera
+//! and a light, and [`Topology`] says whether the meshes are closed.
 //!
 //! Nothing in a file is trusted: counts in headers reserve no memory, indices are checked, and
-//! errors name the place. What other programs write and can be left out without harm to the rest is
-//! left out with a [`Warning`].
+//! errors name the place. Defects that other programs commonly write, and that can be left out
+//! without harm to the rest, are left out with a [`Warning`].
 //!
 //! ```
 //! use durer_mesh::{Format, read_bytes};
@@ -38,33 +38,33 @@ use durer_math::Affine;
 use durer_scene::Mesh;
 use std::path::Path;
 
-/// What a file holds.
+/// The contents of a mesh file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
-    /// Its groups, in its order; there is at least one, and each has a triangle.
+    /// The groups in the file's order. There is at least one, and each has a triangle.
     pub groups: Vec<Group>,
-    /// Where they are shown; at least one. In formats without transforms each group stands once
-    /// where its coordinates say.
+    /// The placements of the groups; at least one. In formats without transforms each group has one
+    /// instance, with the identity.
     pub instances: Vec<Instance>,
-    /// Its format.
+    /// The format of the file.
     pub format: Format,
-    /// What was left out.
+    /// Warnings about what was left out.
     pub warnings: Vec<Warning>,
 }
 
-/// Triangles that belong together.
+/// Triangles that form one mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Group {
-    /// Its name in the file; may be empty.
+    /// The name in the file; may be empty.
     pub name: String,
-    /// Its triangles. Polygons are cut into triangles, in the order of the file.
+    /// The triangles. Polygons are divided into triangles, in the order of the file.
     pub mesh: Mesh,
 }
 
-/// A group in its place.
+/// A group with a placement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Instance {
-    /// The number of the group.
+    /// The index of the group.
     pub group: usize,
     /// From the group's own frame to the world.
     pub placement: Affine,
@@ -73,18 +73,18 @@ pub struct Instance {
 /// The formats that can be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// Wavefront's text format.
+    /// Wavefront's text format, OBJ.
     Obj,
-    /// The polygon file format of Stanford.
+    /// PLY, Stanford's polygon file format.
     Ply,
-    /// The format of stereolithography.
+    /// STL, the format of stereolithography.
     Stl,
-    /// Khronos' format, as text or binary.
+    /// glTF, Khronos' format, as text or binary.
     Gltf,
 }
 
 impl Format {
-    /// The format that goes with a file's ending, whatever its case.
+    /// The format for a file's extension, in upper or lower case.
     pub fn of(path: &Path) -> Option<Self> {
         match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
             "obj" => Some(Self::Obj),
@@ -96,12 +96,12 @@ impl Format {
     }
 }
 
-/// Reads a mesh file; its ending tells the format.
+/// Reads a mesh file. Its extension decides the format.
 pub fn read(path: &Path) -> Result<Model, MeshError> {
     let fail = |kind| MeshError { path: path.to_path_buf(), kind };
     let format = Format::of(path).ok_or_else(|| fail(ErrorKind::Format))?;
     let failed = |e: std::io::Error| fail(ErrorKind::Read(e.to_string()));
-    // A pipe is not even opened: that could wait for ever.
+    // A pipe is not opened, because that could wait forever.
     if !std::fs::metadata(path).map_err(failed)?.is_file() {
         return Err(fail(ErrorKind::Read("it is no file".into())));
     }
@@ -109,7 +109,7 @@ pub fn read(path: &Path) -> Result<Model, MeshError> {
     read_beside(&bytes, format, path.parent()).map_err(fail)
 }
 
-/// Reads a mesh file that is in memory. There are no files beside it.
+/// Reads a mesh file from memory. It cannot refer to other files.
 pub fn read_bytes(bytes: &[u8], format: Format) -> Result<Model, ErrorKind> {
     read_beside(bytes, format, None)
 }

@@ -1,10 +1,10 @@
 //! OBJ: text, one statement a line.
 //!
-//! Read are `v`, `vt` (two numbers of up to three), `vn`, `f` with indices from 1 or, negative,
-//! from the end of what was given so far, `o` and `g` (each begins a group), and lines that a
-//! backslash continues. Indices of texture coordinates and normals that are not there are left out
-//! with one warning: programs that export only vertices write such files. Points, lines, materials
-//! and smoothing groups are passed over. Free-form curves and surfaces are refused.
+//! The reader understands `v`, `vt` (two numbers of up to three), `vn`, and `f` with indices from 1
+//! or, if negative, back from the latest item. `o` and `g` each start a group, and a backslash
+//! continues a line. Indices of missing texture coordinates and normals are left out with one
+//! warning: programs that export only vertices write such files. Points, lines, materials and
+//! smoothing groups are ignored. Free-form curves and surfaces are refused.
 //! (Alias/Wavefront, *Advanced Visualizer*, appendix B1, 1991.)
 
 use crate::error::{ErrorKind, Location};
@@ -13,7 +13,7 @@ use crate::text::{lines, number, shortened, three};
 use crate::{Group, Warning};
 use durer_math::{Point3, Vec3};
 
-/// Statements about what is passed over.
+/// Statements that are ignored.
 const PASSED_OVER: [&str; 15] = [
     "p",
     "l",
@@ -89,8 +89,8 @@ pub(crate) fn read(bytes: &[u8], warnings: &mut Vec<Warning>) -> Result<Vec<Grou
     Ok(groups.end())
 }
 
-/// One or two numbers; a second one that is not there is zero, a third one is that of solid
-/// textures.
+/// Reads one or two numbers. A missing second number is zero; a third one, for solid textures, is
+/// ignored.
 fn texture_coordinates<'a>(
     words: &mut impl Iterator<Item = &'a str>,
     line: usize,
@@ -101,8 +101,8 @@ fn texture_coordinates<'a>(
     Ok([u, if words.peek().is_some() { number(&mut words, line, EXPECTED)? } else { 0.0 }])
 }
 
-/// A corner as `v`, `v/vt`, `v//vn` or `v/vt/vn`. Texture coordinates and normals that are not
-/// there are left out and counted in `dangling`.
+/// Reads a corner as `v`, `v/vt`, `v//vn` or `v/vt/vn`. Missing texture coordinates and normals are
+/// left out and counted in `dangling`.
 fn corner(
     word: &str,
     counts: [usize; 3],
@@ -135,6 +135,6 @@ fn corner(
         numbers[i] = number;
     }
     let [vertex, uv, normal] = numbers;
-    // The first part is never left out: an empty one is no number.
+    // The vertex is never missing: an empty word is not a number.
     Ok(Corner { vertex: vertex.unwrap_or_default(), uv, normal })
 }

@@ -1,14 +1,14 @@
-//! PLY: a header that declares elements and their properties, in any order, then the elements as
-//! text or binary numbers of either byte order. (G. Turk, "The PLY polygon file format", Stanford
-//! 1994.)
+//! PLY: a header that declares elements and their properties in any order, then the elements as
+//! text or as binary numbers in either byte order. (G. Turk, "The PLY polygon file format",
+//! Stanford 1994.)
 //!
-//! Read are `x y z`, `nx ny nz` and `u v` (or `s t`, `texture_u texture_v`) of `vertex`, and the
-//! lists `vertex_indices` or `vertex_index` of `face` and of `tristrips`. Everything else is passed
-//! over.
+//! The reader uses `x y z`, `nx ny nz` and `u v` (or `s t`, `texture_u texture_v`) of `vertex`, and
+//! the lists `vertex_indices` or `vertex_index` of `face` and of `tristrips`. It ignores everything
+//! else.
 //!
-//! Each three neighbours in a strip are a triangle, the second of every two of them turned around; -1
-//! ends a strip and begins another. Triangles of a strip that name a vertex twice lead from one
-//! part of it to the next: they are left out, and count.
+//! In a strip, every three consecutive vertices form a triangle, and every second triangle is
+//! reversed; -1 ends a strip and begins another. A triangle that names a vertex twice connects two
+//! parts of a strip. It is left out, but counts for the alternation.
 
 use crate::Group;
 use crate::error::{ErrorKind, Location};
@@ -19,7 +19,7 @@ use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{ElementDef, Encoding, Property, PropertyAccess, PropertyAccessResult, PropertyType};
 use std::io::BufRead;
 
-/// One element of the file, as far as it is of use.
+/// The useful properties of one element of the file.
 #[derive(Default)]
 struct Item {
     position: [f64; 3],
@@ -61,7 +61,7 @@ impl PropertyAccess for Item {
     }
 }
 
-/// What texture coordinates are called.
+/// The names of texture coordinates.
 const UV: [[&str; 2]; 3] = [["u", "v"], ["s", "t"], ["texture_u", "texture_v"]];
 
 fn is_corners(name: &str) -> bool {
@@ -90,7 +90,7 @@ impl Item {
     }
 }
 
-/// What messages call an element.
+/// The name of an element in messages.
 fn kind(name: &str) -> &'static str {
     match name {
         "vertex" => "vertex",
@@ -100,7 +100,7 @@ fn kind(name: &str) -> &'static str {
     }
 }
 
-/// The least number of bytes that an element takes.
+/// The least number of bytes of an element.
 fn least_size(element: &ElementDef, encoding: Encoding) -> usize {
     let size = |property: &PropertyType| match (encoding, property) {
         (Encoding::Ascii, _) => 2,
@@ -124,7 +124,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
     let mut groups = Groups::default();
     let mut has_normals = false;
     let mut has_uv = false;
-    // The file's order is kept, but faces may come before the vertices that they name.
+    // The file's order is kept, but faces may come before their vertices.
     let mut faces: Vec<(Vec<i64>, Location)> = Vec::new();
     for element in header.elements.values() {
         let left = reader.get_ref().len();
@@ -185,7 +185,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Group>, ErrorKind> {
     Ok(groups.end())
 }
 
-/// -1, also as it is read from a list without signs.
+/// Whether an index is -1, also if it was read from an unsigned list.
 fn is_end_of_strip(index: i64) -> bool {
     index == -1 || index == i64::from(u32::MAX)
 }

@@ -1,16 +1,17 @@
-//! Polygons cut into triangles.
+//! Division of polygons into triangles.
 //!
-//! A convex polygon becomes a fan about its first corner, as other readers have it. Of others ears
-//! are cut off (G. H. Meisters, "Polygons have ears", American Mathematical Monthly 1975): a corner
-//! whose triangle turns as the polygon does and holds no other corner. All is decided in the plane
-//! along the axis to which the polygon's normal (the sum of M. E. Newell's products) is closest.
-//! Which triangles fill the polygon is a choice, so that rounding in it changes no vertex and
-//! leaves no gap: the outline of the triangles is the polygon's, whatever is chosen.
+//! A convex polygon becomes a fan about its first corner, as in other readers. From other polygons
+//! ears are cut off (G. H. Meisters, "Polygons have ears", American Mathematical Monthly 1975). An
+//! ear is a corner whose triangle has the orientation of the polygon and contains no other corner.
+//! All decisions are made in the projection along the axis that is closest to the polygon's normal
+//! (the sum of M. E. Newell's products). Which triangles fill the polygon is a matter of choice. So
+//! rounding in these decisions changes no vertex and leaves no gap: the outline of the triangles is
+//! always that of the polygon.
 
 use durer_math::Point3;
 
-/// Polygons with more corners than this are cut only if they are convex: ears take a time that
-/// grows with the square.
+/// Polygons with more corners than this are divided only if they are convex, because ear cutting
+/// takes quadratic time.
 pub(crate) const MOST: usize = 10_000;
 
 type P = [f64; 2];
@@ -20,7 +21,7 @@ fn turn(a: P, b: P, c: P) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// The corners in a plane in which they go round counter-clockwise.
+/// The corners, projected to a plane so that they run counterclockwise.
 fn flattened(corners: &[Point3]) -> Vec<P> {
     let first = corners.first().copied().unwrap_or(Point3::ORIGIN);
     let mut normal = [0.0; 3];
@@ -38,8 +39,8 @@ fn flattened(corners: &[Point3]) -> Vec<P> {
     corners.iter().map(|p| (*p - first).to_array()).map(|p| [p[u], p[v]]).collect()
 }
 
-/// Cuts a polygon of at least three corners into triangles of corner numbers; `None` if it has too
-/// many corners.
+/// Divides a polygon of at least three corners into triangles, as indices of corners. `None` if it
+/// has too many corners.
 pub(crate) fn triangles(corners: &[Point3]) -> Option<Vec<[usize; 3]>> {
     let n = corners.len();
     let fan = |left: &[usize]| left.windows(2).skip(1).map(|w| [left[0], w[0], w[1]]).collect::<Vec<_>>();
@@ -65,20 +66,20 @@ pub(crate) fn triangles(corners: &[Point3]) -> Option<Vec<[usize; 3]>> {
             cut.push([a, b, c]);
             left.remove(i % m);
             refused = 0;
-            // The corner before has changed.
+            // The corner before has changed, so it is tested again.
             i = (i % m + m - 1) % (m - 1);
         } else {
             refused += 1;
             i = (i + 1) % m;
         }
     }
-    // What is left of a polygon that crosses itself has no ears.
+    // What is left of a self-intersecting polygon has no ears.
     cut.extend(fan(&left));
     Some(cut)
 }
 
-/// Whether the sides of a polygon that always turns left turn by one whole turn: their first
-/// coordinate changes its sign twice.
+/// Whether the sides of a polygon that always turns left make exactly one turn: then the first
+/// coordinate of the side changes its sign twice.
 fn winds_once(flat: &[P]) -> bool {
     let n = flat.len();
     let steps = (0..n).map(|i| flat[(i + 1) % n][0] - flat[i][0]).filter(|x| *x != 0.0);
@@ -108,8 +109,8 @@ mod tests {
         (2..flat.len()).map(|i| turn(flat[0], flat[i - 1], flat[i])).sum()
     }
 
-    /// The triangles turn as the polygon does, and their areas add up to its own: so they cover it
-    /// once. Coordinates are small whole numbers, areas exact.
+    /// The triangles have the orientation of the polygon, and their areas add up to its own, so
+    /// they cover it once. Coordinates are small integers, so areas are exact.
     fn check(flat: &[P]) {
         let cut = triangles(&points(flat)).unwrap_or_default();
         assert_eq!(cut.len(), flat.len() - 2);
@@ -168,8 +169,8 @@ mod tests {
         assert_eq!(cut, Some(vec![[0, 1, 2], [0, 2, 3], [0, 3, 4]]));
     }
 
-    /// A star that is drawn in one stroke always turns left, twice: it is no convex polygon.
-    /// Something comes out for it, and for no area at all.
+    /// A star drawn in one stroke always turns left, but twice, so it is not convex. It is divided
+    /// into some triangles, as is a polygon without area.
     #[test]
     fn what_crosses_itself_becomes_something() {
         let star = [[0.0, 3.0], [-2.0, -3.0], [3.0, 1.0], [-3.0, 1.0], [2.0, -3.0]];
@@ -184,7 +185,7 @@ mod tests {
     fn too_many_corners_are_refused_unless_convex() {
         let circle = |n: usize, dent: f64| {
             let corner = |i: usize| {
-                // A parabola's arc, closed by its chord.
+                // An arc of a parabola, closed by its chord.
                 let x = i as f64 - n as f64 / 2.0;
                 Point3::new(x, if i == n / 2 { dent } else { x * x }, 0.0)
             };

@@ -1,12 +1,12 @@
-//! STL: triangles one by one, as text (`solid ... endsolid`, each a group) or binary (80 bytes, a
-//! count, then 50 bytes for each).
+//! STL: single triangles, as text (`solid ... endsolid`, each a group) or binary (80 bytes, a
+//! count, then 50 bytes for each triangle).
 //!
-//! Many binary files begin with `solid` too. A file that does is binary if bytes 80 to 83, where a
-//! binary file has its count, have a character that no text has, or if as many triangles are there:
-//! four characters of text are a count above 150 million. Bytes after the last triangle are ignored
-//! with a warning. Corners with the same coordinates become one vertex. The normals in the file are
-//! passed over: the order of the corners tells the side. (3D Systems, *StereoLithography Interface
-//! Specification*, 1988.)
+//! Many binary files begin with `solid` too. Such a file is binary if bytes 80 to 83, where a
+//! binary file has its count, contain a character that no text has, or if the file has that many
+//! triangles: four characters of text would be a count above 150 million. Bytes after the last
+//! triangle are ignored with a warning. Corners with the same coordinates become one vertex. The
+//! normals in the file are ignored: the order of the corners determines the side. (3D
+//! Systems, *StereoLithography Interface Specification*, 1988.)
 
 use crate::error::{ErrorKind, Location};
 use crate::text::{lines, shortened, three, without_mark};
@@ -50,12 +50,12 @@ pub(crate) fn read(bytes: &[u8], warnings: &mut Vec<Warning>) -> Result<Vec<Grou
     binary(bytes, promised as usize)
 }
 
-/// Whether a byte may stand in a text: control characters do not, except white space.
+/// Whether a byte may occur in text: any but control characters that are not white space.
 fn may_be_text(byte: u8) -> bool {
     !byte.is_ascii_control() || matches!(byte, b'\t'..=b'\r')
 }
 
-/// Triangles whose corners become vertices.
+/// Collects triangles and merges equal corners to vertices.
 #[derive(Default)]
 struct Welder {
     group: Group,
@@ -67,7 +67,7 @@ impl Welder {
         let mesh = &mut self.group.mesh;
         let mut vertices = [0; 3];
         for (vertex, corner) in vertices.iter_mut().zip(corners) {
-            // Adding zero makes the two zeros one.
+            // Adding zero turns -0 into +0.
             let key = corner.map(|x| (x + 0.0).to_bits());
             *vertex = match self.known.get(&key) {
                 Some(&v) => v,
@@ -94,7 +94,7 @@ fn binary(bytes: &[u8], count: usize) -> Result<Vec<Group>, ErrorKind> {
     Ok(if welder.group.mesh.faces.is_empty() { Vec::new() } else { vec![welder.group] })
 }
 
-/// What may stand on a line, by the words before it.
+/// The state of the text parser: the construct that the current line is in.
 #[derive(Clone, Copy, PartialEq)]
 enum Inside {
     File,

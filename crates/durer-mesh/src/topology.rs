@@ -1,30 +1,30 @@
-//! Whether triangles close up.
+//! The topology of triangle meshes: whether they are closed.
 
 use durer_scene::Mesh;
 use durer_surfaces::MeshData;
 use std::collections::HashMap;
 
-/// How the triangles of a mesh hang together. Vertices with the same coordinates count as one,
-/// whatever their numbers.
+/// How the triangles of a mesh are connected. Vertices with the same coordinates count as one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Topology {
-    /// Triangles without area, or with a coordinate that is not finite: no ray meets them, and they
-    /// do not count in what follows.
+    /// The number of triangles without area or with a coordinate that is not finite. No ray meets
+    /// them, and they do not count below.
     pub degenerate: usize,
-    /// Triangles that use the same three vertices as an earlier one.
+    /// The number of triangles with the same three vertices as an earlier one.
     pub duplicates: usize,
-    /// Edges of one triangle only.
+    /// The number of edges that belong to one triangle only.
     pub open_edges: usize,
-    /// Edges that two triangles use in the same direction: one of them faces the wrong way.
+    /// The number of edges that two triangles use in the same direction: one of them faces the
+    /// wrong way.
     pub turned_edges: usize,
-    /// Edges of more than two triangles.
+    /// The number of edges that belong to more than two triangles.
     pub shared_edges: usize,
-    /// Each edge is used as often in one direction as in the other.
+    /// Whether each edge is used as often in one direction as in the other.
     pub is_closed: bool,
 }
 
 impl Topology {
-    /// Looks at a mesh, whose indices are in range.
+    /// Analyses a mesh, whose indices must be in range.
     pub fn of(mesh: &Mesh) -> Self {
         let faces: Vec<[u32; 3]> = mesh.faces.iter().map(|f| f.vertices).collect();
         let data = MeshData { vertices: mesh.vertices.clone(), faces, ..MeshData::default() };
@@ -34,7 +34,7 @@ impl Topology {
             .vertices
             .iter()
             .enumerate()
-            // Adding zero makes the two zeros one.
+            // Adding zero turns -0 into +0.
             .map(|(i, v)| *known.entry(v.to_array().map(|x| (x + 0.0).to_bits())).or_insert(i as u32))
             .collect();
         let mut topology = Self { degenerate: built.dropped().len(), is_closed: true, ..Self::default() };

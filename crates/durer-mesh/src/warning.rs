@@ -1,53 +1,53 @@
-//! What is left out of a mesh file that is read.
+//! Warnings: what a reader leaves out of a mesh file.
 
 use crate::error::Location;
 
-/// Something in a mesh file that is left out; the rest is read.
+/// Something that the reader left out; the rest of the file is read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Warning {
-    /// Faces name texture coordinates or normals that are not there. There is one such warning for
-    /// each file.
+    /// Faces refer to missing texture coordinates or normals. There is one such warning for each
+    /// file.
     #[error(
         "{spot}: there is no {what} {index}, there are {count} so far; {} that are not there are left out",
         missing(*.uv, *.normals)
     )]
     Dangling {
-        /// Where the first one is.
+        /// The place of the first one.
         spot: Location,
-        /// What the first one should name.
+        /// What the first index refers to.
         what: &'static str,
-        /// The first index as it is written.
+        /// The first index as written.
         index: i64,
-        /// How many there are at that place.
+        /// The number of items at that place of the file.
         count: usize,
-        /// How many indices of texture coordinates are left out.
+        /// The number of indices of texture coordinates that are left out.
         uv: usize,
-        /// How many indices of normals are left out.
+        /// The number of indices of normals that are left out.
         normals: usize,
     },
     /// Bytes follow the last triangle of a binary STL file.
     #[error("byte {at}: the last of {triangles} triangles ends here; the {count} bytes after it are ignored")]
     Trailing {
-        /// Where they begin.
+        /// The place where they begin.
         at: usize,
-        /// How many triangles the header promises.
+        /// The number of triangles that the header declares.
         triangles: u32,
-        /// How many bytes there are.
+        /// The number of these bytes.
         count: usize,
     },
-    /// A node of a glTF file shows faces that its transform flattens.
+    /// A node of a glTF file shows faces, but its transform makes them flat.
     #[error(
         "node {node}: {how} flattens it, so its faces have no area: it is left out with all nodes below it"
     )]
     Flat {
-        /// Its number, from 0.
+        /// The number of the node, from 0.
         node: usize,
-        /// What flattens it.
+        /// What makes the faces flat.
         how: String,
     },
 }
 
-/// How many indices of each kind, in words.
+/// The numbers of both kinds of indices, in words.
 fn missing(uv: usize, normals: usize) -> String {
     let some = |n: usize, what: &str| (n > 0).then(|| format!("{n} {what}"));
     let uv =

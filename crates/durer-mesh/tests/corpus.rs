@@ -1,4 +1,4 @@
-//! What fuzzing has found worth keeping, once more.
+//! Regression tests: inputs that fuzzing found worth keeping.
 
 #[path = "corpus/case.rs"]
 mod case;

@@ -1,4 +1,4 @@
-//! glTF files: what is read is what was written, and what is damaged is told with its place.
+//! Tests of glTF files: what is read is what was written, and damage is reported with its place.
 
 mod made;
 
@@ -9,7 +9,7 @@ use made::{File, floats, shorts};
 
 type Read = Result<Model, ErrorKind>;
 
-/// A tetrahedron whose coordinates f32 holds.
+/// A tetrahedron whose coordinates are exact in f32.
 const CORNERS: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.5, 0.0, 0.0], [0.0, 2.25, 0.0], [0.0, 0.0, 3.0]];
 const FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
 
@@ -17,8 +17,8 @@ fn corners() -> Vec<u8> {
     floats(CORNERS.as_flattened())
 }
 
-/// A file of one mesh and one node, with a primitive's members beside its positions, and the
-/// accessors of those.
+/// A file with one mesh and one node. `members` are those of the primitive beside its positions,
+/// with their accessors.
 fn one(members: &str, count: usize, accessors: &[(&str, &[u8])]) -> File {
     let mut file = File::default();
     let positions =
@@ -105,7 +105,7 @@ fn text_and_binary_files_give_the_triangles_that_were_written() -> Result<(), Bo
     std::fs::write(folder.join("its buffer.bin"), &file.bytes[..71])?;
     let short = read(&folder.join("beside.gltf")).map_err(|e| e.kind.to_string());
     assert_eq!(short, Err("buffer 0: it promises 72 bytes, but there is room for 71".into()));
-    // In memory there is nothing beside a file.
+    // A file in memory has no separate files.
     assert!(message(gltf(file.text(r#", "uri": "b.bin""#).as_bytes())).contains("another file"));
     std::fs::remove_dir_all(&folder)?;
     Ok(())
@@ -119,7 +119,7 @@ fn chunks_of_other_kinds_are_passed_over() -> Result<(), ErrorKind> {
     let length = glb.len() as u32;
     glb[8..12].copy_from_slice(&length.to_le_bytes());
     assert_eq!(placed(&gltf(&glb)?), expected(&FACES));
-    // What lies behind the length is not of the file.
+    // Bytes after the declared length do not belong to the file.
     glb.extend(b"rubbish");
     assert_eq!(placed(&gltf(&glb)?), expected(&FACES));
     Ok(())
@@ -142,7 +142,7 @@ fn indices_of_all_types_modes_and_none_at_all() -> Result<(), ErrorKind> {
     assert_eq!(placed(&gltf(&one("", 3, &[]).glb())?), expected(&[[0, 1, 2]]));
     assert_eq!(placed(&gltf(&one(r#", "mode": 5"#, 4, &[]).glb())?), expected(&[[0, 1, 2], [1, 3, 2]]));
     assert_eq!(placed(&gltf(&one(r#", "mode": 6"#, 4, &[]).glb())?), expected(&[[1, 2, 0], [2, 3, 0]]));
-    // Points and lines are no faces; too few corners make none either.
+    // Points and lines have no faces, and neither do primitives with too few corners.
     for mode in 0..4 {
         assert_eq!(gltf(&one(&format!(r#", "mode": {mode}"#), 4, &[]).glb()), Err(ErrorKind::Empty));
     }
@@ -150,7 +150,7 @@ fn indices_of_all_types_modes_and_none_at_all() -> Result<(), ErrorKind> {
     Ok(())
 }
 
-/// Positions as small integers, normalised or not, with a stride, an offset, and single ones
+/// Positions as small integers, normalised or not, with a stride, an offset, and some elements
 /// replaced.
 #[test]
 fn components_of_all_types_strides_and_sparse_lists() -> Result<(), ErrorKind> {
@@ -186,7 +186,7 @@ fn components_of_all_types_strides_and_sparse_lists() -> Result<(), ErrorKind> {
         read(r#""componentType": 5123"#, &wide, 8, 0)?,
         of([[0.0, 32768.0, 32767.0], [1.0, 2.0, 65535.0], [5.0, 6.0, 7.0]])
     );
-    // The last element ends where the view does; one byte less and there are two.
+    // The last element ends where the view does. With one byte less there are two elements.
     assert_eq!(
         read(r#""componentType": 5123"#, &wide[..21], 8, 0),
         Err(ErrorKind::Room {
@@ -256,7 +256,7 @@ fn normals_and_texture_coordinates_come_along() -> Result<(), ErrorKind> {
 fn nodes_place_meshes_and_share_them() -> Result<(), ErrorKind> {
     let mut file = tetrahedron();
     file.lists.retain(|(name, _)| name != "nodes" && name != "scenes");
-    // Turned by 90 degrees about z, then moved; the child is scaled first.
+    // Rotated by 90 degrees about z, then translated; the child is scaled first.
     let half = 0.5_f32.sqrt();
     file.list(
         "nodes",
@@ -274,7 +274,7 @@ fn nodes_place_meshes_and_share_them() -> Result<(), ErrorKind> {
     assert_eq!((model.groups.len(), model.instances.len()), (1, 2));
     let at = |i: usize, p: [f64; 3]| model.instances[i].placement.point(Point3::from(p));
     let near = |a: Point3, b: [f64; 3]| (a - Point3::from(b)).length() < 1e-14;
-    // First the matrix, whose columns are the axes' images: x to z, y to x, z to y.
+    // First the matrix, whose columns are the images of the axes: x to z, y to x, z to y.
     assert!(near(at(0, [1.0, 0.0, 0.0]), [10.0 - 6.0, 5.0, 8.0]), "{:?}", at(0, [1.0, 0.0, 0.0]));
     assert!(near(at(1, [1.0, 0.0, 0.0]), [10.0, 2.0, 0.0]), "{:?}", at(1, [1.0, 0.0, 0.0]));
     assert!(near(at(1, [0.0, 1.0, 1.0]), [7.0, 0.0, 4.0]), "{:?}", at(1, [0.0, 1.0, 1.0]));
@@ -292,8 +292,8 @@ fn nodes_place_meshes_and_share_them() -> Result<(), ErrorKind> {
     };
     assert!(std::sync::Arc::ptr_eq(a, b) && a.inside_vector.is_some());
 
-    // Without a default scene the first one counts, without scenes all that is nobody's child,
-    // without nodes the meshes.
+    // Without a default scene the first one is used; without scenes, all nodes that are nobody's
+    // children; without nodes, the meshes.
     file.lists.retain(|(name, _)| name != "scene");
     let first = gltf(&file.glb())?;
     assert_eq!(first.instances.len(), 1);
@@ -306,8 +306,8 @@ fn nodes_place_meshes_and_share_them() -> Result<(), ErrorKind> {
     Ok(())
 }
 
-/// Rays meet the same, with the same numbers and looks, whether a mesh is stored once or as often
-/// as it is shown.
+/// Rays have the same hits, with the same numbers and looks, whether a mesh is stored once or for
+/// each node.
 #[test]
 fn a_mesh_that_is_shown_often_is_built_once() -> Result<(), Box<dyn std::error::Error>> {
     let shown = |meshes: usize, count: usize| {
@@ -347,7 +347,7 @@ fn a_mesh_that_is_shown_often_is_built_once() -> Result<(), Box<dyn std::error::
     }
     assert!(hits > 200, "{hits}");
     assert_eq!((once.primitives(0), once.primitives(1), once.primitives(2)), (6, 6, 0));
-    // A thousand take little more than one: the box and the place of each.
+    // A thousand instances need little more memory than one: a box and a placement each.
     let bytes = |count: usize| shown(1, count).map(|scene| scene.lower().map(|l| l.geometry.stats().bytes));
     let (few, many) = (bytes(2)??, bytes(1002)??);
     assert!(many - few < 1000 * 1200, "{few} {many}");
@@ -379,7 +379,7 @@ fn trees_of_nodes_that_are_none_are_refused() {
             "0",
             "node 0: a matrix with the determinant 0 flattens it",
         ),
-        // What is below a flat node is checked too.
+        // Nodes below a flat node are checked too.
         (
             &[r#"{ "scale": [0, 0, 0], "children": [1] }"#, r#"{ "mesh": 7 }"#],
             "0",
@@ -400,10 +400,10 @@ fn trees_of_nodes_that_are_none_are_refused() {
     ] {
         assert!(with(nodes, scene).starts_with(said), "{nodes:?}: {}", with(nodes, scene));
     }
-    // Flat or not, what is infinite is no transform.
+    // An infinite scale is never a valid transform.
     let infinite = r#"{ "mesh": 0, "scale": [0, 1e39, 1] }"#;
     assert!(gltf(with_nodes(&[infinite], "0").glb().as_slice()).is_err());
-    // Deep, but a tree.
+    // Deep, but still a tree.
     let mut file = tetrahedron();
     file.lists.retain(|(name, _)| name != "nodes");
     (0..20_000).for_each(|i| file.list("nodes", &format!(r#"{{ "children": [{}] }}"#, i + 1)));
@@ -432,7 +432,8 @@ fn flat_nodes_are_left_out() -> Result<(), ErrorKind> {
             "0, 1",
             &[(1, "a matrix with the determinant 0")],
         ),
-        // Each flat node once, with all that is below it; one that shows nothing says nothing.
+        // Each flat node is reported once, with all nodes below it. One that shows nothing is not
+        // reported.
         (
             &[
                 plain,
@@ -453,7 +454,7 @@ fn flat_nodes_are_left_out() -> Result<(), ErrorKind> {
             warnings.iter().map(|&(node, how)| Warning::Flat { node, how: how.to_string() }).collect();
         assert_eq!(model.warnings, told, "{nodes:?}");
     }
-    // Scales whose product is too small for a number.
+    // Scales whose product underflows.
     let nested = |n: usize| format!(r#"{{ "scale": [1e-40, 1e-40, 1e-40], "children": [{n}] }}"#);
     let mut nodes: Vec<String> = (2..10).map(nested).collect();
     nodes.insert(0, r#"{ "mesh": 0 }"#.into());
@@ -632,7 +633,7 @@ fn what_is_wrong_is_told_with_its_place_and_value() {
     assert!(message(gltf(b"")).starts_with("JSON, line 1"));
 }
 
-/// Few bytes that name the same lists again and again would fill any memory.
+/// A small file that refers to the same lists again and again could fill any memory.
 #[test]
 fn lists_that_are_used_over_and_over_are_refused() {
     let mut file = File::default();
@@ -648,7 +649,7 @@ fn lists_that_are_used_over_and_over_are_refused() {
     assert!(
         matches!(gltf(&bytes), Err(ErrorKind::Repeated { made, most: m }) if m == most && made > most && made < most + 2000)
     );
-    // Clear faces are counted as often as they are shown.
+    // Clear faces count once for each node that shows them.
     let glass = |mode: &str| {
         let mut file = File::default();
         let about = r#""componentType": 5126, "count": 3000, "type": "VEC3""#;
@@ -667,7 +668,7 @@ fn lists_that_are_used_over_and_over_are_refused() {
         said,
         Err("mesh 0: not supported yet: 67110230 clear faces, counted as often as they are shown".into())
     );
-    // Zeros that are nowhere in the file.
+    // Zeros that are not stored in the file.
     let none = |count: &str| {
         let mut file = File::default();
         file.list("accessors", &format!(r#"{{ "componentType": 5126, "count": {count}, "type": "VEC3" }}"#));
@@ -683,7 +684,7 @@ fn lists_that_are_used_over_and_over_are_refused() {
     );
 }
 
-/// A file with everything in it.
+/// A file that uses every feature.
 fn rich() -> File {
     let mut file = tetrahedron();
     file.accessor(r#""componentType": 5126, "count": 4, "type": "VEC3""#, &corners());
@@ -709,8 +710,8 @@ fn rich() -> File {
 #[path = "corpus/case.rs"]
 mod case;
 
-/// Cut anywhere, with any bit changed, or any number replaced by a wild one, a file is read or
-/// refused.
+/// A file that is cut anywhere, has any bit changed, or any number replaced by an extreme one, is
+/// read or refused.
 #[test]
 fn damaged_files_are_read_or_refused() {
     let file = rich();

@@ -1,4 +1,4 @@
-//! Mesh files: what is read is what was written, and what is damaged is told with its place.
+//! Tests of mesh files: what is read is what was written, and damage is reported with its place.
 
 use durer_math::{Point3, Ray, Vec3};
 use durer_mesh::{ErrorKind, Format, Location, Model, Topology, Warning, read_bytes};
@@ -9,7 +9,7 @@ fn obj(text: &str) -> Read {
     read_bytes(text.as_bytes(), Format::Obj)
 }
 
-/// A tetrahedron, with coordinates that only f64 holds.
+/// A tetrahedron whose coordinates are exact only in f64.
 const CORNERS: [[f64; 3]; 4] =
     [[0.1, 0.2, 0.3], [1.1, 0.2, 0.3], [0.1, 1.2, 0.3], [0.1, 0.2, 1.0 / 3.0 + 1.0]];
 const FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
@@ -120,7 +120,7 @@ fn every_format_gives_the_triangles_that_were_written() -> Result<(), ErrorKind>
     let floats = ply_text().replace("double", "float");
     assert_eq!(triangles(&read_bytes(floats.as_bytes(), Format::Ply)?), expected(single));
     assert_eq!(triangles(&read_bytes(stl_text().as_bytes(), Format::Stl)?), expected(exact));
-    // Binary files may begin with the word of text files.
+    // Binary files may begin with the first word of text files.
     for title in ["made by hand", "solid a"] {
         let model = read_bytes(&stl_binary(title), Format::Stl)?;
         assert_eq!(triangles(&model), expected(single));
@@ -152,8 +152,8 @@ fn obj_statements_mean_what_they_say() -> Result<(), ErrorKind> {
     Ok(())
 }
 
-/// Texture coordinates of OBJ and PLY files are those of the hits; faces without any have those
-/// that faces have where there are none at all.
+/// Hits have the texture coordinates of OBJ and PLY files. Faces without any get those that faces
+/// have in files without texture coordinates.
 #[test]
 fn texture_coordinates_reach_the_hits() -> Result<(), Box<dyn std::error::Error>> {
     let obj = "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 9 0 0\nvt 0.5 8 7\nvt 2.5\nvt 0.5 16\nf 2 4 3\nf 1/1 2/2 3/3\nf 1/1 2/2 3\n";
@@ -177,8 +177,8 @@ fn texture_coordinates_reach_the_hits() -> Result<(), Box<dyn std::error::Error>
             let hit = lowered.geometry.closest(&ray)?;
             Some((hit.primitive, lowered.geometry.resolve(&ray, &hit).uv))
         };
-        // A quarter of the way to the second corner, and half of that to the third: all in small
-        // dyadic numbers.
+        // A quarter of the way to the second corner, and half of the way from there to the third:
+        // all small dyadic numbers.
         let face = u32::from(format == Format::Obj);
         assert_eq!(uv(1.0, 2.0), Some((face, [1.0, 10.0])), "{format:?}");
         if format == Format::Obj {
@@ -247,7 +247,7 @@ fn a_byte_order_mark_is_passed_over() -> Result<(), ErrorKind> {
         assert_eq!(model, read_bytes(&bytes, format)?);
         assert_eq!(model.warnings, []);
     }
-    // In the header of a binary file these bytes are like any others.
+    // In the header of a binary file these bytes have no special meaning.
     assert_eq!(triangles(&read_bytes(&stl_binary("\u{feff}solid"), Format::Stl)?), expected(single));
     assert_eq!(message(obj("\u{feff}\u{feff}v 0 0 0")), "line 1: expected a statement, found '\u{feff}v'");
     Ok(())
@@ -277,7 +277,7 @@ fn what_is_not_there_for_a_corner_is_left_out() -> Result<(), ErrorKind> {
         assert_eq!((mesh.faces.len(), mesh.uv_faces.len(), mesh.normals.len()), (2, 0, 0), "{face}");
         assert_eq!(model.warnings, [warning], "{face}");
     }
-    // One warning for a file; a face keeps what all of its corners have.
+    // One warning for each file. A face keeps the items that all of its corners have.
     let model =
         obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/2/1\nf 1/1/1 2/1/-2 3/1/1\n")?;
     let mesh = &model.groups[0].mesh;
@@ -313,7 +313,7 @@ fn a_binary_file_that_ends_early_says_in_which_triangle() {
         assert_eq!(cut(title, 235), "the file ends in triangle 4 of 4");
         assert_eq!(cut(title, 234), "the file ends before triangle 4 of 4");
         assert_eq!(cut(title, 84), "the file ends before triangle 1 of 4");
-        // A count of nothing, whatever follows.
+        // A count of zero, whatever follows.
         let mut empty = stl_binary(title);
         empty[80] = 0;
         assert_eq!(message(read_bytes(&empty, Format::Stl)), "there are no faces in it");
@@ -323,7 +323,7 @@ fn a_binary_file_that_ends_early_says_in_which_triangle() {
         cut("solid\0", 83),
         "byte 83: the file ends where the rest of a binary header of 84 bytes should follow"
     );
-    // A text that is long enough for a count stays a text.
+    // A text that is long enough to have a count is still a text.
     let text = stl_text();
     assert!(message(read_bytes(&text.as_bytes()[..200], Format::Stl)).starts_with("line "));
 }
@@ -350,7 +350,8 @@ fn strips(list: &str, encoding: &str, indices: &[i64]) -> Read {
 
 #[test]
 fn strips_of_triangles_are_read() -> Result<(), ErrorKind> {
-    // The second strip begins anew; 6 6 leads over triangles without area, which count.
+    // The second strip starts anew. The indices 6 6 make triangles without area, which count for
+    // the alternation.
     for (indices, faces) in [
         (&[0, 2, 1, 3][..], &[[0, 2, 1], [1, 2, 3]][..]),
         (&[0, 2, 1, -1, 2, 4, 3, 5, -1], &[[0, 2, 1], [2, 4, 3], [3, 4, 5]]),
@@ -364,7 +365,7 @@ fn strips_of_triangles_are_read() -> Result<(), ErrorKind> {
             let model = strips(list, encoding, indices)?;
             let corner = |v: u32| [f64::from(v / 2), f64::from(v % 2), 0.0];
             let wanted: Vec<_> = faces.iter().map(|f: &[u32; 3]| f.map(corner)).collect();
-            // The same triangles from the same sides: the first corner may be any of the three.
+            // The same triangles with the same orientation; any of the three corners may be first.
             let least_first = |mut t: [[f64; 3]; 3]| {
                 let first = (0..3).min_by(|&a, &b| t[a].partial_cmp(&t[b]).unwrap()).unwrap();
                 t.rotate_left(first);
@@ -395,7 +396,7 @@ fn strips_of_triangles_are_read() -> Result<(), ErrorKind> {
     Ok(())
 }
 
-/// Cut anywhere, or with any byte changed, a file is read or refused.
+/// A file that is cut anywhere, or has any byte changed, is read or refused.
 #[test]
 fn damaged_files_are_read_or_refused() {
     let files = [
@@ -452,7 +453,7 @@ fn topology_counts_what_does_not_close() -> Result<(), ErrorKind> {
     let whole = obj_text();
     let closed = Topology { is_closed: true, ..Topology::default() };
     assert_eq!(of(&whole)?, closed);
-    // Corners written again for each face are the same corners.
+    // Corners that are repeated for each face are the same corners.
     assert_eq!(Topology::of(&read_bytes(stl_text().as_bytes(), Format::Stl)?.groups[0].mesh), closed);
     let open = whole.replace("f 1 3 2\n", "");
     assert_eq!(of(&open)?, Topology { open_edges: 3, ..Topology::default() });

@@ -1,6 +1,6 @@
-//! Reads scenes and tells what came of it: `cargo run -p durer-pov --example read -- SCENE.pov ...`
+//! Reads scenes and reports the results: `cargo run -p durer-pov --example read -- SCENE.pov ...`
 //!
-//! With `--data` before the scenes, the scene data are printed, too.
+//! With `--data` before the scenes, it also prints the scene data.
 
 use std::process::ExitCode;
 

@@ -1,4 +1,4 @@
-//! Arrays: `array[2][3]`, their elements, and what asks about them.
+//! Arrays: `array[2][3]`, their elements, and the functions that inspect arrays.
 
 use std::rc::Rc;
 
@@ -9,7 +9,7 @@ use crate::parser::Parser;
 use crate::scope::Reference;
 use crate::value::{Array, Value};
 
-/// POV-Ray's bound on the number of subscripts.
+/// POV-Ray's limit on the number of subscripts.
 const MOST_DIMENSIONS: usize = 5;
 
 impl Parser<'_> {
@@ -30,7 +30,7 @@ impl Parser<'_> {
         }
     }
 
-    /// The element meant by `name` and the subscripts that follow it.
+    /// The element that `name` and the subscripts after it refer to.
     pub(crate) fn element_reference(&mut self, name: Name) -> Result<Reference> {
         let place = self.here();
         let gone = |r: &Self| Error::invalid(place, format!("`{}` is not declared", r.names.text(name)));
@@ -58,12 +58,13 @@ impl Parser<'_> {
         Ok(target)
     }
 
-    /// A subscript and its closing bracket.
+    /// Reads a subscript and its closing bracket.
     fn subscript(&mut self, size: usize) -> Result<usize> {
         let value = self.nested(Self::float)?;
         let place = self.here();
         self.expect(Mark::SquareClose)?;
-        // Fractions are cut off; a hair under a whole number is taken for it, as sums of 0.1 need it.
+        // Fractions are cut off. A value slightly below an integer counts as that integer, because
+        // sums of 0.1 need it.
         let index = (value + crate::expression::TOLERANCE).floor();
         if index >= 0.0 && index < size as f64 {
             return Ok(index as usize);
@@ -72,7 +73,7 @@ impl Parser<'_> {
         Err(Error::invalid(place, text))
     }
 
-    /// What follows the word `array`: sizes, and values in braces if they come next.
+    /// Reads what follows the word `array`: the sizes, and values in braces if there are any.
     pub(crate) fn array(&mut self) -> Result<Value> {
         let place = self.here();
         let mut sizes = Vec::new();
@@ -109,14 +110,14 @@ impl Parser<'_> {
         Ok(Value::Array(Rc::new(array)))
     }
 
-    /// Values in braces, one level of braces for each dimension.
+    /// Reads values in braces, one level of braces for each dimension.
     fn initial_values(&mut self, sizes: &[usize], items: &mut Vec<Value>) -> Result<()> {
         let Some((&size, inner)) = sizes.split_first() else { return Ok(()) };
         self.expect(Mark::BraceOpen)?;
         let stride: usize = inner.iter().product();
         for i in 0..size {
             if self.at_mark(Mark::BraceClose)? {
-                // Fewer values than places: the rest stays without.
+                // If there are fewer values than elements, the rest stays without a value.
                 items.resize(items.len() + (size - i) * stride, Value::Empty);
                 break;
             }
@@ -131,7 +132,7 @@ impl Parser<'_> {
         self.expect(Mark::BraceClose)
     }
 
-    /// Arrays of arrays of arrays end somewhere.
+    /// Limits the depth of arrays within arrays.
     pub(crate) fn check_array_depth(&self, depth: u32, place: Place) -> Result<()> {
         let limit = self.options.limits.nesting;
         if u64::from(depth) > limit {
@@ -180,7 +181,7 @@ impl Parser<'_> {
         self.element_reference(name).map(Some)
     }
 
-    /// The array in parentheses after `dimensions` or `dimension_size`.
+    /// Reads the array in parentheses after `dimensions` or `dimension_size`.
     pub(crate) fn array_argument(&mut self) -> Result<Rc<Array>> {
         let lexeme = self.next()?;
         match lexeme.item {

@@ -1,32 +1,34 @@
-//! Where directives lead, found once per file: the reader then jumps without searching.
+//! The targets of directives, found once for each file, so that the reader jumps without searching.
 
 use crate::diagnostics::{Error, Place, Result};
 use crate::lexer::{Directive, Kind};
 use crate::source::Source;
 
-/// The jumps of one directive; both are indices of tokens.
+/// The jumps of a directive, as indices of tokens.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Block {
-    /// The next branch of the same block (`#else`, `#case` ...) or its `#end`; for an `#end`, its opener.
+    /// The next branch of the same block (`#else`, `#case` ...) or its `#end`; for an `#end`, its
+    /// opener.
     pub(crate) next: u32,
     /// The block's `#end`.
     pub(crate) end: u32,
-    /// For a `#break`: how many open blocks it leaves.
+    /// The number of open blocks that a `#break` leaves.
     pub(crate) leaves: u32,
 }
 
-/// A block that is still open while the file is walked.
+/// A block that is still open during the pass over the file.
 struct Open {
     opener: Directive,
-    /// Tokens of the opener and of the branches so far.
+    /// The tokens of the opener and of the branches so far.
     branches: Vec<usize>,
-    /// `#break`s that leave this block, and how many blocks each leaves.
+    /// The `#break`s that leave this block, and the number of blocks that each leaves.
     breaks: Vec<(usize, u32)>,
-    /// An `#else` was seen: no other branch may follow.
+    /// Whether an `#else` was seen: no other branch may follow it.
     closed: bool,
 }
 
-/// Gives every directive of `source` (file number `file`) that opens, divides or closes a block its [`Block`].
+/// Finds the [`Block`] of every directive of `source` (file number `file`) that opens, divides or
+/// closes a block.
 pub(crate) fn match_blocks(source: &mut Source, file: u32) -> Result<()> {
     use Directive::{Break, Case, Else, Elseif, End, For, If, Ifdef, Ifndef, Macro, Range, Switch, While};
     let mut open: Vec<Open> = Vec::new();
@@ -54,7 +56,8 @@ pub(crate) fn match_blocks(source: &mut Source, file: u32) -> Result<()> {
                 block.branches.push(i);
             }
             Break => {
-                // A macro may be called from a loop, but a jump out of it would need to know from which.
+                // A macro may be called from a loop, but a jump out of the macro would need to know
+                // which loop.
                 let around = open.iter_mut().rev().zip(1_u32..);
                 let mut around =
                     around.skip_while(|(b, _)| !matches!(b.opener, Switch | While | For | Macro));

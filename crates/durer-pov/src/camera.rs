@@ -1,4 +1,4 @@
-//! Cameras: four vectors and a place, however the block spells them.
+//! Cameras: four vectors and a location, whatever the form of the block.
 
 use std::rc::Rc;
 
@@ -11,7 +11,7 @@ use crate::parser::{Item, Parser};
 use crate::transform::{Matrix, cross, dot, length};
 use crate::value::Value;
 
-/// How rays leave the camera.
+/// How the rays of a camera start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Projection {
     #[default]
@@ -19,8 +19,8 @@ pub(crate) enum Projection {
     Orthographic,
 }
 
-/// A finished camera: rays start at `location` along `direction + u right + v up` (perspective), or at
-/// `location + u right + v up` along `direction` (orthographic), with u and v from -1/2 to 1/2.
+/// A finished camera. Rays start at `location` along `direction + u right + v up` (perspective), or
+/// at `location + u right + v up` along `direction` (orthographic), with u and v from -1/2 to 1/2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Camera {
     pub(crate) projection: Projection,
@@ -29,7 +29,7 @@ pub(crate) struct Camera {
     pub(crate) right: [f64; 3],
     pub(crate) up: [f64; 3],
     pub(crate) sky: [f64; 3],
-    /// What `look_at` said last; transforms leave it as it is.
+    /// The last `look_at` point; transformations do not change it.
     look_at: [f64; 3],
 }
 
@@ -47,7 +47,7 @@ impl Default for Camera {
     }
 }
 
-/// One item of the block, with what it needs to be applied later.
+/// One item of the block, stored to be applied later.
 #[derive(Clone, Copy, Debug)]
 enum Setting {
     Right([f64; 3]),
@@ -60,7 +60,7 @@ enum Setting {
 }
 
 impl Setting {
-    /// The rank in which scenes of version 3.5 and later apply it.
+    /// The order in which scenes of version 3.5 and later apply items.
     fn rank(&self) -> u8 {
         match self {
             Self::Right(_) => 0,
@@ -86,7 +86,7 @@ impl Camera {
         }
     }
 
-    /// `angle`: the horizontal angle of view, by which `direction` gets its length.
+    /// Applies `angle`: the horizontal angle of view determines the length of `direction`.
     fn set_angle(&mut self, degrees: f64) {
         let half = elementary::tan(degrees.to_radians() / 2.0);
         let wanted = length(self.right) / (2.0 * half);
@@ -96,7 +96,7 @@ impl Camera {
         }
     }
 
-    /// `look_at`: turns everything to `target`, lengths and handedness kept.
+    /// Applies `look_at`: turns everything towards `target`; lengths and handedness are kept.
     fn look_at(&mut self, target: [f64; 3]) -> std::result::Result<(), &'static str> {
         let towards: [f64; 3] = std::array::from_fn(|i| target[i] - self.location[i]);
         let distance = length(towards);
@@ -104,7 +104,7 @@ impl Camera {
             return Err("the camera looks at its own location");
         }
         let (long, wide, high) = (length(self.direction), length(self.right), length(self.up));
-        // As POV-Ray has it, `up` along the direction is a mirror, too.
+        // As in POV-Ray, an `up` parallel to the direction also counts as a mirrored camera.
         let hand = if dot(cross(self.up, self.direction), self.right) > 0.0 { 1.0 } else { -1.0 };
         self.direction = scaled(towards, long / distance);
         let side = cross(self.sky, self.direction);
@@ -117,7 +117,7 @@ impl Camera {
         if upward_length == 0.0 {
             return Err("the camera looks along its own right vector");
         }
-        // For a mirrored camera the product points down.
+        // For a mirrored camera the cross product points down.
         self.up = scaled(upward, hand * high / upward_length);
         self.look_at = target;
         Ok(())
@@ -125,7 +125,7 @@ impl Camera {
 }
 
 impl Parser<'_> {
-    /// What stands in braces after `camera`.
+    /// Reads what stands in braces after `camera`.
     pub(crate) fn camera_block(&mut self) -> Result<Camera> {
         let begin = self.here();
         self.expect(Mark::BraceOpen)?;
@@ -140,7 +140,7 @@ impl Parser<'_> {
             Some(before) if self.applies_in_written_order() => before,
             _ => self.default_camera,
         });
-        // Only old scenes may change more of a camera that has a name than its place.
+        // Only in old scenes may a declared camera be changed in more than its placement.
         let is_whole = known.is_some() && !self.applies_in_written_order();
         let mut settings = Vec::new();
         let mut moves = Vec::new();
@@ -169,7 +169,7 @@ impl Parser<'_> {
                 Item::Word(Keyword::Location) => Setting::Location(self.vector()?),
                 Item::Word(Keyword::LookAt) => Setting::LookAt(self.vector()?, place),
                 Item::Word(Keyword::Angle) => {
-                    // No number behind the word is 0.
+                    // A word without a number means 0.
                     let angle = self.float_or(0.0)?;
                     if !(0.0..180.0).contains(&angle) {
                         let text = format!("a camera's angle is between 0 and 180 degrees, not {angle}");
@@ -201,7 +201,7 @@ impl Parser<'_> {
         Ok(camera)
     }
 
-    /// Whether a camera's words are applied in the order in which they are written.
+    /// Whether a camera's items are applied in the order in which they are written.
     fn applies_in_written_order(&self) -> bool {
         self.language.version < 3.5
     }
@@ -225,7 +225,7 @@ impl Parser<'_> {
                 Setting::Sky(v) => camera.sky = v,
                 Setting::Location(v) => camera.location = v,
                 Setting::Angle(degrees) => {
-                    // An angle of 0 leaves the direction as it is.
+                    // An angle of 0 does not change the direction.
                     if degrees > 0.0 {
                         camera.set_angle(degrees);
                     }
@@ -236,7 +236,8 @@ impl Parser<'_> {
                 }
             }
         }
-        // So that the orthographic picture shows at `look_at` what the perspective one would.
+        // Sizes the orthographic picture so that it shows the same at `look_at` as the perspective
+        // one.
         if camera.projection == Projection::Orthographic
             && (angled || !sized)
             && !self.applies_in_written_order()
@@ -249,13 +250,14 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// `camera` in `#default`: what cameras start from. A scene without one does not have it (a fact of the language).
+    /// Reads `camera` in `#default`: the values that cameras start with. A scene without a camera
+    /// does not get this one (a fact of the language).
     pub(crate) fn default_camera_item(&mut self) -> Result<()> {
         self.default_camera = self.nested(Self::camera_block)?;
         Ok(())
     }
 
-    /// `camera` as a statement.
+    /// Reads `camera` as a statement.
     pub(crate) fn camera_statement(&mut self, place: Place) -> Result<()> {
         let camera = self.nested(Self::camera_block)?;
         if self.scene.camera.replace(camera).is_some() {
@@ -264,7 +266,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// `camera` as a value.
+    /// Reads `camera` as a value.
     pub(crate) fn camera_value(&mut self) -> Result<Value> {
         Ok(Value::Camera(Rc::new(self.nested(Self::camera_block)?)))
     }

@@ -1,4 +1,4 @@
-//! Colours: `rgb` and its kin, `color red 1`, `color Name filter 0.5`.
+//! Colours: `rgb` and its variants, `color red 1`, `color Name filter 0.5`.
 
 use durer_math::elementary;
 
@@ -33,7 +33,8 @@ pub(crate) fn begins_colour(keyword: Keyword) -> bool {
 }
 
 impl Parser<'_> {
-    /// Whether a colour can begin here: one of its words, or a value that can be one.
+    /// Whether a colour can begin here: with one of its words, or with a value that can be a
+    /// colour.
     pub(crate) fn starts_colour(&mut self) -> Result<bool> {
         Ok(match self.peek()? {
             Item::Word(keyword) => begins_colour(*keyword),
@@ -42,7 +43,7 @@ impl Parser<'_> {
         })
     }
 
-    /// A colour in any of its forms.
+    /// Reads a colour in any of its forms.
     pub(crate) fn colour(&mut self) -> Result<Colour> {
         self.take_word(Keyword::Color)?;
         let mut colour = match self.peek_word()? {
@@ -60,7 +61,7 @@ impl Parser<'_> {
         Ok(colour)
     }
 
-    /// `red 1`, `filter 0.5` and the like, which change parts of a colour.
+    /// Reads `red 1`, `filter 0.5` and the like, which change components of a colour.
     pub(crate) fn colour_parts(&mut self, colour: &mut Colour) -> Result<()> {
         loop {
             let index = match self.peek_word()? {
@@ -81,7 +82,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// The colour of an `rgb`-like word and the terms behind it.
+    /// The colour for a word such as `rgb` and the terms after it.
     fn coloured(&self, keyword: Keyword, value: Terms) -> Colour {
         use Keyword::{Rgbf, Rgbft, Rgbt, Srgb, Srgbf, Srgbft, Srgbt};
         let mut colour = if value.len() == 5 {
@@ -92,7 +93,7 @@ impl Parser<'_> {
                 Rgbft | Srgbft => 5,
                 _ => 3,
             };
-            // Several terms are filled up with zeros, a single one was repeated.
+            // Several terms are padded with zeros; a single one has been repeated.
             let [r, g, b, fourth, fifth] = Terms::new(value.promoted(wanted).as_slice()).promoted(5).all();
             match keyword {
                 Rgbt | Srgbt => [r, g, b, 0.0, fourth],
@@ -108,7 +109,7 @@ impl Parser<'_> {
     }
 }
 
-/// The sRGB curve decoded (IEC 61966-2-1).
+/// Decodes the sRGB curve (IEC 61966-2-1).
 pub(crate) fn srgb_decoded(value: f64) -> f64 {
     if value <= 0.04045 { value / 12.92 } else { elementary::pow((value + 0.055) / 1.055, 2.4) }
 }

@@ -1,4 +1,4 @@
-//! `#declare` and `#local`, and values of every kind.
+//! `#declare` and `#local`, and the values of every kind that they declare.
 
 use std::rc::Rc;
 
@@ -12,7 +12,7 @@ use crate::strings::makes_string;
 use crate::value::{Unsupported, Value};
 
 impl Parser<'_> {
-    /// `#declare NAME = value` or `#local`.
+    /// Reads `#declare NAME = value` or `#local`.
     pub(crate) fn declare(&mut self, local: bool, place: Place) -> Result<()> {
         let serial = self.frames.last().map_or(0, |frame| frame.serial);
         self.skip_deprecation();
@@ -30,10 +30,11 @@ impl Parser<'_> {
         let outer = self.declaring.replace(name);
         let (value, is_ended) = self.declared_value()?;
         self.declaring = outer;
-        // Of the macro that gave the value more may be left than directives: it is read as what stands behind this.
+        // More than directives may be left of the macro that gave the value. The rest is then read
+        // as if it stood after this declaration.
         let is_back = self.leave_finished_frames(serial, place)?;
         if is_back && !is_ended && !self.has_peeked() {
-            // The semicolon behind the call of a macro.
+            // The semicolon after the call of a macro.
             self.take_raw_mark(Mark::Semicolon);
         }
         match element {
@@ -47,7 +48,7 @@ impl Parser<'_> {
 
     /// Gives a variable or an array element a new value.
     pub(crate) fn assign_element(&mut self, target: &Reference, value: Value, place: Place) -> Result<()> {
-        // A shared array is copied before it is changed.
+        // A shared array is copied before a change.
         let depth = value.array_depth() + target.path.len() as u32;
         self.check_array_depth(depth, place)?;
         self.count_array_copy(target.name, place)?;
@@ -59,7 +60,8 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// `deprecated`, `once` and a text before the name: advice of the standard files to their users.
+    /// Skips `deprecated`, `once` and a text before the name, which the standard files use to warn
+    /// their users.
     fn skip_deprecation(&mut self) {
         let word = matches!(self.raw(), Some(Kind::Name(name)) if self.names.text(name) == "deprecated");
         let declared = matches!(self.raw_ahead(1), Some(Kind::Mark(Mark::Equal | Mark::SquareOpen)));
@@ -75,7 +77,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Copying a shared array is work, and memory.
+    /// Counts the steps and the memory that a copy of a shared array takes.
     fn count_array_copy(&mut self, name: crate::interner::Name, place: Place) -> Result<()> {
         let shared = match self.scopes.get(name) {
             Some(Value::Array(array)) if Rc::strong_count(array) > 1 => array.items.len(),
@@ -85,7 +87,8 @@ impl Parser<'_> {
         self.check_memory(crate::value::Array::bytes(shared), place)
     }
 
-    /// The value of a declaration, and whether its semicolon was taken: only numbers need one.
+    /// Reads the value of a declaration. Also returns whether its semicolon was taken, which only
+    /// numbers need.
     fn declared_value(&mut self) -> Result<(Value, bool)> {
         let value = self.value("a value to declare")?;
         let is_number = matches!(value, Value::Number(_));
@@ -101,7 +104,7 @@ impl Parser<'_> {
         Ok((value, is_ended))
     }
 
-    /// A value of any kind.
+    /// Reads a value of any kind.
     pub(crate) fn value(&mut self, wanted: &str) -> Result<Value> {
         self.nested(|r| r.any_value(wanted))
     }
@@ -116,7 +119,7 @@ impl Parser<'_> {
             }
             Item::Value(Value::Number(_)) | Item::Number(_) => return self.number_value(),
             Item::Value(Value::Function(_) | Value::VectorFunction(_) | Value::Spline(_)) => {
-                // A function's name alone is the function, a spline's the spline.
+                // The name of a function alone is the function, and that of a spline is the spline.
                 let lexeme = self.next()?;
                 if let (Item::Value(value), true) =
                     (&lexeme.item, self.raw() != Some(Kind::Mark(Mark::ParenOpen)))
@@ -192,7 +195,7 @@ impl Parser<'_> {
         Ok(Value::Number(terms))
     }
 
-    /// A value that is a word and a block, such as `pigment { }` or `sphere { }`.
+    /// Reads a value that is a word and a block, such as `pigment { }` or `sphere { }`.
     fn block_value(&mut self) -> Result<Value> {
         let braces = self.braces;
         let called = matches!(self.peek_word()?, Some(Keyword::Function | Keyword::Spline));
@@ -215,7 +218,7 @@ impl Parser<'_> {
                 self.next()?;
                 self.transform_value(place)
             }
-            // Outside of a block these stand for a transform, too: #declare T = translate x
+            // Outside of a block these words start a transformation, too: #declare T = translate x
             Keyword::Translate | Keyword::Rotate | Keyword::Scale | Keyword::Matrix => {
                 match self.transform_item()? {
                     Some(matrix) => Ok(Value::Transform(Rc::new(matrix))),
@@ -261,9 +264,9 @@ impl Parser<'_> {
         }
     }
 
-    /// Goes on behind a block in which something was found that cannot be done yet.
+    /// Skips the rest of a block in which something unsupported was found.
     fn skip_block(&mut self, braces: u64, fault: &Error) -> Result<()> {
-        // Up to the block's opening brace, if the fault came before it: function (x, y) { }
+        // Up to the block's opening brace, if the error came before it: function (x, y) { }
         while self.braces <= braces {
             let lexeme = self.next()?;
             match lexeme.item {
@@ -275,14 +278,14 @@ impl Parser<'_> {
         }
         while self.braces > braces {
             match self.next()?.item {
-                // What would change something else cannot be skipped without changing the scene.
+                // A call with side effects cannot be skipped without changing the scene.
                 Item::Word(Keyword::Rand | Keyword::Seed | Keyword::Trace) | Item::End => {
                     return Err(Box::new(fault.clone()));
                 }
                 _ => {}
             }
         }
-        // Layers of one texture belong together.
+        // The layers of one texture belong together.
         if self.raw_or_peeked_texture()? {
             self.next()?;
             return self.skip_block(braces, fault);

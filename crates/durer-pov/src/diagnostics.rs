@@ -1,43 +1,45 @@
-//! One message per mistake: `file:line:column: text`, the line, and a mark under the words meant.
+//! Errors: one message each, as `file:line:column: text`, with the line and a mark under the words
+//! meant.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::source::Source;
 
-/// The reader's own result: faults are boxed, because the way without them is the common one.
+/// The result type of the reader. Errors are boxed, because success is the common case.
 pub(crate) type Result<T> = std::result::Result<T, Box<Error>>;
 
-/// Where a token begins: file (an index into the reader's sources) and byte.
+/// The place where a token begins: a file (an index into the reader's sources) and a byte.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Place {
     pub(crate) file: u32,
     pub(crate) start: u32,
 }
 
-/// What kind of thing went wrong.
+/// The kinds of errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// The text breaks the language's rules, or a value does not fit its place.
+    /// The text breaks the language's rules, or a value is not allowed in its place.
     Invalid,
-    /// The text is POV-Ray's language, but durer cannot do that yet.
+    /// The text is valid in POV-Ray's language, but durer does not support it yet.
     Unsupported,
     /// One of the [`Limits`](crate::Limits) was reached.
     Limit,
     /// A file cannot be read.
     File,
-    /// The scene itself gave up with `#error`.
+    /// The scene itself stopped with `#error`.
     Raised,
 }
 
-/// A fault while it travels up: place and text, the file's words are looked up at the end.
+/// An error while it is passed up: place and text. The file's name and lines are looked up at the
+/// end.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Error {
     pub(crate) place: Option<Place>,
     pub(crate) kind: ErrorKind,
     pub(crate) text: String,
-    /// The macro calls, includes and objects through which the reader came here, innermost first.
+    /// The macro calls, includes and objects that led here, innermost first.
     pub(crate) route: Vec<(String, Place)>,
 }
 
@@ -54,7 +56,8 @@ impl Error {
         Self::at(place, ErrorKind::Unsupported, format!("not supported yet: {keyword}"))
     }
 
-    /// The same, in the texture of an object: with the object's own place, if that is in another file.
+    /// The error as one in the texture of an object: adds the object's own place, if that is in
+    /// another file.
     pub(crate) fn of_object(mut self: Box<Self>, at: Place) -> Box<Self> {
         if self.place.is_some_and(|place| place.file != at.file) {
             self.route.push(("the texture of the object".to_owned(), at));
@@ -69,14 +72,16 @@ impl Error {
 
 /// Why a scene could not be read, and where the reader stopped.
 ///
-/// Printing it gives the whole message: place, text, the line with the words underlined, and the way there.
+/// Its `Display` form is the whole message: place, text, the line with the words underlined, and
+/// the calls and includes that led there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PovError {
-    /// The file meant.
+    /// The file of the error.
     pub path: PathBuf,
-    /// Line and column, both counted from 1 (columns in characters); `None` if the file itself is the matter.
+    /// Line and column, both counted from 1 (columns in characters); `None` if the error concerns
+    /// the whole file.
     pub at: Option<(usize, usize)>,
-    /// What kind of thing went wrong.
+    /// The kind of the error.
     pub kind: ErrorKind,
     /// The message without its place.
     pub text: String,
@@ -99,9 +104,9 @@ impl fmt::Display for PovError {
     }
 }
 
-/// A word for a message: whole, unless it is longer than any name in earnest.
+/// A word for a message, shortened if it is longer than any plausible name.
 pub(crate) fn shortened(word: &str) -> std::borrow::Cow<'_, str> {
-    /// Letters shown.
+    /// The number of letters shown.
     const MOST: usize = 60;
     match word.char_indices().nth(MOST) {
         None => word.into(),
@@ -149,7 +154,7 @@ impl PovError {
     }
 }
 
-/// The line of a mistake with a mark under it, cut to a width that a terminal shows.
+/// The line of an error with a mark under it, cut to the width of a terminal.
 struct Excerpt {
     number: usize,
     before: String,
@@ -157,7 +162,7 @@ struct Excerpt {
     after: String,
 }
 
-/// Characters shown on either side of the marked words.
+/// The number of characters shown on either side of the marked words.
 const CONTEXT: usize = 60;
 
 impl Excerpt {
@@ -194,7 +199,7 @@ impl fmt::Display for Excerpt {
     }
 }
 
-/// How many bytes the token at the start of `text` (one line) takes, for the mark under it.
+/// The number of bytes of the token at the start of `text` (one line), for the mark under it.
 fn lexeme_length(text: &str) -> usize {
     let word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let mut chars = text.char_indices();

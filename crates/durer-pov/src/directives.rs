@@ -1,4 +1,4 @@
-//! Directives: conditions, loops, includes, messages. They run while tokens are fetched.
+//! Directives: conditions, loops, includes, messages. They run while tokens are read.
 
 use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::expression::{nearly_same, same};
@@ -8,7 +8,7 @@ use crate::messages::{Message, MessageKind};
 use crate::parser::{Control, Parser};
 use crate::value::Value;
 
-/// Steps that a message counts for, its letters apart.
+/// The number of steps that a message counts for, in addition to its letters.
 const MESSAGE_STEPS: u64 = 100;
 
 impl Parser<'_> {
@@ -28,11 +28,11 @@ impl Parser<'_> {
             Directive::Macro => self.define_macro(self.jump(block).end as usize, place),
             Directive::End => self.end(block, place),
             Directive::Break => self.leave_block(block, true),
-            // Reached by running into it: the branch before is done.
+            // Reached at the end of the branch before it, so the block is done.
             Directive::Else | Directive::Elseif => self.leave_block(block, false),
             Directive::Case | Directive::Range => self.skip_parentheses(place),
             Directive::Debug | Directive::Warning | Directive::Error => self.message(directive, place),
-            // POV-Ray's own no-operations since 3.0: the text is read and thrown away.
+            // POV-Ray has ignored these since 3.0: the text is read and discarded.
             Directive::Statistics | Directive::Render => self.string("the message").map(drop),
             Directive::Fopen | Directive::Fclose | Directive::Read | Directive::Write => {
                 Err(Error::unsupported(place, &format!("#{}", directive.text())))
@@ -42,7 +42,7 @@ impl Parser<'_> {
 
     fn jump(&self, block: u32) -> crate::branches::Block {
         let blocks = self.frames.last().map(|frame| &frame.source.blocks);
-        // Matching gave every block directive its entry.
+        // `match_blocks` gave every block directive its entry.
         blocks.and_then(|b| b.get(block as usize)).copied().unwrap_or_default()
     }
 
@@ -66,7 +66,7 @@ impl Parser<'_> {
         self.frames.last().and_then(|frame| frame.source.tokens.get(token)).map(|t| t.kind)
     }
 
-    /// A parenthesised condition or number after a directive; comparisons are welcome in it.
+    /// Reads a condition or number in parentheses after a directive; comparisons are allowed in it.
     fn parenthesised(&mut self, place: Place) -> Result<f64> {
         let serial = self.serial();
         self.expect(Mark::ParenOpen)?;
@@ -78,7 +78,7 @@ impl Parser<'_> {
             .ok_or_else(|| Error::invalid(place, "a condition is a float, this is a vector or colour"))
     }
 
-    /// `(NAME)` or `(NAME[i])`: whether that has a value.
+    /// Reads `(NAME)` or `(NAME[i])` and returns whether that has a value.
     fn is_defined(&mut self, place: Place) -> Result<bool> {
         let serial = self.serial();
         self.expect(Mark::ParenOpen)?;
@@ -140,7 +140,7 @@ impl Parser<'_> {
         }
     }
 
-    /// `(first, last)`.
+    /// Reads `(first, last)`.
     fn range(&mut self, place: Place) -> Result<(f64, f64)> {
         let serial = self.serial();
         self.expect(Mark::ParenOpen)?;
@@ -165,7 +165,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// `#for (NAME, first, last [, step])`.
+    /// Reads and starts `#for (NAME, first, last [, step])`.
     fn for_loop(&mut self, block: u32, place: Place) -> Result<()> {
         let serial = self.serial();
         self.expect(Mark::ParenOpen)?;
@@ -206,7 +206,7 @@ impl Parser<'_> {
                 self.while_loop(opener, place)
             }
             Some(Control::For { body, variable, last, step }) => {
-                // The body may have changed the variable, and that counts.
+                // The body may have changed the variable; the loop continues from its new value.
                 let now = match self.scopes.get(variable) {
                     Some(Value::Number(terms)) => terms.float(),
                     _ => None,
@@ -231,7 +231,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Goes on behind the block's `#end`; if `to_loop`, out of the branches inside it too.
+    /// Continues after the block's `#end`. If `to_loop`, the branches inside the loop are left too.
     fn leave_block(&mut self, block: u32, to_loop: bool) -> Result<()> {
         let jump = self.jump(block);
         let Some(frame) = self.frames.last_mut() else { return Ok(()) };
@@ -312,7 +312,7 @@ impl Parser<'_> {
             Directive::Warning => MessageKind::Warning,
             _ => return Err(Error::at(place, ErrorKind::Raised, format!("#error: {}", text.trim_end()))),
         };
-        // Showing it is work for others.
+        // Messages cost time where they are shown.
         self.count_steps(MESSAGE_STEPS + text.len() as u64, place)?;
         self.say(kind, place, text);
         Ok(())
@@ -325,13 +325,14 @@ impl Parser<'_> {
         self.messages.push(place, Message { kind, path, at, text });
     }
 
-    /// The reader's own warning.
+    /// Adds a warning of the reader itself.
     pub(crate) fn notice(&mut self, place: Place, text: impl Into<String>) {
         self.say(MessageKind::Notice, place, text.into());
     }
 
     fn version_directive(&mut self, place: Place) -> Result<()> {
-        // Looking past the number would run the next directive too early, so it is taken by its form.
+        // The word is recognised without a look at the next item, which would run a following
+        // directive too early.
         if matches!(self.raw(), Some(Kind::Name(name)) if self.names.text(name) == "unofficial") {
             self.take_raw();
         }
@@ -341,7 +342,8 @@ impl Parser<'_> {
         self.set_version(version, place)
     }
 
-    /// The name after `#declare`, `defined(` and the like, with its subscripts; whether it has a value.
+    /// Reads the name after `#declare`, `defined(` and the like, with its subscripts. Returns
+    /// whether it has a value.
     pub(crate) fn defined_name(&mut self) -> Result<bool> {
         match self.take_raw() {
             Some((Kind::Name(name), _)) => {
@@ -351,7 +353,8 @@ impl Parser<'_> {
                 }
                 Ok(self.scopes.get(name).is_some_and(|value| !matches!(value, Value::Empty)))
             }
-            // A reserved word is no variable; the standard files ask this of words of newer versions.
+            // A reserved word counts as defined: the standard files test this for words of newer
+            // versions.
             Some((Kind::Word(_), _)) => Ok(true),
             _ => Err(Error::invalid(self.here(), "expected a name")),
         }
@@ -367,7 +370,7 @@ impl Parser<'_> {
     }
 }
 
-/// Whether a condition holds: values that equal zero within the language's tolerance do not.
+/// Whether a condition holds: its value is not zero, within the language's tolerance.
 pub(crate) fn truth(value: f64) -> bool {
     !same(value, 0.0)
 }

@@ -1,4 +1,4 @@
-//! Expressions: lists of one to five floats, their operators, and their parts.
+//! Expressions: lists of one to five floats, their operators, and their components.
 
 use crate::diagnostics::{Error, Result};
 use crate::keywords::Keyword;
@@ -6,8 +6,9 @@ use crate::lexer::Mark;
 use crate::parser::{Item, Parser};
 use crate::value::{Terms, Value};
 
-/// How far apart numbers may be that are equal to the language: a fact of POV-Ray. `=`, `!=`, `<=` and `>=` have this
-/// tolerance, and so have conditions; `<` and `>` are exact. So `(1 < 1 + 1e-11)` holds, and `(1 = 1 + 1e-11)` as well.
+/// The largest difference at which numbers are equal in the language (a fact of POV-Ray). `=`,
+/// `!=`, `<=`, `>=` and conditions have this tolerance; `<` and `>` are exact. So `(1 < 1 + 1e-11)`
+/// holds, and `(1 = 1 + 1e-11)` as well.
 pub(crate) const TOLERANCE: f64 = 1e-10;
 
 /// Whether `a = b` holds in the language.
@@ -15,7 +16,8 @@ pub(crate) fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= TOLERANCE
 }
 
-/// Whether `#case` and the end of `#for` take `a` for `b`: here the tolerance itself is too far (a fact of POV-Ray).
+/// Whether `#case` and the end of `#for` treat `a` as equal to `b`. Here the tolerance is exclusive
+/// (a fact of POV-Ray).
 pub(crate) fn nearly_same(a: f64, b: f64) -> bool {
     (a - b).abs() < TOLERANCE
 }
@@ -25,7 +27,7 @@ fn flag(value: bool) -> Terms {
 }
 
 impl Parser<'_> {
-    /// What may stand in parentheses: sums, comparisons, `&`, `|` and `?:`.
+    /// Reads what may stand in parentheses: sums, comparisons, `&`, `|` and `?:`.
     pub(crate) fn relation(&mut self) -> Result<Terms> {
         self.nested(|r| {
             let condition = r.logical()?;
@@ -42,7 +44,7 @@ impl Parser<'_> {
         })
     }
 
-    /// `&` and `|`, of equal rank, from left to right.
+    /// Reads `&` and `|`, which have the same precedence, from left to right.
     fn logical(&mut self) -> Result<Terms> {
         let mut left = self.comparison()?;
         loop {
@@ -60,7 +62,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Comparisons, of equal rank, from left to right.
+    /// Reads comparisons, which have the same precedence, from left to right.
     fn comparison(&mut self) -> Result<Terms> {
         let mut left = self.expression()?;
         loop {
@@ -101,7 +103,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Sums and differences.
+    /// Reads sums and differences.
     pub(crate) fn expression(&mut self) -> Result<Terms> {
         let mut left = self.product()?;
         loop {
@@ -116,7 +118,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Products and quotients.
+    /// Reads products and quotients.
     fn product(&mut self) -> Result<Terms> {
         let mut left = self.operand()?;
         loop {
@@ -134,7 +136,7 @@ impl Parser<'_> {
                     if !right.as_slice().iter().all(divides) {
                         return Err(Error::invalid(place, "division by zero"));
                     }
-                    // Filled-up places of a short divisor divide nothing.
+                    // Division by zero gives 0, because a short divisor is padded with zeros.
                     left = left.zip(right, |a, b| if b == 0.0 { 0.0 } else { a / b });
                 }
                 _ => return Ok(left),
@@ -142,7 +144,8 @@ impl Parser<'_> {
         }
     }
 
-    /// A number, vector, identifier, call or parenthesis, with its signs before and its dots behind.
+    /// Reads a number, vector, identifier, call or parenthesis, with signs before it and dots after
+    /// it.
     pub(crate) fn operand(&mut self) -> Result<Terms> {
         let sign = match self.peek()? {
             Item::Mark(mark @ (Mark::Minus | Mark::Plus | Mark::Not)) => Some(*mark),
@@ -158,7 +161,8 @@ impl Parser<'_> {
             });
         }
         let mut value = self.primary()?;
-        // A dot is looked for without running what follows: `#version 3.7 #end` must not run its #end here.
+        // Looks for a dot without running what follows: `#version 3.7 #end` must not run its #end
+        // here.
         while self.dot_follows()? {
             value = self.part_of(value)?;
         }
@@ -170,7 +174,7 @@ impl Parser<'_> {
         if !self.has_peeked() {
             match self.raw() {
                 Some(Kind::Mark(Mark::Dot)) => {}
-                // At the end of a macro's body the dot may stand behind its call.
+                // At the end of a macro's body the dot may stand after the call.
                 None => return self.take_mark(Mark::Dot),
                 Some(_) => return Ok(false),
             }
@@ -178,7 +182,7 @@ impl Parser<'_> {
         self.take_mark(Mark::Dot)
     }
 
-    /// The part of `value` named after a dot.
+    /// The component of `value` that is named after a dot.
     fn part_of(&mut self, value: Terms) -> Result<Terms> {
         let lexeme = self.next()?;
         let index = match &lexeme.item {
@@ -223,7 +227,7 @@ impl Parser<'_> {
         }
     }
 
-    /// The rest of `<a, b, ...>`.
+    /// Reads the rest of `<a, b, ...>`.
     fn vector_literal(&mut self) -> Result<Terms> {
         let place = self.here();
         let mut values = Vec::with_capacity(5);
@@ -249,7 +253,7 @@ impl Parser<'_> {
         Ok(Terms::new(&values))
     }
 
-    /// An expression that is one float.
+    /// Reads an expression that is one float.
     pub(crate) fn float(&mut self) -> Result<f64> {
         self.peek()?;
         let place = self.here();
@@ -261,7 +265,8 @@ impl Parser<'_> {
         finite(found, place)
     }
 
-    /// An expression that is a vector of three; a float stands for three equal ones, two are filled up with zero.
+    /// Reads an expression that is a vector of three. A float stands for three equal components; a
+    /// vector of two is padded with zero.
     pub(crate) fn vector(&mut self) -> Result<[f64; 3]> {
         self.peek()?;
         let place = self.here();
@@ -277,7 +282,7 @@ impl Parser<'_> {
         Ok(v)
     }
 
-    /// An expression that is a vector of two.
+    /// Reads an expression that is a vector of two.
     pub(crate) fn vector2(&mut self) -> Result<[f64; 2]> {
         self.peek()?;
         let place = self.here();
@@ -290,7 +295,8 @@ impl Parser<'_> {
         Ok([finite(a, place)?, finite(b, place)?])
     }
 
-    /// A float, or nothing if something else comes next: `on`, `off` and no word at all mean `absent`.
+    /// Reads a float, or returns `absent` if none follows: for words that may stand without a
+    /// number.
     pub(crate) fn float_or(&mut self, absent: f64) -> Result<f64> {
         if self.starts_number()? { self.float() } else { Ok(absent) }
     }
@@ -311,13 +317,13 @@ impl Parser<'_> {
         Ok(crate::functions::begins_expression(keyword))
     }
 
-    /// A switch such as `no_shadow on`; the word alone is `on`.
+    /// Reads a switch such as `no_shadow on`; the word alone means `on`.
     pub(crate) fn switch_value(&mut self) -> Result<bool> {
         Ok(crate::directives::truth(self.float_or(1.0)?))
     }
 }
 
-/// `value`, unless it is infinite or not a number: nothing good follows from those.
+/// Returns `value`, unless it is infinite or not a number; then it is an error.
 pub(crate) fn finite(value: f64, place: crate::diagnostics::Place) -> Result<f64> {
     if value.is_finite() {
         return Ok(value);

@@ -1,7 +1,9 @@
-//! `function { }`: a formula of parameters, read into the steps that surfaces evaluate; and what is made of formulas.
+//! `function { }`: formulas of parameters, read into the steps that surfaces evaluate, and the
+//! isosurfaces made of them.
 //!
-//! Inside a function numbers are written as in POV-Ray's manual, section "User-defined functions": floats, parameters, the float functions, calls of
-//! functions declared before. Everything is written out where it is called, so that what is left has no calls in it.
+//! The syntax inside a function is that of POV-Ray's manual, section "User-defined functions":
+//! floats, parameters, the float functions, and calls of functions declared before. Calls are
+//! expanded in place, so the result contains no calls.
 
 use std::rc::Rc;
 use std::sync::Arc;
@@ -20,12 +22,12 @@ use crate::parser::{Item, Lexeme, Parser};
 use crate::value::{Terms, Value};
 use crate::vector_function::{self, VectorFunction};
 
-/// More parameters than this no function has.
+/// The greatest number of parameters of a function.
 const MOST_PARAMETERS: usize = 56;
-/// More steps than this no `sum` or `prod` has.
+/// The greatest number of steps of `sum` or `prod`.
 const MOST_ROUNDS: f64 = 10_000.0;
 
-/// A parameter's name: a word such as `x`, or any other.
+/// The name of a parameter: a word of the language such as `x`, or any other name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Parameter {
     Word(Keyword),
@@ -36,7 +38,7 @@ enum Parameter {
 #[derive(Clone, Debug)]
 pub(crate) struct Called {
     pub(crate) formula: Formula,
-    /// One of those whose arguments are checked.
+    /// The noise function, if it is one whose arguments must be checked.
     noisy: Option<Noisy>,
 }
 
@@ -47,7 +49,8 @@ impl From<Formula> for Called {
 }
 
 impl Called {
-    /// Whether it can be called with so many arguments, and with these.
+    /// Checks whether it can be called with this number of arguments, and with their values as far
+    /// as they are known.
     fn check(&self, arguments: &[Option<f64>], place: Place) -> Result<()> {
         check_count(arguments.len(), self.formula.inputs() as usize, place)?;
         self.noisy.map_or(Ok(()), |function| {
@@ -57,12 +60,12 @@ impl Called {
     }
 }
 
-/// A function on its way from text to steps.
+/// A function while it is converted from text to steps.
 struct Draft {
     builder: Builder,
-    /// The words that are parameters, and the numbers they stand for.
+    /// The words that are parameters, and the indices of their inputs.
     words: Vec<(Keyword, u32)>,
-    /// How many inputs there are, those of loops included.
+    /// The number of inputs, including those of loops.
     inputs: u32,
 }
 
@@ -106,7 +109,7 @@ impl Draft {
 }
 
 impl Parser<'_> {
-    /// `function (a, b) { ... }`, the word included, that gives a float.
+    /// Reads `function (a, b) { ... }`, including the word, which must give a float.
     pub(crate) fn float_function_block(&mut self) -> Result<Called> {
         let place = self.here();
         match self.function_block()? {
@@ -115,7 +118,7 @@ impl Parser<'_> {
         }
     }
 
-    /// `function (a, b) { ... }`, the word included: a function of floats or of vectors.
+    /// Reads `function (a, b) { ... }`, including the word: a function with float or vector values.
     pub(crate) fn function_block(&mut self) -> Result<Value> {
         self.next()?;
         let place = self.here();
@@ -124,7 +127,8 @@ impl Parser<'_> {
         self.nested(|r| r.function_body(&parameters, place))
     }
 
-    /// The names in parentheses, as they stand: one that is declared elsewhere is a parameter all the same.
+    /// Reads the names in parentheses as they stand: a name that is declared elsewhere may be a
+    /// parameter.
     fn parameters(&mut self) -> Result<Option<Vec<Parameter>>> {
         if self.has_peeked() || !self.take_raw_mark(Mark::ParenOpen) {
             return Ok(None);
@@ -170,7 +174,7 @@ impl Parser<'_> {
         }
     }
 
-    /// What stands between the braces, and the closing one.
+    /// Reads what stands between the braces, and the closing brace.
     fn function_body(&mut self, parameters: &Option<Vec<Parameter>>, place: Place) -> Result<Value> {
         let mut draft = Draft { builder: Builder::new(), words: Vec::new(), inputs: 3 };
         self.scopes.enter();
@@ -189,7 +193,8 @@ impl Parser<'_> {
                 }
             }
         }
-        // The names go also where the body is wrong: a declaration may be skipped.
+        // The parameters' names are removed also if the body is wrong, because a declaration may be
+        // skipped.
         let read = self.named_body(draft, parameters.is_some());
         self.scopes.leave();
         let function = read?;
@@ -198,7 +203,7 @@ impl Parser<'_> {
         Ok(function)
     }
 
-    /// The body, when its parameters have their names.
+    /// Reads the body while its parameters have their names.
     fn named_body(&mut self, mut draft: Draft, has_parameters: bool) -> Result<Value> {
         if let Some(function) = self.vector_function(has_parameters)? {
             return Ok(Value::VectorFunction(Rc::new(function)));
@@ -219,7 +224,7 @@ impl Parser<'_> {
         Ok(function(draft.builder.finish(root, inputs).into()))
     }
 
-    /// `internal(n)`: one of the functions that functions.inc names.
+    /// `internal(n)`: one of the functions that functions.inc gives names to.
     fn internal_function(&mut self) -> Result<Called> {
         self.next()?;
         let place = self.here();
@@ -240,7 +245,7 @@ impl Parser<'_> {
         }
     }
 
-    /// `&` and `|`, from left to right.
+    /// Reads `&` and `|`, from left to right.
     fn logical_formula(&mut self, draft: &mut Draft) -> Result<NodeId> {
         let mut left = self.compared_formula(draft)?;
         loop {
@@ -362,7 +367,7 @@ impl Parser<'_> {
         }
     }
 
-    /// The arguments in parentheses.
+    /// Reads the arguments in parentheses.
     fn formula_arguments(&mut self, draft: &mut Draft) -> Result<Vec<NodeId>> {
         self.expect(Mark::ParenOpen)?;
         let mut arguments = Vec::new();
@@ -387,7 +392,7 @@ impl Parser<'_> {
         draft.builder.call(&called.formula, &arguments).map_err(too_long(place))
     }
 
-    /// A part of what a function of vectors gives: `F(x, y, z).red`.
+    /// Reads a component of the value of a vector function: `F(x, y, z).red`.
     fn call_part(&mut self, draft: &mut Draft, function: &VectorFunction, place: Place) -> Result<NodeId> {
         let arguments = self.formula_arguments(draft)?;
         check_count(arguments.len(), function.inputs(), place)?;
@@ -416,7 +421,7 @@ impl Parser<'_> {
         sum.ok_or_else(|| Error::invalid(lexeme.place, "this value has no such part"))
     }
 
-    /// A word of the language inside a function.
+    /// Reads a word of the language inside a function.
     fn word_formula(&mut self, draft: &mut Draft, word: Keyword, lexeme: &Lexeme) -> Result<NodeId> {
         let place = lexeme.place;
         let constant = match word {
@@ -485,7 +490,7 @@ impl Parser<'_> {
         draft.push(step, place)
     }
 
-    /// `sum(i, first, last, expression)` and `prod`, written out.
+    /// Expands `sum(i, first, last, expression)` and `prod`.
     fn loop_formula(&mut self, draft: &mut Draft, word: Keyword, place: Place) -> Result<NodeId> {
         self.expect(Mark::ParenOpen)?;
         let variable = match self.take_raw() {
@@ -505,7 +510,7 @@ impl Parser<'_> {
             let text = format!("{} over more than {MOST_ROUNDS} numbers", word.text());
             return Err(Error::at(place, ErrorKind::Limit, text));
         }
-        // The expression as a function of what is known outside, and of the variable.
+        // Reads the expression as a function of the outer inputs and of the loop's variable.
         let number = draft.inputs;
         let mut inner = Draft { builder: Builder::new(), words: draft.words.clone(), inputs: number + 1 };
         self.scopes.enter();
@@ -535,7 +540,7 @@ impl Parser<'_> {
         Ok(value)
     }
 
-    /// A bound of a loop and its comma: it must be known when the function is read.
+    /// Reads a bound of a loop and its comma. It must be known when the function is read.
     fn whole_bound(&mut self, draft: &mut Draft) -> Result<f64> {
         self.peek()?;
         let place = self.here();
@@ -552,7 +557,7 @@ impl Parser<'_> {
         }
     }
 
-    /// The value of a function that is called where a float is wanted, after its name.
+    /// Evaluates a function that is called where a float is wanted, after its name.
     pub(crate) fn called_formula(&mut self, called: &Rc<Called>, place: Place) -> Result<Terms> {
         let arguments = self.float_arguments()?;
         let numbers: Vec<Option<f64>> = arguments.iter().copied().map(Some).collect();
@@ -565,7 +570,7 @@ impl Parser<'_> {
         Ok(value.into())
     }
 
-    /// Floats in parentheses.
+    /// Reads floats in parentheses.
     pub(crate) fn float_arguments(&mut self) -> Result<Vec<f64>> {
         self.expect(Mark::ParenOpen)?;
         let mut arguments = Vec::new();
@@ -579,7 +584,7 @@ impl Parser<'_> {
         Ok(arguments)
     }
 
-    /// The items of an isosurface, after its opening brace.
+    /// Reads the items of an isosurface, after its opening brace.
     pub(crate) fn isosurface(&mut self, place: Place) -> Result<Shape> {
         let mut function = None;
         let (mut threshold, mut open) = (0.0, false);
@@ -606,7 +611,7 @@ impl Parser<'_> {
                     self.next()?;
                     threshold = self.float()?;
                 }
-                // Roots are certain without them.
+                // Roots are certain without these settings.
                 Some(Keyword::Accuracy | Keyword::MaxGradient | Keyword::MaxTrace) => {
                     self.next()?;
                     self.float()?;
@@ -634,7 +639,7 @@ impl Parser<'_> {
         Ok(Shape::Isosurface(Rc::new(Isosurface { function, threshold, container }), open))
     }
 
-    /// `{ box { } }` or `{ sphere { } }`.
+    /// Reads `{ box { } }` or `{ sphere { } }`.
     pub(crate) fn container(&mut self) -> Result<Container> {
         let point = |[x, y, z]: [f64; 3]| Point3::new(x, y, z);
         self.expect(Mark::BraceOpen)?;

@@ -1,4 +1,4 @@
-//! Functions and constants of expressions: floats, vectors, and what asks about strings and arrays.
+//! Functions and constants in expressions: floats, vectors, and queries of strings and arrays.
 
 use durer_math::elementary;
 
@@ -10,7 +10,7 @@ use crate::parser::Parser;
 use crate::transform::{self, Matrix};
 use crate::value::Terms;
 
-/// Days from 1970-01-01 to 2000-01-01, where `now` begins to count.
+/// Days from 1970-01-01 to 2000-01-01, where `now` starts to count.
 const DAYS_TO_2000: f64 = 10_957.0;
 const SECONDS_PER_DAY: f64 = 86_400.0;
 
@@ -60,7 +60,7 @@ pub(crate) fn begins_expression(keyword: Keyword) -> bool {
         )
 }
 
-/// Functions that need what is not there yet: functions of their own, noise.
+/// Functions that need something that is not supported yet: user-defined functions, noise.
 fn needs_more(keyword: Keyword) -> bool {
     use Keyword::*;
     matches!(keyword, Prod | Sum | Vturbulence)
@@ -81,7 +81,7 @@ fn constant(keyword: Keyword) -> Option<Terms> {
     })
 }
 
-/// Functions of one float that have a value everywhere, or complain in [`domain`].
+/// Functions of one float that are defined everywhere, or whose domain is checked by [`domain`].
 fn float_function(keyword: Keyword) -> Option<fn(f64) -> f64> {
     Some(match keyword {
         Keyword::Acos => |v| elementary::acos(v.clamp(-1.0, 1.0)),
@@ -109,7 +109,7 @@ fn float_function(keyword: Keyword) -> Option<fn(f64) -> f64> {
     })
 }
 
-/// What is wrong with the argument `v` of `keyword`.
+/// The error message if the argument `v` is outside of the domain of `keyword`.
 fn domain(keyword: Keyword, v: f64) -> Option<&'static str> {
     match keyword {
         Keyword::Sqrt if v < 0.0 => Some("the square root of a negative number"),
@@ -125,7 +125,8 @@ fn flag(value: bool) -> Terms {
 }
 
 impl Parser<'_> {
-    /// The value of the constant or function `keyword`, which was just taken; `None` if it is neither.
+    /// The value of the constant or function `keyword`, which was just taken; `None` if it is
+    /// neither.
     pub(crate) fn function(&mut self, keyword: Keyword, place: Place) -> Result<Option<Terms>> {
         if let Some(value) = constant(keyword) {
             return Ok(Some(value));
@@ -165,7 +166,7 @@ impl Parser<'_> {
         Ok(Some(value))
     }
 
-    /// A float and the comma behind it.
+    /// Reads a float and the comma after it.
     fn argument(&mut self) -> Result<f64> {
         let value = self.float()?;
         self.skip_comma()?;
@@ -178,7 +179,7 @@ impl Parser<'_> {
         Ok(value)
     }
 
-    /// Functions of more than one float, between their parentheses.
+    /// Reads functions of more than one float, with their parentheses.
     fn called(&mut self, keyword: Keyword, place: Place) -> Result<Terms> {
         Ok(match keyword {
             Keyword::Abs => self.expression()?.map(f64::abs),
@@ -283,7 +284,7 @@ impl Parser<'_> {
             Keyword::Inside => self.inside(place)?,
             Keyword::MinExtent => self.end_of_extent(false, place)?,
             Keyword::MaxExtent => self.end_of_extent(true, place)?,
-            // `begins_expression` lists no other function.
+            // `begins_expression` lists no other functions.
             _ => return Err(Error::unsupported(place, keyword.text())),
         })
     }
@@ -293,7 +294,7 @@ impl Parser<'_> {
         Ok((f(a as i64, b as i64) as f64).into())
     }
 
-    /// `seed(n)`: a new stream, numbered from 0.
+    /// `seed(n)`: starts a new stream and returns its number, from 0.
     fn seed(&mut self, place: Place) -> Result<f64> {
         let seed = self.float()?;
         self.check_memory(4 * self.streams.len(), place)?;
@@ -302,7 +303,8 @@ impl Parser<'_> {
         Ok((self.streams.len() - 1) as f64)
     }
 
-    /// `rand(stream)`: the generator of the scene language, since scenes place things with it.
+    /// `rand(stream)`: uses the generator of the scene language, since scenes place objects with
+    /// it.
     fn rand(&mut self, place: Place) -> Result<f64> {
         let stream = self.float()?;
         let known = stream >= 0.0 && same(stream, stream.round());

@@ -1,14 +1,15 @@
-//! Words as small numbers, so that the reader compares and looks up without touching letters.
+//! The interner: words as small numbers, so that the reader compares and looks up without comparing
+//! letters.
 
 use std::collections::HashMap;
 
 use crate::keywords::Keyword;
 
-/// A word of the scene: reserved words come first, in the order of [`Keyword`].
+/// A word of the scene. Reserved words come first, in the order of [`Keyword`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Name(pub(crate) u32);
 
-/// Every word seen so far.
+/// All words seen so far.
 #[derive(Debug)]
 pub(crate) struct Interner {
     known: HashMap<Box<str>, Name>,
@@ -16,20 +17,20 @@ pub(crate) struct Interner {
 }
 
 impl Interner {
-    /// The reserved words.
+    /// Starts with the reserved words.
     pub(crate) fn new() -> Self {
         let mut names = Self { known: HashMap::new(), texts: Vec::new() };
         for keyword in Keyword::ALL {
             names.name(keyword.text());
         }
-        // Two spellings of one word share its number.
+        // Two spellings of one word share a number.
         for (spelling, keyword) in Keyword::OTHER_SPELLINGS {
             names.known.insert((*spelling).into(), Name(*keyword as u32));
         }
         names
     }
 
-    /// The number of `text`, a new one if it is new.
+    /// The number of `text`. A new word gets a new number.
     pub(crate) fn name(&mut self, text: &str) -> Name {
         if let Some(&name) = self.known.get(text) {
             return name;

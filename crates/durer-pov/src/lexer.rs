@@ -1,4 +1,5 @@
-//! Text to tokens: comments go, words are looked up once, numbers become numbers.
+//! The lexer: from text to tokens. It skips comments, looks up each word once, and converts
+//! numbers.
 
 use crate::diagnostics::{Error, Place, Result};
 use crate::interner::{Interner, Name};
@@ -6,14 +7,15 @@ use crate::keywords::Keyword;
 use crate::limits::{self, Limits};
 use crate::source::Source;
 
-/// A token and the byte where it begins. Twelve bytes, because a mesh is millions of them.
+/// A token and the byte where it begins. It takes only twelve bytes, because a mesh has millions of
+/// tokens.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Token {
     pub(crate) start: u32,
     pub(crate) kind: Kind,
 }
 
-/// What a token is; the long ones are indices into their [`Source`]'s tables.
+/// The kind of a token. Long contents are indices into tables of the [`Source`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kind {
     Number(u32),
@@ -21,7 +23,7 @@ pub(crate) enum Kind {
     Word(Keyword),
     Name(Name),
     Mark(Mark),
-    /// A directive, and its entry in the table of blocks if it belongs to one.
+    /// A directive, and its entry in the table of blocks, or [`NO_BLOCK`].
     Directive(Directive, u32),
 }
 
@@ -32,11 +34,11 @@ macro_rules! spelled {
         pub(crate) enum $name { $($variant,)* }
 
         impl $name {
-            /// All of them.
+            /// All variants.
             #[allow(dead_code, reason = "not every such table is listed")]
             pub(crate) const ALL: &[Self] = &[$(Self::$variant,)*];
 
-            /// As it is written.
+            /// The spelling.
             pub(crate) fn text(self) -> &'static str {
                 match self { $(Self::$variant => $text,)* }
             }
@@ -72,10 +74,10 @@ spelled! {
     }
 }
 
-/// The entry in the table of blocks of a directive that belongs to none.
+/// The entry of a directive that belongs to no block.
 pub(crate) const NO_BLOCK: u32 = u32::MAX;
 
-/// Fills in the tokens of `source`, which will be file number `file`.
+/// Fills in the tokens of `source`, which gets the file number `file`.
 pub(crate) fn lex(source: &mut Source, file: u32, names: &mut Interner, limits: &Limits) -> Result<()> {
     let text = std::mem::take(&mut source.text);
     let result = Lexer { text: &text, bytes: text.as_bytes(), at: 0, file, names }.run(source, limits);
@@ -91,7 +93,7 @@ struct Lexer<'a> {
     names: &'a mut Interner,
 }
 
-/// Old DOS editors end a text with this.
+/// Old DOS editors end a text with this byte.
 const END_OF_TEXT: u8 = 0x1a;
 
 impl<'a> Lexer<'a> {
@@ -126,7 +128,7 @@ impl<'a> Lexer<'a> {
         Ok(())
     }
 
-    /// Skips blanks and comments; `false` at the end of the text.
+    /// Skips blanks and comments. Returns `false` at the end of the text.
     fn skip_blanks(&mut self) -> Result<bool> {
         while self.at < self.bytes.len() {
             match (self.peek(0), self.peek(1)) {
@@ -142,7 +144,7 @@ impl<'a> Lexer<'a> {
         Ok(false)
     }
 
-    /// Skips a `/* */` comment, which may hold others.
+    /// Skips a `/* */` comment, which may contain others.
     fn skip_comment(&mut self) -> Result<()> {
         let (start, mut depth) = (self.at, 0_usize);
         while self.at < self.bytes.len() {
@@ -158,7 +160,7 @@ impl<'a> Lexer<'a> {
         Err(Error::invalid(self.place(start), "this comment is never closed"))
     }
 
-    /// The next token; `None` for a `#` that means nothing.
+    /// Reads the next token; `None` for a `#` without a meaning.
     fn token(&mut self, source: &mut Source) -> Result<Option<Kind>> {
         Ok(Some(match self.peek(0) {
             b'"' => self.string(source)?,
@@ -233,8 +235,8 @@ impl<'a> Lexer<'a> {
         Err(Error::invalid(self.place(start), "this string is never closed"))
     }
 
-    /// A `#` and the directive's word. In front of anything but a number a `#` without a directive means nothing (a fact of
-    /// the language): `None`.
+    /// Reads a `#` and the directive's word. A `#` without a directive has no meaning unless a
+    /// number follows (a fact of the language): `None`.
     fn directive(&mut self) -> Result<Option<Kind>> {
         let start = self.at;
         self.at += 1;
@@ -258,7 +260,8 @@ impl<'a> Lexer<'a> {
                 return Ok(Kind::Mark(mark));
             }
         }
-        // `at` is on a character's first byte, since every token before was made of whole characters.
+        // `at` is at the first byte of a character, since all tokens before consist of whole
+        // characters.
         let found = self.text[start..].chars().next().unwrap_or(' ');
         let hint = if found == '^' { "; powers are written pow(a, b)" } else { "" };
         Err(Error::invalid(self.place(start), format!("unexpected character '{found}'{hint}")))

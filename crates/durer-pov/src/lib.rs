@@ -1,4 +1,4 @@
-//! POV-Ray's scene description language, read into [`durer_scene::Scene`].
+//! This crate reads POV-Ray's scene description language into a [`durer_scene::Scene`].
 //!
 //! ```no_run
 //! let read = durer_pov::read("melencolia.pov".as_ref(), &durer_pov::ReadOptions::default())?;
@@ -6,16 +6,17 @@
 //! # Ok::<(), durer_pov::PovError>(())
 //! ```
 //!
-//! The `lexer` turns a file into tokens once, and `branches` finds once where its directives lead. The
-//! `parser` hands tokens to the grammar one by one. On the way it runs directives (`directives`),
-//! expands macros (`macros`) and replaces names by their values (`scope`, `value`, `arrays`), because
-//! all of these may stand anywhere. `expression`, `functions`, `strings` and `colour` compute values;
-//! `object`, `texture`, `light`, `camera` and `settings` read blocks; `scene_builder` makes scene data
-//! of finished objects (`volume` of those that are flat or empty).
+//! The `lexer` turns each file into tokens, once, and `branches` finds the targets of its
+//! directives, once. The `parser` passes the tokens to the grammar one by one. On the way it runs
+//! directives (`directives`), expands macros (`macros`) and replaces names by their values
+//! (`scope`, `value`, `arrays`), because all of these may stand anywhere. `expression`,
+//! `functions`, `strings` and `colour` compute values. `object`, `texture`, `light`, `camera` and
+//! `settings` read blocks. `scene_builder` turns finished objects into scene data (`volume` does so
+//! for flat or empty ones).
 //!
-//! Reading ends for every text: [`Limits`] bounds it in time, memory and depth. Every fault is one
-//! [`PovError`] with its file, line and column and the text underlined. The reader does not shade, and
-//! its only effect outside is that it reads files.
+//! Reading ends for every text: [`Limits`] bounds its time, memory and depth. Every error is one
+//! [`PovError`] with file, line and column, and the text underlined. The reader does not shade. Its
+//! only access to the outside is that it reads files.
 #![forbid(unsafe_code)]
 
 mod arrays;

@@ -1,4 +1,4 @@
-//! Lights: points, spotlights, cylinders of light.
+//! Lights: point lights, spotlights, cylindrical lights.
 
 use std::rc::Rc;
 
@@ -10,8 +10,9 @@ use crate::parser::{Item, Parser};
 use crate::transform::{Matrix, length};
 use crate::value::Value;
 
-/// How a light spreads. What is said last counts, also `shadowless`: a spotlight that is made shadowless afterwards spreads to all sides, and a shadowless
-/// light that becomes a spotlight throws shadows.
+/// The form of a light. The last statement counts, `shadowless` included: a spotlight that is made
+/// shadowless afterwards shines in all directions, and a shadowless light that becomes a spotlight
+/// throws shadows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Beam {
     #[default]
@@ -28,16 +29,17 @@ pub(crate) struct Light {
     pub(crate) color: [f64; 3],
     pub(crate) beam: Beam,
     pub(crate) point_at: [f64; 3],
-    /// Spot: half angle in degrees of the bright cone; cylinder: radius.
+    /// Spotlight: the half angle in degrees of the bright cone. Cylinder: the bright radius.
     pub(crate) radius: f64,
-    /// Spot: half angle in degrees where it is dark; cylinder: radius.
+    /// Spotlight: the half angle in degrees where the light ends. Cylinder: the radius where it
+    /// ends.
     pub(crate) falloff: f64,
     pub(crate) tightness: f64,
     pub(crate) parallel: bool,
-    /// 0 if it does not fade.
+    /// The fade distance; 0 if the light does not fade.
     pub(crate) fade_distance: f64,
     pub(crate) fade_power: f64,
-    /// What is shown in its place; it does not shadow this light.
+    /// The object that is shown in its place; it does not shadow this light.
     pub(crate) looks_like: Option<Rc<Object>>,
 }
 
@@ -58,7 +60,7 @@ impl Light {
         }
     }
 
-    /// Moves the lamp and what it points at.
+    /// Transforms the light and the point it is aimed at.
     pub(crate) fn transform(&mut self, by: &Matrix) {
         self.location = by.point(self.location);
         self.point_at = by.point(self.point_at);
@@ -69,7 +71,7 @@ impl Light {
 }
 
 impl Parser<'_> {
-    /// What stands in braces after `light_source`, as an object without a surface.
+    /// Reads what stands in braces after `light_source`, as an object without a surface.
     pub(crate) fn light_block(&mut self) -> Result<Object> {
         let begin = self.here();
         self.expect(Mark::BraceOpen)?;
@@ -125,7 +127,7 @@ impl Parser<'_> {
                 Item::Word(Keyword::Tightness) => light.tightness = self.float()?,
                 Item::Word(Keyword::FadeDistance) => light.fade_distance = self.float()?,
                 Item::Word(Keyword::FadePower) => light.fade_power = self.float()?,
-                // There are no media yet that they could meet.
+                // There are no media yet with which the light could interact.
                 Item::Word(Keyword::MediaInteraction | Keyword::MediaAttenuation) => {
                     self.switch_value()?;
                 }

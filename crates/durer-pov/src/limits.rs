@@ -1,25 +1,26 @@
-//! Hard limits, each with a number and a name, so that no text can hang the reader or eat the machine.
+//! Hard limits, each with a number and a name, so that no text can make the reader hang or exhaust
+//! the memory.
 
 use std::cell::Cell;
 
 use crate::diagnostics::{Error, ErrorKind, Place, Result};
 
-/// How much a scene may ask of the reader before it is stopped with a message.
+/// The limits of the reader. A scene that exceeds one is refused with a message.
 ///
 /// The names are those of the command's `--limit NAME=N`; see [`Limits::set`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Include files open at the same time (`include_depth`).
+    /// The number of include files that are open at the same time (`include_depth`).
     pub include_depth: u64,
-    /// Macro calls open at the same time (`macro_depth`).
+    /// The number of macro calls that are open at the same time (`macro_depth`).
     pub macro_depth: u64,
-    /// Tokens and directives read, loops counted as often as they run (`steps`).
+    /// The number of tokens and directives read; a loop counts each time it runs (`steps`).
     pub steps: u64,
-    /// Bytes of scene data: texts, tokens, values and objects (`memory`).
+    /// The bytes of scene data: texts, tokens, values and objects (`memory`).
     pub memory: u64,
-    /// Bytes of one file (`file_size`).
+    /// The bytes of one file (`file_size`).
     pub file_size: u64,
-    /// Brackets, blocks and operators inside each other (`nesting`).
+    /// The depth of nested brackets, blocks and operators (`nesting`).
     pub nesting: u64,
 }
 
@@ -36,7 +37,7 @@ impl Default for Limits {
     }
 }
 
-/// Half of the machine's memory; 768 MB where the system does not tell.
+/// Half of the machine's memory, or 768 MB if the system does not report it.
 fn half_of_memory() -> u64 {
     let told = std::fs::read_to_string("/proc/meminfo").ok();
     let total = told.as_deref().and_then(|text| {
@@ -51,7 +52,7 @@ impl Limits {
     pub const NAMES: [&'static str; 6] =
         ["include_depth", "macro_depth", "steps", "memory", "file_size", "nesting"];
 
-    /// Sets the limit called `name`; `false` if there is none of that name.
+    /// Sets the limit called `name`. Returns `false` if there is no such limit.
     pub fn set(&mut self, name: &str, value: u64) -> bool {
         let field = match name {
             "include_depth" => &mut self.include_depth,
@@ -67,7 +68,7 @@ impl Limits {
     }
 }
 
-/// The fault of running into the limit `name`.
+/// The error for exceeding the limit `name`.
 pub(crate) fn exceeded(place: Place, name: &str, limit: u64, what: &str) -> Box<Error> {
     Error::at(
         place,
@@ -77,18 +78,18 @@ pub(crate) fn exceeded(place: Place, name: &str, limit: u64, what: &str) -> Box<
 }
 
 thread_local! {
-    /// Bytes held by the values of the scene that this thread is reading.
+    /// The bytes held by the values of the scene that this thread is reading.
     static HELD: Cell<u64> = const { Cell::new(0) };
-    /// Those of them that were charged until the scene is finished.
+    /// The part of these bytes that is charged until the scene is finished.
     static FOR_GOOD: Cell<u64> = const { Cell::new(0) };
 }
 
-/// Bytes charged to the scene's memory, given back when the value that owns them is dropped.
+/// Bytes charged to the scene's memory. They are released when the value that owns them is dropped.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Charge(u64);
 
 impl Charge {
-    /// Charges `bytes`; whether that is too much is asked at the next [`check_memory`].
+    /// Charges `bytes`. The limit is tested at the next [`check_memory`].
     pub(crate) fn new(bytes: usize) -> Self {
         HELD.with(|held| held.set(held.get() + bytes as u64));
         Self(bytes as u64)
@@ -118,13 +119,14 @@ impl Drop for Charge {
     }
 }
 
-/// Charges bytes that stay until the scene is finished.
+/// Charges bytes that stay charged until the scene is finished.
 pub(crate) fn charge_for_good(bytes: usize) {
     HELD.with(|held| held.set(held.get() + bytes as u64));
     FOR_GOOD.with(|held| held.set(held.get() + bytes as u64));
 }
 
-/// Does `work`, whose scene data does not outlive it for long: what it charges for good is given back.
+/// Runs `work`, whose scene data is soon dropped, and releases what it charged until the end of the
+/// scene.
 pub(crate) fn giving_back<T>(work: impl FnOnce() -> T) -> T {
     let before = FOR_GOOD.with(Cell::get);
     let made = work();
@@ -133,13 +135,14 @@ pub(crate) fn giving_back<T>(work: impl FnOnce() -> T) -> T {
     made
 }
 
-/// Starts counting from nothing.
+/// Resets the count to zero.
 pub(crate) fn reset_memory() {
     HELD.with(|held| held.set(0));
     FOR_GOOD.with(|held| held.set(0));
 }
 
-/// Fails if what is held, and `more` bytes that are about to be, exceed the limit `memory`.
+/// Fails if the charged bytes and `more` bytes, which are about to be charged, exceed the limit
+/// `memory`.
 pub(crate) fn check_memory(place: Place, limits: &Limits, more: usize) -> Result<()> {
     let held = HELD.with(Cell::get).saturating_add(more as u64);
     if held > limits.memory {

@@ -1,4 +1,4 @@
-//! Macros: a range of tokens with parameters.
+//! Macros: ranges of tokens with parameters.
 
 use std::rc::Rc;
 
@@ -9,7 +9,7 @@ use crate::parser::Parser;
 use crate::scope::Reference;
 use crate::value::Value;
 
-/// A macro: where its body stands, and what its parameters are called.
+/// A macro: the range of its body, and the names of its parameters.
 #[derive(Debug)]
 pub(crate) struct Macro {
     pub(crate) name: Name,
@@ -19,14 +19,15 @@ pub(crate) struct Macro {
     parameters: Vec<Name>,
 }
 
-/// A macro's argument: a variable of the caller's, or a value.
+/// An argument of a macro: a variable of the caller, or a value.
 enum Argument {
     Variable(Reference),
     Value(Value),
 }
 
 impl Parser<'_> {
-    /// `#macro NAME(A, B)`: remembers the body, which ends at token `end`, and goes on behind it.
+    /// Reads `#macro NAME(A, B)`: stores the body, which ends at token `end`, and continues after
+    /// it.
     pub(crate) fn define_macro(&mut self, end: usize, place: Place) -> Result<()> {
         let Some((Kind::Name(name), _)) = self.take_raw() else {
             return Err(Error::invalid(self.here(), "a macro needs a name that is not a reserved word"));
@@ -55,7 +56,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// Takes the arguments of a call and begins to read the macro's body.
+    /// Reads the arguments of a call and starts reading the macro's body.
     pub(crate) fn call_macro(&mut self, body: &Macro, place: Place) -> Result<()> {
         let name = self.names.text(body.name).to_owned();
         if !self.at_mark(Mark::ParenOpen)? {

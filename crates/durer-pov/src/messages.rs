@@ -1,7 +1,8 @@
-//! What a scene says while it is read: `#debug`, `#warning`, and the reader's own warnings.
+//! Messages of a scene while it is read: `#debug`, `#warning`, and the reader's own warnings.
 //!
-//! A loop can say the same millions of times. A `#warning` that repeats itself is said once, and at the end how often; of one that
-//! changes, the first thousand texts are told. `#debug` is what a scene prints on purpose, and is never cut.
+//! A loop can give the same message millions of times. A `#warning` that repeats itself is reported
+//! once, and at the end with the number of times. Of one that changes, the first thousand texts are
+//! reported. `#debug` messages are printed on purpose and never cut.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -10,25 +11,25 @@ use std::path::PathBuf;
 use crate::diagnostics::Place;
 use crate::source::Source;
 
-/// What kind of message it is.
+/// The kinds of messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MessageKind {
-    /// Text of a `#debug`, line ends included as the scene wrote them.
+    /// The text of a `#debug`, with the line ends that the scene wrote.
     Debug,
-    /// Text of a `#warning`.
+    /// The text of a `#warning`.
     Warning,
-    /// The reader's own: what is odd but not wrong.
+    /// A warning of the reader: something is odd but not wrong.
     Notice,
 }
 
-/// One message and where it came from.
+/// A message and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {
-    /// What kind of message it is.
+    /// The kind of the message.
     pub kind: MessageKind,
     /// The file.
     pub path: PathBuf,
-    /// Line and column, both from 1.
+    /// Line and column, both counted from 1.
     pub at: (usize, usize),
     /// The text.
     pub text: String,
@@ -46,27 +47,27 @@ impl fmt::Display for Message {
     }
 }
 
-/// Messages kept for the caller; all of them are streamed.
+/// The number of messages kept for the caller; the listener gets all of them.
 const KEPT: usize = 10_000;
-/// Notices given in all: a loop can make millions.
+/// The number of notices reported in all: a loop can make millions.
 const NOTICES: usize = 100;
-/// Texts told of one `#warning`.
+/// The number of different texts reported for one `#warning`.
 const TEXTS: usize = 1000;
 
-/// What one `#warning` has said.
+/// The messages of one `#warning`.
 struct Said {
     message: Message,
-    /// How often it said its last text.
+    /// The number of times that its last text was repeated.
     times: usize,
     texts: usize,
 }
 
-/// Collects messages and passes them on as they come.
+/// Collects messages and passes them to the listener as they come.
 pub(crate) struct Messages<'a> {
     pub(crate) kept: Vec<Message>,
     notices: usize,
     warnings: BTreeMap<(u32, u32), Said>,
-    /// The place of the message before: loops say the same again and again, and finding a line takes a walk.
+    /// The place of the last message. Loops repeat places, and finding a line takes a search.
     last: Option<(Place, (usize, usize))>,
     listener: Box<dyn FnMut(&Message) + Send + 'a>,
 }
@@ -76,7 +77,7 @@ impl<'a> Messages<'a> {
         Self { kept: Vec::new(), notices: 0, warnings: BTreeMap::new(), last: None, listener }
     }
 
-    /// Line and column of `place`.
+    /// The line and column of `place`.
     pub(crate) fn locate(&mut self, source: &Source, place: Place) -> (usize, usize) {
         match self.last {
             Some((last, at)) if last == place => at,
@@ -122,7 +123,7 @@ impl<'a> Messages<'a> {
         self.tell(message);
     }
 
-    /// Says what was not said because it was the same again.
+    /// Reports the repetitions and the number of texts that were not reported.
     pub(crate) fn finish(&mut self) {
         for said in std::mem::take(&mut self.warnings).into_values() {
             self.count(&said);

@@ -1,4 +1,4 @@
-//! Patterns of noise, and turbulence.
+//! Noise patterns and turbulence, as formulas.
 //!
 //! ```text
 //!   bozo, bumps, spotted  N(p)                                       dents  N(p)^3
@@ -12,8 +12,11 @@
 //!   T(p) = sum of omega^k m_k(lambda^k p),   D(p) = sum of omega^k (n, n', n'')(lambda^k p),   k below the number of octaves
 //! ```
 //!
-//! `N` is noise of the chosen generator, `n` what is under it, around zero, and `n'` and `n''` are the same elsewhere in space. `m` is `N` of the first generator, and of the second `2 N - 1/2` between 0 and 1 (in `T`
-//! only in the first octave, beyond that not kept between them). `t` is the turbulence and `a` agate's own. All that was found from POV-Ray's values with its own noise, and agrees with them to rounding.
+//! `N` is the noise of the chosen generator. `n` is the underlying noise, around zero; `n'` and
+//! `n''` are `n` at shifted points. For the first generator, `m` is `N`. For the second, `m` is
+//! `2 N - 1/2`, clamped to `[0, 1]` (in `T` clamped only in the first octave). `t` is the
+//! turbulence, and `a` is agate's own. All this was found from POV-Ray's values, with POV-Ray's own
+//! noise, and agrees with them to rounding.
 
 use durer_math::elementary;
 use durer_math::scale::pow2;
@@ -24,31 +27,32 @@ use crate::formulas;
 use crate::keywords::Keyword;
 use crate::texture::{Pattern, PatternKind};
 
-/// Steps; `None` where no formula is known or there are too many of them.
+/// Steps; `None` if no formula is known or there are too many steps.
 type Made<T> = Option<T>;
 
-/// Where the second and the third component of turbulence find their noise: any other cells of the lattice.
+/// The shifts of the noise for the second and the third component of turbulence: arbitrary other
+/// cells of the lattice.
 const ELSEWHERE: [[f64; 3]; 2] = [[157.0, -311.0, 89.0], [-223.0, 71.0, 439.0]];
 
-/// Noise of the two generators.
+/// `N` of the first generator, and below it of the second.
 const OLD: &str = "max(min(noise(x, y, z) + 0.5, 1), 0)";
 const NEW: &str = "max(min((noise(x, y, z) + 1.05242)*0.48985582, 1), 0)";
-/// The second one's, spread.
+/// The noise of the second generator, spread: `2 N - 1/2`.
 const SPREAD: &str = "2*max(min((noise(x, y, z) + 1.05242)*0.48985582, 1), 0) - 0.5";
 const KEPT: &str = "max(min(2*max(min((noise(x, y, z) + 1.05242)*0.48985582, 1), 0) - 0.5, 1), 0)";
 
-/// How space is stirred before a pattern is asked.
+/// The turbulence that is applied before a pattern is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Turbulence {
     pub(crate) amount: [f64; 3],
     pub(crate) octaves: f64,
     pub(crate) lambda: f64,
     pub(crate) omega: f64,
-    /// How much agate is stirred.
+    /// The amount of turbulence in agate.
     pub(crate) agate: f64,
-    /// Which noise.
+    /// The noise generator.
     pub(crate) generator: f64,
-    /// Where the text says that there is any.
+    /// The place of the turbulence in the text, if there is any.
     pub(crate) at: Option<Place>,
 }
 
@@ -67,35 +71,37 @@ impl Turbulence {
         self.octaves.trunc().clamp(1.0, MOST_OCTAVES) as u32
     }
 
-    /// Between 2 and 3 it is still the second generator.
+    /// From 2 up to 3 it is the second generator.
     fn is_new(&self) -> bool {
         (2.0..3.0).contains(&self.generator)
     }
 
-    /// What octave `k` counts, and what its points are multiplied by; the language keeps both in single precision.
+    /// The weight of octave `k`, and the factor of its points. The language stores both in single
+    /// precision.
     fn octave(&self, k: u32) -> (f64, f64) {
         let [omega, lambda] = [self.omega, self.lambda].map(|v| f64::from(v as f32));
         (elementary::powi(omega, k as i32), elementary::powi(lambda, k as i32))
     }
 }
 
-/// POV-Ray's bound on them.
+/// POV-Ray's limit on the number of octaves.
 const MOST_OCTAVES: f64 = 10.0;
 
-/// Whether the word is that of a pattern here.
+/// Whether the word is that of a noise pattern.
 pub(crate) fn is_noise(word: Keyword) -> bool {
     use Keyword::{Agate, Bozo, Bumps, Dents, Granite, Spotted, Wrinkles};
     matches!(word, Agate | Bozo | Bumps | Dents | Granite | Spotted | Wrinkles)
 }
 
-/// Whether the pattern needs noise of a generator that is not there; vectors of noise are the same with all of them.
+/// Whether the pattern needs noise of a generator that is not supported. Vector noise is the same
+/// for all generators.
 pub(crate) fn lacks_generator(pattern: &Pattern) -> bool {
     let PatternKind::Written(word, _) = pattern.kind else { return false };
     let asks = is_noise(word) || word == Keyword::Marble && !pattern.modifiers.turbulence.is_none();
     asks && pattern.modifiers.turbulence.generator.trunc() == 3.0
 }
 
-/// Writes steps.
+/// Builds formulas step by step.
 struct Draft<'a> {
     b: &'a mut Builder,
     turbulence: Turbulence,
@@ -125,7 +131,7 @@ impl Draft<'_> {
         made.ok()
     }
 
-    /// `m`, or what it is beyond the first octave.
+    /// `m`; without the clamp if `is_kept` is false.
     fn grain(&mut self, p: [NodeId; 3], is_kept: bool) -> Made<NodeId> {
         let text = match (self.turbulence.is_new(), is_kept) {
             (false, _) => OLD,
@@ -135,7 +141,7 @@ impl Draft<'_> {
         self.text(text, p, &[])
     }
 
-    /// A sum over octaves.
+    /// A sum over octaves, given by weight and factor.
     fn sum(
         &mut self,
         p: [NodeId; 3],
@@ -175,7 +181,7 @@ impl Draft<'_> {
         })
     }
 
-    /// `p + t D(p)`.
+    /// `p + t D(p)`: the point with turbulence.
     fn stirred(&mut self, p: [NodeId; 3]) -> Made<[NodeId; 3]> {
         let mut out = p;
         for axis in 0..3 {
@@ -189,7 +195,7 @@ impl Draft<'_> {
         Some(out)
     }
 
-    /// A coordinate of wood.
+    /// A coordinate of the point in the formula of wood.
     fn grown(&mut self, p: [NodeId; 3], axis: usize) -> Made<NodeId> {
         let amount = self.turbulence.amount[axis];
         if amount == 0.0 {
@@ -201,7 +207,7 @@ impl Draft<'_> {
     }
 }
 
-/// The value of a pattern that rests on noise, or is stirred by it in its own way.
+/// The value of a pattern that is made of noise, or that uses turbulence in its own way.
 pub(crate) fn value(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Option<NodeId> {
     let PatternKind::Written(word, _) = pattern.kind else { return None };
     let turbulence = *pattern.modifiers.turbulence;
@@ -250,7 +256,7 @@ pub(crate) fn value(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Opt
     }
 }
 
-/// A point in a pattern's space, stirred as most patterns are.
+/// A point in a pattern's space with turbulence, as most patterns use it.
 pub(crate) fn stirred(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Option<[NodeId; 3]> {
     let its_own = matches!(pattern.kind, PatternKind::Written(Keyword::Marble | Keyword::Wood, _));
     let turbulence = *pattern.modifiers.turbulence;

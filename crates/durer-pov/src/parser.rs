@@ -1,7 +1,7 @@
-//! The reader: all its state, and the stream of tokens as the grammar sees it.
+//! The parser: the state of the reader, and the stream of tokens as the grammar sees it.
 //!
-//! Directives run and macros unfold inside [`Parser::next`], because they may stand anywhere a token may;
-//! identifiers come out of it as their values.
+//! [`Parser::next`] runs directives and expands macros, because they may stand anywhere a token
+//! may. It replaces identifiers by their values.
 
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -19,40 +19,40 @@ use crate::scope::Scopes;
 use crate::source::{self, Library, Source};
 use crate::value::{Text, Value};
 
-/// A token as the grammar sees it.
+/// A token for the grammar, after directives and macros.
 #[derive(Clone, Debug)]
 pub(crate) enum Item {
     Number(f64),
-    /// A string, escapes untouched.
+    /// A string with its escapes unresolved.
     Text(Rc<Source>, u32),
     Word(Keyword),
     Mark(Mark),
-    /// An identifier's value (of an array followed by subscripts: the element's).
+    /// The value of an identifier; for an array followed by subscripts, that of the element.
     Value(Value),
-    /// A word that stands for nothing (but may be one of durer's own; see [`crate::object::extension`]).
+    /// An undeclared word (which may be one of durer's own; see [`crate::object::extension`]).
     Unknown(Name),
     End,
 }
 
-/// An [`Item`] and where it stands.
+/// An [`Item`] and its place.
 #[derive(Clone, Debug)]
 pub(crate) struct Lexeme {
     pub(crate) item: Item,
     pub(crate) place: Place,
 }
 
-/// A loop or choice that runs.
+/// A loop or choice that is running.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Control {
-    /// `#if` and its kin, `#switch`.
+    /// `#if` and its variants, `#switch`.
     Branch,
-    /// `#while`: to be asked again at this token.
+    /// `#while`, with the token of its condition.
     While(usize),
-    /// `#for`: its body begins at this token.
+    /// `#for`, with the first token of its body.
     For { body: usize, variable: Name, last: f64, step: f64 },
 }
 
-/// A stretch of tokens being read: a file or a macro's body.
+/// A range of tokens being read: a file or a macro's body.
 #[derive(Debug)]
 pub(crate) struct Frame {
     pub(crate) source: Rc<Source>,
@@ -61,11 +61,11 @@ pub(crate) struct Frame {
     pub(crate) end: usize,
     pub(crate) controls: Vec<Control>,
     pub(crate) serial: u64,
-    /// Where it was called from, and the macro's name; `None` for the scene itself.
+    /// The place of the call, and the macro's name; `None` for the scene itself.
     pub(crate) from: Option<(Option<Name>, Place)>,
 }
 
-/// Reads one scene.
+/// The reader of one scene.
 pub(crate) struct Parser<'a> {
     pub(crate) options: &'a ReadOptions,
     pub(crate) names: Interner,
@@ -74,7 +74,7 @@ pub(crate) struct Parser<'a> {
     pub(crate) library: Library,
     pub(crate) frames: Vec<Frame>,
     pub(crate) scopes: Scopes,
-    /// What a declaration that is being read will declare.
+    /// The name that the current declaration will declare.
     pub(crate) declaring: Option<Name>,
     pub(crate) messages: Messages<'a>,
     peeked: Option<Lexeme>,
@@ -82,9 +82,9 @@ pub(crate) struct Parser<'a> {
     serial: u64,
     steps: u64,
     nesting: u64,
-    /// Braces open, counted in the tokens that the grammar has taken.
+    /// The number of open braces in the tokens that the grammar has taken.
     pub(crate) braces: u64,
-    /// Where they stand.
+    /// The places of these braces.
     opened: Vec<Place>,
     include_depth: u64,
     macro_depth: u64,
@@ -93,7 +93,7 @@ pub(crate) struct Parser<'a> {
     pub(crate) defaults: Rc<crate::texture::Layer>,
     pub(crate) default_camera: crate::camera::Camera,
     pub(crate) scene: crate::scene_builder::Output,
-    /// Objects that the scene asks about.
+    /// The objects that the scene queries.
     pub(crate) questions: crate::object::queries::Questions,
 }
 
@@ -127,7 +127,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Takes in the file at `path`, or finds it among those taken in before.
+    /// Loads the file at `path`, or finds it among the files already loaded.
     pub(crate) fn load(&mut self, path: PathBuf, from: Option<Place>) -> Result<u32> {
         if let Some(&file) = self.loaded.get(&path) {
             return Ok(file);
@@ -152,7 +152,7 @@ impl<'a> Parser<'a> {
         result.map(|()| file)
     }
 
-    /// Begins to read file number `file` from its start.
+    /// Starts reading file number `file`.
     pub(crate) fn enter_file(&mut self, file: u32, from: Option<Place>) -> Result<()> {
         if let Some(place) = from {
             self.include_depth += 1;
@@ -181,7 +181,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// Begins to read the body of a macro; its scope is open already.
+    /// Starts reading the body of a macro; its scope is open already.
     pub(crate) fn enter_macro(&mut self, body: &Macro, place: Place) -> Result<()> {
         self.macro_depth += 1;
         if self.macro_depth > self.options.limits.macro_depth {
@@ -207,7 +207,7 @@ impl<'a> Parser<'a> {
         self.frames.push(frame);
     }
 
-    /// Leaves the innermost frame; `false` if it is the scene itself.
+    /// Leaves the innermost frame. Returns `false` if it is the scene itself.
     fn leave_frame(&mut self) -> bool {
         let Some(frame) = self.frames.pop_if(|frame| frame.from.is_some()) else { return false };
         match frame.from {
@@ -218,13 +218,14 @@ impl<'a> Parser<'a> {
         true
     }
 
-    /// Makes the frame numbered `serial` the innermost again, by leaving those that are read to their ends.
+    /// Makes the frame numbered `serial` the innermost again. The frames within it must be read to
+    /// their ends.
     pub(crate) fn back_to_frame(&mut self, serial: u64, place: Place) -> Result<()> {
         if self.leave_finished_frames(serial, place)? { Ok(()) } else { Err(strayed(place)) }
     }
 
-    /// Leaves the frames within the one numbered `serial`, up to the first in which more is left than directives; whether there
-    /// was none.
+    /// Leaves the frames within the one numbered `serial`, until one has more left than directives.
+    /// Returns whether all were left.
     pub(crate) fn leave_finished_frames(&mut self, serial: u64, place: Place) -> Result<bool> {
         loop {
             let frame = self.frames.last().ok_or_else(|| strayed(place))?;
@@ -236,7 +237,7 @@ impl<'a> Parser<'a> {
             }
             match self.raw() {
                 None if self.leave_frame() => {}
-                // What a macro does after its last value.
+                // Directives after the last value of a macro.
                 Some(Kind::Directive(directive, block)) => {
                     let at = self.take_raw().map_or(place, |(_, at)| at);
                     self.count_steps(1, at)?;
@@ -259,7 +260,7 @@ impl<'a> Parser<'a> {
         self.frames.iter().rev().filter_map(step).collect()
     }
 
-    /// Counts `work` steps; every token is one.
+    /// Counts `work` steps. Every token is one step.
     pub(crate) fn count_steps(&mut self, work: u64, place: Place) -> Result<()> {
         self.steps += work;
         if self.steps > self.options.limits.steps {
@@ -269,12 +270,12 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// Fails if `more` bytes would be too many.
+    /// Fails if `more` bytes would exceed the limit.
     pub(crate) fn check_memory(&self, more: usize, place: Place) -> Result<()> {
         limits::check_memory(place, &self.options.limits, more)
     }
 
-    /// Runs `f` one level deeper, so that the depth of the reader's own recursion is bounded.
+    /// Runs `f` one nesting level deeper. This bounds the depth of the reader's recursion.
     pub(crate) fn nested<T>(&mut self, f: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
         if self.nesting >= self.options.limits.nesting {
             let limit = self.options.limits.nesting;
@@ -286,7 +287,7 @@ impl<'a> Parser<'a> {
         result
     }
 
-    /// The next token as it stands in the innermost frame, not run, not unfolded, not taken.
+    /// The next token of the innermost frame, without running, expanding or taking it.
     pub(crate) fn raw(&self) -> Option<Kind> {
         self.raw_ahead(0)
     }
@@ -299,7 +300,7 @@ impl<'a> Parser<'a> {
         (at < frame.end).then(|| frame.source.tokens[at].kind)
     }
 
-    /// Takes the next token as it stands.
+    /// Takes the next token unchanged.
     pub(crate) fn take_raw(&mut self) -> Option<(Kind, Place)> {
         let frame = self.frames.last_mut()?;
         if frame.at >= frame.end {
@@ -311,7 +312,7 @@ impl<'a> Parser<'a> {
         Some((kind, self.last))
     }
 
-    /// Takes a raw `mark` if it stands there.
+    /// Takes `mark` if it is the next unchanged token.
     pub(crate) fn take_raw_mark(&mut self, mark: Mark) -> bool {
         let here = self.peeked.is_none() && self.raw() == Some(Kind::Mark(mark));
         if here {
@@ -320,17 +321,17 @@ impl<'a> Parser<'a> {
         here
     }
 
-    /// Whether the grammar has looked at the next token already.
+    /// Whether the grammar has already looked at the next token.
     pub(crate) fn has_peeked(&self) -> bool {
         self.peeked.is_some()
     }
 
-    /// Where the token that was read last stands.
+    /// The place of the token that was read last.
     pub(crate) fn here(&self) -> Place {
         self.peeked.as_ref().map_or(self.last, |lexeme| lexeme.place)
     }
 
-    /// The next token, left where it is.
+    /// Looks at the next token without taking it.
     pub(crate) fn peek(&mut self) -> Result<&Item> {
         if self.peeked.is_none() {
             let lexeme = self.fetch()?;
@@ -363,7 +364,7 @@ impl<'a> Parser<'a> {
         Ok(lexeme)
     }
 
-    /// Puts back the token taken last.
+    /// Puts back the token that was taken last.
     pub(crate) fn put_back(&mut self, lexeme: Lexeme) {
         match lexeme.item {
             Item::Mark(Mark::BraceOpen) => {
@@ -417,7 +418,7 @@ impl<'a> Parser<'a> {
     }
 
     fn top(&self) -> &Frame {
-        // A token was just taken from it.
+        // A token was just taken from this frame.
         &self.frames[self.frames.len() - 1]
     }
 
@@ -435,12 +436,12 @@ impl<'a> Parser<'a> {
         Ok(here)
     }
 
-    /// Commas are mostly a matter of taste in this language.
+    /// Skips a comma, which is usually optional in this language.
     pub(crate) fn skip_comma(&mut self) -> Result<()> {
         self.take_mark(Mark::Comma).map(drop)
     }
 
-    /// Takes `mark`, which must come next.
+    /// Takes `mark`; it is an error if another token comes next.
     pub(crate) fn expect(&mut self, mark: Mark) -> Result<()> {
         let lexeme = self.next()?;
         if matches!(lexeme.item, Item::Mark(found) if found == mark) {
@@ -466,7 +467,7 @@ impl<'a> Parser<'a> {
         Ok(here)
     }
 
-    /// Fails with `what` unless a number or vector comes next.
+    /// Fails with the message `what` unless a number or vector comes next.
     pub(crate) fn need(&mut self, what: &str) -> Result<()> {
         if self.starts_number()? {
             return Ok(());
@@ -479,7 +480,8 @@ impl<'a> Parser<'a> {
         Err(fault)
     }
 
-    /// Line and column of a place, after the file's name if that is not the one of `beside`.
+    /// The line and column of a place, after the file's name if that differs from the file of
+    /// `beside`.
     pub(crate) fn named_place(&self, place: Place, beside: Place) -> String {
         let Some(source) = self.sources.get(place.file as usize) else { return String::new() };
         let (line, column) = source.line_and_column(place.start as usize);
@@ -490,7 +492,8 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Says which block is still open, where something is found that stands between blocks.
+    /// The part of a message that names the block which is still open, if the token found belongs
+    /// between blocks.
     fn unclosed(&self, lexeme: &Lexeme) -> String {
         use crate::lexer::Directive;
         let between = match &lexeme.item {
@@ -502,7 +505,8 @@ impl<'a> Parser<'a> {
             }
             _ => false,
         };
-        // A part of a block is found where the block's last brace was forgotten, and behind it.
+        // A token that belongs inside blocks tells nothing: it occurs both before and after a
+        // forgotten brace.
         let Some(&open) = self.opened.last().filter(|_| between) else { return String::new() };
         let Some(source) = self.sources.get(open.file as usize) else { return String::new() };
         let before = source.text.get(..open.start as usize).unwrap_or_default().trim_end();
@@ -513,7 +517,7 @@ impl<'a> Parser<'a> {
         format!(": `{shown}` opened at {} is not closed", self.named_place(begin, lexeme.place))
     }
 
-    /// The fault of finding `lexeme` where `mark` should close what `open` opened.
+    /// The error if the next token is not `mark`, which should close what `open` opened.
     pub(crate) fn expect_closing(&mut self, mark: Mark, open: Place) -> Result<()> {
         let lexeme = self.next()?;
         if matches!(lexeme.item, Item::Mark(found) if found == mark) {
@@ -528,7 +532,7 @@ impl<'a> Parser<'a> {
         Err(fault)
     }
 
-    /// The fault of finding `lexeme` where `wanted` should be.
+    /// The error of finding `lexeme` where `wanted` was expected.
     pub(crate) fn unexpected(&self, lexeme: &Lexeme, wanted: &str) -> Box<Error> {
         let found = match &lexeme.item {
             Item::Value(Value::Unsupported(what)) => {
@@ -565,7 +569,7 @@ impl<'a> Parser<'a> {
         Error::invalid(lexeme.place, format!("expected {wanted}, found {found}{unclosed}"))
     }
 
-    /// Whether what stands at `place` follows a `#`.
+    /// Whether the token at `place` follows a `#`.
     fn stands_after_hash(&self, place: Place) -> bool {
         let source = self.sources.get(place.file as usize);
         let before = source.and_then(|source| source.text.get(..place.start as usize));
@@ -577,7 +581,8 @@ impl<'a> Parser<'a> {
         self.loaded.keys().any(|path| path.ends_with("functions.inc"))
     }
 
-    /// What an undeclared name may stand for: a word in other letters, a name of a standard file, a misspelling.
+    /// A hint at what an undeclared name may stand for: a word in other case, a name of a standard
+    /// file, a misspelling.
     fn hint(&self, name: Name) -> String {
         let text = self.names.text(name);
         let words = || Keyword::ALL.iter().map(|keyword| keyword.text());
@@ -589,18 +594,18 @@ impl<'a> Parser<'a> {
         if let Some(word) = words().chain(declared()).find(|w| w.eq_ignore_ascii_case(text)) {
             return did(word);
         }
-        // Words of the language have no capitals, so a name that has some was meant to be a name.
+        // Words of the language have no capitals, so a name with capitals was meant as a name.
         let is_name = text.contains(|c: char| c.is_ascii_uppercase());
         let misspelt = nearest(text, declared().chain(words().filter(|_| !is_name)));
         misspelt.map_or_else(String::new, did)
     }
 
-    /// A directive that `name` may be a misspelling of.
+    /// A directive of which `name` may be a misspelling.
     fn similar_directive(&self, name: Name) -> Option<&str> {
         nearest(self.names.text(name), Directive::ALL.iter().map(|directive| directive.text()))
     }
 
-    /// Skips what is left of the blocks that were opened after `braces` were open.
+    /// Skips the rest of the blocks that were opened after `braces` were open.
     pub(crate) fn skip_to_brace_level(&mut self, braces: u64) -> Result<()> {
         while self.braces > braces {
             if let Lexeme { item: Item::End, place } = self.next()? {
@@ -617,20 +622,21 @@ impl<'a> Parser<'a> {
     }
 }
 
-/// The fault of a directive at `place` that ends in another macro or file.
+/// The error of a directive at `place` that ends in another macro or file.
 pub(crate) fn strayed(place: Place) -> Box<Error> {
     Error::invalid(place, "this directive does not end where it began")
 }
 
-/// The word among `words` that `wrong` may be a misspelling of.
+/// The word among `words` of which `wrong` may be a misspelling.
 pub(crate) fn nearest<'a>(wrong: &str, words: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let allowed = wrong.len() / 3;
     let near = words.map(|word| (distance(wrong, word), word));
     near.filter(|(d, _)| (1..=allowed).contains(d)).min().map(|(_, word)| word)
 }
 
-/// Letters to change, insert, drop or exchange with the next between two short words (V. Levenshtein, *Soviet Physics Doklady* 10, 1966; F. Damerau,
-/// *Communications of the ACM* 7, 1964).
+/// The edit distance of two short words: the letters to change, insert, delete or exchange with the
+/// next (V. Levenshtein, *Soviet Physics Doklady* 10, 1966; F. Damerau, *Communications of the ACM*
+/// 7, 1964).
 fn distance(a: &str, b: &str) -> usize {
     const FAR: usize = usize::MAX;
     if a.len().abs_diff(b.len()) > 2 || a.len() > 40 {

@@ -4,7 +4,8 @@
 //!   wave(begun anew(frequency * value(M^-1 p) + phase)),  M: the transforms behind the pattern's word
 //! ```
 //!
-//! Values are those of POV-Ray, to rounding. Patterns that have a list have whole numbers as values, from 0 on, and a frequency only where one is given.
+//! The values are those of POV-Ray, to rounding. Patterns with a list of entries have the values 0,
+//! 1, ..., and a frequency only if one is given.
 
 use durer_scene::tape::{Builder, Formula, FormulaError, NodeId, Op};
 
@@ -17,33 +18,37 @@ use crate::parser::Parser;
 use crate::texture::{Pattern, PatternKind, Wave};
 use crate::transform::{self, Matrix};
 
-/// What a gradient says of `P0 x + P1 y + P2 z`, of which the direction has length 1.
+/// The value of a gradient for `P0 x + P1 y + P2 z`; the direction has length 1.
 const GRADIENT: &str = "g = x*P0 + y*P1 + z*P2; select(g - 1, g, g, g - floor(g))";
 
-/// A value that is bent begins anew a little behind 1, so that 1 itself is still the end.
+/// A value that goes through a wave repeats a little after 1, so that 1 itself is still the end.
 const BEGUN_ANEW: &str = "t = rem(x*P0 + P1, 1.00001); select(t, t + 1, t, t)";
-/// The same where the frequency is zero, which means none.
+/// The value if the frequency is zero, which means none.
 const AS_IT_IS: &str = "select(x, x - floor(x), x, x)";
 
-/// Cells begin a little before a whole number. Each axis changes the sign from one to the next; what it chooses is exact.
+/// Cells begin slightly before an integer. On each axis the sign alternates from cell to cell; the
+/// choices are exact.
 const CHECKER: &str = "a = x + 0.0000000001; b = y + 0.0000000001; c = z + 0.0000000001; \
                        u = select(a - 2*floor(a/2) - 1, 1, -1, -1); v = select(b - 2*floor(b/2) - 1, 1, -1, -1); \
                        w = select(c - 2*floor(c/2) - 1, 1, -1, -1); select(u*v*w, 1, 1, 0)";
 
-/// The centre next to a point, of hexagons with sides of length 1: centres are those of two rectangles' corners, `(3 m, 2 h n)` and `(3 i + 3/2, 2 h j + h)` for whole numbers. The three values alternate along `z`.
+/// The nearest centre of the hexagons with sides of length 1. The centres form two rectangular
+/// lattices, `(3 m, 2 h n)` and `(3 i + 3/2, 2 h j + h)` for integers. The three values alternate
+/// along `z`.
 const HEXAGON: &str = "h = 0.8660254037844386; m = floor(x/3 + 0.5); n = floor(z/(2*h) + 0.5); i = floor(x/3); j = floor(z/(2*h)); \
                        nearer = sq(x - 3*m) + sq(z - 2*h*n) - sq(x - 3*i - 1.5) - sq(z - 2*h*j - h); \
                        k = select(nearer, n, n, j + 2); max(min(k - 3*floor((k + 0.5)/3), 2), 0)";
 
-/// 0 in mortar, 1 in bricks of `P0` by `P1` by `P2`, of which `P3` is mortar. Every other course along `y` is half a brick further on along `x`, the others along `z`. Bricks begin a little before a whole number, as
-/// the checker's cells do.
+/// 0 in mortar, 1 in bricks of `P0` by `P1` by `P2`, of which `P3` is mortar. Every other course
+/// along `y` is shifted by half a brick along `x`, the others along `z`. Like the cells of the
+/// checker, bricks begin slightly before an integer.
 const BRICK: &str = "d = 0.0000000001; b = y/P1; course = floor(b + d); odd = course - 2*floor(course/2); \
                      a = x/P0 + odd/2; c = z/P2 + (1 - odd)/2; \
                      u = select(a - floor(a + d) - (P0 - P3)/P0, 1, 0, 0); \
                      v = select(b - floor(b + d) - (P1 - P3)/P1, 1, 0, 0); \
                      w = select(c - floor(c + d) - (P2 - P3)/P2, 1, 0, 0); u*v*w";
 
-/// The value of a pattern by its word; `None` where no formula is known here.
+/// The formula of a pattern by its word; `None` if no formula is known.
 fn value(word: Keyword) -> Option<&'static str> {
     Some(match word {
         Keyword::Spherical => "max(1 - sqrt(x*x + y*y + z*z), 0)",
@@ -57,21 +62,21 @@ fn value(word: Keyword) -> Option<&'static str> {
     })
 }
 
-/// Whether the word is a pattern's that only functions know.
+/// Whether the word is that of a pattern that only functions support.
 pub(crate) fn is_written(word: Keyword) -> bool {
     value(word).is_some() || noise_pattern::is_noise(word) || matches!(word, Keyword::Marble | Keyword::Wood)
 }
 
-/// The wave that the word of a pattern brings with it.
+/// The wave that the word of a pattern sets.
 pub(crate) fn own_wave(word: Keyword) -> Option<Wave> {
     matches!(word, Keyword::Marble | Keyword::Wood).then_some(Wave::Triangle)
 }
 
-/// How a wave bends `x`.
+/// The formula of a wave for `x`, and its parameter.
 fn bent(wave: Wave) -> (&'static str, Option<f64>) {
     match wave {
         Wave::Ramp => ("x", None),
-        // Below zero only from the hexagons' 2.
+        // Without the limit, only the value 2 of hexagons would give less than zero.
         Wave::Triangle => ("max(1 - abs(2*x - 1), 0)", None),
         Wave::Sine => ("(1 + sin(2*pi*x))/2", None),
         Wave::Scallop => ("abs(sin(pi*x))", None),
@@ -81,7 +86,7 @@ fn bent(wave: Wave) -> (&'static str, Option<f64>) {
 }
 
 impl Parser<'_> {
-    /// `pattern { ... }`, the word included.
+    /// Reads `pattern { ... }`, including the word.
     pub(crate) fn pattern_function(&mut self) -> diagnostics::Result<Formula> {
         let place = self.here();
         self.next()?;
@@ -121,7 +126,7 @@ impl Parser<'_> {
     }
 }
 
-/// What is said of a pattern whose place is flat.
+/// The message for a pattern whose placement is not invertible.
 pub(crate) const CANNOT_BE_UNDONE: &str = "the pattern's transforms cannot be undone";
 
 pub(crate) fn lacking(place: Place) -> Box<Error> {
@@ -138,7 +143,7 @@ pub(crate) fn third_generator(place: Place) -> Box<Error> {
     Error::at(place, ErrorKind::Unsupported, "not supported yet: noise generator 3; 1 and 2 are there")
 }
 
-/// The value of a pattern at a place in its own space; `None` where no formula is known here.
+/// The value of a pattern at a point in its own space; `None` if no formula is known.
 pub(crate) fn written(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Option<NodeId> {
     let own = noise_pattern::stirred(b, pattern, own)?;
     let value = match pattern.kind {
@@ -157,7 +162,8 @@ pub(crate) fn written(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> O
     changed(b, pattern, value)
 }
 
-/// The number of a list's entry, as frequency, phase and wave change it: what is shown is the entry that has it, or a blend of the two beside it.
+/// The index into a list after frequency, phase and wave have changed `number`. The entry with this
+/// index is shown, or a mixture of the two beside it.
 pub(crate) fn changed_number(pattern: &Pattern, number: usize) -> Option<f64> {
     let mut b = Builder::new();
     let value = b.constant(number as f64).ok()?;
@@ -165,9 +171,9 @@ pub(crate) fn changed_number(pattern: &Pattern, number: usize) -> Option<f64> {
     Some(b.finish(root, 0).value(&[]))
 }
 
-/// What frequency, phase and wave make of a pattern's value.
+/// Applies frequency, phase and wave to a pattern's value.
 fn changed(b: &mut Builder, pattern: &Pattern, value: NodeId) -> Option<NodeId> {
-    // The language keeps these two in single precision.
+    // The language stores these two in single precision.
     let [frequency, phase] =
         [pattern.modifiers.frequency, pattern.modifiers.phase].map(|v| f64::from(v as f32));
     let value = if frequency == 0.0 {
@@ -179,7 +185,7 @@ fn changed(b: &mut Builder, pattern: &Pattern, value: NodeId) -> Option<NodeId> 
     called(b, wave, [value; 3], exponent.as_slice())
 }
 
-/// The value of a formula on paper at a place, with these parameters.
+/// The value of a formula as on paper at a point, with these parameters.
 fn called(b: &mut Builder, text: &'static str, place: [NodeId; 3], parameters: &[f64]) -> Option<NodeId> {
     let mut inputs = place.to_vec();
     for &parameter in parameters {

@@ -1,12 +1,14 @@
 //! `function { pigment { ... } }`: the colours of a pigment as functions of `x`, `y`, `z`.
 //!
-//! What a pigment shows at a point is one entry of a list, or a blend of two entries of a map that stand beside each other about the value `w` of a pattern:
+//! At a point a pigment shows one entry of a list, or a mixture of two neighbouring entries of a
+//! map, on either side of the value `w` of a pattern:
 //!
 //! ```text
 //!   a + (b - a) (w - w_a)/(w_b - w_a),  where w_b is the first position in the map that is not below w
 //! ```
 //!
-//! Where maps are continuous, so are the functions; between two entries at one position they jump.
+//! If a map is continuous, so are the functions; where two entries have the same position, they
+//! jump.
 
 use durer_scene::tape::{Builder, Formula, NodeId, Op};
 
@@ -17,25 +19,27 @@ use crate::parser::Parser;
 use crate::pattern_function::{CANNOT_BE_UNDONE, has_noise, lacking, moved, third_generator, written};
 use crate::texture::{Body, Map, Paint, Pattern, Pigment};
 
-/// The parts of a colour, as steps.
+/// The components of a colour, as steps.
 type Colour = [NodeId; 5];
 
-/// Why a pigment is no function.
+/// Why a pigment cannot be a function.
 enum Lack {
     /// No formula of its pattern is known, or it has too many steps.
     Formula,
-    /// Its place is flat.
+    /// Its placement is not invertible.
     Place,
-    /// Its noise is not there.
+    /// Its noise generator is not supported.
     Generator,
 }
 
 impl Parser<'_> {
-    /// `pigment { ... }`, the word included, as functions of a point: red, green, blue, filter, transmit.
+    /// Reads `pigment { ... }`, including the word, as functions of a point: red, green, blue,
+    /// filter, transmit.
     pub(crate) fn pigment_function(&mut self) -> Result<Vec<Formula>> {
         let place = self.here();
         self.next()?;
-        // It does not start from the default pigment (a fact of the language); those inside it do.
+        // It does not start from the default pigment (a fact of the language); the pigments inside
+        // it do.
         let pigment = self.nested(|r| r.pigment_block(&Pigment::default()))?;
         let mut b = Builder::new();
         match everywhere(&mut b, &pigment) {
@@ -51,14 +55,14 @@ impl Parser<'_> {
     }
 }
 
-/// What a pigment shows at the point that a function is asked about.
+/// The colour of a pigment at the point given by the inputs.
 fn everywhere(b: &mut Builder, pigment: &Pigment) -> std::result::Result<Colour, Lack> {
     let mut axis = |number| b.input(number).map_err(|_| Lack::Formula);
     let p = [axis(0)?, axis(1)?, axis(2)?];
     shown(b, p, pigment)
 }
 
-/// What a pigment shows at a point.
+/// The colour of a pigment at the point `p`.
 fn shown(b: &mut Builder, p: [NodeId; 3], pigment: &Pigment) -> std::result::Result<Colour, Lack> {
     let kind = match pigment.body {
         Body::Solid(colour) => return constant(b, &colour),
@@ -92,7 +96,7 @@ fn constant(b: &mut Builder, colour: &[f64; 5]) -> std::result::Result<Colour, L
     steps.try_into().map_err(|_| Lack::Formula)
 }
 
-/// The value of a pattern, and the point in its space.
+/// The value of a pattern, and the point in its own space.
 fn place_and_value(
     b: &mut Builder,
     p: [NodeId; 3],
@@ -106,7 +110,7 @@ fn place_and_value(
     Ok((written(b, pattern, own).ok_or(Lack::Formula)?, own))
 }
 
-/// The entries of a list or map at a value.
+/// The colour that a list or map gives for a value.
 fn mapped<T>(
     b: &mut Builder,
     pattern: &Pattern,
@@ -116,7 +120,7 @@ fn mapped<T>(
 ) -> std::result::Result<Colour, Lack> {
     let at: Vec<f64> = map.entries.iter().map(|(at, _)| *at).collect();
     let (knots, pieces) = if pattern.is_plain_list() {
-        // Between whole numbers there is nothing.
+        // The value is always an integer here.
         let knots = (1..at.len()).map(|i| Knot::Jumps(i as f64 - 0.5));
         (knots.collect(), (0..at.len()).map(Piece::Plain).collect())
     } else {
@@ -157,15 +161,17 @@ fn mapped<T>(
 enum Piece {
     /// One entry.
     Plain(usize),
-    /// From the entry before this one to this one.
+    /// A mixture of the entry before this one and this one.
     Blend(usize),
 }
 
-/// The pieces of a map with entries at these positions, which need not ascend: from the last one's on that entry is shown, else the first that is not below the value ends the piece.
+/// The pieces of a map with entries at these positions, which need not ascend. From the last
+/// position on, the last entry is shown. Elsewhere the first entry that is not below the value ends
+/// the piece.
 fn pieces_of(at: &[f64]) -> (Vec<Knot>, Vec<Piece>) {
     let last = at.len() - 1;
     let (mut knots, mut pieces) = (Vec::new(), vec![Piece::Plain(0)]);
-    // Up to here the pieces go, and with this entry.
+    // The position up to which the pieces go so far, and the entry there.
     let (mut end, mut reached) = (at[0], 0);
     for i in 1..at.len() {
         if at[i] <= end || end >= at[last] {
@@ -185,7 +191,8 @@ fn pieces_of(at: &[f64]) -> (Vec<Knot>, Vec<Piece>) {
 mod tests {
     use super::*;
 
-    /// What a map shows, said one entry after the other: an entry, or the part of it that is shown and the one before it.
+    /// The definition of a map, one entry after the other: an entry and its weight; the rest is the
+    /// entry before it.
     fn looked_up(at: &[f64], w: f64) -> (usize, f64) {
         let last = at.len() - 1;
         if w >= at[last] {
@@ -217,7 +224,7 @@ mod tests {
                         Piece::Plain(i) => (i, 1.0),
                         Piece::Blend(i) => (i, (w - at[i - 1]) / (at[i] - at[i - 1])),
                     };
-                    // Each entry has a colour of its own.
+                    // Each entry has a different colour.
                     let colour = |(i, k): (usize, f64)| {
                         let own = |i: usize| ((i + 1) * (i + 1)) as f64;
                         if i == 0 { own(0) } else { own(i - 1) + (own(i) - own(i - 1)) * k }
@@ -228,7 +235,7 @@ mod tests {
                         colour(looked_up(&at, w)),
                         "{at:?} at {w}: {knots:?} {pieces:?}"
                     );
-                    // Both sides of a knot where they are said to meet.
+                    // Test both sides of a knot where they should meet.
                     if let Some(k) = knots.iter().position(|knot| matches!(knot, Knot::Meets(x) if *x == w)) {
                         assert_eq!(colour(shown(pieces[k])), colour(shown(pieces[k + 1])), "{at:?} at {w}");
                     }

@@ -1,4 +1,4 @@
-//! The door: a file's path in, a scene out.
+//! The entry point: from the path of a file to a scene.
 
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -14,10 +14,11 @@ use crate::parser::{Item, Parser};
 use crate::source::{Library, Source};
 use crate::value::Value;
 
-/// How a scene is to be read.
+/// Options for reading a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReadOptions {
-    /// Folders searched for include files after the scene's own, before those of an installed POV-Ray.
+    /// Folders to search for include files, after the scene's own folder and before those of an
+    /// installed POV-Ray.
     pub library_paths: Vec<PathBuf>,
     /// Names declared as floats before the scene begins.
     pub declares: Vec<(String, f64)>,
@@ -27,7 +28,7 @@ pub struct ReadOptions {
     pub image_width: u32,
     /// The value of `image_height`, in pixels.
     pub image_height: u32,
-    /// Where reading stops.
+    /// The limits of the reader.
     pub limits: Limits,
 }
 
@@ -44,13 +45,14 @@ impl Default for ReadOptions {
     }
 }
 
-/// A scene that was read, and what was said on the way.
+/// A scene that was read, and the messages on the way.
 #[derive(Clone, Debug)]
 pub struct Read {
     /// The scene.
     pub scene: durer_scene::Scene,
-    /// `#debug`, `#warning` and the reader's own warnings, in their order (the first ten thousand). A `#warning` that says the same
-    /// again is said once, and once more at the end with the number of times.
+    /// `#debug`, `#warning` and the reader's own warnings, in their order (the first ten thousand).
+    /// A `#warning` that repeats its text is reported once, and once more at the end with the
+    /// number of times.
     pub messages: Vec<Message>,
     /// The files, for messages about a [`durer_scene::Place`].
     pub sources: Sources,
@@ -64,7 +66,7 @@ pub struct Sources {
 }
 
 impl Sources {
-    /// A message about what stands at `place`, in the form of all others.
+    /// A message about `place`, in the same form as all others.
     pub fn error(&self, place: Option<durer_scene::Place>, text: impl Into<String>) -> PovError {
         let place = place.map(|p| Place { file: p.file, start: p.start });
         let fault = Error { place, kind: ErrorKind::Invalid, text: text.into(), route: Vec::new() };
@@ -72,20 +74,21 @@ impl Sources {
     }
 }
 
-/// Stack of the reading thread: blocks and brackets inside each other are read recursively, as deep as
-/// [`Limits::nesting`] allows. Only what is used is ever touched.
+/// The stack of the reading thread. Nested blocks and brackets are read recursively, as deep as
+/// [`Limits::nesting`] allows. Only the part that is used takes memory.
 const STACK: usize = 512 << 20;
 
 /// Reads the scene at `path`.
 ///
 /// # Errors
 ///
-/// One [`PovError`] for whatever is wrong with the text, a file, or the amount of it.
+/// Returns a [`PovError`] if something is wrong with the text, if a file cannot be read, or if a
+/// limit is exceeded.
 pub fn read(path: &Path, options: &ReadOptions) -> std::result::Result<Read, PovError> {
     read_with(path, options, |_| {})
 }
 
-/// As [`read`], and every message goes to `listener` at once.
+/// As [`read`]; every message is also passed to `listener` at once.
 ///
 /// # Errors
 ///
@@ -142,7 +145,7 @@ fn on_this_thread<'a>(
 }
 
 impl Parser<'_> {
-    /// The whole scene.
+    /// Reads the whole scene.
     fn scene(&mut self, path: &Path) -> Result<durer_scene::Scene> {
         let options = self.options;
         let named = [
@@ -172,7 +175,7 @@ impl Parser<'_> {
             match &lexeme.item {
                 Item::End => break,
                 Item::Word(Keyword::Camera) => self.camera_statement(place)?,
-                // A statement may begin with one of these without `#`.
+                // These may begin a statement without `#`.
                 Item::Word(keyword) if let Some(directive) = bare_directive(*keyword) => {
                     self.nested(|r| r.run_directive(directive, NO_BLOCK, place))?;
                 }
@@ -204,7 +207,7 @@ impl Parser<'_> {
     }
 }
 
-/// The directive that `keyword` is where a statement begins.
+/// The directive that `keyword` stands for at the beginning of a statement.
 fn bare_directive(keyword: Keyword) -> Option<Directive> {
     match keyword {
         Keyword::Declare => Some(Directive::Declare),

@@ -1,4 +1,5 @@
-//! From the reader's own values to scene data, one finished statement after the other.
+//! The scene builder: turns the reader's values into scene data, one finished statement after the
+//! other.
 
 use std::collections::VecDeque;
 use std::rc::Rc;
@@ -21,7 +22,7 @@ use crate::texture::{
 };
 use crate::transform::{Matrix, length};
 
-/// What the statements so far amount to.
+/// The scene so far.
 #[derive(Debug, Default)]
 pub(crate) struct Output {
     pub(crate) camera: Option<Camera>,
@@ -29,15 +30,15 @@ pub(crate) struct Output {
     pub(crate) globals: Globals,
     pub(crate) objects: Vec<scene::Object>,
     lights: Vec<scene::Light>,
-    /// Textures given out lately: what looks equal is shared.
+    /// The textures made lately. Equal textures are shared.
     textures: VecDeque<(Rc<Texture>, Arc<scene::Texture>)>,
     default: Option<(Rc<Layer>, Arc<scene::Texture>)>,
 }
 
-/// Textures that are compared before a new one is made.
+/// The number of textures that a new one is compared with.
 const TEXTURES_COMPARED: usize = 8;
 
-/// What the allocations of a texture take beyond its layers and finishes, about.
+/// The approximate memory of a texture beyond its layers and finishes.
 const TEXTURE_EXTRA: usize = 448;
 
 pub(crate) fn point(p: [f64; 3]) -> Point3 {
@@ -48,7 +49,8 @@ pub(crate) fn vector(v: [f64; 3]) -> Vec3 {
     Vec3::new(v[0], v[1], v[2])
 }
 
-/// A normal as POV-Ray mixes it with others: of length one. One without length stays what it is.
+/// A normal, scaled to length 1 as POV-Ray does before it interpolates. One without length stays as
+/// it is.
 fn unit(v: [f64; 3]) -> Vec3 {
     let length = length(v);
     if length > 0.0 && length.is_finite() { vector(v.map(|x| x / length)) } else { vector(v) }
@@ -58,7 +60,8 @@ fn rgb(c: [f64; 3]) -> scene::Rgb {
     scene::Rgb::new(c[0], c[1], c[2])
 }
 
-/// The map as the geometry has it: columns on the right of the matrix, not rows on its left.
+/// The map in the convention of the geometry: points are columns to the right of the matrix, not
+/// rows to its left.
 pub(crate) fn affine(matrix: &Matrix, at: Place) -> Result<Affine> {
     let [x, y, z, t] = matrix.rows;
     let rows = std::array::from_fn(|i| [x[i], y[i], z[i]]);
@@ -74,10 +77,10 @@ fn placement(matrix: &Matrix, at: Place) -> Result<scene::Placement> {
     affine(matrix, at).map(scene::Placement::new)
 }
 
-/// Lights, and where the unions around them move them.
+/// Lights, each with its placement by the unions around it.
 pub(crate) type Lights = Vec<(Rc<Light>, Matrix)>;
 
-/// Moves lights by a union's transform.
+/// Transforms lights by a union's transformation.
 pub(crate) fn move_lights(lights: &mut [(Rc<Light>, Matrix)], by: &Matrix) {
     for (_, moved) in lights {
         *moved = moved.then(by);
@@ -85,10 +88,10 @@ pub(crate) fn move_lights(lights: &mut [(Rc<Light>, Matrix)], by: &Matrix) {
 }
 
 impl Parser<'_> {
-    /// Adds a finished object of the scene's own level.
+    /// Adds a finished object at the top level of the scene.
     pub(crate) fn emit(&mut self, object: &Rc<Object>) -> Result<()> {
         let at = object.at;
-        // Names inside names inside names can stand for more than there is room for.
+        // Nested declarations can stand for more objects than there is memory for.
         self.check_memory((object.leaves as usize).saturating_mul(size_of::<scene::Object>()), at)?;
         self.count_steps(object.leaves, at)?;
         let mut lights = Lights::new();
@@ -104,7 +107,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// The default texture in force, made once for each change.
+    /// The current default texture, converted once for each change.
     fn default_look(&mut self, at: Place) -> Result<Arc<scene::Texture>> {
         if let Some((layer, made)) = &self.scene.default
             && Rc::ptr_eq(layer, &self.defaults)
@@ -146,7 +149,7 @@ impl Parser<'_> {
         shown.transform(moved);
         let mut lights = Vec::new();
         if let Some(mut shown) = self.emitted(&shown, &mut lights)? {
-            // It must not shadow its own light; that it shadows no other is the price.
+            // It must not shadow its own light. The price is that it shadows no other light either.
             shown.flags.no_shadow = true;
             dress(&mut shown, default);
             self.scene.objects.push(shown);
@@ -154,7 +157,8 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// The object as scene data; lights in it go to `lights`. `None` if no surface is left.
+    /// Converts an object to scene data; its lights are added to `lights`. `None` if no surface is
+    /// left.
     pub(crate) fn emitted(&mut self, object: &Object, lights: &mut Lights) -> Result<Option<scene::Object>> {
         if object.lacks_volume {
             return Ok(self.without_volume(object, lights)?.surfaces());
@@ -193,7 +197,7 @@ impl Parser<'_> {
         self.finished_object(object, shape, clips).map(Some)
     }
 
-    /// What clips an object.
+    /// Converts the objects that clip an object.
     fn clips(&mut self, object: &Object) -> Result<Vec<scene::Object>> {
         let mut clips = Vec::with_capacity(object.clips.len());
         for clip in &object.clips {
@@ -202,7 +206,7 @@ impl Parser<'_> {
         Ok(clips)
     }
 
-    /// A shape with all that its object has beside it.
+    /// Adds everything else of an object to its shape.
     pub(crate) fn finished_object(
         &mut self,
         object: &Object,
@@ -213,7 +217,7 @@ impl Parser<'_> {
         let mut made = scene::Object::new(shape);
         made.placement = placement(&object.place, at)?;
         let moved = if object.place.is_identity() { 0 } else { size_of::<Affine>() };
-        // The reader's own copy of a union's part is gone when the next statement comes.
+        // The reader's own copy of a union's part is dropped before the next statement.
         limits::charge_for_good(size_of::<scene::Object>() + moved);
         self.check_memory(0, at)?;
         made.texture = match &object.texture {
@@ -234,7 +238,7 @@ impl Parser<'_> {
         Ok(made)
     }
 
-    /// A deformed solid; a union of deformed parts, if the solid is a union.
+    /// Converts a deformed solid; a deformed union becomes a union of deformed parts.
     pub(crate) fn emitted_deformed(
         &mut self,
         object: &Object,
@@ -325,7 +329,7 @@ impl Parser<'_> {
     }
 }
 
-/// Whether a part of it borrows the textures of others.
+/// Whether a part of it borrows textures of other parts.
 fn borrows(object: &scene::Object) -> bool {
     let within = || match &object.shape {
         scene::Shape::Union(parts) | scene::Shape::Csg(_, parts) => parts.iter().any(borrows),
@@ -334,7 +338,7 @@ fn borrows(object: &scene::Object) -> bool {
     object.texture.is_none() && (object.cutaway_textures.is_some() || within())
 }
 
-/// Gives the default texture to what has none and borrows none.
+/// Gives the default texture to everything that has none and borrows none.
 fn dress(object: &mut scene::Object, default: &Arc<scene::Texture>) {
     if !borrows(object) {
         object.texture.get_or_insert_with(|| default.clone());
@@ -356,7 +360,7 @@ fn flags(object: &Object) -> scene::Flags {
     }
 }
 
-/// A shape that is neither a union nor a light.
+/// Converts a shape that is neither a union nor a light.
 pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
     Ok(match shape {
         Shape::Sphere { center, radius } => scene::Shape::Sphere { centre: point(*center), radius: *radius },
@@ -462,7 +466,7 @@ pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
     })
 }
 
-/// What the language's number for caustics is multiplied by to get the exponent of the cosine.
+/// The factor from the language's number for caustics to the exponent of the cosine.
 const CAUSTICS: f64 = 45.0;
 
 fn filling(interior: &Interior) -> scene::Interior {
@@ -475,13 +479,14 @@ fn filling(interior: &Interior) -> scene::Interior {
     }
 }
 
-/// The textures of a blob's components; none if no component has one. Components often share theirs.
+/// The textures of a blob's components; empty if no component has one. Components often share
+/// textures.
 fn component_textures(all: &[Option<Rc<Texture>>], at: Place) -> Result<Vec<Option<Arc<scene::Texture>>>> {
     if all.iter().all(Option::is_none) {
         return Ok(Vec::new());
     }
     let mut made: Vec<Option<Arc<scene::Texture>>> = Vec::with_capacity(all.len());
-    // The last one that was made: runs of components have the same.
+    // The last one that was converted: consecutive components often have the same.
     let mut last: Option<(&Rc<Texture>, Arc<scene::Texture>)> = None;
     for own in all {
         let Some(own) = own else {
@@ -499,7 +504,7 @@ fn component_textures(all: &[Option<Rc<Texture>>], at: Place) -> Result<Vec<Opti
     Ok(made)
 }
 
-/// A fault in what an object has from another file names the object, too.
+/// Converts a texture. An error in a part that comes from another file also names the object.
 fn texture_of_object(own: &Texture, at: Place) -> Result<Arc<scene::Texture>> {
     texture(own, at).map(Arc::new).map_err(|fault| fault.of_object(at))
 }
@@ -559,7 +564,7 @@ fn pigment(own: &Pigment, at: Place) -> Result<scene::Pigment> {
     Ok(made)
 }
 
-/// `k` of the way from one colour to another.
+/// The colour between two colours, with the weight `k` for the second.
 fn blended(from: Colour, to: Colour, k: f64) -> Colour {
     core::array::from_fn(|i| from[i] + (to[i] - from[i]) * k)
 }
@@ -569,7 +574,7 @@ fn blend_of_patterns(at: Place) -> Box<Error> {
     Error::at(at, ErrorKind::Unsupported, text)
 }
 
-/// A pattern for pictures: `part` makes an entry, `blend` one between two.
+/// A pattern of scene data: `part` converts an entry, `blend` mixes two.
 fn pattern_of<T: Clone, U>(
     pattern: &Pattern,
     map: &Map<T>,
@@ -610,7 +615,7 @@ fn pattern_of<T: Clone, U>(
             return plain(number);
         }
         let last = map.entries.len() - 1;
-        // Where a wave is undefined the first entry is shown.
+        // If the wave is undefined, the first entry is shown.
         let shown = changed_number(pattern, number).filter(|shown| !shown.is_nan()).unwrap_or(0.0);
         let shown = shown.clamp(0.0, last as f64);
         let below = shown as usize;
@@ -621,7 +626,8 @@ fn pattern_of<T: Clone, U>(
     Ok(scene::Pattern::Cells { cells, entries })
 }
 
-/// A finish. What scatters or shines less than not at all does nothing (a fact of the language).
+/// Converts a finish. Negative amounts of scattering or highlights have no effect (a fact of the
+/// language).
 fn finish(own: &Finish) -> scene::Finish {
     let mirror = own.reflection;
     let mirrors = mirror.min.iter().chain(&mirror.max).any(|part| *part != 0.0);

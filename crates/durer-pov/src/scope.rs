@@ -1,14 +1,14 @@
-//! Names and what they stand for: globals, names of an include file, names of a macro call.
+//! Scopes: names and their values, at the global level, in include files and in macro calls.
 
 use crate::interner::Name;
 use crate::value::Value;
 
-/// Who a name is: a binding's index in the name's own stack, and an element if it is an array.
+/// A variable: the index of a binding in the name's own stack, and an element if it is an array.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Reference {
     pub(crate) name: Name,
     pub(crate) slot: usize,
-    /// Index of the element in its array, and of the element in that one, and so on.
+    /// The index of the element in its array, then that of the element within this one, and so on.
     pub(crate) path: Vec<usize>,
 }
 
@@ -51,7 +51,7 @@ impl Scopes {
         self.levels.push(Vec::new());
     }
 
-    /// Closes the innermost level and forgets its names.
+    /// Closes the innermost level and removes its names.
     pub(crate) fn leave(&mut self) {
         let level = self.levels.len() as u32;
         for name in self.levels.pop().unwrap_or_default() {
@@ -62,7 +62,7 @@ impl Scopes {
         }
     }
 
-    /// What `name` stands for, innermost first.
+    /// The value of `name` in the innermost level that has it.
     pub(crate) fn get(&self, name: Name) -> Option<&Value> {
         match &self.stack(name).last()?.content {
             Content::Value(value) => Some(value),
@@ -78,7 +78,7 @@ impl Scopes {
         })
     }
 
-    /// The variable behind `name`, through a parameter to the caller's own.
+    /// The variable that `name` refers to; for a parameter, the caller's own.
     pub(crate) fn reference(&self, name: Name) -> Option<Reference> {
         let stack = self.stack(name);
         match &stack.last()?.content {
@@ -103,8 +103,8 @@ impl Scopes {
         })
     }
 
-    /// Tells the arrays around the element `target` that arrays stand `depth` deep in the outermost now, and the
-    /// innermost that what it holds has changed by so many bytes.
+    /// Updates the arrays around the element `target`: in the outermost, arrays are now nested
+    /// `depth` deep, and the contents of the innermost now take `after` bytes instead of `before`.
     pub(crate) fn element_changed(&mut self, target: &Reference, depth: u32, before: usize, after: usize) {
         for around in 0..target.path.len() {
             let innermost = around + 1 == target.path.len();
@@ -119,20 +119,21 @@ impl Scopes {
         }
     }
 
-    /// `#declare`: changes the innermost variable of that name, or makes a global one.
+    /// `#declare`: changes the innermost variable of that name, or creates a global one.
     pub(crate) fn declare(&mut self, name: Name, value: Value) {
         let known = self.reference(name);
         if let Some(held) = known.and_then(|target| self.get_mut(&target)) {
             *held = value;
         } else {
-            // Nothing of that name, or a parameter whose variable was undefined meanwhile.
+            // There is no such name, or it is a parameter whose variable has been undefined since.
             let stack = self.stack_mut(name);
             stack.pop();
             stack.push(Binding { level: 0, content: Content::Value(value) });
         }
     }
 
-    /// `#local`: changes or makes the variable of the innermost level; a parameter stays the caller's variable.
+    /// `#local`: changes or creates the variable of the innermost level. A parameter remains the
+    /// caller's variable.
     pub(crate) fn local(&mut self, name: Name, value: Value) {
         let level = self.levels.len() as u32;
         let here = self.stack(name).last().filter(|b| b.level == level);
@@ -143,12 +144,13 @@ impl Scopes {
         }
     }
 
-    /// Makes a macro's parameter `name` in the innermost level, whatever was of that name there.
+    /// Creates the parameter `name` of a macro in the innermost level, in place of any binding of
+    /// that name.
     pub(crate) fn parameter(&mut self, name: Name, value: Value) {
         self.bind(name, Content::Value(value));
     }
 
-    /// Makes `name` another name of `target` in the innermost level.
+    /// Makes `name` an alias of `target` in the innermost level.
     pub(crate) fn alias(&mut self, name: Name, target: Reference) {
         self.bind(name, Content::Alias(target));
     }
@@ -166,7 +168,7 @@ impl Scopes {
         }
     }
 
-    /// `#undef`: forgets the innermost variable of that name; `false` if there is none.
+    /// `#undef`: removes the innermost variable of that name. Returns `false` if there is none.
     pub(crate) fn undefine(&mut self, name: Name) -> bool {
         let Some(binding) = self.stack_mut(name).pop() else { return false };
         let names = (binding.level as usize).checked_sub(1).and_then(|i| self.levels.get_mut(i));
@@ -178,7 +180,7 @@ impl Scopes {
         true
     }
 
-    /// Every name that stands for something, for a hint at a misspelling.
+    /// Every name with a value, for a hint at a misspelling.
     pub(crate) fn bound(&self) -> impl Iterator<Item = Name> + '_ {
         self.stacks.iter().enumerate().filter(|(_, s)| !s.is_empty()).map(|(i, _)| Name(i as u32))
     }

@@ -1,4 +1,4 @@
-//! What holds for the whole scene: the language's version, gamma, limits of recursion, the background.
+//! Settings of the whole scene: the language's version, gamma, limits of recursion, the background.
 
 use durer_math::elementary;
 
@@ -8,26 +8,26 @@ use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::parser::{Item, Parser};
 
-/// How the scene's numbers relate to light.
+/// How the scene's colour values relate to light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Gamma {
-    /// Light is the number to this power.
+    /// Light is the value to this power.
     Power(f64),
     /// The sRGB curve.
     Srgb,
 }
 
-/// The language as far as it depends on the scene.
+/// The settings on which the language itself depends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Language {
-    /// The version in force: 3.7 until a `#version` says otherwise.
+    /// The current version: 3.7 until a `#version` changes it.
     pub(crate) version: f64,
-    /// A `#version` was seen; a scene without any is treated as one of 3.62.
+    /// Whether a `#version` was seen; a scene without any is treated as one of version 3.62.
     pub(crate) version_given: bool,
     pub(crate) gamma: Option<Gamma>,
-    /// Which noise functions have that do not say it.
+    /// The generator for noise functions that do not state one.
     noise_generator: Option<f64>,
-    /// There are such functions.
+    /// Whether there are such functions.
     pub(crate) noise_is_used: bool,
 }
 
@@ -37,25 +37,25 @@ impl Default for Language {
     }
 }
 
-/// Noise of this kind came with this version.
+/// The number of the new noise generator, and the version that introduced it.
 const NEW_NOISE: (f64, f64) = (2.0, 3.5);
 
-/// What scenes without any `#version` are written for.
+/// The version of scenes without any `#version`.
 const UNVERSIONED: f64 = 3.62;
 
 impl Language {
-    /// The version by whose rules the scene is shaded.
+    /// The version whose rules apply to shading.
     pub(crate) fn shading_version(&self) -> f64 {
         if self.version_given { self.version } else { UNVERSIONED }
     }
 
-    /// The kind of noise of functions that do not say it.
+    /// The generator for noise functions that do not state one.
     pub(crate) fn noise_generator(&self) -> f64 {
         let (new, since) = NEW_NOISE;
         self.noise_generator.unwrap_or(if self.version < since { 1.0 } else { new })
     }
 
-    /// An sRGB-encoded number in the scene's own scale.
+    /// Converts an sRGB-encoded value to the scene's own scale.
     pub(crate) fn working_from_srgb(&self, value: f64) -> f64 {
         match self.gamma {
             Some(Gamma::Srgb) => value,
@@ -67,7 +67,7 @@ impl Language {
     }
 }
 
-/// `global_settings` as far as it matters to this subset.
+/// `global_settings`, as far as they matter to this subset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Globals {
     pub(crate) max_trace_level: u32,
@@ -81,15 +81,15 @@ impl Default for Globals {
     }
 }
 
-/// The newest version of the language that is read.
+/// The newest supported version of the language.
 const NEWEST: f64 = 3.7;
-/// POV-Ray's bound.
+/// POV-Ray's limit on `max_trace_level`.
 const DEEPEST_TRACE: f64 = 256.0;
 
 impl Parser<'_> {
-    /// `#version`.
+    /// Applies `#version`.
     pub(crate) fn set_version(&mut self, version: f64, place: Place) -> Result<()> {
-        // Old files write 1 or 2, and 3.62 or 3.701 are patch levels.
+        // Old files write 1 or 2; 3.62 or 3.701 are patch levels.
         if version.is_nan() || version >= NEWEST + 0.05 {
             let text = format!(
                 "this scene is written for version {version}; durer reads the language up to {NEWEST}"
@@ -101,7 +101,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// What stands in braces after `global_settings`.
+    /// Reads what stands in braces after `global_settings`.
     pub(crate) fn global_settings(&mut self) -> Result<()> {
         self.expect(Mark::BraceOpen)?;
         loop {
@@ -133,7 +133,8 @@ impl Parser<'_> {
                     let [r, g, b, ..] = self.colour()?;
                     self.scene.globals.ambient_light = [r, g, b];
                 }
-                // Texts are read as what they are, and the rest belongs to things that are not there yet.
+                // The encoding of texts is detected, and the rest concerns features that are not
+                // supported yet.
                 Keyword::Charset => {
                     let lexeme = self.next()?;
                     match lexeme.item {
@@ -182,7 +183,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// What stands in braces after `background`.
+    /// Reads what stands in braces after `background`.
     pub(crate) fn background(&mut self) -> Result<()> {
         self.expect(Mark::BraceOpen)?;
         let color = self.colour()?;

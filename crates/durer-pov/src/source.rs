@@ -1,4 +1,5 @@
-//! Files of a scene: where they are looked for, how their bytes become text, and what is refused.
+//! Source files of a scene: the search for them, their conversion from bytes to text, and the files
+//! that are refused.
 
 use std::fs::File;
 use std::io::Read;
@@ -8,25 +9,25 @@ use crate::branches::Block;
 use crate::lexer::Token;
 use crate::limits::Limits;
 
-/// One file, read once: its text, its tokens, and where its directives lead.
+/// A file, read once: its text, its tokens, and the targets of its directives.
 #[derive(Debug)]
 pub(crate) struct Source {
     pub(crate) path: PathBuf,
     pub(crate) text: String,
     pub(crate) tokens: Vec<Token>,
     pub(crate) numbers: Vec<f64>,
-    /// Strings as they stand between their quotes, escapes untouched.
+    /// Strings as they stand between their quotes, with escapes unresolved.
     pub(crate) strings: Vec<Box<str>>,
     pub(crate) blocks: Vec<Block>,
 }
 
 impl Source {
-    /// A file of which only the text is known; tokens come with [`crate::lexer::lex`].
+    /// A file of which only the text is known; [`crate::lexer::lex`] adds the tokens.
     pub(crate) fn new(path: PathBuf, text: String) -> Self {
         Self { path, text, tokens: Vec::new(), numbers: Vec::new(), strings: Vec::new(), blocks: Vec::new() }
     }
 
-    /// Line and column of a byte, both from 1; columns count characters.
+    /// The line and column of a byte, both counted from 1; columns count characters.
     pub(crate) fn line_and_column(&self, at: usize) -> (usize, usize) {
         let head = &self.text[..at.min(self.text.len())];
         let line_start = head.rfind('\n').map_or(0, |i| i + 1);
@@ -40,9 +41,9 @@ impl AsRef<Self> for Source {
     }
 }
 
-/// The text of the file at `path`, or one line that says why not.
+/// The text of the file at `path`, or the reason in one line why it cannot be read.
 ///
-/// UTF-8 if it is that, else Latin-1, as old scenes are.
+/// The text is UTF-8 if it is valid as such, and otherwise Latin-1, as in old scenes.
 pub(crate) fn read_text(path: &Path, limits: &Limits) -> Result<String, String> {
     let unreadable = |e: std::io::Error| format!("cannot be read: {}", plain_reason(&e));
     let about = std::fs::metadata(path).map_err(unreadable)?;
@@ -64,14 +65,14 @@ pub(crate) fn read_text(path: &Path, limits: &Limits) -> Result<String, String> 
     let mut bytes = Vec::with_capacity(about.len() as usize);
     let file = File::open(path).map_err(unreadable)?;
     file.take(limits.file_size.saturating_add(1)).read_to_end(&mut bytes).map_err(unreadable)?;
-    // Positions are 32 bits wide.
+    // Positions are stored in 32 bits.
     if bytes.len() as u64 > limits.file_size.min(u64::from(u32::MAX) / 2) {
         return Err(too_long());
     }
     Ok(decode(bytes))
 }
 
-/// The system's reason without its error number.
+/// The system's reason without the error number.
 fn plain_reason(error: &std::io::Error) -> String {
     let text = error.to_string();
     let text = text.split(" (os error").next().unwrap_or(&text);
@@ -79,7 +80,7 @@ fn plain_reason(error: &std::io::Error) -> String {
     chars.next().map_or_else(String::new, |c| c.to_lowercase().chain(chars).collect())
 }
 
-/// Bytes to text: UTF-8 (with or without a byte order mark), else Latin-1.
+/// Converts bytes to text: UTF-8 (with or without a byte-order mark), else Latin-1.
 fn decode(bytes: Vec<u8>) -> String {
     let text = match String::from_utf8(bytes) {
         Ok(text) => text,
@@ -91,7 +92,7 @@ fn decode(bytes: Vec<u8>) -> String {
     }
 }
 
-/// Folders in which POV-Ray's standard include files are found when it is installed.
+/// The folders in which an installed POV-Ray has its standard include files.
 fn installed_folders() -> Vec<PathBuf> {
     let mut found = Vec::new();
     for root in ["/usr/share", "/usr/local/share", "/opt/homebrew/share"] {
@@ -103,14 +104,14 @@ fn installed_folders() -> Vec<PathBuf> {
             .map(|entry| entry.path().join("include"))
             .filter(|folder| folder.is_dir())
             .collect();
-        // Of several versions the newest first: 3.8 before 3.7.
+        // The newest of several versions comes first: 3.8 before 3.7.
         here.sort_by(|a, b| b.cmp(a));
         found.append(&mut here);
     }
     found
 }
 
-/// Where include files are looked for, in order.
+/// The folders to search for include files, in order.
 #[derive(Debug)]
 pub(crate) struct Library {
     folders: Vec<PathBuf>,
@@ -126,7 +127,8 @@ impl Library {
         Self { folders }
     }
 
-    /// The file called `name`, exactly spelled if there is one in any folder, else in any mixture of cases.
+    /// The file called `name`: with exactly this spelling if a folder has one, else with any case
+    /// of letters.
     pub(crate) fn find(&self, name: &str) -> Option<PathBuf> {
         let name = name.trim();
         if name.is_empty() {
@@ -141,7 +143,7 @@ impl Library {
 }
 
 impl Library {
-    /// The folders, as a message lists them.
+    /// The folders, as listed in a message.
     pub(crate) fn listed(&self) -> String {
         let shown = |folder: &PathBuf| {
             let text = folder.display().to_string();
@@ -150,7 +152,7 @@ impl Library {
         self.folders.iter().map(shown).collect::<Vec<_>>().join(", ")
     }
 
-    /// Names of all files in the folders.
+    /// The names of all files in the folders.
     pub(crate) fn names(&self) -> Vec<String> {
         let entries = self.folders.iter().filter_map(|folder| {
             let listed = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
@@ -179,7 +181,7 @@ impl Library {
             .flatten()
             .map(|entry| entry.path())
             .filter(|path| path.extension().is_some_and(|ending| ending == "inc"))
-            // Names of long ago are not what is meant.
+            // Names of obsolete files are not what is meant.
             .filter(|path| !path.to_string_lossy().ends_with("_old.inc"))
             .filter(|path| std::fs::read(path).is_ok_and(|b| declares(&String::from_utf8_lossy(&b))))
             .filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()))
@@ -189,7 +191,7 @@ impl Library {
     }
 }
 
-/// `name` (with `/` between folders) under `folder`, whatever the case of its letters.
+/// The path of `name` (with `/` between folders) under `folder`, regardless of case.
 fn find_any_case(folder: &Path, name: &str) -> Option<PathBuf> {
     let mut at = if name.starts_with('/') { PathBuf::from("/") } else { folder.to_path_buf() };
     for part in name.split('/').filter(|part| !part.is_empty() && *part != ".") {

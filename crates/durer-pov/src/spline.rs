@@ -1,6 +1,7 @@
-//! `spline { }`: curves of a parameter `t` through points, as values, and as functions.
+//! `spline { }`: curves of a parameter `t` through points, as values and as functions.
 //!
-//! Between the knots `t_i` and `t_(i+1)`, `h_i` apart, with `s = t - t_i` and the quotients `d_i = (P_(i+1) - P_i)/h_i`:
+//! Between the knots `t_i` and `t_(i+1)`, at the distance `h_i`, with `s = t - t_i` and the
+//! quotients `d_i = (P_(i+1) - P_i)/h_i`:
 //!
 //! ```text
 //!   linear_spline     P_i + d_i s
@@ -9,8 +10,8 @@
 //!   natural_spline    cubics with two continuous derivatives, the second of which is zero at both ends
 //! ```
 //!
-//! Beyond its ends a spline keeps its last value. That is what POV-Ray's values are, which agree to rounding. The exact spline is that of the numbers of the text: its coefficients are enclosed by
-//! intervals.
+//! Beyond its ends a spline keeps its last value. That agrees with POV-Ray's values to rounding.
+//! The exact spline is that of the numbers in the text: its coefficients are enclosed by intervals.
 
 use std::rc::Rc;
 
@@ -25,10 +26,10 @@ use crate::limits::Charge;
 use crate::parser::{Item, Parser};
 use crate::value::{Terms, Value};
 
-/// Steps, or too many of them.
+/// Steps, or the error that there are too many.
 type Made<T> = std::result::Result<T, FormulaError>;
 
-/// How the points are joined.
+/// The ways to interpolate between the points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum SplineKind {
     Linear,
@@ -53,31 +54,31 @@ impl SplineKind {
 #[derive(Clone, Debug)]
 pub(crate) struct Spline {
     kind: SplineKind,
-    /// Knots and points, in ascending order, no two at the same place.
+    /// Knots and points in ascending order, each knot once.
     points: Vec<(f64, [f64; 5])>,
-    /// How many components there are: 2 to 5.
+    /// The number of components: 2 to 5.
     terms: usize,
     _charge: Charge,
 }
 
-/// One component: knots, and what is between them.
+/// One component: the knots, and the cubics between them.
 struct Curve {
     knots: Vec<f64>,
     pieces: Vec<[Interval; 4]>,
 }
 
 impl Curve {
-    /// The same everywhere.
+    /// A constant curve.
     fn constant(value: Interval) -> Self {
         let zero = Interval::from(0.0);
         Self { knots: vec![0.0, 1.0], pieces: vec![[value, zero, zero, zero]] }
     }
 
-    /// Through these points.
+    /// The curve through these points.
     fn new(kind: SplineKind, t: &[f64], p: &[f64]) -> Self {
         let n = p.len();
         let point = |i: usize| Interval::from(p[i]);
-        // What POV-Ray says where a cubic has no piece.
+        // POV-Ray's values where a cubic has too few points for a piece.
         match (kind, n) {
             (_, 1) => return Self::constant(point(0)),
             (SplineKind::Cubic, 2) => {
@@ -124,7 +125,7 @@ impl Curve {
         self.pieces.iter().flatten().all(finite)
     }
 
-    /// The rounded value.
+    /// The value at `t`, rounded.
     fn at(&self, t: f64) -> f64 {
         let last = self.knots.len() - 1;
         let t = t.clamp(self.knots[0], self.knots[last]);
@@ -134,18 +135,19 @@ impl Curve {
         ((c3 * s + c2) * s + c1) * s + c0
     }
 
-    /// As steps.
+    /// The curve as steps.
     fn steps(&self, b: &mut Builder, t: NodeId) -> Made<NodeId> {
         pieces::continuous(b, t, &self.knots, &self.pieces)
     }
 }
 
-/// The second derivatives `M_i` of a natural spline: `h_(i-1) M_(i-1) + 2 (h_(i-1) + h_i) M_i + h_i M_(i+1) = 6 (d_i - d_(i-1))`, by elimination. What stands on the diagonal is more than
-/// what is beside it, so no pivot comes near zero.
+/// The second derivatives `M_i` of a natural spline, by elimination from
+/// `h_(i-1) M_(i-1) + 2 (h_(i-1) + h_i) M_i + h_i M_(i+1) = 6 (d_i - d_(i-1))`. The matrix is
+/// strictly diagonally dominant, so no pivot comes near zero.
 fn natural_bends(h: &[Interval], d: &[Interval]) -> Vec<Interval> {
     let (two, six) = (Interval::from(2.0), Interval::from(6.0));
     let n = h.len();
-    // Going forward: M_i = right_i - share_i M_(i+1).
+    // Forward elimination: M_i = right_i - share_i M_(i+1).
     let (mut share, mut right) = (vec![Interval::from(0.0); n + 1], vec![Interval::from(0.0); n + 1]);
     for i in 1..n {
         let pivot = two * (h[i - 1] + h[i]) - h[i - 1] * share[i - 1];
@@ -166,7 +168,7 @@ impl Spline {
         Curve::new(kind, &t, &p)
     }
 
-    /// Its components as formulas of one number.
+    /// The components as formulas of one number.
     pub(crate) fn formulas(&self) -> Made<Vec<Formula>> {
         let formula = |component| {
             let mut b = Builder::new();
@@ -179,7 +181,7 @@ impl Spline {
 }
 
 impl Parser<'_> {
-    /// `spline { ... }`, the word included.
+    /// Reads `spline { ... }`, including the word.
     pub(crate) fn spline_value(&mut self) -> Result<Spline> {
         self.next()?;
         let place = self.here();
@@ -238,7 +240,8 @@ impl Parser<'_> {
         Ok(spline)
     }
 
-    /// The point of a spline at the float in parentheses, after its name; another way to join the points may follow.
+    /// Evaluates a spline at the float in parentheses, after its name. Another kind of spline may
+    /// follow the float.
     pub(crate) fn called_spline(&mut self, spline: &Rc<Spline>, place: Place) -> Result<Terms> {
         self.expect(Mark::ParenOpen)?;
         let t = self.float()?;
@@ -260,7 +263,7 @@ impl Parser<'_> {
         Ok(Terms::new(&point[..spline.terms]))
     }
 
-    /// `spline { ... }` as a function of one number.
+    /// Reads `spline { ... }` as a function of one number.
     pub(crate) fn spline_function(&mut self) -> Result<Vec<Formula>> {
         let place = self.here();
         let spline = self.nested(Self::spline_value)?;

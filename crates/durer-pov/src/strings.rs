@@ -1,4 +1,4 @@
-//! Strings: literals, their escapes, and the functions that make them.
+//! Strings: literals, their escapes, and the functions that return strings.
 
 use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
@@ -6,17 +6,17 @@ use crate::lexer::Mark;
 use crate::parser::{Item, Parser};
 use crate::value::Value;
 
-/// Widths and digits beyond this are a mistake.
+/// Greater widths or numbers of digits are refused.
 const WIDEST: f64 = 1000.0;
 
-/// Whether `keyword` makes a string.
+/// Whether `keyword` is a function that returns a string.
 pub(crate) fn makes_string(keyword: Keyword) -> bool {
     use Keyword::*;
     matches!(keyword, Str | Concat | Chr | Substr | Strupr | Strlwr | Vstr | Datetime)
 }
 
 impl Parser<'_> {
-    /// A string; `wanted` says what for.
+    /// Reads a string; `wanted` says what it is for.
     pub(crate) fn string(&mut self, wanted: &str) -> Result<String> {
         let lexeme = self.next()?;
         match &lexeme.item {
@@ -30,7 +30,7 @@ impl Parser<'_> {
         }
     }
 
-    /// The name of a file: a backslash in a literal is a backslash.
+    /// Reads the name of a file. In a literal, a backslash is just a backslash.
     pub(crate) fn file_name(&mut self) -> Result<String> {
         let lexeme = self.next()?;
         if let Item::Text(source, index) = &lexeme.item {
@@ -106,7 +106,7 @@ impl Parser<'_> {
             }
         };
         self.expect(Mark::ParenClose)?;
-        // Long strings are work.
+        // Long strings take time.
         self.count_steps(text.len() as u64 / 16, place)?;
         Ok(text)
     }
@@ -123,14 +123,14 @@ impl Parser<'_> {
     }
 }
 
-/// As C's `%*.*f`: a negative width fills with zeros, negative digits mean six.
+/// Formats like C's `%*.*f`: a negative width pads with zeros, negative digits mean six.
 fn formatted(value: f64, width: f64, digits: f64) -> String {
     let digits = if digits < 0.0 { 6 } else { digits as usize };
     let size = width.abs() as usize;
     if width < 0.0 { format!("{value:0size$.digits$}") } else { format!("{value:size$.digits$}") }
 }
 
-/// The number that `text` begins with, 0 if it begins with none.
+/// The number at the start of `text`, or 0 if there is none.
 pub(crate) fn number_in(text: &str) -> f64 {
     let text = text.trim_start();
     let numeric = |c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.' | 'e' | 'E');
@@ -139,7 +139,7 @@ pub(crate) fn number_in(text: &str) -> f64 {
     longest.filter(|v| v.is_finite()).unwrap_or(0.0)
 }
 
-/// A literal with its escapes resolved.
+/// Resolves the escapes of a literal.
 fn unescape(raw: &str, place: Place) -> Result<String> {
     let mut text = String::with_capacity(raw.len());
     let mut chars = raw.chars();
@@ -174,9 +174,10 @@ fn unescape(raw: &str, place: Place) -> Result<String> {
     Ok(text)
 }
 
-/// The moment `days` after the beginning of 2000, in the form of C's strftime (its plain numeric fields).
+/// The time `days` after the beginning of 2000, formatted like C's strftime (its plain numeric
+/// fields).
 fn date(days: f64, format: &str, place: Place) -> Result<String> {
-    // A million days either way keeps the calendar within four-digit years.
+    // A million days in either direction keep the calendar within four-digit years.
     if days.abs() > 1e6 {
         return Err(Error::invalid(place, "this date is too far away"));
     }
@@ -209,9 +210,9 @@ fn date(days: f64, format: &str, place: Place) -> Result<String> {
     Ok(text)
 }
 
-/// Year, month and day of the Gregorian calendar, `day` days after 2000-01-01.
+/// The year, month and day of the Gregorian calendar, `day` days after 2000-01-01.
 fn civil(day: i64) -> (i64, i64, i64) {
-    // Years are counted from March, so that the leap day is the last; 2000-03-01 is day 60.
+    // Years start in March, so that the leap day is the last; 2000-03-01 is day 60.
     let since = day - 60;
     let (era, in_era) = (since.div_euclid(146_097), since.rem_euclid(146_097));
     let year = (in_era - in_era / 1460 + in_era / 36_524 - in_era / 146_096) / 365;

@@ -1,4 +1,4 @@
-//! Transforms: what moves objects, textures, lights and cameras.
+//! Transformations of objects, textures, lights and cameras.
 
 use std::rc::Rc;
 
@@ -10,7 +10,8 @@ use crate::lexer::Mark;
 use crate::parser::{Item, Parser};
 use crate::value::Value;
 
-/// Rows are the images of x, y and z, then comes the translation: points are rows and stand on the left.
+/// An affine map. Points are rows and stand to the left of the matrix: its rows are the images of
+/// x, y and z, then the translation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Matrix {
     pub(crate) rows: [[f64; 3]; 4],
@@ -28,7 +29,7 @@ pub(crate) fn length(a: [f64; 3]) -> f64 {
     elementary::hypot(elementary::hypot(a[0], a[1]), a[2])
 }
 
-/// Sine and cosine of an angle in degrees; quarter turns are exact.
+/// The sine and cosine of an angle in degrees; exact for multiples of 90 degrees.
 fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
     let turned = degrees % 360.0;
     match turned.rem_euclid(360.0) {
@@ -58,7 +59,7 @@ impl Matrix {
         matrix
     }
 
-    /// About x, then y, then z, in degrees.
+    /// The rotation about x, then y, then z, in degrees.
     pub(crate) fn rotation(degrees: [f64; 3]) -> Self {
         let mut matrix = Self::IDENTITY;
         for (axis, &angle) in degrees.iter().enumerate() {
@@ -77,7 +78,8 @@ impl Matrix {
         matrix
     }
 
-    /// About `axis` through the origin, in degrees (Rodrigues' formula); the identity if the axis has no length.
+    /// The rotation about `axis` through the origin, in degrees (Rodrigues' formula); the identity
+    /// if the axis has no length.
     pub(crate) fn turn(axis: [f64; 3], degrees: f64) -> Self {
         let size = length(axis);
         if size == 0.0 {
@@ -97,7 +99,7 @@ impl Matrix {
         matrix
     }
 
-    /// First `self`, then `next`.
+    /// The map `self`, followed by `next`.
     pub(crate) fn then(&self, next: &Self) -> Self {
         let [x, y, z, t] = self.rows;
         Self { rows: [next.direction(x), next.direction(y), next.direction(z), next.point(t)] }
@@ -114,12 +116,12 @@ impl Matrix {
         std::array::from_fn(|j| turned[j] + self.rows[3][j])
     }
 
-    /// Signed volume of the unit cube's image.
+    /// The signed volume of the unit cube's image.
     pub(crate) fn determinant(&self) -> f64 {
         dot(cross(self.rows[0], self.rows[1]), self.rows[2])
     }
 
-    /// The way back, if there is one.
+    /// The inverse map, if there is one.
     pub(crate) fn inverse(&self) -> Option<Self> {
         let [a, b, c, t] = self.rows;
         let determinant = self.determinant();
@@ -145,7 +147,7 @@ impl Matrix {
 }
 
 impl Parser<'_> {
-    /// One transform, if one comes next.
+    /// Reads one transformation, if one comes next.
     pub(crate) fn transform_item(&mut self) -> Result<Option<Matrix>> {
         let Some(keyword) = self.peek_word()? else { return Ok(None) };
         let place = self.here();
@@ -186,7 +188,7 @@ impl Parser<'_> {
         Ok(Some(matrix))
     }
 
-    /// `<12 numbers>`. A column of zeros flattens space: as in POV-Ray it gets a 1.
+    /// Reads `<12 numbers>`. A column of zeros would flatten space; as in POV-Ray it gets a 1.
     fn matrix_literal(&mut self, place: Place) -> Result<Matrix> {
         self.expect(Mark::Less)?;
         let mut matrix = Matrix::IDENTITY;
@@ -206,7 +208,7 @@ impl Parser<'_> {
         Ok(matrix)
     }
 
-    /// What follows the word `transform`: an identifier, or items in braces.
+    /// Reads what follows the word `transform`: an identifier, or items in braces.
     pub(crate) fn transform_block(&mut self) -> Result<Matrix> {
         if let Item::Value(Value::Transform(known)) = self.peek()? {
             let known = **known;
@@ -236,7 +238,7 @@ impl Parser<'_> {
         matrix.inverse().ok_or_else(|| Error::invalid(self.here(), "this transform has no inverse"))
     }
 
-    /// `transform` as a value.
+    /// Reads `transform` as a value.
     pub(crate) fn transform_value(&mut self, place: Place) -> Result<Value> {
         let matrix = self.nested(Self::transform_block)?;
         if !matrix.is_sound() {

@@ -1,8 +1,9 @@
-//! Words of POV-Ray's language that durer does not read yet. Whoever teaches it one takes it off this list.
+//! The words of POV-Ray's language that durer does not support yet. A word that becomes supported
+//! must be removed from this list.
 
 use crate::keywords::Keyword;
 
-/// Whether `keyword` belongs to something that is not there yet, wherever it stands.
+/// Whether `keyword` belongs to a feature that is not supported yet, wherever it stands.
 pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
     use Keyword::*;
     matches!(

@@ -1,4 +1,4 @@
-//! What an identifier can hold.
+//! The values that an identifier can have.
 
 use std::rc::Rc;
 
@@ -6,7 +6,8 @@ use crate::limits::Charge;
 use crate::macros::Macro;
 use crate::transform::Matrix;
 
-/// One to five numbers: a float, a vector, or (with five) a colour as red, green, blue, filter, transmit.
+/// One to five numbers: a float, a vector, or (with five) a colour as red, green, blue, filter,
+/// transmit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Terms {
     values: [f64; 5],
@@ -14,7 +15,7 @@ pub(crate) struct Terms {
 }
 
 impl Terms {
-    /// The terms of `values`, of which there are 1 to 5.
+    /// Makes the terms of `values`, of which there are 1 to 5.
     pub(crate) fn new(values: &[f64]) -> Self {
         let mut all = [0.0; 5];
         let count = values.len().min(5);
@@ -27,7 +28,7 @@ impl Terms {
         &self.values[..usize::from(self.count)]
     }
 
-    /// How many there are.
+    /// The number of terms.
     pub(crate) fn len(&self) -> usize {
         usize::from(self.count)
     }
@@ -37,7 +38,8 @@ impl Terms {
         (self.count == 1).then_some(self.values[0])
     }
 
-    /// `count` terms: one is repeated, a few are filled up with zeros; longer ones stay as they are.
+    /// The value with `count` terms: a single term is repeated, fewer are padded with zeros, and
+    /// longer values stay as they are.
     pub(crate) fn promoted(mut self, count: usize) -> Self {
         if self.len() < count {
             if self.count == 1 {
@@ -49,7 +51,7 @@ impl Terms {
         self
     }
 
-    /// `f` of each pair of terms, the shorter operand promoted.
+    /// Applies `f` to each pair of terms; the shorter operand is promoted.
     pub(crate) fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         let count = self.len().max(other.len());
         let (a, b) = (self.promoted(count), other.promoted(count));
@@ -60,7 +62,7 @@ impl Terms {
         result
     }
 
-    /// `f` of each term.
+    /// Applies `f` to each term.
     pub(crate) fn map(mut self, f: impl Fn(f64) -> f64) -> Self {
         for value in &mut self.values[..usize::from(self.count)] {
             *value = f(*value);
@@ -100,54 +102,56 @@ pub(crate) struct Text {
 }
 
 impl Text {
-    /// Charges the bytes of `text`.
+    /// Makes a text and charges its bytes.
     pub(crate) fn new(text: String) -> Rc<Self> {
         let _charge = Charge::new(text.len() + 64);
         Rc::new(Self { text, _charge })
     }
 }
 
-/// An array; its elements stand in row order.
+/// An array. Its elements are in row order.
 #[derive(Clone, Debug)]
 pub(crate) struct Array {
     pub(crate) sizes: Vec<usize>,
     pub(crate) items: Vec<Value>,
-    /// Arrays inside arrays, this one included.
+    /// The nesting depth of arrays, this one included.
     pub(crate) depth: u32,
     charge: Charge,
 }
 
 impl Array {
-    /// An array without values.
+    /// Makes an array without values.
     pub(crate) fn new(sizes: Vec<usize>) -> Self {
         let count = sizes.iter().product();
         let charge = Charge::new(Self::bytes(count));
         Self { sizes, items: vec![Value::Empty; count], depth: 1, charge }
     }
 
-    /// Counts what the elements hold beyond their own size, after they were all set.
+    /// Updates the memory that the elements take beyond their own size, after all were set.
     pub(crate) fn recount(&mut self) {
         let held: usize = self.items.iter().map(Value::held).sum();
         self.charge.resize(Self::bytes(self.items.len()).saturating_add(held));
     }
 
-    /// Counts that an element that held `before` holds `after` now.
+    /// Updates the memory after an element that took `before` bytes takes `after`.
     pub(crate) fn changed(&mut self, before: usize, after: usize) {
         self.charge.change(before, after);
     }
 
-    /// What `count` elements take.
+    /// The bytes of `count` elements.
     pub(crate) fn bytes(count: usize) -> usize {
         count.saturating_mul(size_of::<Value>()).saturating_add(64)
     }
 }
 
-/// What was found where durer cannot do it yet; using it is the fault, not defining it.
+/// A definition that uses something durer does not support yet. Using it is an error, not defining
+/// it.
 #[derive(Debug)]
 pub(crate) struct Unsupported {
-    /// The words of the message.
+    /// The text of the message.
     pub(crate) text: String,
-    /// It stands for a number, or for something that gives one when it is called: a semicolon ends what it is part of.
+    /// Whether it stands for a number, or for a function that gives one: then a semicolon ends the
+    /// statement.
     pub(crate) number: bool,
 }
 
@@ -180,7 +184,7 @@ pub(crate) enum Value {
 }
 
 impl Value {
-    /// The kind in the words of a message, with its article.
+    /// The kind of the value in the words of a message, with its article.
     pub(crate) fn kind(&self) -> &'static str {
         match self {
             Self::Empty => "an array element without a value",
@@ -211,7 +215,7 @@ impl Value {
         }
     }
 
-    /// Bytes that it holds and that are not charged already.
+    /// The bytes that it holds and that are not charged elsewhere.
     pub(crate) fn held(&self) -> usize {
         let layer = size_of::<crate::texture::Layer>();
         match self {
@@ -227,7 +231,7 @@ impl Value {
         }
     }
 
-    /// How deeply values of this one's kind stand in each other.
+    /// The nesting depth of arrays; 0 for other values.
     pub(crate) fn array_depth(&self) -> u32 {
         if let Self::Array(array) = self { array.depth } else { 0 }
     }

@@ -1,6 +1,8 @@
-//! Functions that give vectors: `function { spline { } }`, `function { transform { } }`, `function { pigment { } }`.
+//! Functions with vector values: `function { spline { } }`, `function { transform { } }`,
+//! `function { pigment { } }`.
 //!
-//! In other functions a part of what they give is named behind the call (`F(x, y, z).red`); in expressions they give all parts.
+//! Inside other functions, a component of the value is named after the call (`F(x, y, z).red`). In
+//! expressions the value has all components.
 
 use durer_scene::tape::{Builder, Formula, FormulaError};
 
@@ -11,13 +13,13 @@ use crate::parser::Parser;
 use crate::pattern_function::moved;
 use crate::value::Terms;
 
-/// What each of red, green and blue adds to grey.
+/// The weights of red, green and blue in grey.
 const GRAY: [f64; 3] = [0.297, 0.589, 0.114];
 
-/// A function of a vector of two to five parts.
+/// A function whose value is a vector of two to five components.
 #[derive(Clone, Debug)]
 pub(crate) struct VectorFunction {
-    /// One formula for each part, all of the same inputs.
+    /// One formula for each component, all with the same inputs.
     parts: Vec<Formula>,
 }
 
@@ -26,17 +28,17 @@ impl VectorFunction {
         Self { parts }
     }
 
-    /// How many floats it takes.
+    /// The number of its arguments.
     pub(crate) fn inputs(&self) -> usize {
         self.parts.first().map_or(0, |part| part.inputs() as usize)
     }
 
-    /// The steps of all parts.
+    /// The number of steps of all components.
     pub(crate) fn steps(&self) -> usize {
         self.parts.iter().map(|part| part.ops().len()).sum()
     }
 
-    /// What a word behind a dot stands for, as a sum of formulas with their weights.
+    /// The component for a word after a dot, as a sum of formulas with their weights.
     pub(crate) fn part(&self, word: Keyword) -> Option<Vec<(f64, &Formula)>> {
         if word == Keyword::Gray {
             let colours = self.parts.get(..3)?;
@@ -46,7 +48,7 @@ impl VectorFunction {
     }
 }
 
-/// The number of the part that is named so.
+/// The index of the component with this name.
 fn index(word: Keyword) -> Option<usize> {
     Some(match word {
         Keyword::X | Keyword::U | Keyword::Red => 0,
@@ -58,7 +60,7 @@ fn index(word: Keyword) -> Option<usize> {
     })
 }
 
-/// A vector where a float is wanted.
+/// The error of a vector where a float is wanted.
 pub(crate) fn wants_part(place: Place) -> Box<Error> {
     Error::invalid(
         place,
@@ -67,7 +69,7 @@ pub(crate) fn wants_part(place: Place) -> Box<Error> {
 }
 
 impl Parser<'_> {
-    /// The body of a function, if it is one that gives vectors.
+    /// Reads the body of a function, if it is one with vector values.
     pub(crate) fn vector_function(&mut self, has_parameters: bool) -> Result<Option<VectorFunction>> {
         let Some(word @ (Keyword::Spline | Keyword::Transform | Keyword::Pigment)) = self.peek_word()? else {
             return Ok(None);
@@ -94,7 +96,7 @@ impl Parser<'_> {
         Ok(Some(VectorFunction::new(parts)))
     }
 
-    /// The value of a function that is called in an expression, after its name.
+    /// Evaluates a function that is called in an expression, after its name.
     pub(crate) fn called_vector(&mut self, function: &VectorFunction, place: Place) -> Result<Terms> {
         let arguments = self.float_arguments()?;
         check_count(arguments.len(), function.inputs(), place)?;

@@ -1,8 +1,10 @@
-//! Solids of which parts have no volume: flat boxes, and what shows nothing, such as a sphere of radius 0.
+//! Solids of which parts have no volume: flat boxes, and shapes that show nothing, such as a sphere
+//! of radius 0.
 //!
-//! In a merge, intersection or difference a flat box counts by its rectangle alone, as in POV-Ray: it is seen where the other
-//! parts leave it, and it neither adds nor takes away any volume. What shows nothing is the empty set; the `inverse` of both is
-//! all of space. So of every object two things are made:
+//! In a merge, intersection or difference, a flat box counts only as its rectangle, as in POV-Ray.
+//! The rectangle is seen where the other parts leave it, and it neither adds nor removes volume. A
+//! shape that shows nothing is the empty set. The `inverse` of both is all of space. So every
+//! object is divided in two:
 //!
 //! - its volume: a solid, nothing, or all of space;
 //! - its sheets: the rectangles of flat boxes, clipped by the volumes of the other parts.
@@ -25,11 +27,11 @@ enum Volume<T> {
     Of(T),
 }
 
-/// Volumes, and the objects that they are made of.
+/// The volumes of parts, and the sheets of each.
 type VolumesAndParts = (Vec<Volume<scene::Object>>, Vec<Vec<scene::Object>>);
 
 impl<T> Volume<T> {
-    /// `inverse`, which only what is `Of` something leaves to its own flag.
+    /// Applies `inverse` to nothing and to all of space; solids have a flag of their own for it.
     fn inverted(self) -> Self {
         match self {
             Self::Empty => Self::Space,
@@ -39,7 +41,7 @@ impl<T> Volume<T> {
     }
 }
 
-/// What an object shows, in two parts.
+/// An object, divided into its volume and its sheets.
 pub(crate) struct Parted {
     volume: Volume<scene::Object>,
     sheets: Vec<scene::Object>,
@@ -57,7 +59,7 @@ impl Parted {
 }
 
 impl Parser<'_> {
-    /// Takes an object apart.
+    /// Divides an object into volume and sheets.
     fn parted(&mut self, object: &Object, lights: &mut Lights) -> Result<Parted> {
         if object.lacks_volume {
             return self.without_volume(object, lights);
@@ -66,7 +68,7 @@ impl Parser<'_> {
         Ok(Parted { volume, sheets: Vec::new() })
     }
 
-    /// Takes an object apart that [lacks volume](Object::lacks_volume) somewhere.
+    /// Divides an object that [lacks volume](Object::lacks_volume) somewhere.
     pub(crate) fn without_volume(&mut self, object: &Object, lights: &mut Lights) -> Result<Parted> {
         let (volume, sheets) = match &object.shape {
             Shape::Nothing => (Volume::Empty, Vec::new()),
@@ -123,7 +125,7 @@ impl Parser<'_> {
         Ok((volumes, sheets))
     }
 
-    /// What clips an object; `None` if that leaves nothing of it.
+    /// The solids that clip an object; `None` if they leave nothing of it.
     fn clips_with_volume(&mut self, object: &Object) -> Result<Option<Vec<scene::Object>>> {
         let mut clips = Vec::with_capacity(object.clips.len());
         for clip in &object.clips {
@@ -137,7 +139,7 @@ impl Parser<'_> {
     }
 }
 
-/// The rectangle that is left of a box without extent along one axis.
+/// The rectangle that a box without extent along one axis has become.
 fn rectangle(a: [f64; 3], b: [f64; 3]) -> scene::Shape {
     let flat = (0..3).find(|&i| a[i] == b[i]).unwrap_or(0);
     let edge = |axis: usize| {
@@ -148,7 +150,7 @@ fn rectangle(a: [f64; 3], b: [f64; 3]) -> scene::Shape {
     scene::Shape::Parallelogram { corner: point(a), u: edge((flat + 1) % 3), v: edge((flat + 2) % 3) }
 }
 
-/// Some objects as one shape.
+/// Combines objects into one shape.
 fn together(mut objects: Vec<scene::Object>) -> scene::Shape {
     match objects.pop() {
         Some(only) if objects.is_empty() && only == scene::Object::new(only.shape.clone()) => only.shape,
@@ -171,7 +173,7 @@ fn united(parts: Vec<Volume<scene::Object>>) -> Volume<scene::Shape> {
 /// The volume of a merge, intersection or difference.
 fn combined(mut operation: Operation, mut parts: Vec<Volume<scene::Object>>) -> Volume<scene::Shape> {
     if operation == Operation::Difference && parts.first() == Some(&Volume::Space) {
-        // What none of the others holds.
+        // All of space without the others: the intersection of their complements.
         operation = Operation::Intersection;
         parts.remove(0);
         for part in &mut parts {
@@ -201,14 +203,15 @@ fn combined(mut operation: Operation, mut parts: Vec<Volume<scene::Object>>) -> 
     }
 }
 
-/// What is left of the sheets of the parts of a merge, intersection or difference.
+/// Clips the sheets of the parts of a merge, intersection or difference by the other parts.
 fn clipped(
     operation: Operation,
     volumes: &[Volume<scene::Object>],
     sheets: Vec<Vec<scene::Object>>,
 ) -> Vec<scene::Object> {
     let mut left = Vec::new();
-    // Where an empty volume clips nothing, all parts that have none are clipped by the same others.
+    // An empty volume clips nothing, so all parts without volume are clipped by the same other
+    // parts.
     let mut flat = Vec::new();
     for (i, sheets) in sheets.into_iter().enumerate().filter(|(_, sheets)| !sheets.is_empty()) {
         if volumes[i] == Volume::Empty && !keeps_inside(operation, i) {
@@ -223,7 +226,8 @@ fn clipped(
     left
 }
 
-/// Whether the part number `i` of a combination leaves of the others what is in it, or what is not.
+/// Whether part `i` of a combination keeps what is inside it of the other parts, or what is
+/// outside.
 fn keeps_inside(operation: Operation, i: usize) -> bool {
     match operation {
         Operation::Merge => false,
@@ -232,7 +236,7 @@ fn keeps_inside(operation: Operation, i: usize) -> bool {
     }
 }
 
-/// Sheets, clipped by all volumes but the one with the number `own`.
+/// Clips sheets by all volumes except number `own`.
 fn clipped_by(
     operation: Operation,
     volumes: &[Volume<scene::Object>],

@@ -1,4 +1,4 @@
-//! Directives, macros, includes: facts seen in POV-Ray 3.7 itself.
+//! Directives, macros, includes: facts observed in POV-Ray 3.7.
 
 mod support;
 
@@ -173,12 +173,12 @@ fn warnings_that_repeat_themselves_are_counted() {
         texts("#for (I, 1, 5000) #warning \"again\\n\" #end #debug \"x\""),
         ["again\n", "x", "again (said 5000 times)"]
     );
-    // Two places that take turns are two warnings.
+    // Two places that alternate are two warnings.
     assert_eq!(
         texts("#for (I, 1, 3) #warning \"a\" #warning \"b\" #end"),
         ["a", "b", "a (said 3 times)", "b (said 3 times)"]
     );
-    // What changes is told, up to a point; what is printed on purpose always.
+    // Changing warnings are reported up to a limit; `#debug` output always is.
     assert_eq!(
         texts("#for (I, 1, 4) #warning str(div(I, 3), 0, 0) #end"),
         ["0", "0 (said 2 times)", "1", "1 (said 2 times)"]
@@ -189,7 +189,7 @@ fn warnings_that_repeat_themselves_are_counted() {
         (1001, "1000", "4000 more warnings from here are not shown")
     );
     assert_eq!(texts("#for (I, 1, 3) #debug \".\" #end"), [".", ".", "."]);
-    // In a scene that fails, too.
+    // The messages are kept even if the scene fails.
     let (folder, mut said) = (Folder::new(), Vec::new());
     let file = folder.write("scene.pov", "#while (1) #warning \"again\" #end");
     let failed = durer_pov::read_with(&file, &ReadOptions::default(), |m| said.push(m.text.clone()));

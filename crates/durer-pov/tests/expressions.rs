@@ -1,4 +1,4 @@
-//! Facts about expressions, each seen in POV-Ray 3.7 itself.
+//! Facts about expressions, each observed in POV-Ray 3.7.
 
 mod support;
 

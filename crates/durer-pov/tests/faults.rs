@@ -1,4 +1,4 @@
-//! Whatever the input: one message with its place, soon, and no panic.
+//! Any faulty input gives one message with its place, soon, and no panic.
 
 mod support;
 
@@ -243,7 +243,7 @@ fn julia_sets_say_what_is_wrong_with_their_numbers() {
     assert_eq!(fault("julia_fractal { 0 hypercomplex pwr(1, 2) }").2, "not supported yet: pwr");
 }
 
-/// POV-Ray draws such scenes without what has no extent.
+/// POV-Ray draws such scenes without the shapes that have no extent.
 #[test]
 fn shapes_without_extent_are_left_out_with_a_warning() {
     for text in [

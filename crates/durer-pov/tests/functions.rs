@@ -1,4 +1,4 @@
-//! `function { }`: what may be written in it, what it gives, what is wrong with it; and the isosurfaces made of it.
+//! `function { }`: its syntax, its values, its errors; and the isosurfaces made of functions.
 
 mod support;
 
@@ -12,21 +12,21 @@ fn value(declarations: &str, expression: &str) -> String {
 #[test]
 fn functions_are_called_like_floats() {
     assert_eq!(value("#declare F = function { x + y*z };", "F(1, 2, 3)"), "7.000000000");
-    // x, y and z are also u, v.
+    // x and y are also u and v.
     assert_eq!(value("#declare F = function { x + u + v + clock };", "F(10, 2, 3)"), "22.000000000");
     assert_eq!(value("#declare F = function(a, b) { a - b };", "2*F(1, 3) + 1"), "-3.000000000");
-    // A parameter hides what is declared by its name.
+    // A parameter hides a declaration of the same name.
     assert_eq!(value("#declare R = 7; #declare F = function(R, q) { R*q };", "F(2, 3)"), "6.000000000");
     assert_eq!(value("#declare R = 7; #declare F = function(q) { R*q };", "F(2)"), "14.000000000");
     assert_eq!(value("#declare F = function(q) { q*q }; #declare G = F;", "G(3)"), "9.000000000");
-    // What stands where a function is declared counts, not where it is called.
+    // The values at the function's declaration count, not those at its call.
     let redeclared = "#declare F = function(q) { q + 1 }; #declare G = function(q) { F(q) * 2 }; #declare F = function(q) { 0*q };";
     assert_eq!(value(redeclared, "G(4)"), "10.000000000");
     let twice = "#declare F = function(q) { q + 1 } #declare F = function(q) { F(F(q)) }";
     assert_eq!(value(twice, "F(4)"), "6.000000000");
 }
 
-/// Values that POV-Ray 3.7 gives.
+/// The values are those of POV-Ray 3.7.
 #[test]
 fn operators_are_those_of_povray() {
     let f = |body: &str, arguments: &str| {
@@ -167,13 +167,14 @@ fn named_functions_have_povrays_values() {
             &format!("F({})", names.join(", ")),
         );
         let found: f64 = said.parse().unwrap();
-        // POV-Ray's rounded box is larger than it should be by 1e-6.
+        // POV-Ray's rounded box is too large by 1e-6.
         let tolerance = if *number == 60 { 1.1e-6 } else { 2e-9 };
         assert!((found - expected).abs() < tolerance, "internal({number}): {found}, POV-Ray has {expected}");
     }
 }
 
-/// The value of a function of noise less what its formula says, of the same noise: all are written out for the point <0.3, -1.2, 0.7>, generator 2 and a lacunarity of 2.1.
+/// The value of a noise function minus its formula, with the same noise. All are written out for
+/// the point <0.3, -1.2, 0.7>, generator 2 and a lacunarity of 2.1.
 #[test]
 fn functions_of_noise_are_their_formulas() {
     let noise = "#declare G = function { internal(78) }; \
@@ -182,7 +183,8 @@ fn functions_of_noise_are_their_formulas() {
         let said = value(&format!("{noise} {declarations}"), &format!("abs({left} - ({right}))"));
         assert_eq!(said, "0.000000000", "{left} is not {right}");
     };
-    // The default is the second generator; the first one is made of the same sum, and what is neither 2 nor 3 is the first.
+    // The default is the second generator. Any number but 2 and 3 means the first, which is made of
+    // the same sum.
     let plain = "#declare F = function { internal(76) };";
     zero(plain, "F(0.3, -1.2, 0.7)", "N(1)");
     let first = "min(max(N(1)/0.48985582 - 1.05242 + 0.5, 0), 1)";
@@ -205,7 +207,8 @@ fn functions_of_noise_are_their_formulas() {
     zero(ridge, "F(0.3, -1.2, 0.7, 2.1, 0.5, 0.5, 0.2, 0.4, 2)", &format!("({two} - 0.2)/0.8"));
 }
 
-/// The value of a pattern of noise less what its formula says, of the same noise: POV-Ray's values are related so.
+/// The value of a noise pattern minus its formula, with the same noise: POV-Ray's values satisfy
+/// the same relations.
 #[test]
 fn patterns_of_noise_are_their_formulas() {
     let noise = "#declare G = function { internal(78) }; #declare N = function(f) { G(0.3*f, 0.4*f, 0.6*f, 2) }; \
@@ -230,7 +233,7 @@ fn patterns_of_noise_are_their_formulas() {
     zero("wrinkles noise_generator 1 octaves 3 lambda 3", &sum("O(#)/(2*#)", 10));
     zero("granite", &sum("abs(0.5 - K(4*#))/#", 6));
     zero("granite noise_generator 1", &sum("abs(0.5 - O(4*#))/#", 6));
-    // The first octave is kept between 0 and 1.
+    // The first octave is clamped to [0, 1].
     let stir = format!("(K(1) - S(1) + {})", sum("S(#)/#", 6));
     let agate = |stir: &str| format!("pow((1 + sin(2*pi*(1.3*{stir} + 1.1*0.6)))/2, 0.77)");
     zero("agate", &agate(&stir));
@@ -238,7 +241,7 @@ fn patterns_of_noise_are_their_formulas() {
     zero("marble ramp_wave turbulence <0.1, 7, 9>", &format!("0.3 + 0.1*{stir}"));
     zero("marble ramp_wave turbulence 0.1 octaves 2.7 omega 0.25 lambda 4", "0.3 + 0.1*(K(1) + 0.25*S(4))");
     zero("wood ramp_wave", "0.5");
-    // Vectors of noise, as a gradient along each axis tells them.
+    // Vector noise, measured by a gradient along each axis.
     let of = |axis: &str, more: &str, f: u32| {
         format!("function {{ pattern {{ gradient {axis} turbulence 0.1*{axis} {more} scale 1/{f} }} }};")
     };
@@ -262,7 +265,7 @@ fn patterns_of_noise_are_their_formulas() {
         );
         stirred("wood ramp_wave turbulence <0.1, 0.02, 5>", more, &wood);
     }
-    // One octave is the noise itself, around zero; the others are elsewhere.
+    // One octave is the noise itself, around zero; the other components are shifted.
     let first = format!("{} {noise}", vectors("octaves 1"));
     assert_eq!(value(&first, &format!("abs({dx} + 0.5 - O(1))")), "0.000000000");
     assert_ne!(value(&first, &format!("abs({dy} + 0.5 - O(1))")), "0.000000000");
@@ -279,7 +282,7 @@ fn patterns_as_functions_have_povrays_values() {
             "checker triangle_wave frequency 0.4",
             [([-0.06, -1.02, 0.7], 0.800000011921), ([-1.16, -0.33, 0.05], 0.800000011921)],
         ),
-        // What has a list has a phase only with a frequency.
+        // A pattern with a list uses the phase only if there is a frequency.
         ("checker phase 0.6", [([4.897, 3.441, -6.0], 1.0), ([-2.5, 0.0, 5.0], 0.0)]),
         (
             "checker frequency 0.6 phase 0.7",
@@ -369,7 +372,7 @@ fn patterns_as_functions_have_povrays_values() {
     }
 }
 
-/// Values of POV-Ray, between the points and beyond them, of the first and the third component.
+/// POV-Ray's values, between the points and beyond them, of the first and the third component.
 #[test]
 fn splines_have_povrays_values() {
     let rows: [(&str, [[f64; 2]; 7]); 4] = [
@@ -403,7 +406,7 @@ fn splines_have_povrays_values() {
             ],
         ),
     ];
-    // Points may stand in any order.
+    // The points may be in any order.
     let points = "1,<3,2,0> 0,<1,0,-1> 2,<-2,1,1> 5.5,<4,3,2> 4,<2,-1,3>, 5,<7,0,0>";
     for (kind, values) in rows {
         let declared = format!(
@@ -424,14 +427,14 @@ fn splines_have_povrays_values() {
             near(&format!("G(2*{t})"), z - x);
         }
     }
-    // What has too few points for its kind.
+    // Splines with too few points for their kind.
     let few =
         |kind: &str, points: &str| value(&format!("#declare S = spline {{ {kind} {points} }};"), "S(0.25).y");
     assert_eq!(few("natural_spline", "3, <1, 2>"), "2.000000000");
     assert_eq!(few("quadratic_spline", "0, <1, 2> 1, <1, 6>"), "3.000000000");
     assert_eq!(few("cubic_spline", "0, <1, 2> 1, <1, 6>"), "4.000000000");
     assert_eq!(few("cubic_spline", "0, <1, 2> 1, <1, 6> 2, <0, 0>"), "6.000000000");
-    // A spline can go on with another one's points.
+    // A spline may continue with the points of another.
     let longer =
         "#declare S = spline { 0, <0, 1> 1, <1, 3> }; #declare L = spline { S 2, <5, 4, 3> linear_spline };";
     assert_eq!(value(longer, "L(1.5).x + 10*L(1.5).z"), "18.000000000");
@@ -448,7 +451,7 @@ fn transforms_as_functions_move_points() {
     );
 }
 
-/// Values of POV-Ray, which keeps colours in single precision.
+/// POV-Ray's values; it stores colours in single precision.
 #[test]
 fn pigments_as_functions_have_povrays_colours() {
     let map = "spherical color_map { [0.2 rgb <1, 0.5, 0>] [0.6 rgbft <0, 1, 0.25, 0.5, 0.75>] }";
@@ -470,7 +473,7 @@ fn pigments_as_functions_have_povrays_colours() {
         (unsorted, q, [2.9444444, 2.9444444, 2.9444444, 0.0, 0.0]),
     ];
     for (pigment, [x, y, z], colour) in rows {
-        // The same through a name, and as a part inside of another function.
+        // The same by name, and as a component inside another function.
         let declared = format!(
             "#declare P = pigment {{ {pigment} }}; #declare F = function {{ pigment {{ P }} }};
              #declare G = function(a, b) {{ F(a, b, {z}).filter + 2*F(a, b, {z}).t + F(a, b, {z}).gray }};"

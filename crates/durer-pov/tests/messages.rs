@@ -1,4 +1,4 @@
-//! Typical mistakes, and what is said about them.
+//! Typical mistakes and the messages about them.
 
 mod support;
 
@@ -83,7 +83,7 @@ fn a_mistake_gets_the_message_that_one_would_want() {
 
 #[test]
 fn names_of_standard_files_are_known() {
-    // Only where the files are installed.
+    // Only if the files are installed.
     for (text, file) in [
         ("sphere { 0, 1 pigment { Red } }", "colors.inc"),
         ("sphere { 0, 1 texture { T_Gold_1A } }", "golds.inc"),

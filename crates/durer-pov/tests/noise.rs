@@ -6,7 +6,7 @@ use durer_pov::{Limits, ReadOptions};
 use proptest::prelude::*;
 use support::Folder;
 
-/// Pieces that scenes are made of, so that random texts get somewhere.
+/// Pieces of real scenes, so that random texts get past the first error.
 const PIECES: &[&str] = &[
     "sphere",
     "box",

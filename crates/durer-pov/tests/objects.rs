@@ -1,4 +1,4 @@
-//! Objects: their shapes, their order, their places, what they inherit.
+//! Objects: their shapes, their order, their placements, and what they inherit.
 
 mod support;
 
@@ -220,7 +220,7 @@ fn a_polygons_first_corners_tell_its_front() {
         let Shape::Polygon { loops, .. } = &scene.objects[0].shape else { panic!("no polygon") };
         loops[0].iter().map(|p| (p.x, p.y)).collect::<Vec<_>>()
     };
-    // Counterclockwise, but for the notch at the second corner.
+    // Counterclockwise, except for the notch at the second corner.
     let notched = corners("<-1,0>, <0,0.5>, <1,0>, <1,2>, <-1,2>, <-1,0>");
     assert_eq!(notched, [(-1.0, 0.0), (-1.0, 2.0), (1.0, 2.0), (1.0, 0.0), (0.0, 0.5)]);
     let straight = corners("<-1,0>, <0,0>, <1,0>, <1,2>, <-1,2>, <-1,0>");
@@ -435,13 +435,14 @@ fn what_is_seen_from_inside_is_handed_down_and_moves_along() {
         let inside = look(object, primitive).inside.map(|i| &lowered.looks[i.0 as usize]);
         inside.map(|look| look.texture.clone())
     };
-    // The union's where a part has none, moved as the union is; a part's own wins.
+    // A part without a texture has the union's, moved as the union is; a part's own takes
+    // precedence.
     let handed_down = scene.objects[0].interior_texture.clone();
     assert_eq!(inside(0, 0), handed_down);
     assert_eq!(inside(0, 1), parts[1].interior_texture);
     assert_ne!(inside(0, 1), handed_down);
     assert_eq!(inside(1, 0), None);
-    // The corners of a triangle go round the other way.
+    // The corners of a triangle are in the opposite order.
     assert_eq!(Some(look(2, 0).texture.clone()), scene.objects[2].interior_texture);
     assert_eq!(inside(2, 0), scene.objects[2].texture);
     let (_, _, text) = support::fault("sphere { 0, 1 interior_texture { pigment { rgb 1 } } }");
@@ -470,17 +471,17 @@ fn what_is_cut_lends_its_texture_to_what_cuts() {
     let green = parts[2].texture.clone().unwrap();
     let none = scene.objects[5].texture.clone().unwrap();
     assert_eq!([of(0, 0), of(0, 1), of(0, 2)], [red.clone(), red.clone(), green.clone()]);
-    // All others in equal parts: a part of a part has those of the parts beside that.
+    // All others in equal amounts: a nested part has the textures of the parts beside its parent.
     let Shape::Csg(_, parts) = &scene.objects[1].shape else { panic!("an intersection") };
     let Shape::Csg(_, inner) = &parts[1].shape else { panic!("an intersection") };
     let blue = inner[0].texture.clone().unwrap();
     assert_eq!([of(1, 0), of(1, 1), of(1, 2)], [red.clone(), blue.clone(), red.clone()]);
     let TextureBody::Pattern(pattern) = &of(1, 3).body else { panic!("a pattern") };
     assert_eq!(**pattern, Pattern::Mean(vec![red.clone(), blue]));
-    // What is taken away lends none, and a texture around it all wins.
+    // Subtracted parts lend no texture, and a texture around everything takes precedence.
     assert_eq!([of(2, 0), of(2, 1)], [none.clone(), red.clone()]);
     assert_eq!([of(3, 0), of(3, 1)], [red.clone(), green]);
-    // A union that is taken away is an intersection of what is outside, and the other way round.
+    // A subtracted union is an intersection of complements, and the other way round.
     assert_eq!([of(4, 2), of(4, 3), of(4, 4), of(4, 5)], [red.clone(), red, none.clone(), none]);
 
     let (_, _, text) = support::fault("union { sphere { 0, 1 } box { 0, 1 } cutaway_textures }");
@@ -506,7 +507,7 @@ fn components_of_blobs_may_have_textures_of_their_own() {
     };
     let [Some(own), None, None] = &blob(0).textures[..] else { panic!("{:?}", blob(0).textures) };
     let TextureBody::Layers(layers) = &own.body else { panic!("{own:?}") };
-    // The component's transforms move what is written before them, the texture too.
+    // The component's transformations move everything written before them, including the texture.
     assert_eq!(layers[0].pigment.placement.affine().centre(), Point3::new(0.0, 2.0, 0.0));
     assert_eq!(solid(&scene, 0), [0.0, 1.0, 0.0]);
     assert_eq!(blob(1).textures, []);

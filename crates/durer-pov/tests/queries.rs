@@ -1,10 +1,11 @@
-//! `trace`, `inside`, `min_extent` and `max_extent`: the values are those of POV-Ray 3.7 unless it says otherwise.
+//! `trace`, `inside`, `min_extent` and `max_extent`: the values are those of POV-Ray 3.7 unless
+//! noted otherwise.
 
 mod support;
 
 use support::{debug, fault, float, scene, vector};
 
-/// The point and the normal that `trace` gives, with four digits.
+/// The point and the normal that `trace` returns, with four digits.
 fn traced(object: &str, origin: &str, direction: &str) -> String {
     debug(&format!(
         "#declare N = <9, 9, 9>; #declare P = trace({object}, {origin}, {direction}, N);
@@ -42,7 +43,8 @@ fn a_miss_gives_zeros() {
 fn a_surface_on_which_the_ray_starts_is_left_out() {
     assert_eq!(traced("sphere { 0, 1 }", "-z", "z"), "0.0000,0.0000,1.0000 0.0000,0.0000,1.0000");
     assert_eq!(traced("sphere { 0, 1 }", "-z", "-z"), "0.0000,0.0000,0.0000 0.0000,0.0000,0.0000");
-    // From crossing to crossing: each is found once. Four solids, eight crossings, from a start that is no round number.
+    // From crossing to crossing: each is found once. Four solids, eight crossings, from a start
+    // without round coordinates.
     let chain = "#declare S = union { #for (I, 1, 4) sphere { I*<3, 2, 1>/7, 0.1 } #end }
         #declare P = <-1, -2, -1>/3; #declare D = 2*<3, 2, 1>/7 - P; #declare N = y; #declare Count = 0;
         #while (vlength(N) > 0) #declare P = trace(S, P, D, N);
@@ -50,7 +52,8 @@ fn a_surface_on_which_the_ray_starts_is_left_out() {
     assert_eq!(debug(chain), "2");
     let row = chain.replace("<-1, -2, -1>/3", "-<3, 2, 1>/3");
     assert_eq!(debug(&row), "8");
-    // POV-Ray leaves out more: what is nearer than 1e-4 or so, depending on the shape. Here nothing else is.
+    // POV-Ray also leaves out crossings nearer than about 1e-4, depending on the shape. durer
+    // leaves out only the surface on which the ray starts.
     assert_eq!(
         traced("sphere { 0, 1 }", "-(1 + 1e-9)*z", "z"),
         "0.0000,0.0000,-1.0000 0.0000,0.0000,-1.0000"
@@ -100,7 +103,7 @@ fn inside_is_exact_and_closed() {
     assert_eq!(inside("difference { sphere { 0, 1 } sphere { x, 1 } }", "0.5*x"), "0");
     assert_eq!(inside("merge { sphere { 0, 1 } box { 2, 3 } }", "2.5"), "1");
     assert_eq!(inside("sphere { 0, 1 inverse }", "0"), "0");
-    // Flat and empty parts hold nothing.
+    // Flat and empty parts contain no points.
     assert_eq!(inside("box { <0, 0, 0>, <1, 0, 1> }", "<0.5, 0, 0.5>"), "0");
     assert_eq!(inside("difference { sphere { 0, 1 } sphere { 0, 0 } translate x }", "x"), "1");
     assert_eq!(inside("union { box { <0, 0, 0>, <1, 0, 1> } sphere { 3, 1 } }", "3"), "1");
@@ -160,10 +163,10 @@ fn what_cannot_be_computed_is_a_fault_where_it_stands() {
     // Also in the middle of a value, and in a name that is not used.
     let (line, column, _) = fault("#declare A = array[1] { vturbulence(2, 0.5, 6, x) }");
     assert_eq!((line, column), (1, 25));
-    // A random number is not skipped with the texture that it stands in: all that follow would be others.
+    // A random number is not skipped with its texture, because all later ones would change.
     let text = "#declare R = seed(1); #declare T = texture { pigment { rgb 1 } normal { bumps rand(R) } }";
     assert!(fault(text).2.starts_with("not supported yet"), "{text}");
-    // A definition without such a number may be skipped.
+    // A definition without random numbers may be skipped.
     scene("#declare T = texture { pigment { rgb 1 } normal { bumps 0.5 } } sphere { 0, 1 }");
 }
 

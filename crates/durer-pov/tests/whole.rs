@@ -30,7 +30,7 @@ fn look_at_keeps_lengths_and_handedness() {
     assert!(close(plain.up, [0.0, 1.0, 0.0]));
     let mirrored = camera("camera { location -z*5 right -x*1.33 look_at 0 }");
     assert!(close(mirrored.right, [-1.33, 0.0, 0.0]) && close(mirrored.up, [0.0, 1.0, 0.0]));
-    // `up` along the direction, before it is turned, is a mirror.
+    // `up` parallel to the direction, before it is turned, makes a mirrored camera.
     assert_eq!(camera("camera { up z location -z*5 look_at 0 }"), mirrored);
     let side = camera("camera { location x*5 direction z*2 look_at 0 }");
     assert!(close(side.direction, [-2.0, 0.0, 0.0]) && close(side.right, [0.0, 0.0, 1.33]));
@@ -115,7 +115,7 @@ fn settings_without_effect_are_taken() {
     );
 }
 
-/// Every standard file, after the colours and shapes that some of them expect.
+/// Every standard file, read after the colours and shapes that some of them expect.
 #[test]
 fn the_standard_include_files_are_read() {
     let installed = ["/usr/share/povray-3.7/include", "/usr/local/share/povray-3.7/include"];
@@ -126,7 +126,7 @@ fn the_standard_include_files_are_read() {
     let mut read = 0;
     for entry in std::fs::read_dir(folder).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
-        // A scene's stage, not a library: it shows objects of its own.
+        // Not a library but a scene: it has objects of its own.
         if !name.ends_with(".inc") || name == "stdcam.inc" {
             continue;
         }

@@ -1,4 +1,4 @@
-//! Colours in lanes.
+//! Eight colours at a time, one a lane.
 
 use core::ops::{Add, AddAssign, Mul};
 use durer_math::{F8, M8};
@@ -20,7 +20,7 @@ pub(crate) struct Rgb8 {
 impl Rgb8 {
     /// No light.
     pub(crate) const BLACK: Self = Self { r: F8::ZERO, g: F8::ZERO, b: F8::ZERO };
-    /// One in every channel.
+    /// White: one in every channel.
     pub(crate) const WHITE: Self = Self { r: F8::ONE, g: F8::ONE, b: F8::ONE };
 
     /// The same colour in every lane.
@@ -47,7 +47,7 @@ impl Rgb8 {
         Self { r: f(self.r, o.r), g: f(self.g, o.g), b: f(self.b, o.b) }
     }
 
-    /// The colours on the way from `a` (`k` = 0) to `b` (`k` = 1).
+    /// Interpolates from `a` (`k` = 0) to `b` (`k` = 1).
     #[inline(always)]
     pub(crate) fn mixed(a: Rgb, b: Rgb, k: F8) -> Self {
         Self { r: mix(a.r, b.r, k), g: mix(a.g, b.g, k), b: mix(a.b, b.b, k) }
@@ -59,7 +59,7 @@ impl Rgb8 {
         self.r.max(self.g).max(self.b)
     }
 
-    /// As [`Rgb::luminance`].
+    /// The luminance, as [`Rgb::luminance`] defines it.
     #[inline(always)]
     pub(crate) fn luminance(self) -> F8 {
         self.r * 0.297 + self.g * 0.589 + self.b * 0.114
@@ -71,7 +71,7 @@ impl Rgb8 {
         self.map(F8::abs).greatest()
     }
 
-    /// Where every channel is exactly zero.
+    /// The lanes where every channel is exactly zero.
     #[inline(always)]
     pub(crate) fn is_black(self) -> M8 {
         self.r.equals(F8::ZERO) & self.g.equals(F8::ZERO) & self.b.equals(F8::ZERO)
@@ -155,7 +155,7 @@ impl Colour8 {
         Self { rgb: Rgb8::splat(c.rgb), filter: F8::splat(c.filter), transmit: F8::splat(c.transmit) }
     }
 
-    /// Each lane by itself, of those that are set.
+    /// Calls `f` for each live lane.
     #[inline(always)]
     pub(crate) fn by_lane(live: M8, f: impl Fn(usize) -> Colour) -> Self {
         let mut all = Self::splat(Colour::default());
@@ -167,7 +167,7 @@ impl Colour8 {
         all
     }
 
-    /// What light that passes through is multiplied by.
+    /// The factor of light that passes through.
     #[inline(always)]
     pub(crate) fn passed(self) -> Rgb8 {
         self.rgb.map(
@@ -186,7 +186,7 @@ impl Colour8 {
         }
     }
 
-    /// All five terms on the way from `a` (`k` = 0) to `b` (`k` = 1).
+    /// Interpolates all five terms from `a` (`k` = 0) to `b` (`k` = 1).
     #[inline(always)]
     pub(crate) fn mixed(a: Colour, b: Colour, k: F8) -> Self {
         let (filter, transmit) = (mix(a.filter, b.filter, k), mix(a.transmit, b.transmit, k));

@@ -1,7 +1,8 @@
-//! Cameras, lights, textures, films and Whitted's recursive ray tracing.
+//! This crate renders pictures: cameras, lights, textures, films and Whitted's recursive ray
+//! tracing.
 //!
-//! A [`World`] is a [`Scene`](durer_scene::Scene) made ready; [`render`] makes a
-//! [`Film`](film::Film) of it, which becomes a file.
+//! A [`World`] is a [`Scene`](durer_scene::Scene) prepared for rendering. [`render`] makes a
+//! [`Film`](film::Film) from it, and the film can be saved as a file.
 //!
 //! ```
 //! use durer_math::Point3;
@@ -26,8 +27,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Nothing here has an epsilon: secondary rays start where
-//! [`SurfacePoint`](durer_surfaces::SurfacePoint) proves that they leave the surface.
+//! No epsilons are used: a secondary ray starts at a point that
+//! [`SurfacePoint`](durer_surfaces::SurfacePoint) proves to be on the right side of the surface.
 #![forbid(unsafe_code)]
 
 pub mod camera;

@@ -1,17 +1,17 @@
-//! What fills objects, made ready.
+//! The media that fill objects, with their constants precomputed.
 
 use crate::lanes::Rgb8;
 use crate::power::Power;
 use durer_math::{F8, M8, elementary};
 use durer_scene::{Interior, Rgb};
 
-/// What fills an object.
+/// The medium that fills an object.
 #[derive(Clone, Debug)]
 pub(crate) struct Medium {
     /// The index of refraction.
     pub(crate) ior: f64,
     fade: Option<Fade>,
-    /// The exponent of the brightening of shadows.
+    /// The exponent with which caustics brighten shadows.
     pub(crate) caustics: Option<Power>,
 }
 
@@ -21,16 +21,16 @@ struct Fade {
     /// `None` for exponential fading.
     power: Option<Power>,
     colour: Rgb,
-    /// A fact of the scene language: without a positive power shadows do not fade, though what is
-    /// seen through the medium does.
+    /// Without a positive power, shadows do not fade, although what is seen through the medium does
+    /// (a fact of the scene language).
     fades_shadows: bool,
 }
 
-/// From this power on light fades exponentially: a fact of the scene language.
+/// From this power on, light fades exponentially (a fact of the scene language).
 const EXPONENTIAL: f64 = 1000.0;
 
-/// Distances that are not farther from zero are none: a fact of the scene language, for interiors
-/// and lights.
+/// A distance of this magnitude or less counts as no distance, for interiors and lights (a fact of
+/// the scene language).
 pub(crate) const NO_DISTANCE: f64 = 1e-10;
 
 impl Medium {
@@ -45,7 +45,7 @@ impl Medium {
         Self { ior: interior.ior, fade, caustics }
     }
 
-    /// What is left of a lamp's light after some distances in the medium.
+    /// The fraction of a light that is left after some distances in the medium, for shadows.
     #[inline(always)]
     pub(crate) fn shadow_after(&self, distance: F8, live: M8) -> Rgb8 {
         match &self.fade {
@@ -54,8 +54,9 @@ impl Medium {
         }
     }
 
-    /// What is left of what is seen after some distances in the medium. Of a negative fade distance
-    /// the formula is taken at its word; where there is no power nothing is left.
+    /// The fraction of the light from behind that is left after some distances in the medium. With
+    /// a negative fade distance the formula is evaluated as it stands; where the power is undefined
+    /// nothing is left.
     #[inline(always)]
     pub(crate) fn left_after(&self, distance: F8, live: M8) -> Rgb8 {
         let Some(fade) = &self.fade else { return Rgb8::WHITE };

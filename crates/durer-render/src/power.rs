@@ -1,4 +1,4 @@
-//! Powers with a fixed exponent, cheap where the exponent is.
+//! Powers with a fixed exponent, fast for simple exponents.
 
 use durer_math::{F8, M8, elementary};
 
@@ -9,15 +9,15 @@ pub(crate) enum Power {
     Zero,
     /// x
     One,
-    /// By repeated squaring.
+    /// An integer, by repeated squaring.
     Whole(i32),
-    /// All others.
+    /// Any other exponent.
     Real(f64),
 }
 
 impl Power {
     pub(crate) fn new(exponent: f64) -> Self {
-        // From here on the logarithm is as cheap as the squarings, and more exact.
+        // Above this exponent the logarithm is as fast as squaring, and more accurate.
         const MOST: f64 = 4096.0;
         if exponent == 0.0 {
             Self::Zero
@@ -40,7 +40,8 @@ impl Power {
         }
     }
 
-    /// As `lanes`, also for `x < 0`: the exponent is then even or odd, or the answer is NaN.
+    /// As `lanes`, also for `x < 0`: the sign follows from an even or odd exponent, and other
+    /// exponents give NaN.
     #[inline(always)]
     pub(crate) fn signed_lanes(self, x: F8, live: M8) -> F8 {
         let Self::Real(e) = self else { return self.lanes(x, live) };
@@ -56,14 +57,14 @@ impl Power {
         x.lt(F8::ZERO).select(of_negative, size)
     }
 
-    /// The same in lanes; those that are not live hold anything.
+    /// The powers of eight numbers. Lanes that are not live are unspecified.
     #[inline(always)]
     pub(crate) fn lanes(self, x: F8, live: M8) -> F8 {
         match self {
             Self::Zero => F8::ONE,
             Self::One => x,
             Self::Whole(n) => {
-                // As `elementary::powi`.
+                // The same steps as `elementary::powi`.
                 let (mut result, mut power, mut left) = (F8::ONE, x, n);
                 loop {
                     if left & 1 == 1 {

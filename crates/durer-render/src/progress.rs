@@ -1,10 +1,10 @@
-//! Watching a picture being made, and stopping it.
+//! Progress reports of a rendering, and its cancellation.
 
 use crate::stats::RayCounts;
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
 
-/// What the caller wants to know, and whether the work shall go on.
+/// How a rendering reports its progress, and how it can be cancelled.
 #[derive(Clone, Copy, Default)]
 pub struct Progress<'a> {
     report: Option<&'a (dyn Fn(&Status) + Sync)>,
@@ -31,7 +31,8 @@ impl Status {
         if seconds > 0.0 { self.rays.total() as f64 / seconds } else { 0.0 }
     }
 
-    /// The time still needed if the rest goes as fast; unknown before the first pixel.
+    /// An estimate of the time that is left, from the average speed so far; unknown before the
+    /// first pixel.
     pub fn remaining(&self) -> Option<Duration> {
         if self.pixels_done == 0 {
             return None;
@@ -42,7 +43,7 @@ impl Status {
 }
 
 impl<'a> Progress<'a> {
-    /// Nobody watches.
+    /// Makes a `Progress` without reports or cancellation.
     pub fn none() -> Self {
         Self::default()
     }
@@ -54,8 +55,8 @@ impl<'a> Progress<'a> {
         self
     }
 
-    /// Traces no further ray once `cancel` is true: pixels that are finished by then stay on the
-    /// film, the rest is clear.
+    /// Traces no further ray once `cancel` is true. Pixels that are finished by then stay on the
+    /// film; the rest is clear.
     #[must_use]
     pub fn cancelled_by(mut self, cancel: &'a AtomicBool) -> Self {
         self.cancel = Some(cancel);

@@ -1,4 +1,4 @@
-//! From a world to a film: tiles over threads.
+//! Rendering of a world to a film: tiles, distributed over threads.
 
 use core::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -17,7 +17,7 @@ use crate::world::World;
 /// Tiles are squares of this many pixels.
 const TILE: u32 = 32;
 
-/// Why no picture was made.
+/// Why no picture could be rendered.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
     /// The scene has no camera.
@@ -29,9 +29,9 @@ pub enum RenderError {
         MOST_PIXELS
     )]
     Size {
-        /// Columns.
+        /// The number of columns.
         width: u32,
-        /// Rows.
+        /// The number of rows.
         height: u32,
     },
     /// The threads could not be started.
@@ -42,21 +42,21 @@ pub enum RenderError {
 /// The most pixels a film holds: up to 25 bytes each, 6.25 GiB in all.
 const MOST_PIXELS: u64 = 1 << 28;
 
-/// A picture, or as much of it as there was time for.
+/// A picture, complete or cancelled.
 #[derive(Debug)]
 pub struct Rendered {
-    /// The picture. What was not rendered is clear.
+    /// The picture. Pixels that were not rendered are clear.
     pub film: Film,
     /// Whether the work was cancelled before its end.
     pub cancelled: bool,
-    /// What was done.
+    /// The numbers of pixels and rays, and the time.
     pub status: Status,
 }
 
 /// Renders a picture of `world`.
 ///
-/// The picture is the same, bit for bit, for any number of threads: every pixel depends on its
-/// place alone.
+/// The picture is the same, bit for bit, for any number of threads: every pixel depends only on its
+/// position.
 pub fn render(
     world: &World,
     settings: &RenderSettings,
@@ -109,7 +109,7 @@ fn render_here(
             if (pixels.len() as u64) < tile.pixels() {
                 skipped.fetch_add(1, Ordering::Relaxed);
             }
-            // A thread that panicked has put nothing half-way.
+            // A panicking thread cannot leave the data half-written.
             let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
             let (film, status) = &mut *shared;
             film.put(tile, &pixels);

@@ -1,22 +1,22 @@
-//! What a picture shall be like.
+//! The settings of a rendering.
 
 use crate::film::Depth;
 
-/// What a picture shall be like.
+/// The settings of a rendering: size, anti-aliasing, region, threads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RenderSettings {
-    /// Columns; at least 1.
+    /// The number of columns; at least 1.
     pub width: u32,
-    /// Rows; at least 1.
+    /// The number of rows; at least 1.
     pub height: u32,
-    /// How rays are spread over pixels.
+    /// How the rays of pixels are chosen.
     pub anti_aliasing: AntiAliasing,
-    /// The part to be rendered; all of it if absent.
+    /// The part of the picture to render; all of it if absent.
     pub region: Option<Region>,
-    /// What is kept of colours.
+    /// How much of each colour the film keeps.
     pub depth: Depth,
-    /// How many threads work; as many as there are processors (or as the surrounding pool has) if
-    /// absent. The picture does not depend on it.
+    /// The number of threads. If absent, it is the number of processors, or the size of the
+    /// surrounding thread pool. The picture does not depend on it.
     pub threads: Option<usize>,
 }
 
@@ -33,7 +33,7 @@ impl Default for RenderSettings {
     }
 }
 
-/// Pixels with `x0 <= x < x1` and `y0 <= y < y1`, from the top left.
+/// The pixels with `x0 <= x < x1` and `y0 <= y < y1`, counted from the top left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Region {
     /// The first column.
@@ -47,37 +47,37 @@ pub struct Region {
 }
 
 impl Region {
-    /// The part of this region that lies in a picture; perhaps empty.
+    /// The part of this region that lies in a picture of this size; it may be empty.
     #[must_use]
     pub fn within(self, width: u32, height: u32) -> Self {
         let (x1, y1) = (self.x1.min(width), self.y1.min(height));
         Self { x0: self.x0.min(x1), y0: self.y0.min(y1), x1, y1 }
     }
 
-    /// How many pixels it has.
+    /// The number of pixels.
     pub fn pixels(self) -> u64 {
         u64::from(self.x1.saturating_sub(self.x0)) * u64::from(self.y1.saturating_sub(self.y0))
     }
 }
 
-/// How rays are spread over pixels.
+/// How the rays of pixels are chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AntiAliasing {
     /// One ray through the middle of each pixel.
     Off,
     /// `depth x depth` more rays for pixels that differ from their left or upper neighbour.
     Method1 {
-        /// How much they must differ: the sum of the differences of all channels as a screen of
-        /// gamma 2.5 shows them.
+        /// The least difference for more rays: the sum of the differences of all channels as a
+        /// screen of gamma 2.5 shows them.
         threshold: f64,
         /// Rays per pixel along each axis.
         depth: u32,
     },
-    /// Pixels are cut into four where their corners differ, again and again.
+    /// Pixels are divided into four where their corners differ, recursively.
     Method2 {
-        /// How much they must differ, as for `Method1`.
+        /// The least difference for a division, as for `Method1`.
         threshold: f64,
-        /// How often they may be cut.
+        /// The greatest number of divisions.
         depth: u32,
     },
     /// `n x n` rays for every pixel, evenly spread.
@@ -88,11 +88,11 @@ pub enum AntiAliasing {
 }
 
 impl AntiAliasing {
-    /// The usual threshold of both methods.
+    /// The default threshold of both methods.
     pub const THRESHOLD: f64 = 0.3;
-    /// The usual depth of both methods.
+    /// The default depth of both methods.
     pub const DEPTH: u32 = 3;
-    /// The greatest depth: 512 rays along a pixel's side are beyond every use.
+    /// The greatest depth. 512 rays along a pixel's side are more than any use needs.
     pub const MAX_DEPTH: u32 = 9;
 }
 

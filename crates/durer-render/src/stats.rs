@@ -1,4 +1,4 @@
-//! What it took to make a picture.
+//! The number of rays that a picture took.
 
 use core::ops::AddAssign;
 

@@ -1,8 +1,8 @@
-//! Plain vector arithmetic for shading.
+//! Vector arithmetic for shading.
 //!
-//! The certified kernels use fused operations; shading needs no bounds, and unfused products and
-//! sums have the same bits on every CPU and cost no library call where the compiler may not assume
-//! a fused unit.
+//! The certified kernels use fused operations. Shading needs no bounds: unfused products and sums
+//! have the same bits on every CPU, and need no library call where the compiler may not assume a
+//! fused unit.
 
 use durer_math::{F8, Scalar, Vec3};
 
@@ -16,20 +16,20 @@ pub(crate) fn length<T: Scalar>(v: Vec3<T>) -> T {
     dot(v, v).sqrt()
 }
 
-/// `v` with length 1; unchanged if it is too short or too long to be measured.
+/// `v` scaled to length 1; unchanged if it is too short or too long for that.
 #[inline(always)]
 pub(crate) fn unit(v: Vec3) -> Vec3 {
     let length = length(v);
     if length > 0.0 && length.is_finite() { v * (1.0 / length) } else { v }
 }
 
-/// The mirror image of direction `d` (of any length) in a plane with unit normal `n`.
+/// The direction `d` (of any length), mirrored in a plane with unit normal `n`.
 #[inline(always)]
 pub(crate) fn reflect<T: Scalar>(d: Vec3<T>, n: Vec3<T>) -> Vec3<T> {
     d - n * (T::from(2.0) * dot(d, n))
 }
 
-/// The same for large numbers.
+/// [`floor`] of a large number.
 #[cold]
 fn by_parts(x: f64) -> f64 {
     if x.abs() < 9_007_199_254_740_992.0 {
@@ -40,10 +40,11 @@ fn by_parts(x: f64) -> f64 {
     }
 }
 
-/// The largest whole number not above `x`.
+/// The largest integer not above `x`.
 #[inline(always)]
 pub(crate) fn floor(x: f64) -> f64 {
-    const EXACT: f64 = (1_u64 << 51) as f64; // from 2^52 on every number is whole, and below half of it the sum is exact but for its fraction
+    // From 2^52 on every f64 is an integer. Below 2^51 the sum below loses only its fraction.
+    const EXACT: f64 = (1_u64 << 51) as f64;
     if x.abs() < EXACT {
         let nearest = (x + 3.0 * EXACT) - 3.0 * EXACT;
         if nearest > x { nearest - 1.0 } else { nearest }
@@ -52,7 +53,7 @@ pub(crate) fn floor(x: f64) -> f64 {
     }
 }
 
-/// The largest whole numbers not above those in the lanes.
+/// The largest integers not above the numbers in the lanes.
 #[inline(always)]
 pub(crate) fn floor_lanes(x: F8) -> F8 {
     x.map(f64::floor)

@@ -1,4 +1,4 @@
-//! The world as the integrator sees it: geometry, paints, lamps, camera.
+//! The world: a scene prepared for the integrator (geometry, textures, lights, camera).
 
 use std::collections::HashMap;
 
@@ -13,7 +13,7 @@ use crate::medium::Medium;
 use crate::ray_end::RayEnd;
 use crate::texture::RenderTexture;
 
-/// A scene made ready to be rendered: built once, then shared by all threads.
+/// A scene prepared for rendering: built once, then shared by all threads.
 pub struct World {
     pub(crate) lowered: Lowered,
     pub(crate) looks: Vec<Look>,
@@ -21,18 +21,18 @@ pub struct World {
     pub(crate) media: Vec<Medium>,
     pub(crate) lamps: Vec<RenderLight>,
     camera: Option<Camera>,
-    /// Where the camera's rays start.
+    /// The point or plane where the camera's rays start.
     pub(crate) camera_end: Option<RayEnd>,
-    /// The media in which all rays of the camera start, if it has one standpoint, or those are the
-    /// same for all.
+    /// The media in which all of the camera's rays start, if there is a camera and these are
+    /// certainly the same for all rays.
     standing: Option<Vec<u32>>,
     pub(crate) background: Rgb,
     pub(crate) max_level: u32,
     pub(crate) adc_bailout: f64,
-    /// The opacity of a layer counts its filter times its greatest channel.
+    /// Whether the opacity of a layer uses its filter times its greatest channel.
     pub(crate) filter_by_colour: bool,
     pub(crate) has_clear_shadows: bool,
-    /// Some surfaces look different from inside.
+    /// Whether some surfaces look different from inside.
     pub(crate) has_insides: bool,
     pub(crate) encoding: Encoding,
 }
@@ -40,12 +40,12 @@ pub struct World {
 /// What a surface looks like.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Look {
-    /// The number of its paint.
+    /// The index of its texture.
     pub(crate) paint: u32,
-    /// The number of the medium behind it.
+    /// The index of the medium behind it.
     pub(crate) medium: u32,
     pub(crate) double_illuminate: bool,
-    /// The number of the look that rays along the normal see.
+    /// The index of the look that rays along the normal see.
     pub(crate) inside: u32,
 }
 
@@ -58,22 +58,22 @@ pub enum WorldError {
     /// The camera cannot be built.
     #[error(transparent)]
     Camera(#[from] CameraError),
-    /// A texture's transformation cannot place anything.
+    /// A texture's transformation is singular or not finite.
     #[error("texture: {0}")]
     Texture(#[from] AffineError),
 }
 
-/// Before this version of the language a filtering layer is less opaque.
+/// Before this version of the language, a filtering layer is less opaque.
 const NEW_OPACITY: f64 = 3.7;
 
 impl World {
-    /// Builds the geometry of a scene and makes its looks, lights and camera ready.
+    /// Builds the geometry of a scene and prepares its looks, lights and camera.
     pub fn new(scene: &Scene) -> Result<Self, WorldError> {
         let lowered = scene.lower_for_pictures()?;
         let settings = &scene.settings;
         let mut paints = Vec::new();
         let mut looks = Vec::with_capacity(lowered.looks.len());
-        // Looks that differ only in what is behind them share a paint.
+        // Looks that differ only in their interior share a texture.
         let mut known: HashMap<(*const Texture, *const Placement), u32> = HashMap::new();
         for (own, look) in (0..).zip(&lowered.looks) {
             let key = (&raw const *look.texture, &raw const *look.frame);
@@ -115,7 +115,7 @@ impl World {
             camera_end: camera.map(|camera| RayEnd::camera(&lowered.geometry, camera.start_size())),
             camera,
             standing,
-            // What is clear of the background is black, as nothing lies behind it.
+            // Nothing lies behind the background, so its transparent part is black.
             background: background.rgb * (1.0 - background.transmit),
             max_level: settings.max_trace_level,
             adc_bailout: settings.adc_bailout,
@@ -125,7 +125,7 @@ impl World {
         })
     }
 
-    /// What rays meet.
+    /// The geometry that rays hit.
     pub fn geometry(&self) -> &Geometry {
         &self.lowered.geometry
     }
@@ -135,25 +135,25 @@ impl World {
         self.camera.as_ref()
     }
 
-    /// What the reader of the scene should be told: it is rendered all the same.
+    /// Warnings about the scene. It is rendered nevertheless.
     pub fn warnings(&self) -> &[(Option<Place>, String)] {
         &self.lowered.warnings
     }
 
-    /// The number of what a primitive looks like, in [`World::looks`].
+    /// The index of a primitive's look in [`World::looks`].
     #[inline(always)]
     pub(crate) fn look_number(&self, object: u32, primitive: u32) -> u32 {
-        // Every primitive of the geometry was given a look.
+        // Every primitive of the geometry has a look.
         self.lowered.look_of(object, primitive).map_or(0, |l| l.0)
     }
 
-    /// The media in which rays of the camera from some points of a box start, if those are
-    /// certainly the same.
+    /// The media in which camera rays that start in this box begin, if these are certainly the
+    /// same.
     pub(crate) fn standing(&self, origins: impl FnOnce() -> Aabb) -> Option<Vec<u32>> {
         self.standing.clone().or_else(|| self.lowered.media_in(&origins()))
     }
 
-    /// Appends the media in which a ray of the camera starts that comes from `origin`.
+    /// Appends the media in which a camera ray from `origin` starts.
     pub(crate) fn media_at(&self, origin: Point3, media: &mut Vec<u32>) {
         self.lowered.media_at(origin, media);
     }

@@ -1,5 +1,5 @@
-//! Laws of optics with known answers, to many digits: mirrors, Snell's law, total reflection,
-//! nothing lost and nothing won.
+//! Laws of optics with known answers, to many digits: mirrors, Snell's law, total reflection and
+//! the conservation of light.
 
 use durer_math::elementary::{asin, atan, cos, sin};
 use durer_math::{Affine, Point3, Vec3};
@@ -43,7 +43,7 @@ fn plane(normal: Vec3, distance: f64) -> Object {
     Object::new(Shape::Plane { normal, distance })
 }
 
-/// What is seen from `eye` in exactly one direction.
+/// The light seen from `eye` in exactly one direction.
 fn seen(objects: Vec<Object>, background: f64, eye: Point3, direction: Vec3, levels: u32) -> f64 {
     let (right, up) = direction.normalized().unwrap().orthonormal_basis();
     let camera = Camera { location: eye, direction, right, up, ..Camera::default() };
@@ -77,7 +77,7 @@ fn a_corner_of_mirrors_sends_rays_back() {
         let d = downward(i);
         let d = Vec3::new(-d.x.abs() - 0.1, d.y, -d.z.abs() - 0.1);
         let eye = Point3::new(3.0, 2.5, 2.0);
-        // Far behind the eye: only a ray parallel to the first one to seven digits meets it.
+        // Far behind the eye. Only a ray that is parallel to the first one to seven digits hits it.
         let away = 1e8;
         let target = eye - d * (away / d.length());
         let mut objects: Vec<_> =
@@ -134,7 +134,7 @@ fn total_reflection_begins_at_the_critical_angle() {
     let critical = asin(1.0 / n);
     for (shift, want) in [(-1e-9, 1.0), (1e-9, 0.0)] {
         let angle = critical + shift;
-        // From inside a block whose floor is black; above it is white.
+        // The camera is inside a block whose floor is black; above it is white.
         let block =
             Object::new(Shape::Box { a: Point3::new(-99.0, -9.0, -99.0), b: Point3::new(99.0, 0.0, 99.0) });
         let floor = plane(Vec3::Y, -5.0).with_texture(paint(0.0, 0.0, dark()));
@@ -211,8 +211,8 @@ fn no_surface_shades_itself_and_none_leaks() {
         for y in 0..90 {
             for x in 0..120 {
                 let light = film.light(x, y).unwrap()[0];
-                // On the right of the picture nothing stands between the floor and the lamp: its
-                // light is at least 30/900 aslant.
+                // On the right of the picture nothing stands between the floor and the light, which
+                // arrives with a cosine of at least 30/900.
                 if x > 80 && y > 60 {
                     assert!(light > 0.02, "acne at {x}, {y}, scale {scale}: {light}");
                 }
@@ -304,12 +304,12 @@ fn what_is_cancelled_keeps_what_is_done() {
     assert_eq!(rendered.film.pixels().filter(|p| p.alpha == 1.0).count(), 32 * 32);
 }
 
-/// Ctrl-C is answered within about a second, however long one pixel takes.
+/// Ctrl-C takes effect within about a second, however long one pixel takes.
 #[test]
 fn a_pixel_that_takes_years_can_be_cancelled() {
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::time::{Duration, Instant};
-    // Each surface reflects all and lets all pass: two rays become four, and so on.
+    // Each surface reflects everything and lets everything pass: two rays become four, and so on.
     let reflection = Some(Box::new(Reflection::constant(Rgb::WHITE)));
     let both = || paint(1.0, 1.0, Finish { reflection: reflection.clone(), ..dark() });
     let shell = |i: i32| ball(Point3::new(2.0, 0.0, 5.0), 0.02 * f64::from(i)).with_texture(both());
@@ -337,7 +337,7 @@ fn a_pixel_that_takes_years_can_be_cancelled() {
         });
         assert!(waited < Duration::from_secs(3), "{waited:?}");
         assert!(rendered.cancelled && !rendered.film.is_complete());
-        // What was done before: white, from the top left on.
+        // The pixels finished before are white and start at the top left.
         let done = rendered.film.pixels().filter(|p| p.alpha == 1.0).count();
         assert!(done > 20 && rendered.film.pixel(0, 0).unwrap().rgb == Rgb::WHITE, "{done}");
         assert_eq!(rendered.status.pixels_done, done as u64);

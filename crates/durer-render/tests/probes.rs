@@ -1,4 +1,4 @@
-//! One-pixel scenes whose answers POV-Ray 3.7 gave, each for one fact of the shading model.
+//! One-pixel scenes with the answers of POV-Ray 3.7, each for one fact of the shading model.
 
 use durer_math::{Affine, Point3, Vec3};
 use durer_render::{Progress, RenderSettings, World, render};
@@ -52,7 +52,7 @@ const WHITE: [f64; 5] = [1.0, 1.0, 1.0, 0.0, 0.0];
 const GREY: [f64; 5] = [0.5, 0.5, 0.5, 0.0, 0.0];
 const BLACK: [f64; 5] = [0.0; 5];
 
-/// A finish that does nothing.
+/// A finish without any effect.
 fn dark() -> Finish {
     Finish { ambient: Rgb::BLACK, diffuse: 0.0, ..Finish::default() }
 }
@@ -79,7 +79,7 @@ fn lit(objects: Vec<Object>, light: [f64; 3]) -> Scene {
 
 /// A light behind the camera.
 const BEHIND: [f64; 3] = [0.0, 0.0, -1000.0];
-/// A light at 45 degrees.
+/// A light at 45 degrees to the line of sight.
 const ASIDE: [f64; 3] = [1000.0, 0.0, -1000.0];
 
 fn before(mut scene: Scene, rgb: [f64; 3]) -> Scene {
@@ -209,7 +209,7 @@ fn energy_is_conserved_in_each_channel() {
     let finish = Finish { conserve_energy: true, ..mirror(Reflection::constant(Rgb::new(0.5, 0.25, 0.0))) };
     let mut scene = before(scene(vec![plane(paint([1.0, 1.0, 1.0, 0.0, 0.5], finish))]), [1.0; 3]);
     check(&scene, [0.75, 0.625, 0.5]);
-    // Alone, the mirror image is the background's too.
+    // With one level only, the mirror shows the background too.
     scene.settings.max_trace_level = 1;
     check(&scene, [0.0; 3]);
 }

@@ -1,9 +1,10 @@
 //! Cameras that stand on surfaces, and lights that lie on them.
 //!
-//! The witness is convexity. From a point of a convex body's surface a direction leads outside if
-//! it is on the outer side of one of the tangent planes there, and through the body if it is behind
-//! all of them: then it meets the surface once more. So a camera there sees the body exactly in the
-//! directions behind the planes, and a light there is blocked exactly in those.
+//! The oracle is convexity. Take a point on the surface of a convex body. A direction from there
+//! leads outside if it is on the outer side of one of the tangent planes at the point. It leads
+//! through the body if it is behind all of them, and then it meets the surface once more. So a
+//! camera at the point sees the body exactly in the directions behind the planes, and a light there
+//! is blocked exactly in those.
 
 use durer_math::{Affine, Point3, Vec3};
 use durer_render::camera::Camera;
@@ -91,7 +92,7 @@ fn cushion() -> Shape {
     Shape::Polynomial { order: 4, coefficients: coefficients.into() }
 }
 
-/// Places on bodies of all kinds, on faces, edges and corners.
+/// Places on bodies of all kinds: on faces, edges and corners.
 fn places(random: &mut Random) -> Vec<Place> {
     let mut all = Vec::new();
     let mut add = |name, shape, point: Vec3, normals: &[Vec3]| {
@@ -116,7 +117,7 @@ fn places(random: &mut Random) -> Vec<Place> {
         let n = random.direction();
         let (centre, radius) = (random.vector(), 1.0 + 0.5 * random.unit());
         add("sphere", Shape::Sphere { centre: centre.to_point(), radius }, centre + n * radius, &[n]);
-        // The surface passes through the origin, where no coordinate tells of its size.
+        // The surface passes through the origin, where the coordinates do not show its size.
         let radius = centre.length();
         add("sphere", Shape::Sphere { centre: centre.to_point(), radius }, Vec3::ZERO, &[-centre]);
 
@@ -159,7 +160,7 @@ fn places(random: &mut Random) -> Vec<Place> {
     all
 }
 
-/// A rotation, a move, and every other time a scaling; both are rounded where they meet the point.
+/// A rotation, a translation and, every other time, a scaling. Body and point are both rounded.
 fn moved(random: &mut Random, place: Place, turn: usize) -> Place {
     let turned = Affine::rotation(random.direction(), 3.0 * random.unit()).unwrap();
     let scaled = match turn % 2 {
@@ -174,7 +175,7 @@ fn moved(random: &mut Random, place: Place, turn: usize) -> Place {
     Place { point: map.point(place.point.to_point()).to_vec(), body, normals, ..place }
 }
 
-/// All places as they are, moved, and moved with the point some ulps away.
+/// All places as they are, transformed, and transformed with the point some ulps away.
 fn all_places() -> Vec<Place> {
     let mut random = Random(7);
     let mut all = places(&mut random);
@@ -192,7 +193,7 @@ fn all_places() -> Vec<Place> {
     all
 }
 
-/// Whether a direction from a place leads outside; nothing is said near the tangent planes.
+/// Whether a direction from a place leads outside. `None` near the tangent planes.
 fn leads_outside(place: &Place, direction: Vec3) -> Option<bool> {
     let d = direction.normalized().unwrap();
     let cosines: Vec<f64> = place.normals.iter().map(|n| n.normalized().unwrap().dot(d)).collect();
@@ -261,7 +262,7 @@ fn the_surface_on_which_the_camera_stands_is_not_seen() {
     }
 }
 
-/// A ball all around, white and lit by a light at a place of the body, which the camera does not
+/// A white ball around everything, lit by a light at a place of the body, which the camera does not
 /// see.
 fn lit_from(place: &Place, location: Vec3, colour: [f64; 5]) -> Scene {
     let around = Shape::Sphere { centre: Point3::ORIGIN, radius: 20.0 };
@@ -275,7 +276,7 @@ fn lit_from(place: &Place, location: Vec3, colour: [f64; 5]) -> Scene {
     }
 }
 
-/// How much of the light arrives in each pixel, and where that is on the ball around.
+/// The fraction of the light that reaches each pixel, and the point on the surrounding ball.
 fn arriving(scene: &Scene) -> Vec<(f64, Vec3)> {
     let mut free = scene.clone();
     free.lights[0].shadowless = true;
@@ -309,7 +310,7 @@ fn a_billionth_beside_the_surface_is_not_on_it() {
                 for (part, p) in arriving(&lit_from(place, location, colour)) {
                     let steep = n.dot((p - location).normalized().unwrap());
                     let outside = if colour == WHITE { 0.0 } else { 0.5 };
-                    // From outside the way inward crosses both walls; from inside the way out
+                    // A ray inward from outside crosses both walls; a ray outward from inside
                     // crosses one.
                     let want = match (steep > 0.1, steep < -0.1) {
                         (true, _) => {
@@ -331,8 +332,8 @@ fn a_billionth_beside_the_surface_is_not_on_it() {
                 camera: Some(wide_camera(location, n * away)),
                 ..Scene::default()
             };
-            // It looks away from the wall: from inside at the wall it is in front of, from outside
-            // at nothing.
+            // The camera looks away from the wall. From inside it sees the opposite wall, from
+            // outside nothing.
             for (seen, d) in picture(&scene, None, 1).iter().zip(directions(&scene)) {
                 if n.dot(d.normalized().unwrap()).abs() > 0.1 {
                     let sees = away < 0.0 || n.dot(d) < 0.0;
@@ -409,7 +410,7 @@ fn a_parallel_light_is_not_shadowed_by_a_surface_in_its_plane() {
     }
 }
 
-/// A room with a camera in its wall and lamps on its ceiling and on a glass ball.
+/// A room with a camera in its wall, and lights on its ceiling and on a glass ball.
 fn room() -> Scene {
     let glass = paint([1.0, 0.9, 0.8, 0.8, 0.1], 0.1, 0.3);
     let ball = Shape::Sphere { centre: Point3::new(0.1, 0.2, 0.3), radius: 0.7 };

@@ -1,26 +1,26 @@
-//! The camera's block, as its final vectors.
+//! The camera of a scene, as its final vectors.
 
 use durer_math::{Aabb, Affine, Point3, U, Vec3};
 
-/// A camera, after all its words have been worked in: the picture is spanned by `right` and `up`,
-/// and its middle is seen along `direction`.
+/// A camera after all its statements have been applied. `right` and `up` span the picture, and
+/// `direction` leads to its middle.
 ///
-/// The lecture's forms with `s_x = right / 2`, `s_y = -up / 2` are built from it by the renderer.
+/// The renderer converts it to the form with `s_x = right / 2` and `s_y = -up / 2`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// How points of the picture become rays.
+    /// How points of the picture are mapped to rays.
     pub projection: Projection,
-    /// Where it stands.
+    /// The location of the camera.
     pub location: Point3,
-    /// To the middle of the picture; its length matters to perspective only.
+    /// The vector to the middle of the picture; its length matters only for perspective.
     pub direction: Vec3,
-    /// Across the whole picture, from left to right.
+    /// The width of the picture as a vector, from left to right.
     pub right: Vec3,
-    /// Along the whole picture, from bottom to top.
+    /// The height of the picture as a vector, from bottom to top.
     pub up: Vec3,
 }
 
-/// How points of the picture become rays.
+/// How points of the picture are mapped to rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Projection {
     /// All rays start at the location.
@@ -30,7 +30,7 @@ pub enum Projection {
 }
 
 impl Default for Camera {
-    /// At the origin, looking along z, 1.33 wide and 1 high.
+    /// A camera at the origin that looks along z, with a picture 1.33 wide and 1 high.
     fn default() -> Self {
         Self {
             projection: Projection::Perspective,
@@ -43,7 +43,7 @@ impl Default for Camera {
 }
 
 impl Camera {
-    /// A box that holds the origins of all its rays.
+    /// A box that contains the origins of all rays.
     pub fn standpoints(&self) -> Aabb {
         match self.projection {
             Projection::Perspective => Aabb::from_points([self.location]),
@@ -51,14 +51,15 @@ impl Camera {
                 let corner = |a: f64, b: f64| self.location + (self.right * (a * 0.5) + self.up * (b * 0.5));
                 let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
                 let all = Aabb::from_points(corners.map(|(a, b)| corner(a, b)));
-                // Origins between the corners are rounded too, by a few units of the coordinates.
+                // The renderer also rounds origins between the corners, by a few ulps of the
+                // coordinates.
                 let room = 16.0 * U * all.magnitude();
                 all.expanded(Vec3::new(room, room, room))
             }
         }
     }
 
-    /// Moves the camera.
+    /// Transforms the camera by `map`.
     pub fn transform(&mut self, map: &Affine) {
         self.location = map.point(self.location);
         self.direction = map.vector(self.direction);

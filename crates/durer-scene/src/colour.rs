@@ -1,8 +1,8 @@
-//! Colours: three channels of light, and what a pigment adds to them.
+//! Colours: three channels of light, and for pigments also filter and transmit.
 
 use core::ops::{Add, AddAssign, Mul};
 
-/// Red, green and blue on the scene's own numbers; not clipped, and not yet related to light by a
+/// Red, green and blue in the scene's own values: not clipped, and not yet converted to light by a
 /// gamma.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rgb {
@@ -17,10 +17,10 @@ pub struct Rgb {
 impl Rgb {
     /// No light.
     pub const BLACK: Self = Self::grey(0.0);
-    /// One in every channel.
+    /// White: one in every channel.
     pub const WHITE: Self = Self::grey(1.0);
 
-    /// From three channels.
+    /// Makes a colour from three channels.
     pub const fn new(r: f64, g: f64, b: f64) -> Self {
         Self { r, g, b }
     }
@@ -50,7 +50,7 @@ impl Rgb {
         self.r.max(self.g).max(self.b)
     }
 
-    /// How bright it looks, by the scene language's weights 0.297, 0.589 and 0.114.
+    /// The brightness, with the scene language's weights 0.297, 0.589 and 0.114.
     #[inline(always)]
     pub fn luminance(self) -> f64 {
         0.297 * self.r + 0.589 * self.g + 0.114 * self.b
@@ -104,9 +104,9 @@ impl Mul<f64> for Rgb {
 pub struct Colour {
     /// Red, green and blue.
     pub rgb: Rgb,
-    /// The part of the light that passes and takes the colour.
+    /// The fraction of light that passes and takes the colour.
     pub filter: f64,
-    /// The part of the light that passes unchanged.
+    /// The fraction of light that passes unchanged.
     pub transmit: f64,
 }
 
@@ -116,18 +116,18 @@ impl Colour {
         Self { rgb, filter: 0.0, transmit: 0.0 }
     }
 
-    /// From the five terms red, green, blue, filter, transmit.
+    /// Makes a colour from the five terms red, green, blue, filter, transmit.
     pub const fn from_terms([r, g, b, filter, transmit]: [f64; 5]) -> Self {
         Self { rgb: Rgb::new(r, g, b), filter, transmit }
     }
 
-    /// What light that passes through is multiplied by: `rgb * filter + transmit`.
+    /// The factor of light that passes through: `rgb * filter + transmit`.
     #[inline(always)]
     pub fn passed(self) -> Rgb {
         self.rgb.map(|c| c * self.filter + self.transmit)
     }
 
-    /// All five terms on the way from `self` (`k` = 0) to `other` (`k` = 1).
+    /// Interpolates all five terms from `self` (`k` = 0) to `other` (`k` = 1).
     #[inline(always)]
     #[must_use]
     pub fn mix(self, other: Self, k: f64) -> Self {

@@ -1,42 +1,42 @@
-//! Finishes: how a surface answers to light.
+//! Finishes: how a surface reflects and scatters light.
 
 use crate::Rgb;
 
-/// How a layer of paint answers to light.
+/// How a layer of a texture reflects and scatters light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finish {
-    /// The part of its colour it shows in the scene's ambient light.
+    /// The fraction of its colour that it shows in the scene's ambient light.
     pub ambient: Rgb,
-    /// The part of its colour it shows without any light.
+    /// The fraction of its colour that it shows without any light.
     pub emission: Rgb,
-    /// The part of the light from the front that is scattered evenly.
+    /// The fraction of light from the front that is scattered diffusely.
     pub diffuse: f64,
-    /// The part of the light from behind that is scattered evenly.
+    /// The fraction of light from behind that is scattered diffusely.
     pub diffuse_back: f64,
-    /// `diffuse` is the albedo: it is multiplied by `(brilliance + 1) / 2`.
+    /// Whether `diffuse` is the albedo; then it is multiplied by `(brilliance + 1) / 2`.
     pub diffuse_albedo: bool,
     /// The exponent of the cosine of the angle of incidence.
     pub brilliance: f64,
     /// The strength of Phong's highlight.
     pub phong: f64,
-    /// `phong` is the albedo: it is multiplied by `(phong_size + 1) / 2`.
+    /// Whether `phong` is the albedo; then it is multiplied by `(phong_size + 1) / 2`.
     pub phong_albedo: bool,
     /// The exponent of Phong's highlight.
     pub phong_size: f64,
     /// The strength of Blinn's highlight.
     pub specular: f64,
-    /// `specular` is the albedo: it is multiplied by `(n + 2) / (4 (2 - 2^(-n/2)))`,
-    /// `n = 1 / roughness`.
+    /// Whether `specular` is the albedo; then it is multiplied by `(n + 2) / (4 (2 - 2^(-n/2)))`,
+    /// where `n = 1 / roughness`.
     pub specular_albedo: bool,
-    /// One over the exponent of Blinn's highlight; positive.
+    /// The reciprocal of the exponent of Blinn's highlight; positive.
     pub roughness: f64,
-    /// How far highlights take the pigment's colour, from 0 to 1.
+    /// How much highlights take the pigment's colour, from 0 to 1.
     pub metallic: f64,
     /// The greatest random darkening of diffuse light.
     pub crand: f64,
-    /// The mirror, if there is one.
+    /// The reflection, if there is one.
     pub reflection: Option<Box<Reflection>>,
-    /// What is reflected does not pass.
+    /// Whether reflected light is subtracted from the light that passes.
     pub conserve_energy: bool,
 }
 
@@ -63,25 +63,26 @@ impl Default for Finish {
     }
 }
 
-/// How a mirror reflects.
+/// How a surface reflects its surroundings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reflection {
-    /// The part reflected head-on.
+    /// The fraction reflected head-on.
     pub min: Rgb,
-    /// The part reflected at grazing angles.
+    /// The fraction reflected at grazing angles.
     pub max: Rgb,
-    /// The way from `min` to `max` is `(1 - cos)^falloff`.
+    /// The interpolation from `min` to `max` is `(1 - cos)^falloff`.
     pub falloff: f64,
-    /// The way from `min` to `max` is Fresnel's reflectance of the interior's index of refraction.
+    /// Whether the interpolation is instead Fresnel's reflectance for the interior's index of
+    /// refraction.
     pub fresnel: bool,
-    /// The reflected colour is raised to one over this.
+    /// The reflected colour is raised to the reciprocal of this.
     pub exponent: f64,
-    /// How far the reflected light takes the pigment's colour, from 0 to 1.
+    /// How much the reflected light takes the pigment's colour, from 0 to 1.
     pub metallic: f64,
 }
 
 impl Reflection {
-    /// The same at every angle.
+    /// A reflection that is the same at every angle.
     pub fn constant(colour: Rgb) -> Self {
         Self { min: colour, max: colour, falloff: 1.0, fresnel: false, exponent: 1.0, metallic: 0.0 }
     }

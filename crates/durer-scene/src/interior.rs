@@ -1,22 +1,22 @@
-//! Interiors: what light meets between the surfaces of an object.
+//! Interiors: the media inside objects.
 
 use crate::Rgb;
 
-/// What fills an object.
+/// The medium that fills an object.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interior {
     /// The index of refraction; positive.
     pub ior: f64,
-    /// The depth at which light has faded half way; 0 is never. With a negative one the formula is
-    /// taken at its word.
+    /// The depth at which half of the light is left; 0 for no fading. With a negative depth the
+    /// formula is evaluated as it stands.
     pub fade_distance: f64,
-    /// How sharply light fades; from 1000 on exponentially. If it is not positive shadows do not
-    /// fade.
+    /// The exponent of the fading; from 1000 on, light fades exponentially. If it is not positive,
+    /// shadows do not fade.
     pub fade_power: f64,
-    /// What light fades to.
+    /// The colour of light that has faded completely.
     pub fade_color: Rgb,
-    /// A likeness of caustics: light that passes a surface is multiplied by `1 + cos^caustics` of
-    /// the angle to the normal. 0 for none.
+    /// An approximation of caustics: light that passes a surface is multiplied by
+    /// `1 + cos^caustics` of the angle to the normal. 0 for none.
     pub caustics: f64,
 }
 

@@ -1,7 +1,7 @@
-//! A scene as plain data: what is where, what it looks like, what shines and who looks.
+//! This crate describes a scene as plain data: objects, textures, lights and a camera.
 //!
-//! A [`Scene`] prints, compares and clones; it has no syntax and does nothing by itself. Readers
-//! build it from text, programs by hand:
+//! A [`Scene`] can be printed, compared and cloned. It has no syntax of its own and does nothing by
+//! itself. Readers build it from text, and programs build it directly:
 //!
 //! ```
 //! use durer_math::Point3;

@@ -1,29 +1,29 @@
-//! Lights.
+//! Light sources.
 
 use durer_math::{Affine, Point3};
 
 use crate::Rgb;
 
-/// A source of light.
+/// A light source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
-    /// Where it is.
+    /// The location.
     pub location: Point3,
-    /// Its light.
+    /// The colour of the light.
     pub colour: Rgb,
-    /// Its form.
+    /// The shape of the beam.
     pub kind: LightKind,
-    /// Where it points, if it points anywhere.
+    /// The point it is aimed at, if it has a direction.
     pub point_at: Point3,
-    /// Its rays are parallel: all have the direction from `location` to `point_at`.
+    /// Whether its rays are parallel, with the direction from `location` to `point_at`.
     pub parallel: bool,
-    /// It throws no shadows and no highlights.
+    /// Whether it throws neither shadows nor highlights.
     pub shadowless: bool,
-    /// How it fades with the distance.
+    /// How the light fades with the distance.
     pub fade: Option<Fade>,
 }
 
-/// The form of a light's beam.
+/// The shape of a light's beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightKind {
     /// The same in all directions.
@@ -48,12 +48,13 @@ pub enum LightKind {
     },
 }
 
-/// A light is multiplied by `2 / (1 + (d / distance)^power)`.
+/// Fading with the distance `d`: the light is multiplied by `2 / (1 + (d / distance)^power)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fade {
-    /// Where it has its own strength. With a negative one the formula is taken at its word.
+    /// The distance at which the light has its full strength. With a negative one the formula is
+    /// evaluated as it stands.
     pub distance: f64,
-    /// How sharply it fades; a light does not fade if this is not positive.
+    /// The exponent of the fading; a light does not fade if this is not positive.
     pub power: f64,
 }
 
@@ -71,7 +72,7 @@ impl Light {
         }
     }
 
-    /// Moves the light and where it points.
+    /// Transforms the light and the point it is aimed at.
     pub fn transform(&mut self, map: &Affine) {
         self.location = map.point(self.location);
         self.point_at = map.point(self.point_at);

@@ -1,12 +1,13 @@
-//! Which rays meet which objects: bits of the masks that lowering gives to surfaces.
+//! Ray masks: which kinds of rays can hit which objects. Lowering gives each surface a mask of
+//! these bits.
 
-/// Rays of the camera, and what they become behind clear surfaces.
+/// Camera rays, and their continuations behind clear surfaces.
 pub const CAMERA: u32 = 1;
-/// Rays of mirrors, and what they become behind clear surfaces.
+/// Reflected rays, and their continuations behind clear surfaces.
 pub const MIRROR: u32 = 1 << 1;
-/// Shadow rays meet what lets no light pass.
+/// Shadow rays, for surfaces that let no light pass.
 pub const SHADOW: u32 = 1 << 2;
-/// Shadow rays meet what may let light pass.
+/// Shadow rays, for surfaces that may let light pass.
 pub const CLEAR_SHADOW: u32 = 1 << 3;
-/// Rays that ask for shapes and not for looks: every object has it.
+/// Rays that ask for shapes and not for looks: every object has this bit.
 pub const SHAPE: u32 = 1 << 4;

@@ -1,4 +1,4 @@
-//! Objects: shapes with a place, a look and habits.
+//! Objects: shapes with a placement, a look and flags.
 
 use std::sync::Arc;
 
@@ -6,39 +6,40 @@ use durer_math::{Affine, AffineError};
 
 use crate::{Deform, Interior, Placement, Shape, Texture, Warp};
 
-/// A shape with its place and its look.
+/// A shape with its placement and its look.
 ///
-/// What stands in a union and has no texture (interior) of its own takes the union's. Flags of a
-/// union hold for all its parts.
+/// A part of a union without a texture (or interior) of its own has the union's. The flags of a
+/// union apply to all its parts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Object {
-    /// Its surface.
+    /// The shape.
     pub shape: Shape,
     /// From the shape's own frame to the space around the object (a union's frame, or the world).
     pub placement: Placement,
-    /// Convex solids (spheres, boxes, planes, ...; `inverse` keeps what is outside): only what lies
-    /// in all of them is left. Placed in the space around the object.
+    /// Convex solids (spheres, boxes, planes and others; `inverse` keeps the outside) that clip the
+    /// object: only what lies in all of them is left. They are placed in the space around the
+    /// object.
     pub clips: Vec<Object>,
     /// Its texture, placed in the space around the object.
     pub texture: Option<Arc<Texture>>,
-    /// What is seen from inside in place of its texture, placed like that: where a ray leaves a
-    /// solid, or goes along the normal of an open surface; of triangles and open meshes where it
-    /// comes from the other side of that (a fact of the scene language).
+    /// The texture seen from inside, placed like `texture`. It is shown where a ray leaves a solid
+    /// or runs along the normal of an open surface. For triangles and open meshes it is shown from
+    /// the opposite side (a fact of the scene language).
     pub interior_texture: Option<Arc<Texture>>,
-    /// Of an intersection or a difference: a part without a texture shows those of the other parts
-    /// at each point, as far as they hold the point, in equal parts. What is taken away lends no
-    /// texture, and parts of unions borrow none (facts of the scene language). This is what those
-    /// show that borrow none.
+    /// If present, a part of this intersection or difference without a texture shows the textures
+    /// of the other parts, mixed in equal amounts over all parts that contain the point. The parts
+    /// that a difference subtracts lend no texture, and parts of unions borrow none (facts of the
+    /// scene language). The value is the texture of parts that borrow none.
     pub cutaway_textures: Option<Arc<Texture>>,
-    /// What fills it.
+    /// The medium that fills it.
     pub interior: Option<Arc<Interior>>,
-    /// Its habits.
+    /// Its flags.
     pub flags: Flags,
-    /// Where it was written, for messages.
+    /// Where it is written in the text, for messages.
     pub place: Option<Place>,
 }
 
-/// An object's habits.
+/// Flags of an object.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Flags {
     /// It throws no shadow.
@@ -47,7 +48,7 @@ pub struct Flags {
     pub no_image: bool,
     /// Mirrors do not show it.
     pub no_reflection: bool,
-    /// Fog and media of the scene go on inside it.
+    /// Fog and media of the scene continue inside it.
     pub hollow: bool,
     /// Inside and outside are exchanged.
     pub inverse: bool,
@@ -58,7 +59,7 @@ pub struct Flags {
 }
 
 impl Flags {
-    /// The flags of either.
+    /// The union of two sets of flags.
     #[must_use]
     pub fn or(self, other: Self) -> Self {
         Self {
@@ -73,17 +74,17 @@ impl Flags {
     }
 }
 
-/// A place in the text of a scene; its reader knows the files by number.
+/// A place in the text of a scene. The reader of the text knows the files by number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Place {
     /// The number of the file.
     pub file: u32,
-    /// Bytes before the place.
+    /// The number of bytes before the place.
     pub start: u32,
 }
 
 impl Object {
-    /// A shape where its own numbers put it, without a look.
+    /// An object with this shape, not moved and without a look.
     pub fn new(shape: Shape) -> Self {
         Self {
             shape,
@@ -98,19 +99,19 @@ impl Object {
         }
     }
 
-    /// A solid, deformed. A union becomes a union of deformed parts, so that each keeps its look;
-    /// so does a merge, intersection or difference if one of its parts has a look of its own, since
-    /// the deformation of an intersection is that of its parts' deformations. Each part must have
-    /// an end then.
+    /// Deforms a solid. A union becomes a union of deformed parts, so that each keeps its look. So
+    /// does a merge, intersection or difference if one of its parts has a look of its own, since
+    /// the deformation of an intersection is the intersection of the deformed parts. Each part must
+    /// then be bounded.
     ///
-    /// Textures are not deformed: they are placed in the space around the deformed object, where
-    /// the solid's own were placed around the solid.
+    /// Textures are not deformed. They are placed in the space around the deformed object, as the
+    /// solid's own were placed in the space around the solid.
     pub fn deformed(mut solid: Self, warps: &[Warp]) -> Result<Self, AffineError> {
         let mut made = Self::new(Shape::Union(Vec::new()));
         (made.texture, made.interior, made.place) =
             (solid.texture.take(), solid.interior.take(), solid.place);
         made.interior_texture = solid.interior_texture.take();
-        // Turned inside out after or before is the same.
+        // Inverting before or after the deformation gives the same solid.
         let open = Flags { open: solid.flags.open, ..Flags::default() };
         made.flags = Flags { open: false, ..core::mem::replace(&mut solid.flags, open) };
         let is_plain = solid.clips.is_empty() && !solid.flags.open;
@@ -134,7 +135,7 @@ impl Object {
         Ok(made)
     }
 
-    /// Whether it or a part of it has a texture or an interior.
+    /// Whether the object or a part of it has a texture or an interior.
     fn has_look(&self) -> bool {
         self.texture.is_some()
             || self.interior_texture.is_some()
@@ -146,21 +147,21 @@ impl Object {
             }
     }
 
-    /// The same object with a texture.
+    /// Returns the object with this texture.
     #[must_use]
     pub fn with_texture(mut self, texture: impl Into<Arc<Texture>>) -> Self {
         self.texture = Some(texture.into());
         self
     }
 
-    /// The same object with an interior.
+    /// Returns the object with this interior.
     #[must_use]
     pub fn with_interior(mut self, interior: impl Into<Arc<Interior>>) -> Self {
         self.interior = Some(interior.into());
         self
     }
 
-    /// Moves the object with all it has so far: its texture and its clips too.
+    /// Transforms the object with everything it has so far, also its texture and its clips.
     pub fn transform(&mut self, map: &Affine) -> Result<(), AffineError> {
         self.placement.then(map)?;
         for texture in self.texture.iter_mut().chain(&mut self.interior_texture) {

@@ -1,25 +1,25 @@
-//! Patterns: functions of the point that choose among entries, or blend them.
+//! Patterns: functions of the point that select or mix entries.
 
 use durer_math::Vec3;
 
-/// A choice or a blend of entries `T` (colours, pigments or textures) by the place.
+/// Selects or mixes entries `T` (colours, pigments or textures) by position.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pattern<T> {
-    /// Space is cut into cells, each of which shows one entry.
+    /// Space is divided into cells, and each cell shows one entry.
     Cells {
-        /// How space is cut.
+        /// How space is divided.
         cells: Cells,
         /// One entry for each kind of cell: [`Cells::kinds`] of them.
         entries: Vec<T>,
     },
-    /// A number is computed at each point, and looked up in a map.
+    /// A number is computed at each point and looked up in a map.
     Map {
-        /// The number.
+        /// How the number is computed.
         value: Value,
-        /// Positions in the map with what is shown there, in the order written; not empty.
+        /// Positions in the map with their entries, in the order written; not empty.
         entries: Vec<(f64, T)>,
     },
-    /// Everywhere all entries, in equal parts.
+    /// Everywhere the mean of all entries.
     Mean(Vec<T>),
 }
 
@@ -43,7 +43,7 @@ impl<T> Pattern<T> {
     }
 }
 
-/// How space is cut into cells.
+/// How space is divided into cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cells {
     /// Unit cubes in two kinds, by the parity of the sum of their coordinates.
@@ -60,7 +60,7 @@ pub enum Cells {
 }
 
 impl Cells {
-    /// How many kinds of cells there are.
+    /// The number of kinds of cells.
     pub fn kinds(self) -> usize {
         match self {
             Self::Checker | Self::Brick { .. } => 2,
@@ -72,11 +72,11 @@ impl Cells {
 /// A number at each point, from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Value {
-    /// What it grows along.
+    /// The function that the number grows with.
     pub ramp: Ramp,
-    /// How many waves there are where the ramp has one.
+    /// The number of waves in each unit of the ramp.
     pub frequency: f64,
-    /// How far the wave is shifted.
+    /// The shift of the wave.
     pub phase: f64,
     /// The form of the wave.
     pub wave: Wave,
@@ -89,23 +89,23 @@ impl Value {
     }
 }
 
-/// What a continuous pattern grows along.
+/// The function that a continuous pattern grows with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ramp {
-    /// From 0 to 1 with each unit along a direction (of any length but zero), then from 0 again.
+    /// From 0 to 1 in each unit along a direction (of any length but zero), then from 0 again.
     Gradient(Vec3),
 }
 
-/// The form into which a number from 0 to 1 is bent.
+/// The waveform: it maps a number `w` from 0 to 1 to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Wave {
-    /// As it is.
+    /// `w` itself.
     Ramp,
-    /// Up and down.
+    /// Linearly up, then down.
     Triangle,
     /// A full sine wave.
     Sine,
-    /// Half waves that touch zero sharply.
+    /// Half sine waves, which touch zero sharply.
     Scallop,
     /// `3 w^2 - 2 w^3`.
     Cubic,

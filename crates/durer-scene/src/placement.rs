@@ -1,4 +1,4 @@
-//! Where something stands: an affine map that takes no room when it moves nothing.
+//! Placements: affine maps that take no memory for the identity.
 
 use durer_math::{Affine, AffineError};
 
@@ -7,10 +7,10 @@ use durer_math::{Affine, AffineError};
 pub struct Placement(Option<Box<Affine>>);
 
 impl Placement {
-    /// The placement that moves nothing.
+    /// The identity.
     pub const IDENTITY: Self = Self(None);
 
-    /// From a map.
+    /// Makes a placement from a map.
     pub fn new(map: Affine) -> Self {
         if map == Affine::IDENTITY { Self(None) } else { Self(Some(Box::new(map))) }
     }
@@ -20,12 +20,12 @@ impl Placement {
         self.0.as_deref().unwrap_or(&Affine::IDENTITY)
     }
 
-    /// Whether nothing moves.
+    /// Whether the map is the identity.
     pub fn is_identity(&self) -> bool {
         self.0.is_none()
     }
 
-    /// Moves what is already placed once more, by `next`.
+    /// Applies `next` after this placement.
     pub fn then(&mut self, next: &Affine) -> Result<(), AffineError> {
         *self = Self::new(match self.0.take() {
             None => *next,

@@ -1,23 +1,23 @@
-//! The scene itself.
+//! The scene as a whole, and its settings.
 
 use crate::{Camera, Colour, Light, Object, Rgb};
 
 /// A whole scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
-    /// What can be seen, in the order of the text.
+    /// The visible objects, in the order of the text.
     pub objects: Vec<Object>,
-    /// What shines.
+    /// The light sources.
     pub lights: Vec<Light>,
-    /// Who looks; pictures need it, rays do not.
+    /// The camera. Pictures need it, rays do not.
     pub camera: Option<Camera>,
-    /// What is seen where nothing is.
+    /// The colour that rays without a hit see.
     pub background: Background,
     /// The scene's own settings.
     pub settings: Settings,
 }
 
-/// What is seen where nothing is.
+/// The colour that rays without a hit see.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Background(pub Colour);
 
@@ -31,14 +31,14 @@ impl Default for Background {
 /// The scene's own settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// How the scene's numbers relate to light.
+    /// How the scene's colour values relate to light.
     pub assumed_gamma: AssumedGamma,
-    /// The version of the language the scene is written in, 3.7 say. Before 3.7 a filtering layer
-    /// is more opaque.
+    /// The version of the language that the scene is written in, such as 3.7. Before 3.7 a
+    /// filtering layer is more opaque.
     pub version: f64,
-    /// How deep rays may follow each other; the camera's has level 1.
+    /// The greatest level of rays. Camera rays have level 1, their reflections level 2, and so on.
     pub max_trace_level: u32,
-    /// Rays that count for less than this are not followed.
+    /// Rays with a smaller weight than this are not traced.
     pub adc_bailout: f64,
     /// The light that is everywhere.
     pub ambient_light: Rgb,
@@ -56,13 +56,13 @@ impl Default for Settings {
     }
 }
 
-/// How the scene's numbers relate to light.
+/// How the scene's colour values relate to light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AssumedGamma {
-    /// They are written into files as they are.
+    /// The values are written into files unchanged.
     None,
-    /// Light is the number to this power; 1 for numbers that are light.
+    /// Light is the value to this power; 1 if the values are light.
     Power(f64),
-    /// They are encoded as sRGB has it.
+    /// The values are encoded as in sRGB.
     Srgb,
 }

@@ -1,4 +1,4 @@
-//! Textures: what a surface looks like at each of its points.
+//! Textures: the look of a surface at each of its points.
 
 use std::sync::Arc;
 
@@ -7,32 +7,33 @@ use durer_surfaces::Blob;
 
 use crate::{Colour, Finish, Pattern, Placement, Rgb};
 
-/// The look of a surface: layers of paint, or a pattern of textures.
+/// The look of a surface: layers, or a pattern of textures.
 ///
 /// Its placement leads from the pattern's space to the space in which the object stands *after* the
-/// object's own placement. So a transform written after the texture moves both, and one written
-/// before it moves the object alone. Textures inside a pattern are placed in the pattern's space.
+/// object's own placement. So a transformation written after the texture moves both, and one
+/// written before it moves the object alone. Textures inside a pattern are placed in the pattern's
+/// space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
-    /// What is shown.
+    /// The layers, or the pattern.
     pub body: TextureBody,
-    /// Where it is shown.
+    /// The placement of the texture.
     pub placement: Placement,
 }
 
-/// What a texture shows.
+/// The contents of a texture.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TextureBody {
     /// Layers from the innermost to the outermost; at least one.
     Layers(Vec<Layer>),
-    /// Other textures by a pattern.
+    /// Other textures, selected or mixed by a pattern.
     Pattern(Box<Pattern<Arc<Texture>>>),
-    /// Other textures by the fields of a blob.
+    /// Other textures, mixed by the fields of a blob.
     Fields(Box<Fields>),
 }
 
-/// Textures by the fields of a blob: at each point a mean of those whose fields reach it, each
-/// weighed by how strong its field is there, whether that is positive or negative.
+/// Textures that are mixed by the fields of a blob. At each point it is the mean of the textures
+/// whose fields reach the point, weighted by the magnitudes of the fields.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fields {
     /// From the blob's space to that of the texture.
@@ -41,7 +42,7 @@ pub struct Fields {
     pub blob: Blob,
     /// The texture of each component, placed in the blob's space.
     pub textures: Vec<Option<Arc<Texture>>>,
-    /// That of components that have none, placed in the space of the texture.
+    /// The texture of components without one of their own, placed in the space of the texture.
     pub rest: Arc<Texture>,
 }
 
@@ -52,38 +53,37 @@ impl Fields {
     }
 }
 
-/// A layer of paint.
+/// A layer of a texture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
     /// Its colour at each point.
     pub pigment: Pigment,
-    /// How it answers to light.
+    /// How it reflects and scatters light.
     pub finish: Arc<Finish>,
 }
 
 impl Texture {
-    /// A single layer.
+    /// Makes a texture of a single layer.
     pub fn plain(pigment: Pigment, finish: impl Into<Arc<Finish>>) -> Self {
         Self::layers(vec![Layer { pigment, finish: finish.into() }])
     }
 
-    /// Several layers, from the innermost to the outermost.
+    /// Makes a texture of several layers, from the innermost to the outermost.
     pub fn layers(layers: Vec<Layer>) -> Self {
         Self { body: TextureBody::Layers(layers), placement: Placement::IDENTITY }
     }
 
-    /// Other textures by a pattern.
+    /// Makes a texture of other textures, selected or mixed by a pattern.
     pub fn pattern(pattern: Pattern<Arc<Texture>>) -> Self {
         Self { body: TextureBody::Pattern(Box::new(pattern)), placement: Placement::IDENTITY }
     }
 
-    /// Moves the texture by `map`.
+    /// Transforms the texture by `map`.
     pub fn transform(&mut self, map: &Affine) -> Result<(), AffineError> {
         self.placement.then(map)
     }
 
-    /// Whether no light passes anywhere: where there are layers, it takes one that is opaque
-    /// everywhere.
+    /// Whether no light passes anywhere. Layers are opaque if one of them is opaque everywhere.
     pub fn is_opaque(&self) -> bool {
         match &self.body {
             TextureBody::Layers(layers) => layers.iter().any(|l| l.pigment.is_opaque()),
@@ -101,7 +101,7 @@ impl Texture {
         }
     }
 
-    /// Whether it looks the same everywhere, so that it need not be moved.
+    /// Whether it looks the same everywhere, so that moving it has no effect.
     pub fn is_uniform(&self) -> bool {
         match &self.body {
             TextureBody::Layers(layers) => {
@@ -113,7 +113,7 @@ impl Texture {
 }
 
 impl Default for Texture {
-    /// Black paint with the default finish.
+    /// A black layer with the default finish.
     fn default() -> Self {
         Self::plain(Pigment::default(), Finish::default())
     }
@@ -128,30 +128,30 @@ pub struct Pigment {
     pub placement: Placement,
 }
 
-/// What colours a pigment has.
+/// The contents of a pigment.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PigmentBody {
     /// One colour.
     Solid(Colour),
-    /// Colours by a pattern.
+    /// Colours, selected or mixed by a pattern.
     Colours(Box<Pattern<Colour>>),
-    /// Other pigments by a pattern; a map blends their colours. They are placed in this pigment's
-    /// space.
+    /// Other pigments, selected or mixed by a pattern; a map mixes their colours. They are placed
+    /// in this pigment's space.
     Pigments(Box<Pattern<Pigment>>),
 }
 
 impl Pigment {
-    /// One colour everywhere.
+    /// Makes a pigment with one colour everywhere.
     pub fn solid(colour: Colour) -> Self {
         Self { body: PigmentBody::Solid(colour), placement: Placement::IDENTITY }
     }
 
-    /// Colours by a pattern.
+    /// Makes a pigment of colours, selected or mixed by a pattern.
     pub fn colours(pattern: Pattern<Colour>) -> Self {
         Self { body: PigmentBody::Colours(Box::new(pattern)), placement: Placement::IDENTITY }
     }
 
-    /// Other pigments by a pattern.
+    /// Makes a pigment of other pigments, selected or mixed by a pattern.
     pub fn pigments(pattern: Pattern<Pigment>) -> Self {
         Self { body: PigmentBody::Pigments(Box::new(pattern)), placement: Placement::IDENTITY }
     }
@@ -175,7 +175,7 @@ impl Pigment {
         }
     }
 
-    /// Moves the pigment by `map`.
+    /// Transforms the pigment by `map`.
     pub fn transform(&mut self, map: &Affine) -> Result<(), AffineError> {
         self.placement.then(map)
     }

@@ -1,4 +1,5 @@
-//! `cargo xtask differential`: random small scenes, rendered by durer and by POV-Ray, and cut back where the pictures differ.
+//! `cargo xtask differential`: renders random small scenes with durer and with POV-Ray, and reduces
+//! the scenes whose pictures differ.
 
 mod random;
 mod reduce;
@@ -16,13 +17,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 const SHOT: Shot<'static> = Shot { width: 96, height: 72, aa: "off", threads: Some(1) };
 
-/// The share of pixels that POV-Ray must give twice, or its picture is noise.
+/// The fraction of pixels that POV-Ray must reproduce; otherwise its picture counts as noise.
 const STABLE: f64 = 0.997;
 
-/// Smaller scenes that are tried for one that differs.
+/// The number of smaller scenes to try for a scene that differs.
 const TRIES: usize = 400;
 
-/// What is asked for on the command line.
+/// The request on the command line.
 #[derive(Debug, PartialEq)]
 struct Request {
     scenes: u64,
@@ -31,18 +32,19 @@ struct Request {
     reduce: bool,
 }
 
-/// What the two programs make of a scene.
+/// The result of rendering a scene with both programs.
 #[derive(Clone, Debug, PartialEq)]
 enum Verdict {
     Agrees,
-    /// The share of pixels that differ.
+    /// The fraction of pixels that differ.
     Differs(f64),
-    /// durer does not render it, and why.
+    /// durer does not render it, for this reason.
     Refused(String),
     /// POV-Ray does not render it.
     NoScene,
-    /// POV-Ray's own picture is another one if the whole scene is moved by a thousandth and its pixels are rendered in another order: its rounding decides, or what it remembers of the
-    /// shadow rays before.
+    /// POV-Ray's own picture changes when the whole scene is moved by a thousandth and its pixels
+    /// are rendered in another order. Then it depends on rounding, or on shadow rays that POV-Ray
+    /// remembers.
     Noise,
 }
 
@@ -51,7 +53,7 @@ impl Verdict {
         matches!(self, Self::Differs(_) | Self::Refused(_))
     }
 
-    /// Whether it is the same kind of fault.
+    /// Whether it is the same kind of failure.
     fn is_like(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Differs(_), Self::Differs(_)) => true,
@@ -61,7 +63,7 @@ impl Verdict {
     }
 }
 
-/// The two programs, and where their pictures go.
+/// The two programs, and the folder for their pictures.
 struct Bench<'a> {
     durer: &'a Durer,
     povray: &'a Povray,
@@ -102,7 +104,7 @@ impl Bench<'_> {
         Ok(Verdict::Differs(1.0 - difference.agreeing))
     }
 
-    /// The smallest scene found with the same kind of fault.
+    /// The smallest scene found with the same kind of failure.
     fn reduced(&self, mut scene: Scene, verdict: &Verdict, name: &str) -> Outcome<Scene> {
         let mut tries = 0;
         'smaller: loop {
@@ -118,13 +120,13 @@ impl Bench<'_> {
             }
             break;
         }
-        // The pictures beside it are its own again.
+        // Renders the scene once more, since the pictures on disk may be those of a smaller one.
         self.judge(&scene, name)?;
         Ok(scene)
     }
 }
 
-/// Renders scenes and writes what differs to target/differential.
+/// Renders scenes and writes those that differ to target/differential.
 pub(crate) fn run(words: &[String]) -> Outcome {
     let request = Request::read(words)?;
     let Some(povray) = Povray::find() else {
@@ -185,7 +187,7 @@ pub(crate) fn run(words: &[String]) -> Outcome {
     if found.is_empty() { Ok(()) } else { Err(format!("scenes that differ are in {}", folder.display())) }
 }
 
-/// Judges one scene; leaves its file and pictures behind if it is at fault.
+/// Judges one scene. If the programs differ, its file and pictures are kept.
 fn one(bench: &Bench<'_>, request: &Request, number: u64) -> Outcome<Verdict> {
     let scene = scene::scene(request.seed, number);
     let name = format!("seed-{}-{number}", request.seed);
@@ -202,7 +204,7 @@ fn one(bench: &Bench<'_>, request: &Request, number: u64) -> Outcome<Verdict> {
     Ok(verdict)
 }
 
-/// A picture that was not made need not be removed.
+/// Removes a picture; it may not exist.
 fn remove(path: &Path) {
     let _ = std::fs::remove_file(path);
 }

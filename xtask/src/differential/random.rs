@@ -5,7 +5,7 @@
 pub(super) struct Random(u64);
 
 impl Random {
-    /// The stream of one scene of a run.
+    /// The stream for one scene of a run.
     pub(super) fn new(seed: u64, number: u64) -> Self {
         let mut mixed = Self(seed);
         Self(mixed.next() ^ number.wrapping_mul(0xD134_2543_DE82_EF95))
@@ -19,34 +19,34 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Below `count`.
+    /// An integer below `count`.
     pub(super) fn below(&mut self, count: usize) -> usize {
         (self.next() % count.max(1) as u64) as usize
     }
 
-    /// True this often of a hundred times.
+    /// True with a probability of `percent` / 100.
     pub(super) fn chance(&mut self, percent: usize) -> bool {
         self.below(100) < percent
     }
 
-    /// One of them.
+    /// One of the given words.
     pub(super) fn choice<'a>(&mut self, all: &[&'a str]) -> &'a str {
         all[self.below(all.len())]
     }
 
-    /// A number in thousandths.
+    /// A random number, as a multiple of a thousandth.
     pub(super) fn number(&mut self, low: f64, high: f64) -> f64 {
         let unit = (self.next() >> 11) as f64 / (1_u64 << 53) as f64;
         ((low + (high - low) * unit) * 1000.0).round() / 1000.0
     }
 
-    /// Three numbers in the language's form.
+    /// A random vector in the syntax of the language.
     pub(super) fn vector(&mut self, low: f64, high: f64) -> String {
         let v: [f64; 3] = std::array::from_fn(|_| self.number(low, high));
         format!("<{}, {}, {}>", v[0], v[1], v[2])
     }
 
-    /// In any order.
+    /// Puts the items in random order.
     pub(super) fn shuffle<T>(&mut self, items: &mut [T]) {
         for last in (1..items.len()).rev() {
             items.swap(last, self.below(last + 1));

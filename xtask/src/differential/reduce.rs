@@ -1,8 +1,8 @@
-//! Smaller scenes: whatever can be left out is, as long as the two programs still differ.
+//! Reduction of scenes: everything is removed that can go while the two programs still differ.
 
 use super::scene::{Node, Scene};
 
-/// All scenes that are one step smaller, those that lack most first.
+/// All scenes that are one step smaller, those with the most removed first.
 pub(super) fn smaller(scene: &Scene) -> Vec<Scene> {
     let mut all = Vec::new();
     lists(scene, &mut all, |s| &s.objects, |s| &mut s.objects);
@@ -22,7 +22,7 @@ pub(super) fn smaller(scene: &Scene) -> Vec<Scene> {
     all
 }
 
-/// Scenes without one node of a list, and with a smaller node of it.
+/// Scenes without one node of a list, or with a smaller version of the node.
 fn lists(
     scene: &Scene,
     all: &mut Vec<Scene>,
@@ -52,10 +52,10 @@ fn within(
     }
 }
 
-/// A node with something left out: a part, a modifier, or all but one part.
+/// Smaller versions of a node: without a part, without a modifier, or with one part only.
 fn cut(node: &Node) -> Vec<Node> {
     let mut all = Vec::new();
-    // What is declared stays so.
+    // A declaration keeps its name.
     let (name, _) =
         node.open.split_once(" = ").filter(|(n, _)| n.starts_with("#declare ")).unwrap_or_default();
     let renamed = |mut part: Node| {

@@ -1,20 +1,20 @@
-//! A random scene as a tree, which can be written and cut back.
+//! A random scene as a tree, which can be written as text and reduced.
 
 use super::random::Random;
 use std::fmt::Write as _;
 
-/// A piece of text with pieces inside: an object, a loop, what clips.
+/// A piece of text with other pieces inside: an object, a loop, a clip.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Node {
-    /// Up to the first part: `sphere { 0, 1`, `union {`, `#for (I, 0, 3)`.
+    /// The text up to the first part: `sphere { 0, 1`, `union {`, `#for (I, 0, 3)`.
     pub(super) open: String,
-    /// Objects inside.
+    /// The objects inside.
     pub(super) parts: Vec<Node>,
-    /// Modifiers behind them, in their order.
+    /// The modifiers after them, in their order.
     pub(super) said: Vec<Node>,
     /// `}` or `#end`; empty for plain text.
     pub(super) close: &'static str,
-    /// Fewer parts are no scene.
+    /// The least number of parts with which the node is valid.
     pub(super) least: usize,
 }
 
@@ -42,7 +42,7 @@ impl Node {
         let _ = writeln!(text, "{lead}{}", self.close);
     }
 
-    /// How many nodes it is.
+    /// The number of nodes in it.
     pub(super) fn size(&self) -> usize {
         1 + self.parts.iter().chain(&self.said).map(Self::size).sum::<usize>()
     }
@@ -55,7 +55,7 @@ pub(super) struct Scene {
     pub(super) settings: Vec<Node>,
     pub(super) camera: Node,
     pub(super) lights: Vec<Node>,
-    /// Declared objects and macros.
+    /// Declarations of objects and macros.
     pub(super) declared: Vec<Node>,
     pub(super) objects: Vec<Node>,
 }
@@ -69,7 +69,7 @@ impl Scene {
         text
     }
 
-    /// The same scene a little elsewhere: all that can be seen is where it was in the picture.
+    /// The same scene in another place. Everything visible stays where it was in the picture.
     pub(super) fn moved(&self) -> Self {
         let mut moved = self.clone();
         let by = Node::text("translate <0.00123, 0.00217, 0.00331>");
@@ -81,37 +81,38 @@ impl Scene {
         moved
     }
 
-    /// How many nodes it is.
+    /// The number of nodes in it.
     pub(super) fn size(&self) -> usize {
         let all = self.settings.iter().chain([&self.camera]).chain(&self.lights);
         all.chain(&self.declared).chain(&self.objects).map(Node::size).sum()
     }
 }
 
-/// What may stand at a place.
+/// The kind of object that is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Wanted {
     /// Any object.
     Any,
-    /// Something with an inside.
+    /// An object with an inside.
     Solid,
 }
 
-/// Makes one scene.
+/// Makes a scene.
 pub(super) struct Maker {
     r: Random,
-    /// Names of declared objects, and whether they are solids.
+    /// The names of declared objects, and whether they are solids.
     names: Vec<(String, bool)>,
-    /// Names of macros of a size and a pigment.
+    /// The names of macros that take a size and a pigment.
     macros: Vec<String>,
-    /// Objects that may still be made.
+    /// The number of objects that may still be made.
     budget: usize,
-    /// There are prisms and triangles, and no interior textures: POV-Ray shows those on the outside of one end of a prism, and of a triangle on a side that
-    /// depends on how it was turned.
+    /// Whether the scene has prisms and triangles but no interior textures. On prisms, POV-Ray
+    /// shows these on the outside of one end; on triangles, on a side that depends on how they were
+    /// rotated.
     prisms: bool,
 }
 
-/// The scene with this number of a run.
+/// Makes the scene with this number in a run.
 pub(super) fn scene(seed: u64, number: u64) -> Scene {
     let mut maker = Maker {
         r: Random::new(seed, number),
@@ -184,7 +185,7 @@ impl Maker {
         Scene { settings, camera, lights, declared, objects }
     }
 
-    /// Camera, lights, and the objects on whose surfaces they stand.
+    /// Makes the camera, the lights, and the objects on whose surfaces these stand.
     fn view(&mut self) -> (Node, Vec<Node>, Vec<Node>) {
         let mut objects = Vec::new();
         if self.r.chance(70) {
@@ -212,12 +213,12 @@ impl Maker {
                 let middle = self.r.choice(&["<0, 0, -7>", "<0, 0, -5>", "<1, 0, -6>"]);
                 objects.push(self.plain(format!("sphere {{ {middle}, 1")));
             }
-            // On a pane.
+            // On the face of a pane.
             1 => {
                 location = "<0, 0.5, -6>".into();
                 objects.push(self.plain("box { <-1, -1, -6>, <1, 1, -5.875>".into()));
             }
-            // Inside something.
+            // Inside a sphere.
             2 => {
                 location = "<0, 0.25, -6>".into();
                 objects.push(self.plain("sphere { <0, 0.25, -6>, 0.7".into()));
@@ -227,7 +228,7 @@ impl Maker {
         }
         let lens = match self.r.below(5) {
             0 => "angle 70".to_owned(),
-            // Where it stands is a plane, which crosses what stands near.
+            // An orthographic camera stands on a plane, which would cross objects nearby.
             1 if objects.len() < 2 => "orthographic angle 45".to_owned(),
             _ => "angle 45".to_owned(),
         };
@@ -243,7 +244,7 @@ impl Maker {
                 self.r.number(2.0, 7.0),
                 self.r.number(-7.0, 3.0)
             );
-            // On a ceiling. Lights on balls and boxes are speckles in POV-Ray.
+            // On a ceiling. Lights on balls and boxes make speckles in POV-Ray.
             if self.r.below(10) == 0 {
                 at = "<0, 3, -1>".into();
                 objects.push(self.plain("plane { y, 3".into()));
@@ -265,14 +266,14 @@ impl Maker {
         (camera, lights, objects)
     }
 
-    /// A shape with a look and no place.
+    /// Makes a shape with a look, without a transformation.
     fn plain(&mut self, open: String) -> Node {
         let mut made = Node::block(open, Vec::new(), 0);
         self.look(&mut made.said);
         made
     }
 
-    /// An object of the scene's own level, or a loop of them.
+    /// Makes an object at the top level of the scene, or a loop of objects.
     fn top(&mut self) -> Node {
         match self.r.below(10) {
             0 if !self.names.is_empty() => {
@@ -325,7 +326,7 @@ impl Maker {
         Some(made)
     }
 
-    /// Any object, with at most `depth` combinations inside each other.
+    /// Makes an object with at most `depth` nested combinations.
     fn object(&mut self, depth: usize, wanted: Wanted) -> Node {
         if self.r.chance(15)
             && let Some(known) = self.instance(wanted)
@@ -335,7 +336,8 @@ impl Maker {
         if depth == 0 || self.budget < 3 || self.r.chance(35) {
             return self.leaf(wanted);
         }
-        // A union loses its inner surfaces inside of a solid: `merge` stands there until that is mended.
+        // Inside a solid, a union loses its inner surfaces. `merge` is used there until that is
+        // fixed.
         let words: &[&str] = match wanted {
             Wanted::Any => &["union", "union", "union", "merge", "difference", "intersection"],
             Wanted::Solid => &["merge", "merge", "difference", "intersection"],
@@ -347,14 +349,14 @@ impl Maker {
         if word == "intersection" {
             parts.truncate(3);
         }
-        // In other places POV-Ray has a box for it that it does not fit in.
+        // In other places POV-Ray gives an inverse object a bounding box that does not contain it.
         if matches!(word, "intersection" | "difference")
             && self.r.chance(15)
             && let Some(part) = parts.get_mut(1)
         {
             part.said.push(Node::text("inverse"));
         }
-        // Pieces near the middle, so that they meet.
+        // The parts are near the middle, so that they overlap.
         for part in &mut parts {
             let at = self.r.vector(-0.6, 0.6);
             part.said.push(Node::text(format!("translate {at}")));
@@ -448,7 +450,7 @@ impl Maker {
         made
     }
 
-    /// A look, a place, habits and clips, in any order.
+    /// Adds a look, a transformation, flags and clips, in random order.
     fn modifiers(&mut self, said: &mut Vec<Node>) {
         if self.r.chance(55) {
             self.look(said);
@@ -507,7 +509,7 @@ impl Maker {
         }
     }
 
-    /// A texture in one of the language's ways, and what belongs to it.
+    /// Adds a texture in one of the language's forms, and what belongs to it.
     fn look(&mut self, said: &mut Vec<Node>) {
         match self.r.below(12) {
             0 | 1 => {
@@ -540,7 +542,7 @@ impl Maker {
                     self.r.number(0.0, 1.0),
                     self.r.number(0.3, 0.9)
                 );
-                // Both layers stay together when modifiers are mixed.
+                // Both layers stay together when the modifiers are shuffled.
                 if let Some(last) = said.last_mut() {
                     last.open = format!("{} texture {{ pigment {{ {clear} }} }}", last.open);
                 }

@@ -1,5 +1,5 @@
-//! Accessors: lists of numbers in the bytes of a view, with single ones replaced by those of others
-//! if they are sparse.
+//! Accessors: arrays of numbers in the bytes of a view. A sparse accessor replaces some of their
+//! elements.
 
 use super::buffers::Buffers;
 use super::{item, wrong};
@@ -8,7 +8,7 @@ use gltf::json::accessor::{Accessor, ComponentType, Type};
 use gltf::json::buffer::View;
 use gltf::json::validation::Checked;
 
-/// Where numbers lie: from a byte of a view on, every so many bytes.
+/// The layout of numbers in a view: an offset and an element type. The view gives the stride.
 struct Layout {
     view: usize,
     offset: u64,
@@ -26,12 +26,12 @@ pub(super) struct Accessors<'a> {
 }
 
 impl Accessors<'_> {
-    /// How many elements an accessor says it has.
+    /// The number of elements that an accessor declares.
     pub(super) fn count(&self, number: usize, asked: Location) -> Result<u64, ErrorKind> {
         Ok(item(self.list, number, "accessor", asked)?.count.0)
     }
 
-    /// The elements of an accessor of `N` components, integers that are normalised as fractions.
+    /// The elements of an accessor with `N` components. Normalised integers become fractions.
     pub(super) fn vectors<const N: usize>(
         &mut self,
         number: usize,
@@ -44,7 +44,7 @@ impl Accessors<'_> {
         })
     }
 
-    /// The elements of an accessor of whole numbers.
+    /// The elements of an accessor of unsigned integers.
     pub(super) fn indices(&mut self, number: usize, asked: Location) -> Result<Vec<u32>, ErrorKind> {
         let Checked::Valid(kind) = item(self.list, number, "accessor", asked)?.component_type else {
             return wrong(Location::Element("accessor", number), "its componentType is unknown");
@@ -85,7 +85,8 @@ impl Accessors<'_> {
                 .read(&Layout { view: view.value(), offset, kind: kind.0, components, count, spot }, |b| {
                     read(kind.0, b)
                 })?,
-            // Zeros, of which there may be as many as there are bytes, whatever is promised.
+            // The accessor is all zeros. It may have as many elements as the files have bytes,
+            // whatever it declares.
             None => {
                 let room = self.buffers.there as u64;
                 if count > room {
@@ -134,8 +135,7 @@ impl Accessors<'_> {
         Ok(all)
     }
 
-    /// Reads what lies where the layout says, after making sure that there is as much as it
-    /// promises.
+    /// Reads the elements of a layout, after checking that the view contains all of them.
     fn read<T>(&mut self, layout: &Layout, read: impl Fn(&[u8]) -> T) -> Result<Vec<T>, ErrorKind> {
         let &Layout { view, offset, kind, components, count, spot } = layout;
         let element = kind.size() * components;
@@ -158,12 +158,12 @@ impl Accessors<'_> {
     }
 }
 
-/// A number without a sign, of one, two or four bytes.
+/// An unsigned integer of one, two or four bytes.
 fn whole(bytes: &[u8]) -> u32 {
     bytes.iter().rev().fold(0, |n, &b| n << 8 | u32::from(b))
 }
 
-/// A component as a number; what is normalised lies between -1 or 0 and 1.
+/// A component as a number. Normalised integers lie in `[-1, 1]` or `[0, 1]`.
 fn value(kind: ComponentType, is_normalized: bool, bytes: &[u8]) -> f64 {
     let bits = whole(bytes);
     let (number, most) = match kind {

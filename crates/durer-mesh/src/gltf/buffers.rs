@@ -1,4 +1,4 @@
-//! Buffers: the chunk behind the text, files beside it, or bytes written into it as base 64.
+//! Buffers: the binary chunk of the file, separate files, or base 64 within the text.
 
 use super::item;
 use crate::error::{ErrorKind, Location};
@@ -10,13 +10,13 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// The buffers of a file; each is read when it is asked for.
+/// The buffers of a file. Each is read when it is first needed.
 pub(super) struct Buffers<'a> {
     list: &'a [Buffer],
     chunk: Option<&'a [u8]>,
     folder: Option<&'a Path>,
     read: Vec<Option<Cow<'a, [u8]>>>,
-    /// How many bytes there are, in the file and in those beside it that were read.
+    /// The number of bytes of this file and of the separate files read so far.
     pub(super) there: usize,
 }
 
@@ -48,7 +48,7 @@ impl<'a> Buffers<'a> {
             let what = format!("bytes from byte {from} of buffer {buffer}");
             return Err(ErrorKind::Room { spot, what, promised: length, room });
         }
-        // Both fit the buffer, which is in memory.
+        // Both ends lie in the buffer, which is in memory, so they fit usize.
         Ok(&bytes[from as usize..(from + length) as usize])
     }
 
@@ -87,7 +87,7 @@ impl<'a> Buffers<'a> {
         Ok(bytes)
     }
 
-    /// The bytes of a file beside this one, not more of them than are promised.
+    /// Reads a separate file, but no more bytes than the buffer declares.
     fn beside(&self, uri: &str, promised: u64, spot: Location) -> Result<Vec<u8>, ErrorKind> {
         let path = unescaped(uri);
         let Some(folder) = self.folder else {
@@ -104,7 +104,7 @@ impl<'a> Buffers<'a> {
             spot,
             said: format!("'{}' cannot be read: {e}", shortened(uri)),
         };
-        // A pipe is not even opened: that could wait for ever.
+        // A pipe is not opened, because that could wait forever.
         let about = std::fs::metadata(&path).map_err(failed)?;
         if !about.is_file() {
             return super::wrong(spot, format!("'{}' is no file", shortened(uri)));
@@ -118,7 +118,7 @@ impl<'a> Buffers<'a> {
     }
 }
 
-/// A relative address as a path: `%20` is a blank.
+/// A relative URI as a path: `%20` becomes a space.
 fn unescaped(uri: &str) -> PathBuf {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();
@@ -138,7 +138,7 @@ fn unescaped(uri: &str) -> PathBuf {
     PathBuf::from(String::from_utf8_lossy(&bytes).into_owned())
 }
 
-/// The bytes that are spelt in base 64 (S. Josefsson, RFC 4648, 2006).
+/// Decodes base 64 (S. Josefsson, RFC 4648, 2006).
 fn base64(text: &[u8], spot: Location) -> Result<Vec<u8>, ErrorKind> {
     let text = text.strip_suffix(b"==").or_else(|| text.strip_suffix(b"=")).unwrap_or(text);
     let mut bytes = Vec::with_capacity(text.len() / 4 * 3 + 2);

@@ -1,8 +1,8 @@
-//! The outside of a file: its text, and the chunk of bytes behind it.
+//! The container of a file: its JSON text, and the binary chunk after it.
 //!
-//! A `.glb` file is 12 bytes (`glTF`, a version, the length of all) and chunks: a length, a kind,
-//! as many bytes. The first is the text, the second, if its kind is `BIN`, the buffer without a
-//! name. Chunks of other kinds are passed over.
+//! A `.glb` file starts with 12 bytes (`glTF`, a version, the total length). Chunks follow: a
+//! length, a kind, and that many bytes. The first chunk is the text. The second, if its kind is
+//! `BIN`, is the buffer without a URI. Chunks of other kinds are ignored.
 
 use crate::error::{ErrorKind, Location};
 use crate::text::{one_line, shortened};
@@ -12,7 +12,7 @@ const HEADER: usize = 12;
 const TEXT: &[u8] = b"JSON";
 const BUFFER: &[u8] = b"BIN\0";
 
-/// The text and the chunk behind it.
+/// Splits a file into the text and the binary chunk.
 pub(super) fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ErrorKind> {
     let Some(rest) = bytes.strip_prefix(b"glTF") else { return Ok((bytes, None)) };
     let end = |expected| ErrorKind::End { spot: Location::Byte(bytes.len()), expected };
@@ -26,7 +26,7 @@ pub(super) fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ErrorKind> {
     let (length, _) = number(rest).ok_or_else(|| end("a length"))?;
     promise("bytes".into(), length, bytes.len())?;
     let mut at = HEADER;
-    // What lies behind the promised length is not of the file.
+    // Bytes after the declared length do not belong to the file.
     let whole = bytes.get(..length).unwrap_or(bytes);
     let mut chunk = |kind: &'static str| {
         let head = whole.get(at..).filter(|rest| !rest.is_empty())?;
@@ -67,7 +67,7 @@ fn promise(what: String, promised: usize, room: usize) -> Result<(), ErrorKind> 
     Err(ErrorKind::Promise { what, promised: promised as u64, room: room as u64 })
 }
 
-/// Members that hold indices or codes.
+/// Members that contain indices or codes.
 const INDICES: [&str; 13] = [
     "NORMAL",
     "POSITION",
@@ -84,7 +84,7 @@ const INDICES: [&str; 13] = [
     "scene",
 ];
 
-/// The text as a document.
+/// Parses the text as a glTF document.
 pub(super) fn parse(text: &[u8]) -> Result<Root, ErrorKind> {
     let whole = deserialize::from_slice(text).map_err(|e| said(&e))?;
     check_indices(&whole)?;
@@ -94,12 +94,13 @@ pub(super) fn parse(text: &[u8]) -> Result<Root, ErrorKind> {
 
 fn said(error: &Error) -> ErrorKind {
     let said = error.to_string();
-    // The library says the place at the end, and may repeat long words of the file before it.
+    // The library puts the place at the end of its message. Before that it may quote long words of
+    // the file.
     let cut = said.rfind(" at line ").unwrap_or(said.len());
     ErrorKind::Text { line: error.line(), column: error.column(), said: one_line(&said[..cut]) }
 }
 
-/// The library takes indices modulo 2^32: what is larger is refused here.
+/// Refuses indices that do not fit 32 bits, because the library takes indices modulo 2^32.
 fn check_indices(whole: &Value) -> Result<(), ErrorKind> {
     let lists = ["scene", "node", "mesh", "accessor", "bufferView"].into_iter().zip([
         "scenes",

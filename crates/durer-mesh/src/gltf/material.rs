@@ -1,4 +1,4 @@
-//! Materials: their base colours. Numbers in these files are light, as those of scenes are.
+//! Materials: their base colours. Colour values in glTF files are linear light, as in scenes.
 
 use crate::default_view;
 use crate::error::{ErrorKind, Location};
@@ -8,7 +8,7 @@ use gltf::json::material::AlphaMode;
 use gltf::json::validation::Checked;
 use std::sync::Arc;
 
-/// What a material looks like as far as it can be told without its images.
+/// The texture of a material, without its images.
 pub(super) fn texture(material: &Material, number: usize) -> Result<Arc<Texture>, ErrorKind> {
     let spot = Location::Element("material", number);
     let factor = material.pbr_metallic_roughness.base_color_factor.0.map(f64::from);

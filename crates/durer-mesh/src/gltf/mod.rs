@@ -1,16 +1,17 @@
-//! glTF 2.0: a text in JSON with buffers beside it (`.gltf`) or behind it (`.glb`). (The Khronos
+//! glTF 2.0: JSON text with separate buffers (`.gltf`) or a binary chunk (`.glb`). (The Khronos
 //! Group, *glTF 2.0 Specification*, 2021.)
 //!
-//! Read are the nodes of the default scene (of the first one, if none is named; all nodes that are
-//! nobody's children, if there is no scene; all meshes, if there are no nodes), their transforms,
-//! and of their meshes `POSITION`, `NORMAL` and `TEXCOORD_0`, indices, strips and fans, all types
-//! of components, sparse accessors, and the base colours of materials. Each mesh becomes one group,
-//! however many primitives it has, and is there once, however many nodes show it.
+//! The reader uses the nodes of the default scene. If no scene is named, it uses the first one; if
+//! there is no scene, all nodes that are nobody's children; if there are no nodes, all meshes. It
+//! reads the transforms of nodes. Of meshes it reads `POSITION`, `NORMAL` and `TEXCOORD_0`,
+//! indices, strips and fans, all component types, sparse accessors, and the base colours of
+//! materials. Each mesh becomes one group, however many primitives it has. It is stored once,
+//! however many nodes show it.
 //!
-//! Coordinates and transforms are f32 in these files; transforms are composed in f64. Passed over
-//! are points, lines, vertex colours, images, everything else of materials, cameras, lights, skins,
-//! morph targets and animations. Files that require an extension that changes how their triangles
-//! are stored are refused.
+//! Coordinates and transforms are f32 in these files; transforms are composed in f64. Points,
+//! lines, vertex colours, images, all other properties of materials, cameras, lights, skins, morph
+//! targets and animations are ignored. Files that require an extension that changes how their
+//! triangles are stored are refused.
 
 mod accessor;
 mod buffers;
@@ -26,15 +27,15 @@ use buffers::Buffers;
 use primitive::Assembly;
 use std::path::Path;
 
-/// Extensions that may be required: what they change is understood, or passed over without harm to
-/// the triangles.
+/// Extensions that a file may require. The reader implements them, or can ignore them without harm
+/// to the triangles.
 const UNDERSTOOD: [&str; 3] = ["KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual"];
 
-/// Each object that light passes is a body of its own, with a look for each face: few bytes could
-/// fill any memory with these.
+/// The greatest number of clear faces. Each object that light passes is a solid of its own, with a
+/// look for each face, so without this limit a small file could fill any memory.
 const MOST_CLEAR: usize = 1 << 26;
 
-/// Reads a file that is in memory; `folder` holds the buffers beside it.
+/// Reads a file from memory; `folder` contains its separate buffers.
 pub(crate) fn read(
     bytes: &[u8],
     folder: Option<&Path>,
@@ -64,7 +65,7 @@ pub(crate) fn read(
             Some(group) => group,
             None => {
                 let read = assembly.mesh(mesh)?;
-                // Points and lines leave nothing.
+                // Points and lines give no faces.
                 let group = (!read.mesh.faces.is_empty()).then(|| {
                     groups.push(read);
                     groups.len() - 1
@@ -81,7 +82,7 @@ pub(crate) fn read(
         }
     }
     match warnings.first() {
-        // Nothing else is there: the reason is of more use than that there are no faces.
+        // Nothing else is shown. This reason is more useful than "there are no faces".
         Some(Warning::Flat { node, how }) if groups.is_empty() => wrong(
             Location::Element("node", *node),
             format!("{how} flattens it, so its faces have no area, and there are no others"),
@@ -90,18 +91,18 @@ pub(crate) fn read(
     }
 }
 
-/// How many faces a mesh has, if light passes some of them.
+/// The number of faces of a mesh, or 0 if no light passes any of them.
 fn clear_faces(group: &Group) -> usize {
     if group.mesh.textures.iter().all(|t| t.is_opaque()) { 0 } else { group.mesh.faces.len() }
 }
 
-/// What an index of a list names.
+/// The item of a list that an index refers to.
 fn item<'a, T>(list: &'a [T], index: usize, what: &'static str, spot: Location) -> Result<&'a T, ErrorKind> {
     let missing = ErrorKind::Index { spot, what, index: index as i64, count: list.len() };
     list.get(index).ok_or(missing)
 }
 
-/// Something that the format does not allow.
+/// An error: the file violates the format.
 fn wrong<T>(spot: Location, said: impl Into<String>) -> Result<T, ErrorKind> {
     Err(ErrorKind::Element { spot, said: said.into() })
 }

@@ -1,4 +1,4 @@
-//! The tree of nodes: which meshes are shown, and where.
+//! The tree of nodes: which meshes are shown, and their placements.
 
 use super::{item, wrong};
 use crate::Warning;
@@ -6,17 +6,17 @@ use crate::error::{ErrorKind, Location};
 use durer_math::{Affine, AffineError, Point3};
 use gltf::json::{Node, Root};
 
-/// Where a node is.
+/// The transform of a node.
 #[derive(Clone, Copy)]
 enum Standing {
     /// From its frame to the world.
     Placed(Affine),
-    /// Its transform, or that of the node of this number above it, has no inverse, so its faces
-    /// have no area. A scale of 0 is how animations hide a node.
+    /// The transform of this node, or of the given node above it, has no inverse, so the faces have
+    /// no area. Animations hide nodes by a scale of 0.
     Flat(usize),
 }
 
-/// The meshes that the scene shows, each with its place in the world, in the order of the tree.
+/// The meshes that the scene shows, each with its placement in the world, in the order of the tree.
 pub(super) fn shown(root: &Root, warnings: &mut Vec<Warning>) -> Result<Vec<(usize, Affine)>, ErrorKind> {
     let (tops, asked) = tops(root)?;
     if root.nodes.is_empty() && tops.is_empty() {
@@ -65,7 +65,7 @@ pub(super) fn shown(root: &Root, warnings: &mut Vec<Warning>) -> Result<Vec<(usi
     Ok(shown)
 }
 
-/// The nodes at the top, and what names them.
+/// The nodes at the top of the tree, and the place that lists them.
 fn tops(root: &Root) -> Result<(Vec<usize>, Location), ErrorKind> {
     let number = root.scene.map_or(0, |s| s.value());
     if root.scene.is_some() || !root.scenes.is_empty() {
@@ -88,7 +88,7 @@ fn tops(root: &Root) -> Result<(Vec<usize>, Location), ErrorKind> {
     }
 }
 
-/// Why a node's transform has no inverse.
+/// The reason why a node's transform has no inverse.
 fn flattening(node: &Node) -> String {
     let scale = node.scale.filter(|_| node.matrix.is_none()).unwrap_or([1.0; 3]);
     let axes: Vec<&str> =
@@ -102,8 +102,8 @@ fn flattening(node: &Node) -> String {
     }
 }
 
-/// From a node's frame to its parent's: a matrix, column by column, or a scale, then a rotation,
-/// then a translation. `None` if it has no inverse.
+/// The map from a node's frame to its parent's: a matrix in column order, or a scale, then a
+/// rotation, then a translation. `None` if it has no inverse.
 fn local(node: &Node, spot: Location) -> Result<Option<Affine>, ErrorKind> {
     let wide = |x: f32| f64::from(x);
     let (rows, centre) = match node.matrix {
@@ -131,12 +131,12 @@ fn local(node: &Node, spot: Location) -> Result<Option<Affine>, ErrorKind> {
     }
 }
 
-/// The rotation of a quaternion `x y z w` of any length but zero; that of one of length 1 that was
-/// rounded is still a rotation.
+/// The rotation of a quaternion `x y z w` of any length but zero. A unit quaternion with rounded
+/// numbers still gives a rotation.
 fn rotation(q: [f64; 4], spot: Location) -> Result<[[f64; 3]; 3], ErrorKind> {
     let [x, y, z, w] = q;
     let square: f64 = q.iter().map(|c| c * c).sum();
-    // f32 numbers have squares that are normal numbers.
+    // The squares of f32 numbers are normal f64 numbers.
     if !(square.is_finite() && square > 0.0) {
         return wrong(spot, "its rotation must be finite and not zero");
     }

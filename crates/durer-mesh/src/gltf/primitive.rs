@@ -1,4 +1,4 @@
-//! Meshes: what all their primitives show, as one group.
+//! Meshes: all primitives of a mesh, combined into one group.
 
 use super::accessor::Accessors;
 use super::buffers::Buffers;
@@ -12,20 +12,20 @@ use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
 use std::collections::HashMap;
 
-/// Triangles that a file may have for each byte of it. Each index is a byte or more and begins one
-/// triangle at most, so that only a file that uses the same indices more often than this is
-/// refused: its few bytes could fill any memory.
+/// The greatest number of triangles for each byte of a file. Each index takes at least one byte and
+/// starts at most one triangle, so this refuses only files that use the same indices more often.
+/// Without a limit, a small file could fill any memory.
 const MOST_OF_A_BYTE: u64 = 16;
 
-/// What is put together to meshes.
+/// Builds meshes from the file's lists.
 pub(super) struct Assembly<'a> {
     root: &'a Root,
     accessors: Accessors<'a>,
-    /// How many vertices and triangles there are in all groups.
+    /// The number of vertices and triangles in all groups.
     made: u64,
 }
 
-/// The lists of a group, and where what was read already is in them.
+/// The lists of a group, and the positions in them of the accessors that were already read.
 #[derive(Default)]
 struct Lists {
     mesh: Mesh,
@@ -41,7 +41,7 @@ impl<'a> Assembly<'a> {
         Self { root, accessors, made: 0 }
     }
 
-    /// A mesh, whose number is that of one.
+    /// Builds the mesh with this index.
     pub(super) fn mesh(&mut self, number: usize) -> Result<Group, ErrorKind> {
         let mesh = &self.root.meshes[number];
         let mut lists = Lists::default();
@@ -88,7 +88,7 @@ impl<'a> Assembly<'a> {
                 }
                 corners
             }
-            // The list was read: its length fits 32 bits.
+            // The list has been read, so its length fits 32 bits.
             None => (0..count as u32).collect(),
         };
         if mode == Mode::Triangles && !corners.len().is_multiple_of(3) {
@@ -118,7 +118,8 @@ impl<'a> Assembly<'a> {
         Ok(())
     }
 
-    /// Where an attribute's list begins in the group's; it is read if it is not there yet.
+    /// The position in the group's list where an attribute's elements begin. Reads them if they are
+    /// not there yet.
     fn list<T, const N: usize>(
         &mut self,
         number: usize,
@@ -162,7 +163,8 @@ impl<'a> Assembly<'a> {
         Ok(Some(place))
     }
 
-    /// Counts what is made against what a file of this size can hold.
+    /// Adds to the count of vertices and triangles, and checks it against the limit for a file of
+    /// this size.
     fn make(&mut self, count: usize) -> Result<(), ErrorKind> {
         self.made = self.made.saturating_add(count as u64);
         let most = (self.accessors.buffers.there as u64).saturating_mul(MOST_OF_A_BYTE);

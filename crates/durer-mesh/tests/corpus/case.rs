@@ -1,9 +1,9 @@
-//! What must hold of any bytes that are read as a mesh file.
+//! Laws that hold for any bytes that are read as a mesh file.
 
 use durer_mesh::{Format, Model, Topology, read_bytes};
 
-/// Reads the bytes. What is refused has one short line to say; of what is read, all indices are in
-/// range, and a scene can be made of it.
+/// Reads the bytes. A refused file gives one short line of message. An accepted one has all indices
+/// in range and can be made into a scene.
 ///
 /// # Panics
 ///

@@ -1,11 +1,11 @@
-//! glTF files, written by hand.
+//! A writer for glTF files in tests.
 
 use std::ops::Range;
 
-/// A file in the making: lists of the document, and one buffer.
+/// A file under construction: lists of the document, and one buffer.
 #[derive(Default)]
 pub(crate) struct File {
-    /// The lists' names and items; `scene` is a single number.
+    /// The names and items of the lists; `scene` is a single number.
     pub(crate) lists: Vec<(String, String)>,
     pub(crate) bytes: Vec<u8>,
 }
@@ -20,7 +20,7 @@ impl File {
         self.lists.iter().filter(|l| l.0 == name).count()
     }
 
-    /// Adds a view of new bytes; its number.
+    /// Adds a view of new bytes and returns its number.
     pub(crate) fn view(&mut self, bytes: &[u8], stride: Option<usize>) -> usize {
         let number = self.count("bufferViews");
         let stride = stride.map(|s| format!(r#", "byteStride": {s}"#)).unwrap_or_default();
@@ -33,14 +33,14 @@ impl File {
         number
     }
 
-    /// Adds an accessor of new bytes; its number.
+    /// Adds an accessor of new bytes and returns its number.
     pub(crate) fn accessor(&mut self, about: &str, bytes: &[u8]) -> usize {
         let view = self.view(bytes, None);
         self.list("accessors", &format!(r#"{{ "bufferView": {view}, {about} }}"#));
         self.count("accessors") - 1
     }
 
-    /// The document, its buffer's members given.
+    /// The document; `buffer` are further members of its buffer.
     pub(crate) fn text(&self, buffer: &str) -> String {
         let mut names: Vec<&str> =
             self.lists.iter().map(|l| l.0.as_str()).filter(|n| *n != "scene").collect();
@@ -60,7 +60,7 @@ impl File {
         )
     }
 
-    /// The file with its buffer in it as text.
+    /// The file with its buffer as base 64 in the text.
     pub(crate) fn data(&self) -> String {
         self.text(&format!(r#", "uri": "data:application/octet-stream;base64,{}""#, base64(&self.bytes)))
     }
@@ -98,7 +98,7 @@ pub(crate) fn shorts(list: &[u16]) -> Vec<u8> {
     list.iter().flat_map(|x| x.to_le_bytes()).collect()
 }
 
-/// Where the numbers of a document are, but for those in strings.
+/// The ranges of numbers in a document, except those within strings.
 pub(crate) fn numbers(text: &str) -> Vec<Range<usize>> {
     let is_number = |b: u8| b.is_ascii_digit() || b"+-.eE".contains(&b);
     let (mut places, mut quoted, mut at) = (Vec::new(), false, 0);

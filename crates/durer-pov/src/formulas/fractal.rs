@@ -1,4 +1,4 @@
-//! The functions of functions.inc that rest on noise.
+//! The functions of functions.inc that are made of noise.
 //!
 //! ```text
 //!   f_ridge      sum of w_k |N(l^k p) - r| / max(r, 1 - r) over the sum of the w_k,  then (. - offset)/(1 - offset);   w_k = omega^k
@@ -6,24 +6,29 @@
 //!   f_hetero_mf  v_0 = I_0,  v_k = v_(k-1) + I_k l^(-k H) v_(k-1)^T;                                                    I_k = S(l^k p) + offset
 //! ```
 //!
-//! `N` is noise and `S = 2 N - 1`. The second and the third are F. K. Musgrave's, "Procedural fractal terrains", in D. S. Ebert et al., *Texturing and Modeling*, 2nd ed., 1998, chapter 14, the third with a
-//! power of his; what becomes of parts of octaves, of `T` below 1 and of the first one's parameters was found from POV-Ray's values, with its own noise, and agrees with all that were tried to 1e-11.
+//! `N` is noise and `S = 2 N - 1`. The second and the third formula are by F. K. Musgrave,
+//! "Procedural fractal terrains", in D. S. Ebert et al., *Texturing and Modeling*, 2nd ed., 1998,
+//! chapter 14, the third with a power of his. The treatment of fractional octaves, of `T` below 1
+//! and of the first one's parameters was found from POV-Ray's values, with POV-Ray's own noise. It
+//! agrees with all values that were tried to 1e-11.
 //!
-//! They are written out with so many octaves as are allowed; calls that say how many drop the others.
+//! The formulas are expanded with the greatest number of octaves allowed. Calls that state their
+//! number drop the others.
 
 use durer_math::Function;
 use durer_scene::tape::{Builder, Formula, FormulaError, NodeId, Op};
 
-/// The number of the function that is noise and nothing else.
+/// The number of the function that is plain noise.
 pub(crate) const PLAIN: f64 = 76.0;
-/// More octaves than this no function has.
+/// The greatest number of octaves of a function.
 pub(super) const MOST_OCTAVES: u32 = 20;
 
-/// By generator: 1, and all but 2 and 3; and 2.
+/// By generator: first for all numbers but 2 and 3, then for 2.
 const NOISE: &str = "n = noise(x, y, z); old = max(min(n + 0.5, 1), 0); new = max(min((n + 1.05242)*0.48985582, 1), 0); \
                      select(P0 - 2, old, new, select(P0 - 3, new, old, old))";
 
-/// A formula on its way: `x`, `y`, `z` and six parameters, of which the last is the noise.
+/// A formula under construction, with the inputs `x`, `y`, `z` and six parameters, of which the
+/// last is the noise generator.
 struct Draft {
     builder: Builder,
     noise: Formula,
@@ -48,12 +53,12 @@ impl Draft {
         self.builder.push(op)
     }
 
-    /// `a` to the power of a whole number.
+    /// `a` to an integer power.
     fn power(&mut self, a: NodeId, n: u32) -> Step {
         if n == 0 { self.number(1.0) } else { self.push(Op::Powi(a, n as i32)) }
     }
 
-    /// Noise of octave `k`, whose frequency is `l^k`.
+    /// The noise of octave `k`, whose frequency is `l^k`.
     fn noise(&mut self, l: NodeId, k: u32) -> Step {
         let factor = self.power(l, k)?;
         let mut arguments = [factor; 4];
@@ -65,7 +70,7 @@ impl Draft {
         self.builder.call(&self.noise, &arguments)
     }
 
-    /// The same between -1 and 1.
+    /// The noise of octave `k`, scaled to the range from -1 to 1.
     fn signed(&mut self, l: NodeId, k: u32) -> Step {
         let noise = self.noise(l, k)?;
         let (two, one) = (self.number(2.0)?, self.number(1.0)?);
@@ -82,7 +87,7 @@ impl Draft {
     fn ridge(&mut self) -> Step {
         let [l, octaves, omega, offset, ridge] = [self.p(0)?, self.p(1)?, self.p(2)?, self.p(3)?, self.p(4)?];
         let (zero, one) = (self.number(0.0)?, self.number(1.0)?);
-        // Below one octave there is one, and the part beside.
+        // Below one octave there is one full octave and the fraction in addition.
         let (below, whole) =
             (self.push(Op::Sub(octaves, one))?, self.push(Op::Function(Function::Floor, octaves))?);
         let part = self.push(Op::Sub(octaves, whole))?;
@@ -156,7 +161,7 @@ impl Draft {
             let power = self.push(Op::Pow(value, t))?;
             let power = self.push(Op::Select([t, one, one, power]))?;
             let full = self.push(Op::Mul(own, power))?;
-            // Of the octave behind the last whole one a part, which does not know of T.
+            // The octave after the last full one counts partly; that part does not use T.
             let part = self.push(Op::Mul(own, rest))?;
             let part = self.push(Op::Mul(part, value))?;
             let number = self.number(f64::from(k))?;
@@ -170,7 +175,7 @@ impl Draft {
     }
 }
 
-/// The formula of a number; `None` if it does not rest on noise.
+/// The formula of a function by its number; `None` if it is not made of noise.
 pub(super) fn internal(number: f64, generator: f64) -> Option<Formula> {
     let made = |write: fn(&mut Draft) -> Step| {
         let mut draft = Draft::new()?;
@@ -193,7 +198,8 @@ pub(super) fn internal(number: f64, generator: f64) -> Option<Formula> {
     }
 }
 
-/// What is asked of the numbers that one of these functions is called with: `None` for those that are not known when the call is read.
+/// Checks the arguments of a call of one of these functions. `None` stands for an argument that is
+/// not known when the call is read.
 pub(super) fn check(number: u32, arguments: &[Option<f64>]) -> Result<(), String> {
     let known = |index: usize, what: &str| match arguments.get(index) {
         Some(Some(value)) => Ok(*value),

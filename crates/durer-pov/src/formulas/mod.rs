@@ -1,8 +1,9 @@
-//! The functions that functions.inc names, by the numbers it uses.
+//! The functions that functions.inc gives names to, by their numbers.
 //!
-//! Each is written as on paper; `P0`, `P1`, ... are the parameters behind `x`, `y`, `z`. They were found from the manual's descriptions, the surfaces' known
-//! equations and POV-Ray's values (`tests/functions.rs` holds some of those), and agree with it to 1e-9 (the rounded box to 1e-6, by
-//! which POV-Ray's is larger than its description).
+//! Each is written as on paper; `P0`, `P1`, ... are the parameters after `x`, `y`, `z`. The
+//! formulas were found from the manual's descriptions, the surfaces' known equations and POV-Ray's
+//! values (`tests/functions.rs` contains some of these). They agree with POV-Ray to 1e-9 (the
+//! rounded box to 1e-6, by which POV-Ray's is larger than its description).
 
 mod fractal;
 mod pen;
@@ -16,30 +17,33 @@ pub(crate) use fractal::PLAIN as PLAIN_NOISE;
 /// Why a number has no formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Lacking {
-    /// No function has it.
+    /// There is no function with this number.
     Unknown,
-    /// Its function has no formula here, for this reason.
+    /// The formula of the function is not available, for this reason.
     NotYet(&'static str),
 }
 
-/// What becomes of a formula's value.
+/// How a formula's value becomes the function's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kept {
-    /// It is the function's.
+    /// It is the function's value.
     Plain,
-    /// It is a field: times the strength `P0`, and between -10 and 10.
+    /// It is a field: it is multiplied by the strength `P0` and clamped to `[-10, 10]`.
     Field,
-    /// A field kept between `-P1` and `P1`.
+    /// It is a field that is clamped to `[-P1, P1]`.
     Limited,
 }
 use Kept::{Field, Limited, Plain};
 
-/// A function's number, how many parameters it has behind `x`, `y`, `z`, what becomes of its value, and its formula.
+/// A row: the function's number, the number of its parameters after `x`, `y`, `z`, the use of its
+/// value, and its formula.
 type Row = (u32, u32, Kept, &'static str);
 
-/// `u(switch, offset, angle)` and `v(switch, offset, angle)` are the coordinates of a plane curve: `x` and `y`, or where the switch is above zero those of a
-/// section through the y axis, moved by the offset and turned by the angle, so that the curve is revolved. `section(a, b, type)` tells how far from the axis of a
-/// tube: 0 a square, 1 a circle, 2 a diamond, 3 a star, and all between.
+/// `u(switch, offset, angle)` and `v(switch, offset, angle)` are the coordinates of a plane curve:
+/// `x` and `y`, or if the switch is above zero, those of a section through the y axis, shifted by
+/// the offset and rotated by the angle, so that the curve is revolved. `section(a, b, type)` is the
+/// distance from the axis of a tube with the given cross-section: 0 a square, 1 a circle, 2 a
+/// diamond, 3 a star, and all shapes between.
 const TABLE: &[Row] = &[
     // f_algbr_cyl1
     (0, 5, Limited, "a = u(P2, P3, P4); b = v(P2, P3, P4); b*b + cube(abs(a)) - a*a"),
@@ -93,7 +97,7 @@ const TABLE: &[Row] = &[
     (14, 1, Field, "-(sq(x*x + z*z) - 0.36*x*x - sq(y*y) + 0.25*y*y)"),
     // f_devils_curve_2d
     (15, 6, Field, "a = u(P3, P4, P5); b = v(P3, P4, P5); -(b*b*(P2*P2 - b*b) - a*a*(P1*P1 - a*a))"),
-    // f_dupin_cyclid: with a displacement along y no cyclide any more, as in POV-Ray
+    // f_dupin_cyclid: as in POV-Ray, no longer a cyclide if displaced along y
     (
         16,
         6,
@@ -104,7 +108,7 @@ const TABLE: &[Row] = &[
     ),
     // f_ellipsoid
     (17, 3, Plain, "sqrt(sq(x*P0) + sq(y*P1) + sq(z*P2))"),
-    // f_enneper: what is divided by is never near zero
+    // f_enneper: the divisor is never near zero
     (
         18,
         1,
@@ -288,15 +292,16 @@ const TABLE: &[Row] = &[
     (75, 6, Field, "a = u(P3, P4, P5); b = v(P3, P4, P5); -(P1*P1*b + a*a*b - P2)"),
 ];
 
-/// The number of a function that rests on noise: [`check`] asks something of its arguments.
+/// The number of a function that is made of noise. [`check`] checks its arguments.
 pub(crate) type Noisy = u32;
 
-/// Asks of a call of a function of noise what its formula needs to be right; unknown are arguments that the call does not say as numbers.
+/// Checks the arguments of a call of a noise function. `None` stands for an argument that the call
+/// does not give as a number.
 pub(crate) fn check(function: Noisy, arguments: &[Option<f64>]) -> Result<(), String> {
     fractal::check(function, arguments)
 }
 
-/// The formula of `internal(number)`; functions of noise that do not say which one mean this generator.
+/// The formula of `internal(number)`. `generator` is for noise functions that do not state one.
 pub(crate) fn internal(number: f64, generator: f64) -> Result<(Formula, Option<Noisy>), Lacking> {
     if number == PLAIN_NOISE && generator.trunc() == 3.0 {
         return Err(Lacking::NotYet("noise generator 3; 1 and 2 are there"));
@@ -313,7 +318,7 @@ pub(crate) fn internal(number: f64, generator: f64) -> Result<(Formula, Option<N
     Ok((formula, None))
 }
 
-/// A formula as on paper, of `x`, `y`, `z` and so many parameters; `None` if it cannot be read.
+/// A formula as on paper, of `x`, `y`, `z` and this many parameters; `None` if it cannot be read.
 pub(crate) fn on_paper(text: &'static str, parameters: u32) -> Option<Formula> {
     written(&(0, parameters, Plain, text))
 }

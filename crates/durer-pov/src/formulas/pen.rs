@@ -1,4 +1,4 @@
-//! Formulas as they are written on paper, read into steps.
+//! A parser for formulas as they are written on paper; it makes the steps that surfaces evaluate.
 //!
 //! ```text
 //!   name = sum; name = sum; ... sum
@@ -8,11 +8,11 @@ use durer_math::Function;
 use durer_scene::tape::{Builder, Formula, NodeId, Op};
 use std::f64::consts::PI;
 
-/// Reads one of the table's formulas. They are right, so that it need not say what is wrong with them.
+/// Reads one of the table's formulas. These are correct, so no error messages are needed.
 pub(super) struct Pen {
     builder: Builder,
     rest: &'static str,
-    /// What has been named so far.
+    /// The names defined so far.
     names: Vec<(&'static str, NodeId)>,
 }
 
@@ -89,7 +89,8 @@ impl Pen {
 
     fn operand(&mut self) -> Option<NodeId> {
         if self.take('-') {
-            // Of products: -P3*a is -(P3*a), which is the same number.
+            // The minus applies to the operand before the product. -P3*a as -(P3*a) is the same
+            // number.
             let value = self.operand()?;
             return self.push(Op::Neg(value));
         }

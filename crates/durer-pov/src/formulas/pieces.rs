@@ -1,23 +1,25 @@
-//! Functions of one number that are made of pieces, each between two knots.
+//! Piecewise functions of one number: one piece between each two neighbouring knots.
 //!
 //! ```text
 //!   c0 + s (c1 + s (c2 + s c3)),  s = x - knot
 //! ```
 //!
-//! A tree of choices finds the piece. Where two pieces meet in one value the choice is [`Op::Joined`], so that nothing jumps there and slopes are those of the two. A piece is kept within its
-//! neighbours (`x` is clamped to their ends), where only bounds of boxes that reach so far ask it: as far away as it might be asked otherwise, a cubic's bounds would say nothing.
+//! A tree of choices finds the piece. Where two pieces meet in one value the choice is
+//! [`Op::Joined`]: the function is continuous there, and its slopes are those of the two pieces.
+//! The argument of a piece is clamped to the piece and its neighbours. Only bounds over boxes that
+//! reach farther evaluate it there, and far from its knots the bounds of a cubic would be useless.
 
 use durer_math::Interval;
 use durer_scene::tape::{Builder, FormulaError, NodeId, Op};
 
-/// What becomes of the value at a knot.
+/// A knot, with the value of the function there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Knot {
-    /// Both sides have the same.
+    /// Both sides have the same value.
     Meets(f64),
-    /// The sides may differ; the knot itself belongs to what is before it.
+    /// The sides may differ; the knot itself belongs to the piece before it.
     Jumps(f64),
-    /// The sides may differ; the knot itself belongs to what follows.
+    /// The sides may differ; the knot itself belongs to the piece after it.
     Begins(f64),
 }
 
@@ -29,7 +31,7 @@ impl Knot {
     }
 }
 
-/// The part in which `x` is: of `n + 1` parts for `n` ascending knots.
+/// Chooses the part that contains `x`, one of `n + 1` parts for `n` ascending knots.
 pub(crate) fn chosen(
     b: &mut Builder,
     x: NodeId,
@@ -51,14 +53,15 @@ pub(crate) fn chosen(
     })
 }
 
-/// `x`, or the nearest number between two.
+/// `x`, clamped to `[from, to]`.
 pub(crate) fn clamped(b: &mut Builder, x: NodeId, from: f64, to: f64) -> Result<NodeId, FormulaError> {
     let (from, to) = (b.constant(from)?, b.constant(to)?);
     let x = b.push(Op::Max(x, from))?;
     b.push(Op::Min(x, to))
 }
 
-/// The continuous function with these knots, at least two, and these pieces between them; beyond the ends it stays as it is there.
+/// The continuous function with these knots, of which there are at least two, and these pieces
+/// between them. Beyond the ends it is constant.
 pub(crate) fn continuous(
     b: &mut Builder,
     x: NodeId,

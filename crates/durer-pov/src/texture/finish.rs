@@ -1,4 +1,4 @@
-//! Finishes: how a surface takes the light.
+//! Finishes: how a surface reflects and scatters light.
 
 use crate::colour::Colour;
 use crate::diagnostics::{Error, Result};
@@ -7,12 +7,12 @@ use crate::lexer::Mark;
 use crate::parser::{Item, Parser};
 use crate::value::Value;
 
-/// What is mirrored, and how that depends on the angle.
+/// The amount of reflection, and how it depends on the angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reflection {
-    /// Seen head-on.
+    /// The amount head-on.
     pub(crate) min: [f64; 3],
-    /// Seen at a grazing angle.
+    /// The amount at grazing angles.
     pub(crate) max: [f64; 3],
     pub(crate) falloff: f64,
     pub(crate) fresnel: bool,
@@ -26,14 +26,14 @@ impl Default for Reflection {
     }
 }
 
-/// How a surface takes the light.
+/// How a surface reflects and scatters light.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Finish {
     pub(crate) ambient: [f64; 3],
     pub(crate) emission: [f64; 3],
     pub(crate) diffuse: f64,
     pub(crate) diffuse_back: f64,
-    /// `albedo` was written: the number is the total, not the height of the curve.
+    /// Whether `albedo` was written: then the number is the total, not the height of the curve.
     pub(crate) diffuse_albedo: bool,
     pub(crate) brilliance: f64,
     pub(crate) phong: f64,
@@ -76,7 +76,7 @@ fn rgb(colour: Colour) -> [f64; 3] {
 }
 
 impl Parser<'_> {
-    /// What stands in braces after `finish`; `base` is what it changes.
+    /// Reads what stands in braces after `finish`; `base` is the finish that it changes.
     pub(crate) fn finish_block(&mut self, base: &Finish) -> Result<Finish> {
         self.expect(Mark::BraceOpen)?;
         let mut finish = base.clone();
@@ -142,7 +142,7 @@ impl Parser<'_> {
         Ok(exponent)
     }
 
-    /// `reflection 0.5` or `reflection { min, max ... }`.
+    /// Reads `reflection 0.5` or `reflection { min, max ... }`.
     fn reflection(&mut self, reflection: &mut Reflection) -> Result<()> {
         if !self.take_mark(Mark::BraceOpen)? {
             let colour = rgb(self.colour()?);

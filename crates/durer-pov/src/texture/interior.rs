@@ -1,4 +1,4 @@
-//! Interiors and materials: what light meets inside a body.
+//! Interiors and materials: the media inside objects.
 
 use std::rc::Rc;
 
@@ -10,7 +10,7 @@ use crate::parser::{Item, Parser};
 use crate::transform::Matrix;
 use crate::value::Value;
 
-/// What light meets inside a body.
+/// The medium inside an object.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Interior {
     pub(crate) ior: f64,
@@ -34,12 +34,12 @@ pub(crate) struct Material {
 }
 
 impl Parser<'_> {
-    /// What stands in braces after `interior`.
+    /// Reads what stands in braces after `interior`.
     pub(crate) fn interior_block(&mut self) -> Result<Rc<Interior>> {
         self.expect(Mark::BraceOpen)?;
         let mut interior = Interior::default();
         loop {
-            // An interior without media has nothing that transforms would move.
+            // Transformations have no effect on an interior without media.
             if self.transform_item()?.is_some() {
                 continue;
             }
@@ -60,7 +60,7 @@ impl Parser<'_> {
                     interior.fade_color = [r, g, b];
                 }
                 Item::Word(Keyword::Caustics) => interior.caustics = self.float()?,
-                // Without dispersion its samples change nothing.
+                // The samples of dispersion have no effect without dispersion.
                 Item::Word(Keyword::DispersionSamples) => drop(self.float()?),
                 Item::Word(Keyword::Dispersion) => {
                     if self.float()? != 1.0 {
@@ -72,7 +72,7 @@ impl Parser<'_> {
         }
     }
 
-    /// What stands in braces after `material`.
+    /// Reads what stands in braces after `material`.
     pub(crate) fn material_block(&mut self) -> Result<Material> {
         self.expect(Mark::BraceOpen)?;
         let mut material = Material::default();
@@ -101,7 +101,8 @@ impl Parser<'_> {
         }
     }
 
-    /// Moves what a material moves; nothing in an interior of this language subset does.
+    /// Transforms the texture of a material. In this language subset, an interior has nothing to
+    /// transform.
     pub(crate) fn move_texture(texture: &mut Option<Rc<Texture>>, by: &Matrix) {
         if let Some(texture) = texture {
             Rc::make_mut(texture).transform(by);

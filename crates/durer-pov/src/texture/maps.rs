@@ -1,4 +1,4 @@
-//! Maps and lists: which colour, pigment or texture belongs to which value of a pattern.
+//! Maps and lists: the colours, pigments or textures for the values of a pattern.
 
 use std::rc::Rc;
 
@@ -11,14 +11,14 @@ use crate::limits::Charge;
 use crate::parser::{Item, Parser};
 use crate::value::Value;
 
-/// POV-Ray's bound on the entries of a map.
+/// POV-Ray's limit on the number of entries of a map.
 const MOST_ENTRIES: usize = 256;
 
-/// Values and what stands at them, in the order of the text.
+/// Values and their entries, in the order of the text.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Map<T> {
     pub(crate) entries: Vec<(f64, T)>,
-    /// Maps inside maps, this one included.
+    /// The nesting depth of maps, this one included.
     pub(crate) depth: u32,
     _charge: Charge,
 }
@@ -32,18 +32,18 @@ impl<T> Map<T> {
         Self { entries, depth, _charge }
     }
 
-    /// A list: the entries of a pattern that has numbers instead of values.
+    /// A list: the entries of a pattern that numbers its cells.
     pub(crate) fn list(items: Vec<T>, depth: u32) -> Self {
         let entries = items.into_iter().enumerate().map(|(i, item)| (i as f64, item)).collect();
         Self::new(entries, depth)
     }
 }
 
-/// How deeply maps may stand in each other; scenes use two or three.
+/// The greatest nesting depth of maps; scenes use two or three.
 const DEEPEST: u32 = 32;
 
 impl Parser<'_> {
-    /// Entries `[value item]` in braces.
+    /// Reads entries `[value item]` in braces.
     fn map_entries<T>(&mut self, mut item: impl FnMut(&mut Self) -> Result<T>) -> Result<Vec<(f64, T)>> {
         let mut entries = Vec::new();
         while self.take_mark(Mark::SquareOpen)? {
@@ -80,7 +80,7 @@ impl Parser<'_> {
         if empty { Err(Error::invalid(place, "this map has no entries")) } else { Ok(()) }
     }
 
-    /// What follows `color_map`.
+    /// Reads what follows `color_map`.
     pub(crate) fn color_map_block(&mut self) -> Result<Rc<ColorMap>> {
         self.expect(Mark::BraceOpen)?;
         if let Item::Value(Value::ColorMap(known)) = self.peek()? {
@@ -93,7 +93,7 @@ impl Parser<'_> {
         while self.take_mark(Mark::SquareOpen)? {
             let first = self.float()?;
             self.skip_comma()?;
-            // The old form gives a stretch: [from, to color A color B].
+            // The old form gives an interval: [from, to color A color B].
             if self.starts_number()? && !self.starts_colour()? && !self.at_mark(Mark::Less)? {
                 let last = self.float()?;
                 self.skip_comma()?;
@@ -111,7 +111,7 @@ impl Parser<'_> {
         Ok(Rc::new(Map::new(entries, 1)))
     }
 
-    /// What follows `pigment_map`.
+    /// Reads what follows `pigment_map`.
     pub(crate) fn pigment_map_block(&mut self) -> Result<Rc<Map<super::Pigment>>> {
         self.expect(Mark::BraceOpen)?;
         if let Item::Value(Value::PigmentMap(known)) = self.peek()? {
@@ -128,7 +128,7 @@ impl Parser<'_> {
         Ok(Rc::new(Map::new(entries, self.check_map_depth(depth)?)))
     }
 
-    /// What follows `texture_map`.
+    /// Reads what follows `texture_map`.
     pub(crate) fn texture_map_block(&mut self) -> Result<Rc<Map<Texture>>> {
         self.expect(Mark::BraceOpen)?;
         if let Item::Value(Value::TextureMap(known)) = self.peek()? {
@@ -143,7 +143,8 @@ impl Parser<'_> {
         Ok(Rc::new(Map::new(entries, self.check_map_depth(depth)?)))
     }
 
-    /// An entry of a texture map: identifiers, `texture {}` blocks, or the parts of one texture.
+    /// Reads an entry of a texture map: identifiers, `texture {}` blocks, or the items of one
+    /// texture.
     fn texture_entry(&mut self) -> Result<Texture> {
         if self.peek_word()? == Some(Keyword::Texture) {
             return self.texture_value();
@@ -165,7 +166,8 @@ impl Parser<'_> {
         }
     }
 
-    /// A texture made of textures: the list of a discrete pattern, or the map that follows a gradient.
+    /// Reads a texture made of textures: the list of a discrete pattern, or the map after a
+    /// gradient.
     pub(crate) fn patterned_texture(&mut self, kind: PatternKind) -> Result<Texture> {
         let mut items = Vec::new();
         let length = kind.list_length().unwrap_or(0);
@@ -181,7 +183,7 @@ impl Parser<'_> {
         Ok(Texture::Patterned { pattern: self.plain_pattern(kind), map })
     }
 
-    /// `texture_map {}` inside a patterned texture.
+    /// Reads `texture_map {}` inside a patterned texture.
     pub(crate) fn texture_map_item(&mut self, map: &mut Rc<Map<Texture>>) -> Result<bool> {
         let here = self.take_word(Keyword::TextureMap)?;
         if here {
@@ -192,7 +194,7 @@ impl Parser<'_> {
 }
 
 impl Texture {
-    /// How deeply maps stand in each other.
+    /// The nesting depth of maps.
     fn depth(&self) -> u32 {
         match self {
             Self::Layers(layers) => layers.iter().map(|layer| layer.pigment.depth()).max().unwrap_or(0),

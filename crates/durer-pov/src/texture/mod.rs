@@ -1,4 +1,4 @@
-//! Textures: pigments, finishes, layers, materials, and how a block of them is read.
+//! Textures: pigments, finishes, layers, materials, and the grammar of their blocks.
 
 mod finish;
 mod interior;
@@ -21,7 +21,7 @@ pub(crate) use maps::{ColorMap, Map};
 pub(crate) use pattern::{Pattern, PatternKind, Wave};
 pub(crate) use pigment::{Body, Paint, Pigment};
 
-/// One layer: what colour, and how it takes the light.
+/// One layer: its colour, and how it reflects light.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Layer {
     pub(crate) pigment: Pigment,
@@ -33,20 +33,20 @@ pub(crate) struct Layer {
 pub(crate) enum Texture {
     /// Layers, the lowest first.
     Layers(Vec<Layer>),
-    /// Whole textures side by side or blended.
+    /// Whole textures, selected or mixed by a pattern.
     Patterned { pattern: Pattern, map: Rc<Map<Texture>> },
 }
 
-/// Layers of one texture; scenes use a handful.
+/// The greatest number of layers of a texture; scenes use a handful.
 const MOST_LAYERS: usize = 256;
 
 impl Texture {
-    /// One layer.
+    /// Makes a texture of one layer.
     pub(crate) fn single(layer: Layer) -> Self {
         Self::Layers(vec![layer])
     }
 
-    /// Moves the texture.
+    /// Transforms the texture.
     pub(crate) fn transform(&mut self, by: &Matrix) {
         match self {
             Self::Layers(layers) => layers.iter_mut().for_each(|layer| layer.pigment.transform(by)),
@@ -54,7 +54,7 @@ impl Texture {
         }
     }
 
-    /// Layers in this texture, those of its parts included.
+    /// The number of layers in this texture, including those of its parts.
     pub(crate) fn size(&self) -> usize {
         match self {
             Self::Layers(layers) => layers.len(),
@@ -64,7 +64,8 @@ impl Texture {
 }
 
 impl Parser<'_> {
-    /// One or more `texture { }` blocks, the word `texture` being next: layers upon each other.
+    /// Reads one or more `texture { }` blocks as layers on each other; the word `texture` comes
+    /// next.
     pub(crate) fn texture_value(&mut self) -> Result<Texture> {
         let mut texture = None;
         loop {
@@ -74,7 +75,7 @@ impl Parser<'_> {
                 None => next,
                 Some(below) => self.laid_on(below, next)?,
             });
-            // Looked for without running what follows: that may be the next statement.
+            // Tested without running what follows, which may be the next statement.
             let again = if self.has_peeked() {
                 self.peek_word()? == Some(Keyword::Texture)
             } else {
@@ -87,7 +88,7 @@ impl Parser<'_> {
         }
     }
 
-    /// `above` on top of `below`.
+    /// Puts `above` on top of `below`.
     pub(crate) fn laid_on(&self, below: Texture, above: Texture) -> Result<Texture> {
         match (below, above) {
             (Texture::Layers(mut layers), Texture::Layers(more)) => {
@@ -102,7 +103,7 @@ impl Parser<'_> {
         }
     }
 
-    /// What stands in braces after `texture`.
+    /// Reads what stands in braces after `texture`.
     pub(crate) fn texture_block(&mut self) -> Result<Texture> {
         self.expect(Mark::BraceOpen)?;
         let mut texture = Texture::single((*self.defaults).clone());
@@ -142,7 +143,7 @@ impl Parser<'_> {
         Ok(texture)
     }
 
-    /// A pigment or finish, put into the top layer of `texture`.
+    /// Reads a pigment or finish into the top layer of `texture`.
     pub(crate) fn layer_item(&mut self, texture: &mut Texture) -> Result<bool> {
         enum Part {
             Pigment,
@@ -178,7 +179,7 @@ impl Parser<'_> {
         Ok(true)
     }
 
-    /// `#default { texture {} }` or a part of one, or `#default { camera {} }`.
+    /// Reads `#default { texture {} }`, a part of a texture, or `#default { camera {} }`.
     pub(crate) fn default_texture(&mut self) -> Result<()> {
         self.expect(Mark::BraceOpen)?;
         let mut texture = Texture::single((*self.defaults).clone());

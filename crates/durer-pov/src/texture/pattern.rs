@@ -1,4 +1,4 @@
-//! Patterns: where in space which entry of a list or map stands.
+//! Patterns: they select or mix the entries of a list or map by position.
 
 use std::rc::Rc;
 
@@ -9,7 +9,7 @@ use crate::parser::Parser;
 use crate::pattern_function;
 use crate::transform::{self, Matrix};
 
-/// Which pattern, with its own numbers.
+/// The kind of a pattern, with its own numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum PatternKind {
     Checker,
@@ -19,12 +19,12 @@ pub(crate) enum PatternKind {
         mortar: f64,
     },
     Gradient([f64; 3]),
-    /// One that is known as a function only, by its word, and where that stands.
+    /// A pattern that only functions support: its word, and the place of that.
     Written(Keyword, Place),
 }
 
 impl PatternKind {
-    /// How many entries its list has; `None` for patterns with a map.
+    /// The number of entries of its list; `None` for patterns with a map.
     pub(crate) fn list_length(self) -> Option<usize> {
         match self {
             Self::Checker | Self::Brick { .. } => Some(2),
@@ -34,7 +34,7 @@ impl PatternKind {
     }
 }
 
-/// The shape of the wave between 0 and 1.
+/// The waveform between 0 and 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) enum Wave {
     #[default]
@@ -46,15 +46,15 @@ pub(crate) enum Wave {
     Poly(f64),
 }
 
-/// What changes a pattern's value, and where the pattern is.
+/// The modifiers of a pattern's value, and its placement.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PatternModifiers {
-    /// 0 leaves the value alone, and then the phase does not count either.
+    /// 0 leaves the value unchanged; then the phase has no effect either.
     pub(crate) frequency: f64,
     pub(crate) phase: f64,
     pub(crate) wave: Wave,
     pub(crate) turbulence: Rc<Turbulence>,
-    /// From the pattern's own space to the object's.
+    /// The map from the pattern's own space to the object's.
     pub(crate) place: Matrix,
 }
 
@@ -71,7 +71,8 @@ impl Default for PatternModifiers {
 }
 
 impl PatternModifiers {
-    /// What the word of a pattern changes by itself; all else stays as it was (a fact of the language).
+    /// Applies what the word of a pattern changes by itself; the rest stays as it was (a fact of
+    /// the language).
     pub(crate) fn begin(&mut self, kind: PatternKind) {
         if kind.list_length().is_some() {
             self.frequency = 0.0;
@@ -86,7 +87,7 @@ impl PatternModifiers {
     }
 }
 
-/// A pattern in its place.
+/// A pattern with its modifiers and its placement.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Pattern {
     pub(crate) kind: PatternKind,
@@ -94,7 +95,7 @@ pub(crate) struct Pattern {
 }
 
 impl Pattern {
-    /// Whether each cell shows an entry of a list, which neither a frequency nor a wave changes.
+    /// Whether each cell shows an entry of a list, unchanged by a frequency or a wave.
     pub(crate) fn is_plain_list(&self) -> bool {
         let PatternModifiers { frequency, wave, .. } = self.modifiers;
         self.kind.list_length().is_some() && frequency == 0.0 && wave == Wave::Ramp
@@ -102,7 +103,7 @@ impl Pattern {
 }
 
 impl Parser<'_> {
-    /// The word of a pattern, if one comes next; `base` is the pattern that it replaces.
+    /// Reads the word of a pattern, if one comes next; `base` is the pattern that it replaces.
     pub(crate) fn pattern_kind(&mut self, base: Option<PatternKind>) -> Result<Option<PatternKind>> {
         let kind = match self.peek_word()? {
             Some(Keyword::Checker) => PatternKind::Checker,
@@ -127,7 +128,7 @@ impl Parser<'_> {
         Ok(Some(kind))
     }
 
-    /// The pattern of a word just read, with the scene's noise.
+    /// The pattern of a word just read, with the scene's noise generator.
     pub(crate) fn plain_pattern(&self, kind: PatternKind) -> Pattern {
         let mut modifiers = PatternModifiers::default();
         self.set_noise_generator(&mut modifiers);
@@ -135,7 +136,7 @@ impl Parser<'_> {
         Pattern { kind, modifiers }
     }
 
-    /// Makes the pattern's noise that of the scene.
+    /// Gives the pattern the scene's noise generator.
     pub(super) fn set_noise_generator(&self, modifiers: &mut PatternModifiers) {
         let generator = self.language.noise_generator();
         if modifiers.turbulence.generator != generator {
@@ -143,7 +144,8 @@ impl Parser<'_> {
         }
     }
 
-    /// `frequency`, `phase`, a wave, a brick's sizes: what changes a pattern, transforms apart.
+    /// Reads a modifier of a pattern other than a transformation: `frequency`, `phase`, a wave, a
+    /// brick's sizes.
     pub(crate) fn pattern_modifier(
         &mut self,
         kind: Option<&mut PatternKind>,
@@ -214,7 +216,7 @@ impl Parser<'_> {
             }
             Keyword::NoiseGenerator => {
                 self.next()?;
-                // 0 is that of the scene.
+                // 0 means the scene's generator.
                 let said = self.float()?;
                 let generator = if said == 0.0 { self.language.noise_generator() } else { said };
                 Rc::make_mut(&mut modifiers.turbulence).generator = generator;

@@ -12,17 +12,18 @@ use crate::parser::{Item, Parser};
 use crate::transform::Matrix;
 use crate::value::Value;
 
-/// What a pattern chooses from.
+/// The entries that a pattern selects or mixes.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Paint {
     Colors(Rc<ColorMap>),
     Pigments(Rc<Map<Pigment>>),
 }
 
-/// The colour at each point.
+/// A pigment: the colour at each point.
 ///
-/// A word for a colour or a pattern replaces what is shown and keeps all else of the pigment that it changes (a fact of the
-/// language): its transforms, its frequency and the like, and its map.
+/// A word for a colour or a pattern replaces what is shown. Everything else of the pigment that it
+/// changes is kept (a fact of the language): its transformations, its frequency and the like, and
+/// its map.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Pigment {
     pub(crate) body: Body,
@@ -31,12 +32,12 @@ pub(crate) struct Pigment {
     paint: Option<Paint>,
 }
 
-/// What a pigment shows.
+/// The contents of a pigment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Body {
     /// One colour.
     Solid(Colour),
-    /// Colours or pigments by a pattern.
+    /// Colours or pigments, selected or mixed by a pattern.
     Patterned(PatternKind),
 }
 
@@ -47,7 +48,7 @@ impl Default for Body {
 }
 
 impl Pigment {
-    /// One colour everywhere.
+    /// Makes a pigment with one colour everywhere.
     pub(crate) fn solid(colour: Colour) -> Self {
         Self { body: Body::Solid(colour), ..Self::default() }
     }
@@ -56,7 +57,7 @@ impl Pigment {
         self.modifiers.transform(by);
     }
 
-    /// What the pattern `kind` of this pigment chooses from.
+    /// The entries for the pattern `kind` of this pigment.
     pub(crate) fn paint(&self, kind: PatternKind) -> Paint {
         self.paint.clone().unwrap_or_else(|| {
             let opaque = |&(at, [r, g, b]): &(f64, [f64; 3])| (at, [r, g, b, 0.0, 0.0]);
@@ -65,7 +66,7 @@ impl Pigment {
         })
     }
 
-    /// How deeply maps stand in each other.
+    /// The nesting depth of maps.
     pub(crate) fn depth(&self) -> u32 {
         match (&self.paint, self.body) {
             (Some(Paint::Pigments(map)), _) => map.depth,
@@ -74,7 +75,7 @@ impl Pigment {
         }
     }
 
-    /// The pattern that is shown now.
+    /// The current pattern, if there is one.
     fn kind(&self) -> Option<PatternKind> {
         match self.body {
             Body::Solid(_) => None,
@@ -83,7 +84,7 @@ impl Pigment {
     }
 }
 
-/// The colours of a list that the text leaves out.
+/// The default colours of a list, where the text leaves them out.
 fn default_list(kind: PatternKind) -> Vec<Colour> {
     let opaque = |r, g, b| [r, g, b, 0.0, 0.0];
     match kind {
@@ -94,7 +95,8 @@ fn default_list(kind: PatternKind) -> Vec<Colour> {
     }
 }
 
-/// The map that the text leaves out, as POV-Ray has it: from black to white, for most.
+/// The default map, where the text leaves it out, as in POV-Ray: for most patterns from black to
+/// white.
 fn default_map(kind: PatternKind) -> &'static [(f64, [f64; 3])] {
     match kind {
         PatternKind::Written(Keyword::Marble, _) => &[
@@ -138,7 +140,7 @@ fn default_map(kind: PatternKind) -> &'static [(f64, [f64; 3])] {
 }
 
 impl Parser<'_> {
-    /// What stands in braces after `pigment`; `base` is what it changes.
+    /// Reads what stands in braces after `pigment`; `base` is the pigment that it changes.
     pub(crate) fn pigment_block(&mut self, base: &Pigment) -> Result<Pigment> {
         self.expect(Mark::BraceOpen)?;
         self.pigment_items(base, Mark::BraceClose).and_then(|pigment| {
@@ -147,7 +149,7 @@ impl Parser<'_> {
         })
     }
 
-    /// The items of a pigment up to `end`, which is left.
+    /// Reads the items of a pigment up to `end`, which is not taken.
     pub(crate) fn pigment_items(&mut self, base: &Pigment, end: Mark) -> Result<Pigment> {
         let mut pigment = base.clone();
         let mut chosen = false;
@@ -212,7 +214,8 @@ impl Parser<'_> {
         }
     }
 
-    /// The colours or pigments after the word of a discrete pattern; `None` for patterns with a map.
+    /// Reads the colours or pigments after the word of a discrete pattern; `None` for patterns with
+    /// a map.
     fn list(&mut self, kind: PatternKind) -> Result<Option<Paint>> {
         let Some(length) = kind.list_length() else { return Ok(None) };
         if self.peek_word()? == Some(Keyword::Pigment) {
@@ -239,7 +242,7 @@ impl Parser<'_> {
         Ok(Some(Paint::Colors(Rc::new(Map::list(colours, 1)))))
     }
 
-    /// A map inside a patterned pigment.
+    /// Reads a map inside a patterned pigment.
     fn paint_item(&mut self, kind: PatternKind, paint: &mut Option<Paint>) -> Result<bool> {
         let keyword = match self.peek_word()? {
             Some(keyword @ (Keyword::ColorMap | Keyword::PigmentMap)) => keyword,

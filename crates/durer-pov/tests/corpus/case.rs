@@ -1,4 +1,4 @@
-//! What must hold of any text that is read as a scene.
+//! Laws that hold for any text that is read as a scene.
 
 use durer_math::{I8, Interval, Point3};
 use durer_pov::{Limits, PovError, Read, ReadOptions};
@@ -6,7 +6,7 @@ use durer_scene::Shape;
 use durer_scene::tape::{Formula, Tape};
 use std::path::Path;
 
-/// A tenth of a second's work, and little memory: whatever is written is read or refused within them.
+/// A tenth of a second's work, and little memory. Any text is read or refused within these limits.
 const LIMITS: Limits = Limits {
     include_depth: 8,
     macro_depth: 64,
@@ -21,7 +21,7 @@ fn read(text: &[&[u8]]) -> Option<Result<Read, PovError>> {
     let path = std::env::temp_dir().join(name.replace(['(', ')'], ""));
     std::fs::write(&path, text.concat()).ok()?;
     let read = durer_pov::read(&path, &ReadOptions { limits: LIMITS, ..ReadOptions::default() });
-    // Another run writes its own.
+    // Another run writes a file of its own.
     let _ = std::fs::remove_file(Path::new(&path));
     Some(read)
 }
@@ -31,11 +31,11 @@ fn said(error: &dyn std::fmt::Display) {
     assert!(!said.is_empty() && said.len() < 20_000, "{said}");
 }
 
-/// Any text as a scene: read and made ready for rays, or refused.
+/// Any text as a scene: it is read and prepared for rays, or refused.
 ///
 /// # Panics
 ///
-/// If that is not so.
+/// Panics if this law does not hold.
 pub(crate) fn scene(text: &[u8]) {
     match read(&[text]) {
         None => {}
@@ -48,11 +48,12 @@ pub(crate) fn scene(text: &[u8]) {
     }
 }
 
-/// Any text as the body of a function: refused, or a formula whose bounds hold its values.
+/// Any text as the body of a function: it is refused, or it becomes a formula whose bounds contain
+/// its values.
 ///
 /// # Panics
 ///
-/// If that is not so.
+/// Panics if this law does not hold.
 pub(crate) fn function(text: &[u8]) {
     let read = read(&[
         b"#version 3.7;\n#declare F = function(x, y, z) { ",
@@ -72,7 +73,7 @@ pub(crate) fn function(text: &[u8]) {
     }
 }
 
-/// The bounds of a formula on boxes hold its values at their points.
+/// Checks that the bounds of a formula on boxes contain its values at points of the boxes.
 fn bounds_hold(formula: &Formula) {
     let tape = Tape::new(formula);
     let between = |lo: f64, hi: f64| I8::splat(Interval { lo, hi });
@@ -82,7 +83,8 @@ fn bounds_hold(formula: &Formula) {
         for k in [0.0, 0.25, 0.5, 1.0] {
             let p = core::array::from_fn(|i| (lo[i] + (hi[i] - lo[i]) * k).clamp(lo[i], hi[i]));
             let value = tape.value(Point3::from(p));
-            // A value that is infinite or undefined may come of an intermediate overflow, which says nothing of the formula.
+            // An infinite or undefined value may result from an intermediate overflow, so it says
+            // nothing about the formula.
             if value.is_finite() {
                 assert!(range.lane(0).contains(value), "{formula:?} at {p:?} is {value}, not in {range:?}");
             }

@@ -1,10 +1,11 @@
-//! What holds of sets holds of solids, crossing by crossing and bit by bit: `A - A` is empty, `A | A = A`, De Morgan's laws, `A - (A - B) = A & B`.
+//! Identities of sets, tested on solids, crossing by crossing and bit by bit: `A - A` is empty,
+//! `A | A = A`, De Morgan's laws, `A - (A - B) = A & B`.
 
 use super::{Dice, lowered};
 use durer_math::{Point3, Ray, Vec3};
 use durer_scene::Lowered;
 
-/// Every kind of solid, at places where many have faces, edges and tangent planes in common.
+/// Every kind of solid, placed so that many have faces, edges and tangent planes in common.
 const KINDS: [(&str, &str); 46] = [
     ("ball", "sphere { <0.5, 0, 0>, 1.25 }"),
     ("block", "box { <-1, -0.5, -1>, <1, 1, 0.5> }"),
@@ -69,13 +70,13 @@ const KINDS: [(&str, &str); 46] = [
     ("twisted block", "deform { box { <-0.5, -0.5, -0.5>, <0.5, 1, 0.5> } twist { y, 90, from -0.5 to 1 } }"),
 ];
 
-/// What hits say, without the names of leaves.
+/// The hits without the names of leaves.
 fn told(scene: &Lowered, ray: &Ray) -> Vec<(u64, u64, u64, i8, String)> {
     let all = scene.geometry.all(ray);
     assert_eq!(scene.geometry.closest(ray), all.first().copied(), "closest is the first of all: {ray:?}");
     assert_eq!(scene.geometry.any(ray), !all.is_empty(), "{ray:?}");
-    // A range shows what lies in it; also one that ends within the body.
-    // Where a formula's crossings cannot be told apart, how many clusters there are depends on where the ray starts.
+    // A range contains the hits that lie in it, also if it ends inside the body. If a formula's
+    // crossings cannot be separated, the number of clusters depends on where the ray starts.
     let is_sure = all.iter().all(|h| format!("{:?}", h.kind) != "Cluster");
     for i in if is_sure { 1..all.len() } else { 0..0 } {
         let (before, after) = (&all[i - 1], &all[i]);
@@ -97,7 +98,8 @@ fn told(scene: &Lowered, ray: &Ray) -> Vec<(u64, u64, u64, i8, String)> {
     all.iter().map(|h| (bits(h.t), bits(h.t_lo), bits(h.t_hi), h.sign, format!("{:?}", h.kind))).collect()
 }
 
-/// The side of a point, exactly; `None` within a billionth of a border, where rays along a face go in and out by rounding.
+/// The exact side of a point; `None` within a billionth of a border, where rays along a face go in
+/// and out by rounding.
 fn side_around(scene: &Lowered, p: Point3) -> Option<String> {
     let side = scene.geometry.side(p);
     let near = [Vec3::X, Vec3::Y, Vec3::Z].into_iter().flat_map(|d| [d * 1e-9, d * -1e-9]);
@@ -105,28 +107,30 @@ fn side_around(scene: &Lowered, p: Point3) -> Option<String> {
     is_clear.then(|| format!("{side:?}"))
 }
 
-/// Between two crossings a body is on the side that their signs say, exactly.
+/// Checks that between two crossings a body is exactly on the side that their signs say.
 fn sides_fit(name: &str, scene: &Lowered, ray: &Ray) {
     let all = scene.geometry.all(ray);
     if all.iter().any(|h| format!("{:?}", h.kind) == "Cluster") {
         return;
     }
     let crossed: Vec<_> = all.iter().filter(|h| h.sign != 0).collect();
-    // The order of crossings whose brackets overlap is not told.
+    // The order of crossings with overlapping brackets is unknown.
     if crossed.windows(2).any(|pair| pair[1].t_lo <= pair[0].t_hi) {
         return;
     }
     for pair in crossed.windows(2) {
         assert!(pair[0].sign == -pair[1].sign, "{name}: signs take turns: {ray:?} {all:?}");
         let middle = ray.at(0.5 * (pair[0].t + pair[1].t));
-        // Where two crossings are nearer than coordinates tell, there is no point between them.
+        // If two crossings are closer than the rounding of coordinates, there is no point between
+        // them.
         if (pair[1].t - pair[0].t) * ray.direction.length() > 1e-6 {
             let Some(side) = side_around(scene, middle) else { continue };
             let wrong = if pair[0].sign < 0 { "Out" } else { "In" };
             assert_ne!(side, wrong, "{name}: between crossings, at {middle:?}: {ray:?} {all:?}");
         }
     }
-    // Before the first it is on the side that the ray leaves there, and behind the last one on the other.
+    // Before the first crossing the body is on the side that the ray leaves there, and after the
+    // last one on the other.
     let (first, last) = (crossed.first(), crossed.last());
     let before = first.filter(|h| h.t * ray.direction.length() > 1e-6).map(|h| (0.5 * h.t, h.sign < 0));
     let behind = last.map(|h| (2.0 * h.t + 1.0, h.sign > 0));
@@ -137,7 +141,7 @@ fn sides_fit(name: &str, scene: &Lowered, ray: &Ray) {
     }
 }
 
-/// Rays at the quarters, and some that touch the surfaces, or miss that by rounding.
+/// Rays at multiples of a quarter, and some that touch the surfaces or miss them by rounding.
 fn rays(dice: &mut Dice, scenes: [&Lowered; 2], count: usize) -> Vec<Ray> {
     let mut rays = Vec::new();
     while rays.len() < count {
@@ -150,7 +154,7 @@ fn rays(dice: &mut Dice, scenes: [&Lowered; 2], count: usize) -> Vec<Ray> {
         let tangent = point.ng.to_vec().cross(dice.axis());
         if tangent != Vec3::ZERO {
             rays.push(Ray::new(point.p - tangent * 4.0, tangent));
-            // The same with few bits.
+            // The coordinates rounded to few bits.
             let few = |x: f64| (x * 1024.0).round() / 1024.0;
             rays.push(Ray::new((point.p - tangent * 4.0).map(few), tangent.map(few)));
         }
@@ -175,7 +179,7 @@ fn nothing_is_left_of_a_solid_without_itself() {
     }
 }
 
-/// One kind as `A` and some others as `B`. With `DURER_SOAK` set, all others.
+/// Each kind as `A`, and some others as `B`; with `DURER_SOAK` set, all others.
 #[test]
 fn identities_hold_for_every_kind() {
     let mut met = 0;
@@ -210,7 +214,8 @@ fn identities((a_name, a): (&str, &str), (b_name, b): (&str, &str), seed: u64) -
     let rays = rays(&mut dice, [&own, &other], 36);
     let (count, mut unsure) = (rays.len(), 0);
     for ray in rays {
-        // What a formula cannot tell apart near a tangent is told as a cluster, and what a tie with it means is open.
+        // Crossings that a formula cannot separate near a tangent form a cluster, and the result of
+        // a tie with it is undefined.
         if is_unsure(&own, &ray) || is_unsure(&other, &ray) {
             unsure += 1;
             continue;
@@ -235,13 +240,14 @@ fn identities((a_name, a): (&str, &str), (b_name, b): (&str, &str), seed: u64) -
     met
 }
 
-/// Whether crossings of the line could not be told apart.
+/// Whether some crossings of the line could not be separated.
 fn is_unsure(scene: &Lowered, ray: &Ray) -> bool {
     let line = ray.with_range(f64::NEG_INFINITY, f64::INFINITY);
     scene.geometry.all(&line).iter().any(|h| format!("{:?}", h.kind) == "Cluster")
 }
 
-/// Whether no crossing of one is as near to one of the other as brackets are wide.
+/// Whether every crossing of one solid is farther from those of the other than the brackets are
+/// wide.
 fn are_apart(a: &Lowered, b: &Lowered, ray: &Ray) -> bool {
     let line = Ray::new(ray.origin, ray.direction).with_range(f64::NEG_INFINITY, f64::INFINITY);
     let (a, b) = (a.geometry.all(&line), b.geometry.all(&line));
@@ -250,7 +256,8 @@ fn are_apart(a: &Lowered, b: &Lowered, ray: &Ray) -> bool {
 
 #[test]
 fn bodies_that_touch_fuse() {
-    // Twenty-seven blocks, their faces and edges in common, are one; so are two halves of a ball and of a ring, and the pieces of a mesh.
+    // Twenty-seven blocks with common faces and edges form one solid. So do two halves of a ball
+    // and of a ring, and the pieces of a mesh.
     let mut blocks = String::from("merge {");
     for i in 0..27 {
         let [x, y, z] = [i % 3, i / 3 % 3, i / 9].map(|k| f64::from(k) * 0.5 - 0.75);
@@ -286,7 +293,8 @@ fn bodies_that_touch_fuse() {
             let signs = |scene: &Lowered| {
                 let mut all: Vec<_> =
                     scene.geometry.all(&ray).iter().map(|h| (h.sign, h.t_lo, h.t_hi)).collect();
-                // Whether a corner is touched or crossed twice within rounding is free where it lies in a seam.
+                // At a corner in a seam, a touch and two crossings within rounding are both
+                // allowed.
                 while let Some(i) = all.windows(2).position(|w| w[0].0 != w[1].0 && w[0].2 >= w[1].1) {
                     all.drain(i..i + 2);
                 }
@@ -294,7 +302,8 @@ fn bodies_that_touch_fuse() {
                 all
             };
             let (found, expected) = (signs(&fused_scene), signs(&whole_scene));
-            // A line in a seam lies in a face of each part: which points of its border are kept is free.
+            // A line in a seam lies in a face of each part, so it is undefined which points of the
+            // border are kept.
             let in_seam = ray.origin.x == 0.0 && ray.direction.x == 0.0;
             if in_seam && fused.contains("plane") {
                 continue;
@@ -306,7 +315,7 @@ fn bodies_that_touch_fuse() {
         }
         assert!(met > 100, "{fused}: {met}");
     }
-    // Balls that touch each other and a plane in single points stay apart.
+    // Balls that touch each other and a plane in single points remain separate.
     let touching = lowered("merge { sphere { -x, 1 } sphere { x, 1 } plane { y, -1 } }");
     let along = Ray::new(Point3::new(-4.0, 0.0, 0.0), Vec3::X);
     assert_eq!(told(&touching, &along).len(), 2, "one body at the point where they touch");
@@ -316,7 +325,7 @@ fn bodies_that_touch_fuse() {
 
 #[test]
 fn differences_nest_a_hundred_deep() {
-    // A - (B - (C - ...)) of ever smaller kinds, all of the same one: shells.
+    // A - (B - (C - ...)) of ever smaller solids of one kind: shells.
     for shape in ["sphere { 0, 1", "superellipsoid { <0.5, 0.5>", "torus { 1, 0.5", "mesh"] {
         let mut text = String::new();
         let mesh = KINDS.iter().find(|k| k.0 == "mesh").unwrap().1.trim_end_matches('}');

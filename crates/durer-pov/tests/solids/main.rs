@@ -1,4 +1,4 @@
-//! Solids of solids, of every kind of solid that the language has: the identities of sets, and volumes.
+//! CSG of every kind of solid in the language: the identities of sets, and volumes.
 
 mod identities;
 #[path = "../support/mod.rs"]
@@ -8,12 +8,12 @@ mod volumes;
 use durer_math::{Point3, Ray, Vec3};
 use durer_scene::Lowered;
 
-/// The scene of `text`, ready for rays.
+/// The scene of `text`, prepared for rays.
 fn lowered(text: &str) -> Lowered {
     support::scene(text).lower().unwrap_or_else(|error| panic!("{error}: {text}"))
 }
 
-/// A sequence of numbers that look random: a function of the seed and the count (S. Vigna's SplitMix64).
+/// A pseudorandom sequence, a function of the seed and the count (S. Vigna's SplitMix64).
 struct Dice(u64);
 
 impl Dice {
@@ -29,18 +29,19 @@ impl Dice {
         self.bits() % n
     }
 
-    /// In `[0, 1)`.
+    /// A number in `[0, 1)`.
     fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// A multiple of a quarter between -2 and 2 per axis: corners, edges and faces of the solids lie there.
+    /// A point with coordinates that are multiples of 1/4 between -2 and 2: corners, edges and
+    /// faces of the solids lie there.
     fn quarter(&mut self) -> Point3 {
         let mut x = || self.below(17) as f64 * 0.25 - 2.0;
         Point3::new(x(), x(), x())
     }
 
-    /// Twenty bits per axis, between -2 and 2.
+    /// A point with coordinates of twenty bits, between -2 and 2.
     fn dyadic(&mut self) -> Point3 {
         let mut x = || self.below(1 << 20) as f64 / (1 << 18) as f64 - 2.0;
         Point3::new(x(), x(), x())
@@ -52,7 +53,7 @@ impl Dice {
         Vec3::from(d)
     }
 
-    /// Of length one, all directions alike.
+    /// A direction of length 1, uniformly distributed.
     fn direction(&mut self) -> Vec3 {
         loop {
             let mut x = || 2.0 * self.unit() - 1.0;
@@ -64,7 +65,8 @@ impl Dice {
         }
     }
 
-    /// A ray with dyadic numbers: from far or near, at places where faces and edges are or anywhere, often along an axis or a diagonal.
+    /// A ray with dyadic numbers: from far or near, towards faces and edges or anywhere, often
+    /// along an axis or a diagonal.
     fn ray(&mut self) -> Ray {
         let aim = if self.below(3) == 0 { self.dyadic() } else { self.quarter() };
         let d = match self.below(5) {

@@ -1,16 +1,18 @@
-//! Volumes by chords: of a bundle of parallel lines, as dense everywhere, the lengths inside a solid add up to its volume, whatever the direction
-//! (M. W. Crofton, 1868, and B. Cavalieri before him). Closed forms are the witnesses.
+//! Volumes by chords: for a uniform bundle of parallel lines, the lengths inside a solid add up to
+//! its volume, whatever the direction (M. W. Crofton, 1868, and B. Cavalieri before him). The
+//! expected values are closed forms.
 
 use super::{Dice, lowered};
 use core::f64::consts::PI;
 use durer_math::{Point3, Ray, Vec3};
 
-/// Bundles of lines, each in a direction of its own.
+/// The number of bundles, each with a direction of its own.
 const BUNDLES: u32 = 24;
-/// Lines in a bundle, along each side of a square; each somewhere in its cell.
+/// The number of lines of a bundle along each side of a square grid. Each line is at a random place
+/// of its cell.
 const LINES: u32 = 48;
 
-/// The volume by chords, and its standard error over the bundles.
+/// The volume measured by chords, and its standard error over the bundles.
 fn volume(text: &str, seed: u64) -> (f64, f64) {
     let scene = lowered(text);
     let bounds = scene.geometry.bounds();
@@ -24,7 +26,7 @@ fn volume(text: &str, seed: u64) -> (f64, f64) {
         .map(|_| {
             let d = dice.direction();
             let (u, v) = d.orthonormal_basis();
-            // The shadow of the box.
+            // The projection of the box.
             let [width, height] = [u, v].map(|axis| axis.abs().dot(half));
             let n = f64::from(LINES);
             let mut inside = 0.0;
@@ -43,7 +45,8 @@ fn volume(text: &str, seed: u64) -> (f64, f64) {
     (mean, (variance / n).sqrt())
 }
 
-/// The volumes are within three standard errors, which are so small that one percent more or less would show.
+/// Checks that the volumes are within three standard errors. These are so small that a deviation of
+/// one percent would be noticed.
 fn check(solids: &[(&str, String, f64)]) {
     let mut wrong = String::new();
     for (i, (name, text, exact)) in solids.iter().enumerate() {
@@ -66,12 +69,12 @@ fn ball(r: f64) -> f64 {
     4.0 / 3.0 * PI * cube(r)
 }
 
-/// The part of a ball above a plane that leaves it the height h.
+/// The volume of the part of a ball above a plane, with height h.
 fn cap(r: f64, h: f64) -> f64 {
     PI * h * h * (r - h / 3.0)
 }
 
-/// With radii a and b at its ends.
+/// The volume of a frustum with radii a and b at its ends.
 fn frustum(a: f64, b: f64, h: f64) -> f64 {
     PI * h / 3.0 * (a * a + a * b + b * b)
 }
@@ -80,7 +83,8 @@ fn ring(major: f64, minor: f64) -> f64 {
     2.0 * PI * PI * major * minor * minor
 }
 
-/// Of the solid under a `sor`'s curve: the square of the radius is the cubic with the given ends and slopes.
+/// The volume of the solid under a `sor`'s curve: the square of the radius is the cubic with the
+/// given ends and slopes.
 fn sor(points: &[(f64, f64)]) -> f64 {
     let slope = |i: usize| {
         2.0 * points[i].0 * (points[i + 1].0 - points[i - 1].0) / (points[i + 1].1 - points[i - 1].1)
@@ -131,7 +135,7 @@ fn thirty_solids_have_their_volumes() {
         ("spherical sector", s("spherical_sector { 0, 1.5, y, 60 }"), 2.0 / 3.0 * PI * cube(1.5) * 0.5),
         ("ring", s("torus { 1, 0.25 }"), ring(1.0, 0.25)),
         ("horn", s("torus { 0.75, 0.75 }"), ring(0.75, 0.75)),
-        // What is inside twice is outside, so the formula of the ring holds.
+        // Points that are inside twice count as outside, so the formula of the ring holds.
         ("spindle", s("torus { 0.5, 0.75 }"), ring(0.5, 0.75)),
         ("round cyclide", s("cyclide { 1, 0, 0.5 }"), ring(1.0, 0.5)),
         (

@@ -1,4 +1,4 @@
-//! Scenes written on the fly, and what came of them.
+//! Test scenes written as text, and their results.
 #![allow(dead_code, reason = "each test file uses its own part of this")]
 
 use std::path::PathBuf;
@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use durer_pov::{MessageKind, PovError, Read, ReadOptions};
 
-/// A folder of its own, gone when the test is over.
+/// A temporary folder, removed when the test is over.
 pub(crate) struct Folder(pub(crate) PathBuf);
 
 static COUNT: AtomicU32 = AtomicU32::new(0);
@@ -33,7 +33,7 @@ impl Folder {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        // A leftover in the temporary folder is no failure of the test.
+        // A leftover in the temporary folder does not fail the test.
         let _ = std::fs::remove_dir_all(&self.0);
     }
 }
@@ -50,7 +50,7 @@ pub(crate) fn scene(text: &str) -> durer_scene::Scene {
     read(text).unwrap_or_else(|error| panic!("{error}")).scene
 }
 
-/// What the `#debug`s of `text` say.
+/// The `#debug` output of `text`.
 pub(crate) fn debug(text: &str) -> String {
     let read = read(text).unwrap_or_else(|error| panic!("{error}"));
     let said = read.messages.iter().filter(|message| message.kind == MessageKind::Debug);
@@ -64,17 +64,17 @@ pub(crate) fn notices(text: &str) -> Vec<String> {
     said.map(|message| message.text.clone()).collect()
 }
 
-/// A float expression's value with `digits` behind the point.
+/// The value of a float expression with `digits` after the point.
 pub(crate) fn float(expression: &str, digits: u32) -> String {
     debug(&format!("#debug str({expression}, 0, {digits})"))
 }
 
-/// A vector expression's value.
+/// The value of a vector expression.
 pub(crate) fn vector(count: u32, expression: &str) -> String {
     debug(&format!("#declare Shown = {expression}; #debug vstr({count}, Shown, \",\", 0, 4)"))
 }
 
-/// Line, column and text of what is wrong with `text`; the scene's first line is line 1.
+/// The line, column and text of the error in `text`; the scene's first line is line 1.
 pub(crate) fn fault(text: &str) -> (usize, usize, String) {
     match read(text) {
         Ok(_) => panic!("this was read without a complaint: {text}"),

@@ -1,4 +1,4 @@
-//! Cameras: from a point of the picture to a ray.
+//! Cameras map points of the picture to rays.
 //!
 //! The picture is the square `[-1, 1] x [-1, 1]` of points `p = (px, py)`, with `px` to the right
 //! and `py` *down*: the middle of the pixel in column `x` and row `y` of an `X` by `Y` picture has
@@ -34,14 +34,14 @@ pub enum CameraError {
 /// A camera of either kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Camera {
-    /// All rays start at one point.
+    /// A pinhole camera: all rays start at one point.
     Perspective(Perspective),
-    /// All rays have one direction.
+    /// A camera with parallel rays: all rays have one direction.
     Orthographic(Orthographic),
 }
 
 impl Camera {
-    /// From the scene's camera: `f = direction`, `sx = right / 2`, `sy = -up / 2`.
+    /// Converts the scene's camera: `f = direction`, `sx = right / 2`, `sy = -up / 2`.
     pub fn new(camera: &durer_scene::Camera) -> Result<Self, CameraError> {
         let (o, f) = (camera.location, camera.direction);
         let (sx, sy) = (camera.right * 0.5, camera.up * -0.5);
@@ -60,7 +60,7 @@ impl Camera {
         }
     }
 
-    /// The sum of the coordinates from which the starts of rays are computed.
+    /// The sum of the magnitudes of the coordinates from which the starts of rays are computed.
     pub(crate) fn start_size(&self) -> f64 {
         let sum = |v: Vec3| v.x.abs() + v.y.abs() + v.z.abs();
         match self {
@@ -69,8 +69,8 @@ impl Camera {
         }
     }
 
-    /// The rays through some places of a picture of the given size, measured in pixels from the top
-    /// left.
+    /// The rays through some points of a picture of the given size. The points are in pixels from
+    /// the top left.
     #[inline(always)]
     pub(crate) fn rays(&self, x: F8, y: F8, (width, height): (u32, u32)) -> (Point3<F8>, Vec3<F8>) {
         let (px, py) = (on_picture_lanes(x, width), on_picture_lanes(y, height));
@@ -87,14 +87,13 @@ impl Camera {
     }
 }
 
-/// The coordinate in `[-1, 1]` of a place measured in pixels from the left or the top:
-/// `2 x / X - 1`.
+/// Converts a coordinate in pixels from the left or the top to `[-1, 1]`: `2 x / X - 1`.
 #[inline]
 pub fn on_picture(x: f64, size: u32) -> f64 {
     2.0 * x / f64::from(size) - 1.0
 }
 
-/// The same in lanes.
+/// [`Camera::on_picture`] for eight coordinates.
 #[inline(always)]
 fn on_picture_lanes(x: F8, size: u32) -> F8 {
     x * 2.0 / f64::from(size) - F8::ONE

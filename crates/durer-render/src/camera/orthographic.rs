@@ -1,4 +1,4 @@
-//! The orthographic camera: all rays have the direction of view.
+//! The orthographic camera: all rays are parallel to the direction of view.
 //!
 //! ```text
 //!     o + sx ●──────▶           o(p) = o + px sx + py sy
@@ -19,8 +19,8 @@ pub struct Orthographic {
 }
 
 impl Orthographic {
-    /// From the middle of the picture, the direction of all rays, and the vectors from the middle
-    /// to the middles of the right and lower sides.
+    /// Makes a camera from the middle of the picture, the direction of all rays, and the vectors
+    /// from the middle of the picture to the middles of its right and lower sides.
     ///
     /// ```
     /// use durer_math::{Point3, Vec3};
@@ -41,7 +41,7 @@ impl Orthographic {
         Ray::new(self.origin + (self.sx * px + self.sy * py), self.direction)
     }
 
-    /// The vectors of which the starts of rays are sums.
+    /// The vectors whose sums are the starts of rays.
     pub(super) fn start_terms(&self) -> [Vec3; 3] {
         [self.origin.to_vec(), self.sx, self.sy]
     }

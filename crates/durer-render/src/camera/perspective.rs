@@ -26,14 +26,14 @@ pub struct Perspective {
 }
 
 impl Perspective {
-    /// From the eye, the vector to the middle of the picture, and the vectors from there to the
-    /// middles of its right and lower sides.
+    /// Makes a camera from the eye, the vector to the middle of the picture, and the vectors from
+    /// there to the middles of the right and lower sides.
     pub fn new(origin: Point3, f: Vec3, sx: Vec3, sy: Vec3) -> Result<Self, CameraError> {
         check(origin, [("direction", f), ("right vector", sx), ("up vector", sy)])?;
         Ok(Self { origin, f, sx, sy })
     }
 
-    /// A right-handed camera at `origin` that sees `target` in the middle, with `up` upwards, a
+    /// Makes a right-handed camera at `origin` that looks at `target`, with `up` upwards, a
     /// horizontal field of view in radians (below pi) and a picture `aspect` times as wide as it is
     /// high.
     ///
@@ -75,7 +75,7 @@ impl Perspective {
         (splat(self.origin.to_vec()).to_point(), splat(self.f) + splat(self.sx) * px + splat(self.sy) * py)
     }
 
-    /// Where all rays start.
+    /// The point where all rays start.
     pub fn origin(&self) -> Point3 {
         self.origin
     }

@@ -1,4 +1,4 @@
-//! From the scene's numbers to light and to files.
+//! Conversions between the scene's colour values, light, and the values of a file.
 //!
 //! | the scene says | `rgb 0.5` in an sRGB file |
 //! | --- | --- |
@@ -13,14 +13,14 @@ use durer_math::lanes::LANES;
 use durer_math::{Isa, elementary};
 use durer_scene::{AssumedGamma, Rgb};
 
-/// How the numbers of a film relate to light.
+/// How the colour values of a film relate to light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Encoding {
-    /// They are light.
+    /// The values are light.
     Linear,
-    /// Light is the number to this power.
+    /// Light is the value to this power.
     Power(f64),
-    /// They are values of an sRGB file.
+    /// The values are those of an sRGB file.
     Srgb,
 }
 
@@ -29,14 +29,14 @@ impl From<AssumedGamma> for Encoding {
         match gamma {
             AssumedGamma::Power(1.0) => Self::Linear,
             AssumedGamma::Power(power) => Self::Power(power),
-            // A scene without any gamma writes its numbers into the file.
+            // The values of a scene without any gamma are written to the file unchanged.
             AssumedGamma::Srgb | AssumedGamma::None => Self::Srgb,
         }
     }
 }
 
 impl Encoding {
-    /// The light that the number `v` stands for.
+    /// The light for the colour value `v`.
     pub fn light(self, v: f64) -> f64 {
         match self {
             Self::Linear => v,
@@ -51,17 +51,18 @@ impl Encoding {
         }
     }
 
-    /// The value of an sRGB file, from 0 to 1, for the number `v`.
+    /// The value of an sRGB file, from 0 to 1, for the colour value `v`.
     pub fn file(self, v: f64) -> f64 {
         let value = match self {
             Self::Srgb => v,
             _ => encode(self.light(v).clamp(0.0, 1.0)),
         };
-        // NaN is shown black.
+        // NaN is shown as black.
         if value > 0.0 { value.min(1.0) } else { 0.0 }
     }
 
-    /// The number for the value of an sRGB file, from 0 to 1: undoes [`Encoding::file`].
+    /// The colour value for the value of an sRGB file, from 0 to 1. This is the inverse of
+    /// [`Encoding::file`].
     fn shown(self, value: f64) -> f64 {
         match self {
             Self::Srgb => value,
@@ -69,7 +70,7 @@ impl Encoding {
         }
     }
 
-    /// The number that stands for a light: undoes [`Encoding::light`].
+    /// The colour value for a light. This is the inverse of [`Encoding::light`].
     fn number(self, light: f64) -> f64 {
         match self {
             Self::Linear => light,
@@ -78,11 +79,11 @@ impl Encoding {
         }
     }
 
-    /// The least number that is written as the byte `k` or a greater one.
+    /// The least colour value that is written as the byte `k` or a greater one.
     fn least(self, k: u8) -> f64 {
         let reaches = |bits| (self.file(f64::from_bits(bits)) * 255.0 + 0.5) as u8 >= k;
-        // Positive f64 are in the order of their bits. Rounding has moved the guess by a few of
-        // them.
+        // Positive f64 numbers are in the order of their bits. Rounding moves the guess by a few
+        // ulps at most, so the exact end is near it.
         let guess = self.number(decode((f64::from(k) - 0.5) / 255.0)).clamp(0.0, 1.0).to_bits();
         let (mut below, mut above, mut step) = (guess, guess, 1);
         if reaches(guess) {
@@ -106,25 +107,26 @@ impl Encoding {
     }
 }
 
-/// The bytes of an 8-bit file, by comparison: for each byte the least number that is written as it.
+/// A table that finds the byte of an 8-bit file by comparison. For each byte it holds the least
+/// colour value that is written as that byte.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Bytes {
-    /// In the end what no number reaches.
+    /// The last entry is above every value.
     least: [f64; 257],
     /// The byte at the lower end of each cell, where the search starts.
     start: Box<[u8; 2 * CELLS]>,
-    /// Whether no cell holds the ends of two bytes.
+    /// Whether every cell holds the lower end of one byte at most.
     is_fine: bool,
-    /// The number that stands for each byte.
+    /// The colour value for each byte.
     numbers: [f64; 256],
 }
 
-/// `[0, 1]` has so many cells, around the multiples of one over this: so fine that few hold the
-/// ends of two bytes, also where the sRGB curve is steep.
+/// The number of cells of `[0, 1]`; their middles are the multiples of `1 / CELLS`. The cells are
+/// so small that few hold the lower ends of two bytes, even where the sRGB curve is steep.
 const CELLS: usize = 4096;
 
-/// Numbers in `[0, 1]` are rounded to the middle of their cell when this is added, and its number
-/// is what the last bits say.
+/// Adding this to a number in `[0, 1]` rounds the number to the middle of its cell. The last bits
+/// of the sum are then the number of the cell.
 const ROUNDER: f64 = (1_u64 << 52) as f64 / CELLS as f64;
 
 impl Bytes {
@@ -150,12 +152,12 @@ impl Bytes {
         Self { least, start, is_fine, numbers }
     }
 
-    /// The number that stands for a byte.
+    /// The colour value for a byte.
     pub(super) fn number(&self, byte: u8) -> f64 {
         self.numbers[usize::from(byte)]
     }
 
-    /// The bytes for some numbers, one for each.
+    /// Converts colour values to bytes.
     pub(super) fn of_all(&self, numbers: &[f64], bytes: &mut [u8]) {
         let (eights, rest) = numbers.as_chunks::<LANES>();
         let (byte_eights, byte_rest) = bytes.as_chunks_mut::<LANES>();
@@ -172,7 +174,7 @@ impl Bytes {
         }
     }
 
-    /// The bytes for some colours, three for each.
+    /// Converts colours to three bytes each.
     pub(super) fn of_colours(&self, colours: &[Rgb], bytes: &mut [[u8; 3]]) {
         let (eights, rest) = colours.as_chunks::<LANES>();
         let (byte_eights, byte_rest) = bytes.as_chunks_mut::<LANES>();
@@ -183,7 +185,7 @@ impl Bytes {
                 let mut known = [0; 3 * LANES];
                 self.of_some(&numbers, &mut known);
                 for (colours, bytes) in eights.iter().zip(byte_eights) {
-                    // Often neighbours have one colour, the background's.
+                    // Neighbours often have the same colour, the background's.
                     let mut differ = 0;
                     for (i, Rgb { r, g, b }) in colours.iter().enumerate() {
                         for (k, v) in [*r, *g, *b].into_iter().enumerate() {
@@ -203,7 +205,7 @@ impl Bytes {
         }
     }
 
-    /// Cells are found in lanes, bytes one by one.
+    /// Finds the cells in lanes and the bytes one by one.
     #[inline(always)]
     fn of_some<const N: usize>(&self, numbers: &[f64; N], bytes: &mut [u8; N]) {
         let (mut values, mut places) = ([0.0; N], [0; N]);
@@ -222,21 +224,21 @@ impl Bytes {
         }
     }
 
-    /// The byte for the number `v`.
+    /// The byte for the colour value `v`.
     #[inline(always)]
     pub(super) fn of(&self, v: f64) -> u8 {
         let v = within(v);
         self.from(v, place(v))
     }
 
-    /// As [`Bytes::from`], where no cell holds the ends of two bytes.
+    /// As [`Bytes::from`], for tables where no cell holds the lower ends of two bytes.
     #[inline(always)]
     fn near(&self, v: f64, place: usize) -> u8 {
         let byte = self.start[place];
         byte + u8::from(self.least[usize::from(byte) + 1] <= v)
     }
 
-    /// The byte for a number in the cell at this place.
+    /// The byte for a value in the cell `place`.
     #[inline(always)]
     fn from(&self, v: f64, place: usize) -> u8 {
         let mut byte = self.start[place];
@@ -247,14 +249,14 @@ impl Bytes {
     }
 }
 
-/// A number that is not beyond 0 and 1; NaN is shown black.
+/// Clamps a value to `[0, 1]`; NaN becomes 0, black.
 #[inline(always)]
 fn within(v: f64) -> f64 {
     let v = if v > 0.0 { v } else { 0.0 };
     if v < 1.0 { v } else { 1.0 }
 }
 
-/// The cell of a number in `[0, 1]`.
+/// The number of the cell that holds a number in `[0, 1]`.
 #[inline(always)]
 fn place(v: f64) -> usize {
     (v + ROUNDER).to_bits() as usize & (2 * CELLS - 1)
@@ -264,13 +266,13 @@ fn place(v: f64) -> usize {
 fn encode(light: f64) -> f64 {
     match light {
         ..=0.003_130_8 => 12.92 * light,
-        // Where the formula is a digit short.
+        // The formula loses a digit here.
         1.0.. => 1.0,
         _ => 1.055 * elementary::pow(light, 1.0 / 2.4) - 0.055,
     }
 }
 
-/// The inverse of [`encode`], going on beyond 1.
+/// The inverse of [`encode`], also for values above 1.
 fn decode(value: f64) -> f64 {
     if value <= 0.040_45 { value / 12.92 } else { elementary::pow((value + 0.055) / 1.055, 2.4) }
 }
@@ -311,15 +313,15 @@ mod tests {
                 assert_eq!((table.of(v.next_down()), table.of(v)), (k as u8 - 1, k as u8));
             }
             assert_eq!([f64::NAN, f64::INFINITY, f64::NEG_INFINITY].map(|v| table.of(v)), [0, 255, 0]);
-            // All at once, and some that are left over; around the ends of bytes, where the curve
-            // is steep.
+            // Many values at once, and a few that do not fill a group; values around the lower ends
+            // of bytes, where the curve is steep.
             let near = |k: usize| [table.least[k].next_down(), table.least[k]];
             let numbers: Vec<f64> = (1..=255).flat_map(near).chain([f64::NAN, 7.0, -7.0, 0.0, 1.0]).collect();
             let mut bytes = vec![7; numbers.len()];
             table.of_all(&numbers, &mut bytes);
             assert_eq!(bytes, numbers.iter().map(|&v| byte(v)).collect::<Vec<_>>(), "{encoding:?}");
-            // The same as colours: eight that differ, eight alike, alike but for the last, black
-            // again, and some that are left over.
+            // The same values as colours: eight that differ, eight equal ones, eight equal ones
+            // except the last, black again, and a few that do not fill a group.
             let mut colours: Vec<Rgb> =
                 numbers.as_chunks::<3>().0.iter().map(|&[r, g, b]| Rgb { r, g, b }).collect();
             let grey = Rgb { r: 0.3, g: 0.4, b: 0.5 };

@@ -1,4 +1,4 @@
-//! The film: what a picture is made of until it becomes a file.
+//! The film holds a picture in memory until it is saved as a file.
 
 mod gamma;
 mod save;
@@ -23,14 +23,14 @@ pub struct Film {
     rendered: Vec<bool>,
 }
 
-/// What a film keeps of a colour.
+/// How much of each colour a film keeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Depth {
-    /// The scene's own numbers.
+    /// The scene's own colour values, in full.
     #[default]
     Numbers,
-    /// The bytes of an 8-bit file, and no more: an eighth of the memory. Who wants nothing but such
-    /// a file gets the same one.
+    /// Only the bytes of an 8-bit file. This takes an eighth of the memory, and an 8-bit file that
+    /// is saved from it is the same.
     Bytes,
 }
 
@@ -40,7 +40,7 @@ enum Colours {
     Bytes(Vec<[u8; 3]>, Box<Bytes>),
 }
 
-/// A pixel: colour in the scene's own numbers, not multiplied by the opacity.
+/// A pixel: its colour in the scene's own values, not multiplied by the opacity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pixel {
     /// Its colour.
@@ -50,10 +50,11 @@ pub struct Pixel {
 }
 
 impl Film {
-    /// A film on which nothing is seen yet: every pixel is clear.
+    /// Makes an empty film: every pixel is clear.
     pub fn new(width: u32, height: u32, encoding: Encoding, depth: Depth) -> Self {
         let size = width as usize * height as usize;
-        // Numbers, and no type of our own: zeros of theirs need not be written.
+        // Plain numbers rather than a type of our own: the allocator provides zeroed memory, so
+        // zeros need not be written.
         let colours = match depth {
             Depth::Numbers => {
                 let colours = vec![[0.0; 3]; size];
@@ -65,28 +66,28 @@ impl Film {
         Self { width, height, encoding, colours, rendered: vec![false; size] }
     }
 
-    /// Columns.
+    /// The number of columns.
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// Rows.
+    /// The number of rows.
     pub fn height(&self) -> u32 {
         self.height
     }
 
-    /// How its numbers relate to light.
+    /// How the film's colour values relate to light.
     pub fn encoding(&self) -> Encoding {
         self.encoding
     }
 
-    /// All pixels, row by row from the top. Where only bytes were kept, the numbers are those that
-    /// stand for them.
+    /// All pixels, row by row from the top. If the film keeps only bytes, the colours are computed
+    /// back from the bytes.
     pub fn pixels(&self) -> impl Iterator<Item = Pixel> {
         (0..self.rendered.len()).map(|i| self.at(i))
     }
 
-    /// The pixel with a number, counted row by row.
+    /// Pixel number `i`, counted row by row.
     fn at(&self, i: usize) -> Pixel {
         let [r, g, b] = match &self.colours {
             Colours::Numbers(colours) => colours[i],
@@ -100,7 +101,8 @@ impl Film {
         (x < self.width && y < self.height).then(|| self.at(y as usize * self.width as usize + x as usize))
     }
 
-    /// The colour of a pixel as light, red, green and blue: for measurements and linear files.
+    /// The colour of a pixel as light: red, green and blue. Useful for measurements and linear
+    /// files.
     pub fn light(&self, x: u32, y: u32) -> Option<[f64; 3]> {
         let rgb = self.pixel(x, y)?.rgb;
         Some([rgb.r, rgb.g, rgb.b].map(|v| self.encoding.light(v)))
@@ -108,12 +110,13 @@ impl Film {
 
     /// Whether every pixel was rendered.
     pub fn is_complete(&self) -> bool {
-        // All of a part are looked at, and many at once.
+        // All pixels of a chunk are tested without an early exit, which lets the compiler vectorise
+        // the loop.
         let all = |part: &[bool]| part.iter().fold(true, |all, &rendered| all & rendered);
         self.rendered.chunks(256).all(all)
     }
 
-    /// Puts the pixels of `region`, row by row, into their places; there may be fewer than it has.
+    /// Stores the pixels of `region`, row by row. There may be fewer pixels than the region has.
     pub(crate) fn put(&mut self, region: Region, pixels: &[Rgb]) {
         let columns = (region.x1 - region.x0) as usize;
         for (row, from) in (region.y0..region.y1).zip(pixels.chunks(columns)) {
@@ -148,7 +151,7 @@ mod tests {
             });
             assert_eq!(numbers.bytes(Bits::Eight, true), bytes.bytes(Bits::Eight, true));
             assert_eq!(numbers.bytes(Bits::Eight, false), bytes.bytes(Bits::Eight, false));
-            // The numbers that stand for bytes are written as those.
+            // The colour values for bytes are written as those bytes.
             let mut again = Film::new(9, 9, encoding, Depth::Numbers);
             again.put(
                 Region { x0: 0, y0: 0, x1: 9, y1: 9 },

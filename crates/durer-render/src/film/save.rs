@@ -1,5 +1,5 @@
-//! Files: written beside the goal under another name, then renamed, so that a half-written picture
-//! never has the picture's name.
+//! Saving a film as a file. The file is written under a temporary name in the same directory and
+//! then renamed, so a half-written picture never has the picture's name.
 
 use super::gamma::Bytes;
 use super::{Colours, Depth, Film};
@@ -21,7 +21,7 @@ pub enum FileFormat {
     Ppm(Bits),
 }
 
-/// The size of a channel.
+/// The number of bits of a channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Bits {
     /// 8 bits.
@@ -34,7 +34,7 @@ pub enum Bits {
 /// Why a picture could not be saved.
 #[derive(Debug, thiserror::Error)]
 pub enum SaveError {
-    /// The ending of the name names no format.
+    /// The extension of the file's name names no known format.
     #[error("{}: the name of a picture must end in .png, .exr or .ppm", .0.display())]
     Ending(PathBuf),
     /// Writing failed.
@@ -42,14 +42,14 @@ pub enum SaveError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What happened.
+        /// The cause.
         #[source]
         source: io::Error,
     },
 }
 
 impl FileFormat {
-    /// The format named by the ending of a file's name, in any case.
+    /// The format that the extension of a file's name stands for; case does not matter.
     pub fn of(path: &Path, bits: Bits) -> Result<Self, SaveError> {
         let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
         match ending.as_deref() {
@@ -60,7 +60,7 @@ impl FileFormat {
         }
     }
 
-    /// The least that a film must keep so that no such file shows a difference.
+    /// The least depth of a film with which a file of this format loses nothing.
     pub fn depth(self) -> Depth {
         match self {
             Self::Png(Bits::Eight) | Self::Ppm(Bits::Eight) => Depth::Bytes,
@@ -70,8 +70,8 @@ impl FileFormat {
 }
 
 impl Film {
-    /// Writes the picture to `path`. What had that name is replaced at once, when the new file is
-    /// complete; if anything fails it is left as it was.
+    /// Writes the picture to `path`. A file with that name is replaced atomically, once the new
+    /// file is complete. If anything fails, the old file is left as it was.
     pub fn save(&self, path: &Path, format: FileFormat) -> Result<(), SaveError> {
         let failed = |source| SaveError::Io { path: path.to_owned(), source };
         let mut name = std::ffi::OsString::from(".");
@@ -80,7 +80,7 @@ impl Film {
         let part = path.with_file_name(name);
         let written = self.write(&part, format).and_then(|()| fs::rename(&part, path));
         if written.is_err() {
-            // Nothing more can be done if this fails too; the first error is the one to tell.
+            // Nothing more can be done if this fails too; the first error is reported.
             let _ = fs::remove_file(&part);
         }
         written.map_err(failed)
@@ -96,7 +96,7 @@ impl Film {
         out.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
     }
 
-    /// The channels as whole numbers of the given size, most significant byte first.
+    /// The channels as integers of the given size, most significant byte first.
     pub(super) fn bytes(&self, bits: Bits, with_alpha: bool) -> Cow<'_, [u8]> {
         let opaque = match (bits, &self.colours) {
             (Bits::Sixteen, _) => return Cow::Owned(self.words(with_alpha)),
@@ -115,7 +115,7 @@ impl Film {
         pixels.flat_map(|(&[r, g, b], &rendered)| [r, g, b, if rendered { 255 } else { 0 }]).collect()
     }
 
-    /// The channels as numbers of 16 bits.
+    /// The channels as 16-bit integers.
     fn words(&self, with_alpha: bool) -> Vec<u8> {
         let channels = if with_alpha { 4 } else { 3 };
         let mut bytes = Vec::with_capacity(self.rendered.len() * channels * 2);
@@ -138,7 +138,7 @@ impl Film {
             Bits::Eight => png::BitDepth::Eight,
             Bits::Sixteen => png::BitDepth::Sixteen,
         });
-        // The encoder's default took 4 % of a simple picture's time.
+        // With the encoder's default, compression took 4 % of the time of a simple picture.
         encoder.set_compression(png::Compression::Fastest);
         encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
         let mut writer = encoder.write_header()?;
@@ -172,7 +172,7 @@ impl Film {
             Image::from_channels(size, channels).write().to_buffered(&mut *out)
         } else {
             let channels = SpecificChannels::rgba(|p| {
-                // The format's colours are multiplied by the opacity.
+                // The format wants colours multiplied by the opacity.
                 let ([r, g, b], a) = at(p);
                 (r * a, g * a, b * a, a)
             });

@@ -1,4 +1,4 @@
-//! Bundles: rays that are followed together.
+//! Bundles: rays that are traced together.
 
 use crate::lanes::Rgb8;
 use crate::material::Mirror;
@@ -6,48 +6,49 @@ use durer_geometry::{Geometry, Hits8, Rays8, Scratch};
 use durer_math::lanes::LANES;
 use durer_math::{F8, M8};
 
-/// As many groups of neighbouring rays share one search of the tree.
+/// The number of groups of neighbouring rays that share one search of the tree.
 pub(super) const TOGETHER: usize = 16;
 
-/// A group with at least so many rays that belong together is used as it is; rays of others are
+/// A group with at least this many active rays is used as it is. Rays of sparser groups are
 /// gathered into new groups.
 const DENSE: u32 = 6;
 
-/// Black is seen after so many rays in a row, and as many clear surfaces in a row let no light
-/// pass: each ray keeps a list of the media it is in.
+/// The greatest number of rays in a row; further ones see black. After this many clear surfaces in
+/// a row, no light passes. The limit bounds the list of media that each ray keeps.
 pub(super) const DEEPEST: u32 = 4096;
 
-/// What is to become of what eight rays see.
+/// Where the colours that eight rays find are added.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Paths8 {
-    /// The greatest channel of what the colour counts in the picture.
+    /// The greatest channel of the colour's weight in the picture.
     pub(super) weight: F8,
-    /// What the colour is multiplied by
+    /// The factor of the colour.
     pub(super) factor: Rgb8,
-    /// and to which sum it is added.
+    /// The number of the sum to which the colour is added.
     pub(super) slot: [u32; LANES],
-    /// The places in the picture, on which random numbers depend.
+    /// The positions in the picture as bits; they are the seeds of random numbers.
     pub(super) seed: [u64; LANES],
 }
 
-/// What is the same for all rays of a bundle.
+/// The state that all rays of a bundle share.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct BundleState<'w> {
-    /// The camera's rays have level 1.
+    /// The recursion level; the camera's rays have level 1.
     pub(super) level: u32,
-    /// How many rays lead to these; those that pass unbent do not raise the level.
+    /// The number of rays that lead to these. Rays that pass through a surface unbent count here
+    /// too, but do not raise the level.
     pub(super) depth: u32,
-    /// Which objects they meet.
+    /// The mask of the objects that the rays can hit.
     pub(super) mask: u32,
-    /// How many random numbers were drawn on the way.
+    /// The number of random numbers drawn on the way.
     pub(super) draws: u32,
-    /// What changes the colours before they are multiplied by anything.
+    /// The mirror that changes the colours before any factor is applied, if there is one.
     pub(super) mirror: Option<&'w Mirror>,
-    /// The media they are in, the one entered last at the end.
+    /// The media that the rays are in; the one entered last is at the end.
     pub(super) media: Vec<u32>,
 }
 
-/// Rays with all that they need.
+/// Rays with everything needed to trace them.
 #[derive(Clone, Debug)]
 pub(super) struct Bundle<'w> {
     pub(super) rays: Vec<Rays8>,
@@ -60,11 +61,11 @@ pub(super) struct Bundle<'w> {
 #[derive(Clone, Copy, Debug)]
 struct Loose {
     group: usize,
-    /// How many it has; a full one is no longer asked for.
+    /// The number of its rays. A full group gets no more rays.
     filled: usize,
 }
 
-/// Whether a group is used as it is for these of its lanes.
+/// Whether a group with these active lanes is used as it is.
 #[inline(always)]
 pub(super) fn is_dense(lanes: u8) -> bool {
     lanes.count_ones() >= DENSE
@@ -74,7 +75,7 @@ impl Paths8 {
     pub(super) const NONE: Self =
         Self { weight: F8::ONE, factor: Rgb8::WHITE, slot: [0; LANES], seed: [0; LANES] };
 
-    /// Lane `i` becomes lane `j` of another eight.
+    /// Copies lane `j` of `from` into lane `i`.
     #[inline(always)]
     pub(super) fn copy_lane(&mut self, i: usize, from: &Self, j: usize) {
         self.weight.0[i] = from.weight.0[j];
@@ -85,21 +86,21 @@ impl Paths8 {
 }
 
 impl<'w> Bundle<'w> {
-    /// No rays yet. The camera's rays are outside of everything.
+    /// Makes an empty bundle. The camera's rays are outside of all media.
     pub(super) fn new() -> Self {
         let standing = BundleState { level: 1, depth: 0, mask: 0, draws: 0, mirror: None, media: Vec::new() };
         let loose = Loose { group: 0, filled: LANES };
         Self { rays: Vec::new(), paths: Vec::new(), standing, loose }
     }
 
-    /// Forgets the rays.
+    /// Removes the rays.
     pub(super) fn clear(&mut self) {
         self.rays.clear();
         self.paths.clear();
         self.loose.filled = LANES;
     }
 
-    /// Adds some of eight rays.
+    /// Adds the rays in `lanes`.
     #[inline(always)]
     pub(super) fn add(&mut self, rays: &Rays8, paths: &Paths8, lanes: M8) {
         if is_dense(lanes.bits()) {
@@ -110,7 +111,7 @@ impl<'w> Bundle<'w> {
         }
     }
 
-    /// Adds some of eight rays, each by itself.
+    /// Adds the rays in `lanes` one by one to the group that is being filled.
     #[inline(never)]
     fn add_loose(&mut self, rays: &Rays8, paths: &Paths8, lanes: M8) {
         for j in lanes.lanes() {
@@ -127,7 +128,7 @@ impl<'w> Bundle<'w> {
     }
 }
 
-/// Puts down what rays see first.
+/// Finds the first hits of rays.
 pub(super) fn see(geometry: &Geometry, rays: &[Rays8], mask: u32, hits: &mut [Hits8], scratch: &mut Scratch) {
     for (rays, hits) in rays.chunks(TOGETHER).zip(hits.chunks_mut(TOGETHER)) {
         let beam = geometry.bundle_candidates(rays);
@@ -135,7 +136,7 @@ pub(super) fn see(geometry: &Geometry, rays: &[Rays8], mask: u32, hits: &mut [Hi
     }
 }
 
-/// Lane `i` becomes the ray in lane `j` of another eight.
+/// Copies the ray in lane `j` of `from` into lane `i` of `to`.
 #[inline(always)]
 pub(super) fn copy_lane(to: &mut Rays8, i: usize, from: &Rays8, j: usize) {
     (to.origin.x.0[i], to.origin.y.0[i], to.origin.z.0[i]) =
@@ -174,7 +175,7 @@ mod tests {
         }
         got.sort_unstable();
         assert_eq!(got, want);
-        // Only the group that is being filled may have few.
+        // Only the group that is being filled may be sparse.
         let is_sparse = |r: &&Rays8| r.live.count() < DENSE as usize;
         assert!(bundle.rays.iter().filter(is_sparse).count() <= 1);
     }

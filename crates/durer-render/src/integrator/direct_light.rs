@@ -1,4 +1,4 @@
-//! The light of lamps on surfaces.
+//! Direct light: the light of the scene's lights on surfaces.
 
 use super::layers::{Coats, Lit};
 use super::shading_point::Spot;
@@ -12,27 +12,27 @@ use crate::vector::dot;
 use crate::world::World;
 use durer_math::{F8, Isa, M8};
 
-/// Lights some spots.
+/// Computes the direct light on shading points.
 #[derive(Default)]
 pub(super) struct Lamps<'w> {
     shadows: Shadows<'w>,
-    /// How the light of the lamp at hand falls on each spot.
+    /// How the current light falls on each group of points.
     falling: Vec<Falling>,
 }
 
-/// How light falls on eight points.
+/// How a light falls on eight points.
 #[derive(Clone, Copy)]
 struct Falling {
     at: Incidence,
-    /// What the light's colour is multiplied by.
+    /// The factor of the light's colour.
     strength: F8,
-    /// Where anything can block it.
+    /// The points whose way to the light can be blocked.
     blockable: M8,
 }
 
 impl<'w> Lamps<'w> {
-    /// Adds the light of all lamps on layers to the spots. `double` tells that light from behind
-    /// counts like light from the front; the rays came in `media`.
+    /// Adds the light of all lights, scattered by the layers, to the spots. If `double` is set,
+    /// light from behind counts like light from the front. The rays came in `media`.
     pub(super) fn light(
         &mut self,
         (world, isa): (&'w World, Isa),
@@ -47,8 +47,8 @@ impl<'w> Lamps<'w> {
             if stop.is_cancelled() {
                 return;
             }
-            // Small steps, each of which leaves its results in memory: the compiler mixes the lanes
-            // of large ones.
+            // The steps are small, and each leaves its results in memory: in large steps the
+            // compiler mixes the lanes.
             self.fall(isa, lamp, (double, behind), spots);
             for (k, finish) in coats.finishes.iter().enumerate() {
                 self.scatter(isa, finish, coats.lit(k));
@@ -69,7 +69,7 @@ impl<'w> Lamps<'w> {
         }
     }
 
-    /// Lets light fall on spots; none of it is seen yet.
+    /// Computes how a light falls on spots, before anything is scattered.
     fn fall(&mut self, isa: Isa, lamp: &RenderLight, (double, behind): (bool, bool), spots: &[Spot]) {
         let falling = &mut self.falling;
         falling.clear();
@@ -91,7 +91,7 @@ impl<'w> Lamps<'w> {
         );
     }
 
-    /// Adds what a layer scatters.
+    /// Computes the part that a layer scatters.
     fn scatter(&mut self, isa: Isa, finish: &Finish, lit: &[Lit]) {
         let (falling, places) = (&self.falling, self.shadows.places(lit.len()));
         isa.run_in_lanes(
@@ -104,7 +104,7 @@ impl<'w> Lamps<'w> {
         );
     }
 
-    /// Adds the highlights of a layer: on both sides if light from behind counts like light from
+    /// Adds the highlights of a layer; on both sides if light from behind counts like light from
     /// the front.
     fn highlight(&mut self, isa: Isa, finish: &Finish, lit: &[Lit], spots: &[Spot]) {
         let (falling, places) = (&self.falling, self.shadows.places(lit.len()));
@@ -121,7 +121,8 @@ impl<'w> Lamps<'w> {
         );
     }
 
-    /// Colours what is seen of the light, and aims rays at the lamp from where anything is.
+    /// Multiplies by the light's colour, and aims shadow rays at the light from the points that
+    /// scatter any.
     fn aim(&mut self, isa: Isa, lamp: &RenderLight, spots: &[Spot]) {
         let (falling, places) = (&self.falling, self.shadows.places(spots.len()));
         isa.run_in_lanes(

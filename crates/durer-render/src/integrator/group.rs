@@ -1,5 +1,5 @@
-//! Which rays of a bundle are shaded together: those that meet surfaces that look alike, in the
-//! same way.
+//! Grouping of a bundle's rays: rays that hit surfaces with the same look, in the same way, are
+//! shaded together.
 
 use crate::vector::dot;
 use crate::world::{Look, World};
@@ -7,16 +7,16 @@ use durer_geometry::{Hits8, Rays8};
 use durer_math::M8;
 use durer_math::lanes::{LANES, set_bits};
 
-/// Lanes of a group that belong together.
+/// The lanes of a group that are shaded together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Piece {
-    /// The number of the look, and whether the rays only touch the surface.
+    /// The number of the look, times two, plus one if the rays only touch the surface.
     key: u32,
     pub(super) group: u32,
     pub(super) lanes: u8,
 }
 
-/// Adds the pieces of a group's hits.
+/// Splits the hits of a group into pieces and adds these to `pieces`.
 #[inline(always)]
 pub(super) fn cut(world: &World, group: usize, rays: &Rays8, hits: &Hits8, pieces: &mut Vec<Piece>) {
     let mut left = hits.hit.bits();
@@ -28,7 +28,7 @@ pub(super) fn cut(world: &World, group: usize, rays: &Rays8, hits: &Hits8, piece
     for i in 0..LANES {
         differ |= (hits.object[i] ^ object) | (hits.primitive[i] ^ primitive);
     }
-    // Most groups meet one surface.
+    // Most groups hit one surface.
     if left == u8::MAX && differ == 0 && !hits.touching.any() && !world.has_insides {
         pieces.push(Piece {
             key: world.look_number(object, primitive) << 1,
@@ -37,7 +37,7 @@ pub(super) fn cut(world: &World, group: usize, rays: &Rays8, hits: &Hits8, piece
         });
         return;
     }
-    // From where a smooth face is seen is told by its normals, not by its plane.
+    // The shading normal decides from which side a smooth face is seen, not the plane of the face.
     let along = if world.has_insides { dot(hits.ns, rays.direction).0 } else { [0.0; LANES] };
     let mut keys = [0_u32; LANES];
     let mut last = (u32::MAX, u32::MAX, 0);
@@ -63,9 +63,9 @@ pub(super) fn cut(world: &World, group: usize, rays: &Rays8, hits: &Hits8, piece
     }
 }
 
-/// Brings pieces that belong together side by side.
+/// Sorts the pieces, so that pieces with the same key are adjacent.
 pub(super) fn sort(pieces: &mut [Piece]) {
-    // Most bundles meet one look.
+    // Most bundles hit one look.
     if pieces.windows(2).any(|w| w[0].key != w[1].key) {
         pieces.sort_unstable();
     }
@@ -82,7 +82,7 @@ impl Piece {
         &world.looks[(self.key >> 1) as usize]
     }
 
-    /// The rays only touch the surface.
+    /// Whether the rays only touch the surface.
     pub(super) fn is_grazing(&self) -> bool {
         self.key & 1 == 1
     }

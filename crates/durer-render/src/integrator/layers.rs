@@ -1,10 +1,12 @@
-//! Layers of paint, worked through from the outermost.
+//! The layers of a texture, shaded from the outermost inwards.
 //!
-//! Each adds its own light, times what the layers above let pass; what all of them let pass is seen
-//! behind the surface. Reflections of all layers are added as they are.
+//! Each layer adds its own light, times what the layers above it let pass. What all layers let pass
+//! is the factor of what lies behind the surface. Reflections of all layers are added without that
+//! factor.
 //!
-//! Negative `filter` and `transmit` extrapolate: what is behind is taken away. So all that compares
-//! with `adc_bailout` what layers let pass takes magnitudes (a fact of the scene language).
+//! Negative `filter` and `transmit` extrapolate: they subtract what is behind. So wherever the
+//! transmitted light is compared with `adc_bailout`, magnitudes are compared (a fact of the scene
+//! language).
 
 use super::media::Interface;
 use super::shading_point::Spot;
@@ -16,33 +18,36 @@ use crate::world::World;
 use durer_math::{F8, Isa, M8};
 use durer_scene::Colour;
 
-/// What the layers of some spots leave to be done.
+/// What is left to compute after the layers of some spots were applied: direct light and
+/// reflections.
 #[derive(Default)]
 pub(super) struct Coats<'w> {
-    /// The finishes of layers that light changes, the outermost first.
+    /// The finishes of layers that scatter or mirror light of the scene's lights, the outermost
+    /// first.
     pub(super) finishes: Vec<&'w Finish>,
-    /// The same layers at each spot, all spots of the first layer first.
+    /// The data of these layers at each spot: first all spots of the first layer, then those of the
+    /// second, and so on.
     lit: Vec<Lit>,
-    /// The mirrors of layers that reflect.
+    /// The mirrors of layers that reflect, the outermost first.
     pub(super) mirrors: Vec<&'w Mirror>,
-    /// The same layers at each spot, as above.
+    /// The data of these layers at each spot, in the same order.
     mirrored: Vec<Mirrored>,
-    /// How many spots there are.
+    /// The number of spots.
     spots: usize,
-    /// Which lanes of the spots see the layer at hand,
+    /// The lanes of each spot that see the current layer.
     live: Vec<M8>,
-    /// and its paint there.
+    /// The pigment's colour there.
     paint: Vec<Colour8>,
 }
 
-/// A layer that light changes, at a spot.
+/// A layer that scatters light, at a spot.
 #[derive(Clone, Copy)]
 pub(super) struct Lit {
-    /// What scattered light is multiplied by.
+    /// The factor of scattered light.
     pub(super) scattered: Rgb8,
-    /// What highlights are multiplied by.
+    /// The factor of highlights.
     pub(super) shine: Rgb8,
-    /// The paint's colour.
+    /// The pigment's colour.
     pub(super) colour: Rgb8,
     pub(super) grain: F8,
 }
@@ -50,15 +55,16 @@ pub(super) struct Lit {
 /// A layer that reflects, at a spot.
 #[derive(Clone, Copy)]
 pub(super) struct Mirrored {
-    /// Black where there is nothing to be seen.
+    /// The factor of the reflected colour; black where nothing is reflected.
     pub(super) reflectance: Rgb8,
-    /// How much it counts, dimmed by the layers above (which do not dim what is seen).
+    /// The weight of the reflected ray, reduced by the layers above. They do not reduce the
+    /// reflected colour itself.
     pub(super) importance: F8,
 }
 
 impl<'w> Coats<'w> {
-    /// Lays the layers, the innermost first, on the spots. `draws` is how many random numbers were
-    /// drawn before.
+    /// Applies the layers, given innermost first, to the spots. `draws` is the number of random
+    /// numbers drawn before.
     pub(super) fn lay(
         &mut self,
         (world, isa): (&'w World, Isa),
@@ -87,8 +93,8 @@ impl<'w> Coats<'w> {
             },
         );
         for coat in layers.iter().rev() {
-            // Small steps, each of which leaves its results in memory: the compiler mixes the lanes
-            // of large ones.
+            // The steps are small, and each leaves its results in memory: in large steps the
+            // compiler mixes the lanes.
             let bailout = F8::splat(world.adc_bailout);
             isa.run_in_lanes(
                 #[inline(always)]
@@ -115,7 +121,7 @@ impl<'w> Coats<'w> {
         }
     }
 
-    /// Adds the layer's own light, and what lamps need to know of it.
+    /// Adds the layer's own light, and records what direct light needs.
     fn lay_on(&mut self, (world, isa): (&World, Isa), finish: &Finish, spots: &mut [Spot]) {
         let own_light = Rgb8::splat(finish.own_light);
         let (live, paint, lit) = (&self.live, &self.paint, &mut self.lit);
@@ -136,7 +142,7 @@ impl<'w> Coats<'w> {
         );
     }
 
-    /// Draws the grain of the layer that was laid on last.
+    /// Draws the random grain of the layer that was applied last.
     fn grind(&mut self, crand: f64, draws: u32, spots: &[Spot]) {
         let first = self.lit.len() - self.spots;
         for ((lit, spot), live) in self.lit[first..].iter_mut().zip(spots).zip(&self.live) {
@@ -146,7 +152,7 @@ impl<'w> Coats<'w> {
         }
     }
 
-    /// Leaves what the layer lets pass.
+    /// Multiplies the passed light by what the layer lets pass.
     fn pass(&self, isa: Isa, spots: &mut [Spot]) {
         isa.run_in_lanes(
             #[inline(always)]
@@ -158,7 +164,7 @@ impl<'w> Coats<'w> {
         );
     }
 
-    /// The same of a layer that reflects.
+    /// As [`Coats::pass`], for a layer that reflects; also records the reflection.
     fn mirror(
         &mut self,
         isa: Isa,
@@ -191,19 +197,19 @@ impl<'w> Coats<'w> {
         );
     }
 
-    /// The `k`th layer that light changes, at each spot.
+    /// The data of scattering layer `k` at each spot.
     pub(super) fn lit(&self, k: usize) -> &[Lit] {
         &self.lit[k * self.spots..(k + 1) * self.spots]
     }
 
-    /// The `k`th layer that reflects, at spot `i`.
+    /// The data of reflecting layer `k` at spot `i`.
     #[inline(always)]
     pub(super) fn mirrored_at(&self, i: usize, k: usize) -> &Mirrored {
         &self.mirrored[k * self.spots + i]
     }
 }
 
-/// How many random numbers layers draw.
+/// The number of random numbers that these layers draw.
 pub(super) fn draws(layers: &[RenderLayer]) -> u32 {
     layers.iter().filter(|coat| coat.finish.is_lit && coat.finish.crand > 0.0).count() as u32
 }

@@ -1,22 +1,22 @@
-//! Which media rays are in, and what happens at the border between two of them.
+//! The media that rays are in, and the interface between two media.
 //!
-//! Rays keep a list of the media they are in. A surface whose medium is in the list is left, any
-//! other is entered. The list decides, and not the normal, so that sheets and overlapping bodies
-//! have a meaning too.
+//! Rays keep a list of the media they are in. At a surface whose medium is in the list the ray
+//! leaves that medium; at any other surface it enters one. The list decides, not the normal, so
+//! that open sheets and overlapping solids have a meaning too.
 
 use crate::material::reflectance;
 use crate::world::World;
 use durer_math::F8;
 
-/// What a surface does to a list of media.
+/// How a surface changes the list of media.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Crossing {
     Enter,
     Leave {
-        /// Which of the list is left.
+        /// The index in the list of the medium that is left.
         at: usize,
     },
-    /// The ray stays where it is.
+    /// The ray only touches the surface, and the list stays as it is.
     Touch,
 }
 
@@ -28,7 +28,7 @@ impl Crossing {
         media.iter().rposition(|&m| m == medium).map_or(Self::Enter, |at| Self::Leave { at })
     }
 
-    /// Makes `list` what `media` is behind the surface of `medium`.
+    /// Sets `list` to the media behind the surface of `medium`; `media` is the list before it.
     pub(super) fn behind(self, medium: u32, media: &[u32], list: &mut Vec<u32>) {
         list.clear();
         list.extend_from_slice(media);
@@ -42,26 +42,27 @@ impl Crossing {
     }
 }
 
-/// The border between two media.
+/// The interface between two media at a surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Interface {
     pub(super) crossing: Crossing,
-    /// The index of refraction before the surface over that behind it.
+    /// The index of refraction before the surface divided by that behind it.
     pub(super) ratio: f64,
-    /// The same as Fresnel's formula takes it. A fact of the scene language: behind the surface is
-    /// always its own medium, save where a ray is in that alone and leaves it.
+    /// The same ratio for Fresnel's formula. It is a fact of the scene language that the medium
+    /// behind the surface is always taken to be the surface's own, except where a ray is in that
+    /// medium alone and leaves it.
     fresnel_ratio: f64,
 }
 
 impl Interface {
-    /// The border of `medium`, for rays in the media of a list.
+    /// The interface at a surface of `medium`, for rays in the media of `list`.
     pub(super) fn new(world: &World, list: &[u32], medium: u32, grazing: bool) -> Self {
         let index = |medium: Option<&u32>| medium.map_or(1.0, |&m| world.media[m as usize].ior);
         let own = index(Some(&medium));
         let crossing = Crossing::new(list, medium, grazing);
         let ratio = match crossing {
             Crossing::Enter => index(list.last()) / own,
-            // Only what was entered last bends the ray when it is left.
+            // Leaving bends the ray only if this medium was the last one entered.
             Crossing::Leave { at } if at + 1 == list.len() => own / index(list[..at].last()),
             Crossing::Leave { .. } | Crossing::Touch => 1.0,
         };
@@ -69,7 +70,7 @@ impl Interface {
         Self { crossing, ratio, fresnel_ratio }
     }
 
-    /// The part of the light that is reflected.
+    /// The fraction of the light that is reflected.
     #[inline(always)]
     pub(super) fn fresnel(&self, cosine: F8) -> F8 {
         if self.fresnel_ratio == 1.0 { F8::ZERO } else { reflectance(self.fresnel_ratio, cosine) }

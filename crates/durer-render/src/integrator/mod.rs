@@ -1,4 +1,4 @@
-//! Integrators: how much light comes along rays.
+//! Integrators: the light that comes along rays.
 
 mod bundle;
 mod direct_light;

@@ -1,4 +1,4 @@
-//! The rays that go on behind a surface, and those that it mirrors.
+//! Secondary rays: rays that pass through a surface, and rays that it reflects.
 
 use super::bundle::{Bundle, BundleState, Paths8};
 use super::layers::Coats;
@@ -13,50 +13,50 @@ use durer_geometry::Rays8;
 use durer_math::{F8, Isa, M8, Vec3};
 use durer_scene::mask;
 
-/// Bundles of rays that surfaces of one bundle send on.
+/// The bundles of secondary rays that start where one bundle hits surfaces.
 #[derive(Default)]
 pub(super) struct Onward<'w> {
-    /// With what they are ordered by: of what comes together in one sum, the least is followed
-    /// first, whatever else is in the bundles.
+    /// The bundles with their sort key. Contributions to one sum are added in key order, so the sum
+    /// does not depend on the other rays of a bundle.
     bundles: Vec<(Order, Bundle<'w>)>,
-    /// Bundles to be used again.
+    /// Empty bundles for reuse.
     spare: Vec<Bundle<'w>>,
 }
 
-/// Which stack of layers of a surface, and which of its rays: through it, totally reflected, or of
-/// which reflecting layer.
+/// The number of a surface's stack of layers, and the kind of ray: through the surface, totally
+/// reflected, or reflected by a numbered layer.
 type Order = (u32, u32);
 const THROUGH: u32 = 0;
 const TOTAL: u32 = 1;
 const FIRST_MIRROR: u32 = 2;
 
-/// Surfaces that look alike, met by rays of one bundle.
+/// Surfaces with the same look that are hit by rays of one bundle.
 pub(super) struct Part<'a, 'w> {
     pub(super) look: &'w Look,
     pub(super) border: Interface,
-    /// The rays that met them.
+    /// The state of the rays that hit them.
     pub(super) standing: &'a BundleState<'w>,
 }
 
 impl<'w> Onward<'w> {
-    /// The bundles, the last ones to be followed first.
+    /// Takes out the bundles. The last one is to be traced first.
     pub(super) fn take(&mut self) -> impl Iterator<Item = Bundle<'w>> {
         self.bundles.sort_by_key(|(order, _)| core::cmp::Reverse(*order));
         self.bundles.drain(..).map(|(_, bundle)| bundle)
     }
 
-    /// A bundle without rays.
+    /// An empty bundle.
     pub(super) fn empty(&mut self) -> Bundle<'w> {
         self.spare.pop().unwrap_or_else(Bundle::new)
     }
 
-    /// Takes back a bundle.
+    /// Returns a bundle for reuse.
     pub(super) fn give_back(&mut self, mut bundle: Bundle<'w>) {
         bundle.clear();
         self.spare.push(bundle);
     }
 
-    /// The bundle for rays of a kind.
+    /// Finds or makes the bundle for rays with the given key and state.
     fn bundle(
         &mut self,
         order: Order,
@@ -85,8 +85,8 @@ impl<'w> Onward<'w> {
         &mut self.bundles[at].1
     }
 
-    /// Sends rays on from some spots. `stack` is the number of their stack of layers among those of
-    /// the surface; `drawn` tells how many random numbers it took.
+    /// Starts secondary rays at some spots. `stack` is the number of their stack of layers among
+    /// those of the surface; `drawn` is the number of random numbers that the stack drew.
     pub(super) fn send(
         &mut self,
         (world, isa): (&'w World, Isa),
@@ -129,8 +129,8 @@ impl<'w> Onward<'w> {
                             let (weight, counts_for_enough) = dimmed(world, spot);
                             let lanes = totally_reflected(world, border, spot) & counts_for_enough;
                             if lanes.any() {
-                                // Nothing passes, so the paint does not colour it; but the ray
-                                // counts as if it did.
+                                // Nothing passes, so the factor does not contain the layers'
+                                // colour. The ray's weight is still that of a ray that passes.
                                 let factor = spot.paths.factor * faded(world, part, spot);
                                 send(
                                     total,
@@ -181,26 +181,26 @@ impl<'w> Onward<'w> {
     }
 }
 
-/// The mirror direction.
+/// The direction of mirror reflection.
 #[inline(always)]
 fn mirrored(spot: &Spot) -> Vec3<F8> {
     reflect(spot.view.eye, spot.view.normal)
 }
 
-/// Where the layers let enough pass that what is behind them is looked at.
+/// The lanes where the layers let enough light pass for a ray behind them.
 #[inline(always)]
 fn open(world: &World, spot: &Spot) -> M8 {
     spot.live & !spot.passed.luminance().abs().le(F8::splat(world.adc_bailout))
 }
 
-/// What rays count for behind the layers, and where that is enough.
+/// The weights of rays behind the layers, and the lanes where the weight is large enough.
 #[inline(always)]
 fn dimmed(world: &World, spot: &Spot) -> (F8, M8) {
     let weight = spot.paths.weight * spot.passed.greatest_magnitude();
     (weight, !weight.lt(F8::splat(world.adc_bailout)))
 }
 
-/// The direction behind the surface, and where light passes it.
+/// The direction behind the surface, and the lanes where light passes.
 #[inline(always)]
 fn passing(world: &World, border: &Interface, spot: &Spot) -> (Vec3<F8>, M8) {
     let open = open(world, spot);
@@ -211,7 +211,7 @@ fn passing(world: &World, border: &Interface, spot: &Spot) -> (Vec3<F8>, M8) {
     (bent, open & passes)
 }
 
-/// Where light that would pass is reflected instead.
+/// The lanes of total reflection.
 #[inline(always)]
 fn totally_reflected(world: &World, border: &Interface, spot: &Spot) -> M8 {
     if border.ratio == 1.0 {
@@ -221,7 +221,7 @@ fn totally_reflected(world: &World, border: &Interface, spot: &Spot) -> M8 {
     open(world, spot) & !passes
 }
 
-/// What is left of light that has come through the medium which is left.
+/// The fraction of light that is left after the medium that the ray leaves here.
 #[inline(always)]
 fn faded(world: &World, part: &Part<'_, '_>, spot: &Spot) -> Rgb8 {
     match part.border.crossing {
@@ -230,7 +230,7 @@ fn faded(world: &World, part: &Part<'_, '_>, spot: &Spot) -> Rgb8 {
     }
 }
 
-/// Adds rays that leave a spot to a bundle.
+/// Adds rays that start at a spot to a bundle.
 #[inline(always)]
 fn send(
     bundle: &mut Bundle<'_>,

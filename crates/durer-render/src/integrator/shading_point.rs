@@ -1,4 +1,4 @@
-//! Eight points of surfaces that look alike, gathered to be shaded together.
+//! Eight shading points on surfaces with the same look, gathered to be shaded together.
 
 use super::bundle::{Paths8, is_dense};
 use super::group::Piece;
@@ -9,24 +9,25 @@ use durer_geometry::{Hits8, Rays8};
 use durer_math::lanes::{LANES, set_bits};
 use durer_math::{F8, Isa, M8, Point3, Vec3};
 
-/// Eight points being shaded.
+/// Eight points to be shaded.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spot {
-    /// Which lanes hold a point.
+    /// The lanes that hold a point.
     pub(super) live: M8,
     /// The points.
     pub(super) hits: Hits8,
-    /// What becomes of their colours.
+    /// Where their colours are added.
     pub(super) paths: Paths8,
-    /// How they are looked at; before [`face`] the eye is the ray's direction.
+    /// The directions of view. Before [`face`] is called, `eye` is the direction of the ray, not
+    /// normalised.
     pub(super) view: View,
-    /// How far the rays came.
+    /// The distance from the start of the ray.
     pub(super) distance: F8,
-    /// The points in the space of their paint.
+    /// The points in the space of their texture.
     pub(super) inside: Point3<F8>,
-    /// What is seen so far.
+    /// The light found so far.
     pub(super) sum: Rgb8,
-    /// What the layers so far let pass.
+    /// The fraction of light that the layers so far let pass.
     pub(super) passed: Rgb8,
 }
 
@@ -42,7 +43,7 @@ impl Spot {
         passed: Rgb8::WHITE,
     };
 
-    /// Lane `i` becomes lane `j` of what a group of rays met.
+    /// Copies lane `j` of a group's hits into lane `i`.
     #[inline(always)]
     fn copy_met(&mut self, i: usize, (hits, direction, paths): (&Hits8, Vec3<F8>, &Paths8), j: usize) {
         let to = &mut self.hits;
@@ -56,7 +57,7 @@ impl Spot {
         self.paths.copy_lane(i, paths, j);
     }
 
-    /// Lane `i` becomes lane `j` of another eight, of which nothing was seen yet.
+    /// Copies lane `j` of `from` into lane `i`, before anything is shaded.
     #[inline(always)]
     fn copy_lane(&mut self, i: usize, from: &Self, j: usize) {
         self.copy_met(i, (&from.hits, from.view.eye, &from.paths), j);
@@ -68,7 +69,7 @@ impl Spot {
     }
 }
 
-/// Spots in use, before others that are kept to be used again.
+/// The spots in use, followed by spots kept for reuse.
 #[derive(Default)]
 pub(super) struct Spots {
     spots: Vec<Spot>,
@@ -76,7 +77,7 @@ pub(super) struct Spots {
 }
 
 impl Spots {
-    /// One more, in which nothing is live and anything may be.
+    /// The next spot, without live lanes; its other contents are unspecified.
     #[inline(always)]
     fn next(&mut self) -> &mut Spot {
         if self.used == self.spots.len() {
@@ -88,7 +89,7 @@ impl Spots {
         spot
     }
 
-    /// Adds some lanes of some groups: dense groups by `whole(to, group)`, single lanes by
+    /// Adds the given lanes of groups: dense groups by `whole(to, group)`, single lanes by
     /// `copy(to, i, group, j)`.
     #[inline(always)]
     fn pack(
@@ -119,8 +120,8 @@ impl Spots {
         }
     }
 
-    /// Gathers what some rays met. Their directions stand for the eye until [`face`] has looked at
-    /// them.
+    /// Gathers the hits of some rays. The direction of the ray stands in `view.eye` until [`face`]
+    /// is called.
     pub(super) fn gather(
         &mut self,
         isa: Isa,
@@ -128,7 +129,7 @@ impl Spots {
         (rays, paths): (&[Rays8], &[Paths8]),
         hits: &[Hits8],
     ) -> &mut [Spot] {
-        // For lanes, as these copy whole blocks in large steps.
+        // Compiled for the lanes' instruction set, because whole groups are copied in large blocks.
         isa.run_in_lanes(
             #[inline(always)]
             || {
@@ -151,7 +152,7 @@ impl Spots {
         &mut self.spots[..self.used]
     }
 
-    /// Gathers some lanes of some spots, of which nothing was seen yet.
+    /// Gathers some lanes of spots in which nothing is shaded yet.
     pub(super) fn gather_again(
         &mut self,
         isa: Isa,
@@ -174,7 +175,7 @@ impl Spots {
     }
 }
 
-/// Works out how the points are looked at.
+/// Computes the directions of view, the normals that face them and their cosines.
 pub(super) fn face(isa: Isa, spots: &mut [Spot]) {
     isa.run_in_lanes(
         #[inline(always)]
@@ -184,7 +185,7 @@ pub(super) fn face(isa: Isa, spots: &mut [Spot]) {
                 let eye = view.eye * (F8::ONE / speed);
                 let slope = dot(hits.ns, eye);
                 let normal = (F8::ZERO).lt(slope).select3(-hits.ns, hits.ns);
-                // Rounding does not make it more than 1.
+                // Rounding must not make it more than 1.
                 *view = View { eye, normal, cosine: slope.abs().min(F8::ONE) };
                 *distance = hits.t * speed;
                 *inside = hits.p;

@@ -1,4 +1,4 @@
-//! Shadow rays: what is left of a light on its way to points.
+//! Shadow rays: the fraction of a light that reaches points.
 
 use super::bundle::{Bundle, BundleState, DEEPEST, Paths8, TOGETHER, see};
 use super::group::{Piece, cut, sort};
@@ -15,30 +15,30 @@ use durer_math::lanes::LANES;
 use durer_math::{F8, Isa, M8, Point3};
 use durer_scene::mask;
 
-/// A light on eight points, and the rays on which something may be in its way: places to put them.
+/// References to the light on eight points and to the shadow rays towards it, to be filled in.
 pub(super) struct Shade<'a> {
-    /// The light if nothing is between.
+    /// The light if nothing is in between.
     pub(super) light: &'a mut Rgb8,
     pub(super) rays: &'a mut Rays8,
-    /// Where the rays end.
+    /// The ends of the rays.
     pub(super) target: &'a mut Point3<F8>,
 }
 
-/// Shadow rays of one lamp, group by group.
+/// The shadow rays of one light, group by group.
 #[derive(Default)]
 pub(super) struct Shadows<'w> {
     light: Vec<Rgb8>,
     rays: Vec<Rays8>,
     targets: Vec<Point3<F8>>,
-    /// The paths of the rays as they start: group by group, nothing of the light is lost yet.
+    /// The initial paths of the rays, group by group: the full light is left.
     starts: Vec<Paths8>,
-    /// Rays on their way through clear surfaces: the factor is what is left of the light, the slot
-    /// their number in `light`.
+    /// Rays on their way through clear surfaces. The factor is the light that is left, the slot the
+    /// index in `light`.
     clear: Vec<Bundle<'w>>,
-    /// Bundles to be used again.
+    /// Empty bundles for reuse.
     spare: Vec<Bundle<'w>>,
     hits: Vec<Hits8>,
-    /// What opaque surfaces some rays meet, where it matters which.
+    /// The hits of rays with opaque surfaces, used if it matters which surface is hit.
     blockers: Vec<Hits8>,
     scratch: Box<Scratch>,
     pieces: Vec<Piece>,
@@ -46,7 +46,7 @@ pub(super) struct Shadows<'w> {
 }
 
 impl<'w> Shadows<'w> {
-    /// Places for a light on so many groups of points; anything may be in them.
+    /// References for the light on `groups` groups of points. Their contents are unspecified.
     pub(super) fn places(&mut self, groups: usize) -> impl Iterator<Item = Shade<'_>> {
         self.light.resize(groups, Rgb8::BLACK);
         self.rays.resize(groups, Rays8::NONE);
@@ -58,13 +58,14 @@ impl<'w> Shadows<'w> {
         )
     }
 
-    /// The light that arrives.
+    /// The light that reaches the points.
     pub(super) fn light(&self) -> &[Rgb8] {
         &self.light
     }
 
-    /// Takes away what does not arrive: all behind anything opaque, else what clear surfaces on the
-    /// way do not let pass. They do not bend it. Surfaces that pass through `end` throw no shadow.
+    /// Reduces the light by what is in the way: opaque surfaces block it all, clear surfaces block
+    /// what they do not let pass. They do not bend the rays. Surfaces that pass through `end` throw
+    /// no shadow.
     pub(super) fn cast(
         &mut self,
         (world, isa): (&'w World, Isa),
@@ -126,7 +127,7 @@ impl<'w> Shadows<'w> {
         }
     }
 
-    /// Follows the rays that met clear surfaces through all of them.
+    /// Traces the rays that hit clear surfaces through all of these.
     fn go_through_clear(
         &mut self,
         (world, isa): (&'w World, Isa),
@@ -169,9 +170,10 @@ impl<'w> Shadows<'w> {
         }
     }
 
-    /// Rays in some media go on behind the surfaces that they met. They are aimed at the light
-    /// again. Each leaves a surface behind; one that has passed the light has arrived. So all
-    /// arrive, unless they meet more surfaces than [`DEEPEST`]. `depth` is how many that are.
+    /// Continues rays, which are in `media`, behind the surfaces that they hit, and aims them at
+    /// the light again. Every step leaves one surface behind, and a ray that has passed the light
+    /// has arrived. So all rays arrive, unless they hit more surfaces than [`DEEPEST`]. `depth`
+    /// counts the surfaces so far.
     fn cross(
         &mut self,
         (world, isa): (&'w World, Isa),
@@ -218,8 +220,8 @@ impl<'w> Shadows<'w> {
     }
 }
 
-/// What is left of the light on some rays behind the surfaces that they meet; the answer tells
-/// where anything is.
+/// Reduces the light of some rays by the surfaces that they hit. Returns the lanes where light is
+/// left.
 #[inline(always)]
 fn pass(world: &World, look: &Look, crossing: Crossing, spot: &mut Spot) -> M8 {
     let direction = spot.view.eye;
@@ -238,7 +240,7 @@ fn pass(world: &World, look: &Look, crossing: Crossing, spot: &mut Spot) -> M8 {
     goes_on
 }
 
-/// How many rays there are.
+/// The number of active rays.
 fn count(isa: Isa, rays: &[Rays8]) -> usize {
     let mut count = 0;
     isa.run_in_lanes(
@@ -252,7 +254,7 @@ fn count(isa: Isa, rays: &[Rays8]) -> usize {
     count
 }
 
-/// Where some rays end.
+/// The ends of some rays.
 #[inline(always)]
 fn targets_of(spot: &Spot, targets: &[Point3<F8>]) -> Point3<F8> {
     let mut target = spot.hits.p;
@@ -264,7 +266,8 @@ fn targets_of(spot: &Spot, targets: &[Point3<F8>]) -> Point3<F8> {
     target
 }
 
-/// Some rays have arrived, or nothing is left of their light.
+/// Finishes rays that have arrived, or that have no light left: multiplies the light by their
+/// factor.
 #[inline(always)]
 fn settle(light: &mut [Rgb8], paths: &Paths8, lanes: M8) {
     for i in lanes.lanes() {

@@ -1,18 +1,18 @@
 //! Whitted's ray tracing with the scene language's shading, many rays at once.
 //!
 //! T. Whitted, "An improved illumination model for shaded display", Communications of the ACM
-//! 23(6), 1980: at each hit, shadow rays to the lights, one mirrored and one refracted ray. The
-//! camera's rays have level 1, mirrored and bent ones one more than the ray before; where the level
-//! is `max_trace_level`, and where a ray would count for less than `adc_bailout`, black is seen
-//! instead. What passes unbent does not raise the level; so many clear sheets may lie in a row, up
-//! to 4096.
+//! 23(6), 1980: at each hit, shadow rays to the lights, one reflected and one refracted ray. The
+//! camera's rays have level 1; a reflected or refracted ray has one level more than the ray before
+//! it. A hit of a ray with level `max_trace_level` starts no secondary rays, and neither does one
+//! whose secondary ray would have a weight below `adc_bailout`; black is seen instead. A ray that
+//! passes a surface unbent does not raise the level, so up to 4096 clear sheets may lie in a row.
 //!
-//! Rays that belong together are followed together, in bundles: all rays of one have the same level
-//! and are in the same media. Where they meet surfaces that do not look alike the bundle is split,
-//! so that all that is decided by the look is decided once. A ray knows what it counts in the
-//! picture and to which sum its colour is added, so nothing waits for it: bundles lie on a stack,
-//! the last one is followed first, and there is no recursion. In which bundle a ray comes along,
-//! and beside which others, changes nothing about its colour.
+//! Rays are traced in bundles: all rays of a bundle have the same level and are in the same media.
+//! Where they hit surfaces with different looks the bundle is split, so that every decision that
+//! depends on the look is made once. A ray knows its weight in the picture and the sum to which its
+//! colour is added, so nothing waits for it. Bundles lie on a stack, the last one is traced first,
+//! and there is no recursion. The colour of a ray does not depend on its bundle or on the other
+//! rays in it.
 
 use super::bundle::{Bundle, BundleState, DEEPEST, Paths8, see};
 use super::direct_light::Lamps;
@@ -34,20 +34,19 @@ use durer_math::lanes::LANES;
 use durer_math::{Aabb, F8, Isa, M8};
 use durer_scene::{Rgb, mask};
 
-/// So many of the camera's rays are followed until nothing is left of them: what they send on is
-/// still many after some reflections.
+/// The number of camera rays that are traced to their end before the next ones start. It is large,
+/// so that there are still many secondary rays after some reflections.
 const CAMERA_RAYS: usize = 128 * LANES;
-/// So many groups are seen and shaded at a time: what is known of them on the way is to stay in the
-/// cache.
+/// The number of groups that are traced and shaded at a time. Their data should stay in the cache.
 const AT_A_TIME: usize = 16;
 
-/// Traces rays for one thread; keeps its buffers, so that nothing is allocated for a ray.
+/// Traces rays for one thread. It keeps its buffers, so that tracing a ray allocates nothing.
 pub(crate) struct Whitted<'w> {
     world: &'w World,
     isa: Isa,
-    /// What is still to be done, the next at the end.
+    /// The tasks that are left; the last one is next.
     tasks: Vec<Task<'w>>,
-    /// The sums of what is seen, those of the camera's rays first.
+    /// The sums of colours, those of the camera's rays first.
     sums: Vec<Rgb>,
     hits: Vec<Hits8>,
     scratch: Box<Scratch>,
@@ -57,19 +56,19 @@ pub(crate) struct Whitted<'w> {
     lamps: Lamps<'w>,
     onward: Onward<'w>,
     pub(crate) counts: RayCounts,
-    /// Whether the caller has had enough.
+    /// Tells whether the caller has cancelled the work.
     stop: Progress<'w>,
 }
 
 enum Task<'w> {
-    /// To see what rays see.
+    /// Traces the rays of a bundle and shades their hits.
     Follow(Bundle<'w>),
-    /// To add what was seen in a mirror that changes colours. The sums from `first` on are its own.
+    /// Adds what was seen in a mirror that changes colours. The sums from `first` on belong to it.
     Show { mirror: &'w Mirror, first: usize, to: Vec<(u32, Rgb)> },
 }
 
 impl<'w> Whitted<'w> {
-    /// For the rays of a world.
+    /// Makes a tracer for a world.
     pub(crate) fn new(world: &'w World) -> Self {
         Self {
             world,
@@ -88,14 +87,14 @@ impl<'w> Whitted<'w> {
         }
     }
 
-    /// Follows no further ray once this is cancelled, also within one pixel.
+    /// Stops tracing, also within a pixel, once this is cancelled.
     #[must_use]
     pub(crate) fn stopped_by(self, stop: &Progress<'w>) -> Self {
         Self { stop: *stop, ..self }
     }
 
-    /// The colours seen at some places of a picture of the given size, in their order; `None` if
-    /// the work was stopped.
+    /// Computes the colours at some places of a picture of the given size, in their order. Returns
+    /// `None` if the work was cancelled.
     pub(crate) fn look(
         &mut self,
         camera: &Camera,
@@ -133,7 +132,7 @@ impl<'w> Whitted<'w> {
                     }
                 }
             }
-            // What was stopped on its way is no colour.
+            // Colours of cancelled rays are incomplete.
             if self.stop.is_cancelled() {
                 return None;
             }
@@ -142,7 +141,7 @@ impl<'w> Whitted<'w> {
         Some(())
     }
 
-    /// Follows the camera's rays at some places, whose sums begin with `slot`: in one bundle, if
+    /// Starts the camera's rays at some places; their sums begin at `slot`. They form one bundle if
     /// all start in the same media.
     fn start(&mut self, camera: &Camera, picture: (u32, u32), slot: usize, places: &[Place]) {
         self.counts.camera += places.len() as u64;
@@ -155,7 +154,7 @@ impl<'w> Whitted<'w> {
                     let mut paths = Paths8::NONE;
                     for (i, place) in places.iter().enumerate() {
                         (x.0[i], y.0[i]) = (place.x, place.y);
-                        // The place in the picture, to the last bit, names the ray.
+                        // All bits of the position in the picture identify the ray.
                         paths.seed[i] = place.x.to_bits().rotate_left(32) ^ place.y.to_bits();
                         paths.slot[i] = (slot + group * LANES + i) as u32;
                     }
@@ -179,18 +178,18 @@ impl<'w> Whitted<'w> {
         self.onward.give_back(all);
     }
 
-    /// The media in which rays of the camera start, if they are surely the same for all.
+    /// The media in which the camera's rays start, if these are certainly the same for all.
     fn standing(&self, rays: &[Rays8]) -> Option<Vec<u32>> {
         let origins = || rays.iter().flat_map(|rays| rays.live.lanes().map(|i| rays.lane(i).origin));
         self.world.standing(|| Aabb::from_points(origins()))
     }
 
-    /// The same of rays that may start in different media.
+    /// Starts rays that may begin in different media, in one bundle for each list of media.
     #[cold]
     fn start_apart(&mut self, all: &Bundle<'w>, first: &BundleState<'w>) {
         let mut apart: Vec<Bundle<'w>> = Vec::new();
-        // Compared number by number: the library's comparison of blocks is slow where both lists
-        // are empty.
+        // Compared element by element: the library's comparison of slices is slow when both are
+        // empty.
         let mut media = Vec::new();
         for (rays, paths) in all.rays.iter().zip(&all.paths) {
             let mut of = [0; LANES];
@@ -218,14 +217,14 @@ impl<'w> Whitted<'w> {
         }
     }
 
-    /// Follows the rays of a bundle, if they are not too many in a row already.
+    /// Traces the rays of a bundle, unless they already have too many rays before them.
     fn begin(&mut self, mut bundle: Bundle<'w>) {
         if bundle.standing.depth >= DEEPEST {
             self.onward.give_back(bundle);
             return;
         }
         if let Some(mirror) = bundle.standing.mirror.take() {
-            // What is seen is summed up by itself first.
+            // The reflected colours are first summed up separately.
             let first = self.sums.len();
             let mut to = Vec::new();
             for (rays, paths) in bundle.rays.iter().zip(&mut bundle.paths) {
@@ -243,14 +242,15 @@ impl<'w> Whitted<'w> {
         self.onward.give_back(bundle);
     }
 
-    /// Adds what the rays of a bundle see, and puts those that go on into `onward`.
+    /// Adds the colours that the rays of a bundle find, and puts their secondary rays into
+    /// `onward`.
     fn follow(&mut self, bundle: &Bundle<'w>) {
         for (rays, paths) in bundle.rays.chunks(AT_A_TIME).zip(bundle.paths.chunks(AT_A_TIME)) {
             self.follow_some((rays, paths), &bundle.standing);
         }
     }
 
-    /// The same of some of its groups.
+    /// As [`Whitted::follow`], for some groups of a bundle.
     fn follow_some(&mut self, (rays, paths): (&[Rays8], &[Paths8]), standing: &BundleState<'w>) {
         self.see((rays, paths), standing);
         let pieces = core::mem::take(&mut self.pieces);
@@ -270,12 +270,12 @@ impl<'w> Whitted<'w> {
         (self.pieces, self.spots) = (pieces, spots);
     }
 
-    /// What rays meet first: in `hits`, and in `pieces` what is to be shaded together. Where they
-    /// meet nothing the background is seen.
+    /// Finds the first hits of rays: fills `hits`, and `pieces` with the lanes to be shaded
+    /// together. Rays without a hit add the background.
     fn see(&mut self, (rays, paths): (&[Rays8], &[Paths8]), standing: &BundleState<'w>) {
         let world = self.world;
         self.pieces.clear();
-        // What is there of other rays is written over.
+        // Hits of earlier rays are overwritten.
         self.hits.resize(rays.len(), Hits8::NONE);
         see(world.geometry(), rays, standing.mask, &mut self.hits, &mut self.scratch);
         if let Some(camera) = world.camera_end.filter(|_| standing.depth == 0) {
@@ -298,8 +298,8 @@ impl<'w> Whitted<'w> {
         sort(&mut self.pieces);
     }
 
-    /// Shades spots with a paint, in whose space `inside` is; `stack` counts the stacks of layers
-    /// of the surface.
+    /// Shades spots with a texture, in whose space `inside` is given; `stack` counts the surface's
+    /// stacks of layers.
     fn paint(&mut self, part: &Part<'_, 'w>, paint: &'w RenderTexture, spots: &mut [Spot], stack: &mut u32) {
         match paint {
             RenderTexture::Layers(layers) => {
@@ -316,7 +316,7 @@ impl<'w> Whitted<'w> {
         }
     }
 
-    /// Shades spots with each of the textures whose fields reach them.
+    /// Shades spots with each texture whose fields reach them.
     fn weigh(&mut self, part: &Part<'_, 'w>, weights: &'w Weights, spots: &[Spot], stack: &mut u32) {
         let (mut shown, mut shares) = (Vec::new(), Vec::new());
         for (group, spot) in spots.iter().enumerate() {
@@ -347,7 +347,7 @@ impl<'w> Whitted<'w> {
         }
     }
 
-    /// Shades spots with each of the textures that a pattern shows there.
+    /// Shades spots with each texture that a pattern shows there.
     fn blend(
         &mut self,
         part: &Part<'_, 'w>,
@@ -401,7 +401,7 @@ impl<'w> Whitted<'w> {
     }
 }
 
-/// Adds colours to the sums to which they belong.
+/// Adds colours to their sums.
 #[inline(always)]
 fn add(sums: &mut [Rgb], paths: &Paths8, colour: Rgb8, lanes: M8) {
     let colour = colour * paths.factor;
@@ -411,7 +411,8 @@ fn add(sums: &mut [Rgb], paths: &Paths8, colour: Rgb8, lanes: M8) {
     }
     let at = first as usize;
     match sums.get_mut(at..at + LANES) {
-        // Neighbours, as the camera's rays are. Zero changes no sum: none is -0, as each began with 0.
+        // Adjacent slots, as for the camera's rays. Adding zero changes no sum: each began with 0,
+        // so none is -0.
         Some(sums) if gaps == 0 => {
             let colour = colour.kept(lanes);
             for (i, sum) in sums.iter_mut().enumerate() {

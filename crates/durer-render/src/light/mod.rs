@@ -1,4 +1,4 @@
-//! Lights made ready: from where they shine on a point, and how strongly.
+//! Lights with their constants precomputed: direction and strength of their light at a point.
 
 use crate::medium::NO_DISTANCE;
 use crate::power::Power;
@@ -13,26 +13,26 @@ use durer_scene::{Light, LightKind, Rgb, mask};
 pub(crate) struct RenderLight {
     location: Point3,
     pub(crate) colour: Rgb,
-    /// From the location to where it points, of length 1.
+    /// The unit vector from the location to the point it is aimed at.
     axis: Vec3,
     beam: Beam,
     pub(crate) parallel: bool,
     pub(crate) shadowless: bool,
     fade: Option<(f64, Power)>,
-    /// Where its shadow rays end, if a surface may pass through that.
+    /// The end of its shadow rays, if a surface may pass through it.
     pub(crate) end: Option<RayEnd>,
 }
 
 #[derive(Clone, Copy, Debug)]
 enum Beam {
     All,
-    /// Cosines at which light is full and at which it ends.
+    /// The cosines at which the light begins to fall off and at which it is zero.
     Cone {
         full: f64,
         end: f64,
         tightness: Power,
     },
-    /// Distances to the axis at which light is full and at which it ends.
+    /// The distances from the axis at which the light begins to fall off and at which it is zero.
     Tube {
         full: f64,
         end: f64,
@@ -43,20 +43,20 @@ enum Beam {
 /// A light at eight points.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Beamed {
-    /// Where it shines. The rest is about these points.
+    /// The points that it lights. The other fields are valid for these only.
     pub(crate) lit: M8,
     /// The unit directions from the points to the light.
     pub(crate) to_light: Vec3<F8>,
-    /// What the light's colour is multiplied by.
+    /// The factor of the light's colour.
     pub(crate) strength: F8,
-    /// How far blockers may be: the light itself, or for parallel light the point of its plane
-    /// above.
+    /// The end of shadow rays: the light itself, or for parallel light the point above on the
+    /// light's plane.
     pub(crate) target: Point3<F8>,
-    /// Where anything can block it.
+    /// The points whose way to the light can be blocked.
     pub(crate) blockable: M8,
 }
 
-/// 0 up to `a`, 1 from `b` on, and between them a cubic with level ends.
+/// 0 up to `a`, 1 from `b` on, and between them a cubic with zero slope at both ends.
 #[inline(always)]
 fn smooth_step(a: f64, b: f64, x: F8) -> F8 {
     let t = (x - a) / (b - a);
@@ -66,7 +66,8 @@ fn smooth_step(a: f64, b: f64, x: F8) -> F8 {
 }
 
 impl RenderLight {
-    /// `None` for a light that is black, or that has a direction and points at its own location.
+    /// Prepares a light. `None` for a light that is black, or that has a direction but points at
+    /// its own location.
     pub(crate) fn new(light: &Light) -> Option<Self> {
         let way = light.point_at - light.location;
         let is_aimed = light.parallel || !matches!(light.kind, LightKind::Point);
@@ -81,8 +82,8 @@ impl RenderLight {
                 tightness: Power::new(tightness),
             },
             LightKind::Cylinder { radius, falloff, tightness } => {
-                // Without a positive radius the beam has no soft edge: a fact of the scene
-                // language.
+                // Without a positive radius the beam has no soft edge (a fact of the scene
+                // language).
                 let full = if radius > 0.0 { radius } else { falloff };
                 Beam::Tube { full, end: falloff, tightness: Power::new(tightness) }
             }
@@ -103,7 +104,7 @@ impl RenderLight {
         })
     }
 
-    /// The light in a world of surfaces, on which it may lie.
+    /// Sets `end` if a surface of the geometry may pass through the light.
     #[must_use]
     pub(crate) fn among(self, geometry: &Geometry) -> Self {
         let end = if self.shadowless {
@@ -116,7 +117,7 @@ impl RenderLight {
         Self { end, ..self }
     }
 
-    /// The light at some points. Blockers are not looked for.
+    /// The light at some points, without shadows.
     #[inline(always)]
     pub(crate) fn at(&self, p: Point3<F8>, live: M8) -> Beamed {
         let location = Vec3::<F8>::splat(self.location.to_vec());
@@ -125,14 +126,14 @@ impl RenderLight {
         let depth = dot(from, axis);
         let distance = if self.parallel { depth } else { length(from) };
         let to_light = if self.parallel { -axis } else { from * (F8::splat(-1.0) / distance) };
-        // A sum is finite if its terms are: their length is 1.
+        // Each term is at most the length, 1, so the sum is finite if every term is.
         let size = to_light.x.abs() + to_light.y.abs() + to_light.z.abs();
         let mut lit = live & size.lt(F8::splat(f64::INFINITY));
         let mut strength = match self.beam {
             Beam::All => F8::ONE,
             Beam::Cone { full, end, tightness } => {
                 let cosine = if self.parallel { F8::ONE } else { depth / distance };
-                // The full cone is asked for first, and decides alone where it is the wider one.
+                // The full cone is tested first, and it alone decides where it is the wider one.
                 let inside = (F8::splat(full)).le(cosine);
                 let edge = inside.select(F8::ONE, smooth_step(end, full, cosine));
                 lit &= !(edge.equals(F8::ZERO) | cosine.le(F8::ZERO));
@@ -145,9 +146,9 @@ impl RenderLight {
             }
         };
         if let Some((at, power)) = self.fade {
-            // Behind the plane of a parallel light, and for a negative fade distance, the quotient
-            // is negative. The formula is taken at its word there: light may be negative; where
-            // there is no power there is no light.
+            // Behind the plane of a parallel light, and with a negative fade distance, the quotient
+            // is negative. The formula is evaluated as it stands: light may be negative, and where
+            // the power is undefined there is no light.
             let power = power.signed_lanes(distance / at, lit);
             lit &= power.equals(power);
             strength = strength * (F8::splat(2.0) / (F8::ONE + power));

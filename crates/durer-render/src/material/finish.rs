@@ -1,4 +1,4 @@
-//! Finishes with their constants worked out.
+//! Finishes with their constants precomputed.
 
 use super::metal::tint;
 use crate::lanes::Rgb8;
@@ -7,12 +7,12 @@ use crate::vector::{dot, reflect};
 use durer_math::{F8, M8, Vec3, elementary};
 use durer_scene::Rgb;
 
-/// From this size on, Phong's highlight ends where its cosine is [`PHONG_END`]: a fact of the scene
-/// language.
+/// From this size on, Phong's highlight is cut off where its cosine is [`PHONG_END`] (a fact of the
+/// scene language).
 const PHONG_SHARP: f64 = 60.0;
 const PHONG_END: f64 = 0.0008;
 
-/// A finish made ready.
+/// A finish with its constants precomputed.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Finish {
     /// Ambient light and emission together.
@@ -29,11 +29,11 @@ pub(crate) struct Finish {
     pub(crate) crand: f64,
     pub(crate) mirror: Option<Box<Mirror>>,
     pub(crate) conserve_energy: bool,
-    /// Whether light changes anything.
+    /// Whether the scene's lights have any effect.
     pub(crate) is_lit: bool,
 }
 
-/// A reflection made ready.
+/// A reflection with its constants precomputed.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Mirror {
     min: Rgb,
@@ -41,27 +41,27 @@ pub(crate) struct Mirror {
     falloff: Power,
     pub(crate) fresnel: bool,
     metallic: f64,
-    /// The reflected colour is raised to this.
+    /// The reflected colour is raised to this power.
     exponent: Power,
 }
 
-/// A light seen from eight points of surfaces.
+/// The directions from eight surface points to a light.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Incidence {
-    /// The points that are asked about; elsewhere anything is answered.
+    /// The lanes that are used. The answers in other lanes are unspecified.
     pub(crate) live: M8,
     /// The unit directions to the light.
     pub(crate) to_light: Vec3<F8>,
     /// The cosines of their angles to the normals; negative behind the surface.
     pub(crate) cosine: F8,
-    /// Light from behind counts like light from the front.
+    /// Whether light from behind counts like light from the front.
     pub(crate) double: bool,
 }
 
-/// How eight points of surfaces are looked at.
+/// The directions from which eight surface points are viewed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct View {
-    /// The unit directions of sight.
+    /// The unit directions from the eye to the points.
     pub(crate) eye: Vec3<F8>,
     /// The unit normals, on the side of the eye.
     pub(crate) normal: Vec3<F8>,
@@ -76,7 +76,7 @@ impl Finish {
         let n = 1.0 / f.roughness;
         let specular_albedo =
             if f.specular_albedo { (n + 2.0) / (4.0 * (2.0 - elementary::exp2(-n * 0.5))) } else { 1.0 };
-        // Negative amounts are none: a fact of the scene language.
+        // Negative amounts count as zero (a fact of the scene language).
         let [diffuse, diffuse_back, phong, specular, metallic] =
             [f.diffuse, f.diffuse_back, f.phong, f.specular, f.metallic].map(|amount| amount.max(0.0));
         let mirror = f.reflection.as_ref().filter(|r| !(r.min.is_black() && r.max.is_black()));
@@ -107,7 +107,7 @@ impl Finish {
         }
     }
 
-    /// The part of a light that is scattered evenly, less `grain`.
+    /// The fraction of a light that is scattered diffusely, less `grain`.
     #[inline(always)]
     pub(crate) fn scattered(&self, at: &Incidence, grain: F8) -> F8 {
         let front = if at.double { M8::ALL } else { (F8::ZERO).le(at.cosine) };
@@ -121,7 +121,7 @@ impl Finish {
         scatters.keep(shown)
     }
 
-    /// Whether light from behind the surface changes anything.
+    /// Whether light from behind the surface has any effect.
     #[inline]
     pub(crate) fn lit_from_behind(&self) -> bool {
         self.diffuse_back != 0.0
@@ -133,7 +133,7 @@ impl Finish {
         self.phong != 0.0 || self.specular != 0.0
     }
 
-    /// The part of a light that is seen as a highlight, on paint of colour `colour`.
+    /// The fraction of a light that is seen as a highlight, on a pigment of colour `colour`.
     #[inline(always)]
     pub(crate) fn highlight(&self, at: &Incidence, view: &View, colour: Rgb8) -> Rgb8 {
         let mut shine = F8::ZERO;
@@ -160,21 +160,21 @@ impl Finish {
 }
 
 impl Mirror {
-    /// Whether the mirror shows what is seen in it as it is.
+    /// Whether the mirror shows reflected colours unchanged.
     #[inline]
     pub(crate) fn is_plain(&self) -> bool {
         self.exponent == Power::One
     }
 
-    /// What the mirror makes of what is seen in it.
+    /// The colour that the mirror shows for a reflected colour.
     #[inline]
     pub(crate) fn shown(&self, seen: Rgb) -> Rgb {
         seen.map(|v| self.exponent.of(v.max(0.0)))
     }
 
-    /// What the reflected light is multiplied by, and what rays count for that bring it. `cosine`
-    /// is that of the angle between the normal and the eye; `fresnel` is Fresnel's reflectance,
-    /// which mirrors of that kind need.
+    /// The factor of the reflected light, and the factor of the weight of its rays. `cosine` is
+    /// that of the angle between the normal and the eye; `fresnel` is Fresnel's reflectance, for
+    /// mirrors that use it.
     #[inline(always)]
     pub(crate) fn reflectance(&self, cosine: F8, colour: Rgb8, live: M8, fresnel: F8) -> (Rgb8, F8) {
         let most = F8::splat(self.min.greatest().max(self.max.greatest()));
@@ -185,10 +185,10 @@ impl Mirror {
             (Rgb8::splat(self.min), most)
         } else {
             let k = self.falloff.lanes((F8::ONE - cosine).max(F8::ZERO), live);
-            // The angle does not count.
+            // Here the angle has no effect.
             (Rgb8::mixed(self.min, self.max, k), most)
         };
-        // Nor does a metal's colour.
+        // Nor has a metal's colour.
         let r = if self.metallic == 0.0 { r } else { r * tint(self.metallic, cosine, colour, live) };
         (r, importance)
     }
@@ -208,12 +208,12 @@ mod tests {
         Incidence { live: M8::ALL, to_light, cosine: to_light.y, double: false }
     }
 
-    /// How much of the light is scattered without any grain.
+    /// The fraction of the light that is scattered, without grain.
     fn scattered(f: &Finish, to_light: Vec3) -> f64 {
         f.scattered(&incidence(to_light), F8::ZERO).0[4]
     }
 
-    /// The highlight, seen straight from above.
+    /// The highlight, viewed perpendicularly.
     fn highlight(f: &Finish, to_light: Vec3) -> f64 {
         let up = Vec3::<F8>::splat(Vec3::Y);
         let view = View { eye: -up, normal: up, cosine: F8::ONE };
@@ -228,8 +228,9 @@ mod tests {
 
     #[test]
     fn the_albedo_forms_scatter_what_they_say() {
-        // The integral of k cos^b over the half sphere, with the cosine of projection, is 2 pi k /
-        // (b + 2) for plain diffuse light: the language's factor is (b + 1) / 2 all the same.
+        // The integral of `k cos^b` over the hemisphere, with the cosine of projection, is
+        // `2 pi k / (b + 2)`; for plain diffuse light `b = 1`. The language's factor is (b + 1) / 2
+        // nevertheless.
         let f =
             durer_scene::Finish { brilliance: 3.0, diffuse: 0.5, diffuse_albedo: true, ..Default::default() };
         assert_eq!(scattered(&ready(&f), Vec3::Y), 1.0);

@@ -1,11 +1,11 @@
-//! The border between two clear media: Snell's law of refraction and Fresnel's reflectance.
+//! The interface between two clear media: Snell's law of refraction and Fresnel's reflectance.
 
 use crate::vector::dot;
 use durer_math::{F8, M8, Vec3};
 
-/// The part of unpolarised light that is reflected, for light that falls at an angle of cosine
-/// `cosine >= 0` from a medium of index `n` times that of the medium behind (`n = n_from / n_to`);
-/// 1 beyond the critical angle.
+/// The fraction of unpolarised light that is reflected. The light arrives at an angle of cosine
+/// `cosine >= 0`, from a medium whose index is `n` times that of the medium behind
+/// (`n = n_from / n_to`). The answer is 1 beyond the critical angle.
 #[inline(always)]
 pub(crate) fn reflectance(n: f64, cosine: F8) -> F8 {
     let sine2 = (F8::ONE - cosine * cosine) * (n * n);
@@ -14,14 +14,14 @@ pub(crate) fn reflectance(n: f64, cosine: F8) -> F8 {
     let along = (bent - inner) / (bent + inner);
     let across = (cosine - bent_inner) / (cosine + bent_inner);
     let r = (along * along + across * across) * 0.5;
-    // What is not a number is 1 too.
+    // NaN gives 1 too.
     let partial = sine2.lt(F8::ONE) & r.lt(F8::ONE);
     partial.select(r.max(F8::ZERO), F8::ONE)
 }
 
-/// The unit directions in which light of unit directions `d` goes on behind a surface with unit
-/// normals `normal` that face it (`d . normal <= 0`), from a medium of index `n` times that behind;
-/// and where it does, as it is totally reflected elsewhere.
+/// The unit directions of refracted light, and the lanes where light is refracted; elsewhere it is
+/// totally reflected. `d` are unit directions, `normal` unit normals that face them
+/// (`d . normal <= 0`), and the index of the first medium is `n` times that of the medium behind.
 #[inline(always)]
 pub(crate) fn refract(d: Vec3<F8>, normal: Vec3<F8>, n: f64) -> (Vec3<F8>, M8) {
     let cosine = -dot(d, normal);

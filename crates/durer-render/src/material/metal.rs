@@ -1,4 +1,4 @@
-//! Metals: highlights and mirror images that take the pigment's colour, except at grazing angles.
+//! Metals: highlights and reflections take the pigment's colour, except at grazing angles.
 
 use crate::lanes::Rgb8;
 use core::f64::consts::FRAC_2_PI;
@@ -13,8 +13,8 @@ fn grazing(cosine: f64) -> f64 {
     (0.014_567_225 / (d * d) - 0.011_612_903).clamp(0.0, 1.0)
 }
 
-/// What light is multiplied by at surfaces of colour `colour` that are metallic to the degree
-/// `metallic`.
+/// The factor of light that a surface of colour `colour`, metallic to the degree `metallic`,
+/// reflects.
 #[inline(always)]
 pub(crate) fn tint(metallic: f64, cosine: F8, colour: Rgb8, live: M8) -> Rgb8 {
     let mut grazed = F8::ZERO;

@@ -1,4 +1,4 @@
-//! How surfaces answer to light: finishes, metals, mirrors.
+//! Materials: how surfaces reflect and scatter light.
 
 mod finish;
 mod fresnel;

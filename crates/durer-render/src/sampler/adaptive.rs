@@ -1,4 +1,4 @@
-//! The scene language's two ways to spend rays where pixels differ.
+//! The scene language's two methods of adaptive anti-aliasing.
 
 use super::jitter::random;
 use super::{ENOUGH, Look, Place, in_blocks, middle};
@@ -6,10 +6,10 @@ use crate::settings::Region;
 use durer_math::elementary;
 use durer_scene::Rgb;
 
-/// Colours are compared as a screen shows them.
+/// The gamma of the screen for which colours are compared.
 const SCREEN_GAMMA: f64 = 2.5;
 
-/// What the screen shows.
+/// The colour as the screen shows it.
 fn shown(c: Rgb) -> Rgb {
     c.map(|v| if v > 0.0 { elementary::pow(v.min(1.0), 1.0 / SCREEN_GAMMA) } else { 0.0 })
 }
@@ -20,12 +20,13 @@ fn difference(a: Rgb, b: Rgb) -> f64 {
     d.r + d.g + d.b
 }
 
-/// Non-recursive: each pixel's middle is compared with its left and its upper neighbour's; both of
-/// a pair that differs get `depth x depth` more rays, jittered, which are averaged with the middle.
+/// The non-recursive method. The middle of each pixel is compared with the middles of its left and
+/// upper neighbours. Both pixels of a pair that differs get `depth x depth` more rays, jittered,
+/// which are averaged with the middle.
 ///
-/// Neighbours outside the tile are traced once more for comparison, and a pixel at the tile's right
-/// or lower side looks at the middle beyond it too, so that the picture does not depend on how it
-/// is cut.
+/// Neighbours outside the tile are traced again for comparison, and a pixel at the tile's right or
+/// lower side is also compared with the middle beyond it. So the picture does not depend on its
+/// division into tiles.
 pub(super) fn method1(
     threshold: f64,
     depth: u32,
@@ -35,7 +36,7 @@ pub(super) fn method1(
     look: &mut impl Look,
 ) -> Option<()> {
     let (columns, rows) = ((tile.x1 - tile.x0) as usize, (tile.y1 - tile.y0) as usize);
-    // One more pixel on every side; beyond the picture its outermost pixels are repeated.
+    // One more pixel on every side. At the edge of the picture, its outermost pixels are repeated.
     let place = |first: u32, i: usize, size: u32| {
         (f64::from(first) + i as f64 - 0.5).clamp(0.5, f64::from(size) - 0.5)
     };
@@ -51,7 +52,7 @@ pub(super) fn method1(
     for (&(x, y), &colour) in order.iter().zip(&colours) {
         middles[y * stride + x] = (colour, shown(colour));
     }
-    // Pixels from this one on wait for more rays, those of which it is told.
+    // The pixels from this one on wait for the colours of their additional rays.
     let mut first = 0;
     let (mut rough, mut places) = (Vec::new(), Vec::new());
     let mut row = Vec::new();
@@ -80,7 +81,7 @@ pub(super) fn method1(
     Some(())
 }
 
-/// Adds the places of a pixel's further rays.
+/// Adds the places of a pixel's additional rays.
 fn finer(depth: u32, x: u32, y: u32, places: &mut Vec<Place>) {
     let per = 1.0 / f64::from(depth);
     for j in 0..depth {
@@ -95,11 +96,11 @@ fn finer(depth: u32, x: u32, y: u32, places: &mut Vec<Place>) {
     }
 }
 
-/// Recursive: a pixel is the mean of its corners, or of its four quarters where any two corners
-/// differ.
+/// The recursive method. A pixel is the mean of its corners, or of its four quarters if any two
+/// corners differ.
 ///
-/// Corners are jittered by up to half a cell of the finest grid; the shift depends on the corner's
-/// place, so that neighbours share it.
+/// Corners are jittered by up to half a cell of the finest grid. The shift depends on the corner's
+/// position, so that neighbours share it.
 pub(super) fn method2(
     threshold: f64,
     depth: u32,
@@ -107,7 +108,7 @@ pub(super) fn method2(
     pixels: &mut Vec<Rgb>,
     look: &mut impl Look,
 ) -> Option<()> {
-    /// The corners of so many cells are remembered at once.
+    /// The number of corners that are stored at once.
     const MOST: usize = 1 << 18;
     let cells = 1_usize << depth;
     let columns = (tile.x1 - tile.x0) as usize;
@@ -122,7 +123,8 @@ pub(super) fn method2(
         let mut squares = in_blocks(columns, rows);
         squares.iter_mut().for_each(|(i, j)| (*i, *j) = (*i * cells, *j * cells));
         let mut size = cells;
-        // All squares of one size, then those of half the size into which some of them are cut.
+        // All squares of one size, then those of half the size into which some of them were
+        // divided.
         while !squares.is_empty() {
             for &(i, j) in &squares {
                 for (i, j) in [(i, j), (i + size, j), (i, j + size), (i + size, j + size)] {
@@ -157,13 +159,13 @@ pub(super) fn method2(
 /// The corners of the finest cells of some pixels.
 struct Corners {
     threshold: f64,
-    /// How many there are in a row.
+    /// The number of corners in a row.
     side: usize,
-    /// For each corner one more than the number of its colour, or 0.
+    /// For each corner, one more than the index of its colour, or 0.
     known: Vec<u32>,
-    /// What is seen, and as a screen shows it.
+    /// The colour, and the colour as the screen shows it.
     colours: Vec<(Rgb, Rgb)>,
-    /// Corners whose colours come next.
+    /// The corners whose colours are requested next.
     asked: Vec<(usize, usize)>,
 }
 
@@ -182,13 +184,13 @@ impl Corners {
         }
     }
 
-    /// The corners of the square of `size` cells with its upper left corner at (i, j).
+    /// The corners of the square of `size` cells whose upper left corner is (i, j).
     fn around(&self, i: usize, j: usize, size: usize) -> [(Rgb, Rgb); 4] {
         let at = |i, j| self.colours[self.known[j * self.side + i] as usize - 1];
         [at(i, j), at(i + size, j), at(i, j + size), at(i + size, j + size)]
     }
 
-    /// Whether a square is cut into four.
+    /// Whether a square is divided into four.
     fn is_cut(&self, i: usize, j: usize, size: usize) -> bool {
         let corners = self.around(i, j, size);
         let differ = |a: usize| (a + 1..4).any(|b| difference(corners[a].1, corners[b].1) >= self.threshold);

@@ -1,4 +1,4 @@
-//! Random shifts that depend on nothing but a counter.
+//! Random shifts that depend only on counters.
 
 /// The finaliser of splitmix64 (G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom
 /// number generators", OOPSLA 2014).
@@ -9,7 +9,7 @@ fn mix(mut z: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// A number in `[0, 1)`, a function of three counters.
+/// A pseudorandom number in `[0, 1)`, a function of three counters.
 pub(crate) fn random(a: u64, b: u64, dimension: u64) -> f64 {
     let bits = mix(mix(mix(a) ^ b) ^ dimension);
     (bits >> 11) as f64 / 9_007_199_254_740_992.0 // 2^53

@@ -1,8 +1,8 @@
-//! Samplers: which rays make a pixel, and how their colours are joined.
+//! Samplers choose the rays of a pixel and combine their colours.
 //!
-//! Every sample is a function of its place in the picture alone, so that tiles may be rendered in
-//! any order and by any thread. Rays are asked for many at a time and neighbour after neighbour, as
-//! those that follow one another are traced together.
+//! Every sample depends only on its position in the picture, so tiles may be rendered in any order
+//! and by any thread. Many rays are requested at a time, neighbours after each other, because
+//! consecutive rays are traced together.
 
 mod adaptive;
 mod jitter;
@@ -12,33 +12,32 @@ pub(crate) use self::jitter::random;
 use crate::settings::{AntiAliasing, Region};
 use durer_scene::Rgb;
 
-/// A place of the picture, measured in pixels from the top left.
+/// A point of the picture, in pixels from the top left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Place {
     pub(crate) x: f64,
     pub(crate) y: f64,
 }
 
-/// Answers with the colours at some places, in their order; `None` ends the work.
+/// Computes the colours at some places, in their order; `None` ends the work.
 pub(crate) trait Look: FnMut(&[Place], &mut Vec<Rgb>) -> Option<()> {}
 impl<F: FnMut(&[Place], &mut Vec<Rgb>) -> Option<()>> Look for F {}
 
-/// The depth of the grid and of both methods is bounded, lest a number in a command takes years.
+/// Limits the depth of the grid and of both methods, so that no setting takes years.
 fn bounded(depth: u32) -> u32 {
     depth.clamp(1, AntiAliasing::MAX_DEPTH)
 }
 
-/// Where so many rays are asked for, no more are added.
+/// No more places are added to a request with this many.
 const ENOUGH: usize = 4096;
 
-/// Neighbours are taken in squares of this many pixels.
+/// Neighbours are grouped in squares with this many pixels on a side.
 const BLOCK: usize = 8;
 
-/// Renders the pixels of `tile`, a part of a picture of the given size, row by row. `look` answers
-/// with the colours at some places, in their order.
+/// Renders the pixels of `tile`, a part of a picture of the given size, row by row. `look` computes
+/// the colours at some places, in their order.
 ///
-/// Where it answers `None` the work ends: what is returned are the pixels that were finished
-/// before.
+/// If `look` returns `None`, the work ends and only the pixels finished before are returned.
 pub(crate) fn sample_tile(
     aa: AntiAliasing,
     tile: Region,
@@ -63,7 +62,7 @@ fn middle(x: u32) -> f64 {
     f64::from(x) + 0.5
 }
 
-/// Columns and rows of an area, square by square.
+/// The columns and rows of an area, block by block.
 fn in_blocks(columns: usize, rows: usize) -> Vec<(usize, usize)> {
     let mut places = Vec::with_capacity(columns * rows);
     for y0 in (0..rows).step_by(BLOCK) {
@@ -79,19 +78,19 @@ fn in_blocks(columns: usize, rows: usize) -> Vec<(usize, usize)> {
 /// A pixel of an area.
 #[derive(Clone, Copy)]
 struct Cell {
-    /// Its upper left corner, counted from that of the area.
+    /// Its upper left corner, relative to that of the area.
     corner: Place,
-    /// Its number, row by row.
+    /// Its index, row by row.
     number: usize,
 }
 
-/// The pixels of an area, square by square.
+/// The pixels of an area, block by block.
 fn cells(columns: usize, rows: usize) -> Vec<Cell> {
     let cell = |(x, y)| Cell { corner: Place { x: x as f64, y: y as f64 }, number: y * columns + x };
     in_blocks(columns, rows).into_iter().map(cell).collect()
 }
 
-/// Each pixel is the mean of `n x n` evenly spread rays.
+/// The uniform grid: each pixel is the mean of `n x n` evenly spread rays.
 fn grid(n: u32, tile: Region, pixels: &mut Vec<Rgb>, look: &mut impl Look) -> Option<()> {
     let per = 1.0 / f64::from(n);
     let rays = (n * n) as usize;
@@ -102,7 +101,7 @@ fn grid(n: u32, tile: Region, pixels: &mut Vec<Rgb>, look: &mut impl Look) -> Op
     let mut order = Vec::new();
     let mut y0 = tile.y0;
     while y0 < tile.y1 {
-        // With many rays a row is enough.
+        // With many rays per pixel, one row is enough.
         let rows = if rays == 1 { tile.y1 - y0 } else { 1 } as usize;
         strip.resize(columns * rows, Rgb::BLACK);
         if order.len() != strip.len() {
@@ -111,7 +110,7 @@ fn grid(n: u32, tile: Region, pixels: &mut Vec<Rgb>, look: &mut impl Look) -> Op
         for some in order.chunks(ENOUGH.div_ceil(rays)) {
             places.clear();
             if rays == 1 {
-                // Sums of whole numbers and halves of this size are exact.
+                // Sums of integers and halves of this size are exact.
                 let (x, y) = (middle(tile.x0), middle(y0));
                 places.extend(some.iter().map(|c| Place { x: c.corner.x + x, y: c.corner.y + y }));
                 look(&places, &mut colours)?;
@@ -142,7 +141,7 @@ mod tests {
 
     const TILE: Region = Region { x0: 2, y0: 1, x1: 6, y1: 4 };
 
-    /// Shows each place by itself.
+    /// Renders every place with one ray.
     fn each(
         mut look: impl FnMut(f64, f64) -> Option<Rgb>,
     ) -> impl FnMut(&[Place], &mut Vec<Rgb>) -> Option<()> {
@@ -155,7 +154,7 @@ mod tests {
         }
     }
 
-    /// A white half plane right of x = 3.7.
+    /// A white half plane to the right of x = 3.7.
     fn edge(x: f64, _: f64) -> Option<Rgb> {
         Some(Rgb::grey(f64::from(x > 3.7)))
     }

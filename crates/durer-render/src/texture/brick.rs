@@ -1,13 +1,13 @@
-//! A wall of bricks: courses along y, every other one shifted by half a brick.
+//! Bricks: courses along y, every other one shifted by half a brick.
 
 use super::cells::{cell, cell_lanes};
 use crate::vector::floor_lanes;
 use durer_math::{F8, M8, Point3, Vec3};
 
-/// The wall's measures.
+/// The dimensions of the bricks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Brick {
-    /// One over the size of a brick with its mortar.
+    /// The reciprocal of the size of a brick with its mortar.
     per: Vec3,
     /// Where mortar begins in each unit.
     start: Vec3,
@@ -18,7 +18,7 @@ impl Brick {
         Self { per: size.map(|s| 1.0 / s), start: size.map(|s| (s - mortar) / s) }
     }
 
-    /// 0 in mortar, which is the end of each unit along each axis; 1 in brick.
+    /// 0 in mortar, which is at the end of each unit along each axis; 1 in brick.
     pub(super) fn kind(&self, p: Point3) -> usize {
         let part = |x: f64| x - cell(x);
         let y = p.y * self.per.y;
@@ -33,7 +33,7 @@ impl Brick {
         usize::from(!mortar)
     }
 
-    /// Where the kind is 1.
+    /// The lanes where the kind is 1.
     #[inline(always)]
     pub(super) fn brick_lanes(&self, p: Point3<F8>) -> M8 {
         let y = p.y * self.per.y;
@@ -46,7 +46,7 @@ impl Brick {
     }
 }
 
-/// Where `x` is in mortar that begins at `start` in each unit.
+/// The lanes where `x` is in mortar, which begins at `start` in each unit.
 #[inline(always)]
 fn in_mortar(x: F8, start: f64) -> M8 {
     (F8::splat(start)).le(x - cell_lanes(x))

@@ -1,11 +1,11 @@
-//! Patterns that cut space into cells.
+//! Patterns that divide space into cells.
 
 use super::{brick::Brick, checker, hexagon};
 use crate::vector::{floor, floor_lanes};
 use durer_math::{F8, M8, Point3};
 use durer_scene::Cells;
 
-/// A way to cut space.
+/// A way to divide space into cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Cutter {
     Checker,
@@ -22,7 +22,7 @@ impl Cutter {
         }
     }
 
-    /// The kind of the cell in which a point lies.
+    /// The kind of the cell that contains a point.
     #[inline]
     pub(crate) fn kind(&self, p: Point3) -> usize {
         match self {
@@ -33,7 +33,7 @@ impl Cutter {
     }
 }
 
-/// The kinds of the cells in which eight points lie.
+/// The kinds of the cells that contain eight points.
 pub(super) enum Kinds {
     /// 1 where the mask is set, 0 elsewhere.
     Two(M8),
@@ -42,7 +42,7 @@ pub(super) enum Kinds {
 }
 
 impl Cutter {
-    /// The kinds of the cells in which points lie.
+    /// The kinds of the cells that contain some points.
     #[inline(always)]
     pub(super) fn kinds(&self, p: Point3<F8>) -> Kinds {
         match self {
@@ -53,18 +53,17 @@ impl Cutter {
     }
 }
 
-/// How far below a border the next cell begins: a fact of the scene language (so that a plane at
-/// `y = 0`, say, shows one cell, whatever the last digit of its points), and no bound of any
-/// geometry.
+/// How far below a border the next cell begins. This is a fact of the scene language, not a bound
+/// of any geometry: a plane at `y = 0`, say, shows one cell, whatever the last digit of its points.
 pub(super) const BORDER: f64 = 1e-10;
 
-/// The number of the cell along one axis.
+/// The index of the cell along one axis.
 #[inline(always)]
 pub(super) fn cell(x: f64) -> f64 {
     floor(x + BORDER)
 }
 
-/// The same in lanes.
+/// [`cell`] for eight numbers.
 #[inline(always)]
 pub(super) fn cell_lanes(x: F8) -> F8 {
     floor_lanes(x + F8::splat(BORDER))

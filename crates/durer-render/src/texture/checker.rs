@@ -8,11 +8,11 @@ use durer_math::{F8, M8, Point3};
 #[inline(always)]
 pub(super) fn kind(p: Point3) -> usize {
     let sum = cell(p.x) + cell(p.y) + cell(p.z);
-    // Half of an odd number is not whole; cubes far beyond 2^53 have only even numbers.
+    // Half of an odd number is not an integer. Far beyond 2^53 all numbers are even.
     usize::from(sum * 0.5 != crate::vector::floor(sum * 0.5))
 }
 
-/// Where the kind is 1.
+/// The lanes where the kind is 1.
 #[inline(always)]
 pub(super) fn odd_lanes(p: Point3<F8>) -> M8 {
     let half = (cell_lanes(p.x) + cell_lanes(p.y) + cell_lanes(p.z)) * 0.5;

@@ -1,10 +1,10 @@
-//! Textures by the fields of a blob's components.
+//! Blob textures: the textures of a blob's components are mixed by the strengths of their fields.
 //!
 //! ```text
 //!   the part of a component's texture at p:  |f_i(p)| / Σ |f_j(p)|
 //! ```
 //!
-//! A fact of the scene language: what takes away from the sum shows its texture, too.
+//! Components that subtract from the field show their texture too (a fact of the scene language).
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -18,17 +18,17 @@ use super::{Place, RenderTexture};
 /// The fields of a blob, each with a texture.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Weights {
-    /// The space of the blob.
+    /// The placement of the blob.
     place: Place,
     blob: Blob,
-    /// The number of each component's texture; what has none has the first one.
+    /// The index of each component's texture. Components without a texture have the first one.
     of: Box<[u32]>,
     textures: Box<[RenderTexture]>,
 }
 
 impl Weights {
-    /// Makes fields ready that are in a texture with this placement; `paint` makes a texture ready
-    /// in such a one.
+    /// Prepares the fields in a texture with this placement; `paint` prepares a texture in the same
+    /// placement.
     pub(super) fn new(
         fields: &Fields,
         around: &Affine,
@@ -60,13 +60,13 @@ impl Weights {
         })
     }
 
-    /// The texture with a number.
+    /// The texture with an index.
     pub(crate) fn texture(&self, number: u32) -> &RenderTexture {
         &self.textures[number as usize]
     }
 
-    /// The textures that are shown at a point, with their parts, which add up to 1: each texture
-    /// once, ascending.
+    /// The textures at a point with their weights, which add up to 1. Each texture occurs once; the
+    /// indices ascend.
     pub(crate) fn shown(&self, p: Point3, shown: &mut Vec<(u32, f64)>) {
         shown.clear();
         let mut sum = 0.0;
@@ -79,7 +79,7 @@ impl Weights {
             }
         });
         if shown.is_empty() {
-            // No field reaches what is no point of the surface.
+            // No field reaches a point that is not on the surface.
             shown.push((0, 1.0));
             return;
         }
@@ -100,8 +100,7 @@ mod tests {
         Arc::new(Texture::plain(Pigment::solid(Colour::opaque(Rgb::grey(v))), Finish::default()))
     }
 
-    /// Fields of which each value at the points that are asked for is a dyadic number, so that all
-    /// sums are exact.
+    /// Each field value at the test points is a dyadic number, so all sums are exact.
     #[test]
     fn textures_are_shown_by_how_strong_their_fields_are() {
         let ball = |x: f64, strength: f64, place: Affine| BlobComponent {
@@ -110,8 +109,8 @@ mod tests {
             strength,
             place,
         };
-        // At the origin: (1 - 1/4)² = 9/16, half of that taken away, nothing, 9/16 of a ball that
-        // is moved there, and (1 - 0)² / 4 of a cylinder.
+        // At the origin: (1 - 1/4)² = 9/16, a subtracted half of that, zero, 9/16 of a translated
+        // ball, and (1 - 0)² / 4 of a cylinder.
         let cylinder = BlobShape::Segment(Point3::new(0.0, -1.0, 0.0), Point3::new(0.0, 1.0, 0.0));
         let components = [
             ball(1.0, 1.0, Affine::IDENTITY),
@@ -133,11 +132,11 @@ mod tests {
             Weights::new(&fields, &Affine::translation(Vec3::new(0.0, 3.0, 0.0)).unwrap(), paint).unwrap();
         let mut shown = Vec::new();
         weights.shown(Point3::new(0.0, 3.0, 0.0), &mut shown);
-        // The cylinder has no texture, and two balls share theirs.
+        // The cylinder has no texture, and two balls share one.
         let (two, taken, rest) = (2.0 * 0.5625, 0.28125, 0.25);
         let sum = two + taken + rest;
         assert_eq!(shown, [(0, rest / sum), (1, two / sum), (2, taken / sum)]);
-        // Far away nothing is shown but the blob's own.
+        // Far away only the blob's own texture is shown.
         weights.shown(Point3::new(0.0, 300.0, 0.0), &mut shown);
         assert_eq!(shown, [(0, 1.0)]);
     }

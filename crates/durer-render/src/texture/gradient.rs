@@ -1,11 +1,11 @@
-//! Ramps that begin anew with each unit, and the number they look up.
+//! Patterns that give a number from 0 to 1 for each point, by which a map is looked up.
 
 use super::wave::Shape;
 use crate::vector::{dot, floor_lanes, unit};
 use durer_math::{F8, M8, Point3, Vec3};
 use durer_scene::{Ramp, Value};
 
-/// A number at each point.
+/// A pattern that gives a number for each point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lookup {
     axis: Vec3,
@@ -14,14 +14,14 @@ pub(crate) struct Lookup {
     shape: Shape,
 }
 
-/// Waves begin anew not at 1 but a little later, so that 1 itself is still the end: a fact of the
-/// scene language.
+/// Waves repeat not at 1 but a little later, so that 1 itself is still the end of the map (a fact
+/// of the scene language).
 const PERIOD: f64 = 1.000_01;
 
 impl Lookup {
     pub(super) fn new(value: &Value) -> Self {
         let Ramp::Gradient(axis) = value.ramp;
-        // The language keeps these two in single precision.
+        // The language stores these two in single precision.
         let single = |v: f64| f64::from(v as f32);
         Self {
             axis: unit(axis),
@@ -31,7 +31,7 @@ impl Lookup {
         }
     }
 
-    /// The number at a point.
+    /// The value at a point.
     #[inline]
     pub(super) fn value(&self, p: Point3) -> f64 {
         let along = dot(self.axis, p.to_vec());
@@ -44,7 +44,7 @@ impl Lookup {
         self.shape.bend(if w < 0.0 { w + 1.0 } else { w })
     }
 
-    /// The numbers at some points.
+    /// The values at some points.
     #[inline(always)]
     pub(super) fn values(&self, p: Point3<F8>, live: M8) -> F8 {
         let along = dot(Vec3::<F8>::splat(self.axis), p.to_vec());
@@ -103,7 +103,7 @@ mod tests {
         assert!(close(gradient(-1.0, 0.0)(0.25), 0.75));
         assert!(close(gradient(1.0, 0.5)(0.25), 0.75));
         assert!(close(gradient(0.0, 0.5)(0.25), 0.25));
-        // A gradient in place of a default list of bricks has no frequency, and no wave.
+        // A gradient in place of a default list of bricks has no frequency and no wave.
         assert!(close(gradient(0.0, 0.5)(-0.25), 0.75));
     }
 

@@ -9,10 +9,10 @@ use durer_math::{F8, Point3};
 
 const HALF_HEIGHT: f64 = 0.866_025_403_784_438_6; // sqrt(3) / 2
 
-/// 0, 1 or 2.
+/// The kind of the hexagon that contains a point: 0, 1 or 2.
 pub(super) fn kind(p: Point3) -> usize {
-    // Fractional coordinates in the lattice; the nearest centre is a corner of the cell they lie in
-    // or of a neighbour.
+    // Fractional coordinates in the lattice of centres. The nearest centre is a corner of the
+    // point's cell or of a neighbouring cell.
     let a = p.x / 1.5;
     let b = (p.z / HALF_HEIGHT - a) * 0.5;
     let (a0, b0) = (floor(a), floor(b));
@@ -30,7 +30,7 @@ pub(super) fn kind(p: Point3) -> usize {
     (best.1 - 3.0 * floor(best.1 / 3.0)) as usize
 }
 
-/// The same in lanes.
+/// [`kind`] for eight points.
 #[inline(always)]
 pub(super) fn kinds(p: Point3<F8>) -> F8 {
     let a = p.x / 1.5;
@@ -60,7 +60,7 @@ mod tests {
         assert_eq!([at(0.0, 1.7), at(0.0, -1.7)], [1, 2]);
         assert_eq!([at(1.5, 0.9), at(-1.5, 0.9)], [2, 2]);
         assert_eq!([at(1.5, -0.9), at(-1.5, -0.9)], [1, 1]);
-        // Corners of the middle hexagon lie on the x axis at distance 1.
+        // The corners of the middle hexagon lie on the x axis at distance 1.
         assert_eq!([at(0.99, 0.0), at(-0.99, 0.0)], [0, 0]);
         assert_ne!(at(1.01, 0.01), 0);
     }

@@ -1,4 +1,4 @@
-//! Textures made ready for rendering: placements inverted and joined, constants worked out.
+//! Textures prepared for rendering: placements combined and inverted, constants precomputed.
 
 mod brick;
 mod cells;
@@ -20,18 +20,18 @@ use crate::material::Finish;
 use cells::{Cutter, Kinds};
 use gradient::Lookup;
 
-/// A texture of a surface.
+/// The texture of a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum RenderTexture {
     /// Layers, the innermost first.
     Layers(Box<[RenderLayer]>),
-    /// Other textures by a pattern, in the space of the place.
+    /// Other textures, selected by a pattern in the space of the placement.
     Pattern(Place, Box<Blend<RenderTexture>>),
-    /// Other textures by the fields of a blob.
+    /// Other textures, mixed by the fields of a blob.
     Fields(Box<Weights>),
 }
 
-/// A layer of paint.
+/// A layer of a texture.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RenderLayer {
     pub(crate) pigment: RenderPigment,
@@ -46,7 +46,7 @@ pub(crate) enum RenderPigment {
     Shades(Place, Box<Blend<RenderPigment>>),
 }
 
-/// A choice or a blend of entries by the place.
+/// Entries that a pattern selects or mixes by position.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Blend<T> {
     Cells(Cutter, Box<[T]>),
@@ -54,19 +54,19 @@ pub(crate) enum Blend<T> {
     Mean(Box<[T]>),
 }
 
-/// Which entries of a pattern are shown at a point.
+/// The entries of a pattern at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Shown {
     /// One entry.
     One(usize),
-    /// The part `k` of this entry, and the rest of the one before it.
+    /// This entry with the weight `k`, and the entry before it with the rest.
     Two(usize, f64),
-    /// This part of each entry.
+    /// Every entry with this weight.
     Each(f64),
 }
 
 impl Shown {
-    /// The part of an entry that is shown.
+    /// The weight of an entry.
     pub(crate) fn part(self, entry: usize) -> f64 {
         match self {
             Self::One(i) if i == entry => 1.0,
@@ -95,7 +95,7 @@ impl<T> Blend<T> {
         })
     }
 
-    /// The entry with a number.
+    /// The entry with an index.
     pub(crate) fn entry(&self, i: usize) -> &T {
         match self {
             Self::Cells(_, entries) | Self::Mean(entries) => &entries[i],
@@ -103,7 +103,7 @@ impl<T> Blend<T> {
         }
     }
 
-    /// How many entries there are.
+    /// The number of entries.
     pub(crate) fn len(&self) -> usize {
         match self {
             Self::Cells(_, entries) | Self::Mean(entries) => entries.len(),
@@ -111,7 +111,7 @@ impl<T> Blend<T> {
         }
     }
 
-    /// What is shown at a point; `None` only for a pattern without entries.
+    /// The entries at a point; `None` only for a pattern without entries.
     #[inline]
     pub(crate) fn at(&self, p: Point3) -> Option<Shown> {
         match self {
@@ -125,7 +125,7 @@ impl<T> Blend<T> {
                 if w >= *last_at {
                     return Some(Shown::One(entries.len() - 1));
                 }
-                // Entries need not be sorted: the first one not below `w` counts.
+                // Entries need not be sorted: the first one that is not below `w` is used.
                 let i = entries.iter().position(|(at, _)| w <= *at)?;
                 if i == 0 {
                     return Some(Shown::One(i));
@@ -166,7 +166,7 @@ impl Blend<Colour> {
             Self::Map(lookup, entries) => {
                 let w = lookup.values(p, live);
                 let mut shown = Colour8::splat(Colour::default());
-                // Backwards, so that the first entry not below `w` counts.
+                // In reverse order, so that the first entry not below `w` is used.
                 for (i, &(at, colour)) in entries.iter().enumerate().rev() {
                     let here = match i.checked_sub(1).map(|before| entries[before]) {
                         Some((before_at, before)) if at > before_at => {
@@ -221,7 +221,7 @@ impl RenderPigment {
         }
     }
 
-    /// Puts down the colours at some points, of which some lanes are asked about.
+    /// Stores the colours at some points, in the given lanes.
     pub(crate) fn show(
         &self,
         isa: Isa,
@@ -254,8 +254,8 @@ impl RenderPigment {
 }
 
 impl RenderTexture {
-    /// Makes a texture ready. Its own placement is joined with that of `around`, the space in which
-    /// it is used.
+    /// Prepares a texture. Its own placement is combined with `around`, the placement of the space
+    /// in which it is used.
     pub(crate) fn new(texture: &Texture, around: &Affine, ambient_light: Rgb) -> Result<Self, AffineError> {
         let joined = || match texture.placement.is_identity() {
             true => Ok(*around),
@@ -284,7 +284,7 @@ impl RenderTexture {
         })
     }
 
-    /// What light that passes at some points is multiplied by.
+    /// The factor of light that passes the texture at some points.
     #[inline(always)]
     pub(crate) fn passed(&self, p: Point3<F8>, live: M8) -> Rgb8 {
         match self {
@@ -305,7 +305,7 @@ impl RenderTexture {
         }
     }
 
-    /// What light that passes at a point is multiplied by.
+    /// The factor of light that passes the texture at a point.
     fn passed_at(&self, p: Point3) -> Rgb {
         match self {
             Self::Layers(coats) => {

@@ -1,4 +1,4 @@
-//! From the world into a texture's space.
+//! Transformations from the world to a texture's space.
 
 use durer_math::{Affine, F8, Point3, Vec3};
 
@@ -7,7 +7,7 @@ use durer_math::{Affine, F8, Point3, Vec3};
 pub(crate) enum Place {
     Identity,
     Moved(Vec3),
-    /// Rows of the inverse, and the centre.
+    /// The rows of the inverse matrix, and the centre.
     Mapped(Box<([[f64; 3]; 3], Point3)>),
 }
 
@@ -20,7 +20,7 @@ impl Place {
         }
     }
 
-    /// The point of the texture's space that stands at `p`.
+    /// The point of the texture's space that is placed at `p`.
     #[inline(always)]
     pub(crate) fn inside(&self, p: Point3) -> Point3 {
         match self {
@@ -34,7 +34,7 @@ impl Place {
             }
         }
     }
-    /// The same in lanes.
+    /// [`Place::inside`] for eight points.
     #[inline(always)]
     pub(crate) fn inside_lanes(&self, p: Point3<F8>) -> Point3<F8> {
         match self {

@@ -1,11 +1,11 @@
-//! The forms into which a number from 0 to 1 is bent.
+//! Waveforms, which map a number from 0 to 1 to another.
 
 use crate::power::Power;
 use core::f64::consts::{PI, TAU};
 use durer_math::{F8, M8, elementary};
 use durer_scene::Wave;
 
-/// A [`Wave`] with its constants worked out.
+/// A [`Wave`] with its constants precomputed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Shape {
     Ramp,
@@ -40,7 +40,7 @@ impl Shape {
         }
     }
 
-    /// The same in lanes.
+    /// The values for eight numbers.
     #[inline(always)]
     pub(super) fn bend_lanes(self, w: F8, live: M8) -> F8 {
         match self {

@@ -1,5 +1,5 @@
-//! Blobs whose components have textures of their own: one texture, in the world, that is their mean
-//! by the fields.
+//! The texture of a blob whose components have textures of their own: one texture in world space,
+//! their mean weighted by the fields.
 
 use std::sync::Arc;
 
@@ -9,8 +9,8 @@ use durer_surfaces::Blob;
 use super::{LowerErrorKind, Painted};
 use crate::{Fields, Placement, Texture, TextureBody};
 
-/// The textures of a blob's components, and the blob's own one of those that have none, in the
-/// world.
+/// Makes the texture in world space from the textures of the components. Components without one
+/// have the blob's own texture.
 pub(super) fn texture(
     blob: &crate::Blob,
     place: &Affine,
@@ -18,7 +18,7 @@ pub(super) fn texture(
 ) -> Result<Arc<Texture>, LowerErrorKind> {
     let mut rest = (**own).clone();
     rest.transform(frame.affine())?;
-    // What is no blob says so where it is built.
+    // An invalid blob is reported where the surface is built.
     let Ok(fields) = Blob::new(blob.threshold, &blob.components) else { return Ok(Arc::new(rest)) };
     let fields = Fields {
         placement: Placement::new(*place),

@@ -1,4 +1,4 @@
-//! Putting a surface into the geometry: placed, clipped, turned inside out.
+//! Adding a surface to the geometry: placed, clipped, inverted.
 
 use durer_geometry::{Builder, CompoundBuilder, LeafId, ObjectId, Part, PrimitiveId, Shown};
 use durer_math::{Aabb, Affine};
@@ -6,28 +6,28 @@ use durer_surfaces::{Algebraic, Clip, Complement, DynSurface, Placed, Region, So
 
 use super::camera_media::{Enclosure, Held};
 
-/// Where a surface goes.
+/// Where a surface is added.
 pub(super) enum To<'b> {
-    /// It is a primitive of an object of the scene, met by rays with the mask.
+    /// As a primitive of an object of the scene, hit by rays with this mask.
     Scene(&'b mut Builder, ObjectId, PrimitiveId, u32),
-    /// It is a leaf of a solid made of solids; its part of it, once it is there.
+    /// As a leaf of a CSG compound. The part number is set when the leaf is added.
     Leaf(&'b mut CompoundBuilder, LeafId, Shown, &'b mut Option<Part>),
 }
 
-/// Where a surface goes, and what is done to it on the way.
+/// Where a surface is added, and how it is changed before.
 pub(super) struct Target<'b> {
     pub(super) to: To<'b>,
     pub(super) clips: Vec<Region>,
     pub(super) inverse: bool,
-    /// The solid, if rays of the camera may start in it.
+    /// The solid, if camera rays may start inside it.
     pub(super) inside: Option<Box<dyn Enclosure>>,
-    /// Where rays of the camera start.
+    /// A box that contains the starts of camera rays.
     pub(super) camera: Aabb,
 }
 
 impl Target<'_> {
-    /// Adds a surface of a common kind, placed by `map` if its numbers are not final: it has an
-    /// array of its own, for either case.
+    /// Adds a surface of a common kind, placed by `map` if its numbers are not final. Such kinds
+    /// have arrays of their own, plain and placed.
     pub(super) fn add<S: Algebraic + 'static>(&mut self, surface: S, map: Option<&Affine>) {
         match map {
             _ if self.is_changed() => self.add_rare(surface, map),
@@ -36,7 +36,7 @@ impl Target<'_> {
         }
     }
 
-    /// Adds a surface of a kind that is common where its numbers are final.
+    /// Adds a surface of a kind that has an array of its own only if its numbers are final.
     pub(super) fn add_final<S: Algebraic + 'static>(&mut self, surface: S, map: Option<&Affine>) {
         if map.is_none() && !self.is_changed() {
             self.push(surface);
@@ -45,8 +45,8 @@ impl Target<'_> {
         }
     }
 
-    /// Adds a surface of a rare kind. What is clipped is a sheet: turning it inside out changes
-    /// nothing.
+    /// Adds a surface of a rare kind. A clipped surface is an open sheet, so inverting it has no
+    /// effect.
     pub(super) fn add_rare<S: Algebraic + 'static>(&mut self, surface: S, map: Option<&Affine>) {
         if self.clips.is_empty() {
             self.add_whole(surface, map);
@@ -65,8 +65,8 @@ impl Target<'_> {
         self.inverse || !self.clips.is_empty()
     }
 
-    /// Keeps the closed, unclipped solid if rays of the camera may start in it: that is what the
-    /// scene language asks where the camera is concerned.
+    /// Keeps the closed, unclipped solid if camera rays may start inside it: the scene language
+    /// uses it to find the media around the camera.
     pub(super) fn contain<S: Surface + Clone + 'static>(&mut self, solid: &S, map: Option<&Affine>) {
         let bounds = || map.map_or_else(|| solid.bounds(), |m| solid.bounds_through(m));
         if self.camera.is_empty()
@@ -88,14 +88,14 @@ impl Target<'_> {
             To::Scene(builder, object, primitive, mask) => {
                 builder.add_as(surface, *object, *primitive, *mask);
             }
-            // Whoever asks for a leaf sees whether there is one: sheets are none.
+            // The caller sees from `part` whether a leaf was added: an open sheet is refused.
             To::Leaf(csg, leaf, shown, part) => **part = csg.leaf_as(surface, *leaf, *shown).ok(),
         }
     }
 }
 
-/// A surface, placed by `map`, behind pointers. What is done to it is done outside of its own, so
-/// that each kind is compiled once.
+/// Boxes a surface, placed by `map`. `Placed` wraps the boxed surface, so that its code is compiled
+/// once for all kinds.
 fn erased<S: Algebraic + 'static>(surface: S, map: Option<&Affine>) -> DynSurface {
     let surface = DynSurface::new(surface);
     match map {

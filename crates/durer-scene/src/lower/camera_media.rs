@@ -1,20 +1,21 @@
-//! Solids that rays of the camera may start in.
+//! Solids in which camera rays may start.
 
 use durer_geometry::Compound;
 use durer_math::{Aabb, Point3, Shaft};
 use durer_surfaces::{LocalPoint, Side, Surface};
 use std::sync::Arc;
 
-/// A solid around the camera, or near it.
+/// A solid that contains the camera or may contain it.
 pub(super) trait Enclosure: Send + Sync {
-    /// Whether a point lies in it; what is on its surface does not.
+    /// Whether a point lies inside it; a point on its surface does not.
     fn holds(&self, p: Point3) -> bool;
 
-    /// Whether all points of a box lie in it, if certainly either all do or none.
+    /// Whether all points of a box lie inside it. `None` unless certainly all of them do or none
+    /// does.
     fn holds_all(&self, region: &Aabb) -> Option<bool>;
 }
 
-/// A solid, or what is left of space without it.
+/// A solid, or the complement of one.
 pub(super) struct Held<S> {
     pub(super) solid: S,
     pub(super) inverse: bool,
@@ -29,7 +30,7 @@ impl<S: Surface> Enclosure for Held<S> {
         }
     }
 
-    /// Where the surface does not pass between points they are all on one side.
+    /// If the surface does not pass through the box, all points are on the same side.
     fn holds_all(&self, region: &Aabb) -> Option<bool> {
         self.solid.misses(&Shaft::between(*region, *region)).then(|| self.holds(region.centre()))
     }

@@ -1,33 +1,32 @@
-//! Folding a placement into a shape's own numbers, only where that loses nothing.
+//! Applies a placement to a shape's own numbers, if that is exact.
 //!
-//! The exact surface is `{ c + L x }` with the text's numbers and the stored map. Where each new
-//! number is *exactly* the image of the old one, the folded shape is the same set and costs no
-//! inverse. Sums and products are checked by their error terms.
+//! The exact surface is `{ c + L x }` with the numbers of the text and the stored map. If each new
+//! number is *exactly* the image of the old one, the folded shape is the same set and needs no
+//! inverse map. Sums and products are checked by their error terms.
 
 use durer_math::eft::{two_prod, two_sum};
 use durer_math::{Affine, Point3, Vec3};
 
-/// Largest magnitude whose products cannot overflow, and smallest whose error terms cannot
-/// underflow.
+/// Magnitudes whose products cannot overflow and whose error terms cannot underflow.
 const SAFE: core::ops::Range<f64> = 1e-140..1e140;
 
 fn is_safe(x: f64) -> bool {
     x == 0.0 || SAFE.contains(&x.abs())
 }
 
-/// `a + b`, if that is no rounding.
+/// `a + b`, if the sum is exact.
 pub(super) fn sum(a: f64, b: f64) -> Option<f64> {
     let (s, e) = two_sum(a, b);
     (e == 0.0 && s.is_finite()).then_some(s)
 }
 
-/// `a b`, if that is no rounding.
+/// `a b`, if the product is exact.
 pub(super) fn product(a: f64, b: f64) -> Option<f64> {
     let (p, e) = two_prod(a, b);
     (is_safe(a) && is_safe(b) && e == 0.0).then_some(p)
 }
 
-/// The image of a vector, if no step rounds.
+/// The image of a vector, if every step is exact.
 pub(super) fn vector(map: &Affine, v: Vec3) -> Option<Vec3> {
     let row = |r: [f64; 3]| {
         let [x, y, z] = [product(r[0], v.x)?, product(r[1], v.y)?, product(r[2], v.z)?];
@@ -37,13 +36,13 @@ pub(super) fn vector(map: &Affine, v: Vec3) -> Option<Vec3> {
     Some(Vec3::new(row(a)?, row(b)?, row(c)?))
 }
 
-/// The image of a point, if no step rounds.
+/// The image of a point, if every step is exact.
 pub(super) fn point(map: &Affine, p: Point3) -> Option<Point3> {
     let (v, c) = (vector(map, p.to_vec())?, map.centre());
     Some(Point3::new(sum(v.x, c.x)?, sum(v.y, c.y)?, sum(v.z, c.z)?))
 }
 
-/// The image of a length under a map that is the same in all directions, if no step rounds.
+/// The image of a length under a uniform scale or a translation, if every step is exact.
 pub(super) fn length(map: &Affine, l: f64) -> Option<f64> {
     if map.as_translation().is_some() {
         return Some(l);
@@ -51,14 +50,14 @@ pub(super) fn length(map: &Affine, l: f64) -> Option<f64> {
     product(map.as_uniform_scale()?, l)
 }
 
-/// Whether the map keeps the axes' directions.
+/// Whether the map keeps the directions of the axes.
 pub(super) fn is_diagonal(map: &Affine) -> bool {
     let l = map.linear();
     (0..3).all(|i| (0..3).all(|j| i == j || l[i][j] == 0.0))
 }
 
-/// Where a map takes the direction of an axis, and by how much it stretches, if it only turns axes
-/// into axes (either way round) and is the same in all directions.
+/// The axis to which a map takes the axis `of`, and the scale, if the map takes axes to axes (in
+/// either direction) and scales uniformly.
 pub(super) fn axis(map: &Affine, of: usize) -> Option<(usize, f64)> {
     let l = map.linear();
     let (mut image, mut size) = (None, None);
@@ -73,7 +72,7 @@ pub(super) fn axis(map: &Affine, of: usize) -> Option<(usize, f64)> {
             image = Some(i);
         }
     }
-    // A matrix with an inverse has an entry in each column.
+    // An invertible matrix has a nonzero entry in each column.
     Some((image?, size?))
 }
 

@@ -1,4 +1,4 @@
-//! Solids as formulas, for what is deformed.
+//! Deformed solids: formulas of the solids that can be deformed.
 
 use durer_math::{Aabb, Affine, elementary};
 use durer_surfaces::implicit::level_set::primitives::{self, Principal};
@@ -12,7 +12,7 @@ use super::shapes::{self, Result, shape_error};
 use super::{LowerErrorKind, named_quadric};
 use crate::{Deform, NamedQuadric, Object, Operation, QuadricKind, Shape};
 
-/// A deformed solid's surface; `None` if it is empty.
+/// The surface of a deformed solid; `None` if it is empty.
 pub(super) fn deformed(deform: &Deform) -> Result<Option<Isosurface>> {
     let mut solid = level_set(&deform.solid, &Affine::IDENTITY)?;
     for warp in &deform.warps {
@@ -24,7 +24,7 @@ pub(super) fn deformed(deform: &Deform) -> Result<Option<Isosurface>> {
     solid.surface().map_err(shape_error)
 }
 
-/// The solid of an object, placed by its own placement and then by `around`.
+/// The level set of an object, placed by its own placement and then by `around`.
 fn level_set(object: &Object, around: &Affine) -> Result<LevelSet> {
     if object.flags.open {
         return Err(LowerErrorKind::Deform("what is open"));
@@ -57,8 +57,8 @@ fn turned(solid: LevelSet, inverse: bool) -> Result<LevelSet> {
     if inverse { solid.complement().map_err(shape_error) } else { Ok(solid) }
 }
 
-/// A formula in its own frame, placed. The surface tells whether its numbers are in order, and
-/// where it is.
+/// Places a formula. `surface` is the same solid: its constructor has checked the numbers, and it
+/// gives the bounds.
 fn placed(formula: Formula, surface: &impl Surface, place: &Affine) -> Result<LevelSet> {
     let bounds = if surface.bounds().is_bounded() { surface.bounds_through(place) } else { Aabb::UNBOUNDED };
     LevelSet::new(formula, surface.bounds()).placed_within(place, bounds).map_err(shape_error)
@@ -120,7 +120,7 @@ fn leaf(shape: &Shape, place: &Affine, inverse: bool) -> Result<LevelSet> {
         &Shape::SphericalSector { centre, radius, axis, half_angle } => {
             let surface =
                 SphericalSector::with_half_angle(centre, radius, axis, half_angle).map_err(shape_error)?;
-            // As the surface has it: the cosine of the number nearest to a right angle is not 0.
+            // As in the surface: the cosine of the f64 nearest to a right angle is not 0.
             let right = half_angle == core::f64::consts::FRAC_PI_2;
             let cosine = if right { 0.0 } else { elementary::cos(half_angle) };
             placed(primitives::sector(centre, radius, axis, cosine).map_err(shape_error)?, &surface, place)
@@ -152,7 +152,7 @@ fn leaf(shape: &Shape, place: &Affine, inverse: bool) -> Result<LevelSet> {
     turned(made?, inverse)
 }
 
-/// A named quadric's equation.
+/// The equation of a named quadric.
 fn principal(it: &NamedQuadric) -> Principal {
     let (squares, linear, constant) = match it.kind {
         QuadricKind::Ellipsoid => ([1.0, 1.0, 1.0], [0.0; 3], -1.0),
@@ -165,7 +165,7 @@ fn principal(it: &NamedQuadric) -> Principal {
         QuadricKind::HyperbolicCylinder => ([1.0, -1.0, 0.0], [0.0; 3], -1.0),
         QuadricKind::ParabolicCylinder => ([1.0, 0.0, 0.0], [0.0, -1.0, 0.0], 0.0),
     };
-    // What an axis is not used for does not matter.
+    // Semi-axes of axes that the kind does not use have no effect.
     let semi_axes = it.semi_axes.map(|a| if a > 0.0 { a } else { 1.0 });
     Principal { semi_axes, squares, linear, constant, extent: it.extent }
 }

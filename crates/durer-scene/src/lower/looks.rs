@@ -1,5 +1,5 @@
-//! What each primitive looks like. Primitives are numbered here and nowhere else: a primitive has a
-//! number because it has a look.
+//! The look of each primitive. Primitives are numbered only here: each primitive gets its number
+//! together with its look.
 
 use core::ops::Range;
 use std::collections::HashMap;
@@ -10,31 +10,31 @@ use durer_geometry::PrimitiveId;
 use super::LowerErrorKind;
 use crate::{Mesh, Placement, Texture};
 
-/// The number of a [`Look`] among [`Lowered::looks`](super::Lowered::looks).
+/// The index of a [`Look`] in [`Lowered::looks`](super::Lowered::looks).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LookId(pub u32);
 
-/// What a surface looks like.
+/// The look of a surface: its texture and the medium behind it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Look {
-    /// Its texture, placed in the frame.
+    /// The texture, placed in the frame.
     pub texture: Arc<Texture>,
     /// From the space in which the texture is placed to the world.
     pub frame: Arc<Placement>,
-    /// The number of the medium behind it among [`Lowered::media`](super::Lowered::media).
+    /// The index of the medium behind the surface in [`Lowered::media`](super::Lowered::media).
     pub medium: u32,
-    /// Light from behind counts too.
+    /// Whether light from behind counts too.
     pub double_illuminate: bool,
-    /// Some light may pass.
+    /// Whether some light may pass.
     pub is_clear: bool,
-    /// What is seen instead where a ray goes along the normal, if that is something else.
+    /// The look for rays along the normal, if it is different.
     pub inside: Option<LookId>,
 }
 
 /// The looks of the primitives of each object.
 #[derive(Default)]
 pub(super) struct PrimitiveLooks {
-    /// Where the looks of each object's primitives are.
+    /// The range of each object's primitives in `of_primitive`.
     of_object: Vec<Range<u32>>,
     of_primitive: Vec<LookId>,
 }
@@ -43,16 +43,16 @@ pub(super) struct PrimitiveLooks {
 #[derive(Default)]
 pub(super) struct LookTable {
     looks: Vec<Look>,
-    /// By the addresses of textures and frames, which the looks keep alive.
+    /// Known looks, by the addresses of textures and frames. The looks keep these alive.
     known: HashMap<(*const Texture, *const Placement, u32, bool, Option<LookId>), LookId>,
     primitives: PrimitiveLooks,
-    /// Where the looks of an object are that is this mesh, has this look, and whose faces have
-    /// these.
+    /// The range of looks of an object that consists of this mesh, with this look and these looks
+    /// of its own textures.
     meshes: HashMap<(*const Mesh, LookId, Vec<LookId>), Range<u32>>,
 }
 
 impl PrimitiveLooks {
-    /// What a primitive of an object looks like; `None` if there is no such primitive.
+    /// The look of an object's primitive; `None` if there is no such primitive.
     #[inline]
     pub(super) fn of(&self, object: u32, primitive: u32) -> Option<LookId> {
         let looks = self.of_object.get(object as usize)?;
@@ -60,14 +60,14 @@ impl PrimitiveLooks {
         self.of_primitive.get(at as usize).copied()
     }
 
-    /// How many primitives an object has.
+    /// The number of an object's primitives.
     pub(super) fn count(&self, object: u32) -> u32 {
         self.of_object.get(object as usize).map_or(0, |looks| looks.end - looks.start)
     }
 }
 
 impl LookTable {
-    /// Begins with the next object.
+    /// Starts the next object.
     pub(super) fn begin(&mut self) -> Result<(), LowerErrorKind> {
         let first = self.len()?;
         self.primitives.of_object.push(first..first);
@@ -89,7 +89,7 @@ impl LookTable {
     pub(super) fn end(&mut self) -> Result<(), LowerErrorKind> {
         let end = self.len()?;
         if let Some(looks) = self.primitives.of_object.last_mut().filter(|looks| looks.end == looks.start) {
-            // An object with the looks of another has its end already.
+            // An object that shares the looks of another already has its end.
             looks.end = looks.end.max(end);
         }
         Ok(())
@@ -99,7 +99,7 @@ impl LookTable {
         u32::try_from(self.primitives.of_primitive.len()).map_err(|_| LowerErrorKind::TooMany)
     }
 
-    /// The number of a look. Surfaces that look alike share one.
+    /// The index of a look. Equal looks share one.
     pub(super) fn number(&mut self, look: Look) -> LookId {
         let Look { texture, frame, medium, double_illuminate, inside, .. } = &look;
         let key = (Arc::as_ptr(texture), Arc::as_ptr(frame), *medium, *double_illuminate, *inside);
@@ -110,8 +110,8 @@ impl LookTable {
         })
     }
 
-    /// Gives the object at hand, which is this mesh and nothing else, the looks of another with the
-    /// same textures, if there is one.
+    /// Gives the current object, which consists of this mesh alone, the range of an earlier object
+    /// with the same mesh and looks, if there is one.
     pub(super) fn same_as_before(&mut self, mesh: &Arc<Mesh>, look: LookId, own: Vec<LookId>) -> bool {
         let PrimitiveLooks { of_object, of_primitive } = &mut self.primitives;
         let Some(looks) = of_object.last_mut().filter(|l| l.start as usize == of_primitive.len()) else {
@@ -129,7 +129,7 @@ impl LookTable {
         }
     }
 
-    /// All looks, and which of them each primitive has.
+    /// All looks, and the look of each primitive.
     pub(super) fn finish(self) -> (Vec<Look>, PrimitiveLooks) {
         (self.looks, self.primitives)
     }

@@ -1,8 +1,8 @@
-//! From a scene to the geometry that rays meet, and what each surface looks like.
+//! Lowering: from a scene to the geometry that answers rays, and the look of each surface.
 //!
-//! Unions are taken apart, what they say about looks is handed down, and every surface gets its two
-//! numbers: `object` counts the scene's objects in the order of the text, `primitive` the surfaces
-//! within the object, each face of a mesh by itself.
+//! Unions are split into their parts, which inherit the look of the union. Every surface gets two
+//! numbers: `object` counts the scene's objects in the order of the text, and `primitive` counts
+//! the surfaces within the object; each face of a mesh counts.
 
 mod blob_texture;
 mod build;
@@ -26,25 +26,25 @@ use looks::{LookTable, PrimitiveLooks};
 
 pub use looks::{Look, LookId};
 
-/// A scene made ready for rays.
+/// A scene prepared for rays.
 pub struct Lowered {
-    /// What rays meet.
+    /// The geometry that rays hit.
     pub geometry: Geometry,
-    /// Every look there is.
+    /// All looks.
     pub looks: Vec<Look>,
-    /// Every medium there is; the first is that of opaque objects without an interior of their own.
+    /// All media. The first is that of opaque objects without an interior of their own.
     pub media: Vec<Arc<Interior>>,
-    /// What the reader of the text should be told: the scene is rendered all the same.
+    /// Warnings about the scene. It is rendered nevertheless.
     pub warnings: Vec<(Option<Place>, String)>,
     primitives: PrimitiveLooks,
     around_camera: Vec<(u32, Box<dyn Enclosure>)>,
 }
 
-/// Why a scene has no geometry, and where it says so.
+/// Why a scene has no geometry, and the place in the text that is to blame.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{kind}")]
 pub struct LowerError {
-    /// Where the object is written.
+    /// Where the object is written in the text.
     pub place: Option<Place>,
     /// What is wrong with it.
     pub kind: LowerErrorKind,
@@ -54,13 +54,13 @@ pub struct LowerError {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LowerErrorKind {
-    /// Its shape cannot exist.
+    /// The shape's numbers are invalid.
     #[error("{0}")]
     Shape(String),
-    /// Its transformation cannot place anything.
+    /// The transformation is singular or not finite.
     #[error(transparent)]
     Placement(#[from] AffineError),
-    /// What it is clipped by is not bounded by planes and quadrics.
+    /// The clipping object is not bounded by planes and quadrics.
     #[error(
         "clipped_by: {0} cannot clip: spheres, boxes, cylinders, cones, planes, all quadrics, spherical sectors and their inverses can"
     )]
@@ -68,7 +68,7 @@ pub enum LowerErrorKind {
     /// A part of a solid has no inside.
     #[error("{0} has no inside, so it cannot be part of a merge, intersection or difference")]
     Sheet(&'static str),
-    /// Something has no formula, so it cannot be deformed.
+    /// The object has no formula, so it cannot be deformed.
     #[error(
         "{0} cannot be deformed: spheres, boxes, cylinders, cones, planes, quadrics, tori, polynomials, superellipsoids, blobs, isosurfaces and solids of them can"
     )]
@@ -78,9 +78,9 @@ pub enum LowerErrorKind {
     MeshTexture {
         /// The face.
         face: usize,
-        /// The texture it names.
+        /// The texture it refers to.
         texture: u32,
-        /// How many there are.
+        /// The number of textures.
         count: usize,
     },
     /// A mesh refers to a normal that it does not have.
@@ -88,12 +88,12 @@ pub enum LowerErrorKind {
     MeshNormal {
         /// The face.
         face: usize,
-        /// The normal it names.
+        /// The normal it refers to.
         normal: u32,
-        /// How many there are.
+        /// The number of normals.
         count: usize,
     },
-    /// Which textures are shown where something is cut depends on the point.
+    /// The textures on a cut would depend on the point.
     #[error("cutaway_textures: {0}")]
     Cutaway(&'static str),
     /// A mesh refers to texture coordinates that it does not have.
@@ -101,24 +101,24 @@ pub enum LowerErrorKind {
     MeshUv {
         /// The face.
         face: usize,
-        /// The coordinates it names.
+        /// The coordinates it refers to.
         uv: u32,
-        /// How many there are.
+        /// The number of texture coordinates.
         count: usize,
     },
-    /// A pattern without entries.
+    /// A pattern has too few entries.
     #[error("texture: a pattern needs at least one entry for each of its kinds")]
     EmptyPattern,
-    /// The whole does not fit.
+    /// The geometry is too large.
     #[error(transparent)]
     Build(#[from] BuildError),
-    /// More primitives than numbers.
+    /// There are too many primitives to number.
     #[error("scene: at most {} primitives fit", u32::MAX)]
     TooMany,
 }
 
 impl Scene {
-    /// Builds the geometry, and says what each of its surfaces looks like.
+    /// Builds the geometry, and the look of each of its surfaces.
     ///
     /// Each crossing of an object is one of the solid's own.
     pub fn lower(&self) -> Result<Lowered, LowerError> {
@@ -146,14 +146,14 @@ impl Scene {
 }
 
 impl Lowered {
-    /// What a primitive of an object looks like; `None` if there is no such primitive.
+    /// The look of an object's primitive; `None` if there is no such primitive.
     #[inline]
     pub fn look_of(&self, object: u32, primitive: u32) -> Option<LookId> {
         self.primitives.of(object, primitive)
     }
 
-    /// Appends the media of all solids that hold `point`, at which a ray of the camera starts, in
-    /// the order of the text.
+    /// Appends the media of all solids that contain `point`, the start of a camera ray, in the
+    /// order of the text.
     pub fn media_at(&self, point: Point3, media: &mut Vec<u32>) {
         for (medium, solid) in &self.around_camera {
             if !media.contains(medium) && solid.holds(point) {
@@ -162,7 +162,8 @@ impl Lowered {
         }
     }
 
-    /// The same for all points of a box, if those are certainly in the same solids.
+    /// As [`Lowered::media_at`] for all points of a box; `None` unless they are certainly in the
+    /// same solids.
     pub fn media_in(&self, region: &Aabb) -> Option<Vec<u32>> {
         let mut media = Vec::new();
         for (medium, solid) in &self.around_camera {
@@ -173,7 +174,7 @@ impl Lowered {
         Some(media)
     }
 
-    /// How many primitives an object has.
+    /// The number of an object's primitives.
     pub fn primitives(&self, object: u32) -> u32 {
         self.primitives.count(object)
     }
@@ -193,29 +194,30 @@ impl core::fmt::Debug for Lowered {
 /// A texture and the space in which it is placed.
 type Painted = (Arc<Texture>, Arc<Placement>);
 
-/// What an object inherits from the unions around it.
+/// The properties that an object inherits from the unions around it.
 #[derive(Clone, Default)]
 struct Context<'s> {
     /// From the space around the object to the world.
     frame: Arc<Placement>,
     texture: Option<Painted>,
-    /// The texture is that of the other parts of an intersection; parts of unions have this one.
+    /// If the texture is borrowed from the other parts of an intersection: the texture for parts of
+    /// unions, which borrow none.
     unlent: Option<Arc<Texture>>,
-    /// What is seen from inside.
+    /// The texture seen from inside.
     inside: Option<Painted>,
     medium: Option<u32>,
     flags: Flags,
-    /// What the unions are clipped by.
+    /// The objects that clip the unions.
     clips: Vec<Cutter<'s>>,
 }
 
-/// What something is clipped by.
+/// An object that clips others.
 #[derive(Clone)]
 struct Cutter<'s> {
     object: &'s Object,
-    /// From the space around it to the world.
+    /// From the space around the clipping object to the world.
     frame: Arc<Placement>,
-    /// What it holds, in the world, if it is bounded by planes and quadrics alone.
+    /// The region that it keeps, in the world, if it is bounded by planes and quadrics alone.
     region: Option<durer_surfaces::Region>,
 }
 
@@ -228,7 +230,7 @@ enum Purpose {
     Pictures,
 }
 
-/// The work at hand.
+/// The state of the lowering.
 struct Lowering {
     purpose: Purpose,
     builder: Builder,
@@ -236,18 +238,18 @@ struct Lowering {
     media: Vec<Arc<Interior>>,
     warnings: Vec<(Option<Place>, String)>,
     around_camera: Vec<(u32, Box<dyn Enclosure>)>,
-    /// Meshes of several objects.
+    /// Meshes that several objects share.
     shared: shared::Meshes,
     object: ObjectId,
-    /// The object with that number, to compare addresses with.
+    /// The address of the current object of the scene, for comparisons.
     top: *const Object,
-    /// Where rays of the camera start.
+    /// A box that contains the starts of camera rays.
     camera: Aabb,
     default_texture: Arc<Texture>,
-    /// The one frame of everything that no union moves: one address, so that looks can be told
-    /// apart by it.
+    /// The one frame of everything that no union moves. It has one address, because looks are
+    /// compared by the address of their frame.
     world: Arc<Placement>,
-    /// No object has habits and all are opaque: one mask for all.
+    /// Whether all objects are opaque and visible to all rays; then they have one mask.
     is_plain: bool,
 }
 
@@ -298,8 +300,8 @@ impl Lowering {
         self.leaf(object, place.affine(), inner).map_err(fail)
     }
 
-    /// What an object hands down to its parts: its own, and what it has none of from those around
-    /// it.
+    /// The properties that an object hands down to its parts: its own, and otherwise those that it
+    /// inherits.
     fn inherited<'s>(&mut self, object: &'s Object, around: &Context<'s>) -> Result<Context<'s>, LowerError> {
         let own = |texture: &Option<Arc<Texture>>, inherited: &Option<Painted>| match texture {
             Some(texture) if texture.has_empty_pattern() => {
@@ -337,7 +339,7 @@ impl Lowering {
         (self.media.len() - 1) as u32
     }
 
-    /// The number of a look.
+    /// The index of a look.
     fn look(
         &mut self,
         (texture, frame): Painted,
@@ -351,18 +353,18 @@ impl Lowering {
         self.table.number(Look { texture, frame, medium, double_illuminate, is_clear, inside })
     }
 
-    /// The texture in force and its frame.
+    /// The texture that applies, and its frame.
     fn texture_of(&self, context: &Context<'_>) -> Painted {
         let default = || (Arc::clone(&self.default_texture), Arc::clone(&self.world));
         context.texture.clone().unwrap_or_else(default)
     }
 
-    /// Lowers an object that is no union, placed in the world by `place`.
+    /// Lowers an object that is not a union, placed in the world by `place`.
     fn leaf(&mut self, object: &Object, place: &Affine, context: Context<'_>) -> Result<(), LowerErrorKind> {
         let (texture, frame) = self.texture_of(&context);
         let is_clear = is_clear(object, &texture) || shows_through(&context.inside);
-        // Each clear object without an interior has one of its own all the same: leaving it is
-        // leaving it alone.
+        // Each clear object without an interior gets a medium of its own, so that leaving it means
+        // leaving this object only.
         let medium = match context.medium {
             Some(medium) => medium,
             None if is_clear => self.medium(&Arc::default()),
@@ -370,7 +372,7 @@ impl Lowering {
         };
         let flags = context.flags;
         let (mut outside, mut inside) = ((texture, frame), context.inside.clone());
-        // What is clipped keeps its normals (see `Target::add_rare`).
+        // A clipped surface keeps its normals (see `Target::add_rare`).
         if flags.inverse
             && !context.clips.is_empty()
             && let Some(inside) = &mut inside
@@ -402,7 +404,7 @@ impl Lowering {
 }
 
 impl Lowering {
-    /// Numbers the primitives of a shape, each with its look; says which is the first.
+    /// Numbers the primitives of a shape, each with its look. Returns the first number.
     fn looks_of(
         &mut self,
         object: &Object,
@@ -421,8 +423,8 @@ impl Lowering {
         let look = match inside.clone() {
             None => self.look(texture, medium, flags, None),
             Some(inside) => {
-                // A fact of the scene language: the corners of a flat triangle go round the other
-                // way.
+                // The corners of a flat triangle are in the opposite order (a fact of the scene
+                // language).
                 let (front, back) =
                     if goes_round_backward(object) { (inside, texture) } else { (texture, inside) };
                 let back = self.look(back, medium, flags, None);
@@ -465,7 +467,7 @@ impl LowerErrorKind {
     }
 }
 
-/// `first`, then `next`.
+/// The placement `first`, followed by `next`.
 fn join(first: &Placement, next: &Placement) -> Result<Placement, AffineError> {
     let mut all = first.clone();
     if !next.is_identity() {
@@ -474,7 +476,7 @@ fn join(first: &Placement, next: &Placement) -> Result<Placement, AffineError> {
     Ok(all)
 }
 
-/// Whether some light may pass a shape of this texture.
+/// Whether some light may pass a shape with this texture.
 fn is_clear(object: &Object, texture: &Texture) -> bool {
     let own = match &object.shape {
         Shape::Mesh(mesh) => mesh.textures.iter().any(|t| !t.is_opaque()),
@@ -489,9 +491,9 @@ fn shows_through(texture: &Option<Painted>) -> bool {
     texture.as_ref().is_some_and(|(texture, _)| !texture.is_opaque())
 }
 
-/// Whether it is made of triangles, has no inside, and its outside is not where the corners go
-/// round counterclockwise. Flat triangles are such; of smooth ones the normals tell, those of most
-/// faces where they disagree.
+/// Whether an object consists of triangles, has no inside, and its outside is the side from which
+/// the corners run clockwise. That holds for flat triangles. For smooth ones the normals decide, by
+/// the majority of faces.
 fn goes_round_backward(object: &Object) -> bool {
     match &object.shape {
         Shape::Triangle(_) => true,
@@ -503,7 +505,8 @@ fn goes_round_backward(object: &Object) -> bool {
     }
 }
 
-/// Whether a face is smooth, and its normals look to where its corners go round counterclockwise.
+/// Whether a face is smooth and its normals point to the side from which its corners run
+/// counterclockwise.
 fn looks_forward(mesh: &Mesh, face: &Face) -> bool {
     let Some(normals) = face.normals else { return false };
     let corners = face.vertices.map(|i| mesh.vertices.get(i as usize).copied());
@@ -513,7 +516,7 @@ fn looks_forward(mesh: &Mesh, face: &Face) -> bool {
     (b - a).cross(c - a).dot(sum) > 0.0
 }
 
-/// Whether every ray meets the object, and no light passes it.
+/// Whether all kinds of rays can hit the object, and no light passes it.
 fn is_plain(object: &Object) -> bool {
     let Flags { no_shadow, no_image, no_reflection, .. } = object.flags;
     let opaque = |t: &Arc<Texture>| t.is_opaque();

@@ -1,4 +1,4 @@
-//! Quadrics by their names.
+//! Lowering of quadrics that are given by name and semi-axes.
 
 use durer_math::{Aabb, Affine};
 use durer_surfaces::quadric::axial::Wall;
@@ -21,23 +21,23 @@ pub(super) fn build(
     visit(q, Adder { open, map, extent: q.extent, target })
 }
 
-/// What a named quadric encloses, caps included whether they are drawn or not.
+/// The region that a named quadric encloses. It includes the caps, whether they are drawn or not.
 pub(super) fn region(q: &NamedQuadric) -> Result<Region> {
     visit(q, Enclosed { extent: q.extent })
 }
 
-/// A box around a named quadric that `place` has moved, unbounded if it is.
+/// A box around a named quadric that is placed by `place`; unbounded if the quadric is.
 pub(super) fn bounds(q: &NamedQuadric, place: &Affine) -> Result<Aabb> {
     visit(q, Bounded { extent: q.extent, place })
 }
 
-/// What is to be done with a quadric, whichever it is.
+/// An operation on a quadric, generic in the kind of quadric.
 trait Visitor {
     type Output;
 
     fn visit<W: Wall + 'static>(self, whole: Axial<W>) -> Result<Self::Output>;
 
-    /// The same, if the semi-axes are in order.
+    /// As [`Visitor::visit`], after a check of the semi-axes.
     fn made<W: Wall + 'static>(self, whole: std::result::Result<Axial<W>, AxialError>) -> Result<Self::Output>
     where
         Self: Sized,
@@ -68,7 +68,7 @@ fn closed<W: Wall>(whole: Axial<W>, extent: Option<[f64; 2]>) -> Result<Axial<W>
     }
 }
 
-/// Puts a quadric into the geometry.
+/// Adds a quadric to the geometry.
 struct Adder<'a, 'b> {
     open: bool,
     map: Option<&'a Affine>,

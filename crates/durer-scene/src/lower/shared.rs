@@ -1,4 +1,4 @@
-//! Meshes that several objects have: each is built once, and placed as often as it is shown.
+//! Meshes that several objects share: each is built once and instanced for every object.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -9,8 +9,8 @@ use durer_math::Affine;
 use super::{LowerErrorKind, Lowering, build, shapes};
 use crate::{Mesh, Object, Shape};
 
-/// The meshes that more than one of a scene's objects are, by their addresses, which do not change
-/// while the scene is borrowed.
+/// The meshes that occur in more than one of a scene's objects, by their addresses, which do not
+/// change while the scene is borrowed.
 pub(super) struct Meshes {
     built: HashMap<*const Mesh, Option<Arc<Geometry>>>,
 }
@@ -27,7 +27,7 @@ impl Meshes {
         Self { built: shared.map(|c| (c.0, None)).collect() }
     }
 
-    /// The mesh that an object is, if others are it too.
+    /// The mesh that an object consists of, if other objects share it.
     pub(super) fn whole<'o>(&self, object: &'o Object) -> Option<&'o Arc<Mesh>> {
         match &object.shape {
             Shape::Mesh(mesh) if self.built.contains_key(&Arc::as_ptr(mesh)) => Some(mesh),
@@ -37,7 +37,7 @@ impl Meshes {
 }
 
 impl Lowering {
-    /// Places a mesh that is built once.
+    /// Adds an instance of a shared mesh, which is built at its first use.
     pub(super) fn instance(
         &mut self,
         mesh: &Arc<Mesh>,
