@@ -238,9 +238,12 @@ fn without(mut whole: Aabb, parts: &[Aabb]) -> Aabb {
     while has_changed && !whole.is_empty() {
         has_changed = false;
         for part in parts {
-            let spans = |axis: usize| part.min[axis] <= whole.min[axis] && whole.max[axis] <= part.max[axis];
             for axis in 0..3 {
-                if !(spans((axis + 1) % 3) && spans((axis + 2) % 3)) {
+                let spans = |other: usize| {
+                    other == axis
+                        || part.min[other] <= whole.min[other] && whole.max[other] <= part.max[other]
+                };
+                if !(0..3).all(spans) {
                     continue;
                 }
                 let (min, max) = (part.min[axis], part.max[axis]);
