@@ -41,6 +41,18 @@ pub(crate) fn compare(ours: &Picture, theirs: &Picture) -> Outcome<(Difference, 
     Ok((difference, Picture { width: ours.width, height: ours.height, pixels }))
 }
 
+/// The fraction of pixels on which two pictures differ though `theirs` agrees there with all of
+/// `again`, other pictures of the same size and by the same program.
+pub(crate) fn reproducible_difference(ours: &Picture, theirs: &Picture, again: &[Picture]) -> f64 {
+    let differs = |a: &Picture, i: usize| match (a.pixels.get(i), theirs.pixels.get(i)) {
+        (Some(a), Some(b)) => distance(*a, *b) > TOLERANCE,
+        _ => true,
+    };
+    let count = theirs.pixels.len();
+    let remaining = (0..count).filter(|&i| differs(ours, i) && !again.iter().any(|a| differs(a, i)));
+    remaining.count() as f64 / count.max(1) as f64
+}
+
 /// The largest difference of any channel.
 fn distance(a: [u8; 3], b: [u8; 3]) -> u8 {
     a.iter().zip(b).map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0)
@@ -69,6 +81,14 @@ mod tests {
         assert_eq!(difference, Difference { agreeing: 0.5, worst: 3 });
         assert!(!difference.passes());
         assert_eq!(drawn.pixels[2], [96, 0, 0]);
+    }
+
+    #[test]
+    fn pixels_that_change_by_themselves_do_not_count() {
+        let (ours, theirs) = (picture(&[10, 20, 30, 40]), picture(&[10, 29, 39, 40]));
+        assert_eq!(reproducible_difference(&ours, &theirs, &[]), 0.5);
+        let again = [picture(&[19, 29, 39, 40]), picture(&[10, 29, 30, 40])];
+        assert_eq!(reproducible_difference(&ours, &theirs, &again), 0.25);
     }
 
     #[test]

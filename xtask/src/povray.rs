@@ -31,8 +31,15 @@ impl Povray {
 
     /// As [`Povray::render`], with the pixels in another order. A pixel whose colour depends on
     /// pixels rendered before it changes.
-    pub(crate) fn render_in_blocks(&self, scene: &Path, picture: &Path, shot: Shot<'_>) -> Outcome {
-        self.run(scene, picture, shot, scene.parent().unwrap_or(scene), &["+BS3", "+RP3"])
+    pub(crate) fn render_in_blocks(
+        &self,
+        scene: &Path,
+        picture: &Path,
+        shot: Shot<'_>,
+        size: u32,
+    ) -> Outcome {
+        let blocks = format!("+BS{size}");
+        self.run(scene, picture, shot, scene.parent().unwrap_or(scene), &[blocks.as_str(), "+RP3"])
     }
 
     /// As [`Povray::render`], with a folder to search for included files.

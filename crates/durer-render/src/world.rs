@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use durer_geometry::Geometry;
-use durer_math::{Aabb, AffineError, Point3};
+use durer_math::{Aabb, AffineError, Ray};
 use durer_scene::{LowerError, Lowered, Place, Placement, Rgb, Scene, Texture};
 
 use crate::camera::{Camera, CameraError};
@@ -96,11 +96,7 @@ impl World {
         }
         let camera = scene.camera.as_ref().map(Camera::new).transpose()?;
         let standing = match &camera {
-            Some(Camera::Perspective(camera)) => {
-                let mut media = Vec::new();
-                lowered.media_at(camera.origin(), &mut media);
-                Some(media)
-            }
+            Some(Camera::Perspective(camera)) => lowered.media_at(camera.origin()),
             _ => scene.camera.as_ref().and_then(|camera| lowered.media_in(&camera.standpoints())),
         };
         let background = scene.background.0;
@@ -153,9 +149,9 @@ impl World {
         self.standing.clone().or_else(|| self.lowered.media_in(&origins()))
     }
 
-    /// Appends the media in which a camera ray from `origin` starts.
-    pub(crate) fn media_at(&self, origin: Point3, media: &mut Vec<u32>) {
-        self.lowered.media_at(origin, media);
+    /// Appends the media in which a camera ray starts.
+    pub(crate) fn media_of(&self, ray: &Ray, media: &mut Vec<u32>) {
+        self.lowered.media_of(ray, media);
     }
 }
 

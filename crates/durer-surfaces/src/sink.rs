@@ -112,3 +112,39 @@ impl Sink for All {
         Flow::Continue
     }
 }
+
+/// Decides whether a ray that starts on a solid's surface goes into the solid: its first crossing
+/// ahead leaves the solid; without one, the crossing at the start enters it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FirstCrossing {
+    at_start: Option<i8>,
+    ahead: Option<i8>,
+}
+
+impl FirstCrossing {
+    /// Whether the ray goes into the solid.
+    pub fn enters(&self) -> bool {
+        match (self.ahead, self.at_start) {
+            (Some(ahead), _) => ahead > 0,
+            (None, at_start) => at_start.is_some_and(|sign| sign < 0),
+        }
+    }
+}
+
+impl Sink for FirstCrossing {
+    fn range(&self) -> (f64, f64) {
+        (0.0, f64::INFINITY)
+    }
+
+    fn push(&mut self, root: Root) -> Flow {
+        if root.sign == 0 {
+            return Flow::Continue;
+        }
+        if root.lo <= 0.0 {
+            self.at_start = Some(root.sign);
+            return Flow::Continue;
+        }
+        self.ahead = Some(root.sign);
+        Flow::Stop
+    }
+}

@@ -18,7 +18,7 @@ use core::cell::RefCell;
 use core::ops::Range;
 use durer_bvh::{Leaf, Ray64};
 use durer_math::{Isa, RaySide};
-use durer_surfaces::{Flow, LocalRay, Need, Root, SurfacePoint};
+use durer_surfaces::{FirstCrossing, Flow, LocalRay, Need, Root, Sink, SurfacePoint};
 
 /// A root of the CSG solid, in the form for a geometry's queries.
 pub(super) struct Found {
@@ -99,6 +99,13 @@ impl Compound {
     ) -> bool {
         // A single piece has no inner end at which a crossing could be split.
         with_scratch(|scratch| self.walk(isa, ray, from, f64::INFINITY, None, scratch, show).unwrap_or(false))
+    }
+
+    /// Whether a ray that starts on the solid's surface goes into the solid.
+    pub fn enters(&self, ray: &LocalRay<'_>) -> bool {
+        let mut first = FirstCrossing::default();
+        self.trace(Isa::detect(), ray, None, &mut |found| first.push(found.root));
+        first.enters()
     }
 
     /// Passes the first crossing of the solid in the ray's range to `show`, if there is one; a

@@ -195,7 +195,7 @@ impl<'w> Whitted<'w> {
             let mut of = [0; LANES];
             for i in rays.live.lanes() {
                 media.clear();
-                self.world.media_at(rays.lane(i).origin, &mut media);
+                self.world.media_of(&rays.lane(i), &mut media);
                 let known = apart.iter().position(|b| b.standing.media.iter().eq(&media));
                 of[i] = known.unwrap_or_else(|| {
                     let mut bundle = self.onward.empty();

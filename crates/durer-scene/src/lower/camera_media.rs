@@ -1,18 +1,30 @@
 //! Solids in which camera rays may start.
 
 use durer_geometry::Compound;
-use durer_math::{Aabb, Point3, Shaft};
-use durer_surfaces::{LocalPoint, Side, Surface};
+use durer_math::{Aabb, Point3, Ray, Shaft};
+use durer_surfaces::{FirstCrossing, LocalPoint, LocalRay, Side, Surface};
 use std::sync::Arc;
 
 /// A solid that contains the camera or may contain it.
 pub(super) trait Enclosure: Send + Sync {
-    /// Whether a point lies inside it; a point on its surface does not.
-    fn holds(&self, p: Point3) -> bool;
+    /// The side on which a point lies.
+    fn side(&self, p: Point3) -> Side;
+
+    /// Whether a ray that starts on the solid's surface goes into the solid.
+    fn enters(&self, ray: &Ray) -> bool;
 
     /// Whether all points of a box lie inside it. `None` unless certainly all of them do or none
     /// does.
     fn holds_all(&self, region: &Aabb) -> Option<bool>;
+
+    /// Whether a ray starts inside: at a point inside, or on the surface and into the solid.
+    fn holds_start(&self, ray: &Ray) -> bool {
+        match self.side(ray.origin) {
+            Side::In => true,
+            Side::Out => false,
+            Side::On => self.enters(ray),
+        }
+    }
 }
 
 /// A solid, or the complement of one.
@@ -22,23 +34,34 @@ pub(super) struct Held<S> {
 }
 
 impl<S: Surface> Enclosure for Held<S> {
-    fn holds(&self, p: Point3) -> bool {
+    fn side(&self, p: Point3) -> Side {
         match self.solid.side(&LocalPoint::new(p)) {
-            Side::In => !self.inverse,
-            Side::Out => self.inverse,
-            Side::On => false,
+            Side::In if self.inverse => Side::Out,
+            Side::Out if self.inverse => Side::In,
+            side => side,
         }
+    }
+
+    fn enters(&self, ray: &Ray) -> bool {
+        let mut first = FirstCrossing::default();
+        self.solid.roots(&LocalRay::new(ray), &mut first);
+        first.enters() != self.inverse
     }
 
     /// If the surface does not pass through the box, all points are on the same side.
     fn holds_all(&self, region: &Aabb) -> Option<bool> {
-        self.solid.misses(&Shaft::between(*region, *region)).then(|| self.holds(region.centre()))
+        let is_missed = self.solid.misses(&Shaft::between(*region, *region));
+        is_missed.then(|| self.side(region.centre()) == Side::In)
     }
 }
 
 impl Enclosure for Arc<Compound> {
-    fn holds(&self, p: Point3) -> bool {
-        self.side(&LocalPoint::new(p)) == Side::In
+    fn side(&self, p: Point3) -> Side {
+        Compound::side(self, &LocalPoint::new(p))
+    }
+
+    fn enters(&self, ray: &Ray) -> bool {
+        Compound::enters(self, &LocalRay::new(ray))
     }
 
     fn holds_all(&self, region: &Aabb) -> Option<bool> {

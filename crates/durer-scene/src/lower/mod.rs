@@ -18,7 +18,8 @@ mod shared;
 use std::sync::Arc;
 
 use durer_geometry::{BuildError, Builder, EVERYTHING, Geometry, ObjectId, PrimitiveId};
-use durer_math::{Aabb, Affine, AffineError, Point3, Vec3};
+use durer_math::{Aabb, Affine, AffineError, Point3, Ray, Vec3};
+use durer_surfaces::Side;
 
 use crate::{Camera, Face, Flags, Interior, Mesh, Object, Place, Placement, Scene, Shape, Texture, mask};
 use camera_media::Enclosure;
@@ -152,14 +153,28 @@ impl Lowered {
         self.primitives.of(object, primitive)
     }
 
-    /// Appends the media of all solids that contain `point`, the start of a camera ray, in the
-    /// order of the text.
-    pub fn media_at(&self, point: Point3, media: &mut Vec<u32>) {
+    /// Appends the media of all solids inside which a camera ray starts, in the order of the text.
+    /// A ray that starts on the surface of a solid and goes into it starts inside.
+    pub fn media_of(&self, ray: &Ray, media: &mut Vec<u32>) {
         for (medium, solid) in &self.around_camera {
-            if !media.contains(medium) && solid.holds(point) {
+            if !media.contains(medium) && solid.holds_start(ray) {
                 media.push(*medium);
             }
         }
+    }
+
+    /// The media of all solids that contain a point, in the order of the text; `None` if the point
+    /// lies on the surface of one: then the direction of a ray decides.
+    pub fn media_at(&self, point: Point3) -> Option<Vec<u32>> {
+        let mut media = Vec::new();
+        for (medium, solid) in &self.around_camera {
+            match solid.side(point) {
+                Side::On => return None,
+                Side::In if !media.contains(medium) => media.push(*medium),
+                Side::In | Side::Out => {}
+            }
+        }
+        Some(media)
     }
 
     /// As [`Lowered::media_at`] for all points of a box; `None` unless they are certainly in the
