@@ -16,6 +16,7 @@
 //! one crossing. So every line crosses the solid's boundary inward and outward in turn, whatever
 //! the numbers are: a crossing exactly at a seam counts once.
 
+pub mod lathe;
 pub(crate) mod level;
 mod profile;
 mod profile_piece;
