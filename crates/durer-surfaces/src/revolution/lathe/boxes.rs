@@ -65,11 +65,6 @@ impl Boxes {
         Self { levels }
     }
 
-    /// The boxes of the pieces.
-    pub(super) fn pieces(&self) -> &[Hollow] {
-        self.levels.first().map_or(&[], |level| level)
-    }
-
     /// Calls `f` for each piece that the ray may meet, in order.
     #[inline(always)]
     pub(super) fn visit(&self, ray: &CentredRay<'_>, f: impl FnMut(usize)) {

@@ -13,7 +13,7 @@ use crate::mesh::Sorted;
 use crate::planar::{Crossing, Line, Probe};
 use crate::prism::curved::exact::{Ends, at, turn};
 use crate::prism::curved::profile_hits::Meet;
-use crate::roots::polynomial::{Found, Stretch, solve};
+use crate::roots::polynomial::{Along, Found, Stretch, solve};
 use crate::roots::quadratic::{Limits, NARROW};
 use crate::{Flow, LocalRay, PREVIEW_WIDTH, RingRay, Root, RootKind, Sink};
 use core::cmp::Ordering;
@@ -385,17 +385,15 @@ pub(super) fn meets<L: Line>(
     mut f: impl FnMut(Meet),
 ) {
     // The signs at both ends, at which neighbours agree.
-    #[inline(always)]
-    fn end<L: Line>(meeting: &Meeting<'_, L>, last: bool) -> Option<Ordering> {
-        let at = meeting.at_end(last);
-        let [r, y] = meeting.profile.point::<EFloat>(meeting.profile.end(meeting.i, last));
-        let quick = match meeting.factors {
-            Some(factors) => factors.at([r, y]).sign(),
-            None => None,
-        };
-        quick.or_else(|| meeting.line.sign(&at))
-    }
-    let is_zero = |last: bool| end(meeting, last).is_none_or(Ordering::is_eq);
+    let quick = match (meeting.equation(), meeting.piece.degree) {
+        (Equation::Level, _) => end_signs::<4, _>(meeting),
+        (Equation::Slanted, 1) => end_signs::<3, _>(meeting),
+        (Equation::Slanted, 2) => end_signs::<5, _>(meeting),
+        (Equation::Slanted, _) => end_signs::<7, _>(meeting),
+    };
+    let is_zero = |last: bool| {
+        !quick[usize::from(last)] && meeting.line.sign(&meeting.at_end(last)).is_none_or(Ordering::is_eq)
+    };
     if is_zero(false) || is_zero(true) {
         return exact_meets(meeting, profile, &mut f);
     }
@@ -437,6 +435,25 @@ pub(super) fn meets<L: Line>(
             |x| found(&mut f, x),
         ),
     }
+}
+
+/// Whether the equation certainly does not vanish at the first end of the piece, and at the last.
+///
+/// The errors and roundings of `a_k (±1/2)^k` add up to less than those of all coefficients and
+/// `2 N U` times the sum of the terms' magnitudes.
+#[inline(always)]
+fn end_signs<const N: usize, L: Line>(meeting: &Meeting<'_, L>) -> [bool; 2] {
+    let a: [EFloat; N] = meeting.double();
+    let (mut sums, mut size, mut e, mut power) = ([0.0_f64; 2], 0.0_f64, 0.0_f64, 1.0_f64);
+    for (k, a) in a.iter().enumerate() {
+        let term = a.v * power;
+        sums[k % 2] += term;
+        size += term.abs();
+        e = a.e.mul_add(power, e);
+        power *= 0.5;
+    }
+    let room = size.mul_add(2.0 * N as f64 * U, e) * (1.0 + 32.0 * U);
+    [(sums[0] - sums[1]).abs() > room, (sums[0] + sums[1]).abs() > room]
 }
 
 /// [`meets`] where the equation vanishes at an end of the piece.

@@ -60,7 +60,7 @@ impl Lathe {
         let (ox, oz) = if rho > 0.0 { (q.x / rho, q.z / rho) } else { (1.0, 0.0) };
         let w = Self::nearest(piece, [rho, q.y], root.tag[1]);
         let (powers_r, powers_y) = piece.running();
-        let exact = EFloat::exact(w);
+        let exact = EFloat::with_error(w, 0.0);
         let (r, y) = (Piece::at(&powers_r, &exact), Piece::at(&powers_y, &exact));
         let lobe = if r.v < 0.0 { -1.0 } else { 1.0 };
         let radius = r.v.abs();

@@ -17,7 +17,6 @@
 
 use super::LatheError;
 use core::cmp::Ordering;
-use durer_math::eft::scale2;
 use durer_math::{Dd, Dyadic, EFloat, Ring, U};
 
 /// How points define the profile of a lathe.
