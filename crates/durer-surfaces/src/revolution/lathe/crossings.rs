@@ -391,10 +391,7 @@ pub(super) fn meets<L: Line>(
         (Equation::Slanted, 2) => end_signs::<5, _>(meeting),
         (Equation::Slanted, _) => end_signs::<7, _>(meeting),
     };
-    let is_zero = |last: bool| {
-        !quick[usize::from(last)] && meeting.line.sign(&meeting.at_end(last)).is_none_or(Ordering::is_eq)
-    };
-    if is_zero(false) || is_zero(true) {
+    if !(quick[0] && quick[1]) {
         return exact_meets(meeting, profile, &mut f);
     }
     let limits = Limits { lo: -1.0, hi: 1.0, origin: 0.0, width: PREVIEW_WIDTH };
@@ -456,7 +453,8 @@ fn end_signs<const N: usize, L: Line>(meeting: &Meeting<'_, L>) -> [bool; 2] {
     [(sums[0] - sums[1]).abs() > room, (sums[0] + sums[1]).abs() > room]
 }
 
-/// [`meets`] where the equation vanishes at an end of the piece.
+/// [`meets`] where the equation vanishes at an end of the piece, or so nearly that f64 cannot
+/// decide.
 ///
 /// A joint at which the equation is negative on one side only is crossed. Otherwise the ray
 /// touches it: a grazing hit, once.
