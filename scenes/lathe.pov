@@ -2,9 +2,9 @@
 //
 // Equation: x² + z² = r(w)²,  y = y(w)
 //
-// A profile of lines or curves, turned about the y axis (`lathe`): where a ray passes the height y(w) is known for each w, and a polynomial of degree 6 at most
-// is left. A goblet whose Bezier profile has both ends on the axis, so that a wedge can be cut out of it; a baluster of cubics; a bell that is a sheet,
-// seen from inside; a faceted ring of straight lines, which is closed, and a torus knot's cousin: a ring of parabolas.
+// A profile of lines, parabolas or cubics, turned about the y axis (`lathe`). Where a ray passes the height y(w) is known for each w, so one polynomial of
+// degree 6 at most is left, in w. A goblet whose Bezier profile has both ends on the axis, so that it is a solid and a quarter can be cut out of its bowl; a
+// baluster of cubics; a bell of parabolas, a sheet; and two closed profiles, a ring of straight lines and one of parabolas.
 
 #include "stage.inc"
 #declare Goblet = lathe {

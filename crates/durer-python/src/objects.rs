@@ -4,8 +4,8 @@ use crate::{formula, value_error};
 use durer::math::{Affine, Point3, Vec3};
 use durer::scene::{
     Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, Interior, Isosurface, Julia,
-    JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, Object as SceneObject, Operation, Pigment, Prism, QuadricKind,
-    Reflection, Rgb, Scene, Shape, Spline, Sweep, Texture, Warp,
+    JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, Object as SceneObject, Operation, Pigment, Prism,
+    QuadricKind, Reflection, Rgb, Scene, Shape, Spline, Sweep, Texture, Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;

@@ -5,8 +5,8 @@ use std::fmt::Display;
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Blob, BlobError, CappedCylinder, CurvedPrism,
-    Cyclide, Disc, FLAT, Frustum, Isosurface, JuliaSet, Lathe, Parallelogram, Plane, Polygon, PolygonError, Prism,
-    Quadric, Region, Sphere, SphericalSector, SurfaceOfRevolution, Torus, Triangle, TriangleError,
+    Cyclide, Disc, FLAT, Frustum, Isosurface, JuliaSet, Lathe, Parallelogram, Plane, Polygon, PolygonError,
+    Prism, Quadric, Region, Sphere, SphericalSector, SurfaceOfRevolution, Torus, Triangle, TriangleError,
     superellipsoid,
 };
 

@@ -14,8 +14,7 @@ pub(super) struct Hollow {
 }
 
 impl Hollow {
-    const EMPTY: Self =
-        Self { y: [f64::INFINITY, f64::NEG_INFINITY], r: [f64::INFINITY, f64::NEG_INFINITY] };
+    const EMPTY: Self = Self { y: [f64::INFINITY, f64::NEG_INFINITY], r: [f64::INFINITY, f64::NEG_INFINITY] };
 
     fn union(self, b: Self) -> Self {
         let join = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];

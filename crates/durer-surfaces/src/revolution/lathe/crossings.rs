@@ -157,11 +157,7 @@ fn place<T: Word>(
     let b = ox * dx + oz * dz;
     // By the distance from the axis.
     #[inline(always)]
-    fn by_radius<T: Word>(
-        [a, b, across]: [EFloat<T>; 3],
-        r: EFloat<T>,
-        branch: i8,
-    ) -> EFloat<T> {
+    fn by_radius<T: Word>([a, b, across]: [EFloat<T>; 3], r: EFloat<T>, branch: i8) -> EFloat<T> {
         let h = (a * r.square() - across.square()).sqrt();
         match branch {
             0 => -b / a,
@@ -328,10 +324,7 @@ impl<'a, 'r> Pass<'a, 'r> {
         // Insertion: what is compared may be equal, so it is no total order.
         for i in 1..all.len() {
             let mut k = i;
-            while k > 0
-                && all[k].at.s_lo <= all[k - 1].at.s_hi
-                && self.order(&all[k], &all[k - 1]).is_lt()
-            {
+            while k > 0 && all[k].at.s_lo <= all[k - 1].at.s_hi && self.order(&all[k], &all[k - 1]).is_lt() {
                 all.swap(k, k - 1);
                 k -= 1;
             }
@@ -476,7 +469,9 @@ fn exact_meets<L: Line>(
         if !piece.is_surface {
             return None;
         }
-        let (p, _) = Meeting { line: meeting.line, profile, piece: &piece, i: other, factors: meeting.factors }.exactly();
+        let (p, _) =
+            Meeting { line: meeting.line, profile, piece: &piece, i: other, factors: meeting.factors }
+                .exactly();
         Some(Ends::new(p).map(|ends| if last { ends.first } else { ends.last }))
     };
     let at_end = |w: f64, turn: i8| Meet { y: w, lo: w, hi: w, turn, certain };

@@ -128,7 +128,12 @@ pub(super) enum Equation {
 }
 
 /// The coefficients of the exact equation.
-pub(super) fn exact_equation(equation: Equation, profile: &Profile, i: usize, ray: &RingRay<Dyadic>) -> Vec<Dyadic> {
+pub(super) fn exact_equation(
+    equation: Equation,
+    profile: &Profile,
+    i: usize,
+    ray: &RingRay<Dyadic>,
+) -> Vec<Dyadic> {
     let (r, y) = profile.powers::<Dyadic>(i);
     match equation {
         Equation::Slanted => Factors::new(ray).along::<7>(&r, &y).to_vec(),

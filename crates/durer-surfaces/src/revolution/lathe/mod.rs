@@ -171,8 +171,10 @@ impl Lathe {
 /// `∫ r² y' dw`: what a piece adds to the volume, by π, if the inside is to its left; by the rule of
 /// C. F. Gauss with four points, which is exact for degree 7 and close for degree 8.
 fn volume(piece: &Piece) -> f64 {
-    const NODES: [(f64, f64); 2] =
-        [(0.169_990_521_792_428_13, 0.326_072_577_431_273_05), (0.430_568_155_797_026_3, 0.173_927_422_568_726_93)];
+    const NODES: [(f64, f64); 2] = [
+        (0.169_990_521_792_428_13, 0.326_072_577_431_273_05),
+        (0.430_568_155_797_026_3, 0.173_927_422_568_726_93),
+    ];
     let at = |w: f64| {
         let [[r, _], [_, y1], _] = piece.slopes(w);
         r * r * y1

@@ -295,19 +295,20 @@ impl Profile {
         Piece { r, y, r_err, y_err, r_sum, y_sum, degree, is_surface }
     }
 
-    /// The Bezier control points of a piece's radius and height, `[[r; 4], [y; 4]]`, in the
+    /// Bezier control points of the range of a piece's radius and height, `[[r; 4], [y; 4]]`, in the
     /// author's numbers, and bounds of their errors.
     pub(super) fn bezier(&self, i: usize) -> ([[f64; 4]; 2], [f64; 2]) {
         let control = self.control(i);
         let mut errors = [0.0; 2];
         let axes = [0, 1].map(|k: usize| {
             let p = |j: usize| control.get(j).map_or(0.0, |p| p[k]);
-            let third = |a: f64, b: f64| a + (b - a) / 3.0;
             let size = control.iter().fold(0.0_f64, |m, p| m.max(p[k].abs()));
             // No more than eight roundings of numbers below four times the size.
-            errors[k] = if self.spline == LatheSpline::Bezier { 0.0 } else { size * (32.0 * U) };
+            // Lines lie between their ends.
+            let is_exact = matches!(self.spline, LatheSpline::Linear | LatheSpline::Bezier);
+            errors[k] = if is_exact { 0.0 } else { size * (32.0 * U) };
             match self.spline {
-                LatheSpline::Linear => [p(0), third(p(0), p(1)), third(p(1), p(0)), p(1)],
+                LatheSpline::Linear => [p(0), p(0), p(1), p(1)],
                 LatheSpline::Quadratic => {
                     let middle = p(1) + (0.25 * p(2) - 0.25 * p(0));
                     [p(1), p(1) + (middle - p(1)) * (2.0 / 3.0), p(2) + (middle - p(2)) * (2.0 / 3.0), p(2)]

@@ -99,8 +99,7 @@ impl Lathe {
         }
         let at_end = |last: bool| {
             let point = self.profile.end(i, last);
-            let meeting =
-                Meeting { line, profile: &self.profile, piece: &self.pieces[i], i, factors: None };
+            let meeting = Meeting { line, profile: &self.profile, piece: &self.pieces[i], i, factors: None };
             line.sign(&meeting.at_end(last)).is_none_or(Ordering::is_eq)
                 && line.sign(&Beyond { lathe: self, point }).is_none_or(Ordering::is_eq)
         };
@@ -113,7 +112,9 @@ impl Lathe {
         match (Ends::new(height), Ends::new(beyond.clone())) {
             (None, Some(r)) => !r.isolated(-0.5, 0.5).is_empty(),
             (None, None) => true,
-            (Some(g), _) => g.isolated(-0.5, 0.5).iter().any(|root| g.exact.sign_at_root(&beyond, root).is_eq()),
+            (Some(g), _) => {
+                g.isolated(-0.5, 0.5).iter().any(|root| g.exact.sign_at_root(&beyond, root).is_eq())
+            }
         }
     }
 }

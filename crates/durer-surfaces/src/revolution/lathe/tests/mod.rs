@@ -4,8 +4,8 @@
 mod witness;
 
 use super::*;
-use crate::laws::{self, ExactLine, Feature, Oracle, TestRng, aim, all_roots, exact3};
 use crate::RootKind;
+use crate::laws::{self, ExactLine, Feature, Oracle, TestRng, aim, all_roots, exact3};
 use durer_math::{Ray, Vec3};
 use witness::Turned;
 
@@ -48,7 +48,19 @@ fn sheets() -> Vec<(LatheSpline, Vec<[f64; 2]>)> {
         (Linear, vec![[0.5, 1.0], [2.0, 1.0]]),
         (Quadratic, vec![[1.0, -2.0], [2.0, -1.0], [0.5, 0.5], [1.0, 2.0]]),
         (Cubic, vec![[1.0, -2.0], [2.0, -1.0], [-1.0, 0.5], [1.0, 2.0], [1.0, 1.0]]),
-        (Bezier, vec![[1.0, -1.0], [3.0, 0.0], [-2.0, 1.0], [1.0, 2.0], [2.0, 1.0], [2.0, 1.5], [1.5, 2.0], [1.0, 1.0]]),
+        (
+            Bezier,
+            vec![
+                [1.0, -1.0],
+                [3.0, 0.0],
+                [-2.0, 1.0],
+                [1.0, 2.0],
+                [2.0, 1.0],
+                [2.0, 1.5],
+                [1.5, 2.0],
+                [1.0, 1.0],
+            ],
+        ),
     ]
 }
 
@@ -114,9 +126,14 @@ fn obey(profiles: Vec<(LatheSpline, Vec<[f64; 2]>)>, solid: bool, count: u64) {
                 let exact = oracle.crossings(&line);
                 assert_eq!(all.len(), exact.len(), "{seed} {i} {ray:?} {all:?}\n{lathe:?}");
                 for (root, c) in all.iter().zip(&exact) {
-                    let held = c.t.cmp_exact(&root.lo.into()).is_ge() && c.t.cmp_exact(&root.hi.into()).is_le();
+                    let held =
+                        c.t.cmp_exact(&root.lo.into()).is_ge() && c.t.cmp_exact(&root.hi.into()).is_le();
                     let kind = if c.grazing { RootKind::Grazing } else { RootKind::Simple };
-                    assert!(held && root.kind == kind, "{seed} {i} {ray:?} {root:?} {:?}\n{lathe:?}", c.t.about(80).to_f64());
+                    assert!(
+                        held && root.kind == kind,
+                        "{seed} {i} {ray:?} {root:?} {:?}\n{lathe:?}",
+                        c.t.about(80).to_f64()
+                    );
                 }
                 all
             };
@@ -128,7 +145,10 @@ fn obey(profiles: Vec<(LatheSpline, Vec<[f64; 2]>)>, solid: bool, count: u64) {
     laws::report(rays);
     widths.sort_by(f64::total_cmp);
     let median = widths[widths.len() / 2];
-    assert!(rays > 5 * count && roots > 5 * count as usize && median < 100.0, "{rays} {roots} {clear} {median}");
+    assert!(
+        rays > 5 * count && roots > 5 * count as usize && median < 100.0,
+        "{rays} {roots} {clear} {median}"
+    );
     assert!(!solid || clear > count, "{clear}");
 }
 
@@ -160,7 +180,8 @@ fn rays_through_joints_and_poles_go_in_as_often_as_out() {
                 continue;
             }
             let back = dice.pick(&[4.0, 1024.0, 1048576.0]);
-            let ray = Ray::new(target - direction * back, direction).with_range(f64::NEG_INFINITY, f64::INFINITY);
+            let ray =
+                Ray::new(target - direction * back, direction).with_range(f64::NEG_INFINITY, f64::INFINITY);
             let roots = all_roots(lathe, &ray);
             let (ins, outs) =
                 (roots.iter().filter(|r| r.sign < 0).count(), roots.iter().filter(|r| r.sign > 0).count());
@@ -193,7 +214,8 @@ fn rays_through_joints_and_poles_go_in_as_often_as_out() {
 fn a_cylinder_and_a_cone_are_met_where_the_quadrics_are() {
     use crate::{CappedCylinder, Frustum};
     let (base, cap) = (Point3::new(0.0, -1.0, 0.0), Point3::new(0.0, 1.0, 0.0));
-    let cylinder = Lathe::new(LatheSpline::Linear, &[[0.0, -1.0], [0.5, -1.0], [0.5, 1.0], [0.0, 1.0]]).unwrap();
+    let cylinder =
+        Lathe::new(LatheSpline::Linear, &[[0.0, -1.0], [0.5, -1.0], [0.5, 1.0], [0.0, 1.0]]).unwrap();
     let cone = Lathe::new(LatheSpline::Linear, &[[0.0, -1.0], [1.0, -1.0], [0.25, 1.0], [0.0, 1.0]]).unwrap();
     let (quadric, frustum) =
         (CappedCylinder::new(base, cap, 0.5).unwrap(), Frustum::new(base, 1.0, cap, 0.25).unwrap());
@@ -206,7 +228,8 @@ fn a_cylinder_and_a_cone_are_met_where_the_quadrics_are() {
             continue;
         }
         let ray = Ray::new(target - d * dice.pick(&[0.5, 8.0, 1e6]), d);
-        let pairs: [(&dyn laws::TestSurface, &dyn laws::TestSurface); 2] = [(&cylinder, &quadric), (&cone, &frustum)];
+        let pairs: [(&dyn laws::TestSurface, &dyn laws::TestSurface); 2] =
+            [(&cylinder, &quadric), (&cone, &frustum)];
         for (a, b) in pairs {
             let (a, b) = (all_roots(a, &ray), all_roots(b, &ray));
             assert_eq!(a.len(), b.len(), "{ray:?}");
@@ -232,5 +255,8 @@ fn bad_profiles_are_named() {
     assert_eq!(made(LatheSpline::Linear, &[[0.0, 0.0], [0.0, 1.0]]), LatheError::Empty);
     assert_eq!(made(LatheSpline::Linear, &[[1.0, 1.0], [1.0, 1.0]]), LatheError::Empty);
     assert_eq!(made(LatheSpline::Linear, &[[1.0, 0.0], [1e200, 1.0]]), LatheError::Range);
-    assert_eq!(made(LatheSpline::Cubic, &[[1.0, 0.0], [1.0, 1.0], [1e308, 1.0], [-1e308, 1e308]]), LatheError::Range);
+    assert_eq!(
+        made(LatheSpline::Cubic, &[[1.0, 0.0], [1.0, 1.0], [1e308, 1.0], [-1e308, 1e308]]),
+        LatheError::Range
+    );
 }

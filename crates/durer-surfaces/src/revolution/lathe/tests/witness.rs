@@ -110,9 +110,8 @@ impl Turned {
             let beyond = sum(&times(r, r), &[-square.clone()]);
             if is_zero(&level) {
                 let mut roots = real_roots(&beyond).into_iter();
-                let held = roots.any(|root| {
-                    root.cmp_exact(&zero()).is_ge() && root.cmp_exact(&Exact::from(1.0)).is_le()
-                });
+                let held = roots
+                    .any(|root| root.cmp_exact(&zero()).is_ge() && root.cmp_exact(&Exact::from(1.0)).is_le());
                 if held || is_zero(&beyond) {
                     return None;
                 }
@@ -186,9 +185,10 @@ impl Turned {
                 let b = (&(ox * dx) + &(oz * dz)).shifted(1);
                 let c = &ox.squared() + &oz.squared();
                 // 4 a c - b² is four times the square of the distance, times a.
-                let apart = sum(&scaled(&times(r, r), &a.clone().shifted(2)), &[
-                    &b.squared() - &(&a * &c).shifted(2),
-                ]);
+                let apart = sum(
+                    &scaled(&times(r, r), &a.clone().shifted(2)),
+                    &[&b.squared() - &(&a * &c).shifted(2)],
+                );
                 match root.sign_of(&apart) {
                     Ordering::Less => continue,
                     Ordering::Equal => return None,
@@ -226,9 +226,7 @@ impl Turned {
         for piece in &self.pieces {
             let [r, h] = [0, 1].map(|k: usize| piece[k].iter().map(Exact::to_f64).collect::<Vec<_>>());
             let at = |p: &[f64], u: f64| p.iter().rev().fold(0.0, |s, a| s * u + a);
-            let slope = |p: &[f64], u: f64| {
-                (1..p.len()).rev().fold(0.0, |s, k| s * u + k as f64 * p[k])
-            };
+            let slope = |p: &[f64], u: f64| (1..p.len()).rev().fold(0.0, |s, k| s * u + k as f64 * p[k]);
             for lobe in [-1.0, 1.0] {
                 let distance = |u: f64| (lobe * at(&r, u) - rho).hypot(at(&h, u) - y);
                 let mut u = (0..=256)
