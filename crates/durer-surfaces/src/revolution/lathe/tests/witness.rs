@@ -38,6 +38,10 @@ fn is_zero(p: &[Exact]) -> bool {
     p.iter().all(|c| c.sign().is_eq())
 }
 
+fn length(x: f64, y: f64) -> f64 {
+    (x * x + y * y).sqrt()
+}
+
 /// Walls that are nearer to a point than this are not distinguished.
 const NEAR: f64 = 1e-5;
 /// The precision, in bits, of numbers that are compared.
@@ -221,14 +225,14 @@ impl Turned {
     /// there, and how many pieces are near.
     fn nearest(&self, point: &[Exact; 3]) -> (Vec3, f64, f64, usize) {
         let [x, y, z] = point.clone().map(|x| x.to_f64());
-        let rho = x.hypot(z);
+        let rho = length(x, z);
         let (mut best, mut near) = ((Vec3::Y, f64::INFINITY, 0.0), 0);
         for piece in &self.pieces {
             let [r, h] = [0, 1].map(|k: usize| piece[k].iter().map(Exact::to_f64).collect::<Vec<_>>());
             let at = |p: &[f64], u: f64| p.iter().rev().fold(0.0, |s, a| s * u + a);
             let slope = |p: &[f64], u: f64| (1..p.len()).rev().fold(0.0, |s, k| s * u + k as f64 * p[k]);
             for lobe in [-1.0, 1.0] {
-                let distance = |u: f64| (lobe * at(&r, u) - rho).hypot(at(&h, u) - y);
+                let distance = |u: f64| length(lobe * at(&r, u) - rho, at(&h, u) - y);
                 let mut u = (0..=256)
                     .map(|i| f64::from(i) / 256.0)
                     .min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
@@ -256,7 +260,7 @@ impl Turned {
             let p = line.at(&c.t.about(BITS));
             let (_, distance, u, near) = self.nearest(&p);
             let joint = distance < NEAR && !(1e-4..=1.0 - 1e-4).contains(&u);
-            let on_axis = p[0].to_f64().hypot(p[2].to_f64()) < 1e-3;
+            let on_axis = length(p[0].to_f64(), p[2].to_f64()) < 1e-3;
             !c.grazing && !joint && near == 1 && !on_axis
         })
     }
