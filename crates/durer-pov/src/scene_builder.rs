@@ -428,6 +428,10 @@ pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             limits::charge_for_good(points.len() * 16);
             scene::Shape::Sor(Arc::from(&points[..]))
         }
+        Shape::Lathe(spline, points) => {
+            limits::charge_for_good(points.len() * 16);
+            scene::Shape::Lathe(*spline, Arc::from(&points[..]))
+        }
         &Shape::Ovus { bottom, top } => scene::Shape::Ovus { bottom, top },
         &Shape::Lemon { ends: [base, apex], radii: [base_radius, apex_radius], inner_radius } => {
             let (base, apex) = (point(base), point(apex));

@@ -92,7 +92,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Jitter
             | Jpeg
             | Julia
-            | Lathe
             | Leopard
             | LightGroup
             | LoadFile

@@ -124,10 +124,10 @@ fn impossible_shapes_are_named() {
 
 #[test]
 fn the_place_is_underlined_and_the_way_there_told() {
-    let error = read("#macro Bad(R)\n  sphere { 0, R lathe }\n#end\n\nBad(1)").unwrap_err().to_string();
+    let error = read("#macro Bad(R)\n  sphere { 0, R julia }\n#end\n\nBad(1)").unwrap_err().to_string();
     let lines: Vec<_> = error.lines().collect();
-    assert!(lines[0].ends_with("scene.pov:3:17: not supported yet: lathe"), "{error}");
-    assert_eq!(lines[2], "3 |   sphere { 0, R lathe }");
+    assert!(lines[0].ends_with("scene.pov:3:17: not supported yet: julia"), "{error}");
+    assert_eq!(lines[2], "3 |   sphere { 0, R julia }");
     assert_eq!(lines[3], "  |                 ^^^^^");
     assert!(lines[4].contains("in macro Bad, called at") && lines[4].ends_with("scene.pov:6:1"), "{error}");
 }
@@ -140,7 +140,8 @@ fn a_misspelling_is_recognised() {
 
 #[test]
 fn what_is_not_there_yet_is_called_by_its_name() {
-    for word in ["lathe { 1, 0.5 }", "height_field { }", "fog { distance 1 }", "sky_sphere { }", "media { }"]
+    for word in
+        ["bicubic_patch { 1, 0.5 }", "height_field { }", "fog { distance 1 }", "sky_sphere { }", "media { }"]
     {
         let expected = format!("not supported yet: {}", word.split(' ').next().unwrap());
         assert_eq!(fault(word).2, expected);

@@ -4,8 +4,8 @@ use crate::{formula, value_error};
 use durer::math::{Affine, Point3, Vec3};
 use durer::scene::{
     Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, Interior, Isosurface, Julia,
-    JuliaAlgebra, JuliaPower, NamedQuadric, Object as SceneObject, Operation, Pigment, Prism, QuadricKind,
-    Reflection, Rgb, Scene, Shape, Spline, Sweep, Texture, Warp,
+    JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, Object as SceneObject, Operation, Pigment, Prism,
+    QuadricKind, Reflection, Rgb, Scene, Shape, Spline, Sweep, Texture, Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -133,6 +133,22 @@ fn prism(outlines: Vec<Vec<[f64; 2]>>, heights: [f64; 2], spline: &str, conic: b
 #[pyfunction]
 fn surface_of_revolution(points: Vec<[f64; 2]>) -> PyResult<Object> {
     checked(Shape::Sor(points.into()))
+}
+
+#[pyfunction]
+fn lathe(points: Vec<[f64; 2]>, spline: &str) -> PyResult<Object> {
+    let spline = match spline {
+        "linear" => LatheSpline::Linear,
+        "quadratic" => LatheSpline::Quadratic,
+        "cubic" => LatheSpline::Cubic,
+        "bezier" => LatheSpline::Bezier,
+        other => {
+            return Err(value_error(format!(
+                "lathe: the spline must be 'linear', 'quadratic', 'cubic' or 'bezier', got '{other}'"
+            )));
+        }
+    };
+    checked(Shape::Lathe(spline, points.into()))
 }
 
 #[pyfunction]
@@ -349,6 +365,7 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(cyclide, module)?)?;
     module.add_function(wrap_pyfunction!(prism, module)?)?;
     module.add_function(wrap_pyfunction!(surface_of_revolution, module)?)?;
+    module.add_function(wrap_pyfunction!(lathe, module)?)?;
     module.add_function(wrap_pyfunction!(ovus, module)?)?;
     module.add_function(wrap_pyfunction!(lemon, module)?)?;
     module.add_function(wrap_pyfunction!(named_quadric, module)?)?;

@@ -31,6 +31,7 @@ KINDS = [
     (durer.Cyclide(2, 0.5, 1.9), None),
     (durer.Prism([[(-1, -1), (1, -1), (1, 1), (-1, 1)]], (-1, 1)), 8),
     (durer.SurfaceOfRevolution([(1, -2), (1, -1), (1, 1), (1, 2)]), 9 - math.sqrt(1 - 0.01)),
+    (durer.Lathe([(1, -1), (1, 1)]), 9 - math.sqrt(1 - 0.01)),
     (durer.Ovus(1, 0.5), None),
     (durer.Lemon((0, 0, -1), 0.1, (0, 0, 1), 0.3, 2), None),
     (durer.Ellipsoid((1, 1, 2)), 9 - 2 * math.sqrt(1 - 0.05)),

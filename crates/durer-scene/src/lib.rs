@@ -48,6 +48,7 @@ pub use crate::shape::{
     Spline, Sweep,
 };
 pub use crate::texture::{Fields, Layer, Pigment, PigmentBody, Texture, TextureBody};
+pub use durer_surfaces::LatheSpline;
 pub use durer_surfaces::Spline as Curve;
 pub use durer_surfaces::algebraic::{MAX_ORDER, coefficient_count, place_of};
 pub use durer_surfaces::julia::MOST_ITERATIONS;

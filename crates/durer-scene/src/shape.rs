@@ -5,7 +5,7 @@ use std::sync::Arc;
 use durer_math::{Point3, Vec3};
 
 use crate::tape::Formula;
-use crate::{BlobComponent, FillRule, Julia, Object, Texture, Warp};
+use crate::{BlobComponent, FillRule, Julia, LatheSpline, Object, Texture, Warp};
 
 /// A surface in its object's own frame, not yet checked: lowering builds it and names what is
 /// wrong.
@@ -118,6 +118,8 @@ pub enum Shape {
     /// the first and the last point only tell slopes. Closed by flat ends unless the object is
     /// open.
     Sor(Arc<[[f64; 2]]>),
+    /// A spline through points, a radius and a height each, turned about the y axis.
+    Lathe(LatheSpline, Arc<[[f64; 2]]>),
     /// An egg about the y axis: two spheres with a piece of a spindle between them.
     Ovus {
         /// The radius of the sphere about the origin.

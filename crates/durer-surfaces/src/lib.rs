@@ -118,6 +118,7 @@ pub use crate::quadric::sector::{SectorError, SphericalSector};
 pub use crate::quadric::solid::QuadricSolid;
 pub use crate::ray::{CentredRay, End, LocalPoint, LocalRay, PREVIEW_WIDTH, RingRay, WideCache};
 pub use crate::revolution::SurfaceOfRevolution;
+pub use crate::revolution::lathe::{Lathe, LatheError, LatheSpline};
 pub use crate::sink::{All, Any, Closest, FirstCrossing, Flow, Forward, Sink};
 pub use crate::sor::SorError;
 pub use crate::sphere::{Sphere, SphereError};

@@ -13,7 +13,7 @@
 //! *spindle*); the part that is inside twice is then outside, by the sign of `f`. `r = R` is a
 //! *horn*.
 
-use crate::packet::{FilterSource, Lathe, LatheWall};
+use crate::packet::{FilterSource, RevolutionKernel, RevolutionWall};
 use crate::polynomial_surface::{self, PolynomialSurface};
 use crate::quadric::boolean_faces::{Chart, Frame};
 use crate::quadric::form::FLOOR;
@@ -323,7 +323,7 @@ impl Surface for Torus {
         let (major, minor) = self.radii();
         let (big, small) = (major * major, minor * minor);
         // (n + v² - R² - r²)² - 4R² (r² - v²), between planes that it does not touch.
-        let wall = LatheWall {
+        let wall = RevolutionWall {
             alpha: 1.0,
             kappa: -(big + small),
             beta: 0.0,
@@ -333,7 +333,7 @@ impl Surface for Torus {
             radius: (major + minor) * (1.0 + 4.0 * U),
             kappa_size: big + small,
         };
-        let (i, lathe) = (self.index(), Lathe::new(&[wall], false));
+        let (i, lathe) = (self.index(), RevolutionKernel::new(&[wall], false));
         FilterSource::lathe(self.bounds(), lathe, self.centre, self.scale(), [(i + 1) % 3, i, (i + 2) % 3])
     }
 

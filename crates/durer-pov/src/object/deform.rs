@@ -219,6 +219,7 @@ fn check(object: &Rc<Object>) -> Result<()> {
         Shape::Mesh(_) => "a mesh",
         Shape::Prism(_) => "a prism",
         Shape::Sor(_) => "a sor",
+        Shape::Lathe(..) => "a lathe",
         Shape::Ovus { .. } => "an ovus",
         Shape::Lemon { .. } => "a lemon",
         Shape::Julia(_) => "a Julia set",

@@ -95,6 +95,8 @@ pub(crate) enum Shape {
     Prism(Rc<durer_scene::Prism>),
     /// Radii and heights.
     Sor(Rc<[[f64; 2]]>),
+    /// Radii and heights.
+    Lathe(durer_scene::LatheSpline, Rc<[[f64; 2]]>),
     Ovus {
         bottom: f64,
         top: f64,
@@ -262,6 +264,7 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
             | Torus
             | Prism
             | Sor
+            | Lathe
             | Ovus
             | Cubic
             | Quartic

@@ -149,6 +149,7 @@ impl Parser<'_> {
             }
             Keyword::Prism => self.prism(place)?,
             Keyword::Sor => self.sor()?,
+            Keyword::Lathe => self.lathe(place)?,
             Keyword::Ovus => self.ovus(place)?,
             Keyword::Cubic => self.coefficients(3, place)?,
             Keyword::Quartic => self.coefficients(4, place)?,

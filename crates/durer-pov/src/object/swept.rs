@@ -6,7 +6,7 @@ use super::Shape;
 use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::parser::Parser;
-use durer_scene::{Curve, FillRule, Prism, Spline, Sweep};
+use durer_scene::{Curve, FillRule, LatheSpline, Prism, Spline, Sweep};
 
 impl Parser<'_> {
     /// `[linear_spline | quadratic_spline | cubic_spline | bezier_spline] [linear_sweep | conic_sweep] height, height, number of points, points`.
@@ -157,6 +157,49 @@ impl Parser<'_> {
             points.push([radius, height]);
         }
         Ok(Shape::Sor(points.into()))
+    }
+
+    /// `[linear_spline | quadratic_spline | cubic_spline | bezier_spline] number of points, <radius, height>, ...`.
+    pub(super) fn lathe(&mut self, place: Place) -> Result<Shape> {
+        let mut spline = LatheSpline::Linear;
+        loop {
+            spline = if self.take_word(Keyword::LinearSpline)? {
+                LatheSpline::Linear
+            } else if self.take_word(Keyword::QuadraticSpline)? {
+                LatheSpline::Quadratic
+            } else if self.take_word(Keyword::CubicSpline)? {
+                LatheSpline::Cubic
+            } else if self.take_word(Keyword::BezierSpline)? {
+                LatheSpline::Bezier
+            } else {
+                break;
+            };
+        }
+        let name = match spline {
+            LatheSpline::Linear => "a lathe",
+            LatheSpline::Quadratic => "a lathe of quadratic_spline",
+            LatheSpline::Cubic => "a lathe of cubic_spline",
+            LatheSpline::Bezier => "a lathe of bezier_spline",
+        };
+        self.peek()?;
+        let at = self.here();
+        let count = self.point_count(name, spline.least_points() as u32)?;
+        if spline == LatheSpline::Bezier && count % 4 != 0 {
+            let text = format!("{name} has four points for each piece, {count} is not a multiple of 4");
+            return Err(Error::invalid(at, text));
+        }
+        let mut points = Vec::<[f64; 2]>::new();
+        for n in 0..count {
+            self.peek()?;
+            let at = self.here();
+            points.push(self.vector2()?);
+            self.skip_comma()?;
+            self.check_memory(n * 256, at)?;
+        }
+        if spline.is_on_axis(&points) {
+            return Ok(self.nothing("this lathe sweeps no surface: its profile lies on the axis", place));
+        }
+        Ok(Shape::Lathe(spline, points.into()))
     }
 
     /// `bottom radius, top radius`. One of them may be 0; then the other sphere is all.

@@ -472,6 +472,22 @@ class SurfaceOfRevolution(Object):
 
 
 @final
+class Lathe(Object):
+    """A profile through points (n, 2), a radius and a height each, turned about the y axis.
+
+    `spline` says how it goes through its points: "linear", "quadratic" (the first point only tells a slope), "cubic"
+    (the first and the last one do) or "bezier" (four points for each piece). Closed, or with both ends on the axis, it
+    is a solid.
+    """
+
+    __slots__ = ()
+
+    def __init__(self, points: npt.ArrayLike, spline: str = "linear") -> None:
+        arguments = (_rows(points, 2, "points"), str(spline))
+        self._set(_native.lathe(*arguments), arguments)
+
+
+@final
 class Ovus(Object):
     """An egg about the y axis: a sphere about the origin and one about the point `bottom` above it, with these radii."""
 

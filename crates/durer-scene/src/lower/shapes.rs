@@ -5,8 +5,8 @@ use std::fmt::Display;
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Blob, BlobError, CappedCylinder, CurvedPrism,
-    Cyclide, Disc, FLAT, Frustum, Isosurface, JuliaSet, Parallelogram, Plane, Polygon, PolygonError, Prism,
-    Quadric, Region, Sphere, SphericalSector, SurfaceOfRevolution, Torus, Triangle, TriangleError,
+    Cyclide, Disc, FLAT, Frustum, Isosurface, JuliaSet, Lathe, Parallelogram, Plane, Polygon, PolygonError,
+    Prism, Quadric, Region, Sphere, SphericalSector, SurfaceOfRevolution, Torus, Triangle, TriangleError,
     superellipsoid,
 };
 
@@ -133,6 +133,9 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
         }
         Shape::Sor(points) => {
             turned(SurfaceOfRevolution::sor(points).map_err(shape_error)?, open, map, &mut target);
+        }
+        Shape::Lathe(spline, points) => {
+            add_closed(&mut target, Lathe::new(*spline, points).map_err(shape_error)?, map);
         }
         &Shape::Ovus { bottom, top } => {
             turned(SurfaceOfRevolution::ovus(bottom, top).map_err(shape_error)?, open, map, &mut target);
@@ -483,6 +486,7 @@ pub(super) fn name(shape: &Shape) -> &'static str {
         Shape::Cyclide { .. } => "a cyclide",
         Shape::Prism(_) => "a prism",
         Shape::Sor(_) => "a sor",
+        Shape::Lathe(..) => "a lathe",
         Shape::Ovus { .. } => "an ovus",
         Shape::Lemon { .. } => "a lemon",
         Shape::Named(_) => "a named quadric",

@@ -11,7 +11,7 @@ use super::polynomial::{self, Terms};
 use super::prism::{self, Swept};
 use super::quadric::Start;
 use super::rays::{From8, Nearest, RayLanes};
-use super::revolution::{self, Lathe, Skin, Slant};
+use super::revolution::{self, RevolutionKernel, Skin, Slant};
 use super::sink::{First, Sink8};
 use crate::quadric::form::Form;
 use core::slice;
@@ -22,7 +22,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub(crate) enum PacketKernel {
     /// A surface of revolution.
-    Lathe(Arc<Lathe>),
+    Revolution(Arc<RevolutionKernel>),
     /// A part of a swept solid.
     Swept(Arc<Swept>),
     /// The zero set of a polynomial of degree up to four.
@@ -116,7 +116,7 @@ impl Detail {
     #[inline]
     pub(super) fn face_of(&self, face: u32) -> u32 {
         match &self.shape {
-            PacketKernel::Lathe(lathe) => lathe.name(face),
+            PacketKernel::Revolution(lathe) => lathe.name(face),
             PacketKernel::Swept(swept) => swept.face(face),
             PacketKernel::Quartic(_)
             | PacketKernel::Octic(_)
@@ -164,7 +164,7 @@ impl Detail {
     /// Whether the kernel finds all crossings, and the side of points.
     pub(super) fn is_operand(&self) -> bool {
         match &self.shape {
-            PacketKernel::Lathe(lathe) => lathe.faces() <= PacketFilter::FACES,
+            PacketKernel::Revolution(lathe) => lathe.faces() <= PacketFilter::FACES,
             PacketKernel::Swept(swept) => swept.is_operand(),
             PacketKernel::Quartic(_)
             | PacketKernel::Octic(_)
@@ -197,7 +197,7 @@ impl Detail {
         memory: &mut KernelScratch,
     ) {
         match &self.shape {
-            PacketKernel::Lathe(lathe) => lathe.meet(&self.own, rays, start, to, &mut memory.lathe),
+            PacketKernel::Revolution(lathe) => lathe.meet(&self.own, rays, start, to, &mut memory.lathe),
             PacketKernel::Swept(_) | PacketKernel::Level(_) => {}
             PacketKernel::Quartic(f) => f.meet(&self.own, rays, (start, cell), to, &mut memory.quartic),
             PacketKernel::Octic(f) => f.meet(&self.own, rays, (start, cell), to, &mut memory.octic),
@@ -216,7 +216,7 @@ impl Detail {
         memory: &mut KernelScratch,
     ) -> (u8, u8) {
         match &self.shape {
-            PacketKernel::Lathe(lathe) => lathe.holds(&self.own, rays, start, at),
+            PacketKernel::Revolution(lathe) => lathe.holds(&self.own, rays, start, at),
             PacketKernel::Swept(swept) => swept.holds(&self.own, rays, start, (at, asked), &mut memory.swept),
             PacketKernel::Quartic(f) => f.holds(&self.own, rays, start, at),
             PacketKernel::Octic(f) => f.holds(&self.own, rays, start, at),
@@ -242,7 +242,7 @@ impl Detail {
     #[inline(always)]
     pub(super) fn skin(&self, isa: Isa, (face, tag): (usize, F8), h: Vec3<F8>, h1: F8) -> Skin {
         match &self.shape {
-            PacketKernel::Lathe(lathe) => lathe.skin(&self.own, face, h, h1),
+            PacketKernel::Revolution(lathe) => lathe.skin(&self.own, face, h, h1),
             PacketKernel::Swept(swept) => swept.spot(&self.own, (face, tag), h, h1),
             PacketKernel::Quartic(f) => f.skin(&self.own, h, h1),
             PacketKernel::Octic(f) => f.skin(&self.own, h, h1),

@@ -59,7 +59,7 @@ use self::loops::Loops;
 pub(crate) use self::polynomial::Terms;
 pub(crate) use self::prism::{ProfileCurve8, Sweep8, Swept};
 use self::quadric::QuadricFace8;
-pub(crate) use self::revolution::{Lathe, LatheWall, Skin, Slant};
+pub(crate) use self::revolution::{RevolutionKernel, RevolutionWall, Skin, Slant};
 use durer_math::{Point3, Vec3};
 
 /// The packet filter of one surface, for eight rays at a time. [`FilterSource::build`] makes it.

@@ -5,7 +5,7 @@ use super::implicit::ImplicitKernel;
 use super::kernel::{DetailSketch, PacketKernel};
 use super::loops::{Edge, Loops, Off};
 use super::prism::Swept;
-use super::revolution::Lathe;
+use super::revolution::RevolutionKernel;
 use super::{PacketFilter, QuadricFace8};
 use crate::FillRule;
 use crate::quadric::boolean_faces::QuadricFaces;
@@ -260,10 +260,21 @@ impl FilterSource {
 
     /// A surface of revolution within a box, in units of `2^scale` about `origin`, around the
     /// second of its coordinate axes.
-    pub(crate) fn lathe(bounds: Aabb, lathe: Lathe, origin: Point3, scale: i32, order: [usize; 3]) -> Self {
+    pub(crate) fn lathe(
+        bounds: Aabb,
+        lathe: RevolutionKernel,
+        origin: Point3,
+        scale: i32,
+        order: [usize; 3],
+    ) -> Self {
         let vague = Self::vague(bounds);
-        let detail =
-            Some(DetailSketch::new(PacketKernel::Lathe(Arc::new(lathe)), vague.centre, origin, scale, order));
+        let detail = Some(DetailSketch::new(
+            PacketKernel::Revolution(Arc::new(lathe)),
+            vague.centre,
+            origin,
+            scale,
+            order,
+        ));
         Self { detail, ..vague }
     }
 

@@ -16,11 +16,12 @@
 //! one crossing. So every line crosses the solid's boundary inward and outward in turn, whatever
 //! the numbers are: a crossing exactly at a seam counts once.
 
+pub mod lathe;
 pub(crate) mod level;
 mod profile;
 mod profile_piece;
 
-use crate::packet::{FilterSource, Lathe};
+use crate::packet::{FilterSource, RevolutionKernel};
 use crate::planar::{self, Crossing, Line, PlaneForm, PointLine, Probe};
 use crate::polynomial_surface;
 use crate::quadric::boolean_faces::Frame;
@@ -472,7 +473,7 @@ impl Surface for SurfaceOfRevolution {
             walls.map(|(wall, &width)| wall.for_lanes(width.max(reach * pow2(-10)))).collect();
         match walls {
             Some(walls) => {
-                let lathe = Lathe::new(&walls, !self.open);
+                let lathe = RevolutionKernel::new(&walls, !self.open);
                 FilterSource::lathe(self.bounds, lathe, self.frame.centre, self.frame.scale, [0, 1, 2])
             }
             None => FilterSource::vague(self.bounds),

@@ -1,7 +1,7 @@
 //! The walls that enclose a solid of revolution between two of its heights.
 
 use super::profile::{Cubic, Spindle};
-use crate::packet::LatheWall;
+use crate::packet::RevolutionWall;
 use crate::planar::{AlongRay, Line, PointLine, Probe};
 use crate::polynomial_surface::{self, PolynomialSurface};
 use crate::quadric::boolean_faces::Frame;
@@ -42,22 +42,30 @@ impl Wall {
 
     /// The wall for packets, no wider than `radius`; `None` if its polynomial has another sheet
     /// within that radius.
-    pub(super) fn for_lanes(&self, radius: f64) -> Option<LatheWall> {
+    pub(super) fn for_lanes(&self, radius: f64) -> Option<RevolutionWall> {
         let stand = match self {
             Self::Cubic(w) => &w.stand,
             Self::Spindle(w) => &w.stand,
         };
         let (at, slab) = (stand.at_height(), stand.slab);
         match *self {
-            Self::Cubic(Cubic { a: p, .. }) => {
-                Some(LatheWall { alpha: 0.0, kappa: 0.0, beta: 1.0, p, at, slab, radius, kappa_size: 0.0 })
-            }
+            Self::Cubic(Cubic { a: p, .. }) => Some(RevolutionWall {
+                alpha: 0.0,
+                kappa: 0.0,
+                beta: 1.0,
+                p,
+                at,
+                slab,
+                radius,
+                kappa_size: 0.0,
+            }),
             Self::Spindle(Spindle { major, minor, .. }) => {
                 let far = (slab[0] - at).abs().max((slab[1] - at).abs());
                 let outer = major + (minor * minor - far * far).max(major * major).sqrt();
                 let (kappa, beta) = ((major - minor) * (major + minor), 4.0 * major * major);
                 let kappa_size = major * major + minor * minor;
-                let wall = LatheWall { alpha: -1.0, kappa, beta, p: [0.0; 4], at, slab, radius, kappa_size };
+                let wall =
+                    RevolutionWall { alpha: -1.0, kappa, beta, p: [0.0; 4], at, slab, radius, kappa_size };
                 (outer > radius * (1.0 + 1.0 / 16.0)).then_some(wall)
             }
         }

@@ -31,7 +31,7 @@ use durer_math::{F8, U, Vec3};
 
 /// A wall between two heights.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LatheWall {
+pub(crate) struct RevolutionWall {
     pub(crate) alpha: f64,
     pub(crate) kappa: f64,
     pub(crate) beta: f64,
@@ -48,7 +48,7 @@ pub(crate) struct LatheWall {
 
 /// Walls, the lowest first, in coordinates in which the second is the height.
 #[derive(Clone, Debug)]
-pub(crate) struct Lathe {
+pub(crate) struct RevolutionKernel {
     walls: Box<[Bounded]>,
     /// Whether the flat ends belong to the surface.
     closed: bool,
@@ -56,7 +56,7 @@ pub(crate) struct Lathe {
 
 #[derive(Clone, Copy, Debug)]
 struct Bounded {
-    wall: LatheWall,
+    wall: RevolutionWall,
     /// `F` and `F₁` at points of the wall, and for everything that enters a ray's coefficients.
     near: Sizes,
     wide: Sizes,
@@ -73,7 +73,7 @@ struct Sizes {
     bend: f64,
 }
 
-impl LatheWall {
+impl RevolutionWall {
     /// The sizes for `|x|, |z| <= m` and `|v| <= v`.
     fn sizes(&self, m: f64, v: f64) -> Sizes {
         let (alpha, beta) = (self.alpha.abs(), self.beta.abs());
@@ -108,9 +108,9 @@ pub(crate) struct Skin {
     pub(crate) room: F8,
 }
 
-impl Lathe {
+impl RevolutionKernel {
     /// The kernel for these walls; `closed` if it has flat ends.
-    pub(crate) fn new(walls: &[LatheWall], closed: bool) -> Self {
+    pub(crate) fn new(walls: &[RevolutionWall], closed: bool) -> Self {
         let walls = walls.iter().map(|&wall| {
             let [low, high] = wall.slab.map(|y| y - wall.at);
             let far = low.abs().max(high.abs()) * (1.0 + 1.0 / 64.0);
@@ -178,7 +178,7 @@ impl Lathe {
 
 /// `f` at height `v` and squared distance `n` from the axis.
 #[inline(always)]
-fn value(wall: &LatheWall, n: F8, v: F8) -> F8 {
+fn value(wall: &RevolutionWall, n: F8, v: F8) -> F8 {
     let [p0, p1, p2, p3] = F8::splats(wall.p);
     let p = p3.mul_add(v, p2).mul_add(v, p1).mul_add(v, p0);
     let q = v.mul_add(v, n) + wall.kappa;

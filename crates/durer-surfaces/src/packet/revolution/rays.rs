@@ -1,7 +1,7 @@
 //! Eight rays against a surface of revolution: their crossings with its walls and ends, and which
 //! of their points are inside.
 
-use super::{Bounded, Lathe, value};
+use super::{Bounded, RevolutionKernel, value};
 use crate::packet::local_frame::Own;
 use crate::packet::polynomial_roots::{Part8, Poly8, Root8};
 use crate::packet::quadric::Start;
@@ -55,7 +55,7 @@ pub(in crate::packet) struct RevolutionScratch {
     root: Root8,
 }
 
-impl Lathe {
+impl RevolutionKernel {
     /// Passes the crossings of each ray, or only the first one of each wall, and the doubts to
     /// `to`. `leaving` describes rays that start on the surface, and whether the surface is turned.
     pub(in crate::packet) fn meet<K: Sink8>(

@@ -8,7 +8,7 @@ use durer_math::{Dyadic, Ring};
 
 /// The direction of the change of sign of a polynomial with these signs before and after a root.
 #[inline(always)]
-pub(super) fn turn(before: Ordering, after: Ordering) -> i8 {
+pub(crate) fn turn(before: Ordering, after: Ordering) -> i8 {
     match (before, after) {
         (Less, Greater) => 1,
         (Greater, Less) => -1,
@@ -17,25 +17,25 @@ pub(super) fn turn(before: Ordering, after: Ordering) -> i8 {
 }
 
 /// The value of a polynomial.
-pub(super) fn at(p: &[Dyadic], y: f64) -> Dyadic {
+pub(crate) fn at(p: &[Dyadic], y: f64) -> Dyadic {
     let y = Dyadic::from(y);
     p.iter().rev().fold(Dyadic::ZERO, |sum, a| &(&sum * &y) + a)
 }
 
 /// A polynomial on `[-1/2, 1/2]`, which may vanish at the ends.
-pub(super) struct Ends {
+pub(crate) struct Ends {
     /// Whether it crosses zero at the first end, and at the last, if zero counts as positive.
-    pub(super) first: bool,
-    pub(super) last: bool,
+    pub(crate) first: bool,
+    pub(crate) last: bool,
     /// The polynomial without its roots at the ends.
-    pub(super) exact: ExactRoots,
+    pub(crate) exact: ExactRoots,
     /// Whether, between the ends, the given polynomial has the opposite sign of `exact`.
     turned: bool,
 }
 
 impl Ends {
     /// Divides by the roots at the ends. `None` if the polynomial is zero everywhere.
-    pub(super) fn new(mut p: Vec<Dyadic>) -> Option<Self> {
+    pub(crate) fn new(mut p: Vec<Dyadic>) -> Option<Self> {
         while p.last()?.is_zero() {
             p.pop();
         }
@@ -61,21 +61,21 @@ impl Ends {
     }
 
     /// The roots between two numbers that may themselves be roots, without those at the ends.
-    pub(super) fn isolated(&self, lo: f64, hi: f64) -> Vec<Isolated> {
+    pub(crate) fn isolated(&self, lo: f64, hi: f64) -> Vec<Isolated> {
         let beside = |y: f64, away: f64| {
             if y.abs() >= 0.5 { Dyadic::from(0.5_f64.copysign(y)) } else { self.exact.beside(y, away) }
         };
         self.exact.isolate(&beside(lo, -1.0), &beside(hi, 1.0))
     }
 
-    pub(super) fn turn(&self, root: &Isolated) -> i8 {
+    pub(crate) fn turn(&self, root: &Isolated) -> i8 {
         let turn = turn(root.before, root.after);
         if self.turned { -turn } else { turn }
     }
 }
 
 /// A crossing as an exact root.
-pub(super) enum Exactly {
+pub(crate) enum Exactly {
     /// At an end of the piece.
     At(f64),
     Root(Box<(Ends, Isolated)>),
@@ -84,7 +84,7 @@ pub(super) enum Exactly {
 impl Exactly {
     /// The exact root of a crossing. If several are so close together that brackets do not separate
     /// them, the one that turns as the crossing does.
-    pub(super) fn new(g: Vec<Dyadic>, meet: &Meet) -> Option<Self> {
+    pub(crate) fn new(g: Vec<Dyadic>, meet: &Meet) -> Option<Self> {
         if meet.lo == meet.hi && meet.y.abs() == 0.5 && at(&g, meet.y).is_zero() {
             return Some(Self::At(meet.y));
         }
@@ -96,7 +96,7 @@ impl Exactly {
     }
 
     /// An interval with exact ends that contains the root, no wider than `2^log`.
-    pub(super) fn narrowed(&mut self, log: i32) -> (Dyadic, Dyadic) {
+    pub(crate) fn narrowed(&mut self, log: i32) -> (Dyadic, Dyadic) {
         match self {
             Self::At(y) => (Dyadic::from(*y), Dyadic::from(*y)),
             Self::Root(found) => {
@@ -107,7 +107,7 @@ impl Exactly {
     }
 
     /// The sign of a polynomial at the root.
-    pub(super) fn sign(&self, q: &[Dyadic]) -> Ordering {
+    pub(crate) fn sign(&self, q: &[Dyadic]) -> Ordering {
         match self {
             Self::At(y) => at(q, *y).exact_sign(),
             Self::Root(found) => found.0.exact.sign_at_root(q, &found.1),

@@ -23,12 +23,12 @@
 
 mod compare;
 mod crossings;
-mod exact;
+pub(crate) mod exact;
 mod forms;
 mod parameter;
 mod point;
-mod profile_curve;
-mod profile_hits;
+pub(crate) mod profile_curve;
+pub(crate) mod profile_hits;
 mod self_intersection;
 mod spline;
 

@@ -167,7 +167,7 @@ impl ProfileCurve {
 }
 
 /// The least and the greatest x and z of a curve: `[[x, x], [z, z]]`, rounded outward.
-pub(super) fn extent(points: &Bezier) -> [[f64; 2]; 2] {
+pub(crate) fn extent(points: &Bezier) -> [[f64; 2]; 2] {
     [0, 1].map(|k| {
         let b = points.map(|p| p[k]);
         [-greatest(b.map(|x| -x)), greatest(b)]

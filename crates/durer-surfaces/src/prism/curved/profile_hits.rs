@@ -37,15 +37,15 @@ pub(super) struct Scan<'a, L> {
 
 /// A crossing of the line with a piece.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Meet {
+pub(crate) struct Meet {
     /// `u - 1/2`, and its bracket.
-    pub(super) y: f64,
-    pub(super) lo: f64,
-    pub(super) hi: f64,
+    pub(crate) y: f64,
+    pub(crate) lo: f64,
+    pub(crate) hi: f64,
     /// 1 where `g` rises, -1 where it falls, 0 where it touches zero.
-    pub(super) turn: i8,
+    pub(crate) turn: i8,
     /// False if the line is not known well enough to be certain.
-    pub(super) certain: bool,
+    pub(crate) certain: bool,
 }
 
 /// The values of a form at a piece's control points, with one common error.
