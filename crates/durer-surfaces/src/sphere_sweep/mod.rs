@@ -30,7 +30,7 @@ mod point;
 mod spline;
 mod unite;
 
-use crate::blob::{Inner, Tree};
+use crate::blob::Tree;
 use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
 use crate::roots::quadratic::Quadratic;
@@ -131,7 +131,6 @@ macro_rules! with_basis {
         }
     };
 }
-use with_basis;
 
 impl SphereSweep {
     /// The sweep of these spheres: centre and radius each.

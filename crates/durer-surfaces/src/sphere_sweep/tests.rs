@@ -8,7 +8,7 @@ use crate::laws::{
 };
 use crate::{CappedCylinder, Placed, RootKind, Sphere};
 use core::cmp::Ordering;
-use durer_math::{Affine, Ray, RaySide};
+use durer_math::{Ray, RaySide};
 
 /// The coefficients in `u` of a piece, times 6.
 fn powers(spline: SweepSpline, p: &[[f64; 4]]) -> [Vec<Exact>; 4] {
