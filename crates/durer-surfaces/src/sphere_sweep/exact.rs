@@ -10,9 +10,8 @@ use super::SphereSweep;
 use super::line::{RunEnd, Widths};
 use super::spline::Basis;
 use super::unite::Span;
-use crate::CentredRay;
-use crate::RingRay;
 use crate::roots::exact::{ExactRoots, Isolated};
+use crate::{CentredRay, End, RingRay};
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Equal, Greater, Less};
 use durer_math::{Dyadic, Ring, U};
@@ -58,7 +57,7 @@ struct ExactRun {
     to: Dyadic,
     first: bool,
     last: bool,
-    /// `D` is positive somewhere.
+    /// The line does not only touch it in one point.
     thick: bool,
     /// A ball that the line meets.
     ball: Ball,
@@ -134,7 +133,10 @@ impl ExactPiece {
             thick,
             ball: Ball::At(left.clone()),
         };
-        let Some(roots) = ExactRoots::new(self.disc.clone()) else { return vec![all(false)] };
+        let Some(roots) = ExactRoots::new(self.disc.clone()) else {
+            // The line touches all balls, in one point or along an interval.
+            return vec![all(self.b[1..].iter().any(|b| !b.is_zero()))];
+        };
         let found = roots.isolate(&roots.beside(-1.0, -1.0), &roots.beside(1.0, 1.0));
         let within =
             |root: &Isolated| roots.compare(&left, root).is_le() && roots.compare(&right, root).is_ge();
@@ -277,6 +279,14 @@ fn order(pieces: &[ExactPiece], a: &Chain, b: &Chain) -> Ordering {
     Equal
 }
 
+/// The runs of the line, in groups that overlap, ascending.
+struct Groups {
+    pieces: Vec<ExactPiece>,
+    groups: Vec<Vec<Chain>>,
+    /// False if the ray is not exactly known, so that these are the runs of one near it.
+    certain: bool,
+}
+
 /// The spans of the line, ascending; false if the ray is not exactly known, so that the spans are
 /// those of one near it.
 pub(super) fn unite<const K: usize, const M: usize>(
@@ -287,7 +297,40 @@ pub(super) fn unite<const K: usize, const M: usize>(
     widths: &Widths,
     spans: &mut Vec<Span>,
 ) -> bool {
+    let Groups { groups, certain, .. } = grouped(sweep, basis, at, numbers, widths);
     spans.clear();
+    spans.extend(groups.iter().filter_map(|group| {
+        let all = group.iter().map(|chain| chain.span);
+        all.reduce(|a, b| a.with(&b))
+    }));
+    certain
+}
+
+/// Where an end of the range lies relative to a span, by its number; `None` if that is not known.
+#[cold]
+#[inline(never)]
+pub(super) fn place_of_end<const K: usize, const M: usize>(
+    sweep: &SphereSweep,
+    basis: &Basis<K, M>,
+    at: &CentredRay<'_>,
+    numbers: &[u32],
+    widths: &Widths,
+    (span, end): (usize, End),
+) -> Option<Ordering> {
+    let Groups { pieces, groups, certain } = grouped(sweep, basis, at, numbers, widths);
+    let s = at.end_in_ring::<Dyadic>(end);
+    let places = groups.get(span)?.iter().map(|chain| place(&pieces, &chain.members, &s));
+    let told = places.reduce(|a, b| if a == b { a } else { Equal })?;
+    certain.then_some(told)
+}
+
+fn grouped<const K: usize, const M: usize>(
+    sweep: &SphereSweep,
+    basis: &Basis<K, M>,
+    at: &CentredRay<'_>,
+    numbers: &[u32],
+    widths: &Widths,
+) -> Groups {
     let known = at.in_ring::<Dyadic>();
     let certain = known.is_some();
     let ray = known.unwrap_or_else(|| RingRay {
@@ -330,11 +373,7 @@ pub(super) fn unite<const K: usize, const M: usize>(
         groups.push(group);
     }
     groups.sort_by(|a, b| order(&pieces, &a[0], &b[0]));
-    spans.extend(groups.iter().filter_map(|group| {
-        let all = group.iter().map(|chain| chain.span);
-        all.reduce(|a, b| a.with(&b))
-    }));
-    certain
+    Groups { pieces, groups, certain }
 }
 
 /// A chain with its span.

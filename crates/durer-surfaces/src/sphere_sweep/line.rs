@@ -435,11 +435,14 @@ impl<T: Word, const K: usize, const M: usize> PieceLine<T, K, M> {
             } else {
                 r = x;
             }
-            if r - l < 1e-9 || (rises && x >= to) || (!rises && x <= from) {
+            if r - l < 1e-12 || (rises && x >= to) || (!rises && x <= from) {
                 return if x >= to || x <= from { x } else { 0.5 * (l + r) };
             }
             let next = x + newton;
-            let done = newton.abs() < 1e-8;
+            // Quadratic convergence: the step after this one would be below all errors.
+            if newton.abs() < 1e-8 {
+                return next.clamp(from, to);
+            }
             x = if next > l && next < r && round % 8 != 7 {
                 next
             } else if round == 0 && rises && r >= to && run.last {
@@ -449,9 +452,6 @@ impl<T: Word, const K: usize, const M: usize> PieceLine<T, K, M> {
             } else {
                 0.5 * (l + r)
             };
-            if done {
-                break;
-            }
         }
         x
     }

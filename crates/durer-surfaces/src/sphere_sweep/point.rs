@@ -178,11 +178,13 @@ impl SphereSweep {
                 from
             },
         );
-        // The ball that is nearest: Newton's step, if it is small.
-        let (p1, p2) = curve.turn::<M>(x);
-        let step = -0.5 * p1.v / p2.v;
-        if step.abs() < durer_math::scale::pow2(-20) && x > -1.0 && x < 1.0 {
-            x = (x + step).clamp(-1.0, 1.0);
+        // The ball that is nearest, by Newton's method if its steps are small.
+        for _ in 0..2 {
+            let (p1, p2) = curve.turn::<M>(x);
+            let step = -0.5 * p1.v / p2.v;
+            if p2.v > 0.0 && step.abs() < 1.0 / 64.0 {
+                x = (x + step).clamp(-1.0, 1.0);
+            }
         }
         let (c, signed, c1, r1) = curve.place(x);
         let (c, c1, r) = (Vec3::from(c), Vec3::from(c1), signed.abs());

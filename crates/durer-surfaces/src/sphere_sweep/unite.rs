@@ -21,7 +21,7 @@ const ROOM: f64 = 1.0 / 1024.0;
 pub(super) struct Span {
     pub(super) from: RunEnd,
     pub(super) to: RunEnd,
-    /// It is no interval, but one point, or a stretch of the surface itself.
+    /// It is no interval, but one point.
     pub(super) touches: bool,
 }
 
@@ -80,7 +80,7 @@ pub(super) fn roots<const K: usize, const M: usize>(
         if unite(sweep, basis, &Line::double(&at), pieces, &widths, spans).is_err() {
             certain = unite_exactly(sweep, basis, &at, pieces, &widths, spans);
         }
-        show(sweep, basis, &at, &lists.spans, certain, sink);
+        show(sweep, basis, &at, (pieces, spans), &widths, certain, sink);
     }
     LISTS.set(lists);
 }
@@ -205,20 +205,37 @@ fn show<const K: usize, const M: usize>(
     sweep: &SphereSweep,
     basis: &Basis<K, M>,
     at: &CentredRay<'_>,
-    spans: &[Span],
+    (pieces, spans): (&[u32], &[Span]),
+    widths: &Widths,
     certain: bool,
     sink: &mut dyn Sink,
 ) {
     let mut least = f64::NEG_INFINITY;
     let spawned = at.spawned().is_some();
-    for span in spans {
+    // Both crossings of a span whose brackets hold an end of the range are in it.
+    let mut thin;
+    for (number, span) in spans.iter().enumerate() {
+        if !span.touches && is_thin(at, span) {
+            // Both crossings may be on either side of an end of the range.
+            let place = |end| exact::place_of_end(sweep, basis, at, pieces, widths, (number, end));
+            let holds = |end| is_held(at, span, end);
+            if holds(End::Min) && place(End::Min) == Some(Ordering::Greater)
+                || holds(End::Max) && place(End::Max) == Some(Ordering::Less)
+            {
+                continue;
+            }
+            thin = holds(End::Min) && place(End::Min) == Some(Ordering::Less)
+                || holds(End::Max) && place(End::Max) == Some(Ordering::Greater);
+        } else {
+            thin = false;
+        }
         let ends: &[(&RunEnd, i8)] =
             if span.touches { &[(&span.from, 0)] } else { &[(&span.from, -1), (&span.to, 1)] };
         for &(end, sign) in ends {
             let (mut lo, hi) = at.bracket(end.lo, end.hi);
             let admitted = at.admits(lo, hi);
             if admitted == Some(false)
-                || admitted.is_none() && sign != 0 && is_beyond(sweep, basis, at, (lo, hi), sign)
+                || admitted.is_none() && sign != 0 && !thin && is_beyond(sweep, basis, at, (lo, hi), sign)
             {
                 continue;
             }
@@ -240,6 +257,18 @@ fn show<const K: usize, const M: usize>(
             }
         }
     }
+}
+
+/// Whether the brackets of both crossings of a span hold an end of the range.
+#[inline(always)]
+fn is_thin(at: &CentredRay<'_>, span: &Span) -> bool {
+    span.to.lo <= span.from.hi && (is_held(at, span, End::Min) || is_held(at, span, End::Max))
+}
+
+fn is_held(at: &CentredRay<'_>, span: &Span, end: End) -> bool {
+    let end = at.end(end);
+    let brackets = [&span.from, &span.to].map(|it| at.bracket(it.lo, it.hi));
+    end.is_finite() && brackets.iter().all(|&(lo, hi)| lo <= end && end <= hi)
 }
 
 /// Whether a crossing whose bracket holds an end of the range lies beyond it, decided by the side on
