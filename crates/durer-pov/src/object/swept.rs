@@ -148,7 +148,7 @@ impl Parser<'_> {
         let at = self.here();
         let count = self.float()?;
         self.skip_comma()?;
-        if !(least..1e9).contains(&count) {
+        if count.partial_cmp(&least).is_none_or(std::cmp::Ordering::is_lt) {
             let text = format!("a sphere_sweep of {name} has at least {least} spheres, not {count}");
             return Err(Error::invalid(at, text));
         }

@@ -59,8 +59,9 @@ struct ExactRun {
     last: bool,
     /// The line does not only touch it in one point.
     thick: bool,
-    /// A ball that the line meets.
+    /// A ball that the line meets, and about where it is.
     ball: Ball,
+    about: f64,
 }
 
 enum Ball {
@@ -132,6 +133,7 @@ impl ExactPiece {
             last: true,
             thick,
             ball: Ball::At(left.clone()),
+            about: -1.0,
         };
         let Some(roots) = ExactRoots::new(self.disc.clone()) else {
             // The line touches all balls, in one point or along an interval.
@@ -147,6 +149,7 @@ impl ExactPiece {
         let mut runs = Vec::new();
         let mut current: Option<ExactRun> = None;
         let mut before = left.clone();
+        let width = Dyadic::from(U).scale2(-60);
         for (i, root) in found.iter().enumerate() {
             let at_left = roots.compare(&left, root).is_eq();
             let at_right = roots.compare(&right, root).is_eq();
@@ -161,6 +164,7 @@ impl ExactPiece {
                 last: false,
                 thick: false,
                 ball: Ball::Root(root.clone()),
+                about: roots.narrowed(&mut root.clone(), &width).1.to_f64().clamp(-1.0, 1.0),
             });
             run.last = at_right;
             if !at_right && root.after.is_gt() {
@@ -386,13 +390,23 @@ fn chain(pieces: &[ExactPiece], members: Vec<Member>, widths: &Widths) -> Chain 
             let a = piece.a.to_f64();
             let (from, to) = (run.from.to_f64().max(-1.0), run.to.to_f64().min(1.0));
             let at = |p: &[Dyadic], x: f64| value(p, &Dyadic::from(x)).to_f64();
-            let reach = |x: f64| (sign * at(&piece.b, x) + at(&piece.disc, x).max(0.0).sqrt()) / a;
-            let mut x = from;
+            let reach = |x: f64| {
+                let disc = value(&piece.disc, &Dyadic::from(x));
+                if disc.exact_sign().is_lt() {
+                    return f64::NEG_INFINITY;
+                }
+                (sign * at(&piece.b, x) + disc.to_f64().sqrt()) / a
+            };
+            let mut x = run.about;
             for i in 0..=16 {
                 let next = from + (to - from) * f64::from(i) / 16.0;
-                if at(&piece.disc, next) >= 0.0 && reach(next) > reach(x) || i == 0 {
+                if reach(next) > reach(x) {
                     x = next;
                 }
+            }
+            // A run may be narrower than f64 can tell.
+            if best.0 == f64::NEG_INFINITY {
+                best = (sign * at(&piece.b, x) / a, (piece.number, x));
             }
             // Golden sections would be enough; thirds are simpler.
             let step = (to - from) / 16.0;

@@ -212,30 +212,16 @@ fn show<const K: usize, const M: usize>(
 ) {
     let mut least = f64::NEG_INFINITY;
     let spawned = at.spawned().is_some();
-    // Both crossings of a span whose brackets hold an end of the range are in it.
-    let mut thin;
     for (number, span) in spans.iter().enumerate() {
-        if !span.touches && is_thin(at, span) {
-            // Both crossings may be on either side of an end of the range.
-            let place = |end| exact::place_of_end(sweep, basis, at, pieces, widths, (number, end));
-            let holds = |end| is_held(at, span, end);
-            if holds(End::Min) && place(End::Min) == Some(Ordering::Greater)
-                || holds(End::Max) && place(End::Max) == Some(Ordering::Less)
-            {
-                continue;
-            }
-            thin = holds(End::Min) && place(End::Min) == Some(Ordering::Less)
-                || holds(End::Max) && place(End::Max) == Some(Ordering::Greater);
-        } else {
-            thin = false;
-        }
         let ends: &[(&RunEnd, i8)] =
             if span.touches { &[(&span.from, 0)] } else { &[(&span.from, -1), (&span.to, 1)] };
         for &(end, sign) in ends {
             let (mut lo, hi) = at.bracket(end.lo, end.hi);
             let admitted = at.admits(lo, hi);
             if admitted == Some(false)
-                || admitted.is_none() && sign != 0 && !thin && is_beyond(sweep, basis, at, (lo, hi), sign)
+                || admitted.is_none()
+                    && sign != 0
+                    && is_beyond(sweep, basis, at, (pieces, spans), widths, (number, (lo, hi), sign))
             {
                 continue;
             }
@@ -259,38 +245,47 @@ fn show<const K: usize, const M: usize>(
     }
 }
 
-/// Whether the brackets of both crossings of a span hold an end of the range.
-#[inline(always)]
-fn is_thin(at: &CentredRay<'_>, span: &Span) -> bool {
-    span.to.lo <= span.from.hi && (is_held(at, span, End::Min) || is_held(at, span, End::Max))
-}
-
-fn is_held(at: &CentredRay<'_>, span: &Span, end: End) -> bool {
-    let end = at.end(end);
-    let brackets = [&span.from, &span.to].map(|it| at.bracket(it.lo, it.hi));
-    end.is_finite() && brackets.iter().all(|&(lo, hi)| lo <= end && end <= hi)
-}
-
-/// Whether a crossing whose bracket holds an end of the range lies beyond it, decided by the side on
-/// which the end is. So the crossing is in exactly one of two ranges that meet there, whatever its
-/// bracket.
+/// Whether a crossing whose bracket holds an end of the range lies beyond it. So the crossing is in
+/// exactly one of two ranges that meet there, whatever its bracket.
+///
+/// The side on which the end is tells, if no other crossing may be nearby.
 #[cold]
 #[inline(never)]
 fn is_beyond<const K: usize, const M: usize>(
     sweep: &SphereSweep,
     basis: &Basis<K, M>,
     at: &CentredRay<'_>,
-    (lo, hi): (f64, f64),
-    sign: i8,
+    (pieces, spans): (&[u32], &[Span]),
+    widths: &Widths,
+    (number, (lo, hi), sign): (usize, (f64, f64), i8),
 ) -> bool {
-    let holds = |end: f64| end.is_finite() && lo <= end && end <= hi;
-    let is_out = |end: End| match (end, at.spawned()) {
-        (End::Min, Some((side, ..))) => Some(side == RaySide::Front),
-        _ => match sweep.side_at(basis, at, end) {
-            Some(Ordering::Equal) | None => None,
-            Some(side) => Some(side == Ordering::Greater),
-        },
+    let near = |it: &RunEnd| {
+        let (l, h) = at.bracket(it.lo, it.hi);
+        usize::from(l <= hi && lo <= h)
     };
-    holds(at.end(End::Min)) && is_out(End::Min) == Some(sign > 0)
-        || holds(at.end(End::Max)) && is_out(End::Max) == Some(sign < 0)
+    let from = number.saturating_sub(1);
+    let crowd: usize =
+        spans[from..].iter().take(number - from + 2).map(|span| near(&span.from) + near(&span.to)).sum();
+    let is_past = |end: End| {
+        let t = at.end(end);
+        if !(t.is_finite() && lo <= t && t <= hi) {
+            return false;
+        }
+        if crowd > 1 {
+            match exact::place_of_end(sweep, basis, at, pieces, widths, (number, end)) {
+                Some(Ordering::Less) => return end == End::Max,
+                Some(Ordering::Greater) => return end == End::Min,
+                _ => {}
+            }
+        }
+        let is_out = match (end, at.spawned()) {
+            (End::Min, Some((side, ..))) => side == RaySide::Front,
+            _ => match sweep.side_at(basis, at, end) {
+                Some(Ordering::Equal) | None => return false,
+                Some(side) => side == Ordering::Greater,
+            },
+        };
+        is_out == ((sign > 0) == (end == End::Min))
+    };
+    is_past(End::Min) || is_past(End::Max)
 }
