@@ -424,6 +424,10 @@ pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             limits::charge_for_good(points * 16);
             scene::Shape::Prism(Arc::new((**prism).clone()))
         }
+        Shape::SphereSweep(spline, spheres) => {
+            limits::charge_for_good(spheres.len() * 32);
+            scene::Shape::SphereSweep(*spline, Arc::from(&spheres[..]))
+        }
         Shape::Sor(points) => {
             limits::charge_for_good(points.len() * 16);
             scene::Shape::Sor(Arc::from(&points[..]))

@@ -26,7 +26,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | AreaLight
             | Autostop
             | Average
-            | BSpline
             | BicubicPatch
             | BlackHole
             | BlurSamples
@@ -163,7 +162,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Smooth
             | Solid
             | Spacing
-            | SphereSweep
             | Spherical
             | Spiral1
             | Spiral2
@@ -179,7 +177,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Tile2
             | Tiles
             | Tiling
-            | Tolerance
             | Toroidal
             | Translucency
             | Triangular

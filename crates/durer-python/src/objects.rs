@@ -5,7 +5,7 @@ use durer::math::{Affine, Point3, Vec3};
 use durer::scene::{
     Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, Interior, Isosurface, Julia,
     JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, Object as SceneObject, Operation, Pigment, Prism,
-    QuadricKind, Reflection, Rgb, Scene, Shape, Spline, Sweep, Texture, Warp,
+    QuadricKind, Reflection, Rgb, Scene, Shape, Spline, Sweep, SweepSpline, Texture, Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -128,6 +128,21 @@ fn prism(outlines: Vec<Vec<[f64; 2]>>, heights: [f64; 2], spline: &str, conic: b
     };
     let sweep = if conic { Sweep::Conic } else { Sweep::Linear };
     checked(Shape::Prism(Arc::new(Prism { outlines, spline, heights, sweep })))
+}
+
+#[pyfunction]
+fn sphere_sweep(spheres: Vec<[f64; 4]>, spline: &str) -> PyResult<Object> {
+    let spline = match spline {
+        "linear" => SweepSpline::Linear,
+        "b" => SweepSpline::BSpline,
+        "cubic" => SweepSpline::Cubic,
+        other => {
+            return Err(value_error(format!(
+                "sphere sweep: the spline must be 'linear', 'b' or 'cubic', got '{other}'"
+            )));
+        }
+    };
+    checked(Shape::SphereSweep(spline, spheres.into()))
 }
 
 #[pyfunction]
@@ -364,6 +379,7 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(torus, module)?)?;
     module.add_function(wrap_pyfunction!(cyclide, module)?)?;
     module.add_function(wrap_pyfunction!(prism, module)?)?;
+    module.add_function(wrap_pyfunction!(sphere_sweep, module)?)?;
     module.add_function(wrap_pyfunction!(surface_of_revolution, module)?)?;
     module.add_function(wrap_pyfunction!(lathe, module)?)?;
     module.add_function(wrap_pyfunction!(ovus, module)?)?;

@@ -33,6 +33,8 @@ KINDS = [
     (durer.SurfaceOfRevolution([(1, -2), (1, -1), (1, 1), (1, 2)]), 9 - math.sqrt(1 - 0.01)),
     (durer.Lathe([(1, -1), (1, 1)]), 9 - math.sqrt(1 - 0.01)),
     (durer.Ovus(1, 0.5), None),
+    (durer.SphereSweep([(0, 0, -2, 1), (0, 0, 0, 1)]), 9 - math.sqrt(1 - 0.05)),
+    (durer.SphereSweep([(0, 0, -2, 1), (0, 0, -1, 1), (0, 0, 0, 1), (0, 0, 1, 1)], "b"), None),
     (durer.Lemon((0, 0, -1), 0.1, (0, 0, 1), 0.3, 2), None),
     (durer.Ellipsoid((1, 1, 2)), 9 - 2 * math.sqrt(1 - 0.05)),
     (durer.EllipticParaboloid((1, 1, 1), (0, 1)), 8),

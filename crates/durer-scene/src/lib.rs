@@ -52,4 +52,6 @@ pub use durer_surfaces::LatheSpline;
 pub use durer_surfaces::Spline as Curve;
 pub use durer_surfaces::algebraic::{MAX_ORDER, coefficient_count, place_of};
 pub use durer_surfaces::julia::MOST_ITERATIONS;
-pub use durer_surfaces::{BlobComponent, BlobShape, FillRule, Julia, JuliaAlgebra, JuliaPower, Warp, tape};
+pub use durer_surfaces::{
+    BlobComponent, BlobShape, FillRule, Julia, JuliaAlgebra, JuliaPower, SweepSpline, Warp, tape,
+};

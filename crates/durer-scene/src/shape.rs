@@ -5,7 +5,10 @@ use std::sync::Arc;
 use durer_math::{Point3, Vec3};
 
 use crate::tape::Formula;
-use crate::{BlobComponent, FillRule, Julia, LatheSpline, Object, Texture, Warp};
+use crate::{
+    crate::{BlobComponent, FillRule, Julia, Object, SweepSpline, Texture, Warp},
+    BlobComponent, FillRule, Julia, LatheSpline, Object, Texture, Warp,
+};
 
 /// A surface in its object's own frame, not yet checked: lowering builds it and names what is
 /// wrong.
@@ -114,6 +117,8 @@ pub enum Shape {
     },
     /// An outline swept along y.
     Prism(Arc<Prism>),
+    /// All balls whose centres and radii follow a spline of these: centre and radius each.
+    SphereSweep(SweepSpline, Arc<[[f64; 4]]>),
     /// A smooth curve through these points, a radius and a height each, turned about the y axis;
     /// the first and the last point only tell slopes. Closed by flat ends unless the object is
     /// open.

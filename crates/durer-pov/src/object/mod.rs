@@ -93,6 +93,8 @@ pub(crate) enum Shape {
         d: f64,
     },
     Prism(Rc<durer_scene::Prism>),
+    /// Centre and radius each.
+    SphereSweep(durer_scene::SweepSpline, Rc<[[f64; 4]]>),
     /// Radii and heights.
     Sor(Rc<[[f64; 2]]>),
     /// Radii and heights.
@@ -263,6 +265,7 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
             | JuliaFractal
             | Torus
             | Prism
+            | SphereSweep
             | Sor
             | Lathe
             | Ovus

@@ -148,6 +148,7 @@ impl Parser<'_> {
                 }
             }
             Keyword::Prism => self.prism(place)?,
+            Keyword::SphereSweep => self.sphere_sweep(place)?,
             Keyword::Sor => self.sor()?,
             Keyword::Lathe => self.lathe(place)?,
             Keyword::Ovus => self.ovus(place)?,

@@ -6,7 +6,10 @@ use super::Shape;
 use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::parser::Parser;
-use durer_scene::{Curve, FillRule, LatheSpline, Prism, Spline, Sweep};
+use durer_scene::{
+    Curve, FillRule, LatheSpline, Prism, Spline, Sweep,
+    durer_scene::{Curve, FillRule, Prism, Spline, Sweep, SweepSpline},
+};
 
 impl Parser<'_> {
     /// `[linear_spline | quadratic_spline | cubic_spline | bezier_spline] [linear_sweep | conic_sweep] height, height, number of points, points`.
@@ -130,6 +133,46 @@ impl Parser<'_> {
             return Err(Error::invalid(start, text));
         }
         Ok(outlines)
+    }
+
+    /// `linear_spline | b_spline | cubic_spline number of spheres, centre, radius, ... [tolerance t]`.
+    pub(super) fn sphere_sweep(&mut self, place: Place) -> Result<Shape> {
+        let (spline, name, least) = if self.take_word(Keyword::LinearSpline)? {
+            (SweepSpline::Linear, "linear_spline", 2.0)
+        } else if self.take_word(Keyword::BSpline)? {
+            (SweepSpline::BSpline, "b_spline", 4.0)
+        } else if self.take_word(Keyword::CubicSpline)? {
+            (SweepSpline::Cubic, "cubic_spline", 4.0)
+        } else {
+            let lexeme = self.next()?;
+            return Err(self.unexpected(&lexeme, "linear_spline, b_spline or cubic_spline"));
+        };
+        self.peek()?;
+        let at = self.here();
+        let count = self.float()?;
+        self.skip_comma()?;
+        if count.partial_cmp(&least).is_none_or(std::cmp::Ordering::is_lt) {
+            let text = format!("a sphere_sweep of {name} has at least {least} spheres, not {count}");
+            return Err(Error::invalid(at, text));
+        }
+        let mut spheres = Vec::<[f64; 4]>::new();
+        for n in 0..count as usize {
+            self.peek()?;
+            let here = self.here();
+            let [x, y, z] = self.corner()?;
+            let radius = self.float()?;
+            self.skip_comma()?;
+            self.check_memory(n * 64, here)?;
+            spheres.push([x, y, z, radius]);
+        }
+        // Ends are proven without one.
+        if self.take_word(Keyword::Tolerance)? {
+            self.float()?;
+        }
+        if spheres.iter().all(|sphere| sphere[3] == 0.0) {
+            return Ok(self.nothing("all radii of this sphere_sweep are 0", place));
+        }
+        Ok(Shape::SphereSweep(spline, spheres.into()))
     }
 
     /// `number of points, <radius, height>, ...`.

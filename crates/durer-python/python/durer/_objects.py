@@ -461,6 +461,21 @@ class Prism(Object):
 
 
 @final
+class SphereSweep(Object):
+    """All balls whose centres and radii follow a spline of `spheres`, an array (n, 4) of x, y, z and radius.
+
+    `spline` is "linear", "b" (the uniform cubic B-spline, which passes near its control points) or "cubic" (through all
+    spheres but the first and the last, which only tell slopes).
+    """
+
+    __slots__ = ()
+
+    def __init__(self, spheres: npt.ArrayLike, spline: str = "linear") -> None:
+        arguments = (_rows(spheres, 4, "spheres"), str(spline))
+        self._set(_native.sphere_sweep(*arguments), arguments)
+
+
+@final
 class SurfaceOfRevolution(Object):
     """A smooth curve through points (n, 2), a radius and a height each, turned about the y axis; the first and the last only tell slopes."""
 

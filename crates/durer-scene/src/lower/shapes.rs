@@ -6,8 +6,8 @@ use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Blob, BlobError, CappedCylinder, CurvedPrism,
     Cyclide, Disc, FLAT, Frustum, Isosurface, JuliaSet, Lathe, Parallelogram, Plane, Polygon, PolygonError,
-    Prism, Quadric, Region, Sphere, SphericalSector, SurfaceOfRevolution, Torus, Triangle, TriangleError,
-    superellipsoid,
+    Prism, Quadric, Region, Sphere, SphereSweep, SphereSweepError, SphericalSector, SurfaceOfRevolution,
+    Torus, Triangle, TriangleError, superellipsoid,
 };
 
 use super::build::Target;
@@ -131,6 +131,10 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
                 }
             }
         }
+        Shape::SphereSweep(spline, spheres) => match SphereSweep::new(*spline, spheres) {
+            Err(nothing @ SphereSweepError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
+            made => add_closed(&mut target, made.map_err(shape_error)?, map),
+        },
         Shape::Sor(points) => {
             turned(SurfaceOfRevolution::sor(points).map_err(shape_error)?, open, map, &mut target);
         }
@@ -485,6 +489,7 @@ pub(super) fn name(shape: &Shape) -> &'static str {
         Shape::Torus { .. } => "a torus",
         Shape::Cyclide { .. } => "a cyclide",
         Shape::Prism(_) => "a prism",
+        Shape::SphereSweep(..) => "a sphere sweep",
         Shape::Sor(_) => "a sor",
         Shape::Lathe(..) => "a lathe",
         Shape::Ovus { .. } => "an ovus",

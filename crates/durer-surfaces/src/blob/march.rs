@@ -18,7 +18,7 @@ use durer_math::{EFloat, Isa, RaySide, U, Vec3};
 
 /// A ray in the frame of a blob, in units.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Along {
+pub(crate) struct Along {
     pub(super) o: Vec3,
     pub(super) d: Vec3,
     pub(super) inverse: Vec3,
@@ -33,7 +33,7 @@ pub(super) struct Along {
 
 impl Along {
     #[inline(always)]
-    pub(super) fn new(at: &CentredRay<'_>) -> Self {
+    pub(crate) fn new(at: &CentredRay<'_>) -> Self {
         let inverse = Vec3::new(1.0 / at.d.x, 1.0 / at.d.y, 1.0 / at.d.z);
         let (o_err, d_err) = (at.o_err.max_abs(), at.d_err.max_abs());
         let known = is_known(o_err, d_err);

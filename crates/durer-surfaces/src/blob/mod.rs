@@ -38,11 +38,13 @@ use crate::{
     AxisBox, AxisBoxError, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity,
     SphereError, Surface, SurfacePoint,
 };
+pub(crate) use march::Along;
+pub(crate) use tree::{Inner, Tree};
+
 use component::Component;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Affine, Dyadic, Isa, Point3};
 use std::sync::Arc;
-use tree::Tree;
 
 /// The point or segment from which a field's distance is measured.
 #[derive(Clone, Copy, Debug, PartialEq)]

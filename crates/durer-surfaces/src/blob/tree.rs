@@ -24,12 +24,12 @@ struct BoxNode {
 
 /// The tree; component numbers are those of its own order.
 #[derive(Clone, Debug)]
-pub(super) struct Tree {
+pub(crate) struct Tree {
     nodes: Vec<BoxNode>,
 }
 
 /// The content of a node.
-pub(super) enum Inner {
+pub(crate) enum Inner {
     /// Components from the first number to before the second.
     Leaf(usize, usize),
     /// Two nodes.
@@ -39,7 +39,7 @@ pub(super) enum Inner {
 impl Tree {
     /// Builds the tree from boxes in the units of the frame. Returns the tree and the order of its
     /// components.
-    pub(super) fn new(boxes: &[Aabb]) -> (Self, Vec<u32>) {
+    pub(crate) fn new(boxes: &[Aabb]) -> (Self, Vec<u32>) {
         let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
         let mut nodes = vec![Self::around(boxes, &order, 0)];
         let mut open = vec![(0_usize, 0_usize, boxes.len())];
@@ -84,7 +84,7 @@ impl Tree {
 
     /// Where a ray enters and leaves a node, in its parameter; `None` if it misses it.
     #[inline(always)]
-    pub(super) fn entry(&self, node: u32, ray: &Along) -> Option<(f64, f64)> {
+    pub(crate) fn entry(&self, node: u32, ray: &Along) -> Option<(f64, f64)> {
         if !ray.known {
             return Some((f64::NEG_INFINITY, f64::INFINITY));
         }
@@ -102,7 +102,7 @@ impl Tree {
 
     /// The content of a node.
     #[inline(always)]
-    pub(super) fn inner(&self, node: u32) -> Inner {
+    pub(crate) fn inner(&self, node: u32) -> Inner {
         let node = &self.nodes[node as usize];
         if node.count > 0 || self.nodes.len() == 1 {
             Inner::Leaf(node.first as usize, (node.first + node.count) as usize)
@@ -114,7 +114,7 @@ impl Tree {
     /// Calls `take` for the components near a point: all whose boxes are within `e` of it along
     /// each axis.
     #[inline(always)]
-    pub(super) fn near(&self, y: Vec3, e: f64, mut take: impl FnMut(usize)) {
+    pub(crate) fn near(&self, y: Vec3, e: f64, mut take: impl FnMut(usize)) {
         let mut open = ArrayVec::<u32, 64>::new();
         open.push(0);
         while let Some(i) = open.pop() {

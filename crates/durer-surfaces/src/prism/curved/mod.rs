@@ -46,6 +46,7 @@ use durer_math::rounding::{mul_down, mul_up};
 use durer_math::{Aabb, Dyadic, Point3, Vec3};
 use forms::{Coordinate, Cut};
 use point::Wall;
+pub(crate) use profile_curve::greatest;
 use profile_curve::{ProfileCurve, View};
 use profile_hits::{Meet, Scan};
 pub use spline::{Bezier, Spline};

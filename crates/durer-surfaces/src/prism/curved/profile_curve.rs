@@ -177,7 +177,7 @@ pub(crate) fn extent(points: &Bezier) -> [[f64; 2]; 2] {
 /// An upper bound of the greatest value of a polynomial with these Bernstein coefficients, and
 /// close to it. The part with the greatest coefficient is halved until that coefficient does not
 /// exceed the greatest value found at an end.
-fn greatest(b: [f64; 4]) -> f64 {
+pub(crate) fn greatest(b: [f64; 4]) -> f64 {
     let most = |b: &Bernstein<f64, 4>| b.b.iter().fold(f64::NEG_INFINITY, |m, &x| m.max(x)) + b.e;
     let ends = b[0].max(b[3]);
     let whole = Bernstein { b, e: 0.0 };
