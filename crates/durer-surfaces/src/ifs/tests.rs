@@ -455,7 +455,7 @@ fn any_maps_obey_the_laws_of_crossings() {
             for _ in 0..depth {
                 p = maps[rng.below(maps.len() as u64) as usize].point(p);
             }
-            aims.push(Feature::new(p, rng.lattice(3)));
+            aims.push(Feature::new(p.to_array(), rng.lattice(3).to_array()));
         }
         let size = bounds.widths().max_abs();
         for i in 0..60 {

@@ -1,7 +1,9 @@
 //! The search along a ray: nodes unfold in the order in which they may begin, and the intervals of
 //! the copies they end in are united.
 //!
-//! An interval is final once no node is left that may begin before its end.
+//! An interval is final once no node is left that may begin before its end. Nodes that certainly lie
+//! beyond an end of the ray's range are left out. If one of them touches an interval, that end of
+//! the interval lies beyond the range, too, and is not passed on, by an exact comparison.
 
 use super::exact::{Event, Line};
 use super::frame::CellRay;
@@ -13,9 +15,6 @@ use core::cmp::Ordering;
 use durer_math::{RaySide, U};
 use std::collections::BinaryHeap;
 
-/// Nodes farther than this from the ray's range, in units of the set, are not looked at: far more
-/// than any bracket is wide.
-const ROOM: f64 = 1.0 / 1024.0;
 /// Half of what a bracket may be wide, relative to `max(|t|, size / |d|)`.
 const NARROW: f64 = 24.0 * U;
 
@@ -112,8 +111,8 @@ impl Walk<'_, '_> {
             if self.show(next.lo) == Flow::Stop {
                 return Flow::Stop;
             }
-            if next.lo > self.end + ROOM {
-                return Flow::Continue;
+            if next.lo > self.end {
+                break;
             }
             let cell = self.lists.cells[next.slot as usize];
             self.lists.free.push(next.slot);
@@ -144,7 +143,7 @@ impl Walk<'_, '_> {
             _ => slabs(&system.boxes[left], cell),
         };
         let Some((near, far)) = reach else { return };
-        if far < self.begin - ROOM || near > self.end + ROOM {
+        if far < self.begin || near > self.end {
             return;
         }
         let slot = match self.lists.free.pop() {
@@ -271,6 +270,9 @@ impl Walk<'_, '_> {
     #[inline(always)]
     fn pass_on(&mut self, event: &Event, sign: i8, kind: RootKind) -> Flow {
         let at = self.line.at;
+        if event.pass.lo > self.end || event.pass.hi < self.begin {
+            return Flow::Continue;
+        }
         let (mut lo, mut hi) = at.bracket(event.pass.lo, event.pass.hi);
         if at.admits(lo, hi) == Some(false) {
             return Flow::Continue;
