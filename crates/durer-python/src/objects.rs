@@ -3,9 +3,9 @@
 use crate::{formula, value_error};
 use durer::math::{Affine, Point3, Vec3};
 use durer::scene::{
-    Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, Interior, Isosurface, Julia,
-    JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, Object as SceneObject, Operation, Pigment, Prism,
-    QuadricKind, Reflection, Rgb, Scene, Shape, Spline, Sweep, SweepSpline, Texture, Warp,
+    Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, Ifs, IfsLeaf, Interior,
+    Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, Object as SceneObject, Operation,
+    Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Shape, Spline, Sweep, SweepSpline, Texture, Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -235,6 +235,30 @@ fn julia(
     checked(Shape::Julia(Box::new(julia)))
 }
 
+/// A leaf (its kind, its points, its radius) under all products of `depth` maps.
+#[pyfunction]
+fn ifs(kind: &str, points: Vec<V3>, radius: f64, maps: Vec<[[f64; 4]; 3]>, depth: u32) -> PyResult<Object> {
+    let leaf = match (kind, &points[..]) {
+        ("box", &[a, b]) => IfsLeaf::Box(point(a), point(b)),
+        ("sphere", &[centre]) => IfsLeaf::Sphere(point(centre), radius),
+        ("tetrahedron", &[a, b, c, d]) => IfsLeaf::Tetrahedron([a, b, c, d].map(point)),
+        _ => return Err(value_error(format!("ifs: there is no leaf '{kind}' of {} points", points.len()))),
+    };
+    let maps = maps.into_iter().map(affine).collect::<PyResult<Vec<_>>>()?;
+    let system = Ifs::new(leaf, &maps, depth).map_err(|error| value_error(error.to_string()))?;
+    checked(Shape::Ifs(system))
+}
+
+#[pyfunction]
+fn menger(depth: u32) -> PyResult<Object> {
+    checked(Shape::Ifs(Ifs::menger(depth).map_err(|error| value_error(error.to_string()))?))
+}
+
+#[pyfunction]
+fn sierpinski(depth: u32) -> PyResult<Object> {
+    checked(Shape::Ifs(Ifs::sierpinski(depth).map_err(|error| value_error(error.to_string()))?))
+}
+
 #[pyfunction]
 fn isosurface(
     steps: Vec<formula::Step>,
@@ -389,6 +413,9 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(superellipsoid, module)?)?;
     module.add_function(wrap_pyfunction!(blob, module)?)?;
     module.add_function(wrap_pyfunction!(julia, module)?)?;
+    module.add_function(wrap_pyfunction!(ifs, module)?)?;
+    module.add_function(wrap_pyfunction!(menger, module)?)?;
+    module.add_function(wrap_pyfunction!(sierpinski, module)?)?;
     module.add_function(wrap_pyfunction!(isosurface, module)?)?;
     module.add_function(wrap_pyfunction!(formula_value, module)?)?;
     module.add_function(wrap_pyfunction!(union, module)?)?;

@@ -51,6 +51,7 @@ pub use crate::texture::{Fields, Layer, Pigment, PigmentBody, Texture, TextureBo
 pub use durer_surfaces::LatheSpline;
 pub use durer_surfaces::Spline as Curve;
 pub use durer_surfaces::algebraic::{MAX_ORDER, coefficient_count, place_of};
+pub use durer_surfaces::ifs::{Ifs, IfsError, IfsLeaf, MOST_LEVELS};
 pub use durer_surfaces::julia::MOST_ITERATIONS;
 pub use durer_surfaces::{
     BlobComponent, BlobShape, FillRule, Julia, JuliaAlgebra, JuliaPower, SweepSpline, Warp, tape,

@@ -5,10 +5,7 @@ use std::sync::Arc;
 use durer_math::{Point3, Vec3};
 
 use crate::tape::Formula;
-use crate::{
-    crate::{BlobComponent, FillRule, Julia, Object, SweepSpline, Texture, Warp},
-    BlobComponent, FillRule, Julia, LatheSpline, Object, Texture, Warp,
-};
+use crate::{BlobComponent, FillRule, Ifs, Julia, LatheSpline, Object, SweepSpline, Texture, Warp};
 
 /// A surface in its object's own frame, not yet checked: lowering builds it and names what is
 /// wrong.
@@ -171,6 +168,8 @@ pub enum Shape {
     Blob(Box<Blob>),
     /// A Julia set.
     Julia(Box<Julia>),
+    /// A leaf under all products of some contractions.
+    Ifs(Ifs),
     /// A solid, deformed. See [`Object::deformed`].
     Deform(Box<Deform>),
     /// All the parts' surfaces together. Parts are placed in the union's own frame.

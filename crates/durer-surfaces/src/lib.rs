@@ -50,6 +50,7 @@ pub mod cyclide;
 pub mod disc;
 mod edges;
 mod facet;
+pub mod ifs;
 pub mod implicit;
 pub mod julia;
 #[cfg(any(test, feature = "laws"))]
@@ -93,6 +94,7 @@ pub use crate::compose::dynamic::DynSurface;
 pub use crate::compose::region::{Region, RegionError};
 pub use crate::cyclide::{Cyclide, CyclideError};
 pub use crate::disc::{Disc, DiscError};
+pub use crate::ifs::{Ifs, IfsError, IfsLeaf};
 pub use crate::implicit::deform::{DeformError, Warp};
 pub use crate::implicit::level_set::LevelSet;
 pub use crate::implicit::{Container, Isosurface, IsosurfaceError, SuperellipsoidError, superellipsoid};

@@ -657,6 +657,7 @@ fn ratios_climb<R: Ratios>(probe: &Probe<'_>, r: &R) -> Option<[EFloat; 2]> {
 }
 
 /// A plane through three points, relative to a centre; its normal is `(b - a) x (c - a)`.
+#[derive(Clone, Debug)]
 pub(crate) struct ThreePoints {
     pub(crate) points: [Point3; 3],
     pub(crate) centre: Point3,

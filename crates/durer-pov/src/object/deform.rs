@@ -224,6 +224,7 @@ fn check(object: &Rc<Object>) -> Result<()> {
         Shape::Ovus { .. } => "an ovus",
         Shape::Lemon { .. } => "a lemon",
         Shape::Julia(_) => "a Julia set",
+        Shape::Ifs(_) => "an ifs",
         Shape::Light(_) => "a light",
     };
     refuse(&format!("{without_formula} has no formula here, so it cannot be deformed"))

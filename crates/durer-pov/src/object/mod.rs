@@ -3,6 +3,7 @@
 mod blob;
 mod deform;
 pub(crate) mod extension;
+mod ifs;
 mod julia;
 mod mesh;
 mod modifiers;
@@ -123,6 +124,7 @@ pub(crate) enum Shape {
     },
     Blob(Rc<blob::Blob>),
     Julia(Box<durer_scene::Julia>),
+    Ifs(durer_scene::Ifs),
     /// A solid and what is done to it.
     Deform(Rc<Object>, Rc<[durer_scene::Warp]>),
     Union(Vec<Rc<Object>>),

@@ -34,10 +34,12 @@ __all__ = [
     "deformed",
     "disc",
     "formula_value",
+    "ifs",
     "isosurface",
     "julia",
     "lathe",
     "lemon",
+    "menger",
     "load",
     "mesh",
     "named_quadric",
@@ -53,6 +55,7 @@ __all__ = [
     "scene",
     "spans",
     "sphere",
+    "sierpinski",
     "sphere_sweep",
     "spherical_sector",
     "superellipsoid",
@@ -207,6 +210,11 @@ def blob(components: Sequence[tuple[_Numbers, _Numbers, float, float]], threshol
 def julia(
     c: _Numbers, power: int, iterations: int, radius: float, normal: _Numbers, distance: float
 ) -> Object: ...
+def ifs(
+    kind: str, points: Sequence[_Numbers], radius: float, maps: Sequence[Sequence[_Numbers]], depth: int
+) -> Object: ...
+def menger(depth: int) -> Object: ...
+def sierpinski(depth: int) -> Object: ...
 def isosurface(
     steps: Sequence[_Step],
     threshold: float,

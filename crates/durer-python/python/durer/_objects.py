@@ -616,6 +616,75 @@ class Julia(Object):
         self._set(_native.julia(*arguments), arguments)
 
 
+def _depth(value: int) -> int:
+    if not 0 <= value <= 20 or value != int(value):
+        raise ValueError(f"depth: a whole number from 0 to 20 is needed, got {value}")
+    return int(value)
+
+
+@final
+class Ifs(Object):
+    """An iterated function system: the union of a leaf under all products of `depth` contractions.
+
+    Parameters
+    ----------
+    leaf : Box, Sphere or array (4, 3)
+        What is copied; an array holds the corners of a tetrahedron.
+    maps : sequence of arrays (3, 4) or (4, 4)
+        The maps ``p -> M[:, :3] @ p + M[:, 3]``; the largest singular value of each is below 1.
+    depth : int
+        How many maps are multiplied, from 0 to 20. Nothing is stored: copies unfold along each ray.
+
+    Examples
+    --------
+    >>> import durer
+    >>> import numpy as np
+    >>> half = 0.5 * np.eye(3, 4)
+    >>> right = half + [[0, 0, 0, 1], [0, 0, 0, 0], [0, 0, 0, 0]]
+    >>> set = durer.Ifs(durer.Box((0, 0, 0), (1, 1, 1)), [half, right], 12)
+    """
+
+    __slots__ = ()
+
+    def __init__(self, leaf: Object | npt.ArrayLike, maps: Sequence[npt.ArrayLike], depth: int) -> None:
+        radius = 0.0
+        kept: Object | tuple[tuple[float, ...], ...]
+        if isinstance(leaf, Box):
+            kind, points, kept = "box", leaf._arguments, leaf
+        elif isinstance(leaf, Sphere):
+            kind, points, radius, kept = "sphere", leaf._arguments[:1], leaf._arguments[1], leaf
+        elif isinstance(leaf, Object):
+            raise ValueError(f"leaf: a Box, a Sphere or the corners of a tetrahedron is needed, got {type(leaf).__name__}")
+        else:
+            kind, points = "tetrahedron", _rows(leaf, 3, "leaf")
+            kept = points
+        rows = tuple(_matrix_rows(each) for each in maps)
+        count = _depth(depth)
+        self._set(_native.ifs(kind, points, radius, rows, count), (kept, rows, count))
+
+
+@final
+class Menger(Object):
+    """The sponge of Menger in the cube from -1 to 1, `depth` times refined (0 to 20)."""
+
+    __slots__ = ()
+
+    def __init__(self, depth: int) -> None:
+        count = _depth(depth)
+        self._set(_native.menger(count), (count,))
+
+
+@final
+class Sierpinski(Object):
+    """The tetrahedron of Sierpinski with the corners (1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1): 4**depth tetrahedra (0 to 20)."""
+
+    __slots__ = ()
+
+    def __init__(self, depth: int) -> None:
+        count = _depth(depth)
+        self._set(_native.sierpinski(count), (count,))
+
+
 @final
 class Mesh(Object):
     """Triangles over shared vertices.

@@ -172,6 +172,7 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
         &Shape::Superellipsoid { e, n } => {
             add_closed(&mut target, superellipsoid(e, n).map_err(shape_error)?, map);
         }
+        Shape::Ifs(system) => add_closed(&mut target, system.clone(), map),
         Shape::Julia(set) => add_closed(&mut target, JuliaSet::new(set).map_err(shape_error)?, map),
         Shape::Blob(it) => match Blob::new(it.threshold, &it.components) {
             Err(nothing @ BlobError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
@@ -500,6 +501,7 @@ pub(super) fn name(shape: &Shape) -> &'static str {
         Shape::Superellipsoid { .. } => "a superellipsoid",
         Shape::Blob(_) => "a blob",
         Shape::Julia(_) => "a Julia set",
+        Shape::Ifs(_) => "an ifs",
         Shape::Deform(_) => "a deformed solid",
         Shape::Union(_) => "a union",
         Shape::Csg(Operation::Merge, _) => "a merge",
