@@ -115,6 +115,16 @@ impl Parser<'_> {
         }
     }
 
+    /// `{ ... }`: the body of a function of x, y and z that gives a float.
+    pub(crate) fn function_in_braces(&mut self) -> Result<Formula> {
+        self.expect(Mark::BraceOpen)?;
+        let place = self.here();
+        match self.nested(|r| r.function_body(&None, place))? {
+            Value::Function(called) => Ok(called.formula.clone()),
+            _ => Err(vector_function::wants_part(place)),
+        }
+    }
+
     /// `function (a, b) { ... }`, the word included: a function of floats or of vectors.
     pub(crate) fn function_block(&mut self) -> Result<Value> {
         self.next()?;

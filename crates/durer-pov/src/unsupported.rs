@@ -79,7 +79,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Granite
             | GrayThreshold
             | Hdr
-            | HeightField
             | Iff
             | ImageMap
             | ImagePattern
@@ -160,7 +159,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | SkySphere
             | Slope
             | SlopeMap
-            | Smooth
             | Solid
             | Spacing
             | SphereSweep
@@ -199,7 +197,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Variance
             | Vturbulence
             | Warp
-            | WaterLevel
             | Waves
             | Width
             | Wood

@@ -51,4 +51,5 @@ pub use crate::texture::{Fields, Layer, Pigment, PigmentBody, Texture, TextureBo
 pub use durer_surfaces::Spline as Curve;
 pub use durer_surfaces::algebraic::{MAX_ORDER, coefficient_count, place_of};
 pub use durer_surfaces::julia::MOST_ITERATIONS;
-pub use durer_surfaces::{BlobComponent, BlobShape, FillRule, Julia, JuliaAlgebra, JuliaPower, Warp, tape};
+pub use durer_surfaces::terrain::MOST_SAMPLES;
+pub use durer_surfaces::{BlobComponent, BlobShape, FillRule, HeightField, Julia, JuliaAlgebra, JuliaPower, Terrain, TerrainData, Warp, tape};

@@ -222,6 +222,8 @@ fn check(object: &Rc<Object>) -> Result<()> {
         Shape::Ovus { .. } => "an ovus",
         Shape::Lemon { .. } => "a lemon",
         Shape::Julia(_) => "a Julia set",
+        Shape::HeightField(_) => "a height field",
+        Shape::Terrain(_) => "a terrain",
         Shape::Light(_) => "a light",
     };
     refuse(&format!("{without_formula} has no formula here, so it cannot be deformed"))

@@ -39,6 +39,7 @@ pub(crate) enum Word {
     Lemon,
     Deform,
     Cyclide,
+    Terrain,
 }
 
 impl Word {
@@ -61,6 +62,7 @@ impl Word {
             "lemon" => Self::Lemon,
             "deform" => Self::Deform,
             "cyclide" => Self::Cyclide,
+            "terrain" => Self::Terrain,
             _ => return None,
         })
     }
@@ -122,6 +124,7 @@ impl Parser<'_> {
             Word::Lemon => return self.lemon(place),
             Word::Deform => return self.deform(place),
             Word::Cyclide => return self.cyclide(),
+            Word::Terrain => return self.terrain(place),
             Word::Annulus => return self.shape(Keyword::Disc, place),
             Word::Parallelogram => {
                 let corner = self.corner()?;

@@ -9,6 +9,7 @@ mod modifiers;
 pub(crate) mod queries;
 mod shapes;
 mod swept;
+mod terrain;
 
 use std::rc::Rc;
 
@@ -119,6 +120,8 @@ pub(crate) enum Shape {
     },
     Blob(Rc<blob::Blob>),
     Julia(Box<durer_scene::Julia>),
+    HeightField(Rc<durer_scene::HeightField>),
+    Terrain(Rc<durer_scene::Terrain>),
     /// A solid and what is done to it.
     Deform(Rc<Object>, Rc<[durer_scene::Warp]>),
     Union(Vec<Rc<Object>>),
@@ -259,6 +262,7 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
             | Superellipsoid
             | Blob
             | JuliaFractal
+            | HeightField
             | Torus
             | Prism
             | Sor

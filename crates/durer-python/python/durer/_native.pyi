@@ -34,6 +34,7 @@ __all__ = [
     "deformed",
     "disc",
     "formula_value",
+    "height_field",
     "isosurface",
     "julia",
     "lemon",
@@ -55,6 +56,7 @@ __all__ = [
     "spherical_sector",
     "superellipsoid",
     "surface_of_revolution",
+    "terrain",
     "torus",
     "triangle",
     "union",
@@ -202,6 +204,12 @@ def superellipsoid(e: float, n: float) -> Object: ...
 def blob(components: Sequence[tuple[_Numbers, _Numbers, float, float]], threshold: float) -> Object: ...
 def julia(
     c: _Numbers, power: int, iterations: int, radius: float, normal: _Numbers, distance: float
+) -> Object: ...
+def height_field(
+    size: tuple[int, int], heights: Sequence[float], water_level: float | None, smooth: bool
+) -> Object: ...
+def terrain(
+    levels: int, numbers: _Numbers, seed: int, corners: _Numbers, water_level: float | None, smooth: bool
 ) -> Object: ...
 def isosurface(
     steps: Sequence[_Step],

@@ -88,8 +88,15 @@ impl Target<'_> {
             To::Scene(builder, object, primitive, mask) => {
                 builder.add_as(surface, *object, *primitive, *mask);
             }
-            // Whoever asks for a leaf sees whether there is one: sheets are none.
-            To::Leaf(csg, leaf, shown, part) => **part = csg.leaf_as(surface, *leaf, *shown).ok(),
+            // Whoever asks for a leaf sees whether there is one: sheets are none. Of several surfaces
+            // it is the union.
+            To::Leaf(csg, leaf, shown, part) => {
+                let more = csg.leaf_as(surface, *leaf, *shown).ok();
+                **part = match (part.take(), more) {
+                    (Some(one), Some(other)) => Some(csg.union(vec![one, other])),
+                    (one, other) => other.or(one),
+                };
+            }
         }
     }
 }
