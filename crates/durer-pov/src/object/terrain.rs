@@ -10,7 +10,7 @@ use super::Shape;
 use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::keywords::Keyword;
 use crate::limits;
-use crate::parser::{Item, Parser};
+use crate::parser::Parser;
 use crate::picture::{self, Fault, Format};
 
 /// How many values of a function count as a step.
@@ -60,7 +60,6 @@ impl Parser<'_> {
                 return Err(unread(at, word.text()));
             }
         }
-        self.need("a height_field needs the name of a picture, or a function")?;
         let name = self.file_name()?;
         let at = self.here();
         while let Some(Keyword::Gamma | Keyword::Premultiplied) = self.peek_word()? {

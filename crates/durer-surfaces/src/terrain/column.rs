@@ -268,8 +268,7 @@ fn cell_of(about: f64, cells: u32, from: impl Fn(f64) -> Ordering) -> u32 {
 fn edges_near(line: &Line<'_>, (axis, place): (usize, f64), edges: u32) -> RangeInclusive<u32> {
     let Some((low, high)) = line.across(2 - axis, (axis, place)) else { return 0..=edges - 1 };
     if high < 0.0 || low > 1.0 {
-        #[expect(clippy::reversed_empty_ranges, reason = "there is none")]
-        return 1..=0;
+        return RangeInclusive::new(1, 0);
     }
     let of = |at: f64| ((at * f64::from(edges)).max(0.0) as u32).min(edges - 1);
     // One more each way pays for roundings.

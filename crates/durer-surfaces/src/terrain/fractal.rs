@@ -99,7 +99,7 @@ impl Sheet<Midpoints> {
         if !(data.amplitude >= 0.0 && data.amplitude <= MOST) {
             return Err(TerrainError::Amplitude(data.amplitude));
         }
-        if let Some(index) = data.corners.iter().position(|h| !(h.abs() <= MOST)) {
+        if let Some(index) = data.corners.iter().position(|h| h.is_nan() || h.abs() > MOST) {
             return Err(TerrainError::Corner { index, value: data.corners[index] });
         }
         let (mut greatest, mut reach) = ([0.0; MOST_LEVELS as usize + 1], [0.0; MOST_LEVELS as usize + 1]);

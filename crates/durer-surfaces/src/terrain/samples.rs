@@ -108,7 +108,7 @@ impl Sheet<Samples> {
     /// to x = 1.
     pub fn new([columns, rows]: [usize; 2], heights: Vec<f64>) -> Result<Self, HeightFieldError> {
         check([columns, rows], heights.len())?;
-        if let Some(n) = heights.iter().position(|h| !(h.abs() <= 1e300)) {
+        if let Some(n) = heights.iter().position(|h| h.is_nan() || h.abs() > 1e300) {
             let (row, column, value) = (n / columns, n % columns, heights[n]);
             return Err(HeightFieldError::Height { column, row, value });
         }
