@@ -161,29 +161,48 @@ impl<H: Heights> Sheet<H> {
         queue: &mut Queue,
         sink: &mut S,
     ) -> Flow {
-        queue.pour(next, sink, |found| {
+        queue.pour(next, sink, |found, before| {
             if found.len() > 1 {
                 found.sort_unstable_by(|a, b| a.root.order(&b.root));
             }
             if self.is_solid {
-                self.put_in_turn(ray, found);
+                self.put_in_turn(ray, found, before);
             }
         })
     }
 
-    /// Puts crossings of a solid in their exact order; at one point it is left before it is entered
-    /// if the ray was inside.
-    fn put_in_turn(&self, ray: &LocalRay<'_>, found: &mut [Found]) {
+    /// Puts crossings of a solid in their exact order, behind one of the sign `before` (0 if there is
+    /// none). Of two at one point the one comes first that leaves the solid if the ray is inside.
+    fn put_in_turn(&self, ray: &LocalRay<'_>, found: &mut [Found], mut before: i8) {
         for group in found.chunk_by_mut(|a, b| a.root.hi >= b.root.lo).filter(|group| group.len() > 1) {
             group.sort_by(|a, b| self.exact_order(ray, &a.root, &b.root));
         }
-        for n in 1..found.len().saturating_sub(1) {
-            let [before, here, next] = [n - 1, n, n + 1].map(|n| found[n].root);
-            let is_tie = here.hi >= next.lo && self.exact_order(ray, &here, &next).is_eq();
-            if is_tie && before.sign == here.sign && next.sign != here.sign {
-                found.swap(n, n + 1);
+        for n in 1..found.len() {
+            let (here, next) = (found[n - 1].root, found[n].root);
+            if here.sign != next.sign
+                && here.hi >= next.lo
+                && self.exact_order(ray, &here, &next).is_eq()
+            {
+                if before == 0 {
+                    before = if self.starts_inside(ray) { -1 } else { 1 };
+                }
+                if before == here.sign {
+                    found.swap(n - 1, n);
+                }
             }
+            before = found[n - 1].root.sign;
         }
+    }
+
+    /// Whether a ray starts inside, as far as rounding tells.
+    #[cold]
+    fn starts_inside(&self, ray: &LocalRay<'_>) -> bool {
+        let start = ray.point_at_start();
+        if !start.is_finite() {
+            // Far away it is inside only straight below.
+            return ray.t_min < 0.0 && ray.d.x == 0.0 && ray.d.z == 0.0 && ray.d.y > 0.0;
+        }
+        self.column_side(&LocalPoint::new(start)) == Side::In
     }
 
     /// The order of two crossings; equal if they are at one point, or if the ray is not exactly

@@ -71,8 +71,9 @@ impl Facets {
             let slope = Self::dot(&normal, &line.d);
             let height = Self::dot(&normal, a);
             let (n, d) = if slope.sign().is_lt() { (-height, -slope.clone()) } else { (height, slope.clone()) };
-            let over = &(&(&line.o[1] * &d) + &(&line.d[1] * &n)) - &(&Exact::from(self.water_level) * &d);
             if !self.is_solid && self.water_level.is_finite() {
+                let level = Exact::from(self.water_level);
+                let over = &(&(&line.o[1] * &d) + &(&line.d[1] * &n)) - &(&level * &d);
                 match over.sign() {
                     Ordering::Less => continue,
                     Ordering::Equal => return None,

@@ -172,8 +172,9 @@ pub(super) struct Queue {
     many: Vec<Found>,
     /// The least `until`.
     first: f64,
-    /// The last parameter that was passed on.
+    /// The last parameter that was passed on, and the sign there; 0 if there was none.
     last: f64,
+    sign: i8,
 }
 
 /// A crossing that waits.
@@ -187,7 +188,7 @@ pub(super) struct Found {
 impl Queue {
     #[inline(always)]
     pub(super) fn new() -> Self {
-        Self { few: ArrayVec::new(), many: Vec::new(), first: f64::INFINITY, last: f64::NEG_INFINITY }
+        Self { few: ArrayVec::new(), many: Vec::new(), first: f64::INFINITY, last: f64::NEG_INFINITY, sign: 0 }
     }
 
     #[inline(always)]
@@ -210,19 +211,19 @@ impl Queue {
     }
 
     /// Passes on the crossings that come before all others from `next` on, ascending; `order` puts
-    /// them in turn.
+    /// them in turn behind one of a sign.
     #[inline(always)]
     pub(super) fn pour<S: Sink + ?Sized>(
         &mut self,
         next: f64,
         sink: &mut S,
-        order: impl FnOnce(&mut [Found]),
+        order: impl FnOnce(&mut [Found], i8),
     ) -> Flow {
         let waiting = if self.many.is_empty() { self.few.as_mut_slice() } else { &mut self.many };
         if waiting.is_empty() {
             return Flow::Continue;
         }
-        order(waiting);
+        order(waiting, self.sign);
         // Of those in turn, as many as come before `next`.
         let ready = waiting.iter().take_while(|found| found.until < next || next == f64::INFINITY).count();
         // A crossing is not beyond the upper end of any later one, and not before an earlier one.
@@ -235,6 +236,7 @@ impl Queue {
         for found in &mut waiting[..ready] {
             self.last = self.last.max(found.root.t);
             found.root.t = self.last;
+            self.sign = found.root.sign;
             if sink.push(found.root) == Flow::Stop {
                 return Flow::Stop;
             }
