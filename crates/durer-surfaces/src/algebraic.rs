@@ -448,7 +448,7 @@ impl Algebraic for AlgebraicSurface {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::laws::{Exact, Feature, TestRng, ZeroOracle, check_many, exact3};

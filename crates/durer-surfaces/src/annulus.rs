@@ -116,7 +116,7 @@ impl Surface for Annulus {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::disc::tests::{FRAMES, ball, features};

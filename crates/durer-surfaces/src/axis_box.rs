@@ -483,7 +483,7 @@ impl AxisBox {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::laws::{ExactBody, ExactForm, Feature, TestRng, all_roots, check_many, exact3};

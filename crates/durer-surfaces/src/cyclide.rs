@@ -309,5 +309,5 @@ impl Algebraic for Cyclide {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests;

@@ -221,7 +221,7 @@ impl RoundSheet {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 pub(crate) mod tests {
     use super::*;
     use crate::laws::{Exact, ExactBody, ExactForm, Feature, TestRng, check_many, exact3};

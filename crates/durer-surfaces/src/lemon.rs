@@ -79,7 +79,7 @@ impl SurfaceOfRevolution {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
 

@@ -36,7 +36,7 @@
 #![forbid(unsafe_code)]
 
 // Cases that the fuzz targets share with the tests name this crate as others do.
-#[cfg(any())]
+#[cfg(test)]
 extern crate self as durer_surfaces;
 
 pub mod algebraic;
@@ -44,7 +44,7 @@ pub mod annulus;
 pub mod axis_box;
 pub mod blob;
 pub mod compose;
-#[cfg(any())]
+#[cfg(test)]
 mod corpus;
 pub mod cyclide;
 pub mod disc;

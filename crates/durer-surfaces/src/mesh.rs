@@ -413,7 +413,7 @@ impl Surface for Mesh {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::laws::{TestRng, all_roots};

@@ -58,7 +58,7 @@ impl SurfaceOfRevolution {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
 

@@ -257,7 +257,7 @@ impl Surface for Parallelogram {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::laws::{ExactBody, ExactForm, Feature, TestRng, check_many, exact3};

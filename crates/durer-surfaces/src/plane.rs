@@ -303,7 +303,7 @@ impl From<Plane> for Normal3 {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::laws::{Crossing, Exact, ExactLine, Feature, Oracle, Surd, TestRng, check_many, exact3};

@@ -384,7 +384,7 @@ impl Surface for Polygon {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::laws::{self, Crossing, Exact, ExactLine, Feature, Oracle, Surd, TestRng, all_roots, exact3};

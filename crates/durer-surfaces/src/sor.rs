@@ -83,7 +83,7 @@ impl SurfaceOfRevolution {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
 

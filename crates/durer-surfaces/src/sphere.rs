@@ -342,7 +342,7 @@ impl Surface for Sphere {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::laws::{ExactBody, ExactForm, Feature, TestRng, check_many, exact3};

@@ -245,7 +245,7 @@ pub fn meet_eight(o: Vec3<F8>, d: Vec3<F8>, range: (F8, F8), corners: [Vec3<F8>;
     Crossings { s, met, open: !(met | missed) }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::laws::TestRng;

@@ -352,7 +352,7 @@ impl Algebraic for Torus {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::laws::{Exact, Feature, TestRng, ZeroOracle, check_many};

@@ -330,7 +330,7 @@ impl<S: Algebraic> Algebraic for Clip<S> {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::laws::TestRng;

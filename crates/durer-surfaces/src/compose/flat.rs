@@ -92,7 +92,7 @@ impl Algebraic for Prism {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::laws::{

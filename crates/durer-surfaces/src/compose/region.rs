@@ -426,7 +426,7 @@ impl FaceSet {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::compose::clip::Algebraic;

@@ -105,7 +105,7 @@ fn slopes(
     slope_along(least, most, [d.x, d.y, d.z], [*e; 3])
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::implicit::subdivide::tests::{cubic, exactly};

@@ -164,7 +164,7 @@ impl<const N: usize> PolynomialPart<N> {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::LocalRay;

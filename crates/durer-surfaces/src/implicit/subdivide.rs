@@ -207,7 +207,7 @@ impl Pieces {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 pub(super) mod tests {
     use super::*;
     use crate::laws::TestRng;

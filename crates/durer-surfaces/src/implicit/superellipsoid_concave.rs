@@ -220,7 +220,7 @@ impl ImplicitKernel for Star {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::implicit::superellipsoid;

@@ -29,7 +29,7 @@ mod orbit;
 mod point;
 mod roots;
 mod single_precision;
-#[cfg(any())]
+#[cfg(test)]
 mod tests;
 
 use crate::compose::clip::Algebraic;

@@ -573,5 +573,5 @@ impl Surface for Prism {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests;

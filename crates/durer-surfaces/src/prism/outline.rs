@@ -133,7 +133,7 @@ fn left_of(edges: &[[Point; 2]], i: usize) -> bool {
     odd == looks_left
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
 

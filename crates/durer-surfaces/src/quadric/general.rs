@@ -406,7 +406,7 @@ impl GeneralQuadric {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::laws::{ExactBody, ExactForm, Feature, TestRng, check_many};

@@ -15,5 +15,5 @@ pub mod paraboloid;
 pub mod round;
 pub mod sector;
 pub mod solid;
-#[cfg(any())]
+#[cfg(test)]
 mod tests;

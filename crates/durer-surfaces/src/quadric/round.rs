@@ -316,7 +316,7 @@ impl QuadricFaces for FrustumShape {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::laws::{Exact, ExactBody, ExactForm, Feature, TestRng, check_many, exact3};

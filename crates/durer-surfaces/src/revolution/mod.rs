@@ -518,5 +518,5 @@ impl Algebraic for SurfaceOfRevolution {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests;

@@ -229,7 +229,7 @@ impl<const N: usize> Bernstein<f64, N> {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::laws::TestRng;

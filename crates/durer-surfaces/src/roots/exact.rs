@@ -362,7 +362,7 @@ fn middle(l: &Dyadic, r: &Dyadic) -> Dyadic {
     if m > *l && m < *r { m } else { (l + r).scale2(-1) }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
 

@@ -361,7 +361,7 @@ pub(crate) fn compare_roots(
     locate(q_root, q.a.sign(), Some(value), Some(slope)).unwrap_or(Equal)
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
 

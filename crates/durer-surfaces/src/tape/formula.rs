@@ -330,7 +330,7 @@ pub(super) fn live(ops: &[Op], root: NodeId) -> (Vec<Op>, NodeId) {
     (kept, names[root.0 as usize])
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
 

@@ -190,7 +190,7 @@ impl Number for Powers {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::laws::TestRng;

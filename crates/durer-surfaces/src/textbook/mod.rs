@@ -21,7 +21,7 @@ pub use slabs::box_by_slabs;
 pub use sphere::{sphere_algebraic, sphere_geometric};
 pub use triangle::{triangle_by_edges, triangle_by_plane};
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::laws::{TestRng, all_roots};

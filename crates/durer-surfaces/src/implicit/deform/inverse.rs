@@ -97,7 +97,7 @@ fn determinants(m: &Bounds) -> Interval {
     all.unwrap_or(Interval::ENTIRE)
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
 

@@ -23,7 +23,7 @@ mod crossings;
 mod foot;
 mod gauge;
 mod lanes;
-#[cfg(any())]
+#[cfg(test)]
 pub(super) mod tests;
 
 pub(super) use crossings::Answer;

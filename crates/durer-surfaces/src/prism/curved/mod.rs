@@ -396,5 +396,5 @@ impl Algebraic for CurvedPrism {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests;

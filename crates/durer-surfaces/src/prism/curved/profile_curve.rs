@@ -202,7 +202,7 @@ fn greatest(b: [f64; 4]) -> f64 {
     if top > ends { top.next_up() } else { ends }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
 

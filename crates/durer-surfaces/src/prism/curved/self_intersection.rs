@@ -190,7 +190,7 @@ pub(super) fn is_counter_clockwise(powers: impl Iterator<Item = [[Dyadic; 2]; 4]
     sign.is_ne().then_some(sign.is_gt())
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::super::spline::Spline;
     use super::*;

@@ -59,7 +59,7 @@ impl Spline {
     }
 }
 
-#[cfg(any())]
+#[cfg(test)]
 mod tests {
     use super::*;
 
