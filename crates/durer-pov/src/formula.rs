@@ -118,6 +118,16 @@ impl Parser<'_> {
         }
     }
 
+    /// `{ ... }`: the body of a function of x, y and z that gives a float.
+    pub(crate) fn function_in_braces(&mut self) -> Result<Formula> {
+        self.expect(Mark::BraceOpen)?;
+        let place = self.here();
+        match self.nested(|r| r.function_body(&None, place))? {
+            Value::Function(called) => Ok(called.formula.clone()),
+            _ => Err(vector_function::wants_part(place)),
+        }
+    }
+
     /// Reads `function (a, b) { ... }`, including the word: a function with float or vector values.
     pub(crate) fn function_block(&mut self) -> Result<Value> {
         self.next()?;

@@ -41,6 +41,7 @@ mod noise_pattern;
 mod object;
 mod parser;
 mod pattern_function;
+mod picture;
 mod pigment_function;
 mod read;
 mod scene_builder;

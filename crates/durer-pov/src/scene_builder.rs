@@ -456,6 +456,8 @@ pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
         &Shape::Superellipsoid { e, n } => scene::Shape::Superellipsoid { e, n },
         Shape::Julia(set) => scene::Shape::Julia(set.clone()),
         Shape::Ifs(system) => scene::Shape::Ifs(system.clone()),
+        Shape::HeightField(field) => scene::Shape::HeightField(Box::new((**field).clone())),
+        Shape::Terrain(terrain) => scene::Shape::Terrain(Box::new((**terrain).clone())),
         Shape::Blob(blob) => {
             limits::charge_for_good(blob.size());
             scene::Shape::Blob(Box::new(scene::Blob {

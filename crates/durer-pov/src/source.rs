@@ -45,10 +45,15 @@ impl AsRef<Self> for Source {
 ///
 /// The text is UTF-8 if it is valid as such, and otherwise Latin-1, as in old scenes.
 pub(crate) fn read_text(path: &Path, limits: &Limits) -> Result<String, String> {
+    read_bytes(path, limits, "a scene file").map(decode)
+}
+
+/// The bytes of the file at `path`, which should be `what`, or one line that says why not.
+pub(crate) fn read_bytes(path: &Path, limits: &Limits, what: &str) -> Result<Vec<u8>, String> {
     let unreadable = |e: std::io::Error| format!("cannot be read: {}", plain_reason(&e));
     let about = std::fs::metadata(path).map_err(unreadable)?;
     if about.is_dir() {
-        return Err("is a directory, not a scene file".into());
+        return Err(format!("is a directory, not {what}"));
     }
     if !about.is_file() {
         return Err("is not a regular file".into());
@@ -69,7 +74,7 @@ pub(crate) fn read_text(path: &Path, limits: &Limits) -> Result<String, String> 
     if bytes.len() as u64 > limits.file_size.min(u64::from(u32::MAX) / 2) {
         return Err(too_long());
     }
-    Ok(decode(bytes))
+    Ok(bytes)
 }
 
 /// The system's reason without the error number.

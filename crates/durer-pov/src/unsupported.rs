@@ -79,7 +79,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Granite
             | GrayThreshold
             | Hdr
-            | HeightField
             | Iff
             | ImageMap
             | ImagePattern
@@ -159,7 +158,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | SkySphere
             | Slope
             | SlopeMap
-            | Smooth
             | Solid
             | Spacing
             | Spherical
@@ -196,7 +194,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Variance
             | Vturbulence
             | Warp
-            | WaterLevel
             | Waves
             | Width
             | Wood

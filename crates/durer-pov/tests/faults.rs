@@ -201,6 +201,26 @@ fn curved_prisms_say_what_is_wrong_with_them() {
 }
 
 #[test]
+fn sheets_say_what_is_wrong_with_them() {
+    let says = |text: &str, message: &str| {
+        let told = fault(text).2;
+        assert!(told.contains(message), "{text}: {told}");
+    };
+    says("height_field { png \"nowhere.png\" }", "there is no picture \"nowhere.png\"");
+    says("height_field { \"heights\" }", "does not tell what it is");
+    says("height_field { tiff \"a.tiff\" }", "not supported yet: a picture of type tiff");
+    says("height_field { }", "the file's name");
+    says("height_field { function 1, 4 { x } }", "from 2 to 65536 samples a side, not 1");
+    says("height_field { function 65536, 65536 { x } }", "2^30 in all");
+    says("terrain { seed 4 }", "say how often the edges");
+    says("terrain { levels 16 }", "a whole number from 0 to 15, not 16");
+    says("terrain { levels 0 }", "levels must be a whole number from 1 to 15, got 0");
+    says("terrain { levels 3 roughness 0 }", "the roughness must be above 0 and at most 1, got 0");
+    says("terrain { levels 3 amplitude -1 }", "the amplitude must be finite, not negative");
+    says("deform { terrain { levels 3 } twist { y, 90, from 0 to 1 } }", "a terrain has no formula here");
+}
+
+#[test]
 fn turned_solids_say_what_is_wrong_with_them() {
     assert!(fault("sor { 3, <1, 0>, <1, 1>, <1, 2> }").2.contains("at least 4 points, not 3"));
     assert!(fault("sor { 4, <1, 0>, <1, 2>, <1, 1>, <1, 3> }").2.contains("1 comes after 2"));

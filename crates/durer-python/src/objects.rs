@@ -5,7 +5,7 @@ use durer::math::{Affine, Point3, Vec3};
 use durer::scene::{
     Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, Ifs, IfsLeaf, Interior,
     Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, Object as SceneObject, Operation,
-    Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Shape, Spline, Sweep, SweepSpline, Texture, Warp,
+    Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Shape, Spline, Sweep, SweepSpline, Texture, Warp, HeightField, Terrain, TerrainData,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -257,6 +257,35 @@ fn menger(depth: u32) -> PyResult<Object> {
 #[pyfunction]
 fn sierpinski(depth: u32) -> PyResult<Object> {
     checked(Shape::Ifs(Ifs::sierpinski(depth).map_err(|error| value_error(error.to_string()))?))
+/// A sheet over the unit square: columns, rows, and heights by rows, that at z = 1 first.
+#[pyfunction]
+fn height_field(
+    size: [usize; 2],
+    heights: Vec<f64>,
+    water_level: Option<f64>,
+    smooth: bool,
+) -> PyResult<Object> {
+    let field = HeightField::new(size, heights).map_err(|error| value_error(error.to_string()))?;
+    let field = if smooth { field.smooth() } else { field };
+    let field = field.with_water_level(water_level.unwrap_or(f64::NEG_INFINITY));
+    checked(Shape::HeightField(Box::new(field)))
+}
+
+#[pyfunction]
+fn terrain(
+    levels: u32,
+    numbers: [f64; 2],
+    seed: u64,
+    corners: [f64; 4],
+    water_level: Option<f64>,
+    smooth: bool,
+) -> PyResult<Object> {
+    let [roughness, amplitude] = numbers;
+    let data = TerrainData { levels, roughness, amplitude, seed, corners };
+    let terrain = Terrain::new(data).map_err(|error| value_error(error.to_string()))?;
+    let terrain = if smooth { terrain.smooth() } else { terrain };
+    let terrain = terrain.with_water_level(water_level.unwrap_or(f64::NEG_INFINITY));
+    checked(Shape::Terrain(Box::new(terrain)))
 }
 
 #[pyfunction]
@@ -416,6 +445,8 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(ifs, module)?)?;
     module.add_function(wrap_pyfunction!(menger, module)?)?;
     module.add_function(wrap_pyfunction!(sierpinski, module)?)?;
+    module.add_function(wrap_pyfunction!(height_field, module)?)?;
+    module.add_function(wrap_pyfunction!(terrain, module)?)?;
     module.add_function(wrap_pyfunction!(isosurface, module)?)?;
     module.add_function(wrap_pyfunction!(formula_value, module)?)?;
     module.add_function(wrap_pyfunction!(union, module)?)?;

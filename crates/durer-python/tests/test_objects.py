@@ -54,6 +54,8 @@ KINDS = [
     (durer.Sierpinski(3), None),
     (durer.Ifs(durer.Sphere((0, 0, 0), 1), [0.5 * np.eye(3, 4)], 1), 9 - math.sqrt(0.25 - 0.05)),
     (durer.Ifs([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], [0.5 * np.eye(3, 4)], 0), None),
+    (durer.HeightField([[0, 0.5], [0.25, 1]]).rotated((1, 0, 0), 1.5), None),
+    (durer.Terrain(3, seed=4, corners=(0, 0.5, 0, 0.5)).rotated((1, 0, 0), 1.5), None),
     (durer.formula("x*x + y*y + z*z - 1"), 9 - math.sqrt(1 - 0.05)),
     (durer.Union(durer.Sphere((0, 0, 0), 1), durer.Box((0, 0, 0), (1, 1, 2))), 7),
     (durer.Sphere((0, 0, 0), 1) | durer.Box((0, 0, 0), (1, 1, 2)), 7),

@@ -53,6 +53,8 @@ pub use durer_surfaces::Spline as Curve;
 pub use durer_surfaces::algebraic::{MAX_ORDER, coefficient_count, place_of};
 pub use durer_surfaces::ifs::{Ifs, IfsError, IfsLeaf, MOST_LEVELS};
 pub use durer_surfaces::julia::MOST_ITERATIONS;
+pub use durer_surfaces::terrain::MOST_SAMPLES;
 pub use durer_surfaces::{
-    BlobComponent, BlobShape, FillRule, Julia, JuliaAlgebra, JuliaPower, SweepSpline, Warp, tape,
+    BlobComponent, BlobShape, FillRule, HeightField, Julia, JuliaAlgebra, JuliaPower, SweepSpline, Terrain,
+    TerrainData, Warp, tape,
 };

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use durer_math::{Point3, Vec3};
 
 use crate::tape::Formula;
-use crate::{BlobComponent, FillRule, Ifs, Julia, LatheSpline, Object, SweepSpline, Texture, Warp};
+use crate::{BlobComponent, FillRule, Ifs, Julia, LatheSpline, Object, SweepSpline, Texture, Warp, HeightField, Terrain};
 
 /// A surface in its object's own frame, not yet checked: lowering builds it and names what is
 /// wrong.
@@ -170,6 +170,10 @@ pub enum Shape {
     Julia(Box<Julia>),
     /// A leaf under all products of some contractions.
     Ifs(Ifs),
+    /// A sheet over the unit square, or under it all if the object is part of a solid.
+    HeightField(Box<HeightField>),
+    /// The same, with heights made on demand.
+    Terrain(Box<Terrain>),
     /// A solid, deformed. See [`Object::deformed`].
     Deform(Box<Deform>),
     /// All the parts' surfaces together. Parts are placed in the union's own frame.

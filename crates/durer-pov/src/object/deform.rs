@@ -225,6 +225,8 @@ fn check(object: &Rc<Object>) -> Result<()> {
         Shape::Lemon { .. } => "a lemon",
         Shape::Julia(_) => "a Julia set",
         Shape::Ifs(_) => "an ifs",
+        Shape::HeightField(_) => "a height field",
+        Shape::Terrain(_) => "a terrain",
         Shape::Light(_) => "a light",
     };
     refuse(&format!("{without_formula} has no formula here, so it cannot be deformed"))

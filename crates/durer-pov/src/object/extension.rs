@@ -39,7 +39,7 @@ pub(crate) enum Word {
     Lemon,
     Deform,
     Cyclide,
-    Ifs,
+    Ifs, Terrain,
 }
 
 impl Word {
@@ -63,6 +63,7 @@ impl Word {
             "deform" => Self::Deform,
             "cyclide" => Self::Cyclide,
             "ifs" => Self::Ifs,
+            "terrain" => Self::Terrain,
             _ => return None,
         })
     }
@@ -125,6 +126,7 @@ impl Parser<'_> {
             Word::Deform => return self.deform(place),
             Word::Cyclide => return self.cyclide(),
             Word::Ifs => return self.ifs(place),
+            Word::Terrain => return self.terrain(place),
             Word::Annulus => return self.shape(Keyword::Disc, place),
             Word::Parallelogram => {
                 let corner = self.corner()?;

@@ -88,7 +88,7 @@ impl Parser<'_> {
     }
 
     /// A vector of four; a float stands for four equal ones, missing ones are zero.
-    fn vector4(&mut self) -> Result<[f64; 4]> {
+    pub(super) fn vector4(&mut self) -> Result<[f64; 4]> {
         self.peek()?;
         let place = self.here();
         let value = self.expression()?;

@@ -10,6 +10,7 @@ mod modifiers;
 pub(crate) mod queries;
 mod shapes;
 mod swept;
+mod terrain;
 
 use std::rc::Rc;
 
@@ -125,6 +126,8 @@ pub(crate) enum Shape {
     Blob(Rc<blob::Blob>),
     Julia(Box<durer_scene::Julia>),
     Ifs(durer_scene::Ifs),
+    HeightField(Rc<durer_scene::HeightField>),
+    Terrain(Rc<durer_scene::Terrain>),
     /// A solid and what is done to it.
     Deform(Rc<Object>, Rc<[durer_scene::Warp]>),
     Union(Vec<Rc<Object>>),
@@ -265,6 +268,7 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
             | Superellipsoid
             | Blob
             | JuliaFractal
+            | HeightField
             | Torus
             | Prism
             | SphereSweep

@@ -138,6 +138,7 @@ impl Parser<'_> {
             Keyword::Superellipsoid => self.superellipsoid()?,
             Keyword::Blob => self.blob(place)?,
             Keyword::JuliaFractal => self.julia_fractal()?,
+            Keyword::HeightField => self.height_field(place)?,
             Keyword::Torus => {
                 let major = self.size()?;
                 self.skip_comma()?;

@@ -35,6 +35,7 @@ __all__ = [
     "disc",
     "formula_value",
     "ifs",
+    "height_field",
     "isosurface",
     "julia",
     "lathe",
@@ -60,6 +61,7 @@ __all__ = [
     "spherical_sector",
     "superellipsoid",
     "surface_of_revolution",
+    "terrain",
     "torus",
     "triangle",
     "union",
@@ -215,6 +217,12 @@ def ifs(
 ) -> Object: ...
 def menger(depth: int) -> Object: ...
 def sierpinski(depth: int) -> Object: ...
+def height_field(
+    size: tuple[int, int], heights: Sequence[float], water_level: float | None, smooth: bool
+) -> Object: ...
+def terrain(
+    levels: int, numbers: _Numbers, seed: int, corners: _Numbers, water_level: float | None, smooth: bool
+) -> Object: ...
 def isosurface(
     steps: Sequence[_Step],
     threshold: float,

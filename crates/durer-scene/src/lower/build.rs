@@ -88,8 +88,15 @@ impl Target<'_> {
             To::Scene(builder, object, primitive, mask) => {
                 builder.add_as(surface, *object, *primitive, *mask);
             }
-            // The caller sees from `part` whether a leaf was added: an open sheet is refused.
-            To::Leaf(csg, leaf, shown, part) => **part = csg.leaf_as(surface, *leaf, *shown).ok(),
+            // The caller sees from `part` whether a leaf was added: an open sheet is refused. Several
+            // surfaces are united.
+            To::Leaf(csg, leaf, shown, part) => {
+                let more = csg.leaf_as(surface, *leaf, *shown).ok();
+                **part = match (part.take(), more) {
+                    (Some(one), Some(other)) => Some(csg.union(vec![one, other])),
+                    (one, other) => other.or(one),
+                };
+            }
         }
     }
 }

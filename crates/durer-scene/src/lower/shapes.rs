@@ -7,10 +7,12 @@ use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Blob, BlobError, CappedCylinder, CurvedPrism,
     Cyclide, Disc, FLAT, Frustum, Isosurface, JuliaSet, Lathe, Parallelogram, Plane, Polygon, PolygonError,
     Prism, Quadric, Region, Sphere, SphereSweep, SphereSweepError, SphericalSector, SurfaceOfRevolution,
-    Torus, Triangle, TriangleError, superellipsoid,
+    Torus, Triangle, TriangleError, superellipsoid, HeightField,
 };
 
-use super::build::Target;
+use durer_surfaces::terrain::{Heights, Sheet};
+
+use super::build::{Target, To};
 use super::camera_media::Enclosure;
 use super::{LowerErrorKind, fold_transform, level_set, named_quadric};
 use crate::{Container, Mesh, Object, Operation, Shape, Spline, Sweep};
@@ -174,6 +176,8 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
         }
         Shape::Ifs(system) => add_closed(&mut target, system.clone(), map),
         Shape::Julia(set) => add_closed(&mut target, JuliaSet::new(set).map_err(shape_error)?, map),
+        Shape::HeightField(field) => sheet(&**field, map, &mut target)?,
+        Shape::Terrain(terrain) => sheet(&**terrain, map, &mut target)?,
         Shape::Blob(it) => match Blob::new(it.threshold, &it.components) {
             Err(nothing @ BlobError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
             made => add_closed(&mut target, made.map_err(shape_error)?, map),
@@ -203,6 +207,23 @@ pub(super) fn container(it: Container) -> Result<durer_surfaces::Container> {
 fn turned(solid: SurfaceOfRevolution, open: bool, map: Option<&Affine>, target: &mut Target<'_>) {
     target.contain(&solid, map);
     target.add_rare(if open { solid.without_ends() } else { solid }, map);
+}
+
+/// Adds a sheet over the unit square; in a solid all that lies under it, and under its water level.
+fn sheet<H: Heights + 'static>(sheet: &Sheet<H>, map: Option<&Affine>, target: &mut Target<'_>) -> Result<()> {
+    let solid = sheet.clone().solid();
+    target.contain(&solid, map);
+    if matches!(target.to, To::Scene(..)) {
+        target.add_rare(sheet.clone(), map);
+        return Ok(());
+    }
+    target.add_rare(solid, map);
+    let level = sheet.water_level();
+    if level > sheet.range()[0] {
+        let water = HeightField::new([2, 2], vec![level; 4]).map_err(shape_error)?;
+        target.add_rare(water.solid(), map);
+    }
+    Ok(())
 }
 
 const AXES: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
@@ -502,6 +523,8 @@ pub(super) fn name(shape: &Shape) -> &'static str {
         Shape::Blob(_) => "a blob",
         Shape::Julia(_) => "a Julia set",
         Shape::Ifs(_) => "an ifs",
+        Shape::HeightField(_) => "a height field",
+        Shape::Terrain(_) => "a terrain",
         Shape::Deform(_) => "a deformed solid",
         Shape::Union(_) => "a union",
         Shape::Csg(Operation::Merge, _) => "a merge",

@@ -19,7 +19,7 @@ fn linear(normal: &[Dyadic; 3], p: Point3, ray: &LocalRay<'_>) -> Option<Quadrat
 }
 
 /// The plane through three points.
-fn through(points: [Point3; 3], ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+pub(crate) fn through(points: [Point3; 3], ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
     let centre = points[0];
     linear(&ThreePoints { points, centre, scale: 0 }.normal().1, centre, ray)
 }

@@ -4,5 +4,5 @@ pub mod affine;
 pub mod clip;
 pub mod complement;
 pub mod dynamic;
-mod flat;
+pub(crate) mod flat;
 pub mod region;

@@ -1,0 +1,228 @@
+//! Sheets over the unit square: `height_field` and durer's own `terrain`.
+
+use std::rc::Rc;
+
+use durer_math::F8;
+use durer_scene::tape::{Formula, Tape};
+use durer_scene::{HeightField, MOST_SAMPLES, Terrain, TerrainData};
+
+use super::Shape;
+use crate::diagnostics::{Error, ErrorKind, Place, Result};
+use crate::keywords::Keyword;
+use crate::limits;
+use crate::parser::Parser;
+use crate::picture::{self, Fault, Format};
+
+/// How many values of a function count as a step.
+const VALUES_A_STEP: usize = 64;
+
+impl Parser<'_> {
+    /// `[TYPE] "file" [gamma G] [premultiplied B] | function NX, NZ { }`, then
+    /// `smooth`, `water_level L` and `hierarchy B`.
+    pub(super) fn height_field(&mut self, place: Place) -> Result<Shape> {
+        let mut field = if self.take_word(Keyword::Function)? {
+            self.sampled_function(place)?
+        } else {
+            self.height_picture(place)?
+        };
+        limits::charge_for_good(field.bytes());
+        let mut water_level = 0.0;
+        loop {
+            if self.take_word(Keyword::Smooth)? {
+                if self.switch_value()? {
+                    field = field.smooth();
+                }
+            } else if self.take_word(Keyword::WaterLevel)? {
+                water_level = self.float()?;
+            } else if self.take_word(Keyword::Hierarchy)? {
+                // There always is one.
+                self.switch_value()?;
+            } else {
+                break;
+            }
+            self.skip_comma()?;
+        }
+        if field.range()[1] < water_level {
+            return Ok(self.nothing("all of this height_field lies below its water level", place));
+        }
+        Ok(Shape::HeightField(Rc::new(field.with_water_level(water_level))))
+    }
+
+    /// The field of a picture: its type, if that is not told by the ending of its name, and its name.
+    fn height_picture(&mut self, place: Place) -> Result<HeightField> {
+        let mut format = None;
+        if let Some(word) = self.peek_word()? {
+            let at = self.here();
+            format = Format::from_keyword(word);
+            if format.is_some() {
+                self.next()?;
+            } else if is_other_format(word) {
+                return Err(unread(at, word.text()));
+            }
+        }
+        let name = self.file_name()?;
+        let at = self.here();
+        while let Some(Keyword::Gamma | Keyword::Premultiplied) = self.peek_word()? {
+            // Heights are the numbers that stand in the file.
+            self.next()?;
+            if !self.take_word(Keyword::Srgb)? {
+                self.float()?;
+            }
+        }
+        let Some(format) = format.or_else(|| Format::from_name(&name)) else {
+            let text = format!(
+                "the ending of \"{name}\" does not tell what it is: say png, tga, gif, bmp, jpeg, pgm or ppm before it"
+            );
+            return Err(Error::invalid(at, text));
+        };
+        let Some(path) = self.library.find(&name) else {
+            let names = self.library.names();
+            let near = crate::parser::nearest(&name, names.iter().map(String::as_str));
+            let near = near.map_or_else(String::new, |near| format!(" (did you mean \"{near}\"?)"));
+            let folders = self.library.listed();
+            let text = format!("there is no picture \"{name}\"{near}; searched: {folders}");
+            return Err(Error::file(Some(at), text));
+        };
+        let may_hold = |size: [usize; 2]| match check_size(size) {
+            Some(text) => Err(Fault::Text(text)),
+            None => self.check_memory(bytes_of(size, 2), at).map_err(Fault::Limit),
+        };
+        let read = picture::read(&path, format, &self.options.limits, &may_hold);
+        let picture = read.map_err(|fault| match fault {
+            Fault::Limit(error) => error,
+            Fault::Text(why) => Error::file(Some(at), format!("{}: {why}", path.display())),
+        })?;
+        HeightField::from_words([picture.columns, picture.rows], picture.words)
+            .map_err(|error| Error::invalid(place, error.to_string()))
+    }
+
+    /// The field of a function: how many columns and rows, and the function.
+    fn sampled_function(&mut self, place: Place) -> Result<HeightField> {
+        let at = self.here();
+        let columns = self.sample_count()?;
+        self.skip_comma()?;
+        let rows = self.sample_count()?;
+        self.skip_comma()?;
+        let size = [columns, rows];
+        if let Some(text) = check_size(size) {
+            return Err(Error::invalid(at, format!("this height_field {text}")));
+        }
+        self.check_memory(bytes_of(size, 8), at)?;
+        let formula = self.function_in_braces()?;
+        self.count_steps((columns * rows / VALUES_A_STEP) as u64, place)?;
+        let (heights, outside) = sampled(&formula, size);
+        if outside > 0 {
+            let all = columns * rows;
+            let text = format!(
+                "of the {all} heights of this height_field {outside} are not between 0 and 1: they are moved there"
+            );
+            self.notice(place, text);
+        }
+        HeightField::new(size, heights).map_err(|error| Error::invalid(place, error.to_string()))
+    }
+
+    /// The number of columns or rows.
+    fn sample_count(&mut self) -> Result<usize> {
+        self.peek()?;
+        let at = self.here();
+        let count = self.float()?;
+        // POV-Ray takes the whole part.
+        if !(2.0..=MOST_SAMPLES as f64).contains(&count.trunc()) {
+            let text = format!("a height_field has from 2 to {MOST_SAMPLES} samples a side, not {count}");
+            return Err(Error::invalid(at, text));
+        }
+        Ok(count as usize)
+    }
+
+    /// `levels L roughness H amplitude B seed S corners <a, b, c, d> water_level W smooth`, in any order.
+    pub(super) fn terrain(&mut self, place: Place) -> Result<Shape> {
+        let mut data = TerrainData { levels: 0, ..TerrainData::default() };
+        let (mut water_level, mut is_smooth, mut has_levels) = (f64::NEG_INFINITY, false, false);
+        loop {
+            if self.small_word("levels")? {
+                data.levels = self.whole("levels", 15.0)? as u32;
+                has_levels = true;
+            } else if self.take_word(Keyword::Roughness)? {
+                data.roughness = self.float()?;
+            } else if self.small_word("amplitude")? {
+                data.amplitude = self.float()?;
+            } else if self.small_word("seed")? || self.take_word(Keyword::Seed)? {
+                data.seed = self.whole("the seed", 9_007_199_254_740_992.0)?;
+            } else if self.small_word("corners")? {
+                data.corners = self.vector4()?;
+            } else if self.take_word(Keyword::WaterLevel)? {
+                water_level = self.float()?;
+            } else if self.take_word(Keyword::Smooth)? {
+                is_smooth = self.switch_value()?;
+            } else {
+                break;
+            }
+            self.skip_comma()?;
+        }
+        if !has_levels {
+            let text = "say how often the edges of this terrain are halved: `levels 1` to `levels 15`";
+            return Err(Error::invalid(place, text));
+        }
+        let terrain = Terrain::new(data).map_err(|error| Error::invalid(place, error.to_string()))?;
+        if terrain.range()[1] < water_level {
+            return Ok(self.nothing("all of this terrain lies below its water level", place));
+        }
+        let terrain = if is_smooth { terrain.smooth() } else { terrain };
+        Ok(Shape::Terrain(Rc::new(terrain.with_water_level(water_level))))
+    }
+
+    /// A whole number from 0 to `most`.
+    fn whole(&mut self, what: &str, most: f64) -> Result<u64> {
+        self.peek()?;
+        let at = self.here();
+        let number = self.float()?;
+        if number.fract() != 0.0 || !(0.0..=most).contains(&number) {
+            let text = format!("{what} of a terrain: a whole number from 0 to {most}, not {number}");
+            return Err(Error::invalid(at, text));
+        }
+        Ok(number as u64)
+    }
+}
+
+/// Formats of pictures that POV-Ray reads and durer does not.
+fn is_other_format(word: Keyword) -> bool {
+    use Keyword::*;
+    matches!(word, Exr | Hdr | Iff | Pot | Sys | Tiff)
+}
+
+fn unread(at: Place, format: &str) -> Box<Error> {
+    let text = format!("not supported yet: a picture of type {format}: durer reads png, tga, gif, bmp, jpeg, pgm and ppm");
+    Error::at(at, ErrorKind::Unsupported, text)
+}
+
+/// What is wrong with a picture's size.
+fn check_size([columns, rows]: [usize; 2]) -> Option<String> {
+    let fits = |n: usize| (2..=MOST_SAMPLES).contains(&n);
+    (!fits(columns) || !fits(rows) || columns * rows > 1 << 30)
+        .then(|| format!("has {columns} x {rows} samples: from 2 x 2 to {MOST_SAMPLES} a side and 2^30 in all are read"))
+}
+
+/// What a field of so many samples takes, its bounds included.
+fn bytes_of([columns, rows]: [usize; 2], each: usize) -> usize {
+    columns * rows * (each + 3)
+}
+
+/// A function's values by rows, moved between 0 and 1, and how many had to be. The first row is at y = 0.
+fn sampled(formula: &Formula, [columns, rows]: [usize; 2]) -> (Vec<f64>, usize) {
+    let tape = Tape::new(formula);
+    let (mut heights, mut outside) = (Vec::with_capacity(columns * rows), 0);
+    let at = |n: usize, count: usize| n.min(count - 1) as f64 / (count - 1) as f64;
+    for row in 0..rows {
+        let y = F8::splat(at(row, rows));
+        for first in (0..columns).step_by(8) {
+            let x = F8(std::array::from_fn(|k| at(first + k, columns)));
+            let values = tape.values(&[x, y, F8::ZERO]);
+            for value in values.0.into_iter().take(columns - first) {
+                let height = if value > 0.0 { value.min(1.0) } else { 0.0 };
+                outside += usize::from(height != value);
+                heights.push(height);
+            }
+        }
+    }
+    (heights, outside)
+}

@@ -1,0 +1,148 @@
+//! Pictures, as tables of heights: 16 bits each, the top row first.
+//!
+//! Facts of the scene language, found by `trace` with POV-Ray 3.7:
+//!
+//! - Grey values of 16 bits stand as they are, those of fewer bits are stretched to 0..65535.
+//! - In a colour picture red is the high byte and green the low one; blue and alpha say nothing.
+//! - In a picture with a palette the index is the high byte; its colours say nothing.
+
+mod compressed;
+mod plain;
+
+use std::path::Path;
+
+use crate::diagnostics::Error;
+use crate::keywords::Keyword;
+use crate::limits::Limits;
+use crate::source;
+
+/// The heights of a picture.
+pub(crate) struct Picture {
+    pub(crate) columns: usize,
+    pub(crate) rows: usize,
+    pub(crate) words: Vec<u16>,
+}
+
+/// Why there is no picture.
+pub(crate) enum Fault {
+    /// In words, after the file's name.
+    Text(String),
+    /// A limit of the reader.
+    Limit(Box<Error>),
+}
+
+type Result<T> = std::result::Result<T, Fault>;
+
+fn fault<T>(text: impl Into<String>) -> Result<T> {
+    Err(Fault::Text(text.into()))
+}
+
+/// What a picture is asked for its size before it is read further.
+type MayHold<'a> = &'a dyn Fn([usize; 2]) -> std::result::Result<(), Fault>;
+
+/// The formats that durer reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Format {
+    Png,
+    /// PGM and PPM.
+    Pnm,
+    Tga,
+    Gif,
+    Bmp,
+    Jpeg,
+}
+
+impl Format {
+    /// The format that a word of the scene language names.
+    pub(crate) fn from_keyword(keyword: Keyword) -> Option<Self> {
+        Some(match keyword {
+            Keyword::Png => Self::Png,
+            Keyword::Pgm | Keyword::Ppm => Self::Pnm,
+            Keyword::Tga => Self::Tga,
+            Keyword::Gif => Self::Gif,
+            Keyword::Bmp => Self::Bmp,
+            Keyword::Jpeg => Self::Jpeg,
+            _ => return None,
+        })
+    }
+
+    /// The format that the ending of a file's name tells.
+    pub(crate) fn from_name(name: &str) -> Option<Self> {
+        let ending = name.rsplit_once('.')?.1.to_ascii_lowercase();
+        Some(match ending.as_str() {
+            "png" => Self::Png,
+            "pgm" | "ppm" | "pnm" => Self::Pnm,
+            "tga" => Self::Tga,
+            "gif" => Self::Gif,
+            "bmp" => Self::Bmp,
+            "jpg" | "jpeg" => Self::Jpeg,
+            _ => return None,
+        })
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Png => "a PNG file",
+            Self::Pnm => "a PGM or PPM file",
+            Self::Tga => "a TGA file",
+            Self::Gif => "a GIF file",
+            Self::Bmp => "a BMP file",
+            Self::Jpeg => "a JPEG file",
+        }
+    }
+
+    /// What a file of this format begins with; TGA has no mark.
+    fn is_begun_by(self, bytes: &[u8]) -> bool {
+        match self {
+            Self::Png => bytes.starts_with(b"\x89PNG\r\n\x1a\n"),
+            Self::Pnm => matches!(bytes, [b'P', b'2' | b'3' | b'5' | b'6', ..]),
+            Self::Tga => true,
+            Self::Gif => bytes.starts_with(b"GIF8"),
+            Self::Bmp => bytes.starts_with(b"BM"),
+            Self::Jpeg => bytes.starts_with(b"\xff\xd8"),
+        }
+    }
+}
+
+/// Reads the picture at `path`; `may_hold` is asked whether so many heights may be kept.
+pub(crate) fn read(path: &Path, format: Format, limits: &Limits, may_hold: MayHold<'_>) -> Result<Picture> {
+    let bytes = source::read_bytes(path, limits, "a picture").map_err(Fault::Text)?;
+    if bytes.is_empty() {
+        return fault("is empty");
+    }
+    if !format.is_begun_by(&bytes) {
+        return fault(format!("is not {}", format.name()));
+    }
+    match format {
+        Format::Png => compressed::png(&bytes, may_hold),
+        Format::Pnm => plain::pnm(&bytes, may_hold),
+        Format::Tga => plain::tga(&bytes, may_hold),
+        Format::Gif => compressed::gif(&bytes, may_hold),
+        Format::Bmp => plain::bmp(&bytes, may_hold),
+        Format::Jpeg => compressed::jpeg(&bytes, may_hold),
+    }
+}
+
+/// The fault of a file that ends too early.
+fn cut_off<T>(what: &str, wanted: usize, found: usize) -> Result<T> {
+    fault(format!("ends too early: its {what} take {wanted} bytes, and {found} are there"))
+}
+
+/// The height of a grey value out of `most`.
+fn of_grey(value: u32, most: u32) -> u16 {
+    let most = most.max(1);
+    ((value.min(most) * 65535 + most / 2) / most) as u16
+}
+
+/// The height of a colour by its red and green.
+fn of_colour(red: u8, green: u8) -> u16 {
+    u16::from(red) << 8 | u16::from(green)
+}
+
+/// The height of an index into a palette.
+fn of_index(index: u8) -> u16 {
+    u16::from(index) << 8
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,253 @@
+//! A ray's way over the blocks of a grid, front to back.
+//!
+//! The walk works on the re-centred ray in plain f64. A point of the exact ray that lies in the
+//! sheet's box is at some `s` with `|s| <= S`, and `o + s d` is there within
+//!
+//! ```text
+//!     E = o_err + S d_err + 16 u (R + |o| + 2 S)
+//! ```
+//!
+//! per axis, where `R` is the distance of the box's corners from its centre. The last term pays for
+//! roundings: those of a border's coordinate are below `3.5 u <= 7 u R` (its quotient, its product
+//! with the width of a cell, its difference to the centre), a parameter at which it is met adds `4 u`
+//! of `R + |o|`, a height `2 u` of `|o| + 2 S`. So every interval is widened by `E`, and no cell that
+//! holds a crossing is left out.
+
+use super::heights::Block;
+use crate::{CentredRay, Flow, Root, Sink};
+use arrayvec::ArrayVec;
+use durer_math::{Aabb, Point3, U, Vec3};
+
+/// Three of each level but the last wait; levels go up to 16, and the first has one entry.
+const DEEP: usize = 64;
+
+/// A block that waits, with the range of `s` in which the ray may be over it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Entry<D> {
+    pub(super) block: Block,
+    pub(super) data: D,
+    pub(super) span: (f64, f64),
+}
+
+/// Blocks that wait; the nearest one is on top.
+pub(super) type Stack<D> = ArrayVec<Entry<D>, DEEP>;
+
+/// The re-centred ray and its error while it is in the sheet's box.
+pub(super) struct Line<'a> {
+    ray: CentredRay<'a>,
+    bounds: Aabb,
+    o: Vec3,
+    d: Vec3,
+    /// One over the direction; huge where that is zero.
+    inverse: Vec3,
+    /// `E`.
+    error: Vec3,
+    /// `E` over the direction: that of a parameter.
+    slack: Vec3,
+}
+
+impl<'a> Line<'a> {
+    #[inline(always)]
+    pub(super) fn new(ray: CentredRay<'a>, bounds: &Aabb) -> Self {
+        let seen = |p: Point3| p - ray.centre;
+        let bounds = Aabb { min: seen(bounds.min).to_point(), max: seen(bounds.max).to_point() };
+        let sum = |v: Vec3| v.x.abs() + v.y.abs() + v.z.abs();
+        let reach = sum(bounds.max.to_vec()).max(sum(bounds.min.to_vec()));
+        let away = sum(ray.o) + sum(ray.o_err);
+        // |d| is at least 1, the exact one at least half of that.
+        let farthest = if ray.d_err.max_abs() < 0.25 { 2.0 * (reach + away) } else { f64::INFINITY };
+        let rounding = 16.0 * U * (reach + away + 2.0 * farthest);
+        let error = ray.o_err + ray.d_err * farthest + Vec3::new(rounding, rounding, rounding);
+        // What is not a number is no bound.
+        let error = error.map(|e| if e < f64::MAX { e } else { f64::MAX });
+        // A parallel ray passes a border nowhere, or everywhere: `E` decides which.
+        let inverse = ray.d.map(|d| if d == 0.0 { f64::MAX } else { (1.0 / d).clamp(-f64::MAX, f64::MAX) });
+        let slack = Vec3::new(error.x * inverse.x.abs(), error.y * inverse.y.abs(), error.z * inverse.z.abs());
+        Self { ray, bounds, o: ray.o, d: ray.d, inverse, error, slack }
+    }
+
+    /// The range of `s` in which the ray may be in the box and in a range of `t`, if there is one.
+    #[inline(always)]
+    pub(super) fn within(&self, range: (f64, f64)) -> Option<(f64, f64)> {
+        let own = self.ray.window((self.ray.local().t_min, self.ray.local().t_max));
+        let asked = self.ray.window(range);
+        let (mut near, mut far) = (own.0.max(asked.0), own.1.min(asked.1));
+        for axis in 0..3 {
+            let (a, b) = (self.meet(axis, self.bounds.min[axis]), self.meet(axis, self.bounds.max[axis]));
+            near = near.max(a.0.min(b.0));
+            far = far.min(a.1.max(b.1));
+        }
+        (near <= far).then_some((near, far))
+    }
+
+    /// The last `s` that matters for a sink.
+    #[inline(always)]
+    pub(super) fn latest(&self, range: (f64, f64)) -> f64 {
+        self.ray.window(range).1
+    }
+
+    /// Bounds of the parameters at which the ray may be at a coordinate, seen from the centre.
+    #[inline(always)]
+    fn meet(&self, axis: usize, at: f64) -> (f64, f64) {
+        let (s, slack) = ((at - self.o[axis]) * self.inverse[axis], self.slack[axis]);
+        // Infinite minus infinite: no bound.
+        let bound = |x: f64, none: f64| if x.is_nan() { none } else { x };
+        (bound(s - slack, f64::NEG_INFINITY), bound(s + slack, f64::INFINITY))
+    }
+
+    /// The ranges of `s` in the lower and in the upper half of a block along an axis.
+    #[inline(always)]
+    fn halves(&self, axis: usize, border: f64, (near, far): (f64, f64)) -> [(f64, f64); 2] {
+        let (first, last) = self.meet(axis, border);
+        let (before, behind) = ((near, far.min(last)), (near.max(first), far));
+        if self.d[axis] >= 0.0 { [before, behind] } else { [behind, before] }
+    }
+
+    /// Calls `f` with each quarter of a block over which the ray may be: its number, itself, and the
+    /// range of `s`; the farthest first.
+    #[inline(always)]
+    pub(super) fn split(
+        &self,
+        block: Block,
+        span: (f64, f64),
+        cells: [u32; 2],
+        mut f: impl FnMut(usize, Block, (f64, f64)),
+    ) {
+        let half = |axis: usize, number: u32, cells: u32| {
+            let middle = (2 * number + 1) << (block.level - 1);
+            if middle >= cells {
+                // All of the block lies in its lower half.
+                return [span, (f64::INFINITY, f64::NEG_INFINITY)];
+            }
+            let border = f64::from(middle) * (1.0 / f64::from(cells)) - self.ray.centre[axis];
+            self.halves(axis, border, span)
+        };
+        let (x, z) = (half(0, block.i, cells[0]), half(2, block.j, cells[1]));
+        let nearest = usize::from(self.d.x < 0.0) | usize::from(self.d.z < 0.0) << 1;
+        for k in [3, 2, 1, 0] {
+            let k = k ^ nearest;
+            let (x, z) = (x[k & 1], z[k >> 1]);
+            let (near, far) = (x.0.max(z.0), x.1.min(z.1));
+            if near <= far {
+                f(k, block.quarter(k), (near, far));
+            }
+        }
+    }
+
+    /// Whether the ray may be between two heights in a range of `s`.
+    #[inline(always)]
+    pub(super) fn passes(&self, [low, high]: [f64; 2], (near, far): (f64, f64)) -> bool {
+        let at = |s: f64| s.mul_add(self.d.y, self.o.y);
+        let (a, b, centre) = (at(near), at(far), self.ray.centre.y);
+        // What is not a number is everywhere.
+        !(a.min(b) - self.error.y > high - centre || a.max(b) + self.error.y < low - centre)
+    }
+
+    /// Bounds of the coordinate along `axis`, in the sheet's frame, where the ray is at `at` on
+    /// another axis. `None` if there are none.
+    pub(super) fn across(&self, axis: usize, (other, at): (usize, f64)) -> Option<(f64, f64)> {
+        // Not within the box: `S` is that of the place itself.
+        let at = at - self.ray.centre[other];
+        let d = self.d[other];
+        if !(self.ray.d_err[other] <= 0.25 * d.abs() && d != 0.0) {
+            return None;
+        }
+        let s = (at - self.o[other]) / d;
+        let reach = 2.0 * (s.abs() + 1.0);
+        let error = |axis: usize| {
+            let rounding = 16.0 * U * (1.0 + self.o[axis].abs() + 2.0 * reach);
+            self.ray.d_err[axis].mul_add(reach, self.ray.o_err[axis]) + rounding
+        };
+        let slack = error(other) / d.abs();
+        let (a, b) = ((s - slack).mul_add(self.d[axis], self.o[axis]), (s + slack).mul_add(self.d[axis], self.o[axis]));
+        let (low, high) = (a.min(b) - error(axis), a.max(b) + error(axis));
+        let centre = self.ray.centre[axis];
+        (low <= high).then_some((low + centre, high + centre))
+    }
+}
+
+/// Crossings that were found and must wait until none before them can be found any more.
+pub(super) struct Queue {
+    few: ArrayVec<Found, 8>,
+    many: Vec<Found>,
+    /// The least `until`.
+    first: f64,
+    /// The last parameter that was passed on, and the sign there; 0 if there was none.
+    last: f64,
+    sign: i8,
+}
+
+/// A crossing that waits.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found {
+    pub(super) root: Root,
+    /// Crossings at an `s` beyond this come later.
+    until: f64,
+}
+
+impl Queue {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Self { few: ArrayVec::new(), many: Vec::new(), first: f64::INFINITY, last: f64::NEG_INFINITY, sign: 0 }
+    }
+
+    #[inline(always)]
+    pub(super) fn push(&mut self, root: Root, line: &Line<'_>) {
+        let found = Found { root, until: line.latest((root.lo, root.hi)) };
+        self.first = self.first.min(found.until);
+        if self.many.is_empty() {
+            match self.few.try_push(found) {
+                Ok(()) => return,
+                Err(_) => self.many.extend(self.few.drain(..)),
+            }
+        }
+        self.many.push(found);
+    }
+
+    /// Whether a crossing may come before all others from `next` on.
+    #[inline(always)]
+    pub(super) fn may_pour(&self, next: f64) -> bool {
+        self.first < next
+    }
+
+    /// Passes on the crossings that come before all others from `next` on, ascending; `order` puts
+    /// them in turn behind one of a sign.
+    #[inline(always)]
+    pub(super) fn pour<S: Sink + ?Sized>(
+        &mut self,
+        next: f64,
+        sink: &mut S,
+        order: impl FnOnce(&mut [Found], i8),
+    ) -> Flow {
+        let waiting = if self.many.is_empty() { self.few.as_mut_slice() } else { &mut self.many };
+        if waiting.is_empty() {
+            return Flow::Continue;
+        }
+        order(waiting, self.sign);
+        // Of those in turn, as many as come before `next`.
+        let ready = waiting.iter().take_while(|found| found.until < next || next == f64::INFINITY).count();
+        // A crossing is not beyond the upper end of any later one, and not before an earlier one.
+        // Both hold for the exact parameters, so each `t` stays in its bracket.
+        let mut least = f64::INFINITY;
+        for found in waiting.iter_mut().rev() {
+            least = least.min(found.root.hi);
+            found.root.t = found.root.t.min(least);
+        }
+        for found in &mut waiting[..ready] {
+            self.last = self.last.max(found.root.t);
+            found.root.t = self.last;
+            self.sign = found.root.sign;
+            if sink.push(found.root) == Flow::Stop {
+                return Flow::Stop;
+            }
+        }
+        if self.many.is_empty() {
+            self.few.drain(..ready);
+        } else {
+            self.many.drain(..ready);
+        }
+        let left = if self.many.is_empty() { self.few.as_slice() } else { &self.many };
+        self.first = left.iter().fold(f64::INFINITY, |first, found| first.min(found.until));
+        Flow::Continue
+    }
+}
