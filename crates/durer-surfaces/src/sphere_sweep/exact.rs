@@ -5,6 +5,7 @@
 //! positive where the line does not meet the ball, so if it has a root within the run the point is in a
 //! ball; if not, all balls are before the point or all behind it, and one tells which. So brackets
 //! can be made as narrow as f64 numbers are, and two runs be compared.
+#![expect(clippy::needless_range_loop, reason = "several arrays have the same axes and powers")]
 
 use super::SphereSweep;
 use super::line::{RunEnd, Widths};

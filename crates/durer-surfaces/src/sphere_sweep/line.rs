@@ -1,5 +1,6 @@
 //! One piece of a sweep and a line: the runs of balls that the line meets, and where the interval of
 //! each run ends, with proof. In f64 and, by the same code, in double-double.
+#![expect(clippy::needless_range_loop, reason = "several arrays have the same axes and powers")]
 
 use super::SphereSweep;
 use super::spline::Basis;
@@ -514,7 +515,7 @@ impl<T: Word, const K: usize, const M: usize> PieceLine<T, K, M> {
         let scale = widths.scale(self.step + s);
         let most = widths.most * scale;
         let mut half = (widths.half * scale).max(if off.is_finite() { 1.5 * off } else { 0.0 });
-        loop {
+        while half <= most {
             let (within, beyond) = (s - sign * half, s + sign * half);
             let inside = around(within).0[0].sign() == Some(Ordering::Less);
             let outside = match (inside, self.beyond(&around(beyond).0, run, x)) {
@@ -532,10 +533,8 @@ impl<T: Word, const K: usize, const M: usize> PieceLine<T, K, M> {
                 });
             }
             half *= 3.0;
-            if half.partial_cmp(&most) != Some(Ordering::Less) {
-                return Err(None);
-            }
         }
+        Err(None)
     }
 
     /// Whether a polynomial in `z = x' - x` is positive for all balls of a run.
@@ -571,7 +570,7 @@ fn positive<T: Word, const M: usize>(
     if p[0].hi() < 0.0 {
         return Positive::NotAt(0.0);
     }
-    if !(least > 0.0) {
+    if least.partial_cmp(&0.0) != Some(Ordering::Greater) {
         return Positive::Unknown;
     }
     // How fast it may fall to either side, and how fast it surely rises if there is only one.

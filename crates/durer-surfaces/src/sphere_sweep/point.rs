@@ -1,4 +1,5 @@
 //! A point of a sweep's surface, and on which side of it a point is.
+#![expect(clippy::needless_range_loop, reason = "several arrays have the same axes and powers")]
 
 use super::SphereSweep;
 use super::line::Curve;
@@ -238,7 +239,7 @@ impl SphereSweep {
             n
         };
         let back = |x: f64| scale2(x, self.scale);
-        let is_tip = !(bend * off <= 1.0 / 64.0);
+        let is_tip = (bend * off).is_nan() || bend * off > 1.0 / 64.0;
         let mut point = SurfacePoint::new(
             p,
             dp.map(|x| back(x) + f64::MIN_POSITIVE),

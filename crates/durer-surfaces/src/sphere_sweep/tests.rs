@@ -151,7 +151,7 @@ fn check(sweep: &SphereSweep, ray: &Ray, counts: &mut Counts) -> Result<(), Stri
         // Of a span that is shorter than its brackets both ends are outside.
         let holds = roots.iter().filter(|r| r.lo <= root.hi && root.lo <= r.hi).count();
         let thin = root.lo.next_up() >= root.hi || holds > 1;
-        if !(out.is_ge() && within.is_le()) && !thin {
+        if !(thin || out.is_ge() && within.is_le()) {
             return Err(format!("sides {before:?} {after:?} of {root:?}: {}", told()));
         }
         counts.roots += 1;
@@ -185,8 +185,8 @@ fn check(sweep: &SphereSweep, ray: &Ray, counts: &mut Counts) -> Result<(), Stri
             return Err(format!("{point:?}: {}", told()));
         }
         let exact = at(root.t);
-        for k in 0..3 {
-            let away = (&Exact::from(point.p[k]) - &exact[k]).to_f64().abs();
+        for (k, exact) in exact.iter().enumerate() {
+            let away = (&Exact::from(point.p[k]) - exact).to_f64().abs();
             let width = (root.hi - root.lo) * ray.direction[k].abs();
             if away > point.dp[k] + width {
                 return Err(format!("{point:?} is {away} off on axis {k}: {}", told()));

@@ -187,7 +187,7 @@ fn unite_exactly<const K: usize, const M: usize>(
     sweep: &SphereSweep,
     basis: &Basis<K, M>,
     at: &CentredRay<'_>,
-    pieces: &mut Vec<u32>,
+    pieces: &[u32],
     widths: &Widths,
     spans: &mut Vec<Span>,
 ) -> bool {
