@@ -3,9 +3,9 @@
 use crate::{formula, value_error};
 use durer::math::{Affine, Point3, Vec3};
 use durer::scene::{
-    Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, HeightField, Interior, Isosurface, Julia,
-    JuliaAlgebra, JuliaPower, NamedQuadric, Object as SceneObject, Operation, Pigment, Prism, QuadricKind,
-    Reflection, Rgb, Scene, Shape, Spline, Sweep, Terrain, TerrainData, Texture, Warp,
+    Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, HeightField, Interior,
+    Isosurface, Julia, JuliaAlgebra, JuliaPower, NamedQuadric, Object as SceneObject, Operation, Pigment,
+    Prism, QuadricKind, Reflection, Rgb, Scene, Shape, Spline, Sweep, Terrain, TerrainData, Texture, Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;

@@ -52,4 +52,7 @@ pub use durer_surfaces::Spline as Curve;
 pub use durer_surfaces::algebraic::{MAX_ORDER, coefficient_count, place_of};
 pub use durer_surfaces::julia::MOST_ITERATIONS;
 pub use durer_surfaces::terrain::MOST_SAMPLES;
-pub use durer_surfaces::{BlobComponent, BlobShape, FillRule, HeightField, Julia, JuliaAlgebra, JuliaPower, Terrain, TerrainData, Warp, tape};
+pub use durer_surfaces::{
+    BlobComponent, BlobShape, FillRule, HeightField, Julia, JuliaAlgebra, JuliaPower, Terrain, TerrainData,
+    Warp, tape,
+};

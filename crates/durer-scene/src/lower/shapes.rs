@@ -5,9 +5,9 @@ use std::fmt::Display;
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Blob, BlobError, CappedCylinder, CurvedPrism,
-    Cyclide, Disc, FLAT, Frustum, HeightField, Isosurface, JuliaSet, Parallelogram, Plane, Polygon, PolygonError, Prism,
-    Quadric, Region, Sphere, SphericalSector, SurfaceOfRevolution, Torus, Triangle, TriangleError,
-    superellipsoid,
+    Cyclide, Disc, FLAT, Frustum, HeightField, Isosurface, JuliaSet, Parallelogram, Plane, Polygon,
+    PolygonError, Prism, Quadric, Region, Sphere, SphericalSector, SurfaceOfRevolution, Torus, Triangle,
+    TriangleError, superellipsoid,
 };
 
 use durer_surfaces::terrain::{Heights, Sheet};
@@ -202,7 +202,11 @@ fn turned(solid: SurfaceOfRevolution, open: bool, map: Option<&Affine>, target: 
 }
 
 /// Adds a sheet over the unit square; in a solid all that lies under it, and under its water level.
-fn sheet<H: Heights + 'static>(sheet: &Sheet<H>, map: Option<&Affine>, target: &mut Target<'_>) -> Result<()> {
+fn sheet<H: Heights + 'static>(
+    sheet: &Sheet<H>,
+    map: Option<&Affine>,
+    target: &mut Target<'_>,
+) -> Result<()> {
     let solid = sheet.clone().solid();
     target.contain(&solid, map);
     if matches!(target.to, To::Scene(..)) {
