@@ -159,16 +159,26 @@ fn volumes<T: Ring>(v: &Facet, ray: &RingRay<T>, centre: Point3, scale: i32) -> 
 /// `(b1, b2)` of the point where the ray meets the triangle's plane, with bounds.
 #[inline(always)]
 fn barycentric(probe: &Probe<'_>, v: &Facet) -> [EFloat; 2] {
+    barycentric_within(probe, v, planar::TIGHT).unwrap_or_else(|| exact_barycentric(probe, v))
+}
+
+/// The same in f64, if no error is above `tight`.
+#[inline(always)]
+fn barycentric_within(probe: &Probe<'_>, v: &Facet, tight: f64) -> Option<[EFloat; 2]> {
     let filter = EdgeFilter::new(probe);
     let (a, b, c) = (filter.seen(v[0]), filter.seen(v[1]), filter.seen(v[2]));
     let bound = filter.bound(a.max_abs().max(b.max_abs()).max(c.max_abs()));
-    quotients([filter.side(b, c), filter.side(c, a), filter.side(a, b)], bound)
-        .unwrap_or_else(|| exact_barycentric(probe, v))
+    quotients_within([filter.side(b, c), filter.side(c, a), filter.side(a, b)], bound, tight)
 }
 
 /// `V` and `W` over `U + V + W`, where that is tight; each volume errs by at most `bound`.
 #[inline(always)]
-pub(crate) fn quotients([u, v, w]: [f64; 3], bound: f64) -> Option<[EFloat; 2]> {
+pub(crate) fn quotients(values: [f64; 3], bound: f64) -> Option<[EFloat; 2]> {
+    quotients_within(values, bound, planar::TIGHT)
+}
+
+#[inline(always)]
+fn quotients_within([u, v, w]: [f64; 3], bound: f64, tight: f64) -> Option<[EFloat; 2]> {
     let sum = u + v + w;
     // Two roundings in the sum.
     let rounding = 3.0 * U * (u.abs() + v.abs() + w.abs());
@@ -181,7 +191,7 @@ pub(crate) fn quotients([u, v, w]: [f64; 3], bound: f64) -> Option<[EFloat; 2]> 
         )
     };
     let b = [quotient(v), quotient(w)];
-    (least > 0.0 && b.iter().all(|b| b.e <= planar::TIGHT)).then_some(b)
+    (least > 0.0 && b.iter().all(|b| b.e <= tight)).then_some(b)
 }
 
 #[cold]
@@ -245,7 +255,22 @@ pub(crate) fn unit_normal(v: &Facet) -> Normal3 {
 /// Position, errors, normals, texture coordinates and derivatives where the ray meets the triangle.
 #[inline(always)]
 pub(crate) fn resolve(probe: &Probe<'_>, v: &Facet, varying: &Varying, need: Need) -> SurfacePoint {
-    let b = barycentric(probe, v);
+    resolve_from(barycentric(probe, v), v, varying, need)
+}
+
+/// [`resolve`] for a triangle that is small beside its distance from the origin: coordinates in it
+/// are refined only if their error moves the point by more than a few hundred roundings of its
+/// position.
+#[inline(always)]
+pub(crate) fn resolve_far(probe: &Probe<'_>, v: &Facet, varying: &Varying, need: Need) -> SurfacePoint {
+    let edge = (v[1] - v[0]).max_abs().max((v[2] - v[0]).max_abs());
+    let tight = planar::TIGHT * (v[0].to_vec().max_abs() / edge).clamp(1.0, 1e6);
+    let quick = barycentric_within(probe, v, tight);
+    resolve_from(quick.unwrap_or_else(|| exact_barycentric(probe, v)), v, varying, need)
+}
+
+#[inline(always)]
+fn resolve_from(b: [EFloat; 2], v: &Facet, varying: &Varying, need: Need) -> SurfacePoint {
     let (e1, e2) = (v[1] - v[0], v[2] - v[0]);
     let mut point = settle(v[0], [e1, e2], b, unit_normal(v));
     vary(&mut point, v, varying, b.map(|b| b.v.clamp(0.0, 1.0)), need);

@@ -191,15 +191,20 @@ fn is_other_format(word: Keyword) -> bool {
 }
 
 fn unread(at: Place, format: &str) -> Box<Error> {
-    let text = format!("not supported yet: a picture of type {format}: durer reads png, tga, gif, bmp, jpeg, pgm and ppm");
+    let text = format!(
+        "not supported yet: a picture of type {format}: durer reads png, tga, gif, bmp, jpeg, pgm and ppm"
+    );
     Error::at(at, ErrorKind::Unsupported, text)
 }
 
 /// What is wrong with a picture's size.
 fn check_size([columns, rows]: [usize; 2]) -> Option<String> {
     let fits = |n: usize| (2..=MOST_SAMPLES).contains(&n);
-    (!fits(columns) || !fits(rows) || columns * rows > 1 << 30)
-        .then(|| format!("has {columns} x {rows} samples: from 2 x 2 to {MOST_SAMPLES} a side and 2^30 in all are read"))
+    (!fits(columns) || !fits(rows) || columns * rows > 1 << 30).then(|| {
+        format!(
+            "has {columns} x {rows} samples: from 2 x 2 to {MOST_SAMPLES} a side and 2^30 in all are read"
+        )
+    })
 }
 
 /// What a field of so many samples takes, its bounds included.

@@ -38,7 +38,11 @@ pub(super) fn png(bytes: &[u8], may_hold: MayHold<'_>) -> Result<Picture> {
             let most = (1_u8 << bits) - 1;
             words.extend((0..columns).map(|n| {
                 let value = row[n * bits / 8] >> (8 - bits - n * bits % 8) & most;
-                if colour == ColorType::Indexed { of_index(value) } else { of_grey(value.into(), most.into()) }
+                if colour == ColorType::Indexed {
+                    of_index(value)
+                } else {
+                    of_grey(value.into(), most.into())
+                }
             }));
         }
         (ColorType::Indexed, _) => words.extend(row.iter().map(|&index| of_index(index))),
@@ -102,7 +106,8 @@ pub(super) fn jpeg(bytes: &[u8], may_hold: MayHold<'_>) -> Result<Picture> {
     use zune_jpeg::zune_core::bytestream::ZCursor;
     use zune_jpeg::zune_core::colorspace::ColorSpace;
     use zune_jpeg::zune_core::options::DecoderOptions;
-    let options = DecoderOptions::default().set_strict_mode(true).set_max_width(65_535).set_max_height(65_535);
+    let options =
+        DecoderOptions::default().set_strict_mode(true).set_max_width(65_535).set_max_height(65_535);
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
     if let Err(error) = decoder.decode_headers() {
         return broken(error);

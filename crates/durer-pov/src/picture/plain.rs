@@ -129,7 +129,9 @@ pub(super) fn tga(bytes: &[u8], may_hold: MayHold<'_>) -> Result<Picture> {
         (3, 8) => Pixels::Grey,
         (2, 15 | 16) => Pixels::Fives,
         (2, 24 | 32) => Pixels::Colour,
-        _ => return fault(format!("is not a TGA file that is understood: type {kind}, {depth} bits a pixel")),
+        _ => {
+            return fault(format!("is not a TGA file that is understood: type {kind}, {depth} bits a pixel"));
+        }
     };
     if kind & !11 != 0 {
         return fault(format!("is not a TGA file that is understood: type {kind}"));

@@ -35,7 +35,10 @@ fn pgm_and_ppm_in_text_and_in_bytes() {
     assert_eq!(words(b"P5 2 1 65535\n\x12\x34\xff\xff", Format::Pnm), [0x1234, 65535]);
     assert_eq!(words(b"P3 1 2 255 1 2 3 4 5 6", Format::Pnm), [0x0102, 0x0405]);
     assert_eq!(words(b"P6 1 1 255\n\x07\x08\x09", Format::Pnm), [0x0708]);
-    assert_eq!(refused(b"P5 2 2 255\n\x00", Format::Pnm), "ends too early: its pixels take 4 bytes, and 1 are there");
+    assert_eq!(
+        refused(b"P5 2 2 255\n\x00", Format::Pnm),
+        "ends too early: its pixels take 4 bytes, and 1 are there"
+    );
     assert_eq!(refused(b"P2 2 2 255 1 2", Format::Pnm), "ends too early: of 4 pixels 2 are there");
     assert_eq!(refused(b"P2 2", Format::Pnm), "has no height in its header");
     assert_eq!(refused(b"GIF89a", Format::Pnm), "is not a PGM or PPM file");

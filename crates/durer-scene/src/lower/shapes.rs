@@ -210,7 +210,11 @@ fn turned(solid: SurfaceOfRevolution, open: bool, map: Option<&Affine>, target: 
 }
 
 /// Adds a sheet over the unit square; in a solid all that lies under it, and under its water level.
-fn sheet<H: Heights + 'static>(sheet: &Sheet<H>, map: Option<&Affine>, target: &mut Target<'_>) -> Result<()> {
+fn sheet<H: Heights + 'static>(
+    sheet: &Sheet<H>,
+    map: Option<&Affine>,
+    target: &mut Target<'_>,
+) -> Result<()> {
     let solid = sheet.clone().solid();
     target.contain(&solid, map);
     if matches!(target.to, To::Scene(..)) {

@@ -9,9 +9,9 @@
 //!        ▼      ▼           each other: so the solid has no gap.
 //! ```
 
+use super::Sheet;
 use super::heights::{Heights, at};
 use super::walk::{Found, Line, Queue};
-use super::Sheet;
 use crate::edges::{self, EdgeFilter};
 use crate::facet::{self, Facet};
 use crate::planar::{self, AlongRay, Line as _, PlaneForm, PointLine, Probe, ThreePoints};
@@ -180,10 +180,7 @@ impl<H: Heights> Sheet<H> {
         }
         for n in 1..found.len() {
             let (here, next) = (found[n - 1].root, found[n].root);
-            if here.sign != next.sign
-                && here.hi >= next.lo
-                && self.exact_order(ray, &here, &next).is_eq()
-            {
+            if here.sign != next.sign && here.hi >= next.lo && self.exact_order(ray, &here, &next).is_eq() {
                 if before == 0 {
                     before = if self.starts_inside(ray) { -1 } else { 1 };
                 }
@@ -237,13 +234,15 @@ impl<H: Heights> Sheet<H> {
     pub(super) fn column_side(&self, point: &LocalPoint<'_>) -> Side {
         let [columns, rows] = self.heights().cells();
         let exact = point.in_ring::<Dyadic>();
-        let ([x, y, z], w) = exact.unwrap_or_else(|| (point.p.to_array().map(Dyadic::exact), Dyadic::exact(1.0)));
+        let ([x, y, z], w) =
+            exact.unwrap_or_else(|| (point.p.to_array().map(Dyadic::exact), Dyadic::exact(1.0)));
         let from = |x: &Dyadic, at: f64| (x.clone() - Dyadic::exact(at) * w.clone()).exact_sign();
         let ends = [from(&x, 0.0), from(&x, 1.0).reverse(), from(&z, 0.0), from(&z, 1.0).reverse()];
         if ends.contains(&Ordering::Less) {
             return Side::Out;
         }
-        let (i, j) = (cell_of(point.p.x, columns, |at| from(&x, at)), cell_of(point.p.z, rows, |at| from(&z, at)));
+        let (i, j) =
+            (cell_of(point.p.x, columns, |at| from(&x, at)), cell_of(point.p.z, rows, |at| from(&z, at)));
         let (x1, z0) = (at(i + 1, columns), at(j, rows));
         // On which side of the diagonal from p10 to p01? Of (x - x1)(z1 - z0) + (z - z0)(x1 - x0) the
         // sign, that is: at p00 it is negative.

@@ -173,10 +173,8 @@ impl<H: Heights> Sheet<H> {
     #[inline(always)]
     fn is_dry(&self, ray: &LocalRay<'_>, facet: &Facet) -> bool {
         let level = self.water_level;
-        let (low, high) = (
-            facet[0].y.min(facet[1].y).min(facet[2].y),
-            facet[0].y.max(facet[1].y).max(facet[2].y),
-        );
+        let (low, high) =
+            (facet[0].y.min(facet[1].y).min(facet[2].y), facet[0].y.max(facet[1].y).max(facet[2].y));
         if self.is_solid || low >= level {
             return true;
         }
@@ -275,7 +273,7 @@ impl<H: Heights> Sheet<H> {
         for x in [east, west].into_iter().flatten() {
             for z in [north, south].into_iter().flatten() {
                 let n = Vec3::new(-x, 1.0, -z);
-                sum = sum + n / n.length();
+                sum += n / n.length();
             }
         }
         let n = Vec3::new(sum.x * f64::from(columns), sum.y * UNITS, sum.z * f64::from(rows));
@@ -346,12 +344,18 @@ impl<H: Heights> Surface for Sheet<H> {
                 continue;
             }
             let quarters = self.heights.quarters(block, data);
-            line.split(block, span, cells, |k, part, span| {
-                let range = self.heights.range(part, quarters[k]);
-                if range[1] >= lowest && line.passes(range, span) {
-                    stack.push(Entry { block: part, data: quarters[k], span });
-                }
-            });
+            line.split(
+                block,
+                span,
+                cells,
+                #[inline(always)]
+                |k, part, span| {
+                    let range = self.heights.range(part, quarters[k]);
+                    if range[1] >= lowest && line.passes(range, span) {
+                        stack.push(Entry { block: part, data: quarters[k], span });
+                    }
+                },
+            );
         }
         let _: Flow = self.pour(f64::INFINITY, ray, &mut queue, sink);
     }
@@ -362,7 +366,7 @@ impl<H: Heights> Surface for Sheet<H> {
         let varies = need.contains(Need::SHADING_NORMAL) || need.contains(Need::DERIVATIVES);
         let normals = (self.is_smooth && varies).then(|| self.corner_normals(root.face));
         let uv = facet.map(|p| [p.x, p.z]);
-        facet::resolve(&Self::probe(ray, &facet), &facet, &Varying { normals, uv: Some(uv) }, need)
+        facet::resolve_far(&Self::probe(ray, &facet), &facet, &Varying { normals, uv: Some(uv) }, need)
     }
 
     fn solidity(&self) -> Solidity {

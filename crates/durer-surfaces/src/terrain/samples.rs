@@ -1,7 +1,7 @@
 //! Height fields: heights from a table.
 
-use super::heights::{Block, Heights};
 use super::Sheet;
+use super::heights::{Block, Heights};
 use std::sync::Arc;
 
 /// A height field: a sheet over the unit square through heights on a grid.
@@ -54,7 +54,9 @@ pub enum HeightFieldError {
     },
     /// A height is infinite, NaN, or so large that a step along the sheet could leave the range of
     /// f64.
-    #[error("height field: the height in column {column} of row {row} must be finite, below 1e300, got {value}")]
+    #[error(
+        "height field: the height in column {column} of row {row} must be finite, below 1e300, got {value}"
+    )]
     Height {
         /// The column, from 0.
         column: usize,
@@ -77,7 +79,10 @@ pub struct Samples {
 
 impl core::fmt::Debug for Samples {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.debug_struct("Samples").field("columns", &self.columns).field("rows", &self.rows).finish_non_exhaustive()
+        f.debug_struct("Samples")
+            .field("columns", &self.columns)
+            .field("rows", &self.rows)
+            .finish_non_exhaustive()
     }
 }
 
@@ -170,7 +175,12 @@ impl Samples {
     }
 
     /// Bounds of blocks of two by two cells: three by three heights.
-    fn lowest<T: Copy>(&self, halves: [u32; 2], table: &[T], outward: impl Fn(T) -> [f32; 2]) -> Box<[[f32; 2]]> {
+    fn lowest<T: Copy>(
+        &self,
+        halves: [u32; 2],
+        table: &[T],
+        outward: impl Fn(T) -> [f32; 2],
+    ) -> Box<[[f32; 2]]> {
         let width = self.columns as usize + 1;
         let mut bounds = Vec::with_capacity(halves[0] as usize * halves[1] as usize);
         // Of three rows, column by column.

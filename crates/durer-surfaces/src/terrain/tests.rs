@@ -70,7 +70,8 @@ impl Facets {
             let normal = Self::normal(facet);
             let slope = Self::dot(&normal, &line.d);
             let height = Self::dot(&normal, a);
-            let (n, d) = if slope.sign().is_lt() { (-height, -slope.clone()) } else { (height, slope.clone()) };
+            let (n, d) =
+                if slope.sign().is_lt() { (-height, -slope.clone()) } else { (height, slope.clone()) };
             if !self.is_solid && self.water_level.is_finite() {
                 let level = Exact::from(self.water_level);
                 let over = &(&(&line.o[1] * &d) + &(&line.d[1] * &n)) - &(&level * &d);
@@ -100,7 +101,8 @@ impl Facets {
                 }
                 continue;
             }
-            let (n, d) = if slope.sign().is_lt() { (-height, -slope.clone()) } else { (height, slope.clone()) };
+            let (n, d) =
+                if slope.sign().is_lt() { (-height, -slope.clone()) } else { (height, slope.clone()) };
             let p = [0, 1, 2].map(|i| &(&line.o[i] * &d) + &(&line.d[i] * &n));
             let far = &p[2 - axis] - &d;
             match (p[2 - axis].sign(), far.sign()) {
@@ -305,7 +307,10 @@ fn same_as_mesh<H: Heights>(sheet: &Sheet<H>, seed: u64) -> (usize, usize) {
         let back = dice.pick(&[3.0, 1e3, 1e6]) / direction.max_abs();
         let moved = Ray::new(target - direction * back, direction);
         if moved.is_valid() {
-            let (a, b) = (all_roots(&Placed::new(sheet.clone(), map), &moved), all_roots(&Placed::new(mesh.clone(), map), &moved));
+            let (a, b) = (
+                all_roots(&Placed::new(sheet.clone(), map), &moved),
+                all_roots(&Placed::new(mesh.clone(), map), &moved),
+            );
             assert_eq!(by_face(&a), by_face(&b), "{moved:?} {map:?} {i} {sheet:?}");
             hits += a.len();
         }
@@ -416,7 +421,8 @@ fn terrain_is_bounded_and_its_own_at_every_point() {
     let terrain = Terrain::new(TerrainData { levels: 6, seed: 11, ..TerrainData::default() }).unwrap();
     let heights = terrain.heights();
     fn below(heights: &Midpoints, block: Block, data: [f64; 4]) {
-        let corner = |i: u32, j: u32| heights.height((block.i + i) << block.level, (block.j + j) << block.level);
+        let corner =
+            |i: u32, j: u32| heights.height((block.i + i) << block.level, (block.j + j) << block.level);
         assert_eq!(data, [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)], "{block:?}");
         let [low, high] = heights.range(block, data);
         for i in block.i << block.level..=(block.i + 1) << block.level {
@@ -438,7 +444,8 @@ fn terrain_is_bounded_and_its_own_at_every_point() {
 /// The recipe as it is written down, over the whole grid.
 #[test]
 fn terrain_follows_its_recipe_to_the_bit() {
-    let data = TerrainData { levels: 4, roughness: 0.7, amplitude: 0.3, seed: 42, corners: [0.1, 0.2, -0.3, 0.4] };
+    let data =
+        TerrainData { levels: 4, roughness: 0.7, amplitude: 0.3, seed: 42, corners: [0.1, 0.2, -0.3, 0.4] };
     let terrain = Terrain::new(data).unwrap();
     let n = 1_usize << data.levels;
     let mut h = vec![vec![0.0_f64; n + 1]; n + 1];

@@ -62,7 +62,8 @@ impl<'a> Line<'a> {
         let error = error.map(|e| if e < f64::MAX { e } else { f64::MAX });
         // A parallel ray passes a border nowhere, or everywhere: `E` decides which.
         let inverse = ray.d.map(|d| if d == 0.0 { f64::MAX } else { (1.0 / d).clamp(-f64::MAX, f64::MAX) });
-        let slack = Vec3::new(error.x * inverse.x.abs(), error.y * inverse.y.abs(), error.z * inverse.z.abs());
+        let slack =
+            Vec3::new(error.x * inverse.x.abs(), error.y * inverse.y.abs(), error.z * inverse.z.abs());
         Self { ray, bounds, o: ray.o, d: ray.d, inverse, error, slack }
     }
 
@@ -95,9 +96,15 @@ impl<'a> Line<'a> {
         (bound(s - slack, f64::NEG_INFINITY), bound(s + slack, f64::INFINITY))
     }
 
-    /// The ranges of `s` in the lower and in the upper half of a block along an axis.
+    /// The ranges of `s` on both sides of the middle of a block along an axis, which is the border of
+    /// a cell.
     #[inline(always)]
-    fn halves(&self, axis: usize, border: f64, (near, far): (f64, f64)) -> [(f64, f64); 2] {
+    fn halves(&self, axis: usize, middle: u32, cells: u32, (near, far): (f64, f64)) -> [(f64, f64); 2] {
+        if middle >= cells {
+            // All of the block lies in its lower half.
+            return [(near, far), (f64::INFINITY, f64::NEG_INFINITY)];
+        }
+        let border = f64::from(middle) * (1.0 / f64::from(cells)) - self.ray.centre[axis];
         let (first, last) = self.meet(axis, border);
         let (before, behind) = ((near, far.min(last)), (near.max(first), far));
         if self.d[axis] >= 0.0 { [before, behind] } else { [behind, before] }
@@ -113,16 +120,9 @@ impl<'a> Line<'a> {
         cells: [u32; 2],
         mut f: impl FnMut(usize, Block, (f64, f64)),
     ) {
-        let half = |axis: usize, number: u32, cells: u32| {
-            let middle = (2 * number + 1) << (block.level - 1);
-            if middle >= cells {
-                // All of the block lies in its lower half.
-                return [span, (f64::INFINITY, f64::NEG_INFINITY)];
-            }
-            let border = f64::from(middle) * (1.0 / f64::from(cells)) - self.ray.centre[axis];
-            self.halves(axis, border, span)
-        };
-        let (x, z) = (half(0, block.i, cells[0]), half(2, block.j, cells[1]));
+        let half = block.level - 1;
+        let x = self.halves(0, (2 * block.i + 1) << half, cells[0], span);
+        let z = self.halves(2, (2 * block.j + 1) << half, cells[1], span);
         let nearest = usize::from(self.d.x < 0.0) | usize::from(self.d.z < 0.0) << 1;
         for k in [3, 2, 1, 0] {
             let k = k ^ nearest;
@@ -159,7 +159,10 @@ impl<'a> Line<'a> {
             self.ray.d_err[axis].mul_add(reach, self.ray.o_err[axis]) + rounding
         };
         let slack = error(other) / d.abs();
-        let (a, b) = ((s - slack).mul_add(self.d[axis], self.o[axis]), (s + slack).mul_add(self.d[axis], self.o[axis]));
+        let (a, b) = (
+            (s - slack).mul_add(self.d[axis], self.o[axis]),
+            (s + slack).mul_add(self.d[axis], self.o[axis]),
+        );
         let (low, high) = (a.min(b) - error(axis), a.max(b) + error(axis));
         let centre = self.ray.centre[axis];
         (low <= high).then_some((low + centre, high + centre))
@@ -188,7 +191,13 @@ pub(super) struct Found {
 impl Queue {
     #[inline(always)]
     pub(super) fn new() -> Self {
-        Self { few: ArrayVec::new(), many: Vec::new(), first: f64::INFINITY, last: f64::NEG_INFINITY, sign: 0 }
+        Self {
+            few: ArrayVec::new(),
+            many: Vec::new(),
+            first: f64::INFINITY,
+            last: f64::NEG_INFINITY,
+            sign: 0,
+        }
     }
 
     #[inline(always)]
@@ -241,7 +250,9 @@ impl Queue {
                 return Flow::Stop;
             }
         }
-        if self.many.is_empty() {
+        if self.many.is_empty() && ready == self.few.len() {
+            self.few.clear();
+        } else if self.many.is_empty() {
             self.few.drain(..ready);
         } else {
             self.many.drain(..ready);
