@@ -153,7 +153,7 @@ impl Pass<'_, '_> {
     }
 
     /// The order of two crossings along the ray; equal if they are at one point, or nearer to each
-    /// other than `2^-250`, or if the ray is not exactly known.
+    /// other than `2^-200`, or if the ray is not exactly known.
     #[cold]
     #[inline(never)]
     pub(super) fn order(&self, a: &Crossed, b: &Crossed) -> Ordering {
@@ -164,7 +164,9 @@ impl Pass<'_, '_> {
         let (Some(mut a), Some(mut b)) = (self.exact(a, &ray), self.exact(b, &ray)) else {
             return Ordering::Equal;
         };
-        for bits in [80, 250] {
+        // The height of a ray that is almost level hardly changes between two crossings.
+        let steep = ray.d[1].exponent().map_or(0, |e| i32::try_from(-e).unwrap_or(0).clamp(0, 2200));
+        for bits in [80, 250 + steep] {
             let ((a_lo, a_hi), (b_lo, b_hi)) = (a.key(bits), b.key(bits));
             if a_hi < b_lo {
                 return Ordering::Less;
@@ -203,7 +205,7 @@ impl Pass<'_, '_> {
         let ray = self.probe.exact()?;
         let mut exact = self.exact(crossed, &ray)?;
         let mut best = None;
-        for bits in [120, 240, 480, 960] {
+        for bits in [120, 240, 480, 960, 1920, 3840] {
             let (s, lo, hi) = match self.equation {
                 Equation::Slanted => {
                     let above = exact.above();

@@ -146,7 +146,7 @@ fn obey(profiles: Vec<(LatheSpline, Vec<[f64; 2]>)>, solid: bool, count: u64) {
     widths.sort_by(f64::total_cmp);
     let median = widths[widths.len() / 2];
     assert!(
-        rays > 5 * count && roots > 5 * count as usize && median < 100.0,
+        rays > 4 * count && roots > 4 * count as usize && median < 100.0,
         "{rays} {roots} {clear} {median}"
     );
     assert!(!solid || clear > count, "{clear}");
