@@ -3,9 +3,9 @@
 use crate::{formula, value_error};
 use durer::math::{Affine, Point3, Vec3};
 use durer::scene::{
-    Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, Ifs, IfsLeaf, Interior, Isosurface, Julia,
-    JuliaAlgebra, JuliaPower, NamedQuadric, Object as SceneObject, Operation, Pigment, Prism, QuadricKind,
-    Reflection, Rgb, Scene, Shape, Spline, Sweep, Texture, Warp,
+    Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, Ifs, IfsLeaf, Interior,
+    Isosurface, Julia, JuliaAlgebra, JuliaPower, NamedQuadric, Object as SceneObject, Operation, Pigment,
+    Prism, QuadricKind, Reflection, Rgb, Scene, Shape, Spline, Sweep, Texture, Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -206,13 +206,7 @@ fn julia(
 
 /// A leaf (its kind, its points, its radius) under all products of `depth` maps.
 #[pyfunction]
-fn ifs(
-    kind: &str,
-    points: Vec<V3>,
-    radius: f64,
-    maps: Vec<[[f64; 4]; 3]>,
-    depth: u32,
-) -> PyResult<Object> {
+fn ifs(kind: &str, points: Vec<V3>, radius: f64, maps: Vec<[[f64; 4]; 3]>, depth: u32) -> PyResult<Object> {
     let leaf = match (kind, &points[..]) {
         ("box", &[a, b]) => IfsLeaf::Box(point(a), point(b)),
         ("sphere", &[centre]) => IfsLeaf::Sphere(point(centre), radius),

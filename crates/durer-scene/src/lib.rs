@@ -50,6 +50,6 @@ pub use crate::shape::{
 pub use crate::texture::{Fields, Layer, Pigment, PigmentBody, Texture, TextureBody};
 pub use durer_surfaces::Spline as Curve;
 pub use durer_surfaces::algebraic::{MAX_ORDER, coefficient_count, place_of};
-pub use durer_surfaces::julia::MOST_ITERATIONS;
 pub use durer_surfaces::ifs::{Ifs, IfsError, IfsLeaf, MOST_LEVELS};
+pub use durer_surfaces::julia::MOST_ITERATIONS;
 pub use durer_surfaces::{BlobComponent, BlobShape, FillRule, Julia, JuliaAlgebra, JuliaPower, Warp, tape};

@@ -115,7 +115,10 @@ pub(super) fn node_bounds(leaf: Aabb, maps: &[Affine], depth: u32) -> Vec<Aabb> 
 pub(super) fn seen_from(b: &Aabb, centre: Point3, scale: i32) -> Aabb {
     let unit = |x: f64| scale2(x, -scale);
     let tiny = super::frame::TINY;
-    let low = |i: usize| add_down(unit(sub_down(b.min[i], centre[i])), if b.min[i] == centre[i] { 0.0 } else { -tiny });
-    let high = |i: usize| add_up(unit(sub_up(b.max[i], centre[i])), if b.max[i] == centre[i] { 0.0 } else { tiny });
+    let low = |i: usize| {
+        add_down(unit(sub_down(b.min[i], centre[i])), if b.min[i] == centre[i] { 0.0 } else { -tiny })
+    };
+    let high =
+        |i: usize| add_up(unit(sub_up(b.max[i], centre[i])), if b.max[i] == centre[i] { 0.0 } else { tiny });
     Aabb::new(Point3::new(low(0), low(1), low(2)), Point3::new(high(0), high(1), high(2)))
 }

@@ -71,7 +71,13 @@ impl Inverse {
 
     /// `rows v + shift`: three products and their sums.
     #[inline(always)]
-    fn apply(&self, v: &[f64; 3], v_err: &[f64; 3], shift: &[f64; 3], shift_err: &[f64; 3]) -> ([f64; 3], [f64; 3]) {
+    fn apply(
+        &self,
+        v: &[f64; 3],
+        v_err: &[f64; 3],
+        shift: &[f64; 3],
+        shift_err: &[f64; 3],
+    ) -> ([f64; 3], [f64; 3]) {
         let (mut x, mut e) = ([0.0; 3], [0.0; 3]);
         for i in 0..3 {
             let (r, re) = (&self.rows[i], &self.rows_err[i]);

@@ -77,7 +77,12 @@ impl System {
     }
 
     /// The point, and a direction of the set's own frame, in the frame of a copy.
-    fn point_in_ring<T: Ring>(&self, point: &LocalPoint<'_>, letters: &[usize], d: [T; 3]) -> Option<RingRay<T>> {
+    fn point_in_ring<T: Ring>(
+        &self,
+        point: &LocalPoint<'_>,
+        letters: &[usize],
+        d: [T; 3],
+    ) -> Option<RingRay<T>> {
         let (p, w) = point.in_ring::<T>()?;
         let c = self.centre.to_array();
         let mut i = 0;
