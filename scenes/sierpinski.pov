@@ -1,11 +1,21 @@
 // Sierpinski tetrahedron
 //
-// Equation: A_N = ∪ (A_(N−1) + v) / 2,  v the four corners
+// Equation: A_N = ∪ (A_(N−1) + v) / 2,  v one of four corners
 //
-// W. Sierpinski's triangle (1915) in space: half of the volume is left at each of seven steps, all of the surface's area always (`ifs { sierpinski 7 }`). In front
-// the same maps with balls and boxes for leaves.
+// W. Sierpinski's triangle (1915) in space (`ifs { sierpinski 7 }`): each step keeps half of the volume and all of the surface's area. Its 16 384 tetrahedra
+// touch at corners only, which rays pass in one point. To the left, the maps of a sponge with balls for leaves.
 
 #include "stage.inc"
-#declare Upright = transform { rotate x*-45 rotate z*-35.2643896827547 rotate z*90 }
-#declare Half = transform { scale 0.5 }
-ifs { sierpinski 7 transform { Upright } scale 1.1 rotate y*20 translate <0, 0.37, 0.5> texture { Clay } }
+ifs {
+  sierpinski 7
+  matrix <0.4082482904638631, 0.5773502691896258, 0.7071067811865475, 0.4082482904638631, 0.5773502691896258, -0.7071067811865475,
+          -0.8164965809277261, 0.5773502691896258, 0, 0, 0, 0>
+  rotate y*10 translate <0.25, 0.578, 0.6> texture { Clay }
+}
+ifs {
+  sphere { 0, 1 }
+  map { scale 1/3 translate x*2/3 } map { scale 1/3 translate -x*2/3 } map { scale 1/3 translate y*2/3 }
+  map { scale 1/3 translate -y*2/3 } map { scale 1/3 translate z*2/3 } map { scale 1/3 translate -z*2/3 } map { scale 1/3 }
+  depth 3
+  rotate y*25 scale 0.5 translate <-1.25, 0.5, -0.7> texture { Slate }
+}
