@@ -15,6 +15,6 @@
   depth 18
   texture { Moss }
 }
-object { Fern scale 0.26 rotate <-8, 15, 8> translate <-0.1, 0, 0.5> }
+object { Fern scale 0.24 rotate <-8, 15, 8> translate <-0.1, 0, 0.5> }
 object { Fern scale 0.2 rotate <10, 60, 30> translate <-0.2, 0, 0.35> }
 object { Fern scale 0.2 rotate <-20, -30, -25> translate <0.05, 0, 0.35> }

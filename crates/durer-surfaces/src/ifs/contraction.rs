@@ -54,9 +54,9 @@ pub(super) fn singular_value(map: &Affine) -> f64 {
             for row in &mut a {
                 (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
             }
-            for k in 0..3 {
-                (a[p][k], a[q][k]) = (c * a[p][k] - s * a[q][k], s * a[p][k] + c * a[q][k]);
-            }
+            let (first, second) = (a[p], a[q]);
+            a[p] = [0, 1, 2].map(|k| c * first[k] - s * second[k]);
+            a[q] = [0, 1, 2].map(|k| s * first[k] + c * second[k]);
         }
     }
     scale2(a[0][0].max(a[1][1]).max(a[2][2]).sqrt(), k)

@@ -74,7 +74,7 @@ fn sign_of_one(a: &Dyadic, b: &Dyadic, d: &Dyadic) -> Ordering {
     if first == Equal {
         return second;
     }
-    match (&(a * a)).cmp(&(&(b * b) * d)) {
+    match (a * a).cmp(&(&(b * b) * d)) {
         Greater => first,
         Less => second,
         Equal => Equal,
