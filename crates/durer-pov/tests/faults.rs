@@ -230,6 +230,33 @@ fn turned_solids_say_what_is_wrong_with_them() {
 }
 
 #[test]
+fn iterated_function_systems_say_what_is_wrong_with_them() {
+    assert!(fault("ifs { box { -1, 1 } depth 3 }").2.contains("has no map"));
+    let wide = "ifs { box { -1, 1 } map { scale 0.5 } map { rotate y*20 scale <0.5, 1.25, 0.5> } depth 3 }";
+    let (line, column, text) = fault(wide);
+    assert!(
+        line == 1 && column == 39 && text.contains("map 2") && text.contains("it is 1.25"),
+        "{column} {text}"
+    );
+    assert!(fault("ifs { menger 40 }").2.contains("from 0 to 20, not 40"));
+    assert!(fault("ifs { sierpinski 2.5 }").2.contains("from 0 to 20, not 2.5"));
+    assert!(fault("ifs { box { -1, <1, -1, 1> } map { scale 0.5 } depth 2 }").2.contains("both have y = -1"));
+    assert!(fault("ifs { sphere { 0, 0 } map { scale 0.5 } depth 2 }").2.contains("positive, got 0"));
+    assert!(
+        fault("ifs { tetrahedron { 0, x, y, x + y } map { scale 0.5 } depth 2 }").2.contains("one plane")
+    );
+    assert!(
+        fault("ifs { cone { 0, 1, y, 0 } map { scale 0.5 } depth 2 }")
+            .2
+            .contains("box, sphere or tetrahedron")
+    );
+    assert!(fault("ifs { box { -1, 1 } map { scale 0.5 } }").2.contains("`depth 0` to `depth 20`"));
+    assert!(
+        fault("deform { ifs { menger 2 } twist { y, 90, from 0 to 1 } }").2.contains("an ifs has no formula")
+    );
+}
+
+#[test]
 fn polynomials_say_what_is_wrong_with_their_numbers() {
     assert!(fault("poly { 40, <1, 2> }").2.contains("from 2 to 16, not 40"));
     assert!(fault("poly { 2.5, <1, 2> }").2.contains("from 2 to 16"));

@@ -3,9 +3,10 @@
 use crate::{formula, value_error};
 use durer::math::{Affine, Point3, Vec3};
 use durer::scene::{
-    Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, Ifs, IfsLeaf, Interior,
-    Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, Object as SceneObject, Operation,
-    Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Shape, Spline, Sweep, SweepSpline, Texture, Warp, HeightField, Terrain, TerrainData,
+    Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, HeightField, Ifs, IfsLeaf,
+    Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, Object as SceneObject,
+    Operation, Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Shape, Spline, Sweep, SweepSpline,
+    Terrain, TerrainData, Texture, Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -257,6 +258,8 @@ fn menger(depth: u32) -> PyResult<Object> {
 #[pyfunction]
 fn sierpinski(depth: u32) -> PyResult<Object> {
     checked(Shape::Ifs(Ifs::sierpinski(depth).map_err(|error| value_error(error.to_string()))?))
+}
+
 /// A sheet over the unit square: columns, rows, and heights by rows, that at z = 1 first.
 #[pyfunction]
 fn height_field(

@@ -5,7 +5,10 @@ use std::sync::Arc;
 use durer_math::{Point3, Vec3};
 
 use crate::tape::Formula;
-use crate::{BlobComponent, FillRule, Ifs, Julia, LatheSpline, Object, SweepSpline, Texture, Warp, HeightField, Terrain};
+use crate::{
+    BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, Object, SweepSpline, Terrain, Texture,
+    Warp,
+};
 
 /// A surface in its object's own frame, not yet checked: lowering builds it and names what is
 /// wrong.

@@ -39,7 +39,8 @@ pub(crate) enum Word {
     Lemon,
     Deform,
     Cyclide,
-    Ifs, Terrain,
+    Ifs,
+    Terrain,
 }
 
 impl Word {

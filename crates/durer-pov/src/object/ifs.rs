@@ -52,7 +52,8 @@ impl Parser<'_> {
             return Err(Error::invalid(place, "this ifs has no map: say at least one `map { TRANSFORM }`"));
         }
         let Some(depth) = depth else {
-            let text = format!("say how many maps of this ifs are multiplied: `depth 0` to `depth {MOST_LEVELS}`");
+            let text =
+                format!("say how many maps of this ifs are multiplied: `depth 0` to `depth {MOST_LEVELS}`");
             return Err(Error::invalid(place, text));
         };
         let system = Ifs::new(leaf, &maps, depth).map_err(|why| {

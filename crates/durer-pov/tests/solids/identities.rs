@@ -54,6 +54,11 @@ const KINDS: [(&str, &str); 46] = [
     ("sor", "sor { 6, <0.5, -1>, <0.75, -0.5>, <1, 0>, <0.5, 0.5>, <0.75, 1>, <1, 1.5> }"),
     ("ovus", "ovus { 0.75, 0.5 }"),
     ("lemon", "lemon { -0.5*y, 0.5, y, 0.25, 1.25 }"),
+    ("sponge of Menger", "ifs { menger 2 }"),
+    (
+        "ifs of balls",
+        "ifs { sphere { 0, 1 } map { scale 0.5 translate x*0.5 } map { scale 0.6 rotate z*40 } depth 2 }",
+    ),
     (
         "isosurface in a box",
         "isosurface { function { x*x + y*y*y - z } threshold 0.25 contained_by { box { <-1, -0.5, -1>, <1, 1, 0.5> } } }",

@@ -169,6 +169,8 @@ fn thirty_solids_have_their_volumes() {
         ("egg", s("ovus { 1, 0.5 }"), 4.913_542_145_556_145),
         ("barrel", s("lemon { 0, 0.5, 1.5*y, 0.25, 1.25 }"), 1.489_553_099_816_038),
         ("lemon", s("lemon { 0, 0, 2*y, 0, 1.25 }"), 0.895_307_304_333_939),
+        ("sponge of Menger", s("ifs { menger 2 }"), 8.0 * 400.0 / 729.0),
+        ("tetrahedron of Sierpinski", s("ifs { sierpinski 2 }"), 2.0 / 3.0),
         ("octahedron", s(OCTAHEDRON), 4.0 / 3.0),
         (
             "polyhedron",

@@ -5,9 +5,9 @@ use std::fmt::Display;
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Blob, BlobError, CappedCylinder, CurvedPrism,
-    Cyclide, Disc, FLAT, Frustum, Isosurface, JuliaSet, Lathe, Parallelogram, Plane, Polygon, PolygonError,
-    Prism, Quadric, Region, Sphere, SphereSweep, SphereSweepError, SphericalSector, SurfaceOfRevolution,
-    Torus, Triangle, TriangleError, superellipsoid, HeightField,
+    Cyclide, Disc, FLAT, Frustum, HeightField, Isosurface, JuliaSet, Lathe, Parallelogram, Plane, Polygon,
+    PolygonError, Prism, Quadric, Region, Sphere, SphereSweep, SphereSweepError, SphericalSector,
+    SurfaceOfRevolution, Torus, Triangle, TriangleError, superellipsoid,
 };
 
 use durer_surfaces::terrain::{Heights, Sheet};

@@ -5,7 +5,9 @@ use crate::compose::clip::Algebraic;
 use crate::compose::region::Region;
 use crate::packet::FilterSource;
 use crate::roots::quadratic::Quadratic;
-use crate::{Forward, HalfSpace, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use crate::{
+    Forward, HalfSpace, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+};
 use core::cmp::Ordering;
 use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Isa, RaySide, Shaft};
 use std::sync::Arc;

@@ -54,9 +54,9 @@ pub(super) fn singular_value(map: &Affine) -> f64 {
             for row in &mut a {
                 (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
             }
-            for k in 0..3 {
-                (a[p][k], a[q][k]) = (c * a[p][k] - s * a[q][k], s * a[p][k] + c * a[q][k]);
-            }
+            let (first, second) = (a[p], a[q]);
+            a[p] = [0, 1, 2].map(|k| c * first[k] - s * second[k]);
+            a[q] = [0, 1, 2].map(|k| s * first[k] + c * second[k]);
         }
     }
     scale2(a[0][0].max(a[1][1]).max(a[2][2]).sqrt(), k)
@@ -115,7 +115,10 @@ pub(super) fn node_bounds(leaf: Aabb, maps: &[Affine], depth: u32) -> Vec<Aabb> 
 pub(super) fn seen_from(b: &Aabb, centre: Point3, scale: i32) -> Aabb {
     let unit = |x: f64| scale2(x, -scale);
     let tiny = super::frame::TINY;
-    let low = |i: usize| add_down(unit(sub_down(b.min[i], centre[i])), if b.min[i] == centre[i] { 0.0 } else { -tiny });
-    let high = |i: usize| add_up(unit(sub_up(b.max[i], centre[i])), if b.max[i] == centre[i] { 0.0 } else { tiny });
+    let low = |i: usize| {
+        add_down(unit(sub_down(b.min[i], centre[i])), if b.min[i] == centre[i] { 0.0 } else { -tiny })
+    };
+    let high =
+        |i: usize| add_up(unit(sub_up(b.max[i], centre[i])), if b.max[i] == centre[i] { 0.0 } else { tiny });
     Aabb::new(Point3::new(low(0), low(1), low(2)), Point3::new(high(0), high(1), high(2)))
 }

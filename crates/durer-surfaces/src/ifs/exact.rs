@@ -74,7 +74,7 @@ fn sign_of_one(a: &Dyadic, b: &Dyadic, d: &Dyadic) -> Ordering {
     if first == Equal {
         return second;
     }
-    match (&(a * a)).cmp(&(&(b * b) * d)) {
+    match (a * a).cmp(&(&(b * b) * d)) {
         Greater => first,
         Less => second,
         Equal => Equal,
@@ -201,7 +201,8 @@ impl<'a> Line<'a> {
     #[cold]
     #[inline(never)]
     fn compare_exactly(&self, a: &Event, b: &Event) -> Option<Ordering> {
-        if a.pass.sure && b.pass.sure
+        if a.pass.sure
+            && b.pass.sure
             && let (Some(first), Some(second)) = (self.plane(a), self.plane(b))
             && first.n == second.n
         {
@@ -235,7 +236,8 @@ impl<'a> Line<'a> {
             pass.s = s.max(pass.lo).min(pass.hi);
             pass.hi - pass.lo <= most
         };
-        if let Some(s) = self.double_ray(event.word).and_then(|ray| in_double(&self.system.leaf, &ray, event.sign))
+        if let Some(s) =
+            self.double_ray(event.word).and_then(|ray| in_double(&self.system.leaf, &ray, event.sign))
             && take(s.0, s.1, s.2)
         {
             return best;

@@ -71,7 +71,13 @@ impl Inverse {
 
     /// `rows v + shift`: three products and their sums.
     #[inline(always)]
-    fn apply(&self, v: &[f64; 3], v_err: &[f64; 3], shift: &[f64; 3], shift_err: &[f64; 3]) -> ([f64; 3], [f64; 3]) {
+    fn apply(
+        &self,
+        v: &[f64; 3],
+        v_err: &[f64; 3],
+        shift: &[f64; 3],
+        shift_err: &[f64; 3],
+    ) -> ([f64; 3], [f64; 3]) {
         let (mut x, mut e) = ([0.0; 3], [0.0; 3]);
         for i in 0..3 {
             let (r, re) = (&self.rows[i], &self.rows_err[i]);
@@ -130,8 +136,8 @@ impl Frames {
             Self::Lattice { q, shifts } => {
                 let c = &shifts[letter];
                 let mut cell = *ray;
-                for i in 0..3 {
-                    cell.o[i] = q.mul_add(ray.o[i], -c[i]);
+                for (i, c) in c.iter().enumerate() {
+                    cell.o[i] = q.mul_add(ray.o[i], -c);
                     cell.o_err[i] = cell.o[i].abs().mul_add(U, q * ray.o_err[i]) * (1.0 + 4.0 * U) + TINY;
                     cell.d[i] = q * ray.d[i];
                     let err = cell.d[i].abs().mul_add(U, q * ray.d_err[i]);

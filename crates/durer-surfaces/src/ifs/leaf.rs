@@ -131,7 +131,9 @@ impl Leaf {
             }
             IfsLeaf::Tetrahedron(corners) => {
                 let faces = outward(&corners).ok_or(IfsError::Tetrahedron)?;
-                Self::Polytope(faces.iter().map(|points| HalfSpace::through(*points, centre, scale)).collect())
+                Self::Polytope(
+                    faces.iter().map(|points| HalfSpace::through(*points, centre, scale)).collect(),
+                )
             }
         })
     }
@@ -180,7 +182,12 @@ impl Leaf {
 
 /// A line and the plane of a face.
 enum Meet {
-    Crosses { s: f64, lo: f64, hi: f64, enters: bool },
+    Crosses {
+        s: f64,
+        lo: f64,
+        hi: f64,
+        enters: bool,
+    },
     /// Along the plane, behind it.
     Inside,
     /// Along the plane, in front of it.
@@ -197,7 +204,14 @@ impl HalfSpace {
         let h = n.dot(from);
         let h_err = n.abs().dot(from.abs()) * (4.0 * U) + n_err.dot(from.abs());
         let h_err = h_err.mul_add(1.0 + 16.0 * U, TINY);
-        Self { n, n_err, h, h_err, axis: None, plane: ExactPlane::Points(ThreePoints { points, centre, scale }) }
+        Self {
+            n,
+            n_err,
+            h,
+            h_err,
+            axis: None,
+            plane: ExactPlane::Points(ThreePoints { points, centre, scale }),
+        }
     }
 
     /// Height above the plane, and slope, each with its error.
@@ -340,9 +354,7 @@ impl Ball {
         let from = o - Vec3::from(self.c);
         let dd = d.dot(d);
         let first = -from.dot(d) / dd;
-        let near = |s: f64| {
-            Vec3::new(s.mul_add(d.x, from.x), s.mul_add(d.y, from.y), s.mul_add(d.z, from.z))
-        };
+        let near = |s: f64| Vec3::new(s.mul_add(d.x, from.x), s.mul_add(d.y, from.y), s.mul_add(d.z, from.z));
         let at = first - near(first).dot(d) / dd;
         let p = near(at);
         let (mut e, mut de) = ([0.0; 3], [0.0; 3]);

@@ -5,9 +5,7 @@ use super::leaf::{HalfSpace, Leaf, outward};
 use super::{IfsLeaf, System, word_of};
 use crate::compose::affine::place;
 use crate::planar::{PlaneForm, Probe, ThreePoints, clearance, dot, exact3, foot_point, unit};
-use crate::{
-    All, AxisBox, LocalRay, Need, RingRay, Root, Sphere, Surface, SurfacePoint,
-};
+use crate::{All, AxisBox, LocalRay, Need, RingRay, Root, Sphere, Surface, SurfacePoint};
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Point3, Ring, U, Vec3};
 

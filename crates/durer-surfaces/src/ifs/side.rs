@@ -77,7 +77,12 @@ impl System {
     }
 
     /// The point, and a direction of the set's own frame, in the frame of a copy.
-    fn point_in_ring<T: Ring>(&self, point: &LocalPoint<'_>, letters: &[usize], d: [T; 3]) -> Option<RingRay<T>> {
+    fn point_in_ring<T: Ring>(
+        &self,
+        point: &LocalPoint<'_>,
+        letters: &[usize],
+        d: [T; 3],
+    ) -> Option<RingRay<T>> {
         let (p, w) = point.in_ring::<T>()?;
         let c = self.centre.to_array();
         let mut i = 0;
@@ -142,12 +147,12 @@ fn covers(cones: &[Vec<Vector>], strictly: bool) -> bool {
         let mut is_solid = false;
         for (i, a) in normals.iter().enumerate() {
             for b in &normals[..i] {
-                let v = cross(*a, *b);
+                let v = cross(a, b);
                 if is_zero(&v) {
                     continue;
                 }
                 for v in [negative(&v), v] {
-                    let signs: Vec<_> = normals.iter().map(|n| dot(*n, &v).exact_sign()).collect();
+                    let signs: Vec<_> = normals.iter().map(|n| dot(n, &v).exact_sign()).collect();
                     if !signs.iter().any(|s| s.is_lt()) {
                         return false;
                     }
@@ -164,7 +169,7 @@ fn covers(cones: &[Vec<Vector>], strictly: bool) -> bool {
         cones.iter().any(|cone| {
             cone.iter().all(|n| {
                 let sign = flag.iter().map(|v| dot(n, v).exact_sign()).find(|s| s.is_ne());
-                sign.is_none_or(|s| s.is_lt())
+                sign.is_none_or(core::cmp::Ordering::is_lt)
             })
         })
     };
@@ -172,7 +177,7 @@ fn covers(cones: &[Vec<Vector>], strictly: bool) -> bool {
     for (i, n) in normals.iter().enumerate() {
         let mut edges: Vec<Vector> = vec![];
         for (j, m) in normals.iter().enumerate() {
-            let v = cross(*n, *m);
+            let v = cross(n, m);
             if i != j && !is_zero(&v) {
                 edges.push(negative(&v));
                 edges.push(v);
@@ -182,7 +187,7 @@ fn covers(cones: &[Vec<Vector>], strictly: bool) -> bool {
             edges.push(zero.clone());
         }
         for v in &edges {
-            let a = cross(*n, v);
+            let a = cross(n, v);
             let b: Vector = (*n).clone();
             for a in [negative(&a), a] {
                 for b in [negative(&b), b.clone()] {

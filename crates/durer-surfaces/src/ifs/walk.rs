@@ -247,8 +247,11 @@ impl Walk<'_, '_> {
                     }
                     continue;
                 }
-                let kind =
-                    if span.doubtful || (!is_known && touch.is_none()) { RootKind::Cluster } else { RootKind::Simple };
+                let kind = if span.doubtful || (!is_known && touch.is_none()) {
+                    RootKind::Cluster
+                } else {
+                    RootKind::Simple
+                };
                 self.lists.spans[0].shown = true;
                 if self.pass_on(&span.from, -1, kind) == Flow::Stop {
                     return Flow::Stop;
