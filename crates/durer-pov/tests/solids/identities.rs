@@ -5,7 +5,7 @@ use durer_math::{Point3, Ray, Vec3};
 use durer_scene::Lowered;
 
 /// Every kind of solid, at places where many have faces, edges and tangent planes in common.
-const KINDS: [(&str, &str); 46] = [
+const KINDS: [(&str, &str); 48] = [
     ("ball", "sphere { <0.5, 0, 0>, 1.25 }"),
     ("block", "box { <-1, -0.5, -1>, <1, 1, 0.5> }"),
     ("turned block", "box { <-1, -0.5, -1>, <1, 1, 0.5> rotate <20, 30, 40> }"),
