@@ -6,10 +6,7 @@ use super::Shape;
 use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::parser::Parser;
-use durer_scene::{
-    Curve, FillRule, LatheSpline, Prism, Spline, Sweep,
-    durer_scene::{Curve, FillRule, Prism, Spline, Sweep, SweepSpline},
-};
+use durer_scene::{Curve, FillRule, LatheSpline, Prism, Spline, Sweep, SweepSpline};
 
 impl Parser<'_> {
     /// `[linear_spline | quadratic_spline | cubic_spline | bezier_spline] [linear_sweep | conic_sweep] height, height, number of points, points`.

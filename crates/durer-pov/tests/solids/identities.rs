@@ -5,8 +5,13 @@ use super::{Dice, lowered};
 use durer_math::{Point3, Ray, Vec3};
 use durer_scene::Lowered;
 
+<<<<<<< HEAD
 /// Every kind of solid, placed so that many have faces, edges and tangent planes in common.
 const KINDS: [(&str, &str); 46] = [
+=======
+/// Every kind of solid, at places where many have faces, edges and tangent planes in common.
+const KINDS: [(&str, &str); 48] = [
+>>>>>>> ifs
     ("ball", "sphere { <0.5, 0, 0>, 1.25 }"),
     ("block", "box { <-1, -0.5, -1>, <1, 1, 0.5> }"),
     ("turned block", "box { <-1, -0.5, -1>, <1, 1, 0.5> rotate <20, 30, 40> }"),
