@@ -5,13 +5,8 @@ use super::{Dice, lowered};
 use durer_math::{Point3, Ray, Vec3};
 use durer_scene::Lowered;
 
-<<<<<<< HEAD
 /// Every kind of solid, placed so that many have faces, edges and tangent planes in common.
-const KINDS: [(&str, &str); 46] = [
-=======
-/// Every kind of solid, at places where many have faces, edges and tangent planes in common.
-const KINDS: [(&str, &str); 48] = [
->>>>>>> ifs
+const KINDS: [(&str, &str); 52] = [
     ("ball", "sphere { <0.5, 0, 0>, 1.25 }"),
     ("block", "box { <-1, -0.5, -1>, <1, 1, 0.5> }"),
     ("turned block", "box { <-1, -0.5, -1>, <1, 1, 0.5> rotate <20, 30, 40> }"),
@@ -78,6 +73,16 @@ const KINDS: [(&str, &str); 48] = [
         "mesh { triangle { x, y, z } triangle { y, -x, z } triangle { -x, -y, z } triangle { -y, x, z } triangle { y, x, -z } triangle { -x, y, -z } triangle { -y, -x, -z } triangle { x, -y, -z } inside_vector <0.25, 0.5, 1> }",
     ),
     ("twisted block", "deform { box { <-0.5, -0.5, -0.5>, <0.5, 1, 0.5> } twist { y, 90, from -0.5 to 1 } }"),
+    ("lathe of lines", "lathe { linear_spline 5, <0, -0.5>, <1, -0.5>, <0.5, 0.25>, <1, 1>, <0, 1> }"),
+    ("lathe", "lathe { cubic_spline 6, <0.5, -1>, <0, -1>, <1, -0.5>, <0.25, 0.25>, <0, 1>, <-0.5, 1> }"),
+    (
+        "sphere sweep of lines",
+        "sphere_sweep { linear_spline 3, <-1, 0, 0>, 0.25, <0, 0.5, 0>, 0.5, <1, 0, 0.5>, 0 }",
+    ),
+    (
+        "sphere sweep",
+        "sphere_sweep { b_spline 5, <-1, 0, 0>, 0.5, <0, 1, 0>, 0.5, <1, 0, 0>, 0.25, <0, -1, 0.5>, 0.5, <-1, 0, 1>, 0.5 }",
+    ),
 ];
 
 /// The hits without the names of leaves.
