@@ -85,7 +85,7 @@ fn png_of_all_depths() {
         let mut encoder = png::Encoder::new(&mut bytes, 2, 2);
         encoder.set_color(colour);
         encoder.set_depth(depth);
-        if colour == png::ColorType::Indexed {
+        if colour == Indexed {
             encoder.set_palette(vec![7; 768]);
         }
         encoder.write_header().unwrap().write_image_data(data).unwrap();

@@ -245,13 +245,13 @@ impl Copies {
         let zero = [Exact::zero(), Exact::zero(), Exact::zero()];
         let at = self.start(&ExactLine { o: point.clone(), d: zero });
         let Way::Lattice(q, _) = self.ways[0] else { unreachable!() };
-        let q = Exact::from(q.powi(self.depth as i32));
+        let q = Exact::from(power(q, self.depth));
         let height = &dot(n, &at.o) * &q;
         let w = at.w.to_f64();
         let level = height.to_f64() / w;
         let (step, first) = match self.leaf {
             IfsLeaf::Box(..) => (2.0, 1.0),
-            _ => (4.0, 2_f64.powi(self.depth as i32) % 4.0),
+            _ => (4.0, power(2.0, self.depth) % 4.0),
         };
         let nearest = step * ((level - first) / step).round() + first;
         (&height - &(&Exact::from(nearest) * &at.w)).sign()
@@ -345,7 +345,7 @@ impl Oracle for Copies {
 
 /// Corners of copies, middles of their edges and faces, with directions along them.
 fn features(q: f64, depth: u32) -> Vec<Feature> {
-    let scale = q.powi(depth as i32);
+    let scale = power(q, depth);
     let mut out = vec![];
     let mut rng = TestRng::new(77);
     for _ in 0..200 {
@@ -540,7 +540,7 @@ fn chords_add_up_to_the_volume() {
     for depth in 1..=3 {
         // Of each column of copies the middle is met, so the sum is exact.
         let n = 3_u32.pow(depth);
-        let exact = 8.0 * (20.0_f64 / 27.0).powi(depth as i32);
+        let exact = 8.0 * power(20.0 / 27.0, depth);
         let found = volume(&Ifs::menger(depth).unwrap(), n);
         assert!((found - exact).abs() < 1e-12, "{depth}: {found} {exact}");
     }
@@ -548,7 +548,7 @@ fn chords_add_up_to_the_volume() {
         // The copies' shadows tile the square. Over each the chord is linear in four parts, of which
         // the rule of midpoints with m x m points makes 2 / m^2 too much.
         let m = f64::from(96 >> depth);
-        let exact = 8.0 / 3.0 * 0.5_f64.powi(depth as i32) * (1.0 + 2.0 / (m * m));
+        let exact = 8.0 / 3.0 * power(0.5, depth) * (1.0 + 2.0 / (m * m));
         let found = volume(&Ifs::sierpinski(depth).unwrap(), 96);
         assert!((found / exact - 1.0).abs() < 1e-9, "{depth}: {found} {exact}");
     }
@@ -609,4 +609,9 @@ fn wrong_systems_are_named() {
     assert_eq!(Ifs::new(plane, &[half], 2), Err(IfsError::Tetrahedron));
     let many: Vec<Affine> = (0..40).map(|i| scaling(0.5, [f64::from(i), 0.0, 0.0])).collect();
     assert_eq!(Ifs::new(cube, &many, 20), Err(IfsError::TooMany { maps: 40, depth: 20 }));
+}
+
+/// `x` times itself, so many times; exact where all products are.
+fn power(x: f64, times: u32) -> f64 {
+    (0..times).fold(1.0, |product, _| product * x)
 }

@@ -276,8 +276,10 @@ fn mesh_of<H: Heights>(sheet: &Sheet<H>) -> Mesh {
     Mesh::new(data).unwrap()
 }
 
-/// All of them but `t`, which depends on the exact order where a mesh has none.
-fn by_face(roots: &[Root]) -> Vec<(u32, i8, [f64; 2], f64, [f64; 2])> {
+/// A root without `t`, which depends on the exact order where a mesh has none.
+type Unordered = (u32, i8, [f64; 2], f64, [f64; 2]);
+
+fn by_face(roots: &[Root]) -> Vec<Unordered> {
     let mut all: Vec<_> = roots.iter().map(|r| (r.face, r.sign, [r.lo, r.hi], r.s, r.tag)).collect();
     all.sort_by_key(|r| r.0);
     all
