@@ -431,11 +431,11 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
             #[inline(always)]
             || match self.line.wide() {
                 Some(a) => self.settle(&Scaled::new(&a, half), x, place).err(),
-                None => Some(Doubt(x)),
+                None => Some(Dyadic::from(x)),
             },
         );
-        if let Some(Doubt(x)) = doubt {
-            self.exactly(mid, x * half, half);
+        if let Some(x) = doubt {
+            self.exactly(mid, &x * &Dyadic::from(half), half);
         }
     }
 
@@ -476,14 +476,15 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
         )
     }
 
-    /// On a stretch from `x` on.
+    /// On a stretch from `from` on; the place of a doubt is exact, as f64 could round it beyond a
+    /// root that is still to be found.
     #[inline(always)]
     fn settle<T: Word>(
         &mut self,
         scaled: &Scaled<T, N>,
         from: f64,
         place: PartToLine,
-    ) -> Result<Flow, Doubt> {
+    ) -> Result<Flow, Dyadic> {
         let (limits, emit) = (self.limits, &mut self.emit);
         let part = if from > -1.0 { scaled.from(from) } else { *scaled };
         let walked = part.walk(
@@ -506,7 +507,7 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
                 Ok(emit(&named(place, ends, found, rising)))
             },
         );
-        walked.map_err(|Doubt(x)| Doubt(back(from, x)))
+        walked.map_err(|Doubt(x)| exactly_back(from, x))
     }
 
     /// The whole line: what is left of -1, what is between, what is right of 1.
@@ -517,7 +518,7 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
             None => self.line.wide().and_then(|a| self.tails(&Scaled::new(&a, 1.0))),
         };
         let Some(tails) = tails else {
-            self.exactly(0.0, f64::MIN, f64::MAX);
+            self.exactly(0.0, Dyadic::from(f64::MIN), f64::MAX);
             return;
         };
         for &(ends, found, rising) in tails.iter().rev().filter(|t| t.0.1 <= 0.0) {
@@ -531,10 +532,10 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
             Ok(Flow::Continue) => {}
             Err(Doubt(x)) => {
                 let wide = self.line.wide().map(|a| Scaled::new(&a, 1.0));
-                match wide.map_or(Err(Doubt(x)), |wide| self.settle(&wide, x, place)) {
+                match wide.map_or_else(|| Err(Dyadic::from(x)), |wide| self.settle(&wide, x, place)) {
                     Ok(Flow::Stop) => return,
                     Ok(Flow::Continue) => {}
-                    Err(Doubt(x)) => {
+                    Err(x) => {
                         self.exactly(0.0, x, f64::MAX);
                         return;
                     }
@@ -583,10 +584,10 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
     /// Exactly, between `from` and `to` of `y = s - mid`.
     #[cold]
     #[inline(never)]
-    fn exactly(&mut self, mid: f64, from: f64, to: f64) {
+    fn exactly(&mut self, mid: f64, from: Dyadic, to: f64) {
         let (coefficients, certain) = self.line.exact();
         let Some(exact) = ExactRoots::new(coefficients) else { return };
-        let (from, to) = (exact.beside(from, -1.0), exact.beside(to, 1.0));
+        let (from, to) = (exact.beside_exact(from, -1.0), exact.beside(to, 1.0));
         let width = if self.limits.width < 1.0 { self.limits.width } else { U };
         for mut root in exact.isolate(&from, &to) {
             let enough = |lo: f64, hi: f64| {
@@ -622,6 +623,13 @@ fn is_skipped(place: PartToLine, limits: &Limits, l: f64, r: f64) -> bool {
 #[inline(always)]
 fn back(from: f64, x: f64) -> f64 {
     (0.5 - 0.5 * from).mul_add(x + 1.0, from)
+}
+
+/// The same, exactly.
+fn exactly_back(from: f64, x: f64) -> Dyadic {
+    let (from, one) = (Dyadic::from(from), Dyadic::from(1.0));
+    let part = &(&one - &from) * &(&Dyadic::from(x) + &one);
+    &from + &part.scale2(-1)
 }
 
 /// A root in the terms of the line.
