@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use super::{Fault, MayHold, Picture, Result, fault, of_colour, of_grey, of_index};
+use super::{Fault, MayHold, Picture, Result, fault, of_colour, of_grey, of_index, of_png_grey};
 
 /// Bytes that a decoder may take beside the picture.
 const DECODER: usize = 1 << 30;
@@ -49,7 +49,8 @@ pub(super) fn png(bytes: &[u8], may_hold: MayHold<'_>) -> Result<Picture> {
         (ColorType::Grayscale | ColorType::GrayscaleAlpha, BitDepth::Sixteen) => {
             words.extend(row.chunks_exact(2 * channels).map(|p| u16::from_be_bytes([p[0], p[1]])));
         }
-        (ColorType::Grayscale | ColorType::GrayscaleAlpha, _) => {
+        (ColorType::Grayscale, _) => words.extend(row.iter().map(|&level| of_png_grey(level))),
+        (ColorType::GrayscaleAlpha, _) => {
             words.extend(row.chunks_exact(channels).map(|p| of_grey(p[0].into(), 255)));
         }
         (_, BitDepth::Sixteen) => {

@@ -134,6 +134,15 @@ fn of_grey(value: u32, most: u32) -> u16 {
     ((value.min(most) * 65535 + most / 2) / most) as u16
 }
 
+/// The height of a grey level of a PNG of 8 bits without alpha, as POV-Ray 3.7 computes it: the
+/// weighted sum of three equal channels in single precision, cut to 8 bits. So a third of the
+/// levels come out one lower.
+fn of_png_grey(level: u8) -> u16 {
+    let grey = f32::from(level) / 255.0;
+    let sum = 0.297 * grey + 0.589 * grey + 0.114 * grey;
+    of_grey((sum * 255.0) as u32, 255)
+}
+
 /// The height of a colour by its red and green.
 fn of_colour(red: u8, green: u8) -> u16 {
     u16::from(red) << 8 | u16::from(green)
