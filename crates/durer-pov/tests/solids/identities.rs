@@ -42,6 +42,16 @@ const KINDS: [(&str, &str); 52] = [
         "sextic",
         "polynomial { 6, xyz(6,0,0): 1, xyz(0,4,0): 1, xyz(0,0,2): 1, xyz(0,2,2): 0.5, xyz(0,0,0): -1 }",
     ),
+    ("lathe of lines", "lathe { linear_spline 5, <0, -0.5>, <1, -0.5>, <0.5, 0.25>, <1, 1>, <0, 1> }"),
+    ("lathe", "lathe { cubic_spline 6, <0.5, -1>, <0, -1>, <1, -0.5>, <0.25, 0.25>, <0, 1>, <-0.5, 1> }"),
+    (
+        "sphere sweep of lines",
+        "sphere_sweep { linear_spline 3, <-1, 0, 0>, 0.25, <0, 0.5, 0>, 0.5, <1, 0, 0.5>, 0 }",
+    ),
+    (
+        "sphere sweep",
+        "sphere_sweep { b_spline 5, <-1, 0, 0>, 0.5, <0, 1, 0>, 0.5, <1, 0, 0>, 0.25, <0, -1, 0.5>, 0.5, <-1, 0, 1>, 0.5 }",
+    ),
     ("superellipsoid", "superellipsoid { <0.5, 0.25> }"),
     ("star", "superellipsoid { <2.5, 1> }"),
     (
@@ -73,16 +83,6 @@ const KINDS: [(&str, &str); 52] = [
         "mesh { triangle { x, y, z } triangle { y, -x, z } triangle { -x, -y, z } triangle { -y, x, z } triangle { y, x, -z } triangle { -x, y, -z } triangle { -y, -x, -z } triangle { x, -y, -z } inside_vector <0.25, 0.5, 1> }",
     ),
     ("twisted block", "deform { box { <-0.5, -0.5, -0.5>, <0.5, 1, 0.5> } twist { y, 90, from -0.5 to 1 } }"),
-    ("lathe of lines", "lathe { linear_spline 5, <0, -0.5>, <1, -0.5>, <0.5, 0.25>, <1, 1>, <0, 1> }"),
-    ("lathe", "lathe { cubic_spline 6, <0.5, -1>, <0, -1>, <1, -0.5>, <0.25, 0.25>, <0, 1>, <-0.5, 1> }"),
-    (
-        "sphere sweep of lines",
-        "sphere_sweep { linear_spline 3, <-1, 0, 0>, 0.25, <0, 0.5, 0>, 0.5, <1, 0, 0.5>, 0 }",
-    ),
-    (
-        "sphere sweep",
-        "sphere_sweep { b_spline 5, <-1, 0, 0>, 0.5, <0, 1, 0>, 0.5, <1, 0, 0>, 0.25, <0, -1, 0.5>, 0.5, <-1, 0, 1>, 0.5 }",
-    ),
 ];
 
 /// The hits without the names of leaves.

@@ -308,7 +308,7 @@ pub fn powers_of_two_change_nothing(
     let lossless = ray.direction.to_array().iter().all(|&x| (x * 8.0).is_finite() && x * 8.0 * 0.125 == x)
         && (ray.t_min.is_infinite() || exact(ray.t_min))
         && (ray.t_max.is_infinite() || exact(ray.t_max))
-        && roots.iter().all(|r| exact(r.t) && exact(r.lo) && exact(r.hi));
+        && roots.iter().all(|r| [r.t, r.lo, r.hi, r.s].into_iter().all(exact));
     if lossless {
         let expected: Vec<Root> =
             roots.iter().map(|r| Root { t: r.t * 0.125, lo: r.lo * 0.125, hi: r.hi * 0.125, ..*r }).collect();

@@ -40,18 +40,6 @@ fn bodies() -> Vec<World> {
         let parts = [csg.leaf(ball(-1.2, 1.6)).unwrap(), csg.leaf(ball(1.2, 1.6)).unwrap()];
         csg.intersection(parts)
     });
-    world("lens of unions that keep inner faces", &|csg| {
-        let balls = [ball(-0.5, 1.0), ball(0.5, 1.0), ball(0.25, 0.5)].map(|b| csg.leaf(b).unwrap());
-        let all = csg.union_with_inner_faces(balls);
-        let cut = csg.leaf(block(-0.75, 1.25)).unwrap();
-        csg.intersection([all, cut])
-    });
-    world("complement of a ball beside a ball that it holds", &|csg| {
-        // Rays start and end inside of the whole and cross an inner face of it.
-        let outside = csg.leaf(Complement(ball(0.0, 0.5))).unwrap();
-        let within = csg.leaf(ball(1.5, 0.5)).unwrap();
-        csg.union_with_inner_faces([outside, within])
-    });
     world("shell", &|csg| {
         let parts = [ball(0.0, 1.0), ball(0.0, 0.8)].map(|b| csg.leaf(b).unwrap());
         let [outer, inner] = parts;
@@ -227,6 +215,18 @@ fn bodies() -> Vec<World> {
         let three = csg.leaf(Prism::conic(&outlines, 0.0, 1.5).unwrap()).unwrap();
         let lower = csg.intersection([one, two]);
         csg.union([lower, three])
+    });
+    world("lens of unions that keep inner faces", &|csg| {
+        let balls = [ball(-0.5, 1.0), ball(0.5, 1.0), ball(0.25, 0.5)].map(|b| csg.leaf(b).unwrap());
+        let all = csg.union_with_inner_faces(balls);
+        let cut = csg.leaf(block(-0.75, 1.25)).unwrap();
+        csg.intersection([all, cut])
+    });
+    world("complement of a ball beside a ball that it holds", &|csg| {
+        // Rays start and end inside of the whole and cross an inner face of it.
+        let outside = csg.leaf(Complement(ball(0.0, 0.5))).unwrap();
+        let within = csg.leaf(ball(1.5, 0.5)).unwrap();
+        csg.union_with_inner_faces([outside, within])
     });
     all
 }

@@ -177,7 +177,10 @@ impl Turned {
                     continue;
                 }
                 let grazing = root.before == root.after;
-                let u = root.about(2000);
+                // A root that is an f64 is taken exactly, so that a crossing may be exactly at an end
+                // of the ray's range.
+                let near = Exact::from(root.about(2000).to_f64());
+                let u = if value(&g, &near).sign().is_eq() { near } else { root.about(2000) };
                 if !level {
                     let (n, d) = (value(&above, &u), dy.clone());
                     let t = real_roots(&[-n, d]).pop()?;
