@@ -108,7 +108,7 @@ pub enum IfsError {
 /// use durer_surfaces::{Closest, Ifs, LocalRay, Surface};
 ///
 /// let sponge = Ifs::menger(20)?; // 20^20 cubes
-/// let ray = Ray::new(Point3::new(0.9, 0.9, -5.0), Vec3::new(0.0, 0.0, 1.0));
+/// let ray = Ray::new(Point3::new(0.9, 0.95, -5.0), Vec3::new(0.0, 0.0, 1.0));
 /// let mut first = Closest::default();
 /// sponge.roots(&LocalRay::new(&ray), &mut first);
 /// assert!(first.root.is_some_and(|root| root.t == 4.0));
