@@ -1,14 +1,18 @@
 //! Each format with the same numbers; files that are cut off.
 
 use super::*;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 fn read_bytes(bytes: &[u8], format: Format) -> Result<Picture> {
-    let dir = std::env::temp_dir().join(format!("durer-picture-{}-{format:?}", std::process::id()));
-    std::fs::write(&dir, bytes).unwrap();
-    let read = read(&dir, format, &Limits::default(), &|[columns, rows]| {
+    // Tests run at the same time: each file has a name of its own.
+    static FILES: AtomicU32 = AtomicU32::new(0);
+    let name = format!("durer-picture-{}-{}", std::process::id(), FILES.fetch_add(1, Ordering::Relaxed));
+    let file = std::env::temp_dir().join(name);
+    std::fs::write(&file, bytes).unwrap();
+    let read = read(&file, format, &Limits::default(), &|[columns, rows]| {
         if columns * rows > 1000 { fault("is too large") } else { Ok(()) }
     });
-    std::fs::remove_file(&dir).unwrap();
+    std::fs::remove_file(&file).unwrap();
     read
 }
 
