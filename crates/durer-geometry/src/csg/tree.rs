@@ -365,35 +365,30 @@ impl Values {
     /// Whether the root would change if a leaf did: no node above the leaf is decided by its other
     /// children.
     pub(crate) fn matters(&self, tree: &Tree, leaf: u32) -> bool {
-        let TreePosition { mut node, inverted } = tree.places[leaf as usize];
-        let mut holds = self.leaf(leaf) != inverted;
-        while node != NONE {
-            let (state, its) = (&self.counts[node as usize], &tree.nodes[node as usize]);
-            let count = if state.epoch == self.epoch { state.count } else { its.outside };
-            let others = count - u32::from(holds);
-            if others != if its.rule == Rule::All { its.children - 1 } else { 0 } {
-                return false;
-            }
-            (holds, node) = (its.holds(count), its.parent);
-        }
-        true
+        self.path_is_free(tree, leaf, false)
     }
 
     /// Whether the faces of a leaf are visible here: on the path to the root, all other children
     /// of an intersection hold, and no other child of a union without inner faces does.
     pub(crate) fn is_visible(&self, tree: &Tree, leaf: u32) -> bool {
+        self.path_is_free(tree, leaf, true)
+    }
+
+    /// Whether no node above a leaf is decided by its other children. Unions that keep their inner
+    /// faces are not asked if `through_inner_faces`.
+    fn path_is_free(&self, tree: &Tree, leaf: u32, through_inner_faces: bool) -> bool {
         let TreePosition { mut node, inverted } = tree.places[leaf as usize];
         let mut holds = self.leaf(leaf) != inverted;
         while node != NONE {
             let (state, its) = (&self.counts[node as usize], &tree.nodes[node as usize]);
             let count = if state.epoch == self.epoch { state.count } else { its.outside };
             let others = count - u32::from(holds);
-            let is_visible = match its.rule {
+            let is_free = match its.rule {
                 Rule::All => others == its.children - 1,
-                Rule::Any => others == 0,
-                Rule::AnyWithInner => true,
+                Rule::AnyWithInner if through_inner_faces => true,
+                Rule::Any | Rule::AnyWithInner => others == 0,
             };
-            if !is_visible {
+            if !is_free {
                 return false;
             }
             (holds, node) = (its.holds(count), its.parent);

@@ -179,6 +179,15 @@ impl<'a> Line<'a> {
         }))
     }
 
+    /// Whether the line certainly misses the leaf as a node with so many levels above it places it.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn misses(&self, word: Word, levels: u32) -> bool {
+        let Some(ray) = self.exact.get_or_init(|| self.at.in_ring()).clone() else { return false };
+        let ray = self.system.frames.descend_all(&self.system.first_letters(word, levels), ray);
+        interval(&self.system.leaf, &ray).is_none()
+    }
+
     fn end(&self, event: &Event) -> Option<ExactEnd> {
         let [entry, exit] = interval(&self.system.leaf, &self.exact_ray(event.word)?)?;
         Some(if event.sign < 0 { entry } else { exit })

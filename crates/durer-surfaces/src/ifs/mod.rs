@@ -137,6 +137,8 @@ struct System {
     boxes: Vec<Aabb>,
     /// Whether a node's copies lie in the leaf, and this is a better bound than a box.
     leaf_holds_all: bool,
+    /// Whether all copies of a node lie in its leaf: so it is for Menger's and Sierpinski's sets.
+    is_lattice: bool,
     /// Coordinates are counted from here, in units of `2^scale`.
     centre: Point3,
     scale: i32,
@@ -230,9 +232,21 @@ impl Ifs {
     ) -> Self {
         let boxes = bounds.iter().map(|b| contraction::seen_from(b, centre, scale)).collect();
         let reach = bounds[depth as usize].reach_from(centre);
-        let leaf_holds_all = frames.weight(depth).is_some() && matches!(given, IfsLeaf::Tetrahedron(_));
-        let system =
-            System { given, depth, frames, leaf, bounds, boxes, leaf_holds_all, centre, scale, reach };
+        let is_lattice = frames.weight(depth).is_some();
+        let leaf_holds_all = is_lattice && matches!(given, IfsLeaf::Tetrahedron(_));
+        let system = System {
+            given,
+            depth,
+            frames,
+            leaf,
+            bounds,
+            boxes,
+            leaf_holds_all,
+            is_lattice,
+            centre,
+            scale,
+            reach,
+        };
         Self(Arc::new(system))
     }
 
@@ -262,9 +276,14 @@ impl Ifs {
 
 impl System {
     /// The letters of a copy's word.
-    fn letters(&self, mut word: Word) -> Vec<usize> {
+    fn letters(&self, word: Word) -> Vec<usize> {
+        self.first_letters(word, self.depth)
+    }
+
+    /// The letters of a node with so many levels above it.
+    fn first_letters(&self, mut word: Word, levels: u32) -> Vec<usize> {
         let m = self.frames.len() as u128;
-        let mut letters = vec![0; self.depth as usize];
+        let mut letters = vec![0; levels as usize];
         for letter in letters.iter_mut().rev() {
             *letter = (word % m) as usize;
             word /= m;

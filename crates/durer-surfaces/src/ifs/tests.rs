@@ -502,13 +502,12 @@ fn any_maps_obey_the_laws_of_crossings() {
 #[test]
 fn deep_sets_are_met_at_once_and_rays_in_faces_and_edges_are_met_once() {
     let sponge = Ifs::menger(20).unwrap();
-    let first_of = |set: &Ifs, origin: [f64; 3], d: [f64; 3]| {
+    let first = |origin: [f64; 3], d: [f64; 3]| {
         let ray = Ray::new(Point3::from(origin), Vec3::from(d)).with_range(0.0, f64::INFINITY);
         let mut sink = crate::Closest::default();
-        set.roots(&LocalRay::new(&ray), &mut sink);
+        sponge.roots(&LocalRay::new(&ray), &mut sink);
         sink.root
     };
-    let first = |origin, d| first_of(&sponge, origin, d);
     assert_eq!(first([-3.0, 0.9, 0.95], [1.0, 0.0, 0.0]).map(|r| (r.t, r.sign)), Some((2.0, -1)));
     // Along an edge, and in a face.
     assert_eq!(first([-3.0, 1.0, 1.0], [1.0, 0.0, 0.0]).map(|r| (r.t, r.sign)), Some((2.0, -1)));
@@ -517,10 +516,8 @@ fn deep_sets_are_met_at_once_and_rays_in_faces_and_edges_are_met_once() {
     assert_eq!(first([-3.0, 0.1, 0.1], [1.0, 0.0, 0.0]), None);
     // From 1e6 away.
     assert_eq!(first([-1e6, 1.0, 1.0], [1.0, 0.0, 0.0]).map(|r| r.t), Some(999_999.0));
-    // Beside an edge by less than the rounding of the ray, each cube along the edge is decided
-    // exactly: their number grows as 3^depth.
-    let less_deep = Ifs::menger(8).unwrap();
-    assert_eq!(first_of(&less_deep, [-1e6, 1.0_f64.next_up(), 1.0], [1.0, 0.0, 0.0]), None);
+    // Beside an edge by less than the rounding of the ray.
+    assert_eq!(first([-1e6, 1.0_f64.next_up(), 1.0], [1.0, 0.0, 0.0]), None);
     let whole = Ifs::menger(3).unwrap();
     let edge = Ray::new(Point3::new(-3.0, 1.0, 1.0), Vec3::X);
     let signs: Vec<_> = all_roots(&whole, &edge).iter().map(|r| (r.t, r.sign)).collect();

@@ -123,6 +123,9 @@ impl Walk<'_, '_> {
                 self.meet_leaf(&cell, &next);
                 continue;
             }
+            if system.is_lattice && self.is_missed(&cell, &next) {
+                continue;
+            }
             let maps = system.frames.len();
             for letter in 0..maps {
                 let below = system.frames.descend(letter, &cell);
@@ -157,6 +160,17 @@ impl Walk<'_, '_> {
             }
         };
         self.lists.waiting.push(Waiting { lo: near.max(least), hi: far, word, slot, levels });
+    }
+
+    /// Whether the line misses a node whose copies lie in its leaf. The exact answer leaves out nodes
+    /// beside which the line runs within rounding; all their copies would have to be decided exactly.
+    #[inline(always)]
+    fn is_missed(&self, cell: &CellRay, node: &Waiting) -> bool {
+        match self.line.system.leaf.quick(cell) {
+            Quick::Miss => true,
+            Quick::Through(..) => false,
+            Quick::Unsure => self.line.misses(node.word, u32::from(node.levels)),
+        }
     }
 
     /// Whether all of a node certainly lies within a span, so that it changes nothing.

@@ -145,21 +145,18 @@ fn obey(profiles: Vec<(LatheSpline, Vec<[f64; 2]>)>, solid: bool, count: u64) {
     laws::report(rays);
     widths.sort_by(f64::total_cmp);
     let median = widths[widths.len() / 2];
-    assert!(
-        rays > 4 * count && roots > 4 * count as usize && median < 100.0,
-        "{rays} {roots} {clear} {median}"
-    );
+    assert!(rays > 150 && roots > 150 && median < 100.0, "{rays} {roots} {clear} {median}");
     assert!(!solid || clear > count, "{clear}");
 }
 
 #[test]
 fn solid_lathes_obey_the_laws_off_their_joints() {
-    obey(solids(), true, 30);
+    obey(solids(), true, 45);
 }
 
 #[test]
 fn open_lathes_are_met_where_exact_arithmetic_says() {
-    obey(sheets(), false, 30);
+    obey(sheets(), false, 45);
 }
 
 #[test]
