@@ -103,10 +103,16 @@ pub enum Event {
         /// Whether the ray started on it, so that the crossing at its start is known and not
         /// counted.
         source: bool,
-        /// All its crossings in the ray's range, with the verdict on each.
+        /// Its first crossings in the ray's range, [`MOST_CROSSINGS`] at most, with the verdict on
+        /// each.
         roots: Vec<(Hit, Verdict)>,
+        /// Whether there are more.
+        has_more: bool,
     },
 }
+
+/// So many crossings of one surface are listed: a fractal may have billions on a ray.
+pub const MOST_CROSSINGS: usize = 1000;
 
 /// The verdict on a crossing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -190,8 +196,12 @@ impl Story {
         let arena = &geometry.arenas[leaf.kind as usize];
         let filter = walk.filter(leaf.kind);
         for slot in slots(leaf) {
-            let mut roots = Vec::new();
+            let (mut roots, mut has_more) = (Vec::new(), false);
             arena.each(geometry.isa, slot..slot + 1, walk.ray, &filter, &mut |slot, name, root| {
+                if roots.len() == MOST_CROSSINGS {
+                    has_more = true;
+                    return Flow::Stop;
+                }
                 let hit = walk.placement.hit(leaf.kind, slot, name, &root);
                 let verdict = match &self.best {
                     Some(best) if hit.t > best.t => Verdict::Farther,
@@ -212,6 +222,7 @@ impl Story {
                 primitive: walk.placement.primitive.wrapping_add(name.primitive),
                 source: filter.source.is_some_and(|s| s.0 == slot),
                 roots,
+                has_more,
             });
         }
     }
@@ -306,7 +317,7 @@ impl fmt::Display for Event {
                 let verdict = if *admitted { "entered" } else { "hidden by its mask" };
                 writeln!(f, "instance {instance}: {verdict}")
             }
-            Self::Tested { depth, surface, object, primitive, source, roots } => {
+            Self::Tested { depth, surface, object, primitive, source, roots, has_more } => {
                 indent(f, *depth, 2)?;
                 write!(f, "{surface} (object {}, primitive {primitive})", object.0)?;
                 if *source {
@@ -325,6 +336,10 @@ impl fmt::Display for Event {
                         Verdict::LaterInOrder => "as far as the closest so far, which comes first in order",
                     };
                     writeln!(f, "{}: {verdict}", Crossing(hit))?;
+                }
+                if *has_more {
+                    indent(f, *depth, 3)?;
+                    writeln!(f, "further crossings are not listed")?;
                 }
                 Ok(())
             }
