@@ -477,6 +477,26 @@ fn advanced<T: Ring>(ray: RingRay<T>, step: &T) -> RingRay<T> {
     RingRay { o, ..ray }
 }
 
+/// The line with its denominator near one, for which high powers stay in range.
+#[inline(always)]
+pub(crate) fn with_denominator_near_one(ray: RingRay<EFloat<Dd>>) -> RingRay<EFloat<Dd>> {
+    let k = -exponent(ray.w.value());
+    RingRay { o: ray.o.map(|x| x.scale2(k)), d: ray.d.map(|x| x.scale2(k)), w: ray.w.scale2(k) }
+}
+
+/// The exact line and `true`; if it is not exactly known, the line with the rounded numbers, and
+/// `false`.
+pub(crate) fn exact_line<L: Line>(line: &L) -> (RingRay<Dyadic>, bool) {
+    match line.exact() {
+        Some(exact) => (exact, true),
+        None => {
+            let RingRay { o, d, w } = line.running();
+            let exact = |x: EFloat| Dyadic::new(x.v).unwrap_or(Dyadic::ZERO);
+            (RingRay { o: o.map(exact), d: d.map(exact), w: exact(w) }, false)
+        }
+    }
+}
+
 /// Bounds in f64 of every `n / d` with `low <= n <= high`; `d` is not zero.
 pub(crate) fn quotient_bounds(low: &Dyadic, high: &Dyadic, d: &Dyadic) -> (f64, f64) {
     // First into the range of f64: only the quotient matters.

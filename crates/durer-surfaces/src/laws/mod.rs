@@ -6,6 +6,7 @@
 //! big integers and share no code with the kernels.
 
 pub mod exact;
+pub mod exact_polynomial;
 pub mod real_root;
 pub mod test_rng;
 

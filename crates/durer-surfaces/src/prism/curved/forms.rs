@@ -2,10 +2,9 @@
 
 use super::Sweep;
 use crate::RingRay;
-use crate::planar::{AlongRay, Line, PlaneForm};
+use crate::planar::{AlongRay, PlaneForm};
 use crate::revolution::level::HeightPlane;
-use durer_math::eft::exponent;
-use durer_math::{Dd, Dyadic, EFloat, Ring};
+use durer_math::Ring;
 
 /// A linear form `f·(x, 1, z)` in the plane of the outlines.
 pub(super) type Form<T> = [T; 3];
@@ -118,26 +117,6 @@ pub(super) fn along<T: Ring>(f: &Form<T>, powers: &[[T; 2]; 4]) -> [T; 4] {
     }
     let [a, b, c, d] = powers;
     [term(f, a) + f[1].clone(), term(f, b), term(f, c), term(f, d)]
-}
-
-/// The line with its denominator near one, for which high powers stay in range.
-#[inline(always)]
-pub(super) fn sized(ray: RingRay<EFloat<Dd>>) -> RingRay<EFloat<Dd>> {
-    let k = -exponent(ray.w.value());
-    RingRay { o: ray.o.map(|x| x.scale2(k)), d: ray.d.map(|x| x.scale2(k)), w: ray.w.scale2(k) }
-}
-
-/// The exact line and `true`; if it is not exactly known, the line with the rounded numbers, and
-/// `false`.
-pub(super) fn exact_line<L: Line>(line: &L) -> (RingRay<Dyadic>, bool) {
-    match line.exact() {
-        Some(exact) => (exact, true),
-        None => {
-            let RingRay { o, d, w } = line.running();
-            let exact = |x: EFloat| Dyadic::new(x.v).unwrap_or(Dyadic::ZERO);
-            (RingRay { o: o.map(exact), d: d.map(exact), w: exact(w) }, false)
-        }
-    }
 }
 
 /// A coordinate of the start of a line.

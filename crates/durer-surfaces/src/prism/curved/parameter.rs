@@ -9,10 +9,10 @@
 
 use super::Sweep;
 use super::exact::Exactly;
-use super::forms::{Form, along, sized, value};
+use super::forms::{Form, along, value};
 use super::profile_curve::ProfileCurve;
 use super::profile_hits::{Meet, Scan};
-use crate::planar::{Crossing, Line, Probe, dot, quotient_bounds};
+use crate::planar::{Crossing, Line, Probe, dot, quotient_bounds, with_denominator_near_one};
 use crate::{End, RingRay};
 use core::cmp::Ordering;
 use durer_math::{Dd, Dyadic, EFloat, Isa, Ring, U};
@@ -84,7 +84,7 @@ impl<'a, 'r> Places<'a, 'r> {
     /// given bracket.
     #[inline(always)]
     fn in_double_double(&self, piece: &ProfileCurve, meet: &Meet) -> Option<Crossing> {
-        let ray = sized(self.probe.double()?);
+        let ray = with_denominator_near_one(self.probe.double()?);
         let powers = piece.in_powers::<EFloat<Dd>>(self.scan.view);
         let (n, _) = self.scan.forms(&ray)?;
         let g = along(&n, &powers);

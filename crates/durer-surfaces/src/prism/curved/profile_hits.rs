@@ -11,9 +11,9 @@
 //! the line, the reference point, and grows in the direction of the ray.
 
 use super::exact::{Ends, at, exact_sign, turn};
-use super::forms::{Coefficient, Cut, Form, along, exact_line, sized, value};
+use super::forms::{Coefficient, Cut, Form, along, value};
 use super::profile_curve::{ProfileCurve, View};
-use crate::planar::{AlongRay, Line};
+use crate::planar::{AlongRay, Line, exact_line, with_denominator_near_one};
 use crate::roots::polynomial::{Along, Found, Stretch, solve};
 use crate::roots::quadratic::{Limits, NARROW};
 use crate::{Flow, PREVIEW_WIDTH, RingRay};
@@ -123,7 +123,7 @@ impl<L: Line> Along<4> for Shadow<'_, L> {
 
     #[inline(always)]
     fn wide(&self) -> Option<[EFloat<Dd>; 4]> {
-        let ray = sized(self.scan.line.double()?);
+        let ray = with_denominator_near_one(self.scan.line.double()?);
         let (n, _) = self.scan.forms(&ray)?;
         Some(along(&n, &self.piece.in_powers(self.scan.view)))
     }

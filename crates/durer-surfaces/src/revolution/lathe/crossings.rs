@@ -7,10 +7,10 @@
 //! inside and outside alternate along the line.
 
 use super::Lathe;
-use super::forms::{Equation, Factors, Meeting, Rise, sized};
+use super::forms::{Equation, Factors, Meeting, Rise};
 use super::profile::{Cubic, Piece};
 use crate::mesh::Sorted;
-use crate::planar::{Crossing, Line, Probe};
+use crate::planar::{Crossing, Line, Probe, with_denominator_near_one};
 use crate::prism::curved::exact::{Ends, at, turn};
 use crate::prism::curved::profile_hits::Meet;
 use crate::roots::polynomial::{Along, Found, Stretch, solve};
@@ -281,7 +281,7 @@ impl<'a, 'r> Pass<'a, 'r> {
 
     #[inline(always)]
     fn in_double_double(&self, crossed: &Crossed) -> Option<Crossed> {
-        let ray = sized(self.probe.double()?);
+        let ray = with_denominator_near_one(self.probe.double()?);
         let Crossed { piece: i, meet, branch, at } = *crossed;
         let (r, y) = self.lathe.profile.powers::<EFloat<durer_math::Dd>>(i);
         let meet = refined(self.equation, &ray, &self.lathe.pieces[i], (&r, &y), meet);

@@ -19,9 +19,8 @@
 
 use super::profile::{Cubic, Piece, Profile};
 use crate::RingRay;
-use crate::planar::{AlongRay, Line};
+use crate::planar::{AlongRay, Line, exact_line, with_denominator_near_one};
 use crate::roots::polynomial::Along;
-use durer_math::eft::exponent;
 use durer_math::{Dd, Dyadic, EFloat, Ring, U};
 
 /// Pays for results below the normal range.
@@ -193,7 +192,7 @@ impl<const N: usize, L: Line> Along<N> for Meeting<'_, L> {
 
     #[inline(always)]
     fn wide(&self) -> Option<[EFloat<Dd>; N]> {
-        let ray = sized(self.line.double()?);
+        let ray = with_denominator_near_one(self.line.double()?);
         let (r, y) = self.profile.powers::<EFloat<Dd>>(self.i);
         Some(match self.factors {
             Some(_) => Factors::new(&ray).along(&r, &y),
@@ -209,26 +208,6 @@ impl<const N: usize, L: Line> Along<N> for Meeting<'_, L> {
 
     fn exact(&self) -> (Vec<Dyadic>, bool) {
         self.exactly()
-    }
-}
-
-/// The line with its denominator near one, for which high powers stay in range.
-#[inline(always)]
-pub(super) fn sized(ray: RingRay<EFloat<Dd>>) -> RingRay<EFloat<Dd>> {
-    let k = -exponent(ray.w.value());
-    RingRay { o: ray.o.map(|x| x.scale2(k)), d: ray.d.map(|x| x.scale2(k)), w: ray.w.scale2(k) }
-}
-
-/// The exact line and `true`; if it is not exactly known, the line with the rounded numbers, and
-/// `false`.
-pub(super) fn exact_line<L: Line>(line: &L) -> (RingRay<Dyadic>, bool) {
-    match line.exact() {
-        Some(exact) => (exact, true),
-        None => {
-            let RingRay { o, d, w } = line.running();
-            let exact = |x: EFloat| Dyadic::new(x.v).unwrap_or(Dyadic::ZERO);
-            (RingRay { o: o.map(exact), d: d.map(exact), w: exact(w) }, false)
-        }
     }
 }
 

@@ -4,8 +4,8 @@
 use super::Lathe;
 use super::boxes::MARGIN;
 use super::crossings::meets;
-use super::forms::{Equation, Meeting, exact_equation, exact_line};
-use crate::planar::{AlongRay, Line, PointLine};
+use super::forms::{Equation, Meeting, exact_equation};
+use crate::planar::{AlongRay, Line, PointLine, exact_line};
 use crate::prism::curved::exact::{Ends, Exactly};
 use crate::prism::curved::profile_hits::Meet;
 use crate::{LocalPoint, RingRay, Side};

@@ -1,37 +1,9 @@
 //! The oracle: exact crossings of a curved prism, by polynomials of its own.
 
 use super::super::*;
+use crate::laws::exact_polynomial::{Poly, scaled, sum, times, value, zero};
 use crate::laws::{self, Exact, ExactLine, LineCache, Oracle, RealRoot, Surd, exact3, real_roots};
 use crate::prism::tests::Known;
-
-type Poly = Vec<Exact>;
-
-fn zero() -> Exact {
-    Exact::zero()
-}
-
-fn sum(a: &[Exact], b: &[Exact]) -> Poly {
-    let at = |p: &[Exact], i: usize| p.get(i).cloned().unwrap_or_else(zero);
-    (0..a.len().max(b.len())).map(|i| &at(a, i) + &at(b, i)).collect()
-}
-
-fn times(a: &[Exact], b: &[Exact]) -> Poly {
-    let mut out = vec![zero(); (a.len() + b.len()).saturating_sub(1)];
-    for (i, x) in a.iter().enumerate() {
-        for (j, y) in b.iter().enumerate() {
-            out[i + j] = &out[i + j] + &(x * y);
-        }
-    }
-    out
-}
-
-fn scaled(a: &[Exact], by: &Exact) -> Poly {
-    a.iter().map(|x| x * by).collect()
-}
-
-fn value(p: &[Exact], x: &Exact) -> Exact {
-    p.iter().rev().fold(zero(), |sum, a| &(&sum * x) + a)
-}
 
 /// The powers of `u` of a piece in x and z.
 fn powers(b: &Bezier) -> [Poly; 2] {
