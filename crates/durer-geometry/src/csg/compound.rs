@@ -152,9 +152,9 @@ impl CompoundBuilder {
         self.part(Expr::Any(parts))
     }
 
-    /// The same solid as [`Self::union`], but the faces of a part that lie within other parts stay
-    /// visible: a ray also crosses them. So POV-Ray draws its `union`; its `merge` has none. For
-    /// pictures only: queries for spans and crossings of the solid need [`Self::union`].
+    /// Unites parts and keeps their inner faces: a ray also crosses the faces of a part that lie
+    /// within other parts. POV-Ray draws a `union` this way, and a `merge` without inner faces. For
+    /// pictures only: spans and crossings of the solid need [`Self::union`].
     pub fn union_with_inner_faces(&mut self, parts: impl IntoIterator<Item = Part>) -> Part {
         let parts = parts.into_iter().map(|p| p.0).collect();
         self.part(Expr::AnyWithInner(parts))

@@ -202,7 +202,7 @@ impl Tree {
             let is_intersection = self.nodes[node as usize].rule == Rule::All;
             *b = if is_intersection { cut(*b, part) } else { b.union(part) };
         };
-        // What a node's complements hold, and the half-spaces among its children.
+        // For each intersection: boxes inside the leaves that it subtracts, and its half-spaces.
         let mut taken_away = vec![Vec::new(); self.nodes.len()];
         let mut faces = vec![Vec::new(); self.nodes.len()];
         for (place, leaf) in self.places.iter().zip(leaves).filter(|(place, _)| place.node != NONE) {

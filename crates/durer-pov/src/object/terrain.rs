@@ -197,7 +197,7 @@ fn unread(at: Place, format: &str) -> Box<Error> {
     Error::at(at, ErrorKind::Unsupported, text)
 }
 
-/// What is wrong with a picture's size.
+/// Describes why a picture's size cannot be used.
 fn check_size([columns, rows]: [usize; 2]) -> Option<String> {
     let fits = |n: usize| (2..=MOST_SAMPLES).contains(&n);
     (!fits(columns) || !fits(rows) || columns * rows > 1 << 30).then(|| {
@@ -207,7 +207,7 @@ fn check_size([columns, rows]: [usize; 2]) -> Option<String> {
     })
 }
 
-/// What a field of so many samples takes, its bounds included.
+/// The memory, in bytes, of a field with so many samples and of their bounds.
 fn bytes_of([columns, rows]: [usize; 2], each: usize) -> usize {
     columns * rows * (each + 3)
 }

@@ -3,6 +3,7 @@
 //! Facts of the scene language, found by `trace` with POV-Ray 3.7:
 //!
 //! - Grey values of 16 bits stand as they are, those of fewer bits are stretched to 0..65535.
+//! - Of a PNG of 8 bits without alpha a third of the levels come out one lower ([`of_png_grey`]).
 //! - In a colour picture red is the high byte and green the low one; blue and alpha say nothing.
 //! - In a picture with a palette the index is the high byte; its colours say nothing.
 
@@ -37,7 +38,7 @@ fn fault<T>(text: impl Into<String>) -> Result<T> {
     Err(Fault::Text(text.into()))
 }
 
-/// What a picture is asked for its size before it is read further.
+/// Checks the columns and rows of a picture before its pixels are read.
 type MayHold<'a> = &'a dyn Fn([usize; 2]) -> std::result::Result<(), Fault>;
 
 /// The formats that durer reads.
@@ -66,7 +67,7 @@ impl Format {
         })
     }
 
-    /// The format that the ending of a file's name tells.
+    /// The format that belongs to the ending of a file's name.
     pub(crate) fn from_name(name: &str) -> Option<Self> {
         let ending = name.rsplit_once('.')?.1.to_ascii_lowercase();
         Some(match ending.as_str() {

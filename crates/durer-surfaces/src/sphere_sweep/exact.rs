@@ -409,7 +409,7 @@ fn chain(pieces: &[ExactPiece], members: Vec<Member>, widths: &Widths) -> Chain 
             if best.0 == f64::NEG_INFINITY {
                 best = (sign * at(&piece.b, x) / a, (piece.number, x));
             }
-            // Golden sections would be enough; thirds are simpler.
+            // Ternary search.
             let step = (to - from) / 16.0;
             let (mut l, mut r) = ((x - step).max(from), (x + step).min(to));
             for _ in 0..60 {
