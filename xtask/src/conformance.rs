@@ -163,6 +163,13 @@ mod tests {
     use super::*;
 
     #[test]
+    fn every_scene_has_its_reference_picture() {
+        for scene in scenes(&[]).unwrap() {
+            assert!(reference(&scene.name).is_file(), "{}: run `cargo xtask conformance`", scene.name);
+        }
+    }
+
+    #[test]
     fn a_busy_child_costs_processor_time() {
         if children_seconds().is_none() {
             println!("not run: this system does not tell the time of ended processes");
