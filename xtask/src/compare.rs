@@ -41,16 +41,19 @@ pub(crate) fn compare(ours: &Picture, theirs: &Picture) -> Outcome<(Difference, 
     Ok((difference, Picture { width: ours.width, height: ours.height, pixels }))
 }
 
-/// The fraction of pixels on which two pictures differ though `theirs` agrees there with all of
-/// `again`, other pictures of the same size and by the same program.
-pub(crate) fn reproducible_difference(ours: &Picture, theirs: &Picture, again: &[Picture]) -> f64 {
-    let differs = |a: &Picture, i: usize| match (a.pixels.get(i), theirs.pixels.get(i)) {
+/// The pixels on which two pictures differ though `theirs` agrees there with all of `again`, other
+/// pictures of the same size and by the same program.
+pub(crate) fn reproducible_differences(ours: &Picture, theirs: &Picture, again: &[Picture]) -> Vec<usize> {
+    let differs = |other: &Picture, i: usize| differs_at(other, theirs, i);
+    (0..theirs.pixels.len()).filter(|&i| differs(ours, i) && !again.iter().any(|a| differs(a, i))).collect()
+}
+
+/// Whether two pictures differ in a pixel. They do if one of them does not have it.
+pub(crate) fn differs_at(a: &Picture, b: &Picture, pixel: usize) -> bool {
+    match (a.pixels.get(pixel), b.pixels.get(pixel)) {
         (Some(a), Some(b)) => distance(*a, *b) > TOLERANCE,
         _ => true,
-    };
-    let count = theirs.pixels.len();
-    let remaining = (0..count).filter(|&i| differs(ours, i) && !again.iter().any(|a| differs(a, i)));
-    remaining.count() as f64 / count.max(1) as f64
+    }
 }
 
 /// The largest difference of any channel.
@@ -86,9 +89,9 @@ mod tests {
     #[test]
     fn pixels_that_change_by_themselves_do_not_count() {
         let (ours, theirs) = (picture(&[10, 20, 30, 40]), picture(&[10, 29, 39, 40]));
-        assert_eq!(reproducible_difference(&ours, &theirs, &[]), 0.5);
+        assert_eq!(reproducible_differences(&ours, &theirs, &[]), [1, 2]);
         let again = [picture(&[19, 29, 39, 40]), picture(&[10, 29, 30, 40])];
-        assert_eq!(reproducible_difference(&ours, &theirs, &again), 0.25);
+        assert_eq!(reproducible_differences(&ours, &theirs, &again), [1]);
     }
 
     #[test]

@@ -29,17 +29,19 @@ impl Povray {
         self.render_with(scene, picture, shot, scene.parent().unwrap_or(scene))
     }
 
-    /// As [`Povray::render`], with the pixels in another order. A pixel whose colour depends on
-    /// pixels rendered before it changes.
-    pub(crate) fn render_in_blocks(
+    /// As [`Povray::render`], but only one pixel, in column `x` and row `y`; the others are black.
+    /// Its colour does not depend on pixels rendered before it.
+    pub(crate) fn render_pixel(
         &self,
         scene: &Path,
         picture: &Path,
         shot: Shot<'_>,
-        size: u32,
+        (x, y): (u32, u32),
     ) -> Outcome {
-        let blocks = format!("+BS{size}");
-        self.run(scene, picture, shot, scene.parent().unwrap_or(scene), &[blocks.as_str(), "+RP3"])
+        let (column, row) = (x + 1, y + 1);
+        let part =
+            [format!("+SC{column}"), format!("+EC{column}"), format!("+SR{row}"), format!("+ER{row}")];
+        self.run(scene, picture, shot, scene.parent().unwrap_or(scene), &part)
     }
 
     /// As [`Povray::render`], with a folder to search for included files.
@@ -53,7 +55,7 @@ impl Povray {
         self.run(scene, picture, shot, library, &[])
     }
 
-    fn run(&self, scene: &Path, picture: &Path, shot: Shot<'_>, library: &Path, more: &[&str]) -> Outcome {
+    fn run(&self, scene: &Path, picture: &Path, shot: Shot<'_>, library: &Path, more: &[String]) -> Outcome {
         assert_eq!(shot.aa, "off", "pictures are compared without anti-aliasing only");
         let output = Command::new("povray")
             .arg(format!("+I{}", scene.display()))
